@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: Apache-2.0
+# Finds MuJoCo 4.0.1: FLOORPROOF_MUJOCO_DIR (an unpacked official release, or the folder that
+# ./floorproof made from the pinned mujoco-core wheel), else an installed one.
+set(FLOORPROOF_MUJOCO_DIR "${PROJECT_SOURCE_DIR}/build/deps/mujoco" CACHE PATH
+    "Folder with include/mujoco/mujoco.h and libmujoco.so.4.0.1 (in it or in its lib/)")
+find_path(MUJOCO_INCLUDE_DIR mujoco/mujoco.h HINTS ${FLOORPROOF_MUJOCO_DIR}/include)
+find_library(MUJOCO_LIBRARY NAMES libmujoco.so.4.0.1 mujoco
+             HINTS ${FLOORPROOF_MUJOCO_DIR} ${FLOORPROOF_MUJOCO_DIR}/lib)
+if(NOT MUJOCO_INCLUDE_DIR OR NOT MUJOCO_LIBRARY)
+  message(FATAL_ERROR "MuJoCo was not found. Run ./floorproof (it fetches the pinned wheel), or give "
+          "-DFLOORPROOF_MUJOCO_DIR=DIR of an unpacked official 4.0.1 release.")
+endif()
+file(STRINGS ${MUJOCO_INCLUDE_DIR}/mujoco/mujoco.h _mj_version REGEX "define mjVERSION_HEADER")
+if(NOT _mj_version MATCHES "4000001|401")
+  message(WARNING "Floorproof is tested with MuJoCo 4.0.1; ${MUJOCO_INCLUDE_DIR} says: ${_mj_version}")
+endif()
+add_library(mujoco::mujoco SHARED IMPORTED)
+set_target_properties(mujoco::mujoco PROPERTIES
+  IMPORTED_LOCATION ${MUJOCO_LIBRARY}
+  INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${MUJOCO_INCLUDE_DIR})

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drives: body twist <-> wheel speeds, both ways.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "env/core/motion.h"
+#include "env/core/registry.h"
+#include "env/core/robot_spec.h"
+
+namespace floorproof {
+
+class Drive {
+ public:
+  virtual ~Drive() = default;
+  // Reads radii and places of the wheels; throws InputError when the robot lacks what the drive needs.
+  virtual void Configure(const RobotSpec& robot) = 0;
+  // Wheel speeds (rad/s, RobotSpec's order) for a twist; components the drive cannot follow are
+  // dropped. When a wheel would exceed its motor's no-load speed all are scaled down together, so
+  // that the curvature stays.
+  virtual void ToWheels(const BodyTwist& twist, std::span<double> wheel_radps) const = 0;
+  // The twist that these wheel speeds roll, in the least-squares sense.
+  virtual BodyTwist ToTwist(std::span<const double> wheel_radps) const = 0;
+};
+
+std::span<const PluginEntry<Drive>> Drives();
+
+}  // namespace floorproof

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Path trackers: from an estimate and a path to a body twist. A new one is one file in this folder
+// and one line in trackers.inc.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "env/core/coverage.h"
+#include "env/core/motion.h"
+#include "env/core/params.h"
+#include "env/core/path.h"
+#include "env/core/registry.h"
+#include "env/core/robot_spec.h"
+
+namespace floorproof {
+
+class Tracker : public Configurable {
+ public:
+  // The drives (RobotSpec::drive) that this tracker can command.
+  virtual std::vector<std::string> Drives() const = 0;
+  // Takes the plan, once, before the first Update. `clearance` is the known map's and outlives the
+  // tracker, or is nullptr. May allocate; Update may not.
+  virtual void Start(const Path& path, const RobotSpec& robot, const ClearanceField* clearance) = 0;
+  // One control period. `t_s` is simulated time; `dt_s` the period.
+  virtual Command Update(const Estimate& estimate, double t_s, double dt_s) = 0;
+};
+
+std::span<const PluginEntry<Tracker>> Trackers();
+// The first tracker of the list that commands this drive; throws InputError when there is none.
+std::string_view DefaultTracker(std::string_view drive);
+
+}  // namespace floorproof

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ground that a robot's tool can sweep, and how much of it was swept. Planners and the episode
+// measure with the same ruler (design: metrics.coverage, metrics.overlap).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "env/core/hazard_map.h"
+#include "env/core/path.h"
+#include "env/core/robot_spec.h"
+
+namespace floorproof {
+
+// Exact Euclidean distance, in cells, from each cell's centre to the nearest set cell's area (a
+// square, not its centre); what lies beyond the grid is set when `border_is_set`. 0 on set cells.
+// O(cells), after Felzenszwalb & Huttenlocher 2012.
+Grid<float> DistanceToSet(const Grid<std::uint8_t>& set, bool border_is_set);
+
+// The map's cells subdivided until they are at most max_cell_m.
+GridFrame FineFrame(const GridFrame& frame, double max_cell_m = 0.05);
+
+// 1 where a fine cell is wall, or touches a hazard that IsObstacle(step_m).
+Grid<std::uint8_t> ObstacleMask(const HazardMap& map, double step_m, const GridFrame& fine);
+
+// Distances to obstacles, for planners and controllers.
+struct ClearanceField {
+  GridFrame frame;
+  Grid<float> distance_m;           // from a cell's centre to the nearest obstacle's area
+  double At(const Vec2& p_W) const;  // 0 beyond the grid
+};
+ClearanceField ComputeClearance(const HazardMap& map, double step_m);
+
+// Where the robot's centre may be, connected to the start, and what its tool sweeps from there.
+struct SweepArea {
+  GridFrame frame;                 // cells of at most 0.05 m
+  Grid<float> clearance_m;         // centre to the nearest obstacle's area
+  Grid<std::uint8_t> reachable;    // poses: clear shape free of solids, connected to the start
+  Grid<std::uint8_t> sweepable;    // cells whose centre the tool reaches from a reachable pose
+  std::int64_t sweepable_cells = 0;
+  double area_m2() const {
+    return static_cast<double>(sweepable_cells) * frame.cell_m * frame.cell_m;
+  }
+};
+// `clear` and `tool` as in RobotSpec, or overridden by a plan's radius_m and tool_width_m (discs).
+// Connectivity: 8 neighbours. An empty area (sweepable_cells 0) when the start itself is not clear.
+SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shape2& tool,
+                           double step_m, const Vec2& start_W);
+
+// Marks what the tool sweeps as it moves. Add() costs O(tool area) and allocates nothing.
+class CoverageMeter {
+ public:
+  CoverageMeter(const SweepArea& area, const Shape2& tool);
+  // The tool moved in a straight line from the last pose to this one (the first only stands).
+  void Add(const Pose2& X_WB);
+  // The tool was carried: the next Add() starts afresh.
+  void Lift() { has_last_ = false; }
+  double coverage() const;  // swept sweepable cells / sweepable cells; 0 if there are none
+  double overlap() const;   // of the swept cells, the share swept in two or more passes
+  // Passes per fine cell (saturating at 255): a new pass begins when the tool comes back to a cell
+  // after travelling more than twice its own width since it last touched it.
+  const Grid<std::uint8_t>& passes() const { return passes_; }
+
+ private:
+  void Stamp(const Pose2& X_WB);
+  const SweepArea* area_;
+  Shape2 tool_;
+  Grid<std::uint8_t> passes_;
+  Grid<float> last_s_m_;
+  Pose2 last_;
+  bool has_last_ = false;
+  double s_m_ = 0, gap_m_ = 0;
+  std::int64_t swept_ = 0, twice_ = 0;
+};
+
+// Coverage and overlap of a path driven exactly.
+struct PathCoverage {
+  double coverage = 0, overlap = 0;
+};
+PathCoverage MeasureCoverage(const SweepArea& area, const Shape2& tool, const Path& path);
+
+}  // namespace floorproof

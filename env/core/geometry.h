@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points, planar poses and polygons in SI units. World frame W: x right, y up, z up (REP 103 bodies).
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <vector>
+
+namespace floorproof {
+
+using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;
+
+inline constexpr double kPi = 3.14159265358979323846;
+
+// The angle's representative in (-pi, pi].
+inline double WrapAngle(double a_rad) {
+  a_rad = std::remainder(a_rad, 2 * kPi);
+  return a_rad <= -kPi ? a_rad + 2 * kPi : a_rad;
+}
+
+inline double Cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+// A planar pose X_AB: body B in frame A. X_AB * X_BC = X_AC; X_AB * p_BC = p_AC.
+struct Pose2 {
+  double x_m = 0, y_m = 0, yaw_rad = 0;
+
+  Vec2 p() const { return {x_m, y_m}; }
+  Vec2 Rotate(const Vec2& v_B) const {
+    const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+    return {c * v_B.x() - s * v_B.y(), s * v_B.x() + c * v_B.y()};
+  }
+  Vec2 operator*(const Vec2& p_B) const { return p() + Rotate(p_B); }
+  Pose2 operator*(const Pose2& X_BC) const {
+    const Vec2 q = *this * X_BC.p();
+    return {q.x(), q.y(), WrapAngle(yaw_rad + X_BC.yaw_rad)};
+  }
+  Pose2 Inverse() const {
+    const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+    return {-c * x_m - s * y_m, s * x_m - c * y_m, WrapAngle(-yaw_rad)};
+  }
+};
+
+// The point of segment ab nearest to p, as the fraction in [0, 1] of the way from a to b.
+inline double NearestFraction(const Vec2& a, const Vec2& b, const Vec2& p) {
+  const Vec2 d = b - a;
+  const double n = d.squaredNorm();
+  return n == 0 ? 0.0 : std::fmin(1.0, std::fmax(0.0, (p - a).dot(d) / n));
+}
+
+inline double DistanceToSegment(const Vec2& a, const Vec2& b, const Vec2& p) {
+  return (a + NearestFraction(a, b, p) * (b - a) - p).norm();
+}
+
+}  // namespace floorproof

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one description of a floor that planner, scene, detectors and statistics read.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "env/core/grid.h"
+#include "env/core/polygon.h"
+
+namespace floorproof {
+
+enum class CellState : std::uint8_t { kFree = 0, kOccupied = 1, kUnknown = 2 };
+
+// Hazard classes of the hTetro FMEA paper, Table 1.
+enum class HazardClass { kBlindObject /*C1*/, kGlass /*C2*/, kLevelChange /*C3*/, kTerrain /*C4*/ };
+
+// A piece of matter, or of missing floor, in the world frame; z = 0 is the base floor.
+struct Solid {
+  enum class Kind {
+    kPrism,  // convex: `base` at z_low_m to `top` at z_high_m (equal corner counts; a box, a prism, a frustum)
+    kCut,    // the floor is missing within `base` (any simple polygon) down to z_low_m (negative)
+  };
+  Kind kind = Kind::kPrism;
+  Polygon base;
+  Polygon top;  // empty: the same as base
+  double z_low_m = 0, z_high_m = 0;
+};
+
+struct Material {
+  std::optional<double> friction;  // none: the floor's
+  double restitution = 0;          // 0 (dead) to 1 (elastic)
+  std::array<float, 4> rgba = {0.6f, 0.6f, 0.6f, 1.0f};
+};
+
+// What one hazard's plug-in made of its keys (env/hazards); nobody above env/map asks a plug-in.
+struct Hazard {
+  std::string id;    // unique on a site, default type-index
+  std::string type;  // the plug-in's name
+  HazardClass hazard_class = HazardClass::kBlindObject;
+  bool known = true;               // false: in the scene, not in the map that planners get
+  std::vector<Polygon> footprint;  // world frame
+  double height_m = 0;             // signed: a drop is negative, a groove's depth negative
+  std::vector<Solid> solids;
+  Material material;
+};
+
+struct HazardMap {
+  std::string name;
+  GridFrame frame;
+  Grid<CellState> cells;
+  bool unknown_is_wall = true;
+  // Solids of occupied cells are drawn back by this on faces towards free cells (scene only;
+  // planners see whole cells).
+  double inset_m = 0;
+  double floor_friction = 0.8;
+  std::vector<Hazard> hazards;  // later ones win where they overlap
+  std::optional<Pose2> start;
+  std::optional<Vec2> goal;
+
+  // Walls and furniture, unknown cells by policy, and all that lies beyond the map.
+  bool IsWall(int ix, int iy) const {
+    if (!cells.Inside(ix, iy)) return true;
+    const CellState s = cells(ix, iy);
+    return s == CellState::kOccupied || (s == CellState::kUnknown && unknown_is_wall);
+  }
+  bool IsWall(Cell c) const { return IsWall(c.ix, c.iy); }
+};
+
+// The map without hazards of `known: false`: what planners and localisation get.
+HazardMap KnownPart(const HazardMap& map);
+
+// Whether a robot that manages steps of step_m must keep off this hazard: C1, C2, and level changes
+// higher or deeper than step_m. Terrain (C4) is driven over.
+bool IsObstacle(const Hazard& hazard, double step_m);
+
+}  // namespace floorproof

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// A hazard's plug-in: its keys, footprint, FMEA class, neutral solids and material. A new hazard is
+// one file in this folder and one line in list.inc.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "env/core/hazard_map.h"
+#include "env/core/params.h"
+#include "env/core/registry.h"
+
+namespace floorproof {
+
+class HazardType : public Configurable {
+ public:
+  // How its place is written in a site file.
+  enum class Placement { kPolygon /* polygon_m */, kLine /* line_m */ };
+  virtual Placement placement() const = 0;
+  // Makes footprint, class, height, solids and material from the keys (already read by Visit) and
+  // the place: a polygon's corners (counter-clockwise) or a polyline's points, world frame, metres.
+  // Throws InputError (without mark; the caller adds it) when the place does not suit.
+  virtual Hazard Make(const std::vector<Vec2>& place) const = 0;
+};
+
+std::span<const PluginEntry<HazardType>> HazardTypes();
+
+}  // namespace floorproof

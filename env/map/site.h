@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads a site file (map or grid, plus hazards) into a HazardMap.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "env/core/config.h"
+#include "env/core/hazard_map.h"
+
+namespace floorproof {
+
+struct Site {
+  HazardMap map;
+  std::vector<std::filesystem::path> files_read;  // the site itself, the map's yaml and image: for hashes
+};
+
+// `node` is the site file's tree (overrides applied); paths in it are relative to `folder`.
+// A path that leaves `folder` is refused unless it is written absolute or starts with "../"
+// (that is: said plainly in the file). Throws InputError.
+Site ReadSite(const ConfigNode& node, const std::filesystem::path& folder);
+Site ReadSiteFile(const std::filesystem::path& path);
+// The site file's tree with every default stated and paths rewritten relative to `folder_out`.
+ConfigNode ResolveSite(const ConfigNode& node, const std::filesystem::path& folder,
+                       const std::filesystem::path& folder_out);
+
+// A ROS map_server map alone.
+struct RosMap {
+  GridFrame frame;
+  Grid<CellState> cells;
+  std::filesystem::path image;
+};
+RosMap ReadRosMap(const std::filesystem::path& yaml_path);
+
+}  // namespace floorproof

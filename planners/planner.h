@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The planner's contract. A new planner is one file in this folder and one line in list.inc.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "env/core/hazard_map.h"
+#include "env/core/params.h"
+#include "env/core/path.h"
+#include "env/core/registry.h"
+#include "env/core/robot_spec.h"
+
+namespace floorproof {
+
+struct PlanRequest {
+  const HazardMap& map;    // what is known of the floor
+  const RobotSpec& robot;
+  Pose2 start;             // X_WB
+  std::optional<Vec2> goal;
+  std::uint64_t seed = 0;
+};
+
+enum class PlanStatus {
+  kSuccess,
+  kStartBlocked,   // the robot does not fit where it starts
+  kNoFloor,        // nothing to cover or visit can be reached
+  kGoalUnreachable,
+  kFailed,         // any other reason; the message says it
+};
+std::string_view Name(PlanStatus status);
+
+struct PlanResult {
+  PlanStatus status = PlanStatus::kFailed;
+  std::string message;  // why, naming the place; empty on success
+  Path path;            // from the start pose on
+  // The clear shape and tool that the planner planned with (the robot's, or a plan's override).
+  Shape2 clear, tool;
+  double tool_width_m = 0;
+  // The planner's own figures, for plan.json and the columns plan.*, in order.
+  std::vector<std::pair<std::string, double>> figures;
+};
+
+class Planner : public Configurable {
+ public:
+  virtual PlanResult Plan(const PlanRequest& request) const = 0;
+};
+
+std::span<const PluginEntry<Planner>> Planners();
+
+}  // namespace floorproof
