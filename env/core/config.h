@@ -15,9 +15,9 @@ namespace floorproof {
 struct ConfigNode {
   enum class Kind { kNull, kScalar, kList, kMap };
   Kind kind = Kind::kNull;
-  std::string scalar;  // the text as written
-  bool quoted = false; // a quoted or block scalar: always a string
-  std::vector<ConfigNode> items;                             // kList
+  std::string scalar;             // the text as written
+  bool quoted = false;            // a quoted or block scalar: always a string
+  std::vector<ConfigNode> items;  // kList
   std::vector<std::pair<std::string, ConfigNode>> entries;  // kMap, in the order written
   SourceMark mark;
 
@@ -40,7 +40,8 @@ struct ConfigNode {
 // Reads YAML 1.2 text. Throws InputError naming file and line on bad syntax, duplicate keys, more
 // than a million nodes (aliases are expanded), nesting beyond 100, or tags.
 ConfigNode ParseYaml(const std::string& text, const std::string& file);
-// As ParseYaml, from a file of at most 64 MiB; refuses what is missing, a folder, or not UTF-8 text.
+// As ParseYaml, from a file of at most 64 MiB; refuses what is missing, a folder, or not UTF-8
+// text.
 ConfigNode ReadYamlFile(const std::filesystem::path& path);
 // Block style, short lists of scalars in one line; ParseYaml(WriteYaml(n)) gives n's values again.
 std::string WriteYaml(const ConfigNode& node);

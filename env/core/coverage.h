@@ -26,17 +26,17 @@ Grid<std::uint8_t> ObstacleMask(const HazardMap& map, double step_m, const GridF
 // Distances to obstacles, for planners and controllers.
 struct ClearanceField {
   GridFrame frame;
-  Grid<float> distance_m;           // from a cell's centre to the nearest obstacle's area
+  Grid<float> distance_m;            // from a cell's centre to the nearest obstacle's area
   double At(const Vec2& p_W) const;  // 0 beyond the grid
 };
 ClearanceField ComputeClearance(const HazardMap& map, double step_m);
 
 // Where the robot's centre may be, connected to the start, and what its tool sweeps from there.
 struct SweepArea {
-  GridFrame frame;                 // cells of at most 0.05 m
-  Grid<float> clearance_m;         // centre to the nearest obstacle's area
-  Grid<std::uint8_t> reachable;    // poses: clear shape free of solids, connected to the start
-  Grid<std::uint8_t> sweepable;    // cells whose centre the tool reaches from a reachable pose
+  GridFrame frame;               // cells of at most 0.05 m
+  Grid<float> clearance_m;       // centre to the nearest obstacle's area
+  Grid<std::uint8_t> reachable;  // poses: clear shape free of solids, connected to the start
+  Grid<std::uint8_t> sweepable;  // cells whose centre the tool reaches from a reachable pose
   std::int64_t sweepable_cells = 0;
   double area_m2() const {
     return static_cast<double>(sweepable_cells) * frame.cell_m * frame.cell_m;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points, planar poses and polygons in SI units. World frame W: x right, y up, z up (REP 103 bodies).
+// Points, planar poses and polygons in SI units. World frame W: x right, y up, z up (REP 103
+// bodies).
 #pragma once
 
 #include <Eigen/Core>

@@ -22,7 +22,9 @@ struct Grid {
 
   Grid() = default;
   Grid(int w, int h, T value = T{})
-      : width(w), height(h), cells(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), value) {}
+      : width(w),
+        height(h),
+        cells(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), value) {}
 
   bool Inside(int ix, int iy) const { return ix >= 0 && iy >= 0 && ix < width && iy < height; }
   bool Inside(Cell c) const { return Inside(c.ix, c.iy); }

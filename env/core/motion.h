@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What flows through an episode's loop: estimates, commands, and the true motion as detectors see it.
+// What flows through an episode's loop: estimates, commands, and the true motion as detectors see
+// it.
 #pragma once
 
 #include <array>
@@ -24,9 +25,10 @@ struct Estimate {
 struct Command {
   BodyTwist twist;
   std::size_t segment = 0;  // the segment now tracked goes from waypoint `segment` to `segment + 1`
-  double cross_track_half_width_m = 0;  // room to the nearer obstacle pair across it, halved (set by the episode)
-  bool dwelling = false;    // standing still on purpose
-  bool done = false;        // last waypoint reached
+  double cross_track_half_width_m =
+      0;                  // room to the nearer obstacle pair across it, halved (set by the episode)
+  bool dwelling = false;  // standing still on purpose
+  bool done = false;      // last waypoint reached
 };
 
 // The body touching an obstacle (not a wheel on the floor).
@@ -45,18 +47,20 @@ struct Sample {
   double t_s = 0;
   Vec3 p_WB = Vec3::Zero();  // body origin: on the floor below the robot's centre at rest
   double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;
-  double tilt_rad = 0;       // between the body's z and the world's
+  double tilt_rad = 0;  // between the body's z and the world's
   Vec3 v_WB_W = Vec3::Zero();
   BodyTwist V_WB_B;
   Command command;
   double cross_track_m = 0;  // of the true position to the segment now tracked; unsigned
   double power_w = 0;        // electrical, motors and hotel load
-  double belly_load_n = 0;   // weight that floor or hazards carry through the body instead of the wheels
-  int belly_hazard = -1;     // index of the hazard that carries it; -1: none or the floor
+  double belly_load_n =
+      0;  // weight that floor or hazards carry through the body instead of the wheels
+  int belly_hazard = -1;  // index of the hazard that carries it; -1: none or the floor
   int wheel_contacts = 0;
-  double support_margin_m = 0;   // centre of mass to the border of the wheel contacts' hull, positive inside
-  double wheel_floor_z_m = 0;    // lowest point of the lowest driven wheel, world z
-  int near_hazard = -1;          // a hazard under or at a wheel or the body now; -1: none
+  double support_margin_m =
+      0;  // centre of mass to the border of the wheel contacts' hull, positive inside
+  double wheel_floor_z_m = 0;  // lowest point of the lowest driven wheel, world z
+  int near_hazard = -1;        // a hazard under or at a wheel or the body now; -1: none
   std::array<ObstacleContact, kMaxContacts> contacts;  // the first num_contacts hold
   int num_contacts = 0;
 

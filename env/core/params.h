@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameters: structs with defaults in place and one Visit that reads, checks, documents and writes.
+// Parameters: structs with defaults in place and one Visit that reads, checks, documents and
+// writes.
 //
 //   struct TrackParams {
 //     double lookahead_m = 0.3;   // why 0.3
-//     void Visit(ParamVisitor& v) { v("lookahead_m", lookahead_m, Positive(), "distance aimed at"); }
+//     void Visit(ParamVisitor& v) { v("lookahead_m", lookahead_m, Positive(), "distance aimed at");
+//     }
 //   };
 #pragma once
 
@@ -22,7 +24,7 @@ namespace floorproof {
 struct Bounds {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
-  bool min_open = false;  // min itself is refused
+  bool min_open = false;     // min itself is refused
   std::string Text() const;  // "must be > 0", "must be in [0, 1]"
   bool Allows(double value) const;
 };
@@ -36,7 +38,8 @@ inline Bounds AtLeast(double low) { return {low, std::numeric_limits<double>::in
 class ParamVisitor {
  public:
   virtual ~ParamVisitor() = default;
-  virtual void operator()(const char* name, double& value, const Bounds& rule, const char* help) = 0;
+  virtual void operator()(const char* name, double& value, const Bounds& rule,
+                          const char* help) = 0;
   virtual void operator()(const char* name, int& value, const Bounds& rule, const char* help) = 0;
   virtual void operator()(const char* name, bool& value, const char* help) = 0;
   // `choices` empty: any text.
@@ -58,8 +61,8 @@ class Configurable {
 };
 
 // Reads the map `node` into `target`; keys in `also_allowed` are somebody else's and passed over.
-// Throws InputError on a wrong type, a broken rule, or an unknown key (naming the nearest known one).
-// `path` stands before the key in messages ("plan." gives "plan.overlap").
+// Throws InputError on a wrong type, a broken rule, or an unknown key (naming the nearest known
+// one). `path` stands before the key in messages ("plan." gives "plan.overlap").
 void ReadParams(const ConfigNode& node, const std::string& path, Configurable& target,
                 const std::vector<std::string>& also_allowed = {});
 void ReadParams(const ConfigNode& node, const std::string& path,

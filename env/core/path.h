@@ -12,10 +12,11 @@ namespace floorproof {
 
 struct Waypoint {
   Vec2 p_W = Vec2::Zero();
-  std::optional<double> yaw_rad;  // body heading on the way here (holonomic robots); none: along the way
-  std::string shape;              // of a reconfigurable robot; empty: as it is
-  double speed_mps = 0;           // on the way here; 0: the robot's cruise speed
-  double dwell_s = 0;             // stand here for this long, in simulated time
+  std::optional<double>
+      yaw_rad;           // body heading on the way here (holonomic robots); none: along the way
+  std::string shape;     // of a reconfigurable robot; empty: as it is
+  double speed_mps = 0;  // on the way here; 0: the robot's cruise speed
+  double dwell_s = 0;    // stand here for this long, in simulated time
 };
 
 using Path = std::vector<Waypoint>;

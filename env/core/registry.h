@@ -34,7 +34,8 @@ std::unique_ptr<T> MakePlugin(std::span<const PluginEntry<T>> table, std::string
     if (entry.name == name) return entry.make();
   const auto names = PluginNames(table);
   std::string rule = "unknown";
-  if (const std::string near = Nearest(name, names); !near.empty()) rule += "; did you mean " + near + "?";
+  if (const std::string near = Nearest(name, names); !near.empty())
+    rule += "; did you mean " + near + "?";
   rule += " (known:";
   for (const auto& n : names) rule += " " + n;
   throw InputError(mark, key, name, rule + ")");
@@ -44,7 +45,5 @@ std::unique_ptr<T> MakePlugin(std::span<const PluginEntry<T>> table, std::string
 
 // In a plug-in's file, behind its class (which may live in an anonymous namespace): defines the
 // factory that the folder's list.inc declares.
-#define FP_DEFINE_PLUGIN(Interface, Class)         \
-  std::unique_ptr<Interface> Make##Class() {       \
-    return std::make_unique<Class>();              \
-  }
+#define FP_DEFINE_PLUGIN(Interface, Class) \
+  std::unique_ptr<Interface> Make##Class() { return std::make_unique<Class>(); }

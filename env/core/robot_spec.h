@@ -10,10 +10,11 @@
 namespace floorproof {
 
 struct WheelSpec {
-  std::string name;         // of the wheel's joint and actuator
+  std::string name;          // of the wheel's joint and actuator
   Vec3 p_BW = Vec3::Zero();  // wheel centre in the body frame B
   double radius_m = 0;
-  // Angle between the wheel's axle and its rollers' axes seen from above at the floor; 0: no rollers.
+  // Angle between the wheel's axle and its rollers' axes seen from above at the floor; 0: no
+  // rollers.
   double roller_angle_rad = 0;
   double max_speed_radps = 0;  // no-load speed of the motor at the wheel
   double max_torque_nm = 0;    // at the wheel
@@ -23,14 +24,14 @@ struct WheelSpec {
 struct Shape2 {
   enum class Kind { kCircle, kFootprint };
   Kind kind = Kind::kCircle;
-  double radius_m = 0;    // kCircle
-  Polygon footprint_B;    // kFootprint; held at yaws that are multiples of 90 deg in the map's frame
+  double radius_m = 0;  // kCircle
+  Polygon footprint_B;  // kFootprint; held at yaws that are multiples of 90 deg in the map's frame
 };
 
 struct RobotSpec {
   std::string name;
-  std::string model_file;  // the MJCF
-  std::string drive;       // a name of controllers' drives: "differential", "mecanum"
+  std::string model_file;         // the MJCF
+  std::string drive;              // a name of controllers' drives: "differential", "mecanum"
   std::vector<WheelSpec> wheels;  // the driven ones, in actuator order
 
   Shape2 clear;  // kept free of obstacles
@@ -41,16 +42,16 @@ struct RobotSpec {
 
   double mass_kg = 0;
   Vec3 p_BCom = Vec3::Zero();
-  double clearance_m = 0;       // belly above the floor
-  double step_m = 0;            // highest level change it is trusted to cross
-  double static_tip_rad = 0;    // least atan(d / h) over the edges of the wheels' support polygon
+  double clearance_m = 0;     // belly above the floor
+  double step_m = 0;          // highest level change it is trusted to cross
+  double static_tip_rad = 0;  // least atan(d / h) over the edges of the wheels' support polygon
 
-  double cruise_mps = 0;        // default speed along a plan
+  double cruise_mps = 0;  // default speed along a plan
   double max_speed_mps = 0;
   double max_accel_mps2 = 0;
   double max_yaw_rate_radps = 0;
   double max_yaw_accel_radps2 = 0;
-  double hotel_load_w = 0;      // computer and sensors, drawn all the time
+  double hotel_load_w = 0;  // computer and sensors, drawn all the time
 };
 
 }  // namespace floorproof
