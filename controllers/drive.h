@@ -14,7 +14,8 @@ namespace floorproof {
 class Drive {
  public:
   virtual ~Drive() = default;
-  // Reads radii and places of the wheels; throws InputError when the robot lacks what the drive needs.
+  // Reads radii and places of the wheels; throws InputError when the robot lacks what the drive
+  // needs.
   virtual void Configure(const RobotSpec& robot) = 0;
   // Wheel speeds (rad/s, RobotSpec's order) for a twist; components the drive cannot follow are
   // dropped. When a wheel would exceed its motor's no-load speed all are scaled down together, so

@@ -19,19 +19,19 @@
 namespace floorproof {
 
 struct PlanRequest {
-  const HazardMap& map;    // what is known of the floor
+  const HazardMap& map;  // what is known of the floor
   const RobotSpec& robot;
-  Pose2 start;             // X_WB
+  Pose2 start;  // X_WB
   std::optional<Vec2> goal;
   std::uint64_t seed = 0;
 };
 
 enum class PlanStatus {
   kSuccess,
-  kStartBlocked,   // the robot does not fit where it starts
-  kNoFloor,        // nothing to cover or visit can be reached
+  kStartBlocked,  // the robot does not fit where it starts
+  kNoFloor,       // nothing to cover or visit can be reached
   kGoalUnreachable,
-  kFailed,         // any other reason; the message says it
+  kFailed,  // any other reason; the message says it
 };
 std::string_view Name(PlanStatus status);
 

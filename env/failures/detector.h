@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Failure detectors: from the stream of true samples to events. A new one is one file in this folder
-// and one line in list.inc. They know no MuJoCo: an old trace can be judged again.
+// Failure detectors: from the stream of true samples to events. A new one is one file in this
+// folder and one line in list.inc. They know no MuJoCo: an old trace can be judged again.
 #pragma once
 
 #include <memory>

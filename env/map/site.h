@@ -12,7 +12,8 @@ namespace floorproof {
 
 struct Site {
   HazardMap map;
-  std::vector<std::filesystem::path> files_read;  // the site itself, the map's yaml and image: for hashes
+  std::vector<std::filesystem::path>
+      files_read;  // the site itself, the map's yaml and image: for hashes
 };
 
 // `node` is the site file's tree (overrides applied); paths in it are relative to `folder`.
