@@ -20,7 +20,8 @@ Grid<float> DistanceToSet(const Grid<std::uint8_t>& set, bool border_is_set);
 // The map's cells subdivided until they are at most max_cell_m.
 GridFrame FineFrame(const GridFrame& frame, double max_cell_m = 0.05);
 
-// 1 where a fine cell is wall, or touches a hazard that IsObstacle(step_m).
+// 1 where a fine cell is wall, or touches a hazard that IsObstacle(step_m). `fine` divides the map's
+// own frame (FineFrame). A level change is none where a later floor that can be driven covers it.
 Grid<std::uint8_t> ObstacleMask(const HazardMap& map, double step_m, const GridFrame& fine);
 
 // Distances to obstacles, for planners and controllers.
@@ -43,7 +44,9 @@ struct SweepArea {
   }
 };
 // `clear` and `tool` as in RobotSpec, or overridden by a plan's radius_m and tool_width_m (discs).
-// Connectivity: 8 neighbours. An empty area (sweepable_cells 0) when the start itself is not clear.
+// Walls are taken as built: drawn back by map.inset_m. A clear footprint is tried at yaws that are
+// multiples of 90 deg in the map's frame, and so is a tool's. Connectivity: 8 neighbours. An empty
+// area (sweepable_cells 0) when the start itself is not clear (to within its cell).
 SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shape2& tool,
                            double step_m, const Vec2& start_W);
 
@@ -62,14 +65,16 @@ class CoverageMeter {
   const Grid<std::uint8_t>& passes() const { return passes_; }
 
  private:
-  void Stamp(const Pose2& X_WB);
+  void SweepDisc(const Vec2& from_G, const Vec2& to_G, double length_m);
+  void StampFootprint(const Pose2& X_GB, double s_m);
+  void Touch(int ix, int iy, double enter_s_m, double leave_s_m);
   const SweepArea* area_;
   Shape2 tool_;
   Grid<std::uint8_t> passes_;
   Grid<float> last_s_m_;
   Pose2 last_;
   bool has_last_ = false;
-  double s_m_ = 0, gap_m_ = 0;
+  double s_m_ = 0, gap_m_ = 0, reach_m_ = 0;
   std::int64_t swept_ = 0, twice_ = 0;
 };
 

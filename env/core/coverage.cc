@@ -1,0 +1,512 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a floor to what can be swept of it: obstacle cells -> distances -> poses that are clear and
+// connected to the start -> cells that the tool reaches from them.
+//
+// Everything happens on one grid of fine cells, so clear and swept are exact at cell centres and
+// uncertain by half a cell between them. Distances follow Felzenszwalb & Huttenlocher, "Distance
+// Transforms of Sampled Functions", 2012: first along columns, then along each row as the lower
+// envelope of parabolas; a row is cut at its set cells, behind which no source can be the nearest.
+// Not modelled: a tool that reaches through a wall thinner than its overhang.
+#include "env/core/coverage.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+namespace floorproof {
+namespace {
+
+constexpr int kFar = 1 << 28;  // "no source in this column", in cells
+constexpr double kEps = 1e-6;  // of a cell: borders that coincide do not touch
+
+// Lower envelope of parabolas with minima at increasing integer positions.
+class Envelope {
+ public:
+  explicit Envelope(std::size_t max_sources) : sources_(max_sources) {}
+  void Clear() { n_ = 0; }
+  void Add(int position, double value) {
+    const double p = position;
+    const double key = value + p * p;
+    double from = -std::numeric_limits<double>::infinity();
+    while (n_ > 0) {
+      const Source& last = sources_[n_ - 1];
+      from = (key - last.key) / (2 * (p - last.position));
+      if (from > last.from) break;
+      from = -std::numeric_limits<double>::infinity();
+      --n_;
+    }
+    sources_[n_++] = {p, key, from};
+  }
+  // Least value at `position`; calls must come with increasing positions.
+  double At(int position) {
+    const double x = position;
+    while (cursor_ + 1 < n_ && sources_[cursor_ + 1].from <= x) ++cursor_;
+    const Source& s = sources_[cursor_];
+    return s.key + x * (x - 2 * s.position);
+  }
+  bool Rewind() { return cursor_ = 0, n_ > 0; }
+
+ private:
+  struct Source {
+    double position, key /* value + position^2 */, from /* first x where it is the least */;
+  };
+  std::vector<Source> sources_;
+  std::size_t n_ = 0, cursor_ = 0;
+};
+
+// What a set cell's distance is measured to.
+enum class Target { kArea, kCentre };
+
+// Rows to the nearest set cell in the same column.
+Grid<int> ColumnDistance(const Grid<std::uint8_t>& set, bool border_is_set) {
+  Grid<int> rows(set.width, set.height);
+  const auto w = static_cast<std::size_t>(set.width);
+  std::vector<int> run(w, border_is_set ? 0 : kFar);
+  for (int iy = 0; iy < set.height; ++iy) {
+    const std::uint8_t* s = &set.cells[set.Index(0, iy)];
+    int* out = &rows.cells[set.Index(0, iy)];
+    for (std::size_t i = 0; i < w; ++i) out[i] = run[i] = s[i] ? 0 : run[i] + 1;
+  }
+  std::fill(run.begin(), run.end(), border_is_set ? 0 : kFar);
+  for (int iy = set.height - 1; iy >= 0; --iy) {
+    int* out = &rows.cells[set.Index(0, iy)];
+    for (std::size_t i = 0; i < w; ++i) {
+      run[i] = std::min(run[i] + 1, out[i]);
+      out[i] = run[i];
+    }
+  }
+  return rows;
+}
+
+// Positions and lengths below are in half cells, so that borders between cells are integers too.
+Grid<float> Distance(const Grid<std::uint8_t>& set, bool border_is_set, Target target) {
+  Grid<float> distance(set.width, set.height, std::numeric_limits<float>::infinity());
+  if (set.width == 0 || set.height == 0) return distance;
+  const Grid<int> rows = ColumnDistance(set, border_is_set);
+  Envelope envelope(static_cast<std::size_t>(set.width) + 2);
+  const bool to_area = target == Target::kArea;
+  const auto squared = [to_area](int n_rows) {
+    const double d = to_area ? 2.0 * n_rows - 1 : 2.0 * n_rows;
+    return d * d;
+  };
+  for (int iy = 0; iy < set.height; ++iy) {
+    const int* row = &rows.cells[set.Index(0, iy)];
+    float* out = &distance.cells[set.Index(0, iy)];
+    for (int begin = 0, end; begin < set.width; begin = end) {
+      if (row[begin] == 0) {
+        out[begin] = 0;
+        end = begin + 1;
+        continue;
+      }
+      for (end = begin + 1; end < set.width && row[end] != 0;) ++end;
+      envelope.Clear();
+      if (begin > 0 || border_is_set) envelope.Add(2 * begin - (to_area ? 1 : 2), 0);
+      for (int i = begin; i < end; ++i) {
+        if (to_area) {  // the nearer side of a cell is the border between it and its neighbour
+          const int nearest = i + 1 < end ? std::min(row[i], row[i + 1]) : kFar;
+          if (nearest < kFar) envelope.Add(2 * i + 1, squared(nearest));
+        } else if (row[i] < kFar) {
+          envelope.Add(2 * i, squared(row[i]));
+        }
+      }
+      if (end < set.width || border_is_set) envelope.Add(2 * end - (to_area ? 1 : 0), 0);
+      const bool any = envelope.Rewind();
+      for (int i = begin; i < end; ++i) {
+        double least = any ? envelope.At(2 * i) : std::numeric_limits<double>::infinity();
+        if (row[i] < kFar) least = std::min(least, squared(row[i]));
+        out[i] = static_cast<float>(std::sqrt(least) / 2);
+      }
+    }
+  }
+  return distance;
+}
+
+Vec2 ToGrid(const GridFrame& frame, const Vec2& p_W) {
+  return frame.X_WG.Inverse() * p_W / frame.cell_m;
+}
+
+// Cells that the polygon (in cells, grid frame) touches with more than a border, as `paint(ix,
+// iy)`: those that an edge crosses, and those whose centre lies inside.
+template <class Paint>
+void Rasterise(const Polygon& polygon, int width, int height, const Paint& paint) {
+  const std::size_t n = polygon.size();
+  const auto clamp = [](double v, int limit) {
+    return static_cast<int>(std::clamp(v, -1.0, limit + 0.0));
+  };
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2 a = polygon[k], d = polygon[(k + 1) % n] - a;
+    const Vec2 low = a.cwiseMin(a + d), high = a.cwiseMax(a + d);
+    const int x1 = std::min(clamp(std::floor(high.x()), width), width - 1);
+    const int y1 = std::min(clamp(std::floor(high.y()), height), height - 1);
+    for (int iy = std::max(0, clamp(std::floor(low.y()), height)); iy <= y1; ++iy) {
+      for (int ix = std::max(0, clamp(std::floor(low.x()), width)); ix <= x1; ++ix) {
+        // Clip the edge to the cell's interior (Liang & Barsky 1984).
+        double t0 = 0, t1 = 1;
+        for (int axis = 0; axis < 2; ++axis) {
+          const double near = (axis ? iy : ix) + kEps - a[axis];
+          const double far = (axis ? iy : ix) + 1 - kEps - a[axis];
+          if (std::abs(d[axis]) < 1e-12) {
+            if (near > 0 || far < 0) t1 = -1;
+            continue;
+          }
+          const double u = near / d[axis], v = far / d[axis];
+          t0 = std::max(t0, std::min(u, v));
+          t1 = std::min(t1, std::max(u, v));
+        }
+        if (t0 <= t1) paint(ix, iy);
+      }
+    }
+  }
+  double y_low = std::numeric_limits<double>::infinity(), y_high = -y_low;
+  for (const Vec2& p : polygon) y_low = std::min(y_low, p.y()), y_high = std::max(y_high, p.y());
+  const int last = std::min(clamp(std::floor(y_high), height), height - 1);
+  std::vector<double> crossings;
+  for (int iy = std::max(0, clamp(std::floor(y_low), height)); iy <= last; ++iy) {
+    const double y = iy + 0.5;
+    crossings.clear();
+    for (std::size_t k = 0; k < n; ++k) {
+      const Vec2 &a = polygon[k], &b = polygon[(k + 1) % n];
+      if ((a.y() <= y) == (b.y() <= y)) continue;
+      crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+    }
+    std::sort(crossings.begin(), crossings.end());
+    for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
+      const int from = std::max(0, clamp(std::ceil(crossings[k] - 0.5 + kEps), width));
+      const int to = std::min(clamp(std::floor(crossings[k + 1] - 0.5 - kEps), width), width - 1);
+      for (int ix = from; ix <= to; ++ix) paint(ix, iy);
+    }
+  }
+}
+
+Grid<std::uint8_t> WallMask(const HazardMap& map, const GridFrame& fine) {
+  Grid<std::uint8_t> mask(fine.width, fine.height);
+  const double ratio = fine.cell_m / map.frame.cell_m;
+  const auto coarse = [ratio](int i) { return static_cast<int>(std::floor((i + 0.5) * ratio)); };
+  std::vector<int> column(static_cast<std::size_t>(fine.width));
+  for (int ix = 0; ix < fine.width; ++ix) column[static_cast<std::size_t>(ix)] = coarse(ix);
+  for (int iy = 0; iy < fine.height; ++iy) {
+    const int cy = coarse(iy);
+    std::uint8_t* out = &mask.cells[mask.Index(0, iy)];
+    for (std::size_t ix = 0; ix < column.size(); ++ix) out[ix] = map.IsWall(column[ix], cy);
+  }
+  return mask;
+}
+
+// Adds what robots must keep off. Where floors overlap the later one wins (design: site file): a
+// level change is taken back where a later floor that can be driven lies over it.
+bool AddHazards(const HazardMap& map, double step_m, const GridFrame& fine,
+                Grid<std::uint8_t>& mask) {
+  constexpr std::uint8_t kFloor = 2, kSolid = 1;
+  Grid<std::uint8_t> layer(fine.width, fine.height);
+  bool any = false;
+  for (const Hazard& hazard : map.hazards) {
+    const bool obstacle = IsObstacle(hazard, step_m);
+    if (!obstacle && !any) continue;
+    any = true;
+    const bool is_floor = hazard.hazard_class == HazardClass::kLevelChange ||
+                          hazard.hazard_class == HazardClass::kTerrain;
+    for (const Polygon& footprint : hazard.footprint) {
+      Polygon p_G;
+      for (const Vec2& p_W : footprint) p_G.push_back(ToGrid(fine, p_W));
+      if (obstacle) {
+        Rasterise(p_G, fine.width, fine.height, [&](int ix, int iy) {
+          if (layer(ix, iy) != kSolid) layer(ix, iy) = is_floor ? kFloor : kSolid;
+        });
+      } else if (is_floor) {  // only cells that lie in it as a whole
+        const auto inside = [&](double x, double y) {
+          return Contains(p_G, Vec2(x, y)) || std::abs(SignedDistance(p_G, Vec2(x, y))) < kEps;
+        };
+        Rasterise(p_G, fine.width, fine.height, [&](int ix, int iy) {
+          if (layer(ix, iy) == kFloor && inside(ix, iy) && inside(ix + 1, iy) &&
+              inside(ix, iy + 1) && inside(ix + 1, iy + 1))
+            layer(ix, iy) = 0;
+        });
+      }
+    }
+  }
+  if (any)
+    for (std::size_t i = 0; i < mask.cells.size(); ++i)
+      mask.cells[i] |= static_cast<std::uint8_t>(layer.cells[i] != 0);
+  return any;
+}
+
+// Cells of `free` that are 8-connected to `seed`.
+Grid<std::uint8_t> Component(const Grid<std::uint8_t>& free, Cell seed) {
+  Grid<std::uint8_t> out(free.width, free.height);
+  std::vector<Cell> stack = {seed};
+  out(seed) = 1;
+  while (!stack.empty()) {
+    const Cell c = stack.back();
+    stack.pop_back();
+    for (int iy = std::max(0, c.iy - 1); iy <= std::min(free.height - 1, c.iy + 1); ++iy)
+      for (int ix = std::max(0, c.ix - 1); ix <= std::min(free.width - 1, c.ix + 1); ++ix)
+        if (free(ix, iy) && !out(ix, iy)) {
+          out(ix, iy) = 1;
+          stack.push_back({ix, iy});
+        }
+  }
+  return out;
+}
+
+// The clear cell at `c`, or the nearest of its neighbours: a start that is clear may lie in a cell
+// whose centre just is not.
+std::optional<Cell> ClearCellAt(const Grid<std::uint8_t>& free, Cell c, const Vec2& p_G) {
+  std::optional<Cell> best;
+  double best_d = std::numeric_limits<double>::infinity();
+  if (free.Inside(c) && free(c)) return c;
+  for (int iy = c.iy - 1; iy <= c.iy + 1; ++iy)
+    for (int ix = c.ix - 1; ix <= c.ix + 1; ++ix) {
+      const double d = (Vec2(ix + 0.5, iy + 0.5) - p_G).norm();
+      if (free.Inside(ix, iy) && free(ix, iy) && d < best_d) best = Cell{ix, iy}, best_d = d;
+    }
+  return best;
+}
+
+// Marks the cells within `radius` cells of the set ones.
+void DilateDisc(const Grid<std::uint8_t>& set, double radius, Grid<std::uint8_t>& out) {
+  int x0 = set.width, x1 = -1, y0 = set.height, y1 = -1;
+  for (int iy = 0; iy < set.height; ++iy)
+    for (int ix = 0; ix < set.width; ++ix)
+      if (set(ix, iy)) {
+        x0 = std::min(x0, ix), x1 = std::max(x1, ix);
+        y0 = std::min(y0, iy), y1 = iy;
+      }
+  if (x1 < 0) return;
+  const int margin = static_cast<int>(std::ceil(radius));
+  x0 = std::max(0, x0 - margin), x1 = std::min(set.width - 1, x1 + margin);
+  y0 = std::max(0, y0 - margin), y1 = std::min(set.height - 1, y1 + margin);
+  Grid<std::uint8_t> crop(x1 - x0 + 1, y1 - y0 + 1);
+  for (int iy = y0; iy <= y1; ++iy)
+    for (int ix = x0; ix <= x1; ++ix) crop(ix - x0, iy - y0) = set(ix, iy);
+  const Grid<float> distance = Distance(crop, false, Target::kCentre);
+  for (int iy = y0; iy <= y1; ++iy)
+    for (int ix = x0; ix <= x1; ++ix)
+      if (distance(ix - x0, iy - y0) <= radius + kEps) out(ix, iy) = 1;
+}
+
+// Edges moved inwards by d; meant for d small against the edges.
+Polygon DrawnBack(const Polygon& polygon, double d) {
+  Polygon out;
+  const std::size_t n = polygon.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2 in = (polygon[k] - polygon[(k + n - 1) % n]).normalized();
+    const Vec2 on = (polygon[(k + 1) % n] - polygon[k]).normalized();
+    const Vec2 normals = Vec2(-in.y() - on.y(), in.x() + on.x());
+    out.push_back(polygon[k] + d * normals / std::max(0.1, 1 + in.dot(on)));
+  }
+  return out;
+}
+
+// A footprint in cells, centred on the centre of cell (0, 0): the spans of cells it touches.
+struct Stencil {
+  struct Span {
+    int iy, x0, x1;
+  };
+  std::vector<Span> spans;
+};
+
+Stencil MakeStencil(Polygon polygon, double cell_m, int quarter_turns, double inset_m,
+                    bool centres_only) {
+  if (inset_m > 0) polygon = DrawnBack(polygon, inset_m);
+  double reach = 1;
+  const std::array<Pose2, 4> turns = {Pose2{0, 0, 0}, Pose2{0, 0, kPi / 2}, Pose2{0, 0, kPi},
+                                      Pose2{0, 0, -kPi / 2}};
+  for (Vec2& p : polygon) {
+    p = turns[static_cast<std::size_t>(quarter_turns)] * p / cell_m;
+    reach = std::max(reach, p.norm());
+  }
+  const int half = static_cast<int>(std::ceil(reach)) + 1, size = 2 * half + 1;
+  Grid<std::uint8_t> touched(size, size);
+  for (Vec2& p : polygon) p += Vec2(half + 0.5, half + 0.5);
+  if (centres_only) {
+    for (int iy = 0; iy < size; ++iy)
+      for (int ix = 0; ix < size; ++ix)
+        touched(ix, iy) = SignedDistance(polygon, Vec2(ix + 0.5, iy + 0.5)) <= kEps;
+  } else {
+    Rasterise(polygon, size, size, [&](int ix, int iy) { touched(ix, iy) = 1; });
+  }
+  Stencil stencil;
+  for (int iy = 0; iy < size; ++iy)
+    for (int ix = 0; ix < size; ++ix) {
+      if (!touched(ix, iy) || (ix > 0 && touched(ix - 1, iy))) continue;
+      int end = ix;
+      while (end + 1 < size && touched(end + 1, iy)) ++end;
+      stencil.spans.push_back({iy - half, ix - half, end - half});
+    }
+  return stencil;
+}
+
+// Set cells before ix in each row, for ix in 0 .. width.
+Grid<int> RowSums(const Grid<std::uint8_t>& mask) {
+  Grid<int> sums(mask.width + 1, mask.height);
+  for (int iy = 0; iy < mask.height; ++iy)
+    for (int ix = 0; ix < mask.width; ++ix)
+      sums(ix + 1, iy) = sums(ix, iy) + (mask(ix, iy) ? 1 : 0);
+  return sums;
+}
+
+bool Fits(const Stencil& stencil, const Grid<int>& sums, int ix, int iy) {
+  for (const Stencil::Span& s : stencil.spans) {
+    const int y = iy + s.iy, x0 = ix + s.x0, x1 = ix + s.x1;
+    if (y < 0 || y >= sums.height || x0 < 0 || x1 + 1 >= sums.width) return false;
+    if (sums(x1 + 1, y) != sums(x0, y)) return false;
+  }
+  return true;
+}
+
+// The footprint's poses: one layer of cells per yaw; a robot passes between cells at one yaw and
+// between yaws where both are free (turning through the angles between is not looked at).
+void ReachWithFootprint(const Shape2& clear, const Grid<std::uint8_t>& walls,
+                        const Grid<std::uint8_t>* hazards, double inset_m, Cell start,
+                        const Vec2& start_G, SweepArea& area,
+                        std::array<Grid<std::uint8_t>, 4>& layers) {
+  const Grid<int> wall_sums = RowSums(walls);
+  const Grid<int> hazard_sums = hazards ? RowSums(*hazards) : Grid<int>();
+  std::array<Grid<std::uint8_t>, 4> free;
+  for (int k = 0; k < 4; ++k) {
+    const Stencil built = MakeStencil(clear.footprint_B, area.frame.cell_m, k, inset_m, false);
+    const Stencil whole = MakeStencil(clear.footprint_B, area.frame.cell_m, k, 0, false);
+    auto& layer = free[static_cast<std::size_t>(k)];
+    layer = Grid<std::uint8_t>(walls.width, walls.height);
+    for (int iy = 0; iy < walls.height; ++iy)
+      for (int ix = 0; ix < walls.width; ++ix)
+        layer(ix, iy) = !walls(ix, iy) && Fits(built, wall_sums, ix, iy) &&
+                        (!hazards || Fits(whole, hazard_sums, ix, iy));
+  }
+  struct State {
+    Cell cell;
+    std::size_t yaw;
+  };
+  std::vector<State> stack;
+  for (std::size_t k = 0; k < 4; ++k) {
+    layers[k] = Grid<std::uint8_t>(walls.width, walls.height);
+    const auto seed = stack.empty() ? ClearCellAt(free[k], start, start_G) : std::nullopt;
+    if (!seed) continue;
+    layers[k](*seed) = 1;
+    stack.push_back({*seed, k});
+  }
+  while (!stack.empty()) {
+    const auto [c, yaw] = stack.back();
+    stack.pop_back();
+    area.reachable(c) = 1;
+    const auto visit = [&](int ix, int iy, std::size_t k) {
+      if (!free[k].Inside(ix, iy) || !free[k](ix, iy) || layers[k](ix, iy)) return;
+      layers[k](ix, iy) = 1;
+      stack.push_back({{ix, iy}, k});
+    };
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) visit(c.ix + dx, c.iy + dy, yaw);
+    for (std::size_t k = 0; k < 4; ++k) visit(c.ix, c.iy, k);
+  }
+}
+
+// Marks what the tool touches when it stands on the set cells at a multiple of 90 deg.
+void DilateFootprint(const Grid<std::uint8_t>& set, const Shape2& tool, double cell_m, int yaw,
+                     Grid<std::uint8_t>& out) {
+  const Stencil stencil = MakeStencil(tool.footprint_B, cell_m, yaw, 0, true);
+  Grid<int> edges(set.width + 1, set.height);  // +1 where a swept span begins, -1 behind its end
+  for (int iy = 0; iy < set.height; ++iy)
+    for (int ix = 0; ix < set.width; ++ix) {
+      if (!set(ix, iy)) continue;
+      for (const Stencil::Span& s : stencil.spans) {
+        const int y = iy + s.iy;
+        if (y < 0 || y >= set.height || ix + s.x1 < 0 || ix + s.x0 >= set.width) continue;
+        ++edges(std::max(0, ix + s.x0), y);
+        --edges(std::min(set.width, ix + s.x1 + 1), y);
+      }
+    }
+  for (int iy = 0; iy < set.height; ++iy)
+    for (int ix = 0, depth = 0; ix < set.width; ++ix) {
+      depth += edges(ix, iy);
+      if (depth > 0) out(ix, iy) = 1;
+    }
+}
+
+}  // namespace
+
+Grid<float> DistanceToSet(const Grid<std::uint8_t>& set, bool border_is_set) {
+  return Distance(set, border_is_set, Target::kArea);
+}
+
+GridFrame FineFrame(const GridFrame& frame, double max_cell_m) {
+  const int k = static_cast<int>(std::ceil(frame.cell_m / max_cell_m - 1e-9));
+  return frame.Subdivided(std::max(1, k));
+}
+
+Grid<std::uint8_t> ObstacleMask(const HazardMap& map, double step_m, const GridFrame& fine) {
+  Grid<std::uint8_t> mask = WallMask(map, fine);
+  AddHazards(map, step_m, fine, mask);
+  return mask;
+}
+
+double ClearanceField::At(const Vec2& p_W) const {
+  const Cell c = frame.ToCell(p_W);
+  return frame.Inside(c) ? static_cast<double>(distance_m(c)) : 0.0;
+}
+
+ClearanceField ComputeClearance(const HazardMap& map, double step_m) {
+  ClearanceField field;
+  field.frame = FineFrame(map.frame);
+  field.distance_m = DistanceToSet(ObstacleMask(map, step_m, field.frame), true);
+  const auto cell = static_cast<float>(field.frame.cell_m);
+  for (float& d : field.distance_m.cells) d *= cell;
+  return field;
+}
+
+SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shape2& tool,
+                           double step_m, const Vec2& start_W) {
+  SweepArea area;
+  area.frame = FineFrame(map.frame);
+  const double cell_m = area.frame.cell_m;
+  area.reachable = area.sweepable = Grid<std::uint8_t>(area.frame.width, area.frame.height);
+
+  Grid<std::uint8_t> walls = WallMask(map, area.frame);
+  Grid<std::uint8_t> hazards(walls.width, walls.height);
+  const bool any_hazard = AddHazards(map, step_m, area.frame, hazards);
+  const auto inset = static_cast<float>(map.inset_m / cell_m);
+  area.clearance_m = DistanceToSet(walls, true);
+  for (float& d : area.clearance_m.cells) d = d > 0 ? d + inset : 0;
+  if (any_hazard) {
+    const Grid<float> to_hazard = DistanceToSet(hazards, false);
+    for (std::size_t i = 0; i < to_hazard.cells.size(); ++i)
+      area.clearance_m.cells[i] = std::min(area.clearance_m.cells[i], to_hazard.cells[i]);
+  }
+  for (float& d : area.clearance_m.cells) d *= static_cast<float>(cell_m);
+
+  const Cell start = area.frame.ToCell(start_W);
+  const Vec2 start_G = ToGrid(area.frame, start_W);
+  std::array<Grid<std::uint8_t>, 4> layers;
+  const bool has_layers = clear.kind == Shape2::Kind::kFootprint;
+  if (has_layers) {
+    ReachWithFootprint(clear, walls, any_hazard ? &hazards : nullptr, map.inset_m, start, start_G,
+                       area, layers);
+  } else {
+    // A clear start's cell may miss the radius by the way from the start to the cell's centre.
+    const double slack_m = std::sqrt(0.5) * cell_m + kEps;
+    if (!area.frame.Inside(start) ||
+        static_cast<double>(area.clearance_m(start)) < clear.radius_m - slack_m)
+      return area;
+    Grid<std::uint8_t> free(walls.width, walls.height);
+    const auto least = static_cast<float>(clear.radius_m - kEps * cell_m);
+    for (std::size_t i = 0; i < free.cells.size(); ++i)
+      free.cells[i] = area.clearance_m.cells[i] >= least && area.clearance_m.cells[i] > 0;
+    if (const auto seed = ClearCellAt(free, start, start_G))
+      area.reachable = Component(free, *seed);
+  }
+
+  if (tool.kind == Shape2::Kind::kCircle) {
+    DilateDisc(area.reachable, tool.radius_m / cell_m, area.sweepable);
+  } else {
+    for (int k = 0; k < 4; ++k)
+      DilateFootprint(has_layers ? layers[static_cast<std::size_t>(k)] : area.reachable, tool,
+                      cell_m, k, area.sweepable);
+  }
+  for (std::size_t i = 0; i < area.sweepable.cells.size(); ++i) {
+    if (walls.cells[i] || hazards.cells[i]) area.sweepable.cells[i] = 0;
+    area.sweepable_cells += area.sweepable.cells[i];
+  }
+  return area;
+}
+
+}  // namespace floorproof
