@@ -4,6 +4,8 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace floorproof {
 
@@ -34,6 +36,8 @@ struct Event {
   std::string hazard;  // id of the hazard met; "wall" for the map's own; empty: none near
   double value = 0, threshold = 0;  // the inequality's two sides, in the mode's unit
   std::string effect;               // E1..E5 of the FMEA paper, Table 2
+  // What else was measured, by name with unit suffix (closing_mps, travel_back_m), in order.
+  std::vector<std::pair<std::string, double>> evidence;
 };
 
 }  // namespace floorproof
