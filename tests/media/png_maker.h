@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes PNG files of any colour type and depth, right or wrong on purpose, without a codec: stored
+// (uncompressed) deflate blocks, filter 0, no interlace.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace floorproof {
+
+struct PngSpec {
+  unsigned width = 1, height = 1;
+  int bit_depth = 8;
+  int color_type = 0;  // 0 grey, 2 RGB, 3 palette, 4 grey + alpha, 6 RGBA
+  std::vector<unsigned> samples =
+      {};                         // channels interleaved, row by row from the top; empty: no pixels
+  std::string palette = {};       // PLTE
+  std::string transparency = {};  // tRNS
+  unsigned drop_rows = 0;         // so many rows are left out of the compressed data
+};
+
+inline std::string PngBigEndian(std::uint32_t v) {
+  return {static_cast<char>(v >> 24), static_cast<char>(v >> 16), static_cast<char>(v >> 8),
+          static_cast<char>(v)};
+}
+
+inline std::string PngChunk(const std::string& type, const std::string& data) {
+  std::uint32_t crc = 0xffffffffU;
+  for (const char c : type + data) {
+    crc ^= static_cast<unsigned char>(c);
+    for (int k = 0; k < 8; ++k) crc = crc & 1 ? 0xedb88320U ^ (crc >> 1) : crc >> 1;
+  }
+  return PngBigEndian(static_cast<std::uint32_t>(data.size())) + type + data +
+         PngBigEndian(crc ^ 0xffffffffU);
+}
+
+inline std::string PngStored(const std::string& raw) {
+  std::string zlib = "\x78\x01";
+  for (std::size_t at = 0; at < raw.size() || at == 0;) {
+    const std::size_t n = std::min<std::size_t>(raw.size() - at, 65535);
+    const bool last = at + n == raw.size();
+    zlib += static_cast<char>(last ? 1 : 0);
+    for (const std::size_t v : {n, ~n}) {
+      zlib += static_cast<char>(v & 0xff);
+      zlib += static_cast<char>(v >> 8 & 0xff);
+    }
+    zlib += raw.substr(at, n);
+    at += n;
+    if (last) break;
+  }
+  std::uint32_t a = 1, b = 0;  // Adler-32
+  for (const char c : raw) {
+    a = (a + static_cast<unsigned char>(c)) % 65521;
+    b = (b + a) % 65521;
+  }
+  return zlib + PngBigEndian(b << 16 | a);
+}
+
+inline std::string MakePng(const PngSpec& spec) {
+  const unsigned channels[] = {1, 0, 3, 1, 2, 0, 4};
+  const std::size_t per_row = static_cast<std::size_t>(spec.width) * channels[spec.color_type];
+  std::string raw;
+  for (unsigned y = 0; !spec.samples.empty() && y + spec.drop_rows < spec.height; ++y) {
+    raw += '\0';
+    unsigned bits = 0, held = 0;
+    for (std::size_t i = 0; i < per_row; ++i) {
+      held = held << spec.bit_depth | spec.samples[y * per_row + i];
+      for (bits += static_cast<unsigned>(spec.bit_depth); bits >= 8; bits -= 8)
+        raw += static_cast<char>(held >> (bits - 8) & 0xff);
+    }
+    if (bits > 0) raw += static_cast<char>(held << (8 - bits) & 0xff);
+  }
+  std::string header = PngBigEndian(spec.width) + PngBigEndian(spec.height);
+  header += static_cast<char>(spec.bit_depth);
+  header += static_cast<char>(spec.color_type);
+  header += std::string(3, '\0');
+  std::string png = "\x89PNG\r\n\x1a\n" + PngChunk("IHDR", header);
+  if (!spec.palette.empty()) png += PngChunk("PLTE", spec.palette);
+  if (!spec.transparency.empty()) png += PngChunk("tRNS", spec.transparency);
+  return png + PngChunk("IDAT", PngStored(raw)) + PngChunk("IEND", "");
+}
+
+}  // namespace floorproof
