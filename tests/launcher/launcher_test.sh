@@ -1,0 +1,222 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# launcher_test.sh CASE: runs the launcher in a small tree of its own, with stand-ins for cmake,
+# ctest, dpkg-query, apt-get and pip that write down how they were called. No network, no compiler.
+# shellcheck disable=SC2317  # the cases are called by name
+set -u
+here=$(cd "$(dirname "$0")" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+tree="$work/a tree"
+dut="$tree/floorproof"
+failures=0
+as_user=(env)
+
+expect() {  # expect WHAT COMMAND...: COMMAND must succeed
+  local what=$1
+  shift
+  "$@" && return
+  echo "FAILED: $what"
+  echo "--- stdout"; cat "$work/out"; echo "--- stderr"; cat "$work/err"
+  echo "--- calls"; cat "$work/calls"
+  failures=$((failures + 1))
+}
+# run ARGUMENT...: starts the launcher; leaves $status, $work/out and $work/err.
+run() {
+  "${as_user[@]}" "$dut" "$@" >"$work/out" 2>"$work/err"
+  status=$?
+}
+says() { grep -qF -- "$2" "$work/$1"; }
+calls() { grep -c -- "^$1" "$work/calls"; }
+stub() {  # stub NAME: a command from stdin
+  cat >"$work/bin/$1"
+  chmod +x "$work/bin/$1"
+}
+
+# A tree whose "build" is a copied script.
+mkdir -p "$tree"/{apps,cmake,controllers,env,planners,render,tests} "$work/bin"
+cp "$here/../../floorproof" "$dut"
+touch "$tree/CMakeLists.txt" "$tree/apps/main.cc" "$work/calls"
+export WORK=$work PATH="$work/bin:$PATH"
+unset FLOORPROOF_MUJOCO_DIR FLOORPROOF_APT CXX
+stub cmake <<'STUB'
+#!/usr/bin/env bash
+echo "cmake $*" >>"$WORK/calls"
+if [[ $1 == -S ]]; then
+  build=$2/build/release
+  mkdir -p "$build"
+  printf 'CMAKE_HOME_DIRECTORY:INTERNAL=%s\nFLOORPROOF_MUJOCO_DIR:PATH=%s\n' "$2" "${!##*DIR=}" \
+    >"$build/CMakeCache.txt"
+  touch "$build/build.ninja"
+  exit
+fi
+sleep "${BUILD_SECONDS:-0}"
+[[ -z ${BUILD_FAILS:-} ]] || { echo "main.cc:7: error: no such thing"; exit 1; }
+mkdir -p "$2/bin"
+printf '#!/bin/bash\npwd; printf "[%%s]" "$@"; exit 4\n' >"$2/bin/floorproof"
+chmod +x "$2/bin/floorproof"
+STUB
+stub ninja <<<'#!/bin/bash'
+stub g++ <<<'#!/bin/bash'
+stub ctest <<'STUB'
+#!/bin/bash
+echo "ctest $*" >>"$WORK/calls"
+exit "${CTEST_STATUS:-0}"
+STUB
+stub dpkg-query <<'STUB'
+#!/bin/bash
+for package in "${@:4}"; do
+  [[ $package == "${ABSENT:-}" && ! -f $WORK/installed ]] || echo "$package installed"
+done
+STUB
+stub dpkg <<<'#!/bin/bash'
+stub apt-cache <<<'#!/bin/bash'
+stub apt-get <<'STUB'
+#!/bin/bash
+[[ " $* " == *" --print-uris "* ]] && { echo "'http://x/y' y 2500000 SHA256:0"; exit; }
+echo "apt-get $*" >>"$WORK/calls"
+[[ " $* " != *" install "* ]] || touch "$WORK/installed"
+STUB
+stub python3 <<'STUB'
+#!/usr/bin/env bash
+echo "python3 $*" >>"$WORK/calls"
+[[ $1 != - ]] || { mkdir -p "$3/include/mujoco"; touch "$3/include/mujoco/mujoco.h" "$3/libmujoco.so.4.0.1"; }
+STUB
+
+# --- cases ---------------------------------------------------------------------------------------
+
+starts_at_once() {
+  run demo
+  expect "the first start announces the wheel" says err "10 MB from PyPI"
+  expect "the wheel is pinned" grep -q -- "pip download.*--require-hashes.*cp311" "$work/calls"
+  : >"$work/calls"
+  cd / && run run "a b" '' --x
+  expect "the program's status is the launcher's" test "$status" = 4
+  expect "the caller's folder and arguments arrive unchanged" test "$(<"$work/out")" = $'/\n[run][a b][][--x]'
+  expect "a second start says nothing" test ! -s "$work/err"
+  expect "a second start calls nothing" test ! -s "$work/calls"
+}
+
+rebuilds_what_changed() {
+  run demo
+  : >"$work/calls"
+  touch "$tree/models.xml" "$tree/tests/x_test.cc"
+  run demo
+  expect "models and tests are no part of the program" test "$(calls cmake)" = 0
+  touch "$tree/env/new.h"
+  run demo
+  expect "a new source is built" test "$(calls 'cmake --build')" = 1
+  expect "without configuring again" test "$(calls 'cmake -S')" = 0
+  expect "nor fetching again" test "$(calls python3)" = 0
+}
+
+follows_links() {
+  mkdir "$work/some where"
+  ln -s "$dut" "$work/some where/one"
+  ln -s one "$work/some where/two"
+  cd "$work/some where" || exit
+  dut=./two run list
+  expect "started through two links" says out "[list]"
+  expect "built in its own tree" test -x "$tree/build/release/bin/floorproof"
+}
+
+asks_for_packages() {
+  if ((EUID == 0)); then
+    chmod -R a+rwX "$work"
+    as_user=(setpriv --reuid=65534 --regid=65534 --clear-groups)
+  fi
+  ABSENT=libyaml-cpp-dev run demo
+  expect "ends with status 2" test "$status" = 2
+  expect "prints the one line" says err "apt-get install -y --no-install-recommends libyaml-cpp-dev"
+  expect "names the size" says err "3 MB"
+  expect "installs, fetches and builds nothing" test ! -s "$work/calls"
+}
+
+installs_as_root() {
+  ((EUID == 0)) || { echo "needs root: skipped"; exit 77; }
+  ABSENT=libyaml-cpp-dev run demo
+  expect "names the size before" says err "3 MB from your distribution"
+  expect "installs what is missing and no more" \
+    grep -q -- "apt-get.* install .*--no-install-recommends libyaml-cpp-dev$" "$work/calls"
+  expect "then builds and starts" test "$status" = 4
+}
+
+reports_a_failed_build() {
+  BUILD_FAILS=1 run demo
+  expect "ends with status 3" test "$status" = 3
+  expect "shows the compiler's words" says err "main.cc:7: error"
+  expect "names the log" says err "build/build.log"
+  BUILD_FAILS=1 run demo
+  expect "the next start tries again" test "$status" = 3
+  run demo
+  expect "and succeeds once mended" test "$status" = 4
+}
+
+reports_failed_tests() {
+  run test -R Spiral
+  expect "passing tests: 0" test "$status" = 0
+  expect "the quick ones, with the caller's arguments" \
+    grep -q -- "^ctest .*-L ^quick\$ .*-R Spiral$" "$work/calls"
+  CTEST_STATUS=8 run test --all
+  expect "failing tests: 1" test "$status" = 1
+  expect "--all has no label" test "$(grep -c -- '^ctest .*-L' "$work/calls")" = 1
+  expect "and is not passed on" test "$(grep -c -- '^ctest .*--all' "$work/calls")" = 0
+  expect "nothing was built twice" test "$(calls 'cmake --build')" = 1
+}
+
+builds_once() {
+  run setup
+  BUILD_SECONDS=1 "$dut" one >"$work/out1" 2>&1 &
+  sleep 0.3
+  run two
+  wait
+  expect "one build for two starts" test "$(calls 'cmake --build')" = 1
+  expect "the second waits and says so" says err "waiting"
+  expect "both run" grep -q '\[one\]' "$work/out1"
+  expect "both run" says out "[two]"
+}
+
+leaves_nothing_half_done() {
+  # Job control gives the launcher a process group of its own, as a terminal's Ctrl-C needs.
+  set -m
+  BUILD_SECONDS=20 "$dut" demo >"$work/out" 2>"$work/err" &
+  set +m
+  for _ in {1..100}; do
+    [[ $(calls 'cmake --build') == 0 ]] || break
+    sleep 0.05
+  done
+  kill -INT -- -$!
+  wait $!
+  expect "interrupted: 130" test $? = 130
+  expect "no stamp" test ! -e "$tree/build/release/.built-floorproof"
+  expect "no temporary files" test -z "$(find "$tree/build" -name '.began.*' -o -name 'mujoco.??????')"
+  run demo
+  expect "the next start finishes the work" test "$status" = 4
+}
+
+uses_a_given_mujoco() {
+  mkdir -p "$work/mj/include/mujoco"
+  FLOORPROOF_MUJOCO_DIR=$work/mj run demo
+  expect "a folder without MuJoCo is bad usage" test "$status" = 2
+  touch "$work/mj/include/mujoco/mujoco.h"
+  cd "$work" && FLOORPROOF_MUJOCO_DIR=mj run demo
+  expect "it is configured, as an absolute path" grep -q -- "MUJOCO_DIR=$work/mj$" "$work/calls"
+  : >"$work/calls"
+  touch "$tree/env/new.h"
+  run demo
+  expect "and kept afterwards" test "$(calls 'cmake -S')" = 0
+  expect "nothing is fetched" test "$(calls python3)" = 0
+}
+
+notices_a_moved_tree() {
+  run demo
+  mv "$tree" "$work/elsewhere"
+  tree=$work/elsewhere dut=$work/elsewhere/floorproof
+  run demo
+  expect "configured for the new place" grep -q -- "^cmake -S $work/elsewhere" "$work/calls"
+  expect "and started there" test "$status" = 4
+}
+
+declare -F "${1:-}" >/dev/null || { echo "no such case: ${1:-}"; exit 2; }
+"$1"
+exit $((failures != 0))
