@@ -50,6 +50,7 @@ if [[ $1 == -S ]]; then
   touch "$build/build.ninja"
   exit
 fi
+trap 'exit 2' INT  # as ninja does
 sleep "${BUILD_SECONDS:-0}"
 [[ -z ${BUILD_FAILS:-} ]] || { echo "main.cc:7: error: no such thing"; exit 1; }
 mkdir -p "$2/bin"
@@ -129,7 +130,7 @@ asks_for_packages() {
   expect "ends with status 2" test "$status" = 2
   expect "prints the one line" says err "apt-get install -y --no-install-recommends libyaml-cpp-dev"
   expect "names the size" says err "3 MB"
-  expect "installs, fetches and builds nothing" test ! -s "$work/calls"
+  expect "installs, fetches and builds nothing" test "$(grep -cE 'install|download|cmake' "$work/calls")" = 0
 }
 
 installs_as_root() {
