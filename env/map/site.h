@@ -3,17 +3,20 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "env/core/config.h"
 #include "env/core/hazard_map.h"
+#include "env/map/ros_map.h"
 
 namespace floorproof {
 
 struct Site {
   HazardMap map;
   std::vector<std::filesystem::path>
-      files_read;  // the site itself, the map's yaml and image: for hashes
+      files_read;                     // the site itself, the map's yaml and image: for hashes
+  std::vector<std::string> warnings;  // what is read as written but may not be meant; one line each
 };
 
 // `node` is the site file's tree (overrides applied); paths in it are relative to `folder`.
@@ -22,15 +25,8 @@ struct Site {
 Site ReadSite(const ConfigNode& node, const std::filesystem::path& folder);
 Site ReadSiteFile(const std::filesystem::path& path);
 // The site file's tree with every default stated and paths rewritten relative to `folder_out`.
+// Resolving the result once more gives it again. Throws InputError as ReadSite does.
 ConfigNode ResolveSite(const ConfigNode& node, const std::filesystem::path& folder,
                        const std::filesystem::path& folder_out);
-
-// A ROS map_server map alone.
-struct RosMap {
-  GridFrame frame;
-  Grid<CellState> cells;
-  std::filesystem::path image;
-};
-RosMap ReadRosMap(const std::filesystem::path& yaml_path);
 
 }  // namespace floorproof
