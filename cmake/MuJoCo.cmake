@@ -17,4 +17,4 @@ endif()
 add_library(mujoco::mujoco SHARED IMPORTED)
 set_target_properties(mujoco::mujoco PROPERTIES
   IMPORTED_LOCATION ${MUJOCO_LIBRARY}
-  INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${MUJOCO_INCLUDE_DIR})
+  INTERFACE_INCLUDE_DIRECTORIES ${MUJOCO_INCLUDE_DIR})  # SYSTEM, as of every imported target
