@@ -75,7 +75,9 @@ void CoverageMeter::Touch(int ix, int iy, double enter_s_m, double leave_s_m) {
 }
 
 void CoverageMeter::SweepDisc(const Vec2& from_G, const Vec2& to_G, double length_m) {
-  const double cell_m = area_->frame.cell_m, r = tool_.radius_m / cell_m;
+  // A cell whose centre lies on the rim counts, here as in ComputeSweepArea, whatever the rounding.
+  constexpr double kEps = 1e-6;
+  const double cell_m = area_->frame.cell_m, r = tool_.radius_m / cell_m + kEps;
   const Vec2 way = to_G - from_G;
   const double length = way.norm();
   const Vec2 dir = length > 0 ? Vec2(way / length) : Vec2(1, 0);

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planners/lib/coverage_planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "planners/lib/laps.h"
+#include "planners/lib/leftovers.h"
+#include "planners/lib/prune.h"
+#include "planners/lib/tour.h"
+
+namespace floorproof {
+void CoveragePlanner::Visit(ParamVisitor& visit) {
+  visit("tool_width_m", tool_width_m_, Positive(),
+        "width of a disc that sweeps; none: the robot's tool");
+  visit("radius_m", radius_m_, Positive(), "of a circle kept clear; none: the robot's clear shape");
+  visit("overlap", overlap_, Between(0, 0.9), "of neighbouring rows, share of the tool's width");
+  visit("edges", edges_, "laps along walls and furniture first");
+}
+
+Polyline CoveragePlanner::Sweep(const Floor& floor, const Vec2& start, Figures& figures) const {
+  const double w = floor.tool_width;
+  Ways ways(floor);
+  Swept covered(floor);
+  std::vector<Polyline> lines;
+  if (edges_) {
+    const Grid<float> depth = PoseDepth(floor);
+    lines = OpenParts(floor, Contours(floor, depth, 0), 0.25, w, covered);
+    double length = 0;
+    for (const Polyline& line : lines) length += PolylineLength(line);
+    figures.push_back({"laps_m", length * floor.frame.cell_m});
+  }
+  for (Polyline& line : Lines(floor, covered, figures)) lines.push_back(std::move(line));
+  auto order = OrderLines(ways, start, lines);
+  const auto join = [&] {
+    std::vector<Polyline> ordered = {{start}};
+    for (const Stop& v : order) {
+      ordered.push_back(lines[v.line]);
+      if (v.reversed) std::reverse(ordered.back().begin(), ordered.back().end());
+    }
+    return MergeStraight(JoinByRoutes(ways, ordered));
+  };
+  Polyline path = join();
+  Swept swept(floor);
+  swept.Add(path);
+  figures.push_back({"first_coverage", swept.share()});
+  figures.push_back({"first_length", PolylineLength(path) * w / floor.ground_cells});
+  {
+    const Grid<float> depth = PoseDepth(floor);
+    const double min_gain = (edges_ ? 0.3 : 0.5) * w * w;
+    for (auto& line :
+         OpenParts(floor, Contours(floor, depth, 0), edges_ ? 0.2 : 0.4, min_gain, swept))
+      lines.push_back(std::move(line));
+    for (auto& line : LinesOverLeftovers(floor, ways, min_gain, swept))
+      lines.push_back(std::move(line));
+  }
+  order = OrderLines(ways, start, lines);
+  path = join();
+  Swept final_swept(floor);
+  final_swept.Add(path);
+  figures.push_back({"second_coverage", final_swept.share()});
+  figures.push_back({"second_length", PolylineLength(path) * w / floor.ground_cells});
+  PruneOptions prune;
+  prune.goal_cells = (edges_ ? 0.992 : 0.96) * floor.ground_cells;
+  prune.worth = edges_ ? 0.25 : 0.4;
+  Prune(floor, prune, path, final_swept);
+  return MergeStraight(path);
+}
+
+PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
+  PlanResult result;
+  result.clear = request.robot.clear;
+  result.tool = request.robot.tool;
+  result.tool_width_m = request.robot.tool_width_m;
+  if (radius_m_) result.clear = {Shape2::Kind::kCircle, *radius_m_, {}};
+  if (tool_width_m_) {
+    result.tool = {Shape2::Kind::kCircle, *tool_width_m_ / 2, {}};
+    result.tool_width_m = *tool_width_m_;
+  }
+  const SweepArea area = ComputeSweepArea(request.map, result.clear, result.tool,
+                                          request.robot.step_m, request.start.p());
+  if (area.sweepable_cells == 0) {
+    const bool fits = std::find(area.reachable.cells.begin(), area.reachable.cells.end(), 1) !=
+                      area.reachable.cells.end();
+    result.status = fits ? PlanStatus::kNoFloor : PlanStatus::kStartBlocked;
+    result.message = WhyNothing(request, area, result.clear, fits);
+    return result;
+  }
+  const Floor floor = CropFloor(area, result.clear, result.tool, result.tool_width_m);
+  const Polyline path = Sweep(floor, floor.ToCells(request.start.p()), result.figures);
+  for (const Vec2& p : path) {
+    Waypoint w;
+    w.p_W = floor.ToWorld(p);
+    result.path.push_back(w);
+  }
+  result.status = PlanStatus::kSuccess;
+  return result;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reachable part of a floor as coverage planners work on it: cropped, in cells.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "env/core/coverage.h"
+
+namespace floorproof {
+
+// A chain of points, in cells of a Floor's frame (cell (0, 0) spans [0, 1] x [0, 1]).
+using Polyline = std::vector<Vec2>;
+double PolylineLength(const Polyline& line);
+
+struct Floor {
+  GridFrame frame;            // of the crop
+  Grid<std::uint8_t> pose;    // the robot's centre may be here
+  Grid<std::uint8_t> ground;  // the tool can sweep this
+  Grid<float> margin;         // room beyond the clear shape at a cell's centre; negative: none
+  double tolerance = 0;       // margin that straight lines may lack between cell centres
+  Shape2 tool;                // as swept
+  double tool_width = 0;      // cells
+  double tool_reach = 0;      // farthest point of the tool from the robot's centre, cells
+  double ground_cells = 0;
+
+  double ToCells(double length_m) const { return length_m / frame.cell_m; }
+  Vec2 ToCells(const Vec2& p_W) const { return frame.X_WG.Inverse() * p_W / frame.cell_m; }
+  Vec2 ToWorld(const Vec2& p) const { return frame.X_WG * (p * frame.cell_m); }
+  static Cell CellAt(const Vec2& p) {
+    return {static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y()))};
+  }
+  static Vec2 CentreOf(Cell c) { return {c.ix + 0.5, c.iy + 0.5}; }
+
+  // Margin between cell centres, bilinear.
+  double MarginAt(const Vec2& p) const;
+  // Whether the robot's centre may be at p, to within `slack` cells.
+  bool Free(const Vec2& p, double slack = 0) const { return MarginAt(p) >= -slack; }
+  // Whether it may drive straight from a to b.
+  bool Sees(const Vec2& a, const Vec2& b) const;
+};
+
+// The part of `area` around its reachable poses. `clear`, `tool`: what the area was computed with.
+Floor CropFloor(const SweepArea& area, const Shape2& clear, const Shape2& tool,
+                double tool_width_m);
+
+}  // namespace floorproof

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+// A travelling salesman's open tour over lines that are driven from end to end: greedy matching of
+// near ends (no end twice, no ring), the pieces strung together from the start; then 2-opt
+// (reverse a stretch) and Or-opt (move a stretch of up to kMaxStretch lines elsewhere, either way
+// round) over each end's nearest neighbours until neither saves anything (Bentley, "Fast
+// Algorithms for Geometric Traveling Salesman Problems", 1992). Deterministic; not optimal.
+#include "planners/lib/tour.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+namespace floorproof {
+namespace {
+
+constexpr int kMaxStretch = 50;
+constexpr std::size_t kNeighbours = 10, kLooked = 18;
+
+class Tour {
+ public:
+  Tour(Ways& ways, const Vec2& start, const std::vector<Polyline>& lines)
+      : ways_(ways), n_(static_cast<int>(lines.size()) + 1) {
+    points_.push_back(start);  // line 0 is the start: both its ends
+    points_.push_back(start);
+    for (const Polyline& line : lines) {
+      points_.push_back(line.front());
+      points_.push_back(line.back());
+    }
+    FindNeighbours();
+  }
+
+  std::vector<Stop> Solve() {
+    Match();
+    Improve();
+    std::vector<Stop> visits;
+    for (int p = 1; p < n_; ++p)
+      visits.push_back({static_cast<std::size_t>(in_[Z(p)] / 2 - 1), in_[Z(p)] % 2 == 1});
+    return visits;
+  }
+
+ private:
+  static std::size_t Z(int i) { return static_cast<std::size_t>(i); }
+  static int Other(int end) { return end ^ 1; }
+
+  double D(int a, int b) {
+    if (a > b) std::swap(a, b);
+    const std::uint64_t key = static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
+    const auto it = known_.find(key);
+    if (it != known_.end()) return it->second;
+    const double d = ways_.Distance(points_[Z(a)], points_[Z(b)]);
+    known_.emplace(key, static_cast<float>(d));
+    return static_cast<double>(static_cast<float>(d));
+  }
+
+  void FindNeighbours() {
+    // Ends sorted into square bins of which a ring at a time is looked through.
+    const int ends = 2 * n_;
+    Vec2 low = points_[0], high = points_[0];
+    for (const Vec2& p : points_) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    const double area = std::max(1.0, (high - low).x()) * std::max(1.0, (high - low).y());
+    const double bin = std::max(1.0, std::sqrt(area / ends * 3));
+    const int w = static_cast<int>((high - low).x() / bin) + 1;
+    const int h = static_cast<int>((high - low).y() / bin) + 1;
+    Grid<std::vector<int>> bins(w, h);
+    const auto bin_of = [&](int e) {
+      const Vec2 q = (points_[Z(e)] - low) / bin;
+      return Cell{static_cast<int>(q.x()), static_cast<int>(q.y())};
+    };
+    for (int e = 2; e < ends; ++e) bins(bin_of(e)).push_back(e);
+    near_.resize(Z(ends));
+    for (int e = 1; e < ends; ++e) {
+      const Cell c = bin_of(e);
+      std::vector<std::pair<double, int>> found;
+      for (int ring = 0; ring <= std::max(w, h); ++ring) {
+        for (int iy = c.iy - ring; iy <= c.iy + ring; ++iy)
+          for (int ix = c.ix - ring; ix <= c.ix + ring; ++ix) {
+            if (std::max(std::abs(ix - c.ix), std::abs(iy - c.iy)) != ring) continue;
+            if (!bins.Inside(ix, iy)) continue;
+            for (const int f : bins(ix, iy))
+              if (f / 2 != e / 2) found.push_back({(points_[Z(f)] - points_[Z(e)]).norm(), f});
+          }
+        if (found.size() >= 2 * kLooked) break;
+      }
+      std::sort(found.begin(), found.end());
+      if (found.size() > kLooked) found.resize(kLooked);
+      for (auto& [d, f] : found) d = D(e, f);
+      std::sort(found.begin(), found.end());
+      if (found.size() > kNeighbours) found.resize(kNeighbours);
+      for (const auto& [d, f] : found) near_[Z(e)].push_back(f);
+    }
+  }
+
+  void Match() {
+    const int ends = 2 * n_;
+    std::vector<int> link(Z(ends), -1), chain(Z(n_));
+    std::iota(chain.begin(), chain.end(), 0);
+    const auto root = [&chain](int a) {
+      while (chain[Z(a)] != a) a = chain[Z(a)] = chain[Z(chain[Z(a)])];
+      return a;
+    };
+    const auto join = [&](int a, int b) {
+      link[Z(a)] = b, link[Z(b)] = a;
+      chain[Z(root(a / 2))] = root(b / 2);
+    };
+    std::vector<std::tuple<double, int, int>> pairs;
+    for (int e = 1; e < ends; ++e)
+      for (const int f : near_[Z(e)]) pairs.push_back({D(e, f), std::min(e, f), std::max(e, f)});
+    std::sort(pairs.begin(), pairs.end());
+    for (const auto& [d, a, b] : pairs)
+      if (link[Z(a)] < 0 && link[Z(b)] < 0 && root(a / 2) != root(b / 2)) join(a, b);
+    // String the chains together: from the current end to the nearest chain's nearer end.
+    std::vector<std::uint8_t> done(Z(n_), 0);
+    in_.clear();
+    int end = 1;  // out of the start
+    in_.push_back(0);
+    done[0] = 1;
+    for (;;) {
+      int next = link[Z(end)];
+      if (next < 0) {
+        double best = std::numeric_limits<double>::infinity();
+        for (int e = 2; e < ends; ++e) {
+          if (done[Z(e / 2)] || link[Z(e)] >= 0) continue;
+          const double straight = (points_[Z(e)] - points_[Z(end)]).norm();
+          if (straight >= best) continue;
+          const double d = D(end, e);
+          if (d < best || next < 0) best = d, next = e;
+        }
+        if (next < 0) break;
+      }
+      done[Z(next / 2)] = 1;
+      in_.push_back(next);
+      end = Other(next);
+    }
+    place_.resize(Z(n_));
+    for (int p = 0; p < n_; ++p) place_[Z(in_[Z(p)] / 2)] = p;
+  }
+
+  int In(int p) const { return in_[Z(p)]; }
+  int Out(int p) const { return Other(in_[Z(p)]); }
+  double Link(int p) { return p + 1 < n_ ? D(Out(p), In(p + 1)) : 0; }  // behind place p
+
+  void Replace(int from, const std::vector<int>& stretch) {
+    for (std::size_t k = 0; k < stretch.size(); ++k) {
+      in_[Z(from) + k] = stretch[k];
+      place_[Z(stretch[k] / 2)] = from + static_cast<int>(k);
+    }
+  }
+  void Reverse(int i, int j) {
+    std::vector<int> stretch;
+    for (int p = j; p >= i; --p) stretch.push_back(Out(p));
+    Replace(i, stretch);
+  }
+  // Moves places i..j to behind place k (outside of them).
+  void Move(int i, int j, int k, bool reversed) {
+    std::vector<int> moved, others;
+    for (int p = i; p <= j; ++p) moved.push_back(In(p));
+    if (reversed) {
+      std::reverse(moved.begin(), moved.end());
+      for (int& e : moved) e = Other(e);
+    }
+    if (k > j) {
+      for (int p = j + 1; p <= k; ++p) others.push_back(In(p));
+      Replace(i, others);
+      Replace(i + static_cast<int>(others.size()), moved);
+    } else {
+      for (int p = k + 1; p < i; ++p) others.push_back(In(p));
+      Replace(k + 1, moved);
+      Replace(k + 1 + static_cast<int>(moved.size()), others);
+    }
+  }
+
+  // Tries to give the end `e` a nearer neighbour by reversing a stretch.
+  bool TwoOpt(int e) {
+    const int p = place_[Z(e / 2)];
+    const bool is_out = Out(p) == e;
+    if (is_out ? p + 1 >= n_ : p == 0) return false;
+    const double old = is_out ? Link(p) : Link(p - 1);
+    for (const int f : near_[Z(e)]) {
+      if (D(e, f) >= old - kLeast) break;
+      const int q = place_[Z(f / 2)];
+      if ((Out(q) == f) != is_out) continue;
+      // Two ends of the same kind: reverse what lies between their links.
+      const int i = (is_out ? std::min(p, q) + 1 : std::min(p, q));
+      const int j = (is_out ? std::max(p, q) : std::max(p, q) - 1);
+      if (i < 1 || j < i) continue;
+      const double before = Link(i - 1) + Link(j);
+      const double after = D(Out(i - 1), Out(j)) + (j + 1 < n_ ? D(In(i), In(j + 1)) : 0);
+      if (after < before - kLeast) {
+        Reverse(i, j);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // Tries to move a stretch that begins (or ends) with the end `e` next to a near end.
+  bool OrOpt(int e) {
+    const int p = place_[Z(e / 2)];
+    if (p == 0) return false;
+    const bool is_in = In(p) == e;  // the stretch goes on from e to higher places
+    if (!is_in && p + 1 >= n_) return false;
+    const double old = is_in ? Link(p - 1) : Link(p);
+    for (const int f : near_[Z(e)]) {
+      const double first = D(e, f);
+      if (first >= old - kLeast) break;
+      const int q = place_[Z(f / 2)];
+      const bool f_out = Out(q) == f;
+      const int k = f_out ? q : q - 1;  // insert behind place k
+      if (k < 0) continue;
+      for (int length = 1; length <= kMaxStretch; length += 1 + length / 6) {
+        const int i = is_in ? p : p - length + 1, j = is_in ? p + length - 1 : p;
+        if (i < 1 || j >= n_) break;
+        if (k >= i - 1 && k <= j) break;
+        const int far = is_in ? Out(j) : In(i);
+        const double removed = Link(i - 1) + Link(j) + Link(k);
+        double added = first;
+        if (j + 1 < n_) added += D(Out(i - 1), In(j + 1));
+        if (f_out ? k + 1 < n_ : true) added += D(far, f_out ? In(k + 1) : Out(k));
+        if (added < removed - kLeast) {
+          // e stands next to f: unreversed when an entry follows an exit.
+          Move(i, j, k, is_in != f_out);
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  void Improve() {
+    bool any = true;
+    for (int round = 0; any && round < 30; ++round) {
+      any = false;
+      for (int e = 1; e < 2 * n_; ++e) {
+        while (TwoOpt(e) || OrOpt(e)) any = true;
+      }
+    }
+  }
+
+  static constexpr double kLeast = 1e-3;  // cells
+  Ways& ways_;
+  int n_;
+  std::vector<Vec2> points_;  // ends: line e / 2, its front (even) or back (odd)
+  std::vector<std::vector<int>> near_;
+  std::unordered_map<std::uint64_t, float> known_;
+  std::vector<int> in_;     // by place: the end by which the line there is entered
+  std::vector<int> place_;  // by line
+};
+
+}  // namespace
+
+std::vector<Stop> OrderLines(Ways& ways, const Vec2& start, const std::vector<Polyline>& lines) {
+  if (lines.empty()) return {};
+  return Tour(ways, start, lines).Solve();
+}
+
+}  // namespace floorproof

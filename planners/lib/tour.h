@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// The order and sense in which to drive a set of lines so that the ways between them are short.
+#pragma once
+
+#include "planners/lib/ways.h"
+
+namespace floorproof {
+
+struct Stop {
+  std::size_t line = 0;
+  bool reversed = false;
+};
+
+// An open tour from `start` over all lines.
+std::vector<Stop> OrderLines(Ways& ways, const Vec2& start, const std::vector<Polyline>& lines);
+
+}  // namespace floorproof
