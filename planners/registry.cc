@@ -18,11 +18,16 @@ std::span<const PluginEntry<Planner>> Planners() {
 
 std::string_view Name(PlanStatus status) {
   switch (status) {
-    case PlanStatus::kSuccess: return "success";
-    case PlanStatus::kStartBlocked: return "start_blocked";
-    case PlanStatus::kNoFloor: return "no_floor";
-    case PlanStatus::kGoalUnreachable: return "goal_unreachable";
-    case PlanStatus::kFailed: return "failed";
+    case PlanStatus::kSuccess:
+      return "success";
+    case PlanStatus::kStartBlocked:
+      return "start_blocked";
+    case PlanStatus::kNoFloor:
+      return "no_floor";
+    case PlanStatus::kGoalUnreachable:
+      return "goal_unreachable";
+    case PlanStatus::kFailed:
+      return "failed";
   }
   return "?";
 }

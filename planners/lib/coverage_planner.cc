@@ -11,6 +11,30 @@
 #include "planners/lib/tour.h"
 
 namespace floorproof {
+namespace {
+
+std::string WhyNothing(const PlanRequest& request, const SweepArea& area, const Shape2& clear,
+                       bool fits) {
+  const Vec2 p = request.start.p();
+  const Cell cell = request.map.frame.ToCell(p), fine = area.frame.ToCell(p);
+  std::ostringstream out;
+  out << "start (" << FormatDouble(p.x()) << ", " << FormatDouble(p.y()) << ") m, cell (" << cell.ix
+      << ", " << cell.iy << "): ";
+  if (fits) {
+    out << "the tool sweeps no floor from there";
+  } else if (!request.map.frame.Inside(cell)) {
+    out << "lies off the map";
+  } else {
+    out << "the robot does not fit: an obstacle is "
+        << std::lround(1000 * static_cast<double>(area.clearance_m(fine))) << " mm away";
+    if (clear.kind == Shape2::Kind::kCircle)
+      out << " and " << std::lround(1000 * clear.radius_m) << " mm are kept clear";
+  }
+  return out.str();
+}
+
+}  // namespace
+
 void CoveragePlanner::Visit(ParamVisitor& visit) {
   visit("tool_width_m", tool_width_m_, Positive(),
         "width of a disc that sweeps; none: the robot's tool");
