@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The C border to MuJoCo: owners of its objects, and calls whose errors become exceptions.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <memory>
+
+namespace floorproof {
+
+struct MjDeleter {
+  void operator()(mjSpec* spec) const { mj_deleteSpec(spec); }
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+using SpecPtr = std::unique_ptr<mjSpec, MjDeleter>;
+using ModelPtr = std::unique_ptr<mjModel, MjDeleter>;
+using DataPtr = std::unique_ptr<mjData, MjDeleter>;
+
+// Calls that may fail inside the engine. By default MuJoCo ends the process then; these throw
+// InternalError with its message instead. The message comes back by a long jump from C, so nothing
+// with a destructor lives on the frames in between.
+void StepEngine(const mjModel* model, mjData* data);
+void ForwardEngine(const mjModel* model, mjData* data);
+DataPtr MakeData(const mjModel* model);
+// Throws InternalError with the compiler's message.
+ModelPtr CompileSpec(mjSpec* spec);
+
+}  // namespace floorproof

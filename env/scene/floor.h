@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// The base floor: one plane, or, where something is cut out of it, few large convex slabs.
+#pragma once
+
+#include <vector>
+
+#include "env/core/hazard_map.h"
+
+namespace floorproof {
+
+// A horizontal piece of floor whose top lies at z_top_m.
+struct FloorPiece {
+  Polygon outline;  // convex, world frame
+  double z_top_m = 0;
+  int hazard = -1;  // the hazard whose bottom it is; -1: the base floor
+};
+
+// Empty when nothing is cut: the floor is a plane then. Else slabs that tile the map and a margin
+// around it, seams along the longest edge of the first cut only, and the bottoms of the cuts.
+std::vector<FloorPiece> FloorPieces(const HazardMap& map);
+
+}  // namespace floorproof

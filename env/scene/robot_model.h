@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Robots: the MJCF, and the RobotSpec read from it once.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "env/core/error.h"
+#include "env/core/robot_spec.h"
+#include "env/scene/engine.h"
+
+namespace floorproof {
+
+// A bundled robot: models/list.inc names its file.
+struct RobotEntry {
+  std::string_view name, file, help;
+};
+std::span<const RobotEntry> Robots();
+
+// Folder of the bundled models: FLOORPROOF_MODELS, else where this program was built from.
+std::filesystem::path ModelsFolder();
+
+// The MJCF of a bundled robot's name, or of a path that ends in .xml. Throws InputError at `mark`.
+std::filesystem::path FindRobotFile(const std::string& name_or_path, const SourceMark& mark);
+
+// What a scenario may change of a robot.
+struct RobotChanges {
+  std::optional<double> mass_kg;      // all masses and inertias scaled to this total
+  std::optional<double> clearance_m;  // the body raised or lowered over its wheels
+};
+
+struct RobotModel {
+  SpecPtr spec;  // the robot alone, changes applied
+  RobotSpec robot;
+};
+
+// Reads and checks a robot. Conventions (docs/adding-a-robot.md): one body `base` with a free
+// joint; one actuator a driven wheel, on a hinge whose body carries the wheel's cylinder; text and
+// numbers under <custom>. Throws InputError naming the file and what is missing.
+RobotModel ReadRobot(const std::filesystem::path& file, const RobotChanges& changes = {});
+
+}  // namespace floorproof

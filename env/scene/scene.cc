@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "env/scene/floor.h"
+#include "env/scene/walls.h"
+
+namespace floorproof {
+namespace {
+
+// Contact bits, as the robots' MJCF states them: wheels meet the floor and hazards, the body all.
+constexpr int kFloorBit = 1, kWallBit = 2;
+constexpr double kWallHeight_m = 0.45;
+constexpr double kSlab_m = 0.10;  // thickness of floor pieces
+// Contact softness that was sound at 1-5 ms (physics.md, "Settings that were sound").
+constexpr double kTimeConstant_s = 0.01;
+constexpr mjtNum kSolimp[] = {0.95, 0.99, 0.0005};
+
+class SceneBuilder {
+ public:
+  SceneBuilder(const HazardMap& map, const RobotModel& robot, mjSpec* spec)
+      : map_(map), robot_(robot.robot), spec_(spec), world_(mjs_findBody(spec, "world")) {}
+
+  void Floor() {
+    const auto pieces = FloorPieces(map_);
+    if (pieces.empty()) {
+      mjsGeom* plane = Add(GeomRole::Kind::kFloor, -1, map_.floor_friction, 0);
+      plane->type = mjGEOM_PLANE;
+      const Vec2 middle = Middle();
+      plane->pos[0] = middle.x();
+      plane->pos[1] = middle.y();
+      SetYaw(plane, map_.frame.X_WG.yaw_rad);
+      plane->size[0] = map_.frame.width * map_.frame.cell_m / 2 + 2;
+      plane->size[1] = map_.frame.height * map_.frame.cell_m / 2 + 2;
+      plane->size[2] = 1;
+      mjs_setString(plane->material, "floor");
+    }
+    for (const auto& piece : pieces) {
+      const bool base = piece.hazard < 0;
+      const double friction = base ? map_.floor_friction : Friction(map_.hazards[piece.hazard]);
+      mjsGeom* geom = Extrude(piece.outline, piece.outline, piece.z_top_m - kSlab_m, piece.z_top_m,
+                              GeomRole::Kind::kFloor, piece.hazard, friction, 0);
+      mjs_setString(geom->material, base ? "floor" : "pit");
+    }
+  }
+
+  void Walls(const Vec2& start_W) {
+    for (const WallBox& box : WallBoxes(map_, robot_, start_W)) {
+      mjsGeom* geom = Add(GeomRole::Kind::kWall, -1, 0.3, 0);
+      geom->type = mjGEOM_BOX;
+      const Vec2 p_W = map_.frame.X_WG * Vec2((box.low_G + box.high_G) / 2);
+      geom->pos[0] = p_W.x();
+      geom->pos[1] = p_W.y();
+      geom->pos[2] = kWallHeight_m / 2;
+      SetYaw(geom, map_.frame.X_WG.yaw_rad);
+      geom->size[0] = (box.high_G.x() - box.low_G.x()) / 2;
+      geom->size[1] = (box.high_G.y() - box.low_G.y()) / 2;
+      geom->size[2] = kWallHeight_m / 2;
+      mjs_setString(geom->material, "wall");
+    }
+  }
+
+  void Hazards() {
+    for (std::size_t h = 0; h < map_.hazards.size(); ++h) {
+      const Hazard& hazard = map_.hazards[h];
+      for (const Solid& solid : hazard.solids) {
+        if (solid.kind == Solid::Kind::kCut) continue;  // the floor has its hole
+        mjsGeom* geom = Extrude(solid.base, solid.top.empty() ? solid.base : solid.top,
+                                solid.z_low_m, solid.z_high_m, GeomRole::Kind::kHazard,
+                                static_cast<int>(h), Friction(hazard), hazard.material.restitution);
+        std::copy(hazard.material.rgba.begin(), hazard.material.rgba.end(), geom->rgba);
+      }
+    }
+  }
+
+  // Colours, light and the picture's quality; nothing here touches the physics.
+  void Looks() {
+    Texture("floor", mjBUILTIN_CHECKER, {0.80, 0.82, 0.84}, {0.74, 0.76, 0.79}, true);
+    Texture("sky", mjBUILTIN_GRADIENT, {0.62, 0.74, 0.88}, {0.90, 0.94, 0.98}, false);
+    Material("wall", {0.46f, 0.52f, 0.60f, 1.0f});
+    Material("pit", {0.36f, 0.33f, 0.31f, 1.0f});
+    mjsLight* sun = mjs_addLight(world_, nullptr);
+    const Vec2 middle = Middle();
+    sun->type = mjLIGHT_DIRECTIONAL;
+    sun->pos[0] = middle.x();
+    sun->pos[1] = middle.y();
+    sun->pos[2] = 10;
+    sun->dir[0] = 0.35;
+    sun->dir[1] = 0.25;
+    sun->dir[2] = -1;
+    sun->castshadow = 1;
+    Set3(sun->ambient, 0.25f);
+    Set3(sun->diffuse, 0.55f);
+    Set3(sun->specular, 0.15f);
+    Set3(spec_->visual.headlight.ambient, 0.35f);
+    Set3(spec_->visual.headlight.diffuse, 0.25f);
+    Set3(spec_->visual.headlight.specular, 0.0f);
+    spec_->visual.global.offwidth = 1920;
+    spec_->visual.global.offheight = 1080;
+    spec_->visual.quality.shadowsize = 2048;
+    spec_->visual.quality.offsamples = 4;
+    spec_->visual.map.znear = 0.02f;
+    // Sizes of shadows, clipping planes and lights follow the extent.
+    spec_->stat.extent = std::max(map_.frame.width, map_.frame.height) * map_.frame.cell_m;
+    spec_->stat.center[0] = middle.x();
+    spec_->stat.center[1] = middle.y();
+    spec_->stat.center[2] = 0;
+  }
+
+  std::vector<std::pair<mjsGeom*, GeomRole>> added;
+
+ private:
+  Vec2 Middle() const {
+    return map_.frame.X_WG * Vec2(map_.frame.width * map_.frame.cell_m / 2,
+                                  map_.frame.height * map_.frame.cell_m / 2);
+  }
+  double Friction(const Hazard& hazard) const {
+    return hazard.material.friction.value_or(map_.floor_friction);
+  }
+  static void SetYaw(mjsGeom* geom, double yaw_rad) {
+    geom->quat[0] = std::cos(yaw_rad / 2);
+    geom->quat[1] = geom->quat[2] = 0;
+    geom->quat[3] = std::sin(yaw_rad / 2);
+  }
+  static void Set3(float* v, float value) { v[0] = v[1] = v[2] = value; }
+
+  mjsGeom* Add(GeomRole::Kind kind, int hazard, double friction, double restitution) {
+    mjsGeom* geom = mjs_addGeom(world_, nullptr);
+    const bool wall = kind == GeomRole::Kind::kWall;
+    geom->contype = wall ? kWallBit : kFloorBit;
+    geom->conaffinity = 0;
+    geom->condim = 3;
+    geom->priority = wall ? 0 : 1;  // the floor's friction rules over a wheel's
+    geom->friction[0] = friction;
+    geom->solref[0] = kTimeConstant_s;
+    geom->solref[1] = DampingRatio(restitution);
+    std::copy(std::begin(kSolimp), std::end(kSolimp), geom->solimp);
+    added.emplace_back(geom, GeomRole{kind, hazard});
+    const std::string name = Name(kind, hazard);
+    mjs_setName(geom->element, name.c_str());
+    return geom;
+  }
+
+  // Names that a reader of the exported MJCF understands.
+  std::string Name(GeomRole::Kind kind, int hazard) const {
+    const std::string number = std::to_string(added.size());
+    if (hazard >= 0) return map_.hazards[static_cast<std::size_t>(hazard)].id + "/" + number;
+    return (kind == GeomRole::Kind::kWall ? "wall/" : "floor/") + number;
+  }
+
+  // A box where the outline is a rectangle, else a convex mesh.
+  mjsGeom* Extrude(const Polygon& base, const Polygon& top, double z_low, double z_high,
+                   GeomRole::Kind kind, int hazard, double friction, double restitution) {
+    mjsGeom* geom = Add(kind, hazard, friction, restitution);
+    if (base.size() == 4 && top == base && IsRectangle(base)) {
+      const Vec2 middle = (base[0] + base[2]) / 2, along = base[1] - base[0];
+      geom->type = mjGEOM_BOX;
+      geom->pos[0] = middle.x();
+      geom->pos[1] = middle.y();
+      geom->pos[2] = (z_low + z_high) / 2;
+      SetYaw(geom, std::atan2(along.y(), along.x()));
+      geom->size[0] = along.norm() / 2;
+      geom->size[1] = (base[2] - base[1]).norm() / 2;
+      geom->size[2] = (z_high - z_low) / 2;
+      return geom;
+    }
+    // Vertices around the middle, so that single precision costs nothing far from the origin.
+    Vec2 middle = Vec2::Zero();
+    for (const auto& p : base) middle += p / static_cast<double>(base.size());
+    std::vector<float> vertices;
+    const auto add_ring = [&](const Polygon& ring, double z) {
+      for (const auto& p : ring)
+        for (const double v : {p.x() - middle.x(), p.y() - middle.y(), z - z_low})
+          vertices.push_back(static_cast<float>(v));
+    };
+    add_ring(base, z_low);
+    add_ring(top, z_high);
+    mjsMesh* mesh = mjs_addMesh(spec_, nullptr);
+    const std::string name = "mesh/" + std::to_string(added.size());
+    mjs_setName(mesh->element, name.c_str());
+    mjs_setFloat(mesh->uservert, vertices.data(), static_cast<int>(vertices.size()));
+    geom->type = mjGEOM_MESH;
+    mjs_setString(geom->meshname, name.c_str());
+    geom->pos[0] = middle.x();
+    geom->pos[1] = middle.y();
+    geom->pos[2] = z_low;
+    return geom;
+  }
+
+  static bool IsRectangle(const Polygon& p) {
+    const Vec2 a = p[1] - p[0], b = p[2] - p[1], c = p[3] - p[2];
+    return std::abs(a.dot(b)) < 1e-9 * a.norm() * b.norm() + 1e-15 && (a + c).norm() < 1e-9;
+  }
+
+  void Texture(const char* name, mjtBuiltin builtin, std::array<double, 3> a,
+               std::array<double, 3> b, bool tiles) {
+    mjsTexture* texture = mjs_addTexture(spec_, nullptr);
+    mjs_setName(texture->element, name);
+    texture->type = tiles ? mjTEXTURE_2D : mjTEXTURE_SKYBOX;
+    texture->builtin = builtin;
+    std::copy(a.begin(), a.end(), texture->rgb1);
+    std::copy(b.begin(), b.end(), texture->rgb2);
+    texture->width = 256;
+    texture->height = tiles ? 256 : 1536;
+    if (!tiles) return;
+    mjsMaterial* material = mjs_addMaterial(spec_, nullptr);
+    mjs_setName(material->element, name);
+    mjs_setInStringVec(material->textures, mjTEXROLE_RGB, name);
+    material->texuniform = 1;  // tiles of one metre's half, whatever the geom's size
+    material->texrepeat[0] = material->texrepeat[1] = 1;
+    material->reflectance = 0;
+    material->specular = 0.1f;
+  }
+  void Material(const char* name, std::array<float, 4> rgba) {
+    mjsMaterial* material = mjs_addMaterial(spec_, nullptr);
+    mjs_setName(material->element, name);
+    std::copy(rgba.begin(), rgba.end(), material->rgba);
+    material->specular = 0.1f;
+    material->shininess = 0.1f;
+  }
+
+  const HazardMap& map_;
+  const RobotSpec& robot_;
+  mjSpec* spec_;
+  mjsBody* world_;
+};
+
+void SetPhysics(mjSpec* spec, const PhysicsParams& physics) {
+  spec->option.timestep = physics.timestep_s;
+  spec->option.integrator = physics.integrator == "discrete" ? mjINT_DISCRETE : mjINT_IMPLICITFAST;
+  spec->option.cone = mjCONE_ELLIPTIC;
+  spec->option.solver = mjSOL_NEWTON;
+  spec->option.disableflags |= mjDSBL_ISLAND;
+  // A diverged state must end the episode, not be put back to the start in silence.
+  spec->option.disableflags |= mjDSBL_AUTORESET;
+}
+
+void PlaceRobot(mjSpec* spec, const Pose2& start) {
+  mjsBody* base = mjs_findBody(spec, "base");
+  base->pos[0] = start.x_m;
+  base->pos[1] = start.y_m;
+  base->pos[2] = 0;
+  base->quat[0] = std::cos(start.yaw_rad / 2);
+  base->quat[1] = base->quat[2] = 0;
+  base->quat[3] = std::sin(start.yaw_rad / 2);
+}
+
+}  // namespace
+
+void PhysicsParams::Visit(ParamVisitor& v) {
+  v("timestep_s", timestep_s, Bounds{0.0005, 0.005}, "physics step (s)");
+  v("integrator", integrator, {"discrete", "implicitfast"}, "MuJoCo's integrator");
+}
+
+double DampingRatio(double restitution) {
+  if (restitution <= 0) return 1;
+  const double l = std::log(std::min(restitution, 0.99));
+  return -l / std::sqrt(kPi * kPi + l * l);
+}
+
+Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsParams& physics,
+                 const Pose2& start) {
+  Scene scene;
+  scene.spec.reset(mj_copySpec(robot.spec.get()));
+  SetPhysics(scene.spec.get(), physics);
+  PlaceRobot(scene.spec.get(), start);
+  SceneBuilder builder(map, robot, scene.spec.get());
+  builder.Looks();
+  builder.Floor();
+  builder.Walls(start.p());
+  builder.Hazards();
+  scene.model = CompileSpec(scene.spec.get());
+
+  const mjModel* m = scene.model.get();
+  scene.base_body = mj_name2id(m, mjOBJ_BODY, "base");
+  scene.roles.resize(static_cast<std::size_t>(m->ngeom));
+  for (int g = 0; g < m->ngeom; ++g) {
+    const int body = m->geom_bodyid[g];
+    if (body == 0 || (m->geom_contype[g] == 0 && m->geom_conaffinity[g] == 0)) continue;
+    scene.roles[static_cast<std::size_t>(g)].kind =
+        body == scene.base_body ? GeomRole::Kind::kBody : GeomRole::Kind::kWheel;
+  }
+  for (const auto& [geom, role] : builder.added) {
+    scene.roles[static_cast<std::size_t>(mjs_getId(geom->element))] = role;
+    scene.num_wall_geoms += role.kind == GeomRole::Kind::kWall;
+    scene.num_floor_geoms += role.kind == GeomRole::Kind::kFloor;
+    scene.num_hazard_geoms += role.kind == GeomRole::Kind::kHazard;
+  }
+  return scene;
+}
+
+std::string SceneXml(const Scene& scene) {
+  char error[1000] = "";
+  std::string xml(1 << 20, '\0');
+  for (;;) {
+    const int size = mj_saveXMLString(scene.spec.get(), xml.data(), static_cast<int>(xml.size()),
+                                      error, sizeof error);
+    if (size < 0) throw InternalError(std::string("MuJoCo: cannot write MJCF: ") + error);
+    if (size == 0) return xml.c_str();
+    xml.assign(static_cast<std::size_t>(size) + 1, '\0');
+  }
+}
+
+}  // namespace floorproof

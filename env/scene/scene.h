@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// HazardMap + robot -> compiled mjModel, and the meaning of its geoms.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "env/core/hazard_map.h"
+#include "env/core/params.h"
+#include "env/scene/engine.h"
+#include "env/scene/robot_model.h"
+
+namespace floorproof {
+
+struct PhysicsParams {
+  double timestep_s = 0.004;  // 1-5 ms give the same answers (physics.md)
+  std::string integrator = "discrete";
+  void Visit(ParamVisitor& v);
+};
+
+// What a geom is to the detectors.
+struct GeomRole {
+  enum class Kind : std::uint8_t {
+    kFloor,   // base floor, and bottoms of cuts (hazard >= 0)
+    kWall,    // walls and furniture of the map
+    kHazard,  // a hazard's solid
+    kWheel,   // a wheel or caster of the robot
+    kBody,    // any other part of the robot
+    kLook,    // seen, never touched
+  };
+  Kind kind = Kind::kLook;
+  int hazard = -1;  // index into HazardMap::hazards
+};
+
+struct Scene {
+  ModelPtr model;
+  SpecPtr spec;                 // what it was compiled from
+  std::vector<GeomRole> roles;  // per geom id
+  int base_body = -1;
+  int num_wall_geoms = 0, num_floor_geoms = 0, num_hazard_geoms = 0;
+};
+
+// Builds the scene with the robot standing at `start`. Throws InternalError when MuJoCo refuses it.
+Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsParams& physics,
+                 const Pose2& start);
+
+// The scene as one MJCF file that the stock MuJoCo loads and steps.
+std::string SceneXml(const Scene& scene);
+
+// Contact damping for a coefficient of restitution e: MuJoCo's solref (time constant, damping
+// ratio) with the ratio of a linear spring and damper that rebounds with e: -ln e / sqrt(pi^2 +
+// ln^2 e).
+double DampingRatio(double restitution);
+
+}  // namespace floorproof

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/scene/walls.h"
+
+#include <algorithm>
+
+#include "env/core/coverage.h"
+
+namespace floorproof {
+namespace {
+
+// Cells of `passable` connected to `seed` by their sides; all of them when the seed is not
+// passable.
+Grid<std::uint8_t> Component(const Grid<std::uint8_t>& passable, Cell seed) {
+  if (!passable.Inside(seed) || !passable(seed)) return passable;
+  Grid<std::uint8_t> reached(passable.width, passable.height);
+  std::vector<Cell> stack = {seed};
+  reached(seed) = 1;
+  while (!stack.empty()) {
+    const Cell c = stack.back();
+    stack.pop_back();
+    for (const Cell n :
+         {Cell{c.ix + 1, c.iy}, Cell{c.ix - 1, c.iy}, Cell{c.ix, c.iy + 1}, Cell{c.ix, c.iy - 1}}) {
+      if (!passable.Inside(n) || !passable(n) || reached(n)) continue;
+      reached(n) = 1;
+      stack.push_back(n);
+    }
+  }
+  return reached;
+}
+
+// 1 on the cells of the map, with a ring around it, that are wall and within the robot's reach.
+Grid<std::uint8_t> TouchableWalls(const HazardMap& map, const RobotSpec& robot,
+                                  const Vec2& start_W) {
+  const GridFrame fine = FineFrame(map.frame);
+  const int k = fine.width / map.frame.width;
+  Grid<std::uint8_t> wall(fine.width, fine.height);
+  for (int iy = 0; iy < fine.height; ++iy)
+    for (int ix = 0; ix < fine.width; ++ix) wall(ix, iy) = map.IsWall(ix / k, iy / k);
+  // 0.9: centres of cells stand up to half a cell beside the middle of a gap that just fits.
+  const auto fits_cells = static_cast<float>(0.9 * robot.inscribed_radius_m / fine.cell_m);
+  const Grid<float> to_wall = DistanceToSet(wall, true);
+  Grid<std::uint8_t> passable(fine.width, fine.height);
+  for (std::size_t i = 0; i < passable.cells.size(); ++i)
+    passable.cells[i] = to_wall.cells[i] >= fits_cells;
+  const Grid<std::uint8_t> reached = Component(passable, fine.ToCell(start_W));
+  const Grid<float> to_reached = DistanceToSet(reached, false);
+  const auto reach_cells =
+      static_cast<float>((robot.circumscribed_radius_m + 0.3) / fine.cell_m + 1);
+
+  Grid<std::uint8_t> touchable(map.frame.width + 2, map.frame.height + 2);
+  const auto near = [&](int cx, int cy) {  // any fine cell of map cell (cx, cy) within reach
+    for (int iy = cy * k; iy < (cy + 1) * k; ++iy)
+      for (int ix = cx * k; ix < (cx + 1) * k; ++ix)
+        if (to_reached(ix, iy) <= reach_cells) return true;
+    return false;
+  };
+  for (int cy = -1; cy <= map.frame.height; ++cy)
+    for (int cx = -1; cx <= map.frame.width; ++cx)
+      touchable(cx + 1, cy + 1) =
+          map.IsWall(cx, cy) &&
+          near(std::clamp(cx, 0, map.frame.width - 1), std::clamp(cy, 0, map.frame.height - 1));
+  return touchable;
+}
+
+}  // namespace
+
+std::vector<CellRect> MaximalRectangles(const Grid<std::uint8_t>& set) {
+  Grid<std::uint8_t> left = set;
+  const auto row_is_set = [&left](int ix, int iy, int width) {
+    if (iy >= left.height) return false;
+    for (int x = ix; x < ix + width; ++x)
+      if (!left(x, iy)) return false;
+    return true;
+  };
+  const auto column_is_set = [&left](int ix, int iy, int height) {
+    if (ix >= left.width) return false;
+    for (int y = iy; y < iy + height; ++y)
+      if (!left(ix, y)) return false;
+    return true;
+  };
+  std::vector<CellRect> rects;
+  for (int iy = 0; iy < left.height; ++iy) {
+    for (int ix = 0; ix < left.width; ++ix) {
+      if (!left(ix, iy)) continue;
+      // Grow wide then high, and high then wide; keep the larger.
+      CellRect wide{ix, iy, 1, 1}, high{ix, iy, 1, 1};
+      while (column_is_set(ix + wide.width, iy, 1)) ++wide.width;
+      while (row_is_set(ix, iy + wide.height, wide.width)) ++wide.height;
+      while (row_is_set(ix, iy + high.height, 1)) ++high.height;
+      while (column_is_set(ix + high.width, iy, high.height)) ++high.width;
+      const CellRect best = wide.width * wide.height >= high.width * high.height ? wide : high;
+      for (int y = best.iy; y < best.iy + best.height; ++y)
+        for (int x = best.ix; x < best.ix + best.width; ++x) left(x, y) = 0;
+      rects.push_back(best);
+    }
+  }
+  return rects;
+}
+
+std::vector<WallBox> WallBoxes(const HazardMap& map, const RobotSpec& robot, const Vec2& start_W) {
+  const Grid<std::uint8_t> touchable = TouchableWalls(map, robot, start_W);
+  const double cell = map.frame.cell_m;
+  std::vector<WallBox> boxes;
+  for (const CellRect& r : MaximalRectangles(touchable)) {
+    const int x0 = r.ix - 1, y0 = r.iy - 1, x1 = x0 + r.width, y1 = y0 + r.height;  // map cells
+    WallBox box{Vec2(x0, y0) * cell, Vec2(x1, y1) * cell};
+    if (map.inset_m > 0) {
+      // A face is drawn back when any cell before it is free.
+      const auto free_column = [&](int x) {
+        for (int y = y0; y < y1; ++y)
+          if (!map.IsWall(x, y)) return true;
+        return false;
+      };
+      const auto free_row = [&](int y) {
+        for (int x = x0; x < x1; ++x)
+          if (!map.IsWall(x, y)) return true;
+        return false;
+      };
+      if (free_column(x0 - 1)) box.low_G.x() += map.inset_m;
+      if (free_column(x1)) box.high_G.x() -= map.inset_m;
+      if (free_row(y0 - 1)) box.low_G.y() += map.inset_m;
+      if (free_row(y1)) box.high_G.y() -= map.inset_m;
+    }
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+}  // namespace floorproof

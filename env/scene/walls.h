@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The walls and furniture of a map as few boxes.
+#pragma once
+
+#include <vector>
+
+#include "env/core/hazard_map.h"
+#include "env/core/robot_spec.h"
+
+namespace floorproof {
+
+// A box in the map's grid frame G, metres.
+struct WallBox {
+  Vec2 low_G = Vec2::Zero(), high_G = Vec2::Zero();
+};
+
+// Maximal rectangles of occupied cells (IsWall), one ring of cells beyond the map included, without
+// those that the robot cannot touch from where it starts: it passes where its inscribed circle
+// fits, and touches what lies within reach of that (its circumscribed circle and 0.3 m more, so
+// that a picture shows walls of some thickness). Faces towards free cells are drawn back by
+// map.inset_m.
+std::vector<WallBox> WallBoxes(const HazardMap& map, const RobotSpec& robot, const Vec2& start_W);
+
+// Greedy cover of the set cells by rectangles that do not overlap: {ix, iy, width, height}.
+struct CellRect {
+  int ix = 0, iy = 0, width = 0, height = 0;
+};
+std::vector<CellRect> MaximalRectangles(const Grid<std::uint8_t>& set);
+
+}  // namespace floorproof

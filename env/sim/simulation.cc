@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/sim/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace floorproof {
+namespace {
+
+constexpr std::size_t kMostSupports = 64;
+// A contact whose normal stands steeper than this carries; one flatter than that obstructs.
+constexpr double kSteep = 0.7;
+
+// The warnings after which the state is not to be believed.
+bool Diverged(const mjData* d) {
+  return d->warning[mjWARN_BADQPOS].number > 0 || d->warning[mjWARN_BADQVEL].number > 0 ||
+         d->warning[mjWARN_BADQACC].number > 0 || d->warning[mjWARN_INERTIA].number > 0 ||
+         d->warning[mjWARN_CONTACTFULL].number > 0 || d->warning[mjWARN_CNSTRFULL].number > 0;
+}
+
+}  // namespace
+
+double MotorPower(double torque_nm, double speed_radps, double resistance_ohm, double constant) {
+  const double current = torque_nm / constant;
+  return std::max(0.0, current * (resistance_ohm * current + constant * speed_radps));
+}
+
+Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec& robot)
+    : scene_(scene), map_(map), robot_(robot), data_(MakeData(scene.model.get())) {
+  const mjModel* m = model();
+  for (int a = 0; a < m->nu; ++a) {
+    const int body = m->jnt_bodyid[m->actuator_trnid[2 * a]];
+    wheel_bodies_.push_back(body);
+    double half_width = 0;
+    for (int g = m->body_geomadr[body]; g < m->body_geomadr[body] + m->body_geomnum[body]; ++g)
+      if (scene_.roles[static_cast<std::size_t>(g)].kind == GeomRole::Kind::kWheel)
+        half_width = m->geom_size[3 * g + 1];
+    wheel_half_width_m_.push_back(half_width);
+  }
+  support_.reserve(kMostSupports);
+  hull_.reserve(2 * kMostSupports);
+}
+
+void Simulation::Reset(const Pose2& X_WB) {
+  mjData* d = data_.get();
+  mj_resetData(model(), d);
+  mjtNum* q = d->qpos + model()->jnt_qposadr[model()->body_jntadr[scene_.base_body]];
+  q[0] = X_WB.x_m;
+  q[1] = X_WB.y_m;
+  q[2] = 0;
+  q[3] = std::cos(X_WB.yaw_rad / 2);
+  q[4] = q[5] = 0;
+  q[6] = std::sin(X_WB.yaw_rad / 2);
+  ForwardEngine(model(), d);
+  sample_ = Sample{};
+  last_v_W_.setZero();
+  last_wz_ = 0;
+  ReadPose();
+  ReadContacts();
+  ReadPower();
+}
+
+void Simulation::SetWheelSpeeds(std::span<const double> wheel_radps) {
+  std::copy(wheel_radps.begin(), wheel_radps.end(), data_->ctrl);
+}
+
+bool Simulation::Step() {
+  last_v_W_ = sample_.v_WB_W;
+  last_wz_ = sample_.V_WB_B.wz_radps;
+  StepEngine(model(), data_.get());
+  ReadPose();
+  ReadContacts();
+  ReadPower();
+  return !Diverged(data_.get()) && std::isfinite(sample_.p_WB.sum()) &&
+         std::isfinite(sample_.v_WB_W.sum());
+}
+
+void Simulation::ReadPose() {
+  // qpos and qvel are the state after the step; xpos and the like are from before it. The free
+  // joint's linear velocity is in the world frame, its angular velocity in the body's.
+  const mjModel* m = model();
+  const mjData* d = data_.get();
+  const int joint = m->body_jntadr[scene_.base_body];
+  const mjtNum* q = d->qpos + m->jnt_qposadr[joint];
+  const mjtNum* v = d->qvel + m->jnt_dofadr[joint];
+  mjtNum R[9];
+  mju_quat2Mat(R, q + 3);
+  sample_.t_s = d->time;
+  sample_.p_WB = {q[0], q[1], q[2]};
+  sample_.roll_rad = std::atan2(R[7], R[8]);
+  sample_.pitch_rad = std::asin(std::clamp(-R[6], -1.0, 1.0));
+  sample_.yaw_rad = std::atan2(R[3], R[0]);
+  sample_.tilt_rad = std::acos(std::clamp(R[8], -1.0, 1.0));
+  sample_.v_WB_W = {v[0], v[1], v[2]};
+  mjtNum v_B[3];
+  mju_mulMatTVec3(v_B, R, v);
+  sample_.V_WB_B = {v_B[0], v_B[1], v[5]};
+
+  double lowest = 1e9;
+  for (std::size_t w = 0; w < wheel_bodies_.size(); ++w) {
+    // Lowest point of a cylinder whose axle is tilted: radius and half width share the drop.
+    const mjtNum* mat = d->xmat + 9 * wheel_bodies_[w];
+    const double axle_z = mat[7];  // the wheel's axle is its body's y
+    const double drop = robot_.wheels[w].radius_m * std::sqrt(std::max(0.0, 1 - axle_z * axle_z)) +
+                        wheel_half_width_m_[w] * std::abs(axle_z);
+    lowest = std::min(lowest, d->xpos[3 * wheel_bodies_[w] + 2] - drop);
+  }
+  sample_.wheel_floor_z_m = lowest;
+}
+
+void Simulation::ReadContacts() {
+  const mjModel* m = model();
+  const mjData* d = data_.get();
+  sample_.belly_load_n = 0;
+  sample_.belly_hazard = -1;
+  sample_.wheel_contacts = 0;
+  sample_.near_hazard = -1;
+  sample_.num_contacts = 0;
+  support_.clear();
+  for (int i = 0; i < d->ncon; ++i) {
+    const mjContact& c = d->contact[i];
+    if (c.exclude || c.efc_address < 0) continue;
+    GeomRole world = scene_.roles[static_cast<std::size_t>(c.geom[0])];
+    GeomRole robot = scene_.roles[static_cast<std::size_t>(c.geom[1])];
+    double toward = 1;  // the contact's normal points from geom 0 to geom 1
+    if (m->geom_bodyid[c.geom[0]] != 0) {
+      std::swap(world, robot);
+      toward = -1;
+    }
+    if (world.hazard >= 0) sample_.near_hazard = world.hazard;
+    const double nz = toward * c.frame[2];
+    if (robot.kind == GeomRole::Kind::kWheel) {
+      ++sample_.wheel_contacts;
+      if (nz > kSteep) AddSupport(c.pos);
+      continue;
+    }
+    mjtNum force[6];
+    mj_contactForce(m, d, i, force);
+    if (nz > kSteep) {
+      sample_.belly_load_n += force[0] * nz;
+      sample_.belly_hazard = world.hazard;
+    } else {
+      AddObstacle(world.hazard, c.pos, Vec2(toward * c.frame[0], toward * c.frame[1]), force[0]);
+    }
+  }
+  sample_.support_margin_m = SupportMargin();
+}
+
+void Simulation::AddObstacle(int hazard, const double* p_W, Vec2 normal_W, double force_n) {
+  if (sample_.num_contacts == Sample::kMaxContacts || normal_W.norm() < 1e-9) return;
+  ObstacleContact& contact = sample_.contacts[static_cast<std::size_t>(sample_.num_contacts++)];
+  contact.hazard = hazard;
+  contact.p_W = {p_W[0], p_W[1]};
+  contact.normal_W = normal_W.normalized();
+  const Vec2 r = contact.p_W - sample_.p_WB.head<2>();
+  const Vec2 v = last_v_W_.head<2>() + last_wz_ * Vec2(-r.y(), r.x());
+  contact.closing_mps = -v.dot(contact.normal_W);
+  contact.impulse_ns = force_n * model()->opt.timestep;
+}
+
+void Simulation::AddSupport(const double* p_W) {
+  if (support_.size() < kMostSupports) support_.emplace_back(p_W[0], p_W[1]);
+}
+
+// Signed distance from the centre of mass, seen from above, to the border of the hull of the
+// wheels' contacts: positive inside. Andrew's monotone chain in scratch of fixed size.
+double Simulation::SupportMargin() {
+  const mjtNum* com = data_->subtree_com + 3 * scene_.base_body;
+  const Vec2 p(com[0], com[1]);
+  if (support_.empty()) return -robot_.circumscribed_radius_m;
+  std::ranges::sort(support_, [](const Vec2& a, const Vec2& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  });
+  hull_.clear();
+  const auto add = [this](const Vec2& q, std::size_t base) {
+    while (hull_.size() >= base + 2 &&
+           Cross(hull_.back() - hull_[hull_.size() - 2], q - hull_.back()) <= 0)
+      hull_.pop_back();
+    hull_.push_back(q);
+  };
+  for (const auto& q : support_) add(q, 0);
+  const std::size_t lower = hull_.size() - 1;
+  for (std::size_t i = support_.size() - 1; i-- > 0;) add(support_[i], lower);
+  double nearest = 1e9;
+  bool inside = hull_.size() > 3;  // the first corner stands twice
+  for (std::size_t i = 0; i + 1 < hull_.size(); ++i) {
+    nearest = std::min(nearest, DistanceToSegment(hull_[i], hull_[i + 1], p));
+    if (Cross(hull_[i + 1] - hull_[i], p - hull_[i]) < 0) inside = false;
+  }
+  if (hull_.size() == 1) nearest = (hull_[0] - p).norm();
+  return inside ? nearest : -nearest;
+}
+
+void Simulation::ReadPower() {
+  const mjModel* m = model();
+  const mjData* d = data_.get();
+  double power = robot_.hotel_load_w;
+  for (int a = 0; a < m->nu; ++a) {
+    const mjtNum* gain = m->actuator_gainprm + mjNGAIN * a;
+    const int dof = m->jnt_dofadr[m->actuator_trnid[2 * a]];
+    power += MotorPower(d->actuator_force[a], d->qvel[dof], gain[0], gain[1]);
+  }
+  sample_.power_w = power;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Steps the physics and says, after each step, what truly happened.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "env/core/motion.h"
+#include "env/core/robot_spec.h"
+#include "env/scene/scene.h"
+
+namespace floorproof {
+
+class Simulation {
+ public:
+  // `scene`, `map` and `robot` outlive the simulation.
+  Simulation(const Scene& scene, const HazardMap& map, const RobotSpec& robot);
+
+  // At rest at the pose, wheels on the base floor; time 0.
+  void Reset(const Pose2& X_WB);
+  // Speeds that the wheels' motor drivers hold from now on, rad/s, RobotSpec's order.
+  void SetWheelSpeeds(std::span<const double> wheel_radps);
+  // One physics step; false when the state diverged (MuJoCo warned, or a number is not finite):
+  // the simulation is over then, an `error`. Allocates nothing. Throws InternalError when the
+  // engine itself fails.
+  bool Step();
+  // The state after the last step. command, cross_track_m and t_s belong to the caller's loop and
+  // stay as the caller set them, but t_s.
+  Sample& sample() { return sample_; }
+
+  const mjModel* model() const { return scene_.model.get(); }
+  mjData* data() { return data_.get(); }
+
+ private:
+  void ReadPose();
+  void ReadContacts();
+  void ReadPower();
+  void AddObstacle(int hazard, const double* p_W, Vec2 normal_W, double force_n);
+  void AddSupport(const double* p_W);
+  double SupportMargin();
+
+  const Scene& scene_;
+  const HazardMap& map_;
+  const RobotSpec& robot_;
+  DataPtr data_;
+  Sample sample_;
+  std::vector<int> wheel_bodies_;  // of the driven wheels, in actuator order
+  std::vector<double> wheel_half_width_m_;
+  Vec3 last_v_W_ = Vec3::Zero();  // of the body's origin, before the step
+  double last_wz_ = 0;
+  std::vector<Vec2> support_, hull_;  // scratch, capacity fixed
+};
+
+// Electrical power of a DC motor with its driver: current i = torque / K, terminal voltage
+// v = R i + K omega; v i, and nothing comes back when braking.
+double MotorPower(double torque_nm, double speed_radps, double resistance_ohm, double constant);
+
+}  // namespace floorproof
