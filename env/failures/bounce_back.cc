@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// F4, bounce back: the body meets an obstacle closing at > v; then within window_s it parts from it
+// by > part_m, or its normal velocity reverses by > u, against the command.
+//
+// A meeting is a contact that begins; the closing speed is that just before it. From then on the
+// body's distance to the plane through the contact is followed: the outermost point of its clear
+// shape against the contact normal, so that turning beside a wall is no parting. "Against the
+// command": as soon as the commanded twist moves that point away from the obstacle, the watch ends,
+// because a robot that backs off on purpose does not bounce.
+// The inequality once met, the event is held back until the rebound ends (mostly some 0.1 s) so
+// that its peak speed and travel are in the evidence; time and place are those at which it was met.
+// Judged by velocity and separation, not by a distance of centimetres: a robot limited by its
+// wheels' traction travels back only 5-26 mm from a nearly elastic wall. Definition: ours.
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "env/failures/detector.h"
+#include "env/failures/evidence.h"
+
+namespace floorproof {
+namespace {
+
+constexpr double kTimeSlackS = 1e-9;     // sums of time steps are not exact
+constexpr double kBackingOffMps = 1e-3;  // a command this fast away from the obstacle retreats
+constexpr double kSamePlaceM = 0.1;      // contacts this near with like normals are one contact
+constexpr double kSameNormalCos = 0.9;
+
+class BounceBack final : public Detector {
+ public:
+  void Visit(ParamVisitor& v) override {
+    v("closing_mps", closing_mps_, NonNegative(), "v: slower meetings are touches, not impacts");
+    v("rebound_mps", rebound_mps_, Positive(), "u: speed away from the obstacle that is a rebound");
+    v("part_m", part_m_, Positive(), "gap to the obstacle after the impact that is a rebound");
+    v("window_s", window_s_, Positive(), "how long after the impact a rebound counts");
+  }
+
+  FailureMode mode() const override { return FailureMode::kBounceBack; }
+
+  void Start(const EpisodeContext& context) override {
+    map_ = &context.map;
+    clear_ = &context.robot.clear;
+    touches_ = {};
+    active_ = 0;
+    has_last_ = false;
+    armed_ = true;
+    last_contact_s_ = -std::numeric_limits<double>::infinity();
+    margin_ = rebound_mps_;
+  }
+
+  bool Update(const Sample& sample) override {
+    bool fires = false;
+    if (sample.num_contacts > 0 || active_ > 0) fires = Follow(sample);
+    if (!armed_ && sample.t_s - last_contact_s_ > window_s_) armed_ = true;
+    last_v_W_ = sample.v_WB_W.head<2>();
+    last_wz_radps_ = sample.V_WB_B.wz_radps;
+    has_last_ = true;
+    return fires;
+  }
+
+ private:
+  struct Touch {
+    bool live = false, touching = false, seen = false, watched = false, met = false;
+    int hazard = -1;
+    Vec2 p_W = Vec2::Zero(), normal_W = Vec2::Zero();
+    double since_s = 0, closing_mps = 0;
+    double touch_m = 0,
+           deepest_m = 0;  // distances along the normal: when last touching, at the deepest
+    double peak_mps = 0, gap_m = 0, back_m = 0;
+    bool by_speed = false;  // which inequality was met first
+    double t_s = 0;         // then and there
+    Pose2 X_WB;
+  };
+
+  static Vec2 PointVelocity(const Vec2& v_W, double wz_radps, const Vec2& r_W) {
+    return v_W + wz_radps * Vec2(-r_W.y(), r_W.x());
+  }
+
+  // From the body's origin to its outermost point against the normal. (A circle's radius does not
+  // change, so that its centre will do.)
+  Vec2 Outermost(const Pose2& X_WB, const Vec2& normal_W) const {
+    if (clear_->kind == Shape2::Kind::kCircle || clear_->footprint_B.empty())
+      return -clear_->radius_m * normal_W;
+    Vec2 outermost_W = X_WB.Rotate(clear_->footprint_B.front());
+    for (const Vec2& p_B : clear_->footprint_B) {
+      const Vec2 r_W = X_WB.Rotate(p_B);
+      if (r_W.dot(normal_W) < outermost_W.dot(normal_W)) outermost_W = r_W;
+    }
+    return outermost_W;
+  }
+
+  bool Follow(const Sample& sample) {
+    for (Touch& touch : touches_) touch.seen = false;
+    for (int i = 0; i < sample.num_contacts; ++i)
+      See(sample.contacts[static_cast<std::size_t>(i)], sample);
+    if (sample.num_contacts > 0) last_contact_s_ = sample.t_s;
+
+    bool fires = false;
+    active_ = 0;
+    for (Touch& touch : touches_) {
+      if (!touch.live) continue;
+      touch.touching = touch.seen;
+      if (touch.watched && Watch(touch, sample) && armed_) {
+        Report(touch, sample);
+        armed_ = false;
+        fires = true;
+      }
+      touch.live = touch.touching || touch.watched;
+      active_ += touch.live ? 1 : 0;
+    }
+    if (fires)
+      for (Touch& touch : touches_) touch.watched = false;
+    return fires;
+  }
+
+  Touch* Find(const ObstacleContact& contact) {
+    for (Touch& touch : touches_)
+      if (touch.live && touch.hazard == contact.hazard &&
+          (touch.p_W - contact.p_W).squaredNorm() < kSamePlaceM * kSamePlaceM &&
+          touch.normal_W.dot(contact.normal_W) > kSameNormalCos)
+        return &touch;
+    return nullptr;
+  }
+
+  // Matches a contact to those of the last step, or begins one.
+  void See(const ObstacleContact& contact, const Sample& sample) {
+    Touch* touch = Find(contact);
+    const bool begins = touch == nullptr || (!touch->touching && !touch->seen);
+    if (touch == nullptr) {
+      const auto free = std::ranges::find_if(touches_, [](const Touch& t) { return !t.live; });
+      if (free == touches_.end()) return;  // as many contacts as a sample can hold are followed
+      touch = &*free;
+      *touch = {};
+      touch->live = true;
+      touch->hazard = contact.hazard;
+    }
+    touch->seen = true;
+    touch->p_W = contact.p_W;
+    if (!touch->watched) touch->normal_W = contact.normal_W;
+    if (!begins) return;
+    const Vec2 r_W = contact.p_W - sample.p_WB.head<2>();
+    double closing_mps = contact.closing_mps;
+    if (has_last_)
+      closing_mps = std::max(closing_mps,
+                             -PointVelocity(last_v_W_, last_wz_radps_, r_W).dot(contact.normal_W));
+    if (!armed_ || touch->watched || !(closing_mps > closing_mps_)) return;
+    touch->watched = true;
+    touch->met = false;
+    touch->since_s = sample.t_s;
+    touch->closing_mps = closing_mps;
+    touch->deepest_m = std::numeric_limits<double>::infinity();
+    touch->peak_mps = touch->gap_m = touch->back_m = 0;
+  }
+
+  // One step after an impact. True when a rebound is over, and with it its evidence complete.
+  bool Watch(Touch& touch, const Sample& sample) {
+    const Pose2 X_WB = sample.X_WB();
+    const Vec2& n = touch.normal_W;
+    const Vec2 r_W = Outermost(X_WB, n);
+    const BodyTwist& cmd = sample.command.twist;
+    const Vec2 v_cmd_W = X_WB.Rotate({cmd.vx_mps, cmd.vy_mps});
+    const bool backing_off = PointVelocity(v_cmd_W, cmd.wz_radps, r_W).dot(n) > kBackingOffMps;
+    const bool late = sample.t_s - touch.since_s > window_s_ + kTimeSlackS;
+    if (backing_off || late) {
+      touch.watched = false;
+      return touch.met;
+    }
+
+    const double away_mps =
+        PointVelocity(sample.v_WB_W.head<2>(), sample.V_WB_B.wz_radps, r_W).dot(n);
+    const double along_m = (X_WB.p() + r_W).dot(n);
+    if (touch.touching) touch.touch_m = along_m;
+    touch.deepest_m = std::min(touch.deepest_m, along_m);
+    touch.peak_mps = std::max(touch.peak_mps, away_mps);
+    touch.gap_m = std::max(touch.gap_m, along_m - touch.touch_m);
+    touch.back_m = std::max(touch.back_m, along_m - touch.deepest_m);
+    const double share = std::max(touch.peak_mps / rebound_mps_, touch.gap_m / part_m_);
+    margin_ = std::min(margin_, (1 - share) * rebound_mps_);
+    if (!touch.met && share > 1) {
+      touch.met = true;
+      touch.by_speed = touch.peak_mps > rebound_mps_;
+      touch.t_s = sample.t_s;
+      touch.X_WB = X_WB;
+    }
+    if (!touch.met || (away_mps > 0 && !sample.command.done)) return false;
+    touch.watched = false;
+    return true;
+  }
+
+  void Report(const Touch& touch, const Sample& sample) {
+    event_ = MakeEvent(
+        mode(), touch.by_speed ? "reversed" : "parted", sample, HazardId(*map_, touch.hazard, true),
+        touch.by_speed ? touch.peak_mps : touch.gap_m, touch.by_speed ? rebound_mps_ : part_m_);
+    event_.t_s = touch.t_s;
+    event_.x_m = touch.X_WB.x_m;
+    event_.y_m = touch.X_WB.y_m;
+    event_.yaw_rad = touch.X_WB.yaw_rad;
+    event_.evidence = {{"closing_mps", touch.closing_mps},
+                       {"rebound_mps", touch.peak_mps},
+                       {"travel_back_m", touch.back_m},
+                       {"gap_m", touch.gap_m},
+                       {"impact_t_s", touch.since_s}};
+  }
+
+  double closing_mps_ = 0.05, rebound_mps_ = 0.02, part_m_ = 0.001, window_s_ = 1.0;
+
+  const HazardMap* map_ = nullptr;
+  const Shape2* clear_ = nullptr;
+  std::array<Touch, Sample::kMaxContacts> touches_;
+  int active_ = 0;
+  Vec2 last_v_W_ = Vec2::Zero();
+  double last_wz_radps_ = 0;
+  bool has_last_ = false, armed_ = true;
+  double last_contact_s_ = 0;
+};
+
+}  // namespace
+
+FP_DEFINE_PLUGIN(Detector, BounceBack)
+
+}  // namespace floorproof

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "tests/failures/synthetic.h"
+
+namespace floorproof {
+namespace {
+
+std::vector<Event> Events(const Trace& trace, const std::string& yaml = "") {
+  return Judge(*MakeDetector("bounce_back", yaml), trace);
+}
+
+// Thrown back at `speed_mps` for `duration_s` from the impact on.
+Hit Rebound(double speed_mps, double duration_s = 0.1, double delay_s = 0) {
+  Hit hit;
+  hit.after = [=](double t_s) {
+    return t_s > delay_s && t_s < delay_s + duration_s ? -speed_mps : 0.0;
+  };
+  return hit;
+}
+
+double Evidence(const Event& event, std::string_view name) {
+  for (const auto& [key, value] : event.evidence)
+    if (key == name) return value;
+  ADD_FAILURE() << "no evidence " << name;
+  return 0;
+}
+
+TEST(BounceBack, FasterThanTheThresholdItReverses) {
+  // 40 ms keep the travel below 1 mm: the speed alone decides.
+  EXPECT_TRUE(Events(DriveInto(Rebound(0.019, 0.04))).empty());
+  const auto events = Events(DriveInto(Rebound(0.021, 0.04)));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, "reversed");
+  EXPECT_EQ(events[0].hazard, "wall");
+  EXPECT_NEAR(events[0].value, 0.021, 1e-12);
+  EXPECT_EQ(events[0].threshold, 0.02);
+}
+
+TEST(BounceBack, SlowerItMustPartByAMillimetre) {
+  EXPECT_TRUE(Events(DriveInto(Rebound(0.01, 0.1))).empty());
+  const auto events = Events(DriveInto(Rebound(0.01, 0.2)));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, "parted");
+  EXPECT_GT(events[0].value, events[0].threshold);
+}
+
+TEST(BounceBack, OnlyAfterAnImpact) {
+  Hit touch = Rebound(0.06);
+  touch.speed_mps = 0.049;
+  EXPECT_TRUE(Events(DriveInto(touch)).empty());
+  touch.speed_mps = 0.051;
+  EXPECT_EQ(Events(DriveInto(touch)).size(), 1u);
+}
+
+TEST(BounceBack, ClosingSpeedIsThatBeforeTheContact) {
+  // The step in which the contact appears may have stopped the body already.
+  Trace trace = DriveInto(Rebound(0.06));
+  bool first = true;
+  for (Sample& s : trace) {
+    for (ObstacleContact& contact : s.contacts) contact.closing_mps = 0;
+    if (s.num_contacts > 0 && first) {
+      s.v_WB_W.x() = s.V_WB_B.vx_mps = 0;
+      first = false;
+    }
+  }
+  const auto events = Events(trace);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_NEAR(Evidence(events[0], "closing_mps"), 0.2, 1e-12);
+}
+
+TEST(BounceBack, OnlyWithinTheWindow) {
+  EXPECT_EQ(Events(DriveInto(Rebound(0.06, 0.1, 0.9))).size(), 1u);
+  EXPECT_TRUE(Events(DriveInto(Rebound(0.06, 0.1, 1.05))).empty());
+}
+
+TEST(BounceBack, BackingOffOnPurposeIsNone) {
+  Hit hit = Rebound(0.06);
+  hit.command_after_mps = -0.06;
+  EXPECT_TRUE(Events(DriveInto(hit)).empty());
+  hit.command_after_mps = 0;  // it stopped commanding, and is thrown back all the same
+  EXPECT_EQ(Events(DriveInto(hit)).size(), 1u);
+}
+
+TEST(BounceBack, TurningARoundBodyBesideTheWallIsNone) {
+  Trace trace = DriveInto(Rebound(0.0));
+  trace = With(
+      trace,
+      [](Sample& s) {
+        s.yaw_rad = s.t_s - 1.0;
+        s.V_WB_B.wz_radps = 1;
+        s.command.twist = {0, 0, 1};
+      },
+      1.004);
+  EXPECT_TRUE(Events(trace).empty());
+}
+
+TEST(BounceBack, PushingOnStaysSilent) {
+  Hit hit = Rebound(0.0);
+  hit.contact_s = 5;
+  const auto dut = MakeDetector("bounce_back");
+  EXPECT_TRUE(Judge(*dut, DriveInto(hit)).empty());
+  EXPECT_EQ(dut->margin(), 0.02);
+}
+
+TEST(BounceBack, EvidenceHasTheWholeRebound) {
+  Hit hit;  // pressed in by 1 mm, thrown back fast, then slower and slower: 10 mm in all
+  hit.contact_s = 0.03;
+  hit.after = [](double t_s) {
+    if (t_s < 0.01) return 0.05;
+    if (t_s < 0.06) return -0.1;
+    return t_s < 0.16 ? -0.05 : 0.1;
+  };
+  const auto events = Events(DriveInto(hit));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_NEAR(Evidence(events[0], "closing_mps"), 0.2, 1e-9);
+  EXPECT_NEAR(Evidence(events[0], "rebound_mps"), 0.1, 1e-9);
+  EXPECT_NEAR(Evidence(events[0], "travel_back_m"), 0.010, 0.0008);
+  EXPECT_NEAR(events[0].t_s, 1.012, 1.5 * kStepS) << "when it reversed, not when it came to rest";
+}
+
+TEST(BounceBack, TheEndOfTheEpisodeLosesNoRebound) {
+  Trace trace = With(
+      DriveInto(Rebound(0.06, 5)), [](Sample& s) { s.command.done = true; }, 1.05);
+  const auto events = Events(trace);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, "reversed");
+}
+
+TEST(BounceBack, NamesTheHazardHit) {
+  const auto events = Events(
+      With(DriveInto(Rebound(0.06)), [](Sample& s) { s.contacts[0].hazard = kGlassHazard; }));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].hazard, "door");
+}
+
+TEST(BounceBack, MarginIsTheReboundStillLeft) {
+  const auto dut = MakeDetector("bounce_back");
+  Judge(*dut, DriveInto(Rebound(0.015, 0.02)));
+  EXPECT_NEAR(dut->margin(), 0.005, 1e-12);
+  Judge(*dut, DriveInto(Rebound(0.06, 0.1)));
+  EXPECT_LT(dut->margin(), 0);
+}
+
+}  // namespace
+}  // namespace floorproof

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "tests/failures/synthetic.h"
+
+namespace floorproof {
+namespace {
+
+std::vector<Event> Events(const Trace& trace, const std::string& yaml = "") {
+  return Judge(*MakeDetector("roll_over", yaml), trace);
+}
+
+Trace Changed(const std::function<void(Sample&)>& change, double duration_s) {
+  return With(Drive({{8, {0.2, 0, 0}}}), change, 2, 2 + duration_s);
+}
+
+Trace Tilted(double tilt_rad, double duration_s) {
+  return Changed([=](Sample& s) { s.tilt_rad = tilt_rad; }, duration_s);
+}
+
+Trace Sunk(double z_m) {
+  return Changed([=](Sample& s) { s.wheel_floor_z_m = z_m; }, 1);
+}
+
+TEST(RollOver, TiltLimitIsTheLesserOfLimitAndStaticTip) {
+  EXPECT_TRUE(Events(Tilted(0.599, 1)).empty());  // the robot tips at 0.6 rad
+  EXPECT_EQ(Events(Tilted(0.601, 1)).size(), 1u);
+  EXPECT_TRUE(Events(Tilted(0.34, 1), "{tilt_limit_deg: 20}").empty());
+  EXPECT_EQ(Events(Tilted(0.36, 1), "{tilt_limit_deg: 20}").size(), 1u);
+}
+
+TEST(RollOver, TiltMustLast) {
+  EXPECT_TRUE(Events(Tilted(1.0, 0.096)).empty());
+  const auto events = Events(Tilted(1.0, 1));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_NEAR(events[0].t_s, 2.1, 1.5 * kStepS);
+  EXPECT_EQ(events[0].kind, "");
+  EXPECT_EQ(events[0].effect, "E5");
+}
+
+TEST(RollOver, TippedWhenTheMassLeavesTheSupport) {
+  const auto off = [](double margin_m, int contacts, double duration_s) {
+    return Changed(
+        [=](Sample& s) {
+          s.support_margin_m = margin_m;
+          s.wheel_contacts = contacts;
+        },
+        duration_s);
+  };
+  EXPECT_TRUE(Events(off(0.001, 2, 2)).empty());
+  EXPECT_TRUE(Events(off(-0.01, 2, 0.49)).empty());
+  const auto events = Events(off(-0.01, 2, 2));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, "tipped");
+  EXPECT_NEAR(events[0].t_s, 2.5, 1.5 * kStepS);
+  EXPECT_TRUE(Events(off(-0.01, 0, 2)).empty()) << "in the air";
+}
+
+TEST(RollOver, FellWhenTheWheelsSinkBelowThePlansFloor) {
+  EXPECT_TRUE(Events(Sunk(-0.029)).empty());
+  const auto events = Events(Sunk(-0.031));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, "fell");
+  EXPECT_LT(events[0].value, events[0].threshold);
+  EXPECT_EQ(Events(Sunk(-0.031), "{fall_m: 0.05}").size(), 0u);
+}
+
+TEST(RollOver, AKnownLowFloorThatIsDrivenOverIsThePlans) {
+  //      0 ______            ______
+  //              |__________|        -12 mm, driven over
+  const auto judge = [](double height_m, bool known, double wheel_z_m) {
+    HazardMap map;
+    Hazard pit;
+    pit.id = "pit";
+    pit.hazard_class = HazardClass::kLevelChange;
+    pit.known = known;
+    pit.height_m = height_m;
+    pit.footprint = {Rectangle({-5, -5}, {5, 5})};
+    map.hazards = {pit};
+    const RobotSpec robot = TestRobot();
+    const auto dut = MakeDetector("roll_over");
+    dut->Start({map, robot, kStepS});
+    int events = 0;
+    for (const Sample& s : Sunk(wheel_z_m)) events += dut->Update(s) ? 1 : 0;
+    return events;
+  };
+  EXPECT_EQ(judge(-0.012, true, -0.040), 0);
+  EXPECT_EQ(judge(-0.012, true, -0.043), 1);
+  EXPECT_EQ(judge(-0.012, false, -0.040), 1) << "the plan did not know of it";
+  EXPECT_EQ(judge(-0.150, true, -0.150), 1) << "the plan keeps off a drop beyond step_m";
+  EXPECT_EQ(judge(0.012, true, -0.017), 0) << "a raised floor all around";
+  EXPECT_EQ(judge(0.012, true, -0.019), 1);
+}
+
+TEST(RollOver, OneEventForOneFallAndAnotherForTheNext) {
+  Trace trace = Tilted(1.0, 1);
+  trace = With(
+      trace, [](Sample& s) { s.wheel_floor_z_m = -0.2; }, 2.5, 3);
+  EXPECT_EQ(Events(trace).size(), 1u);
+  EXPECT_EQ(Events(With(
+                       trace, [](Sample& s) { s.tilt_rad = 1; }, 5, 6))
+                .size(),
+            2u);
+}
+
+TEST(RollOver, NamesTheHazardMet) {
+  const auto events = Events(With(
+      Sunk(-0.15), [](Sample& s) { s.near_hazard = kStepHazard; }, 1.5, 2.0));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].hazard, "sill");
+}
+
+TEST(RollOver, MarginIsTheTiltStillLeft) {
+  const auto dut = MakeDetector("roll_over");
+  Judge(*dut, Tilted(0.25, 1));
+  EXPECT_DOUBLE_EQ(dut->margin(), 0.35);
+  Judge(*dut, Tilted(0.7, 0.05));
+  EXPECT_EQ(dut->margin(), 0);
+  Judge(*dut, Tilted(0.7, 1));
+  EXPECT_NEAR(dut->margin(), -0.1, 1e-12);
+  Judge(*dut, Sunk(-0.015));  // half of what makes a fall
+  EXPECT_NEAR(dut->margin(), 0.3, 1e-12);
+}
+
+}  // namespace
+}  // namespace floorproof

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "tests/failures/synthetic.h"
+
+namespace floorproof {
+namespace {
+
+// Moves as `piece` says while `command` is asked for.
+Trace Commanded(const Piece& piece, const BodyTwist& command) {
+  return With(Drive({piece}), [&](Sample& s) { s.command.twist = command; });
+}
+
+std::size_t Count(const Trace& trace, const std::string& yaml = "") {
+  return Judge(*MakeDetector("stuck", yaml), trace).size();
+}
+
+Trace Append(Trace a, const Trace& b) {
+  const Sample last = a.back();
+  for (Sample sample : b) {
+    sample.t_s += last.t_s;
+    const Pose2 X_WB = last.X_WB() * sample.X_WB();
+    sample.p_WB = {X_WB.x_m, X_WB.y_m, 0};
+    sample.yaw_rad = X_WB.yaw_rad;
+    a.push_back(sample);
+  }
+  return a;
+}
+
+TEST(Stuck, ThresholdScalesWithTheCommandedSpeed) {
+  // r = min(0.5, 0.25 * v_cmd * 10 s): 0.25 m at 0.1 m/s, 0.5 m from 0.2 m/s on.
+  EXPECT_EQ(Count(Commanded({10.2, {0.0245, 0, 0}}, {0.1, 0, 0})), 1u);
+  EXPECT_EQ(Count(Commanded({10.2, {0.0255, 0, 0}}, {0.1, 0, 0})), 0u);
+  EXPECT_EQ(Count(Commanded({10.2, {0.049, 0, 0}}, {0.4, 0, 0})), 1u);
+  EXPECT_EQ(Count(Commanded({10.2, {0.051, 0, 0}}, {0.4, 0, 0})), 0u);
+}
+
+TEST(Stuck, NeedsTheWholeWindow) {
+  EXPECT_EQ(Count(Commanded({9.9, {}}, {0.2, 0, 0})), 0u);
+  const auto events = Judge(*MakeDetector("stuck"), Commanded({12, {}}, {0.2, 0, 0}));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_NEAR(events[0].t_s, 10, 2 * kStepS);
+  EXPECT_EQ(events[0].value, 0);
+  EXPECT_EQ(events[0].threshold, 0.5);
+  EXPECT_EQ(Count(Commanded({4, {}}, {0.2, 0, 0}), "{window_s: 3}"), 1u);
+}
+
+TEST(Stuck, TurningIsProgress) {
+  EXPECT_EQ(Count(Commanded({10.2, {0, 0, 0.048}}, {0.2, 0, 0.2})), 1u);
+  EXPECT_EQ(Count(Commanded({10.2, {0, 0, 0.052}}, {0.2, 0, 0.2})), 0u);
+}
+
+TEST(Stuck, ACommandedTurnOnTheSpotIsAMove) {
+  EXPECT_EQ(Count(Commanded({11, {}}, {0, 0, 0.5})), 1u);
+  EXPECT_EQ(Count(Commanded({11, {0, 0, 0.5}}, {0, 0, 0.5})), 0u);
+  // A slow turn is judged by what was asked: 0.06 rad/s * 10 s * 0.25 = 0.15 rad.
+  EXPECT_EQ(Count(Commanded({11, {0, 0, 0.06}}, {0, 0, 0.06})), 0u);
+  EXPECT_EQ(Count(Commanded({11, {0, 0, 0.01}}, {0, 0, 0.06})), 1u);
+}
+
+TEST(Stuck, StandingOnPurposeStopsTheClock) {
+  Trace dwell = Drive({{60, {}, true}});
+  EXPECT_EQ(Count(dwell), 0u);
+  const Trace blocked = Commanded({6, {}}, {0.2, 0, 0});
+  const auto events = Judge(*MakeDetector("stuck"), Append(Append(blocked, dwell), blocked));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_NEAR(events[0].t_s, 70, 2 * kStepS);
+}
+
+TEST(Stuck, DrivingOutAndBackIsProgress) {
+  EXPECT_EQ(Count(Drive({{5, {0.3, 0, 0}}, {5.2, {-0.3, 0, 0}}})), 0u);
+}
+
+TEST(Stuck, RearmsAfterProgress) {
+  const Trace blocked = Commanded({11, {}}, {0.2, 0, 0});
+  EXPECT_EQ(Count(Commanded({45, {}}, {0.2, 0, 0})), 1u);
+  EXPECT_EQ(Count(Append(Append(blocked, Drive({{11, {0.2, 0, 0}}})), blocked)), 2u);
+}
+
+TEST(Stuck, HighCentredWhenTheBellyCarriesWeight) {
+  const Trace blocked = Commanded({11, {}}, {0.2, 0, 0});
+  const auto belly = [](double load_n) {
+    return [load_n](Sample& s) {
+      s.belly_load_n = load_n;
+      s.belly_hazard = kStepHazard;
+    };
+  };
+  const auto hung = Judge(*MakeDetector("stuck"), With(blocked, belly(0.12 * 98.1)));
+  ASSERT_EQ(hung.size(), 1u);
+  EXPECT_EQ(hung[0].kind, "high_centred");
+  EXPECT_EQ(hung[0].hazard, "sill");
+  const auto grazed = Judge(*MakeDetector("stuck"), With(blocked, belly(0.08 * 98.1)));
+  ASSERT_EQ(grazed.size(), 1u);
+  EXPECT_EQ(grazed[0].kind, "");
+}
+
+TEST(Stuck, NamesTheHazardMetDuringTheWindow) {
+  const Trace trace = Append(Drive({{20, {0.2, 0, 0}}}), Commanded({11, {}}, {0.2, 0, 0}));
+  const auto near = [](Sample& s) { s.near_hazard = kStepHazard; };
+  const auto during = Judge(*MakeDetector("stuck"), With(trace, near, 22, 23));
+  ASSERT_EQ(during.size(), 1u);
+  EXPECT_EQ(during[0].hazard, "sill");
+  const auto before = Judge(*MakeDetector("stuck"), With(trace, near, 2, 3));
+  ASSERT_EQ(before.size(), 1u);
+  EXPECT_EQ(before[0].hazard, "");
+}
+
+TEST(Stuck, MarginIsTheProgressBeyondTheThreshold) {
+  const auto dut = MakeDetector("stuck");
+  Judge(*dut, Drive({{20, {0.04, 0, 0}}}));
+  EXPECT_NEAR(dut->margin(), 0.4 - 0.1, 1e-3);
+  Judge(*dut, Commanded({11, {0.01, 0, 0}}, {0.2, 0, 0}));
+  EXPECT_NEAR(dut->margin(), 0.1 - 0.5, 1e-3);
+}
+
+}  // namespace
+}  // namespace floorproof
