@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plug-ins of docs/adding-a-*.md, compiled from the pages.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "env/core/coverage.h"
+#include "env/failures/detector.h"
+#include "env/hazards/hazard_type.h"
+#include "env/scene/scene.h"
+#include "planners/planner.h"
+
+namespace floorproof {
+
+std::unique_ptr<Planner> MakePlainRows();
+std::unique_ptr<HazardType> MakeDoorSill();
+std::unique_ptr<Detector> MakeDrift();
+
+namespace {
+
+HazardMap Room(double width_m, double depth_m) {
+  HazardMap map;
+  map.frame = {static_cast<int>(width_m / 0.05), static_cast<int>(depth_m / 0.05), 0.05, {}};
+  map.cells = Grid<CellState>(map.frame.width, map.frame.height, CellState::kFree);
+  return map;
+}
+
+RobotModel Burger() { return ReadRobot(FP_DOCS_CODE "/burger.xml"); }
+
+TEST(AddingARobot, TheModelSaysWhatThePageSays) {
+  const RobotSpec dut = Burger().robot;
+  ASSERT_EQ(dut.wheels.size(), 2u);
+  EXPECT_NEAR(dut.wheels[0].radius_m, 0.033, 1e-9);
+  EXPECT_NEAR((dut.wheels[0].p_BW - dut.wheels[1].p_BW).norm(), 0.160, 1e-9);
+  EXPECT_NEAR(dut.wheels[0].max_speed_radps, 6.5, 0.1);
+  EXPECT_NEAR(dut.mass_kg, 0.94, 1e-9);
+  EXPECT_LT(dut.cruise_mps, dut.wheels[0].max_speed_radps * dut.wheels[0].radius_m);
+}
+
+TEST(AddingARobot, ItStandsWhereItIsPut) {
+  const HazardMap map = Room(2, 2);
+  const Scene scene = BuildScene(map, Burger(), {}, {1, 1, 0});
+  const DataPtr data = MakeData(scene.model.get());
+  while (data->time < 1) StepEngine(scene.model.get(), data.get());
+  const double* p_WB = data->xpos + 3 * scene.base_body;
+  EXPECT_NEAR(p_WB[0], 1, 0.005);
+  EXPECT_NEAR(p_WB[1], 1, 0.005);
+  EXPECT_NEAR(p_WB[2], 0, 0.003);
+}
+
+TEST(AddingAPlanner, ItCoversARoomAlongEitherAxis) {
+  const HazardMap map = Room(3, 2);
+  const RobotSpec robot = Burger().robot;
+  double length_m[2] = {};
+  for (const bool along_y : {false, true}) {
+    const auto dut = MakePlainRows();
+    ConfigNode keys = ConfigNode::Map();
+    keys.Add("along_y", ConfigNode::Scalar(along_y ? "true" : "false"));
+    ReadParams(keys, "plan.", *dut);
+    const PlanResult plan = dut->Plan({map, robot, {0.3, 0.3, 0}, {}, 1});
+    ASSERT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
+    const SweepArea area = ComputeSweepArea(map, robot.clear, robot.tool, robot.step_m, {0.3, 0.3});
+    EXPECT_GT(MeasureCoverage(area, robot.tool, plan.path).coverage, 0.95);
+    // Most of the way lies along the rows.
+    double along_m = 0;
+    for (std::size_t i = 1; i < plan.path.size(); ++i) {
+      const Vec2 step = plan.path[i].p_W - plan.path[i - 1].p_W;
+      if (std::abs(along_y ? step.x() : step.y()) < 1e-6) along_m += step.norm();
+    }
+    length_m[along_y] = Length(plan.path);
+    EXPECT_GT(along_m, 0.6 * length_m[along_y]);
+  }
+  EXPECT_NE(length_m[0], length_m[1]);
+}
+
+TEST(AddingAHazard, ALowSillIsABoxAndAHighOneIsBevelled) {
+  const auto dut = MakeDoorSill();
+  const auto make = [&](const char* height) {
+    ConfigNode keys = ConfigNode::Map();
+    keys.Add("height_m", ConfigNode::Scalar(height));
+    ReadParams(keys, "", *dut);
+    return dut->Make({{1, 2}, {1.9, 2}});
+  };
+  const Hazard low = make("0.005"), high = make("0.013");
+  EXPECT_EQ(low.solids.size(), 1u);
+  ASSERT_EQ(high.solids.size(), 2u);
+  EXPECT_NEAR(SignedArea(high.footprint[0]), 0.09, 1e-9);
+  // Bevels of 1:2 on both sides over the height beyond 6.4 mm.
+  EXPECT_NEAR(SignedArea(high.solids[1].top) / 0.9, 0.1 - 2 * 2 * (0.013 - 0.0064), 1e-9);
+  EXPECT_FALSE(IsObstacle(high, 0.013));
+  EXPECT_TRUE(IsObstacle(high, 0.010));
+  EXPECT_THROW(make("0.05"), InputError);
+}
+
+TEST(AddingADetector, ASmallErrorThatLastsFailsAndALargeOneThatPassesDoesNot) {
+  const HazardMap map = Room(3, 2);
+  const RobotSpec robot = Burger().robot;
+  const auto count = [&](double error_m, double lasts_s) {
+    const auto dut = MakeDrift();
+    dut->Start({map, robot});
+    int events = 0;
+    for (Sample sample; sample.t_s < 60; sample.t_s += 0.004) {
+      sample.cross_track_m = sample.t_s < lasts_s ? error_m : 0;
+      events += dut->Update(sample);
+    }
+    EXPECT_EQ(events > 0, dut->margin() < 0);
+    return events;
+  };
+  EXPECT_EQ(count(0.14, 60), 0);
+  EXPECT_EQ(count(0.20, 60), 1);
+  EXPECT_EQ(count(0.40, 1), 0);
+}
+
+}  // namespace
+}  // namespace floorproof
