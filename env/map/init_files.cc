@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/map/init_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "env/core/config.h"
+#include "env/core/coverage.h"
+#include "env/core/params.h"
+#include "env/map/ros_map.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSpare_m = 0.10;  // so that the first turn on the spot brushes nothing
+
+// The largest set of cells joined by sides or corners, of those at least `least` cells from
+// obstacles; as a mask, empty when there is none.
+Grid<std::uint8_t> LargestPiece(const Grid<float>& clearance, double least) {
+  Grid<std::uint8_t> seen(clearance.width, clearance.height);
+  std::vector<std::size_t> best, piece;
+  const auto w = static_cast<std::ptrdiff_t>(clearance.width);
+  const auto open = [&](int ix, int iy) {
+    return clearance.Inside(ix, iy) && !seen(ix, iy) && clearance(ix, iy) >= least;
+  };
+  for (int iy = 0; iy < clearance.height; ++iy)
+    for (int ix = 0; ix < clearance.width; ++ix) {
+      if (!open(ix, iy)) continue;
+      piece = {clearance.Index(ix, iy)};
+      seen(ix, iy) = 1;
+      for (std::size_t i = 0; i < piece.size(); ++i) {
+        const int x = static_cast<int>(static_cast<std::ptrdiff_t>(piece[i]) % w);
+        const int y = static_cast<int>(static_cast<std::ptrdiff_t>(piece[i]) / w);
+        for (int ny = y - 1; ny <= y + 1; ++ny)
+          for (int nx = x - 1; nx <= x + 1; ++nx)
+            if (open(nx, ny)) {
+              seen(nx, ny) = 1;
+              piece.push_back(clearance.Index(nx, ny));
+            }
+      }
+      if (piece.size() > best.size()) std::swap(best, piece);
+    }
+  Grid<std::uint8_t> mask(clearance.width, clearance.height);
+  for (const std::size_t i : best) mask.cells[i] = 1;
+  return mask;
+}
+
+std::string Quoted(const std::string& text) {
+  std::string yaml = WriteYaml(ConfigNode::Scalar(text, true));
+  yaml.pop_back();  // its line break
+  return yaml;
+}
+
+std::string Metres(double v) { return FormatDouble(std::round(v * 1000) / 1000); }
+
+std::string Point(const Vec2& p) { return "[" + Metres(p.x()) + ", " + Metres(p.y()) + "]"; }
+
+// A name for people: the map's own, or its folder's where the file is just called map.
+std::string NameOf(const fs::path& map_yaml) {
+  const fs::path absolute = fs::absolute(map_yaml).lexically_normal();
+  const std::string stem = absolute.stem().string();
+  const std::string folder = absolute.parent_path().filename().string();
+  return stem == "map" && !folder.empty() ? folder : stem;
+}
+
+std::string SiteText(const std::string& name, const std::string& map_path, const RosMap& map,
+                     const Pose2& start) {
+  const auto at = [&](double x, double y) { return Point(start * Vec2(x, y)); };
+  const std::string size = std::to_string(map.frame.width) + " x " +
+                           std::to_string(map.frame.height) + " cells of " +
+                           FormatDouble(map.frame.cell_m) + " m";
+  const std::string box =
+      "[" + at(1, -0.5) + ", " + at(1.3, -0.5) + ", " + at(1.3, 0.5) + ", " + at(1, 0.5) + "]";
+  const std::string across = "[" + at(1.5, -0.6) + ", " + at(1.5, 0.6) + "]";
+  const std::string door = "[" + at(2, -0.5) + ", " + at(2, 0.5) + "]";
+  return R"(# The floor: what stands on it, and what of that a planner is told.
+# Lengths in metres, in the map's own coordinates: x to the right, y up.
+site: 1                    # version of this format
+name: )" +
+         Quoted(name) + R"(
+# A ROS map_server file, relative to this one: )" +
+         size + R"(
+map: )" + Quoted(map_path) +
+         R"(
+unknown: wall              # cells the map knows nothing of: wall, or free
+floor:
+  friction: 0.8            # wheels on floor: 0.6 (smooth, dusty) to 1.0 (clean, dry)
+
+# What the map does not show. Take away a '#' to try one; with 'known: false' it lies on the floor
+# and the planner is not told. `floorproof list hazards` names all types.
+hazards:
+#  - {type: step, polygon_m: )" +
+         box + R"(, height_m: 0.04, known: false}
+#  - {type: cable_cover, line_m: )" +
+         across + R"(, height_m: 0.02}
+#  - {type: glass, line_m: )" +
+         door + R"(, height_m: 2.0}
+)";
+}
+
+std::string ScenarioText(const RobotSpec& robot, const Pose2& start, double area_m2) {
+  const std::string pose = "{x_m: " + Metres(start.x_m) + ", y_m: " + Metres(start.y_m) +
+                           ", yaw_deg: " + Metres(start.yaw_rad * 180 / kPi) + "}";
+  return R"(# What is tried on the floor: a robot, a plan, and what counts as success.
+#   floorproof run scenario.yaml --video      drives it once and films it
+# What comes of it stands in out/scenario/, the verdict in result.json there.
+scenario: 1                # version of this format
+site: site.yaml            # relative to this file
+robot: )" +
+         robot.name + R"(
+# From here about )" +
+         std::to_string(std::lround(area_m2)) + R"( m^2 can be swept.
+start: )" +
+         pose + R"(
+
+plan:
+  planner: boustrophedon   # back and forth; `floorproof list planners` names all
+# plan: {file: plan.csv}   # or your own: a first line x_m,y_m, then a waypoint a line
+
+success:
+  min_coverage: 0.95       # share of what can be swept; less is no success
+
+seed: 1                    # the same seed gives the same bytes
+)";
+}
+
+}  // namespace
+
+Pose2 ChooseStart(const HazardMap& map, const RobotSpec& robot) {
+  const ClearanceField field = ComputeClearance(map, robot.step_m);
+  const double radius = robot.clear.kind == Shape2::Kind::kCircle ? robot.clear.radius_m
+                                                                  : robot.circumscribed_radius_m;
+  // Half a cell: a distance is known to the cell's centre only.
+  const double least = radius + field.frame.cell_m / 2;
+  const Grid<std::uint8_t> piece = LargestPiece(field.distance_m, least);
+  std::optional<Cell> corner, widest;
+  for (int iy = 0; iy < piece.height; ++iy)
+    for (int ix = 0; ix < piece.width; ++ix) {
+      if (!piece(ix, iy)) continue;
+      if (!widest || field.distance_m(ix, iy) > field.distance_m(*widest)) widest = {ix, iy};
+      if (field.distance_m(ix, iy) < least + kSpare_m) continue;
+      if (!corner || ix + iy < corner->ix + corner->iy) corner = {ix, iy};
+    }
+  if (!widest) {
+    const float most = *std::ranges::max_element(field.distance_m.cells);
+    throw InputError("the map has no place for a robot of radius " + Metres(radius) +
+                     " m: its widest spot is " + Metres(most) + " m from the nearest obstacle");
+  }
+  const Vec2 p = field.frame.Center(corner ? *corner : *widest);
+  return {p.x(), p.y(), map.frame.X_WG.yaw_rad};
+}
+
+InitFiles MakeInitFiles(const fs::path& map_yaml, const RobotSpec& robot,
+                        const fs::path& folder_out) {
+  const RosMap ros = ReadRosMap(map_yaml);
+  HazardMap map;
+  map.frame = ros.frame;
+  map.cells = ros.cells;
+  const Pose2 start = [&] {
+    try {
+      return ChooseStart(map, robot);
+    } catch (const InputError& e) {
+      throw InputError({map_yaml.string(), 0}, "", "", e.what());
+    }
+  }();
+  const SweepArea area = ComputeSweepArea(map, robot.clear, robot.tool, robot.step_m, start.p());
+  const fs::path from = fs::weakly_canonical(fs::absolute(folder_out.empty() ? "." : folder_out));
+  const fs::path relative = fs::weakly_canonical(fs::absolute(map_yaml)).lexically_relative(from);
+  return {SiteText(NameOf(map_yaml), relative.string(), ros, start),
+          ScenarioText(robot, start, area.area_m2()), ros.warnings};
+}
+
+}  // namespace floorproof

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// A site file is first read as it is written (ReadWritten), then either becomes a HazardMap or is
+// written again with every default stated. Both see the same structure, so that they cannot differ.
+#include "env/map/site.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "env/core/params.h"
+#include "env/map/char_grid.h"
+#include "env/map/written_hazard.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kKnown = {"site",  "name",    "map",   "grid", "unknown",
+                                         "floor", "hazards", "start", "goal"};
+
+struct Written {
+  std::string name;
+  fs::path ros_map;  // empty: a grid
+  CharGrid grid;
+  bool unknown_is_wall = true;
+  double floor_friction =
+      0.8;  // dry rubber on a hard floor: the middle of ISO 18646-2's 0.6 to 1.0
+  std::vector<WrittenHazard> hazards;
+  std::optional<Pose2> start;
+  std::optional<Vec2> goal;
+  double start_yaw_deg = 0;
+};
+
+// A path written in a file of `folder`. It may leave that folder only in plain words.
+fs::path PathIn(const fs::path& folder, const ConfigNode& node, const std::string& key) {
+  const std::string text = AsString(node, key);
+  const fs::path path(text);
+  if (text.empty()) throw InputError(node.mark, key, "\"\"", "must name a file");
+  if (path.is_absolute()) return path;
+  const bool leaves = path.lexically_normal().string().starts_with("..");
+  if (leaves && !text.starts_with("../"))
+    throw InputError(node.mark, key, text,
+                     "leaves its folder; begin it with ../ or write it absolute");
+  return folder / path;
+}
+
+void ReadPlaces(const ConfigNode& node, Written& site) {
+  const Bounds place = Between(-1e6, 1e6);
+  const auto need = [](const ConfigNode& at, const std::string& path) {
+    for (const char* key : {"x_m", "y_m"})
+      if (at.Find(key) == nullptr) throw InputError(at.mark, path + key, "", "missing");
+  };
+  if (const ConfigNode* start = node.Find("start")) {
+    Pose2 pose;
+    ReadParams(*start, "start.", [&](ParamVisitor& v) {
+      v("x_m", pose.x_m, place, "");
+      v("y_m", pose.y_m, place, "");
+      v("yaw_deg", site.start_yaw_deg, Between(-360, 360), "");
+    });
+    need(*start, "start.");
+    pose.yaw_rad = WrapAngle(site.start_yaw_deg * kPi / 180);
+    site.start = pose;
+  }
+  if (const ConfigNode* goal = node.Find("goal")) {
+    Vec2 p = Vec2::Zero();
+    ReadParams(*goal, "goal.", [&](ParamVisitor& v) {
+      v("x_m", p.x(), place, "");
+      v("y_m", p.y(), place, "");
+    });
+    need(*goal, "goal.");
+    site.goal = p;
+  }
+}
+
+void ReadFloor(const ConfigNode& node, Written& site) {
+  if (const ConfigNode* unknown = node.Find("unknown")) {
+    const std::string text = AsString(*unknown, "unknown");
+    if (text != "wall" && text != "free")
+      throw InputError(unknown->mark, "unknown", text, "must be wall or free");
+    site.unknown_is_wall = text == "wall";
+  }
+  if (const ConfigNode* floor = node.Find("floor"))
+    ReadParams(*floor, "floor.", [&](ParamVisitor& v) {
+      v("friction", site.floor_friction, {0, 5, true}, "coefficient between floor and wheels");
+    });
+}
+
+void ReadHazards(const ConfigNode& node, Written& site) {
+  constexpr std::size_t kMost = 10'000;
+  const ConfigNode* list = node.Find("hazards");
+  if (list != nullptr && !list->IsNull()) {
+    if (!list->IsList() || list->items.size() > kMost)
+      throw InputError(list->mark, "hazards", "",
+                       "must be a list of at most " + std::to_string(kMost) + " hazards");
+    for (std::size_t i = 0; i < list->items.size(); ++i)
+      site.hazards.push_back(ReadHazard(list->items[i], "hazards[" + std::to_string(i) + "]"));
+  }
+  std::vector<Hazard*> all;
+  for (Hazard& hazard : site.grid.hazards) all.push_back(&hazard);
+  for (WrittenHazard& written : site.hazards) all.push_back(&written.hazard);
+  NameHazards(all, list == nullptr ? node.mark : list->mark);
+}
+
+Written ReadWritten(const ConfigNode& node, const fs::path& folder) {
+  if (!node.IsMap()) throw InputError(node.mark, "site", "", "must be a map of keys");
+  RefuseUnknownKeys(node, "", kKnown);
+  const ConfigNode* version = node.Find("site");
+  if (version == nullptr)
+    throw InputError({node.mark.file, 0}, "site", "",
+                     "missing; write site: 1 (the format's version)");
+  if (AsInt(*version, "site") != 1)
+    throw InputError(version->mark, "site", version->scalar, "must be 1, the format's version");
+
+  Written site;
+  site.name = fs::path(node.mark.file).stem().string();
+  if (site.name.empty()) site.name = "site";
+  if (const ConfigNode* name = node.Find("name")) site.name = AsString(*name, "name");
+  const ConfigNode *map = node.Find("map"), *grid = node.Find("grid");
+  if ((map == nullptr) == (grid == nullptr))
+    throw InputError(grid != nullptr ? grid->mark : SourceMark{node.mark.file, 0}, "map or grid",
+                     "", "a site has one of the two: map (a ROS map) or grid (a drawing)");
+  if (map != nullptr)
+    site.ros_map = PathIn(folder, *map, "map");
+  else
+    site.grid = ReadCharGrid(*grid);
+  ReadFloor(node, site);
+  ReadHazards(node, site);
+  ReadPlaces(node, site);
+  return site;
+}
+
+void CheckOnMap(const ConfigNode& node, const std::string& key, const Vec2& p_W,
+                const GridFrame& frame) {
+  const Vec2 size = frame.cell_m * Vec2(frame.width, frame.height);
+  const Vec2 p_G = frame.X_WG.Inverse() * p_W;
+  if ((p_G.array() >= 0).all() && (p_G.array() < size.array()).all()) return;
+  const auto shown = [](const Vec2& p) {
+    return "(" + FormatDouble(p.x()) + ", " + FormatDouble(p.y()) + ")";
+  };
+  throw InputError(node.Find(key)->mark, key, shown(p_W),
+                   "lies off the map, whose lower left corner is " + shown(frame.X_WG.p()) +
+                       " and upper right " + shown(frame.X_WG * size));
+}
+
+// Hazards that lie off the map altogether are more likely a wrong origin than meant.
+void WarnOfFarHazards(Site& site, const std::string& file) {
+  const GridFrame& frame = site.map.frame;
+  const Pose2 X_GW = frame.X_WG.Inverse();
+  const Vec2 size = frame.cell_m * Vec2(frame.width, frame.height);
+  for (const Hazard& hazard : site.map.hazards) {
+    bool near = false;
+    for (const Polygon& polygon : hazard.footprint) {
+      Vec2 low = X_GW * polygon[0], high = low;
+      for (const Vec2& p_W : polygon) {
+        const Vec2 p_G = X_GW * p_W;
+        low = low.cwiseMin(p_G), high = high.cwiseMax(p_G);
+      }
+      near |= (low.array() < size.array()).all() && (high.array() > 0).all();
+    }
+    if (!near) site.warnings.push_back(file + ": hazard " + hazard.id + " lies off the map");
+  }
+}
+
+}  // namespace
+
+Site ReadSite(const ConfigNode& node, const fs::path& folder) {
+  Written written = ReadWritten(node, folder);
+  Site site;
+  HazardMap& map = site.map;
+  map.name = written.name;
+  map.unknown_is_wall = written.unknown_is_wall;
+  map.floor_friction = written.floor_friction;
+  map.start = written.start;
+  map.goal = written.goal;
+  if (written.ros_map.empty()) {
+    map.frame = written.grid.frame;
+    map.cells = std::move(written.grid.cells);
+    map.inset_m = written.grid.inset_m;
+    map.hazards = std::move(written.grid.hazards);
+  } else {
+    RosMap ros = ReadRosMap(written.ros_map);
+    map.frame = ros.frame;
+    map.cells = std::move(ros.cells);
+    site.files_read = {written.ros_map, ros.image};
+    site.warnings = std::move(ros.warnings);
+  }
+  for (WrittenHazard& hazard : written.hazards) map.hazards.push_back(std::move(hazard.hazard));
+  ClipLevels(map.hazards);
+  if (map.start) CheckOnMap(node, "start", map.start->p(), map.frame);
+  if (map.goal) CheckOnMap(node, "goal", *map.goal, map.frame);
+  WarnOfFarHazards(site, node.mark.file);
+  return site;
+}
+
+Site ReadSiteFile(const fs::path& path) {
+  Site site = ReadSite(ReadYamlFile(path), path.parent_path());
+  site.files_read.insert(site.files_read.begin(), path);
+  return site;
+}
+
+ConfigNode ResolveSite(const ConfigNode& node, const fs::path& folder, const fs::path& folder_out) {
+  Written written = ReadWritten(node, folder);
+  ConfigNode out = ConfigNode::Map();
+  out.Add("site", ConfigNode::Scalar("1"));
+  out.Add("name", ConfigNode::Scalar(written.name, true));
+  if (written.ros_map.empty()) {
+    out.Add("grid", written.grid.resolved);
+  } else {
+    // Canonical, since ../ in a path through a symbolic link would lead elsewhere.
+    const fs::path target = fs::weakly_canonical(fs::absolute(written.ros_map));
+    const fs::path from = fs::weakly_canonical(fs::absolute(folder_out.empty() ? "." : folder_out));
+    out.Add("map", ConfigNode::Scalar(target.lexically_relative(from).string(), true));
+  }
+  out.Add("unknown", ConfigNode::Scalar(written.unknown_is_wall ? "wall" : "free"));
+  ConfigNode& floor = out.Add("floor", ConfigNode::Map());
+  floor.Add("friction", ConfigNode::Scalar(FormatDouble(written.floor_friction)));
+  ConfigNode& hazards = out.Add("hazards", ConfigNode::List());
+  for (WrittenHazard& hazard : written.hazards) hazards.items.push_back(WriteHazard(hazard));
+  const auto add_place = [&](const char* key, const Vec2& p) -> ConfigNode& {
+    ConfigNode& place = out.Add(key, ConfigNode::Map());
+    place.Add("x_m", ConfigNode::Scalar(FormatDouble(p.x())));
+    place.Add("y_m", ConfigNode::Scalar(FormatDouble(p.y())));
+    return place;
+  };
+  if (written.start)
+    add_place("start", written.start->p())
+        .Add("yaw_deg", ConfigNode::Scalar(FormatDouble(written.start_yaw_deg)));
+  if (written.goal) add_place("goal", *written.goal);
+  return out;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/map/written_hazard.h"
+
+#include <map>
+#include <set>
+
+#include "env/core/params.h"
+
+namespace floorproof {
+namespace {
+
+const Bounds kRestitution = Between(0, 1);
+const Bounds kFriction = {0, 5, true};
+constexpr double kFarthest_m = 1e6;
+constexpr std::size_t kMostPoints = 10'000;
+
+Vec2 ReadPoint(const ConfigNode& node, const std::string& key) {
+  if (!node.IsList() || node.items.size() != 2)
+    throw InputError(node.mark, key, "", "must be a point [x, y], in metres");
+  const Bounds place = Between(-kFarthest_m, kFarthest_m);
+  return {AsDouble(node.items[0], key, place), AsDouble(node.items[1], key, place)};
+}
+
+std::vector<Vec2> ReadPoints(const ConfigNode& node, const std::string& key, std::size_t least) {
+  if (!node.IsList() || node.items.size() < least || node.items.size() > kMostPoints)
+    throw InputError(node.mark, key, "",
+                     "must be a list of " + std::to_string(least) + " to " +
+                         std::to_string(kMostPoints) + " points [x, y]");
+  std::vector<Vec2> points;
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    points.push_back(ReadPoint(node.items[i], key + "[" + std::to_string(i) + "]"));
+    if (i > 0 && (points[i] - points[i - 1]).norm() < 1e-6)
+      throw InputError(node.items[i].mark, key + "[" + std::to_string(i) + "]", "",
+                       "is the same point as the one before");
+  }
+  return points;
+}
+
+Polygon ReadPolygon(const ConfigNode& node, const std::string& key) {
+  Polygon polygon = ReadPoints(node, key, 3);
+  if ((polygon.front() - polygon.back()).norm() < 1e-6) polygon.pop_back();  // closed by hand
+  if (polygon.size() < 3 || !IsSimple(polygon))
+    throw InputError(node.mark, key, "", "its edges cross or touch each other");
+  if (std::abs(SignedArea(polygon)) < 1e-8)
+    throw InputError(node.mark, key, "", "encloses no area");
+  if (SignedArea(polygon) < 0) std::reverse(polygon.begin(), polygon.end());
+  return polygon;
+}
+
+std::vector<Vec2> ReadPlace(const ConfigNode& node, const std::string& path,
+                            const std::string& type, HazardType::Placement placement) {
+  const bool polygon = placement == HazardType::Placement::kPolygon;
+  const std::string key = polygon ? "polygon_m" : "line_m";
+  const std::string other = polygon ? "line_m" : "polygon_m";
+  if (const ConfigNode* wrong = node.Find(other))
+    throw InputError(wrong->mark, path + other, "", "a " + type + " is placed by " + key);
+  const ConfigNode* place = node.Find(key);
+  if (place == nullptr)
+    throw InputError(node.mark, path + key, "", "missing; it says where the " + type + " lies");
+  return polygon ? ReadPolygon(*place, path + key) : ReadPoints(*place, path + key, 2);
+}
+
+ConfigNode WritePoints(const std::vector<Vec2>& points) {
+  ConfigNode list = ConfigNode::List();
+  for (const Vec2& p : points)
+    list.items.push_back(ConfigNode::List(
+        {ConfigNode::Scalar(FormatDouble(p.x())), ConfigNode::Scalar(FormatDouble(p.y()))}));
+  return list;
+}
+
+struct Box {
+  Vec2 low, high;
+  explicit Box(const Polygon& polygon) : low(polygon[0]), high(polygon[0]) {
+    for (const Vec2& p : polygon) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  }
+  bool Meets(const Box& other) const {
+    return (low.array() < other.high.array()).all() && (other.low.array() < high.array()).all();
+  }
+};
+
+void CutAway(Solid solid, const std::vector<Polygon>& covers, std::vector<Solid>& rest) {
+  const Box box(solid.base);
+  std::vector<Polygon> meeting;
+  for (const Polygon& cover : covers)
+    if (box.Meets(Box(cover))) meeting.push_back(cover);
+  if (meeting.empty() || !solid.top.empty()) {  // tapered solids have no level to clip
+    rest.push_back(std::move(solid));
+    return;
+  }
+  const bool any_shape = solid.kind == Solid::Kind::kCut;
+  std::vector<Region> with_holes;
+  for (const Region& region : Difference({{solid.base, {}}}, meeting)) {
+    if (any_shape && region.holes.empty())
+      rest.push_back({solid.kind, region.outer, {}, solid.z_low_m, solid.z_high_m});
+    else
+      with_holes.push_back(region);
+  }
+  for (const Polygon& part : ConvexParts(with_holes))
+    rest.push_back({solid.kind, part, {}, solid.z_low_m, solid.z_high_m});
+}
+
+}  // namespace
+
+std::vector<std::string> CommonHazardKeys::Names() { return {"known", "restitution", "friction"}; }
+
+void CommonHazardKeys::Read(const ConfigNode& node, const std::string& path) {
+  if (const auto* n = node.Find("known")) known = AsBool(*n, path + "known");
+  if (const auto* n = node.Find("restitution"))
+    restitution = AsDouble(*n, path + "restitution", kRestitution);
+  if (const auto* n = node.Find("friction")) {
+    const bool none = n->IsScalar() && n->scalar == "none";
+    friction = none ? std::optional<double>() : AsDouble(*n, path + "friction", kFriction);
+  }
+}
+
+void CommonHazardKeys::Apply(Hazard& hazard) const {
+  hazard.known = known;
+  if (restitution) hazard.material.restitution = *restitution;
+  if (friction) hazard.material.friction = *friction;
+}
+
+void WriteCommonHazardKeys(const Hazard& hazard, ConfigNode& node) {
+  const Material& m = hazard.material;
+  node.Add("known", ConfigNode::Scalar(hazard.known ? "true" : "false"));
+  node.Add("restitution", ConfigNode::Scalar(FormatDouble(m.restitution)));
+  node.Add("friction", ConfigNode::Scalar(m.friction ? FormatDouble(*m.friction) : "none"));
+}
+
+Hazard MakeHazard(const HazardType& type, const std::vector<Vec2>& place, const ConfigNode& node,
+                  const std::string& path) {
+  try {
+    return type.Make(place);
+  } catch (const InputError& e) {
+    throw InputError(node.mark, "", "", path + e.what());
+  }
+}
+
+WrittenHazard ReadHazard(const ConfigNode& node, const std::string& path) {
+  if (!node.IsMap())
+    throw InputError(node.mark, path, "", "must be a map of keys: {type: ..., ...}");
+  const std::string prefix = path + ".";
+  const ConfigNode* type = node.Find("type");
+  if (type == nullptr) throw InputError(node.mark, prefix + "type", "", "missing");
+  const std::string name = AsString(*type, prefix + "type");
+
+  WrittenHazard written;
+  written.type = MakePlugin(HazardTypes(), name, prefix + "type", type->mark);
+  std::vector<std::string> others = CommonHazardKeys::Names();
+  others.insert(others.end(), {"type", "id", "polygon_m", "line_m"});
+  ReadParams(node, prefix, *written.type, others);
+  CommonHazardKeys common;
+  common.Read(node, prefix);
+  written.place = ReadPlace(node, prefix, name, written.type->placement());
+  written.hazard = MakeHazard(*written.type, written.place, node, prefix);
+  written.hazard.type = name;
+  common.Apply(written.hazard);
+  if (const ConfigNode* id = node.Find("id")) {
+    written.hazard.id = AsString(*id, prefix + "id");
+    // "wall" names the map's own obstacles in events; ids also stand in CSV columns.
+    if (written.hazard.id.empty() || written.hazard.id == "wall" || written.hazard.id.size() > 64 ||
+        written.hazard.id.find_first_of(",\"\n\r\t") != std::string::npos)
+      throw InputError(id->mark, prefix + "id", written.hazard.id,
+                       "must be 1 to 64 characters without comma, quote or tab, and not wall");
+  }
+  return written;
+}
+
+ConfigNode WriteHazard(WrittenHazard& written) {
+  ConfigNode node = ConfigNode::Map();
+  node.Add("type", ConfigNode::Scalar(written.hazard.type));
+  node.Add("id", ConfigNode::Scalar(written.hazard.id, true));
+  const bool polygon = written.type->placement() == HazardType::Placement::kPolygon;
+  node.Add(polygon ? "polygon_m" : "line_m", WritePoints(written.place));
+  WriteParams(*written.type, node);
+  WriteCommonHazardKeys(written.hazard, node);
+  return node;
+}
+
+void NameHazards(std::vector<Hazard*>& hazards, const SourceMark& mark) {
+  std::set<std::string> taken;
+  for (const Hazard* hazard : hazards)
+    if (!hazard->id.empty() && !taken.insert(hazard->id).second)
+      throw InputError(mark, "id", hazard->id, "two hazards have this id");
+  std::map<std::string, int> next;
+  for (Hazard* hazard : hazards) {
+    if (!hazard->id.empty()) continue;
+    do hazard->id = hazard->type + "-" + std::to_string(next[hazard->type]++);
+    while (!taken.insert(hazard->id).second);
+  }
+}
+
+void ClipLevels(std::vector<Hazard>& hazards) {
+  std::vector<Polygon> later;  // footprints of the level changes behind this one in the list
+  for (std::size_t i = hazards.size(); i-- > 0;) {
+    Hazard& hazard = hazards[i];
+    if (hazard.hazard_class != HazardClass::kLevelChange) continue;
+    std::vector<Solid> rest;
+    for (Solid& solid : hazard.solids) CutAway(std::move(solid), later, rest);
+    hazard.solids = std::move(rest);
+    later.insert(later.end(), hazard.footprint.begin(), hazard.footprint.end());
+  }
+}
+
+}  // namespace floorproof

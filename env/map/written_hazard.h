@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// A hazard as a site file writes it: the keys of its type, the keys that all types share, its
+// place.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "env/core/config.h"
+#include "env/core/hazard_map.h"
+#include "env/hazards/hazard_type.h"
+
+namespace floorproof {
+
+// What every type takes besides its own keys.
+struct CommonHazardKeys {
+  bool known = true;
+  std::optional<double> restitution;              // none: the type's own
+  std::optional<std::optional<double>> friction;  // not written: the type's own; none: the floor's
+
+  static std::vector<std::string> Names();
+  void Read(const ConfigNode& node, const std::string& path);
+  void Apply(Hazard& hazard) const;
+};
+
+// Adds the shared keys with the values that `hazard` has.
+void WriteCommonHazardKeys(const Hazard& hazard, ConfigNode& node);
+
+// Makes a hazard of this type with the keys of `node`; what the type itself refuses is said with
+// the node's file and line, and with `path` before the key.
+Hazard MakeHazard(const HazardType& type, const std::vector<Vec2>& place, const ConfigNode& node,
+                  const std::string& path);
+
+// One entry of a site's `hazards`.
+struct WrittenHazard {
+  Hazard hazard;  // its id is empty when none was written
+  std::unique_ptr<HazardType> type;
+  std::vector<Vec2> place;
+};
+WrittenHazard ReadHazard(const ConfigNode& node, const std::string& path);
+// The entry with every default stated.
+ConfigNode WriteHazard(WrittenHazard& written);
+
+// Gives hazards without an id one of the form type-index, counting each type from 0 and passing
+// over ids that are taken. Throws InputError when two have the same.
+void NameHazards(std::vector<Hazard*>& hazards, const SourceMark& mark);
+
+// Where floors of different level overlap the later one wins: cuts the solids of level changes back
+// to what no later level change covers. Footprints stay whole, so that a map without its unknown
+// hazards does not show where they lie.
+void ClipLevels(std::vector<Hazard>& hazards);
+
+}  // namespace floorproof

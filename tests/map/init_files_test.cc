@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// `init`: a site and a scenario that run as they are.
+#include "env/map/init_files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "env/core/coverage.h"
+#include "env/map/site.h"
+#include "tests/map/temp_folder.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+RobotSpec Disc(double radius_m) {
+  RobotSpec robot;
+  robot.name = "disc";
+  robot.clear = robot.tool = {Shape2::Kind::kCircle, radius_m, {}};
+  robot.inscribed_radius_m = robot.circumscribed_radius_m = radius_m;
+  robot.step_m = 0.01;
+  return robot;
+}
+
+class InitFilesTest : public TempFolder {
+ protected:
+  // A map of 0.1 m cells drawn in '#', '.' and '?'.
+  fs::path SaveMap(const std::vector<std::string>& rows, const std::string& origin) const {
+    std::string pgm =
+        "P5 " + std::to_string(rows[0].size()) + " " + std::to_string(rows.size()) + " 255\n";
+    for (const auto& row : rows)
+      for (const char c : row) pgm += c == '#' ? '\0' : static_cast<char>(c == '.' ? 254 : 205);
+    Save("map.pgm", pgm);
+    return Save("map.yaml", "image: map.pgm\nresolution: 0.1\norigin: " + origin +
+                                "\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  }
+};
+
+// Two rooms; the right one is larger.
+const std::vector<std::string> kTwoRooms = {
+    "#####################", "#......#............#", "#......#............#",
+    "#......#............#", "#......#............#", "#......#............#",
+    "#......#............#", "#......#............#", "#####################"};
+
+TEST_F(InitFilesTest, StartsInTheLargestRoomWithRoomToTurn) {
+  const fs::path map = SaveMap(kTwoRooms, "[-3, 4, 0]");
+  const RobotSpec robot = Disc(0.15);
+  const InitFiles dut = MakeInitFiles(map, robot, folder_ / "try");
+  const ConfigNode scenario = ParseYaml(dut.scenario_yaml, "scenario.yaml");
+  const ConfigNode& start = *scenario.Find("start");
+  const Vec2 p(std::stod(start.Find("x_m")->scalar), std::stod(start.Find("y_m")->scalar));
+  EXPECT_GT(p.x(), -3 + 0.8);
+  // Lower left of the room, 0.10 m to spare (and the cell's own half).
+  EXPECT_LT(p.x(), -3 + 0.8 + 0.4);
+  EXPECT_LT(p.y(), 4 + 0.1 + 0.4);
+
+  fs::create_directory(folder_ / "try");
+  const Site site = ReadSiteFile(Save("try/site.yaml", dut.site_yaml));
+  const SweepArea area = ComputeSweepArea(site.map, robot.clear, robot.tool, robot.step_m, p);
+  EXPECT_GT(area.area_m2(), 0.9 * 1.2 * 0.7);
+  EXPECT_GE(ComputeClearance(site.map, robot.step_m).At(p), 0.15 + 0.1);
+}
+
+TEST_F(InitFilesTest, TheTextsSayWhatTheDesignAsks) {
+  const InitFiles dut = MakeInitFiles(SaveMap(kTwoRooms, "[0, 0, 0]"), Disc(0.15), folder_);
+  const ConfigNode scenario = ParseYaml(dut.scenario_yaml, "scenario.yaml");
+  EXPECT_EQ(scenario.Find("scenario")->scalar, "1");
+  EXPECT_EQ(scenario.Find("site")->scalar, "site.yaml");
+  EXPECT_EQ(scenario.Find("robot")->scalar, "disc");
+  EXPECT_EQ(scenario.Find("plan")->Find("planner")->scalar, "boustrophedon");
+  EXPECT_EQ(scenario.Find("success")->Find("min_coverage")->scalar, "0.95");
+  const ConfigNode site = ParseYaml(dut.site_yaml, "site.yaml");
+  EXPECT_EQ(site.Find("map")->scalar, "map.yaml");
+}
+
+// The commented examples are no decoration: without their '#' they read.
+TEST_F(InitFilesTest, TheCommentedHazardsRead) {
+  const InitFiles dut = MakeInitFiles(SaveMap(kTwoRooms, "[0, 0, 0]"), Disc(0.15), folder_);
+  std::string text = dut.site_yaml;
+  int examples = 0;
+  for (std::size_t at = 0; (at = text.find("\n#  - {", at)) != std::string::npos; ++examples)
+    text.erase(at + 1, 1);
+  EXPECT_EQ(examples, 3);
+  EXPECT_EQ(ReadSiteFile(Save("site.yaml", text)).map.hazards.size(), 3u);
+}
+
+TEST_F(InitFilesTest, NamesWithQuotesAndBlanksSurvive) {
+  SaveMap(kTwoRooms, "[0, 0, 0]");
+  fs::create_directory(folder_ / "a \"b\" #c");
+  for (const char* file : {"map.yaml", "map.pgm"})
+    fs::rename(folder_ / file, folder_ / "a \"b\" #c" / file);
+  const InitFiles dut = MakeInitFiles(folder_ / "a \"b\" #c" / "map.yaml", Disc(0.15), folder_);
+  EXPECT_EQ(ReadSiteFile(Save("site.yaml", dut.site_yaml)).map.name, "a \"b\" #c");
+}
+
+TEST_F(InitFilesTest, ARobotThatFitsNowhereIsRefusedWithTheWidestSpot) {
+  const fs::path map = SaveMap(kTwoRooms, "[0, 0, 0]");
+  EXPECT_THAT(Refusal([&] { MakeInitFiles(map, Disc(0.5), folder_); }),
+              HasSubstr("map.yaml: the map has no place for a robot of radius 0.5 m"));
+}
+
+TEST_F(InitFilesTest, SpecksAndTurnedMapsAreNoMatter) {
+  std::vector<std::string> rows(60, std::string(60, '?'));
+  for (std::size_t i = 0; i < 60; i += 3) rows[i][(i * 7) % 60] = '.';
+  for (std::size_t y = 20; y < 40; ++y)
+    for (std::size_t x = 10; x < 50; ++x) rows[y][x] = '.';
+  const fs::path map = SaveMap(rows, "[1, 2, 0.5]");
+  const InitFiles dut = MakeInitFiles(map, Disc(0.2), folder_);
+  const Site site = ReadSiteFile(Save("site.yaml", dut.site_yaml));
+  const Pose2 start = ChooseStart(site.map, Disc(0.2));
+  EXPECT_DOUBLE_EQ(start.yaw_rad, 0.5);
+  const Cell c = site.map.frame.ToCell(start.p());
+  EXPECT_TRUE(c.ix >= 10 && c.ix < 50 && c.iy >= 20 && c.iy < 40);
+}
+
+TEST_F(InitFilesTest, EverySharedMapHoldsAStart) {
+  const fs::path maps(FP_SHARED_MAPS_DIR);
+  if (!fs::exists(maps)) GTEST_SKIP() << "no " << maps << ": real maps are not shipped";
+  for (const auto& entry : fs::directory_iterator(maps)) {
+    const RobotSpec robot = Disc(0.25);
+    const InitFiles dut = MakeInitFiles(entry.path() / "map.yaml", robot, folder_);
+    const Site site = ReadSiteFile(Save("site.yaml", dut.site_yaml));
+    const Pose2 start = ChooseStart(site.map, robot);
+    const SweepArea area =
+        ComputeSweepArea(site.map, robot.clear, robot.tool, robot.step_m, start.p());
+    EXPECT_GT(area.area_m2(), 10) << entry.path();
+    EXPECT_GE(ComputeClearance(site.map, robot.step_m).At(start.p()), 0.25) << entry.path();
+  }
+}
+
+}  // namespace
+}  // namespace floorproof
