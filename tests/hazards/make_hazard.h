@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// A hazard of a type by name, with keys as YAML.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "env/hazards/hazard_type.h"
+
+namespace floorproof {
+
+inline Hazard MakeOf(const std::string& type, const std::string& keys,
+                     const std::vector<Vec2>& place) {
+  auto dut = MakePlugin(HazardTypes(), type, "type");
+  ReadParams(ParseYaml(keys, "test"), "", *dut);
+  return dut->Make(place);
+}
+
+// Volume above the base floor, m^3 (cuts count negative), by the prismoidal formula.
+inline double Volume(const Hazard& hazard) {
+  double volume = 0;
+  for (const Solid& s : hazard.solids) {
+    const Polygon& top = s.top.empty() ? s.base : s.top;
+    Polygon middle;
+    for (std::size_t i = 0; i < s.base.size(); ++i) middle.push_back((s.base[i] + top[i]) / 2);
+    const double area = (SignedArea(s.base) + 4 * SignedArea(middle) + SignedArea(top)) / 6;
+    volume += area * (s.z_high_m - s.z_low_m) * (s.kind == Solid::Kind::kCut ? -1 : 1);
+  }
+  return volume;
+}
+
+}  // namespace floorproof
