@@ -7,6 +7,7 @@
 
 #include "planners/lib/laps.h"
 #include "planners/lib/leftovers.h"
+#include "planners/lib/pieces.h"
 #include "planners/lib/prune.h"
 #include "planners/lib/tour.h"
 
@@ -33,6 +34,15 @@ std::string WhyNothing(const PlanRequest& request, const SweepArea& area, const 
   return out.str();
 }
 
+Polyline Drive(Ways& ways, const Vec2& start, const std::vector<Polyline>& lines) {
+  std::vector<Polyline> ordered = {{start}};
+  for (const Stop& stop : OrderLines(ways, start, lines)) {
+    ordered.push_back(lines[stop.line]);
+    if (stop.reversed) std::reverse(ordered.back().begin(), ordered.back().end());
+  }
+  return MergeStraight(JoinByRoutes(ways, ordered));
+}
+
 }  // namespace
 
 void CoveragePlanner::Visit(ParamVisitor& visit) {
@@ -46,49 +56,36 @@ void CoveragePlanner::Visit(ParamVisitor& visit) {
 Polyline CoveragePlanner::Sweep(const Floor& floor, const Vec2& start, Figures& figures) const {
   const double w = floor.tool_width;
   Ways ways(floor);
-  Swept covered(floor);
+  const Grid<float> depth = PoseDepth(floor);
+  const std::vector<Polyline> walls = Contours(floor, depth, 0);
+
   std::vector<Polyline> lines;
-  if (edges_) {
-    const Grid<float> depth = PoseDepth(floor);
-    lines = OpenParts(floor, Contours(floor, depth, 0), 0.25, w, covered);
-    double length = 0;
-    for (const Polyline& line : lines) length += PolylineLength(line);
-    figures.push_back({"laps_m", length * floor.frame.cell_m});
-  }
+  Swept covered(floor);
+  if (edges_) lines = OpenParts(floor, walls, 0.25, w, covered);
   for (Polyline& line : Lines(floor, covered, figures)) lines.push_back(std::move(line));
-  auto order = OrderLines(ways, start, lines);
-  const auto join = [&] {
-    std::vector<Polyline> ordered = {{start}};
-    for (const Stop& v : order) {
-      ordered.push_back(lines[v.line]);
-      if (v.reversed) std::reverse(ordered.back().begin(), ordered.back().end());
-    }
-    return MergeStraight(JoinByRoutes(ways, ordered));
-  };
-  Polyline path = join();
+
+  Polyline path = Drive(ways, start, lines);
+  const double goal = edges_ ? 0.992 : 0.96;
+  for (int round = 0; round < 2; ++round) {
+    Swept swept(floor);
+    swept.Add(path);
+    figures.push_back({"coverage" + std::to_string(round), swept.share()});
+    figures.push_back({"length" + std::to_string(round), PolylineLength(path) * w / floor.ground_cells});
+    Prune(floor, {goal * floor.ground_cells, 0.15}, path, swept);
+    figures.push_back({"prlength" + std::to_string(round), PolylineLength(path) * w / floor.ground_cells});
+    std::vector<Polyline> pieces = WorkingPieces(floor, path, 0.1, swept);
+    const double min_gain = (edges_ ? 0.3 : 0.5) * w * w;
+    std::vector<Polyline> rest = OpenParts(floor, walls, edges_ ? 0.2 : 0.4, min_gain, swept);
+    for (auto& line : LinesOverLeftovers(floor, ways, min_gain, swept)) rest.push_back(std::move(line));
+    CutBeside(floor, rest, 6 * w, pieces);
+    for (auto& line : rest) pieces.push_back(std::move(line));
+    path = Drive(ways, start, pieces);
+  }
   Swept swept(floor);
   swept.Add(path);
-  figures.push_back({"first_coverage", swept.share()});
-  figures.push_back({"first_length", PolylineLength(path) * w / floor.ground_cells});
-  {
-    const Grid<float> depth = PoseDepth(floor);
-    const double min_gain = (edges_ ? 0.3 : 0.5) * w * w;
-    for (auto& line :
-         OpenParts(floor, Contours(floor, depth, 0), edges_ ? 0.2 : 0.4, min_gain, swept))
-      lines.push_back(std::move(line));
-    for (auto& line : LinesOverLeftovers(floor, ways, min_gain, swept))
-      lines.push_back(std::move(line));
-  }
-  order = OrderLines(ways, start, lines);
-  path = join();
-  Swept final_swept(floor);
-  final_swept.Add(path);
-  figures.push_back({"second_coverage", final_swept.share()});
-  figures.push_back({"second_length", PolylineLength(path) * w / floor.ground_cells});
-  PruneOptions prune;
-  prune.goal_cells = (edges_ ? 0.992 : 0.96) * floor.ground_cells;
-  prune.worth = edges_ ? 0.25 : 0.4;
-  Prune(floor, prune, path, final_swept);
+  figures.push_back({"coverage2", swept.share()});
+  figures.push_back({"length2", PolylineLength(path) * w / floor.ground_cells});
+  Prune(floor, {goal * floor.ground_cells, edges_ ? 0.25 : 0.4}, path, swept);
   return MergeStraight(path);
 }
 

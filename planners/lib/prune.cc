@@ -11,7 +11,8 @@
 namespace floorproof {
 namespace {
 
-constexpr std::size_t kWindow = 8;  // points
+constexpr std::size_t kWindow = 8;     // points
+constexpr double kLeastSaving = 0.5;  // cells
 
 class Pruner {
  public:
@@ -52,38 +53,46 @@ class Pruner {
 
  private:
   bool Worthwhile(double saved, double lost, double worth) const {
-    return saved > 0.5 && lost <= worth * saved * floor_.tool_width &&
+    return saved > kLeastSaving && lost <= worth * saved * floor_.tool_width &&
            (lost <= 0 || swept_.swept_cells() >= options_.goal_cells);
   }
 
-  bool Try(const Polyline& old, const Polyline& fresh, double worth) {
-    const double saved = PolylineLength(old) - PolylineLength(fresh);
-    if (saved <= 0.5) return false;
+  // Takes `old` for `fresh` if that is worth it; `lost` cells went when `old` was taken out.
+  bool Accept(double old_length, int lost, const Polyline& fresh, double worth) {
+    const double length = PolylineLength(fresh), saved = old_length - length;
+    const double width = floor_.tool_width, most_back = (length + width) * width;
+    if (saved <= kLeastSaving || lost - most_back > worth * saved * width) return false;
     for (std::size_t i = 1; i < fresh.size(); ++i)
       if (!floor_.Sees(fresh[i - 1], fresh[i])) return false;
-    const int lost = swept_.Remove(old) - swept_.Add(fresh);
-    if (Worthwhile(saved, lost, worth)) return true;
+    const int back = swept_.Add(fresh);
+    if (Worthwhile(saved, lost - back, worth)) return true;
     swept_.Remove(fresh);
+    return false;
+  }
+
+  // Looks at windows that begin at the last point done.
+  bool Cut(const Polyline& done, Polyline& todo, double worth) {
+    Polyline old = {done.back()};
+    double length = 0;
+    int lost = 0;
+    for (std::size_t k = 0; k < kWindow && k < todo.size(); ++k) {
+      old.push_back(todo[todo.size() - 1 - k]);
+      length += (old[k + 1] - old[k]).norm();
+      lost += swept_.Remove(old[k], old[k + 1]);
+      if (k > 0 && Accept(length, lost, {old.front(), old.back()}, worth)) {
+        todo.resize(todo.size() - k);
+        return true;
+      }
+      if (k == 2 && DrawIn(old, length, lost, todo, worth)) return true;
+      // What more could a longer window give back? Not all this ground.
+      if (lost > (worth + 0.5) * (length + 4 * floor_.tool_width) * floor_.tool_width) break;
+    }
     swept_.Add(old);
     return false;
   }
 
-  bool Cut(const Polyline& done, Polyline& todo, double worth) {
-    Polyline old = {done.back()};
-    for (std::size_t k = 0; k < kWindow && k < todo.size(); ++k) {
-      old.push_back(todo[todo.size() - 1 - k]);
-      if (k == 0) continue;
-      if (Try(old, {old.front(), old.back()}, worth)) {
-        todo.resize(todo.size() - k);
-        return true;
-      }
-      if (k == 2 && DrawIn(old, todo, worth)) return true;
-    }
-    return false;
-  }
-
   // old: a leg, a link and a leg back.
-  bool DrawIn(const Polyline& old, Polyline& todo, double worth) {
+  bool DrawIn(const Polyline& old, double length, int lost, Polyline& todo, double worth) {
     const Vec2 out = old[1] - old[0], back = old[3] - old[2];
     const double most = std::min(out.norm(), back.norm());
     if (most < 1 || out.dot(back) > -0.5 * out.norm() * back.norm()) return false;
@@ -92,7 +101,7 @@ class Pruner {
       if (by >= most) continue;
       const Polyline fresh = {old[0], old[1] - by * out / out.norm(),
                               old[2] + by * back / back.norm(), old[3]};
-      if (!Try(old, fresh, worth)) continue;
+      if (!Accept(length, lost, fresh, worth)) continue;
       todo[todo.size() - 1] = fresh[1];
       todo[todo.size() - 2] = fresh[2];
       return true;
@@ -111,9 +120,7 @@ class Pruner {
 void Prune(const Floor& floor, const PruneOptions& options, Polyline& path, Swept& swept) {
   if (path.size() < 2) return;
   Pruner pruner(floor, options, path, swept);
-  for (const double part : {0.1, 0.4, 0.7, 1.0})
-    for (int round = 0; round < 3 && pruner.Round(part * options.worth); ++round) {
-    }
+  for (const double part : {0.3, 0.7, 1.0}) pruner.Round(part * options.worth);
 }
 
 Polyline MergeStraight(const Polyline& path) {

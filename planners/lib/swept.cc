@@ -7,8 +7,15 @@
 #include <limits>
 
 namespace floorproof {
+namespace {
+
+constexpr double kRim = 1e-6;  // cells: the rim counts, as in ComputeSweepArea
+
+}  // namespace
 
 Swept::Swept(const Floor& floor) : floor_(&floor), count_(floor.frame.width, floor.frame.height) {
+  // What is no ground counts as swept from the first, and so never changes.
+  for (std::size_t i = 0; i < count_.cells.size(); ++i) count_.cells[i] = !floor.ground.cells[i];
   if (floor.tool.kind == Shape2::Kind::kFootprint) {
     tool_ = ConvexHull(floor.tool.footprint_B);
     for (Vec2& p : tool_) p /= floor.frame.cell_m;
@@ -33,60 +40,85 @@ int Swept::Gain(const Polyline& line) {
   return gain;
 }
 
-void Swept::Span(int iy, double low, double high, int by, int& changed) {
-  const int x0 = static_cast<int>(std::ceil(std::clamp(low - 0.5, 0.0, count_.width + 0.0)));
-  const int x1 = static_cast<int>(std::floor(std::clamp(high - 0.5, -1.0, count_.width - 1.0)));
-  for (int ix = x0; ix <= x1; ++ix) {
-    std::uint16_t& n = count_(ix, iy);
-    if (by > 0 ? n++ == 0 : --n == 0)
-      if (floor_->ground(ix, iy)) ++changed;
+int Swept::Span(int iy, double low, double high, int by) {
+  const int x0 = static_cast<int>(std::ceil(std::max(0.0, low - 0.5)));
+  const int x1 = std::min(count_.width - 1, static_cast<int>(std::floor(high - 0.5)));
+  int changed = 0;
+  std::uint16_t* row = &count_.cells[count_.Index(0, iy)];
+  if (by > 0) {
+    for (int ix = x0; ix <= x1; ++ix) changed += row[ix]++ == 0;
+  } else {
+    for (int ix = x0; ix <= x1; ++ix) changed += --row[ix] == 0;
   }
+  return changed;
 }
 
 int Swept::Change(const Vec2& from, const Vec2& to, int by) {
   // One order for both ways, so that what was added one way can be taken back the other.
   const bool swap = to.x() < from.x() || (to.x() == from.x() && to.y() < from.y());
   const Vec2 &a = swap ? to : from, &b = swap ? from : to;
-  const double inf = std::numeric_limits<double>::infinity();
-  const double r = floor_->tool_reach + 1e-6;  // the rim counts, as in ComputeSweepArea
-  const bool disc = tool_.empty();
+  const int changed = tool_.empty() ? ChangeDisc(a, b, by) : ChangeFootprint(a, b, by);
+  swept_ += by > 0 ? changed : -changed;
+  return changed;
+}
+
+std::pair<int, int> Swept::RowsNear(const Vec2& a, const Vec2& b) const {
+  const double r = floor_->tool_reach + 1;
+  return {std::max(0, static_cast<int>(std::min(a.y(), b.y()) - r)),
+          std::min(count_.height - 1, static_cast<int>(std::max(a.y(), b.y()) + r))};
+}
+
+int Swept::ChangeDisc(const Vec2& a, const Vec2& b, int by) {
+  const double r = floor_->tool_reach + kRim;
   const Vec2 way = b - a;
   const double length = way.norm();
-  const Vec2 dir = length > 0 ? Vec2(way / length) : Vec2(1, 0), side(-dir.y(), dir.x());
-  Polygon hull;
-  if (!disc) {
-    for (const Vec2& p : tool_) hull.push_back(a + p), hull.push_back(b + p);
-    hull = ConvexHull(hull);
-  }
+  // The strip between the ends has two long sides, offset by +-side; its short ones lie within the
+  // discs. Where a row crosses a long side: x = a.x + side.x + (y - a.y - side.y) * slope.
+  const Vec2 side = length > 0 ? Vec2(-way.y() / length * r, way.x() / length * r) : Vec2(0, 0);
+  const double slope = way.y() != 0 ? way.x() / way.y() : 0;
   int changed = 0;
-  const int y0 = std::max(0, static_cast<int>(std::floor(std::min(a.y(), b.y()) - r)));
-  const int y1 =
-      std::min(count_.height - 1, static_cast<int>(std::floor(std::max(a.y(), b.y()) + r)));
+  const auto [y0, y1] = RowsNear(a, b);
+  for (int iy = y0; iy <= y1; ++iy) {
+    const double y = iy + 0.5, da = y - a.y(), db = y - b.y();
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    if (const double h2 = r * r - da * da; h2 >= 0) {
+      const double h = std::sqrt(h2);
+      low = a.x() - h, high = a.x() + h;
+    }
+    if (const double h2 = r * r - db * db; h2 >= 0) {
+      const double h = std::sqrt(h2);
+      low = std::min(low, b.x() - h), high = std::max(high, b.x() + h);
+    }
+    if ((da <= side.y()) != (db <= side.y())) {
+      const double x = a.x() + side.x() + (da - side.y()) * slope;
+      low = std::min(low, x), high = std::max(high, x);
+    }
+    if ((da <= -side.y()) != (db <= -side.y())) {
+      const double x = a.x() - side.x() + (da + side.y()) * slope;
+      low = std::min(low, x), high = std::max(high, x);
+    }
+    if (low <= high) changed += Span(iy, low, high, by);
+  }
+  return changed;
+}
+
+int Swept::ChangeFootprint(const Vec2& a, const Vec2& b, int by) {
+  Polygon hull;
+  for (const Vec2& p : tool_) hull.push_back(a + p), hull.push_back(b + p);
+  hull = ConvexHull(hull);
+  int changed = 0;
+  const auto [y0, y1] = RowsNear(a, b);
   for (int iy = y0; iy <= y1; ++iy) {
     const double y = iy + 0.5;
-    double low = inf, high = -inf;
-    const auto edge = [&](const Vec2& p, const Vec2& q) {  // where the line pq crosses this row
-      if ((p.y() <= y) == (q.y() <= y)) return;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t k = 0; k < hull.size(); ++k) {
+      const Vec2 &p = hull[k], &q = hull[(k + 1) % hull.size()];
+      if ((p.y() <= y) == (q.y() <= y)) continue;
       const double x = p.x() + (y - p.y()) / (q.y() - p.y()) * (q.x() - p.x());
       low = std::min(low, x), high = std::max(high, x);
-    };
-    if (disc) {
-      for (const Vec2& c : {a, b}) {
-        const double h2 = r * r - (y - c.y()) * (y - c.y());
-        if (h2 < 0) continue;
-        const double h = std::sqrt(h2);
-        low = std::min(low, c.x() - h), high = std::max(high, c.x() + h);
-      }
-      edge(a + r * side, b + r * side);
-      edge(a - r * side, b - r * side);
-      edge(a + r * side, a - r * side);
-      edge(b + r * side, b - r * side);
-    } else {
-      for (std::size_t k = 0; k < hull.size(); ++k) edge(hull[k], hull[(k + 1) % hull.size()]);
     }
-    if (low <= high) Span(iy, low, high, by, changed);
+    if (low <= high) changed += Span(iy, low - kRim, high + kRim, by);
   }
-  swept_ += by > 0 ? changed : -changed;
   return changed;
 }
 

@@ -2,6 +2,8 @@
 // How often each cell of a floor lies under the tool along a set of lines; lines can be taken back.
 #pragma once
 
+#include <utility>
+
 #include "planners/lib/floor.h"
 
 namespace floorproof {
@@ -16,16 +18,18 @@ class Swept {
   int Remove(const Polyline& line);
   // Ground cells that Add(line) would add.
   int Gain(const Polyline& line);
-  bool IsSwept(int ix, int iy) const { return count_(ix, iy) > 0; }
-  bool IsOpen(int ix, int iy) const { return floor_->ground(ix, iy) && count_(ix, iy) == 0; }
+  bool IsOpen(int ix, int iy) const { return count_(ix, iy) == 0; }
   double swept_cells() const { return static_cast<double>(swept_); }
   double share() const {
     return floor_->ground_cells > 0 ? swept_cells() / floor_->ground_cells : 0;
   }
 
  private:
-  int Change(const Vec2& a, const Vec2& b, int by);
-  void Span(int iy, double low, double high, int by, int& changed);
+  int Change(const Vec2& from, const Vec2& to, int by);
+  int ChangeDisc(const Vec2& a, const Vec2& b, int by);
+  int ChangeFootprint(const Vec2& a, const Vec2& b, int by);
+  std::pair<int, int> RowsNear(const Vec2& a, const Vec2& b) const;
+  int Span(int iy, double low, double high, int by);
 
   const Floor* floor_;
   Grid<std::uint16_t> count_;

@@ -15,7 +15,7 @@ namespace floorproof {
 namespace {
 
 constexpr int kMaxStretch = 50;
-constexpr std::size_t kNeighbours = 10, kLooked = 18;
+constexpr std::size_t kNeighbours = 10;
 
 class Tour {
  public:
@@ -53,38 +53,15 @@ class Tour {
     return static_cast<double>(static_cast<float>(d));
   }
 
+  double AtLeast(int a, int b) const { return (points_[Z(a)] - points_[Z(b)]).norm(); }
+
   void FindNeighbours() {
-    // Ends sorted into square bins of which a ring at a time is looked through.
-    const int ends = 2 * n_;
-    Vec2 low = points_[0], high = points_[0];
-    for (const Vec2& p : points_) low = low.cwiseMin(p), high = high.cwiseMax(p);
-    const double area = std::max(1.0, (high - low).x()) * std::max(1.0, (high - low).y());
-    const double bin = std::max(1.0, std::sqrt(area / ends * 3));
-    const int w = static_cast<int>((high - low).x() / bin) + 1;
-    const int h = static_cast<int>((high - low).y() / bin) + 1;
-    Grid<std::vector<int>> bins(w, h);
-    const auto bin_of = [&](int e) {
-      const Vec2 q = (points_[Z(e)] - low) / bin;
-      return Cell{static_cast<int>(q.x()), static_cast<int>(q.y())};
-    };
-    for (int e = 2; e < ends; ++e) bins(bin_of(e)).push_back(e);
-    near_.resize(Z(ends));
-    for (int e = 1; e < ends; ++e) {
-      const Cell c = bin_of(e);
+    ways_.IndexPlaces(points_);
+    near_.resize(points_.size());
+    for (int e = 1; e < 2 * n_; ++e) {
       std::vector<std::pair<double, int>> found;
-      for (int ring = 0; ring <= std::max(w, h); ++ring) {
-        for (int iy = c.iy - ring; iy <= c.iy + ring; ++iy)
-          for (int ix = c.ix - ring; ix <= c.ix + ring; ++ix) {
-            if (std::max(std::abs(ix - c.ix), std::abs(iy - c.iy)) != ring) continue;
-            if (!bins.Inside(ix, iy)) continue;
-            for (const int f : bins(ix, iy))
-              if (f / 2 != e / 2) found.push_back({(points_[Z(f)] - points_[Z(e)]).norm(), f});
-          }
-        if (found.size() >= 2 * kLooked) break;
-      }
-      std::sort(found.begin(), found.end());
-      if (found.size() > kLooked) found.resize(kLooked);
-      for (auto& [d, f] : found) d = D(e, f);
+      for (const int f : ways_.NearestPlaces(e, kNeighbours + 2))
+        if (f / 2 != e / 2 && f > 1) found.push_back({D(e, f), f});
       std::sort(found.begin(), found.end());
       if (found.size() > kNeighbours) found.resize(kNeighbours);
       for (const auto& [d, f] : found) near_[Z(e)].push_back(f);
@@ -185,6 +162,9 @@ class Tour {
       const int j = (is_out ? std::max(p, q) : std::max(p, q) - 1);
       if (i < 1 || j < i) continue;
       const double before = Link(i - 1) + Link(j);
+      const double least =
+          AtLeast(Out(i - 1), Out(j)) + (j + 1 < n_ ? AtLeast(In(i), In(j + 1)) : 0);
+      if (least >= before - kLeast) continue;
       const double after = D(Out(i - 1), Out(j)) + (j + 1 < n_ ? D(In(i), In(j + 1)) : 0);
       if (after < before - kLeast) {
         Reverse(i, j);
@@ -214,6 +194,10 @@ class Tour {
         if (k >= i - 1 && k <= j) break;
         const int far = is_in ? Out(j) : In(i);
         const double removed = Link(i - 1) + Link(j) + Link(k);
+        double least = first;
+        if (j + 1 < n_) least += AtLeast(Out(i - 1), In(j + 1));
+        if (f_out ? k + 1 < n_ : true) least += AtLeast(far, f_out ? In(k + 1) : Out(k));
+        if (least >= removed - kLeast) continue;
         double added = first;
         if (j + 1 < n_) added += D(Out(i - 1), In(j + 1));
         if (f_out ? k + 1 < n_ : true) added += D(far, f_out ? In(k + 1) : Out(k));

@@ -9,6 +9,7 @@
 #include <array>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <queue>
 
 namespace floorproof {
@@ -18,6 +19,7 @@ constexpr std::array<Cell, 8> kNeighbours = {Cell{1, 0}, Cell{0, 1},  Cell{-1, 0
                                              Cell{1, 1}, Cell{-1, 1}, Cell{-1, -1}, Cell{1, -1}};
 constexpr float kDiagonal = 1.41421356f;
 constexpr std::size_t kMaxBlocks = 1200;
+constexpr double kOffPose = 3;  // cells that a point may lie off the poses
 
 float Octile(int dx, int dy) {
   const auto x = static_cast<float>(std::abs(dx)), y = static_cast<float>(std::abs(dy));
@@ -161,7 +163,6 @@ bool Ways::Search(Cell from, Cell to, std::vector<Cell>& cells) {
 
 Polyline Ways::Route(const Vec2& a, const Vec2& b) {
   if (floor_.Sees(a, b)) return {a, b};
-  constexpr double kOffPose = 3;
   const Cell from = NearestPose(a, kOffPose), to = NearestPose(b, kOffPose);
   std::vector<Cell> cells;
   if (from.ix < 0 || to.ix < 0 || !Search(from, to, cells)) return {};
@@ -231,15 +232,67 @@ double Ways::CoarseDistance(int from, int to) {
   return std::numeric_limits<double>::infinity();
 }
 
+int Ways::CoarseAt(const Vec2& p) const {
+  const Cell near = NearestPose(p, kOffPose);
+  return static_cast<int>(
+      coarse_.Index(std::max(0, near.ix) / step_, std::max(0, near.iy) / step_));
+}
+
+void Ways::IndexPlaces(const std::vector<Vec2>& places) {
+  place_cell_.clear();
+  for (const Vec2& p : places) place_cell_.push_back(CoarseAt(p));
+  first_place_.assign(coarse_.cells.size() + 1, 0);
+  for (const int c : place_cell_) ++first_place_[static_cast<std::size_t>(c) + 1];
+  std::partial_sum(first_place_.begin(), first_place_.end(), first_place_.begin());
+  place_list_.resize(places.size());
+  std::vector<int> next = first_place_;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    place_list_[static_cast<std::size_t>(next[static_cast<std::size_t>(place_cell_[i])]++)] =
+        static_cast<int>(i);
+}
+
+// Dijkstra with costs 5 and 7 in a ring of buckets (Dial 1969).
+std::vector<int> Ways::NearestPlaces(int place, std::size_t count) {
+  constexpr int kStraight = 5, kAslant = 7;
+  ++coarse_stamp_;
+  std::vector<int> found;
+  for (auto& bucket : buckets_) bucket.clear();
+  const int start = place_cell_[static_cast<std::size_t>(place)];
+  coarse_nodes_[static_cast<std::size_t>(start)] = {0, -1, coarse_stamp_};
+  buckets_[0].push_back(start);
+  int waiting = 1;
+  for (int cost = 0; waiting > 0 && found.size() < count; ++cost) {
+    auto& bucket = buckets_[static_cast<std::size_t>(cost) % buckets_.size()];
+    for (std::size_t i = 0; i < bucket.size(); ++i) {
+      const int id = bucket[i];
+      --waiting;
+      if (coarse_nodes_[static_cast<std::size_t>(id)].cost != static_cast<float>(cost)) continue;
+      for (int k = first_place_[static_cast<std::size_t>(id)];
+           k < first_place_[static_cast<std::size_t>(id) + 1]; ++k)
+        if (place_list_[static_cast<std::size_t>(k)] != place)
+          found.push_back(place_list_[static_cast<std::size_t>(k)]);
+      const Cell c{id % coarse_.width, id / coarse_.width};
+      for (const Cell d : kNeighbours) {
+        const Cell n{c.ix + d.ix, c.iy + d.iy};
+        if (!coarse_.Inside(n) || !coarse_(n)) continue;
+        const int next = cost + (d.ix != 0 && d.iy != 0 ? kAslant : kStraight);
+        const int to = static_cast<int>(coarse_.Index(n.ix, n.iy));
+        Node& node = coarse_nodes_[static_cast<std::size_t>(to)];
+        if (node.stamp == coarse_stamp_ && node.cost <= static_cast<float>(next)) continue;
+        node = {static_cast<float>(next), -1, coarse_stamp_};
+        buckets_[static_cast<std::size_t>(next) % buckets_.size()].push_back(to);
+        ++waiting;
+      }
+    }
+    bucket.clear();
+  }
+  return found;
+}
+
 double Ways::Distance(const Vec2& a, const Vec2& b) {
   const double straight = (b - a).norm();
-  const auto coarse_at = [this](const Vec2& p) {
-    const Cell near = NearestPose(p, 3);
-    const Cell c{std::max(0, near.ix) / step_, std::max(0, near.iy) / step_};
-    return static_cast<int>(coarse_.Index(c.ix, c.iy));
-  };
   if (straight < 2.0 * block_ && floor_.Sees(a, b)) return straight;
-  const int ca = coarse_at(a), cb = coarse_at(b);
+  const int ca = CoarseAt(a), cb = CoarseAt(b);
   const int block_a = block_of_.cells[static_cast<std::size_t>(ca)];
   const int block_b = block_of_.cells[static_cast<std::size_t>(cb)];
   if (block_a < 0 || block_b < 0) return std::numeric_limits<double>::infinity();

@@ -2,6 +2,7 @@
 // Shortest ways over a floor, and what they cost.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -19,6 +20,10 @@ class Ways {
   // About the length of Route(a, b), cells: exact in plain sight, over coarse cells nearby, over
   // blocks of floor from afar.
   double Distance(const Vec2& a, const Vec2& b);
+  // Remembers places for NearestPlaces.
+  void IndexPlaces(const std::vector<Vec2>& places);
+  // The indices of about the `count` places nearest to the one given, by way length, itself excluded.
+  std::vector<int> NearestPlaces(int place, std::size_t count);
   // The pose cell nearest to p within `reach` cells, or p's own; {-1, -1}: none.
   Cell NearestPose(const Vec2& p, double reach) const;
 
@@ -30,6 +35,7 @@ class Ways {
   };
   bool Search(Cell from, Cell to, std::vector<Cell>& cells);
   double CoarseDistance(int from, int to);
+  int CoarseAt(const Vec2& p) const;
   void BuildBlocks();
 
   const Floor& floor_;
@@ -41,6 +47,10 @@ class Ways {
   Grid<std::uint8_t> coarse_;
   std::vector<Node> coarse_nodes_;
   std::uint32_t coarse_stamp_ = 0;
+
+  std::array<std::vector<int>, 8> buckets_;
+  std::vector<int> place_cell_;               // coarse cell of each place
+  std::vector<int> first_place_, place_list_;  // places by coarse cell
 
   int block_ = 16;               // fine cells a block
   Grid<std::int32_t> block_of_;  // per coarse cell: the connected piece of a block it is in
