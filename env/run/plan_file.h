@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// plan.csv: a waypoint a row, ours and a user's own alike.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "env/core/hazard_map.h"
+#include "env/core/path.h"
+
+namespace floorproof {
+
+// Columns x_m, y_m (needed), yaw_rad, shape, speed_mps, dwell_s (each optional, empty cells
+// allowed), in any order, named in the first row. Throws InputError naming file, line, column,
+// value and rule: text for numbers, unknown columns, no waypoint, a point off the map.
+Path ReadPlan(const std::filesystem::path& file, const GridFrame& map);
+std::string PlanCsv(const Path& path);
+
+}  // namespace floorproof

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/run/records.h"
+
+#include <floorproof/version.h>
+#include <fmt/format.h>
+#include <mujoco/mujoco.h>
+#include <sys/utsname.h>
+
+#include "env/run/file_output.h"
+#include "env/run/plan_file.h"
+
+namespace floorproof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json Versions() {
+  utsname system{};
+  uname(&system);
+  return {{"floorproof", FLOORPROOF_VERSION},
+          {"mujoco", mj_versionString()},
+          {"compiler", FLOORPROOF_COMPILER},
+          {"machine", std::string(system.sysname) + " " + system.machine}};
+}
+
+Json EventJson(const Event& e) {
+  Json json = {{"mode", Name(e.mode)}, {"kind", e.kind},   {"t_s", e.t_s},
+               {"x_m", e.x_m},         {"y_m", e.y_m},     {"yaw_rad", e.yaw_rad},
+               {"hazard", e.hazard},   {"value", e.value}, {"threshold", e.threshold},
+               {"effect", e.effect}};
+  Json evidence = Json::object();
+  for (const auto& [name, value] : e.evidence) evidence[name] = value;
+  json["evidence"] = std::move(evidence);
+  return json;
+}
+
+}  // namespace
+
+Json PlanJson(const Scenario& s, const PlanResult& plan) {
+  const bool circle = plan.clear.kind == Shape2::Kind::kCircle;
+  PathCoverage covered;
+  double area_m2 = 0;
+  if (!plan.path.empty()) {
+    const SweepArea area = ComputeSweepArea(KnownPart(s.site.map), plan.clear, plan.tool,
+                                            s.robot.robot.step_m, s.start.p());
+    covered = MeasureCoverage(area, plan.tool, plan.path);
+    area_m2 = area.area_m2();
+  }
+  Json json = {{"status", Name(plan.status)},
+               {"message", plan.message},
+               {"planner", s.planner ? s.planner_name : "file"},
+               {"length_m", Length(plan.path)},
+               {"turns", CountTurns(plan.path)},
+               {"waypoints", plan.path.size()},
+               {"coverage", covered.coverage},
+               {"overlap", covered.overlap},
+               {"sweepable_m2", area_m2},
+               {"tool_width_m", plan.tool_width_m},
+               {"keeps_clear", circle ? "circle" : "footprint"},
+               {"radius_m", circle ? plan.clear.radius_m : s.robot.robot.inscribed_radius_m}};
+  for (const auto& [name, value] : plan.figures) json[name] = value;
+  return json;
+}
+
+Json ResultJson(const Scenario& s, const EpisodeRecord& record) {
+  const Metrics& m = record.metrics;
+  Json events = Json::array(), margins = Json::object();
+  for (const auto& event : record.events) events.push_back(EventJson(event));
+  for (const auto& margin : record.margins) margins[margin.detector] = margin.value;
+  return {{"schema", 1},
+          {"scenario", s.name},
+          {"robot", s.robot_name},
+          {"site", s.site.map.name},
+          {"outcome", Name(record.outcome)},
+          {"message", record.message},
+          {"events", std::move(events)},
+          {"metrics",
+           {{"coverage", m.coverage},
+            {"overlap", m.overlap},
+            {"path_length_m", m.path_length_m},
+            {"duration_s", m.duration_s},
+            {"energy_j", m.energy_j},
+            {"max_cross_track_m", m.max_cross_track_m},
+            {"mean_cross_track_m", m.mean_cross_track_m},
+            {"turns", m.turns},
+            {"interventions", m.interventions},
+            {"contacts", m.contacts},
+            {"max_impulse_ns", m.max_impulse_ns}}},
+          {"margins", std::move(margins)},
+          {"steps", record.steps},
+          {"seed", s.episode.seed},
+          {"versions", Versions()}};
+}
+
+std::string TraceCsv(const EpisodeRecord& record) {
+  fmt::memory_buffer out;
+  fmt::format_to(std::back_inserter(out),
+                 "t_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,vx_mps,vy_mps,wz_radps,cmd_vx_mps,"
+                 "cmd_vy_mps,cmd_wz_radps,est_x_m,est_y_m,est_yaw_rad,cross_track_m,power_w,"
+                 "coverage,shape\n");
+  for (const auto& r : record.trace)
+    fmt::format_to(std::back_inserter(out),
+                   "{:.3f},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},\n", r.t_s, r.x_m,
+                   r.y_m, r.z_m, r.roll_rad, r.pitch_rad, r.yaw_rad, r.vx_mps, r.vy_mps, r.wz_radps,
+                   r.cmd_vx_mps, r.cmd_vy_mps, r.cmd_wz_radps, r.est_x_m, r.est_y_m, r.est_yaw_rad,
+                   r.cross_track_m, r.power_w, r.coverage);
+  return fmt::to_string(out);
+}
+
+void WritePlanFiles(const Scenario& s, const PlanResult& plan,
+                    const std::filesystem::path& folder) {
+  WriteFileWhole(folder / "scenario.resolved.yaml", ResolvedScenario(s, folder));
+  WriteFileWhole(folder / "plan.csv", PlanCsv(plan.path));
+  WriteFileWhole(folder / "plan.json", PlanJson(s, plan).dump(2) + "\n");
+}
+
+void WriteEpisodeFiles(const Scenario& s, const EpisodeRecord& record,
+                       const std::filesystem::path& folder) {
+  WriteFileWhole(folder / "trace.csv", TraceCsv(record));
+  if (record.outcome != Outcome::kInterrupted)
+    WriteFileWhole(folder / "result.json", ResultJson(s, record).dump(2) + "\n");
+}
+
+}  // namespace floorproof

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files that a plan or an episode leaves in its output folder.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "env/run/episode.h"
+#include "env/run/scenario.h"
+
+namespace floorproof {
+
+// plan.json's content: status, planner, length_m, turns, coverage, overlap, ...
+nlohmann::ordered_json PlanJson(const Scenario& scenario, const PlanResult& plan);
+// result.json's content: schema, outcome, events, metrics, margins, seed, versions. No wall times.
+nlohmann::ordered_json ResultJson(const Scenario& scenario, const EpisodeRecord& record);
+std::string TraceCsv(const EpisodeRecord& record);
+
+// scenario.resolved.yaml, plan.csv and plan.json.
+void WritePlanFiles(const Scenario& scenario, const PlanResult& plan,
+                    const std::filesystem::path& folder);
+// trace.csv, and, unless the episode was interrupted, result.json (last: it says the rest is
+// whole).
+void WriteEpisodeFiles(const Scenario& scenario, const EpisodeRecord& record,
+                       const std::filesystem::path& folder);
+
+}  // namespace floorproof

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/run/scenario.h"
+
+#include <algorithm>
+
+#include "env/run/file_output.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kKeys = {
+    "scenario",     "site",    "robot",      "start",    "goal",     "plan",       "controller",
+    "estimator",    "physics", "control_hz", "trace_hz", "failures", "on_failure", "success",
+    "time_limit_s", "seed",    "drive",      "video",    "files"};
+
+ConfigNode EmptyMap(const SourceMark& mark) {
+  ConfigNode node = ConfigNode::Map();
+  node.mark = mark;
+  return node;
+}
+
+// `--set`: site.* reaches into the site's own tree, once that is read.
+void Apply(const std::vector<Override>& overrides, bool to_site, ConfigNode& root) {
+  constexpr std::string_view kSite = "site.";
+  for (const auto& o : overrides) {
+    const bool is_site = o.key_path.starts_with(kSite);
+    if (is_site != to_site) continue;
+    ConfigNode value = ParseYaml(o.value, "--set " + o.key_path);
+    root.SetPath(is_site ? std::string_view(o.key_path).substr(kSite.size()) : o.key_path,
+                 std::move(value));
+  }
+}
+
+// A plug-in written as NAME, or as a map with its name under `name_key` and its parameters beside.
+struct Named {
+  std::string name;
+  ConfigNode params;
+  SourceMark mark;
+};
+Named ReadNamed(const ConfigNode& root, const char* key, const char* name_key,
+                std::string_view default_name) {
+  const ConfigNode* node = root.Find(key);
+  if (node == nullptr || node->IsNull())
+    return {std::string(default_name), EmptyMap(root.mark), root.mark};
+  if (node->IsScalar()) return {node->scalar, EmptyMap(node->mark), node->mark};
+  if (!node->IsMap()) throw InputError(node->mark, key, "", "must be a name or a map");
+  const ConfigNode* name = node->Find(name_key);
+  return {name ? AsString(*name, std::string(key) + "." + name_key) : std::string(default_name),
+          *node, name ? name->mark : node->mark};
+}
+
+void ReadSitePart(const ConfigNode& root, const std::vector<Override>& overrides, Scenario& s) {
+  const ConfigNode* node = root.Find("site");
+  if (node == nullptr) throw InputError(root.mark, "site", "", "the key is missing");
+  const fs::path folder = s.file.parent_path();
+  fs::path site_file;
+  if (node->IsMap()) {
+    s.site_node = *node;
+    s.site_folder = folder;
+  } else {
+    site_file = folder / AsString(*node, "site");
+    if (!fs::exists(site_file)) throw InputError(node->mark, "site", node->scalar, "no such file");
+    s.site_node = ReadYamlFile(site_file);
+    s.site_folder = site_file.parent_path();
+  }
+  Apply(overrides, true, s.site_node);
+  s.site = ReadSite(s.site_node, s.site_folder);
+  if (s.site.map.name.empty())
+    s.site.map.name = site_file.empty() ? s.name : site_file.stem().string();
+}
+
+void ReadRobotPart(const ConfigNode& root, Scenario& s) {
+  const Named named = ReadNamed(root, "robot", "name", "");
+  if (named.name.empty()) throw InputError(named.mark, "robot", "", "the key is missing");
+  s.robot_name = named.name;
+  s.robot_file = FindRobotFile(named.name, named.mark);
+  if (s.robot_file.is_relative()) s.robot_file = s.file.parent_path() / s.robot_file;
+  ReadParams(named.params, "robot.",
+             [&](ParamVisitor& v) {
+               v("mass_kg", s.robot_changes.mass_kg, Positive(),
+                 "total mass (kg); none: the model's");
+               v("clearance_m", s.robot_changes.clearance_m, Positive(),
+                 "belly above the floor (m); none: the model's");
+             },
+             {"name"});
+  s.robot = ReadRobot(s.robot_file, s.robot_changes);
+}
+
+// Degrees as they are written: in (-180, 180], to a billionth, so that a resolved file read again
+// gives the very same radians.
+double CanonicalDegrees(double yaw_deg) {
+  yaw_deg = std::round(std::remainder(yaw_deg, 360.0) * 1e9) / 1e9;
+  return yaw_deg <= -180 ? yaw_deg + 360 : yaw_deg + 0.0;
+}
+
+Pose2 ReadStart(const ConfigNode& root, const HazardMap& map) {
+  Pose2 start = map.start.value_or(Pose2{});
+  const ConfigNode* node = root.Find("start");
+  if (node == nullptr) {
+    if (!map.start)
+      throw InputError(root.mark, "start", "",
+                       "neither the scenario nor its site says where to start");
+    start.yaw_rad = CanonicalDegrees(start.yaw_rad * 180 / kPi) * kPi / 180;
+    return start;
+  }
+  double yaw_deg = start.yaw_rad * 180 / kPi;
+  ReadParams(*node, "start.", [&](ParamVisitor& v) {
+    v("x_m", start.x_m, Any(), "x of the robot's centre (m)");
+    v("y_m", start.y_m, Any(), "y of the robot's centre (m)");
+    v("yaw_deg", yaw_deg, Any(), "heading (deg, from x to y)");
+  });
+  start.yaw_rad = CanonicalDegrees(yaw_deg) * kPi / 180;
+  return start;
+}
+
+void CheckStart(const ConfigNode& root, const Scenario& s) {
+  const ConfigNode* node = root.Find("start");
+  const SourceMark mark = node ? node->mark : root.mark;
+  const Cell cell = s.site.map.frame.ToCell(s.start.p());
+  const std::string value = FormatDouble(s.start.x_m) + ", " + FormatDouble(s.start.y_m);
+  if (!s.site.map.frame.Inside(cell)) throw InputError(mark, "start", value, "lies off the map");
+  if (s.site.map.IsWall(cell)) throw InputError(mark, "start", value, "lies in a wall");
+}
+
+void ReadPlanPart(const ConfigNode& root, Scenario& s) {
+  const ConfigNode* node = root.Find("plan");
+  if (const ConfigNode* file = node && node->IsMap() ? node->Find("file") : nullptr) {
+    RefuseUnknownKeys(*node, "plan.", {"file"});
+    s.plan_file = s.file.parent_path() / AsString(*file, "plan.file");
+    if (!fs::exists(s.plan_file))
+      throw InputError(file->mark, "plan.file", file->scalar, "no such file");
+    return;
+  }
+  const Named named = ReadNamed(root, "plan", "planner", "boustrophedon");
+  s.planner_name = named.name;
+  s.planner = MakePlugin(Planners(), named.name, "plan.planner", named.mark);
+  ReadParams(named.params, "plan.", *s.planner, {"planner"});
+}
+
+void ReadControl(const ConfigNode& root, Scenario& s) {
+  const Named tracker = ReadNamed(root, "controller", "name", DefaultTracker(s.robot.robot.drive));
+  s.tracker_name = tracker.name;
+  s.tracker = MakePlugin(Trackers(), tracker.name, "controller", tracker.mark);
+  ReadParams(tracker.params, "controller.", *s.tracker, {"name"});
+  const auto drives = s.tracker->Drives();
+  if (std::ranges::find(drives, s.robot.robot.drive) == drives.end())
+    throw InputError(tracker.mark, "controller", tracker.name,
+                     "cannot command the drive " + s.robot.robot.drive + " of " + s.robot_name);
+  const Named estimator = ReadNamed(root, "estimator", "name", Estimators().front().name);
+  s.estimator_name = estimator.name;
+  s.estimator = MakePlugin(Estimators(), estimator.name, "estimator", estimator.mark);
+  ReadParams(estimator.params, "estimator.", *s.estimator, {"name"});
+}
+
+void ReadFailures(const ConfigNode& root, Scenario& s) {
+  const ConfigNode* node = root.Find("failures");
+  const ConfigNode none = EmptyMap(root.mark);
+  if (node == nullptr || node->IsNull()) node = &none;
+  if (!node->IsMap()) throw InputError(node->mark, "failures", "", "must be a map of detectors");
+  RefuseUnknownKeys(*node, "failures.", PluginNames(Detectors()));
+  for (const auto& entry : Detectors()) {
+    auto detector = entry.make();
+    const std::string name(entry.name);
+    if (const ConfigNode* params = node->Find(name))
+      ReadParams(*params, "failures." + name + ".", *detector);
+    s.detectors.push_back(std::move(detector));
+  }
+}
+
+// Refuses to run a resolved scenario whose files are no longer the ones it was resolved from.
+void CheckHashes(const ConfigNode& root, const fs::path& folder) {
+  const ConfigNode* files = root.Find("files");
+  if (files == nullptr) return;
+  if (!files->IsMap()) throw InputError(files->mark, "files", "", "must be a map of path: SHA-256");
+  for (const auto& [path, hash] : files->entries) {
+    const std::string now = Sha256OfFile(folder / path);
+    if (now != AsString(hash, "files." + path))
+      throw InputError(hash.mark, "files." + path, hash.scalar,
+                       "the file has changed since: SHA-256 " + now);
+  }
+}
+
+void ReadTop(const ConfigNode& root, Scenario& s) {
+  std::vector<std::string> others = kKeys;
+  ReadParams(
+      root, "", [&](ParamVisitor& v) { s.episode.Visit(v); }, others);
+  if (const ConfigNode* physics = root.Find("physics"))
+    ReadParams(*physics, "physics.", [&](ParamVisitor& v) { s.physics.Visit(v); });
+  if (const ConfigNode* video = root.Find("video"))
+    ReadParams(*video, "video.", [&](ParamVisitor& v) { s.video.Visit(v); });
+  const double steps = 1 / (s.physics.timestep_s * s.episode.control_hz);
+  if (steps < 1 || std::abs(steps - std::round(steps)) > 1e-9 * steps) {
+    const ConfigNode* node = root.Find("control_hz");
+    throw InputError(node ? node->mark : root.mark, "control_hz",
+                     std::to_string(s.episode.control_hz),
+                     "a control period must be a whole number of steps of " +
+                         FormatDouble(s.physics.timestep_s) + " s");
+  }
+  if (s.episode.control_hz % s.episode.trace_hz != 0) {
+    const ConfigNode* node = root.Find("trace_hz");
+    throw InputError(node ? node->mark : root.mark, "trace_hz", std::to_string(s.episode.trace_hz),
+                     "must divide control_hz = " + std::to_string(s.episode.control_hz));
+  }
+}
+
+}  // namespace
+
+void VideoParams::Visit(ParamVisitor& v) {
+  v("camera", camera, {"chase", "top", "side"}, "where the film is taken from");
+  v("fps", fps, Between(1, 120), "frames a second of film");
+  v("speed_up", speed_up, Positive(),
+    "simulated seconds a second of film; none: such that it keeps to max_frames");
+  v("max_frames", max_frames, Between(2, 1e6), "most frames of a film");
+  v("width", width, Between(64, 1920), "pixels, even");
+  v("height", height, Between(64, 1080), "pixels, even");
+}
+
+void EpisodeParams::Visit(ParamVisitor& v) {
+  v("control_hz", control_hz, Between(1, 2000), "control periods a second");
+  v("trace_hz", trace_hz, Between(1, 2000), "rows of trace.csv a second");
+  v("on_failure", on_failure, {"stop", "ignore"},
+    "stop: the first failure ends the episode; ignore: it is logged and the drive goes on");
+  v.Group(
+      "success",
+      [this](ParamVisitor& g) {
+        g("min_coverage", min_coverage, Between(0, 1), "least coverage that counts as success");
+      },
+      "what counts as success");
+  v("time_limit_s", time_limit_s, Positive(),
+    "simulated seconds; none: a minute and three times what the plan takes at its own speeds");
+  v("drive", drive, {"physics", "none"}, "physics: drive the plan; none: plan only");
+  v("seed", seed, Between(0, 2147483647.0), "of every random stream");
+}
+
+Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrides) {
+  ConfigNode root = ReadYamlFile(file);
+  if (!root.IsMap()) throw InputError({file.string(), 1}, "", "", "must be a map of keys");
+  Apply(overrides, false, root);
+  RefuseUnknownKeys(root, "", kKeys);
+  const ConfigNode* version = root.Find("scenario");
+  if (version == nullptr)
+    throw InputError(root.mark, "scenario", "", "the key is missing (scenario: 1)");
+  AsInt(*version, "scenario", Between(1, 1));
+
+  Scenario s;
+  s.file = file;
+  s.name = file.stem().string();
+  if (s.name.ends_with(".resolved")) s.name.resize(s.name.size() - std::string(".resolved").size());
+  ReadTop(root, s);
+  CheckHashes(root, file.parent_path());
+  ReadSitePart(root, overrides, s);
+  ReadRobotPart(root, s);
+  s.start = ReadStart(root, s.site.map);
+  CheckStart(root, s);
+  s.goal = s.site.map.goal;
+  if (const ConfigNode* goal = root.Find("goal")) {
+    Vec2 p = s.goal.value_or(Vec2::Zero());
+    ReadParams(*goal, "goal.", [&](ParamVisitor& v) {
+      v("x_m", p.x(), Any(), "m");
+      v("y_m", p.y(), Any(), "m");
+    });
+    if (!s.site.map.frame.Inside(s.site.map.frame.ToCell(p)))
+      throw InputError(goal->mark, "goal", FormatDouble(p.x()) + ", " + FormatDouble(p.y()),
+                       "lies off the map");
+    s.goal = p;
+  }
+  ReadPlanPart(root, s);
+  ReadControl(root, s);
+  ReadFailures(root, s);
+  return s;
+}
+
+std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
+  const auto scalar = [](double v) { return ConfigNode::Scalar(FormatDouble(v)); };
+  const auto from_here = [&](const fs::path& path) {
+    return fs::relative(fs::absolute(path), fs::absolute(folder)).string();
+  };
+  ConfigNode root = ConfigNode::Map();
+  root.Add("scenario", ConfigNode::Scalar("1"));
+  root.Add("site", ResolveSite(s.site_node, s.site_folder, folder));
+  root.Find("site")->Add("name", ConfigNode::Scalar(s.site.map.name, true));
+
+  ConfigNode robot = ConfigNode::Map();
+  const bool bundled =
+      std::ranges::any_of(Robots(), [&](const auto& r) { return r.name == s.robot_name; });
+  robot.Add("name", ConfigNode::Scalar(bundled ? s.robot_name : from_here(s.robot_file), true));
+  robot.Add("mass_kg", s.robot_changes.mass_kg ? scalar(*s.robot_changes.mass_kg)
+                                               : ConfigNode::Scalar("none"));
+  robot.Add("clearance_m", s.robot_changes.clearance_m ? scalar(*s.robot_changes.clearance_m)
+                                                       : ConfigNode::Scalar("none"));
+  root.Add("robot", std::move(robot));
+
+  ConfigNode start = ConfigNode::Map();
+  start.Add("x_m", scalar(s.start.x_m));
+  start.Add("y_m", scalar(s.start.y_m));
+  start.Add("yaw_deg", scalar(CanonicalDegrees(s.start.yaw_rad * 180 / kPi)));
+  root.Add("start", std::move(start));
+  if (s.goal) {
+    ConfigNode goal = ConfigNode::Map();
+    goal.Add("x_m", scalar(s.goal->x()));
+    goal.Add("y_m", scalar(s.goal->y()));
+    root.Add("goal", std::move(goal));
+  }
+
+  ConfigNode plan = ConfigNode::Map();
+  if (s.planner) {
+    plan.Add("planner", ConfigNode::Scalar(s.planner_name, true));
+    WriteParams(*s.planner, plan);
+  } else {
+    plan.Add("file", ConfigNode::Scalar(from_here(s.plan_file), true));
+  }
+  root.Add("plan", std::move(plan));
+
+  const auto plugin = [](const std::string& name, Configurable& c) {
+    ConfigNode node = ConfigNode::Map();
+    node.Add("name", ConfigNode::Scalar(name, true));
+    WriteParams(c, node);
+    return node;
+  };
+  root.Add("controller", plugin(s.tracker_name, *s.tracker));
+  root.Add("estimator", plugin(s.estimator_name, *s.estimator));
+  ConfigNode failures = ConfigNode::Map();
+  for (std::size_t i = 0; i < s.detectors.size(); ++i) {
+    ConfigNode params = ConfigNode::Map();
+    WriteParams(*s.detectors[i], params);
+    failures.Add(std::string(Detectors()[i].name), std::move(params));
+  }
+  root.Add("failures", std::move(failures));
+
+  EpisodeParams episode = s.episode;
+  WriteParams([&](ParamVisitor& v) { episode.Visit(v); }, root);
+  ConfigNode physics = ConfigNode::Map(), video = ConfigNode::Map();
+  PhysicsParams physics_params = s.physics;
+  WriteParams([&](ParamVisitor& v) { physics_params.Visit(v); }, physics);
+  root.Add("physics", std::move(physics));
+  VideoParams video_params = s.video;
+  WriteParams([&](ParamVisitor& v) { video_params.Visit(v); }, video);
+  root.Add("video", std::move(video));
+
+  // What reading this file again will read: the site now stands within it.
+  ConfigNode files = ConfigNode::Map();
+  const auto add_file = [&](const fs::path& path) {
+    files.Add(from_here(path), ConfigNode::Scalar(Sha256OfFile(path), true));
+  };
+  for (const auto& path : s.site.files_read) add_file(path);
+  add_file(s.robot_file);
+  if (!s.plan_file.empty()) add_file(s.plan_file);
+  root.Add("files", std::move(files));
+  return "# Every key with the value used. Paths hold from this folder.\n" + WriteYaml(root);
+}
+
+}  // namespace floorproof
