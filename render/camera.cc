@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/camera.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace floorproof {
+namespace {
+
+constexpr double kDegree = kPi / 180;
+
+// First-order low pass: the share of the way to go in dt_s.
+double Share(double dt_s, double tau_s) { return 1 - std::exp(-dt_s / tau_s); }
+
+Vec3 Lift(const Vec2& p, double z_m) { return {p.x(), p.y(), z_m}; }
+
+// Follows a point with a lag of tau_s, but no farther behind than max_lag_m (a time lapse is fast).
+class Follower {
+ public:
+  void Reset(const Vec2& p) { p_ = p; }
+  Vec2 Next(const Vec2& p, double dt_s, double tau_s, double max_lag_m) {
+    p_ += Share(dt_s, tau_s) * (p - p_);
+    const Vec2 lag = p_ - p;
+    if (lag.norm() > max_lag_m) p_ = p + lag.normalized() * max_lag_m;
+    return p_;
+  }
+
+ private:
+  Vec2 p_ = Vec2::Zero();
+};
+
+// Turns towards a heading. The heading is averaged first as a vector, so that a robot that mows to
+// and fro in a time lapse averages out instead of swinging the camera; then the rate is bounded.
+class Panner {
+ public:
+  void Reset(double yaw_rad) {
+    yaw_rad_ = yaw_rad;
+    mean_ = {std::cos(yaw_rad), std::sin(yaw_rad)};
+  }
+  double Next(double yaw_rad, double dt_s) {
+    constexpr double kAverage_s = 1.5, kTurn_s = 0.6, kMaxRate = 45 * kDegree;
+    mean_ += Share(dt_s, kAverage_s) * (Vec2(std::cos(yaw_rad), std::sin(yaw_rad)) - mean_);
+    const double trust = std::min(1.0, mean_.norm());  // a vector near zero points nowhere
+    const double error = WrapAngle(std::atan2(mean_.y(), mean_.x()) - yaw_rad_);
+    const double limit = kMaxRate * trust * dt_s;
+    yaw_rad_ = WrapAngle(yaw_rad_ + std::clamp(Share(dt_s, kTurn_s) * error, -limit, limit));
+    return yaw_rad_;
+  }
+
+ private:
+  double yaw_rad_ = 0;
+  Vec2 mean_ = Vec2::UnitX();
+};
+
+// Behind the robot and well above it, so that walls do not hide it.
+class Chase : public Camera {
+ public:
+  void Reset(const FilmSet& set, const Pose2& X_WB) override {
+    distance_m_ = 1.3 + 4.0 * set.robot_radius_m;
+    follower_.Reset(X_WB.p());
+    panner_.Reset(X_WB.yaw_rad);
+  }
+  CameraView Next(const Pose2& X_WB, double dt_s) override {
+    const Vec2 p = follower_.Next(X_WB.p(), dt_s, 0.25, 0.15 * distance_m_);
+    const double yaw = panner_.Next(X_WB.yaw_rad, dt_s);
+    const Vec2 ahead(std::cos(yaw), std::sin(yaw));
+    constexpr double kElevation = 38 * kDegree;
+    CameraView view;
+    view.target_W = Lift(p + 0.12 * distance_m_ * ahead, 0.05);
+    view.eye_W =
+        view.target_W + distance_m_ * Lift(-std::cos(kElevation) * ahead, std::sin(kElevation));
+    view.fovy_rad = 45 * kDegree;
+    return view;
+  }
+
+ private:
+  double distance_m_ = 3;
+  Follower follower_;
+  Panner panner_;
+};
+
+// From straight above, north up: the whole site if the robot stays visible, else a part of it that
+// follows the robot without looking beyond the site.
+class Top : public Camera {
+ public:
+  void Reset(const FilmSet& set, const Pose2& X_WB) override {
+    set_ = set;
+    const Vec2 size = (set.high_W - set.low_W).cwiseMax(0.1);
+    // The overlay's bars take a tenth of the height.
+    const double whole_m = std::max(1.2 * size.y(), 1.06 * size.x() / set.aspect);
+    height_m_ = std::min(whole_m, 40 * set.robot_radius_m);
+    follower_.Reset(X_WB.p());
+  }
+  CameraView Next(const Pose2& X_WB, double dt_s) override {
+    const Vec2 p = follower_.Next(X_WB.p(), dt_s, 0.5, 0.25 * height_m_);
+    const Vec2 half = 0.5 * height_m_ * Vec2(set_.aspect, 1);
+    const Vec2 centre = 0.5 * (set_.low_W + set_.high_W);
+    Vec2 q;
+    for (int i = 0; i < 2; ++i) {
+      const double slack = std::max(0.0, 0.6 * (set_.high_W - set_.low_W)[i] - half[i]);
+      q[i] = std::clamp(p[i], centre[i] - slack, centre[i] + slack);
+    }
+    CameraView view;
+    constexpr double kFovy = 24 * kDegree;  // nearly parallel: walls hide little floor
+    view.fovy_rad = kFovy;
+    view.target_W = Lift(q, 0);
+    view.eye_W = Lift(q, 0.5 * height_m_ / std::tan(0.5 * kFovy));
+    view.up_W = Vec3::UnitY();
+    return view;
+  }
+
+ private:
+  FilmSet set_;
+  double height_m_ = 5;
+  Follower follower_;
+};
+
+// Low beside the robot, to watch its wheels meet the floor.
+class Side : public Camera {
+ public:
+  void Reset(const FilmSet& set, const Pose2& X_WB) override {
+    distance_m_ = 0.35 + 3.6 * set.robot_radius_m;
+    follower_.Reset(X_WB.p());
+    panner_.Reset(X_WB.yaw_rad);
+  }
+  CameraView Next(const Pose2& X_WB, double dt_s) override {
+    const Vec2 p = follower_.Next(X_WB.p(), dt_s, 0.2, 0.1 * distance_m_);
+    const double yaw = panner_.Next(X_WB.yaw_rad, dt_s) - 80 * kDegree;
+    constexpr double kElevation = 13 * kDegree;
+    CameraView view;
+    view.target_W = Lift(p, 0.06);
+    view.eye_W = view.target_W +
+                 distance_m_ * Lift(std::cos(kElevation) * Vec2(std::cos(yaw), std::sin(yaw)),
+                                    std::sin(kElevation));
+    view.fovy_rad = 38 * kDegree;
+    return view;
+  }
+
+ private:
+  double distance_m_ = 1.2;
+  Follower follower_;
+  Panner panner_;
+};
+
+template <class T>
+std::unique_ptr<Camera> Make() {
+  return std::make_unique<T>();
+}
+
+constexpr std::array kCameras = {
+    PluginEntry<Camera>{"chase", "behind the robot and above it", Make<Chase>},
+    PluginEntry<Camera>{"top", "from above: the whole site, or what is around the robot",
+                        Make<Top>},
+    PluginEntry<Camera>{"side", "low beside the robot, at its wheels", Make<Side>},
+};
+
+}  // namespace
+
+std::span<const PluginEntry<Camera>> Cameras() { return kCameras; }
+
+}  // namespace floorproof

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/film.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+
+#include "env/core/error.h"
+#include "render/renderer.h"
+
+namespace floorproof {
+namespace {
+
+constexpr std::array<float, 4> kPlanRgba = {0.13f, 0.33f, 0.78f, 1.0f};
+constexpr std::array<float, 4> kTraceRgba = {0.05f, 0.55f, 0.50f, 0.15f};  // blended twice
+constexpr double kTraceZ_m = 0.0015, kPlanZ_m = 0.0025;
+constexpr double kJump_m = 0.3;  // between two states: the robot was carried
+
+struct DataDeleter {
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+
+double Seconds(std::chrono::steady_clock::time_point since) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
+}
+
+// Poses of the robot between recorded states.
+class Puppet {
+ public:
+  Puppet(const FilmScript& script)
+      : model_(script.model),
+        recording_(*script.recording),
+        data_(mj_makeData(script.model)),
+        velocity_(static_cast<std::size_t>(model_->nv)) {
+    const int joint = model_->body_jntadr[script.base_body];
+    if (joint < 0 || model_->jnt_type[joint] != mjJNT_FREE) {
+      throw InternalError("the filmed body stands on no free joint");
+    }
+    root_ = model_->jnt_qposadr[joint];
+  }
+
+  Vec3 Position(std::size_t state) const {
+    const double* q = recording_.qpos(state) + root_;
+    return {q[0], q[1], q[2]};
+  }
+  // The last state at or before t_s; times only ascend.
+  std::size_t StateAt(double t_s) {
+    while (at_ + 1 < recording_.size() && recording_.t_s(at_ + 1) <= t_s) ++at_;
+    return at_;
+  }
+  mjData* Pose(double t_s) {
+    const std::size_t i = StateAt(t_s);
+    mju_copy(data_->qpos, recording_.qpos(i), static_cast<int>(model_->nq));
+    if (i + 1 < recording_.size() && (Position(i + 1) - Position(i)).norm() < kJump_m) {
+      const double span_s = recording_.t_s(i + 1) - recording_.t_s(i);
+      const double share = std::clamp((t_s - recording_.t_s(i)) / span_s, 0.0, 1.0);
+      mj_differentiatePos(model_, velocity_.data(), 1, recording_.qpos(i), recording_.qpos(i + 1));
+      mj_integratePos(model_, data_->qpos, velocity_.data(), share);
+    }
+    PoseForPicture(model_, data_.get());
+    return data_.get();
+  }
+  Pose2 X_WB() const {
+    const double* q = data_->qpos + root_;
+    const double yaw =
+        std::atan2(2 * (q[3] * q[6] + q[4] * q[5]), 1 - 2 * (q[5] * q[5] + q[6] * q[6]));
+    return {q[0], q[1], yaw};
+  }
+
+ private:
+  const mjModel* model_;
+  const Recording& recording_;
+  std::unique_ptr<mjData, DataDeleter> data_;
+  std::vector<mjtNum> velocity_;
+  int root_ = 0;
+  std::size_t at_ = 0;
+};
+
+// Paints what was driven as few straight stripes, so that see-through ones darken only where the
+// robot really passed twice.
+class Trail {
+ public:
+  Trail(FloorPaint& paint, double width_m) : paint_(paint), width_m_(width_m) {}
+
+  void Add(const Vec3& p) {
+    constexpr double kStep_m = 0.02, kStray_m = 0.015;
+    const double z_m = p.z() > 0.01 ? p.z() + kTraceZ_m : kTraceZ_m;
+    const Vec2 q(p.x(), p.y());
+    if (run_.empty() || (q - run_.back()).norm() > kJump_m) {
+      Begin(q, z_m);
+      return;
+    }
+    if ((q - run_.back()).norm() < kStep_m) return;
+    const bool strays = std::any_of(run_.begin() + 1, run_.end(), [&](const Vec2& between) {
+      return DistanceToSegment(run_.front(), q, between) > kStray_m;
+    });
+    if (strays || std::abs(z_m - z_m_) > 0.005) Begin(run_.back(), z_m);
+    run_.push_back(q);
+    paint_.MoveStripe(stripe_, run_.front(), q);
+  }
+
+ private:
+  void Begin(const Vec2& p, double z_m) {
+    run_.assign(1, p);
+    z_m_ = z_m;
+    stripe_ = paint_.AddStripe(p, p, z_m, width_m_, kTraceRgba);
+  }
+
+  FloorPaint& paint_;
+  double width_m_, z_m_ = 0;
+  std::vector<Vec2> run_;  // points since the last corner
+  std::size_t stripe_ = 0;
+};
+
+void PaintPlan(const Path& plan, double width_m, FloorPaint& paint) {
+  std::size_t from = 0;
+  for (std::size_t i = 1; i < plan.size(); ++i) {
+    const Vec2 &a = plan[from].p_W, &b = plan[i].p_W;
+    const bool straight_on = i + 1 < plan.size() &&
+                             DistanceToSegment(a, plan[i + 1].p_W, b) < 1e-3 &&
+                             (b - a).dot(plan[i + 1].p_W - b) >= 0;
+    if (straight_on || (b - a).norm() == 0) continue;
+    paint.AddStripe(a, b, kPlanZ_m, width_m, kPlanRgba);
+    from = i;
+  }
+}
+
+void Check(const FilmScript& script, const FilmOptions& options) {
+  if (script.recording->size() == 0) throw InternalError("there are no states to film");
+  if (script.recording->nq() != script.model->nq) {
+    throw InternalError("the recording is of another model");
+  }
+  if (options.width % 2 != 0 || options.height % 2 != 0 || options.width < 64 ||
+      options.height < 64) {
+    throw InputError("a film's width and height must be even and at least 64 pixels");
+  }
+  if (!(options.pace.fps > 0) || options.pace.fps > 240 || options.pace.max_frames < 2) {
+    throw InputError("a film needs at least 2 frames, at most 240 a second");
+  }
+}
+
+FilmSet WithAspect(FilmSet set, const FilmOptions& options) {
+  set.aspect = static_cast<double>(options.width) / options.height;
+  return set;
+}
+
+// Draws the frames of a film in order.
+class Studio {
+ public:
+  Studio(const FilmScript& script, const FilmOptions& options)
+      : script_(script),
+        set_(WithAspect(script.set, options)),
+        frame_s_(1 / options.pace.fps),
+        camera_(MakePlugin(Cameras(), options.camera, "video.camera")),
+        puppet_(script),
+        paint_((script.plan == nullptr ? 0 : static_cast<int>(script.plan->size())) + 4000),
+        trail_(paint_, script.tool_width_m),
+        renderer_(script.model, options.width, options.height, paint_.max_stripes()),
+        image_(renderer_.MakeImage()) {
+    if (script.plan == nullptr) return;
+    PaintPlan(*script.plan, 0.012 + 0.0012 * (set_.high_W - set_.low_W).maxCoeff(), paint_);
+  }
+
+  const Image& Draw(const FilmFrame& frame, bool last) {
+    mjData* data = puppet_.Pose(frame.t_s);
+    const std::size_t state = puppet_.StateAt(frame.t_s);
+    if (trodden_ == 0) camera_->Reset(set_, puppet_.X_WB());
+    for (; trodden_ <= state; ++trodden_) {
+      if (script_.tool_width_m > 0) trail_.Add(puppet_.Position(trodden_));
+    }
+    renderer_.Render(data, camera_->Next(puppet_.X_WB(), frame_s_), &paint_, image_);
+
+    std::optional<Banner> banner;
+    for (const Event& event : script_.events) {
+      if (event.t_s <= frame.t_s + 1e-9) banner = FailureBanner(event);
+    }
+    if (!banner && last) banner = script_.closing;
+    DrawOverlay({script_.title, frame.t_s, script_.recording->coverage(state), frame.speed_up,
+                 banner ? &*banner : nullptr},
+                image_);
+    return image_;
+  }
+
+ private:
+  const FilmScript& script_;
+  FilmSet set_;
+  double frame_s_;
+  std::unique_ptr<Camera> camera_;
+  Puppet puppet_;
+  FloorPaint paint_;
+  Trail trail_;
+  OffscreenRenderer renderer_;
+  Image image_;
+  std::size_t trodden_ = 0;
+};
+
+}  // namespace
+
+void Recording::Add(double t_s, const double* qpos, double coverage) {
+  t_s_.push_back(t_s);
+  coverage_.push_back(coverage);
+  qpos_.insert(qpos_.end(), qpos, qpos + nq_);
+}
+
+FilmResult WriteFilm(const FilmScript& script, const FilmOptions& options,
+                     const std::filesystem::path& path) {
+  Check(script, options);
+  const Recording& recording = *script.recording;
+  std::vector<double> events_s;
+  for (const Event& event : script.events) events_s.push_back(event.t_s);
+  const auto frames =
+      ScheduleFilm(recording.t_s(0), recording.t_s(recording.size() - 1), events_s, options.pace);
+  Studio studio(script, options);
+  const auto video = OpenVideo(path, options.width, options.height, options.pace.fps);
+  const auto still = [&](const char* name, const Image& image) {
+    if (options.stills) WritePng(*options.stills / name, image);
+  };
+
+  FilmResult result;
+  const Image* image = nullptr;
+  bool failure_shown = false;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const FilmFrame& frame = frames[i];
+    const bool last = frame.t_s == frames.back().t_s;
+    const bool stands = last && i > 0 && frames[i - 1].t_s == frame.t_s;
+    const auto begin = std::chrono::steady_clock::now();
+    if (!stands) image = &studio.Draw(frame, last);
+    result.render_s += Seconds(begin);
+
+    if (i == 0) still("frame_start.png", *image);
+    if (!failure_shown && !events_s.empty() && frame.t_s >= events_s.front() - 1e-9) {
+      still("frame_failure.png", *image);
+      failure_shown = true;
+    }
+    const auto encode = std::chrono::steady_clock::now();
+    video->Add(*image);
+    result.encode_s += Seconds(encode);
+  }
+  still("frame_end.png", *image);
+  video->Close();
+  result.frames = static_cast<int>(frames.size());
+  return result;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// A film of a recorded episode: posed, not simulated again.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "env/core/event.h"
+#include "env/core/path.h"
+#include "render/camera.h"
+#include "render/film_schedule.h"
+#include "render/overlay.h"
+
+namespace floorproof {
+
+// An episode's states, in order of time.
+class Recording {
+ public:
+  explicit Recording(int nq) : nq_(nq) {}
+  // `qpos` holds nq values; coverage 0 to 1, negative: unknown.
+  void Add(double t_s, const double* qpos, double coverage);
+  std::size_t size() const { return t_s_.size(); }
+  int nq() const { return nq_; }
+  double t_s(std::size_t i) const { return t_s_[i]; }
+  double coverage(std::size_t i) const { return coverage_[i]; }
+  const double* qpos(std::size_t i) const { return qpos_.data() + i * nq_; }
+
+ private:
+  int nq_;
+  std::vector<double> t_s_, coverage_, qpos_;
+};
+
+struct FilmScript {
+  const mjModel* model = nullptr;
+  int base_body = -1;  // the robot's; stands on a free joint, its origin at the floor
+  const Recording* recording = nullptr;
+  std::span<const Event> events;  // ascending in time; each is shown by a banner from its time on
+  std::optional<Banner> closing;  // over the last picture, where there was no event
+  std::string title;              // "beluga on staircase hall"
+  FilmSet set;                    // `aspect` is taken from the options
+  const Path* plan = nullptr;     // drawn on the floor
+  double tool_width_m = 0;        // the driven trace is painted this wide; 0: not
+};
+
+struct FilmOptions {
+  std::string camera = "chase";   // a name of Cameras()
+  int width = 960, height = 540;  // even
+  FilmPace pace;
+  // Where frame_start.png, frame_failure.png (the first event) and frame_end.png go; none: nowhere.
+  std::optional<std::filesystem::path> stills;
+};
+
+struct FilmResult {
+  int frames = 0;
+  double render_s = 0, encode_s = 0;  // wall time: picture and overlay; writing the film
+};
+
+// Writes an MP4. Throws InputError (a file that cannot be written, an unknown camera, an odd size)
+// or InternalError (no GL).
+FilmResult WriteFilm(const FilmScript& script, const FilmOptions& options,
+                     const std::filesystem::path& path);
+
+}  // namespace floorproof

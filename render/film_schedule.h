@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which moments of an episode a film shows, and for how long.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace floorproof {
+
+struct FilmPace {
+  double fps = 30;
+  // Seconds simulated a second of film; 0: the least of 1, 2, 3, 5, 8, 10, 15, 20, 30, 50, 80, 100,
+  // .. that fits max_frames. Raised to one of these where the episode is too long for what is
+  // asked.
+  double speed_up = 0;
+  int max_frames = 600;
+  double before_s = 4, after_s = 2;  // around an event time runs no faster than it does
+  double hold_s = 1.5;               // the last picture stands, in seconds of film
+};
+
+struct FilmFrame {
+  double t_s = 0;       // simulated
+  double speed_up = 1;  // at which this frame is passed
+};
+
+// From begin_s to end_s, both shown; `events_s` ascending. Events whose slow passages would take
+// more than half of the film are passed at the film's speed, the later ones first.
+std::vector<FilmFrame> ScheduleFilm(double begin_s, double end_s, std::span<const double> events_s,
+                                    const FilmPace& pace);
+
+}  // namespace floorproof

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/heatmap.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "render/heatmap_panel.h"
+
+namespace floorproof {
+namespace {
+
+constexpr Rgb kInk = {32, 38, 46}, kGrey = {110, 118, 128};
+constexpr int kColumn_px = 250, kTop_px = 64, kFoot_px = 64, kMargin_px = 24, kLeastHeight_px = 420;
+
+// The least of 1, 2, 5 times a power of ten that is not below `least`.
+double NiceStep(double least) {
+  const double decade = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double step : {1.0, 2.0, 5.0}) {
+    if (step * decade >= least * (1 - 1e-9)) return step * decade;
+  }
+  return 10 * decade;
+}
+
+cv::Mat Canvas(Image& image) { return {image.height, image.width, CV_8UC3, image.data.data()}; }
+cv::Scalar Colour(const Rgb& c) { return {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]}; }
+
+void DrawColourBar(Image& image, int x, int y, int height, const HeatRange& range,
+                   const HeatMapOptions& options) {
+  const TextStyle name{.cap_px = 11, .colour = kInk, .bold = true},
+      tick{.cap_px = 10, .colour = kInk};
+  DrawText(image, x, y, options.quantity, name);
+  const std::string unit = options.unit.empty() ? "" : "[" + options.unit + "]";
+  DrawText(image, x, y + 20, unit, tick);
+  y += 38;
+  constexpr int kWidth = 22;
+  const auto colours = Colours(options.colour_map);
+  for (int r = 0; r < height; ++r) {
+    const auto i = static_cast<std::size_t>(std::lround(255.0 * (height - 1 - r) / (height - 1)));
+    FillRectangle(image, x, y + r, x + kWidth, y + r + 1, colours[i], 1);
+  }
+  cv::Mat canvas = Canvas(image);
+  cv::rectangle(canvas, {x, y}, {x + kWidth - 1, y + height - 1}, Colour(kGrey), 1);
+  double step = NiceStep((range.high - range.low) / 6);
+  if (options.whole_numbers) step = std::max(1.0, step);
+  for (double v = std::ceil(range.low / step - 1e-9) * step; v <= range.high + 1e-9 * step;
+       v += step) {
+    const int row =
+        y +
+        static_cast<int>(std::lround((height - 1) * (range.high - v) / (range.high - range.low)));
+    cv::line(canvas, {x + kWidth, row}, {x + kWidth + 5, row}, Colour(kInk), 1);
+    DrawText(image, x + kWidth + 10, row + 5, Printf("%.6g", std::abs(v) < 1e-9 * step ? 0.0 : v),
+             tick);
+  }
+}
+
+void DrawLegend(Image& image, int x, int y, const std::vector<LegendLine>& lines) {
+  const TextStyle text{.cap_px = 10, .colour = kInk};
+  cv::Mat canvas = Canvas(image);
+  for (const LegendLine& line : lines) {
+    if (y > image.height - 10) break;
+    DrawSwatch(canvas, {x, y - 12, 22, 14}, line);
+    DrawText(image, x + 32, y, line.label, text);
+    y += 22;
+  }
+}
+
+// A bar of 1, 2 or 5 times a power of ten metres, about a fifth of the panel, with its ends marked.
+void DrawScaleBar(Image& image, int x, int y, double px_per_m, int panel_px) {
+  double metres = NiceStep(0.12 * panel_px / px_per_m);
+  const int length = static_cast<int>(std::lround(metres * px_per_m));
+  cv::Mat canvas = Canvas(image);
+  FillRectangle(image, x, y, x + length + 1, y + 4, kInk, 1);
+  FillRectangle(image, x, y - 5, x + 2, y + 4, kInk, 1);
+  FillRectangle(image, x + length - 1, y - 5, x + length + 1, y + 4, kInk, 1);
+  const std::string text = metres < 0.995 ? Printf("%g cm", 100 * metres) : Printf("%g m", metres);
+  DrawText(image, x + length + 12, y + 5, text, {.cap_px = 12, .colour = kInk});
+}
+
+// Towards the world's +y.
+void DrawNorth(Image& image, int x, int y, double map_yaw_rad) {
+  const double s = std::sin(map_yaw_rad), c = std::cos(map_yaw_rad);
+  const Vec2 along(s, -c), across(c, s);  // in pixels, y down
+  const Vec2 middle(x, y);
+  const auto at = [&](double a, double b) {
+    const Vec2 p = middle + a * along + b * across;
+    return cv::Point(static_cast<int>(std::lround(16 * p.x())),
+                     static_cast<int>(std::lround(16 * p.y())));
+  };
+  const std::array<cv::Point, 4> head = {at(15, 0), at(-11, 8), at(-6, 0), at(-11, -8)};
+  cv::Mat canvas = Canvas(image);
+  cv::fillConvexPoly(canvas, head.data(), 3, Colour(kInk), cv::LINE_AA, 4);
+  const std::array<cv::Point, 3> cut = {head[1], head[2], head[3]};
+  cv::fillConvexPoly(canvas, cut.data(), 3, cv::Scalar(255, 255, 255), cv::LINE_AA, 4);
+  const std::array<cv::Point, 3> left = {head[0], head[3], head[2]};
+  cv::fillConvexPoly(canvas, left.data(), 3, Colour(kInk), cv::LINE_AA, 4);
+  const Vec2 letter = middle + 26 * along;
+  DrawText(image, letter.x(), letter.y() + 5, "N",
+           {.cap_px = 10, .colour = kInk, .anchor = Anchor::kCentre, .bold = true});
+}
+
+}  // namespace
+
+Image DrawHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options) {
+  const HeatPanel panel = DrawPanel(map, values, options);
+  const bool bar = values != nullptr && options.categories.empty();
+  const int inner = std::max(panel.image.rows, kLeastHeight_px);
+  const int legend = 24 + 22 * static_cast<int>(panel.legend.size());
+  const int bar_px = std::clamp(inner - legend - 60, 120, 320);
+
+  Image image;
+  image.width = kMargin_px + panel.image.cols + kMargin_px + kColumn_px;
+  image.height = kTop_px + inner + kFoot_px;
+  image.channels = 3;
+  image.data.assign(static_cast<std::size_t>(image.width) * image.height * 3, 255);
+  cv::Mat canvas = Canvas(image);
+  const cv::Rect place(kMargin_px, kTop_px, panel.image.cols, panel.image.rows);
+  panel.image.copyTo(canvas(place));
+  cv::rectangle(canvas, cv::Rect(place.x - 1, place.y - 1, place.width + 2, place.height + 2),
+                Colour(kGrey), 1);
+
+  DrawText(image, kMargin_px, 40, options.title, {.cap_px = 17, .colour = kInk, .bold = true});
+  const int column = place.x + place.width + kMargin_px;
+  int y = kTop_px + 12;
+  if (bar) {
+    DrawColourBar(image, column, y, bar_px, panel.range, options);
+    y += bar_px + 80;
+  } else if (!options.quantity.empty()) {
+    const std::string unit = options.unit.empty() ? "" : " [" + options.unit + "]";
+    DrawText(image, column, y, options.quantity + unit,
+             {.cap_px = 11, .colour = kInk, .bold = true});
+    y += 28;
+  }
+  DrawLegend(image, column, y, panel.legend);
+  const int foot = kTop_px + panel.image.rows + 34;
+  DrawScaleBar(image, kMargin_px, foot, panel.px_per_m, panel.image.cols);
+  DrawNorth(image, place.x + place.width - 22, foot + 2, map.frame.X_WG.yaw_rad);
+  return image;
+}
+
+void WriteHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options,
+                  const std::filesystem::path& png) {
+  WritePng(png, DrawHeatMap(map, values, options));
+}
+
+}  // namespace floorproof

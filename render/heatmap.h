@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// A quantity over a floor, as a picture: map, values in colour, hazards, points, legend, scale.
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "env/core/hazard_map.h"
+#include "env/core/path.h"
+#include "env/media/media.h"
+#include "render/text.h"
+
+namespace floorproof {
+
+enum class ColourMap { kViridis, kInferno, kCividis };  // perceptually uniform
+
+// Values on a grid of their own (any cell size; any frame).
+struct HeatValues {
+  static constexpr float kNone = std::numeric_limits<float>::quiet_NaN();  // the floor shows
+  GridFrame frame;
+  Grid<float> values;
+};
+
+struct HeatCategory {
+  std::string label;
+  Rgb colour;
+};
+
+struct HeatPoint {
+  Vec2 p_W = Vec2::Zero();
+  std::string series;  // points of one series share a mark and a line of the legend
+};
+
+struct HeatMapOptions {
+  std::string title;
+  std::string quantity, unit;  // over the colour bar: "quantity [unit]"
+  ColourMap colour_map = ColourMap::kViridis;
+  std::optional<double> low, high;  // of the colour bar; none: of the values
+  bool whole_numbers = false;       // ticks at whole numbers only
+  // Not empty: a value v is category round(v), and the legend replaces the colour bar.
+  std::vector<HeatCategory> categories;
+  std::vector<HeatPoint> points;
+  const Path* plan = nullptr;
+};
+
+// In the map's own frame (an arrow shows the world's north, +y), cropped to what is known, 800 to
+// 1600 pixels on the longer side. A pixel over many cells is wall if one of them is, and shows the
+// mean of their values. `values` may be null.
+Image DrawHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options);
+// The same into a PNG; throws InputError when the file cannot be written.
+void WriteHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options,
+                  const std::filesystem::path& png);
+
+}  // namespace floorproof

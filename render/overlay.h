@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is written over a film's frame: a status bar below and, once it is known, the outcome above.
+#pragma once
+
+#include <string>
+
+#include "env/core/event.h"
+#include "env/media/media.h"
+
+namespace floorproof {
+
+struct Banner {
+  enum class Tone { kFailure, kWarning, kSuccess };
+  Tone tone = Tone::kFailure;
+  std::string headline;  // "FAILURE  roll over: fell"
+  std::string detail;    // one line of evidence; may be empty
+};
+
+struct Overlay {
+  std::string title;    // robot and site; cut short if the bar is too narrow
+  double t_s = 0;       // simulated time
+  double coverage = 0;  // 0 to 1; negative: not shown
+  double speed_up = 1;  // seconds simulated a second of film
+  const Banner* banner = nullptr;
+};
+
+// Draws over an RGB picture of any size; all measures follow its height.
+void DrawOverlay(const Overlay& overlay, Image& image);
+// Rows of the picture that the two bars take: the banner [0, top), the status bar [bottom, height).
+struct OverlayRows {
+  int top = 0, bottom = 0;
+};
+OverlayRows RowsOf(const Image& image);
+
+// "wheels at -0.148 m, lowest allowed -0.030 m": an event's inequality in words.
+std::string Describe(const Event& event);
+Banner FailureBanner(const Event& event);
+
+}  // namespace floorproof

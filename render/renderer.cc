@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/renderer.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "env/core/error.h"
+#include "render/gl_context.h"
+
+namespace floorproof {
+namespace {
+
+constexpr float kOpaque = 0.995f;  // MuJoCo's own limit
+
+Eigen::Vector3f F(const Vec3& v) { return v.cast<float>(); }
+Eigen::Map<Eigen::Vector3f> Pos(mjvGeom& geom) { return Eigen::Map<Eigen::Vector3f>(geom.pos); }
+
+mjvGLCamera GlCamera(const CameraView& view, double near_m, double far_m) {
+  mjvGLCamera camera{};
+  const Vec3 forward = (view.target_W - view.eye_W).normalized();
+  const Vec3 right = forward.cross(view.up_W).normalized();
+  Eigen::Map<Eigen::Vector3f>(camera.pos) = F(view.eye_W);
+  Eigen::Map<Eigen::Vector3f>(camera.forward) = F(forward);
+  Eigen::Map<Eigen::Vector3f>(camera.up) = F(right.cross(forward));
+  const double half =
+      view.orthographic ? 0.5 * view.height_m : near_m * std::tan(0.5 * view.fovy_rad);
+  camera.frustum_top = static_cast<float>(half);
+  camera.frustum_bottom = static_cast<float>(-half);
+  camera.frustum_near = static_cast<float>(near_m);
+  camera.frustum_far = static_cast<float>(far_m);
+  camera.orthographic = view.orthographic;
+  return camera;
+}
+
+// What the camera sees, as a pyramid or, orthographic, a box without ends.
+class Sight {
+ public:
+  Sight(const CameraView& view, double aspect) : eye_(F(view.eye_W)) {
+    forward_ = F((view.target_W - view.eye_W).normalized());
+    right_ = forward_.cross(F(view.up_W)).normalized();
+    up_ = right_.cross(forward_);
+    if (view.orthographic) {
+      half_y_ = static_cast<float>(0.5 * view.height_m);
+    } else {
+      slope_y_ = static_cast<float>(std::tan(0.5 * view.fovy_rad));
+    }
+    half_x_ = half_y_ * static_cast<float>(aspect);
+    slope_x_ = slope_y_ * static_cast<float>(aspect);
+  }
+  // False only if the ball lies wholly outside.
+  bool Touches(const Eigen::Vector3f& centre, float radius) const {
+    const Eigen::Vector3f p = centre - eye_;
+    const float depth = p.dot(forward_);
+    if (depth < -radius) return false;
+    const auto beyond = [&](float lateral, float half, float slope) {
+      return std::abs(lateral) - half - slope * std::max(depth, 0.0f) >
+             radius * std::sqrt(1 + slope * slope);
+    };
+    return !beyond(p.dot(right_), half_x_, slope_x_) && !beyond(p.dot(up_), half_y_, slope_y_);
+  }
+
+ private:
+  Eigen::Vector3f eye_, forward_, right_, up_;
+  float half_x_ = 0, half_y_ = 0, slope_x_ = 0, slope_y_ = 0;
+};
+
+// Distance from the segment eye-target to a box, to some 2 % of the segment's length.
+float DistanceToBox(const mjvGeom& box, const Eigen::Vector3f& eye, const Eigen::Vector3f& target) {
+  const Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>> R_WG(box.mat);
+  const Eigen::Map<const Eigen::Vector3f> p_WG(box.pos), size(box.size);
+  const Eigen::Vector3f a = R_WG.transpose() * (eye - p_WG);
+  const Eigen::Vector3f b = R_WG.transpose() * (target - p_WG);
+  constexpr int kSteps = 24;
+  float best = 1e9f;
+  for (int i = 0; i <= kSteps; ++i) {
+    const Eigen::Vector3f p = a + (b - a) * (static_cast<float>(i) / kSteps);
+    best = std::min(best, (p.cwiseAbs() - size).cwiseMax(0.0f).norm());
+  }
+  return best;
+}
+
+// Thins out what stands between the camera and its target; the nearer to the line, the thinner, so
+// that nothing pops when the camera moves on.
+void ThinOut(mjvGeom& geom, const Eigen::Vector3f& eye, const Eigen::Vector3f& target) {
+  if (geom.category != mjCAT_STATIC || geom.type != mjGEOM_BOX || geom.rgba[3] < kOpaque) return;
+  const float top = geom.pos[2] + std::abs(geom.mat[6]) * geom.size[0] +
+                    std::abs(geom.mat[7]) * geom.size[1] + std::abs(geom.mat[8]) * geom.size[2];
+  if (top < target.z() + 0.1f) return;
+  constexpr float kThin_m = 0.15f, kFull_m = 0.45f, kAlpha = 0.12f;  // blended twice by MuJoCo
+  const float d = DistanceToBox(geom, eye, target);
+  const float t = std::clamp((d - kThin_m) / (kFull_m - kThin_m), 0.0f, 1.0f);
+  geom.rgba[3] = kAlpha + (1 - kAlpha) * t * t * (3 - 2 * t);
+}
+
+}  // namespace
+
+std::size_t FloorPaint::AddStripe(const Vec2& a_W, const Vec2& b_W, double z_m, double width_m,
+                                  const std::array<float, 4>& rgba) {
+  const mjtNum size[3] = {0, 0.5 * width_m, 0.0005};
+  const mjtNum pos[3] = {0, 0, z_m - size[2]};
+  mjvGeom geom;
+  mjv_initGeom(&geom, mjGEOM_BOX, size, pos, nullptr, rgba.data());
+  geom.category = mjCAT_DECOR;
+  geom.emission = 0.25f;
+  geom.specular = 0;
+  std::size_t slot = geoms_.size();
+  if (static_cast<int>(slot) < max_stripes_) {
+    geoms_.push_back(geom);
+  } else {
+    slot = next_;
+    geoms_[slot] = geom;
+    next_ = (next_ + 1) % geoms_.size();
+  }
+  MoveStripe(slot, a_W, b_W);
+  return slot;
+}
+
+void FloorPaint::MoveStripe(std::size_t stripe, const Vec2& a_W, const Vec2& b_W) {
+  mjvGeom& geom = geoms_[stripe];
+  const Vec2 d = b_W - a_W, m = 0.5 * (a_W + b_W);
+  const double length = d.norm();
+  const Vec2 u = length > 0 ? Vec2(d / length) : Vec2::UnitX();
+  const float ux = static_cast<float>(u.x()), uy = static_cast<float>(u.y());
+  geom.pos[0] = static_cast<float>(m.x());
+  geom.pos[1] = static_cast<float>(m.y());
+  const float mat[9] = {ux, -uy, 0, uy, ux, 0, 0, 0, 1};
+  std::copy(std::begin(mat), std::end(mat), geom.mat);
+  geom.size[0] = static_cast<float>(0.5 * length);
+  geom.modelrbound = std::hypot(geom.size[0], geom.size[1]);
+}
+
+// The C structs and their frees.
+struct OffscreenRenderer::Gl {
+  Gl(const mjModel* model, int width, int height, int max_stripes) : context(MakeGlContext()) {
+    if (std::min(width, height) < 1 || std::max(width, height) > context->max_side_px()) {
+      throw InternalError("cannot draw " + std::to_string(width) + " x " + std::to_string(height) +
+                          " pixels: at most " + std::to_string(context->max_side_px()) + " a side");
+    }
+    mjv_defaultOption(&option);
+    option.flags[mjVIS_RANGEFINDER] = 0;
+    std::fill(std::begin(option.sitegroup), std::end(option.sitegroup), mjtByte{0});
+    mjv_defaultPerturb(&perturb);
+    mjv_defaultCamera(&camera);
+    camera.type = mjCAMERA_USER;
+    mjv_defaultScene(&scene);
+    mjv_makeScene(model, &scene, static_cast<int>(model->ngeom) + max_stripes + 64);
+    mjr_defaultContext(&draw);
+    mjModel sized = *model;  // borrows the arrays; only the picture's size differs
+    sized.vis.global.offwidth = width;
+    sized.vis.global.offheight = height;
+    mjr_makeContext(&sized, &draw, mjFONTSCALE_50);
+    mjr_setBuffer(mjFB_OFFSCREEN, &draw);
+    if (draw.currentBuffer != mjFB_OFFSCREEN) throw InternalError("no off-screen frame buffer");
+  }
+  ~Gl() {
+    context->MakeCurrent();
+    mjr_freeContext(&draw);
+    mjv_freeScene(&scene);
+  }
+
+  std::unique_ptr<GlContext> context;
+  mjvScene scene;
+  mjrContext draw;
+  mjvOption option;
+  mjvPerturb perturb;
+  mjvCamera camera;
+};
+
+OffscreenRenderer::OffscreenRenderer(const mjModel* model, int width, int height, int max_stripes)
+    : model_(model),
+      width_(width),
+      height_(height),
+      gl_(std::make_unique<Gl>(model, width, height, max_stripes)) {}
+
+OffscreenRenderer::~OffscreenRenderer() = default;
+
+Image OffscreenRenderer::MakeImage() const {
+  Image image;
+  image.width = width_;
+  image.height = height_;
+  image.channels = 3;
+  image.data.assign(static_cast<std::size_t>(width_) * height_ * 3, 0);
+  return image;
+}
+
+void OffscreenRenderer::Compose(mjData* data, const CameraView& view, const FloorPaint* paint) {
+  mjvScene& scene = gl_->scene;
+  const double distance = (view.target_W - view.eye_W).norm();
+  const double extent = model_->stat.extent;
+  const Vec3 middle(model_->stat.center[0], model_->stat.center[1], model_->stat.center[2]);
+  scene.camera[0] = scene.camera[1] =
+      GlCamera(view, 0.02 * distance, 2 * distance + 4 * extent + (middle - view.eye_W).norm());
+  mjv_updateScene(model_, data, &gl_->option, &gl_->perturb, &gl_->camera, mjCAT_ALL, &scene);
+
+  constexpr float kShadowReach_m = 1.0f;  // of things out of sight into sight
+  const Sight sight(view, static_cast<double>(width_) / height_);
+  const Eigen::Vector3f eye = F(view.eye_W), target = F(view.target_W);
+  int kept = 0;
+  for (int i = 0; i < scene.ngeom; ++i) {
+    mjvGeom& geom = scene.geoms[i];
+    const bool endless = geom.modelrbound <= 0;  // a plane
+    if (!endless && !sight.Touches(Pos(geom), geom.modelrbound + kShadowReach_m)) continue;
+    if (geom.rgba[3] < kOpaque) geom.category = mjCAT_DECOR;  // glass casts no shadow
+    ThinOut(geom, eye, target);
+    if (kept != i) scene.geoms[kept] = geom;
+    ++kept;
+  }
+  scene.ngeom = kept;
+  if (paint != nullptr) {
+    for (const mjvGeom& geom : paint->geoms()) {
+      if (scene.ngeom == scene.maxgeom) break;
+      mjvGeom& slot = scene.geoms[scene.ngeom];
+      slot = geom;
+      if (sight.Touches(Pos(slot), slot.modelrbound)) ++scene.ngeom;
+    }
+  }
+
+  // MuJoCo maps the shadows of a directional light in a square around the light's position, between
+  // the camera's near and far distances.
+  const double reach = view.orthographic ? view.height_m : 1.6 * distance;
+  gl_->draw.shadowClip = static_cast<float>(std::min(reach, 2.0 * extent));
+  for (int i = 0; i < scene.nlight; ++i) {
+    mjvLight& light = scene.lights[i];
+    if (light.type != mjLIGHT_DIRECTIONAL || !light.castshadow) continue;
+    const Eigen::Vector3f dir = Eigen::Map<Eigen::Vector3f>(light.dir).normalized();
+    Eigen::Map<Eigen::Vector3f>(light.pos) = target - 0.4f * scene.camera[0].frustum_far * dir;
+  }
+}
+
+void OffscreenRenderer::Render(mjData* data, const CameraView& view, const FloorPaint* paint,
+                               Image& out) {
+  gl_->context->MakeCurrent();
+  Compose(data, view, paint);
+  const mjrRect whole = {0, 0, width_, height_};
+  mjr_render(whole, &gl_->scene, &gl_->draw);
+  mjr_readPixels(out.data.data(), nullptr, whole, &gl_->draw);
+  if (const int error = mjr_getError(); error != 0) {
+    throw InternalError("OpenGL error " + std::to_string(error) + " while drawing");
+  }
+  // GL gives the bottom row first.
+  const std::size_t stride = static_cast<std::size_t>(width_) * 3;
+  for (int top = 0, bottom = height_ - 1; top < bottom; ++top, --bottom) {
+    std::swap_ranges(out.data.data() + top * stride, out.data.data() + (top + 1) * stride,
+                     out.data.data() + bottom * stride);
+  }
+}
+
+void PoseForPicture(const mjModel* model, mjData* data) {
+  mj_kinematics(model, data);
+  mj_comPos(model, data);  // lights and cameras may track centres of mass
+  mj_camlight(model, data);
+}
+
+}  // namespace floorproof

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lettering on pictures, smooth at any size.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "env/media/media.h"
+
+namespace floorproof {
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+enum class Anchor { kLeft, kCentre, kRight };
+
+struct TextStyle {
+  double cap_px = 14;  // height of a capital letter
+  Rgb colour = {255, 255, 255};
+  Anchor anchor = Anchor::kLeft;
+  bool bold = false;
+};
+
+double TextWidth(std::string_view text, const TextStyle& style);  // px
+// Writes over an RGB picture, the base line at y_px, beginning, centred or ending at x_px; what
+// lies beyond the picture is cut off. Letters other than printable ASCII become '?'.
+void DrawText(Image& image, double x_px, double y_px, std::string_view text,
+              const TextStyle& style);
+// Mixes `colour` over the rectangle [x0, x1) x [y0, y1); alpha 0 leaves it, 1 covers it.
+void FillRectangle(Image& image, int x0, int y0, int x1, int y1, const Rgb& colour, double alpha);
+
+// printf into a string; locale-free as long as nobody sets a locale.
+[[gnu::format(printf, 1, 2)]] std::string Printf(const char* format, ...);
+
+}  // namespace floorproof

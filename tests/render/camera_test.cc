@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/camera.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace floorproof {
+namespace {
+
+constexpr double kDt = 1.0 / 30;
+
+double Azimuth(const CameraView& view) {
+  const Vec3 d = view.target_W - view.eye_W;
+  return std::atan2(d.y(), d.x());
+}
+
+TEST(CameraTest, EachSeesTheRobotAndStaysAboveTheFloor) {
+  const FilmSet set{{0, 0}, {8, 6}, 0.2, 16.0 / 9};
+  for (const auto& entry : Cameras()) {
+    const auto dut = entry.make();
+    dut->Reset(set, {1, 1, 0});
+    for (int i = 0; i < 200; ++i) {
+      const Pose2 X_WB{1 + 0.03 * i, 1 + 0.02 * i, 0.05 * i};
+      const CameraView view = dut->Next(X_WB, kDt);
+      const Vec3 forward = (view.target_W - view.eye_W).normalized();
+      const Vec3 to_robot = (Vec3(X_WB.x_m, X_WB.y_m, 0.1) - view.eye_W).normalized();
+      EXPECT_GT(view.eye_W.z(), 0.15) << entry.name;
+      EXPECT_GT(forward.dot(to_robot), std::cos(0.5 * view.fovy_rad * set.aspect)) << entry.name;
+      EXPECT_LT(std::abs(forward.dot(view.up_W)), 0.999) << entry.name;
+    }
+  }
+}
+
+// A turn on the spot, at once, moves the picture by a bounded rate.
+TEST(CameraTest, ChaseTurnsSmoothly) {
+  const auto dut = MakePlugin(Cameras(), "chase", "camera");
+  dut->Reset({}, {});
+  double last = Azimuth(dut->Next({}, kDt)), turned = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double now = Azimuth(dut->Next({0, 0, 2.5}, kDt));
+    EXPECT_LT(std::abs(WrapAngle(now - last)), 60 * kPi / 180 * kDt);
+    turned += WrapAngle(now - last);
+    last = now;
+  }
+  EXPECT_NEAR(turned, 2.5, 0.1);
+}
+
+// In a time lapse a mowing robot turns about several times a second; the picture must not.
+TEST(CameraTest, ChaseDoesNotSwingWithAMowingRobot) {
+  const auto dut = MakePlugin(Cameras(), "chase", "camera");
+  dut->Reset({}, {});
+  double least = 0, most = 0;
+  for (int i = 0; i < 600; ++i) {
+    const double a = Azimuth(dut->Next({0, 0, i / 6 % 2 == 0 ? 0.0 : kPi}, kDt));
+    least = std::min(least, a);
+    most = std::max(most, a);
+  }
+  EXPECT_LT(most - least, 25 * kPi / 180);
+}
+
+TEST(CameraTest, TopShowsAllOfASmallSiteAndStandsStill) {
+  const FilmSet set{{0, 0}, {4, 3}, 0.2, 16.0 / 9};
+  const auto dut = MakePlugin(Cameras(), "top", "camera");
+  dut->Reset(set, {0.5, 0.5, 0});
+  const CameraView a = dut->Next({0.5, 0.5, 0}, kDt), b = dut->Next({3.5, 2.5, 0}, kDt);
+  EXPECT_EQ(a.eye_W, b.eye_W);
+  const double half = a.eye_W.z() * std::tan(0.5 * a.fovy_rad);
+  EXPECT_GE(half, 1.5);
+  EXPECT_GE(half * set.aspect, 2.0);
+}
+
+TEST(CameraTest, TopFollowsTheRobotOverALargeSiteWithinItsBorders) {
+  const FilmSet set{{0, 0}, {60, 40}, 0.2, 16.0 / 9};
+  const auto dut = MakePlugin(Cameras(), "top", "camera");
+  dut->Reset(set, {30, 20, 0});
+  EXPECT_NEAR(dut->Next({30, 20, 0}, kDt).target_W.x(), 30, 1e-9);
+  for (int i = 0; i < 300; ++i) dut->Next({59, 39, 0}, kDt);
+  const CameraView corner = dut->Next({59, 39, 0}, kDt);
+  EXPECT_LT(corner.target_W.x(), 59);
+  EXPECT_GT(corner.target_W.x(), 45);
+}
+
+TEST(CameraTest, UnknownNameListsTheKnown) {
+  try {
+    MakePlugin(Cameras(), "chse", "video.camera");
+    ADD_FAILURE() << "made an unknown camera";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("did you mean chase"));
+  }
+}
+
+}  // namespace
+}  // namespace floorproof

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/film.h"
+
+#include <gmock/gmock.h>
+
+#include <array>
+#include <cstdio>
+
+#include "tests/render/room.h"
+
+namespace floorproof {
+namespace {
+
+int Between(const std::vector<FilmFrame>& frames, double low_s, double high_s) {
+  return static_cast<int>(std::count_if(frames.begin(), frames.end(), [&](const FilmFrame& f) {
+    return f.t_s >= low_s && f.t_s < high_s;
+  }));
+}
+
+TEST(FilmScheduleTest, ShortEpisodeRunsInRealTime) {
+  const auto dut = ScheduleFilm(0, 4, {}, {});
+  EXPECT_EQ(Between(dut, 0, 4), 4 * 30);
+  EXPECT_EQ(dut.front().t_s, 0);
+  EXPECT_EQ(dut.front().speed_up, 1);
+  EXPECT_EQ(std::count_if(dut.begin(), dut.end(), [](auto& f) { return f.t_s == 4; }), 1 + 45);
+}
+
+TEST(FilmScheduleTest, LengthIsBoundedAndTimeNeverRunsBack) {
+  const std::array<double, 3> events = {55, 57, 300};
+  for (const double duration : {0.0, 0.01, 7.0, 60.0, 613.0, 1e4, 1e6}) {
+    for (const int max_frames : {2, 10, 100, 600}) {
+      FilmPace pace;
+      pace.max_frames = max_frames;
+      const auto dut = ScheduleFilm(10, 10 + duration, events, pace);
+      ASSERT_FALSE(dut.empty());
+      EXPECT_LE(static_cast<int>(dut.size()), max_frames);
+      EXPECT_EQ(dut.back().t_s, 10 + duration);
+      for (std::size_t i = 1; i < dut.size(); ++i) EXPECT_GE(dut[i].t_s, dut[i - 1].t_s);
+    }
+  }
+}
+
+// Seconds before a failure take as many seconds of film; the way there is a time lapse.
+TEST(FilmScheduleTest, FailureIsShownInRealTime) {
+  const std::array<double, 1> events = {250};
+  const auto dut = ScheduleFilm(0, 250, events, {});
+  EXPECT_NEAR(Between(dut, 246, 250), 4 * 30, 1);
+  for (const FilmFrame& f : dut) {
+    if (f.t_s < 245.9) {
+      EXPECT_GE(f.speed_up, 10);
+    }
+    if (f.t_s > 246) {
+      EXPECT_EQ(f.speed_up, 1);
+    }
+  }
+}
+
+TEST(FilmScheduleTest, AskedSpeedIsKeptWhereItFits) {
+  FilmPace pace;
+  pace.speed_up = 20;
+  EXPECT_EQ(ScheduleFilm(0, 100, {}, pace).front().speed_up, 20);
+  pace.speed_up = 2;
+  EXPECT_GT(ScheduleFilm(0, 1000, {}, pace).front().speed_up, 50);
+}
+
+TEST(FilmScheduleTest, ManyEventsLeaveHalfOfTheFilmToTheRest) {
+  std::vector<double> events;
+  for (int i = 0; i < 50; ++i) events.push_back(20.0 * i);
+  const auto dut = ScheduleFilm(0, 1000, events, {});
+  const auto slow = std::count_if(dut.begin(), dut.end(), [](auto& f) { return f.speed_up == 1; });
+  EXPECT_GT(slow, 100);
+  EXPECT_LE(slow, 300 + 1);
+  EXPECT_LE(dut.size(), 600u);
+}
+
+struct Probe {
+  std::string codec, format;
+  int width = 0, height = 0, frames = 0;
+};
+// What ffprobe says of a film; no codec where there is no ffprobe.
+Probe ProbeFilm(const std::filesystem::path& path) {
+  const std::string command =
+      "ffprobe -v error -count_frames -select_streams v:0 -of default=nw=1:nk=1 -show_entries "
+      "stream=codec_name,width,height,pix_fmt,nb_read_frames '" +
+      path.string() + "' 2>/dev/null";
+  Probe probe;
+  FILE* pipe = popen(command.c_str(), "r");
+  char codec[64] = "", format[64] = "";
+  if (std::fscanf(pipe, "%63s %d %d %63s %d", codec, &probe.width, &probe.height, format,
+                  &probe.frames) == 5) {
+    probe.codec = codec;
+    probe.format = format;
+  }
+  pclose(pipe);
+  return probe;
+}
+
+// The robot drives 2 m to the step, climbs and tips over.
+Recording Drive(Room& room) {
+  Recording recording(static_cast<int>(room.model()->nq));
+  for (int i = 0; i <= 50 * 12; ++i) {
+    const double t = i / 50.0;
+    const double fall = std::clamp((t - 10) / 1.5, 0.0, 1.0);
+    room.Put({-1.4 + 0.2 * std::min(t, 11.0), -0.5, 0}, 0.04 * fall, -1.3 * fall * fall);
+    recording.Add(t, room.data()->qpos, t / 40);
+  }
+  return recording;
+}
+
+class FilmTest : public ::testing::Test {
+ protected:
+  void Open() {
+    room_ = std::make_unique<Room>();
+    recording_ = std::make_unique<Recording>(Drive(*room_));
+    event_.mode = FailureMode::kRollOver;
+    event_.t_s = 11.4;
+    event_.hazard = "step-0";
+    event_.value = 1.25;
+    event_.threshold = 1.22;
+    script_.model = room_->model();
+    script_.base_body = room_->base();
+    script_.recording = recording_.get();
+    script_.events = {&event_, 1};
+    script_.title = "box robot in a room";
+    script_.set = room_->Set();
+    script_.plan = &plan_;
+    script_.tool_width_m = 0.3;
+    options_.width = 320;
+    options_.height = 180;
+    options_.pace.max_frames = 40;
+  }
+  TestFolder folder_;
+  std::unique_ptr<Room> room_;
+  std::unique_ptr<Recording> recording_;
+  Event event_;
+  Path plan_ = Straight({{-1.4, -0.5}, {2.5, -0.5}, {2.5, -0.2}, {-2, -0.2}});
+  FilmScript script_;
+  FilmOptions options_;
+};
+
+TEST_F(FilmTest, PlaysInABrowser) {
+  FP_NEED_GL();
+  Open();
+  const FilmResult result = WriteFilm(script_, options_, folder_ / "video.mp4");
+  EXPECT_LE(result.frames, 40);
+  EXPECT_GT(result.frames, 20);
+  const Probe probe = ProbeFilm(folder_ / "video.mp4");
+  if (probe.codec.empty()) GTEST_SKIP() << "no ffprobe to look at the film with";
+  EXPECT_EQ(probe.codec, "h264");
+  EXPECT_EQ(probe.format, "yuv420p");
+  EXPECT_EQ(probe.width, 320);
+  EXPECT_EQ(probe.height, 180);
+  EXPECT_EQ(probe.frames, result.frames);
+}
+
+TEST_F(FilmTest, StillsShowStartFailureAndEnd) {
+  FP_NEED_GL();
+  Open();
+  options_.stills = folder_.path();
+  WriteFilm(script_, options_, folder_ / "video.mp4");
+  const Image start = ReadImage(folder_ / "frame_start.png");
+  const Image failure = ReadImage(folder_ / "frame_failure.png");
+  const Image end = ReadImage(folder_ / "frame_end.png");
+  const auto red = [](const Image& image) {  // of the banner
+    return Pixel(image, image.width - 4, 2)[0] - Pixel(image, image.width - 4, 2)[1];
+  };
+  EXPECT_LT(red(start), 60);
+  EXPECT_GT(red(failure), 60);
+  EXPECT_GT(red(end), 60);
+  EXPECT_NE(failure.data, start.data);
+}
+
+TEST_F(FilmTest, WithoutAFailureTheClosingBannerComesLast) {
+  FP_NEED_GL();
+  Open();
+  script_.events = {};
+  script_.closing = Banner{Banner::Tone::kSuccess, "SUCCESS", ""};
+  options_.stills = folder_.path();
+  WriteFilm(script_, options_, folder_ / "video.mp4");
+  const Image start = ReadImage(folder_ / "frame_start.png");
+  const Image end = ReadImage(folder_ / "frame_end.png");
+  const auto green = [](const Image& image) {
+    return Pixel(image, image.width - 4, 2)[1] - Pixel(image, image.width - 4, 2)[0];
+  };
+  EXPECT_LT(green(start), 40);
+  EXPECT_GT(green(end), 40);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "frame_failure.png"));
+}
+
+TEST_F(FilmTest, BadOptionsAreRefusedInWords) {
+  FP_NEED_GL();
+  Open();
+  options_.width = 321;
+  EXPECT_THROW(WriteFilm(script_, options_, folder_ / "a.mp4"), InputError);
+  options_.width = 320;
+  options_.camera = "drone";
+  EXPECT_THROW(WriteFilm(script_, options_, folder_ / "a.mp4"), InputError);
+  options_.camera = "top";
+  options_.pace.fps = 0;
+  EXPECT_THROW(WriteFilm(script_, options_, folder_ / "a.mp4"), InputError);
+  options_.pace.fps = 30;
+  EXPECT_THROW(WriteFilm(script_, options_, folder_ / "no" / "such" / "a.mp4"), InputError);
+}
+
+}  // namespace
+}  // namespace floorproof

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/heatmap.h"
+
+#include <algorithm>
+
+#include "render/episode_maps.h"
+#include "tests/render/room.h"
+
+namespace floorproof {
+namespace {
+
+// w x h free cells inside a wall one cell thick.
+HazardMap Hall(int w, int h, double cell_m) {
+  HazardMap map;
+  map.name = "hall";
+  map.frame = {w, h, cell_m, {}};
+  map.cells = Grid<CellState>(w, h, CellState::kFree);
+  for (int x = 0; x < w; ++x) map.cells(x, 0) = map.cells(x, h - 1) = CellState::kOccupied;
+  for (int y = 0; y < h; ++y) map.cells(0, y) = map.cells(w - 1, y) = CellState::kOccupied;
+  return map;
+}
+
+HeatValues Values(const HazardMap& map, float value) {
+  return {map.frame, Grid<float>(map.frame.width, map.frame.height, value)};
+}
+
+bool Is(const Image& image, int x, int y, const Rgb& colour) {
+  return std::equal(colour.begin(), colour.end(), Pixel(image, x, y));
+}
+int Count(const Image& image, const Rgb& colour) {
+  int n = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) n += Is(image, x, y, colour);
+  return n;
+}
+Vec2 Middle(const Image& image, const Rgb& colour) {
+  Vec2 sum = Vec2::Zero();
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (Is(image, x, y, colour)) sum += Vec2(x, y);
+  return sum / std::max(1, Count(image, colour));
+}
+
+constexpr Rgb kWall = {52, 60, 72}, kFree = {238, 240, 243}, kViridisTop = {253, 231, 37},
+              kViridisBottom = {68, 1, 84};
+
+struct Size {
+  int width, height;
+};
+class HeatMapSizes : public ::testing::TestWithParam<Size> {};
+
+TEST_P(HeatMapSizes, LongSideIs800To1600Pixels) {
+  const HazardMap map = Hall(GetParam().width, GetParam().height, 0.05);
+  const Image image = DrawHeatMap(map, nullptr, {});
+  EXPECT_GE(std::max(image.width, image.height), 800);
+  EXPECT_LE(std::max(image.width, image.height), 1600);
+  EXPECT_GT(Count(image, kWall), 500);
+  EXPECT_GT(Count(image, kFree), 500);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, HeatMapSizes,
+                         ::testing::Values(Size{11, 11}, Size{30, 600}, Size{700, 20},
+                                           Size{590, 590}, Size{20, 1159}, Size{1161, 900},
+                                           Size{4000, 4000}, Size{3, 3}),
+                         [](const auto& i) {
+                           return std::to_string(i.param.width) + "x" +
+                                  std::to_string(i.param.height);
+                         });
+
+TEST(HeatMapTest, UpIsYAndRightIsX) {
+  const HazardMap map = Hall(12, 10, 0.5);
+  HeatValues values = Values(map, HeatValues::kNone);
+  values.values(9, 8) = 5;  // upper right
+  values.values(2, 1) = 0;  // lower left
+  const Image image = DrawHeatMap(map, &values, {});
+  // The bar in the right column holds both colours too, by some rows only.
+  ASSERT_GT(Count(image, kViridisTop), 2000);
+  ASSERT_GT(Count(image, kViridisBottom), 2000);
+  const Vec2 high = Middle(image, kViridisTop), low = Middle(image, kViridisBottom);
+  EXPECT_GT(high.x(), low.x() + 300);
+  EXPECT_LT(high.y(), low.y() - 300);
+}
+
+// Colours between the bar's ends are the bar's.
+TEST(HeatMapTest, EveryValueHasAColourOfTheBar) {
+  const HazardMap map = Hall(20, 20, 0.1);
+  HeatValues values = Values(map, 0);
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < 20; ++x) values.values(x, y) = static_cast<float>(x);
+  HeatMapOptions options;
+  options.low = 0;
+  options.high = 19;
+  const Image image = DrawHeatMap(map, &values, options);
+  const int bar_x = image.width - 250 + 10;
+  std::vector<std::array<std::uint8_t, 3>> bar;
+  for (int y = 60; y < image.height; ++y) {
+    const std::uint8_t* p = Pixel(image, bar_x, y);
+    bar.push_back({p[0], p[1], p[2]});
+  }
+  const int cell = (image.width - 250 - 48) / 20, row = 64 + cell * 10 + cell / 2;
+  for (int x = 1; x < 19; ++x) {
+    const std::uint8_t* p = Pixel(image, 24 + cell * x + cell / 2, row);
+    int nearest = 1000;
+    for (const auto& b : bar) {
+      int d = 0;
+      for (int k = 0; k < 3; ++k) d = std::max(d, std::abs(b[k] - p[k]));
+      nearest = std::min(nearest, d);
+    }
+    EXPECT_LE(nearest, 6) << "cell " << x;
+  }
+}
+
+TEST(HeatMapTest, WallsAndFloorStayVisibleOverACoarseAndAFineGrid) {
+  const HazardMap map = Hall(12, 10, 0.5);
+  for (const int k : {1, 10}) {
+    HeatValues values;
+    values.frame = map.frame.Subdivided(k);
+    values.values = Grid<float>(values.frame.width, values.frame.height, 3.0f);
+    const Image image = DrawHeatMap(map, &values, {});
+    EXPECT_GT(Count(image, kWall), 10000) << k;
+    EXPECT_EQ(Count(image, kFree), 0) << k;
+  }
+}
+
+TEST(HeatMapTest, CategoriesUseTheirColoursAndNoOthers) {
+  const HazardMap map = Hall(12, 10, 0.5);
+  HeatValues values = Values(map, 0);
+  for (int x = 6; x < 12; ++x)
+    for (int y = 0; y < 10; ++y) values.values(x, y) = 1;
+  HeatMapOptions options;
+  options.categories = {{"swept", {10, 200, 100}}, {"missed", {250, 150, 0}}};
+  const Image image = DrawHeatMap(map, &values, options);
+  EXPECT_NEAR(Count(image, {10, 200, 100}), Count(image, {250, 150, 0}), 1000);
+  EXPECT_EQ(Count(image, kViridisBottom), 0);
+}
+
+TEST(HeatMapTest, UnknownSurroundingsAreCutOff) {
+  HazardMap wide;
+  wide.frame = {1000, 1000, 0.05, {}};
+  wide.cells = Grid<CellState>(1000, 1000, CellState::kUnknown);
+  for (int x = 500; x < 540; ++x)
+    for (int y = 300; y < 340; ++y) wide.cells(x, y) = CellState::kFree;
+  const Image image = DrawHeatMap(wide, nullptr, {});
+  EXPECT_GT(Count(image, kFree), image.width * image.height / 3);
+}
+
+TEST(HeatMapTest, PointsAndHazardsAreDrawnWhereTheyLie) {
+  HazardMap map = Hall(40, 40, 0.1);
+  Hazard step;
+  step.id = step.type = "step";
+  step.footprint = {Rectangle({2.5, 2.5}, {3.5, 3.0})};
+  const Image plain = DrawHeatMap(map, nullptr, {});
+  map.hazards = {step};
+  HeatMapOptions options;
+  options.points = {{{1.0, 1.0}, "stuck"}};
+  const Image image = DrawHeatMap(map, nullptr, options);
+  ASSERT_EQ(image.width, plain.width);
+  const double px_per_m = (image.width - 250 - 48) / 4.0, bottom = 64 + 4.0 * px_per_m;
+  const auto changed = [&](double x_m, double y_m) {
+    const int x = static_cast<int>(24 + x_m * px_per_m),
+              y = static_cast<int>(bottom - y_m * px_per_m);
+    int n = 0;
+    for (int dy = -4; dy <= 4; ++dy)
+      for (int dx = -4; dx <= 4; ++dx) n += Difference(image, plain, x + dx, y + dy) > 30;
+    return n;
+  };
+  EXPECT_GT(changed(1.0, 1.0), 10);
+  EXPECT_GT(changed(2.5, 2.7), 10);
+  EXPECT_GT(changed(3.0, 3.0), 10);
+  EXPECT_EQ(changed(3.0, 2.75), 0);  // an outline only
+  EXPECT_EQ(changed(1.0, 3.0), 0);
+}
+
+// A turned map is drawn in its own frame: the same panel, the arrow apart.
+TEST(HeatMapTest, TurningTheMapTurnsOnlyTheArrow) {
+  HazardMap map = Hall(40, 30, 0.1);
+  map.cells(10, 20) = CellState::kOccupied;
+  const Image straight = DrawHeatMap(map, nullptr, {});
+  map.frame.X_WG = {3, -2, 0.7};
+  const Image turned = DrawHeatMap(map, nullptr, {});
+  ASSERT_EQ(straight.width, turned.width);
+  const int foot = straight.height - 64;
+  int arrow = 0;
+  for (int y = 0; y < straight.height; ++y) {
+    for (int x = 0; x < straight.width; ++x) {
+      if (y < foot) {
+        ASSERT_EQ(Difference(straight, turned, x, y), 0) << x << ", " << y;
+      }
+      arrow += y >= foot && Difference(straight, turned, x, y) > 30;
+    }
+  }
+  EXPECT_GT(arrow, 50);
+}
+
+TEST(HeatMapTest, ValuesWithoutRangeOrWithoutAnyAreDrawn) {
+  const HazardMap map = Hall(11, 11, 0.5);
+  const HeatValues none = Values(map, HeatValues::kNone), flat = Values(map, 2);
+  EXPECT_GT(Count(DrawHeatMap(map, &none, {}), kFree), 1000);
+  EXPECT_EQ(Count(DrawHeatMap(map, &flat, {}), kFree), 0);
+}
+
+TEST(EpisodeMapsTest, VisitsCoverageAndFailuresAreWritten) {
+  const TestFolder folder;
+  const HazardMap map = Hall(40, 30, 0.1);
+  Shape2 disc;
+  disc.radius_m = 0.15;
+  const SweepArea area = ComputeSweepArea(map, disc, disc, 0.01, {1, 1});
+  CoverageMeter meter(area, disc);
+  for (double x = 0.4; x < 3.5; x += 0.05) meter.Add({x, 1.0, 0});
+  const Path plan = Straight({{0.4, 1.0}, {3.5, 1.0}});
+  Event event;
+  event.x_m = 3.4;
+  event.y_m = 1.0;
+  WriteVisitsMap(map, area, meter.passes(), &plan, folder / "heatmap_visits.png");
+  WriteCoverageMap(map, area, meter.passes(), folder / "heatmap_coverage.png");
+  WriteFailuresMap(map, {&event, 1}, &plan, folder / "heatmap_failures.png");
+  const Image visits = ReadImage(folder / "heatmap_visits.png");
+  const Image coverage = ReadImage(folder / "heatmap_coverage.png");
+  const Image failures = ReadImage(folder / "heatmap_failures.png");
+  EXPECT_GT(Count(visits, kViridisTop), 1000);  // one pass is the most there is
+  const double swept = Count(coverage, {94, 180, 160}), missed = Count(coverage, {240, 150, 60});
+  EXPECT_NEAR(swept / (swept + missed), meter.coverage(), 0.02);
+  EXPECT_GT(Count(failures, {200, 20, 40}), 20);
+}
+
+}  // namespace
+}  // namespace floorproof

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/overlay.h"
+
+#include <gmock/gmock.h>
+
+#include "env/core/geometry.h"
+#include "render/text.h"
+#include "tests/render/room.h"
+
+namespace floorproof {
+namespace {
+
+Image Grey(int width, int height) {
+  Image image;
+  image.width = width;
+  image.height = height;
+  image.channels = 3;
+  image.data.assign(static_cast<std::size_t>(width) * height * 3, 128);
+  return image;
+}
+
+struct Size {
+  int width, height;
+};
+class OverlaySizes : public ::testing::TestWithParam<Size> {};
+
+TEST_P(OverlaySizes, DrawsWithinItsRowsOnly) {
+  const Image plain = Grey(GetParam().width, GetParam().height);
+  Image image = plain;
+  Event event;
+  event.mode = FailureMode::kRollOver;
+  const Banner banner = FailureBanner(event);
+  DrawOverlay({"robot on site", 12.3, 0.5, 20, &banner}, image);
+  const OverlayRows rows = RowsOf(image);
+  EXPECT_LT(rows.top + plain.height - rows.bottom, plain.height / 4);
+  for (int y = 0; y < plain.height; ++y) {
+    const bool bars = y < rows.top || y >= rows.bottom;
+    for (int x = 0; x < plain.width; ++x) {
+      EXPECT_EQ(Difference(image, plain, x, y) > 0, bars) << x << ", " << y;
+    }
+  }
+}
+
+// Letters stand out from their bar, in the picture's own resolution.
+TEST_P(OverlaySizes, TextIsReadable) {
+  Image image = Grey(GetParam().width, GetParam().height);
+  DrawOverlay({"", 83.4, -1, 1, nullptr}, image);
+  int light = 0;
+  for (int y = RowsOf(image).bottom; y < image.height; ++y)
+    for (int x = 0; x < image.width / 4; ++x) light += Luma(image, x, y) > 180;
+  const double letter = (image.height - RowsOf(image).bottom) / 3.0;
+  EXPECT_GT(light, 5 * letter);
+}
+
+TEST_P(OverlaySizes, LongTitleLeavesTheGaugeAlone) {
+  const auto draw = [&](std::string title) {
+    Image image = Grey(GetParam().width, GetParam().height);
+    DrawOverlay({std::move(title), 1, 0.5, 1, nullptr}, image);
+    return image;
+  };
+  const Image none = draw(""), endless = draw(std::string(500, 'W'));
+  int changed = 0;
+  for (int y = 0; y < none.height; ++y) {
+    for (int x = 0; x < none.width; ++x) {
+      if (Difference(none, endless, x, y) == 0) continue;
+      ++changed;
+      EXPECT_LT(x, none.width * 6 / 10);
+    }
+  }
+  EXPECT_GT(changed, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, OverlaySizes,
+                         ::testing::Values(Size{1280, 720}, Size{640, 360}, Size{960, 540}),
+                         [](const auto& i) { return std::to_string(i.param.height); });
+
+TEST(OverlayTest, GaugeGrowsWithCoverage) {
+  const auto green = [](double coverage) {
+    Image image = Grey(960, 540);
+    DrawOverlay({"", 1, coverage, 1, nullptr}, image);
+    int n = 0;
+    for (int y = RowsOf(image).bottom; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) n += Pixel(image, x, y)[1] > Pixel(image, x, y)[0] + 80;
+    return n;
+  };
+  EXPECT_EQ(green(0), 0);
+  EXPECT_GT(green(0.5), 100);
+  EXPECT_NEAR(green(1.0), 2.0 * green(0.5), 0.05 * green(1.0));
+  EXPECT_EQ(green(1.7), green(1.0));
+}
+
+TEST(OverlayTest, EventReadsAsItsInequality) {
+  Event event;
+  event.mode = FailureMode::kRollOver;
+  event.kind = "fell";
+  event.hazard = "drop-1";
+  event.t_s = 12.34;
+  event.value = -0.148;
+  event.threshold = -0.030;
+  const Banner fell = FailureBanner(event);
+  EXPECT_EQ(fell.headline, "FAILURE   roll over (fell)   at drop-1");
+  EXPECT_THAT(fell.detail, ::testing::StartsWith("wheels at -0.148 m, lowest allowed -0.030 m"));
+  EXPECT_THAT(fell.detail, ::testing::HasSubstr("t 12.3 s"));
+  event.kind = "";
+  event.value = 75 * kPi / 180;
+  event.threshold = 70 * kPi / 180;
+  EXPECT_EQ(Describe(event), "tilted 75 deg, limit 70 deg");
+  event.mode = FailureMode::kStuck;
+  event.value = 0.02;
+  event.threshold = 0.25;
+  EXPECT_EQ(Describe(event), "moved 0.02 m where 0.25 m was due");
+  event.mode = FailureMode::kVeerOff;
+  EXPECT_EQ(Describe(event), "0.02 m off the path, limit 0.25 m");
+  event.mode = FailureMode::kBounceBack;
+  event.kind = "reversed";
+  EXPECT_EQ(Describe(event), "thrown back at 0.020 m/s, limit 0.250 m/s");
+}
+
+TEST(TextTest, IsCutAtThePicturesBordersAndTakesAnyBytes) {
+  Image image = Grey(40, 20);
+  for (const double x : {-30.0, 10.0, 39.0, 500.0}) {
+    for (const double y : {-5.0, 0.0, 10.0, 25.0}) DrawText(image, x, y, "M\xC3\xBC\xFF\n", {});
+  }
+  EXPECT_EQ(image.data.size(), 40u * 20 * 3);
+  EXPECT_DOUBLE_EQ(TextWidth("\xC3\xBC", {}), TextWidth("?", {}));
+}
+
+TEST(TextTest, AnchorsAgree) {
+  const TextStyle style{.cap_px = 14};
+  const double width = TextWidth("covered", style);
+  const auto draw = [&](double x, Anchor anchor) {
+    Image image = Grey(200, 40);
+    TextStyle s = style;
+    s.anchor = anchor;
+    DrawText(image, x, 30, "covered", s);
+    return image.data;
+  };
+  EXPECT_EQ(draw(60, Anchor::kLeft), draw(60 + width, Anchor::kRight));
+  EXPECT_EQ(draw(60, Anchor::kLeft), draw(60 + width / 2, Anchor::kCentre));
+}
+
+}  // namespace
+}  // namespace floorproof
