@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "controllers/reference_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace floorproof {
+namespace {
+
+constexpr double kSamePointM = 1e-6;
+constexpr double kNoBendRad = 1e-3;
+// Bends that follow each other within this are taken as one: the curvature of a polyline is its
+// turning over a length, not at a point.
+constexpr double kBendWindowM = 0.15;
+
+double TurnAngle(const Vec2& a, const Vec2& b) { return std::atan2(Cross(a, b), a.dot(b)); }
+
+// The straights from an anchor that pass all points so far within a tolerance, as a cone of
+// directions (sector test; Williams 1978, "Smoothed polylines").
+class Cone {
+ public:
+  Cone(const Vec2& apex, double tolerance_m) : apex_(apex), tolerance_m_(tolerance_m) {}
+
+  // Whether the straight from the apex to p passes all points added, none of them lying beyond p.
+  bool Reaches(const Vec2& p) const {
+    const Vec2 d = p - apex_;
+    const double way_m = d.norm();
+    if (way_m < farthest_m_ - tolerance_m_) return false;
+    if (!bounded_) return true;
+    if (way_m <= tolerance_m_) return false;
+    const double angle = TurnAngle(axis_, d);
+    return angle >= low_rad_ && angle <= high_rad_;
+  }
+  void Add(const Vec2& p) {
+    const Vec2 d = p - apex_;
+    const double way_m = d.norm();
+    farthest_m_ = std::max(farthest_m_, way_m);
+    if (way_m <= tolerance_m_) return;
+    const double half_rad = std::asin(tolerance_m_ / way_m);
+    if (!bounded_) {
+      axis_ = d / way_m;
+      low_rad_ = -half_rad;
+      high_rad_ = half_rad;
+      bounded_ = true;
+      return;
+    }
+    const double angle = TurnAngle(axis_, d);
+    low_rad_ = std::max(low_rad_, angle - half_rad);
+    high_rad_ = std::min(high_rad_, angle + half_rad);
+  }
+
+ private:
+  Vec2 apex_, axis_ = Vec2::Zero();
+  double tolerance_m_ = 0, farthest_m_ = 0;
+  double low_rad_ = 0, high_rad_ = 0;
+  bool bounded_ = false;
+};
+
+double Speed(const Waypoint& waypoint, const ReferenceLimits& limits) {
+  const double speed = waypoint.speed_mps > 0 ? waypoint.speed_mps : limits.cruise_mps;
+  return std::min(speed, limits.max_speed_mps);
+}
+
+// Indices of the waypoints that become vertices. A waypoint at the same place as the last vertex
+// becomes none; its dwell is added there.
+struct Kept {
+  std::size_t index = 0;
+  double dwell_s = 0;
+};
+std::vector<Kept> KeepCorners(const Path& path, const ReferenceLimits& limits) {
+  std::vector<Kept> kept = {{0, path[0].dwell_s}};
+  Cone cone(path[0].p_W, limits.straight_m);
+  const auto keep = [&](std::size_t i) {
+    if ((path[i].p_W - path[kept.back().index].p_W).norm() < kSamePointM)
+      kept.back().dwell_s += path[i].dwell_s;
+    else
+      kept.push_back({i, path[i].dwell_s});
+    cone = Cone(path[i].p_W, limits.straight_m);
+  };
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const bool same_leg = Speed(path[i], limits) == Speed(path[i - 1], limits);
+    if (i - 1 > kept.back().index && (!same_leg || !cone.Reaches(path[i].p_W))) keep(i - 1);
+    cone.Add(path[i].p_W);
+    if (path[i].dwell_s > 0 || i + 1 == path.size()) keep(i);
+  }
+  return kept;
+}
+
+// Each waypoint's place along the vertices: its projection on the straight that passes it.
+std::vector<double> PlaceWaypoints(const Path& path, const std::vector<Kept>& kept,
+                                   const std::vector<ReferenceVertex>& vertices) {
+  std::vector<double> s_m(path.size(), vertices.back().s_m);
+  std::size_t k = 0;
+  double last_m = 0;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    while (k + 1 < kept.size() && kept[k + 1].index <= i) ++k;
+    const double way_m = (path[i].p_W - vertices[k].p_W).dot(vertices[k].direction_W);
+    const double end_m = k + 1 < vertices.size() ? vertices[k + 1].s_m : vertices[k].s_m;
+    last_m = std::clamp(vertices[k].s_m + way_m, last_m, std::max(last_m, end_m));
+    s_m[i] = last_m;
+  }
+  return s_m;
+}
+
+// The speed at which a bend of this angle is driven through.
+double BendSpeed(double angle_rad, const ReferenceLimits& limits) {
+  const double half = 0.5 * std::abs(angle_rad);
+  if (half < kNoBendRad) return limits.max_speed_mps;
+  // An arc of radius R that touches both sides passes the corner at R (1 / cos(half) - 1).
+  const double radius_m = limits.cut_m * std::cos(half) / (1 - std::cos(half));
+  // Its yaw rate has to be reached within the turn: w^2 / accel <= angle.
+  const double yaw_rate =
+      std::min(limits.yaw_rate_radps, std::sqrt(limits.yaw_accel_radps2 * 2 * half));
+  return radius_m * yaw_rate;
+}
+
+void SetPassingSpeeds(std::vector<ReferenceVertex>& v, const ReferenceLimits& limits) {
+  const std::size_t n = v.size();
+  std::vector<double> turned(n, 0);  // summed signed angles of the bends up to and with vertex i
+  for (std::size_t i = 1; i + 1 < n; ++i)
+    turned[i] = turned[i - 1] + TurnAngle(v[i - 1].direction_W, v[i].direction_W);
+  std::size_t low = 1, high = 1;
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    if (v[i].stop) {
+      low = i + 1;
+      continue;
+    }
+    while (v[i].s_m - v[low].s_m > 0.5 * kBendWindowM) ++low;
+    high = std::max(high, i);
+    while (high + 2 < n && !v[high + 1].stop && v[high + 1].s_m - v[i].s_m <= 0.5 * kBendWindowM)
+      ++high;
+    const double curvature = std::abs(turned[high] - turned[low - 1]) / kBendWindowM;
+    v[i].passing_mps =
+        std::min({v[i - 1].speed_mps, v[i].speed_mps, BendSpeed(turned[i] - turned[i - 1], limits),
+                  limits.yaw_rate_radps / std::max(curvature, 1e-12)});
+  }
+  for (std::size_t i = n - 1; i-- > 0;) {
+    if (v[i].stop) continue;
+    v[i].passing_mps = std::min(
+        v[i].passing_mps, ApproachSpeed(v[i + 1].passing_mps, v[i + 1].s_m - v[i].s_m, limits));
+  }
+}
+
+}  // namespace
+
+double ApproachSpeed(double then_mps, double way_m, const ReferenceLimits& limits) {
+  const double a = limits.decel_mps2, b = a * limits.lag_s;
+  return std::sqrt((then_mps + b) * (then_mps + b) + 2 * a * std::max(0.0, way_m)) - b;
+}
+
+ReferencePath MakeReference(const Path& path, const ReferenceLimits& limits) {
+  ReferencePath reference;
+  if (path.empty()) return reference;
+  const std::vector<Kept> kept = KeepCorners(path, limits);
+  auto& vertices = reference.vertices;
+  vertices.resize(kept.size());
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    ReferenceVertex& vertex = vertices[k];
+    vertex.p_W = path[kept[k].index].p_W;
+    vertex.dwell_s = kept[k].dwell_s;
+    vertex.stop = k == 0 || k + 1 == kept.size() || vertex.dwell_s > 0;
+    if (k == 0) continue;
+    ReferenceVertex& from = vertices[k - 1];
+    const Vec2 way = vertex.p_W - from.p_W;
+    vertex.s_m = from.s_m + way.norm();
+    vertex.direction_W = from.direction_W = way.normalized();
+    from.speed_mps = Speed(path[kept[k].index], limits);
+    vertex.speed_mps = from.speed_mps;
+    if (k > 1 &&
+        std::abs(TurnAngle(vertices[k - 2].direction_W, from.direction_W)) > limits.corner_rad)
+      from.stop = true;
+  }
+  SetPassingSpeeds(vertices, limits);
+  reference.waypoint_s_m = PlaceWaypoints(path, kept, vertices);
+  return reference;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// A plan made ready for tracking: cleaned of duplicate points, with stops and passing speeds.
+//
+// Points that lie on a straight to within straight_m are passed over (cone test, one pass), so that
+// noise and duplicates make no corners. A vertex is a stop where the plan dwells, ends, or turns by
+// more than corner_rad; through the others the robot drives, at a speed that keeps both the cut of
+// the corner and the yaw rate within bounds. One pass backwards makes the speeds reachable with the
+// deceleration. All in Start(): following it allocates nothing.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "env/core/path.h"
+
+namespace floorproof {
+
+struct ReferenceLimits {
+  double straight_m = 0.004;  // points within this of a straight are on it
+  double corner_rad = 0.85;   // sharper corners are stops
+  double cut_m = 0.02;        // corner cut allowed in a bend
+  double yaw_rate_radps = 1;  // allowed in a bend
+  double yaw_accel_radps2 = 3;
+  double decel_mps2 = 0.4;
+  double lag_s = 0.15;       // time constant of the last centimetres before a stop
+  double cruise_mps = 0.25;  // of waypoints that state no speed
+  double max_speed_mps = 0.5;
+};
+
+struct ReferenceVertex {
+  Vec2 p_W = Vec2::Zero();
+  Vec2 direction_W = Vec2::Zero();  // unit, to the next vertex; at the last: as before
+  double s_m = 0;                   // way from the first vertex
+  double speed_mps = 0;             // allowed from here to the next vertex
+  double passing_mps = 0;           // at most here; 0 at stops
+  double dwell_s = 0;
+  bool stop = false;
+};
+
+struct ReferencePath {
+  std::vector<ReferenceVertex> vertices;
+  std::vector<double> waypoint_s_m;  // each waypoint's place along the vertices, never decreasing
+};
+
+ReferencePath MakeReference(const Path& path, const ReferenceLimits& limits);
+
+// The speed from which a robot that decelerates as `limits` say comes down to `then_mps` over
+// `way_m`. Like sqrt(then^2 + 2 a s) far away; near the end it falls with the way at the rate 1 /
+// lag_s, which a robot whose wheels lag can follow.
+double ApproachSpeed(double then_mps, double way_m, const ReferenceLimits& limits);
+
+}  // namespace floorproof

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// The estimate is the truth: what a plan is worth when the robot always knows where it is.
+#include "controllers/estimator.h"
+
+namespace floorproof {
+namespace {
+
+class TruthEstimator final : public Estimator {
+ public:
+  void Start(const Pose2&) override {}
+  Estimate Update(const Sample& truth, double) override { return {truth.X_WB(), truth.V_WB_B}; }
+};
+
+}  // namespace
+
+FP_DEFINE_PLUGIN(Estimator, TruthEstimator)
+
+}  // namespace floorproof

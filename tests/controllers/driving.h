@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// A differential robot that rolls without slip and whose wheels reach their speed 0.1 s late:
+// enough of a robot to judge a tracker by.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "controllers/drive.h"
+#include "controllers/tracker.h"
+
+namespace floorproof {
+
+// Round, 0.18 m radius, wheels 0.24 m apart, 0.25 m/s cruise.
+RobotSpec RoundRobot();
+
+struct DriveOptions {
+  std::optional<Pose2> start;  // none: on the first waypoint, facing along the path
+  double control_s = 0.02;
+  double wheel_lag_s = 0.1;
+  double time_limit_s = 3600;
+  // Moves the robot behind its back; called at every control period.
+  std::function<void(double t_s, Pose2& X_WB)> push;
+};
+
+struct Driven {
+  struct Step {
+    double t_s = 0;
+    Pose2 X_WB;
+    BodyTwist twist;  // commanded
+    std::size_t segment = 0;
+    bool dwelling = false;
+    double cross_track_m = 0;
+  };
+  std::vector<Step> steps;
+  bool done = false;
+  double time_s = 0;
+  double max_cross_track_m = 0;
+
+  double CrossTrackAfter(double t_s) const;  // largest from t_s on
+  bool SegmentsNeverDecrease() const;
+};
+
+Driven DriveAlong(Tracker& dut, const Path& path, const DriveOptions& options = {},
+                  const ClearanceField* clearance = nullptr, const RobotSpec& robot = RoundRobot());
+
+Path MakePath(const std::vector<Vec2>& points);
+
+// What a perfect robot needs: trapezoids of speed between stops, turns on the spot at corners above
+// 50 deg, bends at full speed.
+double IdealTime(const Path& path, const RobotSpec& robot = RoundRobot());
+
+}  // namespace floorproof
