@@ -65,7 +65,7 @@ Polyline CoveragePlanner::Sweep(const Floor& floor, const Vec2& start, Figures& 
   for (Polyline& line : Lines(floor, covered, figures)) lines.push_back(std::move(line));
 
   Polyline path = Drive(ways, start, lines);
-  const double goal = edges_ ? 0.992 : 0.96;
+  const double goal = edges_ ? 0.992 : 0.97;
   for (int round = 0; round < 2; ++round) {
     Swept swept(floor);
     swept.Add(path);
@@ -74,8 +74,8 @@ Polyline CoveragePlanner::Sweep(const Floor& floor, const Vec2& start, Figures& 
     Prune(floor, {goal * floor.ground_cells, 0.15}, path, swept);
     figures.push_back({"prlength" + std::to_string(round), PolylineLength(path) * w / floor.ground_cells});
     std::vector<Polyline> pieces = WorkingPieces(floor, path, 0.1, swept);
-    const double min_gain = (edges_ ? 0.3 : 0.5) * w * w;
-    std::vector<Polyline> rest = OpenParts(floor, walls, edges_ ? 0.2 : 0.4, min_gain, swept);
+    const double min_gain = (edges_ ? 0.3 : 0.5) * w * w / (1 + round);
+    std::vector<Polyline> rest = OpenParts(floor, walls, (edges_ ? 0.2 : 0.4) / (1 + round), min_gain, swept);
     for (auto& line : LinesOverLeftovers(floor, ways, min_gain, swept)) rest.push_back(std::move(line));
     CutBeside(floor, rest, 6 * w, pieces);
     for (auto& line : rest) pieces.push_back(std::move(line));
@@ -86,6 +86,9 @@ Polyline CoveragePlanner::Sweep(const Floor& floor, const Vec2& start, Figures& 
   figures.push_back({"coverage2", swept.share()});
   figures.push_back({"length2", PolylineLength(path) * w / floor.ground_cells});
   Prune(floor, {goal * floor.ground_cells, edges_ ? 0.25 : 0.4}, path, swept);
+  // A cluttered floor is dear: there the last per cent may go for less.
+  if (PolylineLength(path) * w > 1.25 * floor.ground_cells)
+    Prune(floor, {(edges_ ? 0.988 : 0.96) * floor.ground_cells, edges_ ? 0.4 : 0.6}, path, swept);
   return MergeStraight(path);
 }
 
