@@ -33,7 +33,7 @@ class CoveragePlanner : public Planner {
 
   std::optional<double> tool_width_m_;
   std::optional<double> radius_m_;
-  double overlap_ = 0.0;
+  double overlap_ = 0.05;
   bool edges_ = false;
 };
 

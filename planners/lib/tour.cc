@@ -14,7 +14,7 @@
 namespace floorproof {
 namespace {
 
-constexpr int kMaxStretch = 50;
+constexpr int kMaxStretch = 150;
 constexpr std::size_t kNeighbours = 10;
 
 class Tour {
@@ -111,17 +111,25 @@ class Tour {
     }
     place_.resize(Z(n_));
     for (int p = 0; p < n_; ++p) place_[Z(in_[Z(p)] / 2)] = p;
+    link_.resize(Z(n_));
+    MeasureLinks(0, n_ - 1);
   }
 
   int In(int p) const { return in_[Z(p)]; }
   int Out(int p) const { return Other(in_[Z(p)]); }
-  double Link(int p) { return p + 1 < n_ ? D(Out(p), In(p + 1)) : 0; }  // behind place p
+  double Link(int p) const { return link_[Z(p)]; }  // behind place p
+
+  void MeasureLinks(int from, int to) {
+    for (int p = std::max(0, from); p <= std::min(to, n_ - 1); ++p)
+      link_[Z(p)] = p + 1 < n_ ? D(Out(p), In(p + 1)) : 0;
+  }
 
   void Replace(int from, const std::vector<int>& stretch) {
     for (std::size_t k = 0; k < stretch.size(); ++k) {
       in_[Z(from) + k] = stretch[k];
       place_[Z(stretch[k] / 2)] = from + static_cast<int>(k);
     }
+    MeasureLinks(from - 1, from + static_cast<int>(stretch.size()) - 1);
   }
   void Reverse(int i, int j) {
     std::vector<int> stretch;
@@ -138,12 +146,12 @@ class Tour {
     }
     if (k > j) {
       for (int p = j + 1; p <= k; ++p) others.push_back(In(p));
+      others.insert(others.end(), moved.begin(), moved.end());
       Replace(i, others);
-      Replace(i + static_cast<int>(others.size()), moved);
     } else {
       for (int p = k + 1; p < i; ++p) others.push_back(In(p));
+      moved.insert(moved.end(), others.begin(), others.end());
       Replace(k + 1, moved);
-      Replace(k + 1 + static_cast<int>(moved.size()), others);
     }
   }
 
@@ -188,7 +196,7 @@ class Tour {
       const bool f_out = Out(q) == f;
       const int k = f_out ? q : q - 1;  // insert behind place k
       if (k < 0) continue;
-      for (int length = 1; length <= kMaxStretch; length += 1 + length / 6) {
+      for (int length = 1; length <= kMaxStretch; ++length) {
         const int i = is_in ? p : p - length + 1, j = is_in ? p + length - 1 : p;
         if (i < 1 || j >= n_) break;
         if (k >= i - 1 && k <= j) break;
@@ -229,6 +237,7 @@ class Tour {
   std::unordered_map<std::uint64_t, float> known_;
   std::vector<int> in_;     // by place: the end by which the line there is entered
   std::vector<int> place_;  // by line
+  std::vector<double> link_;  // by place: the way on to the next line
 };
 
 }  // namespace
