@@ -1,32 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
+// Boustrophedon ("as the ox ploughs"): back-and-forth rows. (1) The floor is cut into regions, each
+// with the direction that makes its rows long (planners/lib/regions.h); (2) rows lie at the spacing
+// and offset that fit a region best, broken by obstacles into the cells of a boustrophedon
+// decomposition (Choset & Pignon 1997); (3) the rows are ordered as a travelling salesman would and
+// joined by shortest ways; (4) transits are dropped, leftovers visited, and all is ordered again
+// (planners/lib/coverage_planner.h).
+// Parameters: those of every coverage planner, and direction_deg. With `edges` laps along walls
+// and furniture come first and the rows fill what these leave.
+// Not done: rows do not bend; ground narrower than the tool is visited, not rowed.
+#include <algorithm>
+#include <cmath>
+
 #include "planners/lib/coverage_planner.h"
 #include "planners/lib/rows.h"
 
 namespace floorproof {
 namespace {
 
+// A row's end costs about this much beside the row: the step to the next one and two turns.
+constexpr double kLinkWidths = 1.5;
+
 class Boustrophedon final : public CoveragePlanner {
  public:
   void Visit(ParamVisitor& visit) override {
     CoveragePlanner::Visit(visit);
-    visit("direction_deg", direction_deg_, Any(), "of the rows in the map's frame; none: chosen");
+    visit("direction_deg", direction_deg_, Any(),
+          "of the rows, in the map's frame; none: chosen for each part of the floor");
   }
 
  protected:
   std::vector<Polyline> Lines(const Floor& floor, const Swept& swept,
                               Figures& figures) const override {
-    RowOptions options;
-    options.spacing = Spacing(floor);
-    options.link = 1.5 * floor.tool_width;
+    const RowOptions options{Spacing(floor), kLinkWidths * floor.tool_width};
     std::optional<double> fixed;
     if (direction_deg_) fixed = *direction_deg_ * kPi / 180;
-    Regions regions = FindRegions(floor, options.link, fixed);
+    const Regions regions = FindRegions(floor, options.link, fixed);
+    const std::vector<Row> rows =
+        MakeRows(floor, regions, options, swept.swept_cells() > 0 ? &swept : nullptr);
+
     std::vector<Polyline> lines;
-    for (const Row& row :
-         MakeRows(floor, regions, options, swept.swept_cells() > 0 ? &swept : nullptr))
+    std::vector<double> length(regions.direction_rad.size());
+    for (const Row& row : rows) {
       lines.push_back({row.a, row.b});
+      length[static_cast<std::size_t>(row.region)] += (row.b - row.a).norm();
+    }
+    const auto longest = std::max_element(length.begin(), length.end()) - length.begin();
     figures.push_back({"regions", static_cast<double>(regions.direction_rad.size())});
-    figures.push_back({"rows", static_cast<double>(lines.size())});
+    figures.push_back({"cells", static_cast<double>(CountCells(rows, regions))});
+    figures.push_back({"rows", static_cast<double>(rows.size())});
+    figures.push_back({"sweep_direction_deg",
+                       regions.direction_rad[static_cast<std::size_t>(longest)] * 180 / kPi});
     return lines;
   }
 

@@ -1,9 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
+// Spiral: rings at growing distance from the walls. (1) The floor's poses are measured for their
+// distance to the nearest place that is none; (2) contours of that distance, one row apart, from
+// the walls inwards, are traced and kept where they sweep something new; (3) what all coverage
+// planners share orders and joins them (planners/lib/coverage_planner.h), which strings the rings
+// of a room together as a spiral. Contour-parallel paths as in Held, "On the Computational Geometry
+// of Pocket Machining", 1991.
+// Parameters: those of every coverage planner; `edges` changes little, the first ring is a lap.
+// Not done: rings have corners where walls have, so there are more turns than with rows.
+#include <algorithm>
+
 #include "planners/lib/coverage_planner.h"
 #include "planners/lib/laps.h"
 
 namespace floorproof {
 namespace {
+
+constexpr double kAtWall = 0.7;     // cells: the staircase of a traced contour
+constexpr double kSlack = 0.12;     // of the tool's width, away from walls: fewer corners
+constexpr double kOpenShare = 0.3;  // of the tool's width: less is left to a later visit
 
 class Spiral final : public CoveragePlanner {
  protected:
@@ -16,7 +30,9 @@ class Spiral final : public CoveragePlanner {
     for (double at = 0;; at += Spacing(floor)) {
       const auto contours = Contours(floor, depth, at);
       if (contours.empty()) break;
-      for (auto& part : OpenParts(floor, contours, 0.3, floor.tool_width, covered))
+      const double tolerance = at == 0 ? kAtWall : std::max(kAtWall, kSlack * floor.tool_width);
+      for (auto& part :
+           OpenParts(floor, contours, kOpenShare, floor.tool_width, tolerance, covered))
         lines.push_back(std::move(part));
       ++rings;
     }

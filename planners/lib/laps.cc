@@ -101,11 +101,9 @@ Polyline Simplify(const Floor& floor, const Polyline& line, double tolerance) {
 }
 
 std::vector<Polyline> OpenParts(const Floor& floor, const std::vector<Polyline>& lines,
-                                double share, double min_gain, Swept& swept) {
+                                double share, double min_gain, double tolerance, Swept& swept) {
   constexpr std::ptrdiff_t kTangent = 3;  // points either way
-  constexpr double kTolerance = 0.7;
   std::vector<Polyline> parts;
-  const double half = floor.tool_width / 2;
   for (const Polyline& line : lines) {
     const auto n = static_cast<std::ptrdiff_t>(line.size());
     const auto at = [&](std::ptrdiff_t i) { return line[static_cast<std::size_t>(i)]; };
@@ -114,12 +112,7 @@ std::vector<Polyline> OpenParts(const Floor& floor, const std::vector<Polyline>&
           at(std::min(n - 1, i + kTangent)) - at(std::max<std::ptrdiff_t>(0, i - kTangent));
       const double length = way.norm();
       const Vec2 across = length > 0 ? Vec2(-way.y() / length, way.x() / length) : Vec2(0, 1);
-      double open = 0;
-      for (double v = -half + 0.5; v <= half - 0.25; v += 1) {
-        const Cell c = Floor::CellAt(at(i) + v * across);
-        if (floor.ground.Inside(c) && swept.IsOpen(c.ix, c.iy)) ++open;
-      }
-      return open >= share * floor.tool_width;
+      return swept.OpenShareAcross(at(i), across) >= share;
     };
     const double bridge = 1.5 * floor.tool_width;
     for (std::ptrdiff_t i = 0; i < n;) {
@@ -134,7 +127,7 @@ std::vector<Polyline> OpenParts(const Floor& floor, const std::vector<Polyline>&
         if (open_at(k)) last = k, gap = 0;
       }
       const Polyline part =
-          Simplify(floor, Polyline(line.begin() + i, line.begin() + last + 1), kTolerance);
+          Simplify(floor, Polyline(line.begin() + i, line.begin() + last + 1), tolerance);
       const int gain = swept.Add(part);
       if (gain >= min_gain) {
         parts.push_back(part);

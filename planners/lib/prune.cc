@@ -11,7 +11,7 @@
 namespace floorproof {
 namespace {
 
-constexpr std::size_t kWindow = 8;     // points
+constexpr std::size_t kWindow = 8;    // points
 constexpr double kLeastSaving = 0.5;  // cells
 
 class Pruner {

@@ -12,7 +12,7 @@
 namespace floorproof {
 namespace {
 
-constexpr double kLeftover = 2.0;  // cost of ground swept afterwards, in rows of the same ground
+constexpr double kLeftover = 2;  // cost of ground swept afterwards, in rows of the same ground
 
 struct Box {
   double u0 = std::numeric_limits<double>::infinity(), u1 = -u0, v0 = u0, v1 = -u0;
@@ -67,19 +67,10 @@ class RegionRows {
 
   bool Wanted(const Vec2& p, const Vec2& across) const {
     const Cell c = Floor::CellAt(p);
-    if (!floor_.pose.Inside(c) || regions_.label(c) != region_) {
-      // A line along a wall may run just outside the cells whose centres are clear.
-      return false;
-    }
+    if (!floor_.pose.Inside(c) || regions_.label(c) != region_) return false;
     if (!floor_.Free(p, floor_.tolerance)) return false;
     if (!swept_) return true;
-    // Something open across the tool's width here?
-    const double half = floor_.tool_width / 2;
-    for (double v = -half + 0.5; v <= half - 0.25; v += 1) {
-      const Cell q = Floor::CellAt(p + v * across);
-      if (floor_.ground.Inside(q) && swept_->IsOpen(q.ix, q.iy)) return true;
-    }
-    return false;
+    return swept_->OpenShareAcross(p, across) > 0;
   }
 
   const Floor& floor_;
@@ -91,7 +82,7 @@ class RegionRows {
 
 }  // namespace
 
-std::vector<Row> MakeRows(const Floor& floor, Regions& regions, const RowOptions& options,
+std::vector<Row> MakeRows(const Floor& floor, const Regions& regions, const RowOptions& options,
                           const Swept* swept) {
   std::vector<std::vector<Cell>> cells(regions.direction_rad.size());
   for (int iy = 0; iy < floor.frame.height; ++iy)
@@ -125,6 +116,35 @@ std::vector<Row> MakeRows(const Floor& floor, Regions& regions, const RowOptions
                   });
   }
   return rows;
+}
+
+int CountCells(const std::vector<Row>& rows, const Regions& regions) {
+  // Rows of a region come line by line. below[i]: neighbours of row i on the line before;
+  // above[i]: on the line after.
+  std::vector<int> below(rows.size()), above(rows.size()), parent(rows.size(), -1);
+  std::size_t line_begin = 0, before_begin = 0, before_end = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[i];
+    if (i == 0 || rows[i - 1].region != row.region || rows[i - 1].line != row.line) {
+      const bool next =
+          i > 0 && rows[i - 1].region == row.region && rows[i - 1].line + 1 == row.line;
+      before_begin = next ? line_begin : i, before_end = i;
+      line_begin = i;
+    }
+    const double yaw = regions.direction_rad[static_cast<std::size_t>(row.region)];
+    const Vec2 along(std::cos(yaw), std::sin(yaw));
+    for (std::size_t k = before_begin; k < before_end; ++k) {
+      if (rows[k].b.dot(along) < row.a.dot(along) || rows[k].a.dot(along) > row.b.dot(along))
+        continue;
+      ++below[i];
+      ++above[k];
+      parent[i] = static_cast<int>(k);
+    }
+  }
+  int cells = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (below[i] != 1 || above[static_cast<std::size_t>(parent[i])] != 1) ++cells;
+  return cells;
 }
 
 }  // namespace floorproof

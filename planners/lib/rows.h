@@ -19,7 +19,12 @@ struct Row {
 
 // Rows of each region in its direction, at the spacing and offset that fit it best. Where `swept`
 // is given only the parts that still have something to sweep.
-std::vector<Row> MakeRows(const Floor& floor, Regions& regions, const RowOptions& options,
+std::vector<Row> MakeRows(const Floor& floor, const Regions& regions, const RowOptions& options,
                           const Swept* swept);
+
+// Cells of the boustrophedon decomposition that the rows lie in: stacks of rows of which each has
+// one neighbour above and one below (Choset & Pignon 1997: a cell ends where a sweep line splits or
+// merges).
+int CountCells(const std::vector<Row>& rows, const Regions& regions);
 
 }  // namespace floorproof

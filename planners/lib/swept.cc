@@ -40,6 +40,17 @@ int Swept::Gain(const Polyline& line) {
   return gain;
 }
 
+double Swept::OpenShareAcross(const Vec2& p, const Vec2& across) const {
+  const double width = floor_->tool_width;
+  const int n = std::max(1, static_cast<int>(std::lround(width)));
+  int open = 0;
+  for (int i = 0; i < n; ++i) {
+    const Cell c = Floor::CellAt(p + ((i + 0.5) / n - 0.5) * width * across);
+    if (count_.Inside(c) && IsOpen(c.ix, c.iy)) ++open;
+  }
+  return static_cast<double>(open) / n;
+}
+
 int Swept::Span(int iy, double low, double high, int by) {
   const int x0 = static_cast<int>(std::ceil(std::max(0.0, low - 0.5)));
   const int x1 = std::min(count_.width - 1, static_cast<int>(std::floor(high - 0.5)));

@@ -19,6 +19,8 @@ class Swept {
   // Ground cells that Add(line) would add.
   int Gain(const Polyline& line);
   bool IsOpen(int ix, int iy) const { return count_(ix, iy) == 0; }
+  // Share of the tool's width, along the unit vector `across` through p, that is open ground.
+  double OpenShareAcross(const Vec2& p, const Vec2& across) const;
   double swept_cells() const { return static_cast<double>(swept_); }
   double share() const {
     return floor_->ground_cells > 0 ? swept_cells() / floor_->ground_cells : 0;

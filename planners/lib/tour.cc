@@ -235,8 +235,8 @@ class Tour {
   std::vector<Vec2> points_;  // ends: line e / 2, its front (even) or back (odd)
   std::vector<std::vector<int>> near_;
   std::unordered_map<std::uint64_t, float> known_;
-  std::vector<int> in_;     // by place: the end by which the line there is entered
-  std::vector<int> place_;  // by line
+  std::vector<int> in_;       // by place: the end by which the line there is entered
+  std::vector<int> place_;    // by line
   std::vector<double> link_;  // by place: the way on to the next line
 };
 

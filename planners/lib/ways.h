@@ -22,7 +22,8 @@ class Ways {
   double Distance(const Vec2& a, const Vec2& b);
   // Remembers places for NearestPlaces.
   void IndexPlaces(const std::vector<Vec2>& places);
-  // The indices of about the `count` places nearest to the one given, by way length, itself excluded.
+  // The indices of about the `count` places nearest to the one given, by way length, itself
+  // excluded.
   std::vector<int> NearestPlaces(int place, std::size_t count);
   // The pose cell nearest to p within `reach` cells, or p's own; {-1, -1}: none.
   Cell NearestPose(const Vec2& p, double reach) const;
@@ -49,7 +50,7 @@ class Ways {
   std::uint32_t coarse_stamp_ = 0;
 
   std::array<std::vector<int>, 8> buckets_;
-  std::vector<int> place_cell_;               // coarse cell of each place
+  std::vector<int> place_cell_;                // coarse cell of each place
   std::vector<int> first_place_, place_list_;  // places by coarse cell
 
   int block_ = 16;               // fine cells a block
