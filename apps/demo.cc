@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "apps/drive_and_film.h"
+#include "env/run/records.h"
+
+namespace floorproof {
+namespace {
+
+// The bundled scenarios, and how each should end.
+struct DemoDrive {
+  const char *scenario, *says;
+  Outcome expected;
+  const char* mode;  // of the first failure event; empty: none
+};
+constexpr DemoDrive kDrives[] = {
+    {"demo_beluga", "BELUGA covers a hall with furniture, a door sill and a glass wall",
+     Outcome::kSuccess, ""},
+    {"demo_unseen_step", "the same hall, and a 40 mm step that nobody put on the map",
+     Outcome::kFailure, "stuck"},
+};
+
+bool AsExpected(const DemoDrive& drive, const EpisodeRecord& record) {
+  if (record.outcome != drive.expected) return false;
+  return record.events.empty() ? *drive.mode == '\0'
+                               : Name(record.events.front().mode) == drive.mode;
+}
+
+}  // namespace
+
+void AddDemo(CLI::App& app, const Globals& globals, int& status) {
+  auto out = std::make_shared<std::string>("out/demo");
+  CLI::App* command = app.add_subcommand(
+      "demo", "The bundled site: a clean drive and a plan that fails, driven, judged and filmed");
+  command->add_option("--out", *out, "Output folder")->capture_default_str();
+  command->callback([out, &globals, &status] {
+    const std::filesystem::path root = *out;
+    auto all = nlohmann::ordered_json::object();
+    bool good = true;
+    for (const auto& drive : kDrives) {
+      globals.Say(fmt::format("\n{}: {}", drive.scenario, drive.says));
+      Scenario scenario =
+          ReadScenario(ModelsFolder() / "scenarios" / (std::string(drive.scenario) + ".yaml"),
+                       globals.Overrides());
+      const DriveResult result =
+          DriveAndFilm(scenario, root / drive.scenario, {.video = true}, globals);
+      if (result.record.outcome == Outcome::kInterrupted) {
+        status = kInterruptedExit;
+        return;
+      }
+      const bool as_expected = AsExpected(drive, result.record);
+      good = good && as_expected;
+      globals.Say(fmt::format("{}: expected {}{}{}",
+                              as_expected ? "as expected" : "NOT AS EXPECTED", Name(drive.expected),
+                              *drive.mode ? ", " : "", drive.mode));
+      all[drive.scenario] = ResultJson(scenario, result.record);
+    }
+    globals.Say(fmt::format("\nfilms, heat maps and records are in {}", root.string()));
+    globals.Result(all);
+    status = good ? kDone : kBroken;
+  });
+}
+
+}  // namespace floorproof

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/drive_and_film.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "apps/pictures.h"
+#include "apps/progress.h"
+#include "env/run/file_output.h"
+#include "env/run/records.h"
+
+namespace floorproof {
+namespace {
+
+double Since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::string Verdict(const EpisodeRecord& record) {
+  const Metrics& m = record.metrics;
+  std::string line = fmt::format(
+      "{}: covered {:.1f} % in {:.0f} s over {:.1f} m, off the path by {:.0f} mm at most, {:.0f} "
+      "kJ",
+      Name(record.outcome), 100 * m.coverage, m.duration_s, m.path_length_m,
+      1000 * m.max_cross_track_m, m.energy_j / 1000);
+  if (!record.message.empty()) line += " (" + record.message + ")";
+  return line;
+}
+
+std::string EventLine(const Event& e) {
+  return fmt::format("  {}{} at {:.1f} s, x {:.2f} y {:.2f} m{}: {:.3g} against {:.3g}, effect {}",
+                     Name(e.mode), e.kind.empty() ? "" : " (" + e.kind + ")", e.t_s, e.x_m, e.y_m,
+                     e.hazard.empty() ? "" : ", " + e.hazard, e.value, e.threshold, e.effect);
+}
+
+}  // namespace
+
+DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
+                         const DriveOptions& options, const Globals& globals) {
+  CatchInterrupts();
+  DriveResult result;
+  for (const auto& warning : s.site.warnings) globals.Say("warning: " + warning);
+  const auto plan_start = std::chrono::steady_clock::now();
+  result.plan = MakePlan(s);
+  const double plan_s = Since(plan_start);
+  if (options.write_records) {
+    MakeFolder(folder);
+    WritePlanFiles(s, result.plan, folder);
+  }
+  if (result.plan.status != PlanStatus::kSuccess) {
+    globals.Say(fmt::format("no plan ({}): {}", Name(result.plan.status), result.plan.message));
+    result.record.outcome = Outcome::kNotPlanned;
+    result.record.message = result.plan.message;
+    if (options.write_records) WriteEpisodeFiles(s, result.record, folder);
+    return result;
+  }
+  globals.Say(fmt::format("planned: {} waypoints, {:.1f} m, {} turns, in {:.2f} s",
+                          result.plan.path.size(), Length(result.plan.path),
+                          CountTurns(result.plan.path), plan_s));
+  if (s.episode.drive == "none") {
+    result.record.outcome = Outcome::kSuccess;
+    return result;
+  }
+
+  const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
+  Recording recording(static_cast<int>(scene.model->nq));
+  const auto drive_start = std::chrono::steady_clock::now();
+  {
+    ProgressObserver observer(globals, s.episode.control_hz, options.video ? &recording : nullptr);
+    result.record = RunEpisode(s, scene, result.plan, &observer);
+  }
+  const double drive_s = Since(drive_start);
+  globals.Say(Verdict(result.record));
+  for (const auto& event : result.record.events) globals.Say(EventLine(event));
+  globals.Say(fmt::format("drove {:.0f}x faster than real time ({:.1f} s)",
+                          result.record.metrics.duration_s / drive_s, drive_s));
+  if (options.write_records) {
+    WriteEpisodeFiles(s, result.record, folder);
+    WriteHeatMaps(s, result.plan, result.record, folder);
+  }
+  if (result.record.outcome == Outcome::kInterrupted) {
+    globals.Say("interrupted: the plan and the trace so far are in " + folder.string());
+    return result;
+  }
+  if (options.video)
+    globals.Say(WriteVideo(s, scene, result.plan, result.record, recording, folder));
+  return result;
+}
+
+int ExitStatus(const DriveResult& result) {
+  switch (result.record.outcome) {
+    case Outcome::kSuccess:
+      return kDone;
+    case Outcome::kFailure:
+    case Outcome::kTimeout:
+    case Outcome::kNotPlanned:
+      return kNotSuccess;
+    case Outcome::kError:
+      return kBroken;
+    case Outcome::kInterrupted:
+      return kInterruptedExit;
+  }
+  return kBroken;
+}
+
+}  // namespace floorproof

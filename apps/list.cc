@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "apps/command.h"
+#include "controllers/drive.h"
+#include "env/hazards/hazard_type.h"
+
+namespace floorproof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+void AddEntries(std::span<const PluginEntry<T>> table, Json& out) {
+  for (const auto& entry : table) {
+    Json params = Json::array();
+    if constexpr (std::is_base_of_v<Configurable, T>) {
+      const auto plugin = entry.make();
+      for (const auto& doc : DocumentParams(*plugin))
+        params.push_back({{"name", doc.name},
+                          {"default", doc.default_text},
+                          {"rule", doc.rule},
+                          {"help", doc.help}});
+    }
+    out.push_back({{"name", entry.name}, {"help", entry.help}, {"params", std::move(params)}});
+  }
+}
+
+Json Entries(const std::string& kind) {
+  Json out = Json::array();
+  if (kind == "planners") AddEntries(Planners(), out);
+  if (kind == "controllers") AddEntries(Trackers(), out);
+  if (kind == "estimators") AddEntries(Estimators(), out);
+  if (kind == "hazards") AddEntries(HazardTypes(), out);
+  if (kind == "failures") AddEntries(Detectors(), out);
+  if (kind == "robots")
+    for (const auto& robot : Robots())
+      out.push_back({{"name", robot.name}, {"help", robot.help}, {"params", Json::array()}});
+  return out;
+}
+
+}  // namespace
+
+void AddList(CLI::App& app, const Globals& globals, int&) {
+  static const std::vector<std::string> kKinds = {"planners", "controllers", "estimators",
+                                                  "sensors",  "hazards",     "robots",
+                                                  "faults",   "failures"};
+  auto kind = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand(
+      "list", "List what a scenario may name; with a kind, the keys of each as well");
+  command->add_option("KIND", *kind, "One of the kinds; none: all")->check(CLI::IsMember(kKinds));
+  command->callback([kind, &globals] {
+    Json all = Json::object();
+    for (const auto& k : kKinds) {
+      if (!kind->empty() && k != *kind) continue;
+      all[k] = Entries(k);
+      if (globals.json) continue;
+      globals.Say(k + (all[k].empty() ? ": none in this version" : ""));
+      for (const auto& entry : all[k]) {
+        globals.Say(fmt::format("  {:<20} {}", entry["name"].get<std::string>(),
+                                entry["help"].get<std::string>()));
+        if (kind->empty()) continue;
+        for (const auto& p : entry["params"])
+          globals.Say(fmt::format("      {:<26} {:<10} {} ({})", p["name"].get<std::string>(),
+                                  p["default"].get<std::string>(), p["help"].get<std::string>(),
+                                  p["rule"].get<std::string>()));
+      }
+    }
+    globals.Result(all);
+  });
+}
+
+}  // namespace floorproof

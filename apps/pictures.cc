@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/pictures.h"
+
+#include <fmt/format.h>
+
+#include "render/heatmap.h"
+
+namespace floorproof {
+namespace {
+
+std::string Title(const Scenario& s) { return s.robot_name + " on " + s.site.map.name; }
+
+HeatValues OverSweepable(const EpisodeRecord& record, float (*value)(std::uint8_t passes)) {
+  HeatValues heat{record.passes_frame,
+                  Grid<float>(record.passes.width, record.passes.height, HeatValues::kNone)};
+  for (std::size_t i = 0; i < heat.values.cells.size(); ++i)
+    if (record.sweepable.cells[i]) heat.values.cells[i] = value(record.passes.cells[i]);
+  return heat;
+}
+
+}  // namespace
+
+void WritePlanPicture(const Scenario& s, const PlanResult& plan,
+                      const std::filesystem::path& folder) {
+  HeatMapOptions options;
+  options.title = Title(s) + ": plan";
+  options.plan = &plan.path;
+  WriteHeatMap(s.site.map, nullptr, options, folder / "heatmap_plan.png");
+}
+
+void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecord& record,
+                   const std::filesystem::path& folder) {
+  {
+    HeatMapOptions options;
+    options.title = Title(s) + ": visits";
+    options.quantity = "passes of the tool";
+    options.unit = "count";
+    options.whole_numbers = true;
+    options.low = 0;
+    const HeatValues heat =
+        OverSweepable(record, [](std::uint8_t passes) { return static_cast<float>(passes); });
+    WriteHeatMap(s.site.map, &heat, options, folder / "heatmap_visits.png");
+  }
+  {
+    HeatMapOptions options;
+    options.title = fmt::format("{}: coverage {:.1f} %", Title(s), 100 * record.metrics.coverage);
+    options.categories = {{"can be swept, was not", {222, 90, 60}}, {"swept", {70, 150, 110}}};
+    const HeatValues heat =
+        OverSweepable(record, [](std::uint8_t passes) { return passes > 0 ? 1.0f : 0.0f; });
+    WriteHeatMap(s.site.map, &heat, options, folder / "heatmap_coverage.png");
+  }
+  {
+    HeatMapOptions options;
+    options.title = fmt::format("{}: {} failure event{}", Title(s), record.events.size(),
+                                record.events.size() == 1 ? "" : "s");
+    for (const auto& event : record.events)
+      options.points.push_back({{event.x_m, event.y_m}, std::string(Name(event.mode))});
+    options.plan = &plan.path;
+    WriteHeatMap(s.site.map, nullptr, options, folder / "heatmap_failures.png");
+  }
+}
+
+std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& plan,
+                       const EpisodeRecord& record, const Recording& recording,
+                       const std::filesystem::path& folder) {
+  const HazardMap& map = s.site.map;
+  FilmScript script;
+  script.model = scene.model.get();
+  script.base_body = scene.base_body;
+  script.recording = &recording;
+  script.events = record.events;
+  script.title = Title(s);
+  script.plan = &plan.path;
+  script.tool_width_m = s.robot.robot.tool_width_m;
+  const double w = map.frame.width * map.frame.cell_m, h = map.frame.height * map.frame.cell_m;
+  Vec2 low = map.frame.X_WG.p(), high = low;
+  for (const Vec2& corner : {Vec2(w, 0), Vec2(0, h), Vec2(w, h)}) {
+    low = low.cwiseMin(map.frame.X_WG * corner);
+    high = high.cwiseMax(map.frame.X_WG * corner);
+  }
+  script.set = {low, high, s.robot.robot.circumscribed_radius_m};
+  if (record.events.empty()) {
+    Banner banner;
+    const bool success = record.outcome == Outcome::kSuccess;
+    banner.tone = success ? Banner::Tone::kSuccess : Banner::Tone::kWarning;
+    banner.headline = success ? "SUCCESS" : std::string(Name(record.outcome));
+    banner.detail =
+        success ? fmt::format("covered {:.1f} % without a failure", 100 * record.metrics.coverage)
+                : record.message;
+    script.closing = banner;
+  }
+  FilmOptions options;
+  options.camera = s.video.camera;
+  options.width = s.video.width & ~1;
+  options.height = s.video.height & ~1;
+  options.pace.fps = s.video.fps;
+  options.pace.speed_up = s.video.speed_up.value_or(0);
+  options.pace.max_frames = s.video.max_frames;
+  options.stills = folder;
+  const FilmResult film = WriteFilm(script, options, folder / "video.mp4");
+  return fmt::format("filmed: {} frames ({:.1f} s to draw, {:.1f} s to encode): {}", film.frames,
+                     film.render_s, film.encode_s, (folder / "video.mp4").string());
+}
+
+}  // namespace floorproof

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// An episode's film and heat maps.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "env/run/episode.h"
+#include "render/film.h"
+
+namespace floorproof {
+
+// heatmap_plan.png: the planned path over the map.
+void WritePlanPicture(const Scenario& scenario, const PlanResult& plan,
+                      const std::filesystem::path& folder);
+// heatmap_visits.png, heatmap_coverage.png and heatmap_failures.png.
+void WriteHeatMaps(const Scenario& scenario, const PlanResult& plan, const EpisodeRecord& record,
+                   const std::filesystem::path& folder);
+// video.mp4 and frame_*.png; returns a line that says how it went.
+std::string WriteVideo(const Scenario& scenario, const Scene& scene, const PlanResult& plan,
+                       const EpisodeRecord& record, const Recording& recording,
+                       const std::filesystem::path& folder);
+
+}  // namespace floorproof

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "apps/command.h"
+#include "apps/pictures.h"
+#include "env/run/file_output.h"
+#include "env/run/records.h"
+
+namespace floorproof {
+
+void AddPlan(CLI::App& app, const Globals& globals, int& status) {
+  struct Options {
+    std::string scenario, out;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("plan", "Plan only: plan.csv, plan.json and a picture");
+  command->add_option("SCENARIO", options->scenario, "Scenario file (YAML)")->required();
+  command->add_option("--out", options->out, "Output folder (default: out/<scenario's stem>)");
+  command->callback([options, &globals, &status] {
+    const Scenario scenario = ReadScenario(options->scenario, globals.Overrides());
+    for (const auto& warning : scenario.site.warnings) globals.Say("warning: " + warning);
+    const auto folder = OutputFolder(options->out, scenario);
+    const PlanResult plan = MakePlan(scenario);
+    const auto json = PlanJson(scenario, plan);
+    MakeFolder(folder);
+    WritePlanFiles(scenario, plan, folder);
+    WritePlanPicture(scenario, plan, folder);
+    const bool found = plan.status == PlanStatus::kSuccess;
+    if (found)
+      globals.Say(fmt::format("planned: {} waypoints, {:.1f} m, {} turns, covers {:.1f} %",
+                              plan.path.size(), Length(plan.path), CountTurns(plan.path),
+                              100 * json["coverage"].get<double>()));
+    else
+      globals.Say(fmt::format("no plan ({}): {}", Name(plan.status), plan.message));
+    globals.Say("results are in " + folder.string());
+    globals.Result(json);
+    status = found ? kDone : kNotSuccess;
+  });
+}
+
+}  // namespace floorproof

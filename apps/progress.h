@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The progress line of an episode, and the recording that a film is made from.
+#pragma once
+
+#include <chrono>
+
+#include "apps/command.h"
+#include "env/run/episode.h"
+#include "render/film.h"
+
+namespace floorproof {
+
+// Simulated time, coverage, real-time factor and time to go: rewritten in place on a terminal, a
+// plain line every ten seconds elsewhere. Ends the episode when the user interrupts.
+class ProgressObserver : public EpisodeObserver {
+ public:
+  // `recording` may be nullptr. `control_hz` as in the scenario.
+  ProgressObserver(const Globals& globals, int control_hz, Recording* recording);
+  ~ProgressObserver() override;
+  bool OnControl(Simulation& simulation, double coverage, double plan_fraction) override;
+
+ private:
+  void Print(double t_s, double coverage, double plan_fraction, double wall_s);
+
+  const Globals& globals_;
+  Recording* recording_;
+  int record_every_;
+  long count_ = 0;
+  bool terminal_, shown_ = false;
+  std::chrono::steady_clock::time_point start_, last_;
+};
+
+}  // namespace floorproof
