@@ -27,6 +27,8 @@ struct Effort {
 };
 constexpr Effort kRowsOnly = {0.97, 0.4, 0.96, 0.6, 0.5, 0.4};
 constexpr Effort kWithEdges = {0.992, 0.25, 0.988, 0.4, 0.3, 0.2};
+constexpr double kSmall = 0.02;  // of the ground: worth a visit however small
+constexpr int kRounds = 2, kMostRounds = 4;
 constexpr double kDear = 1.25;          // length above this many times ground / width
 constexpr double kLapShare = 0.25;      // of the tool's width open: a lap along a wall pays
 constexpr double kFirstWorth = 0.15;    // before a path is taken apart: only what is plainly lost
@@ -87,12 +89,14 @@ Polyline CoveragePlanner::Sweep(const Floor& floor, const Vec2& start, Figures& 
   for (Polyline& line : Lines(floor, covered, figures)) lines.push_back(std::move(line));
   Polyline path = Drive(ways, start, lines);
 
-  for (int round = 1; round <= 2; ++round) {
+  for (int round = 1; round <= kMostRounds; ++round) {
     Swept swept(floor);
     swept.Add(path);
+    if (round > kRounds && swept.share() >= effort.least_goal) break;
     Prune(floor, {effort.goal * floor.ground_cells, kFirstWorth}, path, swept);
     std::vector<Polyline> pieces = WorkingPieces(floor, path, kWorkingShare, swept);
-    const double min_gain = effort.least_gain * w * w / round;
+    const double min_gain =
+        std::min(effort.least_gain * w * w, kSmall * floor.ground_cells) / round;
     std::vector<Polyline> rest =
         OpenParts(floor, walls, effort.open_share / round, min_gain, kWallTolerance, swept);
     for (Polyline& line : LinesOverLeftovers(floor, ways, min_gain, swept))
