@@ -3,11 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "controllers/estimator.h"
 #include "tests/controllers/allocation_guard.h"
 #include "tests/controllers/driving.h"
 
 namespace floorproof {
+
+void PrintTo(const PluginEntry<Tracker>& entry, std::ostream* os) { *os << entry.name; }
+
 namespace {
 
 class TrackerConformance : public testing::TestWithParam<PluginEntry<Tracker>> {};

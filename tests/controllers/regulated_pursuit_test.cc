@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 
 #include "env/core/streams.h"
 #include "tests/controllers/driving.h"
@@ -77,6 +78,8 @@ struct Case {
   Path path;
   double cross_track_m, ideal_share;  // bounds
 };
+
+void PrintTo(const Case& shape, std::ostream* os) { *os << shape.name; }
 
 class Shapes : public testing::TestWithParam<Case> {};
 

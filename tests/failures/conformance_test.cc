@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 
 #include "tests/controllers/allocation_guard.h"
 #include "tests/failures/synthetic.h"
 
 namespace floorproof {
+
+void PrintTo(const PluginEntry<Detector>& entry, std::ostream* os) { *os << entry.name; }
+
 namespace {
 
 constexpr FailureMode kModes[] = {FailureMode::kVeerOff, FailureMode::kStuck,
