@@ -61,7 +61,7 @@ class Chase : public Camera {
     follower_.Reset(X_WB.p());
     panner_.Reset(X_WB.yaw_rad);
   }
-  CameraView Next(const Pose2& X_WB, double dt_s) override {
+  CameraView Next(const Pose2& X_WB, double dt_s, double /*speed_up*/) override {
     const Vec2 p = follower_.Next(X_WB.p(), dt_s, 0.25, 0.15 * distance_m_);
     const double yaw = panner_.Next(X_WB.yaw_rad, dt_s);
     const Vec2 ahead(std::cos(yaw), std::sin(yaw));
@@ -92,7 +92,7 @@ class Top : public Camera {
     height_m_ = std::min(whole_m, 40 * set.robot_radius_m);
     follower_.Reset(X_WB.p());
   }
-  CameraView Next(const Pose2& X_WB, double dt_s) override {
+  CameraView Next(const Pose2& X_WB, double dt_s, double /*speed_up*/) override {
     const Vec2 p = follower_.Next(X_WB.p(), dt_s, 0.5, 0.25 * height_m_);
     const Vec2 half = 0.5 * height_m_ * Vec2(set_.aspect, 1);
     const Vec2 centre = 0.5 * (set_.low_W + set_.high_W);
@@ -124,7 +124,7 @@ class Side : public Camera {
     follower_.Reset(X_WB.p());
     panner_.Reset(X_WB.yaw_rad);
   }
-  CameraView Next(const Pose2& X_WB, double dt_s) override {
+  CameraView Next(const Pose2& X_WB, double dt_s, double /*speed_up*/) override {
     const Vec2 p = follower_.Next(X_WB.p(), dt_s, 0.2, 0.1 * distance_m_);
     const double yaw = panner_.Next(X_WB.yaw_rad, dt_s) - 80 * kDegree;
     constexpr double kElevation = 13 * kDegree;
@@ -143,12 +143,36 @@ class Side : public Camera {
   Panner panner_;
 };
 
+// From above while time flies, from behind when it runs slowly enough to watch.
+class Auto : public Camera {
+ public:
+  void Reset(const FilmSet& set, const Pose2& X_WB) override {
+    set_ = set;
+    top_.Reset(set, X_WB);
+    above_ = true;
+  }
+  CameraView Next(const Pose2& X_WB, double dt_s, double speed_up) override {
+    constexpr double kRacing = 4;
+    const CameraView from_above = top_.Next(X_WB, dt_s, speed_up);
+    if (above_ && speed_up < kRacing) chase_.Reset(set_, X_WB);
+    above_ = speed_up >= kRacing;
+    return above_ ? from_above : chase_.Next(X_WB, dt_s, speed_up);
+  }
+
+ private:
+  FilmSet set_;
+  Top top_;
+  Chase chase_;
+  bool above_ = true;
+};
+
 template <class T>
 std::unique_ptr<Camera> Make() {
   return std::make_unique<T>();
 }
 
 constexpr std::array kCameras = {
+    PluginEntry<Camera>{"auto", "top in a time lapse, chase where time runs slowly", Make<Auto>},
     PluginEntry<Camera>{"chase", "behind the robot and above it", Make<Chase>},
     PluginEntry<Camera>{"top", "from above: the whole site, or what is around the robot",
                         Make<Top>},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras that film a robot: chase, top, side. They know nothing of GL.
+// Cameras that film a robot: auto, chase, top, side. They know nothing of GL.
 #pragma once
 
 #include <memory>
@@ -34,8 +34,8 @@ class Camera {
  public:
   virtual ~Camera() = default;
   virtual void Reset(const FilmSet& set, const Pose2& X_WB) = 0;
-  // The view `dt_s` of film after the last one.
-  virtual CameraView Next(const Pose2& X_WB, double dt_s) = 0;
+  // The view `dt_s` of film after the last one, in which the robot moved for speed_up * dt_s.
+  virtual CameraView Next(const Pose2& X_WB, double dt_s, double speed_up) = 0;
 };
 
 std::span<const PluginEntry<Camera>> Cameras();

@@ -13,7 +13,7 @@ namespace floorproof {
 namespace {
 
 constexpr std::array<float, 4> kPlanRgba = {0.13f, 0.33f, 0.78f, 1.0f};
-constexpr std::array<float, 4> kTraceRgba = {0.05f, 0.55f, 0.50f, 0.15f};  // blended twice
+constexpr std::array<float, 4> kTraceRgba = {0.58f, 0.83f, 0.78f, 1.0f};
 constexpr double kTraceZ_m = 0.0015, kPlanZ_m = 0.0025;
 constexpr double kJump_m = 0.3;  // between two states: the robot was carried
 
@@ -77,8 +77,7 @@ class Puppet {
   std::size_t at_ = 0;
 };
 
-// Paints what was driven as few straight stripes, so that see-through ones darken only where the
-// robot really passed twice.
+// Paints what was driven as few straight stripes with round corners, as a disc-shaped tool sweeps.
 class Trail {
  public:
   Trail(FloorPaint& paint, double width_m) : paint_(paint), width_m_(width_m) {}
@@ -104,6 +103,7 @@ class Trail {
   void Begin(const Vec2& p, double z_m) {
     run_.assign(1, p);
     z_m_ = z_m;
+    paint_.AddDisc(p, z_m, 0.5 * width_m_, kTraceRgba);
     stripe_ = paint_.AddStripe(p, p, z_m, width_m_, kTraceRgba);
   }
 
@@ -154,9 +154,9 @@ class Studio {
         frame_s_(1 / options.pace.fps),
         camera_(MakePlugin(Cameras(), options.camera, "video.camera")),
         puppet_(script),
-        paint_((script.plan == nullptr ? 0 : static_cast<int>(script.plan->size())) + 4000),
+        paint_((script.plan == nullptr ? 0 : static_cast<int>(script.plan->size())) + 6000),
         trail_(paint_, script.tool_width_m),
-        renderer_(script.model, options.width, options.height, paint_.max_stripes()),
+        renderer_(script.model, options.width, options.height, paint_.max_marks()),
         image_(renderer_.MakeImage()) {
     if (script.plan == nullptr) return;
     PaintPlan(*script.plan, 0.012 + 0.0012 * (set_.high_W - set_.low_W).maxCoeff(), paint_);
@@ -169,7 +169,8 @@ class Studio {
     for (; trodden_ <= state; ++trodden_) {
       if (script_.tool_width_m > 0) trail_.Add(puppet_.Position(trodden_));
     }
-    renderer_.Render(data, camera_->Next(puppet_.X_WB(), frame_s_), &paint_, image_);
+    renderer_.Render(data, camera_->Next(puppet_.X_WB(), frame_s_, frame.speed_up), &paint_,
+                     image_);
 
     std::optional<Banner> banner;
     for (const Event& event : script_.events) {

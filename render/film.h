@@ -48,7 +48,7 @@ struct FilmScript {
 };
 
 struct FilmOptions {
-  std::string camera = "chase";   // a name of Cameras()
+  std::string camera = "auto";    // a name of Cameras()
   int width = 960, height = 540;  // even
   FilmPace pace;
   // Where frame_start.png, frame_failure.png (the first event) and frame_end.png go; none: nowhere.

@@ -12,7 +12,8 @@ namespace floorproof {
 namespace {
 
 constexpr Rgb kInk = {32, 38, 46}, kGrey = {110, 118, 128};
-constexpr int kColumn_px = 250, kTop_px = 64, kFoot_px = 64, kMargin_px = 24, kLeastHeight_px = 420;
+constexpr int kLeastColumn_px = 250, kTop_px = 64, kFoot_px = 64, kMargin_px = 24,
+              kLeastHeight_px = 420;
 
 // The least of 1, 2, 5 times a power of ten that is not below `least`.
 double NiceStep(double least) {
@@ -55,13 +56,24 @@ void DrawColourBar(Image& image, int x, int y, int height, const HeatRange& rang
   }
 }
 
+constexpr TextStyle kLabel = {.cap_px = 10, .colour = kInk};
+constexpr int kSwatch_px = 32;
+
+// The right column's, wide enough for its longest line.
+int ColumnWidth(const HeatPanel& panel, const HeatMapOptions& options) {
+  double widest = TextWidth(options.quantity, {.cap_px = 11, .bold = true});
+  for (const LegendLine& line : panel.legend) {
+    widest = std::max(widest, kSwatch_px + TextWidth(line.label, kLabel));
+  }
+  return std::clamp(static_cast<int>(widest) + kMargin_px, kLeastColumn_px, 400);
+}
+
 void DrawLegend(Image& image, int x, int y, const std::vector<LegendLine>& lines) {
-  const TextStyle text{.cap_px = 10, .colour = kInk};
   cv::Mat canvas = Canvas(image);
   for (const LegendLine& line : lines) {
     if (y > image.height - 10) break;
     DrawSwatch(canvas, {x, y - 12, 22, 14}, line);
-    DrawText(image, x + 32, y, line.label, text);
+    DrawText(image, x + kSwatch_px, y, line.label, kLabel);
     y += 22;
   }
 }
@@ -110,7 +122,7 @@ Image DrawHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapO
   const int bar_px = std::clamp(inner - legend - 60, 120, 320);
 
   Image image;
-  image.width = kMargin_px + panel.image.cols + kMargin_px + kColumn_px;
+  image.width = kMargin_px + panel.image.cols + kMargin_px + ColumnWidth(panel, options);
   image.height = kTop_px + inner + kFoot_px;
   image.channels = 3;
   image.data.assign(static_cast<std::size_t>(image.width) * image.height * 3, 255);

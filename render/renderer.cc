@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <limits>
 #include <string>
 
 #include "env/core/error.h"
@@ -82,14 +82,46 @@ float DistanceToBox(const mjvGeom& box, const Eigen::Vector3f& eye, const Eigen:
   return best;
 }
 
+// The highest point of a geom of the model; none for planes.
+float TopOf(const mjModel* model, const mjvGeom& geom) {
+  if (geom.objtype != mjOBJ_GEOM || geom.type == mjGEOM_PLANE) {
+    return -std::numeric_limits<float>::infinity();
+  }
+  const mjtNum* box = model->geom_aabb + 6 * geom.objid;  // centre and half sides, geom's own frame
+  double top = geom.pos[2];
+  for (int k = 0; k < 3; ++k)
+    top += geom.mat[6 + k] * box[k] + std::abs(geom.mat[6 + k]) * box[3 + k];
+  return static_cast<float>(top);
+}
+
+bool IsGlass(const mjModel* model, const mjvGeom& geom) {
+  if (geom.objtype != mjOBJ_GEOM) return false;
+  const int material = model->geom_matid[geom.objid];
+  return (material < 0 ? model->geom_rgba[4 * geom.objid + 3] : model->mat_rgba[4 * material + 3]) <
+         kOpaque;
+}
+
+// A flat mark on the floor, `half_m` from its middle to its border.
+mjvGeom Mark(mjtGeom type, const Vec2& p_W, double z_m, double half_m,
+             const std::array<float, 4>& rgba) {
+  constexpr double kHalfThick_m = 0.0005;
+  const bool disc = type == mjGEOM_CYLINDER;
+  const mjtNum size[3] = {half_m, disc ? kHalfThick_m : half_m, kHalfThick_m};
+  const mjtNum pos[3] = {p_W.x(), p_W.y(), z_m - kHalfThick_m};
+  mjvGeom geom;
+  mjv_initGeom(&geom, type, size, pos, nullptr, rgba.data());
+  geom.category = mjCAT_DECOR;
+  geom.specular = 0;
+  geom.modelrbound = static_cast<float>(half_m);
+  return geom;
+}
+
 // Thins out what stands between the camera and its target; the nearer to the line, the thinner, so
 // that nothing pops when the camera moves on.
-void ThinOut(mjvGeom& geom, const Eigen::Vector3f& eye, const Eigen::Vector3f& target) {
+void ThinOut(mjvGeom& geom, float top, const Eigen::Vector3f& eye, const Eigen::Vector3f& target) {
   if (geom.category != mjCAT_STATIC || geom.type != mjGEOM_BOX || geom.rgba[3] < kOpaque) return;
-  const float top = geom.pos[2] + std::abs(geom.mat[6]) * geom.size[0] +
-                    std::abs(geom.mat[7]) * geom.size[1] + std::abs(geom.mat[8]) * geom.size[2];
   if (top < target.z() + 0.1f) return;
-  constexpr float kThin_m = 0.15f, kFull_m = 0.45f, kAlpha = 0.12f;  // blended twice by MuJoCo
+  constexpr float kThin_m = 0.10f, kFull_m = 0.30f, kAlpha = 0.12f;  // blended twice by MuJoCo
   const float d = DistanceToBox(geom, eye, target);
   const float t = std::clamp((d - kThin_m) / (kFull_m - kThin_m), 0.0f, 1.0f);
   geom.rgba[3] = kAlpha + (1 - kAlpha) * t * t * (3 - 2 * t);
@@ -97,25 +129,27 @@ void ThinOut(mjvGeom& geom, const Eigen::Vector3f& eye, const Eigen::Vector3f& t
 
 }  // namespace
 
+std::size_t FloorPaint::Place(const mjvGeom& geom) {
+  if (static_cast<int>(geoms_.size()) < max_marks_) {
+    geoms_.push_back(geom);
+    return geoms_.size() - 1;
+  }
+  const std::size_t slot = next_;
+  geoms_[slot] = geom;
+  next_ = (next_ + 1) % geoms_.size();
+  return slot;
+}
+
 std::size_t FloorPaint::AddStripe(const Vec2& a_W, const Vec2& b_W, double z_m, double width_m,
                                   const std::array<float, 4>& rgba) {
-  const mjtNum size[3] = {0, 0.5 * width_m, 0.0005};
-  const mjtNum pos[3] = {0, 0, z_m - size[2]};
-  mjvGeom geom;
-  mjv_initGeom(&geom, mjGEOM_BOX, size, pos, nullptr, rgba.data());
-  geom.category = mjCAT_DECOR;
-  geom.emission = 0.25f;
-  geom.specular = 0;
-  std::size_t slot = geoms_.size();
-  if (static_cast<int>(slot) < max_stripes_) {
-    geoms_.push_back(geom);
-  } else {
-    slot = next_;
-    geoms_[slot] = geom;
-    next_ = (next_ + 1) % geoms_.size();
-  }
+  const std::size_t slot = Place(Mark(mjGEOM_BOX, {0, 0}, z_m, 0.5 * width_m, rgba));
   MoveStripe(slot, a_W, b_W);
   return slot;
+}
+
+void FloorPaint::AddDisc(const Vec2& p_W, double z_m, double radius_m,
+                         const std::array<float, 4>& rgba) {
+  Place(Mark(mjGEOM_CYLINDER, p_W, z_m, radius_m, rgba));
 }
 
 void FloorPaint::MoveStripe(std::size_t stripe, const Vec2& a_W, const Vec2& b_W) {
@@ -134,7 +168,7 @@ void FloorPaint::MoveStripe(std::size_t stripe, const Vec2& a_W, const Vec2& b_W
 
 // The C structs and their frees.
 struct OffscreenRenderer::Gl {
-  Gl(const mjModel* model, int width, int height, int max_stripes) : context(MakeGlContext()) {
+  Gl(const mjModel* model, int width, int height, int max_marks) : context(MakeGlContext()) {
     if (std::min(width, height) < 1 || std::max(width, height) > context->max_side_px()) {
       throw InternalError("cannot draw " + std::to_string(width) + " x " + std::to_string(height) +
                           " pixels: at most " + std::to_string(context->max_side_px()) + " a side");
@@ -146,7 +180,7 @@ struct OffscreenRenderer::Gl {
     mjv_defaultCamera(&camera);
     camera.type = mjCAMERA_USER;
     mjv_defaultScene(&scene);
-    mjv_makeScene(model, &scene, static_cast<int>(model->ngeom) + max_stripes + 64);
+    mjv_makeScene(model, &scene, static_cast<int>(model->ngeom) + max_marks + 64);
     mjr_defaultContext(&draw);
     mjModel sized = *model;  // borrows the arrays; only the picture's size differs
     sized.vis.global.offwidth = width;
@@ -169,11 +203,11 @@ struct OffscreenRenderer::Gl {
   mjvCamera camera;
 };
 
-OffscreenRenderer::OffscreenRenderer(const mjModel* model, int width, int height, int max_stripes)
+OffscreenRenderer::OffscreenRenderer(const mjModel* model, int width, int height, int max_marks)
     : model_(model),
       width_(width),
       height_(height),
-      gl_(std::make_unique<Gl>(model, width, height, max_stripes)) {}
+      gl_(std::make_unique<Gl>(model, width, height, max_marks)) {}
 
 OffscreenRenderer::~OffscreenRenderer() = default;
 
@@ -195,6 +229,7 @@ void OffscreenRenderer::Compose(mjData* data, const CameraView& view, const Floo
       GlCamera(view, 0.02 * distance, 2 * distance + 4 * extent + (middle - view.eye_W).norm());
   mjv_updateScene(model_, data, &gl_->option, &gl_->perturb, &gl_->camera, mjCAT_ALL, &scene);
 
+  constexpr float kFloor_m = 0.001f;
   constexpr float kShadowReach_m = 1.0f;  // of things out of sight into sight
   const Sight sight(view, static_cast<double>(width_) / height_);
   const Eigen::Vector3f eye = F(view.eye_W), target = F(view.target_W);
@@ -203,8 +238,12 @@ void OffscreenRenderer::Compose(mjData* data, const CameraView& view, const Floo
     mjvGeom& geom = scene.geoms[i];
     const bool endless = geom.modelrbound <= 0;  // a plane
     if (!endless && !sight.Touches(Pos(geom), geom.modelrbound + kShadowReach_m)) continue;
-    if (geom.rgba[3] < kOpaque) geom.category = mjCAT_DECOR;  // glass casts no shadow
-    ThinOut(geom, eye, target);
+    const float top = TopOf(model_, geom);
+    ThinOut(geom, top, eye, target);
+    // Decor casts no shadow: neither should glass; and the floor's own, which nothing shows, cost a
+    // whole map to draw and speckle at its border.
+    const bool floor = geom.category == mjCAT_STATIC && top < kFloor_m;
+    if (floor || IsGlass(model_, geom)) geom.category = mjCAT_DECOR;
     if (kept != i) scene.geoms[kept] = geom;
     ++kept;
   }

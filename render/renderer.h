@@ -13,20 +13,23 @@
 
 namespace floorproof {
 
-// Stripes painted on the floor: a planned path, a driven trace. They cast no shadow.
+// Stripes and discs painted on the floor: a planned path, a driven trace. They cast no shadow.
 class FloorPaint {
  public:
-  explicit FloorPaint(int max_stripes = 4000) : max_stripes_(max_stripes) {}
+  explicit FloorPaint(int max_marks = 4000) : max_marks_(max_marks) {}
   // A flat stripe from a to b, width_m wide, its top at z_m; alpha below 1 lets the floor through.
-  // Returns its number. Beyond max_stripes the oldest give way.
+  // Returns its number. Beyond max_marks the oldest give way.
   std::size_t AddStripe(const Vec2& a_W, const Vec2& b_W, double z_m, double width_m,
                         const std::array<float, 4>& rgba);
   void MoveStripe(std::size_t stripe, const Vec2& a_W, const Vec2& b_W);
+  void AddDisc(const Vec2& p_W, double z_m, double radius_m, const std::array<float, 4>& rgba);
   const std::vector<mjvGeom>& geoms() const { return geoms_; }
-  int max_stripes() const { return max_stripes_; }
+  int max_marks() const { return max_marks_; }
 
  private:
-  int max_stripes_;
+  std::size_t Place(const mjvGeom& geom);
+
+  int max_marks_;
   std::size_t next_ = 0;
   std::vector<mjvGeom> geoms_;
 };
@@ -38,7 +41,7 @@ class OffscreenRenderer {
  public:
   // Throws InternalError when there is no GL to draw with or the picture is too large for it.
   // The model must outlive the renderer.
-  OffscreenRenderer(const mjModel* model, int width, int height, int max_stripes = 4000);
+  OffscreenRenderer(const mjModel* model, int width, int height, int max_marks = 4000);
   ~OffscreenRenderer();
   OffscreenRenderer(const OffscreenRenderer&) = delete;
   OffscreenRenderer& operator=(const OffscreenRenderer&) = delete;

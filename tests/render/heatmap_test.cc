@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "render/episode_maps.h"
 #include "tests/render/room.h"
 
 namespace floorproof {
@@ -197,30 +196,6 @@ TEST(HeatMapTest, ValuesWithoutRangeOrWithoutAnyAreDrawn) {
   const HeatValues none = Values(map, HeatValues::kNone), flat = Values(map, 2);
   EXPECT_GT(Count(DrawHeatMap(map, &none, {}), kFree), 1000);
   EXPECT_EQ(Count(DrawHeatMap(map, &flat, {}), kFree), 0);
-}
-
-TEST(EpisodeMapsTest, VisitsCoverageAndFailuresAreWritten) {
-  const TestFolder folder;
-  const HazardMap map = Hall(40, 30, 0.1);
-  Shape2 disc;
-  disc.radius_m = 0.15;
-  const SweepArea area = ComputeSweepArea(map, disc, disc, 0.01, {1, 1});
-  CoverageMeter meter(area, disc);
-  for (double x = 0.4; x < 3.5; x += 0.05) meter.Add({x, 1.0, 0});
-  const Path plan = Straight({{0.4, 1.0}, {3.5, 1.0}});
-  Event event;
-  event.x_m = 3.4;
-  event.y_m = 1.0;
-  WriteVisitsMap(map, area, meter.passes(), &plan, folder / "heatmap_visits.png");
-  WriteCoverageMap(map, area, meter.passes(), folder / "heatmap_coverage.png");
-  WriteFailuresMap(map, {&event, 1}, &plan, folder / "heatmap_failures.png");
-  const Image visits = ReadImage(folder / "heatmap_visits.png");
-  const Image coverage = ReadImage(folder / "heatmap_coverage.png");
-  const Image failures = ReadImage(folder / "heatmap_failures.png");
-  EXPECT_GT(Count(visits, kViridisTop), 1000);  // one pass is the most there is
-  const double swept = Count(coverage, {94, 180, 160}), missed = Count(coverage, {240, 150, 60});
-  EXPECT_NEAR(swept / (swept + missed), meter.coverage(), 0.02);
-  EXPECT_GT(Count(failures, {200, 20, 40}), 20);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ Image Picture(Room& room, const CameraView& view, const FloorPaint* paint = null
 CameraView First(const char* camera, const Room& room, const Pose2& X_WB) {
   const auto made = MakePlugin(Cameras(), camera, "camera");
   made->Reset(room.Set(), X_WB);
-  return made->Next(X_WB, 1.0 / 30);
+  return made->Next(X_WB, 1.0 / 30, 1);
 }
 
 class EveryCamera : public ::testing::TestWithParam<const char*> {};
@@ -84,7 +84,7 @@ TEST_P(EveryCamera, HasTheRobotNearTheMiddle) {
   EXPECT_NEAR(sy / n, kHeight / 2, kHeight / 5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cameras, EveryCamera, ::testing::Values("chase", "top", "side"));
+INSTANTIATE_TEST_SUITE_P(Cameras, EveryCamera, ::testing::Values("auto", "chase", "top", "side"));
 
 // What changes when the robot moves lies where it was and where it is.
 TEST(PictureTest, RobotsPixelsMoveAndNothingElseDoes) {
