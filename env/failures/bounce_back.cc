@@ -7,9 +7,14 @@
 // shape against the contact normal, so that turning beside a wall is no parting. "Against the
 // command": as soon as the commanded twist moves that point away from the obstacle, the watch ends,
 // because a robot that backs off on purpose does not bounce.
-// The inequality once met, the event is held back until the rebound ends (mostly some 0.1 s) so
-// that its peak speed and travel are in the evidence; time and place are those at which it was met.
-// Judged by velocity and separation, not by a distance of centimetres: a robot limited by its
+// Only the first reversal counts, until the body approaches again: a robot that goes on driving
+// into a dead wall rocks and chatters against it at some 0.03 m/s, and has not been thrown back.
+// Nor has one whose rebound is below rebound_share of its closing speed: a critically damped
+// contact, which is what "dead" means in a compliant engine, gives back exp(-2) = 0.135 of it
+// (Schwager & Poeschel 2007, "Coefficient of restitution and linear-dashpot model revisited", eq.
+// 20). The inequality once met, the event is held back until the rebound ends (mostly some 0.1 s)
+// so that its peak speed and travel are in the evidence; time and place are those at which it was
+// met. Judged by velocity and separation, not by a distance of centimetres: a robot limited by its
 // wheels' traction travels back only 5-26 mm from a nearly elastic wall. Definition: ours.
 #include <algorithm>
 #include <array>
@@ -25,12 +30,15 @@ constexpr double kTimeSlackS = 1e-9;     // sums of time steps are not exact
 constexpr double kBackingOffMps = 1e-3;  // a command this fast away from the obstacle retreats
 constexpr double kSamePlaceM = 0.1;      // contacts this near with like normals are one contact
 constexpr double kSameNormalCos = 0.9;
+constexpr double kChatterS = 0.1;  // a contact lost for less than this has not ended
 
 class BounceBack final : public Detector {
  public:
   void Visit(ParamVisitor& v) override {
     v("closing_mps", closing_mps_, NonNegative(), "v: slower meetings are touches, not impacts");
     v("rebound_mps", rebound_mps_, Positive(), "u: speed away from the obstacle that is a rebound");
+    v("rebound_share", rebound_share_, Between(0, 1),
+      "least share of the closing speed that is a rebound, where it is more than rebound_mps");
     v("part_m", part_m_, Positive(), "gap to the obstacle after the impact that is a rebound");
     v("window_s", window_s_, Positive(), "how long after the impact a rebound counts");
   }
@@ -60,10 +68,13 @@ class BounceBack final : public Detector {
 
  private:
   struct Touch {
-    bool live = false, touching = false, seen = false, watched = false, met = false;
+    bool live = false, touching = false, seen = false;
+    bool watched = false, met = false, settled = false;
     int hazard = -1;
     Vec2 p_W = Vec2::Zero(), normal_W = Vec2::Zero();
-    double since_s = 0, closing_mps = 0;
+    double since_s = 0, last_seen_s = 0;
+    double closing_mps = 0, threshold_mps = 0;
+    double away_mps = 0;  // as the contact itself says, when touching
     double touch_m = 0,
            deepest_m = 0;  // distances along the normal: when last touching, at the deepest
     double peak_mps = 0, gap_m = 0, back_m = 0;
@@ -105,7 +116,7 @@ class BounceBack final : public Detector {
         armed_ = false;
         fires = true;
       }
-      touch.live = touch.touching || touch.watched;
+      touch.live = touch.watched || sample.t_s - touch.last_seen_s <= kChatterS;
       active_ += touch.live ? 1 : 0;
     }
     if (fires)
@@ -125,7 +136,7 @@ class BounceBack final : public Detector {
   // Matches a contact to those of the last step, or begins one.
   void See(const ObstacleContact& contact, const Sample& sample) {
     Touch* touch = Find(contact);
-    const bool begins = touch == nullptr || (!touch->touching && !touch->seen);
+    const bool begins = touch == nullptr;
     if (touch == nullptr) {
       const auto free = std::ranges::find_if(touches_, [](const Touch& t) { return !t.live; });
       if (free == touches_.end()) return;  // as many contacts as a sample can hold are followed
@@ -135,7 +146,9 @@ class BounceBack final : public Detector {
       touch->hazard = contact.hazard;
     }
     touch->seen = true;
+    touch->last_seen_s = sample.t_s;
     touch->p_W = contact.p_W;
+    touch->away_mps = -contact.closing_mps;
     if (!touch->watched) touch->normal_W = contact.normal_W;
     if (!begins) return;
     const Vec2 r_W = contact.p_W - sample.p_WB.head<2>();
@@ -143,13 +156,12 @@ class BounceBack final : public Detector {
     if (has_last_)
       closing_mps = std::max(closing_mps,
                              -PointVelocity(last_v_W_, last_wz_radps_, r_W).dot(contact.normal_W));
-    if (!armed_ || touch->watched || !(closing_mps > closing_mps_)) return;
+    if (!armed_ || !(closing_mps > closing_mps_)) return;
     touch->watched = true;
-    touch->met = false;
     touch->since_s = sample.t_s;
     touch->closing_mps = closing_mps;
+    touch->threshold_mps = std::max(rebound_mps_, rebound_share_ * closing_mps);
     touch->deepest_m = std::numeric_limits<double>::infinity();
-    touch->peak_mps = touch->gap_m = touch->back_m = 0;
   }
 
   // One step after an impact. True when a rebound is over, and with it its evidence complete.
@@ -166,19 +178,23 @@ class BounceBack final : public Detector {
       return touch.met;
     }
 
+    // While it touches, the contact knows the body's speed where it touches; afterwards the body's
+    // origin stands for it.
     const double away_mps =
-        PointVelocity(sample.v_WB_W.head<2>(), sample.V_WB_B.wz_radps, r_W).dot(n);
+        touch.touching ? touch.away_mps
+                       : PointVelocity(sample.v_WB_W.head<2>(), sample.V_WB_B.wz_radps, r_W).dot(n);
     const double along_m = (X_WB.p() + r_W).dot(n);
     if (touch.touching) touch.touch_m = along_m;
     touch.deepest_m = std::min(touch.deepest_m, along_m);
-    touch.peak_mps = std::max(touch.peak_mps, away_mps);
+    touch.settled = touch.settled || (touch.peak_mps > 0 && away_mps <= 0);
+    if (!touch.settled) touch.peak_mps = std::max(touch.peak_mps, away_mps);
     touch.gap_m = std::max(touch.gap_m, along_m - touch.touch_m);
     touch.back_m = std::max(touch.back_m, along_m - touch.deepest_m);
-    const double share = std::max(touch.peak_mps / rebound_mps_, touch.gap_m / part_m_);
+    const double share = std::max(touch.peak_mps / touch.threshold_mps, touch.gap_m / part_m_);
     margin_ = std::min(margin_, (1 - share) * rebound_mps_);
     if (!touch.met && share > 1) {
       touch.met = true;
-      touch.by_speed = touch.peak_mps > rebound_mps_;
+      touch.by_speed = touch.peak_mps > touch.threshold_mps;
       touch.t_s = sample.t_s;
       touch.X_WB = X_WB;
     }
@@ -188,9 +204,10 @@ class BounceBack final : public Detector {
   }
 
   void Report(const Touch& touch, const Sample& sample) {
-    event_ = MakeEvent(
-        mode(), touch.by_speed ? "reversed" : "parted", sample, HazardId(*map_, touch.hazard, true),
-        touch.by_speed ? touch.peak_mps : touch.gap_m, touch.by_speed ? rebound_mps_ : part_m_);
+    event_ = MakeEvent(mode(), touch.by_speed ? "reversed" : "parted", sample,
+                       HazardId(*map_, touch.hazard, true),
+                       touch.by_speed ? touch.peak_mps : touch.gap_m,
+                       touch.by_speed ? touch.threshold_mps : part_m_);
     event_.t_s = touch.t_s;
     event_.x_m = touch.X_WB.x_m;
     event_.y_m = touch.X_WB.y_m;
@@ -202,7 +219,8 @@ class BounceBack final : public Detector {
                        {"impact_t_s", touch.since_s}};
   }
 
-  double closing_mps_ = 0.05, rebound_mps_ = 0.02, part_m_ = 0.001, window_s_ = 1.0;
+  double closing_mps_ = 0.05, rebound_mps_ = 0.02, rebound_share_ = 0.2, part_m_ = 0.001,
+         window_s_ = 1.0;
 
   const HazardMap* map_ = nullptr;
   const Shape2* clear_ = nullptr;
