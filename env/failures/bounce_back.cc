@@ -7,7 +7,8 @@
 // shape against the contact normal, so that turning beside a wall is no parting. "Against the
 // command": as soon as the commanded twist moves that point away from the obstacle, the watch ends,
 // because a robot that backs off on purpose does not bounce.
-// Only the first reversal counts, until the body approaches again: a robot that goes on driving
+// Only the first reversal counts, until the body approaches again or still touches kPressS after
+// the impact (an elastic contact is over in some 10 ms): a robot that goes on driving
 // into a dead wall rocks and chatters against it at some 0.03 m/s, and has not been thrown back.
 // Nor has one whose rebound is below rebound_share of its closing speed: a critically damped
 // contact, which is what "dead" means in a compliant engine, gives back exp(-2) = 0.135 of it
@@ -30,6 +31,7 @@ constexpr double kTimeSlackS = 1e-9;     // sums of time steps are not exact
 constexpr double kBackingOffMps = 1e-3;  // a command this fast away from the obstacle retreats
 constexpr double kSamePlaceM = 0.1;      // contacts this near with like normals are one contact
 constexpr double kSameNormalCos = 0.9;
+constexpr double kPressS = 0.05;   // still touching this long after the impact, it presses
 constexpr double kChatterS = 0.1;  // a contact lost for less than this has not ended
 
 class BounceBack final : public Detector {
@@ -186,7 +188,9 @@ class BounceBack final : public Detector {
     const double along_m = (X_WB.p() + r_W).dot(n);
     if (touch.touching) touch.touch_m = along_m;
     touch.deepest_m = std::min(touch.deepest_m, along_m);
-    touch.settled = touch.settled || (touch.peak_mps > 0 && away_mps <= 0);
+    const bool approaches_again = touch.peak_mps > 0 && away_mps <= 0;
+    const bool presses = touch.touching && sample.t_s - touch.since_s > kPressS;
+    touch.settled = touch.settled || approaches_again || presses;
     if (!touch.settled) touch.peak_mps = std::max(touch.peak_mps, away_mps);
     touch.gap_m = std::max(touch.gap_m, along_m - touch.touch_m);
     touch.back_m = std::max(touch.back_m, along_m - touch.deepest_m);

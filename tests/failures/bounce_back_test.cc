@@ -65,6 +65,14 @@ TEST(BounceBack, ChatterAgainstADeadWallIsNone) {
   EXPECT_TRUE(Events(flickering).empty());
 }
 
+TEST(BounceBack, ReversingWhileStillPressedAgainstTheWallIsNone) {
+  Hit hit = Rebound(0.06, 0.012, 0.06);
+  hit.contact_s = 0.02;
+  EXPECT_EQ(Events(DriveInto(hit)).size(), 1u);  // it stood there free, and left
+  hit.contact_s = 5;
+  EXPECT_TRUE(Events(DriveInto(hit)).empty());
+}
+
 TEST(BounceBack, SlowerItMustPartByAMillimetre) {
   EXPECT_TRUE(Events(DriveInto(Rebound(0.01, 0.1))).empty());
   const auto events = Events(DriveInto(Rebound(0.01, 0.2)));
