@@ -73,7 +73,8 @@ class RollOver final : public Detector {
     tilted_.Clear();
     unsupported_.Clear();
     reported_ = false;
-    rest_support_m_ = 0;
+    rest_support_m_ = window_support_m_ = 0;
+    window_since_s_ = 0;
     margin_ = limit_rad_;
   }
 
@@ -84,8 +85,6 @@ class RollOver final : public Detector {
 
     const bool off_support = sample.wheel_contacts > 0 && sample.support_margin_m < 0;
     const bool tipped = unsupported_.Update(off_support, sample.t_s, tipped_duration_s_);
-    if (sample.wheel_contacts > 0)
-      rest_support_m_ = std::max(rest_support_m_, sample.support_margin_m);
 
     // The exact floor matters only to a wheel that is below any floor the plan can have.
     double fall_threshold_m = highest_floor_m_ - fall_m_;
@@ -97,10 +96,8 @@ class RollOver final : public Detector {
     // have not lasted long enough count as just met.
     double left =
         tilted ? tilt_margin_rad / limit_rad_ : std::max(0.0, tilt_margin_rad / limit_rad_);
-    if (sample.wheel_contacts > 0 && rest_support_m_ > 0) {
-      const double support_left = sample.support_margin_m / rest_support_m_;
-      left = std::min(left, tipped ? support_left : std::max(0.0, support_left));
-    }
+    left = std::min(left, tipped && rest_support_m_ > 0 ? sample.support_margin_m / rest_support_m_
+                                                        : SupportLeft(sample));
     left = std::min(left, (sample.wheel_floor_z_m - fall_threshold_m) / fall_m_);
     if (tipped || fell) left = std::min(left, -std::numeric_limits<double>::min());
     margin_ = std::min(margin_, left * limit_rad_);
@@ -117,6 +114,20 @@ class RollOver final : public Detector {
   }
 
  private:
+  // A wheel that lifts for one step empties the hull of the contacts; what counts is the best
+  // support within tipped_duration_s, as a share of that at rest. 1 until it is known.
+  double SupportLeft(const Sample& sample) {
+    if (sample.wheel_contacts > 0) {
+      rest_support_m_ = std::max(rest_support_m_, sample.support_margin_m);
+      window_support_m_ = std::max(window_support_m_, sample.support_margin_m);
+    }
+    if (sample.t_s - window_since_s_ < tipped_duration_s_) return 1;
+    const double best_m = window_support_m_;
+    window_support_m_ = 0;
+    window_since_s_ = sample.t_s;
+    return rest_support_m_ > 0 && sample.wheel_contacts > 0 ? best_m / rest_support_m_ : 1;
+  }
+
   double PlanFloor(const Pose2& X_WB) const {
     double lowest_m = std::numeric_limits<double>::infinity();
     for (const Vec2& p_B : feet_B_) {
@@ -130,8 +141,19 @@ class RollOver final : public Detector {
     return lowest_m;
   }
 
+  // The low floor under the centre or a wheel: a robot in the air touches no hazard.
+  std::string DropBelow(const Pose2& X_WB) const {
+    std::string id;
+    for (const Vec2& p_B : feet_B_)
+      for (const Hazard& hazard : map_->hazards)
+        for (const Polygon& polygon : hazard.footprint)
+          if (hazard.height_m < 0 && Contains(polygon, X_WB * p_B)) id = hazard.id;
+    return id;
+  }
+
   void Report(const Sample& sample, bool tilted, bool fell, double fall_threshold_m) {
     std::string hazard = hazards_.Recall(*map_, sample.t_s - kRecallS);
+    if (hazard.empty()) hazard = DropBelow(sample.X_WB());
     if (tilted)
       event_ = MakeEvent(mode(), "", sample, std::move(hazard), sample.tilt_rad, limit_rad_);
     else if (fell)
@@ -157,6 +179,7 @@ class RollOver final : public Detector {
   HazardMemory hazards_;
   Lasting tilted_, unsupported_;
   double rest_support_m_ = 0;  // the most seen: the support when standing well
+  double window_support_m_ = 0, window_since_s_ = 0;
   bool reported_ = false;
 };
 

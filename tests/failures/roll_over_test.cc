@@ -68,7 +68,8 @@ TEST(RollOver, FellWhenTheWheelsSinkBelowThePlansFloor) {
 TEST(RollOver, AKnownLowFloorThatIsDrivenOverIsThePlans) {
   //      0 ______            ______
   //              |__________|        -12 mm, driven over
-  const auto judge = [](double height_m, bool known, double wheel_z_m) {
+  std::string hazard;
+  const auto judge = [&](double height_m, bool known, double wheel_z_m) {
     HazardMap map;
     Hazard pit;
     pit.id = "pit";
@@ -81,13 +82,18 @@ TEST(RollOver, AKnownLowFloorThatIsDrivenOverIsThePlans) {
     const auto dut = MakeDetector("roll_over");
     dut->Start({map, robot, kStepS});
     int events = 0;
-    for (const Sample& s : Sunk(wheel_z_m)) events += dut->Update(s) ? 1 : 0;
+    for (const Sample& s : Sunk(wheel_z_m)) {
+      if (!dut->Update(s)) continue;
+      ++events;
+      hazard = dut->event().hazard;
+    }
     return events;
   };
   EXPECT_EQ(judge(-0.012, true, -0.040), 0);
   EXPECT_EQ(judge(-0.012, true, -0.043), 1);
   EXPECT_EQ(judge(-0.012, false, -0.040), 1) << "the plan did not know of it";
   EXPECT_EQ(judge(-0.150, true, -0.150), 1) << "the plan keeps off a drop beyond step_m";
+  EXPECT_EQ(hazard, "pit") << "it lies below, though nothing touches it";
   EXPECT_EQ(judge(0.012, true, -0.017), 0) << "a raised floor all around";
   EXPECT_EQ(judge(0.012, true, -0.019), 1);
 }
@@ -108,6 +114,18 @@ TEST(RollOver, NamesTheHazardMet) {
       Sunk(-0.15), [](Sample& s) { s.near_hazard = kStepHazard; }, 1.5, 2.0));
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].hazard, "sill");
+}
+
+TEST(RollOver, AWheelThatLiftsForAMomentCostsNoMargin) {
+  const auto dut = MakeDetector("roll_over");
+  const auto hop = [](Sample& s) { s.support_margin_m = -0.1; };
+  Judge(*dut, With(Drive({{8, {0.2, 0, 0}}}), hop, 2, 2.02));
+  EXPECT_DOUBLE_EQ(dut->margin(), 0.6);
+  Judge(*dut, With(Drive({{8, {0.2, 0, 0}}}), hop, 2, 4));
+  EXPECT_LT(dut->margin(), 0);
+  const auto lean = [](Sample& s) { s.support_margin_m = 0.02; };  // of 0.05 m at rest
+  Judge(*dut, With(Drive({{8, {0.2, 0, 0}}}), lean, 2, 6));
+  EXPECT_NEAR(dut->margin(), 0.4 * 0.6, 1e-9);
 }
 
 TEST(RollOver, MarginIsTheTiltStillLeft) {
