@@ -31,7 +31,7 @@ class Boustrophedon final : public CoveragePlanner {
  protected:
   std::vector<Polyline> Lines(const Floor& floor, const Swept& swept,
                               Figures& figures) const override {
-    const RowOptions options{Spacing(floor), kLinkWidths * floor.tool_width};
+    const RowOptions options{floor.tool_width, kLinkWidths * floor.tool_width};
     std::optional<double> fixed;
     if (direction_deg_) fixed = *direction_deg_ * kPi / 180;
     const Regions regions = FindRegions(floor, options.link, fixed);

@@ -27,7 +27,7 @@ class Spiral final : public CoveragePlanner {
     Swept covered = swept;
     std::vector<Polyline> lines;
     int rings = 0;
-    for (double at = 0;; at += Spacing(floor)) {
+    for (double at = 0;; at += floor.tool_width) {
       const auto contours = Contours(floor, depth, at);
       if (contours.empty()) break;
       const double tolerance = at == 0 ? kAtWall : std::max(kAtWall, kSlack * floor.tool_width);

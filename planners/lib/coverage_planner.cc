@@ -56,6 +56,14 @@ std::string WhyNothing(const PlanRequest& request, const SweepArea& area, const 
   return out.str();
 }
 
+bool LooksTheSameTurned(const Polygon& footprint_B) {
+  constexpr double kSame_m = 1e-3;
+  const Pose2 turn{0, 0, kPi / 2};
+  return std::all_of(footprint_B.begin(), footprint_B.end(), [&](const Vec2& p) {
+    return std::abs(SignedDistance(footprint_B, turn * p)) < kSame_m;
+  });
+}
+
 Polyline Drive(Ways& ways, const Vec2& start, const std::vector<Polyline>& lines) {
   std::vector<Polyline> ordered = {{start}};
   for (const Stop& stop : OrderLines(ways, start, lines)) {
@@ -141,11 +149,20 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
     result.message = WhyNothing(request, area, result.clear, fits);
     return result;
   }
-  const Floor floor = CropFloor(area, result.clear, result.tool, result.tool_width_m);
+  if (result.clear.kind == Shape2::Kind::kFootprint &&
+      !LooksTheSameTurned(result.clear.footprint_B)) {
+    result.message =
+        "the robot's footprint changes when it turns by 90 deg; planned is one yaw only";
+    return result;
+  }
+  const Floor floor = CropFloor(area, result.clear, result.tool, result.tool_width_m, overlap_);
   const Polyline path = Sweep(floor, floor.ToCells(request.start.p()), result.figures);
+  const double map_yaw = floor.frame.X_WG.yaw_rad, quarter = kPi / 2;
+  const double turned = std::round((request.start.yaw_rad - map_yaw) / quarter) * quarter;
   for (const Vec2& p : path) {
     Waypoint w;
     w.p_W = floor.ToWorld(p);
+    if (result.clear.kind == Shape2::Kind::kFootprint) w.yaw_rad = WrapAngle(map_yaw + turned);
     result.path.push_back(w);
   }
   result.status = PlanStatus::kSuccess;

@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What coverage planners of a known floor share: from lines over the floor to a path.
+//
+// (1) Laps along the walls, if asked for, and the planner's own lines; (2) a tour over them, joined
+// by shortest ways; (3) twice: what sweeps nothing is dropped, what is left open is visited, and
+// all that works is ordered anew; (4) detours not worth their length are cut out. Overlap means
+// that away from walls the tool counts as narrower than it is, by that share, so that neighbouring
+// lines overlap everywhere and a robot may stray by half of it.
 #pragma once
 
 #include <optional>
@@ -21,12 +27,10 @@ class CoveragePlanner : public Planner {
   PlanResult Plan(const PlanRequest& request) const override;
 
  protected:
-  // The lines that a planner is named for. `swept` starts empty and may be used; laps along the
-  // walls, if asked for, are in it already.
+  // The lines that a planner is named for, up to one tool width apart. `swept` holds the laps along
+  // the walls, if they are asked for, and is empty otherwise.
   virtual std::vector<Polyline> Lines(const Floor& floor, const Swept& swept,
                                       Figures& figures) const = 0;
-
-  double Spacing(const Floor& floor) const { return floor.tool_width * (1 - overlap_); }
 
  private:
   Polyline Sweep(const Floor& floor, const Vec2& start, Figures& figures) const;

@@ -40,8 +40,8 @@ bool Floor::Sees(const Vec2& a, const Vec2& b) const {
   return MarginAt(b) >= -tolerance;
 }
 
-Floor CropFloor(const SweepArea& area, const Shape2& clear, const Shape2& tool,
-                double tool_width_m) {
+Floor CropFloor(const SweepArea& area, const Shape2& clear, const Shape2& tool, double tool_width_m,
+                double overlap) {
   int x0 = area.frame.width, x1 = -1, y0 = area.frame.height, y1 = -1;
   for (int iy = 0; iy < area.frame.height; ++iy)
     for (int ix = 0; ix < area.frame.width; ++ix)
@@ -73,11 +73,24 @@ Floor CropFloor(const SweepArea& area, const Shape2& clear, const Shape2& tool,
     }
   floor.tolerance = circle ? 0.25 : 1e-6;
   floor.tool = tool;
-  floor.tool_width = tool_width_m / cell_m;
+  floor.narrow = 1 - overlap;
+  floor.tool_width = tool_width_m / cell_m * floor.narrow;
   floor.tool_reach = tool.radius_m / cell_m;
-  if (tool.kind == Shape2::Kind::kFootprint)
+  double inradius = floor.tool_reach;
+  if (tool.kind == Shape2::Kind::kFootprint) {
     for (const Vec2& p : tool.footprint_B)
       floor.tool_reach = std::max(floor.tool_reach, p.norm() / cell_m);
+    inradius = -SignedDistance(tool.footprint_B, Vec2::Zero()) / cell_m;
+  }
+  floor.inner = floor.ground;
+  if (overlap > 0) {
+    // Distances to a pose cell's area: its centre is at most half a diagonal farther.
+    const Grid<float> to_pose = DistanceToSet(floor.pose, false);
+    const double within = floor.narrow * inradius - std::sqrt(0.5);
+    for (std::size_t i = 0; i < floor.inner.cells.size(); ++i)
+      if (!floor.pose.cells[i] && static_cast<double>(to_pose.cells[i]) > within)
+        floor.inner.cells[i] = 0;
+  }
   return floor;
 }
 

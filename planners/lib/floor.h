@@ -19,9 +19,13 @@ struct Floor {
   Grid<std::uint8_t> ground;  // the tool can sweep this
   Grid<float> margin;         // room beyond the clear shape at a cell's centre; negative: none
   double tolerance = 0;       // margin that straight lines may lack between cell centres
-  Shape2 tool;                // as swept
-  double tool_width = 0;      // cells
-  double tool_reach = 0;      // farthest point of the tool from the robot's centre, cells
+  Shape2 tool;
+  double tool_reach = 0;  // farthest point of the tool from the robot's centre, cells
+  // Neighbouring lines are to overlap: the tool counts as `tool_width` cells wide, `narrow` times
+  // what it is, on the ground that it reaches like that (`inner`; the rest lies along walls).
+  double narrow = 1;
+  double tool_width = 0;
+  Grid<std::uint8_t> inner;
   double ground_cells = 0;
 
   double ToCells(double length_m) const { return length_m / frame.cell_m; }
@@ -41,7 +45,9 @@ struct Floor {
 };
 
 // The part of `area` around its reachable poses. `clear`, `tool`: what the area was computed with.
-Floor CropFloor(const SweepArea& area, const Shape2& clear, const Shape2& tool,
-                double tool_width_m);
+// `overlap`: of neighbouring lines, share of the tool's width.
+// `overlap`: of neighbouring lines, share of the tool's width.
+Floor CropFloor(const SweepArea& area, const Shape2& clear, const Shape2& tool, double tool_width_m,
+                double overlap = 0);
 
 }  // namespace floorproof

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the two planners of a known floor are for, on floors where the right answer is plain.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "tests/planners/floors.h"
+
+namespace floorproof {
+namespace {
+
+using testing::Coverage;
+using testing::DiscRobot;
+using testing::Draw;
+using testing::EmptyFloor;
+using testing::ExpectSound;
+using testing::MakePlanner;
+
+PlanResult Plan(const std::string& name, const std::string& yaml, const HazardMap& map,
+                const RobotSpec& robot, const Pose2& start) {
+  PlanResult plan = MakePlanner(name, yaml)->Plan({map, robot, start, std::nullopt, 1});
+  ExpectSound(map, start, plan);
+  return plan;
+}
+
+double Figure(const PlanResult& plan, const std::string& name) {
+  for (const auto& [key, value] : plan.figures)
+    if (key == name) return value;
+  ADD_FAILURE() << "no figure " << name;
+  return 0;
+}
+
+// Length driven at direction `yaw` (to 5 deg) over all length.
+double ShareAlong(const Path& path, double yaw_rad) {
+  double along = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Vec2 d = path[i].p_W - path[i - 1].p_W;
+    const double off = std::remainder(std::atan2(d.y(), d.x()) - yaw_rad, kPi);
+    if (std::abs(off) < 5 * kPi / 180) along += d.norm();
+  }
+  return along / Length(path);
+}
+
+TEST(Boustrophedon, AnOpenHallCostsLittleMoreThanItsArea) {
+  const HazardMap map = EmptyFloor(240, 160, 0.05);  // 12 m x 8 m
+  const RobotSpec robot = DiscRobot(0.18, 0.3);
+  const Pose2 start{0.5, 0.5, 0};
+  const PlanResult plan = Plan("boustrophedon", "{overlap: 0}", map, robot, start);
+  EXPECT_GE(Coverage(map, robot, start, plan), 0.97);
+  EXPECT_LE(Length(plan.path), 1.08 * 12 * 8 / 0.3);
+  EXPECT_EQ(Figure(plan, "regions"), 1);
+  EXPECT_EQ(Figure(plan, "cells"), 1);
+  EXPECT_NEAR(Figure(plan, "rows"), 27, 1);
+}
+
+TEST(Boustrophedon, RowsRunAlongTheLongerSide) {
+  const RobotSpec robot = DiscRobot(0.18, 0.3);
+  const Pose2 start{0.5, 0.5, 0};
+  const PlanResult wide = Plan("boustrophedon", "{}", EmptyFloor(200, 60, 0.05), robot, start);
+  const PlanResult tall = Plan("boustrophedon", "{}", EmptyFloor(60, 200, 0.05), robot, start);
+  EXPECT_GT(ShareAlong(wide.path, 0), 0.85);
+  EXPECT_GT(ShareAlong(tall.path, kPi / 2), 0.85);
+  EXPECT_NEAR(CountTurns(wide.path), CountTurns(tall.path), 4);
+}
+
+TEST(Boustrophedon, RowsFollowWallsThatStandAskew) {
+  // A room of 10 m x 3 m turned by 30 deg against the map's cells.
+  HazardMap map = EmptyFloor(240, 200, 0.05);
+  const Pose2 X_WR{1.9, 1.0, kPi / 6};
+  for (int iy = 0; iy < 200; ++iy)
+    for (int ix = 0; ix < 240; ++ix) {
+      const Vec2 p = X_WR.Inverse() * map.frame.Center(ix, iy);
+      if (p.x() < 0 || p.x() > 10 || p.y() < 0 || p.y() > 3)
+        map.cells(ix, iy) = CellState::kOccupied;
+    }
+  const Vec2 p = X_WR * Vec2(1, 1);
+  const PlanResult plan = Plan("boustrophedon", "{}", map, DiscRobot(0.18, 0.3), {p.x(), p.y(), 0});
+  EXPECT_GT(ShareAlong(plan.path, kPi / 6), 0.8);
+  EXPECT_NEAR(Figure(plan, "sweep_direction_deg"), 30, 3);
+}
+
+TEST(Boustrophedon, AGivenDirectionIsKept) {
+  const HazardMap map = EmptyFloor(160, 120, 0.05);
+  for (const double deg : {0.0, 37.0, 90.0, -45.0}) {
+    const PlanResult plan = Plan("boustrophedon", "{direction_deg: " + FormatDouble(deg) + "}", map,
+                                 DiscRobot(0.18, 0.3), {4, 3, 0});
+    EXPECT_GT(ShareAlong(plan.path, deg * kPi / 180), 0.7) << deg;
+  }
+}
+
+TEST(Boustrophedon, TheDirectionTurnsWithTheMapsFrame) {
+  HazardMap map = EmptyFloor(200, 60, 0.05);
+  map.frame.X_WG = {3, -4, 1.1};
+  const Vec2 p = map.frame.X_WG * Vec2(1, 1);
+  const PlanResult plan = Plan("boustrophedon", "{}", map, DiscRobot(0.18, 0.3), {p.x(), p.y(), 0});
+  EXPECT_GT(ShareAlong(plan.path, 1.1), 0.85);
+}
+
+class Both : public ::testing::TestWithParam<std::string> {};
+
+const char kFlat[] = R"(
+  ####################
+  #......#...........#
+  #......#...........#
+  #..................#
+  #......#.....##....#
+  #......#.....##....#
+  ###.####...........#
+  #......#...........#
+  #......#...........#
+  ####################)";
+
+TEST_P(Both, EdgesSweepMoreOfTheFloor) {
+  const HazardMap map = Draw(kFlat, 0.5);
+  const RobotSpec robot = DiscRobot(0.18, 0.3);
+  const Pose2 start{1, 1, 0};
+  const PlanResult without = Plan(GetParam(), "{}", map, robot, start);
+  const PlanResult with = Plan(GetParam(), "{edges: true}", map, robot, start);
+  EXPECT_GE(Coverage(map, robot, start, without), 0.95);
+  EXPECT_GE(Coverage(map, robot, start, with), 0.985);
+  EXPECT_GT(Coverage(map, robot, start, with), Coverage(map, robot, start, without));
+  EXPECT_GT(Figure(with, "laps_m"), 35);
+  EXPECT_EQ(Figure(without, "laps_m"), 0);
+}
+
+TEST_P(Both, ANarrowerToolDrivesFartherAndSoDoesMoreOverlap) {
+  const HazardMap map = Draw(kFlat, 0.5);
+  const auto length = [&](const char* yaml) {
+    return Length(Plan(GetParam(), yaml, map, DiscRobot(0.2, 0.3), {1, 1, 0}).path);
+  };
+  EXPECT_GT(length("{tool_width_m: 0.2}"), 1.2 * length("{tool_width_m: 0.3}"));
+  EXPECT_GT(length("{overlap: 0.4}"), 1.2 * length("{overlap: 0}"));
+}
+
+TEST_P(Both, AnOverrideIsPlannedAndReported) {
+  const HazardMap map = Draw(kFlat, 0.5);
+  const PlanResult plan =
+      Plan(GetParam(), "{tool_width_m: 0.26, radius_m: 0.22}", map, DiscRobot(0.1, 0.5), {1, 1, 0});
+  EXPECT_EQ(plan.tool_width_m, 0.26);
+  EXPECT_EQ(plan.tool.radius_m, 0.13);
+  EXPECT_EQ(plan.clear.radius_m, 0.22);
+}
+
+TEST_P(Both, TransitsAreASmallPartOfAPlan) {
+  const PlanResult plan = Plan(GetParam(), "{}", Draw(kFlat, 0.5), DiscRobot(0.18, 0.3), {1, 1, 0});
+  EXPECT_GE(Figure(plan, "transit_m"), 0);
+  EXPECT_LT(Figure(plan, "transit_m"), 0.2 * Length(plan.path));
+}
+
+TEST_P(Both, AToolFinerThanACellStillCovers) {
+  const HazardMap map = EmptyFloor(20, 16, 0.05);
+  const RobotSpec robot = DiscRobot(0.1, 0.04);
+  const Pose2 start{0.5, 0.4, 0};
+  EXPECT_GE(Coverage(map, robot, start, Plan(GetParam(), "{}", map, robot, start)), 0.95);
+}
+
+TEST_P(Both, AToolWiderThanTheRoomNeedsHardlyMove) {
+  const HazardMap map = EmptyFloor(40, 40, 0.05);
+  const RobotSpec robot = DiscRobot(0.2, 6.0);
+  const Pose2 start{1, 1, 0};
+  const PlanResult plan = Plan(GetParam(), "{}", map, robot, start);
+  EXPECT_GE(Coverage(map, robot, start, plan), 0.95);
+  EXPECT_LT(Length(plan.path), 3);
+}
+
+TEST_P(Both, AFootprintIsKeptClearAndCovers) {
+  HazardMap map = Draw(R"(
+    ########
+    #......#
+    #.##...#
+    #......#
+    ########)",
+                       0.5);
+  map.inset_m = 0.03;
+  RobotSpec robot = DiscRobot(0.25, 0.5);
+  robot.clear = robot.tool = {Shape2::Kind::kFootprint, 0, Rectangle({-0.25, -0.25}, {0.25, 0.25})};
+  const Pose2 start{0.75, 0.75, 0};
+  const PlanResult plan = MakePlanner(GetParam())->Plan({map, robot, start, std::nullopt, 1});
+  ASSERT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
+  EXPECT_GE(Coverage(map, robot, start, plan), 0.95);
+  for (const Waypoint& w : plan.path) EXPECT_TRUE(w.yaw_rad.has_value());
+  // A square that stays square to the walls: half its side, less the inset and a cell's half.
+  EXPECT_GE(testing::LeastClearance(map, plan.path, 0.3), 0.25 - 0.03 - 0.025);
+}
+
+TEST_P(Both, AHugeMostlyUnknownMapIsNoHardship) {
+  HazardMap map;
+  map.frame = {2000, 2000, 0.05, {}};
+  map.cells = Grid<CellState>(2000, 2000, CellState::kUnknown);
+  for (int iy = 900; iy < 1000; ++iy)
+    for (int ix = 1200; ix < 1290; ++ix) map.cells(ix, iy) = CellState::kFree;
+  for (int i = 0; i < 2000; i += 7) map.cells(i, (i * 37) % 2000) = CellState::kFree;  // specks
+  const RobotSpec robot = DiscRobot(0.18, 0.3);
+  const Pose2 start{62, 47, 0};
+  const PlanResult plan = Plan(GetParam(), "{}", map, robot, start);
+  EXPECT_GE(Coverage(map, robot, start, plan), 0.95);
+}
+
+INSTANTIATE_TEST_SUITE_P(Planners, Both, ::testing::Values("boustrophedon", "spiral"));
+
+}  // namespace
+}  // namespace floorproof
