@@ -88,8 +88,8 @@ class Top : public Camera {
     set_ = set;
     const Vec2 size = (set.high_W - set.low_W).cwiseMax(0.1);
     // The overlay's bars take a tenth of the height.
-    const double whole_m = std::max(1.2 * size.y(), 1.06 * size.x() / set.aspect);
-    height_m_ = std::min(whole_m, 40 * set.robot_radius_m);
+    const double whole_m = std::max(1.26 * size.y(), 1.06 * size.x() / set.aspect);
+    height_m_ = std::min(whole_m, 60 * set.robot_radius_m);
     follower_.Reset(X_WB.p());
   }
   CameraView Next(const Pose2& X_WB, double dt_s, double /*speed_up*/) override {
@@ -120,7 +120,8 @@ class Top : public Camera {
 class Side : public Camera {
  public:
   void Reset(const FilmSet& set, const Pose2& X_WB) override {
-    distance_m_ = 0.35 + 3.6 * set.robot_radius_m;
+    distance_m_ = 0.45 + 3.6 * set.robot_radius_m;
+    target_z_m_ = 0.03 + 0.5 * set.robot_radius_m;
     follower_.Reset(X_WB.p());
     panner_.Reset(X_WB.yaw_rad);
   }
@@ -129,7 +130,7 @@ class Side : public Camera {
     const double yaw = panner_.Next(X_WB.yaw_rad, dt_s) - 80 * kDegree;
     constexpr double kElevation = 13 * kDegree;
     CameraView view;
-    view.target_W = Lift(p, 0.06);
+    view.target_W = Lift(p, target_z_m_);
     view.eye_W = view.target_W +
                  distance_m_ * Lift(std::cos(kElevation) * Vec2(std::cos(yaw), std::sin(yaw)),
                                     std::sin(kElevation));
@@ -138,7 +139,7 @@ class Side : public Camera {
   }
 
  private:
-  double distance_m_ = 1.2;
+  double distance_m_ = 1.2, target_z_m_ = 0.1;
   Follower follower_;
   Panner panner_;
 };

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<float, 4> kPlanRgba = {0.13f, 0.33f, 0.78f, 1.0f};
 constexpr std::array<float, 4> kTraceRgba = {0.58f, 0.83f, 0.78f, 1.0f};
-constexpr double kTraceZ_m = 0.0015, kPlanZ_m = 0.0025;
+constexpr double kTraceZ_m = 0.0020, kPlanZ_m = 0.0035;
 constexpr double kJump_m = 0.3;  // between two states: the robot was carried
 
 struct DataDeleter {

@@ -18,6 +18,11 @@
 
 #include "env/core/error.h"
 
+#ifdef __SANITIZE_ADDRESS__
+// OSMesa never frees the frame buffer that OSMesaMakeCurrent makes for a context.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa.so\n"; }
+#endif
+
 namespace floorproof {
 namespace {
 

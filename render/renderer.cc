@@ -121,7 +121,7 @@ mjvGeom Mark(mjtGeom type, const Vec2& p_W, double z_m, double half_m,
 void ThinOut(mjvGeom& geom, float top, const Eigen::Vector3f& eye, const Eigen::Vector3f& target) {
   if (geom.category != mjCAT_STATIC || geom.type != mjGEOM_BOX || geom.rgba[3] < kOpaque) return;
   if (top < target.z() + 0.1f) return;
-  constexpr float kThin_m = 0.10f, kFull_m = 0.30f, kAlpha = 0.12f;  // blended twice by MuJoCo
+  constexpr float kThin_m = 0.10f, kFull_m = 0.30f, kAlpha = 0.07f;  // blended twice by MuJoCo
   const float d = DistanceToBox(geom, eye, target);
   const float t = std::clamp((d - kThin_m) / (kFull_m - kThin_m), 0.0f, 1.0f);
   geom.rgba[3] = kAlpha + (1 - kAlpha) * t * t * (3 - 2 * t);
@@ -140,16 +140,25 @@ std::size_t FloorPaint::Place(const mjvGeom& geom) {
   return slot;
 }
 
+// MuJoCo adds the sun's light to all that is not hidden: of two marks at exactly the same height
+// the overlap would shine twice. Neighbours therefore lie microns apart.
+double FloorPaint::Layer(double z_m) {
+  constexpr int kLayers = 50;
+  constexpr double kApart_m = 20e-6;
+  layer_ = (layer_ + 1) % kLayers;
+  return z_m - kApart_m * layer_;
+}
+
 std::size_t FloorPaint::AddStripe(const Vec2& a_W, const Vec2& b_W, double z_m, double width_m,
                                   const std::array<float, 4>& rgba) {
-  const std::size_t slot = Place(Mark(mjGEOM_BOX, {0, 0}, z_m, 0.5 * width_m, rgba));
+  const std::size_t slot = Place(Mark(mjGEOM_BOX, {0, 0}, Layer(z_m), 0.5 * width_m, rgba));
   MoveStripe(slot, a_W, b_W);
   return slot;
 }
 
 void FloorPaint::AddDisc(const Vec2& p_W, double z_m, double radius_m,
                          const std::array<float, 4>& rgba) {
-  Place(Mark(mjGEOM_CYLINDER, p_W, z_m, radius_m, rgba));
+  Place(Mark(mjGEOM_CYLINDER, p_W, Layer(z_m), radius_m, rgba));
 }
 
 void FloorPaint::MoveStripe(std::size_t stripe, const Vec2& a_W, const Vec2& b_W) {
@@ -240,10 +249,10 @@ void OffscreenRenderer::Compose(mjData* data, const CameraView& view, const Floo
     if (!endless && !sight.Touches(Pos(geom), geom.modelrbound + kShadowReach_m)) continue;
     const float top = TopOf(model_, geom);
     ThinOut(geom, top, eye, target);
-    // Decor casts no shadow: neither should glass; and the floor's own, which nothing shows, cost a
-    // whole map to draw and speckle at its border.
+    // Decor casts no shadow: neither should glass, nor what is thinned to it; and the floor's own,
+    // which nothing shows, costs a whole map to draw and speckles at its border.
     const bool floor = geom.category == mjCAT_STATIC && top < kFloor_m;
-    if (floor || IsGlass(model_, geom)) geom.category = mjCAT_DECOR;
+    if (floor || geom.rgba[3] < 0.5f || IsGlass(model_, geom)) geom.category = mjCAT_DECOR;
     if (kept != i) scene.geoms[kept] = geom;
     ++kept;
   }

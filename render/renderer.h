@@ -17,8 +17,8 @@ namespace floorproof {
 class FloorPaint {
  public:
   explicit FloorPaint(int max_marks = 4000) : max_marks_(max_marks) {}
-  // A flat stripe from a to b, width_m wide, its top at z_m; alpha below 1 lets the floor through.
-  // Returns its number. Beyond max_marks the oldest give way.
+  // A flat stripe from a to b, width_m wide, its top at z_m or up to 1 mm below; alpha below 1 lets
+  // the floor through. Returns its number. Beyond max_marks the oldest give way.
   std::size_t AddStripe(const Vec2& a_W, const Vec2& b_W, double z_m, double width_m,
                         const std::array<float, 4>& rgba);
   void MoveStripe(std::size_t stripe, const Vec2& a_W, const Vec2& b_W);
@@ -28,8 +28,10 @@ class FloorPaint {
 
  private:
   std::size_t Place(const mjvGeom& geom);
+  double Layer(double z_m);
 
   int max_marks_;
+  int layer_ = 0;
   std::size_t next_ = 0;
   std::vector<mjvGeom> geoms_;
 };

@@ -18,7 +18,7 @@ inline std::string RoomMjcf(const RoomOptions& options = {}) {
 <mujoco model="room">
   <statistic center="0 0 0.3" extent="4"/>
   <visual>
-    <headlight ambient="0.38 0.39 0.41" diffuse="0.20 0.20 0.20" specular="0 0 0"/>
+    <headlight ambient="0.40 0.40 0.42" diffuse="0.15 0.15 0.15" specular="0 0 0"/>
     <quality shadowsize="1024" offsamples="4" numquads="1"/>
   </visual>
   <asset>
@@ -35,7 +35,7 @@ inline std::string RoomMjcf(const RoomOptions& options = {}) {
     <material name="rubber" rgba="0.10 0.10 0.11 1" specular="0.1"/>
   </asset>
   <worldbody>
-    <light directional="true" pos="0 0 6" dir="0.30 0.40 -1" diffuse="0.42 0.41 0.39"
+    <light directional="true" pos="0 0 6" dir="0.30 0.40 -1" diffuse="0.52 0.51 0.48"
            specular="0.15 0.15 0.15" ambient="0 0 0" castshadow="true"/>
     <geom name="floor" type="plane" size="6 4 0.1" material="floor"/>)";
   if (options.walls) {
