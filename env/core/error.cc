@@ -57,7 +57,9 @@ std::string Nearest(std::string_view word, std::span<const std::string> candidat
   std::size_t best_distance = std::min<std::size_t>(word.size(), 64) / 2 + 1;
   if (word.size() > 64) return best;
   for (const auto& candidate : candidates) {
-    const std::size_t d = EditDistance(word, candidate);
+    // A word left unfinished (`y` for `y_m`) is near, however short.
+    const bool begun = !word.empty() && candidate.starts_with(word);
+    const std::size_t d = begun ? 0 : EditDistance(word, candidate);
     if (d < best_distance) {
       best_distance = d;
       best = candidate;

@@ -70,8 +70,12 @@ class Recorder {
     m.energy_j += sample.power_w * dt_s_;
     m.max_cross_track_m = std::max(m.max_cross_track_m, sample.cross_track_m);
     cross_track_sum_ += sample.cross_track_m;
-    if (sample.num_contacts > 0 && !touching_) ++m.contacts;
-    touching_ = sample.num_contacts > 0;
+    if (sample.num_contacts > 0) {
+      // A body pressed against a wall lets go for single steps; that is one meeting.
+      constexpr double kApart_s = 0.25;
+      if (sample.t_s - last_touch_s_ > kApart_s) ++m.contacts;
+      last_touch_s_ = sample.t_s;
+    }
     for (int i = 0; i < sample.num_contacts; ++i)
       m.max_impulse_ns =
           std::max(m.max_impulse_ns, sample.contacts[static_cast<std::size_t>(i)].impulse_ns);
@@ -105,7 +109,7 @@ class Recorder {
   double dt_s_, cross_track_sum_ = 0;
   int trace_every_ = 1;
   std::int64_t control_ = 0;
-  bool touching_ = false;
+  double last_touch_s_ = -1e9;
 };
 
 }  // namespace
@@ -145,6 +149,13 @@ PlanResult MakePlan(const Scenario& s) {
   }
   PlanResult plan;
   plan.path = ReadPlan(s.plan_file, s.site.map.frame);
+  // A user's plan need not begin where the robot stands: it drives there first, and is judged on
+  // the way as on any other.
+  if ((plan.path.front().p_W - s.start.p()).norm() > 1e-6) {
+    Waypoint start;
+    start.p_W = s.start.p();
+    plan.path.insert(plan.path.begin(), start);
+  }
   plan.status = PlanStatus::kSuccess;
   plan.clear = s.robot.robot.clear;
   plan.tool = s.robot.robot.tool;

@@ -132,6 +132,11 @@ class SpecReader {
       case mjGEOM_CYLINDER:
         add_rings(size[0], size[1]);
         break;
+      case mjGEOM_SPHERE:
+        add_rings(size[0], 0);
+        add(0, 0, -size[0]);
+        add(0, 0, size[0]);
+        break;
       default: {  // the axis-aligned box in the geom's frame bounds every other type
         const mjtNum* box = m_->geom_aabb + 6 * geom;
         for (int k = 0; k < 8; ++k)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "env/sim/simulation.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -41,20 +42,30 @@ Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec
   hull_.reserve(2 * kMostSupports);
 }
 
-void Simulation::Reset(const Pose2& X_WB) {
-  mjData* d = data_.get();
-  mj_resetData(model(), d);
-  mjtNum* q = d->qpos + model()->jnt_qposadr[model()->body_jntadr[scene_.base_body]];
+void Simulation::Place(const Pose2& X_WB) {
+  mjtNum* q = data_->qpos + model()->jnt_qposadr[model()->body_jntadr[scene_.base_body]];
   q[0] = X_WB.x_m;
   q[1] = X_WB.y_m;
-  q[2] = 0;
   q[3] = std::cos(X_WB.yaw_rad / 2);
   q[4] = q[5] = 0;
   q[6] = std::sin(X_WB.yaw_rad / 2);
+}
+
+void Simulation::Reset(const Pose2& X_WB) {
+  // Springs and contacts take a moment to carry the weight: it stands still for that long before
+  // the clock starts, then is put exactly where it was asked for.
+  constexpr double kSettle_s = 0.5;
+  mjData* d = data_.get();
+  mj_resetData(model(), d);
+  Place(X_WB);
+  while (d->time < kSettle_s) StepEngine(model(), d);
+  Place(X_WB);
+  std::fill_n(d->qvel, model()->nv, 0.0);
+  d->time = 0;
   ForwardEngine(model(), d);
   sample_ = Sample{};
   last_v_W_.setZero();
-  last_wz_ = 0;
+  last_w_W_.setZero();
   ReadPose();
   ReadContacts();
   ReadPower();
@@ -66,7 +77,7 @@ void Simulation::SetWheelSpeeds(std::span<const double> wheel_radps) {
 
 bool Simulation::Step() {
   last_v_W_ = sample_.v_WB_W;
-  last_wz_ = sample_.V_WB_B.wz_radps;
+  last_w_W_ = w_W_;
   StepEngine(model(), data_.get());
   ReadPose();
   ReadContacts();
@@ -95,6 +106,9 @@ void Simulation::ReadPose() {
   mjtNum v_B[3];
   mju_mulMatTVec3(v_B, R, v);
   sample_.V_WB_B = {v_B[0], v_B[1], v[5]};
+  mjtNum w_W[3];
+  mju_mulMatVec3(w_W, R, v + 3);
+  w_W_ = {w_W[0], w_W[1], w_W[2]};
 
   double lowest = 1e9;
   for (std::size_t w = 0; w < wheel_bodies_.size(); ++w) {
@@ -152,8 +166,10 @@ void Simulation::AddObstacle(int hazard, const double* p_W, Vec2 normal_W, doubl
   contact.hazard = hazard;
   contact.p_W = {p_W[0], p_W[1]};
   contact.normal_W = normal_W.normalized();
-  const Vec2 r = contact.p_W - sample_.p_WB.head<2>();
-  const Vec2 v = last_v_W_.head<2>() + last_wz_ * Vec2(-r.y(), r.x());
+  // In space: a body that pitches at the impact moves otherwise where it touches than at its
+  // origin.
+  const Vec3 r = Vec3(p_W[0], p_W[1], p_W[2]) - sample_.p_WB;
+  const Vec2 v = (last_v_W_ + last_w_W_.cross(r)).head<2>();
   contact.closing_mps = -v.dot(contact.normal_W);
   contact.impulse_ns = force_n * model()->opt.timestep;
 }

@@ -16,7 +16,7 @@ class Simulation {
   // `scene`, `map` and `robot` outlive the simulation.
   Simulation(const Scene& scene, const HazardMap& map, const RobotSpec& robot);
 
-  // At rest at the pose, wheels on the base floor; time 0.
+  // At rest at the pose, settled on its wheels; time 0.
   void Reset(const Pose2& X_WB);
   // Speeds that the wheels' motor drivers hold from now on, rad/s, RobotSpec's order.
   void SetWheelSpeeds(std::span<const double> wheel_radps);
@@ -32,6 +32,7 @@ class Simulation {
   mjData* data() { return data_.get(); }
 
  private:
+  void Place(const Pose2& X_WB);
   void ReadPose();
   void ReadContacts();
   void ReadPower();
@@ -46,9 +47,9 @@ class Simulation {
   Sample sample_;
   std::vector<int> wheel_bodies_;  // of the driven wheels, in actuator order
   std::vector<double> wheel_half_width_m_;
-  Vec3 last_v_W_ = Vec3::Zero();  // of the body's origin, before the step
-  double last_wz_ = 0;
-  std::vector<Vec2> support_, hull_;  // scratch, capacity fixed
+  Vec3 last_v_W_ = Vec3::Zero();                       // of the body's origin, before the step
+  Vec3 w_W_ = Vec3::Zero(), last_w_W_ = Vec3::Zero();  // angular velocity, after and before it
+  std::vector<Vec2> support_, hull_;                   // scratch, capacity fixed
 };
 
 // Electrical power of a DC motor with its driver: current i = torque / K, terminal voltage

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// BELUGA on flat floor against what its geometry says.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "controllers/drive.h"
+#include "env/core/registry.h"
+#include "env/scene/scene.h"
+#include "env/sim/simulation.h"
+#include "tests/run/scenario_text.h"
+
+namespace floorproof {
+namespace {
+
+struct Bench {
+  HazardMap map;
+  RobotModel robot = ReadRobot(FindRobotFile("beluga", {}));
+  Scene scene;
+  std::unique_ptr<Simulation> sim;
+
+  explicit Bench(PhysicsParams physics = {}) {
+    map.frame = {40, 40, 0.5, {-10, -10, 0}};
+    map.cells = Grid<CellState>(40, 40);
+    scene = BuildScene(map, robot, physics, {});
+    sim = std::make_unique<Simulation>(scene, map, robot.robot);
+    sim->Reset({});
+  }
+  // Drives a twist for a time; returns the body's mean velocity over the second half.
+  BodyTwist Drive(const BodyTwist& twist, double t_s) {
+    const auto drive = MakePlugin(Drives(), robot.robot.drive, "drive");
+    drive->Configure(robot.robot);
+    std::vector<double> wheels(robot.robot.wheels.size());
+    drive->ToWheels(twist, wheels);
+    sim->SetWheelSpeeds(wheels);
+    const double start_s = sim->sample().t_s;
+    BodyTwist mean;
+    int n = 0;
+    while (sim->sample().t_s < start_s + t_s) {
+      EXPECT_TRUE(sim->Step());
+      if (sim->sample().t_s < start_s + t_s / 2) continue;
+      const BodyTwist& v = sim->sample().V_WB_B;
+      mean.vx_mps += v.vx_mps;
+      mean.vy_mps += v.vy_mps;
+      mean.wz_radps += v.wz_radps;
+      ++n;
+    }
+    return {mean.vx_mps / n, mean.vy_mps / n, mean.wz_radps / n};
+  }
+};
+
+TEST(Beluga, RestsOnItsWheelsAndCasters) {
+  Bench dut;
+  for (int i = 0; i < 500; ++i) ASSERT_TRUE(dut.sim->Step());
+  const Sample& s = dut.sim->sample();
+  EXPECT_NEAR(s.p_WB.z(), 0, 0.0005);
+  EXPECT_LT(s.tilt_rad, 0.01);
+  EXPECT_NEAR(s.V_WB_B.vx_mps, 0, 1e-4);
+  EXPECT_EQ(s.belly_load_n, 0);
+  EXPECT_GT(s.support_margin_m, 0.05);
+  EXPECT_EQ(s.near_hazard, -1);
+}
+
+// v = omega r, straight and in bends, forward and back: slip and motor droop below 2 %.
+TEST(Beluga, RollsAsItsWheelsTurn) {
+  constexpr double kSlip = 0.02;
+  for (const BodyTwist& twist : {BodyTwist{0.25, 0, 0}, BodyTwist{-0.2, 0, 0},
+                                 BodyTwist{0.2, 0, 0.5}, BodyTwist{0.1, 0, -0.3}}) {
+    Bench dut;
+    const BodyTwist v = dut.Drive(twist, 2);
+    EXPECT_NEAR(v.vx_mps, twist.vx_mps, kSlip * std::abs(twist.vx_mps));
+    EXPECT_NEAR(v.vy_mps, 0, 0.005);
+    EXPECT_NEAR(v.wz_radps, twist.wz_radps, 0.03 * std::abs(twist.wz_radps) + 1e-4);
+  }
+}
+
+TEST(Beluga, MirroredCommandsGiveMirroredMotion) {
+  Bench left, right;
+  left.Drive({0.2, 0, 0.6}, 3);
+  right.Drive({0.2, 0, -0.6}, 3);
+  const Sample &l = left.sim->sample(), &r = right.sim->sample();
+  constexpr double kSolver_m = 0.002;  // contacts are solved in an order that a mirror changes
+  EXPECT_NEAR(l.p_WB.x(), r.p_WB.x(), kSolver_m);
+  EXPECT_NEAR(l.p_WB.y(), -r.p_WB.y(), kSolver_m);
+  EXPECT_NEAR(l.yaw_rad, -r.yaw_rad, 0.005);
+}
+
+// The answer does not hang on the step or the integrator.
+TEST(Beluga, OneTwoAndFourMillisecondsAgree) {
+  Bench fine({.timestep_s = 0.001});
+  fine.Drive({0.2, 0, 0.4}, 4);
+  for (const PhysicsParams& physics :
+       {PhysicsParams{.timestep_s = 0.002}, PhysicsParams{.timestep_s = 0.004},
+        PhysicsParams{.timestep_s = 0.004, .integrator = "implicitfast"}}) {
+    Bench dut(physics);
+    dut.Drive({0.2, 0, 0.4}, 4);
+    EXPECT_NEAR(dut.sim->sample().p_WB.x(), fine.sim->sample().p_WB.x(), 0.01);
+    EXPECT_NEAR(dut.sim->sample().p_WB.y(), fine.sim->sample().p_WB.y(), 0.01);
+    EXPECT_NEAR(dut.sim->sample().yaw_rad, fine.sim->sample().yaw_rad, 0.02);
+  }
+}
+
+TEST(Beluga, MotorPowerIsCopperLossAndWork) {
+  // 1 N m at 2 rad/s with R = 3.6 ohm, K = 1.2: i = 1/1.2 A; i^2 R + 1 * 2 W.
+  EXPECT_NEAR(MotorPower(1, 2, 3.6, 1.2), 3.6 / 1.44 + 2, 1e-12);
+  EXPECT_EQ(MotorPower(-0.1, 9, 3.6, 1.2), 0) << "braking gives nothing back";
+}
+
+class Seams : public ScenarioTest {};
+
+// A pit elsewhere cuts the floor into slabs; rolling over their borders is not felt.
+TEST_F(Seams, AreNotFelt) {
+  Save("plan.csv", "x_m,y_m\n1.5,1.5\n7.5,1.5\n7.5,3.5\n1.5,3.5\n");
+  const std::string pit =
+      "{id: pit, type: step, height_m: -0.1, polygon_m: [[4, 2.2], [4.6, 2.2], [4.6, 2.8], [4, "
+      "2.8]]}";
+  Scenario with = Read(RoomScenario(pit, "start: {x_m: 1.5, y_m: 1.5}\n"));
+  const Scene scene = BuildScene(with.site.map, with.robot, with.physics, with.start);
+  ASSERT_GT(scene.num_floor_geoms, 3) << "there are seams to cross";
+  const EpisodeRecord dut = Drive(std::move(with));
+  EXPECT_EQ(dut.outcome, Outcome::kSuccess);
+  double highest = 0, lowest = 0;
+  for (std::size_t i = 50; i < dut.trace.size(); ++i) {
+    highest = std::max<double>(highest, dut.trace[i].z_m);
+    lowest = std::min<double>(lowest, dut.trace[i].z_m);
+  }
+  EXPECT_LT(highest, 0.0005);
+  EXPECT_GT(lowest, -0.0005);
+}
+
+}  // namespace
+}  // namespace floorproof

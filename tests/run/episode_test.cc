@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/run/episode.h"
+
+#include <gmock/gmock.h>
+
+#include "env/run/records.h"
+#include "tests/run/scenario_text.h"
+
+namespace floorproof {
+namespace {
+
+class EpisodeTest : public ScenarioTest {
+ protected:
+  EpisodeTest() { Save("plan.csv", "x_m,y_m\n1.5,2.5\n3,2.5\n3,3.5\n1.5,3.5\n"); }
+};
+
+TEST_F(EpisodeTest, TheSameSeedGivesTheSameBytes) {
+  const Scenario a = Read(RoomScenario("")), b = Read(RoomScenario(""));
+  const EpisodeRecord first = Drive(Read(RoomScenario(""))), second = Drive(Read(RoomScenario("")));
+  EXPECT_EQ(ResultJson(a, first).dump(), ResultJson(b, second).dump());
+  EXPECT_EQ(TraceCsv(first), TraceCsv(second));
+  EXPECT_EQ(first.passes.cells, second.passes.cells);
+}
+
+TEST_F(EpisodeTest, ACleanDriveEndsAtTheLastWaypoint) {
+  const EpisodeRecord dut = Drive(Read(RoomScenario("")));
+  EXPECT_EQ(dut.outcome, Outcome::kSuccess);
+  EXPECT_TRUE(dut.events.empty());
+  EXPECT_NEAR(dut.trace.back().x_m, 1.5, 0.05);
+  EXPECT_NEAR(dut.trace.back().y_m, 3.5, 0.05);
+  EXPECT_NEAR(dut.metrics.path_length_m, 4.0, 0.1);
+  for (const auto& margin : dut.margins) EXPECT_GT(margin.value, 0) << margin.detector;
+}
+
+// E = integral of power: at least the hotel load for all of the time.
+TEST_F(EpisodeTest, EnergyIsHotelLoadAndMotors) {
+  const Scenario scenario = Read(RoomScenario(""));
+  const EpisodeRecord dut = Drive(Read(RoomScenario("")));
+  const double hotel_j = scenario.robot.robot.hotel_load_w * dut.metrics.duration_s;
+  EXPECT_GT(dut.metrics.energy_j, hotel_j);
+  EXPECT_LT(dut.metrics.energy_j, 1.2 * hotel_j)
+      << "the motors of a slow robot on flat floor take little";
+}
+
+TEST_F(EpisodeTest, DwellingTakesItsTimeAndIsNotStuck) {
+  Save("plan.csv", "x_m,y_m,dwell_s\n1.5,2.5,0\n2.5,2.5,15\n3,2.5,0\n");
+  const EpisodeRecord dwelt = Drive(Read(RoomScenario("")));
+  Save("plan.csv", "x_m,y_m,dwell_s\n1.5,2.5,0\n2.5,2.5,0\n3,2.5,0\n");
+  const EpisodeRecord driven = Drive(Read(RoomScenario("")));
+  EXPECT_EQ(dwelt.outcome, Outcome::kSuccess);
+  EXPECT_GT(dwelt.metrics.duration_s, driven.metrics.duration_s + 14.9);
+  EXPECT_LT(dwelt.metrics.duration_s, driven.metrics.duration_s + 20);
+}
+
+TEST_F(EpisodeTest, ATimeLimitIsATimeoutAndNoFailure) {
+  const EpisodeRecord dut = Drive(Read(RoomScenario("", "time_limit_s: 3\n")));
+  EXPECT_EQ(dut.outcome, Outcome::kTimeout);
+  EXPECT_TRUE(dut.events.empty());
+  EXPECT_NEAR(dut.metrics.duration_s, 3, 0.03);
+}
+
+TEST_F(EpisodeTest, LessCoverageThanAskedForIsNoSuccess) {
+  const EpisodeRecord dut = Drive(Read(RoomScenario("", "success: {min_coverage: 0.9}\n")));
+  EXPECT_EQ(dut.outcome, Outcome::kFailure);
+  EXPECT_TRUE(dut.events.empty());
+  EXPECT_THAT(dut.message, ::testing::HasSubstr("min_coverage"));
+}
+
+// A user's plan straight into a wall is driven and judged.
+TEST_F(EpisodeTest, APlanThroughAWallFailsAtTheWall) {
+  Save("plan.csv", "x_m,y_m\n1.5,2.5\n1.5,4.9\n");
+  const EpisodeRecord dut = Drive(Read(RoomScenario("")));
+  EXPECT_EQ(dut.outcome, Outcome::kFailure);
+  ASSERT_FALSE(dut.events.empty());
+  EXPECT_EQ(dut.events[0].mode, FailureMode::kStuck);
+  EXPECT_EQ(dut.events[0].hazard, "wall");
+  EXPECT_NEAR(dut.events[0].y_m, 4.5 - 0.18, 0.08);
+}
+
+class Interrupter : public EpisodeObserver {
+ public:
+  bool OnControl(Simulation&, double, double) override { return ++count_ < 50; }
+
+ private:
+  int count_ = 0;
+};
+
+TEST_F(EpisodeTest, AnInterruptedEpisodeKeepsWhatWasDriven) {
+  Interrupter observer;
+  const EpisodeRecord dut = Drive(Read(RoomScenario("")), &observer);
+  EXPECT_EQ(dut.outcome, Outcome::kInterrupted);
+  EXPECT_EQ(dut.trace.size(), 50u);
+}
+
+// Throws the robot away at an impossible speed: the engine warns, and that is no robot's failure.
+class Vandal : public EpisodeObserver {
+ public:
+  bool OnControl(Simulation& simulation, double, double) override {
+    if (++count_ == 20) simulation.data()->qvel[0] = 1e12;
+    return true;
+  }
+
+ private:
+  int count_ = 0;
+};
+
+TEST_F(EpisodeTest, DivergedPhysicsIsAnErrorAndNoFailure) {
+  Vandal observer;
+  const EpisodeRecord dut = Drive(Read(RoomScenario("")), &observer);
+  EXPECT_EQ(dut.outcome, Outcome::kError);
+  EXPECT_TRUE(dut.events.empty());
+}
+
+TEST_F(EpisodeTest, IgnoredFailuresAreLoggedAndTheDriveGoesOn) {
+  Save("plan.csv", "x_m,y_m\n1.5,2.5\n1.5,4.9\n");
+  const EpisodeRecord dut = Drive(Read(RoomScenario("", "on_failure: ignore\ntime_limit_s: 60\n")));
+  EXPECT_EQ(dut.outcome, Outcome::kFailure);
+  EXPECT_NEAR(dut.metrics.duration_s, 60, 0.1);
+}
+
+}  // namespace
+}  // namespace floorproof

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/run/plan_file.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/run/scenario_text.h"
+
+namespace floorproof {
+namespace {
+
+using ::testing::HasSubstr;
+
+const GridFrame kMap{20, 20, 0.5, {}};
+
+class PlanFile : public ScenarioTest {
+ protected:
+  std::string Refusal(const std::string& text) const {
+    try {
+      ReadPlan(Save("plan.csv", text), kMap);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "accepted";
+  }
+};
+
+TEST_F(PlanFile, WhatIsWrittenReadsBackTheSame) {
+  Path path(3);
+  path[0].p_W = {0.1 + 0.2, 1.0 / 3};
+  path[1] = {{2, 3}, 0.5, "O", 0.25, 12};
+  path[2].p_W = {4, 5};
+  const Path read = ReadPlan(Save("plan.csv", PlanCsv(path)), kMap);
+  ASSERT_EQ(read.size(), 3u);
+  EXPECT_EQ(read[0].p_W, path[0].p_W);
+  EXPECT_FALSE(read[0].yaw_rad);
+  EXPECT_EQ(read[1].yaw_rad, 0.5);
+  EXPECT_EQ(read[1].shape, "O");
+  EXPECT_EQ(read[1].speed_mps, 0.25);
+  EXPECT_EQ(read[1].dwell_s, 12);
+  EXPECT_EQ(PlanCsv(read), PlanCsv(path));
+}
+
+TEST_F(PlanFile, ColumnsMayComeInAnyOrderAndMayBeMissing) {
+  const Path read = ReadPlan(Save("plan.csv", "y_m, x_m\r\n1, 2\r\n\r\n# a comment\n3,4\n"), kMap);
+  ASSERT_EQ(read.size(), 2u);
+  EXPECT_EQ(read[0].p_W, Vec2(2, 1));
+  EXPECT_EQ(read[1].p_W, Vec2(4, 3));
+}
+
+TEST_F(PlanFile, ARefusalNamesLineColumnAndRule) {
+  EXPECT_THAT(Refusal("x_m,y_m\n1,2\n1,two\n"),
+              HasSubstr("plan.csv:3: y_m = two: must be a number"));
+  EXPECT_THAT(Refusal("x_m,y_m\n1\n"), HasSubstr("plan.csv:2: has 1 columns, the first row 2"));
+  EXPECT_THAT(Refusal("x_m,y\n1,2\n"), HasSubstr("y: unknown column; did you mean y_m?"));
+  EXPECT_THAT(Refusal("x_m\n1\n"), HasSubstr("y_m: the column is missing"));
+  EXPECT_THAT(Refusal("x_m,y_m\n1,nan\n"), HasSubstr("must be a"));
+  EXPECT_THAT(Refusal("x_m,y_m,speed_mps\n1,2,-1\n"), HasSubstr("speed_mps = -1: must be >= 0"));
+  EXPECT_THAT(Refusal("x_m,y_m\n100,2\n"), HasSubstr("100, 2: lies off the map"));
+  EXPECT_THAT(Refusal("x_m,y_m\n"), HasSubstr("holds no waypoint"));
+  EXPECT_THAT(Refusal(""), HasSubstr("holds no waypoint"));
+}
+
+}  // namespace
+}  // namespace floorproof

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/run/scenario.h"
+
+#include <gmock/gmock.h>
+
+#include "env/run/file_output.h"
+#include "tests/run/scenario_text.h"
+
+namespace floorproof {
+namespace {
+
+using ::testing::HasSubstr;
+
+class ScenarioFile : public ScenarioTest {
+ protected:
+  ScenarioFile() { Save("plan.csv", "x_m,y_m\n1.5,2.5\n3,2.5\n"); }
+  std::string Refusal(const std::string& text, const std::vector<Override>& overrides = {}) const {
+    try {
+      Read(text, overrides);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "accepted";
+  }
+};
+
+TEST_F(ScenarioFile, OverridesReachIntoScenarioAndSite) {
+  const Scenario dut = Read(RoomScenario(""), {{"control_hz", "25"},
+                                               {"trace_hz", "25"},
+                                               {"site.floor.friction", "0.5"},
+                                               {"failures.stuck.turn_rad", "0.7"}});
+  EXPECT_EQ(dut.episode.control_hz, 25);
+  EXPECT_EQ(dut.site.map.floor_friction, 0.5);
+}
+
+TEST_F(ScenarioFile, ResolvedTwiceIsItself) {
+  const Scenario first =
+      Read(RoomScenario("{type: step, polygon_m: [[3, 1], [4, 1], [4, 2]], height_m: 0.002}",
+                        "start: {yaw_deg: 213.7}\n"));
+  const std::string once = ResolvedScenario(first, folder_ / "out");
+  std::filesystem::create_directories(folder_ / "out");
+  WriteFileWhole(folder_ / "out" / "scenario.resolved.yaml", once);
+  const Scenario second = ReadScenario(folder_ / "out" / "scenario.resolved.yaml");
+  EXPECT_EQ(ResolvedScenario(second, folder_ / "out"), once);
+  EXPECT_EQ(second.start.yaw_rad, first.start.yaw_rad) << "to the bit";
+}
+
+TEST_F(ScenarioFile, AFileThatChangedSinceIsNamed) {
+  const Scenario first = Read(RoomScenario(""));
+  std::filesystem::create_directories(folder_ / "out");
+  WriteFileWhole(folder_ / "out" / "scenario.resolved.yaml",
+                 ResolvedScenario(first, folder_ / "out"));
+  Save("plan.csv", "x_m,y_m\n1.5,2.5\n3,2.6\n");
+  try {
+    ReadScenario(folder_ / "out" / "scenario.resolved.yaml");
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("plan.csv"));
+    EXPECT_THAT(e.what(), HasSubstr("the file has changed since"));
+  }
+}
+
+TEST_F(ScenarioFile, BadInputIsOneLineThatNamesTheRule) {
+  EXPECT_THAT(Refusal("a: ["), HasSubstr("scenario.yaml:"));
+  EXPECT_THAT(Refusal("scenario: 2\n"),
+              HasSubstr("scenario.yaml:1: scenario = 2: must be in [1, 1]"));
+  EXPECT_THAT(Refusal("site: x.yaml\n"), HasSubstr("scenario: the key is missing"));
+  EXPECT_THAT(Refusal("scenario: 1\nsite: nothing.yaml\n"),
+              HasSubstr("scenario.yaml:2: site = nothing.yaml: no such file"));
+  EXPECT_THAT(Refusal(RoomScenario("", "robt: x\n")),
+              HasSubstr("robt: unknown key; did you mean robot?"));
+  EXPECT_THAT(Refusal(RoomScenario(""), {{"robot", "belug"}}), HasSubstr("did you mean beluga?"));
+  EXPECT_THAT(Refusal(RoomScenario(""), {{"plan", "spirl"}}), HasSubstr("did you mean spiral?"));
+  EXPECT_THAT(Refusal(RoomScenario(""), {{"plan", "{file: no.csv}"}}), HasSubstr("no such file"));
+  EXPECT_THAT(Refusal(RoomScenario("", "start: {x_m: 0.2, y_m: 0.2}\n")),
+              HasSubstr("lies in a wall"));
+  EXPECT_THAT(Refusal(RoomScenario("", "start: {x_m: 99, y_m: 0}\n")),
+              HasSubstr("lies off the map"));
+  EXPECT_THAT(Refusal(RoomScenario("", "goal: {x_m: 99, y_m: 0}\n")),
+              HasSubstr("lies off the map"));
+  EXPECT_THAT(Refusal(RoomScenario("", "control_hz: 49\n")), HasSubstr("whole number of steps"));
+  EXPECT_THAT(Refusal(RoomScenario("", "trace_hz: 33\n")), HasSubstr("must divide control_hz"));
+  EXPECT_THAT(Refusal(RoomScenario("", "on_failure: stopp\n")), HasSubstr("did you mean stop?"));
+  EXPECT_THAT(Refusal(RoomScenario("", "failures: {stuk: {}}\n")),
+              HasSubstr("did you mean stuck?"));
+  EXPECT_THAT(Refusal(RoomScenario("", "success: {min_coverage: 1.2}\n")),
+              HasSubstr("success.min_coverage"));
+  EXPECT_THAT(Refusal(RoomScenario("", "physics: {timestep_s: 0.1}\n")),
+              HasSubstr("physics.timestep_s = 0.1"));
+}
+
+}  // namespace
+}  // namespace floorproof

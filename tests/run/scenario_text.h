@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenarios written in a test, and driven.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "env/run/episode.h"
+
+namespace floorproof {
+
+// A folder of its own for each test, removed at its end.
+class ScenarioTest : public ::testing::Test {
+ protected:
+  ScenarioTest() {
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string(info->test_suite_name()) + "." + info->name();
+    for (char& c : name)
+      if (c == '/') c = '_';
+    folder_ = std::filesystem::path(::testing::TempDir()) / name;
+    std::filesystem::create_directories(folder_);
+  }
+  ~ScenarioTest() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path Save(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return folder_ / name;
+  }
+  Scenario Read(const std::string& text, const std::vector<Override>& overrides = {}) const {
+    return ReadScenario(Save("scenario.yaml", text), overrides);
+  }
+  static EpisodeRecord Drive(Scenario scenario, EpisodeObserver* observer = nullptr) {
+    const PlanResult plan = MakePlan(scenario);
+    EXPECT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
+    const Scene scene =
+        BuildScene(scenario.site.map, scenario.robot, scenario.physics, scenario.start);
+    return RunEpisode(scenario, scene, plan, observer);
+  }
+
+  std::filesystem::path folder_;
+};
+
+// A room of 8 m x 4 m inside its walls, its lower left free corner at (0.5, 0.5), with these
+// hazards (a YAML list's inside) and this plan (rows of plan.csv's x_m,y_m).
+inline std::string RoomScenario(const std::string& hazards, const std::string& more = "") {
+  std::string rows = "      " + std::string(18, '#') + "\n";
+  for (int i = 0; i < 8; ++i) rows += "      #" + std::string(16, '.') + "#\n";
+  rows += "      " + std::string(18, '#') + "\n";
+  return "scenario: 1\nsite:\n  site: 1\n  name: room\n  grid:\n    cell_m: 0.5\n    rows: |\n" +
+         rows + "  start: {x_m: 1.5, y_m: 2.5, yaw_deg: 0}\n  hazards: [" + hazards +
+         "]\nrobot: beluga\nplan: {file: plan.csv}\n" + more;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/scene/robot_model.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace floorproof {
+namespace {
+
+using ::testing::HasSubstr;
+
+RobotModel Beluga(const RobotChanges& changes = {}) {
+  return ReadRobot(FindRobotFile("beluga", {}), changes);
+}
+
+// The figures stand in the MJCF's head; the program derives them from its geoms.
+TEST(RobotModel, DriveDataComeFromTheModel) {
+  const RobotSpec robot = Beluga().robot;
+  ASSERT_EQ(robot.wheels.size(), 2u);
+  EXPECT_NEAR(robot.wheels[0].radius_m, 0.05, 1e-9);
+  EXPECT_NEAR(robot.wheels[0].p_BW.y() - robot.wheels[1].p_BW.y(), 0.27, 1e-9);
+  EXPECT_NEAR(robot.wheels[0].max_speed_radps, 10, 1e-9);
+  EXPECT_NEAR(robot.wheels[0].max_torque_nm, 3, 1e-9) << "the driver's limit, below the stall's 4";
+  EXPECT_NEAR(robot.clearance_m, 0.025, 1e-6);
+  EXPECT_NEAR(robot.mass_kg, 12, 0.5);
+  EXPECT_EQ(robot.clear.kind, Shape2::Kind::kCircle);
+  EXPECT_NEAR(robot.clear.radius_m, 0.18, 0.002);
+  EXPECT_NEAR(robot.tool.radius_m, 0.15, 1e-9);
+}
+
+// The support is the rhomb of wheels and casters: its least angle is that of an edge d from the
+// centre of mass, seen from above.
+TEST(RobotModel, TheStaticTipAngleIsThatOfTheSupportRhomb) {
+  const RobotSpec robot = Beluga().robot;
+  const Vec2 wheel(0, 0.143), caster(-0.14, 0);  // outer rim of the wheel; rear caster
+  const double side = (wheel - caster).norm();
+  const double d = std::abs(Cross(wheel - caster, robot.p_BCom.head<2>() - caster)) / side;
+  const Vec2 front(0.14, 0);
+  const double ahead =
+      std::abs(Cross(wheel - front, robot.p_BCom.head<2>() - front)) / (wheel - front).norm();
+  EXPECT_NEAR(robot.static_tip_rad, std::atan2(std::min(d, ahead), robot.p_BCom.z()), 0.03);
+}
+
+TEST(RobotModel, ChangesReachMassAndClearance) {
+  const RobotSpec robot = Beluga({.mass_kg = 20.0, .clearance_m = 0.015}).robot;
+  EXPECT_NEAR(robot.mass_kg, 20, 1e-9);
+  EXPECT_NEAR(robot.clearance_m, 0.015, 1e-9);
+  EXPECT_NEAR(robot.wheels[0].radius_m, 0.05, 1e-9) << "the wheels stay";
+}
+
+std::string RefusalOf(const std::string& name, const std::string& xml) {
+  const std::string file = ::testing::TempDir() + "/" + name + ".xml";
+  std::ofstream(file) << xml;
+  try {
+    ReadRobot(file);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+TEST(RobotModel, ABrokenRobotIsRefusedNamingWhatIsMissing) {
+  EXPECT_THAT(RefusalOf("no_xml", "<mujoco"), HasSubstr("is not MJCF that MuJoCo reads"));
+  EXPECT_THAT(RefusalOf("no_base", "<mujoco/>"), HasSubstr("a robot needs a body named base"));
+  EXPECT_THAT(
+      RefusalOf(
+          "no_joint",
+          "<mujoco><worldbody><body name='base'><geom size='.1'/></body></worldbody></mujoco>"),
+      HasSubstr("free joint"));
+  std::string custom = "<custom><text name='drive' data='differential'/>";
+  for (const char* number :
+       {"tool_width_m", "step_m", "cruise_mps", "max_speed_mps", "max_accel_mps2",
+        "max_yaw_rate_radps", "max_yaw_accel_radps2", "hotel_load_w"})
+    custom += std::string("<numeric name='") + number + "' data='1'/>";
+  const std::string body =
+      "<worldbody><body name='base' pos='0 0 1'><freejoint/><geom size='.1'/></body></worldbody>";
+  EXPECT_THAT(RefusalOf("no_custom", "<mujoco>" + body + "</mujoco>"), HasSubstr("drive"));
+  EXPECT_THAT(RefusalOf("no_wheels", "<mujoco>" + custom + "</custom>" + body + "</mujoco>"),
+              HasSubstr("a robot needs at least one driven wheel"));
+}
+
+TEST(RobotModel, AnUnknownRobotNamesTheNearest) {
+  try {
+    FindRobotFile("belugo", {"a.yaml", 3});
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(),
+                HasSubstr("a.yaml:3: robot = belugo: unknown robot; did you mean beluga?"));
+  }
+}
+
+}  // namespace
+}  // namespace floorproof

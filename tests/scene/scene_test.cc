@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/scene/scene.h"
+
+#include <gtest/gtest.h>
+
+#include "env/scene/floor.h"
+
+namespace floorproof {
+namespace {
+
+HazardMap EmptyRoom(int width, int height) {
+  HazardMap map;
+  map.frame = {width, height, 0.5, {}};
+  map.cells = Grid<CellState>(width, height);
+  return map;
+}
+
+Hazard Cut(const Polygon& outline, double depth_m) {
+  Hazard hazard;
+  hazard.id = "pit";
+  hazard.hazard_class = HazardClass::kLevelChange;
+  hazard.height_m = -depth_m;
+  hazard.footprint = {outline};
+  hazard.solids = {{Solid::Kind::kCut, outline, {}, -depth_m, 0}};
+  return hazard;
+}
+
+// Height of the first surface below a point 1 m up, by a ray.
+double SurfaceBelow(const Scene& scene, mjData* data, const Vec2& p) {
+  const mjtNum from[3] = {p.x(), p.y(), 1}, down[3] = {0, 0, -1};
+  const mjtByte groups[mjNGROUP] = {1, 0, 0, 0, 0, 0};
+  int geom = -1;
+  const double distance =
+      mj_ray(scene.model.get(), data, from, down, groups, 1, scene.base_body, &geom, nullptr);
+  return geom < 0 ? -1e9 : 1 - distance;
+}
+
+TEST(SceneTest, AFlatFloorIsOnePlane) {
+  EXPECT_TRUE(FloorPieces(EmptyRoom(10, 10)).empty());
+  const RobotModel robot = ReadRobot(FindRobotFile("beluga", {}));
+  const Scene dut = BuildScene(EmptyRoom(10, 10), robot, {}, {2.5, 2.5, 0});
+  EXPECT_EQ(dut.num_floor_geoms, 1);
+}
+
+// Rays from above meet the base floor beside the pits and the stated depth within.
+TEST(SceneTest, HazardsKeepTheirStatedHeights) {
+  HazardMap map = EmptyRoom(20, 16);
+  map.hazards.push_back(Cut({{3, 3}, {5, 3.5}, {4.5, 6}, {2.5, 5}}, 0.15));
+  map.hazards.push_back(Cut(Rectangle({6, 1}, {7, 7}), 0.03));
+  Hazard step;
+  step.id = "step";
+  step.solids = {{Solid::Kind::kPrism, {{8, 1}, {9, 1}, {9, 2}, {8, 2}}, {}, 0, 0.04}};
+  map.hazards.push_back(step);
+  const RobotModel robot = ReadRobot(FindRobotFile("beluga", {}));
+  const Scene dut = BuildScene(map, robot, {}, {1, 1, 0});
+  const DataPtr data = MakeData(dut.model.get());
+  ForwardEngine(dut.model.get(), data.get());
+  constexpr double kExact_m = 1e-6;
+  EXPECT_NEAR(SurfaceBelow(dut, data.get(), {3.6, 4.5}), -0.15, kExact_m);
+  EXPECT_NEAR(SurfaceBelow(dut, data.get(), {6.5, 6.9}), -0.03, kExact_m);
+  EXPECT_NEAR(SurfaceBelow(dut, data.get(), {8.5, 1.5}), 0.04, kExact_m);
+  for (const Vec2& p : {Vec2(1.5, 5), Vec2(5.5, 2), Vec2(6.5, 7.2), Vec2(2.4, 3.2)})
+    EXPECT_NEAR(SurfaceBelow(dut, data.get(), p), 0, kExact_m) << p.transpose();
+}
+
+TEST(SceneTest, TheExportLoadsAndStepsInTheStockEngine) {
+  HazardMap map = EmptyRoom(12, 10);
+  map.hazards.push_back(Cut({{3, 3}, {4, 3.2}, {3.5, 4}}, 0.15));
+  const RobotModel robot = ReadRobot(FindRobotFile("beluga", {}));
+  const Scene scene = BuildScene(map, robot, {}, {1, 1, 0});
+  const std::string xml = SceneXml(scene);
+  char error[1000] = "";
+  const SpecPtr spec(mj_parseXMLString(xml.c_str(), nullptr, error, sizeof error));
+  ASSERT_TRUE(spec) << error;
+  const ModelPtr model = CompileSpec(spec.get());
+  EXPECT_EQ(model->ngeom, scene.model->ngeom);
+  const DataPtr data = MakeData(model.get());
+  for (int i = 0; i < 500; ++i) StepEngine(model.get(), data.get());
+  for (int i = 0; i < mjNWARNING; ++i) EXPECT_EQ(data->warning[i].number, 0);
+  EXPECT_NEAR(data->qpos[2], 0, 1e-3) << "the robot stands on the floor";
+}
+
+// An arena too small for the contacts: the engine's own error, which would end the process.
+TEST(SceneTest, AnEngineErrorIsAnExceptionAndNotTheEnd) {
+  const RobotModel robot = ReadRobot(FindRobotFile("beluga", {}));
+  const Scene scene = BuildScene(EmptyRoom(10, 10), robot, {}, {2.5, 2.5, 0});
+  scene.model->narena = 2048;
+  const DataPtr data = MakeData(scene.model.get());
+  EXPECT_THROW(ForwardEngine(scene.model.get(), data.get()), InternalError);
+}
+
+TEST(SceneTest, TheDampingRatioFallsWithTheRestitution) {
+  EXPECT_GT(DampingRatio(0), 1);
+  double last = 1;
+  for (const double e : {0.1, 0.3, 0.5, 0.7, 0.9, 0.99}) {
+    EXPECT_LT(DampingRatio(e), last);
+    EXPECT_GT(DampingRatio(e), 0);
+    last = DampingRatio(e);
+  }
+}
+
+}  // namespace
+}  // namespace floorproof
