@@ -25,8 +25,8 @@ struct Effort {
   double least_gain;  // a visit to leftover ground sweeps at least this, in width^2
   double open_share;  // of the tool's width, along walls
 };
-constexpr Effort kRowsOnly = {0.97, 0.4, 0.96, 0.6, 0.5, 0.4};
-constexpr Effort kWithEdges = {0.992, 0.25, 0.988, 0.4, 0.3, 0.2};
+constexpr Effort kRowsOnly = {0.96, 0.4, 0.948, 0.7, 0.5, 0.4};
+constexpr Effort kWithEdges = {0.988, 0.25, 0.981, 0.6, 0.3, 0.2};
 constexpr double kSmall = 0.02;  // of the ground: worth a visit however small
 constexpr int kRounds = 2, kMostRounds = 4;
 constexpr double kDear = 1.25;          // length above this many times ground / width
@@ -64,9 +64,9 @@ bool LooksTheSameTurned(const Polygon& footprint_B) {
   });
 }
 
-Polyline Drive(Ways& ways, const Vec2& start, const std::vector<Polyline>& lines) {
+Polyline Drive(Ways& ways, const Vec2& start, const std::vector<Polyline>& lines, bool thorough) {
   std::vector<Polyline> ordered = {{start}};
-  for (const Stop& stop : OrderLines(ways, start, lines)) {
+  for (const Stop& stop : OrderLines(ways, start, lines, thorough)) {
     ordered.push_back(lines[stop.line]);
     if (stop.reversed) std::reverse(ordered.back().begin(), ordered.back().end());
   }
@@ -95,13 +95,13 @@ Polyline CoveragePlanner::Sweep(const Floor& floor, const Vec2& start, Figures& 
   double laps = 0;
   for (const Polyline& lap : lines) laps += PolylineLength(lap);
   for (Polyline& line : Lines(floor, covered, figures)) lines.push_back(std::move(line));
-  Polyline path = Drive(ways, start, lines);
+  Polyline path = Drive(ways, start, lines, false);
 
   for (int round = 1; round <= kMostRounds; ++round) {
     Swept swept(floor);
     swept.Add(path);
     if (round > kRounds && swept.share() >= effort.least_goal) break;
-    Prune(floor, {effort.goal * floor.ground_cells, kFirstWorth}, path, swept);
+    Prune(floor, {effort.goal * floor.ground_cells, kFirstWorth, 1}, path, swept);
     std::vector<Polyline> pieces = WorkingPieces(floor, path, kWorkingShare, swept);
     const double min_gain =
         std::min(effort.least_gain * w * w, kSmall * floor.ground_cells) / round;
@@ -111,7 +111,7 @@ Polyline CoveragePlanner::Sweep(const Floor& floor, const Vec2& start, Figures& 
       rest.push_back(std::move(line));
     CutBeside(floor, rest, kCutReach * w, pieces);
     for (Polyline& line : rest) pieces.push_back(std::move(line));
-    path = Drive(ways, start, pieces);
+    path = Drive(ways, start, pieces, round >= kRounds);
   }
 
   Swept swept(floor);

@@ -120,7 +120,8 @@ class Pruner {
 void Prune(const Floor& floor, const PruneOptions& options, Polyline& path, Swept& swept) {
   if (path.size() < 2) return;
   Pruner pruner(floor, options, path, swept);
-  for (const double part : {0.3, 0.7, 1.0}) pruner.Round(part * options.worth);
+  for (int pass = 1; pass <= options.passes; ++pass)
+    pruner.Round(options.worth * pass / options.passes);
 }
 
 Polyline MergeStraight(const Polyline& path) {

@@ -9,6 +9,7 @@ namespace floorproof {
 struct PruneOptions {
   double goal_cells = 0;  // swept cells never fall below this
   double worth = 0.3;     // a detour stays when it sweeps more than this share of width * length
+  int passes = 2;         // over the path, with `worth` rising to what it is
 };
 
 // Shortens `path` (its first point stays); `swept` holds the path and is kept up to date.

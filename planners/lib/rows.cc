@@ -12,6 +12,7 @@
 namespace floorproof {
 namespace {
 
+constexpr double kRoughStep = 1.0, kFineStep = 0.5;  // cells along a row, to compare and to make
 constexpr double kLeftover = 2;  // cost of ground swept afterwards, in rows of the same ground
 
 struct Box {
@@ -27,7 +28,8 @@ class RegionRows {
 
   // Calls use(a, b, line) for each row.
   template <class Use>
-  void ForEach(double direction_rad, double spacing, double offset, const Use& use) const {
+  void ForEach(double direction_rad, double spacing, double offset, double step,
+               const Use& use) const {
     const Vec2 along(std::cos(direction_rad), std::sin(direction_rad)),
         across(-along.y(), along.x());
     const Box box = Bounds(along, across);
@@ -37,7 +39,7 @@ class RegionRows {
       const Vec2 base = (offset + line * spacing) * across;
       bool in = false;
       double from = 0, to = 0;
-      for (double u = box.u0; u <= box.u1 + kStep; u += kStep) {
+      for (double u = box.u0; u <= box.u1 + step; u += step) {
         const Vec2 p = base + u * along;
         if (Wanted(p, across)) {
           if (!in) from = u;
@@ -63,8 +65,6 @@ class RegionRows {
   }
 
  private:
-  static constexpr double kStep = 0.5;
-
   bool Wanted(const Vec2& p, const Vec2& across) const {
     const Cell c = Floor::CellAt(p);
     if (!floor_.pose.Inside(c) || regions_.label(c) != region_) return false;
@@ -101,7 +101,7 @@ std::vector<Row> MakeRows(const Floor& floor, const Regions& regions, const RowO
       for (int i = 0; i < kOffsets; ++i) {
         const double offset = spacing * i / kOffsets;
         double value = 0;
-        maker.ForEach(regions.direction_rad[region], spacing, offset,
+        maker.ForEach(regions.direction_rad[region], spacing, offset, kRoughStep,
                       [&](const Vec2& a, const Vec2& b, int) {
                         const double length = (b - a).norm();
                         const double ground = length * std::min(spacing, w) + kPi / 4 * w * w;
@@ -110,7 +110,7 @@ std::vector<Row> MakeRows(const Floor& floor, const Regions& regions, const RowO
         if (value > best) best = value, best_spacing = spacing, best_offset = offset;
       }
     }
-    maker.ForEach(regions.direction_rad[region], best_spacing, best_offset,
+    maker.ForEach(regions.direction_rad[region], best_spacing, best_offset, kFineStep,
                   [&](const Vec2& a, const Vec2& b, int line) {
                     rows.push_back({a, b, static_cast<int>(region), line});
                   });

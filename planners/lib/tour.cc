@@ -3,18 +3,24 @@
 // near ends (no end twice, no ring), the pieces strung together from the start; then 2-opt
 // (reverse a stretch) and Or-opt (move a stretch of up to kMaxStretch lines elsewhere, either way
 // round) over each end's nearest neighbours until neither saves anything (Bentley, "Fast
-// Algorithms for Geometric Traveling Salesman Problems", 1992). Deterministic; not optimal.
+// Algorithms for Geometric Traveling Salesman Problems", 1992), and again after small shocks.
+// Deterministic (its own fixed stream); not optimal.
 #include "planners/lib/tour.h"
 
 #include <algorithm>
+#include <deque>
+#include <initializer_list>
 #include <limits>
 #include <numeric>
 #include <tuple>
+
+#include "env/core/streams.h"
 
 namespace floorproof {
 namespace {
 
 constexpr int kMaxStretch = 150;
+constexpr int kKickReach = 30, kKicksPerLine = 20, kMostKicks = 2500;
 constexpr std::size_t kNeighbours = 10;
 
 class Tour {
@@ -30,9 +36,10 @@ class Tour {
     FindNeighbours();
   }
 
-  std::vector<Stop> Solve() {
+  std::vector<Stop> Solve(bool thorough) {
     Match();
     Improve();
+    if (thorough) Kick();
     std::vector<Stop> visits;
     for (int p = 1; p < n_; ++p)
       visits.push_back({static_cast<std::size_t>(in_[Z(p)] / 2 - 1), in_[Z(p)] % 2 == 1});
@@ -112,46 +119,97 @@ class Tour {
     place_.resize(Z(n_));
     for (int p = 0; p < n_; ++p) place_[Z(in_[Z(p)] / 2)] = p;
     link_.resize(Z(n_));
-    MeasureLinks(0, n_ - 1);
+    for (int p = 0; p + 1 < n_; ++p) length_ += link_[Z(p)] = D(Out(p), In(p + 1));
   }
 
   int In(int p) const { return in_[Z(p)]; }
   int Out(int p) const { return Other(in_[Z(p)]); }
   double Link(int p) const { return link_[Z(p)]; }  // behind place p
 
-  void MeasureLinks(int from, int to) {
-    for (int p = std::max(0, from); p <= std::min(to, n_ - 1); ++p)
-      link_[Z(p)] = p + 1 < n_ ? D(Out(p), In(p + 1)) : 0;
+  // A stretch of places, as it stands or turned round, with the links inside it.
+  struct Piece {
+    int from, to;
+    bool reversed;
+  };
+
+  // Puts the pieces, which together hold the places from .. from + their length - 1, in this order.
+  void Rearrange(int from, std::initializer_list<Piece> pieces) {
+    scratch_in_.clear();
+    scratch_link_.clear();
+    for (const Piece& piece : pieces) {
+      if (piece.to < piece.from) continue;
+      if (!scratch_in_.empty())
+        scratch_link_.push_back(
+            D(Other(scratch_in_.back()), piece.reversed ? Out(piece.to) : In(piece.from)));
+      if (piece.reversed) {
+        for (int p = piece.to; p >= piece.from; --p) {
+          scratch_in_.push_back(Out(p));
+          if (p > piece.from) scratch_link_.push_back(link_[Z(p - 1)]);
+        }
+      } else {
+        for (int p = piece.from; p <= piece.to; ++p) {
+          scratch_in_.push_back(In(p));
+          if (p < piece.to) scratch_link_.push_back(link_[Z(p)]);
+        }
+      }
+    }
+    const int to = from + static_cast<int>(scratch_in_.size()) - 1;
+    scratch_link_.push_back(to + 1 < n_ ? D(Other(scratch_in_.back()), In(to + 1)) : 0);
+    if (keep_journal_) {
+      journal_.push_back({from, {in_.begin() + from, in_.begin() + to + 1}});
+    }
+    Write(from);
   }
 
-  void Replace(int from, const std::vector<int>& stretch) {
-    for (std::size_t k = 0; k < stretch.size(); ++k) {
-      in_[Z(from) + k] = stretch[k];
-      place_[Z(stretch[k] / 2)] = from + static_cast<int>(k);
+  // Writes the scratch to the places from `from` on.
+  void Write(int from) {
+    for (std::size_t k = 0; k < scratch_in_.size(); ++k) {
+      const std::size_t p = Z(from) + k;
+      length_ += scratch_link_[k] - link_[p];
+      in_[p] = scratch_in_[k];
+      link_[p] = scratch_link_[k];
+      place_[Z(scratch_in_[k] / 2)] = static_cast<int>(p);
     }
-    MeasureLinks(from - 1, from + static_cast<int>(stretch.size()) - 1);
+    length_ -= link_[Z(from - 1)];
+    link_[Z(from - 1)] = D(Out(from - 1), In(from));
+    length_ += link_[Z(from - 1)];
   }
+
+  void Undo() {
+    for (auto it = journal_.rbegin(); it != journal_.rend(); ++it) {
+      scratch_in_ = it->second;
+      scratch_link_.clear();
+      for (std::size_t k = 0; k + 1 < scratch_in_.size(); ++k)
+        scratch_link_.push_back(D(Other(scratch_in_[k]), scratch_in_[k + 1]));
+      const int next = it->first + static_cast<int>(scratch_in_.size());
+      scratch_link_.push_back(next < n_ ? D(Other(scratch_in_.back()), In(next)) : 0);
+      Write(it->first);
+    }
+  }
+
   void Reverse(int i, int j) {
-    std::vector<int> stretch;
-    for (int p = j; p >= i; --p) stretch.push_back(Out(p));
-    Replace(i, stretch);
+    Touch({i - 1, i, j, j + 1});
+    Rearrange(i, {{i, j, true}});
   }
   // Moves places i..j to behind place k (outside of them).
   void Move(int i, int j, int k, bool reversed) {
-    std::vector<int> moved, others;
-    for (int p = i; p <= j; ++p) moved.push_back(In(p));
-    if (reversed) {
-      std::reverse(moved.begin(), moved.end());
-      for (int& e : moved) e = Other(e);
-    }
+    Touch({i - 1, i, j, j + 1, k, k + 1});
     if (k > j) {
-      for (int p = j + 1; p <= k; ++p) others.push_back(In(p));
-      others.insert(others.end(), moved.begin(), moved.end());
-      Replace(i, others);
+      Rearrange(i, {{j + 1, k, false}, {i, j, reversed}});
     } else {
-      for (int p = k + 1; p < i; ++p) others.push_back(In(p));
-      moved.insert(moved.end(), others.begin(), others.end());
-      Replace(k + 1, moved);
+      Rearrange(k + 1, {{i, j, reversed}, {k + 1, i - 1, false}});
+    }
+  }
+
+  // The ends at these places are to be looked at again.
+  void Touch(std::initializer_list<int> places) {
+    for (const int p : places) {
+      if (p < 0 || p >= n_) continue;
+      for (const int e : {In(p), Out(p)})
+        if (!waiting_[Z(e)]) {
+          waiting_[Z(e)] = 1;
+          queue_.push_back(e);
+        }
     }
   }
 
@@ -219,13 +277,41 @@ class Tour {
     return false;
   }
 
-  void Improve() {
-    bool any = true;
-    for (int round = 0; any && round < 30; ++round) {
-      any = false;
-      for (int e = 1; e < 2 * n_; ++e) {
-        while (TwoOpt(e) || OrOpt(e)) any = true;
+  // Until no end that waits can be helped.
+  void Settle() {
+    while (!queue_.empty()) {
+      const int e = queue_.front();
+      queue_.pop_front();
+      waiting_[Z(e)] = 0;
+      while (e > 0 && (TwoOpt(e) || OrOpt(e))) {
       }
+    }
+  }
+
+  void Improve() {
+    waiting_.assign(points_.size(), 0);
+    for (int p = 0; p < n_; ++p) Touch({p});
+    Settle();
+  }
+
+  // Iterated local search: two neighbouring stretches change places (a local double bridge), the
+  // tour settles again, and what is no shorter is undone (Martin, Otto & Felten 1991).
+  void Kick() {
+    if (n_ < 5) return;
+    Stream random(0, 0, "tour");
+    keep_journal_ = true;
+    const int kicks = std::min(kMostKicks, kKicksPerLine * n_);
+    for (int kick = 0; kick < kicks; ++kick) {
+      const int most = std::min(kKickReach, (n_ - 2) / 2);
+      const int i = 1 + static_cast<int>(random.Below(static_cast<std::uint64_t>(n_ - 2)));
+      const int j = i + static_cast<int>(random.Below(static_cast<std::uint64_t>(most)));
+      const int k = j + 1 + static_cast<int>(random.Below(static_cast<std::uint64_t>(most)));
+      if (k >= n_) continue;
+      const double before = length_;
+      journal_.clear();
+      Move(i, j, k, false);
+      Settle();
+      if (length_ > before - kLeast) Undo();
     }
   }
 
@@ -235,16 +321,24 @@ class Tour {
   std::vector<Vec2> points_;  // ends: line e / 2, its front (even) or back (odd)
   std::vector<std::vector<int>> near_;
   std::unordered_map<std::uint64_t, float> known_;
-  std::vector<int> in_;       // by place: the end by which the line there is entered
-  std::vector<int> place_;    // by line
-  std::vector<double> link_;  // by place: the way on to the next line
+  std::vector<int> in_;                // by place: the end by which the line there is entered
+  std::vector<int> place_;             // by line
+  std::vector<double> link_;           // by place: the way on to the next line
+  double length_ = 0;                  // of all links
+  std::vector<std::uint8_t> waiting_;  // by end
+  std::deque<int> queue_;
+  bool keep_journal_ = false;
+  std::vector<std::pair<int, std::vector<int>>> journal_;  // first place, what stood there
+  std::vector<int> scratch_in_;
+  std::vector<double> scratch_link_;
 };
 
 }  // namespace
 
-std::vector<Stop> OrderLines(Ways& ways, const Vec2& start, const std::vector<Polyline>& lines) {
+std::vector<Stop> OrderLines(Ways& ways, const Vec2& start, const std::vector<Polyline>& lines,
+                             bool thorough) {
   if (lines.empty()) return {};
-  return Tour(ways, start, lines).Solve();
+  return Tour(ways, start, lines).Solve(thorough);
 }
 
 }  // namespace floorproof

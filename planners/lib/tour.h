@@ -11,7 +11,9 @@ struct Stop {
   bool reversed = false;
 };
 
-// An open tour from `start` over all lines.
-std::vector<Stop> OrderLines(Ways& ways, const Vec2& start, const std::vector<Polyline>& lines);
+// An open tour from `start` over all lines. `thorough`: with iterated local search, which shortens
+// the links by some per cent more.
+std::vector<Stop> OrderLines(Ways& ways, const Vec2& start, const std::vector<Polyline>& lines,
+                             bool thorough = true);
 
 }  // namespace floorproof

@@ -220,6 +220,7 @@ double Ways::CoarseDistance(int from, int to) {
     std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
     const int id = heap_.back().second;
     heap_.pop_back();
+    --coarse_budget_;
     const float cost = coarse_nodes_[static_cast<std::size_t>(id)].cost;
     if (id == to) return static_cast<double>(cost) * step_;
     const Cell c{id % coarse_.width, id / coarse_.width};
@@ -299,7 +300,7 @@ double Ways::Distance(const Vec2& a, const Vec2& b) {
   const double table =
       static_cast<double>(block_distance_[static_cast<std::size_t>(block_a) * block_at_.size() +
                                           static_cast<std::size_t>(block_b)]);
-  if (table > 3.0 * block_) return std::max(straight, table);
+  if (table > 3.0 * block_ || coarse_budget_ <= 0) return std::max(straight, table);
   return std::max(straight, CoarseDistance(ca, cb));
 }
 

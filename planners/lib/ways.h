@@ -48,6 +48,7 @@ class Ways {
   Grid<std::uint8_t> coarse_;
   std::vector<Node> coarse_nodes_;
   std::uint32_t coarse_stamp_ = 0;
+  std::int64_t coarse_budget_ = 4'000'000;  // cells to look at before the table must do
 
   std::array<std::vector<int>, 8> buckets_;
   std::vector<int> place_cell_;                // coarse cell of each place
