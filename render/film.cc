@@ -174,7 +174,8 @@ class Studio {
 
     std::optional<Banner> banner;
     for (const Event& event : script_.events) {
-      if (event.t_s <= frame.t_s + 1e-9) banner = FailureBanner(event);
+      // The event that ended the episode may lie a step behind the last recorded state.
+      if (last || event.t_s <= frame.t_s + 1e-9) banner = FailureBanner(event);
     }
     if (!banner && last) banner = script_.closing;
     DrawOverlay({script_.title, frame.t_s, script_.recording->coverage(state), frame.speed_up,
@@ -230,7 +231,7 @@ FilmResult WriteFilm(const FilmScript& script, const FilmOptions& options,
     result.render_s += Seconds(begin);
 
     if (i == 0) still("frame_start.png", *image);
-    if (!failure_shown && !events_s.empty() && frame.t_s >= events_s.front() - 1e-9) {
+    if (!failure_shown && !events_s.empty() && (last || frame.t_s >= events_s.front() - 1e-9)) {
       still("frame_failure.png", *image);
       failure_shown = true;
     }

@@ -170,6 +170,18 @@ TEST_F(FilmTest, StillsShowStartFailureAndEnd) {
   EXPECT_NE(failure.data, start.data);
 }
 
+// Events are timed by physics steps, states recorded less often.
+TEST_F(FilmTest, EventAfterTheLastStateIsStillShown) {
+  FP_NEED_GL();
+  Open();
+  event_.t_s = 12.004;
+  options_.stills = folder_.path();
+  WriteFilm(script_, options_, folder_ / "video.mp4");
+  const Image end = ReadImage(folder_ / "frame_end.png");
+  EXPECT_GT(Pixel(end, end.width - 4, 2)[0], Pixel(end, end.width - 4, 2)[1] + 60);
+  EXPECT_EQ(ReadImage(folder_ / "frame_failure.png").data, end.data);
+}
+
 TEST_F(FilmTest, WithoutAFailureTheClosingBannerComesLast) {
   FP_NEED_GL();
   Open();
