@@ -41,7 +41,7 @@ class RegionRows {
       double from = 0, to = 0;
       for (double u = box.u0; u <= box.u1 + step; u += step) {
         const Vec2 p = base + u * along;
-        if (Wanted(p, across)) {
+        if (Wanted(p, across, step < 1)) {
           if (!in) from = u;
           in = true;
           to = u;
@@ -65,10 +65,10 @@ class RegionRows {
   }
 
  private:
-  bool Wanted(const Vec2& p, const Vec2& across) const {
+  bool Wanted(const Vec2& p, const Vec2& across, bool exact) const {
     const Cell c = Floor::CellAt(p);
     if (!floor_.pose.Inside(c) || regions_.label(c) != region_) return false;
-    if (!floor_.Free(p, floor_.tolerance)) return false;
+    if (exact && !floor_.Free(p, floor_.tolerance)) return false;
     if (!swept_) return true;
     return swept_->OpenShareAcross(p, across) > 0;
   }
@@ -95,9 +95,9 @@ std::vector<Row> MakeRows(const Floor& floor, const Regions& regions, const RowO
   for (std::size_t region = 0; region < cells.size(); ++region) {
     const RegionRows maker(floor, regions, static_cast<int>(region), swept, cells[region]);
     double best = -std::numeric_limits<double>::infinity(), best_spacing = 0, best_offset = 0;
-    for (const double narrow : {1.0, 0.97, 0.94, 0.91, 0.88}) {
+    for (const double narrow : {1.0, 0.96, 0.92, 0.88}) {
       const double spacing = options.spacing * narrow;
-      constexpr int kOffsets = 10;
+      constexpr int kOffsets = 8;
       for (int i = 0; i < kOffsets; ++i) {
         const double offset = spacing * i / kOffsets;
         double value = 0;

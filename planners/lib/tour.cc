@@ -20,7 +20,8 @@ namespace floorproof {
 namespace {
 
 constexpr int kMaxStretch = 150;
-constexpr int kKickReach = 30, kKicksPerLine = 20, kMostKicks = 2500;
+// More kicks where they are cheap: a long tour takes longer to settle.
+constexpr int kKickReach = 30, kMostKicks = 6000, kKickEffort = 1'000'000;
 constexpr std::size_t kNeighbours = 10;
 
 class Tour {
@@ -50,9 +51,12 @@ class Tour {
   static std::size_t Z(int i) { return static_cast<std::size_t>(i); }
   static int Other(int end) { return end ^ 1; }
 
+  static std::uint64_t Key(int a, int b) {
+    return static_cast<std::uint64_t>(std::min(a, b)) << 32 |
+           static_cast<std::uint32_t>(std::max(a, b));
+  }
   double D(int a, int b) {
-    if (a > b) std::swap(a, b);
-    const std::uint64_t key = static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
+    const std::uint64_t key = Key(a, b);
     const auto it = known_.find(key);
     if (it != known_.end()) return it->second;
     const double d = ways_.Distance(points_[Z(a)], points_[Z(b)]);
@@ -67,8 +71,11 @@ class Tour {
     near_.resize(points_.size());
     for (int e = 1; e < 2 * n_; ++e) {
       std::vector<std::pair<double, int>> found;
-      for (const int f : ways_.NearestPlaces(e, kNeighbours + 2))
-        if (f / 2 != e / 2 && f > 1) found.push_back({D(e, f), f});
+      for (const auto& [distance, f] : ways_.NearestPlaces(e, kNeighbours + 2)) {
+        if (f / 2 == e / 2 || f < 2) continue;
+        const auto d = static_cast<float>(distance);
+        found.push_back({static_cast<double>(known_.try_emplace(Key(e, f), d).first->second), f});
+      }
       std::sort(found.begin(), found.end());
       if (found.size() > kNeighbours) found.resize(kNeighbours);
       for (const auto& [d, f] : found) near_[Z(e)].push_back(f);
@@ -300,7 +307,7 @@ class Tour {
     if (n_ < 5) return;
     Stream random(0, 0, "tour");
     keep_journal_ = true;
-    const int kicks = std::min(kMostKicks, kKicksPerLine * n_);
+    const int kicks = std::min(kMostKicks, kKickEffort / n_);
     for (int kick = 0; kick < kicks; ++kick) {
       const int most = std::min(kKickReach, (n_ - 2) / 2);
       const int i = 1 + static_cast<int>(random.Below(static_cast<std::uint64_t>(n_ - 2)));

@@ -240,6 +240,7 @@ int Ways::CoarseAt(const Vec2& p) const {
 }
 
 void Ways::IndexPlaces(const std::vector<Vec2>& places) {
+  places_ = places;
   place_cell_.clear();
   for (const Vec2& p : places) place_cell_.push_back(CoarseAt(p));
   first_place_.assign(coarse_.cells.size() + 1, 0);
@@ -253,10 +254,10 @@ void Ways::IndexPlaces(const std::vector<Vec2>& places) {
 }
 
 // Dijkstra with costs 5 and 7 in a ring of buckets (Dial 1969).
-std::vector<int> Ways::NearestPlaces(int place, std::size_t count) {
+std::vector<Ways::Near> Ways::NearestPlaces(int place, std::size_t count) {
   constexpr int kStraight = 5, kAslant = 7;
   ++coarse_stamp_;
-  std::vector<int> found;
+  std::vector<Near> found;
   for (auto& bucket : buckets_) bucket.clear();
   const int start = place_cell_[static_cast<std::size_t>(place)];
   coarse_nodes_[static_cast<std::size_t>(start)] = {0, -1, coarse_stamp_};
@@ -270,8 +271,13 @@ std::vector<int> Ways::NearestPlaces(int place, std::size_t count) {
       if (coarse_nodes_[static_cast<std::size_t>(id)].cost != static_cast<float>(cost)) continue;
       for (int k = first_place_[static_cast<std::size_t>(id)];
            k < first_place_[static_cast<std::size_t>(id) + 1]; ++k)
-        if (place_list_[static_cast<std::size_t>(k)] != place)
-          found.push_back(place_list_[static_cast<std::size_t>(k)]);
+        if (const int other = place_list_[static_cast<std::size_t>(k)]; other != place) {
+          const Vec2 &a = places_[static_cast<std::size_t>(place)],
+                     &b = places_[static_cast<std::size_t>(other)];
+          const double straight = (b - a).norm();
+          const double way = static_cast<double>(cost) / kStraight * step_;
+          found.push_back({floor_.Sees(a, b) ? straight : std::max(straight, way), other});
+        }
       const Cell c{id % coarse_.width, id / coarse_.width};
       for (const Cell d : kNeighbours) {
         const Cell n{c.ix + d.ix, c.iy + d.iy};

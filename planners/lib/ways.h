@@ -22,9 +22,12 @@ class Ways {
   double Distance(const Vec2& a, const Vec2& b);
   // Remembers places for NearestPlaces.
   void IndexPlaces(const std::vector<Vec2>& places);
-  // The indices of about the `count` places nearest to the one given, by way length, itself
-  // excluded.
-  std::vector<int> NearestPlaces(int place, std::size_t count);
+  struct Near {
+    double distance;  // as Distance()
+    int place;
+  };
+  // About `count` places nearest to the one given, by way length, itself excluded.
+  std::vector<Near> NearestPlaces(int place, std::size_t count);
   // The pose cell nearest to p within `reach` cells, or p's own; {-1, -1}: none.
   Cell NearestPose(const Vec2& p, double reach) const;
 
@@ -51,6 +54,7 @@ class Ways {
   std::int64_t coarse_budget_ = 4'000'000;  // cells to look at before the table must do
 
   std::array<std::vector<int>, 8> buckets_;
+  std::vector<Vec2> places_;
   std::vector<int> place_cell_;                // coarse cell of each place
   std::vector<int> first_place_, place_list_;  // places by coarse cell
 

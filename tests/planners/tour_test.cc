@@ -64,7 +64,7 @@ TEST(Ways, NearPlacesAreNearByWayNotThroughWalls) {
                                     floor.ToCells(Vec2(4, 0.3))};
   dut.IndexPlaces(places);
   ASSERT_FALSE(dut.NearestPlaces(0, 1).empty());
-  EXPECT_EQ(dut.NearestPlaces(0, 1)[0], 2);  // 3 m off; the one across the wall is 1.2 m off
+  EXPECT_EQ(dut.NearestPlaces(0, 1)[0].place, 2);  // 3 m off; the one across the wall is 1.2 m off
   EXPECT_EQ(dut.NearestPlaces(0, 2).size(), 2u);
 }
 
