@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/floor_paint.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace floorproof {
+namespace {
+
+// A flat mark on the floor, `half_m` from its middle to its border.
+mjvGeom Mark(mjtGeom type, const Vec2& p_W, double z_m, double half_m,
+             const std::array<float, 4>& rgba) {
+  constexpr double kHalfThick_m = 0.0005;
+  const bool disc = type == mjGEOM_CYLINDER;
+  const mjtNum size[3] = {half_m, disc ? kHalfThick_m : half_m, kHalfThick_m};
+  const mjtNum pos[3] = {p_W.x(), p_W.y(), z_m - kHalfThick_m};
+  mjvGeom geom;
+  mjv_initGeom(&geom, type, size, pos, nullptr, rgba.data());
+  geom.category = mjCAT_DECOR;
+  geom.specular = 0;
+  geom.modelrbound = static_cast<float>(half_m);
+  return geom;
+}
+
+}  // namespace
+
+std::size_t FloorPaint::Place(const mjvGeom& geom) {
+  if (static_cast<int>(geoms_.size()) < max_marks_) {
+    geoms_.push_back(geom);
+    return geoms_.size() - 1;
+  }
+  const std::size_t slot = next_;
+  geoms_[slot] = geom;
+  next_ = (next_ + 1) % geoms_.size();
+  return slot;
+}
+
+// MuJoCo adds the sun's light to all that is not hidden: of two marks at exactly the same height
+// the overlap would shine twice. Neighbours therefore lie microns apart.
+double FloorPaint::Layer(double z_m) {
+  constexpr int kLayers = 50;
+  constexpr double kApart_m = 20e-6;
+  layer_ = (layer_ + 1) % kLayers;
+  return z_m - kApart_m * layer_;
+}
+
+std::size_t FloorPaint::AddStripe(const Vec2& a_W, const Vec2& b_W, double z_m, double width_m,
+                                  const std::array<float, 4>& rgba) {
+  const std::size_t slot = Place(Mark(mjGEOM_BOX, {0, 0}, Layer(z_m), 0.5 * width_m, rgba));
+  MoveStripe(slot, a_W, b_W);
+  return slot;
+}
+
+void FloorPaint::AddDisc(const Vec2& p_W, double z_m, double radius_m,
+                         const std::array<float, 4>& rgba) {
+  Place(Mark(mjGEOM_CYLINDER, p_W, Layer(z_m), radius_m, rgba));
+}
+
+void FloorPaint::MoveStripe(std::size_t stripe, const Vec2& a_W, const Vec2& b_W) {
+  mjvGeom& geom = geoms_[stripe];
+  const Vec2 d = b_W - a_W, m = 0.5 * (a_W + b_W);
+  const double length = d.norm();
+  const Vec2 u = length > 0 ? Vec2(d / length) : Vec2::UnitX();
+  const float ux = static_cast<float>(u.x()), uy = static_cast<float>(u.y());
+  geom.pos[0] = static_cast<float>(m.x());
+  geom.pos[1] = static_cast<float>(m.y());
+  const float mat[9] = {ux, -uy, 0, uy, ux, 0, 0, 0, 1};
+  std::copy(std::begin(mat), std::end(mat), geom.mat);
+  geom.size[0] = static_cast<float>(0.5 * length);
+  geom.modelrbound = std::hypot(geom.size[0], geom.size[1]);
+}
+
+}  // namespace floorproof

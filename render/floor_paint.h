@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Marks on the floor of a picture.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "env/core/geometry.h"
+
+namespace floorproof {
+
+// Stripes and discs painted on the floor: a planned path, a driven trace. They cast no shadow.
+class FloorPaint {
+ public:
+  explicit FloorPaint(int max_marks = 4000) : max_marks_(max_marks) {}
+  // A flat stripe from a to b, width_m wide, its top at z_m or up to 1 mm below; alpha below 1 lets
+  // the floor through. Returns its number. Beyond max_marks the oldest give way.
+  std::size_t AddStripe(const Vec2& a_W, const Vec2& b_W, double z_m, double width_m,
+                        const std::array<float, 4>& rgba);
+  void MoveStripe(std::size_t stripe, const Vec2& a_W, const Vec2& b_W);
+  void AddDisc(const Vec2& p_W, double z_m, double radius_m, const std::array<float, 4>& rgba);
+  const std::vector<mjvGeom>& geoms() const { return geoms_; }
+  int max_marks() const { return max_marks_; }
+
+ private:
+  std::size_t Place(const mjvGeom& geom);
+  double Layer(double z_m);
+
+  int max_marks_;
+  int layer_ = 0;
+  std::size_t next_ = 0;
+  std::vector<mjvGeom> geoms_;
+};
+
+}  // namespace floorproof
