@@ -16,10 +16,11 @@ namespace floorproof {
 void MakeFolder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder))
-    throw InputError(
-        {folder.string(), 0}, "", "",
-        "cannot make this folder: " + (error ? error.message() : "a file is in the way"));
+  if (std::filesystem::is_directory(folder)) return;
+  const bool in_the_way = std::filesystem::exists(folder);
+  throw InputError(
+      {folder.string(), 0}, "", "",
+      "cannot make this folder: " + (in_the_way ? "a file is in the way" : error.message()));
 }
 
 void WriteFileWhole(const std::filesystem::path& path, std::string_view text) {

@@ -11,9 +11,9 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::vector<std::string> kKeys = {
-    "scenario",     "site",    "robot",      "start",    "goal",     "plan",       "controller",
-    "estimator",    "physics", "control_hz", "trace_hz", "failures", "on_failure", "success",
-    "time_limit_s", "seed",    "drive",      "video",    "files"};
+    "name",       "scenario",     "site",    "robot",      "start",    "goal",     "plan",
+    "controller", "estimator",    "physics", "control_hz", "trace_hz", "failures", "on_failure",
+    "success",    "time_limit_s", "seed",    "drive",      "video",    "files"};
 
 ConfigNode EmptyMap(const SourceMark& mark) {
   ConfigNode node = ConfigNode::Map();
@@ -208,7 +208,8 @@ void ReadTop(const ConfigNode& root, Scenario& s) {
 }  // namespace
 
 void VideoParams::Visit(ParamVisitor& v) {
-  v("camera", camera, {"chase", "top", "side"}, "where the film is taken from");
+  v("camera", camera, {"auto", "chase", "top", "side"},
+    "where the film is taken from; auto: from above in a time lapse, else from behind");
   v("fps", fps, Between(1, 120), "frames a second of film");
   v("speed_up", speed_up, Positive(),
     "simulated seconds a second of film; none: such that it keeps to max_frames");
@@ -247,7 +248,7 @@ Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrid
   Scenario s;
   s.file = file;
   s.name = file.stem().string();
-  if (s.name.ends_with(".resolved")) s.name.resize(s.name.size() - std::string(".resolved").size());
+  if (const ConfigNode* name = root.Find("name")) s.name = AsString(*name, "name");
   ReadTop(root, s);
   CheckHashes(root, file.parent_path());
   ReadSitePart(root, overrides, s);
@@ -279,6 +280,7 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
   };
   ConfigNode root = ConfigNode::Map();
   root.Add("scenario", ConfigNode::Scalar("1"));
+  root.Add("name", ConfigNode::Scalar(s.name, true));
   root.Add("site", ResolveSite(s.site_node, s.site_folder, folder));
   root.Find("site")->Add("name", ConfigNode::Scalar(s.site.map.name, true));
 

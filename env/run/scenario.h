@@ -20,7 +20,7 @@
 namespace floorproof {
 
 struct VideoParams {
-  std::string camera = "chase";
+  std::string camera = "auto";
   int fps = 30;
   std::optional<double> speed_up;  // none: such that the film keeps to max_frames
   int max_frames = 600;
@@ -42,7 +42,7 @@ struct EpisodeParams {
 
 struct Scenario {
   std::filesystem::path file;
-  std::string name;  // the file's stem
+  std::string name;  // the key `name`, else the file's stem
   Site site;
   ConfigNode site_node;               // the site's tree, overrides applied
   std::filesystem::path site_folder;  // that its paths are relative to

@@ -75,38 +75,35 @@ class SceneBuilder {
     }
   }
 
-  // Colours, light and the picture's quality; nothing here touches the physics.
+  // Colours, light and the picture's quality; nothing here touches the physics. The lights add up
+  // to just below 1 on the floor, so that it does not burn out.
   void Looks() {
-    Texture("floor", mjBUILTIN_CHECKER, {0.80, 0.82, 0.84}, {0.74, 0.76, 0.79}, true);
-    Texture("sky", mjBUILTIN_GRADIENT, {0.62, 0.74, 0.88}, {0.90, 0.94, 0.98}, false);
-    Material("wall", {0.46f, 0.52f, 0.60f, 1.0f});
+    FloorTiles();
+    Sky();
+    Material("wall", {0.52f, 0.58f, 0.66f, 1.0f});
     Material("pit", {0.36f, 0.33f, 0.31f, 1.0f});
     mjsLight* sun = mjs_addLight(world_, nullptr);
     const Vec2 middle = Middle();
     sun->type = mjLIGHT_DIRECTIONAL;
-    sun->pos[0] = middle.x();
-    sun->pos[1] = middle.y();
-    sun->pos[2] = 10;
-    sun->dir[0] = 0.35;
-    sun->dir[1] = 0.25;
-    sun->dir[2] = -1;
+    Copy<double>({middle.x(), middle.y(), 10}, sun->pos);
+    Copy<double>({0.35, 0.25, -1}, sun->dir);
     sun->castshadow = 1;
-    Set3(sun->ambient, 0.25f);
-    Set3(sun->diffuse, 0.55f);
-    Set3(sun->specular, 0.15f);
-    Set3(spec_->visual.headlight.ambient, 0.35f);
-    Set3(spec_->visual.headlight.diffuse, 0.25f);
-    Set3(spec_->visual.headlight.specular, 0.0f);
-    spec_->visual.global.offwidth = 1920;
-    spec_->visual.global.offheight = 1080;
-    spec_->visual.quality.shadowsize = 2048;
-    spec_->visual.quality.offsamples = 4;
-    spec_->visual.map.znear = 0.02f;
+    Copy<float>({0, 0, 0}, sun->ambient);
+    Copy<float>({0.52f, 0.51f, 0.48f}, sun->diffuse);
+    Copy<float>({0.15f, 0.15f, 0.15f}, sun->specular);
+    mjVisual& visual = spec_->visual;
+    Copy<float>({0.40f, 0.40f, 0.42f}, visual.headlight.ambient);
+    Copy<float>({0.15f, 0.15f, 0.15f}, visual.headlight.diffuse);
+    Copy<float>({0, 0, 0}, visual.headlight.specular);
+    visual.global.offwidth = 1920;
+    visual.global.offheight = 1080;
+    visual.quality.shadowsize = 2048;
+    visual.quality.offsamples = 4;
+    visual.quality.numquads = 1;
+    visual.map.znear = 0.02f;
     // Sizes of shadows, clipping planes and lights follow the extent.
     spec_->stat.extent = std::max(map_.frame.width, map_.frame.height) * map_.frame.cell_m;
-    spec_->stat.center[0] = middle.x();
-    spec_->stat.center[1] = middle.y();
-    spec_->stat.center[2] = 0;
+    Copy<double>({middle.x(), middle.y(), 0}, spec_->stat.center);
   }
 
   std::vector<std::pair<mjsGeom*, GeomRole>> added;
@@ -124,7 +121,10 @@ class SceneBuilder {
     geom->quat[1] = geom->quat[2] = 0;
     geom->quat[3] = std::sin(yaw_rad / 2);
   }
-  static void Set3(float* v, float value) { v[0] = v[1] = v[2] = value; }
+  template <class T>
+  static void Copy(std::array<T, 3> from, T* to) {
+    std::copy(from.begin(), from.end(), to);
+  }
 
   mjsGeom* Add(GeomRole::Kind kind, int hazard, double friction, double restitution) {
     mjsGeom* geom = mjs_addGeom(world_, nullptr);
@@ -194,24 +194,32 @@ class SceneBuilder {
     return std::abs(a.dot(b)) < 1e-9 * a.norm() * b.norm() + 1e-15 && (a + c).norm() < 1e-9;
   }
 
-  void Texture(const char* name, mjtBuiltin builtin, std::array<double, 3> a,
-               std::array<double, 3> b, bool tiles) {
+  // Tiles of half a metre with a joint between them, on a plane and on slabs alike.
+  void FloorTiles() {
     mjsTexture* texture = mjs_addTexture(spec_, nullptr);
-    mjs_setName(texture->element, name);
-    texture->type = tiles ? mjTEXTURE_2D : mjTEXTURE_SKYBOX;
-    texture->builtin = builtin;
-    std::copy(a.begin(), a.end(), texture->rgb1);
-    std::copy(b.begin(), b.end(), texture->rgb2);
-    texture->width = 256;
-    texture->height = tiles ? 256 : 1536;
-    if (!tiles) return;
+    mjs_setName(texture->element, "floor");
+    texture->type = mjTEXTURE_2D;
+    texture->builtin = mjBUILTIN_FLAT;
+    texture->mark = mjMARK_EDGE;
+    Copy<double>({0.90, 0.88, 0.84}, texture->rgb1);
+    Copy<double>({0.74, 0.72, 0.68}, texture->markrgb);
+    texture->width = texture->height = 256;
     mjsMaterial* material = mjs_addMaterial(spec_, nullptr);
-    mjs_setName(material->element, name);
-    mjs_setInStringVec(material->textures, mjTEXROLE_RGB, name);
-    material->texuniform = 1;  // tiles of one metre's half, whatever the geom's size
-    material->texrepeat[0] = material->texrepeat[1] = 1;
-    material->reflectance = 0;
-    material->specular = 0.1f;
+    mjs_setName(material->element, "floor");
+    mjs_setInStringVec(material->textures, mjTEXROLE_RGB, "floor");
+    material->texuniform = 1;
+    material->texrepeat[0] = material->texrepeat[1] = 4;
+    material->specular = 0;
+  }
+  void Sky() {
+    mjsTexture* texture = mjs_addTexture(spec_, nullptr);
+    mjs_setName(texture->element, "sky");
+    texture->type = mjTEXTURE_SKYBOX;
+    texture->builtin = mjBUILTIN_GRADIENT;
+    Copy<double>({0.93, 0.95, 0.97}, texture->rgb1);
+    Copy<double>({0.66, 0.73, 0.80}, texture->rgb2);
+    texture->width = 64;
+    texture->height = 384;
   }
   void Material(const char* name, std::array<float, 4> rgba) {
     mjsMaterial* material = mjs_addMaterial(spec_, nullptr);
@@ -255,8 +263,8 @@ void PhysicsParams::Visit(ParamVisitor& v) {
 }
 
 double DampingRatio(double restitution) {
-  // Soft contacts give back what they were pressed in by: critically damped they part at 0.14 of the
-  // closing speed, with a ratio of 3 at 0.03, which is dead enough for no bounce to be seen.
+  // Soft contacts give back what they were pressed in by: critically damped they part at 0.14 of
+  // the closing speed, with a ratio of 3 at 0.03, which is dead enough for no bounce to be seen.
   constexpr double kDead = 3;
   if (restitution <= 0) return kDead;
   const double l = std::log(std::min(restitution, 0.99));

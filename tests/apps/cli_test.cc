@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program as its users meet it: commands, files, exit statuses, one line for bad input.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct Result {
+  int status = -1;
+  std::string out, err;
+};
+
+std::string Slurp(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {(std::istreambuf_iterator<char>(in)), {}};
+}
+
+class Cli : public ::testing::Test {
+ protected:
+  Cli() {
+    folder_ =
+        fs::path(::testing::TempDir()) /
+        (std::string("cli.") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    std::ofstream(folder_ / "s.yaml") << R"(scenario: 1
+site:
+  site: 1
+  grid:
+    cell_m: 0.5
+    rows: |
+      ########
+      #......#
+      #......#
+      #......#
+      ########
+  start: {x_m: 0.9, y_m: 0.9, yaw_deg: 30}
+robot: beluga
+plan: {planner: boustrophedon}
+)";
+  }
+  ~Cli() override { fs::remove_all(folder_); }
+
+  Result Run(const std::string& arguments) const {
+    const std::string err = (folder_ / ".stderr").string();
+    const std::string command =
+        "cd '" + folder_.string() + "' && '" FP_PROGRAM "' " + arguments + " 2>'" + err + "'";
+    Result result;
+    std::FILE* pipe = popen(command.c_str(), "r");
+    std::array<char, 4096> buffer;
+    while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
+      result.out.append(buffer.data(), n);
+    const int code = pclose(pipe);
+    result.status = WIFEXITED(code) ? WEXITSTATUS(code) : -1;
+    result.err = Slurp(err);
+    return result;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Cli, RunLeavesWhatTheContractNames) {
+  const Result dut = Run("run s.yaml --out o");
+  EXPECT_EQ(dut.status, 0) << dut.err << dut.out;
+  for (const char* file :
+       {"scenario.resolved.yaml", "plan.csv", "plan.json", "trace.csv", "result.json",
+        "heatmap_visits.png", "heatmap_coverage.png", "heatmap_failures.png"})
+    EXPECT_TRUE(fs::exists(folder_ / "o" / file)) << file;
+  const auto result = nlohmann::json::parse(Slurp(folder_ / "o" / "result.json"));
+  EXPECT_EQ(result["outcome"], "success");
+  EXPECT_TRUE(result["events"].empty());
+  EXPECT_EQ(result["versions"]["mujoco"], "4.0.1");
+  EXPECT_THAT(Slurp(folder_ / "o" / "trace.csv"), HasSubstr("t_s,x_m,y_m,z_m,roll_rad"));
+}
+
+// The same bytes in every file: run twice, run from the resolved file, replayed.
+TEST_F(Cli, TheResolvedScenarioGivesTheSameBytes) {
+  ASSERT_EQ(Run("run s.yaml --out a").status, 0);
+  ASSERT_EQ(Run("run s.yaml --out b").status, 0);
+  fs::create_directories(folder_ / "c");
+  ASSERT_EQ(Run("run a/scenario.resolved.yaml --out c").status, 0);
+  for (const char* file : {"plan.csv", "plan.json", "trace.csv", "heatmap_visits.png"}) {
+    EXPECT_EQ(Slurp(folder_ / "a" / file), Slurp(folder_ / "b" / file)) << file;
+    EXPECT_EQ(Slurp(folder_ / "a" / file), Slurp(folder_ / "c" / file)) << file;
+  }
+  for (const char* file : {"scenario.resolved.yaml", "result.json"}) {
+    EXPECT_EQ(Slurp(folder_ / "a" / file), Slurp(folder_ / "b" / file)) << file;
+    EXPECT_EQ(Slurp(folder_ / "a" / file), Slurp(folder_ / "c" / file)) << file;
+  }
+  EXPECT_EQ(Run("replay a").status, 0);
+}
+
+TEST_F(Cli, AReplayThatDiffersFromTheRecordSaysSo) {
+  ASSERT_EQ(Run("run s.yaml --out a").status, 0);
+  auto result = nlohmann::ordered_json::parse(Slurp(folder_ / "a" / "result.json"));
+  result["metrics"]["duration_s"] = 1.0;
+  std::ofstream(folder_ / "a" / "result.json") << result.dump(2);
+  const Result dut = Run("replay a");
+  EXPECT_EQ(dut.status, 3);
+  EXPECT_THAT(dut.err, HasSubstr("the replay differs from the record in 'metrics'"));
+}
+
+TEST_F(Cli, AnOutcomeThatIsNoSuccessIsExitStatusOne) {
+  EXPECT_EQ(Run("run s.yaml --out o --set time_limit_s=2").status, 1);
+  EXPECT_EQ(Run("run s.yaml --out p --set start.x_m=0.52 --set start.y_m=0.52").status, 1)
+      << "the robot does not fit where it starts";
+  EXPECT_EQ(nlohmann::json::parse(Slurp(folder_ / "p" / "plan.json"))["status"], "start_blocked");
+  EXPECT_EQ(nlohmann::json::parse(Slurp(folder_ / "p" / "result.json"))["outcome"], "not_planned");
+}
+
+TEST_F(Cli, JsonGoesToStdoutAlone) {
+  const Result dut = Run("--json plan s.yaml --out o");
+  EXPECT_EQ(dut.status, 0);
+  EXPECT_EQ(nlohmann::json::parse(dut.out)["status"], "success");
+}
+
+TEST_F(Cli, BadInputIsOneLineAndStatusTwo) {
+  std::ofstream(folder_ / "bad.yaml") << "scenario: 1\nsite: s.yaml\nrobt: beluga\n";
+  std::ofstream(folder_ / "binary.yaml") << std::string("\0\1\2\xff", 4);
+  const std::pair<const char*, const char*> cases[] = {
+      {"run missing.yaml", "missing.yaml: no such file"},
+      {"run bad.yaml", "bad.yaml:3: robt: unknown key; did you mean robot?"},
+      {"run binary.yaml", "not a text file"},
+      {"run .", "not a file"},
+      {"run s.yaml --set robot=belug", "did you mean beluga?"},
+      {"run s.yaml --set nonsense", "must be key.path=value"},
+      {"run s.yaml --set control_hz=0", "control_hz = 0: must be in [1, 2000]"},
+      {"run s.yaml --out s.yaml", "a file is in the way"},
+      {"run s.yaml --seed -1", "floorproof:"},
+      {"rum s.yaml", "floorproof:"},
+      {"", "floorproof:"},
+      {"list planers", "floorproof:"},
+      {"replay .", "not a folder of a finished `run`"},
+      {"init missing.yaml", "missing.yaml"},
+      {"scene s.yaml --out /nonexistent/x.xml", "/nonexistent/x.xml: cannot be written"},
+  };
+  for (const auto& [arguments, message] : cases) {
+    const Result dut = Run(arguments);
+    EXPECT_EQ(dut.status, 2) << arguments;
+    EXPECT_THAT(dut.err, HasSubstr(message)) << arguments;
+    EXPECT_EQ(std::count(dut.err.begin(), dut.err.end(), '\n'), 1) << arguments << ": " << dut.err;
+  }
+}
+
+TEST_F(Cli, ListNamesThePlugInsAndTheirKeys) {
+  const Result all = Run("list"), planners = Run("list planners");
+  EXPECT_EQ(all.status, 0);
+  for (const char* name :
+       {"boustrophedon", "spiral", "regulated_pursuit", "truth", "beluga", "step", "veer_off"})
+    EXPECT_THAT(all.out, HasSubstr(name));
+  EXPECT_THAT(planners.out, HasSubstr("overlap"));
+  EXPECT_THAT(planners.out, Not(HasSubstr("beluga")));
+}
+
+TEST_F(Cli, EachCommandExplainsItself) {
+  for (const char* command : {"demo", "init", "plan", "run", "replay", "scene", "list", "doctor"}) {
+    const Result dut = Run(std::string(command) + " --help");
+    EXPECT_EQ(dut.status, 0);
+    EXPECT_THAT(dut.out, HasSubstr(command));
+  }
+  EXPECT_EQ(Run("--version").status, 0);
+}
+
+TEST_F(Cli, InitWritesARunnableScenarioAndLeavesExistingFiles) {
+  std::string pgm = "P5 60 40 255\n";
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 60; ++x)
+      pgm += x < 2 || y < 2 || x > 57 || y > 37 ? '\0' : static_cast<char>(254);
+  std::ofstream(folder_ / "map.pgm", std::ios::binary) << pgm;
+  std::ofstream(folder_ / "map.yaml")
+      << "image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: "
+         "0.65\nfree_thresh: 0.196\n";
+  ASSERT_EQ(Run("init map.yaml --out mine").status, 0);
+  EXPECT_EQ(Run("run mine/scenario.yaml --out o").status, 0);
+  std::ofstream(folder_ / "mine" / "site.yaml") << "mine";
+  EXPECT_EQ(Run("init map.yaml --out mine").status, 0);
+  EXPECT_EQ(Slurp(folder_ / "mine" / "site.yaml"), "mine");
+}
+
+}  // namespace
+}  // namespace floorproof
