@@ -3,9 +3,7 @@
 // connected to the start -> cells that the tool reaches from them.
 //
 // Everything happens on one grid of fine cells, so clear and swept are exact at cell centres and
-// uncertain by half a cell between them. Distances follow Felzenszwalb & Huttenlocher, "Distance
-// Transforms of Sampled Functions", 2012: first along columns, then along each row as the lower
-// envelope of parabolas; a row is cut at its set cells, behind which no source can be the nearest.
+// uncertain by half a cell between them.
 // Not modelled: a tool that reaches through a wall thinner than its overhang.
 #include "env/core/coverage.h"
 
@@ -14,169 +12,16 @@
 #include <limits>
 #include <utility>
 
+#include "env/core/distance.h"
+#include "env/core/rasterise.h"
+
 namespace floorproof {
 namespace {
 
-constexpr int kFar = 1 << 28;  // "no source in this column", in cells
 constexpr double kEps = 1e-6;  // of a cell: borders that coincide do not touch
-
-// Lower envelope of parabolas with minima at increasing integer positions.
-class Envelope {
- public:
-  explicit Envelope(std::size_t max_sources) : sources_(max_sources) {}
-  void Clear() { n_ = 0; }
-  void Add(int position, double value) {
-    const double p = position;
-    const double key = value + p * p;
-    double from = -std::numeric_limits<double>::infinity();
-    while (n_ > 0) {
-      const Source& last = sources_[n_ - 1];
-      from = (key - last.key) / (2 * (p - last.position));
-      if (from > last.from) break;
-      from = -std::numeric_limits<double>::infinity();
-      --n_;
-    }
-    sources_[n_++] = {p, key, from};
-  }
-  // Least value at `position`; calls must come with increasing positions.
-  double At(int position) {
-    const double x = position;
-    while (cursor_ + 1 < n_ && sources_[cursor_ + 1].from <= x) ++cursor_;
-    const Source& s = sources_[cursor_];
-    return s.key + x * (x - 2 * s.position);
-  }
-  bool Rewind() { return cursor_ = 0, n_ > 0; }
-
- private:
-  struct Source {
-    double position, key /* value + position^2 */, from /* first x where it is the least */;
-  };
-  std::vector<Source> sources_;
-  std::size_t n_ = 0, cursor_ = 0;
-};
-
-// What a set cell's distance is measured to.
-enum class Target { kArea, kCentre };
-
-// Rows to the nearest set cell in the same column.
-Grid<int> ColumnDistance(const Grid<std::uint8_t>& set, bool border_is_set) {
-  Grid<int> rows(set.width, set.height);
-  const auto w = static_cast<std::size_t>(set.width);
-  std::vector<int> run(w, border_is_set ? 0 : kFar);
-  for (int iy = 0; iy < set.height; ++iy) {
-    const std::uint8_t* s = &set.cells[set.Index(0, iy)];
-    int* out = &rows.cells[set.Index(0, iy)];
-    for (std::size_t i = 0; i < w; ++i) out[i] = run[i] = s[i] ? 0 : run[i] + 1;
-  }
-  std::fill(run.begin(), run.end(), border_is_set ? 0 : kFar);
-  for (int iy = set.height - 1; iy >= 0; --iy) {
-    int* out = &rows.cells[set.Index(0, iy)];
-    for (std::size_t i = 0; i < w; ++i) {
-      run[i] = std::min(run[i] + 1, out[i]);
-      out[i] = run[i];
-    }
-  }
-  return rows;
-}
-
-// Positions and lengths below are in half cells, so that borders between cells are integers too.
-Grid<float> Distance(const Grid<std::uint8_t>& set, bool border_is_set, Target target) {
-  Grid<float> distance(set.width, set.height, std::numeric_limits<float>::infinity());
-  if (set.width == 0 || set.height == 0) return distance;
-  const Grid<int> rows = ColumnDistance(set, border_is_set);
-  Envelope envelope(static_cast<std::size_t>(set.width) + 2);
-  const bool to_area = target == Target::kArea;
-  const auto squared = [to_area](int n_rows) {
-    const double d = to_area ? 2.0 * n_rows - 1 : 2.0 * n_rows;
-    return d * d;
-  };
-  for (int iy = 0; iy < set.height; ++iy) {
-    const int* row = &rows.cells[set.Index(0, iy)];
-    float* out = &distance.cells[set.Index(0, iy)];
-    for (int begin = 0, end; begin < set.width; begin = end) {
-      if (row[begin] == 0) {
-        out[begin] = 0;
-        end = begin + 1;
-        continue;
-      }
-      for (end = begin + 1; end < set.width && row[end] != 0;) ++end;
-      envelope.Clear();
-      if (begin > 0 || border_is_set) envelope.Add(2 * begin - (to_area ? 1 : 2), 0);
-      for (int i = begin; i < end; ++i) {
-        if (to_area) {  // the nearer side of a cell is the border between it and its neighbour
-          const int nearest = i + 1 < end ? std::min(row[i], row[i + 1]) : kFar;
-          if (nearest < kFar) envelope.Add(2 * i + 1, squared(nearest));
-        } else if (row[i] < kFar) {
-          envelope.Add(2 * i, squared(row[i]));
-        }
-      }
-      if (end < set.width || border_is_set) envelope.Add(2 * end - (to_area ? 1 : 0), 0);
-      const bool any = envelope.Rewind();
-      for (int i = begin; i < end; ++i) {
-        double least = any ? envelope.At(2 * i) : std::numeric_limits<double>::infinity();
-        if (row[i] < kFar) least = std::min(least, squared(row[i]));
-        out[i] = static_cast<float>(std::sqrt(least) / 2);
-      }
-    }
-  }
-  return distance;
-}
 
 Vec2 ToGrid(const GridFrame& frame, const Vec2& p_W) {
   return frame.X_WG.Inverse() * p_W / frame.cell_m;
-}
-
-// Cells that the polygon (in cells, grid frame) touches with more than a border, as `paint(ix,
-// iy)`: those that an edge crosses, and those whose centre lies inside.
-template <class Paint>
-void Rasterise(const Polygon& polygon, int width, int height, const Paint& paint) {
-  const std::size_t n = polygon.size();
-  const auto clamp = [](double v, int limit) {
-    return static_cast<int>(std::clamp(v, -1.0, limit + 0.0));
-  };
-  for (std::size_t k = 0; k < n; ++k) {
-    const Vec2 a = polygon[k], d = polygon[(k + 1) % n] - a;
-    const Vec2 low = a.cwiseMin(a + d), high = a.cwiseMax(a + d);
-    const int x1 = std::min(clamp(std::floor(high.x()), width), width - 1);
-    const int y1 = std::min(clamp(std::floor(high.y()), height), height - 1);
-    for (int iy = std::max(0, clamp(std::floor(low.y()), height)); iy <= y1; ++iy) {
-      for (int ix = std::max(0, clamp(std::floor(low.x()), width)); ix <= x1; ++ix) {
-        // Clip the edge to the cell's interior (Liang & Barsky 1984).
-        double t0 = 0, t1 = 1;
-        for (int axis = 0; axis < 2; ++axis) {
-          const double near = (axis ? iy : ix) + kEps - a[axis];
-          const double far = (axis ? iy : ix) + 1 - kEps - a[axis];
-          if (std::abs(d[axis]) < 1e-12) {
-            if (near > 0 || far < 0) t1 = -1;
-            continue;
-          }
-          const double u = near / d[axis], v = far / d[axis];
-          t0 = std::max(t0, std::min(u, v));
-          t1 = std::min(t1, std::max(u, v));
-        }
-        if (t0 <= t1) paint(ix, iy);
-      }
-    }
-  }
-  double y_low = std::numeric_limits<double>::infinity(), y_high = -y_low;
-  for (const Vec2& p : polygon) y_low = std::min(y_low, p.y()), y_high = std::max(y_high, p.y());
-  const int last = std::min(clamp(std::floor(y_high), height), height - 1);
-  std::vector<double> crossings;
-  for (int iy = std::max(0, clamp(std::floor(y_low), height)); iy <= last; ++iy) {
-    const double y = iy + 0.5;
-    crossings.clear();
-    for (std::size_t k = 0; k < n; ++k) {
-      const Vec2 &a = polygon[k], &b = polygon[(k + 1) % n];
-      if ((a.y() <= y) == (b.y() <= y)) continue;
-      crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
-    }
-    std::sort(crossings.begin(), crossings.end());
-    for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
-      const int from = std::max(0, clamp(std::ceil(crossings[k] - 0.5 + kEps), width));
-      const int to = std::min(clamp(std::floor(crossings[k + 1] - 0.5 - kEps), width), width - 1);
-      for (int ix = from; ix <= to; ++ix) paint(ix, iy);
-    }
-  }
 }
 
 Grid<std::uint8_t> WallMask(const HazardMap& map, const GridFrame& fine) {
@@ -279,62 +124,10 @@ void DilateDisc(const Grid<std::uint8_t>& set, double radius, Grid<std::uint8_t>
   Grid<std::uint8_t> crop(x1 - x0 + 1, y1 - y0 + 1);
   for (int iy = y0; iy <= y1; ++iy)
     for (int ix = x0; ix <= x1; ++ix) crop(ix - x0, iy - y0) = set(ix, iy);
-  const Grid<float> distance = Distance(crop, false, Target::kCentre);
+  const Grid<float> distance = DistanceToCentres(crop);
   for (int iy = y0; iy <= y1; ++iy)
     for (int ix = x0; ix <= x1; ++ix)
       if (distance(ix - x0, iy - y0) <= radius + kEps) out(ix, iy) = 1;
-}
-
-// Edges moved inwards by d; meant for d small against the edges.
-Polygon DrawnBack(const Polygon& polygon, double d) {
-  Polygon out;
-  const std::size_t n = polygon.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    const Vec2 in = (polygon[k] - polygon[(k + n - 1) % n]).normalized();
-    const Vec2 on = (polygon[(k + 1) % n] - polygon[k]).normalized();
-    const Vec2 normals = Vec2(-in.y() - on.y(), in.x() + on.x());
-    out.push_back(polygon[k] + d * normals / std::max(0.1, 1 + in.dot(on)));
-  }
-  return out;
-}
-
-// A footprint in cells, centred on the centre of cell (0, 0): the spans of cells it touches.
-struct Stencil {
-  struct Span {
-    int iy, x0, x1;
-  };
-  std::vector<Span> spans;
-};
-
-Stencil MakeStencil(Polygon polygon, double cell_m, int quarter_turns, double inset_m,
-                    bool centres_only) {
-  if (inset_m > 0) polygon = DrawnBack(polygon, inset_m);
-  double reach = 1;
-  const std::array<Pose2, 4> turns = {Pose2{0, 0, 0}, Pose2{0, 0, kPi / 2}, Pose2{0, 0, kPi},
-                                      Pose2{0, 0, -kPi / 2}};
-  for (Vec2& p : polygon) {
-    p = turns[static_cast<std::size_t>(quarter_turns)] * p / cell_m;
-    reach = std::max(reach, p.norm());
-  }
-  const int half = static_cast<int>(std::ceil(reach)) + 1, size = 2 * half + 1;
-  Grid<std::uint8_t> touched(size, size);
-  for (Vec2& p : polygon) p += Vec2(half + 0.5, half + 0.5);
-  if (centres_only) {
-    for (int iy = 0; iy < size; ++iy)
-      for (int ix = 0; ix < size; ++ix)
-        touched(ix, iy) = SignedDistance(polygon, Vec2(ix + 0.5, iy + 0.5)) <= kEps;
-  } else {
-    Rasterise(polygon, size, size, [&](int ix, int iy) { touched(ix, iy) = 1; });
-  }
-  Stencil stencil;
-  for (int iy = 0; iy < size; ++iy)
-    for (int ix = 0; ix < size; ++ix) {
-      if (!touched(ix, iy) || (ix > 0 && touched(ix - 1, iy))) continue;
-      int end = ix;
-      while (end + 1 < size && touched(end + 1, iy)) ++end;
-      stencil.spans.push_back({iy - half, ix - half, end - half});
-    }
-  return stencil;
 }
 
 // Set cells before ix in each row, for ix in 0 .. width.
@@ -365,8 +158,10 @@ void ReachWithFootprint(const Shape2& clear, const Grid<std::uint8_t>& walls,
   const Grid<int> hazard_sums = hazards ? RowSums(*hazards) : Grid<int>();
   std::array<Grid<std::uint8_t>, 4> free;
   for (int k = 0; k < 4; ++k) {
-    const Stencil built = MakeStencil(clear.footprint_B, area.frame.cell_m, k, inset_m, false);
-    const Stencil whole = MakeStencil(clear.footprint_B, area.frame.cell_m, k, 0, false);
+    const Stencil built =
+        MakeStencil(clear.footprint_B, area.frame.cell_m, k, inset_m, StencilOf::kTouched);
+    const Stencil whole =
+        MakeStencil(clear.footprint_B, area.frame.cell_m, k, 0, StencilOf::kTouched);
     auto& layer = free[static_cast<std::size_t>(k)];
     layer = Grid<std::uint8_t>(walls.width, walls.height);
     for (int iy = 0; iy < walls.height; ++iy)
@@ -404,7 +199,7 @@ void ReachWithFootprint(const Shape2& clear, const Grid<std::uint8_t>& walls,
 // Marks what the tool touches when it stands on the set cells at a multiple of 90 deg.
 void DilateFootprint(const Grid<std::uint8_t>& set, const Shape2& tool, double cell_m, int yaw,
                      Grid<std::uint8_t>& out) {
-  const Stencil stencil = MakeStencil(tool.footprint_B, cell_m, yaw, 0, true);
+  const Stencil stencil = MakeStencil(tool.footprint_B, cell_m, yaw, 0, StencilOf::kCentres);
   Grid<int> edges(set.width + 1, set.height);  // +1 where a swept span begins, -1 behind its end
   for (int iy = 0; iy < set.height; ++iy)
     for (int ix = 0; ix < set.width; ++ix) {
@@ -424,10 +219,6 @@ void DilateFootprint(const Grid<std::uint8_t>& set, const Shape2& tool, double c
 }
 
 }  // namespace
-
-Grid<float> DistanceToSet(const Grid<std::uint8_t>& set, bool border_is_set) {
-  return Distance(set, border_is_set, Target::kArea);
-}
 
 GridFrame FineFrame(const GridFrame& frame, double max_cell_m) {
   const int k = static_cast<int>(std::ceil(frame.cell_m / max_cell_m - 1e-9));

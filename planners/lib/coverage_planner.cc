@@ -30,7 +30,7 @@ constexpr Effort kWithEdges = {0.988, 0.25, 0.981, 0.6, 0.3, 0.2};
 constexpr double kSmall = 0.02;  // of the ground: worth a visit however small
 constexpr int kRounds = 2, kMostRounds = 4;
 constexpr double kDear = 1.25;          // length above this many times ground / width
-constexpr double kLapShare = 0.25;      // of the tool's width open: a lap along a wall pays
+constexpr double kLapShare = 0.4;       // of the tool's width open: a lap along a wall pays
 constexpr double kFirstWorth = 0.15;    // before a path is taken apart: only what is plainly lost
 constexpr double kWorkingShare = 0.1;   // a segment that sweeps less of its own is a transit
 constexpr double kCutReach = 6;         // tool widths: from so far aside a line is left for a visit

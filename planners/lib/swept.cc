@@ -25,7 +25,6 @@ Swept::Swept(const Floor& floor) : floor_(&floor) {
 
 Swept::Layer Swept::MakeLayer(double scale, const Grid<std::uint8_t>& mask) const {
   Layer layer;
-  layer.scale = scale;
   layer.reach = scale * floor_->tool_reach;
   if (floor_->tool.kind == Shape2::Kind::kFootprint) {
     layer.tool = ConvexHull(floor_->tool.footprint_B);
@@ -51,12 +50,6 @@ int Swept::Remove(const Polyline& line) {
   int changed = line.size() == 1 ? Remove(line[0], line[0]) : 0;
   for (std::size_t i = 1; i < line.size(); ++i) changed += Remove(line[i - 1], line[i]);
   return changed;
-}
-
-int Swept::Gain(const Polyline& line) {
-  const int gain = Add(line);
-  Remove(line);
-  return gain;
 }
 
 double Swept::OpenShareAcross(const Vec2& p, const Vec2& across) const {

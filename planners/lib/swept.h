@@ -19,8 +19,6 @@ class Swept {
   int Remove(const Vec2& a, const Vec2& b) { return Change(a, b, -1); }
   int Add(const Polyline& line);
   int Remove(const Polyline& line);
-  // Ground cells that Add(line) would add.
-  int Gain(const Polyline& line);
   bool IsOpen(int ix, int iy) const {
     for (const Layer& layer : layers_)
       if (layer.count(ix, iy) == 0) return true;
@@ -35,7 +33,6 @@ class Swept {
 
  private:
   struct Layer {
-    double scale = 1;           // of the tool
     double reach = 0;           // cells, of the scaled tool
     Polygon tool;               // footprint tools, scaled, in cells
     Grid<std::uint16_t> count;  // of ground that is not this layer's: 1 too many, so never open
