@@ -29,12 +29,27 @@ constexpr Effort kRowsOnly = {0.96, 0.4, 0.948, 0.7, 0.5, 0.4};
 constexpr Effort kWithEdges = {0.988, 0.25, 0.981, 0.6, 0.3, 0.2};
 constexpr double kSmall = 0.02;  // of the ground: worth a visit however small
 constexpr int kRounds = 2, kMostRounds = 4;
-constexpr double kDear = 1.25;          // length above this many times ground / width
-constexpr double kLapShare = 0.4;       // of the tool's width open: a lap along a wall pays
-constexpr double kFirstWorth = 0.15;    // before a path is taken apart: only what is plainly lost
-constexpr double kWorkingShare = 0.1;   // a segment that sweeps less of its own is a transit
-constexpr double kCutReach = 6;         // tool widths: from so far aside a line is left for a visit
+constexpr double kDear = 1.25;         // length above this many times ground / width
+constexpr double kLapShare = 0.4;      // of the tool's width open: a lap along a wall pays
+constexpr double kFirstWorth = 0.15;   // before a path is taken apart: only what is plainly lost
+constexpr double kWorkingShare = 0.1;  // a segment that sweeps less of its own is a transit
+constexpr double kCutReach = 6;        // tool widths: from so far aside a line is left for a visit
+constexpr double kMostGoal = 0.995;
+constexpr double kMargin_m = 0.03;      // what a tracker errs by on such plans, and a little more
+constexpr double kMostLost = 0.04;      // of the ground, to a margin
+constexpr double kDriveLoss = 0.012;    // of the ground, measured: corners driven less than exactly
 constexpr double kWallTolerance = 0.7;  // cells: a traced contour's staircase
+
+Shape2 Grown(const Shape2& shape, double margin_m) {
+  Shape2 grown = shape;
+  if (shape.kind == Shape2::Kind::kCircle) {
+    grown.radius_m += margin_m;
+    return grown;
+  }
+  const double inscribed_m = -SignedDistance(shape.footprint_B, Vec2::Zero());
+  for (Vec2& corner : grown.footprint_B) corner *= 1 + margin_m / inscribed_m;
+  return grown;
+}
 
 std::string WhyNothing(const PlanRequest& request, const SweepArea& area, const Shape2& clear,
                        bool fits) {
@@ -79,12 +94,18 @@ void CoveragePlanner::Visit(ParamVisitor& visit) {
   visit("tool_width_m", tool_width_m_, Positive(),
         "width of a disc that sweeps; none: the robot's tool");
   visit("radius_m", radius_m_, Positive(), "of a circle kept clear; none: the robot's clear shape");
+  visit("margin_m", margin_m_, NonNegative(),
+        "kept beyond the clear shape for the tracker's error; none: 0.03 around the robot's own "
+        "shape, less where that would close a door, and 0 around radius_m");
   visit("overlap", overlap_, Between(0, 0.9), "of neighbouring rows, share of the tool's width");
   visit("edges", edges_, "laps along walls and furniture first");
 }
 
-Polyline CoveragePlanner::Sweep(const Floor& floor, const Vec2& start, Figures& figures) const {
-  const Effort& effort = edges_ ? kWithEdges : kRowsOnly;
+Polyline CoveragePlanner::Sweep(const Floor& floor, const Vec2& start, double shortfall,
+                                Figures& figures) const {
+  Effort effort = edges_ ? kWithEdges : kRowsOnly;
+  effort.goal = std::min(kMostGoal, effort.goal + shortfall);
+  effort.least_goal = std::min(kMostGoal, effort.least_goal + shortfall);
   const double w = floor.tool_width;
   Ways ways(floor);
   const std::vector<Polyline> walls = Contours(floor, PoseDepth(floor), 0);
@@ -140,8 +161,8 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
     result.tool = {Shape2::Kind::kCircle, *tool_width_m_ / 2, {}};
     result.tool_width_m = *tool_width_m_;
   }
-  const SweepArea area = ComputeSweepArea(request.map, result.clear, result.tool,
-                                          request.robot.step_m, request.start.p());
+  SweepArea area = ComputeSweepArea(request.map, result.clear, result.tool, request.robot.step_m,
+                                    request.start.p());
   if (area.sweepable_cells == 0) {
     const bool fits = std::find(area.reachable.cells.begin(), area.reachable.cells.end(), 1) !=
                       area.reachable.cells.end();
@@ -155,8 +176,23 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
         "the robot's footprint changes when it turns by 90 deg; planned is one yaw only";
     return result;
   }
-  const Floor floor = CropFloor(area, result.clear, result.tool, result.tool_width_m, overlap_);
-  const Polyline path = Sweep(floor, floor.ToCells(request.start.p()), result.figures);
+  // Room for the tracker's error, as long as no more than a little of the floor is lost to it: half
+  // the margin, or none, where it would close a door.
+  double margin_m = margin_m_.value_or(radius_m_ ? 0.0 : kMargin_m), shortfall = 0;
+  for (; margin_m > 0; margin_m = margin_m > kMargin_m / 4 ? margin_m / 2 : 0) {
+    SweepArea roomy = ComputeSweepArea(request.map, Grown(result.clear, margin_m), result.tool,
+                                       request.robot.step_m, request.start.p());
+    const double lost =
+        1 - static_cast<double>(roomy.sweepable_cells) / static_cast<double>(area.sweepable_cells);
+    if (lost > kMostLost) continue;
+    area = std::move(roomy);
+    shortfall = lost + kDriveLoss;
+    break;
+  }
+  result.figures.push_back({"margin_m", margin_m});
+  const Floor floor =
+      CropFloor(area, Grown(result.clear, margin_m), result.tool, result.tool_width_m, overlap_);
+  const Polyline path = Sweep(floor, floor.ToCells(request.start.p()), shortfall, result.figures);
   const double map_yaw = floor.frame.X_WG.yaw_rad, quarter = kPi / 2;
   const double turned = std::round((request.start.yaw_rad - map_yaw) / quarter) * quarter;
   for (const Vec2& p : path) {

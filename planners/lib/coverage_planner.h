@@ -33,10 +33,13 @@ class CoveragePlanner : public Planner {
                                       Figures& figures) const = 0;
 
  private:
-  Polyline Sweep(const Floor& floor, const Vec2& start, Figures& figures) const;
+  // `shortfall`: share of the robot's ground that this floor lacks, or that driving loses; more of
+  // what is there is swept for it.
+  Polyline Sweep(const Floor& floor, const Vec2& start, double shortfall, Figures& figures) const;
 
   std::optional<double> tool_width_m_;
   std::optional<double> radius_m_;
+  std::optional<double> margin_m_;
   double overlap_ = 0.05;
   bool edges_ = false;
 };
