@@ -20,6 +20,13 @@ inline double WrapAngle(double a_rad) {
   return a_rad <= -kPi ? a_rad + 2 * kPi : a_rad;
 }
 
+// Degrees as they are written: in (-180, 180], to a billionth, so that a resolved file read again
+// gives the very same radians.
+inline double CanonicalDegrees(double yaw_deg) {
+  yaw_deg = std::round(std::remainder(yaw_deg, 360.0) * 1e9) / 1e9;
+  return yaw_deg <= -180 ? yaw_deg + 360 : yaw_deg + 0.0;
+}
+
 inline double Cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // A planar pose X_AB: body B in frame A. X_AB * X_BC = X_AC; X_AB * p_BC = p_AC.

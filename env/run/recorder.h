@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gathers an episode's record while it is driven.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "env/run/episode.h"
+
+namespace floorproof {
+
+// Keeps what an episode leaves behind. Allocates up front; a longer episode than planned for grows
+// by halves.
+class Recorder {
+ public:
+  Recorder(const Scenario& s, const SweepArea& area, double expected_s)
+      : area_(area), meter_(area, s.robot.robot.tool), dt_s_(s.physics.timestep_s) {
+    trace_every_ = s.episode.control_hz / s.episode.trace_hz;
+    record_.trace.reserve(
+        static_cast<std::size_t>(std::min(2e6, (expected_s + 60) * s.episode.trace_hz)));
+  }
+
+  void OnControl(const Sample& sample, const Estimate& estimate) {
+    meter_.Add(sample.X_WB());
+    if (control_++ % trace_every_ != 0) return;
+    const auto f = [](double v) { return static_cast<float>(v); };
+    const BodyTwist& cmd = sample.command.twist;
+    record_.trace.push_back(
+        {sample.t_s, f(sample.p_WB.x()), f(sample.p_WB.y()), f(sample.p_WB.z()), f(sample.roll_rad),
+         f(sample.pitch_rad), f(sample.yaw_rad), f(sample.V_WB_B.vx_mps), f(sample.V_WB_B.vy_mps),
+         f(sample.V_WB_B.wz_radps), f(cmd.vx_mps), f(cmd.vy_mps), f(cmd.wz_radps),
+         f(estimate.X_WB.x_m), f(estimate.X_WB.y_m), f(estimate.X_WB.yaw_rad),
+         f(sample.cross_track_m), f(sample.power_w), f(meter_.coverage())});
+  }
+
+  void OnStep(const Sample& sample) {
+    Metrics& m = record_.metrics;
+    ++record_.steps;
+    m.path_length_m += std::hypot(sample.v_WB_W.x(), sample.v_WB_W.y()) * dt_s_;
+    m.energy_j += sample.power_w * dt_s_;
+    m.max_cross_track_m = std::max(m.max_cross_track_m, sample.cross_track_m);
+    cross_track_sum_ += sample.cross_track_m;
+    if (sample.num_contacts > 0) {
+      // A body pressed against a wall lets go for single steps; that is one meeting.
+      constexpr double kApart_s = 0.25;
+      if (sample.t_s - last_touch_s_ > kApart_s) ++m.contacts;
+      last_touch_s_ = sample.t_s;
+    }
+    for (int i = 0; i < sample.num_contacts; ++i)
+      m.max_impulse_ns =
+          std::max(m.max_impulse_ns, sample.contacts[static_cast<std::size_t>(i)].impulse_ns);
+  }
+
+  void OnEvent(const Event& event) { record_.events.push_back(event); }
+
+  double coverage() const { return meter_.coverage(); }
+  double driven_m() const { return record_.metrics.path_length_m; }
+  bool failed() const { return !record_.events.empty(); }
+
+  // `ended`: why the loop stopped. A drive that was completed, or that ran out of time, is a
+  // failure when something failed on the way; a completed one that covered too little is one as
+  // well.
+  EpisodeRecord Finish(Outcome ended, const Sample& last, const PlanResult& plan,
+                       const std::vector<std::unique_ptr<Detector>>& detectors,
+                       double min_coverage) {
+    Metrics& m = record_.metrics;
+    meter_.Add(last.X_WB());
+    m.coverage = meter_.coverage();
+    m.overlap = meter_.overlap();
+    m.duration_s = last.t_s;
+    m.mean_cross_track_m =
+        record_.steps > 0 ? cross_track_sum_ / static_cast<double>(record_.steps) : 0;
+    m.turns = CountTurns(plan.path);
+    for (const auto& detector : detectors)
+      record_.margins.push_back({std::string(Name(detector->mode())), detector->margin()});
+    record_.passes = meter_.passes();
+    record_.passes_frame = area_.frame;
+    record_.sweepable = area_.sweepable;
+    const bool judged = ended == Outcome::kSuccess || ended == Outcome::kTimeout;
+    record_.outcome = judged && failed() ? Outcome::kFailure : ended;
+    if (record_.outcome == Outcome::kSuccess && m.coverage < min_coverage) {
+      record_.outcome = Outcome::kFailure;
+      record_.message = "coverage " + FormatDouble(m.coverage) + " is below success.min_coverage";
+    }
+    if (ended == Outcome::kError) record_.message = "the physics diverged";
+    return std::move(record_);
+  }
+
+ private:
+  EpisodeRecord record_;
+  const SweepArea& area_;
+  CoverageMeter meter_;
+  double dt_s_, cross_track_sum_ = 0;
+  int trace_every_ = 1;
+  std::int64_t control_ = 0;
+  double last_touch_s_ = -1e9;
+};
+
+}  // namespace floorproof
