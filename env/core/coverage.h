@@ -20,8 +20,9 @@ Grid<float> DistanceToSet(const Grid<std::uint8_t>& set, bool border_is_set);
 // The map's cells subdivided until they are at most max_cell_m.
 GridFrame FineFrame(const GridFrame& frame, double max_cell_m = 0.05);
 
-// 1 where a fine cell is wall, or touches a hazard that IsObstacle(step_m). `fine` divides the map's
-// own frame (FineFrame). A level change is none where a later floor that can be driven covers it.
+// 1 where a fine cell is wall, or touches a hazard that IsObstacle(step_m). `fine` divides the
+// map's own frame (FineFrame). A level change is none where a later floor that can be driven covers
+// it.
 Grid<std::uint8_t> ObstacleMask(const HazardMap& map, double step_m, const GridFrame& fine);
 
 // Distances to obstacles, for planners and controllers.
