@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
+#include <ostream>
 
 #include "env/map/ros_map.h"
 
@@ -20,6 +21,9 @@ struct RealMap {
   double cell_m;
   std::int64_t free_per_mille, occupied_per_mille;  // its thresholds, times 1000
 };
+
+// ctest prints it behind each test's name.
+void PrintTo(const RealMap& map, std::ostream* out) { *out << map.name; }
 
 class SharedMapsTest : public ::testing::TestWithParam<RealMap> {
  protected:
