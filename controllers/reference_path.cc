@@ -143,6 +143,11 @@ void SetPassingSpeeds(std::vector<ReferenceVertex>& v, const ReferenceLimits& li
 
 }  // namespace
 
+double StoppingSpeed(double way, double decel, double lag_s) {
+  const double b = decel * lag_s;
+  return std::sqrt(b * b + 2 * decel * std::max(0.0, way)) - b;
+}
+
 double ApproachSpeed(double then_mps, double way_m, const ReferenceLimits& limits) {
   const double a = limits.decel_mps2, b = a * limits.lag_s;
   return std::sqrt((then_mps + b) * (then_mps + b) + 2 * a * std::max(0.0, way_m)) - b;

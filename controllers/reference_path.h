@@ -44,6 +44,10 @@ struct ReferencePath {
 
 ReferencePath MakeReference(const Path& path, const ReferenceLimits& limits);
 
+// The speed (m/s, or rad/s) from which a robot that decelerates at `decel`, its wheels late by
+// lag_s, comes to rest within `way`.
+double StoppingSpeed(double way, double decel, double lag_s);
+
 // The speed from which a robot that decelerates as `limits` say comes down to `then_mps` over
 // `way_m`. Like sqrt(then^2 + 2 a s) far away; near the end it falls with the way at the rate 1 /
 // lag_s, which a robot whose wheels lag can follow.

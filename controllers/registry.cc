@@ -48,6 +48,19 @@ std::span<const PluginEntry<Tracker>> Trackers() {
   return kTable;
 }
 
+void RequireLimits(const RobotSpec& robot, std::string_view tracker) {
+  const auto require = [&](const std::string& key, double value) {
+    if (!(value > 0))
+      throw InputError({robot.model_file, 0}, key, FormatDouble(value),
+                       "must be > 0 for the tracker " + std::string(tracker));
+  };
+  require("cruise_mps", robot.cruise_mps);
+  require("max_speed_mps", robot.max_speed_mps);
+  require("max_accel_mps2", robot.max_accel_mps2);
+  require("max_yaw_rate_radps", robot.max_yaw_rate_radps);
+  require("max_yaw_accel_radps2", robot.max_yaw_accel_radps2);
+}
+
 std::string_view DefaultTracker(std::string_view drive) {
   for (const auto& entry : Trackers()) {
     const auto drives = entry.make()->Drives();

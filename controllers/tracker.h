@@ -26,6 +26,10 @@ class Tracker : public Configurable {
   virtual Command Update(const Estimate& estimate, double t_s, double dt_s) = 0;
 };
 
+// Throws InputError, naming the tracker, when one of the robot's speeds or accelerations is not
+// positive.
+void RequireLimits(const RobotSpec& robot, std::string_view tracker);
+
 std::span<const PluginEntry<Tracker>> Trackers();
 // The first tracker of the list that commands this drive; throws InputError when there is none.
 std::string_view DefaultTracker(std::string_view drive);

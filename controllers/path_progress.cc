@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "controllers/path_progress.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace floorproof {
+namespace {
+
+constexpr double kTimeSlackS = 1e-9;     // sums of control periods are not exact
+constexpr double kBendGateM = 0.3;       // a leg is left only this near its end
+constexpr double kBesideCornerM = 0.04;  // farther beside a corner than this it is not reached yet
+
+}  // namespace
+
+void PathProgress::Start(const Path& path, const ReferenceLimits& limits,
+                         double corner_tolerance_m) {
+  limits_ = limits;
+  corner_tolerance_m_ = corner_tolerance_m;
+  reference_ = MakeReference(path, limits);
+  // The way to the first waypoint is a homing to it; mostly the robot stands there already.
+  phase_ = reference_.vertices.empty() ? Phase::kDone : Phase::kDrive;
+  homing_ = true;
+  vertex_ = goal_ = ahead_ = waypoint_ = 0;
+  dwell_until_s_ = 0;
+}
+
+void PathProgress::Update(const Vec2& p_W, double t_s) {
+  if (phase_ == Phase::kDwell && t_s >= dwell_until_s_ - kTimeSlackS) Depart();
+  if (moving()) Advance(p_W, t_s);
+}
+
+void PathProgress::Advance(const Vec2& p_W, double t_s) {
+  if (homing_) {
+    if ((Vertex(goal_).p_W - p_W).norm() <= 2 * corner_tolerance_m_) Arrive(goal_, t_s);
+    return;
+  }
+  while (true) {
+    const ReferenceVertex &from = Vertex(vertex_), &to = Vertex(vertex_ + 1);
+    const Vec2 passed = p_W - to.p_W;
+    if (to.stop) {
+      if (passed.dot(from.direction_W) < -corner_tolerance_m_) return;
+      if (std::abs(Cross(from.direction_W, passed)) <= kBesideCornerM) {
+        Arrive(vertex_ + 1, t_s);
+      } else {
+        homing_ = true;
+        goal_ = vertex_ + 1;
+      }
+      return;
+    }
+    // A bend is passed at its bisector; far off, the plane alone would skip whole loops.
+    if (passed.dot(from.direction_W + to.direction_W) < 0 || passed.norm() > kBendGateM) return;
+    ++vertex_;
+  }
+}
+
+void PathProgress::Arrive(std::size_t vertex, double t_s) {
+  vertex_ = ahead_ = vertex;
+  homing_ = false;
+  if (Vertex(vertex).dwell_s > 0) {
+    phase_ = Phase::kDwell;
+    dwell_until_s_ = t_s + Vertex(vertex).dwell_s;
+  } else {
+    Depart();
+  }
+}
+
+void PathProgress::Depart() {
+  phase_ = vertex_ + 1 < reference_.vertices.size() ? Phase::kTurn : Phase::kDone;
+}
+
+// The way along the legs that p_W has come, not before the leg now tracked.
+double PathProgress::Along(const Vec2& p_W) const {
+  const ReferenceVertex& from = Vertex(vertex_);
+  if (homing_ || vertex_ + 1 == reference_.vertices.size()) return from.s_m;
+  const double leg_m = Vertex(vertex_ + 1).s_m - from.s_m;
+  return from.s_m + std::clamp((p_W - from.p_W).dot(from.direction_W), 0.0, leg_m);
+}
+
+std::size_t PathProgress::Segment(const Vec2& p_W) {
+  const std::size_t n = reference_.waypoint_s_m.size();
+  if (n < 2) return 0;
+  const double s_m = Along(p_W);
+  while (waypoint_ + 2 < n && reference_.waypoint_s_m[waypoint_ + 1] <= s_m) ++waypoint_;
+  return waypoint_;
+}
+
+// The point `way_m` ahead; beyond a stop it lies on the leg's prolongation, so that the robot
+// arrives straight.
+Vec2 PathProgress::PointAhead(const Vec2& p_W, double way_m) {
+  const double s_m = Along(p_W) + way_m;
+  ahead_ = std::max(ahead_, vertex_);
+  while (ahead_ > vertex_ && Vertex(ahead_).s_m > s_m) --ahead_;
+  while (!Vertex(ahead_ + 1).stop && Vertex(ahead_ + 1).s_m <= s_m) ++ahead_;
+  return Vertex(ahead_).p_W + (s_m - Vertex(ahead_).s_m) * Vertex(ahead_).direction_W;
+}
+
+PathProgress::Aim PathProgress::AimFrom(const Vec2& p_W, double speed_mps,
+                                        const Lookahead& lookahead) {
+  if (homing_) {
+    const Vec2 target_W = Vertex(goal_).p_W;
+    const double left_m = (target_W - p_W).norm() - corner_tolerance_m_;
+    return {target_W, std::min(limits_.cruise_mps, ApproachSpeed(0, left_m, limits_))};
+  }
+  const ReferenceVertex &from = Vertex(vertex_), &to = Vertex(vertex_ + 1);
+  if (phase_ == Phase::kTurn) speed_mps = from.speed_mps;
+  const Vec2 target_W = PointAhead(p_W, std::clamp(speed_mps * lookahead.time_s, lookahead.min_m,
+                                                   std::max(lookahead.min_m, lookahead.max_m)));
+  const double left_m = (to.p_W - p_W).dot(from.direction_W);
+  return {target_W, std::min(from.speed_mps, ApproachSpeed(to.passing_mps, left_m, limits_))};
+}
+
+}  // namespace floorproof

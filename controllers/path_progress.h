@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far along its plan a robot is, and where it should head next: what path trackers share.
+//
+// Progress is monotone: a leg is left once, at its end, never for a nearer one, so that
+// neighbouring rows cannot be mixed up. Past the end of a leg but beside it, the robot goes to the
+// corner itself. Nothing but Start() allocates.
+#pragma once
+
+#include <cstddef>
+
+#include "controllers/reference_path.h"
+
+namespace floorproof {
+
+// How far ahead on the path the point lies that is pursued: time_s at the present speed, within
+// bounds.
+struct Lookahead {
+  double time_s = 0.65, min_m = 0.12, max_m = 0.4;
+};
+
+class PathProgress {
+ public:
+  enum class Phase {
+    kTurn,   // at a stop, or pushed off: turn towards the way first
+    kDrive,  // along the leg
+    kDwell,  // standing still on purpose
+    kDone,   // last waypoint reached
+  };
+
+  void Start(const Path& path, const ReferenceLimits& limits, double corner_tolerance_m);
+
+  // Takes the robot's place at this time: leaves legs whose end is passed, stops at a corner that
+  // is reached, ends dwells.
+  void Update(const Vec2& p_W, double t_s);
+
+  Phase phase() const { return phase_; }
+  bool moving() const { return phase_ == Phase::kTurn || phase_ == Phase::kDrive; }
+  void Turn() { phase_ = Phase::kTurn; }
+  void Drive() { phase_ = Phase::kDrive; }
+  // The vertex at which the leg now tracked begins, and the leg itself. Only while moving().
+  std::size_t vertex() const { return vertex_; }
+  const ReferenceVertex& leg() const { return reference_.vertices[vertex_]; }
+
+  // The point to head for and the speed that the way ahead allows. Only while moving().
+  struct Aim {
+    Vec2 target_W;
+    double speed_mps;
+  };
+  Aim AimFrom(const Vec2& p_W, double speed_mps, const Lookahead& lookahead);
+
+  // The plan's segment now tracked; never one of no length.
+  std::size_t Segment(const Vec2& p_W);
+
+ private:
+  const ReferenceVertex& Vertex(std::size_t i) const { return reference_.vertices[i]; }
+  void Advance(const Vec2& p_W, double t_s);
+  void Arrive(std::size_t vertex, double t_s);
+  void Depart();
+  double Along(const Vec2& p_W) const;
+  Vec2 PointAhead(const Vec2& p_W, double way_m);
+
+  ReferenceLimits limits_;
+  double corner_tolerance_m_ = 0;
+  ReferencePath reference_;
+  Phase phase_ = Phase::kDone;
+  bool homing_ = false;  // going to vertex goal_ itself instead of along the leg
+  std::size_t goal_ = 0;
+  std::size_t vertex_ = 0;    // the leg now tracked goes from here to the next
+  std::size_t ahead_ = 0;     // the leg that holds the point pursued
+  std::size_t waypoint_ = 0;  // the plan's segment now tracked
+  double dwell_until_s_ = 0;
+};
+
+}  // namespace floorproof
