@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/command.h"
 
-#include <csignal>
 #include <cstdio>
 
 namespace floorproof {
 namespace {
 
-volatile std::sig_atomic_t g_interrupted = 0;
+namespace fs = std::filesystem;
 
-void OnSignal(int signal_number) {
-  if (g_interrupted) std::_Exit(kInterruptedExit);
-  g_interrupted = 1;
-  std::signal(signal_number, OnSignal);
+bool LiesIn(const fs::path& folder, const fs::path& file) {
+  std::error_code ignored;
+  const fs::path from = fs::canonical(folder.empty() ? "." : folder, ignored);
+  const fs::path to = fs::canonical(file, ignored).lexically_relative(from);
+  return !to.empty() && *to.begin() != "..";
 }
 
 }  // namespace
@@ -39,15 +39,17 @@ void Globals::Result(const nlohmann::ordered_json& json_result) const {
   if (json) std::printf("%s\n", json_result.dump(2).c_str());
 }
 
-void CatchInterrupts() {
-  std::signal(SIGINT, OnSignal);
-  std::signal(SIGTERM, OnSignal);
+std::filesystem::path OutputFolder(const std::string& out, const Scenario& scenario) {
+  return out.empty() ? fs::path("out") / scenario.file.stem() : fs::path(out);
 }
 
-bool Interrupted() { return g_interrupted != 0; }
-
-std::filesystem::path OutputFolder(const std::string& out, const Scenario& scenario) {
-  return out.empty() ? std::filesystem::path("out") / scenario.name : std::filesystem::path(out);
+void SayWarnings(const Scenario& scenario, const Globals& globals) {
+  for (const auto& warning : scenario.site.warnings) globals.Say("warning: " + warning);
+  std::string outside;
+  for (const fs::path& file : FilesRead(scenario))
+    if (!LiesIn(scenario.file.parent_path(), file) && !LiesIn(ModelsFolder(), file))
+      outside += (outside.empty() ? "" : ", ") + file.lexically_normal().string();
+  if (!outside.empty()) globals.Say("reads outside the scenario's folder: " + outside);
 }
 
 }  // namespace floorproof

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the commands share: global options, printing, interruption. A command is one file here and
+// What the commands share: global options, printing. A command is one file here and
 // one line in commands.inc.
 #pragma once
 
@@ -15,7 +15,8 @@
 namespace floorproof {
 
 // Exit statuses (design: the contract).
-inline constexpr int kDone = 0, kNotSuccess = 1, kBadInput = 2, kBroken = 3, kInterruptedExit = 130;
+inline constexpr int kDone = 0, kNotSuccess = 1, kBadInput = 2, kBroken = 3;  // and
+// kInterruptedExit (env/core/interrupt.h)
 
 struct Globals {
   bool json = false, quiet = false;
@@ -32,12 +33,11 @@ struct Globals {
 // Adds the subcommand to `app`; its callback leaves the exit status in `status`.
 using AddCommand = void (*)(CLI::App& app, const Globals& globals, int& status);
 
-// True once Ctrl-C (or SIGTERM) was seen. CatchInterrupts() installs the handlers, once; a second
-// Ctrl-C ends the process at once.
-void CatchInterrupts();
-bool Interrupted();
-
-// --out, or out/<scenario's stem> in the working directory.
+// --out, or out/<stem of the scenario's file> in the working directory.
 std::filesystem::path OutputFolder(const std::string& out, const Scenario& scenario);
+
+// Says what is read as written but may not be meant, and which files are read that lie neither in
+// the scenario's folder nor among the bundled models.
+void SayWarnings(const Scenario& scenario, const Globals& globals);
 
 }  // namespace floorproof

@@ -37,17 +37,16 @@ void AddDemo(CLI::App& app, const Globals& globals, int& status) {
     const std::filesystem::path root = *out;
     auto all = nlohmann::ordered_json::object();
     bool good = true;
+    std::string finished;
     for (const auto& drive : kDrives) {
       globals.Say(fmt::format("\n{}: {}", drive.scenario, drive.says));
       Scenario scenario =
           ReadScenario(ModelsFolder() / "scenarios" / (std::string(drive.scenario) + ".yaml"),
                        globals.Overrides());
-      const DriveResult result =
-          DriveAndFilm(scenario, root / drive.scenario, {.video = true}, globals);
-      if (result.record.outcome == Outcome::kInterrupted) {
-        status = kInterruptedExit;
-        return;
-      }
+      const DriveResult result = DriveAndFilm(scenario, root / drive.scenario,
+                                              {.video = true, .finished = finished}, globals);
+      if (result.not_written) std::rethrow_exception(result.not_written);
+      finished += (finished.empty() ? "" : ", ") + (root / drive.scenario).string();
       const bool as_expected = AsExpected(drive, result.record);
       good = good && as_expected;
       globals.Say(fmt::format("{}: expected {}{}{}",

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <optional>
 
 #include "apps/pictures.h"
 #include "apps/progress.h"
+#include "env/core/interrupt.h"
 #include "env/run/file_output.h"
 #include "env/run/records.h"
 
@@ -38,15 +40,23 @@ std::string EventLine(const Event& e) {
 
 DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
                          const DriveOptions& options, const Globals& globals) {
-  CatchInterrupts();
+  const auto there = [&](const std::string& what) {
+    SayWhenInterrupted((options.finished.empty() ? "" : options.finished + " finished; ") +
+                       (options.write_records ? folder.string() + what
+                                              : folder.string() + " has its records as before"));
+  };
   DriveResult result;
-  for (const auto& warning : s.site.warnings) globals.Say("warning: " + warning);
+  there(" is as before");
+  SayWarnings(s, globals);
   const auto plan_start = std::chrono::steady_clock::now();
   result.plan = MakePlan(s);
   const double plan_s = Since(plan_start);
   if (options.write_records) {
     MakeFolder(folder);
+    there(" may lack some of the plan's files");
+    RemoveEpisodeFiles(folder);  // of an earlier run: they are not this plan's
     WritePlanFiles(s, result.plan, folder);
+    there(" holds the plan; nothing was driven");
   }
   if (result.plan.status != PlanStatus::kSuccess) {
     globals.Say(fmt::format("no plan ({}): {}", Name(result.plan.status), result.plan.message));
@@ -66,25 +76,35 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
   const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
   Recording recording(static_cast<int>(scene.model->nq));
   const auto drive_start = std::chrono::steady_clock::now();
-  {
-    ProgressObserver observer(globals, s.episode.control_hz, options.video ? &recording : nullptr);
-    result.record = RunEpisode(s, scene, result.plan, &observer);
+  std::optional<ProgressObserver> observer;  // holds interrupts until the records are written
+  observer.emplace(globals, s.episode.control_hz, options.video ? &recording : nullptr);
+  result.record = RunEpisode(s, scene, result.plan, &*observer);
+  observer->EndLine();
+  if (result.record.outcome == Outcome::kInterrupted) {
+    if (options.write_records) WriteEpisodeFiles(s, result.record, folder);
+    there(fmt::format(" holds the plan and the trace of the {:.0f} s driven",
+                      result.record.metrics.duration_s));
+    EndInterrupted();
   }
   const double drive_s = Since(drive_start);
   globals.Say(Verdict(result.record));
   for (const auto& event : result.record.events) globals.Say(EventLine(event));
   globals.Say(fmt::format("drove {:.0f}x faster than real time ({:.1f} s)",
                           result.record.metrics.duration_s / drive_s, drive_s));
-  if (options.write_records) {
-    WriteEpisodeFiles(s, result.record, folder);
-    WriteHeatMaps(s, result.plan, result.record, folder);
+  try {
+    if (options.write_records) {
+      WriteEpisodeFiles(s, result.record, folder);
+      there(" holds plan, trace and result; pictures may be missing");
+    }
+    observer.reset();
+    if (options.write_records) WriteHeatMaps(s, result.plan, result.record, folder);
+    there(options.video ? " holds all but, perhaps, the film" : " is whole");
+    if (options.video)
+      globals.Say(WriteVideo(s, scene, result.plan, result.record, recording, folder));
+    there(" is whole");
+  } catch (...) {
+    result.not_written = std::current_exception();
   }
-  if (result.record.outcome == Outcome::kInterrupted) {
-    globals.Say("interrupted: the plan and the trace so far are in " + folder.string());
-    return result;
-  }
-  if (options.video)
-    globals.Say(WriteVideo(s, scene, result.plan, result.record, recording, folder));
   return result;
 }
 

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/command.h"
+#include "env/core/input_file.h"
+#include "env/core/interrupt.h"
 #include "env/map/init_files.h"
 #include "env/run/file_output.h"
 
 namespace floorproof {
+
+namespace {
+
+constexpr std::uintmax_t kMostRobotBytes = 64u << 20;
+
+}  // namespace
 
 void AddInit(CLI::App& app, const Globals& globals, int&) {
   struct Options {
@@ -18,7 +26,10 @@ void AddInit(CLI::App& app, const Globals& globals, int&) {
   command->add_option("--out", options->out, "Folder to write into (existing files stay)")
       ->capture_default_str();
   command->callback([options, &globals] {
-    const RobotModel robot = ReadRobot(FindRobotFile(options->robot, {"--robot", 0}));
+    const auto robot_file = FindRobotFile(options->robot, {"--robot", 0});
+    if (const std::string why = WhyUnreadable(robot_file, kMostRobotBytes); !why.empty())
+      throw InputError({"--robot", 0}, "", options->robot, why);
+    const RobotModel robot = ReadRobot(robot_file);
     const std::filesystem::path folder = options->out;
     const InitFiles files = MakeInitFiles(options->map, robot.robot, folder);
     for (const auto& warning : files.warnings) globals.Say("warning: " + warning);
@@ -26,6 +37,7 @@ void AddInit(CLI::App& app, const Globals& globals, int&) {
     const auto write = [&](const char* name, const std::string& text) {
       const bool stays = std::filesystem::exists(folder / name);
       if (!stays) WriteFileWhole(folder / name, text);
+      SayWhenInterrupted((folder / name).string() + " is there");
       globals.Say((folder / name).string() + (stays ? " is there already and stays" : " written"));
     };
     write("site.yaml", files.site_yaml);

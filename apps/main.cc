@@ -1,19 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <floorproof/version.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 
 #include "apps/command.h"
+#include "env/core/interrupt.h"
 
 namespace floorproof {
 #define FP_COMMAND(Function) void Function(CLI::App&, const Globals&, int&);
 #include "apps/commands.inc"
 #undef FP_COMMAND
+
+namespace {
+
+// What is wrong with a command line, with the nearest known word; in one line.
+std::string Reason(const CLI::App& app, const CLI::ParseError& error) {
+  const auto commands = app.get_subcommands();
+  const CLI::App& at = commands.empty() ? app : *commands.front();
+  std::vector<std::string> known;
+  std::string kind = "option";
+  const auto rest = app.remaining(true);
+  const auto first = std::ranges::find_if(
+      rest, [&](const std::string& word) { return commands.empty() || word.starts_with("-"); });
+  if (first == rest.end()) return InputError(error.what()).what();
+  if (first->starts_with("-")) {
+    for (const CLI::App* part : {&at, &app})
+      for (const CLI::Option* option : part->get_options())
+        if (!option->get_positional()) known.push_back(option->get_name());
+  } else {
+    kind = "command";
+    for (const CLI::App* command : app.get_subcommands(nullptr))
+      known.push_back(command->get_name());
+  }
+  const std::string near = Nearest(*first, known);
+  return InputError({*first, 0}, "", "",
+                    "unknown " + kind + (near.empty() ? "" : "; did you mean " + near + "?"))
+      .what();
+}
+
+}  // namespace
 }  // namespace floorproof
 
 int main(int argc, char** argv) {
   using namespace floorproof;
+  CatchInterrupts();
   CLI::App app{
       "Floorproof drives a floor robot's plan through physics before the robot drives it over a "
       "floor.\nStart with `floorproof demo`, or with your own map: `floorproof init MAP.yaml`, "
@@ -45,10 +77,13 @@ int main(int argc, char** argv) {
     return status;
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    std::fprintf(stderr, "floorproof: %s (floorproof --help)\n", e.what());
+    std::fprintf(stderr, "floorproof: %s (floorproof --help)\n", Reason(app, e).c_str());
     return kBadInput;
   } catch (const InputError& e) {
     std::fprintf(stderr, "floorproof: %s\n", e.what());
+    return kBadInput;
+  } catch (const std::filesystem::filesystem_error& e) {
+    std::fprintf(stderr, "floorproof: %s: %s\n", e.path1().c_str(), e.code().message().c_str());
     return kBadInput;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "floorproof: %s\n", e.what());

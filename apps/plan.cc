@@ -3,6 +3,7 @@
 
 #include "apps/command.h"
 #include "apps/pictures.h"
+#include "env/core/interrupt.h"
 #include "env/run/file_output.h"
 #include "env/run/records.h"
 
@@ -18,13 +19,16 @@ void AddPlan(CLI::App& app, const Globals& globals, int& status) {
   command->add_option("--out", options->out, "Output folder (default: out/<scenario's stem>)");
   command->callback([options, &globals, &status] {
     const Scenario scenario = ReadScenario(options->scenario, globals.Overrides());
-    for (const auto& warning : scenario.site.warnings) globals.Say("warning: " + warning);
+    SayWarnings(scenario, globals);
     const auto folder = OutputFolder(options->out, scenario);
     const PlanResult plan = MakePlan(scenario);
     const auto json = PlanJson(scenario, plan);
     MakeFolder(folder);
+    SayWhenInterrupted(folder.string() + " may lack some of the plan's files");
     WritePlanFiles(scenario, plan, folder);
+    SayWhenInterrupted(folder.string() + " holds the plan; its picture may be missing");
     WritePlanPicture(scenario, plan, folder);
+    SayWhenInterrupted(folder.string() + " holds the plan");
     const bool found = plan.status == PlanStatus::kSuccess;
     if (found)
       globals.Say(fmt::format("planned: {} waypoints, {:.1f} m, {} turns, covers {:.1f} %",

@@ -23,11 +23,13 @@ ProgressObserver::ProgressObserver(const Globals& globals, int control_hz, Recor
       start_(std::chrono::steady_clock::now()),
       last_(start_) {}
 
-ProgressObserver::~ProgressObserver() {
+void ProgressObserver::EndLine() {
   if (shown_ && terminal_) std::fprintf(stderr, "\r\033[K");
+  shown_ = false;
 }
 
 bool ProgressObserver::OnControl(Simulation& simulation, double coverage, double plan_fraction) {
+  if (!hold_) hold_.emplace();
   const bool keep = count_++ % record_every_ == 0;
   const double t_s = simulation.sample().t_s;
   if (keep && recording_) recording_->Add(t_s, simulation.data()->qpos, coverage);

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fstream>
-
 #include "apps/drive_and_film.h"
+#include "env/core/input_file.h"
 #include "env/run/records.h"
 
 namespace floorproof {
 namespace {
 
+constexpr std::uintmax_t kMostBytes = 64u << 20;
+
 // Events and outcome of the drive just made must be the recorded ones: the film shows what was
 // judged.
 void CheckSame(const std::filesystem::path& result_file, const nlohmann::ordered_json& now) {
-  std::ifstream in(result_file);
-  const auto before = nlohmann::ordered_json::parse(in, nullptr, false);
-  if (before.is_discarded()) throw InputError({result_file.string(), 0}, "", "", "is not JSON");
+  const auto before =
+      nlohmann::ordered_json::parse(ReadInputFile(result_file, kMostBytes), nullptr, false);
+  if (!before.is_object())
+    throw InputError({result_file.string(), 0}, "", "", "is not a result (a JSON object)");
   for (const char* key : {"outcome", "events", "metrics"})
     if (before.value(key, nlohmann::ordered_json()) != now[key])
       throw InternalError(result_file.string() + ": the replay differs from the record in '" + key +
@@ -34,17 +36,17 @@ void AddReplay(CLI::App& app, const Globals& globals, int& status) {
   command->callback([options, &globals, &status] {
     const std::filesystem::path folder = options->folder;
     for (const char* needed : {"scenario.resolved.yaml", "result.json"})
-      if (!std::filesystem::exists(folder / needed))
+      if (const std::string why = WhyUnreadable(folder / needed, kMostBytes); !why.empty())
         throw InputError({(folder / needed).string(), 0}, "", "",
-                         "no such file: not a folder of a finished `run`");
+                         why + ": not a folder of a finished `run`");
     Scenario scenario = ReadScenario(folder / "scenario.resolved.yaml", globals.Overrides());
     const DriveResult result =
         DriveAndFilm(scenario, folder, {.video = options->video, .write_records = false}, globals);
+    if (result.not_written) std::rethrow_exception(result.not_written);
     const auto json = ResultJson(scenario, result.record);
-    if (result.record.outcome != Outcome::kInterrupted && globals.sets.empty())
-      CheckSame(folder / "result.json", json);
+    if (globals.sets.empty()) CheckSame(folder / "result.json", json);
     globals.Result(json);
-    status = result.record.outcome == Outcome::kInterrupted ? kInterruptedExit : kDone;
+    status = kDone;
   });
 }
 

@@ -24,8 +24,9 @@ void AddRun(CLI::App& app, const Globals& globals, int& status) {
     Scenario scenario = ReadScenario(options->scenario, overrides);
     const auto folder = OutputFolder(options->out, scenario);
     const DriveResult result = DriveAndFilm(scenario, folder, {.video = options->video}, globals);
-    globals.Say("results are in " + folder.string());
     globals.Result(ResultJson(scenario, result.record));
+    if (result.not_written) std::rethrow_exception(result.not_written);
+    globals.Say("results are in " + folder.string());
     status = ExitStatus(result);
   });
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "apps/command.h"
+#include "env/core/interrupt.h"
 #include "env/run/file_output.h"
 
 namespace floorproof {
@@ -17,8 +18,10 @@ void AddScene(CLI::App& app, const Globals& globals, int&) {
   command->add_option("--out", options->out, "MJCF file to write")->required();
   command->callback([options, &globals] {
     const Scenario s = ReadScenario(options->scenario, globals.Overrides());
+    SayWarnings(s, globals);
     const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
     WriteFileWhole(options->out, SceneXml(scene));
+    SayWhenInterrupted(options->out + " is written");
     globals.Say(fmt::format("{}: {} wall, {} floor and {} hazard geoms", options->out,
                             scene.num_wall_geoms, scene.num_floor_geoms, scene.num_hazard_geoms));
     globals.Result({{"file", options->out},

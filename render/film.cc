@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "env/core/error.h"
+#include "env/core/interrupt.h"
 #include "render/renderer.h"
 
 namespace floorproof {
@@ -223,6 +224,7 @@ FilmResult WriteFilm(const FilmScript& script, const FilmOptions& options,
   const Image* image = nullptr;
   bool failure_shown = false;
   for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (Interrupted()) return result;  // the unfinished film goes with `video`
     const FilmFrame& frame = frames[i];
     const bool last = frame.t_s == frames.back().t_s;
     const bool stands = last && i > 0 && frames[i - 1].t_s == frame.t_s;

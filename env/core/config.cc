@@ -8,18 +8,18 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
-#include <fstream>
 #include <map>
 #include <sstream>
 
+#include "env/core/input_file.h"
 #include "env/core/params.h"
 
 namespace floorproof {
 namespace {
 
-constexpr std::size_t kMostNodes = 1'000'000;
+constexpr std::size_t kMostNodes = 400'000;
 constexpr std::size_t kMostNesting = 100;
-constexpr std::uintmax_t kMostBytes = 64u << 20;
+constexpr std::uintmax_t kMostBytes = 8u << 20;
 
 std::size_t CountNodes(const ConfigNode& node) {
   std::size_t n = 1;
@@ -85,7 +85,7 @@ class TreeBuilder : public YAML::EventHandler {
   SourceMark At(const YAML::Mark& mark) const { return {file_, mark.line + 1}; }
   void CheckCount(const SourceMark& mark) const {
     if (nodes_ > kMostNodes)
-      throw InputError(mark, "", "", "more than 1000000 values (aliases expanded)");
+      throw InputError(mark, "", "", "more than " + std::to_string(kMostNodes) + " values (aliases expanded)");
   }
   void Remember(YAML::anchor_t anchor, const ConfigNode& node) {
     if (anchor) anchors_[anchor] = node;
@@ -156,15 +156,26 @@ bool IsShortList(const ConfigNode& node) {
   return true;
 }
 
+// Text that reads the same as a block (`|`): lines that begin with no space, the last one ended.
+bool IsBlockOfLines(const std::string& text) {
+  if (text.size() < 2 || text.back() != '\n' || text[text.size() - 2] == '\n') return false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    if ((c < 0x20 && c != '\n') || c == 0x7f) return false;
+    if (c == ' ' && (i == 0 || text[i - 1] == '\n')) return false;
+  }
+  return text.front() != '\n';
+}
+
 void Emit(const ConfigNode& node, YAML::Emitter& out) {
   switch (node.kind) {
     case ConfigNode::Kind::kNull:
       out << YAML::Null;
       break;
     case ConfigNode::Kind::kScalar:
-      if (node.scalar.find('\n') != std::string::npos)
+      if (IsBlockOfLines(node.scalar))
         out << YAML::Literal << node.scalar;
-      else if (node.quoted)
+      else if (node.quoted || node.scalar.find('\n') != std::string::npos)
         out << YAML::DoubleQuoted << node.scalar;
       else
         out << node.scalar;
@@ -251,7 +262,10 @@ void ConfigNode::SetPath(std::string_view key_path, ConfigNode value) {
 
 ConfigNode ParseYaml(const std::string& text, const std::string& file) {
   try {
-    std::istringstream stream(text);
+    // yaml-cpp takes a quote that is never closed at the end of a file; at a document's it does
+    // not.
+    const bool ended = text.empty() || text.back() == '\n';
+    std::istringstream stream(text + (ended ? "...\n" : "\n...\n"));
     YAML::Parser parser(stream);
     TreeBuilder builder(file);
     if (!parser.HandleNextDocument(builder)) return {};
@@ -267,15 +281,7 @@ ConfigNode ParseYaml(const std::string& text, const std::string& file) {
 
 ConfigNode ReadYamlFile(const std::filesystem::path& path) {
   const std::string name = path.string();
-  std::error_code ec;
-  const auto status = std::filesystem::status(path, ec);
-  if (!std::filesystem::exists(status)) throw InputError({name, 0}, "", "", "no such file");
-  if (!std::filesystem::is_regular_file(status)) throw InputError({name, 0}, "", "", "not a file");
-  if (std::filesystem::file_size(path, ec) > kMostBytes || ec)
-    throw InputError({name, 0}, "", "", "larger than 64 MiB");
-  std::ifstream in(path, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(in)), {});
-  if (!in) throw InputError({name, 0}, "", "", "cannot be read");
+  const std::string text = ReadInputFile(path, kMostBytes);
   if (!IsUtf8Text(text)) throw InputError({name, 0}, "", "", "not a text file (UTF-8)");
   return ParseYaml(text, name);
 }

@@ -38,10 +38,11 @@ struct ConfigNode {
 };
 
 // Reads YAML 1.2 text. Throws InputError naming file and line on bad syntax, duplicate keys, more
-// than a million nodes (aliases are expanded), nesting beyond 100, or tags.
+// than 400,000 nodes (aliases are expanded; what bad input may cost in time and memory), nesting
+// beyond 100, or tags.
 ConfigNode ParseYaml(const std::string& text, const std::string& file);
-// As ParseYaml, from a file of at most 64 MiB; refuses what is missing, a folder, or not UTF-8
-// text.
+// As ParseYaml, from a file of at most 8 MiB; refuses what is missing, a folder, a pipe or device, or not
+// UTF-8 text.
 ConfigNode ReadYamlFile(const std::filesystem::path& path);
 // Block style, short lists of scalars in one line; ParseYaml(WriteYaml(n)) gives n's values again.
 std::string WriteYaml(const ConfigNode& node);

@@ -7,27 +7,32 @@
 namespace floorproof {
 namespace {
 
-// A message is one line of bounded length, whatever a file holds.
-std::string OneLine(std::string_view text) {
-  constexpr std::size_t kMost = 80;
+// A message is one line of bounded length, whatever a file holds or is called.
+constexpr std::size_t kMostOfAValue = 80, kMostOfARule = 500;
+
+std::string OneLine(std::string_view text, std::size_t most = std::string_view::npos) {
+  std::size_t end = std::min(text.size(), most);
+  // Not in the middle of a UTF-8 character.
+  while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80)
+    --end;
   std::string out;
-  for (const char c : text.substr(0, kMost)) {
+  for (const char c : text.substr(0, end)) {
     const auto u = static_cast<unsigned char>(c);
     out += u < 0x20 || u == 0x7f ? ' ' : c;
   }
-  if (text.size() > kMost) out += "...";
+  if (end < text.size()) out += "...";
   return out;
 }
 
 std::string Compose(const SourceMark& mark, std::string_view key, std::string_view value,
                     std::string_view rule) {
-  std::string out = mark.file;
+  std::string out = OneLine(mark.file);
   if (mark.line > 0) out += ":" + std::to_string(mark.line);
   if (!out.empty()) out += ": ";
-  out += key;
-  if (!value.empty()) out += (key.empty() ? "" : " = ") + OneLine(value);
+  out += OneLine(key, kMostOfAValue);
+  if (!value.empty()) out += (key.empty() ? "" : " = ") + OneLine(value, kMostOfAValue);
   if (!key.empty() || !value.empty()) out += ": ";
-  return out + std::string(rule);
+  return out + OneLine(rule, kMostOfARule);
 }
 
 std::size_t EditDistance(std::string_view a, std::string_view b) {
@@ -50,6 +55,8 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
 InputError::InputError(const SourceMark& mark, std::string_view key, std::string_view value,
                        std::string_view rule)
     : std::runtime_error(Compose(mark, key, value, rule)) {}
+
+InputError::InputError(const std::string& message) : std::runtime_error(OneLine(message)) {}
 
 std::string Nearest(std::string_view word, std::span<const std::string> candidates) {
   std::string best;

@@ -18,10 +18,10 @@ struct SourceMark {
 // Thrown once for bad input; the command line prints what() and exits with status 2.
 class InputError : public std::runtime_error {
  public:
-  // "FILE:LINE: KEY = VALUE: RULE", leaving out what is empty.
+  // "FILE:LINE: KEY = VALUE: RULE", leaving out what is empty; one line, whatever they hold.
   InputError(const SourceMark& mark, std::string_view key, std::string_view value,
              std::string_view rule);
-  explicit InputError(const std::string& message) : std::runtime_error(message) {}
+  explicit InputError(const std::string& message);
 };
 
 // The tool or the physics broke (exit status 3).

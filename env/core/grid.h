@@ -44,11 +44,16 @@ struct GridFrame {
   double cell_m = 0.05;
   Pose2 X_WG;
 
-  // The cell that holds p_W; may lie outside the grid.
+  // The cell that holds p_W; may lie outside the grid (of points that are very far, or not finite,
+  // only that much is true).
   Cell ToCell(const Vec2& p_W) const {
     const Vec2 p_G = X_WG.Inverse() * p_W;
-    return {static_cast<int>(std::floor(p_G.x() / cell_m)),
-            static_cast<int>(std::floor(p_G.y() / cell_m))};
+    const auto index = [this](double along_m) {
+      const double i = std::floor(along_m / cell_m);
+      constexpr double kFar = 1e9;
+      return static_cast<int>(i > -kFar ? (i < kFar ? i : kFar) : -kFar);  // NaN: -kFar
+    };
+    return {index(p_G.x()), index(p_G.y())};
   }
   Vec2 Center(int ix, int iy) const {
     return X_WG * Vec2((ix + 0.5) * cell_m, (iy + 0.5) * cell_m);

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "env/core/config.h"
+#include "env/core/input_file.h"
 #include "env/core/params.h"
 #include "env/media/media.h"
 
@@ -75,9 +76,7 @@ Keys ReadKeys(const fs::path& yaml_path) {
     throw InputError({yaml_path.string(), 0}, "", "", "is not a ROS map (image, resolution, ...)");
   Keys keys;
   const ConfigNode& image = Need(node, "image");
-  const std::string name = AsString(image, "image");
-  if (name.empty()) throw InputError(image.mark, "image", "\"\"", "must name a file");
-  keys.image = fs::path(name).is_absolute() ? fs::path(name) : yaml_path.parent_path() / name;
+  keys.image = PathIn(yaml_path.parent_path(), image, "image");
   keys.image_mark = image.mark;
   keys.resolution_m = AsDouble(Need(node, "resolution"), "resolution", Between(1e-4, 100));
   keys.X_WG = ReadOrigin(Need(node, "origin"));
@@ -94,11 +93,9 @@ Keys ReadKeys(const fs::path& yaml_path) {
 
 // The image, or where else it may lie when it is not where the map says.
 Image ReadMapImage(const Keys& keys, const fs::path& yaml_path) {
-  std::error_code ignored;
-  if (!fs::exists(keys.image, ignored)) {
-    std::string rule = "no such file";
+  if (std::string rule = WhyUnreadable(keys.image, kMostImageBytes); !rule.empty()) {
     const fs::path beside = yaml_path.parent_path() / keys.image.filename();
-    if (fs::exists(beside, ignored))
+    if (beside != keys.image && WhyUnreadable(beside, kMostImageBytes).empty())
       rule +=
           "; one of that name lies beside the map: write image: " + keys.image.filename().string();
     throw InputError(keys.image_mark, "image", keys.image.string(), rule);

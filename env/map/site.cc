@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "env/core/input_file.h"
 #include "env/core/params.h"
 #include "env/map/char_grid.h"
 #include "env/map/written_hazard.h"
@@ -30,19 +31,6 @@ struct Written {
   std::optional<Vec2> goal;
   double start_yaw_deg = 0;
 };
-
-// A path written in a file of `folder`. It may leave that folder only in plain words.
-fs::path PathIn(const fs::path& folder, const ConfigNode& node, const std::string& key) {
-  const std::string text = AsString(node, key);
-  const fs::path path(text);
-  if (text.empty()) throw InputError(node.mark, key, "\"\"", "must name a file");
-  if (path.is_absolute()) return path;
-  const bool leaves = path.lexically_normal().string().starts_with("..");
-  if (leaves && !text.starts_with("../"))
-    throw InputError(node.mark, key, text,
-                     "leaves its folder; begin it with ../ or write it absolute");
-  return folder / path;
-}
 
 void ReadPlaces(const ConfigNode& node, Written& site) {
   const Bounds place = Between(-1e6, 1e6);

@@ -18,9 +18,12 @@ struct Image {
   bool sixteen_bit = false;  // the file had 16 bits a channel, scaled down
 };
 
+inline constexpr std::uintmax_t kMostImageBytes = 256u << 20;
+
 // Decodes PNG (every colour type), PGM/PPM (P2, P3, P5, P6) or BMP as stored, palettes expanded.
-// Throws InputError naming the file: missing, not an image, truncated, or larger than
-// max_pixels (checked from the header before anything is allocated).
+// Throws InputError naming the file: missing, not an image, truncated, a file larger than
+// kMostImageBytes, or an image larger than max_pixels (checked from the header before anything is
+// allocated).
 Image ReadImage(const std::filesystem::path& path, std::int64_t max_pixels = 64'000'000);
 // Writes PNG; throws InputError when the file cannot be written.
 void WritePng(const std::filesystem::path& path, const Image& image);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "env/core/error.h"
+#include "env/core/input_file.h"
 #include "env/media/codecs.h"
 #include "env/media/image_header.h"
 #include "env/media/media.h"
@@ -17,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMaxFileBytes = 1ULL << 30;
 constexpr std::size_t kStartBytes = 64 * 1024;  // room for a header with long comments
 
 std::string ReadBytes(std::ifstream& file, std::uint64_t count) {
@@ -94,16 +94,12 @@ Image DecodeWithModule(std::string_view file, const ImageHeader& header, const P
 }
 
 Image Decode(const fs::path& path, std::int64_t max_pixels) {
+  if (const std::string why = WhyUnreadable(path, kMostImageBytes); !why.empty())
+    throw FormatError(why);
   std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) throw FormatError("no such file");
-  if (error) throw FormatError(error.message());
-  if (fs::is_directory(status)) throw FormatError("is a folder, not an image");
-  if (!fs::is_regular_file(status)) throw FormatError("is not a regular file");
   const std::uint64_t size = fs::file_size(path, error);
   std::ifstream in(path, std::ios::binary);
   if (error || !in) throw FormatError(std::string("cannot be opened: ") + std::strerror(errno));
-  if (size > kMaxFileBytes) throw FormatError("is larger than 1 GiB");
 
   const std::string start = ReadBytes(in, std::min<std::uint64_t>(size, kStartBytes));
   const ImageHeader header = ReadHeader(start, size);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "env/core/error.h"
+#include "env/core/interrupt.h"
 #include "env/media/codecs.h"
 #include "env/media/media.h"
 
@@ -79,6 +80,7 @@ class CodecVideo : public VideoWriter {
     std::error_code ignored;
     fs::remove(part_, ignored);
   }
+  HoldInterrupts until_closed_;  // the part file is ours to remove
   fs::path path_, part_;
   int width_, height_;
   void* video_ = nullptr;
@@ -102,6 +104,7 @@ void WritePng(const fs::path& path, const Image& image) {
   if (codecs.encode_png(&raw, &bytes, &size, &owner, error) != 0) throw CannotWrite(path, error);
   const CodecHandle handle(owner, codecs.release);
 
+  const HoldInterrupts until_renamed;
   const fs::path part = PartName(path);
   std::ofstream out(part, std::ios::binary | std::ios::trunc);
   out.write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(size));

@@ -2,11 +2,12 @@
 #include "env/run/plan_file.h"
 
 #include <algorithm>
-#include <fstream>
+#include <cctype>
 #include <sstream>
 #include <vector>
 
 #include "env/core/config.h"
+#include "env/core/input_file.h"
 #include "env/core/params.h"
 
 namespace floorproof {
@@ -14,7 +15,8 @@ namespace {
 
 const std::vector<std::string> kColumns = {"x_m",   "y_m",       "yaw_rad",
                                            "shape", "speed_mps", "dwell_s"};
-constexpr std::uintmax_t kMostBytes = 256u << 20;
+constexpr std::uintmax_t kMostBytes = 32u << 20;
+constexpr double kSlowest_mps = 1e-3, kLongestDwell_s = 1e5;  // beyond these a drive has no end
 
 std::vector<std::string> SplitRow(std::string line) {
   if (!line.empty() && line.back() == '\r') line.pop_back();
@@ -47,13 +49,22 @@ std::vector<std::string> ReadHeader(const std::string& line, const SourceMark& m
   return header;
 }
 
+std::string ReadShape(const std::string& text, const SourceMark& mark) {
+  const bool word = text.size() <= 32 && std::ranges::all_of(text, [](unsigned char c) {
+                      return std::isalnum(c) || c == '_' || c == '-';
+                    });
+  if (!word)
+    throw InputError(mark, "shape", text, "must be at most 32 letters, digits, '_' or '-'");
+  return text;
+}
+
 Waypoint ReadRow(const std::vector<std::string>& header, const std::vector<std::string>& cells,
                  const SourceMark& mark) {
   Waypoint w;
   for (std::size_t i = 0; i < header.size(); ++i) {
     const std::string& name = header[i];
     if (name == "shape") {
-      w.shape = cells[i];
+      w.shape = ReadShape(cells[i], mark);
       continue;
     }
     if (cells[i].empty() && name != "x_m" && name != "y_m") continue;
@@ -63,7 +74,10 @@ Waypoint ReadRow(const std::vector<std::string>& header, const std::vector<std::
     if (name == "y_m") w.p_W.y() = AsDouble(node, name);
     if (name == "yaw_rad") w.yaw_rad = AsDouble(node, name);
     if (name == "speed_mps") w.speed_mps = AsDouble(node, name, NonNegative());
-    if (name == "dwell_s") w.dwell_s = AsDouble(node, name, NonNegative());
+    if (w.speed_mps > 0 && w.speed_mps < kSlowest_mps)
+      throw InputError(mark, name, cells[i],
+                       "must be at least " + FormatDouble(kSlowest_mps) + " (empty: cruise speed)");
+    if (name == "dwell_s") w.dwell_s = AsDouble(node, name, Between(0, kLongestDwell_s));
   }
   return w;
 }
@@ -72,13 +86,11 @@ Waypoint ReadRow(const std::vector<std::string>& header, const std::vector<std::
 
 Path ReadPlan(const std::filesystem::path& file, const GridFrame& map) {
   const std::string name = file.string();
-  if (!std::filesystem::is_regular_file(file)) throw InputError({name, 0}, "", "", "no such file");
-  if (std::filesystem::file_size(file) > kMostBytes)
-    throw InputError({name, 0}, "", "", "larger than 256 MiB");
-  std::ifstream in(file);
+  std::istringstream in(ReadInputFile(file, kMostBytes));
   std::vector<std::string> header;
   Path path;
   int number = 0;
+  if (in.str().starts_with("\xEF\xBB\xBF")) in.seekg(3);  // spreadsheets put a byte order mark
   for (std::string line; std::getline(in, line);) {
     const SourceMark mark{name, ++number};
     if (line.empty() || line == "\r" || line[0] == '#') continue;

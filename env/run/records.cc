@@ -114,6 +114,18 @@ void WritePlanFiles(const Scenario& s, const PlanResult& plan,
   WriteFileWhole(folder / "plan.json", PlanJson(s, plan).dump(2) + "\n");
 }
 
+void RemoveEpisodeFiles(const std::filesystem::path& folder) {
+  for (const char* name : {"result.json", "trace.csv", "heatmap_visits.png", "heatmap_coverage.png",
+                           "heatmap_failures.png", "frame_start.png", "frame_failure.png",
+                           "frame_end.png", "video.mp4"}) {
+    std::error_code error;
+    std::filesystem::remove(folder / name, error);
+    if (error)
+      throw InputError({(folder / name).string(), 0}, "", "",
+                       "of an earlier run, cannot be removed: " + error.message());
+  }
+}
+
 void WriteEpisodeFiles(const Scenario& s, const EpisodeRecord& record,
                        const std::filesystem::path& folder) {
   WriteFileWhole(folder / "trace.csv", TraceCsv(record));

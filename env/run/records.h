@@ -19,6 +19,8 @@ std::string TraceCsv(const EpisodeRecord& record);
 // scenario.resolved.yaml, plan.csv and plan.json.
 void WritePlanFiles(const Scenario& scenario, const PlanResult& plan,
                     const std::filesystem::path& folder);
+// Removes what an episode leaves beside its plan: result.json first, then trace, pictures, film.
+void RemoveEpisodeFiles(const std::filesystem::path& folder);
 // trace.csv, and, unless the episode was interrupted, result.json (last: it says the rest is
 // whole).
 void WriteEpisodeFiles(const Scenario& scenario, const EpisodeRecord& record,

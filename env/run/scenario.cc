@@ -3,12 +3,15 @@
 
 #include <algorithm>
 
+#include "env/core/input_file.h"
 #include "env/run/file_output.h"
 
 namespace floorproof {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kMostBytes = 256u << 20;  // the readers have narrower bounds of their own
 
 const std::vector<std::string> kKeys = {
     "name",       "scenario",     "site",    "robot",      "start",    "goal",     "plan",
@@ -33,6 +36,14 @@ void Apply(const std::vector<Override>& overrides, bool to_site, ConfigNode& roo
   }
 }
 
+// A file that the scenario names and that can be read.
+fs::path NamedFile(const fs::path& folder, const ConfigNode& node, const std::string& key) {
+  fs::path file = PathIn(folder, node, key);
+  if (const std::string why = WhyUnreadable(file, kMostBytes); !why.empty())
+    throw InputError(node.mark, key, node.scalar, why);
+  return file;
+}
+
 // A plug-in written as NAME, or as a map with its name under `name_key` and its parameters beside.
 struct Named {
   std::string name;
@@ -55,20 +66,18 @@ void ReadSitePart(const ConfigNode& root, const std::vector<Override>& overrides
   const ConfigNode* node = root.Find("site");
   if (node == nullptr) throw InputError(root.mark, "site", "", "the key is missing");
   const fs::path folder = s.file.parent_path();
-  fs::path site_file;
   if (node->IsMap()) {
     s.site_node = *node;
     s.site_folder = folder;
   } else {
-    site_file = folder / AsString(*node, "site");
-    if (!fs::exists(site_file)) throw InputError(node->mark, "site", node->scalar, "no such file");
-    s.site_node = ReadYamlFile(site_file);
-    s.site_folder = site_file.parent_path();
+    s.site_file = NamedFile(folder, *node, "site");
+    s.site_node = ReadYamlFile(s.site_file);
+    s.site_folder = s.site_file.parent_path();
   }
   Apply(overrides, true, s.site_node);
   s.site = ReadSite(s.site_node, s.site_folder);
   if (s.site.map.name.empty())
-    s.site.map.name = site_file.empty() ? s.name : site_file.stem().string();
+    s.site.map.name = s.site_file.empty() ? s.name : s.site_file.stem().string();
 }
 
 void ReadRobotPart(const ConfigNode& root, Scenario& s) {
@@ -76,7 +85,11 @@ void ReadRobotPart(const ConfigNode& root, Scenario& s) {
   if (named.name.empty()) throw InputError(named.mark, "robot", "", "the key is missing");
   s.robot_name = named.name;
   s.robot_file = FindRobotFile(named.name, named.mark);
-  if (s.robot_file.is_relative()) s.robot_file = s.file.parent_path() / s.robot_file;
+  if (s.robot_file == named.name) {  // not a bundled one
+    ConfigNode path = ConfigNode::Scalar(named.name);
+    path.mark = named.mark;
+    s.robot_file = NamedFile(s.file.parent_path(), path, "robot");
+  }
   ReadParams(named.params, "robot.",
              [&](ParamVisitor& v) {
                v("mass_kg", s.robot_changes.mass_kg, Positive(),
@@ -121,9 +134,7 @@ void ReadPlanPart(const ConfigNode& root, Scenario& s) {
   const ConfigNode* node = root.Find("plan");
   if (const ConfigNode* file = node && node->IsMap() ? node->Find("file") : nullptr) {
     RefuseUnknownKeys(*node, "plan.", {"file"});
-    s.plan_file = s.file.parent_path() / AsString(*file, "plan.file");
-    if (!fs::exists(s.plan_file))
-      throw InputError(file->mark, "plan.file", file->scalar, "no such file");
+    s.plan_file = NamedFile(s.file.parent_path(), *file, "plan.file");
     return;
   }
   const Named named = ReadNamed(root, "plan", "planner", "boustrophedon");
@@ -168,6 +179,8 @@ void CheckHashes(const ConfigNode& root, const fs::path& folder) {
   if (files == nullptr) return;
   if (!files->IsMap()) throw InputError(files->mark, "files", "", "must be a map of path: SHA-256");
   for (const auto& [path, hash] : files->entries) {
+    if (const std::string why = WhyUnreadable(folder / path, kMostBytes); !why.empty())
+      throw InputError(hash.mark, "files." + path, "", why);
     const std::string now = Sha256OfFile(folder / path);
     if (now != AsString(hash, "files." + path))
       throw InputError(hash.mark, "files." + path, hash.scalar,
@@ -264,6 +277,14 @@ Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrid
   ReadControl(root, s);
   ReadFailures(root, s);
   return s;
+}
+
+std::vector<fs::path> FilesRead(const Scenario& s) {
+  std::vector<fs::path> files = s.site.files_read;
+  if (!s.site_file.empty()) files.insert(files.begin(), s.site_file);
+  files.push_back(s.robot_file);
+  if (!s.plan_file.empty()) files.push_back(s.plan_file);
+  return files;
 }
 
 }  // namespace floorproof

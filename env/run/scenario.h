@@ -44,6 +44,7 @@ struct Scenario {
   std::filesystem::path file;
   std::string name;  // the key `name`, else the file's stem
   Site site;
+  std::filesystem::path site_file;    // empty: the site stands in the scenario
   ConfigNode site_node;               // the site's tree, overrides applied
   std::filesystem::path site_folder;  // that its paths are relative to
 
@@ -76,6 +77,9 @@ struct Override {
 // all of it. Throws InputError naming file, line, key, value and rule.
 Scenario ReadScenario(const std::filesystem::path& file,
                       const std::vector<Override>& overrides = {});
+
+// The files it was read from, beside its own: site, map, image, robot, plan.
+std::vector<std::filesystem::path> FilesRead(const Scenario& scenario);
 
 // The scenario with every default stated, the site in it, paths valid from `folder` and the SHA-256
 // of each file read. Reading it gives the same scenario; resolving it again gives the same text.

@@ -167,7 +167,7 @@ TEST_F(ImageTest, BmpOfGreyAndColour) {
 TEST_F(ImageTest, WhatIsNoImageIsRefusedInOneLineWithItsName) {
   EXPECT_THAT(Refusal(folder_ / "missing.pgm"), HasSubstr("missing.pgm: no such file"));
   EXPECT_THAT(Refusal(folder_), HasSubstr("is a folder"));
-  EXPECT_THAT(Refusal("/dev/zero"), HasSubstr("not a regular file"));
+  EXPECT_THAT(Refusal("/dev/zero"), HasSubstr("a pipe or a device"));
   EXPECT_THAT(Refusal(Save("empty.png", "")), HasSubstr("is empty"));
   EXPECT_THAT(Refusal(Save("text.png", "hello")), HasSubstr("not an image that can be read"));
   EXPECT_THAT(Refusal(Save("n.pgm", "P5")), HasSubstr("not an image that can be read"));

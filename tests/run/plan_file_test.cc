@@ -55,6 +55,7 @@ TEST_F(PlanFile, ARefusalNamesLineColumnAndRule) {
   EXPECT_THAT(Refusal("x_m\n1\n"), HasSubstr("y_m: the column is missing"));
   EXPECT_THAT(Refusal("x_m,y_m\n1,nan\n"), HasSubstr("must be a"));
   EXPECT_THAT(Refusal("x_m,y_m,speed_mps\n1,2,-1\n"), HasSubstr("speed_mps = -1: must be >= 0"));
+  EXPECT_THAT(Refusal("x_m,y_m\n4.4e19,2\n"), HasSubstr("lies off the map"));
   EXPECT_THAT(Refusal("x_m,y_m\n100,2\n"), HasSubstr("100, 2: lies off the map"));
   EXPECT_THAT(Refusal("x_m,y_m\n"), HasSubstr("holds no waypoint"));
   EXPECT_THAT(Refusal(""), HasSubstr("holds no waypoint"));

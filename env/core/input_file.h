@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files that the program reads because somebody named them: checked before they are opened, so that
+// a pipe or a device cannot make it wait for ever.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace floorproof {
+
+struct ConfigNode;
+
+// Why the file cannot be read: missing, a folder, a pipe or device, larger than most_bytes, not
+// permitted, a loop of links. Empty when it can. Never throws for what the path holds.
+std::string WhyUnreadable(const std::filesystem::path& file, std::uintmax_t most_bytes);
+
+// The whole file. Throws InputError naming it.
+std::string ReadInputFile(const std::filesystem::path& file, std::uintmax_t most_bytes);
+
+// A path written in a file of `folder`, under `key`. It may leave that folder only in plain words:
+// absolute, or beginning with "../" (a/../../b is refused). Throws InputError.
+std::filesystem::path PathIn(const std::filesystem::path& folder, const ConfigNode& node,
+                             const std::string& key);
+
+}  // namespace floorproof

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bad input of any kind: exit status 2; one line that names what is wrong; within a second of CPU
+// and 500 MB; and no file that was not there before.
+#include "tests/bad_input/bad_input.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+
+#include "tests/bad_input/child.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr double kMostCpu_s = 20, kMostMb = 4000;
+#else
+constexpr double kMostCpu_s = 1, kMostMb = 500;
+#endif
+
+class BadInputFolder : public ::testing::Test {
+ protected:
+  BadInputFolder() {
+    std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::ranges::replace(name, '/', '.');
+    folder_ = fs::path(::testing::TempDir()) / ("bad_input." + name);
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    Write(GoodFiles());
+  }
+  ~BadInputFolder() override { fs::remove_all(folder_); }
+
+  void Write(const Files& files) const {
+    for (const auto& [name, content] : files)
+      std::ofstream(folder_ / name, std::ios::binary) << content;
+  }
+  // Every entry below the folder, with the size of files.
+  std::set<std::string> Listing() const {
+    std::set<std::string> entries;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+      const bool file = fs::is_regular_file(entry.symlink_status());
+      entries.insert(entry.path().lexically_relative(folder_).string() +
+                     (file ? " " + std::to_string(entry.file_size()) : ""));
+    }
+    return entries;
+  }
+  ChildResult Run(const std::vector<std::string>& arguments, const ChildLimits& limits = {}) const {
+    return RunChild(FP_PROGRAM, arguments, folder_, limits);
+  }
+  static void ExpectOneLine(const ChildResult& dut) {
+    EXPECT_EQ(dut.signal, 0) << "killed";
+    EXPECT_EQ(dut.status, 2) << dut.out;
+    EXPECT_EQ(std::ranges::count(dut.err, '\n'), 1) << dut.err;
+    EXPECT_TRUE(dut.err.starts_with("floorproof: ") && dut.err.ends_with("\n")) << dut.err;
+    EXPECT_LE(dut.cpu_s, kMostCpu_s);
+    EXPECT_LE(dut.most_mb, kMostMb);
+  }
+
+  fs::path folder_;
+};
+
+class BadInputTest : public BadInputFolder, public ::testing::WithParamInterface<BadInput> {};
+
+TEST_P(BadInputTest, IsOneLine) {
+  const BadInput& c = GetParam();
+  Write(c.files);
+  if (c.prepare && !c.prepare(folder_)) GTEST_SKIP() << "cannot be made here";
+  const auto before = Listing();
+  const ChildResult dut = Run(c.arguments);
+  ExpectOneLine(dut);
+  std::size_t at = 0;
+  for (const std::string& word : c.named) {
+    at = dut.err.find(word, at);
+    ASSERT_NE(at, std::string::npos) << "'" << word << "' is not named in: " << dut.err;
+    at += word.size();
+  }
+  EXPECT_EQ(Listing(), before);
+}
+
+std::string TestName(const ::testing::TestParamInfo<BadInput>& info) { return info.param.name; }
+INSTANTIATE_TEST_SUITE_P(Yaml, BadInputTest, ::testing::ValuesIn(YamlCases()), TestName);
+INSTANTIATE_TEST_SUITE_P(Scenario, BadInputTest, ::testing::ValuesIn(ScenarioCases()), TestName);
+INSTANTIATE_TEST_SUITE_P(Site, BadInputTest, ::testing::ValuesIn(SiteCases()), TestName);
+INSTANTIATE_TEST_SUITE_P(Map, BadInputTest, ::testing::ValuesIn(MapCases()), TestName);
+INSTANTIATE_TEST_SUITE_P(Plan, BadInputTest, ::testing::ValuesIn(PlanCases()), TestName);
+INSTANTIATE_TEST_SUITE_P(Robot, BadInputTest, ::testing::ValuesIn(RobotCases()), TestName);
+INSTANTIATE_TEST_SUITE_P(Command, BadInputTest, ::testing::ValuesIn(CommandCases()), TestName);
+
+// What every case begins with is good: what the program refuses is what the case broke.
+using GoodInputTest = BadInputFolder;
+
+TEST_F(GoodInputTest, IsTaken) {
+  for (const char* scenario : {"scenario.yaml", "drawn.yaml"}) {
+    const ChildResult dut = Run({"run", scenario, "--set", "drive=none", "--out", "o"});
+    EXPECT_EQ(dut.status, 0) << dut.err;
+    EXPECT_EQ(dut.err, "");
+  }
+  for (const char* image : {"map.png", "map.bmp"}) {
+    Write({{"map.yaml", Replaced(GoodFiles().at("map.yaml"), "map.pgm", image)}});
+    EXPECT_EQ(Run({"plan", "scenario.yaml", "--out", "o"}).status, 0) << image;
+  }
+}
+
+// Windows line ends and byte order marks are no fault.
+TEST_F(GoodInputTest, MayComeFromWindows) {
+  for (const char* name : {"scenario.yaml", "site.yaml", "map.yaml", "plan.csv"}) {
+    std::string text = "\xEF\xBB\xBF";
+    for (const char c : GoodFiles().at(name))
+      text += c == '\n' ? std::string("\r\n") : std::string(1, c);
+    Write({{name, text}});
+  }
+  const ChildResult dut = Run({"plan", "scenario.yaml", "--out", "o"});
+  EXPECT_EQ(dut.status, 0) << dut.err;
+}
+
+// What a plan or a robot cannot do is an outcome, not bad input.
+TEST_F(GoodInputTest, MayHaveNoPlan) {
+  const ChildResult dut = Run({"plan", "drawn.yaml", "--out", "o", "--set", "start.x_m=0.52"});
+  EXPECT_EQ(dut.status, 1) << dut.err;
+  EXPECT_TRUE(fs::exists(folder_ / "o" / "plan.json"));
+}
+
+// A disk that is full, wherever that is met: what was written before stays, no piece of a file is
+// left, and a verdict that was reached was said.
+using FullDiskTest = BadInputFolder;
+
+TEST_F(FullDiskTest, LeavesWholeFilesOnly) {
+  bool some_driven = false, some_not = false;
+  for (const std::size_t room : {0, 100, 1500, 5000, 20000}) {
+    fs::remove_all(folder_ / "o");
+    const ChildResult dut = Run({"run", "drawn.yaml", "--out", "o"}, {.file_bytes = room});
+    EXPECT_EQ(dut.status, 2) << dut.err;
+    EXPECT_EQ(std::ranges::count(dut.err, '\n'), 1) << dut.err;
+    EXPECT_NE(dut.err.find("cannot be written: "), std::string::npos) << dut.err;
+    for (const auto& entry : fs::directory_iterator(folder_ / "o")) {
+      EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
+      EXPECT_LE(entry.file_size(), room) << entry.path();
+      EXPECT_NE(entry.path().filename(), "result.json") << "says that the rest is whole";
+    }
+    bool driven = true;
+    for (const char* plans : {"/scenario.resolved.yaml", "/plan.csv", "/plan.json"})
+      driven = driven && dut.err.find(plans) == std::string::npos;
+    EXPECT_EQ(dut.out.find("success: covered") != std::string::npos, driven) << dut.out << dut.err;
+    some_driven |= driven, some_not |= !driven;
+  }
+  EXPECT_TRUE(some_driven && some_not) << "the disk was full before the drive, and behind it";
+}
+
+}  // namespace
+}  // namespace floorproof

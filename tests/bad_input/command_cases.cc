@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Command lines, and folders that cannot be written to.
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "tests/bad_input/bad_input.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+BadInput Words(const std::string& name, std::vector<std::string> arguments,
+               std::vector<std::string> named, std::function<bool(const fs::path&)> prepare = {}) {
+  return {name, std::move(arguments), {}, std::move(named), std::move(prepare)};
+}
+// A folder that looks like a finished run's, with this in result.json.
+BadInput Replayed(const std::string& name, const std::string& result,
+                  std::vector<std::string> named) {
+  return {name,
+          {"replay", "."},
+          {{"scenario.resolved.yaml", GoodFiles().at("drawn.yaml")}, {"result.json", result}},
+          std::move(named)};
+}
+
+}  // namespace
+
+std::vector<BadInput> CommandCases() {
+  const std::string run = "run", s = "scenario.yaml";
+  return {
+      Words("None", {}, {"--help"}),
+      Words("UnknownCommand", {"rum", s}, {"rum", "unknown command; did you mean run?"}),
+      Words("UnknownOption", {run, s, "--vidoe"},
+            {"--vidoe", "unknown option; did you mean --video?"}),
+      Words("NoScenario", {run}, {"SCENARIO"}),
+      Words("TwoScenarios", {run, s, s}, {s}),
+      Words("OptionWithoutValue", {run, s, "--out"}, {"--out"}),
+      Words("SeedInWords", {run, s, "--seed", "three"}, {"--seed", "three"}),
+      Words("NegativeSeed", {run, s, "--seed", "-1"}, {"--seed"}),
+      Words("SeedBeyondInt", {run, s, "--seed", "99999999999"}, {"--seed"}),
+      Words("SetWithoutEquals", {run, s, "--set", "seed"}, {"--set", "seed", "key.path=value"}),
+      Words("SetWithoutKey", {run, s, "--set", "=3"}, {"--set", "=3", "key.path=value"}),
+      Words("SetUnknownKey", {run, s, "--set", "sed=3"},
+            {"--set sed:1: sed", "did you mean seed?"}),
+      Words("SetBelowAValue", {run, s, "--set", "seed.a=3"}, {"--set seed.a", "below a value"}),
+      Words("SetEmptyKey", {run, s, "--set", "video..fps=3"}, {"--set video..fps", "empty key"}),
+      Words("SetNoYaml", {run, s, "--set", "seed=[1"}, {"--set seed", "bad YAML"}),
+      Words("SetOutOfRange", {run, s, "--set", "video.fps=9999"},
+            {"--set video.fps:1: video.fps = 9999", "[1, 120]"}),
+      Words("SetOfTheSite", {run, s, "--set", "site.floor.friction=9"},
+            {"--set site.floor.friction:1: floor.friction = 9", "(0, 5]"}),
+      Words("ListOfNothing", {"list", "planers"}, {"planers"}),
+      Words("MissingScenario", {run, "no.yaml"}, {"no.yaml: no such file"}),
+      Words("ScenarioIsAFolder", {run, "."}, {"a folder"}),
+      Words("ScenarioIsADevice", {run, "/dev/zero"}, {"/dev/zero: is a pipe or a device"}),
+      Words("ScenarioIsStdin", {run, "/dev/stdin"}, {"/dev/stdin: is a pipe or a device"}),
+      Words(
+          "ScenarioIsAPipe", {run, "pipe.yaml"}, {"pipe.yaml: is a pipe or a device"},
+          [](const fs::path& folder) { return mkfifo((folder / "pipe.yaml").c_str(), 0600) == 0; }),
+      Words("ScenarioIsALoop", {run, "loop.yaml"}, {"loop.yaml: cannot be read"},
+            [](const fs::path& folder) {
+              std::error_code error;
+              fs::create_symlink("loop.yaml", folder / "loop.yaml", error);
+              return !error;
+            }),
+      Words("ScenarioNotPermitted", {run, s}, {"scenario.yaml: cannot be read: Permission denied"},
+            [](const fs::path& folder) {
+              return geteuid() != 0 && chmod((folder / "scenario.yaml").c_str(), 0) == 0;
+            }),
+      Words("ScenarioIsAnImage", {run, "map.png"}, {"map.png: not a text file"}),
+      Words("ScenarioIsASite", {run, "site.yaml"}, {"site.yaml:", "unknown key"}),
+      Words("OutIsAFile", {run, s, "--out", s}, {"scenario.yaml: cannot make this folder"}),
+      Words("OutIsBelowAFile", {run, s, "--out", "map.pgm/o"},
+            {"map.pgm/o: cannot make this folder"}),
+      Words("OutCannotBeMade", {run, s, "--out", "/proc/floorproof"},
+            {"/proc/floorproof: cannot make this folder"}),
+      Words("OutNameTooLong", {run, s, "--out", std::string(300, 'o')},
+            {"cannot make this folder"}),
+      Words("OutIsReadOnly", {run, s, "--out", "shut"}, {"shut/", "cannot be written"},
+            [](const fs::path& folder) {
+              fs::create_directory(folder / "shut");
+              return geteuid() != 0 && chmod((folder / "shut").c_str(), 0500) == 0;
+            }),
+      Words("AFolderInTheResultsPlace", {run, "drawn.yaml", "--out", "o"},
+            {"o/result.json: of an earlier run, cannot be removed"},
+            [](const fs::path& folder) {
+              return fs::create_directories(folder / "o/result.json/x");
+            }),
+      Words("PlanCannotBeWritten", {"plan", "drawn.yaml", "--out", "o"},
+            {"o/scenario.resolved.yaml: cannot be written: it is a folder"},
+            [](const fs::path& folder) {
+              return fs::create_directories(folder / "o/scenario.resolved.yaml");
+            }),
+      Words("SceneIntoNothing", {"scene", "drawn.yaml", "--out", "no/scene.xml"},
+            {"no/scene.xml: cannot be written"}),
+      Words("SceneIsAFolder", {"scene", "drawn.yaml", "--out", "."},
+            {"cannot be written", "folder"}),
+      Words("SceneOntoAFullDevice", {"scene", "drawn.yaml", "--out", "/dev/full"},
+            {"/dev/full: cannot be written: No space left on device"},
+            [](const fs::path&) { return fs::is_character_file("/dev/full"); }),
+      Words("InitOfNothing", {"init", "no.yaml"}, {"no.yaml: no such file"}),
+      Words("InitOfASite", {"init", "site.yaml"}, {"site.yaml: image", "missing"}),
+      Words("InitOfAnUnknownRobot", {"init", "map.yaml", "--robot", "belga"},
+            {"--robot", "belga", "did you mean beluga?"}),
+      Words("InitOntoAFile", {"init", "map.yaml", "--out", "map.pgm"}, {"map.pgm: cannot make"}),
+      {"InitOfAFloorTooSmall",
+       {"init", "map.yaml", "--out", "o"},
+       {{"map.yaml", Replaced(GoodFiles().at("map.yaml"), "0.5", "0.05")}},
+       {"map.yaml", "no place for a robot"}},
+      Words("ReplayOfNothing", {"replay", "no"}, {"no/scenario.resolved.yaml", "no such file"}),
+      Words("ReplayOfAPlanAlone", {"replay", "."}, {"no such file", "not a folder of a finished"}),
+      Replayed("ReplayOfBrokenJson", "{\"outcome\": ", {"result.json", "is not a result"}),
+      Replayed("ReplayOfAJsonList", "[1, 2]", {"result.json", "is not a result"}),
+  };
+}
+
+}  // namespace floorproof
