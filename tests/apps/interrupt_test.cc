@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ctrl-C at any moment: exit status 130, one line that says what is there, and every file that is
+// there is whole. Moments are taken from what the program has done so far, and spread in between;
+// what is asserted holds wherever they fall.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <opencv2/videoio.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "env/core/config.h"
+#include "env/media/media.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string Slurp(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {(std::istreambuf_iterator<char>(in)), {}};
+}
+
+// The program, running in `folder` on its own.
+class Program {
+ public:
+  Program(const std::vector<std::string>& arguments, const fs::path& folder,
+          void (*on_sigint)(int) = SIG_DFL)
+      : said_(folder / ".." / (folder.filename().string() + ".said")) {
+    std::vector<std::string> words = {FP_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    pid_ = fork();
+    if (pid_ != 0) return;
+    const int out = open("/dev/null", O_RDWR);
+    const int err = open(said_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    dup2(out, 0), dup2(out, 1), dup2(err, 2);
+    signal(SIGINT, on_sigint), signal(SIGTERM, SIG_DFL);
+    alarm(240);
+    if (chdir(folder.c_str()) == 0) execv(argv[0], argv.data());
+    _exit(127);
+  }
+  ~Program() {
+    if (!HasEnded()) kill(pid_, SIGKILL), waitpid(pid_, nullptr, 0);
+    fs::remove(said_);
+  }
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  bool HasEnded() {
+    if (!ended_) ended_ = waitpid(pid_, &code_, WNOHANG) == pid_;
+    return ended_;
+  }
+  // Before the first line of main a signal ends any program, silently.
+  bool Listens() const {
+    std::istringstream status(Slurp("/proc/" + std::to_string(pid_) + "/status"));
+    for (std::string line; std::getline(status, line);)
+      if (line.starts_with("SigCgt:"))
+        return (std::stoull(line.substr(7), nullptr, 16) >> (SIGTERM - 1)) & 1;
+    return false;
+  }
+  void Send(int number) const { kill(pid_, number); }
+  // The exit status; -1 when a signal ended it.
+  int Wait() {
+    if (!ended_) waitpid(pid_, &code_, 0);
+    ended_ = true;
+    return WIFEXITED(code_) ? WEXITSTATUS(code_) : -1;
+  }
+  std::string Said() const { return Slurp(said_); }
+
+ private:
+  fs::path said_;
+  pid_t pid_ = -1;
+  int code_ = 0;
+  bool ended_ = false;
+};
+
+// When the signal is sent: once the program listens, `file` is there with at least `bytes`, and
+// then some time more.
+struct Moment {
+  std::string file;
+  std::uintmax_t bytes = 0;
+  int then_ms = 0;
+  int number = SIGINT;
+};
+
+class InterruptTest : public ::testing::Test {
+ protected:
+  InterruptTest() {
+    folder_ = fs::path(::testing::TempDir()) /
+              (std::string("interrupt.") +
+               ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    Fresh();
+  }
+  ~InterruptTest() override { fs::remove_all(folder_); }
+  void Fresh() const {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    std::ofstream(folder_ / "room.yaml") << R"(scenario: 1
+site:
+  site: 1
+  grid:
+    cell_m: 0.5
+    rows: |
+      ########
+      #......#
+      #......#
+      ########
+  start: {x_m: 0.9, y_m: 0.9, yaw_deg: 0}
+robot: beluga
+plan: {planner: boustrophedon}
+video: {width: 320, height: 180, max_frames: 60, camera: top}
+)";
+  }
+
+  static bool IsThere(const fs::path& file, std::uintmax_t bytes) {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(file, error);
+    return !error && size >= bytes;
+  }
+
+  // Interrupts the command there; true when it had not ended before the signal.
+  bool Interrupt(const std::vector<std::string>& arguments, const Moment& moment) const {
+    SCOPED_TRACE(arguments.front() + " at " + moment.file + " " + std::to_string(moment.bytes) +
+                 " + " + std::to_string(moment.then_ms) + " ms");
+    Program dut(arguments, folder_);
+    while (!dut.HasEnded() && !dut.Listens()) usleep(200);
+    if (!moment.file.empty())
+      while (!dut.HasEnded() && !IsThere(folder_ / moment.file, moment.bytes)) usleep(200);
+    usleep(static_cast<useconds_t>(1000 * moment.then_ms));
+    dut.Send(moment.number);
+    const int status = dut.Wait();
+    ExpectWholeFiles();
+    if (status == 0 || status == 1) {
+      EXPECT_EQ(dut.Said(), "");
+      return false;
+    }
+    EXPECT_EQ(status, 130) << dut.Said();
+    EXPECT_TRUE(dut.Said().starts_with("floorproof: interrupted: ")) << dut.Said();
+    EXPECT_EQ(std::ranges::count(dut.Said(), '\n'), 1) << dut.Said();
+    return true;
+  }
+
+  void ExpectWholeFiles() const {
+    for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+      const fs::path file = entry.path();
+      SCOPED_TRACE(file.string());
+      EXPECT_EQ(file.filename().string().find(".part"), std::string::npos);
+      const std::string kind = file.extension().string();
+      if (kind == ".json") {
+        EXPECT_TRUE(nlohmann::json::accept(Slurp(file)));
+      }
+      if (kind == ".yaml") {
+        EXPECT_NO_THROW(ReadYamlFile(file));
+      }
+      if (kind == ".png") {
+        EXPECT_NO_THROW(ReadImage(file));
+      }
+      if (kind == ".csv") ExpectWholeRows(Slurp(file));
+      if (kind == ".mp4") {
+        EXPECT_GT(cv::VideoCapture(file.string()).get(cv::CAP_PROP_FRAME_COUNT), 1);
+      }
+      if (kind == ".xml") {
+        EXPECT_TRUE(Slurp(file).ends_with("</mujoco>\n"));
+      }
+    }
+  }
+  static void ExpectWholeRows(const std::string& csv) {
+    EXPECT_TRUE(csv.ends_with("\n"));
+    std::istringstream rows(csv);
+    std::string head, row;
+    std::getline(rows, head);
+    const auto commas = std::ranges::count(head, ',');
+    while (std::getline(rows, row)) EXPECT_EQ(std::ranges::count(row, ','), commas) << row;
+  }
+
+  fs::path folder_;
+  const std::string hall_ = FP_SOURCE_DIR "/models/scenarios/demo_beluga.yaml";
+};
+
+// A file's name while it is written begins where it will stand; the film's is there all the while.
+constexpr const char* kFilmPart = "o/.video.part.mp4";
+
+TEST_F(InterruptTest, OfARunWithAFilm) {
+  const std::vector<std::string> run = {"run", "room.yaml", "--out", "o", "--video"};
+  const std::vector<Moment> sure = {
+      {"", 0, 0},
+      {"", 0, 5},
+      {"o/plan.csv", 0, 0},
+      {"o/plan.json", 0, 0},
+      {"o/plan.json", 0, 0, SIGTERM},
+      {"o/plan.json", 0, 60},
+      {"o/plan.json", 0, 200},
+      {"o/trace.csv", 0, 0},
+      {"o/result.json", 0, 0},
+      {"o/heatmap_visits.png", 0, 0},
+      {"o/heatmap_failures.png", 0, 0},
+      {kFilmPart, 0, 0},
+      {kFilmPart, 0, 100},
+      {kFilmPart, 0, 100, SIGTERM},
+      {"o/frame_start.png", 0, 0},
+  };
+  for (const Moment& moment : sure) {
+    Fresh();
+    EXPECT_TRUE(Interrupt(run, moment)) << moment.file;
+    EXPECT_FALSE(fs::exists(folder_ / "o/video.mp4"));
+    // result.json says that the drive was not cut short.
+    if (moment.file == "o/plan.csv") {
+      EXPECT_FALSE(fs::exists(folder_ / "o/result.json"));
+    }
+    if (moment.file == kFilmPart) {
+      EXPECT_TRUE(fs::exists(folder_ / "o/result.json"));
+    }
+  }
+  // Here the film may have been finished before the signal came.
+  for (const Moment& moment : {Moment{kFilmPart, 100'000}, Moment{"o/frame_end.png"}}) {
+    Fresh();
+    Interrupt(run, moment);
+  }
+}
+
+// What an earlier run left behind is no part of this one.
+TEST_F(InterruptTest, OfARunInAUsedFolder) {
+  fs::create_directories(folder_ / "o");
+  std::ofstream(folder_ / "o/result.json") << "{}";
+  std::ofstream(folder_ / "o/trace.csv") << "old\n";
+  EXPECT_TRUE(Interrupt({"run", hall_, "--out", "o"}, {"o/plan.json", 0, 30}));
+  EXPECT_FALSE(fs::exists(folder_ / "o/result.json"));
+  if (fs::exists(folder_ / "o/trace.csv")) {
+    EXPECT_NE(Slurp(folder_ / "o/trace.csv"), "old\n");
+  }
+}
+
+// A drive cut short leaves the rows that were driven.
+TEST_F(InterruptTest, OfADriveKeepsItsTrace) {
+  const std::vector<std::string> run = {"run", hall_, "--out", "o"};
+  int with_trace = 0;
+  for (const int then_ms : {100, 200, 300, 400}) {
+    Fresh();
+    if (!Interrupt(run, {"o/plan.json", 0, then_ms})) continue;
+    if (fs::exists(folder_ / "o/result.json")) continue;
+    with_trace += fs::exists(folder_ / "o/trace.csv");
+  }
+  EXPECT_GE(with_trace, 1);
+}
+
+TEST_F(InterruptTest, OfTheOtherCommands) {
+  std::string pgm = "P5 400 400 255\n";
+  for (int i = 0; i < 400 * 400; ++i) pgm += i % 400 < 2 || i < 800 ? '\0' : '\xfe';
+  const auto prepare = [&] {
+    Fresh();
+    std::ofstream(folder_ / "map.pgm", std::ios::binary) << pgm;
+    std::ofstream(folder_ / "map.yaml") << "image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n"
+                                           "occupied_thresh: 0.65\nfree_thresh: 0.196\n";
+  };
+  const std::vector<std::string> init = {"init", "map.yaml", "--out", "o"};
+  const std::vector<std::string> plan = {"plan", "room.yaml", "--out", "o"};
+  const std::vector<std::string> scene = {"scene", "room.yaml", "--out", "scene.xml"};
+  const std::vector<std::string> demo = {"demo",
+                                         "--out",
+                                         "o",
+                                         "--set",
+                                         "video.max_frames=30",
+                                         "--set",
+                                         "video.width=320",
+                                         "--set",
+                                         "video.height=180",
+                                         "--set",
+                                         "time_limit_s=30"};
+  const std::pair<std::vector<std::string>, Moment> cases[] = {
+      {init, {"", 0, 0}},
+      {init, {"", 0, 30, SIGTERM}},
+      {plan, {"", 0, 0}},
+      {plan, {"", 0, 10}},
+      {plan, {"o/plan.csv", 0, 0}},
+      {scene, {"", 0, 0}},
+      {scene, {"", 0, 20}},
+      {demo, {"", 0, 0}},
+      {demo, {"o/demo_beluga/plan.json", 0, 100}},
+      {demo, {"o/demo_beluga/.video.part.mp4", 0, 50}},
+      {demo, {"o/demo_unseen_step/plan.csv", 0, 0}},
+  };
+  for (const auto& [command, moment] : cases) {
+    prepare();
+    const bool interrupted = Interrupt(command, moment);
+    if (moment.then_ms == 0 || command == demo) {
+      EXPECT_TRUE(interrupted) << command.front();
+    }
+  }
+}
+
+TEST_F(InterruptTest, OfAReplayLeavesTheRecords) {
+  ASSERT_EQ(Program({"run", "room.yaml", "--out", "o"}, folder_).Wait(), 0);
+  const std::string result = Slurp(folder_ / "o/result.json");
+  const std::string trace = Slurp(folder_ / "o/trace.csv");
+  for (const Moment& moment : {Moment{}, Moment{"", 0, 150}, Moment{kFilmPart, 0, 50}}) {
+    EXPECT_TRUE(Interrupt({"replay", "o", "--video"}, moment));
+    EXPECT_EQ(Slurp(folder_ / "o/result.json"), result);
+    EXPECT_EQ(Slurp(folder_ / "o/trace.csv"), trace);
+    EXPECT_FALSE(fs::exists(folder_ / "o/video.mp4"));
+  }
+}
+
+// nohup, and shells that start a job in the background: what they ignore stays ignored.
+TEST_F(InterruptTest, ThatTheShellIgnoresIsIgnored) {
+  Program dut({"plan", "room.yaml", "--out", "o"}, folder_, SIG_IGN);
+  while (!dut.HasEnded() && !dut.Listens()) usleep(200);
+  dut.Send(SIGINT);
+  EXPECT_EQ(dut.Wait(), 0);
+}
+
+}  // namespace
+}  // namespace floorproof
