@@ -85,7 +85,8 @@ class TreeBuilder : public YAML::EventHandler {
   SourceMark At(const YAML::Mark& mark) const { return {file_, mark.line + 1}; }
   void CheckCount(const SourceMark& mark) const {
     if (nodes_ > kMostNodes)
-      throw InputError(mark, "", "", "more than " + std::to_string(kMostNodes) + " values (aliases expanded)");
+      throw InputError(mark, "", "",
+                       "more than " + std::to_string(kMostNodes) + " values (aliases expanded)");
   }
   void Remember(YAML::anchor_t anchor, const ConfigNode& node) {
     if (anchor) anchors_[anchor] = node;
