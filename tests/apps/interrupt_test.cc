@@ -121,7 +121,7 @@ site:
   start: {x_m: 0.9, y_m: 0.9, yaw_deg: 0}
 robot: beluga
 plan: {planner: boustrophedon}
-video: {width: 320, height: 180, max_frames: 60, camera: top}
+video: {width: 320, height: 180, max_frames: 200, camera: top}
 )";
   }
 
