@@ -4,10 +4,11 @@
 // A sliding window over the last T seconds in which a move was commanded (standing still on purpose
 // stops its clock). Displacement and turn are the largest from the window's first pose, so that a
 // robot that drives out and back counts as moving. After Nav2's pose progress checker, but r scales
-// with what was asked: r = min(displacement_m, fraction * v_cmd * T), v_cmd the mean commanded
-// linear speed over the window; a slow robot is not stuck for being slow. Where next to no
-// translation was asked the turn is judged alike: a = min(turn_rad, fraction * w_cmd * T).
-// Poses are kept ten times a second in a ring made in Start().
+// with what was asked: r = min(displacement_m, fraction * d_cmd), d_cmd the largest displacement
+// that the commands of the window lead to (v_cmd T where they go straight on). A slow robot is not
+// stuck for being slow, nor one that is told to wind about in a corner. Where next to no
+// translation was asked the turn is judged alike: a = min(turn_rad, fraction * w_cmd * T). Poses
+// are kept ten times a second in a ring made in Start().
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -33,7 +34,7 @@ class Stuck final : public Detector {
     v("displacement_m", displacement_m_, Positive(),
       "r: displacement that counts as progress, at most");
     v("commanded_fraction", fraction_, Between(0, 1),
-      "share of the commanded distance that counts as progress where it is less than that");
+      "share of the commanded displacement that counts as progress where it is less than that");
     v("turn_rad", turn_rad_, Positive(), "a: turn that counts as progress");
     v("least_speed_mps", least_speed_mps_, Positive(), "a command below this is no move");
     v("least_yaw_rate_radps", least_yaw_rate_radps_, Positive(), "a command below this is no turn");
@@ -53,7 +54,8 @@ class Stuck final : public Detector {
     ring_.assign(intervals + 1, {});
     count_ = 0;
     newest_ = intervals;
-    clock_s_ = distance_m_ = angle_rad_ = belly_ns_ = 0;
+    clock_s_ = angle_rad_ = belly_ns_ = 0;
+    commanded_W_.setZero();
     ticks_ = 0;
     started_ = reported_ = false;
     hazards_.Clear();
@@ -78,7 +80,7 @@ class Stuck final : public Detector {
       return false;
     if (count_ == 0) Keep(sample);
     clock_s_ += dt_s;
-    distance_m_ += speed_mps * dt_s;
+    commanded_W_ += Pose2{0, 0, sample.yaw_rad}.Rotate({cmd.vx_mps, cmd.vy_mps}) * dt_s;
     angle_rad_ += yaw_rate_radps * dt_s;
     belly_ns_ += sample.belly_load_n * dt_s;
     if (clock_s_ < static_cast<double>(ticks_ + 1) * period_s_ - kTimeSlackS) return false;
@@ -90,9 +92,9 @@ class Stuck final : public Detector {
  private:
   struct Kept {
     Vec2 p_WB = Vec2::Zero();
-    double yaw_rad = 0;  // unwrapped
-    double distance_m = 0, angle_rad = 0,
-           belly_ns = 0;  // commanded, and belly load, summed up to here
+    double yaw_rad = 0;                  // unwrapped
+    Vec2 commanded_W = Vec2::Zero();     // where commands alone would have led
+    double angle_rad = 0, belly_ns = 0;  // commanded turn, and belly load, summed up to here
     double t_s = 0;
   };
 
@@ -102,20 +104,21 @@ class Stuck final : public Detector {
                     : ring_[newest_].yaw_rad + WrapAngle(sample.yaw_rad - ring_[newest_].yaw_rad);
     newest_ = (newest_ + 1) % ring_.size();
     ring_[newest_] = {
-        sample.p_WB.head<2>(), yaw_rad, distance_m_, angle_rad_, belly_ns_, sample.t_s};
+        sample.p_WB.head<2>(), yaw_rad, commanded_W_, angle_rad_, belly_ns_, sample.t_s};
     count_ = std::min(count_ + 1, ring_.size());
   }
 
   bool Judge(const Sample& sample) {
     const Kept& first = ring_[(newest_ + 1) % ring_.size()];
     const Kept& last = ring_[newest_];
-    double squared_m2 = 0, turned_rad = 0;
+    double squared_m2 = 0, commanded_m2 = 0, turned_rad = 0;
     for (const Kept& kept : ring_) {
       squared_m2 = std::max(squared_m2, (kept.p_WB - first.p_WB).squaredNorm());
+      commanded_m2 = std::max(commanded_m2, (kept.commanded_W - first.commanded_W).squaredNorm());
       turned_rad = std::max(turned_rad, std::abs(kept.yaw_rad - first.yaw_rad));
     }
     const double moved_m = std::sqrt(squared_m2);
-    const double commanded_m = last.distance_m - first.distance_m;
+    const double commanded_m = std::sqrt(commanded_m2);
     const double commanded_rad = last.angle_rad - first.angle_rad;
     const double least_m =
         std::min(displacement_m_, std::max(kLeastDisplacementM, fraction_ * commanded_m));
@@ -156,7 +159,8 @@ class Stuck final : public Detector {
   std::size_t count_ = 0, newest_ = 0;
   double period_s_ = kSampleS;
   double clock_s_ = 0;  // time with a move commanded
-  double distance_m_ = 0, angle_rad_ = 0, belly_ns_ = 0;
+  Vec2 commanded_W_ = Vec2::Zero();
+  double angle_rad_ = 0, belly_ns_ = 0;
   std::int64_t ticks_ = 0;
   double last_t_s_ = 0;
   bool started_ = false, reported_ = false;

@@ -35,6 +35,16 @@ TEST(Stuck, ThresholdScalesWithTheCommandedSpeed) {
   EXPECT_EQ(Count(Commanded({10.2, {0.051, 0, 0}}, {0.4, 0, 0})), 0u);
 }
 
+// Rows of 0.4 m in a corner: 2 m of way within the window, 0.4 m of displacement at most.
+TEST(Stuck, WindingAboutAsToldIsProgress) {
+  std::vector<Piece> rows;
+  for (int row = 0; row < 10; ++row) rows.push_back({2, {row % 2 ? -0.2 : 0.2, 0.005, 0}});
+  EXPECT_EQ(Count(Drive(rows)), 0u);
+  Trace held = Drive(rows);
+  for (Sample& s : held) s.p_WB *= 0.05;
+  EXPECT_EQ(Count(held), 1u);
+}
+
 TEST(Stuck, NeedsTheWholeWindow) {
   EXPECT_EQ(Count(Commanded({9.9, {}}, {0.2, 0, 0})), 0u);
   const auto events = Judge(*MakeDetector("stuck"), Commanded({12, {}}, {0.2, 0, 0}));
