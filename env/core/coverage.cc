@@ -149,7 +149,8 @@ bool Fits(const Stencil& stencil, const Grid<int>& sums, int ix, int iy) {
 }
 
 // The footprint's poses: one layer of cells per yaw; a robot passes between cells at one yaw and
-// between yaws where both are free (turning through the angles between is not looked at).
+// between yaws where both are free (turning through the angles between is not looked at). Not
+// aslant: between two free cells that only touch at a corner it would scrape.
 void ReachWithFootprint(const Shape2& clear, const Grid<std::uint8_t>& walls,
                         const Grid<std::uint8_t>* hazards, double inset_m, Cell start,
                         const Vec2& start_G, SweepArea& area,
@@ -190,8 +191,8 @@ void ReachWithFootprint(const Shape2& clear, const Grid<std::uint8_t>& walls,
       layers[k](ix, iy) = 1;
       stack.push_back({{ix, iy}, k});
     };
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx) visit(c.ix + dx, c.iy + dy, yaw);
+    for (const Cell d : {Cell{1, 0}, Cell{-1, 0}, Cell{0, 1}, Cell{0, -1}})
+      visit(c.ix + d.ix, c.iy + d.iy, yaw);
     for (std::size_t k = 0; k < 4; ++k) visit(c.ix, c.iy, k);
   }
 }

@@ -46,7 +46,8 @@ struct SweepArea {
 };
 // `clear` and `tool` as in RobotSpec, or overridden by a plan's radius_m and tool_width_m (discs).
 // Walls are taken as built: drawn back by map.inset_m. A clear footprint is tried at yaws that are
-// multiples of 90 deg in the map's frame, and so is a tool's. Connectivity: 8 neighbours. An empty
+// multiples of 90 deg in the map's frame, and so is a tool's. Connectivity: 8 neighbours of a
+// circle, 4 of a footprint. An empty
 // area (sweepable_cells 0) when the start itself is not clear (to within its cell).
 SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shape2& tool,
                            double step_m, const Vec2& start_W);

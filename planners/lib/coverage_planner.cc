@@ -35,7 +35,9 @@ constexpr double kFirstWorth = 0.15;   // before a path is taken apart: only wha
 constexpr double kWorkingShare = 0.1;  // a segment that sweeps less of its own is a transit
 constexpr double kCutReach = 6;        // tool widths: from so far aside a line is left for a visit
 constexpr double kMostGoal = 0.995;
-constexpr double kMargin_m = 0.03;      // what a tracker errs by on such plans, and a little more
+// What trackers err by on such plans, and a little more: round robots that turn first, and robots
+// that move every way.
+constexpr double kMargin_m = 0.03, kFootprintMargin_m = 0.015;
 constexpr double kMostLost = 0.04;      // of the ground, to a margin
 constexpr double kDriveLoss = 0.012;    // of the ground, measured: corners driven less than exactly
 constexpr double kWallTolerance = 0.7;  // cells: a traced contour's staircase
@@ -95,8 +97,8 @@ void CoveragePlanner::Visit(ParamVisitor& visit) {
         "width of a disc that sweeps; none: the robot's tool");
   visit("radius_m", radius_m_, Positive(), "of a circle kept clear; none: the robot's clear shape");
   visit("margin_m", margin_m_, NonNegative(),
-        "kept beyond the clear shape for the tracker's error; none: 0.03 around the robot's own "
-        "shape, less where that would close a door, and 0 around radius_m");
+        "kept beyond the clear shape for the tracker's error; none: 0.03 around a robot's circle, "
+        "0.015 around its footprint, less where that would close a door, and 0 around radius_m");
   visit("overlap", overlap_, Between(0, 0.9), "of neighbouring rows, share of the tool's width");
   visit("edges", edges_, "laps along walls and furniture first");
 }
@@ -178,7 +180,9 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
   }
   // Room for the tracker's error, as long as no more than a little of the floor is lost to it: half
   // the margin, or none, where it would close a door.
-  double margin_m = margin_m_.value_or(radius_m_ ? 0.0 : kMargin_m), shortfall = 0;
+  const bool circle = result.clear.kind == Shape2::Kind::kCircle;
+  double margin_m = margin_m_.value_or(radius_m_ ? 0.0 : (circle ? kMargin_m : kFootprintMargin_m));
+  double shortfall = 0;
   for (; margin_m > 0; margin_m = margin_m > kMargin_m / 4 ? margin_m / 2 : 0) {
     SweepArea roomy = ComputeSweepArea(request.map, Grown(result.clear, margin_m), result.tool,
                                        request.robot.step_m, request.start.p());

@@ -5,6 +5,7 @@
 #include "planners/lib/floor.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace floorproof {
 
@@ -26,7 +27,30 @@ double Floor::MarginAt(const Vec2& p) const {
   return (1 - v) * low + v * high;
 }
 
+// Between cell centres a footprint is free just where it is free at the four around: what blocks it
+// is a rectangle in the plane of its poses, larger than a cell. So the line is looked at once in
+// each square of centres that it crosses.
+bool Floor::SeesWithFootprint(const Vec2& a, const Vec2& b) const {
+  const Vec2 d = b - a;
+  double next[2], every[2];
+  for (int k = 0; k < 2; ++k) {
+    const double from = a[k] - 0.5;
+    const double ahead = d[k] > 0 ? std::floor(from) + 1 - from : from - std::ceil(from) + 1;
+    every[k] = d[k] != 0 ? 1 / std::abs(d[k]) : std::numeric_limits<double>::infinity();
+    next[k] = d[k] != 0 ? ahead * every[k] : every[k];
+  }
+  for (double s = 0; s < 1;) {
+    const int k = next[0] < next[1] ? 0 : 1;
+    const double end = std::min(next[k], 1.0);
+    if (end > s && MarginAt(a + (s + end) / 2 * d) < -tolerance) return false;
+    s = end;
+    next[k] += every[k];
+  }
+  return MarginAt(b) >= -tolerance;
+}
+
 bool Floor::Sees(const Vec2& a, const Vec2& b) const {
+  if (clears_footprint) return SeesWithFootprint(a, b);
   // Where there is room to spare the next sample may be that much farther on: distances change by
   // at most the way travelled.
   constexpr double kStep = 0.5;
@@ -72,6 +96,7 @@ Floor CropFloor(const SweepArea& area, const Shape2& clear, const Shape2& tool, 
           static_cast<float>(area.reachable(ix, iy) ? std::max(room, 0.0) : std::min(room, -0.01));
     }
   floor.tolerance = circle ? 0.25 : 1e-6;
+  floor.clears_footprint = !circle;
   floor.tool = tool;
   floor.narrow = 1 - overlap;
   floor.tool_width = tool_width_m / cell_m * floor.narrow;

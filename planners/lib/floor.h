@@ -14,11 +14,12 @@ using Polyline = std::vector<Vec2>;
 double PolylineLength(const Polyline& line);
 
 struct Floor {
-  GridFrame frame;            // of the crop
-  Grid<std::uint8_t> pose;    // the robot's centre may be here
-  Grid<std::uint8_t> ground;  // the tool can sweep this
-  Grid<float> margin;         // room beyond the clear shape at a cell's centre; negative: none
-  double tolerance = 0;       // margin that straight lines may lack between cell centres
+  GridFrame frame;                // of the crop
+  Grid<std::uint8_t> pose;        // the robot's centre may be here
+  Grid<std::uint8_t> ground;      // the tool can sweep this
+  Grid<float> margin;             // room beyond the clear shape at a cell's centre; negative: none
+  double tolerance = 0;           // margin that straight lines may lack between cell centres
+  bool clears_footprint = false;  // the clear shape is a footprint, `margin` 0 or -1
   Shape2 tool;
   double tool_reach = 0;  // farthest point of the tool from the robot's centre, cells
   // Neighbouring lines are to overlap: the tool counts as `tool_width` cells wide, `narrow` times
@@ -42,10 +43,12 @@ struct Floor {
   bool Free(const Vec2& p, double slack = 0) const { return MarginAt(p) >= -slack; }
   // Whether it may drive straight from a to b.
   bool Sees(const Vec2& a, const Vec2& b) const;
+
+ private:
+  bool SeesWithFootprint(const Vec2& a, const Vec2& b) const;
 };
 
 // The part of `area` around its reachable poses. `clear`, `tool`: what the area was computed with.
-// `overlap`: of neighbouring lines, share of the tool's width.
 // `overlap`: of neighbouring lines, share of the tool's width.
 Floor CropFloor(const SweepArea& area, const Shape2& clear, const Shape2& tool, double tool_width_m,
                 double overlap = 0);

@@ -67,7 +67,10 @@ std::vector<Polyline> Contours(const Floor& floor, const Grid<float>& depth, dou
           const Cell ahead = kOut[(side + 1) % 4], out = kOut[side];
           const Cell diagonal{c.ix + ahead.ix + out.ix, c.iy + ahead.iy + out.iy};
           const Cell straight{c.ix + ahead.ix, c.iy + ahead.iy};
-          if (in(diagonal.ix, diagonal.iy)) {
+          // A footprint slides round a corner cell by cell: aslant it would scrape.
+          const bool by_cells = floor.clears_footprint;
+          if (in(diagonal.ix, diagonal.iy) && (!by_cells || in(straight.ix, straight.iy))) {
+            if (by_cells) ring.push_back(Floor::CentreOf(straight));
             c = diagonal;
             side = (side + 3) % 4;
           } else if (in(straight.ix, straight.iy)) {

@@ -155,7 +155,12 @@ bool Ways::Search(Cell from, Cell to, std::vector<Cell>& cells) {
     }
     for (const Cell d : kNeighbours) {
       const int ix = c.ix + d.ix, iy = c.iy + d.iy;
-      if (pose(ix, iy)) relax(ix, iy, cost + (d.ix != 0 && d.iy != 0 ? kDiagonal : 1.0f), id);
+      if (!pose(ix, iy)) continue;
+      const bool diagonal = d.ix != 0 && d.iy != 0;
+      // A footprint would scrape what blocks the cells beside; a circle clears it by less than
+      // `tolerance`.
+      if (diagonal && floor_.clears_footprint && !(pose(ix, c.iy) && pose(c.ix, iy))) continue;
+      relax(ix, iy, cost + (diagonal ? kDiagonal : 1.0f), id);
     }
   }
   return false;
