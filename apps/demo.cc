@@ -16,6 +16,8 @@ struct DemoDrive {
 constexpr DemoDrive kDrives[] = {
     {"demo_beluga", "BELUGA covers a hall with furniture, a door sill and a glass wall",
      Outcome::kSuccess, ""},
+    {"demo_htetro", "hTetro covers the same hall, forward and sideways on its Mecanum wheels",
+     Outcome::kSuccess, ""},
     {"demo_unseen_step", "the same hall, and a 40 mm step that nobody put on the map",
      Outcome::kFailure, "stuck"},
 };
@@ -31,7 +33,7 @@ bool AsExpected(const DemoDrive& drive, const EpisodeRecord& record) {
 void AddDemo(CLI::App& app, const Globals& globals, int& status) {
   auto out = std::make_shared<std::string>("out/demo");
   CLI::App* command = app.add_subcommand(
-      "demo", "The bundled site: a clean drive and a plan that fails, driven, judged and filmed");
+      "demo", "The bundled site: a clean drive of each robot and a plan that fails, driven, judged, filmed");
   command->add_option("--out", *out, "Output folder")->capture_default_str();
   command->callback([out, &globals, &status] {
     const std::filesystem::path root = *out;

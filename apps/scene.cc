@@ -18,6 +18,11 @@ void AddScene(CLI::App& app, const Globals& globals, int&) {
   command->add_option("--out", options->out, "MJCF file to write")->required();
   command->callback([options, &globals] {
     const Scenario s = ReadScenario(options->scenario, globals.Overrides());
+    for (const WheelSpec& wheel : s.robot.robot.wheels)
+      if (wheel.roller_radius_m > 0)
+        throw InputError({options->scenario, 0}, "robot", s.robot.robot.name,
+                         "has Mecanum wheels, which the stock MuJoCo cannot roll; only robots with "
+                         "plain wheels can be exported");
     SayWarnings(s, globals);
     const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
     WriteFileWhole(options->out, SceneXml(scene));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <vector>
 
 #include "env/core/coverage.h"
 #include "env/core/params.h"
@@ -20,16 +21,37 @@ class ObstacleGap {
   // `clearance` may be nullptr: no obstacle is known.
   void Start(const RobotSpec& robot, const ClearanceField* clearance) {
     clearance_ = clearance;
-    radius_m_ = robot.inscribed_radius_m > 0 ? robot.inscribed_radius_m : robot.clear.radius_m;
+    radius_m_ = 0;
+    border_B_.clear();
+    if (robot.clear.kind == Shape2::Kind::kCircle) {
+      radius_m_ = robot.inscribed_radius_m > 0 ? robot.inscribed_radius_m : robot.clear.radius_m;
+      border_B_ = {Vec2::Zero()};
+      return;
+    }
+    constexpr int kPointsAnEdge = 4;
+    const Polygon& footprint = robot.clear.footprint_B;
+    for (std::size_t i = 0; i < footprint.size(); ++i) {
+      const Vec2 edge = footprint[(i + 1) % footprint.size()] - footprint[i];
+      for (int k = 0; k < kPointsAnEdge; ++k)
+        border_B_.emplace_back(footprint[i] + edge * k / kPointsAnEdge);
+    }
   }
   // The speed allowed where the robot is and where it is heading.
-  double Limit(double speed_mps, const Vec2& p_W, const Vec2& target_W) const {
+  double Limit(double speed_mps, const Pose2& X_WB, const Vec2& target_W) const {
     if (clearance_ == nullptr || gap_m_ <= 0) return speed_mps;
-    const double gap_m = std::min(clearance_->At(p_W), clearance_->At(target_W)) - radius_m_;
-    return speed_mps * (share_ + (1 - share_) * std::clamp(gap_m / gap_m_, 0.0, 1.0));
+    double gap_m = gap_m_ + radius_m_;
+    for (const Vec2& p_B : border_B_) {
+      const Vec2 offset_W = X_WB.Rotate(p_B);
+      gap_m = std::min(
+          {gap_m, clearance_->At(X_WB.p() + offset_W), clearance_->At(target_W + offset_W)});
+    }
+    return speed_mps * (share_ + (1 - share_) * std::clamp((gap_m - radius_m_) / gap_m_, 0.0, 1.0));
   }
 
  private:
+  // Points from which the gap is read, less radius_m_: the middle of a circle, a footprint's
+  // border.
+  std::vector<Vec2> border_B_;
   double gap_m_ = 0.10, share_ = 0.6;
   const ClearanceField* clearance_ = nullptr;
   double radius_m_ = 0;

@@ -85,29 +85,42 @@ std::size_t PathProgress::Segment(const Vec2& p_W) {
   return waypoint_;
 }
 
-// The point `way_m` ahead; beyond a stop it lies on the leg's prolongation, so that the robot
-// arrives straight.
-Vec2 PathProgress::PointAhead(const Vec2& p_W, double way_m) {
+// Moves ahead_ to the leg that holds the place `way_m` ahead, or, beyond a stop, to the leg that
+// ends there; returns how far along that leg's prolongation the place lies.
+double PathProgress::SeekAhead(const Vec2& p_W, double way_m) {
   const double s_m = Along(p_W) + way_m;
   ahead_ = std::max(ahead_, vertex_);
   while (ahead_ > vertex_ && Vertex(ahead_).s_m > s_m) --ahead_;
   while (!Vertex(ahead_ + 1).stop && Vertex(ahead_ + 1).s_m <= s_m) ++ahead_;
-  return Vertex(ahead_).p_W + (s_m - Vertex(ahead_).s_m) * Vertex(ahead_).direction_W;
+  return s_m - Vertex(ahead_).s_m;
+}
+
+double PathProgress::SpeedFrom(const Vec2& p_W) const {
+  if (homing_) {
+    const double left_m = (Vertex(goal_).p_W - p_W).norm() - corner_tolerance_m_;
+    return std::min(limits_.cruise_mps, ApproachSpeed(0, left_m, limits_));
+  }
+  const ReferenceVertex &from = Vertex(vertex_), &to = Vertex(vertex_ + 1);
+  const double left_m = (to.p_W - p_W).dot(from.direction_W);
+  return std::min(from.speed_mps, ApproachSpeed(to.passing_mps, left_m, limits_));
 }
 
 PathProgress::Aim PathProgress::AimFrom(const Vec2& p_W, double speed_mps,
                                         const Lookahead& lookahead) {
-  if (homing_) {
-    const Vec2 target_W = Vertex(goal_).p_W;
-    const double left_m = (target_W - p_W).norm() - corner_tolerance_m_;
-    return {target_W, std::min(limits_.cruise_mps, ApproachSpeed(0, left_m, limits_))};
-  }
-  const ReferenceVertex &from = Vertex(vertex_), &to = Vertex(vertex_ + 1);
-  if (phase_ == Phase::kTurn) speed_mps = from.speed_mps;
-  const Vec2 target_W = PointAhead(p_W, std::clamp(speed_mps * lookahead.time_s, lookahead.min_m,
+  if (homing_) return {Vertex(goal_).p_W, SpeedFrom(p_W)};
+  if (phase_ == Phase::kTurn) speed_mps = leg().speed_mps;
+  // Beyond a stop the point lies on the leg's prolongation, so that the robot arrives straight.
+  const double along_m = SeekAhead(p_W, std::clamp(speed_mps * lookahead.time_s, lookahead.min_m,
                                                    std::max(lookahead.min_m, lookahead.max_m)));
-  const double left_m = (to.p_W - p_W).dot(from.direction_W);
-  return {target_W, std::min(from.speed_mps, ApproachSpeed(to.passing_mps, left_m, limits_))};
+  return {Vertex(ahead_).p_W + along_m * Vertex(ahead_).direction_W, SpeedFrom(p_W)};
+}
+
+PathProgress::Course PathProgress::CourseFrom(const Vec2& p_W, double ahead_m) {
+  if (homing_) return {(Vertex(goal_).p_W - p_W).normalized(), Vec2::Zero(), SpeedFrom(p_W)};
+  SeekAhead(p_W, ahead_m);
+  const Vec2 from_leg_W = p_W - leg().p_W, &along_W = leg().direction_W;
+  return {Vertex(ahead_).direction_W, from_leg_W.dot(along_W) * along_W - from_leg_W,
+          SpeedFrom(p_W)};
 }
 
 }  // namespace floorproof

@@ -48,6 +48,15 @@ class PathProgress {
   };
   Aim AimFrom(const Vec2& p_W, double speed_mps, const Lookahead& lookahead);
 
+  // For a robot that moves every way: the path's direction `ahead_m` farther on, the way back to
+  // the leg, across it, and the speed allowed. Only while moving().
+  struct Course {
+    Vec2 direction_W;  // unit
+    Vec2 offset_W;
+    double speed_mps;
+  };
+  Course CourseFrom(const Vec2& p_W, double ahead_m);
+
   // The plan's segment now tracked; never one of no length.
   std::size_t Segment(const Vec2& p_W);
 
@@ -57,7 +66,8 @@ class PathProgress {
   void Arrive(std::size_t vertex, double t_s);
   void Depart();
   double Along(const Vec2& p_W) const;
-  Vec2 PointAhead(const Vec2& p_W, double way_m);
+  double SeekAhead(const Vec2& p_W, double way_m);
+  double SpeedFrom(const Vec2& p_W) const;
 
   ReferenceLimits limits_;
   double corner_tolerance_m_ = 0;

@@ -61,6 +61,16 @@ double Speed(const Waypoint& waypoint, const ReferenceLimits& limits) {
   return std::min(speed, limits.max_speed_mps);
 }
 
+std::optional<double> HeldYaw(const Waypoint& waypoint, const ReferenceLimits& limits) {
+  return limits.holds_yaw ? waypoint.yaw_rad : std::nullopt;
+}
+
+bool SameYaw(const std::optional<double>& a, const std::optional<double>& b) {
+  constexpr double kSameRad = 1e-6;
+  if (!a || !b) return !a && !b;
+  return std::abs(WrapAngle(*a - *b)) < kSameRad;
+}
+
 // Indices of the waypoints that become vertices. A waypoint at the same place as the last vertex
 // becomes none; its dwell is added there.
 struct Kept {
@@ -78,7 +88,8 @@ std::vector<Kept> KeepCorners(const Path& path, const ReferenceLimits& limits) {
     cone = Cone(path[i].p_W, limits.straight_m);
   };
   for (std::size_t i = 1; i < path.size(); ++i) {
-    const bool same_leg = Speed(path[i], limits) == Speed(path[i - 1], limits);
+    const bool same_leg = Speed(path[i], limits) == Speed(path[i - 1], limits) &&
+                          SameYaw(HeldYaw(path[i], limits), HeldYaw(path[i - 1], limits));
     if (i - 1 > kept.back().index && (!same_leg || !cone.Reaches(path[i].p_W))) keep(i - 1);
     cone.Add(path[i].p_W);
     if (path[i].dwell_s > 0 || i + 1 == path.size()) keep(i);
@@ -103,11 +114,12 @@ std::vector<double> PlaceWaypoints(const Path& path, const std::vector<Kept>& ke
 }
 
 // The speed at which a bend of this angle is driven through.
-double BendSpeed(double angle_rad, const ReferenceLimits& limits) {
+double BendSpeed(double angle_rad, bool held_yaw, const ReferenceLimits& limits) {
   const double half = 0.5 * std::abs(angle_rad);
   if (half < kNoBendRad) return limits.max_speed_mps;
   // An arc of radius R that touches both sides passes the corner at R (1 / cos(half) - 1).
   const double radius_m = limits.cut_m * std::cos(half) / (1 - std::cos(half));
+  if (held_yaw) return std::sqrt(limits.decel_mps2 * radius_m);
   // Its yaw rate has to be reached within the turn: w^2 / accel <= angle.
   const double yaw_rate =
       std::min(limits.yaw_rate_radps, std::sqrt(limits.yaw_accel_radps2 * 2 * half));
@@ -130,9 +142,11 @@ void SetPassingSpeeds(std::vector<ReferenceVertex>& v, const ReferenceLimits& li
     while (high + 2 < n && !v[high + 1].stop && v[high + 1].s_m - v[i].s_m <= 0.5 * kBendWindowM)
       ++high;
     const double curvature = std::abs(turned[high] - turned[low - 1]) / kBendWindowM;
-    v[i].passing_mps =
-        std::min({v[i - 1].speed_mps, v[i].speed_mps, BendSpeed(turned[i] - turned[i - 1], limits),
-                  limits.yaw_rate_radps / std::max(curvature, 1e-12)});
+    const bool held = v[i].yaw_rad.has_value();
+    const double curve_mps = held ? std::sqrt(limits.decel_mps2 / std::max(curvature, 1e-12))
+                                  : limits.yaw_rate_radps / std::max(curvature, 1e-12);
+    v[i].passing_mps = std::min({v[i - 1].speed_mps, v[i].speed_mps, curve_mps,
+                                 BendSpeed(turned[i] - turned[i - 1], held, limits)});
   }
   for (std::size_t i = n - 1; i-- > 0;) {
     if (v[i].stop) continue;
@@ -171,8 +185,11 @@ ReferencePath MakeReference(const Path& path, const ReferenceLimits& limits) {
     vertex.direction_W = from.direction_W = way.normalized();
     from.speed_mps = Speed(path[kept[k].index], limits);
     vertex.speed_mps = from.speed_mps;
-    if (k > 1 &&
-        std::abs(TurnAngle(vertices[k - 2].direction_W, from.direction_W)) > limits.corner_rad)
+    vertex.yaw_rad = from.yaw_rad = HeldYaw(path[kept[k].index], limits);
+    if (k == 1) continue;
+    const ReferenceVertex& before = vertices[k - 2];
+    if (std::abs(TurnAngle(before.direction_W, from.direction_W)) > limits.corner_rad ||
+        !SameYaw(before.yaw_rad, from.yaw_rad))
       from.stop = true;
   }
   SetPassingSpeeds(vertices, limits);

@@ -5,10 +5,13 @@
 // noise and duplicates make no corners. A vertex is a stop where the plan dwells, ends, or turns by
 // more than corner_rad; through the others the robot drives, at a speed that keeps both the cut of
 // the corner and the yaw rate within bounds. One pass backwards makes the speeds reachable with the
-// deceleration. All in Start(): following it allocates nothing.
+// deceleration. All in Start(): following it allocates nothing. Where the plan's yaw counts
+// (holonomic robots), a change of yaw is a stop, and a bend driven with held yaw is bounded by the
+// acceleration across it instead of the yaw rate.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "env/core/path.h"
@@ -25,6 +28,7 @@ struct ReferenceLimits {
   double lag_s = 0.15;       // time constant of the last centimetres before a stop
   double cruise_mps = 0.25;  // of waypoints that state no speed
   double max_speed_mps = 0.5;
+  bool holds_yaw = false;  // the plan's yaw is held; else it is passed over
 };
 
 struct ReferenceVertex {
@@ -35,6 +39,7 @@ struct ReferenceVertex {
   double passing_mps = 0;           // at most here; 0 at stops
   double dwell_s = 0;
   bool stop = false;
+  std::optional<double> yaw_rad;  // held from here to the next vertex; none: along the way
 };
 
 struct ReferencePath {

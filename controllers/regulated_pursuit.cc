@@ -105,7 +105,7 @@ class RegulatedPursuit final : public Tracker {
     if (progress_.phase() == Phase::kTurn)
       Turn(aside_rad, dt_s);
     else
-      Follow(target_B, gap_.Limit(speed_mps, X_WB.p(), target_W), dt_s);
+      Follow(target_B, gap_.Limit(speed_mps, X_WB, target_W), dt_s);
   }
 
   void Turn(double aside_rad, double dt_s) {

@@ -12,9 +12,11 @@ namespace floorproof {
 struct WheelSpec {
   std::string name;          // of the wheel's joint and actuator
   Vec3 p_BW = Vec3::Zero();  // wheel centre in the body frame B
-  double radius_m = 0;
-  // Angle between the wheel's axle and its rollers' axes seen from above at the floor; 0: no
-  // rollers.
+  double radius_m = 0;       // rollers included
+  // Mecanum wheels (env/scene/mecanum_wheel.h): radius of the rollers, 0: a plain wheel; and the
+  // angle, seen from above at the floor, from the wheel's axle (left, +y) to its rollers' axes,
+  // counterclockwise positive.
+  double roller_radius_m = 0;
   double roller_angle_rad = 0;
   double max_speed_radps = 0;  // no-load speed of the motor at the wheel
   double max_torque_nm = 0;    // at the wheel

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "env/core/params.h"
+#include "env/scene/mecanum_wheel.h"
 
 namespace floorproof {
 namespace {
@@ -85,7 +86,14 @@ class SpecReader {
       for (int g = m_->body_geomadr[body]; g < m_->body_geomadr[body] + m_->body_geomnum[body]; ++g)
         if (m_->geom_type[g] == mjGEOM_CYLINDER && m_->geom_conaffinity[g] != 0) geom = g;
       if (geom < 0) Refuse(wheel.name, "the wheel's body needs a cylinder that collides");
-      wheel.radius_m = m_->geom_size[3 * geom];
+      const Rollers rollers = RollersOf(m_, geom);
+      if (!(rollers.radius_m >= 0) || (rollers.radius_m > 0) != (rollers.angle_rad != 0) ||
+          !(std::abs(rollers.angle_rad) < kPi / 2))
+        Refuse(wheel.name,
+               "user must be the rollers' radius (m, > 0) and angle (rad, not 0, within +-pi/2)");
+      wheel.radius_m = m_->geom_size[3 * geom] + rollers.radius_m;
+      wheel.roller_radius_m = rollers.radius_m;
+      wheel.roller_angle_rad = rollers.angle_rad;
       wheel.p_BW = InBase(data_->geom_xpos + 3 * geom);
       if (m_->actuator_dyntype[a] != mjDYN_DCMOTOR && m_->actuator_gaintype[a] != mjGAIN_DCMOTOR)
         Refuse(wheel.name, "a wheel's actuator must be a <dcmotor input=\"vel\">");
@@ -129,9 +137,12 @@ class SpecReader {
         for (int k = 0; k < 8; ++k)
           add(k & 1 ? size[0] : -size[0], k & 2 ? size[1] : -size[1], k & 4 ? size[2] : -size[2]);
         break;
-      case mjGEOM_CYLINDER:
-        add_rings(size[0], size[1]);
+      case mjGEOM_CYLINDER: {
+        const double rollers = RollersOf(m_, geom).radius_m;
+        add_rings(size[0] + rollers, size[1]);
+        if (rollers > 0) add_rings(size[0], size[1] + rollers);
         break;
+      }
       case mjGEOM_SPHERE:
         add_rings(size[0], 0);
         add(0, 0, -size[0]);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "env/scene/floor.h"
+#include "env/scene/mecanum_wheel.h"
 #include "env/scene/walls.h"
 
 namespace floorproof {
@@ -21,7 +22,13 @@ constexpr mjtNum kSolimp[] = {0.95, 0.99, 0.0005};
 class SceneBuilder {
  public:
   SceneBuilder(const HazardMap& map, const RobotModel& robot, mjSpec* spec)
-      : map_(map), robot_(robot.robot), spec_(spec), world_(mjs_findBody(spec, "world")) {}
+      : map_(map), robot_(robot.robot), spec_(spec), world_(mjs_findBody(spec, "world")) {
+    for (mjsElement* e = mjs_firstElement(spec, mjOBJ_GEOM); e; e = mjs_nextElement(spec, e)) {
+      int n = 0;
+      const double* user = mjs_getDouble(mjs_asGeom(e)->userdata, &n);
+      if (n >= 2 && user[0] > 0) mecanum.push_back(mjs_asGeom(e));
+    }
+  }
 
   void Floor() {
     const auto pieces = FloorPieces(map_);
@@ -75,6 +82,16 @@ class SceneBuilder {
     }
   }
 
+  // Mecanum wheels touch the floor and hazards by pairs, through their collider; walls meet the
+  // body.
+  void PairWheels() {
+    for (mjsGeom* wheel : mecanum) {
+      wheel->conaffinity = 0;
+      for (const auto& [geom, role] : added)
+        if (role.kind != GeomRole::Kind::kWall) PairWheel(spec_, wheel, geom, geom->friction[0]);
+    }
+  }
+
   // Colours, light and the picture's quality; nothing here touches the physics. The lights add up
   // to just below 1 on the floor, so that it does not burn out.
   void Looks() {
@@ -107,6 +124,7 @@ class SceneBuilder {
   }
 
   std::vector<std::pair<mjsGeom*, GeomRole>> added;
+  std::vector<mjsGeom*> mecanum;  // the robot's wheels with rollers
 
  private:
   Vec2 Middle() const {
@@ -134,8 +152,11 @@ class SceneBuilder {
     geom->condim = 3;
     geom->priority = 1;  // what is met rules over the robot's own friction and softness
     geom->friction[0] = friction;
-    geom->solref[0] = kTimeConstant_s;
-    geom->solref[1] = kind == GeomRole::Kind::kFloor ? 1 : DampingRatio(restitution);
+    // MuJoCo's stiffness is 1 / (time constant * ratio)^2: kept as the ratio falls, so that a
+    // lively contact lasts as many steps as a dead one.
+    const double ratio = kind == GeomRole::Kind::kFloor ? 1 : DampingRatio(restitution);
+    geom->solref[0] = kTimeConstant_s / std::min(1.0, ratio);
+    geom->solref[1] = ratio;
     std::copy(std::begin(kSolimp), std::end(kSolimp), geom->solimp);
     added.emplace_back(geom, GeomRole{kind, hazard});
     const std::string name = Name(kind, hazard);
@@ -282,14 +303,19 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
   builder.Floor();
   builder.Walls(start.p());
   builder.Hazards();
+  builder.PairWheels();
+  InstallWheelCollider();
   scene.model = CompileSpec(scene.spec.get());
+  InflateWheelBounds(scene.model.get());
 
   const mjModel* m = scene.model.get();
   scene.base_body = mj_name2id(m, mjOBJ_BODY, "base");
   scene.roles.resize(static_cast<std::size_t>(m->ngeom));
   for (int g = 0; g < m->ngeom; ++g) {
     const int body = m->geom_bodyid[g];
-    if (body == 0 || (m->geom_contype[g] == 0 && m->geom_conaffinity[g] == 0)) continue;
+    const bool touches =
+        m->geom_contype[g] != 0 || m->geom_conaffinity[g] != 0 || RollersOf(m, g).radius_m > 0;
+    if (body == 0 || !touches) continue;
     scene.roles[static_cast<std::size_t>(g)].kind =
         body == scene.base_body ? GeomRole::Kind::kBody : GeomRole::Kind::kWheel;
   }

@@ -11,6 +11,8 @@ namespace {
 constexpr std::size_t kMostSupports = 64;
 // A contact whose normal stands steeper than this carries; one flatter than that obstructs.
 constexpr double kSteep = 0.7;
+constexpr double kBeside_m = 0.005;  // into the gap beside a slab's side
+constexpr double kBelow_m = 0.005;   // below the floor a wheel hangs in something
 
 // The warnings after which the state is not to be believed.
 bool Diverged(const mjData* d) {
@@ -112,12 +114,18 @@ void Simulation::ReadPose() {
 
   double lowest = 1e9;
   for (std::size_t w = 0; w < wheel_bodies_.size(); ++w) {
-    // Lowest point of a cylinder whose axle is tilted: radius and half width share the drop.
+    // Lowest point of a cylinder whose axle is tilted: radius and half width share the drop; its
+    // rollers round it.
+    const WheelSpec& wheel = robot_.wheels[w];
     const mjtNum* mat = d->xmat + 9 * wheel_bodies_[w];
     const double axle_z = mat[7];  // the wheel's axle is its body's y
-    const double drop = robot_.wheels[w].radius_m * std::sqrt(std::max(0.0, 1 - axle_z * axle_z)) +
-                        wheel_half_width_m_[w] * std::abs(axle_z);
-    lowest = std::min(lowest, d->xpos[3 * wheel_bodies_[w] + 2] - drop);
+    const double drop =
+        (wheel.radius_m - wheel.roller_radius_m) * std::sqrt(std::max(0.0, 1 - axle_z * axle_z)) +
+        wheel_half_width_m_[w] * std::abs(axle_z) + wheel.roller_radius_m;
+    const mjtNum* p_W = d->xpos + 3 * wheel_bodies_[w];
+    if (p_W[2] - drop >= lowest) continue;
+    lowest = p_W[2] - drop;
+    lowest_wheel_W_ = {p_W[0], p_W[1]};
   }
   sample_.wheel_floor_z_m = lowest;
 }
@@ -141,8 +149,12 @@ void Simulation::ReadContacts() {
       std::swap(world, robot);
       toward = -1;
     }
-    if (world.hazard >= 0) sample_.near_hazard = world.hazard;
     const double nz = toward * c.frame[2];
+    // The side of a slab of floor is the edge of what is missing beside it.
+    if (world.kind == GeomRole::Kind::kFloor && world.hazard < 0 && nz < kSteep)
+      world.hazard =
+          CutAt(Vec2(c.pos[0], c.pos[1]) + kBeside_m * toward * Vec2(c.frame[0], c.frame[1]));
+    if (world.hazard >= 0) sample_.near_hazard = world.hazard;
     if (robot.kind == GeomRole::Kind::kWheel) {
       ++sample_.wheel_contacts;
       if (nz > kSteep) AddSupport(c.pos);
@@ -157,7 +169,17 @@ void Simulation::ReadContacts() {
       AddObstacle(world.hazard, c.pos, Vec2(toward * c.frame[0], toward * c.frame[1]), force[0]);
     }
   }
+  if (sample_.near_hazard < 0 && sample_.wheel_floor_z_m < -kBelow_m)
+    sample_.near_hazard = CutAt(lowest_wheel_W_);  // a wheel that hangs in it
   sample_.support_margin_m = SupportMargin();
+}
+
+// The hazard whose cut in the floor holds this point; -1: none.
+int Simulation::CutAt(const Vec2& p_W) const {
+  for (std::size_t h = map_.hazards.size(); h-- > 0;)
+    for (const Solid& solid : map_.hazards[h].solids)
+      if (solid.kind == Solid::Kind::kCut && Contains(solid.base, p_W)) return static_cast<int>(h);
+  return -1;
 }
 
 void Simulation::AddObstacle(int hazard, const double* p_W, Vec2 normal_W, double force_n) {

@@ -38,6 +38,7 @@ class Simulation {
   void ReadPower();
   void AddObstacle(int hazard, const double* p_W, Vec2 normal_W, double force_n);
   void AddSupport(const double* p_W);
+  int CutAt(const Vec2& p_W) const;
   double SupportMargin();
 
   const Scene& scene_;
@@ -47,6 +48,7 @@ class Simulation {
   Sample sample_;
   std::vector<int> wheel_bodies_;  // of the driven wheels, in actuator order
   std::vector<double> wheel_half_width_m_;
+  Vec2 lowest_wheel_W_ = Vec2::Zero();
   Vec3 last_v_W_ = Vec3::Zero();                       // of the body's origin, before the step
   Vec3 w_W_ = Vec3::Zero(), last_w_W_ = Vec3::Zero();  // angular velocity, after and before it
   std::vector<Vec2> support_, hull_;                   // scratch, capacity fixed

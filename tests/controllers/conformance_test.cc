@@ -29,7 +29,7 @@ TEST_P(TrackerConformance, CommandsARegisteredDrive) {
 
 TEST_P(TrackerConformance, ReachesTheEndOfAPathInOrder) {
   const auto dut = GetParam().make();
-  const Driven driven = DriveAlong(*dut, kRows);
+  const Driven driven = DriveAlong(*dut, kRows, {}, nullptr, RobotFor(*dut));
   ASSERT_TRUE(driven.done);
   EXPECT_TRUE(driven.SegmentsNeverDecrease());
   EXPECT_EQ(driven.steps.back().segment, kRows.size() - 2);
@@ -39,14 +39,15 @@ TEST_P(TrackerConformance, ReachesTheEndOfAPathInOrder) {
 
 TEST_P(TrackerConformance, KeepsTheRobotsLimits) {
   const auto dut = GetParam().make();
-  const RobotSpec robot = RoundRobot();
-  const Driven driven = DriveAlong(*dut, kRows);
+  const RobotSpec robot = RobotFor(*dut);
+  const Driven driven = DriveAlong(*dut, kRows, {}, nullptr, RobotFor(*dut));
   constexpr double kDt = 0.02, kSlack = 1e-9;
   BodyTwist last;
   for (const auto& step : driven.steps) {
-    EXPECT_LE(std::abs(step.twist.vx_mps), robot.max_speed_mps + kSlack);
+    EXPECT_LE(std::hypot(step.twist.vx_mps, step.twist.vy_mps), robot.max_speed_mps + kSlack);
     EXPECT_LE(std::abs(step.twist.wz_radps), robot.max_yaw_rate_radps + kSlack);
-    EXPECT_LE(std::abs(step.twist.vx_mps - last.vx_mps), robot.max_accel_mps2 * kDt + kSlack);
+    EXPECT_LE(std::hypot(step.twist.vx_mps - last.vx_mps, step.twist.vy_mps - last.vy_mps),
+              robot.max_accel_mps2 * kDt + kSlack);
     EXPECT_LE(std::abs(step.twist.wz_radps - last.wz_radps),
               robot.max_yaw_accel_radps2 * kDt + kSlack);
     last = step.twist;
@@ -55,7 +56,9 @@ TEST_P(TrackerConformance, KeepsTheRobotsLimits) {
 
 TEST_P(TrackerConformance, StartForgetsThePathBefore) {
   const auto dut = GetParam().make();
-  const Driven once = DriveAlong(*dut, kRows), again = DriveAlong(*dut, kRows);
+  const RobotSpec robot = RobotFor(*dut);
+  const Driven once = DriveAlong(*dut, kRows, {}, nullptr, robot);
+  const Driven again = DriveAlong(*dut, kRows, {}, nullptr, robot);
   ASSERT_EQ(once.steps.size(), again.steps.size());
   for (std::size_t i = 0; i < once.steps.size(); ++i)
     EXPECT_EQ(once.steps[i].twist.vx_mps, again.steps[i].twist.vx_mps);
@@ -63,8 +66,9 @@ TEST_P(TrackerConformance, StartForgetsThePathBefore) {
 
 TEST_P(TrackerConformance, UpdateAllocatesNothing) {
   const auto dut = GetParam().make();
-  const RobotSpec robot = RoundRobot();
-  const Driven driven = DriveAlong(*dut, kRows);  // poses to replay, without the test's own vectors
+  const RobotSpec robot = RobotFor(*dut);
+  const Driven driven = DriveAlong(
+      *dut, kRows, {}, nullptr, RobotFor(*dut));  // poses to replay, without the test's own vectors
   dut->Start(kRows, robot, nullptr);
   const auto before = AllocationCount();
   for (const auto& step : driven.steps) dut->Update({step.X_WB, {}}, step.t_s, 0.02);
@@ -73,7 +77,7 @@ TEST_P(TrackerConformance, UpdateAllocatesNothing) {
 
 TEST_P(TrackerConformance, SaysWhichLimitARobotLacks) {
   const auto dut = GetParam().make();
-  RobotSpec robot = RoundRobot();
+  RobotSpec robot = RobotFor(*dut);
   robot.max_accel_mps2 = 0;
   EXPECT_THROW(dut->Start(kRows, robot, nullptr), InputError);
 }
@@ -88,6 +92,7 @@ INSTANTIATE_TEST_SUITE_P(All, TrackerConformance, testing::ValuesIn(Trackers()),
 
 TEST(DefaultTracker, CommandsItsDrive) {
   EXPECT_EQ(DefaultTracker("differential"), "regulated_pursuit");
+  EXPECT_EQ(DefaultTracker("mecanum"), "holonomic_follower");
   EXPECT_THROW(DefaultTracker("legs"), InputError);
 }
 

@@ -40,6 +40,32 @@ RobotSpec RoundRobot() {
   return robot;
 }
 
+RobotSpec HolonomicRobot() {
+  RobotSpec robot = RoundRobot();
+  robot.name = "holonomic";
+  robot.drive = "mecanum";
+  robot.wheels.clear();
+  for (const double x : {0.1, -0.1})
+    for (const double y : {0.12, -0.12}) {
+      WheelSpec wheel;
+      wheel.name = std::string(x > 0 ? "front" : "rear") + (y > 0 ? " left" : " right");
+      wheel.p_BW = {x, y, 0.05};
+      wheel.radius_m = 0.05;
+      wheel.roller_radius_m = 0.01;
+      wheel.roller_angle_rad = x * y > 0 ? kPi / 4 : -kPi / 4;
+      wheel.max_speed_radps = 20;
+      robot.wheels.push_back(wheel);
+    }
+  return robot;
+}
+
+RobotSpec RobotFor(const Tracker& tracker) {
+  for (const auto& robot : {RoundRobot(), HolonomicRobot()})
+    for (const std::string& drive : tracker.Drives())
+      if (drive == robot.drive) return robot;
+  throw InternalError("no robot for this tracker: add one here");
+}
+
 Path MakePath(const std::vector<Vec2>& points) {
   Path path;
   for (const Vec2& p : points) {
@@ -63,7 +89,7 @@ bool Driven::SegmentsNeverDecrease() const {
 
 Driven DriveAlong(Tracker& dut, const Path& path, const DriveOptions& options,
                   const ClearanceField* clearance, const RobotSpec& robot) {
-  const auto drive = MakePlugin(Drives(), "differential", "drive");
+  const auto drive = MakePlugin(Drives(), robot.drive, "drive");
   drive->Configure(robot);
   Pose2 X_WB;
   if (options.start) {
@@ -75,7 +101,7 @@ Driven DriveAlong(Tracker& dut, const Path& path, const DriveOptions& options,
 
   Driven driven;
   dut.Start(path, robot, clearance);
-  double wheels[2] = {0, 0}, wanted[2] = {0, 0};
+  std::vector<double> wheels(robot.wheels.size()), wanted(robot.wheels.size());
   const int substeps = std::max(1, static_cast<int>(std::lround(options.control_s / kPhysicsS)));
   const double h_s = options.control_s / substeps;
   const double keep = std::exp(-h_s / options.wheel_lag_s);
@@ -95,11 +121,12 @@ Driven DriveAlong(Tracker& dut, const Path& path, const DriveOptions& options,
     driven.done = command.done;
     drive->ToWheels(command.twist, wanted);
     for (int i = 0; i < substeps; ++i) {
-      for (int w = 0; w < 2; ++w) wheels[w] = wanted[w] + (wheels[w] - wanted[w]) * keep;
+      for (std::size_t w = 0; w < wheels.size(); ++w)
+        wheels[w] = wanted[w] + (wheels[w] - wanted[w]) * keep;
       const BodyTwist v = drive->ToTwist(wheels);
-      const double yaw_rad = X_WB.yaw_rad + 0.5 * v.wz_radps * h_s;
-      X_WB = {X_WB.x_m + v.vx_mps * h_s * std::cos(yaw_rad),
-              X_WB.y_m + v.vx_mps * h_s * std::sin(yaw_rad),
+      const Pose2 middle{0, 0, X_WB.yaw_rad + 0.5 * v.wz_radps * h_s};
+      const Vec2 step_W = middle.Rotate({v.vx_mps * h_s, v.vy_mps * h_s});
+      X_WB = {X_WB.x_m + step_W.x(), X_WB.y_m + step_W.y(),
               WrapAngle(X_WB.yaw_rad + v.wz_radps * h_s)};
     }
   }

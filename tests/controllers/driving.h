@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A differential robot that rolls without slip and whose wheels reach their speed 0.1 s late:
-// enough of a robot to judge a tracker by.
+// A robot that rolls without slip and whose wheels reach their speed 0.1 s late: enough of a robot
+// to judge a tracker by.
 #pragma once
 
 #include <functional>
@@ -14,6 +14,10 @@ namespace floorproof {
 
 // Round, 0.18 m radius, wheels 0.24 m apart, 0.25 m/s cruise.
 RobotSpec RoundRobot();
+// The same on four Mecanum wheels.
+RobotSpec HolonomicRobot();
+// The one of the two that this tracker commands.
+RobotSpec RobotFor(const Tracker& tracker);
 
 struct DriveOptions {
   std::optional<Pose2> start;  // none: on the first waypoint, facing along the path

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Path following for robots that move every way: the heading is the plan's, not the way's.
+//
+// The body's velocity is the path's own a moment ahead (feed-forward: a robot needs that moment to
+// change it), plus a share of the way back to the path (feedback, gain_per_s); the larger the way
+// back, the slower along. The yaw follows the plan's own for that leg, or the way where the plan
+// leaves it open (env/core/path.h). Speed is bounded by the passing speeds of the bends ahead, by
+// rests at corners (path_progress.h) and by the gap to known obstacles. At a stop the robot turns
+// to its next yaw first, holding its place. After Kanayama, Kimura, Miyazaki & Noguchi 1990, "A
+// stable tracking control method for an autonomous mobile robot", without the nonholonomic part.
+// Assumes a drive that turns and moves at once; does not plan around obstacles.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "controllers/obstacle_gap.h"
+#include "controllers/path_progress.h"
+#include "controllers/tracker.h"
+
+namespace floorproof {
+namespace {
+
+constexpr double kDecelShare = 0.8;  // of the accelerations: what is left corrects
+constexpr double kLagS = 0.15;       // wheels reach their speed some 0.1 s late
+constexpr double kGapAhead_m = 0.1;  // the gap is read here and this far ahead
+constexpr double kHold_m = 0.05;     // a turn nearer to its corner than this is kept there,
+constexpr double kHoldGain = 1.5;    // 1/s: by going back
+
+class HolonomicFollower final : public Tracker {
+ public:
+  void Visit(ParamVisitor& v) override {
+    v("corner_deg", corner_deg_, Between(5, 90), "corners sharper than this are stops");
+    v("anticipation_s", anticipation_s_, Between(0, 1),
+      "how long before a bend its direction is taken");
+    v("gain_per_s", gain_per_s_, Between(0.1, 10), "speed back to the path for each metre off it");
+    v("corner_cut_m", corner_cut_m_, Between(0.001, 0.5),
+      "how far bends may be cut that are driven through: slower is nearer");
+    v("corner_tolerance_m", corner_tolerance_m_, Between(0.002, 0.5),
+      "a corner or the last waypoint is reached within this along the way");
+    v("heading_tolerance_deg", heading_tolerance_deg_, Between(0.2, 20),
+      "a turn on the spot ends within this");
+    v("recover_deg", recover_deg_, Between(5, 150),
+      "when the yaw is wrong by more than this the robot stops and turns");
+    gap_.Visit(v);
+  }
+
+  std::vector<std::string> Drives() const override { return {"mecanum"}; }
+
+  void Start(const Path& path, const RobotSpec& robot, const ClearanceField* clearance) override {
+    RequireLimits(robot, "holonomic_follower");
+    gap_.Start(robot, clearance);
+    cruise_mps_ = robot.cruise_mps;
+    accel_mps2_ = robot.max_accel_mps2;
+    yaw_rate_radps_ = robot.max_yaw_rate_radps;
+    yaw_accel_radps2_ = robot.max_yaw_accel_radps2;
+
+    ReferenceLimits limits;
+    limits.corner_rad = Radians(corner_deg_);
+    limits.cut_m = corner_cut_m_;
+    limits.yaw_rate_radps = kDecelShare * yaw_rate_radps_;
+    limits.yaw_accel_radps2 = yaw_accel_radps2_;
+    limits.decel_mps2 = kDecelShare * accel_mps2_;
+    limits.lag_s = kLagS;
+    limits.cruise_mps = robot.cruise_mps;
+    limits.max_speed_mps = robot.max_speed_mps;
+    limits.holds_yaw = true;
+    progress_.Start(path, limits, corner_tolerance_m_);
+    twist_ = {};
+  }
+
+  Command Update(const Estimate& estimate, double t_s, double dt_s) override {
+    const Pose2& X_WB = estimate.X_WB;
+    progress_.Update(X_WB.p(), t_s);
+    if (progress_.moving())
+      Pursue(X_WB, dt_s);
+    else
+      Slew(Vec2::Zero(), 0, dt_s);
+
+    Command command;
+    command.segment = progress_.Segment(X_WB.p());
+    command.dwelling = progress_.phase() == Phase::kDwell;
+    command.done = progress_.phase() == Phase::kDone;
+    command.twist = twist_;
+    return command;
+  }
+
+ private:
+  using Phase = PathProgress::Phase;
+
+  static double Radians(double deg) { return deg * kPi / 180; }
+
+  void Pursue(const Pose2& X_WB, double dt_s) {
+    const Vec2 p_W = X_WB.p();
+    const double ahead_m = anticipation_s_ * std::hypot(twist_.vx_mps, twist_.vy_mps);
+    const auto [direction_W, offset_W, speed_mps] = progress_.CourseFrom(p_W, ahead_m);
+    const double wanted_rad =
+        progress_.leg().yaw_rad.value_or(std::atan2(direction_W.y(), direction_W.x()));
+    const double off_rad = WrapAngle(wanted_rad - X_WB.yaw_rad);
+    if (progress_.phase() == Phase::kDrive && std::abs(off_rad) > Radians(recover_deg_))
+      progress_.Turn();
+    if (progress_.phase() == Phase::kTurn && std::abs(off_rad) <= Radians(heading_tolerance_deg_))
+      progress_.Drive();
+
+    const double rate = StoppingSpeed(std::abs(off_rad), kDecelShare * yaw_accel_radps2_, kLagS);
+    const double wz_radps = std::copysign(std::min(yaw_rate_radps_, rate), off_rad);
+    Vec2 v_W;
+    if (progress_.phase() == Phase::kTurn) {
+      const Vec2 back_W = progress_.leg().p_W - p_W;
+      v_W = back_W.norm() < kHold_m ? Vec2(kHoldGain * back_W) : Vec2(Vec2::Zero());
+    } else {
+      const double limit_mps = gap_.Limit(speed_mps, X_WB, p_W + kGapAhead_m * direction_W);
+      const double back_mps = std::min(gain_per_s_ * offset_W.norm(), cruise_mps_);
+      v_W = offset_W.normalized() * back_mps +
+            direction_W * std::sqrt(std::max(0.0, limit_mps * limit_mps - back_mps * back_mps));
+    }
+    Slew(Pose2{0, 0, -X_WB.yaw_rad}.Rotate(v_W), wz_radps, dt_s);
+  }
+
+  // Moves the command towards what is wanted as fast as the robot's accelerations allow.
+  void Slew(const Vec2& v_B, double wz_radps, double dt_s) {
+    const Vec2 last(twist_.vx_mps, twist_.vy_mps);
+    Vec2 change = v_B - last;
+    change *= std::min(1.0, accel_mps2_ * dt_s / std::max(change.norm(), 1e-12));
+    twist_.vx_mps = last.x() + change.x();
+    twist_.vy_mps = last.y() + change.y();
+    const double dw = yaw_accel_radps2_ * dt_s;
+    twist_.wz_radps = std::clamp(wz_radps, twist_.wz_radps - dw, twist_.wz_radps + dw);
+  }
+
+  double corner_deg_ = 50;  // 45 deg bends of grid contours are still driven through
+
+  // The wheels' lag and half of what a bend's change of velocity takes.
+  double anticipation_s_ = 0.1, gain_per_s_ = 2.5;
+  double corner_cut_m_ = 0.003, corner_tolerance_m_ = 0.004;
+  double heading_tolerance_deg_ = 1.0, recover_deg_ = 15;
+  ObstacleGap gap_;
+
+  PathProgress progress_;
+  double cruise_mps_ = 0, accel_mps2_ = 0, yaw_rate_radps_ = 0, yaw_accel_radps2_ = 0;
+  BodyTwist twist_;  // last commanded
+};
+
+}  // namespace
+
+FP_DEFINE_PLUGIN(Tracker, HolonomicFollower)
+
+}  // namespace floorproof

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mecanum wheels whose rollers have no mass: a core that MuJoCo sees, and the collider that makes a
+// Mecanum wheel of it.
+//
+// A wheel of radius R with rollers of radius r is a core cylinder of radius R - r, whose geom
+// carries `user="r angle"` (WheelSpec says which angle). The collider (1) inflates the core by r,
+// which makes it round: R forward, r sideways, as the rollers are; (2) turns each contact's first
+// tangent along the axis of the roller that touches there; (3) merges contacts of one plane into
+// one. With pairs that rub along the first tangent only, the rollers spin freely about their axes.
+// The rounding decides what the wheel climbs sideways; docs/physics.md has the figures.
+// Assumes infinitely many, massless, frictionless rollers; a roller never meets two obstacles.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+namespace floorproof {
+
+struct Rollers {
+  double radius_m = 0;   // 0: a plain wheel
+  double angle_rad = 0;  // as in WheelSpec::roller_angle_rad
+};
+
+// What the geom's user data say; a plain wheel where they say nothing.
+Rollers RollersOf(const mjModel* model, int geom);
+
+// Installs the collider for all models of the process. MuJoCo's table of colliders is global: call
+// it before other threads start. Calls after the first do nothing. Geoms without rollers pass
+// through to MuJoCo's own colliders, bit for bit.
+void InstallWheelCollider();
+
+// Lets the bounds of the cores, by which MuJoCo finds who may touch, hold the rollers too. Once,
+// after compiling.
+void InflateWheelBounds(mjModel* model);
+
+// Makes the wheel geom touch `other` through the collider, with friction `mu` along the rollers'
+// axes and none across. Both need names. Softness is the other's.
+void PairWheel(mjSpec* spec, const mjsGeom* wheel, const mjsGeom* other, double mu);
+
+}  // namespace floorproof
