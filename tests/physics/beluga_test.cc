@@ -4,53 +4,14 @@
 
 #include <cmath>
 
-#include "controllers/drive.h"
-#include "env/core/registry.h"
-#include "env/scene/scene.h"
-#include "env/sim/simulation.h"
+#include "tests/physics/bench.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {
 namespace {
 
-struct Bench {
-  HazardMap map;
-  RobotModel robot = ReadRobot(FindRobotFile("beluga", {}));
-  Scene scene;
-  std::unique_ptr<Simulation> sim;
-
-  explicit Bench(PhysicsParams physics = {}) {
-    map.frame = {40, 40, 0.5, {-10, -10, 0}};
-    map.cells = Grid<CellState>(40, 40);
-    scene = BuildScene(map, robot, physics, {});
-    sim = std::make_unique<Simulation>(scene, map, robot.robot);
-    sim->Reset({});
-  }
-  // Drives a twist for a time; returns the body's mean velocity over the second half.
-  BodyTwist Drive(const BodyTwist& twist, double t_s) {
-    const auto drive = MakePlugin(Drives(), robot.robot.drive, "drive");
-    drive->Configure(robot.robot);
-    std::vector<double> wheels(robot.robot.wheels.size());
-    drive->ToWheels(twist, wheels);
-    sim->SetWheelSpeeds(wheels);
-    const double start_s = sim->sample().t_s;
-    BodyTwist mean;
-    int n = 0;
-    while (sim->sample().t_s < start_s + t_s) {
-      EXPECT_TRUE(sim->Step());
-      if (sim->sample().t_s < start_s + t_s / 2) continue;
-      const BodyTwist& v = sim->sample().V_WB_B;
-      mean.vx_mps += v.vx_mps;
-      mean.vy_mps += v.vy_mps;
-      mean.wz_radps += v.wz_radps;
-      ++n;
-    }
-    return {mean.vx_mps / n, mean.vy_mps / n, mean.wz_radps / n};
-  }
-};
-
 TEST(Beluga, RestsOnItsWheelsAndCasters) {
-  Bench dut;
+  Bench dut("beluga");
   for (int i = 0; i < 500; ++i) ASSERT_TRUE(dut.sim->Step());
   const Sample& s = dut.sim->sample();
   EXPECT_NEAR(s.p_WB.z(), 0, 0.0005);
@@ -66,7 +27,7 @@ TEST(Beluga, RollsAsItsWheelsTurn) {
   constexpr double kSlip = 0.02;
   for (const BodyTwist& twist : {BodyTwist{0.25, 0, 0}, BodyTwist{-0.2, 0, 0},
                                  BodyTwist{0.2, 0, 0.5}, BodyTwist{0.1, 0, -0.3}}) {
-    Bench dut;
+    Bench dut("beluga");
     const BodyTwist v = dut.Drive(twist, 2);
     EXPECT_NEAR(v.vx_mps, twist.vx_mps, kSlip * std::abs(twist.vx_mps));
     EXPECT_NEAR(v.vy_mps, 0, 0.005);
@@ -75,7 +36,7 @@ TEST(Beluga, RollsAsItsWheelsTurn) {
 }
 
 TEST(Beluga, MirroredCommandsGiveMirroredMotion) {
-  Bench left, right;
+  Bench left("beluga"), right("beluga");
   left.Drive({0.2, 0, 0.6}, 3);
   right.Drive({0.2, 0, -0.6}, 3);
   const Sample &l = left.sim->sample(), &r = right.sim->sample();
@@ -87,12 +48,12 @@ TEST(Beluga, MirroredCommandsGiveMirroredMotion) {
 
 // The answer does not hang on the step or the integrator.
 TEST(Beluga, OneTwoAndFourMillisecondsAgree) {
-  Bench fine({.timestep_s = 0.001});
+  Bench fine("beluga", {.timestep_s = 0.001});
   fine.Drive({0.2, 0, 0.4}, 4);
   for (const PhysicsParams& physics :
        {PhysicsParams{.timestep_s = 0.002}, PhysicsParams{.timestep_s = 0.004},
         PhysicsParams{.timestep_s = 0.004, .integrator = "implicitfast"}}) {
-    Bench dut(physics);
+    Bench dut("beluga", physics);
     dut.Drive({0.2, 0, 0.4}, 4);
     EXPECT_NEAR(dut.sim->sample().p_WB.x(), fine.sim->sample().p_WB.x(), 0.01);
     EXPECT_NEAR(dut.sim->sample().p_WB.y(), fine.sim->sample().p_WB.y(), 0.01);
