@@ -9,6 +9,7 @@
 
 #include "env/core/params.h"
 #include "env/scene/mecanum_wheel.h"
+#include "env/scene/mjcf_check.h"
 
 namespace floorproof {
 namespace {
@@ -288,8 +289,7 @@ std::filesystem::path FindRobotFile(const std::string& name_or_path, const Sourc
 }
 
 RobotModel ReadRobot(const std::filesystem::path& file, const RobotChanges& changes) {
-  if (!std::filesystem::is_regular_file(file))
-    throw InputError({file.string(), 0}, "", "", "no such file");
+  CheckMjcf(file);
   char error[1000] = "";
   RobotModel out;
   out.spec.reset(mj_parseXML(file.c_str(), nullptr, error, sizeof error));

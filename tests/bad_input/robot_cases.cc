@@ -59,6 +59,21 @@ std::vector<BadInput> RobotCases() {
               return text;
             }(),
             {"MJCF"}),
+      Robot("ABillionCopies",
+            with_base("<replicate count=\"1000\"><replicate count=\"1000\"><geom "
+                      "size=\"0.1\"/></replicate></replicate>"),
+            {":1: count = 1000", "10000 copies"}),
+      Robot("AHugeTexture",
+            "<mujoco><asset><texture name=\"t\" type=\"2d\" builtin=\"flat\" width=\"200000\" "
+            "height=\"200000\"/></asset></mujoco>",
+            {"width = 200000", "8192"}),
+      Robot("IncludesItself", "<mujoco><include file=\"mine.xml\"/></mujoco>",
+            {"include", "without end"}),
+      Robot("MeshIsADevice",
+            "<mujoco><asset>\n<mesh name=\"m\" file=\"/dev/zero\"/></asset></mujoco>",
+            {":2: file = /dev/zero", "a pipe or a device"}),
+      Robot("IncludesADevice", "<mujoco><include file='/dev/zero'/></mujoco>",
+            {"file = /dev/zero", "a pipe or a device"}),
       Robot(
           "MissingMesh",
           "<mujoco><asset><mesh name=\"m\" file=\"none.stl\"/></asset><worldbody><body "

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// What MuJoCo's reader would hang on or choke on, looked for before it reads a robot's file: pipes
+// and devices among the files that it names, copies and pictures by the billion.
+#pragma once
+
+#include <filesystem>
+
+namespace floorproof {
+
+// Throws InputError naming file, line, attribute, value and rule. Follows <include>.
+void CheckMjcf(const std::filesystem::path& file);
+
+}  // namespace floorproof
