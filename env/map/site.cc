@@ -173,7 +173,7 @@ Site ReadSite(const ConfigNode& node, const fs::path& folder) {
     site.warnings = std::move(ros.warnings);
   }
   for (WrittenHazard& hazard : written.hazards) map.hazards.push_back(std::move(hazard.hazard));
-  ClipLevels(map.hazards);
+  LayFloors(map.hazards, site.warnings);
   if (map.start) CheckOnMap(node, "start", map.start->p(), map.frame);
   if (map.goal) CheckOnMap(node, "goal", *map.goal, map.frame);
   WarnOfFarHazards(site, node.mark.file);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "env/map/written_hazard.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
+#include <span>
 
 #include "env/core/params.h"
 
@@ -83,7 +85,13 @@ void CutAway(Solid solid, const std::vector<Polygon>& covers, std::vector<Solid>
   std::vector<Polygon> meeting;
   for (const Polygon& cover : covers)
     if (box.Meets(Box(cover))) meeting.push_back(cover);
-  if (meeting.empty() || !solid.top.empty()) {  // tapered solids have no level to clip
+  if (!solid.top.empty()) {
+    Vec2 middle = Vec2::Zero();
+    for (const Vec2& p : solid.base) middle += p / static_cast<double>(solid.base.size());
+    if (std::ranges::any_of(meeting, [&](const Polygon& c) { return Contains(c, middle); })) return;
+    meeting.clear();
+  }
+  if (meeting.empty()) {
     rest.push_back(std::move(solid));
     return;
   }
@@ -97,6 +105,37 @@ void CutAway(Solid solid, const std::vector<Polygon>& covers, std::vector<Solid>
   }
   for (const Polygon& part : ConvexParts(with_holes))
     rest.push_back({solid.kind, part, {}, solid.z_low_m, solid.z_high_m});
+}
+
+constexpr double kTouch = 1e-6;  // share of an area that is none
+
+// Puts the terrain's prisms on the last floor before it that holds them whole.
+void LayOn(std::span<const Hazard> before, Hazard& terrain, std::vector<std::string>& warnings) {
+  bool in_part = false;
+  for (Solid& solid : terrain.solids) {
+    if (solid.kind != Solid::Kind::kPrism) continue;
+    for (std::size_t j = before.size(); j-- > 0;) {
+      if (before[j].hazard_class != HazardClass::kLevelChange) continue;
+      const Box box(solid.base);
+      double share = 0;  // of the solid's ground that lies on this floor
+      for (const Polygon& floor : before[j].footprint)
+        if (box.Meets(Box(floor)))
+          share +=
+              Area(Intersection({{solid.base, {}}}, {floor})) / std::abs(SignedArea(solid.base));
+      if (share < kTouch) continue;
+      if (share > 1 - kTouch) {
+        solid.z_low_m += before[j].height_m;
+        solid.z_high_m += before[j].height_m;
+      } else {
+        in_part = true;
+      }
+      break;
+    }
+  }
+  if (in_part)
+    warnings.push_back(terrain.id +
+                       " lies across the edge of a level change: what is not on it as a whole "
+                       "stands on the base floor");
 }
 
 }  // namespace
@@ -189,15 +228,25 @@ void NameHazards(std::vector<Hazard*>& hazards, const SourceMark& mark) {
   }
 }
 
-void ClipLevels(std::vector<Hazard>& hazards) {
-  std::vector<Polygon> later;  // footprints of the level changes behind this one in the list
+void LayFloors(std::vector<Hazard>& hazards, std::vector<std::string>& warnings) {
+  const auto is_cut = [](const Hazard& h) {
+    return std::ranges::any_of(h.solids,
+                               [](const Solid& s) { return s.kind == Solid::Kind::kCut; });
+  };
+  for (std::size_t i = 0; i < hazards.size(); ++i)
+    if (hazards[i].hazard_class == HazardClass::kTerrain)
+      LayOn(std::span(hazards).first(i), hazards[i], warnings);
+
+  std::vector<Polygon> later;  // what replaces the floor behind this one in the list
   for (std::size_t i = hazards.size(); i-- > 0;) {
     Hazard& hazard = hazards[i];
-    if (hazard.hazard_class != HazardClass::kLevelChange) continue;
+    const bool level = hazard.hazard_class == HazardClass::kLevelChange;
+    if (!level && hazard.hazard_class != HazardClass::kTerrain) continue;
+    const bool replaces = level || is_cut(hazard);
     std::vector<Solid> rest;
     for (Solid& solid : hazard.solids) CutAway(std::move(solid), later, rest);
     hazard.solids = std::move(rest);
-    later.insert(later.end(), hazard.footprint.begin(), hazard.footprint.end());
+    if (replaces) later.insert(later.end(), hazard.footprint.begin(), hazard.footprint.end());
   }
 }
 

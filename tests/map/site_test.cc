@@ -162,6 +162,38 @@ TEST_F(SiteTest, PolygonsMayGoEitherWayRoundAndBeClosed) {
   }
 }
 
+// A cover on a platform lies on it, one across its edge is told of; a groove written later goes
+// through the platform, and a platform written later fills the groove.
+TEST_F(SiteTest, LaterFloorsWinWhereTheyOverlap) {
+  const std::string platform =
+      "- {type: step, height_m: 0.1, polygon_m: [[1, 0.5], [2, 0.5], [2, 1], [1, 1]]}\n";
+  const std::string groove =
+      "- {type: groove, width_m: 0.1, depth_m: 0.02, line_m: [[1.5, 0.4], [1.5, 1.1]]}\n";
+  const auto volume = [](const Hazard& h) {
+    double area = 0;
+    for (const Solid& s : h.solids) area += std::abs(SignedArea(s.base));
+    return area;
+  };
+  const Site on = Read(Rows("hazards:\n" + platform +
+                            "- {type: cable_cover, width_m: 0.1, top_width_m: 0.05, height_m: "
+                            "0.02, line_m: [[1.2, 0.75], [1.8, 0.75]]}\n"));
+  EXPECT_TRUE(on.warnings.empty());
+  EXPECT_DOUBLE_EQ(on.map.hazards[1].solids.at(0).z_low_m, 0.1);
+  EXPECT_DOUBLE_EQ(on.map.hazards[1].solids.at(0).z_high_m, 0.12);
+
+  const Site across = Read(Rows("hazards:\n" + platform +
+                                "- {type: cable_cover, id: c, width_m: 0.1, top_width_m: 0.05, "
+                                "height_m: 0.02, line_m: [[0.8, 0.75], [1.8, 0.75]]}\n"));
+  EXPECT_THAT(across.warnings, ElementsAre(HasSubstr("c lies across the edge")));
+
+  const Site cut = Read(Rows("hazards:\n" + platform + groove));
+  EXPECT_NEAR(volume(cut.map.hazards[0]), 0.5 - 0.05, 1e-9);
+  EXPECT_NEAR(volume(cut.map.hazards[1]), 0.07, 1e-9);
+  const Site filled = Read(Rows("hazards:\n" + groove + platform));
+  EXPECT_NEAR(volume(filled.map.hazards[0]), 0.07 - 0.05, 1e-9);
+  EXPECT_NEAR(volume(filled.map.hazards[1]), 0.5, 1e-9);
+}
+
 TEST_F(SiteTest, AHazardOffTheMapIsWarnedOf) {
   const Site dut =
       Read(Rows("hazards:\n- {type: step, id: far, polygon_m: [[100, 1], [101, 1], [101, 2]]}\n"));
