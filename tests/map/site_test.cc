@@ -72,7 +72,7 @@ TEST_F(SiteTest, TheDesignsExampleReads) {
                                         "groove-0", "cable_cover-1", "blind_object-0", "rough-0"));
   EXPECT_EQ(dut.map.hazards.back().material.friction, 0.6);
   EXPECT_DOUBLE_EQ(dut.map.hazards[3].material.restitution, 0.3);
-  EXPECT_THAT(dut.warnings, IsEmpty());
+  EXPECT_THAT(dut.warnings, ElementsAre(HasSubstr("cable_cover-1 lies across the edge")));
 }
 
 TEST_F(SiteTest, DefaultsAreTheDesigns) {
