@@ -32,8 +32,9 @@ bool AsExpected(const DemoDrive& drive, const EpisodeRecord& record) {
 
 void AddDemo(CLI::App& app, const Globals& globals, int& status) {
   auto out = std::make_shared<std::string>("out/demo");
-  CLI::App* command = app.add_subcommand(
-      "demo", "The bundled site: a clean drive of each robot and a plan that fails, driven, judged, filmed");
+  CLI::App* command = app.add_subcommand("demo",
+                                         "The bundled site: a clean drive of each robot and a plan "
+                                         "that fails, driven, judged, filmed");
   command->add_option("--out", *out, "Output folder")->capture_default_str();
   command->callback([out, &globals, &status] {
     const std::filesystem::path root = *out;
