@@ -24,10 +24,8 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
   const bool bundled =
       std::ranges::any_of(Robots(), [&](const auto& r) { return r.name == s.robot_name; });
   robot.Add("name", ConfigNode::Scalar(bundled ? s.robot_name : from_here(s.robot_file), true));
-  robot.Add("mass_kg", s.robot_changes.mass_kg ? scalar(*s.robot_changes.mass_kg)
-                                               : ConfigNode::Scalar("none"));
-  robot.Add("clearance_m", s.robot_changes.clearance_m ? scalar(*s.robot_changes.clearance_m)
-                                                       : ConfigNode::Scalar("none"));
+  RobotChanges changes = s.robot_changes;
+  WriteParams([&](ParamVisitor& v) { changes.Visit(v); }, robot);
   root.Add("robot", std::move(robot));
 
   ConfigNode start = ConfigNode::Map();

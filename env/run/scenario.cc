@@ -90,14 +90,7 @@ void ReadRobotPart(const ConfigNode& root, Scenario& s) {
     path.mark = named.mark;
     s.robot_file = NamedFile(s.file.parent_path(), path, "robot");
   }
-  ReadParams(named.params, "robot.",
-             [&](ParamVisitor& v) {
-               v("mass_kg", s.robot_changes.mass_kg, Positive(),
-                 "total mass (kg); none: the model's");
-               v("clearance_m", s.robot_changes.clearance_m, Positive(),
-                 "belly above the floor (m); none: the model's");
-             },
-             {"name"});
+  ReadParams(named.params, "robot.", [&](ParamVisitor& v) { s.robot_changes.Visit(v); }, {"name"});
   s.robot = ReadRobot(s.robot_file, s.robot_changes);
 }
 

@@ -222,42 +222,6 @@ class SpecReader {
   int base_ = -1;
 };
 
-mjsBody* FindBase(mjSpec* spec) { return mjs_findBody(spec, "base"); }
-
-template <class Element>
-void ForEach(mjSpec* spec, mjtObj type, Element* (*cast)(mjsElement*),
-             void (*apply)(Element*, double), double value) {
-  for (mjsElement* e = mjs_firstElement(spec, type); e; e = mjs_nextElement(spec, e))
-    apply(cast(e), value);
-}
-
-void ScaleMass(mjSpec* spec, double factor) {
-  ForEach<mjsGeom>(
-      spec, mjOBJ_GEOM, mjs_asGeom,
-      [](mjsGeom* geom, double f) {
-        geom->mass *= f;  // NaN where the density rules
-        geom->density *= f;
-      },
-      factor);
-  ForEach<mjsBody>(
-      spec, mjOBJ_BODY, mjs_asBody,
-      [](mjsBody* body, double f) {
-        if (!body->explicitinertial) return;
-        body->mass *= f;
-        for (double& i : body->inertia) i *= f;
-        for (double& i : body->fullinertia) i *= f;
-      },
-      factor);
-}
-
-void RaiseBody(mjSpec* spec, double by_m) {
-  mjsBody* base = FindBase(spec);
-  for (mjsElement* e = mjs_firstChild(base, mjOBJ_GEOM, 0); e; e = mjs_nextChild(base, e, 0))
-    mjs_asGeom(e)->pos[2] += by_m;
-  for (mjsElement* e = mjs_firstChild(base, mjOBJ_SITE, 0); e; e = mjs_nextChild(base, e, 0))
-    mjs_asSite(e)->pos[2] += by_m;
-}
-
 }  // namespace
 
 std::span<const RobotEntry> Robots() {
@@ -301,9 +265,7 @@ RobotModel ReadRobot(const std::filesystem::path& file, const RobotChanges& chan
     return SpecReader(model.get(), file.string()).Read();
   };
   out.robot = read();
-  if (changes.mass_kg) ScaleMass(out.spec.get(), *changes.mass_kg / out.robot.mass_kg);
-  if (changes.clearance_m) RaiseBody(out.spec.get(), *changes.clearance_m - out.robot.clearance_m);
-  if (changes.mass_kg || changes.clearance_m) out.robot = read();
+  if (ChangeRobot(out.spec.get(), out.robot, changes)) out.robot = read();
   return out;
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +10,7 @@
 #include "env/core/error.h"
 #include "env/core/robot_spec.h"
 #include "env/scene/engine.h"
+#include "env/scene/robot_changes.h"
 
 namespace floorproof {
 
@@ -25,12 +25,6 @@ std::filesystem::path ModelsFolder();
 
 // The MJCF of a bundled robot's name, or of a path that ends in .xml. Throws InputError at `mark`.
 std::filesystem::path FindRobotFile(const std::string& name_or_path, const SourceMark& mark);
-
-// What a scenario may change of a robot.
-struct RobotChanges {
-  std::optional<double> mass_kg;      // all masses and inertias scaled to this total
-  std::optional<double> clearance_m;  // the body raised or lowered over its wheels
-};
 
 struct RobotModel {
   SpecPtr spec;  // the robot alone, changes applied

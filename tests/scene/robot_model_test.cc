@@ -50,6 +50,20 @@ TEST(RobotModel, ChangesReachMassAndClearance) {
   EXPECT_NEAR(robot.wheels[0].radius_m, 0.05, 1e-9) << "the wheels stay";
 }
 
+TEST(RobotModel, ChangesReachWheelsAndRollers) {
+  const std::filesystem::path htetro = FindRobotFile("htetro", {});
+  const RobotModel dut = ReadRobot(htetro, {.wheel_radius_m = 0.035, .roller_radius_m = 0.009});
+  for (const WheelSpec& wheel : dut.robot.wheels) {
+    EXPECT_NEAR(wheel.radius_m, 0.035, 1e-9);
+    EXPECT_NEAR(wheel.roller_radius_m, 0.009, 1e-9);
+    EXPECT_NEAR(wheel.p_BW.z(), 0.035, 1e-9) << "it stands on the same floor";
+  }
+  EXPECT_NEAR(dut.robot.clearance_m, 0.025, 1e-9) << "the body stays";
+  EXPECT_NEAR(Beluga({.wheel_radius_m = 0.06}).robot.wheels[0].p_BW.z(), 0.06, 1e-9);
+  EXPECT_THROW(Beluga({.roller_radius_m = 0.01}), InputError);
+  EXPECT_THROW(ReadRobot(htetro, {.roller_radius_m = 0.03}), InputError);
+}
+
 std::string RefusalOf(const std::string& name, const std::string& xml) {
   const std::string file = ::testing::TempDir() + "/" + name + ".xml";
   std::ofstream(file) << xml;
