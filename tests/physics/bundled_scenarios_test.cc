@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bundled scenarios after Figure 1 of "htetro-fmea-coverage": each fails as its own comment and
+// docs/gallery.md say, at the place where the hazard is.
+#include <ostream>
+
+#include "tests/run/scenario_text.h"
+
+namespace floorproof {
+namespace {
+
+// What is expected of an event: the robot's centre stands where its own size and the hazard's place
+// put it.
+struct Expected {
+  FailureMode mode;
+  const char* kind;
+  const char* hazard;
+  double x_m, y_m;
+  double tolerance_m = 0.05;
+};
+struct Bundled {
+  const char* name;
+  std::vector<Expected> events;
+  friend void PrintTo(const Bundled& b, std::ostream* out) { *out << b.name; }
+};
+
+// hTetro: from its centre to its shell, and to the middle rows of wheels along and across; a
+// wheel's radius and half its width.
+constexpr double kFront_m = 0.25, kRowAlong_m = 0.04, kRowAcross_m = 0.03;
+constexpr double kWheelRadius_m = 0.03, kWheelHalfWidth_m = 0.0125;
+
+Scenario ReadBundled(const std::string& name) {
+  return ReadScenario(
+      std::filesystem::path(FP_SOURCE_DIR) / "models/scenarios" / ("fig1_" + name + ".yaml"), {});
+}
+
+class BundledScenarios : public ScenarioTest, public ::testing::WithParamInterface<Bundled> {};
+
+TEST_P(BundledScenarios, FailsAsItSays) {
+  const EpisodeRecord dut = Drive(ReadBundled(GetParam().name));
+  EXPECT_EQ(dut.outcome, Outcome::kFailure) << dut.message;
+  ASSERT_EQ(dut.events.size(), GetParam().events.size());
+  for (std::size_t i = 0; i < dut.events.size(); ++i) {
+    const Event& event = dut.events[i];
+    const Expected& expected = GetParam().events[i];
+    SCOPED_TRACE(i);
+    EXPECT_EQ(Name(event.mode), Name(expected.mode));
+    EXPECT_EQ(event.kind, expected.kind);
+    EXPECT_EQ(event.hazard, expected.hazard);
+    EXPECT_NEAR(event.x_m, expected.x_m, expected.tolerance_m);
+    EXPECT_NEAR(event.y_m, expected.y_m, expected.tolerance_m);
+  }
+}
+
+constexpr FailureMode kVeerOff = FailureMode::kVeerOff, kStuck = FailureMode::kStuck,
+                      kRollOver = FailureMode::kRollOver, kBounceBack = FailureMode::kBounceBack;
+INSTANTIATE_TEST_SUITE_P(
+    Figure1, BundledScenarios,
+    ::testing::Values(
+        Bundled{"glass_door",
+                {{kBounceBack, "reversed", "glass-door", 3.75 - 0.005 - kFront_m, 2.5}}},
+        // Between the front legs, against the rear ones.
+        Bundled{"chair_legs",
+                {{kBounceBack, "reversed", "rear-leg-left", 3.46 - kFront_m, 2.5},
+                 {kStuck, "", "rear-leg-left", 3.46 - kFront_m, 2.5}}},
+        // It falls when its centre is over the edge, and comes to rest across the treads.
+        Bundled{"staircase_edge",
+                {{kRollOver, "fell", "stair-1", 3.0, 2.5},
+                 {kStuck, "high_centred", "stair-1", 3.4, 2.5}}},
+        // Up the kerb at x = 2.2 m, not up the first step.
+        Bundled{"entrance_steps",
+                {{kBounceBack, "reversed", "step-1", 3.2 - kFront_m, 2.5},
+                 {kStuck, "", "step-1", 3.2 - kFront_m, 2.5}}},
+        // Half a metre off its lane, its corner at the partition: where, hangs on how far round it
+        // is pushed, between not at all and the partition's 10 degrees.
+        Bundled{"wall_brush", {{kVeerOff, "", "partition", 4.63, 2.5 + 0.5, 0.14}}},
+        // Forward over it on the lane at y = 1.75 m; sideways its second row stands at the foot.
+        Bundled{"cable_cover",
+                {{kStuck, "", "cover", 3.0 + 0.0497 + kWheelHalfWidth_m + kRowAcross_m, 2.75}}},
+        // Its third row stands at the foot of the first whole cobbles, 2.2575 m.
+        Bundled{"rough_floor",
+                {{kStuck, "", "cobbles", 2.2575 - kWheelRadius_m + kRowAlong_m, 2.55}}}),
+    [](const auto& suite) { return std::string(suite.param.name); });
+
+class WallBrush : public ScenarioTest {};
+
+// What pushes it off is the partition, whose face rises by 10 degrees from (1.80, 2.23).
+TEST_F(WallBrush, ItsFrontRightCornerIsAtThePartition) {
+  const EpisodeRecord dut = Drive(ReadBundled("wall_brush"));
+  ASSERT_FALSE(dut.events.empty());
+  const Pose2 X_WB{dut.events[0].x_m, dut.events[0].y_m, dut.events[0].yaw_rad};
+  const Vec2 corner_W = X_WB * Vec2(kFront_m, -kFront_m);
+  const double face_m = 2.23 + std::tan(10 * kPi / 180) * (corner_W.x() - 1.80);
+  EXPECT_NEAR(corner_W.y(), face_m, 0.005);
+}
+
+}  // namespace
+}  // namespace floorproof
