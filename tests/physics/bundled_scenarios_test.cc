@@ -62,11 +62,12 @@ INSTANTIATE_TEST_SUITE_P(
         Bundled{"chair_legs",
                 {{kBounceBack, "reversed", "rear-leg-left", 3.46 - kFront_m, 2.5},
                  {kStuck, "", "rear-leg-left", 3.46 - kFront_m, 2.5}}},
-        // It falls when its centre is over the edge, and comes to rest across the treads.
+        // It falls when its centre is over the edge, and comes to rest across the treads of 0.3 m,
+        // on the first or the second.
         Bundled{"staircase_edge",
                 {{kRollOver, "fell", "stair-1", 3.0, 2.5},
-                 {kStuck, "high_centred", "stair-1", 3.4, 2.5}}},
-        // Up the kerb at x = 2.2 m, not up the first step.
+                 {kStuck, "high_centred", "stair-1", 3.25, 2.5, 0.2}}},
+        // Over the sill at x = 2.2 m, not up the first step.
         Bundled{"entrance_steps",
                 {{kBounceBack, "reversed", "step-1", 3.2 - kFront_m, 2.5},
                  {kStuck, "", "step-1", 3.2 - kFront_m, 2.5}}},
