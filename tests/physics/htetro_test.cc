@@ -39,7 +39,8 @@ TEST(Htetro, IsAsLargeAsThePaperSays) {
 // The twist that wheels of 16 rolling constraints allow: forward, sideways, diagonal, turning and
 // all at once, to half a per cent; on a plane and on slabs around a pit elsewhere.
 TEST(Htetro, MovesEveryWayAsItsWheelsTurn) {
-  constexpr double kError = 0.005;
+  // Turning while it moves needs a force across, which soft friction gives with a creep.
+  constexpr double kPlainError = 0.005, kCurveError = 0.0075;
   Hazard pit;
   pit.id = "pit";
   const Polygon place = Rectangle({-8, -8}, {-7, -7});
@@ -52,9 +53,10 @@ TEST(Htetro, MovesEveryWayAsItsWheelsTurn) {
       Bench dut("htetro", {}, hazards);
       const BodyTwist v = dut.Drive(twist, 3);
       const double speed = std::hypot(twist.vx_mps, twist.vy_mps);
-      EXPECT_NEAR(v.vx_mps, twist.vx_mps, kError * speed + 1e-5);
-      EXPECT_NEAR(v.vy_mps, twist.vy_mps, kError * speed + 1e-5);
-      EXPECT_NEAR(v.wz_radps, twist.wz_radps, kError * std::abs(twist.wz_radps) + 1e-4);
+      const double error = speed > 0 && twist.wz_radps != 0 ? kCurveError : kPlainError;
+      EXPECT_NEAR(v.vx_mps, twist.vx_mps, error * speed + 1e-5);
+      EXPECT_NEAR(v.vy_mps, twist.vy_mps, error * speed + 1e-5);
+      EXPECT_NEAR(v.wz_radps, twist.wz_radps, error * std::abs(twist.wz_radps) + 1e-4);
       EXPECT_LT(std::abs(dut.sim->sample().p_WB.z()), 1e-4) << "no ripple";
     }
 }
@@ -71,6 +73,24 @@ TEST(Htetro, OneTwoAndFourMillisecondsAndBothIntegratorsAgree) {
     EXPECT_NEAR(dut.sim->sample().p_WB.x(), fine.sim->sample().p_WB.x(), 0.005);
     EXPECT_NEAR(dut.sim->sample().p_WB.y(), fine.sim->sample().p_WB.y(), 0.005);
     EXPECT_NEAR(dut.sim->sample().yaw_rad, fine.sim->sample().yaw_rad, 0.01);
+  }
+}
+
+// A dead wall throws nothing back: what comes back is below a fifth of what came.
+TEST(Htetro, ADeadWallThrowsNothingBack) {
+  Hazard wall;
+  wall.id = "wall";
+  wall.solids = {{Solid::Kind::kPrism, Rectangle({0.5, -8}, {8, 8}), {}, 0, 0.15}};
+  for (const double timestep_s : {0.002, 0.004}) {
+    Bench dut("htetro", {.timestep_s = timestep_s}, {wall});
+    dut.Command({0.25, 0, 0});
+    double back_mps = 0;
+    while (dut.sim->sample().t_s < 3) {
+      ASSERT_TRUE(dut.sim->Step());
+      back_mps = std::max(back_mps, -dut.sim->sample().V_WB_B.vx_mps);
+    }
+    EXPECT_LT(back_mps, 0.2 * 0.25) << timestep_s;
+    EXPECT_NEAR(dut.sim->sample().p_WB.x(), 0.25, 0.005) << "it stands at the wall";
   }
 }
 
