@@ -52,7 +52,8 @@ struct SweepArea {
 SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shape2& tool,
                            double step_m, const Vec2& start_W);
 
-// Marks what the tool sweeps as it moves. Add() costs O(tool area) and allocates nothing.
+// Marks what the tool sweeps as it moves: the cells whose centre it passes over, a footprint to
+// within 2 mm. Add() costs O(tool area) and allocates nothing.
 class CoverageMeter {
  public:
   CoverageMeter(const SweepArea& area, const Shape2& tool);

@@ -58,7 +58,7 @@ struct Sample {
   int belly_hazard = -1;  // index of the hazard that carries it; -1: none or the floor
   int wheel_contacts = 0;
   double support_margin_m =
-      0;  // centre of mass to the border of the wheel contacts' hull, positive inside
+      0;  // centre of mass to the border of the hull of what carries it, positive inside
   double wheel_floor_z_m = 0;  // lowest point of the lowest driven wheel, world z
   int near_hazard = -1;        // a hazard under or at a wheel or the body now; -1: none
   std::array<ObstacleContact, kMaxContacts> contacts;  // the first num_contacts hold

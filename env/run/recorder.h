@@ -2,6 +2,8 @@
 // Gathers an episode's record while it is driven.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -80,7 +82,8 @@ class Recorder {
     record_.outcome = judged && failed() ? Outcome::kFailure : ended;
     if (record_.outcome == Outcome::kSuccess && m.coverage < min_coverage) {
       record_.outcome = Outcome::kFailure;
-      record_.message = "coverage " + FormatDouble(m.coverage) + " is below success.min_coverage";
+      record_.message = fmt::format("coverage {:.2f} % is below success.min_coverage, {:.2f} %",
+                                    100 * m.coverage, 100 * min_coverage);
     }
     if (ended == Outcome::kError) record_.message = "the physics diverged";
     return std::move(record_);

@@ -253,6 +253,7 @@ Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrid
   ReadSitePart(root, overrides, s);
   ReadRobotPart(root, s);
   s.start = ReadStart(root, s.site.map);
+  s.site.map.start = s.start;  // the scenario's own wins, on pictures too
   CheckStart(root, s);
   s.goal = s.site.map.goal;
   if (const ConfigNode* goal = root.Find("goal")) {

@@ -14,7 +14,7 @@ namespace {
 // Contact bits, as the robots' MJCF states them: wheels meet the floor and hazards, the body all.
 constexpr int kFloorBit = 1, kWallBit = 2;
 constexpr double kWallHeight_m = 0.45;
-constexpr double kSlab_m = 0.10;  // thickness of floor pieces
+constexpr double kSlab_m = 0.10;  // of floor below the lowest
 // Contact softness that was sound at 1-5 ms (physics.md, "Settings that were sound").
 constexpr double kTimeConstant_s = 0.01;
 constexpr mjtNum kSolimp[] = {0.95, 0.99, 0.0005};
@@ -44,10 +44,13 @@ class SceneBuilder {
       plane->size[2] = 1;
       mjs_setString(plane->material, "floor");
     }
+    // All reach down alike: beside a deep pit there is no slot under the floor.
+    double lowest_m = 0;
+    for (const auto& piece : pieces) lowest_m = std::min(lowest_m, piece.z_top_m);
     for (const auto& piece : pieces) {
       const bool base = piece.hazard < 0;
       const double friction = base ? map_.floor_friction : Friction(map_.hazards[piece.hazard]);
-      mjsGeom* geom = Extrude(piece.outline, piece.outline, piece.z_top_m - kSlab_m, piece.z_top_m,
+      mjsGeom* geom = Extrude(piece.outline, piece.outline, lowest_m - kSlab_m, piece.z_top_m,
                               GeomRole::Kind::kFloor, piece.hazard, friction, 0);
       mjs_setString(geom->material, base ? "floor" : "pit");
     }

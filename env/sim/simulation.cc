@@ -11,6 +11,7 @@ namespace {
 constexpr std::size_t kMostSupports = 64;
 // A contact whose normal stands steeper than this carries; one flatter than that obstructs.
 constexpr double kSteep = 0.7;
+constexpr double kWedged = 0.3;      // a wheel in a groove stands on rims as steep as this
 constexpr double kBeside_m = 0.005;  // into the gap beside a slab's side
 constexpr double kBelow_m = 0.005;   // below the floor a wheel hangs in something
 
@@ -157,13 +158,14 @@ void Simulation::ReadContacts() {
     if (world.hazard >= 0) sample_.near_hazard = world.hazard;
     if (robot.kind == GeomRole::Kind::kWheel) {
       ++sample_.wheel_contacts;
-      if (nz > kSteep) AddSupport(c.pos);
+      if (nz > kWedged) AddSupport(c.pos);
       continue;
     }
     mjtNum force[6];
     mj_contactForce(m, d, i, force);
     if (nz > kSteep) {
       sample_.belly_load_n += force[0] * nz;
+      if (force[0] > 0) AddSupport(c.pos);
       sample_.belly_hazard = world.hazard;
     } else {
       AddObstacle(world.hazard, c.pos, Vec2(toward * c.frame[0], toward * c.frame[1]), force[0]);

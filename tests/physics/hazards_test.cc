@@ -73,7 +73,7 @@ TEST_P(Hazards, ADropOf150mmIsAFall) {
 // them. hTetro stands on three other rows of wheels meanwhile; nothing narrower than the distance
 // of its middle rows' far sides can take it.
 TEST_P(Hazards, AGrooveWiderThanTheWheelsHoldsBelugaAndIsBridgedByHtetro) {
-  const EpisodeRecord dut = Meet(Line("type: groove, width_m: 0.12, depth_m: 0.028"));
+  const EpisodeRecord dut = Meet(Line("type: groove, width_m: 0.12, depth_m: 0.050"));
   if (IsHtetro()) {
     ExpectNothing(dut);
     return;
