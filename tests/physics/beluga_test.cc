@@ -4,16 +4,16 @@
 
 #include <cmath>
 
-#include "tests/physics/bench.h"
+#include "env/validate/rig.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {
 namespace {
 
 TEST(Beluga, RestsOnItsWheelsAndCasters) {
-  Bench dut("beluga");
-  for (int i = 0; i < 500; ++i) ASSERT_TRUE(dut.sim->Step());
-  const Sample& s = dut.sim->sample();
+  Rig dut("beluga");
+  for (int i = 0; i < 500; ++i) dut.Step();
+  const Sample& s = dut.sample();
   EXPECT_NEAR(s.p_WB.z(), 0, 0.0005);
   EXPECT_LT(s.tilt_rad, 0.01);
   EXPECT_NEAR(s.V_WB_B.vx_mps, 0, 1e-4);
@@ -27,8 +27,8 @@ TEST(Beluga, RollsAsItsWheelsTurn) {
   constexpr double kSlip = 0.02;
   for (const BodyTwist& twist : {BodyTwist{0.25, 0, 0}, BodyTwist{-0.2, 0, 0},
                                  BodyTwist{0.2, 0, 0.5}, BodyTwist{0.1, 0, -0.3}}) {
-    Bench dut("beluga");
-    const BodyTwist v = dut.Drive(twist, 2);
+    Rig dut("beluga");
+    const BodyTwist v = dut.Run(twist, 2);
     EXPECT_NEAR(v.vx_mps, twist.vx_mps, kSlip * std::abs(twist.vx_mps));
     EXPECT_NEAR(v.vy_mps, 0, 0.005);
     EXPECT_NEAR(v.wz_radps, twist.wz_radps, 0.03 * std::abs(twist.wz_radps) + 1e-4);
@@ -36,10 +36,10 @@ TEST(Beluga, RollsAsItsWheelsTurn) {
 }
 
 TEST(Beluga, MirroredCommandsGiveMirroredMotion) {
-  Bench left("beluga"), right("beluga");
-  left.Drive({0.2, 0, 0.6}, 3);
-  right.Drive({0.2, 0, -0.6}, 3);
-  const Sample &l = left.sim->sample(), &r = right.sim->sample();
+  Rig left("beluga"), right("beluga");
+  left.Run({0.2, 0, 0.6}, 3);
+  right.Run({0.2, 0, -0.6}, 3);
+  const Sample &l = left.sample(), &r = right.sample();
   constexpr double kSolver_m = 0.002;  // contacts are solved in an order that a mirror changes
   EXPECT_NEAR(l.p_WB.x(), r.p_WB.x(), kSolver_m);
   EXPECT_NEAR(l.p_WB.y(), -r.p_WB.y(), kSolver_m);
@@ -48,16 +48,16 @@ TEST(Beluga, MirroredCommandsGiveMirroredMotion) {
 
 // The answer does not hang on the step or the integrator.
 TEST(Beluga, OneTwoAndFourMillisecondsAgree) {
-  Bench fine("beluga", {.timestep_s = 0.001});
-  fine.Drive({0.2, 0, 0.4}, 4);
+  Rig fine("beluga", {.physics = {.timestep_s = 0.001}});
+  fine.Run({0.2, 0, 0.4}, 4);
   for (const PhysicsParams& physics :
        {PhysicsParams{.timestep_s = 0.002}, PhysicsParams{.timestep_s = 0.004},
         PhysicsParams{.timestep_s = 0.004, .integrator = "implicitfast"}}) {
-    Bench dut("beluga", physics);
-    dut.Drive({0.2, 0, 0.4}, 4);
-    EXPECT_NEAR(dut.sim->sample().p_WB.x(), fine.sim->sample().p_WB.x(), 0.01);
-    EXPECT_NEAR(dut.sim->sample().p_WB.y(), fine.sim->sample().p_WB.y(), 0.01);
-    EXPECT_NEAR(dut.sim->sample().yaw_rad, fine.sim->sample().yaw_rad, 0.02);
+    Rig dut("beluga", {.physics = physics});
+    dut.Run({0.2, 0, 0.4}, 4);
+    EXPECT_NEAR(dut.sample().p_WB.x(), fine.sample().p_WB.x(), 0.01);
+    EXPECT_NEAR(dut.sample().p_WB.y(), fine.sample().p_WB.y(), 0.01);
+    EXPECT_NEAR(dut.sample().yaw_rad, fine.sample().yaw_rad, 0.02);
   }
 }
 

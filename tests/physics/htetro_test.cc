@@ -4,15 +4,15 @@
 
 #include <cmath>
 
-#include "tests/physics/bench.h"
+#include "env/validate/rig.h"
 
 namespace floorproof {
 namespace {
 
 TEST(Htetro, RestsOnAllItsWheels) {
-  Bench dut("htetro");
-  for (int i = 0; i < 500; ++i) ASSERT_TRUE(dut.sim->Step());
-  const Sample& s = dut.sim->sample();
+  Rig dut("htetro");
+  for (int i = 0; i < 500; ++i) dut.Step();
+  const Sample& s = dut.sample();
   EXPECT_EQ(s.wheel_contacts, 16);
   EXPECT_NEAR(s.p_WB.z(), 0, 1e-4);
   EXPECT_NEAR(s.wheel_floor_z_m, 0, 1e-4) << "rollers included, the wheels reach the floor";
@@ -50,29 +50,29 @@ TEST(Htetro, MovesEveryWayAsItsWheelsTurn) {
     for (const BodyTwist& twist :
          {BodyTwist{0.2, 0, 0}, BodyTwist{-0.2, 0, 0}, BodyTwist{0, 0.2, 0}, BodyTwist{0, -0.2, 0},
           BodyTwist{aslant, aslant, 0}, BodyTwist{0, 0, 0.5}, BodyTwist{0.2, 0.1, 0.3}}) {
-      Bench dut("htetro", {}, hazards);
-      const BodyTwist v = dut.Drive(twist, 3);
+      Rig dut("htetro", {.hazards = hazards});
+      const BodyTwist v = dut.Run(twist, 3);
       const double speed = std::hypot(twist.vx_mps, twist.vy_mps);
       const double error = speed > 0 && twist.wz_radps != 0 ? kCurveError : kPlainError;
       EXPECT_NEAR(v.vx_mps, twist.vx_mps, error * speed + 1e-5);
       EXPECT_NEAR(v.vy_mps, twist.vy_mps, error * speed + 1e-5);
       EXPECT_NEAR(v.wz_radps, twist.wz_radps, error * std::abs(twist.wz_radps) + 1e-4);
-      EXPECT_LT(std::abs(dut.sim->sample().p_WB.z()), 1e-4) << "no ripple";
+      EXPECT_LT(std::abs(dut.sample().p_WB.z()), 1e-4) << "no ripple";
     }
 }
 
 TEST(Htetro, OneTwoAndFourMillisecondsAndBothIntegratorsAgree) {
   const BodyTwist twist{0.15, 0.1, 0.3};
-  Bench fine("htetro", {.timestep_s = 0.001});
-  fine.Drive(twist, 4);
+  Rig fine("htetro", {.physics = {.timestep_s = 0.001}});
+  fine.Run(twist, 4);
   for (const PhysicsParams& physics :
        {PhysicsParams{.timestep_s = 0.002}, PhysicsParams{.timestep_s = 0.004},
         PhysicsParams{.timestep_s = 0.004, .integrator = "implicitfast"}}) {
-    Bench dut("htetro", physics);
-    dut.Drive(twist, 4);
-    EXPECT_NEAR(dut.sim->sample().p_WB.x(), fine.sim->sample().p_WB.x(), 0.005);
-    EXPECT_NEAR(dut.sim->sample().p_WB.y(), fine.sim->sample().p_WB.y(), 0.005);
-    EXPECT_NEAR(dut.sim->sample().yaw_rad, fine.sim->sample().yaw_rad, 0.01);
+    Rig dut("htetro", {.physics = physics});
+    dut.Run(twist, 4);
+    EXPECT_NEAR(dut.sample().p_WB.x(), fine.sample().p_WB.x(), 0.005);
+    EXPECT_NEAR(dut.sample().p_WB.y(), fine.sample().p_WB.y(), 0.005);
+    EXPECT_NEAR(dut.sample().yaw_rad, fine.sample().yaw_rad, 0.01);
   }
 }
 
@@ -82,15 +82,15 @@ TEST(Htetro, ADeadWallThrowsNothingBack) {
   wall.id = "wall";
   wall.solids = {{Solid::Kind::kPrism, Rectangle({0.5, -8}, {8, 8}), {}, 0, 0.15}};
   for (const double timestep_s : {0.002, 0.004}) {
-    Bench dut("htetro", {.timestep_s = timestep_s}, {wall});
+    Rig dut("htetro", {.physics = {.timestep_s = timestep_s}, .hazards = {wall}});
     dut.Command({0.25, 0, 0});
     double back_mps = 0;
-    while (dut.sim->sample().t_s < 3) {
-      ASSERT_TRUE(dut.sim->Step());
-      back_mps = std::max(back_mps, -dut.sim->sample().V_WB_B.vx_mps);
+    while (dut.sample().t_s < 3) {
+      dut.Step();
+      back_mps = std::max(back_mps, -dut.sample().V_WB_B.vx_mps);
     }
     EXPECT_LT(back_mps, 0.2 * 0.25) << timestep_s;
-    EXPECT_NEAR(dut.sim->sample().p_WB.x(), 0.25, 0.005) << "it stands at the wall";
+    EXPECT_NEAR(dut.sample().p_WB.x(), 0.25, 0.005) << "it stands at the wall";
   }
 }
 
@@ -99,34 +99,25 @@ TEST(Htetro, ADeadWallThrowsNothingBack) {
 // all wheels free to follow it can.
 TEST(Htetro, HeldWheelsHoldItEveryWay) {
   for (const double angle : {0.0, kPi / 4, kPi / 2, 2.5}) {
-    Bench dut("htetro");
+    Rig dut("htetro");
     dut.Command({});
-    mjData* d = dut.sim->data();
+    mjData* d = dut.data();
     const double push_n = 30;  // of some 86 N that friction gives
-    d->xfrc_applied[6 * dut.scene.base_body] = push_n * std::cos(angle);
-    d->xfrc_applied[6 * dut.scene.base_body + 1] = push_n * std::sin(angle);
-    for (int i = 0; i < 250; ++i) ASSERT_TRUE(dut.sim->Step());
-    EXPECT_LT(dut.sim->sample().p_WB.head<2>().norm(), 0.10) << angle;
-    EXPECT_LT(dut.sim->sample().v_WB_W.norm(), 0.10) << angle;
+    d->xfrc_applied[6 * dut.scene().base_body] = push_n * std::cos(angle);
+    d->xfrc_applied[6 * dut.scene().base_body + 1] = push_n * std::sin(angle);
+    for (int i = 0; i < 250; ++i) dut.Step();
+    EXPECT_LT(dut.sample().p_WB.head<2>().norm(), 0.10) << angle;
+    EXPECT_LT(dut.sample().v_WB_W.norm(), 0.10) << angle;
   }
-}
-
-Hazard Prism(const std::string& id, const Polygon& base, const Polygon& top, double height_m) {
-  Hazard hazard;
-  hazard.id = id;
-  hazard.solids = {{Solid::Kind::kPrism, base, top, 0, height_m}};
-  return hazard;
 }
 
 // Whether the robot, driven forward (or sideways, left first), comes to stand beyond the strip
 // that begins 0.5 m ahead.
 bool Crosses(bool sideways, const Hazard& hazard, double speed_mps = 0.2) {
-  Bench dut("htetro", {}, {hazard});
+  Rig dut("htetro", {.hazards = {hazard}});
   dut.Command(sideways ? BodyTwist{0, speed_mps, 0} : BodyTwist{speed_mps, 0, 0});
-  const auto way = [&] {
-    return sideways ? dut.sim->sample().p_WB.y() : dut.sim->sample().p_WB.x();
-  };
-  while (dut.sim->sample().t_s < 2.5 / speed_mps && way() < 1.4) EXPECT_TRUE(dut.sim->Step());
+  const auto way = [&] { return sideways ? dut.sample().p_WB.y() : dut.sample().p_WB.x(); };
+  while (dut.sample().t_s < 2.5 / speed_mps && way() < 1.4) dut.Step();
   return way() >= 1.4;
 }
 
@@ -160,11 +151,12 @@ TEST(Htetro, ACableCoverCrossedForwardHoldsItSideways) {
 
 TEST(Htetro, MirroredHazardsGiveMirroredMotion) {
   const auto run = [](double side) {
-    Bench dut("htetro", {},
-              {Prism("plank", Rectangle({0.4, std::min(0.0, side)}, {2, std::max(0.0, side)}), {},
-                     0.012)});
-    dut.Drive({0.2, 0, 0}, 5);
-    return dut.sim->sample();
+    Rig dut(
+        "htetro",
+        {.hazards = {Prism("plank", Rectangle({0.4, std::min(0.0, side)}, {2, std::max(0.0, side)}),
+                           {}, 0.012)}});
+    dut.Run({0.2, 0, 0}, 5);
+    return dut.sample();
   };
   const Sample left = run(8), right = run(-8);
   EXPECT_GT(left.p_WB.x(), 0.8) << "it went up on one side";

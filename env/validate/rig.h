@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// A robot on a wide floor, driven by twists: what laws and tests look at.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "controllers/drive.h"
+#include "env/scene/scene.h"
+#include "env/sim/simulation.h"
+
+namespace floorproof {
+
+// What is made wrong on purpose, to see that a law notices. The simulation gets it; what the law
+// expects, and the wheel speeds commanded, stay those of the true model.
+struct WrongModel {
+  double friction_factor = 1;     // of the floor and of hazards that state none
+  double wheel_radius_add_m = 0;  // to the driven wheels'; the body stays
+};
+
+struct RigOptions {
+  PhysicsParams physics = {};
+  std::vector<Hazard> hazards = {};  // solids on the floor; ids and materials as in a site
+  RobotChanges changes = {};
+  double friction = 0.8;
+  WrongModel wrong = {};
+};
+
+class Rig {
+ public:
+  // The robot (a bundled name or a file) at the origin of a floor of 20 x 20 m, at rest.
+  explicit Rig(const std::string& robot_name, RigOptions options = {});
+
+  // Wheel speeds for this twist from now on.
+  void Command(const BodyTwist& twist);
+  // One physics step; throws InternalError when the state diverged.
+  void Step();
+  // Drives this twist for a time; returns the body's mean velocity over the second half.
+  BodyTwist Run(const BodyTwist& twist, double t_s);
+
+  const Sample& sample() const { return sim_->sample(); }
+  const RobotSpec& robot() const { return true_robot_; }  // of the true model
+  Simulation& sim() { return *sim_; }
+  mjData* data() { return sim_->data(); }
+  const Scene& scene() const { return scene_; }
+
+ private:
+  HazardMap map_;
+  RobotSpec true_robot_;
+  RobotModel model_;  // the one simulated
+  Scene scene_;
+  std::unique_ptr<Drive> drive_;
+  std::vector<double> wheel_radps_;
+  std::unique_ptr<Simulation> sim_;
+};
+
+// A straight-sided or flanked solid on the floor, for RigOptions::hazards: `top` empty: as `base`.
+Hazard Prism(const std::string& id, const Polygon& base, const Polygon& top, double height_m);
+
+}  // namespace floorproof

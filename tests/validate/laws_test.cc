@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every law holds on the true model, and fails on each wrong model that it must notice.
+#include <gmock/gmock.h>
+
+#include "env/validate/law.h"
+
+namespace floorproof {
+namespace {
+
+class LawTest : public ::testing::TestWithParam<std::string> {
+ protected:
+  std::unique_ptr<Law> dut_ = MakePlugin(Laws(), GetParam(), "law");
+};
+
+INSTANTIATE_TEST_SUITE_P(Laws, LawTest, ::testing::ValuesIn(PluginNames(Laws())),
+                         [](const auto& law) { return law.param; });
+
+TEST_P(LawTest, HoldsOnTheTrueModel) {
+  std::vector<LawRow> rows;
+  dut_->Check({}, rows);
+  ASSERT_FALSE(rows.empty());
+  for (const LawRow& row : rows) {
+    EXPECT_TRUE(row.ok()) << row.law << ": expected " << row.expected << ", measured "
+                          << row.measured << ", tolerance " << row.tolerance << " " << row.unit;
+    EXPECT_TRUE(row.law.starts_with(GetParam() + "/")) << row.law;
+  }
+}
+
+TEST_P(LawTest, FailsOnWrongModels) {
+  ASSERT_FALSE(dut_->notices().empty()) << "a law that notices nothing proves nothing";
+  for (const WrongModel& wrong : dut_->notices()) {
+    ASSERT_TRUE(wrong.friction_factor != 1 || wrong.wheel_radius_add_m != 0);
+    std::vector<LawRow> rows;
+    dut_->Check(wrong, rows);
+    EXPECT_FALSE(std::ranges::all_of(rows, &LawRow::ok))
+        << "friction x " << wrong.friction_factor << ", wheels + " << wrong.wheel_radius_add_m;
+  }
+}
+
+TEST(ValidateCsv, HasARowAComparison) {
+  const LawResult result{"a",
+                         "a = b",
+                         {{
+                              "a/x",
+                              1,
+                              1.05,
+                              0.1,
+                              "m",
+                          },
+                          {"a/y", 1, 2, 0.5, "s"}}};
+  EXPECT_EQ(ValidateCsv(std::vector{result}),
+            "law,expected,measured,tolerance,unit,ok\na/x,1,1.05,0.1,m,1\na/y,1,2,0.5,s,0\n");
+}
+
+}  // namespace
+}  // namespace floorproof
