@@ -20,8 +20,8 @@ RobotChanges Wrong(RobotChanges changes, const RobotSpec& robot, const WrongMode
 
 Rig::Rig(const std::string& robot_name, RigOptions options) {
   const auto file = FindRobotFile(robot_name, {});
-  true_robot_ = ReadRobot(file, options.changes).robot;
-  model_ = ReadRobot(file, Wrong(options.changes, true_robot_, options.wrong));
+  true_robot_ = ReadRobot(file, options.changes, options.blocks).robot;
+  model_ = ReadRobot(file, Wrong(options.changes, true_robot_, options.wrong), options.blocks);
   map_.frame = {kCells, kCells, kCell_m, {-kCells * kCell_m / 2, -kCells * kCell_m / 2, 0}};
   map_.cells = Grid<CellState>(kCells, kCells);
   map_.hazards = std::move(options.hazards);
@@ -34,9 +34,10 @@ Rig::Rig(const std::string& robot_name, RigOptions options) {
   sim_->Reset({});
 }
 
-void Rig::Command(const BodyTwist& twist) {
-  drive_->ToWheels(twist, wheel_radps_);
+void Rig::Command(const BodyTwist& twist, const HingeState& hinges) {
+  drive_->ToWheels(twist, hinges, wheel_radps_);
   sim_->SetWheelSpeeds(wheel_radps_);
+  sim_->SetHingeSpeeds(hinges);
 }
 
 void Rig::Step() {

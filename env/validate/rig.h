@@ -23,6 +23,7 @@ struct RigOptions {
   PhysicsParams physics = {};
   std::vector<Hazard> hazards = {};  // solids on the floor; ids and materials as in a site
   RobotChanges changes = {};
+  Blocks blocks = Blocks::kLocked;
   double friction = 0.8;
   WrongModel wrong = {};
 };
@@ -32,8 +33,8 @@ class Rig {
   // The robot (a bundled name or a file) at the origin of a floor of 20 x 20 m, at rest.
   explicit Rig(const std::string& robot_name, RigOptions options = {});
 
-  // Wheel speeds for this twist from now on.
-  void Command(const BodyTwist& twist);
+  // Wheel and hinge speeds for this motion from now on; hinges that are not mentioned hold still.
+  void Command(const BodyTwist& twist, const HingeState& hinges = {});
   // One physics step; throws InternalError when the state diverged.
   void Step();
   // Drives this twist for a time; returns the body's mean velocity over the second half.
