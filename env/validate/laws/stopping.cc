@@ -14,29 +14,13 @@
 // nods, its casters' dampers and the ends of their travel carry more or less than the springs.
 #include <fmt/format.h>
 
+#include "env/validate/cart.h"
 #include "env/validate/law.h"
 
 namespace floorproof {
 namespace {
 
 constexpr double kShare = 0.01, kNodding = 0.03, kCrept_m = 0.002;
-
-// A low box on four plain wheels.
-std::string Cart(double radius_m) {
-  std::string wheels, motors;
-  for (int i = 0; i < 4; ++i) {
-    const double x = i < 2 ? 0.2 : -0.2, y = i % 2 ? 0.15 : -0.15;
-    wheels += fmt::format(
-        R"(<body pos="{} {} {}"><joint name="w{}" axis="0 1 0" frictionloss="0.02"/>
-        <geom type="cylinder" size="{} 0.008" zaxis="0 1 0" mass="0.3" contype="0"/></body>)",
-        x, y, radius_m, i, radius_m);
-    motors += fmt::format(R"(<motor joint="w{}"/>)", i);
-  }
-  return fmt::format(R"(<mujoco><worldbody><body name="base"><freejoint/>
-      <geom type="box" size="0.25 0.12 0.03" pos="0 0 {}" mass="9" contype="0" conaffinity="3"/>
-      {}</body></worldbody><actuator>{}</actuator></mujoco>)",
-                     radius_m + 0.02, wheels, motors);
-}
 
 // The way that the wheels' axles slide from this speed, in this direction, until they stand. The
 // body's origin lies below them: as locked wheels let the body nod, it swings.
@@ -88,9 +72,8 @@ class Stopping final : public Law {
           rows.push_back({fmt::format("stopping/{}/mu{}/v{}", name, mu, v_mps), s_m,
                           Slide(rig, axle_m, v_mps, way_rad), share * s_m + kCrept_m, "m"});
         };
-        constexpr double kCartWheel_m = 0.04;
-        Rig cart(BodyFromMjcf(Cart(kCartWheel_m)), options);
-        row("cart", cart, kCartWheel_m, 0, mu * kGravity_mps2);
+        Rig cart(MakeCart({}), options);
+        row("cart", cart, Cart{}.wheel_radius_m, 0, mu * kGravity_mps2);
         Rig beluga("beluga", options);
         const mjModel* m = beluga.sim().model();
         const double light = CasterLoad(m) / (beluga.robot().mass_kg * kGravity_mps2);
