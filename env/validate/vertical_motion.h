@@ -19,26 +19,30 @@ inline constexpr double kMostHeave_m = 0.0003;
 
 class VerticalMotion {
  public:
+  // Over how many updates accelerations are averaged: what makes 20 ms.
+  explicit VerticalMotion(int window = kMostWindow) : window_(window) {}
+
   void Update(const Sample& sample) {
-    if (count_ >= kWindow) {
-      const Moment& before = last_[static_cast<std::size_t>(count_ % kWindow)];
+    if (count_ >= window_) {
+      const Moment& before = last_[static_cast<std::size_t>(count_ % window_)];
       accel_mps2_ = std::max(
           accel_mps2_, std::abs((sample.v_WB_W.z() - before.v_mps) / (sample.t_s - before.t_s)));
     }
     height_m_ = std::max(height_m_, std::abs(sample.p_WB.z()));
-    last_[static_cast<std::size_t>(count_++ % kWindow)] = {sample.t_s, sample.v_WB_W.z()};
+    last_[static_cast<std::size_t>(count_++ % window_)] = {sample.t_s, sample.v_WB_W.z()};
   }
-  // The largest vertical acceleration, a mean over 5 steps (20 ms at 4 ms a step).
+  // The largest vertical acceleration, a mean over the window.
   double accel_mps2() const { return accel_mps2_; }
   // The largest distance of the body's origin from the floor.
   double height_m() const { return height_m_; }
 
  private:
-  static constexpr int kWindow = 5;
+  static constexpr int kMostWindow = 5;  // steps of 4 ms
   struct Moment {
     double t_s = 0, v_mps = 0;
   };
-  std::array<Moment, kWindow> last_;
+  int window_;
+  std::array<Moment, kMostWindow> last_;
   int count_ = 0;
   double accel_mps2_ = 0, height_m_ = 0;
 };
