@@ -57,8 +57,10 @@ HazardMap Plates() {
 // The simulation, and beside it the whole scene stepped by the engine alone from the same state.
 struct Twins {
   Twins(const std::string& robot_name, HazardMap floor, const Pose2& start)
+      : Twins(ReadRobot(FindRobotFile(robot_name, {})), std::move(floor), start) {}
+  Twins(RobotModel with, HazardMap floor, const Pose2& start)
       : map(std::move(floor)),
-        robot(ReadRobot(FindRobotFile(robot_name, {}))),
+        robot(std::move(with)),
         scene(BuildScene(map, robot, {}, start)),
         whole(BuildScene(map, robot, {}, start, WallSet::kAll)),
         sim(scene, map, robot.robot),
@@ -138,6 +140,34 @@ TEST_P(LiveGeomsOf, CrossTheSamePlatesAsTheWholeScene) {
     ASSERT_TRUE(dut.Step()) << "step " << i;
   }
   EXPECT_LE(dut.sim.model()->npair, dut.scene.model->npair / 10);
+}
+
+// A boom of 1.2 m swings about a robot that stands: its joint alone brings it to other walls.
+TEST(LiveGeoms, AnArmMeetsTheWallsThatItSwingsTo) {
+  RobotModel robot = ReadRobot(FindRobotFile("beluga", {}));
+  mjsBody* boom = mjs_addBody(mjs_findBody(robot.spec.get(), "base"), nullptr);
+  mjs_setName(boom->element, "boom");
+  mjsJoint* hinge = mjs_addJoint(boom, nullptr);
+  mjs_setName(hinge->element, "boom");
+  hinge->type = mjJNT_HINGE;
+  mjsGeom* tip = mjs_addGeom(boom, nullptr);
+  tip->type = mjGEOM_SPHERE;
+  tip->size[0] = 0.05;
+  tip->pos[0] = 1.2;
+  tip->pos[2] = 0.2;
+  tip->mass = 0.05;
+  tip->conaffinity = 2;
+  Twins dut(std::move(robot), Pillars(), kMiddle);
+  const mjModel* m = dut.whole.model.get();
+  const int joint = m->jnt_dofadr[mj_name2id(m, mjOBJ_JOINT, "boom")];
+  for (int i = 0; i < 1500; ++i) {
+    if (i % 300 == 0) {
+      dut.sim.data()->qvel[joint] = i % 600 == 0 ? 3 : -3;
+      dut.CopyState();
+    }
+    ASSERT_TRUE(dut.Step()) << "step " << i;
+  }
+  EXPECT_GT(dut.touched_walls, 5);
 }
 
 // Whoever writes the state, and however far the robot goes in a step: what is near is live.
