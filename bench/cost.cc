@@ -4,12 +4,14 @@
 //   bench_cost [ROUNDS]
 //
 // Floors: a bare room of 10 m; the same with 200 plates of 4 mm, spread over it (the circle crosses
-// them) or all within reach of the robot; and a map of 4000 x 4000 cells of 5 cm (200 m square):
-// rooms with doors, pillars and random furniture, with a clear hall where the circle is driven.
+// them), all around the robot or all under it; and a map of 4000 x 4000 cells of 5 cm (200 m
+// square): rooms with doors, pillars and random furniture, with a clear hall where the circle is
+// driven.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -81,9 +83,18 @@ HazardMap Spread() {
   return map;
 }
 
-// A ring as wide as the robot's reach around its circle would hold more than 200: they lie around
-// the start, where it turns on the spot.
-HazardMap WithinReach() {
+// Around a robot that turns on the spot: four rings of 50, all of them within a metre.
+HazardMap Around() {
+  HazardMap map = EmptyMap(200);
+  for (int i = 0; i < kPlates; ++i) {
+    const double at_m = 0.45 + 0.12 * (i % 4), angle = 2 * kPi * i / kPlates;
+    map.hazards.push_back(Plate(i, at_m * Vec2(std::cos(angle), std::sin(angle)), 0.02));
+  }
+  return map;
+}
+
+// Under a robot that turns on the spot: all wheels stand on edges.
+HazardMap Under() {
   HazardMap map = EmptyMap(200);
   for (int i = 0; i < kPlates; ++i)
     map.hazards.push_back(Plate(i, {-0.49 + 0.07 * (i % 15), -0.455 + 0.07 * (i / 15)}, 0.02));
@@ -137,13 +148,17 @@ int Main(int argc, char** argv) {
     add("room of 10 m, circle", 0, circle, EmptyMap(200));
     add("the same, on the spot", 1, turn, EmptyMap(200));
     add("200 plates, spread", 0, circle, Spread());
-    add("200 plates, within reach", 1, turn, WithinReach());
+    add("200 plates around it, on the spot", 1, turn, Around());
+    add("200 plates under it, on the spot", 1, turn, Under());
     add("map of 4000 x 4000", 0, circle, large);
     for (Floor& floor : floors) {
       const auto begin = Clock::now();
       floor.scene = BuildScene(floor.map, robot, {}, {});
-      fmt::print("{:8} {:34} built in {:.2f} s: {} wall, {} hazard geoms\n", name, floor.name,
-                 Since(begin), floor.scene.num_wall_geoms, floor.scene.num_hazard_geoms);
+      fmt::print(
+          "{:8} {:34} built in {:.2f} s: {} of {} walls in the model, {} hazard geoms\n", name,
+          floor.name, Since(begin), floor.scene.num_wall_geoms,
+          std::max<std::size_t>(floor.scene.pool.grid.boxes().size(), floor.scene.num_wall_geoms),
+          floor.scene.num_hazard_geoms);
       floor.sim = std::make_unique<Simulation>(floor.scene, floor.map, robot.robot);
       floor.wheels.resize(robot.robot.wheels.size());
       const auto drive = MakePlugin(Drives(), robot.robot.drive, "drive");
