@@ -64,8 +64,12 @@ std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& 
                        const EpisodeRecord& record, const Recording& recording,
                        const std::filesystem::path& folder) {
   const HazardMap& map = s.site.map;
+  // A film shows all walls, near and far.
+  Scene whole;
+  if (scene.pool.num > 0)
+    whole = BuildScene(s.site.map, s.robot, s.physics, s.start, WallSet::kAll);
   FilmScript script;
-  script.model = scene.model.get();
+  script.model = whole.model ? whole.model.get() : scene.model.get();
   script.base_body = scene.base_body;
   script.recording = &recording;
   script.events = record.events;

@@ -24,7 +24,7 @@ void AddScene(CLI::App& app, const Globals& globals, int&) {
                          "has Mecanum wheels, which the stock MuJoCo cannot roll; only robots with "
                          "plain wheels can be exported");
     SayWarnings(s, globals);
-    const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
+    const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start, WallSet::kAll);
     WriteFileWhole(options->out, SceneXml(scene));
     SayWhenInterrupted(options->out + " is written");
     globals.Say(fmt::format("{}: {} wall, {} floor and {} hazard geoms", options->out,

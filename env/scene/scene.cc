@@ -13,7 +13,6 @@ namespace {
 
 // Contact bits, as the robots' MJCF states them: wheels meet the floor and hazards, the body all.
 constexpr int kFloorBit = 1, kWallBit = 2;
-constexpr double kWallHeight_m = 0.45;
 constexpr double kSlab_m = 0.10;  // of floor below the lowest
 // Contact softness that was sound at 1-5 ms (physics.md, "Settings that were sound").
 constexpr double kTimeConstant_s = 0.01;
@@ -56,18 +55,18 @@ class SceneBuilder {
     }
   }
 
-  void Walls(const Vec2& start_W) {
-    for (const WallBox& box : WallBoxes(map_, robot_, start_W)) {
+  void Walls(const Vec2& start_W, WallSet set) {
+    const std::vector<WallBox> boxes = WallBoxes(map_, robot_, start_W);
+    if (set == WallSet::kNear) pool = MakeWallPool(boxes, map_.frame.X_WG, spec_);
+    const std::size_t num = pool.num > 0 ? static_cast<std::size_t>(pool.num) : boxes.size();
+    for (std::size_t i = 0; i < num; ++i) {
       mjsGeom* geom = Add(GeomRole::Kind::kWall, -1, 0.3, 0);
       geom->type = mjGEOM_BOX;
-      const Vec2 p_W = map_.frame.X_WG * Vec2((box.low_G + box.high_G) / 2);
-      geom->pos[0] = p_W.x();
-      geom->pos[1] = p_W.y();
-      geom->pos[2] = kWallHeight_m / 2;
+      if (pool.num > 0)
+        ParkWall(geom->pos, geom->size);
+      else
+        PlaceWall(boxes[i], map_.frame.X_WG, geom->pos, geom->size);
       SetYaw(geom, map_.frame.X_WG.yaw_rad);
-      geom->size[0] = (box.high_G.x() - box.low_G.x()) / 2;
-      geom->size[1] = (box.high_G.y() - box.low_G.y()) / 2;
-      geom->size[2] = kWallHeight_m / 2;
       mjs_setString(geom->material, "wall");
     }
   }
@@ -126,6 +125,7 @@ class SceneBuilder {
     Copy<double>({middle.x(), middle.y(), 0}, spec_->stat.center);
   }
 
+  WallPool pool;
   std::vector<std::pair<mjsGeom*, GeomRole>> added;
   std::vector<mjsGeom*> mecanum;  // the robot's wheels with rollers
 
@@ -296,7 +296,7 @@ double DampingRatio(double restitution) {
 }
 
 Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsParams& physics,
-                 const Pose2& start) {
+                 const Pose2& start, WallSet walls) {
   Scene scene;
   scene.spec.reset(mj_copySpec(robot.spec.get()));
   SetPhysics(scene.spec.get(), physics);
@@ -304,7 +304,7 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
   SceneBuilder builder(map, robot, scene.spec.get());
   builder.Looks();
   builder.Floor();
-  builder.Walls(start.p());
+  builder.Walls(start.p(), walls);
   builder.Hazards();
   builder.PairWheels();
   InstallWheelCollider();
@@ -328,6 +328,11 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
     scene.num_floor_geoms += role.kind == GeomRole::Kind::kFloor;
     scene.num_hazard_geoms += role.kind == GeomRole::Kind::kHazard;
   }
+  scene.pool = std::move(builder.pool);
+  if (scene.pool.num > 0)
+    scene.pool.first_geom =
+        static_cast<int>(std::ranges::find(scene.roles, GeomRole::Kind::kWall, &GeomRole::kind) -
+                         scene.roles.begin());
   return scene;
 }
 

@@ -30,7 +30,7 @@ double MotorPower(double torque_nm, double speed_radps, double resistance_ohm, d
 }
 
 Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec& robot)
-    : scene_(scene), map_(map), robot_(robot), data_(MakeData(scene.model.get())) {
+    : scene_(scene), map_(map), robot_(robot), live_(scene), data_(MakeData(scene.model.get())) {
   const mjModel* m = model();
   for (const HingeSpec& hinge : robot.hinges) {
     const int joint = m->actuator_trnid[2 * mj_name2id(m, mjOBJ_ACTUATOR, hinge.name.c_str())];
@@ -70,10 +70,14 @@ void Simulation::Reset(const Pose2& X_WB) {
   mjData* d = data_.get();
   mj_resetData(model(), d);
   Place(X_WB);
-  while (d->time < kSettle_s) StepEngine(model(), d);
+  while (d->time < kSettle_s) {
+    live_.Update(d);
+    StepEngine(model(), d);
+  }
   Place(X_WB);
   std::fill_n(d->qvel, model()->nv, 0.0);
   d->time = 0;
+  live_.Update(d);
   ForwardEngine(model(), d);
   sample_ = Sample{};
   last_v_W_.setZero();
@@ -90,6 +94,7 @@ void Simulation::SetWheelSpeeds(std::span<const double> wheel_radps) {
 bool Simulation::Step() {
   last_v_W_ = sample_.v_WB_W;
   last_w_W_ = w_W_;
+  live_.Update(data_.get());
   StepEngine(model(), data_.get());
   ReadPose();
   ReadContacts();

@@ -9,6 +9,7 @@
 #include "env/core/motion.h"
 #include "env/core/robot_spec.h"
 #include "env/scene/scene.h"
+#include "env/sim/live_geoms.h"
 
 namespace floorproof {
 
@@ -31,7 +32,10 @@ class Simulation {
   // stay as the caller set them, but t_s.
   Sample& sample() { return sample_; }
 
-  const mjModel* model() const { return scene_.model.get(); }
+  // Holds of the scene's walls and pairs what is near the robot (live_geoms.h).
+  const mjModel* model() const { return live_.model(); }
+  // For test rigs that tilt gravity; its arrays are the scene's own.
+  mjModel* model() { return live_.model(); }
   mjData* data() { return data_.get(); }
 
  private:
@@ -48,6 +52,7 @@ class Simulation {
   const Scene& scene_;
   const HazardMap& map_;
   const RobotSpec& robot_;
+  LiveGeoms live_;
   DataPtr data_;
   Sample sample_;
   std::vector<int> wheel_bodies_;  // of the driven wheels, in actuator order

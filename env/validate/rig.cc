@@ -87,7 +87,7 @@ void Rig::SetBase(const Vec3& p_WB, const Eigen::Quaterniond& q_WB, const Vec3& 
 
 void Rig::SetGravity(const Vec3& direction_W) {
   const Vec3 g = direction_W * kGravity_mps2 * wrong_.gravity_factor;
-  std::copy_n(g.data(), 3, scene_.model->opt.gravity);
+  std::copy_n(g.data(), 3, sim_->model()->opt.gravity);
 }
 
 void Rig::Step() {
