@@ -47,7 +47,6 @@ class Simulation {
   DataPtr data_;
   Sample sample_;
   std::vector<int> wheel_bodies_;  // of the driven wheels, in actuator order
-  std::vector<double> wheel_half_width_m_;
   Vec2 lowest_wheel_W_ = Vec2::Zero();
   Vec3 last_v_W_ = Vec3::Zero();                       // of the body's origin, before the step
   Vec3 w_W_ = Vec3::Zero(), last_w_W_ = Vec3::Zero();  // angular velocity, after and before it
