@@ -10,6 +10,7 @@
 
 #include "controllers/drive.h"
 #include "env/core/registry.h"
+#include "env/scene/roller_wheels.h"
 #include "env/scene/scene.h"
 #include "env/sim/simulation.h"
 
@@ -22,8 +23,10 @@ struct Bench {
   std::unique_ptr<Simulation> sim;
 
   explicit Bench(const std::string& robot_name, PhysicsParams physics = {},
-                 const std::vector<Hazard>& hazards = {}, const RobotChanges& changes = {})
+                 const std::vector<Hazard>& hazards = {}, const RobotChanges& changes = {},
+                 bool roller_wheels = false)
       : robot(ReadRobot(FindRobotFile(robot_name, {}), changes)) {
+    if (roller_wheels) robot = WithRollerWheels(robot);
     map.hazards = hazards;
     map.frame = {40, 40, 0.5, {-10, -10, 0}};
     map.cells = Grid<CellState>(40, 40);
