@@ -50,7 +50,7 @@ TEST_F(ScenarioFile, WheelsAreIdealOrHaveRollersThatAreBodies) {
   const Scenario dut = Read(RoomScenario(""), htetro);
   const Scenario ideal = Read(RoomScenario(""), {{"robot", "htetro"}});
   EXPECT_EQ(ideal.episode.wheels, "ideal");
-  EXPECT_THAT(ResolvedScenario(dut, folder_), HasSubstr("wheels: rollers"));
+  EXPECT_THAT(ResolvedScenario(dut, folder_), HasSubstr("wheels: \"rollers\""));
   const auto bodies = [](const Scenario& s) {
     return BuildScene(s.site.map, s.robot, s.physics, s.start).model->nbody;
   };
