@@ -13,6 +13,7 @@ struct WheelSpec {
   std::string name;          // of the wheel's joint and actuator
   Vec3 p_BW = Vec3::Zero();  // wheel centre in the body frame B
   double radius_m = 0;       // rollers included
+  double half_width_m = 0;   // of the wheel's cylinder: of a Mecanum wheel's core, without rollers
   // Mecanum wheels (env/scene/mecanum_wheel.h): radius of the rollers, 0: a plain wheel; and the
   // angle, seen from above at the floor, from the wheel's axle (left, +y) to its rollers' axes,
   // counterclockwise positive.

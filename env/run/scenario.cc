@@ -7,6 +7,7 @@
 #include "env/core/input_file.h"
 #include "env/run/file_output.h"
 #include "env/run/plan_file.h"
+#include "env/scene/roller_wheels.h"
 
 namespace floorproof {
 namespace {
@@ -18,7 +19,7 @@ constexpr std::uintmax_t kMostBytes = 256u << 20;  // the readers have narrower 
 const std::vector<std::string> kKeys = {
     "name",       "scenario",     "site",    "robot",      "start",    "goal",     "plan",
     "controller", "estimator",    "physics", "control_hz", "trace_hz", "failures", "on_failure",
-    "success",    "time_limit_s", "seed",    "drive",      "video",    "files"};
+    "success",    "time_limit_s", "seed",    "drive",      "wheels",   "video",    "files"};
 
 ConfigNode EmptyMap(const SourceMark& mark) {
   ConfigNode node = ConfigNode::Map();
@@ -100,6 +101,13 @@ void ReadRobotPart(const ConfigNode& root, Scenario& s) {
   for (const Waypoint& w : s.user_plan)
     if (!w.shape.empty() && FindShape(s.robot.robot, w.shape) < 0)
       RefuseShape(s.robot.robot, {s.plan_file.string(), 0}, "shape", w.shape);
+  if (s.episode.wheels != "rollers") return;
+  if (!HasMecanumWheels(s.robot.robot)) {
+    const ConfigNode* node = root.Find("wheels");
+    throw InputError(node ? node->mark : root.mark, "wheels", s.episode.wheels,
+                     "must be ideal: the wheels of " + s.robot_name + " have no rollers");
+  }
+  s.robot = WithRollerWheels(s.robot);
 }
 
 Pose2 ReadStart(const ConfigNode& root, const HazardMap& map) {
@@ -241,6 +249,8 @@ void EpisodeParams::Visit(ParamVisitor& v) {
     "simulated seconds; none: a minute and three times what the plan takes at its own speeds");
   v("drive", drive, {"physics", "none"}, "physics: drive the plan; none: plan only");
   v("seed", seed, Between(0, 2147483647.0), "of every random stream");
+  v("wheels", wheels, {"ideal", "rollers"},
+    "Mecanum wheels; ideal: one body each, rollers: a hub and rollers that are bodies");
 }
 
 Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrides) {

@@ -172,6 +172,7 @@ class SpecReader {
         Refuse(wheel.name,
                "user must be the rollers' radius (m, > 0) and angle (rad, not 0, within +-pi/2)");
       wheel.radius_m = m_->geom_size[3 * geom] + rollers.radius_m;
+      wheel.half_width_m = m_->geom_size[3 * geom + 1];
       wheel.roller_radius_m = rollers.radius_m;
       wheel.roller_angle_rad = rollers.angle_rad;
       wheel.p_BW = InBase(data_->geom_xpos + 3 * geom);

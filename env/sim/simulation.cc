@@ -37,15 +37,8 @@ Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec
     hinge_qpos_.push_back(m->jnt_qposadr[joint]);
     hinge_dof_.push_back(m->jnt_dofadr[joint]);
   }
-  for (int a = 0; a < static_cast<int>(robot.wheels.size()); ++a) {
-    const int body = m->jnt_bodyid[m->actuator_trnid[2 * a]];
-    wheel_bodies_.push_back(body);
-    double half_width = 0;
-    for (int g = m->body_geomadr[body]; g < m->body_geomadr[body] + m->body_geomnum[body]; ++g)
-      if (scene_.roles[static_cast<std::size_t>(g)].kind == GeomRole::Kind::kWheel)
-        half_width = m->geom_size[3 * g + 1];
-    wheel_half_width_m_.push_back(half_width);
-  }
+  for (int a = 0; a < static_cast<int>(robot.wheels.size()); ++a)
+    wheel_bodies_.push_back(m->jnt_bodyid[m->actuator_trnid[2 * a]]);
   support_.reserve(kMostSupports);
   hull_.reserve(2 * kMostSupports);
 }
@@ -160,7 +153,7 @@ void Simulation::ReadPose() {
     const double axle_z = mat[7];  // the wheel's axle is its body's y
     const double drop =
         (wheel.radius_m - wheel.roller_radius_m) * std::sqrt(std::max(0.0, 1 - axle_z * axle_z)) +
-        wheel_half_width_m_[w] * std::abs(axle_z) + wheel.roller_radius_m;
+        wheel.half_width_m * std::abs(axle_z) + wheel.roller_radius_m;
     const mjtNum* p_W = d->xpos + 3 * wheel_bodies_[w];
     if (p_W[2] - drop >= lowest) continue;
     lowest = p_W[2] - drop;

@@ -56,7 +56,6 @@ class Simulation {
   DataPtr data_;
   Sample sample_;
   std::vector<int> wheel_bodies_;  // of the driven wheels, in actuator order
-  std::vector<double> wheel_half_width_m_;
   std::vector<int> hinge_qpos_, hinge_dof_;  // addresses of the hinges' joints
   BlockMotions blocks_;                      // of a robot with hinges; else at rest
   Vec2 lowest_wheel_W_ = Vec2::Zero();

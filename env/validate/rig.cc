@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "env/core/registry.h"
+#include "env/scene/roller_wheels.h"
 
 namespace floorproof {
 namespace {
@@ -26,6 +27,7 @@ Rig::Rig(const std::string& robot_name, RigOptions options) {
   const auto file = FindRobotFile(robot_name, {});
   true_robot_ = ReadRobot(file, options.changes, options.blocks).robot;
   model_ = ReadRobot(file, Wrong(options.changes, true_robot_, options.wrong), options.blocks);
+  if (options.rollers) model_ = WithRollerWheels(model_);
   drive_ = MakePlugin(Drives(), true_robot_.drive, "drive");
   drive_->Configure(true_robot_);
   Build(std::move(options));

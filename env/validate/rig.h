@@ -29,6 +29,7 @@ struct RigOptions {
   std::vector<Hazard> hazards = {};  // solids on the floor; ids and materials as in a site
   RobotChanges changes = {};
   Blocks blocks = Blocks::kLocked;
+  bool rollers = false;  // on Mecanum wheels, as bodies (env/scene/roller_wheels.h)
   double friction = 0.8;
   WrongModel wrong = {};
 };
