@@ -14,9 +14,9 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kMostBytes = 256u << 20;  // the readers have narrower bounds of their own
 
 const std::vector<std::string> kKeys = {
-    "name",       "scenario",     "site",    "robot",      "start",    "goal",     "plan",
-    "controller", "estimator",    "physics", "control_hz", "trace_hz", "failures", "on_failure",
-    "success",    "time_limit_s", "seed",    "drive",      "video",    "files"};
+    "name",       "scenario",  "site",         "robot",   "start",      "goal",     "plan",
+    "controller", "estimator", "physics",      "battery", "control_hz", "trace_hz", "failures",
+    "on_failure", "success",   "time_limit_s", "seed",    "drive",      "video",    "files"};
 
 ConfigNode EmptyMap(const SourceMark& mark) {
   ConfigNode node = ConfigNode::Map();
@@ -91,7 +91,12 @@ void ReadRobotPart(const ConfigNode& root, Scenario& s) {
     s.robot_file = NamedFile(s.file.parent_path(), path, "robot");
   }
   ReadParams(named.params, "robot.", [&](ParamVisitor& v) { s.robot_changes.Visit(v); }, {"name"});
+  if (const ConfigNode* battery = root.Find("battery"))
+    ReadParams(*battery, "battery.", [&](ParamVisitor& v) { s.battery.Visit(v); });
+  s.robot_changes.battery_v = s.battery.voltage_v;
   s.robot = ReadRobot(s.robot_file, s.robot_changes);
+  s.battery.voltage_v = s.robot.robot.battery.voltage_v;
+  s.robot.robot.battery = s.battery;
 }
 
 Pose2 ReadStart(const ConfigNode& root, const HazardMap& map) {

@@ -31,6 +31,7 @@ class SpecReader {
     ForwardEngine(m_, data_.get());
     ReadCustom(robot);
     ReadWheels(robot);
+    ReadBattery(robot);
     ReadBody(robot);
     robot.static_tip_rad = StaticTip(robot);
     return robot;
@@ -64,6 +65,10 @@ class SpecReader {
     robot.max_yaw_rate_radps = Number("max_yaw_rate_radps", Positive());
     robot.max_yaw_accel_radps2 = Number("max_yaw_accel_radps2", Positive());
     robot.hotel_load_w = Number("hotel_load_w", NonNegative());
+    if (mj_name2id(m_, mjOBJ_NUMERIC, "audit_speed_mps") >= 0)
+      robot.audit_speed_mps = Number("audit_speed_mps", Between(0.001, robot.max_speed_mps));
+    if (mj_name2id(m_, mjOBJ_NUMERIC, "audit_dwell_s") >= 0)
+      robot.audit_dwell_s = Number("audit_dwell_s", NonNegative());
   }
 
   Vec3 InBase(const mjtNum* p_W) const {
@@ -108,6 +113,18 @@ class SpecReader {
       if (m_->actuator_forcelimited[a])
         wheel.max_torque_nm = std::min(wheel.max_torque_nm, m_->actuator_forcerange[2 * a + 1]);
       robot.wheels.push_back(wheel);
+    }
+  }
+
+  // One battery feeds every driver: all have its voltage.
+  void ReadBattery(RobotSpec& robot) const {
+    for (int a = 0; a < m_->nu; ++a) {
+      const double volt = DriverVoltage(m_, a);
+      if (robot.battery.voltage_v && *robot.battery.voltage_v != volt)
+        throw InputError({file_, 0}, mj_id2name(m_, mjOBJ_ACTUATOR, a), FormatDouble(volt),
+                         "drivers on one battery have one voltage (Vmax), others have " +
+                             FormatDouble(*robot.battery.voltage_v));
+      robot.battery.voltage_v = volt;
     }
   }
 

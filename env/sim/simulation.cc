@@ -24,13 +24,15 @@ bool Diverged(const mjData* d) {
 
 }  // namespace
 
-double MotorPower(double torque_nm, double speed_radps, double resistance_ohm, double constant) {
-  const double current = torque_nm / constant;
-  return std::max(0.0, current * (resistance_ohm * current + constant * speed_radps));
-}
-
 Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec& robot)
-    : scene_(scene), map_(map), robot_(robot), data_(MakeData(scene.model.get())) {
+    : scene_(scene),
+      map_(map),
+      robot_(robot),
+      data_(MakeData(scene.model.get())),
+      battery_(robot.battery) {
+  // Voltages are the model's, and the scene's model is others' too.
+  if (robot.battery.resistance_ohm > 0 || robot.battery.capacity_wh)
+    sagging_.reset(mj_copyModel(nullptr, scene.model.get()));
   const mjModel* m = model();
   for (int a = 0; a < m->nu; ++a) {
     const int body = m->jnt_bodyid[m->actuator_trnid[2 * a]];
@@ -61,6 +63,8 @@ void Simulation::Reset(const Pose2& X_WB) {
   mjData* d = data_.get();
   mj_resetData(model(), d);
   Place(X_WB);
+  battery_ = BatteryInUse(robot_.battery);
+  SetDriverVoltages();
   while (d->time < kSettle_s) StepEngine(model(), d);
   Place(X_WB);
   std::fill_n(d->qvel, model()->nv, 0.0);
@@ -71,7 +75,7 @@ void Simulation::Reset(const Pose2& X_WB) {
   last_w_W_.setZero();
   ReadPose();
   ReadContacts();
-  ReadPower();
+  ReadPower(0);
 }
 
 void Simulation::SetWheelSpeeds(std::span<const double> wheel_radps) {
@@ -84,7 +88,7 @@ bool Simulation::Step() {
   StepEngine(model(), data_.get());
   ReadPose();
   ReadContacts();
-  ReadPower();
+  ReadPower(model()->opt.timestep);
   return !Diverged(data_.get()) && std::isfinite(sample_.p_WB.sum()) &&
          std::isfinite(sample_.v_WB_W.sum());
 }
@@ -231,16 +235,26 @@ double Simulation::SupportMargin() {
   return inside ? nearest : -nearest;
 }
 
-void Simulation::ReadPower() {
+void Simulation::ReadPower(double dt_s) {
   const mjModel* m = model();
   const mjData* d = data_.get();
-  double power = robot_.hotel_load_w;
+  double load_w = robot_.hotel_load_w;
   for (int a = 0; a < m->nu; ++a) {
     const mjtNum* gain = m->actuator_gainprm + mjNGAIN * a;
     const int dof = m->jnt_dofadr[m->actuator_trnid[2 * a]];
-    power += MotorPower(d->actuator_force[a], d->qvel[dof], gain[0], gain[1]);
+    load_w += MotorPower(d->actuator_force[a], d->qvel[dof], gain[0], gain[1]);
   }
-  sample_.power_w = power;
+  const BatteryOutput out = battery_.Feed(load_w, dt_s);
+  sample_.power_w = out.power_w();
+  sample_.battery_v = out.voltage_v;
+  sample_.battery_a = out.current_a;
+  SetDriverVoltages();
+}
+
+// What the drivers can give in the next step.
+void Simulation::SetDriverVoltages() {
+  if (!sagging_) return;
+  for (int a = 0; a < sagging_->nu; ++a) SetDriverVoltage(sagging_.get(), a, battery_.voltage_v());
 }
 
 }  // namespace floorproof

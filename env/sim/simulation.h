@@ -28,14 +28,17 @@ class Simulation {
   // stay as the caller set them, but t_s.
   Sample& sample() { return sample_; }
 
-  const mjModel* model() const { return scene_.model.get(); }
+  const mjModel* model() const { return sagging_ ? sagging_.get() : scene_.model.get(); }
   mjData* data() { return data_.get(); }
+  // As at the last step, since Reset.
+  const BatteryInUse& battery() const { return battery_; }
 
  private:
   void Place(const Pose2& X_WB);
   void ReadPose();
   void ReadContacts();
-  void ReadPower();
+  void ReadPower(double dt_s);
+  void SetDriverVoltages();
   void AddObstacle(int hazard, const double* p_W, Vec2 normal_W, double force_n);
   void AddSupport(const double* p_W);
   int CutAt(const Vec2& p_W) const;
@@ -46,6 +49,8 @@ class Simulation {
   const RobotSpec& robot_;
   DataPtr data_;
   Sample sample_;
+  BatteryInUse battery_;
+  ModelPtr sagging_;               // a model of its own, where the drivers' voltage changes
   std::vector<int> wheel_bodies_;  // of the driven wheels, in actuator order
   std::vector<double> wheel_half_width_m_;
   Vec2 lowest_wheel_W_ = Vec2::Zero();
@@ -53,9 +58,5 @@ class Simulation {
   Vec3 w_W_ = Vec3::Zero(), last_w_W_ = Vec3::Zero();  // angular velocity, after and before it
   std::vector<Vec2> support_, hull_;                   // scratch, capacity fixed
 };
-
-// Electrical power of a DC motor with its driver: current i = torque / K, terminal voltage
-// v = R i + K omega; v i, and nothing comes back when braking.
-double MotorPower(double torque_nm, double speed_radps, double resistance_ohm, double constant);
 
 }  // namespace floorproof
