@@ -14,9 +14,10 @@
 namespace floorproof {
 
 struct Battery {
-  std::optional<double> voltage_v;    // open circuit; none: that of the robot's motor drivers
-  double resistance_ohm = 0;          // internal; 0: the voltage never sags
-  std::optional<double> capacity_wh;  // that it can give, own losses included; none: never empty
+  std::optional<double> voltage_v = {};  // open circuit; none: that of the robot's motor drivers
+  double resistance_ohm = 0;             // internal; 0: the voltage never sags
+  std::optional<double> capacity_wh =
+      {};  // that it can give, own losses included; none: never empty
   void Visit(ParamVisitor& v);
 };
 
