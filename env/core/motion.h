@@ -65,6 +65,8 @@ struct Sample {
   Command command;
   double cross_track_m = 0;  // of the true position to the segment now tracked; unsigned
   double power_w = 0;        // electrical, motors and hotel load
+  double battery_v = 0;      // at the terminals, 0: empty
+  double battery_a = 0;      // motors' drivers and hotel load
   double belly_load_n =
       0;  // weight that floor or hazards carry through the body instead of the wheels
   int belly_hazard = -1;  // index of the hazard that carries it; -1: none or the floor

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "env/core/battery.h"
 #include "env/core/polygon.h"
 
 namespace floorproof {
@@ -86,6 +87,9 @@ struct RobotSpec {
   double max_yaw_rate_radps = 0;
   double max_yaw_accel_radps2 = 0;
   double hotel_load_w = 0;  // computer and sensors, drawn all the time
+  Battery battery;          // its voltage set, to that of the motors' drivers
+  // An audit's pace: speed from stop to stop and time a sample takes. 0: the model states none.
+  double audit_speed_mps = 0, audit_dwell_s = 0;
 };
 
 }  // namespace floorproof

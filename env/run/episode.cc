@@ -113,7 +113,8 @@ EpisodeRecord RunEpisode(Scenario& s, const Scene& scene, const PlanResult& plan
       if (detector->Update(sample)) recorder.OnEvent(detector->event());
     if (recorder.failed() && s.episode.on_failure == "stop" && !ended) ended = Outcome::kFailure;
   }
-  return recorder.Finish(*ended, sample, plan, s.detectors, s.episode.min_coverage);
+  return recorder.Finish(*ended, sample, plan, s.detectors, s.episode.min_coverage,
+                         sim.battery().left());
 }
 
 }  // namespace floorproof

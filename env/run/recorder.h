@@ -59,6 +59,10 @@ class Recorder {
     ++record_.steps;
     m.path_length_m += std::hypot(sample.v_WB_W.x(), sample.v_WB_W.y()) * dt_s_;
     m.energy_j += sample.power_w * dt_s_;
+    m.charge_ah += sample.battery_a * dt_s_ / 3600;
+    m.least_battery_v =
+        record_.steps == 1 ? sample.battery_v : std::min(m.least_battery_v, sample.battery_v);
+    if (sample.battery_v == 0 && empty_s_ < 0) empty_s_ = sample.t_s;
     m.max_cross_track_m = std::max(m.max_cross_track_m, sample.cross_track_m);
     cross_track_sum_ += sample.cross_track_m;
     if (sample.num_contacts > 0) {
@@ -82,13 +86,14 @@ class Recorder {
   // failure when something failed on the way; a completed one that covered too little is one as
   // well.
   EpisodeRecord Finish(Outcome ended, const Sample& last, const PlanResult& plan,
-                       const std::vector<std::unique_ptr<Detector>>& detectors,
-                       double min_coverage) {
+                       const std::vector<std::unique_ptr<Detector>>& detectors, double min_coverage,
+                       std::optional<double> battery_left) {
     Metrics& m = record_.metrics;
     if (shape_ >= 0) meter_.Add(last.X_WB());
     m.coverage = meter_.coverage();
     m.overlap = meter_.overlap();
     m.duration_s = last.t_s;
+    m.battery_left = battery_left;
     m.mean_cross_track_m =
         record_.steps > 0 ? cross_track_sum_ / static_cast<double>(record_.steps) : 0;
     m.turns = CountTurns(plan.path);
@@ -104,6 +109,8 @@ class Recorder {
       record_.message = fmt::format("coverage {:.2f} % is below success.min_coverage, {:.2f} %",
                                     100 * m.coverage, 100 * min_coverage);
     }
+    if (empty_s_ >= 0)
+      record_.message = fmt::format("the battery was empty after {:.1f} s", empty_s_);
     if (ended == Outcome::kError) record_.message = "the physics diverged";
     return std::move(record_);
   }
@@ -127,6 +134,7 @@ class Recorder {
   std::int64_t control_ = 0;
   int shape_ = 0;  // the robot's, as in Sample
   double last_touch_s_ = -1e9;
+  double empty_s_ = -1;  // when the battery had cut off; -1: it has not
 };
 
 }  // namespace floorproof

@@ -17,9 +17,10 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kMostBytes = 256u << 20;  // the readers have narrower bounds of their own
 
 const std::vector<std::string> kKeys = {
-    "name",       "scenario",     "site",    "robot",      "start",    "goal",     "plan",
-    "controller", "estimator",    "physics", "control_hz", "trace_hz", "failures", "on_failure",
-    "success",    "time_limit_s", "seed",    "drive",      "wheels",   "video",    "files"};
+    "name",     "scenario",   "site",       "robot",   "start",        "goal",
+    "plan",     "controller", "estimator",  "physics", "battery",      "control_hz",
+    "trace_hz", "failures",   "on_failure", "success", "time_limit_s", "seed",
+    "drive",    "wheels",     "video",      "files"};
 
 ConfigNode EmptyMap(const SourceMark& mark) {
   ConfigNode node = ConfigNode::Map();
@@ -94,10 +95,15 @@ void ReadRobotPart(const ConfigNode& root, Scenario& s) {
     s.robot_file = NamedFile(s.file.parent_path(), path, "robot");
   }
   ReadParams(named.params, "robot.", [&](ParamVisitor& v) { s.robot_changes.Visit(v); }, {"name"});
+  if (const ConfigNode* battery = root.Find("battery"))
+    ReadParams(*battery, "battery.", [&](ParamVisitor& v) { s.battery.Visit(v); });
+  s.robot_changes.battery_v = s.battery.voltage_v;
   const bool folds = std::ranges::any_of(s.user_plan, [&](const Waypoint& w) {
     return !w.shape.empty() && w.shape != s.robot_changes.shape;
   });
   s.robot = ReadRobot(s.robot_file, s.robot_changes, folds ? Blocks::kHinged : Blocks::kLocked);
+  s.battery.voltage_v = s.robot.robot.battery.voltage_v;
+  s.robot.robot.battery = s.battery;
   for (const Waypoint& w : s.user_plan)
     if (!w.shape.empty() && FindShape(s.robot.robot, w.shape) < 0)
       RefuseShape(s.robot.robot, {s.plan_file.string(), 0}, "shape", w.shape);

@@ -67,6 +67,7 @@ struct Scenario {
   std::unique_ptr<Estimator> estimator;
   std::vector<std::unique_ptr<Detector>> detectors;
   PhysicsParams physics;
+  Battery battery;  // its voltage set, if only by the robot
   EpisodeParams episode;
   VideoParams video;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "env/scene/robot_changes.h"
 
+#include <algorithm>
 #include <array>
 
 namespace floorproof {
@@ -91,7 +92,24 @@ void ResizeWheels(mjSpec* spec, const RobotSpec& robot, const RobotChanges& chan
   }
 }
 
+constexpr int kVmax = 7;  // of a dcmotor's gain parameters
+
+void SetBattery(mjSpec* spec, double voltage_v) {
+  ForEach<mjsActuator>(
+      spec, mjOBJ_ACTUATOR, mjs_asActuator,
+      [](mjsActuator* motor, double v) { motor->gainprm[kVmax] = v; }, voltage_v);
+}
+
 }  // namespace
+
+double DriverVoltage(const mjModel* model, int actuator) {
+  return model->actuator_gainprm[mjNGAIN * actuator + kVmax];
+}
+
+void SetDriverVoltage(mjModel* model, int actuator, double voltage_v) {
+  constexpr double kLeast_v = 1e-6;  // MuJoCo takes 0 for no limit
+  model->actuator_gainprm[mjNGAIN * actuator + kVmax] = std::max(voltage_v, kLeast_v);
+}
 
 void RobotChanges::Visit(ParamVisitor& v) {
   v("mass_kg", mass_kg, Positive(), "total mass (kg); none: the model's");
@@ -108,7 +126,8 @@ bool ChangeRobot(mjSpec* spec, const RobotSpec& robot, const RobotChanges& chang
   if (changes.mass_kg) ScaleMass(spec, *changes.mass_kg / robot.mass_kg);
   if (changes.clearance_m) RaiseChassis(spec, robot, *changes.clearance_m - robot.clearance_m);
   if (wheels) ResizeWheels(spec, robot, changes);
-  return changes.mass_kg || changes.clearance_m || wheels;
+  if (changes.battery_v) SetBattery(spec, *changes.battery_v);
+  return changes.mass_kg || changes.clearance_m || wheels || changes.battery_v;
 }
 
 }  // namespace floorproof

@@ -36,6 +36,7 @@ class SpecReader {
     ReadCustom(robot);
     ReadHinges(robot);
     ReadWheels(robot);
+    ReadBattery(robot);
     ReadBody(robot);
     ReadShapes(robot);
     return robot;
@@ -75,6 +76,10 @@ class SpecReader {
     robot.max_yaw_rate_radps = Number("max_yaw_rate_radps", Positive());
     robot.max_yaw_accel_radps2 = Number("max_yaw_accel_radps2", Positive());
     robot.hotel_load_w = Number("hotel_load_w", NonNegative());
+    if (mj_name2id(m_, mjOBJ_NUMERIC, "audit_speed_mps") >= 0)
+      robot.audit_speed_mps = Number("audit_speed_mps", Between(0.001, robot.max_speed_mps));
+    if (mj_name2id(m_, mjOBJ_NUMERIC, "audit_dwell_s") >= 0)
+      robot.audit_dwell_s = Number("audit_dwell_s", NonNegative());
   }
 
   Vec3 InBase(const mjtNum* p_W) const {
@@ -186,6 +191,18 @@ class SpecReader {
       robot.wheels.push_back(wheel);
     }
     if (robot.wheels.empty()) Refuse("actuator", "a robot needs at least one driven wheel");
+  }
+
+  // One battery feeds every driver: all have its voltage.
+  void ReadBattery(RobotSpec& robot) const {
+    for (int a = 0; a < m_->nu; ++a) {
+      const double volt = DriverVoltage(m_, a);
+      if (robot.battery.voltage_v && *robot.battery.voltage_v != volt)
+        throw InputError({file_, 0}, mj_id2name(m_, mjOBJ_ACTUATOR, a), FormatDouble(volt),
+                         "drivers on one battery have one voltage (Vmax), others have " +
+                             FormatDouble(*robot.battery.voltage_v));
+      robot.battery.voltage_v = volt;
+    }
   }
 
   // Points on the surface of a geom that bound it, in the base frame.

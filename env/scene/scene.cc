@@ -6,6 +6,7 @@
 
 #include "env/scene/floor.h"
 #include "env/scene/mecanum_wheel.h"
+#include "env/scene/restitution.h"
 #include "env/scene/walls.h"
 
 namespace floorproof {
@@ -155,12 +156,13 @@ class SceneBuilder {
     geom->condim = 3;
     geom->priority = 1;  // what is met rules over the robot's own friction and softness
     geom->friction[0] = friction;
-    // MuJoCo's stiffness is 1 / (time constant * ratio)^2: kept as the ratio falls, so that a
-    // lively contact lasts as many steps as a dead one.
-    const double ratio = kind == GeomRole::Kind::kFloor ? 1 : DampingRatio(restitution);
-    geom->solref[0] = kTimeConstant_s / std::min(1.0, ratio);
-    geom->solref[1] = ratio;
+    const ContactSoftness softness = kind == GeomRole::Kind::kFloor
+                                         ? ContactSoftness{kTimeConstant_s, 1}
+                                         : SoftnessFor(restitution, spec_->option.timestep);
+    geom->solref[0] = softness.time_constant_s;
+    geom->solref[1] = softness.damping_ratio;
     std::copy(std::begin(kSolimp), std::end(kSolimp), geom->solimp);
+    if (restitution > 0) geom->solimp[0] = geom->solimp[1];  // as SoftnessFor assumes
     added.emplace_back(geom, GeomRole{kind, hazard});
     const std::string name = Name(kind, hazard);
     mjs_setName(geom->element, name.c_str());
@@ -284,15 +286,6 @@ void PlaceRobot(mjSpec* spec, const Pose2& start) {
 void PhysicsParams::Visit(ParamVisitor& v) {
   v("timestep_s", timestep_s, Bounds{0.0005, 0.005}, "physics step (s)");
   v("integrator", integrator, {"discrete", "implicitfast"}, "MuJoCo's integrator");
-}
-
-double DampingRatio(double restitution) {
-  // Soft contacts give back what they were pressed in by: critically damped they part at 0.14 of
-  // the closing speed, with a ratio of 3 at 0.03, which is dead enough for no bounce to be seen.
-  constexpr double kDead = 3;
-  if (restitution <= 0) return kDead;
-  const double l = std::log(std::min(restitution, 0.99));
-  return -l / std::sqrt(kPi * kPi + l * l);
 }
 
 Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsParams& physics,

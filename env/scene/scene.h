@@ -54,9 +54,4 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
 // The scene, built with all its walls, as one MJCF file that the stock MuJoCo loads and steps.
 std::string SceneXml(const Scene& scene);
 
-// Contact damping for a coefficient of restitution e: MuJoCo's solref (time constant, damping
-// ratio) with the ratio of a linear spring and damper that rebounds with e: -ln e / sqrt(pi^2 +
-// ln^2 e).
-double DampingRatio(double restitution);
-
 }  // namespace floorproof

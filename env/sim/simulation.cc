@@ -24,13 +24,19 @@ bool Diverged(const mjData* d) {
 
 }  // namespace
 
-double MotorPower(double torque_nm, double speed_radps, double resistance_ohm, double constant) {
-  const double current = torque_nm / constant;
-  return std::max(0.0, current * (resistance_ohm * current + constant * speed_radps));
-}
-
 Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec& robot)
-    : scene_(scene), map_(map), robot_(robot), live_(scene), data_(MakeData(scene.model.get())) {
+    : scene_(scene),
+      map_(map),
+      robot_(robot),
+      live_(scene),
+      data_(MakeData(scene.model.get())),
+      battery_(robot.battery) {
+  // Voltages are the model's, and the scene's model is others' too.
+  if (robot.battery.resistance_ohm > 0 || robot.battery.capacity_wh) {
+    mjModel* own = live_.model();
+    gains_.assign(own->actuator_gainprm, own->actuator_gainprm + mjNGAIN * own->nu);
+    own->actuator_gainprm = gains_.data();
+  }
   const mjModel* m = model();
   for (const HingeSpec& hinge : robot.hinges) {
     const int joint = m->actuator_trnid[2 * mj_name2id(m, mjOBJ_ACTUATOR, hinge.name.c_str())];
@@ -63,6 +69,8 @@ void Simulation::Reset(const Pose2& X_WB) {
   mjData* d = data_.get();
   mj_resetData(model(), d);
   Place(X_WB);
+  battery_ = BatteryInUse(robot_.battery);
+  SetDriverVoltages();
   while (d->time < kSettle_s) {
     live_.Update(d);
     StepEngine(model(), d);
@@ -77,7 +85,7 @@ void Simulation::Reset(const Pose2& X_WB) {
   last_w_W_.setZero();
   ReadPose();
   ReadContacts();
-  ReadPower();
+  ReadPower(0);
 }
 
 void Simulation::SetWheelSpeeds(std::span<const double> wheel_radps) {
@@ -91,7 +99,7 @@ bool Simulation::Step() {
   StepEngine(model(), data_.get());
   ReadPose();
   ReadContacts();
-  ReadPower();
+  ReadPower(model()->opt.timestep);
   return !Diverged(data_.get()) && std::isfinite(sample_.p_WB.sum()) &&
          std::isfinite(sample_.v_WB_W.sum());
 }
@@ -262,16 +270,27 @@ double Simulation::SupportMargin() {
   return inside ? nearest : -nearest;
 }
 
-void Simulation::ReadPower() {
+void Simulation::ReadPower(double dt_s) {
   const mjModel* m = model();
   const mjData* d = data_.get();
-  double power = robot_.hotel_load_w;
+  double load_w = robot_.hotel_load_w;
   for (int a = 0; a < m->nu; ++a) {
     const mjtNum* gain = m->actuator_gainprm + mjNGAIN * a;
     const int dof = m->jnt_dofadr[m->actuator_trnid[2 * a]];
-    power += MotorPower(d->actuator_force[a], d->qvel[dof], gain[0], gain[1]);
+    load_w += MotorPower(d->actuator_force[a], d->qvel[dof], gain[0], gain[1]);
   }
-  sample_.power_w = power;
+  const BatteryOutput out = battery_.Feed(load_w, dt_s);
+  sample_.power_w = out.power_w();
+  sample_.battery_v = out.voltage_v;
+  sample_.battery_a = out.current_a;
+  SetDriverVoltages();
+}
+
+// What the drivers can give in the next step.
+void Simulation::SetDriverVoltages() {
+  if (gains_.empty()) return;
+  for (int a = 0; a < model()->nu; ++a)
+    SetDriverVoltage(gains_.data() + mjNGAIN * a, battery_.voltage_v());
 }
 
 }  // namespace floorproof

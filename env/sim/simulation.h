@@ -34,16 +34,19 @@ class Simulation {
 
   // Holds of the scene's walls and pairs what is near the robot (live_geoms.h).
   const mjModel* model() const { return live_.model(); }
-  // For test rigs that tilt gravity; its arrays are the scene's own.
+  // For rigs that tilt gravity or brake wheels; most of its arrays are the scene's own.
   mjModel* model() { return live_.model(); }
   mjData* data() { return data_.get(); }
+  // As at the last step, since Reset.
+  const BatteryInUse& battery() const { return battery_; }
 
  private:
   void Place(const Pose2& X_WB);
   void ReadHinges();
   void ReadPose();
   void ReadContacts();
-  void ReadPower();
+  void ReadPower(double dt_s);
+  void SetDriverVoltages();
   void AddObstacle(int hazard, const double* p_W, Vec2 normal_W, double force_n);
   void AddSupport(const double* p_W);
   int CutAt(const Vec2& p_W) const;
@@ -55,7 +58,9 @@ class Simulation {
   LiveGeoms live_;
   DataPtr data_;
   Sample sample_;
-  std::vector<int> wheel_bodies_;  // of the driven wheels, in actuator order
+  BatteryInUse battery_;
+  std::vector<mjtNum> gains_;                // the motors', where their drivers' voltage changes
+  std::vector<int> wheel_bodies_;            // of the driven wheels, in actuator order
   std::vector<int> hinge_qpos_, hinge_dof_;  // addresses of the hinges' joints
   BlockMotions blocks_;                      // of a robot with hinges; else at rest
   Vec2 lowest_wheel_W_ = Vec2::Zero();
@@ -63,9 +68,5 @@ class Simulation {
   Vec3 w_W_ = Vec3::Zero(), last_w_W_ = Vec3::Zero();  // angular velocity, after and before it
   std::vector<Vec2> support_, hull_;                   // scratch, capacity fixed
 };
-
-// Electrical power of a DC motor with its driver: current i = torque / K, terminal voltage
-// v = R i + K omega; v i, and nothing comes back when braking.
-double MotorPower(double torque_nm, double speed_radps, double resistance_ohm, double constant);
 
 }  // namespace floorproof

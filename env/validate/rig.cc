@@ -18,6 +18,8 @@ RobotChanges Wrong(RobotChanges changes, const RobotSpec& robot, const WrongMode
     changes.wheel_radius_m = robot.wheels.front().radius_m + wrong.wheel_radius_add_m;
     changes.clearance_m = robot.clearance_m + wrong.wheel_radius_add_m;
   }
+  if (wrong.battery_factor != 1)
+    changes.battery_v = *robot.battery.voltage_v * wrong.battery_factor;
   return changes;
 }
 
@@ -42,6 +44,7 @@ void Rig::Build(RigOptions options) {
   map_.frame = {kCells, kCells, kCell_m, {-kCells * kCell_m / 2, -kCells * kCell_m / 2, 0}};
   map_.cells = Grid<CellState>(kCells, kCells);
   map_.hazards = std::move(options.hazards);
+  for (Hazard& hazard : map_.hazards) hazard.material.restitution *= wrong_.restitution_factor;
   map_.floor_friction = options.friction * wrong_.friction_factor;
   scene_ = BuildScene(map_, model_, options.physics, {});
   mjModel* m = scene_.model.get();

@@ -20,6 +20,8 @@ struct WrongModel {
   double wheel_radius_add_m = 0;  // to the driven wheels'; the body rises with its axles
   double gravity_factor = 1;      // where neither of the above can be felt: in free fall
   double seam_step_m = 0;         // every second slab of a cut floor lies lower by this
+  double battery_factor = 1;      // of its voltage
+  double restitution_factor = 1;  // of hazards'
 
   bool operator==(const WrongModel&) const = default;
 };
@@ -62,6 +64,7 @@ class Rig {
   Simulation& sim() { return *sim_; }
   mjData* data() { return sim_->data(); }
   const Scene& scene() const { return scene_; }
+  const HazardMap& map() const { return map_; }
 
  private:
   void Build(RigOptions options);

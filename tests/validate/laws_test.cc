@@ -42,7 +42,9 @@ TEST_P(LawTest, FailsOnWrongModels) {
     dut_->Check(wrong, rows);
     EXPECT_FALSE(std::ranges::all_of(rows, &LawRow::ok))
         << "friction x " << wrong.friction_factor << ", wheels + " << wrong.wheel_radius_add_m
-        << " m, gravity x " << wrong.gravity_factor << ", seams of " << wrong.seam_step_m << " m";
+        << " m, gravity x " << wrong.gravity_factor << ", seams of " << wrong.seam_step_m
+        << " m, battery x " << wrong.battery_factor << ", restitution x "
+        << wrong.restitution_factor;
   }
 }
 
