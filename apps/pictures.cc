@@ -64,14 +64,17 @@ std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& 
                        const EpisodeRecord& record, const Recording& recording,
                        const std::filesystem::path& folder) {
   const HazardMap& map = s.site.map;
+  // A film shows all walls, near and far.
+  Scene whole;
+  if (scene.pool.num > 0)
+    whole = BuildScene(s.site.map, s.robot, s.physics, s.start, WallSet::kAll);
   FilmScript script;
-  script.model = scene.model.get();
+  script.model = whole.model ? whole.model.get() : scene.model.get();
   script.base_body = scene.base_body;
   script.recording = &recording;
   script.events = record.events;
   script.title = Title(s);
   script.plan = &plan.path;
-  script.tool_width_m = s.robot.robot.tool_width_m;
   const double w = map.frame.width * map.frame.cell_m, h = map.frame.height * map.frame.cell_m;
   Vec2 low = map.frame.X_WG.p(), high = low;
   for (const Vec2& corner : {Vec2(w, 0), Vec2(0, h), Vec2(w, h)}) {

@@ -4,6 +4,7 @@
 #include "apps/command.h"
 #include "env/core/interrupt.h"
 #include "env/run/file_output.h"
+#include "env/scene/roller_wheels.h"
 
 namespace floorproof {
 
@@ -18,13 +19,10 @@ void AddScene(CLI::App& app, const Globals& globals, int&) {
   command->add_option("--out", options->out, "MJCF file to write")->required();
   command->callback([options, &globals] {
     const Scenario s = ReadScenario(options->scenario, globals.Overrides());
-    for (const WheelSpec& wheel : s.robot.robot.wheels)
-      if (wheel.roller_radius_m > 0)
-        throw InputError({options->scenario, 0}, "robot", s.robot.robot.name,
-                         "has Mecanum wheels, which the stock MuJoCo cannot roll; only robots with "
-                         "plain wheels can be exported");
     SayWarnings(s, globals);
-    const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
+    // The stock MuJoCo lacks the collider of ideal Mecanum wheels.
+    const Scene scene =
+        BuildScene(s.site.map, WithRollerWheels(s.robot), s.physics, s.start, WallSet::kAll);
     WriteFileWhole(options->out, SceneXml(scene));
     SayWhenInterrupted(options->out + " is written");
     globals.Say(fmt::format("{}: {} wall, {} floor and {} hazard geoms", options->out,

@@ -61,13 +61,14 @@ int Main(int argc, char** argv) {
   Scenario s = ReadScenario(file);
   const PlanResult plan = MakePlan(s);
   const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
+  const Scene whole = BuildScene(s.site.map, s.robot, s.physics, s.start, WallSet::kAll);
   const int steps_a_control =
       static_cast<int>(std::lround(1 / (s.physics.timestep_s * s.episode.control_hz)));
   std::vector<double> ratios;
   for (int round = 0; round < rounds; ++round) {
     Notes notes;
     const EpisodeRecord record = RunEpisode(s, scene, plan, &notes);
-    const double bare_s = BareLoop(scene.model.get(), notes, steps_a_control);
+    const double bare_s = BareLoop(whole.model.get(), notes, steps_a_control);
     const auto steps = static_cast<double>(record.steps);
     ratios.push_back(bare_s / notes.seconds());
     fmt::print("{}: episode {:.1f} k steps/s, bare mj_step {:.1f} k steps/s, ratio {:.3f} ({})\n",

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,13 +26,17 @@ struct TraceRow {
   float x_m, y_m, z_m, roll_rad, pitch_rad, yaw_rad, vx_mps, vy_mps, wz_radps;
   float cmd_vx_mps, cmd_vy_mps, cmd_wz_radps, est_x_m, est_y_m, est_yaw_rad;
   float cross_track_m, power_w, coverage;
+  int shape;  // as in Sample
 };
 
 struct Metrics {
   double coverage = 0, overlap = 0;
-  double path_length_m = 0;  // driven
-  double duration_s = 0;     // simulated
-  double energy_j = 0;
+  double path_length_m = 0;            // driven
+  double duration_s = 0;               // simulated
+  double energy_j = 0;                 // at the battery's terminals
+  double charge_ah = 0;                // drawn from it
+  double least_battery_v = 0;          // at its terminals
+  std::optional<double> battery_left;  // share of its capacity; none: the scenario states none
   double max_cross_track_m = 0, mean_cross_track_m = 0;
   int turns = 0;  // of the plan
   int interventions = 0;

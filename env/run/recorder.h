@@ -16,23 +16,42 @@ namespace floorproof {
 class Recorder {
  public:
   Recorder(const Scenario& s, const SweepArea& area, double expected_s)
-      : area_(area), meter_(area, s.robot.robot.tool), dt_s_(s.physics.timestep_s) {
+      : area_(area),
+        robot_(s.robot.robot),
+        meter_(area, s.robot.robot.tool),
+        dt_s_(s.physics.timestep_s),
+        shape_(s.robot.robot.shape) {
     trace_every_ = s.episode.control_hz / s.episode.trace_hz;
     record_.trace.reserve(
         static_cast<std::size_t>(std::min(2e6, (expected_s + 60) * s.episode.trace_hz)));
   }
 
   void OnControl(const Sample& sample, const Estimate& estimate) {
-    meter_.Add(sample.X_WB());
+    if (sample.shape != shape_) TakeShape(sample.shape);
+    if (shape_ >= 0) meter_.Add(sample.X_WB());
     if (control_++ % trace_every_ != 0) return;
     const auto f = [](double v) { return static_cast<float>(v); };
     const BodyTwist& cmd = sample.command.twist;
-    record_.trace.push_back(
-        {sample.t_s, f(sample.p_WB.x()), f(sample.p_WB.y()), f(sample.p_WB.z()), f(sample.roll_rad),
-         f(sample.pitch_rad), f(sample.yaw_rad), f(sample.V_WB_B.vx_mps), f(sample.V_WB_B.vy_mps),
-         f(sample.V_WB_B.wz_radps), f(cmd.vx_mps), f(cmd.vy_mps), f(cmd.wz_radps),
-         f(estimate.X_WB.x_m), f(estimate.X_WB.y_m), f(estimate.X_WB.yaw_rad),
-         f(sample.cross_track_m), f(sample.power_w), f(meter_.coverage())});
+    record_.trace.push_back({sample.t_s,
+                             f(sample.p_WB.x()),
+                             f(sample.p_WB.y()),
+                             f(sample.p_WB.z()),
+                             f(sample.roll_rad),
+                             f(sample.pitch_rad),
+                             f(sample.yaw_rad),
+                             f(sample.V_WB_B.vx_mps),
+                             f(sample.V_WB_B.vy_mps),
+                             f(sample.V_WB_B.wz_radps),
+                             f(cmd.vx_mps),
+                             f(cmd.vy_mps),
+                             f(cmd.wz_radps),
+                             f(estimate.X_WB.x_m),
+                             f(estimate.X_WB.y_m),
+                             f(estimate.X_WB.yaw_rad),
+                             f(sample.cross_track_m),
+                             f(sample.power_w),
+                             f(meter_.coverage()),
+                             sample.shape});
   }
 
   void OnStep(const Sample& sample) {
@@ -40,6 +59,10 @@ class Recorder {
     ++record_.steps;
     m.path_length_m += std::hypot(sample.v_WB_W.x(), sample.v_WB_W.y()) * dt_s_;
     m.energy_j += sample.power_w * dt_s_;
+    m.charge_ah += sample.battery_a * dt_s_ / 3600;
+    m.least_battery_v =
+        record_.steps == 1 ? sample.battery_v : std::min(m.least_battery_v, sample.battery_v);
+    if (sample.battery_v == 0 && empty_s_ < 0) empty_s_ = sample.t_s;
     m.max_cross_track_m = std::max(m.max_cross_track_m, sample.cross_track_m);
     cross_track_sum_ += sample.cross_track_m;
     if (sample.num_contacts > 0) {
@@ -63,13 +86,14 @@ class Recorder {
   // failure when something failed on the way; a completed one that covered too little is one as
   // well.
   EpisodeRecord Finish(Outcome ended, const Sample& last, const PlanResult& plan,
-                       const std::vector<std::unique_ptr<Detector>>& detectors,
-                       double min_coverage) {
+                       const std::vector<std::unique_ptr<Detector>>& detectors, double min_coverage,
+                       std::optional<double> battery_left) {
     Metrics& m = record_.metrics;
-    meter_.Add(last.X_WB());
+    if (shape_ >= 0) meter_.Add(last.X_WB());
     m.coverage = meter_.coverage();
     m.overlap = meter_.overlap();
     m.duration_s = last.t_s;
+    m.battery_left = battery_left;
     m.mean_cross_track_m =
         record_.steps > 0 ? cross_track_sum_ / static_cast<double>(record_.steps) : 0;
     m.turns = CountTurns(plan.path);
@@ -85,18 +109,32 @@ class Recorder {
       record_.message = fmt::format("coverage {:.2f} % is below success.min_coverage, {:.2f} %",
                                     100 * m.coverage, 100 * min_coverage);
     }
+    if (empty_s_ >= 0)
+      record_.message = fmt::format("the battery was empty after {:.1f} s", empty_s_);
     if (ended == Outcome::kError) record_.message = "the physics diverged";
     return std::move(record_);
   }
 
  private:
+  // Between two shapes the tool is lifted; then it is the new shape's.
+  void TakeShape(int shape) {
+    shape_ = shape;
+    meter_.Lift();
+    if (shape < 0 || robot_.tool.kind != Shape2::Kind::kFootprint) return;
+    meter_.SetTool(
+        {Shape2::Kind::kFootprint, 0, robot_.shapes[static_cast<std::size_t>(shape)].footprint_B});
+  }
+
   EpisodeRecord record_;
   const SweepArea& area_;
+  const RobotSpec& robot_;
   CoverageMeter meter_;
   double dt_s_, cross_track_sum_ = 0;
   int trace_every_ = 1;
   std::int64_t control_ = 0;
+  int shape_ = 0;  // the robot's, as in Sample
   double last_touch_s_ = -1e9;
+  double empty_s_ = -1;  // when the battery had cut off; -1: it has not
 };
 
 }  // namespace floorproof

@@ -67,6 +67,10 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
 
   EpisodeParams episode = s.episode;
   WriteParams([&](ParamVisitor& v) { episode.Visit(v); }, root);
+  ConfigNode battery = ConfigNode::Map();
+  Battery battery_params = s.battery;
+  WriteParams([&](ParamVisitor& v) { battery_params.Visit(v); }, battery);
+  root.Add("battery", std::move(battery));
   ConfigNode physics = ConfigNode::Map(), video = ConfigNode::Map();
   PhysicsParams physics_params = s.physics;
   WriteParams([&](ParamVisitor& v) { physics_params.Visit(v); }, physics);

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 
+#include "env/core/blocks.h"
 #include "env/core/input_file.h"
 #include "env/run/file_output.h"
+#include "env/run/plan_file.h"
+#include "env/scene/roller_wheels.h"
 
 namespace floorproof {
 namespace {
@@ -14,9 +17,10 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kMostBytes = 256u << 20;  // the readers have narrower bounds of their own
 
 const std::vector<std::string> kKeys = {
-    "name",       "scenario",     "site",    "robot",      "start",    "goal",     "plan",
-    "controller", "estimator",    "physics", "control_hz", "trace_hz", "failures", "on_failure",
-    "success",    "time_limit_s", "seed",    "drive",      "video",    "files"};
+    "name",     "scenario",   "site",       "robot",   "start",        "goal",
+    "plan",     "controller", "estimator",  "physics", "battery",      "control_hz",
+    "trace_hz", "failures",   "on_failure", "success", "time_limit_s", "seed",
+    "drive",    "wheels",     "video",      "files"};
 
 ConfigNode EmptyMap(const SourceMark& mark) {
   ConfigNode node = ConfigNode::Map();
@@ -91,7 +95,25 @@ void ReadRobotPart(const ConfigNode& root, Scenario& s) {
     s.robot_file = NamedFile(s.file.parent_path(), path, "robot");
   }
   ReadParams(named.params, "robot.", [&](ParamVisitor& v) { s.robot_changes.Visit(v); }, {"name"});
-  s.robot = ReadRobot(s.robot_file, s.robot_changes);
+  if (const ConfigNode* battery = root.Find("battery"))
+    ReadParams(*battery, "battery.", [&](ParamVisitor& v) { s.battery.Visit(v); });
+  s.robot_changes.battery_v = s.battery.voltage_v;
+  const bool folds = std::ranges::any_of(s.user_plan, [&](const Waypoint& w) {
+    return !w.shape.empty() && w.shape != s.robot_changes.shape;
+  });
+  s.robot = ReadRobot(s.robot_file, s.robot_changes, folds ? Blocks::kHinged : Blocks::kLocked);
+  s.battery.voltage_v = s.robot.robot.battery.voltage_v;
+  s.robot.robot.battery = s.battery;
+  for (const Waypoint& w : s.user_plan)
+    if (!w.shape.empty() && FindShape(s.robot.robot, w.shape) < 0)
+      RefuseShape(s.robot.robot, {s.plan_file.string(), 0}, "shape", w.shape);
+  if (s.episode.wheels != "rollers") return;
+  if (!HasMecanumWheels(s.robot.robot)) {
+    const ConfigNode* node = root.Find("wheels");
+    throw InputError(node ? node->mark : root.mark, "wheels", s.episode.wheels,
+                     "must be ideal: the wheels of " + s.robot_name + " have no rollers");
+  }
+  s.robot = WithRollerWheels(s.robot);
 }
 
 Pose2 ReadStart(const ConfigNode& root, const HazardMap& map) {
@@ -128,6 +150,7 @@ void ReadPlanPart(const ConfigNode& root, Scenario& s) {
   if (const ConfigNode* file = node && node->IsMap() ? node->Find("file") : nullptr) {
     RefuseUnknownKeys(*node, "plan.", {"file"});
     s.plan_file = NamedFile(s.file.parent_path(), *file, "plan.file");
+    s.user_plan = ReadPlan(s.plan_file, s.site.map.frame);
     return;
   }
   const Named named = ReadNamed(root, "plan", "planner", "boustrophedon");
@@ -232,6 +255,8 @@ void EpisodeParams::Visit(ParamVisitor& v) {
     "simulated seconds; none: a minute and three times what the plan takes at its own speeds");
   v("drive", drive, {"physics", "none"}, "physics: drive the plan; none: plan only");
   v("seed", seed, Between(0, 2147483647.0), "of every random stream");
+  v("wheels", wheels, {"ideal", "rollers"},
+    "Mecanum wheels; ideal: one body each, rollers: a hub and rollers that are bodies");
 }
 
 Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrides) {
@@ -251,7 +276,8 @@ Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrid
   ReadTop(root, s);
   CheckHashes(root, file.parent_path());
   ReadSitePart(root, overrides, s);
-  ReadRobotPart(root, s);
+  ReadPlanPart(root, s);
+  ReadRobotPart(root, s);  // whether it folds hangs on the plan
   s.start = ReadStart(root, s.site.map);
   s.site.map.start = s.start;  // the scenario's own wins, on pictures too
   CheckStart(root, s);
@@ -267,7 +293,6 @@ Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrid
                        "lies off the map");
     s.goal = p;
   }
-  ReadPlanPart(root, s);
   ReadControl(root, s);
   ReadFailures(root, s);
   return s;

@@ -37,6 +37,7 @@ struct EpisodeParams {
   std::optional<double> time_limit_s;  // none: three times the plan's own time, and a minute
   std::string drive = "physics";       // none: the plan only
   int seed = 0;
+  std::string wheels = "ideal";  // of Mecanum robots: ideal, or rollers that are bodies
   void Visit(ParamVisitor& v);
 };
 
@@ -59,12 +60,14 @@ struct Scenario {
   std::string planner_name;  // empty: plan_file
   std::unique_ptr<Planner> planner;
   std::filesystem::path plan_file;
+  Path user_plan;  // what it holds
 
   std::string tracker_name, estimator_name;
   std::unique_ptr<Tracker> tracker;
   std::unique_ptr<Estimator> estimator;
   std::vector<std::unique_ptr<Detector>> detectors;
   PhysicsParams physics;
+  Battery battery;  // its voltage set, if only by the robot
   EpisodeParams episode;
   VideoParams video;
 };

@@ -17,9 +17,17 @@ struct RobotChanges {
   std::optional<double> wheel_radius_m =
       {};  // of the driven wheels, rollers included; the body stays
   std::optional<double> roller_radius_m = {};  // of Mecanum wheels
+  std::string shape = {};  // of a reconfigurable robot, at the start; empty: the model's own
+  // Of the battery, hence of every motor's driver; a scenario's `battery.voltage_v`, so Visit
+  // passes it over.
+  std::optional<double> battery_v = {};
 
   void Visit(ParamVisitor& v);
 };
+
+// The most that a dcmotor's driver gives, V; 0: no limit. Set to no less than a microvolt.
+double DriverVoltage(const mjModel* model, int actuator);
+void SetDriverVoltage(mjModel* model, int actuator, double voltage_v);
 
 // Changes `spec`, from which `robot` was read; false when there was nothing to change. Throws
 // InputError naming the robot's file when the wheels cannot be as asked.

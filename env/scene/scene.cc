@@ -6,6 +6,7 @@
 
 #include "env/scene/floor.h"
 #include "env/scene/mecanum_wheel.h"
+#include "env/scene/restitution.h"
 #include "env/scene/walls.h"
 
 namespace floorproof {
@@ -13,7 +14,6 @@ namespace {
 
 // Contact bits, as the robots' MJCF states them: wheels meet the floor and hazards, the body all.
 constexpr int kFloorBit = 1, kWallBit = 2;
-constexpr double kWallHeight_m = 0.45;
 constexpr double kSlab_m = 0.10;  // of floor below the lowest
 // Contact softness that was sound at 1-5 ms (physics.md, "Settings that were sound").
 constexpr double kTimeConstant_s = 0.01;
@@ -56,18 +56,18 @@ class SceneBuilder {
     }
   }
 
-  void Walls(const Vec2& start_W) {
-    for (const WallBox& box : WallBoxes(map_, robot_, start_W)) {
+  void Walls(const Vec2& start_W, WallSet set) {
+    const std::vector<WallBox> boxes = WallBoxes(map_, robot_, start_W);
+    if (set == WallSet::kNear) pool = MakeWallPool(boxes, map_.frame.X_WG, spec_);
+    const std::size_t num = pool.num > 0 ? static_cast<std::size_t>(pool.num) : boxes.size();
+    for (std::size_t i = 0; i < num; ++i) {
       mjsGeom* geom = Add(GeomRole::Kind::kWall, -1, 0.3, 0);
       geom->type = mjGEOM_BOX;
-      const Vec2 p_W = map_.frame.X_WG * Vec2((box.low_G + box.high_G) / 2);
-      geom->pos[0] = p_W.x();
-      geom->pos[1] = p_W.y();
-      geom->pos[2] = kWallHeight_m / 2;
+      if (pool.num > 0)
+        ParkWall(geom->pos, geom->size);
+      else
+        PlaceWall(boxes[i], map_.frame.X_WG, geom->pos, geom->size);
       SetYaw(geom, map_.frame.X_WG.yaw_rad);
-      geom->size[0] = (box.high_G.x() - box.low_G.x()) / 2;
-      geom->size[1] = (box.high_G.y() - box.low_G.y()) / 2;
-      geom->size[2] = kWallHeight_m / 2;
       mjs_setString(geom->material, "wall");
     }
   }
@@ -126,6 +126,7 @@ class SceneBuilder {
     Copy<double>({middle.x(), middle.y(), 0}, spec_->stat.center);
   }
 
+  WallPool pool;
   std::vector<std::pair<mjsGeom*, GeomRole>> added;
   std::vector<mjsGeom*> mecanum;  // the robot's wheels with rollers
 
@@ -155,12 +156,13 @@ class SceneBuilder {
     geom->condim = 3;
     geom->priority = 1;  // what is met rules over the robot's own friction and softness
     geom->friction[0] = friction;
-    // MuJoCo's stiffness is 1 / (time constant * ratio)^2: kept as the ratio falls, so that a
-    // lively contact lasts as many steps as a dead one.
-    const double ratio = kind == GeomRole::Kind::kFloor ? 1 : DampingRatio(restitution);
-    geom->solref[0] = kTimeConstant_s / std::min(1.0, ratio);
-    geom->solref[1] = ratio;
+    const ContactSoftness softness = kind == GeomRole::Kind::kFloor
+                                         ? ContactSoftness{kTimeConstant_s, 1}
+                                         : SoftnessFor(restitution, spec_->option.timestep);
+    geom->solref[0] = softness.time_constant_s;
+    geom->solref[1] = softness.damping_ratio;
     std::copy(std::begin(kSolimp), std::end(kSolimp), geom->solimp);
+    if (restitution > 0) geom->solimp[0] = geom->solimp[1];  // as SoftnessFor assumes
     added.emplace_back(geom, GeomRole{kind, hazard});
     const std::string name = Name(kind, hazard);
     mjs_setName(geom->element, name.c_str());
@@ -286,17 +288,8 @@ void PhysicsParams::Visit(ParamVisitor& v) {
   v("integrator", integrator, {"discrete", "implicitfast"}, "MuJoCo's integrator");
 }
 
-double DampingRatio(double restitution) {
-  // Soft contacts give back what they were pressed in by: critically damped they part at 0.14 of
-  // the closing speed, with a ratio of 3 at 0.03, which is dead enough for no bounce to be seen.
-  constexpr double kDead = 3;
-  if (restitution <= 0) return kDead;
-  const double l = std::log(std::min(restitution, 0.99));
-  return -l / std::sqrt(kPi * kPi + l * l);
-}
-
 Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsParams& physics,
-                 const Pose2& start) {
+                 const Pose2& start, WallSet walls) {
   Scene scene;
   scene.spec.reset(mj_copySpec(robot.spec.get()));
   SetPhysics(scene.spec.get(), physics);
@@ -304,7 +297,7 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
   SceneBuilder builder(map, robot, scene.spec.get());
   builder.Looks();
   builder.Floor();
-  builder.Walls(start.p());
+  builder.Walls(start.p(), walls);
   builder.Hazards();
   builder.PairWheels();
   InstallWheelCollider();
@@ -320,7 +313,7 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
         m->geom_contype[g] != 0 || m->geom_conaffinity[g] != 0 || RollersOf(m, g).radius_m > 0;
     if (body == 0 || !touches) continue;
     scene.roles[static_cast<std::size_t>(g)].kind =
-        body == scene.base_body ? GeomRole::Kind::kBody : GeomRole::Kind::kWheel;
+        IsChassis(m, body, robot.robot) ? GeomRole::Kind::kBody : GeomRole::Kind::kWheel;
   }
   for (const auto& [geom, role] : builder.added) {
     scene.roles[static_cast<std::size_t>(mjs_getId(geom->element))] = role;
@@ -328,6 +321,11 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
     scene.num_floor_geoms += role.kind == GeomRole::Kind::kFloor;
     scene.num_hazard_geoms += role.kind == GeomRole::Kind::kHazard;
   }
+  scene.pool = std::move(builder.pool);
+  if (scene.pool.num > 0)
+    scene.pool.first_geom =
+        static_cast<int>(std::ranges::find(scene.roles, GeomRole::Kind::kWall, &GeomRole::kind) -
+                         scene.roles.begin());
   return scene;
 }
 

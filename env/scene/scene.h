@@ -9,6 +9,7 @@
 #include "env/core/params.h"
 #include "env/scene/engine.h"
 #include "env/scene/robot_model.h"
+#include "env/scene/wall_pool.h"
 
 namespace floorproof {
 
@@ -32,24 +33,25 @@ struct GeomRole {
   int hazard = -1;  // index into HazardMap::hazards
 };
 
+enum class WallSet {
+  kNear,  // a pool where there are many; for the simulation
+  kAll,   // for pictures and files, however many there are
+};
+
 struct Scene {
   ModelPtr model;
   SpecPtr spec;                 // what it was compiled from
   std::vector<GeomRole> roles;  // per geom id
   int base_body = -1;
   int num_wall_geoms = 0, num_floor_geoms = 0, num_hazard_geoms = 0;
+  WallPool pool;  // num 0: the model holds all walls itself
 };
 
 // Builds the scene with the robot standing at `start`. Throws InternalError when MuJoCo refuses it.
 Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsParams& physics,
-                 const Pose2& start);
+                 const Pose2& start, WallSet walls = WallSet::kNear);
 
-// The scene as one MJCF file that the stock MuJoCo loads and steps.
+// The scene, built with all its walls, as one MJCF file that the stock MuJoCo loads and steps.
 std::string SceneXml(const Scene& scene);
-
-// Contact damping for a coefficient of restitution e: MuJoCo's solref (time constant, damping
-// ratio) with the ratio of a linear spring and damper that rebounds with e: -ln e / sqrt(pi^2 +
-// ln^2 e).
-double DampingRatio(double restitution);
 
 }  // namespace floorproof

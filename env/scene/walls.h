@@ -6,13 +6,9 @@
 
 #include "env/core/hazard_map.h"
 #include "env/core/robot_spec.h"
+#include "env/map/wall_grid.h"
 
 namespace floorproof {
-
-// A box in the map's grid frame G, metres.
-struct WallBox {
-  Vec2 low_G = Vec2::Zero(), high_G = Vec2::Zero();
-};
 
 // Maximal rectangles of occupied cells (IsWall), one ring of cells beyond the map included, without
 // those that the robot cannot touch from where it starts: it passes where its inscribed circle

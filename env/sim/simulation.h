@@ -5,9 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "env/core/blocks.h"
 #include "env/core/motion.h"
 #include "env/core/robot_spec.h"
 #include "env/scene/scene.h"
+#include "env/sim/live_geoms.h"
 
 namespace floorproof {
 
@@ -20,6 +22,8 @@ class Simulation {
   void Reset(const Pose2& X_WB);
   // Speeds that the wheels' motor drivers hold from now on, rad/s, RobotSpec's order.
   void SetWheelSpeeds(std::span<const double> wheel_radps);
+  // The same for the motors of the hinges: the rates alone count.
+  void SetHingeSpeeds(const HingeState& hinges);
   // One physics step; false when the state diverged (MuJoCo warned, or a number is not finite):
   // the simulation is over then, an `error`. Allocates nothing. Throws InternalError when the
   // engine itself fails.
@@ -28,14 +32,21 @@ class Simulation {
   // stay as the caller set them, but t_s.
   Sample& sample() { return sample_; }
 
-  const mjModel* model() const { return scene_.model.get(); }
+  // Holds of the scene's walls and pairs what is near the robot (live_geoms.h).
+  const mjModel* model() const { return live_.model(); }
+  // For rigs that tilt gravity or brake wheels; most of its arrays are the scene's own.
+  mjModel* model() { return live_.model(); }
   mjData* data() { return data_.get(); }
+  // As at the last step, since Reset.
+  const BatteryInUse& battery() const { return battery_; }
 
  private:
   void Place(const Pose2& X_WB);
+  void ReadHinges();
   void ReadPose();
   void ReadContacts();
-  void ReadPower();
+  void ReadPower(double dt_s);
+  void SetDriverVoltages();
   void AddObstacle(int hazard, const double* p_W, Vec2 normal_W, double force_n);
   void AddSupport(const double* p_W);
   int CutAt(const Vec2& p_W) const;
@@ -44,18 +55,18 @@ class Simulation {
   const Scene& scene_;
   const HazardMap& map_;
   const RobotSpec& robot_;
+  LiveGeoms live_;
   DataPtr data_;
   Sample sample_;
-  std::vector<int> wheel_bodies_;  // of the driven wheels, in actuator order
-  std::vector<double> wheel_half_width_m_;
+  BatteryInUse battery_;
+  std::vector<mjtNum> gains_;                // the motors', where their drivers' voltage changes
+  std::vector<int> wheel_bodies_;            // of the driven wheels, in actuator order
+  std::vector<int> hinge_qpos_, hinge_dof_;  // addresses of the hinges' joints
+  BlockMotions blocks_;                      // of a robot with hinges; else at rest
   Vec2 lowest_wheel_W_ = Vec2::Zero();
   Vec3 last_v_W_ = Vec3::Zero();                       // of the body's origin, before the step
   Vec3 w_W_ = Vec3::Zero(), last_w_W_ = Vec3::Zero();  // angular velocity, after and before it
   std::vector<Vec2> support_, hull_;                   // scratch, capacity fixed
 };
-
-// Electrical power of a DC motor with its driver: current i = torque / K, terminal voltage
-// v = R i + K omega; v i, and nothing comes back when braking.
-double MotorPower(double torque_nm, double speed_radps, double resistance_ohm, double constant);
 
 }  // namespace floorproof

@@ -9,6 +9,7 @@
 #include "controllers/drive.h"
 #include "env/core/interrupt.h"
 #include "env/core/params.h"
+#include "env/scene/roller_wheels.h"
 #include "env/validate/parallel.h"
 
 namespace floorproof {
@@ -29,12 +30,6 @@ bool MovesAside(const RobotSpec& robot) {
   constexpr double kAside_mps = 0.1;
   drive->ToWheels({0, kAside_mps, 0}, wheels);
   return drive->ToTwist(wheels).vy_mps > 0.5 * kAside_mps;
-}
-
-bool HasRollers(const RobotSpec& robot) {
-  for (const WheelSpec& wheel : robot.wheels)
-    if (wheel.roller_radius_m > 0) return true;
-  return false;
 }
 
 std::vector<Direction> DirectionsOf(const RobotSpec& robot) {
@@ -81,7 +76,7 @@ std::vector<LadderCell> LadderCells(const LadderOptions& options) {
     const std::string name(entry.name);
     const RobotSpec robot = ReadRobot(FindRobotFile(name, {})).robot;
     AddCells(name, robot, "ideal", kFrictions, cells);
-    if (options.rollers && HasRollers(robot))
+    if (options.rollers && HasMecanumWheels(robot))
       AddCells(name, robot, "rollers", kRollerFrictions, cells);
   }
   return cells;
@@ -121,10 +116,10 @@ CrossingPlan PlanOf(const LadderCell& cell, const RobotSpec& robot, double size)
   return plan;
 }
 
-std::optional<LadderRow> FindRow(const LadderCell& cell, const LadderOptions& options) {
+std::optional<LadderRow> FindRow(const LadderCell& cell) {
   const LadderHazard& hazard = FindLadderHazard(cell.hazard);
   RobotModel robot = ReadRobot(FindRobotFile(cell.robot, {}), cell.changes);
-  if (cell.wheels == "rollers") robot = options.rollers(robot);
+  if (cell.wheels == "rollers") robot = WithRollerWheels(robot);
   LadderRow row{cell, 0, false, ""};
   const auto limit = FindLimit(hazard.rungs, [&](double size) {
     const CrossingPlan plan = PlanOf(cell, robot.robot, size);
@@ -140,14 +135,14 @@ std::optional<LadderRow> FindRow(const LadderCell& cell, const LadderOptions& op
 }
 
 std::vector<LadderRow> ClimbLadder(
-    std::span<const LadderCell> cells, const LadderOptions& options,
+    std::span<const LadderCell> cells, int jobs,
     const std::function<void(const LadderRow&, std::size_t done)>& on_row) {
   std::vector<std::optional<LadderRow>> found(cells.size());
   std::mutex one_at_a_time;
   std::size_t done = 0;
-  RunParallel(static_cast<int>(cells.size()), options.jobs, [&](int i) {
+  RunParallel(static_cast<int>(cells.size()), jobs, [&](int i) {
     auto& row = found[static_cast<std::size_t>(i)];
-    row = FindRow(cells[static_cast<std::size_t>(i)], options);
+    row = FindRow(cells[static_cast<std::size_t>(i)]);
     if (!row) return;
     const std::lock_guard lock(one_at_a_time);
     ++done;

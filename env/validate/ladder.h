@@ -63,9 +63,7 @@ struct LadderRow {
 
 struct LadderOptions {
   int jobs = 1;
-  // Makes of a robot one whose Mecanum wheels are hubs with rollers, as scenarios' `wheels:
-  // rollers` do. None: no rows of roller wheels.
-  std::function<RobotModel(const RobotModel&)> rollers = {};
+  bool rollers = true;  // rows of roller wheels too, which take most of the time
 };
 
 // Every bundled robot, hazard and direction at 0.1, 0.2, 0.3 m/s on friction 0.4, 0.6, 0.8; after
@@ -75,16 +73,16 @@ std::vector<LadderCell> LadderCells(const LadderOptions& options);
 // ideal wheels, 0.2 m/s, friction 0.8.
 std::vector<LadderCell> SweepCells();
 
-// The cell's limit; nothing when interrupted.
-std::optional<LadderRow> FindRow(const LadderCell& cell, const LadderOptions& options);
+// The cell's limit; nothing when interrupted. Throws InternalError when the physics diverges.
+std::optional<LadderRow> FindRow(const LadderCell& cell);
 // How a robot of the cell meets its hazard.
 CrossingPlan PlanOf(const LadderCell& cell, const RobotSpec& robot, double size);
 
-// Finds the cells' limits on options.jobs threads; rows in the cells' order whatever finished
+// Finds the cells' limits on so many threads; rows in the cells' order whatever finished
 // first, without those that an interrupt kept from being found. `on_row` is called once a row, one
 // call at a time, with the number of rows that are done.
 std::vector<LadderRow> ClimbLadder(
-    std::span<const LadderCell> cells, const LadderOptions& options,
+    std::span<const LadderCell> cells, int jobs,
     const std::function<void(const LadderRow&, std::size_t done)>& on_row);
 
 // robot,wheels,hazard,direction,speed_mps,friction,limit,unit

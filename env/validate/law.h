@@ -33,6 +33,8 @@ class Law {
   virtual std::string_view statement() const = 0;
   // The wrong models that it must notice: under each at least one of its rows fails.
   virtual std::vector<WrongModel> notices() const = 0;
+  // Takes more than some 3 s of CPU: its tests are labelled slow.
+  virtual bool slow() const { return false; }
   // Adds the law's rows. Deterministic; may run on any thread, beside other laws.
   virtual void Check(const WrongModel& wrong, std::vector<LawRow>& rows) const = 0;
 };

@@ -2,6 +2,7 @@
 // A robot on a wide floor, driven by twists: what laws and tests look at.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,13 +17,21 @@ namespace floorproof {
 // expects, and the wheel speeds commanded, stay those of the true model.
 struct WrongModel {
   double friction_factor = 1;     // of the floor and of hazards that state none
-  double wheel_radius_add_m = 0;  // to the driven wheels'; the body stays
+  double wheel_radius_add_m = 0;  // to the driven wheels'; the body rises with its axles
+  double gravity_factor = 1;      // where neither of the above can be felt: in free fall
+  double seam_step_m = 0;         // every second slab of a cut floor lies lower by this
+  double battery_factor = 1;      // of its voltage
+  double restitution_factor = 1;  // of hazards'
+
+  bool operator==(const WrongModel&) const = default;
 };
 
 struct RigOptions {
   PhysicsParams physics = {};
   std::vector<Hazard> hazards = {};  // solids on the floor; ids and materials as in a site
   RobotChanges changes = {};
+  Blocks blocks = Blocks::kLocked;
+  bool rollers = false;  // on Mecanum wheels, as bodies (env/scene/roller_wheels.h)
   double friction = 0.8;
   WrongModel wrong = {};
 };
@@ -31,9 +40,20 @@ class Rig {
  public:
   // The robot (a bundled name or a file) at the origin of a floor of 20 x 20 m, at rest.
   explicit Rig(const std::string& robot_name, RigOptions options = {});
+  // A body of one's own, as BodyFromMjcf makes it; options.changes and the wrong wheels are the
+  // caller's affair.
+  explicit Rig(RobotModel body, RigOptions options = {});
 
-  // Wheel speeds for this twist from now on.
-  void Command(const BodyTwist& twist);
+  // Wheel and hinge speeds for this motion from now on; hinges that are not mentioned hold still.
+  void Command(const BodyTwist& twist, const HingeState& hinges = {});
+  // The same speed for every wheel from now on: a body of one's own.
+  void CommandWheels(double wheel_radps);
+  // Holds every driven wheel still by dry friction in its bearing, far above what the floor gives.
+  void Brake();
+  // Puts the base at this pose, with this velocity, everything else as it is.
+  void SetBase(const Vec3& p_WB, const Eigen::Quaterniond& q_WB, const Vec3& v_WB_W);
+  // Gravity of 9.81 m/s^2 along this direction, as a floor tilted the other way feels it.
+  void SetGravity(const Vec3& direction_W);
   // One physics step; throws InternalError when the state diverged.
   void Step();
   // Drives this twist for a time; returns the body's mean velocity over the second half.
@@ -44,16 +64,26 @@ class Rig {
   Simulation& sim() { return *sim_; }
   mjData* data() { return sim_->data(); }
   const Scene& scene() const { return scene_; }
+  const HazardMap& map() const { return map_; }
 
  private:
+  void Build(RigOptions options);
+
   HazardMap map_;
+  WrongModel wrong_;
   RobotSpec true_robot_;
   RobotModel model_;  // the one simulated
   Scene scene_;
-  std::unique_ptr<Drive> drive_;
+  std::unique_ptr<Drive> drive_;  // none for a body of one's own
   std::vector<double> wheel_radps_;
   std::unique_ptr<Simulation> sim_;
 };
+
+constexpr double kGravity_mps2 = 9.81;
+
+// A body named `base` with a free joint, from MJCF text; each of its actuators drives a wheel. For
+// a law that needs a cleaner body than a robot. Throws InternalError when MuJoCo refuses it.
+RobotModel BodyFromMjcf(const std::string& mjcf);
 
 // A straight-sided or flanked solid on the floor, for RigOptions::hazards: `top` empty: as `base`.
 Hazard Prism(const std::string& id, const Polygon& base, const Polygon& top, double height_m);

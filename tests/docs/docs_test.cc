@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plug-ins of docs/adding-a-*.md, compiled from the pages.
+// The plug-ins of docs/adding-a-*.md, compiled from the pages; pages that must list what there is.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <memory>
 
 #include "env/core/coverage.h"
 #include "env/failures/detector.h"
 #include "env/hazards/hazard_type.h"
 #include "env/scene/scene.h"
+#include "env/validate/law.h"
 #include "planners/planner.h"
 
 namespace floorproof {
@@ -110,6 +113,14 @@ TEST(AddingADetector, ASmallErrorThatLastsFailsAndALargeOneThatPassesDoesNot) {
   EXPECT_EQ(count(0.14, 60), 0);
   EXPECT_EQ(count(0.20, 60), 1);
   EXPECT_EQ(count(0.40, 1), 0);
+}
+
+TEST(Validation, ThePageListsEveryLaw) {
+  std::ifstream file(FP_SOURCE_DIR "/docs/validation.md");
+  const std::string page(std::istreambuf_iterator<char>(file), {});
+  ASSERT_FALSE(Laws().empty());
+  for (const auto& name : PluginNames(Laws()))
+    EXPECT_NE(page.find("\n| `" + name + "` |"), std::string::npos) << name << " has no row";
 }
 
 }  // namespace

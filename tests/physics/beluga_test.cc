@@ -61,12 +61,6 @@ TEST(Beluga, OneTwoAndFourMillisecondsAgree) {
   }
 }
 
-TEST(Beluga, MotorPowerIsCopperLossAndWork) {
-  // 1 N m at 2 rad/s with R = 3.6 ohm, K = 1.2: i = 1/1.2 A; i^2 R + 1 * 2 W.
-  EXPECT_NEAR(MotorPower(1, 2, 3.6, 1.2), 3.6 / 1.44 + 2, 1e-12);
-  EXPECT_EQ(MotorPower(-0.1, 9, 3.6, 1.2), 0) << "braking gives nothing back";
-}
-
 class Seams : public ScenarioTest {};
 
 // A pit elsewhere cuts the floor into slabs; rolling over their borders is not felt.

@@ -45,6 +45,23 @@ TEST_F(ScenarioFile, ResolvedTwiceIsItself) {
   EXPECT_EQ(second.start.yaw_rad, first.start.yaw_rad) << "to the bit";
 }
 
+TEST_F(ScenarioFile, WheelsAreIdealOrHaveRollersThatAreBodies) {
+  const std::vector<Override> htetro = {{"robot", "htetro"}, {"wheels", "rollers"}};
+  const Scenario dut = Read(RoomScenario(""), htetro);
+  const Scenario ideal = Read(RoomScenario(""), {{"robot", "htetro"}});
+  EXPECT_EQ(ideal.episode.wheels, "ideal");
+  EXPECT_THAT(ResolvedScenario(dut, folder_), HasSubstr("wheels: \"rollers\""));
+  const auto bodies = [](const Scenario& s) {
+    return BuildScene(s.site.map, s.robot, s.physics, s.start).model->nbody;
+  };
+  EXPECT_GE(bodies(dut), bodies(ideal) + 16 * 8);
+  EXPECT_EQ(dut.robot.robot.mass_kg, ideal.robot.robot.mass_kg);
+  EXPECT_THAT(Refusal(RoomScenario("", "wheels: rollers\n")),
+              HasSubstr("wheels = rollers: must be ideal: the wheels of beluga have no rollers"));
+  EXPECT_THAT(Refusal(RoomScenario("", "wheels: round\n")),
+              HasSubstr("must be one of ideal, rollers"));
+}
+
 TEST_F(ScenarioFile, AFileThatChangedSinceIsNamed) {
   const Scenario first = Read(RoomScenario(""));
   std::filesystem::create_directories(folder_ / "out");

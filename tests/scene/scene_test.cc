@@ -89,15 +89,5 @@ TEST(SceneTest, AnEngineErrorIsAnExceptionAndNotTheEnd) {
   EXPECT_THROW(ForwardEngine(scene.model.get(), data.get()), InternalError);
 }
 
-TEST(SceneTest, TheDampingRatioFallsWithTheRestitution) {
-  EXPECT_GT(DampingRatio(0), 1);
-  double last = 1;
-  for (const double e : {0.1, 0.3, 0.5, 0.7, 0.9, 0.99}) {
-    EXPECT_LT(DampingRatio(e), last);
-    EXPECT_GT(DampingRatio(e), 0);
-    last = DampingRatio(e);
-  }
-}
-
 }  // namespace
 }  // namespace floorproof

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/core/battery.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace floorproof {
+
+void Battery::Visit(ParamVisitor& v) {
+  v("voltage_v", voltage_v, Positive(),
+    "open circuit, and most that the motors' drivers give (V); none: as the robot's model says");
+  v("resistance_ohm", resistance_ohm, NonNegative(), "internal (ohm); 0: the voltage never sags");
+  v("capacity_wh", capacity_wh, Positive(),
+    "drawn empty the battery cuts off (Wh); none: never empty");
+}
+
+BatteryOutput Feed(double voltage_v, double resistance_ohm, double load_w) {
+  const double root = voltage_v * voltage_v - 4 * resistance_ohm * load_w;
+  const double v = (voltage_v + std::sqrt(std::max(0.0, root))) / 2;
+  if (root < 0) return {v, v / resistance_ohm};
+  return {v, load_w / v};
+}
+
+double MotorPower(double torque_nm, double speed_radps, double resistance_ohm, double constant) {
+  const double current = torque_nm / constant;
+  return std::max(0.0, current * (resistance_ohm * current + constant * speed_radps));
+}
+
+BatteryInUse::BatteryInUse(const Battery& battery) : battery_(battery) {
+  constexpr double kUsual_v = 12;
+  if (!battery_.voltage_v) battery_.voltage_v = kUsual_v;
+  voltage_v_ = *battery_.voltage_v;
+}
+
+BatteryOutput BatteryInUse::Feed(double load_w, double dt_s) {
+  if (empty()) {
+    voltage_v_ = 0;
+    return {};
+  }
+  const BatteryOutput out = floorproof::Feed(*battery_.voltage_v, battery_.resistance_ohm, load_w);
+  drawn_j_ += *battery_.voltage_v * out.current_a * dt_s;
+  voltage_v_ = out.voltage_v;
+  return out;
+}
+
+std::optional<double> BatteryInUse::left() const {
+  if (!battery_.capacity_wh) return std::nullopt;
+  return std::max(0.0, 1 - drawn_j_ / (*battery_.capacity_wh * 3600));
+}
+
+}  // namespace floorproof

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// A battery that feeds motors' drivers and hotel load, and DC motors' power: plain functions.
+//
+// The battery is a constant voltage behind a resistance (Thevenin); a driver passes its motor's
+// power on without loss, and nothing comes back from a motor that brakes. Energy is counted at the
+// terminals, E = integral of v(t) i(t) dt ("audit-sampling", Eq. 5). Not modelled: a voltage that
+// falls with the charge, temperature, ageing, losses of the drivers.
+#pragma once
+
+#include <optional>
+
+#include "env/core/params.h"
+
+namespace floorproof {
+
+struct Battery {
+  std::optional<double> voltage_v = {};  // open circuit; none: that of the robot's motor drivers
+  double resistance_ohm = 0;             // internal; 0: the voltage never sags
+  std::optional<double> capacity_wh =
+      {};  // that it can give, own losses included; none: never empty
+  void Visit(ParamVisitor& v);
+};
+
+// At the terminals of a battery.
+struct BatteryOutput {
+  double voltage_v = 0, current_a = 0;
+  double power_w() const { return voltage_v * current_a; }
+};
+
+// What a load of this power, W, >= 0, gets from `voltage_v` behind `resistance_ohm`: v with
+// v (V - v) / R = P, the larger root. A load above V^2 / (4 R) gets that much, at V / 2.
+BatteryOutput Feed(double voltage_v, double resistance_ohm, double load_w);
+
+// Electrical power of a DC motor with its driver, W: current i = torque / K, voltage v = R i + K
+// omega; v i, and nothing comes back when braking.
+double MotorPower(double torque_nm, double speed_radps, double resistance_ohm, double constant);
+
+// A battery in use. Once its capacity is drawn it cuts off: no voltage, no current, from then on.
+class BatteryInUse {
+ public:
+  // Without a voltage: 12 V.
+  explicit BatteryInUse(const Battery& battery);
+  // Feeds this load for this time. A battery that runs empty within it is empty after it.
+  BatteryOutput Feed(double load_w, double dt_s);
+  bool empty() const { return battery_.capacity_wh && drawn_j_ >= *battery_.capacity_wh * 3600; }
+  // Share of the capacity, 1: full; none without a capacity.
+  std::optional<double> left() const;
+  // The terminals' voltage at the last load; before it, the open circuit's.
+  double voltage_v() const { return voltage_v_; }
+
+ private:
+  Battery battery_;
+  double drawn_j_ = 0;  // from the cells: at open-circuit voltage
+  double voltage_v_ = 0;
+};
+
+}  // namespace floorproof

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The boxes of a map's walls, found by place: a grid of buckets, each of which lists the boxes that
+// reach into it.
+#pragma once
+
+#include <vector>
+
+#include "env/core/grid.h"
+
+namespace floorproof {
+
+constexpr double kWallHeight_m = 0.45;  // of the boxes, from the base floor up
+
+// A box in the map's grid frame G, metres.
+struct WallBox {
+  Vec2 low_G = Vec2::Zero(), high_G = Vec2::Zero();
+};
+
+class WallGrid {
+ public:
+  WallGrid() = default;
+  // Takes time and memory as the boxes' number and the buckets that they cover.
+  explicit WallGrid(std::vector<WallBox> boxes);
+
+  const std::vector<WallBox>& boxes() const { return boxes_; }
+  // Indices of all boxes that meet the rectangle [low, high] (G, metres; borders count), ascending,
+  // each once. Allocates only what `found` lacks.
+  void Near(const Vec2& low_G, const Vec2& high_G, std::vector<int>& found) const;
+  // At least as many as Near() finds in any square of this half side (m), wherever it stands.
+  int MostNear(double half_side_m) const;
+  // Distance (m) along the ray to the first face of a box, as mj_ray measures it: from within a
+  // box, to where the ray leaves it. `direction_G` is of length 1; infinity where nothing is met
+  // within `most_m`. Takes time as the ray's length, not as the map's size.
+  double Cast(const Vec2& from_G, const Vec2& direction_G, double most_m) const;
+
+ private:
+  struct Range {
+    int x0, y0, x1, y1;  // both ends included
+  };
+  Range Buckets(const Vec2& low_G, const Vec2& high_G) const;
+  std::size_t Bucket(int ix, int iy) const {
+    return static_cast<std::size_t>(iy) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(ix);
+  }
+
+  std::vector<WallBox> boxes_;
+  std::vector<Range> ranges_;  // of the buckets that each box covers
+  Vec2 low_G_ = Vec2::Zero();
+  double bucket_m_ = 1;
+  int width_ = 0, height_ = 0;
+  std::vector<int> first_, listed_;  // boxes of bucket b: listed_[first_[b]] to [first_[b + 1] - 1]
+};
+
+}  // namespace floorproof

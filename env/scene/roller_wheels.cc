@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/scene/roller_wheels.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+namespace floorproof {
+namespace {
+
+// Of a wheel's mass. The pitch circle has about the core's radius: what the wheel's inertia gains
+// by it is some 2 % of its motor's armature in htetro.
+constexpr double kRollersShare = 0.5;
+// Ideal rollers are free. So are these, nearly: a roller at 20 rad/s loses the torque of 0.3 mN at
+// its tread; but one that was lifted comes to rest, within seconds.
+constexpr double kDamping_nms = 1e-7;
+
+// A Mecanum wheel in the spec, found before anything is changed.
+struct Wheel {
+  WheelSpec spec;
+  mjsBody* body = nullptr;
+  mjsGeom* core = nullptr;
+  std::vector<mjsGeom*> drawn;  // rollers that are only seen
+  // In the body's frame: the core's centre and axis, and the way down as the robot is placed.
+  Vec3 centre = Vec3::Zero(), axle = Vec3::Zero(), down = Vec3::Zero();
+  double mass_kg = 0;
+};
+
+bool IsCore(const mjsGeom* geom) {
+  int n = 0;
+  const double* user = mjs_getDouble(geom->userdata, &n);
+  return geom->type == mjGEOM_CYLINDER && n >= 2 && user[0] > 0;
+}
+
+std::vector<Wheel> FindWheels(mjSpec* spec, const RobotSpec& robot) {
+  const ModelPtr model = CompileSpec(spec);
+  const DataPtr data = MakeData(model.get());
+  ForwardEngine(model.get(), data.get());
+  std::vector<Wheel> wheels;
+  for (const WheelSpec& wheel_spec : robot.wheels) {
+    const mjsActuator* motor =
+        mjs_asActuator(mjs_findElement(spec, mjOBJ_ACTUATOR, wheel_spec.name.c_str()));
+    Wheel wheel;
+    wheel.spec = wheel_spec;
+    wheel.body = mjs_getParent(mjs_findElement(spec, mjOBJ_JOINT, mjs_getString(motor->target)));
+    mjsElement* body = wheel.body->element;
+    for (mjsElement* e = mjs_firstChild(wheel.body, mjOBJ_GEOM, 0); e;
+         e = mjs_nextChild(wheel.body, e, 0)) {
+      mjsGeom* geom = mjs_asGeom(e);
+      if (IsCore(geom))
+        wheel.core = geom;
+      else if (geom->type == mjGEOM_ELLIPSOID && geom->contype == 0 && geom->conaffinity == 0)
+        wheel.drawn.push_back(geom);
+    }
+    if (wheel.core == nullptr) continue;
+    const int b = mjs_getId(body), g = mjs_getId(wheel.core->element);
+    mjtNum mat[9];
+    mju_quat2Mat(mat, model->geom_quat + 4 * g);
+    wheel.centre = Vec3(model->geom_pos + 3 * g);
+    wheel.axle = Vec3(mat[2], mat[5], mat[8]);
+    const Vec3 down(data->xmat[9 * b + 6], data->xmat[9 * b + 7], data->xmat[9 * b + 8]);
+    wheel.down = (-down + down.dot(wheel.axle) * wheel.axle).normalized();
+    wheel.mass_kg = model->body_mass[b];
+    wheels.push_back(std::move(wheel));
+  }
+  return wheels;
+}
+
+// The hub keeps the drawn core and the rest of the mass.
+void MakeHub(const Wheel& wheel) {
+  constexpr double kLeft = 1 - kRollersShare;
+  for (mjsElement* e = mjs_firstChild(wheel.body, mjOBJ_GEOM, 0); e;
+       e = mjs_nextChild(wheel.body, e, 0)) {
+    mjs_asGeom(e)->mass *= kLeft;  // NaN where the density rules
+    mjs_asGeom(e)->density *= kLeft;
+  }
+  wheel.body->mass *= kLeft;
+  for (double& i : wheel.body->inertia) i *= kLeft;
+  for (double& i : wheel.body->fullinertia) i *= kLeft;
+  wheel.core->contype = wheel.core->conaffinity = 0;
+  mjs_setDouble(wheel.core->userdata, nullptr, 0);
+}
+
+// All that a robot's own defaults could have set otherwise is stated.
+void AddRoller(const Wheel& wheel, const Vec3& outward) {
+  const WheelSpec& spec = wheel.spec;
+  mjsBody* roller = mjs_addBody(wheel.body, nullptr);
+  const Vec3 p = wheel.centre + (spec.radius_m - spec.roller_radius_m) * outward;
+  std::copy_n(p.data(), 3, roller->pos);
+  // As the collider of ideal wheels has it.
+  const Vec3 axis = std::cos(spec.roller_angle_rad) * wheel.axle -
+                    std::sin(spec.roller_angle_rad) * outward.cross(wheel.axle);
+  mju_quatZ2Vec(roller->quat, axis.data());
+
+  mjsJoint* hinge = mjs_addJoint(roller, nullptr);
+  hinge->type = mjJNT_HINGE;
+  const double z[3] = {0, 0, 1};
+  std::copy(std::begin(z), std::end(z), hinge->axis);
+  hinge->limited = mjLIMITED_FALSE;
+  hinge->stiffness[0] = 0;
+  hinge->damping[0] = kDamping_nms;
+  hinge->frictionloss = 0;
+  hinge->armature = 0;
+
+  mjsGeom* geom = mjs_addGeom(roller, nullptr);
+  geom->type = mjGEOM_ELLIPSOID;
+  geom->size[0] = geom->size[1] = spec.roller_radius_m;
+  geom->size[2] = RollerHalfLength(spec);
+  geom->mass = kRollersShare * wheel.mass_kg / kRollers;
+  geom->contype = 0;
+  geom->conaffinity = wheel.core->conaffinity;
+  geom->condim = 3;
+  geom->priority = 0;
+  geom->margin = geom->gap = 0;
+  geom->group = wheel.core->group;
+  const mjsGeom* look = wheel.drawn.empty() ? wheel.core : wheel.drawn.front();
+  mjs_setString(geom->material, mjs_getString(look->material));
+  std::copy(std::begin(look->rgba), std::end(look->rgba), geom->rgba);
+}
+
+}  // namespace
+
+bool HasMecanumWheels(const RobotSpec& robot) {
+  return std::ranges::any_of(robot.wheels, [](const auto& w) { return w.roller_radius_m > 0; });
+}
+
+double RollerHalfLength(const WheelSpec& wheel) {
+  const double x = kPi / kRollers, r = wheel.roller_radius_m;
+  const double drop = wheel.radius_m - (wheel.radius_m - r) * std::cos(x);
+  const double slant = std::sin(wheel.roller_angle_rad) * std::sin(x);
+  return std::sqrt(r * r + (drop * drop - r * r) / (slant * slant));
+}
+
+RobotModel WithRollerWheels(const RobotModel& robot) {
+  RobotModel out{SpecPtr(mj_copySpec(robot.spec.get())), robot.robot};
+  for (const Wheel& wheel : FindWheels(out.spec.get(), robot.robot)) {
+    const Vec3 ahead = wheel.axle.cross(wheel.down);
+    for (int k = 0; k < kRollers; ++k) {
+      const double turn = 2 * kPi * k / kRollers;
+      AddRoller(wheel, std::cos(turn) * wheel.down + std::sin(turn) * ahead);
+    }
+    MakeHub(wheel);
+    for (mjsGeom* geom : wheel.drawn) mjs_delete(out.spec.get(), geom->element);
+  }
+  return out;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/scene/wall_pool.h"
+
+#include <utility>
+
+#include "env/scene/engine.h"
+#include "env/scene/mecanum_wheel.h"
+#include "env/scene/robot_reach.h"
+
+namespace floorproof {
+namespace {
+
+constexpr std::size_t kFew = 128;  // boxes that cost a Mecanum robot less than a tenth of its steps
+
+// As the scene's compiled robot will have it: wheels that touch by pairs only have none here, but
+// still their own bits.
+double SurfaceReach(const mjSpec* robot) {
+  const SpecPtr spec(mj_copySpec(robot));
+  const ModelPtr model = CompileSpec(spec.get());
+  InflateWheelBounds(model.get());
+  return ComputeReach(model.get(), mj_name2id(model.get(), mjOBJ_BODY, "base")).surface_m;
+}
+
+}  // namespace
+
+WallPool MakeWallPool(const std::vector<WallBox>& boxes, const Pose2& X_WG, const mjSpec* robot) {
+  if (boxes.size() <= kFew) return {};
+  WallPool pool{WallGrid(boxes), X_WG, -1, 0};
+  const int most = pool.grid.MostNear(SurfaceReach(robot) + kSlack_m);
+  if (static_cast<std::size_t>(most) >= boxes.size()) return {};
+  pool.num = std::max(most, 1);
+  return pool;
+}
+
+void PlaceWall(const WallBox& box, const Pose2& X_WG, mjtNum* pos, mjtNum* size) {
+  const Vec2 p_W = X_WG * Vec2((box.low_G + box.high_G) / 2);
+  pos[0] = p_W.x();
+  pos[1] = p_W.y();
+  pos[2] = kWallHeight_m / 2;
+  size[0] = (box.high_G.x() - box.low_G.x()) / 2;
+  size[1] = (box.high_G.y() - box.low_G.y()) / 2;
+  size[2] = kWallHeight_m / 2;
+}
+
+void ParkWall(mjtNum* pos, mjtNum* size) {
+  constexpr double kDeep_m = 100, kSmall_m = 0.01;
+  mju_zero3(pos);
+  pos[2] = -kDeep_m;
+  size[0] = size[1] = size[2] = kSmall_m;
+}
+
+}  // namespace floorproof

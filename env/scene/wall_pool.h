@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Few boxes that stand for many: of a map with many walls the model holds only as many boxes as a
+// robot can have near it anywhere on the map. Static geoms are not free: MuJoCo moves through all
+// of them at each step. env/sim/live_geoms.h lets the boxes be those near the robot.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include "env/map/wall_grid.h"
+
+namespace floorproof {
+
+// What lies within this of a geom of the robot is live, and stays so until the robot has moved by
+// kTrigger_m; the rest is for joints that give way beyond their limits.
+constexpr double kSlack_m = 0.10, kTrigger_m = 0.08;
+
+struct WallPool {
+  WallGrid grid;  // all walls of the map
+  Pose2 X_WG;
+  int first_geom = -1, num = 0;  // the pool's geoms in the model, one after the other
+};
+
+// Empty (num 0) where the walls are few or all of them may be near at once. `robot` is compiled in
+// a copy, to learn its reach.
+WallPool MakeWallPool(const std::vector<WallBox>& boxes, const Pose2& X_WG, const mjSpec* robot);
+
+// MuJoCo's position and half sizes of a box; its yaw is the frame's.
+void PlaceWall(const WallBox& box, const Pose2& X_WG, mjtNum* pos, mjtNum* size);
+// Of one that stands for no wall: deep below any floor.
+void ParkWall(mjtNum* pos, mjtNum* size);
+
+}  // namespace floorproof

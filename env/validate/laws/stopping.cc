@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stopping distance with locked wheels, v^2 / (2 a).
+//
+// Plain wheels: a = mu g; where casters carry a load F of the weight W and rub with mu_c (BELUGA's
+// springs: F is the same however it pitches), a = g (mu (W - F) + mu_c F) / W.
+// Mecanum wheels rub along their rollers' axes alone, half of the wheels along e1 = 45 deg left of
+// forward, half along e2 = 45 deg right of it, each with mu of its load against the way it slides.
+// Two such forces of mu W / 2 at a right angle stop it forward and sideways with a = mu g cos 45
+// deg. Along a roller's axis one half rubs and the other rolls; how the weight lies on the two is
+// not determined by statics, so there is no closed form to compare with (docs/validation.md).
+//
+// Tolerance 1 % and 2 mm: friction softens as the speed falls below mu g times the contact's time
+// constant (10 ms, on Mecanum wheels 30 ms), and the last millimetres are crept. BELUGA 3 %: as it
+// nods, its casters' dampers and the ends of their travel carry more or less than the springs.
+#include <fmt/format.h>
+
+#include "env/validate/cart.h"
+#include "env/validate/law.h"
+
+namespace floorproof {
+namespace {
+
+constexpr double kShare = 0.01, kNodding = 0.03, kCrept_m = 0.002;
+
+// The way that the wheels' axles slide from this speed, in this direction, until they stand. The
+// body's origin lies below them: as locked wheels let the body nod, it swings.
+double Slide(Rig& rig, double axle_m, double v_mps, double way_rad) {
+  rig.Brake();
+  const Vec3 along_W(std::cos(way_rad), std::sin(way_rad), 0);
+  rig.SetBase({0, 0, rig.sample().p_WB.z()}, Eigen::Quaterniond::Identity(), v_mps * along_W);
+  constexpr double kStands_mps = 0.003, kMost_s = 10;
+  double way_m = 0, last_m = 0;
+  do {
+    rig.Step();
+    const Sample& sample = rig.sample();
+    last_m = way_m;
+    way_m = (sample.p_WB + axle_m * Vec3(std::sin(sample.pitch_rad), 0, 0)).dot(along_W);
+  } while (way_m - last_m > kStands_mps * rig.sim().model()->opt.timestep &&
+           rig.sample().t_s < kMost_s);
+  return way_m;
+}
+
+// Weight on BELUGA's casters, and their friction: springs at the middle of their travel.
+double CasterLoad(const mjModel* m) {
+  double load_n = 0;
+  for (int j = 0; j < m->njnt; ++j)
+    if (m->jnt_type[j] == mjJNT_SLIDE)
+      load_n -= m->jnt_stiffness[j] * m->qpos_spring[m->jnt_qposadr[j]];
+  return load_n;
+}
+double CasterFriction(const mjModel* m) {
+  const int geom = mj_name2id(m, mjOBJ_GEOM, "caster_front");
+  return m->geom_friction[3 * geom];
+}
+
+class Stopping final : public Law {
+ public:
+  std::string_view statement() const override {
+    return "wheels locked: s = v^2 / (2 mu g); on Mecanum wheels mu g cos 45 deg, or mu g / 2 "
+           "along "
+           "an axis of rollers";
+  }
+  std::vector<WrongModel> notices() const override { return {kMoreFriction}; }
+
+  void Check(const WrongModel& wrong, std::vector<LawRow>& rows) const override {
+    for (const double mu : {0.2, 0.4})
+      for (const double v_mps : {0.5, 1.0}) {
+        const RigOptions options{.friction = mu, .wrong = wrong};
+        const auto row = [&](const char* name, Rig& rig, double axle_m, double way_rad,
+                             double a_mps2, double share = kShare) {
+          const double s_m = v_mps * v_mps / (2 * a_mps2);
+          rows.push_back({fmt::format("stopping/{}/mu{}/v{}", name, mu, v_mps), s_m,
+                          Slide(rig, axle_m, v_mps, way_rad), share * s_m + kCrept_m, "m"});
+        };
+        Rig cart(MakeCart({}), options);
+        row("cart", cart, Cart{}.wheel_radius_m, 0, mu * kGravity_mps2);
+        Rig beluga("beluga", options);
+        const mjModel* m = beluga.sim().model();
+        const double light = CasterLoad(m) / (beluga.robot().mass_kg * kGravity_mps2);
+        const double friction = mu * (1 - light) + CasterFriction(m) * light;
+        row("beluga", beluga, beluga.robot().wheels.front().radius_m, 0, kGravity_mps2 * friction,
+            kNodding);
+        for (const bool sideways : {false, true}) {
+          Rig htetro("htetro", options);
+          row(sideways ? "htetro/sideways" : "htetro/forward", htetro,
+              htetro.robot().wheels.front().radius_m, sideways ? kPi / 2 : 0,
+              mu * kGravity_mps2 * std::cos(kPi / 4));
+        }
+      }
+  }
+};
+
+}  // namespace
+
+FP_DEFINE_PLUGIN(Law, Stopping)
+
+}  // namespace floorproof

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/map/wall_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "env/core/streams.h"
+#include "env/map/ray_cast.h"
+
+namespace floorproof {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+// Boxes of a few centimetres to 8 m, some of which touch.
+std::vector<WallBox> RandomBoxes(int n) {
+  Stream draw(2, 0, "boxes");
+  std::vector<WallBox> boxes;
+  for (int i = 0; i < n; ++i) {
+    const double step = 0.25;
+    const Vec2 low(step * std::floor(draw.Uniform(-80, 80)),
+                   step * std::floor(draw.Uniform(0, 99)));
+    const double x = i % 20 == 0 ? 8 : draw.Uniform(0.03, 0.5);
+    boxes.push_back({low, low + Vec2(x, i % 3 == 0 ? step : draw.Uniform(0.03, 0.5))});
+  }
+  return boxes;
+}
+
+TEST(WallGrid, FindsWhatMeetsARectangleInOrderAndOnce) {
+  const WallGrid dut(RandomBoxes(500));
+  Stream draw(2, 0, "rectangles");
+  std::vector<int> found, expected;
+  for (int k = 0; k < 300; ++k) {
+    const Vec2 low(draw.Uniform(-25, 25), draw.Uniform(-5, 30));
+    const Vec2 high = low + Vec2(draw.Uniform(0, 4), draw.Uniform(0, 4));
+    expected.clear();
+    for (int i = 0; i < 500; ++i) {
+      const WallBox& box = dut.boxes()[static_cast<std::size_t>(i)];
+      if (box.low_G.x() <= high.x() && box.high_G.x() >= low.x() && box.low_G.y() <= high.y() &&
+          box.high_G.y() >= low.y())
+        expected.push_back(i);
+    }
+    dut.Near(low, high, found);
+    EXPECT_EQ(found, expected);
+  }
+}
+
+TEST(WallGrid, NoSquareMeetsMoreThanIsSaid) {
+  const WallGrid dut(RandomBoxes(500));
+  Stream draw(2, 0, "squares");
+  const double half_m = 0.8;
+  const auto most = static_cast<std::size_t>(dut.MostNear(half_m));
+  std::vector<int> found;
+  std::size_t highest = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const Vec2 p(draw.Uniform(-25, 25), draw.Uniform(-5, 30)), half(half_m, half_m);
+    dut.Near(p - half, p + half, found);
+    highest = std::max(highest, found.size());
+  }
+  EXPECT_LE(highest, most);
+  EXPECT_LE(most, 2 * highest) << "and it is no idle bound";
+}
+
+// Against the plain way: all boxes, each by its faces.
+TEST(WallGrid, ARayMeetsTheFirstBoxOnItsWay) {
+  const WallGrid dut(RandomBoxes(500));
+  Stream draw(2, 0, "rays");
+  int met = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const Vec2 p(draw.Uniform(-25, 25), draw.Uniform(-5, 30));
+    const double yaw = k % 8 == 0 ? kPi / 2 * (k % 32) / 8 : draw.Uniform(-kPi, kPi);
+    const Vec2 d(std::cos(yaw), std::sin(yaw));
+    double expected = kNone;
+    for (const WallBox& box : dut.boxes())
+      for (int axis = 0; axis < 2; ++axis)
+        for (const double face : {box.low_G[axis], box.high_G[axis]}) {
+          const double t = (face - p[axis]) / d[axis], across = p[1 - axis] + t * d[1 - axis];
+          if (t >= 0 && t < expected && across >= box.low_G[1 - axis] &&
+              across <= box.high_G[1 - axis])
+            expected = t;
+        }
+    const double range = dut.Cast(p, d, 12);
+    if (expected <= 12) {
+      ++met;
+      EXPECT_NEAR(range, expected, 1e-9) << p.transpose() << " " << yaw;
+    } else {
+      EXPECT_EQ(range, kNone);
+    }
+  }
+  EXPECT_GT(met, 1000);
+}
+
+TEST(WallGrid, WithoutBoxesThereIsNothingToMeet) {
+  const WallGrid dut;
+  std::vector<int> found = {1};
+  dut.Near({0, 0}, {1, 1}, found);
+  EXPECT_TRUE(found.empty());
+  EXPECT_EQ(dut.Cast({0, 0}, {1, 0}, 10), kNone);
+  EXPECT_EQ(dut.MostNear(1), 0);
+}
+
+TEST(RayCast, AScanAboveTheWallsSeesNone) {
+  const WallGrid walls({{{1, -1}, {2, 1}}});
+  const std::vector<double> angles = {0.0, kPi / 2, kPi};
+  std::vector<double> ranges(3);
+  CastScan(walls, {0, 0, kPi}, 0.2, angles, 5, ranges);
+  EXPECT_EQ(ranges[0], kNone);
+  EXPECT_NEAR(ranges[2], 1, 1e-12);
+  CastScan(walls, {0, 0, kPi}, kWallHeight_m + 0.01, angles, 5, ranges);
+  EXPECT_EQ(ranges[2], kNone);
+}
+
+}  // namespace
+}  // namespace floorproof

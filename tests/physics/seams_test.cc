@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// No seam is felt on real maps: each robot drives its own plan on each for some minutes, over a
+// floor that pits outside the map cut into slabs, and heaves less than the stated bound. Slow.
+#include "env/map/init_files.h"
+#include "env/validate/vertical_motion.h"
+#include "tests/run/scenario_text.h"
+
+namespace floorproof {
+namespace {
+
+struct RobotOnMap {
+  const char *robot, *map;
+};
+void PrintTo(const RobotOnMap& drive, std::ostream* os) {
+  *os << drive.robot << " in " << drive.map;
+}
+
+// Looks on at 50 Hz: differences of 20 ms.
+class Heave final : public EpisodeObserver {
+ public:
+  bool OnControl(Simulation& simulation, double, double) override {
+    motion.Update(simulation.sample());
+    return true;
+  }
+  VerticalMotion motion{1};
+};
+
+// Pits to the left of the map, whose edges, as seams along the map's rows, cross the floor around
+// the start every 0.3 m.
+void CutIntoSlabs(HazardMap& map, const Pose2& start) {
+  constexpr int kPits = 10;
+  constexpr double kEvery_m = 0.6;
+  const Vec2 start_G = map.frame.X_WG.Inverse() * start.p();
+  for (int i = 0; i < kPits; ++i) {
+    const double y_m = start_G.y() + (i - kPits / 2) * kEvery_m;
+    Polygon outline = Rectangle({-1.9, y_m}, {-0.5, y_m + kEvery_m / 2});
+    for (Vec2& corner : outline) corner = map.frame.X_WG * corner;
+    Hazard pit;
+    pit.id = "pit" + std::to_string(i);
+    pit.known = false;
+    pit.solids = {{Solid::Kind::kCut, outline, {}, -0.1, 0}};
+    map.hazards.push_back(pit);
+  }
+}
+
+class SeamsOnRealMaps : public ScenarioTest, public ::testing::WithParamInterface<RobotOnMap> {};
+
+TEST_P(SeamsOnRealMaps, AreNotFelt) {
+  const std::filesystem::path map =
+      std::filesystem::path(FP_SHARED_MAPS_DIR) / GetParam().map / "map.yaml";
+  if (!std::filesystem::exists(map)) GTEST_SKIP() << map << " is not here";
+  const RobotModel robot = ReadRobot(FindRobotFile(GetParam().robot, {}));
+  const InitFiles files = MakeInitFiles(map, robot.robot, folder_);
+  Save("site.yaml", files.site_yaml);
+  Scenario scenario = Read(files.scenario_yaml, {{"time_limit_s", "180"}});
+  CutIntoSlabs(scenario.site.map, scenario.start);
+  const PlanResult plan = MakePlan(scenario);
+  ASSERT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
+  const Scene scene =
+      BuildScene(scenario.site.map, scenario.robot, scenario.physics, scenario.start);
+  ASSERT_GT(scene.num_floor_geoms, 10) << "there are seams to cross";
+  Heave dut;
+  const EpisodeRecord record = RunEpisode(scenario, scene, plan, &dut);
+  EXPECT_NE(record.outcome, Outcome::kError) << record.message;
+  EXPECT_TRUE(record.events.empty());
+  EXPECT_GT(record.metrics.path_length_m, 10);
+  EXPECT_LT(dut.motion.accel_mps2(), kMostHeave_mps2);
+  EXPECT_LT(dut.motion.height_m(), kMostHeave_m);
+  RecordProperty("accel_mps2", std::to_string(dut.motion.accel_mps2()));
+  RecordProperty("height_m", std::to_string(dut.motion.height_m()));
+}
+
+std::vector<RobotOnMap> Everywhere() {
+  std::vector<RobotOnMap> drives;
+  for (const char* map : {"apartment", "depot", "fetch_hq_2015", "lab_small", "office_plan",
+                          "office_scan", "small_house", "willow_2010"})
+    for (const char* robot : {"beluga", "htetro"}) drives.push_back({robot, map});
+  return drives;
+}
+INSTANTIATE_TEST_SUITE_P(Maps, SeamsOnRealMaps, ::testing::ValuesIn(Everywhere()));
+
+}  // namespace
+}  // namespace floorproof
