@@ -103,8 +103,9 @@ CrossingResult Cross(const RobotModel& model, Hazard hazard, const CrossingPlan&
     if (step % steps_a_control == 0) {
       const Estimate estimate = estimator->Update(sample, 1.0 / kControlHz);
       sample.command = tracker->Update(estimate, sample.t_s, 1.0 / kControlHz);
-      drive->ToWheels(sample.command.twist, wheels);
+      drive->ToWheels(sample.command.twist, sample.command.hinges, wheels);
       sim.SetWheelSpeeds(wheels);
+      sim.SetHingeSpeeds(sample.command.hinges);
     }
     if (!sim.Step()) throw InternalError("the physics diverged on the ladder");
     sample.cross_track_m = CrossTrack(path, sample.command.segment, sample.p_WB.head<2>());
