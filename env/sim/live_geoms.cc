@@ -38,7 +38,8 @@ double LiveGeoms::Bounds::Distance(const Vec3& p_W) const {
 }
 
 LiveGeoms::LiveGeoms(const Scene& scene) : scene_(scene), model_(*scene.model) {
-  const bool pool = scene.pool.num > 0, pairs = model_.npair > kFewPairs;
+  const bool pool = scene.pool.num > 0,
+             pairs = model_.npair > kFewPairs && NearnessIsKnown(&model_, scene.base_body);
   if (!pool && !pairs) return;
   const auto ngeom = static_cast<std::size_t>(model_.ngeom);
   const std::vector<bool> touches = CanTouch(&model_);
@@ -51,7 +52,7 @@ LiveGeoms::LiveGeoms(const Scene& scene) : scene_(scene), model_(*scene.model) {
     if (!touches[static_cast<std::size_t>(g)]) continue;
     if (model_.body_rootid[body] == scene.base_body) {
       ball_of_[static_cast<std::size_t>(g)] = static_cast<int>(balls_.size());
-      balls_.push_back({g, model_.geom_rbound[g]});
+      balls_.push_back({g, TouchRadius(&model_, g)});
     } else if (body == 0 && !(pool && g >= scene.pool.first_geom && g < past_pool)) {
       fixed_.push_back(g);
       bounds_[static_cast<std::size_t>(g)] = StaticBounds(g);

@@ -13,7 +13,7 @@
 // step in which such a geom's centre may have moved by more than kTrigger_m since: by the base's
 // way, its turn times the geoms' distance, and each joint's turn times what it swings. These come
 // from qpos itself, so a robot that is put elsewhere is seen at once, whatever its speed.
-// Assumes that the robot is all that moves.
+// Where that cannot be told (NearnessIsKnown), and on small scenes, all is live.
 #pragma once
 
 #include <mujoco/mujoco.h>
