@@ -60,7 +60,10 @@ class LiveGeoms {
     int width;
   };
 
+  template <class T>
+  void Own(T*& values, std::size_t count, std::vector<T>& store);
   void OwnPool();
+  void OwnTree();
   void OwnPairs();
   template <class T>
   void OwnColumn(T*& values, int width, std::vector<Column<T>>& columns);
@@ -68,6 +71,7 @@ class LiveGeoms {
   double Moved(const mjtNum* qpos);
   void Choose(mjData* data);
   void ChooseWalls(const mjData* data);
+  void BuildTree();
   void ChoosePairs(const mjData* data);
   int AddNode(std::vector<int>::iterator begin, std::vector<int>::iterator end);
 

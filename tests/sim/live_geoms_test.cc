@@ -133,13 +133,16 @@ TEST_P(LiveGeomsOf, BumpIntoTheSameWallsAsTheWholeScene) {
 
 TEST_P(LiveGeomsOf, CrossTheSamePlatesAsTheWholeScene) {
   Twins dut(GetParam(), Plates(), {});
+  int crossed = 0;
   Stream draw(6, 0, "twists");
   for (int i = 0; i < 3000; ++i) {
     if (i % 400 == 0)
       dut.Command({draw.Uniform(0.1, 0.4), draw.Uniform(-0.2, 0.2), draw.Uniform(-0.6, 0.6)});
     ASSERT_TRUE(dut.Step()) << "step " << i;
+    crossed += dut.sim.sample().near_hazard >= 0;
   }
   EXPECT_LE(dut.sim.model()->npair, dut.scene.model->npair / 10);
+  EXPECT_GT(crossed, 100) << "and they were felt";
 }
 
 // A boom of 1.2 m swings about a robot that stands: its joint alone brings it to other walls.
