@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "controllers/drive.h"
+#include "env/core/error.h"
 #include "env/core/registry.h"
 #include "env/core/streams.h"
 #include "env/sim/simulation.h"
@@ -219,6 +220,13 @@ TEST_P(LiveGeomsOf, AllocateNothing) {
     for (int i = 0; i < 1000; ++i) dut.sim.Step();
     EXPECT_EQ(AllocationCount(), before);
   }
+}
+
+TEST(LiveGeoms, APoolThatIsTooSmallIsAnErrorNotAMiss) {
+  Twins dut("beluga", Pillars(), kMiddle);
+  dut.scene.pool.num = 1;
+  Simulation small(dut.scene, dut.map, dut.robot.robot);
+  EXPECT_THROW(small.Reset({-4.5, 3, 0}), InternalError);
 }
 
 TEST(LiveGeoms, AreTheWholeSceneWhereItIsSmall) {
