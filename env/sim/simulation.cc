@@ -289,8 +289,7 @@ void Simulation::ReadPower(double dt_s) {
 // What the drivers can give in the next step.
 void Simulation::SetDriverVoltages() {
   if (gains_.empty()) return;
-  for (int a = 0; a < model()->nu; ++a)
-    SetDriverVoltage(gains_.data() + mjNGAIN * a, battery_.voltage_v());
+  for (int a = 0; a < model()->nu; ++a) SetDriverVoltage(model(), a, battery_.voltage_v());
 }
 
 }  // namespace floorproof
