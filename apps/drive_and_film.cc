@@ -77,7 +77,8 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
   Recording recording(static_cast<int>(scene.model->nq));
   const auto drive_start = std::chrono::steady_clock::now();
   std::optional<ProgressObserver> observer;  // holds interrupts until the records are written
-  observer.emplace(globals, s.episode.control_hz, options.video ? &recording : nullptr);
+  observer.emplace(globals, s.robot.robot, s.episode.control_hz,
+                   options.video ? &recording : nullptr);
   result.record = RunEpisode(s, scene, result.plan, &*observer);
   observer->EndLine();
   if (result.record.outcome == Outcome::kInterrupted) {

@@ -15,8 +15,10 @@ constexpr int kRecordHz = 25;
 
 }  // namespace
 
-ProgressObserver::ProgressObserver(const Globals& globals, int control_hz, Recording* recording)
+ProgressObserver::ProgressObserver(const Globals& globals, const RobotSpec& robot, int control_hz,
+                                   Recording* recording)
     : globals_(globals),
+      robot_(robot),
       recording_(recording),
       record_every_(std::max(1, control_hz / kRecordHz)),
       terminal_(isatty(STDERR_FILENO) != 0),
@@ -31,8 +33,11 @@ void ProgressObserver::EndLine() {
 bool ProgressObserver::OnControl(Simulation& simulation, double coverage, double plan_fraction) {
   if (!hold_) hold_.emplace();
   const bool keep = count_++ % record_every_ == 0;
-  const double t_s = simulation.sample().t_s;
-  if (keep && recording_) recording_->Add(t_s, simulation.data()->qpos, coverage);
+  const Sample& sample = simulation.sample();
+  const double t_s = sample.t_s;
+  if (keep && recording_)
+    recording_->Add(t_s, simulation.data()->qpos, sample.p_WB, ToolWidth(robot_, sample.shape),
+                    coverage);
   if (Interrupted()) return false;
   if (globals_.quiet || count_ % 64 != 0) return true;
   const auto now = std::chrono::steady_clock::now();

@@ -18,7 +18,8 @@ namespace floorproof {
 class ProgressObserver : public EpisodeObserver {
  public:
   // `recording` may be nullptr. `control_hz` as in the scenario.
-  ProgressObserver(const Globals& globals, int control_hz, Recording* recording);
+  ProgressObserver(const Globals& globals, const RobotSpec& robot, int control_hz,
+                   Recording* recording);
   ~ProgressObserver() override { EndLine(); }
   void EndLine();  // clears the progress line for what is said next
   bool OnControl(Simulation& simulation, double coverage, double plan_fraction) override;
@@ -28,6 +29,7 @@ class ProgressObserver : public EpisodeObserver {
 
   std::optional<HoldInterrupts> hold_;
   const Globals& globals_;
+  const RobotSpec& robot_;
   Recording* recording_;
   int record_every_;
   long count_ = 0;

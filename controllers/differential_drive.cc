@@ -39,7 +39,8 @@ class DifferentialDrive final : public Drive {
     axle_x_m_ = 0.5 * (robot.wheels[0].p_BW.x() + robot.wheels[1].p_BW.x());
   }
 
-  void ToWheels(const BodyTwist& twist, std::span<double> wheel_radps) const override {
+  void ToWheels(const BodyTwist& twist, const HingeState&,
+                std::span<double> wheel_radps) const override {
     double scale = 1;
     for (std::size_t i = 0; i < 2; ++i) {
       wheel_radps[i] = (twist.vx_mps - twist.wz_radps * y_m_[i]) / radius_m_[i];

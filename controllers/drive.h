@@ -19,8 +19,12 @@ class Drive {
   virtual void Configure(const RobotSpec& robot) = 0;
   // Wheel speeds (rad/s, RobotSpec's order) for a twist; components the drive cannot follow are
   // dropped. When a wheel would exceed its motor's no-load speed all are scaled down together, so
-  // that the curvature stays.
-  virtual void ToWheels(const BodyTwist& twist, std::span<double> wheel_radps) const = 0;
+  // that the curvature stays. `hinges`: how the blocks that carry the wheels stand and move.
+  virtual void ToWheels(const BodyTwist& twist, const HingeState& hinges,
+                        std::span<double> wheel_radps) const = 0;
+  void ToWheels(const BodyTwist& twist, std::span<double> wheel_radps) const {
+    ToWheels(twist, HingeState{}, wheel_radps);
+  }
   // The twist that these wheel speeds roll, in the least-squares sense.
   virtual BodyTwist ToTwist(std::span<const double> wheel_radps) const = 0;
 };

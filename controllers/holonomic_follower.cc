@@ -8,6 +8,8 @@
 // rests at corners (path_progress.h) and by the gap to known obstacles. At a stop the robot turns
 // to its next yaw first, holding its place. After Kanayama, Kimura, Miyazaki & Noguchi 1990, "A
 // stable tracking control method for an autonomous mobile robot", without the nonholonomic part.
+// Where the plan changes the shape of a robot of hinged blocks, it stops, holds its place and folds
+// (reconfiguration.h).
 // Assumes a drive that turns and moves at once; does not plan around obstacles.
 #include <algorithm>
 #include <cmath>
@@ -16,6 +18,7 @@
 
 #include "controllers/obstacle_gap.h"
 #include "controllers/path_progress.h"
+#include "controllers/reconfiguration.h"
 #include "controllers/tracker.h"
 
 namespace floorproof {
@@ -65,19 +68,26 @@ class HolonomicFollower final : public Tracker {
     limits.cruise_mps = robot.cruise_mps;
     limits.max_speed_mps = robot.max_speed_mps;
     limits.holds_yaw = true;
+    limits.folds = !robot.hinges.empty();
     progress_.Start(path, limits, corner_tolerance_m_);
     twist_ = {};
+    reconfiguration_.Start(robot);
+    FindWays(robot);
   }
 
   Command Update(const Estimate& estimate, double t_s, double dt_s) override {
     const Pose2& X_WB = estimate.X_WB;
     progress_.Update(X_WB.p(), t_s);
+    Fold(X_WB.yaw_rad);
     if (progress_.moving())
       Pursue(X_WB, dt_s);
+    else if (folding_)
+      HoldPlace(X_WB, dt_s);
     else
       Slew(Vec2::Zero(), 0, dt_s);
 
     Command command;
+    command.hinges = reconfiguration_.Update(estimate.hinges, dt_s);
     command.segment = progress_.Segment(X_WB.p());
     command.dwelling = progress_.phase() == Phase::kDwell;
     command.done = progress_.phase() == Phase::kDone;
@@ -87,6 +97,47 @@ class HolonomicFollower final : public Tracker {
 
  private:
   using Phase = PathProgress::Phase;
+
+  // The ways of all changes of shape, searched before the drive.
+  void FindWays(const RobotSpec& robot) {
+    const auto& vertices = progress_.reference().vertices;
+    ways_.assign(vertices.size(), {});
+    folding_ = false;
+    int shape = robot.shape;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      for (const std::string& name : vertices[i].shapes) {
+        const int next = FindShape(robot, name);
+        if (next < 0) throw InputError({}, "shape", name, "is none of the robot's");
+        const auto angles = [&](int k) -> const std::vector<double>& {
+          return robot.shapes[static_cast<std::size_t>(k)].hinge_rad;
+        };
+        const HingeWay way = FoldingWay(robot, angles(shape), angles(next));
+        if (way.empty()) throw InputError({}, "shape", name, "cannot be reached by folding");
+        ways_[i].insert(ways_[i].end(), way.begin() + (ways_[i].empty() ? 0 : 1), way.end());
+        shape = next;
+      }
+    }
+  }
+
+  void Fold(double yaw_rad) {
+    if (progress_.phase() != Phase::kFold) return;
+    if (!folding_) {
+      reconfiguration_.Fold(ways_[progress_.vertex()]);
+      hold_yaw_rad_ = yaw_rad;
+      folding_ = true;
+    } else if (reconfiguration_.done()) {
+      folding_ = false;
+      progress_.Folded();
+    }
+  }
+
+  // At the vertex, heading as it came.
+  void HoldPlace(const Pose2& X_WB, double dt_s) {
+    const Vec2 back_W = progress_.leg().p_W - X_WB.p();
+    const Vec2 v_W = back_W.norm() < kHold_m ? Vec2(kHoldGain * back_W) : Vec2(Vec2::Zero());
+    Slew(Pose2{0, 0, -X_WB.yaw_rad}.Rotate(v_W),
+         kHoldGain * WrapAngle(hold_yaw_rad_ - X_WB.yaw_rad), dt_s);
+  }
 
   static double Radians(double deg) { return deg * kPi / 180; }
 
@@ -139,6 +190,11 @@ class HolonomicFollower final : public Tracker {
   PathProgress progress_;
   double cruise_mps_ = 0, accel_mps2_ = 0, yaw_rate_radps_ = 0, yaw_accel_radps2_ = 0;
   BodyTwist twist_;  // last commanded
+
+  Reconfiguration reconfiguration_;
+  std::vector<HingeWay> ways_;  // by vertex: of the change of shape there, if any
+  bool folding_ = false;
+  double hold_yaw_rad_ = 0;
 };
 
 }  // namespace

@@ -5,8 +5,9 @@
 // freely across that axis and not along it: R w = (vx - wz y) - cot(g) (vy + wz x). One row a
 // wheel; wheel speeds follow from the twist exactly, the twist from wheel speeds in the
 // least-squares sense. Muir & Neuman, "Kinematic modeling for feedback control of an
-// omnidirectional wheeled mobile robot", 1987 (their eq. 18 is the case g = +-45 deg). Assumes
-// axles along y; does not know slip.
+// omnidirectional wheeled mobile robot", 1987 (their eq. 18 is the case g = +-45 deg). x and y are
+// the wheel's own directions: wheels may stand at any yaw. Where hinges move the blocks that carry
+// the wheels, each wheel rolls with the velocity that its own block has there. Does not know slip.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "controllers/drive.h"
+#include "env/core/blocks.h"
 #include "env/core/params.h"
 
 namespace floorproof {
@@ -27,18 +29,25 @@ class MecanumDrive final : public Drive {
     };
     const auto n = static_cast<Eigen::Index>(robot.wheels.size());
     if (n < 3) refuse("needs three or more driven wheels, not " + std::to_string(n));
+    blocks_ = robot.blocks;
+    hinges_ = robot.hinges;
+    const BlockMotions start = MoveBlocks(blocks_, hinges_, StartState(robot));
     to_wheels_.resize(n, 3);
-    max_speed_radps_.clear();
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const WheelSpec& wheel = robot.wheels[static_cast<std::size_t>(i)];
+    wheels_.clear();
+    for (const WheelSpec& wheel : robot.wheels) {
       if (!(wheel.radius_m > 0)) refuse("wheel " + wheel.name + " has no radius");
       if (!(wheel.max_speed_radps > 0)) refuse("wheel " + wheel.name + " has no top speed");
       if (!(wheel.roller_radius_m > 0) || wheel.roller_angle_rad == 0)
         refuse("wheel " + wheel.name + " has no rollers");
-      const double cot = 1 / std::tan(wheel.roller_angle_rad);
-      to_wheels_.row(i) << 1, -cot, -(wheel.p_BW.y() + cot * wheel.p_BW.x());
-      to_wheels_.row(i) /= wheel.radius_m;
-      max_speed_radps_.push_back(wheel.max_speed_radps);
+      const Pose2 X_BW{wheel.p_BW.x(), wheel.p_BW.y(), wheel.yaw_rad};
+      const auto block = static_cast<std::size_t>(hinges_.empty() ? 0 : wheel.block);
+      Wheel own{block, start.block[block].X_BK.Inverse() * X_BW,
+                1 / std::tan(wheel.roller_angle_rad), wheel.radius_m, wheel.max_speed_radps};
+      if (hinges_.empty()) own.X_KW = X_BW;
+      const auto i = static_cast<Eigen::Index>(wheels_.size());
+      to_wheels_.row(i) << own.Speed(X_BW.yaw_rad, {1, 0}), own.Speed(X_BW.yaw_rad, {0, 1}),
+          own.Speed(X_BW.yaw_rad, {-X_BW.y_m, X_BW.x_m});
+      wheels_.push_back(own);
     }
     const Eigen::ColPivHouseholderQR<Eigen::MatrixX3d> solver(to_wheels_);
     if (solver.rank() < 3)
@@ -46,28 +55,56 @@ class MecanumDrive final : public Drive {
     to_twist_ = solver.solve(Eigen::MatrixXd::Identity(n, n));
   }
 
-  void ToWheels(const BodyTwist& twist, std::span<double> wheel_radps) const override {
+  void ToWheels(const BodyTwist& twist, const HingeState& hinges,
+                std::span<double> wheel_radps) const override {
+    if (hinges.n == 0) {
+      for (std::size_t i = 0; i < wheels_.size(); ++i) {
+        const auto row = to_wheels_.row(static_cast<Eigen::Index>(i));
+        wheel_radps[i] = row[0] * twist.vx_mps + row[1] * twist.vy_mps + row[2] * twist.wz_radps;
+      }
+    } else {
+      const BlockMotions motions = MoveBlocks(blocks_, hinges_, hinges);
+      for (std::size_t i = 0; i < wheels_.size(); ++i) {
+        const BlockMotion& block = motions.block[wheels_[i].block];
+        const Pose2 X_BW = block.X_BK * wheels_[i].X_KW;
+        const Vec2 v_B = Vec2(twist.vx_mps, twist.vy_mps) +
+                         twist.wz_radps * Vec2(-X_BW.y_m, X_BW.x_m) + block.VelocityAt(X_BW.p());
+        wheel_radps[i] = wheels_[i].Speed(X_BW.yaw_rad, v_B);
+      }
+    }
     double scale = 1;
-    for (std::size_t i = 0; i < max_speed_radps_.size(); ++i) {
-      const auto row = to_wheels_.row(static_cast<Eigen::Index>(i));
-      wheel_radps[i] = row[0] * twist.vx_mps + row[1] * twist.vy_mps + row[2] * twist.wz_radps;
+    for (std::size_t i = 0; i < wheels_.size(); ++i) {
       const double speed = std::abs(wheel_radps[i]);
-      if (speed > max_speed_radps_[i]) scale = std::min(scale, max_speed_radps_[i] / speed);
+      if (speed > wheels_[i].max_speed_radps)
+        scale = std::min(scale, wheels_[i].max_speed_radps / speed);
     }
     for (double& speed : wheel_radps) speed *= scale;
   }
 
   BodyTwist ToTwist(std::span<const double> wheel_radps) const override {
     Vec3 twist = Vec3::Zero();
-    for (std::size_t i = 0; i < max_speed_radps_.size(); ++i)
+    for (std::size_t i = 0; i < wheels_.size(); ++i)
       twist += wheel_radps[i] * to_twist_.col(static_cast<Eigen::Index>(i));
     return {twist.x(), twist.y(), twist.z()};
   }
 
  private:
-  Eigen::MatrixX3d to_wheels_;  // a row a wheel: rad/s for each of vx, vy, wz
+  struct Wheel {
+    std::size_t block;  // that carries it, in whose frame K it stands
+    Pose2 X_KW;
+    double cot, radius_m, max_speed_radps;
+    // Its speed when its centre moves at v_B and its own x points along yaw_rad.
+    double Speed(double yaw_rad, const Vec2& v_B) const {
+      const Vec2 v_W = Pose2{0, 0, -yaw_rad}.Rotate(v_B);
+      return (v_W.x() - cot * v_W.y()) / radius_m;
+    }
+  };
+
+  Eigen::MatrixX3d to_wheels_;  // a row a wheel: rad/s for each of vx, vy, wz, the hinges at rest
   Eigen::Matrix3Xd to_twist_;   // its pseudo-inverse
-  std::vector<double> max_speed_radps_;
+  std::vector<Wheel> wheels_;
+  std::vector<BlockSpec> blocks_;
+  std::vector<HingeSpec> hinges_;
 };
 
 }  // namespace

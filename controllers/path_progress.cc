@@ -66,6 +66,13 @@ void PathProgress::Arrive(std::size_t vertex, double t_s) {
 }
 
 void PathProgress::Depart() {
+  if (Vertex(vertex_).shapes.empty())
+    Folded();
+  else
+    phase_ = Phase::kFold;
+}
+
+void PathProgress::Folded() {
   phase_ = vertex_ + 1 < reference_.vertices.size() ? Phase::kTurn : Phase::kDone;
 }
 

@@ -24,6 +24,7 @@ class PathProgress {
     kTurn,   // at a stop, or pushed off: turn towards the way first
     kDrive,  // along the leg
     kDwell,  // standing still on purpose
+    kFold,   // at a stop: to take another shape, until Folded()
     kDone,   // last waypoint reached
   };
 
@@ -37,7 +38,10 @@ class PathProgress {
   bool moving() const { return phase_ == Phase::kTurn || phase_ == Phase::kDrive; }
   void Turn() { phase_ = Phase::kTurn; }
   void Drive() { phase_ = Phase::kDrive; }
-  // The vertex at which the leg now tracked begins, and the leg itself. Only while moving().
+  // The robot has taken the shapes of vertex(), or there are none.
+  void Folded();
+  const ReferencePath& reference() const { return reference_; }
+  // The vertex at which the leg now tracked begins, and the leg itself.
   std::size_t vertex() const { return vertex_; }
   const ReferenceVertex& leg() const { return reference_.vertices[vertex_]; }
 

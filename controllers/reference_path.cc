@@ -76,19 +76,24 @@ bool SameYaw(const std::optional<double>& a, const std::optional<double>& b) {
 struct Kept {
   std::size_t index = 0;
   double dwell_s = 0;
+  std::vector<std::string> shapes;  // of the waypoints at this place
 };
 std::vector<Kept> KeepCorners(const Path& path, const ReferenceLimits& limits) {
-  std::vector<Kept> kept = {{0, path[0].dwell_s}};
+  std::vector<Kept> kept = {{0, path[0].dwell_s, {path[0].shape}}};
   Cone cone(path[0].p_W, limits.straight_m);
   const auto keep = [&](std::size_t i) {
-    if ((path[i].p_W - path[kept.back().index].p_W).norm() < kSamePointM)
+    if ((path[i].p_W - path[kept.back().index].p_W).norm() < kSamePointM) {
       kept.back().dwell_s += path[i].dwell_s;
-    else
-      kept.push_back({i, path[i].dwell_s});
+      kept.back().shapes.push_back(path[i].shape);
+    } else {
+      kept.push_back({i, path[i].dwell_s, {}});
+    }
     cone = Cone(path[i].p_W, limits.straight_m);
   };
   for (std::size_t i = 1; i < path.size(); ++i) {
-    const bool same_leg = Speed(path[i], limits) == Speed(path[i - 1], limits) &&
+    const bool same_shape =
+        !limits.folds || path[i].shape.empty() || path[i].shape == path[i - 1].shape;
+    const bool same_leg = same_shape && Speed(path[i], limits) == Speed(path[i - 1], limits) &&
                           SameYaw(HeldYaw(path[i], limits), HeldYaw(path[i - 1], limits));
     if (i - 1 > kept.back().index && (!same_leg || !cone.Reaches(path[i].p_W))) keep(i - 1);
     cone.Add(path[i].p_W);
@@ -111,6 +116,22 @@ std::vector<double> PlaceWaypoints(const Path& path, const std::vector<Kept>& ke
     s_m[i] = last_m;
   }
   return s_m;
+}
+
+// Changes of shape, each a stop: those of waypoints at one place in turn, then that of the way on.
+void SetShapes(const Path& path, const std::vector<Kept>& kept,
+               std::vector<ReferenceVertex>& vertices) {
+  std::string current;
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    std::vector<std::string> wanted = kept[k].shapes;
+    if (k + 1 < kept.size()) wanted.push_back(path[kept[k + 1].index].shape);
+    for (std::string& shape : wanted) {
+      if (shape.empty() || shape == current) continue;
+      current = shape;
+      vertices[k].shapes.push_back(std::move(shape));
+      vertices[k].stop = true;
+    }
+  }
 }
 
 // The speed at which a bend of this angle is driven through.
@@ -192,6 +213,7 @@ ReferencePath MakeReference(const Path& path, const ReferenceLimits& limits) {
         !SameYaw(before.yaw_rad, from.yaw_rad))
       from.stop = true;
   }
+  if (limits.folds) SetShapes(path, kept, vertices);
   SetPassingSpeeds(vertices, limits);
   reference.waypoint_s_m = PlaceWaypoints(path, kept, vertices);
   return reference;

@@ -7,11 +7,13 @@
 // the corner and the yaw rate within bounds. One pass backwards makes the speeds reachable with the
 // deceleration. All in Start(): following it allocates nothing. Where the plan's yaw counts
 // (holonomic robots), a change of yaw is a stop, and a bend driven with held yaw is bounded by the
-// acceleration across it instead of the yaw rate.
+// acceleration across it instead of the yaw rate. Where its shapes count (robots of hinged blocks),
+// a change of shape is a stop, too.
 #pragma once
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "env/core/path.h"
@@ -29,6 +31,7 @@ struct ReferenceLimits {
   double cruise_mps = 0.25;  // of waypoints that state no speed
   double max_speed_mps = 0.5;
   bool holds_yaw = false;  // the plan's yaw is held; else it is passed over
+  bool folds = false;      // the plan's shapes are taken; else they are passed over
 };
 
 struct ReferenceVertex {
@@ -39,7 +42,8 @@ struct ReferenceVertex {
   double passing_mps = 0;           // at most here; 0 at stops
   double dwell_s = 0;
   bool stop = false;
-  std::optional<double> yaw_rad;  // held from here to the next vertex; none: along the way
+  std::optional<double> yaw_rad;    // held from here to the next vertex; none: along the way
+  std::vector<std::string> shapes;  // taken here, one after the other, before going on
 };
 
 struct ReferencePath {

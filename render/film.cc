@@ -41,10 +41,6 @@ class Puppet {
     root_ = model_->jnt_qposadr[joint];
   }
 
-  Vec3 Position(std::size_t state) const {
-    const double* q = recording_.qpos(state) + root_;
-    return {q[0], q[1], q[2]};
-  }
   // The last state at or before t_s; times only ascend.
   std::size_t StateAt(double t_s) {
     while (at_ + 1 < recording_.size() && recording_.t_s(at_ + 1) <= t_s) ++at_;
@@ -53,11 +49,14 @@ class Puppet {
   mjData* Pose(double t_s) {
     const std::size_t i = StateAt(t_s);
     mju_copy(data_->qpos, recording_.qpos(i), static_cast<int>(model_->nq));
-    if (i + 1 < recording_.size() && (Position(i + 1) - Position(i)).norm() < kJump_m) {
+    p_WB_ = recording_.p_WB(i);
+    const Vec3 way = recording_.p_WB(std::min(i + 1, recording_.size() - 1)) - p_WB_;
+    if (i + 1 < recording_.size() && way.norm() < kJump_m) {
       const double span_s = recording_.t_s(i + 1) - recording_.t_s(i);
       const double share = std::clamp((t_s - recording_.t_s(i)) / span_s, 0.0, 1.0);
       mj_differentiatePos(model_, velocity_.data(), 1, recording_.qpos(i), recording_.qpos(i + 1));
       mj_integratePos(model_, data_->qpos, velocity_.data(), share);
+      p_WB_ += share * way;
     }
     PoseForPicture(model_, data_.get());
     return data_.get();
@@ -66,7 +65,7 @@ class Puppet {
     const double* q = data_->qpos + root_;
     const double yaw =
         std::atan2(2 * (q[3] * q[6] + q[4] * q[5]), 1 - 2 * (q[5] * q[5] + q[6] * q[6]));
-    return {q[0], q[1], yaw};
+    return {p_WB_.x(), p_WB_.y(), yaw};
   }
 
  private:
@@ -74,6 +73,7 @@ class Puppet {
   const Recording& recording_;
   std::unique_ptr<mjData, DataDeleter> data_;
   std::vector<mjtNum> velocity_;
+  Vec3 p_WB_ = Vec3::Zero();
   int root_ = 0;
   std::size_t at_ = 0;
 };
@@ -81,12 +81,15 @@ class Puppet {
 // Paints what was driven as few straight stripes with round corners, as a disc-shaped tool sweeps.
 class Trail {
  public:
-  Trail(FloorPaint& paint, double width_m) : paint_(paint), width_m_(width_m) {}
+  explicit Trail(FloorPaint& paint) : paint_(paint) {}
 
-  void Add(const Vec3& p) {
+  void Add(const Vec3& p, double width_m) {
     constexpr double kStep_m = 0.02, kStray_m = 0.015;
     const double z_m = p.z() > 0.01 ? p.z() + kTraceZ_m : kTraceZ_m;
     const Vec2 q(p.x(), p.y());
+    if (width_m != width_m_) run_.clear();
+    width_m_ = width_m;
+    if (width_m <= 0) return;
     if (run_.empty() || (q - run_.back()).norm() > kJump_m) {
       Begin(q, z_m);
       return;
@@ -109,7 +112,7 @@ class Trail {
   }
 
   FloorPaint& paint_;
-  double width_m_, z_m_ = 0;
+  double width_m_ = 0, z_m_ = 0;
   std::vector<Vec2> run_;  // points since the last corner
   std::size_t stripe_ = 0;
 };
@@ -156,7 +159,7 @@ class Studio {
         camera_(MakePlugin(Cameras(), options.camera, "video.camera")),
         puppet_(script),
         paint_((script.plan == nullptr ? 0 : static_cast<int>(script.plan->size())) + 6000),
-        trail_(paint_, script.tool_width_m),
+        trail_(paint_),
         renderer_(script.model, options.width, options.height, paint_.max_marks()),
         image_(renderer_.MakeImage()) {
     if (script.plan == nullptr) return;
@@ -167,9 +170,8 @@ class Studio {
     mjData* data = puppet_.Pose(frame.t_s);
     const std::size_t state = puppet_.StateAt(frame.t_s);
     if (trodden_ == 0) camera_->Reset(set_, puppet_.X_WB());
-    for (; trodden_ <= state; ++trodden_) {
-      if (script_.tool_width_m > 0) trail_.Add(puppet_.Position(trodden_));
-    }
+    for (; trodden_ <= state; ++trodden_)
+      trail_.Add(script_.recording->p_WB(trodden_), script_.recording->tool_width_m(trodden_));
     renderer_.Render(data, camera_->Next(puppet_.X_WB(), frame_s_, frame.speed_up), &paint_,
                      image_);
 
@@ -200,9 +202,12 @@ class Studio {
 
 }  // namespace
 
-void Recording::Add(double t_s, const double* qpos, double coverage) {
+void Recording::Add(double t_s, const double* qpos, const Vec3& p_WB, double tool_width_m,
+                    double coverage) {
   t_s_.push_back(t_s);
   coverage_.push_back(coverage);
+  tool_width_m_.push_back(tool_width_m);
+  p_WB_.push_back(p_WB);
   qpos_.insert(qpos_.end(), qpos, qpos + nq_);
 }
 

@@ -22,17 +22,21 @@ namespace floorproof {
 class Recording {
  public:
   explicit Recording(int nq) : nq_(nq) {}
-  // `qpos` holds nq values; coverage 0 to 1, negative: unknown.
-  void Add(double t_s, const double* qpos, double coverage);
+  // `qpos` holds nq values; `p_WB`: the robot's own place, on which the camera looks and where the
+  // tool sweeps a stripe `tool_width_m` wide (0: none now); coverage 0 to 1, negative: unknown.
+  void Add(double t_s, const double* qpos, const Vec3& p_WB, double tool_width_m, double coverage);
   std::size_t size() const { return t_s_.size(); }
   int nq() const { return nq_; }
   double t_s(std::size_t i) const { return t_s_[i]; }
   double coverage(std::size_t i) const { return coverage_[i]; }
+  const Vec3& p_WB(std::size_t i) const { return p_WB_[i]; }
+  double tool_width_m(std::size_t i) const { return tool_width_m_[i]; }
   const double* qpos(std::size_t i) const { return qpos_.data() + i * nq_; }
 
  private:
   int nq_;
-  std::vector<double> t_s_, coverage_, qpos_;
+  std::vector<double> t_s_, coverage_, tool_width_m_, qpos_;
+  std::vector<Vec3> p_WB_;
 };
 
 struct FilmScript {
@@ -44,7 +48,6 @@ struct FilmScript {
   std::string title;              // "beluga on staircase hall"
   FilmSet set;                    // `aspect` is taken from the options
   const Path* plan = nullptr;     // drawn on the floor
-  double tool_width_m = 0;        // the driven trace is painted this wide; 0: not
 };
 
 struct FilmOptions {

@@ -154,11 +154,11 @@ bool Fits(const Stencil& stencil, const Grid<int>& sums, int ix, int iy) {
 void ReachWithFootprint(const Shape2& clear, const Grid<std::uint8_t>& walls,
                         const Grid<std::uint8_t>* hazards, double inset_m, Cell start,
                         const Vec2& start_G, SweepArea& area,
-                        std::array<Grid<std::uint8_t>, 4>& layers) {
+                        std::vector<Grid<std::uint8_t>>& layers) {
   const Grid<int> wall_sums = RowSums(walls);
   const Grid<int> hazard_sums = hazards ? RowSums(*hazards) : Grid<int>();
-  std::array<Grid<std::uint8_t>, 4> free;
-  for (int k = 0; k < 4; ++k) {
+  std::vector<Grid<std::uint8_t>> free(layers.size());
+  for (int k = 0; k < static_cast<int>(layers.size()); ++k) {
     const Stencil built =
         MakeStencil(clear.footprint_B, area.frame.cell_m, k, inset_m, StencilOf::kTouched);
     const Stencil whole =
@@ -175,7 +175,7 @@ void ReachWithFootprint(const Shape2& clear, const Grid<std::uint8_t>& walls,
     std::size_t yaw;
   };
   std::vector<State> stack;
-  for (std::size_t k = 0; k < 4; ++k) {
+  for (std::size_t k = 0; k < layers.size(); ++k) {
     layers[k] = Grid<std::uint8_t>(walls.width, walls.height);
     const auto seed = stack.empty() ? ClearCellAt(free[k], start, start_G) : std::nullopt;
     if (!seed) continue;
@@ -193,7 +193,7 @@ void ReachWithFootprint(const Shape2& clear, const Grid<std::uint8_t>& walls,
     };
     for (const Cell d : {Cell{1, 0}, Cell{-1, 0}, Cell{0, 1}, Cell{0, -1}})
       visit(c.ix + d.ix, c.iy + d.iy, yaw);
-    for (std::size_t k = 0; k < 4; ++k) visit(c.ix, c.iy, k);
+    for (std::size_t k = 0; k < layers.size(); ++k) visit(c.ix, c.iy, k);
   }
 }
 
@@ -247,7 +247,7 @@ ClearanceField ComputeClearance(const HazardMap& map, double step_m) {
 }
 
 SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shape2& tool,
-                           double step_m, const Vec2& start_W) {
+                           double step_m, const Vec2& start_W, Yaws yaws) {
   SweepArea area;
   area.frame = FineFrame(map.frame);
   const double cell_m = area.frame.cell_m;
@@ -268,7 +268,8 @@ SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shap
 
   const Cell start = area.frame.ToCell(start_W);
   const Vec2 start_G = ToGrid(area.frame, start_W);
-  std::array<Grid<std::uint8_t>, 4> layers;
+  const int turns = yaws == Yaws::kFirst ? 1 : 4;
+  std::vector<Grid<std::uint8_t>> layers(static_cast<std::size_t>(turns));
   const bool has_layers = clear.kind == Shape2::Kind::kFootprint;
   if (has_layers) {
     ReachWithFootprint(clear, walls, any_hazard ? &hazards : nullptr, map.inset_m, start, start_G,
@@ -290,7 +291,7 @@ SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shap
   if (tool.kind == Shape2::Kind::kCircle) {
     DilateDisc(area.reachable, tool.radius_m / cell_m, area.sweepable);
   } else {
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k < turns; ++k)
       DilateFootprint(has_layers ? layers[static_cast<std::size_t>(k)] : area.reachable, tool,
                       cell_m, k, area.sweepable);
   }

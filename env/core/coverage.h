@@ -49,14 +49,20 @@ struct SweepArea {
 // multiples of 90 deg in the map's frame, and so is a tool's. Connectivity: 8 neighbours of a
 // circle, 4 of a footprint. An empty
 // area (sweepable_cells 0) when the start itself is not clear (to within its cell).
+enum class Yaws {
+  kQuarters,  // all four
+  kFirst,     // the map's own yaw alone: for a footprint that is never turned
+};
 SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shape2& tool,
-                           double step_m, const Vec2& start_W);
+                           double step_m, const Vec2& start_W, Yaws yaws = Yaws::kQuarters);
 
 // Marks what the tool sweeps as it moves: the cells whose centre it passes over, a footprint to
 // within 2 mm. Add() costs O(tool area) and allocates nothing.
 class CoverageMeter {
  public:
   CoverageMeter(const SweepArea& area, const Shape2& tool);
+  // Sweeps with this tool from now on; the next Add() starts afresh.
+  void SetTool(const Shape2& tool);
   // The tool moved in a straight line from the last pose to this one (the first only stands).
   void Add(const Pose2& X_WB);
   // The tool was carried: the next Add() starts afresh.

@@ -45,18 +45,22 @@ std::pair<int, int> CentresIn(double low, double high, int limit) {
 
 CoverageMeter::CoverageMeter(const SweepArea& area, const Shape2& tool)
     : area_(&area),
-      tool_(tool),
       passes_(area.frame.width, area.frame.height),
-      last_s_m_(area.frame.width, area.frame.height),
-      gap_m_(2 * Extent(tool)),
-      reach_m_(Reach(tool)) {
+      last_s_m_(area.frame.width, area.frame.height) {
+  SetTool(tool);
+}
+
+void CoverageMeter::SetTool(const Shape2& tool) {
+  Lift();
+  tool_ = tool;
+  gap_m_ = 2 * Extent(tool);
+  reach_m_ = Reach(tool);
   // Rows often put a footprint's edge just on the cells' centres: a tenth of a millimetre must not
   // decide whether they are swept.
   constexpr double kEdge_m = 0.002;
   if (tool_.kind == Shape2::Kind::kFootprint) {
-    const double inradius_m = -SignedDistance(tool_.footprint_B, Vec2::Zero());
-    for (Vec2& corner : tool_.footprint_B) corner *= 1 + kEdge_m / inradius_m;
-    reach_m_ += kEdge_m * reach_m_ / inradius_m;
+    tool_.footprint_B = Offset(tool_.footprint_B, kEdge_m);
+    reach_m_ += std::sqrt(2.0) * kEdge_m;
   }
 }
 

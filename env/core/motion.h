@@ -15,15 +15,25 @@ struct BodyTwist {
   double vx_mps = 0, vy_mps = 0, wz_radps = 0;
 };
 
+// Angles and rates of the hinges between a reconfigurable robot's blocks, in the order of
+// RobotSpec::hinges; n = 0: the robot is one rigid body.
+struct HingeState {
+  static constexpr int kMost = 8;
+  int n = 0;
+  std::array<double, kMost> rad{}, radps{};
+};
+
 // Where the robot thinks it is.
 struct Estimate {
   Pose2 X_WB;
   BodyTwist V_WB_B;
+  HingeState hinges;  // as their encoders say
 };
 
 // What a tracker asks for, and how far along the path it is (monotone).
 struct Command {
   BodyTwist twist;
+  HingeState hinges;        // to be held, or turned at these rates towards these angles
   std::size_t segment = 0;  // the segment now tracked goes from waypoint `segment` to `segment + 1`
   double cross_track_half_width_m =
       0;                  // room to the nearer obstacle pair across it, halved (set by the episode)
@@ -50,6 +60,8 @@ struct Sample {
   double tilt_rad = 0;  // between the body's z and the world's
   Vec3 v_WB_W = Vec3::Zero();
   BodyTwist V_WB_B;
+  HingeState hinges;
+  int shape = 0;  // index into RobotSpec::shapes, -1 between two of them; 0 of a rigid robot
   Command command;
   double cross_track_m = 0;  // of the true position to the segment now tracked; unsigned
   double power_w = 0;        // electrical, motors and hotel load

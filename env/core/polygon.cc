@@ -181,6 +181,20 @@ double SignedDistance(const Polygon& polygon, const Vec2& p) {
   return inside ? -distance : distance;
 }
 
+Polygon Offset(const Polygon& polygon, double by_m) {
+  Polygon out;
+  const std::size_t n = polygon.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto outward = [&](std::size_t from, std::size_t to) {
+      const Vec2 edge = (polygon[to] - polygon[from]).normalized();
+      return Vec2(edge.y(), -edge.x());
+    };
+    const Vec2 before = outward((i + n - 1) % n, i), after = outward(i, (i + 1) % n);
+    out.push_back(polygon[i] + by_m * (before + after) / (1 + before.dot(after)));
+  }
+  return out;
+}
+
 Polygon Rectangle(const Vec2& low, const Vec2& high) {
   return {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
 }

@@ -24,6 +24,9 @@ bool IsSimple(const Polygon& polygon);  // no two edges cross or touch beyond sh
 bool Contains(const Polygon& polygon, const Vec2& p);
 // Distance to the border, negative inside.
 double SignedDistance(const Polygon& polygon, const Vec2& p);
+// The polygon with its edges moved outwards by less than its own narrowest part; corners stay
+// sharp.
+Polygon Offset(const Polygon& polygon, double by_m);
 Polygon Rectangle(const Vec2& low, const Vec2& high);
 // The convex hull, counter-clockwise.
 Polygon ConvexHull(std::vector<Vec2> points);

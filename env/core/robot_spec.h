@@ -18,6 +18,8 @@ struct WheelSpec {
   // counterclockwise positive.
   double roller_radius_m = 0;
   double roller_angle_rad = 0;
+  double yaw_rad = 0;          // of the wheel's own x (forward) in B
+  int block = 0;               // the block that carries it
   double max_speed_radps = 0;  // no-load speed of the motor at the wheel
   double max_torque_nm = 0;    // at the wheel
 };
@@ -30,11 +32,40 @@ struct Shape2 {
   Polygon footprint_B;  // kFootprint; held at yaws that are multiples of 90 deg in the map's frame
 };
 
+// A reconfigurable robot: blocks joined by hinges about vertical axes. R is the frame of the block
+// 0, the MJCF's `base`; in the model's own shape every block's frame K coincides with it. The body
+// frame B has R's axes and its origin at the mean of the blocks' centres, on the floor.
+struct BlockSpec {
+  std::string name;  // of its body
+  Polygon outline_K;
+  Vec2 centre_K = Vec2::Zero();
+};
+struct HingeSpec {
+  std::string name;                 // of its joint and actuator
+  int parent = 0, block = 0;        // `block` hangs on `parent`, which stands before it
+  Vec2 p_K = Vec2::Zero();          // the axis, in either block's frame
+  double sign = 1;                  // +1: the angle grows as `block` turns counterclockwise
+  double model_rad = 0;             // the angle in the model's own shape
+  double min_rad = 0, max_rad = 0;  // its stops
+  double max_rate_radps = 0;        // no-load speed of its motor, gear included
+};
+struct ShapeSpec {
+  std::string name;
+  std::vector<double> hinge_rad;
+  Polygon footprint_B;
+  double static_tip_rad = 0;
+};
+
 struct RobotSpec {
   std::string name;
   std::string model_file;         // the MJCF
   std::string drive;              // a name of controllers' drives: "differential", "mecanum"
   std::vector<WheelSpec> wheels;  // the driven ones, in actuator order
+
+  std::vector<BlockSpec> blocks;  // empty: the robot does not change its shape
+  std::vector<HingeSpec> hinges;  // empty: the blocks are locked in `shape`
+  std::vector<ShapeSpec> shapes;  // those that it knows
+  int shape = 0;                  // at the start; clear, tool and the rest below are this shape's
 
   Shape2 clear;  // kept free of obstacles
   Shape2 tool;   // swept

@@ -49,7 +49,9 @@ class BounceBack final : public Detector {
 
   void Start(const EpisodeContext& context) override {
     map_ = &context.map;
-    clear_ = &context.robot.clear;
+    robot_ = &context.robot;
+    clear_ = &robot_->clear;
+    footprint_B_ = &clear_->footprint_B;
     touches_ = {};
     active_ = 0;
     has_last_ = false;
@@ -92,10 +94,10 @@ class BounceBack final : public Detector {
   // From the body's origin to its outermost point against the normal. (A circle's radius does not
   // change, so that its centre will do.)
   Vec2 Outermost(const Pose2& X_WB, const Vec2& normal_W) const {
-    if (clear_->kind == Shape2::Kind::kCircle || clear_->footprint_B.empty())
+    if (clear_->kind == Shape2::Kind::kCircle || footprint_B_->empty())
       return -clear_->radius_m * normal_W;
-    Vec2 outermost_W = X_WB.Rotate(clear_->footprint_B.front());
-    for (const Vec2& p_B : clear_->footprint_B) {
+    Vec2 outermost_W = X_WB.Rotate(footprint_B_->front());
+    for (const Vec2& p_B : *footprint_B_) {
       const Vec2 r_W = X_WB.Rotate(p_B);
       if (r_W.dot(normal_W) < outermost_W.dot(normal_W)) outermost_W = r_W;
     }
@@ -103,6 +105,8 @@ class BounceBack final : public Detector {
   }
 
   bool Follow(const Sample& sample) {
+    if (sample.shape >= 0 && !robot_->hinges.empty())
+      footprint_B_ = &robot_->shapes[static_cast<std::size_t>(sample.shape)].footprint_B;
     for (Touch& touch : touches_) touch.seen = false;
     for (int i = 0; i < sample.num_contacts; ++i)
       See(sample.contacts[static_cast<std::size_t>(i)], sample);
@@ -227,7 +231,9 @@ class BounceBack final : public Detector {
          window_s_ = 1.0;
 
   const HazardMap* map_ = nullptr;
+  const RobotSpec* robot_ = nullptr;
   const Shape2* clear_ = nullptr;
+  const Polygon* footprint_B_ = nullptr;  // of the shape that it has, or had before it folds
   std::array<Touch, Sample::kMaxContacts> touches_;
   int active_ = 0;
   Vec2 last_v_W_ = Vec2::Zero();

@@ -58,6 +58,10 @@ class RollOver final : public Detector {
     const RobotSpec& robot = context.robot;
     limit_rad_ = tilt_limit_deg_ * kPi / 180;
     if (robot.static_tip_rad > 0) limit_rad_ = std::min(limit_rad_, robot.static_tip_rad);
+    // While it folds, and in whatever shape a plan may give it, the least stable shape's limit.
+    if (!robot.hinges.empty())
+      for (const ShapeSpec& shape : robot.shapes)
+        limit_rad_ = std::min(limit_rad_, shape.static_tip_rad);
     feet_B_ = {Vec2::Zero()};
     for (const WheelSpec& wheel : robot.wheels) feet_B_.push_back(wheel.p_BW.head<2>());
     levels_.clear();

@@ -74,7 +74,13 @@ class Stuck final : public Detector {
     last_t_s_ = sample.t_s;
     const BodyTwist& cmd = sample.command.twist;
     const double speed_mps = std::sqrt(cmd.vx_mps * cmd.vx_mps + cmd.vy_mps * cmd.vy_mps);
-    const double yaw_rate_radps = std::abs(cmd.wz_radps);
+    // A block that is to turn on its hinge counts as a turn of the robot.
+    double yaw_rate_radps = std::abs(cmd.wz_radps), folded_rad = 0;
+    for (std::size_t h = 0; h < static_cast<std::size_t>(sample.hinges.n); ++h) {
+      yaw_rate_radps = std::max(yaw_rate_radps, std::abs(sample.command.hinges.radps[h]));
+      folded_rad += sample.hinges.rad[h];
+    }
+    folded_rad_ = folded_rad;
     if (sample.command.dwelling || sample.command.done ||
         (speed_mps < least_speed_mps_ && yaw_rate_radps < least_yaw_rate_radps_))
       return false;
@@ -93,6 +99,7 @@ class Stuck final : public Detector {
   struct Kept {
     Vec2 p_WB = Vec2::Zero();
     double yaw_rad = 0;                  // unwrapped
+    double folded_rad = 0;               // sum of the hinges' angles
     Vec2 commanded_W = Vec2::Zero();     // where commands alone would have led
     double angle_rad = 0, belly_ns = 0;  // commanded turn, and belly load, summed up to here
     double t_s = 0;
@@ -103,8 +110,13 @@ class Stuck final : public Detector {
         count_ == 0 ? sample.yaw_rad
                     : ring_[newest_].yaw_rad + WrapAngle(sample.yaw_rad - ring_[newest_].yaw_rad);
     newest_ = (newest_ + 1) % ring_.size();
-    ring_[newest_] = {
-        sample.p_WB.head<2>(), yaw_rad, commanded_W_, angle_rad_, belly_ns_, sample.t_s};
+    ring_[newest_] = {sample.p_WB.head<2>(),
+                      yaw_rad,
+                      folded_rad_,
+                      commanded_W_,
+                      angle_rad_,
+                      belly_ns_,
+                      sample.t_s};
     count_ = std::min(count_ + 1, ring_.size());
   }
 
@@ -115,7 +127,8 @@ class Stuck final : public Detector {
     for (const Kept& kept : ring_) {
       squared_m2 = std::max(squared_m2, (kept.p_WB - first.p_WB).squaredNorm());
       commanded_m2 = std::max(commanded_m2, (kept.commanded_W - first.commanded_W).squaredNorm());
-      turned_rad = std::max(turned_rad, std::abs(kept.yaw_rad - first.yaw_rad));
+      turned_rad = std::max({turned_rad, std::abs(kept.yaw_rad - first.yaw_rad),
+                             std::abs(kept.folded_rad - first.folded_rad)});
     }
     const double moved_m = std::sqrt(squared_m2);
     const double commanded_m = std::sqrt(commanded_m2);
@@ -160,7 +173,7 @@ class Stuck final : public Detector {
   double period_s_ = kSampleS;
   double clock_s_ = 0;  // time with a move commanded
   Vec2 commanded_W_ = Vec2::Zero();
-  double angle_rad_ = 0, belly_ns_ = 0;
+  double angle_rad_ = 0, belly_ns_ = 0, folded_rad_ = 0;
   std::int64_t ticks_ = 0;
   double last_t_s_ = 0;
   bool started_ = false, reported_ = false;

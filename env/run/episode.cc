@@ -30,11 +30,12 @@ std::string_view Name(Outcome outcome) {
 }
 
 double PlanDuration(const Path& path, double cruise_mps) {
+  constexpr double kFold_s = 30;  // for each change of shape: three hinges, half a turn each
   double t_s = path.empty() ? 0 : path.front().dwell_s;
   for (std::size_t i = 1; i < path.size(); ++i)
     t_s += (path[i].p_W - path[i - 1].p_W).norm() /
                (path[i].speed_mps > 0 ? path[i].speed_mps : cruise_mps) +
-           path[i].dwell_s;
+           path[i].dwell_s + (path[i].shape != path[i - 1].shape ? kFold_s : 0);
   return t_s;
 }
 
@@ -45,7 +46,7 @@ PlanResult MakePlan(const Scenario& s) {
         {known, s.robot.robot, s.start, s.goal, static_cast<std::uint64_t>(s.episode.seed)});
   }
   PlanResult plan;
-  plan.path = ReadPlan(s.plan_file, s.site.map.frame);
+  plan.path = s.user_plan;
   // A user's plan need not begin where the robot stands: it drives there first, and is judged on
   // the way as on any other.
   if ((plan.path.front().p_W - s.start.p()).norm() > 1e-6) {
@@ -90,8 +91,9 @@ EpisodeRecord RunEpisode(Scenario& s, const Scene& scene, const PlanResult& plan
       sample.command = s.tracker->Update(estimate, sample.t_s, control_s);
       sample.command.cross_track_half_width_m =
           HalfWidth(clearance, plan.path, sample.command.segment, sample.p_WB.head<2>());
-      drive->ToWheels(sample.command.twist, wheels);
+      drive->ToWheels(sample.command.twist, sample.command.hinges, wheels);
       sim.SetWheelSpeeds(wheels);
+      sim.SetHingeSpeeds(sample.command.hinges);
       recorder.OnControl(sample, estimate);
       if (sample.command.done) ended = Outcome::kSuccess;
       if (sample.t_s >= limit_s) ended = Outcome::kTimeout;

@@ -25,6 +25,7 @@ struct TraceRow {
   float x_m, y_m, z_m, roll_rad, pitch_rad, yaw_rad, vx_mps, vy_mps, wz_radps;
   float cmd_vx_mps, cmd_vy_mps, cmd_wz_radps, est_x_m, est_y_m, est_yaw_rad;
   float cross_track_m, power_w, coverage;
+  int shape;  // as in Sample
 };
 
 struct Metrics {

@@ -16,23 +16,42 @@ namespace floorproof {
 class Recorder {
  public:
   Recorder(const Scenario& s, const SweepArea& area, double expected_s)
-      : area_(area), meter_(area, s.robot.robot.tool), dt_s_(s.physics.timestep_s) {
+      : area_(area),
+        robot_(s.robot.robot),
+        meter_(area, s.robot.robot.tool),
+        dt_s_(s.physics.timestep_s),
+        shape_(s.robot.robot.shape) {
     trace_every_ = s.episode.control_hz / s.episode.trace_hz;
     record_.trace.reserve(
         static_cast<std::size_t>(std::min(2e6, (expected_s + 60) * s.episode.trace_hz)));
   }
 
   void OnControl(const Sample& sample, const Estimate& estimate) {
-    meter_.Add(sample.X_WB());
+    if (sample.shape != shape_) TakeShape(sample.shape);
+    if (shape_ >= 0) meter_.Add(sample.X_WB());
     if (control_++ % trace_every_ != 0) return;
     const auto f = [](double v) { return static_cast<float>(v); };
     const BodyTwist& cmd = sample.command.twist;
-    record_.trace.push_back(
-        {sample.t_s, f(sample.p_WB.x()), f(sample.p_WB.y()), f(sample.p_WB.z()), f(sample.roll_rad),
-         f(sample.pitch_rad), f(sample.yaw_rad), f(sample.V_WB_B.vx_mps), f(sample.V_WB_B.vy_mps),
-         f(sample.V_WB_B.wz_radps), f(cmd.vx_mps), f(cmd.vy_mps), f(cmd.wz_radps),
-         f(estimate.X_WB.x_m), f(estimate.X_WB.y_m), f(estimate.X_WB.yaw_rad),
-         f(sample.cross_track_m), f(sample.power_w), f(meter_.coverage())});
+    record_.trace.push_back({sample.t_s,
+                             f(sample.p_WB.x()),
+                             f(sample.p_WB.y()),
+                             f(sample.p_WB.z()),
+                             f(sample.roll_rad),
+                             f(sample.pitch_rad),
+                             f(sample.yaw_rad),
+                             f(sample.V_WB_B.vx_mps),
+                             f(sample.V_WB_B.vy_mps),
+                             f(sample.V_WB_B.wz_radps),
+                             f(cmd.vx_mps),
+                             f(cmd.vy_mps),
+                             f(cmd.wz_radps),
+                             f(estimate.X_WB.x_m),
+                             f(estimate.X_WB.y_m),
+                             f(estimate.X_WB.yaw_rad),
+                             f(sample.cross_track_m),
+                             f(sample.power_w),
+                             f(meter_.coverage()),
+                             sample.shape});
   }
 
   void OnStep(const Sample& sample) {
@@ -66,7 +85,7 @@ class Recorder {
                        const std::vector<std::unique_ptr<Detector>>& detectors,
                        double min_coverage) {
     Metrics& m = record_.metrics;
-    meter_.Add(last.X_WB());
+    if (shape_ >= 0) meter_.Add(last.X_WB());
     m.coverage = meter_.coverage();
     m.overlap = meter_.overlap();
     m.duration_s = last.t_s;
@@ -90,12 +109,23 @@ class Recorder {
   }
 
  private:
+  // Between two shapes the tool is lifted; then it is the new shape's.
+  void TakeShape(int shape) {
+    shape_ = shape;
+    meter_.Lift();
+    if (shape < 0 || robot_.tool.kind != Shape2::Kind::kFootprint) return;
+    meter_.SetTool(
+        {Shape2::Kind::kFootprint, 0, robot_.shapes[static_cast<std::size_t>(shape)].footprint_B});
+  }
+
   EpisodeRecord record_;
   const SweepArea& area_;
+  const RobotSpec& robot_;
   CoverageMeter meter_;
   double dt_s_, cross_track_sum_ = 0;
   int trace_every_ = 1;
   std::int64_t control_ = 0;
+  int shape_ = 0;  // the robot's, as in Sample
   double last_touch_s_ = -1e9;
 };
 

@@ -92,18 +92,24 @@ Json ResultJson(const Scenario& s, const EpisodeRecord& record) {
           {"versions", Versions()}};
 }
 
-std::string TraceCsv(const EpisodeRecord& record) {
+std::string TraceCsv(const EpisodeRecord& record, const RobotSpec& robot) {
   fmt::memory_buffer out;
   fmt::format_to(std::back_inserter(out),
                  "t_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,vx_mps,vy_mps,wz_radps,cmd_vx_mps,"
                  "cmd_vy_mps,cmd_wz_radps,est_x_m,est_y_m,est_yaw_rad,cross_track_m,power_w,"
                  "coverage,shape\n");
+  // Empty of a robot with one shape, and between two.
+  const auto shape_name = [&](int shape) {
+    return shape < 0 || robot.shapes.empty()
+               ? std::string_view()
+               : std::string_view(robot.shapes[static_cast<std::size_t>(shape)].name);
+  };
   for (const auto& r : record.trace)
     fmt::format_to(std::back_inserter(out),
-                   "{:.3f},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},\n", r.t_s, r.x_m,
-                   r.y_m, r.z_m, r.roll_rad, r.pitch_rad, r.yaw_rad, r.vx_mps, r.vy_mps, r.wz_radps,
-                   r.cmd_vx_mps, r.cmd_vy_mps, r.cmd_wz_radps, r.est_x_m, r.est_y_m, r.est_yaw_rad,
-                   r.cross_track_m, r.power_w, r.coverage);
+                   "{:.3f},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.t_s,
+                   r.x_m, r.y_m, r.z_m, r.roll_rad, r.pitch_rad, r.yaw_rad, r.vx_mps, r.vy_mps,
+                   r.wz_radps, r.cmd_vx_mps, r.cmd_vy_mps, r.cmd_wz_radps, r.est_x_m, r.est_y_m,
+                   r.est_yaw_rad, r.cross_track_m, r.power_w, r.coverage, shape_name(r.shape));
   return fmt::to_string(out);
 }
 
@@ -128,7 +134,7 @@ void RemoveEpisodeFiles(const std::filesystem::path& folder) {
 
 void WriteEpisodeFiles(const Scenario& s, const EpisodeRecord& record,
                        const std::filesystem::path& folder) {
-  WriteFileWhole(folder / "trace.csv", TraceCsv(record));
+  WriteFileWhole(folder / "trace.csv", TraceCsv(record, s.robot.robot));
   if (record.outcome != Outcome::kInterrupted)
     WriteFileWhole(folder / "result.json", ResultJson(s, record).dump(2) + "\n");
 }

@@ -14,7 +14,7 @@ namespace floorproof {
 nlohmann::ordered_json PlanJson(const Scenario& scenario, const PlanResult& plan);
 // result.json's content: schema, outcome, events, metrics, margins, seed, versions. No wall times.
 nlohmann::ordered_json ResultJson(const Scenario& scenario, const EpisodeRecord& record);
-std::string TraceCsv(const EpisodeRecord& record);
+std::string TraceCsv(const EpisodeRecord& record, const RobotSpec& robot);
 
 // scenario.resolved.yaml, plan.csv and plan.json.
 void WritePlanFiles(const Scenario& scenario, const PlanResult& plan,

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 
+#include "env/core/blocks.h"
 #include "env/core/input_file.h"
 #include "env/run/file_output.h"
+#include "env/run/plan_file.h"
 
 namespace floorproof {
 namespace {
@@ -91,7 +93,13 @@ void ReadRobotPart(const ConfigNode& root, Scenario& s) {
     s.robot_file = NamedFile(s.file.parent_path(), path, "robot");
   }
   ReadParams(named.params, "robot.", [&](ParamVisitor& v) { s.robot_changes.Visit(v); }, {"name"});
-  s.robot = ReadRobot(s.robot_file, s.robot_changes);
+  const bool folds = std::ranges::any_of(s.user_plan, [&](const Waypoint& w) {
+    return !w.shape.empty() && w.shape != s.robot_changes.shape;
+  });
+  s.robot = ReadRobot(s.robot_file, s.robot_changes, folds ? Blocks::kHinged : Blocks::kLocked);
+  for (const Waypoint& w : s.user_plan)
+    if (!w.shape.empty() && FindShape(s.robot.robot, w.shape) < 0)
+      RefuseShape(s.robot.robot, {s.plan_file.string(), 0}, "shape", w.shape);
 }
 
 Pose2 ReadStart(const ConfigNode& root, const HazardMap& map) {
@@ -128,6 +136,7 @@ void ReadPlanPart(const ConfigNode& root, Scenario& s) {
   if (const ConfigNode* file = node && node->IsMap() ? node->Find("file") : nullptr) {
     RefuseUnknownKeys(*node, "plan.", {"file"});
     s.plan_file = NamedFile(s.file.parent_path(), *file, "plan.file");
+    s.user_plan = ReadPlan(s.plan_file, s.site.map.frame);
     return;
   }
   const Named named = ReadNamed(root, "plan", "planner", "boustrophedon");
@@ -251,7 +260,8 @@ Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrid
   ReadTop(root, s);
   CheckHashes(root, file.parent_path());
   ReadSitePart(root, overrides, s);
-  ReadRobotPart(root, s);
+  ReadPlanPart(root, s);
+  ReadRobotPart(root, s);  // whether it folds hangs on the plan
   s.start = ReadStart(root, s.site.map);
   s.site.map.start = s.start;  // the scenario's own wins, on pictures too
   CheckStart(root, s);
@@ -267,7 +277,6 @@ Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrid
                        "lies off the map");
     s.goal = p;
   }
-  ReadPlanPart(root, s);
   ReadControl(root, s);
   ReadFailures(root, s);
   return s;

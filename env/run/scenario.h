@@ -59,6 +59,7 @@ struct Scenario {
   std::string planner_name;  // empty: plan_file
   std::unique_ptr<Planner> planner;
   std::filesystem::path plan_file;
+  Path user_plan;  // what it holds
 
   std::string tracker_name, estimator_name;
   std::unique_ptr<Tracker> tracker;

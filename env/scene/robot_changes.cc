@@ -32,20 +32,27 @@ void ScaleMass(mjSpec* spec, double factor) {
       factor);
 }
 
-void RaiseBody(mjSpec* spec, double by_m) {
-  mjsBody* base = mjs_findBody(spec, "base");
-  for (mjsElement* e = mjs_firstChild(base, mjOBJ_GEOM, 0); e; e = mjs_nextChild(base, e, 0))
+// The joint that the motor of this name drives.
+mjsElement* JointOf(mjSpec* spec, const std::string& motor) {
+  mjsElement* actuator = mjs_findElement(spec, mjOBJ_ACTUATOR, motor.c_str());
+  return mjs_findElement(spec, mjOBJ_JOINT, mjs_getString(mjs_asActuator(actuator)->target));
+}
+
+void Raise(mjsBody* body, double by_m) {
+  for (mjsElement* e = mjs_firstChild(body, mjOBJ_GEOM, 0); e; e = mjs_nextChild(body, e, 0))
     mjs_asGeom(e)->pos[2] += by_m;
-  for (mjsElement* e = mjs_firstChild(base, mjOBJ_SITE, 0); e; e = mjs_nextChild(base, e, 0))
+  for (mjsElement* e = mjs_firstChild(body, mjOBJ_SITE, 0); e; e = mjs_nextChild(body, e, 0))
     mjs_asSite(e)->pos[2] += by_m;
+}
+
+void RaiseChassis(mjSpec* spec, const RobotSpec& robot, double by_m) {
+  Raise(mjs_findBody(spec, "base"), by_m);
+  for (const HingeSpec& hinge : robot.hinges) Raise(mjs_getParent(JointOf(spec, hinge.name)), by_m);
 }
 
 // Wheel and rollers become as large as asked, on the same floor; what is only drawn follows.
 void ResizeWheel(mjSpec* spec, const WheelSpec& wheel, double radius_m, double roller_m) {
-  const mjsActuator* motor =
-      mjs_asActuator(mjs_findElement(spec, mjOBJ_ACTUATOR, wheel.name.c_str()));
-  mjsElement* joint = mjs_findElement(spec, mjOBJ_JOINT, mjs_getString(motor->target));
-  mjsBody* body = mjs_getParent(joint);
+  mjsBody* body = mjs_getParent(JointOf(spec, wheel.name));
   body->pos[2] += radius_m - wheel.radius_m;
   const double whole = radius_m / wheel.radius_m;
   const double core = (radius_m - roller_m) / (wheel.radius_m - wheel.roller_radius_m);
@@ -93,12 +100,13 @@ void RobotChanges::Visit(ParamVisitor& v) {
     "of the driven wheels, rollers included (m); none: the model's");
   v("roller_radius_m", roller_radius_m, Positive(),
     "of a Mecanum wheel's rollers (m); none: the model's");
+  v("shape", shape, {}, "of a reconfigurable robot, at the start; empty: the model's");
 }
 
 bool ChangeRobot(mjSpec* spec, const RobotSpec& robot, const RobotChanges& changes) {
   const bool wheels = changes.wheel_radius_m || changes.roller_radius_m;
   if (changes.mass_kg) ScaleMass(spec, *changes.mass_kg / robot.mass_kg);
-  if (changes.clearance_m) RaiseBody(spec, *changes.clearance_m - robot.clearance_m);
+  if (changes.clearance_m) RaiseChassis(spec, robot, *changes.clearance_m - robot.clearance_m);
   if (wheels) ResizeWheels(spec, robot, changes);
   return changes.mass_kg || changes.clearance_m || wheels;
 }

@@ -17,6 +17,7 @@ struct RobotChanges {
   std::optional<double> wheel_radius_m =
       {};  // of the driven wheels, rollers included; the body stays
   std::optional<double> roller_radius_m = {};  // of Mecanum wheels
+  std::string shape = {};  // of a reconfigurable robot, at the start; empty: the model's own
 
   void Visit(ParamVisitor& v);
 };

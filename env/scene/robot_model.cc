@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
+#include <sstream>
 #include <vector>
 
+#include "env/core/blocks.h"
 #include "env/core/params.h"
+#include "env/scene/lock_blocks.h"
 #include "env/scene/mecanum_wheel.h"
 #include "env/scene/mjcf_check.h"
 
@@ -30,9 +34,10 @@ class SpecReader {
     data_ = MakeData(m_);
     ForwardEngine(m_, data_.get());
     ReadCustom(robot);
+    ReadHinges(robot);
     ReadWheels(robot);
     ReadBody(robot);
-    robot.static_tip_rad = StaticTip(robot);
+    ReadShapes(robot);
     return robot;
   }
 
@@ -47,6 +52,12 @@ class SpecReader {
     const double value = m_->numeric_data[m_->numeric_adr[id]];
     if (!rule.Allows(value)) throw InputError({file_, 0}, name, FormatDouble(value), rule.Text());
     return value;
+  }
+  // The words of a text; none where there is no such text.
+  std::vector<std::string> Words(const char* name) const {
+    if (mj_name2id(m_, mjOBJ_TEXT, name) < 0) return {};
+    std::istringstream in(Text(name));
+    return {std::istream_iterator<std::string>(in), {}};
   }
   std::string Text(const char* name) const {
     const int id = mj_name2id(m_, mjOBJ_TEXT, name);
@@ -73,12 +84,80 @@ class SpecReader {
     return {p_B[0], p_B[1], p_B[2]};
   }
 
+  // The block that the body is, or is carried by.
+  int BlockOf(int body) const {
+    for (; body > 0; body = m_->body_parentid[body])
+      if (const auto at = std::ranges::find(block_bodies_, body); at != block_bodies_.end())
+        return static_cast<int>(at - block_bodies_.begin());
+    return 0;
+  }
+
+  // The hinge's joint by its actuator; its body becomes a block, in its parent's frame.
+  HingeSpec ReadHinge(const std::string& name) {
+    HingeSpec hinge;
+    hinge.name = name;
+    const int a = mj_name2id(m_, mjOBJ_ACTUATOR, name.c_str());
+    if (a < 0) Refuse(name, "named under hinges, but there is no actuator of that name");
+    const int joint = m_->actuator_trnid[2 * a];
+    if (m_->actuator_trntype[a] != mjTRN_JOINT || m_->jnt_type[joint] != mjJNT_HINGE ||
+        std::abs(std::abs(m_->jnt_axis[3 * joint + 2]) - 1) > 1e-9)
+      Refuse(name, "must drive a hinge joint with a vertical axis");
+    const int body = m_->jnt_bodyid[joint], parent = m_->body_parentid[body];
+    if (std::ranges::find(block_bodies_, parent) == block_bodies_.end())
+      Refuse(name, "its body must be a child of base or of a block whose hinge is named before");
+    const mjtNum *p = m_->body_pos + 3 * body, *q = m_->body_quat + 4 * body;
+    if (mju_norm3(p) > 1e-9 || std::abs(q[0]) < 1 - 1e-12)
+      Refuse(name, "its body must stand in its parent's own frame (no pos, no orientation)");
+    hinge.parent = BlockOf(parent);
+    hinge.block = static_cast<int>(block_bodies_.size());
+    block_bodies_.push_back(body);
+    hinge.p_K = {m_->jnt_pos[3 * joint], m_->jnt_pos[3 * joint + 1]};
+    hinge.sign = m_->jnt_axis[3 * joint + 2];
+    hinge.model_rad = m_->qpos0[m_->jnt_qposadr[joint]];
+    if (!m_->jnt_limited[joint]) Refuse(name, "its joint needs a range");
+    hinge.min_rad = m_->jnt_range[2 * joint];
+    hinge.max_rad = m_->jnt_range[2 * joint + 1];
+    hinge.max_rate_radps = ReadMotor(a, name).no_load_radps;
+    return hinge;
+  }
+
+  void ReadHinges(RobotSpec& robot) {
+    block_bodies_ = {base_};
+    for (const auto& name : Words(kLockedBlocks))
+      block_bodies_.push_back(mj_name2id(m_, mjOBJ_BODY, name.c_str()));
+    const auto names = Words("hinges");
+    if (names.size() > HingeState::kMost)
+      Refuse("hinges", "at most " + std::to_string(HingeState::kMost) + " are possible");
+    for (const auto& name : names) robot.hinges.push_back(ReadHinge(name));
+  }
+
+  struct Motor {
+    double no_load_radps, stall_nm;
+  };
+  Motor ReadMotor(int a, const std::string& name) const {
+    if (m_->actuator_dyntype[a] != mjDYN_DCMOTOR && m_->actuator_gaintype[a] != mjGAIN_DCMOTOR)
+      Refuse(name, "a wheel's or hinge's actuator must be a <dcmotor input=\"vel\">");
+    // A dcmotor's gain parameters: 0 resistance, 1 motor constant, 7 the driver's voltage.
+    const mjtNum* gain = m_->actuator_gainprm + mjNGAIN * a;
+    const double resistance = gain[0], constant = gain[1], volt = gain[7];
+    if (!(resistance > 0 && constant > 0 && volt > 0))
+      Refuse(name, "the dcmotor needs a resistance, a motor constant and a voltage (Vmax)");
+    Motor motor{volt / constant, constant * volt / resistance};
+    if (m_->actuator_forcelimited[a])
+      motor.stall_nm = std::min(motor.stall_nm, m_->actuator_forcerange[2 * a + 1]);
+    return motor;
+  }
+
   void ReadWheels(RobotSpec& robot) const {
-    if (m_->nu == 0) Refuse("actuator", "a robot needs at least one driven wheel");
     for (int a = 0; a < m_->nu; ++a) {
       WheelSpec wheel;
       const char* name = mj_id2name(m_, mjOBJ_ACTUATOR, a);
       wheel.name = name ? name : "actuator " + std::to_string(a);
+      if (std::ranges::find(robot.hinges, wheel.name, &HingeSpec::name) != robot.hinges.end()) {
+        if (a < m_->nu - static_cast<int>(robot.hinges.size()))
+          Refuse(wheel.name, "the hinges' actuators must stand behind the wheels', in their order");
+        continue;
+      }
       const int joint = m_->actuator_trnid[2 * a];
       if (m_->actuator_trntype[a] != mjTRN_JOINT || m_->jnt_type[joint] != mjJNT_HINGE)
         Refuse(wheel.name, "an actuator must drive a wheel's hinge");
@@ -96,19 +175,16 @@ class SpecReader {
       wheel.roller_radius_m = rollers.radius_m;
       wheel.roller_angle_rad = rollers.angle_rad;
       wheel.p_BW = InBase(data_->geom_xpos + 3 * geom);
-      if (m_->actuator_dyntype[a] != mjDYN_DCMOTOR && m_->actuator_gaintype[a] != mjGAIN_DCMOTOR)
-        Refuse(wheel.name, "a wheel's actuator must be a <dcmotor input=\"vel\">");
-      // A dcmotor's gain parameters: 0 resistance, 1 motor constant, 7 the driver's voltage.
-      const mjtNum* gain = m_->actuator_gainprm + mjNGAIN * a;
-      const double resistance = gain[0], constant = gain[1], volt = gain[7];
-      if (!(resistance > 0 && constant > 0 && volt > 0))
-        Refuse(wheel.name, "the dcmotor needs a resistance, a motor constant and a voltage (Vmax)");
-      wheel.max_speed_radps = volt / constant;
-      wheel.max_torque_nm = constant * volt / resistance;
-      if (m_->actuator_forcelimited[a])
-        wheel.max_torque_nm = std::min(wheel.max_torque_nm, m_->actuator_forcerange[2 * a + 1]);
+      const Motor motor = ReadMotor(a, wheel.name);
+      wheel.max_speed_radps = motor.no_load_radps;
+      wheel.max_torque_nm = motor.stall_nm;
+      wheel.block = BlockOf(body);
+      // The wheel's axle, to the left; its own forward lies a quarter turn to the right of it.
+      const mjtNum* axis_W = data_->xaxis + 3 * joint;
+      wheel.yaw_rad = WrapAngle(std::atan2(axis_W[1], axis_W[0]) - kPi / 2);
       robot.wheels.push_back(wheel);
     }
+    if (robot.wheels.empty()) Refuse("actuator", "a robot needs at least one driven wheel");
   }
 
   // Points on the surface of a geom that bound it, in the base frame.
@@ -160,6 +236,10 @@ class SpecReader {
   }
 
   bool Collides(int geom) const { return m_->geom_conaffinity[geom] || m_->geom_contype[geom]; }
+  // By the wheels: part of the chassis.
+  bool Carried(int geom) const {
+    return std::ranges::find(block_bodies_, m_->geom_bodyid[geom]) != block_bodies_.end();
+  }
 
   void ReadBody(RobotSpec& robot) const {
     robot.mass_kg = m_->body_subtreemass[base_];
@@ -170,7 +250,7 @@ class SpecReader {
       if (!Collides(g)) continue;
       for (const Vec3& p : SurfacePoints(g)) {
         high = std::max(high, p.z());
-        if (m_->geom_bodyid[g] == base_) low = std::min(low, p.z());
+        if (Carried(g)) low = std::min(low, p.z());
         reach = std::max(reach, p.head<2>().norm());
         outline.push_back(p.head<2>());
       }
@@ -197,30 +277,113 @@ class SpecReader {
     throw InputError({file_, 0}, key, kind, "must be circle or footprint");
   }
 
+  // The blocks' outlines and the shapes that they can take; of a robot without, the one it has.
+  void ReadShapes(RobotSpec& robot) const {
+    const std::vector<double> none;
+    if (robot.hinges.empty()) {
+      robot.static_tip_rad = StaticTip(robot, none);
+      return;
+    }
+    for (std::size_t k = 0; k < block_bodies_.size(); ++k) {
+      std::vector<Vec2> points;
+      for (int g = 0; g < m_->ngeom; ++g)
+        if (Collides(g) && m_->geom_bodyid[g] == block_bodies_[k])
+          for (const Vec3& p : SurfacePoints(g)) points.push_back(p.head<2>());
+      const Polygon outline = ConvexHull(points);
+      if (outline.size() < 3) Refuse("hinges", "every block needs a geom that collides");
+      Vec2 centre = Vec2::Zero();
+      for (const Vec2& p : outline) centre += p / static_cast<double>(outline.size());
+      const char* name = mj_id2name(m_, mjOBJ_BODY, block_bodies_[k]);
+      if (name == nullptr) Refuse("hinges", "every block's body needs a name");
+      robot.blocks.push_back({name, outline, centre});
+    }
+    const auto names = Words("shapes");
+    if (names.empty()) Refuse("shapes", "a robot with hinges needs its shapes' names");
+    for (const auto& name : names) robot.shapes.push_back(ReadShape(robot, name));
+    for (std::size_t h = 0; h < robot.hinges.size(); ++h)
+      if (std::abs(robot.shapes[0].hinge_rad[h] - robot.hinges[h].model_rad) > 1e-6)
+        Refuse("shape_" + names[0], "the first shape must be the one that the model stands in");
+    robot.static_tip_rad = robot.shapes[0].static_tip_rad;
+  }
+
+  ShapeSpec ReadShape(const RobotSpec& robot, const std::string& name) const {
+    ShapeSpec shape;
+    shape.name = name;
+    const std::string key = "shape_" + name;
+    const int id = mj_name2id(m_, mjOBJ_NUMERIC, key.c_str());
+    if (id < 0 || m_->numeric_size[id] != static_cast<int>(robot.hinges.size()))
+      Refuse(key, "must be under <custom>, with an angle in degrees for each of the hinges");
+    for (std::size_t h = 0; h < robot.hinges.size(); ++h) {
+      const HingeSpec& hinge = robot.hinges[h];
+      shape.hinge_rad.push_back(m_->numeric_data[m_->numeric_adr[id] + static_cast<int>(h)] * kPi /
+                                180);
+      if (shape.hinge_rad[h] < hinge.min_rad || shape.hinge_rad[h] > hinge.max_rad)
+        Refuse(key, "lies beyond the range of " + hinge.name);
+    }
+    shape.footprint_B = Footprint(robot.blocks, robot.hinges, shape.hinge_rad);
+    shape.static_tip_rad = StaticTip(robot, shape.hinge_rad);
+    return shape;
+  }
+
   // Least angle about an edge of the hull of the points that carry the robot: atan(d / h) with d
   // from the edge to the centre of mass, seen from above, and h its height.
-  double StaticTip(const RobotSpec& robot) const {
+  double StaticTip(const RobotSpec& robot, const std::vector<double>& hinge_rad) const {
+    const BlockMotions blocks = MoveBlocks(robot.blocks, robot.hinges, AtRest(hinge_rad));
     std::vector<Vec2> carriers;
     for (int g = 0; g < m_->ngeom; ++g) {
-      if (!Collides(g) || m_->geom_bodyid[g] == base_) continue;
+      if (!Collides(g) || Carried(g)) continue;
+      const Pose2& X_BK = blocks.block[static_cast<std::size_t>(BlockOf(m_->geom_bodyid[g]))].X_BK;
       const auto points = SurfacePoints(g);
       const auto lowest = std::ranges::min_element(points, {}, [](const Vec3& p) { return p.z(); });
       for (const auto& p : points)
-        if (p.z() < lowest->z() + 1e-4) carriers.push_back(p.head<2>());
+        if (p.z() < lowest->z() + 1e-4) carriers.push_back(X_BK * Vec2(p.head<2>()));
     }
     const Polygon hull = ConvexHull(carriers);
     if (hull.size() < 3)
       Refuse("wheels", "wheels and casters must support the robot on three points");
-    const double d = -SignedDistance(hull, robot.p_BCom.head<2>());
+    Vec3 com = Vec3::Zero();
+    for (int b = base_; b < m_->nbody; ++b) {
+      const Vec3 p = InBase(data_->xipos + 3 * b);
+      const Vec2 moved =
+          blocks.block[static_cast<std::size_t>(BlockOf(b))].X_BK * Vec2(p.head<2>());
+      com += m_->body_mass[b] / robot.mass_kg * Vec3(moved.x(), moved.y(), p.z());
+    }
+    const double d = -SignedDistance(hull, com.head<2>());
     if (d <= 0) Refuse("base", "the centre of mass lies outside the wheels' support");
-    return std::atan2(d, robot.p_BCom.z());
+    return std::atan2(d, com.z());
   }
 
   const mjModel* m_;
   std::string file_;
   DataPtr data_;
   int base_ = -1;
+  std::vector<int> block_bodies_;  // the base first
 };
+
+// Clear shape, tool, radii, wheels and all that hangs on the shape, as at the start.
+void TakeShape(RobotSpec& robot, const std::vector<ShapeSpec>& shapes, int index) {
+  robot.shapes = shapes;
+  robot.shape = 0;
+  robot.tool_width_m = ToolWidth(robot, index);
+  robot.shape = index;
+  const ShapeSpec& shape = shapes[static_cast<std::size_t>(index)];
+  robot.static_tip_rad = shape.static_tip_rad;
+  robot.inscribed_radius_m = -SignedDistance(shape.footprint_B, Vec2::Zero());
+  robot.circumscribed_radius_m = 0;
+  for (const Vec2& p : shape.footprint_B)
+    robot.circumscribed_radius_m = std::max(robot.circumscribed_radius_m, p.norm());
+  for (Shape2* part : {&robot.clear, &robot.tool})
+    if (part->kind == Shape2::Kind::kFootprint) part->footprint_B = shape.footprint_B;
+  if (robot.clear.kind == Shape2::Kind::kCircle)
+    robot.clear.radius_m = robot.circumscribed_radius_m;
+  const BlockMotions blocks = MoveBlocks(robot.blocks, robot.hinges, AtRest(shape.hinge_rad));
+  if (robot.hinges.empty()) return;
+  for (WheelSpec& wheel : robot.wheels) {
+    const Pose2& X_BK = blocks.block[static_cast<std::size_t>(wheel.block)].X_BK;
+    wheel.p_BW.head<2>() = X_BK * Vec2(wheel.p_BW.head<2>());
+    wheel.yaw_rad = WrapAngle(wheel.yaw_rad + X_BK.yaw_rad);
+  }
+}
 
 }  // namespace
 
@@ -252,7 +415,8 @@ std::filesystem::path FindRobotFile(const std::string& name_or_path, const Sourc
                    rule + " (a name of `list robots`, or an .xml file)");
 }
 
-RobotModel ReadRobot(const std::filesystem::path& file, const RobotChanges& changes) {
+RobotModel ReadRobot(const std::filesystem::path& file, const RobotChanges& changes,
+                     Blocks blocks) {
   CheckMjcf(file);
   char error[1000] = "";
   RobotModel out;
@@ -266,7 +430,35 @@ RobotModel ReadRobot(const std::filesystem::path& file, const RobotChanges& chan
   };
   out.robot = read();
   if (ChangeRobot(out.spec.get(), out.robot, changes)) out.robot = read();
+
+  const int shape = changes.shape.empty() ? 0 : FindShape(out.robot, changes.shape);
+  if (shape < 0) RefuseShape(out.robot, {file.string(), 0}, "shape", changes.shape);
+  if (out.robot.shapes.empty()) return out;
+  const std::vector<ShapeSpec> shapes = out.robot.shapes;
+  if (blocks == Blocks::kLocked) {
+    LockBlocks(out.spec.get(), out.robot, shapes[static_cast<std::size_t>(shape)]);
+    std::vector<BlockSpec> locked = std::move(out.robot.blocks);
+    out.robot = read();
+    out.robot.blocks = std::move(locked);
+  }
+  TakeShape(out.robot, shapes, shape);
   return out;
+}
+
+void RefuseShape(const RobotSpec& robot, const SourceMark& mark, std::string_view key,
+                 std::string_view shape) {
+  if (robot.shapes.empty())
+    throw InputError(mark, key, shape, "the robot " + robot.name + " does not change its shape");
+  std::string known;
+  for (const ShapeSpec& s : robot.shapes) known += (known.empty() ? "" : ", ") + s.name;
+  throw InputError(mark, key, shape, "unknown shape (known: " + known + ")");
+}
+
+bool IsChassis(const mjModel* model, int body, const RobotSpec& robot) {
+  const char* name = mj_id2name(model, mjOBJ_BODY, body);
+  if (name == nullptr) return false;
+  return name == std::string_view("base") ||
+         std::ranges::find(robot.blocks, name, &BlockSpec::name) != robot.blocks.end();
 }
 
 }  // namespace floorproof

@@ -31,9 +31,21 @@ struct RobotModel {
   RobotSpec robot;
 };
 
+// Whether a reconfigurable robot can change its shape, or is one rigid body in the shape it has.
+enum class Blocks { kLocked, kHinged };
+
 // Reads and checks a robot. Conventions (docs/adding-a-robot.md): one body `base` with a free
 // joint; one actuator a driven wheel, on a hinge whose body carries the wheel's cylinder; text and
-// numbers under <custom>. Throws InputError naming the file and what is missing.
-RobotModel ReadRobot(const std::filesystem::path& file, const RobotChanges& changes = {});
+// numbers under <custom>; of a reconfigurable robot also hinges between blocks. Throws InputError
+// naming the file and what is missing.
+RobotModel ReadRobot(const std::filesystem::path& file, const RobotChanges& changes = {},
+                     Blocks blocks = Blocks::kLocked);
+
+// Throws InputError that names the shapes there are.
+[[noreturn]] void RefuseShape(const RobotSpec& robot, const SourceMark& mark, std::string_view key,
+                              std::string_view shape);
+
+// Whether the body belongs to the robot's chassis: the base, or a block. Wheels and casters do not.
+bool IsChassis(const mjModel* model, int body, const RobotSpec& robot);
 
 }  // namespace floorproof

@@ -320,7 +320,7 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
         m->geom_contype[g] != 0 || m->geom_conaffinity[g] != 0 || RollersOf(m, g).radius_m > 0;
     if (body == 0 || !touches) continue;
     scene.roles[static_cast<std::size_t>(g)].kind =
-        body == scene.base_body ? GeomRole::Kind::kBody : GeomRole::Kind::kWheel;
+        IsChassis(m, body, robot.robot) ? GeomRole::Kind::kBody : GeomRole::Kind::kWheel;
   }
   for (const auto& [geom, role] : builder.added) {
     scene.roles[static_cast<std::size_t>(mjs_getId(geom->element))] = role;

@@ -32,7 +32,12 @@ double MotorPower(double torque_nm, double speed_radps, double resistance_ohm, d
 Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec& robot)
     : scene_(scene), map_(map), robot_(robot), data_(MakeData(scene.model.get())) {
   const mjModel* m = model();
-  for (int a = 0; a < m->nu; ++a) {
+  for (const HingeSpec& hinge : robot.hinges) {
+    const int joint = m->actuator_trnid[2 * mj_name2id(m, mjOBJ_ACTUATOR, hinge.name.c_str())];
+    hinge_qpos_.push_back(m->jnt_qposadr[joint]);
+    hinge_dof_.push_back(m->jnt_dofadr[joint]);
+  }
+  for (int a = 0; a < static_cast<int>(robot.wheels.size()); ++a) {
     const int body = m->jnt_bodyid[m->actuator_trnid[2 * a]];
     wheel_bodies_.push_back(body);
     double half_width = 0;
@@ -47,8 +52,12 @@ Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec
 
 void Simulation::Place(const Pose2& X_WB) {
   mjtNum* q = data_->qpos + model()->jnt_qposadr[model()->body_jntadr[scene_.base_body]];
-  q[0] = X_WB.x_m;
-  q[1] = X_WB.y_m;
+  const HingeState start = StartState(robot_);
+  for (std::size_t h = 0; h < hinge_qpos_.size(); ++h) data_->qpos[hinge_qpos_[h]] = start.rad[h];
+  ReadHinges();
+  const Vec2 p_WR = X_WB * Vec2(-blocks_.p_RB);
+  q[0] = p_WR.x();
+  q[1] = p_WR.y();
   q[3] = std::cos(X_WB.yaw_rad / 2);
   q[4] = q[5] = 0;
   q[6] = std::sin(X_WB.yaw_rad / 2);
@@ -89,6 +98,23 @@ bool Simulation::Step() {
          std::isfinite(sample_.v_WB_W.sum());
 }
 
+void Simulation::SetHingeSpeeds(const HingeState& hinges) {
+  std::copy_n(hinges.radps.begin(), hinge_dof_.size(), data_->ctrl + robot_.wheels.size());
+}
+
+void Simulation::ReadHinges() {
+  constexpr double kInShape_rad = 0.05;  // play within which the hinges count as in a shape
+  sample_.shape = robot_.shape;
+  if (hinge_dof_.empty()) return;
+  sample_.hinges.n = static_cast<int>(hinge_dof_.size());
+  for (std::size_t h = 0; h < hinge_dof_.size(); ++h) {
+    sample_.hinges.rad[h] = data_->qpos[hinge_qpos_[h]];
+    sample_.hinges.radps[h] = data_->qvel[hinge_dof_[h]];
+  }
+  sample_.shape = ShapeOf(robot_, sample_.hinges, kInShape_rad);
+  blocks_ = MoveBlocks(robot_.blocks, robot_.hinges, sample_.hinges);
+}
+
 void Simulation::ReadPose() {
   // qpos and qvel are the state after the step; xpos and the like are from before it. The free
   // joint's linear velocity is in the world frame, its angular velocity in the body's.
@@ -99,19 +125,26 @@ void Simulation::ReadPose() {
   const mjtNum* v = d->qvel + m->jnt_dofadr[joint];
   mjtNum R[9];
   mju_quat2Mat(R, q + 3);
+  ReadHinges();
   sample_.t_s = d->time;
-  sample_.p_WB = {q[0], q[1], q[2]};
   sample_.roll_rad = std::atan2(R[7], R[8]);
   sample_.pitch_rad = std::asin(std::clamp(-R[6], -1.0, 1.0));
   sample_.yaw_rad = std::atan2(R[3], R[0]);
   sample_.tilt_rad = std::acos(std::clamp(R[8], -1.0, 1.0));
-  sample_.v_WB_W = {v[0], v[1], v[2]};
-  mjtNum v_B[3];
-  mju_mulMatTVec3(v_B, R, v);
-  sample_.V_WB_B = {v_B[0], v_B[1], v[5]};
   mjtNum w_W[3];
   mju_mulMatVec3(w_W, R, v + 3);
   w_W_ = {w_W[0], w_W[1], w_W[2]};
+  // From the base block's frame R to B, which moves against it as the hinges turn.
+  const mjtNum p_RB[3] = {blocks_.p_RB.x(), blocks_.p_RB.y(), 0};
+  const mjtNum v_RB[3] = {blocks_.v_RB.x(), blocks_.v_RB.y(), 0};
+  mjtNum arm_W[3], slide_W[3], v_B[3];
+  mju_mulMatVec3(arm_W, R, p_RB);
+  mju_mulMatVec3(slide_W, R, v_RB);
+  sample_.p_WB = Vec3(q[0], q[1], q[2]) + Vec3(arm_W[0], arm_W[1], arm_W[2]);
+  sample_.v_WB_W = Vec3(v[0], v[1], v[2]) + w_W_.cross(Vec3(arm_W[0], arm_W[1], arm_W[2])) +
+                   Vec3(slide_W[0], slide_W[1], slide_W[2]);
+  mju_mulMatTVec3(v_B, R, sample_.v_WB_W.data());
+  sample_.V_WB_B = {v_B[0], v_B[1], v[5]};
 
   double lowest = 1e9;
   for (std::size_t w = 0; w < wheel_bodies_.size(); ++w) {

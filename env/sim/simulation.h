@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "env/core/blocks.h"
 #include "env/core/motion.h"
 #include "env/core/robot_spec.h"
 #include "env/scene/scene.h"
@@ -20,6 +21,8 @@ class Simulation {
   void Reset(const Pose2& X_WB);
   // Speeds that the wheels' motor drivers hold from now on, rad/s, RobotSpec's order.
   void SetWheelSpeeds(std::span<const double> wheel_radps);
+  // The same for the motors of the hinges: the rates alone count.
+  void SetHingeSpeeds(const HingeState& hinges);
   // One physics step; false when the state diverged (MuJoCo warned, or a number is not finite):
   // the simulation is over then, an `error`. Allocates nothing. Throws InternalError when the
   // engine itself fails.
@@ -33,6 +36,7 @@ class Simulation {
 
  private:
   void Place(const Pose2& X_WB);
+  void ReadHinges();
   void ReadPose();
   void ReadContacts();
   void ReadPower();
@@ -48,6 +52,8 @@ class Simulation {
   Sample sample_;
   std::vector<int> wheel_bodies_;  // of the driven wheels, in actuator order
   std::vector<double> wheel_half_width_m_;
+  std::vector<int> hinge_qpos_, hinge_dof_;  // addresses of the hinges' joints
+  BlockMotions blocks_;                      // of a robot with hinges; else at rest
   Vec2 lowest_wheel_W_ = Vec2::Zero();
   Vec3 last_v_W_ = Vec3::Zero();                       // of the body's origin, before the step
   Vec3 w_W_ = Vec3::Zero(), last_w_W_ = Vec3::Zero();  // angular velocity, after and before it

@@ -24,8 +24,8 @@ RobotChanges Wrong(RobotChanges changes, const RobotSpec& robot, const WrongMode
 
 Rig::Rig(const std::string& robot_name, RigOptions options) {
   const auto file = FindRobotFile(robot_name, {});
-  true_robot_ = ReadRobot(file, options.changes).robot;
-  model_ = ReadRobot(file, Wrong(options.changes, true_robot_, options.wrong));
+  true_robot_ = ReadRobot(file, options.changes, options.blocks).robot;
+  model_ = ReadRobot(file, Wrong(options.changes, true_robot_, options.wrong), options.blocks);
   drive_ = MakePlugin(Drives(), true_robot_.drive, "drive");
   drive_->Configure(true_robot_);
   Build(std::move(options));
@@ -56,9 +56,10 @@ void Rig::Build(RigOptions options) {
   sim_->Reset({});
 }
 
-void Rig::Command(const BodyTwist& twist) {
-  drive_->ToWheels(twist, wheel_radps_);
+void Rig::Command(const BodyTwist& twist, const HingeState& hinges) {
+  drive_->ToWheels(twist, hinges, wheel_radps_);
   sim_->SetWheelSpeeds(wheel_radps_);
+  sim_->SetHingeSpeeds(hinges);
 }
 
 void Rig::CommandWheels(double wheel_radps) {
@@ -69,7 +70,7 @@ void Rig::CommandWheels(double wheel_radps) {
 void Rig::Brake() {
   constexpr double kHold_nm = 1000;
   mjModel* m = scene_.model.get();
-  for (int a = 0; a < m->nu; ++a)
+  for (int a = 0; a < static_cast<int>(true_robot_.wheels.size()); ++a)
     m->dof_frictionloss[m->jnt_dofadr[m->actuator_trnid[2 * a]]] = kHold_nm;
 }
 

@@ -28,6 +28,7 @@ struct RigOptions {
   PhysicsParams physics = {};
   std::vector<Hazard> hazards = {};  // solids on the floor; ids and materials as in a site
   RobotChanges changes = {};
+  Blocks blocks = Blocks::kLocked;
   double friction = 0.8;
   WrongModel wrong = {};
 };
@@ -40,8 +41,8 @@ class Rig {
   // caller's affair.
   explicit Rig(RobotModel body, RigOptions options = {});
 
-  // Wheel speeds for this twist from now on.
-  void Command(const BodyTwist& twist);
+  // Wheel and hinge speeds for this motion from now on; hinges that are not mentioned hold still.
+  void Command(const BodyTwist& twist, const HingeState& hinges = {});
   // The same speed for every wheel from now on: a body of one's own.
   void CommandWheels(double wheel_radps);
   // Holds every driven wheel still by dry friction in its bearing, far above what the floor gives.

@@ -48,9 +48,13 @@ Shape2 Grown(const Shape2& shape, double margin_m) {
     grown.radius_m += margin_m;
     return grown;
   }
-  const double inscribed_m = -SignedDistance(shape.footprint_B, Vec2::Zero());
-  for (Vec2& corner : grown.footprint_B) corner *= 1 + margin_m / inscribed_m;
+  grown.footprint_B = Offset(shape.footprint_B, margin_m);
   return grown;
+}
+
+Shape2 Turned(Shape2 shape, double yaw_rad) {
+  for (Vec2& corner : shape.footprint_B) corner = Pose2{0, 0, yaw_rad}.Rotate(corner);
+  return shape;
 }
 
 std::string WhyNothing(const PlanRequest& request, const SweepArea& area, const Shape2& clear,
@@ -163,8 +167,23 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
     result.tool = {Shape2::Kind::kCircle, *tool_width_m_ / 2, {}};
     result.tool_width_m = *tool_width_m_;
   }
-  SweepArea area = ComputeSweepArea(request.map, result.clear, result.tool, request.robot.step_m,
-                                    request.start.p());
+  const bool circle = result.clear.kind == Shape2::Kind::kCircle;
+  if (!circle && !IsConvex(result.clear.footprint_B)) {
+    result.message =
+        "the robot's footprint is not convex; it can be driven along a plan of your "
+        "own, or planned for in a convex shape";
+    return result;
+  }
+  // The yaw that is held: the start's, to the next of the map's quarters. A footprint that looks
+  // the same at all of them may be turned; another is planned for at this one alone.
+  const double map_yaw = request.map.frame.X_WG.yaw_rad, quarter = kPi / 2;
+  const double turned = std::round((request.start.yaw_rad - map_yaw) / quarter) * quarter;
+  const bool one_yaw = !circle && !LooksTheSameTurned(result.clear.footprint_B);
+  const Yaws yaws = one_yaw ? Yaws::kFirst : Yaws::kQuarters;
+  const Shape2 clear = one_yaw ? Turned(result.clear, turned) : result.clear;
+  const Shape2 tool = one_yaw ? Turned(result.tool, turned) : result.tool;
+  SweepArea area =
+      ComputeSweepArea(request.map, clear, tool, request.robot.step_m, request.start.p(), yaws);
   if (area.sweepable_cells == 0) {
     const bool fits = std::find(area.reachable.cells.begin(), area.reachable.cells.end(), 1) !=
                       area.reachable.cells.end();
@@ -172,20 +191,13 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
     result.message = WhyNothing(request, area, result.clear, fits);
     return result;
   }
-  if (result.clear.kind == Shape2::Kind::kFootprint &&
-      !LooksTheSameTurned(result.clear.footprint_B)) {
-    result.message =
-        "the robot's footprint changes when it turns by 90 deg; planned is one yaw only";
-    return result;
-  }
   // Room for the tracker's error, as long as no more than a little of the floor is lost to it: half
   // the margin, or none, where it would close a door.
-  const bool circle = result.clear.kind == Shape2::Kind::kCircle;
   double margin_m = margin_m_.value_or(radius_m_ ? 0.0 : (circle ? kMargin_m : kFootprintMargin_m));
   double shortfall = 0;
   for (; margin_m > 0; margin_m = margin_m > kMargin_m / 4 ? margin_m / 2 : 0) {
-    SweepArea roomy = ComputeSweepArea(request.map, Grown(result.clear, margin_m), result.tool,
-                                       request.robot.step_m, request.start.p());
+    SweepArea roomy = ComputeSweepArea(request.map, Grown(clear, margin_m), tool,
+                                       request.robot.step_m, request.start.p(), yaws);
     const double lost =
         1 - static_cast<double>(roomy.sweepable_cells) / static_cast<double>(area.sweepable_cells);
     if (lost > kMostLost) continue;
@@ -194,15 +206,12 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
     break;
   }
   result.figures.push_back({"margin_m", margin_m});
-  const Floor floor =
-      CropFloor(area, Grown(result.clear, margin_m), result.tool, result.tool_width_m, overlap_);
+  const Floor floor = CropFloor(area, Grown(clear, margin_m), tool, result.tool_width_m, overlap_);
   const Polyline path = Sweep(floor, floor.ToCells(request.start.p()), shortfall, result.figures);
-  const double map_yaw = floor.frame.X_WG.yaw_rad, quarter = kPi / 2;
-  const double turned = std::round((request.start.yaw_rad - map_yaw) / quarter) * quarter;
   for (const Vec2& p : path) {
     Waypoint w;
     w.p_W = floor.ToWorld(p);
-    if (result.clear.kind == Shape2::Kind::kFootprint) w.yaw_rad = WrapAngle(map_yaw + turned);
+    if (!circle) w.yaw_rad = WrapAngle(map_yaw + turned);
     result.path.push_back(w);
   }
   result.status = PlanStatus::kSuccess;

@@ -109,7 +109,7 @@ Driven DriveAlong(Tracker& dut, const Path& path, const DriveOptions& options,
     const double t_s = period * options.control_s;
     if (t_s > options.time_limit_s) return driven;
     if (options.push) options.push(t_s, X_WB);
-    const Command command = dut.Update({X_WB, drive->ToTwist(wheels)}, t_s, options.control_s);
+    const Command command = dut.Update({X_WB, drive->ToTwist(wheels), {}}, t_s, options.control_s);
     Driven::Step step{t_s, X_WB, command.twist, command.segment, command.dwelling, 0};
     if (!path.empty())
       step.cross_track_m =

@@ -183,6 +183,39 @@ TEST_P(Both, AFootprintIsKeptClearAndCovers) {
   EXPECT_GE(testing::LeastClearance(map, plan.path, 0.3), 0.25 - 0.03 - 0.025);
 }
 
+// A footprint that is long one way is planned for at the yaw that it starts with, and held there.
+TEST_P(Both, ALongFootprintKeepsItsYaw) {
+  const HazardMap map = EmptyFloor(12, 10, 0.5);
+  RobotSpec robot = DiscRobot(0.25, 0.25);
+  robot.clear = robot.tool = {Shape2::Kind::kFootprint, 0, Rectangle({-0.5, -0.125}, {0.5, 0.125})};
+  for (const double yaw_rad : {0.0, kPi / 2}) {
+    const Pose2 start{3, 2.5, yaw_rad};
+    const PlanResult plan = MakePlanner(GetParam())->Plan({map, robot, start, std::nullopt, 1});
+    ASSERT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
+    EXPECT_GE(Coverage(map, robot, start, plan), 0.95);
+    const bool along_y = yaw_rad > 0;
+    for (const Waypoint& w : plan.path) {
+      ASSERT_TRUE(w.yaw_rad.has_value());
+      EXPECT_NEAR(*w.yaw_rad, yaw_rad, 1e-12);
+      const double half_x = along_y ? 0.125 : 0.5, half_y = along_y ? 0.5 : 0.125;
+      EXPECT_GE(std::min(w.p_W.x(), 6 - w.p_W.x()), half_x - 0.026) << "clear of the walls";
+      EXPECT_GE(std::min(w.p_W.y(), 5 - w.p_W.y()), half_y - 0.026);
+    }
+  }
+}
+
+TEST_P(Both, AFootprintWithANotchIsRefused) {
+  RobotSpec robot = DiscRobot(0.25, 0.25);
+  robot.clear =
+      robot.tool = {Shape2::Kind::kFootprint,
+                    0,
+                    {{-0.5, -0.25}, {0.5, -0.25}, {0.5, 0.25}, {0, 0.25}, {0, 0}, {-0.5, 0}}};
+  const PlanResult plan =
+      MakePlanner(GetParam())->Plan({EmptyFloor(12, 10, 0.5), robot, {3, 2.5, 0}, std::nullopt, 1});
+  EXPECT_NE(plan.status, PlanStatus::kSuccess);
+  EXPECT_NE(plan.message.find("not convex"), std::string::npos) << plan.message;
+}
+
 TEST_P(Both, AHugeMostlyUnknownMapIsNoHardship) {
   HazardMap map;
   map.frame = {2000, 2000, 0.05, {}};

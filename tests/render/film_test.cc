@@ -101,8 +101,9 @@ Recording Drive(Room& room) {
   for (int i = 0; i <= 50 * 12; ++i) {
     const double t = i / 50.0;
     const double fall = std::clamp((t - 10) / 1.5, 0.0, 1.0);
-    room.Put({-1.4 + 0.2 * std::min(t, 11.0), -0.5, 0}, 0.04 * fall, -1.3 * fall * fall);
-    recording.Add(t, room.data()->qpos, t / 40);
+    const Pose2 X_WB{-1.4 + 0.2 * std::min(t, 11.0), -0.5, 0};
+    room.Put(X_WB, 0.04 * fall, -1.3 * fall * fall);
+    recording.Add(t, room.data()->qpos, {X_WB.x_m, X_WB.y_m, 0.04 * fall}, 0.3, t / 40);
   }
   return recording;
 }
@@ -124,7 +125,6 @@ class FilmTest : public ::testing::Test {
     script_.title = "box robot in a room";
     script_.set = room_->Set();
     script_.plan = &plan_;
-    script_.tool_width_m = 0.3;
     options_.width = 320;
     options_.height = 180;
     options_.pace.max_frames = 40;
