@@ -156,9 +156,11 @@ class SceneBuilder {
     geom->condim = 3;
     geom->priority = 1;  // what is met rules over the robot's own friction and softness
     geom->friction[0] = friction;
-    const ContactSoftness softness = kind == GeomRole::Kind::kFloor
-                                         ? ContactSoftness{kTimeConstant_s, 1}
-                                         : SoftnessFor(restitution, spec_->option.timestep);
+    const ContactSoftness softness =
+        kind == GeomRole::Kind::kFloor
+            ? ContactSoftness{kTimeConstant_s, 1}
+            : SoftnessFor(restitution,
+                          {spec_->option.timestep, spec_->option.integrator == mjINT_DISCRETE});
     geom->solref[0] = softness.time_constant_s;
     geom->solref[1] = softness.damping_ratio;
     std::copy(std::begin(kSolimp), std::end(kSolimp), geom->solimp);

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// A livelier pane throws a robot back faster, so does a faster approach; a dead one throws nothing
+// back.
+#include "env/validate/bounce_chart.h"
+
+#include <gtest/gtest.h>
+
+namespace floorproof {
+namespace {
+
+TEST(BounceChart, MovesWithRestitutionAndSpeed) {
+  const auto rows = BounceChart(1);
+  ASSERT_FALSE(rows.empty());
+  for (const BounceRow& row : rows) {
+    const auto like = [&](double restitution, double speed_mps) {
+      for (const BounceRow& other : rows)
+        if (other.robot == row.robot && other.mass_kg == row.mass_kg &&
+            other.restitution == restitution && other.speed_mps == speed_mps)
+          return other.rebound_mps;
+      ADD_FAILURE() << "no such row";
+      return 0.0;
+    };
+    SCOPED_TRACE(BounceCsv({&row, 1}));
+    EXPECT_NEAR(row.closing_mps, row.speed_mps, 0.02);
+    if (row.restitution == 0) {
+      EXPECT_FALSE(row.bounce_back);
+    }
+    if (row.restitution >= 0.5) {
+      EXPECT_TRUE(row.bounce_back);
+      EXPECT_GT(row.rebound_mps, like(0, row.speed_mps));
+    }
+    if (row.restitution >= 0.3 && row.speed_mps > 0.3) {
+      EXPECT_GT(row.rebound_mps, like(row.restitution, 0.1));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace floorproof
