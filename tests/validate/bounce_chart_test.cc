@@ -25,10 +25,15 @@ TEST(BounceChart, MovesWithRestitutionAndSpeed) {
     EXPECT_NEAR(row.closing_mps, row.speed_mps, 0.02);
     dead += row.restitution == 0;
     dead_reported += row.restitution == 0 && row.bounce_back;
-    if (row.restitution >= 0.3) EXPECT_TRUE(row.bounce_back);
-    if (row.restitution >= 0.5) EXPECT_GT(row.rebound_mps, like(0.1, row.speed_mps));
-    if (row.restitution >= 0.5 && row.speed_mps > 0.3)
+    if (row.restitution >= 0.3) {
+      EXPECT_TRUE(row.bounce_back);
+    }
+    if (row.restitution >= 0.5) {
+      EXPECT_GT(row.rebound_mps, like(0.1, row.speed_mps));
+    }
+    if (row.restitution >= 0.5 && row.speed_mps > 0.3) {
       EXPECT_GT(row.rebound_mps, like(row.restitution, 0.1));
+    }
     EXPECT_LT(row.rebound_mps, row.closing_mps);
   }
   EXPECT_LT(dead_reported, dead / 4) << "a dead pane throws hardly anything back";
