@@ -28,7 +28,7 @@ TEST(BounceChart, MovesWithRestitutionAndSpeed) {
     if (row.restitution >= 0.3) {
       EXPECT_TRUE(row.bounce_back);
     }
-    if (row.restitution >= 0.5) {
+    if (row.restitution >= 0.5 && row.speed_mps > 0.1) {  // slower ones pitch at the pane
       EXPECT_GT(row.rebound_mps, like(0.1, row.speed_mps));
     }
     if (row.restitution >= 0.5 && row.speed_mps > 0.3) {
