@@ -8,10 +8,12 @@ namespace floorproof {
 namespace {
 
 // T zeta where nothing asks for more: sound at steps of 1-5 ms (docs/physics.md).
-constexpr double kStiffness_s = 0.01, kSoftest_s = 0.5;
+constexpr double kStiffness_s = 0.01;
+// A softer contact lasts so long that a robot which drives on is thrown back faster than it came.
+constexpr double kSoftest_s = 0.02;
 // Dead enough for no bounce to be seen; more would make the contact soft.
 constexpr double kDead = 3;
-constexpr double kLeastRatio = 0.02;
+constexpr double kLeastRatio = 0.005;
 constexpr double kLiveliest = 0.95;
 
 ContactSoftness Softness(double stiffness_s, double damping_ratio) {

@@ -49,7 +49,7 @@ std::vector<BounceRow> BounceChart(int jobs) {
   std::vector<BounceRow> rows;
   for (const char* robot : {"beluga", "htetro"}) {
     const double mass_kg = ReadRobot(FindRobotFile(robot, {})).robot.mass_kg;
-    for (const double restitution : {0.0, 0.1, 0.3, 0.5, 0.7, 0.9})
+    for (const double restitution : {0.0, 0.1, 0.3, 0.5, 0.7})
       for (const double speed_mps : {0.1, 0.2, 0.3, 0.4})
         for (const double share : {0.5, 1.0, 2.0}) {
           BounceRow row;

@@ -18,7 +18,7 @@ struct BounceRow {
   bool bounce_back = false;  // the detector's word, with its defaults
 };
 
-// Both robots; restitution 0-0.9, 0.1-0.4 m/s, half, whole and twice the mass; on `jobs` threads,
+// Both robots; restitution 0-0.7, 0.1-0.4 m/s, half, whole and twice the mass; on `jobs` threads,
 // in this order whatever finishes first.
 std::vector<BounceRow> BounceChart(int jobs);
 

