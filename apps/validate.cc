@@ -7,6 +7,7 @@
 #include "apps/ladder.h"
 #include "env/core/interrupt.h"
 #include "env/run/file_output.h"
+#include "env/validate/bounce_chart.h"
 #include "env/validate/law.h"
 
 namespace floorproof {
@@ -31,7 +32,10 @@ int CheckAllLaws(const fs::path& folder, const Globals& globals, nlohmann::order
   const auto results =
       CheckLaws(Cores(), [&](const LawResult& result) { SayLaw(result, globals); });
   if (Interrupted()) return 0;
+  const auto bounces = BounceChart(Cores());
+  if (Interrupted()) return 0;
   WriteFileWhole(folder / "validate.csv", ValidateCsv(results));
+  WriteFileWhole(folder / "bounce.csv", BounceCsv(bounces));
   int rows = 0, failed = 0;
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const auto& result : results)

@@ -26,6 +26,15 @@ double MotorPower(double torque_nm, double speed_radps, double resistance_ohm, d
   return std::max(0.0, current * (resistance_ohm * current + constant * speed_radps));
 }
 
+double DriveTorque(const VelocityDrive& drive, double command_radps, double speed_radps) {
+  const double emf = drive.constant * speed_radps;
+  double volt =
+      drive.resistance_ohm / drive.constant * drive.gain * (command_radps - speed_radps) + emf;
+  if (drive.voltage_v > 0) volt = std::clamp(volt, -drive.voltage_v, drive.voltage_v);
+  const double torque = drive.constant * (volt - emf) / drive.resistance_ohm;
+  return drive.torque_nm > 0 ? std::clamp(torque, -drive.torque_nm, drive.torque_nm) : torque;
+}
+
 BatteryInUse::BatteryInUse(const Battery& battery) : battery_(battery) {
   constexpr double kUsual_v = 12;
   if (!battery_.voltage_v) battery_.voltage_v = kUsual_v;

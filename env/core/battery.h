@@ -35,6 +35,16 @@ BatteryOutput Feed(double voltage_v, double resistance_ohm, double load_w);
 // omega; v i, and nothing comes back when braking.
 double MotorPower(double torque_nm, double speed_radps, double resistance_ohm, double constant);
 
+// A motor whose driver holds a speed: MuJoCo's `dcmotor` with a velocity input.
+struct VelocityDrive {
+  double resistance_ohm = 0, constant = 0;  // R; K, at the joint
+  double gain = 0;                          // N m s/rad
+  double voltage_v = 0;                     // most that the driver gives; 0: no limit
+  double torque_nm = 0;                     // most that it lets pass; 0: no limit
+};
+// The torque, N m, at the joint: gain (command - speed), as far as the voltage and the limit allow.
+double DriveTorque(const VelocityDrive& drive, double command_radps, double speed_radps);
+
 // A battery in use. Once its capacity is drawn it cuts off: no voltage, no current, from then on.
 class BatteryInUse {
  public:

@@ -27,7 +27,7 @@ struct HingeState {
 struct Estimate {
   Pose2 X_WB;
   BodyTwist V_WB_B;
-  HingeState hinges;  // as their encoders say
+  HingeState hinges = {};  // as their encoders say
 };
 
 // What a tracker asks for, and how far along the path it is (monotone).

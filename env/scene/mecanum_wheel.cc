@@ -146,13 +146,15 @@ void InflateWheelBounds(mjModel* model) {
   }
 }
 
-void PairWheel(mjSpec* spec, const mjsGeom* wheel, const mjsGeom* other, double mu) {
+void PairWheel(mjSpec* spec, const mjsGeom* wheel, const mjsGeom* other, double mu,
+               double mu_across) {
   mjsPair* pair = mjs_addPair(spec, nullptr);
   mjs_setString(pair->geomname1, mjs_getString(mjs_getName(wheel->element)));
   mjs_setString(pair->geomname2, mjs_getString(mjs_getName(other->element)));
   pair->condim = 3;
-  // The second must be 0: at 0.005 already wheels chatter (MuJoCo raises it to 1e-5).
-  const double friction[5] = {mu, 0, 0, 0, 0};
+  // The second of an ideal wheel must be 0: at 0.005 already wheels chatter (MuJoCo raises it to
+  // 1e-5).
+  const double friction[5] = {mu, mu_across, 0, 0, 0};
   std::copy(std::begin(friction), std::end(friction), pair->friction);
   std::copy(std::begin(other->solref), std::end(other->solref), pair->solref);
   // MuJoCo's convex contacts press harder where that lets friction stop a slip sooner: with the

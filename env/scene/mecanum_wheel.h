@@ -33,7 +33,9 @@ void InstallWheelCollider();
 void InflateWheelBounds(mjModel* model);
 
 // Makes the wheel geom touch `other` through the collider, with friction `mu` along the rollers'
-// axes and none across. Both need names. Softness is the other's.
-void PairWheel(mjSpec* spec, const mjsGeom* wheel, const mjsGeom* other, double mu);
+// axes and `mu_across` across: none, unless the wheel is a roller that turns (roller_wheels.h).
+// Both need names. Softness is the other's.
+void PairWheel(mjSpec* spec, const mjsGeom* wheel, const mjsGeom* other, double mu,
+               double mu_across = 0);
 
 }  // namespace floorproof

@@ -7,54 +7,72 @@
 namespace floorproof {
 namespace {
 
-// T zeta where contacts are underdamped: sound at steps of 1-5 ms (docs/physics.md).
+// T zeta where nothing asks for more: sound at steps of 1-5 ms (docs/physics.md).
 constexpr double kStiffness_s = 0.01;
+// A softer contact lasts so long that a robot which drives on is thrown back faster than it came.
+constexpr double kSoftest_s = 0.02;
 // Dead enough for no bounce to be seen; more would make the contact soft.
 constexpr double kDead = 3;
-constexpr double kLiveliest = 0.99;
+constexpr double kLeastRatio = 0.005;
+constexpr double kLiveliest = 0.95;
 
-ContactSoftness Softness(double damping_ratio) {
+ContactSoftness Softness(double stiffness_s, double damping_ratio) {
   // Underdamped contacts keep their stiffness, so that a lively one lasts as many steps as another;
   // overdamped ones keep their damping, of which a step can take no more.
-  return {kStiffness_s / std::min(1.0, damping_ratio), damping_ratio};
+  return {stiffness_s / std::min(1.0, damping_ratio), damping_ratio};
 }
 
 // One impact at 1 m/s that begins this share of a step before the engine sees it.
-double Rebound(const ContactSoftness& c, double timestep_s, double share) {
+double Rebound(const ContactSoftness& c, const ContactWalk& walk, double share) {
   constexpr int kMostSteps = 10'000;
-  const double damping = 2 / c.time_constant_s;
-  const double root = 1 / (c.time_constant_s * c.damping_ratio);
-  double v = -1, r = share * timestep_s * v;
+  const double h = walk.timestep_s, damping = 2 / c.time_constant_s;
+  const double root = 1 / (c.time_constant_s * c.damping_ratio), stiffness = root * root;
+  const double inertia = walk.implicit ? 1 + h * damping + h * h * stiffness : 1;
+  double v = -1, r = share * h * v;
   for (int k = 0; k < kMostSteps && r < 0; ++k) {
-    const double push = -damping * v - root * root * r;
-    if (push <= 0 && v > 0) break;
-    v += timestep_s * std::max(0.0, push);
-    r += timestep_s * v;
+    // At the step's begin; or at its end, r + h v', solved for v'.
+    const double next =
+        walk.implicit ? (v - h * stiffness * r) / inertia : v - h * (damping * v + stiffness * r);
+    if (next <= v && v > 0) break;
+    v = std::max(v, next);
+    r += h * v;
   }
   return std::max(0.0, v);
 }
 
+// The value between `lively` and `dead` at which `softness` of it rebounds as wanted.
+template <class Family>
+double Bisect(double lively, double dead, double wanted, const ContactWalk& walk,
+              const Family& softness) {
+  constexpr int kHalvings = 40;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = (lively + dead) / 2;
+    (ReboundOf(softness(middle), walk) > wanted ? lively : dead) = middle;
+  }
+  return dead;
+}
+
 }  // namespace
 
-double ReboundOf(double damping_ratio, double timestep_s) {
+double ReboundOf(const ContactSoftness& softness, const ContactWalk& walk) {
   constexpr int kShares = 16;
-  const ContactSoftness softness = Softness(damping_ratio);
   double sum = 0;
-  for (int k = 0; k < kShares; ++k) sum += Rebound(softness, timestep_s, (k + 0.5) / kShares);
+  for (int k = 0; k < kShares; ++k) sum += Rebound(softness, walk, (k + 0.5) / kShares);
   return sum / kShares;
 }
 
-ContactSoftness SoftnessFor(double restitution, double timestep_s) {
-  constexpr int kHalvings = 40;
-  if (restitution <= 0) return Softness(kDead);
+ContactSoftness SoftnessFor(double restitution, const ContactWalk& walk) {
+  const ContactSoftness dead = Softness(kStiffness_s, kDead);
+  if (restitution <= 0) return dead;
   const double wanted = std::min(restitution, kLiveliest);
-  if (wanted <= ReboundOf(kDead, timestep_s)) return Softness(kDead);
-  double lively = 0, dead = kDead;
-  for (int k = 0; k < kHalvings; ++k) {
-    const double middle = (lively + dead) / 2;
-    (ReboundOf(middle, timestep_s) > wanted ? lively : dead) = middle;
-  }
-  return Softness(dead);
+  if (wanted <= ReboundOf(dead, walk)) return dead;
+  const auto damped = [](double ratio) { return Softness(kStiffness_s, ratio); };
+  if (wanted <= ReboundOf(damped(kLeastRatio), walk))
+    return damped(Bisect(kLeastRatio, kDead, wanted, walk, damped));
+  const auto soft = [](double stiffness_s) { return Softness(stiffness_s, kLeastRatio); };
+  if (wanted <= ReboundOf(soft(kSoftest_s), walk))
+    return soft(Bisect(kSoftest_s, kStiffness_s, wanted, walk, soft));
+  return soft(kSoftest_s);
 }
 
 }  // namespace floorproof

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "env/core/error.h"
 #include "env/core/robot_spec.h"
@@ -29,6 +30,7 @@ std::filesystem::path FindRobotFile(const std::string& name_or_path, const Sourc
 struct RobotModel {
   SpecPtr spec;  // the robot alone, changes applied
   RobotSpec robot;
+  std::vector<std::string> rollers = {};  // geoms of rollers that are bodies (roller_wheels.h)
 };
 
 // Whether a reconfigurable robot can change its shape, or is one rigid body in the shape it has.

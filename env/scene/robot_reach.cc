@@ -24,6 +24,18 @@ double DistanceToAxis(const mjtNum* p, const mjtNum* anchor, const mjtNum* axis)
 
 }  // namespace
 
+double TouchRadius(const mjModel* m, int geom) {
+  return m->geom_rbound[geom] + std::max(0.0, m->geom_margin[geom]) +
+         std::max(0.0, m->geom_gap[geom]);
+}
+
+bool NearnessIsKnown(const mjModel* m, int base_body) {
+  if ((m->opt.enableflags & (mjENBL_SLEEP | mjENBL_OVERRIDE)) != 0) return false;
+  for (int j = 0; j < m->njnt; ++j)
+    if (m->body_rootid[m->jnt_bodyid[j]] != base_body) return false;
+  return m->nmocap == 0 && m->nflex == 0;
+}
+
 std::vector<bool> CanTouch(const mjModel* m) {
   std::vector<bool> touches(static_cast<std::size_t>(m->ngeom));
   for (int g = 0; g < m->ngeom; ++g)
@@ -48,7 +60,7 @@ RobotReach ComputeReach(const mjModel* m, int base_body) {
       if (!touches[static_cast<std::size_t>(g)]) continue;
       own = std::max(own, mju_norm3(m->geom_pos + 3 * g));
       if (m->body_rootid[b] == m->body_rootid[base_body])
-        largest = std::max(largest, m->geom_rbound[g]);
+        largest = std::max(largest, TouchRadius(m, g));
     }
     double shift = 0;  // of the body's origin, by its own joints
     for (int j = m->body_jntadr[b]; j >= 0 && j < m->body_jntadr[b] + m->body_jntnum[b]; ++j) {

@@ -18,6 +18,13 @@ struct RobotReach {
 
 RobotReach ComputeReach(const mjModel* model, int base_body);
 
+// How far from its centre a geom is touched.
+double TouchRadius(const mjModel* model, int geom);
+
+// Whether it can be told what is near: the robot is all that moves, and MuJoCo neither overrides
+// margins nor lets what stands still sleep. True of all but very unusual robots.
+bool NearnessIsKnown(const mjModel* model, int base_body);
+
 // Whether the geom can touch anything, by its bits or by a pair.
 std::vector<bool> CanTouch(const mjModel* model);
 

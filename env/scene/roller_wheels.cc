@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string>
 #include <vector>
 
 namespace floorproof {
@@ -84,7 +85,7 @@ void MakeHub(const Wheel& wheel) {
 }
 
 // All that a robot's own defaults could have set otherwise is stated.
-void AddRoller(const Wheel& wheel, const Vec3& outward) {
+void AddRoller(const Wheel& wheel, const Vec3& outward, const std::string& name) {
   const WheelSpec& spec = wheel.spec;
   mjsBody* roller = mjs_addBody(wheel.body, nullptr);
   const Vec3 p = wheel.centre + (spec.radius_m - spec.roller_radius_m) * outward;
@@ -105,6 +106,7 @@ void AddRoller(const Wheel& wheel, const Vec3& outward) {
   hinge->armature = 0;
 
   mjsGeom* geom = mjs_addGeom(roller, nullptr);
+  mjs_setName(geom->element, name.c_str());
   geom->type = mjGEOM_ELLIPSOID;
   geom->size[0] = geom->size[1] = spec.roller_radius_m;
   geom->size[2] = RollerHalfLength(spec);
@@ -134,12 +136,13 @@ double RollerHalfLength(const WheelSpec& wheel) {
 }
 
 RobotModel WithRollerWheels(const RobotModel& robot) {
-  RobotModel out{SpecPtr(mj_copySpec(robot.spec.get())), robot.robot};
+  RobotModel out{SpecPtr(mj_copySpec(robot.spec.get())), robot.robot, robot.rollers};
   for (const Wheel& wheel : FindWheels(out.spec.get(), robot.robot)) {
     const Vec3 ahead = wheel.axle.cross(wheel.down);
     for (int k = 0; k < kRollers; ++k) {
       const double turn = 2 * kPi * k / kRollers;
-      AddRoller(wheel, std::cos(turn) * wheel.down + std::sin(turn) * ahead);
+      out.rollers.push_back(wheel.spec.name + "/roller/" + std::to_string(k));
+      AddRoller(wheel, std::cos(turn) * wheel.down + std::sin(turn) * ahead, out.rollers.back());
     }
     MakeHub(wheel);
     for (mjsGeom* geom : wheel.drawn) mjs_delete(out.spec.get(), geom->element);

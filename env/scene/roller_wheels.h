@@ -6,8 +6,8 @@
 // of their own, at the same radius R, roller radius r and angle. A roller is an ellipsoid of
 // revolution: no facets, one contact. Its semi-axis makes the wheel as high where one roller hands
 // over to the next as on the middle of one; in between it is 0.05 mm higher (htetro).
-// Rollers meet floor and hazards by contact bits, with the friction and softness of what they meet,
-// alike in all directions; they never meet each other or the body.
+// Rollers meet floor and hazards with the friction and softness of what they meet, alike in all
+// directions, by pairs as ideal wheels do (BuildScene); they never meet each other or the body.
 // What differs from the ideal wheel: a roller that is not lowest stands aslant, which takes up to
 // 1 - sin(x) / x with x = pi / kRollers, 2.6 %, off its motion sideways; the contact wanders from
 // one side of the tyre to the other; an ellipsoid's end is more pointed than a rounded core's rim.

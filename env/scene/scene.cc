@@ -14,6 +14,7 @@ namespace {
 
 // Contact bits, as the robots' MJCF states them: wheels meet the floor and hazards, the body all.
 constexpr int kFloorBit = 1, kWallBit = 2;
+constexpr int kPairsBit = 4;  // of what touches by pairs only
 constexpr double kSlab_m = 0.10;  // of floor below the lowest
 // Contact softness that was sound at 1-5 ms (physics.md, "Settings that were sound").
 constexpr double kTimeConstant_s = 0.01;
@@ -22,7 +23,11 @@ constexpr mjtNum kSolimp[] = {0.95, 0.99, 0.0005};
 class SceneBuilder {
  public:
   SceneBuilder(const HazardMap& map, const RobotModel& robot, mjSpec* spec)
-      : map_(map), robot_(robot.robot), spec_(spec), world_(mjs_findBody(spec, "world")) {
+      : map_(map),
+        robot_(robot.robot),
+        rollers_(robot.rollers),
+        spec_(spec),
+        world_(mjs_findBody(spec, "world")) {
     for (mjsElement* e = mjs_firstElement(spec, mjOBJ_GEOM); e; e = mjs_nextElement(spec, e)) {
       int n = 0;
       const double* user = mjs_getDouble(mjs_asGeom(e)->userdata, &n);
@@ -93,6 +98,14 @@ class SceneBuilder {
       for (const auto& [geom, role] : added)
         if (role.kind != GeomRole::Kind::kWall) PairWheel(spec_, wheel, geom, geom->friction[0]);
     }
+    // Rollers need no collider, but the same slower friction.
+    for (const std::string& name : rollers_) {
+      mjsGeom* roller = mjs_asGeom(mjs_findElement(spec_, mjOBJ_GEOM, name.c_str()));
+      roller->conaffinity = kPairsBit;
+      for (const auto& [geom, role] : added)
+        if (role.kind != GeomRole::Kind::kWall)
+          PairWheel(spec_, roller, geom, geom->friction[0], geom->friction[0]);
+    }
   }
 
   // Colours, light and the picture's quality; nothing here touches the physics. The lights add up
@@ -156,9 +169,11 @@ class SceneBuilder {
     geom->condim = 3;
     geom->priority = 1;  // what is met rules over the robot's own friction and softness
     geom->friction[0] = friction;
-    const ContactSoftness softness = kind == GeomRole::Kind::kFloor
-                                         ? ContactSoftness{kTimeConstant_s, 1}
-                                         : SoftnessFor(restitution, spec_->option.timestep);
+    const ContactSoftness softness =
+        kind == GeomRole::Kind::kFloor
+            ? ContactSoftness{kTimeConstant_s, 1}
+            : SoftnessFor(restitution,
+                          {spec_->option.timestep, spec_->option.integrator == mjINT_DISCRETE});
     geom->solref[0] = softness.time_constant_s;
     geom->solref[1] = softness.damping_ratio;
     std::copy(std::begin(kSolimp), std::end(kSolimp), geom->solimp);
@@ -257,6 +272,7 @@ class SceneBuilder {
 
   const HazardMap& map_;
   const RobotSpec& robot_;
+  const std::vector<std::string>& rollers_;
   mjSpec* spec_;
   mjsBody* world_;
 };

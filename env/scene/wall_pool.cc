@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "env/scene/wall_pool.h"
 
-#include <utility>
+#include <algorithm>
 
 #include "env/scene/engine.h"
 #include "env/scene/mecanum_wheel.h"
@@ -10,23 +10,19 @@
 namespace floorproof {
 namespace {
 
-constexpr std::size_t kFew = 128;  // boxes that cost a Mecanum robot less than a tenth of its steps
-
-// As the scene's compiled robot will have it: wheels that touch by pairs only have none here, but
-// still their own bits.
-double SurfaceReach(const mjSpec* robot) {
-  const SpecPtr spec(mj_copySpec(robot));
-  const ModelPtr model = CompileSpec(spec.get());
-  InflateWheelBounds(model.get());
-  return ComputeReach(model.get(), mj_name2id(model.get(), mjOBJ_BODY, "base")).surface_m;
-}
+constexpr std::size_t kFew = 128;  // boxes, at some 10 ns a step each
 
 }  // namespace
 
-WallPool MakeWallPool(const std::vector<WallBox>& boxes, const Pose2& X_WG, const mjSpec* robot) {
+WallPool MakeWallPool(const std::vector<WallBox>& boxes, const Pose2& X_WG, const mjSpec* spec) {
   if (boxes.size() <= kFew) return {};
+  const SpecPtr copy(mj_copySpec(spec));
+  const ModelPtr model = CompileSpec(copy.get());
+  InflateWheelBounds(model.get());
+  const int base = mj_name2id(model.get(), mjOBJ_BODY, "base");
+  if (!NearnessIsKnown(model.get(), base)) return {};
   WallPool pool{WallGrid(boxes), X_WG, -1, 0};
-  const int most = pool.grid.MostNear(SurfaceReach(robot) + kSlack_m);
+  const int most = pool.grid.MostNear(ComputeReach(model.get(), base).surface_m + kSlack_m);
   if (static_cast<std::size_t>(most) >= boxes.size()) return {};
   pool.num = std::max(most, 1);
   return pool;

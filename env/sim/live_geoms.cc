@@ -10,9 +10,9 @@
 namespace floorproof {
 namespace {
 
-constexpr int kFewPairs = 64;       // cost less than the choice among them
-constexpr double kHair_m = 1e-6;    // by which bounds are wider than what they hold
-constexpr double kEndless_m = 1e9;  // of a plane
+constexpr int kFewPairs = 64, kFewFixed = 32;  // cost less than the choice among them
+constexpr double kHair_m = 1e-6;               // by which bounds are wider than what they hold
+constexpr double kEndless_m = 1e9;             // of a plane
 
 // Upper bound of the angle between two rotations: 4 asin(chord / 2).
 double AngleBetween(const mjtNum* q1, const mjtNum* q2) {
@@ -38,8 +38,9 @@ double LiveGeoms::Bounds::Distance(const Vec3& p_W) const {
 }
 
 LiveGeoms::LiveGeoms(const Scene& scene) : scene_(scene), model_(*scene.model) {
-  const bool pool = scene.pool.num > 0, pairs = model_.npair > kFewPairs;
-  if (!pool && !pairs) return;
+  const bool pool = scene.pool.num > 0, pairs = model_.npair > kFewPairs,
+             fixed = scene.num_floor_geoms + scene.num_hazard_geoms > kFewFixed;
+  if (!(pool || pairs || fixed) || !NearnessIsKnown(&model_, scene.base_body)) return;
   const auto ngeom = static_cast<std::size_t>(model_.ngeom);
   const std::vector<bool> touches = CanTouch(&model_);
   const int past_pool = scene.pool.first_geom + scene.pool.num;
@@ -51,7 +52,7 @@ LiveGeoms::LiveGeoms(const Scene& scene) : scene_(scene), model_(*scene.model) {
     if (!touches[static_cast<std::size_t>(g)]) continue;
     if (model_.body_rootid[body] == scene.base_body) {
       ball_of_[static_cast<std::size_t>(g)] = static_cast<int>(balls_.size());
-      balls_.push_back({g, model_.geom_rbound[g]});
+      balls_.push_back({g, TouchRadius(&model_, g)});
     } else if (body == 0 && !(pool && g >= scene.pool.first_geom && g < past_pool)) {
       fixed_.push_back(g);
       bounds_[static_cast<std::size_t>(g)] = StaticBounds(g);
@@ -67,25 +68,31 @@ LiveGeoms::LiveGeoms(const Scene& scene) : scene_(scene), model_(*scene.model) {
   body_moved_m_.resize(static_cast<std::size_t>(model_.nbody));
   qpos_.resize(static_cast<std::size_t>(model_.nq));
   if (pool) OwnPool();
+  if (pool || fixed) OwnTree();
   if (pairs) OwnPairs();
 }
 
+template <class T>
+void LiveGeoms::Own(T*& values, std::size_t count, std::vector<T>& store) {
+  store.assign(values, values + count);
+  values = store.data();
+}
+
 void LiveGeoms::OwnPool() {
-  const auto own = [](auto*& values, auto& store, auto count) {
-    store.assign(values, values + count);
-    values = store.data();
-  };
   const auto ngeom = static_cast<std::size_t>(model_.ngeom);
-  const auto nbvh = static_cast<std::size_t>(model_.nbvh);
-  own(model_.geom_pos, pos_, 3 * ngeom);
-  own(model_.geom_size, size_, 3 * ngeom);
-  own(model_.geom_aabb, aabb_, 6 * ngeom);
-  own(model_.geom_rbound, rbound_, ngeom);
-  own(model_.bvh_child, child_, 2 * nbvh);
-  own(model_.bvh_nodeid, nodeid_, nbvh);
-  own(model_.bvh_aabb, node_aabb_, 6 * static_cast<std::size_t>(model_.nbvhstatic));
+  Own(model_.geom_pos, 3 * ngeom, pos_);
+  Own(model_.geom_size, 3 * ngeom, size_);
+  Own(model_.geom_aabb, 6 * ngeom, aabb_);
+  Own(model_.geom_rbound, ngeom, rbound_);
   found_.reserve(static_cast<std::size_t>(scene_.pool.num));
-  leaves_.reserve(fixed_.size() + found_.capacity());
+}
+
+void LiveGeoms::OwnTree() {
+  const auto nbvh = static_cast<std::size_t>(model_.nbvh);
+  Own(model_.bvh_child, 2 * nbvh, child_);
+  Own(model_.bvh_nodeid, nbvh, nodeid_);
+  Own(model_.bvh_aabb, 6 * static_cast<std::size_t>(model_.nbvhstatic), node_aabb_);
+  leaves_.reserve(fixed_.size() + static_cast<std::size_t>(scene_.pool.num));
 }
 
 template <class T>
@@ -167,6 +174,7 @@ void LiveGeoms::Choose(mjData* d) {
   for (const int g : fixed_)
     near_[static_cast<std::size_t>(g)] = robot.Meets(bounds_[static_cast<std::size_t>(g)]);
   if (!pos_.empty()) ChooseWalls(d);
+  if (!child_.empty()) BuildTree();
   if (!columns_.empty()) ChoosePairs(d);
   chosen_ = true;
 }
@@ -185,9 +193,6 @@ void LiveGeoms::ChooseWalls(const mjData* d) {
   if (found_.size() > static_cast<std::size_t>(pool.num))
     throw InternalError("more walls are near the robot than its scene has room for");
 
-  leaves_.clear();
-  for (const int g : fixed_)
-    if (near_[static_cast<std::size_t>(g)]) leaves_.push_back(g);
   for (std::size_t i = 0; i < static_cast<std::size_t>(pool.num); ++i) {
     const std::size_t g = static_cast<std::size_t>(pool.first_geom) + i;
     mjtNum *pos = &pos_[3 * g], *size = &size_[3 * g];
@@ -197,12 +202,19 @@ void LiveGeoms::ChooseWalls(const mjData* d) {
       ParkWall(pos, size);
     mju_copy3(&aabb_[6 * g + 3], size);
     rbound_[g] = mju_norm3(size);
-    if (i >= found_.size()) continue;
     bounds_[g] = StaticBounds(static_cast<int>(g));
-    leaves_.push_back(static_cast<int>(g));
   }
+}
+
+void LiveGeoms::BuildTree() {
+  leaves_.clear();
+  for (const int g : fixed_)
+    if (near_[static_cast<std::size_t>(g)]) leaves_.push_back(g);
+  if (const int first = scene_.pool.first_geom; first >= 0)
+    for (int g = first; g < first + static_cast<int>(found_.size()); ++g) leaves_.push_back(g);
   nodes_ = 0;
-  AddNode(leaves_.begin(), leaves_.end());
+  // With nothing near, whatever tree there was finds nothing.
+  if (!leaves_.empty()) AddNode(leaves_.begin(), leaves_.end());
 }
 
 // A node of the world's tree over these geoms, split in the middle of its longest side, as MuJoCo's

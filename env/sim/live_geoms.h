@@ -13,7 +13,7 @@
 // step in which such a geom's centre may have moved by more than kTrigger_m since: by the base's
 // way, its turn times the geoms' distance, and each joint's turn times what it swings. These come
 // from qpos itself, so a robot that is put elsewhere is seen at once, whatever its speed.
-// Assumes that the robot is all that moves.
+// Where that cannot be told (NearnessIsKnown), and on small scenes, all is live.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -61,7 +61,10 @@ class LiveGeoms {
     int width;
   };
 
+  template <class T>
+  void Own(T*& values, std::size_t count, std::vector<T>& store);
   void OwnPool();
+  void OwnTree();
   void OwnPairs();
   template <class T>
   void OwnColumn(T*& values, int width, std::vector<Column<T>>& columns);
@@ -69,6 +72,7 @@ class LiveGeoms {
   double Moved(const mjtNum* qpos);
   void Choose(mjData* data);
   void ChooseWalls(const mjData* data);
+  void BuildTree();
   void ChoosePairs(const mjData* data);
   int AddNode(std::vector<int>::iterator begin, std::vector<int>::iterator end);
 

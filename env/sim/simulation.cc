@@ -24,6 +24,16 @@ bool Diverged(const mjData* d) {
 
 }  // namespace
 
+double MotorTorque(const mjModel* m, const mjData* d, int actuator) {
+  const mjtNum* gain = m->actuator_gainprm + mjNGAIN * actuator;
+  constexpr int kPosition = 4, kVelocity = 6;  // gains of the driver
+  if (gain[kPosition] != 0 || gain[kVelocity] == 0) return d->actuator_force[actuator];
+  const double most_nm =
+      m->actuator_forcelimited[actuator] ? m->actuator_forcerange[2 * actuator + 1] : 0;
+  return DriveTorque({gain[0], gain[1], gain[kVelocity], DriverVoltage(m, actuator), most_nm},
+                     d->ctrl[actuator], d->qvel[m->jnt_dofadr[m->actuator_trnid[2 * actuator]]]);
+}
+
 Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec& robot)
     : scene_(scene),
       map_(map),
@@ -277,7 +287,7 @@ void Simulation::ReadPower(double dt_s) {
   for (int a = 0; a < m->nu; ++a) {
     const mjtNum* gain = m->actuator_gainprm + mjNGAIN * a;
     const int dof = m->jnt_dofadr[m->actuator_trnid[2 * a]];
-    load_w += MotorPower(d->actuator_force[a], d->qvel[dof], gain[0], gain[1]);
+    load_w += MotorPower(MotorTorque(m, d, a), d->qvel[dof], gain[0], gain[1]);
   }
   const BatteryOutput out = battery_.Feed(load_w, dt_s);
   sample_.power_w = out.power_w();
@@ -289,8 +299,7 @@ void Simulation::ReadPower(double dt_s) {
 // What the drivers can give in the next step.
 void Simulation::SetDriverVoltages() {
   if (gains_.empty()) return;
-  for (int a = 0; a < model()->nu; ++a)
-    SetDriverVoltage(gains_.data() + mjNGAIN * a, battery_.voltage_v());
+  for (int a = 0; a < model()->nu; ++a) SetDriverVoltage(model(), a, battery_.voltage_v());
 }
 
 }  // namespace floorproof

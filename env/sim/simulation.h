@@ -13,6 +13,11 @@
 
 namespace floorproof {
 
+// A dcmotor's torque, N m, at the end of the last step. The engine's own is that of its begin,
+// which is not what an implicit integrator applied: a stiff driver would seem to give a multiple of
+// it while the motor speeds up. (A driver with a position gain: the engine's own.)
+double MotorTorque(const mjModel* model, const mjData* data, int actuator);
+
 class Simulation {
  public:
   // `scene`, `map` and `robot` outlive the simulation.

@@ -51,7 +51,8 @@ AuditRun DriveAudit(const AuditTrial& trial, const AuditPace& pace, const WrongM
   AuditRun run;
   while (run.time_s < kLongest * trial.time_s) {
     const Sample& sample = rig.sample();
-    const Command command = tracker->Update({sample.X_WB(), sample.V_WB_B}, sample.t_s, control_s);
+    const Command command =
+        tracker->Update({sample.X_WB(), sample.V_WB_B, {}}, sample.t_s, control_s);
     if (command.done) return run;
     rig.Command(command.twist);
     for (int k = 0; k < kStepsAControl; ++k) {

@@ -7,7 +7,7 @@
 
 namespace floorproof {
 
-ClimbPlace PlaceEdge(const Rig& rig, bool sideways) {
+ClimbPlace PlaceEdge(Rig& rig, bool sideways) {
   constexpr double kGap_m = 0.005;
   const mjModel* m = rig.scene().model.get();
   double wheel_m = 0, rim_m = 0;
@@ -16,7 +16,7 @@ ClimbPlace PlaceEdge(const Rig& rig, bool sideways) {
         m->geom_type[g] != mjGEOM_CYLINDER)
       continue;
     const double rollers_m = RollersOf(m, g).radius_m;
-    const double at_m = m->body_pos[3 * m->geom_bodyid[g] + (sideways ? 1 : 0)];
+    const double at_m = rig.data()->geom_xpos[3 * g + (sideways ? 1 : 0)];
     wheel_m = std::max(wheel_m, at_m);
     rim_m = std::max(rim_m, at_m + m->geom_size[3 * g + (sideways ? 1 : 0)] + rollers_m);
   }

@@ -75,7 +75,7 @@ void Rig::CommandWheels(double wheel_radps) {
 void Rig::Brake() {
   constexpr double kHold_nm = 1000;
   mjModel* m = scene_.model.get();
-  for (int a = 0; a < m->nu; ++a)
+  for (int a = 0; a < static_cast<int>(true_robot_.wheels.size()); ++a)
     m->dof_frictionloss[m->jnt_dofadr[m->actuator_trnid[2 * a]]] = kHold_nm;
 }
 

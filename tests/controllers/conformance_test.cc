@@ -71,7 +71,7 @@ TEST_P(TrackerConformance, UpdateAllocatesNothing) {
       *dut, kRows, {}, nullptr, RobotFor(*dut));  // poses to replay, without the test's own vectors
   dut->Start(kRows, robot, nullptr);
   const auto before = AllocationCount();
-  for (const auto& step : driven.steps) dut->Update({step.X_WB, {}, {}}, step.t_s, 0.02);
+  for (const auto& step : driven.steps) dut->Update({step.X_WB, {}}, step.t_s, 0.02);
   EXPECT_EQ(AllocationCount(), before);
 }
 

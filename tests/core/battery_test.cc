@@ -13,6 +13,14 @@ TEST(MotorPower, IsCopperLossAndWork) {
   EXPECT_EQ(MotorPower(-0.1, 9, 3.6, 1.2), 0) << "braking gives nothing back";
 }
 
+TEST(DriveTorque, HoldsTheSpeedWithinVoltageAndTorque) {
+  const VelocityDrive dut{3.6, 1.2, 5, 12, 3};
+  EXPECT_NEAR(DriveTorque(dut, 4.1, 4), 0.5, 1e-12) << "gain times what is missing";
+  EXPECT_NEAR(DriveTorque(dut, 100, 8), 1.2 * (12 - 1.2 * 8) / 3.6, 1e-12) << "all the voltage";
+  EXPECT_EQ(DriveTorque(dut, 100, 0), 3) << "the driver's limit";
+  EXPECT_EQ(DriveTorque(dut, -100, 0), -3);
+}
+
 TEST(Feed, GivesTheLoadItsPowerAndObeysOhm) {
   for (const double load_w : {0.0, 5.0, 40.0, 70.0}) {
     const BatteryOutput dut = Feed(12, 0.5, load_w);

@@ -68,6 +68,21 @@ TEST(RollerWheels, LoseSidewaysWhatTheSlantOfTheirRollersTakes) {
   EXPECT_LT(std::abs(dut.sample().p_WB.z()), 5e-4) << "ripple";
 }
 
+TEST(RollerWheels, ADeadWallThrowsNothingBack) {
+  Hazard wall;
+  wall.id = "wall";
+  wall.solids = {{Solid::Kind::kPrism, Rectangle({0.35, -8}, {8, 8}), {}, 0, 0.15}};
+  Bench dut("htetro", {}, {wall}, {}, true);
+  dut.Command({0.25, 0, 0});
+  double back_mps = 0;
+  while (dut.sim->sample().t_s < 2) {
+    ASSERT_TRUE(dut.sim->Step());
+    back_mps = std::max(back_mps, -dut.sim->sample().V_WB_B.vx_mps);
+  }
+  EXPECT_LT(back_mps, 0.2 * 0.25);
+  EXPECT_NEAR(dut.sim->sample().p_WB.x(), 0.10, 0.005) << "it stands at the wall";
+}
+
 Hazard Ledge(bool sideways, double height_m) {
   const Polygon place = sideways ? Rectangle({-8, 0.35}, {8, 8}) : Rectangle({0.35, -8}, {8, 8});
   return Prism("ledge", place, {}, height_m);

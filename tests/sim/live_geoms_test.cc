@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "controllers/drive.h"
+#include "env/core/error.h"
 #include "env/core/registry.h"
 #include "env/core/streams.h"
 #include "env/sim/simulation.h"
@@ -133,13 +134,16 @@ TEST_P(LiveGeomsOf, BumpIntoTheSameWallsAsTheWholeScene) {
 
 TEST_P(LiveGeomsOf, CrossTheSamePlatesAsTheWholeScene) {
   Twins dut(GetParam(), Plates(), {});
+  int crossed = 0;
   Stream draw(6, 0, "twists");
   for (int i = 0; i < 3000; ++i) {
     if (i % 400 == 0)
       dut.Command({draw.Uniform(0.1, 0.4), draw.Uniform(-0.2, 0.2), draw.Uniform(-0.6, 0.6)});
     ASSERT_TRUE(dut.Step()) << "step " << i;
+    crossed += dut.sim.sample().near_hazard >= 0;
   }
   EXPECT_LE(dut.sim.model()->npair, dut.scene.model->npair / 10);
+  EXPECT_GT(crossed, 100) << "and they were felt";
 }
 
 // A boom of 1.2 m swings about a robot that stands: its joint alone brings it to other walls.
@@ -216,6 +220,13 @@ TEST_P(LiveGeomsOf, AllocateNothing) {
     for (int i = 0; i < 1000; ++i) dut.sim.Step();
     EXPECT_EQ(AllocationCount(), before);
   }
+}
+
+TEST(LiveGeoms, APoolThatIsTooSmallIsAnErrorNotAMiss) {
+  Twins dut("beluga", Pillars(), kMiddle);
+  dut.scene.pool.num = 1;
+  Simulation small(dut.scene, dut.map, dut.robot.robot);
+  EXPECT_THROW(small.Reset({-4.5, 3, 0}), InternalError);
 }
 
 TEST(LiveGeoms, AreTheWholeSceneWhereItIsSmall) {

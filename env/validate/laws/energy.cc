@@ -87,7 +87,7 @@ class Account {
     const mjModel* m = Model();
     const mjtNum* gain = m->actuator_gainprm + mjNGAIN * a;
     const int dof = m->jnt_dofadr[m->actuator_trnid[2 * a]];
-    const double torque = rig_.data()->actuator_force[a];
+    const double torque = MotorTorque(m, rig_.data(), a);
     return MotorPower(torque, rig_.data()->qvel[dof], gain[0], gain[1]) - torque * Speed(dof);
   }
   double Kinetic() const {

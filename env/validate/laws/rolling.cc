@@ -35,7 +35,7 @@ class Rolling final : public Law {
     Rig rig(robot, {.wrong = wrong});
     rig.Run(twist, kSteady_s);
     const mjModel* m = rig.sim().model();
-    const int num_wheels = static_cast<int>(m->nu);
+    const int num_wheels = static_cast<int>(rig.robot().wheels.size());
     double omega_radps = 0, v_mps = 0;
     int n = 0;
     while (rig.sample().t_s < kEnd_s) {

@@ -86,7 +86,7 @@ class StepLimit final : public Law {
   void Check(const WrongModel& wrong, std::vector<LawRow>& rows) const override {
     for (const double mu : {0.6, 0.8}) {
       CartRow(mu, wrong, rows);
-      const Rig beluga("beluga"), htetro("htetro");
+      Rig beluga("beluga"), htetro("htetro");
       const double radius_m = beluga.robot().wheels.front().radius_m;
       RobotRow(beluga, false, mu, radius_m * (1 - std::cos(std::atan(mu))), 0, kPlain_m, wrong,
                rows);
@@ -114,7 +114,7 @@ class StepLimit final : public Law {
   }
 
   // `shared_m`: how far above the static limit the interval reaches.
-  static void RobotRow(const Rig& truth, bool sideways, double mu, double limit_m, double shared_m,
+  static void RobotRow(Rig& truth, bool sideways, double mu, double limit_m, double shared_m,
                        double tolerance_m, const WrongModel& wrong, std::vector<LawRow>& rows) {
     const std::string& robot = truth.robot().name;
     const auto make_rig = [&](RigOptions options) {
@@ -144,7 +144,8 @@ class StepLimit final : public Law {
       rig.CommandWheels(kCart_mps / cart.wheel_radius_m);
       return rig;
     };
-    const ClimbPlace place = PlaceEdge(Rig(MakeCart(cart)), false);
+    Rig truth(MakeCart(cart));
+    const ClimbPlace place = PlaceEdge(truth, false);
     rows.push_back({fmt::format("step/cart/forward/mu{}", mu), 1000 * limit_m,
                     1000 * Climbed(make_rig, place, false, kCart_mps, limit_m), 1000 * kPlain_m,
                     "mm"});

@@ -53,7 +53,8 @@ class Timestep final : public Law {
   static void Outcomes(const char* robot, bool sideways, double limit_m, const WrongModel& wrong,
                        std::vector<LawRow>& rows) {
     constexpr double kSpeed_mps = 0.2;
-    const ClimbPlace place = PlaceEdge(Rig(robot), sideways);
+    Rig truth(robot);
+    const ClimbPlace place = PlaceEdge(truth, sideways);
     const auto crosses = [&](const PhysicsParams& physics, double share) {
       RigOptions options{.physics = physics, .wrong = wrong};
       options.hazards.push_back(Ledge(share * limit_m, place.edge_m, sideways));
