@@ -29,7 +29,7 @@ Spot Find(const Image& image, const Rgb& colour) {
 }
 
 ChartSeries Dot(const Rgb& colour, double x, double y) {
-  return {{colour, ChartStyle::Stroke::kNone, false}, {{x, y, false}}};
+  return {{colour, ChartStyle::Stroke::kNone, false}, 0, {{x, y, false}}};
 }
 
 Chart OnePanel(std::vector<ChartSeries> series) {
@@ -51,7 +51,8 @@ TEST(Chart, MoreIsHigherAndFartherRight) {
 
 TEST(Chart, StrokesAreToldApart) {
   const auto pixels = [](ChartStyle::Stroke stroke) {
-    return Find(DrawChart(OnePanel({{{kRed, stroke, false}, {{0.1, 5, false}, {0.3, 5, false}}}})),
+    return Find(DrawChart(
+                    OnePanel({{{kRed, stroke, false}, 0, {{0.1, 5, false}, {0.3, 5, false}}}})),
                 kRed)
         .n;
   };
@@ -59,6 +60,15 @@ TEST(Chart, StrokesAreToldApart) {
   EXPECT_GT(pixels(Stroke::kSolid), pixels(Stroke::kDashed));
   EXPECT_GT(pixels(Stroke::kDashed), pixels(Stroke::kDotted));
   EXPECT_GT(pixels(Stroke::kDotted), pixels(Stroke::kNone));
+}
+
+TEST(Chart, EqualValuesShowSideBySide) {
+  ChartSeries aside = Dot(kBlue, 0.2, 5);
+  const int alone = Find(DrawChart(OnePanel({aside})), kBlue).n;
+  aside.aside_px = 12;
+  const Image dut = DrawChart(OnePanel({aside, Dot(kRed, 0.2, 5)}));
+  EXPECT_EQ(Find(dut, kBlue).n, alone);
+  EXPECT_NEAR(Find(dut, kBlue).x - Find(dut, kRed).x, 12, 0.5);
 }
 
 TEST(Chart, AnArrowSaysAtLeast) {

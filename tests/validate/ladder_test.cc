@@ -61,10 +61,11 @@ TEST(LadderHazards, LieWhereTheyAreSaidTo) {
         }
         SCOPED_TRACE(std::string(dut.name) + " " + std::to_string(size));
         EXPECT_NEAR(low, 0, 1e-9);
-        if (dut.length_m(size) > 0)
+        const bool ends = dut.length_m(size) > 0;
+        EXPECT_NE(hazard.hazard_class == HazardClass::kLevelChange, ends);
+        if (ends) {
           EXPECT_NEAR(high, dut.length_m(size), 1e-9);
-        else
-          EXPECT_EQ(hazard.hazard_class, HazardClass::kLevelChange);
+        }
         EXPECT_FALSE(hazard.known);
       }
 }
@@ -127,7 +128,7 @@ TEST(Findings, AreReadFromTheRows) {
   EXPECT_EQ(gaps[0].from_deg, 36);
   EXPECT_EQ(gaps[0].to_deg, 44);
   EXPECT_THAT(Sentence(gaps[0]),
-              StartsWith("htetro, ideal wheels, 0.2 m/s, friction 0.8: a 20 mm "
+              StartsWith("htetro, wheels ideal, 0.2 m/s, friction 0.8: a 20 mm "
                          "cable cover with flanks from 36 to 44 deg is crossed"));
   const auto part = WheelDisagreements(rows, 0.2);
   ASSERT_EQ(part.size(), 1u);
@@ -149,11 +150,10 @@ CrossingResult Meet(const char* robot_name, const char* hazard, Direction direct
 
 TEST(Crossing, WhatIsSmallIsCrossedEveryWayWithoutAFailure) {
   for (const Direction direction :
-       {Direction::kForward, Direction::kSideways, Direction::kDiagonal}) {
+       {Direction::kForward, Direction::kSideways, Direction::kDiagonal})
     EXPECT_EQ(Meet("htetro", "step", direction, 1).held_by, "");
-    if (direction != Direction::kSideways)
-      EXPECT_EQ(Meet("beluga", "step", direction, 5).held_by, "");
-  }
+  for (const Direction direction : {Direction::kForward, Direction::kDiagonal})
+    EXPECT_EQ(Meet("beluga", "step", direction, 5).held_by, "");
 }
 
 // The early decision says what the detectors say later.
