@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "apps/command.h"
+#include "apps/ladder.h"
 #include "env/core/interrupt.h"
 #include "env/run/file_output.h"
 #include "env/validate/bounce_chart.h"
@@ -24,7 +25,8 @@ void SayLaw(const LawResult& result, const Globals& globals) {
                             row.ok() ? "ok" : "FAILS"));
 }
 
-int CheckAllLaws(const fs::path& folder, const Globals& globals) {
+// Returns how many comparisons failed; `json_result` gets the rows.
+int CheckAllLaws(const fs::path& folder, const Globals& globals, nlohmann::ordered_json& json_result) {
   globals.Say(fmt::format("  {:<44} {:>12} {:>12} {:>10} {}", "law", "expected", "measured",
                           "tolerance", "unit"));
   const auto results =
@@ -47,7 +49,8 @@ int CheckAllLaws(const fs::path& folder, const Globals& globals) {
                       {"unit", row.unit},
                       {"ok", row.ok()}});
     }
-  globals.Result({{"laws", std::move(json)}, {"failed", failed}});
+  json_result["laws"] = std::move(json);
+  json_result["failed"] = failed;
   globals.Say(failed == 0 ? fmt::format("{} of {} comparisons hold", rows, rows)
                           : fmt::format("{} of {} comparisons fail", failed, rows));
   return failed;
@@ -56,17 +59,31 @@ int CheckAllLaws(const fs::path& folder, const Globals& globals) {
 }  // namespace
 
 void AddValidate(CLI::App& app, const Globals& globals, int& status) {
-  auto out = std::make_shared<std::string>("out/validate");
-  CLI::App* command =
-      app.add_subcommand("validate", "Compare the physics with closed-form laws, as a table");
-  command->add_option("--out", *out, "Output folder (default: out/validate)");
-  command->callback([out, &globals, &status] {
-    const fs::path folder = *out;
+  struct Options {
+    std::string out = "out/validate";
+    bool ladder = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "validate", "Compare the physics with closed-form laws; measure what each robot can cross");
+  command->add_option("--out", options->out, "Output folder (default: out/validate)");
+  command->add_flag("--ladder", options->ladder,
+                    "Also find the largest hazards that each robot crosses: the capability charts");
+  command->callback([options, &globals, &status] {
+    const fs::path folder = options->out;
     MakeFolder(folder);
-    SayWhenInterrupted("nothing is written");
+    if (options->ladder) ClearLadder(folder);
+    SayWhenInterrupted("no result is written");
     const HoldInterrupts hold;
-    const int failed = CheckAllLaws(folder, globals);
+    nlohmann::ordered_json result;
+    const int failed = CheckAllLaws(folder, globals, result);
     if (Interrupted()) EndInterrupted();
+    if (options->ladder) {
+      SayWhenInterrupted("the laws are in " + folder.string());
+      result["ladder"] = RunLadder(folder, Cores(), globals);
+      if (Interrupted()) EndInterrupted();
+    }
+    globals.Result(result);
     globals.Say("results are in " + folder.string());
     if (failed > 0) status = kNotSuccess;
   });

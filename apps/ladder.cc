@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/ladder.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "apps/capability_chart.h"
+#include "env/core/interrupt.h"
+#include "env/run/file_output.h"
+#include "env/validate/ladder_findings.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kDisagreement = 0.2;  // of two wheel models' limits that is worth a line
+constexpr double kTrustedShare = 0.8;  // of a limit that a robot should be trusted with
+
+// "412 of 810 rows, about 130 s to go": in place on a terminal, a line every ten seconds elsewhere.
+class LadderProgress {
+ public:
+  LadderProgress(const Globals& globals, std::span<const LadderCell> cells)
+      : quiet_(globals.quiet), terminal_(isatty(STDERR_FILENO) != 0), rows_(cells.size()) {
+    for (const LadderCell& cell : cells) cost_ += Cost(cell);
+  }
+  ~LadderProgress() {
+    if (shown_ && terminal_) std::fprintf(stderr, "\r\033[K");
+  }
+  void OnRow(const LadderRow& row, std::size_t done) {
+    spent_ += Cost(row.cell);
+    const auto now = std::chrono::steady_clock::now();
+    const auto period = std::chrono::milliseconds(terminal_ ? 200 : 10000);
+    if (quiet_ || now - last_ < period) return;
+    last_ = now;
+    const double wall_s = std::chrono::duration<double>(now - start_).count();
+    const std::string line = fmt::format("  {} of {} rows, about {:.0f} s to go", done, rows_,
+                                         wall_s * (cost_ - spent_) / spent_);
+    std::fprintf(stderr, terminal_ ? "\r\033[K%s" : "%s\n", line.c_str());
+    std::fflush(stderr);
+    shown_ = true;
+  }
+
+ private:
+  // Roller wheels take about so many times longer.
+  static double Cost(const LadderCell& cell) { return cell.wheels == "rollers" ? 12 : 1; }
+
+  bool quiet_, terminal_, shown_ = false;
+  std::size_t rows_;
+  double cost_ = 0, spent_ = 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_ = start_;
+};
+
+std::vector<LadderRow> Climb(std::span<const LadderCell> cells, int jobs, const Globals& globals) {
+  LadderProgress progress(globals, cells);
+  return ClimbLadder(cells, jobs,
+                     [&](const LadderRow& row, std::size_t done) { progress.OnRow(row, done); });
+}
+
+std::string Text(const LadderRow& row) {
+  return fmt::format("{}{}", row.limit, row.above_all ? " or more" : "");
+}
+
+void SayRows(std::span<const LadderRow> rows, const Globals& globals) {
+  for (const LadderRow& row : rows) {
+    const LadderCell& cell = row.cell;
+    globals.Say(
+        fmt::format("  {:<7} {:<7} {:<18} {:<8} {:.1f} m/s  friction {:.1f} {:>12} {:<3} {}",
+                    cell.robot, cell.wheels, cell.hazard, Name(cell.direction), cell.speed_mps,
+                    cell.friction, Text(row), FindLadderHazard(cell.hazard).unit, row.held_by));
+  }
+}
+
+void SayFindings(std::span<const LadderRow> rows, const Globals& globals) {
+  for (const CoverGap& gap : CoverGaps(rows)) globals.Say(Sentence(gap));
+  for (const auto& [ideal, rollers] : WheelDisagreements(rows, kDisagreement)) {
+    const LadderCell& cell = ideal.cell;
+    globals.Say(fmt::format(
+        "ideal wheels and rollers part by more than {:.0f} %: {} {} {} {} m/s, friction {}: {} and "
+        "{} {}",
+        100 * kDisagreement, cell.robot, cell.hazard, Name(cell.direction), cell.speed_mps,
+        cell.friction, Text(ideal), Text(rollers), FindLadderHazard(cell.hazard).unit));
+  }
+  for (const RobotEntry& robot : Robots())
+    if (const auto step_m = TrustedStep(rows, robot.name))
+      globals.Say(
+          fmt::format("{}: level changes up to {:.1f} mm are crossed every way on friction 0.8; "
+                      "step_m is {} m, "
+                      "{:.0f} % of the limit {:.4f} m",
+                      robot.name, 1000 * *step_m,
+                      ReadRobot(FindRobotFile(std::string(robot.name), {})).robot.step_m,
+                      100 * kTrustedShare, kTrustedShare * *step_m));
+}
+
+nlohmann::ordered_json Json(std::span<const LadderRow> rows) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const LadderRow& row : rows) {
+    const LadderCell& cell = row.cell;
+    nlohmann::ordered_json object = {
+        {"robot", cell.robot},         {"wheels", cell.wheels},
+        {"hazard", cell.hazard},       {"direction", Name(cell.direction)},
+        {"speed_mps", cell.speed_mps}, {"friction", cell.friction},
+        {"limit", row.limit},          {"unit", FindLadderHazard(cell.hazard).unit},
+        {"at_least", row.above_all},   {"held_by", row.held_by}};
+    if (cell.changes.clearance_m) object["clearance_m"] = *cell.changes.clearance_m;
+    if (cell.changes.mass_kg) object["mass_kg"] = *cell.changes.mass_kg;
+    json.push_back(std::move(object));
+  }
+  return json;
+}
+
+}  // namespace
+
+void ClearLadder(const fs::path& folder) {
+  WriteFileWhole(folder / "ladder.csv", LadderCsv({}));
+  WriteFileWhole(folder / "ladder_sweep.csv", SweepCsv({}));
+  std::error_code ignored;
+  for (const RobotEntry& robot : Robots())
+    for (const char* name : {"capability", "sweep"})
+      fs::remove(folder / fmt::format("{}_{}.png", name, robot.name), ignored);
+}
+
+nlohmann::ordered_json RunLadder(const fs::path& folder, int jobs, const Globals& globals) {
+  const std::vector<LadderCell> cells = LadderCells({}), sweep_cells = SweepCells();
+  globals.Say(fmt::format("the ladder: {} limits, {} more over clearance and mass", cells.size(),
+                          sweep_cells.size()));
+  const std::vector<LadderRow> rows = Climb(cells, jobs, globals);
+  WriteFileWhole(folder / "ladder.csv", LadderCsv(rows));
+  const std::vector<LadderRow> sweep = Climb(sweep_cells, jobs, globals);
+  WriteFileWhole(folder / "ladder_sweep.csv", SweepCsv(sweep));
+  SayWhenInterrupted(fmt::format("{} of {} rows of the ladder and {} of {} of its sweep are in {}",
+                                 rows.size(), cells.size(), sweep.size(), sweep_cells.size(),
+                                 folder.string()));
+  if (Interrupted()) return {};
+  for (const RobotEntry& robot : Robots()) {
+    WriteCapabilityChart(rows, std::string(robot.name), folder);
+    WriteSweepChart(sweep, std::string(robot.name), folder);
+  }
+  SayRows(rows, globals);
+  SayFindings(rows, globals);
+  return {{"rows", Json(rows)}, {"sweep", Json(sweep)}};
+}
+
+}  // namespace floorproof

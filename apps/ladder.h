@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// `validate --ladder`: runs the ladder, prints what it says, writes tables and pictures.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "apps/command.h"
+
+namespace floorproof {
+
+// Empties the ladder's tables in `folder` and removes its pictures: what stands there later is this
+// run's. Throws InputError when nothing can be written there, before hours of work are lost.
+void ClearLadder(const std::filesystem::path& folder);
+
+// ladder.csv, ladder_sweep.csv, capability_ROBOT.png, sweep_ROBOT.png. Under HoldInterrupts: when
+// interrupted it writes the rows that are done and returns.
+nlohmann::ordered_json RunLadder(const std::filesystem::path& folder, int jobs,
+                                 const Globals& globals);
+
+}  // namespace floorproof

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// One robot driven straight over one hazard: does it cross?
+//
+// The project's own tracker drives a straight plan at a held speed: it is what users drive, and it
+// corrects what an edge turns aside. The product's own detectors judge, all of them, at their
+// defaults. Crossed: the whole robot lies beyond the hazard, and no detector fired on the way. To
+// save time a robot that gets on by less than 2 % of what was commanded for 2 s counts as held
+// (the detector `stuck` says the same, 10 s later). It starts at rest, as near as its acceleration
+// allows. One crossing is one draw: another start or heading may go otherwise at the limit.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "env/core/hazard_map.h"
+#include "env/scene/robot_model.h"
+#include "env/scene/scene.h"
+
+namespace floorproof {
+
+// The hazard begins at the world's x = 0, its edge along y; the robot's centre passes the origin.
+struct CrossingPlan {
+  double travel_rad = 0;  // the way's direction in the world: 0 is square to the edge
+  double yaw_rad = 0;     // the body's, held all the way; other than travel_rad: holonomic robots
+  double beyond_m = 0;  // along the way from the origin: the body's centre is past the hazard here
+  double speed_mps = 0.2;
+  double friction = 0.8;  // of floor and hazard
+  PhysicsParams physics = {};
+  bool early = true;  // decide early that the robot is held; false: wait for the detectors
+};
+
+struct CrossingResult {
+  bool crossed = false;
+  // Else why: a failure's mode, or mode/kind; "no progress"; "time" when none of these came within
+  // 10 s and four times what the way takes.
+  std::string held_by;
+  double t_s = 0;  // simulated
+  double s_m = 0;  // along the way from the origin: where the body's centre was at the end
+};
+
+// Throws InternalError when the physics diverges.
+CrossingResult Cross(const RobotModel& robot, Hazard hazard, const CrossingPlan& plan);
+
+}  // namespace floorproof
