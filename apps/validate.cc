@@ -26,7 +26,8 @@ void SayLaw(const LawResult& result, const Globals& globals) {
 }
 
 // Returns how many comparisons failed; `json_result` gets the rows.
-int CheckAllLaws(const fs::path& folder, const Globals& globals, nlohmann::ordered_json& json_result) {
+int CheckAllLaws(const fs::path& folder, const Globals& globals,
+                 nlohmann::ordered_json& json_result) {
   globals.Say(fmt::format("  {:<44} {:>12} {:>12} {:>10} {}", "law", "expected", "measured",
                           "tolerance", "unit"));
   const auto results =
