@@ -84,7 +84,8 @@ Waypoint ReadRow(const std::vector<std::string>& header, const std::vector<std::
 
 }  // namespace
 
-Path ReadPlan(const std::filesystem::path& file, const GridFrame& map) {
+Path ReadPlan(const std::filesystem::path& file, const GridFrame& map,
+              const CheckShape& check_shape) {
   const std::string name = file.string();
   std::istringstream in(ReadInputFile(file, kMostBytes));
   std::vector<std::string> header;
@@ -107,6 +108,7 @@ Path ReadPlan(const std::filesystem::path& file, const GridFrame& map) {
     if (!map.Inside(map.ToCell(w.p_W)))
       throw InputError(mark, "x_m, y_m", FormatDouble(w.p_W.x()) + ", " + FormatDouble(w.p_W.y()),
                        "lies off the map");
+    if (check_shape && !w.shape.empty()) check_shape(mark, w.shape);
     path.push_back(w);
   }
   if (path.empty()) throw InputError({name, 0}, "", "", "holds no waypoint");

@@ -104,9 +104,11 @@ void ReadRobotPart(const ConfigNode& root, Scenario& s) {
   s.robot = ReadRobot(s.robot_file, s.robot_changes, folds ? Blocks::kHinged : Blocks::kLocked);
   s.battery.voltage_v = s.robot.robot.battery.voltage_v;
   s.robot.robot.battery = s.battery;
-  for (const Waypoint& w : s.user_plan)
-    if (!w.shape.empty() && FindShape(s.robot.robot, w.shape) < 0)
-      RefuseShape(s.robot.robot, {s.plan_file.string(), 0}, "shape", w.shape);
+  if (std::ranges::any_of(s.user_plan, [](const Waypoint& w) { return !w.shape.empty(); }))
+    // Again, now that the robot is known: a refusal names the line.
+    ReadPlan(s.plan_file, s.site.map.frame, [&](const SourceMark& mark, const std::string& shape) {
+      if (FindShape(s.robot.robot, shape) < 0) RefuseShape(s.robot.robot, mark, "shape", shape);
+    });
   if (s.episode.wheels != "rollers") return;
   if (!HasMecanumWheels(s.robot.robot)) {
     const ConfigNode* node = root.Find("wheels");

@@ -14,7 +14,7 @@ namespace {
 
 // Contact bits, as the robots' MJCF states them: wheels meet the floor and hazards, the body all.
 constexpr int kFloorBit = 1, kWallBit = 2;
-constexpr int kPairsBit = 4;  // of what touches by pairs only
+constexpr int kPairsBit = 4;      // of what touches by pairs only
 constexpr double kSlab_m = 0.10;  // of floor below the lowest
 // Contact softness that was sound at 1-5 ms (physics.md, "Settings that were sound").
 constexpr double kTimeConstant_s = 0.01;

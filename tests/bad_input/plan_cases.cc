@@ -46,6 +46,8 @@ std::vector<BadInput> PlanCases() {
       Plan("AnEndlessStand", head + "1,1,,1e12\n", {":2: dwell_s = 1e12", "[0, 1e+05]"}),
       Plan("AShapeOfControlCharacters", std::string("x_m,y_m,shape\n1,1,\x1b[2J\n"),
            {":2: shape", "letters"}),
+      Plan("AShapeOfARobotThatHasOne", "x_m,y_m,shape\n1,1,I\n",
+           {":2: shape = I", "does not change its shape"}),
       Plan("Binary", std::string("\0\1\2\3\xff\xfe\0\0", 8), {":1", "unknown column"}),
       Plan("ALongLine", std::string(8'000'000, 'x') + "\n", {":1: xxx", "unknown column"}),
       File("MissingFile", "plans.csv", {"scenario.yaml:5: plan.file = plans.csv", "no such file"}),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "env/core/blocks.h"
 #include "tests/controllers/driving.h"
 
 namespace floorproof {
@@ -81,6 +82,37 @@ TEST(MecanumDrive, RefusesWheelsThatCannot) {
   RobotSpec plain = HolonomicRobot();
   plain.wheels[2].roller_radius_m = 0;
   EXPECT_THROW(dut->Configure(plain), InputError);
+}
+
+// Two blocks on a hinge, two wheels on each: while the second swings, its wheels roll with it.
+TEST(MecanumDrive, WheelsOfASwingingBlockRollAlong) {
+  RobotSpec robot = HolonomicRobot();
+  robot.blocks = {{"right", Rectangle({-0.2, -0.2}, {0.2, 0}), {0, -0.1}},
+                  {"left", Rectangle({-0.2, 0}, {0.2, 0.2}), {0, 0.1}}};
+  robot.hinges = {{"hinge", 0, 1, {0.2, 0}, -1, 0, 0, kPi, 1}};
+  robot.shapes = {{"square", {0.0}, {}, 0}};
+  for (WheelSpec& wheel : robot.wheels) wheel.block = wheel.p_BW.y() > 0;
+  const auto dut = MakeDut(robot);
+
+  constexpr double kAngle = 0.6, kRate = 0.4, kDt = 1e-6;
+  HingeState now = AtRest(std::vector{kAngle}), then = AtRest(std::vector{kAngle + kRate * kDt});
+  now.radps[0] = kRate;
+  std::vector<double> wheels(robot.wheels.size());
+  dut->ToWheels({}, now, wheels);
+  const BlockMotions before = MoveBlocks(robot.blocks, robot.hinges, now);
+  const BlockMotions after = MoveBlocks(robot.blocks, robot.hinges, then);
+  const Vec2 start_B = MoveBlocks(robot.blocks, robot.hinges, StartState(robot)).p_RB;
+  for (std::size_t i = 0; i < robot.wheels.size(); ++i) {
+    const WheelSpec& w = robot.wheels[i];
+    const auto block = static_cast<std::size_t>(w.block);
+    const Vec2 p_K = w.p_BW.head<2>() + start_B;
+    const Vec2 hub_B = (after.block[block].X_BK * p_K - before.block[block].X_BK * p_K) / kDt;
+    const Vec2 hub = Pose2{0, 0, -before.block[block].X_BK.yaw_rad}.Rotate(hub_B);
+    const Vec2 rim = hub - Vec2(wheels[i] * w.radius_m, 0);
+    const Vec2 axis(-std::sin(w.roller_angle_rad), std::cos(w.roller_angle_rad));
+    EXPECT_NEAR(rim.dot(axis), 0, 1e-6) << w.name;
+    EXPECT_GT(hub.norm(), 0.005) << "it moves";
+  }
 }
 
 }  // namespace

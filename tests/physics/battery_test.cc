@@ -33,7 +33,7 @@ TEST_F(BatteryTest, TheDefaultIsAnIdealOne) {
   EXPECT_NEAR(dut.metrics.charge_ah * 3600 * 12, dut.metrics.energy_j, 1e-6);
   EXPECT_FALSE(dut.metrics.battery_left.has_value());
   Scenario stated = Read(RoomScenario("", "battery: {voltage_v: 12, resistance_ohm: 0}\n"));
-  EXPECT_EQ(TraceCsv(dut), TraceCsv(Drive(std::move(stated))));
+  EXPECT_EQ(TraceCsv(dut, {}), TraceCsv(Drive(std::move(stated)), {}));
 }
 
 TEST_F(BatteryTest, InternalResistanceSagsTheVoltage) {

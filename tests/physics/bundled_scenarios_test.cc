@@ -13,7 +13,7 @@ namespace {
 struct Expected {
   FailureMode mode;
   const char* kind;
-  const char* hazard;
+  const char* hazard;  // that its id begins with
   double x_m, y_m;
   double tolerance_m = 0.05;
 };
@@ -45,7 +45,7 @@ TEST_P(BundledScenarios, FailsAsItSays) {
     SCOPED_TRACE(i);
     EXPECT_EQ(Name(event.mode), Name(expected.mode));
     EXPECT_EQ(event.kind, expected.kind);
-    EXPECT_EQ(event.hazard, expected.hazard);
+    EXPECT_TRUE(event.hazard.starts_with(expected.hazard)) << event.hazard;
     EXPECT_NEAR(event.x_m, expected.x_m, expected.tolerance_m);
     EXPECT_NEAR(event.y_m, expected.y_m, expected.tolerance_m);
   }
@@ -58,8 +58,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Bundled{"glass_door",
                 {{kBounceBack, "reversed", "glass-door", 3.75 - 0.005 - kFront_m, 2.5}}},
-        // Between the front legs, against the rear ones.
-        Bundled{"chair_legs", {{kStuck, "", "rear-leg-left", 3.46 - kFront_m, 2.5}}},
+        // Between the front legs, against both rear ones; which is named is a draw.
+        Bundled{"chair_legs", {{kStuck, "", "rear-leg-", 3.46 - kFront_m, 2.5}}},
         // It falls when its centre is over the edge, and comes to rest across the treads of 0.3 m,
         // on the first or the second.
         Bundled{"staircase_edge",

@@ -69,18 +69,16 @@ TEST(RollerWheels, LoseSidewaysWhatTheSlantOfTheirRollersTakes) {
 }
 
 TEST(RollerWheels, ADeadWallThrowsNothingBack) {
-  Hazard wall;
-  wall.id = "wall";
-  wall.solids = {{Solid::Kind::kPrism, Rectangle({0.35, -8}, {8, 8}), {}, 0, 0.15}};
-  Bench dut("htetro", {}, {wall}, {}, true);
+  Rig dut("htetro",
+          {.hazards = {Prism("wall", Rectangle({0.35, -8}, {8, 8}), {}, 0.15)}, .rollers = true});
   dut.Command({0.25, 0, 0});
   double back_mps = 0;
-  while (dut.sim->sample().t_s < 2) {
-    ASSERT_TRUE(dut.sim->Step());
-    back_mps = std::max(back_mps, -dut.sim->sample().V_WB_B.vx_mps);
+  while (dut.sample().t_s < 2) {
+    dut.Step();
+    back_mps = std::max(back_mps, -dut.sample().V_WB_B.vx_mps);
   }
   EXPECT_LT(back_mps, 0.2 * 0.25);
-  EXPECT_NEAR(dut.sim->sample().p_WB.x(), 0.10, 0.005) << "it stands at the wall";
+  EXPECT_NEAR(dut.sample().p_WB.x(), 0.10, 0.005) << "it stands at the wall";
 }
 
 Hazard Ledge(bool sideways, double height_m) {

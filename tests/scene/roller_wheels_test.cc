@@ -114,8 +114,8 @@ TEST(RollerWheelsModel, ARobotOnPlainWheelsStaysAsItIs) {
   EXPECT_EQ(SceneXml(dut.with_ideal), SceneXml(dut.with_rollers));
 }
 
-// The stock MuJoCo: no collider, no user data, friction alike in all directions; it stands and drives sideways. A user's
-// own robot, from a file beside, does so alike.
+// The stock MuJoCo: no collider, no user data, friction alike in all directions; it stands and
+// drives sideways. A user's own robot, from a file beside, does so alike.
 TEST(RollerWheelsModel, TheExportStandsAndDrivesSidewaysInTheStockEngine) {
   const std::filesystem::path copy = ::testing::TempDir() + "/my_robot.xml";
   std::filesystem::copy_file(FindRobotFile("htetro", {}), copy,

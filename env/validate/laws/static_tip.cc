@@ -88,7 +88,7 @@ double GoesOver(const char* robot, const Edge& edge, const WrongModel& wrong) {
   Rig rig(robot, {.friction = kHoldsAll, .wrong = wrong});
   rig.Brake();
   // Casters too must not slide.
-  mjModel* m = rig.scene().model.get();
+  mjModel* m = rig.sim().model();
   for (int g = 0; g < m->ngeom; ++g)
     if (m->geom_type[g] == mjGEOM_SPHERE && m->geom_conaffinity[g])
       m->geom_friction[3 * g] = kHoldsAll;
