@@ -29,6 +29,11 @@ Rgb ColourOf(Direction direction) {
   return kInk;
 }
 
+int AsideOf(Direction direction) {
+  constexpr int kAside_px = 6;
+  return kAside_px * (static_cast<int>(direction) - static_cast<int>(Direction::kSideways));
+}
+
 Rgb Paler(const Rgb& colour, double share) {
   Rgb paler;
   for (std::size_t k = 0; k < 3; ++k)
@@ -87,7 +92,7 @@ ChartPanel PanelOf(const LadderHazard& hazard, std::span<const LadderRow> rows,
   for (const char* wheels : {"ideal", "rollers"})
     for (const Direction direction : DirectionsIn(rows))
       for (std::size_t i = 0; i < levels.size(); ++i) {
-        ChartSeries series{StyleOf(ColourOf(direction), i), {}};
+        ChartSeries series{StyleOf(ColourOf(direction), i), AsideOf(direction), {}};
         series.style.hollow = std::string_view(wheels) == "rollers";
         if (series.style.hollow) series.style.stroke = Stroke::kNone;
         for (const LadderRow& row : rows)
@@ -123,9 +128,19 @@ std::vector<LadderRow> RowsOf(std::span<const LadderRow> rows, const std::string
   return own;
 }
 
-constexpr const char* kMeaning =
-    "Up to the limit every size tried is crossed, driven straight by the robot's own tracker and "
-    "judged by the failure detectors.";
+// What the figures mean, below the title.
+std::vector<std::string> Notes(std::span<const LadderRow> rows, const std::string& setting) {
+  const std::vector<Direction> directions = DirectionsIn(rows);
+  const bool aside =
+      std::find(directions.begin(), directions.end(), Direction::kSideways) != directions.end();
+  return {
+      "Up to the limit every size tried is crossed, driven straight by the robot's own tracker "
+      "and judged by the failure detectors; 0: none is.",
+      setting + (aside ? " Diagonal: the way at 45 deg to the body, the hazard square to the "
+                         "way. Series of equal values stand side by side."
+                       : " Diagonal: the edge met at 45 deg. Series of equal values stand side "
+                         "by side.")};
+}
 
 }  // namespace
 
@@ -139,8 +154,8 @@ void WriteCapabilityChart(std::span<const LadderRow> rows, const std::string& ro
                     [](const LadderCell& cell) { return cell.friction; },
                     [](double friction) { return fmt::format("friction {}", friction); }});
   chart.title = fmt::format("{}: capability chart", robot);
-  chart.notes = {kMeaning, fmt::format("Belly clearance {:g} mm, mass {:g} kg.",
-                                       1000 * spec.clearance_m, spec.mass_kg)};
+  chart.notes = Notes(own, fmt::format("Belly clearance {:g} mm, mass {:g} kg.",
+                                       1000 * spec.clearance_m, spec.mass_kg));
   WriteChart(chart, folder / fmt::format("capability_{}.png", robot));
 }
 
@@ -155,8 +170,8 @@ void WriteSweepChart(std::span<const LadderRow> rows, const std::string& robot,
                     [](const LadderCell& c) { return c.changes.mass_kg.value(); },
                     [](double mass_kg) { return fmt::format("{:g} kg", mass_kg); }});
   chart.title = fmt::format("{}: limits over belly clearance and mass", robot);
-  chart.notes = {kMeaning, fmt::format("{} wheels, {:g} m/s, friction {:g}.", Spoken(cell.wheels),
-                                       cell.speed_mps, cell.friction)};
+  chart.notes = Notes(own, fmt::format("{} wheels, {:g} m/s, friction {:g}.", Spoken(cell.wheels),
+                                       cell.speed_mps, cell.friction));
   WriteChart(chart, folder / fmt::format("sweep_{}.png", robot));
 }
 

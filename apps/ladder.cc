@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kDisagreement = 0.2;  // of two wheel models' limits that is worth a line
+constexpr double kShownFriction = 0.8;
 constexpr double kTrustedShare = 0.8;  // of a limit that a robot should be trusted with
 
 // "412 of 810 rows, about 130 s to go": in place on a terminal, a line every ten seconds elsewhere.
@@ -75,7 +76,8 @@ void SayRows(std::span<const LadderRow> rows, const Globals& globals) {
 }
 
 void SayFindings(std::span<const LadderRow> rows, const Globals& globals) {
-  for (const CoverGap& gap : CoverGaps(rows)) globals.Say(Sentence(gap));
+  for (const CoverGap& gap : CoverGaps(rows))
+    if (gap.cell.friction == kShownFriction) globals.Say(Sentence(gap));
   for (const auto& [ideal, rollers] : WheelDisagreements(rows, kDisagreement)) {
     const LadderCell& cell = ideal.cell;
     globals.Say(fmt::format(

@@ -48,7 +48,7 @@ void Stroke(cv::Mat& canvas, const cv::Point2d& a, const cv::Point2d& b, const C
 
 void Mark(cv::Mat& canvas, const cv::Point2d& p, const ChartStyle& style) {
   if (style.hollow) {
-    cv::circle(canvas, Fixed(p), 6 << kShift, Colour(style.colour), 2, cv::LINE_AA, kShift);
+    cv::circle(canvas, Fixed(p), 5 << kShift, Colour(style.colour), 2, cv::LINE_AA, kShift);
   } else {
     Disc(canvas, p, 5.2, {255, 255, 255});
     Disc(canvas, p, 3.9, style.colour);
@@ -129,12 +129,13 @@ void DrawPanel(Image& image, const ChartPanel& panel, int x, int y) {
   for (const ChartSeries& series : panel.series)
     for (std::size_t i = 1; i < series.points.size(); ++i) {
       const ChartPoint &a = series.points[i - 1], &b = series.points[i];
-      Stroke(canvas, axes.Pixel(a.x, a.y), axes.Pixel(b.x, b.y), series.style);
+      const cv::Point2d aside(series.aside_px, 0);
+      Stroke(canvas, axes.Pixel(a.x, a.y) + aside, axes.Pixel(b.x, b.y) + aside, series.style);
     }
   // Marks last, so that no line crosses one.
   for (const ChartSeries& series : panel.series)
     for (const ChartPoint& point : series.points) {
-      const cv::Point2d p = axes.Pixel(point.x, point.y);
+      const cv::Point2d p = axes.Pixel(point.x, point.y) + cv::Point2d(series.aside_px, 0);
       Mark(canvas, p, series.style);
       if (point.at_least) UpArrow(canvas, p, series.style.colour);
     }

@@ -28,6 +28,7 @@ struct ChartPoint {
 
 struct ChartSeries {
   ChartStyle style;
+  int aside_px = 0;  // drawn so far to the right, so that series of equal values show side by side
   std::vector<ChartPoint> points;  // joined in this order
 };
 

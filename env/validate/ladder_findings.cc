@@ -38,7 +38,7 @@ std::vector<CoverGap> CoverGaps(std::span<const LadderRow> rows) {
 
 std::string Sentence(const CoverGap& gap) {
   return fmt::format(
-      "{}, {} wheels, {} m/s, friction {}: a 20 mm cable cover with flanks from {} to {} deg is "
+      "{}, wheels {}, {} m/s, friction {}: a 20 mm cable cover with flanks from {} to {} deg is "
       "crossed forward and holds the robot when met sideways",
       gap.cell.robot, gap.cell.wheels, gap.cell.speed_mps, gap.cell.friction, gap.from_deg,
       gap.to_deg);

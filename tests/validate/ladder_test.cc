@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ladder's parts, each by itself, and a few crossings of real robots.
+#include "env/validate/ladder.h"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "env/validate/ladder_findings.h"
+
+namespace floorproof {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::StartsWith;
+
+constexpr Rungs kRungs = {.per_unit = 10, .first = 2, .spacing = 20, .last = 602};
+
+TEST(FindLimit, FindsTheLargestSizeCrossedToTheResolution) {
+  for (const double truth : {0.2, 0.3, 2.2, 5.7, 24.4, 59.9}) {
+    int tries = 0;
+    const auto limit = FindLimit(kRungs, [&](double size) {
+      ++tries;
+      return size <= truth;
+    });
+    EXPECT_EQ(limit->size, truth);
+    EXPECT_FALSE(limit->above_all);
+    EXPECT_LE(tries, 2 + truth / 2 + 5);
+  }
+}
+
+// Crossed again above a size that holds: what counts is up to where everything is crossed.
+TEST(FindLimit, StopsAtTheFirstRungThatFails) {
+  const auto limit = FindLimit(kRungs, [](double size) { return size < 7 || size > 9; });
+  EXPECT_EQ(limit->size, 6.9);
+  EXPECT_FALSE(limit->above_all);
+}
+
+TEST(FindLimit, SaysWhenNoneOrAllIsCrossed) {
+  const auto none = FindLimit(kRungs, [](double) { return false; });
+  EXPECT_EQ(none->size, 0);
+  EXPECT_FALSE(none->above_all);
+  const auto all = FindLimit(kRungs, [](double) { return true; });
+  EXPECT_EQ(all->size, 60.2);
+  EXPECT_TRUE(all->above_all);
+}
+
+// It begins at the origin and ends where the ladder says, at every rung and whichever the way.
+TEST(LadderHazards, LieWhereTheyAreSaidTo) {
+  for (const LadderHazard& dut : LadderHazards())
+    for (const double travel_rad : {0.0, kPi / 4})
+      for (int rung = dut.rungs.first; rung <= dut.rungs.last; rung += dut.rungs.spacing) {
+        const double size = static_cast<double>(rung) / dut.rungs.per_unit;
+        const Hazard hazard = dut.make(size, travel_rad);
+        const double turned_rad = dut.name == "rough" ? travel_rad : 0;
+        double low = 1e9, high = -1e9;
+        for (const Vec2& corner : hazard.footprint.at(0)) {
+          const double x = Pose2{0, 0, -turned_rad}.Rotate(corner).x();
+          low = std::min(low, x);
+          high = std::max(high, x);
+        }
+        SCOPED_TRACE(std::string(dut.name) + " " + std::to_string(size));
+        EXPECT_NEAR(low, 0, 1e-9);
+        const bool ends = dut.length_m(size) > 0;
+        EXPECT_NE(hazard.hazard_class == HazardClass::kLevelChange, ends);
+        if (ends) {
+          EXPECT_NEAR(high, dut.length_m(size), 1e-9);
+        }
+        EXPECT_FALSE(hazard.known);
+      }
+}
+
+TEST(LadderCells, AreEveryRobotHazardDirectionSpeedAndFrictionOnce) {
+  const auto cells = LadderCells({});
+  std::set<std::string> seen;
+  int rollers = 0;
+  for (const LadderCell& cell : cells) {
+    const LadderRow row{cell, 0, false, ""};
+    EXPECT_TRUE(seen.insert(LadderCsv({&row, 1})).second) << LadderCsv({&row, 1});
+    if (cell.robot == "beluga") {
+      EXPECT_NE(cell.direction, Direction::kSideways);
+      EXPECT_EQ(cell.wheels, "ideal");
+    }
+    rollers += cell.wheels == "rollers";
+  }
+  const std::size_t kinds = LadderHazards().size();
+  EXPECT_EQ(cells.size(), kinds * (2 * 3 * 3 + 3 * 3 * 3 + 3 * 3 * 2));
+  EXPECT_EQ(LadderCells({.rollers = false}).size(),
+            cells.size() - static_cast<std::size_t>(rollers));
+  EXPECT_EQ(SweepCells().size(), kinds * (2 + 3) * 6 * 3);
+  for (const LadderCell& cell : SweepCells()) {
+    EXPECT_EQ(cell.speed_mps, 0.2);
+    EXPECT_EQ(cell.friction, 0.8);
+  }
+}
+
+LadderRow Row(const char* robot, const char* wheels, const char* hazard, Direction direction,
+              double limit) {
+  LadderCell cell{robot, wheels, FindLadderHazard(hazard).name, direction, 0.2, 0.8, {}};
+  return {cell, limit, false, ""};
+}
+
+TEST(LadderCsv, HasTheColumnsThatOthersReadBy) {
+  LadderRow row = Row("htetro", "ideal", "cable_cover", Direction::kSideways, 35.8);
+  EXPECT_EQ(LadderCsv({&row, 1}),
+            "robot,wheels,hazard,direction,speed_mps,friction,limit,unit\n"
+            "htetro,ideal,cable_cover,sideways,0.2,0.8,35.8,deg\n");
+  row.cell.changes.clearance_m = 0.022;
+  row.cell.changes.mass_kg = 7.7;
+  EXPECT_EQ(SweepCsv({&row, 1}),
+            "robot,wheels,hazard,direction,speed_mps,friction,limit,unit,clearance_m,mass_kg\n"
+            "htetro,ideal,cable_cover,sideways,0.2,0.8,35.8,deg,0.022,7.7\n");
+}
+
+TEST(Findings, AreReadFromTheRows) {
+  const std::vector<LadderRow> rows = {
+      Row("htetro", "ideal", "step", Direction::kForward, 24),
+      Row("htetro", "ideal", "step", Direction::kSideways, 5.5),
+      Row("htetro", "ideal", "drop", Direction::kForward, 26),
+      Row("htetro", "ideal", "cable_cover", Direction::kForward, 44),
+      Row("htetro", "ideal", "cable_cover", Direction::kSideways, 36),
+      Row("htetro", "rollers", "step", Direction::kForward, 23),
+      Row("htetro", "rollers", "step", Direction::kSideways, 4),
+      Row("beluga", "ideal", "cable_cover", Direction::kForward, 70),
+  };
+  const auto gaps = CoverGaps(rows);
+  ASSERT_EQ(gaps.size(), 1u);
+  EXPECT_EQ(gaps[0].from_deg, 36);
+  EXPECT_EQ(gaps[0].to_deg, 44);
+  EXPECT_THAT(Sentence(gaps[0]),
+              StartsWith("htetro, wheels ideal, 0.2 m/s, friction 0.8: a 20 mm "
+                         "cable cover with flanks from 36 to 44 deg is crossed"));
+  const auto part = WheelDisagreements(rows, 0.2);
+  ASSERT_EQ(part.size(), 1u);
+  EXPECT_EQ(part[0].ideal.limit, 5.5);
+  EXPECT_EQ(part[0].rollers.limit, 4);
+  EXPECT_EQ(TrustedStep(rows, "htetro"), 0.0055);
+  EXPECT_EQ(TrustedStep(rows, "beluga"), std::nullopt);
+}
+
+CrossingResult Meet(const char* robot_name, const char* hazard, Direction direction, double size,
+                    bool early = true) {
+  const LadderCell cell{robot_name, "ideal", FindLadderHazard(hazard).name, direction, 0.2,
+                        0.8,        {}};
+  const RobotModel robot = ReadRobot(FindRobotFile(robot_name, {}));
+  CrossingPlan plan = PlanOf(cell, robot.robot, size);
+  plan.early = early;
+  return Cross(robot, FindLadderHazard(hazard).make(size, plan.travel_rad), plan);
+}
+
+TEST(Crossing, WhatIsSmallIsCrossedEveryWayWithoutAFailure) {
+  for (const Direction direction :
+       {Direction::kForward, Direction::kSideways, Direction::kDiagonal})
+    EXPECT_EQ(Meet("htetro", "step", direction, 1).held_by, "");
+  for (const Direction direction : {Direction::kForward, Direction::kDiagonal})
+    EXPECT_EQ(Meet("beluga", "step", direction, 5).held_by, "");
+}
+
+// The early decision says what the detectors say later.
+TEST(Crossing, AWallOfAStepHoldsAndIsCalledStuck) {
+  const CrossingResult early = Meet("beluga", "step", Direction::kForward, 35);
+  const CrossingResult late = Meet("beluga", "step", Direction::kForward, 35, false);
+  EXPECT_EQ(early.held_by, "no progress");
+  EXPECT_THAT(late.held_by, StartsWith("stuck"));
+  EXPECT_LT(early.t_s + 4, late.t_s);
+  EXPECT_NEAR(early.s_m, late.s_m, 0.01) << "it stands at the edge";
+}
+
+TEST(Crossing, ADeepDropIsAFall) {
+  EXPECT_EQ(Meet("htetro", "drop", Direction::kForward, 45).held_by, "roll_over/fell");
+}
+
+// What the FMEA paper saw, met as the ladder meets it.
+TEST(Crossing, ACableCoverCrossedForwardHoldsHtetroSideways) {
+  EXPECT_TRUE(Meet("htetro", "cable_cover", Direction::kForward, 40).crossed);
+  EXPECT_EQ(Meet("htetro", "cable_cover", Direction::kSideways, 40).held_by, "no progress");
+}
+
+TEST(ClimbLadder, GivesTheSameRowsOnAnyNumberOfThreads) {
+  std::vector<LadderCell> cells;
+  for (const double friction : {0.4, 0.6, 0.8})
+    cells.push_back(
+        {"beluga", "ideal", FindLadderHazard("step").name, Direction::kForward, 0.3, friction, {}});
+  std::vector<std::size_t> done;
+  const auto one =
+      ClimbLadder(cells, 1, [&](const LadderRow&, std::size_t n) { done.push_back(n); });
+  EXPECT_THAT(done, ElementsAre(1u, 2u, 3u));
+  EXPECT_EQ(LadderCsv(one), LadderCsv(ClimbLadder(cells, 3, {})));
+  EXPECT_LT(one[0].limit, one[1].limit) << "less friction, lower steps";
+  EXPECT_LT(one[1].limit, one[2].limit);
+  for (const LadderRow& row : one) EXPECT_NE(row.held_by, "");
+}
+
+}  // namespace
+}  // namespace floorproof
