@@ -10,7 +10,7 @@
 namespace floorproof {
 
 // Empties the ladder's tables in `folder` and removes its pictures: what stands there later is this
-// run's. Throws InputError when nothing can be written there, before hours of work are lost.
+// run's. Throws InputError when nothing can be written there, before minutes of work are lost.
 void ClearLadder(const std::filesystem::path& folder);
 
 // ladder.csv, ladder_sweep.csv, capability_ROBOT.png, sweep_ROBOT.png. Under HoldInterrupts: when
