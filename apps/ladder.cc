@@ -75,6 +75,22 @@ void SayRows(std::span<const LadderRow> rows, const Globals& globals) {
   }
 }
 
+// At the rungs of speed about the robot's cruise: slower it climbs less.
+void SayTrustedStep(std::span<const LadderRow> rows, const std::string& name,
+                    const Globals& globals) {
+  const RobotSpec robot = ReadRobot(FindRobotFile(name, {})).robot;
+  double least_mps = 0;
+  for (const LadderRow& row : rows)
+    if (row.cell.speed_mps <= robot.cruise_mps) least_mps = std::max(least_mps, row.cell.speed_mps);
+  const auto step_m = TrustedStep(rows, name, least_mps);
+  if (!step_m) return;
+  globals.Say(fmt::format(
+      "{}: level changes up to {:.1f} mm are crossed every way from {} m/s on, friction 0.8; its "
+      "step_m is {:.1f} mm, {:.0f} % of the limit {:.1f} mm",
+      name, 1000 * *step_m, least_mps, 1000 * robot.step_m, 100 * kTrustedShare,
+      1000 * kTrustedShare * *step_m));
+}
+
 void SayFindings(std::span<const LadderRow> rows, const Globals& globals) {
   for (const CoverGap& gap : CoverGaps(rows))
     if (gap.cell.friction == kShownFriction) globals.Say(Sentence(gap));
@@ -86,15 +102,7 @@ void SayFindings(std::span<const LadderRow> rows, const Globals& globals) {
         100 * kDisagreement, cell.robot, cell.hazard, Name(cell.direction), cell.speed_mps,
         cell.friction, Text(ideal), Text(rollers), FindLadderHazard(cell.hazard).unit));
   }
-  for (const RobotEntry& robot : Robots())
-    if (const auto step_m = TrustedStep(rows, robot.name))
-      globals.Say(
-          fmt::format("{}: level changes up to {:.1f} mm are crossed every way on friction 0.8; "
-                      "step_m is {} m, "
-                      "{:.0f} % of the limit {:.4f} m",
-                      robot.name, 1000 * *step_m,
-                      ReadRobot(FindRobotFile(std::string(robot.name), {})).robot.step_m,
-                      100 * kTrustedShare, kTrustedShare * *step_m));
+  for (const RobotEntry& robot : Robots()) SayTrustedStep(rows, std::string(robot.name), globals);
 }
 
 nlohmann::ordered_json Json(std::span<const LadderRow> rows) {

@@ -55,8 +55,8 @@ TEST(Ladder, FasterAndWithMoreFrictionHtetroClimbsHigher) {
             LimitOf(Cell("htetro", "step", Direction::kForward, 0.2, 0.8)));
 }
 
-// A cover higher than the belly is crossed by neither: hTetro's belly is a plane between its wheels,
-// BELUGA's rises a little while its wheels stand on the flanks.
+// A cover higher than the belly is crossed by neither: hTetro's belly is a plane between its
+// wheels, BELUGA's rises a little while its wheels stand on the flanks.
 TEST(Ladder, BellyClearanceBoundsTheCoversHeight) {
   for (const char* robot : {"beluga", "htetro"}) {
     double last_mm = 0;
