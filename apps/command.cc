@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/command.h"
 
+#include <fmt/format.h>
+
 #include <cstdio>
+
+#include "env/scene/restitution.h"
 
 namespace floorproof {
 namespace {
@@ -45,6 +49,17 @@ std::filesystem::path OutputFolder(const std::string& out, const Scenario& scena
 
 void SayWarnings(const Scenario& scenario, const Globals& globals) {
   for (const auto& warning : scenario.site.warnings) globals.Say("warning: " + warning);
+  const ContactWalk walk{scenario.physics.timestep_s, scenario.physics.integrator == "discrete"};
+  for (const Hazard& hazard : scenario.site.map.hazards) {
+    constexpr double kNoticed = 0.02;
+    const double asked = hazard.material.restitution;
+    const double most = ReboundOf(SoftnessFor(asked, walk), walk);
+    if (asked > most + kNoticed)
+      globals.Say(
+          fmt::format("warning: {}: restitution {} is more than steps of {} s can give, {:.2f} "
+                      "(shorter physics.timestep_s, livelier contacts)",
+                      hazard.id, asked, walk.timestep_s, most));
+  }
   std::string outside;
   for (const fs::path& file : FilesRead(scenario))
     if (!LiesIn(scenario.file.parent_path(), file) && !LiesIn(ModelsFolder(), file))

@@ -75,20 +75,15 @@ void SayRows(std::span<const LadderRow> rows, const Globals& globals) {
   }
 }
 
-// At the rungs of speed about the robot's cruise: slower it climbs less.
 void SayTrustedStep(std::span<const LadderRow> rows, const std::string& name,
                     const Globals& globals) {
-  const RobotSpec robot = ReadRobot(FindRobotFile(name, {})).robot;
-  double least_mps = 0;
-  for (const LadderRow& row : rows)
-    if (row.cell.speed_mps <= robot.cruise_mps) least_mps = std::max(least_mps, row.cell.speed_mps);
-  const auto step_m = TrustedStep(rows, name, least_mps);
+  const auto step_m = TrustedStep(rows, name);
   if (!step_m) return;
+  const double model_m = ReadRobot(FindRobotFile(name, {})).robot.step_m;
   globals.Say(fmt::format(
-      "{}: level changes up to {:.1f} mm are crossed every way from {} m/s on, friction 0.8; its "
+      "{}: level changes up to {:.1f} mm are crossed every way at every speed on friction 0.8; its "
       "step_m is {:.1f} mm, {:.0f} % of the limit {:.1f} mm",
-      name, 1000 * *step_m, least_mps, 1000 * robot.step_m, 100 * kTrustedShare,
-      1000 * kTrustedShare * *step_m));
+      name, 1000 * *step_m, 1000 * model_m, 100 * kTrustedShare, 1000 * kTrustedShare * *step_m));
 }
 
 void SayFindings(std::span<const LadderRow> rows, const Globals& globals) {

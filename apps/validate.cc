@@ -32,10 +32,11 @@ int CheckAllLaws(const fs::path& folder, const Globals& globals,
                           "tolerance", "unit"));
   const auto results =
       CheckLaws(Cores(), [&](const LawResult& result) { SayLaw(result, globals); });
+  WriteFileWhole(folder / "validate.csv", ValidateCsv(results));
   if (Interrupted()) return 0;
+  SayWhenInterrupted("the laws are in " + folder.string());
   const auto bounces = BounceChart(Cores());
   if (Interrupted()) return 0;
-  WriteFileWhole(folder / "validate.csv", ValidateCsv(results));
   WriteFileWhole(folder / "bounce.csv", BounceCsv(bounces));
   int rows = 0, failed = 0;
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
@@ -73,8 +74,11 @@ void AddValidate(CLI::App& app, const Globals& globals, int& status) {
   command->callback([options, &globals, &status] {
     const fs::path folder = options->out;
     MakeFolder(folder);
+    // What an earlier run left does not stand for this one; and a full disk shows at once.
+    WriteFileWhole(folder / "validate.csv", ValidateCsv({}));
+    WriteFileWhole(folder / "bounce.csv", BounceCsv({}));
     if (options->ladder) ClearLadder(folder);
-    SayWhenInterrupted("no result is written");
+    SayWhenInterrupted("the laws that were done are in " + folder.string());
     const HoldInterrupts hold;
     nlohmann::ordered_json result;
     const int failed = CheckAllLaws(folder, globals, result);

@@ -7,17 +7,17 @@
 namespace floorproof {
 
 void Battery::Visit(ParamVisitor& v) {
-  v("voltage_v", voltage_v, Positive(),
+  v("voltage_v", voltage_v, Between(1, 1000),
     "open circuit, and most that the motors' drivers give (V); none: as the robot's model says");
-  v("resistance_ohm", resistance_ohm, NonNegative(), "internal (ohm); 0: the voltage never sags");
+  v("resistance_ohm", resistance_ohm, Between(0, 100), "internal (ohm); 0: the voltage never sags");
   v("capacity_wh", capacity_wh, Positive(),
     "drawn empty the battery cuts off (Wh); none: never empty");
 }
 
 BatteryOutput Feed(double voltage_v, double resistance_ohm, double load_w) {
   const double root = voltage_v * voltage_v - 4 * resistance_ohm * load_w;
-  const double v = (voltage_v + std::sqrt(std::max(0.0, root))) / 2;
-  if (root < 0) return {v, v / resistance_ohm};
+  if (root < 0) return {};
+  const double v = (voltage_v + std::sqrt(root)) / 2;
   return {v, load_w / v};
 }
 
@@ -42,11 +42,9 @@ BatteryInUse::BatteryInUse(const Battery& battery) : battery_(battery) {
 }
 
 BatteryOutput BatteryInUse::Feed(double load_w, double dt_s) {
-  if (empty()) {
-    voltage_v_ = 0;
-    return {};
-  }
-  const BatteryOutput out = floorproof::Feed(*battery_.voltage_v, battery_.resistance_ohm, load_w);
+  BatteryOutput out;
+  if (!cut_off()) out = floorproof::Feed(*battery_.voltage_v, battery_.resistance_ohm, load_w);
+  overloaded_ = overloaded_ || (!empty() && out.voltage_v == 0);
   drawn_j_ += *battery_.voltage_v * out.current_a * dt_s;
   voltage_v_ = out.voltage_v;
   return out;

@@ -28,7 +28,8 @@ struct BatteryOutput {
 };
 
 // What a load of this power, W, >= 0, gets from `voltage_v` behind `resistance_ohm`: v with
-// v (V - v) / R = P, the larger root. A load above V^2 / (4 R) gets that much, at V / 2.
+// v (V - v) / R = P, the larger root. Nothing can feed a load above V^2 / (4 R): 0 V and no
+// current.
 BatteryOutput Feed(double voltage_v, double resistance_ohm, double load_w);
 
 // Electrical power of a DC motor with its driver, W: current i = torque / K, voltage v = R i + K
@@ -45,7 +46,8 @@ struct VelocityDrive {
 // The torque, N m, at the joint: gain (command - speed), as far as the voltage and the limit allow.
 double DriveTorque(const VelocityDrive& drive, double command_radps, double speed_radps);
 
-// A battery in use. Once its capacity is drawn it cuts off: no voltage, no current, from then on.
+// A battery in use. Once its capacity is drawn, or a load is more than it can feed, it cuts off: no
+// voltage, no current, from then on.
 class BatteryInUse {
  public:
   // Without a voltage: 12 V.
@@ -53,6 +55,7 @@ class BatteryInUse {
   // Feeds this load for this time. A battery that runs empty within it is empty after it.
   BatteryOutput Feed(double load_w, double dt_s);
   bool empty() const { return battery_.capacity_wh && drawn_j_ >= *battery_.capacity_wh * 3600; }
+  bool cut_off() const { return overloaded_ || empty(); }
   // Share of the capacity, 1: full; none without a capacity.
   std::optional<double> left() const;
   // The terminals' voltage at the last load; before it, the open circuit's.
@@ -60,6 +63,7 @@ class BatteryInUse {
 
  private:
   Battery battery_;
+  bool overloaded_ = false;
   double drawn_j_ = 0;  // from the cells: at open-circuit voltage
   double voltage_v_ = 0;
 };

@@ -110,7 +110,9 @@ class Recorder {
                                     100 * m.coverage, 100 * min_coverage);
     }
     if (empty_s_ >= 0)
-      record_.message = fmt::format("the battery was empty after {:.1f} s", empty_s_);
+      record_.message = fmt::format(
+          "the battery cut off after {:.1f} s: {}", empty_s_,
+          m.battery_left && *m.battery_left <= 0 ? "it was empty" : "it cannot feed that load");
     if (ended == Outcome::kError) record_.message = "the physics diverged";
     return std::move(record_);
   }

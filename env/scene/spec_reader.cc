@@ -336,6 +336,9 @@ class SpecReader {
       const HingeSpec& hinge = robot.hinges[h];
       shape.hinge_rad.push_back(m_->numeric_data[m_->numeric_adr[id] + static_cast<int>(h)] * kPi /
                                 180);
+      constexpr double kStep_rad = kPi / 12;  // of the ways between shapes (controllers)
+      if (std::abs(std::remainder(shape.hinge_rad[h], kStep_rad)) > 1e-6)
+        Refuse(key, "angles must be multiples of 15 degrees");
       if (shape.hinge_rad[h] < hinge.min_rad || shape.hinge_rad[h] > hinge.max_rad)
         Refuse(key, "lies beyond the range of " + hinge.name);
     }

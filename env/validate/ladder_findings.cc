@@ -58,13 +58,12 @@ std::vector<WheelDisagreement> WheelDisagreements(std::span<const LadderRow> row
   return found;
 }
 
-std::optional<double> TrustedStep(std::span<const LadderRow> rows, std::string_view robot,
-                                  double least_mps) {
+std::optional<double> TrustedStep(std::span<const LadderRow> rows, std::string_view robot) {
   std::optional<double> least_mm;
   for (const LadderRow& row : rows) {
     const LadderCell& cell = row.cell;
-    if (cell.robot != robot || cell.wheels != "ideal" || cell.friction != kFriction ||
-        cell.speed_mps < least_mps || (cell.hazard != "step" && cell.hazard != "drop"))
+    if (cell.robot != robot || cell.friction != kFriction ||
+        (cell.hazard != "step" && cell.hazard != "drop"))
       continue;
     least_mm = std::min(least_mm.value_or(row.limit), row.limit);
   }

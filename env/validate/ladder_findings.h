@@ -27,10 +27,9 @@ struct WheelDisagreement {
 };
 std::vector<WheelDisagreement> WheelDisagreements(std::span<const LadderRow> rows, double share);
 
-// The highest level change that is crossed up and down in every direction on friction 0.8 by
-// `robot` with its ideal wheels, at speeds from `least_mps` on, m; nothing where there is no such
-// row. What a robot's step_m should not exceed.
-std::optional<double> TrustedStep(std::span<const LadderRow> rows, std::string_view robot,
-                                  double least_mps);
+// The highest level change that is crossed up and down in every direction, at every speed, on
+// friction 0.8 by `robot` with either kind of wheels, m; nothing where there is no such row. What a
+// robot's step_m should not exceed.
+std::optional<double> TrustedStep(std::span<const LadderRow> rows, std::string_view robot);
 
 }  // namespace floorproof

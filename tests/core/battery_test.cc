@@ -32,10 +32,21 @@ TEST(Feed, GivesTheLoadItsPowerAndObeysOhm) {
   EXPECT_EQ(Feed(12, 0, 48).current_a, 4);
 }
 
+// The most that can be fed is V^2 / (4 R), at half the voltage; nothing feeds more.
 TEST(Feed, GivesNoMoreThanItCan) {
-  const BatteryOutput dut = Feed(12, 0.5, 1000);
-  EXPECT_NEAR(dut.voltage_v, 6, 1e-12);
-  EXPECT_NEAR(dut.power_w(), 12 * 12 / (4 * 0.5), 1e-9);
+  constexpr double kMost_w = 12 * 12 / (4 * 0.5);
+  EXPECT_NEAR(Feed(12, 0.5, kMost_w).voltage_v, 6, 1e-6);
+  EXPECT_EQ(Feed(12, 0.5, 1.001 * kMost_w).power_w(), 0);
+}
+
+TEST(BatteryInUse, CutsOffUnderALoadThatItCannotFeed) {
+  BatteryInUse dut({.voltage_v = 12, .resistance_ohm = 0.5});
+  EXPECT_GT(dut.Feed(50, 1).voltage_v, 6);
+  EXPECT_FALSE(dut.cut_off());
+  EXPECT_EQ(dut.Feed(1000, 1).power_w(), 0);
+  EXPECT_TRUE(dut.cut_off());
+  EXPECT_EQ(dut.Feed(50, 1).power_w(), 0) << "for good";
+  EXPECT_FALSE(dut.empty());
 }
 
 TEST(BatteryInUse, CutsOffWhenItsCapacityIsDrawn) {

@@ -47,12 +47,20 @@ TEST_F(BatteryTest, InternalResistanceSagsTheVoltage) {
       << "energy is counted at the terminals";
 }
 
+// Behind 100 ohm a battery of 12 V feeds 0.36 W: not the computer alone.
+TEST_F(BatteryTest, OneThatCannotFeedTheLoadStopsTheRobot) {
+  const EpisodeRecord dut = Drive(Read(RoomScenario("", "battery: {resistance_ohm: 100}\n")));
+  EXPECT_EQ(dut.outcome, Outcome::kFailure);
+  EXPECT_THAT(dut.message, HasSubstr("it cannot feed that load"));
+  EXPECT_EQ(dut.metrics.energy_j, 0);
+}
+
 TEST_F(BatteryTest, AnEmptyOneStopsTheRobot) {
   const EpisodeRecord dut = Drive(Read(RoomScenario("", "battery: {capacity_wh: 0.05}\n")));
   EXPECT_EQ(dut.outcome, Outcome::kFailure);
   ASSERT_FALSE(dut.events.empty());
   EXPECT_EQ(dut.events.front().mode, FailureMode::kStuck);
-  EXPECT_THAT(dut.message, HasSubstr("the battery was empty after"));
+  EXPECT_THAT(dut.message, HasSubstr("it was empty"));
   EXPECT_EQ(dut.metrics.battery_left, 0);
   EXPECT_EQ(dut.metrics.least_battery_v, 0);
   EXPECT_NEAR(dut.metrics.energy_j, 0.05 * 3600, 1);

@@ -56,9 +56,8 @@ double CasterFriction(const mjModel* m) {
 class Stopping final : public Law {
  public:
   std::string_view statement() const override {
-    return "wheels locked: s = v^2 / (2 mu g); on Mecanum wheels mu g cos 45 deg, or mu g / 2 "
-           "along "
-           "an axis of rollers";
+    return "wheels locked: s = v^2 / (2 mu g); on Mecanum wheels, forward and sideways, mu g cos "
+           "45 deg";
   }
   std::vector<WrongModel> notices() const override { return {kMoreFriction}; }
 
