@@ -48,7 +48,7 @@ void Stroke(cv::Mat& canvas, const cv::Point2d& a, const cv::Point2d& b, const C
 
 void Mark(cv::Mat& canvas, const cv::Point2d& p, const ChartStyle& style) {
   if (style.hollow) {
-    cv::circle(canvas, Fixed(p), 5 << kShift, Colour(style.colour), 2, cv::LINE_AA, kShift);
+    cv::circle(canvas, Fixed(p), 7 << kShift, Colour(style.colour), 2, cv::LINE_AA, kShift);
   } else {
     Disc(canvas, p, 5.2, {255, 255, 255});
     Disc(canvas, p, 3.9, style.colour);

@@ -60,7 +60,7 @@ TEST(Ladder, FasterAndWithMoreFrictionHtetroClimbsHigher) {
 TEST(Ladder, BellyClearanceBoundsTheCoversHeight) {
   for (const char* robot : {"beluga", "htetro"}) {
     double last_mm = 0;
-    for (const double clearance_m : {0.015, 0.020, 0.025}) {
+    for (const double clearance_m : {0.015, 0.020}) {
       LadderCell cell = Cell(robot, "cable_cover_height", Direction::kForward);
       cell.changes.clearance_m = clearance_m;
       const double limit_mm = LimitOf(cell);
