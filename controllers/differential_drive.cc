@@ -39,8 +39,7 @@ class DifferentialDrive final : public Drive {
     axle_x_m_ = 0.5 * (robot.wheels[0].p_BW.x() + robot.wheels[1].p_BW.x());
   }
 
-  void ToWheels(const BodyTwist& twist, const HingeState&,
-                std::span<double> wheel_radps) const override {
+  void ToWheels(const BodyTwist& twist, HingeState&, std::span<double> wheel_radps) const override {
     double scale = 1;
     for (std::size_t i = 0; i < 2; ++i) {
       wheel_radps[i] = (twist.vx_mps - twist.wz_radps * y_m_[i]) / radius_m_[i];
@@ -50,7 +49,7 @@ class DifferentialDrive final : public Drive {
     for (std::size_t i = 0; i < 2; ++i) wheel_radps[i] *= scale;
   }
 
-  BodyTwist ToTwist(std::span<const double> wheel_radps) const override {
+  BodyTwist ToTwist(std::span<const double> wheel_radps, const HingeState&) const override {
     const double rim_0 = wheel_radps[0] * radius_m_[0], rim_1 = wheel_radps[1] * radius_m_[1];
     const double wz = (rim_1 - rim_0) / (y_m_[0] - y_m_[1]);
     return {rim_0 + wz * y_m_[0], -wz * axle_x_m_, wz};

@@ -18,15 +18,18 @@ class Drive {
   // needs.
   virtual void Configure(const RobotSpec& robot) = 0;
   // Wheel speeds (rad/s, RobotSpec's order) for a twist; components the drive cannot follow are
-  // dropped. When a wheel would exceed its motor's no-load speed all are scaled down together, so
-  // that the curvature stays. `hinges`: how the blocks that carry the wheels stand and move.
-  virtual void ToWheels(const BodyTwist& twist, const HingeState& hinges,
+  // dropped. `hinges`: how the blocks that carry the wheels stand and are to move. When a wheel
+  // would exceed its motor's no-load speed all are scaled down together, so that the curvature
+  // stays, and the hinges' rates with them.
+  virtual void ToWheels(const BodyTwist& twist, HingeState& hinges,
                         std::span<double> wheel_radps) const = 0;
   void ToWheels(const BodyTwist& twist, std::span<double> wheel_radps) const {
-    ToWheels(twist, HingeState{}, wheel_radps);
+    HingeState none;
+    ToWheels(twist, none, wheel_radps);
   }
-  // The twist that these wheel speeds roll, in the least-squares sense.
-  virtual BodyTwist ToTwist(std::span<const double> wheel_radps) const = 0;
+  // The twist that these wheel speeds roll, in the least-squares sense, while the hinges turn so.
+  virtual BodyTwist ToTwist(std::span<const double> wheel_radps,
+                            const HingeState& hinges = {}) const = 0;
 };
 
 std::span<const PluginEntry<Drive>> Drives();

@@ -134,7 +134,7 @@ class HolonomicFollower final : public Tracker {
   // At the vertex, heading as it came.
   void HoldPlace(const Pose2& X_WB, double dt_s) {
     const Vec2 back_W = progress_.leg().p_W - X_WB.p();
-    const Vec2 v_W = back_W.norm() < kHold_m ? Vec2(kHoldGain * back_W) : Vec2(Vec2::Zero());
+    const Vec2 v_W = kHoldGain * std::min(1.0, kHold_m / std::max(back_W.norm(), 1e-12)) * back_W;
     Slew(Pose2{0, 0, -X_WB.yaw_rad}.Rotate(v_W),
          kHoldGain * WrapAngle(hold_yaw_rad_ - X_WB.yaw_rad), dt_s);
   }

@@ -41,13 +41,10 @@ class MecanumDrive final : public Drive {
         refuse("wheel " + wheel.name + " has no rollers");
       const Pose2 X_BW{wheel.p_BW.x(), wheel.p_BW.y(), wheel.yaw_rad};
       const auto block = static_cast<std::size_t>(hinges_.empty() ? 0 : wheel.block);
-      Wheel own{block, start.block[block].X_BK.Inverse() * X_BW,
-                1 / std::tan(wheel.roller_angle_rad), wheel.radius_m, wheel.max_speed_radps};
-      if (hinges_.empty()) own.X_KW = X_BW;
-      const auto i = static_cast<Eigen::Index>(wheels_.size());
-      to_wheels_.row(i) << own.Speed(X_BW.yaw_rad, {1, 0}), own.Speed(X_BW.yaw_rad, {0, 1}),
-          own.Speed(X_BW.yaw_rad, {-X_BW.y_m, X_BW.x_m});
-      wheels_.push_back(own);
+      wheels_.push_back({block, start.block[block].X_BK.Inverse() * X_BW,
+                         1 / std::tan(wheel.roller_angle_rad), wheel.radius_m,
+                         wheel.max_speed_radps});
+      to_wheels_.row(static_cast<Eigen::Index>(wheels_.size()) - 1) = wheels_.back().Row(X_BW);
     }
     const Eigen::ColPivHouseholderQR<Eigen::MatrixX3d> solver(to_wheels_);
     if (solver.rank() < 3)
@@ -55,36 +52,39 @@ class MecanumDrive final : public Drive {
     to_twist_ = solver.solve(Eigen::MatrixXd::Identity(n, n));
   }
 
-  void ToWheels(const BodyTwist& twist, const HingeState& hinges,
+  void ToWheels(const BodyTwist& twist, HingeState& hinges,
                 std::span<double> wheel_radps) const override {
-    if (hinges.n == 0) {
-      for (std::size_t i = 0; i < wheels_.size(); ++i) {
-        const auto row = to_wheels_.row(static_cast<Eigen::Index>(i));
-        wheel_radps[i] = row[0] * twist.vx_mps + row[1] * twist.vy_mps + row[2] * twist.wz_radps;
-      }
-    } else {
-      const BlockMotions motions = MoveBlocks(blocks_, hinges_, hinges);
-      for (std::size_t i = 0; i < wheels_.size(); ++i) {
-        const BlockMotion& block = motions.block[wheels_[i].block];
-        const Pose2 X_BW = block.X_BK * wheels_[i].X_KW;
-        const Vec2 v_B = Vec2(twist.vx_mps, twist.vy_mps) +
-                         twist.wz_radps * Vec2(-X_BW.y_m, X_BW.x_m) + block.VelocityAt(X_BW.p());
-        wheel_radps[i] = wheels_[i].Speed(X_BW.yaw_rad, v_B);
-      }
-    }
+    const Vec3 V(twist.vx_mps, twist.vy_mps, twist.wz_radps);
+    BlockMotions motions;
+    if (hinges.n > 0) motions = MoveBlocks(blocks_, hinges_, hinges);
     double scale = 1;
     for (std::size_t i = 0; i < wheels_.size(); ++i) {
+      wheel_radps[i] = hinges.n > 0 ? wheels_[i].Row(motions).dot(V) + wheels_[i].Swing(motions)
+                                    : to_wheels_.row(static_cast<Eigen::Index>(i)).dot(V);
       const double speed = std::abs(wheel_radps[i]);
       if (speed > wheels_[i].max_speed_radps)
         scale = std::min(scale, wheels_[i].max_speed_radps / speed);
     }
     for (double& speed : wheel_radps) speed *= scale;
+    for (double& rate : hinges.radps) rate *= scale;
   }
 
-  BodyTwist ToTwist(std::span<const double> wheel_radps) const override {
+  BodyTwist ToTwist(std::span<const double> wheel_radps, const HingeState& hinges) const override {
     Vec3 twist = Vec3::Zero();
-    for (std::size_t i = 0; i < wheels_.size(); ++i)
-      twist += wheel_radps[i] * to_twist_.col(static_cast<Eigen::Index>(i));
+    if (hinges.n == 0) {
+      for (std::size_t i = 0; i < wheels_.size(); ++i)
+        twist += wheel_radps[i] * to_twist_.col(static_cast<Eigen::Index>(i));
+    } else {
+      // The normal equations of what is left when the hinges' share is taken off.
+      const BlockMotions motions = MoveBlocks(blocks_, hinges_, hinges);
+      Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+      for (std::size_t i = 0; i < wheels_.size(); ++i) {
+        const Vec3 row = wheels_[i].Row(motions);
+        normal += row * row.transpose();
+        twist += row * (wheel_radps[i] - wheels_[i].Swing(motions));
+      }
+      twist = normal.ldlt().solve(twist).eval();
+    }
     return {twist.x(), twist.y(), twist.z()};
   }
 
@@ -93,10 +93,22 @@ class MecanumDrive final : public Drive {
     std::size_t block;  // that carries it, in whose frame K it stands
     Pose2 X_KW;
     double cot, radius_m, max_speed_radps;
+    Pose2 X_BW(const BlockMotions& motions) const { return motions.block[block].X_BK * X_KW; }
     // Its speed when its centre moves at v_B and its own x points along yaw_rad.
     double Speed(double yaw_rad, const Vec2& v_B) const {
       const Vec2 v_W = Pose2{0, 0, -yaw_rad}.Rotate(v_B);
       return (v_W.x() - cot * v_W.y()) / radius_m;
+    }
+    // Its speed for each of vx, vy and wz.
+    Vec3 Row(const Pose2& X_BW) const {
+      return {Speed(X_BW.yaw_rad, {1, 0}), Speed(X_BW.yaw_rad, {0, 1}),
+              Speed(X_BW.yaw_rad, {-X_BW.y_m, X_BW.x_m})};
+    }
+    Vec3 Row(const BlockMotions& motions) const { return Row(X_BW(motions)); }
+    // Its speed for the motion of its block against the body.
+    double Swing(const BlockMotions& motions) const {
+      const Pose2 at = X_BW(motions);
+      return Speed(at.yaw_rad, motions.block[block].VelocityAt(at.p()));
     }
   };
 

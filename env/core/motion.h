@@ -46,7 +46,8 @@ struct ObstacleContact {
   int hazard = -1;               // index into HazardMap::hazards; -1: wall or furniture of the map
   Vec2 p_W = Vec2::Zero();       // where
   Vec2 normal_W = Vec2::Zero();  // unit, from the obstacle to the robot, in the plane
-  double closing_mps = 0;        // speed into the obstacle at this step, of the body at that point
+  int block = 0;                 // index into RobotSpec::blocks of what touches; 0 of a rigid robot
+  double closing_mps = 0;        // its speed into the obstacle there, just before this step
   double impulse_ns = 0;         // normal force times the step
 };
 

@@ -21,6 +21,7 @@
 #include <array>
 #include <limits>
 
+#include "env/core/blocks.h"
 #include "env/failures/detector.h"
 #include "env/failures/evidence.h"
 
@@ -51,10 +52,8 @@ class BounceBack final : public Detector {
     map_ = &context.map;
     robot_ = &context.robot;
     clear_ = &robot_->clear;
-    footprint_B_ = &clear_->footprint_B;
     touches_ = {};
     active_ = 0;
-    has_last_ = false;
     armed_ = true;
     last_contact_s_ = -std::numeric_limits<double>::infinity();
     margin_ = rebound_mps_;
@@ -64,9 +63,6 @@ class BounceBack final : public Detector {
     bool fires = false;
     if (sample.num_contacts > 0 || active_ > 0) fires = Follow(sample);
     if (!armed_ && sample.t_s - last_contact_s_ > window_s_) armed_ = true;
-    last_v_W_ = sample.v_WB_W.head<2>();
-    last_wz_radps_ = sample.V_WB_B.wz_radps;
-    has_last_ = true;
     return fires;
   }
 
@@ -75,6 +71,7 @@ class BounceBack final : public Detector {
     bool live = false, touching = false, seen = false;
     bool watched = false, met = false, settled = false;
     int hazard = -1;
+    std::size_t block = 0;
     Vec2 p_W = Vec2::Zero(), normal_W = Vec2::Zero();
     double since_s = 0, last_seen_s = 0;
     double closing_mps = 0, threshold_mps = 0;
@@ -87,29 +84,49 @@ class BounceBack final : public Detector {
     Pose2 X_WB;
   };
 
-  static Vec2 PointVelocity(const Vec2& v_W, double wz_radps, const Vec2& r_W) {
-    return v_W + wz_radps * Vec2(-r_W.y(), r_W.x());
-  }
+  // A point of what touches: from the body's origin, its velocity, and the one commanded.
+  struct Point {
+    Vec2 r_W, v_W, v_cmd_W;
+  };
 
-  // From the body's origin to its outermost point against the normal. (A circle's radius does not
-  // change, so that its centre will do.)
-  Vec2 Outermost(const Pose2& X_WB, const Vec2& normal_W) const {
-    if (clear_->kind == Shape2::Kind::kCircle || footprint_B_->empty())
-      return -clear_->radius_m * normal_W;
-    Vec2 outermost_W = X_WB.Rotate(footprint_B_->front());
-    for (const Vec2& p_B : *footprint_B_) {
-      const Vec2 r_W = X_WB.Rotate(p_B);
-      if (r_W.dot(normal_W) < outermost_W.dot(normal_W)) outermost_W = r_W;
+  // The outermost point against the normal: of the block that touches, where blocks swing; else of
+  // the clear shape. (A circle's radius does not change, so that its centre will do.)
+  Point Outermost(const Touch& touch, const Sample& sample) const {
+    const Pose2 X_WB = sample.X_WB();
+    const bool swings = sample.hinges.n > 0;
+    const BlockMotion& block = now_.block[touch.block];
+    const Polygon& outline = swings ? robot_->blocks[touch.block].outline_K : clear_->footprint_B;
+    Vec2 r_W = -clear_->radius_m * touch.normal_W;
+    double least_m = std::numeric_limits<double>::infinity();
+    if (swings || clear_->kind == Shape2::Kind::kFootprint)
+      for (const Vec2& p_K : outline) {
+        const Vec2 corner_W = X_WB.Rotate(swings ? block.X_BK * p_K : p_K);
+        if (corner_W.dot(touch.normal_W) >= least_m) continue;
+        least_m = corner_W.dot(touch.normal_W);
+        r_W = corner_W;
+      }
+    const BodyTwist& cmd = sample.command.twist;
+    const Vec2 arm_W(-r_W.y(), r_W.x());
+    Point point{r_W, sample.v_WB_W.head<2>() + sample.V_WB_B.wz_radps * arm_W,
+                X_WB.Rotate({cmd.vx_mps, cmd.vy_mps}) + cmd.wz_radps * arm_W};
+    if (swings) {
+      const Vec2 r_B = Pose2{0, 0, -X_WB.yaw_rad}.Rotate(r_W);
+      point.v_W += X_WB.Rotate(block.VelocityAt(r_B));
+      point.v_cmd_W += X_WB.Rotate(commanded_.block[touch.block].VelocityAt(r_B));
     }
-    return outermost_W;
+    return point;
   }
 
   bool Follow(const Sample& sample) {
-    if (sample.shape >= 0 && !robot_->hinges.empty())
-      footprint_B_ = &robot_->shapes[static_cast<std::size_t>(sample.shape)].footprint_B;
+    if (sample.hinges.n > 0) {
+      HingeState commanded = sample.hinges;
+      commanded.radps = sample.command.hinges.radps;
+      now_ = MoveBlocks(robot_->blocks, robot_->hinges, sample.hinges);
+      commanded_ = MoveBlocks(robot_->blocks, robot_->hinges, commanded);
+    }
     for (Touch& touch : touches_) touch.seen = false;
     for (int i = 0; i < sample.num_contacts; ++i)
-      See(sample.contacts[static_cast<std::size_t>(i)], sample);
+      See(sample.contacts[static_cast<std::size_t>(i)], sample.t_s);
     if (sample.num_contacts > 0) last_contact_s_ = sample.t_s;
 
     bool fires = false;
@@ -140,7 +157,7 @@ class BounceBack final : public Detector {
   }
 
   // Matches a contact to those of the last step, or begins one.
-  void See(const ObstacleContact& contact, const Sample& sample) {
+  void See(const ObstacleContact& contact, double t_s) {
     Touch* touch = Find(contact);
     const bool begins = touch == nullptr;
     if (touch == nullptr) {
@@ -152,44 +169,36 @@ class BounceBack final : public Detector {
       touch->hazard = contact.hazard;
     }
     touch->seen = true;
-    touch->last_seen_s = sample.t_s;
+    touch->last_seen_s = t_s;
     touch->p_W = contact.p_W;
     touch->away_mps = -contact.closing_mps;
-    if (!touch->watched) touch->normal_W = contact.normal_W;
-    if (!begins) return;
-    const Vec2 r_W = contact.p_W - sample.p_WB.head<2>();
-    double closing_mps = contact.closing_mps;
-    if (has_last_)
-      closing_mps = std::max(closing_mps,
-                             -PointVelocity(last_v_W_, last_wz_radps_, r_W).dot(contact.normal_W));
-    if (!armed_ || !(closing_mps > closing_mps_)) return;
+    if (!touch->watched) {
+      touch->normal_W = contact.normal_W;
+      touch->block = static_cast<std::size_t>(contact.block);
+    }
+    if (!begins || !armed_ || !(contact.closing_mps > closing_mps_)) return;
     touch->watched = true;
-    touch->since_s = sample.t_s;
-    touch->closing_mps = closing_mps;
-    touch->threshold_mps = std::max(rebound_mps_, rebound_share_ * closing_mps);
+    touch->since_s = t_s;
+    touch->closing_mps = contact.closing_mps;
+    touch->threshold_mps = std::max(rebound_mps_, rebound_share_ * contact.closing_mps);
     touch->deepest_m = std::numeric_limits<double>::infinity();
   }
 
   // One step after an impact. True when a rebound is over, and with it its evidence complete.
   bool Watch(Touch& touch, const Sample& sample) {
-    const Pose2 X_WB = sample.X_WB();
     const Vec2& n = touch.normal_W;
-    const Vec2 r_W = Outermost(X_WB, n);
-    const BodyTwist& cmd = sample.command.twist;
-    const Vec2 v_cmd_W = X_WB.Rotate({cmd.vx_mps, cmd.vy_mps});
-    const bool backing_off = PointVelocity(v_cmd_W, cmd.wz_radps, r_W).dot(n) > kBackingOffMps;
+    const Point point = Outermost(touch, sample);
+    const bool backing_off = point.v_cmd_W.dot(n) > kBackingOffMps;
     const bool late = sample.t_s - touch.since_s > window_s_ + kTimeSlackS;
     if (backing_off || late) {
       touch.watched = false;
       return touch.met;
     }
 
-    // While it touches, the contact knows the body's speed where it touches; afterwards the body's
-    // origin stands for it.
-    const double away_mps =
-        touch.touching ? touch.away_mps
-                       : PointVelocity(sample.v_WB_W.head<2>(), sample.V_WB_B.wz_radps, r_W).dot(n);
-    const double along_m = (X_WB.p() + r_W).dot(n);
+    // While it touches, the contact knows the speed where it touches; afterwards the motion in the
+    // plane stands for it.
+    const double away_mps = touch.touching ? touch.away_mps : point.v_W.dot(n);
+    const double along_m = (sample.p_WB.head<2>() + point.r_W).dot(n);
     if (touch.touching) touch.touch_m = along_m;
     touch.deepest_m = std::min(touch.deepest_m, along_m);
     const bool approaches_again = touch.peak_mps > 0 && away_mps <= 0;
@@ -204,7 +213,7 @@ class BounceBack final : public Detector {
       touch.met = true;
       touch.by_speed = touch.peak_mps > touch.threshold_mps;
       touch.t_s = sample.t_s;
-      touch.X_WB = X_WB;
+      touch.X_WB = sample.X_WB();
     }
     if (!touch.met || (away_mps > 0 && !sample.command.done)) return false;
     touch.watched = false;
@@ -233,12 +242,10 @@ class BounceBack final : public Detector {
   const HazardMap* map_ = nullptr;
   const RobotSpec* robot_ = nullptr;
   const Shape2* clear_ = nullptr;
-  const Polygon* footprint_B_ = nullptr;  // of the shape that it has, or had before it folds
+  BlockMotions now_, commanded_;  // of a robot whose blocks swing
   std::array<Touch, Sample::kMaxContacts> touches_;
   int active_ = 0;
-  Vec2 last_v_W_ = Vec2::Zero();
-  double last_wz_radps_ = 0;
-  bool has_last_ = false, armed_ = true;
+  bool armed_ = true;
   double last_contact_s_ = 0;
 };
 

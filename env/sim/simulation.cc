@@ -53,6 +53,9 @@ Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec
     hinge_qpos_.push_back(m->jnt_qposadr[joint]);
     hinge_dof_.push_back(m->jnt_dofadr[joint]);
   }
+  if (!robot.hinges.empty())
+    for (const BlockSpec& block : robot.blocks)
+      block_bodies_.push_back(mj_name2id(m, mjOBJ_BODY, block.name.c_str()));
   for (int a = 0; a < static_cast<int>(robot.wheels.size()); ++a)
     wheel_bodies_.push_back(m->jnt_bodyid[m->actuator_trnid[2 * a]]);
   support_.reserve(kMostSupports);
@@ -91,8 +94,6 @@ void Simulation::Reset(const Pose2& X_WB) {
   live_.Update(d);
   ForwardEngine(model(), d);
   sample_ = Sample{};
-  last_v_W_.setZero();
-  last_w_W_.setZero();
   ReadPose();
   ReadContacts();
   ReadPower(0);
@@ -103,8 +104,6 @@ void Simulation::SetWheelSpeeds(std::span<const double> wheel_radps) {
 }
 
 bool Simulation::Step() {
-  last_v_W_ = sample_.v_WB_W;
-  last_w_W_ = w_W_;
   live_.Update(data_.get());
   StepEngine(model(), data_.get());
   ReadPose();
@@ -147,9 +146,8 @@ void Simulation::ReadPose() {
   sample_.pitch_rad = std::asin(std::clamp(-R[6], -1.0, 1.0));
   sample_.yaw_rad = std::atan2(R[3], R[0]);
   sample_.tilt_rad = std::acos(std::clamp(R[8], -1.0, 1.0));
-  mjtNum w_W[3];
-  mju_mulMatVec3(w_W, R, v + 3);
-  w_W_ = {w_W[0], w_W[1], w_W[2]};
+  Vec3 w_W;
+  mju_mulMatVec3(w_W.data(), R, v + 3);
   // From the base block's frame R to B, which moves against it as the hinges turn.
   const mjtNum p_RB[3] = {blocks_.p_RB.x(), blocks_.p_RB.y(), 0};
   const mjtNum v_RB[3] = {blocks_.v_RB.x(), blocks_.v_RB.y(), 0};
@@ -157,7 +155,7 @@ void Simulation::ReadPose() {
   mju_mulMatVec3(arm_W, R, p_RB);
   mju_mulMatVec3(slide_W, R, v_RB);
   sample_.p_WB = Vec3(q[0], q[1], q[2]) + Vec3(arm_W[0], arm_W[1], arm_W[2]);
-  sample_.v_WB_W = Vec3(v[0], v[1], v[2]) + w_W_.cross(Vec3(arm_W[0], arm_W[1], arm_W[2])) +
+  sample_.v_WB_W = Vec3(v[0], v[1], v[2]) + w_W.cross(Vec3(arm_W[0], arm_W[1], arm_W[2])) +
                    Vec3(slide_W[0], slide_W[1], slide_W[2]);
   mju_mulMatTVec3(v_B, R, sample_.v_WB_W.data());
   sample_.V_WB_B = {v_B[0], v_B[1], v[5]};
@@ -210,15 +208,15 @@ void Simulation::ReadContacts() {
       if (nz > kWedged) AddSupport(c.pos);
       continue;
     }
+    if (nz <= kSteep) {
+      AddObstacle(c, world.hazard, c.geom[toward > 0 ? 1 : 0], toward);
+      continue;
+    }
     mjtNum force[6];
     mj_contactForce(m, d, i, force);
-    if (nz > kSteep) {
-      sample_.belly_load_n += force[0] * nz;
-      if (force[0] > 0) AddSupport(c.pos);
-      sample_.belly_hazard = world.hazard;
-    } else {
-      AddObstacle(world.hazard, c.pos, Vec2(toward * c.frame[0], toward * c.frame[1]), force[0]);
-    }
+    sample_.belly_load_n += force[0] * nz;
+    if (force[0] > 0) AddSupport(c.pos);
+    sample_.belly_hazard = world.hazard;
   }
   if (sample_.near_hazard < 0 && sample_.wheel_floor_z_m < -kBelow_m)
     sample_.near_hazard = CutAt(lowest_wheel_W_);  // a wheel that hangs in it
@@ -233,18 +231,31 @@ int Simulation::CutAt(const Vec2& p_W) const {
   return -1;
 }
 
-void Simulation::AddObstacle(int hazard, const double* p_W, Vec2 normal_W, double force_n) {
+void Simulation::AddObstacle(const mjContact& contact, int hazard, int geom, double toward) {
+  Vec2 normal_W(toward * contact.frame[0], toward * contact.frame[1]);
   if (sample_.num_contacts == Sample::kMaxContacts || normal_W.norm() < 1e-9) return;
-  ObstacleContact& contact = sample_.contacts[static_cast<std::size_t>(sample_.num_contacts++)];
-  contact.hazard = hazard;
-  contact.p_W = {p_W[0], p_W[1]};
-  contact.normal_W = normal_W.normalized();
-  // In space: a body that pitches at the impact moves otherwise where it touches than at its
-  // origin.
-  const Vec3 r = Vec3(p_W[0], p_W[1], p_W[2]) - sample_.p_WB;
-  const Vec2 v = (last_v_W_ + last_w_W_.cross(r)).head<2>();
-  contact.closing_mps = -v.dot(contact.normal_W);
-  contact.impulse_ns = force_n * model()->opt.timestep;
+  normal_W.normalize();
+  const mjModel* m = model();
+  const mjData* d = data_.get();
+  // Of what touches, at the point of touch: a body that pitches at the impact moves otherwise there
+  // than at its origin, and a block that swings otherwise than the robot. Velocities by body are
+  // those before the step.
+  const int body = m->body_weldid[m->geom_bodyid[geom]];
+  mjtNum V_W[6];
+  mj_objectVelocity(m, d, mjOBJ_XBODY, body, V_W, 0);
+  const Vec3 w_W(V_W[0], V_W[1], V_W[2]), v_W(V_W[3], V_W[4], V_W[5]);
+  const Vec3 r_W = Vec3(contact.pos) - Vec3(d->xpos + 3 * body);
+  mjtNum force[6];
+  mj_contactForce(m, d, static_cast<int>(&contact - d->contact), force);
+
+  ObstacleContact& out = sample_.contacts[static_cast<std::size_t>(sample_.num_contacts++)];
+  out.hazard = hazard;
+  out.p_W = {contact.pos[0], contact.pos[1]};
+  out.normal_W = normal_W;
+  const auto block = std::ranges::find(block_bodies_, body);
+  out.block = block == block_bodies_.end() ? 0 : static_cast<int>(block - block_bodies_.begin());
+  out.closing_mps = -Vec3(v_W + w_W.cross(r_W)).head<2>().dot(normal_W);
+  out.impulse_ns = force[0] * m->opt.timestep;
 }
 
 void Simulation::AddSupport(const double* p_W) {

@@ -52,7 +52,7 @@ class Simulation {
   void ReadContacts();
   void ReadPower(double dt_s);
   void SetDriverVoltages();
-  void AddObstacle(int hazard, const double* p_W, Vec2 normal_W, double force_n);
+  void AddObstacle(const mjContact& contact, int hazard, int geom, double toward);
   void AddSupport(const double* p_W);
   int CutAt(const Vec2& p_W) const;
   double SupportMargin();
@@ -67,11 +67,10 @@ class Simulation {
   std::vector<mjtNum> gains_;                // the motors', where their drivers' voltage changes
   std::vector<int> wheel_bodies_;            // of the driven wheels, in actuator order
   std::vector<int> hinge_qpos_, hinge_dof_;  // addresses of the hinges' joints
+  std::vector<int> block_bodies_;            // of a robot with hinges
   BlockMotions blocks_;                      // of a robot with hinges; else at rest
   Vec2 lowest_wheel_W_ = Vec2::Zero();
-  Vec3 last_v_W_ = Vec3::Zero();                       // of the body's origin, before the step
-  Vec3 w_W_ = Vec3::Zero(), last_w_W_ = Vec3::Zero();  // angular velocity, after and before it
-  std::vector<Vec2> support_, hull_;                   // scratch, capacity fixed
+  std::vector<Vec2> support_, hull_;  // scratch, capacity fixed
 };
 
 }  // namespace floorproof

@@ -61,7 +61,7 @@ void Rig::Build(RigOptions options) {
   sim_->Reset({});
 }
 
-void Rig::Command(const BodyTwist& twist, const HingeState& hinges) {
+void Rig::Command(const BodyTwist& twist, HingeState hinges) {
   drive_->ToWheels(twist, hinges, wheel_radps_);
   sim_->SetWheelSpeeds(wheel_radps_);
   sim_->SetHingeSpeeds(hinges);

@@ -45,7 +45,7 @@ class Rig {
   explicit Rig(RobotModel body, RigOptions options = {});
 
   // Wheel and hinge speeds for this motion from now on; hinges that are not mentioned hold still.
-  void Command(const BodyTwist& twist, const HingeState& hinges = {});
+  void Command(const BodyTwist& twist, HingeState hinges = {});
   // The same speed for every wheel from now on: a body of one's own.
   void CommandWheels(double wheel_radps);
   // Holds every driven wheel still by dry friction in its bearing, far above what the floor gives.

@@ -84,14 +84,49 @@ TEST(MecanumDrive, RefusesWheelsThatCannot) {
   EXPECT_THROW(dut->Configure(plain), InputError);
 }
 
-// Two blocks on a hinge, two wheels on each: while the second swings, its wheels roll with it.
-TEST(MecanumDrive, WheelsOfASwingingBlockRollAlong) {
+// Two blocks on a hinge, two wheels on each.
+RobotSpec HingedRobot() {
   RobotSpec robot = HolonomicRobot();
   robot.blocks = {{"right", Rectangle({-0.2, -0.2}, {0.2, 0}), {0, -0.1}},
                   {"left", Rectangle({-0.2, 0}, {0.2, 0.2}), {0, 0.1}}};
   robot.hinges = {{"hinge", 0, 1, {0.2, 0}, -1, 0, 0, kPi, 1}};
   robot.shapes = {{"square", {0.0}, {}, 0}};
   for (WheelSpec& wheel : robot.wheels) wheel.block = wheel.p_BW.y() > 0;
+  return robot;
+}
+
+TEST(MecanumDrive, ThereAndBackWhileABlockSwings) {
+  const RobotSpec robot = HingedRobot();
+  const auto dut = MakeDut(robot);
+  HingeState hinges = AtRest(std::vector{0.6});
+  hinges.radps[0] = 0.4;
+  const BodyTwist twist{0.1, -0.15, 0.4};
+  std::vector<double> wheels(robot.wheels.size());
+  dut->ToWheels(twist, hinges, wheels);
+  EXPECT_EQ(hinges.radps[0], 0.4) << "no wheel is too slow";
+  const BodyTwist back = dut->ToTwist(wheels, hinges);
+  EXPECT_NEAR(back.vx_mps, twist.vx_mps, 1e-12);
+  EXPECT_NEAR(back.vy_mps, twist.vy_mps, 1e-12);
+  EXPECT_NEAR(back.wz_radps, twist.wz_radps, 1e-12);
+}
+
+TEST(MecanumDrive, WheelsTooSlowSlowTheHingesToo) {
+  const RobotSpec robot = HingedRobot();
+  const auto dut = MakeDut(robot);
+  HingeState hinges = AtRest(std::vector{0.6});
+  hinges.radps[0] = 20;
+  std::vector<double> wheels(robot.wheels.size());
+  dut->ToWheels({2, 1, 3}, hinges, wheels);
+  EXPECT_LT(hinges.radps[0], 20);
+  const double share = hinges.radps[0] / 20;
+  const BodyTwist kept = dut->ToTwist(wheels, hinges);
+  EXPECT_NEAR(kept.vx_mps, 2 * share, 1e-9);
+  EXPECT_NEAR(kept.wz_radps, 3 * share, 1e-9);
+}
+
+// While the second block swings, its wheels roll with it.
+TEST(MecanumDrive, WheelsOfASwingingBlockRollAlong) {
+  const RobotSpec robot = HingedRobot();
   const auto dut = MakeDut(robot);
 
   constexpr double kAngle = 0.6, kRate = 0.4, kDt = 1e-6;

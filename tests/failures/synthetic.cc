@@ -86,7 +86,7 @@ Trace DriveInto(const Hit& hit) {
     if (t_s > kStepS / 2) sample.command.twist.vx_mps = hit.command_after_mps;
     if (t_s > hit.contact_s) continue;
     sample.num_contacts = 1;
-    sample.contacts[0] = {-1, Vec2(x_m + 0.18, 0), Vec2(-1, 0), speed_mps, 0.01};
+    sample.contacts[0] = {-1, Vec2(x_m + 0.18, 0), Vec2(-1, 0), 0, speed_mps, 0.01};
   }
   return trace;
 }

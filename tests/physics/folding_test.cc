@@ -223,6 +223,49 @@ TEST_F(Folded, AGapNarrowerThanTheSquareIsPassedAsABar) {
   EXPECT_THAT(square.events[0].hazard, ::testing::StartsWith("partition"));
 }
 
+// A block that swings meets a pane while the robot's middle stands: judged by the block's own
+// speed.
+TEST_F(Folded, WhatASwingingBlockMeetsIsJudgedByItsOwnSpeed) {
+  Save("plan.csv", "x_m,y_m,yaw_rad,shape\n3,2,0,I\n3,2,0,O\n");
+  for (const double restitution : {0.0, 0.8}) {
+    SCOPED_TRACE(restitution);
+    const EpisodeRecord dut = Drive(Read(
+        RoomScenario("{type: glass, id: pane, line_m: [[1, 2.45], [5, 2.45]], height_m: 1, "
+                     "thickness_m: 0.01, restitution: " +
+                     std::to_string(restitution) + "}"),
+        {{"robot", "{name: htetro, shape: I}"}, {"site.start", "{x_m: 3, y_m: 2, yaw_deg: 0}"}}));
+    EXPECT_GT(dut.metrics.contacts, 0);
+    if (restitution == 0) {
+      EXPECT_TRUE(dut.events.empty()) << "dead glass stops it";
+      continue;
+    }
+    ASSERT_EQ(dut.events.size(), 1u);
+    EXPECT_EQ(dut.events[0].mode, FailureMode::kBounceBack);
+    EXPECT_EQ(dut.events[0].hazard, "pane");
+    EXPECT_GT(dut.events[0].evidence[0].second, 0.05) << "closing";
+    for (const TraceRow& row : dut.trace) {
+      if (row.t_s > dut.events[0].t_s - 0.05) break;
+      EXPECT_LT(std::hypot(row.vx_mps, row.vy_mps), 0.03) << "at " << row.t_s;
+    }
+  }
+}
+
+TEST_F(Folded, WhereThereIsNoRoomToFoldItGetsStuck) {
+  const auto file =
+      std::filesystem::path(FP_SOURCE_DIR) / "models/scenarios/htetro_narrow_gap.yaml";
+  const auto plan = Save("in_the_gap.csv", "x_m,y_m,yaw_rad,shape\n3.25,2.0,0,I\n3.25,2.0,0,O\n");
+  const EpisodeRecord dut = Drive(ReadScenario(file, {{"robot", "{name: htetro, shape: I}"},
+                                                      {"start.x_m", "3.25"},
+                                                      {"plan.file", plan.string()},
+                                                      {"on_failure", "ignore"},
+                                                      {"time_limit_s", "30"}}));
+  EXPECT_EQ(dut.outcome, Outcome::kFailure);
+  EXPECT_THAT(dut.events,
+              ::testing::Contains(::testing::AllOf(
+                  ::testing::Field(&Event::mode, FailureMode::kStuck),
+                  ::testing::Field(&Event::hazard, ::testing::StartsWith("partition")))));
+}
+
 TEST_F(Folded, WhatItCannotBeIsRefused) {
   Save("plan.csv", "x_m,y_m,shape\n1.5,2.5,Q\n");
   EXPECT_THAT(
