@@ -195,9 +195,10 @@ class BounceBack final : public Detector {
       return touch.met;
     }
 
-    // While it touches, the contact knows the speed where it touches; afterwards the motion in the
-    // plane stands for it.
-    const double away_mps = touch.touching ? touch.away_mps : point.v_W.dot(n);
+    // Thrown back is what moves away as a whole: a body that pitches against the wall moves away
+    // where it touches, or at its origin, and not both.
+    const double body_mps = point.v_W.dot(n);
+    const double away_mps = touch.touching ? std::min(touch.away_mps, body_mps) : body_mps;
     const double along_m = (sample.p_WB.head<2>() + point.r_W).dot(n);
     if (touch.touching) touch.touch_m = along_m;
     touch.deepest_m = std::min(touch.deepest_m, along_m);
