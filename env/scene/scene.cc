@@ -7,6 +7,7 @@
 #include "env/scene/floor.h"
 #include "env/scene/mecanum_wheel.h"
 #include "env/scene/restitution.h"
+#include "env/scene/scene_looks.h"
 #include "env/scene/walls.h"
 
 namespace floorproof {
@@ -40,7 +41,7 @@ class SceneBuilder {
     if (pieces.empty()) {
       mjsGeom* plane = Add(GeomRole::Kind::kFloor, -1, map_.floor_friction, 0);
       plane->type = mjGEOM_PLANE;
-      const Vec2 middle = Middle();
+      const Vec2 middle = MiddleOf(map_.frame);
       plane->pos[0] = middle.x();
       plane->pos[1] = middle.y();
       SetYaw(plane, map_.frame.X_WG.yaw_rad);
@@ -108,46 +109,11 @@ class SceneBuilder {
     }
   }
 
-  // Colours, light and the picture's quality; nothing here touches the physics. The lights add up
-  // to just below 1 on the floor, so that it does not burn out.
-  void Looks() {
-    FloorTiles();
-    Sky();
-    Material("wall", {0.52f, 0.58f, 0.66f, 1.0f});
-    Material("pit", {0.36f, 0.33f, 0.31f, 1.0f});
-    mjsLight* sun = mjs_addLight(world_, nullptr);
-    const Vec2 middle = Middle();
-    sun->type = mjLIGHT_DIRECTIONAL;
-    Copy<double>({middle.x(), middle.y(), 10}, sun->pos);
-    Copy<double>({0.35, 0.25, -1}, sun->dir);
-    sun->castshadow = 1;
-    Copy<float>({0, 0, 0}, sun->ambient);
-    Copy<float>({0.52f, 0.51f, 0.48f}, sun->diffuse);
-    Copy<float>({0.15f, 0.15f, 0.15f}, sun->specular);
-    mjVisual& visual = spec_->visual;
-    Copy<float>({0.40f, 0.40f, 0.42f}, visual.headlight.ambient);
-    Copy<float>({0.15f, 0.15f, 0.15f}, visual.headlight.diffuse);
-    Copy<float>({0, 0, 0}, visual.headlight.specular);
-    visual.global.offwidth = 1920;
-    visual.global.offheight = 1080;
-    visual.quality.shadowsize = 2048;
-    visual.quality.offsamples = 4;
-    visual.quality.numquads = 1;
-    visual.map.znear = 0.02f;
-    // Sizes of shadows, clipping planes and lights follow the extent.
-    spec_->stat.extent = std::max(map_.frame.width, map_.frame.height) * map_.frame.cell_m;
-    Copy<double>({middle.x(), middle.y(), 0}, spec_->stat.center);
-  }
-
   WallPool pool;
   std::vector<std::pair<mjsGeom*, GeomRole>> added;
   std::vector<mjsGeom*> mecanum;  // the robot's wheels with rollers
 
  private:
-  Vec2 Middle() const {
-    return map_.frame.X_WG * Vec2(map_.frame.width * map_.frame.cell_m / 2,
-                                  map_.frame.height * map_.frame.cell_m / 2);
-  }
   double Friction(const Hazard& hazard) const {
     return hazard.material.friction.value_or(map_.floor_friction);
   }
@@ -156,11 +122,6 @@ class SceneBuilder {
     geom->quat[1] = geom->quat[2] = 0;
     geom->quat[3] = std::sin(yaw_rad / 2);
   }
-  template <class T>
-  static void Copy(std::array<T, 3> from, T* to) {
-    std::copy(from.begin(), from.end(), to);
-  }
-
   mjsGeom* Add(GeomRole::Kind kind, int hazard, double friction, double restitution) {
     mjsGeom* geom = mjs_addGeom(world_, nullptr);
     const bool wall = kind == GeomRole::Kind::kWall;
@@ -235,41 +196,6 @@ class SceneBuilder {
     return std::abs(a.dot(b)) < 1e-9 * a.norm() * b.norm() + 1e-15 && (a + c).norm() < 1e-9;
   }
 
-  // Tiles of half a metre with a joint between them, on a plane and on slabs alike.
-  void FloorTiles() {
-    mjsTexture* texture = mjs_addTexture(spec_, nullptr);
-    mjs_setName(texture->element, "floor");
-    texture->type = mjTEXTURE_2D;
-    texture->builtin = mjBUILTIN_FLAT;
-    texture->mark = mjMARK_EDGE;
-    Copy<double>({0.90, 0.88, 0.84}, texture->rgb1);
-    Copy<double>({0.74, 0.72, 0.68}, texture->markrgb);
-    texture->width = texture->height = 256;
-    mjsMaterial* material = mjs_addMaterial(spec_, nullptr);
-    mjs_setName(material->element, "floor");
-    mjs_setInStringVec(material->textures, mjTEXROLE_RGB, "floor");
-    material->texuniform = 1;
-    material->texrepeat[0] = material->texrepeat[1] = 4;
-    material->specular = 0;
-  }
-  void Sky() {
-    mjsTexture* texture = mjs_addTexture(spec_, nullptr);
-    mjs_setName(texture->element, "sky");
-    texture->type = mjTEXTURE_SKYBOX;
-    texture->builtin = mjBUILTIN_GRADIENT;
-    Copy<double>({0.93, 0.95, 0.97}, texture->rgb1);
-    Copy<double>({0.66, 0.73, 0.80}, texture->rgb2);
-    texture->width = 64;
-    texture->height = 384;
-  }
-  void Material(const char* name, std::array<float, 4> rgba) {
-    mjsMaterial* material = mjs_addMaterial(spec_, nullptr);
-    mjs_setName(material->element, name);
-    std::copy(rgba.begin(), rgba.end(), material->rgba);
-    material->specular = 0.1f;
-    material->shininess = 0.1f;
-  }
-
   const HazardMap& map_;
   const RobotSpec& robot_;
   const std::vector<std::string>& rollers_;
@@ -310,8 +236,8 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
   scene.spec.reset(mj_copySpec(robot.spec.get()));
   SetPhysics(scene.spec.get(), physics);
   PlaceRobot(scene.spec.get(), start);
+  AddLooks(map.frame, scene.spec.get());
   SceneBuilder builder(map, robot, scene.spec.get());
-  builder.Looks();
   builder.Floor();
   builder.Walls(start.p(), walls);
   builder.Hazards();
