@@ -29,8 +29,8 @@ void TakeShape(RobotSpec& robot, const std::vector<ShapeSpec>& shapes, int index
     if (part->kind == Shape2::Kind::kFootprint) part->footprint_B = shape.footprint_B;
   if (robot.clear.kind == Shape2::Kind::kCircle)
     robot.clear.radius_m = robot.circumscribed_radius_m;
-  const BlockMotions blocks = MoveBlocks(robot.blocks, robot.hinges, AtRest(shape.hinge_rad));
   if (robot.hinges.empty()) return;
+  const BlockMotions blocks = MoveBlocks(robot.blocks, robot.hinges, AtRest(shape.hinge_rad));
   for (WheelSpec& wheel : robot.wheels) {
     const Pose2& X_BK = blocks.block[static_cast<std::size_t>(wheel.block)].X_BK;
     wheel.p_BW.head<2>() = X_BK * Vec2(wheel.p_BW.head<2>());

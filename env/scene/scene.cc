@@ -29,11 +29,8 @@ class SceneBuilder {
         rollers_(robot.rollers),
         spec_(spec),
         world_(mjs_findBody(spec, "world")) {
-    for (mjsElement* e = mjs_firstElement(spec, mjOBJ_GEOM); e; e = mjs_nextElement(spec, e)) {
-      int n = 0;
-      const double* user = mjs_getDouble(mjs_asGeom(e)->userdata, &n);
-      if (n >= 2 && user[0] > 0) mecanum.push_back(mjs_asGeom(e));
-    }
+    for (mjsElement* e = mjs_firstElement(spec, mjOBJ_GEOM); e; e = mjs_nextElement(spec, e))
+      if (RollersOf(mjs_asGeom(e)).radius_m > 0) mecanum.push_back(mjs_asGeom(e));
   }
 
   void Floor() {
