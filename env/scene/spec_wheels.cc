@@ -105,8 +105,7 @@ void ReadHinges(CompiledRobot& compiled, RobotSpec& robot) {
 void ReadWheels(const CompiledRobot& compiled, RobotSpec& robot) {
   const mjModel* m = compiled.model();
   for (int a = 0; a < m->nu; ++a) {
-    const char* given = mj_id2name(m, mjOBJ_ACTUATOR, a);
-    const std::string name = given ? given : "actuator " + std::to_string(a);
+    const std::string name = mj_id2name(m, mjOBJ_ACTUATOR, a);
     if (std::ranges::find(robot.hinges, name, &HingeSpec::name) == robot.hinges.end())
       robot.wheels.push_back(ReadWheel(compiled, a, name));
     else if (a < m->nu - static_cast<int>(robot.hinges.size()))
