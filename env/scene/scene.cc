@@ -21,6 +21,12 @@ constexpr double kSlab_m = 0.10;  // of floor below the lowest
 constexpr double kTimeConstant_s = 0.01;
 constexpr mjtNum kSolimp[] = {0.95, 0.99, 0.0005};
 
+void SetYaw(double* quat, double yaw_rad) {
+  quat[0] = std::cos(yaw_rad / 2);
+  quat[1] = quat[2] = 0;
+  quat[3] = std::sin(yaw_rad / 2);
+}
+
 class SceneBuilder {
  public:
   SceneBuilder(const HazardMap& map, const RobotModel& robot, mjSpec* spec)
@@ -41,7 +47,7 @@ class SceneBuilder {
       const Vec2 middle = MiddleOf(map_.frame);
       plane->pos[0] = middle.x();
       plane->pos[1] = middle.y();
-      SetYaw(plane, map_.frame.X_WG.yaw_rad);
+      SetYaw(plane->quat, map_.frame.X_WG.yaw_rad);
       plane->size[0] = map_.frame.width * map_.frame.cell_m / 2 + 2;
       plane->size[1] = map_.frame.height * map_.frame.cell_m / 2 + 2;
       plane->size[2] = 1;
@@ -70,7 +76,7 @@ class SceneBuilder {
         ParkWall(geom->pos, geom->size);
       else
         PlaceWall(boxes[i], map_.frame.X_WG, geom->pos, geom->size);
-      SetYaw(geom, map_.frame.X_WG.yaw_rad);
+      SetYaw(geom->quat, map_.frame.X_WG.yaw_rad);
       mjs_setString(geom->material, "wall");
     }
   }
@@ -114,11 +120,6 @@ class SceneBuilder {
   double Friction(const Hazard& hazard) const {
     return hazard.material.friction.value_or(map_.floor_friction);
   }
-  static void SetYaw(mjsGeom* geom, double yaw_rad) {
-    geom->quat[0] = std::cos(yaw_rad / 2);
-    geom->quat[1] = geom->quat[2] = 0;
-    geom->quat[3] = std::sin(yaw_rad / 2);
-  }
   mjsGeom* Add(GeomRole::Kind kind, int hazard, double friction, double restitution) {
     mjsGeom* geom = mjs_addGeom(world_, nullptr);
     const bool wall = kind == GeomRole::Kind::kWall;
@@ -159,7 +160,7 @@ class SceneBuilder {
       geom->pos[0] = middle.x();
       geom->pos[1] = middle.y();
       geom->pos[2] = (z_low + z_high) / 2;
-      SetYaw(geom, std::atan2(along.y(), along.x()));
+      SetYaw(geom->quat, std::atan2(along.y(), along.x()));
       geom->size[0] = along.norm() / 2;
       geom->size[1] = (base[2] - base[1]).norm() / 2;
       geom->size[2] = (z_high - z_low) / 2;
@@ -215,9 +216,7 @@ void PlaceRobot(mjSpec* spec, const Pose2& start) {
   base->pos[0] = start.x_m;
   base->pos[1] = start.y_m;
   base->pos[2] = 0;
-  base->quat[0] = std::cos(start.yaw_rad / 2);
-  base->quat[1] = base->quat[2] = 0;
-  base->quat[3] = std::sin(start.yaw_rad / 2);
+  SetYaw(base->quat, start.yaw_rad);
 }
 
 }  // namespace
