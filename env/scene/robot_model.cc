@@ -46,7 +46,7 @@ void NameParts(mjSpec* spec, const std::string& file) {
     if (mjs_getString(mjs_getName(element))[0] != '\0') return;
     const std::string given = kind + std::to_string(number);
     if (mjs_setName(element, given.c_str()) != 0)
-      throw InputError({file, 0}, given, "", "the name of one without a name, is another's: rename that");
+      throw InputError({file, 0}, given, "", "another's name, needed for one without");
   };
   int number = 0;
   for (mjsElement* e = mjs_firstElement(spec, mjOBJ_ACTUATOR); e; e = mjs_nextElement(spec, e))
