@@ -2,12 +2,9 @@
 #include "apps/ladder.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include <chrono>
-#include <cstdio>
 
 #include "apps/capability_chart.h"
+#include "apps/progress_line.h"
 #include "env/core/interrupt.h"
 #include "env/run/file_output.h"
 #include "env/validate/ladder_findings.h"
@@ -21,44 +18,19 @@ constexpr double kDisagreement = 0.2;  // of two wheel models' limits that is wo
 constexpr double kShownFriction = 0.8;
 constexpr double kTrustedShare = 0.8;  // of a limit that a robot should be trusted with
 
-// "412 of 810 rows, about 130 s to go": in place on a terminal, a line every ten seconds elsewhere.
-class LadderProgress {
- public:
-  LadderProgress(const Globals& globals, std::span<const LadderCell> cells)
-      : quiet_(globals.quiet), terminal_(isatty(STDERR_FILENO) != 0), rows_(cells.size()) {
-    for (const LadderCell& cell : cells) cost_ += Cost(cell);
-  }
-  ~LadderProgress() {
-    if (shown_ && terminal_) std::fprintf(stderr, "\r\033[K");
-  }
-  void OnRow(const LadderRow& row, std::size_t done) {
-    spent_ += Cost(row.cell);
-    const auto now = std::chrono::steady_clock::now();
-    const auto period = std::chrono::milliseconds(terminal_ ? 200 : 10000);
-    if (quiet_ || now - last_ < period) return;
-    last_ = now;
-    const double wall_s = std::chrono::duration<double>(now - start_).count();
-    const std::string line = fmt::format("  {} of {} rows, about {:.0f} s to go", done, rows_,
-                                         wall_s * (cost_ - spent_) / spent_);
-    std::fprintf(stderr, terminal_ ? "\r\033[K%s" : "%s\n", line.c_str());
-    std::fflush(stderr);
-    shown_ = true;
-  }
-
- private:
-  // Roller wheels take about so many times longer.
-  static double Cost(const LadderCell& cell) { return cell.wheels == "rollers" ? 12 : 1; }
-
-  bool quiet_, terminal_, shown_ = false;
-  std::size_t rows_;
-  double cost_ = 0, spent_ = 0;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_ = start_;
-};
+// Roller wheels take about so many times longer.
+double CostOf(const LadderCell& cell) { return cell.wheels == "rollers" ? 12 : 1; }
 
 std::vector<LadderRow> Climb(std::span<const LadderCell> cells, int jobs, const Globals& globals) {
-  LadderProgress progress(globals, cells);
-  return ClimbLadder(cells, jobs,
-                     [&](const LadderRow& row, std::size_t done) { progress.OnRow(row, done); });
+  double cost = 0, spent = 0;
+  for (const LadderCell& cell : cells) cost += CostOf(cell);
+  ProgressLine progress(globals);
+  return ClimbLadder(cells, jobs, [&](const LadderRow& row, std::size_t done) {
+    spent += CostOf(row.cell);
+    if (progress.IsDue())
+      progress.Show(fmt::format("  {} of {} rows, about {:.0f} s to go", done, cells.size(),
+                                progress.wall_s() * (cost - spent) / spent));
+  });
 }
 
 std::string Text(const LadderRow& row) {

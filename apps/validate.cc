@@ -84,7 +84,6 @@ void AddValidate(CLI::App& app, const Globals& globals, int& status) {
     const int failed = CheckAllLaws(folder, globals, result);
     if (Interrupted()) EndInterrupted();
     if (options->ladder) {
-      SayWhenInterrupted("the laws are in " + folder.string());
       result["ladder"] = RunLadder(folder, Cores(), globals);
       if (Interrupted()) EndInterrupted();
     }

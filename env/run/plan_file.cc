@@ -84,8 +84,7 @@ Waypoint ReadRow(const std::vector<std::string>& header, const std::vector<std::
 
 }  // namespace
 
-Path ReadPlan(const std::filesystem::path& file, const GridFrame& map,
-              const CheckShape& check_shape) {
+Path ReadPlan(const std::filesystem::path& file, const GridFrame& map, std::vector<int>* lines) {
   const std::string name = file.string();
   std::istringstream in(ReadInputFile(file, kMostBytes));
   std::vector<std::string> header;
@@ -108,8 +107,8 @@ Path ReadPlan(const std::filesystem::path& file, const GridFrame& map,
     if (!map.Inside(map.ToCell(w.p_W)))
       throw InputError(mark, "x_m, y_m", FormatDouble(w.p_W.x()) + ", " + FormatDouble(w.p_W.y()),
                        "lies off the map");
-    if (check_shape && !w.shape.empty()) check_shape(mark, w.shape);
     path.push_back(w);
+    if (lines) lines->push_back(number);
   }
   if (path.empty()) throw InputError({name, 0}, "", "", "holds no waypoint");
   return path;

@@ -6,88 +6,93 @@
 #include "env/run/scenario.h"
 
 namespace floorproof {
+namespace {
 
 namespace fs = std::filesystem;
 
+fs::path PathFrom(const fs::path& folder, const fs::path& path) {
+  return fs::relative(fs::absolute(path), fs::absolute(folder));
+}
+
+ConfigNode Number(double value) { return ConfigNode::Scalar(FormatDouble(value)); }
+
+// A map with this one text.
+ConfigNode Named(const char* key, const std::string& text) {
+  ConfigNode node = ConfigNode::Map();
+  node.Add(key, ConfigNode::Scalar(text, true));
+  return node;
+}
+
+// Takes a copy: who visits parameters may change them.
+template <class Params>
+ConfigNode WithParams(ConfigNode node, Params params) {
+  WriteParams([&](ParamVisitor& v) { params.Visit(v); }, node);
+  return node;
+}
+ConfigNode WithPlugin(ConfigNode node, Configurable& plugin) {
+  WriteParams(plugin, node);
+  return node;
+}
+
+ConfigNode Robot(const Scenario& s, const fs::path& folder) {
+  const bool bundled =
+      std::ranges::any_of(Robots(), [&](const auto& r) { return r.name == s.robot_name; });
+  return WithParams(Named("name", bundled ? s.robot_name : PathFrom(folder, s.robot_file).string()),
+                    s.robot_changes);
+}
+
+ConfigNode Start(const Pose2& start) {
+  ConfigNode node = ConfigNode::Map();
+  node.Add("x_m", Number(start.x_m));
+  node.Add("y_m", Number(start.y_m));
+  node.Add("yaw_deg", Number(CanonicalDegrees(start.yaw_rad * 180 / kPi)));
+  return node;
+}
+
+ConfigNode Goal(const Vec2& goal) {
+  ConfigNode node = ConfigNode::Map();
+  node.Add("x_m", Number(goal.x()));
+  node.Add("y_m", Number(goal.y()));
+  return node;
+}
+
+ConfigNode Failures(const Scenario& s) {
+  ConfigNode node = ConfigNode::Map();
+  for (std::size_t i = 0; i < s.detectors.size(); ++i)
+    node.Add(std::string(Detectors()[i].name), WithPlugin(ConfigNode::Map(), *s.detectors[i]));
+  return node;
+}
+
+// What reading the resolved file will read: the site now stands within it.
+ConfigNode Files(const Scenario& s, const fs::path& folder) {
+  ConfigNode node = ConfigNode::Map();
+  for (const fs::path& file : FilesRead(s))
+    if (file != s.site_file)
+      node.Add(PathFrom(folder, file).string(), ConfigNode::Scalar(Sha256OfFile(file), true));
+  return node;
+}
+
+}  // namespace
+
 std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
-  const auto scalar = [](double v) { return ConfigNode::Scalar(FormatDouble(v)); };
-  const auto from_here = [&](const fs::path& path) {
-    return fs::relative(fs::absolute(path), fs::absolute(folder)).string();
-  };
   ConfigNode root = ConfigNode::Map();
   root.Add("scenario", ConfigNode::Scalar("1"));
   root.Add("name", ConfigNode::Scalar(s.name, true));
   root.Add("site", ResolveSite(s.site_node, s.site_folder, folder));
   root.Find("site")->Add("name", ConfigNode::Scalar(s.site.map.name, true));
-
-  ConfigNode robot = ConfigNode::Map();
-  const bool bundled =
-      std::ranges::any_of(Robots(), [&](const auto& r) { return r.name == s.robot_name; });
-  robot.Add("name", ConfigNode::Scalar(bundled ? s.robot_name : from_here(s.robot_file), true));
-  RobotChanges changes = s.robot_changes;
-  WriteParams([&](ParamVisitor& v) { changes.Visit(v); }, robot);
-  root.Add("robot", std::move(robot));
-
-  ConfigNode start = ConfigNode::Map();
-  start.Add("x_m", scalar(s.start.x_m));
-  start.Add("y_m", scalar(s.start.y_m));
-  start.Add("yaw_deg", scalar(CanonicalDegrees(s.start.yaw_rad * 180 / kPi)));
-  root.Add("start", std::move(start));
-  if (s.goal) {
-    ConfigNode goal = ConfigNode::Map();
-    goal.Add("x_m", scalar(s.goal->x()));
-    goal.Add("y_m", scalar(s.goal->y()));
-    root.Add("goal", std::move(goal));
-  }
-
-  ConfigNode plan = ConfigNode::Map();
-  if (s.planner) {
-    plan.Add("planner", ConfigNode::Scalar(s.planner_name, true));
-    WriteParams(*s.planner, plan);
-  } else {
-    plan.Add("file", ConfigNode::Scalar(from_here(s.plan_file), true));
-  }
-  root.Add("plan", std::move(plan));
-
-  const auto plugin = [](const std::string& name, Configurable& c) {
-    ConfigNode node = ConfigNode::Map();
-    node.Add("name", ConfigNode::Scalar(name, true));
-    WriteParams(c, node);
-    return node;
-  };
-  root.Add("controller", plugin(s.tracker_name, *s.tracker));
-  root.Add("estimator", plugin(s.estimator_name, *s.estimator));
-  ConfigNode failures = ConfigNode::Map();
-  for (std::size_t i = 0; i < s.detectors.size(); ++i) {
-    ConfigNode params = ConfigNode::Map();
-    WriteParams(*s.detectors[i], params);
-    failures.Add(std::string(Detectors()[i].name), std::move(params));
-  }
-  root.Add("failures", std::move(failures));
-
-  EpisodeParams episode = s.episode;
-  WriteParams([&](ParamVisitor& v) { episode.Visit(v); }, root);
-  ConfigNode battery = ConfigNode::Map();
-  Battery battery_params = s.battery;
-  WriteParams([&](ParamVisitor& v) { battery_params.Visit(v); }, battery);
-  root.Add("battery", std::move(battery));
-  ConfigNode physics = ConfigNode::Map(), video = ConfigNode::Map();
-  PhysicsParams physics_params = s.physics;
-  WriteParams([&](ParamVisitor& v) { physics_params.Visit(v); }, physics);
-  root.Add("physics", std::move(physics));
-  VideoParams video_params = s.video;
-  WriteParams([&](ParamVisitor& v) { video_params.Visit(v); }, video);
-  root.Add("video", std::move(video));
-
-  // What reading this file again will read: the site now stands within it.
-  ConfigNode files = ConfigNode::Map();
-  const auto add_file = [&](const fs::path& path) {
-    files.Add(from_here(path), ConfigNode::Scalar(Sha256OfFile(path), true));
-  };
-  for (const auto& path : s.site.files_read) add_file(path);
-  add_file(s.robot_file);
-  if (!s.plan_file.empty()) add_file(s.plan_file);
-  root.Add("files", std::move(files));
+  root.Add("robot", Robot(s, folder));
+  root.Add("start", Start(s.start));
+  if (s.goal) root.Add("goal", Goal(*s.goal));
+  root.Add("plan", s.planner ? WithPlugin(Named("planner", s.planner_name), *s.planner)
+                             : Named("file", PathFrom(folder, s.plan_file).string()));
+  root.Add("controller", WithPlugin(Named("name", s.tracker_name), *s.tracker));
+  root.Add("estimator", WithPlugin(Named("name", s.estimator_name), *s.estimator));
+  root.Add("failures", Failures(s));
+  root = WithParams(std::move(root), s.episode);
+  root.Add("battery", WithParams(ConfigNode::Map(), s.battery));
+  root.Add("physics", WithParams(ConfigNode::Map(), s.physics));
+  root.Add("video", WithParams(ConfigNode::Map(), s.video));
+  root.Add("files", Files(s, folder));
   return "# Every key with the value used. Paths hold from this folder.\n" + WriteYaml(root);
 }
 

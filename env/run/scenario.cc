@@ -40,6 +40,19 @@ void Apply(const std::vector<Override>& overrides, bool to_site, ConfigNode& roo
   }
 }
 
+// Where the key is written; the file's own mark where it is not.
+SourceMark MarkOf(const ConfigNode& root, std::string_view key) {
+  const ConfigNode* node = root.Find(key);
+  return node ? node->mark : root.mark;
+}
+
+// A group of parameters under a key of their own, which may be missing.
+template <class Params>
+void ReadGroup(const ConfigNode& root, const std::string& key, Params& params) {
+  if (const ConfigNode* node = root.Find(key))
+    ReadParams(*node, key + ".", [&](ParamVisitor& v) { params.Visit(v); });
+}
+
 // A file that the scenario names and that can be read.
 fs::path NamedFile(const fs::path& folder, const ConfigNode& node, const std::string& key) {
   fs::path file = PathIn(folder, node, key);
@@ -84,7 +97,16 @@ void ReadSitePart(const ConfigNode& root, const std::vector<Override>& overrides
     s.site.map.name = s.site_file.empty() ? s.name : s.site_file.stem().string();
 }
 
-void ReadRobotPart(const ConfigNode& root, Scenario& s) {
+// A plan names shapes before its robot is known.
+void CheckShapes(const Scenario& s, const std::vector<int>& plan_lines) {
+  for (std::size_t i = 0; i < s.user_plan.size(); ++i) {
+    const std::string& shape = s.user_plan[i].shape;
+    if (!shape.empty() && FindShape(s.robot.robot, shape) < 0)
+      RefuseShape(s.robot.robot, {s.plan_file.string(), plan_lines[i]}, "shape", shape);
+  }
+}
+
+void ReadRobotPart(const ConfigNode& root, const std::vector<int>& plan_lines, Scenario& s) {
   const Named named = ReadNamed(root, "robot", "name", "");
   if (named.name.empty()) throw InputError(named.mark, "robot", "", "the key is missing");
   s.robot_name = named.name;
@@ -95,8 +117,7 @@ void ReadRobotPart(const ConfigNode& root, Scenario& s) {
     s.robot_file = NamedFile(s.file.parent_path(), path, "robot");
   }
   ReadParams(named.params, "robot.", [&](ParamVisitor& v) { s.robot_changes.Visit(v); }, {"name"});
-  if (const ConfigNode* battery = root.Find("battery"))
-    ReadParams(*battery, "battery.", [&](ParamVisitor& v) { s.battery.Visit(v); });
+  ReadGroup(root, "battery", s.battery);
   s.robot_changes.battery_v = s.battery.voltage_v;
   const bool folds = std::ranges::any_of(s.user_plan, [&](const Waypoint& w) {
     return !w.shape.empty() && w.shape != s.robot_changes.shape;
@@ -104,17 +125,11 @@ void ReadRobotPart(const ConfigNode& root, Scenario& s) {
   s.robot = ReadRobot(s.robot_file, s.robot_changes, folds ? Blocks::kHinged : Blocks::kLocked);
   s.battery.voltage_v = s.robot.robot.battery.voltage_v;
   s.robot.robot.battery = s.battery;
-  if (std::ranges::any_of(s.user_plan, [](const Waypoint& w) { return !w.shape.empty(); }))
-    // Again, now that the robot is known: a refusal names the line.
-    ReadPlan(s.plan_file, s.site.map.frame, [&](const SourceMark& mark, const std::string& shape) {
-      if (FindShape(s.robot.robot, shape) < 0) RefuseShape(s.robot.robot, mark, "shape", shape);
-    });
+  CheckShapes(s, plan_lines);
   if (s.episode.wheels != "rollers") return;
-  if (!HasMecanumWheels(s.robot.robot)) {
-    const ConfigNode* node = root.Find("wheels");
-    throw InputError(node ? node->mark : root.mark, "wheels", s.episode.wheels,
+  if (!HasMecanumWheels(s.robot.robot))
+    throw InputError(MarkOf(root, "wheels"), "wheels", s.episode.wheels,
                      "must be ideal: the wheels of " + s.robot_name + " have no rollers");
-  }
   s.robot = WithRollerWheels(s.robot);
 }
 
@@ -139,26 +154,42 @@ Pose2 ReadStart(const ConfigNode& root, const HazardMap& map) {
 }
 
 void CheckStart(const ConfigNode& root, const Scenario& s) {
-  const ConfigNode* node = root.Find("start");
-  const SourceMark mark = node ? node->mark : root.mark;
+  const SourceMark mark = MarkOf(root, "start");
   const Cell cell = s.site.map.frame.ToCell(s.start.p());
   const std::string value = FormatDouble(s.start.x_m) + ", " + FormatDouble(s.start.y_m);
   if (!s.site.map.frame.Inside(cell)) throw InputError(mark, "start", value, "lies off the map");
   if (s.site.map.IsWall(cell)) throw InputError(mark, "start", value, "lies in a wall");
 }
 
-void ReadPlanPart(const ConfigNode& root, Scenario& s) {
+std::optional<Vec2> ReadGoal(const ConfigNode& root, const HazardMap& map) {
+  const ConfigNode* node = root.Find("goal");
+  if (node == nullptr) return map.goal;
+  Vec2 goal = map.goal.value_or(Vec2::Zero());
+  ReadParams(*node, "goal.", [&](ParamVisitor& v) {
+    v("x_m", goal.x(), Any(), "m");
+    v("y_m", goal.y(), Any(), "m");
+  });
+  if (!map.frame.Inside(map.frame.ToCell(goal)))
+    throw InputError(node->mark, "goal", FormatDouble(goal.x()) + ", " + FormatDouble(goal.y()),
+                     "lies off the map");
+  return goal;
+}
+
+// Returns the line of each waypoint of a user's plan.
+std::vector<int> ReadPlanPart(const ConfigNode& root, Scenario& s) {
+  std::vector<int> lines;
   const ConfigNode* node = root.Find("plan");
   if (const ConfigNode* file = node && node->IsMap() ? node->Find("file") : nullptr) {
     RefuseUnknownKeys(*node, "plan.", {"file"});
     s.plan_file = NamedFile(s.file.parent_path(), *file, "plan.file");
-    s.user_plan = ReadPlan(s.plan_file, s.site.map.frame);
-    return;
+    s.user_plan = ReadPlan(s.plan_file, s.site.map.frame, &lines);
+    return lines;
   }
   const Named named = ReadNamed(root, "plan", "planner", "boustrophedon");
   s.planner_name = named.name;
   s.planner = MakePlugin(Planners(), named.name, "plan.planner", named.mark);
   ReadParams(named.params, "plan.", *s.planner, {"planner"});
+  return lines;
 }
 
 void ReadControl(const ConfigNode& root, Scenario& s) {
@@ -207,59 +238,21 @@ void CheckHashes(const ConfigNode& root, const fs::path& folder) {
 }
 
 void ReadTop(const ConfigNode& root, Scenario& s) {
-  std::vector<std::string> others = kKeys;
   ReadParams(
-      root, "", [&](ParamVisitor& v) { s.episode.Visit(v); }, others);
-  if (const ConfigNode* physics = root.Find("physics"))
-    ReadParams(*physics, "physics.", [&](ParamVisitor& v) { s.physics.Visit(v); });
-  if (const ConfigNode* video = root.Find("video"))
-    ReadParams(*video, "video.", [&](ParamVisitor& v) { s.video.Visit(v); });
+      root, "", [&](ParamVisitor& v) { s.episode.Visit(v); }, kKeys);
+  ReadGroup(root, "physics", s.physics);
+  ReadGroup(root, "video", s.video);
   const double steps = 1 / (s.physics.timestep_s * s.episode.control_hz);
-  if (steps < 1 || std::abs(steps - std::round(steps)) > 1e-9 * steps) {
-    const ConfigNode* node = root.Find("control_hz");
-    throw InputError(node ? node->mark : root.mark, "control_hz",
-                     std::to_string(s.episode.control_hz),
+  if (steps < 1 || std::abs(steps - std::round(steps)) > 1e-9 * steps)
+    throw InputError(MarkOf(root, "control_hz"), "control_hz", std::to_string(s.episode.control_hz),
                      "a control period must be a whole number of steps of " +
                          FormatDouble(s.physics.timestep_s) + " s");
-  }
-  if (s.episode.control_hz % s.episode.trace_hz != 0) {
-    const ConfigNode* node = root.Find("trace_hz");
-    throw InputError(node ? node->mark : root.mark, "trace_hz", std::to_string(s.episode.trace_hz),
+  if (s.episode.control_hz % s.episode.trace_hz != 0)
+    throw InputError(MarkOf(root, "trace_hz"), "trace_hz", std::to_string(s.episode.trace_hz),
                      "must divide control_hz = " + std::to_string(s.episode.control_hz));
-  }
 }
 
 }  // namespace
-
-void VideoParams::Visit(ParamVisitor& v) {
-  v("camera", camera, {"auto", "chase", "top", "side"},
-    "where the film is taken from; auto: from above in a time lapse, else from behind");
-  v("fps", fps, Between(1, 120), "frames a second of film");
-  v("speed_up", speed_up, Positive(),
-    "simulated seconds a second of film; none: such that it keeps to max_frames");
-  v("max_frames", max_frames, Between(2, 1e6), "most frames of a film");
-  v("width", width, Between(64, 1920), "pixels, even");
-  v("height", height, Between(64, 1080), "pixels, even");
-}
-
-void EpisodeParams::Visit(ParamVisitor& v) {
-  v("control_hz", control_hz, Between(1, 2000), "control periods a second");
-  v("trace_hz", trace_hz, Between(1, 2000), "rows of trace.csv a second");
-  v("on_failure", on_failure, {"stop", "ignore"},
-    "stop: the first failure ends the episode; ignore: it is logged and the drive goes on");
-  v.Group(
-      "success",
-      [this](ParamVisitor& g) {
-        g("min_coverage", min_coverage, Between(0, 1), "least coverage that counts as success");
-      },
-      "what counts as success");
-  v("time_limit_s", time_limit_s, Positive(),
-    "simulated seconds; none: a minute and three times what the plan takes at its own speeds");
-  v("drive", drive, {"physics", "none"}, "physics: drive the plan; none: plan only");
-  v("seed", seed, Between(0, 2147483647.0), "of every random stream");
-  v("wheels", wheels, {"ideal", "rollers"},
-    "Mecanum wheels; ideal: one body each, rollers: a hub and rollers that are bodies");
-}
 
 Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrides) {
   ConfigNode root = ReadYamlFile(file);
@@ -278,23 +271,12 @@ Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrid
   ReadTop(root, s);
   CheckHashes(root, file.parent_path());
   ReadSitePart(root, overrides, s);
-  ReadPlanPart(root, s);
-  ReadRobotPart(root, s);  // whether it folds hangs on the plan
+  const std::vector<int> plan_lines = ReadPlanPart(root, s);
+  ReadRobotPart(root, plan_lines, s);  // whether it folds hangs on the plan
   s.start = ReadStart(root, s.site.map);
   s.site.map.start = s.start;  // the scenario's own wins, on pictures too
   CheckStart(root, s);
-  s.goal = s.site.map.goal;
-  if (const ConfigNode* goal = root.Find("goal")) {
-    Vec2 p = s.goal.value_or(Vec2::Zero());
-    ReadParams(*goal, "goal.", [&](ParamVisitor& v) {
-      v("x_m", p.x(), Any(), "m");
-      v("y_m", p.y(), Any(), "m");
-    });
-    if (!s.site.map.frame.Inside(s.site.map.frame.ToCell(p)))
-      throw InputError(goal->mark, "goal", FormatDouble(p.x()) + ", " + FormatDouble(p.y()),
-                       "lies off the map");
-    s.goal = p;
-  }
+  s.goal = ReadGoal(root, s.site.map);
   ReadControl(root, s);
   ReadFailures(root, s);
   return s;

@@ -13,33 +13,12 @@
 #include "env/core/config.h"
 #include "env/failures/detector.h"
 #include "env/map/site.h"
+#include "env/run/scenario_params.h"
 #include "env/scene/robot_model.h"
 #include "env/scene/scene.h"
 #include "planners/planner.h"
 
 namespace floorproof {
-
-struct VideoParams {
-  std::string camera = "auto";
-  int fps = 30;
-  std::optional<double> speed_up;  // none: such that the film keeps to max_frames
-  int max_frames = 600;
-  int width = 960, height = 540;
-  void Visit(ParamVisitor& v);
-};
-
-// Scalars that stand at the top of the file.
-struct EpisodeParams {
-  int control_hz = 50, trace_hz = 50;
-  std::string on_failure =
-      "stop";  // stop: the first failure ends the episode; ignore: it is logged
-  double min_coverage = 0;
-  std::optional<double> time_limit_s;  // none: three times the plan's own time, and a minute
-  std::string drive = "physics";       // none: the plan only
-  int seed = 0;
-  std::string wheels = "ideal";  // of Mecanum robots: ideal, or rollers that are bodies
-  void Visit(ParamVisitor& v);
-};
 
 struct Scenario {
   std::filesystem::path file;

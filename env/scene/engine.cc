@@ -87,4 +87,10 @@ ModelPtr CompileSpec(mjSpec* spec) {
   return ModelPtr(model);
 }
 
+mjsJoint* DrivenJoint(mjSpec* spec, const std::string& motor) {
+  const mjsActuator* actuator =
+      mjs_asActuator(mjs_findElement(spec, mjOBJ_ACTUATOR, motor.c_str()));
+  return mjs_asJoint(mjs_findElement(spec, mjOBJ_JOINT, mjs_getString(actuator->target)));
+}
+
 }  // namespace floorproof

@@ -5,6 +5,7 @@
 #include <mujoco/mujoco.h>
 
 #include <memory>
+#include <string>
 
 namespace floorproof {
 
@@ -25,5 +26,8 @@ void ForwardEngine(const mjModel* model, mjData* data);
 DataPtr MakeData(const mjModel* model);
 // Throws InternalError with the compiler's message.
 ModelPtr CompileSpec(mjSpec* spec);
+
+// The joint that the motor of this name drives.
+mjsJoint* DrivenJoint(mjSpec* spec, const std::string& motor);
 
 }  // namespace floorproof

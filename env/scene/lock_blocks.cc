@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "env/core/blocks.h"
+#include "env/scene/engine.h"
 
 namespace floorproof {
 namespace {
 
 // Turns the hinge's body about its axis, by `turn_rad` counterclockwise, then takes the hinge out.
 void Lock(mjSpec* spec, const std::string& name, double turn_rad) {
-  const mjsActuator* motor = mjs_asActuator(mjs_findElement(spec, mjOBJ_ACTUATOR, name.c_str()));
-  mjsJoint* joint = mjs_asJoint(mjs_findElement(spec, mjOBJ_JOINT, mjs_getString(motor->target)));
+  mjsJoint* joint = DrivenJoint(spec, name);
   mjsBody* body = mjs_getParent(joint->element);
   // ReadRobot has seen to it that the body stands in its parent's frame.
   const double c = std::cos(turn_rad), s = std::sin(turn_rad);
@@ -20,7 +20,7 @@ void Lock(mjSpec* spec, const std::string& name, double turn_rad) {
   body->pos[1] = y - (s * x + c * y);
   body->quat[0] = std::cos(turn_rad / 2);
   body->quat[3] = std::sin(turn_rad / 2);
-  mjs_delete(spec, motor->element);
+  mjs_delete(spec, mjs_findElement(spec, mjOBJ_ACTUATOR, name.c_str()));
   mjs_delete(spec, joint->element);
 }
 

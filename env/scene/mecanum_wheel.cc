@@ -126,6 +126,13 @@ Rollers RollersOf(const mjModel* model, int geom) {
   return {user[0], user[1]};
 }
 
+Rollers RollersOf(const mjsGeom* geom) {
+  int n = 0;
+  const double* user = mjs_getDouble(geom->userdata, &n);
+  if (n < 2 || geom->type != mjGEOM_CYLINDER) return {};
+  return {user[0], user[1]};
+}
+
 void InstallWheelCollider() {
   static const bool installed = [] {
     Install<0>();

@@ -22,6 +22,7 @@ struct Rollers {
 
 // What the geom's user data say; a plain wheel where they say nothing.
 Rollers RollersOf(const mjModel* model, int geom);
+Rollers RollersOf(const mjsGeom* geom);
 
 // Installs the collider for all models of the process. MuJoCo's table of colliders is global: call
 // it before other threads start. Calls after the first do nothing. Geoms without rollers pass

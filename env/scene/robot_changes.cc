@@ -4,40 +4,10 @@
 #include <algorithm>
 #include <array>
 
+#include "env/scene/engine.h"
+
 namespace floorproof {
 namespace {
-
-template <class Element>
-void ForEach(mjSpec* spec, mjtObj type, Element* (*cast)(mjsElement*),
-             void (*apply)(Element*, double), double value) {
-  for (mjsElement* e = mjs_firstElement(spec, type); e; e = mjs_nextElement(spec, e))
-    apply(cast(e), value);
-}
-
-void ScaleMass(mjSpec* spec, double factor) {
-  ForEach<mjsGeom>(
-      spec, mjOBJ_GEOM, mjs_asGeom,
-      [](mjsGeom* geom, double f) {
-        geom->mass *= f;  // NaN where the density rules
-        geom->density *= f;
-      },
-      factor);
-  ForEach<mjsBody>(
-      spec, mjOBJ_BODY, mjs_asBody,
-      [](mjsBody* body, double f) {
-        if (!body->explicitinertial) return;
-        body->mass *= f;
-        for (double& i : body->inertia) i *= f;
-        for (double& i : body->fullinertia) i *= f;
-      },
-      factor);
-}
-
-// The joint that the motor of this name drives.
-mjsElement* JointOf(mjSpec* spec, const std::string& motor) {
-  mjsElement* actuator = mjs_findElement(spec, mjOBJ_ACTUATOR, motor.c_str());
-  return mjs_findElement(spec, mjOBJ_JOINT, mjs_getString(mjs_asActuator(actuator)->target));
-}
 
 void Raise(mjsBody* body, double by_m) {
   for (mjsElement* e = mjs_firstChild(body, mjOBJ_GEOM, 0); e; e = mjs_nextChild(body, e, 0))
@@ -48,12 +18,13 @@ void Raise(mjsBody* body, double by_m) {
 
 void RaiseChassis(mjSpec* spec, const RobotSpec& robot, double by_m) {
   Raise(mjs_findBody(spec, "base"), by_m);
-  for (const HingeSpec& hinge : robot.hinges) Raise(mjs_getParent(JointOf(spec, hinge.name)), by_m);
+  for (const HingeSpec& hinge : robot.hinges)
+    Raise(mjs_getParent(DrivenJoint(spec, hinge.name)->element), by_m);
 }
 
 // Wheel and rollers become as large as asked, on the same floor; what is only drawn follows.
 void ResizeWheel(mjSpec* spec, const WheelSpec& wheel, double radius_m, double roller_m) {
-  mjsBody* body = mjs_getParent(JointOf(spec, wheel.name));
+  mjsBody* body = mjs_getParent(DrivenJoint(spec, wheel.name)->element);
   body->pos[2] += radius_m - wheel.radius_m;
   const double whole = radius_m / wheel.radius_m;
   const double core = (radius_m - roller_m) / (wheel.radius_m - wheel.roller_radius_m);
@@ -94,12 +65,6 @@ void ResizeWheels(mjSpec* spec, const RobotSpec& robot, const RobotChanges& chan
 
 constexpr int kVmax = 7;  // of a dcmotor's gain parameters
 
-void SetBattery(mjSpec* spec, double voltage_v) {
-  ForEach<mjsActuator>(
-      spec, mjOBJ_ACTUATOR, mjs_asActuator,
-      [](mjsActuator* motor, double v) { motor->gainprm[kVmax] = v; }, voltage_v);
-}
-
 }  // namespace
 
 double DriverVoltage(const mjModel* model, int actuator) {
@@ -109,6 +74,17 @@ double DriverVoltage(const mjModel* model, int actuator) {
 void SetDriverVoltage(mjModel* model, int actuator, double voltage_v) {
   constexpr double kLeast_v = 1e-6;  // MuJoCo takes 0 for no limit
   model->actuator_gainprm[mjNGAIN * actuator + kVmax] = std::max(voltage_v, kLeast_v);
+}
+
+void ScaleMass(mjsBody* body, double factor) {
+  for (mjsElement* e = mjs_firstChild(body, mjOBJ_GEOM, 0); e; e = mjs_nextChild(body, e, 0)) {
+    mjs_asGeom(e)->mass *= factor;  // NaN where the density rules
+    mjs_asGeom(e)->density *= factor;
+  }
+  if (!body->explicitinertial) return;
+  body->mass *= factor;
+  for (double& i : body->inertia) i *= factor;
+  for (double& i : body->fullinertia) i *= factor;
 }
 
 void RobotChanges::Visit(ParamVisitor& v) {
@@ -123,10 +99,14 @@ void RobotChanges::Visit(ParamVisitor& v) {
 
 bool ChangeRobot(mjSpec* spec, const RobotSpec& robot, const RobotChanges& changes) {
   const bool wheels = changes.wheel_radius_m || changes.roller_radius_m;
-  if (changes.mass_kg) ScaleMass(spec, *changes.mass_kg / robot.mass_kg);
+  if (changes.mass_kg)
+    for (mjsElement* e = mjs_firstElement(spec, mjOBJ_BODY); e; e = mjs_nextElement(spec, e))
+      ScaleMass(mjs_asBody(e), *changes.mass_kg / robot.mass_kg);
   if (changes.clearance_m) RaiseChassis(spec, robot, *changes.clearance_m - robot.clearance_m);
   if (wheels) ResizeWheels(spec, robot, changes);
-  if (changes.battery_v) SetBattery(spec, *changes.battery_v);
+  if (changes.battery_v)
+    for (mjsElement* e = mjs_firstElement(spec, mjOBJ_ACTUATOR); e; e = mjs_nextElement(spec, e))
+      mjs_asActuator(e)->gainprm[kVmax] = *changes.battery_v;
   return changes.mass_kg || changes.clearance_m || wheels || changes.battery_v;
 }
 

@@ -29,6 +29,9 @@ struct RobotChanges {
 double DriverVoltage(const mjModel* model, int actuator);
 void SetDriverVoltage(mjModel* model, int actuator, double voltage_v);
 
+// Scales the masses and inertias of the body and of its own geoms.
+void ScaleMass(mjsBody* body, double factor);
+
 // Changes `spec`, from which `robot` was read; false when there was nothing to change. Throws
 // InputError naming the robot's file when the wheels cannot be as asked.
 bool ChangeRobot(mjSpec* spec, const RobotSpec& robot, const RobotChanges& changes);

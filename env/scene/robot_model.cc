@@ -7,6 +7,7 @@
 
 #include "env/core/blocks.h"
 #include "env/scene/lock_blocks.h"
+#include "env/scene/mecanum_wheel.h"
 #include "env/scene/mjcf_check.h"
 #include "env/scene/spec_reader.h"
 
@@ -29,13 +30,30 @@ void TakeShape(RobotSpec& robot, const std::vector<ShapeSpec>& shapes, int index
     if (part->kind == Shape2::Kind::kFootprint) part->footprint_B = shape.footprint_B;
   if (robot.clear.kind == Shape2::Kind::kCircle)
     robot.clear.radius_m = robot.circumscribed_radius_m;
-  const BlockMotions blocks = MoveBlocks(robot.blocks, robot.hinges, AtRest(shape.hinge_rad));
   if (robot.hinges.empty()) return;
+  const BlockMotions blocks = MoveBlocks(robot.blocks, robot.hinges, AtRest(shape.hinge_rad));
   for (WheelSpec& wheel : robot.wheels) {
     const Pose2& X_BK = blocks.block[static_cast<std::size_t>(wheel.block)].X_BK;
     wheel.p_BW.head<2>() = X_BK * Vec2(wheel.p_BW.head<2>());
     wheel.yaw_rad = WrapAngle(wheel.yaw_rad + X_BK.yaw_rad);
   }
+}
+
+// What is found again by its name gets one where the file gives none: motors, and the Mecanum
+// wheels' geoms, which meet the floor by pairs.
+void NameParts(mjSpec* spec, const std::string& file) {
+  const auto name = [&](mjsElement* element, const char* kind, int number) {
+    if (mjs_getString(mjs_getName(element))[0] != '\0') return;
+    const std::string given = kind + std::to_string(number);
+    if (mjs_setName(element, given.c_str()) != 0)
+      throw InputError({file, 0}, given, "", "another's name, needed for one without");
+  };
+  int number = 0;
+  for (mjsElement* e = mjs_firstElement(spec, mjOBJ_ACTUATOR); e; e = mjs_nextElement(spec, e))
+    name(e, "actuator ", number++);
+  number = 0;
+  for (mjsElement* e = mjs_firstElement(spec, mjOBJ_GEOM); e; e = mjs_nextElement(spec, e))
+    if (RollersOf(mjs_asGeom(e)).radius_m > 0) name(e, "wheel ", number++);
 }
 
 }  // namespace
@@ -75,6 +93,7 @@ RobotModel ReadRobot(const std::filesystem::path& file, const RobotChanges& chan
   RobotModel out;
   out.spec.reset(mj_parseXML(file.c_str(), nullptr, error, sizeof error));
   if (!out.spec) throw InputError({file.string(), 0}, "", error, "is not MJCF that MuJoCo reads");
+  NameParts(out.spec.get(), file.string());
   const auto read = [&] {
     ModelPtr model(mj_compile(out.spec.get(), nullptr));
     if (!model)

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "env/scene/mecanum_wheel.h"
+
 namespace floorproof {
 namespace {
 
@@ -29,28 +31,20 @@ struct Wheel {
   double mass_kg = 0;
 };
 
-bool IsCore(const mjsGeom* geom) {
-  int n = 0;
-  const double* user = mjs_getDouble(geom->userdata, &n);
-  return geom->type == mjGEOM_CYLINDER && n >= 2 && user[0] > 0;
-}
-
 std::vector<Wheel> FindWheels(mjSpec* spec, const RobotSpec& robot) {
   const ModelPtr model = CompileSpec(spec);
   const DataPtr data = MakeData(model.get());
   ForwardEngine(model.get(), data.get());
   std::vector<Wheel> wheels;
   for (const WheelSpec& wheel_spec : robot.wheels) {
-    const mjsActuator* motor =
-        mjs_asActuator(mjs_findElement(spec, mjOBJ_ACTUATOR, wheel_spec.name.c_str()));
     Wheel wheel;
     wheel.spec = wheel_spec;
-    wheel.body = mjs_getParent(mjs_findElement(spec, mjOBJ_JOINT, mjs_getString(motor->target)));
+    wheel.body = mjs_getParent(DrivenJoint(spec, wheel_spec.name)->element);
     mjsElement* body = wheel.body->element;
     for (mjsElement* e = mjs_firstChild(wheel.body, mjOBJ_GEOM, 0); e;
          e = mjs_nextChild(wheel.body, e, 0)) {
       mjsGeom* geom = mjs_asGeom(e);
-      if (IsCore(geom))
+      if (RollersOf(geom).radius_m > 0)
         wheel.core = geom;
       else if (geom->type == mjGEOM_ELLIPSOID && geom->contype == 0 && geom->conaffinity == 0)
         wheel.drawn.push_back(geom);
@@ -71,15 +65,7 @@ std::vector<Wheel> FindWheels(mjSpec* spec, const RobotSpec& robot) {
 
 // The hub keeps the drawn core and the rest of the mass.
 void MakeHub(const Wheel& wheel) {
-  constexpr double kLeft = 1 - kRollersShare;
-  for (mjsElement* e = mjs_firstChild(wheel.body, mjOBJ_GEOM, 0); e;
-       e = mjs_nextChild(wheel.body, e, 0)) {
-    mjs_asGeom(e)->mass *= kLeft;  // NaN where the density rules
-    mjs_asGeom(e)->density *= kLeft;
-  }
-  wheel.body->mass *= kLeft;
-  for (double& i : wheel.body->inertia) i *= kLeft;
-  for (double& i : wheel.body->fullinertia) i *= kLeft;
+  ScaleMass(wheel.body, 1 - kRollersShare);
   wheel.core->contype = wheel.core->conaffinity = 0;
   mjs_setDouble(wheel.core->userdata, nullptr, 0);
 }

@@ -7,6 +7,7 @@
 #include "env/scene/floor.h"
 #include "env/scene/mecanum_wheel.h"
 #include "env/scene/restitution.h"
+#include "env/scene/scene_looks.h"
 #include "env/scene/walls.h"
 
 namespace floorproof {
@@ -20,6 +21,12 @@ constexpr double kSlab_m = 0.10;  // of floor below the lowest
 constexpr double kTimeConstant_s = 0.01;
 constexpr mjtNum kSolimp[] = {0.95, 0.99, 0.0005};
 
+void SetYaw(double* quat, double yaw_rad) {
+  quat[0] = std::cos(yaw_rad / 2);
+  quat[1] = quat[2] = 0;
+  quat[3] = std::sin(yaw_rad / 2);
+}
+
 class SceneBuilder {
  public:
   SceneBuilder(const HazardMap& map, const RobotModel& robot, mjSpec* spec)
@@ -28,11 +35,8 @@ class SceneBuilder {
         rollers_(robot.rollers),
         spec_(spec),
         world_(mjs_findBody(spec, "world")) {
-    for (mjsElement* e = mjs_firstElement(spec, mjOBJ_GEOM); e; e = mjs_nextElement(spec, e)) {
-      int n = 0;
-      const double* user = mjs_getDouble(mjs_asGeom(e)->userdata, &n);
-      if (n >= 2 && user[0] > 0) mecanum.push_back(mjs_asGeom(e));
-    }
+    for (mjsElement* e = mjs_firstElement(spec, mjOBJ_GEOM); e; e = mjs_nextElement(spec, e))
+      if (RollersOf(mjs_asGeom(e)).radius_m > 0) mecanum.push_back(mjs_asGeom(e));
   }
 
   void Floor() {
@@ -40,10 +44,10 @@ class SceneBuilder {
     if (pieces.empty()) {
       mjsGeom* plane = Add(GeomRole::Kind::kFloor, -1, map_.floor_friction, 0);
       plane->type = mjGEOM_PLANE;
-      const Vec2 middle = Middle();
+      const Vec2 middle = MiddleOf(map_.frame);
       plane->pos[0] = middle.x();
       plane->pos[1] = middle.y();
-      SetYaw(plane, map_.frame.X_WG.yaw_rad);
+      SetYaw(plane->quat, map_.frame.X_WG.yaw_rad);
       plane->size[0] = map_.frame.width * map_.frame.cell_m / 2 + 2;
       plane->size[1] = map_.frame.height * map_.frame.cell_m / 2 + 2;
       plane->size[2] = 1;
@@ -72,7 +76,7 @@ class SceneBuilder {
         ParkWall(geom->pos, geom->size);
       else
         PlaceWall(boxes[i], map_.frame.X_WG, geom->pos, geom->size);
-      SetYaw(geom, map_.frame.X_WG.yaw_rad);
+      SetYaw(geom->quat, map_.frame.X_WG.yaw_rad);
       mjs_setString(geom->material, "wall");
     }
   }
@@ -108,59 +112,14 @@ class SceneBuilder {
     }
   }
 
-  // Colours, light and the picture's quality; nothing here touches the physics. The lights add up
-  // to just below 1 on the floor, so that it does not burn out.
-  void Looks() {
-    FloorTiles();
-    Sky();
-    Material("wall", {0.52f, 0.58f, 0.66f, 1.0f});
-    Material("pit", {0.36f, 0.33f, 0.31f, 1.0f});
-    mjsLight* sun = mjs_addLight(world_, nullptr);
-    const Vec2 middle = Middle();
-    sun->type = mjLIGHT_DIRECTIONAL;
-    Copy<double>({middle.x(), middle.y(), 10}, sun->pos);
-    Copy<double>({0.35, 0.25, -1}, sun->dir);
-    sun->castshadow = 1;
-    Copy<float>({0, 0, 0}, sun->ambient);
-    Copy<float>({0.52f, 0.51f, 0.48f}, sun->diffuse);
-    Copy<float>({0.15f, 0.15f, 0.15f}, sun->specular);
-    mjVisual& visual = spec_->visual;
-    Copy<float>({0.40f, 0.40f, 0.42f}, visual.headlight.ambient);
-    Copy<float>({0.15f, 0.15f, 0.15f}, visual.headlight.diffuse);
-    Copy<float>({0, 0, 0}, visual.headlight.specular);
-    visual.global.offwidth = 1920;
-    visual.global.offheight = 1080;
-    visual.quality.shadowsize = 2048;
-    visual.quality.offsamples = 4;
-    visual.quality.numquads = 1;
-    visual.map.znear = 0.02f;
-    // Sizes of shadows, clipping planes and lights follow the extent.
-    spec_->stat.extent = std::max(map_.frame.width, map_.frame.height) * map_.frame.cell_m;
-    Copy<double>({middle.x(), middle.y(), 0}, spec_->stat.center);
-  }
-
   WallPool pool;
   std::vector<std::pair<mjsGeom*, GeomRole>> added;
   std::vector<mjsGeom*> mecanum;  // the robot's wheels with rollers
 
  private:
-  Vec2 Middle() const {
-    return map_.frame.X_WG * Vec2(map_.frame.width * map_.frame.cell_m / 2,
-                                  map_.frame.height * map_.frame.cell_m / 2);
-  }
   double Friction(const Hazard& hazard) const {
     return hazard.material.friction.value_or(map_.floor_friction);
   }
-  static void SetYaw(mjsGeom* geom, double yaw_rad) {
-    geom->quat[0] = std::cos(yaw_rad / 2);
-    geom->quat[1] = geom->quat[2] = 0;
-    geom->quat[3] = std::sin(yaw_rad / 2);
-  }
-  template <class T>
-  static void Copy(std::array<T, 3> from, T* to) {
-    std::copy(from.begin(), from.end(), to);
-  }
-
   mjsGeom* Add(GeomRole::Kind kind, int hazard, double friction, double restitution) {
     mjsGeom* geom = mjs_addGeom(world_, nullptr);
     const bool wall = kind == GeomRole::Kind::kWall;
@@ -201,7 +160,7 @@ class SceneBuilder {
       geom->pos[0] = middle.x();
       geom->pos[1] = middle.y();
       geom->pos[2] = (z_low + z_high) / 2;
-      SetYaw(geom, std::atan2(along.y(), along.x()));
+      SetYaw(geom->quat, std::atan2(along.y(), along.x()));
       geom->size[0] = along.norm() / 2;
       geom->size[1] = (base[2] - base[1]).norm() / 2;
       geom->size[2] = (z_high - z_low) / 2;
@@ -235,41 +194,6 @@ class SceneBuilder {
     return std::abs(a.dot(b)) < 1e-9 * a.norm() * b.norm() + 1e-15 && (a + c).norm() < 1e-9;
   }
 
-  // Tiles of half a metre with a joint between them, on a plane and on slabs alike.
-  void FloorTiles() {
-    mjsTexture* texture = mjs_addTexture(spec_, nullptr);
-    mjs_setName(texture->element, "floor");
-    texture->type = mjTEXTURE_2D;
-    texture->builtin = mjBUILTIN_FLAT;
-    texture->mark = mjMARK_EDGE;
-    Copy<double>({0.90, 0.88, 0.84}, texture->rgb1);
-    Copy<double>({0.74, 0.72, 0.68}, texture->markrgb);
-    texture->width = texture->height = 256;
-    mjsMaterial* material = mjs_addMaterial(spec_, nullptr);
-    mjs_setName(material->element, "floor");
-    mjs_setInStringVec(material->textures, mjTEXROLE_RGB, "floor");
-    material->texuniform = 1;
-    material->texrepeat[0] = material->texrepeat[1] = 4;
-    material->specular = 0;
-  }
-  void Sky() {
-    mjsTexture* texture = mjs_addTexture(spec_, nullptr);
-    mjs_setName(texture->element, "sky");
-    texture->type = mjTEXTURE_SKYBOX;
-    texture->builtin = mjBUILTIN_GRADIENT;
-    Copy<double>({0.93, 0.95, 0.97}, texture->rgb1);
-    Copy<double>({0.66, 0.73, 0.80}, texture->rgb2);
-    texture->width = 64;
-    texture->height = 384;
-  }
-  void Material(const char* name, std::array<float, 4> rgba) {
-    mjsMaterial* material = mjs_addMaterial(spec_, nullptr);
-    mjs_setName(material->element, name);
-    std::copy(rgba.begin(), rgba.end(), material->rgba);
-    material->specular = 0.1f;
-    material->shininess = 0.1f;
-  }
-
   const HazardMap& map_;
   const RobotSpec& robot_;
   const std::vector<std::string>& rollers_;
@@ -292,9 +216,7 @@ void PlaceRobot(mjSpec* spec, const Pose2& start) {
   base->pos[0] = start.x_m;
   base->pos[1] = start.y_m;
   base->pos[2] = 0;
-  base->quat[0] = std::cos(start.yaw_rad / 2);
-  base->quat[1] = base->quat[2] = 0;
-  base->quat[3] = std::sin(start.yaw_rad / 2);
+  SetYaw(base->quat, start.yaw_rad);
 }
 
 }  // namespace
@@ -310,8 +232,8 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
   scene.spec.reset(mj_copySpec(robot.spec.get()));
   SetPhysics(scene.spec.get(), physics);
   PlaceRobot(scene.spec.get(), start);
+  AddLooks(map.frame, scene.spec.get());
   SceneBuilder builder(map, robot, scene.spec.get());
-  builder.Looks();
   builder.Floor();
   builder.Walls(start.p(), walls);
   builder.Hazards();

@@ -10,8 +10,8 @@
 
 namespace floorproof {
 
-// The robot as it stands in the model, with all its hinges and shapes. Throws InputError naming
-// `file` and what is missing or cannot be.
+// The robot as it stands in the model, whose actuators all have names, with all its hinges and
+// shapes. Throws InputError naming `file` and what is missing or cannot be.
 RobotSpec ReadSpec(const mjModel* model, const std::string& file);
 
 }  // namespace floorproof

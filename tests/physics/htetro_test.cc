@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "env/validate/rig.h"
+#include "env/validate/climb.h"
 
 namespace floorproof {
 namespace {
@@ -113,26 +113,23 @@ TEST(Htetro, HeldWheelsHoldItEveryWay) {
 
 // Whether the robot, driven forward (or sideways, left first), comes to stand beyond the strip
 // that begins 0.5 m ahead.
-bool Crosses(bool sideways, const Hazard& hazard, double speed_mps = 0.2) {
+bool Crosses(bool sideways, const Hazard& hazard) {
+  constexpr double kSpeed_mps = 0.2;
   Rig dut("htetro", {.hazards = {hazard}});
-  dut.Command(sideways ? BodyTwist{0, speed_mps, 0} : BodyTwist{speed_mps, 0, 0});
+  dut.Command(sideways ? BodyTwist{0, kSpeed_mps, 0} : BodyTwist{kSpeed_mps, 0, 0});
   const auto way = [&] { return sideways ? dut.sample().p_WB.y() : dut.sample().p_WB.x(); };
-  while (dut.sample().t_s < 2.5 / speed_mps && way() < 1.4) dut.Step();
+  while (dut.sample().t_s < 2.5 / kSpeed_mps && way() < 1.4) dut.Step();
   return way() >= 1.4;
-}
-
-Hazard Ledge(bool sideways, double height_m) {
-  return Prism("ledge", sideways ? Rectangle({-8, 0.5}, {8, 8}) : Rectangle({0.5, -8}, {8, 8}), {},
-               height_m);
 }
 
 // The lateral rounding of a Mecanum wheel is its rollers': it climbs far less sideways. Measured
 // limits at 0.2 m/s are 24 mm and 5.8 mm.
 TEST(Htetro, ClimbsHigherForwardThanSideways) {
-  EXPECT_TRUE(Crosses(false, Ledge(false, 0.020)));
-  EXPECT_FALSE(Crosses(false, Ledge(false, 0.030)));
-  EXPECT_TRUE(Crosses(true, Ledge(true, 0.004)));
-  EXPECT_FALSE(Crosses(true, Ledge(true, 0.008)));
+  constexpr double kEdge_m = 0.5;
+  EXPECT_TRUE(Crosses(false, Ledge(0.020, kEdge_m, false)));
+  EXPECT_FALSE(Crosses(false, Ledge(0.030, kEdge_m, false)));
+  EXPECT_TRUE(Crosses(true, Ledge(0.004, kEdge_m, true)));
+  EXPECT_FALSE(Crosses(true, Ledge(0.008, kEdge_m, true)));
 }
 
 // What the FMEA paper saw: a cable cover crossed forward that holds the robot when met sideways.

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "env/validate/rig.h"
+#include "env/validate/climb.h"
 
 namespace floorproof {
 namespace {
@@ -81,15 +81,10 @@ TEST(RollerWheels, ADeadWallThrowsNothingBack) {
   EXPECT_NEAR(dut.sample().p_WB.x(), 0.10, 0.005) << "it stands at the wall";
 }
 
-Hazard Ledge(bool sideways, double height_m) {
-  const Polygon place = sideways ? Rectangle({-8, 0.35}, {8, 8}) : Rectangle({0.35, -8}, {8, 8});
-  return Prism("ledge", place, {}, height_m);
-}
-
-// Whether all its wheels come to stand on the ledge.
-bool Climbs(bool sideways, double height_m) {
-  constexpr double kSpeed_mps = 0.2, kUp_m = 0.7;
-  Rig dut("htetro", {.hazards = {Ledge(sideways, height_m)}, .rollers = true});
+// Whether all its wheels come to stand on a ledge of this height.
+bool StandsOnTop(bool sideways, double height_m) {
+  constexpr double kSpeed_mps = 0.2, kEdge_m = 0.35, kUp_m = 0.7;
+  Rig dut("htetro", {.hazards = {Ledge(height_m, kEdge_m, sideways)}, .rollers = true});
   dut.Command(sideways ? BodyTwist{0, kSpeed_mps, 0} : BodyTwist{kSpeed_mps, 0, 0});
   const auto way = [&] { return sideways ? dut.sample().p_WB.y() : dut.sample().p_WB.x(); };
   while (dut.sample().t_s < 6 && way() < kUp_m) dut.Step();
@@ -99,9 +94,9 @@ bool Climbs(bool sideways, double height_m) {
 // Forward with the wheel's radius, sideways with the rollers', as ideal wheels do: measured limits
 // at 0.2 m/s are in docs/physics.md.
 TEST(RollerWheels, ClimbHigherForwardThanSideways) {
-  EXPECT_TRUE(Climbs(false, 0.018));
-  EXPECT_TRUE(Climbs(true, 0.0035));
-  EXPECT_FALSE(Climbs(true, 0.009));
+  EXPECT_TRUE(StandsOnTop(false, 0.018));
+  EXPECT_TRUE(StandsOnTop(true, 0.0035));
+  EXPECT_FALSE(StandsOnTop(true, 0.009));
 }
 
 }  // namespace

@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // No seam is felt on real maps: each robot drives its own plan on each for some minutes, over a
 // floor that pits outside the map cut into slabs, and heaves less than the stated bound. Slow.
-#include "env/map/init_files.h"
 #include "env/validate/vertical_motion.h"
-#include "tests/run/scenario_text.h"
+#include "tests/physics/real_map.h"
 
 namespace floorproof {
 namespace {
-
-struct RobotOnMap {
-  const char *robot, *map;
-};
-void PrintTo(const RobotOnMap& drive, std::ostream* os) {
-  *os << drive.robot << " in " << drive.map;
-}
 
 // Looks on at 50 Hz: differences of 20 ms.
 class Heave final : public EpisodeObserver {
@@ -43,16 +35,10 @@ void CutIntoSlabs(HazardMap& map, const Pose2& start) {
   }
 }
 
-class SeamsOnRealMaps : public ScenarioTest, public ::testing::WithParamInterface<RobotOnMap> {};
+class SeamsOnRealMaps : public RealMapTest {};
 
 TEST_P(SeamsOnRealMaps, AreNotFelt) {
-  const std::filesystem::path map =
-      std::filesystem::path(FP_SHARED_MAPS_DIR) / GetParam().map / "map.yaml";
-  if (!std::filesystem::exists(map)) GTEST_SKIP() << map << " is not here";
-  const RobotModel robot = ReadRobot(FindRobotFile(GetParam().robot, {}));
-  const InitFiles files = MakeInitFiles(map, robot.robot, folder_);
-  Save("site.yaml", files.site_yaml);
-  Scenario scenario = Read(files.scenario_yaml, {{"time_limit_s", "180"}});
+  Scenario scenario = ReadInit({{"time_limit_s", "180"}});
   CutIntoSlabs(scenario.site.map, scenario.start);
   const PlanResult plan = MakePlan(scenario);
   ASSERT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;

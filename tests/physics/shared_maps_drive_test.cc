@@ -1,29 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Real maps, through init alone, planned and driven. Slow: minutes of physics.
-#include "env/map/init_files.h"
-#include "env/run/file_output.h"
-#include "tests/run/scenario_text.h"
+#include "tests/physics/real_map.h"
 
 namespace floorproof {
 namespace {
 
-struct RobotOnMap {
-  const char *robot, *map;
-};
-void PrintTo(const RobotOnMap& drive, std::ostream* os) {
-  *os << drive.robot << " in " << drive.map;
-}
-
-class RealMap : public ScenarioTest, public ::testing::WithParamInterface<RobotOnMap> {};
+class RealMap : public RealMapTest {};
 
 TEST_P(RealMap, IsCoveredWithoutAnEvent) {
-  const std::filesystem::path map =
-      std::filesystem::path(FP_SHARED_MAPS_DIR) / GetParam().map / "map.yaml";
-  if (!std::filesystem::exists(map)) GTEST_SKIP() << map << " is not here";
-  const RobotModel robot = ReadRobot(FindRobotFile(GetParam().robot, {}));
-  const InitFiles files = MakeInitFiles(map, robot.robot, folder_);
-  Save("site.yaml", files.site_yaml);
-  const EpisodeRecord dut = Drive(Read(files.scenario_yaml));
+  const EpisodeRecord dut = Drive(ReadInit());
   EXPECT_EQ(dut.outcome, Outcome::kSuccess) << dut.message;
   EXPECT_TRUE(dut.events.empty());
   EXPECT_GE(dut.metrics.coverage, 0.95);

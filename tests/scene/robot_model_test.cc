@@ -5,6 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "env/scene/scene.h"
 
 namespace floorproof {
 namespace {
@@ -62,6 +66,27 @@ TEST(RobotModel, ChangesReachWheelsAndRollers) {
   EXPECT_NEAR(Beluga({.wheel_radius_m = 0.06}).robot.wheels[0].p_BW.z(), 0.06, 1e-9);
   EXPECT_THROW(Beluga({.roller_radius_m = 0.01}), InputError);
   EXPECT_THROW(ReadRobot(htetro, {.roller_radius_m = 0.03}), InputError);
+}
+
+// Nothing but the robot's own text asks for names of motors and wheels.
+TEST(RobotModel, MotorsAndWheelsNeedNoNames) {
+  const std::filesystem::path htetro = FindRobotFile("htetro", {});
+  std::stringstream text;
+  text << std::ifstream(htetro).rdbuf();
+  const std::regex named("(<(?:geom|dcmotor)) name=\"[^\"]*\"([^>]* class=\"wheel)");
+  const std::string file = ::testing::TempDir() + "/nameless.xml";
+  std::ofstream(file) << std::regex_replace(text.str(), named, "$1$2");
+  const RobotChanges changes = {.wheel_radius_m = 0.035, .battery_v = 11};
+  const RobotModel dut = ReadRobot(file, changes), with_names = ReadRobot(htetro, changes);
+  ASSERT_EQ(dut.robot.wheels.size(), 16u);
+  EXPECT_EQ(dut.robot.wheels[3].name, "actuator 3");
+  EXPECT_EQ(dut.robot.wheels[3].radius_m, with_names.robot.wheels[3].radius_m);
+  HazardMap map;
+  map.frame = {2, 2, 1, {}};
+  map.cells = Grid<CellState>(2, 2);
+  const auto pairs = BuildScene(map, with_names, {}, {}).model->npair;
+  EXPECT_EQ(pairs, 16) << "each wheel with the floor";
+  EXPECT_EQ(BuildScene(map, dut, {}, {}).model->npair, pairs);
 }
 
 std::string RefusalOf(const std::string& name, const std::string& xml) {

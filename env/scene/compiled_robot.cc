@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/scene/compiled_robot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <sstream>
+
+#include "env/scene/lock_blocks.h"
+#include "env/scene/mecanum_wheel.h"
+
+namespace floorproof {
+
+CompiledRobot::CompiledRobot(const mjModel* model, std::string file)
+    : m_(model), file_(std::move(file)) {
+  const int base = mj_name2id(m_, mjOBJ_BODY, "base");
+  if (base < 0) Refuse("base", "a robot needs a body named base");
+  if (m_->body_jntnum[base] != 1 || m_->jnt_type[m_->body_jntadr[base]] != mjJNT_FREE)
+    Refuse("base", "the body base needs a free joint");
+  data_ = MakeData(m_);
+  ForwardEngine(m_, data_.get());
+  blocks_ = {base};
+  for (const auto& name : Words(kLockedBlocks))
+    blocks_.push_back(mj_name2id(m_, mjOBJ_BODY, name.c_str()));
+}
+
+void CompiledRobot::Refuse(std::string_view key, std::string_view rule) const {
+  throw InputError({file_, 0}, key, "", rule);
+}
+
+double CompiledRobot::Number(const char* name, const Bounds& rule) const {
+  const int id = mj_name2id(m_, mjOBJ_NUMERIC, name);
+  if (id < 0) Refuse(name, "missing under <custom>");
+  const double value = m_->numeric_data[m_->numeric_adr[id]];
+  if (!rule.Allows(value)) throw InputError({file_, 0}, name, FormatDouble(value), rule.Text());
+  return value;
+}
+
+std::string CompiledRobot::Text(const char* name) const {
+  const int id = mj_name2id(m_, mjOBJ_TEXT, name);
+  if (id < 0) Refuse(name, "missing under <custom>");
+  return m_->text_data + m_->text_adr[id];
+}
+
+std::vector<std::string> CompiledRobot::Words(const char* name) const {
+  if (mj_name2id(m_, mjOBJ_TEXT, name) < 0) return {};
+  std::istringstream in(Text(name));
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+Vec3 CompiledRobot::InBase(const mjtNum* p_W) const {
+  mjtNum offset[3], p_B[3];
+  mju_sub3(offset, p_W, data_->xpos + 3 * base());
+  mju_mulMatTVec3(p_B, data_->xmat + 9 * base(), offset);
+  return {p_B[0], p_B[1], p_B[2]};
+}
+
+bool CompiledRobot::IsBlock(int body) const {
+  return std::ranges::find(blocks_, body) != blocks_.end();
+}
+
+int CompiledRobot::BlockOf(int body) const {
+  for (; body > 0; body = m_->body_parentid[body])
+    if (const auto at = std::ranges::find(blocks_, body); at != blocks_.end())
+      return static_cast<int>(at - blocks_.begin());
+  return 0;
+}
+
+std::vector<Vec3> CompiledRobot::SurfacePoints(int geom) const {
+  const mjtNum* size = m_->geom_size + 3 * geom;
+  const mjtNum* pos = data_->geom_xpos + 3 * geom;
+  const mjtNum* mat = data_->geom_xmat + 9 * geom;
+  std::vector<Vec3> points;
+  const auto add = [&](double x, double y, double z) {
+    const mjtNum local[3] = {x, y, z};
+    mjtNum world[3];
+    mju_mulMatVec3(world, mat, local);
+    mju_addTo3(world, pos);
+    points.push_back(InBase(world));
+  };
+  constexpr int kAround = 72;
+  const auto add_rings = [&](double radius, double half_height) {
+    for (int k = 0; k < kAround; ++k) {
+      const double c = radius * std::cos(2 * kPi * k / kAround);
+      const double s = radius * std::sin(2 * kPi * k / kAround);
+      add(c, s, -half_height);
+      add(c, s, half_height);
+    }
+  };
+  switch (m_->geom_type[geom]) {
+    case mjGEOM_BOX:
+      for (int k = 0; k < 8; ++k)
+        add(k & 1 ? size[0] : -size[0], k & 2 ? size[1] : -size[1], k & 4 ? size[2] : -size[2]);
+      break;
+    case mjGEOM_CYLINDER: {
+      const double rollers = RollersOf(m_, geom).radius_m;
+      add_rings(size[0] + rollers, size[1]);
+      if (rollers > 0) add_rings(size[0], size[1] + rollers);
+      break;
+    }
+    case mjGEOM_SPHERE:
+      add_rings(size[0], 0);
+      add(0, 0, -size[0]);
+      add(0, 0, size[0]);
+      break;
+    default: {  // the axis-aligned box in the geom's frame bounds every other type
+      const mjtNum* box = m_->geom_aabb + 6 * geom;
+      for (int k = 0; k < 8; ++k)
+        add(box[0] + (k & 1 ? box[3] : -box[3]), box[1] + (k & 2 ? box[4] : -box[4]),
+            box[2] + (k & 4 ? box[5] : -box[5]));
+    }
+  }
+  return points;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// A robot's compiled MJCF, as the readers of its parts ask it (spec_reader.h).
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "env/core/geometry.h"
+#include "env/core/params.h"
+#include "env/scene/engine.h"
+
+namespace floorproof {
+
+class CompiledRobot {
+ public:
+  // Poses it as its model stands. Throws InputError where no body `base` stands on a free joint.
+  CompiledRobot(const mjModel* model, std::string file);
+
+  const mjModel* model() const { return m_; }
+  const mjData* data() const { return data_.get(); }
+  const std::string& file() const { return file_; }
+  int base() const { return blocks_.front(); }
+  // Bodies of the blocks, the base first.
+  const std::vector<int>& blocks() const { return blocks_; }
+  void AddBlock(int body) { blocks_.push_back(body); }
+
+  // Throws InputError that names the file.
+  [[noreturn]] void Refuse(std::string_view key, std::string_view rule) const;
+
+  // Numbers and texts under <custom>; refused where they are missing or break the rule.
+  double Number(const char* name, const Bounds& rule) const;
+  std::string Text(const char* name) const;
+  // The words of a text; none where there is no such text.
+  std::vector<std::string> Words(const char* name) const;
+
+  Vec3 InBase(const mjtNum* p_W) const;
+  bool IsBlock(int body) const;
+  // Index of the block that the body is, or is carried by.
+  int BlockOf(int body) const;
+
+  bool Collides(int geom) const { return m_->geom_conaffinity[geom] || m_->geom_contype[geom]; }
+  // By the wheels: part of the chassis.
+  bool IsCarried(int geom) const { return IsBlock(m_->geom_bodyid[geom]); }
+  // Points on the surface of a geom that bound it, in the base frame.
+  std::vector<Vec3> SurfacePoints(int geom) const;
+
+ private:
+  const mjModel* m_;
+  std::string file_;
+  DataPtr data_;
+  std::vector<int> blocks_;
+};
+
+}  // namespace floorproof

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parts of a RobotSpec that take more than a line to read (spec_reader.h). Each fills in its
+// own fields and throws InputError that names the file; in this order.
+#pragma once
+
+#include "env/core/robot_spec.h"
+#include "env/scene/compiled_robot.h"
+
+namespace floorproof {
+
+// `hinges`, named under <custom>; their bodies become blocks of `compiled`.
+void ReadHinges(CompiledRobot& compiled, RobotSpec& robot);
+
+// `wheels`: all actuators but the hinges'.
+void ReadWheels(const CompiledRobot& compiled, RobotSpec& robot);
+
+// `blocks`, `shapes` and `static_tip_rad`, the last from wheels and mass. A robot without hinges
+// has neither blocks nor shapes.
+void ReadShapes(const CompiledRobot& compiled, RobotSpec& robot);
+
+}  // namespace floorproof

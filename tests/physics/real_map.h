@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Robots on real maps, in the scenario that `init` makes of each. Skipped where the map is not.
+#pragma once
+
+#include "env/map/init_files.h"
+#include "tests/run/scenario_text.h"
+
+namespace floorproof {
+
+struct RobotOnMap {
+  const char *robot, *map;
+};
+inline void PrintTo(const RobotOnMap& drive, std::ostream* os) {
+  *os << drive.robot << " in " << drive.map;
+}
+
+class RealMapTest : public ScenarioTest, public ::testing::WithParamInterface<RobotOnMap> {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(map_)) GTEST_SKIP() << map_ << " is not here";
+  }
+  Scenario ReadInit(const std::vector<Override>& overrides = {}) const {
+    const RobotModel robot = ReadRobot(FindRobotFile(GetParam().robot, {}));
+    const InitFiles files = MakeInitFiles(map_, robot.robot, folder_);
+    Save("site.yaml", files.site_yaml);
+    return Read(files.scenario_yaml, overrides);
+  }
+
+ private:
+  const std::filesystem::path map_ =
+      std::filesystem::path(FP_SHARED_MAPS_DIR) / GetParam().map / "map.yaml";
+};
+
+}  // namespace floorproof
