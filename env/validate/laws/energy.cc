@@ -150,7 +150,7 @@ class Energy final : public Law {
  private:
   static void Steady(const Rig& truth, const std::string& name, double slope_rad,
                      const WrongModel& wrong, std::vector<LawRow>& rows) {
-    constexpr double kSteady_s = 1, kDrive_s = 1;
+    constexpr double kSteady_s = 2, kDrive_s = 2;
     const Steadily expected = DriveSteadily(truth, slope_rad);
     Rig rig(truth.robot().name, {.wrong = wrong});
     rig.SetGravity({-std::sin(slope_rad), 0, -std::cos(slope_rad)});
