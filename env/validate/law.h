@@ -31,7 +31,8 @@ class Law {
   virtual ~Law() = default;
   // The law as a formula, with where it holds.
   virtual std::string_view statement() const = 0;
-  // The wrong models that it must notice: under each at least one of its rows fails.
+  // The wrong models that it must notice: under each at least one of its rows fails, and of every
+  // robot and case (a row's name without its last part) at least one row fails under one of them.
   virtual std::vector<WrongModel> notices() const = 0;
   // Takes more than some 3 s of CPU: its tests are labelled slow.
   virtual bool slow() const { return false; }
@@ -39,9 +40,11 @@ class Law {
   virtual void Check(const WrongModel& wrong, std::vector<LawRow>& rows) const = 0;
 };
 
-// The wrong models that laws are tried with: friction 1.3 times, or wheels 3 mm larger.
+// Wrong models that several laws are tried with: friction or the motors' resistance 1.3 times,
+// wheels 3 mm larger.
 inline constexpr WrongModel kMoreFriction{.friction_factor = 1.3};
 inline constexpr WrongModel kLargerWheels{.wheel_radius_add_m = 0.003};
+inline constexpr WrongModel kMoreResistance{.resistance_factor = 1.3};
 
 std::span<const PluginEntry<Law>> Laws();
 

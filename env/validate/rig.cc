@@ -29,6 +29,7 @@ Rig::Rig(const std::string& robot_name, RigOptions options) {
   const auto file = FindRobotFile(robot_name, {});
   true_robot_ = ReadRobot(file, options.changes, options.blocks).robot;
   model_ = ReadRobot(file, Wrong(options.changes, true_robot_, options.wrong), options.blocks);
+  model_.robot.hotel_load_w *= options.wrong.hotel_load_factor;
   if (options.rollers) model_ = WithRollerWheels(model_);
   drive_ = MakePlugin(Drives(), true_robot_.drive, "drive");
   drive_->Configure(true_robot_);
@@ -55,6 +56,9 @@ void Rig::Build(RigOptions options) {
     if (lower) m->geom_pos[3 * g + 2] -= wrong_.seam_step_m;
     lower = !lower;
   }
+  for (int a = 0; a < m->nu; ++a)
+    if (m->actuator_gaintype[a] == mjGAIN_DCMOTOR)
+      m->actuator_gainprm[mjNGAIN * a] *= wrong_.resistance_factor;
   wheel_radps_.resize(true_robot_.wheels.size());
   sim_ = std::make_unique<Simulation>(scene_, map_, model_.robot);
   SetGravity(-Vec3::UnitZ());

@@ -21,6 +21,8 @@ struct WrongModel {
   double gravity_factor = 1;      // where neither of the above can be felt: in free fall
   double seam_step_m = 0;         // every second slab of a cut floor lies lower by this
   double battery_factor = 1;      // of its voltage
+  double resistance_factor = 1;   // of the motors' windings
+  double hotel_load_factor = 1;   // what all but the motors draws
   double restitution_factor = 1;  // of hazards'
 
   bool operator==(const WrongModel&) const = default;

@@ -20,7 +20,9 @@ class Audit final : public Law {
     return "time and energy of the audits in Table 3 of audit-sampling, environments 2 and 3, by "
            "a robot calibrated on environment 1";
   }
-  std::vector<WrongModel> notices() const override { return {kLargerWheels}; }
+  std::vector<WrongModel> notices() const override {
+    return {kLargerWheels, {.hotel_load_factor = 1.3}};
+  }
   bool slow() const override { return true; }
 
   void Check(const WrongModel& wrong, std::vector<LawRow>& rows) const override {

@@ -21,7 +21,7 @@ namespace {
 constexpr double kShare = 0.002;
 constexpr double kFull_radps = 1000;  // asked for, so that the driver gives all it can
 
-// What the model's file says of a motor at its wheel, and the driver's least.
+// What the true model says of a motor at its wheel, and the driver's least.
 struct Motor {
   double resistance_ohm, constant, gain, friction_nm, damping, most_nm, battery_v;
 
@@ -60,7 +60,6 @@ class Bench {
     mjModel* m = rig_.scene().model.get();
     std::fill_n(m->dof_armature + m->body_dofadr[rig_.scene().base_body], 6, kHeld);
   }
-  Motor TrueMotor() const { return {rig_.scene().model.get(), *rig_.robot().battery.voltage_v}; }
   double wheels() const { return static_cast<double>(rig_.robot().wheels.size()); }
   double hotel_w() const { return rig_.robot().hotel_load_w; }
 
@@ -98,7 +97,9 @@ class Motors final : public Law {
     return "v = R i + K omega, K i = T_f + b omega + T_L, v <= V, and the battery's current is "
            "(sum of v i + hotel load) / V";
   }
-  std::vector<WrongModel> notices() const override { return {{.battery_factor = 0.95}}; }
+  std::vector<WrongModel> notices() const override {
+    return {{.battery_factor = 0.95}, kMoreResistance};
+  }
 
   void Check(const WrongModel& wrong, std::vector<LawRow>& rows) const override {
     for (const char* robot : {"beluga", "htetro"}) CheckRobot(robot, wrong, rows);
@@ -113,7 +114,8 @@ class Motors final : public Law {
           {"motors/" + robot + "/" + name, expected, measured, kShare * std::abs(expected), unit});
     };
     Bench bench(robot.c_str(), wrong);
-    const Motor motor = bench.TrueMotor();
+    const Rig truth(robot);
+    const Motor motor(truth.scene().model.get(), *truth.robot().battery.voltage_v);
     const auto battery_a = [&](double torque_nm, double speed_radps) {
       return (bench.wheels() * motor.Power(torque_nm, speed_radps) + bench.hotel_w()) /
              motor.battery_v;
