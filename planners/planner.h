@@ -49,6 +49,8 @@ struct PlanResult {
 class Planner : public Configurable {
  public:
   virtual PlanResult Plan(const PlanRequest& request) const = 0;
+  // Whether the plan hangs on the request's seed; else a campaign plans the same floor only once.
+  virtual bool uses_seed() const { return false; }
 };
 
 std::span<const PluginEntry<Planner>> Planners();

@@ -8,6 +8,7 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
+#include <charconv>
 #include <map>
 #include <sstream>
 
@@ -245,11 +246,36 @@ void ConfigNode::Remove(std::string_view key) {
   std::erase_if(entries, [key](const auto& entry) { return entry.first == key; });
 }
 
+namespace {
+
+// The list's entry of this `id`, or of this index.
+ConfigNode& EntryOf(ConfigNode& list, const std::string& key, const SourceMark& mark) {
+  for (ConfigNode& item : list.items)
+    if (const ConfigNode* id = item.Find("id"); id != nullptr && id->scalar == key) return item;
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
+  if (error == std::errc() && end == key.data() + key.size() && index < list.items.size())
+    return list.items[index];
+  throw InputError(mark, key, "",
+                   "is neither the id nor the index of an entry of this list of " +
+                       std::to_string(list.items.size()));
+}
+
+}  // namespace
+
 void ConfigNode::SetPath(std::string_view key_path, ConfigNode value) {
   const auto dot = key_path.find('.');
   const std::string key(key_path.substr(0, dot));
   if (key.empty()) throw InputError(value.mark, std::string(key_path), "", "an empty key");
-  if (IsScalar() || IsList())
+  if (IsList()) {
+    ConfigNode& entry = EntryOf(*this, key, value.mark);
+    if (dot == std::string_view::npos)
+      entry = std::move(value);
+    else
+      entry.SetPath(key_path.substr(dot + 1), std::move(value));
+    return;
+  }
+  if (IsScalar())
     throw InputError(value.mark, std::string(key_path), "", "stands below a value that is no map");
   kind = Kind::kMap;
   if (dot == std::string_view::npos) {

@@ -33,7 +33,8 @@ struct ConfigNode {
   ConfigNode* Find(std::string_view key);
   ConfigNode& Add(std::string key, ConfigNode value);  // replaces an entry of that key
   void Remove(std::string_view key);
-  // Sets key.path (dots between keys) making maps on the way, for `--set key.path=value`.
+  // Sets key.path (dots between keys) making maps on the way, for `--set key.path=value`. In a list
+  // a key is the `id` of an entry or its index; the entry must be there.
   void SetPath(std::string_view key_path, ConfigNode value);
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "env/core/streams.h"
 #include "env/run/path_error.h"
 #include "env/run/plan_file.h"
 #include "env/run/recorder.h"
@@ -42,8 +43,8 @@ double PlanDuration(const Path& path, double cruise_mps) {
 PlanResult MakePlan(const Scenario& s) {
   if (s.planner) {
     const HazardMap known = KnownPart(s.site.map);
-    return s.planner->Plan(
-        {known, s.robot.robot, s.start, s.goal, static_cast<std::uint64_t>(s.episode.seed)});
+    Stream stream(static_cast<std::uint64_t>(s.episode.seed), s.episode_id, "plan");
+    return s.planner->Plan({known, s.robot.robot, s.start, s.goal, stream.Next()});
   }
   PlanResult plan;
   plan.path = s.user_plan;

@@ -68,6 +68,12 @@ void WriteFileWhole(const std::filesystem::path& path, std::string_view text) {
   }
 }
 
+std::string Sha256(std::string_view text) {
+  char hex[SHA256_DIGEST_STRING_LENGTH];
+  SHA256Data(reinterpret_cast<const std::uint8_t*>(text.data()), text.size(), hex);
+  return hex;
+}
+
 std::string Sha256OfFile(const std::filesystem::path& path) {
   char hex[SHA256_DIGEST_STRING_LENGTH];
   if (SHA256File(path.c_str(), hex) == nullptr)

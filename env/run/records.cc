@@ -6,6 +6,9 @@
 #include <mujoco/mujoco.h>
 #include <sys/utsname.h>
 
+#include <charconv>
+#include <cmath>
+
 #include "env/run/file_output.h"
 #include "env/run/plan_file.h"
 
@@ -13,15 +16,6 @@ namespace floorproof {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json Versions() {
-  utsname system{};
-  uname(&system);
-  return {{"floorproof", FLOORPROOF_VERSION},
-          {"mujoco", mj_versionString()},
-          {"compiler", FLOORPROOF_COMPILER},
-          {"machine", std::string(system.sysname) + " " + system.machine}};
-}
 
 Json EventJson(const Event& e) {
   Json json = {{"mode", Name(e.mode)}, {"kind", e.kind},   {"t_s", e.t_s},
@@ -34,7 +28,67 @@ Json EventJson(const Event& e) {
   return json;
 }
 
+// A number or a truth value as such, a list by its entries, else text.
+Json ValueJson(const ConfigNode& node) {
+  if (node.IsList()) {
+    Json list = Json::array();
+    for (const ConfigNode& item : node.items) list.push_back(ValueJson(item));
+    return list;
+  }
+  if (node.IsMap()) {
+    Json map = Json::object();
+    for (const auto& [key, value] : node.entries) map[key] = ValueJson(value);
+    return map;
+  }
+  if (node.IsNull()) return nullptr;
+  if (!node.quoted && (node.scalar == "true" || node.scalar == "false"))
+    return node.scalar == "true";
+  double number = 0;
+  const char* end = node.scalar.data() + node.scalar.size();
+  const auto [rest, error] = std::from_chars(node.scalar.data(), end, number);
+  if (!node.quoted && error == std::errc() && rest == end && std::isfinite(number)) return number;
+  return node.scalar;
+}
+
 }  // namespace
+
+Json VersionsJson() {
+  utsname system{};
+  uname(&system);
+  return {{"floorproof", FLOORPROOF_VERSION},
+          {"mujoco", mj_versionString()},
+          {"compiler", FLOORPROOF_COMPILER},
+          {"machine", std::string(system.sysname) + " " + system.machine}};
+}
+
+Json EventsJson(const std::vector<Event>& events) {
+  Json json = Json::array();
+  for (const Event& event : events) json.push_back(EventJson(event));
+  return json;
+}
+
+Json DrawnJson(const Drawn& drawn) {
+  Json json = Json::object();
+  for (const auto& [key, value] : drawn) json[key] = ValueJson(value);
+  return json;
+}
+
+Json MetricsJson(const Metrics& m) {
+  return {{"coverage", m.coverage},
+          {"overlap", m.overlap},
+          {"path_length_m", m.path_length_m},
+          {"duration_s", m.duration_s},
+          {"energy_j", m.energy_j},
+          {"charge_ah", m.charge_ah},
+          {"least_battery_v", m.least_battery_v},
+          {"battery_left", m.battery_left ? Json(*m.battery_left) : Json(nullptr)},
+          {"max_cross_track_m", m.max_cross_track_m},
+          {"mean_cross_track_m", m.mean_cross_track_m},
+          {"turns", m.turns},
+          {"interventions", m.interventions},
+          {"contacts", m.contacts},
+          {"max_impulse_ns", m.max_impulse_ns}};
+}
 
 Json PlanJson(const Scenario& s, const PlanResult& plan) {
   const bool circle = plan.clear.kind == Shape2::Kind::kCircle;
@@ -63,9 +117,7 @@ Json PlanJson(const Scenario& s, const PlanResult& plan) {
 }
 
 Json ResultJson(const Scenario& s, const EpisodeRecord& record) {
-  const Metrics& m = record.metrics;
-  Json events = Json::array(), margins = Json::object();
-  for (const auto& event : record.events) events.push_back(EventJson(event));
+  Json margins = Json::object();
   for (const auto& margin : record.margins) margins[margin.detector] = margin.value;
   return {{"schema", 1},
           {"scenario", s.name},
@@ -73,26 +125,13 @@ Json ResultJson(const Scenario& s, const EpisodeRecord& record) {
           {"site", s.site.map.name},
           {"outcome", Name(record.outcome)},
           {"message", record.message},
-          {"events", std::move(events)},
-          {"metrics",
-           {{"coverage", m.coverage},
-            {"overlap", m.overlap},
-            {"path_length_m", m.path_length_m},
-            {"duration_s", m.duration_s},
-            {"energy_j", m.energy_j},
-            {"charge_ah", m.charge_ah},
-            {"least_battery_v", m.least_battery_v},
-            {"battery_left", m.battery_left ? Json(*m.battery_left) : Json(nullptr)},
-            {"max_cross_track_m", m.max_cross_track_m},
-            {"mean_cross_track_m", m.mean_cross_track_m},
-            {"turns", m.turns},
-            {"interventions", m.interventions},
-            {"contacts", m.contacts},
-            {"max_impulse_ns", m.max_impulse_ns}}},
+          {"events", EventsJson(record.events)},
+          {"metrics", MetricsJson(record.metrics)},
           {"margins", std::move(margins)},
           {"steps", record.steps},
           {"seed", s.episode.seed},
-          {"versions", Versions()}};
+          {"drawn", DrawnJson(s.drawn)},
+          {"versions", VersionsJson()}};
 }
 
 std::string TraceCsv(const EpisodeRecord& record, const RobotSpec& robot) {

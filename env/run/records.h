@@ -14,6 +14,11 @@ namespace floorproof {
 nlohmann::ordered_json PlanJson(const Scenario& scenario, const PlanResult& plan);
 // result.json's content: schema, outcome, events, metrics, margins, seed, versions. No wall times.
 nlohmann::ordered_json ResultJson(const Scenario& scenario, const EpisodeRecord& record);
+// Its parts: what a campaign keeps of each episode.
+nlohmann::ordered_json MetricsJson(const Metrics& metrics);
+nlohmann::ordered_json EventsJson(const std::vector<Event>& events);
+nlohmann::ordered_json DrawnJson(const Drawn& drawn);
+nlohmann::ordered_json VersionsJson();
 std::string TraceCsv(const EpisodeRecord& record, const RobotSpec& robot);
 
 // scenario.resolved.yaml, plan.csv and plan.json.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scenario written out with every default stated, so that it survives a change of defaults.
 #include <algorithm>
+#include <functional>
 
 #include "env/run/file_output.h"
 #include "env/run/scenario.h"
@@ -72,6 +73,25 @@ ConfigNode Files(const Scenario& s, const fs::path& folder) {
   return node;
 }
 
+// `randomise` and `matrix` with the paths that they set made valid from `to`; all else as it is.
+ConfigNode Rebased(ConfigNode node, const fs::path& from, const fs::path& to) {
+  const std::function<void(const std::string&, ConfigNode&)> visit = [&](const std::string& key,
+                                                                         ConfigNode& value) {
+    const bool names_file =
+        key == "site" || key == "plan.file" ||
+        ((key == "robot" || key == "robot.name") && value.scalar.ends_with(".xml"));
+    if (value.IsScalar() && names_file)
+      value = ConfigNode::Scalar(PathFrom(to, from / value.scalar).string(), true);
+    for (ConfigNode& item : value.items) visit(key, item);
+    // A map is a distribution, a labelled entry of keys, or a value in parts.
+    for (auto& [name, entry] : value.entries)
+      visit(name == "choice" ? key : (key == "plan" || key == "robot" ? key + "." + name : name),
+            entry);
+  };
+  for (auto& [key, value] : node.entries) visit(key, value);
+  return node;
+}
+
 }  // namespace
 
 std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
@@ -92,6 +112,9 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
   root.Add("battery", WithParams(ConfigNode::Map(), s.battery));
   root.Add("physics", WithParams(ConfigNode::Map(), s.physics));
   root.Add("video", WithParams(ConfigNode::Map(), s.video));
+  for (const auto& [key, written] :
+       {std::pair("randomise", &s.randomise), {"matrix", &s.matrix}, {"gate", &s.gate}})
+    if (!written->IsNull()) root.Add(key, Rebased(*written, s.file.parent_path(), folder));
   root.Add("files", Files(s, folder));
   return "# Every key with the value used. Paths hold from this folder.\n" + WriteYaml(root);
 }

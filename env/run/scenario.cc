@@ -17,10 +17,10 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kMostBytes = 256u << 20;  // the readers have narrower bounds of their own
 
 const std::vector<std::string> kKeys = {
-    "name",     "scenario",   "site",       "robot",   "start",        "goal",
-    "plan",     "controller", "estimator",  "physics", "battery",      "control_hz",
-    "trace_hz", "failures",   "on_failure", "success", "time_limit_s", "seed",
-    "drive",    "wheels",     "video",      "files"};
+    "name",       "scenario",  "site",         "robot",   "start",      "goal",     "plan",
+    "controller", "estimator", "physics",      "battery", "control_hz", "trace_hz", "failures",
+    "on_failure", "success",   "time_limit_s", "seed",    "drive",      "wheels",   "video",
+    "files",      "randomise", "matrix",       "gate"};
 
 ConfigNode EmptyMap(const SourceMark& mark) {
   ConfigNode node = ConfigNode::Map();
@@ -28,16 +28,20 @@ ConfigNode EmptyMap(const SourceMark& mark) {
   return node;
 }
 
-// `--set`: site.* reaches into the site's own tree, once that is read.
-void Apply(const std::vector<Override>& overrides, bool to_site, ConfigNode& root) {
-  constexpr std::string_view kSite = "site.";
-  for (const auto& o : overrides) {
-    const bool is_site = o.key_path.starts_with(kSite);
-    if (is_site != to_site) continue;
-    ConfigNode value = ParseYaml(o.value, "--set " + o.key_path);
-    root.SetPath(is_site ? std::string_view(o.key_path).substr(kSite.size()) : o.key_path,
-                 std::move(value));
+constexpr std::string_view kSite = "site.";
+
+// Keys site.* reach into the site's own tree, once that is read.
+void Apply(const Variant& changes, bool to_site, ConfigNode& root) {
+  for (const auto& [key, value] : changes.overrides) {
+    const bool is_site = key.starts_with(kSite);
+    if (is_site == to_site)
+      root.SetPath(is_site ? std::string_view(key).substr(kSite.size()) : key, value);
   }
+}
+
+// Whether setting one of the keys sets the other, or a part of it.
+bool Overlap(const std::string& a, const std::string& b) {
+  return a == b || a.starts_with(b + ".") || b.starts_with(a + ".");
 }
 
 // Where the key is written; the file's own mark where it is not.
@@ -77,24 +81,6 @@ Named ReadNamed(const ConfigNode& root, const char* key, const char* name_key,
   const ConfigNode* name = node->Find(name_key);
   return {name ? AsString(*name, std::string(key) + "." + name_key) : std::string(default_name),
           *node, name ? name->mark : node->mark};
-}
-
-void ReadSitePart(const ConfigNode& root, const std::vector<Override>& overrides, Scenario& s) {
-  const ConfigNode* node = root.Find("site");
-  if (node == nullptr) throw InputError(root.mark, "site", "", "the key is missing");
-  const fs::path folder = s.file.parent_path();
-  if (node->IsMap()) {
-    s.site_node = *node;
-    s.site_folder = folder;
-  } else {
-    s.site_file = NamedFile(folder, *node, "site");
-    s.site_node = ReadYamlFile(s.site_file);
-    s.site_folder = s.site_file.parent_path();
-  }
-  Apply(overrides, true, s.site_node);
-  s.site = ReadSite(s.site_node, s.site_folder);
-  if (s.site.map.name.empty())
-    s.site.map.name = s.site_file.empty() ? s.name : s.site_file.stem().string();
 }
 
 // A plan names shapes before its robot is known.
@@ -254,23 +240,80 @@ void ReadTop(const ConfigNode& root, Scenario& s) {
 
 }  // namespace
 
-Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrides) {
-  ConfigNode root = ReadYamlFile(file);
-  if (!root.IsMap()) throw InputError({file.string(), 1}, "", "", "must be a map of keys");
-  Apply(overrides, false, root);
-  RefuseUnknownKeys(root, "", kKeys);
-  const ConfigNode* version = root.Find("scenario");
+ScenarioFile::ScenarioFile(const fs::path& file, const std::vector<Override>& overrides)
+    : file_(file), root_(ReadYamlFile(file)) {
+  if (!root_.IsMap()) throw InputError({file.string(), 1}, "", "", "must be a map of keys");
+  for (const Override& o : overrides)
+    overrides_.emplace_back(o.key_path, ParseYaml(o.value, "--set " + o.key_path));
+  Apply({"", overrides_}, false, root_);
+  RefuseUnknownKeys(root_, "", kKeys);
+  const ConfigNode* version = root_.Find("scenario");
   if (version == nullptr)
-    throw InputError(root.mark, "scenario", "", "the key is missing (scenario: 1)");
+    throw InputError(root_.mark, "scenario", "", "the key is missing (scenario: 1)");
   AsInt(*version, "scenario", Between(1, 1));
+  CheckHashes(root_, file.parent_path());
+  EpisodeParams params;
+  ReadParams(
+      root_, "", [&](ParamVisitor& v) { params.Visit(v); }, kKeys);
+  seed_ = params.seed;
 
+  randomised_ = ReadRandomise(root_.Find("randomise"));
+  std::erase_if(randomised_, [&](const RandomisedKey& key) {
+    return std::ranges::any_of(overrides_, [&](const auto& o) { return o.first == key.key_path; });
+  });
+  variants_ = ReadMatrix(root_.Find("matrix"));
+  for (const auto& [key, value] : variants_.front().overrides) {
+    for (const auto& o : overrides_)
+      if (Overlap(key, o.first))
+        throw InputError(o.second.mark, o.first, "", "the scenario's matrix sets " + key);
+    for (const RandomisedKey& r : randomised_)
+      if (Overlap(key, r.key_path))
+        throw InputError(r.mark, "randomise." + r.key_path, "",
+                         "the scenario's matrix sets " + key);
+  }
+}
+
+void ScenarioFile::ReadSitePart(const ConfigNode& root, const Variant& changes, Scenario& s) const {
+  const ConfigNode* node = root.Find("site");
+  if (node == nullptr) throw InputError(root.mark, "site", "", "the key is missing");
+  const fs::path folder = s.file.parent_path();
+  if (node->IsMap()) {
+    s.site_node = *node;
+    s.site_folder = folder;
+  } else {
+    s.site_file = NamedFile(folder, *node, "site");
+    auto known = site_files_.find(s.site_file);
+    if (known == site_files_.end())
+      known = site_files_.emplace(s.site_file, ReadYamlFile(s.site_file)).first;
+    s.site_node = known->second;
+    s.site_folder = s.site_file.parent_path();
+  }
+  Apply({"", overrides_}, true, s.site_node);
+  Apply(changes, true, s.site_node);
+  s.site = ReadSite(s.site_node, s.site_folder);
+  if (s.site.map.name.empty())
+    s.site.map.name = s.site_file.empty() ? s.name : s.site_file.stem().string();
+}
+
+Scenario ScenarioFile::Read(std::optional<std::uint64_t> episode, const Variant& variant) const {
   Scenario s;
-  s.file = file;
-  s.name = file.stem().string();
+  s.file = file_;
+  s.episode_id = episode.value_or(0);
+  Variant changes = variant;
+  if (episode) {
+    s.drawn = Draw(randomised_, static_cast<std::uint64_t>(seed_), *episode);
+    changes.overrides.insert(changes.overrides.end(), s.drawn.begin(), s.drawn.end());
+  }
+  ConfigNode root = root_;
+  Apply(changes, false, root);
+  RefuseUnknownKeys(root, "", kKeys);  // a variant's too
+  s.name = file_.stem().string();
   if (const ConfigNode* name = root.Find("name")) s.name = AsString(*name, "name");
+  for (auto [key, node] :
+       {std::pair("randomise", &s.randomise), {"matrix", &s.matrix}, {"gate", &s.gate}})
+    if (const ConfigNode* written = root.Find(key)) *node = *written;
   ReadTop(root, s);
-  CheckHashes(root, file.parent_path());
-  ReadSitePart(root, overrides, s);
+  ReadSitePart(root, changes, s);
   const std::vector<int> plan_lines = ReadPlanPart(root, s);
   ReadRobotPart(root, plan_lines, s);  // whether it folds hangs on the plan
   s.start = ReadStart(root, s.site.map);
@@ -280,6 +323,10 @@ Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrid
   ReadControl(root, s);
   ReadFailures(root, s);
   return s;
+}
+
+Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrides) {
+  return ScenarioFile(file, overrides).Read();
 }
 
 std::vector<fs::path> FilesRead(const Scenario& s) {

@@ -2,10 +2,13 @@
 // A scenario file, read whole: site, robot, plug-ins, limits.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "controllers/estimator.h"
@@ -13,6 +16,8 @@
 #include "env/core/config.h"
 #include "env/failures/detector.h"
 #include "env/map/site.h"
+#include "env/run/draws.h"
+#include "env/run/matrix.h"
 #include "env/run/scenario_params.h"
 #include "env/scene/robot_model.h"
 #include "env/scene/scene.h"
@@ -22,7 +27,10 @@ namespace floorproof {
 
 struct Scenario {
   std::filesystem::path file;
-  std::string name;  // the key `name`, else the file's stem
+  std::uint64_t episode_id = 0;
+  Drawn drawn;                         // what `randomise` drew for it
+  ConfigNode randomise, matrix, gate;  // as written; null: not there
+  std::string name;                    // the key `name`, else the file's stem
   Site site;
   std::filesystem::path site_file;    // empty: the site stands in the scenario
   ConfigNode site_node;               // the site's tree, overrides applied
@@ -55,8 +63,35 @@ struct Override {
   std::string key_path, value;  // --set key.path=value; the value is YAML
 };
 
-// Reads the file, applies the overrides (keys below `site.` reach into the site file) and checks
-// all of it. Throws InputError naming file, line, key, value and rule.
+// A scenario file in memory, from which the episodes of a campaign are read.
+class ScenarioFile {
+ public:
+  // Reads the file and applies the overrides (keys below `site.` reach into the site file); what is
+  // set is not drawn. Throws InputError naming file, line, key, value and rule.
+  explicit ScenarioFile(const std::filesystem::path& file,
+                        const std::vector<Override>& overrides = {});
+
+  // One episode of one variant, checked whole; without an episode nothing is drawn. Throws
+  // InputError.
+  Scenario Read(std::optional<std::uint64_t> episode = 0, const Variant& variant = {}) const;
+
+  const std::filesystem::path& file() const { return file_; }
+  const std::vector<Variant>& variants() const { return variants_; }
+  int seed() const { return seed_; }
+
+ private:
+  void ReadSitePart(const ConfigNode& root, const Variant& changes, Scenario& s) const;
+
+  std::filesystem::path file_;
+  ConfigNode root_;
+  std::vector<std::pair<std::string, ConfigNode>> overrides_;
+  std::vector<RandomisedKey> randomised_;
+  std::vector<Variant> variants_;
+  int seed_ = 0;
+  mutable std::map<std::filesystem::path, ConfigNode> site_files_;  // read once each
+};
+
+// Episode 0 of the scenario itself, whatever its matrix says.
 Scenario ReadScenario(const std::filesystem::path& file,
                       const std::vector<Override>& overrides = {});
 

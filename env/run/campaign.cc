@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/run/campaign.h"
+
+#include <algorithm>
+
+#include "env/core/interrupt.h"
+#include "env/run/episode_maker.h"
+#include "env/run/worker_pool.h"
+
+namespace floorproof {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kBatch = 256;     // rows, or what half a second brings
+constexpr double kBatch_s = 0.5;
+
+double Since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// What the prefix needs of a row that came early.
+struct Brief {
+  bool counts = false, error = false, gated = false;
+  std::array<bool, kNumFailureModes> failed{};
+};
+
+// One variant's ids: which are done, and what the prefix says.
+class Tracker {
+ public:
+  Tracker(std::uint64_t begin, const std::optional<CampaignGate>& gate) : gate_(gate) {
+    progress_.prefix = begin;
+    if (gate) progress_.gate = gate->Start();
+  }
+
+  void Add(const EpisodeRow& row) {
+    Brief brief;
+    brief.counts = row.counts();
+    brief.error = row.outcome == "error";
+    for (std::size_t m = 0; m < brief.failed.size(); ++m) brief.failed[m] = row.events_of[m] > 0;
+    if (gate_) brief.gated = gate_->Fails(row);
+    early_.emplace(row.episode, brief);
+    // A decision is the prefix's, whatever comes later.
+    for (auto next = early_.find(progress_.prefix); next != early_.end() && !decided();
+         next = early_.find(progress_.prefix)) {
+      Take(next->second);
+      early_.erase(next);
+    }
+  }
+
+  bool decided() const { return progress_.gate && progress_.gate->decided(); }
+  const VariantProgress& progress() const { return progress_; }
+
+ private:
+  void Take(const Brief& brief) {
+    ++progress_.prefix;
+    progress_.errors += brief.error;
+    if (!brief.counts) return;
+    ++progress_.n;
+    bool any = false;
+    for (std::size_t m = 0; m < brief.failed.size(); ++m) {
+      progress_.failures[m] += brief.failed[m];
+      any |= brief.failed[m];
+    }
+    progress_.any_failure += any;
+    if (progress_.gate) progress_.gate->Add(brief.gated);
+  }
+
+  const std::optional<CampaignGate>& gate_;
+  VariantProgress progress_;
+  std::map<std::uint64_t, Brief> early_;  // done, beyond the prefix
+};
+
+// The campaign while it is driven.
+class Drive {
+ public:
+  Drive(const ScenarioFile& file, CampaignStore& store, const CampaignOptions& options,
+        const std::optional<CampaignGate>& gate, CampaignObserver* observer)
+      : file_(file), store_(store), options_(options), observer_(observer), maker_(file) {
+    const auto& variants = file.variants();
+    total_ = variants.size() * (options.end - options.begin);
+    for (const Variant& variant : variants) {
+      trackers_.emplace_back(options.begin, gate);
+      there_.push_back(store.Episodes(variant.name));
+    }
+    job_ = options.begin * variants.size();
+  }
+
+  CampaignRun Run() {
+    // Rows of earlier runs, judged as if they had just come.
+    for (std::size_t v = 0; v < trackers_.size(); ++v) {
+      store_.SetExtraFrom(file_.variants()[v].name, options_.end);
+      store_.ForEach(file_.variants()[v].name, [&](const EpisodeRow& row) {
+        if (row.episode < options_.begin) return;
+        ++done_;
+        trackers_[v].Add(row);
+        Judge(row);
+      });
+    }
+    PoolCallbacks callbacks;
+    callbacks.work = [this](Job job) { return Work(job); };
+    callbacks.next = [this] { return Next(); };
+    callbacks.done = [this](Job, std::string answer) { Take(FromLine(answer)); };
+    callbacks.crashed = [this](Job job, const std::string& how) { TakeCrash(job, how); };
+    callbacks.stop = [this] { return Stop(); };
+    RunInWorkers(options_.jobs, callbacks);
+    Flush();
+    return Finish();
+  }
+
+ private:
+  const Variant& VariantOf(Job job) const { return file_.variants()[job % trackers_.size()]; }
+
+  std::string Work(Job job) {
+    const auto start = Clock::now();
+    EpisodeRow row = maker_.Run(VariantOf(job), job / trackers_.size());
+    row.wall_s = Since(start);
+    return ToLine(row);
+  }
+
+  // The next id that is not there; all variants of an episode together.
+  std::optional<Job> Next() {
+    if (ended_) return std::nullopt;
+    for (; job_ < options_.end * trackers_.size(); ++job_) {
+      const std::size_t v = job_ % trackers_.size();
+      const std::uint64_t episode = job_ / trackers_.size();
+      if (trackers_[v].decided()) continue;
+      if (episode > fail_at_) return std::nullopt;
+      if (std::ranges::binary_search(there_[v], episode)) continue;
+      return job_++;
+    }
+    return std::nullopt;
+  }
+
+  void Take(const EpisodeRow& row) {
+    const auto& variants = file_.variants();
+    const auto v = static_cast<std::size_t>(
+        std::ranges::find(variants, row.variant, &Variant::name) - variants.begin());
+    batch_.push_back(row);
+    ++done_;
+    ++done_now_;
+    trackers_[v].Add(row);
+    Judge(row);
+    if (batch_.size() >= kBatch) Flush();
+  }
+
+  void TakeCrash(Job job, const std::string& how) {
+    EpisodeRow row;
+    row.variant = VariantOf(job).name;
+    row.episode = job / trackers_.size();
+    row.outcome = Name(Outcome::kError);
+    row.message = "crashed: its process was " + how + ", twice";
+    Take(row);
+  }
+
+  // Whether this row ends the campaign, once all before it are done.
+  void Judge(const EpisodeRow& row) {
+    if (options_.fail_fast && row.any_failure())
+      fail_at_ = std::min(fail_at_, row.episode);
+  }
+
+  // Asked between answers.
+  bool Stop() {
+    if (Since(flushed_) > kBatch_s) {
+      Flush();
+      if (observer_) observer_->OnProgress(Progress());
+    }
+    if (Interrupted()) ended_ = CampaignEnd::kInterrupted;
+    if (options_.time_limit_s && Since(start_) > *options_.time_limit_s)
+      ended_ = CampaignEnd::kTimeLimit;
+    const auto all = [&](auto&& is) { return std::ranges::all_of(trackers_, is); };
+    if (all([](const Tracker& t) { return t.decided(); })) ended_ = CampaignEnd::kGateDecided;
+    if (all([&](const Tracker& t) { return t.progress().prefix > fail_at_; }))
+      ended_ = CampaignEnd::kFailFast;
+    return ended_.has_value();
+  }
+
+  void Flush() {
+    store_.Add(batch_);
+    batch_.clear();
+    flushed_ = Clock::now();
+  }
+
+  CampaignProgress Progress() {
+    shown_.clear();
+    for (const Tracker& tracker : trackers_) shown_.push_back(tracker.progress());
+    return {shown_, done_, total_, done_now_, Since(start_)};
+  }
+
+  CampaignRun Finish() {
+    Stop();
+    CampaignRun run;
+    if (ended_) run.end = *ended_;
+    for (std::size_t v = 0; v < trackers_.size(); ++v) {
+      const VariantProgress& progress = trackers_[v].progress();
+      run.variants.push_back(progress);
+      // Beyond the decision: driven because others were slower, not needed.
+      const std::uint64_t from = run.end == CampaignEnd::kGateDecided ? progress.prefix
+                                 : run.end == CampaignEnd::kFailFast  ? fail_at_ + 1
+                                                                      : options_.end;
+      store_.SetExtraFrom(file_.variants()[v].name, from);
+    }
+    if (observer_) observer_->OnProgress(Progress());
+    return run;
+  }
+
+  const ScenarioFile& file_;
+  CampaignStore& store_;
+  const CampaignOptions& options_;
+  CampaignObserver* observer_;
+  EpisodeMaker maker_;
+  std::vector<Tracker> trackers_;
+  std::vector<std::vector<std::uint64_t>> there_;
+  std::vector<EpisodeRow> batch_;
+  std::vector<VariantProgress> shown_;
+  Job job_ = 0;
+  std::uint64_t done_ = 0, done_now_ = 0, total_ = 0;
+  std::uint64_t fail_at_ = std::numeric_limits<std::uint64_t>::max();
+  std::optional<CampaignEnd> ended_;
+  Clock::time_point start_ = Clock::now(), flushed_ = Clock::now();
+};
+
+}  // namespace
+
+CampaignRun RunCampaign(const ScenarioFile& file, CampaignStore& store,
+                        const CampaignOptions& options, CampaignObserver* observer) {
+  const Scenario base = file.Read(std::nullopt);
+  const auto gate = CampaignGate::Read(base.gate, options.end);
+  return Drive(file, store, options, gate, observer).Run();
+}
+
+}  // namespace floorproof

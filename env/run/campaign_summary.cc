@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/run/campaign_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "env/run/file_output.h"
+#include "env/stats/binomial.h"
+#include "env/stats/poisson.h"
+
+namespace floorproof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kConfidence = 0.95;
+
+// k episodes of n, with the exact interval.
+Json Rate(int k, int n) {
+  const Interval interval = ClopperPearson(k, n, kConfidence);
+  return {{"k", k},
+          {"n", n},
+          {"rate", n > 0 ? Json(static_cast<double>(k) / n) : Json(nullptr)},
+          {"lower", interval.lower},
+          {"upper", interval.upper},
+          {"method", "clopper_pearson"},
+          {"confidence", kConfidence}};
+}
+
+// k events in so many km or thousand hours.
+Json RatePer(int k, double exposure) {
+  const Interval interval = GarwoodInterval(k, exposure, kConfidence);
+  return {{"k", k},
+          {"exposure", exposure},
+          {"rate", exposure > 0 ? Json(k / exposure) : Json(nullptr)},
+          {"lower", interval.lower},
+          {"upper", std::isfinite(interval.upper) ? Json(interval.upper) : Json(nullptr)},
+          {"method", "garwood"},
+          {"confidence", kConfidence}};
+}
+
+// Of the driven episodes, in any order.
+Json Spread(std::vector<double> values) {
+  if (values.empty()) return nullptr;
+  std::ranges::sort(values);
+  double sum = 0;
+  for (const double value : values) sum += value;
+  const auto at = [&](double share) {
+    const double place = share * static_cast<double>(values.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, values.size() - 1);
+    return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+  };
+  return {{"mean", sum / static_cast<double>(values.size())},
+          {"median", at(0.5)},
+          {"lower_quartile", at(0.25)},
+          {"upper_quartile", at(0.75)},
+          {"min", values.front()},
+          {"max", values.back()}};
+}
+
+// One variant's rows, added up.
+struct Tally {
+  int n = 0, any = 0;
+  std::map<std::string, int> outcomes;
+  std::array<int, kNumFailureModes> episodes{}, events{};  // by mode
+  std::map<std::string, int> kinds, hazards;               // episodes with one or more
+  std::map<std::string, std::uint64_t> first;              // by mode: the first episode's number
+  std::array<std::vector<double>, kMetricColumns.size()> metrics;
+  double km = 0, hours = 0;
+
+  void Add(const EpisodeRow& row) {
+    ++outcomes[row.outcome];
+    if (!row.counts()) return;
+    ++n;
+    any += row.any_failure();
+    km += row.metric("path_length_m") / 1e3;
+    hours += row.metric("duration_s") / 3600;
+    for (std::size_t i = 0; i < metrics.size(); ++i)
+      if (row.metrics[i]) metrics[i].push_back(*row.metrics[i]);
+    if (!row.any_failure()) return;
+    for (std::size_t m = 0; m < events.size(); ++m) {
+      episodes[m] += row.events_of[m] > 0;
+      events[m] += row.events_of[m];
+      if (row.events_of[m] > 0)
+        first.emplace(Name(static_cast<FailureMode>(m)), row.episode);  // rows come ascending
+    }
+    std::map<std::string, bool> seen_kinds, seen_hazards;
+    for (const Json& event : Json::parse(row.events)) {
+      const auto text = [&](const char* key) { return event.value(key, std::string()); };
+      if (!text("kind").empty()) seen_kinds[text("mode") + "/" + text("kind")] = true;
+      if (!text("hazard").empty()) seen_hazards[text("hazard")] = true;
+    }
+    for (const auto& [kind, seen] : seen_kinds) kinds[kind] += seen;
+    for (const auto& [hazard, seen] : seen_hazards) hazards[hazard] += seen;
+  }
+
+  int count(const char* outcome) const {
+    const auto found = outcomes.find(outcome);
+    return found == outcomes.end() ? 0 : found->second;
+  }
+};
+
+Json VariantJson(const Tally& tally) {
+  Json failures = {{"any_failure", Rate(tally.any, tally.n)}}, per_km, per_hour;
+  Json kinds = Json::object(), hazards = Json::object(), metrics = Json::object(),
+       first = Json::object();
+  int events = 0;
+  for (const int n : tally.events) events += n;
+  per_km["any_failure"] = RatePer(events, tally.km);
+  per_hour["any_failure"] = RatePer(events, tally.hours / 1000);
+  for (std::size_t m = 0; m < tally.events.size(); ++m) {
+    const std::string mode(Name(static_cast<FailureMode>(m)));
+    failures[mode] = Rate(tally.episodes[m], tally.n);
+    per_km[mode] = RatePer(tally.events[m], tally.km);
+    per_hour[mode] = RatePer(tally.events[m], tally.hours / 1000);
+  }
+  for (const auto& [kind, k] : tally.kinds) kinds[kind] = Rate(k, tally.n);
+  for (const auto& [hazard, k] : tally.hazards) hazards[hazard] = Rate(k, tally.n);
+  for (std::size_t i = 0; i < tally.metrics.size(); ++i)
+    metrics[std::string(kMetricColumns[i])] = Spread(tally.metrics[i]);
+  for (const auto& [mode, episode] : tally.first) first[mode] = episode;
+  return {{"n", tally.n},
+          {"n_error", tally.count("error")},
+          {"n_not_planned", tally.count("not_planned")},
+          {"outcomes",
+           {{"success", tally.count("success")},
+            {"failure", tally.count("failure")},
+            {"timeout", tally.count("timeout")}}},
+          {"failures", std::move(failures)},
+          {"per_km", std::move(per_km)},
+          {"per_1000_h", std::move(per_hour)},
+          {"by_kind", std::move(kinds)},
+          {"by_hazard", std::move(hazards)},
+          {"metrics", std::move(metrics)},
+          {"first_episode", std::move(first)}};
+}
+
+std::string Quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string Cell(const Json& value) {
+  if (value.is_null()) return "";
+  return Quoted(value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+// Which plan.* and drawn.* columns there are, in the order first met.
+struct CsvColumns {
+  std::vector<std::string> plan, drawn;
+  void See(const EpisodeRow& row) {
+    for (auto [text, names] : {std::pair(&row.plan, &plan), {&row.drawn, &drawn}})
+      for (const auto& [key, value] : Json::parse(*text).items())
+        if (std::ranges::find(*names, key) == names->end()) names->push_back(key);
+  }
+};
+
+std::string EpisodesCsv(const CampaignStore& store, const std::vector<Variant>& variants) {
+  CsvColumns columns;
+  for (const Variant& variant : variants)
+    store.ForEach(variant.name, [&](const EpisodeRow& row) { columns.See(row); });
+  std::string csv = "variant,episode,outcome,message";
+  for (int m = 0; m < kNumFailureModes; ++m) csv += "," + std::string(Name(static_cast<FailureMode>(m)));
+  for (const std::string_view metric : kMetricColumns) csv += "," + std::string(metric);
+  for (const std::string& name : columns.plan) csv += ",plan." + Quoted(name);
+  for (const std::string& name : columns.drawn) csv += ",drawn." + Quoted(name);
+  csv += "\n";
+  for (const Variant& variant : variants)
+    store.ForEach(variant.name, [&](const EpisodeRow& row) {
+      csv += fmt::format("{},{},{},{}", Quoted(row.variant), row.episode, row.outcome,
+                         Quoted(row.message));
+      for (const int n : row.events_of) csv += fmt::format(",{}", n);
+      for (const auto& value : row.metrics) csv += value ? fmt::format(",{}", *value) : ",";
+      const Json plan = Json::parse(row.plan), drawn = Json::parse(row.drawn);
+      for (const std::string& name : columns.plan) csv += "," + Cell(plan.value(name, Json()));
+      for (const std::string& name : columns.drawn) csv += "," + Cell(drawn.value(name, Json()));
+      csv += "\n";
+    });
+  return csv;
+}
+
+std::string Escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') out += "&amp;";
+    else if (c == '<') out += "&lt;";
+    else if (c == '>') out += "&gt;";
+    else if (c == '"') out += "&quot;";
+    else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') out += c;
+  }
+  return out;
+}
+
+// What a variant did, in a few lines for people.
+std::string VariantText(const Json& summary) {
+  std::string text = fmt::format("{} episodes count, {} errors, {} without a plan\n",
+                                 summary["n"].get<int>(), summary["n_error"].get<int>(),
+                                 summary["n_not_planned"].get<int>());
+  for (const auto& [mode, rate] : summary["failures"].items())
+    text += fmt::format("{}: {} of {}, {:.3g} % (95 %: {:.3g} to {:.3g} %)\n", mode,
+                        rate["k"].get<int>(), rate["n"].get<int>(),
+                        rate["rate"].is_null() ? 0.0 : 100 * rate["rate"].get<double>(),
+                        100 * rate["lower"].get<double>(), 100 * rate["upper"].get<double>());
+  return text;
+}
+
+// A suite a variant; cases: that its episodes ran, and the gate.
+std::string JunitXml(const Json& summary, const std::vector<GateState>& gate,
+                     const std::string& scenario_name) {
+  std::string suites;
+  int tests = 0, failures = 0, errors = 0;
+  std::size_t v = 0;
+  for (const auto& [name, variant] : summary["variants"].items()) {
+    const Json& duration = variant["metrics"]["duration_s"];
+    const double time_s = duration.is_null() ? 0.0
+                                             : duration["mean"].get<double>() * variant["n"].get<int>();
+    const int broken = variant["n_error"].get<int>();
+    std::string cases;
+    const auto add = [&](const std::string& criterion, const std::string& verdict) {
+      cases += fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\">\n{}      <system-out>{}</system-out>\n    </testcase>\n",
+                           Escaped(scenario_name + "." + name), Escaped(criterion), time_s, verdict,
+                           Escaped(VariantText(variant)));
+      ++tests;
+    };
+    int failed_here = 0;
+    add("every episode ran",
+        broken > 0 ? fmt::format("      <error message=\"{} episodes ended in error\"/>\n", broken)
+                   : "");
+    if (v < gate.size()) {
+      const bool failed = gate[v].verdict() == GateVerdict::kFailed;
+      const bool open = gate[v].verdict() == GateVerdict::kUndecided;
+      const std::string text = Escaped(gate[v].Text());
+      add(gate[v].Criterion(),
+          failed ? fmt::format("      <failure message=\"{0}\">{0}</failure>\n", text)
+          : open ? fmt::format("      <skipped message=\"{}\"/>\n", text)
+                 : "");
+      failed_here = failed;
+    }
+    suites += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n{}  </testsuite>\n",
+                          Escaped(scenario_name + "." + name), v < gate.size() ? 2 : 1, failed_here,
+                          broken > 0 ? 1 : 0, time_s, cases);
+    failures += failed_here;
+    errors += broken > 0;
+    ++v;
+  }
+  return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"{}\" failures=\"{}\" errors=\"{}\">\n{}</testsuites>\n",
+                     tests, failures, errors, suites);
+}
+
+}  // namespace
+
+Json SummaryJson(const CampaignStore& store, const std::vector<Variant>& variants,
+                 const std::vector<GateState>& gate) {
+  Json json = {{"campaign", store.about().id}, {"variants", Json::object()}};
+  for (const Variant& variant : variants) {
+    Tally tally;
+    store.ForEach(variant.name, [&](const EpisodeRow& row) { tally.Add(row); });
+    json["variants"][variant.name] = VariantJson(tally);
+  }
+  json["gate"] = nullptr;
+  if (!gate.empty()) {
+    json["gate"] = gate.front().CriterionJson();
+    json["gate"]["verdict"] = Name(Overall(gate));
+    for (std::size_t v = 0; v < gate.size(); ++v)
+      json["gate"]["variants"][variants[v].name] = gate[v].Json();
+  }
+  json["versions"] = Json::parse(store.about().versions);
+  return json;
+}
+
+void WriteSummaryFiles(const CampaignStore& store, const std::vector<Variant>& variants,
+                       const std::vector<GateState>& gate, const std::string& scenario_name,
+                       const std::filesystem::path& folder) {
+  const Json summary = SummaryJson(store, variants, gate);
+  WriteFileWhole(folder / "episodes.csv", EpisodesCsv(store, variants));
+  WriteFileWhole(folder / "junit.xml", JunitXml(summary, gate, scenario_name));
+  WriteFileWhole(folder / "summary.json", summary.dump(2) + "\n");
+}
+
+}  // namespace floorproof

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// summary.json, episodes.csv and junit.xml: what a campaign's rows amount to.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "env/run/campaign_gate.h"
+#include "env/run/campaign_store.h"
+#include "env/run/matrix.h"
+
+namespace floorproof {
+
+// The rows of the campaign by variant: outcomes; failures of each mode, kind and hazard with exact
+// intervals (two-sided Clopper-Pearson at 95 %), also per km and per 1,000 h (Garwood); metrics.
+// `gate`: what the gate says of the prefix of each variant, in the order of `variants`; empty
+// without a gate.
+nlohmann::ordered_json SummaryJson(const CampaignStore& store, const std::vector<Variant>& variants,
+                                   const std::vector<GateState>& gate);
+
+// Writes episodes.csv, junit.xml and, last, summary.json into the folder. Rows are streamed.
+void WriteSummaryFiles(const CampaignStore& store, const std::vector<Variant>& variants,
+                       const std::vector<GateState>& gate, const std::string& scenario_name,
+                       const std::filesystem::path& folder);
+
+}  // namespace floorproof

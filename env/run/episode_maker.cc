@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/run/episode_maker.h"
+
+#include "env/run/records.h"
+
+namespace floorproof {
+namespace {
+
+// All that MakePlan reads, as text. The floor's friction is not a planner's to know.
+std::string PlanInputs(const Scenario& s) {
+  ConfigNode site = s.site_node;
+  site.Remove("floor");
+  ConfigNode others = ConfigNode::Map();
+  others.Add("site", std::move(site));
+  others.Add("robot", ConfigNode::Scalar(s.robot_file.string(), true));
+  RobotChanges changes = s.robot_changes;
+  WriteParams([&](ParamVisitor& v) { changes.Visit(v); }, others);
+  std::string text = WriteYaml(others) + s.planner_name;
+  for (const double value : {s.start.x_m, s.start.y_m, s.start.yaw_rad})
+    text += " " + FormatDouble(value);
+  if (s.goal) text += " to " + FormatDouble(s.goal->x()) + " " + FormatDouble(s.goal->y());
+  ConfigNode params = ConfigNode::Map();
+  WriteParams(*s.planner, params);
+  text += "\n" + WriteYaml(params);
+  if (s.planner->uses_seed()) text += std::to_string(s.episode_id);
+  return text;
+}
+
+EpisodeRow Refused(const Variant& variant, std::uint64_t episode, const std::string& why) {
+  EpisodeRow row;
+  row.variant = variant.name;
+  row.episode = episode;
+  row.outcome = Name(Outcome::kError);
+  row.message = why;
+  return row;
+}
+
+}  // namespace
+
+const EpisodeMaker::Planned& EpisodeMaker::Plan(const Variant& variant, const Scenario& s) {
+  const std::string inputs = s.planner ? PlanInputs(s) : "";
+  Planned& last = plans_[variant.name];
+  if (last.json.empty() || inputs != last.inputs || !s.planner) {
+    last.inputs = inputs;
+    last.plan = MakePlan(s);
+    last.json = PlanJson(s, last.plan).dump();
+  }
+  return last;
+}
+
+EpisodeRow EpisodeMaker::Run(const Variant& variant, std::uint64_t episode) try {
+  Scenario s = file_.Read(episode, variant);
+  const Planned& planned = Plan(variant, s);
+  EpisodeRecord record;
+  if (planned.plan.status != PlanStatus::kSuccess) {
+    record.outcome = Outcome::kNotPlanned;
+    record.message = planned.plan.message;
+  } else if (s.episode.drive == "none") {
+    record.outcome = Outcome::kSuccess;
+  } else {
+    const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
+    record = RunEpisode(s, scene, planned.plan);
+  }
+  return MakeRow(variant.name, s, planned.json, record);
+} catch (const InputError& e) {
+  return Refused(variant, episode, e.what());
+} catch (const InternalError& e) {
+  return Refused(variant, episode, e.what());
+}
+
+}  // namespace floorproof

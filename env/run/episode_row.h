@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a campaign keeps of an episode: a row of its table.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "env/core/event.h"
+#include "env/run/episode.h"
+
+namespace floorproof {
+
+// Metrics in the order of result.json; a column each.
+inline constexpr std::array<std::string_view, 14> kMetricColumns = {
+    "coverage",  "overlap",         "path_length_m", "duration_s",        "energy_j",
+    "charge_ah", "least_battery_v", "battery_left",  "max_cross_track_m", "mean_cross_track_m",
+    "turns",     "interventions",   "contacts",      "max_impulse_ns"};
+
+struct EpisodeRow {
+  std::string variant;
+  std::uint64_t episode = 0;
+  std::string outcome, message;
+  std::array<int, kNumFailureModes> events_of{};                       // by mode
+  std::array<std::optional<double>, kMetricColumns.size()> metrics{};  // none: not driven
+  std::string drawn = "{}", plan = "{}", events = "[]";                // JSON, as in result.json
+  double wall_s = 0;                                                   // told apart: not a result
+
+  bool failed() const { return outcome == "failure" || outcome == "timeout"; }
+  // Counts in rates: its outcome is the robot's.
+  bool counts() const { return outcome != "error" && outcome != "not_planned"; }
+  bool any_failure() const;
+  double metric(std::string_view name) const;  // 0 where there is none
+};
+
+EpisodeRow MakeRow(const std::string& variant, const Scenario& scenario, const std::string& plan,
+                   const EpisodeRecord& record);
+
+// One line of text, and back; throws InternalError on any other text.
+std::string ToLine(const EpisodeRow& row);
+EpisodeRow FromLine(std::string_view line);
+
+}  // namespace floorproof
