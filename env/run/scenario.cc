@@ -79,6 +79,7 @@ void ReadSitePart(const ConfigNode& root, const std::vector<Override>& overrides
     s.site_folder = s.site_file.parent_path();
   }
   Apply(overrides, true, s.site_node);
+  s.site_node = GeneratedSite(s.site_node, static_cast<std::uint64_t>(s.episode.seed), 0);
   s.site = ReadSite(s.site_node, s.site_folder);
   if (s.site.map.name.empty())
     s.site.map.name = s.site_file.empty() ? s.name : s.site_file.stem().string();
