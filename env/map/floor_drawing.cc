@@ -249,7 +249,8 @@ bool FloorDrawing::Furnish(int total, const IntRange& cells, Stream& stream) {
       left -= Area(box);
       Fill(box, '#');
     }
-  return left == 0 || FurnishCellByCell(left, stream) == left;
+  if (left > 0) left -= FurnishCellByCell(left, stream);
+  return left == 0 || FurnishLeaves(left, stream) == left;
 }
 
 int FloorDrawing::FurnishCellByCell(int most, Stream& stream) {
@@ -258,7 +259,7 @@ int FloorDrawing::FurnishCellByCell(int most, Stream& stream) {
     for (int ix = 1; ix < chars_.width - 1; ++ix)
       if (chars_(ix, iy) == '.') cells.push_back({ix, iy});
   for (std::size_t i = cells.size(); i > 1; --i) std::swap(cells[i - 1], cells[stream.Below(i)]);
-  constexpr int kRounds = 8;  // a cell may come free of its neighbours only after others are taken
+  constexpr int kRounds = 3;  // a cell may come free of its neighbours only after others are taken
   int placed = 0;
   for (int round = 0; round < kRounds; ++round)
     for (const Cell& c : cells) {
@@ -268,6 +269,41 @@ int FloorDrawing::FurnishCellByCell(int most, Stream& stream) {
       Fill(box, '#');
       ++placed;
     }
+  return placed;
+}
+
+// What the look along a ring cannot tell (the way round is longer), a tree that spans the floor
+// can: its leaves may go. Breadth first, so that what is reached last has no cell behind it.
+int FloorDrawing::FurnishLeaves(int most, Stream& stream) {
+  Cell root{0, 0};
+  for (int after = Below(free_, stream), iy = 0; iy < chars_.height; ++iy)
+    for (int ix = 0; ix < chars_.width; ++ix)
+      if (chars_(ix, iy) == '.' && after-- == 0) root = {ix, iy};
+  constexpr int kNone = -1;
+  std::vector<Cell> wave = {root};
+  std::vector<int> parent = {kNone};
+  std::vector<std::uint8_t> has_child = {0};
+  Grid<std::uint8_t> seen(chars_.width, chars_.height);
+  seen(root) = 1;
+  for (std::size_t i = 0; i < wave.size(); ++i)
+    for (const Cell& side : kSides) {
+      const Cell next{wave[i].ix + side.ix, wave[i].iy + side.iy};
+      if (!IsDrivable(chars_(next)) || seen(next)) continue;
+      seen(next) = 1;
+      wave.push_back(next);
+      parent.push_back(static_cast<int>(i));
+      has_child.push_back(0);
+    }
+  int placed = 0;
+  for (std::size_t i = wave.size() - 1; i > 0 && placed < most; --i) {
+    const Cell c = wave[i];
+    if (chars_(c) == '.' && !door_(c) && !has_child[i]) {
+      Fill({c.ix, c.iy, c.ix + 1, c.iy + 1}, '#');
+      ++placed;
+    } else {
+      has_child[static_cast<std::size_t>(parent[i])] = 1;
+    }
+  }
   return placed;
 }
 

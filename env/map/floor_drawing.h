@@ -4,8 +4,8 @@
 // What a robot of one cell may drive on (`. = g r`) stays one piece, joined by the cells' sides,
 // after every step. A block that is no longer driven on is put only where the driveable cells
 // around it still hang together along its own ring: enough for the whole floor, and a look at a few
-// cells. It is not necessary (the way round may be longer than the ring), so that a floor full of
-// loops is called full a little early.
+// cells. It is not necessary (the way round may be longer than the ring): the last pieces of very
+// dense furniture are found by a tree that spans the floor instead.
 // Every step is a function of the stream alone and ends after a bounded number of tries; it says
 // whether it found a place. It knows nothing of robots or of what a hazard measures.
 #pragma once
@@ -67,6 +67,7 @@ class FloorDrawing {
   std::optional<CellBox> WallAcross(const CellBox& room, int room_cells, Stream& stream) const;
   std::optional<CellBox> StripThrough(Cell c, bool along_x) const;
   int FurnishCellByCell(int most, Stream& stream);
+  int FurnishLeaves(int most, Stream& stream);
   // Calls visit(cell, is_corner) for the cells around the box, in order along its ring.
   template <class Visit>
   void AlongRing(const CellBox& box, Visit visit) const;

@@ -15,7 +15,13 @@ constexpr int kMostCellsInAll = 4'000'000;  // so that the drawing fits in a fil
 constexpr int kMostOfAKind = 1000;          // all seven stay below a drawing's 10,000 hazards
 constexpr int kMostClusterCells = 10'000;
 constexpr int kShareForMore = 3;  // what need not be there, while hazards take a third of the floor
-constexpr int kDrawings = 20;     // before a site is refused as too full
+
+// Drawings before a site is refused as too full; fewer of a large one, where chance evens out and
+// each takes its time.
+int MostDrawings(const GenerateParams& p) {
+  constexpr int kMost = 20;
+  return std::clamp(kMostCellsInAll / (p.width * p.height), 1, kMost);
+}
 
 // After the sites of the hTetro FMEA paper, section 4: 11 x 11, 12 x 12 and 6 x 6 cells of 0.5 m
 // beside a staircase, before glass, with a cable cover and a level change.
@@ -221,13 +227,14 @@ ConfigNode DrawSite(const GenerateParams& p, const ConfigNode& node, Stream& str
   const int furniture_cells = static_cast<int>(std::lround(p.obstacle_density * walls.FreeCells()));
   FloorDrawing floor = walls;
   std::string full = Populate(p, furniture_cells, floor, stream);
+  const int most = MostDrawings(p);
   for (int drawings = 1; !full.empty(); ++drawings) {
-    if (drawings == kDrawings) {
+    if (drawings == most) {
       const ConfigNode& written = Written(node, full);
       throw InputError(written.mark, "generate." + full, written.scalar,
                        "no room for so much on " + std::to_string(p.width) + " x " +
-                           std::to_string(p.height) + " cells, in " + std::to_string(kDrawings) +
-                           " drawings");
+                           std::to_string(p.height) + " cells, in " + std::to_string(most) +
+                           (most == 1 ? " drawing" : " drawings"));
     }
     floor = walls;
     full = Populate(p, furniture_cells, floor, stream);
