@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "env/core/input_file.h"
 #include "env/map/site.h"
 #include "tests/map/temp_folder.h"
 
@@ -263,6 +264,17 @@ TEST(SiteGenerator, ResolvedItStaysRandomAndMeansTheSame) {
     EXPECT_EQ(WriteYaml(ResolveSite(GeneratedSite(again, 3, 4), ".", ".")),
               WriteYaml(ResolveSite(GeneratedSite(site, 3, 4), ".", ".")));
   }
+}
+
+TEST(SiteGenerator, ThePageShowsWhatIsDrawn) {
+  const std::string page =
+      ReadInputFile(std::filesystem::path(FP_SOURCE_DIR) / "docs/scenario.md", 1 << 20);
+  const std::string line =
+      "kind: rooms, cells: [24, 14], hazards: {cable_cover: 1, drop: 1, glass: 1}, seed: 7";
+  ASSERT_THAT(page, HasSubstr("generate: {" + line + "}"));
+  std::string rows = Drawn(line, 0, 0);
+  for (std::size_t at = 0; at < rows.size(); at = rows.find('\n', at) + 1) rows.insert(at, "    ");
+  EXPECT_THAT(page, HasSubstr(rows));
 }
 
 TEST(SiteGenerator, ASiteWithoutItStaysAsItIs) {
