@@ -35,8 +35,8 @@ constexpr Kind kKinds[] = {
 // The keys that one character's hazards are made with.
 class Maker {
  public:
-  Maker(const Kind& kind, const ConfigNode* sizes)
-      : kind_(kind), path_(std::string("grid.sizes.") + kind.key + ".") {
+  Maker(const Kind& kind, const ConfigNode* sizes, const std::string& sizes_key)
+      : kind_(kind), path_(sizes_key + "." + kind.key + ".") {
     if (sizes != nullptr) node_ = *sizes;
     if (!node_.IsMap() && !node_.IsNull())
       throw InputError(node_.mark, path_.substr(0, path_.size() - 1), "", "must be a map of keys");
@@ -282,19 +282,20 @@ CellState StateOf(char c) {
 
 }  // namespace
 
-CharGrid ReadCharGrid(const ConfigNode& node) {
-  if (!node.IsMap()) throw InputError(node.mark, "grid", "", "must be a map of keys");
+CharGrid ReadCharGrid(const ConfigNode& node, const std::string& key) {
+  if (!node.IsMap()) throw InputError(node.mark, key, "", "must be a map of keys");
   CharGrid grid;
   double cell_m = 0.5;  // hTetro's own width
-  ReadParams(node, "grid.",
+  ReadParams(node, key + ".",
              [&](ParamVisitor& v) {
                v("cell_m", cell_m, Between(0.01, 100), "width of a cell");
                v("inset_m", grid.inset_m, NonNegative(), "solids drawn back towards free cells");
              },
              {"rows", "sizes"});
   if (grid.inset_m >= cell_m / 2)
-    throw InputError(node.Find("inset_m") ? node.Find("inset_m")->mark : node.mark, "grid.inset_m",
-                     FormatDouble(grid.inset_m), "must be less than half of cell_m");
+    throw InputError(node.Find("inset_m") ? node.Find("inset_m")->mark : node.mark,
+                     key + ".inset_m", FormatDouble(grid.inset_m),
+                     "must be less than half of cell_m");
   const Grid<char> chars = ReadRows(node);
   const SourceMark rows_mark = node.Find("rows")->mark;
   grid.frame = {chars.width, chars.height, cell_m, {}};
@@ -303,11 +304,12 @@ CharGrid ReadCharGrid(const ConfigNode& node) {
   std::ranges::transform(chars.cells, grid.cells.cells.begin(), StateOf);
 
   const ConfigNode* sizes = node.Find("sizes");
+  const std::string sizes_key = key + ".sizes";
   if (sizes != nullptr) {
     std::vector<std::string> known;
     for (const Kind& kind : kKinds) known.emplace_back(kind.key);
-    if (!sizes->IsMap()) throw InputError(sizes->mark, "grid.sizes", "", "must be a map of keys");
-    RefuseUnknownKeys(*sizes, "grid.sizes.", known);
+    if (!sizes->IsMap()) throw InputError(sizes->mark, sizes_key, "", "must be a map of keys");
+    RefuseUnknownKeys(*sizes, sizes_key + ".", known);
   }
   grid.resolved = ConfigNode::Map();
   grid.resolved.Add("cell_m", ConfigNode::Scalar(FormatDouble(cell_m)));
@@ -318,7 +320,7 @@ CharGrid ReadCharGrid(const ConfigNode& node) {
   ConfigNode& resolved_sizes = grid.resolved.Add("sizes", ConfigNode::Map());
   GridHazards hazards(chars, cell_m, grid.inset_m);
   for (const Kind& kind : kKinds) {
-    const Maker maker(kind, sizes == nullptr ? nullptr : sizes->Find(kind.key));
+    const Maker maker(kind, sizes == nullptr ? nullptr : sizes->Find(kind.key), sizes_key);
     hazards.Add(maker, rows_mark);
     resolved_sizes.Add(kind.key, maker.Resolved());
   }

@@ -12,6 +12,7 @@
 // back) faces of walls; footprints are whole cells.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "env/core/config.h"
@@ -27,7 +28,8 @@ struct CharGrid {
   ConfigNode resolved;          // the node with every default stated
 };
 
-// `node` is the site's key `grid`. Throws InputError.
-CharGrid ReadCharGrid(const ConfigNode& node);
+// `node` is the site's key `grid`, or another that holds the same, whose name refusals then say.
+// Throws InputError.
+CharGrid ReadCharGrid(const ConfigNode& node, const std::string& key = "grid");
 
 }  // namespace floorproof

@@ -9,6 +9,7 @@
 #include "env/core/input_file.h"
 #include "env/core/params.h"
 #include "env/map/char_grid.h"
+#include "env/map/site_generator.h"
 #include "env/map/written_hazard.h"
 
 namespace floorproof {
@@ -16,13 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kKnown = {"site",  "name",    "map",   "grid", "unknown",
-                                         "floor", "hazards", "start", "goal"};
+const std::vector<std::string> kKnown = {"site",    "name",  "map",     "grid",  "generate",
+                                         "unknown", "floor", "hazards", "start", "goal"};
 
 struct Written {
   std::string name;
   fs::path ros_map;  // empty: a grid
   CharGrid grid;
+  ConfigNode generate;  // resolved; none: a map or a drawing
   bool unknown_is_wall = true;
   double floor_friction =
       0.8;  // dry rubber on a hard floor: the middle of ISO 18646-2's 0.6 to 1.0
@@ -86,7 +88,19 @@ void ReadHazards(const ConfigNode& node, Written& site) {
   std::vector<Hazard*> all;
   for (Hazard& hazard : site.grid.hazards) all.push_back(&hazard);
   for (WrittenHazard& written : site.hazards) all.push_back(&written.hazard);
-  NameHazards(all, list == nullptr ? node.mark : list->mark);
+  // What is still to be drawn takes its names first.
+  if (site.generate.IsNull()) NameHazards(all, list == nullptr ? node.mark : list->mark);
+}
+
+void CheckOneFloor(const ConfigNode& node) {
+  std::vector<const ConfigNode*> floors;
+  for (const char* key : {"map", "grid", "generate"})
+    if (const ConfigNode* floor = node.Find(key)) floors.push_back(floor);
+  if (floors.size() != 1)
+    throw InputError(floors.empty() ? SourceMark{node.mark.file, 0} : floors.back()->mark,
+                     "map, grid or generate", "",
+                     "a site has one of the three: map (a ROS map), grid (a drawing) or generate "
+                     "(a random site)");
 }
 
 Written ReadWritten(const ConfigNode& node, const fs::path& folder) {
@@ -103,14 +117,13 @@ Written ReadWritten(const ConfigNode& node, const fs::path& folder) {
   site.name = fs::path(node.mark.file).stem().string();
   if (site.name.empty()) site.name = "site";
   if (const ConfigNode* name = node.Find("name")) site.name = AsString(*name, "name");
-  const ConfigNode *map = node.Find("map"), *grid = node.Find("grid");
-  if ((map == nullptr) == (grid == nullptr))
-    throw InputError(grid != nullptr ? grid->mark : SourceMark{node.mark.file, 0}, "map or grid",
-                     "", "a site has one of the two: map (a ROS map) or grid (a drawing)");
-  if (map != nullptr)
+  CheckOneFloor(node);
+  if (const ConfigNode* map = node.Find("map"))
     site.ros_map = PathIn(folder, *map, "map");
-  else
+  else if (const ConfigNode* grid = node.Find("grid"))
     site.grid = ReadCharGrid(*grid);
+  else
+    site.generate = WriteGenerate(ReadGenerate(*node.Find("generate")));
   ReadFloor(node, site);
   ReadHazards(node, site);
   ReadPlaces(node, site);
@@ -149,9 +162,37 @@ void WarnOfFarHazards(Site& site, const std::string& file) {
   }
 }
 
+// The one site that `generate` with a seed stands for.
+ConfigNode FixedSite(const ConfigNode& node) {
+  CheckOneFloor(node);
+  const ConfigNode& generate = *node.Find("generate");
+  if (generate.Find("seed") == nullptr)
+    throw InputError(generate.mark, "generate.seed", "",
+                     "missing: without it each episode of a scenario draws a site of its own; "
+                     "write seed: N for one fixed site");
+  return GeneratedSite(node, 0, 0);
+}
+
 }  // namespace
 
+ConfigNode GeneratedSite(const ConfigNode& node, std::uint64_t campaign_seed,
+                         std::uint64_t episode) {
+  const ConfigNode* generate = node.Find("generate");
+  if (generate == nullptr) return node;
+  CheckOneFloor(node);
+  const GenerateParams params = ReadGenerate(*generate);
+  Stream stream = params.seed ? Stream(static_cast<std::uint64_t>(*params.seed), 0, "site")
+                              : Stream(campaign_seed, episode, "site");
+  ConfigNode drawn = DrawSite(params, *generate, stream);
+  ConfigNode site = node;
+  site.Remove("generate");
+  for (auto& [key, value] : drawn.entries)
+    if (site.Find(key) == nullptr) site.Add(key, std::move(value));
+  return site;
+}
+
 Site ReadSite(const ConfigNode& node, const fs::path& folder) {
+  if (node.Find("generate") != nullptr) return ReadSite(FixedSite(node), folder);
   Written written = ReadWritten(node, folder);
   Site site;
   HazardMap& map = site.map;
@@ -191,7 +232,9 @@ ConfigNode ResolveSite(const ConfigNode& node, const fs::path& folder, const fs:
   ConfigNode out = ConfigNode::Map();
   out.Add("site", ConfigNode::Scalar("1"));
   out.Add("name", ConfigNode::Scalar(written.name, true));
-  if (written.ros_map.empty()) {
+  if (!written.generate.IsNull()) {
+    out.Add("generate", written.generate);
+  } else if (written.ros_map.empty()) {
     out.Add("grid", written.grid.resolved);
   } else {
     // Canonical, since ../ in a path through a symbolic link would lead elsewhere.

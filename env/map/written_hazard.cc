@@ -207,7 +207,7 @@ WrittenHazard ReadHazard(const ConfigNode& node, const std::string& path) {
 ConfigNode WriteHazard(WrittenHazard& written) {
   ConfigNode node = ConfigNode::Map();
   node.Add("type", ConfigNode::Scalar(written.hazard.type));
-  node.Add("id", ConfigNode::Scalar(written.hazard.id, true));
+  if (!written.hazard.id.empty()) node.Add("id", ConfigNode::Scalar(written.hazard.id, true));
   const bool polygon = written.type->placement() == HazardType::Placement::kPolygon;
   node.Add(polygon ? "polygon_m" : "line_m", WritePoints(written.place));
   WriteParams(*written.type, node);

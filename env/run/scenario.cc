@@ -273,7 +273,8 @@ ScenarioFile::ScenarioFile(const fs::path& file, const std::vector<Override>& ov
   }
 }
 
-void ScenarioFile::ReadSitePart(const ConfigNode& root, const Variant& changes, Scenario& s) const {
+void ScenarioFile::ReadSitePart(const ConfigNode& root, const Variant& changes, bool episode,
+                                Scenario& s) const {
   const ConfigNode* node = root.Find("site");
   if (node == nullptr) throw InputError(root.mark, "site", "", "the key is missing");
   const fs::path folder = s.file.parent_path();
@@ -290,7 +291,9 @@ void ScenarioFile::ReadSitePart(const ConfigNode& root, const Variant& changes, 
   }
   Apply({"", overrides_}, true, s.site_node);
   Apply(changes, true, s.site_node);
-  s.site = ReadSite(s.site_node, s.site_folder);
+  ConfigNode drawn = GeneratedSite(s.site_node, static_cast<std::uint64_t>(seed_), s.episode_id);
+  s.site = ReadSite(drawn, s.site_folder);
+  if (episode) s.site_node = std::move(drawn);  // else what is random about it stays so
   if (s.site.map.name.empty())
     s.site.map.name = s.site_file.empty() ? s.name : s.site_file.stem().string();
 }
@@ -313,7 +316,7 @@ Scenario ScenarioFile::Read(std::optional<std::uint64_t> episode, const Variant&
        {std::pair("randomise", &s.randomise), {"matrix", &s.matrix}, {"gate", &s.gate}})
     if (const ConfigNode* written = root.Find(key)) *node = *written;
   ReadTop(root, s);
-  ReadSitePart(root, changes, s);
+  ReadSitePart(root, changes, episode.has_value(), s);
   const std::vector<int> plan_lines = ReadPlanPart(root, s);
   ReadRobotPart(root, plan_lines, s);  // whether it folds hangs on the plan
   s.start = ReadStart(root, s.site.map);

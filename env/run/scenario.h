@@ -80,7 +80,8 @@ class ScenarioFile {
   int seed() const { return seed_; }
 
  private:
-  void ReadSitePart(const ConfigNode& root, const Variant& changes, Scenario& s) const;
+  void ReadSitePart(const ConfigNode& root, const Variant& changes, bool episode,
+                    Scenario& s) const;
 
   std::filesystem::path file_;
   ConfigNode root_;

@@ -45,6 +45,21 @@ TEST_F(ScenarioFile, ResolvedTwiceIsItself) {
   EXPECT_EQ(second.start.yaw_rad, first.start.yaw_rad) << "to the bit";
 }
 
+TEST_F(ScenarioFile, AGeneratedSiteIsResolvedAsDrawn) {
+  const std::string text =
+      "scenario: 1\nrobot: beluga\ndrive: none\nsite: {site: 1, generate: {kind: room}}\n";
+  const Scenario first = Read(text, {{"seed", "3"}, {"site.generate.cells", "[12, 9]"}});
+  EXPECT_EQ(first.site.map.frame.width, 12);
+  const std::string once = ResolvedScenario(first, folder_);
+  const Scenario second = Read(once);
+  EXPECT_EQ(second.site.map.cells.cells, first.site.map.cells.cells);
+  EXPECT_EQ(second.start.x_m, first.start.x_m);
+  EXPECT_EQ(second.goal, first.goal);
+  EXPECT_EQ(ResolvedScenario(second, folder_), once);
+  EXPECT_NE(Read(text, {{"seed", "4"}}).site.map.cells.cells,
+            Read(text, {{"seed", "3"}}).site.map.cells.cells);
+}
+
 TEST_F(ScenarioFile, WheelsAreIdealOrHaveRollersThatAreBodies) {
   const std::vector<Override> htetro = {{"robot", "htetro"}, {"wheels", "rollers"}};
   const Scenario dut = Read(RoomScenario(""), htetro);
