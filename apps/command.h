@@ -15,7 +15,8 @@
 namespace floorproof {
 
 // Exit statuses (design: the contract).
-inline constexpr int kDone = 0, kNotSuccess = 1, kBadInput = 2, kBroken = 3;  // and
+inline constexpr int kDone = 0, kNotSuccess = 1, kBadInput = 2, kBroken = 3,
+                     kGateUndecided = 4;  // and
 // kInterruptedExit (env/core/interrupt.h)
 
 struct Globals {

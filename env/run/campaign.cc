@@ -12,7 +12,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kBatch = 256;     // rows, or what half a second brings
+constexpr std::size_t kBatch = 256;  // rows, or what half a second brings
 constexpr double kBatch_s = 0.5;
 
 double Since(Clock::time_point start) {
@@ -72,10 +72,10 @@ class Tracker {
 };
 
 // The campaign while it is driven.
-class Drive {
+class CampaignDrive {
  public:
-  Drive(const ScenarioFile& file, CampaignStore& store, const CampaignOptions& options,
-        const std::optional<CampaignGate>& gate, CampaignObserver* observer)
+  CampaignDrive(const ScenarioFile& file, CampaignStore& store, const CampaignOptions& options,
+                const std::optional<CampaignGate>& gate, CampaignObserver* observer)
       : file_(file), store_(store), options_(options), observer_(observer), maker_(file) {
     const auto& variants = file.variants();
     total_ = variants.size() * (options.end - options.begin);
@@ -155,8 +155,7 @@ class Drive {
 
   // Whether this row ends the campaign, once all before it are done.
   void Judge(const EpisodeRow& row) {
-    if (options_.fail_fast && row.any_failure())
-      fail_at_ = std::min(fail_at_, row.episode);
+    if (options_.fail_fast && row.any_failure()) fail_at_ = std::min(fail_at_, row.episode);
   }
 
   // Asked between answers.
@@ -225,8 +224,9 @@ class Drive {
 CampaignRun RunCampaign(const ScenarioFile& file, CampaignStore& store,
                         const CampaignOptions& options, CampaignObserver* observer) {
   const Scenario base = file.Read(std::nullopt);
-  const auto gate = CampaignGate::Read(base.gate, options.end);
-  return Drive(file, store, options, gate, observer).Run();
+  auto gate = CampaignGate::Read(base.gate, options.end);
+  if (options.shard) gate.reset();
+  return CampaignDrive(file, store, options, gate, observer).Run();
 }
 
 }  // namespace floorproof

@@ -19,8 +19,9 @@ namespace floorproof {
 
 struct CampaignOptions {
   std::uint64_t begin = 0, end = 0;  // episode ids, half-open
+  bool shard = false;                // of a larger campaign: the gate is judged on the whole
   int jobs = 1;
-  bool fail_fast = false;             // ends at the first episode that fails
+  bool fail_fast = false;              // ends at the first episode that fails
   std::optional<double> time_limit_s;  // wall time; what is in hand then is given up
 };
 
@@ -28,8 +29,8 @@ enum class CampaignEnd { kComplete, kGateDecided, kFailFast, kTimeLimit, kInterr
 
 // Where a variant stands: its prefix alone counts.
 struct VariantProgress {
-  std::uint64_t prefix = 0;                 // ids before this one are all done
-  std::uint64_t n = 0;                      // of those, with an outcome that counts
+  std::uint64_t prefix = 0;  // ids before this one are all done
+  std::uint64_t n = 0;       // of those, with an outcome that counts
   std::array<std::uint64_t, kNumFailureModes> failures{};
   std::uint64_t any_failure = 0, errors = 0;
   std::optional<GateState> gate;

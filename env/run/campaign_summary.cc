@@ -89,7 +89,8 @@ struct Tally {
         first.emplace(Name(static_cast<FailureMode>(m)), row.episode);  // rows come ascending
     }
     std::map<std::string, bool> seen_kinds, seen_hazards;
-    for (const Json& event : Json::parse(row.events)) {
+    const Json events_met = Json::parse(row.events);
+    for (const Json& event : events_met) {
       const auto text = [&](const char* key) { return event.value(key, std::string()); };
       if (!text("kind").empty()) seen_kinds[text("mode") + "/" + text("kind")] = true;
       if (!text("hazard").empty()) seen_hazards[text("hazard")] = true;
@@ -155,9 +156,15 @@ std::string Cell(const Json& value) {
 struct CsvColumns {
   std::vector<std::string> plan, drawn;
   void See(const EpisodeRow& row) {
-    for (auto [text, names] : {std::pair(&row.plan, &plan), {&row.drawn, &drawn}})
-      for (const auto& [key, value] : Json::parse(*text).items())
-        if (std::ranges::find(*names, key) == names->end()) names->push_back(key);
+    SeeKeys(row.plan, plan);
+    SeeKeys(row.drawn, drawn);
+  }
+
+ private:
+  static void SeeKeys(const std::string& text, std::vector<std::string>& names) {
+    const Json json = Json::parse(text);
+    for (const auto& [key, value] : json.items())
+      if (std::ranges::find(names, key) == names.end()) names.push_back(key);
   }
 };
 
@@ -166,7 +173,8 @@ std::string EpisodesCsv(const CampaignStore& store, const std::vector<Variant>& 
   for (const Variant& variant : variants)
     store.ForEach(variant.name, [&](const EpisodeRow& row) { columns.See(row); });
   std::string csv = "variant,episode,outcome,message";
-  for (int m = 0; m < kNumFailureModes; ++m) csv += "," + std::string(Name(static_cast<FailureMode>(m)));
+  for (int m = 0; m < kNumFailureModes; ++m)
+    csv += "," + std::string(Name(static_cast<FailureMode>(m)));
   for (const std::string_view metric : kMetricColumns) csv += "," + std::string(metric);
   for (const std::string& name : columns.plan) csv += ",plan." + Quoted(name);
   for (const std::string& name : columns.drawn) csv += ",drawn." + Quoted(name);
@@ -188,20 +196,25 @@ std::string EpisodesCsv(const CampaignStore& store, const std::vector<Variant>& 
 std::string Escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '"') out += "&quot;";
-    else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') out += c;
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t')
+      out += c;
   }
   return out;
 }
 
 // What a variant did, in a few lines for people.
 std::string VariantText(const Json& summary) {
-  std::string text = fmt::format("{} episodes count, {} errors, {} without a plan\n",
-                                 summary["n"].get<int>(), summary["n_error"].get<int>(),
-                                 summary["n_not_planned"].get<int>());
+  std::string text =
+      fmt::format("{} episodes count, {} errors, {} without a plan\n", summary["n"].get<int>(),
+                  summary["n_error"].get<int>(), summary["n_not_planned"].get<int>());
   for (const auto& [mode, rate] : summary["failures"].items())
     text += fmt::format("{}: {} of {}, {:.3g} % (95 %: {:.3g} to {:.3g} %)\n", mode,
                         rate["k"].get<int>(), rate["n"].get<int>(),
@@ -218,14 +231,16 @@ std::string JunitXml(const Json& summary, const std::vector<GateState>& gate,
   std::size_t v = 0;
   for (const auto& [name, variant] : summary["variants"].items()) {
     const Json& duration = variant["metrics"]["duration_s"];
-    const double time_s = duration.is_null() ? 0.0
-                                             : duration["mean"].get<double>() * variant["n"].get<int>();
+    const double time_s =
+        duration.is_null() ? 0.0 : duration["mean"].get<double>() * variant["n"].get<int>();
     const int broken = variant["n_error"].get<int>();
     std::string cases;
     const auto add = [&](const std::string& criterion, const std::string& verdict) {
-      cases += fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\">\n{}      <system-out>{}</system-out>\n    </testcase>\n",
-                           Escaped(scenario_name + "." + name), Escaped(criterion), time_s, verdict,
-                           Escaped(VariantText(variant)));
+      cases += fmt::format(
+          "    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\">\n{}      "
+          "<system-out>{}</system-out>\n    </testcase>\n",
+          Escaped(scenario_name + "." + name), Escaped(criterion), time_s, verdict,
+          Escaped(VariantText(variant)));
       ++tests;
     };
     int failed_here = 0;
@@ -242,15 +257,19 @@ std::string JunitXml(const Json& summary, const std::vector<GateState>& gate,
                  : "");
       failed_here = failed;
     }
-    suites += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n{}  </testsuite>\n",
-                          Escaped(scenario_name + "." + name), v < gate.size() ? 2 : 1, failed_here,
-                          broken > 0 ? 1 : 0, time_s, cases);
+    suites += fmt::format(
+        "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n{}  "
+        "</testsuite>\n",
+        Escaped(scenario_name + "." + name), v < gate.size() ? 2 : 1, failed_here,
+        broken > 0 ? 1 : 0, time_s, cases);
     failures += failed_here;
     errors += broken > 0;
     ++v;
   }
-  return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"{}\" failures=\"{}\" errors=\"{}\">\n{}</testsuites>\n",
-                     tests, failures, errors, suites);
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"{}\" failures=\"{}\" "
+      "errors=\"{}\">\n{}</testsuites>\n",
+      tests, failures, errors, suites);
 }
 
 }  // namespace
@@ -266,7 +285,7 @@ Json SummaryJson(const CampaignStore& store, const std::vector<Variant>& variant
   json["gate"] = nullptr;
   if (!gate.empty()) {
     json["gate"] = gate.front().CriterionJson();
-    json["gate"]["verdict"] = Name(Overall(gate));
+    json["gate"]["verdict"] = GateVerdictName(Overall(gate));
     for (std::size_t v = 0; v < gate.size(); ++v)
       json["gate"]["variants"][variants[v].name] = gate[v].Json();
   }

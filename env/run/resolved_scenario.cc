@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path PathFrom(const fs::path& folder, const fs::path& path) {
-  return fs::relative(fs::absolute(path), fs::absolute(folder));
+  return fs::relative(fs::absolute(path), fs::absolute(folder.empty() ? "." : folder));
 }
 
 ConfigNode Number(double value) { return ConfigNode::Scalar(FormatDouble(value)); }

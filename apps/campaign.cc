@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/run/campaign.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "apps/campaign_films.h"
+#include "apps/command.h"
+#include "apps/progress_line.h"
+#include "env/core/interrupt.h"
+#include "env/run/campaign_about.h"
+#include "env/run/campaign_summary.h"
+#include "env/run/file_output.h"
+#include "env/stats/binomial.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kConfidence = 0.95;
+
+struct Options {
+  std::string scenario, out, episodes;
+  std::uint64_t n = 0;
+  int seed = -1, jobs = 0;
+  double time_limit_s = 0;
+  bool resume = false, fail_fast = false, no_films = false;
+};
+
+// A:B, half-open; all of 0:n where it is empty.
+void ReadEpisodes(const Options& options, CampaignOptions& campaign) {
+  campaign.end = options.n;
+  if (options.episodes.empty()) return;
+  const auto refuse = [&](const char* rule) {
+    throw InputError({"--episodes", 0}, "", options.episodes, rule);
+  };
+  unsigned long long a = 0, b = 0;
+  int used = 0;
+  if (std::sscanf(options.episodes.c_str(), "%llu:%llu%n", &a, &b, &used) != 2 ||
+      static_cast<std::size_t>(used) != options.episodes.size())
+    refuse("must be A:B, the first id and the one behind the last");
+  if (a >= b) refuse("holds no episode");
+  if (b > options.n) refuse("must lie within -n");
+  campaign.shard = true;
+  campaign.begin = a;
+  campaign.end = b;
+}
+
+// How it goes: what is done, the rates so far, time to go.
+class Progress final : public CampaignObserver {
+ public:
+  Progress(const Globals& globals, const std::vector<Variant>& variants)
+      : line_(globals), variants_(variants) {}
+  void OnProgress(const CampaignProgress& progress) override {
+    if (line_.IsDue()) line_.Show(Text(progress));
+  }
+  void Clear() { line_.Clear(); }
+
+ private:
+  std::string Text(const CampaignProgress& p) const {
+    std::string text = fmt::format("  {} of {} episodes", p.done, p.total);
+    if (p.done_now > 0) {
+      const double rate = static_cast<double>(p.done_now) / p.elapsed_s;
+      text += fmt::format(", {:.1f} a second, {:.0f} s to go at most", rate,
+                          static_cast<double>(p.total - p.done) / rate);
+    }
+    constexpr std::size_t kShown = 3;
+    for (std::size_t v = 0; v < std::min(kShown, p.variants.size()); ++v) {
+      const VariantProgress& at = p.variants[v];
+      if (at.n == 0) continue;
+      text +=
+          fmt::format("; {}{} of {} fail (at most {:.2g} %)",
+                      p.variants.size() > 1 ? variants_[v].name + ": " : "", at.any_failure, at.n,
+                      100 * ClopperPearsonUpper(static_cast<int>(at.any_failure),
+                                                static_cast<int>(at.n), kConfidence));
+    }
+    return text;
+  }
+
+  ProgressLine line_;
+  const std::vector<Variant>& variants_;
+};
+
+CampaignStore OpenStore(const fs::path& folder, const CampaignAbout& about, bool resume) {
+  const fs::path file = folder / "campaign.sqlite";
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) {
+    MakeFolder(folder);
+    return CampaignStore::Create(file, about);
+  }
+  if (!resume)
+    throw InputError({folder.string(), 0}, "", "",
+                     "holds a campaign: --resume goes on with it, --out names another folder");
+  CampaignStore store = CampaignStore::Open(file, true);
+  RequireSame(store.about(), about, file);
+  return store;
+}
+
+std::string_view Why(CampaignEnd end) {
+  switch (end) {
+    case CampaignEnd::kComplete:
+      return "all episodes are done";
+    case CampaignEnd::kGateDecided:
+      return "the gate is decided";
+    case CampaignEnd::kFailFast:
+      return "an episode failed (--fail-fast)";
+    case CampaignEnd::kTimeLimit:
+      return "the time limit is reached (--resume goes on)";
+    case CampaignEnd::kInterrupted:
+      return "interrupted (--resume goes on)";
+  }
+  return "?";
+}
+
+void SayRates(const nlohmann::ordered_json& summary, const Globals& globals) {
+  for (const auto& [name, variant] : summary["variants"].items()) {
+    globals.Say(fmt::format(
+        "{}: {} episodes, {} success, {} failure, {} timeout; {} errors, {} "
+        "without a plan",
+        name, variant["n"].get<int>(), variant["outcomes"]["success"].get<int>(),
+        variant["outcomes"]["failure"].get<int>(), variant["outcomes"]["timeout"].get<int>(),
+        variant["n_error"].get<int>(), variant["n_not_planned"].get<int>()));
+    if (variant["n"] == 0) continue;
+    for (const auto& [mode, rate] : variant["failures"].items()) {
+      const double lower = 100 * rate["lower"].get<double>(),
+                   upper = 100 * rate["upper"].get<double>();
+      const std::string text =
+          rate["k"] == 0 ? fmt::format("none; below {:.3g} %", upper)
+                         : fmt::format("{} = {:.3g} % ({:.3g} to {:.3g} %)", rate["k"].get<int>(),
+                                       100 * rate["rate"].get<double>(), lower, upper);
+      globals.Say(fmt::format("  {:<12} {}", mode, text));
+    }
+  }
+}
+
+int StatusOf(const CampaignRun& run, const std::vector<GateState>& gate) {
+  const bool broken = std::ranges::any_of(run.variants, [](const auto& v) { return v.errors > 0; });
+  if (broken) return kBroken;
+  if (!gate.empty()) {
+    const GateVerdict verdict = Overall(gate);
+    if (verdict == GateVerdict::kUndecided) return kGateUndecided;
+    return verdict == GateVerdict::kPassed ? kDone : kNotSuccess;
+  }
+  return run.end == CampaignEnd::kFailFast ? kNotSuccess : kDone;
+}
+
+int RunIt(const Options& options, const Globals& globals) {
+  auto overrides = globals.Overrides();
+  if (options.seed >= 0) overrides.push_back({"seed", std::to_string(options.seed)});
+  CampaignOptions campaign;
+  campaign.fail_fast = options.fail_fast;
+  campaign.jobs =
+      options.jobs > 0 ? options.jobs : static_cast<int>(std::thread::hardware_concurrency());
+  if (options.time_limit_s > 0) campaign.time_limit_s = options.time_limit_s;
+  ReadEpisodes(options, campaign);
+
+  const ScenarioFile file(options.scenario, overrides);
+  const Scenario base = file.Read(std::nullopt);
+  const fs::path folder = OutputFolder(options.out, base);
+  SayWhenInterrupted(folder.string() + " is as before");
+  SayWarnings(base, globals);
+  const CampaignAbout about = DescribeCampaign(file);
+  const std::vector<Variant>& variants = file.variants();
+
+  const HoldInterrupts hold;
+  CampaignStore store = OpenStore(folder, about, options.resume);
+  WriteFileWhole(folder / "scenario.resolved.yaml", ResolvedScenario(base, folder));
+  Progress progress(globals, variants);
+  const CampaignRun run = RunCampaign(file, store, campaign, &progress);
+  progress.Clear();
+  std::vector<GateState> gate;
+  for (const VariantProgress& variant : run.variants)
+    if (variant.gate) gate.push_back(*variant.gate);
+  WriteSummaryFiles(store, variants, gate, base.name, folder);
+  const auto summary = SummaryJson(store, variants, gate);
+  globals.Result(summary);
+  globals.Say(std::string(Why(run.end)) + "; results are in " + folder.string());
+  SayRates(summary, globals);
+  for (std::size_t v = 0; v < gate.size(); ++v)
+    globals.Say(
+        fmt::format("gate{}: {}", gate.size() > 1 ? " " + variants[v].name : "", gate[v].Text()));
+  if (run.end == CampaignEnd::kInterrupted) {
+    SayWhenInterrupted(folder.string() + " holds every finished episode; --resume goes on");
+    EndInterrupted();
+  }
+  if (!options.no_films) FilmFirstFailures(file, store, folder, globals);
+  return StatusOf(run, gate);
+}
+
+}  // namespace
+
+void AddCampaign(CLI::App& app, const Globals& globals, int& status) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "campaign", "Drive many episodes on all cores: failure rates with intervals, a gate for CI");
+  command->add_option("SCENARIO", options->scenario, "Scenario file (YAML)")->required();
+  command->add_option("-n", options->n, "Episodes a variant")
+      ->required()
+      ->check(CLI::Range(1, 100'000'000));
+  command->add_option("--seed", options->seed, "Overrides the scenario's seed")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--jobs", options->jobs, "Worker processes (default: one a core)")
+      ->check(CLI::Range(1, 1024));
+  command->add_option(
+      "--episodes", options->episodes,
+      "A:B, ids from A to before B only: a shard for `merge`; its gate is judged there");
+  command->add_option("--out", options->out, "Output folder (default: out/<scenario's stem>)");
+  command->add_flag("--resume", options->resume, "Go on with the campaign that the folder holds");
+  command->add_flag("--fail-fast", options->fail_fast,
+                    "End at the first episode that fails (status 1)");
+  command->add_option("--time-limit", options->time_limit_s, "Seconds of wall time")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--no-films", options->no_films, "Do not film the first failure of each mode");
+  command->callback([options, &globals, &status] { status = RunIt(*options, globals); });
+}
+
+}  // namespace floorproof

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recorded episodes of a campaign, driven again and filmed.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "apps/drive_and_film.h"
+#include "env/run/campaign_store.h"
+
+namespace floorproof {
+
+// Drives the recorded episode again into <folder>/episodes/<variant>/<id>, whole as `run` would.
+// Throws InternalError when outcome, events or metrics are not the recorded ones.
+DriveResult ReplayEpisode(const ScenarioFile& file, const Variant& variant, const EpisodeRow& row,
+                          const std::filesystem::path& folder, bool video, const Globals& globals);
+
+// The first failing episode of each mode, of all variants; a film that is there stays.
+void FilmFirstFailures(const ScenarioFile& file, const CampaignStore& store,
+                       const std::filesystem::path& folder, const Globals& globals);
+
+}  // namespace floorproof
