@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an estimate may be, at a stated confidence.
+#pragma once
+
+namespace floorproof {
+
+struct Interval {
+  double lower = 0;
+  double upper = 0;  // may be infinite where the data say nothing
+  bool Contains(double value) const { return lower <= value && value <= upper; }
+};
+
+}  // namespace floorproof
