@@ -8,11 +8,15 @@
 
 namespace floorproof {
 
-void CheckConfidence(double confidence) { CheckRate("confidence", confidence); }
+void CheckConfidence(double confidence) {
+  if (!(confidence > 0 && confidence < 1))
+    throw InputError({}, "confidence", FormatDouble(confidence),
+                     "must be greater than 0 and less than 1");
+}
 
-void CheckRate(const char* key, double rate) {
-  if (!(rate > 0 && rate < 1))
-    throw InputError({}, key, FormatDouble(rate), "must be greater than 0 and less than 1");
+void CheckLimit(const char* key, double limit) {
+  if (!(limit >= kLeastLimit && limit <= 1 - kLeastLimit))
+    throw InputError({}, key, FormatDouble(limit), "must be at least 1e-9 and at most 1 - 1e-9");
 }
 
 void CheckCount(const char* key, int count) {

@@ -20,6 +20,8 @@
 namespace floorproof {
 namespace {
 
+constexpr int kMostEpisodes = 1'000'000'000;
+
 // The first number in [from, last] that `holds`, which all after it do too; last + 1 when none.
 template <typename Holds>
 int First(int from, int last, Holds holds) {
@@ -35,7 +37,7 @@ int First(int from, int last, Holds holds) {
 }
 
 void CheckLimits(const GateSettings& s) {
-  CheckRate("max_rate", s.max_rate);
+  CheckLimit("max_rate", s.max_rate);
   if (!(s.confidence >= 0.5 && s.confidence < 1))
     throw InputError({}, "confidence", FormatDouble(s.confidence),
                      "must be at least 0.5 and less than 1");
@@ -88,10 +90,10 @@ const char* GateVerdictName(GateVerdict verdict) {
 int FewestEpisodesToPass(const GateSettings& settings) {
   CheckLimits(settings);
   const double p0 = settings.max_rate, confidence = settings.confidence;
-  constexpr int kMost = 1'000'000'000;
   if (settings.mode == GateMode::kFixed)
-    return First(1, kMost, [&](int n) { return ClopperPearsonUpper(0, n, confidence) < p0; });
-  const int n = First(1, kMost, [&](int m) {
+    return First(1, kMostEpisodes,
+                 [&](int n) { return ClopperPearsonUpper(0, n, confidence) < p0; });
+  const int n = First(1, kMostEpisodes, [&](int m) {
     return JudgeSequentially(0, m, p0, confidence) == SequentialOutcome::kPass;
   });
   return std::max(n, settings.min_n);
@@ -102,6 +104,9 @@ void CheckGate(const GateSettings& settings) {
   if (settings.max_n < settings.min_n)
     throw InputError({}, "max_n", std::to_string(settings.max_n),
                      "must be >= min_n = " + std::to_string(settings.min_n));
+  if (settings.max_n > kMostEpisodes)
+    throw InputError({}, "max_n", std::to_string(settings.max_n),
+                     "must be <= " + std::to_string(kMostEpisodes));
   if (settings.max_n < fewest)
     throw InputError({}, "max_n", std::to_string(settings.max_n),
                      "must be >= " + std::to_string(fewest) +

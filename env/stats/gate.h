@@ -23,8 +23,9 @@ struct GateSettings {
   int max_n = 59;  // fixed: the episodes judged; sequential: undecided for good after these
 };
 
-// Throws InputError unless 0 < max_rate < 1, 0.5 <= confidence < 1, 1 <= min_n <= max_n, and max_n
-// episodes without a failure pass (59 at 5 %, 299 at 1 %, 2995 at 0.1 % of a fixed gate at 95 %).
+// Throws InputError unless 1e-9 <= max_rate <= 1 - 1e-9, 0.5 <= confidence < 1, 1 <= min_n <=
+// max_n <= 1e9, and max_n episodes without a failure pass (59 at 5 %, 299 at 1 %, 2995 at 0.1 % of
+// a fixed gate at 95 %).
 void CheckGate(const GateSettings& settings);
 
 // The least max_n of a gate that can pass. `settings.max_n` is not read.

@@ -64,7 +64,7 @@ double FirstRejected(double inside, double nearly_end, double end, Rejects rejec
 
 double LogEPass(int k, int n, double p0) {
   CheckCounts(k, n);
-  CheckRate("p0", p0);
+  CheckLimit("p0", p0);
   const double b = PriorB(kPassOdds, p0);
   const double log_prior = std::log(-std::expm1(b * std::log1p(-p0)) / b);
   return LogIncompleteBeta(k + 1.0, b + (n - k), p0) - log_prior - LogLikelihood(k, n, p0);
@@ -72,7 +72,7 @@ double LogEPass(int k, int n, double p0) {
 
 double LogEFail(int k, int n, double p0) {
   CheckCounts(k, n);
-  CheckRate("p0", p0);
+  CheckLimit("p0", p0);
   const double b = PriorB(kFailOdds, p0);
   const double log_prior = b * std::log1p(-p0) - std::log(b);
   return LogIncompleteBeta(b + (n - k), k + 1.0, 1 - p0) - log_prior - LogLikelihood(k, n, p0);
@@ -93,13 +93,12 @@ Interval AnytimeBounds(int k, int n, double confidence) {
   if (n == 0) return {0, 1};
   const double threshold = -std::log1p(-confidence);
   const double rate = static_cast<double>(k) / n;
-  constexpr double kEdge = 1e-9;  // nearer to 0 or 1 a bound is of no use
   Interval bounds{0, 1};
-  if (rate > kEdge)
-    bounds.lower =
-        FirstRejected(rate, kEdge, 0, [&](double p0) { return LogEFail(k, n, p0) >= threshold; });
-  if (rate < 1 - kEdge)
-    bounds.upper = FirstRejected(rate, 1 - kEdge, 1,
+  if (rate > kLeastLimit)
+    bounds.lower = FirstRejected(rate, kLeastLimit, 0,
+                                 [&](double p0) { return LogEFail(k, n, p0) >= threshold; });
+  if (rate < 1 - kLeastLimit)
+    bounds.upper = FirstRejected(rate, 1 - kLeastLimit, 1,
                                  [&](double p0) { return LogEPass(k, n, p0) >= threshold; });
   return bounds;
 }

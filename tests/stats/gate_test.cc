@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "env/core/error.h"
@@ -192,9 +193,12 @@ TEST(Gate, KnowsTheFewestEpisodesThatCanPass) {
 TEST(Gate, RefusesSettingsThatMeanNothing) {
   EXPECT_THROW(CheckGate(Fixed(0, 59)), InputError);
   EXPECT_THROW(CheckGate(Fixed(1, 59)), InputError);
+  EXPECT_THROW(CheckGate(Sequential(1e-308, 1, 59)), InputError);
+  EXPECT_THROW(CheckGate(Sequential(1e-9, 1, 59)), InputError);  // billions of episodes
   EXPECT_THROW(CheckGate(Fixed(std::nan(""), 59)), InputError);
   EXPECT_THROW(CheckGate(Sequential(0.05, 0, 3000)), InputError);
   EXPECT_THROW(CheckGate(Sequential(0.05, 3001, 3000)), InputError);
+  EXPECT_THROW(CheckGate(Fixed(0.05, std::numeric_limits<int>::max())), InputError);
   GateSettings settings = Fixed(0.05, 1000);
   for (const double confidence : {0.0, 0.4, 1.0, 95.0}) {
     settings.confidence = confidence;
