@@ -9,10 +9,14 @@ namespace floorproof {
 
 namespace fs = std::filesystem;
 
+fs::path EpisodeFolder(const fs::path& campaign, const Variant& variant, std::uint64_t episode) {
+  return campaign / "episodes" / variant.name / std::to_string(episode);
+}
+
 DriveResult ReplayEpisode(const ScenarioFile& file, const Variant& variant, const EpisodeRow& row,
                           const fs::path& folder, bool video, const Globals& globals) {
   Scenario scenario = file.Read(row.episode, variant);
-  const fs::path into = folder / "episodes" / variant.name / std::to_string(row.episode);
+  const fs::path into = EpisodeFolder(folder, variant, row.episode);
   DriveResult result = DriveAndFilm(scenario, into, {.video = video}, globals);
   if (result.not_written) std::rethrow_exception(result.not_written);
   const EpisodeRow now = MakeRow(variant.name, scenario, row.plan, result.record);
@@ -41,8 +45,7 @@ void FilmFirstFailures(const ScenarioFile& file, const CampaignStore& store, con
         variant = &candidate;
       });
     if (!first) continue;
-    const fs::path film =
-        folder / "episodes" / variant->name / std::to_string(first->episode) / "video.mp4";
+    const fs::path film = EpisodeFolder(folder, *variant, first->episode) / "video.mp4";
     std::error_code ignored;
     if (fs::exists(film, ignored)) continue;
     globals.Say(

@@ -10,6 +10,10 @@
 
 namespace floorproof {
 
+// Where a campaign's episode is written when it is driven again.
+std::filesystem::path EpisodeFolder(const std::filesystem::path& campaign, const Variant& variant,
+                                    std::uint64_t episode);
+
 // Drives the recorded episode again into <folder>/episodes/<variant>/<id>, whole as `run` would.
 // Throws InternalError when outcome, events or metrics are not the recorded ones.
 DriveResult ReplayEpisode(const ScenarioFile& file, const Variant& variant, const EpisodeRow& row,

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/drive_and_film.h"
+#include <algorithm>
+
+#include "apps/campaign_films.h"
 #include "env/core/input_file.h"
 #include "env/run/records.h"
 
@@ -21,32 +23,76 @@ void CheckSame(const std::filesystem::path& result_file, const nlohmann::ordered
                           "' (recorded with another version or on another machine type?)");
 }
 
+int ReplayRun(const std::filesystem::path& folder, bool video, const Globals& globals) {
+  for (const char* needed : {"scenario.resolved.yaml", "result.json"})
+    if (const std::string why = WhyUnreadable(folder / needed, kMostBytes); !why.empty())
+      throw InputError({(folder / needed).string(), 0}, "", "",
+                       why + ": not a folder of a finished `run`, nor of a `campaign`");
+  Scenario scenario = ReadScenario(folder / "scenario.resolved.yaml", globals.Overrides());
+  const DriveResult result =
+      DriveAndFilm(scenario, folder, {.video = video, .write_records = false}, globals);
+  if (result.not_written) std::rethrow_exception(result.not_written);
+  const auto json = ResultJson(scenario, result.record);
+  if (globals.sets.empty()) CheckSame(folder / "result.json", json);
+  globals.Result(json);
+  return kDone;
+}
+
+int ReplayOfCampaign(const std::filesystem::path& folder, std::optional<std::uint64_t> episode,
+                     const std::string& name, bool video, const Globals& globals) {
+  if (!episode)
+    throw InputError({"--episode", 0}, "", "",
+                     "is needed: " + folder.string() + " holds a campaign");
+  if (!globals.sets.empty())
+    throw InputError({"--set", 0}, "", globals.sets.front(),
+                     "changes what was recorded: not for a campaign's episode");
+  const CampaignStore store = CampaignStore::Open(folder / "campaign.sqlite", false);
+  const ScenarioFile file(folder / "scenario.resolved.yaml");
+  const auto& variants = file.variants();
+  const auto variant =
+      name.empty() ? variants.begin() : std::ranges::find(variants, name, &Variant::name);
+  if (variant == variants.end() || (name.empty() && variants.size() > 1)) {
+    std::string known;
+    for (const Variant& v : variants) known += (known.empty() ? "" : "; ") + v.name;
+    throw InputError({"--variant", 0}, "", name, "must be one of: " + known);
+  }
+  const auto row = store.Find(variant->name, *episode);
+  if (!row)
+    throw InputError({"--episode", 0}, "", std::to_string(*episode),
+                     "is not among those of " + variant->name);
+  const DriveResult result = ReplayEpisode(file, *variant, *row, folder, video, globals);
+  globals.Say("results are in " + EpisodeFolder(folder, *variant, *episode).string());
+  globals.Result(ResultJson(file.Read(*episode, *variant), result.record));
+  return kDone;
+}
+
 }  // namespace
 
 void AddReplay(CLI::App& app, const Globals& globals, int& status) {
   struct Options {
-    std::string folder;
+    std::string folder, variant;
+    std::int64_t episode = -1;
     bool video = false;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
-      "replay", "Drive a recorded episode again, exactly, and film it (for `run`'s folder)");
-  command->add_option("DIR", options->folder, "A folder that `run` wrote")->required();
-  command->add_flag("--video", options->video, "Film it: video.mp4 and frame_*.png in DIR");
+  CLI::App* command =
+      app.add_subcommand("replay", "Drive a recorded episode again, exactly, and film it");
+  command->add_option("DIR", options->folder, "A folder that `run` or `campaign` wrote")
+      ->required();
+  command->add_option("--episode", options->episode, "Of a campaign: the episode's id")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--variant", options->variant, "Of a campaign with a matrix: the variant");
+  command->add_flag("--video", options->video, "Film it: video.mp4 and frame_*.png");
   command->callback([options, &globals, &status] {
     const std::filesystem::path folder = options->folder;
-    for (const char* needed : {"scenario.resolved.yaml", "result.json"})
-      if (const std::string why = WhyUnreadable(folder / needed, kMostBytes); !why.empty())
-        throw InputError({(folder / needed).string(), 0}, "", "",
-                         why + ": not a folder of a finished `run`");
-    Scenario scenario = ReadScenario(folder / "scenario.resolved.yaml", globals.Overrides());
-    const DriveResult result =
-        DriveAndFilm(scenario, folder, {.video = options->video, .write_records = false}, globals);
-    if (result.not_written) std::rethrow_exception(result.not_written);
-    const auto json = ResultJson(scenario, result.record);
-    if (globals.sets.empty()) CheckSame(folder / "result.json", json);
-    globals.Result(json);
-    status = kDone;
+    std::error_code ignored;
+    if (!std::filesystem::exists(folder / "campaign.sqlite", ignored)) {
+      status = ReplayRun(folder, options->video, globals);
+      return;
+    }
+    std::optional<std::uint64_t> episode;
+    if (options->episode >= 0) episode = static_cast<std::uint64_t>(options->episode);
+    status = ReplayOfCampaign(folder, episode, options->variant, options->video, globals);
   });
 }
 

@@ -193,10 +193,8 @@ class CampaignDrive {
     for (std::size_t v = 0; v < trackers_.size(); ++v) {
       const VariantProgress& progress = trackers_[v].progress();
       run.variants.push_back(progress);
-      // Beyond the decision: driven because others were slower, not needed.
-      const std::uint64_t from = run.end == CampaignEnd::kGateDecided ? progress.prefix
-                                 : run.end == CampaignEnd::kFailFast  ? fail_at_ + 1
-                                                                      : options_.end;
+      // What lies beyond is kept, and not judged: early arrivals would bias it.
+      const std::uint64_t from = run.end == CampaignEnd::kFailFast ? fail_at_ + 1 : progress.prefix;
       store_.SetExtraFrom(file_.variants()[v].name, from);
     }
     if (observer_) observer_->OnProgress(Progress());

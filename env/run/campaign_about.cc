@@ -46,7 +46,9 @@ CampaignAbout DescribeCampaign(const ScenarioFile& file) {
   // By name, not by path: shards are driven anywhere.
   std::map<std::string, std::string> hashes;
   const auto add = [&](const Scenario& s) {
-    for (const auto& read : FilesRead(s)) hashes[read.filename().string()] = Sha256OfFile(read);
+    for (const auto& read : FilesRead(s))
+      if (read != base.site_file)  // it stands in the text
+        hashes[read.filename().string()] = Sha256OfFile(read);
   };
   add(base);
   for (const Variant& variant : file.variants()) add(file.Read(std::nullopt, variant));

@@ -68,6 +68,25 @@ struct CampaignStore::Statement {
                : std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(handle, column)));
   }
 
+  // Of a SELECT * from a table of episodes.
+  EpisodeRow Row() const {
+    EpisodeRow row;
+    row.variant = Text(1);
+    row.episode = static_cast<std::uint64_t>(sqlite3_column_int64(handle, 2));
+    row.outcome = Text(3);
+    row.message = Text(4);
+    int at = 5;
+    for (int& n : row.events_of) n = sqlite3_column_int(handle, at++);
+    for (auto& value : row.metrics) {
+      if (sqlite3_column_type(handle, at) != SQLITE_NULL) value = sqlite3_column_double(handle, at);
+      ++at;
+    }
+    row.drawn = Text(at++);
+    row.plan = Text(at++);
+    row.events = Text(at);
+    return row;
+  }
+
   const CampaignStore& store;
   sqlite3_stmt* handle = nullptr;
 };
@@ -215,6 +234,13 @@ void CampaignStore::Add(std::span<const EpisodeRow> rows) {
   }
 }
 
+std::vector<std::string> CampaignStore::Variants() const {
+  Statement select(*this, "SELECT DISTINCT variant FROM episode ORDER BY variant");
+  std::vector<std::string> variants;
+  while (select.Step()) variants.push_back(select.Text(0));
+  return variants;
+}
+
 std::vector<std::uint64_t> CampaignStore::Episodes(const std::string& variant) const {
   Statement select(*this,
                    "SELECT episode FROM episode WHERE campaign = ?1 AND variant = ?2 UNION SELECT "
@@ -233,24 +259,20 @@ void CampaignStore::ForEach(const std::string& variant,
                    "SELECT * FROM episode WHERE campaign = ? AND variant = ? ORDER BY episode");
   select.Bind(1, about_.id);
   select.Bind(2, variant);
-  while (select.Step()) {
-    EpisodeRow row;
-    row.variant = variant;
-    row.episode = static_cast<std::uint64_t>(sqlite3_column_int64(select.handle, 2));
-    row.outcome = select.Text(3);
-    row.message = select.Text(4);
-    int at = 5;
-    for (int& n : row.events_of) n = sqlite3_column_int(select.handle, at++);
-    for (auto& value : row.metrics) {
-      if (sqlite3_column_type(select.handle, at) != SQLITE_NULL)
-        value = sqlite3_column_double(select.handle, at);
-      ++at;
-    }
-    row.drawn = select.Text(at++);
-    row.plan = select.Text(at++);
-    row.events = select.Text(at);
-    visit(row);
-  }
+  while (select.Step()) visit(select.Row());
+}
+
+std::optional<EpisodeRow> CampaignStore::Find(const std::string& variant,
+                                              std::uint64_t episode) const {
+  Statement select(*this,
+                   "SELECT * FROM episode WHERE campaign = ?1 AND variant = ?2 AND episode = ?3 "
+                   "UNION ALL SELECT * FROM extra WHERE campaign = ?1 AND variant = ?2 AND episode "
+                   "= ?3");
+  select.Bind(1, about_.id);
+  select.Bind(2, variant);
+  select.Bind(3, static_cast<std::int64_t>(episode));
+  if (!select.Step()) return std::nullopt;
+  return select.Row();
 }
 
 void CampaignStore::SetExtraFrom(const std::string& variant, std::uint64_t episode) {

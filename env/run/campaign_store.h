@@ -41,11 +41,15 @@ class CampaignStore {
 
   // All rows or none. Throws InputError naming the file when the disk is full.
   void Add(std::span<const EpisodeRow> rows);
+  // Of which there are episodes, in alphabetical order.
+  std::vector<std::string> Variants() const;
   // Episodes of a variant that are there, `extra` ones too, ascending.
   std::vector<std::uint64_t> Episodes(const std::string& variant) const;
   // Rows of table `episode`, one variant's, in the order of their numbers.
   void ForEach(const std::string& variant,
                const std::function<void(const EpisodeRow&)>& visit) const;
+  // One row of either table.
+  std::optional<EpisodeRow> Find(const std::string& variant, std::uint64_t episode) const;
   // Moves rows of this number and beyond from `episode` to `extra`; those before it back.
   void SetExtraFrom(const std::string& variant, std::uint64_t episode);
 

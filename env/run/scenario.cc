@@ -298,6 +298,11 @@ void ScenarioFile::ReadSitePart(const ConfigNode& root, const Variant& changes, 
     s.site.map.name = s.site_file.empty() ? s.name : s.site_file.stem().string();
 }
 
+std::string ScenarioFile::name() const {
+  const ConfigNode* name = root_.Find("name");
+  return name ? AsString(*name, "name") : file_.stem().string();
+}
+
 Scenario ScenarioFile::Read(std::optional<std::uint64_t> episode, const Variant& variant) const {
   Scenario s;
   s.file = file_;
@@ -310,8 +315,7 @@ Scenario ScenarioFile::Read(std::optional<std::uint64_t> episode, const Variant&
   ConfigNode root = root_;
   Apply(changes, false, root);
   RefuseUnknownKeys(root, "", kKeys);  // a variant's too
-  s.name = file_.stem().string();
-  if (const ConfigNode* name = root.Find("name")) s.name = AsString(*name, "name");
+  s.name = name();
   for (auto [key, node] :
        {std::pair("randomise", &s.randomise), {"matrix", &s.matrix}, {"gate", &s.gate}})
     if (const ConfigNode* written = root.Find(key)) *node = *written;

@@ -78,6 +78,7 @@ class ScenarioFile {
   const std::filesystem::path& file() const { return file_; }
   const std::vector<Variant>& variants() const { return variants_; }
   int seed() const { return seed_; }
+  std::string name() const;  // the key `name`, else the file's stem
 
  private:
   void ReadSitePart(const ConfigNode& root, const Variant& changes, bool episode,

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/campaign_results.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "env/run/campaign_summary.h"
+
+namespace floorproof {
+namespace {
+
+std::string_view Why(CampaignEnd end) {
+  switch (end) {
+    case CampaignEnd::kComplete:
+      return "all episodes are done";
+    case CampaignEnd::kGateDecided:
+      return "the gate is decided";
+    case CampaignEnd::kFailFast:
+      return "an episode failed (--fail-fast)";
+    case CampaignEnd::kTimeLimit:
+      return "the time limit is reached (--resume goes on)";
+    case CampaignEnd::kInterrupted:
+      return "interrupted (--resume goes on)";
+  }
+  return "?";
+}
+
+void SayRates(const nlohmann::ordered_json& summary, const Globals& globals) {
+  for (const auto& [name, variant] : summary["variants"].items()) {
+    globals.Say(fmt::format(
+        "{}: {} episodes, {} success, {} failure, {} timeout; {} errors, {} "
+        "without a plan",
+        name, variant["n"].get<int>(), variant["outcomes"]["success"].get<int>(),
+        variant["outcomes"]["failure"].get<int>(), variant["outcomes"]["timeout"].get<int>(),
+        variant["n_error"].get<int>(), variant["n_not_planned"].get<int>()));
+    if (variant["n"] == 0) continue;
+    for (const auto& [mode, rate] : variant["failures"].items()) {
+      const double lower = 100 * rate["lower"].get<double>(),
+                   upper = 100 * rate["upper"].get<double>();
+      const std::string text =
+          rate["k"] == 0 ? fmt::format("none; below {:.3g} %", upper)
+                         : fmt::format("{} = {:.3g} % ({:.3g} to {:.3g} %)", rate["k"].get<int>(),
+                                       100 * rate["rate"].get<double>(), lower, upper);
+      globals.Say(fmt::format("  {:<12} {}", mode, text));
+    }
+  }
+}
+
+int StatusOf(const CampaignRun& run, const std::vector<GateState>& gate) {
+  const bool broken = std::ranges::any_of(run.variants, [](const auto& v) { return v.errors > 0; });
+  if (broken) return kBroken;
+  if (!gate.empty()) {
+    const GateVerdict verdict = Overall(gate);
+    if (verdict == GateVerdict::kUndecided) return kGateUndecided;
+    return verdict == GateVerdict::kPassed ? kDone : kNotSuccess;
+  }
+  return run.end == CampaignEnd::kFailFast ? kNotSuccess : kDone;
+}
+
+}  // namespace
+
+int SayResults(const ScenarioFile& file, const CampaignStore& store, const CampaignRun& run,
+               const std::filesystem::path& folder, const Globals& globals) {
+  const std::vector<Variant>& variants = file.variants();
+  std::vector<GateState> gate;
+  for (const VariantProgress& variant : run.variants)
+    if (variant.gate) gate.push_back(*variant.gate);
+  WriteSummaryFiles(store, variants, gate, file.name(), folder);
+  const auto summary = SummaryJson(store, variants, gate);
+  globals.Result(summary);
+  globals.Say(std::string(Why(run.end)) + "; results are in " + folder.string());
+  SayRates(summary, globals);
+  for (std::size_t v = 0; v < gate.size(); ++v)
+    globals.Say(
+        fmt::format("gate{}: {}", gate.size() > 1 ? " " + variants[v].name : "", gate[v].Text()));
+  return StatusOf(run, gate);
+}
+
+}  // namespace floorproof
