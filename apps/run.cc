@@ -23,6 +23,8 @@ void AddRun(CLI::App& app, const Globals& globals, int& status) {
     if (options->seed >= 0) overrides.push_back({"seed", std::to_string(options->seed)});
     Scenario scenario = ReadScenario(options->scenario, overrides);
     const auto folder = OutputFolder(options->out, scenario);
+    if (!scenario.matrix.IsNull())
+      globals.Say("this is the scenario itself: `campaign` drives the variants of its matrix");
     const DriveResult result = DriveAndFilm(scenario, folder, {.video = options->video}, globals);
     globals.Result(ResultJson(scenario, result.record));
     if (result.not_written) std::rethrow_exception(result.not_written);

@@ -30,18 +30,33 @@ ConfigNode EmptyMap(const SourceMark& mark) {
 
 constexpr std::string_view kSite = "site.";
 
+// A plug-in or robot that is written as its name alone, made a map that a key can be set in.
+void MakeMap(ConfigNode& root, const std::string& key_path) {
+  constexpr std::pair<const char*, const char*> kNamed[] = {
+      {"robot", "name"}, {"plan", "planner"}, {"controller", "name"}, {"estimator", "name"}};
+  for (const auto& [key, name_key] : kNamed) {
+    ConfigNode* node = root.Find(key);
+    if (node == nullptr || !node->IsScalar() || !key_path.starts_with(std::string(key) + "."))
+      continue;
+    ConfigNode map = EmptyMap(node->mark);
+    map.Add(name_key, *node);
+    *node = std::move(map);
+  }
+}
+
 // Keys site.* reach into the site's own tree, once that is read.
 void Apply(const Variant& changes, bool to_site, ConfigNode& root) {
   for (const auto& [key, value] : changes.overrides) {
     const bool is_site = key.starts_with(kSite);
-    if (is_site == to_site)
-      root.SetPath(is_site ? std::string_view(key).substr(kSite.size()) : key, value);
+    if (is_site != to_site) continue;
+    if (!is_site) MakeMap(root, key);
+    root.SetPath(is_site ? std::string_view(key).substr(kSite.size()) : key, value);
   }
 }
 
-// Whether setting one of the keys sets the other, or a part of it.
-bool Overlap(const std::string& a, const std::string& b) {
-  return a == b || a.starts_with(b + ".") || b.starts_with(a + ".");
+// Whether setting `whole` replaces `key`.
+bool Replaces(const std::string& whole, const std::string& key) {
+  return key == whole || key.starts_with(whole + ".");
 }
 
 // Where the key is written; the file's own mark where it is not.
@@ -264,10 +279,10 @@ ScenarioFile::ScenarioFile(const fs::path& file, const std::vector<Override>& ov
   variants_ = ReadMatrix(root_.Find("matrix"));
   for (const auto& [key, value] : variants_.front().overrides) {
     for (const auto& o : overrides_)
-      if (Overlap(key, o.first))
+      if (Replaces(key, o.first) || Replaces(o.first, key))
         throw InputError(o.second.mark, o.first, "", "the scenario's matrix sets " + key);
-    for (const RandomisedKey& r : randomised_)
-      if (Overlap(key, r.key_path))
+    for (const RandomisedKey& r : randomised_)  // a part of what a variant sets may be drawn
+      if (Replaces(r.key_path, key))
         throw InputError(r.mark, "randomise." + r.key_path, "",
                          "the scenario's matrix sets " + key);
   }
