@@ -47,7 +47,10 @@ matrix:
 
 // Four of ten of the second variant's episodes stuck, at a hazard with a hostile name; one timeout.
 EpisodeRow Row(const std::string& variant, std::uint64_t id) {
-  EpisodeRow row{.variant = variant, .episode = id, .outcome = "success"};
+  EpisodeRow row;
+  row.variant = variant;
+  row.episode = id;
+  row.outcome = "success";
   for (auto& metric : row.metrics) metric = 1.0 + 0.01 * static_cast<double>(id);
   if (variant == "robot=beluga") return row;
   if (id < 4) {
