@@ -138,6 +138,17 @@ bool HasOneMap(const Scenario& scenario) {
   });
 }
 
+// What the variant changes of the site: the resolved scenario states the first robot's tracker,
+// with which another variant's robot may not read.
+Variant SiteOf(const ScenarioFile& file, const std::string& name) {
+  Variant changes;
+  for (const Variant& variant : file.variants())
+    if (variant.name == name)
+      for (const auto& [key, value] : variant.overrides)
+        if (key == "site" || key.starts_with("site.")) changes.overrides.emplace_back(key, value);
+  return changes;
+}
+
 std::string PictureFile(const std::string& variant, std::size_t number) {
   std::string name = variant;
   for (char& c : name)
@@ -161,16 +172,14 @@ void AddPlaces(const fs::path& folder, const Rows& rows, Report& report) {
     ReportVariant& variant = report.variants[v];
     variant.places_note = why;
     if (!file) continue;
-    const auto named = std::ranges::find(file->variants(), variant.name, &Variant::name);
     try {
-      const Scenario scenario =
-          file->Read(std::nullopt, named == file->variants().end() ? Variant{} : *named);
+      const Scenario scenario = file->Read(std::nullopt, SiteOf(*file, variant.name));
       if (!HasOneMap(scenario)) {
         variant.places_note = "Each episode draws a floor of its own: there is no one map to show.";
         continue;
       }
       const fs::path png = folder / PictureFile(variant.name, v + 1);
-      WriteFailurePlaces(scenario.site.map, scenario.robot_name + " on " + scenario.site.map.name,
+      WriteFailurePlaces(scenario.site.map, variant.name + " on " + scenario.site.map.name,
                          rows.places()[v], nullptr, png);
       variant.places_png = ReadInputFile(png, kMostBytes);
       if (!scenario.randomise.IsNull())

@@ -85,8 +85,7 @@ std::optional<ReportGate> ReadGate(const Json& json) {
                  : verdict == "failed" ? ReportGate::Verdict::kFailed
                                        : ReportGate::Verdict::kUndecided;
   for (const auto& [variant, state] : json.at("variants").items())
-    gate.texts.emplace_back(variant, state.at("verdict").get<std::string>() + ": " +
-                                         state.at("text").get<std::string>());
+    gate.texts.emplace_back(variant, state.at("text").get<std::string>());
   return gate;
 }
 

@@ -48,15 +48,17 @@ std::string RatesVerdict(const Report& report) {
 }
 
 std::string GateVerdict(const ReportGate& gate, std::size_t variants) {
+  std::string metric = gate.metric;
+  std::ranges::replace(metric, '_', ' ');
   const std::string claim =
-      fmt::format("the rate of {} is below {}", gate.metric, PercentText(gate.max_rate));
+      fmt::format("the rate of {} is below {}", metric, PercentText(gate.max_rate));
   const std::string sure = PercentText(gate.confidence) + " confidence";
   const std::string where = variants > 1 ? " in each variant" : "";
   switch (gate.verdict) {
     case ReportGate::Verdict::kPassed:
       return fmt::format("The gate passed: {}{}, at {}.", claim, where, sure);
     case ReportGate::Verdict::kFailed:
-      return fmt::format("The gate failed: the rate of {} is not below {}{}, at {}.", gate.metric,
+      return fmt::format("The gate failed: the rate of {} is not below {}{}, at {}.", metric,
                          PercentText(gate.max_rate), where, sure);
     case ReportGate::Verdict::kUndecided:
       return fmt::format("The gate is undecided: the episodes do not show, at {}, whether {}{}.",
@@ -117,8 +119,9 @@ std::string Places(const Report& report) {
     html += "<div class=\"card places\">";
     if (report.variants.size() > 1) html += "<h3>" + HtmlText(v.name) + "</h3>\n";
     if (!v.places_png.empty())
-      html += Picture(v.places_png, "Where " + v.name + " failed" +
-                                        (v.places_note.empty() ? "" : "; " + v.places_note));
+      html += Picture(v.places_png,
+                      "Where " + (report.variants.size() > 1 ? v.name : std::string("the robot")) +
+                          " failed" + (v.places_note.empty() ? "" : "; " + v.places_note));
     else
       html += "<p class=\"note\">" + HtmlText(v.places_note) + "</p>\n";
     html += "</div>\n";

@@ -183,7 +183,8 @@ std::string PairSentence(const Report& report, const ReportPair& pair) {
   const std::string b = HtmlText(pair.b), a = HtmlText(pair.a);
   if (pair.n() == 0)
     return fmt::format("<b>{}</b> and <b>{}</b> share no episode that counts.", b, a);
-  const bool clear = pair.lower > 0 || pair.upper < 0;
+  // By the exact test: with few pairs the score interval can leave out 0 where it does not.
+  const bool clear = pair.p <= 1 - report.confidence;
   const std::string verdict = !clear                ? "no clear difference"
                               : pair.difference > 0 ? fmt::format("<b>{}</b> fails more often", b)
                                                     : fmt::format("<b>{}</b> fails less often", b);
