@@ -49,15 +49,20 @@ void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecor
         OverSweepable(record, [](std::uint8_t passes) { return passes > 0 ? 1.0f : 0.0f; });
     WriteHeatMap(s.site.map, &heat, options, folder / "heatmap_coverage.png");
   }
-  {
-    HeatMapOptions options;
-    options.title = fmt::format("{}: {} failure event{}", Title(s), record.events.size(),
-                                record.events.size() == 1 ? "" : "s");
-    for (const auto& event : record.events)
-      options.points.push_back({{event.x_m, event.y_m}, std::string(Name(event.mode))});
-    options.plan = &plan.path;
-    WriteHeatMap(s.site.map, nullptr, options, folder / "heatmap_failures.png");
-  }
+  WriteFailurePlaces(s.site.map, Title(s), record.events, &plan.path,
+                     folder / "heatmap_failures.png");
+}
+
+void WriteFailurePlaces(const HazardMap& map, const std::string& title,
+                        const std::vector<Event>& events, const Path* plan,
+                        const std::filesystem::path& png) {
+  HeatMapOptions options;
+  options.title =
+      fmt::format("{}: {} failure event{}", title, events.size(), events.size() == 1 ? "" : "s");
+  for (const auto& event : events)
+    options.points.push_back({{event.x_m, event.y_m}, std::string(Name(event.mode))});
+  options.plan = plan;
+  WriteHeatMap(map, nullptr, options, png);
 }
 
 std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& plan,

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "env/run/episode.h"
 #include "render/film.h"
@@ -16,6 +17,10 @@ void WritePlanPicture(const Scenario& scenario, const PlanResult& plan,
 // heatmap_visits.png, heatmap_coverage.png and heatmap_failures.png.
 void WriteHeatMaps(const Scenario& scenario, const PlanResult& plan, const EpisodeRecord& record,
                    const std::filesystem::path& folder);
+// Failures as points over the map, and the plan where there is one.
+void WriteFailurePlaces(const HazardMap& map, const std::string& title,
+                        const std::vector<Event>& events, const Path* plan,
+                        const std::filesystem::path& png);
 // video.mp4 and frame_*.png; returns a line that says how it went.
 std::string WriteVideo(const Scenario& scenario, const Scene& scene, const PlanResult& plan,
                        const EpisodeRecord& record, const Recording& recording,

@@ -92,6 +92,21 @@ ConfigNode Rebased(ConfigNode node, const fs::path& from, const fs::path& to) {
   return node;
 }
 
+// Whether variants or draws set this key: what follows from its value must then not be stated.
+bool Varies(const Scenario& s, const std::string& key) {
+  const auto sets = [&](const std::string& path) {
+    return path == key || path == key + ".name" || path == key + ".planner";
+  };
+  for (const ConfigNode* node : {&s.randomise, &s.matrix})
+    for (const auto& [path, value] : node->entries) {
+      if (sets(path)) return true;
+      for (const ConfigNode& item : value.items)
+        for (const auto& entry : item.entries)
+          if (sets(entry.first)) return true;
+    }
+  return false;
+}
+
 }  // namespace
 
 std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
@@ -101,15 +116,24 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
   root.Add("site", ResolveSite(s.site_node, s.site_folder, folder));
   root.Find("site")->Add("name", ConfigNode::Scalar(s.site.map.name, true));
   root.Add("robot", Robot(s, folder));
-  root.Add("start", Start(s.start));
-  if (s.goal) root.Add("goal", Goal(*s.goal));
+  // What the site or the robot would say otherwise is stated where that is the same in all
+  // episodes.
+  const auto stated = [&](const char* key, bool varies) {
+    return s.written.contains(key) || !varies;
+  };
+  const bool site_varies = Varies(s, "site") || s.site_node.Find("generate") != nullptr;
+  const bool robot_varies = Varies(s, "robot");
+  if (stated("start", site_varies)) root.Add("start", Start(s.start));
+  if (s.goal && stated("goal", site_varies)) root.Add("goal", Goal(*s.goal));
   root.Add("plan", s.planner ? WithPlugin(Named("planner", s.planner_name), *s.planner)
                              : Named("file", PathFrom(folder, s.plan_file).string()));
-  root.Add("controller", WithPlugin(Named("name", s.tracker_name), *s.tracker));
+  if (stated("controller", robot_varies))
+    root.Add("controller", WithPlugin(Named("name", s.tracker_name), *s.tracker));
   root.Add("estimator", WithPlugin(Named("name", s.estimator_name), *s.estimator));
   root.Add("failures", Failures(s));
   root = WithParams(std::move(root), s.episode);
-  root.Add("battery", WithParams(ConfigNode::Map(), s.battery));
+  if (stated("battery", robot_varies))
+    root.Add("battery", WithParams(ConfigNode::Map(), s.battery));
   root.Add("physics", WithParams(ConfigNode::Map(), s.physics));
   root.Add("video", WithParams(ConfigNode::Map(), s.video));
   for (const auto& [key, written] :

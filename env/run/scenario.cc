@@ -334,6 +334,7 @@ Scenario ScenarioFile::Read(std::optional<std::uint64_t> episode, const Variant&
   for (auto [key, node] :
        {std::pair("randomise", &s.randomise), {"matrix", &s.matrix}, {"gate", &s.gate}})
     if (const ConfigNode* written = root.Find(key)) *node = *written;
+  for (const auto& entry : root.entries) s.written.insert(entry.first);
   ReadTop(root, s);
   ReadSitePart(root, changes, episode.has_value(), s);
   const std::vector<int> plan_lines = ReadPlanPart(root, s);

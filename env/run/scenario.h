@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +30,7 @@ struct Scenario {
   std::filesystem::path file;
   std::uint64_t episode_id = 0;
   Drawn drawn;                         // what `randomise` drew for it
+  std::set<std::string> written;       // the keys at its top
   ConfigNode randomise, matrix, gate;  // as written; null: not there
   std::string name;                    // the key `name`, else the file's stem
   Site site;

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/report_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "apps/pictures.h"
+#include "apps/report_films.h"
+#include "apps/report_pairs.h"
+#include "apps/report_summary.h"
+#include "env/core/input_file.h"
+#include "env/run/campaign_store.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::uintmax_t kMostBytes = 64u << 20;
+constexpr std::size_t kMostEpisodes = 300;  // listed on the page, of all variants
+
+// As a shell takes it.
+std::string ShellWord(const std::string& text) {
+  static constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_=+:,./@%";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::vector<Event> EventsOf(const EpisodeRow& row) {
+  std::vector<Event> events;
+  for (const Json& json : Json::parse(row.events)) {
+    Event event;
+    event.kind = json.at("kind");
+    event.hazard = json.at("hazard");
+    event.t_s = json.at("t_s");
+    event.x_m = json.at("x_m");
+    event.y_m = json.at("y_m");
+    const std::string mode = json.at("mode");
+    for (int m = 0; m < kNumFailureModes; ++m)
+      if (mode == Name(static_cast<FailureMode>(m))) event.mode = static_cast<FailureMode>(m);
+    events.push_back(std::move(event));
+  }
+  return events;
+}
+
+std::string Words(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+std::string What(const EpisodeRow& row, const std::vector<Event>& events) {
+  if (events.empty()) return Words(row.outcome);
+  const std::string mode = Words(std::string(Name(events.front().mode)));
+  return events.front().kind.empty() ? mode : mode + " (" + Words(events.front().kind) + ")";
+}
+
+// The rows of a campaign, walked through once.
+class Rows {
+ public:
+  Rows(Report& report, const std::string& named) : report_(report), named_(named) {
+    share_ =
+        std::max<std::size_t>(10, kMostEpisodes / std::max<std::size_t>(1, report.variants.size()));
+  }
+
+  void Read(const CampaignStore& store, const ReportVariant& variant, const fs::path& summary) {
+    std::size_t listed = 0;
+    int rows = 0;
+    PairingValues values;
+    std::vector<Event> places;
+    store.ForEach(variant.name, [&](const EpisodeRow& row) {
+      ++rows;
+      values.Add(row);
+      if (row.outcome == "success" && !row.any_failure()) return;
+      const std::vector<Event> events = EventsOf(row);
+      if (row.counts()) places.insert(places.end(), events.begin(), events.end());
+      what_[{variant.name, row.episode}] = What(row, events);
+      if (listed++ < share_)
+        List(row, events);
+      else
+        ++report_.episodes_left_out;
+    });
+    if (rows != variant.n + variant.errors + variant.not_planned)
+      throw InputError(
+          {summary.string(), 0}, "variants." + variant.name, "",
+          fmt::format("is not of the {} episodes that campaign.sqlite holds: `campaign "
+                      "--resume` writes it anew",
+                      rows));
+    values_.push_back(std::move(values));
+    places_.push_back(std::move(places));
+  }
+
+  const std::vector<PairingValues>& values() const { return values_; }
+  const std::vector<std::vector<Event>>& places() const { return places_; }
+  std::string WhatOf(const std::string& variant, std::uint64_t episode) const {
+    const auto found = what_.find({variant, episode});
+    return found == what_.end() ? "success" : found->second;
+  }
+
+ private:
+  void List(const EpisodeRow& row, const std::vector<Event>& events) {
+    ReportEpisode e{.variant = row.variant, .episode = row.episode, .what = What(row, events)};
+    e.detail = events.empty() ? row.message : events.front().hazard;
+    if (!events.empty()) {
+      e.t_s = events.front().t_s;
+      e.x_m = events.front().x_m;
+      e.y_m = events.front().y_m;
+      e.further = static_cast<int>(events.size()) - 1;
+    }
+    e.command = fmt::format("floorproof replay {} --episode {}", ShellWord(named_), row.episode);
+    if (report_.variants.size() > 1) e.command += " --variant " + ShellWord(row.variant);
+    e.command += " --video";
+    report_.episodes.push_back(std::move(e));
+  }
+
+  Report& report_;
+  std::string named_;
+  std::size_t share_ = 0;  // episodes listed of a variant
+  std::vector<PairingValues> values_;
+  std::vector<std::vector<Event>> places_;
+  std::map<std::pair<std::string, std::uint64_t>, std::string> what_;
+};
+
+// A floor that each episode draws anew has no one map.
+bool HasOneMap(const Scenario& scenario) {
+  const ConfigNode* generate = scenario.site_node.Find("generate");
+  if (generate == nullptr) return true;
+  if (generate->Find("seed") == nullptr) return false;
+  return std::ranges::none_of(scenario.randomise.entries, [](const auto& entry) {
+    return entry.first.starts_with("site.generate");
+  });
+}
+
+// What the variant changes of the site: the resolved scenario states the first robot's tracker,
+// with which another variant's robot may not read.
+Variant SiteOf(const ScenarioFile& file, const std::string& name) {
+  Variant changes;
+  for (const Variant& variant : file.variants())
+    if (variant.name == name)
+      for (const auto& [key, value] : variant.overrides)
+        if (key == "site" || key.starts_with("site.")) changes.overrides.emplace_back(key, value);
+  return changes;
+}
+
+std::string PictureFile(const std::string& variant, std::size_t number) {
+  std::string name = variant;
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) &&
+        std::string_view("._=+,-").find(c) == std::string_view::npos)
+      c = '_';
+  if (name != variant || name.size() > 150) name = name.substr(0, 150) + fmt::format("_{}", number);
+  return "heatmap_failures_" + name + ".png";
+}
+
+void AddPlaces(const fs::path& folder, const Rows& rows, Report& report) {
+  std::optional<ScenarioFile> file;
+  std::string why;
+  try {
+    file.emplace(folder / "scenario.resolved.yaml");
+    report.title = file->Read(std::nullopt).name;
+  } catch (const InputError& e) {
+    why = fmt::format("The map cannot be read any more: {}", e.what());
+  }
+  for (std::size_t v = 0; v < report.variants.size(); ++v) {
+    ReportVariant& variant = report.variants[v];
+    variant.places_note = why;
+    if (!file) continue;
+    try {
+      const Scenario scenario = file->Read(std::nullopt, SiteOf(*file, variant.name));
+      if (!HasOneMap(scenario)) {
+        variant.places_note = "Each episode draws a floor of its own: there is no one map to show.";
+        continue;
+      }
+      const fs::path png = folder / PictureFile(variant.name, v + 1);
+      WriteFailurePlaces(scenario.site.map, variant.name + " on " + scenario.site.map.name,
+                         rows.places()[v], nullptr, png);
+      variant.places_png = ReadInputFile(png, kMostBytes);
+      if (!scenario.randomise.IsNull())
+        variant.places_note = "the map is the site as written, before an episode's draws";
+    } catch (const InputError& e) {
+      variant.places_note = fmt::format("The map cannot be read any more: {}", e.what());
+    }
+  }
+}
+
+}  // namespace
+
+Report GatherReport(const fs::path& folder, const std::string& named) {
+  Report report;
+  ReadSummary(folder / "summary.json", report);
+  const fs::path database = folder / "campaign.sqlite";
+  if (const std::string why = WhyUnreadable(database, std::numeric_limits<std::uintmax_t>::max());
+      !why.empty())
+    throw InputError({database.string(), 0}, "", "", why + ": not the folder of a `campaign`");
+  const CampaignStore store = CampaignStore::Open(database, false);
+  if (store.about().id != report.campaign)
+    throw InputError({(folder / "summary.json").string(), 0}, "campaign", report.campaign,
+                     "is another campaign than campaign.sqlite's, " + store.about().id);
+  Rows rows(report, named);
+  try {
+    for (const ReportVariant& variant : report.variants)
+      rows.Read(store, variant, folder / "summary.json");
+  } catch (const nlohmann::json::exception& e) {
+    throw InputError({database.string(), 0}, "", "",
+                     fmt::format("holds events that cannot be read ({})", e.what()));
+  }
+  for (std::size_t v = 1; v < report.variants.size(); ++v)
+    report.pairs.push_back(ComparePair(report.variants[0].name, rows.values()[0],
+                                       report.variants[v].name, rows.values()[v],
+                                       report.confidence));
+  report.title = "campaign " + report.campaign;
+  AddPlaces(folder, rows, report);
+  AddFilms(
+      folder, [&](const std::string& v, std::uint64_t id) { return rows.WhatOf(v, id); }, report);
+  report.settings = ReadInputFile(folder / "scenario.resolved.yaml", kMostBytes);
+  return report;
+}
+
+}  // namespace floorproof

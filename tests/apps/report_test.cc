@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// `floorproof report` on a recorded campaign: the page says what the summary says.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "env/run/campaign_about.h"
+#include "env/run/campaign_store.h"
+#include "env/run/campaign_summary.h"
+#include "env/run/file_output.h"
+#include "tests/render/html_page.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string Slurp(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {(std::istreambuf_iterator<char>(in)), {}};
+}
+
+constexpr const char* kScenario = R"(scenario: 1
+name: '<script>"floor" & co'
+site:
+  site: 1
+  grid:
+    cell_m: 0.5
+    rows: |
+      ######
+      #....#
+      #....#
+      ######
+  start: {x_m: 0.9, y_m: 0.9, yaw_deg: 0}
+robot: beluga
+plan: {planner: boustrophedon}
+matrix:
+  robot: [beluga, htetro]
+)";
+
+// Four of ten of the second variant's episodes stuck, at a hazard with a hostile name; one timeout.
+EpisodeRow Row(const std::string& variant, std::uint64_t id) {
+  EpisodeRow row;
+  row.variant = variant;
+  row.episode = id;
+  row.outcome = "success";
+  for (auto& metric : row.metrics) metric = 1.0 + 0.01 * static_cast<double>(id);
+  if (variant == "robot=beluga") return row;
+  if (id < 4) {
+    row.outcome = "failure";
+    row.events_of[static_cast<std::size_t>(FailureMode::kStuck)] = 1;
+    row.events =
+        R"([{"mode":"stuck","kind":"held","t_s":12.34,"x_m":1.5,"y_m":0.75,"hazard":"<b>'sill'&"}])";
+  } else if (id == 4) {
+    row.outcome = "timeout";
+    row.message = "out of time";
+  }
+  return row;
+}
+
+class ReportCommand : public ::testing::Test {
+ protected:
+  ReportCommand() {
+    folder_ =
+        fs::path(::testing::TempDir()) /
+        (std::string("report.") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "out");
+    std::ofstream(folder_ / "s.yaml") << kScenario;
+    const ScenarioFile file(folder_ / "s.yaml");
+    const Scenario base = file.Read(std::nullopt);
+    CampaignStore store =
+        CampaignStore::Create(folder_ / "out/campaign.sqlite", DescribeCampaign(file));
+    for (const Variant& variant : file.variants()) {
+      std::vector<EpisodeRow> rows;
+      for (std::uint64_t id = 0; id < 10; ++id) rows.push_back(Row(variant.name, id));
+      store.Add(rows);
+    }
+    WriteFileWhole(folder_ / "out/scenario.resolved.yaml", ResolvedScenario(base, folder_ / "out"));
+    WriteSummaryFiles(store, file.variants(), {}, base.name, folder_ / "out");
+  }
+  ~ReportCommand() override { fs::remove_all(folder_); }
+
+  int Run() const {
+    const std::string command =
+        std::string("cd '") + folder_.string() + "' && " FP_PROGRAM + " report out >said 2>&1";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  std::string Page() const { return Slurp(folder_ / "out/report.html"); }
+  std::string Said() const { return Slurp(folder_ / "said"); }
+
+  fs::path folder_;
+};
+
+TEST_F(ReportCommand, PageSaysWhatTheSummarySays) {
+  ASSERT_EQ(Run(), 0) << Said();
+  const std::string page = Page();
+  EXPECT_EQ(WhyUnbalanced(page), "");
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, Not(HasSubstr("<b>'sill'")));
+  EXPECT_THAT(page, HasSubstr("&lt;b&gt;&#39;sill&#39;&amp;"));
+  const auto summary = nlohmann::json::parse(Slurp(folder_ / "out/summary.json"));
+  for (const auto& variant : summary["variants"])
+    for (const auto& [mode, rate] : variant["failures"].items())
+      for (const char* bound : {"lower", "upper"}) {
+        char text[40];
+        std::snprintf(text, sizeof text, "%.3g", 100 * rate[bound].get<double>());
+        EXPECT_THAT(page, HasSubstr(text)) << mode << " " << bound;
+      }
+  EXPECT_THAT(page, HasSubstr("4 of 10"));
+  EXPECT_THAT(page, HasSubstr(summary["campaign"].get<std::string>()));
+}
+
+TEST_F(ReportCommand, ListsEachFailingEpisodeWithItsCommand) {
+  ASSERT_EQ(Run(), 0) << Said();
+  const std::string page = Page();
+  for (int id = 0; id <= 4; ++id)
+    EXPECT_THAT(page, HasSubstr("floorproof replay out --episode " + std::to_string(id) +
+                                " --variant robot=htetro --video"));
+  EXPECT_THAT(page, Not(HasSubstr("--variant robot=beluga")));
+  EXPECT_THAT(page, HasSubstr("stuck (held)"));
+  EXPECT_THAT(page, HasSubstr("x 1.50, y 0.75 m"));
+  EXPECT_THAT(page, HasSubstr("out of time"));
+}
+
+TEST_F(ReportCommand, ComparesWithTheFirstVariantOverSharedEpisodes) {
+  ASSERT_EQ(Run(), 0) << Said();
+  // 4 of 10 against 0 of 10: all four discordant pairs on one side, p = 2 / 2^4.
+  EXPECT_THAT(Page(), HasSubstr("rates +40 percentage points"));
+  EXPECT_THAT(Page(), HasSubstr("McNemar p = 0.125"));
+  EXPECT_THAT(Page(), HasSubstr("5 where both succeed"));
+}
+
+TEST_F(ReportCommand, SamePageAgainAndNothingElseChanged) {
+  ASSERT_EQ(Run(), 0) << Said();
+  const std::string page = Page(), database = Slurp(folder_ / "out/campaign.sqlite");
+  EXPECT_TRUE(fs::exists(folder_ / "out/heatmap_failures_robot=htetro.png"));
+  ASSERT_EQ(Run(), 0);
+  EXPECT_TRUE(Page() == page);
+  EXPECT_TRUE(Slurp(folder_ / "out/campaign.sqlite") == database);
+}
+
+TEST_F(ReportCommand, RefusesWhatDoesNotBelongTogether) {
+  const fs::path file = folder_ / "out/summary.json";
+  const std::string good = Slurp(file);
+  auto json = nlohmann::ordered_json::parse(good);
+  json["variants"]["robot=beluga"]["n"] = 9;
+  std::ofstream(file) << json.dump();
+  EXPECT_EQ(Run(), 2);
+  EXPECT_THAT(Said(), HasSubstr("--resume"));
+  for (const char* bad : {"", "{", "[]", "{\"campaign\": 3}"}) {
+    std::ofstream(file) << bad;
+    EXPECT_EQ(Run(), 2) << bad;
+    EXPECT_THAT(Said(), HasSubstr("summary.json"));
+  }
+  fs::remove(file);
+  EXPECT_EQ(Run(), 2);
+  std::ofstream(file) << good;
+  fs::remove(folder_ / "out/campaign.sqlite");
+  EXPECT_EQ(Run(), 2);
+  EXPECT_FALSE(fs::exists(folder_ / "out/report.html"));
+}
+
+}  // namespace
+}  // namespace floorproof
