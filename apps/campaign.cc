@@ -152,8 +152,9 @@ int RunIt(const Options& options, const Globals& globals) {
   if (options.seed >= 0) overrides.push_back({"seed", std::to_string(options.seed)});
   CampaignOptions campaign;
   campaign.fail_fast = options.fail_fast;
-  campaign.jobs =
-      options.jobs > 0 ? options.jobs : static_cast<int>(std::thread::hardware_concurrency());
+  campaign.jobs = options.jobs > 0
+                      ? options.jobs
+                      : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   if (options.time_limit_s > 0) campaign.time_limit_s = options.time_limit_s;
   ReadEpisodes(options, campaign);
 
@@ -167,6 +168,7 @@ int RunIt(const Options& options, const Globals& globals) {
 
   const HoldInterrupts hold;
   CampaignStore store = OpenStore(folder, about, options.resume);
+  SayWhenInterrupted(folder.string() + " holds every episode saved so far; --resume goes on");
   WriteFileWhole(folder / "scenario.resolved.yaml", ResolvedScenario(base, folder));
   Progress progress(globals, variants);
   const CampaignRun run = RunCampaign(file, store, campaign, &progress);
@@ -182,10 +184,7 @@ int RunIt(const Options& options, const Globals& globals) {
   for (std::size_t v = 0; v < gate.size(); ++v)
     globals.Say(
         fmt::format("gate{}: {}", gate.size() > 1 ? " " + variants[v].name : "", gate[v].Text()));
-  if (run.end == CampaignEnd::kInterrupted) {
-    SayWhenInterrupted(folder.string() + " holds every finished episode; --resume goes on");
-    EndInterrupted();
-  }
+  if (run.end == CampaignEnd::kInterrupted) EndInterrupted();
   if (!options.no_films) FilmFirstFailures(file, store, folder, globals);
   return StatusOf(run, gate);
 }
