@@ -183,7 +183,9 @@ CampaignStore CampaignStore::Open(const fs::path& file, bool write) {
   CampaignStore writable = open(SQLITE_OPEN_READWRITE);
   writable.about_ = store.about_;
   sqlite3_close(std::exchange(store.db_, nullptr));
-  writable.Run("PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL");
+  // In this order: who owns the shared index when it closes also removes it.
+  writable.Run("PRAGMA journal_mode=WAL; SELECT count(*) FROM about");
+  writable.Run("PRAGMA locking_mode=EXCLUSIVE; PRAGMA synchronous=NORMAL");
   writable.Run("BEGIN IMMEDIATE; COMMIT");  // takes the lock now, or says who has it
   return writable;
 }
