@@ -165,7 +165,7 @@ int RunIt(const Options& options, const Globals& globals) {
   SayWarnings(base, globals);
   const CampaignAbout about = DescribeCampaign(file);
   const std::vector<Variant>& variants = file.variants();
-  CampaignGate::Read(base.gate, campaign.end);  // refused before there is a folder
+  CampaignGate::Read(base.gate, options.n);  // refused before there is a folder
 
   const HoldInterrupts hold;
   CampaignStore store = OpenStore(folder, about, options.resume);
