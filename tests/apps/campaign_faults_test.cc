@@ -58,14 +58,14 @@ class CampaignFaults : public CampaignProgram {
 };
 
 TEST_F(CampaignFaults, TheParentKilledAtTwentyMoments) {
-  constexpr int kEpisodes = 150;
+  constexpr int kEpisodes = 80;
   MakeWhole(kEpisodes);
   long before = 0;
   int killed = 0;
   for (int i = 0; i < 20; ++i) {
     Program dut(Command(kEpisodes), folder_);
     if (i % 4 != 0) dut.AWorker();  // else while it starts, or makes its database
-    usleep(Moment(i % 4 == 0 ? 60 : 900));
+    usleep(Moment(i % 4 == 0 ? 60 : 700));
     const std::vector<pid_t> workers = dut.Workers();
     dut.Send(SIGKILL);
     killed += dut.Wait() == -SIGKILL;
@@ -87,7 +87,7 @@ TEST_F(CampaignFaults, TheParentKilledAtTwentyMoments) {
 
 // One kill a process: killed twice, an episode is reported as crashed.
 TEST_F(CampaignFaults, AWorkerKilledAtTwentyMoments) {
-  constexpr int kRuns = 20, kMore = 5;
+  constexpr int kRuns = 20, kMore = 3;
   MakeWhole(kRuns * kMore);
   for (int i = 1; i <= kRuns; ++i) {
     Program dut(Command(i * kMore), folder_);
@@ -101,7 +101,7 @@ TEST_F(CampaignFaults, AWorkerKilledAtTwentyMoments) {
 }
 
 TEST_F(CampaignFaults, CtrlCAtTenMoments) {
-  constexpr int kEpisodes = 100;
+  constexpr int kEpisodes = 60;
   MakeWhole(kEpisodes);
   long before = 0;
   for (int i = 0; i < 10; ++i) {
@@ -143,7 +143,7 @@ TEST_F(CampaignFaults, AnEpisodeThatAbortsItsProcessTwice) {
 }
 
 TEST_F(CampaignFaults, AFileThatMayNotGrow) {
-  constexpr int kEpisodes = 120;
+  constexpr int kEpisodes = 80;
   MakeWhole(kEpisodes);
   {
     Program dut(Command(kEpisodes), folder_, [] {
@@ -189,7 +189,7 @@ class OwnDisk {
 TEST_F(CampaignFaults, AFullDisk) {
   const OwnDisk disk(folder_ / "o", "size=128k");
   if (!disk.mounted()) GTEST_SKIP() << "no disk can be mounted here: " << disk.why();
-  constexpr int kEpisodes = 120;
+  constexpr int kEpisodes = 80;
   MakeWhole(kEpisodes);
   ExpectOneLine(Run(Command(kEpisodes)), 2, "cannot be written: ");
   const long first = ExpectRowsOfTheWhole();
