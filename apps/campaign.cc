@@ -104,8 +104,9 @@ int RunIt(const Options& options, const Globals& globals) {
   if (options.seed >= 0) overrides.push_back({"seed", std::to_string(options.seed)});
   CampaignOptions campaign;
   campaign.fail_fast = options.fail_fast;
-  campaign.jobs =
-      options.jobs > 0 ? options.jobs : static_cast<int>(std::thread::hardware_concurrency());
+  campaign.jobs = options.jobs > 0
+                      ? options.jobs
+                      : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   if (options.time_limit_s > 0) campaign.time_limit_s = options.time_limit_s;
   ReadEpisodes(options, campaign);
 
@@ -116,18 +117,17 @@ int RunIt(const Options& options, const Globals& globals) {
   SayWarnings(base, globals);
   const CampaignAbout about = DescribeCampaign(file);
   const std::vector<Variant>& variants = file.variants();
+  CampaignGate::Read(base.gate, options.n);  // refused before there is a folder
 
   const HoldInterrupts hold;
   CampaignStore store = OpenStore(folder, about, options.resume);
+  SayWhenInterrupted(folder.string() + " holds every episode saved so far; --resume goes on");
   WriteFileWhole(folder / "scenario.resolved.yaml", ResolvedScenario(base, folder));
   Progress progress(globals, variants);
   const CampaignRun run = RunCampaign(file, store, campaign, &progress);
   progress.Clear();
   const int status = SayResults(file, store, run, folder, globals);
-  if (run.end == CampaignEnd::kInterrupted) {
-    SayWhenInterrupted(folder.string() + " holds every finished episode; --resume goes on");
-    EndInterrupted();
-  }
+  if (run.end == CampaignEnd::kInterrupted) EndInterrupted();
   if (!options.no_films) FilmFirstFailures(file, store, folder, globals);
   return status;
 }

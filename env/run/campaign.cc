@@ -14,6 +14,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kBatch = 256;  // rows, or what half a second brings
 constexpr double kBatch_s = 0.5;
+constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
 
 double Since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -50,6 +51,8 @@ class Tracker {
 
   bool decided() const { return progress_.gate && progress_.gate->decided(); }
   const VariantProgress& progress() const { return progress_; }
+  // The prefix's first that failed: one beyond it may be there by chance alone.
+  std::optional<std::uint64_t> first_failure() const { return first_failure_; }
 
  private:
   void Take(const Brief& brief) {
@@ -63,11 +66,13 @@ class Tracker {
       any |= brief.failed[m];
     }
     progress_.any_failure += any;
+    if (any && !first_failure_) first_failure_ = progress_.prefix - 1;
     if (progress_.gate) progress_.gate->Add(brief.gated);
   }
 
   const std::optional<CampaignGate>& gate_;
   VariantProgress progress_;
+  std::optional<std::uint64_t> first_failure_;
   std::map<std::uint64_t, Brief> early_;  // done, beyond the prefix
 };
 
@@ -76,7 +81,12 @@ class CampaignDrive {
  public:
   CampaignDrive(const ScenarioFile& file, CampaignStore& store, const CampaignOptions& options,
                 const std::optional<CampaignGate>& gate, CampaignObserver* observer)
-      : file_(file), store_(store), options_(options), observer_(observer), maker_(file) {
+      : file_(file),
+        store_(store),
+        options_(options),
+        gate_(gate),
+        observer_(observer),
+        maker_(file) {
     const auto& variants = file.variants();
     total_ = variants.size() * (options.end - options.begin);
     for (const Variant& variant : variants) {
@@ -93,8 +103,7 @@ class CampaignDrive {
       store_.ForEach(file_.variants()[v].name, [&](const EpisodeRow& row) {
         if (row.episode < options_.begin) return;
         ++done_;
-        trackers_[v].Add(row);
-        Judge(row);
+        Judge(v, row);
       });
     }
     PoolCallbacks callbacks;
@@ -139,8 +148,7 @@ class CampaignDrive {
     batch_.push_back(row);
     ++done_;
     ++done_now_;
-    trackers_[v].Add(row);
-    Judge(row);
+    Judge(v, row);
     if (batch_.size() >= kBatch) Flush();
   }
 
@@ -154,8 +162,10 @@ class CampaignDrive {
   }
 
   // Whether this row ends the campaign, once all before it are done.
-  void Judge(const EpisodeRow& row) {
-    if (options_.fail_fast && row.any_failure()) fail_at_ = std::min(fail_at_, row.episode);
+  void Judge(std::size_t v, const EpisodeRow& row) {
+    trackers_[v].Add(row);
+    if (!options_.fail_fast) return;
+    fail_at_ = std::min(fail_at_, trackers_[v].first_failure().value_or(kNone));
   }
 
   // Asked between answers.
@@ -169,7 +179,8 @@ class CampaignDrive {
       ended_ = CampaignEnd::kTimeLimit;
     const auto all = [&](auto&& is) { return std::ranges::all_of(trackers_, is); };
     if (all([](const Tracker& t) { return t.decided(); })) ended_ = CampaignEnd::kGateDecided;
-    if (all([&](const Tracker& t) { return t.progress().prefix > fail_at_; }))
+    if (fail_at_ != kNone &&
+        all([&](const Tracker& t) { return t.decided() || t.progress().prefix > fail_at_; }))
       ended_ = CampaignEnd::kFailFast;
     return ended_.has_value();
   }
@@ -191,11 +202,15 @@ class CampaignDrive {
     CampaignRun run;
     if (ended_) run.end = *ended_;
     for (std::size_t v = 0; v < trackers_.size(); ++v) {
-      const VariantProgress& progress = trackers_[v].progress();
-      run.variants.push_back(progress);
-      // What lies beyond is kept, and not judged: early arrivals would bias it.
-      const std::uint64_t from = run.end == CampaignEnd::kFailFast ? fail_at_ + 1 : progress.prefix;
-      store_.SetExtraFrom(file_.variants()[v].name, from);
+      // What lies beyond is kept and not judged: early arrivals would bias it.
+      std::uint64_t from = trackers_[v].progress().prefix;
+      if (run.end == CampaignEnd::kFailFast) from = std::min(from, fail_at_ + 1);
+      const std::string& name = file_.variants()[v].name;
+      store_.SetExtraFrom(name, from);
+      // What is reported is what stays: a variant may have been ahead of the one that failed.
+      Tracker kept(options_.begin, gate_);
+      store_.ForEach(name, [&](const EpisodeRow& row) { kept.Add(row); });
+      run.variants.push_back(kept.progress());
     }
     if (observer_) observer_->OnProgress(Progress());
     return run;
@@ -204,6 +219,7 @@ class CampaignDrive {
   const ScenarioFile& file_;
   CampaignStore& store_;
   const CampaignOptions& options_;
+  const std::optional<CampaignGate>& gate_;
   CampaignObserver* observer_;
   EpisodeMaker maker_;
   std::vector<Tracker> trackers_;
@@ -212,7 +228,7 @@ class CampaignDrive {
   std::vector<VariantProgress> shown_;
   Job job_ = 0;
   std::uint64_t done_ = 0, done_now_ = 0, total_ = 0;
-  std::uint64_t fail_at_ = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t fail_at_ = kNone;
   std::optional<CampaignEnd> ended_;
   Clock::time_point start_ = Clock::now(), flushed_ = Clock::now();
 };
@@ -222,8 +238,8 @@ class CampaignDrive {
 CampaignRun RunCampaign(const ScenarioFile& file, CampaignStore& store,
                         const CampaignOptions& options, CampaignObserver* observer) {
   const Scenario base = file.Read(std::nullopt);
-  auto gate = CampaignGate::Read(base.gate, options.end);
-  if (options.shard) gate.reset();
+  // A shard may well be too short to pass by itself.
+  const auto gate = options.shard ? std::nullopt : CampaignGate::Read(base.gate, options.end);
   return CampaignDrive(file, store, options, gate, observer).Run();
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "env/run/campaign_about.h"
 
+#include <algorithm>
 #include <map>
+#include <vector>
 
 #include "env/run/file_output.h"
 #include "env/run/records.h"
@@ -43,18 +45,25 @@ std::string Difference(const ConfigNode& a, const ConfigNode& b, const std::stri
 CampaignAbout DescribeCampaign(const ScenarioFile& file) {
   const Scenario base = file.Read(std::nullopt);
   ConfigNode resolved = ParseYaml(ResolvedScenario(base, base.file.parent_path()), "scenario");
-  // By name, not by path: shards are driven anywhere.
-  std::map<std::string, std::string> hashes;
+  // By name, not by path: shards are driven anywhere. Two files may have one name.
+  std::map<std::string, std::vector<std::string>> hashes;
   const auto add = [&](const Scenario& s) {
-    for (const auto& read : FilesRead(s))
-      if (read != base.site_file)  // it stands in the text
-        hashes[read.filename().string()] = Sha256OfFile(read);
+    for (const auto& read : FilesRead(s)) {
+      if (read == base.site_file) continue;  // it stands in the text
+      std::vector<std::string>& known = hashes[read.filename().string()];
+      std::string hash = Sha256OfFile(read);
+      if (std::ranges::find(known, hash) == known.end()) known.push_back(std::move(hash));
+    }
   };
   add(base);
   for (const Variant& variant : file.variants()) add(file.Read(std::nullopt, variant));
   resolved.Remove("files");
   ConfigNode& files = resolved.Add("files", ConfigNode::Map());
-  for (const auto& [name, hash] : hashes) files.Add(name, ConfigNode::Scalar(hash, true));
+  for (const auto& [name, known] : hashes) {
+    std::string all;
+    for (const std::string& hash : known) all += (all.empty() ? "" : " ") + hash;
+    files.Add(name, ConfigNode::Scalar(all, true));
+  }
 
   CampaignAbout about;
   about.scenario = WriteYaml(resolved);
@@ -69,6 +78,7 @@ void RequireSame(const CampaignAbout& there, const CampaignAbout& now,
   const auto parse = [](const std::string& text) { return ParseYaml(text, "campaign"); };
   std::string difference = Difference(parse(there.versions), parse(now.versions), "version");
   if (difference.empty()) difference = Difference(parse(there.scenario), parse(now.scenario), "");
+  if (difference.empty()) difference = "its keys stand in another order";
   throw InputError({where.string(), 0}, "", "", "holds another campaign: " + difference);
 }
 

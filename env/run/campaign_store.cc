@@ -128,13 +128,35 @@ void CampaignStore::Run(const std::string& sql) {
 }
 
 CampaignStore CampaignStore::Create(const fs::path& file, const CampaignAbout& about) {
+  // Under another name until it is whole: a kill in between must not leave a file that is refused.
+  const fs::path part = file.string() + ".part";
+  const auto remove = [](const fs::path& path, const char* end) {
+    std::error_code ignored;
+    fs::remove(path.string() + end, ignored);
+  };
+  const auto remove_part = [&] { remove(part, ""), remove(part, "-journal"); };
+  remove_part();
+  try {
+    Fill(file, part, about);
+    // A journal that lost its database must not be taken for the new one's.
+    for (const char* end : {"-wal", "-shm", "-journal"}) remove(file, end);
+    fs::rename(part, file);
+  } catch (const fs::filesystem_error& e) {
+    remove_part();
+    throw InputError({file.string(), 0}, "", "", "cannot be written: " + e.code().message());
+  } catch (...) {
+    remove_part();
+    throw;
+  }
+  return Open(file, true);
+}
+
+void CampaignStore::Fill(const fs::path& file, const fs::path& part, const CampaignAbout& about) {
   sqlite3* db = nullptr;
   const int code =
-      sqlite3_open_v2(file.c_str(), &db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
+      sqlite3_open_v2(part.c_str(), &db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
   CampaignStore store(file, db);
   if (code != SQLITE_OK) store.Refuse(code);
-  store.about_ = about;
-  store.Run("PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; PRAGMA locking_mode=EXCLUSIVE");
   store.Run("BEGIN");
   store.Run("CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID");
   for (const char* table : {"episode", "extra"})
@@ -157,7 +179,6 @@ CampaignStore CampaignStore::Create(const fs::path& file, const CampaignAbout& a
     }
   }
   store.Run("COMMIT");
-  return store;
 }
 
 CampaignStore CampaignStore::Open(const fs::path& file, bool write) {
@@ -181,6 +202,8 @@ CampaignStore CampaignStore::Open(const fs::path& file, bool write) {
   CampaignStore writable = open(SQLITE_OPEN_READWRITE);
   writable.about_ = store.about_;
   sqlite3_close(std::exchange(store.db_, nullptr));
+  // In this order: who owns the shared index when it closes also removes it.
+  writable.Run("PRAGMA journal_mode=WAL; SELECT count(*) FROM about");
   writable.Run("PRAGMA locking_mode=EXCLUSIVE; PRAGMA synchronous=NORMAL");
   writable.Run("BEGIN IMMEDIATE; COMMIT");  // takes the lock now, or says who has it
   return writable;

@@ -56,6 +56,9 @@ class CampaignStore {
  private:
   struct Statement;
   CampaignStore(const std::filesystem::path& file, sqlite3* db);
+  // Makes the tables in `part`; errors name `file`.
+  static void Fill(const std::filesystem::path& file, const std::filesystem::path& part,
+                   const CampaignAbout& about);
   void Run(const std::string& sql);
   [[noreturn]] void Refuse(int code) const;
   void ReadAbout();

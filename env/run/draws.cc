@@ -8,8 +8,8 @@
 namespace floorproof {
 namespace {
 
-constexpr int kMostRedraws = 1000;
-constexpr double kLeastMass = 0.01;  // of a bounded normal: else redrawing would go on for ever
+constexpr double kLeastMass = 0.01;   // of a bounded normal: else redrawing would go on for ever
+constexpr int kMostRedraws = 10'000;  // 0.99^10000 = 2e-44 that none of them keeps the bounds
 
 // Keys that say what is done with an episode rather than what happens in it.
 const std::vector<std::string> kFixed = {"scenario", "name",  "seed",  "randomise", "matrix",

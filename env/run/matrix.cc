@@ -11,6 +11,10 @@ namespace {
 
 constexpr std::size_t kMostVariants = 10'000;
 
+// What all variants share, their draws above all, and what is read before they are made.
+const std::vector<std::string> kShared = {"scenario", "name", "seed", "randomise",
+                                          "matrix",   "gate", "files"};
+
 std::string LastPart(const std::string& key_path) {
   return key_path.substr(key_path.rfind('.') + 1);
 }
@@ -42,6 +46,9 @@ std::vector<Variant> Axis(const std::string& key, const ConfigNode& list) {
       throw InputError(item.mark, path, "",
                        "must be a value, or a map with a label and keys that change together");
     }
+    for (const auto& [name, value] : variant.overrides)
+      if (std::ranges::find(kShared, name.substr(0, name.find('.'))) != kShared.end())
+        throw InputError(value.mark, path, name, "this key cannot differ between variants");
     if (variant.name.find_first_of(",:/\n") != std::string::npos)
       throw InputError(
           item.mark, path, variant.name,

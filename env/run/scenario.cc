@@ -274,18 +274,22 @@ ScenarioFile::ScenarioFile(const fs::path& file, const std::vector<Override>& ov
 
   randomised_ = ReadRandomise(root_.Find("randomise"));
   std::erase_if(randomised_, [&](const RandomisedKey& key) {
-    return std::ranges::any_of(overrides_, [&](const auto& o) { return o.first == key.key_path; });
+    return std::ranges::any_of(overrides_, [&](const auto& o) {
+      return Replaces(o.first, key.key_path) || Replaces(key.key_path, o.first);
+    });
   });
   variants_ = ReadMatrix(root_.Find("matrix"));
-  for (const auto& [key, value] : variants_.front().overrides) {
-    for (const auto& o : overrides_)
-      if (Replaces(key, o.first) || Replaces(o.first, key))
-        throw InputError(o.second.mark, o.first, "", "the scenario's matrix sets " + key);
-    for (const RandomisedKey& r : randomised_)  // a part of what a variant sets may be drawn
-      if (Replaces(r.key_path, key))
-        throw InputError(r.mark, "randomise." + r.key_path, "",
-                         "the scenario's matrix sets " + key);
-  }
+  // Of all variants: labelled ones need not change the same keys.
+  for (const Variant& variant : variants_)
+    for (const auto& [key, value] : variant.overrides) {
+      for (const auto& o : overrides_)
+        if (Replaces(key, o.first) || Replaces(o.first, key))
+          throw InputError(o.second.mark, o.first, "", "the scenario's matrix sets " + key);
+      for (const RandomisedKey& r : randomised_)  // a part of what a variant sets may be drawn
+        if (Replaces(r.key_path, key))
+          throw InputError(r.mark, "randomise." + r.key_path, "",
+                           "the scenario's matrix sets " + key);
+    }
 }
 
 void ScenarioFile::ReadSitePart(const ConfigNode& root, const Variant& changes, bool episode,

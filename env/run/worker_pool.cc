@@ -51,8 +51,10 @@ std::string HowItEnded(int status) {
   return "ended with status " + std::to_string(WEXITSTATUS(status));
 }
 
-// In the child: answers jobs until the parent closes the pipe. Never returns.
-[[noreturn]] void Serve(int jobs, int answers, const std::function<std::string(Job)>& work) {
+// In the child: answers jobs until the parent closes the pipe. Never returns; what `work` throws
+// ends the process here, before it could unwind into the parent's own code.
+[[noreturn]] void Serve(int jobs, int answers,
+                        const std::function<std::string(Job)>& work) noexcept {
   Job job = 0;
   while (ReadAll(jobs, &job, sizeof job)) {
     const std::string answer = work(job);
@@ -170,11 +172,15 @@ class Pool {
     close(worker.answers);
     int status = 0;
     // One that died by itself is a zombie by now, or about to be: its answers' end was closed.
-    for (int i = 0; i < 20 && worker.busy == false && waitpid(worker.pid, &status, WNOHANG) == 0;
-         ++i)
-      usleep(1000);
-    kill(worker.pid, signal_number);
-    while (waitpid(worker.pid, &status, 0) < 0 && errno == EINTR) {
+    bool reaped = false;
+    for (int i = 0; i < 20 && !worker.busy && !reaped; ++i) {
+      reaped = waitpid(worker.pid, &status, WNOHANG) == worker.pid;
+      if (!reaped) usleep(1000);
+    }
+    if (!reaped) {  // else its number may be another's by now
+      kill(worker.pid, signal_number);
+      while (waitpid(worker.pid, &status, 0) < 0 && errno == EINTR) {
+      }
     }
     worker.pid = -1;
     return HowItEnded(status);

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+// `floorproof campaign`: the same files on any number of workers and after any interruption, exit
+// statuses, what --resume takes and refuses.
+#include "env/run/campaign.h"
+
+#include <nlohmann/json.hpp>
+
+#include "env/run/episode_maker.h"
+#include "tests/apps/campaign_program.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+
+// Half of the episodes fail, so that a few show it.
+constexpr const char* kGate =
+    "gate: {metric: not_success, max_rate: 0.1, mode: sequential, max_n: 200}\n";
+
+class CampaignTest : public CampaignProgram {};
+
+TEST_F(CampaignTest, AnyNumberOfWorkersGivesTheSameFiles) {
+  Write("matrix: {start.yaw_deg: [0, 10]}\n");
+  ASSERT_EQ(Campaign("-n 8 --jobs 1 --out a").status, 0);
+  ASSERT_EQ(Campaign("-n 8 --jobs 2 --out b").status, 0);
+  ASSERT_EQ(Campaign("-n 8 --jobs 5 --out c").status, 0);
+  ExpectSameResults("a", "b");
+  ExpectSameResults("a", "c");
+  EXPECT_EQ(Count("a", "SELECT count(*) FROM episode"), 16);
+  const Json summary = Json::parse(Slurp(folder_ / "a/summary.json"));
+  const Json& variant = summary["variants"]["yaw_deg=0"];
+  EXPECT_EQ(variant["n"], 8);
+  EXPECT_EQ(variant["outcomes"]["success"].get<int>() + variant["outcomes"]["failure"].get<int>() +
+                variant["outcomes"]["timeout"].get<int>(),
+            8);
+  // Some do and some do not, or the comparisons above would compare little.
+  EXPECT_GT(variant["outcomes"]["success"], 0);
+  EXPECT_GT(variant["outcomes"]["failure"], 0);
+}
+
+TEST_F(CampaignTest, AnotherSeedIsAnotherCampaign) {
+  ASSERT_EQ(Campaign("-n 2 --seed 1 --out a").status, 0);
+  ASSERT_EQ(Campaign("-n 2 --seed 2 --out b").status, 0);
+  EXPECT_NE(Select("a", "SELECT drawn FROM episode"), Select("b", "SELECT drawn FROM episode"));
+}
+
+TEST_F(CampaignTest, RunIsEpisodeNought) {
+  for (const char* seed : {"0", "5"}) {
+    const std::string out = std::string("c") + seed, run = std::string("r") + seed;
+    ASSERT_EQ(Campaign("-n 2 --seed " + std::string(seed) + " --out " + out).status, 0);
+    EXPECT_LE(Run("run s.yaml --seed " + std::string(seed) + " --out " + run).status, 1);
+    const Json result = Json::parse(Slurp(folder_ / run / "result.json"));
+    const CampaignStore store =
+        CampaignStore::Open(folder_ / out / "campaign.sqlite", /*write=*/false);
+    bool seen = false;
+    store.ForEach("default", [&](const EpisodeRow& row) {
+      if (row.episode != 0) return;
+      seen = true;
+      EXPECT_EQ(result["outcome"], row.outcome);
+      EXPECT_EQ(result["events"].dump(), row.events);
+      for (std::size_t i = 0; i < kMetricColumns.size(); ++i) {
+        const Json& value = result["metrics"][std::string(kMetricColumns[i])];
+        EXPECT_EQ(value.is_null(), !row.metrics[i].has_value()) << kMetricColumns[i];
+        if (row.metrics[i]) {
+          EXPECT_EQ(value.get<double>(), *row.metrics[i]) << kMetricColumns[i];
+        }
+      }
+    });
+    EXPECT_TRUE(seen);
+  }
+}
+
+// What is kept from one episode to the next does not show in it.
+TEST_F(CampaignTest, AnEpisodeIsTheSameAloneAndAmongOthers) {
+  Write("matrix: {plan.overlap: [0, 0.2]}\n");
+  std::string text = Slurp(folder_ / "s.yaml");
+  text.replace(text.find("plan: {file: p.csv}"), 19, "plan: {planner: boustrophedon}\ndrive: none");
+  text.replace(text.find("known: false"), 12, "known: true");
+  std::ofstream(folder_ / "s.yaml") << text;
+  const ScenarioFile file(folder_ / "s.yaml");
+  EpisodeMaker among(file);
+  for (std::uint64_t episode = 0; episode < 3; ++episode)
+    for (const Variant& variant : file.variants())
+      EXPECT_EQ(ToLine(among.Run(variant, episode)),
+                ToLine(EpisodeMaker(file).Run(variant, episode)));
+}
+
+TEST_F(CampaignTest, AKilledCampaignGoesOn) {
+  ASSERT_EQ(Campaign("-n 16 --jobs 2 --out whole").status, 0);
+  const std::string command = "campaign s.yaml --no-films -n 16 --jobs 2 --out killed --resume";
+  int killed = 0;
+  for (const int then_ms : {0, 150, 400}) {
+    Program dut(command, folder_);
+    dut.AWorker();
+    usleep(static_cast<useconds_t>(1000 * then_ms));
+    dut.Send(SIGKILL);
+    killed += dut.Wait() == -SIGKILL;
+  }
+  EXPECT_GE(killed, 1);
+  ASSERT_EQ(Run(command).status, 0);
+  ExpectSameResults("whole", "killed");
+}
+
+TEST_F(CampaignTest, AKilledWorkersEpisodeIsDrivenAgain) {
+  ASSERT_EQ(Campaign("-n 10 --jobs 2 --out whole").status, 0);
+  Program dut("campaign s.yaml --no-films -n 10 --jobs 2 --out killed", folder_);
+  kill(dut.AWorker(), SIGKILL);
+  EXPECT_EQ(dut.Wait(), 0) << dut.Said();
+  ExpectSameResults("whole", "killed");
+}
+
+// Rows beyond the decision are there for certain where a shard, which has no gate, drove them.
+TEST_F(CampaignTest, RowsBeyondAnEarlyDecisionAreKeptOut) {
+  Write(kGate);
+  ASSERT_EQ(Campaign("-n 200 --jobs 1 --out one").status, 1);
+  const long n = Count("one", "SELECT count(*) FROM episode");
+  ASSERT_GT(n, 1);
+  ASSERT_LT(n, 25) << "the gate decides early";
+  EXPECT_EQ(Count("one", "SELECT max(episode) FROM episode"), n - 1);
+
+  ASSERT_EQ(Campaign("-n 200 --jobs 3 --out three").status, 1);
+  ExpectSameResults("one", "three");
+
+  ASSERT_EQ(Campaign("-n 200 --episodes 2:25 --jobs 2 --out shard").status, 0);
+  ASSERT_EQ(Campaign("-n 200 --jobs 1 --out shard --resume").status, 1);
+  ExpectSameResults("one", "shard");
+  EXPECT_EQ(Count("shard", "SELECT count(*) FROM extra"), 25 - n);
+  EXPECT_EQ(Count("shard", "SELECT count(*) FROM timing"), 25);
+
+  // Again: nothing is left to do.
+  ASSERT_EQ(Campaign("-n 200 --jobs 1 --out shard --resume").status, 1);
+  ExpectSameResults("one", "shard");
+}
+
+// One variant decides, the other cannot: what the first has too many is kept out all the same.
+TEST_F(CampaignTest, EachVariantEndsAtItsOwnDecision) {
+  // In the second the draws, not the scenario as written, start in a wall.
+  Write(std::string(kGate) +
+            "matrix:\n  setup:\n  - {label: as_is, start.yaw_deg: 0}\n"
+            "  - {label: blocked, site.grid.rows: \"######\\n##...#\\n##...#\\n######\\n\"}\n",
+        "  start.x_m: {uniform: [0.9, 0.99]}\n");
+  ASSERT_EQ(Campaign("-n 100 --jobs 1 --out one").status, 3);
+  ASSERT_EQ(Campaign("-n 100 --episodes 0:25 --jobs 2 --out two").status, 3);
+  ASSERT_EQ(Campaign("-n 100 --jobs 2 --out two --resume").status, 3);
+  ExpectSameResults("one", "two");
+  EXPECT_LT(Count("one", "SELECT count(*) FROM episode WHERE variant = 'setup=as_is'"), 25);
+  EXPECT_EQ(Count("one", "SELECT count(*) FROM episode WHERE variant = 'setup=blocked'"), 100);
+}
+
+TEST_F(CampaignTest, FailFastEndsAtTheFirstIdThatFails) {
+  Write("gate: {metric: roll_over, max_rate: 0.1}\nmatrix: {start.yaw_deg: [0, 10]}\n");
+  for (const char* jobs : {"1", "2", "5"}) {
+    const std::string out = std::string("j") + jobs;
+    ASSERT_EQ(Campaign("-n 200 --fail-fast --jobs " + std::string(jobs) + " --out " + out).status,
+              4)
+        << "the gate is undecided by then";
+    ExpectSameResults("j1", out);
+  }
+  const std::string failing = "FROM episode WHERE veer_off + stuck + roll_over + bounce_back > 0";
+  EXPECT_EQ(Count("j1", "SELECT min(episode) " + failing),
+            Count("j1", "SELECT max(episode) FROM episode"));
+  // Driven before without: the same is kept.
+  ASSERT_EQ(Campaign("-n 200 --episodes 0:12 --jobs 2 --out more").status, 0);
+  ASSERT_EQ(Campaign("-n 200 --fail-fast --jobs 2 --out more --resume").status, 4);
+  ExpectSameResults("j1", "more");
+  Write("");
+  EXPECT_EQ(Campaign("-n 200 --fail-fast --jobs 2 --out no_gate").status, 1);
+}
+
+TEST_F(CampaignTest, MoreOrFewerEpisodesMayFollow) {
+  ASSERT_EQ(Campaign("-n 3 --out few").status, 0);
+  ASSERT_EQ(Campaign("-n 9 --out many").status, 0);
+  ASSERT_EQ(Campaign("-n 3 --out grown").status, 0);
+  ASSERT_EQ(Campaign("-n 9 --out grown --resume").status, 0);
+  ExpectSameResults("many", "grown");
+  ASSERT_EQ(Campaign("-n 3 --out grown --resume").status, 0);
+  ExpectSameResults("few", "grown");
+  ASSERT_EQ(Campaign("-n 9 --out grown --resume").status, 0);
+  ExpectSameResults("many", "grown");
+}
+
+TEST_F(CampaignTest, AnUsedFolderIsRefused) {
+  ASSERT_EQ(Campaign("-n 1 --out o").status, 0);
+  const std::string bytes = Slurp(folder_ / "o/campaign.sqlite");
+  const std::string summary = Slurp(folder_ / "o/summary.json");
+  const auto expect = [&](const Ended& dut, const char* why) {
+    EXPECT_EQ(dut.status, 2);
+    EXPECT_THAT(dut.said, HasSubstr(why));
+    EXPECT_EQ(std::ranges::count(dut.said, '\n'), 1) << dut.said;
+    EXPECT_TRUE(Slurp(folder_ / "o/campaign.sqlite") == bytes);
+    EXPECT_EQ(Slurp(folder_ / "o/summary.json"), summary);
+  };
+  expect(Campaign("-n 1 --out o"), "holds a campaign: --resume goes on with it");
+  expect(Campaign("-n 1 --out o --resume --set time_limit_s=9"),
+         "holds another campaign: time_limit_s was 12, is 9");
+  expect(Campaign("-n 1 --out o --resume --seed 4"), "seed was 0, is 4");
+  std::ofstream(folder_ / "p.csv") << "x_m,y_m\n1.0,1.0\n1.7,1.0\n";
+  expect(Campaign("-n 1 --out o --resume"), "files.p.csv was ");
+}
+
+TEST_F(CampaignTest, BadInputIsOneLineAndStatusTwo) {
+  std::ofstream(folder_ / "file") << "";
+  for (const auto& [arguments, why] : std::vector<std::pair<std::string, std::string>>{
+           {"", "-n"},
+           {"-n 0", "-n"},
+           {"-n x", "-n"},
+           {"-n 3 --episodes 1", "must be A:B"},
+           {"-n 3 --episodes 1:2x", "must be A:B"},
+           {"-n 3 --episodes 2:2", "holds no episode"},
+           {"-n 3 --episodes 2:4", "must lie within -n"},
+           {"-n 3 --episodes -1:2", "--episodes"},
+           {"-n 3 --jobs 0", "--jobs"},
+           {"-n 3 --time-limit 0", "--time-limit"},
+           {"-n 3 --out file", "a file is in the way"},
+           {"-n 3 --set gate.max_rate=2", "gate.max_rate = 2: must be"},
+           {"-n 3 --set gate.max_rate=0.05", "gate"},
+           {"-n 3 --set randomise.seed.uniform=[1,2]", "cannot differ between episodes"},
+       }) {
+    const Ended dut = Campaign(arguments);
+    EXPECT_EQ(dut.status, 2) << arguments;
+    EXPECT_THAT(dut.said, HasSubstr(why)) << arguments;
+    EXPECT_FALSE(fs::exists(folder_ / "out")) << arguments;
+  }
+}
+
+TEST_F(CampaignTest, ExitStatuses) {
+  EXPECT_EQ(Campaign("-n 2 --out done").status, 0) << "failures without a gate are results";
+  const Ended limited = Campaign("-n 100000 --time-limit 0.4 --out limited");
+  EXPECT_EQ(limited.status, 0);
+  EXPECT_THAT(limited.out, HasSubstr("the time limit is reached (--resume goes on)"));
+  Write(kGate);
+  EXPECT_EQ(Campaign("-n 200 --out failed").status, 1);
+  EXPECT_EQ(Campaign("-n 200 --time-limit 0.01 --out undecided").status, 4);
+  Write("gate: {metric: roll_over, max_rate: 0.6, confidence: 0.9}\n");
+  EXPECT_EQ(Campaign("-n 5 --out passed").status, 0);
+  Write("", "  start.x_m: {uniform: [0.1, 0.2]}\n");
+  EXPECT_EQ(Campaign("-n 5 --out broken").status, 3) << "a start in a wall";
+  EXPECT_EQ(Count("broken", "SELECT count(*) FROM episode WHERE outcome = 'error'"), 5);
+  EXPECT_THAT(Select("broken", "SELECT message FROM episode"), HasSubstr("lies in a wall"));
+}
+
+TEST_F(CampaignTest, CtrlCIsOneLineAndStatus130) {
+  ASSERT_EQ(Campaign("-n 12 --jobs 2 --out whole").status, 0);
+  Program dut("campaign s.yaml --no-films -n 12 --jobs 2 --out o", folder_);
+  dut.AWorker();
+  usleep(200'000);
+  const std::vector<pid_t> workers = dut.Workers();
+  dut.Send(SIGINT);
+  EXPECT_EQ(dut.Wait(), 130);
+  EXPECT_TRUE(dut.Said().starts_with("floorproof: interrupted: ")) << dut.Said();
+  EXPECT_THAT(dut.Said(), HasSubstr("--resume goes on"));
+  EXPECT_EQ(std::ranges::count(dut.Said(), '\n'), 1) << dut.Said();
+  for (const pid_t worker : workers) EXPECT_NE(kill(worker, 0), 0) << "a worker lives on";
+  EXPECT_TRUE(Json::accept(Slurp(folder_ / "o/summary.json")));
+  ASSERT_EQ(Campaign("-n 12 --jobs 2 --out o --resume").status, 0);
+  ExpectSameResults("whole", "o");
+}
+
+}  // namespace
+}  // namespace floorproof

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+// campaign.sqlite: what is put comes back, in whole batches, and nothing else's file is touched.
+#include "env/run/campaign_store.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "env/core/error.h"
+#include "env/run/campaign_about.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::string Slurp(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {(std::istreambuf_iterator<char>(in)), {}};
+}
+
+// Every file of a folder, by name.
+std::map<std::string, std::string> Bytes(const fs::path& folder) {
+  std::map<std::string, std::string> bytes;
+  for (const auto& entry : fs::directory_iterator(folder))
+    bytes[entry.path().filename().string()] = Slurp(entry.path());
+  return bytes;
+}
+
+EpisodeRow Row(std::uint64_t episode, const std::string& variant = "default") {
+  EpisodeRow row;
+  row.variant = variant;
+  row.episode = episode;
+  row.outcome = "failure";
+  row.message = "it's \"quoted\", and\nbroken";
+  row.events_of = {0, 2, 0, 1};
+  for (std::size_t i = 0; i < row.metrics.size(); ++i)
+    if (i % 3 != 1) row.metrics[i] = 0.1 + static_cast<double>(i * episode);
+  row.drawn = R"({"site.floor.friction": 0.30000000000000004})";
+  row.plan = R"({"status": "success"})";
+  row.events = R"([{"mode": "stuck"}])";
+  row.wall_s = 0.25;
+  return row;
+}
+
+bool Same(const EpisodeRow& a, const EpisodeRow& b) {
+  return a.variant == b.variant && a.episode == b.episode && a.outcome == b.outcome &&
+         a.message == b.message && a.events_of == b.events_of && a.metrics == b.metrics &&
+         a.drawn == b.drawn && a.plan == b.plan && a.events == b.events;
+}
+
+class CampaignStoreTest : public ::testing::Test {
+ protected:
+  CampaignStoreTest() {
+    folder_ =
+        fs::path(::testing::TempDir()) /
+        (std::string("store.") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    file_ = folder_ / "campaign.sqlite";
+  }
+  ~CampaignStoreTest() override { fs::remove_all(folder_); }
+
+  // A campaign of `n` episodes, closed.
+  void Make(std::uint64_t n) {
+    CampaignStore store = CampaignStore::Create(file_, about_);
+    std::vector<EpisodeRow> rows;
+    for (std::uint64_t episode = 0; episode < n; ++episode) rows.push_back(Row(episode));
+    store.Add(rows);
+  }
+  std::string WhyRefused(bool write) {
+    try {
+      CampaignStore::Open(file_, write);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  }
+  static std::vector<std::uint64_t> InTable(const CampaignStore& store,
+                                            const std::string& variant = "default") {
+    std::vector<std::uint64_t> episodes;
+    store.ForEach(variant, [&](const EpisodeRow& row) { episodes.push_back(row.episode); });
+    return episodes;
+  }
+
+  fs::path folder_, file_;
+  const CampaignAbout about_ = {"0123456789abcdef", "seed: 1\nsite:\n  name: a\n",
+                                R"({"floorproof": "1"})"};
+};
+
+TEST_F(CampaignStoreTest, RowsComeBackAsPut) {
+  EpisodeRow bare;  // an episode that crashed
+  bare.variant = "robot=b";
+  bare.outcome = "error";
+  {
+    CampaignStore store = CampaignStore::Create(file_, about_);
+    store.Add(std::vector{Row(3), Row(1), bare});
+    store.Add(std::vector{Row(2)});
+    store.Add({});
+    EXPECT_THAT(InTable(store), ElementsAre(1, 2, 3));
+  }
+  for (const bool write : {false, true}) {
+    const CampaignStore store = CampaignStore::Open(file_, write);
+    EXPECT_EQ(store.about().id, about_.id);
+    EXPECT_EQ(store.about().scenario, about_.scenario);
+    EXPECT_EQ(store.about().versions, about_.versions);
+    EXPECT_THAT(store.Episodes("default"), ElementsAre(1, 2, 3));
+    EXPECT_THAT(store.Episodes("robot=b"), ElementsAre(0));
+    EXPECT_THAT(store.Episodes("robot=c"), IsEmpty());
+    store.ForEach("default", [](const EpisodeRow& row) {
+      EXPECT_TRUE(Same(row, Row(row.episode))) << row.episode;
+    });
+    store.ForEach("robot=b", [&](const EpisodeRow& row) { EXPECT_TRUE(Same(row, bare)); });
+  }
+  EXPECT_EQ(Bytes(folder_).size(), 1u) << "closed, it is one file";
+}
+
+TEST_F(CampaignStoreTest, ABatchIsAllOrNothing) {
+  CampaignStore store = CampaignStore::Create(file_, about_);
+  store.Add(std::vector{Row(5)});
+  EXPECT_ANY_THROW(store.Add(std::vector{Row(4), Row(5), Row(6)})) << "5 is there";
+  EXPECT_THAT(store.Episodes("default"), ElementsAre(5));
+  store.Add(std::vector{Row(4), Row(6)});
+  EXPECT_THAT(store.Episodes("default"), ElementsAre(4, 5, 6));
+}
+
+TEST_F(CampaignStoreTest, ExtraRowsGoAndComeBack) {
+  Make(6);
+  CampaignStore store = CampaignStore::Open(file_, true);
+  store.Add(std::vector{Row(0, "other"), Row(5, "other")});
+  store.SetExtraFrom("default", 4);
+  EXPECT_THAT(InTable(store), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(store.Episodes("default"), ElementsAre(0, 1, 2, 3, 4, 5)) << "done all the same";
+  EXPECT_THAT(InTable(store, "other"), ElementsAre(0, 5)) << "another variant's stay";
+  store.SetExtraFrom("default", 2);
+  EXPECT_THAT(InTable(store), ElementsAre(0, 1));
+  store.SetExtraFrom("default", 5);
+  EXPECT_THAT(InTable(store), ElementsAre(0, 1, 2, 3, 4));
+  store.SetExtraFrom("default", 9);
+  EXPECT_THAT(InTable(store), ElementsAre(0, 1, 2, 3, 4, 5));
+  store.ForEach("default", [](const EpisodeRow& row) {
+    EXPECT_TRUE(Same(row, Row(row.episode))) << row.episode;
+  });
+}
+
+TEST_F(CampaignStoreTest, OneAtATimeWrites) {
+  Make(2);
+  const CampaignStore first = CampaignStore::Open(file_, true);
+  EXPECT_THAT(WhyRefused(true), HasSubstr("is in use by another campaign"));
+}
+
+// What a kill while it was made leaves behind is no campaign, and in nobody's way.
+TEST_F(CampaignStoreTest, AHalfMadeFileIsMadeAnew) {
+  std::ofstream(folder_ / "campaign.sqlite.part") << "half of a file";
+  std::ofstream(folder_ / "campaign.sqlite-wal") << "a journal without its database";
+  Make(2);
+  EXPECT_EQ(WhyRefused(true), "");
+  EXPECT_EQ(Bytes(folder_).size(), 1u);
+}
+
+TEST_F(CampaignStoreTest, WhatIsNoCampaignIsRefusedAndLeft) {
+  const auto expect_refused = [&](const char* why) {
+    const auto before = Bytes(folder_);
+    for (const bool write : {false, true}) {
+      const std::string said = WhyRefused(write);
+      EXPECT_THAT(said, HasSubstr(file_.string()));
+      EXPECT_THAT(said, HasSubstr(why));
+      EXPECT_EQ(std::ranges::count(said, '\n'), 0);
+      EXPECT_EQ(Bytes(folder_), before);
+    }
+  };
+  std::ofstream(file_) << "";
+  expect_refused("is not a campaign's database");
+  std::ofstream(file_) << "variant,episode\ndefault,0\n" << std::string(4096, 'x');
+  expect_refused("is damaged");
+  fs::remove(file_);
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(file_.c_str(), &db), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(db, "CREATE TABLE photo (a)", nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(db);
+  expect_refused("is not a campaign's database");
+  fs::remove(file_);
+  fs::create_directory(file_);
+  EXPECT_NE(WhyRefused(true), "");
+}
+
+// Each page overwritten, the file cut at each quarter: either it is refused with one line and left
+// byte for byte, or what it says is read.
+TEST_F(CampaignStoreTest, ADamagedFileIsRefusedAndLeft) {
+  Make(200);
+  const std::string whole = Slurp(file_);
+  constexpr std::size_t kPage = 4096;
+  ASSERT_GT(whole.size(), 8 * kPage);
+  std::vector<std::string> damaged;
+  for (std::size_t page = 0; page < whole.size(); page += kPage) {
+    damaged.push_back(whole);
+    for (std::size_t i = page; i < page + kPage; i += 3) damaged.back()[i] ^= '\x5a';
+  }
+  for (std::size_t quarter = 1; quarter < 4; ++quarter)
+    damaged.push_back(whole.substr(0, whole.size() * quarter / 4));
+  for (const std::string& bytes : damaged) {
+    std::ofstream(file_, std::ios::binary | std::ios::trunc) << bytes;
+    const std::string said = WhyRefused(true);
+    EXPECT_THAT(said, HasSubstr(file_.string()));
+    EXPECT_EQ(std::ranges::count(said, '\n'), 0) << said;
+    EXPECT_TRUE(Slurp(file_) == bytes);
+    for (const char* end : {"-wal", "-shm"}) fs::remove(file_.string() + end);
+  }
+}
+
+std::string WhyOther(const CampaignAbout& there, CampaignAbout now) {
+  now.id = "another";
+  try {
+    RequireSame(there, now, "o/campaign.sqlite");
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST_F(CampaignStoreTest, AnotherCampaignIsToldByWhatDiffers) {
+  CampaignAbout now = about_;
+  EXPECT_NO_THROW(RequireSame(about_, now, file_));
+  now.scenario = "seed: 2\nsite:\n  name: a\n";
+  EXPECT_EQ(WhyOther(about_, now), "o/campaign.sqlite: holds another campaign: seed was 1, is 2");
+  now.scenario = "seed: 1\nsite:\n  name: b\n";
+  EXPECT_THAT(WhyOther(about_, now), HasSubstr("site.name was a, is b"));
+  now.scenario = "seed: 1\nsite:\n  name: a\n  start: [1, 2]\n";
+  EXPECT_THAT(WhyOther(about_, now), HasSubstr("site.start was not there, is other parts"));
+  now.scenario = "seed: 1\n";
+  EXPECT_THAT(WhyOther(about_, now), HasSubstr("site was other parts, is not there now"));
+  now.scenario = "site:\n  name: a\nseed: 1\n";
+  EXPECT_THAT(WhyOther(about_, now), HasSubstr("its keys stand in another order"));
+  now = about_;
+  now.versions = R"({"floorproof": "2"})";
+  EXPECT_THAT(WhyOther(about_, now), HasSubstr("version.floorproof was 1, is 2"));
+}
+
+}  // namespace
+}  // namespace floorproof
