@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "apps/command.h"
 #include "env/run/campaign_comparison.h"
@@ -32,27 +33,29 @@ Side OpenSide(const std::string& text) {
   throw InputError({folder.string(), 0}, "variant", side.variant, "must be one of: " + known);
 }
 
-std::string Signed(const nlohmann::ordered_json& value, double scale) {
-  return value.is_null() ? "-" : fmt::format("{:+.4g}", scale * value.get<double>());
+std::string Signed(double value, double scale = 1) {
+  return std::isfinite(value) ? fmt::format("{:+.4g}", scale * value) : "-";
 }
 
-void SayComparison(const nlohmann::ordered_json& json, const Globals& globals) {
-  globals.Say(fmt::format("A: {}\nB: {}\n{} episodes in both, the same draws in each",
-                          json["a"].get<std::string>(), json["b"].get<std::string>(),
-                          json["n"].get<int>()));
-  globals.Say(fmt::format("  {:<14} {:>7} {:>7} {:>9} {:>9}  {}", "failures", "A", "B", "only A",
-                          "only B", "rate A - B, 95 % interval; exact McNemar p"));
-  for (const auto& [mode, row] : json["failures"].items())
-    globals.Say(fmt::format("  {:<14} {:>7} {:>7} {:>9} {:>9}  {} % ({} to {}); p = {:.3g}", mode,
-                            row["a"].get<int>(), row["b"].get<int>(), row["only_a"].get<int>(),
-                            row["only_b"].get<int>(), Signed(row["difference"], 100),
-                            Signed(row["lower"], 100), Signed(row["upper"], 100),
-                            row["p"].get<double>()));
-  globals.Say(fmt::format("  {:<18} {}", "metrics", "mean of A - B, 95 % interval; median"));
-  for (const auto& [metric, row] : json["metrics"].items())
-    globals.Say(fmt::format("  {:<18} {} ({} to {}); {}", metric, Signed(row["mean"], 1),
-                            Signed(row["lower"], 1), Signed(row["upper"], 1),
-                            Signed(row["median"], 1)));
+void SayComparison(const Comparison& c, const Globals& globals) {
+  globals.Say(fmt::format("a: {}\nb: {}\n{} episodes in both, with the same draws", c.a, c.b, c.n));
+  globals.Say(fmt::format("  {:<14} {:>6} {:>6} {:>7} {:>7}  {}", "failures", "a", "b", "only a",
+                          "only b", "rate b - a (95 %); exact McNemar p"));
+  for (const ComparedFailure& f : c.failures)
+    globals.Say(fmt::format("  {:<14} {:>6} {:>6} {:>7} {:>7}  {} % ({} to {}); p = {:.3g}", f.mode,
+                            f.both + f.only_a, f.both + f.only_b, f.only_a, f.only_b,
+                            Signed(f.difference, 100), Signed(f.interval.lower, 100),
+                            Signed(f.interval.upper, 100), f.p));
+  globals.Say(fmt::format("  {:<18} {:>6}  {}", "metrics", "n", "mean b - a (95 %); median"));
+  bool starred = false;
+  for (const ComparedMetric& m : c.metrics) {
+    starred |= m.successes_only;
+    globals.Say(fmt::format("  {:<18} {:>6}  {} ({} to {}); {}",
+                            m.metric + (m.successes_only ? " *" : ""), m.mean.n,
+                            Signed(m.mean.estimate), Signed(m.mean.interval.lower),
+                            Signed(m.mean.interval.upper), Signed(m.median.estimate)));
+  }
+  if (starred) globals.Say("  * where both succeed: a failure ends an episode early");
 }
 
 }  // namespace
@@ -66,9 +69,9 @@ void AddCompare(CLI::App& app, const Globals& globals, int& status) {
       ->expected(2);
   command->callback([sides, &globals, &status] {
     const Side a = OpenSide(sides->at(0)), b = OpenSide(sides->at(1));
-    const auto json = CompareVariants(a.store, a.variant, b.store, b.variant);
-    globals.Result(json);
-    SayComparison(json, globals);
+    const Comparison comparison = CompareVariants(a.store, a.variant, b.store, b.variant);
+    globals.Result(ComparisonJson(comparison));
+    SayComparison(comparison, globals);
     status = kDone;
   });
 }

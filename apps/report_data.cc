@@ -73,11 +73,9 @@ class Rows {
   void Read(const CampaignStore& store, const ReportVariant& variant, const fs::path& summary) {
     std::size_t listed = 0;
     int rows = 0;
-    PairingValues values;
     std::vector<Event> places;
     store.ForEach(variant.name, [&](const EpisodeRow& row) {
       ++rows;
-      values.Add(row);
       if (row.outcome == "success" && !row.any_failure()) return;
       const std::vector<Event> events = EventsOf(row);
       if (row.counts()) places.insert(places.end(), events.begin(), events.end());
@@ -93,11 +91,9 @@ class Rows {
           fmt::format("is not of the {} episodes that campaign.sqlite holds: `campaign "
                       "--resume` writes it anew",
                       rows));
-    values_.push_back(std::move(values));
     places_.push_back(std::move(places));
   }
 
-  const std::vector<PairingValues>& values() const { return values_; }
   const std::vector<std::vector<Event>>& places() const { return places_; }
   std::string WhatOf(const std::string& variant, std::uint64_t episode) const {
     const auto found = what_.find({variant, episode});
@@ -123,7 +119,6 @@ class Rows {
   Report& report_;
   std::string named_;
   std::size_t share_ = 0;  // episodes listed of a variant
-  std::vector<PairingValues> values_;
   std::vector<std::vector<Event>> places_;
   std::map<std::pair<std::string, std::uint64_t>, std::string> what_;
 };
@@ -212,9 +207,8 @@ Report GatherReport(const fs::path& folder, const std::string& named) {
                      fmt::format("holds events that cannot be read ({})", e.what()));
   }
   for (std::size_t v = 1; v < report.variants.size(); ++v)
-    report.pairs.push_back(ComparePair(report.variants[0].name, rows.values()[0],
-                                       report.variants[v].name, rows.values()[v],
-                                       report.confidence));
+    report.pairs.push_back(
+        ShownPair(CompareVariants(store, report.variants[0].name, store, report.variants[v].name)));
   report.title = "campaign " + report.campaign;
   AddPlaces(folder, rows, report);
   AddFilms(

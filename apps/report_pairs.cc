@@ -1,62 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/report_pairs.h"
 
-#include <algorithm>
-#include <limits>
-
 namespace floorproof {
 namespace {
 
-ReportDifference Difference(const std::string& name, const std::string& pairs,
-                            const std::vector<EpisodeValue>& a, const std::vector<EpisodeValue>& b,
-                            double scale, double confidence) {
-  std::vector<double> differences = PairedDifferences(b, a);
-  for (double& difference : differences) difference *= scale;
-  ReportDifference d{.name = name, .pairs = pairs, .n = static_cast<int>(differences.size())};
-  d.mean = d.mean_lower = d.mean_upper = std::numeric_limits<double>::quiet_NaN();
-  d.median = d.median_lower = d.median_upper = d.mean;
-  if (d.n < 2) return d;  // too few for any interval
-  const PairedDifference mean = MeanDifference(differences, confidence);
-  d.mean = mean.estimate;
-  d.mean_lower = mean.interval.lower;
-  d.mean_upper = mean.interval.upper;
-  const PairedDifference median = MedianDifference(differences, confidence);
-  d.median = median.estimate;
-  d.median_lower = median.interval.lower;
-  d.median_upper = median.interval.upper;
+// What a reader weighs against the failures, in the units of the page.
+struct Shown {
+  const char *metric, *name;
+  double scale;
+};
+constexpr Shown kShown[] = {{"coverage", "coverage [% points]", 100},
+                            {"duration_s", "time [s]", 1},
+                            {"energy_j", "energy [kJ]", 1e-3}};
+
+ReportDifference Difference(const ComparedMetric& metric, const Shown& shown) {
+  ReportDifference d{.name = shown.name,
+                     .pairs = metric.successes_only ? "where both succeed" : "episodes",
+                     .n = metric.mean.n};
+  d.mean = shown.scale * metric.mean.estimate;
+  d.mean_lower = shown.scale * metric.mean.interval.lower;
+  d.mean_upper = shown.scale * metric.mean.interval.upper;
+  d.median = shown.scale * metric.median.estimate;
+  d.median_lower = shown.scale * metric.median.interval.lower;
+  d.median_upper = shown.scale * metric.median.interval.upper;
   return d;
 }
 
 }  // namespace
 
-void PairingValues::Add(const EpisodeRow& row) {
-  if (!row.counts()) return;
-  const auto id = static_cast<std::int64_t>(row.episode);
-  failed.push_back({id, row.any_failure() ? 1.0 : 0.0});
-  coverage.push_back({id, row.metric("coverage")});
-  if (row.outcome != "success") return;
-  duration_s.push_back({id, row.metric("duration_s")});
-  energy_j.push_back({id, row.metric("energy_j")});
-}
-
-ReportPair ComparePair(const std::string& name_a, const PairingValues& a, const std::string& name_b,
-                       const PairingValues& b, double confidence) {
-  const PairedCounts counts = CountPairs(b.failed, a.failed);  // its first is b
-  ReportPair pair{.a = name_a, .b = name_b};
-  pair.both = counts.both;
-  pair.only_a = counts.only_b;
-  pair.only_b = counts.only_a;
-  pair.neither = counts.neither;
+ReportPair ShownPair(const Comparison& comparison) {
+  const ComparedFailure& any = comparison.failures.front();
+  ReportPair pair{.a = comparison.a, .b = comparison.b};
+  pair.both = any.both;
+  pair.only_a = any.only_a;
+  pair.only_b = any.only_b;
+  pair.neither = any.neither;
   if (pair.n() == 0) return pair;
-  pair.difference = static_cast<double>(pair.only_b - pair.only_a) / pair.n();
-  const Interval interval = PairedRateDifference(counts, confidence);
-  pair.lower = interval.lower;
-  pair.upper = interval.upper;
-  pair.p = McNemarExact(pair.only_a, pair.only_b);
-  pair.metrics = {
-      Difference("coverage [% points]", "episodes", a.coverage, b.coverage, 100, confidence),
-      Difference("time [s]", "where both succeed", a.duration_s, b.duration_s, 1, confidence),
-      Difference("energy [kJ]", "where both succeed", a.energy_j, b.energy_j, 1e-3, confidence)};
+  pair.difference = any.difference;
+  pair.lower = any.interval.lower;
+  pair.upper = any.interval.upper;
+  pair.p = any.p;
+  for (const Shown& shown : kShown)
+    for (const ComparedMetric& metric : comparison.metrics)
+      if (metric.metric == shown.metric) pair.metrics.push_back(Difference(metric, shown));
   return pair;
 }
 

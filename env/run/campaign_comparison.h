@@ -4,18 +4,39 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "env/run/campaign_store.h"
+#include "env/stats/paired.h"
 
 namespace floorproof {
 
-// {a, b, n, failures: {any_failure, each mode: {a, b, only_a, only_b, difference, lower, upper,
-// p}}, metrics: {coverage, duration_s, ...: {mean, lower, upper, median}}}. Differences are A - B
-// at 95 %: rates by Tango's score interval and the exact McNemar test, metrics by Student's
-// interval of the mean. Episodes that are an error or not planned in either are left out. Throws
-// InputError when the two drew different values for the same episode (other seeds, or other keys
-// randomised).
-nlohmann::ordered_json CompareVariants(const CampaignStore& a, const std::string& variant_a,
-                                       const CampaignStore& b, const std::string& variant_b);
+// Differences are b - a, at 95 %.
+struct ComparedFailure {
+  std::string mode;  // or any_failure
+  int both = 0, only_a = 0, only_b = 0, neither = 0;
+  double difference = 0;  // of the rates; NaN without pairs
+  Interval interval;      // Tango's score interval
+  double p = 1;           // exact McNemar test
+};
+struct ComparedMetric {
+  std::string metric;
+  bool successes_only = false;  // of pairs where both succeed; else of all that count
+  PairedDifference mean, median;
+};
+struct Comparison {
+  std::string a, b;
+  int n = 0;  // pairs of episodes that count in both: no errors, none without a plan
+  std::vector<ComparedFailure> failures;
+  std::vector<ComparedMetric> metrics;
+};
+
+// Throws InputError when the two drew different values for the same episode (other seeds, or other
+// keys randomised).
+Comparison CompareVariants(const CampaignStore& a, const std::string& variant_a,
+                           const CampaignStore& b, const std::string& variant_b);
+
+// Infinite and missing numbers are null.
+nlohmann::ordered_json ComparisonJson(const Comparison& comparison);
 
 }  // namespace floorproof
