@@ -125,7 +125,7 @@ class CampaignProgram : public ::testing::Test {
               (std::string(info->test_suite_name()) + "." + info->name());
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
-    std::ofstream(folder_ / "p.csv") << "x_m,y_m\n1.0,1.0\n1.8,1.0\n";
+    std::ofstream(folder_ / "p.csv") << "x_m,y_m\n1.0,1.0\n1.6,1.0\n";
     Write("");
   }
   ~CampaignProgram() override { std::filesystem::remove_all(folder_); }

@@ -23,18 +23,18 @@ class CampaignTest : public CampaignProgram {};
 
 TEST_F(CampaignTest, AnyNumberOfWorkersGivesTheSameFiles) {
   Write("matrix: {start.yaw_deg: [0, 10]}\n");
-  ASSERT_EQ(Campaign("-n 8 --jobs 1 --out a").status, 0);
-  ASSERT_EQ(Campaign("-n 8 --jobs 2 --out b").status, 0);
-  ASSERT_EQ(Campaign("-n 8 --jobs 5 --out c").status, 0);
+  ASSERT_EQ(Campaign("-n 6 --jobs 1 --out a").status, 0);
+  ASSERT_EQ(Campaign("-n 6 --jobs 2 --out b").status, 0);
+  ASSERT_EQ(Campaign("-n 6 --jobs 5 --out c").status, 0);
   ExpectSameResults("a", "b");
   ExpectSameResults("a", "c");
-  EXPECT_EQ(Count("a", "SELECT count(*) FROM episode"), 16);
+  EXPECT_EQ(Count("a", "SELECT count(*) FROM episode"), 12);
   const Json summary = Json::parse(Slurp(folder_ / "a/summary.json"));
   const Json& variant = summary["variants"]["yaw_deg=0"];
-  EXPECT_EQ(variant["n"], 8);
+  EXPECT_EQ(variant["n"], 6);
   EXPECT_EQ(variant["outcomes"]["success"].get<int>() + variant["outcomes"]["failure"].get<int>() +
                 variant["outcomes"]["timeout"].get<int>(),
-            8);
+            6);
   // Some do and some do not, or the comparisons above would compare little.
   EXPECT_GT(variant["outcomes"]["success"], 0);
   EXPECT_GT(variant["outcomes"]["failure"], 0);
@@ -162,7 +162,7 @@ TEST_F(CampaignTest, FailFastEndsAtTheFirstIdThatFails) {
   EXPECT_EQ(Count("j1", "SELECT min(episode) " + failing),
             Count("j1", "SELECT max(episode) FROM episode"));
   // Driven before without: the same is kept.
-  ASSERT_EQ(Campaign("-n 200 --episodes 0:12 --jobs 2 --out more").status, 0);
+  ASSERT_EQ(Campaign("-n 200 --episodes 0:8 --jobs 2 --out more").status, 0);
   ASSERT_EQ(Campaign("-n 200 --fail-fast --jobs 2 --out more --resume").status, 4);
   ExpectSameResults("j1", "more");
   Write("");
@@ -171,13 +171,13 @@ TEST_F(CampaignTest, FailFastEndsAtTheFirstIdThatFails) {
 
 TEST_F(CampaignTest, MoreOrFewerEpisodesMayFollow) {
   ASSERT_EQ(Campaign("-n 3 --out few").status, 0);
-  ASSERT_EQ(Campaign("-n 9 --out many").status, 0);
+  ASSERT_EQ(Campaign("-n 6 --out many").status, 0);
   ASSERT_EQ(Campaign("-n 3 --out grown").status, 0);
-  ASSERT_EQ(Campaign("-n 9 --out grown --resume").status, 0);
+  ASSERT_EQ(Campaign("-n 6 --out grown --resume").status, 0);
   ExpectSameResults("many", "grown");
   ASSERT_EQ(Campaign("-n 3 --out grown --resume").status, 0);
   ExpectSameResults("few", "grown");
-  ASSERT_EQ(Campaign("-n 9 --out grown --resume").status, 0);
+  ASSERT_EQ(Campaign("-n 6 --out grown --resume").status, 0);
   ExpectSameResults("many", "grown");
 }
 
