@@ -22,7 +22,7 @@ double Since(std::chrono::steady_clock::time_point start) {
 std::string Verdict(const EpisodeRecord& record) {
   const Metrics& m = record.metrics;
   std::string line = fmt::format(
-      "{}: covered {:.1f} % in {:.0f} s over {:.1f} m, off the path by {:.0f} mm at most, {:.0f} "
+      "{}: covered {:.1f} % in {:.0f} s over {:.1f} m, off the path by {:.0f} mm at most, {:.3g} "
       "kJ",
       Name(record.outcome), 100 * m.coverage, m.duration_s, m.path_length_m,
       1000 * m.max_cross_track_m, m.energy_j / 1000);

@@ -13,8 +13,10 @@ void AddScene(CLI::App& app, const Globals& globals, int&) {
     std::string scenario, out;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
-      "scene", "Write the scene, robot included, as MJCF that the stock MuJoCo loads and steps");
+  CLI::App* command = app.add_subcommand("scene",
+                                         "Write the scene, robot included, as MJCF that the stock "
+                                         "MuJoCo loads and steps (Mecanum wheels "
+                                         "with rollers that are bodies)");
   command->add_option("SCENARIO", options->scenario, "Scenario file (YAML)")->required();
   command->add_option("--out", options->out, "MJCF file to write")->required();
   command->callback([options, &globals] {

@@ -69,8 +69,10 @@ void AddValidate(CLI::App& app, const Globals& globals, int& status) {
   CLI::App* command = app.add_subcommand(
       "validate", "Compare the physics with closed-form laws; measure what each robot can cross");
   command->add_option("--out", options->out, "Output folder (default: out/validate)");
-  command->add_flag("--ladder", options->ladder,
-                    "Also find the largest hazards that each robot crosses: the capability charts");
+  command->add_flag(
+      "--ladder", options->ladder,
+      "Also find the largest hazards that each robot crosses: the capability charts (some "
+      "20 minutes on two cores)");
   command->callback([options, &globals, &status] {
     const fs::path folder = options->out;
     MakeFolder(folder);

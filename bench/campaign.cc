@@ -58,8 +58,8 @@ Timed RunOnce(const ScenarioFile& file, std::uint64_t n, int jobs, const fs::pat
 
 // Bare loops of `processes` at once; steps a second of all together.
 double BareRate(const mjModel* model, const Notes& notes, int steps_a_control, int processes) {
-  const double steps =
-      static_cast<double>(notes.controls().size()) / model->nu * steps_a_control * processes;
+  const double steps = static_cast<double>(notes.controls().size()) /
+                       static_cast<double>(model->nu) * steps_a_control * processes;
   const auto begin = Clock::now();
   for (int i = 0; i < processes; ++i)
     if (fork() == 0) {
