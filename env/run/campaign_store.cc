@@ -33,6 +33,18 @@ std::string Placeholders() {
   return marks;
 }
 
+// A database whose log is empty is read as it is: no index file is made beside it, and it may lie
+// on a disk that cannot be written.
+std::string ReadOnlyName(const fs::path& file) {
+  std::error_code error;
+  const auto log_bytes = fs::file_size(file.string() + "-wal", error);
+  if (!error && log_bytes > 0) return file.string();
+  std::string uri = "file:";
+  for (const char c : fs::absolute(file).string())
+    uri += c == '%' ? "%25" : c == '?' ? "%3f" : c == '#' ? "%23" : std::string(1, c);
+  return uri + "?immutable=1";
+}
+
 }  // namespace
 
 // A prepared statement; its calls throw as the store's do.
@@ -185,7 +197,8 @@ CampaignStore CampaignStore::Open(const fs::path& file, bool write) {
   // Looked through read-only first: opening a damaged file for writing could change it.
   const auto open = [&](int flags) {
     sqlite3* db = nullptr;
-    const int code = sqlite3_open_v2(file.c_str(), &db, flags, nullptr);
+    const std::string name = flags == SQLITE_OPEN_READONLY ? ReadOnlyName(file) : file.string();
+    const int code = sqlite3_open_v2(name.c_str(), &db, flags | SQLITE_OPEN_URI, nullptr);
     CampaignStore store(file, db);
     if (code != SQLITE_OK) store.Refuse(code);
     return store;
