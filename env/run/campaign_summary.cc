@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "env/run/campaign_junit.h"
 #include "env/run/file_output.h"
 #include "env/stats/binomial.h"
 #include "env/stats/poisson.h"
@@ -191,85 +192,6 @@ std::string EpisodesCsv(const CampaignStore& store, const std::vector<Variant>& 
       csv += "\n";
     });
   return csv;
-}
-
-std::string Escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t')
-      out += c;
-  }
-  return out;
-}
-
-// What a variant did, in a few lines for people.
-std::string VariantText(const Json& summary) {
-  std::string text =
-      fmt::format("{} episodes count, {} errors, {} without a plan\n", summary["n"].get<int>(),
-                  summary["n_error"].get<int>(), summary["n_not_planned"].get<int>());
-  for (const auto& [mode, rate] : summary["failures"].items())
-    text += fmt::format("{}: {} of {}, {:.3g} % (95 %: {:.3g} to {:.3g} %)\n", mode,
-                        rate["k"].get<int>(), rate["n"].get<int>(),
-                        rate["rate"].is_null() ? 0.0 : 100 * rate["rate"].get<double>(),
-                        100 * rate["lower"].get<double>(), 100 * rate["upper"].get<double>());
-  return text;
-}
-
-// A suite a variant; cases: that its episodes ran, and the gate.
-std::string JunitXml(const Json& summary, const std::vector<GateState>& gate,
-                     const std::string& scenario_name) {
-  std::string suites;
-  int tests = 0, failures = 0, errors = 0;
-  std::size_t v = 0;
-  for (const auto& [name, variant] : summary["variants"].items()) {
-    const Json& duration = variant["metrics"]["duration_s"];
-    const double time_s =
-        duration.is_null() ? 0.0 : duration["mean"].get<double>() * variant["n"].get<int>();
-    const int broken = variant["n_error"].get<int>();
-    std::string cases;
-    const auto add = [&](const std::string& criterion, const std::string& verdict) {
-      cases += fmt::format(
-          "    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\">\n{}      "
-          "<system-out>{}</system-out>\n    </testcase>\n",
-          Escaped(scenario_name + "." + name), Escaped(criterion), time_s, verdict,
-          Escaped(VariantText(variant)));
-      ++tests;
-    };
-    int failed_here = 0;
-    add("every episode ran",
-        broken > 0 ? fmt::format("      <error message=\"{} episodes ended in error\"/>\n", broken)
-                   : "");
-    if (v < gate.size()) {
-      const bool failed = gate[v].verdict() == GateVerdict::kFailed;
-      const bool open = gate[v].verdict() == GateVerdict::kUndecided;
-      const std::string text = Escaped(gate[v].Text());
-      add(gate[v].Criterion(),
-          failed ? fmt::format("      <failure message=\"{0}\">{0}</failure>\n", text)
-          : open ? fmt::format("      <skipped message=\"{}\"/>\n", text)
-                 : "");
-      failed_here = failed;
-    }
-    suites += fmt::format(
-        "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n{}  "
-        "</testsuite>\n",
-        Escaped(scenario_name + "." + name), v < gate.size() ? 2 : 1, failed_here,
-        broken > 0 ? 1 : 0, time_s, cases);
-    failures += failed_here;
-    errors += broken > 0;
-    ++v;
-  }
-  return fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"{}\" failures=\"{}\" "
-      "errors=\"{}\">\n{}</testsuites>\n",
-      tests, failures, errors, suites);
 }
 
 }  // namespace

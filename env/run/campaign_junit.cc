@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/run/campaign_junit.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace floorproof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string Escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t')
+      out += c;
+  }
+  return out;
+}
+
+// What a variant did, in a few lines for people.
+std::string VariantText(const Json& summary) {
+  std::string text =
+      fmt::format("{} episodes count, {} errors, {} without a plan\n", summary["n"].get<int>(),
+                  summary["n_error"].get<int>(), summary["n_not_planned"].get<int>());
+  for (const auto& [mode, rate] : summary["failures"].items())
+    text += fmt::format("{}: {} of {}, {:.3g} % (95 %: {:.3g} to {:.3g} %)\n", mode,
+                        rate["k"].get<int>(), rate["n"].get<int>(),
+                        rate["rate"].is_null() ? 0.0 : 100 * rate["rate"].get<double>(),
+                        100 * rate["lower"].get<double>(), 100 * rate["upper"].get<double>());
+  return text;
+}
+
+struct Suite {
+  std::string xml;
+  int tests = 0, failures = 0, errors = 0;
+};
+
+std::string Case(const std::string& name, const std::string& criterion, double time_s,
+                 const std::string& verdict, const Json& variant) {
+  return fmt::format(
+      "    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\">\n{}      "
+      "<system-out>{}</system-out>\n    </testcase>\n",
+      Escaped(name), Escaped(criterion), time_s, verdict, Escaped(VariantText(variant)));
+}
+
+// `gate` may be nullptr.
+Suite VariantSuite(const std::string& name, const Json& variant, const GateState* gate) {
+  Suite suite;
+  const Json& duration = variant["metrics"]["duration_s"];
+  const double time_s =
+      duration.is_null() ? 0.0 : duration["mean"].get<double>() * variant["n"].get<int>();
+  const int broken = variant["n_error"].get<int>();
+  suite.errors = broken > 0;
+  suite.tests = gate == nullptr ? 1 : 2;
+  std::string cases = Case(
+      name, "every episode ran", time_s,
+      broken > 0 ? fmt::format("      <error message=\"{} episodes ended in error\"/>\n", broken)
+                 : "",
+      variant);
+  if (gate != nullptr) {
+    const std::string text = Escaped(gate->Text());
+    std::string verdict;
+    if (gate->verdict() == GateVerdict::kFailed)
+      verdict = fmt::format("      <failure message=\"{0}\">{0}</failure>\n", text);
+    if (gate->verdict() == GateVerdict::kUndecided)
+      verdict = fmt::format("      <skipped message=\"{}\"/>\n", text);
+    cases += Case(name, gate->Criterion(), time_s, verdict, variant);
+    suite.failures = gate->verdict() == GateVerdict::kFailed;
+  }
+  suite.xml = fmt::format(
+      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" "
+      "time=\"{:.3f}\">\n{}  </testsuite>\n",
+      Escaped(name), suite.tests, suite.failures, suite.errors, time_s, cases);
+  return suite;
+}
+
+}  // namespace
+
+std::string JunitXml(const Json& summary, const std::vector<GateState>& gate,
+                     const std::string& scenario_name) {
+  Suite all;
+  std::size_t v = 0;
+  for (const auto& [name, variant] : summary["variants"].items()) {
+    const Suite suite =
+        VariantSuite(scenario_name + "." + name, variant, v < gate.size() ? &gate[v] : nullptr);
+    all.xml += suite.xml;
+    all.tests += suite.tests;
+    all.failures += suite.failures;
+    all.errors += suite.errors;
+    ++v;
+  }
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"{}\" failures=\"{}\" "
+      "errors=\"{}\">\n{}</testsuites>\n",
+      all.tests, all.failures, all.errors, all.xml);
+}
+
+}  // namespace floorproof
