@@ -44,7 +44,6 @@ void ReadEpisodes(const Options& options, CampaignOptions& campaign) {
     refuse("must be A:B, the first id and the one behind the last");
   if (a >= b) refuse("holds no episode");
   if (b > options.n) refuse("must lie within -n");
-  campaign.shard = true;
   campaign.begin = a;
   campaign.end = b;
 }
@@ -117,7 +116,8 @@ int RunIt(const Options& options, const Globals& globals) {
   SayWarnings(base, globals);
   const CampaignAbout about = DescribeCampaign(file);
   const std::vector<Variant>& variants = file.variants();
-  CampaignGate::Read(base.gate, options.n);  // refused before there is a folder
+  const auto gate = CampaignGate::Read(base.gate, options.n);  // refused before there is a folder
+  if (options.episodes.empty()) campaign.gate = gate;
 
   const HoldInterrupts hold;
   CampaignStore store = OpenStore(folder, about, options.resume);

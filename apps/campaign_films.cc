@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "env/run/episode_maker.h"
 
 namespace floorproof {
@@ -11,6 +13,13 @@ namespace fs = std::filesystem;
 
 fs::path EpisodeFolder(const fs::path& campaign, const Variant& variant, std::uint64_t episode) {
   return campaign / "episodes" / variant.name / std::to_string(episode);
+}
+
+void RefuseReplay(const fs::path& where, std::string_view what) {
+  throw InternalError(
+      fmt::format("{}: the replay differs from the record in '{}' (recorded with "
+                  "another version or on another machine type?)",
+                  where.string(), what));
 }
 
 DriveResult ReplayEpisode(const ScenarioFile& file, const Variant& variant, const EpisodeRow& row,
@@ -23,34 +32,35 @@ DriveResult ReplayEpisode(const ScenarioFile& file, const Variant& variant, cons
   for (const auto& [what, same] : {std::pair("outcome", now.outcome == row.outcome),
                                    {"events", now.events == row.events},
                                    {"metrics", now.metrics == row.metrics}})
-    if (!same)
-      throw InternalError(
-          fmt::format("{}: the replay differs from the record in '{}' (recorded "
-                      "with another version or on another machine type?)",
-                      into.string(), what));
+    if (!same) RefuseReplay(into, what);
   return result;
 }
 
 void FilmFirstFailures(const ScenarioFile& file, const CampaignStore& store, const fs::path& folder,
                        const Globals& globals) {
-  for (int m = 0; m < kNumFailureModes; ++m) {
-    const std::string mode(Name(static_cast<FailureMode>(m)));
+  struct First {
     const Variant* variant = nullptr;
-    std::optional<EpisodeRow> first;
-    for (const Variant& candidate : file.variants())
-      store.ForEach(candidate.name, [&](const EpisodeRow& row) {
-        if (!row.counts() || row.events_of[static_cast<std::size_t>(m)] == 0) return;
-        if (first && first->episode <= row.episode) return;
-        first = row;
-        variant = &candidate;
-      });
-    if (!first) continue;
-    const fs::path film = EpisodeFolder(folder, *variant, first->episode) / "video.mp4";
+    EpisodeRow row;
+  };
+  std::array<First, kNumFailureModes> firsts;  // by mode
+  for (const Variant& variant : file.variants())
+    store.ForEach(variant.name, [&](const EpisodeRow& row) {
+      if (!row.counts()) return;
+      for (std::size_t m = 0; m < firsts.size(); ++m) {
+        First& first = firsts[m];
+        const bool earlier = first.variant == nullptr || row.episode < first.row.episode;
+        if (row.events_of[m] > 0 && earlier) first = {&variant, row};
+      }
+    });
+  for (std::size_t m = 0; m < firsts.size(); ++m) {
+    const auto& [variant, row] = firsts[m];
+    if (variant == nullptr) continue;
+    const fs::path film = EpisodeFolder(folder, *variant, row.episode) / "video.mp4";
     std::error_code ignored;
     if (fs::exists(film, ignored)) continue;
-    globals.Say(
-        fmt::format("filming the first {}: episode {} of {}", mode, first->episode, variant->name));
-    ReplayEpisode(file, *variant, *first, folder, true, globals);
+    globals.Say(fmt::format("filming the first {}: episode {} of {}",
+                            Name(static_cast<FailureMode>(m)), row.episode, variant->name));
+    ReplayEpisode(file, *variant, row, folder, true, globals);
   }
 }
 

@@ -14,6 +14,9 @@ namespace floorproof {
 std::filesystem::path EpisodeFolder(const std::filesystem::path& campaign, const Variant& variant,
                                     std::uint64_t episode);
 
+// Throws InternalError: the replay is not what was recorded, `what` of it differs.
+[[noreturn]] void RefuseReplay(const std::filesystem::path& where, std::string_view what);
+
 // Drives the recorded episode again into <folder>/episodes/<variant>/<id>, whole as `run` would.
 // Throws InternalError when outcome, events or metrics are not the recorded ones.
 DriveResult ReplayEpisode(const ScenarioFile& file, const Variant& variant, const EpisodeRow& row,

@@ -66,8 +66,7 @@ int SayResults(const ScenarioFile& file, const CampaignStore& store, const Campa
   std::vector<GateState> gate;
   for (const VariantProgress& variant : run.variants)
     if (variant.gate) gate.push_back(*variant.gate);
-  WriteSummaryFiles(store, variants, gate, file.name(), folder);
-  const auto summary = SummaryJson(store, variants, gate);
+  const auto summary = WriteSummaryFiles(store, variants, gate, file.name(), folder);
   globals.Result(summary);
   globals.Say(std::string(Why(run.end)) + "; results are in " + folder.string());
   SayRates(summary, globals);

@@ -37,6 +37,7 @@ int Merge(const std::vector<std::string>& shards, const fs::path& out, const Glo
   CampaignOptions options;
   options.end = end;
   options.jobs = 0;  // nothing more is driven
+  options.gate = CampaignGate::Read(base.gate, end);
   const CampaignRun run = RunCampaign(scenario, store, options);
   for (std::size_t v = 0; v < variants.size(); ++v)
     if (run.end == CampaignEnd::kComplete && run.variants[v].prefix < end)

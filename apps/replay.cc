@@ -18,9 +18,7 @@ void CheckSame(const std::filesystem::path& result_file, const nlohmann::ordered
   if (!before.is_object())
     throw InputError({result_file.string(), 0}, "", "", "is not a result (a JSON object)");
   for (const char* key : {"outcome", "events", "metrics"})
-    if (before.value(key, nlohmann::ordered_json()) != now[key])
-      throw InternalError(result_file.string() + ": the replay differs from the record in '" + key +
-                          "' (recorded with another version or on another machine type?)");
+    if (before.value(key, nlohmann::ordered_json()) != now[key]) RefuseReplay(result_file, key);
 }
 
 int ReplayRun(const std::filesystem::path& folder, bool video, const Globals& globals) {

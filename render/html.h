@@ -5,10 +5,10 @@
 #include <string>
 #include <string_view>
 
+#include "env/core/markup.h"
+
 namespace floorproof {
 
-// Text between tags or within a quoted attribute; control characters are left out.
-std::string HtmlText(std::string_view text);
 // data:<type>;base64,..
 std::string DataUri(std::string_view type, std::string_view bytes);
 // A relative path as an address: what has a meaning there is percent-encoded, '/' stays.

@@ -74,9 +74,9 @@ std::string VerdictBox(const Report& report) {
            : report.gate->verdict == ReportGate::Verdict::kFailed ? " failed"
                                                                   : " undecided";
     for (const auto& [variant, text] : report.gate->texts)
-      list +=
-          "<li>" + HtmlText(report.gate->texts.size() > 1 ? variant + ": " + text : text) + "</li>";
-    list += "<li>" + HtmlText(RatesVerdict(report)) + "</li>";
+      list += "<li>" + MarkupText(report.gate->texts.size() > 1 ? variant + ": " + text : text) +
+              "</li>";
+    list += "<li>" + MarkupText(RatesVerdict(report)) + "</li>";
   }
   int errors = 0;
   for (const ReportVariant& v : report.variants) errors += v.errors;
@@ -85,7 +85,7 @@ std::string VerdictBox(const Report& report) {
         fmt::format("<li>{} {} in an error and {} not count.</li>", errors,
                     errors == 1 ? "episode ended" : "episodes ended", errors == 1 ? "does" : "do");
   return fmt::format("<div class=\"verdict{}\"><p>{}</p>{}</div>\n", tone,
-                     HtmlText(VerdictText(report)), list.empty() ? "" : "<ul>" + list + "</ul>");
+                     MarkupText(VerdictText(report)), list.empty() ? "" : "<ul>" + list + "</ul>");
 }
 
 std::string Section(const std::string& id, const std::string& heading, const std::string& content) {
@@ -94,7 +94,7 @@ std::string Section(const std::string& id, const std::string& heading, const std
 
 std::string Picture(const std::string& png, const std::string& caption) {
   return fmt::format("<figure><img src=\"{0}\" alt=\"{1}\"><figcaption>{1}</figcaption></figure>\n",
-                     DataUri("image/png", png), HtmlText(caption));
+                     DataUri("image/png", png), MarkupText(caption));
 }
 
 std::string Rates(const Report& report) {
@@ -103,7 +103,7 @@ std::string Rates(const Report& report) {
     html += "<div class=\"card\">" + VariantsTable(report) + "</div>\n";
   for (const ReportVariant& v : report.variants)
     html += fmt::format("<article class=\"card\">{}{}</article>\n",
-                        report.variants.size() > 1 ? "<h3>" + HtmlText(v.name) + "</h3>\n" : "",
+                        report.variants.size() > 1 ? "<h3>" + MarkupText(v.name) + "</h3>\n" : "",
                         VariantRates(report, v));
   return html + fmt::format(
                     "<p class=\"note\">Rates are of episodes that ended in success, failure or "
@@ -117,13 +117,13 @@ std::string Places(const Report& report) {
   std::string html;
   for (const ReportVariant& v : report.variants) {
     html += "<div class=\"card places\">";
-    if (report.variants.size() > 1) html += "<h3>" + HtmlText(v.name) + "</h3>\n";
+    if (report.variants.size() > 1) html += "<h3>" + MarkupText(v.name) + "</h3>\n";
     if (!v.places_png.empty())
       html += Picture(v.places_png,
                       "Where " + (report.variants.size() > 1 ? v.name : std::string("the robot")) +
                           " failed" + (v.places_note.empty() ? "" : "; " + v.places_note));
     else
-      html += "<p class=\"note\">" + HtmlText(v.places_note) + "</p>\n";
+      html += "<p class=\"note\">" + MarkupText(v.places_note) + "</p>\n";
     html += "</div>\n";
   }
   return html;
@@ -133,13 +133,13 @@ std::string Film(const Report& report, const ReportFilm& film) {
   std::string name = fmt::format("Episode {}", film.episode);
   if (report.variants.size() > 1) name += " of " + film.variant;
   if (!film.what.empty()) name += ": " + film.what;
-  std::string html = "<article class=\"card\"><h3>" + HtmlText(name) + "</h3>\n";
+  std::string html = "<article class=\"card\"><h3>" + MarkupText(name) + "</h3>\n";
   if (!film.mp4.empty())
     html += fmt::format("<video controls preload=\"metadata\" src=\"{}\"></video>\n",
                         DataUri("video/mp4", film.mp4));
   else
     html += fmt::format("<p>Film, {:.1f} MB, beside this page: <a href=\"{}\">{}</a></p>\n",
-                        film.megabytes, UrlPath(film.path), HtmlText(film.path));
+                        film.megabytes, UrlPath(film.path), MarkupText(film.path));
   const auto pictures = [&](const std::vector<ReportPicture>& all) {
     html += "<div class=\"frames\">";
     for (const ReportPicture& picture : all) html += Picture(picture.png, picture.caption);
@@ -171,9 +171,9 @@ std::string EpisodeRowHtml(const ReportEpisode& e, bool name_variant) {
   return fmt::format(
       "<tr><th scope=\"row\">{}{}</th><td>{}{}</td><td>{}</td><td class=\"num\">{}</td><td "
       "class=\"num\">{}</td><td><code>{}</code></td></tr>\n",
-      name_variant ? HtmlText(e.variant) + " " : "", e.episode, HtmlText(e.what),
-      e.further > 0 ? fmt::format(" and {} more", e.further) : "", HtmlText(e.detail), time, place,
-      HtmlText(e.command));
+      name_variant ? MarkupText(e.variant) + " " : "", e.episode, MarkupText(e.what),
+      e.further > 0 ? fmt::format(" and {} more", e.further) : "", MarkupText(e.detail), time,
+      place, MarkupText(e.command));
 }
 
 std::string Episodes(const Report& report) {
@@ -194,19 +194,19 @@ std::string Episodes(const Report& report) {
 }
 
 std::string Settings(const Report& report) {
-  std::string html = "<dl><dt>campaign</dt><dd>" + HtmlText(report.campaign) + "</dd>";
+  std::string html = "<dl><dt>campaign</dt><dd>" + MarkupText(report.campaign) + "</dd>";
   for (const auto& [name, version] : report.versions)
-    html += "<dt>" + HtmlText(name) + "</dt><dd>" + HtmlText(version) + "</dd>";
+    html += "<dt>" + MarkupText(name) + "</dt><dd>" + MarkupText(version) + "</dd>";
   return html +
          "</dl>\n<details><summary>The scenario, with every default stated</summary>\n<pre>" +
-         HtmlText(report.settings) + "</pre></details>\n";
+         MarkupText(report.settings) + "</pre></details>\n";
 }
 
 // What this page needs beside it.
 std::string Footer(const Report& report) {
   std::string linked;
   for (const ReportFilm& film : report.films)
-    if (film.mp4.empty()) linked += (linked.empty() ? "" : ", ") + HtmlText(film.path);
+    if (film.mp4.empty()) linked += (linked.empty() ? "" : ", ") + MarkupText(film.path);
   return "<footer><p class=\"note\">" +
          (linked.empty() ? std::string("This page is complete in itself: everything it shows "
                                        "stands in this one file.")
@@ -244,7 +244,7 @@ std::string ReportHtml(const Report& report) {
     links += fmt::format("<a href=\"#{}\">{}</a>", part.id, part.heading);
     sections += Section(part.id, part.heading, part.content);
   }
-  const std::string title = HtmlText(report.title);
+  const std::string title = MarkupText(report.title);
   return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src "
          "data:; "

@@ -93,7 +93,7 @@ std::string RatesTable(const Report& report, const std::string& heading,
     html += fmt::format(
         "<tr{}><th scope=\"row\">{}</th><td class=\"num\">{} of {}</td><td class=\"num\">{}</td>"
         "<td class=\"num\">{}</td><td class=\"plotted\">{}</td></tr>\n",
-        total && i == 0 ? " class=\"total\"" : "", HtmlText(names[i]), rate.k, rate.n,
+        total && i == 0 ? " class=\"total\"" : "", MarkupText(names[i]), rate.k, rate.n,
         rate.n > 0 ? PercentText(rate.rate) : "–", PercentBetween(rate.lower, rate.upper),
         plot.Row(rate));
   }
@@ -145,7 +145,7 @@ std::string PerTable(const Report& report, const ReportVariant& v) {
     html += fmt::format(
         "<tr{}><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td><td "
         "class=\"num\">{}</td><td class=\"num\">{}</td><td class=\"num\">{}</td></tr>\n",
-        i == 0 ? " class=\"total\"" : "", HtmlText(Words(km.name)), km.k, NumberText(km.rate),
+        i == 0 ? " class=\"total\"" : "", MarkupText(Words(km.name)), km.k, NumberText(km.rate),
         Between(NumberText(km.lower), NumberText(km.upper)), NumberText(hours.rate),
         Between(NumberText(hours.lower), NumberText(hours.upper)));
   }
@@ -163,7 +163,7 @@ std::string MetricsTable(const ReportVariant& v) {
     html += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td><td "
         "class=\"num\">{}</td><td class=\"num\">{}</td></tr>\n",
-        HtmlText(m.name), NumberText(m.mean), NumberText(m.median), NumberText(m.min),
+        MarkupText(m.name), NumberText(m.mean), NumberText(m.median), NumberText(m.min),
         NumberText(m.max));
   return html + "</tbody></table></div></details>\n";
 }
@@ -180,7 +180,7 @@ std::string SignedBetween(double lower, double upper, bool percent) {
 }
 
 std::string PairSentence(const Report& report, const ReportPair& pair) {
-  const std::string b = HtmlText(pair.b), a = HtmlText(pair.a);
+  const std::string b = MarkupText(pair.b), a = MarkupText(pair.a);
   if (pair.n() == 0)
     return fmt::format("<b>{}</b> and <b>{}</b> share no episode that counts.", b, a);
   // By the exact test: with few pairs the score interval can leave out 0 where it does not.
@@ -199,8 +199,8 @@ std::string PairTable(const Report& report, const ReportPair& pair) {
   std::string html = fmt::format(
       "<p>{}</p>\n<ul class=\"key\"><li>{} failed in both</li><li>{} in {} only</li><li>{} in {} "
       "only</li><li>{} in neither</li></ul>\n",
-      PairSentence(report, pair), pair.both, pair.only_a, HtmlText(pair.a), pair.only_b,
-      HtmlText(pair.b), pair.neither);
+      PairSentence(report, pair), pair.both, pair.only_a, MarkupText(pair.a), pair.only_b,
+      MarkupText(pair.b), pair.neither);
   if (pair.metrics.empty()) return html;
   html += fmt::format(
       "<div class=\"scroll\"><table><thead><tr><th scope=\"col\">Difference</th><th scope=\"col\">"
@@ -212,7 +212,7 @@ std::string PairTable(const Report& report, const ReportPair& pair) {
     html += fmt::format(
         "<tr><th scope=\"row\">{}</th><td>{} {}</td><td class=\"num\">{}</td><td "
         "class=\"num\">{}</td><td class=\"num\">{}</td><td class=\"num\">{}</td></tr>\n",
-        HtmlText(d.name), d.n, HtmlText(d.pairs), Signed(d.mean, false),
+        MarkupText(d.name), d.n, MarkupText(d.pairs), Signed(d.mean, false),
         SignedBetween(d.mean_lower, d.mean_upper, false), Signed(d.median, false),
         SignedBetween(d.median_lower, d.median_upper, false));
   return html + "</tbody></table></div>\n";

@@ -29,6 +29,19 @@ std::size_t CountNodes(const ConfigNode& node) {
   return n;
 }
 
+// The list's entry of this `id`, or of this index.
+ConfigNode& EntryOf(ConfigNode& list, const std::string& key, const SourceMark& mark) {
+  for (ConfigNode& item : list.items)
+    if (const ConfigNode* id = item.Find("id"); id != nullptr && id->scalar == key) return item;
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
+  if (error == std::errc() && end == key.data() + key.size() && index < list.items.size())
+    return list.items[index];
+  throw InputError(mark, key, "",
+                   "is neither the id nor the index of an entry of this list of " +
+                       std::to_string(list.items.size()));
+}
+
 class TreeBuilder : public YAML::EventHandler {
  public:
   explicit TreeBuilder(std::string file) : file_(std::move(file)) {}
@@ -245,23 +258,6 @@ ConfigNode& ConfigNode::Add(std::string key, ConfigNode value) {
 void ConfigNode::Remove(std::string_view key) {
   std::erase_if(entries, [key](const auto& entry) { return entry.first == key; });
 }
-
-namespace {
-
-// The list's entry of this `id`, or of this index.
-ConfigNode& EntryOf(ConfigNode& list, const std::string& key, const SourceMark& mark) {
-  for (ConfigNode& item : list.items)
-    if (const ConfigNode* id = item.Find("id"); id != nullptr && id->scalar == key) return item;
-  std::size_t index = 0;
-  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
-  if (error == std::errc() && end == key.data() + key.size() && index < list.items.size())
-    return list.items[index];
-  throw InputError(mark, key, "",
-                   "is neither the id nor the index of an entry of this list of " +
-                       std::to_string(list.items.size()));
-}
-
-}  // namespace
 
 void ConfigNode::SetPath(std::string_view key_path, ConfigNode value) {
   const auto dot = key_path.find('.');

@@ -80,17 +80,12 @@ class Tracker {
 class CampaignDrive {
  public:
   CampaignDrive(const ScenarioFile& file, CampaignStore& store, const CampaignOptions& options,
-                const std::optional<CampaignGate>& gate, CampaignObserver* observer)
-      : file_(file),
-        store_(store),
-        options_(options),
-        gate_(gate),
-        observer_(observer),
-        maker_(file) {
+                CampaignObserver* observer)
+      : file_(file), store_(store), options_(options), observer_(observer), maker_(file) {
     const auto& variants = file.variants();
     total_ = variants.size() * (options.end - options.begin);
     for (const Variant& variant : variants) {
-      trackers_.emplace_back(options.begin, gate);
+      trackers_.emplace_back(options.begin, options.gate);
       there_.push_back(store.Episodes(variant.name));
     }
     job_ = options.begin * variants.size();
@@ -207,10 +202,12 @@ class CampaignDrive {
       if (run.end == CampaignEnd::kFailFast) from = std::min(from, fail_at_ + 1);
       const std::string& name = file_.variants()[v].name;
       store_.SetExtraFrom(name, from);
+      run.variants.push_back(trackers_[v].progress());
+      if (run.end != CampaignEnd::kFailFast) continue;
       // What is reported is what stays: a variant may have been ahead of the one that failed.
-      Tracker kept(options_.begin, gate_);
+      Tracker kept(options_.begin, options_.gate);
       store_.ForEach(name, [&](const EpisodeRow& row) { kept.Add(row); });
-      run.variants.push_back(kept.progress());
+      run.variants.back() = kept.progress();
     }
     if (observer_) observer_->OnProgress(Progress());
     return run;
@@ -219,7 +216,6 @@ class CampaignDrive {
   const ScenarioFile& file_;
   CampaignStore& store_;
   const CampaignOptions& options_;
-  const std::optional<CampaignGate>& gate_;
   CampaignObserver* observer_;
   EpisodeMaker maker_;
   std::vector<Tracker> trackers_;
@@ -237,10 +233,7 @@ class CampaignDrive {
 
 CampaignRun RunCampaign(const ScenarioFile& file, CampaignStore& store,
                         const CampaignOptions& options, CampaignObserver* observer) {
-  const Scenario base = file.Read(std::nullopt);
-  // A shard may well be too short to pass by itself.
-  const auto gate = options.shard ? std::nullopt : CampaignGate::Read(base.gate, options.end);
-  return CampaignDrive(file, store, options, gate, observer).Run();
+  return CampaignDrive(file, store, options, observer).Run();
 }
 
 }  // namespace floorproof

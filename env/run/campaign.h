@@ -19,7 +19,7 @@ namespace floorproof {
 
 struct CampaignOptions {
   std::uint64_t begin = 0, end = 0;  // episode ids, half-open
-  bool shard = false;                // of a larger campaign: the gate is judged on the whole
+  std::optional<CampaignGate> gate;  // none of a shard: it is judged on the whole campaign
   int jobs = 1;
   bool fail_fast = false;              // ends at the first episode that fails
   std::optional<double> time_limit_s;  // wall time; what is in hand then is given up

@@ -5,27 +5,12 @@
 
 #include <string_view>
 
+#include "env/core/markup.h"
+
 namespace floorproof {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string Escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t')
-      out += c;
-  }
-  return out;
-}
 
 // What a variant did, in a few lines for people.
 std::string VariantText(const Json& summary) {
@@ -50,7 +35,7 @@ std::string Case(const std::string& name, const std::string& criterion, double t
   return fmt::format(
       "    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\">\n{}      "
       "<system-out>{}</system-out>\n    </testcase>\n",
-      Escaped(name), Escaped(criterion), time_s, verdict, Escaped(VariantText(variant)));
+      MarkupText(name), MarkupText(criterion), time_s, verdict, MarkupText(VariantText(variant)));
 }
 
 // `gate` may be nullptr.
@@ -68,7 +53,7 @@ Suite VariantSuite(const std::string& name, const Json& variant, const GateState
                  : "",
       variant);
   if (gate != nullptr) {
-    const std::string text = Escaped(gate->Text());
+    const std::string text = MarkupText(gate->Text());
     std::string verdict;
     if (gate->verdict() == GateVerdict::kFailed)
       verdict = fmt::format("      <failure message=\"{0}\">{0}</failure>\n", text);
@@ -80,7 +65,7 @@ Suite VariantSuite(const std::string& name, const Json& variant, const GateState
   suite.xml = fmt::format(
       "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" "
       "time=\"{:.3f}\">\n{}  </testsuite>\n",
-      Escaped(name), suite.tests, suite.failures, suite.errors, time_s, cases);
+      MarkupText(name), suite.tests, suite.failures, suite.errors, time_s, cases);
   return suite;
 }
 

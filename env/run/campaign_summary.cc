@@ -194,8 +194,6 @@ std::string EpisodesCsv(const CampaignStore& store, const std::vector<Variant>& 
   return csv;
 }
 
-}  // namespace
-
 Json SummaryJson(const CampaignStore& store, const std::vector<Variant>& variants,
                  const std::vector<GateState>& gate) {
   Json json = {{"campaign", store.about().id}, {"variants", Json::object()}};
@@ -215,13 +213,16 @@ Json SummaryJson(const CampaignStore& store, const std::vector<Variant>& variant
   return json;
 }
 
-void WriteSummaryFiles(const CampaignStore& store, const std::vector<Variant>& variants,
+}  // namespace
+
+Json WriteSummaryFiles(const CampaignStore& store, const std::vector<Variant>& variants,
                        const std::vector<GateState>& gate, const std::string& scenario_name,
                        const std::filesystem::path& folder) {
-  const Json summary = SummaryJson(store, variants, gate);
+  Json summary = SummaryJson(store, variants, gate);
   WriteFileWhole(folder / "episodes.csv", EpisodesCsv(store, variants));
   WriteFileWhole(folder / "junit.xml", JunitXml(summary, gate, scenario_name));
   WriteFileWhole(folder / "summary.json", summary.dump(2) + "\n");
+  return summary;
 }
 
 }  // namespace floorproof

@@ -17,12 +17,11 @@ namespace floorproof {
 // intervals (two-sided Clopper-Pearson at 95 %), also per km and per 1,000 h (Garwood); metrics.
 // `gate`: what the gate says of the prefix of each variant, in the order of `variants`; empty
 // without a gate.
-nlohmann::ordered_json SummaryJson(const CampaignStore& store, const std::vector<Variant>& variants,
-                                   const std::vector<GateState>& gate);
-
-// Writes episodes.csv, junit.xml and, last, summary.json into the folder. Rows are streamed.
-void WriteSummaryFiles(const CampaignStore& store, const std::vector<Variant>& variants,
-                       const std::vector<GateState>& gate, const std::string& scenario_name,
-                       const std::filesystem::path& folder);
+// Writes episodes.csv, junit.xml and, last, summary.json into the folder; returns the summary.
+nlohmann::ordered_json WriteSummaryFiles(const CampaignStore& store,
+                                         const std::vector<Variant>& variants,
+                                         const std::vector<GateState>& gate,
+                                         const std::string& scenario_name,
+                                         const std::filesystem::path& folder);
 
 }  // namespace floorproof

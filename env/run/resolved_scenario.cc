@@ -94,9 +94,7 @@ ConfigNode Rebased(ConfigNode node, const fs::path& from, const fs::path& to) {
 
 // Whether variants or draws set this key: what follows from its value must then not be stated.
 bool Varies(const Scenario& s, const std::string& key) {
-  const auto sets = [&](const std::string& path) {
-    return path == key || path == key + ".name" || path == key + ".planner";
-  };
+  const auto sets = [&](const std::string& path) { return path == key || path == key + ".name"; };
   for (const ConfigNode* node : {&s.randomise, &s.matrix})
     for (const auto& [path, value] : node->entries) {
       if (sets(path)) return true;
