@@ -25,6 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+constexpr int kRounds = 3;
+
 double Since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
@@ -56,14 +58,21 @@ Timed RunOnce(const ScenarioFile& file, std::uint64_t n, int jobs, const fs::pat
   return timed;
 }
 
-// Bare loops of `processes` at once; steps a second of all together.
-double BareRate(const mjModel* model, const Notes& notes, int steps_a_control, int processes) {
+double Median(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values[values.size() / 2];
+}
+
+// Bare loops in so many processes at once, each so many times; steps a second of all together.
+double BareRate(const mjModel* model, const Notes& notes, int steps_a_control, int processes,
+                std::uint64_t times) {
   const double steps = static_cast<double>(notes.controls().size()) /
-                       static_cast<double>(model->nu) * steps_a_control * processes;
+                       static_cast<double>(model->nu) * steps_a_control * processes *
+                       static_cast<double>(times);
   const auto begin = Clock::now();
   for (int i = 0; i < processes; ++i)
     if (fork() == 0) {
-      BareLoop(model, notes, steps_a_control);
+      for (std::uint64_t k = 0; k < times; ++k) BareLoop(model, notes, steps_a_control);
       _exit(0);
     }
   while (wait(nullptr) > 0) {
@@ -95,18 +104,24 @@ int Main(int argc, char** argv) {
   Notes notes;
   RunEpisode(s, scene, plan, &notes);
 
-  const double bare_1 = BareRate(whole.model.get(), notes, steps_a_control, 1);
-  const Timed one = RunOnce(file, n, 1, folder);
-  const double bare_2 = BareRate(whole.model.get(), notes, steps_a_control, 2);
-  const Timed two = RunOnce(file, n, 2, folder);
-  const double rate_1 = one.steps / one.wall_s, rate_2 = two.steps / two.wall_s;
-  fmt::print("{} episodes of {}\n", n, scenario.stem().string());
-  fmt::print(
-      "one worker: {:.1f} k steps/s, bare mj_step {:.1f}: ratio {:.3f}; outside the drives {:.1f} "
-      "%\n",
-      rate_1 / 1e3, bare_1 / 1e3, rate_1 / bare_1, 100 * (1 - one.drive_s / one.wall_s));
-  fmt::print("two workers: x{:.2f}, the bare loop in two processes x{:.2f}: ratio {:.3f}\n",
-             rate_2 / rate_1, bare_2 / bare_1, rate_2 / rate_1 / (bare_2 / bare_1));
+  // Taken by turns, so that a machine that slows down slows both.
+  std::vector<double> speed, outside, scaling;
+  for (int round = 0; round < kRounds; ++round) {
+    const double bare_1 = BareRate(whole.model.get(), notes, steps_a_control, 1, n);
+    const Timed one = RunOnce(file, n, 1, folder);
+    const double bare_2 = BareRate(whole.model.get(), notes, steps_a_control, 2, n / 2);
+    const Timed two = RunOnce(file, n, 2, folder);
+    const double rate_1 = one.steps / one.wall_s, rate_2 = two.steps / two.wall_s;
+    speed.push_back(rate_1 / bare_1);
+    outside.push_back(1 - one.drive_s / one.wall_s);
+    scaling.push_back(rate_2 / rate_1 / (bare_2 / bare_1));
+    fmt::print("  one worker {:.1f} k steps/s, bare mj_step {:.1f}; two x{:.2f}, bare x{:.2f}\n",
+               rate_1 / 1e3, bare_1 / 1e3, rate_2 / rate_1, bare_2 / bare_1);
+  }
+  fmt::print("{} episodes of {}, medians of {} rounds\n", n, scenario.stem().string(), kRounds);
+  fmt::print("one worker: {:.3f} of the bare loop; outside the drives {:.1f} %\n", Median(speed),
+             100 * Median(outside));
+  fmt::print("two workers: {:.3f} of the bare loop's scaling\n", Median(scaling));
   if (many > 0) {
     const ScenarioFile tiny(scenario, {{"drive", "none"}});
     RunOnce(tiny, 1000, 2, folder);

@@ -84,6 +84,8 @@ class CoverageMeter {
   Pose2 last_;
   bool has_last_ = false;
   double s_m_ = 0, gap_m_ = 0, reach_m_ = 0;
+  Polygon footprint_G_;            // of the tool where it is, in cells
+  std::vector<double> crossings_;  // of a row with its edges
   std::int64_t swept_ = 0, twice_ = 0;
 };
 

@@ -61,6 +61,8 @@ void CoverageMeter::SetTool(const Shape2& tool) {
   if (tool_.kind == Shape2::Kind::kFootprint) {
     tool_.footprint_B = Offset(tool_.footprint_B, kEdge_m);
     reach_m_ += std::sqrt(2.0) * kEdge_m;
+    footprint_G_.resize(tool_.footprint_B.size());
+    crossings_.reserve(footprint_G_.size());
   }
 }
 
@@ -130,17 +132,32 @@ void CoverageMeter::SweepDisc(const Vec2& from_G, const Vec2& to_G, double lengt
   }
 }
 
+// Row by row: the cell centres between an edge where the row enters the footprint and the next,
+// where it leaves.
 void CoverageMeter::StampFootprint(const Pose2& X_GB, double s_m) {
-  const double reach = reach_m_ / area_->frame.cell_m;
-  const Polygon& corners_B = tool_.footprint_B;
-  const Pose2 X_BG{0, 0, -X_GB.yaw_rad};
-  const auto [y0, y1] = CentresIn(X_GB.y_m - reach, X_GB.y_m + reach, passes_.height);
-  const auto [x0, x1] = CentresIn(X_GB.x_m - reach, X_GB.x_m + reach, passes_.width);
-  for (int iy = y0; iy <= y1; ++iy)
-    for (int ix = x0; ix <= x1; ++ix) {
-      const Vec2 p_B = X_BG.Rotate(Vec2(ix + 0.5, iy + 0.5) - X_GB.p()) * area_->frame.cell_m;
-      if (Contains(corners_B, p_B)) Touch(ix, iy, s_m, s_m);
+  const double c = std::cos(X_GB.yaw_rad) / area_->frame.cell_m,
+               d = std::sin(X_GB.yaw_rad) / area_->frame.cell_m;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t i = 0; i < footprint_G_.size(); ++i) {
+    const Vec2& p_B = tool_.footprint_B[i];
+    footprint_G_[i] = X_GB.p() + Vec2(c * p_B.x() - d * p_B.y(), d * p_B.x() + c * p_B.y());
+    low = std::min(low, footprint_G_[i].y()), high = std::max(high, footprint_G_[i].y());
+  }
+  const auto [y0, y1] = CentresIn(low, high, passes_.height);
+  for (int iy = y0; iy <= y1; ++iy) {
+    const double y = iy + 0.5;
+    crossings_.clear();
+    for (std::size_t i = 0, j = footprint_G_.size() - 1; i < footprint_G_.size(); j = i++) {
+      const Vec2 &a = footprint_G_[j], &b = footprint_G_[i];
+      if ((a.y() <= y) != (b.y() <= y))
+        crossings_.push_back(a.x() + (b.x() - a.x()) * (y - a.y()) / (b.y() - a.y()));
     }
+    std::ranges::sort(crossings_);
+    for (std::size_t k = 0; k + 1 < crossings_.size(); k += 2) {
+      const auto [x0, x1] = CentresIn(crossings_[k], crossings_[k + 1], passes_.width);
+      for (int ix = x0; ix <= x1; ++ix) Touch(ix, iy, s_m, s_m);
+    }
+  }
 }
 
 void CoverageMeter::Add(const Pose2& X_WB) {

@@ -10,9 +10,9 @@
 namespace floorproof {
 namespace {
 
-constexpr int kFewPairs = 64, kFewFixed = 32;  // cost less than the choice among them
-constexpr double kHair_m = 1e-6;               // by which bounds are wider than what they hold
-constexpr double kEndless_m = 1e9;             // of a plane
+constexpr int kFewPairs = 16, kFewFixed = 2;  // cost less than the choice among them
+constexpr double kHair_m = 1e-6;              // by which bounds are wider than what they hold
+constexpr double kEndless_m = 1e9;            // of a plane
 
 // Upper bound of the angle between two rotations: 4 asin(chord / 2).
 double AngleBetween(const mjtNum* q1, const mjtNum* q2) {
@@ -39,7 +39,7 @@ double LiveGeoms::Bounds::Distance(const Vec3& p_W) const {
 
 LiveGeoms::LiveGeoms(const Scene& scene) : scene_(scene), model_(*scene.model) {
   const bool pool = scene.pool.num > 0, pairs = model_.npair > kFewPairs,
-             fixed = scene.num_floor_geoms + scene.num_hazard_geoms > kFewFixed;
+             fixed = model_.body_geomnum[0] > kFewFixed;
   if (!(pool || pairs || fixed) || !NearnessIsKnown(&model_, scene.base_body)) return;
   const auto ngeom = static_cast<std::size_t>(model_.ngeom);
   const std::vector<bool> touches = CanTouch(&model_);
