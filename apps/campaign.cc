@@ -93,9 +93,9 @@ CampaignStore OpenStore(const fs::path& folder, const CampaignAbout& about, bool
   if (!resume)
     throw InputError({folder.string(), 0}, "", "",
                      "holds a campaign: --resume goes on with it, --out names another folder");
-  CampaignStore store = CampaignStore::Open(file, true);
-  RequireSame(store.about(), about, file);
-  return store;
+  // Another campaign's database is not so much as opened to be written.
+  RequireSame(CampaignStore::Open(file, false).about(), about, file);
+  return CampaignStore::Open(file, true);
 }
 
 int RunIt(const Options& options, const Globals& globals) {

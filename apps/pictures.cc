@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "render/heatmap.h"
-
 namespace floorproof {
 namespace {
 
@@ -49,20 +47,27 @@ void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecor
         OverSweepable(record, [](std::uint8_t passes) { return passes > 0 ? 1.0f : 0.0f; });
     WriteHeatMap(s.site.map, &heat, options, folder / "heatmap_coverage.png");
   }
-  WriteFailurePlaces(s.site.map, Title(s), record.events, &plan.path,
+  WriteFailurePlaces(s.site.map, Title(s), record.events, nullptr, &plan.path,
                      folder / "heatmap_failures.png");
 }
 
 void WriteFailurePlaces(const HazardMap& map, const std::string& title,
-                        const std::vector<Event>& events, const Path* plan,
+                        const std::vector<Event>& events, const HeatValues* rates, const Path* plan,
                         const std::filesystem::path& png) {
+  constexpr std::size_t kManyPoints = 200;  // they would hide the squares
   HeatMapOptions options;
   options.title =
       fmt::format("{}: {} failure event{}", title, events.size(), events.size() == 1 ? "" : "s");
-  for (const auto& event : events)
-    options.points.push_back({{event.x_m, event.y_m}, std::string(Name(event.mode))});
+  if (rates == nullptr || events.size() <= kManyPoints)
+    for (const auto& event : events)
+      options.points.push_back({{event.x_m, event.y_m}, std::string(Name(event.mode))});
+  if (rates != nullptr) {
+    options.quantity = "episodes failing here";
+    options.unit = "%";
+    options.low = 0;
+  }
   options.plan = plan;
-  WriteHeatMap(map, nullptr, options, png);
+  WriteHeatMap(map, rates, options, png);
 }
 
 std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& plan,

@@ -8,6 +8,7 @@
 
 #include "env/run/episode.h"
 #include "render/film.h"
+#include "render/heatmap.h"
 
 namespace floorproof {
 
@@ -17,9 +18,10 @@ void WritePlanPicture(const Scenario& scenario, const PlanResult& plan,
 // heatmap_visits.png, heatmap_coverage.png and heatmap_failures.png.
 void WriteHeatMaps(const Scenario& scenario, const PlanResult& plan, const EpisodeRecord& record,
                    const std::filesystem::path& folder);
-// Failures as points over the map, and the plan where there is one.
+// Failures as points over the map, on the share of episodes that failed in each square where that
+// is given, and the plan where there is one.
 void WriteFailurePlaces(const HazardMap& map, const std::string& title,
-                        const std::vector<Event>& events, const Path* plan,
+                        const std::vector<Event>& events, const HeatValues* rates, const Path* plan,
                         const std::filesystem::path& png);
 // video.mp4 and frame_*.png; returns a line that says how it went.
 std::string WriteVideo(const Scenario& scenario, const Scene& scene, const PlanResult& plan,

@@ -154,6 +154,30 @@ std::string PictureFile(const std::string& variant, std::size_t number) {
   return "heatmap_failures_" + name + ".png";
 }
 
+// The rates on a grid that spans them; none where no episode failed.
+std::optional<HeatValues> RatesOnFloor(const ReportPlaces& places) {
+  constexpr int kMostCells = 1 << 24;  // an event far off the map makes no picture's grid
+  if (places.rates.empty()) return std::nullopt;
+  Vec2 low = places.rates.front().p_W, high = low;
+  for (const ReportPlace& place : places.rates) {
+    low = low.cwiseMin(place.p_W);
+    high = high.cwiseMax(place.p_W);
+  }
+  const Vec2 cells = (high - low) / places.cell_m + Vec2::Ones();
+  if (!(cells.x() * cells.y() < kMostCells)) return std::nullopt;
+  HeatValues heat;
+  heat.frame = {static_cast<int>(std::lround(cells.x())),
+                static_cast<int>(std::lround(cells.y())),
+                places.cell_m,
+                {low.x() - places.cell_m / 2, low.y() - places.cell_m / 2, 0}};
+  heat.values = Grid<float>(heat.frame.width, heat.frame.height, HeatValues::kNone);
+  for (const ReportPlace& place : places.rates) {
+    const Cell cell = heat.frame.ToCell(place.p_W);
+    heat.values(cell.ix, cell.iy) = static_cast<float>(100 * place.rate.rate);
+  }
+  return heat;
+}
+
 void AddPlaces(const fs::path& folder, const Rows& rows, Report& report) {
   std::optional<ScenarioFile> file;
   std::string why;
@@ -174,8 +198,9 @@ void AddPlaces(const fs::path& folder, const Rows& rows, Report& report) {
         continue;
       }
       const fs::path png = folder / PictureFile(variant.name, v + 1);
+      const std::optional<HeatValues> rates = RatesOnFloor(variant.places);
       WriteFailurePlaces(scenario.site.map, variant.name + " on " + scenario.site.map.name,
-                         rows.places()[v], nullptr, png);
+                         rows.places()[v], rates ? &*rates : nullptr, nullptr, png);
       variant.places_png = ReadInputFile(png, kMostBytes);
       if (!scenario.randomise.IsNull())
         variant.places_note = "the map is the site as written, before an episode's draws";

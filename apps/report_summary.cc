@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -24,12 +25,32 @@ double NumberOr(const Json& value, double otherwise) {
   return value.is_null() ? otherwise : value.get<double>();
 }
 
+ReportRate ReadRate(const std::string& name, const Json& rate) {
+  return {name,
+          rate.at("k"),
+          rate.at("n"),
+          NumberOr(rate.at("rate"), kNone),
+          rate.at("lower"),
+          rate.at("upper")};
+}
+
 std::vector<ReportRate> ReadRates(const Json& json) {
   std::vector<ReportRate> rates;
-  for (const auto& [name, rate] : json.items())
-    rates.push_back({name, rate.at("k"), rate.at("n"), NumberOr(rate.at("rate"), kNone),
-                     rate.at("lower"), rate.at("upper")});
+  for (const auto& [name, rate] : json.items()) rates.push_back(ReadRate(name, rate));
   return rates;
+}
+
+// The worst first; `name` says where.
+ReportPlaces ReadPlaces(const Json& json) {
+  ReportPlaces places{.cell_m = json.at("cell_m")};
+  for (const Json& place : json.at("places")) {
+    const double x_m = place.at("x_m"), y_m = place.at("y_m");
+    places.rates.push_back(
+        {{x_m, y_m}, ReadRate(fmt::format("x {:.2f}, y {:.2f} m", x_m, y_m), place)});
+  }
+  std::ranges::stable_sort(places.rates, std::greater(),
+                           [](const ReportPlace& place) { return place.rate.k; });
+  return places;
 }
 
 std::vector<ReportRatePer> ReadRatesPer(const Json& json) {
@@ -64,6 +85,7 @@ ReportVariant ReadVariant(const std::string& name, const Json& json) {
   v.failures = ReadRates(json.at("failures"));
   v.kinds = ReadRates(json.at("by_kind"));
   v.hazards = ReadRates(json.at("by_hazard"));
+  v.places = ReadPlaces(json.at("by_place"));
   v.per_km = ReadRatesPer(json.at("per_km"));
   v.per_1000_h = ReadRatesPer(json.at("per_1000_h"));
   for (const auto& [metric, spread] : json.at("metrics").items())

@@ -124,7 +124,7 @@ std::string Places(const Report& report) {
                           " failed" + (v.places_note.empty() ? "" : "; " + v.places_note));
     else
       html += "<p class=\"note\">" + MarkupText(v.places_note) + "</p>\n";
-    html += "</div>\n";
+    html += PlaceRates(report, v) + "</div>\n";
   }
   return html;
 }

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "env/core/geometry.h"
+
 namespace floorproof {
 
 // k of n episodes; two-sided bounds. `rate` is NaN at n = 0.
@@ -42,6 +44,17 @@ struct ReportGate {
   std::vector<std::pair<std::string, std::string>> texts{};  // variant: its sentence
 };
 
+struct ReportPlace {
+  Vec2 p_W{};  // the square's centre
+  ReportRate rate{};
+};
+
+// Squares of the floor in which an episode failed; in all others none did.
+struct ReportPlaces {
+  double cell_m = 0;
+  std::vector<ReportPlace> rates{};  // the worst first
+};
+
 struct ReportVariant {
   std::string name{};
   int n = 0, errors = 0, not_planned = 0, success = 0, failure = 0, timeout = 0;
@@ -49,6 +62,7 @@ struct ReportVariant {
   std::vector<ReportRate> kinds{}, hazards{};
   std::vector<ReportRatePer> per_km{}, per_1000_h{};  // as many as failures, in their order
   std::vector<ReportMetric> metrics{};
+  ReportPlaces places{};
   std::string places_png{};   // where failures happened; empty: `places_note` says why
   std::string places_note{};  // also said below a picture
 };

@@ -243,6 +243,24 @@ std::string VariantRates(const Report& report, const ReportVariant& v) {
   return html + MetricsTable(v);
 }
 
+std::string PlaceRates(const Report& report, const ReportVariant& v) {
+  constexpr std::size_t kShown = 10;
+  std::vector<std::string> names;
+  std::vector<ReportRate> rates;
+  for (std::size_t i = 0; i < std::min(kShown, v.places.rates.size()); ++i) {
+    names.push_back(v.places.rates[i].rate.name);
+    rates.push_back(v.places.rates[i].rate);
+  }
+  if (rates.empty()) return "";
+  std::string html = RatesTable(
+      report, fmt::format("Square of {} m around", NumberText(v.places.cell_m)), names, rates);
+  if (v.places.rates.size() > kShown)
+    html +=
+        fmt::format("<p class=\"note\">{} more squares stand in <code>summary.json</code>.</p>\n",
+                    v.places.rates.size() - kShown);
+  return html;
+}
+
 std::string PairedTables(const Report& report) {
   std::string html;
   for (const ReportPair& pair : report.pairs) html += PairTable(report, pair);

@@ -12,6 +12,8 @@ namespace floorproof {
 std::string VariantsTable(const Report& report);
 // One variant: outcomes, rates, rates per km and hour, kinds, hazards, metrics.
 std::string VariantRates(const Report& report, const ReportVariant& variant);
+// The squares of the floor where most episodes failed; empty where none did.
+std::string PlaceRates(const Report& report, const ReportVariant& variant);
 // Each variant against the first.
 std::string PairedTables(const Report& report);
 

@@ -274,6 +274,7 @@ void ConfigNode::SetPath(std::string_view key_path, ConfigNode value) {
   if (IsScalar())
     throw InputError(value.mark, std::string(key_path), "", "stands below a value that is no map");
   kind = Kind::kMap;
+  if (mark.file.empty()) mark = value.mark;  // made for it
   if (dot == std::string_view::npos) {
     Add(key, std::move(value));
     return;

@@ -148,12 +148,8 @@ class CampaignDrive {
   }
 
   void TakeCrash(Job job, const std::string& how) {
-    EpisodeRow row;
-    row.variant = VariantOf(job).name;
-    row.episode = job / trackers_.size();
-    row.outcome = Name(Outcome::kError);
-    row.message = "crashed: its process was " + how + ", twice";
-    Take(row);
+    Take(maker_.Refused(VariantOf(job), job / trackers_.size(),
+                        "crashed: its process was " + how + ", twice"));
   }
 
   // Whether this row ends the campaign, once all before it are done.
@@ -195,7 +191,12 @@ class CampaignDrive {
   CampaignRun Finish() {
     Stop();
     CampaignRun run;
-    if (ended_) run.end = *ended_;
+    // Neither a limit nor Ctrl-C ends what is done.
+    const bool complete = std::ranges::all_of(trackers_, [&](const Tracker& t) {
+      return t.decided() || t.progress().prefix >= options_.end;
+    });
+    const bool cut = ended_ == CampaignEnd::kTimeLimit || ended_ == CampaignEnd::kInterrupted;
+    if (ended_ && !(cut && complete)) run.end = *ended_;
     for (std::size_t v = 0; v < trackers_.size(); ++v) {
       // What lies beyond is kept and not judged: early arrivals would bias it.
       std::uint64_t from = trackers_[v].progress().prefix;

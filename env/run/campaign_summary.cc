@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
+#include "env/core/grid.h"
 #include "env/run/campaign_junit.h"
+#include "env/run/episodes_csv.h"
 #include "env/run/file_output.h"
 #include "env/stats/binomial.h"
 #include "env/stats/poisson.h"
@@ -18,6 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kConfidence = 0.95;
+const GridFrame kPlaces{0, 0, 0.5, {}};  // squares of the world, whatever the site's own cells
 
 // k episodes of n, with the exact interval.
 Json Rate(int k, int n) {
@@ -69,6 +73,7 @@ struct Tally {
   std::map<std::string, int> outcomes;
   std::array<int, kNumFailureModes> episodes{}, events{};  // by mode
   std::map<std::string, int> kinds, hazards;               // episodes with one or more
+  std::map<std::pair<int, int>, int> places;               // the same, by square of the floor
   std::map<std::string, std::uint64_t> first;              // by mode: the first episode's number
   std::array<std::vector<double>, kMetricColumns.size()> metrics;
   double km = 0, hours = 0;
@@ -89,15 +94,20 @@ struct Tally {
       if (row.events_of[m] > 0)
         first.emplace(Name(static_cast<FailureMode>(m)), row.episode);  // rows come ascending
     }
-    std::map<std::string, bool> seen_kinds, seen_hazards;
+    std::set<std::string> seen_kinds, seen_hazards;
+    std::set<std::pair<int, int>> seen_places;
     const Json events_met = Json::parse(row.events);
     for (const Json& event : events_met) {
       const auto text = [&](const char* key) { return event.value(key, std::string()); };
-      if (!text("kind").empty()) seen_kinds[text("mode") + "/" + text("kind")] = true;
-      if (!text("hazard").empty()) seen_hazards[text("hazard")] = true;
+      if (!text("kind").empty()) seen_kinds.insert(text("mode") + "/" + text("kind"));
+      if (!text("hazard").empty()) seen_hazards.insert(text("hazard"));
+      const Cell place =
+          kPlaces.ToCell(Vec2(event.at("x_m").get<double>(), event.at("y_m").get<double>()));
+      seen_places.emplace(place.ix, place.iy);
     }
-    for (const auto& [kind, seen] : seen_kinds) kinds[kind] += seen;
-    for (const auto& [hazard, seen] : seen_hazards) hazards[hazard] += seen;
+    for (const std::string& kind : seen_kinds) ++kinds[kind];
+    for (const std::string& hazard : seen_hazards) ++hazards[hazard];
+    for (const auto& place : seen_places) ++places[place];
   }
 
   int count(const char* outcome) const {
@@ -108,8 +118,8 @@ struct Tally {
 
 Json VariantJson(const Tally& tally) {
   Json failures = {{"any_failure", Rate(tally.any, tally.n)}}, per_km, per_hour;
-  Json kinds = Json::object(), hazards = Json::object(), metrics = Json::object(),
-       first = Json::object();
+  Json kinds = Json::object(), hazards = Json::object(), places = Json::array(),
+       metrics = Json::object(), first = Json::object();
   int events = 0;
   for (const int n : tally.events) events += n;
   per_km["any_failure"] = RatePer(events, tally.km);
@@ -122,6 +132,12 @@ Json VariantJson(const Tally& tally) {
   }
   for (const auto& [kind, k] : tally.kinds) kinds[kind] = Rate(k, tally.n);
   for (const auto& [hazard, k] : tally.hazards) hazards[hazard] = Rate(k, tally.n);
+  for (const auto& [place, k] : tally.places) {
+    const Vec2 centre = kPlaces.Center(place.first, place.second);
+    Json rate = {{"x_m", centre.x()}, {"y_m", centre.y()}};
+    rate.update(Rate(k, tally.n));
+    places.push_back(std::move(rate));
+  }
   for (std::size_t i = 0; i < tally.metrics.size(); ++i)
     metrics[std::string(kMetricColumns[i])] = Spread(tally.metrics[i]);
   for (const auto& [mode, episode] : tally.first) first[mode] = episode;
@@ -137,61 +153,9 @@ Json VariantJson(const Tally& tally) {
           {"per_1000_h", std::move(per_hour)},
           {"by_kind", std::move(kinds)},
           {"by_hazard", std::move(hazards)},
+          {"by_place", {{"cell_m", kPlaces.cell_m}, {"places", std::move(places)}}},
           {"metrics", std::move(metrics)},
           {"first_episode", std::move(first)}};
-}
-
-std::string Quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
-std::string Cell(const Json& value) {
-  if (value.is_null()) return "";
-  return Quoted(value.is_string() ? value.get<std::string>() : value.dump());
-}
-
-// Which plan.* and drawn.* columns there are, in the order first met.
-struct CsvColumns {
-  std::vector<std::string> plan, drawn;
-  void See(const EpisodeRow& row) {
-    SeeKeys(row.plan, plan);
-    SeeKeys(row.drawn, drawn);
-  }
-
- private:
-  static void SeeKeys(const std::string& text, std::vector<std::string>& names) {
-    const Json json = Json::parse(text);
-    for (const auto& [key, value] : json.items())
-      if (std::ranges::find(names, key) == names.end()) names.push_back(key);
-  }
-};
-
-std::string EpisodesCsv(const CampaignStore& store, const std::vector<Variant>& variants) {
-  CsvColumns columns;
-  for (const Variant& variant : variants)
-    store.ForEach(variant.name, [&](const EpisodeRow& row) { columns.See(row); });
-  std::string csv = "variant,episode,outcome,message";
-  for (int m = 0; m < kNumFailureModes; ++m)
-    csv += "," + std::string(Name(static_cast<FailureMode>(m)));
-  for (const std::string_view metric : kMetricColumns) csv += "," + std::string(metric);
-  for (const std::string& name : columns.plan) csv += ",plan." + Quoted(name);
-  for (const std::string& name : columns.drawn) csv += ",drawn." + Quoted(name);
-  csv += "\n";
-  for (const Variant& variant : variants)
-    store.ForEach(variant.name, [&](const EpisodeRow& row) {
-      csv += fmt::format("{},{},{},{}", Quoted(row.variant), row.episode, row.outcome,
-                         Quoted(row.message));
-      for (const int n : row.events_of) csv += fmt::format(",{}", n);
-      for (const auto& value : row.metrics) csv += value ? fmt::format(",{}", *value) : ",";
-      const Json plan = Json::parse(row.plan), drawn = Json::parse(row.drawn);
-      for (const std::string& name : columns.plan) csv += "," + Cell(plan.value(name, Json()));
-      for (const std::string& name : columns.drawn) csv += "," + Cell(drawn.value(name, Json()));
-      csv += "\n";
-    });
-  return csv;
 }
 
 Json SummaryJson(const CampaignStore& store, const std::vector<Variant>& variants,

@@ -13,11 +13,11 @@
 
 namespace floorproof {
 
-// The rows of the campaign by variant: outcomes; failures of each mode, kind and hazard with exact
-// intervals (two-sided Clopper-Pearson at 95 %), also per km and per 1,000 h (Garwood); metrics.
-// `gate`: what the gate says of the prefix of each variant, in the order of `variants`; empty
-// without a gate.
-// Writes episodes.csv, junit.xml and, last, summary.json into the folder; returns the summary.
+// The rows of the campaign by variant: outcomes; failures of each mode, kind, hazard and place (a
+// square of 0.5 m of the world) with exact intervals (two-sided Clopper-Pearson at 95 %), also per
+// km and per 1,000 h (Garwood); metrics. `gate`: what the gate says of the prefix of each variant,
+// in the order of `variants`; empty without a gate. Writes episodes.csv, junit.xml and, last,
+// summary.json into the folder; returns the summary.
 nlohmann::ordered_json WriteSummaryFiles(const CampaignStore& store,
                                          const std::vector<Variant>& variants,
                                          const std::vector<GateState>& gate,

@@ -26,13 +26,11 @@ std::string PlanInputs(const Scenario& s) {
   return text;
 }
 
-EpisodeRow Refused(const Variant& variant, std::uint64_t episode, const std::string& why) {
-  EpisodeRow row;
-  row.variant = variant.name;
-  row.episode = episode;
-  row.outcome = Name(Outcome::kError);
-  row.message = why;
-  return row;
+// Paths within the scenario's folder are told from there, so that a shard driven elsewhere says the
+// same.
+std::string FromFolder(const std::string& message, const std::filesystem::path& folder) {
+  const std::string prefix = folder.empty() ? "" : (folder / "").string();
+  return message.starts_with(prefix) ? message.substr(prefix.size()) : message;
 }
 
 }  // namespace
@@ -66,6 +64,17 @@ EpisodeRow EpisodeMaker::Run(const Variant& variant, std::uint64_t episode) try 
   return Refused(variant, episode, e.what());
 } catch (const InternalError& e) {
   return Refused(variant, episode, e.what());
+}
+
+EpisodeRow EpisodeMaker::Refused(const Variant& variant, std::uint64_t episode,
+                                 const std::string& why) const {
+  EpisodeRow row;
+  row.variant = variant.name;
+  row.episode = episode;
+  row.outcome = Name(Outcome::kError);
+  row.message = FromFolder(why, file_.file().parent_path());
+  row.drawn = DrawnJson(file_.DrawnOf(episode)).dump();
+  return row;
 }
 
 }  // namespace floorproof

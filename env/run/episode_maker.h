@@ -19,6 +19,8 @@ class EpisodeMaker {
   // Plans and, unless the scenario says `drive: none`, drives. What an episode's draws make
   // impossible (a start in a wall) is its outcome `error`, with the reason as message.
   EpisodeRow Run(const Variant& variant, std::uint64_t episode);
+  // The row of an episode that could not be run.
+  EpisodeRow Refused(const Variant& variant, std::uint64_t episode, const std::string& why) const;
 
  private:
   struct Planned {

@@ -10,6 +10,7 @@ namespace floorproof {
 namespace {
 
 constexpr std::size_t kMostVariants = 10'000;
+constexpr std::size_t kLongestName = 200;  // films and pictures carry it in their files' names
 
 // What all variants share, their draws above all, and what is read before they are made.
 const std::vector<std::string> kShared = {"scenario", "name", "seed", "randomise",
@@ -78,9 +79,18 @@ std::vector<Variant> ReadMatrix(const ConfigNode* node) {
     for (const Variant& base : variants)
       for (const Variant& entry : axis) {
         Variant variant = base;
+        for (const auto& [name, value] : entry.overrides)
+          for (const auto& [before, _] : base.overrides)
+            if (before == name || before.starts_with(name + "."))
+              throw InputError(value.mark, "matrix." + key, name,
+                               "a key above sets " + before + ", which this would undo");
         variant.name += (base.name.empty() ? "" : ",") + entry.name;
         variant.overrides.insert(variant.overrides.end(), entry.overrides.begin(),
                                  entry.overrides.end());
+        if (variant.name.size() > kLongestName)
+          throw InputError(list.mark, "matrix." + key, variant.name,
+                           "a variant's name has at most " + std::to_string(kLongestName) +
+                               " bytes: give the values shorter labels");
         product.push_back(std::move(variant));
       }
     variants = std::move(product);

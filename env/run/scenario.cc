@@ -322,13 +322,17 @@ std::string ScenarioFile::name() const {
   return name ? AsString(*name, "name") : file_.stem().string();
 }
 
+Drawn ScenarioFile::DrawnOf(std::uint64_t episode) const {
+  return Draw(randomised_, static_cast<std::uint64_t>(seed_), episode);
+}
+
 Scenario ScenarioFile::Read(std::optional<std::uint64_t> episode, const Variant& variant) const {
   Scenario s;
   s.file = file_;
   s.episode_id = episode.value_or(0);
   Variant changes = variant;
   if (episode) {
-    s.drawn = Draw(randomised_, static_cast<std::uint64_t>(seed_), *episode);
+    s.drawn = DrawnOf(*episode);
     changes.overrides.insert(changes.overrides.end(), s.drawn.begin(), s.drawn.end());
   }
   ConfigNode root = root_;

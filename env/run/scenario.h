@@ -77,6 +77,9 @@ class ScenarioFile {
   // InputError.
   Scenario Read(std::optional<std::uint64_t> episode = 0, const Variant& variant = {}) const;
 
+  // What `randomise` draws for an episode.
+  Drawn DrawnOf(std::uint64_t episode) const;
+
   const std::filesystem::path& file() const { return file_; }
   const std::vector<Variant>& variants() const { return variants_; }
   int seed() const { return seed_; }

@@ -239,6 +239,43 @@ TEST_F(CampaignTest, ExitStatuses) {
   EXPECT_EQ(Campaign("-n 5 --out broken").status, 3) << "a start in a wall";
   EXPECT_EQ(Count("broken", "SELECT count(*) FROM episode WHERE outcome = 'error'"), 5);
   EXPECT_THAT(Select("broken", "SELECT message FROM episode"), HasSubstr("lies in a wall"));
+  EXPECT_THAT(Select("broken", "SELECT drawn FROM episode"), HasSubstr("start.x_m"));
+}
+
+// A shard driven elsewhere must not differ by its folder's name.
+TEST_F(CampaignTest, AnErrorsMessageIsTheSameInEachFolder) {
+  Write("", "  start.x_m: {uniform: [0.1, 0.2]}\n");
+  ASSERT_EQ(Campaign("-n 2 --out a").status, 3);
+  EXPECT_EQ(Run("campaign " + (folder_ / "s.yaml").string() + " -n 2 --out b").status, 3);
+  ExpectSameResults("a", "b");
+  EXPECT_THAT(Select("a", "SELECT message FROM episode"), HasSubstr("s.yaml:"));
+}
+
+TEST_F(CampaignTest, RatesPerPlaceAreOfTheEpisodesThatFailedThere) {
+  ASSERT_EQ(Campaign("-n 8 --out a").status, 0);
+  const Json variant = Json::parse(Slurp(folder_ / "a/summary.json"))["variants"]["default"];
+  const Json& places = variant["by_place"]["places"];
+  const double half_m = variant["by_place"]["cell_m"].get<double>() / 2;
+  ASSERT_FALSE(places.empty());
+  int failed = 0;
+  const CampaignStore store = CampaignStore::Open(folder_ / "a/campaign.sqlite", false);
+  store.ForEach("default", [&](const EpisodeRow& row) {
+    const Json events = Json::parse(row.events);
+    for (const Json& event : events)
+      EXPECT_TRUE(std::ranges::any_of(places, [&](const Json& place) {
+        return std::abs(event["x_m"].get<double>() - place["x_m"].get<double>()) <= half_m &&
+               std::abs(event["y_m"].get<double>() - place["y_m"].get<double>()) <= half_m;
+      })) << event;
+    failed += !events.empty();
+  });
+  int most = 0, all = 0;
+  for (const Json& place : places) {
+    EXPECT_EQ(place["n"], 8);
+    most = std::max(most, place["k"].get<int>());
+    all += place["k"].get<int>();
+  }
+  EXPECT_LE(most, failed) << "an episode counts once in a place";
+  EXPECT_GE(all, failed);
 }
 
 TEST_F(CampaignTest, CtrlCIsOneLineAndStatus130) {

@@ -56,6 +56,10 @@ TEST(Matrix, LabelledEntriesChangeKeysTogether) {
   EXPECT_EQ(dut[1].overrides[1].first, "site.floor.friction");
 }
 
+TEST(Matrix, AKeyMayBeSetWithinWhatAnotherAxisSets) {
+  EXPECT_EQ(Read("robot: [htetro]\nrobot.shape: [O, I]").size(), 2u);
+}
+
 TEST(Matrix, BadInputNamesLineKeyAndRule) {
   std::string many = "a: [0";
   for (int i = 1; i < 101; ++i) many += ", " + std::to_string(i);
@@ -74,6 +78,12 @@ TEST(Matrix, BadInputNamesLineKeyAndRule) {
       {"seed: [1, 2]", "matrix.seed", "cannot differ between variants"},
       {"s: [{label: a, gate.max_rate: 0.1}]", "matrix.s = gate.max_rate", "cannot differ"},
       {many + "b" + many.substr(1), "matrix", "more than 10000 variants"},
+      {"start.x_m: [1, 2]\nset: [{label: a, start.x_m: 3}]", "matrix.set = start.x_m",
+       "a key above sets start.x_m, which this would undo"},
+      {"robot.shape: [O, I]\nrobot: [htetro]", "matrix.robot = robot",
+       "a key above sets robot.shape"},
+      {"s: [{label: " + std::string(200, 'a') + ", start.x_m: 3}]", "matrix.s",
+       "has at most 200 bytes"},
   };
   for (const auto& [yaml, where, rule] : cases) {
     try {

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// episodes.csv: a campaign's rows as a table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "env/run/campaign_store.h"
+#include "env/run/matrix.h"
+
+namespace floorproof {
+
+// By variant and episode: outcome, events by mode, metrics, then plan.* and drawn.* columns as far
+// as any row has them.
+std::string EpisodesCsv(const CampaignStore& store, const std::vector<Variant>& variants);
+
+}  // namespace floorproof
