@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parts of a scenario's tree, each read and checked: what scenario.cc does once overrides,
+// variant and draws are in the tree. Used there only.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "env/run/scenario.h"
+
+namespace floorproof {
+
+inline constexpr std::uintmax_t kMostNamedBytes = 256u << 20;  // readers have narrower bounds
+
+// All keys that may stand at the top.
+const std::vector<std::string>& ScenarioKeys();
+// A file that the scenario names and that can be read; throws InputError.
+std::filesystem::path NamedFile(const std::filesystem::path& folder, const ConfigNode& node,
+                                const std::string& key);
+// Parameters of the episode, of the physics and of the film. Throws InputError.
+void ReadTopKeys(const ConfigNode& root, Scenario& s);
+// Plan, robot, start, goal, plug-ins; the site is there. Throws InputError.
+void ReadParts(const ConfigNode& root, Scenario& s);
+
+}  // namespace floorproof
