@@ -27,7 +27,7 @@ struct Options {
   std::uint64_t n = 0;
   int seed = -1, jobs = 0;
   double time_limit_s = 0;
-  bool resume = false, fail_fast = false, no_films = false;
+  bool resume = false, retry_errors = false, fail_fast = false, no_films = false;
 };
 
 // A:B, half-open; all of 0:n where it is empty.
@@ -98,6 +98,30 @@ CampaignStore OpenStore(const fs::path& folder, const CampaignAbout& about, bool
   return CampaignStore::Open(file, true);
 }
 
+// A fixed gate is judged once, at an n set beforehand: going on because it did not pass would pass
+// falsely far more often than it says.
+void RefuseSecondLook(const CampaignStore& store, const ScenarioFile& file, std::uint64_t n) {
+  const std::uint64_t before = store.asked();
+  if (before == 0 || n <= before) return;
+  const auto gate = CampaignGate::Read(file.gate(), before, file.drives());
+  if (!gate || !gate->fixed()) return;
+  const bool judged = std::ranges::all_of(file.variants(), [&](const Variant& variant) {
+    GateState state = gate->Start();
+    std::uint64_t next = 0;
+    store.ForEach(variant.name, [&](const EpisodeRow& row) {
+      if (row.episode != next) return;
+      ++next;
+      if (gate->Judges(row)) state.Add(gate->Fails(row));
+    });
+    return state.decided() || next >= before;
+  });
+  if (judged)
+    throw InputError({"-n", 0}, "", std::to_string(n),
+                     fmt::format("the fixed gate was judged at {} episodes; only a gate of `mode: "
+                                 "sequential` may go on",
+                                 before));
+}
+
 int RunIt(const Options& options, const Globals& globals) {
   auto overrides = globals.Overrides();
   if (options.seed >= 0) overrides.push_back({"seed", std::to_string(options.seed)});
@@ -116,11 +140,16 @@ int RunIt(const Options& options, const Globals& globals) {
   SayWarnings(base, globals);
   const CampaignAbout about = DescribeCampaign(file);
   const std::vector<Variant>& variants = file.variants();
-  const auto gate = CampaignGate::Read(base.gate, options.n);  // refused before there is a folder
+  // Refused before there is a folder.
+  const auto gate = CampaignGate::Read(base.gate, options.n, file.drives());
+  file.CheckDraws();
   if (options.episodes.empty()) campaign.gate = gate;
 
   const HoldInterrupts hold;
   CampaignStore store = OpenStore(folder, about, options.resume);
+  RefuseSecondLook(store, file, options.n);
+  store.SetAsked(options.n);
+  if (options.retry_errors) store.DropErrors();
   SayWhenInterrupted(folder.string() + " holds every episode saved so far; --resume goes on");
   WriteFileWhole(folder / "scenario.resolved.yaml", ResolvedScenario(base, folder));
   Progress progress(globals, variants);
@@ -128,7 +157,8 @@ int RunIt(const Options& options, const Globals& globals) {
   progress.Clear();
   const int status = SayResults(file, store, run, folder, globals);
   if (run.end == CampaignEnd::kInterrupted) EndInterrupted();
-  if (!options.no_films) FilmFirstFailures(file, store, folder, globals);
+  if (!options.no_films && run.end != CampaignEnd::kTimeLimit)
+    FilmFirstFailures(file, store, folder, globals);
   return status;
 }
 
@@ -151,10 +181,14 @@ void AddCampaign(CLI::App& app, const Globals& globals, int& status) {
       "A:B, ids from A to before B only: a shard for `merge`; its gate is judged there");
   command->add_option("--out", options->out, "Output folder (default: out/<scenario's stem>)");
   command->add_flag("--resume", options->resume, "Go on with the campaign that the folder holds");
+  command->add_flag("--retry-errors", options->retry_errors,
+                    "With --resume: drive again what ended in an error");
   command->add_flag("--fail-fast", options->fail_fast,
                     "End at the first episode that fails (status 1)");
-  command->add_option("--time-limit", options->time_limit_s, "Seconds of wall time")
-      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--time-limit", options->time_limit_s,
+                   "Seconds of wall time; nothing is filmed then")
+      ->check(CLI::Range(0.001, 1e9));
   command->add_flag("--no-films", options->no_films, "Do not film the first failure of each mode");
   command->callback([options, &globals, &status] { status = RunIt(*options, globals); });
 }

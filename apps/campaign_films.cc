@@ -26,9 +26,15 @@ DriveResult ReplayEpisode(const ScenarioFile& file, const Variant& variant, cons
                           const fs::path& folder, bool video, const Globals& globals) {
   Scenario scenario = file.Read(row.episode, variant);
   const fs::path into = EpisodeFolder(folder, variant, row.episode);
+  if (row.outcome == "error") globals.Say("recorded as an error: " + row.message);
   DriveResult result = DriveAndFilm(scenario, into, {.video = video}, globals);
   if (result.not_written) std::rethrow_exception(result.not_written);
   const EpisodeRow now = MakeRow(variant.name, scenario, row.plan, result.record);
+  if (row.outcome == "error" && now.outcome != "error")
+    throw InternalError(
+        fmt::format("{}: recorded as an error ({}), which did not come again; `campaign --resume "
+                    "--retry-errors` drives it anew",
+                    into.string(), row.message));
   for (const auto& [what, same] : {std::pair("outcome", now.outcome == row.outcome),
                                    {"events", now.events == row.events},
                                    {"metrics", now.metrics == row.metrics}})

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "apps/failing_episodes.h"
 #include "env/run/campaign_summary.h"
 
 namespace floorproof {
@@ -22,8 +23,17 @@ std::string_view Why(CampaignEnd end) {
       return "the time limit is reached (--resume goes on)";
     case CampaignEnd::kInterrupted:
       return "interrupted (--resume goes on)";
+    case CampaignEnd::kMissing:
+      return "episodes are missing";
   }
   return "?";
+}
+
+// Of the variant that has least.
+std::string Unfinished(const CampaignRun& run, std::uint64_t asked) {
+  std::uint64_t least = asked;
+  for (const VariantProgress& variant : run.variants) least = std::min(least, variant.prefix);
+  return fmt::format("{} of {} episodes stand without a gap: {}", least, asked, Why(run.end));
 }
 
 void SayRates(const nlohmann::ordered_json& summary, const Globals& globals) {
@@ -34,8 +44,10 @@ void SayRates(const nlohmann::ordered_json& summary, const Globals& globals) {
         name, variant["n"].get<int>(), variant["outcomes"]["success"].get<int>(),
         variant["outcomes"]["failure"].get<int>(), variant["outcomes"]["timeout"].get<int>(),
         variant["n_error"].get<int>(), variant["n_not_planned"].get<int>()));
-    if (variant["n"] == 0) continue;
+    if (!variant["first_error"].is_null())
+      globals.Say("  the first error: " + variant["first_error"].get<std::string>());
     for (const auto& [mode, rate] : variant["failures"].items()) {
+      if (rate["n"] == 0) continue;
       const double lower = 100 * rate["lower"].get<double>(),
                    upper = 100 * rate["upper"].get<double>();
       const std::string text =
@@ -50,12 +62,13 @@ void SayRates(const nlohmann::ordered_json& summary, const Globals& globals) {
 int StatusOf(const CampaignRun& run, const std::vector<GateState>& gate) {
   const bool broken = std::ranges::any_of(run.variants, [](const auto& v) { return v.errors > 0; });
   if (broken) return kBroken;
+  if (run.end == CampaignEnd::kFailFast) return kNotSuccess;
   if (!gate.empty()) {
     const GateVerdict verdict = Overall(gate);
     if (verdict == GateVerdict::kUndecided) return kGateUndecided;
     return verdict == GateVerdict::kPassed ? kDone : kNotSuccess;
   }
-  return run.end == CampaignEnd::kFailFast ? kNotSuccess : kDone;
+  return kDone;
 }
 
 }  // namespace
@@ -66,10 +79,14 @@ int SayResults(const ScenarioFile& file, const CampaignStore& store, const Campa
   std::vector<GateState> gate;
   for (const VariantProgress& variant : run.variants)
     if (variant.gate) gate.push_back(*variant.gate);
-  const auto summary = WriteSummaryFiles(store, variants, gate, file.name(), folder);
+  const bool whole = run.end == CampaignEnd::kComplete || run.end == CampaignEnd::kGateDecided;
+  const auto summary = WriteSummaryFiles(
+      store, variants, gate, whole ? "" : Unfinished(run, store.asked()), file.name(), folder);
   globals.Result(summary);
   globals.Say(std::string(Why(run.end)) + "; results are in " + folder.string());
   SayRates(summary, globals);
+  if (ListFailingEpisodes(store, variants, folder, globals) > 0 || variants.size() > 1)
+    globals.Say(fmt::format("`floorproof report {}` shows them on a page", folder.string()));
   for (std::size_t v = 0; v < gate.size(); ++v)
     globals.Say(
         fmt::format("gate{}: {}", gate.size() > 1 ? " " + variants[v].name : "", gate[v].Text()));

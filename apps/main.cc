@@ -66,8 +66,10 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(
-      "Exit status: 0 done; 1 the outcome is not success, or a plan was not found; 2 bad usage or "
-      "bad input;\n3 the tool or the physics broke; 130 interrupted (what was done is kept).");
+      "Exit status: 0 done; 1 the outcome is not success, a plan was not found, or a gate failed; "
+      "2 "
+      "bad usage or\nbad input; 3 the tool or the physics broke; 4 a gate is undecided; 130 "
+      "interrupted (what was done is kept).");
 #define FP_COMMAND(Function) Function(app, globals, status);
 #include "apps/commands.inc"
 #undef FP_COMMAND

@@ -3,6 +3,7 @@
 
 #include "apps/campaign_results.h"
 #include "apps/command.h"
+#include "env/core/input_file.h"
 #include "env/core/interrupt.h"
 #include "env/run/campaign_about.h"
 #include "env/run/campaign_merge.h"
@@ -12,6 +13,32 @@ namespace floorproof {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kMostBytes = 64u << 20;
+
+// The settings with their paths valid from `out`; as they are where what they name is gone.
+std::string SettingsFor(const fs::path& out, const ScenarioFile& scenario, const fs::path& recorded,
+                        const Globals& globals) try {
+  return ResolvedScenario(scenario.Read(std::nullopt), out);
+} catch (const InputError& e) {
+  globals.Say(fmt::format("{}: its paths hold from {}, not from here ({})",
+                          (out / "scenario.resolved.yaml").string(),
+                          recorded.parent_path().string(), e.what()));
+  return ReadInputFile(recorded, kMostBytes);
+}
+
+// "60:70, 80:81", half-open, of 0:end.
+std::string Missing(const std::vector<std::uint64_t>& there, std::uint64_t end) {
+  std::string text;
+  std::uint64_t next = 0;
+  const auto gap = [&](std::uint64_t to) {
+    if (to > next) text += fmt::format("{}{}:{}", text.empty() ? "" : ", ", next, to);
+    next = to + 1;
+  };
+  for (const std::uint64_t episode : there) gap(std::min(episode, end));
+  gap(end);
+  return text;
+}
 
 int Merge(const std::vector<std::string>& shards, const fs::path& out, const Globals& globals) {
   const fs::path file = out / "campaign.sqlite";
@@ -24,27 +51,29 @@ int Merge(const std::vector<std::string>& shards, const fs::path& out, const Glo
     from.push_back(CampaignStore::Open(fs::path(shard) / "campaign.sqlite", false));
     RequireSame(from.front().about(), from.back().about(), shard);
   }
-  const ScenarioFile scenario(fs::path(shards.front()) / "scenario.resolved.yaml");
+  const fs::path recorded = fs::path(shards.front()) / "scenario.resolved.yaml";
+  const ScenarioFile scenario = ScenarioFile::Recorded(recorded);
   const std::vector<Variant>& variants = scenario.variants();
   CheckOverlaps(from, shards, variants);
 
   const HoldInterrupts hold;
   MakeFolder(out);
   CampaignStore store = CampaignStore::Create(file, from.front().about());
-  const std::uint64_t end = MergeRows(from, variants, store);
-  const Scenario base = scenario.Read(std::nullopt);
-  WriteFileWhole(out / "scenario.resolved.yaml", ResolvedScenario(base, out));
+  std::uint64_t end = MergeRows(from, variants, store);
+  for (const CampaignStore& shard : from) end = std::max(end, shard.asked());
+  store.SetAsked(end);
+  WriteFileWhole(out / "scenario.resolved.yaml", SettingsFor(out, scenario, recorded, globals));
   CampaignOptions options;
   options.end = end;
   options.jobs = 0;  // nothing more is driven
-  options.gate = CampaignGate::Read(base.gate, end);
+  options.gate = CampaignGate::Read(scenario.gate(), end, scenario.drives());
   const CampaignRun run = RunCampaign(scenario, store, options);
   for (std::size_t v = 0; v < variants.size(); ++v)
-    if (run.end == CampaignEnd::kComplete && run.variants[v].prefix < end)
+    if (run.end == CampaignEnd::kMissing && run.variants[v].prefix < end)
       globals.Say(
-          fmt::format("{}: episode {} is in none of the shards; those behind it are kept "
-                      "and not counted",
-                      variants[v].name, run.variants[v].prefix));
+          fmt::format("{}: no shard holds the episodes {}; those behind the first of them are "
+                      "kept and not counted",
+                      variants[v].name, Missing(store.Episodes(variants[v].name), end)));
   return SayResults(scenario, store, run, out, globals);
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "apps/failing_episodes.h"
 #include "apps/pictures.h"
 #include "apps/report_films.h"
 #include "apps/report_pairs.h"
@@ -19,48 +20,9 @@ namespace floorproof {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr std::uintmax_t kMostBytes = 64u << 20;
 constexpr std::size_t kMostEpisodes = 300;  // listed on the page, of all variants
-
-// As a shell takes it.
-std::string ShellWord(const std::string& text) {
-  static constexpr std::string_view kPlain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_=+:,./@%";
-  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-std::vector<Event> EventsOf(const EpisodeRow& row) {
-  std::vector<Event> events;
-  for (const Json& json : Json::parse(row.events)) {
-    Event event;
-    event.kind = json.at("kind");
-    event.hazard = json.at("hazard");
-    event.t_s = json.at("t_s");
-    event.x_m = json.at("x_m");
-    event.y_m = json.at("y_m");
-    const std::string mode = json.at("mode");
-    for (int m = 0; m < kNumFailureModes; ++m)
-      if (mode == Name(static_cast<FailureMode>(m))) event.mode = static_cast<FailureMode>(m);
-    events.push_back(std::move(event));
-  }
-  return events;
-}
-
-std::string Words(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  return name;
-}
-
-std::string What(const EpisodeRow& row, const std::vector<Event>& events) {
-  if (events.empty()) return Words(row.outcome);
-  const std::string mode = Words(std::string(Name(events.front().mode)));
-  return events.front().kind.empty() ? mode : mode + " (" + Words(events.front().kind) + ")";
-}
 
 // The rows of a campaign, walked through once.
 class Rows {
@@ -79,9 +41,10 @@ class Rows {
       if (row.outcome == "success" && !row.any_failure()) return;
       const std::vector<Event> events = EventsOf(row);
       if (row.counts()) places.insert(places.end(), events.begin(), events.end());
-      what_[{variant.name, row.episode}] = What(row, events);
+      what_[{variant.name, row.episode}] = WhatFailed(row, events);
       if (listed++ < share_)
-        List(row, events);
+        report_.episodes.push_back(
+            FailingEpisode(row, events, named_, report_.variants.size() > 1));
       else
         ++report_.episodes_left_out;
     });
@@ -101,21 +64,6 @@ class Rows {
   }
 
  private:
-  void List(const EpisodeRow& row, const std::vector<Event>& events) {
-    ReportEpisode e{.variant = row.variant, .episode = row.episode, .what = What(row, events)};
-    e.detail = events.empty() ? row.message : events.front().hazard;
-    if (!events.empty()) {
-      e.t_s = events.front().t_s;
-      e.x_m = events.front().x_m;
-      e.y_m = events.front().y_m;
-      e.further = static_cast<int>(events.size()) - 1;
-    }
-    e.command = fmt::format("floorproof replay {} --episode {}", ShellWord(named_), row.episode);
-    if (report_.variants.size() > 1) e.command += " --variant " + ShellWord(row.variant);
-    e.command += " --video";
-    report_.episodes.push_back(std::move(e));
-  }
-
   Report& report_;
   std::string named_;
   std::size_t share_ = 0;  // episodes listed of a variant
@@ -189,8 +137,17 @@ void AddPlaces(const fs::path& folder, const Rows& rows, Report& report) {
   }
   for (std::size_t v = 0; v < report.variants.size(); ++v) {
     ReportVariant& variant = report.variants[v];
-    variant.places_note = why;
-    if (!file) continue;
+    // What was drawn while the site could be read still shows where.
+    const auto keep = [&,
+                       png = folder / PictureFile(variant.name, v + 1)](const std::string& note) {
+      variant.places_note = note;
+      if (WhyUnreadable(png, kMostBytes).empty())
+        variant.places_png = ReadInputFile(png, kMostBytes);
+    };
+    if (!file) {
+      keep(why);
+      continue;
+    }
     try {
       const Scenario scenario = file->Read(std::nullopt, SiteOf(*file, variant.name));
       if (!HasOneMap(scenario)) {
@@ -205,7 +162,7 @@ void AddPlaces(const fs::path& folder, const Rows& rows, Report& report) {
       if (!scenario.randomise.IsNull())
         variant.places_note = "the map is the site as written, before an episode's draws";
     } catch (const InputError& e) {
-      variant.places_note = fmt::format("The map cannot be read any more: {}", e.what());
+      keep(fmt::format("The map cannot be read any more: {}", e.what()));
     }
   }
 }

@@ -120,6 +120,7 @@ void ReadSummary(const fs::path& file, Report& report) {
   try {
     const Json json = Json::parse(ReadInputFile(file, kMostBytes));
     report.campaign = json.at("campaign");
+    if (!json.at("unfinished").is_null()) report.unfinished = json.at("unfinished");
     for (const auto& [name, variant] : json.at("variants").items())
       report.variants.push_back(ReadVariant(name, variant));
     report.gate = ReadGate(json.at("gate"));

@@ -14,7 +14,7 @@ namespace {
 
 // Of a variant in words, beginning with its name where there are several.
 std::string RateSentence(const ReportVariant& v, double confidence) {
-  if (v.n == 0 || v.failures.empty()) return "none of its episodes counts";
+  if (v.failures.empty() || v.failures.front().n == 0) return "drove in no episode that counts";
   const ReportRate& rate = v.failures.front();
   const std::string times = rate.k == 0 ? fmt::format("in none of {} episodes", rate.n)
                                         : fmt::format("in {} of {} episodes ({})", rate.k, rate.n,
@@ -29,11 +29,12 @@ std::string RatesVerdict(const Report& report) {
   if (variants.size() == 1)
     return "The robot " + RateSentence(variants.front(), report.confidence) + ".";
   const auto rate = [](const ReportVariant& v) {
-    return v.n > 0 && !v.failures.empty() ? v.failures.front().rate : 2.0;
+    const bool driven = !v.failures.empty() && v.failures.front().n > 0;
+    return driven ? v.failures.front().rate : 2.0;
   };
   const auto by_rate = [&](const auto& a, const auto& b) { return rate(a) < rate(b); };
   const auto least = std::ranges::min_element(variants, by_rate);
-  if (rate(*least) > 1) return "No episode counts.";
+  if (rate(*least) > 1) return "No robot drove: the episodes are plans only, or none counts.";
   auto most = least;
   for (auto v = variants.begin(); v != variants.end(); ++v)
     if (rate(*v) <= 1 && rate(*v) > rate(*most)) most = v;
@@ -78,8 +79,16 @@ std::string VerdictBox(const Report& report) {
               "</li>";
     list += "<li>" + MarkupText(RatesVerdict(report)) + "</li>";
   }
-  int errors = 0;
-  for (const ReportVariant& v : report.variants) errors += v.errors;
+  if (!report.unfinished.empty())
+    list += "<li>The campaign is not whole: " + MarkupText(report.unfinished) + ".</li>";
+  int errors = 0, not_planned = 0;
+  for (const ReportVariant& v : report.variants) {
+    errors += v.errors;
+    not_planned += v.not_planned;
+  }
+  if (not_planned > 0)
+    list += fmt::format("<li>For {} {} there was no plan; no robot drove.</li>", not_planned,
+                        not_planned == 1 ? "episode" : "episodes");
   if (errors > 0)
     list +=
         fmt::format("<li>{} {} in an error and {} not count.</li>", errors,

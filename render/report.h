@@ -109,6 +109,7 @@ struct ReportEpisode {
 
 struct Report {
   std::string title{}, campaign{};
+  std::string unfinished{};  // why not all episodes asked for were driven; empty: they were
   std::vector<std::pair<std::string, std::string>> versions{};
   double confidence = 0.95;  // of all intervals
   std::optional<ReportGate> gate{};

@@ -185,12 +185,19 @@ WrittenHazard ReadHazard(const ConfigNode& node, const std::string& path) {
   WrittenHazard written;
   written.type = MakePlugin(HazardTypes(), name, prefix + "type", type->mark);
   std::vector<std::string> others = CommonHazardKeys::Names();
-  others.insert(others.end(), {"type", "id", "polygon_m", "line_m"});
+  others.insert(others.end(), {"type", "id", "polygon_m", "line_m", "shift_x_m", "shift_y_m"});
   ReadParams(node, prefix, *written.type, others);
   CommonHazardKeys common;
   common.Read(node, prefix);
   written.place = ReadPlace(node, prefix, name, written.type->placement());
-  written.hazard = MakeHazard(*written.type, written.place, node, prefix);
+  const Bounds far = Between(-kFarthest_m, kFarthest_m);
+  if (const auto* n = node.Find("shift_x_m"))
+    written.shift_m.x() = AsDouble(*n, prefix + "shift_x_m", far);
+  if (const auto* n = node.Find("shift_y_m"))
+    written.shift_m.y() = AsDouble(*n, prefix + "shift_y_m", far);
+  std::vector<Vec2> place = written.place;
+  for (Vec2& p : place) p += written.shift_m;
+  written.hazard = MakeHazard(*written.type, place, node, prefix);
   written.hazard.type = name;
   common.Apply(written.hazard);
   if (const ConfigNode* id = node.Find("id")) {
@@ -210,6 +217,8 @@ ConfigNode WriteHazard(WrittenHazard& written) {
   if (!written.hazard.id.empty()) node.Add("id", ConfigNode::Scalar(written.hazard.id, true));
   const bool polygon = written.type->placement() == HazardType::Placement::kPolygon;
   node.Add(polygon ? "polygon_m" : "line_m", WritePoints(written.place));
+  node.Add("shift_x_m", ConfigNode::Scalar(FormatDouble(written.shift_m.x())));
+  node.Add("shift_y_m", ConfigNode::Scalar(FormatDouble(written.shift_m.y())));
   WriteParams(*written.type, node);
   WriteCommonHazardKeys(written.hazard, node);
   return node;

@@ -38,6 +38,7 @@ struct WrittenHazard {
   Hazard hazard;  // its id is empty when none was written
   std::unique_ptr<HazardType> type;
   std::vector<Vec2> place;
+  Vec2 shift_m = Vec2::Zero();  // by which the whole place is moved
 };
 WrittenHazard ReadHazard(const ConfigNode& node, const std::string& path);
 // The entry with every default stated.

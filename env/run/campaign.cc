@@ -22,7 +22,8 @@ double Since(Clock::time_point start) {
 
 // What the prefix needs of a row that came early.
 struct Brief {
-  bool counts = false, error = false, gated = false;
+  bool counts = false, error = false, any_failure = false;
+  std::optional<bool> gated;  // whether the gate counts it as a failure; none: it does not count
   std::array<bool, kNumFailureModes> failed{};
 };
 
@@ -39,7 +40,8 @@ class Tracker {
     brief.counts = row.counts();
     brief.error = row.outcome == "error";
     for (std::size_t m = 0; m < brief.failed.size(); ++m) brief.failed[m] = row.events_of[m] > 0;
-    if (gate_) brief.gated = gate_->Fails(row);
+    brief.any_failure = row.any_failure();
+    if (gate_ && gate_->Judges(row)) brief.gated = gate_->Fails(row);
     early_.emplace(row.episode, brief);
     // A decision is the prefix's, whatever comes later.
     for (auto next = early_.find(progress_.prefix); next != early_.end() && !decided();
@@ -47,6 +49,11 @@ class Tracker {
       Take(next->second);
       early_.erase(next);
     }
+  }
+
+  // All ids are done: there is nothing to wait for.
+  void End() {
+    if (progress_.gate) progress_.gate->End();
   }
 
   bool decided() const { return progress_.gate && progress_.gate->decided(); }
@@ -58,16 +65,12 @@ class Tracker {
   void Take(const Brief& brief) {
     ++progress_.prefix;
     progress_.errors += brief.error;
+    if (brief.gated) progress_.gate->Add(*brief.gated);
     if (!brief.counts) return;
     ++progress_.n;
-    bool any = false;
-    for (std::size_t m = 0; m < brief.failed.size(); ++m) {
-      progress_.failures[m] += brief.failed[m];
-      any |= brief.failed[m];
-    }
-    progress_.any_failure += any;
-    if (any && !first_failure_) first_failure_ = progress_.prefix - 1;
-    if (progress_.gate) progress_.gate->Add(brief.gated);
+    for (std::size_t m = 0; m < brief.failed.size(); ++m) progress_.failures[m] += brief.failed[m];
+    progress_.any_failure += brief.any_failure;
+    if (brief.any_failure && !first_failure_) first_failure_ = progress_.prefix - 1;
   }
 
   const std::optional<CampaignGate>& gate_;
@@ -192,11 +195,14 @@ class CampaignDrive {
     Stop();
     CampaignRun run;
     // Neither a limit nor Ctrl-C ends what is done.
-    const bool complete = std::ranges::all_of(trackers_, [&](const Tracker& t) {
-      return t.decided() || t.progress().prefix >= options_.end;
-    });
+    bool complete = true;
+    for (Tracker& tracker : trackers_) {
+      if (tracker.progress().prefix >= options_.end) tracker.End();
+      complete &= tracker.decided() || tracker.progress().prefix >= options_.end;
+    }
     const bool cut = ended_ == CampaignEnd::kTimeLimit || ended_ == CampaignEnd::kInterrupted;
     if (ended_ && !(cut && complete)) run.end = *ended_;
+    if (!ended_ && !complete) run.end = CampaignEnd::kMissing;
     for (std::size_t v = 0; v < trackers_.size(); ++v) {
       // What lies beyond is kept and not judged: early arrivals would bias it.
       std::uint64_t from = trackers_[v].progress().prefix;
@@ -210,6 +216,7 @@ class CampaignDrive {
       store_.ForEach(name, [&](const EpisodeRow& row) { kept.Add(row); });
       run.variants.back() = kept.progress();
     }
+    store_.Settle();
     if (observer_) observer_->OnProgress(Progress());
     return run;
   }

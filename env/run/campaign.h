@@ -25,7 +25,7 @@ struct CampaignOptions {
   std::optional<double> time_limit_s;  // wall time; what is in hand then is given up
 };
 
-enum class CampaignEnd { kComplete, kGateDecided, kFailFast, kTimeLimit, kInterrupted };
+enum class CampaignEnd { kComplete, kGateDecided, kFailFast, kTimeLimit, kInterrupted, kMissing };
 
 // Where a variant stands: its prefix alone counts.
 struct VariantProgress {

@@ -12,7 +12,7 @@ void GateParams::Visit(ParamVisitor& v) {
   v("metric", metric,
     {"any_failure", "veer_off", "stuck", "roll_over", "bounce_back", "not_success"},
     "episodes counted: with a failure of that mode, with any, or that are no success (timeouts "
-    "too)");
+    "and episodes without a plan too)");
   v("max_rate", max_rate, Between(0, 1), "the rate that must be proved to be below this");
   v("confidence", confidence, Between(0.5, 1), "of either verdict, one-sided");
   v("mode", mode, {"fixed", "sequential"},
@@ -21,11 +21,15 @@ void GateParams::Visit(ParamVisitor& v) {
   v("max_n", max_n, Between(1, 1e8), "most episodes judged; none: the campaign's -n");
 }
 
-std::optional<CampaignGate> CampaignGate::Read(const ConfigNode& node, std::uint64_t n) {
+std::optional<CampaignGate> CampaignGate::Read(const ConfigNode& node, std::uint64_t n,
+                                               bool driven) {
   if (node.IsNull()) return std::nullopt;
   CampaignGate gate;
   ReadParams(node, "gate.", [&](ParamVisitor& v) { gate.params_.Visit(v); });
   const GateParams& p = gate.params_;
+  if (!driven && p.metric != "not_success")
+    throw InputError(node.mark, "gate.metric", p.metric,
+                     "must be not_success: without physics (drive: none) nothing can fail");
   if (p.max_n && *p.max_n != std::floor(*p.max_n))
     throw InputError(node.mark, "gate.max_n", FormatDouble(*p.max_n), "must be a whole number");
   const double most = std::min(p.max_n.value_or(1e8), static_cast<double>(n));
@@ -37,6 +41,10 @@ std::optional<CampaignGate> CampaignGate::Read(const ConfigNode& node, std::uint
     throw InputError(node.mark, "gate", "", e.what());
   }
   return gate;
+}
+
+bool CampaignGate::Judges(const EpisodeRow& row) const {
+  return row.counts() || (row.outcome == "not_planned" && params_.metric == "not_success");
 }
 
 bool CampaignGate::Fails(const EpisodeRow& row) const {

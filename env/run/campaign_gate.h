@@ -28,6 +28,7 @@ class GateState {
   GateState(const GateParams& params, const GateSettings& settings)
       : params_(params), gate_(settings) {}
   void Add(bool failed) { gate_.Add(failed); }
+  void End() { gate_.End(); }  // no further episode comes
   // No further episode changes the verdict.
   bool decided() const { return gate_.final(); }
   GateVerdict verdict() const { return gate_.verdict(); }
@@ -43,10 +44,15 @@ class GateState {
 
 class CampaignGate {
  public:
-  // `node`: the scenario's key `gate`; null: no gate. `n`: the campaign's episodes. Throws
-  // InputError, also where not even a campaign without a failure could pass.
-  static std::optional<CampaignGate> Read(const ConfigNode& node, std::uint64_t n);
+  // `node`: the scenario's key `gate`; null: no gate. `n`: the campaign's episodes; `driven`:
+  // through physics. Throws InputError, also where not even a campaign without a failure could
+  // pass, or where nothing that is driven nowhere could fail.
+  static std::optional<CampaignGate> Read(const ConfigNode& node, std::uint64_t n, bool driven);
+  // Whether the episode counts: what the tool broke does not, and what has no plan only as no
+  // success.
+  bool Judges(const EpisodeRow& row) const;
   bool Fails(const EpisodeRow& row) const;
+  bool fixed() const { return settings_.mode == GateMode::kFixed; }
   GateState Start() const { return {params_, settings_}; }
 
  private:

@@ -18,10 +18,12 @@ std::string VariantText(const Json& summary) {
       fmt::format("{} episodes count, {} errors, {} without a plan\n", summary["n"].get<int>(),
                   summary["n_error"].get<int>(), summary["n_not_planned"].get<int>());
   for (const auto& [mode, rate] : summary["failures"].items())
-    text += fmt::format("{}: {} of {}, {:.3g} % (95 %: {:.3g} to {:.3g} %)\n", mode,
-                        rate["k"].get<int>(), rate["n"].get<int>(),
-                        rate["rate"].is_null() ? 0.0 : 100 * rate["rate"].get<double>(),
-                        100 * rate["lower"].get<double>(), 100 * rate["upper"].get<double>());
+    text += rate["rate"].is_null()
+                ? fmt::format("{}: nothing was driven\n", mode)
+                : fmt::format("{}: {} of {}, {:.3g} % (95 %: {:.3g} to {:.3g} %)\n", mode,
+                              rate["k"].get<int>(), rate["n"].get<int>(),
+                              100 * rate["rate"].get<double>(), 100 * rate["lower"].get<double>(),
+                              100 * rate["upper"].get<double>());
   return text;
 }
 
@@ -31,15 +33,16 @@ struct Suite {
 };
 
 std::string Case(const std::string& name, const std::string& criterion, double time_s,
-                 const std::string& verdict, const Json& variant) {
+                 const std::string& verdict, const std::string& text) {
   return fmt::format(
       "    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\">\n{}      "
       "<system-out>{}</system-out>\n    </testcase>\n",
-      MarkupText(name), MarkupText(criterion), time_s, verdict, MarkupText(VariantText(variant)));
+      MarkupText(name), MarkupText(criterion), time_s, verdict, MarkupText(text));
 }
 
 // `gate` may be nullptr.
-Suite VariantSuite(const std::string& name, const Json& variant, const GateState* gate) {
+Suite VariantSuite(const std::string& name, const Json& variant, const Json& unfinished,
+                   const GateState* gate) {
   Suite suite;
   const Json& duration = variant["metrics"]["duration_s"];
   const double time_s =
@@ -47,11 +50,17 @@ Suite VariantSuite(const std::string& name, const Json& variant, const GateState
   const int broken = variant["n_error"].get<int>();
   suite.errors = broken > 0;
   suite.tests = gate == nullptr ? 1 : 2;
-  std::string cases = Case(
-      name, "every episode ran", time_s,
-      broken > 0 ? fmt::format("      <error message=\"{} episodes ended in error\"/>\n", broken)
-                 : "",
-      variant);
+  std::string ran;
+  if (broken > 0) {
+    const std::string why = MarkupText(variant["first_error"].get<std::string>());
+    ran = fmt::format("      <error message=\"{0} episodes ended in error\">{1}</error>\n", broken,
+                      why);
+  } else if (!unfinished.is_null()) {
+    ran =
+        fmt::format("      <skipped message=\"{}\"/>\n", MarkupText(unfinished.get<std::string>()));
+  }
+  const std::string rates = VariantText(variant);
+  std::string cases = Case(name, "every episode ran", time_s, ran, rates);
   if (gate != nullptr) {
     const std::string text = MarkupText(gate->Text());
     std::string verdict;
@@ -59,7 +68,7 @@ Suite VariantSuite(const std::string& name, const Json& variant, const GateState
       verdict = fmt::format("      <failure message=\"{0}\">{0}</failure>\n", text);
     if (gate->verdict() == GateVerdict::kUndecided)
       verdict = fmt::format("      <skipped message=\"{}\"/>\n", text);
-    cases += Case(name, gate->Criterion(), time_s, verdict, variant);
+    cases += Case(name, gate->Criterion(), time_s, verdict, gate->Text() + "\n" + rates);
     suite.failures = gate->verdict() == GateVerdict::kFailed;
   }
   suite.xml = fmt::format(
@@ -76,8 +85,8 @@ std::string JunitXml(const Json& summary, const std::vector<GateState>& gate,
   Suite all;
   std::size_t v = 0;
   for (const auto& [name, variant] : summary["variants"].items()) {
-    const Suite suite =
-        VariantSuite(scenario_name + "." + name, variant, v < gate.size() ? &gate[v] : nullptr);
+    const Suite suite = VariantSuite(scenario_name + "." + name, variant, summary["unfinished"],
+                                     v < gate.size() ? &gate[v] : nullptr);
     all.xml += suite.xml;
     all.tests += suite.tests;
     all.failures += suite.failures;

@@ -108,7 +108,8 @@ CampaignStore::CampaignStore(const fs::path& file, sqlite3* db) : file_(file), d
 CampaignStore::CampaignStore(CampaignStore&& other) noexcept
     : file_(std::move(other.file_)),
       db_(std::exchange(other.db_, nullptr)),
-      about_(std::move(other.about_)) {}
+      about_(std::move(other.about_)),
+      asked_(other.asked_) {}
 
 CampaignStore::~CampaignStore() { sqlite3_close(db_); }
 
@@ -122,10 +123,11 @@ void CampaignStore::Refuse(int code) const {
     case SQLITE_FULL:
     case SQLITE_IOERR:
     case SQLITE_READONLY:
-    case SQLITE_CANTOPEN:
     case SQLITE_PERM:
       throw InputError({file_.string(), 0}, "", "",
                        "cannot be written: " + why + "; episodes before are kept");
+    case SQLITE_CANTOPEN:
+      throw InputError({file_.string(), 0}, "", "", "cannot be opened: " + why);
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       throw InputError({file_.string(), 0}, "", "", "is in use by another campaign");
@@ -214,6 +216,7 @@ CampaignStore CampaignStore::Open(const fs::path& file, bool write) {
   if (!write) return store;
   CampaignStore writable = open(SQLITE_OPEN_READWRITE);
   writable.about_ = store.about_;
+  writable.asked_ = store.asked_;
   sqlite3_close(std::exchange(store.db_, nullptr));
   // In this order: who owns the shared index when it closes also removes it.
   writable.Run("PRAGMA journal_mode=WAL; SELECT count(*) FROM about");
@@ -232,6 +235,7 @@ void CampaignStore::ReadAbout() {
       if (key == "campaign") about_.id = value;
       if (key == "scenario") about_.scenario = value;
       if (key == "versions") about_.versions = value;
+      if (key == "asked") asked_ = std::strtoull(value.c_str(), nullptr, 10);
     }
     if (format == std::to_string(kFormat)) return;
   } catch (const InternalError&) {
@@ -310,6 +314,21 @@ std::optional<EpisodeRow> CampaignStore::Find(const std::string& variant,
   if (!select.Step()) return std::nullopt;
   return select.Row();
 }
+
+void CampaignStore::SetAsked(std::uint64_t episodes) {
+  if (episodes == asked_) return;
+  Statement insert(*this, "INSERT OR REPLACE INTO about VALUES ('asked', ?)");
+  insert.Bind(1, std::to_string(episodes));
+  insert.Step();
+  asked_ = episodes;
+}
+
+void CampaignStore::DropErrors() {
+  Run("BEGIN; DELETE FROM episode WHERE outcome = 'error'; DELETE FROM extra WHERE outcome = "
+      "'error'; COMMIT");
+}
+
+void CampaignStore::Settle() { Run("PRAGMA wal_checkpoint(TRUNCATE)"); }
 
 void CampaignStore::SetExtraFrom(const std::string& variant, std::uint64_t episode) {
   Run("BEGIN");

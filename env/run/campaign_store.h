@@ -50,6 +50,13 @@ class CampaignStore {
                const std::function<void(const EpisodeRow&)>& visit) const;
   // One row of either table.
   std::optional<EpisodeRow> Find(const std::string& variant, std::uint64_t episode) const;
+  // How many episodes a variant were asked for, last and at most; 0: nobody said.
+  std::uint64_t asked() const { return asked_; }
+  void SetAsked(std::uint64_t episodes);
+  // Rows of outcome `error` are dropped, so that they are driven again.
+  void DropErrors();
+  // The log's rows go into the file itself, so that it is whole alone.
+  void Settle();
   // Moves rows of this number and beyond from `episode` to `extra`; those before it back.
   void SetExtraFrom(const std::string& variant, std::uint64_t episode);
 
@@ -66,6 +73,7 @@ class CampaignStore {
   std::filesystem::path file_;
   sqlite3* db_ = nullptr;
   CampaignAbout about_;
+  std::uint64_t asked_ = 0;
 };
 
 }  // namespace floorproof

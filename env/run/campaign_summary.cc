@@ -69,7 +69,7 @@ Json Spread(std::vector<double> values) {
 
 // One variant's rows, added up.
 struct Tally {
-  int n = 0, any = 0;
+  int n = 0, driven = 0, any = 0;
   std::map<std::string, int> outcomes;
   std::array<int, kNumFailureModes> episodes{}, events{};  // by mode
   std::map<std::string, int> kinds, hazards;               // episodes with one or more
@@ -77,17 +77,22 @@ struct Tally {
   std::map<std::string, std::uint64_t> first;              // by mode: the first episode's number
   std::array<std::vector<double>, kMetricColumns.size()> metrics;
   double km = 0, hours = 0;
+  std::string first_error;
 
   void Add(const EpisodeRow& row) {
     ++outcomes[row.outcome];
+    if (row.outcome == "error" && first_error.empty())
+      first_error = fmt::format("episode {}: {}", row.episode, row.message);
     if (!row.counts()) return;
     ++n;
+    driven += row.driven();
     any += row.any_failure();
     km += row.metric("path_length_m") / 1e3;
     hours += row.metric("duration_s") / 3600;
     for (std::size_t i = 0; i < metrics.size(); ++i)
       if (row.metrics[i]) metrics[i].push_back(*row.metrics[i]);
     if (!row.any_failure()) return;
+    if (row.events == "[]") ++kinds["coverage"];
     for (std::size_t m = 0; m < events.size(); ++m) {
       episodes[m] += row.events_of[m] > 0;
       events[m] += row.events_of[m];
@@ -99,7 +104,7 @@ struct Tally {
     const Json events_met = Json::parse(row.events);
     for (const Json& event : events_met) {
       const auto text = [&](const char* key) { return event.value(key, std::string()); };
-      if (!text("kind").empty()) seen_kinds.insert(text("mode") + "/" + text("kind"));
+      seen_kinds.insert(text("mode") + (text("kind").empty() ? "" : "/" + text("kind")));
       if (!text("hazard").empty()) seen_hazards.insert(text("hazard"));
       const Cell place =
           kPlaces.ToCell(Vec2(event.at("x_m").get<double>(), event.at("y_m").get<double>()));
@@ -117,25 +122,27 @@ struct Tally {
 };
 
 Json VariantJson(const Tally& tally) {
-  Json failures = {{"any_failure", Rate(tally.any, tally.n)}}, per_km, per_hour;
+  Json failures = {{"any_failure", Rate(tally.any, tally.driven)}}, per_km, per_hour;
   Json kinds = Json::object(), hazards = Json::object(), places = Json::array(),
        metrics = Json::object(), first = Json::object();
   int events = 0;
   for (const int n : tally.events) events += n;
+  if (const auto short_of = tally.kinds.find("coverage"); short_of != tally.kinds.end())
+    events += short_of->second;
   per_km["any_failure"] = RatePer(events, tally.km);
   per_hour["any_failure"] = RatePer(events, tally.hours / 1000);
   for (std::size_t m = 0; m < tally.events.size(); ++m) {
     const std::string mode(Name(static_cast<FailureMode>(m)));
-    failures[mode] = Rate(tally.episodes[m], tally.n);
+    failures[mode] = Rate(tally.episodes[m], tally.driven);
     per_km[mode] = RatePer(tally.events[m], tally.km);
     per_hour[mode] = RatePer(tally.events[m], tally.hours / 1000);
   }
-  for (const auto& [kind, k] : tally.kinds) kinds[kind] = Rate(k, tally.n);
-  for (const auto& [hazard, k] : tally.hazards) hazards[hazard] = Rate(k, tally.n);
+  for (const auto& [kind, k] : tally.kinds) kinds[kind] = Rate(k, tally.driven);
+  for (const auto& [hazard, k] : tally.hazards) hazards[hazard] = Rate(k, tally.driven);
   for (const auto& [place, k] : tally.places) {
     const Vec2 centre = kPlaces.Center(place.first, place.second);
     Json rate = {{"x_m", centre.x()}, {"y_m", centre.y()}};
-    rate.update(Rate(k, tally.n));
+    rate.update(Rate(k, tally.driven));
     places.push_back(std::move(rate));
   }
   for (std::size_t i = 0; i < tally.metrics.size(); ++i)
@@ -144,6 +151,7 @@ Json VariantJson(const Tally& tally) {
   return {{"n", tally.n},
           {"n_error", tally.count("error")},
           {"n_not_planned", tally.count("not_planned")},
+          {"first_error", tally.first_error.empty() ? Json(nullptr) : Json(tally.first_error)},
           {"outcomes",
            {{"success", tally.count("success")},
             {"failure", tally.count("failure")},
@@ -159,8 +167,11 @@ Json VariantJson(const Tally& tally) {
 }
 
 Json SummaryJson(const CampaignStore& store, const std::vector<Variant>& variants,
-                 const std::vector<GateState>& gate) {
-  Json json = {{"campaign", store.about().id}, {"variants", Json::object()}};
+                 const std::vector<GateState>& gate, const std::string& unfinished) {
+  Json json = {{"campaign", store.about().id},
+               {"episodes", store.asked()},
+               {"unfinished", unfinished.empty() ? Json(nullptr) : Json(unfinished)},
+               {"variants", Json::object()}};
   for (const Variant& variant : variants) {
     Tally tally;
     store.ForEach(variant.name, [&](const EpisodeRow& row) { tally.Add(row); });
@@ -180,9 +191,9 @@ Json SummaryJson(const CampaignStore& store, const std::vector<Variant>& variant
 }  // namespace
 
 Json WriteSummaryFiles(const CampaignStore& store, const std::vector<Variant>& variants,
-                       const std::vector<GateState>& gate, const std::string& scenario_name,
-                       const std::filesystem::path& folder) {
-  Json summary = SummaryJson(store, variants, gate);
+                       const std::vector<GateState>& gate, const std::string& unfinished,
+                       const std::string& scenario_name, const std::filesystem::path& folder) {
+  Json summary = SummaryJson(store, variants, gate, unfinished);
   WriteFileWhole(folder / "episodes.csv", EpisodesCsv(store, variants));
   WriteFileWhole(folder / "junit.xml", JunitXml(summary, gate, scenario_name));
   WriteFileWhole(folder / "summary.json", summary.dump(2) + "\n");

@@ -10,7 +10,7 @@ namespace floorproof {
 using Json = nlohmann::ordered_json;
 
 bool EpisodeRow::any_failure() const {
-  return std::ranges::any_of(events_of, [](int n) { return n > 0; });
+  return outcome == "failure" || std::ranges::any_of(events_of, [](int n) { return n > 0; });
 }
 
 double EpisodeRow::metric(std::string_view name) const {

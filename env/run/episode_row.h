@@ -19,6 +19,9 @@ inline constexpr std::array<std::string_view, 14> kMetricColumns = {
     "charge_ah", "least_battery_v", "battery_left",  "max_cross_track_m", "mean_cross_track_m",
     "turns",     "interventions",   "contacts",      "max_impulse_ns"};
 
+inline constexpr std::size_t kDuration = 3;  // its place among them
+static_assert(kMetricColumns[kDuration] == "duration_s");
+
 struct EpisodeRow {
   std::string variant;
   std::uint64_t episode = 0;
@@ -31,6 +34,8 @@ struct EpisodeRow {
   bool failed() const { return outcome == "failure" || outcome == "timeout"; }
   // Counts in rates: its outcome is the robot's.
   bool counts() const { return outcome != "error" && outcome != "not_planned"; }
+  bool driven() const { return metrics[kDuration].has_value(); }
+  // With a failure event, or, as a run that covered too little, without one.
   bool any_failure() const;
   double metric(std::string_view name) const;  // 0 where there is none
 };

@@ -11,16 +11,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string Quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 std::string Field(const Json& value) {
   if (value.is_null()) return "";
-  return Quoted(value.is_string() ? value.get<std::string>() : value.dump());
+  return CsvField(value.is_string() ? value.get<std::string>() : value.dump());
 }
 
 // Which plan.* and drawn.* columns there are, in the order first met.
@@ -41,6 +34,13 @@ struct CsvColumns {
 
 }  // namespace
 
+std::string CsvField(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
 std::string EpisodesCsv(const CampaignStore& store, const std::vector<Variant>& variants) {
   CsvColumns columns;
   for (const Variant& variant : variants)
@@ -49,13 +49,13 @@ std::string EpisodesCsv(const CampaignStore& store, const std::vector<Variant>& 
   for (int m = 0; m < kNumFailureModes; ++m)
     csv += "," + std::string(Name(static_cast<FailureMode>(m)));
   for (const std::string_view metric : kMetricColumns) csv += "," + std::string(metric);
-  for (const std::string& name : columns.plan) csv += ",plan." + Quoted(name);
-  for (const std::string& name : columns.drawn) csv += ",drawn." + Quoted(name);
+  for (const std::string& name : columns.plan) csv += ",plan." + CsvField(name);
+  for (const std::string& name : columns.drawn) csv += ",drawn." + CsvField(name);
   csv += "\n";
   for (const Variant& variant : variants)
     store.ForEach(variant.name, [&](const EpisodeRow& row) {
-      csv += fmt::format("{},{},{},{}", Quoted(row.variant), row.episode, row.outcome,
-                         Quoted(row.message));
+      csv += fmt::format("{},{},{},{}", CsvField(row.variant), row.episode, row.outcome,
+                         CsvField(row.message));
       for (const int n : row.events_of) csv += fmt::format(",{}", n);
       for (const auto& value : row.metrics) csv += value ? fmt::format(",{}", *value) : ",";
       const Json plan = Json::parse(row.plan), drawn = Json::parse(row.drawn);

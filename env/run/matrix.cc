@@ -53,7 +53,7 @@ std::vector<Variant> Axis(const std::string& key, const ConfigNode& list) {
     if (variant.name.find_first_of(",:/\n") != std::string::npos)
       throw InputError(
           item.mark, path, variant.name,
-          "a variant's name has no comma, colon, slash or line break: give it a label");
+          "a variant's name, its label where it has one, has no comma, colon, slash or line break");
     for (const Variant& other : axis)
       if (other.name == variant.name)
         throw InputError(item.mark, path, variant.name,

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "env/run/file_output.h"
-#include "env/run/scenario.h"
+#include "env/run/scenario_parts.h"
 
 namespace floorproof {
 namespace {
@@ -64,12 +64,18 @@ ConfigNode Failures(const Scenario& s) {
   return node;
 }
 
+std::string NameFrom(const fs::path& folder, const fs::path& file) {
+  const std::string in_models = PathFrom(ModelsFolder(), file).string();
+  if (!in_models.starts_with("..")) return std::string(kBundled) + in_models;
+  return PathFrom(folder, file).string();
+}
+
 // What reading the resolved file will read: the site now stands within it.
 ConfigNode Files(const Scenario& s, const fs::path& folder) {
   ConfigNode node = ConfigNode::Map();
   for (const fs::path& file : FilesRead(s))
     if (file != s.site_file)
-      node.Add(PathFrom(folder, file).string(), ConfigNode::Scalar(Sha256OfFile(file), true));
+      node.Add(NameFrom(folder, file), ConfigNode::Scalar(Sha256OfFile(file), true));
   return node;
 }
 

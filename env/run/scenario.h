@@ -72,6 +72,9 @@ class ScenarioFile {
   // set is not drawn. Throws InputError naming file, line, key, value and rule.
   explicit ScenarioFile(const std::filesystem::path& file,
                         const std::vector<Override>& overrides = {});
+  // One that is no more than looked into, as the files that it names may be gone: its variants, its
+  // gate, whether it drives. Read() may throw.
+  static ScenarioFile Recorded(const std::filesystem::path& file);
 
   // One episode of one variant, checked whole; without an episode nothing is drawn. Throws
   // InputError.
@@ -84,8 +87,17 @@ class ScenarioFile {
   const std::vector<Variant>& variants() const { return variants_; }
   int seed() const { return seed_; }
   std::string name() const;  // the key `name`, else the file's stem
+  ConfigNode gate() const;   // null: none
+  bool drives() const;       // through physics
+  // Reads each variant, and each choice of `randomise` in it, as some of the first episodes would
+  // be: throws InputError where none of them makes sense (a key that is none, a robot unknown).
+  void CheckDraws() const;
 
  private:
+  ScenarioFile(const std::filesystem::path& file, const std::vector<Override>& overrides,
+               bool check_files);
+  Scenario ReadWith(std::optional<std::uint64_t> episode, const Variant& variant,
+                    const Variant& forced) const;
   void ReadSitePart(const ConfigNode& root, const Variant& changes, bool episode,
                     Scenario& s) const;
 

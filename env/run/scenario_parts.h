@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "env/run/scenario.h"
@@ -13,6 +14,9 @@
 namespace floorproof {
 
 inline constexpr std::uintmax_t kMostNamedBytes = 256u << 20;  // readers have narrower bounds
+
+// A bundled file's name in a resolved scenario is the same wherever the program stands.
+inline constexpr std::string_view kBundled = "bundled:";
 
 // All keys that may stand at the top.
 const std::vector<std::string>& ScenarioKeys();

@@ -54,8 +54,7 @@ std::string Sentence(const GateSettings& settings, const GateReport& report) {
   const bool fixed = settings.mode == GateMode::kFixed;
   const bool early = report.n < settings.max_n;
   const std::string planned = std::to_string(settings.max_n);
-  std::string text = GateVerdictName(report.verdict);
-  text += ": " + std::to_string(report.k) + " of ";
+  std::string text = std::to_string(report.k) + " of ";
   if (early) text += "the first " + std::to_string(report.n) + (fixed ? " of " : "");
   if (fixed || !early) text += planned;
   text += " episodes; ";
@@ -115,17 +114,30 @@ void CheckGate(const GateSettings& settings) {
 
 Gate::Gate(const GateSettings& settings) : settings_(settings) {
   CheckGate(settings);
-  if (settings.mode == GateMode::kSequential) return;
-  const int n = settings.max_n;
+  if (settings.mode == GateMode::kFixed) PlanFixed();
+}
+
+void Gate::PlanFixed() {
+  const int n = settings_.max_n;
   most_that_pass_ =
       First(0, n,
             [&](int k) {
-              return ClopperPearsonUpper(k, n, settings.confidence) >= settings.max_rate;
+              return ClopperPearsonUpper(k, n, settings_.confidence) >= settings_.max_rate;
             }) -
       1;
   least_that_fail_ = First(0, n, [&](int k) {
-    return ClopperPearsonLower(k, n, settings.confidence) > settings.max_rate;
+    return ClopperPearsonLower(k, n, settings_.confidence) > settings_.max_rate;
   });
+}
+
+void Gate::End() {
+  if (final_) return;
+  if (settings_.mode == GateMode::kFixed && n_ > 0) {
+    settings_.max_n = n_;
+    PlanFixed();
+    JudgeFixed();
+  }
+  final_ = true;
 }
 
 void Gate::Add(bool failure) {

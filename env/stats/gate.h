@@ -58,11 +58,15 @@ class Gate {
   explicit Gate(const GateSettings& settings);  // throws as CheckGate
 
   void Add(bool failure);
+  // There will be no further episode. Fixed: judged at those there are, where some of the max_n did
+  // not count.
+  void End();
   GateVerdict verdict() const { return verdict_; }
   bool final() const { return final_; }
   GateReport Report() const;
 
  private:
+  void PlanFixed();
   void JudgeFixed();
   void JudgeSequential();
 

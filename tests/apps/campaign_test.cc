@@ -136,17 +136,17 @@ TEST_F(CampaignTest, RowsBeyondAnEarlyDecisionAreKeptOut) {
 
 // One variant decides, the other cannot: what the first has too many is kept out all the same.
 TEST_F(CampaignTest, EachVariantEndsAtItsOwnDecision) {
-  // In the second the draws, not the scenario as written, start in a wall.
+  // In the second the sill lies beside the way.
   Write(std::string(kGate) +
-            "matrix:\n  setup:\n  - {label: as_is, start.yaw_deg: 0}\n"
-            "  - {label: blocked, site.grid.rows: \"######\\n##...#\\n##...#\\n######\\n\"}\n",
-        "  start.x_m: {uniform: [0.9, 0.99]}\n");
-  ASSERT_EQ(Campaign("-n 100 --jobs 1 --out one").status, 3);
-  ASSERT_EQ(Campaign("-n 100 --episodes 0:25 --jobs 2 --out two").status, 3);
-  ASSERT_EQ(Campaign("-n 100 --jobs 2 --out two --resume").status, 3);
+        "matrix:\n  setup:\n  - {label: as_is, start.yaw_deg: 0}\n"
+        "  - {label: beside, site.hazards.sill.shift_x_m: 0.9}\n");
+  ASSERT_EQ(Campaign("-n 100 --jobs 1 --out one").status, 1);
+  ASSERT_EQ(Campaign("-n 100 --episodes 0:25 --jobs 2 --out two").status, 0);
+  ASSERT_EQ(Campaign("-n 100 --jobs 2 --out two --resume").status, 1);
   ExpectSameResults("one", "two");
   EXPECT_LT(Count("one", "SELECT count(*) FROM episode WHERE variant = 'setup=as_is'"), 25);
-  EXPECT_EQ(Count("one", "SELECT count(*) FROM episode WHERE variant = 'setup=blocked'"), 100);
+  EXPECT_GT(Count("one", "SELECT count(*) FROM episode WHERE variant = 'setup=beside'"), 25);
+  EXPECT_EQ(Count("one", "SELECT sum(stuck) FROM episode WHERE variant = 'setup=beside'"), 0);
 }
 
 TEST_F(CampaignTest, FailFastEndsAtTheFirstIdThatFails) {
@@ -154,8 +154,7 @@ TEST_F(CampaignTest, FailFastEndsAtTheFirstIdThatFails) {
   for (const char* jobs : {"1", "2", "5"}) {
     const std::string out = std::string("j") + jobs;
     ASSERT_EQ(Campaign("-n 200 --fail-fast --jobs " + std::string(jobs) + " --out " + out).status,
-              4)
-        << "the gate is undecided by then";
+              1);
     ExpectSameResults("j1", out);
   }
   const std::string failing = "FROM episode WHERE veer_off + stuck + roll_over + bounce_back > 0";
@@ -163,7 +162,7 @@ TEST_F(CampaignTest, FailFastEndsAtTheFirstIdThatFails) {
             Count("j1", "SELECT max(episode) FROM episode"));
   // Driven before without: the same is kept.
   ASSERT_EQ(Campaign("-n 200 --episodes 0:8 --jobs 2 --out more").status, 0);
-  ASSERT_EQ(Campaign("-n 200 --fail-fast --jobs 2 --out more --resume").status, 4);
+  ASSERT_EQ(Campaign("-n 200 --fail-fast --jobs 2 --out more --resume").status, 1);
   ExpectSameResults("j1", "more");
   Write("");
   EXPECT_EQ(Campaign("-n 200 --fail-fast --jobs 2 --out no_gate").status, 1);
@@ -235,18 +234,117 @@ TEST_F(CampaignTest, ExitStatuses) {
   EXPECT_EQ(Campaign("-n 200 --time-limit 0.01 --out undecided").status, 4);
   Write("gate: {metric: roll_over, max_rate: 0.6, confidence: 0.9}\n");
   EXPECT_EQ(Campaign("-n 5 --out passed").status, 0);
-  Write("", "  start.x_m: {uniform: [0.1, 0.2]}\n");
+  Write("", "  start.x_m: {uniform: [0.1, 0.7]}\n");
   EXPECT_EQ(Campaign("-n 5 --out broken").status, 3) << "a start in a wall";
-  EXPECT_EQ(Count("broken", "SELECT count(*) FROM episode WHERE outcome = 'error'"), 5);
+  EXPECT_GT(Count("broken", "SELECT count(*) FROM episode WHERE outcome = 'error'"), 0);
   EXPECT_THAT(Select("broken", "SELECT message FROM episode"), HasSubstr("lies in a wall"));
   EXPECT_THAT(Select("broken", "SELECT drawn FROM episode"), HasSubstr("start.x_m"));
+  EXPECT_THAT(Slurp(folder_ / "broken/junit.xml"), HasSubstr("lies in a wall"));
+}
+
+// Too little covered is a failure without an event.
+TEST_F(CampaignTest, TooLittleCoveredIsAFailure) {
+  Write("success: {min_coverage: 1}\n");
+  ASSERT_EQ(Campaign("-n 8 --out a").status, 0);
+  const Json variant = Json::parse(Slurp(folder_ / "a/summary.json"))["variants"]["default"];
+  EXPECT_EQ(variant["outcomes"]["success"], 0);
+  EXPECT_EQ(variant["failures"]["any_failure"]["k"], variant["outcomes"]["failure"]);
+  EXPECT_EQ(variant["by_kind"]["coverage"]["k"],
+            Count("a", "SELECT count(*) FROM episode WHERE outcome = 'failure' AND events = '[]'"));
+  EXPECT_GT(variant["by_kind"]["coverage"]["k"], 0);
+  EXPECT_EQ(Campaign("-n 50 --fail-fast --out b").status, 1);
+  EXPECT_EQ(Count("b", "SELECT max(episode) FROM episode"),
+            Count("a", "SELECT min(episode) FROM episode WHERE outcome = 'failure'"));
+}
+
+// Half of the episodes ask for a circle that fits nowhere.
+TEST_F(CampaignTest, NoPlanIsNoSuccess) {
+  Write("drive: none\ngate: {metric: not_success, max_rate: 0.2, confidence: 0.9}\n",
+        "  plan.radius_m: {choice: [0.18, 5]}\n");
+  std::string text = Slurp(folder_ / "s.yaml");
+  text.replace(text.find("plan: {file: p.csv}"), 19, "plan: boustrophedon");
+  std::ofstream(folder_ / "s.yaml") << text;
+  EXPECT_EQ(Campaign("-n 40 --out a").status, 1) << "the gate fails";
+  const Json summary = Json::parse(Slurp(folder_ / "a/summary.json"));
+  const Json& variant = summary["variants"]["default"];
+  const Json& gate = summary["gate"]["variants"]["default"];
+  EXPECT_GT(variant["n_not_planned"], 0);
+  EXPECT_EQ(gate["n"], variant["n_not_planned"].get<int>() + variant["n"].get<int>());
+  EXPECT_EQ(gate["k"], variant["n_not_planned"]);
+  EXPECT_TRUE(variant["failures"]["stuck"]["rate"].is_null()) << "nothing was driven";
+}
+
+TEST_F(CampaignTest, WithoutPhysicsNoFailureModeCanBeJudged) {
+  Write("drive: none\ngate: {metric: stuck, max_rate: 0.6, confidence: 0.9}\n");
+  const Ended refused = Campaign("-n 5 --out a");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.said, HasSubstr("gate.metric = stuck: must be not_success"));
+}
+
+TEST_F(CampaignTest, AFixedGateIsNotLookedAtTwice) {
+  Write("gate: {metric: not_success, max_rate: 0.5, confidence: 0.95}\n");
+  ASSERT_NE(Campaign("-n 6 --out a").status, 2);
+  const Ended again = Campaign("-n 12 --resume --out a");
+  EXPECT_EQ(again.status, 2);
+  EXPECT_THAT(again.said, HasSubstr("the fixed gate was judged at 6 episodes"));
+  // What was not judged may grow.
+  ASSERT_EQ(Campaign("-n 6 --time-limit 0.01 --out b").status, 4);
+  EXPECT_NE(Campaign("-n 12 --resume --out b").status, 2);
+}
+
+TEST_F(CampaignTest, AKeyThatIsNoneIsRefusedBeforeAnythingIsDriven) {
+  for (const auto& [drawn, says] :
+       {std::pair("  site.floor.frction: {uniform: [0.4, 1.0]}\n", "frction"),
+        {"  robot: {choice: [beluga, belugaa]}\n", "belugaa"},
+        {"  site.hazards.sil.height_m: {uniform: [0.004, 0.03]}\n", "sil"}}) {
+    Write("", drawn);
+    const Ended refused = Campaign("-n 5 --out a");
+    EXPECT_EQ(refused.status, 2) << drawn;
+    EXPECT_THAT(refused.said, HasSubstr(says));
+    EXPECT_FALSE(fs::exists(folder_ / "a"));
+  }
+}
+
+TEST_F(CampaignTest, WhatACampaignLeavesIsWholeInOneFile) {
+  ASSERT_EQ(Campaign("-n 6 --out a").status, 0);
+  Program dut("campaign s.yaml --no-films -n 100000 --jobs 2 --out b", folder_);
+  dut.AWorker();
+  usleep(1'500'000);
+  dut.Send(SIGINT);
+  ASSERT_EQ(dut.Wait(), 130);
+  fs::create_directory(folder_ / "copy");
+  fs::copy(folder_ / "b/campaign.sqlite", folder_ / "copy/campaign.sqlite");
+  EXPECT_GT(Count("b", "SELECT count(*) FROM episode"), 0);
+  EXPECT_EQ(Count("copy", "SELECT count(*) FROM episode"),
+            Count("b", "SELECT count(*) FROM episode"));
+}
+
+TEST_F(CampaignTest, FailingEpisodesAreListedWithTheirCommands) {
+  ASSERT_EQ(Campaign("-n 8 --out a").status, 0);
+  std::istringstream list(Slurp(folder_ / "a/failing_episodes.csv"));
+  int lines = -1;
+  for (std::string line; std::getline(list, line); ++lines)
+    if (lines >= 0) {
+      EXPECT_THAT(line, HasSubstr("floorproof replay a --episode "));
+    }
+  EXPECT_EQ(lines, Count("a", "SELECT count(*) FROM episode WHERE outcome != 'success'"));
+}
+
+// Errors may be the machine's: memory ran out, someone killed it.
+TEST_F(CampaignTest, ErrorsAreDrivenAgainWhenAsked) {
+  Write("", "  start.x_m: {uniform: [0.1, 0.7]}\n");
+  ASSERT_EQ(Campaign("-n 4 --out a").status, 3);
+  const std::string before = Dump("a");
+  ASSERT_EQ(Campaign("-n 4 --resume --retry-errors --out a").status, 3);
+  EXPECT_EQ(Dump("a"), before);
 }
 
 // A shard driven elsewhere must not differ by its folder's name.
 TEST_F(CampaignTest, AnErrorsMessageIsTheSameInEachFolder) {
-  Write("", "  start.x_m: {uniform: [0.1, 0.2]}\n");
+  Write("", "  start.x_m: {uniform: [0.1, 0.7]}\n");
   ASSERT_EQ(Campaign("-n 2 --out a").status, 3);
-  EXPECT_EQ(Run("campaign " + (folder_ / "s.yaml").string() + " -n 2 --out b").status, 3);
+  EXPECT_EQ(Run("campaign --no-films " + (folder_ / "s.yaml").string() + " -n 2 --out b").status,
+            3);
   ExpectSameResults("a", "b");
   EXPECT_THAT(Select("a", "SELECT message FROM episode"), HasSubstr("s.yaml:"));
 }

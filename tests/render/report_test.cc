@@ -105,7 +105,7 @@ TEST(Report, VerdictIsOneSentence) {
   r.variants = {Variant("a", 5, 20), Variant("b", 2, 20)};
   EXPECT_THAT(VerdictText(r), ::testing::StartsWith("b failed in 2 of 20 episodes (10 %)"));
   r.variants = {Variant("a", 0, 0), Variant("b", 0, 0)};
-  EXPECT_EQ(VerdictText(r), "No episode counts.");
+  EXPECT_EQ(VerdictText(r), "No robot drove: the episodes are plans only, or none counts.");
   r.gate = ReportGate{.metric = "stuck", .max_rate = 0.05, .confidence = 0.95};
   const auto verdict = [&](ReportGate::Verdict v) {
     r.gate->verdict = v;

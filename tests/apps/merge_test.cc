@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// `floorproof merge`: shards give what the whole campaign would have given, or say why not.
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/campaign_program.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::ordered_json;
+
+class MergeTest : public CampaignProgram {
+ protected:
+  Json Summary(const std::string& out) const {
+    return Json::parse(Slurp(folder_ / out / "summary.json"));
+  }
+};
+
+TEST_F(MergeTest, ShardsGiveTheWholeCampaign) {
+  Write(
+      "gate: {metric: not_success, max_rate: 0.9, confidence: 0.6}\n"
+      "matrix: {start.yaw_deg: [0, 10]}\n");
+  const int status = Campaign("-n 9 --out whole").status;
+  ASSERT_NE(status, 2);
+  ASSERT_EQ(Campaign("-n 9 --episodes 0:4 --out a").status, 0) << "a shard is not judged";
+  ASSERT_EQ(Campaign("-n 9 --episodes 3:9 --out b").status, 0);
+  EXPECT_EQ(Run("merge b a --out joined").status, status);
+  ExpectSameResults("whole", "joined");
+}
+
+TEST_F(MergeTest, ShardsMayHaveBeenMoved) {
+  ASSERT_EQ(Campaign("-n 6 --episodes 0:3 --out a").status, 0);
+  ASSERT_EQ(Campaign("-n 6 --episodes 3:6 --out b").status, 0);
+  ASSERT_EQ(Campaign("-n 6 --out whole").status, 0);
+  fs::create_directories(folder_ / "far/away");
+  fs::rename(folder_ / "a", folder_ / "far/away/a");
+  fs::rename(folder_ / "b", folder_ / "far/b");
+  fs::remove(folder_ / "p.csv");  // as on a machine that has only the shards
+  const Ended merged = Run("merge far/away/a far/b --out joined");
+  EXPECT_EQ(merged.status, 0) << merged.said;
+  ExpectSameResults("whole", "joined");
+}
+
+TEST_F(MergeTest, ALostShardIsNamedAndDoesNotPass) {
+  Write("gate: {metric: roll_over, max_rate: 0.5, confidence: 0.9}\n");
+  ASSERT_EQ(Campaign("-n 12 --episodes 0:3 --out a").status, 0);
+  ASSERT_EQ(Campaign("-n 12 --episodes 5:9 --out b").status, 0);
+  const Ended merged = Run("merge a b --out joined");
+  EXPECT_EQ(merged.status, 4);
+  EXPECT_THAT(merged.out, HasSubstr("no shard holds the episodes 3:5, 9:12"));
+  EXPECT_THAT(merged.out, Not(HasSubstr("all episodes are done")));
+  EXPECT_EQ(Summary("joined")["variants"]["default"]["n"], 3) << "the prefix alone counts";
+  EXPECT_FALSE(Summary("joined")["unfinished"].is_null());
+  EXPECT_EQ(Count("joined", "SELECT count(*) FROM extra"), 4);
+}
+
+TEST_F(MergeTest, OverlapsThatDisagreeAreRefused) {
+  ASSERT_EQ(Campaign("-n 6 --episodes 0:4 --out a").status, 0);
+  ASSERT_EQ(Campaign("-n 6 --episodes 2:6 --out b").status, 0);
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open((folder_ / "b/campaign.sqlite").c_str(), &db), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(db, "UPDATE episode SET energy_j = energy_j + 1e-9 WHERE episode = 3",
+                         nullptr, nullptr, nullptr),
+            SQLITE_OK);
+  sqlite3_close(db);
+  const Ended merged = Run("merge a b --out joined");
+  EXPECT_EQ(merged.status, 2);
+  EXPECT_THAT(merged.said, HasSubstr("episode 3 of default is not that of a: they differ in "
+                                     "energy_j"));
+  EXPECT_FALSE(fs::exists(folder_ / "joined"));
+}
+
+TEST_F(MergeTest, ShardsOfAnotherCampaignAreRefused) {
+  ASSERT_EQ(Campaign("-n 4 --episodes 0:2 --out a").status, 0);
+  ASSERT_EQ(Campaign("-n 4 --episodes 2:4 --seed 1 --out b").status, 0);
+  const Ended merged = Run("merge a b --out joined");
+  EXPECT_EQ(merged.status, 2);
+  EXPECT_THAT(merged.said, HasSubstr("holds another campaign: seed was 0, is 1"));
+  const Ended none = Run("merge a nowhere --out joined");
+  EXPECT_EQ(none.status, 2);
+  EXPECT_THAT(none.said, HasSubstr("nowhere/campaign.sqlite: cannot be opened"));
+}
+
+}  // namespace
+}  // namespace floorproof
