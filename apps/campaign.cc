@@ -146,7 +146,8 @@ int RunIt(const Options& options, const Globals& globals) {
   if (options.episodes.empty()) campaign.gate = gate;
 
   const HoldInterrupts hold;
-  CampaignStore store = OpenStore(folder, about, options.resume);
+  std::optional<CampaignStore> opened = OpenStore(folder, about, options.resume);
+  CampaignStore& store = *opened;
   RefuseSecondLook(store, file, options.n);
   store.SetAsked(options.n);
   if (options.retry_errors) store.DropErrors();
@@ -156,7 +157,11 @@ int RunIt(const Options& options, const Globals& globals) {
   const CampaignRun run = RunCampaign(file, store, campaign, &progress);
   progress.Clear();
   const int status = SayResults(file, store, run, folder, globals);
-  if (run.end == CampaignEnd::kInterrupted) EndInterrupted();
+  if (!options.episodes.empty() && gate) globals.Say("a shard: `merge` judges the gate of all");
+  if (run.end == CampaignEnd::kInterrupted) {
+    opened.reset();  // closed as it should be, no file beside it
+    EndInterrupted();
+  }
   if (!options.no_films && run.end != CampaignEnd::kTimeLimit)
     FilmFirstFailures(file, store, folder, globals);
   return status;

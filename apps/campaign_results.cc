@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "apps/failing_episodes.h"
 #include "env/run/campaign_summary.h"
@@ -16,7 +17,7 @@ std::string_view Why(CampaignEnd end) {
     case CampaignEnd::kComplete:
       return "all episodes are done";
     case CampaignEnd::kGateDecided:
-      return "the gate is decided";
+      return "the gate's verdict is final";
     case CampaignEnd::kFailFast:
       return "an episode failed (--fail-fast)";
     case CampaignEnd::kTimeLimit:
@@ -36,6 +37,13 @@ std::string Unfinished(const CampaignRun& run, std::uint64_t asked) {
   return fmt::format("{} of {} episodes stand without a gap: {}", least, asked, Why(run.end));
 }
 
+// To three digits, never downwards: a bound that is told too low would seem to pass a gate.
+double RoundedUp(double value) {
+  if (value <= 0) return value;
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 2);
+  return std::ceil(value / unit - 1e-9) * unit;
+}
+
 void SayRates(const nlohmann::ordered_json& summary, const Globals& globals) {
   for (const auto& [name, variant] : summary["variants"].items()) {
     globals.Say(fmt::format(
@@ -51,7 +59,7 @@ void SayRates(const nlohmann::ordered_json& summary, const Globals& globals) {
       const double lower = 100 * rate["lower"].get<double>(),
                    upper = 100 * rate["upper"].get<double>();
       const std::string text =
-          rate["k"] == 0 ? fmt::format("none; below {:.3g} %", upper)
+          rate["k"] == 0 ? fmt::format("none; at most {:.3g} %", RoundedUp(upper))
                          : fmt::format("{} = {:.3g} % ({:.3g} to {:.3g} %)", rate["k"].get<int>(),
                                        100 * rate["rate"].get<double>(), lower, upper);
       globals.Say(fmt::format("  {:<12} {}", mode, text));
@@ -80,8 +88,9 @@ int SayResults(const ScenarioFile& file, const CampaignStore& store, const Campa
   for (const VariantProgress& variant : run.variants)
     if (variant.gate) gate.push_back(*variant.gate);
   const bool whole = run.end == CampaignEnd::kComplete || run.end == CampaignEnd::kGateDecided;
-  const auto summary = WriteSummaryFiles(
-      store, variants, gate, whole ? "" : Unfinished(run, store.asked()), file.name(), folder);
+  const CampaignEnding ending{whole ? "" : Unfinished(run, store.asked()),
+                              run.end == CampaignEnd::kFailFast};
+  const auto summary = WriteSummaryFiles(store, variants, gate, ending, file.name(), folder);
   globals.Result(summary);
   globals.Say(std::string(Why(run.end)) + "; results are in " + folder.string());
   SayRates(summary, globals);

@@ -74,7 +74,7 @@ ReportEpisode FailingEpisode(const EpisodeRow& row, const std::vector<Event>& ev
 std::uint64_t ListFailingEpisodes(const CampaignStore& store, const std::vector<Variant>& variants,
                                   const std::filesystem::path& folder, const Globals& globals) {
   constexpr std::uint64_t kShown = 3;  // of each variant
-  std::string csv = "variant,episode,outcome,what,hazard_or_reason,t_s,x_m,y_m,command\n";
+  std::string csv = "variant,episode,outcome,what,hazard_or_reason,t_s,x_m,y_m,drawn,command\n";
   std::uint64_t all = 0, shown = 0;
   for (const Variant& variant : variants) {
     std::uint64_t listed = 0;
@@ -85,9 +85,9 @@ std::uint64_t ListFailingEpisodes(const CampaignStore& store, const std::vector<
       const auto number = [](const std::optional<double>& value) {
         return value ? fmt::format("{}", *value) : "";
       };
-      csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", CsvField(e.variant), e.episode,
+      csv += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", CsvField(e.variant), e.episode,
                          row.outcome, CsvField(e.what), CsvField(e.detail), number(e.t_s),
-                         number(e.x_m), number(e.y_m), CsvField(e.command));
+                         number(e.x_m), number(e.y_m), CsvField(row.drawn), CsvField(e.command));
       ++all;
       if (listed++ >= kShown || shown >= 4 * kShown) return;
       ++shown;

@@ -27,6 +27,11 @@ std::string SettingsFor(const fs::path& out, const ScenarioFile& scenario, const
   return ReadInputFile(recorded, kMostBytes);
 }
 
+bool IsFixed(const ScenarioFile& scenario, std::uint64_t n) {
+  const auto gate = CampaignGate::Read(scenario.gate(), n, scenario.drives());
+  return gate && gate->fixed();
+}
+
 // "60:70, 80:81", half-open, of 0:end.
 std::string Missing(const std::vector<std::uint64_t>& there, std::uint64_t end) {
   std::string text;
@@ -55,6 +60,11 @@ int Merge(const std::vector<std::string>& shards, const fs::path& out, const Glo
   const ScenarioFile scenario = ScenarioFile::Recorded(recorded);
   const std::vector<Variant>& variants = scenario.variants();
   CheckOverlaps(from, shards, variants);
+  for (std::size_t i = 1; i < from.size(); ++i)
+    if (from[i].asked() != from[0].asked() && IsFixed(scenario, from[i].asked()))
+      throw InputError({shards[i], 0}, "-n", std::to_string(from[i].asked()),
+                       fmt::format("{} was driven with -n {}: a fixed gate is judged at one n",
+                                   shards[0], from[0].asked()));
 
   const HoldInterrupts hold;
   MakeFolder(out);

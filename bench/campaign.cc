@@ -48,7 +48,7 @@ Timed RunOnce(const ScenarioFile& file, std::uint64_t n, int jobs, const fs::pat
   options.jobs = jobs;
   RunCampaign(file, store, options);
   timed.drive_s = Since(drive_begin);
-  WriteSummaryFiles(store, file.variants(), {}, "", file.name(), folder);
+  WriteSummaryFiles(store, file.variants(), {}, {}, file.name(), folder);
   timed.wall_s = Since(begin);
   const double timestep_s = file.Read().physics.timestep_s;
   for (const Variant& variant : file.variants())

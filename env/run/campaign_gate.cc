@@ -38,7 +38,10 @@ std::optional<CampaignGate> CampaignGate::Read(const ConfigNode& node, std::uint
   try {
     CheckGate(gate.settings_);
   } catch (const InputError& e) {
-    throw InputError(node.mark, "gate", "", e.what());
+    std::string why = e.what();
+    // Not written: it is the command line's.
+    if (!p.max_n && why.starts_with("max_n")) why.replace(0, 5, "-n");
+    throw InputError(node.mark, "gate", "", why);
   }
   return gate;
 }

@@ -13,6 +13,6 @@ namespace floorproof {
 // JUnit XML: a suite a variant of `summary` (summary.json), with a case that its episodes ran and,
 // where there is a gate, one for that; times are simulated, what people read stands in system-out.
 std::string JunitXml(const nlohmann::ordered_json& summary, const std::vector<GateState>& gate,
-                     const std::string& scenario_name);
+                     bool failed_fast, const std::string& scenario_name);
 
 }  // namespace floorproof

@@ -36,17 +36,19 @@ void CheckOverlaps(std::span<const CampaignStore> shards, std::span<const std::s
         const auto shared = [&](const EpisodeRow& row) {
           return std::ranges::binary_search(both, row.episode);
         };
-        shards[a].ForEach(variant.name, [&](const EpisodeRow& row) {
+        const auto note = [&](const EpisodeRow& row) {
           if (shared(row)) rows[row.episode] = row;
-        });
-        shards[b].ForEach(variant.name, [&](const EpisodeRow& row) {
+        };
+        const auto check = [&](const EpisodeRow& row) {
           const auto found = rows.find(row.episode);
           if (found == rows.end()) return;
           if (const std::string what = Difference(found->second, row); !what.empty())
             throw InputError({names[b], 0}, "", "",
                              "episode " + std::to_string(row.episode) + " of " + variant.name +
                                  " is not that of " + names[a] + ": they differ in " + what);
-        });
+        };
+        shards[a].ForEach(variant.name, note, true);
+        shards[b].ForEach(variant.name, check, true);
       }
   }
 }
@@ -58,14 +60,15 @@ std::uint64_t MergeRows(std::span<const CampaignStore> shards, std::span<const V
     for (const CampaignStore& shard : shards) {
       const std::vector<std::uint64_t> there = into.Episodes(variant.name);
       std::vector<EpisodeRow> batch;
-      shard.ForEach(variant.name, [&](const EpisodeRow& row) {
+      const auto copy = [&](const EpisodeRow& row) {
         end = std::max(end, row.episode + 1);
         if (std::ranges::binary_search(there, row.episode)) return;
         batch.push_back(row);
         if (batch.size() < kBatch) return;
         into.Add(batch);
         batch.clear();
-      });
+      };
+      shard.ForEach(variant.name, copy, true);
       into.Add(batch);
     }
   return end;

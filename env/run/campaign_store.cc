@@ -294,9 +294,11 @@ std::vector<std::uint64_t> CampaignStore::Episodes(const std::string& variant) c
 }
 
 void CampaignStore::ForEach(const std::string& variant,
-                            const std::function<void(const EpisodeRow&)>& visit) const {
-  Statement select(*this,
-                   "SELECT * FROM episode WHERE campaign = ? AND variant = ? ORDER BY episode");
+                            const std::function<void(const EpisodeRow&)>& visit, bool extra) const {
+  const std::string rows = " WHERE campaign = ?1 AND variant = ?2";
+  Statement select(*this, "SELECT * FROM episode" + rows +
+                              (extra ? " UNION ALL SELECT * FROM extra" + rows : "") +
+                              " ORDER BY episode");
   select.Bind(1, about_.id);
   select.Bind(2, variant);
   while (select.Step()) visit(select.Row());

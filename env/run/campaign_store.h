@@ -45,9 +45,10 @@ class CampaignStore {
   std::vector<std::string> Variants() const;
   // Episodes of a variant that are there, `extra` ones too, ascending.
   std::vector<std::uint64_t> Episodes(const std::string& variant) const;
-  // Rows of table `episode`, one variant's, in the order of their numbers.
-  void ForEach(const std::string& variant,
-               const std::function<void(const EpisodeRow&)>& visit) const;
+  // Rows of table `episode`, one variant's, in the order of their numbers; with `extra`, those that
+  // are kept and not counted, too.
+  void ForEach(const std::string& variant, const std::function<void(const EpisodeRow&)>& visit,
+               bool extra = false) const;
   // One row of either table.
   std::optional<EpisodeRow> Find(const std::string& variant, std::uint64_t episode) const;
   // How many episodes a variant were asked for, last and at most; 0: nobody said.

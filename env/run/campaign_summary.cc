@@ -137,6 +137,8 @@ Json VariantJson(const Tally& tally) {
     per_km[mode] = RatePer(tally.events[m], tally.km);
     per_hour[mode] = RatePer(tally.events[m], tally.hours / 1000);
   }
+  const int none = tally.count("not_planned");
+  failures["not_success"] = Rate(tally.n - tally.count("success") + none, tally.n + none);
   for (const auto& [kind, k] : tally.kinds) kinds[kind] = Rate(k, tally.driven);
   for (const auto& [hazard, k] : tally.hazards) hazards[hazard] = Rate(k, tally.driven);
   for (const auto& [place, k] : tally.places) {
@@ -167,10 +169,10 @@ Json VariantJson(const Tally& tally) {
 }
 
 Json SummaryJson(const CampaignStore& store, const std::vector<Variant>& variants,
-                 const std::vector<GateState>& gate, const std::string& unfinished) {
+                 const std::vector<GateState>& gate, const CampaignEnding& ending) {
   Json json = {{"campaign", store.about().id},
                {"episodes", store.asked()},
-               {"unfinished", unfinished.empty() ? Json(nullptr) : Json(unfinished)},
+               {"unfinished", ending.unfinished.empty() ? Json(nullptr) : Json(ending.unfinished)},
                {"variants", Json::object()}};
   for (const Variant& variant : variants) {
     Tally tally;
@@ -191,11 +193,11 @@ Json SummaryJson(const CampaignStore& store, const std::vector<Variant>& variant
 }  // namespace
 
 Json WriteSummaryFiles(const CampaignStore& store, const std::vector<Variant>& variants,
-                       const std::vector<GateState>& gate, const std::string& unfinished,
+                       const std::vector<GateState>& gate, const CampaignEnding& ending,
                        const std::string& scenario_name, const std::filesystem::path& folder) {
-  Json summary = SummaryJson(store, variants, gate, unfinished);
+  Json summary = SummaryJson(store, variants, gate, ending);
   WriteFileWhole(folder / "episodes.csv", EpisodesCsv(store, variants));
-  WriteFileWhole(folder / "junit.xml", JunitXml(summary, gate, scenario_name));
+  WriteFileWhole(folder / "junit.xml", JunitXml(summary, gate, ending.failed_fast, scenario_name));
   WriteFileWhole(folder / "summary.json", summary.dump(2) + "\n");
   return summary;
 }

@@ -12,8 +12,9 @@ constexpr double kLeastMass = 0.01;   // of a bounded normal: else redrawing wou
 constexpr int kMostRedraws = 10'000;  // 0.99^10000 = 2e-44 that none of them keeps the bounds
 
 // Keys that say what is done with an episode rather than what happens in it.
-const std::vector<std::string> kFixed = {"scenario", "name",  "seed",  "randomise", "matrix",
-                                         "gate",     "files", "drive", "video",     "trace_hz"};
+const std::vector<std::string> kFixed = {"scenario",  "name",   "seed",    "episode",
+                                         "randomise", "matrix", "gate",    "files",
+                                         "drive",     "video",  "trace_hz"};
 
 double Cumulative(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 

@@ -13,8 +13,8 @@ constexpr std::size_t kMostVariants = 10'000;
 constexpr std::size_t kLongestName = 200;  // films and pictures carry it in their files' names
 
 // What all variants share, their draws above all, and what is read before they are made.
-const std::vector<std::string> kShared = {"scenario", "name", "seed", "randomise",
-                                          "matrix",   "gate", "files"};
+const std::vector<std::string> kShared = {"scenario",  "name",   "seed", "episode",
+                                          "randomise", "matrix", "gate", "files"};
 
 std::string LastPart(const std::string& key_path) {
   return key_path.substr(key_path.rfind('.') + 1);

@@ -85,6 +85,7 @@ ScenarioFile::ScenarioFile(const fs::path& file, const std::vector<Override>& ov
   ReadParams(
       root_, "", [&](ParamVisitor& v) { params.Visit(v); }, ScenarioKeys());
   seed_ = params.seed;
+  episode_ = static_cast<std::uint64_t>(params.episode);
 
   randomised_ = ReadRandomise(root_.Find("randomise"));
   std::erase_if(randomised_, [&](const RandomisedKey& key) {
@@ -196,13 +197,15 @@ Scenario ScenarioFile::ReadWith(std::optional<std::uint64_t> episode, const Vari
     if (const ConfigNode* written = root.Find(key)) *node = *written;
   for (const auto& entry : root.entries) s.written.insert(entry.first);
   ReadTopKeys(root, s);
+  s.episode.episode = static_cast<int>(s.episode_id);
   ReadSitePart(root, changes, episode.has_value(), s);
   ReadParts(root, s);
   return s;
 }
 
 Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrides) {
-  return ScenarioFile(file, overrides).Read();
+  const ScenarioFile scenario(file, overrides);
+  return scenario.Read(scenario.episode());
 }
 
 std::vector<fs::path> FilesRead(const Scenario& s) {

@@ -86,9 +86,10 @@ class ScenarioFile {
   const std::filesystem::path& file() const { return file_; }
   const std::vector<Variant>& variants() const { return variants_; }
   int seed() const { return seed_; }
-  std::string name() const;  // the key `name`, else the file's stem
-  ConfigNode gate() const;   // null: none
-  bool drives() const;       // through physics
+  std::uint64_t episode() const { return episode_; }  // the key `episode`
+  std::string name() const;                           // the key `name`, else the file's stem
+  ConfigNode gate() const;                            // null: none
+  bool drives() const;                                // through physics
   // Reads each variant, and each choice of `randomise` in it, as some of the first episodes would
   // be: throws InputError where none of them makes sense (a key that is none, a robot unknown).
   void CheckDraws() const;
@@ -107,10 +108,11 @@ class ScenarioFile {
   std::vector<RandomisedKey> randomised_;
   std::vector<Variant> variants_;
   int seed_ = 0;
+  std::uint64_t episode_ = 0;
   mutable std::map<std::filesystem::path, ConfigNode> site_files_;  // read once each
 };
 
-// Episode 0 of the scenario itself, whatever its matrix says.
+// The scenario itself, whatever its matrix says: episode 0, or the one that it names.
 Scenario ReadScenario(const std::filesystem::path& file,
                       const std::vector<Override>& overrides = {});
 

@@ -29,6 +29,7 @@ void EpisodeParams::Visit(ParamVisitor& v) {
     "simulated seconds; none: a minute and three times what the plan takes at its own speeds");
   v("drive", drive, {"physics", "none"}, "physics: drive the plan; none: plan only");
   v("seed", seed, Between(0, 2147483647.0), "of every random stream");
+  v("episode", episode, Between(0, 1e8), "of the seed's episodes, the one that `run` drives");
   v("wheels", wheels, {"ideal", "rollers"},
     "Mecanum wheels; ideal: one body each, rollers: a hub and rollers that are bodies");
 }

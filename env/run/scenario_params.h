@@ -27,6 +27,7 @@ struct EpisodeParams {
   std::optional<double> time_limit_s;  // none: three times the plan's own time, and a minute
   std::string drive = "physics";       // none: the plan only
   int seed = 0;
+  int episode = 0;               // that `run` drives: of a campaign's resolved episode its own
   std::string wheels = "ideal";  // of Mecanum robots: ideal, or rollers that are bodies
   void Visit(ParamVisitor& v);
 };

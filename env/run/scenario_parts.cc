@@ -181,8 +181,8 @@ const std::vector<std::string>& ScenarioKeys() {
   static const std::vector<std::string> keys = {
       "name",       "scenario",  "site",         "robot",   "start",      "goal",     "plan",
       "controller", "estimator", "physics",      "battery", "control_hz", "trace_hz", "failures",
-      "on_failure", "success",   "time_limit_s", "seed",    "drive",      "wheels",   "video",
-      "files",      "randomise", "matrix",       "gate"};
+      "on_failure", "success",   "time_limit_s", "seed",    "episode",    "drive",    "wheels",
+      "video",      "files",     "randomise",    "matrix",  "gate"};
   return keys;
 }
 

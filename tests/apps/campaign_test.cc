@@ -166,6 +166,7 @@ TEST_F(CampaignTest, FailFastEndsAtTheFirstIdThatFails) {
   ExpectSameResults("j1", "more");
   Write("");
   EXPECT_EQ(Campaign("-n 200 --fail-fast --jobs 2 --out no_gate").status, 1);
+  EXPECT_THAT(Slurp(folder_ / "no_gate/junit.xml"), HasSubstr("failures=\"1\""));
 }
 
 TEST_F(CampaignTest, MoreOrFewerEpisodesMayFollow) {
@@ -249,6 +250,7 @@ TEST_F(CampaignTest, TooLittleCoveredIsAFailure) {
   const Json variant = Json::parse(Slurp(folder_ / "a/summary.json"))["variants"]["default"];
   EXPECT_EQ(variant["outcomes"]["success"], 0);
   EXPECT_EQ(variant["failures"]["any_failure"]["k"], variant["outcomes"]["failure"]);
+  EXPECT_EQ(variant["failures"]["not_success"]["k"], 8) << "timeouts too";
   EXPECT_EQ(variant["by_kind"]["coverage"]["k"],
             Count("a", "SELECT count(*) FROM episode WHERE outcome = 'failure' AND events = '[]'"));
   EXPECT_GT(variant["by_kind"]["coverage"]["k"], 0);
@@ -317,6 +319,17 @@ TEST_F(CampaignTest, WhatACampaignLeavesIsWholeInOneFile) {
   EXPECT_GT(Count("b", "SELECT count(*) FROM episode"), 0);
   EXPECT_EQ(Count("copy", "SELECT count(*) FROM episode"),
             Count("b", "SELECT count(*) FROM episode"));
+}
+
+// The settings that a replayed episode leaves are that episode's, draws and noise alike.
+TEST_F(CampaignTest, AReplayedEpisodesSettingsGiveItAgain) {
+  Write("matrix: {start.yaw_deg: [0, 10]}\n");
+  ASSERT_EQ(Campaign("-n 4 --out a").status, 0);
+  ASSERT_EQ(Run("replay a --episode 3 --variant yaw_deg=10").status, 0);
+  const std::string episode = "a/episodes/yaw_deg=10/3/";
+  EXPECT_LE(Run("run " + episode + "scenario.resolved.yaml --out again").status, 1);
+  EXPECT_EQ(Slurp(folder_ / "again/result.json"), Slurp(folder_ / (episode + "result.json")));
+  EXPECT_EQ(Slurp(folder_ / "again/trace.csv"), Slurp(folder_ / (episode + "trace.csv")));
 }
 
 TEST_F(CampaignTest, FailingEpisodesAreListedWithTheirCommands) {

@@ -57,6 +57,27 @@ TEST_F(MergeTest, ALostShardIsNamedAndDoesNotPass) {
   EXPECT_EQ(Count("joined", "SELECT count(*) FROM extra"), 4);
 }
 
+// What is kept and not counted is a shard's, too.
+TEST_F(MergeTest, AMergedFolderIsAShard) {
+  ASSERT_EQ(Campaign("-n 9 --episodes 0:3 --out a").status, 0);
+  ASSERT_EQ(Campaign("-n 9 --episodes 6:9 --out c").status, 0);
+  ASSERT_EQ(Run("merge a c --out ac").status, 0);
+  ASSERT_EQ(Count("ac", "SELECT count(*) FROM extra"), 3);
+  ASSERT_EQ(Campaign("-n 9 --episodes 3:6 --out b").status, 0);
+  ASSERT_EQ(Run("merge ac b --out joined").status, 0);
+  ASSERT_EQ(Campaign("-n 9 --out whole").status, 0);
+  ExpectSameResults("whole", "joined");
+}
+
+TEST_F(MergeTest, AFixedGateHasOneN) {
+  Write("gate: {metric: not_success, max_rate: 0.6, confidence: 0.9}\n");
+  ASSERT_EQ(Campaign("-n 6 --episodes 0:6 --out a").status, 0);
+  ASSERT_EQ(Campaign("-n 9 --episodes 6:9 --out b").status, 0);
+  const Ended merged = Run("merge a b --out joined");
+  EXPECT_EQ(merged.status, 2);
+  EXPECT_THAT(merged.said, HasSubstr("a was driven with -n 6: a fixed gate is judged at one n"));
+}
+
 TEST_F(MergeTest, OverlapsThatDisagreeAreRefused) {
   ASSERT_EQ(Campaign("-n 6 --episodes 0:4 --out a").status, 0);
   ASSERT_EQ(Campaign("-n 6 --episodes 2:6 --out b").status, 0);
