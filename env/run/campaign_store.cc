@@ -124,10 +124,9 @@ void CampaignStore::Refuse(int code) const {
     case SQLITE_IOERR:
     case SQLITE_READONLY:
     case SQLITE_PERM:
+    case SQLITE_CANTOPEN:
       throw InputError({file_.string(), 0}, "", "",
                        "cannot be written: " + why + "; episodes before are kept");
-    case SQLITE_CANTOPEN:
-      throw InputError({file_.string(), 0}, "", "", "cannot be opened: " + why);
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       throw InputError({file_.string(), 0}, "", "", "is in use by another campaign");
@@ -196,6 +195,9 @@ void CampaignStore::Fill(const fs::path& file, const fs::path& part, const Campa
 }
 
 CampaignStore CampaignStore::Open(const fs::path& file, bool write) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored))
+    throw InputError({file.string(), 0}, "", "", "cannot be opened: no such file");
   // Looked through read-only first: opening a damaged file for writing could change it.
   const auto open = [&](int flags) {
     sqlite3* db = nullptr;
