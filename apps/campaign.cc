@@ -93,28 +93,26 @@ CampaignStore OpenStore(const fs::path& folder, const CampaignAbout& about, bool
   if (!resume)
     throw InputError({folder.string(), 0}, "", "",
                      "holds a campaign: --resume goes on with it, --out names another folder");
-  // Another campaign's database is not so much as opened to be written.
-  RequireSame(CampaignStore::Open(file, false).about(), about, file);
-  return CampaignStore::Open(file, true);
+  CampaignStore store = CampaignStore::Open(file, false);
+  RequireSame(store.about(), about, file);
+  store.MakeWritable();  // another campaign's is not so much as opened to be written
+  return store;
 }
 
 // A fixed gate is judged once, at an n set beforehand: going on because it did not pass would pass
 // falsely far more often than it says.
-void RefuseSecondLook(const CampaignStore& store, const ScenarioFile& file, std::uint64_t n) {
+void RefuseSecondLook(CampaignStore& store, const ScenarioFile& file, std::uint64_t n) {
   const std::uint64_t before = store.asked();
   if (before == 0 || n <= before) return;
   const auto gate = CampaignGate::Read(file.gate(), before, file.drives());
   if (!gate || !gate->fixed()) return;
-  const bool judged = std::ranges::all_of(file.variants(), [&](const Variant& variant) {
-    GateState state = gate->Start();
-    std::uint64_t next = 0;
-    store.ForEach(variant.name, [&](const EpisodeRow& row) {
-      if (row.episode != next) return;
-      ++next;
-      if (gate->Judges(row)) state.Add(gate->Fails(row));
-    });
-    return state.decided() || next >= before;
-  });
+  CampaignOptions nothing_more;
+  nothing_more.end = before;
+  nothing_more.jobs = 0;
+  nothing_more.gate = gate;
+  const CampaignRun then = RunCampaign(file, store, nothing_more);
+  const bool judged =
+      std::ranges::all_of(then.variants, [](const auto& v) { return v.gate->decided(); });
   if (judged)
     throw InputError({"-n", 0}, "", std::to_string(n),
                      fmt::format("the fixed gate was judged at {} episodes; only a gate of `mode: "

@@ -32,6 +32,8 @@ std::string Words(std::string name) {
 
 }  // namespace
 
+bool IsListed(const EpisodeRow& row) { return row.outcome != "success" || row.any_failure(); }
+
 std::vector<Event> EventsOf(const EpisodeRow& row) {
   std::vector<Event> events;
   for (const Json& json : Json::parse(row.events)) {
@@ -79,7 +81,7 @@ std::uint64_t ListFailingEpisodes(const CampaignStore& store, const std::vector<
   for (const Variant& variant : variants) {
     std::uint64_t listed = 0;
     store.ForEach(variant.name, [&](const EpisodeRow& row) {
-      if (row.outcome == "success" && !row.any_failure()) return;
+      if (!IsListed(row)) return;
       const ReportEpisode e =
           FailingEpisode(row, EventsOf(row), folder.string(), variants.size() > 1);
       const auto number = [](const std::optional<double>& value) {

@@ -15,6 +15,7 @@
 
 namespace floorproof {
 
+bool IsListed(const EpisodeRow& row);
 // Mode, kind, hazard, time and place of each; throws nlohmann's exceptions on a damaged row.
 std::vector<Event> EventsOf(const EpisodeRow& row);
 // The first event's mode and kind; the outcome where there is none.

@@ -38,7 +38,7 @@ class Rows {
     std::vector<Event> places;
     store.ForEach(variant.name, [&](const EpisodeRow& row) {
       ++rows;
-      if (row.outcome == "success" && !row.any_failure()) return;
+      if (!IsListed(row)) return;
       const std::vector<Event> events = EventsOf(row);
       if (row.counts()) places.insert(places.end(), events.begin(), events.end());
       what_[{variant.name, row.episode}] = WhatFailed(row, events);
@@ -137,9 +137,9 @@ void AddPlaces(const fs::path& folder, const Rows& rows, Report& report) {
   }
   for (std::size_t v = 0; v < report.variants.size(); ++v) {
     ReportVariant& variant = report.variants[v];
+    const fs::path png = folder / PictureFile(variant.name, v + 1);
     // What was drawn while the site could be read still shows where.
-    const auto keep = [&,
-                       png = folder / PictureFile(variant.name, v + 1)](const std::string& note) {
+    const auto keep = [&](const std::string& note) {
       variant.places_note = note;
       if (WhyUnreadable(png, kMostBytes).empty())
         variant.places_png = ReadInputFile(png, kMostBytes);
@@ -154,7 +154,6 @@ void AddPlaces(const fs::path& folder, const Rows& rows, Report& report) {
         variant.places_note = "Each episode draws a floor of its own: there is no one map to show.";
         continue;
       }
-      const fs::path png = folder / PictureFile(variant.name, v + 1);
       const std::optional<HeatValues> rates = RatesOnFloor(variant.places);
       WriteFailurePlaces(scenario.site.map, variant.name + " on " + scenario.site.map.name,
                          rows.places()[v], rates ? &*rates : nullptr, nullptr, png);

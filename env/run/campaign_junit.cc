@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
-
 #include "env/core/markup.h"
 
 namespace floorproof {
@@ -57,14 +55,10 @@ Suite VariantSuite(const std::string& name, const Json& variant, const Json& unf
     const std::string why = MarkupText(variant["first_error"].get<std::string>());
     ran = fmt::format("      <error message=\"{0} episodes ended in error\">{1}</error>\n", broken,
                       why);
-  } else if (failed_fast) {
-    ran =
-        fmt::format("      <failure message=\"{}\"/>\n", MarkupText(unfinished.get<std::string>()));
-    ++suite.failures;
   } else if (!unfinished.is_null()) {
-    ran =
-        fmt::format("      <skipped message=\"{}\"/>\n", MarkupText(unfinished.get<std::string>()));
-    ++suite.skipped;
+    ran = fmt::format("      <{} message=\"{}\"/>\n", failed_fast ? "failure" : "skipped",
+                      MarkupText(unfinished.get<std::string>()));
+    ++(failed_fast ? suite.failures : suite.skipped);
   }
   const std::string rates = VariantText(variant);
   std::string cases = Case(name, "every episode ran", time_s, ran, rates);

@@ -194,20 +194,21 @@ void CampaignStore::Fill(const fs::path& file, const fs::path& part, const Campa
   store.Run("COMMIT");
 }
 
+CampaignStore CampaignStore::Connect(const fs::path& file, int flags) {
+  sqlite3* db = nullptr;
+  const std::string name = flags == SQLITE_OPEN_READONLY ? ReadOnlyName(file) : file.string();
+  const int code = sqlite3_open_v2(name.c_str(), &db, flags | SQLITE_OPEN_URI, nullptr);
+  CampaignStore store(file, db);
+  if (code != SQLITE_OK) store.Refuse(code);
+  return store;
+}
+
 CampaignStore CampaignStore::Open(const fs::path& file, bool write) {
   std::error_code ignored;
   if (!fs::exists(file, ignored))
     throw InputError({file.string(), 0}, "", "", "cannot be opened: no such file");
   // Looked through read-only first: opening a damaged file for writing could change it.
-  const auto open = [&](int flags) {
-    sqlite3* db = nullptr;
-    const std::string name = flags == SQLITE_OPEN_READONLY ? ReadOnlyName(file) : file.string();
-    const int code = sqlite3_open_v2(name.c_str(), &db, flags | SQLITE_OPEN_URI, nullptr);
-    CampaignStore store(file, db);
-    if (code != SQLITE_OK) store.Refuse(code);
-    return store;
-  };
-  CampaignStore store = open(SQLITE_OPEN_READONLY);
+  CampaignStore store = Connect(file, SQLITE_OPEN_READONLY);
   {
     Statement check(store, "PRAGMA quick_check(1)");
     if (check.Step() && check.Text(0) != "ok")
@@ -215,16 +216,17 @@ CampaignStore CampaignStore::Open(const fs::path& file, bool write) {
                        "is damaged (" + check.Text(0) + "); it was left as it is");
   }
   store.ReadAbout();
-  if (!write) return store;
-  CampaignStore writable = open(SQLITE_OPEN_READWRITE);
-  writable.about_ = store.about_;
-  writable.asked_ = store.asked_;
-  sqlite3_close(std::exchange(store.db_, nullptr));
+  if (write) store.MakeWritable();
+  return store;
+}
+
+void CampaignStore::MakeWritable() {
+  CampaignStore writable = Connect(file_, SQLITE_OPEN_READWRITE);
+  sqlite3_close(std::exchange(db_, std::exchange(writable.db_, nullptr)));
   // In this order: who owns the shared index when it closes also removes it.
-  writable.Run("PRAGMA journal_mode=WAL; SELECT count(*) FROM about");
-  writable.Run("PRAGMA locking_mode=EXCLUSIVE; PRAGMA synchronous=NORMAL");
-  writable.Run("BEGIN IMMEDIATE; COMMIT");  // takes the lock now, or says who has it
-  return writable;
+  Run("PRAGMA journal_mode=WAL; SELECT count(*) FROM about");
+  Run("PRAGMA locking_mode=EXCLUSIVE; PRAGMA synchronous=NORMAL");
+  Run("BEGIN IMMEDIATE; COMMIT");  // takes the lock now, or says who has it
 }
 
 void CampaignStore::ReadAbout() {

@@ -34,6 +34,8 @@ class CampaignStore {
   // Opens one that is; read-only unless `write`. Throws InputError, the file untouched, when it is
   // damaged or no campaign's.
   static CampaignStore Open(const std::filesystem::path& file, bool write);
+  // What was opened to be read may be written from now on. Throws InputError.
+  void MakeWritable();
   CampaignStore(CampaignStore&&) noexcept;
   ~CampaignStore();
 
@@ -51,7 +53,7 @@ class CampaignStore {
                bool extra = false) const;
   // One row of either table.
   std::optional<EpisodeRow> Find(const std::string& variant, std::uint64_t episode) const;
-  // How many episodes a variant were asked for, last and at most; 0: nobody said.
+  // How many episodes a variant were asked for, last; 0: nobody said.
   std::uint64_t asked() const { return asked_; }
   void SetAsked(std::uint64_t episodes);
   // Rows of outcome `error` are dropped, so that they are driven again.
@@ -64,6 +66,8 @@ class CampaignStore {
  private:
   struct Statement;
   CampaignStore(const std::filesystem::path& file, sqlite3* db);
+  // Opens the file as it is.
+  static CampaignStore Connect(const std::filesystem::path& file, int flags);
   // Makes the tables in `part`; errors name `file`.
   static void Fill(const std::filesystem::path& file, const std::filesystem::path& part,
                    const CampaignAbout& about);

@@ -14,6 +14,13 @@ using Json = nlohmann::ordered_json;
 
 class MergeTest : public CampaignProgram {
  protected:
+  // Shards of one campaign, each by its ids and its folder.
+  void Shards(int n, std::initializer_list<std::pair<std::string, std::string>> shards) const {
+    for (const auto& [ids, out] : shards)
+      ASSERT_EQ(Campaign("-n " + std::to_string(n) + " --episodes " + ids + " --out " + out).status,
+                0)
+          << "a shard is not judged";
+  }
   Json Summary(const std::string& out) const {
     return Json::parse(Slurp(folder_ / out / "summary.json"));
   }
@@ -25,15 +32,13 @@ TEST_F(MergeTest, ShardsGiveTheWholeCampaign) {
       "matrix: {start.yaw_deg: [0, 10]}\n");
   const int status = Campaign("-n 9 --out whole").status;
   ASSERT_NE(status, 2);
-  ASSERT_EQ(Campaign("-n 9 --episodes 0:4 --out a").status, 0) << "a shard is not judged";
-  ASSERT_EQ(Campaign("-n 9 --episodes 3:9 --out b").status, 0);
+  Shards(9, {{"0:4", "a"}, {"3:9", "b"}});
   EXPECT_EQ(Run("merge b a --out joined").status, status);
   ExpectSameResults("whole", "joined");
 }
 
 TEST_F(MergeTest, ShardsMayHaveBeenMoved) {
-  ASSERT_EQ(Campaign("-n 6 --episodes 0:3 --out a").status, 0);
-  ASSERT_EQ(Campaign("-n 6 --episodes 3:6 --out b").status, 0);
+  Shards(6, {{"0:3", "a"}, {"3:6", "b"}});
   ASSERT_EQ(Campaign("-n 6 --out whole").status, 0);
   fs::create_directories(folder_ / "far/away");
   fs::rename(folder_ / "a", folder_ / "far/away/a");
@@ -46,8 +51,7 @@ TEST_F(MergeTest, ShardsMayHaveBeenMoved) {
 
 TEST_F(MergeTest, ALostShardIsNamedAndDoesNotPass) {
   Write("gate: {metric: roll_over, max_rate: 0.5, confidence: 0.9}\n");
-  ASSERT_EQ(Campaign("-n 12 --episodes 0:3 --out a").status, 0);
-  ASSERT_EQ(Campaign("-n 12 --episodes 5:9 --out b").status, 0);
+  Shards(12, {{"0:3", "a"}, {"5:9", "b"}});
   const Ended merged = Run("merge a b --out joined");
   EXPECT_EQ(merged.status, 4);
   EXPECT_THAT(merged.out, HasSubstr("no shard holds the episodes 3:5, 9:12"));
@@ -59,11 +63,9 @@ TEST_F(MergeTest, ALostShardIsNamedAndDoesNotPass) {
 
 // What is kept and not counted is a shard's, too.
 TEST_F(MergeTest, AMergedFolderIsAShard) {
-  ASSERT_EQ(Campaign("-n 9 --episodes 0:3 --out a").status, 0);
-  ASSERT_EQ(Campaign("-n 9 --episodes 6:9 --out c").status, 0);
+  Shards(9, {{"0:3", "a"}, {"6:9", "c"}, {"3:6", "b"}});
   ASSERT_EQ(Run("merge a c --out ac").status, 0);
   ASSERT_EQ(Count("ac", "SELECT count(*) FROM extra"), 3);
-  ASSERT_EQ(Campaign("-n 9 --episodes 3:6 --out b").status, 0);
   ASSERT_EQ(Run("merge ac b --out joined").status, 0);
   ASSERT_EQ(Campaign("-n 9 --out whole").status, 0);
   ExpectSameResults("whole", "joined");
@@ -71,16 +73,15 @@ TEST_F(MergeTest, AMergedFolderIsAShard) {
 
 TEST_F(MergeTest, AFixedGateHasOneN) {
   Write("gate: {metric: not_success, max_rate: 0.6, confidence: 0.9}\n");
-  ASSERT_EQ(Campaign("-n 6 --episodes 0:6 --out a").status, 0);
-  ASSERT_EQ(Campaign("-n 9 --episodes 6:9 --out b").status, 0);
+  Shards(6, {{"0:6", "a"}});
+  Shards(9, {{"6:9", "b"}});
   const Ended merged = Run("merge a b --out joined");
   EXPECT_EQ(merged.status, 2);
   EXPECT_THAT(merged.said, HasSubstr("a was driven with -n 6: a fixed gate is judged at one n"));
 }
 
 TEST_F(MergeTest, OverlapsThatDisagreeAreRefused) {
-  ASSERT_EQ(Campaign("-n 6 --episodes 0:4 --out a").status, 0);
-  ASSERT_EQ(Campaign("-n 6 --episodes 2:6 --out b").status, 0);
+  Shards(6, {{"0:4", "a"}, {"2:6", "b"}});
   sqlite3* db = nullptr;
   ASSERT_EQ(sqlite3_open((folder_ / "b/campaign.sqlite").c_str(), &db), SQLITE_OK);
   ASSERT_EQ(sqlite3_exec(db, "UPDATE episode SET energy_j = energy_j + 1e-9 WHERE episode = 3",
@@ -95,7 +96,7 @@ TEST_F(MergeTest, OverlapsThatDisagreeAreRefused) {
 }
 
 TEST_F(MergeTest, ShardsOfAnotherCampaignAreRefused) {
-  ASSERT_EQ(Campaign("-n 4 --episodes 0:2 --out a").status, 0);
+  Shards(4, {{"0:2", "a"}});
   ASSERT_EQ(Campaign("-n 4 --episodes 2:4 --seed 1 --out b").status, 0);
   const Ended merged = Run("merge a b --out joined");
   EXPECT_EQ(merged.status, 2);
