@@ -4,6 +4,7 @@
 #include "apps/command.h"
 #include "controllers/drive.h"
 #include "env/hazards/hazard_type.h"
+#include "env/sensors/sensor.h"
 
 namespace floorproof {
 namespace {
@@ -31,6 +32,7 @@ Json Entries(const std::string& kind) {
   if (kind == "planners") AddEntries(Planners(), out);
   if (kind == "controllers") AddEntries(Trackers(), out);
   if (kind == "estimators") AddEntries(Estimators(), out);
+  if (kind == "sensors") AddEntries(Sensors(), out);
   if (kind == "hazards") AddEntries(HazardTypes(), out);
   if (kind == "failures") AddEntries(Detectors(), out);
   if (kind == "robots")

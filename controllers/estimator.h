@@ -4,18 +4,34 @@
 
 #include <memory>
 #include <span>
+#include <string_view>
+#include <vector>
 
+#include "env/core/hazard_map.h"
 #include "env/core/motion.h"
+#include "env/core/observation.h"
 #include "env/core/params.h"
 #include "env/core/registry.h"
+#include "env/core/robot_spec.h"
+#include "env/core/streams.h"
 
 namespace floorproof {
 
+// What an estimator is given at the start; it outlives the episode.
+struct EstimatorContext {
+  const HazardMap& known;  // the map that the robot has
+  const RobotSpec& robot;
+  Pose2 start;   // where the robot truly stands
+  Stream draws;  // of this episode: for its start error and its particles
+};
+
 class Estimator : public Configurable {
  public:
-  virtual void Start(const Pose2& X_WB) = 0;
-  // One control period; `truth` is the last physics step's sample.
-  virtual Estimate Update(const Sample& truth, double dt_s) = 0;
+  // Sensors that it cannot do without.
+  virtual std::vector<std::string_view> Needs() const { return {}; }
+  virtual void Start(const EstimatorContext& context) = 0;
+  // One control period. `truth` is for `truth` alone: all others know what was sensed.
+  virtual Estimate Update(const Observation& sensed, const Sample& truth, double dt_s) = 0;
 };
 
 std::span<const PluginEntry<Estimator>> Estimators();

@@ -7,8 +7,8 @@ namespace {
 
 class TruthEstimator final : public Estimator {
  public:
-  void Start(const Pose2&) override {}
-  Estimate Update(const Sample& truth, double) override {
+  void Start(const EstimatorContext&) override {}
+  Estimate Update(const Observation&, const Sample& truth, double) override {
     return {truth.X_WB(), truth.V_WB_B, truth.hinges};
   }
 };

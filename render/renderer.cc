@@ -123,6 +123,8 @@ struct OffscreenRenderer::Gl {
     }
     mjv_defaultOption(&option);
     option.flags[mjVIS_RANGEFINDER] = 0;
+    // Where env/scene puts floors, walls and hazards; the engine's own viewer would leave them out.
+    std::fill(option.geomgroup + 4, option.geomgroup + mjNGROUP, mjtByte{1});
     std::fill(std::begin(option.sitegroup), std::end(option.sitegroup), mjtByte{0});
     mjv_defaultPerturb(&perturb);
     mjv_defaultCamera(&camera);

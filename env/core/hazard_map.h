@@ -34,6 +34,7 @@ struct Solid {
 struct Material {
   std::optional<double> friction;  // none: the floor's
   double restitution = 0;          // 0 (dead) to 1 (elastic)
+  double reflectance = 1;          // of a lidar's light, 0 (black) to 1 (white)
   std::array<float, 4> rgba = {0.6f, 0.6f, 0.6f, 1.0f};
 };
 

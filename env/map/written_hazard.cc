@@ -11,7 +11,7 @@
 namespace floorproof {
 namespace {
 
-const Bounds kRestitution = Between(0, 1);
+const Bounds kRestitution = Between(0, 1), kReflectance = Between(0, 1);
 const Bounds kFriction = {0, 5, true};
 constexpr double kFarthest_m = 1e6;
 constexpr std::size_t kMostPoints = 10'000;
@@ -140,12 +140,16 @@ void LayOn(std::span<const Hazard> before, Hazard& terrain, std::vector<std::str
 
 }  // namespace
 
-std::vector<std::string> CommonHazardKeys::Names() { return {"known", "restitution", "friction"}; }
+std::vector<std::string> CommonHazardKeys::Names() {
+  return {"known", "restitution", "friction", "reflectance"};
+}
 
 void CommonHazardKeys::Read(const ConfigNode& node, const std::string& path) {
   if (const auto* n = node.Find("known")) known = AsBool(*n, path + "known");
   if (const auto* n = node.Find("restitution"))
     restitution = AsDouble(*n, path + "restitution", kRestitution);
+  if (const auto* n = node.Find("reflectance"))
+    reflectance = AsDouble(*n, path + "reflectance", kReflectance);
   if (const auto* n = node.Find("friction")) {
     const bool none = n->IsScalar() && n->scalar == "none";
     friction = none ? std::optional<double>() : AsDouble(*n, path + "friction", kFriction);
@@ -154,6 +158,7 @@ void CommonHazardKeys::Read(const ConfigNode& node, const std::string& path) {
 
 void CommonHazardKeys::Apply(Hazard& hazard) const {
   hazard.known = known;
+  hazard.material.reflectance = reflectance;
   if (restitution) hazard.material.restitution = *restitution;
   if (friction) hazard.material.friction = *friction;
 }
@@ -162,6 +167,7 @@ void WriteCommonHazardKeys(const Hazard& hazard, ConfigNode& node) {
   const Material& m = hazard.material;
   node.Add("known", ConfigNode::Scalar(hazard.known ? "true" : "false"));
   node.Add("restitution", ConfigNode::Scalar(FormatDouble(m.restitution)));
+  node.Add("reflectance", ConfigNode::Scalar(FormatDouble(m.reflectance)));
   node.Add("friction", ConfigNode::Scalar(m.friction ? FormatDouble(*m.friction) : "none"));
 }
 

@@ -17,7 +17,8 @@ namespace floorproof {
 // What every type takes besides its own keys.
 struct CommonHazardKeys {
   bool known = true;
-  std::optional<double> restitution;              // none: the type's own
+  std::optional<double> restitution;  // none: the type's own
+  double reflectance = 1;
   std::optional<std::optional<double>> friction;  // not written: the type's own; none: the floor's
 
   static std::vector<std::string> Names();

@@ -65,7 +65,8 @@ PlanResult MakePlan(const Scenario& s) {
 EpisodeRecord RunEpisode(Scenario& s, const Scene& scene, const PlanResult& plan,
                          EpisodeObserver* observer) {
   const RobotSpec& robot = s.robot.robot;
-  const ClearanceField clearance = ComputeClearance(KnownPart(s.site.map), robot.step_m);
+  const HazardMap known = KnownPart(s.site.map);
+  const ClearanceField clearance = ComputeClearance(known, robot.step_m);
   const SweepArea area =
       ComputeSweepArea(s.site.map, robot.clear, robot.tool, robot.step_m, s.start.p());
   const double plan_s = PlanDuration(plan.path, robot.cruise_mps),
@@ -81,14 +82,23 @@ EpisodeRecord RunEpisode(Scenario& s, const Scene& scene, const PlanResult& plan
   Simulation sim(scene, s.site.map, robot);
   Sample& sample = sim.sample();
   sim.Reset(s.start);
-  s.estimator->Start(s.start);
+  const auto stream = [&s](const std::string& name) {
+    return Stream(static_cast<std::uint64_t>(s.episode.seed), s.episode_id, name);
+  };
+  Observation sensed;
+  for (auto& [name, sensor] : s.sensors)
+    sensor->Start({scene, s.site.map, robot, control_s}, sim.data(), sample,
+                  stream("sensors." + name), sensed);
+  s.estimator->Start({known, robot, s.start, stream("estimator")});
   s.tracker->Start(plan.path, robot, &clearance);
   for (auto& detector : s.detectors) detector->Start({s.site.map, robot, s.physics.timestep_s});
 
   std::optional<Outcome> ended;
   for (std::int64_t step = 0; !ended; ++step) {
     if (step % steps_a_control == 0) {
-      const Estimate estimate = s.estimator->Update(sample, control_s);
+      sensed.t_s = sample.t_s;
+      for (auto& [name, sensor] : s.sensors) sensor->Sense(sim.data(), sample, sensed);
+      const Estimate estimate = s.estimator->Update(sensed, sample, control_s);
       sample.command = s.tracker->Update(estimate, sample.t_s, control_s);
       sample.command.cross_track_half_width_m =
           HalfWidth(clearance, plan.path, sample.command.segment, sample.p_WB.head<2>());
@@ -109,6 +119,7 @@ EpisodeRecord RunEpisode(Scenario& s, const Scene& scene, const PlanResult& plan
     }
     sample.cross_track_m = CrossTrack(plan.path, sample.command.segment, sample.p_WB.head<2>());
     recorder.OnStep(sample);
+    for (auto& [name, sensor] : s.sensors) sensor->OnStep(sample);
 
     for (auto& detector : s.detectors)
       if (detector->Update(sample)) recorder.OnEvent(detector->event());

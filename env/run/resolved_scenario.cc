@@ -57,6 +57,13 @@ ConfigNode Goal(const Vec2& goal) {
   return node;
 }
 
+ConfigNode SensorsOf(const Scenario& s) {
+  ConfigNode node = ConfigNode::Map();
+  for (const NamedSensor& sensor : s.sensors)
+    node.Add(sensor.name, WithPlugin(ConfigNode::Map(), *sensor.sensor));
+  return node;
+}
+
 ConfigNode Failures(const Scenario& s) {
   ConfigNode node = ConfigNode::Map();
   for (std::size_t i = 0; i < s.detectors.size(); ++i)
@@ -134,6 +141,7 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
   if (stated("controller", robot_varies))
     root.Add("controller", WithPlugin(Named("name", s.tracker_name), *s.tracker));
   root.Add("estimator", WithPlugin(Named("name", s.estimator_name), *s.estimator));
+  if (!s.sensors.empty()) root.Add("sensors", SensorsOf(s));
   root.Add("failures", Failures(s));
   root = WithParams(std::move(root), s.episode);
   if (stated("battery", robot_varies))

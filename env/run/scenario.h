@@ -22,9 +22,15 @@
 #include "env/run/scenario_params.h"
 #include "env/scene/robot_model.h"
 #include "env/scene/scene.h"
+#include "env/sensors/sensor.h"
 #include "planners/planner.h"
 
 namespace floorproof {
+
+struct NamedSensor {
+  std::string name;
+  std::unique_ptr<Sensor> sensor;
+};
 
 struct Scenario {
   std::filesystem::path file;
@@ -54,6 +60,7 @@ struct Scenario {
   std::string tracker_name, estimator_name;
   std::unique_ptr<Tracker> tracker;
   std::unique_ptr<Estimator> estimator;
+  std::vector<NamedSensor> sensors;  // those written, and those that the estimator needs
   std::vector<std::unique_ptr<Detector>> detectors;
   PhysicsParams physics;
   Battery battery;  // its voltage set, if only by the robot

@@ -160,6 +160,23 @@ void ReadControl(const ConfigNode& root, Scenario& s) {
   ReadParams(estimator.params, "estimator.", *s.estimator, {"name"});
 }
 
+void ReadSensors(const ConfigNode& root, Scenario& s) {
+  const ConfigNode* node = root.Find("sensors");
+  const ConfigNode none = EmptyMap(root.mark);
+  if (node == nullptr || node->IsNull()) node = &none;
+  if (!node->IsMap()) throw InputError(node->mark, "sensors", "", "must be a map of sensors");
+  RefuseUnknownKeys(*node, "sensors.", PluginNames(Sensors()));
+  const auto needed = s.estimator->Needs();
+  for (const auto& entry : Sensors()) {
+    const std::string name(entry.name);
+    const ConfigNode* params = node->Find(name);
+    if (params == nullptr && std::ranges::find(needed, entry.name) == needed.end()) continue;
+    s.sensors.push_back({name, entry.make()});
+    if (params != nullptr && !params->IsNull())
+      ReadParams(*params, "sensors." + name + ".", *s.sensors.back().sensor);
+  }
+}
+
 void ReadFailures(const ConfigNode& root, Scenario& s) {
   const ConfigNode* node = root.Find("failures");
   const ConfigNode none = EmptyMap(root.mark);
@@ -179,10 +196,10 @@ void ReadFailures(const ConfigNode& root, Scenario& s) {
 
 const std::vector<std::string>& ScenarioKeys() {
   static const std::vector<std::string> keys = {
-      "name",       "scenario",  "site",         "robot",   "start",      "goal",     "plan",
-      "controller", "estimator", "physics",      "battery", "control_hz", "trace_hz", "failures",
-      "on_failure", "success",   "time_limit_s", "seed",    "episode",    "drive",    "wheels",
-      "video",      "files",     "randomise",    "matrix",  "gate"};
+      "name",       "scenario",   "site",    "robot",        "start",   "goal",       "plan",
+      "controller", "estimator",  "sensors", "physics",      "battery", "control_hz", "trace_hz",
+      "failures",   "on_failure", "success", "time_limit_s", "seed",    "episode",    "drive",
+      "wheels",     "video",      "files",   "randomise",    "matrix",  "gate"};
   return keys;
 }
 
@@ -216,6 +233,7 @@ void ReadParts(const ConfigNode& root, Scenario& s) {
   CheckStart(root, s);
   s.goal = ReadGoal(root, s.site.map);
   ReadControl(root, s);
+  ReadSensors(root, s);
   ReadFailures(root, s);
 }
 

@@ -219,6 +219,23 @@ void PlaceRobot(mjSpec* spec, const Pose2& start) {
   SetYaw(base->quat, start.yaw_rad);
 }
 
+void SetRayGroups(const HazardMap& map, Scene& scene) {
+  mjModel* m = scene.model.get();
+  const int pool_end = scene.pool.first_geom + scene.pool.num;
+  for (int g = 0; g < m->ngeom; ++g) {
+    const GeomRole& role = scene.roles[static_cast<std::size_t>(g)];
+    const bool stands_in = scene.pool.num > 0 && g >= scene.pool.first_geom && g < pool_end;
+    if (m->geom_bodyid[g] != 0 || role.kind == GeomRole::Kind::kLook || stands_in) {
+      m->geom_group[g] = std::min(m->geom_group[g], kSolidGroup - 1);
+      continue;
+    }
+    const bool glass =
+        role.hazard >= 0 && role.kind == GeomRole::Kind::kHazard &&
+        map.hazards[static_cast<std::size_t>(role.hazard)].hazard_class == HazardClass::kGlass;
+    m->geom_group[g] = glass ? kGlassGroup : kSolidGroup;
+  }
+}
+
 }  // namespace
 
 void PhysicsParams::Visit(ParamVisitor& v) {
@@ -264,6 +281,7 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
     scene.pool.first_geom =
         static_cast<int>(std::ranges::find(scene.roles, GeomRole::Kind::kWall, &GeomRole::kind) -
                          scene.roles.begin());
+  SetRayGroups(map, scene);
   return scene;
 }
 

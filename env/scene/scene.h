@@ -33,6 +33,10 @@ struct GeomRole {
   int hazard = -1;  // index into HazardMap::hazards
 };
 
+// Groups of the model's geoms, so that a sensor's rays can tell them apart. The robot is in
+// neither, nor are walls that stand in for those of a large map (WallPool).
+inline constexpr int kSolidGroup = 4, kGlassGroup = 5;
+
 enum class WallSet {
   kNear,  // a pool where there are many; for the simulation
   kAll,   // for pictures and files, however many there are

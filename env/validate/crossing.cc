@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "controllers/drive.h"
-#include "controllers/estimator.h"
 #include "controllers/tracker.h"
 #include "env/failures/detector.h"
 #include "env/run/path_error.h"
@@ -86,8 +85,6 @@ CrossingResult Cross(const RobotModel& model, Hazard hazard, const CrossingPlan&
   drive->Configure(robot);
   const auto tracker = MakePlugin(Trackers(), DefaultTracker(robot.drive), "controller");
   tracker->Start(path, robot, nullptr);
-  const auto estimator = MakePlugin(Estimators(), Estimators().front().name, "estimator");
-  estimator->Start(start);
   std::vector<std::unique_ptr<Detector>> detectors;
   for (const auto& entry : Detectors()) {
     detectors.push_back(entry.make());
@@ -101,7 +98,7 @@ CrossingResult Cross(const RobotModel& model, Hazard hazard, const CrossingPlan&
   Sample& sample = sim.sample();
   for (std::int64_t step = 0;; ++step) {
     if (step % steps_a_control == 0) {
-      const Estimate estimate = estimator->Update(sample, 1.0 / kControlHz);
+      const Estimate estimate = {sample.X_WB(), sample.V_WB_B, sample.hinges};
       sample.command = tracker->Update(estimate, sample.t_s, 1.0 / kControlHz);
       drive->ToWheels(sample.command.twist, sample.command.hinges, wheels);
       sim.SetWheelSpeeds(wheels);

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "env/core/streams.h"
-#include "env/map/ray_cast.h"
 
 namespace floorproof {
 namespace {
@@ -99,17 +98,6 @@ TEST(WallGrid, WithoutBoxesThereIsNothingToMeet) {
   EXPECT_TRUE(found.empty());
   EXPECT_EQ(dut.Cast({0, 0}, {1, 0}, 10), kNone);
   EXPECT_EQ(dut.MostNear(1), 0);
-}
-
-TEST(RayCast, AScanAboveTheWallsSeesNone) {
-  const WallGrid walls({{{1, -1}, {2, 1}}});
-  const std::vector<double> angles = {0.0, kPi / 2, kPi};
-  std::vector<double> ranges(3);
-  CastScan(walls, {0, 0, kPi}, 0.2, angles, 5, ranges);
-  EXPECT_EQ(ranges[0], kNone);
-  EXPECT_NEAR(ranges[2], 1, 1e-12);
-  CastScan(walls, {0, 0, kPi}, kWallHeight_m + 0.01, angles, 5, ranges);
-  EXPECT_EQ(ranges[2], kNone);
 }
 
 }  // namespace

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Monte Carlo localisation: where on the known map the lidar's scans fit, with odometry between
+// them (particle_filter.h). It starts around a guess, or anywhere.
+//
+// A scan is used when the robot has moved or turned a little since the last: standing still, the
+// same scan again would seem to be new evidence. The first is used several times over, the
+// particles scattered a little between, because the guess may be half a metre off. Assumes that the
+// robot stands on the floor, level; knows nothing of slip but its noise.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "controllers/estimator.h"
+#include "controllers/odometry.h"
+#include "controllers/particle_filter.h"
+#include "controllers/start_error.h"
+
+namespace floorproof {
+namespace {
+
+constexpr int kFirstPasses = 12;
+constexpr double kMoved_m = 0.05, kTurned_rad = 0.05;  // since the last scan that was used
+
+class MclEstimator final : public Estimator {
+ public:
+  void Visit(ParamVisitor& v) override {
+    v("least_particles", filter_.least, Between(10, 1e6), "fewest particles");
+    v("particles", filter_.most, Between(10, 1e6), "most particles");
+    v("prior_m", prior_m_, NonNegative(), "standard deviation of the first guess, each way (m)");
+    v("prior_deg", prior_deg_, Between(0, 180), "the same of its heading (deg)");
+    v("global", global_, "start anywhere on the free floor instead");
+    v("hit_sd_m", beams_.hit_sd_m, Between(0.01, 5), "how far a beam ends from what it met (m)");
+    v("random_share", beams_.random_share, Between(0.001, 0.999),
+      "share of beams that end on what the map does not know");
+    v("way_noise", filter_.way_per_way, NonNegative(), "of odometry, m per m");
+    v("turn_noise", filter_.turn_per_turn, NonNegative(), "of odometry, rad per rad");
+    v("turn_noise_per_m", filter_.turn_per_m, NonNegative(), "of odometry, rad per m");
+    v("recovery", recovery_, "draw random particles when scans fit worse than they used to");
+    error_.Visit(v);
+  }
+  std::vector<std::string_view> Needs() const override { return {"lidar", "encoders", "imu"}; }
+
+  void Start(const EstimatorContext& context) override {
+    known_ = &context.known;
+    if (std::ranges::count(known_->cells.cells, CellState::kFree) < 2)
+      throw InputError({}, "estimator", "mcl", "needs a map of more than one free cell");
+    odometry_.Start(context.robot);
+    FilterParams params = filter_;
+    params.least = std::min(params.least, params.most);
+    if (!recovery_) params.recover_slow = params.recover_fast = 0;
+    particles_.emplace(params, context.known, context.draws);
+    if (global_)
+      particles_->StartAnywhere();
+    else
+      particles_->StartAround(error_.Of(context.start), prior_m_, prior_deg_ * kPi / 180);
+    since_ = {};
+    field_.reset();
+    X_WB_ = particles_->Best();
+  }
+
+  Estimate Update(const Observation& sensed, const Sample&, double dt_s) override {
+    const BodyTwist twist = odometry_.Update(sensed, dt_s);
+    X_WB_ = Moved(X_WB_, twist, dt_s);
+    since_ = Moved(since_, twist, dt_s);
+    if (sensed.scan.fresh) Use(sensed.scan);
+    return {X_WB_, twist, sensed.hinges, particles_->spread_m()};
+  }
+
+ private:
+  void Use(const LidarScan& scan) {
+    const bool first = !field_;
+    if (first) field_.emplace(*known_, scan.height_m, beams_);
+    if (!first && since_.p().norm() < kMoved_m && std::abs(since_.yaw_rad) < kTurned_rad) return;
+    particles_->Move(since_);
+    since_ = {};
+    for (int pass = 0; pass < (first ? kFirstPasses : 1); ++pass) {
+      if (pass > 0) particles_->Jitter(0.05, 0.03);
+      particles_->Weigh(*field_, scan);
+    }
+    X_WB_ = particles_->Best();
+  }
+
+  FilterParams filter_;
+  BeamModel beams_;
+  StartError error_;
+  double prior_m_ = 0.5, prior_deg_ = 20;
+  bool global_ = false, recovery_ = true;
+
+  const HazardMap* known_ = nullptr;
+  Odometry odometry_;
+  std::optional<ParticleFilter> particles_;
+  std::optional<LikelihoodField> field_;
+  Pose2 X_WB_, since_;  // since_: moved since the last scan that was used
+};
+
+}  // namespace
+
+FP_DEFINE_PLUGIN(Estimator, MclEstimator)
+
+}  // namespace floorproof

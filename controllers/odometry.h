@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Dead reckoning: the body's motion in one control period, as encoders and gyro tell it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "controllers/drive.h"
+#include "env/core/observation.h"
+
+namespace floorproof {
+
+class Odometry {
+ public:
+  void Start(const RobotSpec& robot);
+  // The twist of the last period: travel from the wheels, turn from the gyro where there is one.
+  BodyTwist Update(const Observation& sensed, double dt_s);
+
+ private:
+  std::unique_ptr<Drive> drive_;
+  std::vector<double> wheel_radps_;
+};
+
+// The pose after moving with this twist for dt_s, along the arc.
+Pose2 Moved(const Pose2& X_WB, const BodyTwist& V_WB_B, double dt_s);
+
+}  // namespace floorproof

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Odometry alone: what the wheels rolled and the gyro turned, added up from the start. It never
+// sees where it is: slip, a wheel of another size and the gyro's bias add up for ever.
+#include "controllers/estimator.h"
+#include "controllers/odometry.h"
+#include "controllers/start_error.h"
+
+namespace floorproof {
+namespace {
+
+class OdometryEstimator final : public Estimator {
+ public:
+  void Visit(ParamVisitor& v) override { error_.Visit(v); }
+  std::vector<std::string_view> Needs() const override { return {"encoders", "imu"}; }
+
+  void Start(const EstimatorContext& context) override {
+    odometry_.Start(context.robot);
+    X_WB_ = error_.Of(context.start);
+  }
+
+  Estimate Update(const Observation& sensed, const Sample&, double dt_s) override {
+    const BodyTwist twist = odometry_.Update(sensed, dt_s);
+    X_WB_ = Moved(X_WB_, twist, dt_s);
+    return {X_WB_, twist, sensed.hinges};
+  }
+
+ private:
+  StartError error_;
+  Odometry odometry_;
+  Pose2 X_WB_;
+};
+
+}  // namespace
+
+FP_DEFINE_PLUGIN(Estimator, OdometryEstimator)
+
+}  // namespace floorproof

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Poses that the robot may have, each with its weight: the filter below `mcl`.
+//
+// Adaptive Monte Carlo localisation as in Thrun, Burgard & Fox, "Probabilistic Robotics", 2005: the
+// motion as odometry tells it, with noise (5.4); the scan's likelihood field (6.4); as many
+// particles as KLD sampling asks for (8.3.7); random ones when the scans fit less well than they
+// used to (augmented MCL, 8.3.5).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "controllers/likelihood_field.h"
+#include "env/core/observation.h"
+#include "env/core/streams.h"
+
+namespace floorproof {
+
+struct FilterParams {
+  int least = 100, most = 500;  // particles
+  // Noise of the motion: of the way per way, of the turn per turn and per way.
+  double way_per_way = 0.1, turn_per_turn = 0.1, turn_per_m = 0.1;
+  double scan_weight = 0.1;  // of a beam: neighbouring ones meet the same thing
+  double recover_slow = 0.02, recover_fast = 0.3;  // rates of the two averages; 0: no recovery
+};
+
+class ParticleFilter {
+ public:
+  // `map`: on whose free cells particles may lie.
+  ParticleFilter(const FilterParams& params, const HazardMap& map, const Stream& draws);
+
+  // Around a pose, with these standard deviations; those that fall into a wall are drawn again.
+  void StartAround(const Pose2& X_WB, double sd_m, double sd_rad);
+  // Anywhere on the free floor.
+  void StartAnywhere();
+
+  // The robot moved by X_BB' as odometry tells it.
+  void Move(const Pose2& motion_B);
+  // Weighs the particles by a scan and draws them anew.
+  void Weigh(const LikelihoodField& field, const LidarScan& scan);
+  // Scatters them a little: between passes over one scan.
+  void Jitter(double sd_m, double sd_rad);
+
+  // The middle of the heaviest group, and how far the particles lie around it (rms).
+  Pose2 Best() const { return best_; }
+  double spread_m() const { return spread_m_; }
+  std::size_t size() const { return particles_.size(); }
+
+ private:
+  struct Particle {
+    Pose2 X_WB;
+    double weight = 1;
+  };
+  struct Bin {
+    std::uint64_t key = 0;
+    double weight = 0;
+    Vec2 sum = Vec2::Zero();
+    Vec2 heading = Vec2::Zero();
+    std::uint32_t turn = 0;  // of use: older entries are empty
+  };
+
+  Pose2 Anywhere();
+  bool IsFree(const Pose2& X_WB) const;
+  Bin& BinOf(const Pose2& X_WB);
+  void Resample(double inject);
+  void FindBest();
+
+  FilterParams params_;
+  const HazardMap& map_;
+  Stream draws_;
+  std::vector<Cell> free_;
+  std::vector<Particle> particles_, next_;
+  std::vector<double> cumulative_;
+  std::vector<Vec2> ends_;  // of a scan's beams, body frame
+  std::vector<Bin> bins_;   // a hash table of fixed size
+  std::uint32_t turn_ = 0;
+  double slow_ = 0, fast_ = 0;  // averages of how well scans fit
+  Pose2 best_;
+  double spread_m_ = 0;
+};
+
+}  // namespace floorproof

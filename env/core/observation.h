@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a robot's sensors told it, once a control period: all that estimators and mappers may know.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "env/core/motion.h"
+
+namespace floorproof {
+
+// One turn of a 2D lidar, taken at one moment.
+struct LidarScan {
+  double t_s = -1;                 // of the turn; before the first: negative
+  bool fresh = false;              // it is this period's
+  Pose2 X_BL;                      // scanner in the body frame
+  double height_m = 0;             // of the scan plane above the floor, the robot level
+  double least_m = 0, most_m = 0;  // ranges that it can tell
+  std::vector<double> angle_rad;   // of each beam in L, counter-clockwise from x
+  std::vector<double> range_m;     // infinity: nothing came back
+};
+
+// The shell was touched.
+struct Bump {
+  bool pressed = false;
+  double bearing_rad = 0;  // from the body's x to where, counter-clockwise
+};
+
+// Sensors around the robot's edge that look down.
+struct CliffRing {
+  static constexpr int kMost = 8;
+  int n = 0;
+  std::array<Vec2, kMost> p_B{};   // where each looks, body frame
+  std::array<bool, kMost> drop{};  // it sees no floor within its reach
+  bool any() const {
+    for (int i = 0; i < n; ++i)
+      if (drop[static_cast<std::size_t>(i)]) return true;
+    return false;
+  }
+};
+
+struct Observation {
+  double t_s = 0;
+  // Encoders: how far each driven wheel has turned since the last period, rad, in RobotSpec's
+  // order; empty: the robot has none.
+  std::vector<double> wheel_rad;
+  HingeState hinges;  // as the encoders of a reconfigurable robot's hinges say
+  // IMU, body axes: rate of turn, and what an accelerometer says (at rest: g, upwards).
+  bool has_imu = false;
+  Vec3 gyro_radps = Vec3::Zero(), accel_mps2 = Vec3::Zero();
+  LidarScan scan;
+  Bump bump;
+  CliffRing cliffs;
+};
+
+}  // namespace floorproof

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// A bumper all round the shell: pressed where the body met an obstacle with enough force in any
+// physics step since the last control period. The hardest of them says on which side.
+#include <cmath>
+
+#include "env/sensors/sensor.h"
+
+namespace floorproof {
+namespace {
+
+class Bumper final : public Sensor {
+ public:
+  void Visit(ParamVisitor& v) override {
+    v("force_n", force_n_, Positive(), "that presses it (N)");
+  }
+
+  void Start(const SensorContext& context, const mjData*, const Sample&, const Stream&,
+             Observation& out) override {
+    timestep_s_ = context.scene.model->opt.timestep;
+    hardest_n_ = 0;
+    out.bump = {};
+  }
+
+  void OnStep(const Sample& truth) override {
+    for (int i = 0; i < truth.num_contacts; ++i) {
+      const ObstacleContact& contact = truth.contacts[static_cast<std::size_t>(i)];
+      const double force_n = contact.impulse_ns / timestep_s_;
+      if (force_n < force_n_ || force_n <= hardest_n_) continue;
+      hardest_n_ = force_n;
+      const Vec2 p_B = truth.X_WB().Inverse() * contact.p_W;
+      bearing_rad_ = std::atan2(p_B.y(), p_B.x());
+    }
+  }
+
+  void Sense(mjData*, const Sample&, Observation& out) override {
+    out.bump = {hardest_n_ > 0, hardest_n_ > 0 ? bearing_rad_ : 0};
+    hardest_n_ = 0;
+  }
+
+ private:
+  double force_n_ = 3;  // the spring of a light bumper
+  double timestep_s_ = 0.004, hardest_n_ = 0, bearing_rad_ = 0;
+};
+
+}  // namespace
+
+FP_DEFINE_PLUGIN(Sensor, Bumper)
+
+}  // namespace floorproof

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sensors: from the physics to what the robot is told. A new one is one file in this folder and one
+// line in list.inc.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "env/core/hazard_map.h"
+#include "env/core/motion.h"
+#include "env/core/observation.h"
+#include "env/core/params.h"
+#include "env/core/registry.h"
+#include "env/core/robot_spec.h"
+#include "env/core/streams.h"
+#include "env/scene/scene.h"
+
+namespace floorproof {
+
+// Where a sensor is: the references outlive the episode.
+struct SensorContext {
+  const Scene& scene;
+  const HazardMap& map;  // the true one
+  const RobotSpec& robot;
+  double control_s = 0.02;
+};
+
+class Sensor : public Configurable {
+ public:
+  // Before the first step, the robot standing at its start; `noise` is this episode's stream of
+  // this sensor. Sizes what Sense() fills. Throws InputError where the robot cannot carry it.
+  virtual void Start(const SensorContext& context, const mjData* data, const Sample& truth,
+                     const Stream& noise, Observation& out) = 0;
+  // After every physics step; for what must not be missed between two control periods.
+  virtual void OnStep(const Sample&) {}
+  // Once a control period. Allocates nothing.
+  virtual void Sense(mjData* data, const Sample& truth, Observation& out) = 0;
+};
+
+std::span<const PluginEntry<Sensor>> Sensors();
+
+}  // namespace floorproof
