@@ -9,7 +9,7 @@
 namespace floorproof {
 
 struct BeamModel {
-  double hit_sd_m = 0.1;      // of an end's distance from what it met
+  double hit_sd_m = 0.2;      // of an end's distance from what it met
   double random_share = 0.1;  // of beams that end anywhere: on what the map does not know
 };
 

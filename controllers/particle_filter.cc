@@ -71,8 +71,9 @@ void ParticleFilter::StartAnywhere() {
 
 void ParticleFilter::Move(const Pose2& motion_B) {
   const double way_m = motion_B.p().norm(), turn_rad = std::abs(motion_B.yaw_rad);
-  const double way_sd = params_.way_per_way * way_m;
-  const double turn_sd = params_.turn_per_turn * turn_rad + params_.turn_per_m * way_m;
+  const double way_sd = params_.way_m + params_.way_per_way * way_m;
+  const double turn_sd =
+      params_.turn_rad + params_.turn_per_turn * turn_rad + params_.turn_per_m * way_m;
   for (Particle& particle : particles_) {
     const Pose2 noisy{motion_B.x_m + way_sd * draws_.Normal(),
                       motion_B.y_m + way_sd * draws_.Normal(),

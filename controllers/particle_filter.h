@@ -20,7 +20,8 @@ struct FilterParams {
   int least = 100, most = 500;  // particles
   // Noise of the motion: of the way per way, of the turn per turn and per way.
   double way_per_way = 0.1, turn_per_turn = 0.1, turn_per_m = 0.1;
-  double scan_weight = 0.1;  // of a beam: neighbouring ones meet the same thing
+  double way_m = 0.015, turn_rad = 0.01;  // and of every use of a scan: keeps the particles apart
+  double scan_weight = 0.25;              // of a beam: neighbouring ones meet the same thing
   double recover_slow = 0.02, recover_fast = 0.3;  // rates of the two averages; 0: no recovery
 };
 
