@@ -23,29 +23,40 @@ bool IsMet(const Hazard& hazard, double height_m) {
 
 }  // namespace
 
-LikelihoodField::LikelihoodField(const HazardMap& known, double height_m, const BeamModel& model)
-    : X_GW_(known.frame.X_WG.Inverse()), log_random_(std::log(model.random_share)) {
+LikelihoodField::LikelihoodField(const HazardMap& known, double height_m) {
   const int fine = std::max(1, static_cast<int>(std::ceil(known.frame.cell_m / kFinest_m - 1e-9)));
-  const GridFrame frame = known.frame.Subdivided(fine);
-  cell_m_ = frame.cell_m;
-  Grid<std::uint8_t> met(frame.width, frame.height);
-  for (int iy = 0; iy < frame.height; ++iy)
-    for (int ix = 0; ix < frame.width; ++ix) met(ix, iy) = known.IsWall(ix / fine, iy / fine);
+  cell_m_ = known.frame.cell_m / fine;
+  // With a ring of cells beyond the map, which is wall: beams end there where the map ends free.
+  const int width = (known.frame.width + 2) * fine, height = (known.frame.height + 2) * fine;
+  X_GW_ = Pose2{known.frame.cell_m, known.frame.cell_m, 0} * known.frame.X_WG.Inverse();
+  Grid<std::uint8_t> met(width, height);
+  for (int iy = 0; iy < height; ++iy)
+    for (int ix = 0; ix < width; ++ix) met(ix, iy) = known.IsWall(ix / fine - 1, iy / fine - 1);
   for (const Hazard& hazard : known.hazards) {
     if (!IsMet(hazard, height_m)) continue;
     for (Polygon polygon : hazard.footprint) {
       for (Vec2& p : polygon) p = (X_GW_ * p) / cell_m_;
-      Rasterise(polygon, frame.width, frame.height, [&](int ix, int iy) { met(ix, iy) = 1; });
+      Rasterise(polygon, width, height, [&](int ix, int iy) { met(ix, iy) = 1; });
     }
   }
-  log_likelihood_ = DistanceToCentres(met);
-  for (float& cell : log_likelihood_.cells) {
+  const Grid<float> cells_away = DistanceToCentres(met);
+  away_ = Grid<std::uint8_t>(width, height);
+  for (std::size_t i = 0; i < away_.cells.size(); ++i) {
     // Beams end at faces, half a cell before the centres.
-    const double away_m = std::max(0.0, static_cast<double>(cell) - 0.5) * cell_m_;
-    const double z = away_m / model.hit_sd_m;
-    const double random = model.random_share;
-    cell = static_cast<float>(std::log((1 - random) * std::exp(-z * z / 2) + random));
+    const double away_m = std::max(0.0, static_cast<double>(cells_away.cells[i]) - 0.5) * cell_m_;
+    away_.cells[i] = static_cast<std::uint8_t>(std::min(255.0, std::round(away_m / kStep_m)));
   }
+}
+
+LikelihoodField::Table LogLikelihoods(const BeamModel& model) {
+  LikelihoodField::Table table;
+  const double random = model.random_share;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const double z = static_cast<double>(i) * LikelihoodField::kStep_m / model.hit_sd_m;
+    table[i] = static_cast<float>(std::log((1 - random) * std::exp(-z * z / 2) + random));
+  }
+  table.back() = static_cast<float>(std::log(random));  // so far, or further
+  return table;
 }
 
 }  // namespace floorproof

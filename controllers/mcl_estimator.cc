@@ -30,8 +30,9 @@ class MclEstimator final : public Estimator {
     v("prior_m", prior_m_, NonNegative(), "standard deviation of the first guess, each way (m)");
     v("prior_deg", prior_deg_, Between(0, 180), "the same of its heading (deg)");
     v("global", global_, "start anywhere on the free floor instead");
-    v("hit_sd_m", beams_.hit_sd_m, Between(0.01, 5), "how far a beam ends from what it met (m)");
-    v("random_share", beams_.random_share, Between(0.001, 0.999),
+    v("hit_sd_m", filter_.beams.hit_sd_m, Between(0.01, 5),
+      "how far a beam ends from what it met (m)");
+    v("random_share", filter_.beams.random_share, Between(0.001, 0.999),
       "share of beams that end on what the map does not know");
     v("way_noise", filter_.way_per_way, NonNegative(), "of odometry, m per m");
     v("turn_noise", filter_.turn_per_turn, NonNegative(), "of odometry, rad per rad");
@@ -70,7 +71,7 @@ class MclEstimator final : public Estimator {
  private:
   void Use(const LidarScan& scan) {
     const bool first = !field_;
-    if (first) field_.emplace(*known_, scan.height_m, beams_);
+    if (first) field_.emplace(*known_, scan.height_m);
     if (!first && since_.p().norm() < kMoved_m && std::abs(since_.yaw_rad) < kTurned_rad) return;
     particles_->Move(since_);
     since_ = {};
@@ -82,7 +83,6 @@ class MclEstimator final : public Estimator {
   }
 
   FilterParams filter_;
-  BeamModel beams_;
   StartError error_;
   double prior_m_ = 0.5, prior_deg_ = 20;
   bool global_ = false, recovery_ = true;

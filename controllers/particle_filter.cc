@@ -11,7 +11,9 @@ namespace {
 constexpr double kBin_m = 0.25, kBin_rad = 15 * kPi / 180;
 constexpr int kNearBins = 3;  // that a group reaches around its heaviest
 constexpr double kKldError = 0.05, kKldQuantile = 2.3263;  // of the normal distribution, at 99 %
-constexpr int kTries = 100;                                // to find a free place
+constexpr double kApart_m = 0.3;  // a spread from which on the wide likelihood is used
+constexpr double kWide_m = 0.3;   // at least its standard deviation
+constexpr int kTries = 100;       // to find a free place
 
 // Particles that k filled bins ask for.
 int KldSize(int k) {
@@ -26,6 +28,10 @@ int KldSize(int k) {
 ParticleFilter::ParticleFilter(const FilterParams& params, const HazardMap& map,
                                const Stream& draws)
     : params_(params), map_(map), draws_(draws) {
+  BeamModel beams = params.beams;
+  narrow_ = LogLikelihoods(beams);
+  beams.hit_sd_m = std::max(beams.hit_sd_m, kWide_m);
+  wide_ = LogLikelihoods(beams);
   for (int iy = 0; iy < map.frame.height; ++iy)
     for (int ix = 0; ix < map.frame.width; ++ix)
       if (!map.IsWall(ix, iy)) free_.push_back({ix, iy});
@@ -91,6 +97,18 @@ void ParticleFilter::Jitter(double sd_m, double sd_rad) {
   }
 }
 
+// Of the scan from this pose: the sum over its beams.
+double ParticleFilter::LogFit(const LikelihoodField& field, const LikelihoodField::Table& table,
+                              const Pose2& X) const {
+  if (!IsFree(X)) return static_cast<double>(ends_.size()) * static_cast<double>(table.back());
+  const double c = std::cos(X.yaw_rad), s = std::sin(X.yaw_rad);
+  double sum = 0;
+  for (const Vec2& end : ends_)
+    sum += static_cast<double>(table[field.StepsAway(
+        {X.x_m + c * end.x() - s * end.y(), X.y_m + s * end.x() + c * end.y()})]);
+  return sum;
+}
+
 void ParticleFilter::Weigh(const LikelihoodField& field, const LidarScan& scan) {
   ends_.clear();
   for (std::size_t i = 0; i < scan.range_m.size(); ++i)
@@ -99,18 +117,14 @@ void ParticleFilter::Weigh(const LikelihoodField& field, const LidarScan& scan) 
                                        scan.range_m[i] * std::sin(scan.angle_rad[i])));
   if (ends_.empty()) return;
   const auto beams = static_cast<double>(ends_.size());
+  const bool apart = spread_m_ > kApart_m;
   double fit = 0, highest = -std::numeric_limits<double>::infinity();
   // Logarithms first, so that many beams do not underflow; `weight` holds them meanwhile.
   for (Particle& particle : particles_) {
-    const Pose2& X = particle.X_WB;
-    const double c = std::cos(X.yaw_rad), s = std::sin(X.yaw_rad);
-    double log_likelihood = 0;
-    for (const Vec2& end : ends_)
-      log_likelihood +=
-          field.LogAt({X.x_m + c * end.x() - s * end.y(), X.y_m + s * end.x() + c * end.y()});
-    if (!IsFree(X)) log_likelihood = beams * field.log_random();
-    fit += particle.weight * std::exp(log_likelihood / beams);
-    particle.weight = std::log(particle.weight) + params_.scan_weight * log_likelihood;
+    const double log_narrow = LogFit(field, narrow_, particle.X_WB);
+    const double log_fit = apart ? LogFit(field, wide_, particle.X_WB) : log_narrow;
+    fit += particle.weight * std::exp(log_narrow / beams);
+    particle.weight = std::log(particle.weight) + params_.scan_weight * log_fit;
     highest = std::max(highest, particle.weight);
   }
   double total = 0;
@@ -120,7 +134,8 @@ void ParticleFilter::Weigh(const LikelihoodField& field, const LidarScan& scan) 
   slow_ = slow_ > 0 ? slow_ + params_.recover_slow * (fit - slow_) : fit;
   fast_ = fast_ > 0 ? fast_ + params_.recover_fast * (fit - fast_) : fit;
   FindBest();
-  Resample(params_.recover_slow > 0 ? std::max(0.0, 1 - fast_ / slow_) : 0);
+  Resample(params_.recover_slow > 0 ? std::max(0.0, 1 - fast_ / (params_.recover_below * slow_))
+                                    : 0);
 }
 
 ParticleFilter::Bin& ParticleFilter::BinOf(const Pose2& X_WB) {

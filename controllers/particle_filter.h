@@ -3,8 +3,10 @@
 //
 // Adaptive Monte Carlo localisation as in Thrun, Burgard & Fox, "Probabilistic Robotics", 2005: the
 // motion as odometry tells it, with noise (5.4); the scan's likelihood field (6.4); as many
-// particles as KLD sampling asks for (8.3.7); random ones when the scans fit less well than they
-// used to (augmented MCL, 8.3.5).
+// particles as KLD sampling asks for (8.3.7); random ones when the scans fit much less well than
+// they used to (augmented MCL, 8.3.5, with a threshold as in Gutmann & Fox, "An experimental
+// comparison of localization methods continued", 2002: without it noise alone brings random
+// particles, and one of them may fit by chance).
 #pragma once
 
 #include <cstdint>
@@ -17,12 +19,15 @@
 namespace floorproof {
 
 struct FilterParams {
+  BeamModel beams;
   int least = 100, most = 500;  // particles
   // Noise of the motion: of the way per way, of the turn per turn and per way.
   double way_per_way = 0.1, turn_per_turn = 0.1, turn_per_m = 0.1;
-  double way_m = 0.015, turn_rad = 0.01;  // and of every use of a scan: keeps the particles apart
+  double way_m = 0.01, turn_rad = 0.005;  // and of every use of a scan: keeps the particles apart
   double scan_weight = 0.25;              // of a beam: neighbouring ones meet the same thing
   double recover_slow = 0.02, recover_fast = 0.3;  // rates of the two averages; 0: no recovery
+  double recover_below =
+      0.7;  // random particles when the fast average is below this share of the slow
 };
 
 class ParticleFilter {
@@ -37,7 +42,8 @@ class ParticleFilter {
 
   // The robot moved by X_BB' as odometry tells it.
   void Move(const Pose2& motion_B);
-  // Weighs the particles by a scan and draws them anew.
+  // Weighs the particles by a scan and draws them anew. While they lie far apart, beams may end
+  // further from what they met, or few particles near the truth would all seem wrong.
   void Weigh(const LikelihoodField& field, const LidarScan& scan);
   // Scatters them a little: between passes over one scan.
   void Jitter(double sd_m, double sd_rad);
@@ -62,11 +68,14 @@ class ParticleFilter {
 
   Pose2 Anywhere();
   bool IsFree(const Pose2& X_WB) const;
+  double LogFit(const LikelihoodField& field, const LikelihoodField::Table& table,
+                const Pose2& X_WB) const;
   Bin& BinOf(const Pose2& X_WB);
   void Resample(double inject);
   void FindBest();
 
   FilterParams params_;
+  LikelihoodField::Table narrow_, wide_;
   const HazardMap& map_;
   Stream draws_;
   std::vector<Cell> free_;

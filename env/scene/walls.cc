@@ -28,26 +28,23 @@ Grid<std::uint8_t> Component(const Grid<std::uint8_t>& passable, Cell seed) {
   return reached;
 }
 
-// 1 on the cells of the map, with a ring around it, that are wall and within the robot's reach.
-Grid<std::uint8_t> TouchableWalls(const HazardMap& map, const RobotSpec& robot,
+// 1 on the cells of the map, with a ring around it, that are wall and within a robot's reach of the
+// free floor that hangs together with the start.
+Grid<std::uint8_t> WallsInSight(const HazardMap& map, const RobotSpec& robot,
                                   const Vec2& start_W) {
   const GridFrame fine = FineFrame(map.frame);
   const int k = fine.width / map.frame.width;
   Grid<std::uint8_t> wall(fine.width, fine.height);
   for (int iy = 0; iy < fine.height; ++iy)
     for (int ix = 0; ix < fine.width; ++ix) wall(ix, iy) = map.IsWall(ix / k, iy / k);
-  // 0.9: centres of cells stand up to half a cell beside the middle of a gap that just fits.
-  const auto fits_cells = static_cast<float>(0.9 * robot.inscribed_radius_m / fine.cell_m);
-  const Grid<float> to_wall = DistanceToSet(wall, true);
   Grid<std::uint8_t> passable(fine.width, fine.height);
-  for (std::size_t i = 0; i < passable.cells.size(); ++i)
-    passable.cells[i] = to_wall.cells[i] >= fits_cells;
+  for (std::size_t i = 0; i < passable.cells.size(); ++i) passable.cells[i] = !wall.cells[i];
   const Grid<std::uint8_t> reached = Component(passable, fine.ToCell(start_W));
   const Grid<float> to_reached = DistanceToSet(reached, false);
   const auto reach_cells =
       static_cast<float>((robot.circumscribed_radius_m + 0.3) / fine.cell_m + 1);
 
-  Grid<std::uint8_t> touchable(map.frame.width + 2, map.frame.height + 2);
+  Grid<std::uint8_t> in_sight(map.frame.width + 2, map.frame.height + 2);
   const auto near = [&](int cx, int cy) {  // any fine cell of map cell (cx, cy) within reach
     for (int iy = cy * k; iy < (cy + 1) * k; ++iy)
       for (int ix = cx * k; ix < (cx + 1) * k; ++ix)
@@ -56,10 +53,10 @@ Grid<std::uint8_t> TouchableWalls(const HazardMap& map, const RobotSpec& robot,
   };
   for (int cy = -1; cy <= map.frame.height; ++cy)
     for (int cx = -1; cx <= map.frame.width; ++cx)
-      touchable(cx + 1, cy + 1) =
+      in_sight(cx + 1, cy + 1) =
           map.IsWall(cx, cy) &&
           near(std::clamp(cx, 0, map.frame.width - 1), std::clamp(cy, 0, map.frame.height - 1));
-  return touchable;
+  return in_sight;
 }
 
 }  // namespace
@@ -98,10 +95,10 @@ std::vector<CellRect> MaximalRectangles(const Grid<std::uint8_t>& set) {
 }
 
 std::vector<WallBox> WallBoxes(const HazardMap& map, const RobotSpec& robot, const Vec2& start_W) {
-  const Grid<std::uint8_t> touchable = TouchableWalls(map, robot, start_W);
+  const Grid<std::uint8_t> in_sight = WallsInSight(map, robot, start_W);
   const double cell = map.frame.cell_m;
   std::vector<WallBox> boxes;
-  for (const CellRect& r : MaximalRectangles(touchable)) {
+  for (const CellRect& r : MaximalRectangles(in_sight)) {
     const int x0 = r.ix - 1, y0 = r.iy - 1, x1 = x0 + r.width, y1 = y0 + r.height;  // map cells
     WallBox box{Vec2(x0, y0) * cell, Vec2(x1, y1) * cell};
     if (map.inset_m > 0) {

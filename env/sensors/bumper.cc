@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bumper all round the shell: pressed where the body met an obstacle with enough force in any
-// physics step since the last control period. The hardest of them says on which side.
+// A bumper all round the shell: pressed when the body met an obstacle with enough force in any
+// physics step since the last control period. Where: the middle of what pressed in the hardest of
+// these steps, weighed by force, so that a wall met flat is straight ahead.
 #include <cmath>
 
 #include "env/sensors/sensor.h"
@@ -22,14 +23,18 @@ class Bumper final : public Sensor {
   }
 
   void OnStep(const Sample& truth) override {
+    double force_n = 0;
+    Vec2 moment_W = Vec2::Zero();
     for (int i = 0; i < truth.num_contacts; ++i) {
       const ObstacleContact& contact = truth.contacts[static_cast<std::size_t>(i)];
-      const double force_n = contact.impulse_ns / timestep_s_;
-      if (force_n < force_n_ || force_n <= hardest_n_) continue;
-      hardest_n_ = force_n;
-      const Vec2 p_B = truth.X_WB().Inverse() * contact.p_W;
-      bearing_rad_ = std::atan2(p_B.y(), p_B.x());
+      const double pushes_n = contact.impulse_ns / timestep_s_;
+      force_n += pushes_n;
+      moment_W += pushes_n * contact.p_W;
     }
+    if (force_n < force_n_ || force_n <= hardest_n_) return;
+    hardest_n_ = force_n;
+    const Vec2 p_B = truth.X_WB().Inverse() * Vec2(moment_W / force_n);
+    bearing_rad_ = std::atan2(p_B.y(), p_B.x());
   }
 
   void Sense(mjData*, const Sample&, Observation& out) override {

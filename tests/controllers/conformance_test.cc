@@ -12,6 +12,7 @@
 namespace floorproof {
 
 void PrintTo(const PluginEntry<Tracker>& entry, std::ostream* os) { *os << entry.name; }
+void PrintTo(const PluginEntry<Estimator>& entry, std::ostream* os) { *os << entry.name; }
 
 namespace {
 
@@ -96,18 +97,112 @@ TEST(DefaultTracker, CommandsItsDrive) {
   EXPECT_THROW(DefaultTracker("legs"), InputError);
 }
 
+// What robots stand on, and what their sensors say while they stand still: a scan of a square room.
+struct Standing {
+  HazardMap map;
+  RobotSpec robot = RoundRobot();
+  Observation sensed;
+  Sample truth;
+
+  Standing() {
+    map.frame = {60, 60, 0.1, {}};
+    map.cells = Grid<CellState>(60, 60, CellState::kOccupied);
+    for (int iy = 5; iy < 55; ++iy)
+      for (int ix = 5; ix < 55; ++ix) map.cells(ix, iy) = CellState::kFree;
+    truth.p_WB = {2, 2.5, 0};
+    sensed.wheel_rad.assign(robot.wheels.size(), 0);
+    sensed.has_imu = true;
+    sensed.scan.fresh = true;
+    sensed.scan.height_m = 0.3;
+    for (int i = 0; i < 36; ++i) {
+      const double a = i * kPi / 18, c = std::cos(a), s = std::sin(a);
+      sensed.scan.angle_rad.push_back(a);
+      sensed.scan.range_m.push_back(std::min(c >= 0 ? 3.5 / c : -1.5 / c, s >= 0 ? 3 / s : -2 / s));
+    }
+  }
+  EstimatorContext Context(std::uint64_t seed = 1) {
+    return {map, robot, truth.X_WB(), Stream(seed, 0, "estimator")};
+  }
+};
+
+class EstimatorConformance : public testing::TestWithParam<PluginEntry<Estimator>> {};
+
+TEST_P(EstimatorConformance, StartForgetsTheEpisodeBefore) {
+  const auto dut = GetParam().make();
+  Standing at;
+  const auto last = [&] {
+    dut->Start(at.Context());
+    Estimate estimate;
+    for (int i = 0; i < 20; ++i) {
+      at.sensed.wheel_rad.assign(at.robot.wheels.size(), 0.05);
+      estimate = dut->Update(at.sensed, at.truth, 0.02);
+    }
+    return estimate.X_WB;
+  };
+  const Pose2 once = last(), again = last();
+  EXPECT_EQ(once.x_m, again.x_m);
+  EXPECT_EQ(once.y_m, again.y_m);
+  EXPECT_EQ(once.yaw_rad, again.yaw_rad);
+}
+
+TEST_P(EstimatorConformance, UpdateAllocatesNothing) {
+  const auto dut = GetParam().make();
+  Standing at;
+  dut->Start(at.Context());
+  at.sensed.wheel_rad.assign(at.robot.wheels.size(), 0.05);
+  dut->Update(at.sensed, at.truth, 0.02);  // the first scan tells how high the lidar is
+  const auto before = AllocationCount();
+  for (int i = 0; i < 50; ++i) dut->Update(at.sensed, at.truth, 0.02);
+  EXPECT_EQ(AllocationCount(), before);
+}
+
+TEST_P(EstimatorConformance, StandingStillItStaysWhereItIs) {
+  const auto dut = GetParam().make();
+  Standing at;
+  dut->Start(at.Context());
+  Estimate estimate;
+  for (int i = 0; i < 100; ++i) estimate = dut->Update(at.sensed, at.truth, 0.02);
+  EXPECT_LT((estimate.X_WB.p() - at.truth.X_WB().p()).norm(), 0.1);
+  EXPECT_LT(std::abs(estimate.X_WB.yaw_rad), 0.1);
+  EXPECT_LT(estimate.spread_m, 0.3);
+  EXPECT_EQ(estimate.V_WB_B.vx_mps, 0);
+}
+
+TEST_P(EstimatorConformance, ParametersAreDocumented) {
+  const auto dut = GetParam().make();
+  for (const ParamDoc& doc : DocumentParams(*dut)) EXPECT_FALSE(doc.help.empty()) << doc.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EstimatorConformance, testing::ValuesIn(Estimators()),
+                         [](const auto& suite) { return std::string(suite.param.name); });
+
 TEST(TruthEstimator, IsTheTruth) {
   const auto dut = MakePlugin(Estimators(), "truth", "estimator");
-  dut->Start({});
-  Sample truth;
+  Standing at;
+  dut->Start(at.Context());
+  Sample& truth = at.truth;
   truth.p_WB = {1, -2, 0.3};
   truth.yaw_rad = 0.4;
   truth.V_WB_B = {0.1, 0.02, -0.5};
-  const Estimate estimate = dut->Update(truth, 0.02);
+  const Estimate estimate = dut->Update({}, truth, 0.02);
   EXPECT_EQ(estimate.X_WB.x_m, 1);
   EXPECT_EQ(estimate.X_WB.y_m, -2);
   EXPECT_EQ(estimate.X_WB.yaw_rad, 0.4);
   EXPECT_EQ(estimate.V_WB_B.wz_radps, -0.5);
+}
+
+TEST(OdometryEstimator, BelievesItsWheels) {
+  const auto dut = MakePlugin(Estimators(), "odometry", "estimator");
+  Standing at;
+  ReadParams(ParseYaml("{start_error_x_m: 0.1, start_error_yaw_deg: 90}", "params"), "", *dut);
+  dut->Start(at.Context());
+  at.sensed.wheel_rad.assign(at.robot.wheels.size(), 0.1);
+  Estimate estimate;
+  for (int i = 0; i < 50; ++i) estimate = dut->Update(at.sensed, at.truth, 0.02);
+  const double way_m = 50 * 0.1 * at.robot.wheels[0].radius_m;
+  EXPECT_NEAR(estimate.X_WB.x_m, 2.1, 1e-9) << "a heading wrong by 90 deg, and x by 0.1";
+  EXPECT_NEAR(estimate.X_WB.y_m, 2.5 + way_m, 1e-9);
+  EXPECT_NEAR(estimate.V_WB_B.vx_mps, 0.1 * at.robot.wheels[0].radius_m / 0.02, 1e-9);
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ std::vector<double> Track(ParticleFilter& filter, const HazardMap& map,
 
 TEST(ParticleFilter, FindsThePoseWithinAGuess) {
   const HazardMap map = LRoom();
-  const LikelihoodField field(map, 0.3, {});
+  const LikelihoodField field(map, 0.3);
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     ParticleFilter filter({}, map, Stream(seed, 0, "mcl"));
     const Pose2 truth{2, 4, 0};
@@ -79,7 +79,7 @@ TEST(ParticleFilter, FindsThePoseWithinAGuess) {
 
 TEST(ParticleFilter, FewerParticlesDoOnceItIsSure) {
   const HazardMap map = LRoom();
-  const LikelihoodField field(map, 0.3, {});
+  const LikelihoodField field(map, 0.3);
   FilterParams params;
   params.most = 3000;
   ParticleFilter filter(params, map, Stream(1, 0, "mcl"));
@@ -92,7 +92,7 @@ TEST(ParticleFilter, FewerParticlesDoOnceItIsSure) {
 
 TEST(ParticleFilter, FindsThePoseFromAnywhere) {
   const HazardMap map = LRoom();
-  const LikelihoodField field(map, 0.3, {});
+  const LikelihoodField field(map, 0.3);
   FilterParams params;
   params.most = 5000;
   int found = 0;
@@ -107,9 +107,9 @@ TEST(ParticleFilter, FindsThePoseFromAnywhere) {
 // Carried to another place, as by a person's hand.
 TEST(ParticleFilter, RecoversWhenItWasCarriedAway) {
   const HazardMap map = LRoom();
-  const LikelihoodField field(map, 0.3, {});
+  const LikelihoodField field(map, 0.3);
   int recovered = 0, without = 0;
-  for (std::uint64_t seed = 0; seed < 6; ++seed)
+  for (std::uint64_t seed = 0; seed < 12; ++seed)
     for (const bool recovery : {true, false}) {
       FilterParams params;
       params.most = 3000;
@@ -120,13 +120,13 @@ TEST(ParticleFilter, RecoversWhenItWasCarriedAway) {
       const bool back = Track(filter, map, field, {4.5, 1.5, 0}, 33).back() < 0.15;
       (recovery ? recovered : without) += back;
     }
-  EXPECT_GE(recovered, 5);
-  EXPECT_LT(without, recovered);
+  EXPECT_GE(recovered, 8);
+  EXPECT_LT(without, recovered - 4);
 }
 
 TEST(ParticleFilter, AllocatesNothingWhileItTracks) {
   const HazardMap map = LRoom();
-  const LikelihoodField field(map, 0.3, {});
+  const LikelihoodField field(map, 0.3);
   ParticleFilter filter({}, map, Stream(1, 0, "mcl"));
   filter.StartAround({2, 4, 0}, 0.3, 0.2);
   Stream noise(7, 0, "scans");

@@ -28,7 +28,7 @@ Hazard Cut(const Polygon& outline, double depth_m) {
 // Height of the first surface below a point 1 m up, by a ray.
 double SurfaceBelow(const Scene& scene, mjData* data, const Vec2& p) {
   const mjtNum from[3] = {p.x(), p.y(), 1}, down[3] = {0, 0, -1};
-  const mjtByte groups[mjNGROUP] = {1, 0, 0, 0, 0, 0};
+  const mjtByte groups[mjNGROUP] = {0, 0, 0, 0, 1, 1};
   int geom = -1;
   const double distance =
       mj_ray(scene.model.get(), data, from, down, groups, 1, scene.base_body, &geom, nullptr);

@@ -36,9 +36,7 @@ std::size_t BeamAlong(const Observation& sensed, double body_yaw_rad, double yaw
 
 TEST(Lidar, RangesAreThoseOfTheRoomToAMillimetre) {
   for (const char* robot : {"beluga", "htetro"}) {
-    HazardMap map = Room(6, 4);
-    map.inset_m = 0.03;
-    SensorRig rig(map, robot, {2, 2, 0});
+    SensorRig rig(Room(6, 4), robot, {2, 2, 0});
     rig.Carry(MakeSensor("lidar", kExact));
     int told = 0;
     for (const Pose2& pose :
@@ -49,10 +47,9 @@ TEST(Lidar, RangesAreThoseOfTheRoomToAMillimetre) {
       ASSERT_EQ(scan.range_m.size(), 90u);
       const Pose2 X_WL = pose * scan.X_BL;
       for (std::size_t i = 0; i < scan.range_m.size(); ++i, ++told)
-        EXPECT_NEAR(
-            scan.range_m[i],
-            ToEdge(X_WL.p(), X_WL.yaw_rad + scan.angle_rad[i], Vec2(0.97, 0.97), Vec2(7.03, 5.03)),
-            0.001)
+        EXPECT_NEAR(scan.range_m[i],
+                    ToEdge(X_WL.p(), X_WL.yaw_rad + scan.angle_rad[i], Vec2(1, 1), Vec2(7, 5)),
+                    0.001)
             << robot << " beam " << i;
     }
     EXPECT_EQ(told, 360);
@@ -159,7 +156,7 @@ TEST(Lidar, LargeMapsAreSeenAsSmallOnes) {
     EXPECT_LE(scan.range_m[i], edge_m + 0.001);
     walls += scan.range_m[i] > edge_m - 0.001;
   }
-  EXPECT_GT(walls, 500);
+  EXPECT_GT(walls, 300);
   EXPECT_LT(walls, 720) << "pillars are seen, too";
 }
 

@@ -82,7 +82,9 @@ TEST(Imu, AtRestTellsGravityAlone) {
   for (int i = 0; i < 50; ++i) rig.Drive({});
   const Observation& sensed = rig.Drive({});
   EXPECT_LT(sensed.gyro_radps.norm(), 1e-3);
-  EXPECT_LT((sensed.accel_mps2 - Vec3(0, 0, 9.81)).norm(), 0.02);
+  // BELUGA stands on its casters a little nose up.
+  const Vec3 up_B(-std::sin(rig.truth().pitch_rad), 0, std::cos(rig.truth().pitch_rad));
+  EXPECT_LT((sensed.accel_mps2 - 9.81 * up_B).norm(), 2e-3);
 }
 
 TEST(Imu, AddedUpIsTheTurnAndTheSpeed) {

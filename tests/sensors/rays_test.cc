@@ -56,10 +56,11 @@ TEST(Rays, MeetWhatTheWholeSceneHolds) {
     all.CastAll(whole_data.get(), from, directions, kMost_m, expected);
     for (std::size_t i = 0; i < kBeams; ++i) {
       met += expected[i].hits();
-      if (expected[i].hits())
+      if (expected[i].hits()) {
         EXPECT_NEAR(hits[i].range_m, expected[i].range_m, 1e-6) << "pose " << k << " beam " << i;
-      else
+      } else {
         EXPECT_FALSE(hits[i].hits()) << "pose " << k << " beam " << i;
+      }
       const RayHit one = rays.Cast(near_data.get(), from, Vec3(&directions[3 * i]), kMost_m, true);
       EXPECT_EQ(one.range_m, hits[i].range_m);
     }
