@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "apps/error_plot.h"
+
 namespace floorproof {
 namespace {
 
@@ -14,6 +18,31 @@ HeatValues OverSweepable(const EpisodeRecord& record, float (*value)(std::uint8_
   for (std::size_t i = 0; i < heat.values.cells.size(); ++i)
     if (record.sweepable.cells[i]) heat.values.cells[i] = value(record.passes.cells[i]);
   return heat;
+}
+
+// What the robot's own map says, and where it is wrong: by more than a cell of its own or of the
+// site, which walls are drawn to.
+void WriteKnownMap(const Scenario& s, const KnownMap& known, const std::filesystem::path& png) {
+  const KnownAgainstTruth seen =
+      Compare(known, s.site.map, s.robot.robot.step_m, 2 * known.frame.cell_m);
+  HeatMapOptions options;
+  options.title = fmt::format("{}: known {:.1f} %, of it wrong {:.1f} %", Title(s),
+                              100 * seen.known, 100 * seen.wrong);
+  // In the order of KnownAgainstTruth::State.
+  options.categories = {{"unknown", {176, 182, 190}},
+                        {"known free", {232, 240, 246}},
+                        {"known occupied", {38, 84, 124}},
+                        {"wrong: taken for free", {214, 40, 57}},
+                        {"wrong: taken for occupied", {247, 160, 40}}};
+  for (const FloorMark& mark : known.marks)
+    options.points.push_back(
+        {mark.p_W, mark.kind == FloorMark::Kind::kDrop ? "drop sensed" : "bump sensed"});
+  HeatValues heat{known.frame, Grid<float>(seen.cells.width, seen.cells.height)};
+  for (std::size_t i = 0; i < heat.values.cells.size(); ++i)
+    heat.values.cells[i] = static_cast<float>(seen.cells.cells[i]);
+  HazardMap bare = s.site.map;  // the walls shown are those that were sensed
+  std::ranges::fill(bare.cells.cells, CellState::kFree);
+  WriteHeatMap(bare, &heat, options, png);
 }
 
 }  // namespace
@@ -49,6 +78,8 @@ void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecor
   }
   WriteFailurePlaces(s.site.map, Title(s), record.events, nullptr, &plan.path,
                      folder / "heatmap_failures.png");
+  if (record.known) WriteKnownMap(s, *record.known, folder / "heatmap_known.png");
+  WriteErrorPlot(Title(s), record, folder / "plot_errors.png");
 }
 
 void WriteFailurePlaces(const HazardMap& map, const std::string& title,

@@ -15,7 +15,8 @@ namespace floorproof {
 // heatmap_plan.png: the planned path over the map.
 void WritePlanPicture(const Scenario& scenario, const PlanResult& plan,
                       const std::filesystem::path& folder);
-// heatmap_visits.png, heatmap_coverage.png and heatmap_failures.png.
+// heatmap_visits.png, heatmap_coverage.png, heatmap_failures.png and plot_errors.png; of a robot
+// that draws a map, heatmap_known.png.
 void WriteHeatMaps(const Scenario& scenario, const PlanResult& plan, const EpisodeRecord& record,
                    const std::filesystem::path& folder);
 // Failures as points over the map, on the share of episodes that failed in each square where that

@@ -4,9 +4,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace floorproof {
 namespace {
+
+// Where the beams of a scan end in the world, those that came back.
+std::vector<Vec2> EndsOf(const LidarScan& scan, const Pose2& X_WL) {
+  std::vector<Vec2> ends;
+  for (std::size_t i = 0; i < scan.range_m.size(); ++i)
+    if (std::isfinite(scan.range_m[i]))
+      ends.push_back(X_WL * Vec2(scan.range_m[i] * std::cos(scan.angle_rad[i]),
+                                 scan.range_m[i] * std::sin(scan.angle_rad[i])));
+  return ends;
+}
 
 // A film shows 30 pictures a second in real time around an event; 25 recorded are enough.
 constexpr int kRecordHz = 25;
@@ -20,21 +32,29 @@ ProgressObserver::ProgressObserver(const Globals& globals, const RobotSpec& robo
       recording_(recording),
       record_every_(std::max(1, control_hz / kRecordHz)) {}
 
-bool ProgressObserver::OnControl(Simulation& simulation, double coverage, double plan_fraction) {
+bool ProgressObserver::OnControl(const EpisodeView& now) {
   if (!hold_) hold_.emplace();
   const bool keep = count_++ % record_every_ == 0;
-  const Sample& sample = simulation.sample();
+  const Sample& sample = now.simulation.sample();
   const double t_s = sample.t_s;
   if (keep && recording_)
-    recording_->Add(t_s, simulation.data()->qpos, sample.p_WB, ToolWidth(robot_, sample.shape),
-                    coverage);
+    recording_->Add(t_s, now.simulation.data()->qpos, sample.p_WB, ToolWidth(robot_, sample.shape),
+                    now.coverage);
+  const LidarScan& scan = now.sensed.scan;
+  if (scan.fresh) scan_ = true;
+  if (keep && recording_ && scan_) {
+    const Pose2 X_WL = sample.X_WB() * scan.X_BL;
+    recording_->AddSenses(now.estimate.X_WB, X_WL.p(), EndsOf(scan, X_WL));
+    scan_ = false;
+  }
   if (Interrupted()) return false;
   if (count_ % 64 != 0 || !line_.IsDue()) return true;
-  const double eta_s = plan_fraction > 0.01
-                           ? line_.wall_s() * (1 - std::min(plan_fraction, 1.0)) / plan_fraction
-                           : -1;
+  const double eta_s =
+      now.plan_fraction > 0.01
+          ? line_.wall_s() * (1 - std::min(now.plan_fraction, 1.0)) / now.plan_fraction
+          : -1;
   line_.Show(fmt::format("  driven {:.0f} s  covered {:.1f} %  {:.0f}x real time  {}", t_s,
-                         100 * coverage, t_s / line_.wall_s(),
+                         100 * now.coverage, t_s / line_.wall_s(),
                          eta_s < 0 ? "" : fmt::format("about {:.0f} s to go", eta_s)));
   return true;
 }

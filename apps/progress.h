@@ -19,7 +19,7 @@ class ProgressObserver : public EpisodeObserver {
   ProgressObserver(const Globals& globals, const RobotSpec& robot, int control_hz,
                    Recording* recording);
   void EndLine() { line_.Clear(); }  // for what is said next
-  bool OnControl(Simulation& simulation, double coverage, double plan_fraction) override;
+  bool OnControl(const EpisodeView& now) override;
 
  private:
   std::optional<HoldInterrupts> hold_;
@@ -28,6 +28,7 @@ class ProgressObserver : public EpisodeObserver {
   Recording* recording_;
   int record_every_;
   long count_ = 0;
+  bool scan_ = false;  // there is one that is not recorded yet
 };
 
 }  // namespace floorproof

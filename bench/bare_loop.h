@@ -14,9 +14,9 @@ namespace floorproof {
 class Notes : public EpisodeObserver {
  public:
   using Clock = std::chrono::steady_clock;
-  bool OnControl(Simulation& simulation, double, double) override {
-    const mjModel* m = simulation.model();
-    mjData* d = simulation.data();
+  bool OnControl(const EpisodeView& now) override {
+    const mjModel* m = now.simulation.model();
+    mjData* d = now.simulation.data();
     if (controls_.empty()) {
       state_.resize(static_cast<std::size_t>(mj_stateSize(m, mjSTATE_INTEGRATION)));
       mj_getState(m, d, state_.data(), mjSTATE_INTEGRATION);

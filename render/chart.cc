@@ -10,9 +10,8 @@ namespace {
 
 constexpr Rgb kInk = {32, 38, 46}, kGrey = {110, 118, 128}, kGrid = {226, 229, 233};
 constexpr int kMargin_px = 28, kTitle_px = 58, kNote_px = 22, kKey_px = 26;
-constexpr int kPlotWidth_px = 350, kPlotHeight_px = 250;
+constexpr int kPlotHeight_px = 250;
 constexpr int kLeft_px = 48, kTop_px = 56, kFoot_px = 58, kGap_px = 30;  // around a plot
-constexpr int kPanelWidth_px = kLeft_px + kPlotWidth_px + kGap_px;
 constexpr int kPanelHeight_px = kTop_px + kPlotHeight_px + kFoot_px;
 constexpr int kShift = 4;  // of OpenCV's fixed-point coordinates
 
@@ -47,6 +46,7 @@ void Stroke(cv::Mat& canvas, const cv::Point2d& a, const cv::Point2d& b, const C
 }
 
 void Mark(cv::Mat& canvas, const cv::Point2d& p, const ChartStyle& style) {
+  if (!style.marks) return;
   if (style.hollow) {
     cv::circle(canvas, Fixed(p), 7 << kShift, Colour(style.colour), 2, cv::LINE_AA, kShift);
   } else {
@@ -119,8 +119,8 @@ void DrawAxes(Image& image, const ChartPanel& panel, const cv::Rect& plot, const
            {.cap_px = 10, .colour = kInk, .anchor = Anchor::kCentre});
 }
 
-void DrawPanel(Image& image, const ChartPanel& panel, int x, int y) {
-  const cv::Rect plot(x + kLeft_px, y + kTop_px, kPlotWidth_px, kPlotHeight_px);
+void DrawPanel(Image& image, const ChartPanel& panel, int x, int y, int width_px) {
+  const cv::Rect plot(x + kLeft_px, y + kTop_px, width_px, kPlotHeight_px);
   DrawText(image, x, y + 18, panel.title, {.cap_px = 13, .colour = kInk, .bold = true});
   DrawText(image, x, y + 40, panel.subtitle, {.cap_px = 10, .colour = kGrey});
   const Axes axes(panel, plot);
@@ -162,8 +162,9 @@ Image DrawChart(const Chart& chart) {
   const int rows = (panels + columns - 1) / columns;
   const int head_px = kTitle_px + kNote_px * static_cast<int>(chart.notes.size()) + 8;
   const int legend_px = kKey_px * static_cast<int>(chart.legend.size());
+  const int panel_px = kLeft_px + chart.plot_width_px + kGap_px;
   Image image;
-  image.width = 2 * kMargin_px + columns * kPanelWidth_px - kGap_px + 16;
+  image.width = 2 * kMargin_px + columns * panel_px - kGap_px + 16;
   image.height = head_px + rows * kPanelHeight_px + legend_px + kMargin_px;
   image.channels = 3;
   image.data.assign(static_cast<std::size_t>(image.width) * image.height * 3, 255);
@@ -174,8 +175,8 @@ Image DrawChart(const Chart& chart) {
     y += kNote_px;
   }
   for (int i = 0; i < panels; ++i)
-    DrawPanel(image, chart.panels[static_cast<std::size_t>(i)],
-              kMargin_px + i % columns * kPanelWidth_px, head_px + i / columns * kPanelHeight_px);
+    DrawPanel(image, chart.panels[static_cast<std::size_t>(i)], kMargin_px + i % columns * panel_px,
+              head_px + i / columns * kPanelHeight_px, chart.plot_width_px);
   y = head_px + rows * kPanelHeight_px + 18;
   for (const auto& keys : chart.legend) {
     DrawLegendLine(image, keys, kMargin_px, y);

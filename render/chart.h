@@ -19,6 +19,7 @@ struct ChartStyle {
   Rgb colour = {0, 0, 0};
   Stroke stroke = Stroke::kSolid;
   bool hollow = false;  // a larger ring in place of a dot
+  bool marks = true;    // else the line alone, for curves of many points
 };
 
 struct ChartPoint {
@@ -49,6 +50,7 @@ struct Chart {
   std::vector<std::string> notes;  // lines below the title
   std::vector<ChartPanel> panels;
   int columns = 3;
+  int plot_width_px = 350;                    // of each panel
   std::vector<std::vector<ChartKey>> legend;  // a line each
 };
 

@@ -15,6 +15,9 @@ namespace {
 
 constexpr std::array<float, 4> kPlanRgba = {0.13f, 0.33f, 0.78f, 1.0f};
 constexpr std::array<float, 4> kTraceRgba = {0.58f, 0.83f, 0.78f, 1.0f};
+constexpr std::array<float, 4> kBeamRgba = {0.90f, 0.25f, 0.12f, 0.55f};
+constexpr std::array<float, 4> kEstimateRgba = {0.62f, 0.12f, 0.55f, 1.0f};
+constexpr double kBeamZ_m = 0.006, kEstimateZ_m = 0.0075;
 constexpr double kTraceZ_m = 0.0020, kPlanZ_m = 0.0035;
 constexpr double kJump_m = 0.3;  // between two states: the robot was carried
 
@@ -130,6 +133,39 @@ void PaintPlan(const Path& plan, double width_m, FloorPaint& paint) {
   }
 }
 
+// The last scan as a fan of beams on the floor, and an arrow's shaft where the robot thinks it is:
+// stripes that move.
+class Fan {
+ public:
+  Fan(const Recording& recording, double reach_m, FloorPaint& paint)
+      : recording_(recording), paint_(paint), reach_m_(reach_m) {
+    std::size_t most = 0;
+    for (const auto& senses : recording.senses()) most = std::max(most, senses.ends_W.size());
+    if (recording.senses().empty()) return;
+    for (std::size_t i = 0; i < most; ++i)
+      beams_.push_back(paint.AddStripe({0, 0}, {0, 0}, kBeamZ_m, 0.008, kBeamRgba));
+    estimate_ = paint.AddStripe({0, 0}, {0, 0}, kEstimateZ_m, 0.03, kEstimateRgba);
+  }
+
+  void Show(std::size_t state) {
+    const auto& all = recording_.senses();
+    while (at_ + 1 < all.size() && all[at_ + 1].state <= state) ++at_;
+    if (all.empty() || all[at_].state > state) return;
+    const auto& now = all[at_];
+    for (std::size_t i = 0; i < beams_.size(); ++i)
+      paint_.MoveStripe(beams_[i], now.lidar_W,
+                        i < now.ends_W.size() ? now.ends_W[i].cast<double>() : now.lidar_W);
+    paint_.MoveStripe(estimate_, now.estimate.p(), now.estimate * Vec2(reach_m_, 0));
+  }
+
+ private:
+  const Recording& recording_;
+  FloorPaint& paint_;
+  double reach_m_;
+  std::vector<std::size_t> beams_;
+  std::size_t estimate_ = 0, at_ = 0;
+};
+
 void Check(const FilmScript& script, const FilmOptions& options) {
   if (script.recording->size() == 0) throw InternalError("there are no states to film");
   if (script.recording->nq() != script.model->nq) {
@@ -160,10 +196,12 @@ class Studio {
         puppet_(script),
         paint_((script.plan == nullptr ? 0 : static_cast<int>(script.plan->size())) + 6000),
         trail_(paint_),
+        fan_(*script.recording, 2 * script.set.robot_radius_m, paint_),
         renderer_(script.model, options.width, options.height, paint_.max_marks()),
         image_(renderer_.MakeImage()) {
-    if (script.plan == nullptr) return;
-    PaintPlan(*script.plan, 0.012 + 0.0012 * (set_.high_W - set_.low_W).maxCoeff(), paint_);
+    if (script.plan != nullptr)
+      PaintPlan(*script.plan, 0.012 + 0.0012 * (set_.high_W - set_.low_W).maxCoeff(), paint_);
+    paint_.Keep();
   }
 
   const Image& Draw(const FilmFrame& frame, bool last) {
@@ -172,6 +210,7 @@ class Studio {
     if (trodden_ == 0) camera_->Reset(set_, puppet_.X_WB());
     for (; trodden_ <= state; ++trodden_)
       trail_.Add(script_.recording->p_WB(trodden_), script_.recording->tool_width_m(trodden_));
+    fan_.Show(state);
     renderer_.Render(data, camera_->Next(puppet_.X_WB(), frame_s_, frame.speed_up), &paint_,
                      image_);
 
@@ -195,6 +234,7 @@ class Studio {
   Puppet puppet_;
   FloorPaint paint_;
   Trail trail_;
+  Fan fan_;
   OffscreenRenderer renderer_;
   Image image_;
   std::size_t trodden_ = 0;
@@ -209,6 +249,15 @@ void Recording::Add(double t_s, const double* qpos, const Vec3& p_WB, double too
   tool_width_m_.push_back(tool_width_m);
   p_WB_.push_back(p_WB);
   qpos_.insert(qpos_.end(), qpos, qpos + nq_);
+}
+
+void Recording::AddSenses(const Pose2& estimate, const Vec2& lidar_W,
+                          const std::vector<Vec2>& ends_W) {
+  Senses& now = senses_.emplace_back();
+  now.state = size() - 1;
+  now.estimate = estimate;
+  now.lidar_W = lidar_W;
+  for (const Vec2& end : ends_W) now.ends_W.push_back(end.cast<float>());
 }
 
 FilmResult WriteFilm(const FilmScript& script, const FilmOptions& options,

@@ -25,6 +25,9 @@ class Recording {
   // `qpos` holds nq values; `p_WB`: the robot's own place, on which the camera looks and where the
   // tool sweeps a stripe `tool_width_m` wide (0: none now); coverage 0 to 1, negative: unknown.
   void Add(double t_s, const double* qpos, const Vec3& p_WB, double tool_width_m, double coverage);
+  // What the robot senses and thinks at the last state: where its lidar stands and its beams end
+  // (world frame), and the pose that it thinks it has.
+  void AddSenses(const Pose2& estimate, const Vec2& lidar_W, const std::vector<Vec2>& ends_W);
   std::size_t size() const { return t_s_.size(); }
   int nq() const { return nq_; }
   double t_s(std::size_t i) const { return t_s_[i]; }
@@ -33,10 +36,19 @@ class Recording {
   double tool_width_m(std::size_t i) const { return tool_width_m_[i]; }
   const double* qpos(std::size_t i) const { return qpos_.data() + i * nq_; }
 
+  struct Senses {
+    std::size_t state = 0;
+    Pose2 estimate;
+    Vec2 lidar_W = Vec2::Zero();
+    std::vector<Eigen::Vector2f> ends_W;
+  };
+  const std::vector<Senses>& senses() const { return senses_; }  // ascending in state
+
  private:
   int nq_;
   std::vector<double> t_s_, coverage_, tool_width_m_, qpos_;
   std::vector<Vec3> p_WB_;
+  std::vector<Senses> senses_;
 };
 
 struct FilmScript {

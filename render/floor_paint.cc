@@ -31,7 +31,7 @@ std::size_t FloorPaint::Place(const mjvGeom& geom) {
   }
   const std::size_t slot = next_;
   geoms_[slot] = geom;
-  next_ = (next_ + 1) % geoms_.size();
+  next_ = slot + 1 < geoms_.size() ? slot + 1 : kept_;
   return slot;
 }
 

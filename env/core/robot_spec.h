@@ -34,6 +34,9 @@ struct Shape2 {
   Polygon footprint_B;  // kFootprint; held at yaws that are multiples of 90 deg in the map's frame
 };
 
+// From the shape's centre to its edge in this direction of its own frame, m.
+double EdgeAlong(const Shape2& shape, double bearing_rad);
+
 // A reconfigurable robot: blocks joined by hinges about vertical axes. R is the frame of the block
 // 0, the MJCF's `base`; in the model's own shape every block's frame K coincides with it. The body
 // frame B has R's axes and its origin at the mean of the blocks' centres, on the floor.

@@ -7,6 +7,7 @@
 
 #include "env/core/streams.h"
 #include "env/run/path_error.h"
+#include "env/run/pilot.h"
 #include "env/run/plan_file.h"
 #include "env/run/recorder.h"
 
@@ -66,49 +67,30 @@ EpisodeRecord RunEpisode(Scenario& s, const Scene& scene, const PlanResult& plan
                          EpisodeObserver* observer) {
   const RobotSpec& robot = s.robot.robot;
   const HazardMap known = KnownPart(s.site.map);
-  const ClearanceField clearance = ComputeClearance(known, robot.step_m);
   const SweepArea area =
       ComputeSweepArea(s.site.map, robot.clear, robot.tool, robot.step_m, s.start.p());
   const double plan_s = PlanDuration(plan.path, robot.cruise_mps),
                plan_m = std::max(Length(plan.path), 1e-9);
   const double limit_s = s.episode.time_limit_s.value_or(60 + 3 * plan_s);
-  const double control_s = 1.0 / s.episode.control_hz;
-  const auto steps_a_control = std::lround(control_s / s.physics.timestep_s);
+  const auto steps_a_control = std::lround(1.0 / (s.episode.control_hz * s.physics.timestep_s));
 
-  const auto drive = MakePlugin(Drives(), robot.drive, "drive");
-  drive->Configure(robot);
-  std::vector<double> wheels(robot.wheels.size());
   Recorder recorder(s, area, plan_s);
   Simulation sim(scene, s.site.map, robot);
   Sample& sample = sim.sample();
   sim.Reset(s.start);
-  const auto stream = [&s](const std::string& name) {
-    return Stream(static_cast<std::uint64_t>(s.episode.seed), s.episode_id, name);
-  };
-  Observation sensed;
-  for (auto& [name, sensor] : s.sensors)
-    sensor->Start({scene, s.site.map, robot, control_s}, sim.data(), sample,
-                  stream("sensors." + name), sensed);
-  s.estimator->Start({known, robot, s.start, stream("estimator")});
-  s.tracker->Start(plan.path, robot, &clearance);
+  Pilot pilot(s, scene, known, plan);
+  pilot.Start(sim);
   for (auto& detector : s.detectors) detector->Start({s.site.map, robot, s.physics.timestep_s});
 
   std::optional<Outcome> ended;
   for (std::int64_t step = 0; !ended; ++step) {
     if (step % steps_a_control == 0) {
-      sensed.t_s = sample.t_s;
-      for (auto& [name, sensor] : s.sensors) sensor->Sense(sim.data(), sample, sensed);
-      const Estimate estimate = s.estimator->Update(sensed, sample, control_s);
-      sample.command = s.tracker->Update(estimate, sample.t_s, control_s);
-      sample.command.cross_track_half_width_m =
-          HalfWidth(clearance, plan.path, sample.command.segment, sample.p_WB.head<2>());
-      drive->ToWheels(sample.command.twist, sample.command.hinges, wheels);
-      sim.SetWheelSpeeds(wheels);
-      sim.SetHingeSpeeds(sample.command.hinges);
-      recorder.OnControl(sample, estimate);
+      pilot.Control(sim);
+      recorder.OnControl(sample, pilot.estimate());
       if (sample.command.done) ended = Outcome::kSuccess;
       if (sample.t_s >= limit_s) ended = Outcome::kTimeout;
-      if (observer && !observer->OnControl(sim, recorder.coverage(), recorder.driven_m() / plan_m))
+      if (observer && !observer->OnControl({sim, pilot.sensed(), pilot.estimate(),
+                                            recorder.coverage(), recorder.driven_m() / plan_m}))
         ended = Outcome::kInterrupted;
       if (ended) break;
     }
@@ -117,15 +99,15 @@ EpisodeRecord RunEpisode(Scenario& s, const Scene& scene, const PlanResult& plan
       ended = Outcome::kError;
       break;
     }
-    sample.cross_track_m = CrossTrack(plan.path, sample.command.segment, sample.p_WB.head<2>());
+    sample.cross_track_m = CrossTrack(pilot.path(), sample.command.segment, sample.p_WB.head<2>());
     recorder.OnStep(sample);
-    for (auto& [name, sensor] : s.sensors) sensor->OnStep(sample);
+    pilot.OnStep(sample);
 
     for (auto& detector : s.detectors)
       if (detector->Update(sample)) recorder.OnEvent(detector->event());
     if (recorder.failed() && s.episode.on_failure == "stop" && !ended) ended = Outcome::kFailure;
   }
-  return recorder.Finish(*ended, sample, plan, s.detectors, s.episode.min_coverage,
+  return recorder.Finish(*ended, sample, plan, pilot, s.detectors, s.episode.min_coverage,
                          sim.battery().left());
 }
 

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "controllers/drive.h"
 #include "env/core/coverage.h"
 #include "env/core/event.h"
+#include "env/core/known_map.h"
 #include "env/run/scenario.h"
 #include "env/sim/simulation.h"
 #include "planners/planner.h"
@@ -26,7 +26,8 @@ struct TraceRow {
   float x_m, y_m, z_m, roll_rad, pitch_rad, yaw_rad, vx_mps, vy_mps, wz_radps;
   float cmd_vx_mps, cmd_vy_mps, cmd_wz_radps, est_x_m, est_y_m, est_yaw_rad;
   float cross_track_m, power_w, coverage;
-  int shape;  // as in Sample
+  int shape;           // as in Sample
+  float est_spread_m;  // as in Estimate
 };
 
 struct Metrics {
@@ -40,8 +41,11 @@ struct Metrics {
   double max_cross_track_m = 0, mean_cross_track_m = 0;
   int turns = 0;  // of the plan
   int interventions = 0;
-  int contacts = 0;           // times the body met an obstacle
-  double max_impulse_ns = 0;  // of one physics step
+  int reactions = 0;  // times the robot went back from what it met (the key `react`)
+  double max_estimate_error_m = 0, mean_estimate_error_m = 0;  // of the place, against the truth
+  double p95_estimate_error_m = 0;  // below which it was for 95 % of the time, to a millimetre
+  int contacts = 0;                 // times the body met an obstacle
+  double max_impulse_ns = 0;        // of one physics step
 };
 
 struct Margin {
@@ -59,7 +63,16 @@ struct EpisodeRecord {
   Grid<std::uint8_t> passes;  // of the tool, on the sweep area's grid
   GridFrame passes_frame;
   Grid<std::uint8_t> sweepable;
+  std::optional<KnownMap> known;  // what the robot's mapper drew, where it has one
   std::int64_t steps = 0;
+};
+
+// An episode as it stands at a control period.
+struct EpisodeView {
+  Simulation& simulation;
+  const Observation& sensed;
+  const Estimate& estimate;
+  double coverage = 0, plan_fraction = 0;
 };
 
 // Looks on once a control period: progress lines, films, Ctrl-C.
@@ -67,7 +80,7 @@ class EpisodeObserver {
  public:
   virtual ~EpisodeObserver() = default;
   // Returns false to end the episode here (outcome kInterrupted).
-  virtual bool OnControl(Simulation& simulation, double coverage, double plan_fraction) = 0;
+  virtual bool OnControl(const EpisodeView& now) = 0;
 };
 
 // The plan of the scenario: its planner's, or the user's file. The planner gets what is known.

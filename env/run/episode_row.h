@@ -14,10 +14,24 @@
 namespace floorproof {
 
 // Metrics in the order of result.json; a column each.
-inline constexpr std::array<std::string_view, 14> kMetricColumns = {
-    "coverage",  "overlap",         "path_length_m", "duration_s",        "energy_j",
-    "charge_ah", "least_battery_v", "battery_left",  "max_cross_track_m", "mean_cross_track_m",
-    "turns",     "interventions",   "contacts",      "max_impulse_ns"};
+inline constexpr std::array<std::string_view, 18> kMetricColumns = {"coverage",
+                                                                    "overlap",
+                                                                    "path_length_m",
+                                                                    "duration_s",
+                                                                    "energy_j",
+                                                                    "charge_ah",
+                                                                    "least_battery_v",
+                                                                    "battery_left",
+                                                                    "max_cross_track_m",
+                                                                    "mean_cross_track_m",
+                                                                    "turns",
+                                                                    "interventions",
+                                                                    "reactions",
+                                                                    "max_estimate_error_m",
+                                                                    "mean_estimate_error_m",
+                                                                    "p95_estimate_error_m",
+                                                                    "contacts",
+                                                                    "max_impulse_ns"};
 
 inline constexpr std::size_t kDuration = 3;  // its place among them
 static_assert(kMetricColumns[kDuration] == "duration_s");

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "env/run/episode.h"
+#include "env/run/pilot.h"
 
 namespace floorproof {
 
@@ -29,6 +31,7 @@ class Recorder {
   void OnControl(const Sample& sample, const Estimate& estimate) {
     if (sample.shape != shape_) TakeShape(sample.shape);
     if (shape_ >= 0) meter_.Add(sample.X_WB());
+    AddEstimateError((estimate.X_WB.p() - sample.p_WB.head<2>()).norm());
     if (control_++ % trace_every_ != 0) return;
     const auto f = [](double v) { return static_cast<float>(v); };
     const BodyTwist& cmd = sample.command.twist;
@@ -51,7 +54,8 @@ class Recorder {
                              f(sample.cross_track_m),
                              f(sample.power_w),
                              f(meter_.coverage()),
-                             sample.shape});
+                             sample.shape,
+                             f(estimate.spread_m)});
   }
 
   void OnStep(const Sample& sample) {
@@ -86,8 +90,8 @@ class Recorder {
   // failure when something failed on the way; a completed one that covered too little is one as
   // well.
   EpisodeRecord Finish(Outcome ended, const Sample& last, const PlanResult& plan,
-                       const std::vector<std::unique_ptr<Detector>>& detectors, double min_coverage,
-                       std::optional<double> battery_left) {
+                       const Pilot& pilot, const std::vector<std::unique_ptr<Detector>>& detectors,
+                       double min_coverage, std::optional<double> battery_left) {
     Metrics& m = record_.metrics;
     if (shape_ >= 0) meter_.Add(last.X_WB());
     m.coverage = meter_.coverage();
@@ -97,6 +101,9 @@ class Recorder {
     m.mean_cross_track_m =
         record_.steps > 0 ? cross_track_sum_ / static_cast<double>(record_.steps) : 0;
     m.turns = CountTurns(plan.path);
+    m.reactions = pilot.reactions();
+    FinishEstimateError();
+    if (pilot.known() != nullptr) record_.known = *pilot.known();
     for (const auto& detector : detectors)
       record_.margins.push_back({std::string(Name(detector->mode())), detector->margin()});
     record_.passes = meter_.passes();
@@ -120,6 +127,26 @@ class Recorder {
   }
 
  private:
+  void AddEstimateError(double error_m) {
+    record_.metrics.max_estimate_error_m = std::max(record_.metrics.max_estimate_error_m, error_m);
+    estimate_error_sum_ += error_m;
+    const auto mm = static_cast<std::size_t>(std::min(error_m * 1000, kMostMm - 1.0));
+    ++errors_mm_[mm];
+  }
+  void FinishEstimateError() {
+    Metrics& m = record_.metrics;
+    const auto all =
+        static_cast<double>(std::accumulate(errors_mm_.begin(), errors_mm_.end(), std::int64_t{0}));
+    if (all == 0) return;
+    m.mean_estimate_error_m = estimate_error_sum_ / all;
+    std::size_t mm = 0;
+    for (auto below = static_cast<double>(errors_mm_[0]);
+         below < 0.95 * all && mm + 1 < errors_mm_.size();)
+      below += static_cast<double>(errors_mm_[++mm]);
+    if (m.max_estimate_error_m > 0)
+      m.p95_estimate_error_m = std::min(m.max_estimate_error_m, static_cast<double>(mm + 1) / 1000);
+  }
+
   // Between two shapes the tool is lifted; then it is the new shape's.
   void TakeShape(int shape) {
     shape_ = shape;
@@ -133,7 +160,10 @@ class Recorder {
   const SweepArea& area_;
   const RobotSpec& robot_;
   CoverageMeter meter_;
-  double dt_s_, cross_track_sum_ = 0;
+  double dt_s_, cross_track_sum_ = 0, estimate_error_sum_ = 0;
+  static constexpr double kMostMm = 10000;  // errors beyond are counted together
+  std::vector<std::int64_t> errors_mm_ =
+      std::vector<std::int64_t>(static_cast<std::size_t>(kMostMm));
   int trace_every_ = 1;
   std::int64_t control_ = 0;
   int shape_ = 0;  // the robot's, as in Sample

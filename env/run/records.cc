@@ -86,6 +86,10 @@ Json MetricsJson(const Metrics& m) {
           {"mean_cross_track_m", m.mean_cross_track_m},
           {"turns", m.turns},
           {"interventions", m.interventions},
+          {"reactions", m.reactions},
+          {"max_estimate_error_m", m.max_estimate_error_m},
+          {"mean_estimate_error_m", m.mean_estimate_error_m},
+          {"p95_estimate_error_m", m.p95_estimate_error_m},
           {"contacts", m.contacts},
           {"max_impulse_ns", m.max_impulse_ns}};
 }
@@ -139,7 +143,7 @@ std::string TraceCsv(const EpisodeRecord& record, const RobotSpec& robot) {
   fmt::format_to(std::back_inserter(out),
                  "t_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,vx_mps,vy_mps,wz_radps,cmd_vx_mps,"
                  "cmd_vy_mps,cmd_wz_radps,est_x_m,est_y_m,est_yaw_rad,cross_track_m,power_w,"
-                 "coverage,shape\n");
+                 "coverage,shape,est_spread_m\n");
   // Empty of a robot with one shape, and between two.
   const auto shape_name = [&](int shape) {
     return shape < 0 || robot.shapes.empty()
@@ -148,10 +152,11 @@ std::string TraceCsv(const EpisodeRecord& record, const RobotSpec& robot) {
   };
   for (const auto& r : record.trace)
     fmt::format_to(std::back_inserter(out),
-                   "{:.3f},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.t_s,
+                   "{:.3f},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.t_s,
                    r.x_m, r.y_m, r.z_m, r.roll_rad, r.pitch_rad, r.yaw_rad, r.vx_mps, r.vy_mps,
                    r.wz_radps, r.cmd_vx_mps, r.cmd_vy_mps, r.cmd_wz_radps, r.est_x_m, r.est_y_m,
-                   r.est_yaw_rad, r.cross_track_m, r.power_w, r.coverage, shape_name(r.shape));
+                   r.est_yaw_rad, r.cross_track_m, r.power_w, r.coverage, shape_name(r.shape),
+                   r.est_spread_m);
   return fmt::to_string(out);
 }
 
@@ -164,8 +169,8 @@ void WritePlanFiles(const Scenario& s, const PlanResult& plan,
 
 void RemoveEpisodeFiles(const std::filesystem::path& folder) {
   for (const char* name : {"result.json", "trace.csv", "heatmap_visits.png", "heatmap_coverage.png",
-                           "heatmap_failures.png", "frame_start.png", "frame_failure.png",
-                           "frame_end.png", "video.mp4"}) {
+                           "heatmap_failures.png", "heatmap_known.png", "plot_errors.png",
+                           "frame_start.png", "frame_failure.png", "frame_end.png", "video.mp4"}) {
     std::error_code error;
     std::filesystem::remove(folder / name, error);
     if (error)

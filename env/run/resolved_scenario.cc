@@ -142,6 +142,11 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
     root.Add("controller", WithPlugin(Named("name", s.tracker_name), *s.tracker));
   root.Add("estimator", WithPlugin(Named("name", s.estimator_name), *s.estimator));
   if (!s.sensors.empty()) root.Add("sensors", SensorsOf(s));
+  if (s.mapper) {
+    Mapper mapper = *s.mapper;
+    root.Add("mapper", WithPlugin(ConfigNode::Map(), mapper));
+  }
+  if (s.react) root.Add("react", WithParams(ConfigNode::Map(), *s.react));
   root.Add("failures", Failures(s));
   root = WithParams(std::move(root), s.episode);
   if (stated("battery", robot_varies))

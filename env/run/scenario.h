@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "controllers/estimator.h"
+#include "controllers/mapper.h"
+#include "controllers/reaction.h"
 #include "controllers/tracker.h"
 #include "env/core/config.h"
 #include "env/failures/detector.h"
@@ -60,7 +62,9 @@ struct Scenario {
   std::string tracker_name, estimator_name;
   std::unique_ptr<Tracker> tracker;
   std::unique_ptr<Estimator> estimator;
-  std::vector<NamedSensor> sensors;  // those written, and those that the estimator needs
+  std::vector<NamedSensor> sensors;     // those written, and those that a part of it needs
+  std::optional<Mapper> mapper;         // none: no map is drawn
+  std::optional<ReactionParams> react;  // none: the plan is driven blindly
   std::vector<std::unique_ptr<Detector>> detectors;
   PhysicsParams physics;
   Battery battery;  // its voltage set, if only by the robot

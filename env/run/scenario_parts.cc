@@ -160,13 +160,35 @@ void ReadControl(const ConfigNode& root, Scenario& s) {
   ReadParams(estimator.params, "estimator.", *s.estimator, {"name"});
 }
 
+// The mapper keeps what was met, so that a robot which reacts has one.
+void ReadReaction(const ConfigNode& root, Scenario& s) {
+  const auto written = [&root](const char* key) {
+    const ConfigNode* node = root.Find(key);
+    return node != nullptr && !node->IsNull() ? node : nullptr;
+  };
+  if (const ConfigNode* node = written("react")) {
+    s.react.emplace();
+    ReadParams(*node, "react.", [&](ParamVisitor& v) { s.react->Visit(v); });
+  }
+  if (const ConfigNode* node = written("mapper")) {
+    s.mapper.emplace();
+    ReadParams(*node, "mapper.", *s.mapper);
+  } else if (s.react) {
+    s.mapper.emplace();
+  }
+}
+
 void ReadSensors(const ConfigNode& root, Scenario& s) {
   const ConfigNode* node = root.Find("sensors");
   const ConfigNode none = EmptyMap(root.mark);
   if (node == nullptr || node->IsNull()) node = &none;
   if (!node->IsMap()) throw InputError(node->mark, "sensors", "", "must be a map of sensors");
   RefuseUnknownKeys(*node, "sensors.", PluginNames(Sensors()));
-  const auto needed = s.estimator->Needs();
+  auto needed = s.estimator->Needs();
+  if (const ConfigNode* mapper = root.Find("mapper"); mapper != nullptr && !mapper->IsNull())
+    needed.push_back("lidar");
+  if (s.react && s.react->bumper) needed.push_back("bumper");
+  if (s.react && s.react->cliff) needed.push_back("cliff");
   for (const auto& entry : Sensors()) {
     const std::string name(entry.name);
     const ConfigNode* params = node->Find(name);
@@ -196,10 +218,11 @@ void ReadFailures(const ConfigNode& root, Scenario& s) {
 
 const std::vector<std::string>& ScenarioKeys() {
   static const std::vector<std::string> keys = {
-      "name",       "scenario",   "site",    "robot",        "start",   "goal",       "plan",
-      "controller", "estimator",  "sensors", "physics",      "battery", "control_hz", "trace_hz",
-      "failures",   "on_failure", "success", "time_limit_s", "seed",    "episode",    "drive",
-      "wheels",     "video",      "files",   "randomise",    "matrix",  "gate"};
+      "name",    "scenario",     "site",       "robot",    "start",    "goal",
+      "plan",    "controller",   "estimator",  "sensors",  "mapper",   "react",
+      "physics", "battery",      "control_hz", "trace_hz", "failures", "on_failure",
+      "success", "time_limit_s", "seed",       "episode",  "drive",    "wheels",
+      "video",   "files",        "randomise",  "matrix",   "gate"};
   return keys;
 }
 
@@ -233,6 +256,7 @@ void ReadParts(const ConfigNode& root, Scenario& s) {
   CheckStart(root, s);
   s.goal = ReadGoal(root, s.site.map);
   ReadControl(root, s);
+  ReadReaction(root, s);
   ReadSensors(root, s);
   ReadFailures(root, s);
 }

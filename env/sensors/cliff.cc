@@ -5,28 +5,11 @@
 #include <cmath>
 #include <optional>
 
-#include "env/core/polygon.h"
 #include "env/sensors/rays.h"
 #include "env/sensors/sensor.h"
 
 namespace floorproof {
 namespace {
-
-// From the centre to the robot's edge.
-double EdgeAlong(const Shape2& shape, double bearing_rad) {
-  if (shape.kind == Shape2::Kind::kCircle) return shape.radius_m;
-  const Vec2 way(std::cos(bearing_rad), std::sin(bearing_rad));
-  double farthest = 0;
-  const Polygon& p = shape.footprint_B;
-  for (std::size_t i = 0, j = p.size() - 1; i < p.size(); j = i++) {
-    const Vec2 edge = p[i] - p[j];
-    const double across = Cross(way, edge);
-    if (std::abs(across) < 1e-12) continue;
-    const double along = Cross(p[j], edge) / across, t = Cross(p[j], way) / across;
-    if (along > 0 && t >= -1e-9 && t <= 1 + 1e-9) farthest = std::max(farthest, along);
-  }
-  return farthest;
-}
 
 class Cliff final : public Sensor {
  public:

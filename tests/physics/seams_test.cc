@@ -10,8 +10,8 @@ namespace {
 // Looks on at 50 Hz: differences of 20 ms.
 class Heave final : public EpisodeObserver {
  public:
-  bool OnControl(Simulation& simulation, double, double) override {
-    motion.Update(simulation.sample());
+  bool OnControl(const EpisodeView& now) override {
+    motion.Update(now.simulation.sample());
     return true;
   }
   VerticalMotion motion{1};

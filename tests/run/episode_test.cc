@@ -79,7 +79,7 @@ TEST_F(EpisodeTest, APlanThroughAWallFailsAtTheWall) {
 
 class Interrupter : public EpisodeObserver {
  public:
-  bool OnControl(Simulation&, double, double) override { return ++count_ < 50; }
+  bool OnControl(const EpisodeView&) override { return ++count_ < 50; }
 
  private:
   int count_ = 0;
@@ -95,8 +95,8 @@ TEST_F(EpisodeTest, AnInterruptedEpisodeKeepsWhatWasDriven) {
 // Throws the robot away at an impossible speed: the engine warns, and that is no robot's failure.
 class Vandal : public EpisodeObserver {
  public:
-  bool OnControl(Simulation& simulation, double, double) override {
-    if (++count_ == 20) simulation.data()->qvel[0] = 1e12;
+  bool OnControl(const EpisodeView& now) override {
+    if (++count_ == 20) now.simulation.data()->qvel[0] = 1e12;
     return true;
   }
 

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "controllers/mapper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "env/core/coverage.h"
+
+namespace floorproof {
+
+void Mapper::Visit(ParamVisitor& v) {
+  v("cell_m", cell_m_, Between(0.01, 1), "largest cell of the map (m)");
+  v("hit", hit_, Positive(), "log odds that a beam adds where it ends");
+  v("miss", miss_, Positive(), "log odds that it takes where it passes");
+  v("most", most_, AtLeast(1), "log odds that no cell exceeds, either way");
+  v("range_m", range_m_, Positive(), "of a beam only so much is used (m)");
+  v("mark_m", mark_m_, Between(0.01, 1), "width of what a bump or a drop marks (m)");
+}
+
+void Mapper::Start(const GridFrame& site, const RobotSpec& robot) {
+  robot_ = &robot;
+  map_.frame = FineFrame(site, cell_m_);
+  map_.log_odds = Grid<float>(map_.frame.width, map_.frame.height);
+  map_.marked = Grid<std::uint8_t>(map_.frame.width, map_.frame.height);
+  map_.marks.clear();
+  map_.marks.reserve(64);
+  X_GW_ = map_.frame.X_WG.Inverse();
+  stood_W_ = Vec2::Constant(1e9);
+  pressed_ = false;
+  dropped_ = {};
+}
+
+void Mapper::Add(int ix, int iy, double log_odds) {
+  if (!map_.log_odds.Inside(ix, iy)) return;
+  float& cell = map_.log_odds(ix, iy);
+  cell = static_cast<float>(std::clamp(static_cast<double>(cell) + log_odds, -most_, most_));
+}
+
+// From cell to cell (Amanatides & Woo, 1987); `to_G` is where it ended, in cells.
+void Mapper::AddBeam(const Vec2& from_G, const Vec2& to_G) {
+  const Vec2 way = to_G - from_G;
+  int cell[2], last[2], step[2];
+  double next[2], stride[2];
+  for (int k = 0; k < 2; ++k) {
+    cell[k] = static_cast<int>(std::floor(from_G[k]));
+    last[k] = static_cast<int>(std::floor(to_G[k]));
+    step[k] = way[k] > 0 ? 1 : -1;
+    stride[k] = way[k] == 0 ? std::numeric_limits<double>::infinity() : 1 / std::abs(way[k]);
+    const double border = cell[k] + (way[k] > 0 ? 1 : 0);
+    next[k] = way[k] == 0 ? stride[k] : (border - from_G[k]) / way[k];
+  }
+  while (cell[0] != last[0] || cell[1] != last[1]) {
+    const int k = next[0] < next[1] ? 0 : 1;
+    if (next[k] > 1) return;  // rounding: it would pass the end
+    Add(cell[0], cell[1], -miss_);
+    cell[k] += step[k];
+    next[k] += stride[k];
+  }
+}
+
+void Mapper::AddScan(const LidarScan& scan, const Pose2& X_WB) {
+  const double cell_m = map_.frame.cell_m;
+  const Pose2 X_GL = X_GW_ * X_WB * scan.X_BL;
+  const Vec2 from_G = X_GL.p() / cell_m;
+  for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
+    const double range_m = scan.range_m[i];
+    if (!std::isfinite(range_m)) continue;
+    const double a = X_GL.yaw_rad + scan.angle_rad[i];
+    const Vec2 way_G = Vec2(std::cos(a), std::sin(a)) / cell_m;
+    const Vec2 to_G = from_G + std::min(range_m, range_m_) * way_G;
+    AddBeam(from_G, to_G);
+    if (range_m > range_m_) continue;
+    // Half a cell on: a wall's face lies on the border of its first cell.
+    const Vec2 in_G = to_G + 0.5 * cell_m * way_G;
+    const int ix = static_cast<int>(std::floor(in_G.x()));
+    const int iy = static_cast<int>(std::floor(in_G.y()));
+    Add(ix, iy, hit_);
+  }
+}
+
+// What is met again is larger than it was thought to be.
+void Mapper::Mark(FloorMark::Kind kind, const Vec2& p_W) {
+  const double r_m = mark_m_ / 2;
+  auto mark = std::ranges::find_if(map_.marks,
+                                   [&](const FloorMark& m) { return (m.p_W - p_W).norm() < r_m; });
+  if (mark != map_.marks.end())
+    mark->radius_m += r_m / 2;
+  else
+    mark = map_.marks.insert(map_.marks.end(), {kind, p_W, r_m});
+  const Vec2 p_G = X_GW_ * mark->p_W / map_.frame.cell_m;
+  const int reach = static_cast<int>(std::ceil(mark->radius_m / map_.frame.cell_m));
+  const int cx = static_cast<int>(std::floor(p_G.x())), cy = static_cast<int>(std::floor(p_G.y()));
+  for (int iy = cy - reach; iy <= cy + reach; ++iy)
+    for (int ix = cx - reach; ix <= cx + reach; ++ix)
+      if (map_.marked.Inside(ix, iy) &&
+          ((ix == cx && iy == cy) ||
+           (map_.frame.Center(ix, iy) - mark->p_W).norm() <= mark->radius_m))
+        map_.marked(ix, iy) = 1;
+}
+
+void Mapper::Update(const Observation& sensed, const Estimate& estimate) {
+  const Pose2& X_WB = estimate.X_WB;
+  if (sensed.scan.fresh) AddScan(sensed.scan, X_WB);
+
+  const double cell_m = map_.frame.cell_m;
+  if ((X_WB.p() - stood_W_).norm() > cell_m / 2) {
+    stood_W_ = X_WB.p();
+    const Vec2 p_G = X_GW_ * X_WB.p() / cell_m;
+    const double r = robot_->inscribed_radius_m / cell_m - 1;
+    for (int iy = static_cast<int>(p_G.y() - r); iy <= p_G.y() + r; ++iy)
+      for (int ix = static_cast<int>(p_G.x() - r); ix <= p_G.x() + r; ++ix)
+        if ((Vec2(ix + 0.5, iy + 0.5) - p_G).norm() <= r) Add(ix, iy, -most_);
+  }
+
+  // What stays pressed, or stays without floor, says nothing new.
+  if (sensed.bump.pressed && !pressed_) {
+    const double a = sensed.bump.bearing_rad;
+    const double r_m = EdgeAlong(robot_->clear, a) + mark_m_ / 2;
+    Mark(FloorMark::Kind::kBump, X_WB * Vec2(r_m * std::cos(a), r_m * std::sin(a)));
+  }
+  pressed_ = sensed.bump.pressed;
+  const CliffRing& cliffs = sensed.cliffs;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(cliffs.n); ++i) {
+    if (cliffs.drop[i] && !dropped_[i]) {
+      const double r_m = cliffs.p_B[i].norm();
+      Mark(FloorMark::Kind::kDrop, X_WB * Vec2(cliffs.p_B[i] * (1 + mark_m_ / 2 / r_m)));
+    }
+    dropped_[i] = cliffs.drop[i];
+  }
+}
+
+}  // namespace floorproof

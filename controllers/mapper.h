@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws the map that a robot sees: scans, bumps and drops at the pose that it thinks it has.
+//
+// An occupancy grid of log odds (Moravec & Elfes, "High resolution maps from wide angle sonar",
+// 1985; in this form Thrun, Burgard & Fox, "Probabilistic Robotics", 2005, table 9.1): a beam makes
+// the cells that it passes more likely free and the one that it ends in more likely occupied. A
+// beam that does not come back says nothing: it may have met black cloth or gone through glass.
+// Where the robot stands the floor is free. What is touched, or is no floor, is marked for good: a
+// scan passes over it.
+#pragma once
+
+#include <array>
+
+#include "env/core/known_map.h"
+#include "env/core/motion.h"
+#include "env/core/observation.h"
+#include "env/core/params.h"
+#include "env/core/robot_spec.h"
+
+namespace floorproof {
+
+class Mapper final : public Configurable {
+ public:
+  void Visit(ParamVisitor& v) override;
+
+  // An empty map on this ground; `site` says where it ends, no more.
+  void Start(const GridFrame& site, const RobotSpec& robot);
+  // One control period. Takes time as the beams' length; allocates only for marks.
+  void Update(const Observation& sensed, const Estimate& estimate);
+
+  const KnownMap& map() const { return map_; }
+
+ private:
+  void AddScan(const LidarScan& scan, const Pose2& X_WB);
+  void AddBeam(const Vec2& from_G, const Vec2& to_G);
+  void Mark(FloorMark::Kind kind, const Vec2& p_W);
+  void Add(int ix, int iy, double log_odds);
+
+  double cell_m_ = 0.05, hit_ = 0.85, miss_ = 0.4, most_ = 4, mark_m_ = 0.1, range_m_ = 12;
+  const RobotSpec* robot_ = nullptr;
+  KnownMap map_;
+  Pose2 X_GW_;
+  Vec2 stood_W_ = Vec2::Constant(1e9);  // where the robot last freed the floor
+  bool pressed_ = false;                // in the last period
+  std::array<bool, CliffRing::kMost> dropped_{};
+};
+
+}  // namespace floorproof

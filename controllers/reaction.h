@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a driving robot does when its shell is pressed or there is no floor ahead: it brakes, goes
+// back the way it came, and then wants the rest of its plan joined anew (planners/lib/rejoin.h).
+#pragma once
+
+#include <string>
+
+#include "env/core/motion.h"
+#include "env/core/observation.h"
+#include "env/core/params.h"
+#include "env/core/robot_spec.h"
+
+namespace floorproof {
+
+struct ReactionParams {
+  bool bumper = true, cliff = true;  // what it reacts to
+  double back_off_m = 0.15, back_off_mps = 0.1;
+  std::string then = "replan";
+  int most = 50;  // reactions an episode: a robot that is caught does not struggle for ever
+  void Visit(ParamVisitor& v);
+};
+
+class Reaction {
+ public:
+  void Start(const ReactionParams& params, const RobotSpec& robot);
+
+  // One control period. Takes `command`, what the tracker asked for last, and replaces its twist
+  // while it reacts; true: it does, the tracker is not to be asked.
+  bool Update(const Observation& sensed, const Estimate& estimate, double dt_s, Command& command);
+  // It has gone back: the tracker needs a new path. True once a reaction.
+  bool ended() const { return ended_; }
+  int count() const { return count_; }
+
+ private:
+  enum class State { kIdle, kBrake, kBack };
+  bool Alarm(const Observation& sensed) const;
+  void Begin(const Observation& sensed, const Estimate& estimate, const BodyTwist& commanded);
+  void Approach(const BodyTwist& wanted, double dt_s);
+
+  ReactionParams params_;
+  const RobotSpec* robot_ = nullptr;
+  State state_ = State::kIdle;
+  BodyTwist twist_;            // commanded now
+  Vec2 way_B_ = Vec2::Zero();  // unit, away from what was met
+  double turn_ = 0;            // or the sense to turn back in
+  Pose2 from_;                 // the estimate where going back began
+  double left_s_ = 0;
+  bool ended_ = false;
+  int count_ = 0;
+};
+
+}  // namespace floorproof

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/core/known_map.h"
+
+#include "env/core/coverage.h"
+#include "env/core/distance.h"
+
+namespace floorproof {
+namespace {
+
+constexpr int kCorners = 8;  // of the polygon around a mark
+
+}  // namespace
+
+HazardMap WithMarks(const HazardMap& map, const std::vector<FloorMark>& marks) {
+  HazardMap marked = map;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const FloorMark& mark = marks[i];
+    Hazard hazard;
+    hazard.id = "mark-" + std::to_string(i);
+    hazard.type = "mark";
+    Polygon around;
+    for (int k = 0; k < kCorners; ++k) {
+      const double a = 2 * kPi * k / kCorners, r_m = mark.radius_m / std::cos(kPi / kCorners);
+      around.push_back(mark.p_W + r_m * Vec2(std::cos(a), std::sin(a)));
+    }
+    hazard.footprint = {std::move(around)};
+    marked.hazards.push_back(std::move(hazard));
+  }
+  return marked;
+}
+
+KnownAgainstTruth Compare(const KnownMap& known, const HazardMap& truth, double step_m,
+                          double slack_m) {
+  using State = KnownAgainstTruth::State;
+  const Grid<std::uint8_t> blocked = ObstacleMask(truth, step_m, known.frame);
+  Grid<std::uint8_t> open(blocked.width, blocked.height);
+  for (std::size_t i = 0; i < open.cells.size(); ++i) open.cells[i] = !blocked.cells[i];
+  const Grid<float> to_blocked = DistanceToCentres(blocked), to_open = DistanceToCentres(open);
+  const auto slack = static_cast<float>(slack_m / known.frame.cell_m + 1e-6);
+  KnownAgainstTruth result;
+  result.cells = Grid<std::uint8_t>(blocked.width, blocked.height, State::kUnknown);
+  double floor = 0, floor_known = 0, all_known = 0, wrong = 0;
+  for (int iy = 0; iy < blocked.height; ++iy)
+    for (int ix = 0; ix < blocked.width; ++ix) {
+      const CellState state = known.At(ix, iy);
+      floor += open(ix, iy);
+      if (state == CellState::kUnknown) continue;
+      floor_known += open(ix, iy);
+      ++all_known;
+      const bool occupied = state == CellState::kOccupied;
+      const bool is_wrong = (occupied ? to_blocked : to_open)(ix, iy) > slack;
+      wrong += is_wrong;
+      result.cells(ix, iy) = occupied ? (is_wrong ? State::kWronglyOccupied : State::kOccupied)
+                                      : (is_wrong ? State::kWronglyFree : State::kFree);
+    }
+  result.known = floor > 0 ? floor_known / floor : 0;
+  result.wrong = all_known > 0 ? wrong / all_known : 0;
+  return result;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/core/robot_spec.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace floorproof {
+
+double EdgeAlong(const Shape2& shape, double bearing_rad) {
+  if (shape.kind == Shape2::Kind::kCircle) return shape.radius_m;
+  const Vec2 way(std::cos(bearing_rad), std::sin(bearing_rad));
+  double farthest = 0;
+  const Polygon& p = shape.footprint_B;
+  for (std::size_t i = 0, j = p.size() - 1; i < p.size(); j = i++) {
+    const Vec2 edge = p[i] - p[j];
+    const double across = Cross(way, edge);
+    if (std::abs(across) < 1e-12) continue;
+    const double along = Cross(p[j], edge) / across, t = Cross(p[j], way) / across;
+    if (along > 0 && t >= -1e-9 && t <= 1 + 1e-9) farthest = std::max(farthest, along);
+  }
+  return farthest;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/run/pilot.h"
+
+#include "env/core/streams.h"
+#include "env/run/path_error.h"
+#include "planners/lib/rejoin.h"
+
+namespace floorproof {
+
+Pilot::Pilot(Scenario& scenario, const Scene& scene, const HazardMap& known, const PlanResult& plan)
+    : s_(scenario),
+      scene_(scene),
+      known_(known),
+      plan_(plan),
+      robot_(scenario.robot.robot),
+      control_s_(1.0 / scenario.episode.control_hz),
+      clearance_(ComputeClearance(known, robot_.step_m)),
+      drive_(MakePlugin(Drives(), robot_.drive, "drive")),
+      path_(plan.path),
+      wheel_radps_(robot_.wheels.size()) {
+  drive_->Configure(robot_);
+  if (s_.mapper) mapper_ = *s_.mapper;
+  if (s_.react) reaction_.emplace();
+}
+
+Stream Pilot::StreamOf(const std::string& name) const {
+  return {static_cast<std::uint64_t>(s_.episode.seed), s_.episode_id, name};
+}
+
+void Pilot::Start(Simulation& sim) {
+  for (auto& [name, sensor] : s_.sensors)
+    sensor->Start({scene_, s_.site.map, robot_, control_s_}, sim.data(), sim.sample(),
+                  StreamOf("sensors." + name), sensed_);
+  s_.estimator->Start({known_, robot_, s_.start, StreamOf("estimator")});
+  if (mapper_) mapper_->Start(known_.frame, robot_);
+  if (reaction_) reaction_->Start(*s_.react, robot_);
+  s_.tracker->Start(path_, robot_, &clearance_);
+}
+
+void Pilot::OnStep(const Sample& truth) {
+  for (auto& [name, sensor] : s_.sensors) sensor->OnStep(truth);
+}
+
+// Where it went is not asked again: the rest of the path, joined from where the robot thinks it is.
+void Pilot::TakeNewPath() {
+  path_ = Rejoin({known_, mapper_->map().marks, robot_, plan_.clear, path_, command_.segment,
+                  estimate_.X_WB, s_.react->then == "replan"});
+  s_.tracker->Start(path_, robot_, &clearance_);
+  command_ = {};
+}
+
+void Pilot::Control(Simulation& sim) {
+  Sample& truth = sim.sample();
+  sensed_.t_s = truth.t_s;
+  for (auto& [name, sensor] : s_.sensors) sensor->Sense(sim.data(), truth, sensed_);
+  estimate_ = s_.estimator->Update(sensed_, truth, control_s_);
+  if (mapper_) mapper_->Update(sensed_, estimate_);
+
+  const bool reacts = reaction_ && reaction_->Update(sensed_, estimate_, control_s_, command_);
+  if (reacts && reaction_->ended()) TakeNewPath();
+  if (!reacts) command_ = s_.tracker->Update(estimate_, truth.t_s, control_s_);
+
+  truth.command = command_;
+  truth.command.cross_track_half_width_m =
+      HalfWidth(clearance_, path_, command_.segment, truth.p_WB.head<2>());
+  drive_->ToWheels(truth.command.twist, truth.command.hinges, wheel_radps_);
+  sim.SetWheelSpeeds(wheel_radps_);
+  sim.SetHingeSpeeds(truth.command.hinges);
+}
+
+}  // namespace floorproof
