@@ -116,6 +116,7 @@ std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& 
   script.events = record.events;
   script.title = Title(s);
   script.plan = &plan.path;
+  script.senses = s.video.scan;
   const double w = map.frame.width * map.frame.cell_m, h = map.frame.height * map.frame.cell_m;
   Vec2 low = map.frame.X_WG.p(), high = low;
   for (const Vec2& corner : {Vec2(w, 0), Vec2(0, h), Vec2(w, h)}) {

@@ -23,7 +23,7 @@ class LikelihoodField {
   using Table = std::array<float, 256>;  // of log likelihoods, by the steps away
 
   LikelihoodField() = default;
-  // Walls, and known hazards that reach the scan plane at height_m; glass is not among them. Takes
+  // Walls, and known hazards that reach the scan plane at height_m. Takes
   // time and memory as the map's area in cells of at most 5 cm, a byte each.
   LikelihoodField(const HazardMap& known, double height_m);
 

@@ -123,8 +123,8 @@ void Mapper::Update(const Observation& sensed, const Estimate& estimate) {
   const CliffRing& cliffs = sensed.cliffs;
   for (std::size_t i = 0; i < static_cast<std::size_t>(cliffs.n); ++i) {
     if (cliffs.drop[i] && !dropped_[i]) {
-      const double r_m = cliffs.p_B[i].norm();
-      Mark(FloorMark::Kind::kDrop, X_WB * Vec2(cliffs.p_B[i] * (1 + mark_m_ / 2 / r_m)));
+      const Vec2& p_B = cliffs.p_B[i];  // zero where it was set in as far as the middle
+      Mark(FloorMark::Kind::kDrop, X_WB * Vec2(p_B + mark_m_ / 2 * p_B.normalized()));
     }
     dropped_[i] = cliffs.drop[i];
   }

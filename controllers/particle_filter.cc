@@ -11,9 +11,10 @@ namespace {
 constexpr double kBin_m = 0.25, kBin_rad = 15 * kPi / 180;
 constexpr int kNearBins = 3;  // that a group reaches around its heaviest
 constexpr double kKldError = 0.05, kKldQuantile = 2.3263;  // of the normal distribution, at 99 %
-constexpr double kApart_m = 0.3;  // a spread from which on the wide likelihood is used
-constexpr double kWide_m = 0.3;   // at least its standard deviation
-constexpr int kTries = 100;       // to find a free place
+constexpr double kApart_m = 0.3;       // a spread from which on the wide likelihood is used
+constexpr double kWide_m = 0.3;        // at least its standard deviation
+constexpr int kTriesAnywhere = 10000;  // of a map, little of which may be floor
+constexpr int kTries = 100;            // to find a free place
 
 // Particles that k filled bins ask for.
 int KldSize(int k) {
@@ -32,9 +33,6 @@ ParticleFilter::ParticleFilter(const FilterParams& params, const HazardMap& map,
   narrow_ = LogLikelihoods(beams);
   beams.hit_sd_m = std::max(beams.hit_sd_m, kWide_m);
   wide_ = LogLikelihoods(beams);
-  for (int iy = 0; iy < map.frame.height; ++iy)
-    for (int ix = 0; ix < map.frame.width; ++ix)
-      if (!map.IsWall(ix, iy)) free_.push_back({ix, iy});
   const auto most = static_cast<std::size_t>(params.most);
   for (auto* particles : {&particles_, &next_}) particles->reserve(most);
   cumulative_.reserve(most);
@@ -47,12 +45,17 @@ bool ParticleFilter::IsFree(const Pose2& X_WB) const {
   return !map_.IsWall(map_.frame.ToCell(X_WB.p()));
 }
 
+// Drawn again until it is free: a list of all free cells would take as much memory as the map.
 Pose2 ParticleFilter::Anywhere() {
-  const Cell cell = free_[draws_.Below(free_.size())];
-  const Vec2 p_G((cell.ix + draws_.Uniform()) * map_.frame.cell_m,
-                 (cell.iy + draws_.Uniform()) * map_.frame.cell_m);
-  const Vec2 p_W = map_.frame.X_WG * p_G;
-  return {p_W.x(), p_W.y(), draws_.Uniform(-kPi, kPi)};
+  const Vec2 size = map_.frame.cell_m * Vec2(map_.frame.width, map_.frame.height);
+  Pose2 pose = best_;
+  for (int k = 0; k < kTriesAnywhere; ++k) {
+    const double x_m = draws_.Uniform() * size.x(), y_m = draws_.Uniform() * size.y();
+    const Vec2 p_W = map_.frame.X_WG * Vec2(x_m, y_m);
+    pose = {p_W.x(), p_W.y(), draws_.Uniform(-kPi, kPi)};
+    if (IsFree(pose)) break;
+  }
+  return pose;
 }
 
 void ParticleFilter::StartAround(const Pose2& X_WB, double sd_m, double sd_rad) {
@@ -115,7 +118,10 @@ void ParticleFilter::Weigh(const LikelihoodField& field, const LidarScan& scan) 
     if (std::isfinite(scan.range_m[i]))
       ends_.push_back(scan.X_BL * Vec2(scan.range_m[i] * std::cos(scan.angle_rad[i]),
                                        scan.range_m[i] * std::sin(scan.angle_rad[i])));
-  if (ends_.empty()) return;
+  if (static_cast<int>(ends_.size()) < params_.least_ends) {
+    FindBest();
+    return;
+  }
   const auto beams = static_cast<double>(ends_.size());
   const bool apart = spread_m_ > kApart_m;
   double fit = 0, highest = -std::numeric_limits<double>::infinity();

@@ -9,14 +9,27 @@ namespace {
 
 constexpr double kStanding_mps = 0.02, kStanding_radps = 0.05;
 
-// Where the alarm came from, body frame; zero: from no side.
-Vec2 Side(const Observation& sensed, bool bumper, bool cliff) {
-  Vec2 side = Vec2::Zero();
+// Calls see(side) with where each alarm came from, unit, body frame.
+template <class See>
+void ForEachAlarm(const Observation& sensed, bool bumper, bool cliff, const See& see) {
   if (bumper && sensed.bump.pressed)
-    side += Vec2(std::cos(sensed.bump.bearing_rad), std::sin(sensed.bump.bearing_rad));
+    see(Vec2(std::cos(sensed.bump.bearing_rad), std::sin(sensed.bump.bearing_rad)));
   for (std::size_t i = 0; cliff && i < static_cast<std::size_t>(sensed.cliffs.n); ++i)
-    if (sensed.cliffs.drop[i]) side += sensed.cliffs.p_B[i].normalized();
-  return side;
+    if (sensed.cliffs.drop[i]) see(Vec2(sensed.cliffs.p_B[i].normalized()));
+}
+
+// Where they came from on the whole; zero: from no side.
+Vec2 Side(const Observation& sensed, bool bumper, bool cliff) {
+  Vec2 sum = Vec2::Zero();
+  ForEachAlarm(sensed, bumper, cliff, [&](const Vec2& side) { sum += side; });
+  return sum;
+}
+
+// One of them lies on this way; alarms on opposite sides do not make up for each other.
+bool Ahead(const Observation& sensed, bool bumper, bool cliff, const Vec2& way_B) {
+  bool any = false;
+  ForEachAlarm(sensed, bumper, cliff, [&](const Vec2& side) { any |= side.dot(way_B) > 0.1; });
+  return any;
 }
 
 }  // namespace
@@ -49,7 +62,6 @@ bool Reaction::Alarm(const Observation& sensed) const {
 void Reaction::Begin(const Observation& sensed, const Estimate& estimate,
                      const BodyTwist& commanded) {
   ++count_;
-  twist_ = commanded;
   from_ = estimate.X_WB;
   left_s_ = 2 * params_.back_off_m / params_.back_off_mps + 2;
   turn_ = 0;
@@ -99,8 +111,7 @@ bool Reaction::Update(const Observation& sensed, const Estimate& estimate, doubl
                           std::abs(WrapAngle(estimate.X_WB.yaw_rad - from_.yaw_rad)) *
                               (turn_ != 0 ? robot_->circumscribed_radius_m : 0);
     // It goes back no further into something else, nor for ever.
-    const Vec2 side = Side(sensed, params_.bumper, params_.cliff);
-    const bool meets = side.dot(way_B_) > 0.1;
+    const bool meets = Ahead(sensed, params_.bumper, params_.cliff, way_B_);
     if (gone_m >= params_.back_off_m || meets || left_s_ < 0) {
       state_ = State::kIdle;
       ended_ = true;

@@ -137,21 +137,20 @@ void PaintPlan(const Path& plan, double width_m, FloorPaint& paint) {
 // stripes that move.
 class Fan {
  public:
-  Fan(const Recording& recording, double reach_m, FloorPaint& paint)
-      : recording_(recording), paint_(paint), reach_m_(reach_m) {
+  Fan(std::span<const Recording::Senses> senses, double reach_m, FloorPaint& paint)
+      : all_(senses), paint_(paint), reach_m_(reach_m) {
+    if (all_.empty()) return;
     std::size_t most = 0;
-    for (const auto& senses : recording.senses()) most = std::max(most, senses.ends_W.size());
-    if (recording.senses().empty()) return;
+    for (const auto& one : all_) most = std::max(most, one.ends_W.size());
     for (std::size_t i = 0; i < most; ++i)
       beams_.push_back(paint.AddStripe({0, 0}, {0, 0}, kBeamZ_m, 0.008, kBeamRgba));
     estimate_ = paint.AddStripe({0, 0}, {0, 0}, kEstimateZ_m, 0.03, kEstimateRgba);
   }
 
   void Show(std::size_t state) {
-    const auto& all = recording_.senses();
-    while (at_ + 1 < all.size() && all[at_ + 1].state <= state) ++at_;
-    if (all.empty() || all[at_].state > state) return;
-    const auto& now = all[at_];
+    while (at_ + 1 < all_.size() && all_[at_ + 1].state <= state) ++at_;
+    if (all_.empty() || all_[at_].state > state) return;
+    const auto& now = all_[at_];
     for (std::size_t i = 0; i < beams_.size(); ++i)
       paint_.MoveStripe(beams_[i], now.lidar_W,
                         i < now.ends_W.size() ? now.ends_W[i].cast<double>() : now.lidar_W);
@@ -159,7 +158,7 @@ class Fan {
   }
 
  private:
-  const Recording& recording_;
+  std::span<const Recording::Senses> all_;
   FloorPaint& paint_;
   double reach_m_;
   std::vector<std::size_t> beams_;
@@ -196,7 +195,9 @@ class Studio {
         puppet_(script),
         paint_((script.plan == nullptr ? 0 : static_cast<int>(script.plan->size())) + 6000),
         trail_(paint_),
-        fan_(*script.recording, 2 * script.set.robot_radius_m, paint_),
+        fan_(script.senses ? std::span(script.recording->senses())
+                           : std::span<const Recording::Senses>(),
+             2 * script.set.robot_radius_m, paint_),
         renderer_(script.model, options.width, options.height, paint_.max_marks()),
         image_(renderer_.MakeImage()) {
     if (script.plan != nullptr)

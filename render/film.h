@@ -60,6 +60,7 @@ struct FilmScript {
   std::string title;              // "beluga on staircase hall"
   FilmSet set;                    // `aspect` is taken from the options
   const Path* plan = nullptr;     // drawn on the floor
+  bool senses = true;             // what the recording holds of them, too
 };
 
 struct FilmOptions {

@@ -33,9 +33,11 @@ KnownAgainstTruth Compare(const KnownMap& known, const HazardMap& truth, double 
                           double slack_m) {
   using State = KnownAgainstTruth::State;
   const Grid<std::uint8_t> blocked = ObstacleMask(truth, step_m, known.frame);
-  Grid<std::uint8_t> open(blocked.width, blocked.height);
-  for (std::size_t i = 0; i < open.cells.size(); ++i) open.cells[i] = !blocked.cells[i];
-  const Grid<float> to_blocked = DistanceToCentres(blocked), to_open = DistanceToCentres(open);
+  Grid<std::uint8_t> drawn(blocked.width, blocked.height);
+  for (int iy = 0; iy < drawn.height; ++iy)
+    for (int ix = 0; ix < drawn.width; ++ix)
+      drawn(ix, iy) = known.At(ix, iy) == CellState::kOccupied;
+  const Grid<float> to_blocked = DistanceToCentres(blocked), to_drawn = DistanceToCentres(drawn);
   const auto slack = static_cast<float>(slack_m / known.frame.cell_m + 1e-6);
   KnownAgainstTruth result;
   result.cells = Grid<std::uint8_t>(blocked.width, blocked.height, State::kUnknown);
@@ -43,12 +45,14 @@ KnownAgainstTruth Compare(const KnownMap& known, const HazardMap& truth, double 
   for (int iy = 0; iy < blocked.height; ++iy)
     for (int ix = 0; ix < blocked.width; ++ix) {
       const CellState state = known.At(ix, iy);
-      floor += open(ix, iy);
+      const bool open = !blocked(ix, iy);
+      floor += open;
       if (state == CellState::kUnknown) continue;
-      floor_known += open(ix, iy);
+      floor_known += open;
       ++all_known;
       const bool occupied = state == CellState::kOccupied;
-      const bool is_wrong = (occupied ? to_blocked : to_open)(ix, iy) > slack;
+      const bool is_wrong =
+          occupied ? to_blocked(ix, iy) > slack : !open && to_drawn(ix, iy) > slack;
       wrong += is_wrong;
       result.cells(ix, iy) = occupied ? (is_wrong ? State::kWronglyOccupied : State::kOccupied)
                                       : (is_wrong ? State::kWronglyFree : State::kFree);

@@ -43,8 +43,10 @@ struct KnownAgainstTruth {
   double known = 0;          // share of the cells on which the robot may drive that is known
   double wrong = 0;          // share of the known cells that is wrong
 };
-// Occupied is what a robot must keep off (ObstacleMask). A cell is wrong where nothing within
-// `slack_m` is as it says: a wall drawn a little beside its place is not.
+// Occupied is what a robot must keep off (ObstacleMask). A cell is wrong that says occupied with
+// nothing to keep off within `slack_m`, or free where there is something to keep off and nothing is
+// known occupied within `slack_m`: a wall drawn a little beside its place is not, a thin pane that
+// was not drawn is.
 KnownAgainstTruth Compare(const KnownMap& known, const HazardMap& truth, double step_m,
                           double slack_m);
 

@@ -120,6 +120,10 @@ plan:
   planner: boustrophedon   # back and forth; `floorproof list planners` names all
 # plan: {file: plan.csv}   # or your own: a first line x_m,y_m, then a waypoint a line
 
+# Told where it is, or finding it out by lidar, wheels and gyro; and whether it goes back from what it meets.
+estimator: truth           # mcl, odometry: `floorproof list estimators`, and docs/sensing.md
+# react: {then: replan}    # at bumps and drops; without it the plan is driven blindly
+
 success:
   min_coverage: 0.95       # share of what can be swept; less is no success
 

@@ -142,7 +142,8 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
     root.Add("controller", WithPlugin(Named("name", s.tracker_name), *s.tracker));
   root.Add("estimator", WithPlugin(Named("name", s.estimator_name), *s.estimator));
   if (!s.sensors.empty()) root.Add("sensors", SensorsOf(s));
-  if (s.mapper) {
+  // One without a lidar came with `react`, as it is by default; stated, it would ask for a lidar.
+  if (s.mapper && std::ranges::find(s.sensors, "lidar", &NamedSensor::name) != s.sensors.end()) {
     Mapper mapper = *s.mapper;
     root.Add("mapper", WithPlugin(ConfigNode::Map(), mapper));
   }

@@ -12,6 +12,7 @@ void VideoParams::Visit(ParamVisitor& v) {
   v("max_frames", max_frames, Between(2, 1e6), "most frames of a film");
   v("width", width, Between(64, 1920), "pixels, even");
   v("height", height, Between(64, 1080), "pixels, even");
+  v("scan", scan, "of a robot with a lidar: its beams, and where it thinks it is, on the floor");
 }
 
 void EpisodeParams::Visit(ParamVisitor& v) {

@@ -15,6 +15,7 @@ struct VideoParams {
   std::optional<double> speed_up;  // none: such that the film keeps to max_frames
   int max_frames = 600;
   int width = 960, height = 540;
+  bool scan = true;
   void Visit(ParamVisitor& v);
 };
 

@@ -6,6 +6,7 @@
 #include "env/core/blocks.h"
 #include "env/core/input_file.h"
 #include "env/run/plan_file.h"
+#include "env/run/start_check.h"
 #include "env/scene/roller_wheels.h"
 
 namespace floorproof {
@@ -259,6 +260,7 @@ void ReadParts(const ConfigNode& root, Scenario& s) {
   ReadReaction(root, s);
   ReadSensors(root, s);
   ReadFailures(root, s);
+  CheckStarts(root, s);
 }
 
 }  // namespace floorproof

@@ -44,8 +44,8 @@ class Lidar final : public Sensor {
     base_ = context.scene.base_body;
     const int site = mj_name2id(m, mjOBJ_SITE, "lidar");
     if (site < 0 && !z_m_)
-      throw InputError({context.robot.model_file, 0}, "sensors.lidar.z_m", "",
-                       "must be stated: the robot has no site `lidar`");
+      throw InputError({}, "sensors.lidar.z_m", "",
+                       "must be stated: " + context.robot.name + " has no site `lidar`");
     p_R_ = site >= 0 ? Vec3(m->site_pos + 3 * site) : Vec3::Zero();
     if (z_m_) p_R_.z() = *z_m_;
     RefuseBlockedView(m);
@@ -137,10 +137,10 @@ class Lidar final : public Sensor {
                                            p_R_.data(), direction.data(), m->geom_type[g], nullptr);
         if (range_m <= kHousing_m) continue;
         const char* name = mj_id2name(m, mjOBJ_GEOM, g);
-        throw InputError({context_->robot.model_file, 0}, "sensors.lidar.z_m",
-                         FormatDouble(p_R_.z()),
-                         std::string("the robot itself is in the way of its beams: geom ") +
-                             (name ? name : std::to_string(g)));
+        throw InputError({}, "sensors.lidar.z_m", FormatDouble(p_R_.z()),
+                         "the robot itself is in the way of its beams: geom " +
+                             (name ? std::string(name) : std::to_string(g)) + " of " +
+                             context_->robot.name);
       }
     }
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "planners/lib/ways.h"
 
@@ -19,7 +20,8 @@ std::vector<Path> FreePieces(const RejoinRequest& request, const Floor& floor, c
   std::vector<Path> pieces;
   Path piece;
   const auto close = [&] {
-    if (!piece.empty() && (Length(piece) >= kShortest_m || piece.front().dwell_s > 0))
+    if (Length(piece) >= kShortest_m ||
+        std::ranges::any_of(piece, [](const Waypoint& w) { return w.dwell_s > 0; }))
       pieces.push_back(piece);
     piece.clear();
   };
@@ -53,6 +55,19 @@ std::vector<Path> FreePieces(const RejoinRequest& request, const Floor& floor, c
   return pieces;
 }
 
+// Whether no wall of the map lies on the way from a to b; a may lie within one, where the robot
+// thinks it is.
+bool InSight(const ClearanceField& map, const Vec2& a, const Vec2& b) {
+  const int looks = std::max(1, static_cast<int>(2 * (b - a).norm() / map.frame.cell_m));
+  bool out = false;
+  for (int k = 0; k <= looks; ++k) {
+    const bool free = map.At(a + (b - a) * k / looks) > 0;
+    if (out && !free) return false;
+    out = out || free;
+  }
+  return out;
+}
+
 // Places near the robot where its clear shape may fit, the robot's own first: what was met may be
 // larger than the way that it went back.
 std::vector<Vec2> PlacesToBe(const HazardMap& marked, const RejoinRequest& request) {
@@ -64,15 +79,36 @@ std::vector<Vec2> PlacesToBe(const HazardMap& marked, const RejoinRequest& reque
                                     ? clear.radius_m
                                     : -SignedDistance(clear.footprint_B, Vec2::Zero()));
   const ClearanceField room = ComputeClearance(marked, request.robot.step_m);
+  const ClearanceField bare = ComputeClearance(request.known, request.robot.step_m);
   const Vec2 here = request.X_WB.p();
   std::vector<Vec2> places = {here};
   for (double r_m = kStep_m; r_m <= kFarthest_m + 1e-9; r_m += kStep_m)
     for (int k = 0; k < kWays && places.size() < kMost; ++k) {
       const double a = 2 * kPi * k / kWays;
       const Vec2 p = here + r_m * Vec2(std::cos(a), std::sin(a));
-      if (room.At(p) >= needs_m) places.push_back(p);
+      if (room.At(p) >= needs_m && InSight(bare, here, p)) places.push_back(p);
     }
   return places;
+}
+
+// The shapes as the rest of the path holds them. A footprint is tried at the one yaw that the path
+// keeps; at the map's quarters where it keeps none.
+struct Held {
+  Shape2 clear, tool;
+  Yaws yaws = Yaws::kQuarters;
+};
+Held HeldShapes(const RejoinRequest& request) {
+  Held held{request.clear, request.robot.tool};
+  const auto first = std::min(request.segment + 1, request.path.size());
+  const std::span<const Waypoint> rest = std::span(request.path).subspan(first);
+  if (held.clear.kind == Shape2::Kind::kCircle || rest.empty() || !rest.front().yaw_rad ||
+      std::ranges::any_of(rest, [&](const Waypoint& w) { return w.yaw_rad != rest[0].yaw_rad; }))
+    return held;
+  const Pose2 turn{0, 0, *rest.front().yaw_rad - request.known.frame.X_WG.yaw_rad};
+  for (Shape2* shape : {&held.clear, &held.tool})
+    for (Vec2& corner : shape->footprint_B) corner = turn.Rotate(corner);
+  held.yaws = Yaws::kFirst;
+  return held;
 }
 
 }  // namespace
@@ -86,9 +122,10 @@ Path Rejoin(const RejoinRequest& request) {
   Waypoint here;
   here.p_W = request.X_WB.p();
   Path path = {here};
+  const Held held = HeldShapes(request);
   SweepArea area;
   for (const Vec2& p : PlacesToBe(marked, request)) {
-    area = ComputeSweepArea(marked, request.clear, robot.tool, robot.step_m, p);
+    area = ComputeSweepArea(marked, held.clear, held.tool, robot.step_m, p, held.yaws);
     if (area.sweepable_cells == 0) continue;
     if (p != here.p_W) path.emplace_back().p_W = p;
     break;
@@ -99,7 +136,7 @@ Path Rejoin(const RejoinRequest& request) {
                 request.path.end());
     return path;
   }
-  const Floor floor = CropFloor(area, request.clear, robot.tool, robot.tool_width_m);
+  const Floor floor = CropFloor(area, held.clear, held.tool, robot.tool_width_m);
   Ways ways(floor);
   for (const Path& piece : FreePieces(request, floor, ways)) {
     const Vec2 from = floor.ToCells(path.back().p_W);

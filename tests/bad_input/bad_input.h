@@ -38,6 +38,7 @@ std::string GoodPgm();
 
 std::vector<BadInput> YamlCases();
 std::vector<BadInput> ScenarioCases();
+std::vector<BadInput> SensingCases();
 std::vector<BadInput> SiteCases();
 std::vector<BadInput> MapCases();
 std::vector<BadInput> PlanCases();

@@ -84,6 +84,7 @@ TEST_P(BadInputTest, IsOneLine) {
 std::string TestName(const ::testing::TestParamInfo<BadInput>& info) { return info.param.name; }
 INSTANTIATE_TEST_SUITE_P(Yaml, BadInputTest, ::testing::ValuesIn(YamlCases()), TestName);
 INSTANTIATE_TEST_SUITE_P(Scenario, BadInputTest, ::testing::ValuesIn(ScenarioCases()), TestName);
+INSTANTIATE_TEST_SUITE_P(Sensing, BadInputTest, ::testing::ValuesIn(SensingCases()), TestName);
 INSTANTIATE_TEST_SUITE_P(Site, BadInputTest, ::testing::ValuesIn(SiteCases()), TestName);
 INSTANTIATE_TEST_SUITE_P(Map, BadInputTest, ::testing::ValuesIn(MapCases()), TestName);
 INSTANTIATE_TEST_SUITE_P(Plan, BadInputTest, ::testing::ValuesIn(PlanCases()), TestName);

@@ -11,6 +11,8 @@
 #include "env/failures/detector.h"
 #include "env/hazards/hazard_type.h"
 #include "env/scene/scene.h"
+#include "env/sensors/sensor.h"
+#include "env/sim/simulation.h"
 #include "env/validate/law.h"
 #include "planners/planner.h"
 
@@ -19,6 +21,7 @@ namespace floorproof {
 std::unique_ptr<Planner> MakePlainRows();
 std::unique_ptr<HazardType> MakeDoorSill();
 std::unique_ptr<Detector> MakeDrift();
+std::unique_ptr<Sensor> MakeSonar();
 
 namespace {
 
@@ -113,6 +116,31 @@ TEST(AddingADetector, ASmallErrorThatLastsFailsAndALargeOneThatPassesDoesNot) {
   EXPECT_EQ(count(0.14, 60), 0);
   EXPECT_EQ(count(0.20, 60), 1);
   EXPECT_EQ(count(0.40, 1), 0);
+}
+
+TEST(AddingASensor, ItTellsTheNearestInEachConeGlassToo) {
+  HazardMap map = Room(4, 2);
+  Hazard pane;
+  pane.id = "pane";
+  pane.hazard_class = HazardClass::kGlass;
+  pane.footprint = {Rectangle({3, 0.8}, {3.01, 1.2})};
+  pane.solids = {{Solid::Kind::kPrism, pane.footprint[0], {}, 0, 2}};
+  map.hazards = {pane};
+  const RobotModel robot = Burger();
+  const Pose2 start{1, 1, 0};
+  const Scene scene = BuildScene(map, robot, {}, start);
+  Simulation sim(scene, map, robot.robot);
+  sim.Reset(start);
+  const auto dut = MakeSonar();
+  ReadParams(ParseYaml("{cones: 4, noise_m: 0}", "keys"), "", *dut);
+  Observation sensed;
+  dut->Start({scene, map, robot.robot, 0.02}, sim.data(), sim.sample(), Stream(1, 0, "sonar"),
+             sensed);
+  dut->Sense(sim.data(), sim.sample(), sensed);
+  EXPECT_NEAR(sensed.scan.range_m[0], 2, 1e-3) << "ahead, the pane";
+  EXPECT_NEAR(sensed.scan.range_m[1], 1, 1e-3) << "to the left, the border";
+  EXPECT_NEAR(sensed.scan.range_m[2], 1, 1e-3);
+  EXPECT_NEAR(sensed.scan.range_m[3], 1, 1e-3);
 }
 
 TEST(Validation, ThePageListsEveryLaw) {

@@ -51,9 +51,10 @@ class SensorRig {
  public:
   static constexpr double kControl_s = 0.02;
 
-  SensorRig(const HazardMap& map, const std::string& robot, const Pose2& start)
+  SensorRig(const HazardMap& map, const std::string& robot, const Pose2& start,
+            const RobotChanges& changes = {})
       : map_(map),
-        robot_(ReadRobot(FindRobotFile(robot, {}))),
+        robot_(ReadRobot(FindRobotFile(robot, {}), changes)),
         scene_(BuildScene(map_, robot_, {}, start)),
         sim_(scene_, map_, robot_.robot),
         drive_(MakePlugin(Drives(), robot_.robot.drive, "drive")),
@@ -64,6 +65,10 @@ class SensorRig {
 
   void Carry(std::unique_ptr<Sensor> sensor, std::uint64_t seed = 1) {
     sensor_ = std::move(sensor);
+    Start(seed);
+  }
+  // The sensor that it carries, in another episode.
+  void Start(std::uint64_t seed = 1) {
     sensor_->Start({scene_, map_, robot_.robot, kControl_s}, sim_.data(), sim_.sample(),
                    Stream(seed, 0, "noise"), sensed_);
   }
@@ -76,11 +81,13 @@ class SensorRig {
   const Observation& Drive(const BodyTwist& twist) {
     drive_->ToWheels(twist, wheels_);
     sim_.SetWheelSpeeds(wheels_);
-    for (int i = 0; i < 5; ++i) {
-      EXPECT_TRUE(sim_.Step());
-      sensor_->OnStep(sim_.sample());
-    }
+    for (int i = 0; i < 5; ++i) StepOn();
     return Sense();
+  }
+  // One physics step more, after which it does not sense.
+  void StepOn() {
+    EXPECT_TRUE(sim_.Step());
+    sensor_->OnStep(sim_.sample());
   }
   void Put(const Pose2& X_WB) { sim_.Reset(X_WB); }
 
