@@ -29,6 +29,8 @@ class Estimator : public Configurable {
  public:
   // Sensors that it cannot do without.
   virtual std::vector<std::string_view> Needs() const { return {}; }
+  // Throws InputError where map or robot do not let it work, its line beginning with the key: it is
+  // heard when a scenario is read (env/run/start_check.h).
   virtual void Start(const EstimatorContext& context) = 0;
   // One control period. `truth` is for `truth` alone: all others know what was sensed.
   virtual Estimate Update(const Observation& sensed, const Sample& truth, double dt_s) = 0;

@@ -30,9 +30,9 @@ class LikelihoodField {
   // Index into a table for a beam that ends there; off the map: the last.
   std::uint8_t StepsAway(const Vec2& p_W) const {
     const Vec2 p_G = (X_GW_ * p_W) / cell_m_;
-    const int ix = static_cast<int>(p_G.x()), iy = static_cast<int>(p_G.y());
-    if (!(p_G.x() >= 0 && p_G.y() >= 0) || ix >= away_.width || iy >= away_.height) return 255;
-    return away_(ix, iy);
+    if (!(p_G.x() >= 0 && p_G.y() >= 0 && p_G.x() < away_.width && p_G.y() < away_.height))
+      return 255;
+    return away_(static_cast<int>(p_G.x()), static_cast<int>(p_G.y()));
   }
 
  private:

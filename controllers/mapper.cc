@@ -23,6 +23,10 @@ void Mapper::Start(const GridFrame& site, const RobotSpec& robot) {
   map_.frame = FineFrame(site, cell_m_);
   map_.log_odds = Grid<float>(map_.frame.width, map_.frame.height);
   map_.marked = Grid<std::uint8_t>(map_.frame.width, map_.frame.height);
+  last_end_ = Grid<std::uint32_t>(map_.frame.width, map_.frame.height);
+  scans_ = 0;
+  ends_.clear();
+  ends_.reserve(4096);
   map_.marks.clear();
   map_.marks.reserve(64);
   X_GW_ = map_.frame.X_WG.Inverse();
@@ -53,30 +57,39 @@ void Mapper::AddBeam(const Vec2& from_G, const Vec2& to_G) {
   while (cell[0] != last[0] || cell[1] != last[1]) {
     const int k = next[0] < next[1] ? 0 : 1;
     if (next[k] > 1) return;  // rounding: it would pass the end
-    Add(cell[0], cell[1], -miss_);
+    if (last_end_.Inside(cell[0], cell[1]) && last_end_(cell[0], cell[1]) != scans_)
+      Add(cell[0], cell[1], -miss_);
     cell[k] += step[k];
     next[k] += stride[k];
   }
 }
 
+// The cells that beams of this scan end in are not taken for passed by others of it, which graze
+// them.
 void Mapper::AddScan(const LidarScan& scan, const Pose2& X_WB) {
   const double cell_m = map_.frame.cell_m;
   const Pose2 X_GL = X_GW_ * X_WB * scan.X_BL;
   const Vec2 from_G = X_GL.p() / cell_m;
+  ++scans_;
+  ends_.clear();
   for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
     const double range_m = scan.range_m[i];
-    if (!std::isfinite(range_m)) continue;
+    if (!(range_m <= range_m_)) continue;
     const double a = X_GL.yaw_rad + scan.angle_rad[i];
-    const Vec2 way_G = Vec2(std::cos(a), std::sin(a)) / cell_m;
-    const Vec2 to_G = from_G + std::min(range_m, range_m_) * way_G;
-    AddBeam(from_G, to_G);
-    if (range_m > range_m_) continue;
     // Half a cell on: a wall's face lies on the border of its first cell.
-    const Vec2 in_G = to_G + 0.5 * cell_m * way_G;
-    const int ix = static_cast<int>(std::floor(in_G.x()));
-    const int iy = static_cast<int>(std::floor(in_G.y()));
-    Add(ix, iy, hit_);
+    const Vec2 in_G = from_G + (range_m / cell_m + 0.5) * Vec2(std::cos(a), std::sin(a));
+    const Cell cell{static_cast<int>(std::floor(in_G.x())), static_cast<int>(std::floor(in_G.y()))};
+    if (!last_end_.Inside(cell) || last_end_(cell) == scans_) continue;
+    last_end_(cell) = scans_;
+    ends_.push_back(cell);
   }
+  for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
+    if (!std::isfinite(scan.range_m[i])) continue;
+    const double a = X_GL.yaw_rad + scan.angle_rad[i];
+    AddBeam(from_G,
+            from_G + std::min(scan.range_m[i], range_m_) / cell_m * Vec2(std::cos(a), std::sin(a)));
+  }
+  for (const Cell& cell : ends_) Add(cell.ix, cell.iy, hit_);
 }
 
 // What is met again is larger than it was thought to be.
@@ -110,7 +123,7 @@ void Mapper::Update(const Observation& sensed, const Estimate& estimate) {
     const double r = robot_->inscribed_radius_m / cell_m - 1;
     for (int iy = static_cast<int>(p_G.y() - r); iy <= p_G.y() + r; ++iy)
       for (int ix = static_cast<int>(p_G.x() - r); ix <= p_G.x() + r; ++ix)
-        if ((Vec2(ix + 0.5, iy + 0.5) - p_G).norm() <= r) Add(ix, iy, -most_);
+        if ((Vec2(ix + 0.5, iy + 0.5) - p_G).norm() <= r) Add(ix, iy, -hit_);
   }
 
   // What stays pressed, or stays without floor, says nothing new.

@@ -39,6 +39,9 @@ class Mapper final : public Configurable {
   double cell_m_ = 0.05, hit_ = 0.85, miss_ = 0.4, most_ = 4, mark_m_ = 0.1, range_m_ = 12;
   const RobotSpec* robot_ = nullptr;
   KnownMap map_;
+  Grid<std::uint32_t> last_end_;  // the number of the scan of which a beam last ended in a cell
+  std::uint32_t scans_ = 0;
+  std::vector<Cell> ends_;  // of this scan
   Pose2 X_GW_;
   Vec2 stood_W_ = Vec2::Constant(1e9);  // where the robot last freed the floor
   bool pressed_ = false;                // in the last period

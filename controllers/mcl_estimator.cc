@@ -27,16 +27,16 @@ class MclEstimator final : public Estimator {
   void Visit(ParamVisitor& v) override {
     v("least_particles", filter_.least, Between(10, 1e6), "fewest particles");
     v("particles", filter_.most, Between(10, 1e6), "most particles");
-    v("prior_m", prior_m_, NonNegative(), "standard deviation of the first guess, each way (m)");
+    v("prior_m", prior_m_, Between(0, 1000), "standard deviation of the first guess, each way (m)");
     v("prior_deg", prior_deg_, Between(0, 180), "the same of its heading (deg)");
     v("global", global_, "start anywhere on the free floor instead");
     v("hit_sd_m", filter_.beams.hit_sd_m, Between(0.01, 5),
       "how far a beam ends from what it met (m)");
     v("random_share", filter_.beams.random_share, Between(0.001, 0.999),
       "share of beams that end on what the map does not know");
-    v("way_noise", filter_.way_per_way, NonNegative(), "of odometry, m per m");
-    v("turn_noise", filter_.turn_per_turn, NonNegative(), "of odometry, rad per rad");
-    v("turn_noise_per_m", filter_.turn_per_m, NonNegative(), "of odometry, rad per m");
+    v("way_noise", filter_.way_per_way, Between(0, 10), "of odometry, m per m");
+    v("turn_noise", filter_.turn_per_turn, Between(0, 10), "of odometry, rad per rad");
+    v("turn_noise_per_m", filter_.turn_per_m, Between(0, 10), "of odometry, rad per m");
     v("recovery", recovery_, "draw random particles when scans fit worse than they used to");
     error_.Visit(v);
   }
@@ -51,7 +51,10 @@ class MclEstimator final : public Estimator {
       throw InputError({}, "estimator", "mcl", "needs a map of more than one free cell");
     odometry_.Start(context.robot);
     FilterParams params = filter_;
-    params.least = std::min(params.least, params.most);
+    if (params.least == FilterParams{}.least) params.least = std::min(params.least, params.most);
+    if (params.least > params.most)
+      throw InputError({}, "estimator.least_particles", std::to_string(params.least),
+                       "must be at most particles, " + std::to_string(params.most));
     if (!recovery_) params.recover_slow = params.recover_fast = 0;
     particles_.emplace(params, context.known, context.draws);
     if (global_)
@@ -60,6 +63,7 @@ class MclEstimator final : public Estimator {
       particles_->StartAround(error_.Of(context.start), prior_m_, prior_deg_ * kPi / 180);
     since_ = {};
     field_.reset();
+    first_ = true;
     X_WB_ = particles_->Best();
   }
 
@@ -73,15 +77,16 @@ class MclEstimator final : public Estimator {
 
  private:
   void Use(const LidarScan& scan) {
-    const bool first = !field_;
-    if (first) field_.emplace(*known_, scan.height_m);
-    if (!first && since_.p().norm() < kMoved_m && std::abs(since_.yaw_rad) < kTurned_rad) return;
+    if (!field_) field_.emplace(*known_, scan.height_m);
+    if (!first_ && since_.p().norm() < kMoved_m && std::abs(since_.yaw_rad) < kTurned_rad) return;
     particles_->Move(since_);
     since_ = {};
-    for (int pass = 0; pass < (first ? kFirstPasses : 1); ++pass) {
-      if (pass > 0) particles_->Jitter(0.05, 0.03);
+    const bool used = particles_->Weigh(*field_, scan);
+    for (int pass = 1; used && first_ && pass < kFirstPasses; ++pass) {
+      particles_->Jitter(0.05, 0.03);
       particles_->Weigh(*field_, scan);
     }
+    if (used) first_ = false;
     X_WB_ = particles_->Best();
   }
 
@@ -89,6 +94,7 @@ class MclEstimator final : public Estimator {
   StartError error_;
   double prior_m_ = 0.5, prior_deg_ = 20;
   bool global_ = false, recovery_ = true;
+  bool first_ = true;  // no scan was used yet
 
   const HazardMap* known_ = nullptr;
   Odometry odometry_;

@@ -48,14 +48,13 @@ bool ParticleFilter::IsFree(const Pose2& X_WB) const {
 // Drawn again until it is free: a list of all free cells would take as much memory as the map.
 Pose2 ParticleFilter::Anywhere() {
   const Vec2 size = map_.frame.cell_m * Vec2(map_.frame.width, map_.frame.height);
-  Pose2 pose = best_;
   for (int k = 0; k < kTriesAnywhere; ++k) {
     const double x_m = draws_.Uniform() * size.x(), y_m = draws_.Uniform() * size.y();
     const Vec2 p_W = map_.frame.X_WG * Vec2(x_m, y_m);
-    pose = {p_W.x(), p_W.y(), draws_.Uniform(-kPi, kPi)};
-    if (IsFree(pose)) break;
+    const Pose2 pose{p_W.x(), p_W.y(), draws_.Uniform(-kPi, kPi)};
+    if (IsFree(pose)) return pose;
   }
-  return pose;
+  return best_;
 }
 
 void ParticleFilter::StartAround(const Pose2& X_WB, double sd_m, double sd_rad) {
@@ -112,15 +111,16 @@ double ParticleFilter::LogFit(const LikelihoodField& field, const LikelihoodFiel
   return sum;
 }
 
-void ParticleFilter::Weigh(const LikelihoodField& field, const LidarScan& scan) {
+bool ParticleFilter::Weigh(const LikelihoodField& field, const LidarScan& scan) {
   ends_.clear();
   for (std::size_t i = 0; i < scan.range_m.size(); ++i)
     if (std::isfinite(scan.range_m[i]))
       ends_.push_back(scan.X_BL * Vec2(scan.range_m[i] * std::cos(scan.angle_rad[i]),
                                        scan.range_m[i] * std::sin(scan.angle_rad[i])));
-  if (static_cast<int>(ends_.size()) < params_.least_ends) {
+  if (ends_.empty() || static_cast<double>(ends_.size()) <
+                           params_.least_ends * static_cast<double>(scan.range_m.size())) {
     FindBest();
-    return;
+    return false;
   }
   const auto beams = static_cast<double>(ends_.size());
   const bool apart = spread_m_ > kApart_m;
@@ -142,6 +142,7 @@ void ParticleFilter::Weigh(const LikelihoodField& field, const LidarScan& scan) 
   FindBest();
   Resample(params_.recover_slow > 0 ? std::max(0.0, 1 - fast_ / (params_.recover_below * slow_))
                                     : 0);
+  return true;
 }
 
 ParticleFilter::Bin& ParticleFilter::BinOf(const Pose2& X_WB) {

@@ -25,7 +25,7 @@ struct FilterParams {
   double way_per_way = 0.1, turn_per_turn = 0.1, turn_per_m = 0.1;
   double way_m = 0.01, turn_rad = 0.005;  // and of every use of a scan: keeps the particles apart
   double scan_weight = 0.25;              // of a beam: neighbouring ones meet the same thing
-  int least_ends = 6;                     // a scan of which fewer beams came back says too little
+  double least_ends = 1.0 / 15;  // a scan of which a smaller share came back says too little
   double recover_slow = 0.02, recover_fast = 0.3;  // rates of the two averages; 0: no recovery
   double recover_below =
       0.7;  // random particles when the fast average is below this share of the slow
@@ -43,10 +43,10 @@ class ParticleFilter {
 
   // The robot moved by X_BB' as odometry tells it.
   void Move(const Pose2& motion_B);
-  // Weighs the particles by a scan and draws them anew; not by one that says too little. While they
-  // lie far apart, beams may end further from what they met, or few particles near the truth would
-  // all seem wrong.
-  void Weigh(const LikelihoodField& field, const LidarScan& scan);
+  // Weighs the particles by a scan and draws them anew; not by one that says too little (false).
+  // While they lie far apart, beams may end further from what they met, or few particles near the
+  // truth would all seem wrong.
+  bool Weigh(const LikelihoodField& field, const LidarScan& scan);
   // Scatters them a little: between passes over one scan.
   void Jitter(double sd_m, double sd_rad);
 

@@ -9,8 +9,9 @@ namespace floorproof {
 struct StartError {
   double x_m = 0, y_m = 0, yaw_deg = 0;
   void Visit(ParamVisitor& v) {
-    v("start_error_x_m", x_m, Any(), "the first estimate less the truth, world x (m)");
-    v("start_error_y_m", y_m, Any(), "the same, world y (m)");
+    v("start_error_x_m", x_m, Between(-1000, 1000),
+      "the first estimate less the truth, world x (m); nothing to `truth`");
+    v("start_error_y_m", y_m, Between(-1000, 1000), "the same, world y (m)");
     v("start_error_yaw_deg", yaw_deg, Between(-180, 180), "the same, heading (deg)");
   }
   Pose2 Of(const Pose2& X_WB) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "env/core/known_map.h"
 
+#include <algorithm>
+
 #include "env/core/coverage.h"
 #include "env/core/distance.h"
 
@@ -10,6 +12,24 @@ namespace {
 constexpr int kCorners = 8;  // of the polygon around a mark
 
 }  // namespace
+
+HazardMap WithSeen(const HazardMap& map, const KnownMap& known, double step_m, double slack_m) {
+  HazardMap with = map;
+  const GridFrame& frame = known.frame;
+  const Grid<float> away = DistanceToCentres(ObstacleMask(map, step_m, frame));
+  const auto slack = static_cast<float>(slack_m / frame.cell_m + 1e-6);
+  Hazard seen;
+  seen.id = seen.type = "seen";
+  for (int iy = 0; iy < frame.height; ++iy)
+    for (int ix = 0; ix < frame.width; ++ix) {
+      if (known.log_odds(ix, iy) < KnownMap::kSure || away(ix, iy) <= slack) continue;
+      const Vec2 low = frame.cell_m * Vec2(ix, iy), high = frame.cell_m * Vec2(ix + 1, iy + 1);
+      Polygon& cell = seen.footprint.emplace_back();
+      for (const Vec2& p : Rectangle(low, high)) cell.push_back(frame.X_WG * p);
+    }
+  if (!seen.footprint.empty()) with.hazards.push_back(std::move(seen));
+  return with;
+}
 
 HazardMap WithMarks(const HazardMap& map, const std::vector<FloorMark>& marks) {
   HazardMap marked = map;
@@ -51,8 +71,10 @@ KnownAgainstTruth Compare(const KnownMap& known, const HazardMap& truth, double 
       floor_known += open;
       ++all_known;
       const bool occupied = state == CellState::kOccupied;
+      const int to_border = std::min({ix, iy, blocked.width - 1 - ix, blocked.height - 1 - iy});
       const bool is_wrong =
-          occupied ? to_blocked(ix, iy) > slack : !open && to_drawn(ix, iy) > slack;
+          occupied ? std::min(to_blocked(ix, iy), static_cast<float>(to_border + 1)) > slack
+                   : !open && to_drawn(ix, iy) > slack;
       wrong += is_wrong;
       result.cells(ix, iy) = occupied ? (is_wrong ? State::kWronglyOccupied : State::kOccupied)
                                       : (is_wrong ? State::kWronglyFree : State::kFree);

@@ -33,6 +33,10 @@ struct KnownMap {
   }
 };
 
+// The map with what was seen and is not on it, further than slack_m from all that is, as one thing
+// that blocks the way.
+HazardMap WithSeen(const HazardMap& map, const KnownMap& known, double step_m, double slack_m);
+
 // The map with the marks on it as things that block the way.
 HazardMap WithMarks(const HazardMap& map, const std::vector<FloorMark>& marks);
 

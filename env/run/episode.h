@@ -43,9 +43,10 @@ struct Metrics {
   int interventions = 0;
   int reactions = 0;  // times the robot went back from what it met (the key `react`)
   double max_estimate_error_m = 0, mean_estimate_error_m = 0;  // of the place, against the truth
-  double p95_estimate_error_m = 0;  // below which it was for 95 % of the time, to a millimetre
-  int contacts = 0;                 // times the body met an obstacle
-  double max_impulse_ns = 0;        // of one physics step
+  double p95_estimate_error_m = 0;    // below which it was for 95 % of the time, to a millimetre
+  double mean_estimate_spread_m = 0;  // that the estimator itself believed in
+  int contacts = 0;                   // times the body met an obstacle
+  double max_impulse_ns = 0;          // of one physics step
 };
 
 struct Margin {

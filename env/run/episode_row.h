@@ -14,7 +14,7 @@
 namespace floorproof {
 
 // Metrics in the order of result.json; a column each.
-inline constexpr std::array<std::string_view, 18> kMetricColumns = {"coverage",
+inline constexpr std::array<std::string_view, 19> kMetricColumns = {"coverage",
                                                                     "overlap",
                                                                     "path_length_m",
                                                                     "duration_s",
@@ -30,6 +30,7 @@ inline constexpr std::array<std::string_view, 18> kMetricColumns = {"coverage",
                                                                     "max_estimate_error_m",
                                                                     "mean_estimate_error_m",
                                                                     "p95_estimate_error_m",
+                                                                    "mean_estimate_spread_m",
                                                                     "contacts",
                                                                     "max_impulse_ns"};
 

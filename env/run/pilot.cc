@@ -6,6 +6,12 @@
 #include "planners/lib/rejoin.h"
 
 namespace floorproof {
+namespace {
+
+// Nearer to a wall of the map, what was seen is that wall, drawn where the robot thought it was.
+constexpr double kSeenAway_m = 0.12;
+
+}  // namespace
 
 Pilot::Pilot(Scenario& scenario, const Scene& scene, const HazardMap& known, const PlanResult& plan)
     : s_(scenario),
@@ -43,8 +49,10 @@ void Pilot::OnStep(const Sample& truth) {
 
 // Where it went is not asked again: the rest of the path, joined from where the robot thinks it is.
 void Pilot::TakeNewPath() {
-  path_ = Rejoin({known_, mapper_->map().marks, robot_, plan_.clear, path_, command_.segment,
-                  estimate_.X_WB, s_.react->then == "replan"});
+  const KnownMap& drawn = mapper_->map();
+  const HazardMap known = WithSeen(known_, drawn, robot_.step_m, kSeenAway_m);
+  path_ = Rejoin({known, drawn.marks, robot_, plan_.clear, path_, command_.segment, estimate_.X_WB,
+                  s_.react->then == "replan"});
   s_.tracker->Start(path_, robot_, &clearance_);
   command_ = {};
 }

@@ -32,6 +32,7 @@ class Recorder {
     if (sample.shape != shape_) TakeShape(sample.shape);
     if (shape_ >= 0) meter_.Add(sample.X_WB());
     AddEstimateError((estimate.X_WB.p() - sample.p_WB.head<2>()).norm());
+    spread_sum_ += estimate.spread_m;
     if (control_++ % trace_every_ != 0) return;
     const auto f = [](double v) { return static_cast<float>(v); };
     const BodyTwist& cmd = sample.command.twist;
@@ -130,7 +131,7 @@ class Recorder {
   void AddEstimateError(double error_m) {
     record_.metrics.max_estimate_error_m = std::max(record_.metrics.max_estimate_error_m, error_m);
     estimate_error_sum_ += error_m;
-    const auto mm = static_cast<std::size_t>(std::min(error_m * 1000, kMostMm - 1.0));
+    const auto mm = static_cast<std::size_t>(std::clamp(error_m * 1000, 0.0, kMostMm - 1.0));
     ++errors_mm_[mm];
   }
   void FinishEstimateError() {
@@ -139,6 +140,7 @@ class Recorder {
         static_cast<double>(std::accumulate(errors_mm_.begin(), errors_mm_.end(), std::int64_t{0}));
     if (all == 0) return;
     m.mean_estimate_error_m = estimate_error_sum_ / all;
+    m.mean_estimate_spread_m = spread_sum_ / all;
     std::size_t mm = 0;
     for (auto below = static_cast<double>(errors_mm_[0]);
          below < 0.95 * all && mm + 1 < errors_mm_.size();)
@@ -160,7 +162,7 @@ class Recorder {
   const SweepArea& area_;
   const RobotSpec& robot_;
   CoverageMeter meter_;
-  double dt_s_, cross_track_sum_ = 0, estimate_error_sum_ = 0;
+  double dt_s_, cross_track_sum_ = 0, estimate_error_sum_ = 0, spread_sum_ = 0;
   static constexpr double kMostMm = 10000;  // errors beyond are counted together
   std::vector<std::int64_t> errors_mm_ =
       std::vector<std::int64_t>(static_cast<std::size_t>(kMostMm));

@@ -90,6 +90,7 @@ Json MetricsJson(const Metrics& m) {
           {"max_estimate_error_m", m.max_estimate_error_m},
           {"mean_estimate_error_m", m.mean_estimate_error_m},
           {"p95_estimate_error_m", m.p95_estimate_error_m},
+          {"mean_estimate_spread_m", m.mean_estimate_spread_m},
           {"contacts", m.contacts},
           {"max_impulse_ns", m.max_impulse_ns}};
 }

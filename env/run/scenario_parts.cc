@@ -170,6 +170,9 @@ void ReadReaction(const ConfigNode& root, Scenario& s) {
   if (const ConfigNode* node = written("react")) {
     s.react.emplace();
     ReadParams(*node, "react.", [&](ParamVisitor& v) { s.react->Visit(v); });
+    if (!s.robot.robot.hinges.empty())
+      throw InputError(node->mark, "react", "",
+                       "cannot be with a plan that changes the robot's shape");
   }
   if (const ConfigNode* node = written("mapper")) {
     s.mapper.emplace();

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "env/run/start_check.h"
 
+#include <algorithm>
+
+#include "env/run/scenario_parts.h"
+
 namespace floorproof {
 namespace {
 
@@ -17,14 +21,18 @@ SourceMark MarkOfPath(const ConfigNode& root, std::string_view path) {
   return node->mark;
 }
 
-// Plug-ins know the key, not where it is written: their lines begin with it.
+// Plug-ins know the key, not where it is written: their lines begin with it, or with the robot's
+// file.
 template <class Start>
 void Check(const ConfigNode& root, Start start) {
   try {
     start();
   } catch (const InputError& e) {
     const std::string_view line = e.what();
-    throw InputError(MarkOfPath(root, line.substr(0, line.find_first_of(" :"))), "", "", line);
+    const std::string_view path = line.substr(0, line.find_first_of(" :"));
+    const auto& keys = ScenarioKeys();
+    if (std::ranges::find(keys, path.substr(0, path.find('.'))) == keys.end()) throw;
+    throw InputError(MarkOfPath(root, path), "", "", line);
   }
 }
 

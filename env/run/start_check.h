@@ -6,8 +6,9 @@
 
 namespace floorproof {
 
-// Starts the scenario's sensors on a bare floor, and its estimator where the robot will stand.
-// Throws what they refuse as an InputError that names where the key is written in `root`.
+// Starts the scenario's sensors on a bare floor, and its estimator where the robot will stand; an
+// episode starts them anew. Throws what they refuse as an InputError that says where the key is
+// written in `root`.
 void CheckStarts(const ConfigNode& root, Scenario& s);
 
 }  // namespace floorproof

@@ -40,12 +40,16 @@ class Encoders final : public Sensor {
   }
 
   void Sense(mjData* data, const Sample& truth, Observation& out) override {
-    out.hinges = truth.hinges;
     const double tick_rad = 2 * kPi / ticks_;
+    out.hinges = truth.hinges;
+    for (int h = 0; h < out.hinges.n; ++h) {
+      double& rad = out.hinges.rad[static_cast<std::size_t>(h)];
+      rad = tick_rad * std::round(rad / tick_rad);
+    }
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       const double now_rad = data->qpos[joints_[i]];
       double turned_rad = (now_rad - last_rad_[i]) * (1 + bias_);
-      if (noise_ > 0) turned_rad *= 1 + noise_ * stream_->Normal();
+      turned_rad *= 1 + noise_ * stream_->Normal();
       last_rad_[i] = now_rad;
       remainder_rad_[i] += turned_rad;
       out.wheel_rad[i] = tick_rad * std::floor(remainder_rad_[i] / tick_rad + 0.5);

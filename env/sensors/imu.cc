@@ -43,9 +43,9 @@ class Imu final : public Sensor {
     last_v_W_ = truth.v_WB_W;
     out.gyro_radps = Vec3(V) + gyro_offset_;
     out.accel_mps2 = R_WB.transpose() * force_W + accel_offset_;
-    for (int i = 0; i < 3; ++i) {
-      if (gyro_noise_ > 0) out.gyro_radps[i] += gyro_noise_ * stream_->Normal();
-      if (accel_noise_ > 0) out.accel_mps2[i] += accel_noise_ * stream_->Normal();
+    for (int i = 0; i < 3; ++i) {  // always as many draws: no key's value changes another's noise
+      out.gyro_radps[i] += gyro_noise_ * stream_->Normal();
+      out.accel_mps2[i] += accel_noise_ * stream_->Normal();
     }
   }
 

@@ -35,8 +35,8 @@ class Lidar final : public Sensor {
     v("z_m", z_m_, Positive(), "height of the scan plane (m); none: of the model's site `lidar`");
   }
 
-  void Start(const SensorContext& context, const mjData*, const Sample& truth, const Stream& noise,
-             Observation& out) override {
+  void Start(const SensorContext& context, const mjData* data, const Sample& truth,
+             const Stream& noise, Observation& out) override {
     context_.emplace(context);
     const mjModel* m = context.scene.model.get();
     stream_ = noise;
@@ -48,13 +48,17 @@ class Lidar final : public Sensor {
                        "must be stated: " + context.robot.name + " has no site `lidar`");
     p_R_ = site >= 0 ? Vec3(m->site_pos + 3 * site) : Vec3::Zero();
     if (z_m_) p_R_.z() = *z_m_;
-    RefuseBlockedView(m);
+    RefuseBlockedView(m, data);
+    if (!(least_m_ < range_m_))
+      throw InputError({}, "sensors.lidar.least_m", FormatDouble(least_m_),
+                       "must be less than range_m, " + FormatDouble(range_m_));
 
     LidarScan& scan = out.scan;
     scan = {};
     scan.height_m = p_R_.z();
     scan.least_m = least_m_;
     scan.most_m = range_m_;
+    scan.X_BL = MountOn(truth, data);
     const auto n = static_cast<std::size_t>(beams_);
     for (std::size_t i = 0; i < n; ++i)
       scan.angle_rad.push_back(WrapAngle(2 * kPi * static_cast<double>(i) / beams_));
@@ -73,7 +77,9 @@ class Lidar final : public Sensor {
                                                                               9 * base_);
     const Vec3 p_W = Vec3(data->xpos + 3 * base_) + R_WR * p_R_;
     scan.t_s = truth.t_s;
-    scan.X_BL = truth.X_WB().Inverse() * Pose2{p_W.x(), p_W.y(), truth.yaw_rad};
+    // The mount is known, as are the hinges; how the robot tilts is not.
+    if (truth.hinges.n > 0)
+      scan.X_BL = truth.X_WB().Inverse() * Pose2{p_W.x(), p_W.y(), truth.yaw_rad};
     for (std::size_t i = 0; i < hits_.size(); ++i) {
       const double a = scan.angle_rad[i];
       const Vec3 direction_W = R_WR * Vec3(std::cos(a), std::sin(a), 0);
@@ -85,6 +91,13 @@ class Lidar final : public Sensor {
   }
 
  private:
+  // As the robot stands level, at its start.
+  Pose2 MountOn(const Sample& truth, const mjData* data) const {
+    const Pose2 X_WR{data->xpos[3 * base_], data->xpos[3 * base_ + 1], truth.yaw_rad};
+    const Vec2 p_W = X_WR * Vec2(p_R_.head<2>());
+    return truth.X_WB().Inverse() * Pose2{p_W.x(), p_W.y(), truth.yaw_rad};
+  }
+
   // What the beam comes back from.
   RayHit SeenThrough(const mjData* data, const Vec3& p_W, const Vec3& direction_W,
                      RayHit hit) const {
@@ -121,21 +134,24 @@ class Lidar final : public Sensor {
                : context_->map.hazards[static_cast<std::size_t>(hazard)].material.reflectance;
   }
 
-  // Parts of the chassis beyond the scanner's own housing would be all that it sees.
-  void RefuseBlockedView(const mjModel* m) const {
+  // Beams begin outside the scanner's own housing; body and wheels beyond it would be all that they
+  // see.
+  void RefuseBlockedView(const mjModel* m, const mjData* data) const {
+    using Rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
+    const Rotation R_WR(data->xmat + 9 * base_);
+    const Vec3 p_W = Vec3(data->xpos + 3 * base_) + R_WR * p_R_;
     for (int g = 0; g < m->ngeom; ++g) {
-      const bool chassis =
-          context_->scene.roles[static_cast<std::size_t>(g)].kind == GeomRole::Kind::kBody &&
-          m->geom_bodyid[g] == base_ && m->geom_type[g] != mjGEOM_MESH;
-      if (!chassis) continue;
-      mjtNum mat[9];
-      mju_quat2Mat(mat, m->geom_quat + 4 * g);
+      const GeomRole::Kind kind = context_->scene.roles[static_cast<std::size_t>(g)].kind;
+      if ((kind != GeomRole::Kind::kBody && kind != GeomRole::Kind::kWheel) ||
+          m->geom_type[g] == mjGEOM_MESH)
+        continue;
       for (int i = 0; i < beams_; ++i) {
         const double a = 2 * kPi * i / beams_;
-        const Vec3 direction(std::cos(a), std::sin(a), 0);
-        const double range_m = mju_rayGeom(m->geom_pos + 3 * g, mat, m->geom_size + 3 * g,
-                                           p_R_.data(), direction.data(), m->geom_type[g], nullptr);
-        if (range_m <= kHousing_m) continue;
+        const Vec3 way_W = R_WR * Vec3(std::cos(a), std::sin(a), 0);
+        const Vec3 from_W = p_W + kHousing_m * way_W;
+        if (mju_rayGeom(data->geom_xpos + 3 * g, data->geom_xmat + 9 * g, m->geom_size + 3 * g,
+                        from_W.data(), way_W.data(), m->geom_type[g], nullptr) < 0)
+          continue;
         const char* name = mj_id2name(m, mjOBJ_GEOM, g);
         throw InputError({}, "sensors.lidar.z_m", FormatDouble(p_R_.z()),
                          "the robot itself is in the way of its beams: geom " +

@@ -28,7 +28,8 @@ struct SensorContext {
 class Sensor : public Configurable {
  public:
   // Before the first step, the robot standing at its start; `noise` is this episode's stream of
-  // this sensor. Sizes what Sense() fills. Throws InputError where the robot cannot carry it.
+  // this sensor. Sizes what Sense() fills. Throws InputError where the robot cannot carry it, its
+  // line beginning with the key: it is heard when a scenario is read (env/run/start_check.h).
   virtual void Start(const SensorContext& context, const mjData* data, const Sample& truth,
                      const Stream& noise, Observation& out) = 0;
   // After every physics step; for what must not be missed between two control periods.

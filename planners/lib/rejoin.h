@@ -9,7 +9,7 @@
 namespace floorproof {
 
 struct RejoinRequest {
-  const HazardMap& known;  // as it was planned with
+  const HazardMap& known;  // as it was planned with, and what was seen since (WithSeen)
   const std::vector<FloorMark>& marks;
   const RobotSpec& robot;
   const Shape2& clear;  // what the plan keeps clear

@@ -10,7 +10,7 @@ namespace {
 
 struct Study {
   const char *scenario, *plain, *hard;
-  double least_m;  // that the mean error of the estimate grows by, at 95 %
+  std::vector<const char*> worse;  // metrics that grow, at 95 %
 };
 void PrintTo(const Study& study, std::ostream* os) { *os << study.scenario; }
 
@@ -18,8 +18,11 @@ class LocalisationStudy : public testing::TestWithParam<Study> {
  protected:
   void SetUp() override { std::filesystem::create_directories(folder_); }
   void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / (std::string("study_") + GetParam().scenario);
+  std::filesystem::path folder_ = [] {
+    std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::ranges::replace(name, '/', '_');
+    return std::filesystem::path(testing::TempDir()) / ("localisation_study_" + name);
+  }();
 };
 
 TEST_P(LocalisationStudy, WorsensWhatTheRobotKnowsOfItsPlace) {
@@ -37,17 +40,23 @@ TEST_P(LocalisationStudy, WorsensWhatTheRobotKnowsOfItsPlace) {
   ASSERT_EQ(compare.Wait(), 0) << compare.Said();
   const nlohmann::json found = nlohmann::json::parse(compare.Out());
   EXPECT_EQ(found["n"], 100);
-  for (const char* metric : {"mean_estimate_error_m", "max_estimate_error_m"}) {
+  for (const char* metric : study.worse) {
     const nlohmann::json& mean = found["metrics"][metric]["mean"];
-    EXPECT_GT(mean["lower"].get<double>(), study.least_m) << metric << ": " << mean.dump();
+    EXPECT_GT(mean["lower"].get<double>(), 0) << metric << ": " << mean.dump();
   }
 }
 
+const std::vector<const char*> kAll = {"mean_estimate_error_m", "max_estimate_error_m",
+                                       "mean_estimate_spread_m", "mean_cross_track_m"};
+// Slip of a second or two is made good by the next scans.
+const std::vector<const char*> kErrors = {"mean_estimate_error_m", "max_estimate_error_m",
+                                          "mean_estimate_spread_m"};
+
 INSTANTIATE_TEST_SUITE_P(
     All, LocalisationStudy,
-    testing::Values(Study{"localisation_glass", "walls=board", "walls=glass", 0.005},
-                    Study{"localisation_corridor", "corridor=niches", "corridor=bare", 0.1},
-                    Study{"localisation_slip", "covers=none", "covers=covers", 0}));
+    testing::Values(Study{"localisation_glass", "walls=board", "walls=glass", kAll},
+                    Study{"localisation_corridor", "corridor=niches", "corridor=bare", kAll},
+                    Study{"localisation_slip", "covers=none", "covers=covers", kErrors}));
 
 }  // namespace
 }  // namespace floorproof

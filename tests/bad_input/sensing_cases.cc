@@ -34,11 +34,14 @@ BadInput By(const std::string& name, std::vector<std::string> arguments, BadInpu
   return bad;
 }
 
-// BELUGA without the place for a lidar.
-std::string RobotWithoutLidar() {
+// BELUGA with `from` changed, in place of the scenario's robot.
+BadInput OnARobotWith(const std::string& from, const std::string& to, BadInput bad) {
   std::ifstream file(FP_SOURCE_DIR "/models/beluga.xml");
   const std::string text((std::istreambuf_iterator<char>(file)), {});
-  return Replaced(text, R"(<site name="lidar" pos="0 0 0.335"/>)", "");
+  bad.files["mine.xml"] = Replaced(text, from, to);
+  bad.files["scenario.yaml"] =
+      Replaced(bad.files["scenario.yaml"], "robot: beluga", "robot: mine.xml");
+  return bad;
 }
 
 }  // namespace
@@ -58,11 +61,12 @@ std::vector<BadInput> SensingCases() {
   one_cell.files["scenario.yaml"] =
       Replaced(one_cell.files["scenario.yaml"], "x_m: 1.0, y_m: 1.0", "x_m: 3.0, y_m: 3.0");
   one_cell.files["plan.csv"] = "x_m,y_m\n3,3\n3.5,3\n";
-  BadInput no_site = Estimator("ALidarWithoutAPlace", "{name: mcl}",
-                               {kFile + ":1: sensors.lidar.z_m: must be stated", "no site"});
-  no_site.files["mine.xml"] = RobotWithoutLidar();
-  no_site.files["scenario.yaml"] =
-      Replaced(no_site.files["scenario.yaml"], "robot: beluga", "robot: mine.xml");
+
+  BadInput folds = Added("", "react: {}", {kFile + ":13: react", "changes the robot's shape"});
+  folds.files["plan.csv"] = "x_m,y_m,shape\n1,1,O\n1.5,1,I\n";
+  folds.files["scenario.yaml"] =
+      Replaced(Replaced(folds.files["scenario.yaml"], "beluga", "htetro"), "regulated_pursuit",
+               "holonomic_follower");
 
   return {
       Added("NoBeams", "sensors: {lidar: {beams: 0}}",
@@ -113,11 +117,21 @@ std::vector<BadInput> SensingCases() {
          Added("", "", {"floorproof: --set sensors.lidar.z_m:1: sensors.lidar.z_m = 0.05"})),
       Added("LidarWithinTheBodyOnItsOwnLine", "sensors:\n  lidar:\n    beams: 30\n    z_m: 0.1",
             {kFile + ":16: sensors.lidar.z_m = 0.1", "in the way of its beams"}),
-      no_site,
+      Added("ALidarThatSeesNoFarther", "sensors:\n  lidar:\n    range_m: 0.5\n    least_m: 0.5",
+            {kFile + ":16: sensors.lidar.least_m = 0.5", "must be less than range_m, 0.5"}),
+      OnARobotWith(R"(<site name="lidar" pos="0 0 0.335"/>)", "",
+                   Estimator("ALidarWithoutAPlace", "{name: mcl}",
+                             {kFile + ":1: sensors.lidar.z_m: must be stated", "no site"})),
+      // The robot's own fault, which odometry meets first: its file is named, not the scenario.
+      OnARobotWith(R"("wheel_right" pos="0 -0)", R"("wheel_right" pos="0 0)",
+                   Estimator("BothWheelsOnOneSide", "odometry",
+                             {"floorproof: mine.xml: drive = differential", "the same y"})),
       Estimator("NoParticles", "{name: mcl, particles: 0}",
                 {kFile + ":7: estimator.particles = 0", "must be in [10, 1e+06]"}),
       Estimator("NegativePrior", "{name: mcl, prior_m: -1}",
-                {kFile + ":7: estimator.prior_m = -1", "must be >= 0"}),
+                {kFile + ":7: estimator.prior_m = -1", "must be in [0, "}),
+      Estimator("MoreParticlesAtLeastThanAtMost", "{name: mcl, particles: 50, least_particles: 60}",
+                {kFile + ":7: estimator.least_particles = 60", "must be at most particles, 50"}),
       Estimator("AKeyOfAnotherEstimator", "{name: odometry, particles: 500}",
                 {kFile + ":7: estimator.particles", "unknown key"}),
       one_cell,
@@ -132,6 +146,7 @@ std::vector<BadInput> SensingCases() {
       Added("ReactAsAWord", "react: true", {kFile + ":13: react = true", "must be a map of keys"}),
       Added("UnknownKeyOfTheReaction", "react: {cliffs: true}",
             {kFile + ":13: react.cliffs", "unknown key; did you mean cliff?"}),
+      By("ReactsWhileItFolds", plan, folds),
       Added("MapperOfNoCells", "mapper: {cell_m: 0}",
             {kFile + ":13: mapper.cell_m = 0", "must be in [0.01, 1]"}),
       Added("MapperAsAList", "mapper: [0.05]", {kFile + ":13: mapper", "must be a map of keys"}),

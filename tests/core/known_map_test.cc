@@ -161,9 +161,11 @@ TEST(Compare, NothingKnownIsNothingWrong) {
 
 // A wall is drawn one cell, then three cells, beside its place: in front of it and behind it.
 TEST(Compare, AWallALittleBesideItsPlaceIsNotWrong) {
-  const HazardMap truth = Truth(std::vector<std::string>(3, "........####"));
+  // High enough that its upper and lower border, beyond which all is wall, are far.
+  constexpr std::size_t kRows = 9;
+  const HazardMap truth = Truth(std::vector<std::string>(kRows, "........####"));
   const auto wrong = [&](const std::string& row, double slack_m) {
-    return Compare(Known({row, row, row}), truth, 0.01, slack_m).wrong;
+    return Compare(Known(std::vector<std::string>(kRows, row)), truth, 0.01, slack_m).wrong;
   };
   EXPECT_EQ(wrong("........#???", 0), 0);
   EXPECT_EQ(wrong(".......#????", 0.05), 0);

@@ -42,6 +42,22 @@ INSTANTIATE_TEST_SUITE_P(
                       RobotOnMap{"beluga", "apartment"}, RobotOnMap{"htetro", "apartment"},
                       RobotOnMap{"beluga", "depot"}, RobotOnMap{"htetro", "depot"}));
 
+// As it comes: adaptive, from guesses drawn from the prior.
+TEST_P(Localisation, DoesSoAsItComesFromGuessesOfItsPrior) {
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    Stream draw(seed, 0, "guess");
+    const auto number = [](double x) { return std::to_string(x); };
+    const EpisodeRecord dut =
+        Drive(ReadInit({{"estimator.name", "mcl"},
+                        {"seed", std::to_string(seed)},
+                        {"estimator.start_error_x_m", number(0.5 * draw.Normal())},
+                        {"estimator.start_error_y_m", number(0.5 * draw.Normal())},
+                        {"estimator.start_error_yaw_deg", number(20 * draw.Normal())}}));
+    EXPECT_TRUE(dut.events.empty()) << "seed " << seed;
+    EXPECT_LT(dut.metrics.p95_estimate_error_m, kNear_m) << "seed " << seed;
+  }
+}
+
 // Listens to the sensors of a robot that another estimator drives.
 class Listener final : public EpisodeObserver {
  public:

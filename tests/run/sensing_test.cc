@@ -167,6 +167,19 @@ TEST_F(SensingTest, TheSameSeedIsLostTheSameWay) {
   }
 }
 
+// Particles are drawn, and so is a gyro's noise; what is exact is the same whatever the seed.
+TEST_F(SensingTest, WhatIsDrawnHangsOnTheSeed) {
+  const std::string exact =
+      "sensors: {lidar: {noise_m: 0, noise_share: 0, dropout: 0}, imu: {gyro_noise_radps: 0, "
+      "gyro_bias_radps: 0, accel_noise_mps2: 0, accel_bias_mps2: 0}}\n";
+  const auto differ = [&](const std::string& keys) {
+    return Trace(DriveRoom(keys + "seed: 1\n")) != Trace(DriveRoom(keys + "seed: 2\n"));
+  };
+  EXPECT_TRUE(differ("estimator: mcl\n" + exact));
+  EXPECT_TRUE(differ("estimator: odometry\n"));
+  EXPECT_FALSE(differ("estimator: odometry\n" + exact));
+}
+
 class CountAllocations : public EpisodeObserver {
  public:
   bool OnControl(const EpisodeView&) override {
