@@ -30,8 +30,7 @@ Grid<std::uint8_t> Component(const Grid<std::uint8_t>& passable, Cell seed) {
 
 // 1 on the cells of the map, with a ring around it, that are wall and within a robot's reach of the
 // free floor that hangs together with the start.
-Grid<std::uint8_t> WallsInSight(const HazardMap& map, const RobotSpec& robot,
-                                  const Vec2& start_W) {
+Grid<std::uint8_t> WallsInSight(const HazardMap& map, const RobotSpec& robot, const Vec2& start_W) {
   const GridFrame fine = FineFrame(map.frame);
   const int k = fine.width / map.frame.width;
   Grid<std::uint8_t> wall(fine.width, fine.height);

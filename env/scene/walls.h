@@ -10,11 +10,11 @@
 
 namespace floorproof {
 
-// Maximal rectangles of occupied cells (IsWall), one ring of cells beyond the map included, as far as
-// a robot that starts there can see or touch them: those within reach (its circumscribed circle and
-// 0.3 m more, so that a picture shows walls of some thickness) of the free floor that hangs together
-// with the start. A lidar sees into gaps that the robot does not fit into. Faces towards free cells
-// are drawn back by map.inset_m.
+// Maximal rectangles of occupied cells (IsWall), one ring of cells beyond the map included, as far
+// as a robot that starts there can see or touch them: those within reach (its circumscribed circle
+// and 0.3 m more, so that a picture shows walls of some thickness) of the free floor that hangs
+// together with the start. A lidar sees into gaps that the robot does not fit into. Faces towards
+// free cells are drawn back by map.inset_m.
 std::vector<WallBox> WallBoxes(const HazardMap& map, const RobotSpec& robot, const Vec2& start_W);
 
 // Greedy cover of the set cells by rectangles that do not overlap: {ix, iy, width, height}.

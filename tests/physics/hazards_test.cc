@@ -99,7 +99,8 @@ TEST_P(Hazards, AWideGrooveIsNamedWhateverItDoes) {
 struct Shove : EpisodeObserver {
   bool OnControl(const EpisodeView& now) override {
     const double t_s = now.simulation.sample().t_s;
-    now.simulation.data()->xfrc_applied[6 * mj_name2id(now.simulation.model(), mjOBJ_BODY, "base") + 1] =
+    now.simulation.data()
+        ->xfrc_applied[6 * mj_name2id(now.simulation.model(), mjOBJ_BODY, "base") + 1] =
         t_s > 5 && t_s < 7 ? 1.3 * 9.81 * 12 : 0;
     return true;
   }
