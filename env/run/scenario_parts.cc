@@ -26,6 +26,22 @@ SourceMark MarkOf(const ConfigNode& root, std::string_view key) {
   return node ? node->mark : root.mark;
 }
 
+// What is written under the key; nullptr where that is nothing, or null.
+const ConfigNode* Written(const ConfigNode& root, std::string_view key) {
+  const ConfigNode* node = root.Find(key);
+  return node != nullptr && !node->IsNull() ? node : nullptr;
+}
+
+// The map of plug-ins under the key, each by its name, empty where there is none.
+ConfigNode PluginMap(const ConfigNode& root, const std::string& key, const char* of,
+                     const std::vector<std::string>& names) {
+  const ConfigNode* node = Written(root, key);
+  if (node == nullptr) return EmptyMap(root.mark);
+  if (!node->IsMap()) throw InputError(node->mark, key, "", std::string("must be a map of ") + of);
+  RefuseUnknownKeys(*node, key + ".", names);
+  return *node;
+}
+
 // A group of parameters under a key of their own, which may be missing.
 template <class Params>
 void ReadGroup(const ConfigNode& root, const std::string& key, Params& params) {
@@ -41,9 +57,8 @@ struct Named {
 };
 Named ReadNamed(const ConfigNode& root, const char* key, const char* name_key,
                 std::string_view default_name) {
-  const ConfigNode* node = root.Find(key);
-  if (node == nullptr || node->IsNull())
-    return {std::string(default_name), EmptyMap(root.mark), root.mark};
+  const ConfigNode* node = Written(root, key);
+  if (node == nullptr) return {std::string(default_name), EmptyMap(root.mark), root.mark};
   if (node->IsScalar()) return {node->scalar, EmptyMap(node->mark), node->mark};
   if (!node->IsMap()) throw InputError(node->mark, key, "", "must be a name or a map");
   const ConfigNode* name = node->Find(name_key);
@@ -163,18 +178,14 @@ void ReadControl(const ConfigNode& root, Scenario& s) {
 
 // The mapper keeps what was met, so that a robot which reacts has one.
 void ReadReaction(const ConfigNode& root, Scenario& s) {
-  const auto written = [&root](const char* key) {
-    const ConfigNode* node = root.Find(key);
-    return node != nullptr && !node->IsNull() ? node : nullptr;
-  };
-  if (const ConfigNode* node = written("react")) {
+  if (const ConfigNode* node = Written(root, "react")) {
     s.react.emplace();
     ReadParams(*node, "react.", [&](ParamVisitor& v) { s.react->Visit(v); });
     if (!s.robot.robot.hinges.empty())
       throw InputError(node->mark, "react", "",
                        "cannot be with a plan that changes the robot's shape");
   }
-  if (const ConfigNode* node = written("mapper")) {
+  if (const ConfigNode* node = Written(root, "mapper")) {
     s.mapper.emplace();
     ReadParams(*node, "mapper.", *s.mapper);
   } else if (s.react) {
@@ -183,19 +194,14 @@ void ReadReaction(const ConfigNode& root, Scenario& s) {
 }
 
 void ReadSensors(const ConfigNode& root, Scenario& s) {
-  const ConfigNode* node = root.Find("sensors");
-  const ConfigNode none = EmptyMap(root.mark);
-  if (node == nullptr || node->IsNull()) node = &none;
-  if (!node->IsMap()) throw InputError(node->mark, "sensors", "", "must be a map of sensors");
-  RefuseUnknownKeys(*node, "sensors.", PluginNames(Sensors()));
+  const ConfigNode written = PluginMap(root, "sensors", "sensors", PluginNames(Sensors()));
   auto needed = s.estimator->Needs();
-  if (const ConfigNode* mapper = root.Find("mapper"); mapper != nullptr && !mapper->IsNull())
-    needed.push_back("lidar");
+  if (Written(root, "mapper")) needed.push_back("lidar");
   if (s.react && s.react->bumper) needed.push_back("bumper");
   if (s.react && s.react->cliff) needed.push_back("cliff");
   for (const auto& entry : Sensors()) {
     const std::string name(entry.name);
-    const ConfigNode* params = node->Find(name);
+    const ConfigNode* params = written.Find(name);
     if (params == nullptr && std::ranges::find(needed, entry.name) == needed.end()) continue;
     s.sensors.push_back({name, entry.make()});
     if (params != nullptr && !params->IsNull())
@@ -204,15 +210,11 @@ void ReadSensors(const ConfigNode& root, Scenario& s) {
 }
 
 void ReadFailures(const ConfigNode& root, Scenario& s) {
-  const ConfigNode* node = root.Find("failures");
-  const ConfigNode none = EmptyMap(root.mark);
-  if (node == nullptr || node->IsNull()) node = &none;
-  if (!node->IsMap()) throw InputError(node->mark, "failures", "", "must be a map of detectors");
-  RefuseUnknownKeys(*node, "failures.", PluginNames(Detectors()));
+  const ConfigNode written = PluginMap(root, "failures", "detectors", PluginNames(Detectors()));
   for (const auto& entry : Detectors()) {
     auto detector = entry.make();
     const std::string name(entry.name);
-    if (const ConfigNode* params = node->Find(name))
+    if (const ConfigNode* params = written.Find(name))
       ReadParams(*params, "failures." + name + ".", *detector);
     s.detectors.push_back(std::move(detector));
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "env/sensors/body_frame.h"
 #include "env/sensors/rays.h"
 #include "env/sensors/sensor.h"
 
@@ -34,13 +35,12 @@ class Cliff final : public Sensor {
   }
 
   void Sense(mjData* data, const Sample& truth, Observation& out) override {
-    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R_WB(data->xmat +
-                                                                              9 * base_);
+    const Rotation R_WB = RotationOf(data, base_);
     const Vec3 down_W = -R_WB.col(2);
     for (int i = 0; i < out.cliffs.n; ++i) {
       const auto at = static_cast<std::size_t>(i);
       const Vec3 p_B(out.cliffs.p_B[at].x(), out.cliffs.p_B[at].y(), height_m_);
-      const RayHit hit = rays_->Cast(data, truth.p_WB + R_WB * p_B, down_W, 10, true);
+      const RayHit hit = rays_->Cast(data, truth.p_WB + R_WB * p_B, down_W, 10);
       out.cliffs.drop[at] = hit.range_m > height_m_ + reach_m_;
     }
   }

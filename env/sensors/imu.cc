@@ -4,6 +4,7 @@
 // period since the last, as a device averages what it samples faster; at rest it is g, upwards.
 #include <optional>
 
+#include "env/sensors/body_frame.h"
 #include "env/sensors/sensor.h"
 
 namespace floorproof {
@@ -36,8 +37,7 @@ class Imu final : public Sensor {
   void Sense(mjData* data, const Sample& truth, Observation& out) override {
     mjtNum V[6];  // turn, then travel, in the base's axes
     mj_objectVelocity(model_, data, mjOBJ_XBODY, base_, V, 1);
-    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R_WB(data->xmat +
-                                                                              9 * base_);
+    const Rotation R_WB = RotationOf(data, base_);
     const Vec3 g_W(model_->opt.gravity[0], model_->opt.gravity[1], model_->opt.gravity[2]);
     const Vec3 force_W = (truth.v_WB_W - last_v_W_) / control_s_ - g_W;
     last_v_W_ = truth.v_WB_W;

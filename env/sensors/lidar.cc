@@ -10,6 +10,7 @@
 #include <cmath>
 #include <optional>
 
+#include "env/sensors/body_frame.h"
 #include "env/sensors/rays.h"
 #include "env/sensors/sensor.h"
 
@@ -73,8 +74,7 @@ class Lidar final : public Sensor {
     scan.fresh = truth.t_s >= next_s_ - 1e-9;
     if (!scan.fresh) return;
     next_s_ += 1 / rate_hz_;
-    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R_WR(data->xmat +
-                                                                              9 * base_);
+    const Rotation R_WR = RotationOf(data, base_);
     const Vec3 p_W = Vec3(data->xpos + 3 * base_) + R_WR * p_R_;
     scan.t_s = truth.t_s;
     // The mount is known, as are the hinges; how the robot tilts is not.
@@ -107,7 +107,7 @@ class Lidar final : public Sensor {
           std::acos(std::min(1.0, std::abs(hit.normal_W.normalized().dot(direction_W))));
       if (angle_rad <= glass_angle_deg_ * kPi / 180) break;
       passed_m = hit.range_m + kThrough_m;
-      hit = rays_->Cast(data, p_W + passed_m * direction_W, direction_W, range_m_ - passed_m, true);
+      hit = rays_->Cast(data, p_W + passed_m * direction_W, direction_W, range_m_ - passed_m);
       hit.range_m += passed_m;
     }
     return hit;
@@ -137,8 +137,7 @@ class Lidar final : public Sensor {
   // Beams begin outside the scanner's own housing; body and wheels beyond it would be all that they
   // see.
   void RefuseBlockedView(const mjModel* m, const mjData* data) const {
-    using Rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
-    const Rotation R_WR(data->xmat + 9 * base_);
+    const Rotation R_WR = RotationOf(data, base_);
     const Vec3 p_W = Vec3(data->xpos + 3 * base_) + R_WR * p_R_;
     for (int g = 0; g < m->ngeom; ++g) {
       const GeomRole::Kind kind = context_->scene.roles[static_cast<std::size_t>(g)].kind;

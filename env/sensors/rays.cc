@@ -9,21 +9,20 @@
 namespace floorproof {
 namespace {
 
-constexpr mjtByte kWithGlass[mjNGROUP] = {0, 0, 0, 0, 1, 1};
-constexpr mjtByte kWithoutGlass[mjNGROUP] = {0, 0, 0, 0, 1, 0};
+constexpr mjtByte kMet[mjNGROUP] = {0, 0, 0, 0, 1, 1};
 static_assert(mjNGROUP == 6 && kSolidGroup == 4 && kGlassGroup == 5);
 
 }  // namespace
 
 Rays::Rays(const Scene& scene) : scene_(scene) {}
 
-RayHit Rays::Cast(const mjData* data, const Vec3& p_W, const Vec3& direction_W, double most_m,
-                  bool glass) const {
+RayHit Rays::Cast(const mjData* data, const Vec3& p_W, const Vec3& direction_W,
+                  double most_m) const {
   RayHit hit = Wall(p_W, direction_W, most_m);
   int geom = -1;
   mjtNum normal[3] = {0, 0, 0};
-  const double range_m = mj_ray(scene_.model.get(), data, p_W.data(), direction_W.data(),
-                                glass ? kWithGlass : kWithoutGlass, 1, -1, &geom, normal);
+  const double range_m =
+      mj_ray(scene_.model.get(), data, p_W.data(), direction_W.data(), kMet, 1, -1, &geom, normal);
   if (geom >= 0 && range_m >= 0 && range_m <= most_m && range_m < hit.range_m)
     hit = {range_m, geom, Vec3(normal)};
   return hit;
@@ -35,8 +34,8 @@ void Rays::CastAll(mjData* data, const Vec3& p_W, const std::vector<double>& dir
   geom_.resize(n);
   range_.resize(n);
   normal_.resize(3 * n);
-  mj_multiRay(scene_.model.get(), data, p_W.data(), directions_W.data(), kWithGlass, 1, -1,
-              geom_.data(), range_.data(), normal_.data(), static_cast<int>(n), most_m);
+  mj_multiRay(scene_.model.get(), data, p_W.data(), directions_W.data(), kMet, 1, -1, geom_.data(),
+              range_.data(), normal_.data(), static_cast<int>(n), most_m);
   for (std::size_t i = 0; i < n; ++i) {
     hits[i] = Wall(p_W, Vec3(&directions_W[3 * i]), most_m);
     if (geom_[i] >= 0 && range_[i] >= 0 && range_[i] <= most_m && range_[i] < hits[i].range_m)

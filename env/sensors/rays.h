@@ -21,10 +21,9 @@ class Rays {
   // May be made anew for every episode; allocates.
   explicit Rays(const Scene& scene);
 
-  // From p_W along direction_W (length 1), to the first surface within most_m; panes of glass only
-  // with `glass`. Allocates nothing.
-  RayHit Cast(const mjData* data, const Vec3& p_W, const Vec3& direction_W, double most_m,
-              bool glass) const;
+  // From p_W along direction_W (length 1), to the first surface within most_m, panes of glass
+  // included. Allocates nothing.
+  RayHit Cast(const mjData* data, const Vec3& p_W, const Vec3& direction_W, double most_m) const;
   // The same for many rays from one point: faster than one by one.
   // `directions_W`: n directions, x y z each; hits: n.
   void CastAll(mjData* data, const Vec3& p_W, const std::vector<double>& directions_W,

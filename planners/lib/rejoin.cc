@@ -68,12 +68,12 @@ bool InSight(const ClearanceField& map, const Vec2& a, const Vec2& b) {
   return out;
 }
 
-// Places near the robot where its clear shape may fit, the robot's own first: what was met may be
-// larger than the way that it went back.
-std::vector<Vec2> PlacesToBe(const HazardMap& marked, const RejoinRequest& request) {
+// Places near the robot where its clear shape may fit, nearest first: what was met may be larger
+// than the way that it went back.
+std::vector<Vec2> PlacesNearby(const HazardMap& marked, const RejoinRequest& request) {
   constexpr double kFarthest_m = 0.5, kStep_m = 0.1;
   constexpr int kWays = 8;
-  constexpr std::size_t kMost = 6;  // each costs a look at the whole map
+  constexpr std::size_t kMost = 5;  // each costs a look at the whole map
   const Shape2& clear = request.clear;
   const double needs_m = 0.9 * (clear.kind == Shape2::Kind::kCircle
                                     ? clear.radius_m
@@ -81,7 +81,7 @@ std::vector<Vec2> PlacesToBe(const HazardMap& marked, const RejoinRequest& reque
   const ClearanceField room = ComputeClearance(marked, request.robot.step_m);
   const ClearanceField bare = ComputeClearance(request.known, request.robot.step_m);
   const Vec2 here = request.X_WB.p();
-  std::vector<Vec2> places = {here};
+  std::vector<Vec2> places;
   for (double r_m = kStep_m; r_m <= kFarthest_m + 1e-9; r_m += kStep_m)
     for (int k = 0; k < kWays && places.size() < kMost; ++k) {
       const double a = 2 * kPi * k / kWays;
@@ -123,13 +123,17 @@ Path Rejoin(const RejoinRequest& request) {
   here.p_W = request.X_WB.p();
   Path path = {here};
   const Held held = HeldShapes(request);
-  SweepArea area;
-  for (const Vec2& p : PlacesToBe(marked, request)) {
-    area = ComputeSweepArea(marked, held.clear, held.tool, robot.step_m, p, held.yaws);
-    if (area.sweepable_cells == 0) continue;
-    if (p != here.p_W) path.emplace_back().p_W = p;
-    break;
-  }
+  const auto from = [&](const Vec2& p_W) {
+    return ComputeSweepArea(marked, held.clear, held.tool, robot.step_m, p_W, held.yaws);
+  };
+  SweepArea area = from(here.p_W);
+  if (area.sweepable_cells == 0)
+    for (const Vec2& p : PlacesNearby(marked, request)) {
+      area = from(p);
+      if (area.sweepable_cells == 0) continue;
+      path.emplace_back().p_W = p;
+      break;
+    }
   if (area.sweepable_cells == 0) {
     const auto next = std::min(request.segment + 1, request.path.size());
     path.insert(path.end(), request.path.begin() + static_cast<std::ptrdiff_t>(next),
@@ -139,14 +143,14 @@ Path Rejoin(const RejoinRequest& request) {
   const Floor floor = CropFloor(area, held.clear, held.tool, robot.tool_width_m);
   Ways ways(floor);
   for (const Path& piece : FreePieces(request, floor, ways)) {
-    const Vec2 from = floor.ToCells(path.back().p_W);
+    const Vec2 last = floor.ToCells(path.back().p_W);
     if (!request.around) {
       const auto seen = std::ranges::find_if(
-          piece, [&](const Waypoint& w) { return floor.Sees(from, floor.ToCells(w.p_W)); });
+          piece, [&](const Waypoint& w) { return floor.Sees(last, floor.ToCells(w.p_W)); });
       path.insert(path.end(), seen, piece.end());
       if (seen != piece.end()) continue;
     }
-    const Polyline route = ways.Route(from, floor.ToCells(piece.front().p_W));
+    const Polyline route = ways.Route(last, floor.ToCells(piece.front().p_W));
     if (route.empty()) continue;  // cut off by what was met
     for (std::size_t i = 1; i + 1 < route.size(); ++i) {
       Waypoint on_the_way;

@@ -61,7 +61,7 @@ TEST(Rays, MeetWhatTheWholeSceneHolds) {
       } else {
         EXPECT_FALSE(hits[i].hits()) << "pose " << k << " beam " << i;
       }
-      const RayHit one = rays.Cast(near_data.get(), from, Vec3(&directions[3 * i]), kMost_m, true);
+      const RayHit one = rays.Cast(near_data.get(), from, Vec3(&directions[3 * i]), kMost_m);
       EXPECT_EQ(one.range_m, hits[i].range_m);
     }
   }
