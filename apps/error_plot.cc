@@ -15,11 +15,13 @@ namespace {
 constexpr int kWidth_px = 900;
 constexpr Rgb kTrack = {0, 114, 178}, kError = {213, 94, 0}, kSpread = {120, 120, 120};
 
+ChartStyle LineOf(const Rgb& colour) { return {colour, ChartStyle::Stroke::kSolid, false, false}; }
+
 // The trace in as many parts as the plot has pixels, each by its greatest value: no peak is lost.
 ChartSeries Curve(const std::vector<TraceRow>& trace, const Rgb& colour,
                   const std::function<double(const TraceRow&)>& value) {
   ChartSeries series;
-  series.style = {colour, ChartStyle::Stroke::kSolid, false, false};
+  series.style = LineOf(colour);
   const std::size_t parts = std::min<std::size_t>(trace.size(), kWidth_px);
   for (std::size_t k = 0; k < parts; ++k) {
     const std::size_t begin = k * trace.size() / parts, end = (k + 1) * trace.size() / parts;
@@ -55,7 +57,7 @@ void WriteErrorPlot(const std::string& title, const EpisodeRecord& record,
   chart.plot_width_px = kWidth_px;
   const std::vector<double> ticks = Ticks(trace.back().t_s);
   const auto key = [](const char* label, const Rgb& colour) {
-    return ChartKey{label, {colour, ChartStyle::Stroke::kSolid, false, false}};
+    return ChartKey{label, LineOf(colour)};
   };
   std::vector<ChartKey> keys = {key("true pose to the plan", kTrack)};
   chart.panels.push_back({fmt::format("Beside the plan: {:.0f} mm on the mean, {:.0f} mm at most",

@@ -4,21 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace floorproof {
 namespace {
-
-// Where the beams of a scan end in the world, those that came back.
-std::vector<Vec2> EndsOf(const LidarScan& scan, const Pose2& X_WL) {
-  std::vector<Vec2> ends;
-  for (std::size_t i = 0; i < scan.range_m.size(); ++i)
-    if (std::isfinite(scan.range_m[i]))
-      ends.push_back(X_WL * Vec2(scan.range_m[i] * std::cos(scan.angle_rad[i]),
-                                 scan.range_m[i] * std::sin(scan.angle_rad[i])));
-  return ends;
-}
 
 // A film shows 30 pictures a second in real time around an event; 25 recorded are enough.
 constexpr int kRecordHz = 25;
@@ -44,7 +33,9 @@ bool ProgressObserver::OnControl(const EpisodeView& now) {
   if (scan.fresh) scan_ = true;
   if (keep && recording_ && scan_) {
     const Pose2 X_WL = sample.X_WB() * scan.X_BL;
-    recording_->AddSenses(now.estimate.X_WB, X_WL.p(), EndsOf(scan, X_WL));
+    std::vector<Vec2> ends_W;
+    scan.ForEachEnd([&](const Vec2& p_L) { ends_W.push_back(X_WL * p_L); });
+    recording_->AddSenses(now.estimate.X_WB, X_WL.p(), ends_W);
     scan_ = false;
   }
   if (Interrupted()) return false;

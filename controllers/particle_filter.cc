@@ -113,10 +113,7 @@ double ParticleFilter::LogFit(const LikelihoodField& field, const LikelihoodFiel
 
 bool ParticleFilter::Weigh(const LikelihoodField& field, const LidarScan& scan) {
   ends_.clear();
-  for (std::size_t i = 0; i < scan.range_m.size(); ++i)
-    if (std::isfinite(scan.range_m[i]))
-      ends_.push_back(scan.X_BL * Vec2(scan.range_m[i] * std::cos(scan.angle_rad[i]),
-                                       scan.range_m[i] * std::sin(scan.angle_rad[i])));
+  scan.ForEachEnd([&](const Vec2& p_L) { ends_.push_back(scan.X_BL * p_L); });
   if (ends_.empty() || static_cast<double>(ends_.size()) <
                            params_.least_ends * static_cast<double>(scan.range_m.size())) {
     FindBest();

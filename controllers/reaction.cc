@@ -59,10 +59,8 @@ bool Reaction::Alarm(const Observation& sensed) const {
 
 // Back along the way it came, which is known to be free; a robot that stood or turned goes away
 // from what it met.
-void Reaction::Begin(const Observation& sensed, const Estimate& estimate,
-                     const BodyTwist& commanded) {
+void Reaction::Begin(const Observation& sensed, const BodyTwist& commanded) {
   ++count_;
-  from_ = estimate.X_WB;
   left_s_ = 2 * params_.back_off_m / params_.back_off_mps + 2;
   turn_ = 0;
   way_B_ = -Vec2(commanded.vx_mps, commanded.vy_mps);
@@ -92,7 +90,7 @@ bool Reaction::Update(const Observation& sensed, const Estimate& estimate, doubl
   ended_ = false;
   if (state_ == State::kIdle) {
     if (command.done || count_ >= params_.most || !Alarm(sensed)) return false;
-    Begin(sensed, estimate, command.twist);
+    Begin(sensed, command.twist);
   }
   left_s_ -= dt_s;
   if (state_ == State::kBrake) {

@@ -34,7 +34,7 @@ class Reaction {
  private:
   enum class State { kIdle, kBrake, kBack };
   bool Alarm(const Observation& sensed) const;
-  void Begin(const Observation& sensed, const Estimate& estimate, const BodyTwist& commanded);
+  void Begin(const Observation& sensed, const BodyTwist& commanded);
   void Approach(const BodyTwist& wanted, double dt_s);
 
   ReactionParams params_;

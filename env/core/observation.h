@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "env/core/motion.h"
@@ -18,6 +19,14 @@ struct LidarScan {
   double least_m = 0, most_m = 0;  // ranges that it can tell
   std::vector<double> angle_rad;   // of each beam in L, counter-clockwise from x
   std::vector<double> range_m;     // infinity: nothing came back
+
+  // Calls see(p_L) with where each beam that came back ended.
+  template <class See>
+  void ForEachEnd(const See& see) const {
+    for (std::size_t i = 0; i < range_m.size(); ++i)
+      if (std::isfinite(range_m[i]))
+        see(Vec2(range_m[i] * std::cos(angle_rad[i]), range_m[i] * std::sin(angle_rad[i])));
+  }
 };
 
 // The shell was touched.
