@@ -18,12 +18,15 @@
 
 namespace floorproof {
 
+struct RiskMap;  // planners/risk/risk_map.h
+
 struct PlanRequest {
   const HazardMap& map;  // what is known of the floor
   const RobotSpec& robot;
   Pose2 start;  // X_WB
   std::optional<Vec2> goal;
   std::uint64_t seed = 0;
+  const RiskMap* risk = nullptr;  // of this map and robot; planners by risk need it
 };
 
 enum class PlanStatus {
@@ -31,7 +34,8 @@ enum class PlanStatus {
   kStartBlocked,  // the robot does not fit where it starts
   kNoFloor,       // nothing to cover or visit can be reached
   kGoalUnreachable,
-  kFailed,  // any other reason; the message says it
+  kFloorDivided,  // much of the floor cannot be reached from the start
+  kFailed,        // any other reason; the message says it
 };
 std::string_view Name(PlanStatus status);
 
@@ -42,6 +46,8 @@ struct PlanResult {
   // The clear shape and tool that the planner planned with (the robot's, or a plan's override).
   Shape2 clear, tool;
   double tool_width_m = 0;
+  // Of the floor that was planned on: kept by who asked for the plan, for those who measure it.
+  std::shared_ptr<const RiskMap> risk;
   // The planner's own figures, for plan.json and the columns plan.*, in order.
   std::vector<std::pair<std::string, double>> figures;
 };

@@ -26,6 +26,8 @@ std::string_view Name(PlanStatus status) {
       return "no_floor";
     case PlanStatus::kGoalUnreachable:
       return "goal_unreachable";
+    case PlanStatus::kFloorDivided:
+      return "floor_divided";
     case PlanStatus::kFailed:
       return "failed";
   }

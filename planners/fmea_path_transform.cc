@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Coverage by risk, the planner of the hTetro FMEA paper (section 2.3): cells of high risk count as
+// obstacles, and from cell to cell it goes always to the unvisited neighbour of the highest score,
+// which grows with the distance from the end and falls with risk.
+//
+// Algorithm 1 as printed scores a step 15 or 20 less 2 RF and begins at the start. The text and
+// Eq. 5 say otherwise: the wave begins at the end, its scores of 15 and 20 add up along the way,
+// and a cell's total is that sum less K = 50 times its RF, normalised over the floor. Only this has
+// a cell's score say how far the end is, which Algorithm 2 needs, so this is what is built.
+// RF_min and RF_max are those of the cells that are driven on; K leaves totals below 0 near the end
+// of the wave, where the paper wants TotalScore > 0: an order does not change by what is added to
+// all.
+// Wave: planners/risk/wave_front.h; cells: planners/risk/high_risk.h; order:
+// planners/risk/transform_tour.h.
+#include <algorithm>
+#include <limits>
+
+#include "planners/risk/high_risk.h"
+
+namespace floorproof {
+namespace {
+
+class FmeaPathTransform final : public CellPlanner {
+ public:
+  void Visit(ParamVisitor& visit) override {
+    CellPlanner::Visit(visit);
+    visit("risk_weight", risk_weight_, NonNegative(), "K of Eq. 5; a step scores 15");
+    high_risk_.Visit(visit);
+  }
+
+ protected:
+  CellTour Tour(const CellTask& task, Figures& figures) const override {
+    const LowRisk floor = LowRiskFloor(task, high_risk_);
+    figures.push_back({"high_risk_cells", floor.high_risk_cells});
+    figures.push_back({"cut_off_cells", floor.cut_off_cells});
+    figures.push_back({"opened_cells", floor.opened_cells});
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t i = 0; i < floor.open.cells.size(); ++i)
+      if (floor.open.cells[i]) {
+        low = std::min(low, task.risk.rf.cells[i]);
+        high = std::max(high, task.risk.rf.cells[i]);
+      }
+    Grid<double> total = floor.wave;
+    for (std::size_t i = 0; i < total.cells.size(); ++i)
+      if (high > low) total.cells[i] -= risk_weight_ * (task.risk.rf.cells[i] - low) / (high - low);
+    return TransformTour(floor.open, total, task.start, task.end);
+  }
+
+ private:
+  double risk_weight_ = 50;
+  HighRiskParams high_risk_;
+};
+
+}  // namespace
+
+FP_DEFINE_PLUGIN(Planner, FmeaPathTransform)
+
+}  // namespace floorproof

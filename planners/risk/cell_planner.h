@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// What planners by risk share: they go from cell to cell of the risk's own grid, each as wide as
+// the robot, from the start's to the goal's.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planners/planner.h"
+#include "planners/risk/risk_map.h"
+#include "planners/risk/transform_tour.h"
+
+namespace floorproof {
+
+struct CellTask {
+  const RiskMap& risk;
+  Cell start, end;
+  Grid<std::uint8_t> free;      // free cells that can be reached over floor and terrain
+  Grid<std::uint8_t> drivable;  // these and the terrain that can be reached
+};
+
+class CellPlanner : public Planner {
+ public:
+  void Visit(ParamVisitor& visit) override;
+  // Without a goal it ends on the free cell with the longest way from the start. Start and goal
+  // must not lie on a hazard. Free cells that neither floor nor terrain leads to are left out as
+  // long as they are few (`unreachable_share`), else the floor has fallen apart: kFloorDivided.
+  PlanResult Plan(const PlanRequest& request) const override;
+
+ protected:
+  using Figures = std::vector<std::pair<std::string, double>>;
+  // A tour from task.start to task.end over cells of task.drivable.
+  virtual CellTour Tour(const CellTask& task, Figures& figures) const = 0;
+  // Whether it crosses terrain as the robot does it best, where the model says how that is
+  // (RobotSpec's cover limits): fast, and, if it moves every way, forward (terrain_yaw.h).
+  virtual bool crosses_with_care() const { return false; }
+
+ private:
+  double unreachable_share_ = 0.05;
+};
+
+}  // namespace floorproof

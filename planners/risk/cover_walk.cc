@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// A travelling salesman's path over the wanted cells, in which neighbours link for nothing and any
+// other link costs what must be passed once more: an order of the regions with few crossings, in
+// them an order of the cells with few such links, which path_search then shortens. Deterministic;
+// not optimal. Turns are not counted.
+#include "planners/risk/cover_walk.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planners/risk/first_order.h"
+#include "planners/risk/path_search.h"
+#include "planners/risk/region_order.h"
+#include "planners/risk/walk_costs.h"
+
+namespace floorproof {
+namespace {
+
+constexpr std::size_t kNear = 5;
+// Small floors are settled soon; large ones begin near the best.
+constexpr double kWorkPerPlace = 10'000, kAmple = 1e6, kWorkPerMore = 200, kMostWork = 1e8;
+
+std::size_t Z(int i) { return static_cast<std::size_t>(i); }
+
+struct Measures {
+  int crossings = 0;
+  std::size_t cells = 0;
+  double cost = 0;
+};
+
+Measures Measure(const CoverWalkProblem& problem, const std::vector<Cell>& cells) {
+  Measures m;
+  m.cells = cells.size();
+  bool on_terrain = false;
+  for (const Cell c : cells) {
+    m.cost += problem.cost(c);
+    if (problem.terrain(c) && !on_terrain) ++m.crossings;
+    on_terrain = problem.terrain(c) != 0;
+  }
+  return m;
+}
+
+// Whether the walk is one for the problem.
+bool Solves(const CoverWalkProblem& problem, const std::vector<Cell>& cells) {
+  if (cells.empty() || cells.front() != problem.start) return false;
+  if (problem.end && cells.back() != *problem.end) return false;
+  Grid<std::uint8_t> left = problem.wanted;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Cell c = cells[i], before = i > 0 ? cells[i - 1] : Cell{c.ix - 1, c.iy};
+    if (!problem.open.Inside(c) || !problem.open(c)) return false;
+    if (std::abs(c.ix - before.ix) + std::abs(c.iy - before.iy) != 1) return false;
+    left(c) = 0;
+  }
+  return std::count(left.cells.begin(), left.cells.end(), 0) ==
+         static_cast<std::ptrdiff_t>(left.cells.size());
+}
+
+std::optional<Cell> FindUnreachable(const CoverWalkProblem& problem, const WalkGraph& graph) {
+  const auto region = [&graph](Cell c) { return graph.region[Z(graph.At(c))]; };
+  if (!problem.open.Inside(problem.start) || region(problem.start) < 0) return problem.start;
+  std::vector<int> reached = {region(problem.start)};
+  std::vector<std::uint8_t> is_reached(graph.touching.size(), 0);
+  is_reached[Z(reached[0])] = 1;
+  for (std::size_t k = 0; k < reached.size(); ++k)
+    for (const int next : graph.touching[Z(reached[k])])
+      if (!is_reached[Z(next)]) is_reached[Z(next)] = 1, reached.push_back(next);
+  const auto missed = [&](Cell c) { return region(c) < 0 || !is_reached[Z(region(c))]; };
+  if (problem.end && (!problem.open.Inside(*problem.end) || missed(*problem.end)))
+    return problem.end;
+  for (int iy = 0; iy < problem.wanted.height; ++iy)
+    for (int ix = 0; ix < problem.wanted.width; ++ix)
+      if (problem.wanted(ix, iy) && missed({ix, iy})) return Cell{ix, iy};
+  return std::nullopt;
+}
+
+// The cells to be visited as places of a path: the start first; a fixed end last, if need be the
+// start's cell once more.
+struct Places {
+  std::vector<int> cells;
+  std::vector<int> at;  // by cell; -1: none
+  std::vector<std::uint8_t> wanted;
+  int start = -1, end = -1;  // cells; end -1: none, or the start
+  bool fixed_end = false;
+
+  Places(const CoverWalkProblem& problem, const WalkGraph& graph)
+      : at(graph.size(), -1), wanted(graph.size(), 0), fixed_end(problem.end.has_value()) {
+    start = graph.At(problem.start);
+    if (problem.end && *problem.end != problem.start) end = graph.At(*problem.end);
+    for (int iy = 0; iy < problem.wanted.height; ++iy)
+      for (int ix = 0; ix < problem.wanted.width; ++ix)
+        wanted[Z(graph.At({ix, iy}))] = problem.open(ix, iy) && problem.wanted(ix, iy);
+    wanted[Z(start)] = 1;
+    if (end >= 0) wanted[Z(end)] = 1;
+    Add(start);
+    for (int cell = 0; cell < static_cast<int>(graph.size()); ++cell)
+      if (wanted[Z(cell)] && cell != start && cell != end) Add(cell);
+    if (end >= 0) Add(end);
+    if (fixed_end && end < 0) cells.push_back(start);
+  }
+  void Add(int cell) {
+    at[Z(cell)] = static_cast<int>(cells.size());
+    cells.push_back(cell);
+  }
+  int last() const { return static_cast<int>(cells.size()) - 1; }
+};
+
+// Places in an order to begin with.
+std::vector<int> FirstPath(const WalkGraph& graph, const Places& places) {
+  const int end = places.fixed_end ? places.cells.back() : -1;
+  const std::vector<int> regions = OrderRegions(graph, places.wanted, places.start, end);
+  std::vector<int> path = FirstOrder(graph, places.wanted, places.start, places.end, regions);
+  for (int& cell : path) cell = places.at[Z(cell)];
+  if (places.fixed_end && places.end < 0) path.push_back(places.last());
+  return path;
+}
+
+// The places in the order in which the walk comes to them first; a fixed end last.
+std::vector<int> PathOf(const std::vector<Cell>& walk, const WalkGraph& graph,
+                        const Places& places) {
+  std::vector<int> path;
+  std::vector<std::uint8_t> done(places.cells.size(), 0);
+  if (places.fixed_end) done[Z(places.last())] = 1;
+  for (const Cell c : walk) {
+    const int place = places.at[Z(graph.At(c))];
+    if (place < 0 || done[Z(place)]) continue;
+    done[Z(place)] = 1;
+    path.push_back(place);
+  }
+  if (places.fixed_end) path.push_back(places.last());
+  return path;
+}
+
+bool IsWorse(const Measures& a, const Measures& b) {
+  if (a.crossings != b.crossings) return a.crossings > b.crossings;
+  return a.cells > b.cells || a.cost > b.cost;
+}
+
+std::vector<Cell> Shorten(const WalkGraph& graph, const Places& places, WalkCosts& costs,
+                          const CoverWalkOptions& options, std::vector<int> path) {
+  const double n = static_cast<double>(path.size());
+  const double work = std::min(std::min(kWorkPerPlace * n, kAmple) + kWorkPerMore * n, kMostWork);
+  PathSearchOptions search;
+  search.fixed_end = places.fixed_end;
+  search.seed = options.seed;
+  search.most_work = std::llround(options.effort * work);
+  ShortenPath(costs, costs.Near(kNear), search, path);
+  std::vector<int> cells = {places.start};
+  for (std::size_t k = 1; k < path.size(); ++k) costs.AppendWay(path[k - 1], path[k], cells);
+  std::vector<Cell> walk;
+  for (const int at : cells) walk.push_back(graph.CellAt(at));
+  return walk;
+}
+
+}  // namespace
+
+CoverWalk ShortCoverWalk(const CoverWalkProblem& problem, const CoverWalkOptions& options,
+                         const std::vector<Cell>& seed_walk) {
+  CoverWalk result;
+  const WalkGraph graph(problem, options);
+  result.unreachable = FindUnreachable(problem, graph);
+  if (result.unreachable) return result;
+
+  const Places places(problem, graph);
+  WalkCosts costs(graph, places.cells);
+  result.cells = Shorten(graph, places, costs, options, FirstPath(graph, places));
+  if (Solves(problem, seed_walk)) {
+    const Measures seed = Measure(problem, seed_walk);
+    if (IsWorse(Measure(problem, result.cells), seed))
+      result.cells = Shorten(graph, places, costs, options, PathOf(seed_walk, graph, places));
+    if (IsWorse(Measure(problem, result.cells), seed)) result.cells = seed_walk;
+  }
+  const Measures measures = Measure(problem, result.cells);
+  result.crossings = measures.crossings;
+  result.cost = measures.cost;
+  return result;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// A floor in cells as wide as a robot, each with what it holds: what risk is summed over, and what
+// planners by risk go from cell to cell of.
+//
+// The rule by which any map comes to such cells (the FMEA paper draws its sites in them):
+//  - Where the map's own cells are at least as wide as the robot, they are the cells, each cut into
+//    equal parts where it holds several of its widths. Else a cell is as many of the map's (of
+//    0.05 m at most) as the robot needs; the lattice lies, to one of the map's cells, where most of
+//    its cells are free of walls (of several such places at the lowest x, then y).
+//  - A cell that a hazard's footprint touches with more than a border holds that hazard; one that
+//    touches anything occupied holds a blind object. Of several hazards, it holds the one of the
+//    greatest weight (FmeaTables), and is solid if one of them is.
+//  - A cell that reaches beyond the map, or that touches an unknown cell which counts as wall, is
+//    outer wall unless it holds a hazard. So is the outermost ring of cells where all of it is
+//    wall.
+#pragma once
+
+#include <optional>
+
+#include "env/core/hazard_map.h"
+#include "env/core/params.h"
+#include "env/core/robot_spec.h"
+#include "planners/risk/fmea_tables.h"
+
+namespace floorproof {
+
+struct RiskCell {
+  std::optional<HazardClass> hazard;  // none: free, or outer wall
+  bool solid = false;                 // C1, C2, C3 and outer walls: never driven on
+  bool free() const { return !hazard && !solid; }
+  bool terrain() const { return hazard && !solid; }  // C4 alone: can be crossed
+  bool outer_wall() const { return !hazard && solid; }
+};
+
+struct RiskGrid {
+  GridFrame frame;
+  Grid<RiskCell> cells;
+  bool walled_all_round = false;  // the outermost ring is outer wall
+};
+
+// The narrowest cell that the robot moves in from neighbour to neighbour: its clear circle's
+// diameter, or the greater side of its clear footprint, m.
+double LeastCellWidth(const RobotSpec& robot);
+
+// `cell_m`: asked for; none: as wide as the robot. Rounded up to what the rule allows.
+RiskGrid MakeRiskGrid(const HazardMap& map, const RobotSpec& robot, const FmeaTables& tables,
+                      std::optional<double> cell_m);
+
+}  // namespace floorproof

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planners/risk/terrain_yaw.h"
+
+#include <algorithm>
+
+#include "planners/risk/cell_ways.h"
+
+namespace floorproof {
+
+std::vector<int> QuartersForwardOverTerrain(const RiskGrid& grid, const std::vector<Cell>& tour,
+                                            int first) {
+  std::vector<int> quarters(tour.size(), first);
+  const auto along_y = [&](std::size_t i) { return tour[i].ix == tour[i - 1].ix; };
+  const auto roomy = [&](std::size_t i) {
+    return grid.cells(tour[i]).free() && std::ranges::all_of(kSideSteps, [&](Cell step) {
+             const Cell beside = tour[i] + step;
+             return grid.cells.Inside(beside) && !grid.cells(beside).solid;
+           });
+  };
+  std::size_t behind = 0;  // where the terrain before has been left
+  int quarter = first;
+  for (std::size_t i = 1; i < tour.size(); ++i) {
+    const bool on = grid.cells(tour[i]).terrain(), from = grid.cells(tour[i - 1]).terrain();
+    if (from && !on) behind = i;
+    if (!on || from || along_y(i) == (quarter % 2 == 1)) continue;
+    // The turn is made in a cell, so on the way to the next one.
+    std::size_t turn = 0;
+    bool bends = false;
+    for (std::size_t k = i - 1; k > behind && !bends; --k) {
+      if (!roomy(k)) continue;
+      const bool bend = along_y(k) != along_y(k + 1);
+      if (turn == 0 || bend) turn = k;
+      bends = bend;
+    }
+    if (turn == 0 && roomy(behind)) turn = behind;
+    if (turn == 0 && !(behind == 0 && roomy(0))) continue;
+    quarter = (quarter + 1) % 4;
+    std::fill(quarters.begin() + static_cast<std::ptrdiff_t>(turn) + 1, quarters.end(), quarter);
+  }
+  return quarters;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Coverage by risk, ours: the same risk as the hTetro FMEA paper's, but the cells are put in the
+// order that sums least. A path's cumulative RF is the sum over its cells once, which no order can
+// change, and over those that it comes back to, which is what is searched (cover_walk.h): as few
+// crossings of terrain as can be, then the least of RF and steps in equal parts. Terrain is crossed
+// squarely, away from walls where that costs no more than a step or two, and as fast and forward as
+// the robot does it best (RobotSpec's cover limits).
+// `cells: fmea` covers the cells that fmea_path_transform covers, `all` every free one that can be
+// reached.
+#include <algorithm>
+#include <string>
+
+#include "planners/risk/cover_walk.h"
+#include "planners/risk/high_risk.h"
+
+namespace floorproof {
+namespace {
+
+// Beside walls robots slow down, and slow ones are held by covers that fast ones cross.
+void AvoidTightCrossings(const CellTask& task, CoverWalkProblem& problem) {
+  constexpr double kSteps = 2;
+  double sum = 0, n = 0;
+  for (std::size_t i = 0; i < problem.cost.cells.size(); ++i)
+    if (problem.wanted.cells[i]) sum += problem.cost.cells[i], ++n;
+  const auto solid = [&](Cell c) {
+    return !task.risk.grid.cells.Inside(c) || task.risk.grid.cells(c).solid;
+  };
+  for (std::size_t i = 0; i < problem.terrain.cells.size(); ++i) {
+    const Cell cell = CellAt(problem.terrain, i);
+    if (problem.terrain.cells[i] &&
+        (std::ranges::any_of(kSideSteps, [&](Cell step) { return solid(cell + step); }) ||
+         std::ranges::any_of(kCornerSteps, [&](Cell step) { return solid(cell + step); })))
+      problem.cost.cells[i] += kSteps * sum / std::max(n, 1.0);
+  }
+}
+
+class RiskCoverage final : public CellPlanner {
+ public:
+  void Visit(ParamVisitor& visit) override {
+    CellPlanner::Visit(visit);
+    visit("cells", cells_, {"all", "fmea"},
+          "all free cells, or those alone that fmea_path_transform visits");
+    visit("risk_share", options_.cost_share, Between(0, 1),
+          "of RF in what is minimised; the rest is steps");
+    visit("effort", options_.effort, Between(0, 100),
+          "of the search; 1: half a second for 40,000 cells");
+    high_risk_.Visit(visit);
+  }
+
+ protected:
+  bool crosses_with_care() const override { return true; }
+
+  CellTour Tour(const CellTask& task, Figures& figures) const override {
+    CoverWalkProblem problem;
+    problem.start = task.start;
+    problem.end = task.end;
+    problem.open = task.drivable;
+    problem.wanted = task.free;
+    if (cells_ == "fmea") problem.open = problem.wanted = LowRiskFloor(task, high_risk_).open;
+    problem.terrain = Grid<std::uint8_t>(task.free.width, task.free.height);
+    for (std::size_t i = 0; i < problem.terrain.cells.size(); ++i)
+      problem.terrain.cells[i] = task.risk.grid.cells.cells[i].terrain();
+    problem.cost = task.risk.rf;
+    // Where nothing is a risk steps alone count.
+    if (std::ranges::none_of(problem.cost.cells, [](double rf) { return rf > 0; }))
+      std::ranges::fill(problem.cost.cells, 1);
+    const CoverWalkBound bound = BoundCoverWalk(problem);
+    if (cells_ == "all") AvoidTightCrossings(task, problem);  // else there is no choice
+    const CoverWalk walk = ShortCoverWalk(problem, options_);
+    figures.push_back({"risk_bound", bound.cost});
+    figures.push_back({"steps_bound", static_cast<double>(bound.steps)});
+    CellTour tour;
+    tour.cells = walk.cells;
+    return tour;
+  }
+
+ private:
+  std::string cells_ = "all";
+  CoverWalkOptions options_;
+  HighRiskParams high_risk_;
+};
+
+}  // namespace
+
+FP_DEFINE_PLUGIN(Planner, RiskCoverage)
+
+}  // namespace floorproof
