@@ -40,10 +40,20 @@ LikelihoodField::LikelihoodField(const HazardMap& known, double height_m) {
     }
   }
   const Grid<float> cells_away = DistanceToCentres(met);
+  // Walls that are built drawn back are met within their cells, that deep.
+  Grid<float> cells_deep;
+  if (known.inset_m > 0) {
+    for (std::uint8_t& cell : met.cells) cell = !cell;
+    cells_deep = DistanceToCentres(met);
+  }
   away_ = Grid<std::uint8_t>(width, height);
   for (std::size_t i = 0; i < away_.cells.size(); ++i) {
     // Beams end at faces, half a cell before the centres.
-    const double away_m = std::max(0.0, static_cast<double>(cells_away.cells[i]) - 0.5) * cell_m_;
+    double away_m = std::max(0.0, static_cast<double>(cells_away.cells[i]) - 0.5) * cell_m_;
+    if (known.inset_m > 0) {
+      const double deep_m = std::max(0.0, static_cast<double>(cells_deep.cells[i]) - 0.5) * cell_m_;
+      away_m = away_m > 0 ? away_m + known.inset_m : std::abs(deep_m - known.inset_m);
+    }
     away_.cells[i] = static_cast<std::uint8_t>(std::min(255.0, std::round(away_m / kStep_m)));
   }
 }

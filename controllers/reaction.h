@@ -27,6 +27,11 @@ class Reaction {
   // One control period. Takes `command`, what the tracker asked for last, and replaces its twist
   // while it reacts; true: it does, the tracker is not to be asked.
   bool Update(const Observation& sensed, const Estimate& estimate, double dt_s, Command& command);
+  // What it was about is over: the robot was set down elsewhere.
+  void Drop() {
+    state_ = State::kIdle;
+    ended_ = false;
+  }
   // It has gone back: the tracker needs a new path. True once a reaction.
   bool ended() const { return ended_; }
   int count() const { return count_; }

@@ -14,6 +14,7 @@
 #include "env/run/file_output.h"
 #include "env/stats/binomial.h"
 #include "env/stats/poisson.h"
+#include "env/stats/quantile.h"
 
 namespace floorproof {
 namespace {
@@ -53,16 +54,10 @@ Json Spread(std::vector<double> values) {
   std::ranges::sort(values);
   double sum = 0;
   for (const double value : values) sum += value;
-  const auto at = [&](double share) {
-    const double place = share * static_cast<double>(values.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, values.size() - 1);
-    return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
-  };
   return {{"mean", sum / static_cast<double>(values.size())},
-          {"median", at(0.5)},
-          {"lower_quartile", at(0.25)},
-          {"upper_quartile", at(0.75)},
+          {"median", Quantile(values, 0.5)},
+          {"lower_quartile", Quantile(values, 0.25)},
+          {"upper_quartile", Quantile(values, 0.75)},
           {"min", values.front()},
           {"max", values.back()}};
 }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "env/core/streams.h"
+#include "env/run/assist.h"
 #include "env/run/path_error.h"
 #include "env/run/pilot.h"
 #include "env/run/plan_file.h"
@@ -42,24 +43,28 @@ double PlanDuration(const Path& path, double cruise_mps) {
 }
 
 PlanResult MakePlan(const Scenario& s) {
-  if (s.planner) {
-    const HazardMap known = KnownPart(s.site.map);
-    Stream stream(static_cast<std::uint64_t>(s.episode.seed), s.episode_id, "plan");
-    return s.planner->Plan({known, s.robot.robot, s.start, s.goal, stream.Next()});
-  }
+  const RobotSpec& robot = s.robot.robot;
+  const HazardMap known = KnownPart(s.site.map);
+  auto risk = std::make_shared<const RiskMap>(ComputeRisk(known, robot, s.fmea, s.risk));
   PlanResult plan;
-  plan.path = s.user_plan;
-  // A user's plan need not begin where the robot stands: it drives there first, and is judged on
-  // the way as on any other.
-  if ((plan.path.front().p_W - s.start.p()).norm() > 1e-6) {
-    Waypoint start;
-    start.p_W = s.start.p();
-    plan.path.insert(plan.path.begin(), start);
+  if (s.planner) {
+    Stream stream(static_cast<std::uint64_t>(s.episode.seed), s.episode_id, "plan");
+    plan = s.planner->Plan({known, robot, s.start, s.goal, stream.Next(), risk.get()});
+  } else {
+    plan.path = s.user_plan;
+    // A user's plan need not begin where the robot stands: it drives there first, and is judged on
+    // the way as on any other.
+    if ((plan.path.front().p_W - s.start.p()).norm() > 1e-6) {
+      Waypoint start;
+      start.p_W = s.start.p();
+      plan.path.insert(plan.path.begin(), start);
+    }
+    plan.status = PlanStatus::kSuccess;
+    plan.clear = robot.clear;
+    plan.tool = robot.tool;
+    plan.tool_width_m = robot.tool_width_m;
   }
-  plan.status = PlanStatus::kSuccess;
-  plan.clear = s.robot.robot.clear;
-  plan.tool = s.robot.robot.tool;
-  plan.tool_width_m = s.robot.robot.tool_width_m;
+  plan.risk = std::move(risk);
   return plan;
 }
 
@@ -74,25 +79,36 @@ EpisodeRecord RunEpisode(Scenario& s, const Scene& scene, const PlanResult& plan
   const double limit_s = s.episode.time_limit_s.value_or(60 + 3 * plan_s);
   const auto steps_a_control = std::lround(1.0 / (s.episode.control_hz * s.physics.timestep_s));
 
-  Recorder recorder(s, area, plan_s);
+  Recorder recorder(s, area, *plan.risk, plan_s);
   Simulation sim(scene, s.site.map, robot);
   Sample& sample = sim.sample();
   sim.Reset(s.start);
   Pilot pilot(s, scene, known, plan);
   pilot.Start(sim);
-  for (auto& detector : s.detectors) detector->Start({s.site.map, robot, s.physics.timestep_s});
+  Helper helper(s);
+  const auto start_detectors = [&] {
+    for (auto& detector : s.detectors) detector->Start({s.site.map, robot, s.physics.timestep_s});
+  };
+  start_detectors();
 
   std::optional<Outcome> ended;
   for (std::int64_t step = 0; !ended; ++step) {
     if (step % steps_a_control == 0) {
-      pilot.Control(sim);
+      if (helper.awaited())
+        pilot.Stand(sim);
+      else
+        pilot.Control(sim);
       recorder.OnControl(sample, pilot.estimate());
       if (sample.command.done) ended = Outcome::kSuccess;
-      if (sample.t_s >= limit_s) ended = Outcome::kTimeout;
+      if (sample.t_s >= limit_s + helper.extra_s()) ended = Outcome::kTimeout;
       if (observer && !observer->OnControl({sim, pilot.sensed(), pilot.estimate(),
                                             recorder.coverage(), recorder.driven_m() / plan_m}))
         ended = Outcome::kInterrupted;
       if (ended) break;
+      if (helper.HasCome(sample.t_s)) {  // after sensing: a bump was where it lay
+        recorder.OnAssist(helper.SetDown(sim, pilot), s.detectors);
+        start_detectors();
+      }
     }
 
     if (!sim.Step()) {
@@ -103,12 +119,20 @@ EpisodeRecord RunEpisode(Scenario& s, const Scene& scene, const PlanResult& plan
     recorder.OnStep(sample);
     pilot.OnStep(sample);
 
-    for (auto& detector : s.detectors)
-      if (detector->Update(sample)) recorder.OnEvent(detector->event());
-    if (recorder.failed() && s.episode.on_failure == "stop" && !ended) ended = Outcome::kFailure;
+    if (helper.awaited()) continue;  // that it does not get on is known
+    bool failed = false;
+    for (auto& detector : s.detectors) {
+      if (!detector->Update(sample)) continue;
+      recorder.OnEvent(detector->event());
+      failed = true;
+    }
+    if (failed && s.episode.on_failure != "ignore" && !helper.Call(pilot.path(), sample))
+      ended = Outcome::kFailure;
   }
-  return recorder.Finish(*ended, sample, plan, pilot, s.detectors, s.episode.min_coverage,
-                         sim.battery().left());
+  EpisodeRecord record = recorder.Finish(*ended, sample, plan, pilot, s.detectors,
+                                         s.episode.min_coverage, sim.battery().left());
+  if (record.message.empty()) record.message = helper.why_not();
+  return record;
 }
 
 }  // namespace floorproof

@@ -39,9 +39,10 @@ struct Metrics {
   double least_battery_v = 0;          // at its terminals
   std::optional<double> battery_left;  // share of its capacity; none: the scenario states none
   double max_cross_track_m = 0, mean_cross_track_m = 0;
-  int turns = 0;  // of the plan
-  int interventions = 0;
-  int reactions = 0;  // times the robot went back from what it met (the key `react`)
+  int turns = 0;               // of the plan
+  double cumulative_risk = 0;  // of the cells that its centre came to, as driven (RiskMeter)
+  int interventions = 0;       // a person's
+  int reactions = 0;           // times the robot went back from what it met (the key `react`)
   double max_estimate_error_m = 0, mean_estimate_error_m = 0;  // of the place, against the truth
   double p95_estimate_error_m = 0;    // below which it was for 95 % of the time, to a millimetre
   double mean_estimate_spread_m = 0;  // that the estimator itself believed in
@@ -54,10 +55,18 @@ struct Margin {
   double value = 0;  // least distance from failing, in the threshold's unit; positive is safe
 };
 
+// A person's help: the robot taken up where it had failed, and set down upright at a waypoint.
+struct Assist {
+  double t_s = 0;      // of setting down
+  Vec2 from_W, to_W;   // taken up, and the waypoint
+  double yaw_rad = 0;  // as it was set down
+};
+
 struct EpisodeRecord {
   Outcome outcome = Outcome::kError;
   std::string message;  // why, where the outcome alone does not say it
   std::vector<Event> events;
+  std::vector<Assist> assists;
   Metrics metrics;
   std::vector<Margin> margins;
   std::vector<TraceRow> trace;

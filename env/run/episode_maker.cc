@@ -21,6 +21,9 @@ std::string PlanInputs(const Scenario& s) {
   if (s.goal) text += " to " + FormatDouble(s.goal->x()) + " " + FormatDouble(s.goal->y());
   ConfigNode params = ConfigNode::Map();
   WriteParams(*s.planner, params);
+  RiskParams risk = s.risk;
+  WriteParams([&](ParamVisitor& v) { risk.Visit(v); }, params);
+  params.Add("tables", ConfigNode::Scalar(s.fmea_file.string(), true));
   text += "\n" + WriteYaml(params);
   if (s.planner->uses_seed()) text += std::to_string(s.episode_id);
   return text;
@@ -41,7 +44,9 @@ const EpisodeMaker::Planned& EpisodeMaker::Plan(const Variant& variant, const Sc
   if (last.json.empty() || inputs != last.inputs || !s.planner) {
     last.inputs = inputs;
     last.plan = MakePlan(s);
-    last.json = PlanJson(s, last.plan).dump();
+    auto json = PlanJson(s, last.plan);
+    json.erase("visits_by_risk");  // a row holds numbers
+    last.json = json.dump();
   }
   return last;
 }

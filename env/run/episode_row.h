@@ -14,7 +14,7 @@
 namespace floorproof {
 
 // Metrics in the order of result.json; a column each.
-inline constexpr std::array<std::string_view, 19> kMetricColumns = {"coverage",
+inline constexpr std::array<std::string_view, 20> kMetricColumns = {"coverage",
                                                                     "overlap",
                                                                     "path_length_m",
                                                                     "duration_s",
@@ -25,6 +25,7 @@ inline constexpr std::array<std::string_view, 19> kMetricColumns = {"coverage",
                                                                     "max_cross_track_m",
                                                                     "mean_cross_track_m",
                                                                     "turns",
+                                                                    "cumulative_risk",
                                                                     "interventions",
                                                                     "reactions",
                                                                     "max_estimate_error_m",

@@ -57,23 +57,44 @@ void Pilot::TakeNewPath() {
   command_ = {};
 }
 
-void Pilot::Control(Simulation& sim) {
-  Sample& truth = sim.sample();
+void Pilot::GoOnFrom(std::size_t waypoint, Simulation& sim) {
+  path_.erase(path_.begin(), path_.begin() + static_cast<std::ptrdiff_t>(waypoint));
+  if (reaction_) reaction_->Drop();
+  s_.tracker->Start(path_, robot_, &clearance_);
+  command_ = {};
+  Drive(sim);
+}
+
+void Pilot::Sense(Simulation& sim) {
+  const Sample& truth = sim.sample();
   sensed_.t_s = truth.t_s;
   for (auto& [name, sensor] : s_.sensors) sensor->Sense(sim.data(), truth, sensed_);
   estimate_ = s_.estimator->Update(sensed_, truth, control_s_);
   if (mapper_) mapper_->Update(sensed_, estimate_);
+}
 
-  const bool reacts = reaction_ && reaction_->Update(sensed_, estimate_, control_s_, command_);
-  if (reacts && reaction_->ended()) TakeNewPath();
-  if (!reacts) command_ = s_.tracker->Update(estimate_, truth.t_s, control_s_);
-
+void Pilot::Drive(Simulation& sim) {
+  Sample& truth = sim.sample();
   truth.command = command_;
   truth.command.cross_track_half_width_m =
       HalfWidth(clearance_, path_, command_.segment, truth.p_WB.head<2>());
   drive_->ToWheels(truth.command.twist, truth.command.hinges, wheel_radps_);
   sim.SetWheelSpeeds(wheel_radps_);
   sim.SetHingeSpeeds(truth.command.hinges);
+}
+
+void Pilot::Control(Simulation& sim) {
+  Sense(sim);
+  const bool reacts = reaction_ && reaction_->Update(sensed_, estimate_, control_s_, command_);
+  if (reacts && reaction_->ended()) TakeNewPath();
+  if (!reacts) command_ = s_.tracker->Update(estimate_, sensed_.t_s, control_s_);
+  Drive(sim);
+}
+
+void Pilot::Stand(Simulation& sim) {
+  Sense(sim);
+  command_.twist = {};
+  Drive(sim);
 }
 
 }  // namespace floorproof

@@ -26,10 +26,16 @@ class Pilot {
   // One control period: sense, estimate, map, track, react; writes the sample's command and sets
   // the wheels. Allocates only where a reaction changes the path.
   void Control(Simulation& sim);
+  // The same of a robot that waits for help: it senses on, its motors hold still.
+  void Stand(Simulation& sim);
+  // The robot was set down at this waypoint of its path: what it drives begins there now, and
+  // whatever it was about is over. Neither sensors nor estimator are told. Allocates.
+  void GoOnFrom(std::size_t waypoint, Simulation& sim);
   // After every physics step.
   void OnStep(const Sample& truth);
 
-  const Path& path() const { return path_; }  // driven now: the plan, until a reaction changes it
+  // Driven now: the plan, until a reaction changes it or the robot is set down.
+  const Path& path() const { return path_; }
   const Observation& sensed() const { return sensed_; }
   const Estimate& estimate() const { return estimate_; }
   const KnownMap* known() const { return mapper_ ? &mapper_->map() : nullptr; }
@@ -38,6 +44,8 @@ class Pilot {
  private:
   Stream StreamOf(const std::string& name) const;
   void TakeNewPath();
+  void Sense(Simulation& sim);
+  void Drive(Simulation& sim);
 
   Scenario& s_;
   const Scene& scene_;
@@ -46,7 +54,7 @@ class Pilot {
   const RobotSpec& robot_;
   double control_s_;
   ClearanceField clearance_;
-  std::unique_ptr<Drive> drive_;
+  std::unique_ptr<floorproof::Drive> drive_;
   std::optional<Mapper> mapper_;
   std::optional<Reaction> reaction_;
   Path path_;

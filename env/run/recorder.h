@@ -10,6 +10,7 @@
 
 #include "env/run/episode.h"
 #include "env/run/pilot.h"
+#include "planners/risk/risk_meter.h"
 
 namespace floorproof {
 
@@ -17,10 +18,11 @@ namespace floorproof {
 // by halves.
 class Recorder {
  public:
-  Recorder(const Scenario& s, const SweepArea& area, double expected_s)
+  Recorder(const Scenario& s, const SweepArea& area, const RiskMap& risk, double expected_s)
       : area_(area),
         robot_(s.robot.robot),
         meter_(area, s.robot.robot.tool),
+        risk_(risk),
         dt_s_(s.physics.timestep_s),
         shape_(s.robot.robot.shape) {
     trace_every_ = s.episode.control_hz / s.episode.trace_hz;
@@ -31,6 +33,7 @@ class Recorder {
   void OnControl(const Sample& sample, const Estimate& estimate) {
     if (sample.shape != shape_) TakeShape(sample.shape);
     if (shape_ >= 0) meter_.Add(sample.X_WB());
+    risk_.Add(sample.p_WB.head<2>());
     AddEstimateError((estimate.X_WB.p() - sample.p_WB.head<2>()).norm());
     spread_sum_ += estimate.spread_m;
     if (control_++ % trace_every_ != 0) return;
@@ -83,19 +86,28 @@ class Recorder {
 
   void OnEvent(const Event& event) { record_.events.push_back(event); }
 
+  // Before the detectors start afresh. What the tool is carried over is not swept.
+  void OnAssist(const Assist& assist, const std::vector<std::unique_ptr<Detector>>& detectors) {
+    record_.assists.push_back(assist);
+    ++record_.metrics.interventions;
+    KeepMargins(detectors);
+    meter_.Lift();
+    risk_.Lift();
+  }
+
   double coverage() const { return meter_.coverage(); }
   double driven_m() const { return record_.metrics.path_length_m; }
-  bool failed() const { return !record_.events.empty(); }
 
   // `ended`: why the loop stopped. A drive that was completed, or that ran out of time, is a
-  // failure when something failed on the way; a completed one that covered too little is one as
-  // well.
+  // failure when something failed on the way, helped or not; a completed one that covered too
+  // little is one as well.
   EpisodeRecord Finish(Outcome ended, const Sample& last, const PlanResult& plan,
                        const Pilot& pilot, const std::vector<std::unique_ptr<Detector>>& detectors,
                        double min_coverage, std::optional<double> battery_left) {
     Metrics& m = record_.metrics;
     if (shape_ >= 0) meter_.Add(last.X_WB());
     m.coverage = meter_.coverage();
+    m.cumulative_risk = risk_.cumulative_risk();
     m.overlap = meter_.overlap();
     m.duration_s = last.t_s;
     m.battery_left = battery_left;
@@ -105,13 +117,12 @@ class Recorder {
     m.reactions = pilot.reactions();
     FinishEstimateError();
     if (pilot.known() != nullptr) record_.known = *pilot.known();
-    for (const auto& detector : detectors)
-      record_.margins.push_back({std::string(Name(detector->mode())), detector->margin()});
+    KeepMargins(detectors);
     record_.passes = meter_.passes();
     record_.passes_frame = area_.frame;
     record_.sweepable = area_.sweepable;
     const bool judged = ended == Outcome::kSuccess || ended == Outcome::kTimeout;
-    record_.outcome = judged && failed() ? Outcome::kFailure : ended;
+    record_.outcome = judged && !record_.events.empty() ? Outcome::kFailure : ended;
     if (record_.outcome == Outcome::kSuccess && m.coverage < min_coverage) {
       record_.outcome = Outcome::kFailure;
       record_.message = fmt::format("coverage {:.2f} % is below success.min_coverage, {:.2f} %",
@@ -149,6 +160,18 @@ class Recorder {
       m.p95_estimate_error_m = std::min(m.max_estimate_error_m, static_cast<double>(mm + 1) / 1000);
   }
 
+  // The least of all that the detectors said since each of their starts.
+  void KeepMargins(const std::vector<std::unique_ptr<Detector>>& detectors) {
+    std::vector<Margin>& kept = record_.margins;
+    for (std::size_t i = 0; i < detectors.size(); ++i) {
+      const double margin = detectors[i]->margin();
+      if (i == kept.size())
+        kept.push_back({std::string(Name(detectors[i]->mode())), margin});
+      else
+        kept[i].value = std::min(kept[i].value, margin);
+    }
+  }
+
   // Between two shapes the tool is lifted; then it is the new shape's.
   void TakeShape(int shape) {
     shape_ = shape;
@@ -162,6 +185,7 @@ class Recorder {
   const SweepArea& area_;
   const RobotSpec& robot_;
   CoverageMeter meter_;
+  RiskMeter risk_;
   double dt_s_, cross_track_sum_ = 0, estimate_error_sum_ = 0, spread_sum_ = 0;
   static constexpr double kMostMm = 10000;  // errors beyond are counted together
   std::vector<std::int64_t> errors_mm_ =

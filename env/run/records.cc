@@ -11,6 +11,7 @@
 
 #include "env/run/file_output.h"
 #include "env/run/plan_file.h"
+#include "planners/risk/risk_meter.h"
 
 namespace floorproof {
 namespace {
@@ -25,6 +26,18 @@ Json EventJson(const Event& e) {
   Json evidence = Json::object();
   for (const auto& [name, value] : e.evidence) evidence[name] = value;
   json["evidence"] = std::move(evidence);
+  return json;
+}
+
+Json AssistsJson(const std::vector<Assist>& assists) {
+  Json json = Json::array();
+  for (const Assist& a : assists)
+    json.push_back({{"t_s", a.t_s},
+                    {"x_m", a.from_W.x()},
+                    {"y_m", a.from_W.y()},
+                    {"to_x_m", a.to_W.x()},
+                    {"to_y_m", a.to_W.y()},
+                    {"to_yaw_rad", a.yaw_rad}});
   return json;
 }
 
@@ -48,6 +61,26 @@ Json ValueJson(const ConfigNode& node) {
   const auto [rest, error] = std::from_chars(node.scalar.data(), end, number);
   if (!node.quoted && error == std::errc() && rest == end && std::isfinite(number)) return number;
   return node.scalar;
+}
+
+// The paper's measures of the path (planners/risk/risk_meter.h).
+void AddRisk(const PlanResult& plan, Json& json) {
+  const RiskOfPath risk = MeasureRisk(*plan.risk, plan.path);
+  json["cumulative_risk"] = risk.cumulative_risk;
+  json["risk_of_cells_once"] = risk.each_cell_once;
+  json["risk_over_once"] =
+      risk.each_cell_once > 0 ? risk.cumulative_risk / risk.each_cell_once - 1 : 0;
+  json["cells_visited"] = risk.cells;
+  json["cell_visits"] = risk.visits;
+  json["hazard_free_coverage"] = risk.coverage;
+  json["terrain_crossings"] = risk.terrain_crossings;
+  Json ranges = Json::array();
+  for (const auto& range : risk.ranges)
+    ranges.push_back({{"rf_from", range.low},
+                      {"rf_to", range.high},
+                      {"cells", range.cells},
+                      {"visits", range.visits}});
+  json["visits_by_risk"] = std::move(ranges);
 }
 
 }  // namespace
@@ -85,6 +118,7 @@ Json MetricsJson(const Metrics& m) {
           {"max_cross_track_m", m.max_cross_track_m},
           {"mean_cross_track_m", m.mean_cross_track_m},
           {"turns", m.turns},
+          {"cumulative_risk", m.cumulative_risk},
           {"interventions", m.interventions},
           {"reactions", m.reactions},
           {"max_estimate_error_m", m.max_estimate_error_m},
@@ -117,6 +151,7 @@ Json PlanJson(const Scenario& s, const PlanResult& plan) {
                {"tool_width_m", plan.tool_width_m},
                {"keeps_clear", circle ? "circle" : "footprint"},
                {"radius_m", circle ? plan.clear.radius_m : s.robot.robot.inscribed_radius_m}};
+  AddRisk(plan, json);
   for (const auto& [name, value] : plan.figures) json[name] = value;
   return json;
 }
@@ -131,6 +166,7 @@ Json ResultJson(const Scenario& s, const EpisodeRecord& record) {
           {"outcome", Name(record.outcome)},
           {"message", record.message},
           {"events", EventsJson(record.events)},
+          {"assists", AssistsJson(record.assists)},
           {"metrics", MetricsJson(record.metrics)},
           {"margins", std::move(margins)},
           {"steps", record.steps},
@@ -161,17 +197,29 @@ std::string TraceCsv(const EpisodeRecord& record, const RobotSpec& robot) {
   return fmt::to_string(out);
 }
 
+std::string RiskCsv(const RiskMap& risk) {
+  fmt::memory_buffer out;
+  for (int iy = risk.rf.height - 1; iy >= 0; --iy)
+    for (int ix = 0; ix < risk.rf.width; ++ix)
+      fmt::format_to(std::back_inserter(out), "{}{}", risk.rf(ix, iy),
+                     ix + 1 < risk.rf.width ? ',' : '\n');
+  return fmt::to_string(out);
+}
+
 void WritePlanFiles(const Scenario& s, const PlanResult& plan,
                     const std::filesystem::path& folder) {
   WriteFileWhole(folder / "scenario.resolved.yaml", ResolvedScenario(s, folder));
   WriteFileWhole(folder / "plan.csv", PlanCsv(plan.path));
   WriteFileWhole(folder / "plan.json", PlanJson(s, plan).dump(2) + "\n");
+  WriteFileWhole(folder / "risk.csv", RiskCsv(*plan.risk));
 }
 
 void RemoveEpisodeFiles(const std::filesystem::path& folder) {
-  for (const char* name : {"result.json", "trace.csv", "heatmap_visits.png", "heatmap_coverage.png",
-                           "heatmap_failures.png", "heatmap_known.png", "plot_errors.png",
-                           "frame_start.png", "frame_failure.png", "frame_end.png", "video.mp4"}) {
+  for (const char* name :
+       {"result.json", "trace.csv", "heatmap_plan.png", "heatmap_plan_visits.png",
+        "heatmap_risk.png", "plot_risk.png", "heatmap_visits.png", "heatmap_coverage.png",
+        "heatmap_failures.png", "heatmap_known.png", "plot_errors.png", "frame_start.png",
+        "frame_failure.png", "frame_end.png", "video.mp4"}) {
     std::error_code error;
     std::filesystem::remove(folder / name, error);
     if (error)

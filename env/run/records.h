@@ -21,7 +21,10 @@ nlohmann::ordered_json DrawnJson(const Drawn& drawn);
 nlohmann::ordered_json VersionsJson();
 std::string TraceCsv(const EpisodeRecord& record, const RobotSpec& robot);
 
-// scenario.resolved.yaml, plan.csv and plan.json.
+// RF per cell, the top row first.
+std::string RiskCsv(const RiskMap& risk);
+
+// scenario.resolved.yaml, plan.csv, plan.json and risk.csv.
 void WritePlanFiles(const Scenario& scenario, const PlanResult& plan,
                     const std::filesystem::path& folder);
 // Removes what an episode leaves beside its plan: result.json first, then trace, pictures, film.

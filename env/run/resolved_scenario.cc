@@ -92,13 +92,16 @@ ConfigNode Rebased(ConfigNode node, const fs::path& from, const fs::path& to) {
                                                                          ConfigNode& value) {
     const bool names_file =
         key == "site" || key == "plan.file" ||
+        (key == "risk.tables" && value.scalar.ends_with(".yaml")) ||
         ((key == "robot" || key == "robot.name") && value.scalar.ends_with(".xml"));
     if (value.IsScalar() && names_file)
       value = ConfigNode::Scalar(PathFrom(to, from / value.scalar).string(), true);
     for (ConfigNode& item : value.items) visit(key, item);
     // A map is a distribution, a labelled entry of keys, or a value in parts.
     for (auto& [name, entry] : value.entries)
-      visit(name == "choice" ? key : (key == "plan" || key == "robot" ? key + "." + name : name),
+      visit(name == "choice"                                   ? key
+            : key == "plan" || key == "robot" || key == "risk" ? key + "." + name
+                                                               : name,
             entry);
   };
   for (auto& [key, value] : node.entries) visit(key, value);
@@ -138,6 +141,10 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
   if (s.goal && stated("goal", site_varies)) root.Add("goal", Goal(*s.goal));
   root.Add("plan", s.planner ? WithPlugin(Named("planner", s.planner_name), *s.planner)
                              : Named("file", PathFrom(folder, s.plan_file).string()));
+  root.Add("risk", WithParams(Named("tables", s.fmea_file == BundledTables()
+                                                  ? std::string(kBundledTables)
+                                                  : PathFrom(folder, s.fmea_file).string()),
+                              s.risk));
   if (stated("controller", robot_varies))
     root.Add("controller", WithPlugin(Named("name", s.tracker_name), *s.tracker));
   root.Add("estimator", WithPlugin(Named("name", s.estimator_name), *s.estimator));

@@ -212,6 +212,7 @@ std::vector<fs::path> FilesRead(const Scenario& s) {
   std::vector<fs::path> files = s.site.files_read;
   if (!s.site_file.empty()) files.insert(files.begin(), s.site_file);
   files.push_back(s.robot_file);
+  files.push_back(s.fmea_file);
   if (!s.plan_file.empty()) files.push_back(s.plan_file);
   return files;
 }

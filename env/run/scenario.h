@@ -26,6 +26,7 @@
 #include "env/scene/scene.h"
 #include "env/sensors/sensor.h"
 #include "planners/planner.h"
+#include "planners/risk/risk_map.h"
 
 namespace floorproof {
 
@@ -58,6 +59,10 @@ struct Scenario {
   std::unique_ptr<Planner> planner;
   std::filesystem::path plan_file;
   Path user_plan;  // what it holds
+
+  std::filesystem::path fmea_file;
+  FmeaTables fmea;
+  RiskParams risk;
 
   std::string tracker_name, estimator_name;
   std::unique_ptr<Tracker> tracker;

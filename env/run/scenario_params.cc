@@ -18,8 +18,9 @@ void VideoParams::Visit(ParamVisitor& v) {
 void EpisodeParams::Visit(ParamVisitor& v) {
   v("control_hz", control_hz, Between(1, 2000), "control periods a second");
   v("trace_hz", trace_hz, Between(1, 2000), "rows of trace.csv a second");
-  v("on_failure", on_failure, {"stop", "ignore"},
-    "stop: the first failure ends the episode; ignore: it is logged and the drive goes on");
+  v("on_failure", on_failure, {"stop", "assist", "ignore"},
+    "stop: the first failure ends the episode; assist: after each, a person sets the robot down "
+    "farther along its path; ignore: it is logged and the drive goes on");
   v.Group(
       "success",
       [this](ParamVisitor& g) {
@@ -27,7 +28,8 @@ void EpisodeParams::Visit(ParamVisitor& v) {
       },
       "what counts as success");
   v("time_limit_s", time_limit_s, Positive(),
-    "simulated seconds; none: a minute and three times what the plan takes at its own speeds");
+    "simulated seconds; none: a minute and three times what the plan takes at its own speeds, not "
+    "counting waits for help");
   v("drive", drive, {"physics", "none"}, "physics: drive the plan; none: plan only");
   v("seed", seed, Between(0, 2147483647.0), "of every random stream");
   v("episode", episode, Between(0, 1e8), "of the seed's episodes, the one that `run` drives");

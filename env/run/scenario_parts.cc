@@ -5,6 +5,7 @@
 
 #include "env/core/blocks.h"
 #include "env/core/input_file.h"
+#include "env/run/fmea_file.h"
 #include "env/run/plan_file.h"
 #include "env/run/start_check.h"
 #include "env/scene/roller_wheels.h"
@@ -127,7 +128,10 @@ void CheckStart(const ConfigNode& root, const Scenario& s) {
   const Cell cell = s.site.map.frame.ToCell(s.start.p());
   const std::string value = FormatDouble(s.start.x_m) + ", " + FormatDouble(s.start.y_m);
   if (!s.site.map.frame.Inside(cell)) throw InputError(mark, "start", value, "lies off the map");
-  if (s.site.map.IsWall(cell)) throw InputError(mark, "start", value, "lies in a wall");
+  if (s.site.map.IsWall(cell))
+    throw InputError(
+        mark, "start", value,
+        "lies in a wall, cell (" + std::to_string(cell.ix) + ", " + std::to_string(cell.iy) + ")");
 }
 
 std::optional<Vec2> ReadGoal(const ConfigNode& root, const HazardMap& map) {
@@ -161,6 +165,31 @@ std::vector<int> ReadPlanPart(const ConfigNode& root, Scenario& s) {
   return lines;
 }
 
+// Tables are named like robots: a bundled one's name, or a path that ends in .yaml.
+void ReadRisk(const ConfigNode& root, Scenario& s) {
+  const ConfigNode* node = Written(root, "risk");
+  if (node != nullptr)
+    ReadParams(*node, "risk.", [&](ParamVisitor& v) { s.risk.Visit(v); }, {"tables"});
+  const ConfigNode* tables = node != nullptr ? node->Find("tables") : nullptr;
+  const std::string name =
+      tables != nullptr ? AsString(*tables, "risk.tables") : std::string(kBundledTables);
+  if (name == kBundledTables) {
+    s.fmea_file = BundledTables();
+  } else if (name.ends_with(".yaml")) {
+    s.fmea_file = NamedFile(s.file.parent_path(), *tables, "risk.tables");
+  } else {
+    throw InputError(tables->mark, "risk.tables", name, "must be htetro, or a .yaml file");
+  }
+  s.fmea = ReadFmeaTables(s.fmea_file);
+  if (!s.risk.cell_m) return;
+  constexpr double kMostCells = 4e6;
+  const GridFrame& frame = s.site.map.frame;
+  const double side = frame.cell_m / *s.risk.cell_m;
+  if (frame.width * side * frame.height * side > kMostCells)
+    throw InputError(node->Find("cell_m")->mark, "risk.cell_m", FormatDouble(*s.risk.cell_m),
+                     "makes more than 4 million cells of the floor");
+}
+
 void ReadControl(const ConfigNode& root, Scenario& s) {
   const Named tracker = ReadNamed(root, "controller", "name", DefaultTracker(s.robot.robot.drive));
   s.tracker_name = tracker.name;
@@ -176,14 +205,18 @@ void ReadControl(const ConfigNode& root, Scenario& s) {
   ReadParams(estimator.params, "estimator.", *s.estimator, {"name"});
 }
 
+// For keys that know a robot in the shape in which it starts.
+void RefuseFolding(const Scenario& s, const SourceMark& mark, const char* key, const char* value) {
+  if (!s.robot.robot.hinges.empty())
+    throw InputError(mark, key, value, "cannot be with a plan that changes the robot's shape");
+}
+
 // The mapper keeps what was met, so that a robot which reacts has one.
 void ReadReaction(const ConfigNode& root, Scenario& s) {
   if (const ConfigNode* node = Written(root, "react")) {
     s.react.emplace();
     ReadParams(*node, "react.", [&](ParamVisitor& v) { s.react->Visit(v); });
-    if (!s.robot.robot.hinges.empty())
-      throw InputError(node->mark, "react", "",
-                       "cannot be with a plan that changes the robot's shape");
+    RefuseFolding(s, node->mark, "react", "");
   }
   if (const ConfigNode* node = Written(root, "mapper")) {
     s.mapper.emplace();
@@ -218,17 +251,23 @@ void ReadFailures(const ConfigNode& root, Scenario& s) {
       ReadParams(*params, "failures." + name + ".", *detector);
     s.detectors.push_back(std::move(detector));
   }
+  if (s.episode.on_failure == "assist")
+    RefuseFolding(s, MarkOf(root, "on_failure"), "on_failure", "assist");
 }
 
 }  // namespace
 
+fs::path BundledTables() {
+  return ModelsFolder() / "fmea" / (std::string(kBundledTables) + ".yaml");
+}
+
 const std::vector<std::string>& ScenarioKeys() {
   static const std::vector<std::string> keys = {
-      "name",    "scenario",     "site",       "robot",    "start",    "goal",
-      "plan",    "controller",   "estimator",  "sensors",  "mapper",   "react",
-      "physics", "battery",      "control_hz", "trace_hz", "failures", "on_failure",
-      "success", "time_limit_s", "seed",       "episode",  "drive",    "wheels",
-      "video",   "files",        "randomise",  "matrix",   "gate"};
+      "name",       "scenario", "site",         "robot",      "start",    "goal",
+      "plan",       "risk",     "controller",   "estimator",  "sensors",  "mapper",
+      "react",      "physics",  "battery",      "control_hz", "trace_hz", "failures",
+      "on_failure", "success",  "time_limit_s", "seed",       "episode",  "drive",
+      "wheels",     "video",    "files",        "randomise",  "matrix",   "gate"};
   return keys;
 }
 
@@ -261,6 +300,7 @@ void ReadParts(const ConfigNode& root, Scenario& s) {
   s.site.map.start = s.start;  // the scenario's own wins, on pictures too
   CheckStart(root, s);
   s.goal = ReadGoal(root, s.site.map);
+  ReadRisk(root, s);
   ReadControl(root, s);
   ReadReaction(root, s);
   ReadSensors(root, s);

@@ -18,6 +18,10 @@ inline constexpr std::uintmax_t kMostNamedBytes = 256u << 20;  // readers have n
 // A bundled file's name in a resolved scenario is the same wherever the program stands.
 inline constexpr std::string_view kBundled = "bundled:";
 
+// The FMEA tables that come with the program, by name and file.
+inline constexpr std::string_view kBundledTables = "htetro";
+std::filesystem::path BundledTables();
+
 // All keys that may stand at the top.
 const std::vector<std::string>& ScenarioKeys();
 // A file that the scenario names and that can be read; throws InputError.

@@ -8,37 +8,15 @@
 namespace floorproof {
 namespace {
 
-// Cells of `passable` connected to `seed` by their sides; all of them when the seed is not
-// passable.
-Grid<std::uint8_t> Component(const Grid<std::uint8_t>& passable, Cell seed) {
-  if (!passable.Inside(seed) || !passable(seed)) return passable;
-  Grid<std::uint8_t> reached(passable.width, passable.height);
-  std::vector<Cell> stack = {seed};
-  reached(seed) = 1;
-  while (!stack.empty()) {
-    const Cell c = stack.back();
-    stack.pop_back();
-    for (const Cell n :
-         {Cell{c.ix + 1, c.iy}, Cell{c.ix - 1, c.iy}, Cell{c.ix, c.iy + 1}, Cell{c.ix, c.iy - 1}}) {
-      if (!passable.Inside(n) || !passable(n) || reached(n)) continue;
-      reached(n) = 1;
-      stack.push_back(n);
-    }
-  }
-  return reached;
-}
-
 // 1 on the cells of the map, with a ring around it, that are wall and within a robot's reach of the
-// free floor that hangs together with the start.
+// floor around the start.
 Grid<std::uint8_t> WallsInSight(const HazardMap& map, const RobotSpec& robot, const Vec2& start_W) {
+  const Grid<std::uint8_t> floor = FloorAround(map, start_W);
   const GridFrame fine = FineFrame(map.frame);
   const int k = fine.width / map.frame.width;
-  Grid<std::uint8_t> wall(fine.width, fine.height);
+  Grid<std::uint8_t> reached(fine.width, fine.height);
   for (int iy = 0; iy < fine.height; ++iy)
-    for (int ix = 0; ix < fine.width; ++ix) wall(ix, iy) = map.IsWall(ix / k, iy / k);
-  Grid<std::uint8_t> passable(fine.width, fine.height);
-  for (std::size_t i = 0; i < passable.cells.size(); ++i) passable.cells[i] = !wall.cells[i];
-  const Grid<std::uint8_t> reached = Component(passable, fine.ToCell(start_W));
+    for (int ix = 0; ix < fine.width; ++ix) reached(ix, iy) = floor(ix / k, iy / k);
   const Grid<float> to_reached = DistanceToSet(reached, false);
   const auto reach_cells =
       static_cast<float>((robot.circumscribed_radius_m + 0.3) / fine.cell_m + 1);
@@ -59,6 +37,28 @@ Grid<std::uint8_t> WallsInSight(const HazardMap& map, const RobotSpec& robot, co
 }
 
 }  // namespace
+
+Grid<std::uint8_t> FloorAround(const HazardMap& map, const Vec2& start_W) {
+  Grid<std::uint8_t> free(map.frame.width, map.frame.height);
+  for (int iy = 0; iy < free.height; ++iy)
+    for (int ix = 0; ix < free.width; ++ix) free(ix, iy) = !map.IsWall(ix, iy);
+  const Cell seed = map.frame.ToCell(start_W);
+  if (!free.Inside(seed) || !free(seed)) return free;
+  Grid<std::uint8_t> floor(free.width, free.height);
+  std::vector<Cell> stack = {seed};
+  floor(seed) = 1;
+  while (!stack.empty()) {
+    const Cell c = stack.back();
+    stack.pop_back();
+    for (const Cell n :
+         {Cell{c.ix + 1, c.iy}, Cell{c.ix - 1, c.iy}, Cell{c.ix, c.iy + 1}, Cell{c.ix, c.iy - 1}}) {
+      if (!free.Inside(n) || !free(n) || floor(n)) continue;
+      floor(n) = 1;
+      stack.push_back(n);
+    }
+  }
+  return floor;
+}
 
 std::vector<CellRect> MaximalRectangles(const Grid<std::uint8_t>& set) {
   Grid<std::uint8_t> left = set;

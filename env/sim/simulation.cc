@@ -56,8 +56,11 @@ Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec
   if (!robot.hinges.empty())
     for (const BlockSpec& block : robot.blocks)
       block_bodies_.push_back(mj_name2id(m, mjOBJ_BODY, block.name.c_str()));
-  for (int a = 0; a < static_cast<int>(robot.wheels.size()); ++a)
-    wheel_bodies_.push_back(m->jnt_bodyid[m->actuator_trnid[2 * a]]);
+  for (int a = 0; a < static_cast<int>(robot.wheels.size()); ++a) {
+    const int joint = m->actuator_trnid[2 * a];
+    wheel_bodies_.push_back(m->jnt_bodyid[joint]);
+    wheel_qpos_.push_back(m->jnt_qposadr[joint]);
+  }
   support_.reserve(kMostSupports);
   hull_.reserve(2 * kMostSupports);
 }
@@ -76,13 +79,30 @@ void Simulation::Place(const Pose2& X_WB) {
 }
 
 void Simulation::Reset(const Pose2& X_WB) {
-  // Springs and contacts take a moment to carry the weight: it stands still for that long before
-  // the clock starts, then is put exactly where it was asked for.
+  mj_resetData(model(), data_.get());
+  battery_ = BatteryInUse(robot_.battery);
+  sample_ = Sample{};
+  Settle(X_WB, 0);
+}
+
+// All that the engine remembers of the last place goes: velocities, the motors' state and orders,
+// the solver's warm start, springs under load.
+void Simulation::SetDown(const Pose2& X_WB) {
+  mjData* d = data_.get();
+  const double t_s = d->time;
+  std::vector<mjtNum> turned_rad;
+  for (const int adr : wheel_qpos_) turned_rad.push_back(d->qpos[adr]);
+  mj_resetData(model(), d);
+  for (std::size_t w = 0; w < turned_rad.size(); ++w) d->qpos[wheel_qpos_[w]] = turned_rad[w];
+  Settle(X_WB, t_s);
+}
+
+// Springs and contacts take a moment to carry the weight: it stands still for that long while the
+// clock does not count, then is put exactly where it was asked for, at t_s.
+void Simulation::Settle(const Pose2& X_WB, double t_s) {
   constexpr double kSettle_s = 0.5;
   mjData* d = data_.get();
-  mj_resetData(model(), d);
   Place(X_WB);
-  battery_ = BatteryInUse(robot_.battery);
   SetDriverVoltages();
   while (d->time < kSettle_s) {
     live_.Update(d);
@@ -90,10 +110,9 @@ void Simulation::Reset(const Pose2& X_WB) {
   }
   Place(X_WB);
   std::fill_n(d->qvel, model()->nv, 0.0);
-  d->time = 0;
+  d->time = t_s;
   live_.Update(d);
   ForwardEngine(model(), d);
-  sample_ = Sample{};
   ReadPose();
   ReadContacts();
   ReadPower(0);

@@ -23,8 +23,12 @@ class Simulation {
   // `scene`, `map` and `robot` outlive the simulation.
   Simulation(const Scene& scene, const HazardMap& map, const RobotSpec& robot);
 
-  // At rest at the pose, settled on its wheels; time 0.
+  // At rest at the pose, settled on its wheels; time 0, the battery new.
   void Reset(const Pose2& X_WB);
+  // The same in the middle of an episode: lifted and set down, upright and at rest, in its start
+  // shape, its motors told to stand still. Time and battery go on as they were, and the driven
+  // wheels have not turned: no encoder notices.
+  void SetDown(const Pose2& X_WB);
   // Speeds that the wheels' motor drivers hold from now on, rad/s, RobotSpec's order.
   void SetWheelSpeeds(std::span<const double> wheel_radps);
   // The same for the motors of the hinges: the rates alone count.
@@ -47,6 +51,7 @@ class Simulation {
 
  private:
   void Place(const Pose2& X_WB);
+  void Settle(const Pose2& X_WB, double t_s);
   void ReadHinges();
   void ReadPose();
   void ReadContacts();
@@ -66,6 +71,7 @@ class Simulation {
   BatteryInUse battery_;
   std::vector<mjtNum> gains_;                // the motors', where their drivers' voltage changes
   std::vector<int> wheel_bodies_;            // of the driven wheels, in actuator order
+  std::vector<int> wheel_qpos_;              // addresses of their angles
   std::vector<int> hinge_qpos_, hinge_dof_;  // addresses of the hinges' joints
   std::vector<int> block_bodies_;            // of a robot with hinges
   BlockMotions blocks_;                      // of a robot with hinges; else at rest
