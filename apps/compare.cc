@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "apps/command.h"
@@ -37,8 +38,38 @@ std::string Signed(double value, double scale = 1) {
   return std::isfinite(value) ? fmt::format("{:+.4g}", scale * value) : "-";
 }
 
-void SayComparison(const Comparison& c, const Globals& globals) {
-  globals.Say(fmt::format("a: {}\nb: {}\n{} episodes in both, with the same draws", c.a, c.b, c.n));
+// Of the figures that differ anywhere, and of those that a reader asks for.
+void SayPlans(const Comparison& c, const Globals& globals) {
+  const auto spread = [](const Quartiles& q) {
+    return fmt::format("{:.4g} [{:.4g}, {:.4g}]", q.median, q.lower, q.upper);
+  };
+  bool first = true;
+  for (const ComparedPlanFigure& f : c.plans) {
+    constexpr std::array<std::string_view, 4> kAlways = {
+        "length_m", "cumulative_risk", "hazard_free_coverage", "terrain_crossings"};
+    if (f.lower + f.higher == 0 && std::ranges::find(kAlways, f.figure) == kAlways.end()) continue;
+    if (first)
+      globals.Say(fmt::format("  {:<22} {:>6}  {:<26} {:<26} {:<24} {}", "plans", "n",
+                              "a: median [quartiles]", "b", "change (%)", "b lower, same, higher"));
+    first = false;
+    const auto percent = [](const Quartiles& q) {
+      return fmt::format("{:+.1f} [{:+.1f}, {:+.1f}]", 100 * q.median, 100 * q.lower,
+                         100 * q.upper);
+    };
+    globals.Say(fmt::format("  {:<22} {:>6}  {:<26} {:<26} {:<24} {}, {}, {}", f.figure, f.n,
+                            spread(f.a), spread(f.b), f.change ? percent(*f.change) : "-", f.lower,
+                            f.same, f.higher));
+  }
+  const ComparedPlans& both = c.risk_and_length;
+  if (both.n > 0)
+    globals.Say(fmt::format(
+        "  cumulative_risk and length_m together: b has less of both in {}, less of one in {}, the "
+        "same in {}, more of one in {}",
+        both.both_lower, both.none_higher - both.both_lower - both.same, both.same,
+        both.n - both.none_higher));
+}
+
+void SayDrives(const Comparison& c, const Globals& globals) {
   globals.Say(fmt::format("  {:<14} {:>6} {:>6} {:>7} {:>7}  {}", "failures", "a", "b", "only a",
                           "only b", "rate b - a (95 %); exact McNemar p"));
   for (const ComparedFailure& f : c.failures)
@@ -71,7 +102,14 @@ void AddCompare(CLI::App& app, const Globals& globals, int& status) {
     const Side a = OpenSide(sides->at(0)), b = OpenSide(sides->at(1));
     const Comparison comparison = CompareVariants(a.store, a.variant, b.store, b.variant);
     globals.Result(ComparisonJson(comparison));
-    SayComparison(comparison, globals);
+    globals.Say(fmt::format("a: {}\nb: {}\n{} episodes in both, with the same draws", comparison.a,
+                            comparison.b, comparison.n));
+    if (comparison.only_a + comparison.only_b > 0)
+      globals.Say(fmt::format("left out: {} that only a planned or drove, {} that only b did",
+                              comparison.only_a, comparison.only_b));
+    const bool driven = !comparison.metrics.empty();
+    if (driven) SayDrives(comparison, globals);
+    SayPlans(comparison, globals);
     status = kDone;
   });
 }

@@ -6,11 +6,10 @@
 #include <algorithm>
 
 #include "apps/error_plot.h"
+#include "apps/risk_pictures.h"
 
 namespace floorproof {
 namespace {
-
-std::string Title(const Scenario& s) { return s.robot_name + " on " + s.site.map.name; }
 
 HeatValues OverSweepable(const EpisodeRecord& record, float (*value)(std::uint8_t passes)) {
   HeatValues heat{record.passes_frame,
@@ -26,7 +25,7 @@ void WriteKnownMap(const Scenario& s, const KnownMap& known, const std::filesyst
   const KnownAgainstTruth seen =
       Compare(known, s.site.map, s.robot.robot.step_m, 2 * known.frame.cell_m);
   HeatMapOptions options;
-  options.title = fmt::format("{}: known {:.1f} %, of it wrong {:.1f} %", Title(s),
+  options.title = fmt::format("{}: known {:.1f} %, of it wrong {:.1f} %", PictureTitle(s),
                               100 * seen.known, 100 * seen.wrong);
   // In the order of KnownAgainstTruth::State.
   options.categories = {{"unknown", {176, 182, 190}},
@@ -45,21 +44,29 @@ void WriteKnownMap(const Scenario& s, const KnownMap& known, const std::filesyst
   WriteHeatMap(bare, &heat, options, png);
 }
 
+// Where no single event says how it ended.
+Banner ClosingBanner(const EpisodeRecord& record) {
+  const std::string covered = fmt::format("covered {:.1f} %", 100 * record.metrics.coverage);
+  if (record.outcome == Outcome::kSuccess)
+    return {Banner::Tone::kSuccess, "SUCCESS", covered + " without a failure"};
+  if (record.assists.empty())
+    return {Banner::Tone::kWarning, std::string(Name(record.outcome)), record.message};
+  const std::size_t times = record.assists.size();
+  return {Banner::Tone::kFailure,
+          fmt::format("FAILURE   helped {} time{}", times, times == 1 ? "" : "s"),
+          record.message.empty() ? covered : covered + ";  " + record.message};
+}
+
 }  // namespace
 
-void WritePlanPicture(const Scenario& s, const PlanResult& plan,
-                      const std::filesystem::path& folder) {
-  HeatMapOptions options;
-  options.title = Title(s) + ": plan";
-  options.plan = &plan.path;
-  WriteHeatMap(s.site.map, nullptr, options, folder / "heatmap_plan.png");
-}
+std::string PictureTitle(const Scenario& s) { return s.robot_name + " on " + s.site.map.name; }
 
 void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecord& record,
                    const std::filesystem::path& folder) {
+  WritePlanPictures(s, plan, folder);
   {
     HeatMapOptions options;
-    options.title = Title(s) + ": visits";
+    options.title = PictureTitle(s) + ": visits";
     options.quantity = "passes of the tool";
     options.unit = "count";
     options.whole_numbers = true;
@@ -70,16 +77,17 @@ void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecor
   }
   {
     HeatMapOptions options;
-    options.title = fmt::format("{}: coverage {:.1f} %", Title(s), 100 * record.metrics.coverage);
+    options.title =
+        fmt::format("{}: coverage {:.1f} %", PictureTitle(s), 100 * record.metrics.coverage);
     options.categories = {{"can be swept, was not", {222, 90, 60}}, {"swept", {70, 150, 110}}};
     const HeatValues heat =
         OverSweepable(record, [](std::uint8_t passes) { return passes > 0 ? 1.0f : 0.0f; });
     WriteHeatMap(s.site.map, &heat, options, folder / "heatmap_coverage.png");
   }
-  WriteFailurePlaces(s.site.map, Title(s), record.events, nullptr, &plan.path,
+  WriteFailurePlaces(s.site.map, PictureTitle(s), record.events, nullptr, &plan.path,
                      folder / "heatmap_failures.png");
   if (record.known) WriteKnownMap(s, *record.known, folder / "heatmap_known.png");
-  WriteErrorPlot(Title(s), record, folder / "plot_errors.png");
+  WriteErrorPlot(PictureTitle(s), record, folder / "plot_errors.png");
 }
 
 void WriteFailurePlaces(const HazardMap& map, const std::string& title,
@@ -114,7 +122,7 @@ std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& 
   script.base_body = scene.base_body;
   script.recording = &recording;
   script.events = record.events;
-  script.title = Title(s);
+  script.title = PictureTitle(s);
   script.plan = &plan.path;
   script.senses = s.video.scan;
   const double w = map.frame.width * map.frame.cell_m, h = map.frame.height * map.frame.cell_m;
@@ -124,16 +132,12 @@ std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& 
     high = high.cwiseMax(map.frame.X_WG * corner);
   }
   script.set = {low, high, s.robot.robot.circumscribed_radius_m};
-  if (record.events.empty()) {
-    Banner banner;
-    const bool success = record.outcome == Outcome::kSuccess;
-    banner.tone = success ? Banner::Tone::kSuccess : Banner::Tone::kWarning;
-    banner.headline = success ? "SUCCESS" : std::string(Name(record.outcome));
-    banner.detail =
-        success ? fmt::format("covered {:.1f} % without a failure", 100 * record.metrics.coverage)
-                : record.message;
-    script.closing = banner;
-  }
+  for (const Assist& help : record.assists)
+    script.notices.push_back({help.t_s,
+                              {Banner::Tone::kWarning, "HELPED   set upright by a person",
+                               fmt::format("at the waypoint x {:.2f} m, y {:.2f} m;  t {:.1f} s",
+                                           help.to_W.x(), help.to_W.y(), help.t_s)}});
+  if (record.events.empty() || !record.assists.empty()) script.closing = ClosingBanner(record);
   FilmOptions options;
   options.camera = s.video.camera;
   options.width = s.video.width & ~1;

@@ -12,11 +12,10 @@
 
 namespace floorproof {
 
-// heatmap_plan.png: the planned path over the map.
-void WritePlanPicture(const Scenario& scenario, const PlanResult& plan,
-                      const std::filesystem::path& folder);
-// heatmap_visits.png, heatmap_coverage.png, heatmap_failures.png and plot_errors.png; of a robot
-// that draws a map, heatmap_known.png.
+// "ROBOT on SITE", how the titles of an episode's pictures begin.
+std::string PictureTitle(const Scenario& scenario);
+// The plan's pictures (apps/risk_pictures.h); heatmap_visits.png, heatmap_coverage.png,
+// heatmap_failures.png and plot_errors.png; of a robot that draws a map, heatmap_known.png.
 void WriteHeatMaps(const Scenario& scenario, const PlanResult& plan, const EpisodeRecord& record,
                    const std::filesystem::path& folder);
 // Failures as points over the map, on the share of episodes that failed in each square where that

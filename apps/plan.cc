@@ -1,33 +1,68 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "apps/command.h"
-#include "apps/pictures.h"
+#include "apps/risk_pictures.h"
 #include "env/core/interrupt.h"
 #include "env/run/file_output.h"
 #include "env/run/records.h"
 
 namespace floorproof {
+namespace {
+
+bool SameFloor(const RiskOfPath& a, const RiskOfPath& b) {
+  return std::ranges::equal(a.ranges, b.ranges, [](const auto& x, const auto& y) {
+    return x.low == y.low && x.high == y.high && x.cells == y.cells;
+  });
+}
+
+std::vector<RiskOfPlan> PlansBeside(const std::vector<std::string>& files, const RiskOfPlan& first,
+                                    const Globals& globals) {
+  std::vector<RiskOfPlan> plans;
+  for (const std::string& file : files) {
+    const Scenario scenario = ReadScenario(file, globals.Overrides());
+    const PlanResult plan = MakePlan(scenario);
+    if (plan.status != PlanStatus::kSuccess)
+      throw InputError({file, 0}, "", "", "has no plan: " + plan.message);
+    plans.push_back(MeasurePlan(scenario, plan));
+    if (plans.back().label == first.label) plans.back().label += " of " + scenario.name;
+    if (!SameFloor(first.risk, plans.back().risk))
+      throw InputError(
+          {file, 0}, "", "",
+          "has another floor, robot or risk: its plan cannot stand beside the first's");
+  }
+  return plans;
+}
+
+}  // namespace
 
 void AddPlan(CLI::App& app, const Globals& globals, int& status) {
   struct Options {
     std::string scenario, out;
+    std::vector<std::string> beside;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("plan", "Plan only: plan.csv, plan.json and a picture");
+  CLI::App* command =
+      app.add_subcommand("plan", "Plan only: plan.csv, plan.json, risk.csv and pictures");
   command->add_option("SCENARIO", options->scenario, "Scenario file (YAML)")->required();
   command->add_option("--out", options->out, "Output folder (default: out/<scenario's stem>)");
+  command->add_option("--beside", options->beside,
+                      "Scenarios of the same floor and robot, whose plans plot_risk.png shows too");
   command->callback([options, &globals, &status] {
     const Scenario scenario = ReadScenario(options->scenario, globals.Overrides());
     SayWarnings(scenario, globals);
     const auto folder = OutputFolder(options->out, scenario);
     const PlanResult plan = MakePlan(scenario);
     const auto json = PlanJson(scenario, plan);
+    const std::vector<RiskOfPlan> beside =
+        PlansBeside(options->beside, MeasurePlan(scenario, plan), globals);
     MakeFolder(folder);
     SayWhenInterrupted(folder.string() + " may lack some of the plan's files");
     WritePlanFiles(scenario, plan, folder);
-    SayWhenInterrupted(folder.string() + " holds the plan; its picture may be missing");
-    WritePlanPicture(scenario, plan, folder);
+    SayWhenInterrupted(folder.string() + " holds the plan; pictures may be missing");
+    WritePlanPictures(scenario, plan, folder, beside);
     SayWhenInterrupted(folder.string() + " holds the plan");
     const bool found = plan.status == PlanStatus::kSuccess;
     if (found)

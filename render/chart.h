@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Line charts: panels in rows and columns, each with axes of its own, under one title and above
-// one legend.
+// Charts of lines and bars: panels in rows and columns, each with axes of its own, under one title
+// and above one legend.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct ChartStyle {
   Stroke stroke = Stroke::kSolid;
   bool hollow = false;  // a larger ring in place of a dot
   bool marks = true;    // else the line alone, for curves of many points
+  double bar = 0;       // above 0: a bar from nought to each point, so wide in units of x, instead
 };
 
 struct ChartPoint {
@@ -31,13 +33,16 @@ struct ChartSeries {
   ChartStyle style;
   int aside_px = 0;  // drawn so far to the right, so that series of equal values show side by side
   std::vector<ChartPoint> points;  // joined in this order
+  bool values = false;             // bars: each point's value above its bar
 };
 
 struct ChartPanel {
   std::string title, subtitle;  // the subtitle says what the y axis shows, with its unit
   std::string x_label;          // with its unit
-  std::vector<double> x_ticks;  // at least one; the axis reaches a little beyond the outermost
+  std::vector<double> x_ticks;  // at least one; the axis reaches a little beyond them and all bars
   std::vector<ChartSeries> series;
+  std::optional<int> x_decimals = {};  // of the ticks; none: as many as they need
+  bool whole_numbers = false;          // ticks of y at whole numbers only
 };
 
 struct ChartKey {
@@ -54,7 +59,8 @@ struct Chart {
   std::vector<std::vector<ChartKey>> legend;  // a line each
 };
 
-// The y axes begin at 0 and reach beyond the highest value; negative values are not for it.
+// The y axes begin at 0 and reach beyond the highest value; negative values are not for it. As wide
+// as panels and lettering need. Ticks' labels and bars' values that find no room are left out.
 Image DrawChart(const Chart& chart);
 // The same into a PNG; throws InputError when the file cannot be written.
 void WriteChart(const Chart& chart, const std::filesystem::path& png);

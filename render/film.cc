@@ -215,12 +215,8 @@ class Studio {
     renderer_.Render(data, camera_->Next(puppet_.X_WB(), frame_s_, frame.speed_up), &paint_,
                      image_);
 
-    std::optional<Banner> banner;
-    for (const Event& event : script_.events) {
-      // The event that ended the episode may lie a step behind the last recorded state.
-      if (last || event.t_s <= frame.t_s + 1e-9) banner = FailureBanner(event);
-    }
-    if (!banner && last) banner = script_.closing;
+    std::optional<Banner> banner = last ? script_.closing : std::nullopt;
+    if (!banner) banner = BannerAt(frame.t_s + 1e-9, last);
     DrawOverlay({script_.title, frame.t_s, script_.recording->coverage(state), frame.speed_up,
                  banner ? &*banner : nullptr},
                 image_);
@@ -228,6 +224,21 @@ class Studio {
   }
 
  private:
+  // Of the last event or notice.
+  std::optional<Banner> BannerAt(double t_s, bool last) const {
+    std::optional<Banner> banner;
+    double since_s = -1;
+    for (const Event& event : script_.events) {
+      // The event that ended the episode may lie a step behind the last recorded state.
+      if (!last && event.t_s > t_s) break;
+      banner = FailureBanner(event);
+      since_s = event.t_s;
+    }
+    for (const Notice& notice : script_.notices)
+      if (notice.t_s >= since_s && notice.t_s <= t_s) banner = notice.banner;
+    return banner;
+  }
+
   const FilmScript& script_;
   FilmSet set_;
   double frame_s_;

@@ -51,12 +51,19 @@ class Recording {
   std::vector<Senses> senses_;
 };
 
+// Shown by its banner from its time on, until an event or another notice.
+struct Notice {
+  double t_s = 0;
+  Banner banner;
+};
+
 struct FilmScript {
   const mjModel* model = nullptr;
   int base_body = -1;  // the robot's; stands on a free joint, its origin at the floor
   const Recording* recording = nullptr;
   std::span<const Event> events;  // ascending in time; each is shown by a banner from its time on
-  std::optional<Banner> closing;  // over the last picture, where there was no event
+  std::vector<Notice> notices;    // ascending in time
+  std::optional<Banner> closing;  // over the last picture
   std::string title;              // "beluga on staircase hall"
   FilmSet set;                    // `aspect` is taken from the options
   const Path* plan = nullptr;     // drawn on the floor

@@ -6,40 +6,32 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "render/heatmap_marks.h"
 #include "render/heatmap_panel.h"
+#include "render/strokes.h"
 
 namespace floorproof {
 namespace {
 
-constexpr Rgb kInk = {32, 38, 46}, kGrey = {110, 118, 128};
 constexpr int kLeastColumn_px = 250, kTop_px = 64, kFoot_px = 64, kMargin_px = 24,
               kLeastHeight_px = 420;
 
-// The least of 1, 2, 5 times a power of ten that is not below `least`.
-double NiceStep(double least) {
-  const double decade = std::pow(10.0, std::floor(std::log10(least)));
-  for (const double step : {1.0, 2.0, 5.0}) {
-    if (step * decade >= least * (1 - 1e-9)) return step * decade;
-  }
-  return 10 * decade;
-}
+constexpr TextStyle kTitle = {.cap_px = 17, .colour = kInk, .bold = true},
+                    kName = {.cap_px = 11, .colour = kInk, .bold = true},
+                    kLabel = {.cap_px = 10, .colour = kInk};
+constexpr int kSwatch_px = 32, kLine_px = 22;  // of the legend
 
-cv::Mat Canvas(Image& image) { return {image.height, image.width, CV_8UC3, image.data.data()}; }
-cv::Scalar Colour(const Rgb& c) { return {1.0 * c[0], 1.0 * c[1], 1.0 * c[2]}; }
-
-void DrawColourBar(Image& image, int x, int y, int height, const HeatRange& range,
+void DrawColourBar(Image& image, int x, int y, int height, const HeatPanel& panel,
                    const HeatMapOptions& options) {
-  const TextStyle name{.cap_px = 11, .colour = kInk, .bold = true},
-      tick{.cap_px = 10, .colour = kInk};
-  DrawText(image, x, y, options.quantity, name);
+  const HeatRange& range = panel.range;
+  DrawText(image, x, y, options.quantity, kName);
   const std::string unit = options.unit.empty() ? "" : "[" + options.unit + "]";
-  DrawText(image, x, y + 20, unit, tick);
+  DrawText(image, x, y + 20, unit, kLabel);
   y += 38;
   constexpr int kWidth = 22;
-  const auto colours = Colours(options.colour_map);
   for (int r = 0; r < height; ++r) {
     const auto i = static_cast<std::size_t>(std::lround(255.0 * (height - 1 - r) / (height - 1)));
-    FillRectangle(image, x, y + r, x + kWidth, y + r + 1, colours[i], 1);
+    FillRectangle(image, x, y + r, x + kWidth, y + r + 1, panel.colours[i], 1);
   }
   cv::Mat canvas = Canvas(image);
   cv::rectangle(canvas, {x, y}, {x + kWidth - 1, y + height - 1}, Colour(kGrey), 1);
@@ -52,34 +44,35 @@ void DrawColourBar(Image& image, int x, int y, int height, const HeatRange& rang
         static_cast<int>(std::lround((height - 1) * (range.high - v) / (range.high - range.low)));
     cv::line(canvas, {x + kWidth, row}, {x + kWidth + 5, row}, Colour(kInk), 1);
     DrawText(image, x + kWidth + 10, row + 5, Printf("%.6g", std::abs(v) < 1e-9 * step ? 0.0 : v),
-             tick);
+             kLabel);
   }
 }
 
-constexpr TextStyle kLabel = {.cap_px = 10, .colour = kInk};
-constexpr int kSwatch_px = 32;
+// Over the legend where there is no colour bar.
+std::string LegendName(const HeatMapOptions& options) {
+  return options.quantity + (options.unit.empty() ? "" : " [" + options.unit + "]");
+}
 
 // The right column's, wide enough for its longest line.
 int ColumnWidth(const HeatPanel& panel, const HeatMapOptions& options) {
-  double widest = TextWidth(options.quantity, {.cap_px = 11, .bold = true});
-  for (const LegendLine& line : panel.legend) {
+  double widest = TextWidth(LegendName(options), kName);
+  for (const LegendLine& line : panel.legend)
     widest = std::max(widest, kSwatch_px + TextWidth(line.label, kLabel));
-  }
-  return std::clamp(static_cast<int>(widest) + kMargin_px, kLeastColumn_px, 400);
+  return std::max(static_cast<int>(widest) + kMargin_px, kLeastColumn_px);
 }
 
 void DrawLegend(Image& image, int x, int y, const std::vector<LegendLine>& lines) {
   cv::Mat canvas = Canvas(image);
   for (const LegendLine& line : lines) {
-    if (y > image.height - 10) break;
     DrawSwatch(canvas, {x, y - 12, 22, 14}, line);
     DrawText(image, x + kSwatch_px, y, line.label, kLabel);
-    y += 22;
+    y += kLine_px;
   }
 }
 
 // A bar of 1, 2 or 5 times a power of ten metres, about a fifth of the panel, with its ends marked.
-void DrawScaleBar(Image& image, int x, int y, double px_per_m, int panel_px) {
+// Returns where its lettering ends.
+int DrawScaleBar(Image& image, int x, int y, double px_per_m, int panel_px) {
   double metres = NiceStep(0.12 * panel_px / px_per_m);
   const int length = static_cast<int>(std::lround(metres * px_per_m));
   cv::Mat canvas = Canvas(image);
@@ -87,7 +80,9 @@ void DrawScaleBar(Image& image, int x, int y, double px_per_m, int panel_px) {
   FillRectangle(image, x, y - 5, x + 2, y + 4, kInk, 1);
   FillRectangle(image, x + length - 1, y - 5, x + length + 1, y + 4, kInk, 1);
   const std::string text = metres < 0.995 ? Printf("%g cm", 100 * metres) : Printf("%g m", metres);
-  DrawText(image, x + length + 12, y + 5, text, {.cap_px = 12, .colour = kInk});
+  const TextStyle style{.cap_px = 12, .colour = kInk};
+  DrawText(image, x + length + 12, y + 5, text, style);
+  return x + length + 12 + static_cast<int>(TextWidth(text, style));
 }
 
 // Towards the world's +y.
@@ -115,39 +110,41 @@ void DrawNorth(Image& image, int x, int y, double map_yaw_rad) {
 }  // namespace
 
 Image DrawHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options) {
-  const HeatPanel panel = DrawPanel(map, values, options);
+  HeatPanel panel = DrawPanel(map, values, options);
   const bool bar = values != nullptr && options.categories.empty();
-  const int inner = std::max(panel.image.rows, kLeastHeight_px);
-  const int legend = 24 + 22 * static_cast<int>(panel.legend.size());
-  const int bar_px = std::clamp(inner - legend - 60, 120, 320);
+  const int lines = static_cast<int>(panel.legend.size());
+  const int inner = std::max(panel.image.height, kLeastHeight_px);
+  const int bar_px = std::clamp(inner - kLine_px * lines - 84, 120, 320);
+  const int name_y = kTop_px + 12;
+  int legend_y = name_y;
+  if (bar)
+    legend_y += bar_px + 80;
+  else if (!options.quantity.empty())
+    legend_y += 28;
 
   Image image;
-  image.width = kMargin_px + panel.image.cols + kMargin_px + ColumnWidth(panel, options);
-  image.height = kTop_px + inner + kFoot_px;
+  image.width = std::max(
+      kMargin_px + panel.image.width + kMargin_px + ColumnWidth(panel, options),
+      kMargin_px + static_cast<int>(std::ceil(TextWidth(options.title, kTitle))) + kMargin_px);
+  image.height = std::max(kTop_px + inner + kFoot_px, legend_y + kLine_px * lines);
   image.channels = 3;
   image.data.assign(static_cast<std::size_t>(image.width) * image.height * 3, 255);
   cv::Mat canvas = Canvas(image);
-  const cv::Rect place(kMargin_px, kTop_px, panel.image.cols, panel.image.rows);
-  panel.image.copyTo(canvas(place));
+  const cv::Rect place(kMargin_px, kTop_px, panel.image.width, panel.image.height);
+  Canvas(panel.image).copyTo(canvas(place));
   cv::rectangle(canvas, cv::Rect(place.x - 1, place.y - 1, place.width + 2, place.height + 2),
                 Colour(kGrey), 1);
 
-  DrawText(image, kMargin_px, 40, options.title, {.cap_px = 17, .colour = kInk, .bold = true});
+  DrawText(image, kMargin_px, 40, options.title, kTitle);
   const int column = place.x + place.width + kMargin_px;
-  int y = kTop_px + 12;
-  if (bar) {
-    DrawColourBar(image, column, y, bar_px, panel.range, options);
-    y += bar_px + 80;
-  } else if (!options.quantity.empty()) {
-    const std::string unit = options.unit.empty() ? "" : " [" + options.unit + "]";
-    DrawText(image, column, y, options.quantity + unit,
-             {.cap_px = 11, .colour = kInk, .bold = true});
-    y += 28;
-  }
-  DrawLegend(image, column, y, panel.legend);
-  const int foot = kTop_px + panel.image.rows + 34;
-  DrawScaleBar(image, kMargin_px, foot, panel.px_per_m, panel.image.cols);
-  DrawNorth(image, place.x + place.width - 22, foot + 2, map.frame.X_WG.yaw_rad);
+  if (bar)
+    DrawColourBar(image, column, name_y, bar_px, panel, options);
+  else
+    DrawText(image, column, name_y, LegendName(options), kName);
+  DrawLegend(image, column, legend_y, panel.legend);
+  const int foot = place.br().y + 34;
+  const int scale_end = DrawScaleBar(image, kMargin_px, foot, panel.px_per_m, place.width);
+  DrawNorth(image, std::max(place.br().x - 22, scale_end + 40), foot + 2, map.frame.X_WG.yaw_rad);
   return image;
 }
 

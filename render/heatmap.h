@@ -42,13 +42,18 @@ struct HeatMapOptions {
   bool whole_numbers = false;       // ticks at whole numbers only
   // Not empty: a value v is category round(v), and the legend replaces the colour bar.
   std::vector<HeatCategory> categories;
+  bool numbers = false;  // each value in its cell, where cells are large enough for all of them
   std::vector<HeatPoint> points;
   const Path* plan = nullptr;
 };
 
+// Cells that hold hazards of that class: named as in the hTetro FMEA paper, in a pale shade of the
+// colour that its hazards are outlined in.
+HeatCategory CellsOf(HazardClass hazard_class);
+
 // In the map's own frame (an arrow shows the world's north, +y), cropped to what is known, 800 to
-// 1600 pixels on the longer side. A pixel over many cells is wall if one of them is, and shows the
-// mean of their values. `values` may be null.
+// 1600 pixels on the longer side, or more where the lettering needs it. A pixel over many cells is
+// wall if one of them is, and shows the mean of their values. `values` may be null.
 Image DrawHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options);
 // The same into a PNG; throws InputError when the file cannot be written.
 void WriteHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options,

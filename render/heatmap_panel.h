@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The map itself within a heat map, and what its legend must explain. Used by heatmap.cc only.
+// The map itself within a heat map, and what its legend must explain. For heatmap*.cc only.
 #pragma once
 
 #include <array>
-#include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
@@ -16,23 +15,25 @@ struct HeatRange {
 };
 
 struct LegendLine {
-  enum class Kind { kArea, kHatched, kOutline, kDashed, kLine, kMark };
+  // In the legend's order.
+  enum class Kind { kArea, kHatched, kOutline, kDashed, kLine, kStart, kEnd, kMark };
   Kind kind = Kind::kArea;
   std::string label;
   Rgb colour = {0, 0, 0};
+  int px = 1;    // of a line
   int mark = 0;  // of cv::MarkerTypes
 };
 
 struct HeatPanel {
-  cv::Mat image;  // CV_8UC3, RGB
+  Image image;
   double px_per_m = 1;
   HeatRange range;
+  std::array<Rgb, 256> colours = {};  // from the range's low end to its high one
   std::vector<LegendLine> legend;
+
+  Rgb ColourOf(double value) const;
 };
 
 HeatPanel DrawPanel(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options);
-// The legend's picture of a line, within `place`.
-void DrawSwatch(cv::Mat& canvas, const cv::Rect& place, const LegendLine& line);
-std::array<Rgb, 256> Colours(ColourMap map);
 
 }  // namespace floorproof

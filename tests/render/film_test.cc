@@ -199,6 +199,22 @@ TEST_F(FilmTest, WithoutAFailureTheClosingBannerComesLast) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "frame_failure.png"));
 }
 
+// After the event the notice stands, until another event.
+TEST_F(FilmTest, ANoticeStandsBetweenEvents) {
+  FP_NEED_GL();
+  Open();
+  const auto last_picture = [&](double notice_s) {
+    script_.notices = {{notice_s, {Banner::Tone::kSuccess, "HELPED", ""}}};
+    options_.stills = folder_.path();
+    WriteFilm(script_, options_, folder_ / "video.mp4");
+    const Image end = ReadImage(folder_ / "frame_end.png");
+    const std::uint8_t* pixel = Pixel(end, end.width - 4, 2);
+    return pixel[1] > pixel[0] ? "green" : "red";
+  };
+  EXPECT_EQ(last_picture(event_.t_s + 0.3), "green");
+  EXPECT_EQ(last_picture(event_.t_s - 0.3), "red");
+}
+
 TEST_F(FilmTest, BadOptionsAreRefusedInWords) {
   FP_NEED_GL();
   Open();

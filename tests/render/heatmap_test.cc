@@ -2,36 +2,13 @@
 #include "render/heatmap.h"
 
 #include <algorithm>
+#include <string>
 
-#include "tests/render/room.h"
+#include "tests/render/hall.h"
 
 namespace floorproof {
 namespace {
 
-// w x h free cells inside a wall one cell thick.
-HazardMap Hall(int w, int h, double cell_m) {
-  HazardMap map;
-  map.name = "hall";
-  map.frame = {w, h, cell_m, {}};
-  map.cells = Grid<CellState>(w, h, CellState::kFree);
-  for (int x = 0; x < w; ++x) map.cells(x, 0) = map.cells(x, h - 1) = CellState::kOccupied;
-  for (int y = 0; y < h; ++y) map.cells(0, y) = map.cells(w - 1, y) = CellState::kOccupied;
-  return map;
-}
-
-HeatValues Values(const HazardMap& map, float value) {
-  return {map.frame, Grid<float>(map.frame.width, map.frame.height, value)};
-}
-
-bool Is(const Image& image, int x, int y, const Rgb& colour) {
-  return std::equal(colour.begin(), colour.end(), Pixel(image, x, y));
-}
-int Count(const Image& image, const Rgb& colour) {
-  int n = 0;
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) n += Is(image, x, y, colour);
-  return n;
-}
 Vec2 Middle(const Image& image, const Rgb& colour) {
   Vec2 sum = Vec2::Zero();
   for (int y = 0; y < image.height; ++y)
@@ -196,6 +173,52 @@ TEST(HeatMapTest, ValuesWithoutRangeOrWithoutAnyAreDrawn) {
   const HeatValues none = Values(map, HeatValues::kNone), flat = Values(map, 2);
   EXPECT_GT(Count(DrawHeatMap(map, &none, {}), kFree), 1000);
   EXPECT_EQ(Count(DrawHeatMap(map, &flat, {}), kFree), 0);
+}
+
+TEST(HeatMapTest, ATitleStandsWholeOverANarrowFloor) {
+  HeatMapOptions options;
+  options.title = std::string(60, 'w');
+  const Image wide = DrawHeatMap(Hall(60, 60, 0.1), nullptr, options),
+              dut = DrawHeatMap(Hall(10, 600, 0.1), nullptr, options);
+  EXPECT_EQ(Ink(dut, 0, 0, dut.width, 55), Ink(wide, 0, 0, wide.width, 55));
+}
+
+TEST(HeatMapTest, ALegendOfManyLinesStandsWhole) {
+  const HazardMap map = Hall(60, 20, 0.1);
+  HeatMapOptions options;
+  for (int i = 0; i < 40; ++i)
+    options.points.push_back({{3, 1},
+                              "series " + std::string(1, static_cast<char>('a' + i % 26)) +
+                                  std::string(i / 26 ? 30 : 1, 'x')});
+  const Image dut = DrawHeatMap(map, nullptr, options);
+  int lines = 0;
+  bool blank = true;
+  const int column = 24 + 19 * 60 + 24 + 32;
+  for (int y = 64; y < dut.height; ++y) {
+    const bool ink = Ink(dut, column, y, dut.width, y + 1) > 0;
+    lines += ink && blank;
+    blank = !ink;
+  }
+  EXPECT_GE(lines, 41) << "series and walls";
+  EXPECT_EQ(Ink(dut, dut.width - 10, 0, dut.width, dut.height), 0);
+  EXPECT_EQ(Ink(dut, 0, dut.height - 3, dut.width, dut.height), 0);
+}
+
+TEST(HeatMapTest, ScaleAndNorthStandApartUnderANarrowFloor) {
+  const Image dut = DrawHeatMap(Hall(6, 600, 0.1), nullptr, {});
+  // Columns with ink below the panel come in runs; the widest gap parts the scale from the arrow.
+  int gap = 0, widest = 0;
+  bool begun = false;
+  for (int x = 0; x < dut.width; ++x) {
+    if (Ink(dut, x, dut.height - 60, x + 1, dut.height) > 0) {
+      if (begun) widest = std::max(widest, gap);
+      begun = true;
+      gap = 0;
+    } else {
+      ++gap;
+    }
+  }
+  EXPECT_GE(widest, 15);
 }
 
 }  // namespace

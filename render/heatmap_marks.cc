@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/heatmap_marks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "render/strokes.h"
+
+namespace floorproof {
+namespace {
+
+constexpr Rgb kUnknown = {214, 217, 221}, kHatch = {190, 194, 200};
+constexpr Rgb kPath = {40, 46, 56}, kStart = {20, 150, 90}, kEnd = {190, 20, 120};
+// By class; chosen to stand out from viridis, inferno and cividis, inside a white casing.
+constexpr std::array<Rgb, 4> kHazards = {
+    {{112, 60, 170}, {20, 110, 220}, {214, 39, 40}, {255, 127, 14}}};
+constexpr double kThick_px = 12, kCased_px = 20;  // apart: there is room for such lines
+constexpr std::array<Rgb, 5> kSeries = {
+    {{200, 20, 40}, {120, 40, 180}, {230, 110, 0}, {0, 110, 190}, {60, 60, 60}}};
+constexpr std::array<int, 5> kMarks = {cv::MARKER_TILTED_CROSS, cv::MARKER_TRIANGLE_UP,
+                                       cv::MARKER_DIAMOND, cv::MARKER_SQUARE, cv::MARKER_STAR};
+
+void HazardDashes(cv::Mat& image, const cv::Point2d& a, const cv::Point2d& b, const Rgb& colour) {
+  Dashes(image, a, b, colour, 2, 7, 12);
+}
+
+Rgb Mix(const Rgb& from, const Rgb& to, double share) {
+  Rgb mixed;
+  for (std::size_t k = 0; k < 3; ++k)
+    mixed[k] = static_cast<std::uint8_t>(std::lround(from[k] + share * (to[k] - from[k])));
+  return mixed;
+}
+
+// The first type of a class has its colour, the next are darker and paler.
+Rgb Shade(const Rgb& colour, std::size_t type) {
+  return type % 3 == 0   ? colour
+         : type % 3 == 1 ? Mix(colour, {0, 0, 0}, 0.45)
+                         : Mix(colour, kWhite, 0.45);
+}
+
+// A name's number by order of appearance.
+std::size_t NumberOf(std::vector<std::string>& seen, const std::string& name) {
+  const auto at = std::find(seen.begin(), seen.end(), name);
+  if (at != seen.end()) return static_cast<std::size_t>(at - seen.begin());
+  seen.push_back(name);
+  return seen.size() - 1;
+}
+
+void AddOnce(std::vector<LegendLine>& legend, const LegendLine& line) {
+  for (const LegendLine& l : legend)
+    if (l.label == line.label && l.kind == line.kind) return;
+  legend.push_back(line);
+}
+
+void StartMark(cv::Mat& image, const cv::Point2d& p) {
+  Disc(image, p, 7, kWhite);
+  Disc(image, p, 5, kStart);
+}
+// Wide enough to show around the start's.
+void EndMark(cv::Mat& image, const cv::Point2d& p) {
+  Disc(image, p, 11, kWhite);
+  Ring(image, p, 8.5, kEnd, 3);
+}
+
+void Mark(cv::Mat& image, const cv::Point& p, const Rgb& colour, int mark) {
+  cv::drawMarker(image, p, Colour(kWhite), mark, 17, 6, cv::LINE_AA);
+  cv::drawMarker(image, p, Colour(colour), mark, 15, 2, cv::LINE_AA);
+}
+
+// How far the lines of a plan lie apart that covers all free floor, m.
+double ApartOf(const HazardMap& map, const Path& plan) {
+  const auto free = std::ranges::count(map.cells.cells, CellState::kFree);
+  return static_cast<double>(free) * map.frame.cell_m * map.frame.cell_m / Length(plan);
+}
+
+std::string NumberText(float value) { return Printf("%.6g", static_cast<double>(value)); }
+double Luma(const Rgb& c) { return 0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2]; }
+
+// The upper or the lower left corner of a cell, `reach_px` from its middle: where less is drawn
+// over the cell's colour. Not the right ones: numbers of neighbours would read as one.
+cv::Rect FreerCorner(const Image& image, const cv::Point2d& middle, double reach_px,
+                     const cv::Size& size, const Rgb& cell) {
+  const auto drawn = [&](const cv::Rect& box) {
+    int n = 0;
+    for (int y = std::max(0, box.y); y < std::min(image.height, box.br().y); ++y)
+      for (int x = std::max(0, box.x); x < std::min(image.width, box.br().x); ++x)
+        n += !std::equal(cell.begin(), cell.end(),
+                         image.data.data() + 3 * (static_cast<std::size_t>(y) * image.width + x));
+    return n;
+  };
+  const auto left = static_cast<int>(std::lround(middle.x - reach_px)),
+             top = static_cast<int>(std::lround(middle.y - reach_px)),
+             bottom = static_cast<int>(std::lround(middle.y + reach_px)) - size.height;
+  const cv::Rect upper({left, top}, size), lower({left, bottom}, size);
+  return drawn(lower) < drawn(upper) ? lower : upper;
+}
+
+}  // namespace
+
+HeatCategory CellsOf(HazardClass hazard_class) {
+  constexpr std::array<const char*, 4> kNames = {"C1 blind object", "C2 glass", "C3 level change",
+                                                 "C4 terrain"};
+  const auto i = static_cast<std::size_t>(hazard_class);
+  return {kNames[i], Mix(kHazards[i], kWhite, 0.6)};
+}
+
+void DrawPlan(const HazardMap& map, const Path* plan, const PanelFrame& frame, HeatPanel& panel) {
+  cv::Mat canvas = Canvas(panel.image);
+  if (plan != nullptr && plan->size() > 1) {
+    const double apart_px = ApartOf(map, *plan) * frame.px_per_m();
+    std::vector<std::pair<Rgb, int>> strokes = {{kPath, apart_px < kThick_px ? 1 : 2}};
+    if (apart_px >= kCased_px) strokes.insert(strokes.begin(), {kWhite, 4});
+    for (const auto& [colour, px] : strokes)
+      for (std::size_t i = 1; i < plan->size(); ++i)
+        Line(canvas, frame.Pixel((*plan)[i - 1].p_W), frame.Pixel((*plan)[i].p_W), colour, px);
+    panel.legend.push_back({LegendLine::Kind::kLine, "plan", kPath, strokes.back().second});
+  }
+  if (plan != nullptr && !plan->empty()) {
+    EndMark(canvas, frame.Pixel(plan->back().p_W));
+    panel.legend.push_back({LegendLine::Kind::kEnd, "end"});
+  }
+  if (map.start) {
+    StartMark(canvas, frame.Pixel(map.start->p()));
+    panel.legend.push_back({LegendLine::Kind::kStart, "start"});
+  }
+}
+
+void DrawHazards(const HazardMap& map, const PanelFrame& frame, HeatPanel& panel) {
+  cv::Mat canvas = Canvas(panel.image);
+  std::array<std::vector<std::string>, kHazards.size()> types;
+  std::vector<LegendLine> legend;
+  for (const Hazard& hazard : map.hazards) {
+    const auto in_class = static_cast<std::size_t>(hazard.hazard_class);
+    const Rgb colour = Shade(kHazards[in_class], NumberOf(types[in_class], hazard.type));
+    for (const Polygon& polygon : hazard.footprint) {
+      for (const bool casing : {true, false}) {
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+          const auto a = frame.Pixel(polygon[i]),
+                     b = frame.Pixel(polygon[(i + 1) % polygon.size()]);
+          if (casing) {
+            Line(canvas, a, b, kWhite, 5);
+          } else if (hazard.known) {
+            Line(canvas, a, b, colour, 2);
+          } else {
+            HazardDashes(canvas, a, b, colour);
+          }
+        }
+      }
+    }
+    std::string label = hazard.type;
+    std::replace(label.begin(), label.end(), '_', ' ');
+    label = Printf("C%d %s%s", static_cast<int>(in_class) + 1, label.c_str(),
+                   hazard.known ? "" : " (not on the map)");
+    AddOnce(legend,
+            {hazard.known ? LegendLine::Kind::kOutline : LegendLine::Kind::kDashed, label, colour});
+  }
+  std::ranges::stable_sort(legend, {}, &LegendLine::label);
+  panel.legend.insert(panel.legend.end(), legend.begin(), legend.end());
+}
+
+void DrawPoints(const HeatMapOptions& options, const PanelFrame& frame, HeatPanel& panel) {
+  cv::Mat canvas = Canvas(panel.image);
+  std::vector<std::string> series;
+  for (const HeatPoint& point : options.points) {
+    const std::size_t i = NumberOf(series, point.series);
+    const Rgb& colour = kSeries[i % kSeries.size()];
+    const int mark = kMarks[i % kMarks.size()];
+    Mark(canvas, frame.Pixel(point.p_W), colour, mark);
+    std::string label = point.series;
+    std::replace(label.begin(), label.end(), '_', ' ');
+    AddOnce(panel.legend, {LegendLine::Kind::kMark, label, colour, 1, mark});
+  }
+}
+
+void DrawNumbers(const HeatValues& values, const PanelFrame& frame, HeatPanel& panel) {
+  constexpr double kLeastCell_px = 24;
+  const double cell_px = values.frame.cell_m * frame.px_per_m();
+  if (cell_px < kLeastCell_px) return;
+  const double pad = std::max(2.0, 0.06 * cell_px);
+  TextStyle style{.cap_px = std::clamp(0.24 * cell_px, 8.0, 14.0)};
+  for (const float value : values.values.cells)
+    if (std::isfinite(value) && TextWidth(NumberText(value), style) + 2 * pad > cell_px) return;
+  for (int iy = 0; iy < values.values.height; ++iy)
+    for (int ix = 0; ix < values.values.width; ++ix) {
+      const float value = values.values(ix, iy);
+      if (!std::isfinite(value)) continue;
+      const std::string text = NumberText(value);
+      const Rgb under = panel.ColourOf(value);
+      const cv::Rect box = FreerCorner(
+          panel.image, frame.Pixel(values.frame.Center(ix, iy)), 0.5 * cell_px - pad,
+          {static_cast<int>(std::ceil(TextWidth(text, style))), static_cast<int>(style.cap_px) + 1},
+          under);
+      FillRectangle(panel.image, box.x - 1, box.y - 1, box.br().x + 1, box.br().y + 1, under, 1);
+      style.colour = Luma(under) < 115 ? kWhite : kInk;
+      DrawText(panel.image, box.x, box.br().y, text, style);
+    }
+}
+
+Rgb HatchedAt(int x, int y) { return (x + y) % 9 < 2 ? kHatch : kUnknown; }
+
+void DrawSwatch(cv::Mat& canvas, const cv::Rect& place, const LegendLine& line) {
+  const cv::Point2d left(place.x, place.y + 0.5 * place.height),
+      right(place.x + place.width, place.y + 0.5 * place.height), middle = 0.5 * (left + right);
+  switch (line.kind) {
+    case LegendLine::Kind::kArea:
+      cv::rectangle(canvas, place, Colour(line.colour), cv::FILLED);
+      break;
+    case LegendLine::Kind::kHatched:
+      for (int y = place.y; y < place.br().y; ++y)
+        for (int x = place.x; x < place.br().x; ++x) {
+          const Rgb colour = HatchedAt(x, y);
+          canvas.at<cv::Vec3b>(y, x) = {colour[0], colour[1], colour[2]};
+        }
+      break;
+    case LegendLine::Kind::kOutline:
+      cv::rectangle(canvas, place, Colour(line.colour), 2, cv::LINE_AA);
+      break;
+    case LegendLine::Kind::kDashed:
+      HazardDashes(canvas, left, right, line.colour);
+      break;
+    case LegendLine::Kind::kLine:
+      Line(canvas, left, right, line.colour, line.px);
+      break;
+    case LegendLine::Kind::kStart:
+      StartMark(canvas, middle);
+      break;
+    case LegendLine::Kind::kEnd:
+      EndMark(canvas, middle);
+      break;
+    case LegendLine::Kind::kMark:
+      Mark(canvas, (place.tl() + place.br()) / 2, line.colour, line.mark);
+      break;
+  }
+}
+
+}  // namespace floorproof

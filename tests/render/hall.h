@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// A walled hall with values on its cells, and what tests of heat maps look for in its picture.
+#pragma once
+
+#include <algorithm>
+
+#include "render/heatmap.h"
+#include "tests/render/room.h"
+
+namespace floorproof {
+
+// w x h free cells inside a wall one cell thick.
+inline HazardMap Hall(int w, int h, double cell_m) {
+  HazardMap map;
+  map.name = "hall";
+  map.frame = {w, h, cell_m, {}};
+  map.cells = Grid<CellState>(w, h, CellState::kFree);
+  for (int x = 0; x < w; ++x) map.cells(x, 0) = map.cells(x, h - 1) = CellState::kOccupied;
+  for (int y = 0; y < h; ++y) map.cells(0, y) = map.cells(w - 1, y) = CellState::kOccupied;
+  return map;
+}
+
+inline HeatValues Values(const HazardMap& map, float value) {
+  return {map.frame, Grid<float>(map.frame.width, map.frame.height, value)};
+}
+
+inline bool Is(const Image& image, int x, int y, const Rgb& colour) {
+  return std::equal(colour.begin(), colour.end(), Pixel(image, x, y));
+}
+inline int Count(const Image& image, const Rgb& colour) {
+  int n = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) n += Is(image, x, y, colour);
+  return n;
+}
+inline int Ink(const Image& image, int x0, int y0, int x1, int y1) {
+  int n = 0;
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) n += Luma(image, x, y) < 120;
+  return n;
+}
+
+}  // namespace floorproof
