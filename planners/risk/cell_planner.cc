@@ -196,10 +196,12 @@ PlanResult CellPlanner::Plan(const PlanRequest& request) const {
   };
   const double width_m = LeastCellWidth(request.robot);
   constexpr double kSameWidth_m = 1e-3;
-  if (grid.frame.cell_m < width_m - kSameWidth_m)
-    return refuse(PlanStatus::kFailed, "the risk's cells of " + FormatDouble(grid.frame.cell_m) +
-                                           " m are narrower than the robot, " +
-                                           FormatDouble(width_m) + " m");
+  if (grid.frame.cell_m < width_m - kSameWidth_m) {
+    std::ostringstream why_not;
+    why_not << "the risk's cells of " << grid.frame.cell_m << " m are narrower than the robot, "
+            << width_m << " m";
+    return refuse(PlanStatus::kFailed, why_not.str());
+  }
   Anchors anchors(request);
   std::string why;
   const std::optional<Cell> start = anchors.At(request.start.p(), why);

@@ -7,10 +7,10 @@
 namespace floorproof {
 namespace {
 
-// How many steps of RF there are to 1: a power of ten, so that a step is some 1e-12 of what all
+// How many steps of RF there are to 1: a power of ten, so that a step is some 1e-14 of what all
 // hazards in one place would sum to.
 double StepsToOne(double sum) {
-  return sum > 0 ? std::pow(10, 12 - std::floor(std::log10(sum))) : 1;
+  return sum > 0 ? std::pow(10, 14 - std::floor(std::log10(sum))) : 1;
 }
 
 // sources (x) kernel, where the kernel is 2 / (20 + scale * distance): a circular convolution, as

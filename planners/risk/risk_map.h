@@ -25,7 +25,7 @@ struct RiskMap {
 // Linear in the hazard cells, hence one convolution: O(cells log cells), whatever their number.
 // `walls_are_hazards`: outer walls count as C1; the ring of cells within the map where it is walled
 // all round, else a ring of cells around it.
-// RF is rounded to 1e-12 of what all hazards in one place would sum to, so that places that are
+// RF is rounded to 1e-14 of what all hazards in one place would sum to, so that places that are
 // alike have the same.
 RiskMap ComputeRisk(const HazardMap& map, const RobotSpec& robot, const FmeaTables& tables,
                     const RiskParams& params = {});
