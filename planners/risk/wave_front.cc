@@ -42,7 +42,8 @@ Grid<double> WaveFront(const Grid<std::uint8_t>& open, Cell end,
   wave(end) = 0;
   front.push({0, open.Index(end.ix, end.iy)});
   while (!front.empty()) {
-    const auto [score, index] = front.top();
+    const double score = front.top().first;
+    const std::size_t index = front.top().second;
     front.pop();
     if (score > wave.cells[index]) continue;
     const Cell now = CellAt(open, index);

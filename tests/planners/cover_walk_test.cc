@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "env/core/streams.h"
 
@@ -220,6 +221,25 @@ TEST(CoverWalk, OnSmallFloorsNoWalkIsBetter) {
   EXPECT_GT(not_to_be_done, 5);
 }
 
+TEST(CoverWalk, OnAWideFloorFewCellsAreVisitedInTheBestOrderOnTheBestWays) {
+  for (std::uint64_t seed = 0; seed < 25; ++seed) {
+    SCOPED_TRACE(seed);
+    Stream random(seed, 0, "few");
+    CoverWalkProblem problem = Hall(24, seed);
+    for (double& cost : problem.cost.cells) cost = std::pow(10, random.Uniform());
+    std::vector<std::size_t> wanted;
+    for (std::size_t i = 0; i < problem.wanted.cells.size(); ++i)
+      if (std::exchange(problem.wanted.cells[i], std::uint8_t{0})) wanted.push_back(i);
+    for (int k = 0; k < 6; ++k) problem.wanted.cells[wanted[random.Below(wanted.size())]] = 1;
+    const CoverWalkOptions options;
+    const CoverWalk dut = ShortCoverWalk(problem, options);
+    ExpectSolves(dut, problem);
+    const auto least = Exhaust(problem, options);
+    EXPECT_EQ(dut.crossings, least->first);
+    EXPECT_NEAR(Weight(problem, options, dut), least->second, 1e-2);
+  }
+}
+
 TEST(CoverWalk, NoWalkIsBelowTheBound) {
   int tight = 0;
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
@@ -249,6 +269,19 @@ TEST(CoverWalk, ATreeIsDrivenTwiceButForTheLongestWay) {
   ExpectSolves(dut, problem);
   EXPECT_EQ(Steps(dut), 2 * 14 - 10);
   EXPECT_EQ(BoundCoverWalk(problem).steps, Steps(dut));
+}
+
+TEST(CoverWalk, ALargeTreeNeedsNoSearch) {
+  CoverWalkProblem comb = Draw("S");
+  comb.open = Grid<std::uint8_t>(201, 40);
+  comb.terrain = comb.open;
+  comb.cost = Grid<double>(201, 40, 1.0);
+  for (int ix = 0; ix < 201; ++ix)
+    for (int iy = 0; iy < (ix % 2 ? 1 : 40 - ix % 7); ++iy) comb.open(ix, iy) = 1;
+  comb.wanted = comb.open;
+  const CoverWalk dut = ShortCoverWalk(comb, {.effort = 0});
+  ExpectSolves(dut, comb);
+  EXPECT_EQ(Steps(dut), BoundCoverWalk(comb).steps);
 }
 
 TEST(CoverWalk, OneCell) {
@@ -324,6 +357,41 @@ TEST(CoverWalk, AStripIsCrossedOnceOrToAndFro) {
   EXPECT_EQ(crossings("S....~.....~...\n.....~....E~...\n.....~.....~..."), 3);
   EXPECT_EQ(crossings(".....~..S..~...\n.....~.....~...\n.....~.....~..."), 3);
   EXPECT_EQ(crossings("...~...\n.S.~...\n~~~~~~~\n...~...\n...~.E."), 3);  // round the middle
+}
+
+// Rooms of 15 x 15 cells with terrain between; `posts`: closed where four rooms meet.
+CoverWalkProblem Rooms(int nx, int ny, bool posts, Cell start_room) {
+  constexpr int kPitch = 16;
+  CoverWalkProblem problem;
+  problem.open = problem.wanted = Grid<std::uint8_t>(nx * kPitch - 1, ny * kPitch - 1, 1);
+  problem.terrain = Grid<std::uint8_t>(problem.open.width, problem.open.height);
+  problem.cost = Grid<double>(problem.open.width, problem.open.height, 1.0);
+  for (int iy = 0; iy < problem.open.height; ++iy)
+    for (int ix = 0; ix < problem.open.width; ++ix) {
+      const bool x = (ix + 1) % kPitch == 0, y = (iy + 1) % kPitch == 0;
+      problem.terrain(ix, iy) = x || y;
+      problem.wanted(ix, iy) = !x && !y;
+      problem.open(ix, iy) = !(x && y && posts);
+    }
+  problem.start = {start_room.ix * kPitch + 7, start_room.iy * kPitch + 7};
+  return problem;
+}
+
+TEST(CoverWalk, RoomsAreVisitedInAnOrderWithFewCrossings) {
+  const auto crossings = [](CoverWalkProblem problem, std::optional<Cell> end_room) {
+    if (end_room) problem.end = Cell{end_room->ix * 16 + 2, end_room->iy * 16 + 9};
+    const CoverWalk dut = ShortCoverWalk(problem, {.effort = 0.2});
+    ExpectSolves(dut, problem);
+    return dut.crossings;
+  };
+  EXPECT_EQ(crossings(Rooms(6, 1, false, {1, 0}), {}), 1 + 5);  // the short side first
+  EXPECT_EQ(crossings(Rooms(6, 1, false, {4, 0}), {}), 1 + 5);
+  EXPECT_EQ(crossings(Rooms(6, 1, false, {1, 0}), Cell{0, 0}), 4 + 5);
+  EXPECT_EQ(crossings(Rooms(4, 4, true, {0, 0}), {}), 15);
+  EXPECT_EQ(crossings(Rooms(4, 4, true, {1, 1}), Cell{1, 2}), 15);
+  EXPECT_EQ(crossings(Rooms(4, 4, true, {1, 1}), Cell{1, 1}), 16);
+  // The chessboard again: five rooms black, four white, and it begins on a white one.
+  EXPECT_EQ(crossings(Rooms(3, 3, true, {1, 0}), {}), 9);
 }
 
 TEST(CoverWalk, CrossesStraightWhereItCostsLeast) {
