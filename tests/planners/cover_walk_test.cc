@@ -380,7 +380,8 @@ CoverWalkProblem Rooms(int nx, int ny, bool posts, Cell start_room) {
 TEST(CoverWalk, RoomsAreVisitedInAnOrderWithFewCrossings) {
   const auto crossings = [](CoverWalkProblem problem, std::optional<Cell> end_room) {
     if (end_room) problem.end = Cell{end_room->ix * 16 + 2, end_room->iy * 16 + 9};
-    const CoverWalk dut = ShortCoverWalk(problem, {.effort = 0.2});
+    // No search over the cells could mend a bad order of the rooms, had they many.
+    const CoverWalk dut = ShortCoverWalk(problem, {.effort = 0});
     ExpectSolves(dut, problem);
     return dut.crossings;
   };
