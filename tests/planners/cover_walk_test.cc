@@ -393,6 +393,20 @@ TEST(CoverWalk, RoomsAreVisitedInAnOrderWithFewCrossings) {
   EXPECT_EQ(crossings(Rooms(4, 4, true, {1, 1}), Cell{1, 1}), 16);
   // The chessboard again: five rooms black, four white, and it begins on a white one.
   EXPECT_EQ(crossings(Rooms(3, 3, true, {1, 0}), {}), 9);
+  // Neighbours with a wall between: from the middle below first to the left, then round by the
+  // right.
+  CoverWalkProblem walled = Rooms(3, 2, true, {1, 0});
+  for (int ix = 0; ix < 15; ++ix) walled.open(ix, 15) = 0;
+  EXPECT_EQ(crossings(walled, {}), 1 + 2 + 3);
+}
+
+TEST(CoverWalk, RoomsAreLeftWhereTheNextOneIsComeTo) {
+  const CoverWalkProblem problem = Rooms(4, 4, true, {0, 0});
+  const CoverWalk dut = ShortCoverWalk(problem, {.effort = 0});
+  ExpectSolves(dut, problem);
+  // A step of terrain at each crossing, and few more.
+  const auto wanted = std::count(problem.wanted.cells.begin(), problem.wanted.cells.end(), 1);
+  EXPECT_LE(Steps(dut), wanted - 1 + 3 * dut.crossings);
 }
 
 TEST(CoverWalk, CrossesStraightWhereItCostsLeast) {
