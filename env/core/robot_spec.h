@@ -84,8 +84,9 @@ struct RobotSpec {
   double step_m = 0;          // highest level change it is trusted to cross
   double static_tip_rad = 0;  // least atan(d / h) over the edges of the wheels' support polygon
   // Steepest flanks of a 20 mm cable cover that it crosses at 0.2 m/s on friction 0.8 (the ladder's
-  // capability chart). 0: the model states none.
-  double cover_forward_rad = 0, cover_sideways_rad = 0;
+  // capability chart), and the fastest that the chart holds, at which it crosses most. 0: the model
+  // states none.
+  double cover_forward_rad = 0, cover_sideways_rad = 0, cover_speed_mps = 0;
 
   double cruise_mps = 0;  // default speed along a plan
   double max_speed_mps = 0;

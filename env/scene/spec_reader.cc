@@ -31,6 +31,8 @@ void ReadCustom(const CompiledRobot& compiled, RobotSpec& robot) {
     robot.cover_forward_rad = degree * compiled.Number("cover_forward_deg", Between(0, 90));
   if (is_there("cover_sideways_deg"))
     robot.cover_sideways_rad = degree * compiled.Number("cover_sideways_deg", Between(0, 90));
+  if (is_there("cover_speed_mps"))
+    robot.cover_speed_mps = compiled.Number("cover_speed_mps", Between(0.001, robot.max_speed_mps));
   if (is_there("audit_speed_mps"))
     robot.audit_speed_mps = compiled.Number("audit_speed_mps", Between(0.001, robot.max_speed_mps));
   if (is_there("audit_dwell_s"))

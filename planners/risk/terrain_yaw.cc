@@ -9,7 +9,7 @@ namespace floorproof {
 
 std::vector<int> QuartersForwardOverTerrain(const RiskGrid& grid, const std::vector<Cell>& tour,
                                             int first) {
-  std::vector<int> quarters(tour.size(), first);
+  std::vector<int> turns(tour.size(), 0);  // quarters turned on the way to each cell
   const auto along_y = [&](std::size_t i) { return tour[i].ix == tour[i - 1].ix; };
   const auto roomy = [&](std::size_t i) {
     return grid.cells(tour[i]).free() && std::ranges::all_of(kSideSteps, [&](Cell step) {
@@ -35,8 +35,11 @@ std::vector<int> QuartersForwardOverTerrain(const RiskGrid& grid, const std::vec
     if (turn == 0 && roomy(behind)) turn = behind;
     if (turn == 0 && !(behind == 0 && roomy(0))) continue;
     quarter = (quarter + 1) % 4;
-    std::fill(quarters.begin() + static_cast<std::ptrdiff_t>(turn) + 1, quarters.end(), quarter);
+    ++turns[turn + 1];
   }
+  std::vector<int> quarters(tour.size());
+  quarter = first;
+  for (std::size_t i = 0; i < tour.size(); ++i) quarters[i] = quarter = (quarter + turns[i]) % 4;
   return quarters;
 }
 

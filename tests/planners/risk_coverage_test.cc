@@ -40,6 +40,7 @@ RobotSpec Square() {
   robot.max_speed_mps = 0.4;
   robot.cover_forward_rad = 0.7;
   robot.cover_sideways_rad = 0.6;
+  robot.cover_speed_mps = 0.3;
   return robot;
 }
 
@@ -129,7 +130,7 @@ TEST(RiskCoverage, CrossesAStripOnceSquarelyFastAndForward) {
 
 TEST(RiskCoverage, ARobotThatSaysNothingOfCoversKeepsItsYawAndSpeed) {
   RobotSpec robot = Square();
-  robot.cover_forward_rad = robot.cover_sideways_rad = 0;
+  robot.cover_forward_rad = robot.cover_sideways_rad = robot.cover_speed_mps = 0;
   for (const Waypoint& w : Plan(kAcrossY, robot, {0.25, 0.25}, {3.25, 3.25}).plan.path) {
     EXPECT_EQ(w.yaw_rad, 0);
     EXPECT_EQ(w.speed_mps, 0);

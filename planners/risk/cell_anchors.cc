@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planners/risk/cell_anchors.h"
+
+#include <limits>
+#include <sstream>
+
+#include "planners/risk/cell_ways.h"
+
+namespace floorproof {
+namespace {
+
+std::string_view Name(HazardClass c) {
+  constexpr std::string_view kNames[] = {"a blind object (C1)", "glass (C2)", "a level change (C3)",
+                                         "terrain (C4)"};
+  return kNames[static_cast<std::size_t>(c)];
+}
+
+}  // namespace
+
+std::string DescribePlace(const HazardMap& map, const Vec2& p_W) {
+  const Cell cell = map.frame.ToCell(p_W);
+  std::ostringstream out;
+  out << "(" << FormatDouble(p_W.x()) << ", " << FormatDouble(p_W.y()) << ") m, cell (" << cell.ix
+      << ", " << cell.iy << ")";
+  return out.str();
+}
+
+CellAnchors::CellAnchors(const PlanRequest& request)
+    : request_(request), grid_(request.risk->grid) {}
+
+std::optional<Cell> CellAnchors::At(const Vec2& p_W, std::string& why) {
+  const Cell cell = grid_.frame.ToCell(p_W);
+  // (On the map's very edge the two frames may round apart.)
+  if (!request_.map.frame.Inside(request_.map.frame.ToCell(p_W)) || !grid_.frame.Inside(cell)) {
+    why = "lies off the map";
+    return std::nullopt;
+  }
+  for (const Hazard& hazard : request_.map.hazards)
+    for (const Polygon& polygon : hazard.footprint)
+      if (Contains(polygon, p_W)) {
+        why = "lies on a hazard, " + std::string(Name(hazard.hazard_class));
+        return std::nullopt;
+      }
+  if (grid_.cells(cell).terrain()) {
+    why = "its cell holds a hazard, terrain (C4)";
+    return std::nullopt;
+  }
+  if (grid_.cells(cell).free() && LiesWithin(cell, p_W)) return cell;
+  if (!Fits(p_W)) {
+    const auto& hazard = grid_.cells(cell).hazard;
+    why = "the robot does not fit";
+    if (hazard) why += ": its cell holds a hazard, " + std::string(Name(*hazard));
+    return std::nullopt;
+  }
+  std::optional<Cell> best;
+  double least = std::numeric_limits<double>::infinity();
+  constexpr int kReach = 2;
+  for (int dy = -kReach; dy <= kReach; ++dy)
+    for (int dx = -kReach; dx <= kReach; ++dx) {
+      const Cell near = cell + Cell{dx, dy};
+      if (!grid_.cells.Inside(near) || !grid_.cells(near).free()) continue;
+      const double d = (grid_.frame.Center(near) - p_W).norm();
+      if (d < least && Sees(p_W, grid_.frame.Center(near))) best = near, least = d;
+    }
+  if (!best) why = "the robot fits, but it can drive straight to no free cell of its width";
+  return best;
+}
+
+// Whether the clear shape at p_W keeps to the cell, which is free as a whole.
+bool CellAnchors::LiesWithin(Cell cell, const Vec2& p_W) const {
+  const double room_m = (grid_.frame.cell_m - LeastCellWidth(request_.robot)) / 2;
+  const Vec2 off_G = grid_.frame.X_WG.Inverse().Rotate(p_W - grid_.frame.Center(cell));
+  constexpr double kTouch_m = 1e-3;
+  return off_G.cwiseAbs().maxCoeff() <= room_m + kTouch_m;
+}
+
+// Of places that do not keep to a free cell; its own, finer ruler.
+const SweepArea& CellAnchors::area() {
+  if (!area_)
+    area_ = ComputeSweepArea(request_.map, request_.robot.clear, request_.robot.tool,
+                             request_.robot.step_m, request_.start.p());
+  return *area_;
+}
+
+bool CellAnchors::Reaches(Cell fine) {
+  return area().reachable.Inside(fine) && area().reachable(fine);
+}
+
+bool CellAnchors::Fits(const Vec2& p_W) {
+  const Cell fine = area().frame.ToCell(p_W);
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx)
+      if (Reaches(fine + Cell{dx, dy})) return true;
+  return false;
+}
+
+// Whether it drives straight from a_W to b_W, the centre of a free cell.
+bool CellAnchors::Sees(const Vec2& a_W, const Vec2& b_W) {
+  const int samples = 1 + static_cast<int>((b_W - a_W).norm() / area().frame.cell_m);
+  for (int i = 1; i < samples; ++i)
+    if (!IsClear(a_W + (b_W - a_W) * i / samples)) return false;
+  return true;
+}
+
+// A place on a border of fine cells is in each of them.
+bool CellAnchors::IsClear(const Vec2& p_W) {
+  constexpr double kBorder_m = 1e-6;
+  for (const double dy : {-kBorder_m, kBorder_m})
+    for (const double dx : {-kBorder_m, kBorder_m})
+      if (Reaches(area().frame.ToCell(p_W + area().frame.X_WG.Rotate({dx, dy})))) return true;
+  return false;
+}
+
+}  // namespace floorproof
