@@ -33,14 +33,12 @@ std::vector<Cell> LeastCrossing(const RiskMap& risk, const Grid<double>& wave,
       [&](Cell c) { return borders(c, false); });
 }
 
-}  // namespace
+using Also = std::function<double(Cell)>;
 
-Grid<double> WaveFront(const Grid<std::uint8_t>& open, Cell end,
-                       const std::function<double(Cell)>& also) {
-  Grid<double> wave(open.width, open.height, kOutOfReach);
-  CellFront front;
-  wave(end) = 0;
-  front.push({0, open.Index(end.ix, end.iy)});
+// Lowers scores until no step lowers one; `front` holds the cells from which one may.
+void Spread(const Grid<std::uint8_t>& open, const Also& also, CellFront& front,
+            Grid<double>& wave) {
+  const auto is_open = [&](Cell c) { return open.Inside(c) && open(c); };
   while (!front.empty()) {
     const double score = front.top().first;
     const std::size_t index = front.top().second;
@@ -53,22 +51,40 @@ Grid<double> WaveFront(const Grid<std::uint8_t>& open, Cell end,
       wave(next) = value;
       front.push({value, open.Index(next.ix, next.iy)});
     };
-    const auto is_open = [&](Cell c) { return open.Inside(c) && open(c); };
     for (const Cell step : kSideSteps)
       if (is_open(now + step)) reach(now + step, kT);
     for (const Cell step : kCornerSteps)
       if (is_open(now + step) && is_open(now + Cell{step.ix, 0}) && is_open(now + Cell{0, step.iy}))
         reach(now + step, kX);
   }
+}
+
+}  // namespace
+
+Grid<double> WaveFront(const Grid<std::uint8_t>& open, Cell end, const Also& also) {
+  Grid<double> wave(open.width, open.height, kOutOfReach);
+  CellFront front;
+  wave(end) = 0;
+  front.push({0, open.Index(end.ix, end.iy)});
+  Spread(open, also, front, wave);
   return wave;
 }
 
 Grid<double> WaveOverTerrain(const RiskMap& risk, Cell end, Grid<std::uint8_t>& open) {
+  Grid<double> wave = WaveFront(open, end);
   for (;;) {
-    Grid<double> wave = WaveFront(open, end);
     const std::vector<Cell> crossing = LeastCrossing(risk, wave, open);
     if (crossing.empty()) return wave;
-    for (const Cell cell : crossing) open(cell) = 1;
+    // The wave begun anew would be the same up to here: it goes on around what is opened.
+    CellFront front;
+    for (const Cell cell : crossing) {
+      open(cell) = 1;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+          if (const Cell near = cell + Cell{dx, dy}; wave.Inside(near) && wave(near) < kOutOfReach)
+            front.push({wave(near), wave.Index(near.ix, near.iy)});
+    }
+    Spread(open, nullptr, front, wave);
   }
 }
 

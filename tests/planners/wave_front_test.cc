@@ -178,6 +178,24 @@ TEST(WaveOverTerrain, OpensOneCrossingForEachPartOfTheFloor) {
   }
 }
 
+// However it is computed: opened terrain may shorten ways to cells that were reached before.
+TEST(WaveOverTerrain, IsTheWaveBegunAnewOverWhatIsOpen) {
+  Stream random(5, 0, "terrain");
+  int crossings = 0;
+  for (int floor = 0; floor < 60; ++floor) {
+    std::string drawing;
+    for (int iy = 0; iy < 12; ++iy, drawing += '\n')
+      for (int ix = 0; ix < 12; ++ix) drawing += random.Uniform() < 0.35 ? '=' : '.';
+    drawing[0] = '.';
+    const RiskMap risk = DrawRisk(drawing);
+    Grid<std::uint8_t> open = FreeCells(risk);
+    const Grid<double> dut = WaveOverTerrain(risk, {0, 11}, open);
+    EXPECT_EQ(dut.cells, WaveFront(open, {0, 11}).cells);
+    crossings += !Opened(risk, open).empty();
+  }
+  EXPECT_GT(crossings, 40);
+}
+
 TEST(WaveOverTerrain, WhatNoTerrainLeadsToStaysOutOfReach) {
   const RiskMap risk = DrawRisk(R"(
       ...#...
