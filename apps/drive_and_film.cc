@@ -8,6 +8,7 @@
 
 #include "apps/pictures.h"
 #include "apps/progress.h"
+#include "apps/risk_pictures.h"
 #include "env/core/interrupt.h"
 #include "env/run/file_output.h"
 #include "env/run/records.h"
@@ -70,6 +71,7 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
                           CountTurns(result.plan.path), plan_s));
   if (s.episode.drive == "none") {
     result.record.outcome = Outcome::kSuccess;
+    if (options.write_records) WritePlanPictures(s, result.plan, folder);
     return result;
   }
 

@@ -77,7 +77,8 @@ TEST_F(Cli, RunLeavesWhatTheContractNames) {
   const Result dut = Run("run s.yaml --out o");
   EXPECT_EQ(dut.status, 0) << dut.err << dut.out;
   for (const char* file :
-       {"scenario.resolved.yaml", "plan.csv", "plan.json", "trace.csv", "result.json",
+       {"scenario.resolved.yaml", "plan.csv", "plan.json", "trace.csv", "result.json", "risk.csv",
+        "heatmap_plan.png", "heatmap_risk.png", "heatmap_plan_visits.png", "plot_risk.png",
         "heatmap_visits.png", "heatmap_coverage.png", "heatmap_failures.png"})
     EXPECT_TRUE(fs::exists(folder_ / "o" / file)) << file;
   const auto result = nlohmann::json::parse(Slurp(folder_ / "o" / "result.json"));
@@ -85,6 +86,33 @@ TEST_F(Cli, RunLeavesWhatTheContractNames) {
   EXPECT_TRUE(result["events"].empty());
   EXPECT_EQ(result["versions"]["mujoco"], "4.0.1");
   EXPECT_THAT(Slurp(folder_ / "o" / "trace.csv"), HasSubstr("t_s,x_m,y_m,z_m,roll_rad"));
+}
+
+TEST_F(Cli, RunThatDrivesNothingLeavesThePlanAndItsPictures) {
+  ASSERT_EQ(Run("run s.yaml --out o").status, 0);
+  EXPECT_EQ(Run("run s.yaml --out o --set drive=none").status, 0);
+  for (const char* file : {"plan.csv", "plan.json", "risk.csv", "heatmap_plan.png",
+                           "heatmap_risk.png", "heatmap_plan_visits.png", "plot_risk.png"})
+    EXPECT_TRUE(fs::exists(folder_ / "o" / file)) << file;
+  for (const char* file : {"trace.csv", "result.json", "heatmap_visits.png"})
+    EXPECT_FALSE(fs::exists(folder_ / "o" / file)) << file << " is an earlier run's";
+}
+
+TEST_F(Cli, PlansOfOneFloorStandBesideEachOtherInOnePlot) {
+  const auto plot = [&] { return Slurp(folder_ / "o" / "plot_risk.png"); };
+  std::string text = Slurp(folder_ / "s.yaml");
+  text.replace(text.find("boustrophedon"), 13, "path_transform");
+  std::ofstream(folder_ / "t.yaml") << text;
+  ASSERT_EQ(Run("plan s.yaml --out o").status, 0);
+  const std::string alone = plot();
+  ASSERT_EQ(Run("plan s.yaml --beside t.yaml --out o").status, 0);
+  EXPECT_NE(plot(), alone);
+  text.replace(text.find("#......#"), 8, "#.....##");
+  std::ofstream(folder_ / "u.yaml") << text;
+  const Result dut = Run("plan s.yaml --beside t.yaml u.yaml --out o");
+  EXPECT_EQ(dut.status, 2);
+  EXPECT_THAT(dut.err, HasSubstr("u.yaml"));
+  EXPECT_THAT(dut.err, HasSubstr("another floor"));
 }
 
 // The same bytes in every file: run twice, run from the resolved file, replayed.
