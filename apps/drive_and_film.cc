@@ -69,6 +69,7 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
   globals.Say(fmt::format("planned: {} waypoints, {:.1f} m, {} turns, in {:.2f} s",
                           result.plan.path.size(), Length(result.plan.path),
                           CountTurns(result.plan.path), plan_s));
+  if (!result.plan.message.empty()) globals.Say(result.plan.message);
   if (s.episode.drive == "none") {
     result.record.outcome = Outcome::kSuccess;
     if (options.write_records) WritePlanPictures(s, result.plan, folder);

@@ -134,7 +134,7 @@ std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& 
   script.set = {low, high, s.robot.robot.circumscribed_radius_m};
   for (const Assist& help : record.assists)
     script.notices.push_back({help.t_s,
-                              {Banner::Tone::kWarning, "HELPED   set upright by a person",
+                              {Banner::Tone::kWarning, "HELPED   set down by a person",
                                fmt::format("at the waypoint x {:.2f} m, y {:.2f} m;  t {:.1f} s",
                                            help.to_W.x(), help.to_W.y(), help.t_s)}});
   if (record.events.empty() || !record.assists.empty()) script.closing = ClosingBanner(record);

@@ -65,12 +65,14 @@ void AddPlan(CLI::App& app, const Globals& globals, int& status) {
     WritePlanPictures(scenario, plan, folder, beside);
     SayWhenInterrupted(folder.string() + " holds the plan");
     const bool found = plan.status == PlanStatus::kSuccess;
-    if (found)
+    if (found) {
       globals.Say(fmt::format("planned: {} waypoints, {:.1f} m, {} turns, covers {:.1f} %",
                               plan.path.size(), Length(plan.path), CountTurns(plan.path),
                               100 * json["coverage"].get<double>()));
-    else
+      if (!plan.message.empty()) globals.Say(plan.message);
+    } else {
       globals.Say(fmt::format("no plan ({}): {}", Name(plan.status), plan.message));
+    }
     globals.Say("results are in " + folder.string());
     globals.Result(json);
     status = found ? kDone : kNotSuccess;

@@ -26,10 +26,18 @@ HeatValues OnRiskCells(const RiskMap& risk, Value value) {
   return heat;
 }
 
+// What the picture is of; without a plan it says so.
+std::string Title(const Scenario& s, const PlanResult& plan, const std::string& what) {
+  const std::string title = PictureTitle(s) + ": ";
+  return plan.status == PlanStatus::kSuccess
+             ? title + what
+             : fmt::format("{}no plan ({})", title, Name(plan.status));
+}
+
 void WritePlanOverClasses(const Scenario& s, const PlanResult& plan,
                           const std::filesystem::path& png) {
   HeatMapOptions options;
-  options.title = PictureTitle(s) + ": plan";
+  options.title = Title(s, plan, "plan");
   options.plan = &plan.path;
   for (const auto c : {HazardClass::kBlindObject, HazardClass::kGlass, HazardClass::kLevelChange,
                        HazardClass::kTerrain})
@@ -56,8 +64,7 @@ void WriteRiskMap(const Scenario& s, const PlanResult& plan, const std::filesyst
 void WritePlanVisits(const Scenario& s, const PlanResult& plan, const RiskOfPath& risk,
                      const std::filesystem::path& png) {
   HeatMapOptions options;
-  options.title =
-      fmt::format("{}: {} visits of {} cells", PictureTitle(s), risk.visits, risk.cells);
+  options.title = Title(s, plan, fmt::format("{} visits of {} cells", risk.visits, risk.cells));
   options.quantity = "visits by the plan";
   options.unit = "count";
   options.whole_numbers = true;
@@ -113,7 +120,7 @@ void WritePlanPictures(const Scenario& s, const PlanResult& plan,
   WriteRiskMap(s, plan, folder / "heatmap_risk.png");
   WritePlanVisits(s, plan, plans.front().risk, folder / "heatmap_plan_visits.png");
   plans.insert(plans.end(), beside.begin(), beside.end());
-  WriteRiskPlot(PictureTitle(s) + ": visits by risk", plans, folder / "plot_risk.png");
+  WriteRiskPlot(Title(s, plan, "visits by risk"), plans, folder / "plot_risk.png");
 }
 
 void WriteRiskPlot(const std::string& title, std::span<const RiskOfPlan> plans,

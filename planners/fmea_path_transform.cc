@@ -5,12 +5,11 @@
 //
 // Algorithm 1 as printed scores a step 15 or 20 less 2 RF and begins at the start. The text and
 // Eq. 5 say otherwise: the wave begins at the end, its scores of 15 and 20 add up along the way,
-// and a cell's total is that sum less K = 50 times its RF, normalised over the floor. Only this has
-// a cell's score say how far the end is, which Algorithm 2 needs, so this is what is built.
-// RF_min and RF_max are those of the cells that are driven on; K leaves totals below 0 near the end
-// of the wave, where the paper wants TotalScore > 0: an order does not change by what is added to
-// all.
-// Wave: planners/risk/wave_front.h; cells: planners/risk/high_risk.h; order:
+// and a cell's total is that sum less K = 50 times its RF, normalised by RF_min and RF_max "for the
+// environment": of all cells within the outer walls, hazards included. Only this has a cell's score
+// say how far the end is, which Algorithm 2 needs, so this is what is built. K leaves totals below
+// 0 near the end of the wave, where the paper wants TotalScore > 0: an order does not change by
+// what is added to all. Wave: planners/risk/wave_front.h; cells: planners/risk/high_risk.h; order:
 // planners/risk/transform_tour.h.
 #include <algorithm>
 #include <limits>
@@ -20,11 +19,13 @@
 namespace floorproof {
 namespace {
 
+constexpr double kMostWeight = 1e6;  // sums over any floor stay exact enough
+
 class FmeaPathTransform final : public CellPlanner {
  public:
   void Visit(ParamVisitor& visit) override {
     CellPlanner::Visit(visit);
-    visit("risk_weight", risk_weight_, NonNegative(), "K of Eq. 5; a step scores 15");
+    visit("risk_weight", risk_weight_, Between(0, kMostWeight), "K of Eq. 5; a step scores 15");
     high_risk_.Visit(visit);
   }
 
@@ -36,7 +37,7 @@ class FmeaPathTransform final : public CellPlanner {
     figures.push_back({"opened_cells", floor.opened_cells});
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (std::size_t i = 0; i < floor.open.cells.size(); ++i)
-      if (floor.open.cells[i]) {
+      if (!task.risk.grid.cells.cells[i].outer_wall()) {
         low = std::min(low, task.risk.rf.cells[i]);
         high = std::max(high, task.risk.rf.cells[i]);
       }

@@ -19,19 +19,22 @@ class PathTransform final : public CellPlanner {
  public:
   void Visit(ParamVisitor& visit) override {
     CellPlanner::Visit(visit);
-    visit("obstacle_weight", obstacle_weight_, NonNegative(),
+    constexpr double kMostWeight = 1e6;  // sums over any floor stay exact enough
+    visit("obstacle_weight", obstacle_weight_, Between(0, kMostWeight),
           "score of a cell beside a solid obstacle; a step scores 15");
     visit("obstacle_reach", obstacle_reach_, NonNegative(),
           "cells from a solid obstacle at which its cost has fallen to 0, in equal steps");
-    visit("cells", cells_, {"all", "fmea"},
-          "all, or those alone that fmea_path_transform visits: what of its risk is order, and "
-          "what is cells left out");
+    visit("cells", cells_, {"all", "free", "fmea"},
+          "all; or free ones, and terrain only where it must be crossed; or those alone that "
+          "fmea_path_transform visits: what of its risk is order, and what is cells left out");
+    high_risk_.Visit(visit);
   }
 
  protected:
   CellTour Tour(const CellTask& task, Figures&) const override {
     Grid<std::uint8_t> open = task.drivable;
-    if (cells_ == "fmea") open = LowRiskFloor(task, {}).open;
+    if (cells_ == "free") open = LowRiskFloor(task, {.share = 0}).open;
+    if (cells_ == "fmea") open = LowRiskFloor(task, high_risk_).open;
     Grid<std::uint8_t> solid(open.width, open.height);
     for (std::size_t i = 0; i < solid.cells.size(); ++i)
       solid.cells[i] = task.risk.grid.cells.cells[i].solid;
@@ -47,6 +50,7 @@ class PathTransform final : public CellPlanner {
   double obstacle_weight_ = 15;
   double obstacle_reach_ = 2;
   std::string cells_ = "all";
+  HighRiskParams high_risk_;
 };
 
 }  // namespace

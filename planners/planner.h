@@ -41,7 +41,7 @@ std::string_view Name(PlanStatus status);
 
 struct PlanResult {
   PlanStatus status = PlanStatus::kFailed;
-  std::string message;  // why, naming the place; empty on success
+  std::string message;  // why, naming the place; on success what was left out, or empty
   Path path;            // from the start pose on
   // The clear shape and tool that the planner planned with (the robot's, or a plan's override).
   Shape2 clear, tool;

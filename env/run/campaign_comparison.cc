@@ -156,7 +156,7 @@ ComparedFailure CompareFailures(const std::string& mode, const std::vector<Pair>
 // What an episode that a failure cuts short has less of, for no merit of its own.
 bool NeedsSuccess(std::string_view metric) {
   return metric == "duration_s" || metric == "energy_j" || metric == "charge_ah" ||
-         metric == "path_length_m";
+         metric == "path_length_m" || metric == "turns" || metric == "cumulative_risk";
 }
 
 Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "planners/risk/cell_anchors.h"
 
+#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -17,11 +18,12 @@ std::string_view Name(HazardClass c) {
 
 }  // namespace
 
-std::string DescribePlace(const HazardMap& map, const Vec2& p_W) {
-  const Cell cell = map.frame.ToCell(p_W);
+std::string DescribePlace(const GridFrame& cells, const Vec2& p_W) {
+  const Cell cell = cells.ToCell(p_W);
+  const auto metres = [](double m) { return FormatDouble(std::round(m * 1000) / 1000); };
   std::ostringstream out;
-  out << "(" << FormatDouble(p_W.x()) << ", " << FormatDouble(p_W.y()) << ") m, cell (" << cell.ix
-      << ", " << cell.iy << ")";
+  out << "(" << metres(p_W.x()) << ", " << metres(p_W.y()) << ") m, cell (" << cell.ix << ", "
+      << cell.iy << ") of " << metres(cells.cell_m) << " m";
   return out.str();
 }
 
@@ -62,7 +64,9 @@ std::optional<Cell> CellAnchors::At(const Vec2& p_W, std::string& why) {
       const double d = (grid_.frame.Center(near) - p_W).norm();
       if (d < least && Sees(p_W, grid_.frame.Center(near))) best = near, least = d;
     }
-  if (!best) why = "the robot fits, but it can drive straight to no free cell of its width";
+  if (!best)
+    why = "the robot fits, but it can drive straight to no free cell of " +
+          FormatDouble(grid_.frame.cell_m) + " m";
   return best;
 }
 

@@ -32,7 +32,7 @@ class CellAnchors {
   std::optional<SweepArea> area_;
 };
 
-// "(1.25, 0.75) m, cell (2, 1)", of the map's own cells.
-std::string DescribePlace(const HazardMap& map, const Vec2& p_W);
+// "(1.25, 0.75) m, cell (2, 1) of 0.5 m", to the millimetre.
+std::string DescribePlace(const GridFrame& cells, const Vec2& p_W);
 
 }  // namespace floorproof

@@ -56,7 +56,7 @@ PlanResult CellPlanner::Plan(const PlanRequest& request) const {
   const std::optional<Cell> start = anchors.At(request.start.p(), why);
   if (!start)
     return refuse(PlanStatus::kStartBlocked,
-                  "start " + DescribePlace(request.map, request.start.p()) + ": " + why);
+                  "start " + DescribePlace(request.map.frame, request.start.p()) + ": " + why);
 
   Grid<std::uint8_t> drivable(grid.cells.width, grid.cells.height);
   for (std::size_t i = 0; i < drivable.cells.size(); ++i)
@@ -76,19 +76,23 @@ PlanResult CellPlanner::Plan(const PlanRequest& request) const {
       first_lost = Cell{static_cast<int>(i) % drivable.width, static_cast<int>(i) / drivable.width};
   }
   task.drivable = std::move(drivable);
-  if (static_cast<double>(lost) > unreachable_share_ * static_cast<double>(free))
-    return refuse(PlanStatus::kFloorDivided,
-                  "the floor falls apart: neither floor nor terrain leads from the start to " +
-                      DescribePlace(request.map, grid.frame.Center(*first_lost)) + " and " +
-                      std::to_string(lost - 1) + " more of " + std::to_string(free) +
-                      " free cells");
+  if (lost > 0) {
+    std::ostringstream lost_cells;
+    lost_cells << "neither floor nor terrain leads in such cells from the start to "
+               << DescribePlace(grid.frame, grid.frame.Center(*first_lost));
+    if (lost > 1) lost_cells << ", and to " << lost - 1 << " more";
+    lost_cells << ", of " << free << " free ones";
+    if (static_cast<double>(lost) > unreachable_share_ * static_cast<double>(free))
+      return refuse(PlanStatus::kFloorDivided, "the floor falls apart: " + lost_cells.str());
+    result.message = "left out: " + lost_cells.str();
+  }
 
   task.end = FarthestFree(steps, grid, task.start);
   if (request.goal) {
     const std::optional<Cell> goal = anchors.At(*request.goal, why);
     if (!goal || !task.free(*goal))
       return refuse(PlanStatus::kGoalUnreachable,
-                    "goal " + DescribePlace(request.map, *request.goal) + ": " +
+                    "goal " + DescribePlace(request.map.frame, *request.goal) + ": " +
                         (goal ? "neither floor nor terrain leads there from the start" : why));
     task.end = *goal;
   }

@@ -22,37 +22,14 @@ constexpr double kWorkPerPlace = 10'000, kAmple = 1e6, kWorkPerMore = 200, kMost
 
 std::size_t Z(int i) { return static_cast<std::size_t>(i); }
 
-struct Measures {
+int CountCrossings(const Grid<std::uint8_t>& terrain, const std::vector<Cell>& walk) {
   int crossings = 0;
-  std::size_t cells = 0;
-  double cost = 0;
-};
-
-Measures Measure(const CoverWalkProblem& problem, const std::vector<Cell>& cells) {
-  Measures m;
-  m.cells = cells.size();
   bool on_terrain = false;
-  for (const Cell c : cells) {
-    m.cost += problem.cost(c);
-    if (problem.terrain(c) && !on_terrain) ++m.crossings;
-    on_terrain = problem.terrain(c) != 0;
+  for (const Cell c : walk) {
+    crossings += terrain(c) && !on_terrain;
+    on_terrain = terrain(c) != 0;
   }
-  return m;
-}
-
-// Whether the walk is one for the problem.
-bool Solves(const CoverWalkProblem& problem, const std::vector<Cell>& cells) {
-  if (cells.empty() || cells.front() != problem.start) return false;
-  if (problem.end && cells.back() != *problem.end) return false;
-  Grid<std::uint8_t> left = problem.wanted;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Cell c = cells[i], before = i > 0 ? cells[i - 1] : Cell{c.ix - 1, c.iy};
-    if (!problem.open.Inside(c) || !problem.open(c)) return false;
-    if (std::abs(c.ix - before.ix) + std::abs(c.iy - before.iy) != 1) return false;
-    left(c) = 0;
-  }
-  return std::count(left.cells.begin(), left.cells.end(), 0) ==
-         static_cast<std::ptrdiff_t>(left.cells.size());
+  return crossings;
 }
 
 std::optional<Cell> FindUnreachable(const CoverWalkProblem& problem, const WalkGraph& graph) {
@@ -114,34 +91,12 @@ std::vector<int> FirstPath(const WalkGraph& graph, const Places& places) {
   return path;
 }
 
-// The places in the order in which the walk comes to them first; a fixed end last.
-std::vector<int> PathOf(const std::vector<Cell>& walk, const WalkGraph& graph,
-                        const Places& places) {
-  std::vector<int> path;
-  std::vector<std::uint8_t> done(places.cells.size(), 0);
-  if (places.fixed_end) done[Z(places.last())] = 1;
-  for (const Cell c : walk) {
-    const int place = places.at[Z(graph.At(c))];
-    if (place < 0 || done[Z(place)]) continue;
-    done[Z(place)] = 1;
-    path.push_back(place);
-  }
-  if (places.fixed_end) path.push_back(places.last());
-  return path;
-}
-
-bool IsWorse(const Measures& a, const Measures& b) {
-  if (a.crossings != b.crossings) return a.crossings > b.crossings;
-  return a.cells > b.cells || a.cost > b.cost;
-}
-
 std::vector<Cell> Shorten(const WalkGraph& graph, const Places& places, WalkCosts& costs,
                           const CoverWalkOptions& options, std::vector<int> path) {
   const double n = static_cast<double>(path.size());
   const double work = std::min(std::min(kWorkPerPlace * n, kAmple) + kWorkPerMore * n, kMostWork);
   PathSearchOptions search;
   search.fixed_end = places.fixed_end;
-  search.seed = options.seed;
   search.most_work = std::llround(options.effort * work);
   ShortenPath(costs, costs.Near(kNear), search, path);
   std::vector<int> cells = {places.start};
@@ -153,8 +108,7 @@ std::vector<Cell> Shorten(const WalkGraph& graph, const Places& places, WalkCost
 
 }  // namespace
 
-CoverWalk ShortCoverWalk(const CoverWalkProblem& problem, const CoverWalkOptions& options,
-                         const std::vector<Cell>& seed_walk) {
+CoverWalk ShortCoverWalk(const CoverWalkProblem& problem, const CoverWalkOptions& options) {
   CoverWalk result;
   const WalkGraph graph(problem, options);
   result.unreachable = FindUnreachable(problem, graph);
@@ -163,15 +117,7 @@ CoverWalk ShortCoverWalk(const CoverWalkProblem& problem, const CoverWalkOptions
   const Places places(problem, graph);
   WalkCosts costs(graph, places.cells);
   result.cells = Shorten(graph, places, costs, options, FirstPath(graph, places));
-  if (Solves(problem, seed_walk)) {
-    const Measures seed = Measure(problem, seed_walk);
-    if (IsWorse(Measure(problem, result.cells), seed))
-      result.cells = Shorten(graph, places, costs, options, PathOf(seed_walk, graph, places));
-    if (IsWorse(Measure(problem, result.cells), seed)) result.cells = seed_walk;
-  }
-  const Measures measures = Measure(problem, result.cells);
-  result.crossings = measures.crossings;
-  result.cost = measures.cost;
+  result.crossings = CountCrossings(problem.terrain, result.cells);
   return result;
 }
 

@@ -252,7 +252,7 @@ class PathSearch {
 
   // Two stretches of up to kReach places change places: a b..c d..e f -> a d..e b..c f.
   void Kick() {
-    Stream random(options_.seed, 0, "path_search");
+    Stream random(0, 0, "path_search");
     const auto below = [&random](int count) {
       return static_cast<int>(random.Below(static_cast<std::uint64_t>(count)));
     };

@@ -44,7 +44,6 @@ struct NearLinks {
 struct PathSearchOptions {
   bool fixed_end = false;      // the last place stays the last, as the first stays the first
   std::int64_t most_work = 0;  // elementary steps (a link looked at, eight places turned round)
-  std::uint64_t seed = 0;
 };
 
 // Shortens `path`, which holds each place once.

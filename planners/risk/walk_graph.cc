@@ -62,8 +62,8 @@ WalkGraph::WalkGraph(const CoverWalkProblem& problem, const CoverWalkOptions& op
       const std::size_t at = Z(At({ix, iy}));
       open[at] = 1;
       terrain[at] = problem.terrain(ix, iy) != 0;
-      const double steps = 1 + options.cost_share * (problem.cost(ix, iy) / mean - 1) +
-                           (terrain[at] ? options.terrain_steps : 0);
+      const double steps =
+          1 + options.cost_share * (problem.cost(ix, iy) / mean - 1) + problem.more_steps(ix, iy);
       weight[at] = std::max<std::int64_t>(1, std::llround(static_cast<double>(kStep) * steps));
       if (total == 0 || weight[at] < least_weight) least_weight = weight[at];
       total += weight[at];

@@ -37,8 +37,10 @@ class Study : public testing::Test {
   std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "risk_study";
 };
 
-TEST_F(Study, PlansOfThreeHundredRandomSites) {
-  Run("risk_study.yaml", {150, 300}, "2023");
+// More of them than the study asks for: the median of 300 sites strays by 2 % to either side.
+TEST_F(Study, PlansOfRandomSites) {
+  constexpr int kSites = 1500;
+  Run("risk_study.yaml", {500, 1000, kSites}, "2023");
   if (HasFatalFailure()) return;
   const double percent = 0.01;
   const auto share = [](const nlohmann::json& found, const char* key) {
@@ -47,7 +49,7 @@ TEST_F(Study, PlansOfThreeHundredRandomSites) {
   };
 
   const nlohmann::json paper = Compare("plan=conventional", "plan=fmea");
-  EXPECT_EQ(paper["n"], 300);
+  EXPECT_EQ(paper["n"], kSites);
   EXPECT_GE(Change(paper, "cumulative_risk"), -17 * percent);
   EXPECT_LE(Change(paper, "cumulative_risk"), -8 * percent);
   // It is bought with coverage: on the same cells the conventional order has no more risk.
@@ -56,13 +58,13 @@ TEST_F(Study, PlansOfThreeHundredRandomSites) {
   EXPECT_NEAR(Change(same, "cumulative_risk"), 0, 2 * percent);
 
   const nlohmann::json on_its_cells = Compare("plan=fmea", "plan=ours_same_cells");
-  EXPECT_EQ(on_its_cells["plans"]["hazard_free_coverage"]["same"], 300);
+  EXPECT_EQ(on_its_cells["plans"]["hazard_free_coverage"]["same"], kSites);
   EXPECT_GE(share(on_its_cells, "none_higher"), 0.95);
   EXPECT_GE(share(on_its_cells, "both_lower"), 0.70);
   EXPECT_LE(Change(on_its_cells, "cumulative_risk"), -4 * percent);
 
   const nlohmann::json on_all = Compare("plan=conventional", "plan=ours");
-  EXPECT_EQ(on_all["plans"]["hazard_free_coverage"]["same"], 300);
+  EXPECT_EQ(on_all["plans"]["hazard_free_coverage"]["same"], kSites);
   EXPECT_GE(share(on_all, "none_higher"), 0.95);
   EXPECT_GE(share(on_all, "both_lower"), 0.80);
   EXPECT_LE(Change(on_all, "cumulative_risk"), -8 * percent);

@@ -134,6 +134,8 @@ TEST_P(CellPlanners, AFewCellsOutOfReachAreLeftOut) {
   const PlanResult plan = site.Plan(GetParam(), Cell{0, 0});
   ASSERT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
   EXPECT_EQ(Figure(plan, "unreachable_cells"), 1);
+  EXPECT_THAT(plan.message, HasSubstr("left out"));
+  EXPECT_THAT(plan.message, HasSubstr("cell (8, 4) of 0.5 m"));
   EXPECT_EQ(site.Plan(GetParam(), Cell{0, 0}, {}, "{unreachable_share: 0}").status,
             PlanStatus::kFloorDivided);
   EXPECT_EQ(site.Measure(plan).visits_of(8, 4), 0);

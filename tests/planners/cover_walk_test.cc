@@ -17,6 +17,13 @@
 namespace floorproof {
 namespace {
 
+// A visit of terrain counts as a step more: it is crossed straight.
+void CountTerrainTwice(CoverWalkProblem& problem) {
+  problem.more_steps = Grid<double>(problem.terrain.width, problem.terrain.height);
+  for (std::size_t i = 0; i < problem.terrain.cells.size(); ++i)
+    problem.more_steps.cells[i] = problem.terrain.cells[i] != 0;
+}
+
 // '.' to be visited, 'o' open but not wanted, '~' terrain, 'T' terrain to be visited, '#' closed;
 // 'S' and 'E' start and end, to be visited. The top row first.
 CoverWalkProblem Draw(const std::string& map) {
@@ -36,6 +43,7 @@ CoverWalkProblem Draw(const std::string& map) {
       if (c == 'S') problem.start = {ix, iy};
       if (c == 'E') problem.end = Cell{ix, iy};
     }
+  CountTerrainTwice(problem);
   return problem;
 }
 
@@ -74,7 +82,6 @@ void ExpectSolves(const CoverWalk& walk, const CoverWalkProblem& problem) {
   }
   EXPECT_EQ(std::count(left.cells.begin(), left.cells.end(), 1), 0);
   EXPECT_EQ(walk.crossings, Crossings(problem, walk.cells));
-  EXPECT_NEAR(walk.cost, Cost(problem, walk.cells), 1e-9 * walk.cost);
 }
 
 // A w x h floor with closed cells, terrain and cells that are not wanted, strewn.
@@ -94,6 +101,7 @@ CoverWalkProblem Strewn(int w, int h, std::uint64_t seed) {
     problem.wanted.cells[i] = problem.open.cells[i] && random.Uniform() < wanted &&
                               (terrain_too || !problem.terrain.cells[i]);
   }
+  CountTerrainTwice(problem);
   const auto draw = [&] {
     const Cell c{static_cast<int>(random.Below(static_cast<std::uint64_t>(w))),
                  static_cast<int>(random.Below(static_cast<std::uint64_t>(h)))};
@@ -134,6 +142,7 @@ CoverWalkProblem Hall(int size, std::uint64_t seed) {
   }
   problem.start = {0, 0};
   problem.open(problem.start) = 1;
+  CountTerrainTwice(problem);
   const CoverWalk reached = ShortCoverWalk(problem, {.effort = 0});
   if (reached.unreachable) return Hall(size, seed + 1000);
   return problem;
@@ -152,7 +161,7 @@ std::optional<Least> Exhaust(const CoverWalkProblem& problem, const CoverWalkOpt
   mean = bits > 0 ? mean / static_cast<double>(bits) : 1;
   const auto weight = [&](std::size_t i) {
     return 1 - options.cost_share + options.cost_share * problem.cost.cells[i] / mean +
-           (problem.terrain.cells[i] ? options.terrain_steps : 0);
+           problem.more_steps.cells[i];
   };
   const std::size_t all = (std::size_t{1} << bits) - 1;
   using Open = std::tuple<int, double, std::size_t>;
@@ -193,7 +202,7 @@ double Weight(const CoverWalkProblem& problem, const CoverWalkOptions& options,
   mean = wanted > 0 ? mean / wanted : 1;
   for (const Cell c : walk.cells)
     sum += 1 - options.cost_share + options.cost_share * problem.cost(c) / mean +
-           (problem.terrain(c) ? options.terrain_steps : 0);
+           problem.more_steps(c);
   return sum;
 }
 
@@ -244,10 +253,11 @@ TEST(CoverWalk, NoWalkIsBelowTheBound) {
   int tight = 0;
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
     SCOPED_TRACE(seed);
-    const CoverWalkProblem problem = Strewn(4, 3, seed);
-    const auto steps = Exhaust(problem, {.cost_share = 0, .terrain_steps = 0}, false);
+    CoverWalkProblem problem = Strewn(4, 3, seed);
+    std::ranges::fill(problem.more_steps.cells, 0);
+    const auto steps = Exhaust(problem, {.cost_share = 0}, false);
     if (!steps) continue;
-    const auto cost = Exhaust(problem, {.cost_share = 1, .terrain_steps = 0}, false);
+    const auto cost = Exhaust(problem, {.cost_share = 1}, false);
     double mean = 0, wanted = 0;
     for (std::size_t i = 0; i < problem.wanted.cells.size(); ++i)
       if (problem.wanted.cells[i]) mean += problem.cost.cells[i], ++wanted;
@@ -279,6 +289,7 @@ TEST(CoverWalk, ALargeTreeNeedsNoSearch) {
   for (int ix = 0; ix < 201; ++ix)
     for (int iy = 0; iy < (ix % 2 ? 1 : 40 - ix % 7); ++iy) comb.open(ix, iy) = 1;
   comb.wanted = comb.open;
+  CountTerrainTwice(comb);
   const CoverWalk dut = ShortCoverWalk(comb, {.effort = 0});
   ExpectSolves(dut, comb);
   EXPECT_EQ(Steps(dut), BoundCoverWalk(comb).steps);
@@ -336,10 +347,10 @@ TEST(CoverWalk, WeighsCostAgainstSteps) {
   for (int ix = 0; ix < 6; ++ix) problem.cost(ix, 0) = 3;
   const CoverWalk cheap = ShortCoverWalk(problem, {.cost_share = 1});
   EXPECT_EQ(Steps(cheap), 11);
-  EXPECT_EQ(cheap.cost, 12);
+  EXPECT_EQ(Cost(problem, cheap.cells), 12);
   const CoverWalk brief = ShortCoverWalk(problem, {.cost_share = 0});
   EXPECT_EQ(Steps(brief), 7);
-  EXPECT_EQ(brief.cost, 20);
+  EXPECT_EQ(Cost(problem, brief.cells), 20);
 }
 
 TEST(CoverWalk, AStripIsCrossedOnceOrToAndFro) {
@@ -373,6 +384,7 @@ CoverWalkProblem Rooms(int nx, int ny, bool posts, Cell start_room) {
       problem.wanted(ix, iy) = !x && !y;
       problem.open(ix, iy) = !(x && y && posts);
     }
+  CountTerrainTwice(problem);
   problem.start = {start_room.ix * kPitch + 7, start_room.iy * kPitch + 7};
   return problem;
 }
@@ -450,60 +462,10 @@ TEST(CoverWalk, NamesWhatCannotBeReached) {
   EXPECT_EQ(ShortCoverWalk(problem).unreachable, (Cell{7, 0}));
 }
 
-// From the start to each wanted cell and back: a walk nobody would make.
-std::vector<Cell> Star(const CoverWalkProblem& problem) {
-  std::vector<Cell> walk = {problem.start};
-  for (std::size_t i = 0; i < problem.wanted.cells.size(); ++i) {
-    if (!problem.wanted.cells[i]) continue;
-    CoverWalkProblem there = problem;
-    there.wanted = Grid<std::uint8_t>(problem.open.width, problem.open.height);
-    there.end =
-        Cell{static_cast<int>(i) % problem.open.width, static_cast<int>(i) / problem.open.width};
-    const std::vector<Cell> way = ShortCoverWalk(there).cells;
-    walk.insert(walk.end(), way.begin() + 1, way.end());
-    walk.insert(walk.end(), way.rbegin() + (way.empty() ? 0 : 1), way.rend());
-  }
-  return walk;
-}
-
-TEST(CoverWalk, IsNeverWorseThanASeedWalk) {
-  for (std::uint64_t seed = 0; seed < 12; ++seed) {
-    SCOPED_TRACE(seed);
-    const CoverWalkProblem problem = Hall(11, seed);
-    // Good walks, and those that trade cost for steps; and a seeded one without a search.
-    std::vector<std::vector<Cell>> walks = {Star(problem)};
-    for (const double share : {0.0, 0.5, 1.0})
-      walks.push_back(ShortCoverWalk(problem, {.cost_share = share}).cells);
-    for (const auto& walk : walks)
-      for (const double effort : {0.0, 0.3}) {
-        const CoverWalk dut = ShortCoverWalk(problem, {.effort = effort}, walk);
-        ExpectSolves(dut, problem);
-        ASSERT_LE(dut.crossings, Crossings(problem, walk));
-        if (dut.crossings < Crossings(problem, walk)) continue;
-        EXPECT_LE(dut.cells.size(), walk.size());
-        EXPECT_LE(dut.cost, Cost(problem, walk));
-      }
-  }
-}
-
-TEST(CoverWalk, ASeedThatIsNoSuchWalkIsNotLookedAt) {
-  const CoverWalkProblem problem = Draw("S...\n....");
-  for (const std::vector<Cell>& seed : {std::vector<Cell>{{0, 1}},          // visits too little
-                                        std::vector<Cell>{{0, 1}, {3, 0}},  // jumps
-                                        std::vector<Cell>{{9, 9}}}) {
-    const CoverWalk dut = ShortCoverWalk(problem, {}, seed);
-    ExpectSolves(dut, problem);
-    EXPECT_EQ(Steps(dut), 7);
-  }
-}
-
 TEST(CoverWalk, TheSameProblemHasTheSameWalk) {
   const CoverWalkProblem problem = Hall(30, 3);
   const CoverWalk one = ShortCoverWalk(problem), two = ShortCoverWalk(problem);
   EXPECT_EQ(one.cells, two.cells);
-  const CoverWalk other = ShortCoverWalk(problem, {.seed = 1});
-  ExpectSolves(other, problem);
-  EXPECT_NE(one.cells, other.cells);
 }
 
 TEST(CoverWalk, MoreEffortIsNoWorse) {
@@ -540,6 +502,7 @@ TEST(CoverWalk, FloorsInVeryManyPiecesComeToAnEnd) {
   checked.cost = Grid<double>(60, 60, 1.0);
   for (int iy = 0; iy < 60; ++iy)
     for (int ix = 0; ix < 60; ++ix) checked.terrain(ix, iy) = (ix + iy) % 2 != 0;
+  CountTerrainTwice(checked);
   ExpectSolves(ShortCoverWalk(checked, {.effort = 0.1}), checked);
   checked.wanted = Grid<std::uint8_t>(60, 60);
   for (std::size_t i = 0; i < checked.wanted.cells.size(); ++i)

@@ -144,19 +144,37 @@ TEST(PathTransform, CanKeepToTheCellsOfTheOther) {
   EXPECT_LT(visited(dut).size(), visited(site.Plan("path_transform", Cell{1, 1})).size());
 }
 
-// Eq. 5 with K = 50 on the wave's scores of 15 and 20.
+TEST(PathTransform, CanKeepToFreeCellsAndCrossTerrainOnlyWhereItMust) {
+  const Site site(R"(
+      .....=...
+      .....=...
+      .==..=...
+      .....=...)");
+  const PlanResult dut = site.Plan("path_transform", Cell{0, 0}, Cell{8, 0}, "{cells: free}");
+  ASSERT_EQ(dut.status, PlanStatus::kSuccess);
+  const RiskOfPath measured = site.Measure(dut);
+  EXPECT_EQ(measured.coverage, 1);
+  EXPECT_EQ(measured.cells, 36 - 6 + 1) << "of the terrain one cell, where the floor is split";
+}
+
+// Eq. 5 with K = 50 on the wave's scores of 15 and 20, RF_min and RF_max those of all cells.
 TEST(FmeaPathTransform, IsTheTourByEquation5) {
   Stream random(4, 0, "halls");
-  int by_distance_alone = 0;
-  for (int round = 0; round < 20; ++round) {
+  int by_distance_alone = 0, by_range_of_driven = 0;
+  constexpr int kRounds = 60;
+  for (int round = 0; round < kRounds; ++round) {
     const RandomSite floor(random);
     const auto& rf = floor.site.risk.rf.cells;
-    double low = 1e9, high = 0;
-    for (std::size_t i = 0; i < rf.size(); ++i)
-      if (floor.reached.cells[i]) low = std::min(low, rf[i]), high = std::max(high, rf[i]);
-    Grid<double> total = WaveFront(floor.reached, floor.end);
-    for (std::size_t i = 0; i < rf.size(); ++i) total.cells[i] -= 50 * (rf[i] - low) / (high - low);
-    const CellTour tour = TransformTour(floor.reached, total, floor.start, floor.end);
+    const auto tour_by = [&](const auto& counts) {
+      double low = 1e9, high = 0;
+      for (std::size_t i = 0; i < rf.size(); ++i)
+        if (counts(i)) low = std::min(low, rf[i]), high = std::max(high, rf[i]);
+      Grid<double> total = WaveFront(floor.reached, floor.end);
+      for (std::size_t i = 0; i < rf.size(); ++i)
+        total.cells[i] -= 50 * (rf[i] - low) / (high - low);
+      return TransformTour(floor.reached, total, floor.start, floor.end);
+    };
+    const CellTour tour = tour_by([](std::size_t) { return true; });
     const auto plan = [&](const std::string& more) {
       return floor.site.Plan("fmea_path_transform", floor.start, floor.end,
                              "{unreachable_share: 1, high_risk_share: 0" + more + "}");
@@ -164,8 +182,11 @@ TEST(FmeaPathTransform, IsTheTourByEquation5) {
     ExpectPath(plan(""), Corners(tour.cells, floor.site.risk.grid.frame));
     EXPECT_EQ(Figure(plan(""), "dead_ends"), tour.dead_ends);
     by_distance_alone += Points(plan(", risk_weight: 0")) == Points(plan(""));
+    const CellTour other = tour_by([&](std::size_t i) { return floor.reached.cells[i] != 0; });
+    by_range_of_driven += Corners(other.cells, floor.site.risk.grid.frame) == Points(plan(""));
   }
-  EXPECT_LT(by_distance_alone, 5) << "risk does have a say";
+  EXPECT_LT(by_distance_alone, kRounds / 4) << "risk does have a say";
+  EXPECT_LT(by_range_of_driven, kRounds) << "so does the risk of cells that nobody drives";
 }
 
 TEST(FmeaPathTransform, VisitsAllButTheCellsOfHighRisk) {

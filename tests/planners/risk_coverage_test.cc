@@ -138,12 +138,15 @@ TEST(RiskCoverage, ARobotThatSaysNothingOfCoversKeepsItsYawAndSpeed) {
 }
 
 TEST(RiskCoverage, CrossesAwayFromWallsWhereThatCostsLittle) {
-  const Planned dut = Plan(kAcrossX, Square(), {0.25, 0.25}, {5.25, 2.25});
-  const std::vector<std::size_t> legs = LegsOntoTerrain(dut);
-  ASSERT_EQ(legs.size(), 1u);
-  const double y = dut.plan.path[legs[0]].p_W.y();
-  EXPECT_GT(y, 0.5);
-  EXPECT_LT(y, 2.0);
+  for (const char* params : {"{}", "{risk_share: 0}", "{risk_share: 1}"}) {
+    const Planned dut =
+        Plan(kAcrossX, Square(), {0.25, 0.25}, {5.25, 2.25}, "risk_coverage", params);
+    const std::vector<std::size_t> legs = LegsOntoTerrain(dut);
+    ASSERT_EQ(legs.size(), 1u);
+    const double y = dut.plan.path[legs[0]].p_W.y();
+    EXPECT_GT(y, 0.5) << params;
+    EXPECT_LT(y, 2.0) << params;
+  }
 }
 
 TEST(RiskCoverage, OverThePapersCellsItVisitsTheSameOnes) {
