@@ -27,6 +27,8 @@ std::string Verdict(const EpisodeRecord& record) {
       "kJ",
       Name(record.outcome), 100 * m.coverage, m.duration_s, m.path_length_m,
       1000 * m.max_cross_track_m, m.energy_j / 1000);
+  if (const std::size_t times = record.assists.size(); times > 0)
+    line += fmt::format(", helped {} time{}", times, times == 1 ? "" : "s");
   if (!record.message.empty()) line += " (" + record.message + ")";
   return line;
 }

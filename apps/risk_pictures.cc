@@ -52,7 +52,9 @@ void WritePlanOverClasses(const Scenario& s, const PlanResult& plan,
 
 void WriteRiskMap(const Scenario& s, const PlanResult& plan, const std::filesystem::path& png) {
   HeatMapOptions options;
+  const auto [least, most] = std::ranges::minmax(plan.risk->rf.cells);
   options.title = PictureTitle(s) + ": risk";
+  if (least > 0) options.title += fmt::format(", highest / lowest {:.2f}", most / least);
   options.quantity = "risk factor (RF)";
   options.colour_map = ColourMap::kInferno;
   const HeatValues rf = OnRiskCells(*plan.risk, [&](std::size_t i, const RiskCell& cell) {
@@ -80,9 +82,10 @@ void WritePlanVisits(const Scenario& s, const PlanResult& plan, const RiskOfPath
 }
 
 std::string Figures(const RiskOfPath& risk) {
-  return fmt::format("CRF {:.1f}, {} visits of {} cells, coverage {:.1f} %, {} terrain crossing{}",
-                     risk.cumulative_risk, risk.visits, risk.cells, 100 * risk.coverage,
-                     risk.terrain_crossings, risk.terrain_crossings == 1 ? "" : "s");
+  return fmt::format(
+      "CRF {:.1f}, {} visits of {} cells, hazard-free {:.1f} %, {} terrain crossing{}",
+      risk.cumulative_risk, risk.visits, risk.cells, 100 * risk.coverage, risk.terrain_crossings,
+      risk.terrain_crossings == 1 ? "" : "s");
 }
 
 std::string Against(const RiskOfPath& first, const RiskOfPath& risk) {

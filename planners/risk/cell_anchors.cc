@@ -44,14 +44,14 @@ std::optional<Cell> CellAnchors::At(const Vec2& p_W, std::string& why) {
         return std::nullopt;
       }
   if (grid_.cells(cell).terrain()) {
-    why = "its cell holds a hazard, terrain (C4)";
+    why = "its " + Width() + " cell holds a hazard, terrain (C4)";
     return std::nullopt;
   }
   if (grid_.cells(cell).free() && LiesWithin(cell, p_W)) return cell;
   if (!Fits(p_W)) {
     const auto& hazard = grid_.cells(cell).hazard;
     why = "the robot does not fit";
-    if (hazard) why += ": its cell holds a hazard, " + std::string(Name(*hazard));
+    if (hazard) why += ": its " + Width() + " cell holds a hazard, " + std::string(Name(*hazard));
     return std::nullopt;
   }
   std::optional<Cell> best;
@@ -64,11 +64,11 @@ std::optional<Cell> CellAnchors::At(const Vec2& p_W, std::string& why) {
       const double d = (grid_.frame.Center(near) - p_W).norm();
       if (d < least && Sees(p_W, grid_.frame.Center(near))) best = near, least = d;
     }
-  if (!best)
-    why = "the robot fits, but it can drive straight to no free cell of " +
-          FormatDouble(grid_.frame.cell_m) + " m";
+  if (!best) why = "the robot fits, but it can drive straight to no free cell of " + Width();
   return best;
 }
+
+std::string CellAnchors::Width() const { return FormatDouble(grid_.frame.cell_m) + " m"; }
 
 // Whether the clear shape at p_W keeps to the cell, which is free as a whole.
 bool CellAnchors::LiesWithin(Cell cell, const Vec2& p_W) const {

@@ -20,6 +20,7 @@ class CellAnchors {
   std::optional<Cell> At(const Vec2& p_W, std::string& why);
 
  private:
+  std::string Width() const;
   bool LiesWithin(Cell cell, const Vec2& p_W) const;
   const SweepArea& area();
   bool Reaches(Cell fine);

@@ -84,7 +84,7 @@ PlanResult CellPlanner::Plan(const PlanRequest& request) const {
     lost_cells << ", of " << free << " free ones";
     if (static_cast<double>(lost) > unreachable_share_ * static_cast<double>(free))
       return refuse(PlanStatus::kFloorDivided, "the floor falls apart: " + lost_cells.str());
-    result.message = "left out: " + lost_cells.str();
+    result.message = "left out: " + lost_cells.str() + "; ";
   }
 
   task.end = FarthestFree(steps, grid, task.start);
@@ -98,6 +98,12 @@ PlanResult CellPlanner::Plan(const PlanRequest& request) const {
   }
 
   const CellTour tour = Tour(task, result.figures);
+  Grid<std::uint8_t> left_out = task.free;
+  for (const Cell cell : tour.cells) left_out(cell) = 0;
+  if (const auto n = std::ranges::count(left_out.cells, 1); n > 0)
+    result.message += "left out for their risk: " + std::to_string(n) + " of " +
+                      std::to_string(free) + " free cells; ";
+  if (!result.message.empty()) result.message.resize(result.message.size() - 2);
   result.figures.push_back({"cell_m", grid.frame.cell_m});
   result.figures.push_back({"dead_ends", tour.dead_ends});
   result.figures.push_back({"unreachable_cells", static_cast<double>(lost)});

@@ -179,7 +179,7 @@ TEST_P(EveryPlanner, CoversTheFloorOrSaysWhy) {
     EXPECT_FALSE(plan.message.empty());
     return;
   }
-  EXPECT_TRUE(plan.message.empty()) << plan.message;
+  EXPECT_TRUE(plan.message.empty() || plan.message.starts_with("left out")) << plan.message;
   ExpectCovered(*dut_, Request(), plan);
 }
 
