@@ -216,6 +216,7 @@ CampaignStore CampaignStore::Open(const fs::path& file, bool write) {
                        "is damaged (" + check.Text(0) + "); it was left as it is");
   }
   store.ReadAbout();
+  store.CheckTexts();
   if (write) store.MakeWritable();
   return store;
 }
@@ -245,6 +246,19 @@ void CampaignStore::ReadAbout() {
   } catch (const InternalError&) {
   }
   throw InputError({file_.string(), 0}, "", "", "is not a campaign's database (table about)");
+}
+
+// What lies in a row's further pages no check of the database looks at.
+void CampaignStore::CheckTexts() const {
+  for (const std::string table : {"episode", "extra"}) {
+    Statement damaged(*this, "SELECT episode FROM " + table +
+                                 " WHERE NOT (json_valid(drawn) AND json_valid(plan) AND "
+                                 "json_valid(events)) LIMIT 1");
+    if (damaged.Step())
+      throw InputError(
+          {file_.string(), 0}, "", "",
+          "is damaged (a text of a row of table " + table + " is no JSON); it was left as it is");
+  }
 }
 
 void CampaignStore::Add(std::span<const EpisodeRow> rows) {

@@ -74,6 +74,7 @@ class CampaignStore {
   void Run(const std::string& sql);
   [[noreturn]] void Refuse(int code) const;
   void ReadAbout();
+  void CheckTexts() const;
 
   std::filesystem::path file_;
   sqlite3* db_ = nullptr;
