@@ -15,11 +15,10 @@
 #include <limits>
 
 #include "planners/risk/high_risk.h"
+#include "planners/risk/wave_front.h"
 
 namespace floorproof {
 namespace {
-
-constexpr double kMostWeight = 1e6;  // sums over any floor stay exact enough
 
 class FmeaPathTransform final : public CellPlanner {
  public:

@@ -19,7 +19,6 @@ class PathTransform final : public CellPlanner {
  public:
   void Visit(ParamVisitor& visit) override {
     CellPlanner::Visit(visit);
-    constexpr double kMostWeight = 1e6;  // sums over any floor stay exact enough
     visit("obstacle_weight", obstacle_weight_, Between(0, kMostWeight),
           "score of a cell beside a solid obstacle; a step scores 15");
     visit("obstacle_reach", obstacle_reach_, NonNegative(),
@@ -35,9 +34,7 @@ class PathTransform final : public CellPlanner {
     Grid<std::uint8_t> open = task.drivable;
     if (cells_ == "free") open = LowRiskFloor(task, {.share = 0}).open;
     if (cells_ == "fmea") open = LowRiskFloor(task, high_risk_).open;
-    Grid<std::uint8_t> solid(open.width, open.height);
-    for (std::size_t i = 0; i < solid.cells.size(); ++i)
-      solid.cells[i] = task.risk.grid.cells.cells[i].solid;
+    const Grid<std::uint8_t> solid = CellsThat(task.risk.grid, &RiskCell::solid);
     const Grid<float> distance = DistanceToSet(solid, true);  // 0.5 beside one
     const Grid<double> score = WaveFront(open, task.end, [&](Cell c) {
       const double away = static_cast<double>(distance(c)) - 0.5;

@@ -3,8 +3,8 @@
 // order that sums least. A path's cumulative RF is the sum over its cells once, which no order can
 // change, and over those that it comes back to, which is what is searched (cover_walk.h): as few
 // crossings of terrain as can be, then the least of RF and steps in equal parts. Terrain is crossed
-// squarely, away from walls where that costs no more than a step or two, and as fast and forward as
-// the robot does it best (RobotSpec's cover limits).
+// squarely, away from walls where that costs no more than a step, and as fast and forward as the
+// robot does it best (RobotSpec's cover limits).
 // `cells: fmea` covers the cells that fmea_path_transform covers, `all` every free one that can be
 // reached.
 #include <algorithm>
@@ -55,9 +55,7 @@ class RiskCoverage final : public CellPlanner {
     problem.open = task.drivable;
     problem.wanted = task.free;
     if (cells_ == "fmea") problem.open = problem.wanted = LowRiskFloor(task, high_risk_).open;
-    problem.terrain = Grid<std::uint8_t>(task.free.width, task.free.height);
-    for (std::size_t i = 0; i < problem.terrain.cells.size(); ++i)
-      problem.terrain.cells[i] = task.risk.grid.cells.cells[i].terrain();
+    problem.terrain = CellsThat(task.risk.grid, &RiskCell::terrain);
     problem.cost = task.risk.rf;
     // Where the paper's cells are given, so is where terrain is crossed.
     problem.more_steps = StepsMore(task.risk.grid, cells_ == "all");

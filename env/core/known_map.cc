@@ -38,12 +38,8 @@ HazardMap WithMarks(const HazardMap& map, const std::vector<FloorMark>& marks) {
     Hazard hazard;
     hazard.id = "mark-" + std::to_string(i);
     hazard.type = "mark";
-    Polygon around;
-    for (int k = 0; k < kCorners; ++k) {
-      const double a = 2 * kPi * k / kCorners, r_m = mark.radius_m / std::cos(kPi / kCorners);
-      around.push_back(mark.p_W + r_m * Vec2(std::cos(a), std::sin(a)));
-    }
-    hazard.footprint = {std::move(around)};
+    const double corner_m = mark.radius_m / std::cos(kPi / kCorners);
+    hazard.footprint = {RegularPolygon(mark.p_W, corner_m, kCorners)};
     marked.hazards.push_back(std::move(hazard));
   }
   return marked;

@@ -199,6 +199,15 @@ Polygon Rectangle(const Vec2& low, const Vec2& high) {
   return {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
 }
 
+Polygon RegularPolygon(const Vec2& middle, double corner_m, int corners) {
+  Polygon polygon;
+  for (int i = 0; i < corners; ++i) {
+    const double bearing_rad = 2 * kPi * i / corners;
+    polygon.push_back(middle + corner_m * Vec2(std::cos(bearing_rad), std::sin(bearing_rad)));
+  }
+  return polygon;
+}
+
 Polygon ConvexHull(std::vector<Vec2> points) {
   std::ranges::sort(points, [](const Vec2& a, const Vec2& b) {
     return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());

@@ -28,6 +28,8 @@ double SignedDistance(const Polygon& polygon, const Vec2& p);
 // sharp.
 Polygon Offset(const Polygon& polygon, double by_m);
 Polygon Rectangle(const Vec2& low, const Vec2& high);
+// Regular, its corners so far from the middle, the first in direction +x.
+Polygon RegularPolygon(const Vec2& middle, double corner_m, int corners);
 // The convex hull, counter-clockwise.
 Polygon ConvexHull(std::vector<Vec2> points);
 

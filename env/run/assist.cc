@@ -19,12 +19,7 @@ constexpr double kBeside_m = 0.001;
 Polygon Outline(const Shape2& shape) {
   if (shape.kind == Shape2::Kind::kFootprint) return shape.footprint_B;
   constexpr int kCorners = 64;  // within 0.12 % of the circle
-  Polygon outline;
-  for (int i = 0; i < kCorners; ++i) {
-    const double bearing_rad = 2 * kPi * i / kCorners;
-    outline.push_back(shape.radius_m * Vec2(std::cos(bearing_rad), std::sin(bearing_rad)));
-  }
-  return outline;
+  return RegularPolygon(Vec2::Zero(), shape.radius_m, kCorners);
 }
 
 Polygon At(const Pose2& X_WB, Polygon polygon) {

@@ -33,7 +33,7 @@ class PlanFigures {
     const Json json = Json::parse(text);
     for (const auto& [key, value] : json.items()) {
       if (!value.is_number()) continue;
-      const auto at = static_cast<std::size_t>(std::ranges::find(names_, key) - names_.begin());
+      const std::size_t at = Find(key);
       if (at == names_.size()) names_.push_back(key);
       values.resize(names_.size(), kNone);
       values[at] = value.get<double>();

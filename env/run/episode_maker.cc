@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "env/run/episode_maker.h"
 
+#include "env/run/plan_file.h"
 #include "env/run/records.h"
 
 namespace floorproof {
@@ -20,12 +21,15 @@ std::string PlanInputs(const Scenario& s) {
     text += " " + FormatDouble(value);
   if (s.goal) text += " to " + FormatDouble(s.goal->x()) + " " + FormatDouble(s.goal->y());
   ConfigNode params = ConfigNode::Map();
-  WriteParams(*s.planner, params);
+  if (s.planner)
+    WriteParams(*s.planner, params);
+  else
+    text += "\n" + PlanCsv(s.user_plan);
   RiskParams risk = s.risk;
   WriteParams([&](ParamVisitor& v) { risk.Visit(v); }, params);
   params.Add("tables", ConfigNode::Scalar(s.fmea_file.string(), true));
   text += "\n" + WriteYaml(params);
-  if (s.planner->uses_seed()) text += std::to_string(s.episode_id);
+  if (s.planner && s.planner->uses_seed()) text += std::to_string(s.episode_id);
   return text;
 }
 
@@ -39,9 +43,9 @@ std::string FromFolder(const std::string& message, const std::filesystem::path& 
 }  // namespace
 
 const EpisodeMaker::Planned& EpisodeMaker::Plan(const Variant& variant, const Scenario& s) {
-  const std::string inputs = s.planner ? PlanInputs(s) : "";
+  const std::string inputs = PlanInputs(s);
   Planned& last = plans_[variant.name];
-  if (last.json.empty() || inputs != last.inputs || !s.planner) {
+  if (last.json.empty() || inputs != last.inputs) {
     last.inputs = inputs;
     last.plan = MakePlan(s);
     auto json = PlanJson(s, last.plan);

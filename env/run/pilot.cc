@@ -62,7 +62,7 @@ void Pilot::GoOnFrom(std::size_t waypoint, Simulation& sim) {
   if (reaction_) reaction_->Drop();
   s_.tracker->Start(path_, robot_, &clearance_);
   command_ = {};
-  Drive(sim);
+  Actuate(sim);
 }
 
 void Pilot::Sense(Simulation& sim) {
@@ -73,7 +73,7 @@ void Pilot::Sense(Simulation& sim) {
   if (mapper_) mapper_->Update(sensed_, estimate_);
 }
 
-void Pilot::Drive(Simulation& sim) {
+void Pilot::Actuate(Simulation& sim) {
   Sample& truth = sim.sample();
   truth.command = command_;
   truth.command.cross_track_half_width_m =
@@ -88,13 +88,13 @@ void Pilot::Control(Simulation& sim) {
   const bool reacts = reaction_ && reaction_->Update(sensed_, estimate_, control_s_, command_);
   if (reacts && reaction_->ended()) TakeNewPath();
   if (!reacts) command_ = s_.tracker->Update(estimate_, sensed_.t_s, control_s_);
-  Drive(sim);
+  Actuate(sim);
 }
 
 void Pilot::Stand(Simulation& sim) {
   Sense(sim);
   command_.twist = {};
-  Drive(sim);
+  Actuate(sim);
 }
 
 }  // namespace floorproof

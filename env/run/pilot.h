@@ -45,7 +45,7 @@ class Pilot {
   Stream StreamOf(const std::string& name) const;
   void TakeNewPath();
   void Sense(Simulation& sim);
-  void Drive(Simulation& sim);
+  void Actuate(Simulation& sim);
 
   Scenario& s_;
   const Scene& scene_;
@@ -54,7 +54,7 @@ class Pilot {
   const RobotSpec& robot_;
   double control_s_;
   ClearanceField clearance_;
-  std::unique_ptr<floorproof::Drive> drive_;
+  std::unique_ptr<Drive> drive_;
   std::optional<Mapper> mapper_;
   std::optional<Reaction> reaction_;
   Path path_;

@@ -15,6 +15,7 @@
 #include <tuple>
 
 #include "env/core/streams.h"
+#include "planners/lib/index.h"
 
 namespace floorproof {
 namespace {
@@ -48,7 +49,6 @@ class Tour {
   }
 
  private:
-  static std::size_t Z(int i) { return static_cast<std::size_t>(i); }
   static int Other(int end) { return end ^ 1; }
 
   static std::uint64_t Key(int a, int b) {

@@ -21,6 +21,22 @@ Cell FarthestFree(const Grid<std::int32_t>& steps, const RiskGrid& grid, Cell st
   return farthest;
 }
 
+CellMotion MotionOf(const PlanRequest& request, const std::vector<Cell>& tour, bool with_care) {
+  const RiskGrid& grid = request.risk->grid;
+  CellMotion motion;
+  if (with_care) motion.speed_mps = SpeedsOverTerrain(grid, tour, request.robot);
+  if (request.robot.clear.kind != Shape2::Kind::kFootprint) return motion;
+  // The start's yaw, to the next of the map's quarters.
+  const double map_yaw = request.map.frame.X_WG.yaw_rad, quarter = kPi / 2;
+  const int first =
+      static_cast<int>(std::lround(WrapAngle(request.start.yaw_rad - map_yaw) / quarter)) & 3;
+  std::vector<int> quarters(tour.size(), first);
+  if (with_care && request.robot.cover_forward_rad > request.robot.cover_sideways_rad)
+    quarters = QuartersForwardOverTerrain(grid, tour, first);
+  for (const int q : quarters) motion.yaw_rad.push_back(WrapAngle(map_yaw + q * quarter));
+  return motion;
+}
+
 }  // namespace
 
 void CellPlanner::Visit(ParamVisitor& visit) {
@@ -58,9 +74,7 @@ PlanResult CellPlanner::Plan(const PlanRequest& request) const {
     return refuse(PlanStatus::kStartBlocked,
                   "start " + DescribePlace(request.map.frame, request.start.p()) + ": " + why);
 
-  Grid<std::uint8_t> drivable(grid.cells.width, grid.cells.height);
-  for (std::size_t i = 0; i < drivable.cells.size(); ++i)
-    drivable.cells[i] = !grid.cells.cells[i].solid;
+  Grid<std::uint8_t> drivable = CellsThat(grid, &RiskCell::drivable);
   const Grid<std::int32_t> steps = StepsFrom(drivable, *start);
   CellTask task{*request.risk, *start, *start, {drivable.width, drivable.height}, {}};
   std::size_t free = 0, lost = 0;
@@ -72,8 +86,7 @@ PlanResult CellPlanner::Plan(const PlanRequest& request) const {
     ++free;
     task.free.cells[i] = reached;
     lost += !reached;
-    if (!reached && !first_lost)
-      first_lost = Cell{static_cast<int>(i) % drivable.width, static_cast<int>(i) / drivable.width};
+    if (!reached && !first_lost) first_lost = CellAt(drivable, i);
   }
   task.drivable = std::move(drivable);
   if (lost > 0) {
@@ -84,7 +97,7 @@ PlanResult CellPlanner::Plan(const PlanRequest& request) const {
     lost_cells << ", of " << free << " free ones";
     if (static_cast<double>(lost) > unreachable_share_ * static_cast<double>(free))
       return refuse(PlanStatus::kFloorDivided, "the floor falls apart: " + lost_cells.str());
-    result.message = "left out: " + lost_cells.str() + "; ";
+    result.message = "left out: " + lost_cells.str();
   }
 
   task.end = FarthestFree(steps, grid, task.start);
@@ -101,25 +114,13 @@ PlanResult CellPlanner::Plan(const PlanRequest& request) const {
   Grid<std::uint8_t> left_out = task.free;
   for (const Cell cell : tour.cells) left_out(cell) = 0;
   if (const auto n = std::ranges::count(left_out.cells, 1); n > 0)
-    result.message += "left out for their risk: " + std::to_string(n) + " of " +
-                      std::to_string(free) + " free cells; ";
-  if (!result.message.empty()) result.message.resize(result.message.size() - 2);
+    result.message += (result.message.empty() ? "" : "; ") +
+                      ("left out for their risk: " + std::to_string(n)) + " of " +
+                      std::to_string(free) + " free cells";
   result.figures.push_back({"cell_m", grid.frame.cell_m});
   result.figures.push_back({"dead_ends", tour.dead_ends});
   result.figures.push_back({"unreachable_cells", static_cast<double>(lost)});
-  CellMotion motion;
-  const bool with_care = crosses_with_care();
-  if (with_care) motion.speed_mps = SpeedsOverTerrain(grid, tour.cells, request.robot);
-  if (result.clear.kind == Shape2::Kind::kFootprint) {
-    // The start's yaw, to the next of the map's quarters.
-    const double map_yaw = request.map.frame.X_WG.yaw_rad, quarter = kPi / 2;
-    const int first =
-        static_cast<int>(std::lround(WrapAngle(request.start.yaw_rad - map_yaw) / quarter)) & 3;
-    std::vector<int> quarters(tour.cells.size(), first);
-    if (with_care && request.robot.cover_forward_rad > request.robot.cover_sideways_rad)
-      quarters = QuartersForwardOverTerrain(grid, tour.cells, first);
-    for (const int q : quarters) motion.yaw_rad.push_back(WrapAngle(map_yaw + q * quarter));
-  }
+  const CellMotion motion = MotionOf(request, tour.cells, crosses_with_care());
   result.path = ToPath(tour, motion, grid.frame, request.start,
                        request.goal.value_or(grid.frame.Center(task.end)));
   result.status = PlanStatus::kSuccess;

@@ -4,14 +4,13 @@
 // of a cell between; how many can be to neighbours says a greatest 2-matching.
 #include <algorithm>
 
+#include "planners/lib/index.h"
 #include "planners/risk/cover_walk.h"
 #include "planners/risk/two_matching.h"
 #include "planners/risk/walk_graph.h"
 
 namespace floorproof {
 namespace {
-
-std::size_t Z(int i) { return static_cast<std::size_t>(i); }
 
 class Bound {
  public:

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planners/lib/index.h"
 #include "planners/risk/first_order.h"
 #include "planners/risk/path_search.h"
 #include "planners/risk/region_order.h"
@@ -19,8 +20,6 @@ namespace {
 constexpr std::size_t kNear = 5;
 // Small floors are settled soon; large ones begin near the best.
 constexpr double kWorkPerPlace = 10'000, kAmple = 1e6, kWorkPerMore = 200, kMostWork = 1e8;
-
-std::size_t Z(int i) { return static_cast<std::size_t>(i); }
 
 int CountCrossings(const Grid<std::uint8_t>& terrain, const std::vector<Cell>& walk) {
   int crossings = 0;

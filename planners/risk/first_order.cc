@@ -15,13 +15,12 @@
 #include <tuple>
 #include <utility>
 
+#include "planners/lib/index.h"
 #include "planners/risk/gates.h"
 #include "planners/risk/two_matching.h"
 
 namespace floorproof {
 namespace {
-
-std::size_t Z(int i) { return static_cast<std::size_t>(i); }
 
 class Weaver {
  public:

@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "planners/risk/two_matching.h"
 #include "planners/risk/walk_graph.h"
 
 namespace floorproof {

@@ -7,12 +7,12 @@
 #include <tuple>
 #include <utility>
 
+#include "planners/lib/index.h"
+
 namespace floorproof {
 namespace {
 
 constexpr std::int64_t kLookedAt = 40;  // times all cells; then any cells must do
-
-std::size_t Z(int i) { return static_cast<std::size_t>(i); }
 
 class GateFinder {
  public:

@@ -12,6 +12,7 @@
 #include <array>
 
 #include "env/core/streams.h"
+#include "planners/lib/index.h"
 
 namespace floorproof {
 namespace {
@@ -51,8 +52,6 @@ class PathSearch {
   }
 
  private:
-  static std::size_t Z(int i) { return static_cast<std::size_t>(i); }
-
   std::int64_t ClosingCost(int v) const {
     if (v == first_ || (options_.fixed_end && v == last_)) return -kFixed;
     return options_.fixed_end ? kFixed : costs_.EndCost(v);

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 
+#include "planners/lib/index.h"
+
 namespace floorproof {
 namespace {
 
 constexpr std::size_t kKept = std::size_t{1} << 25;
 constexpr int kMostBorders = 0xfffe;
-
-std::size_t Z(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

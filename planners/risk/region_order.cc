@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "planners/lib/index.h"
 #include "planners/risk/path_search.h"
 #include "planners/risk/region_borders.h"
 
@@ -17,8 +18,6 @@ namespace {
 constexpr std::size_t kMostOrdered = 2'000, kNear = 10;  // regions
 constexpr std::int64_t kWorkPerRegion = 10'000;
 constexpr std::int64_t kBorder = std::int64_t{1} << 32;  // more than any way, cells
-
-std::size_t Z(int i) { return static_cast<std::size_t>(i); }
 
 class RegionCosts : public LinkCosts {
  public:

@@ -15,6 +15,8 @@
 //    wall.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 
 #include "env/core/hazard_map.h"
@@ -27,6 +29,7 @@ namespace floorproof {
 struct RiskCell {
   std::optional<HazardClass> hazard;  // none: free, or outer wall
   bool solid = false;                 // C1, C2, C3 and outer walls: never driven on
+  bool drivable() const { return !solid; }
   bool free() const { return !hazard && !solid; }
   bool terrain() const { return hazard && !solid; }  // C4 alone: can be crossed
   bool outer_wall() const { return !hazard && solid; }
@@ -37,6 +40,15 @@ struct RiskGrid {
   Grid<RiskCell> cells;
   bool walled_all_round = false;  // the outermost ring is outer wall
 };
+
+// 1 on the cells that are so: CellsThat(grid, &RiskCell::terrain).
+template <class Are>
+Grid<std::uint8_t> CellsThat(const RiskGrid& grid, const Are& are) {
+  Grid<std::uint8_t> found(grid.cells.width, grid.cells.height);
+  for (std::size_t i = 0; i < found.cells.size(); ++i)
+    found.cells[i] = std::invoke(are, grid.cells.cells[i]);
+  return found;
+}
 
 // The narrowest cell that the robot moves in from neighbour to neighbour: its clear circle's
 // diameter, or the greater side of its clear footprint, m.

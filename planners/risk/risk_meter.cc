@@ -77,8 +77,7 @@ RiskOfPath MeasureRisk(const RiskMap& risk, const Path& path) {
     ++range.cells;
     range.visits += visits;
   }
-  Grid<std::uint8_t> drivable(risk.grid.cells.width, risk.grid.cells.height);
-  for (std::size_t i = 0; i < cells.size(); ++i) drivable.cells[i] = !cells[i].solid;
+  const Grid<std::uint8_t> drivable = CellsThat(risk.grid, &RiskCell::drivable);
   // On a fine map the robot may start where its cell holds a wall, too.
   const auto first = std::ranges::find_if(path, [&](const Waypoint& waypoint) {
     const Cell cell = risk.grid.frame.ToCell(waypoint.p_W);

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "planners/lib/index.h"
+
 namespace floorproof {
 
 // A greatest simple 2-matching: cells and links form paths and rings.
@@ -40,8 +42,6 @@ class TwoMatching {
   void ForPartners(int at, bool beside, const Visit& visit) const;
   int Spread(int end);
   void Pair(int end);
-  static std::size_t Z(int i) { return static_cast<std::size_t>(i); }
-
   std::vector<std::int32_t> kind_;
   std::array<int, 4> step_;                 // directions; the one back is 2 on
   std::vector<std::uint8_t> linked_;        // by cell: a bit a direction

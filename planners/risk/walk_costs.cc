@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "planners/lib/index.h"
+
 namespace floorproof {
 namespace {
 
@@ -14,8 +16,6 @@ constexpr int kTabled = 500;                          // places
 constexpr std::size_t kPairs = std::size_t{1} << 18;  // remembered
 constexpr int kLookedAt = 400;                        // cells, for the near ones of a place
 constexpr std::int64_t kPopWork = 3;
-
-std::size_t Z(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planners/lib/index.h"
+
 namespace floorproof {
 namespace {
-
-std::size_t Z(int i) { return static_cast<std::size_t>(i); }
 
 double MeanCost(const CoverWalkProblem& problem) {
   double sum = 0, count = 0;

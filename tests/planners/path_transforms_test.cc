@@ -47,6 +47,12 @@ const char kHall[] = R"(
     #..........#
     ############)";
 
+const char kStrips[] = R"(
+    .....=...
+    .....=...
+    .==..=...
+    .....=...)";
+
 // Floors of 16 x 12 cells with hazards of all classes, a start and an end on free cells.
 struct RandomSite {
   explicit RandomSite(Stream& random) : site(Rows(random)) {
@@ -116,11 +122,7 @@ TEST(PathTransform, IsTheTourByDistanceFromTheEndAndFromObstacles) {
 }
 
 TEST(PathTransform, DrivesTerrainLikeFloor) {
-  const Site site(R"(
-      .....=...
-      .....=...
-      .==..=...
-      .....=...)");
+  const Site site(kStrips);
   const PlanResult plan = site.Plan("path_transform", Cell{0, 0});
   const RiskOfPath measured = site.Measure(plan);
   EXPECT_EQ(measured.cells, 36) << "terrain too";
@@ -145,11 +147,7 @@ TEST(PathTransform, CanKeepToTheCellsOfTheOther) {
 }
 
 TEST(PathTransform, CanKeepToFreeCellsAndCrossTerrainOnlyWhereItMust) {
-  const Site site(R"(
-      .....=...
-      .....=...
-      .==..=...
-      .....=...)");
+  const Site site(kStrips);
   const PlanResult dut = site.Plan("path_transform", Cell{0, 0}, Cell{8, 0}, "{cells: free}");
   ASSERT_EQ(dut.status, PlanStatus::kSuccess);
   const RiskOfPath measured = site.Measure(dut);

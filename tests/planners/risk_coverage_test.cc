@@ -7,60 +7,24 @@
 
 #include "planners/risk/risk_meter.h"
 #include "planners/risk/terrain_yaw.h"
-#include "tests/planners/floors.h"
+#include "tests/planners/risk_floors.h"
 
 namespace floorproof {
 namespace {
 
-using testing::Draw;
+using testing::DrawHazards;
 using testing::MakePlanner;
-
-FmeaTables Tables() {
-  FmeaTables tables;
-  tables.detectability = {1, 2, 3, 4};
-  tables.mode_of_class = {
-      {{0.1, 0.2, 0, 0.7}, {0.1, 0.2, 0, 0.7}, {0, 0.1, 0.8, 0.1}, {0.3, 0.7, 0, 0}}};
-  tables.effect_of_mode = {{{0.75, 0.1, 0.1, 0.05, 0},
-                            {0.1, 0, 0.9, 0, 0},
-                            {0, 0, 0.3, 0, 0.7},
-                            {0.55, 0.3, 0.1, 0.05, 0}}};
-  tables.severity = {1, 2, 3, 4, 5};
-  return tables;
-}
+using testing::PaperTables;
+using testing::SquareRobot;
 
 // A square robot as wide as a cell that moves every way; better forward, as hTetro.
 RobotSpec Square() {
-  RobotSpec robot;
-  robot.name = "square";
-  robot.clear = {Shape2::Kind::kFootprint, 0, Rectangle({-0.25, -0.25}, {0.25, 0.25})};
-  robot.tool = robot.clear;
-  robot.tool_width_m = 0.5;
-  robot.inscribed_radius_m = 0.25;
-  robot.circumscribed_radius_m = 0.36;
+  RobotSpec robot = SquareRobot(0.5);
   robot.max_speed_mps = 0.4;
   robot.cover_forward_rad = 0.7;
   robot.cover_sideways_rad = 0.6;
   robot.cover_speed_mps = 0.3;
   return robot;
-}
-
-// '=' in the drawing is terrain that fills its cell.
-HazardMap Floor(const std::string& text) {
-  HazardMap map = Draw(text, 0.5);
-  std::istringstream in(text);
-  std::vector<std::string> rows;
-  for (std::string row; in >> row;) rows.push_back(row);
-  for (std::size_t r = 0; r < rows.size(); ++r)
-    for (std::size_t x = 0; x < rows[r].size(); ++x) {
-      if (rows[r][x] != '=') continue;
-      Hazard hazard;
-      hazard.id = "cover-" + std::to_string(map.hazards.size());
-      hazard.hazard_class = HazardClass::kTerrain;
-      const Vec2 low(0.5 * static_cast<double>(x), 0.5 * static_cast<double>(rows.size() - 1 - r));
-      hazard.footprint = {Rectangle(low, low + Vec2(0.5, 0.5))};
-      map.hazards.push_back(hazard);
-    }
-  return map;
 }
 
 struct Planned {
@@ -70,8 +34,8 @@ struct Planned {
 };
 Planned Plan(const std::string& floor, const RobotSpec& robot, const Vec2& start, const Vec2& goal,
              const std::string& planner = "risk_coverage", const std::string& params = "{}") {
-  Planned out{Floor(floor), {}, {}};
-  out.risk = ComputeRisk(out.map, robot, Tables());
+  Planned out{DrawHazards(floor, 0.5), {}, {}};
+  out.risk = ComputeRisk(out.map, robot, PaperTables());
   out.plan = MakePlanner(planner, params)
                  ->Plan({out.map, robot, {start.x(), start.y(), 0}, goal, 0, &out.risk});
   EXPECT_EQ(out.plan.status, PlanStatus::kSuccess) << out.plan.message;

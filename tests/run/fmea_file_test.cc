@@ -48,24 +48,23 @@ class FmeaFile : public ScenarioTest {
     std::string text = text_;
     return text.replace(at, piece.size(), other);
   }
-  std::string Refusal(const std::string& text) const {
+  template <class Reading>
+  static std::string RefusalOf(const Reading& reading) {
     try {
-      ReadFmeaTables(Save("tables.yaml", text));
+      reading();
     } catch (const InputError& e) {
       return e.what();
     }
     return "accepted";
+  }
+  std::string Refusal(const std::string& text) const {
+    return RefusalOf([&] { ReadFmeaTables(Save("tables.yaml", text)); });
   }
   std::string RefusalWith(const std::string& piece, const std::string& other) const {
     return Refusal(With(piece, other));
   }
   std::string ScenarioRefusal(const std::string& more) const {
-    try {
-      Read(RoomScenario("", more));
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "accepted";
+    return RefusalOf([&] { Read(RoomScenario("", more)); });
   }
   nlohmann::json ReadJson(const std::string& name) const {
     std::ifstream in(folder_ / name);
