@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "env/run/campaign.h"
+#include "run/campaign/campaign.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <thread>
 
-#include "apps/campaign_films.h"
 #include "apps/campaign_results.h"
 #include "apps/command.h"
-#include "apps/progress_line.h"
-#include "env/core/interrupt.h"
-#include "env/run/campaign_about.h"
-#include "env/run/file_output.h"
-#include "env/stats/binomial.h"
+#include "base/file_output.h"
+#include "base/interrupt.h"
+#include "base/progress_line.h"
+#include "report/campaign_films.h"
+#include "run/campaign/campaign_about.h"
+#include "run/scenario/warnings.h"
+#include "stats/binomial.h"
 
 namespace floorproof {
 namespace {
@@ -26,7 +27,7 @@ struct Options {
   std::string scenario, out, episodes;
   std::uint64_t n = 0;
   int seed = -1, jobs = 0;
-  double time_limit_s = 0;
+  std::optional<double> time_limit_s;
   bool resume = false, retry_errors = false, fail_fast = false, no_films = false;
 };
 
@@ -128,14 +129,14 @@ int RunIt(const Options& options, const Globals& globals) {
   campaign.jobs = options.jobs > 0
                       ? options.jobs
                       : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  if (options.time_limit_s > 0) campaign.time_limit_s = options.time_limit_s;
+  campaign.time_limit_s = options.time_limit_s;
   ReadEpisodes(options, campaign);
 
   const ScenarioFile file(options.scenario, overrides);
   const Scenario base = file.Read(std::nullopt);
   const fs::path folder = OutputFolder(options.out, base);
   SayWhenInterrupted(folder.string() + " is as before");
-  SayWarnings(base, globals);
+  for (const std::string& warning : Warnings(base)) globals.Say(warning);
   const CampaignAbout about = DescribeCampaign(file);
   const std::vector<Variant>& variants = file.variants();
   // Refused before there is a folder.
@@ -167,33 +168,26 @@ int RunIt(const Options& options, const Globals& globals) {
 
 }  // namespace
 
-void AddCampaign(CLI::App& app, const Globals& globals, int& status) {
+void AddCampaign(CommandLine& line, const Globals& globals, int& status) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  Subcommand command = line.Add(
       "campaign", "Drive many episodes on all cores: failure rates with intervals, a gate for CI");
-  command->add_option("SCENARIO", options->scenario, "Scenario file (YAML)")->required();
-  command->add_option("-n", options->n, "Episodes a variant")
-      ->required()
-      ->check(CLI::Range(1, 100'000'000));
-  command->add_option("--seed", options->seed, "Overrides the scenario's seed")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--jobs", options->jobs, "Worker processes (default: one a core)")
-      ->check(CLI::Range(1, 1024));
-  command->add_option(
-      "--episodes", options->episodes,
-      "A:B, ids from A to before B only: a shard for `merge`; its gate is judged there");
-  command->add_option("--out", options->out, "Output folder (default: out/<scenario's stem>)");
-  command->add_flag("--resume", options->resume, "Go on with the campaign that the folder holds");
-  command->add_flag("--retry-errors", options->retry_errors,
-                    "With --resume: drive again what ended in an error");
-  command->add_flag("--fail-fast", options->fail_fast,
-                    "End at the first episode that fails (status 1)");
-  command
-      ->add_option("--time-limit", options->time_limit_s,
-                   "Seconds of wall time; nothing is filmed then")
-      ->check(CLI::Range(0.001, 1e9));
-  command->add_flag("--no-films", options->no_films, "Do not film the first failure of each mode");
-  command->callback([options, &globals, &status] { status = RunIt(*options, globals); });
+  command.Text("SCENARIO", options->scenario, "Scenario file (YAML)", Subcommand::Need::kRequired);
+  command.Integer("-n", options->n, "Episodes a variant", 1, 100'000'000,
+                  Subcommand::Need::kRequired);
+  command.NonNegative("--seed", options->seed, "Overrides the scenario's seed");
+  command.Integer("--jobs", options->jobs, "Worker processes (default: one a core)", 1, 1024);
+  command.Text("--episodes", options->episodes,
+               "A:B, ids from A to before B only: a shard for `merge`; its gate is judged there");
+  command.Text("--out", options->out, "Output folder (default: out/<scenario's stem>)");
+  command.Flag("--resume", options->resume, "Go on with the campaign that the folder holds");
+  command.Flag("--retry-errors", options->retry_errors,
+               "With --resume: drive again what ended in an error");
+  command.Flag("--fail-fast", options->fail_fast, "End at the first episode that fails (status 1)");
+  command.Number("--time-limit", options->time_limit_s,
+                 "Seconds of wall time; nothing is filmed then", 0.001, 1e9);
+  command.Flag("--no-films", options->no_films, "Do not film the first failure of each mode");
+  command.OnRun([options, &globals, &status] { status = RunIt(*options, globals); });
 }
 
 }  // namespace floorproof

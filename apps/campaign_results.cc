@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
-#include "apps/failing_episodes.h"
-#include "env/run/campaign_summary.h"
+#include "report/failing_episodes.h"
+#include "run/campaign/campaign_summary.h"
 
 namespace floorproof {
 namespace {

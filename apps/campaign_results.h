@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "apps/command.h"
-#include "env/run/campaign.h"
+#include "run/campaign/campaign.h"
 
 namespace floorproof {
 

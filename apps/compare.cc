@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "apps/command.h"
-#include "env/run/campaign_comparison.h"
+#include "run/campaign/campaign_comparison.h"
 
 namespace floorproof {
 namespace {
@@ -91,14 +92,13 @@ void SayDrives(const Comparison& c, const Globals& globals) {
 
 }  // namespace
 
-void AddCompare(CLI::App& app, const Globals& globals, int& status) {
+void AddCompare(CommandLine& line, const Globals& globals, int& status) {
   auto sides = std::make_shared<std::vector<std::string>>();
-  CLI::App* command = app.add_subcommand(
+  Subcommand command = line.Add(
       "compare", "The same episodes under two variants, or in two campaigns of one seed: paired");
-  command->add_option("DIR[:VARIANT]", *sides, "Two campaigns, or variants of one")
-      ->required()
-      ->expected(2);
-  command->callback([sides, &globals, &status] {
+  command.Texts("DIR[:VARIANT]", *sides, "Two campaigns, or variants of one",
+                Subcommand::Need::kRequired, 2);
+  command.OnRun([sides, &globals, &status] {
     const Side a = OpenSide(sides->at(0)), b = OpenSide(sides->at(1));
     const Comparison comparison = CompareVariants(a.store, a.variant, b.store, b.variant);
     globals.Result(ComparisonJson(comparison));

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "apps/drive_and_film.h"
-#include "env/run/records.h"
+#include <nlohmann/json.hpp>
+
+#include "apps/command.h"
+#include "report/drive_and_film.h"
+#include "run/episode/records.h"
 
 namespace floorproof {
 namespace {
@@ -30,13 +33,13 @@ bool AsExpected(const DemoDrive& drive, const EpisodeRecord& record) {
 
 }  // namespace
 
-void AddDemo(CLI::App& app, const Globals& globals, int& status) {
+void AddDemo(CommandLine& line, const Globals& globals, int& status) {
   auto out = std::make_shared<std::string>("out/demo");
-  CLI::App* command = app.add_subcommand("demo",
-                                         "The bundled site: a clean drive of each robot and a plan "
-                                         "that fails, driven, judged, filmed");
-  command->add_option("--out", *out, "Output folder")->capture_default_str();
-  command->callback([out, &globals, &status] {
+  Subcommand command = line.Add("demo",
+                                "The bundled site: a clean drive of each robot and a plan "
+                                "that fails, driven, judged, filmed");
+  command.TextWithDefault("--out", *out, "Output folder");
+  command.OnRun([out, &globals, &status] {
     const std::filesystem::path root = *out;
     auto all = nlohmann::ordered_json::object();
     bool good = true;

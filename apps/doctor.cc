@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "apps/command.h"
@@ -10,30 +11,29 @@
 
 namespace floorproof {
 
-void AddDoctor(CLI::App& app, const Globals& globals, int&) {
-  app.add_subcommand("doctor", "Versions, GL backend, threads: what this machine can do")
-      ->callback([&globals] {
-        const GlReport gl = ProbeGl();
-        nlohmann::ordered_json json = {{"floorproof", FLOORPROOF_VERSION},
-                                       {"compiler", FLOORPROOF_COMPILER},
-                                       {"mujoco", mj_versionString()},
-                                       {"threads", std::thread::hardware_concurrency()},
-                                       {"models", ModelsFolder().string()},
-                                       {"gl",
-                                        {{"backend", gl.backend},
-                                         {"renderer", gl.renderer},
-                                         {"version", gl.version},
-                                         {"failures", gl.failures}}}};
-        globals.Say(fmt::format("floorproof {} ({})", FLOORPROOF_VERSION, FLOORPROOF_COMPILER));
-        globals.Say(fmt::format("MuJoCo {}", mj_versionString()));
-        globals.Say(fmt::format("threads {}", std::thread::hardware_concurrency()));
-        globals.Say("models " + ModelsFolder().string());
-        globals.Say(gl.backend.empty() ? "pictures: no GL backend (driving works; films do not)"
-                                       : fmt::format("pictures: {} ({}; {})", gl.backend,
-                                                     gl.renderer, gl.version));
-        for (const auto& failure : gl.failures) globals.Say("  " + failure);
-        globals.Result(json);
-      });
+void AddDoctor(CommandLine& line, const Globals& globals, int&) {
+  line.Add("doctor", "Versions, GL backend, threads: what this machine can do").OnRun([&globals] {
+    const GlReport gl = ProbeGl();
+    nlohmann::ordered_json json = {{"floorproof", FLOORPROOF_VERSION},
+                                   {"compiler", FLOORPROOF_COMPILER},
+                                   {"mujoco", mj_versionString()},
+                                   {"threads", std::thread::hardware_concurrency()},
+                                   {"models", ModelsFolder().string()},
+                                   {"gl",
+                                    {{"backend", gl.backend},
+                                     {"renderer", gl.renderer},
+                                     {"version", gl.version},
+                                     {"failures", gl.failures}}}};
+    globals.Say(fmt::format("floorproof {} ({})", FLOORPROOF_VERSION, FLOORPROOF_COMPILER));
+    globals.Say(fmt::format("MuJoCo {}", mj_versionString()));
+    globals.Say(fmt::format("threads {}", std::thread::hardware_concurrency()));
+    globals.Say("models " + ModelsFolder().string());
+    globals.Say(gl.backend.empty()
+                    ? "pictures: no GL backend (driving works; films do not)"
+                    : fmt::format("pictures: {} ({}; {})", gl.backend, gl.renderer, gl.version));
+    for (const auto& failure : gl.failures) globals.Say("  " + failure);
+    globals.Result(json);
+  });
 }
 
 }  // namespace floorproof

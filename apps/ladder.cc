@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
-#include "apps/capability_chart.h"
-#include "apps/progress_line.h"
-#include "env/core/interrupt.h"
-#include "env/run/file_output.h"
-#include "env/validate/ladder_findings.h"
+#include <nlohmann/json.hpp>
+
+#include "base/file_output.h"
+#include "base/interrupt.h"
+#include "base/progress_line.h"
+#include "report/capability_chart.h"
+#include "validate/ladder_findings.h"
 
 namespace floorproof {
 namespace {
@@ -51,7 +53,7 @@ void SayTrustedStep(std::span<const LadderRow> rows, const std::string& name,
                     const Globals& globals) {
   const auto step_m = TrustedStep(rows, name);
   if (!step_m) return;
-  const double model_m = ReadRobot(FindRobotFile(name, {})).robot.step_m;
+  const double model_m = ReadRobot(FindRobotFile(name, {})).spec.step_m;
   globals.Say(fmt::format(
       "{}: level changes up to {:.1f} mm are crossed every way at every speed on friction 0.8; its "
       "step_m is {:.1f} mm, {:.0f} % of the limit {:.1f} mm",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "apps/command.h"
 #include "controllers/drive.h"
 #include "env/hazards/hazard_type.h"
@@ -43,15 +45,15 @@ Json Entries(const std::string& kind) {
 
 }  // namespace
 
-void AddList(CLI::App& app, const Globals& globals, int&) {
+void AddList(CommandLine& line, const Globals& globals, int&) {
   static const std::vector<std::string> kKinds = {"planners", "controllers", "estimators",
                                                   "sensors",  "hazards",     "robots",
                                                   "faults",   "failures"};
   auto kind = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand(
-      "list", "List what a scenario may name; with a kind, the keys of each as well");
-  command->add_option("KIND", *kind, "One of the kinds; none: all")->check(CLI::IsMember(kKinds));
-  command->callback([kind, &globals] {
+  Subcommand command =
+      line.Add("list", "List what a scenario may name; with a kind, the keys of each as well");
+  command.OneOf("KIND", *kind, "One of the kinds; none: all", kKinds);
+  command.OnRun([kind, &globals] {
     Json all = Json::object();
     for (const auto& k : kKinds) {
       if (!kind->empty() && k != *kind) continue;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <floorproof/version.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <exception>
 
 #include "apps/command.h"
-#include "env/core/interrupt.h"
+#include "base/interrupt.h"
 
 namespace floorproof {
-#define FP_COMMAND(Function) void Function(CLI::App&, const Globals&, int&);
+#define FP_COMMAND(Function) void Function(CommandLine&, const Globals&, int&);
 #include "apps/commands.inc"
 #undef FP_COMMAND
 
@@ -70,7 +71,8 @@ int main(int argc, char** argv) {
       "2 "
       "bad usage or\nbad input; 3 the tool or the physics broke; 4 a gate is undecided; 130 "
       "interrupted (what was done is kept).");
-#define FP_COMMAND(Function) Function(app, globals, status);
+  CommandLine line(app);
+#define FP_COMMAND(Function) Function(line, globals, status);
 #include "apps/commands.inc"
 #undef FP_COMMAND
 

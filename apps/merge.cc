@@ -3,18 +3,18 @@
 
 #include "apps/campaign_results.h"
 #include "apps/command.h"
-#include "env/core/input_file.h"
-#include "env/core/interrupt.h"
-#include "env/run/campaign_about.h"
-#include "env/run/campaign_merge.h"
-#include "env/run/file_output.h"
+#include "base/file_output.h"
+#include "base/input_file.h"
+#include "base/interrupt.h"
+#include "run/campaign/campaign_about.h"
+#include "run/campaign/campaign_merge.h"
 
 namespace floorproof {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostBytes = 64u << 20;
+constexpr std::uintmax_t kMaxBytes = 64u << 20;
 
 // The settings with their paths valid from `out`; as they are where what they name is gone.
 std::string SettingsFor(const fs::path& out, const ScenarioFile& scenario, const fs::path& recorded,
@@ -24,7 +24,7 @@ std::string SettingsFor(const fs::path& out, const ScenarioFile& scenario, const
   globals.Say(fmt::format("{}: its paths hold from {}, not from here ({})",
                           (out / "scenario.resolved.yaml").string(),
                           recorded.parent_path().string(), e.what()));
-  return ReadInputFile(recorded, kMostBytes);
+  return ReadInputFile(recorded, kMaxBytes);
 }
 
 bool IsFixed(const ScenarioFile& scenario, std::uint64_t n) {
@@ -89,17 +89,18 @@ int Merge(const std::vector<std::string>& shards, const fs::path& out, const Glo
 
 }  // namespace
 
-void AddMerge(CLI::App& app, const Globals& globals, int& status) {
+void AddMerge(CommandLine& line, const Globals& globals, int& status) {
   struct Options {
     std::vector<std::string> shards;
     std::string out;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("merge", "Join shards of one campaign (--episodes A:B), driven anywhere");
-  command->add_option("SHARD_DIR", options->shards, "Folders that `campaign` wrote")->required();
-  command->add_option("--out", options->out, "Output folder")->required();
-  command->callback(
+  Subcommand command =
+      line.Add("merge", "Join shards of one campaign (--episodes A:B), driven anywhere");
+  command.Texts("SHARD_DIR", options->shards, "Folders that `campaign` wrote",
+                Subcommand::Need::kRequired);
+  command.Text("--out", options->out, "Output folder", Subcommand::Need::kRequired);
+  command.OnRun(
       [options, &globals, &status] { status = Merge(options->shards, options->out, globals); });
 }
 

@@ -2,12 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "apps/command.h"
-#include "apps/risk_pictures.h"
-#include "env/core/interrupt.h"
-#include "env/run/file_output.h"
-#include "env/run/records.h"
+#include "base/file_output.h"
+#include "base/interrupt.h"
+#include "report/risk_pictures.h"
+#include "run/episode/records.h"
+#include "run/scenario/warnings.h"
 
 namespace floorproof {
 namespace {
@@ -38,21 +40,20 @@ std::vector<RiskOfPlan> PlansBeside(const std::vector<std::string>& files, const
 
 }  // namespace
 
-void AddPlan(CLI::App& app, const Globals& globals, int& status) {
+void AddPlan(CommandLine& line, const Globals& globals, int& status) {
   struct Options {
     std::string scenario, out;
     std::vector<std::string> beside;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("plan", "Plan only: plan.csv, plan.json, risk.csv and pictures");
-  command->add_option("SCENARIO", options->scenario, "Scenario file (YAML)")->required();
-  command->add_option("--out", options->out, "Output folder (default: out/<scenario's stem>)");
-  command->add_option("--beside", options->beside,
-                      "Scenarios of the same floor and robot, whose plans plot_risk.png shows too");
-  command->callback([options, &globals, &status] {
+  Subcommand command = line.Add("plan", "Plan only: plan.csv, plan.json, risk.csv and pictures");
+  command.Text("SCENARIO", options->scenario, "Scenario file (YAML)", Subcommand::Need::kRequired);
+  command.Text("--out", options->out, "Output folder (default: out/<scenario's stem>)");
+  command.Texts("--beside", options->beside,
+                "Scenarios of the same floor and robot, whose plans plot_risk.png shows too");
+  command.OnRun([options, &globals, &status] {
     const Scenario scenario = ReadScenario(options->scenario, globals.Overrides());
-    SayWarnings(scenario, globals);
+    for (const std::string& warning : Warnings(scenario)) globals.Say(warning);
     const auto folder = OutputFolder(options->out, scenario);
     const PlanResult plan = MakePlan(scenario);
     const auto json = PlanJson(scenario, plan);

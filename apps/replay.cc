@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
-#include "apps/campaign_films.h"
-#include "env/core/input_file.h"
-#include "env/run/records.h"
+#include "apps/command.h"
+#include "base/input_file.h"
+#include "report/campaign_films.h"
+#include "run/episode/records.h"
 
 namespace floorproof {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = 64u << 20;
+constexpr std::uintmax_t kMaxBytes = 64u << 20;
 
 // Events and outcome of the drive just made must be the recorded ones: the film shows what was
 // judged.
 void CheckSame(const std::filesystem::path& result_file, const nlohmann::ordered_json& now) {
   const auto before =
-      nlohmann::ordered_json::parse(ReadInputFile(result_file, kMostBytes), nullptr, false);
+      nlohmann::ordered_json::parse(ReadInputFile(result_file, kMaxBytes), nullptr, false);
   if (!before.is_object())
     throw InputError({result_file.string(), 0}, "", "", "is not a result (a JSON object)");
   for (const char* key : {"outcome", "events", "metrics"})
@@ -23,7 +25,7 @@ void CheckSame(const std::filesystem::path& result_file, const nlohmann::ordered
 
 int ReplayRun(const std::filesystem::path& folder, bool video, const Globals& globals) {
   for (const char* needed : {"scenario.resolved.yaml", "result.json"})
-    if (const std::string why = WhyUnreadable(folder / needed, kMostBytes); !why.empty())
+    if (const std::string why = WhyUnreadable(folder / needed, kMaxBytes); !why.empty())
       throw InputError({(folder / needed).string(), 0}, "", "",
                        why + ": not a folder of a finished `run`, nor of a `campaign`");
   Scenario scenario = ReadScenario(folder / "scenario.resolved.yaml", globals.Overrides());
@@ -66,22 +68,20 @@ int ReplayOfCampaign(const std::filesystem::path& folder, std::optional<std::uin
 
 }  // namespace
 
-void AddReplay(CLI::App& app, const Globals& globals, int& status) {
+void AddReplay(CommandLine& line, const Globals& globals, int& status) {
   struct Options {
     std::string folder, variant;
     std::int64_t episode = -1;
     bool video = false;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("replay", "Drive a recorded episode again, exactly, and film it");
-  command->add_option("DIR", options->folder, "A folder that `run` or `campaign` wrote")
-      ->required();
-  command->add_option("--episode", options->episode, "Of a campaign: the episode's id")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--variant", options->variant, "Of a campaign with a matrix: the variant");
-  command->add_flag("--video", options->video, "Film it: video.mp4 and frame_*.png");
-  command->callback([options, &globals, &status] {
+  Subcommand command = line.Add("replay", "Drive a recorded episode again, exactly, and film it");
+  command.Text("DIR", options->folder, "A folder that `run` or `campaign` wrote",
+               Subcommand::Need::kRequired);
+  command.NonNegative("--episode", options->episode, "Of a campaign: the episode's id");
+  command.Text("--variant", options->variant, "Of a campaign with a matrix: the variant");
+  command.Flag("--video", options->video, "Film it: video.mp4 and frame_*.png");
+  command.OnRun([options, &globals, &status] {
     const std::filesystem::path folder = options->folder;
     std::error_code ignored;
     if (!std::filesystem::exists(folder / "campaign.sqlite", ignored)) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/report.h"
-
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "apps/command.h"
-#include "apps/report_data.h"
-#include "env/run/file_output.h"
+#include "base/file_output.h"
+#include "report/campaign_page.h"
+#include "report/page.h"
 
 namespace floorproof {
 namespace {
@@ -33,12 +34,12 @@ int WriteReport(const std::string& named, const Globals& globals) {
 
 }  // namespace
 
-void AddReport(CLI::App& app, const Globals& globals, int& status) {
+void AddReport(CommandLine& line, const Globals& globals, int& status) {
   auto folder = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand(
-      "report", "Write a campaign's page, report.html, from its recorded results alone");
-  command->add_option("DIR", *folder, "A folder that `campaign` wrote")->required();
-  command->callback([folder, &globals, &status] { status = WriteReport(*folder, globals); });
+  Subcommand command =
+      line.Add("report", "Write a campaign's page, report.html, from its recorded results alone");
+  command.Text("DIR", *folder, "A folder that `campaign` wrote", Subcommand::Need::kRequired);
+  command.OnRun([folder, &globals, &status] { status = WriteReport(*folder, globals); });
 }
 
 }  // namespace floorproof

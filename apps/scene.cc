@@ -1,27 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "apps/command.h"
-#include "env/core/interrupt.h"
-#include "env/run/file_output.h"
+#include "base/file_output.h"
+#include "base/interrupt.h"
 #include "env/scene/roller_wheels.h"
+#include "run/scenario/warnings.h"
 
 namespace floorproof {
 
-void AddScene(CLI::App& app, const Globals& globals, int&) {
+void AddScene(CommandLine& line, const Globals& globals, int&) {
   struct Options {
     std::string scenario, out;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("scene",
-                                         "Write the scene, robot included, as MJCF that the stock "
-                                         "MuJoCo loads and steps (Mecanum wheels "
-                                         "with rollers that are bodies)");
-  command->add_option("SCENARIO", options->scenario, "Scenario file (YAML)")->required();
-  command->add_option("--out", options->out, "MJCF file to write")->required();
-  command->callback([options, &globals] {
+  Subcommand command = line.Add("scene",
+                                "Write the scene, robot included, as MJCF that the stock "
+                                "MuJoCo loads and steps (Mecanum wheels "
+                                "with rollers that are bodies)");
+  command.Text("SCENARIO", options->scenario, "Scenario file (YAML)", Subcommand::Need::kRequired);
+  command.Text("--out", options->out, "MJCF file to write", Subcommand::Need::kRequired);
+  command.OnRun([options, &globals] {
     const Scenario s = ReadScenario(options->scenario, globals.Overrides());
-    SayWarnings(s, globals);
+    for (const std::string& warning : Warnings(s)) globals.Say(warning);
     // The stock MuJoCo lacks the collider of ideal Mecanum wheels.
     const Scene scene =
         BuildScene(s.site.map, WithRollerWheels(s.robot), s.physics, s.start, WallSet::kAll);

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "apps/command.h"
 #include "apps/ladder.h"
-#include "env/core/interrupt.h"
-#include "env/run/file_output.h"
-#include "env/validate/bounce_chart.h"
-#include "env/validate/law.h"
+#include "base/file_output.h"
+#include "base/interrupt.h"
+#include "validate/bounce_chart.h"
+#include "validate/law.h"
 
 namespace floorproof {
 namespace {
@@ -60,20 +61,19 @@ int CheckAllLaws(const fs::path& folder, const Globals& globals,
 
 }  // namespace
 
-void AddValidate(CLI::App& app, const Globals& globals, int& status) {
+void AddValidate(CommandLine& line, const Globals& globals, int& status) {
   struct Options {
     std::string out = "out/validate";
     bool ladder = false;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  Subcommand command = line.Add(
       "validate", "Compare the physics with closed-form laws; measure what each robot can cross");
-  command->add_option("--out", options->out, "Output folder (default: out/validate)");
-  command->add_flag(
-      "--ladder", options->ladder,
-      "Also find the largest hazards that each robot crosses: the capability charts (some "
-      "20 minutes on two cores)");
-  command->callback([options, &globals, &status] {
+  command.Text("--out", options->out, "Output folder (default: out/validate)");
+  command.Flag("--ladder", options->ladder,
+               "Also find the largest hazards that each robot crosses: the capability charts (some "
+               "20 minutes on two cores)");
+  command.OnRun([options, &globals, &status] {
     const fs::path folder = options->out;
     MakeFolder(folder);
     // What an earlier run left does not stand for this one; and a full disk shows at once.

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <vector>
 
-#include "env/run/episode.h"
+#include "run/episode/episode.h"
 
 namespace floorproof {
 

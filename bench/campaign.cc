@@ -5,7 +5,7 @@
 //   scaling: two workers against one, beside the bare loop's own scaling in two processes;
 //   memory: the parent's peak after few and after many tiny episodes.
 //   bench_campaign [SCENARIO] [EPISODES] [MANY_TINY_EPISODES]
-#include "env/run/campaign.h"
+#include "run/campaign/campaign.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -14,10 +14,10 @@
 
 #include <filesystem>
 
+#include "base/interrupt.h"
 #include "bench/bare_loop.h"
-#include "env/core/interrupt.h"
-#include "env/run/campaign_about.h"
-#include "env/run/campaign_summary.h"
+#include "run/campaign/campaign_about.h"
+#include "run/campaign/campaign_summary.h"
 
 namespace floorproof {
 namespace {

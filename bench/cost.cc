@@ -15,10 +15,10 @@
 #include <memory>
 #include <vector>
 
+#include "base/error.h"
+#include "base/registry.h"
+#include "base/streams.h"
 #include "controllers/drive.h"
-#include "env/core/error.h"
-#include "env/core/registry.h"
-#include "env/core/streams.h"
 #include "env/sim/simulation.h"
 
 namespace floorproof {
@@ -159,10 +159,10 @@ int Main(int argc, char** argv) {
           floor.name, Since(begin), floor.scene.num_wall_geoms,
           std::max<std::size_t>(floor.scene.pool.grid.boxes().size(), floor.scene.num_wall_geoms),
           floor.scene.num_hazard_geoms);
-      floor.sim = std::make_unique<Simulation>(floor.scene, floor.map, robot.robot);
-      floor.wheels.resize(robot.robot.wheels.size());
-      const auto drive = MakePlugin(Drives(), robot.robot.drive, "drive");
-      drive->Configure(robot.robot);
+      floor.sim = std::make_unique<Simulation>(floor.scene, floor.map, robot.spec);
+      floor.wheels.resize(robot.spec.wheels.size());
+      const auto drive = MakePlugin(Drives(), robot.spec.drive, "drive");
+      drive->Configure(robot.spec);
       drive->ToWheels(floor.twist, floor.wheels);
     }
     Print(name, floors, rounds);

@@ -8,11 +8,11 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
-#include "env/core/streams.h"
-#include "env/run/fmea_file.h"
+#include "base/streams.h"
 #include "env/scene/robot_model.h"
 #include "planners/planner.h"
 #include "planners/risk/risk_map.h"
+#include "run/scenario/fmea_file.h"
 
 namespace floorproof {
 namespace {
@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "usage: bench_risk TABLES.yaml\n");
     return 2;
   }
-  const RobotSpec robot = ReadRobot(FindRobotFile("htetro", {})).robot;
+  const RobotSpec robot = ReadRobot(FindRobotFile("htetro", {})).spec;
   const FmeaTables tables = ReadFmeaTables(argv[1]);
   BenchRiskMap(robot, tables);
   BenchPlanners(robot, tables);

@@ -10,8 +10,8 @@
 #include <cmath>
 #include <string>
 
+#include "base/params.h"
 #include "controllers/drive.h"
-#include "env/core/params.h"
 
 namespace floorproof {
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <span>
 
+#include "base/registry.h"
 #include "env/core/motion.h"
-#include "env/core/registry.h"
 #include "env/core/robot_spec.h"
 
 namespace floorproof {

@@ -7,13 +7,13 @@
 #include <string_view>
 #include <vector>
 
+#include "base/params.h"
+#include "base/registry.h"
+#include "base/streams.h"
 #include "env/core/hazard_map.h"
 #include "env/core/motion.h"
 #include "env/core/observation.h"
-#include "env/core/params.h"
-#include "env/core/registry.h"
 #include "env/core/robot_spec.h"
-#include "env/core/streams.h"
 
 namespace floorproof {
 
@@ -30,7 +30,7 @@ class Estimator : public Configurable {
   // Sensors that it cannot do without.
   virtual std::vector<std::string_view> Needs() const { return {}; }
   // Throws InputError where map or robot do not let it work, its line beginning with the key: it is
-  // heard when a scenario is read (env/run/start_check.h).
+  // heard when a scenario is read (run/scenario/start_check.h).
   virtual void Start(const EstimatorContext& context) = 0;
   // One control period. `truth` is for `truth` alone: all others know what was sensed.
   virtual Estimate Update(const Observation& sensed, const Sample& truth, double dt_s) = 0;

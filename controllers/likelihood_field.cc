@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "env/core/distance.h"
-#include "env/core/rasterise.h"
+#include "env/geometry/distance.h"
+#include "env/geometry/rasterise.h"
 
 namespace floorproof {
 namespace {

@@ -6,8 +6,8 @@
 #include <array>
 #include <cstdint>
 
-#include "env/core/grid.h"
 #include "env/core/hazard_map.h"
+#include "env/geometry/grid.h"
 
 namespace floorproof {
 

@@ -11,10 +11,10 @@
 
 #include <array>
 
+#include "base/params.h"
 #include "env/core/known_map.h"
 #include "env/core/motion.h"
 #include "env/core/observation.h"
-#include "env/core/params.h"
 #include "env/core/robot_spec.h"
 
 namespace floorproof {
@@ -45,7 +45,7 @@ class Mapper final : public Configurable {
   Pose2 X_GW_;
   Vec2 stood_W_ = Vec2::Constant(1e9);  // where the robot last freed the floor
   bool pressed_ = false;                // in the last period
-  std::array<bool, CliffRing::kMost> dropped_{};
+  std::array<bool, CliffRing::kMax> dropped_{};
 };
 
 }  // namespace floorproof

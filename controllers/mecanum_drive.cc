@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
+#include "base/params.h"
 #include "controllers/drive.h"
 #include "env/core/blocks.h"
-#include "env/core/params.h"
 
 namespace floorproof {
 namespace {

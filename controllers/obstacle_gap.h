@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/params.h"
 #include "env/core/coverage.h"
-#include "env/core/params.h"
 #include "env/core/robot_spec.h"
 
 namespace floorproof {

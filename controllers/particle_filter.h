@@ -12,9 +12,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/streams.h"
 #include "controllers/likelihood_field.h"
 #include "env/core/observation.h"
-#include "env/core/streams.h"
 
 namespace floorproof {
 

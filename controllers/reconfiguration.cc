@@ -6,7 +6,7 @@
 #include <map>
 #include <queue>
 
-#include "env/core/polygon.h"
+#include "env/geometry/polygon.h"
 
 namespace floorproof {
 namespace {

@@ -40,7 +40,7 @@ class Reconfiguration {
 
   int n_ = 0;
   double max_rate_radps_ = 0;
-  std::array<double, HingeState::kMost> hold_rad_{};  // the reference
+  std::array<double, HingeState::kMax> hold_rad_{};  // the reference
   const HingeWay* way_ = nullptr;
   std::size_t leg_ = 0;  // the reference is between bends leg_ and leg_ + 1,
   double s_rad_ = 0;     // this far along, at

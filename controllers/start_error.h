@@ -2,7 +2,7 @@
 // How wrong an estimator's first pose is: keys that `randomise` can draw.
 #pragma once
 
-#include "env/core/params.h"
+#include "base/params.h"
 
 namespace floorproof {
 

@@ -6,11 +6,11 @@
 #include <memory>
 #include <span>
 
+#include "base/params.h"
+#include "base/registry.h"
 #include "env/core/coverage.h"
 #include "env/core/motion.h"
-#include "env/core/params.h"
 #include "env/core/path.h"
-#include "env/core/registry.h"
 #include "env/core/robot_spec.h"
 
 namespace floorproof {

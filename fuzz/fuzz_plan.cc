@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A plan.csv. One that is read must be the same when written and read once more.
-#include "env/run/plan_file.h"
 #include "fuzz/read_or_refuse.h"
+#include "run/scenario/plan_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace floorproof;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scenario file, beside a small site.yaml and plan.csv that it may name. One that is read must
 // survive being resolved.
-#include "env/run/scenario.h"
 #include "fuzz/read_or_refuse.h"
+#include "run/scenario/scenario.h"
 
 namespace {
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <string_view>
 
-#include "env/core/error.h"
+#include "base/error.h"
 
 namespace floorproof {
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Boustrophedon ("as the ox ploughs"): back-and-forth rows. (1) The floor is cut into regions, each
-// with the direction that makes its rows long (planners/lib/regions.h); (2) rows lie at the spacing
-// and offset that fit a region best, broken by obstacles into the cells of a boustrophedon
+// with the direction that makes its rows long (planners/lines/regions.h); (2) rows lie at the
+// spacing and offset that fit a region best, broken by obstacles into the cells of a boustrophedon
 // decomposition (Choset & Pignon 1997); (3) the rows are ordered as a travelling salesman would and
 // joined by shortest ways; (4) transits are dropped, leftovers visited, and all is ordered again
-// (planners/lib/coverage_planner.h).
+// (planners/lines/coverage_planner.h).
 // Parameters: those of every coverage planner, and direction_deg. With `edges` laps along walls
 // and furniture come first and the rows fill what these leave.
 // Not done: rows do not bend; ground narrower than the tool is visited, not rowed.
 #include <algorithm>
 #include <cmath>
 
-#include "planners/lib/coverage_planner.h"
-#include "planners/lib/rows.h"
+#include "planners/lines/coverage_planner.h"
+#include "planners/lines/rows.h"
 
 namespace floorproof {
 namespace {

@@ -10,7 +10,7 @@
 // say how far the end is, which Algorithm 2 needs, so this is what is built. K leaves totals below
 // 0 near the end of the wave, where the paper wants TotalScore > 0: an order does not change by
 // what is added to all. Wave: planners/risk/wave_front.h; cells: planners/risk/high_risk.h; order:
-// planners/risk/transform_tour.h.
+// planners/walk/transform_tour.h.
 #include <algorithm>
 #include <limits>
 
@@ -24,7 +24,7 @@ class FmeaPathTransform final : public CellPlanner {
  public:
   void Visit(ParamVisitor& visit) override {
     CellPlanner::Visit(visit);
-    visit("risk_weight", risk_weight_, Between(0, kMostWeight), "K of Eq. 5; a step scores 15");
+    visit("risk_weight", risk_weight_, Between(0, kMaxWeight), "K of Eq. 5; a step scores 15");
     high_risk_.Visit(visit);
   }
 

@@ -4,10 +4,11 @@
 // neighbour that is farthest from the end. How far a cell is: the least sum, over ways to the end,
 // of the way's length and of the cost of being near solid obstacles (C1 to C3). Terrain is driven
 // like any floor.
-// Wave: planners/risk/wave_front.h; order: planners/risk/transform_tour.h.
+// Wave: planners/risk/wave_front.h; order: planners/walk/transform_tour.h.
 #include <cmath>
 
 #include "env/core/coverage.h"
+#include "env/geometry/distance.h"
 #include "planners/risk/cell_planner.h"
 #include "planners/risk/high_risk.h"
 #include "planners/risk/wave_front.h"
@@ -19,7 +20,7 @@ class PathTransform final : public CellPlanner {
  public:
   void Visit(ParamVisitor& visit) override {
     CellPlanner::Visit(visit);
-    visit("obstacle_weight", obstacle_weight_, Between(0, kMostWeight),
+    visit("obstacle_weight", obstacle_weight_, Between(0, kMaxWeight),
           "score of a cell beside a solid obstacle; a step scores 15");
     visit("obstacle_reach", obstacle_reach_, NonNegative(),
           "cells from a solid obstacle at which its cost has fallen to 0, in equal steps");

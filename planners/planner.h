@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/params.h"
+#include "base/registry.h"
 #include "env/core/hazard_map.h"
-#include "env/core/params.h"
 #include "env/core/path.h"
-#include "env/core/registry.h"
 #include "env/core/robot_spec.h"
 
 namespace floorproof {

@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <string>
 
-#include "planners/risk/cover_walk.h"
 #include "planners/risk/high_risk.h"
+#include "planners/walk/cover_walk.h"
 
 namespace floorproof {
 namespace {

@@ -2,15 +2,15 @@
 // Spiral: rings at growing distance from the walls. (1) The floor's poses are measured for their
 // distance to the nearest place that is none; (2) contours of that distance, one row apart, from
 // the walls inwards, are traced and kept where they sweep something new; (3) what all coverage
-// planners share orders and joins them (planners/lib/coverage_planner.h), which strings the rings
+// planners share orders and joins them (planners/lines/coverage_planner.h), which strings the rings
 // of a room together as a spiral. Contour-parallel paths as in Held, "On the Computational Geometry
 // of Pocket Machining", 1991.
 // Parameters: those of every coverage planner; `edges` changes little, the first ring is a lap.
 // Not done: rings have corners where walls have, so there are more turns than with rows.
 #include <algorithm>
 
-#include "planners/lib/coverage_planner.h"
-#include "planners/lib/laps.h"
+#include "planners/lines/coverage_planner.h"
+#include "planners/lines/laps.h"
 
 namespace floorproof {
 namespace {

@@ -6,9 +6,9 @@
 #include <span>
 #include <string_view>
 
-#include "env/core/error.h"
-#include "env/core/geometry.h"
-#include "env/core/registry.h"
+#include "base/error.h"
+#include "base/registry.h"
+#include "env/geometry/geometry.h"
 
 namespace floorproof {
 

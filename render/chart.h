@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "env/core/geometry.h"
-#include "env/media/media.h"
+#include "env/geometry/geometry.h"
+#include "media/media.h"
 #include "render/text.h"
 
 namespace floorproof {

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "env/core/error.h"
-#include "env/core/interrupt.h"
+#include "base/error.h"
+#include "base/interrupt.h"
 #include "render/renderer.h"
 
 namespace floorproof {

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "env/core/geometry.h"
+#include "env/geometry/geometry.h"
 
 namespace floorproof {
 

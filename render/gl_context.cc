@@ -16,7 +16,7 @@
 #include <functional>
 #include <span>
 
-#include "env/core/error.h"
+#include "base/error.h"
 
 #ifdef __SANITIZE_ADDRESS__
 // OSMesa never frees the frame buffer that OSMesaMakeCurrent makes for a context.

@@ -10,7 +10,7 @@
 
 #include "env/core/hazard_map.h"
 #include "env/core/path.h"
-#include "env/media/media.h"
+#include "media/media.h"
 #include "render/text.h"
 
 namespace floorproof {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "env/core/geometry.h"
+#include "env/geometry/geometry.h"
 #include "render/text.h"
 
 namespace floorproof {

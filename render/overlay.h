@@ -5,7 +5,7 @@
 #include <string>
 
 #include "env/core/event.h"
-#include "env/media/media.h"
+#include "media/media.h"
 
 namespace floorproof {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "env/core/error.h"
+#include "base/error.h"
 #include "render/gl_context.h"
 
 namespace floorproof {

@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "env/media/media.h"
+#include "media/media.h"
 #include "render/camera.h"
 #include "render/floor_paint.h"
 

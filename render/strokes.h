@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "env/media/media.h"
+#include "media/media.h"
 #include "render/text.h"
 
 namespace floorproof {

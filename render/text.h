@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "env/media/media.h"
+#include "media/media.h"
 
 namespace floorproof {
 

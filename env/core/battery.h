@@ -9,7 +9,7 @@
 
 #include <optional>
 
-#include "env/core/params.h"
+#include "base/params.h"
 
 namespace floorproof {
 

@@ -23,9 +23,9 @@ struct BlockMotion {
 };
 
 struct BlockMotions {
-  std::array<BlockMotion, HingeState::kMost + 1> block;  // the first RobotSpec::blocks.size() hold
-  Vec2 p_RB = Vec2::Zero();                              // of B's origin in the base block's frame
-  Vec2 v_RB = Vec2::Zero();                              // its velocity there, R's axes
+  std::array<BlockMotion, HingeState::kMax + 1> block;  // the first RobotSpec::blocks.size() hold
+  Vec2 p_RB = Vec2::Zero();                             // of B's origin in the base block's frame
+  Vec2 v_RB = Vec2::Zero();                             // its velocity there, R's axes
 };
 
 // `hinges` holds RobotSpec::hinges' angles and rates. Allocates nothing.

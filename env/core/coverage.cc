@@ -12,8 +12,8 @@
 #include <limits>
 #include <utility>
 
-#include "env/core/distance.h"
-#include "env/core/rasterise.h"
+#include "env/geometry/distance.h"
+#include "env/geometry/rasterise.h"
 
 namespace floorproof {
 namespace {

@@ -12,11 +12,6 @@
 
 namespace floorproof {
 
-// Exact Euclidean distance, in cells, from each cell's centre to the nearest set cell's area (a
-// square, not its centre); what lies beyond the grid is set when `border_is_set`. 0 on set cells.
-// O(cells), after Felzenszwalb & Huttenlocher 2012.
-Grid<float> DistanceToSet(const Grid<std::uint8_t>& set, bool border_is_set);
-
 // The map's cells subdivided until they are at most max_cell_m.
 GridFrame FineFrame(const GridFrame& frame, double max_cell_m = 0.05);
 

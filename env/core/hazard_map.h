@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "env/core/grid.h"
-#include "env/core/polygon.h"
+#include "env/geometry/grid.h"
+#include "env/geometry/polygon.h"
 
 namespace floorproof {
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstddef>
 
-#include "env/core/geometry.h"
+#include "env/geometry/geometry.h"
 
 namespace floorproof {
 
@@ -18,9 +18,9 @@ struct BodyTwist {
 // Angles and rates of the hinges between a reconfigurable robot's blocks, in the order of
 // RobotSpec::hinges; n = 0: the robot is one rigid body.
 struct HingeState {
-  static constexpr int kMost = 8;
+  static constexpr int kMax = 8;
   int n = 0;
-  std::array<double, kMost> rad{}, radps{};
+  std::array<double, kMax> rad{}, radps{};
 };
 
 // Where the robot thinks it is.

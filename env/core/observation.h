@@ -37,10 +37,10 @@ struct Bump {
 
 // Sensors around the robot's edge that look down.
 struct CliffRing {
-  static constexpr int kMost = 8;
+  static constexpr int kMax = 8;
   int n = 0;
-  std::array<Vec2, kMost> p_B{};   // where each looks, body frame
-  std::array<bool, kMost> drop{};  // it sees no floor within its reach
+  std::array<Vec2, kMax> p_B{};   // where each looks, body frame
+  std::array<bool, kMax> drop{};  // it sees no floor within its reach
   bool any() const {
     for (int i = 0; i < n; ++i)
       if (drop[static_cast<std::size_t>(i)]) return true;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "env/core/geometry.h"
+#include "env/geometry/geometry.h"
 
 namespace floorproof {
 

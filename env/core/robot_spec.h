@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "env/core/battery.h"
-#include "env/core/polygon.h"
+#include "env/geometry/polygon.h"
 
 namespace floorproof {
 

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "base/params.h"
+#include "base/registry.h"
 #include "env/core/hazard_map.h"
-#include "env/core/params.h"
-#include "env/core/registry.h"
 
 namespace floorproof {
 

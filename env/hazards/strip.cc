@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "env/core/error.h"
+#include "base/error.h"
 
 namespace floorproof {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "env/core/polygon.h"
+#include "env/geometry/polygon.h"
 
 namespace floorproof {
 

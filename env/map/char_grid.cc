@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "env/core/params.h"
+#include "base/params.h"
 #include "env/map/cell_shapes.h"
 #include "env/map/ros_map.h"
 #include "env/map/written_hazard.h"
@@ -12,7 +12,7 @@
 namespace floorproof {
 namespace {
 
-constexpr std::size_t kMostHazards = 10'000;
+constexpr std::size_t kMaxHazards = 10'000;
 constexpr std::string_view kCharacters = ".#G?v^=gr";
 
 // A character that stands for a hazard, and what it measures unless grid.sizes says otherwise.
@@ -236,9 +236,9 @@ class GridHazards {
 
  private:
   void Place(Cell first, Hazard hazard, const SourceMark& mark) {
-    if (placed_.size() >= kMostHazards)
+    if (placed_.size() >= kMaxHazards)
       throw InputError(mark, "grid.rows", "",
-                       "draws more than " + std::to_string(kMostHazards) + " hazards");
+                       "draws more than " + std::to_string(kMaxHazards) + " hazards");
     placed_.push_back({first, std::move(hazard)});
   }
 

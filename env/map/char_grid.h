@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "env/core/config.h"
+#include "base/config.h"
 #include "env/core/hazard_map.h"
 
 namespace floorproof {

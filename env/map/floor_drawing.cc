@@ -5,14 +5,14 @@
 #include <cmath>
 #include <utility>
 
-#include "env/core/distance.h"
+#include "env/geometry/distance.h"
 
 namespace floorproof {
 namespace {
 
 constexpr int kTries = 60;        // places drawn for one cluster before it is said not to fit
 constexpr int kStripTries = 200;  // a strip is a whole row or column: few to choose from
-constexpr int kMostAspect = 6;    // length over width of a cluster
+constexpr int kMaxAspect = 6;     // length over width of a cluster
 constexpr float kClearCells = 2;  // so far from hazards is far enough for a start
 constexpr Cell kSides[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
 
@@ -188,7 +188,7 @@ void FloorDrawing::Fill(const CellBox& box, char kind) {
 // Somewhere within the outer wall; larger than the floor only where the floor is that narrow.
 CellBox FloorDrawing::DrawBox(char kind, int area, Stream& stream) const {
   const int narrowest =
-      static_cast<int>(std::ceil(std::sqrt(static_cast<double>(area) / kMostAspect)));
+      static_cast<int>(std::ceil(std::sqrt(static_cast<double>(area) / kMaxAspect)));
   const int widest = static_cast<int>(std::sqrt(static_cast<double>(area)));
   const int narrow =
       kind == 'G' ? 1 : narrowest + Below(std::max(widest - narrowest, 0) + 1, stream);

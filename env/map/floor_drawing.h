@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "env/core/grid.h"
-#include "env/core/streams.h"
+#include "base/streams.h"
+#include "env/geometry/grid.h"
 #include "env/map/cell_shapes.h"
 
 namespace floorproof {

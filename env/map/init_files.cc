@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "env/core/config.h"
+#include "base/config.h"
+#include "base/params.h"
 #include "env/core/coverage.h"
-#include "env/core/params.h"
 #include "env/map/ros_map.h"
 
 namespace floorproof {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdint>
 
-#include "env/core/config.h"
-#include "env/core/input_file.h"
-#include "env/core/params.h"
-#include "env/media/media.h"
+#include "base/config.h"
+#include "base/input_file.h"
+#include "base/params.h"
+#include "media/media.h"
 
 namespace floorproof {
 namespace {
@@ -93,9 +93,9 @@ Keys ReadKeys(const fs::path& yaml_path) {
 
 // The image, or where else it may lie when it is not where the map says.
 Image ReadMapImage(const Keys& keys, const fs::path& yaml_path) {
-  if (std::string rule = WhyUnreadable(keys.image, kMostImageBytes); !rule.empty()) {
+  if (std::string rule = WhyUnreadable(keys.image, kMaxImageBytes); !rule.empty()) {
     const fs::path beside = yaml_path.parent_path() / keys.image.filename();
-    if (beside != keys.image && WhyUnreadable(beside, kMostImageBytes).empty())
+    if (beside != keys.image && WhyUnreadable(beside, kMaxImageBytes).empty())
       rule +=
           "; one of that name lies beside the map: write image: " + keys.image.filename().string();
     throw InputError(keys.image_mark, "image", keys.image.string(), rule);

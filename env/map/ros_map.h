@@ -26,7 +26,7 @@
 #include <string>
 #include <vector>
 
-#include "env/core/error.h"
+#include "base/error.h"
 #include "env/core/hazard_map.h"
 
 namespace floorproof {

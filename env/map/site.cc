@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "env/core/input_file.h"
-#include "env/core/params.h"
+#include "base/input_file.h"
+#include "base/params.h"
 #include "env/map/char_grid.h"
 #include "env/map/site_generator.h"
 #include "env/map/written_hazard.h"
@@ -76,12 +76,12 @@ void ReadFloor(const ConfigNode& node, Written& site) {
 }
 
 void ReadHazards(const ConfigNode& node, Written& site) {
-  constexpr std::size_t kMost = 10'000;
+  constexpr std::size_t kMax = 10'000;
   const ConfigNode* list = node.Find("hazards");
   if (list != nullptr && !list->IsNull()) {
-    if (!list->IsList() || list->items.size() > kMost)
+    if (!list->IsList() || list->items.size() > kMax)
       throw InputError(list->mark, "hazards", "",
-                       "must be a list of at most " + std::to_string(kMost) + " hazards");
+                       "must be a list of at most " + std::to_string(kMax) + " hazards");
     for (std::size_t i = 0; i < list->items.size(); ++i)
       site.hazards.push_back(ReadHazard(list->items[i], "hazards[" + std::to_string(i) + "]"));
   }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "env/core/config.h"
+#include "base/config.h"
 #include "env/core/hazard_map.h"
 #include "env/map/ros_map.h"
 

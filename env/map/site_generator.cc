@@ -10,17 +10,17 @@
 namespace floorproof {
 namespace {
 
-constexpr int kLeastCells = 3, kMostCells = 4000;
-constexpr int kMostCellsInAll = 4'000'000;  // so that the drawing fits in a file that can be read
-constexpr int kMostOfAKind = 1000;          // all seven stay below a drawing's 10,000 hazards
-constexpr int kMostClusterCells = 10'000;
+constexpr int kLeastCells = 3, kMaxCells = 4000;
+constexpr int kMaxCellsInAll = 4'000'000;  // so that the drawing fits in a file that can be read
+constexpr int kMaxOfAKind = 1000;          // all seven stay below a drawing's 10,000 hazards
+constexpr int kMaxClusterCells = 10'000;
 constexpr int kShareForMore = 3;  // what need not be there, while hazards take a third of the floor
 
 // Drawings before a site is refused as too full; fewer of a large one, where chance evens out and
 // each takes its time.
 int MostDrawings(const GenerateParams& p) {
-  constexpr int kMost = 20;
-  return std::clamp(kMostCellsInAll / (p.width * p.height), 1, kMost);
+  constexpr int kMax = 20;
+  return std::clamp(kMaxCellsInAll / (p.width * p.height), 1, kMax);
 }
 
 // After the sites of the hTetro FMEA paper, section 4: 11 x 11, 12 x 12 and 6 x 6 cells of 0.5 m
@@ -77,7 +77,7 @@ ConfigNode WriteRange(const IntRange& range) {
 }
 
 void ReadCells(const ConfigNode& node, GenerateParams& p) {
-  const Bounds rule = Between(kLeastCells, kMostCells);
+  const Bounds rule = Between(kLeastCells, kMaxCells);
   const std::string key = "generate.cells";
   if (node.IsList() && node.items.size() != 2)
     throw InputError(node.mark, key, "", "must be [width, height], or one number for a square");
@@ -85,9 +85,9 @@ void ReadCells(const ConfigNode& node, GenerateParams& p) {
                    &height = node.IsList() ? node.items[1] : node;
   p.width = static_cast<int>(AsInt(width, key, rule));
   p.height = static_cast<int>(AsInt(height, key, rule));
-  if (p.width > kMostCellsInAll / p.height)
+  if (p.width > kMaxCellsInAll / p.height)
     throw InputError(node.mark, key, std::to_string(p.width) + " x " + std::to_string(p.height),
-                     "must be at most " + std::to_string(kMostCellsInAll) + " cells in all");
+                     "must be at most " + std::to_string(kMaxCellsInAll) + " cells in all");
 }
 
 void ReadMix(const ConfigNode& node, HazardMix& mix) {
@@ -99,7 +99,7 @@ void ReadMix(const ConfigNode& node, HazardMix& mix) {
   for (const MixKey& key : kMix)
     if (const ConfigNode* count = node.Find(key.name))
       mix.*key.count =
-          ReadRange(*count, std::string("generate.hazards.") + key.name, Between(0, kMostOfAKind));
+          ReadRange(*count, std::string("generate.hazards.") + key.name, Between(0, kMaxOfAKind));
 }
 
 // The grid that is drawn, still without its rows. What `generate` says is taken with its lines.
@@ -180,8 +180,8 @@ void GenerateParams::Visit(ParamVisitor& v) {
   v("inset_m", inset_m, NonNegative(), "solids drawn back towards free cells");
   v("obstacle_density", obstacle_density, Between(0, 0.5),
     "share of the cells within the walls that are blind objects");
-  v("room_cells", room_cells, Between(2, kMostCells), "least side of a room, within its walls");
-  v("door_cells", door_cells, Between(1, kMostCells), "width of a door");
+  v("room_cells", room_cells, Between(2, kMaxCells), "least side of a room, within its walls");
+  v("door_cells", door_cells, Between(1, kMaxCells), "width of a door");
 }
 
 GenerateParams ReadGenerate(const ConfigNode& node) {
@@ -196,7 +196,7 @@ GenerateParams ReadGenerate(const ConfigNode& node) {
   read();
   if (const ConfigNode* cells = node.Find("cells")) ReadCells(*cells, p);
   if (const ConfigNode* cells = node.Find("cluster_cells"))
-    p.cluster_cells = ReadRange(*cells, "generate.cluster_cells", Between(1, kMostClusterCells));
+    p.cluster_cells = ReadRange(*cells, "generate.cluster_cells", Between(1, kMaxClusterCells));
   if (const ConfigNode* mix = node.Find("hazards")) ReadMix(*mix, p.hazards);
   if (const ConfigNode* seed = node.Find("seed"))
     p.seed = static_cast<int>(AsInt(*seed, "generate.seed", Between(0, 2147483647.0)));

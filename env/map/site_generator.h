@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "env/core/config.h"
-#include "env/core/params.h"
+#include "base/config.h"
+#include "base/params.h"
 #include "env/map/floor_drawing.h"
 
 namespace floorproof {

@@ -10,7 +10,7 @@ namespace floorproof {
 namespace {
 
 constexpr double kBucket_m = 0.5;
-constexpr double kMostBuckets = 1e6;
+constexpr double kMaxBuckets = 1e6;
 constexpr double kHair_m = 1e-9;  // boxes on a border of buckets are listed on both sides
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
@@ -41,7 +41,7 @@ WallGrid::WallGrid(std::vector<WallBox> boxes) : boxes_(std::move(boxes)) {
   }
   const Vec2 size = high - low_G_;
   bucket_m_ =
-      std::max({kBucket_m, std::sqrt(size.prod() / kMostBuckets), size.maxCoeff() / kMostBuckets});
+      std::max({kBucket_m, std::sqrt(size.prod() / kMaxBuckets), size.maxCoeff() / kMaxBuckets});
   width_ = static_cast<int>(size.x() / bucket_m_) + 1;
   height_ = static_cast<int>(size.y() / bucket_m_) + 1;
 

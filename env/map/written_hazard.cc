@@ -6,7 +6,7 @@
 #include <set>
 #include <span>
 
-#include "env/core/params.h"
+#include "base/params.h"
 
 namespace floorproof {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 const Bounds kRestitution = Between(0, 1), kReflectance = Between(0, 1);
 const Bounds kFriction = {0, 5, true};
 constexpr double kFarthest_m = 1e6;
-constexpr std::size_t kMostPoints = 10'000;
+constexpr std::size_t kMaxPoints = 10'000;
 
 Vec2 ReadPoint(const ConfigNode& node, const std::string& key) {
   if (!node.IsList() || node.items.size() != 2)
@@ -24,10 +24,10 @@ Vec2 ReadPoint(const ConfigNode& node, const std::string& key) {
 }
 
 std::vector<Vec2> ReadPoints(const ConfigNode& node, const std::string& key, std::size_t least) {
-  if (!node.IsList() || node.items.size() < least || node.items.size() > kMostPoints)
+  if (!node.IsList() || node.items.size() < least || node.items.size() > kMaxPoints)
     throw InputError(node.mark, key, "",
                      "must be a list of " + std::to_string(least) + " to " +
-                         std::to_string(kMostPoints) + " points [x, y]");
+                         std::to_string(kMaxPoints) + " points [x, y]");
   std::vector<Vec2> points;
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     points.push_back(ReadPoint(node.items[i], key + "[" + std::to_string(i) + "]"));

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "env/core/config.h"
+#include "base/config.h"
 #include "env/core/hazard_map.h"
 #include "env/hazards/hazard_type.h"
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "env/core/geometry.h"
-#include "env/core/params.h"
+#include "base/params.h"
+#include "env/geometry/geometry.h"
 #include "env/scene/engine.h"
 
 namespace floorproof {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "env/core/error.h"
+#include "base/error.h"
 
 namespace floorproof {
 namespace {

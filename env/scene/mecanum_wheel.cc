@@ -8,7 +8,7 @@
 namespace floorproof {
 namespace {
 
-constexpr int kMostContacts = 50;       // what MuJoCo's colliders give at most
+constexpr int kMaxContacts = 50;        // what MuJoCo's colliders give at most
 constexpr double kSameNormal = 0.9995;  // cosine: planes within 2 degrees are one
 constexpr double kBlend_m = 1e-4;       // contacts deeper than others by this rule alone
 constexpr std::array kOthers = {mjGEOM_PLANE, mjGEOM_HFIELD, mjGEOM_BOX, mjGEOM_MESH};
@@ -28,7 +28,7 @@ void Inflate(mjPreContact* con, int n, double radius_m, double toward_wheel) {
 // those of a wheel that stands upright are, theirs is the middle, so that the wheel turns without
 // scrubbing; as it leans, the deepest takes over without a jump.
 int MergeCoplanar(mjPreContact* con, int n) {
-  std::array<bool, kMostContacts> taken{};
+  std::array<bool, kMaxContacts> taken{};
   int merged = 0;
   for (int i = 0; i < n; ++i) {
     if (taken[static_cast<std::size_t>(i)]) continue;

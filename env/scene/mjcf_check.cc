@@ -9,16 +9,16 @@
 #include <string_view>
 #include <vector>
 
-#include "env/core/error.h"
-#include "env/core/input_file.h"
+#include "base/error.h"
+#include "base/input_file.h"
 
 namespace floorproof {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = 64u << 20;
-constexpr int kMostIncludes = 20;
-constexpr double kMostCopies = 10000;  // of what stands in nested <replicate>, or in a composite
-constexpr double kMostPixels = 8192;   // of a texture's side or a height field's
+constexpr std::uintmax_t kMaxBytes = 64u << 20;
+constexpr int kMaxIncludes = 20;
+constexpr double kMaxCopies = 10000;  // of what stands in nested <replicate>, or in a composite
+constexpr double kMaxPixels = 8192;   // of a texture's side or a height field's
 
 // The numbers of an attribute such as count="4 4 1", multiplied.
 double Product(std::string_view value) {
@@ -98,9 +98,9 @@ class Tags {
 class Scan {
  public:
   void File(const std::filesystem::path& file) {
-    if (++files_ > kMostIncludes)
+    if (++files_ > kMaxIncludes)
       throw InputError({file.string(), 0}, "include", "", "files include each other without end");
-    const std::string text = WithoutComments(ReadInputFile(file, kMostBytes));
+    const std::string text = WithoutComments(ReadInputFile(file, kMaxBytes));
     std::vector<double> copies = {1};  // of what stands here, by nested <replicate>
     for (Tags tag(text); tag.Next();) {
       const bool replicate = tag.name == "replicate";
@@ -129,10 +129,10 @@ class Scan {
     for (const auto& [key, value] : tag.attributes) {
       if (key == "count") {
         copies *= Product(value);
-        if (!(copies <= kMostCopies))
+        if (!(copies <= kMaxCopies))
           throw InputError(mark, key, value, "makes more than 10000 copies");
       } else if (key == "nrow" || key == "ncol" || key == "width" || key == "height") {
-        if (!(Product(value) <= kMostPixels))
+        if (!(Product(value) <= kMaxPixels))
           throw InputError(mark, key, value, "must be at most 8192");
       } else if (key == "meshdir" || key == "texturedir" || key == "assetdir") {
         asset_folders_.push_back(file.parent_path() / value);
@@ -151,7 +151,7 @@ class Scan {
     std::error_code error;
     for (const auto& place : places) {
       if (!std::filesystem::exists(place, error)) continue;
-      if (const std::string why = WhyUnreadable(place, kMostBytes); !why.empty())
+      if (const std::string why = WhyUnreadable(place, kMaxBytes); !why.empty())
         throw InputError(mark, "file", value, why);
     }
     if (tag == "include" && std::filesystem::exists(places[0], error)) File(places[0]);

@@ -24,12 +24,12 @@ ContactSoftness Softness(double stiffness_s, double damping_ratio) {
 
 // One impact at 1 m/s that begins this share of a step before the engine sees it.
 double Rebound(const ContactSoftness& c, const ContactWalk& walk, double share) {
-  constexpr int kMostSteps = 10'000;
+  constexpr int kMaxSteps = 10'000;
   const double h = walk.timestep_s, damping = 2 / c.time_constant_s;
   const double root = 1 / (c.time_constant_s * c.damping_ratio), stiffness = root * root;
   const double inertia = walk.implicit ? 1 + h * damping + h * h * stiffness : 1;
   double v = -1, r = share * h * v;
-  for (int k = 0; k < kMostSteps && r < 0; ++k) {
+  for (int k = 0; k < kMaxSteps && r < 0; ++k) {
     // At the step's begin; or at its end, r + h v', solved for v'.
     const double next =
         walk.implicit ? (v - h * stiffness * r) / inertia : v - h * (damping * v + stiffness * r);

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "env/core/params.h"
+#include "base/params.h"
 #include "env/core/robot_spec.h"
 
 namespace floorproof {

@@ -116,28 +116,28 @@ std::filesystem::path FindRobotFile(const std::string& name_or_path, const Sourc
 RobotModel ReadRobot(const std::filesystem::path& file, const RobotChanges& changes,
                      Blocks blocks) {
   RobotModel out;
-  out.spec = ParseMjcf(file);
-  NameParts(out.spec.get(), file.string());
+  out.mjcf = ParseMjcf(file);
+  NameParts(out.mjcf.get(), file.string());
   const auto read = [&] {
-    ModelPtr model(mj_compile(out.spec.get(), nullptr));
+    ModelPtr model(mj_compile(out.mjcf.get(), nullptr));
     if (!model)
-      throw InputError({file.string(), 0}, "", mjs_getError(out.spec.get()), "does not compile");
+      throw InputError({file.string(), 0}, "", mjs_getError(out.mjcf.get()), "does not compile");
     return ReadSpec(model.get(), file.string());
   };
-  out.robot = read();
-  if (ChangeRobot(out.spec.get(), out.robot, changes)) out.robot = read();
+  out.spec = read();
+  if (ChangeRobot(out.mjcf.get(), out.spec, changes)) out.spec = read();
 
-  const int shape = changes.shape.empty() ? 0 : FindShape(out.robot, changes.shape);
-  if (shape < 0) RefuseShape(out.robot, {file.string(), 0}, "shape", changes.shape);
-  if (out.robot.shapes.empty()) return out;
-  const std::vector<ShapeSpec> shapes = out.robot.shapes;
+  const int shape = changes.shape.empty() ? 0 : FindShape(out.spec, changes.shape);
+  if (shape < 0) RefuseShape(out.spec, {file.string(), 0}, "shape", changes.shape);
+  if (out.spec.shapes.empty()) return out;
+  const std::vector<ShapeSpec> shapes = out.spec.shapes;
   if (blocks == Blocks::kLocked) {
-    LockBlocks(out.spec.get(), out.robot, shapes[static_cast<std::size_t>(shape)]);
-    std::vector<BlockSpec> locked = std::move(out.robot.blocks);
-    out.robot = read();
-    out.robot.blocks = std::move(locked);
+    LockBlocks(out.mjcf.get(), out.spec, shapes[static_cast<std::size_t>(shape)]);
+    std::vector<BlockSpec> locked = std::move(out.spec.blocks);
+    out.spec = read();
+    out.spec.blocks = std::move(locked);
   }
-  TakeShape(out.robot, shapes, shape);
+  TakeShape(out.spec, shapes, shape);
   return out;
 }
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "env/core/error.h"
+#include "base/error.h"
 #include "env/core/robot_spec.h"
 #include "env/scene/engine.h"
 #include "env/scene/robot_changes.h"
@@ -28,8 +28,8 @@ std::filesystem::path ModelsFolder();
 std::filesystem::path FindRobotFile(const std::string& name_or_path, const SourceMark& mark);
 
 struct RobotModel {
-  SpecPtr spec;  // the robot alone, changes applied
-  RobotSpec robot;
+  SpecPtr mjcf;  // the robot alone, changes applied
+  RobotSpec spec;
   std::vector<std::string> rollers = {};  // geoms of rollers that are bodies (roller_wheels.h)
 };
 

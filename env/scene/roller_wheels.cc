@@ -122,8 +122,8 @@ double RollerHalfLength(const WheelSpec& wheel) {
 }
 
 RobotModel WithRollerWheels(const RobotModel& robot) {
-  RobotModel out{SpecPtr(mj_copySpec(robot.spec.get())), robot.robot, robot.rollers};
-  for (const Wheel& wheel : FindWheels(out.spec.get(), robot.robot)) {
+  RobotModel out{SpecPtr(mj_copySpec(robot.mjcf.get())), robot.spec, robot.rollers};
+  for (const Wheel& wheel : FindWheels(out.mjcf.get(), robot.spec)) {
     const Vec3 ahead = wheel.axle.cross(wheel.down);
     for (int k = 0; k < kRollers; ++k) {
       const double turn = 2 * kPi * k / kRollers;
@@ -131,7 +131,7 @@ RobotModel WithRollerWheels(const RobotModel& robot) {
       AddRoller(wheel, std::cos(turn) * wheel.down + std::sin(turn) * ahead, out.rollers.back());
     }
     MakeHub(wheel);
-    for (mjsGeom* geom : wheel.drawn) mjs_delete(out.spec.get(), geom->element);
+    for (mjsGeom* geom : wheel.drawn) mjs_delete(out.mjcf.get(), geom->element);
   }
   return out;
 }

@@ -31,7 +31,7 @@ class SceneBuilder {
  public:
   SceneBuilder(const HazardMap& map, const RobotModel& robot, mjSpec* spec)
       : map_(map),
-        robot_(robot.robot),
+        robot_(robot.spec),
         rollers_(robot.rollers),
         spec_(spec),
         world_(mjs_findBody(spec, "world")) {
@@ -246,7 +246,7 @@ void PhysicsParams::Visit(ParamVisitor& v) {
 Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsParams& physics,
                  const Pose2& start, WallSet walls) {
   Scene scene;
-  scene.spec.reset(mj_copySpec(robot.spec.get()));
+  scene.spec.reset(mj_copySpec(robot.mjcf.get()));
   SetPhysics(scene.spec.get(), physics);
   PlaceRobot(scene.spec.get(), start);
   AddLooks(map.frame, scene.spec.get());
@@ -268,7 +268,7 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
         m->geom_contype[g] != 0 || m->geom_conaffinity[g] != 0 || RollersOf(m, g).radius_m > 0;
     if (body == 0 || !touches) continue;
     scene.roles[static_cast<std::size_t>(g)].kind =
-        IsChassis(m, body, robot.robot) ? GeomRole::Kind::kBody : GeomRole::Kind::kWheel;
+        IsChassis(m, body, robot.spec) ? GeomRole::Kind::kBody : GeomRole::Kind::kWheel;
   }
   for (const auto& [geom, role] : builder.added) {
     scene.roles[static_cast<std::size_t>(mjs_getId(geom->element))] = role;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/params.h"
 #include "env/core/hazard_map.h"
-#include "env/core/params.h"
 #include "env/scene/engine.h"
 #include "env/scene/robot_model.h"
 #include "env/scene/wall_pool.h"

@@ -5,7 +5,7 @@
 
 #include <mujoco/mujoco.h>
 
-#include "env/core/grid.h"
+#include "env/geometry/grid.h"
 
 namespace floorproof {
 

@@ -97,8 +97,8 @@ WheelSpec ReadWheel(const CompiledRobot& compiled, int a, const std::string& nam
 
 void ReadHinges(CompiledRobot& compiled, RobotSpec& robot) {
   const auto names = compiled.Words("hinges");
-  if (names.size() > HingeState::kMost)
-    compiled.Refuse("hinges", "at most " + std::to_string(HingeState::kMost) + " are possible");
+  if (names.size() > HingeState::kMax)
+    compiled.Refuse("hinges", "at most " + std::to_string(HingeState::kMax) + " are possible");
   for (const auto& name : names) robot.hinges.push_back(ReadHinge(compiled, name));
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "env/core/coverage.h"
+#include "env/geometry/distance.h"
 
 namespace floorproof {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <mujoco/mujoco.h>
 
-#include "env/core/geometry.h"
+#include "env/geometry/geometry.h"
 
 namespace floorproof {
 

@@ -25,9 +25,9 @@ class Cliff final : public Sensor {
     base_ = context.scene.base_body;
     height_m_ = std::max(context.robot.clearance_m, 0.005);
     out.cliffs = {};
-    out.cliffs.n = CliffRing::kMost;
-    for (int i = 0; i < CliffRing::kMost; ++i) {
-      const double bearing_rad = 2 * kPi * i / CliffRing::kMost;
+    out.cliffs.n = CliffRing::kMax;
+    for (int i = 0; i < CliffRing::kMax; ++i) {
+      const double bearing_rad = 2 * kPi * i / CliffRing::kMax;
       const double r_m = std::max(0.0, EdgeAlong(context.robot.clear, bearing_rad) - inset_m_);
       out.cliffs.p_B[static_cast<std::size_t>(i)] = {r_m * std::cos(bearing_rad),
                                                      r_m * std::sin(bearing_rad)};

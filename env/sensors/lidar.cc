@@ -18,7 +18,7 @@ namespace floorproof {
 namespace {
 
 constexpr double kHousing_m = 0.06;  // of a scanner of this class: its own beams begin outside
-constexpr int kMostPanes = 8;        // a beam passes
+constexpr int kMaxPanes = 8;         // a beam passes
 constexpr double kThrough_m = 1e-4;  // beyond a surface that let it pass
 
 class Lidar final : public Sensor {
@@ -102,7 +102,7 @@ class Lidar final : public Sensor {
   RayHit SeenThrough(const mjData* data, const Vec3& p_W, const Vec3& direction_W,
                      RayHit hit) const {
     double passed_m = 0;
-    for (int pane = 0; pane < kMostPanes && IsGlass(hit.geom); ++pane) {
+    for (int pane = 0; pane < kMaxPanes && IsGlass(hit.geom); ++pane) {
       const double angle_rad =
           std::acos(std::min(1.0, std::abs(hit.normal_W.normalized().dot(direction_W))));
       if (angle_rad <= glass_angle_deg_ * kPi / 180) break;

@@ -3,7 +3,7 @@
 // hold them all in the map. The robot itself lets rays pass.
 #pragma once
 
-#include "env/core/geometry.h"
+#include "env/geometry/geometry.h"
 #include "env/scene/scene.h"
 
 namespace floorproof {

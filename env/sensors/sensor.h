@@ -6,13 +6,13 @@
 #include <memory>
 #include <span>
 
+#include "base/params.h"
+#include "base/registry.h"
+#include "base/streams.h"
 #include "env/core/hazard_map.h"
 #include "env/core/motion.h"
 #include "env/core/observation.h"
-#include "env/core/params.h"
-#include "env/core/registry.h"
 #include "env/core/robot_spec.h"
-#include "env/core/streams.h"
 #include "env/scene/scene.h"
 
 namespace floorproof {
@@ -29,7 +29,7 @@ class Sensor : public Configurable {
  public:
   // Before the first step, the robot standing at its start; `noise` is this episode's stream of
   // this sensor. Sizes what Sense() fills. Throws InputError where the robot cannot carry it, its
-  // line beginning with the key: it is heard when a scenario is read (env/run/start_check.h).
+  // line beginning with the key: it is heard when a scenario is read (run/scenario/start_check.h).
   virtual void Start(const SensorContext& context, const mjData* data, const Sample& truth,
                      const Stream& noise, Observation& out) = 0;
   // After every physics step; for what must not be missed between two control periods.

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "env/core/error.h"
+#include "base/error.h"
 #include "env/scene/robot_reach.h"
 
 namespace floorproof {

@@ -8,7 +8,7 @@
 namespace floorproof {
 namespace {
 
-constexpr std::size_t kMostSupports = 64;
+constexpr std::size_t kMaxSupports = 64;
 // A contact whose normal stands steeper than this carries; one flatter than that obstructs.
 constexpr double kSteep = 0.7;
 constexpr double kWedged = 0.3;      // a wheel in a groove stands on rims as steep as this
@@ -61,8 +61,8 @@ Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec
     wheel_bodies_.push_back(m->jnt_bodyid[joint]);
     wheel_qpos_.push_back(m->jnt_qposadr[joint]);
   }
-  support_.reserve(kMostSupports);
-  hull_.reserve(2 * kMostSupports);
+  support_.reserve(kMaxSupports);
+  hull_.reserve(2 * kMaxSupports);
 }
 
 void Simulation::Place(const Pose2& X_WB) {
@@ -278,7 +278,7 @@ void Simulation::AddObstacle(const mjContact& contact, int hazard, int geom, dou
 }
 
 void Simulation::AddSupport(const double* p_W) {
-  if (support_.size() < kMostSupports) support_.emplace_back(p_W[0], p_W[1]);
+  if (support_.size() < kMaxSupports) support_.emplace_back(p_W[0], p_W[1]);
 }
 
 // Signed distance from the centre of mass, seen from above, to the border of the hull of the

@@ -5,7 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "planners/risk/cell_ways.h"
+#include "planners/walk/cell_ways.h"
 
 namespace floorproof {
 namespace {

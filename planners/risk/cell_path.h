@@ -7,7 +7,7 @@
 #include "env/core/path.h"
 #include "env/core/robot_spec.h"
 #include "planners/risk/risk_grid.h"
-#include "planners/risk/transform_tour.h"
+#include "planners/walk/transform_tour.h"
 
 namespace floorproof {
 

@@ -9,7 +9,7 @@
 
 #include "planners/planner.h"
 #include "planners/risk/risk_map.h"
-#include "planners/risk/transform_tour.h"
+#include "planners/walk/transform_tour.h"
 
 namespace floorproof {
 

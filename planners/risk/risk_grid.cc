@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "env/core/coverage.h"
-#include "env/core/rasterise.h"
+#include "env/geometry/rasterise.h"
 
 namespace floorproof {
 namespace {

@@ -19,8 +19,8 @@
 #include <functional>
 #include <optional>
 
+#include "base/params.h"
 #include "env/core/hazard_map.h"
-#include "env/core/params.h"
 #include "env/core/robot_spec.h"
 #include "planners/risk/fmea_tables.h"
 

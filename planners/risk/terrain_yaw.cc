@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "planners/risk/cell_ways.h"
+#include "planners/walk/cell_ways.h"
 
 namespace floorproof {
 

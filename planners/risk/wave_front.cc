@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "planners/risk/cell_ways.h"
+#include "planners/walk/cell_ways.h"
 
 namespace floorproof {
 namespace {

@@ -11,7 +11,7 @@ namespace floorproof {
 
 inline constexpr double kOutOfReach = std::numeric_limits<double>::infinity();
 // Of what planners add to a cell's score: sums over any floor stay exact enough.
-inline constexpr double kMostWeight = 1e6;
+inline constexpr double kMaxWeight = 1e6;
 
 // The least sum of scores from `end` to each cell of `open`: 15 a step in a T direction, 20 in an X
 // direction, and of each cell entered what `also` says (>= 0; none: nothing). An X step leads

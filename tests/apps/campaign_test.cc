@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // `floorproof campaign`: the same files on any number of workers and after any interruption, exit
 // statuses, what --resume takes and refuses.
-#include "env/run/campaign.h"
+#include "run/campaign/campaign.h"
 
 #include <nlohmann/json.hpp>
 
-#include "env/run/episode_maker.h"
+#include "run/campaign/episode_maker.h"
 #include "tests/apps/campaign_program.h"
 
 namespace floorproof {

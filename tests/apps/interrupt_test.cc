@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "env/core/config.h"
-#include "env/media/media.h"
+#include "base/config.h"
+#include "media/media.h"
 
 namespace floorproof {
 namespace {

@@ -9,11 +9,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "env/run/campaign_about.h"
-#include "env/run/campaign_store.h"
-#include "env/run/campaign_summary.h"
-#include "env/run/file_output.h"
-#include "tests/render/html_page.h"
+#include "base/file_output.h"
+#include "run/campaign/campaign_about.h"
+#include "run/campaign/campaign_store.h"
+#include "run/campaign/campaign_summary.h"
+#include "tests/report/html_page.h"
 
 namespace floorproof {
 namespace {

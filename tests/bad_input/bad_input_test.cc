@@ -17,9 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr double kMostCpu_s = 20, kMostMb = 4000;
+constexpr double kMaxCpu_s = 20, kMaxMb = 4000;
 #else
-constexpr double kMostCpu_s = 1, kMostMb = 500;
+constexpr double kMaxCpu_s = 1, kMaxMb = 500;
 #endif
 
 class BadInputFolder : public ::testing::Test {
@@ -56,8 +56,8 @@ class BadInputFolder : public ::testing::Test {
     EXPECT_EQ(dut.status, 2) << dut.out;
     EXPECT_EQ(std::ranges::count(dut.err, '\n'), 1) << dut.err;
     EXPECT_TRUE(dut.err.starts_with("floorproof: ") && dut.err.ends_with("\n")) << dut.err;
-    EXPECT_LE(dut.cpu_s, kMostCpu_s);
-    EXPECT_LE(dut.most_mb, kMostMb);
+    EXPECT_LE(dut.cpu_s, kMaxCpu_s);
+    EXPECT_LE(dut.most_mb, kMaxMb);
   }
 
   fs::path folder_;

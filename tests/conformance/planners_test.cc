@@ -12,7 +12,7 @@
 #include <tuple>
 
 #include "env/map/site.h"
-#include "planners/lib/coverage_planner.h"
+#include "planners/lines/coverage_planner.h"
 #include "tests/planners/risk_floors.h"
 
 namespace floorproof {

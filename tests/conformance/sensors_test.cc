@@ -90,7 +90,7 @@ class SensorConformance : public testing::TestWithParam<std::tuple<PluginEntry<S
     return map;
   }
   Pose2 Before() const {
-    const RobotSpec robot = ReadRobot(FindRobotFile(Robot(), {}), Changes()).robot;
+    const RobotSpec robot = ReadRobot(FindRobotFile(Robot(), {}), Changes()).spec;
     return {6.95 - EdgeAlong(robot.clear, 0) - 0.03, 3, 0};
   }
   // What it tells on its way to the wall.

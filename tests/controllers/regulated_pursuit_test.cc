@@ -5,7 +5,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "env/core/streams.h"
+#include "base/streams.h"
 #include "tests/controllers/driving.h"
 
 namespace floorproof {

@@ -34,9 +34,9 @@ TEST(Feed, GivesTheLoadItsPowerAndObeysOhm) {
 
 // The most that can be fed is V^2 / (4 R), at half the voltage; nothing feeds more.
 TEST(Feed, GivesNoMoreThanItCan) {
-  constexpr double kMost_w = 12 * 12 / (4 * 0.5);
-  EXPECT_NEAR(Feed(12, 0.5, kMost_w).voltage_v, 6, 1e-6);
-  EXPECT_EQ(Feed(12, 0.5, 1.001 * kMost_w).power_w(), 0);
+  constexpr double kMax_w = 12 * 12 / (4 * 0.5);
+  EXPECT_NEAR(Feed(12, 0.5, kMax_w).voltage_v, 6, 1e-6);
+  EXPECT_EQ(Feed(12, 0.5, 1.001 * kMax_w).power_w(), 0);
 }
 
 TEST(BatteryInUse, CutsOffUnderALoadThatItCannotFeed) {

@@ -8,7 +8,8 @@
 #include <sstream>
 #include <string>
 
-#include "env/core/streams.h"
+#include "base/streams.h"
+#include "env/geometry/distance.h"
 
 namespace floorproof {
 namespace {

@@ -13,8 +13,8 @@
 #include "env/scene/scene.h"
 #include "env/sensors/sensor.h"
 #include "env/sim/simulation.h"
-#include "env/validate/law.h"
 #include "planners/planner.h"
+#include "validate/law.h"
 
 namespace floorproof {
 
@@ -129,12 +129,12 @@ TEST(AddingASensor, ItTellsTheNearestInEachConeGlassToo) {
   const RobotModel robot = Burger();
   const Pose2 start{1, 1, 0};
   const Scene scene = BuildScene(map, robot, {}, start);
-  Simulation sim(scene, map, robot.robot);
+  Simulation sim(scene, map, robot.spec);
   sim.Reset(start);
   const auto dut = MakeSonar();
   ReadParams(ParseYaml("{cones: 4, noise_m: 0}", "keys"), "", *dut);
   Observation sensed;
-  dut->Start({scene, map, robot.robot, 0.02}, sim.data(), sim.sample(), Stream(1, 0, "sonar"),
+  dut->Start({scene, map, robot.spec, 0.02}, sim.data(), sim.sample(), Stream(1, 0, "sonar"),
              sensed);
   dut->Sense(sim.data(), sim.sample(), sensed);
   EXPECT_NEAR(sensed.scan.range_m[0], 2, 1e-3) << "ahead, the pane";

@@ -34,7 +34,7 @@ stub() {  # stub NAME: a command from stdin
 }
 
 # A tree whose "build" is a copied script.
-mkdir -p "$tree"/{apps,cmake,controllers,env,planners,render,tests} "$work/bin"
+mkdir -p "$tree"/{apps,base,cmake,controllers,env,media,planners,render,report,run,stats,validate,tests} "$work/bin"
 cp "$here/../../floorproof" "$dut"
 touch "$tree/CMakeLists.txt" "$tree/apps/main.cc" "$work/calls"
 export WORK=$work PATH="$work/bin:$PATH"

@@ -10,7 +10,7 @@
 #include <map>
 #include <set>
 
-#include "env/core/input_file.h"
+#include "base/input_file.h"
 #include "env/map/site.h"
 #include "tests/map/temp_folder.h"
 

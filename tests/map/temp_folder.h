@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "env/core/error.h"
+#include "base/error.h"
 
 namespace floorproof {
 

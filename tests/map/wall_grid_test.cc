@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "env/core/streams.h"
+#include "base/streams.h"
 
 namespace floorproof {
 namespace {

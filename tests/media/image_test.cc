@@ -7,8 +7,8 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "env/core/error.h"
-#include "env/media/media.h"
+#include "base/error.h"
+#include "media/media.h"
 #include "tests/media/png_maker.h"
 
 namespace floorproof {

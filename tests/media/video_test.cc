@@ -8,8 +8,8 @@
 #include <iterator>
 #include <opencv2/videoio.hpp>
 
-#include "env/core/error.h"
-#include "env/media/media.h"
+#include "base/error.h"
+#include "media/media.h"
 
 namespace floorproof {
 namespace {

@@ -2,9 +2,9 @@
 // The battery is felt: by the top speed, by the voltage under load, and when it is empty.
 #include <gmock/gmock.h>
 
-#include "env/run/records.h"
-#include "env/validate/rig.h"
+#include "run/episode/records.h"
 #include "tests/run/scenario_text.h"
+#include "validate/rig.h"
 
 namespace floorproof {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "env/validate/rig.h"
 #include "tests/run/scenario_text.h"
+#include "validate/rig.h"
 
 namespace floorproof {
 namespace {

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "controllers/reconfiguration.h"
-#include "env/validate/rig.h"
 #include "tests/run/scenario_text.h"
+#include "validate/rig.h"
 
 namespace floorproof {
 namespace {
@@ -23,7 +23,7 @@ double Extent(const Polygon& footprint, int axis) {
 }
 
 TEST(Folding, AllSevenTetrominoesAreShapesOfOneChain) {
-  const RobotSpec robot = Hinged().robot;
+  const RobotSpec robot = Hinged().spec;
   ASSERT_EQ(robot.shapes.size(), kShapes.size());
   for (const ShapeSpec& shape : robot.shapes) {
     SCOPED_TRACE(shape.name);
@@ -44,7 +44,7 @@ TEST(Folding, AllSevenTetrominoesAreShapesOfOneChain) {
 }
 
 TEST(Folding, FromEveryShapeToEveryOtherNoBlocksCollide) {
-  const RobotSpec robot = Hinged().robot;
+  const RobotSpec robot = Hinged().spec;
   for (const ShapeSpec& from : robot.shapes)
     for (const ShapeSpec& to : robot.shapes) {
       SCOPED_TRACE(from.name + " to " + to.name);
@@ -63,7 +63,7 @@ TEST(Folding, FromEveryShapeToEveryOtherNoBlocksCollide) {
 }
 
 TEST(Folding, BlocksThatRunIntoEachOtherCollide) {
-  const RobotSpec robot = Hinged().robot;
+  const RobotSpec robot = Hinged().spec;
   EXPECT_FALSE(BlocksCollide(robot, robot.shapes[0].hinge_rad));
   EXPECT_TRUE(BlocksCollide(robot, std::vector{kPi, kPi, kPi})) << "folded onto themselves";
 }

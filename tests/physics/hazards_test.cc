@@ -3,7 +3,7 @@
 // that it is named; and that what must pass does.
 #include <gmock/gmock.h>
 
-#include "env/core/streams.h"
+#include "base/streams.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {
@@ -129,7 +129,7 @@ TEST_P(Hazards, WhatMustPassDoes) {
 
 TEST_P(Hazards, UpToItsStepItGoesUpAndDownAgain) {
   for (const double share : {0.5, 1.0}) {
-    const double height_m = share * ReadRobot(FindRobotFile(GetParam(), {})).robot.step_m;
+    const double height_m = share * ReadRobot(FindRobotFile(GetParam(), {})).spec.step_m;
     const EpisodeRecord dut = Meet(Strip("type: step, height_m: " + std::to_string(height_m)));
     ExpectNothing(dut);
     float highest = 0;
@@ -143,7 +143,7 @@ TEST_P(Hazards, UpToItsStepItGoesUpAndDownAgain) {
 // lifts the driven wheels off 1 mm.
 TEST_P(Hazards, UpToItsStepItCrossesAnEdgeAslant) {
   Save("plan.csv", "x_m,y_m,yaw_rad,speed_mps\n1.5,2.5,0,0.15\n7.5,2.5,0,0.15\n");
-  const double step_m = ReadRobot(FindRobotFile(GetParam(), {})).robot.step_m;
+  const double step_m = ReadRobot(FindRobotFile(GetParam(), {})).spec.step_m;
   ExpectNothing(Meet("{id: it, known: false, type: step, height_m: " + std::to_string(step_m) +
                      ", polygon_m: [[3, 0.5], [8.4, 0.5], [8.4, 4.5], [7, 4.5]]}"));
 }

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "env/validate/climb.h"
+#include "validate/climb.h"
 
 namespace floorproof {
 namespace {
@@ -23,7 +23,7 @@ TEST(Htetro, RestsOnAllItsWheels) {
 }
 
 TEST(Htetro, IsAsLargeAsThePaperSays) {
-  const RobotSpec robot = ReadRobot(FindRobotFile("htetro", {})).robot;
+  const RobotSpec robot = ReadRobot(FindRobotFile("htetro", {})).spec;
   EXPECT_NEAR(robot.height_m, 0.10, 1e-9);
   EXPECT_NEAR(robot.inscribed_radius_m, 0.25, 1e-9);
   EXPECT_NEAR(robot.circumscribed_radius_m, std::sqrt(0.125), 1e-9);

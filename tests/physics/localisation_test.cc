@@ -64,7 +64,7 @@ class Listener final : public EpisodeObserver {
   Listener(const Scenario& scenario, std::uint64_t seed)
       : dut_(MakePlugin(Estimators(), "mcl", "estimator")) {
     ReadParams(ParseYaml("{global: true, particles: 20000}", "params"), "", *dut_);
-    dut_->Start({scenario.site.map, scenario.robot.robot, scenario.start, Stream(seed, 0, "dut")});
+    dut_->Start({scenario.site.map, scenario.robot.spec, scenario.start, Stream(seed, 0, "dut")});
   }
   bool OnControl(const EpisodeView& now) override {
     const Sample& truth = now.simulation.sample();

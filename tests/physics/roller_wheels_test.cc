@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "env/validate/climb.h"
+#include "validate/climb.h"
 
 namespace floorproof {
 namespace {

@@ -3,7 +3,7 @@
 // promises: tests/conformance/planners_test.cc.
 #include <gmock/gmock.h>
 
-#include "env/core/streams.h"
+#include "base/streams.h"
 #include "tests/planners/cell_site.h"
 
 namespace floorproof {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planners/risk/cell_ways.h"
+#include "planners/walk/cell_ways.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "env/core/streams.h"
+#include "base/streams.h"
 #include "tests/planners/risk_floors.h"
 
 namespace floorproof {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planners/risk/cover_walk.h"
+#include "planners/walk/cover_walk.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <tuple>
 #include <utility>
 
-#include "env/core/streams.h"
+#include "base/streams.h"
 
 namespace floorproof {
 namespace {

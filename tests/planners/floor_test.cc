@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planners/lib/floor.h"
+#include "planners/lines/floor.h"
 
 #include <gtest/gtest.h>
 
-#include "env/core/streams.h"
-#include "planners/lib/laps.h"
-#include "planners/lib/swept.h"
+#include "base/streams.h"
+#include "planners/lines/laps.h"
+#include "planners/lines/swept.h"
 #include "tests/planners/floors.h"
 
 namespace floorproof {

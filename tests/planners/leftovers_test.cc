@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planners/lib/leftovers.h"
+#include "planners/lines/leftovers.h"
 
 #include <gtest/gtest.h>
 
-#include "planners/lib/pieces.h"
-#include "planners/lib/prune.h"
+#include "planners/lines/pieces.h"
+#include "planners/lines/prune.h"
 #include "tests/planners/floors.h"
 
 namespace floorproof {

@@ -4,9 +4,9 @@
 
 #include <set>
 
-#include "env/core/streams.h"
-#include "planners/risk/transform_tour.h"
+#include "base/streams.h"
 #include "planners/risk/wave_front.h"
+#include "planners/walk/transform_tour.h"
 #include "tests/planners/cell_site.h"
 
 namespace floorproof {

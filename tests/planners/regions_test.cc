@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planners/lib/regions.h"
+#include "planners/lines/regions.h"
 
 #include <gtest/gtest.h>
 
-#include "planners/lib/rows.h"
+#include "planners/lines/rows.h"
 #include "tests/planners/floors.h"
 
 namespace floorproof {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planners/lib/rejoin.h"
+#include "planners/lines/rejoin.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "env/core/streams.h"
+#include "base/streams.h"
 #include "tests/planners/floors.h"
 
 namespace floorproof {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "planners/risk/cell_ways.h"
 #include "planners/risk/risk_meter.h"
+#include "planners/walk/cell_ways.h"
 #include "tests/planners/floors.h"
 
 namespace floorproof::testing {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "env/core/streams.h"
+#include "base/streams.h"
 #include "tests/planners/risk_floors.h"
 
 namespace floorproof {

@@ -5,7 +5,7 @@
 
 #include <numeric>
 
-#include "env/core/streams.h"
+#include "base/streams.h"
 #include "tests/planners/risk_floors.h"
 
 namespace floorproof {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planners/lib/tour.h"
+#include "planners/lines/tour.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "env/core/streams.h"
+#include "base/streams.h"
 #include "tests/planners/floors.h"
 
 namespace floorproof {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planners/risk/transform_tour.h"
+#include "planners/walk/transform_tour.h"
 
 #include <gtest/gtest.h>
 
-#include "env/core/streams.h"
+#include "base/streams.h"
 #include "planners/risk/wave_front.h"
 #include "tests/planners/risk_floors.h"
 

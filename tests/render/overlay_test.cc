@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "env/core/geometry.h"
+#include "env/geometry/geometry.h"
 #include "render/text.h"
 #include "tests/render/room.h"
 

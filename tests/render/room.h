@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "env/core/path.h"
-#include "env/media/media.h"
+#include "media/media.h"
 #include "render/gl_context.h"
 #include "render/renderer.h"
 #include "tests/render/scene.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // campaign.sqlite: what is put comes back, in whole batches, and nothing else's file is touched.
-#include "env/run/campaign_store.h"
+#include "run/campaign/campaign_store.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "env/core/error.h"
-#include "env/run/campaign_about.h"
+#include "base/error.h"
+#include "run/campaign/campaign_about.h"
 
 namespace floorproof {
 namespace {

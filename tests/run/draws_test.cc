@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `randomise` draws: the moments and bounds of each distribution, streams of their own, and
 // bad input.
-#include "env/run/draws.h"
+#include "run/scenario/draws.h"
 
 #include <gmock/gmock.h>
 
@@ -10,7 +10,7 @@
 #include <map>
 #include <tuple>
 
-#include "env/core/params.h"
+#include "base/params.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

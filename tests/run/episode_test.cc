@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "env/run/episode.h"
+#include "run/episode/episode.h"
 
 #include <gmock/gmock.h>
 
-#include "env/run/records.h"
+#include "run/episode/records.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {
@@ -36,7 +36,7 @@ TEST_F(EpisodeTest, ACleanDriveEndsAtTheLastWaypoint) {
 TEST_F(EpisodeTest, EnergyIsHotelLoadAndMotors) {
   const Scenario scenario = Read(RoomScenario(""));
   const EpisodeRecord dut = Drive(Read(RoomScenario("")));
-  const double hotel_j = scenario.robot.robot.hotel_load_w * dut.metrics.duration_s;
+  const double hotel_j = scenario.robot.spec.hotel_load_w * dut.metrics.duration_s;
   EXPECT_GT(dut.metrics.energy_j, hotel_j);
   EXPECT_LT(dut.metrics.energy_j, 1.2 * hotel_j)
       << "the motors of a slow robot on flat floor take little";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "env/run/file_output.h"
+#include "base/file_output.h"
 
 #include "tests/run/scenario_text.h"
 

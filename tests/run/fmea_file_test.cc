@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables that risk is made of as a file, the scenario's key `risk`, and what is written of it.
-#include "env/run/fmea_file.h"
+#include "run/scenario/fmea_file.h"
 
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "env/core/input_file.h"
-#include "env/run/file_output.h"
-#include "env/run/records.h"
+#include "base/file_output.h"
+#include "base/input_file.h"
 #include "planners/risk/risk_meter.h"
+#include "run/episode/records.h"
 #include "tests/planners/risk_floors.h"
 #include "tests/run/scenario_text.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `matrix`: all combinations, their names, and what is refused.
-#include "env/run/matrix.h"
+#include "run/scenario/matrix.h"
 
 #include <gmock/gmock.h>
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "env/run/assist.h"
+#include "run/episode/intervention.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {

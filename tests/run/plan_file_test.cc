@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "env/run/plan_file.h"
+#include "run/scenario/plan_file.h"
 
 #include <gmock/gmock.h>
 

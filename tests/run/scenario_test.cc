@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "env/run/scenario.h"
+#include "run/scenario/scenario.h"
 
 #include <gmock/gmock.h>
 
-#include "env/run/file_output.h"
+#include "base/file_output.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {
@@ -70,7 +70,7 @@ TEST_F(ScenarioFile, WheelsAreIdealOrHaveRollersThatAreBodies) {
     return BuildScene(s.site.map, s.robot, s.physics, s.start).model->nbody;
   };
   EXPECT_GE(bodies(dut), bodies(ideal) + 16 * 8);
-  EXPECT_EQ(dut.robot.robot.mass_kg, ideal.robot.robot.mass_kg);
+  EXPECT_EQ(dut.robot.spec.mass_kg, ideal.robot.spec.mass_kg);
   EXPECT_THAT(Refusal(RoomScenario("", "wheels: rollers\n")),
               HasSubstr("wheels = rollers: must be ideal: the wheels of beluga have no rollers"));
   EXPECT_THAT(Refusal(RoomScenario("", "wheels: round\n")),

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "env/run/episode.h"
+#include "run/episode/episode.h"
 
 namespace floorproof {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "env/run/episode_maker.h"
-#include "env/run/file_output.h"
-#include "env/run/records.h"
+#include "base/file_output.h"
+#include "run/campaign/episode_maker.h"
+#include "run/episode/records.h"
 #include "tests/controllers/allocation_guard.h"
 #include "tests/run/scenario_text.h"
 
@@ -63,7 +63,7 @@ TEST_F(SensingTest, WhatAPartNeedsIsCarried) {
 
 TEST_F(SensingTest, WhoReactsKeepsWhatItMet) {
   const Scenario dut = Read(RoomScenario("", "react: {}\n"));
-  EXPECT_TRUE(dut.react);
+  EXPECT_TRUE(dut.recovery);
   EXPECT_TRUE(dut.mapper);
 }
 
@@ -72,7 +72,7 @@ TEST_F(SensingTest, WithoutTheirKeysThereIsNone) {
   EXPECT_EQ(dut.estimator_name, "truth");
   EXPECT_TRUE(dut.sensors.empty());
   EXPECT_FALSE(dut.mapper);
-  EXPECT_FALSE(dut.react);
+  EXPECT_FALSE(dut.recovery);
   const std::string resolved = ResolvedScenario(dut, folder_);
   for (const char* key : {"\nsensors:", "\nmapper:", "\nreact:"})
     EXPECT_THAT(resolved, Not(HasSubstr(key)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Workers that answer, that die once or twice, and none that stays behind.
-#include "env/run/worker_pool.h"
+#include "run/campaign/worker_pool.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "env/core/geometry.h"
+#include "env/geometry/geometry.h"
 #include "env/scene/engine.h"
 
 namespace floorproof {

@@ -21,7 +21,7 @@ RobotModel Beluga(const RobotChanges& changes = {}) {
 
 // The figures stand in the MJCF's head; the program derives them from its geoms.
 TEST(RobotModel, DriveDataComeFromTheModel) {
-  const RobotSpec robot = Beluga().robot;
+  const RobotSpec robot = Beluga().spec;
   ASSERT_EQ(robot.wheels.size(), 2u);
   EXPECT_NEAR(robot.wheels[0].radius_m, 0.05, 1e-9);
   EXPECT_NEAR(robot.wheels[0].p_BW.y() - robot.wheels[1].p_BW.y(), 0.27, 1e-9);
@@ -37,7 +37,7 @@ TEST(RobotModel, DriveDataComeFromTheModel) {
 // The support is the rhomb of wheels and casters: its least angle is that of an edge d from the
 // centre of mass, seen from above.
 TEST(RobotModel, TheStaticTipAngleIsThatOfTheSupportRhomb) {
-  const RobotSpec robot = Beluga().robot;
+  const RobotSpec robot = Beluga().spec;
   const Vec2 wheel(0, 0.143), caster(-0.14, 0);  // outer rim of the wheel; rear caster
   const double side = (wheel - caster).norm();
   const double d = std::abs(Cross(wheel - caster, robot.p_BCom.head<2>() - caster)) / side;
@@ -48,7 +48,7 @@ TEST(RobotModel, TheStaticTipAngleIsThatOfTheSupportRhomb) {
 }
 
 TEST(RobotModel, ChangesReachMassAndClearance) {
-  const RobotSpec robot = Beluga({.mass_kg = 20.0, .clearance_m = 0.015}).robot;
+  const RobotSpec robot = Beluga({.mass_kg = 20.0, .clearance_m = 0.015}).spec;
   EXPECT_NEAR(robot.mass_kg, 20, 1e-9);
   EXPECT_NEAR(robot.clearance_m, 0.015, 1e-9);
   EXPECT_NEAR(robot.wheels[0].radius_m, 0.05, 1e-9) << "the wheels stay";
@@ -57,13 +57,13 @@ TEST(RobotModel, ChangesReachMassAndClearance) {
 TEST(RobotModel, ChangesReachWheelsAndRollers) {
   const std::filesystem::path htetro = FindRobotFile("htetro", {});
   const RobotModel dut = ReadRobot(htetro, {.wheel_radius_m = 0.035, .roller_radius_m = 0.009});
-  for (const WheelSpec& wheel : dut.robot.wheels) {
+  for (const WheelSpec& wheel : dut.spec.wheels) {
     EXPECT_NEAR(wheel.radius_m, 0.035, 1e-9);
     EXPECT_NEAR(wheel.roller_radius_m, 0.009, 1e-9);
     EXPECT_NEAR(wheel.p_BW.z(), 0.035, 1e-9) << "it stands on the same floor";
   }
-  EXPECT_NEAR(dut.robot.clearance_m, 0.025, 1e-9) << "the body stays";
-  EXPECT_NEAR(Beluga({.wheel_radius_m = 0.06}).robot.wheels[0].p_BW.z(), 0.06, 1e-9);
+  EXPECT_NEAR(dut.spec.clearance_m, 0.025, 1e-9) << "the body stays";
+  EXPECT_NEAR(Beluga({.wheel_radius_m = 0.06}).spec.wheels[0].p_BW.z(), 0.06, 1e-9);
   EXPECT_THROW(Beluga({.roller_radius_m = 0.01}), InputError);
   EXPECT_THROW(ReadRobot(htetro, {.roller_radius_m = 0.03}), InputError);
 }
@@ -78,9 +78,9 @@ TEST(RobotModel, MotorsAndWheelsNeedNoNames) {
   std::ofstream(file) << std::regex_replace(text.str(), named, "$1$2");
   const RobotChanges changes = {.wheel_radius_m = 0.035, .battery_v = 11};
   const RobotModel dut = ReadRobot(file, changes), with_names = ReadRobot(htetro, changes);
-  ASSERT_EQ(dut.robot.wheels.size(), 16u);
-  EXPECT_EQ(dut.robot.wheels[3].name, "actuator 3");
-  EXPECT_EQ(dut.robot.wheels[3].radius_m, with_names.robot.wheels[3].radius_m);
+  ASSERT_EQ(dut.spec.wheels.size(), 16u);
+  EXPECT_EQ(dut.spec.wheels[3].name, "actuator 3");
+  EXPECT_EQ(dut.spec.wheels[3].radius_m, with_names.robot.wheels[3].radius_m);
   HazardMap map;
   map.frame = {2, 2, 1, {}};
   map.cells = Grid<CellState>(2, 2);

@@ -110,7 +110,7 @@ TEST(RollerWheelsModel, TheLowestRollerStandsAtTheAngle) {
 
 TEST(RollerWheelsModel, ARobotOnPlainWheelsStaysAsItIs) {
   const Pair dut(FindRobotFile("beluga", {}));
-  EXPECT_FALSE(HasMecanumWheels(dut.ideal.robot));
+  EXPECT_FALSE(HasMecanumWheels(dut.ideal.spec));
   EXPECT_EQ(SceneXml(dut.with_ideal), SceneXml(dut.with_rollers));
 }
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "env/core/streams.h"
+#include "base/streams.h"
 
 namespace floorproof {
 namespace {

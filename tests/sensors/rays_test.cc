@@ -34,7 +34,7 @@ TEST(Rays, MeetWhatTheWholeSceneHolds) {
   ForwardEngine(near.model.get(), near_data.get());
   ForwardEngine(whole.model.get(), whole_data.get());
 
-  constexpr double kMost_m = 8;
+  constexpr double kMax_m = 8;
   constexpr std::size_t kBeams = 96;
   Rays rays(near), all(whole);
   std::vector<double> directions(3 * kBeams);
@@ -52,8 +52,8 @@ TEST(Rays, MeetWhatTheWholeSceneHolds) {
       std::copy_n(way.data(), 3, &directions[3 * i]);
     }
     const Vec3 from(X_WS.x_m, X_WS.y_m, 0.2);
-    rays.CastAll(near_data.get(), from, directions, kMost_m, hits);
-    all.CastAll(whole_data.get(), from, directions, kMost_m, expected);
+    rays.CastAll(near_data.get(), from, directions, kMax_m, hits);
+    all.CastAll(whole_data.get(), from, directions, kMax_m, expected);
     for (std::size_t i = 0; i < kBeams; ++i) {
       met += expected[i].hits();
       if (expected[i].hits()) {
@@ -61,7 +61,7 @@ TEST(Rays, MeetWhatTheWholeSceneHolds) {
       } else {
         EXPECT_FALSE(hits[i].hits()) << "pose " << k << " beam " << i;
       }
-      const RayHit one = rays.Cast(near_data.get(), from, Vec3(&directions[3 * i]), kMost_m);
+      const RayHit one = rays.Cast(near_data.get(), from, Vec3(&directions[3 * i]), kMax_m);
       EXPECT_EQ(one.range_m, hits[i].range_m);
     }
   }

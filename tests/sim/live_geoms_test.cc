@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/error.h"
+#include "base/registry.h"
+#include "base/streams.h"
 #include "controllers/drive.h"
-#include "env/core/error.h"
-#include "env/core/registry.h"
-#include "env/core/streams.h"
 #include "env/sim/simulation.h"
 #include "tests/controllers/allocation_guard.h"
 
@@ -64,11 +64,11 @@ struct Twins {
         robot(std::move(with)),
         scene(BuildScene(map, robot, {}, start)),
         whole(BuildScene(map, robot, {}, start, WallSet::kAll)),
-        sim(scene, map, robot.robot),
+        sim(scene, map, robot.spec),
         data(MakeData(whole.model.get())),
-        wheels(robot.robot.wheels.size()),
-        drive(MakePlugin(Drives(), robot.robot.drive, "drive")) {
-    drive->Configure(robot.robot);
+        wheels(robot.spec.wheels.size()),
+        drive(MakePlugin(Drives(), robot.spec.drive, "drive")) {
+    drive->Configure(robot.spec);
     sim.Reset(start);
     CopyState();
   }
@@ -149,7 +149,7 @@ TEST_P(LiveGeomsOf, CrossTheSamePlatesAsTheWholeScene) {
 // A boom of 1.2 m swings about a robot that stands: its joint alone brings it to other walls.
 TEST(LiveGeoms, AnArmMeetsTheWallsThatItSwingsTo) {
   RobotModel robot = ReadRobot(FindRobotFile("beluga", {}));
-  mjsBody* boom = mjs_addBody(mjs_findBody(robot.spec.get(), "base"), nullptr);
+  mjsBody* boom = mjs_addBody(mjs_findBody(robot.mjcf.get(), "base"), nullptr);
   mjs_setName(boom->element, "boom");
   mjsJoint* hinge = mjs_addJoint(boom, nullptr);
   mjs_setName(hinge->element, "boom");
@@ -200,7 +200,7 @@ TEST_P(LiveGeomsOf, LeaveTheSharedSceneAsItWas) {
   const mjModel* m = dut.scene.model.get();
   const auto* bytes = static_cast<const char*>(m->buffer);
   const std::vector<char> before(bytes, bytes + m->nbuffer);
-  Simulation other(dut.scene, dut.map, dut.robot.robot);
+  Simulation other(dut.scene, dut.map, dut.robot.spec);
   other.Reset({-4.5, 3, 0});
   dut.Command({0.3, 0, 0.2});
   for (int i = 0; i < 500; ++i) ASSERT_TRUE(dut.sim.Step() && other.Step());
@@ -225,7 +225,7 @@ TEST_P(LiveGeomsOf, AllocateNothing) {
 TEST(LiveGeoms, APoolThatIsTooSmallIsAnErrorNotAMiss) {
   Twins dut("beluga", Pillars(), kMiddle);
   dut.scene.pool.num = 1;
-  Simulation small(dut.scene, dut.map, dut.robot.robot);
+  Simulation small(dut.scene, dut.map, dut.robot.spec);
   EXPECT_THROW(small.Reset({-4.5, 3, 0}), InternalError);
 }
 

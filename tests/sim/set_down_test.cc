@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "base/registry.h"
 #include "controllers/drive.h"
-#include "env/core/registry.h"
 #include "env/sim/simulation.h"
 
 namespace floorproof {
@@ -34,13 +34,13 @@ class SetDown : public ::testing::TestWithParam<const char*> {
     explicit Rig(const char* name)
         : robot(ReadRobot(FindRobotFile(name, {}))),
           map(Pillars()),
-          drive(MakePlugin(Drives(), robot.robot.drive, "drive")),
-          wheels(robot.robot.wheels.size()) {
-      robot.robot.battery.capacity_wh = 10;
-      robot.robot.battery.resistance_ohm = 0.1;
+          drive(MakePlugin(Drives(), robot.spec.drive, "drive")),
+          wheels(robot.spec.wheels.size()) {
+      robot.spec.battery.capacity_wh = 10;
+      robot.spec.battery.resistance_ohm = 0.1;
       scene = BuildScene(map, robot, {}, kHere);
-      sim.emplace(scene, map, robot.robot);
-      drive->Configure(robot.robot);
+      sim.emplace(scene, map, robot.spec);
+      drive->Configure(robot.spec);
       sim->Reset(kHere);
     }
     void Drive(const BodyTwist& twist, double seconds) {
@@ -52,7 +52,7 @@ class SetDown : public ::testing::TestWithParam<const char*> {
     std::vector<double> Turned() {
       const mjModel* m = scene.model.get();
       std::vector<double> turned_rad;
-      for (const WheelSpec& wheel : robot.robot.wheels) {
+      for (const WheelSpec& wheel : robot.spec.wheels) {
         const int joint = mj_name2id(m, mjOBJ_JOINT, wheel.name.c_str());
         turned_rad.push_back(sim->data()->qpos[m->jnt_qposadr[joint]]);
       }

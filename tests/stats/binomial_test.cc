@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "env/stats/binomial.h"
+#include "stats/binomial.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "env/core/error.h"
+#include "base/error.h"
 #include "tests/stats/distributions.h"
 
 namespace floorproof {

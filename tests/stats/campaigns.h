@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "env/core/streams.h"
+#include "base/streams.h"
 
 namespace floorproof {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "env/core/streams.h"
+#include "base/streams.h"
 
 namespace floorproof {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "env/stats/gate.h"
+#include "stats/gate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,10 +8,10 @@
 #include <limits>
 #include <vector>
 
-#include "env/core/error.h"
-#include "env/core/streams.h"
-#include "env/stats/binomial.h"
-#include "env/stats/sequential_gate.h"
+#include "base/error.h"
+#include "base/streams.h"
+#include "stats/binomial.h"
+#include "stats/sequential_gate.h"
 #include "tests/stats/distributions.h"
 
 namespace floorproof {

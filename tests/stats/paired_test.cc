@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "env/stats/paired.h"
+#include "stats/paired.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "env/core/error.h"
+#include "base/error.h"
 #include "tests/stats/distributions.h"
 
 namespace floorproof {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "env/stats/poisson.h"
+#include "stats/poisson.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "env/core/error.h"
-#include "env/stats/binomial.h"
+#include "base/error.h"
+#include "stats/binomial.h"
 #include "tests/stats/distributions.h"
 
 namespace floorproof {

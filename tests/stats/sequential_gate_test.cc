@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "env/stats/sequential_gate.h"
+#include "stats/sequential_gate.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "env/core/error.h"
-#include "env/stats/binomial.h"
+#include "base/error.h"
+#include "stats/binomial.h"
 #include "tests/stats/campaigns.h"
 #include "tests/stats/distributions.h"
 

@@ -3,14 +3,14 @@
 // from wherever one begins; and the calibrated trials themselves are met.
 #include <gtest/gtest.h>
 
-#include "env/validate/audit_tour.h"
+#include "validate/audit_tour.h"
 
 namespace floorproof {
 namespace {
 
 // A tour's time moves in steps of N control periods with the dwell: 0.02 s a stop.
 TEST(AuditCalibration, GivesWhatTheModelStates) {
-  const RobotSpec robot = ReadRobot(FindRobotFile("beluga", {})).robot;
+  const RobotSpec robot = ReadRobot(FindRobotFile("beluga", {})).spec;
   const AuditCalibration dut = CalibrateAudit({0.11, 12});
   EXPECT_NEAR(dut.pace.speed_mps, robot.audit_speed_mps, 2e-4);
   EXPECT_NEAR(dut.pace.dwell_s, robot.audit_dwell_s, 0.04);
@@ -18,7 +18,7 @@ TEST(AuditCalibration, GivesWhatTheModelStates) {
 }
 
 TEST(AuditCalibration, FitsItsOwnTrials) {
-  const RobotSpec robot = ReadRobot(FindRobotFile("beluga", {})).robot;
+  const RobotSpec robot = ReadRobot(FindRobotFile("beluga", {})).spec;
   for (const AuditTrial& trial : AuditTrials()) {
     if (trial.environment != 1) continue;
     const AuditRun run = DriveAudit(trial, {robot.audit_speed_mps, robot.audit_dwell_s});

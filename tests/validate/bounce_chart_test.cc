@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A livelier pane throws a robot back faster, so does a faster approach, never faster than it came;
 // a dead one hardly ever.
-#include "env/validate/bounce_chart.h"
+#include "validate/bounce_chart.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // the motors is the true model's. So a power computed wrongly is no longer heat on the other side.
 #include <gmock/gmock.h>
 
-#include "env/validate/law.h"
+#include "validate/law.h"
 
 namespace floorproof {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ladder's parts, each by itself, and a few crossings of real robots.
-#include "env/validate/ladder.h"
+#include "validate/ladder.h"
 
 #include <gmock/gmock.h>
 
 #include <set>
 
-#include "env/validate/ladder_findings.h"
+#include "validate/ladder_findings.h"
 
 namespace floorproof {
 namespace {
@@ -143,7 +143,7 @@ CrossingResult Meet(const char* robot_name, const char* hazard, Direction direct
   const LadderCell cell{robot_name, "ideal", FindLadderHazard(hazard).name, direction, 0.2,
                         0.8,        {}};
   const RobotModel robot = ReadRobot(FindRobotFile(robot_name, {}));
-  CrossingPlan plan = PlanOf(cell, robot.robot, size);
+  CrossingPlan plan = PlanOf(cell, robot.spec, size);
   plan.early = early;
   return Cross(robot, FindLadderHazard(hazard).make(size, plan.travel_rad), plan);
 }

@@ -7,7 +7,7 @@
 #include <iostream>
 #include <map>
 
-#include "env/validate/law.h"
+#include "validate/law.h"
 
 namespace floorproof {
 namespace {

@@ -2,8 +2,8 @@
 // A reduced ladder: what limits must do when speed, friction, clearance and wheels change.
 #include <gmock/gmock.h>
 
-#include "env/validate/ladder.h"
-#include "env/validate/ladder_findings.h"
+#include "validate/ladder.h"
+#include "validate/ladder_findings.h"
 
 namespace floorproof {
 namespace {
@@ -19,7 +19,7 @@ double LimitOf(const LadderCell& cell) { return FindRow(cell).value().limit; }
 
 bool Crosses(const LadderCell& cell, double size, bool early) {
   const RobotModel robot = ReadRobot(FindRobotFile(cell.robot, {}), cell.changes);
-  CrossingPlan plan = PlanOf(cell, robot.robot, size);
+  CrossingPlan plan = PlanOf(cell, robot.spec, size);
   plan.early = early;
   return Cross(robot, FindLadderHazard(cell.hazard).make(size, plan.travel_rad), plan).crossed;
 }

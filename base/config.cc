@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: Apache-2.0
+// Built on yaml-cpp's event parser rather than its node tree, so that line numbers, duplicate keys
+// and the cost of aliases are ours to judge.
+#include "base/config.h"
+
+#include <yaml-cpp/emitter.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
+#include <charconv>
+#include <map>
+#include <sstream>
+
+#include "base/input_file.h"
+#include "base/params.h"
+
+namespace floorproof {
+namespace {
+
+constexpr std::size_t kMaxNodes = 400'000;
+constexpr std::size_t kMaxNesting = 100;
+constexpr std::uintmax_t kMaxBytes = 8u << 20;
+
+std::size_t CountNodes(const ConfigNode& node) {
+  std::size_t n = 1;
+  for (const auto& item : node.items) n += CountNodes(item);
+  for (const auto& entry : node.entries) n += CountNodes(entry.second);
+  return n;
+}
+
+// The list's entry of this `id`, or of this index.
+ConfigNode& EntryOf(ConfigNode& list, const std::string& key, const SourceMark& mark) {
+  for (ConfigNode& item : list.items)
+    if (const ConfigNode* id = item.Find("id"); id != nullptr && id->scalar == key) return item;
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
+  if (error == std::errc() && end == key.data() + key.size() && index < list.items.size())
+    return list.items[index];
+  throw InputError(mark, key, "",
+                   "is neither the id nor the index of an entry of this list of " +
+                       std::to_string(list.items.size()));
+}
+
+class TreeBuilder : public YAML::EventHandler {
+ public:
+  explicit TreeBuilder(std::string file) : file_(std::move(file)) {}
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    ConfigNode node;
+    node.mark = At(mark);
+    Remember(anchor, node);
+    Put(std::move(node));
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const auto it = anchors_.find(anchor);
+    if (it == anchors_.end())
+      throw InputError(At(mark), "", "", "an alias inside its own anchor is not allowed");
+    nodes_ += CountNodes(it->second);
+    CheckCount(At(mark));
+    Put(it->second);
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    ConfigNode node = ConfigNode::Scalar(value, tag == "!");
+    node.mark = At(mark);
+    if (tag != "!" && tag != "?" && !tag.empty())
+      throw InputError(node.mark, "", tag, "YAML tags are not allowed");
+    if (!node.quoted && (value == "~" || value == "null" || value.empty()))
+      node.kind = ConfigNode::Kind::kNull;
+    Remember(anchor, node);
+    Put(std::move(node));
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    Open(ConfigNode::List(), mark, anchor);
+  }
+  void OnSequenceEnd() override { Close(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    Open(ConfigNode::Map(), mark, anchor);
+  }
+  void OnMapEnd() override { Close(); }
+
+  ConfigNode Take() { return std::move(root_); }
+
+ private:
+  struct Level {
+    ConfigNode node;
+    YAML::anchor_t anchor = 0;
+    bool has_key = false;
+    std::string key;
+    SourceMark key_mark;
+  };
+
+  SourceMark At(const YAML::Mark& mark) const { return {file_, mark.line + 1}; }
+  void CheckCount(const SourceMark& mark) const {
+    if (nodes_ > kMaxNodes)
+      throw InputError(mark, "", "",
+                       "more than " + std::to_string(kMaxNodes) + " values (aliases expanded)");
+  }
+  void Remember(YAML::anchor_t anchor, const ConfigNode& node) {
+    if (anchor) anchors_[anchor] = node;
+  }
+  void Open(ConfigNode node, const YAML::Mark& mark, YAML::anchor_t anchor) {
+    node.mark = At(mark);
+    if (stack_.size() >= kMaxNesting)
+      throw InputError(node.mark, "", "", "nested more than 100 levels deep");
+    stack_.push_back({std::move(node), anchor, false, {}, {}});
+  }
+  void Close() {
+    Level level = std::move(stack_.back());
+    stack_.pop_back();
+    Remember(level.anchor, level.node);
+    Put(std::move(level.node));
+  }
+  void Put(ConfigNode node) {
+    ++nodes_;
+    CheckCount(node.mark);
+    if (stack_.empty()) {
+      root_ = std::move(node);
+      return;
+    }
+    Level& top = stack_.back();
+    if (top.node.IsList()) {
+      top.node.items.push_back(std::move(node));
+    } else if (!top.has_key) {
+      if (!node.IsScalar()) throw InputError(node.mark, "", "", "a key must be plain text");
+      if (const auto* earlier = top.node.Find(node.scalar))
+        throw InputError(
+            node.mark, node.scalar, "",
+            "the key stands twice (first in line " + std::to_string(earlier->mark.line) + ")");
+      top.has_key = true;
+      top.key = node.scalar;
+      top.key_mark = node.mark;
+    } else {
+      if (node.IsNull()) node.mark = top.key_mark;  // an empty value has no place of its own
+      top.node.entries.emplace_back(std::move(top.key), std::move(node));
+      top.has_key = false;
+    }
+  }
+
+  std::string file_;
+  ConfigNode root_;
+  std::vector<Level> stack_;
+  std::map<YAML::anchor_t, ConfigNode> anchors_;
+  std::size_t nodes_ = 0;
+};
+
+bool IsUtf8Text(const std::string& text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    if (c < 0x20 && c != '\n' && c != '\r' && c != '\t') return false;
+    const std::size_t extra = c < 0x80 ? 0 : c >= 0xf0 && c < 0xf8 ? 3 : c >= 0xe0 ? 2 : 1;
+    if (c >= 0xf8 || (c >= 0x80 && c < 0xc2)) return false;
+    if (i + extra >= text.size() && extra > 0) return false;
+    for (std::size_t k = 1; k <= extra; ++k)
+      if ((static_cast<unsigned char>(text[i + k]) & 0xc0) != 0x80) return false;
+    i += extra + 1;
+  }
+  return true;
+}
+
+bool IsShortList(const ConfigNode& node) {
+  for (const auto& item : node.items)
+    if (!item.IsScalar() && !(item.IsList() && item.items.size() <= 3 && IsShortList(item)))
+      return false;
+  return true;
+}
+
+// Text that reads the same as a block (`|`): lines that begin with no space, the last one ended.
+bool IsBlockOfLines(const std::string& text) {
+  if (text.size() < 2 || text.back() != '\n' || text[text.size() - 2] == '\n') return false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    if ((c < 0x20 && c != '\n') || c == 0x7f) return false;
+    if (c == ' ' && (i == 0 || text[i - 1] == '\n')) return false;
+  }
+  return text.front() != '\n';
+}
+
+void Emit(const ConfigNode& node, YAML::Emitter& out) {
+  switch (node.kind) {
+    case ConfigNode::Kind::kNull:
+      out << YAML::Null;
+      break;
+    case ConfigNode::Kind::kScalar:
+      if (IsBlockOfLines(node.scalar))
+        out << YAML::Literal << node.scalar;
+      else if (node.quoted || node.scalar.find('\n') != std::string::npos)
+        out << YAML::DoubleQuoted << node.scalar;
+      else
+        out << node.scalar;
+      break;
+    case ConfigNode::Kind::kList:
+      if (IsShortList(node)) out << YAML::Flow;
+      out << YAML::BeginSeq;
+      for (const auto& item : node.items) Emit(item, out);
+      out << YAML::EndSeq;
+      break;
+    case ConfigNode::Kind::kMap:
+      out << YAML::BeginMap;
+      for (const auto& [key, value] : node.entries) {
+        out << YAML::Key << key << YAML::Value;
+        Emit(value, out);
+      }
+      out << YAML::EndMap;
+      break;
+  }
+}
+
+}  // namespace
+
+ConfigNode ConfigNode::Scalar(std::string text, bool quoted) {
+  ConfigNode node;
+  node.kind = Kind::kScalar;
+  node.scalar = std::move(text);
+  node.quoted = quoted;
+  return node;
+}
+
+ConfigNode ConfigNode::List(std::vector<ConfigNode> items) {
+  ConfigNode node;
+  node.kind = Kind::kList;
+  node.items = std::move(items);
+  return node;
+}
+
+ConfigNode ConfigNode::Map() {
+  ConfigNode node;
+  node.kind = Kind::kMap;
+  return node;
+}
+
+const ConfigNode* ConfigNode::Find(std::string_view key) const {
+  for (const auto& entry : entries)
+    if (entry.first == key) return &entry.second;
+  return nullptr;
+}
+
+ConfigNode* ConfigNode::Find(std::string_view key) {
+  for (auto& entry : entries)
+    if (entry.first == key) return &entry.second;
+  return nullptr;
+}
+
+ConfigNode& ConfigNode::Add(std::string key, ConfigNode value) {
+  if (ConfigNode* there = Find(key)) {
+    *there = std::move(value);
+    return *there;
+  }
+  return entries.emplace_back(std::move(key), std::move(value)).second;
+}
+
+void ConfigNode::Remove(std::string_view key) {
+  std::erase_if(entries, [key](const auto& entry) { return entry.first == key; });
+}
+
+void ConfigNode::SetPath(std::string_view key_path, ConfigNode value) {
+  const auto dot = key_path.find('.');
+  const std::string key(key_path.substr(0, dot));
+  if (key.empty()) throw InputError(value.mark, std::string(key_path), "", "an empty key");
+  if (IsList()) {
+    ConfigNode& entry = EntryOf(*this, key, value.mark);
+    if (dot == std::string_view::npos)
+      entry = std::move(value);
+    else
+      entry.SetPath(key_path.substr(dot + 1), std::move(value));
+    return;
+  }
+  if (IsScalar())
+    throw InputError(value.mark, std::string(key_path), "", "stands below a value that is no map");
+  kind = Kind::kMap;
+  if (mark.file.empty()) mark = value.mark;  // made for it
+  if (dot == std::string_view::npos) {
+    Add(key, std::move(value));
+    return;
+  }
+  ConfigNode* child = Find(key);
+  if (child == nullptr) child = &Add(key, Map());
+  child->SetPath(key_path.substr(dot + 1), std::move(value));
+}
+
+ConfigNode ParseYaml(const std::string& text, const std::string& file) {
+  try {
+    // yaml-cpp takes a quote that is never closed at the end of a file; at a document's it does
+    // not.
+    const bool ended = text.empty() || text.back() == '\n';
+    std::istringstream stream(text + (ended ? "...\n" : "\n...\n"));
+    YAML::Parser parser(stream);
+    TreeBuilder builder(file);
+    if (!parser.HandleNextDocument(builder)) return {};
+    ConfigNode root = builder.Take();
+    TreeBuilder second(file);
+    if (parser.HandleNextDocument(second))
+      throw InputError({file, 0}, "", "", "holds more than one YAML document");
+    return root;
+  } catch (const YAML::Exception& e) {
+    throw InputError({file, e.mark.line + 1}, "", "", "bad YAML: " + e.msg);
+  }
+}
+
+ConfigNode ReadYamlFile(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  const std::string text = ReadInputFile(path, kMaxBytes);
+  if (!IsUtf8Text(text)) throw InputError({name, 0}, "", "", "not a text file (UTF-8)");
+  return ParseYaml(text, name);
+}
+
+std::string WriteYaml(const ConfigNode& node) {
+  YAML::Emitter out;
+  out.SetIndent(2);
+  Emit(node, out);
+  return std::string(out.c_str()) + "\n";
+}
+
+}  // namespace floorproof

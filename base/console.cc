@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/console.h"
+
+#include <cstdio>
+
+namespace floorproof {
+
+void Console::Say(const std::string& line) const {
+  if (quiet) return;
+  std::FILE* out = json ? stderr : stdout;
+  std::fprintf(out, "%s\n", line.c_str());
+  std::fflush(out);
+}
+
+}  // namespace floorproof

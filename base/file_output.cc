@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/file_output.h"
+
+#include <sys/types.h>
+// libmd's header wants the types above first.
+#include <sha256.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "base/error.h"
+#include "base/interrupt.h"
+
+namespace floorproof {
+
+void MakeFolder(const std::filesystem::path& folder) {
+  std::error_code error, ignored;
+  std::filesystem::create_directories(folder, error);
+  if (std::filesystem::is_directory(folder, ignored)) return;
+  const bool in_the_way = std::filesystem::exists(folder, ignored);
+  throw InputError(
+      {folder.string(), 0}, "", "",
+      "cannot make this folder: " + (in_the_way ? "a file is in the way" : error.message()));
+}
+
+namespace {
+
+// Returns why it failed; empty when it did not.
+std::string WriteTo(const std::filesystem::path& path, std::string_view text) {
+  errno = 0;
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  if (file == nullptr) return std::strerror(errno);
+  bool ok = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  int why = errno;
+  if (std::fclose(file) != 0) {  // what was buffered meets the disk here
+    if (ok) why = errno;
+    ok = false;
+  }
+  return ok ? "" : std::strerror(why);
+}
+
+}  // namespace
+
+void WriteFileWhole(const std::filesystem::path& path, std::string_view text) {
+  const auto refuse = [&](const std::string& why) {
+    throw InputError({path.string(), 0}, "", "", "cannot be written: " + why);
+  };
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status)) refuse("it is a folder");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    // A pipe or a device (/dev/stdout) is written to; a file must not take its place.
+    if (const std::string why = WriteTo(path, text); !why.empty()) refuse(why);
+    return;
+  }
+  const HoldInterrupts until_renamed;
+  const std::filesystem::path part = path.string() + ".part";
+  if (const std::string why = WriteTo(part, text); !why.empty()) {
+    std::filesystem::remove(part, error);
+    refuse(why);
+  }
+  std::filesystem::rename(part, path, error);
+  if (error) {
+    const std::string why = error.message();
+    std::filesystem::remove(part, error);
+    refuse(why);
+  }
+}
+
+std::string Sha256(std::string_view text) {
+  char hex[SHA256_DIGEST_STRING_LENGTH];
+  SHA256Data(reinterpret_cast<const std::uint8_t*>(text.data()), text.size(), hex);
+  return hex;
+}
+
+std::string Sha256OfFile(const std::filesystem::path& path) {
+  char hex[SHA256_DIGEST_STRING_LENGTH];
+  if (SHA256File(path.c_str(), hex) == nullptr)
+    throw InputError({path.string(), 0}, "", "", "cannot be read");
+  return hex;
+}
+
+}  // namespace floorproof

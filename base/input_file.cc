@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/input_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "base/config.h"
+#include "base/error.h"
+#include "base/params.h"
+
+namespace floorproof {
+
+namespace fs = std::filesystem;
+
+std::string WhyUnreadable(const fs::path& file, std::uintmax_t most_bytes) {
+  if (file.native().find('\0') != std::string::npos) return "no such file";
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (status.type() == fs::file_type::not_found) return "no such file";
+  if (error) return "cannot be read: " + error.message();
+  if (fs::is_directory(status)) return "is a folder, not a file";
+  if (!fs::is_regular_file(status)) return "is a pipe or a device, not a file";
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error) return "cannot be read: " + error.message();
+  if (size > most_bytes) return "larger than " + std::to_string(most_bytes >> 20) + " MiB";
+  errno = 0;
+  if (!std::ifstream(file, std::ios::binary))
+    return std::string("cannot be read: ") + std::strerror(errno);
+  return "";
+}
+
+std::string ReadInputFile(const fs::path& file, std::uintmax_t most_bytes) {
+  if (const std::string why = WhyUnreadable(file, most_bytes); !why.empty())
+    throw InputError({file.string(), 0}, "", "", why);
+  std::ifstream in(file, std::ios::binary);
+  std::string bytes;
+  // Not to the end of the file as it was measured: one that grows must not grow without bound.
+  char buffer[1 << 16];
+  while (in.read(buffer, sizeof buffer), in.gcount() > 0) {
+    bytes.append(buffer, static_cast<std::size_t>(in.gcount()));
+    if (bytes.size() > most_bytes) break;
+  }
+  if (in.bad() || bytes.size() > most_bytes)
+    throw InputError({file.string(), 0}, "", "", "cannot be read to its end");
+  return bytes;
+}
+
+fs::path PathIn(const fs::path& folder, const ConfigNode& node, const std::string& key) {
+  const std::string text = AsString(node, key);
+  const fs::path path(text);
+  if (text.empty()) throw InputError(node.mark, key, "\"\"", "must name a file");
+  if (path.is_absolute()) return path;
+  const bool leaves = *path.lexically_normal().begin() == "..";
+  if (leaves && !text.starts_with("../"))
+    throw InputError(node.mark, key, text,
+                     "leaves its folder; begin it with ../ or write it absolute");
+  return folder / path;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/interrupt.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdio>
+#include <cstring>
+#include <deque>
+
+namespace floorproof {
+namespace {
+
+// How many holds there are, or kEnding. One atomic number decides between a handler that ends the
+// process (it may run on a codec's or driver's thread) and a thread that begins a hold.
+constexpr int kEnding = -1;
+std::atomic<int> g_holds{0};
+std::atomic<bool> g_seen{false};
+std::atomic<const char*> g_line{"floorproof: interrupted: nothing was written\n"};
+static_assert(std::atomic<int>::is_always_lock_free &&
+              std::atomic<const char*>::is_always_lock_free);
+
+// Only what a signal handler may call.
+[[noreturn]] void End() {
+  const char* line = g_line.load();
+  // A full pipe or a closed terminal must not keep the process.
+  static_cast<void>(!write(STDERR_FILENO, line, std::strlen(line)));
+  _exit(kInterruptedExit);
+}
+
+void EndUnlessHeld() {
+  int none = 0;
+  if (g_holds.compare_exchange_strong(none, kEnding)) End();
+}
+
+void OnSignal(int) {
+  EndUnlessHeld();
+  if (g_holds == kEnding) return;  // another thread is ending the process
+  if (g_seen.exchange(true)) End();
+  EndUnlessHeld();  // the last hold may have ended on another thread in between
+}
+
+}  // namespace
+
+void CatchInterrupts() {
+  for (const int number : {SIGINT, SIGTERM}) {
+    struct sigaction action {};
+    if (sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) continue;
+    action = {};
+    action.sa_handler = OnSignal;
+    action.sa_flags = SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    sigaction(number, &action, nullptr);
+  }
+}
+
+void SayWhenInterrupted(const std::string& what_is_there) {
+  // Lines live for ever: a handler may be reading the one before.
+  static auto& lines = *new std::deque<std::string>;
+  lines.push_back("floorproof: interrupted: " + what_is_there + "\n");
+  g_line = lines.back().c_str();
+}
+
+bool Interrupted() { return g_seen; }
+
+void EndInterrupted() {
+  std::fflush(stdout);
+  End();
+}
+
+HoldInterrupts::HoldInterrupts() {
+  int holds = g_holds;
+  do {
+    while (holds == kEnding) {  // the process is ending: begin nothing
+      pause();
+      holds = g_holds;
+    }
+  } while (!g_holds.compare_exchange_weak(holds, holds + 1));
+}
+
+HoldInterrupts::~HoldInterrupts() {
+  if (--g_holds == 0 && g_seen) EndInterrupted();
+}
+
+}  // namespace floorproof

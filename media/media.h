@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Image and video files. The codecs (OpenCV's, with some 200 shared libraries behind them) live in
+// a module of their own that is loaded at first use, so that the program itself starts in
+// milliseconds.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace floorproof {
+
+// Rows from the top, channels interleaved (1: grey, 2: grey + alpha, 3: RGB, 4: RGBA), 8 bits each.
+struct Image {
+  int width = 0, height = 0, channels = 0;
+  std::vector<std::uint8_t> data;
+  bool sixteen_bit = false;  // the file had 16 bits a channel, scaled down
+};
+
+inline constexpr std::uintmax_t kMaxImageBytes = 256u << 20;
+
+// Decodes PNG (every colour type), PGM/PPM (P2, P3, P5, P6) or BMP as stored, palettes expanded.
+// Throws InputError naming the file: missing, not an image, truncated, a file larger than
+// kMaxImageBytes, or an image larger than max_pixels (checked from the header before anything is
+// allocated).
+Image ReadImage(const std::filesystem::path& path, std::int64_t max_pixels = 64'000'000);
+// Writes PNG; throws InputError when the file cannot be written.
+void WritePng(const std::filesystem::path& path, const Image& image);
+
+// H.264 in MP4 (High profile, yuv420p) that browsers play.
+class VideoWriter {
+ public:
+  virtual ~VideoWriter() = default;
+  virtual void Add(const Image& rgb) = 0;  // width x height x 3
+  virtual void Close() = 0;                // throws InputError when the file is not whole
+};
+// Even width and height. Throws InputError when the file or the encoder cannot be opened.
+std::unique_ptr<VideoWriter> OpenVideo(const std::filesystem::path& path, int width, int height,
+                                       double fps);
+
+}  // namespace floorproof

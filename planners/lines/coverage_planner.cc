@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planners/lines/coverage_planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "planners/lines/laps.h"
+#include "planners/lines/leftovers.h"
+#include "planners/lines/pieces.h"
+#include "planners/lines/prune.h"
+#include "planners/lines/tour.h"
+
+namespace floorproof {
+namespace {
+
+// How far to go for the last of the ground. Worth: a detour stays when it sweeps more than this
+// share of width * length. Chosen on eight real maps: the coverage that the issue of this planner
+// asks for, with about one per cent to spare for a robot that tracks less than perfectly.
+struct Effort {
+  double goal;  // coverage below which nothing is given up
+  double worth;
+  double least_goal;  // the same where the floor is dear
+  double dear_worth;
+  double least_gain;  // a visit to leftover ground sweeps at least this, in width^2
+  double open_share;  // of the tool's width, along walls
+};
+constexpr Effort kRowsOnly = {0.96, 0.4, 0.948, 0.7, 0.5, 0.4};
+constexpr Effort kWithEdges = {0.988, 0.25, 0.981, 0.6, 0.3, 0.2};
+constexpr double kSmall = 0.02;  // of the ground: worth a visit however small
+constexpr int kRounds = 2, kMaxRounds = 4;
+constexpr double kDear = 1.25;         // length above this many times ground / width
+constexpr double kLapShare = 0.4;      // of the tool's width open: a lap along a wall pays
+constexpr double kFirstWorth = 0.15;   // before a path is taken apart: only what is plainly lost
+constexpr double kWorkingShare = 0.1;  // a segment that sweeps less of its own is a transit
+constexpr double kCutReach = 6;        // tool widths: from so far aside a line is left for a visit
+constexpr double kMaxGoal = 0.995;
+// What trackers err by on such plans, and a little more: round robots that turn first, and robots
+// that move every way.
+constexpr double kMargin_m = 0.03, kFootprintMargin_m = 0.015;
+constexpr double kMaxLost = 0.04;       // of the ground, to a margin
+constexpr double kDriveLoss = 0.012;    // of the ground, measured: corners driven less than exactly
+constexpr double kWallTolerance = 0.7;  // cells: a traced contour's staircase
+
+Shape2 Grown(const Shape2& shape, double margin_m) {
+  Shape2 grown = shape;
+  if (shape.kind == Shape2::Kind::kCircle) {
+    grown.radius_m += margin_m;
+    return grown;
+  }
+  grown.footprint_B = Offset(shape.footprint_B, margin_m);
+  return grown;
+}
+
+Shape2 Turned(Shape2 shape, double yaw_rad) {
+  for (Vec2& corner : shape.footprint_B) corner = Pose2{0, 0, yaw_rad}.Rotate(corner);
+  return shape;
+}
+
+std::string WhyNothing(const PlanRequest& request, const SweepArea& area, const Shape2& clear,
+                       bool fits) {
+  const Vec2 p = request.start.p();
+  const Cell cell = request.map.frame.ToCell(p), fine = area.frame.ToCell(p);
+  std::ostringstream out;
+  out << "start (" << FormatDouble(p.x()) << ", " << FormatDouble(p.y()) << ") m, cell (" << cell.ix
+      << ", " << cell.iy << "): ";
+  if (fits) {
+    out << "the tool sweeps no floor from there";
+  } else if (!request.map.frame.Inside(cell)) {
+    out << "lies off the map";
+  } else {
+    out << "the robot does not fit: an obstacle is "
+        << std::lround(1000 * static_cast<double>(area.clearance_m(fine))) << " mm away";
+    if (clear.kind == Shape2::Kind::kCircle)
+      out << " and " << std::lround(1000 * clear.radius_m) << " mm are kept clear";
+  }
+  return out.str();
+}
+
+bool LooksTheSameTurned(const Polygon& footprint_B) {
+  constexpr double kSame_m = 1e-3;
+  const Pose2 turn{0, 0, kPi / 2};
+  return std::all_of(footprint_B.begin(), footprint_B.end(), [&](const Vec2& p) {
+    return std::abs(SignedDistance(footprint_B, turn * p)) < kSame_m;
+  });
+}
+
+Polyline Drive(Ways& ways, const Vec2& start, const std::vector<Polyline>& lines, bool thorough) {
+  std::vector<Polyline> ordered = {{start}};
+  for (const Stop& stop : OrderLines(ways, start, lines, thorough)) {
+    ordered.push_back(lines[stop.line]);
+    if (stop.reversed) std::reverse(ordered.back().begin(), ordered.back().end());
+  }
+  return MergeStraight(JoinByRoutes(ways, ordered));
+}
+
+}  // namespace
+
+void CoveragePlanner::Visit(ParamVisitor& visit) {
+  visit("tool_width_m", tool_width_m_, Positive(),
+        "width of a disc that sweeps; none: the robot's tool");
+  visit("radius_m", radius_m_, Positive(), "of a circle kept clear; none: the robot's clear shape");
+  visit("margin_m", margin_m_, NonNegative(),
+        "kept beyond the clear shape for the tracker's error; none: 0.03 around a robot's circle, "
+        "0.015 around its footprint, less where that would close a door, and 0 around radius_m");
+  visit("overlap", overlap_, Between(0, 0.9), "of neighbouring rows, share of the tool's width");
+  visit("edges", edges_, "laps along walls and furniture first");
+}
+
+Polyline CoveragePlanner::Sweep(const Floor& floor, const Vec2& start, double shortfall,
+                                Figures& figures) const {
+  Effort effort = edges_ ? kWithEdges : kRowsOnly;
+  effort.goal = std::min(kMaxGoal, effort.goal + shortfall);
+  effort.least_goal = std::min(kMaxGoal, effort.least_goal + shortfall);
+  const double w = floor.tool_width;
+  Ways ways(floor);
+  const std::vector<Polyline> walls = Contours(floor, PoseDepth(floor), 0);
+
+  Swept covered(floor);
+  std::vector<Polyline> lines;
+  if (edges_) lines = OpenParts(floor, walls, kLapShare, w, kWallTolerance, covered);
+  double laps = 0;
+  for (const Polyline& lap : lines) laps += PolylineLength(lap);
+  for (Polyline& line : Lines(floor, covered, figures)) lines.push_back(std::move(line));
+  Polyline path = Drive(ways, start, lines, false);
+
+  for (int round = 1; round <= kMaxRounds; ++round) {
+    Swept swept(floor);
+    swept.Add(path);
+    if (round > kRounds && swept.share() >= effort.least_goal) break;
+    Prune(floor, {effort.goal * floor.ground_cells, kFirstWorth, 1}, path, swept);
+    std::vector<Polyline> pieces = WorkingPieces(floor, path, kWorkingShare, swept);
+    const double min_gain =
+        std::min(effort.least_gain * w * w, kSmall * floor.ground_cells) / round;
+    std::vector<Polyline> rest =
+        OpenParts(floor, walls, effort.open_share / round, min_gain, kWallTolerance, swept);
+    for (Polyline& line : LinesOverLeftovers(floor, ways, min_gain, swept))
+      rest.push_back(std::move(line));
+    CutBeside(floor, rest, kCutReach * w, pieces);
+    for (Polyline& line : rest) pieces.push_back(std::move(line));
+    path = Drive(ways, start, pieces, round >= kRounds);
+  }
+
+  Swept swept(floor);
+  swept.Add(path);
+  Prune(floor, {effort.goal * floor.ground_cells, effort.worth}, path, swept);
+  if (PolylineLength(path) * w > kDear * floor.ground_cells)
+    Prune(floor, {effort.least_goal * floor.ground_cells, effort.dear_worth}, path, swept);
+  path = MergeStraight(path);
+
+  const double cell_m = floor.frame.cell_m;
+  double working = 0;
+  for (const Polyline& piece : WorkingPieces(floor, path, kWorkingShare, swept))
+    working += PolylineLength(piece);
+  figures.push_back({"laps_m", laps * cell_m});
+  figures.push_back({"transit_m", (PolylineLength(path) - working) * cell_m});
+  return path;
+}
+
+PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
+  PlanResult result;
+  result.clear = request.robot.clear;
+  result.tool = request.robot.tool;
+  result.tool_width_m = request.robot.tool_width_m;
+  if (radius_m_) result.clear = {Shape2::Kind::kCircle, *radius_m_, {}};
+  if (tool_width_m_) {
+    result.tool = {Shape2::Kind::kCircle, *tool_width_m_ / 2, {}};
+    result.tool_width_m = *tool_width_m_;
+  }
+  const bool circle = result.clear.kind == Shape2::Kind::kCircle;
+  if (!circle && !IsConvex(result.clear.footprint_B)) {
+    result.message =
+        "the robot's footprint is not convex; it can be driven along a plan of your "
+        "own, or planned for in a convex shape";
+    return result;
+  }
+  // The yaw that is held: the start's, to the next of the map's quarters. A footprint that looks
+  // the same at all of them may be turned; another is planned for at this one alone.
+  const double map_yaw = request.map.frame.X_WG.yaw_rad, quarter = kPi / 2;
+  const double turned = std::round((request.start.yaw_rad - map_yaw) / quarter) * quarter;
+  const bool one_yaw = !circle && !LooksTheSameTurned(result.clear.footprint_B);
+  const Yaws yaws = one_yaw ? Yaws::kFirst : Yaws::kQuarters;
+  const Shape2 clear = one_yaw ? Turned(result.clear, turned) : result.clear;
+  const Shape2 tool = one_yaw ? Turned(result.tool, turned) : result.tool;
+  SweepArea area =
+      ComputeSweepArea(request.map, clear, tool, request.robot.step_m, request.start.p(), yaws);
+  if (area.sweepable_cells == 0) {
+    const bool fits = std::find(area.reachable.cells.begin(), area.reachable.cells.end(), 1) !=
+                      area.reachable.cells.end();
+    result.status = fits ? PlanStatus::kNoFloor : PlanStatus::kStartBlocked;
+    result.message = WhyNothing(request, area, result.clear, fits);
+    return result;
+  }
+  // Room for the tracker's error, as long as no more than a little of the floor is lost to it: half
+  // the margin, or none, where it would close a door.
+  double margin_m = margin_m_.value_or(radius_m_ ? 0.0 : (circle ? kMargin_m : kFootprintMargin_m));
+  double shortfall = 0;
+  for (; margin_m > 0; margin_m = margin_m > kMargin_m / 4 ? margin_m / 2 : 0) {
+    SweepArea roomy = ComputeSweepArea(request.map, Grown(clear, margin_m), tool,
+                                       request.robot.step_m, request.start.p(), yaws);
+    const double lost =
+        1 - static_cast<double>(roomy.sweepable_cells) / static_cast<double>(area.sweepable_cells);
+    if (lost > kMaxLost) continue;
+    area = std::move(roomy);
+    shortfall = lost + kDriveLoss;
+    break;
+  }
+  result.figures.push_back({"margin_m", margin_m});
+  const Floor floor = CropFloor(area, Grown(clear, margin_m), tool, result.tool_width_m, overlap_);
+  const Polyline path = Sweep(floor, floor.ToCells(request.start.p()), shortfall, result.figures);
+  for (const Vec2& p : path) {
+    Waypoint w;
+    w.p_W = floor.ToWorld(p);
+    if (!circle) w.yaw_rad = WrapAngle(map_yaw + turned);
+    result.path.push_back(w);
+  }
+  result.status = PlanStatus::kSuccess;
+  return result;
+}
+
+}  // namespace floorproof

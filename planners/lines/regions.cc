@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sweeping a spot in direction d costs 1 / width per area for the rows and, as each row ends in a
+// link, link / (width * chord) for the links, where the chord is the free line through the spot
+// along d. So: (1) the walls' own directions are the candidates; (2) small blocks of floor sum up
+// what each candidate costs them; (3) blocks join where one direction for both costs less than the
+// rows that end at the border between them would. A Potts labelling by greedy merging, and a few
+// rounds in which blocks at a border change sides (iterated conditional modes, Besag 1986).
+// Not a search for doors: a border appears only where it pays.
+#include "planners/lines/regions.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+#include <tuple>
+
+namespace floorproof {
+namespace {
+
+constexpr std::size_t kMaxCandidates = 12;
+using Costs = std::array<double, kMaxCandidates>;
+
+// Peaks of the histogram of the walls' directions modulo 90 deg, strongest first.
+std::vector<double> WallDirections(const Floor& floor) {
+  constexpr int kBins = 90;
+  std::array<double, kBins> bins{};
+  for (int iy = 2; iy + 2 < floor.margin.height; ++iy)
+    for (int ix = 2; ix + 2 < floor.margin.width; ++ix) {
+      const float m = floor.margin(ix, iy);
+      if (!floor.pose(ix, iy) || m < 1.0f || m > 8.0f) continue;
+      const float gx = floor.margin(ix + 2, iy) - floor.margin(ix - 2, iy);
+      const float gy = floor.margin(ix, iy + 2) - floor.margin(ix, iy - 2);
+      if (gx * gx + gy * gy < 12.0f) continue;  // a ridge between walls, or beside a corner
+      const double turn = std::atan2(static_cast<double>(gy), static_cast<double>(gx)) / (kPi / 2);
+      const double bin = (turn - std::floor(turn)) * kBins;
+      ++bins[static_cast<std::size_t>(std::lround(bin)) % kBins];
+    }
+  const auto smooth = [&bins](int i) {
+    double sum = 0;
+    for (int k = -2; k <= 2; ++k)
+      sum += (3 - std::abs(k)) * bins[static_cast<std::size_t>((i + k + kBins) % kBins)];
+    return sum;
+  };
+  std::array<double, kBins> smoothed{};
+  for (int i = 0; i < kBins; ++i) smoothed[static_cast<std::size_t>(i)] = smooth(i);
+  const double total = std::accumulate(smoothed.begin(), smoothed.end(), 0.0);
+  std::vector<double> peaks;
+  while (peaks.size() < kMaxCandidates / 2) {
+    const auto best = std::max_element(smoothed.begin(), smoothed.end());
+    if (*best <= 0 || *best < 0.06 * total / 5) break;
+    const int i = static_cast<int>(best - smoothed.begin());
+    peaks.push_back(i * (kPi / 2) / kBins);
+    for (int k = -7; k <= 7; ++k) smoothed[static_cast<std::size_t>((i + k + kBins) % kBins)] = 0;
+  }
+  if (peaks.empty()) peaks.push_back(0);
+  return peaks;
+}
+
+struct Block {
+  Costs cost{};
+  int cells = 0;
+};
+
+struct Blocks {
+  int size = 1;  // cells a side
+  Grid<Block> grid;
+  std::map<std::pair<int, int>, double> contact;  // cells of common border, by indices a < b
+  int At(int ix, int iy) const { return iy / size * grid.width + ix / size; }
+};
+
+// Adds link / chord for every pose cell near a sampled line.
+void AddChordCosts(const Floor& floor, double direction_rad, double link, std::size_t candidate,
+                   Blocks& blocks) {
+  const Vec2 along(std::cos(direction_rad), std::sin(direction_rad)), across(-along.y(), along.x());
+  const double w = floor.frame.width, h = floor.frame.height;
+  double u0 = 1e300, u1 = -1e300, v0 = 1e300, v1 = -1e300;
+  for (const Vec2& c : {Vec2(0, 0), Vec2(w, 0), Vec2(0, h), Vec2(w, h)}) {
+    u0 = std::min(u0, c.dot(along)), u1 = std::max(u1, c.dot(along));
+    v0 = std::min(v0, c.dot(across)), v1 = std::max(v1, c.dot(across));
+  }
+  constexpr double kLineGap = 3;
+  std::vector<int> run;
+  for (double v = v0; v <= v1; v += kLineGap) {
+    run.clear();
+    const auto close = [&] {
+      const double chord = static_cast<double>(run.size()) + floor.tool_width;
+      for (const int b : run)
+        blocks.grid.cells[static_cast<std::size_t>(b)].cost[candidate] += kLineGap * link / chord;
+      run.clear();
+    };
+    for (double u = u0; u <= u1; u += 1) {
+      const Cell c = Floor::CellAt(u * along + v * across);
+      if (floor.pose.Inside(c) && floor.pose(c)) {
+        run.push_back(blocks.At(c.ix, c.iy));
+      } else if (!run.empty()) {
+        close();
+      }
+    }
+    close();
+  }
+}
+
+Blocks MakeBlocks(const Floor& floor) {
+  Blocks blocks;
+  blocks.size = std::max(2, static_cast<int>(std::lround(0.4 / floor.frame.cell_m)));
+  blocks.grid = Grid<Block>((floor.frame.width + blocks.size - 1) / blocks.size,
+                            (floor.frame.height + blocks.size - 1) / blocks.size);
+  for (int iy = 0; iy < floor.frame.height; ++iy)
+    for (int ix = 0; ix < floor.frame.width; ++ix) {
+      if (!floor.pose(ix, iy)) continue;
+      const int b = blocks.At(ix, iy);
+      ++blocks.grid.cells[static_cast<std::size_t>(b)].cells;
+      for (const Cell n : {Cell{ix + 1, iy}, Cell{ix, iy + 1}})
+        if (floor.pose(n) && blocks.At(n.ix, n.iy) != b)
+          blocks.contact[{b, blocks.At(n.ix, n.iy)}] += 1;
+    }
+  return blocks;
+}
+
+std::size_t BestOf(const Costs& cost, std::size_t n) {
+  return static_cast<std::size_t>(std::min_element(cost.begin(), cost.begin() + n) - cost.begin());
+}
+
+// Regions of blocks, merged while that saves.
+class Merger {
+ public:
+  Merger(const Blocks& blocks, std::size_t candidates, double border_cost)
+      : n_(candidates), border_cost_(border_cost), parent_(blocks.grid.cells.size()) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+    cost_.reserve(parent_.size());
+    for (const Block& b : blocks.grid.cells) cost_.push_back(b.cost);
+    border_.resize(parent_.size());
+    for (const auto& [pair, length] : blocks.contact) {
+      border_[static_cast<std::size_t>(pair.first)][pair.second] = length;
+      border_[static_cast<std::size_t>(pair.second)][pair.first] = length;
+    }
+  }
+
+  void Run() {
+    std::set<std::tuple<double, int, int>> queue;  // best saving first, ties by index
+    for (std::size_t a = 0; a < border_.size(); ++a)
+      for (const auto& [b, length] : border_[a])
+        if (static_cast<int>(a) < b)
+          queue.insert({-Saving(static_cast<int>(a), b), static_cast<int>(a), b});
+    while (!queue.empty()) {
+      const auto [negative, a, b] = *queue.begin();
+      if (negative >= 0) break;
+      for (const int r : {a, b})
+        for (const auto& [c, length] : border_[static_cast<std::size_t>(r)])
+          queue.erase({-Saving(std::min(r, c), std::max(r, c)), std::min(r, c), std::max(r, c)});
+      Merge(a, b);
+      for (const auto& [c, length] : border_[static_cast<std::size_t>(a)])
+        queue.insert({-Saving(std::min(a, c), std::max(a, c)), std::min(a, c), std::max(a, c)});
+    }
+  }
+
+  int Root(int a) const {
+    while (parent_[static_cast<std::size_t>(a)] != a) a = parent_[static_cast<std::size_t>(a)];
+    return a;
+  }
+  std::size_t Direction(int root) const {
+    return BestOf(cost_[static_cast<std::size_t>(root)], n_);
+  }
+
+ private:
+  double Saving(int a, int b) const {
+    const Costs &ca = cost_[static_cast<std::size_t>(a)], &cb = cost_[static_cast<std::size_t>(b)];
+    double apart_a = ca[0], apart_b = cb[0], together = ca[0] + cb[0];
+    for (std::size_t k = 1; k < n_; ++k) {
+      apart_a = std::min(apart_a, ca[k]), apart_b = std::min(apart_b, cb[k]);
+      together = std::min(together, ca[k] + cb[k]);
+    }
+    return border_cost_ * border_[static_cast<std::size_t>(a)].at(b) + apart_a + apart_b - together;
+  }
+  void Merge(int a, int b) {
+    auto& into = border_[static_cast<std::size_t>(a)];
+    auto& from = border_[static_cast<std::size_t>(b)];
+    parent_[static_cast<std::size_t>(b)] = a;
+    for (std::size_t k = 0; k < n_; ++k)
+      cost_[static_cast<std::size_t>(a)][k] += cost_[static_cast<std::size_t>(b)][k];
+    into.erase(b);
+    from.erase(a);
+    for (const auto& [c, length] : from) {
+      into[c] += length;
+      auto& back = border_[static_cast<std::size_t>(c)];
+      back.erase(b);
+      back[a] += length;
+    }
+    from.clear();
+  }
+
+  std::size_t n_;
+  double border_cost_;
+  std::vector<int> parent_;
+  std::vector<Costs> cost_;
+  std::vector<std::map<int, double>> border_;
+};
+
+}  // namespace
+
+Regions FindRegions(const Floor& floor, double link, std::optional<double> fixed_rad) {
+  Regions regions;
+  regions.label = Grid<std::int32_t>(floor.frame.width, floor.frame.height, -1);
+  std::vector<double> candidates;
+  if (fixed_rad) {
+    candidates = {*fixed_rad - kPi * std::floor(*fixed_rad / kPi)};
+  } else {
+    const bool footprint = floor.tool.kind == Shape2::Kind::kFootprint;
+    for (const double d : footprint ? std::vector<double>{0} : WallDirections(floor)) {
+      candidates.push_back(d);
+      candidates.push_back(d + kPi / 2);
+    }
+  }
+  Blocks blocks = MakeBlocks(floor);
+  for (std::size_t k = 0; k < candidates.size(); ++k)
+    AddChordCosts(floor, candidates[k], link / floor.tool_width, k, blocks);
+  Merger merger(blocks, candidates.size(), 0.75 * link / floor.tool_width);
+  merger.Run();
+
+  std::map<int, std::int32_t> name;
+  for (int iy = 0; iy < floor.frame.height; ++iy)
+    for (int ix = 0; ix < floor.frame.width; ++ix) {
+      if (!floor.pose(ix, iy)) continue;
+      const int root = merger.Root(blocks.At(ix, iy));
+      const auto [it, fresh] =
+          name.try_emplace(root, static_cast<std::int32_t>(regions.direction_rad.size()));
+      if (fresh) regions.direction_rad.push_back(candidates[merger.Direction(root)]);
+      regions.label(ix, iy) = it->second;
+    }
+  return regions;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// A row's strip lies on sweepable ground altogether, and rows at full spacing do not overlap. So
+// what a set of rows leaves is known from their lengths alone: the ground less width * length less
+// the round ends. With ground left over costing kLeftover times what a row would, directions near
+// the region's own, spacings and offsets are compared without sweeping anything.
+#include "planners/lines/rows.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace floorproof {
+namespace {
+
+constexpr double kRoughStep = 1.0, kFineStep = 0.5;  // cells along a row, to compare and to make
+constexpr double kLeftover = 2;  // cost of ground swept afterwards, in rows of the same ground
+
+struct Box {
+  double u0 = std::numeric_limits<double>::infinity(), u1 = -u0, v0 = u0, v1 = -u0;
+};
+
+// One region's cells and what of it a row needs to visit.
+class RegionRows {
+ public:
+  RegionRows(const Floor& floor, const Regions& regions, int region, const Swept* swept,
+             const std::vector<Cell>& cells)
+      : floor_(floor), regions_(regions), region_(region), swept_(swept), cells_(cells) {}
+
+  // Calls use(a, b, line) for each row.
+  template <class Use>
+  void ForEach(double direction_rad, double spacing, double offset, double step,
+               const Use& use) const {
+    const Vec2 along(std::cos(direction_rad), std::sin(direction_rad)),
+        across(-along.y(), along.x());
+    const Box box = Bounds(along, across);
+    const int first = static_cast<int>(std::ceil((box.v0 - offset) / spacing));
+    const int last = static_cast<int>(std::floor((box.v1 - offset) / spacing));
+    for (int line = first; line <= last; ++line) {
+      const Vec2 base = (offset + line * spacing) * across;
+      bool in = false;
+      double from = 0, to = 0;
+      for (double u = box.u0; u <= box.u1 + step; u += step) {
+        const Vec2 p = base + u * along;
+        if (Wanted(p, across, step < 1)) {
+          if (!in) from = u;
+          in = true;
+          to = u;
+        } else if (in) {
+          use(Vec2(base + from * along), Vec2(base + to * along), line);
+          in = false;
+        }
+      }
+      if (in) use(Vec2(base + from * along), Vec2(base + to * along), line);
+    }
+  }
+
+  Box Bounds(const Vec2& along, const Vec2& across) const {
+    Box box;
+    for (const Cell c : cells_) {
+      const Vec2 p = Floor::CentreOf(c);
+      box.u0 = std::min(box.u0, p.dot(along)), box.u1 = std::max(box.u1, p.dot(along));
+      box.v0 = std::min(box.v0, p.dot(across)), box.v1 = std::max(box.v1, p.dot(across));
+    }
+    return box;
+  }
+
+ private:
+  bool Wanted(const Vec2& p, const Vec2& across, bool exact) const {
+    const Cell c = Floor::CellAt(p);
+    if (!floor_.pose.Inside(c) || regions_.label(c) != region_) return false;
+    if (exact && !floor_.Free(p, floor_.tolerance)) return false;
+    if (!swept_) return true;
+    return swept_->OpenShareAcross(p, across) > 0;
+  }
+
+  const Floor& floor_;
+  const Regions& regions_;
+  int region_;
+  const Swept* swept_;
+  const std::vector<Cell>& cells_;
+};
+
+}  // namespace
+
+std::vector<Row> MakeRows(const Floor& floor, const Regions& regions, const RowOptions& options,
+                          const Swept* swept) {
+  std::vector<std::vector<Cell>> cells(regions.direction_rad.size());
+  for (int iy = 0; iy < floor.frame.height; ++iy)
+    for (int ix = 0; ix < floor.frame.width; ++ix)
+      if (const auto label = regions.label(ix, iy); label >= 0)
+        cells[static_cast<std::size_t>(label)].push_back({ix, iy});
+
+  std::vector<Row> rows;
+  const double w = floor.tool_width;
+  for (std::size_t region = 0; region < cells.size(); ++region) {
+    const RegionRows maker(floor, regions, static_cast<int>(region), swept, cells[region]);
+    double best = -std::numeric_limits<double>::infinity(), best_spacing = 0, best_offset = 0;
+    for (const double narrow : {1.0, 0.96, 0.92, 0.88}) {
+      const double spacing = options.spacing * narrow;
+      constexpr int kOffsets = 8;
+      for (int i = 0; i < kOffsets; ++i) {
+        const double offset = spacing * i / kOffsets;
+        double value = 0;
+        maker.ForEach(regions.direction_rad[region], spacing, offset, kRoughStep,
+                      [&](const Vec2& a, const Vec2& b, int) {
+                        const double length = (b - a).norm();
+                        const double ground = length * std::min(spacing, w) + kPi / 4 * w * w;
+                        value += kLeftover * ground / w - length - options.link;
+                      });
+        if (value > best) best = value, best_spacing = spacing, best_offset = offset;
+      }
+    }
+    maker.ForEach(regions.direction_rad[region], best_spacing, best_offset, kFineStep,
+                  [&](const Vec2& a, const Vec2& b, int line) {
+                    rows.push_back({a, b, static_cast<int>(region), line});
+                  });
+  }
+  return rows;
+}
+
+int CountCells(const std::vector<Row>& rows, const Regions& regions) {
+  // Rows of a region come line by line. below[i]: neighbours of row i on the line before;
+  // above[i]: on the line after.
+  std::vector<int> below(rows.size()), above(rows.size()), parent(rows.size(), -1);
+  std::size_t line_begin = 0, before_begin = 0, before_end = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[i];
+    if (i == 0 || rows[i - 1].region != row.region || rows[i - 1].line != row.line) {
+      const bool next =
+          i > 0 && rows[i - 1].region == row.region && rows[i - 1].line + 1 == row.line;
+      before_begin = next ? line_begin : i, before_end = i;
+      line_begin = i;
+    }
+    const double yaw = regions.direction_rad[static_cast<std::size_t>(row.region)];
+    const Vec2 along(std::cos(yaw), std::sin(yaw));
+    for (std::size_t k = before_begin; k < before_end; ++k) {
+      if (rows[k].b.dot(along) < row.a.dot(along) || rows[k].a.dot(along) > row.b.dot(along))
+        continue;
+      ++below[i];
+      ++above[k];
+      parent[i] = static_cast<int>(k);
+    }
+  }
+  int cells = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (below[i] != 1 || above[static_cast<std::size_t>(parent[i])] != 1) ++cells;
+  return cells;
+}
+
+}  // namespace floorproof

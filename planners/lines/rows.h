@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parallel rows over the regions of a floor.
+#pragma once
+
+#include "planners/lines/regions.h"
+#include "planners/lines/swept.h"
+
+namespace floorproof {
+
+struct RowOptions {
+  double spacing = 1;  // most between neighbouring rows, cells
+  double link = 1;     // as in FindRegions
+};
+
+struct Row {
+  Vec2 a, b;
+  int region = 0, line = 0;  // neighbours of one region have neighbouring lines
+};
+
+// Rows of each region in its direction, at the spacing and offset that fit it best. Where `swept`
+// is given only the parts that still have something to sweep.
+std::vector<Row> MakeRows(const Floor& floor, const Regions& regions, const RowOptions& options,
+                          const Swept* swept);
+
+// Cells of the boustrophedon decomposition that the rows lie in: stacks of rows of which each has
+// one neighbour above and one below (Choset & Pignon 1997: a cell ends where a sweep line splits or
+// merges).
+int CountCells(const std::vector<Row>& rows, const Regions& regions);
+
+}  // namespace floorproof

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// How often each cell of a floor lies under the tool along a set of lines; lines can be taken back.
+// Inner ground must lie under the narrow tool, so that lines beside it overlap as they should;
+// ground along walls, which that does not reach, under the whole tool.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "planners/lines/floor.h"
+
+namespace floorproof {
+
+class Swept {
+ public:
+  explicit Swept(const Floor& floor);
+  // Both return the ground cells that changed between swept and not.
+  int Add(const Vec2& a, const Vec2& b) { return Change(a, b, +1); }
+  int Remove(const Vec2& a, const Vec2& b) { return Change(a, b, -1); }
+  int Add(const Polyline& line);
+  int Remove(const Polyline& line);
+  bool IsOpen(int ix, int iy) const {
+    for (const Layer& layer : layers_)
+      if (layer.count(ix, iy) == 0) return true;
+    return false;
+  }
+  // Share of the tool's width, along the unit vector `across` through p, that is open ground.
+  double OpenShareAcross(const Vec2& p, const Vec2& across) const;
+  double swept_cells() const { return static_cast<double>(swept_); }
+  double share() const {
+    return floor_->ground_cells > 0 ? swept_cells() / floor_->ground_cells : 0;
+  }
+
+ private:
+  struct Layer {
+    double reach = 0;           // cells, of the scaled tool
+    Polygon tool;               // footprint tools, scaled, in cells
+    Grid<std::uint16_t> count;  // of ground that is not this layer's: 1 too many, so never open
+    Grid<std::uint8_t> tiles;   // 1 where a tile of kTile x kTile holds ground of this layer
+  };
+  Layer MakeLayer(double scale, const Grid<std::uint8_t>& mask) const;
+  static int Change(Layer& layer, const Vec2& from, const Vec2& to, int by);
+  static int ChangeDisc(Layer& layer, const Vec2& a, const Vec2& b, int by);
+  static int ChangeFootprint(Layer& layer, const Vec2& a, const Vec2& b, int by);
+  static int Span(Layer& layer, int iy, double low, double high, int by);
+  int Change(const Vec2& from, const Vec2& to, int by);
+
+  const Floor* floor_;
+  std::vector<Layer> layers_;
+  std::int64_t swept_ = 0;
+};
+
+}  // namespace floorproof

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Plan, drive, judge, film: what run, replay and demo have in common.
+#pragma once
+
+#include <exception>
+#include <filesystem>
+#include <string>
+
+#include "base/console.h"
+#include "run/episode/episode.h"
+
+namespace floorproof {
+
+struct DriveOptions {
+  bool video = false;
+  bool write_records = true;  // replay keeps what was recorded
+  std::string finished = {};  // folders that an interruption's line names as whole
+};
+
+struct DriveResult {
+  PlanResult plan;
+  EpisodeRecord record;
+  // Records, pictures or film could not be written (a full disk, no GL): the verdict stands all the
+  // same. Rethrown by the command, once it has said the verdict.
+  std::exception_ptr not_written;
+};
+
+// Plans and, unless the scenario says `drive: none`, drives; writes everything into `folder` and
+// says a line at each stage. An interruption ends the process here, with what is there in one line.
+DriveResult DriveAndFilm(Scenario& scenario, const std::filesystem::path& folder,
+                         const DriveOptions& options, const Console& console);
+
+}  // namespace floorproof

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/failing_episodes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "base/file_output.h"
+#include "run/campaign/episodes_csv.h"
+
+namespace floorproof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// As a shell takes it.
+std::string ShellWord(const std::string& text) {
+  static constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_=+:,./@%";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string Words(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+}  // namespace
+
+bool IsListed(const EpisodeRow& row) { return row.outcome != "success" || row.any_failure(); }
+
+std::vector<Event> EventsOf(const EpisodeRow& row) {
+  std::vector<Event> events;
+  for (const Json& json : Json::parse(row.events)) {
+    Event event;
+    event.kind = json.at("kind");
+    event.hazard = json.at("hazard");
+    event.t_s = json.at("t_s");
+    event.x_m = json.at("x_m");
+    event.y_m = json.at("y_m");
+    const std::string mode = json.at("mode");
+    for (int m = 0; m < kNumFailureModes; ++m)
+      if (mode == Name(static_cast<FailureMode>(m))) event.mode = static_cast<FailureMode>(m);
+    events.push_back(std::move(event));
+  }
+  return events;
+}
+
+std::string WhatFailed(const EpisodeRow& row, const std::vector<Event>& events) {
+  if (events.empty()) return Words(row.outcome);
+  const std::string mode = Words(std::string(Name(events.front().mode)));
+  return events.front().kind.empty() ? mode : mode + " (" + Words(events.front().kind) + ")";
+}
+
+ReportEpisode FailingEpisode(const EpisodeRow& row, const std::vector<Event>& events,
+                             const std::string& named, bool variants) {
+  ReportEpisode e{.variant = row.variant, .episode = row.episode, .what = WhatFailed(row, events)};
+  e.detail = events.empty() ? row.message : events.front().hazard;
+  if (!events.empty()) {
+    e.t_s = events.front().t_s;
+    e.x_m = events.front().x_m;
+    e.y_m = events.front().y_m;
+    e.further = static_cast<int>(events.size()) - 1;
+  }
+  e.command = fmt::format("floorproof replay {} --episode {}", ShellWord(named), row.episode);
+  if (variants) e.command += " --variant " + ShellWord(row.variant);
+  e.command += " --video";
+  return e;
+}
+
+std::uint64_t ListFailingEpisodes(const CampaignStore& store, const std::vector<Variant>& variants,
+                                  const std::filesystem::path& folder, const Console& console) {
+  constexpr std::uint64_t kShown = 3;  // of each variant
+  std::string csv = "variant,episode,outcome,what,hazard_or_reason,t_s,x_m,y_m,drawn,command\n";
+  std::uint64_t all = 0, shown = 0;
+  for (const Variant& variant : variants) {
+    std::uint64_t listed = 0;
+    store.ForEach(variant.name, [&](const EpisodeRow& row) {
+      if (!IsListed(row)) return;
+      const ReportEpisode e =
+          FailingEpisode(row, EventsOf(row), folder.string(), variants.size() > 1);
+      const auto number = [](const std::optional<double>& value) {
+        return value ? fmt::format("{}", *value) : "";
+      };
+      csv += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", CsvField(e.variant), e.episode,
+                         row.outcome, CsvField(e.what), CsvField(e.detail), number(e.t_s),
+                         number(e.x_m), number(e.y_m), CsvField(row.drawn), CsvField(e.command));
+      ++all;
+      if (listed++ >= kShown || shown >= 4 * kShown) return;
+      ++shown;
+      console.Say(fmt::format("  {}{}{}: {}", e.what, e.detail.empty() ? "" : ", " + e.detail,
+                              e.t_s ? fmt::format(" at {:.1f} s", *e.t_s) : "", e.command));
+    });
+  }
+  const std::filesystem::path file = folder / "failing_episodes.csv";
+  WriteFileWhole(file, csv);
+  if (all > 0)
+    console.Say(fmt::format("{} failing episode{}, with the command that films each: {}", all,
+                            all == 1 ? "" : "s", file.string()));
+  return all;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "report/html.h"
+#include "report/rates.h"
+#include "report/style.h"
+
+namespace floorproof {
+namespace {
+
+// Of a variant in words, beginning with its name where there are several.
+std::string RateSentence(const ReportVariant& v, double confidence) {
+  if (v.failures.empty() || v.failures.front().n == 0) return "drove in no episode that counts";
+  const ReportRate& rate = v.failures.front();
+  const std::string times = rate.k == 0 ? fmt::format("in none of {} episodes", rate.n)
+                                        : fmt::format("in {} of {} episodes ({})", rate.k, rate.n,
+                                                      PercentText(rate.rate));
+  return fmt::format("failed {}, {} interval {} to {}", times, PercentText(confidence),
+                     NumberText(100 * rate.lower), PercentText(rate.upper));
+}
+
+std::string RatesVerdict(const Report& report) {
+  const auto& variants = report.variants;
+  if (variants.empty()) return "No variant was driven.";
+  if (variants.size() == 1)
+    return "The robot " + RateSentence(variants.front(), report.confidence) + ".";
+  const auto rate = [](const ReportVariant& v) {
+    const bool driven = !v.failures.empty() && v.failures.front().n > 0;
+    return driven ? v.failures.front().rate : 2.0;
+  };
+  const auto by_rate = [&](const auto& a, const auto& b) { return rate(a) < rate(b); };
+  const auto least = std::ranges::min_element(variants, by_rate);
+  if (rate(*least) > 1) return "No robot drove: the episodes are plans only, or none counts.";
+  auto most = least;
+  for (auto v = variants.begin(); v != variants.end(); ++v)
+    if (rate(*v) <= 1 && rate(*v) > rate(*most)) most = v;
+  if (rate(*most) == rate(*least))
+    return fmt::format("All {} variants failed equally often: {} {}.", variants.size(), least->name,
+                       RateSentence(*least, report.confidence));
+  return fmt::format("{} {}; {} {}.",
+                     variants.size() > 2 ? "Least often: " + least->name : least->name,
+                     RateSentence(*least, report.confidence),
+                     variants.size() > 2 ? "most often: " + most->name : most->name,
+                     RateSentence(*most, report.confidence));
+}
+
+std::string GateVerdict(const ReportGate& gate, std::size_t variants) {
+  std::string metric = gate.metric;
+  std::ranges::replace(metric, '_', ' ');
+  const std::string claim =
+      fmt::format("the rate of {} is below {}", metric, PercentText(gate.max_rate));
+  const std::string sure = PercentText(gate.confidence) + " confidence";
+  const std::string where = variants > 1 ? " in each variant" : "";
+  switch (gate.verdict) {
+    case ReportGate::Verdict::kPassed:
+      return fmt::format("The gate passed: {}{}, at {}.", claim, where, sure);
+    case ReportGate::Verdict::kFailed:
+      return fmt::format("The gate failed: the rate of {} is not below {}{}, at {}.", metric,
+                         PercentText(gate.max_rate), where, sure);
+    case ReportGate::Verdict::kUndecided:
+      return fmt::format("The gate is undecided: the episodes do not show, at {}, whether {}{}.",
+                         sure, claim, where);
+  }
+  return "";
+}
+
+std::string VerdictBox(const Report& report) {
+  std::string tone, list;
+  if (report.gate) {
+    tone = report.gate->verdict == ReportGate::Verdict::kPassed   ? " passed"
+           : report.gate->verdict == ReportGate::Verdict::kFailed ? " failed"
+                                                                  : " undecided";
+    for (const auto& [variant, text] : report.gate->texts)
+      list += "<li>" + MarkupText(report.gate->texts.size() > 1 ? variant + ": " + text : text) +
+              "</li>";
+    list += "<li>" + MarkupText(RatesVerdict(report)) + "</li>";
+  }
+  if (!report.unfinished.empty())
+    list += "<li>The campaign is not whole: " + MarkupText(report.unfinished) + ".</li>";
+  int errors = 0, not_planned = 0;
+  for (const ReportVariant& v : report.variants) {
+    errors += v.errors;
+    not_planned += v.not_planned;
+  }
+  if (not_planned > 0)
+    list += fmt::format("<li>For {} {} there was no plan; no robot drove.</li>", not_planned,
+                        not_planned == 1 ? "episode" : "episodes");
+  if (errors > 0)
+    list +=
+        fmt::format("<li>{} {} in an error and {} not count.</li>", errors,
+                    errors == 1 ? "episode ended" : "episodes ended", errors == 1 ? "does" : "do");
+  return fmt::format("<div class=\"verdict{}\"><p>{}</p>{}</div>\n", tone,
+                     MarkupText(VerdictText(report)), list.empty() ? "" : "<ul>" + list + "</ul>");
+}
+
+std::string Section(const std::string& id, const std::string& heading, const std::string& content) {
+  return fmt::format("<section id=\"{}\"><h2>{}</h2>\n{}</section>\n", id, heading, content);
+}
+
+std::string Picture(const std::string& png, const std::string& caption) {
+  return fmt::format("<figure><img src=\"{0}\" alt=\"{1}\"><figcaption>{1}</figcaption></figure>\n",
+                     DataUri("image/png", png), MarkupText(caption));
+}
+
+std::string Rates(const Report& report) {
+  std::string html;
+  if (report.variants.size() > 1)
+    html += "<div class=\"card\">" + VariantsTable(report) + "</div>\n";
+  for (const ReportVariant& v : report.variants)
+    html += fmt::format("<article class=\"card\">{}{}</article>\n",
+                        report.variants.size() > 1 ? "<h3>" + MarkupText(v.name) + "</h3>\n" : "",
+                        VariantRates(report, v));
+  return html + fmt::format(
+                    "<p class=\"note\">Rates are of episodes that ended in success, failure or "
+                    "timeout; a failure counts once an episode. Bars: two-sided {} Clopper-Pearson "
+                    "intervals, on one axis throughout{}.</p>\n",
+                    PercentText(report.confidence),
+                    report.gate ? "; dashed: the gate's limit" : "");
+}
+
+std::string Places(const Report& report) {
+  std::string html;
+  for (const ReportVariant& v : report.variants) {
+    html += "<div class=\"card places\">";
+    if (report.variants.size() > 1) html += "<h3>" + MarkupText(v.name) + "</h3>\n";
+    if (!v.places_png.empty())
+      html += Picture(v.places_png,
+                      "Where " + (report.variants.size() > 1 ? v.name : std::string("the robot")) +
+                          " failed" + (v.places_note.empty() ? "" : "; " + v.places_note));
+    else
+      html += "<p class=\"note\">" + MarkupText(v.places_note) + "</p>\n";
+    html += PlaceRates(report, v) + "</div>\n";
+  }
+  return html;
+}
+
+std::string Film(const Report& report, const ReportFilm& film) {
+  std::string name = fmt::format("Episode {}", film.episode);
+  if (report.variants.size() > 1) name += " of " + film.variant;
+  if (!film.what.empty()) name += ": " + film.what;
+  std::string html = "<article class=\"card\"><h3>" + MarkupText(name) + "</h3>\n";
+  if (!film.mp4.empty())
+    html += fmt::format("<video controls preload=\"metadata\" src=\"{}\"></video>\n",
+                        DataUri("video/mp4", film.mp4));
+  else
+    html += fmt::format("<p>Film, {:.1f} MB, beside this page: <a href=\"{}\">{}</a></p>\n",
+                        film.megabytes, UrlPath(film.path), MarkupText(film.path));
+  const auto pictures = [&](const std::vector<ReportPicture>& all) {
+    html += "<div class=\"frames\">";
+    for (const ReportPicture& picture : all) html += Picture(picture.png, picture.caption);
+    html += "</div>";
+  };
+  if (!film.frames.empty()) pictures(film.frames);
+  if (!film.maps.empty()) {
+    html += "<details><summary>Maps of this episode</summary>";
+    pictures(film.maps);
+    html += "</details>";
+  }
+  return html + "</article>\n";
+}
+
+std::string Films(const Report& report) {
+  std::string html;
+  for (const ReportFilm& film : report.films) html += Film(report, film);
+  if (report.films_left_out > 0)
+    html +=
+        fmt::format("<p class=\"note\">{} more filmed in the folder <code>episodes</code>.</p>\n",
+                    report.films_left_out);
+  return html;
+}
+
+std::string EpisodeRowHtml(const ReportEpisode& e, bool name_variant) {
+  const std::string time = e.t_s ? fmt::format("{:.1f} s", *e.t_s) : "";
+  const std::string place =
+      e.x_m && e.y_m ? fmt::format("x {:.2f}, y {:.2f} m", *e.x_m, *e.y_m) : "";
+  return fmt::format(
+      "<tr><th scope=\"row\">{}{}</th><td>{}{}</td><td>{}</td><td class=\"num\">{}</td><td "
+      "class=\"num\">{}</td><td><code>{}</code></td></tr>\n",
+      name_variant ? MarkupText(e.variant) + " " : "", e.episode, MarkupText(e.what),
+      e.further > 0 ? fmt::format(" and {} more", e.further) : "", MarkupText(e.detail), time,
+      place, MarkupText(e.command));
+}
+
+std::string Episodes(const Report& report) {
+  if (report.episodes.empty()) return "<p>No episode failed.</p>\n";
+  std::string html =
+      "<p class=\"note\">Each command drives the recorded episode again, exactly, and films "
+      "it.</p>\n<div class=\"card\"><table class=\"list\"><thead><tr><th scope=\"col\">Episode</th>"
+      "<th scope=\"col\">Failure</th><th scope=\"col\">Hazard, or reason</th><th scope=\"col\" "
+      "class=\"num\">Time</th><th scope=\"col\" class=\"num\">Place</th><th scope=\"col\">Film it"
+      "</th></tr></thead><tbody>\n";
+  for (const ReportEpisode& e : report.episodes)
+    html += EpisodeRowHtml(e, report.variants.size() > 1);
+  html += "</tbody></table></div>\n";
+  if (report.episodes_left_out > 0)
+    html += fmt::format("<p>{} more stand in <code>episodes.csv</code>.</p>\n",
+                        report.episodes_left_out);
+  return html;
+}
+
+std::string Settings(const Report& report) {
+  std::string html = "<dl><dt>campaign</dt><dd>" + MarkupText(report.campaign) + "</dd>";
+  for (const auto& [name, version] : report.versions)
+    html += "<dt>" + MarkupText(name) + "</dt><dd>" + MarkupText(version) + "</dd>";
+  return html +
+         "</dl>\n<details><summary>The scenario, with every default stated</summary>\n<pre>" +
+         MarkupText(report.settings) + "</pre></details>\n";
+}
+
+// What this page needs beside it.
+std::string Footer(const Report& report) {
+  std::string linked;
+  for (const ReportFilm& film : report.films)
+    if (film.mp4.empty()) linked += (linked.empty() ? "" : ", ") + MarkupText(film.path);
+  return "<footer><p class=\"note\">" +
+         (linked.empty() ? std::string("This page is complete in itself: everything it shows "
+                                       "stands in this one file.")
+                         : "Everything this page shows stands in this one file, except films too "
+                           "large for it, which lie beside it: " +
+                               linked + ".") +
+         "</p></footer>\n";
+}
+
+}  // namespace
+
+std::string VerdictText(const Report& report) {
+  return report.gate ? GateVerdict(*report.gate, report.variants.size()) : RatesVerdict(report);
+}
+
+std::string ReportHtml(const Report& report) {
+  struct Part {
+    const char *id, *heading;
+    std::string content;
+  };
+  std::vector<Part> parts = {{"rates", "Failure rates", Rates(report)}};
+  if (!report.pairs.empty())
+    parts.push_back({"pairs", "Paired comparison",
+                     "<div class=\"card\">" + PairedTables(report) +
+                         "<p class=\"note\">The same episode number has the same draws in both. "
+                         "Differences are the variant less the first. Rates: Tango's score "
+                         "interval; means: Student's t; medians: sign test.</p></div>\n"});
+  parts.push_back({"places", "Where failures happened", Places(report)});
+  if (!report.films.empty()) parts.push_back({"films", "Films", Films(report)});
+  parts.push_back({"episodes", "Failing episodes", Episodes(report)});
+  parts.push_back({"settings", "Settings and versions", Settings(report)});
+
+  std::string links, sections;
+  for (const Part& part : parts) {
+    links += fmt::format("<a href=\"#{}\">{}</a>", part.id, part.heading);
+    sections += Section(part.id, part.heading, part.content);
+  }
+  const std::string title = MarkupText(report.title);
+  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src "
+         "data:; "
+         "media-src data:; style-src 'unsafe-inline'\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+         title + ": failure rates</title>\n<style>" + kReportStyle +
+         "</style></head>\n<body><header><p class=\"over\">Floorproof campaign</p><h1>" + title +
+         "</h1>\n" + VerdictBox(report) + "<nav>" + links + "</nav></header>\n<main>\n" + sections +
+         "</main>\n" + Footer(report) + "</body></html>\n";
+}
+
+}  // namespace floorproof

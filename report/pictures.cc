@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "report/error_plot.h"
+#include "report/risk_pictures.h"
+
+namespace floorproof {
+namespace {
+
+HeatValues OverSweepable(const EpisodeRecord& record, float (*value)(std::uint8_t passes)) {
+  HeatValues heat{record.passes_frame,
+                  Grid<float>(record.passes.width, record.passes.height, HeatValues::kNone)};
+  for (std::size_t i = 0; i < heat.values.cells.size(); ++i)
+    if (record.sweepable.cells[i]) heat.values.cells[i] = value(record.passes.cells[i]);
+  return heat;
+}
+
+// What the robot's own map says, and where it is wrong: by more than a cell of its own or of the
+// site, which walls are drawn to.
+void WriteKnownMap(const Scenario& s, const KnownMap& known, const std::filesystem::path& png) {
+  const KnownAgainstTruth seen =
+      Compare(known, s.site.map, s.robot.spec.step_m, 2 * known.frame.cell_m);
+  HeatMapOptions options;
+  options.title = fmt::format("{}: known {:.1f} %, of it wrong {:.1f} %", PictureTitle(s),
+                              100 * seen.known, 100 * seen.wrong);
+  // In the order of KnownAgainstTruth::State.
+  options.categories = {{"unknown", {176, 182, 190}},
+                        {"known free", {232, 240, 246}},
+                        {"known occupied", {38, 84, 124}},
+                        {"wrong: taken for free", {214, 40, 57}},
+                        {"wrong: taken for occupied", {247, 160, 40}}};
+  for (const FloorMark& mark : known.marks)
+    options.points.push_back(
+        {mark.p_W, mark.kind == FloorMark::Kind::kDrop ? "drop sensed" : "bump sensed"});
+  HeatValues heat{known.frame, Grid<float>(seen.cells.width, seen.cells.height)};
+  for (std::size_t i = 0; i < heat.values.cells.size(); ++i)
+    heat.values.cells[i] = static_cast<float>(seen.cells.cells[i]);
+  HazardMap bare = s.site.map;  // the walls shown are those that were sensed
+  std::ranges::fill(bare.cells.cells, CellState::kFree);
+  WriteHeatMap(bare, &heat, options, png);
+}
+
+// Where no single event says how it ended.
+Banner ClosingBanner(const EpisodeRecord& record) {
+  const std::string covered = fmt::format("covered {:.1f} %", 100 * record.metrics.coverage);
+  if (record.outcome == Outcome::kSuccess)
+    return {Banner::Tone::kSuccess, "SUCCESS", covered + " without a failure"};
+  if (record.interventions.empty())
+    return {Banner::Tone::kWarning, std::string(Name(record.outcome)), record.message};
+  const std::size_t times = record.interventions.size();
+  return {Banner::Tone::kFailure,
+          fmt::format("FAILURE   helped {} time{}", times, times == 1 ? "" : "s"),
+          record.message.empty() ? covered : covered + ";  " + record.message};
+}
+
+}  // namespace
+
+std::string PictureTitle(const Scenario& s) { return s.robot_name + " on " + s.site.map.name; }
+
+void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecord& record,
+                   const std::filesystem::path& folder) {
+  WritePlanPictures(s, plan, folder);
+  {
+    HeatMapOptions options;
+    options.title = PictureTitle(s) + ": visits";
+    options.quantity = "passes of the tool";
+    options.unit = "count";
+    options.whole_numbers = true;
+    options.low = 0;
+    const HeatValues heat =
+        OverSweepable(record, [](std::uint8_t passes) { return static_cast<float>(passes); });
+    WriteHeatMap(s.site.map, &heat, options, folder / "heatmap_visits.png");
+  }
+  {
+    HeatMapOptions options;
+    options.title =
+        fmt::format("{}: coverage {:.1f} %", PictureTitle(s), 100 * record.metrics.coverage);
+    options.categories = {{"can be swept, was not", {222, 90, 60}}, {"swept", {70, 150, 110}}};
+    const HeatValues heat =
+        OverSweepable(record, [](std::uint8_t passes) { return passes > 0 ? 1.0f : 0.0f; });
+    WriteHeatMap(s.site.map, &heat, options, folder / "heatmap_coverage.png");
+  }
+  WriteFailurePlaces(s.site.map, PictureTitle(s), record.events, nullptr, &plan.path,
+                     folder / "heatmap_failures.png");
+  if (record.known) WriteKnownMap(s, *record.known, folder / "heatmap_known.png");
+  WriteErrorPlot(PictureTitle(s), record, folder / "plot_errors.png");
+}
+
+void WriteFailurePlaces(const HazardMap& map, const std::string& title,
+                        const std::vector<Event>& events, const HeatValues* rates, const Path* plan,
+                        const std::filesystem::path& png) {
+  constexpr std::size_t kManyPoints = 200;  // they would hide the squares
+  HeatMapOptions options;
+  options.title =
+      fmt::format("{}: {} failure event{}", title, events.size(), events.size() == 1 ? "" : "s");
+  if (rates == nullptr || events.size() <= kManyPoints)
+    for (const auto& event : events)
+      options.points.push_back({{event.x_m, event.y_m}, std::string(Name(event.mode))});
+  if (rates != nullptr) {
+    options.quantity = "episodes failing here";
+    options.unit = "%";
+    options.low = 0;
+  }
+  options.plan = plan;
+  WriteHeatMap(map, rates, options, png);
+}
+
+std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& plan,
+                       const EpisodeRecord& record, const Recording& recording,
+                       const std::filesystem::path& folder) {
+  const HazardMap& map = s.site.map;
+  // A film shows all walls, near and far.
+  Scene whole;
+  if (scene.pool.num > 0)
+    whole = BuildScene(s.site.map, s.robot, s.physics, s.start, WallSet::kAll);
+  FilmScript script;
+  script.model = whole.model ? whole.model.get() : scene.model.get();
+  script.base_body = scene.base_body;
+  script.recording = &recording;
+  script.events = record.events;
+  script.title = PictureTitle(s);
+  script.plan = &plan.path;
+  script.senses = s.video.scan;
+  const double w = map.frame.width * map.frame.cell_m, h = map.frame.height * map.frame.cell_m;
+  Vec2 low = map.frame.X_WG.p(), high = low;
+  for (const Vec2& corner : {Vec2(w, 0), Vec2(0, h), Vec2(w, h)}) {
+    low = low.cwiseMin(map.frame.X_WG * corner);
+    high = high.cwiseMax(map.frame.X_WG * corner);
+  }
+  script.set = {low, high, s.robot.spec.circumscribed_radius_m};
+  for (const Intervention& help : record.interventions)
+    script.notices.push_back({help.t_s,
+                              {Banner::Tone::kWarning, "HELPED   set down by a person",
+                               fmt::format("at the waypoint x {:.2f} m, y {:.2f} m;  t {:.1f} s",
+                                           help.to_W.x(), help.to_W.y(), help.t_s)}});
+  if (record.events.empty() || !record.interventions.empty())
+    script.closing = ClosingBanner(record);
+  FilmOptions options;
+  options.camera = s.video.camera;
+  options.width = s.video.width & ~1;
+  options.height = s.video.height & ~1;
+  options.pace.fps = s.video.fps;
+  options.pace.speed_up = s.video.speed_up.value_or(0);
+  options.pace.max_frames = s.video.max_frames;
+  options.stills = folder;
+  const FilmResult film = WriteFilm(script, options, folder / "video.mp4");
+  return fmt::format("filmed: {} frames ({:.1f} s to draw, {:.1f} s to encode): {}", film.frames,
+                     film.render_s, film.encode_s, (folder / "video.mp4").string());
+}
+
+}  // namespace floorproof

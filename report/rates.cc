@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/rates.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "report/html.h"
+
+namespace floorproof {
+namespace {
+
+std::string Words(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+std::string Between(const std::string& lower, const std::string& upper) {
+  return lower + " to " + upper;
+}
+
+std::string PercentBetween(double lower, double upper) {
+  return NumberText(100 * lower) + " to " + PercentText(upper);
+}
+
+// The right end of the axis that all plots of a page share, so that they compare.
+double AxisEnd(const Report& report) {
+  double most = report.gate ? report.gate->max_rate : 0;
+  for (const ReportVariant& variant : report.variants)
+    for (const auto* rates : {&variant.failures, &variant.kinds, &variant.hazards})
+      for (const ReportRate& rate : *rates) most = std::max(most, rate.upper);
+  for (double decade = 1e-9; decade < 1; decade *= 10)
+    for (const double step : {1.0, 2.0, 5.0})
+      if (most <= step * decade * (1 + 1e-9)) return step * decade;
+  return 1;
+}
+
+struct Plot {
+  double reach = 1;  // the right end
+  const ReportGate* gate = nullptr;
+
+  double At(double rate) const { return std::clamp(100 * rate / reach, 0.0, 100.0); }
+
+  std::string Axis() const {
+    std::string svg = "<svg class=\"axis\" aria-hidden=\"true\">";
+    for (const auto& [share, anchor] :
+         {std::pair(0.0, "start"), std::pair(0.5, "middle"), std::pair(1.0, "end")})
+      svg += fmt::format("<text x=\"{:.0f}%\" y=\"12\" text-anchor=\"{}\">{}</text>", 100 * share,
+                         anchor, PercentText(share * reach));
+    return svg + "</svg>";
+  }
+
+  std::string Row(const ReportRate& rate) const {
+    std::string svg = fmt::format("<svg class=\"plot\" role=\"img\" aria-label=\"{}\">",
+                                  PercentBetween(rate.lower, rate.upper));
+    for (const int x : {0, 50, 100})
+      svg += fmt::format("<line class=\"grid\" x1=\"{0}%\" x2=\"{0}%\" y1=\"0\" y2=\"100%\"/>", x);
+    if (gate != nullptr && gate->metric == rate.name)
+      svg += fmt::format(
+          "<line class=\"limit\" x1=\"{0:.2f}%\" x2=\"{0:.2f}%\" y1=\"0\" y2=\"100%\"/>",
+          At(gate->max_rate));
+    svg += fmt::format("<line class=\"bar\" x1=\"{:.2f}%\" x2=\"{:.2f}%\" y1=\"50%\" y2=\"50%\"/>",
+                       At(rate.lower), At(rate.upper));
+    for (const double end : {rate.lower, rate.upper})
+      svg += fmt::format(
+          "<line class=\"bar\" x1=\"{0:.2f}%\" x2=\"{0:.2f}%\" y1=\"30%\" y2=\"70%\"/>", At(end));
+    if (rate.n > 0)
+      svg += fmt::format("<circle class=\"{}\" cx=\"{:.2f}%\" cy=\"50%\" r=\"4\"/>",
+                         rate.k > 0 ? "point" : "none", At(rate.rate));
+    return svg + "</svg>";
+  }
+};
+
+Plot PlotOf(const Report& report) {
+  return {AxisEnd(report), report.gate ? &*report.gate : nullptr};
+}
+
+// `names`: what stands in the first column, a row each; `total`: the first row is all of it.
+std::string RatesTable(const Report& report, const std::string& heading,
+                       const std::vector<std::string>& names, const std::vector<ReportRate>& rates,
+                       bool total = false) {
+  const Plot plot = PlotOf(report);
+  std::string html = fmt::format(
+      "<table class=\"rates\"><thead><tr><th scope=\"col\">{}</th><th scope=\"col\" "
+      "class=\"num\">Episodes</th><th scope=\"col\" class=\"num\">Rate</th><th scope=\"col\" "
+      "class=\"num\">{} interval</th><th scope=\"col\" "
+      "class=\"plotted\">{}</th></tr></thead><tbody>\n",
+      heading, PercentText(report.confidence), plot.Axis());
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    const ReportRate& rate = rates[i];
+    html += fmt::format(
+        "<tr{}><th scope=\"row\">{}</th><td class=\"num\">{} of {}</td><td class=\"num\">{}</td>"
+        "<td class=\"num\">{}</td><td class=\"plotted\">{}</td></tr>\n",
+        total && i == 0 ? " class=\"total\"" : "", MarkupText(names[i]), rate.k, rate.n,
+        rate.n > 0 ? PercentText(rate.rate) : "–", PercentBetween(rate.lower, rate.upper),
+        plot.Row(rate));
+  }
+  return html + "</tbody></table>\n";
+}
+
+std::vector<std::string> Names(const std::vector<ReportRate>& rates, bool as_words) {
+  std::vector<std::string> names;
+  for (const ReportRate& rate : rates) names.push_back(as_words ? Words(rate.name) : rate.name);
+  return names;
+}
+
+std::string Outcomes(const ReportVariant& v) {
+  struct Part {
+    const char* name;
+    int count;
+    const char* tone;
+  };
+  const std::array<Part, 5> parts = {{{"success", v.success, "good"},
+                                      {"failure", v.failure, "bad"},
+                                      {"timeout", v.timeout, "warn"},
+                                      {"error", v.errors, "broken"},
+                                      {"without a plan", v.not_planned, "idle"}}};
+  std::string bar, key;
+  for (const Part& part : parts) {
+    if (part.count > 0)
+      bar +=
+          fmt::format("<span class=\"{}\" style=\"flex-grow:{}\"></span>", part.tone, part.count);
+    key += fmt::format("<li{}><i class=\"{}\"></i>{} {}</li>",
+                       part.count > 0 ? "" : " class=\"nil\"", part.tone, part.count, part.name);
+  }
+  return fmt::format(
+      "<div class=\"outcomes\" aria-hidden=\"true\">{}</div><ul class=\"key\">{}</ul>\n", bar, key);
+}
+
+std::string PerTable(const Report& report, const ReportVariant& v) {
+  if (v.per_km.empty() || v.per_1000_h.empty()) return "";
+  std::string html = fmt::format(
+      "<h4>Events by distance and time</h4>\n<p class=\"note\">Driven: {} km in {} h. {} intervals "
+      "(Garwood).</p>\n<div class=\"scroll\"><table><thead><tr><th scope=\"col\">Failure</th><th "
+      "scope=\"col\" class=\"num\">Events</th><th scope=\"col\" class=\"num\">Per km</th><th "
+      "scope=\"col\" class=\"num\">Interval</th><th scope=\"col\" class=\"num\">Per 1,000 "
+      "h</th><th "
+      "scope=\"col\" class=\"num\">Interval</th></tr></thead><tbody>\n",
+      NumberText(v.per_km.front().exposure), NumberText(1000 * v.per_1000_h.front().exposure),
+      PercentText(report.confidence));
+  for (std::size_t i = 0; i < std::min(v.per_km.size(), v.per_1000_h.size()); ++i) {
+    const ReportRatePer &km = v.per_km[i], &hours = v.per_1000_h[i];
+    html += fmt::format(
+        "<tr{}><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td><td "
+        "class=\"num\">{}</td><td class=\"num\">{}</td><td class=\"num\">{}</td></tr>\n",
+        i == 0 ? " class=\"total\"" : "", MarkupText(Words(km.name)), km.k, NumberText(km.rate),
+        Between(NumberText(km.lower), NumberText(km.upper)), NumberText(hours.rate),
+        Between(NumberText(hours.lower), NumberText(hours.upper)));
+  }
+  return html + "</tbody></table></div>\n";
+}
+
+std::string MetricsTable(const ReportVariant& v) {
+  if (v.metrics.empty()) return "";
+  std::string html =
+      "<details><summary>Metrics of an episode</summary>\n<div class=\"scroll\"><table><thead><tr>"
+      "<th scope=\"col\">Metric</th><th scope=\"col\" class=\"num\">Mean</th><th scope=\"col\" "
+      "class=\"num\">Median</th><th scope=\"col\" class=\"num\">Least</th><th scope=\"col\" "
+      "class=\"num\">Greatest</th></tr></thead><tbody>\n";
+  for (const ReportMetric& m : v.metrics)
+    html += fmt::format(
+        "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td><td "
+        "class=\"num\">{}</td><td class=\"num\">{}</td></tr>\n",
+        MarkupText(m.name), NumberText(m.mean), NumberText(m.median), NumberText(m.min),
+        NumberText(m.max));
+  return html + "</tbody></table></div></details>\n";
+}
+
+std::string Signed(double value, bool percent) {
+  const std::string text = NumberText(percent ? 100 * value : value);
+  return (value > 0 && std::isfinite(value) ? "+" : "") + text;
+}
+
+std::string SignedBetween(double lower, double upper, bool percent) {
+  if (std::isfinite(lower) && std::isfinite(upper))
+    return Between(Signed(lower, percent), Signed(upper, percent));
+  return "too few pairs";
+}
+
+std::string PairSentence(const Report& report, const ReportPair& pair) {
+  const std::string b = MarkupText(pair.b), a = MarkupText(pair.a);
+  if (pair.n() == 0)
+    return fmt::format("<b>{}</b> and <b>{}</b> share no episode that counts.", b, a);
+  // By the exact test: with few pairs the score interval can leave out 0 where it does not.
+  const bool clear = pair.p <= 1 - report.confidence;
+  const std::string verdict = !clear                ? "no clear difference"
+                              : pair.difference > 0 ? fmt::format("<b>{}</b> fails more often", b)
+                                                    : fmt::format("<b>{}</b> fails less often", b);
+  return fmt::format(
+      "<b>{}</b> against <b>{}</b> over {} shared episodes: {} (difference of the failure rates {} "
+      "percentage points, {} interval {}; exact McNemar p = {}).",
+      b, a, pair.n(), verdict, Signed(pair.difference, true), PercentText(report.confidence),
+      SignedBetween(pair.lower, pair.upper, true), NumberText(pair.p));
+}
+
+std::string PairTable(const Report& report, const ReportPair& pair) {
+  std::string html = fmt::format(
+      "<p>{}</p>\n<ul class=\"key\"><li>{} failed in both</li><li>{} in {} only</li><li>{} in {} "
+      "only</li><li>{} in neither</li></ul>\n",
+      PairSentence(report, pair), pair.both, pair.only_a, MarkupText(pair.a), pair.only_b,
+      MarkupText(pair.b), pair.neither);
+  if (pair.metrics.empty()) return html;
+  html += fmt::format(
+      "<div class=\"scroll\"><table><thead><tr><th scope=\"col\">Difference</th><th scope=\"col\">"
+      "Pairs</th><th scope=\"col\" class=\"num\">Mean</th><th scope=\"col\" class=\"num\">{0} "
+      "interval</th><th scope=\"col\" class=\"num\">Median</th><th scope=\"col\" class=\"num\">{0} "
+      "interval</th></tr></thead><tbody>\n",
+      PercentText(report.confidence));
+  for (const ReportDifference& d : pair.metrics)
+    html += fmt::format(
+        "<tr><th scope=\"row\">{}</th><td>{} {}</td><td class=\"num\">{}</td><td "
+        "class=\"num\">{}</td><td class=\"num\">{}</td><td class=\"num\">{}</td></tr>\n",
+        MarkupText(d.name), d.n, MarkupText(d.pairs), Signed(d.mean, false),
+        SignedBetween(d.mean_lower, d.mean_upper, false), Signed(d.median, false),
+        SignedBetween(d.median_lower, d.median_upper, false));
+  return html + "</tbody></table></div>\n";
+}
+
+}  // namespace
+
+std::string VariantsTable(const Report& report) {
+  std::vector<std::string> names;
+  std::vector<ReportRate> rates;
+  for (const ReportVariant& variant : report.variants) {
+    if (variant.failures.empty()) continue;
+    names.push_back(variant.name);
+    rates.push_back(variant.failures.front());
+  }
+  return RatesTable(report, "Any failure, by variant", names, rates);
+}
+
+std::string VariantRates(const Report& report, const ReportVariant& v) {
+  std::string html = Outcomes(v);
+  html += RatesTable(report, "Failure", Names(v.failures, true), v.failures, true);
+  html += PerTable(report, v);
+  if (!v.kinds.empty())
+    html += "<h4>By kind</h4>\n" + RatesTable(report, "Kind", Names(v.kinds, true), v.kinds);
+  if (!v.hazards.empty())
+    html += "<h4>By hazard met</h4>\n" +
+            RatesTable(report, "Hazard", Names(v.hazards, false), v.hazards);
+  return html + MetricsTable(v);
+}
+
+std::string PlaceRates(const Report& report, const ReportVariant& v) {
+  constexpr std::size_t kShown = 10;
+  std::vector<std::string> names;
+  std::vector<ReportRate> rates;
+  for (std::size_t i = 0; i < std::min(kShown, v.places.rates.size()); ++i) {
+    names.push_back(v.places.rates[i].rate.name);
+    rates.push_back(v.places.rates[i].rate);
+  }
+  if (rates.empty()) return "";
+  std::string html = RatesTable(
+      report, fmt::format("Square of {} m around", NumberText(v.places.cell_m)), names, rates);
+  if (v.places.rates.size() > kShown)
+    html +=
+        fmt::format("<p class=\"note\">{} more squares stand in <code>summary.json</code>.</p>\n",
+                    v.places.rates.size() - kShown);
+  return html;
+}
+
+std::string PairedTables(const Report& report) {
+  std::string html;
+  for (const ReportPair& pair : report.pairs) html += PairTable(report, pair);
+  return html;
+}
+
+}  // namespace floorproof

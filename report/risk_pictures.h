@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// A plan and what it risks, as pictures in the style of the hTetro FMEA paper's Figures 3, 5 and 6.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "planners/risk/risk_meter.h"
+#include "run/episode/episode.h"
+
+namespace floorproof {
+
+struct RiskOfPlan {
+  std::string label;
+  RiskOfPath risk;
+};
+// Labelled by the planner, or by the plan's file.
+RiskOfPlan MeasurePlan(const Scenario& scenario, const PlanResult& plan);
+
+// heatmap_plan.png: the planned path over the map, cells with hazards coloured by their class.
+// heatmap_risk.png: the risk factor (RF) of each cell that is no outer wall.
+// heatmap_plan_visits.png: how often the plan visits each cell.
+// plot_risk.png: the plot below, of this plan and those beside it.
+void WritePlanPictures(const Scenario& scenario, const PlanResult& plan,
+                       const std::filesystem::path& folder,
+                       std::span<const RiskOfPlan> beside = {});
+
+// Visits by ranges of RF (Figure 6), beside the number of cells in each: what visiting each once
+// would be. At least one plan, all of one floor and robot; each is compared with the first.
+void WriteRiskPlot(const std::string& title, std::span<const RiskOfPlan> plans,
+                   const std::filesystem::path& png);
+
+}  // namespace floorproof

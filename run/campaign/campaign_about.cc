@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/campaign/campaign_about.h"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "base/file_output.h"
+#include "run/episode/records.h"
+
+namespace floorproof {
+namespace {
+
+// The first key whose values differ, with both; empty: none.
+std::string Difference(const ConfigNode& a, const ConfigNode& b, const std::string& path) {
+  const auto shown = [](const ConfigNode* node) {
+    if (node == nullptr) return std::string("nothing");
+    return node->IsScalar() ? node->scalar
+                            : std::string(node->IsNull() ? "nothing" : "other parts");
+  };
+  const auto below = [&](const std::string& key) { return path.empty() ? key : path + "." + key; };
+  if (a.IsMap() && b.IsMap()) {
+    for (const auto& [key, value] : a.entries) {
+      const ConfigNode* other = b.Find(key);
+      if (other == nullptr) return below(key) + " was " + shown(&value) + ", is not there now";
+      if (std::string text = Difference(value, *other, below(key)); !text.empty()) return text;
+    }
+    for (const auto& [key, value] : b.entries)
+      if (a.Find(key) == nullptr) return below(key) + " was not there, is " + shown(&value);
+    return "";
+  }
+  if (a.IsList() && b.IsList() && a.items.size() == b.items.size()) {
+    for (std::size_t i = 0; i < a.items.size(); ++i)
+      if (std::string text = Difference(a.items[i], b.items[i], below(std::to_string(i)));
+          !text.empty())
+        return text;
+    return "";
+  }
+  if (WriteYaml(a) == WriteYaml(b)) return "";
+  return path + " was " + shown(&a) + ", is " + shown(&b);
+}
+
+}  // namespace
+
+CampaignAbout DescribeCampaign(const ScenarioFile& file) {
+  const Scenario base = file.Read(std::nullopt);
+  ConfigNode resolved = ParseYaml(ResolvedScenario(base, base.file.parent_path()), "scenario");
+  // By name, not by path: shards are driven anywhere. Two files may have one name.
+  std::map<std::string, std::vector<std::string>> hashes;
+  const auto add = [&](const Scenario& s) {
+    for (const auto& read : FilesRead(s)) {
+      if (read == base.site_file) continue;  // it stands in the text
+      std::vector<std::string>& known = hashes[read.filename().string()];
+      std::string hash = Sha256OfFile(read);
+      if (std::ranges::find(known, hash) == known.end()) known.push_back(std::move(hash));
+    }
+  };
+  add(base);
+  for (const Variant& variant : file.variants()) add(file.Read(std::nullopt, variant));
+  resolved.Remove("files");
+  ConfigNode& files = resolved.Add("files", ConfigNode::Map());
+  for (const auto& [name, known] : hashes) {
+    std::string all;
+    for (const std::string& hash : known) all += (all.empty() ? "" : " ") + hash;
+    files.Add(name, ConfigNode::Scalar(all, true));
+  }
+
+  CampaignAbout about;
+  about.scenario = WriteYaml(resolved);
+  about.versions = VersionsJson().dump();
+  about.id = Sha256(about.scenario + about.versions).substr(0, 16);
+  return about;
+}
+
+void RequireSame(const CampaignAbout& there, const CampaignAbout& now,
+                 const std::filesystem::path& where) {
+  if (there.id == now.id) return;
+  const auto parse = [](const std::string& text) { return ParseYaml(text, "campaign"); };
+  std::string difference = Difference(parse(there.versions), parse(now.versions), "version");
+  if (difference.empty()) difference = Difference(parse(there.scenario), parse(now.scenario), "");
+  if (difference.empty()) difference = "its keys stand in another order";
+  throw InputError({where.string(), 0}, "", "", "holds another campaign: " + difference);
+}
+
+}  // namespace floorproof

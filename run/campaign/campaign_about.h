@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a campaign is, and whether two are the same.
+#pragma once
+
+#include "run/campaign/campaign_store.h"
+#include "run/scenario/scenario.h"
+
+namespace floorproof {
+
+// The scenario resolved, with the SHA-256 of the files of all variants, and the versions of program
+// and engine. Not in it: how many episodes, which of them, and on how many workers. Checks every
+// variant; throws InputError.
+CampaignAbout DescribeCampaign(const ScenarioFile& file);
+
+// Throws InputError naming `where` and the first thing that differs.
+void RequireSame(const CampaignAbout& there, const CampaignAbout& now,
+                 const std::filesystem::path& where);
+
+}  // namespace floorproof

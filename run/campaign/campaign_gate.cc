@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/campaign/campaign_gate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace floorproof {
+
+void GateParams::Visit(ParamVisitor& v) {
+  v("metric", metric,
+    {"any_failure", "veer_off", "stuck", "roll_over", "bounce_back", "not_success"},
+    "episodes counted: with a failure of that mode, with any, or that are no success (timeouts "
+    "and episodes without a plan too)");
+  v("max_rate", max_rate, Between(0, 1), "the rate that must be proved to be below this");
+  v("confidence", confidence, Between(0.5, 1), "of either verdict, one-sided");
+  v("mode", mode, {"fixed", "sequential"},
+    "fixed: judged once, at the last episode; sequential: as soon as the evidence is enough");
+  v("min_n", min_n, Between(1, 1e8), "sequential: fewest episodes that a verdict stands on");
+  v("max_n", max_n, Between(1, 1e8), "most episodes judged; none: the campaign's -n");
+}
+
+std::optional<CampaignGate> CampaignGate::Read(const ConfigNode& node, std::uint64_t n,
+                                               bool driven) {
+  if (node.IsNull()) return std::nullopt;
+  CampaignGate gate;
+  ReadParams(node, "gate.", [&](ParamVisitor& v) { gate.params_.Visit(v); });
+  const GateParams& p = gate.params_;
+  if (!driven && p.metric != "not_success")
+    throw InputError(node.mark, "gate.metric", p.metric,
+                     "must be not_success: without physics (drive: none) nothing can fail");
+  if (p.max_n && *p.max_n != std::floor(*p.max_n))
+    throw InputError(node.mark, "gate.max_n", FormatDouble(*p.max_n), "must be a whole number");
+  const double most = std::min(p.max_n.value_or(1e8), static_cast<double>(n));
+  gate.settings_ = {p.mode == "fixed" ? GateMode::kFixed : GateMode::kSequential, p.max_rate,
+                    p.confidence, p.mode == "fixed" ? 1 : p.min_n, static_cast<int>(most)};
+  try {
+    CheckGate(gate.settings_);
+  } catch (const InputError& e) {
+    std::string why = e.what();
+    // Not written: it is the command line's.
+    if (!p.max_n && why.starts_with("max_n")) why.replace(0, 5, "-n");
+    throw InputError(node.mark, "gate", "", why);
+  }
+  return gate;
+}
+
+bool CampaignGate::Judges(const EpisodeRow& row) const {
+  return row.counts() || (row.outcome == "not_planned" && params_.metric == "not_success");
+}
+
+bool CampaignGate::Fails(const EpisodeRow& row) const {
+  if (params_.metric == "any_failure") return row.any_failure();
+  if (params_.metric == "not_success") return row.outcome != "success";
+  for (std::size_t m = 0; m < row.events_of.size(); ++m)
+    if (params_.metric == Name(static_cast<FailureMode>(m))) return row.events_of[m] > 0;
+  return false;
+}
+
+std::string GateState::Criterion() const {
+  return fmt::format("{} < {:.4g} % at {:.4g} %", params_.metric, 100 * params_.max_rate,
+                     100 * params_.confidence);
+}
+
+std::string GateState::Text() const {
+  return fmt::format("{} ({}): {}", GateVerdictName(verdict()), Criterion(), gate_.Report().text);
+}
+
+nlohmann::ordered_json GateState::CriterionJson() const {
+  return {{"metric", params_.metric},
+          {"max_rate", params_.max_rate},
+          {"confidence", params_.confidence},
+          {"mode", params_.mode}};
+}
+
+nlohmann::ordered_json GateState::Json() const {
+  const GateReport report = gate_.Report();
+  nlohmann::ordered_json json = {{"verdict", GateVerdictName(report.verdict)},
+                                 {"n", report.n},
+                                 {"k", report.k},
+                                 {"lower", report.rate.lower},
+                                 {"upper", report.rate.upper},
+                                 {"text", report.text}};
+  if (params_.mode == "sequential") {
+    json["log_e_pass"] = report.log_e_pass;
+    json["log_e_fail"] = report.log_e_fail;
+  }
+  return json;
+}
+
+GateVerdict Overall(const std::vector<GateState>& gates) {
+  const auto is = [](GateVerdict verdict) {
+    return [verdict](const GateState& gate) { return gate.verdict() == verdict; };
+  };
+  if (std::ranges::any_of(gates, is(GateVerdict::kFailed))) return GateVerdict::kFailed;
+  if (std::ranges::all_of(gates, is(GateVerdict::kPassed))) return GateVerdict::kPassed;
+  return GateVerdict::kUndecided;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scenario's `gate`: the rate of one metric that a campaign must prove to be below a bound.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/params.h"
+#include "run/campaign/episode_row.h"
+#include "stats/gate.h"
+
+namespace floorproof {
+
+struct GateParams {
+  std::string metric = "any_failure";  // a mode, any_failure, not_success
+  double max_rate = 0.05, confidence = 0.95;
+  std::string mode = "fixed";
+  int min_n = 1;
+  std::optional<double> max_n;  // none: the campaign's -n
+  void Visit(ParamVisitor& v);
+};
+
+// What the gate says of a prefix of one variant's episodes.
+class GateState {
+ public:
+  GateState(const GateParams& params, const GateSettings& settings)
+      : params_(params), gate_(settings) {}
+  void Add(bool failed) { gate_.Add(failed); }
+  void End() { gate_.End(); }  // no further episode comes
+  // No further episode changes the verdict.
+  bool decided() const { return gate_.final(); }
+  GateVerdict verdict() const { return gate_.verdict(); }
+  std::string Text() const;       // a sentence
+  std::string Criterion() const;  // "any_failure < 5 % at 95 %"
+  nlohmann::ordered_json CriterionJson() const;
+  nlohmann::ordered_json Json() const;
+
+ private:
+  GateParams params_;
+  Gate gate_;
+};
+
+class CampaignGate {
+ public:
+  // `node`: the scenario's key `gate`; null: no gate. `n`: the campaign's episodes; `driven`:
+  // through physics. Throws InputError, also where not even a campaign without a failure could
+  // pass, or where nothing that is driven nowhere could fail.
+  static std::optional<CampaignGate> Read(const ConfigNode& node, std::uint64_t n, bool driven);
+  // Whether the episode counts: what the tool broke does not, and what has no plan only as no
+  // success.
+  bool Judges(const EpisodeRow& row) const;
+  bool Fails(const EpisodeRow& row) const;
+  bool fixed() const { return settings_.mode == GateMode::kFixed; }
+  GateState Start() const { return {params_, settings_}; }
+
+ private:
+  GateParams params_;
+  GateSettings settings_;
+};
+
+// Failed when one is, passed when all are.
+GateVerdict Overall(const std::vector<GateState>& gates);
+
+}  // namespace floorproof

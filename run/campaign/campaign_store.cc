@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/campaign/campaign_store.h"
+
+#include <sqlite3.h>
+
+#include <utility>
+
+#include "base/error.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFormat = 1;
+
+std::string Columns() {
+  std::string columns =
+      "campaign TEXT NOT NULL, variant TEXT NOT NULL, episode INTEGER NOT NULL, outcome TEXT NOT "
+      "NULL, message TEXT NOT NULL";
+  for (int mode = 0; mode < kNumFailureModes; ++mode)
+    columns += ", " + std::string(Name(static_cast<FailureMode>(mode))) + " INTEGER NOT NULL";
+  for (const std::string_view metric : kMetricColumns)
+    columns += ", " + std::string(metric) + " REAL";
+  return columns + ", drawn TEXT NOT NULL, plan TEXT NOT NULL, events TEXT NOT NULL";
+}
+
+constexpr int kNumColumns = 5 + kNumFailureModes + static_cast<int>(kMetricColumns.size()) + 3;
+
+std::string Placeholders() {
+  std::string marks = "?";
+  for (int i = 1; i < kNumColumns; ++i) marks += ",?";
+  return marks;
+}
+
+// A database whose log is empty is read as it is: no index file is made beside it, and it may lie
+// on a disk that cannot be written.
+std::string ReadOnlyName(const fs::path& file) {
+  std::error_code error;
+  const auto log_bytes = fs::file_size(file.string() + "-wal", error);
+  if (!error && log_bytes > 0) return file.string();
+  std::string uri = "file:";
+  for (const char c : fs::absolute(file).string())
+    uri += c == '%' ? "%25" : c == '?' ? "%3f" : c == '#' ? "%23" : std::string(1, c);
+  return uri + "?immutable=1";
+}
+
+}  // namespace
+
+// A prepared statement; its calls throw as the store's do.
+struct CampaignStore::Statement {
+  Statement(const CampaignStore& of, const std::string& sql) : store(of) {
+    Check(sqlite3_prepare_v2(of.db_, sql.c_str(), -1, &handle, nullptr));
+  }
+  ~Statement() { sqlite3_finalize(handle); }
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  void Check(int code) const {
+    if (code != SQLITE_OK) store.Refuse(code);
+  }
+  void Bind(int at, const std::string& text) {
+    Check(sqlite3_bind_text(handle, at, text.data(), static_cast<int>(text.size()),
+                            SQLITE_TRANSIENT));
+  }
+  void Bind(int at, std::int64_t number) { Check(sqlite3_bind_int64(handle, at, number)); }
+  void Bind(int at, std::optional<double> number) {
+    Check(number ? sqlite3_bind_double(handle, at, *number) : sqlite3_bind_null(handle, at));
+  }
+  bool Step() {
+    const int code = sqlite3_step(handle);
+    if (code != SQLITE_ROW && code != SQLITE_DONE) store.Refuse(code);
+    return code == SQLITE_ROW;
+  }
+  void Again() { Check(sqlite3_reset(handle)); }
+  std::string Text(int column) const {
+    const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(handle, column));
+    return text == nullptr
+               ? ""
+               : std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(handle, column)));
+  }
+
+  // Of a SELECT * from a table of episodes.
+  EpisodeRow Row() const {
+    EpisodeRow row;
+    row.variant = Text(1);
+    row.episode = static_cast<std::uint64_t>(sqlite3_column_int64(handle, 2));
+    row.outcome = Text(3);
+    row.message = Text(4);
+    int at = 5;
+    for (int& n : row.events_of) n = sqlite3_column_int(handle, at++);
+    for (auto& value : row.metrics) {
+      if (sqlite3_column_type(handle, at) != SQLITE_NULL) value = sqlite3_column_double(handle, at);
+      ++at;
+    }
+    row.drawn = Text(at++);
+    row.plan = Text(at++);
+    row.events = Text(at);
+    return row;
+  }
+
+  const CampaignStore& store;
+  sqlite3_stmt* handle = nullptr;
+};
+
+CampaignStore::CampaignStore(const fs::path& file, sqlite3* db) : file_(file), db_(db) {}
+
+CampaignStore::CampaignStore(CampaignStore&& other) noexcept
+    : file_(std::move(other.file_)),
+      db_(std::exchange(other.db_, nullptr)),
+      about_(std::move(other.about_)),
+      asked_(other.asked_) {}
+
+CampaignStore::~CampaignStore() { sqlite3_close(db_); }
+
+void CampaignStore::Refuse(int code) const {
+  const std::string why = sqlite3_errmsg(db_);
+  switch (code & 0xff) {
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+      throw InputError({file_.string(), 0}, "", "",
+                       "is damaged (" + why + "); it was left as it is");
+    case SQLITE_FULL:
+    case SQLITE_IOERR:
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+    case SQLITE_CANTOPEN:
+      throw InputError({file_.string(), 0}, "", "",
+                       "cannot be written: " + why + "; episodes before are kept");
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      throw InputError({file_.string(), 0}, "", "", "is in use by another campaign");
+    default:
+      throw InternalError(file_.string() + ": " + why);
+  }
+}
+
+void CampaignStore::Run(const std::string& sql) {
+  if (const int code = sqlite3_exec(db_, sql.c_str(), nullptr, nullptr, nullptr); code != SQLITE_OK)
+    Refuse(code);
+}
+
+CampaignStore CampaignStore::Create(const fs::path& file, const CampaignAbout& about) {
+  // Under another name until it is whole: a kill in between must not leave a file that is refused.
+  const fs::path part = file.string() + ".part";
+  const auto remove = [](const fs::path& path, const char* end) {
+    std::error_code ignored;
+    fs::remove(path.string() + end, ignored);
+  };
+  const auto remove_part = [&] { remove(part, ""), remove(part, "-journal"); };
+  remove_part();
+  try {
+    Fill(file, part, about);
+    // A journal that lost its database must not be taken for the new one's.
+    for (const char* end : {"-wal", "-shm", "-journal"}) remove(file, end);
+    fs::rename(part, file);
+  } catch (const fs::filesystem_error& e) {
+    remove_part();
+    throw InputError({file.string(), 0}, "", "", "cannot be written: " + e.code().message());
+  } catch (...) {
+    remove_part();
+    throw;
+  }
+  return Open(file, true);
+}
+
+void CampaignStore::Fill(const fs::path& file, const fs::path& part, const CampaignAbout& about) {
+  sqlite3* db = nullptr;
+  const int code =
+      sqlite3_open_v2(part.c_str(), &db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
+  CampaignStore store(file, db);
+  if (code != SQLITE_OK) store.Refuse(code);
+  store.Run("BEGIN");
+  store.Run("CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID");
+  for (const char* table : {"episode", "extra"})
+    store.Run("CREATE TABLE " + std::string(table) + " (" + Columns() +
+              ", PRIMARY KEY (campaign, variant, episode)) WITHOUT ROWID");
+  store.Run(
+      "CREATE TABLE timing (variant TEXT NOT NULL, episode INTEGER NOT NULL, wall_s REAL NOT NULL, "
+      "PRIMARY KEY (variant, episode)) WITHOUT ROWID");
+  {
+    Statement insert(store, "INSERT INTO about VALUES (?, ?)");
+    for (const auto& [key, value] :
+         {std::pair<std::string, std::string>("format", std::to_string(kFormat)),
+          {"campaign", about.id},
+          {"scenario", about.scenario},
+          {"versions", about.versions}}) {
+      insert.Bind(1, key);
+      insert.Bind(2, value);
+      insert.Step();
+      insert.Again();
+    }
+  }
+  store.Run("COMMIT");
+}
+
+CampaignStore CampaignStore::Connect(const fs::path& file, int flags) {
+  sqlite3* db = nullptr;
+  const std::string name = flags == SQLITE_OPEN_READONLY ? ReadOnlyName(file) : file.string();
+  const int code = sqlite3_open_v2(name.c_str(), &db, flags | SQLITE_OPEN_URI, nullptr);
+  CampaignStore store(file, db);
+  if (code != SQLITE_OK) store.Refuse(code);
+  return store;
+}
+
+CampaignStore CampaignStore::Open(const fs::path& file, bool write) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored))
+    throw InputError({file.string(), 0}, "", "", "cannot be opened: no such file");
+  // Looked through read-only first: opening a damaged file for writing could change it.
+  CampaignStore store = Connect(file, SQLITE_OPEN_READONLY);
+  {
+    Statement check(store, "PRAGMA quick_check(1)");
+    if (check.Step() && check.Text(0) != "ok")
+      throw InputError({file.string(), 0}, "", "",
+                       "is damaged (" + check.Text(0) + "); it was left as it is");
+  }
+  store.ReadAbout();
+  store.CheckTexts();
+  if (write) store.MakeWritable();
+  return store;
+}
+
+void CampaignStore::MakeWritable() {
+  CampaignStore writable = Connect(file_, SQLITE_OPEN_READWRITE);
+  sqlite3_close(std::exchange(db_, std::exchange(writable.db_, nullptr)));
+  // In this order: who owns the shared index when it closes also removes it.
+  Run("PRAGMA journal_mode=WAL; SELECT count(*) FROM about");
+  Run("PRAGMA locking_mode=EXCLUSIVE; PRAGMA synchronous=NORMAL");
+  Run("BEGIN IMMEDIATE; COMMIT");  // takes the lock now, or says who has it
+}
+
+void CampaignStore::ReadAbout() {
+  try {
+    Statement select(*this, "SELECT key, value FROM about");
+    std::string format;
+    while (select.Step()) {
+      const std::string key = select.Text(0), value = select.Text(1);
+      if (key == "format") format = value;
+      if (key == "campaign") about_.id = value;
+      if (key == "scenario") about_.scenario = value;
+      if (key == "versions") about_.versions = value;
+      if (key == "asked") asked_ = std::strtoull(value.c_str(), nullptr, 10);
+    }
+    if (format == std::to_string(kFormat)) return;
+  } catch (const InternalError&) {
+  }
+  throw InputError({file_.string(), 0}, "", "", "is not a campaign's database (table about)");
+}
+
+// What lies in a row's further pages no check of the database looks at.
+void CampaignStore::CheckTexts() const {
+  for (const std::string table : {"episode", "extra"}) {
+    Statement damaged(*this, "SELECT episode FROM " + table +
+                                 " WHERE NOT (json_valid(drawn) AND json_valid(plan) AND "
+                                 "json_valid(events)) LIMIT 1");
+    if (damaged.Step())
+      throw InputError(
+          {file_.string(), 0}, "", "",
+          "is damaged (a text of a row of table " + table + " is no JSON); it was left as it is");
+  }
+}
+
+void CampaignStore::Add(std::span<const EpisodeRow> rows) {
+  if (rows.empty()) return;
+  Run("BEGIN");
+  try {
+    Statement insert(*this, "INSERT INTO episode VALUES (" + Placeholders() + ")");
+    Statement timing(*this, "INSERT OR REPLACE INTO timing VALUES (?, ?, ?)");
+    for (const EpisodeRow& row : rows) {
+      int at = 0;
+      insert.Bind(++at, about_.id);
+      insert.Bind(++at, row.variant);
+      insert.Bind(++at, static_cast<std::int64_t>(row.episode));
+      insert.Bind(++at, row.outcome);
+      insert.Bind(++at, row.message);
+      for (const int n : row.events_of) insert.Bind(++at, std::int64_t{n});
+      for (const auto& value : row.metrics) insert.Bind(++at, value);
+      for (const std::string* text : {&row.drawn, &row.plan, &row.events}) insert.Bind(++at, *text);
+      insert.Step();
+      insert.Again();
+      timing.Bind(1, row.variant);
+      timing.Bind(2, static_cast<std::int64_t>(row.episode));
+      timing.Bind(3, std::optional(row.wall_s));
+      timing.Step();
+      timing.Again();
+    }
+    Run("COMMIT");
+  } catch (...) {
+    sqlite3_exec(db_, "ROLLBACK", nullptr, nullptr, nullptr);
+    throw;
+  }
+}
+
+std::vector<std::string> CampaignStore::Variants() const {
+  Statement select(*this, "SELECT DISTINCT variant FROM episode ORDER BY variant");
+  std::vector<std::string> variants;
+  while (select.Step()) variants.push_back(select.Text(0));
+  return variants;
+}
+
+std::vector<std::uint64_t> CampaignStore::Episodes(const std::string& variant) const {
+  Statement select(*this,
+                   "SELECT episode FROM episode WHERE campaign = ?1 AND variant = ?2 UNION SELECT "
+                   "episode FROM extra WHERE campaign = ?1 AND variant = ?2 ORDER BY 1");
+  select.Bind(1, about_.id);
+  select.Bind(2, variant);
+  std::vector<std::uint64_t> episodes;
+  while (select.Step())
+    episodes.push_back(static_cast<std::uint64_t>(sqlite3_column_int64(select.handle, 0)));
+  return episodes;
+}
+
+void CampaignStore::ForEach(const std::string& variant,
+                            const std::function<void(const EpisodeRow&)>& visit, bool extra) const {
+  const std::string rows = " WHERE campaign = ?1 AND variant = ?2";
+  Statement select(*this, "SELECT * FROM episode" + rows +
+                              (extra ? " UNION ALL SELECT * FROM extra" + rows : "") +
+                              " ORDER BY episode");
+  select.Bind(1, about_.id);
+  select.Bind(2, variant);
+  while (select.Step()) visit(select.Row());
+}
+
+std::optional<EpisodeRow> CampaignStore::Find(const std::string& variant,
+                                              std::uint64_t episode) const {
+  Statement select(*this,
+                   "SELECT * FROM episode WHERE campaign = ?1 AND variant = ?2 AND episode = ?3 "
+                   "UNION ALL SELECT * FROM extra WHERE campaign = ?1 AND variant = ?2 AND episode "
+                   "= ?3");
+  select.Bind(1, about_.id);
+  select.Bind(2, variant);
+  select.Bind(3, static_cast<std::int64_t>(episode));
+  if (!select.Step()) return std::nullopt;
+  return select.Row();
+}
+
+void CampaignStore::SetAsked(std::uint64_t episodes) {
+  if (episodes == asked_) return;
+  Statement insert(*this, "INSERT OR REPLACE INTO about VALUES ('asked', ?)");
+  insert.Bind(1, std::to_string(episodes));
+  insert.Step();
+  asked_ = episodes;
+}
+
+void CampaignStore::DropErrors() {
+  Run("BEGIN; DELETE FROM episode WHERE outcome = 'error'; DELETE FROM extra WHERE outcome = "
+      "'error'; COMMIT");
+}
+
+void CampaignStore::Settle() { Run("PRAGMA wal_checkpoint(TRUNCATE)"); }
+
+void CampaignStore::SetExtraFrom(const std::string& variant, std::uint64_t episode) {
+  Run("BEGIN");
+  const auto move = [&](const char* from, const char* to, const char* which) {
+    for (const std::string& sql :
+         {"INSERT OR REPLACE INTO " + std::string(to) + " SELECT * FROM " + from,
+          "DELETE FROM " + std::string(from)}) {
+      Statement statement(*this,
+                          sql + " WHERE campaign = ? AND variant = ? AND episode " + which + " ?");
+      statement.Bind(1, about_.id);
+      statement.Bind(2, variant);
+      statement.Bind(3, static_cast<std::int64_t>(episode));
+      statement.Step();
+    }
+  };
+  move("episode", "extra", ">=");
+  move("extra", "episode", "<");
+  Run("COMMIT");
+}
+
+}  // namespace floorproof

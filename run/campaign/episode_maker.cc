@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/campaign/episode_maker.h"
+
+#include "run/episode/records.h"
+#include "run/scenario/plan_file.h"
+
+namespace floorproof {
+namespace {
+
+// All that MakePlan reads, as text. The floor's friction is not a planner's to know.
+std::string PlanInputs(const Scenario& s) {
+  ConfigNode site = s.site_node;
+  site.Remove("floor");
+  ConfigNode others = ConfigNode::Map();
+  others.Add("site", std::move(site));
+  others.Add("robot", ConfigNode::Scalar(s.robot_file.string(), true));
+  RobotChanges changes = s.robot_changes;
+  WriteParams([&](ParamVisitor& v) { changes.Visit(v); }, others);
+  std::string text = WriteYaml(others) + s.planner_name;
+  for (const double value : {s.start.x_m, s.start.y_m, s.start.yaw_rad})
+    text += " " + FormatDouble(value);
+  if (s.goal) text += " to " + FormatDouble(s.goal->x()) + " " + FormatDouble(s.goal->y());
+  ConfigNode params = ConfigNode::Map();
+  if (s.planner)
+    WriteParams(*s.planner, params);
+  else
+    text += "\n" + PlanCsv(s.user_plan);
+  RiskParams risk = s.risk;
+  WriteParams([&](ParamVisitor& v) { risk.Visit(v); }, params);
+  params.Add("tables", ConfigNode::Scalar(s.fmea_file.string(), true));
+  text += "\n" + WriteYaml(params);
+  if (s.planner && s.planner->uses_seed()) text += std::to_string(s.episode_id);
+  return text;
+}
+
+// Paths within the scenario's folder are told from there, so that a shard driven elsewhere says the
+// same.
+std::string FromFolder(const std::string& message, const std::filesystem::path& folder) {
+  const std::string prefix = folder.empty() ? "" : (folder / "").string();
+  return message.starts_with(prefix) ? message.substr(prefix.size()) : message;
+}
+
+}  // namespace
+
+const EpisodeMaker::Planned& EpisodeMaker::Plan(const Variant& variant, const Scenario& s) {
+  const std::string inputs = PlanInputs(s);
+  Planned& last = plans_[variant.name];
+  if (last.json.empty() || inputs != last.inputs) {
+    last.inputs = inputs;
+    last.plan = MakePlan(s);
+    auto json = PlanJson(s, last.plan);
+    json.erase("visits_by_risk");  // a row holds numbers
+    last.json = json.dump();
+  }
+  return last;
+}
+
+EpisodeRow EpisodeMaker::Run(const Variant& variant, std::uint64_t episode) try {
+  Scenario s = file_.Read(episode, variant);
+  const Planned& planned = Plan(variant, s);
+  EpisodeRecord record;
+  if (planned.plan.status != PlanStatus::kSuccess) {
+    record.outcome = Outcome::kNotPlanned;
+    record.message = planned.plan.message;
+  } else if (s.episode.drive == "none") {
+    record.outcome = Outcome::kSuccess;
+  } else {
+    const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
+    record = RunEpisode(s, scene, planned.plan);
+  }
+  return MakeRow(variant.name, s, planned.json, record);
+} catch (const InputError& e) {
+  return Refused(variant, episode, e.what());
+} catch (const InternalError& e) {
+  return Refused(variant, episode, e.what());
+}
+
+EpisodeRow EpisodeMaker::Refused(const Variant& variant, std::uint64_t episode,
+                                 const std::string& why) const {
+  EpisodeRow row;
+  row.variant = variant.name;
+  row.episode = episode;
+  row.outcome = Name(Outcome::kError);
+  row.message = FromFolder(why, file_.file().parent_path());
+  row.drawn = DrawnJson(file_.DrawnOf(episode)).dump();
+  return row;
+}
+
+}  // namespace floorproof

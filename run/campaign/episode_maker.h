@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drives a campaign's episodes one after another, and keeps what follows from the same inputs: the
+// parsed files and each variant's last plan. (A scene compiles within milliseconds.)
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "run/campaign/episode_row.h"
+#include "run/scenario/scenario.h"
+
+namespace floorproof {
+
+class EpisodeMaker {
+ public:
+  // `file` outlives the maker.
+  explicit EpisodeMaker(const ScenarioFile& file) : file_(file) {}
+
+  // Plans and, unless the scenario says `drive: none`, drives. What an episode's draws make
+  // impossible (a start in a wall) is its outcome `error`, with the reason as message.
+  EpisodeRow Run(const Variant& variant, std::uint64_t episode);
+  // The row of an episode that could not be run.
+  EpisodeRow Refused(const Variant& variant, std::uint64_t episode, const std::string& why) const;
+
+ private:
+  struct Planned {
+    std::string inputs;  // that the plan follows from
+    PlanResult plan;
+    std::string json;
+  };
+  const Planned& Plan(const Variant& variant, const Scenario& scenario);
+
+  const ScenarioFile& file_;
+  std::map<std::string, Planned> plans_;  // by variant
+};
+
+}  // namespace floorproof

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/campaign/episode_row.h"
+
+#include <algorithm>
+
+#include "run/episode/records.h"
+
+namespace floorproof {
+
+using Json = nlohmann::ordered_json;
+
+bool EpisodeRow::any_failure() const {
+  return outcome == "failure" || std::ranges::any_of(events_of, [](int n) { return n > 0; });
+}
+
+double EpisodeRow::metric(std::string_view name) const {
+  const auto found = std::ranges::find(kMetricColumns, name);
+  if (found == kMetricColumns.end()) throw InternalError("no metric " + std::string(name));
+  return metrics[static_cast<std::size_t>(found - kMetricColumns.begin())].value_or(0);
+}
+
+EpisodeRow MakeRow(const std::string& variant, const Scenario& s, const std::string& plan,
+                   const EpisodeRecord& record) {
+  EpisodeRow row;
+  row.variant = variant;
+  row.episode = s.episode_id;
+  row.outcome = Name(record.outcome);
+  row.message = record.message;
+  for (const Event& event : record.events) ++row.events_of[static_cast<std::size_t>(event.mode)];
+  if (record.steps > 0) {
+    const Json metrics = MetricsJson(record.metrics);
+    for (std::size_t i = 0; i < kMetricColumns.size(); ++i)
+      if (const Json& value = metrics.at(std::string(kMetricColumns[i])); !value.is_null())
+        row.metrics[i] = value.get<double>();
+  }
+  row.drawn = DrawnJson(s.drawn).dump();
+  row.plan = plan;
+  row.events = EventsJson(record.events).dump();
+  return row;
+}
+
+std::string ToLine(const EpisodeRow& row) {
+  Json metrics = Json::array();
+  for (const auto& value : row.metrics) metrics.push_back(value ? Json(*value) : Json(nullptr));
+  return Json({row.variant, row.episode, row.outcome, row.message, row.events_of, metrics,
+               row.drawn, row.plan, row.events, row.wall_s})
+      .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+EpisodeRow FromLine(std::string_view line) {
+  try {
+    const Json json = Json::parse(line);
+    EpisodeRow row;
+    row.variant = json.at(0).get<std::string>();
+    row.episode = json.at(1).get<std::uint64_t>();
+    row.outcome = json.at(2).get<std::string>();
+    row.message = json.at(3).get<std::string>();
+    row.events_of = json.at(4).get<std::array<int, kNumFailureModes>>();
+    for (std::size_t i = 0; i < row.metrics.size(); ++i)
+      if (const Json& value = json.at(5).at(i); !value.is_null())
+        row.metrics[i] = value.get<double>();
+    row.drawn = json.at(6).get<std::string>();
+    row.plan = json.at(7).get<std::string>();
+    row.events = json.at(8).get<std::string>();
+    row.wall_s = json.at(9).get<double>();
+    return row;
+  } catch (const Json::exception& e) {
+    throw InternalError(std::string("a worker's answer cannot be read: ") + e.what());
+  }
+}
+
+}  // namespace floorproof

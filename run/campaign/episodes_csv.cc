@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/campaign/episodes_csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace floorproof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string Field(const Json& value) {
+  if (value.is_null()) return "";
+  return CsvField(value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+// Which plan.* and drawn.* columns there are, in the order first met.
+struct CsvColumns {
+  std::vector<std::string> plan, drawn;
+  void See(const EpisodeRow& row) {
+    SeeKeys(row.plan, plan);
+    SeeKeys(row.drawn, drawn);
+  }
+
+ private:
+  static void SeeKeys(const std::string& text, std::vector<std::string>& names) {
+    const Json json = Json::parse(text);
+    for (const auto& [key, value] : json.items())
+      if (std::ranges::find(names, key) == names.end()) names.push_back(key);
+  }
+};
+
+}  // namespace
+
+std::string CsvField(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string EpisodesCsv(const CampaignStore& store, const std::vector<Variant>& variants) {
+  CsvColumns columns;
+  for (const Variant& variant : variants)
+    store.ForEach(variant.name, [&](const EpisodeRow& row) { columns.See(row); });
+  std::string csv = "variant,episode,outcome,message";
+  for (int m = 0; m < kNumFailureModes; ++m)
+    csv += "," + std::string(Name(static_cast<FailureMode>(m)));
+  for (const std::string_view metric : kMetricColumns) csv += "," + std::string(metric);
+  for (const std::string& name : columns.plan) csv += ",plan." + CsvField(name);
+  for (const std::string& name : columns.drawn) csv += ",drawn." + CsvField(name);
+  csv += "\n";
+  for (const Variant& variant : variants)
+    store.ForEach(variant.name, [&](const EpisodeRow& row) {
+      csv += fmt::format("{},{},{},{}", CsvField(row.variant), row.episode, row.outcome,
+                         CsvField(row.message));
+      for (const int n : row.events_of) csv += fmt::format(",{}", n);
+      for (const auto& value : row.metrics) csv += value ? fmt::format(",{}", *value) : ",";
+      const Json plan = Json::parse(row.plan), drawn = Json::parse(row.drawn);
+      for (const std::string& name : columns.plan) csv += "," + Field(plan.value(name, Json()));
+      for (const std::string& name : columns.drawn) csv += "," + Field(drawn.value(name, Json()));
+      csv += "\n";
+    });
+  return csv;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// episodes.csv: a campaign's rows as a table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run/campaign/campaign_store.h"
+#include "run/scenario/matrix.h"
+
+namespace floorproof {
+
+// A text as a field of a CSV file: in quotes where it needs them.
+std::string CsvField(const std::string& text);
+
+// By variant and episode: outcome, events by mode, metrics, then plan.* and drawn.* columns as far
+// as any row has them.
+std::string EpisodesCsv(const CampaignStore& store, const std::vector<Variant>& variants);
+
+}  // namespace floorproof

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/campaign/worker_pool.h"
+
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <deque>
+#include <map>
+#include <vector>
+
+#include "base/error.h"
+
+namespace floorproof {
+namespace {
+
+constexpr int kPoll_ms = 100;
+constexpr int kTries = 2;
+
+// All of it, or false: the other end is gone.
+bool WriteAll(int fd, const void* data, std::size_t size) {
+  const char* from = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t n = write(fd, from, size);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    from += n;
+    size -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+bool ReadAll(int fd, void* data, std::size_t size) {
+  char* to = static_cast<char*>(data);
+  while (size > 0) {
+    const ssize_t n = read(fd, to, size);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    to += n;
+    size -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+std::string HowItEnded(int status) {
+  if (WIFSIGNALED(status)) return std::string("killed by ") + strsignal(WTERMSIG(status));
+  return "ended with status " + std::to_string(WEXITSTATUS(status));
+}
+
+// In the child: answers jobs until the parent closes the pipe. Never returns; what `work` throws
+// ends the process here, before it could unwind into the parent's own code.
+[[noreturn]] void Serve(int jobs, int answers,
+                        const std::function<std::string(Job)>& work) noexcept {
+  Job job = 0;
+  while (ReadAll(jobs, &job, sizeof job)) {
+    const std::string answer = work(job);
+    const std::uint64_t size = answer.size();
+    if (!WriteAll(answers, &size, sizeof size) || !WriteAll(answers, answer.data(), size)) break;
+  }
+  _exit(0);
+}
+
+class Pool {
+ public:
+  explicit Pool(const PoolCallbacks& callbacks) : callbacks_(callbacks) {}
+  ~Pool() {
+    for (Worker& worker : workers_) End(worker, SIGKILL);
+  }
+
+  void Run(int workers) {
+    workers_.resize(static_cast<std::size_t>(workers));
+    for (Worker& worker : workers_)
+      if (!Feed(worker)) break;
+    while (in_flight() > 0 && !callbacks_.stop()) {
+      std::vector<pollfd> fds;
+      for (const Worker& worker : workers_)
+        fds.push_back({worker.busy ? worker.answers : -1, POLLIN, 0});
+      if (poll(fds.data(), fds.size(), kPoll_ms) <= 0) continue;
+      for (std::size_t i = 0; i < fds.size(); ++i)
+        if (fds[i].revents != 0) Answer(workers_[i]);
+    }
+  }
+
+ private:
+  struct Worker {
+    pid_t pid = -1;
+    int jobs = -1, answers = -1;  // the parent's ends
+    bool busy = false;
+    Job job = 0;
+  };
+
+  int in_flight() const {
+    int n = 0;
+    for (const Worker& worker : workers_) n += worker.busy;
+    return n;
+  }
+
+  // Gives the worker its next job; false when there is none.
+  bool Feed(Worker& worker) {
+    std::optional<Job> job;
+    if (again_.empty()) {
+      job = callbacks_.next();
+    } else {
+      job = again_.front();
+      again_.pop_front();
+    }
+    if (!job) return false;
+    if (worker.pid < 0) Start(worker);
+    worker.job = *job;
+    worker.busy = true;
+    // Where the worker is gone already, its answer's end says so.
+    WriteAll(worker.jobs, &worker.job, sizeof worker.job);
+    return true;
+  }
+
+  void Start(Worker& worker) {
+    int jobs[2], answers[2];
+    if (pipe(jobs) != 0) throw InternalError(std::string("no pipe: ") + std::strerror(errno));
+    if (pipe(answers) != 0) throw InternalError(std::string("no pipe: ") + std::strerror(errno));
+    const pid_t parent = getpid();
+    const pid_t pid = fork();
+    if (pid < 0) throw InternalError(std::string("no worker process: ") + std::strerror(errno));
+    if (pid == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      if (getppid() != parent) _exit(0);  // it died before
+      signal(SIGINT, SIG_IGN);
+      signal(SIGTERM, SIG_DFL);
+      signal(SIGPIPE, SIG_DFL);
+      close(jobs[1]);
+      close(answers[0]);
+      // The other workers' ends, or a worker would outlive the pipe's closing.
+      for (const Worker& other : workers_)
+        if (other.pid >= 0) close(other.jobs), close(other.answers);
+      Serve(jobs[0], answers[1], callbacks_.work);
+    }
+    close(jobs[0]);
+    close(answers[1]);
+    worker = {pid, jobs[1], answers[0], false, 0};
+  }
+
+  void Answer(Worker& worker) {
+    std::uint64_t size = 0;
+    std::string answer;
+    bool whole = ReadAll(worker.answers, &size, sizeof size);
+    if (whole) {
+      answer.resize(size);
+      whole = ReadAll(worker.answers, answer.data(), size);
+    }
+    worker.busy = false;
+    const Job job = worker.job;
+    if (whole) {
+      tries_.erase(job);
+      callbacks_.done(job, std::move(answer));
+    } else {
+      const std::string how = End(worker, SIGKILL);
+      if (++tries_[job] < kTries)
+        again_.push_back(job);
+      else
+        callbacks_.crashed(job, how);
+    }
+    Feed(worker);
+  }
+
+  // Reaps the worker, killing it where it lives; how it ended.
+  std::string End(Worker& worker, int signal_number) {
+    if (worker.pid < 0) return "";
+    close(worker.jobs);
+    close(worker.answers);
+    int status = 0;
+    // One that died by itself is a zombie by now, or about to be: its answers' end was closed.
+    bool reaped = false;
+    for (int i = 0; i < 20 && !worker.busy && !reaped; ++i) {
+      reaped = waitpid(worker.pid, &status, WNOHANG) == worker.pid;
+      if (!reaped) usleep(1000);
+    }
+    if (!reaped) {  // else its number may be another's by now
+      kill(worker.pid, signal_number);
+      while (waitpid(worker.pid, &status, 0) < 0 && errno == EINTR) {
+      }
+    }
+    worker.pid = -1;
+    return HowItEnded(status);
+  }
+
+  const PoolCallbacks& callbacks_;
+  std::vector<Worker> workers_;
+  std::deque<Job> again_;
+  std::map<Job, int> tries_;
+};
+
+}  // namespace
+
+void RunInWorkers(int workers, const PoolCallbacks& callbacks) {
+  // A worker that dies between two jobs closes the pipe that the next is written to.
+  struct sigaction ignore {};
+  struct sigaction before {};
+  ignore.sa_handler = SIG_IGN;
+  sigaction(SIGPIPE, &ignore, &before);
+  try {
+    Pool(callbacks).Run(workers);
+  } catch (...) {
+    sigaction(SIGPIPE, &before, nullptr);
+    throw;
+  }
+  sigaction(SIGPIPE, &before, nullptr);
+}
+
+}  // namespace floorproof

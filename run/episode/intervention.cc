@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/episode/intervention.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "env/geometry/rasterise.h"
+#include "env/scene/walls.h"
+
+namespace floorproof {
+namespace {
+
+// A footprint that overlaps by less stands beside: plans often run along borders of cells, and
+// nobody sets a robot down more exactly.
+constexpr double kBeside_m = 0.001;
+
+Polygon Outline(const Shape2& shape) {
+  if (shape.kind == Shape2::Kind::kFootprint) return shape.footprint_B;
+  constexpr int kCorners = 64;  // within 0.12 % of the circle
+  return RegularPolygon(Vec2::Zero(), shape.radius_m, kCorners);
+}
+
+Polygon At(const Pose2& X_WB, Polygon polygon) {
+  for (Vec2& p : polygon) p = X_WB * p;
+  return polygon;
+}
+
+bool TouchesHazard(const HazardMap& map, const Pose2& X_WB, const RobotSpec& robot,
+                   const Polygon& footprint_B) {
+  const std::vector<Region> footprint_W = {{At(X_WB, footprint_B), {}}};
+  const auto touches = [&](const Polygon& polygon) {
+    return SignedDistance(polygon, X_WB.p()) < robot.circumscribed_radius_m &&
+           !Intersection(footprint_W, {polygon}).empty();
+  };
+  return std::ranges::any_of(map.hazards, [&](const Hazard& hazard) {
+    return std::ranges::any_of(hazard.footprint, touches);
+  });
+}
+
+// Walls as built: `footprint_W` is drawn in by as much as their solids are drawn back.
+bool TouchesWall(const HazardMap& map, Polygon footprint_W) {
+  const GridFrame& frame = map.frame;
+  bool touches = false;
+  for (Vec2& p : footprint_W) {
+    p = frame.X_WG.Inverse() * p / frame.cell_m;
+    touches |= p.x() < 0 || p.y() < 0 || p.x() > frame.width || p.y() > frame.height;
+  }
+  Rasterise(footprint_W, frame.width, frame.height,
+            [&](int ix, int iy) { touches |= map.IsWall(ix, iy); });
+  return touches;
+}
+
+// Where the plan wants the body to head at this waypoint: as it says; else onwards, or at its end
+// the way that led here.
+double HeadingAt(const Path& path, std::size_t waypoint) {
+  constexpr double kSamePlace_m = 1e-6;
+  if (path[waypoint].yaw_rad) return *path[waypoint].yaw_rad;
+  const Vec2& here = path[waypoint].p_W;
+  for (std::size_t i = waypoint + 1; i < path.size(); ++i)
+    if (const Vec2 way = path[i].p_W - here; way.norm() > kSamePlace_m)
+      return std::atan2(way.y(), way.x());
+  for (std::size_t i = waypoint; i-- > 0;)
+    if (const Vec2 way = here - path[i].p_W; way.norm() > kSamePlace_m)
+      return std::atan2(way.y(), way.x());
+  return 0;
+}
+
+}  // namespace
+
+std::optional<SetDownPlace> PlaceAhead(const Scenario& s, const Path& path, std::size_t first) {
+  const HazardMap& map = s.site.map;
+  const RobotSpec& robot = s.robot.spec;
+  const Grid<std::uint8_t> floor = FloorAround(map, s.start.p());
+  const double drawn_back_m = std::min(map.inset_m, robot.inscribed_radius_m / 2);
+  const Polygon outline_B = Outline(robot.clear), inner_B = Offset(outline_B, -kBeside_m),
+                among_walls_B = Offset(inner_B, -drawn_back_m);
+  for (std::size_t i = first; i < path.size(); ++i) {
+    const Pose2 X_WB{path[i].p_W.x(), path[i].p_W.y(), HeadingAt(path, i)};
+    const Cell cell = map.frame.ToCell(path[i].p_W);
+    if (floor.Inside(cell) && floor(cell) && !TouchesWall(map, At(X_WB, among_walls_B)) &&
+        !TouchesHazard(map, X_WB, robot, inner_B))
+      return SetDownPlace{i, X_WB};
+  }
+  return std::nullopt;
+}
+
+bool Interventions::Call(const Path& path, const Sample& failed) {
+  if (s_.episode.on_failure != "assist") return false;
+  if (failed.battery_v == 0) return false;  // a robot without power goes on from nowhere
+  const std::size_t ahead = failed.command.segment + 1;
+  place_ = PlaceAhead(s_, path, ahead);
+  if (!place_) {
+    why_not_ = fmt::format("nowhere ahead of x {:.2f}, y {:.2f} m could the robot be set down: {}",
+                           failed.p_WB.x(), failed.p_WB.y(),
+                           ahead >= path.size()
+                               ? "no waypoint is left"
+                               : "at each waypoint left it would touch a hazard or a wall, or be "
+                                 "walled off from its start");
+    return false;
+  }
+  comes_s_ = failed.t_s + kComes_s;
+  ++calls_;
+  return true;
+}
+
+Intervention Interventions::SetDown(Simulation& sim, Pilot& pilot) {
+  const Intervention assist{sim.sample().t_s, sim.sample().p_WB.head<2>(), place_->X_WB.p(),
+                            place_->X_WB.yaw_rad};
+  sim.SetDown(place_->X_WB);
+  pilot.GoOnFrom(place_->waypoint, sim);
+  place_.reset();
+  return assist;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gathers an episode's record while it is driven.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "planners/risk/risk_meter.h"
+#include "run/episode/episode.h"
+#include "run/episode/pilot.h"
+
+namespace floorproof {
+
+// Keeps what an episode leaves behind. Allocates up front; a longer episode than planned for grows
+// by halves.
+class Recorder {
+ public:
+  Recorder(const Scenario& s, const SweepArea& area, const RiskMap& risk, double expected_s)
+      : area_(area),
+        robot_(s.robot.spec),
+        meter_(area, s.robot.spec.tool),
+        risk_(risk),
+        dt_s_(s.physics.timestep_s),
+        shape_(s.robot.spec.shape) {
+    trace_every_ = s.episode.control_hz / s.episode.trace_hz;
+    record_.trace.reserve(
+        static_cast<std::size_t>(std::min(2e6, (expected_s + 60) * s.episode.trace_hz)));
+  }
+
+  void OnControl(const Sample& sample, const Estimate& estimate) {
+    if (sample.shape != shape_) TakeShape(sample.shape);
+    if (shape_ >= 0) meter_.Add(sample.X_WB());
+    risk_.Add(sample.p_WB.head<2>());
+    AddEstimateError((estimate.X_WB.p() - sample.p_WB.head<2>()).norm());
+    spread_sum_ += estimate.spread_m;
+    if (control_++ % trace_every_ != 0) return;
+    const auto f = [](double v) { return static_cast<float>(v); };
+    const BodyTwist& cmd = sample.command.twist;
+    record_.trace.push_back({sample.t_s,
+                             f(sample.p_WB.x()),
+                             f(sample.p_WB.y()),
+                             f(sample.p_WB.z()),
+                             f(sample.roll_rad),
+                             f(sample.pitch_rad),
+                             f(sample.yaw_rad),
+                             f(sample.V_WB_B.vx_mps),
+                             f(sample.V_WB_B.vy_mps),
+                             f(sample.V_WB_B.wz_radps),
+                             f(cmd.vx_mps),
+                             f(cmd.vy_mps),
+                             f(cmd.wz_radps),
+                             f(estimate.X_WB.x_m),
+                             f(estimate.X_WB.y_m),
+                             f(estimate.X_WB.yaw_rad),
+                             f(sample.cross_track_m),
+                             f(sample.power_w),
+                             f(meter_.coverage()),
+                             sample.shape,
+                             f(estimate.spread_m)});
+  }
+
+  void OnStep(const Sample& sample) {
+    Metrics& m = record_.metrics;
+    ++record_.steps;
+    m.path_length_m += std::hypot(sample.v_WB_W.x(), sample.v_WB_W.y()) * dt_s_;
+    m.energy_j += sample.power_w * dt_s_;
+    m.charge_ah += sample.battery_a * dt_s_ / 3600;
+    m.least_battery_v =
+        record_.steps == 1 ? sample.battery_v : std::min(m.least_battery_v, sample.battery_v);
+    if (sample.battery_v == 0 && empty_s_ < 0) empty_s_ = sample.t_s;
+    m.max_cross_track_m = std::max(m.max_cross_track_m, sample.cross_track_m);
+    cross_track_sum_ += sample.cross_track_m;
+    if (sample.num_contacts > 0) {
+      // A body pressed against a wall lets go for single steps; that is one meeting.
+      constexpr double kApart_s = 0.25;
+      if (sample.t_s - last_touch_s_ > kApart_s) ++m.contacts;
+      last_touch_s_ = sample.t_s;
+    }
+    for (int i = 0; i < sample.num_contacts; ++i)
+      m.max_impulse_ns =
+          std::max(m.max_impulse_ns, sample.contacts[static_cast<std::size_t>(i)].impulse_ns);
+  }
+
+  void OnEvent(const Event& event) { record_.events.push_back(event); }
+
+  // Before the detectors start afresh. What the tool is carried over is not swept.
+  void OnIntervention(const Intervention& assist,
+                      const std::vector<std::unique_ptr<Detector>>& detectors) {
+    record_.interventions.push_back(assist);
+    ++record_.metrics.interventions;
+    KeepMargins(detectors);
+    meter_.Lift();
+    risk_.Lift();
+  }
+
+  double coverage() const { return meter_.coverage(); }
+  double driven_m() const { return record_.metrics.path_length_m; }
+
+  // `ended`: why the loop stopped. A drive that was completed, or that ran out of time, is a
+  // failure when something failed on the way, helped or not; a completed one that covered too
+  // little is one as well.
+  EpisodeRecord Finish(Outcome ended, const Sample& last, const PlanResult& plan,
+                       const Pilot& pilot, const std::vector<std::unique_ptr<Detector>>& detectors,
+                       double min_coverage, std::optional<double> battery_left) {
+    Metrics& m = record_.metrics;
+    if (shape_ >= 0) meter_.Add(last.X_WB());
+    m.coverage = meter_.coverage();
+    m.cumulative_risk = risk_.cumulative_risk();
+    m.overlap = meter_.overlap();
+    m.duration_s = last.t_s;
+    m.battery_left = battery_left;
+    m.mean_cross_track_m =
+        record_.steps > 0 ? cross_track_sum_ / static_cast<double>(record_.steps) : 0;
+    m.turns = CountTurns(plan.path);
+    m.reactions = pilot.reactions();
+    FinishEstimateError();
+    if (pilot.known() != nullptr) record_.known = *pilot.known();
+    KeepMargins(detectors);
+    record_.passes = meter_.passes();
+    record_.passes_frame = area_.frame;
+    record_.sweepable = area_.sweepable;
+    const bool judged = ended == Outcome::kSuccess || ended == Outcome::kTimeout;
+    record_.outcome = judged && !record_.events.empty() ? Outcome::kFailure : ended;
+    if (record_.outcome == Outcome::kSuccess && m.coverage < min_coverage) {
+      record_.outcome = Outcome::kFailure;
+      record_.message = fmt::format("coverage {:.2f} % is below success.min_coverage, {:.2f} %",
+                                    100 * m.coverage, 100 * min_coverage);
+    }
+    if (empty_s_ >= 0)
+      record_.message = fmt::format(
+          "the battery cut off after {:.1f} s: {}", empty_s_,
+          m.battery_left && *m.battery_left <= 0 ? "it was empty" : "it cannot feed that load");
+    if (record_.outcome == Outcome::kTimeout && record_.message.empty())
+      record_.message = fmt::format("still on its way after {:.0f} s", last.t_s);
+    if (ended == Outcome::kError) record_.message = "the physics diverged";
+    return std::move(record_);
+  }
+
+ private:
+  void AddEstimateError(double error_m) {
+    record_.metrics.max_estimate_error_m = std::max(record_.metrics.max_estimate_error_m, error_m);
+    estimate_error_sum_ += error_m;
+    const auto mm = static_cast<std::size_t>(std::clamp(error_m * 1000, 0.0, kMaxMm - 1.0));
+    ++errors_mm_[mm];
+  }
+  void FinishEstimateError() {
+    Metrics& m = record_.metrics;
+    const auto all =
+        static_cast<double>(std::accumulate(errors_mm_.begin(), errors_mm_.end(), std::int64_t{0}));
+    if (all == 0) return;
+    m.mean_estimate_error_m = estimate_error_sum_ / all;
+    m.mean_estimate_spread_m = spread_sum_ / all;
+    std::size_t mm = 0;
+    for (auto below = static_cast<double>(errors_mm_[0]);
+         below < 0.95 * all && mm + 1 < errors_mm_.size();)
+      below += static_cast<double>(errors_mm_[++mm]);
+    if (m.max_estimate_error_m > 0)
+      m.p95_estimate_error_m = std::min(m.max_estimate_error_m, static_cast<double>(mm + 1) / 1000);
+  }
+
+  // The least of all that the detectors said since each of their starts.
+  void KeepMargins(const std::vector<std::unique_ptr<Detector>>& detectors) {
+    std::vector<Margin>& kept = record_.margins;
+    for (std::size_t i = 0; i < detectors.size(); ++i) {
+      const double margin = detectors[i]->margin();
+      if (i == kept.size())
+        kept.push_back({std::string(Name(detectors[i]->mode())), margin});
+      else
+        kept[i].value = std::min(kept[i].value, margin);
+    }
+  }
+
+  // Between two shapes the tool is lifted; then it is the new shape's.
+  void TakeShape(int shape) {
+    shape_ = shape;
+    meter_.Lift();
+    if (shape < 0 || robot_.tool.kind != Shape2::Kind::kFootprint) return;
+    meter_.SetTool(
+        {Shape2::Kind::kFootprint, 0, robot_.shapes[static_cast<std::size_t>(shape)].footprint_B});
+  }
+
+  EpisodeRecord record_;
+  const SweepArea& area_;
+  const RobotSpec& robot_;
+  CoverageMeter meter_;
+  RiskMeter risk_;
+  double dt_s_, cross_track_sum_ = 0, estimate_error_sum_ = 0, spread_sum_ = 0;
+  static constexpr double kMaxMm = 10000;  // errors beyond are counted together
+  std::vector<std::int64_t> errors_mm_ =
+      std::vector<std::int64_t>(static_cast<std::size_t>(kMaxMm));
+  int trace_every_ = 1;
+  std::int64_t control_ = 0;
+  int shape_ = 0;  // the robot's, as in Sample
+  double last_touch_s_ = -1e9;
+  double empty_s_ = -1;  // when the battery had cut off; -1: it has not
+};
+
+}  // namespace floorproof

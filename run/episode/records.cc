@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/episode/records.h"
+
+#include <floorproof/version.h>
+#include <fmt/format.h>
+#include <mujoco/mujoco.h>
+#include <sys/utsname.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "base/file_output.h"
+#include "planners/risk/risk_meter.h"
+#include "run/scenario/plan_file.h"
+
+namespace floorproof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json EventJson(const Event& e) {
+  Json json = {{"mode", Name(e.mode)}, {"kind", e.kind},   {"t_s", e.t_s},
+               {"x_m", e.x_m},         {"y_m", e.y_m},     {"yaw_rad", e.yaw_rad},
+               {"hazard", e.hazard},   {"value", e.value}, {"threshold", e.threshold},
+               {"effect", e.effect}};
+  Json evidence = Json::object();
+  for (const auto& [name, value] : e.evidence) evidence[name] = value;
+  json["evidence"] = std::move(evidence);
+  return json;
+}
+
+Json InterventionsJson(const std::vector<Intervention>& interventions) {
+  Json json = Json::array();
+  for (const Intervention& a : interventions)
+    json.push_back({{"t_s", a.t_s},
+                    {"x_m", a.from_W.x()},
+                    {"y_m", a.from_W.y()},
+                    {"to_x_m", a.to_W.x()},
+                    {"to_y_m", a.to_W.y()},
+                    {"to_yaw_rad", a.yaw_rad}});
+  return json;
+}
+
+// A number or a truth value as such, a list by its entries, else text.
+Json ValueJson(const ConfigNode& node) {
+  if (node.IsList()) {
+    Json list = Json::array();
+    for (const ConfigNode& item : node.items) list.push_back(ValueJson(item));
+    return list;
+  }
+  if (node.IsMap()) {
+    Json map = Json::object();
+    for (const auto& [key, value] : node.entries) map[key] = ValueJson(value);
+    return map;
+  }
+  if (node.IsNull()) return nullptr;
+  if (!node.quoted && (node.scalar == "true" || node.scalar == "false"))
+    return node.scalar == "true";
+  double number = 0;
+  const char* end = node.scalar.data() + node.scalar.size();
+  const auto [rest, error] = std::from_chars(node.scalar.data(), end, number);
+  if (!node.quoted && error == std::errc() && rest == end && std::isfinite(number)) return number;
+  return node.scalar;
+}
+
+// The paper's measures of the path (planners/risk/risk_meter.h).
+void AddRisk(const PlanResult& plan, Json& json) {
+  const RiskOfPath risk = MeasureRisk(*plan.risk, plan.path);
+  json["cumulative_risk"] = risk.cumulative_risk;
+  json["risk_of_cells_once"] = risk.each_cell_once;
+  json["risk_over_once"] =
+      risk.each_cell_once > 0 ? risk.cumulative_risk / risk.each_cell_once - 1 : 0;
+  json["cells_visited"] = risk.cells;
+  json["cell_visits"] = risk.visits;
+  json["hazard_free_coverage"] = risk.coverage;
+  json["terrain_crossings"] = risk.terrain_crossings;
+  Json ranges = Json::array();
+  for (const auto& range : risk.ranges)
+    ranges.push_back({{"rf_from", range.low},
+                      {"rf_to", range.high},
+                      {"cells", range.cells},
+                      {"visits", range.visits}});
+  json["visits_by_risk"] = std::move(ranges);
+}
+
+}  // namespace
+
+Json VersionsJson() {
+  utsname system{};
+  uname(&system);
+  return {{"floorproof", FLOORPROOF_VERSION},
+          {"mujoco", mj_versionString()},
+          {"compiler", FLOORPROOF_COMPILER},
+          {"machine", std::string(system.sysname) + " " + system.machine}};
+}
+
+Json EventsJson(const std::vector<Event>& events) {
+  Json json = Json::array();
+  for (const Event& event : events) json.push_back(EventJson(event));
+  return json;
+}
+
+Json DrawnJson(const Drawn& drawn) {
+  Json json = Json::object();
+  for (const auto& [key, value] : drawn) json[key] = ValueJson(value);
+  return json;
+}
+
+Json MetricsJson(const Metrics& m) {
+  return {{"coverage", m.coverage},
+          {"overlap", m.overlap},
+          {"path_length_m", m.path_length_m},
+          {"duration_s", m.duration_s},
+          {"energy_j", m.energy_j},
+          {"charge_ah", m.charge_ah},
+          {"least_battery_v", m.least_battery_v},
+          {"battery_left", m.battery_left ? Json(*m.battery_left) : Json(nullptr)},
+          {"max_cross_track_m", m.max_cross_track_m},
+          {"mean_cross_track_m", m.mean_cross_track_m},
+          {"turns", m.turns},
+          {"cumulative_risk", m.cumulative_risk},
+          {"interventions", m.interventions},
+          {"reactions", m.reactions},
+          {"max_estimate_error_m", m.max_estimate_error_m},
+          {"mean_estimate_error_m", m.mean_estimate_error_m},
+          {"p95_estimate_error_m", m.p95_estimate_error_m},
+          {"mean_estimate_spread_m", m.mean_estimate_spread_m},
+          {"contacts", m.contacts},
+          {"max_impulse_ns", m.max_impulse_ns}};
+}
+
+Json PlanJson(const Scenario& s, const PlanResult& plan) {
+  const bool circle = plan.clear.kind == Shape2::Kind::kCircle;
+  PathCoverage covered;
+  double area_m2 = 0;
+  if (!plan.path.empty()) {
+    const SweepArea area = ComputeSweepArea(KnownPart(s.site.map), plan.clear, plan.tool,
+                                            s.robot.spec.step_m, s.start.p());
+    covered = MeasureCoverage(area, plan.tool, plan.path);
+    area_m2 = area.area_m2();
+  }
+  Json json = {{"status", Name(plan.status)},
+               {"message", plan.message},
+               {"planner", s.planner ? s.planner_name : "file"},
+               {"length_m", Length(plan.path)},
+               {"turns", CountTurns(plan.path)},
+               {"waypoints", plan.path.size()},
+               {"coverage", covered.coverage},
+               {"overlap", covered.overlap},
+               {"sweepable_m2", area_m2},
+               {"tool_width_m", plan.tool_width_m},
+               {"keeps_clear", circle ? "circle" : "footprint"},
+               {"radius_m", circle ? plan.clear.radius_m : s.robot.spec.inscribed_radius_m}};
+  AddRisk(plan, json);
+  for (const auto& [name, value] : plan.figures) json[name] = value;
+  return json;
+}
+
+Json ResultJson(const Scenario& s, const EpisodeRecord& record) {
+  Json margins = Json::object();
+  for (const auto& margin : record.margins) margins[margin.detector] = margin.value;
+  return {{"schema", 1},
+          {"scenario", s.name},
+          {"robot", s.robot_name},
+          {"site", s.site.map.name},
+          {"outcome", Name(record.outcome)},
+          {"message", record.message},
+          {"events", EventsJson(record.events)},
+          {"assists", InterventionsJson(record.interventions)},
+          {"metrics", MetricsJson(record.metrics)},
+          {"margins", std::move(margins)},
+          {"steps", record.steps},
+          {"seed", s.episode.seed},
+          {"drawn", DrawnJson(s.drawn)},
+          {"versions", VersionsJson()}};
+}
+
+std::string TraceCsv(const EpisodeRecord& record, const RobotSpec& robot) {
+  fmt::memory_buffer out;
+  fmt::format_to(std::back_inserter(out),
+                 "t_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,vx_mps,vy_mps,wz_radps,cmd_vx_mps,"
+                 "cmd_vy_mps,cmd_wz_radps,est_x_m,est_y_m,est_yaw_rad,cross_track_m,power_w,"
+                 "coverage,shape,est_spread_m\n");
+  // Empty of a robot with one shape, and between two.
+  const auto shape_name = [&](int shape) {
+    return shape < 0 || robot.shapes.empty()
+               ? std::string_view()
+               : std::string_view(robot.shapes[static_cast<std::size_t>(shape)].name);
+  };
+  for (const auto& r : record.trace)
+    fmt::format_to(std::back_inserter(out),
+                   "{:.3f},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.t_s,
+                   r.x_m, r.y_m, r.z_m, r.roll_rad, r.pitch_rad, r.yaw_rad, r.vx_mps, r.vy_mps,
+                   r.wz_radps, r.cmd_vx_mps, r.cmd_vy_mps, r.cmd_wz_radps, r.est_x_m, r.est_y_m,
+                   r.est_yaw_rad, r.cross_track_m, r.power_w, r.coverage, shape_name(r.shape),
+                   r.est_spread_m);
+  return fmt::to_string(out);
+}
+
+std::string RiskCsv(const RiskMap& risk) {
+  fmt::memory_buffer out;
+  for (int iy = risk.rf.height - 1; iy >= 0; --iy)
+    for (int ix = 0; ix < risk.rf.width; ++ix)
+      fmt::format_to(std::back_inserter(out), "{}{}", risk.rf(ix, iy),
+                     ix + 1 < risk.rf.width ? ',' : '\n');
+  return fmt::to_string(out);
+}
+
+void WritePlanFiles(const Scenario& s, const PlanResult& plan,
+                    const std::filesystem::path& folder) {
+  WriteFileWhole(folder / "scenario.resolved.yaml", ResolvedScenario(s, folder));
+  WriteFileWhole(folder / "plan.csv", PlanCsv(plan.path));
+  WriteFileWhole(folder / "plan.json", PlanJson(s, plan).dump(2) + "\n");
+  WriteFileWhole(folder / "risk.csv", RiskCsv(*plan.risk));
+}
+
+void RemoveEpisodeFiles(const std::filesystem::path& folder) {
+  for (const char* name :
+       {"result.json", "trace.csv", "heatmap_plan.png", "heatmap_plan_visits.png",
+        "heatmap_risk.png", "plot_risk.png", "heatmap_visits.png", "heatmap_coverage.png",
+        "heatmap_failures.png", "heatmap_known.png", "plot_errors.png", "frame_start.png",
+        "frame_failure.png", "frame_end.png", "video.mp4"}) {
+    std::error_code error;
+    std::filesystem::remove(folder / name, error);
+    if (error)
+      throw InputError({(folder / name).string(), 0}, "", "",
+                       "of an earlier run, cannot be removed: " + error.message());
+  }
+}
+
+void WriteEpisodeFiles(const Scenario& s, const EpisodeRecord& record,
+                       const std::filesystem::path& folder) {
+  WriteFileWhole(folder / "trace.csv", TraceCsv(record, s.robot.spec));
+  if (record.outcome != Outcome::kInterrupted)
+    WriteFileWhole(folder / "result.json", ResultJson(s, record).dump(2) + "\n");
+}
+
+}  // namespace floorproof

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files that a plan or an episode leaves in its output folder.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "run/episode/episode.h"
+#include "run/scenario/scenario.h"
+
+namespace floorproof {
+
+// plan.json's content: status, planner, length_m, turns, coverage, overlap, ...
+nlohmann::ordered_json PlanJson(const Scenario& scenario, const PlanResult& plan);
+// result.json's content: schema, outcome, events, metrics, margins, seed, versions. No wall times.
+nlohmann::ordered_json ResultJson(const Scenario& scenario, const EpisodeRecord& record);
+// Its parts: what a campaign keeps of each episode.
+nlohmann::ordered_json MetricsJson(const Metrics& metrics);
+nlohmann::ordered_json EventsJson(const std::vector<Event>& events);
+nlohmann::ordered_json DrawnJson(const Drawn& drawn);
+nlohmann::ordered_json VersionsJson();
+std::string TraceCsv(const EpisodeRecord& record, const RobotSpec& robot);
+
+// RF per cell, the top row first.
+std::string RiskCsv(const RiskMap& risk);
+
+// scenario.resolved.yaml, plan.csv, plan.json and risk.csv.
+void WritePlanFiles(const Scenario& scenario, const PlanResult& plan,
+                    const std::filesystem::path& folder);
+// Removes what an episode leaves beside its plan: result.json first, then trace, pictures, film.
+void RemoveEpisodeFiles(const std::filesystem::path& folder);
+// trace.csv, and, unless the episode was interrupted, result.json (last: it says the rest is
+// whole).
+void WriteEpisodeFiles(const Scenario& scenario, const EpisodeRecord& record,
+                       const std::filesystem::path& folder);
+
+}  // namespace floorproof

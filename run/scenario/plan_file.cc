@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/scenario/plan_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+#include <vector>
+
+#include "base/config.h"
+#include "base/input_file.h"
+#include "base/params.h"
+
+namespace floorproof {
+namespace {
+
+const std::vector<std::string> kColumns = {"x_m",   "y_m",       "yaw_rad",
+                                           "shape", "speed_mps", "dwell_s"};
+constexpr std::uintmax_t kMaxBytes = 32u << 20;
+constexpr double kSlowest_mps = 1e-3, kLongestDwell_s = 1e5;  // beyond these a drive has no end
+
+std::vector<std::string> SplitRow(std::string line) {
+  if (!line.empty() && line.back() == '\r') line.pop_back();
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) {
+    const auto first = cell.find_first_not_of(" \t"), last = cell.find_last_not_of(" \t");
+    cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
+  }
+  if (!line.empty() && line.back() == ',') cells.emplace_back();
+  return cells;
+}
+
+std::vector<std::string> ReadHeader(const std::string& line, const SourceMark& mark) {
+  const auto header = SplitRow(line);
+  for (const auto& name : header) {
+    if (std::ranges::find(kColumns, name) == kColumns.end()) {
+      const std::string near = Nearest(name, kColumns);
+      throw InputError(mark, name, "",
+                       near.empty()
+                           ? "unknown column (the first row names the columns: x_m,y_m,...)"
+                           : "unknown column; did you mean " + near + "?");
+    }
+    if (std::ranges::count(header, name) > 1)
+      throw InputError(mark, name, "", "the column stands twice");
+  }
+  for (const char* needed : {"x_m", "y_m"})
+    if (std::ranges::find(header, needed) == header.end())
+      throw InputError(mark, needed, "", "the column is missing");
+  return header;
+}
+
+std::string ReadShape(const std::string& text, const SourceMark& mark) {
+  const bool word = text.size() <= 32 && std::ranges::all_of(text, [](unsigned char c) {
+                      return std::isalnum(c) || c == '_' || c == '-';
+                    });
+  if (!word)
+    throw InputError(mark, "shape", text, "must be at most 32 letters, digits, '_' or '-'");
+  return text;
+}
+
+Waypoint ReadRow(const std::vector<std::string>& header, const std::vector<std::string>& cells,
+                 const SourceMark& mark) {
+  Waypoint w;
+  for (std::size_t i = 0; i < header.size(); ++i) {
+    const std::string& name = header[i];
+    if (name == "shape") {
+      w.shape = ReadShape(cells[i], mark);
+      continue;
+    }
+    if (cells[i].empty() && name != "x_m" && name != "y_m") continue;
+    ConfigNode node = ConfigNode::Scalar(cells[i]);
+    node.mark = mark;
+    if (name == "x_m") w.p_W.x() = AsDouble(node, name);
+    if (name == "y_m") w.p_W.y() = AsDouble(node, name);
+    if (name == "yaw_rad") w.yaw_rad = AsDouble(node, name);
+    if (name == "speed_mps") w.speed_mps = AsDouble(node, name, NonNegative());
+    if (w.speed_mps > 0 && w.speed_mps < kSlowest_mps)
+      throw InputError(mark, name, cells[i],
+                       "must be at least " + FormatDouble(kSlowest_mps) + " (empty: cruise speed)");
+    if (name == "dwell_s") w.dwell_s = AsDouble(node, name, Between(0, kLongestDwell_s));
+  }
+  return w;
+}
+
+}  // namespace
+
+Path ReadPlan(const std::filesystem::path& file, const GridFrame& map, std::vector<int>* lines) {
+  const std::string name = file.string();
+  std::istringstream in(ReadInputFile(file, kMaxBytes));
+  std::vector<std::string> header;
+  Path path;
+  int number = 0;
+  if (in.str().starts_with("\xEF\xBB\xBF")) in.seekg(3);  // spreadsheets put a byte order mark
+  for (std::string line; std::getline(in, line);) {
+    const SourceMark mark{name, ++number};
+    if (line.empty() || line == "\r" || line[0] == '#') continue;
+    if (header.empty()) {
+      header = ReadHeader(line, mark);
+      continue;
+    }
+    const auto cells = SplitRow(line);
+    if (cells.size() != header.size())
+      throw InputError(mark, "", "",
+                       "has " + std::to_string(cells.size()) + " columns, the first row " +
+                           std::to_string(header.size()));
+    const Waypoint w = ReadRow(header, cells, mark);
+    if (!map.Inside(map.ToCell(w.p_W)))
+      throw InputError(mark, "x_m, y_m", FormatDouble(w.p_W.x()) + ", " + FormatDouble(w.p_W.y()),
+                       "lies off the map");
+    path.push_back(w);
+    if (lines) lines->push_back(number);
+  }
+  if (path.empty()) throw InputError({name, 0}, "", "", "holds no waypoint");
+  return path;
+}
+
+std::string PlanCsv(const Path& path) {
+  std::string out = "x_m,y_m,yaw_rad,shape,speed_mps,dwell_s\n";
+  for (const auto& w : path) {
+    out += FormatDouble(w.p_W.x()) + "," + FormatDouble(w.p_W.y()) + ",";
+    if (w.yaw_rad) out += FormatDouble(*w.yaw_rad);
+    out += "," + w.shape + ",";
+    if (w.speed_mps > 0) out += FormatDouble(w.speed_mps);
+    out += ",";
+    if (w.dwell_s > 0) out += FormatDouble(w.dwell_s);
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scenario written out with every default stated, so that it survives a change of defaults.
+#include <algorithm>
+#include <functional>
+
+#include "base/file_output.h"
+#include "run/scenario/scenario_parts.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path PathFrom(const fs::path& folder, const fs::path& path) {
+  return fs::relative(fs::absolute(path), fs::absolute(folder.empty() ? "." : folder));
+}
+
+ConfigNode Number(double value) { return ConfigNode::Scalar(FormatDouble(value)); }
+
+// A map with this one text.
+ConfigNode Named(const char* key, const std::string& text) {
+  ConfigNode node = ConfigNode::Map();
+  node.Add(key, ConfigNode::Scalar(text, true));
+  return node;
+}
+
+// Takes a copy: who visits parameters may change them.
+template <class Params>
+ConfigNode WithParams(ConfigNode node, Params params) {
+  WriteParams([&](ParamVisitor& v) { params.Visit(v); }, node);
+  return node;
+}
+ConfigNode WithPlugin(ConfigNode node, Configurable& plugin) {
+  WriteParams(plugin, node);
+  return node;
+}
+
+ConfigNode Robot(const Scenario& s, const fs::path& folder) {
+  const bool bundled =
+      std::ranges::any_of(Robots(), [&](const auto& r) { return r.name == s.robot_name; });
+  return WithParams(Named("name", bundled ? s.robot_name : PathFrom(folder, s.robot_file).string()),
+                    s.robot_changes);
+}
+
+ConfigNode Start(const Pose2& start) {
+  ConfigNode node = ConfigNode::Map();
+  node.Add("x_m", Number(start.x_m));
+  node.Add("y_m", Number(start.y_m));
+  node.Add("yaw_deg", Number(CanonicalDegrees(start.yaw_rad * 180 / kPi)));
+  return node;
+}
+
+ConfigNode Goal(const Vec2& goal) {
+  ConfigNode node = ConfigNode::Map();
+  node.Add("x_m", Number(goal.x()));
+  node.Add("y_m", Number(goal.y()));
+  return node;
+}
+
+ConfigNode SensorsOf(const Scenario& s) {
+  ConfigNode node = ConfigNode::Map();
+  for (const NamedSensor& sensor : s.sensors)
+    node.Add(sensor.name, WithPlugin(ConfigNode::Map(), *sensor.sensor));
+  return node;
+}
+
+ConfigNode Failures(const Scenario& s) {
+  ConfigNode node = ConfigNode::Map();
+  for (std::size_t i = 0; i < s.detectors.size(); ++i)
+    node.Add(std::string(Detectors()[i].name), WithPlugin(ConfigNode::Map(), *s.detectors[i]));
+  return node;
+}
+
+std::string NameFrom(const fs::path& folder, const fs::path& file) {
+  const std::string in_models = PathFrom(ModelsFolder(), file).string();
+  if (!in_models.starts_with("..")) return std::string(kBundled) + in_models;
+  return PathFrom(folder, file).string();
+}
+
+// What reading the resolved file will read: the site now stands within it.
+ConfigNode Files(const Scenario& s, const fs::path& folder) {
+  ConfigNode node = ConfigNode::Map();
+  for (const fs::path& file : FilesRead(s))
+    if (file != s.site_file)
+      node.Add(NameFrom(folder, file), ConfigNode::Scalar(Sha256OfFile(file), true));
+  return node;
+}
+
+// `randomise` and `matrix` with the paths that they set made valid from `to`; all else as it is.
+ConfigNode Rebased(ConfigNode node, const fs::path& from, const fs::path& to) {
+  const std::function<void(const std::string&, ConfigNode&)> visit = [&](const std::string& key,
+                                                                         ConfigNode& value) {
+    const bool names_file =
+        key == "site" || key == "plan.file" ||
+        (key == "risk.tables" && value.scalar.ends_with(".yaml")) ||
+        ((key == "robot" || key == "robot.name") && value.scalar.ends_with(".xml"));
+    if (value.IsScalar() && names_file)
+      value = ConfigNode::Scalar(PathFrom(to, from / value.scalar).string(), true);
+    for (ConfigNode& item : value.items) visit(key, item);
+    // A map is a distribution, a labelled entry of keys, or a value in parts.
+    for (auto& [name, entry] : value.entries)
+      visit(name == "choice"                                   ? key
+            : key == "plan" || key == "robot" || key == "risk" ? key + "." + name
+                                                               : name,
+            entry);
+  };
+  for (auto& [key, value] : node.entries) visit(key, value);
+  return node;
+}
+
+// Whether variants or draws set this key: what follows from its value must then not be stated.
+bool Varies(const Scenario& s, const std::string& key) {
+  const auto sets = [&](const std::string& path) { return path == key || path == key + ".name"; };
+  for (const ConfigNode* node : {&s.randomise, &s.matrix})
+    for (const auto& [path, value] : node->entries) {
+      if (sets(path)) return true;
+      for (const ConfigNode& item : value.items)
+        for (const auto& entry : item.entries)
+          if (sets(entry.first)) return true;
+    }
+  return false;
+}
+
+}  // namespace
+
+std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
+  ConfigNode root = ConfigNode::Map();
+  root.Add("scenario", ConfigNode::Scalar("1"));
+  root.Add("name", ConfigNode::Scalar(s.name, true));
+  root.Add("site", ResolveSite(s.site_node, s.site_folder, folder));
+  root.Find("site")->Add("name", ConfigNode::Scalar(s.site.map.name, true));
+  root.Add("robot", Robot(s, folder));
+  // What the site or the robot would say otherwise is stated where that is the same in all
+  // episodes.
+  const auto stated = [&](const char* key, bool varies) {
+    return s.written.contains(key) || !varies;
+  };
+  const bool site_varies = Varies(s, "site") || s.site_node.Find("generate") != nullptr;
+  const bool robot_varies = Varies(s, "robot");
+  if (stated("start", site_varies)) root.Add("start", Start(s.start));
+  if (s.goal && stated("goal", site_varies)) root.Add("goal", Goal(*s.goal));
+  root.Add("plan", s.planner ? WithPlugin(Named("planner", s.planner_name), *s.planner)
+                             : Named("file", PathFrom(folder, s.plan_file).string()));
+  root.Add("risk", WithParams(Named("tables", s.fmea_file == BundledTables()
+                                                  ? std::string(kBundledTables)
+                                                  : PathFrom(folder, s.fmea_file).string()),
+                              s.risk));
+  if (stated("controller", robot_varies))
+    root.Add("controller", WithPlugin(Named("name", s.tracker_name), *s.tracker));
+  root.Add("estimator", WithPlugin(Named("name", s.estimator_name), *s.estimator));
+  if (!s.sensors.empty()) root.Add("sensors", SensorsOf(s));
+  // One without a lidar came with `react`, as it is by default; stated, it would ask for a lidar.
+  if (s.mapper && std::ranges::find(s.sensors, "lidar", &NamedSensor::name) != s.sensors.end()) {
+    Mapper mapper = *s.mapper;
+    root.Add("mapper", WithPlugin(ConfigNode::Map(), mapper));
+  }
+  if (s.recovery) root.Add("react", WithParams(ConfigNode::Map(), *s.recovery));
+  root.Add("failures", Failures(s));
+  root = WithParams(std::move(root), s.episode);
+  if (stated("battery", robot_varies))
+    root.Add("battery", WithParams(ConfigNode::Map(), s.battery));
+  root.Add("physics", WithParams(ConfigNode::Map(), s.physics));
+  root.Add("video", WithParams(ConfigNode::Map(), s.video));
+  for (const auto& [key, written] :
+       {std::pair("randomise", &s.randomise), {"matrix", &s.matrix}, {"gate", &s.gate}})
+    if (!written->IsNull()) root.Add(key, Rebased(*written, s.file.parent_path(), folder));
+  root.Add("files", Files(s, folder));
+  return "# Every key with the value used. Paths hold from this folder.\n" + WriteYaml(root);
+}
+
+}  // namespace floorproof

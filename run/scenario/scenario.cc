@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/scenario/scenario.h"
+
+#include <algorithm>
+
+#include "base/file_output.h"
+#include "base/input_file.h"
+#include "run/scenario/scenario_parts.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kSite = "site.";
+
+// A plug-in or robot that is written as its name alone, made a map that a key can be set in.
+void MakeMap(ConfigNode& root, const std::string& key_path) {
+  constexpr std::pair<const char*, const char*> kNamed[] = {
+      {"robot", "name"}, {"plan", "planner"}, {"controller", "name"}, {"estimator", "name"}};
+  for (const auto& [key, name_key] : kNamed) {
+    ConfigNode* node = root.Find(key);
+    if (node == nullptr || !node->IsScalar() || !key_path.starts_with(std::string(key) + "."))
+      continue;
+    ConfigNode map = ConfigNode::Map();
+    map.mark = node->mark;
+    map.Add(name_key, *node);
+    *node = std::move(map);
+  }
+}
+
+// Keys site.* reach into the site's own tree, once that is read.
+void Apply(const Variant& changes, bool to_site, ConfigNode& root) {
+  for (const auto& [key, value] : changes.overrides) {
+    const bool is_site = key.starts_with(kSite);
+    if (is_site != to_site) continue;
+    if (!is_site) MakeMap(root, key);
+    root.SetPath(is_site ? std::string_view(key).substr(kSite.size()) : key, value);
+  }
+}
+
+// Whether setting `whole` replaces `key`.
+bool Replaces(const std::string& whole, const std::string& key) {
+  return key == whole || key.starts_with(whole + ".");
+}
+
+// Refuses to run a resolved scenario whose files are no longer the ones it was resolved from.
+void CheckHashes(const ConfigNode& root, const fs::path& folder) {
+  const ConfigNode* files = root.Find("files");
+  if (files == nullptr) return;
+  if (!files->IsMap()) throw InputError(files->mark, "files", "", "must be a map of path: SHA-256");
+  for (const auto& [path, hash] : files->entries) {
+    const fs::path read =
+        path.starts_with(kBundled) ? ModelsFolder() / path.substr(kBundled.size()) : folder / path;
+    if (const std::string why = WhyUnreadable(read, kMaxNamedBytes); !why.empty())
+      throw InputError(hash.mark, "files." + path, "", why);
+    const std::string now = Sha256OfFile(read);
+    if (now != AsString(hash, "files." + path))
+      throw InputError(hash.mark, "files." + path, hash.scalar,
+                       "the file has changed since: SHA-256 " + now);
+  }
+}
+
+}  // namespace
+
+ScenarioFile::ScenarioFile(const fs::path& file, const std::vector<Override>& overrides)
+    : ScenarioFile(file, overrides, true) {}
+
+ScenarioFile ScenarioFile::Recorded(const fs::path& file) { return {file, {}, false}; }
+
+ScenarioFile::ScenarioFile(const fs::path& file, const std::vector<Override>& overrides,
+                           bool check_files)
+    : file_(file), root_(ReadYamlFile(file)) {
+  if (!root_.IsMap()) throw InputError({file.string(), 1}, "", "", "must be a map of keys");
+  for (const Override& o : overrides)
+    overrides_.emplace_back(o.key_path, ParseYaml(o.value, "--set " + o.key_path));
+  Apply({"", overrides_}, false, root_);
+  RefuseUnknownKeys(root_, "", ScenarioKeys());
+  const ConfigNode* version = root_.Find("scenario");
+  if (version == nullptr)
+    throw InputError(root_.mark, "scenario", "", "the key is missing (scenario: 1)");
+  AsInt(*version, "scenario", Between(1, 1));
+  if (check_files) CheckHashes(root_, file.parent_path());
+  EpisodeParams params;
+  ReadParams(
+      root_, "", [&](ParamVisitor& v) { params.Visit(v); }, ScenarioKeys());
+  seed_ = params.seed;
+  episode_ = static_cast<std::uint64_t>(params.episode);
+
+  randomised_ = ReadRandomise(root_.Find("randomise"));
+  std::erase_if(randomised_, [&](const RandomisedKey& key) {
+    return std::ranges::any_of(overrides_, [&](const auto& o) {
+      return Replaces(o.first, key.key_path) || Replaces(key.key_path, o.first);
+    });
+  });
+  variants_ = ReadMatrix(root_.Find("matrix"));
+  // Of all variants: labelled ones need not change the same keys.
+  for (const Variant& variant : variants_)
+    for (const auto& [key, value] : variant.overrides) {
+      for (const auto& o : overrides_)
+        if (Replaces(key, o.first) || Replaces(o.first, key))
+          throw InputError(o.second.mark, o.first, "", "the scenario's matrix sets " + key);
+      for (const RandomisedKey& r : randomised_)  // a part of what a variant sets may be drawn
+        if (Replaces(r.key_path, key))
+          throw InputError(r.mark, "randomise." + r.key_path, "",
+                           "the scenario's matrix sets " + key);
+    }
+}
+
+void ScenarioFile::ReadSitePart(const ConfigNode& root, const Variant& changes, bool episode,
+                                Scenario& s) const {
+  const ConfigNode* node = root.Find("site");
+  if (node == nullptr) throw InputError(root.mark, "site", "", "the key is missing");
+  const fs::path folder = s.file.parent_path();
+  if (node->IsMap()) {
+    s.site_node = *node;
+    s.site_folder = folder;
+  } else {
+    s.site_file = NamedFile(folder, *node, "site");
+    auto known = site_files_.find(s.site_file);
+    if (known == site_files_.end())
+      known = site_files_.emplace(s.site_file, ReadYamlFile(s.site_file)).first;
+    s.site_node = known->second;
+    s.site_folder = s.site_file.parent_path();
+  }
+  Apply({"", overrides_}, true, s.site_node);
+  Apply(changes, true, s.site_node);
+  ConfigNode drawn = GeneratedSite(s.site_node, static_cast<std::uint64_t>(seed_), s.episode_id);
+  s.site = ReadSite(drawn, s.site_folder);
+  if (episode) s.site_node = std::move(drawn);  // else what is random about it stays so
+  if (s.site.map.name.empty())
+    s.site.map.name = s.site_file.empty() ? s.name : s.site_file.stem().string();
+}
+
+std::string ScenarioFile::name() const {
+  const ConfigNode* name = root_.Find("name");
+  return name ? AsString(*name, "name") : file_.stem().string();
+}
+
+Drawn ScenarioFile::DrawnOf(std::uint64_t episode) const {
+  return Draw(randomised_, static_cast<std::uint64_t>(seed_), episode);
+}
+
+ConfigNode ScenarioFile::gate() const {
+  const ConfigNode* gate = root_.Find("gate");
+  return gate ? *gate : ConfigNode();
+}
+
+bool ScenarioFile::drives() const {
+  const ConfigNode* drive = root_.Find("drive");
+  return drive == nullptr || drive->scalar == "physics";
+}
+
+void ScenarioFile::CheckDraws() const {
+  constexpr std::size_t kMaxVariants = 100;
+  constexpr std::uint64_t kTries = 10;  // one draw may be a start within a wall, ten are a mistake
+  const auto check = [&](const Variant& variant, const Variant& forced) {
+    std::optional<InputError> first;
+    for (std::uint64_t episode = 0; episode < kTries; ++episode) try {
+        ReadWith(episode, variant, forced);
+        return;
+      } catch (const InputError& e) {
+        if (!first) first = e;
+      }
+    throw *first;
+  };
+  for (std::size_t v = 0; v < std::min(kMaxVariants, variants_.size()); ++v) {
+    if (!randomised_.empty()) check(variants_[v], {});
+    for (const RandomisedKey& key : randomised_)
+      for (const ConfigNode& choice : key.distribution.choices)
+        check(variants_[v], {"", {{key.key_path, choice}}});
+  }
+}
+
+Scenario ScenarioFile::Read(std::optional<std::uint64_t> episode, const Variant& variant) const {
+  return ReadWith(episode, variant, {});
+}
+
+Scenario ScenarioFile::ReadWith(std::optional<std::uint64_t> episode, const Variant& variant,
+                                const Variant& forced) const {
+  Scenario s;
+  s.file = file_;
+  s.episode_id = episode.value_or(0);
+  Variant changes = variant;
+  if (episode) {
+    s.drawn = DrawnOf(*episode);
+    changes.overrides.insert(changes.overrides.end(), s.drawn.begin(), s.drawn.end());
+  }
+  changes.overrides.insert(changes.overrides.end(), forced.overrides.begin(),
+                           forced.overrides.end());
+  ConfigNode root = root_;
+  Apply(changes, false, root);
+  RefuseUnknownKeys(root, "", ScenarioKeys());  // a variant's too
+  s.name = name();
+  for (auto [key, node] :
+       {std::pair("randomise", &s.randomise), {"matrix", &s.matrix}, {"gate", &s.gate}})
+    if (const ConfigNode* written = root.Find(key)) *node = *written;
+  for (const auto& entry : root.entries) s.written.insert(entry.first);
+  ReadTopKeys(root, s);
+  s.episode.episode = static_cast<int>(s.episode_id);
+  ReadSitePart(root, changes, episode.has_value(), s);
+  ReadParts(root, s);
+  return s;
+}
+
+Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrides) {
+  const ScenarioFile scenario(file, overrides);
+  return scenario.Read(scenario.episode());
+}
+
+std::vector<fs::path> FilesRead(const Scenario& s) {
+  std::vector<fs::path> files = s.site.files_read;
+  if (!s.site_file.empty()) files.insert(files.begin(), s.site_file);
+  files.push_back(s.robot_file);
+  files.push_back(s.fmea_file);
+  if (!s.plan_file.empty()) files.push_back(s.plan_file);
+  return files;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scenario file, read whole: site, robot, plug-ins, limits.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/config.h"
+#include "controllers/estimator.h"
+#include "controllers/mapper.h"
+#include "controllers/recovery.h"
+#include "controllers/tracker.h"
+#include "env/failures/detector.h"
+#include "env/map/site.h"
+#include "env/scene/robot_model.h"
+#include "env/scene/scene.h"
+#include "env/sensors/sensor.h"
+#include "planners/planner.h"
+#include "planners/risk/risk_map.h"
+#include "run/scenario/draws.h"
+#include "run/scenario/matrix.h"
+#include "run/scenario/scenario_params.h"
+
+namespace floorproof {
+
+struct NamedSensor {
+  std::string name;
+  std::unique_ptr<Sensor> sensor;
+};
+
+struct Scenario {
+  std::filesystem::path file;
+  std::uint64_t episode_id = 0;
+  Drawn drawn;                         // what `randomise` drew for it
+  std::set<std::string> written;       // the keys at its top
+  ConfigNode randomise, matrix, gate;  // as written; null: not there
+  std::string name;                    // the key `name`, else the file's stem
+  Site site;
+  std::filesystem::path site_file;    // empty: the site stands in the scenario
+  ConfigNode site_node;               // the site's tree, overrides applied
+  std::filesystem::path site_folder;  // that its paths are relative to
+
+  std::string robot_name;
+  RobotChanges robot_changes;
+  std::filesystem::path robot_file;
+  RobotModel robot;
+
+  Pose2 start;
+  std::optional<Vec2> goal;
+
+  std::string planner_name;  // empty: plan_file
+  std::unique_ptr<Planner> planner;
+  std::filesystem::path plan_file;
+  Path user_plan;  // what it holds
+
+  std::filesystem::path fmea_file;
+  FmeaTables fmea;
+  RiskParams risk;
+
+  std::string tracker_name, estimator_name;
+  std::unique_ptr<Tracker> tracker;
+  std::unique_ptr<Estimator> estimator;
+  std::vector<NamedSensor> sensors;        // those written, and those that a part of it needs
+  std::optional<Mapper> mapper;            // none: no map is drawn
+  std::optional<RecoveryParams> recovery;  // none: the plan is driven blindly
+  std::vector<std::unique_ptr<Detector>> detectors;
+  PhysicsParams physics;
+  Battery battery;  // its voltage set, if only by the robot
+  EpisodeParams episode;
+  VideoParams video;
+};
+
+struct Override {
+  std::string key_path, value;  // --set key.path=value; the value is YAML
+};
+
+// A scenario file in memory, from which the episodes of a campaign are read.
+class ScenarioFile {
+ public:
+  // Reads the file and applies the overrides (keys below `site.` reach into the site file); what is
+  // set is not drawn. Throws InputError naming file, line, key, value and rule.
+  explicit ScenarioFile(const std::filesystem::path& file,
+                        const std::vector<Override>& overrides = {});
+  // One that is no more than looked into, as the files that it names may be gone: its variants, its
+  // gate, whether it drives. Read() may throw.
+  static ScenarioFile Recorded(const std::filesystem::path& file);
+
+  // One episode of one variant, checked whole; without an episode nothing is drawn. Throws
+  // InputError.
+  Scenario Read(std::optional<std::uint64_t> episode = 0, const Variant& variant = {}) const;
+
+  // What `randomise` draws for an episode.
+  Drawn DrawnOf(std::uint64_t episode) const;
+
+  const std::filesystem::path& file() const { return file_; }
+  const std::vector<Variant>& variants() const { return variants_; }
+  int seed() const { return seed_; }
+  std::uint64_t episode() const { return episode_; }  // the key `episode`
+  std::string name() const;                           // the key `name`, else the file's stem
+  ConfigNode gate() const;                            // null: none
+  bool drives() const;                                // through physics
+  // Reads each variant, and each choice of `randomise` in it, as some of the first episodes would
+  // be: throws InputError where none of them makes sense (a key that is none, a robot unknown).
+  void CheckDraws() const;
+
+ private:
+  ScenarioFile(const std::filesystem::path& file, const std::vector<Override>& overrides,
+               bool check_files);
+  Scenario ReadWith(std::optional<std::uint64_t> episode, const Variant& variant,
+                    const Variant& forced) const;
+  void ReadSitePart(const ConfigNode& root, const Variant& changes, bool episode,
+                    Scenario& s) const;
+
+  std::filesystem::path file_;
+  ConfigNode root_;
+  std::vector<std::pair<std::string, ConfigNode>> overrides_;
+  std::vector<RandomisedKey> randomised_;
+  std::vector<Variant> variants_;
+  int seed_ = 0;
+  std::uint64_t episode_ = 0;
+  mutable std::map<std::filesystem::path, ConfigNode> site_files_;  // read once each
+};
+
+// The scenario itself, whatever its matrix says: episode 0, or the one that it names.
+Scenario ReadScenario(const std::filesystem::path& file,
+                      const std::vector<Override>& overrides = {});
+
+// The files it was read from, beside its own: site, map, image, robot, plan.
+std::vector<std::filesystem::path> FilesRead(const Scenario& scenario);
+
+// The scenario with every default stated, the site in it, paths valid from `folder` and the SHA-256
+// of each file read. Reading it gives the same scenario; resolving it again gives the same text.
+std::string ResolvedScenario(const Scenario& scenario, const std::filesystem::path& folder);
+
+}  // namespace floorproof

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/scenario/scenario_parts.h"
+
+#include <algorithm>
+
+#include "base/input_file.h"
+#include "env/core/blocks.h"
+#include "env/scene/roller_wheels.h"
+#include "run/scenario/fmea_file.h"
+#include "run/scenario/plan_file.h"
+#include "run/scenario/start_check.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+ConfigNode EmptyMap(const SourceMark& mark) {
+  ConfigNode node = ConfigNode::Map();
+  node.mark = mark;
+  return node;
+}
+
+// Where the key is written; the file's own mark where it is not.
+SourceMark MarkOf(const ConfigNode& root, std::string_view key) {
+  const ConfigNode* node = root.Find(key);
+  return node ? node->mark : root.mark;
+}
+
+// What is written under the key; nullptr where that is nothing, or null.
+const ConfigNode* Written(const ConfigNode& root, std::string_view key) {
+  const ConfigNode* node = root.Find(key);
+  return node != nullptr && !node->IsNull() ? node : nullptr;
+}
+
+// The map of plug-ins under the key, each by its name, empty where there is none.
+ConfigNode PluginMap(const ConfigNode& root, const std::string& key, const char* of,
+                     const std::vector<std::string>& names) {
+  const ConfigNode* node = Written(root, key);
+  if (node == nullptr) return EmptyMap(root.mark);
+  if (!node->IsMap()) throw InputError(node->mark, key, "", std::string("must be a map of ") + of);
+  RefuseUnknownKeys(*node, key + ".", names);
+  return *node;
+}
+
+// A group of parameters under a key of their own, which may be missing.
+template <class Params>
+void ReadGroup(const ConfigNode& root, const std::string& key, Params& params) {
+  if (const ConfigNode* node = root.Find(key))
+    ReadParams(*node, key + ".", [&](ParamVisitor& v) { params.Visit(v); });
+}
+
+// A plug-in written as NAME, or as a map with its name under `name_key` and its parameters beside.
+struct Named {
+  std::string name;
+  ConfigNode params;
+  SourceMark mark;
+};
+Named ReadNamed(const ConfigNode& root, const char* key, const char* name_key,
+                std::string_view default_name) {
+  const ConfigNode* node = Written(root, key);
+  if (node == nullptr) return {std::string(default_name), EmptyMap(root.mark), root.mark};
+  if (node->IsScalar()) return {node->scalar, EmptyMap(node->mark), node->mark};
+  if (!node->IsMap()) throw InputError(node->mark, key, "", "must be a name or a map");
+  const ConfigNode* name = node->Find(name_key);
+  return {name ? AsString(*name, std::string(key) + "." + name_key) : std::string(default_name),
+          *node, name ? name->mark : node->mark};
+}
+
+// A plan names shapes before its robot is known.
+void CheckShapes(const Scenario& s, const std::vector<int>& plan_lines) {
+  for (std::size_t i = 0; i < s.user_plan.size(); ++i) {
+    const std::string& shape = s.user_plan[i].shape;
+    if (!shape.empty() && FindShape(s.robot.spec, shape) < 0)
+      RefuseShape(s.robot.spec, {s.plan_file.string(), plan_lines[i]}, "shape", shape);
+  }
+}
+
+void ReadRobotPart(const ConfigNode& root, const std::vector<int>& plan_lines, Scenario& s) {
+  const Named named = ReadNamed(root, "robot", "name", "");
+  if (named.name.empty()) throw InputError(named.mark, "robot", "", "the key is missing");
+  s.robot_name = named.name;
+  s.robot_file = FindRobotFile(named.name, named.mark);
+  if (s.robot_file == named.name) {  // not a bundled one
+    ConfigNode path = ConfigNode::Scalar(named.name);
+    path.mark = named.mark;
+    s.robot_file = NamedFile(s.file.parent_path(), path, "robot");
+  }
+  ReadParams(named.params, "robot.", [&](ParamVisitor& v) { s.robot_changes.Visit(v); }, {"name"});
+  ReadGroup(root, "battery", s.battery);
+  s.robot_changes.battery_v = s.battery.voltage_v;
+  const bool folds = std::ranges::any_of(s.user_plan, [&](const Waypoint& w) {
+    return !w.shape.empty() && w.shape != s.robot_changes.shape;
+  });
+  s.robot = ReadRobot(s.robot_file, s.robot_changes, folds ? Blocks::kHinged : Blocks::kLocked);
+  s.battery.voltage_v = s.robot.spec.battery.voltage_v;
+  s.robot.spec.battery = s.battery;
+  CheckShapes(s, plan_lines);
+  if (s.episode.wheels != "rollers") return;
+  if (!HasMecanumWheels(s.robot.spec))
+    throw InputError(MarkOf(root, "wheels"), "wheels", s.episode.wheels,
+                     "must be ideal: the wheels of " + s.robot_name + " have no rollers");
+  s.robot = WithRollerWheels(s.robot);
+}
+
+Pose2 ReadStart(const ConfigNode& root, const HazardMap& map) {
+  Pose2 start = map.start.value_or(Pose2{});
+  const ConfigNode* node = root.Find("start");
+  if (node == nullptr) {
+    if (!map.start)
+      throw InputError(root.mark, "start", "",
+                       "neither the scenario nor its site says where to start");
+    start.yaw_rad = CanonicalDegrees(start.yaw_rad * 180 / kPi) * kPi / 180;
+    return start;
+  }
+  double yaw_deg = start.yaw_rad * 180 / kPi;
+  ReadParams(*node, "start.", [&](ParamVisitor& v) {
+    v("x_m", start.x_m, Any(), "x of the robot's centre (m)");
+    v("y_m", start.y_m, Any(), "y of the robot's centre (m)");
+    v("yaw_deg", yaw_deg, Any(), "heading (deg, from x to y)");
+  });
+  start.yaw_rad = CanonicalDegrees(yaw_deg) * kPi / 180;
+  return start;
+}
+
+void CheckStart(const ConfigNode& root, const Scenario& s) {
+  const SourceMark mark = MarkOf(root, "start");
+  const Cell cell = s.site.map.frame.ToCell(s.start.p());
+  const std::string value = FormatDouble(s.start.x_m) + ", " + FormatDouble(s.start.y_m);
+  if (!s.site.map.frame.Inside(cell)) throw InputError(mark, "start", value, "lies off the map");
+  if (s.site.map.IsWall(cell))
+    throw InputError(
+        mark, "start", value,
+        "lies in a wall, cell (" + std::to_string(cell.ix) + ", " + std::to_string(cell.iy) + ")");
+}
+
+std::optional<Vec2> ReadGoal(const ConfigNode& root, const HazardMap& map) {
+  const ConfigNode* node = root.Find("goal");
+  if (node == nullptr) return map.goal;
+  Vec2 goal = map.goal.value_or(Vec2::Zero());
+  ReadParams(*node, "goal.", [&](ParamVisitor& v) {
+    v("x_m", goal.x(), Any(), "m");
+    v("y_m", goal.y(), Any(), "m");
+  });
+  if (!map.frame.Inside(map.frame.ToCell(goal)))
+    throw InputError(node->mark, "goal", FormatDouble(goal.x()) + ", " + FormatDouble(goal.y()),
+                     "lies off the map");
+  return goal;
+}
+
+// Returns the line of each waypoint of a user's plan.
+std::vector<int> ReadPlanPart(const ConfigNode& root, Scenario& s) {
+  std::vector<int> lines;
+  const ConfigNode* node = root.Find("plan");
+  if (const ConfigNode* file = node && node->IsMap() ? node->Find("file") : nullptr) {
+    RefuseUnknownKeys(*node, "plan.", {"file"});
+    s.plan_file = NamedFile(s.file.parent_path(), *file, "plan.file");
+    s.user_plan = ReadPlan(s.plan_file, s.site.map.frame, &lines);
+    return lines;
+  }
+  const Named named = ReadNamed(root, "plan", "planner", "boustrophedon");
+  s.planner_name = named.name;
+  s.planner = MakePlugin(Planners(), named.name, "plan.planner", named.mark);
+  ReadParams(named.params, "plan.", *s.planner, {"planner"});
+  return lines;
+}
+
+// Tables are named like robots: a bundled one's name, or a path that ends in .yaml.
+void ReadRisk(const ConfigNode& root, Scenario& s) {
+  const ConfigNode* node = Written(root, "risk");
+  if (node != nullptr)
+    ReadParams(*node, "risk.", [&](ParamVisitor& v) { s.risk.Visit(v); }, {"tables"});
+  const ConfigNode* tables = node != nullptr ? node->Find("tables") : nullptr;
+  const std::string name =
+      tables != nullptr ? AsString(*tables, "risk.tables") : std::string(kBundledTables);
+  if (name == kBundledTables) {
+    s.fmea_file = BundledTables();
+  } else if (name.ends_with(".yaml")) {
+    s.fmea_file = NamedFile(s.file.parent_path(), *tables, "risk.tables");
+  } else {
+    throw InputError(tables->mark, "risk.tables", name, "must be htetro, or a .yaml file");
+  }
+  s.fmea = ReadFmeaTables(s.fmea_file);
+  if (!s.risk.cell_m) return;
+  constexpr double kMaxCells = 4e6;
+  const GridFrame& frame = s.site.map.frame;
+  const double side = frame.cell_m / *s.risk.cell_m;
+  if (frame.width * side * frame.height * side > kMaxCells)
+    throw InputError(node->Find("cell_m")->mark, "risk.cell_m", FormatDouble(*s.risk.cell_m),
+                     "makes more than 4 million cells of the floor");
+}
+
+void ReadControl(const ConfigNode& root, Scenario& s) {
+  const Named tracker = ReadNamed(root, "controller", "name", DefaultTracker(s.robot.spec.drive));
+  s.tracker_name = tracker.name;
+  s.tracker = MakePlugin(Trackers(), tracker.name, "controller", tracker.mark);
+  ReadParams(tracker.params, "controller.", *s.tracker, {"name"});
+  const auto drives = s.tracker->Drives();
+  if (std::ranges::find(drives, s.robot.spec.drive) == drives.end())
+    throw InputError(tracker.mark, "controller", tracker.name,
+                     "cannot command the drive " + s.robot.spec.drive + " of " + s.robot_name);
+  const Named estimator = ReadNamed(root, "estimator", "name", Estimators().front().name);
+  s.estimator_name = estimator.name;
+  s.estimator = MakePlugin(Estimators(), estimator.name, "estimator", estimator.mark);
+  ReadParams(estimator.params, "estimator.", *s.estimator, {"name"});
+}
+
+// For keys that know a robot in the shape in which it starts.
+void RefuseFolding(const Scenario& s, const SourceMark& mark, const char* key, const char* value) {
+  if (!s.robot.spec.hinges.empty())
+    throw InputError(mark, key, value, "cannot be with a plan that changes the robot's shape");
+}
+
+// The mapper keeps what was met, so that a robot which reacts has one.
+void ReadReaction(const ConfigNode& root, Scenario& s) {
+  if (const ConfigNode* node = Written(root, "react")) {
+    s.recovery.emplace();
+    ReadParams(*node, "react.", [&](ParamVisitor& v) { s.recovery->Visit(v); });
+    RefuseFolding(s, node->mark, "react", "");
+  }
+  if (const ConfigNode* node = Written(root, "mapper")) {
+    s.mapper.emplace();
+    ReadParams(*node, "mapper.", *s.mapper);
+  } else if (s.recovery) {
+    s.mapper.emplace();
+  }
+}
+
+void ReadSensors(const ConfigNode& root, Scenario& s) {
+  const ConfigNode written = PluginMap(root, "sensors", "sensors", PluginNames(Sensors()));
+  auto needed = s.estimator->Needs();
+  if (Written(root, "mapper")) needed.push_back("lidar");
+  if (s.recovery && s.recovery->bumper) needed.push_back("bumper");
+  if (s.recovery && s.recovery->cliff) needed.push_back("cliff");
+  for (const auto& entry : Sensors()) {
+    const std::string name(entry.name);
+    const ConfigNode* params = written.Find(name);
+    if (params == nullptr && std::ranges::find(needed, entry.name) == needed.end()) continue;
+    s.sensors.push_back({name, entry.make()});
+    if (params != nullptr && !params->IsNull())
+      ReadParams(*params, "sensors." + name + ".", *s.sensors.back().sensor);
+  }
+}
+
+void ReadFailures(const ConfigNode& root, Scenario& s) {
+  const ConfigNode written = PluginMap(root, "failures", "detectors", PluginNames(Detectors()));
+  for (const auto& entry : Detectors()) {
+    auto detector = entry.make();
+    const std::string name(entry.name);
+    if (const ConfigNode* params = written.Find(name))
+      ReadParams(*params, "failures." + name + ".", *detector);
+    s.detectors.push_back(std::move(detector));
+  }
+  if (s.episode.on_failure == "assist")
+    RefuseFolding(s, MarkOf(root, "on_failure"), "on_failure", "assist");
+}
+
+}  // namespace
+
+fs::path BundledTables() {
+  return ModelsFolder() / "fmea" / (std::string(kBundledTables) + ".yaml");
+}
+
+const std::vector<std::string>& ScenarioKeys() {
+  static const std::vector<std::string> keys = {
+      "name",       "scenario", "site",         "robot",      "start",    "goal",
+      "plan",       "risk",     "controller",   "estimator",  "sensors",  "mapper",
+      "react",      "physics",  "battery",      "control_hz", "trace_hz", "failures",
+      "on_failure", "success",  "time_limit_s", "seed",       "episode",  "drive",
+      "wheels",     "video",    "files",        "randomise",  "matrix",   "gate"};
+  return keys;
+}
+
+fs::path NamedFile(const fs::path& folder, const ConfigNode& node, const std::string& key) {
+  fs::path file = PathIn(folder, node, key);
+  if (const std::string why = WhyUnreadable(file, kMaxNamedBytes); !why.empty())
+    throw InputError(node.mark, key, node.scalar, why);
+  return file;
+}
+
+void ReadTopKeys(const ConfigNode& root, Scenario& s) {
+  ReadParams(
+      root, "", [&](ParamVisitor& v) { s.episode.Visit(v); }, ScenarioKeys());
+  ReadGroup(root, "physics", s.physics);
+  ReadGroup(root, "video", s.video);
+  const double steps = 1 / (s.physics.timestep_s * s.episode.control_hz);
+  if (steps < 1 || std::abs(steps - std::round(steps)) > 1e-9 * steps)
+    throw InputError(MarkOf(root, "control_hz"), "control_hz", std::to_string(s.episode.control_hz),
+                     "a control period must be a whole number of steps of " +
+                         FormatDouble(s.physics.timestep_s) + " s");
+  if (s.episode.control_hz % s.episode.trace_hz != 0)
+    throw InputError(MarkOf(root, "trace_hz"), "trace_hz", std::to_string(s.episode.trace_hz),
+                     "must divide control_hz = " + std::to_string(s.episode.control_hz));
+}
+
+void ReadParts(const ConfigNode& root, Scenario& s) {
+  const std::vector<int> plan_lines = ReadPlanPart(root, s);
+  ReadRobotPart(root, plan_lines, s);  // whether it folds hangs on the plan
+  s.start = ReadStart(root, s.site.map);
+  s.site.map.start = s.start;  // the scenario's own wins, on pictures too
+  CheckStart(root, s);
+  s.goal = ReadGoal(root, s.site.map);
+  ReadRisk(root, s);
+  ReadControl(root, s);
+  ReadReaction(root, s);
+  ReadSensors(root, s);
+  ReadFailures(root, s);
+  CheckStarts(root, s);
+}
+
+}  // namespace floorproof

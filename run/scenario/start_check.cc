@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/scenario/start_check.h"
+
+#include <algorithm>
+
+#include "run/scenario/scenario_parts.h"
+
+namespace floorproof {
+namespace {
+
+// Where the last part of this path is written that is; the file's own mark where none is.
+SourceMark MarkOfPath(const ConfigNode& root, std::string_view path) {
+  const ConfigNode* node = &root;
+  while (!path.empty()) {
+    const std::size_t dot = path.find('.');
+    const ConfigNode* below = node->Find(path.substr(0, dot));
+    if (below == nullptr) break;
+    node = below;
+    path = dot == std::string_view::npos ? "" : path.substr(dot + 1);
+  }
+  return node->mark;
+}
+
+// Plug-ins know the key, not where it is written: their lines begin with it, or with the robot's
+// file.
+template <class Start>
+void Check(const ConfigNode& root, Start start) {
+  try {
+    start();
+  } catch (const InputError& e) {
+    const std::string_view line = e.what();
+    const std::string_view path = line.substr(0, line.find_first_of(" :"));
+    const auto& keys = ScenarioKeys();
+    if (std::ranges::find(keys, path.substr(0, path.find('.'))) == keys.end()) throw;
+    throw InputError(MarkOfPath(root, path), "", "", line);
+  }
+}
+
+}  // namespace
+
+void CheckStarts(const ConfigNode& root, Scenario& s) {
+  const HazardMap known = KnownPart(s.site.map);
+  Check(root, [&] {
+    s.estimator->Start({known, s.robot.spec, s.start, Stream(0, 0, "estimator")});
+  });
+  if (s.sensors.empty()) return;
+  HazardMap bare;
+  bare.frame = {1, 1, 1, {}};
+  bare.cells = Grid<CellState>(1, 1);
+  const Scene scene = BuildScene(bare, s.robot, s.physics, {});
+  const DataPtr data = MakeData(scene.model.get());
+  ForwardEngine(scene.model.get(), data.get());
+  Observation sensed;
+  for (const auto& [name, sensor] : s.sensors)
+    Check(root, [&, &name = name, &sensor = sensor] {
+      sensor->Start({scene, bare, s.robot.spec, 1.0 / s.episode.control_hz}, data.get(), {},
+                    Stream(0, 0, name), sensed);
+    });
+}
+
+}  // namespace floorproof

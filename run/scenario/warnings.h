@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is read as written but may not be meant.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run/scenario/scenario.h"
+
+namespace floorproof {
+
+// One line each: the site's own, restitution that the time step cannot give, and which files are
+// read that lie neither in the scenario's folder nor among the bundled models.
+std::vector<std::string> Warnings(const Scenario& scenario);
+
+}  // namespace floorproof

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "report/html.h"
+#include "report/page.h"
+#include "tests/report/html_page.h"
+
+namespace floorproof {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr const char* kHostile = "<script>alert('x')</script>\" onload=\"y\" & co";
+
+ReportVariant Variant(const std::string& name, int k, int n) {
+  ReportVariant v{.name = name, .n = n, .success = n - k, .failure = k};
+  const double rate = n > 0 ? static_cast<double>(k) / n : std::numeric_limits<double>::quiet_NaN();
+  v.failures = {{"any_failure", k, n, rate, rate / 2, 0.5}, {"stuck", k, n, rate, rate / 2, 0.5}};
+  for (auto* per : {&v.per_km, &v.per_1000_h})
+    *per = {{"any_failure", k, 2.5, k / 2.5, 0.1, 9}, {"stuck", k, 2.5, k / 2.5, 0.1, 9}};
+  v.places_note = "no map";
+  return v;
+}
+
+Report Full(const std::string& text) {
+  Report r{.title = text, .campaign = text, .versions = {{text, text}}};
+  r.gate =
+      ReportGate{.metric = text, .max_rate = 0.05, .confidence = 0.95, .texts = {{text, text}}};
+  for (const char* number : {"1", "2"}) {
+    ReportVariant v = Variant(text + number, 5, 20);
+    v.kinds = v.hazards = {{text, 1, 20, 0.05, 0.01, 0.2}};
+    v.metrics = {{text, 1, 2, 3, 4}};
+    v.places_png = "png";
+    v.places_note = text;
+    r.variants.push_back(v);
+  }
+  r.pairs = {{.a = text, .b = text, .both = 1, .only_a = 2, .only_b = 3, .neither = 4}};
+  r.pairs[0].metrics = {{.name = text, .pairs = text, .n = 10}};
+  r.films = {{.variant = text,
+              .what = text,
+              .mp4 = "film",
+              .path = text,
+              .frames = {{text, "png"}},
+              .maps = {{text, "png"}}},
+             {.variant = text, .what = text, .path = text}};
+  r.episodes = {{.variant = text, .what = text, .detail = text, .command = text}};
+  r.settings = text;
+  return r;
+}
+
+TEST(Report, TagsBalance) {
+  EXPECT_EQ(WhyUnbalanced(ReportHtml(Full("floor"))), "");
+  EXPECT_EQ(WhyUnbalanced(ReportHtml({})), "");
+  EXPECT_NE(WhyUnbalanced("<p><b></p></b>"), "");
+  EXPECT_NE(WhyUnbalanced("<p>"), "");
+}
+
+TEST(Report, EveryTextIsEscaped) {
+  const std::string page = ReportHtml(Full(kHostile));
+  EXPECT_EQ(WhyUnbalanced(page), "");
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, Not(HasSubstr("\" onload")));
+  EXPECT_THAT(page, HasSubstr("&lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt;&quot;"));
+  // As many texts as before, none swallowed.
+  const auto count = [](const std::string& text, const std::string& word) {
+    std::size_t n = 0;
+    for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count(page, "&lt;script&gt;"), count(ReportHtml(Full("Quokka")), "Quokka") - 1)
+      << "all but the film's address, which is percent-encoded";
+}
+
+TEST(Report, AsksNothingOfTheNetwork) {
+  const std::string page = ReportHtml(Full("floor"));
+  EXPECT_THAT(page, Not(HasSubstr("://")));
+  EXPECT_THAT(page, Not(HasSubstr("<link")));
+  EXPECT_THAT(page, Not(HasSubstr("@import")));
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+  for (auto at = page.find(" src=\""); at != std::string::npos; at = page.find(" src=\"", at + 1))
+    EXPECT_EQ(page.substr(at + 6, 5), "data:");
+}
+
+TEST(Report, SmallFilmsStandInThePageLargeOnesAreLinkedAndNamed) {
+  Report r = Full("floor");
+  r.films[1].path = "episodes/robot=a b/3/video.mp4";
+  const std::string page = ReportHtml(r);
+  EXPECT_THAT(page, HasSubstr("src=\"data:video/mp4;base64,ZmlsbQ==\""));
+  EXPECT_THAT(page, HasSubstr("href=\"episodes/robot%3Da%20b/3/video.mp4\""));
+  EXPECT_THAT(page, HasSubstr("which lie beside it: episodes/robot=a b/3/video.mp4"));
+  r.films.pop_back();
+  EXPECT_THAT(ReportHtml(r), HasSubstr("complete in itself"));
+}
+
+TEST(Report, VerdictIsOneSentence) {
+  Report r;
+  r.variants = {Variant("a", 0, 20)};
+  r.variants[0].failures[0].upper = 0.168;
+  EXPECT_EQ(VerdictText(r), "The robot failed in none of 20 episodes, 95 % interval 0 to 16.8 %.");
+  r.variants = {Variant("a", 5, 20), Variant("b", 2, 20)};
+  EXPECT_THAT(VerdictText(r), ::testing::StartsWith("b failed in 2 of 20 episodes (10 %)"));
+  r.variants = {Variant("a", 0, 0), Variant("b", 0, 0)};
+  EXPECT_EQ(VerdictText(r), "No robot drove: the episodes are plans only, or none counts.");
+  r.gate = ReportGate{.metric = "stuck", .max_rate = 0.05, .confidence = 0.95};
+  const auto verdict = [&](ReportGate::Verdict v) {
+    r.gate->verdict = v;
+    return VerdictText(r);
+  };
+  EXPECT_THAT(verdict(ReportGate::Verdict::kPassed),
+              HasSubstr("passed: the rate of stuck is below"));
+  EXPECT_THAT(verdict(ReportGate::Verdict::kFailed), HasSubstr("failed"));
+  EXPECT_THAT(verdict(ReportGate::Verdict::kUndecided), HasSubstr("undecided"));
+}
+
+TEST(Report, IntervalsAreDrawnOnOneAxisForAllVariants) {
+  Report r;
+  r.variants = {Variant("a", 10, 100), Variant("b", 1, 100)};
+  r.variants[0].failures[0] = {"any_failure", 10, 100, 0.1, 0.05, 0.18};
+  r.variants[1].failures[0] = {"any_failure", 1, 100, 0.01, 0.0, 0.05};
+  for (auto& v : r.variants) v.failures.resize(1);
+  for (auto& v : r.variants) v.per_km.resize(1), v.per_1000_h.resize(1);
+  const std::string page = ReportHtml(r);  // the axis ends at 20 %
+  EXPECT_THAT(page, HasSubstr("x1=\"25.00%\" x2=\"90.00%\""));
+  EXPECT_THAT(page, HasSubstr("x1=\"0.00%\" x2=\"25.00%\""));
+  EXPECT_THAT(page, HasSubstr("cx=\"50.00%\""));
+  EXPECT_THAT(page, HasSubstr("cx=\"5.00%\""));
+}
+
+TEST(Report, NumbersForPeople) {
+  EXPECT_EQ(NumberText(0.086571), "0.0866");
+  EXPECT_EQ(NumberText(94.56), "94.6");
+  EXPECT_EQ(NumberText(999.4), "999");
+  EXPECT_EQ(NumberText(999.9), "1,000");
+  EXPECT_EQ(NumberText(135915.3), "136,000");
+  EXPECT_EQ(NumberText(-1234567), "-1,230,000");
+  EXPECT_EQ(NumberText(std::numeric_limits<double>::infinity()), "–");
+  EXPECT_EQ(PercentText(0.25), "25 %");
+  EXPECT_EQ(DataUri("a/b", "M"), "data:a/b;base64,TQ==");
+  EXPECT_EQ(DataUri("a/b", "Man"), "data:a/b;base64,TWFu");
+  EXPECT_EQ(DataUri("a/b", std::string("\xff\x00", 2)), "data:a/b;base64,/wA=");
+}
+
+}  // namespace
+}  // namespace floorproof

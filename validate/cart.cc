@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "validate/cart.h"
+
+#include <fmt/format.h>
+
+namespace floorproof {
+
+RobotModel MakeCart(const Cart& cart) {
+  constexpr double kBox_kg = 9, kWheel_kg = 0.3;
+  std::string wheels, motors;
+  for (int i = 0; i < 4; ++i) {
+    const double x = i < 2 ? cart.axle_x_m : -cart.axle_x_m, y = i % 2 ? 0.15 : -0.15;
+    wheels += fmt::format(
+        R"(<body pos="{} {} {}"><joint name="w{}" axis="0 1 0" armature="0.002" frictionloss="0.02"/>
+        <geom type="cylinder" size="{} 0.008" zaxis="0 1 0" mass="{}" contype="0"/></body>)",
+        x, y, cart.wheel_radius_m, i, cart.wheel_radius_m, kWheel_kg);
+    motors += fmt::format(R"(<velocity joint="w{}" kv="5" forcerange="-3 3"/>)", i);
+  }
+  const double box_x = cart.com_x_m * (kBox_kg + 4 * kWheel_kg) / kBox_kg;
+  RobotModel out = BodyFromMjcf(fmt::format(
+      R"(<mujoco><worldbody><body name="base"><freejoint/>
+      <geom type="box" size="0.1 0.12 0.02" pos="{} 0 {}" mass="{}" contype="0" conaffinity="3"/>
+      {}</body></worldbody><actuator>{}</actuator></mujoco>)",
+      box_x, cart.wheel_radius_m + 0.02, kBox_kg, wheels, motors));
+  out.spec.name = "cart";
+  return out;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "validate/ladder.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <mutex>
+
+#include "base/interrupt.h"
+#include "base/params.h"
+#include "controllers/drive.h"
+#include "env/scene/roller_wheels.h"
+#include "validate/parallel.h"
+
+namespace floorproof {
+namespace {
+
+constexpr double kSpeeds_mps[] = {0.1, 0.2, 0.3};
+constexpr double kFrictions[] = {0.4, 0.6, 0.8};
+constexpr double kRollerFrictions[] = {0.4, 0.8};
+constexpr double kClearances_m[] = {0.015, 0.018, 0.020, 0.022, 0.025, 0.030};
+constexpr double kMassFactors[] = {0.7, 1.0, 1.5};
+constexpr double kClear_m = 0.02;  // between what lies behind and the circle around the robot
+
+// Whether the wheels can move the robot aside: by asking the drive, there and back.
+bool MovesAside(const RobotSpec& robot) {
+  const auto drive = MakePlugin(Drives(), robot.drive, "drive");
+  drive->Configure(robot);
+  std::vector<double> wheels(robot.wheels.size());
+  constexpr double kAside_mps = 0.1;
+  drive->ToWheels({0, kAside_mps, 0}, wheels);
+  return drive->ToTwist(wheels).vy_mps > 0.5 * kAside_mps;
+}
+
+std::vector<Direction> DirectionsOf(const RobotSpec& robot) {
+  if (MovesAside(robot)) return {Direction::kForward, Direction::kSideways, Direction::kDiagonal};
+  return {Direction::kForward, Direction::kDiagonal};
+}
+
+void AddCells(const std::string& name, const RobotSpec& robot, const std::string& wheels,
+              std::span<const double> frictions, std::vector<LadderCell>& cells) {
+  for (const LadderHazard& hazard : LadderHazards())
+    for (const Direction direction : DirectionsOf(robot))
+      for (const double speed_mps : kSpeeds_mps)
+        for (const double friction : frictions)
+          cells.push_back({name, wheels, hazard.name, direction, speed_mps, friction, {}});
+}
+
+std::string CsvRow(const LadderRow& row) {
+  const LadderCell& cell = row.cell;
+  return fmt::format("{},{},{},{},{},{},{},{}", cell.robot, cell.wheels, cell.hazard,
+                     Name(cell.direction), FormatDouble(cell.speed_mps),
+                     FormatDouble(cell.friction), FormatDouble(row.limit),
+                     FindLadderHazard(cell.hazard).unit);
+}
+
+constexpr std::string_view kColumns = "robot,wheels,hazard,direction,speed_mps,friction,limit,unit";
+
+}  // namespace
+
+std::string_view Name(Direction direction) {
+  switch (direction) {
+    case Direction::kForward:
+      return "forward";
+    case Direction::kSideways:
+      return "sideways";
+    case Direction::kDiagonal:
+      return "diagonal";
+  }
+  return "?";
+}
+
+std::vector<LadderCell> LadderCells(const LadderOptions& options) {
+  std::vector<LadderCell> cells;
+  for (const RobotEntry& entry : Robots()) {
+    const std::string name(entry.name);
+    const RobotSpec robot = ReadRobot(FindRobotFile(name, {})).spec;
+    AddCells(name, robot, "ideal", kFrictions, cells);
+    if (options.rollers && HasMecanumWheels(robot))
+      AddCells(name, robot, "rollers", kRollerFrictions, cells);
+  }
+  return cells;
+}
+
+std::vector<LadderCell> SweepCells() {
+  std::vector<LadderCell> cells;
+  for (const RobotEntry& entry : Robots()) {
+    const std::string name(entry.name);
+    const RobotSpec robot = ReadRobot(FindRobotFile(name, {})).spec;
+    for (const LadderHazard& hazard : LadderHazards())
+      for (const Direction direction : DirectionsOf(robot))
+        for (const double factor : kMassFactors)
+          for (const double clearance_m : kClearances_m) {
+            LadderCell cell{name, "ideal", hazard.name, direction, 0.2, 0.8, {}};
+            cell.changes.mass_kg = std::round(1000 * factor * robot.mass_kg) / 1000;
+            cell.changes.clearance_m = clearance_m;
+            cells.push_back(cell);
+          }
+  }
+  return cells;
+}
+
+CrossingPlan PlanOf(const LadderCell& cell, const RobotSpec& robot, double size) {
+  CrossingPlan plan;
+  plan.speed_mps = cell.speed_mps;
+  plan.friction = cell.friction;
+  const double angle_rad = cell.direction == Direction::kForward    ? 0
+                           : cell.direction == Direction::kSideways ? kPi / 2
+                                                                    : kPi / 4;
+  if (MovesAside(robot))
+    plan.yaw_rad = -angle_rad;  // the way is the world's x
+  else
+    plan.travel_rad = plan.yaw_rad = angle_rad;
+  const double end_m = FindLadderHazard(cell.hazard).length_m(size);
+  plan.beyond_m = (end_m + robot.circumscribed_radius_m + kClear_m) / std::cos(plan.travel_rad);
+  return plan;
+}
+
+std::optional<LadderRow> FindRow(const LadderCell& cell) {
+  const LadderHazard& hazard = FindLadderHazard(cell.hazard);
+  RobotModel robot = ReadRobot(FindRobotFile(cell.robot, {}), cell.changes);
+  if (cell.wheels == "rollers") robot = WithRollerWheels(robot);
+  LadderRow row{cell, 0, false, ""};
+  const auto limit = FindLimit(hazard.rungs, [&](double size) {
+    const CrossingPlan plan = PlanOf(cell, robot.spec, size);
+    const CrossingResult result = Cross(robot, hazard.make(size, plan.travel_rad), plan);
+    // The last that held lies just above the limit.
+    if (!result.crossed) row.held_by = result.held_by;
+    return result.crossed;
+  });
+  if (!limit) return {};
+  row.limit = limit->size;
+  row.above_all = limit->above_all;
+  return row;
+}
+
+std::vector<LadderRow> ClimbLadder(
+    std::span<const LadderCell> cells, int jobs,
+    const std::function<void(const LadderRow&, std::size_t done)>& on_row) {
+  std::vector<std::optional<LadderRow>> found(cells.size());
+  std::mutex one_at_a_time;
+  std::size_t done = 0;
+  RunParallel(static_cast<int>(cells.size()), jobs, [&](int i) {
+    auto& row = found[static_cast<std::size_t>(i)];
+    row = FindRow(cells[static_cast<std::size_t>(i)]);
+    if (!row) return;
+    const std::lock_guard lock(one_at_a_time);
+    ++done;
+    if (on_row) on_row(*row, done);
+  });
+  std::vector<LadderRow> rows;
+  for (auto& row : found)
+    if (row) rows.push_back(std::move(*row));
+  return rows;
+}
+
+std::string LadderCsv(std::span<const LadderRow> rows) {
+  std::string out = fmt::format("{}\n", kColumns);
+  for (const LadderRow& row : rows) out += CsvRow(row) + "\n";
+  return out;
+}
+
+std::string SweepCsv(std::span<const LadderRow> rows) {
+  std::string out = fmt::format("{},clearance_m,mass_kg\n", kColumns);
+  for (const LadderRow& row : rows) {
+    const RobotChanges& changes = row.cell.changes;
+    out += fmt::format("{},{},{}\n", CsvRow(row), FormatDouble(changes.clearance_m.value()),
+                       FormatDouble(changes.mass_kg.value()));
+  }
+  return out;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ladder: up to which size each robot crosses each kind of hazard. Its picture is the robot's
+// capability chart.
+//
+// A cell is a robot that meets a kind of hazard in one direction at one speed on one friction; its
+// limit is found by rungs and bisection (limit_search.h) over single crossings (crossing.h). The
+// hazards are what a site file would hold, made by the product's own plug-ins.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "env/core/hazard_map.h"
+#include "env/scene/robot_model.h"
+#include "validate/crossing.h"
+#include "validate/limit_search.h"
+
+namespace floorproof {
+
+// A kind of hazard with one size that grows.
+struct LadderHazard {
+  std::string_view name;
+  std::string_view size;  // what grows, in words
+  std::string_view unit;  // mm or deg
+  Rungs rungs;
+  // How far it reaches along the way from where it begins, m; 0: a level change.
+  double (*length_m)(double size);
+  // The hazard of this size that begins at the line through the origin across the edge's normal.
+  Hazard (*make)(double size, double travel_rad);
+};
+
+// step: height of a raised floor. drop: depth of a lowered one. groove: width of a slot 50 mm deep.
+// cable_cover: angle of the flanks of one 20 mm high with a top of 50 mm. cable_cover_height: of
+// one with flanks of 30 deg. rough: highest bump over 0.6 m at a wavelength of 0.1 m.
+std::span<const LadderHazard> LadderHazards();
+const LadderHazard& FindLadderHazard(std::string_view name);
+
+// Of the way in the body's frame: x, y, or between the two, the hazard's edge square to the way.
+// A robot that cannot move aside meets the edge at 45 degrees instead, and knows no sideways.
+enum class Direction { kForward, kSideways, kDiagonal };
+std::string_view Name(Direction direction);
+
+struct LadderCell {
+  std::string robot;
+  std::string wheels = "ideal";
+  std::string_view hazard;  // of LadderHazards
+  Direction direction = Direction::kForward;
+  double speed_mps = 0.2;
+  double friction = 0.8;
+  RobotChanges changes = {};  // both or none of clearance and mass
+};
+
+struct LadderRow {
+  LadderCell cell;
+  double limit = 0;        // in the hazard's unit; 0: not even the smallest tried
+  bool above_all = false;  // every rung was crossed: the limit is that or more
+  std::string held_by;     // what ended the crossing just above the limit (CrossingResult)
+};
+
+struct LadderOptions {
+  int jobs = 1;
+  bool rollers = true;  // rows of roller wheels too, which take most of the time
+};
+
+// Every bundled robot, hazard and direction at 0.1, 0.2, 0.3 m/s on friction 0.4, 0.6, 0.8; after
+// a robot's ideal wheels its roller wheels (where it has such), on 0.4 and 0.8.
+std::vector<LadderCell> LadderCells(const LadderOptions& options);
+// How limits move with belly clearance (15 to 30 mm) and mass (0.7, 1 and 1.5 times the model's):
+// ideal wheels, 0.2 m/s, friction 0.8.
+std::vector<LadderCell> SweepCells();
+
+// The cell's limit; nothing when interrupted. Throws InternalError when the physics diverges.
+std::optional<LadderRow> FindRow(const LadderCell& cell);
+// How a robot of the cell meets its hazard.
+CrossingPlan PlanOf(const LadderCell& cell, const RobotSpec& robot, double size);
+
+// Finds the cells' limits on so many threads; rows in the cells' order whatever finished
+// first, without those that an interrupt kept from being found. `on_row` is called once a row, one
+// call at a time, with the number of rows that are done.
+std::vector<LadderRow> ClimbLadder(
+    std::span<const LadderCell> cells, int jobs,
+    const std::function<void(const LadderRow&, std::size_t done)>& on_row);
+
+// robot,wheels,hazard,direction,speed_mps,friction,limit,unit
+std::string LadderCsv(std::span<const LadderRow> rows);
+// The same with clearance_m,mass_kg.
+std::string SweepCsv(std::span<const LadderRow> rows);
+
+}  // namespace floorproof

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "validate/ladder_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace floorproof {
+namespace {
+
+constexpr double kFriction = 0.8;
+
+const LadderRow* Find(std::span<const LadderRow> rows, const LadderCell& cell) {
+  for (const LadderRow& row : rows)
+    if (row.cell.robot == cell.robot && row.cell.wheels == cell.wheels &&
+        row.cell.hazard == cell.hazard && row.cell.direction == cell.direction &&
+        row.cell.speed_mps == cell.speed_mps && row.cell.friction == cell.friction)
+      return &row;
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<CoverGap> CoverGaps(std::span<const LadderRow> rows) {
+  std::vector<CoverGap> gaps;
+  for (const LadderRow& forward : rows) {
+    if (forward.cell.hazard != "cable_cover" || forward.cell.direction != Direction::kForward)
+      continue;
+    LadderCell aside = forward.cell;
+    aside.direction = Direction::kSideways;
+    const LadderRow* sideways = Find(rows, aside);
+    if (sideways && !sideways->above_all && sideways->limit < forward.limit)
+      gaps.push_back({forward.cell, sideways->limit, forward.limit});
+  }
+  return gaps;
+}
+
+std::string Sentence(const CoverGap& gap) {
+  return fmt::format(
+      "{}, wheels {}, {} m/s, friction {}: a 20 mm cable cover with flanks from {} to {} deg is "
+      "crossed forward and holds the robot when met sideways",
+      gap.cell.robot, gap.cell.wheels, gap.cell.speed_mps, gap.cell.friction, gap.from_deg,
+      gap.to_deg);
+}
+
+std::vector<WheelDisagreement> WheelDisagreements(std::span<const LadderRow> rows, double share) {
+  std::vector<WheelDisagreement> found;
+  for (const LadderRow& rollers : rows) {
+    if (rollers.cell.wheels != "rollers") continue;
+    LadderCell cell = rollers.cell;
+    cell.wheels = "ideal";
+    const LadderRow* ideal = Find(rows, cell);
+    if (ideal &&
+        std::abs(ideal->limit - rollers.limit) > share * std::max(ideal->limit, rollers.limit))
+      found.push_back({*ideal, rollers});
+  }
+  return found;
+}
+
+std::optional<double> TrustedStep(std::span<const LadderRow> rows, std::string_view robot) {
+  std::optional<double> least_mm;
+  for (const LadderRow& row : rows) {
+    const LadderCell& cell = row.cell;
+    if (cell.robot != robot || cell.friction != kFriction ||
+        (cell.hazard != "step" && cell.hazard != "drop"))
+      continue;
+    least_mm = std::min(least_mm.value_or(row.limit), row.limit);
+  }
+  if (!least_mm) return {};
+  return *least_mm / 1000;
+}
+
+}  // namespace floorproof

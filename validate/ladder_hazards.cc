@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ladder's hazards as a site file would state them.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/config.h"
+#include "env/hazards/hazard_type.h"
+#include "validate/ladder.h"
+
+namespace floorproof {
+namespace {
+
+constexpr double kFar_m = 3.5;  // across the way and, for a level change, along it
+constexpr double kGrooveDepth_m = 0.05, kCoverTop_m = 0.05, kCoverHeight_m = 0.020;
+constexpr double kCoverFlank_deg = 30, kRoughLength_m = 0.6;
+
+Hazard Make(std::string_view type, const std::string& keys, const std::vector<Vec2>& place) {
+  const auto plugin = MakePlugin(HazardTypes(), type, "type");
+  ReadParams(ParseYaml("{" + keys + "}", "ladder"), "", *plugin);
+  Hazard hazard = plugin->Make(place);
+  hazard.type = hazard.id = type;
+  hazard.known = false;  // detectors and trackers treat it as what nobody told them of
+  return hazard;
+}
+
+double NoLength(double) { return 0; }
+
+Hazard LevelChange(double height_mm) {
+  return Make("step", fmt::format("height_m: {}", height_mm / 1000),
+              Rectangle({0, -kFar_m}, {kFar_m, kFar_m}));
+}
+Hazard StepUp(double height_mm, double) { return LevelChange(height_mm); }
+Hazard Drop(double depth_mm, double) { return LevelChange(-depth_mm); }
+
+// Along y, beginning at x = 0.
+std::vector<Vec2> Line(double width_m) { return {{width_m / 2, -kFar_m}, {width_m / 2, kFar_m}}; }
+
+double GrooveLength(double width_mm) { return width_mm / 1000; }
+Hazard Groove(double width_mm, double) {
+  return Make("groove", fmt::format("width_m: {}, depth_m: {}", width_mm / 1000, kGrooveDepth_m),
+              Line(width_mm / 1000));
+}
+
+double CoverWidth(double height_m, double flank_deg) {
+  return kCoverTop_m + 2 * height_m / std::tan(flank_deg * kPi / 180);
+}
+Hazard Cover(double height_m, double flank_deg) {
+  const double width_m = CoverWidth(height_m, flank_deg);
+  return Make(
+      "cable_cover",
+      fmt::format("width_m: {}, top_width_m: {}, height_m: {}", width_m, kCoverTop_m, height_m),
+      Line(width_m));
+}
+double FlankLength(double flank_deg) { return CoverWidth(kCoverHeight_m, flank_deg); }
+Hazard CoverFlank(double flank_deg, double) { return Cover(kCoverHeight_m, flank_deg); }
+double HeightLength(double height_mm) { return CoverWidth(height_mm / 1000, kCoverFlank_deg); }
+Hazard CoverHeight(double height_mm, double) { return Cover(height_mm / 1000, kCoverFlank_deg); }
+
+// Lies along the way, whichever that is, so that there are few bumps; their lattice does not turn.
+double RoughLength(double) { return kRoughLength_m; }
+Hazard Rough(double amplitude_mm, double travel_rad) {
+  constexpr double kHalfWidth_m = 0.4;
+  Polygon place = Rectangle({0, -kHalfWidth_m}, {kRoughLength_m, kHalfWidth_m});
+  for (Vec2& corner : place) corner = Pose2{0, 0, travel_rad}.Rotate(corner);
+  return Make("rough", fmt::format("amplitude_m: {}, wavelength_m: 0.1", amplitude_mm / 1000),
+              place);
+}
+
+// Rungs of millimetres to a tenth, of a width to one, of an angle to a fifth of a degree.
+constexpr Rungs kHeight = {.per_unit = 10, .first = 2, .spacing = 20, .last = 602};
+constexpr Rungs kWidth = {.per_unit = 1, .first = 2, .spacing = 10, .last = 502};
+constexpr Rungs kAngle = {.per_unit = 5, .first = 10, .spacing = 20, .last = 450};
+
+constexpr LadderHazard kHazards[] = {
+    {"step", "height of a raised floor", "mm", kHeight, &NoLength, &StepUp},
+    {"drop", "depth of a lowered floor", "mm", kHeight, &NoLength, &Drop},
+    {"groove", "width of a groove 50 mm deep", "mm", kWidth, &GrooveLength, &Groove},
+    {"cable_cover", "flanks of a 20 mm cable cover", "deg", kAngle, &FlankLength, &CoverFlank},
+    {"cable_cover_height", "height of a cable cover, flanks 30 deg", "mm", kHeight, &HeightLength,
+     &CoverHeight},
+    {"rough", "highest bump of rough ground", "mm", kHeight, &RoughLength, &Rough},
+};
+
+}  // namespace
+
+std::span<const LadderHazard> LadderHazards() { return kHazards; }
+
+const LadderHazard& FindLadderHazard(std::string_view name) {
+  for (const LadderHazard& hazard : kHazards)
+    if (hazard.name == name) return hazard;
+  throw InternalError("no such hazard on the ladder: " + std::string(name));
+}
+
+}  // namespace floorproof

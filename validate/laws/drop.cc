@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Free fall: a robot let go at a height h meets the floor after sqrt(2 h / g) with sqrt(2 g h).
+// BELUGA's casters hang out of it by their springs' travel meanwhile and meet the floor first, that
+// much earlier.
+//
+// Tolerances: the integrator moves by the new velocity, so that a fall ends half a step early;
+// which step finds the floor is a matter of one more. Neither friction nor wheels can be felt in a
+// fall (larger wheels only start it with the body higher): the wrong model is gravity x 1.3.
+#include <fmt/format.h>
+
+#include "validate/law.h"
+
+namespace floorproof {
+namespace {
+
+// How far casters on slides hang below the wheels when nothing carries them.
+double CasterTravel(const mjModel* m) {
+  double travel_m = 0;
+  for (int j = 0; j < m->njnt; ++j)
+    if (m->jnt_type[j] == mjJNT_SLIDE && m->jnt_limited[j])
+      travel_m = std::max(travel_m, -m->jnt_range[2 * j]);
+  return travel_m;
+}
+
+class Drop final : public Law {
+ public:
+  std::string_view statement() const override {
+    return "let fall from h: t = sqrt(2 h / g), v = sqrt(2 g h) at the floor";
+  }
+  std::vector<WrongModel> notices() const override { return {{.gravity_factor = 1.3}}; }
+
+  void Check(const WrongModel& wrong, std::vector<LawRow>& rows) const override {
+    for (const char* robot : {"beluga", "htetro"})
+      for (const double height_m : {0.05, 0.10, 0.20}) {
+        Rig rig(robot, {.wrong = wrong});
+        const double step_s = rig.sim().model()->opt.timestep;
+        rig.SetBase({0, 0, height_m}, Eigen::Quaterniond::Identity(), Vec3::Zero());
+        double v_mps = 0;
+        rig.Step();
+        while (rig.sample().wheel_contacts == 0) {
+          v_mps = -rig.sample().v_WB_W.z();
+          rig.Step();
+        }
+        const double way_m = height_m - CasterTravel(rig.sim().model());
+        const std::string law = fmt::format("drop/{}/{}mm", robot, std::lround(height_m * 1000));
+        rows.push_back({law + "/time", std::sqrt(2 * way_m / kGravity_mps2), rig.sample().t_s,
+                        1.5 * step_s, "s"});
+        rows.push_back({law + "/speed", std::sqrt(2 * kGravity_mps2 * way_m), v_mps,
+                        1.5 * step_s * kGravity_mps2, "m/s"});
+      }
+  }
+};
+
+}  // namespace
+
+FP_DEFINE_PLUGIN(Law, Drop)
+
+}  // namespace floorproof
