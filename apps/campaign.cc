@@ -159,7 +159,7 @@ int RunIt(const Options& options, const Globals& globals) {
   if (!options.episodes.empty() && gate) globals.Say("a shard: `merge` judges the gate of all");
   if (run.end == CampaignEnd::kInterrupted) {
     opened.reset();  // closed as it should be, no file beside it
-    EndInterrupted();
+    throw Interruption();
   }
   if (!options.no_films && run.end != CampaignEnd::kTimeLimit)
     FilmFirstFailures(file, store, folder, globals);

@@ -83,6 +83,8 @@ int main(int argc, char** argv) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
     std::fprintf(stderr, "floorproof: %s (floorproof --help)\n", Reason(app, e).c_str());
     return kBadInput;
+  } catch (const Interruption&) {
+    EndInterrupted();
   } catch (const InputError& e) {
     std::fprintf(stderr, "floorproof: %s\n", e.what());
     return kBadInput;

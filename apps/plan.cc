@@ -8,6 +8,7 @@
 #include "base/file_output.h"
 #include "base/interrupt.h"
 #include "report/risk_pictures.h"
+#include "run/episode/make_plan.h"
 #include "run/episode/records.h"
 #include "run/scenario/warnings.h"
 

@@ -84,10 +84,10 @@ void AddValidate(CommandLine& line, const Globals& globals, int& status) {
     const HoldInterrupts hold;
     nlohmann::ordered_json result;
     const int failed = CheckAllLaws(folder, globals, result);
-    if (Interrupted()) EndInterrupted();
+    if (Interrupted()) throw Interruption();
     if (options->ladder) {
       result["ladder"] = RunLadder(folder, Cores(), globals);
-      if (Interrupted()) EndInterrupted();
+      if (Interrupted()) throw Interruption();
     }
     globals.Result(result);
     globals.Say("results are in " + folder.string());

@@ -80,7 +80,8 @@ HoldInterrupts::HoldInterrupts() {
 }
 
 HoldInterrupts::~HoldInterrupts() {
-  if (--g_holds == 0 && g_seen) EndInterrupted();
+  // Where an Interruption is on its way, `main` ends the process.
+  if (--g_holds == 0 && g_seen && std::uncaught_exceptions() == 0) EndInterrupted();
 }
 
 }  // namespace floorproof

@@ -6,6 +6,7 @@
 // in other people's libraries too, without a question in every loop.
 #pragma once
 
+#include <exception>
 #include <string>
 
 namespace floorproof {
@@ -21,7 +22,13 @@ void SayWhenInterrupted(const std::string& what_is_there);
 // True once a signal was seen; only ever while interrupts are held.
 bool Interrupted();
 
-// Prints the line and ends the process with status 130.
+// Thrown by who looked, once it has tidied up: `main` ends the process.
+class Interruption : public std::exception {
+ public:
+  const char* what() const noexcept override { return "interrupted"; }
+};
+
+// Prints the line and ends the process with status 130. For `main` alone.
 [[noreturn]] void EndInterrupted();
 
 // Holds interrupts as long as it lives; nests. A second signal meanwhile ends the process at once.

@@ -15,8 +15,8 @@ class Notes : public EpisodeObserver {
  public:
   using Clock = std::chrono::steady_clock;
   bool OnControl(const EpisodeView& now) override {
-    const mjModel* m = now.simulation.model();
-    mjData* d = now.simulation.data();
+    const mjModel* m = now.simulation->model();
+    mjData* d = now.simulation->data();
     if (controls_.empty()) {
       state_.resize(static_cast<std::size_t>(mj_stateSize(m, mjSTATE_INTEGRATION)));
       mj_getState(m, d, state_.data(), mjSTATE_INTEGRATION);

@@ -18,6 +18,7 @@
 #include "bench/bare_loop.h"
 #include "run/campaign/campaign_about.h"
 #include "run/campaign/campaign_summary.h"
+#include "run/episode/make_plan.h"
 
 namespace floorproof {
 namespace {

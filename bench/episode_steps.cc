@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/bare_loop.h"
+#include "run/episode/make_plan.h"
 
 namespace floorproof {
 namespace {

@@ -32,8 +32,8 @@ class Estimator : public Configurable {
   // Throws InputError where map or robot do not let it work, its line beginning with the key: it is
   // heard when a scenario is read (run/scenario/start_check.h).
   virtual void Start(const EstimatorContext& context) = 0;
-  // One control period. `truth` is for `truth` alone: all others know what was sensed.
-  virtual Estimate Update(const Observation& sensed, const Sample& truth, double dt_s) = 0;
+  // One control period.
+  virtual Estimate Update(const Observation& sensed, double dt_s) = 0;
 };
 
 std::span<const PluginEntry<Estimator>> Estimators();

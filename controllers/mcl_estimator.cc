@@ -67,7 +67,7 @@ class MclEstimator final : public Estimator {
     X_WB_ = particles_->Best();
   }
 
-  Estimate Update(const Observation& sensed, const Sample&, double dt_s) override {
+  Estimate Update(const Observation& sensed, double dt_s) override {
     const BodyTwist twist = odometry_.Update(sensed, dt_s);
     X_WB_ = Moved(X_WB_, twist, dt_s);
     since_ = Moved(since_, twist, dt_s);

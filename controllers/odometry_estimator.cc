@@ -18,7 +18,7 @@ class OdometryEstimator final : public Estimator {
     X_WB_ = error_.Of(context.start);
   }
 
-  Estimate Update(const Observation& sensed, const Sample&, double dt_s) override {
+  Estimate Update(const Observation& sensed, double dt_s) override {
     const BodyTwist twist = odometry_.Update(sensed, dt_s);
     X_WB_ = Moved(X_WB_, twist, dt_s);
     return {X_WB_, twist, sensed.hinges};

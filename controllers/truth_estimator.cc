@@ -10,12 +10,19 @@ class TruthEstimator final : public Estimator {
  public:
   // It takes no heed of them: a campaign may draw them for all the estimators of its variants.
   void Visit(ParamVisitor& v) override { ignored_.Visit(v); }
-  void Start(const EstimatorContext&) override {}
-  Estimate Update(const Observation&, const Sample& truth, double) override {
-    return {truth.X_WB(), truth.V_WB_B, truth.hinges};
+  std::vector<std::string_view> Needs() const override { return {"truth"}; }
+  void Start(const EstimatorContext& context) override {
+    estimate_ = {};
+    estimate_.X_WB = context.start;
+  }
+  // Where the sensor is silent it stays with what it knew last.
+  Estimate Update(const Observation& sensed, double) override {
+    if (sensed.truth) estimate_ = {sensed.truth->X_WB, sensed.truth->V_WB_B, sensed.truth->hinges};
+    return estimate_;
   }
 
  private:
+  Estimate estimate_;
   StartError ignored_;
 };
 

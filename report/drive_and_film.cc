@@ -11,14 +11,17 @@
 #include "report/pictures.h"
 #include "report/progress.h"
 #include "report/risk_pictures.h"
+#include "run/episode/execute.h"
 #include "run/episode/records.h"
 #include "run/scenario/warnings.h"
 
 namespace floorproof {
 namespace {
 
-double Since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+using Clock = std::chrono::steady_clock;
+
+double Since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 std::string Verdict(const EpisodeRecord& record) {
@@ -40,75 +43,114 @@ std::string EventLine(const Event& e) {
                      e.hazard.empty() ? "" : ", " + e.hazard, e.value, e.threshold, e.effect);
 }
 
+// Says how far a drive is, writes the plan's files when there is a plan, and records what a film
+// needs.
+class Witness : public EpisodeObserver {
+ public:
+  Witness(Scenario& s, const std::filesystem::path& folder, const DriveOptions& options,
+          const Console& console)
+      : s_(s), folder_(folder), options_(options), console_(console) {}
+
+  // What an interruption's line says from now on.
+  void There(const std::string& what) const {
+    SayWhenInterrupted((options_.finished.empty() ? "" : options_.finished + " finished; ") +
+                       (options_.write_records ? folder_.string() + what
+                                               : folder_.string() + " has its records as before"));
+  }
+
+  Execution Watch() {
+    Execution out = Execute(s_, this);
+    if (progress_) progress_->EndLine();
+    drive_s_ = Since(begin_);
+    return out;
+  }
+
+  void OnPlan(const PlanResult& plan) override {
+    const double plan_s = Since(begin_);
+    if (options_.write_records) {
+      MakeFolder(folder_);
+      There(" may lack some of the plan's files");
+      RemoveEpisodeFiles(folder_);  // of an earlier run: they are not this plan's
+      WritePlanFiles(s_, plan, folder_);
+      There(" holds the plan; nothing was driven");
+    }
+    if (plan.status != PlanStatus::kSuccess) {
+      console_.Say(fmt::format("no plan ({}): {}", Name(plan.status), plan.message));
+      return;
+    }
+    console_.Say(fmt::format("planned: {} waypoints, {:.1f} m, {} turns, in {:.2f} s",
+                             plan.path.size(), Length(plan.path), CountTurns(plan.path), plan_s));
+    if (!plan.message.empty()) console_.Say(plan.message);
+  }
+
+  void OnScene(const Scene& scene) override {
+    recording_.emplace(static_cast<int>(scene.model->nq));
+    progress_.emplace(console_, s_.robot.spec, s_.episode.control_hz,
+                      options_.video ? &*recording_ : nullptr);
+    begin_ = Clock::now();
+  }
+
+  bool OnControl(const EpisodeView& now) override { return progress_->OnControl(now); }
+
+  void SayVerdict(const EpisodeRecord& record) const {
+    console_.Say(Verdict(record));
+    for (const auto& event : record.events) console_.Say(EventLine(event));
+    console_.Say(fmt::format("drove {:.0f}x faster than real time ({:.1f} s)",
+                             record.metrics.duration_s / drive_s_, drive_s_));
+  }
+
+  // The records are written: interrupts end the process again.
+  void LetGo() { progress_.reset(); }
+  const Recording& recording() const { return *recording_; }
+
+ private:
+  Scenario& s_;
+  const std::filesystem::path& folder_;
+  const DriveOptions& options_;
+  const Console& console_;
+  Clock::time_point begin_ = Clock::now();
+  double drive_s_ = 0;
+  std::optional<Recording> recording_;
+  std::optional<ProgressObserver> progress_;  // holds interrupts until the records are written
+};
+
 }  // namespace
 
 DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
                          const DriveOptions& options, const Console& console) {
-  const auto there = [&](const std::string& what) {
-    SayWhenInterrupted((options.finished.empty() ? "" : options.finished + " finished; ") +
-                       (options.write_records ? folder.string() + what
-                                              : folder.string() + " has its records as before"));
-  };
-  DriveResult result;
-  there(" is as before");
+  Witness witness(s, folder, options, console);
+  witness.There(" is as before");
   for (const std::string& line : Warnings(s)) console.Say(line);
-  const auto plan_start = std::chrono::steady_clock::now();
-  result.plan = MakePlan(s);
-  const double plan_s = Since(plan_start);
-  if (options.write_records) {
-    MakeFolder(folder);
-    there(" may lack some of the plan's files");
-    RemoveEpisodeFiles(folder);  // of an earlier run: they are not this plan's
-    WritePlanFiles(s, result.plan, folder);
-    there(" holds the plan; nothing was driven");
-  }
-  if (result.plan.status != PlanStatus::kSuccess) {
-    console.Say(fmt::format("no plan ({}): {}", Name(result.plan.status), result.plan.message));
-    result.record.outcome = Outcome::kNotPlanned;
-    result.record.message = result.plan.message;
-    if (options.write_records) WriteEpisodeFiles(s, result.record, folder);
+  DriveResult result;
+  Execution execution = witness.Watch();
+  result.plan = std::move(execution.plan);
+  result.record = std::move(execution.record);
+  if (result.record.outcome == Outcome::kNotPlanned && options.write_records)
+    WriteEpisodeFiles(s, result.record, folder);
+  if (!execution.scene) {  // nothing was driven
+    if (result.record.outcome == Outcome::kSuccess && options.write_records)
+      WritePlanPictures(s, result.plan, folder);
     return result;
   }
-  console.Say(fmt::format("planned: {} waypoints, {:.1f} m, {} turns, in {:.2f} s",
-                          result.plan.path.size(), Length(result.plan.path),
-                          CountTurns(result.plan.path), plan_s));
-  if (!result.plan.message.empty()) console.Say(result.plan.message);
-  if (s.episode.drive == "none") {
-    result.record.outcome = Outcome::kSuccess;
-    if (options.write_records) WritePlanPictures(s, result.plan, folder);
-    return result;
-  }
-
-  const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
-  Recording recording(static_cast<int>(scene.model->nq));
-  const auto drive_start = std::chrono::steady_clock::now();
-  std::optional<ProgressObserver> observer;  // holds interrupts until the records are written
-  observer.emplace(console, s.robot.spec, s.episode.control_hz,
-                   options.video ? &recording : nullptr);
-  result.record = RunEpisode(s, scene, result.plan, &*observer);
-  observer->EndLine();
   if (result.record.outcome == Outcome::kInterrupted) {
     if (options.write_records) WriteEpisodeFiles(s, result.record, folder);
-    there(fmt::format(" holds the plan and the trace of the {:.0f} s driven",
-                      result.record.metrics.duration_s));
-    EndInterrupted();
+    witness.There(fmt::format(" holds the plan and the trace of the {:.0f} s driven",
+                              result.record.metrics.duration_s));
+    throw Interruption();
   }
-  const double drive_s = Since(drive_start);
-  console.Say(Verdict(result.record));
-  for (const auto& event : result.record.events) console.Say(EventLine(event));
-  console.Say(fmt::format("drove {:.0f}x faster than real time ({:.1f} s)",
-                          result.record.metrics.duration_s / drive_s, drive_s));
+  witness.SayVerdict(result.record);
   try {
     if (options.write_records) {
       WriteEpisodeFiles(s, result.record, folder);
-      there(" holds plan, trace and result; pictures may be missing");
+      witness.There(" holds plan, trace and result; pictures may be missing");
     }
-    observer.reset();
+    witness.LetGo();
     if (options.write_records) WriteHeatMaps(s, result.plan, result.record, folder);
-    there(options.video ? " holds all but, perhaps, the film" : " is whole");
+    witness.There(options.video ? " holds all but, perhaps, the film" : " is whole");
     if (options.video)
-      console.Say(WriteVideo(s, scene, result.plan, result.record, recording, folder));
-    there(" is whole");
+      console.Say(
+          WriteVideo(s, *execution.scene, result.plan, result.record, witness.recording(), folder));
+    witness.There(" is whole");
   } catch (...) {
     result.not_written = std::current_exception();
   }

@@ -24,10 +24,10 @@ ProgressObserver::ProgressObserver(const Console& console, const RobotSpec& robo
 bool ProgressObserver::OnControl(const EpisodeView& now) {
   if (!hold_) hold_.emplace();
   const bool keep = count_++ % record_every_ == 0;
-  const Sample& sample = now.simulation.sample();
+  const Sample& sample = now.sample;
   const double t_s = sample.t_s;
   if (keep && recording_)
-    recording_->Add(t_s, now.simulation.data()->qpos, sample.p_WB, ToolWidth(robot_, sample.shape),
+    recording_->Add(t_s, now.simulation->data()->qpos, sample.p_WB, ToolWidth(robot_, sample.shape),
                     now.coverage);
   const LidarScan& scan = now.sensed.scan;
   if (scan.fresh) scan_ = true;

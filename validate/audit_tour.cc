@@ -50,7 +50,7 @@ AuditRun DriveAudit(const AuditTrial& trial, const AuditPace& pace, const WrongM
   tracker->Start(SquareTour(trial, pace), rig.robot(), nullptr);
   AuditRun run;
   while (run.time_s < kLongest * trial.time_s) {
-    const Sample& sample = rig.sample();
+    const Truth& sample = rig.truth();
     const Command command =
         tracker->Update({sample.X_WB(), sample.V_WB_B, {}}, sample.t_s, control_s);
     if (command.done) return run;

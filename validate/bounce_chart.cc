@@ -24,19 +24,21 @@ void Meet(BounceRow& row) {
   detector->Start({rig.map(), rig.robot(), rig.sim().model()->opt.timestep});
   const BodyTwist ahead{row.speed_mps, 0, 0};
   rig.Command(ahead);
-  rig.sim().sample().command.twist = ahead;
+  Sample sample;
+  sample.command.twist = ahead;
   double met_s = -1;
   bool back = false, over = false;
-  while (met_s < 0 || rig.sample().t_s < met_s + kWatch_s) {
-    const double before_mps = rig.sample().V_WB_B.vx_mps;
+  while (met_s < 0 || rig.truth().t_s < met_s + kWatch_s) {
+    const double before_mps = rig.truth().V_WB_B.vx_mps;
     rig.Step();
-    row.bounce_back = detector->Update(rig.sample()) || row.bounce_back;
-    if (met_s < 0 && rig.sample().num_contacts > 0) {
-      met_s = rig.sample().t_s;
+    static_cast<Truth&>(sample) = rig.truth();
+    row.bounce_back = detector->Update(sample) || row.bounce_back;
+    if (met_s < 0 && rig.truth().num_contacts > 0) {
+      met_s = rig.truth().t_s;
       row.closing_mps = before_mps;
     }
     if (met_s < 0 || over) continue;
-    const double away_mps = -rig.sample().V_WB_B.vx_mps;
+    const double away_mps = -rig.truth().V_WB_B.vx_mps;
     over = back && away_mps < 0;
     back = back || away_mps > 0;
     row.rebound_mps = std::max(row.rebound_mps, away_mps);

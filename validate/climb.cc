@@ -33,15 +33,15 @@ Hazard Ledge(double height_m, double edge_m, bool sideways) {
 
 bool Climbs(Rig& rig, double end_m, bool sideways, double speed_mps) {
   constexpr double kProgress_m = 0.001, kPatience_m = 0.06;
-  double way_m = 0, last_s = rig.sample().t_s;
+  double way_m = 0, last_s = rig.truth().t_s;
   while (way_m < end_m) {
     rig.Step();
-    const double now_m = sideways ? rig.sample().p_WB.y() : rig.sample().p_WB.x();
+    const double now_m = sideways ? rig.truth().p_WB.y() : rig.truth().p_WB.x();
     if (now_m > way_m + kProgress_m) {
       way_m = now_m;
-      last_s = rig.sample().t_s;
+      last_s = rig.truth().t_s;
     }
-    if (rig.sample().t_s - last_s > kPatience_m / speed_mps) return false;
+    if (rig.truth().t_s - last_s > kPatience_m / speed_mps) return false;
   }
   return true;
 }

@@ -95,7 +95,8 @@ CrossingResult Cross(const RobotModel& model, Hazard hazard, const CrossingPlan&
   const auto steps_a_control = std::lround(1.0 / kControlHz / plan.physics.timestep_s);
   std::vector<double> wheels(robot.wheels.size());
   Progress progress(plan.speed_mps);
-  Sample& sample = sim.sample();
+  Sample sample;
+  static_cast<Truth&>(sample) = sim.truth();
   for (std::int64_t step = 0;; ++step) {
     if (step % steps_a_control == 0) {
       const Estimate estimate = {sample.X_WB(), sample.V_WB_B, sample.hinges};
@@ -105,6 +106,7 @@ CrossingResult Cross(const RobotModel& model, Hazard hazard, const CrossingPlan&
       sim.SetHingeSpeeds(sample.command.hinges);
     }
     if (!sim.Step()) throw InternalError("the physics diverged on the ladder");
+    static_cast<Truth&>(sample) = sim.truth();
     sample.cross_track_m = CrossTrack(path, sample.command.segment, sample.p_WB.head<2>());
     const double s_m = sample.p_WB.head<2>().dot(along);
     const auto held = [&](std::string by) {

@@ -12,15 +12,21 @@ namespace {
 constexpr int kCells = 40;
 constexpr double kCell_m = 0.5;
 
-// The changes that make the model wrong, on top of those that are meant.
-RobotChanges Wrong(RobotChanges changes, const RobotSpec& robot, const WrongModel& wrong) {
+// Shapes that make the model wrong, on top of the changes that are meant; all else that is wrong
+// about it alters the simulation.
+RobotChanges WrongShape(RobotChanges changes, const RobotSpec& robot, const WrongModel& wrong) {
   if (wrong.wheel_radius_add_m != 0) {
     changes.wheel_radius_m = robot.wheels.front().radius_m + wrong.wheel_radius_add_m;
     changes.clearance_m = robot.clearance_m + wrong.wheel_radius_add_m;
   }
-  if (wrong.battery_factor != 1)
-    changes.battery_v = *robot.battery.voltage_v * wrong.battery_factor;
   return changes;
+}
+
+Alterations WrongValues(const WrongModel& wrong) {
+  return {.floor_friction = wrong.friction_factor,
+          .motor_resistance = wrong.resistance_factor,
+          .battery_voltage = wrong.battery_factor,
+          .hotel_load = wrong.hotel_load_factor};
 }
 
 }  // namespace
@@ -28,8 +34,7 @@ RobotChanges Wrong(RobotChanges changes, const RobotSpec& robot, const WrongMode
 Rig::Rig(const std::string& robot_name, RigOptions options) {
   const auto file = FindRobotFile(robot_name, {});
   true_robot_ = ReadRobot(file, options.changes, options.blocks).spec;
-  model_ = ReadRobot(file, Wrong(options.changes, true_robot_, options.wrong), options.blocks);
-  model_.spec.hotel_load_w *= options.wrong.hotel_load_factor;
+  model_ = ReadRobot(file, WrongShape(options.changes, true_robot_, options.wrong), options.blocks);
   if (options.rollers) model_ = WithRollerWheels(model_);
   drive_ = MakePlugin(Drives(), true_robot_.drive, "drive");
   drive_->Configure(true_robot_);
@@ -46,7 +51,7 @@ void Rig::Build(RigOptions options) {
   map_.cells = Grid<CellState>(kCells, kCells);
   map_.hazards = std::move(options.hazards);
   for (Hazard& hazard : map_.hazards) hazard.material.restitution *= wrong_.restitution_factor;
-  map_.floor_friction = options.friction * wrong_.friction_factor;
+  map_.floor_friction = options.friction;
   scene_ = BuildScene(map_, model_, options.physics, {});
   mjModel* m = scene_.model.get();
   bool lower = false;
@@ -56,11 +61,9 @@ void Rig::Build(RigOptions options) {
     if (lower) m->geom_pos[3 * g + 2] -= wrong_.seam_step_m;
     lower = !lower;
   }
-  for (int a = 0; a < m->nu; ++a)
-    if (m->actuator_gaintype[a] == mjGAIN_DCMOTOR)
-      m->actuator_gainprm[mjNGAIN * a] *= wrong_.resistance_factor;
   wheel_radps_.resize(true_robot_.wheels.size());
   sim_ = std::make_unique<Simulation>(scene_, map_, model_.spec);
+  if (const Alterations wrong = WrongValues(wrong_); wrong != Alterations{}) sim_->Alter(wrong);
   SetGravity(-Vec3::UnitZ());
   sim_->Reset({});
 }
@@ -78,7 +81,7 @@ void Rig::CommandWheels(double wheel_radps) {
 
 void Rig::Brake() {
   constexpr double kHold_nm = 1000;
-  mjModel* m = scene_.model.get();
+  mjModel* m = sim_->model();
   for (int a = 0; a < static_cast<int>(true_robot_.wheels.size()); ++a)
     m->dof_frictionloss[m->jnt_dofadr[m->actuator_trnid[2 * a]]] = kHold_nm;
 }

@@ -61,7 +61,7 @@ class Rig {
   // Drives this twist for a time; returns the body's mean velocity over the second half.
   BodyTwist Run(const BodyTwist& twist, double t_s);
 
-  const Sample& sample() const { return sim_->sample(); }
+  const Truth& truth() const { return sim_->truth(); }
   const RobotSpec& robot() const { return true_robot_; }  // of the true model
   Simulation& sim() { return *sim_; }
   mjData* data() { return sim_->data(); }

@@ -22,7 +22,7 @@ class VerticalMotion {
   // Over how many updates accelerations are averaged: what makes 20 ms.
   explicit VerticalMotion(int window = kMaxWindow) : window_(window) {}
 
-  void Update(const Sample& sample) {
+  void Update(const Truth& sample) {
     if (count_ >= window_) {
       const Moment& before = last_[static_cast<std::size_t>(count_ % window_)];
       accel_mps2_ = std::max(

@@ -36,10 +36,8 @@ struct Command {
   BodyTwist twist;
   HingeState hinges;        // to be held, or turned at these rates towards these angles
   std::size_t segment = 0;  // the segment now tracked goes from waypoint `segment` to `segment + 1`
-  double cross_track_half_width_m =
-      0;                  // room to the nearer obstacle pair across it, halved (set by the episode)
-  bool dwelling = false;  // standing still on purpose
-  bool done = false;      // last waypoint reached
+  bool dwelling = false;    // standing still on purpose
+  bool done = false;        // last waypoint reached
 };
 
 // The body touching an obstacle (not a wheel on the floor).
@@ -52,8 +50,8 @@ struct ObstacleContact {
   double impulse_ns = 0;         // normal force times the step
 };
 
-// The true state after one physics step. Fixed size: the loop allocates nothing.
-struct Sample {
+// What truly happened in one step of the plant. Fixed size: the loop allocates nothing.
+struct Truth {
   static constexpr int kMaxContacts = 8;
 
   double t_s = 0;
@@ -63,12 +61,10 @@ struct Sample {
   Vec3 v_WB_W = Vec3::Zero();
   BodyTwist V_WB_B;
   HingeState hinges;
-  int shape = 0;  // index into RobotSpec::shapes, -1 between two of them; 0 of a rigid robot
-  Command command;
-  double cross_track_m = 0;  // of the true position to the segment now tracked; unsigned
-  double power_w = 0;        // electrical, motors and hotel load
-  double battery_v = 0;      // at the terminals, 0: empty
-  double battery_a = 0;      // motors' drivers and hotel load
+  int shape = 0;         // index into RobotSpec::shapes, -1 between two of them; 0 of a rigid robot
+  double power_w = 0;    // electrical, motors and hotel load
+  double battery_v = 0;  // at the terminals, 0: empty
+  double battery_a = 0;  // motors' drivers and hotel load
   double belly_load_n =
       0;  // weight that floor or hazards carry through the body instead of the wheels
   int belly_hazard = -1;  // index of the hazard that carries it; -1: none or the floor
@@ -81,6 +77,15 @@ struct Sample {
   int num_contacts = 0;
 
   Pose2 X_WB() const { return {p_WB.x(), p_WB.y(), yaw_rad}; }
+};
+
+// What detectors and records see: what happened, and what the robot was about. The episode's loop
+// puts it together.
+struct Sample : Truth {
+  Command command;           // of this control period
+  double cross_track_m = 0;  // of the true position to the segment now tracked; unsigned
+  // Room across that segment to the nearer pair of obstacles, halved, when the period began.
+  double cross_track_half_width_m = 0;
 };
 
 }  // namespace floorproof

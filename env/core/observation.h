@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "env/core/motion.h"
@@ -48,6 +49,13 @@ struct CliffRing {
   }
 };
 
+// As no sensor of a real robot tells it.
+struct TruePose {
+  Pose2 X_WB;
+  BodyTwist V_WB_B;
+  HingeState hinges;
+};
+
 struct Observation {
   double t_s = 0;
   // Encoders: how far each driven wheel has turned since the last period, rad, in RobotSpec's
@@ -60,6 +68,7 @@ struct Observation {
   LidarScan scan;
   Bump bump;
   CliffRing cliffs;
+  std::optional<TruePose> truth;  // of the sensor `truth` alone
 };
 
 }  // namespace floorproof

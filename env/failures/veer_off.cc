@@ -37,7 +37,7 @@ class VeerOff final : public Detector {
 
   bool Update(const Sample& sample) override {
     hazards_.Update(sample);
-    const double half_width_m = sample.command.cross_track_half_width_m;
+    const double half_width_m = sample.cross_track_half_width_m;
     const double limit_m =
         half_width_m > 0 ? std::min(max_cross_track_m_, half_width_m) : max_cross_track_m_;
     const double margin_m = limit_m - sample.cross_track_m;

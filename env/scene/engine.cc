@@ -81,6 +81,21 @@ DataPtr MakeData(const mjModel* model) {
   return DataPtr(md.data);
 }
 
+ModelPtr CopyModel(const mjModel* model) {
+  struct Models {
+    const mjModel* from;
+    mjModel* to;
+  } models{model, nullptr};
+  if (!Caught(
+          [](void* p) {
+            auto* m = static_cast<Models*>(p);
+            m->to = mj_copyModel(nullptr, m->from);
+          },
+          &models))
+    Throw();
+  return ModelPtr(models.to);
+}
+
 ModelPtr CompileSpec(mjSpec* spec) {
   mjModel* model = mj_compile(spec, nullptr);
   if (model == nullptr) throw InternalError(std::string("MuJoCo: ") + mjs_getError(spec));

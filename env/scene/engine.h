@@ -24,6 +24,7 @@ using DataPtr = std::unique_ptr<mjData, MjDeleter>;
 void StepEngine(const mjModel* model, mjData* data);
 void ForwardEngine(const mjModel* model, mjData* data);
 DataPtr MakeData(const mjModel* model);
+ModelPtr CopyModel(const mjModel* model);
 // Throws InternalError with the compiler's message.
 ModelPtr CompileSpec(mjSpec* spec);
 

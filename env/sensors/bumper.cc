@@ -15,14 +15,14 @@ class Bumper final : public Sensor {
     v("force_n", force_n_, Positive(), "that presses it (N)");
   }
 
-  void Start(const SensorContext& context, const mjData*, const Sample&, const Stream&,
+  void Start(const SensorContext& context, const mjData*, const Truth&, const Stream&,
              Observation& out) override {
     timestep_s_ = context.scene.model->opt.timestep;
     hardest_n_ = 0;
     out.bump = {};
   }
 
-  void OnStep(const Sample& truth) override {
+  void OnStep(const Truth& truth) override {
     double force_n = 0;
     Vec2 moment_W = Vec2::Zero();
     for (int i = 0; i < truth.num_contacts; ++i) {
@@ -37,10 +37,12 @@ class Bumper final : public Sensor {
     bearing_rad_ = std::atan2(p_B.y(), p_B.x());
   }
 
-  void Sense(mjData*, const Sample&, Observation& out) override {
+  void Sense(mjData*, const Truth&, Observation& out) override {
     out.bump = {hardest_n_ > 0, hardest_n_ > 0 ? bearing_rad_ : 0};
     hardest_n_ = 0;
   }
+
+  void Silence(Observation& out) const override { out.bump = {}; }
 
  private:
   double force_n_ = 3;  // the spring of a light bumper

@@ -19,7 +19,7 @@ class Cliff final : public Sensor {
     v("inset_m", inset_m_, Between(0, 0.5), "from the robot's edge inwards to the sensors (m)");
   }
 
-  void Start(const SensorContext& context, const mjData*, const Sample&, const Stream&,
+  void Start(const SensorContext& context, const mjData*, const Truth&, const Stream&,
              Observation& out) override {
     rays_.emplace(context.scene);
     base_ = context.scene.base_body;
@@ -34,7 +34,7 @@ class Cliff final : public Sensor {
     }
   }
 
-  void Sense(mjData* data, const Sample& truth, Observation& out) override {
+  void Sense(mjData* data, const Truth& truth, Observation& out) override {
     const Rotation R_WB = RotationOf(data, base_);
     const Vec3 down_W = -R_WB.col(2);
     for (int i = 0; i < out.cliffs.n; ++i) {
@@ -44,6 +44,8 @@ class Cliff final : public Sensor {
       out.cliffs.drop[at] = hit.range_m > height_m_ + reach_m_;
     }
   }
+
+  void Silence(Observation& out) const override { out.cliffs.drop = {}; }
 
  private:
   double reach_m_ = 0.03, inset_m_ = 0.01;

@@ -22,7 +22,7 @@ class Encoders final : public Sensor {
     v("bias", bias_, Between(-0.5, 0.5), "share by which every turn is told too large");
   }
 
-  void Start(const SensorContext& context, const mjData* data, const Sample&, const Stream& noise,
+  void Start(const SensorContext& context, const mjData* data, const Truth&, const Stream& noise,
              Observation& out) override {
     const mjModel* m = context.scene.model.get();
     const std::vector<WheelSpec>& wheels = context.robot.wheels;
@@ -39,7 +39,7 @@ class Encoders final : public Sensor {
     out.wheel_rad.assign(wheels.size(), 0);
   }
 
-  void Sense(mjData* data, const Sample& truth, Observation& out) override {
+  void Sense(mjData* data, const Truth& truth, Observation& out) override {
     const double tick_rad = 2 * kPi / ticks_;
     out.hinges = truth.hinges;
     for (int h = 0; h < out.hinges.n; ++h) {
@@ -55,6 +55,12 @@ class Encoders final : public Sensor {
       out.wheel_rad[i] = tick_rad * std::floor(remainder_rad_[i] / tick_rad + 0.5);
       remainder_rad_[i] -= out.wheel_rad[i];
     }
+  }
+
+  // The wheels seem to stand, the hinges as they were built.
+  void Silence(Observation& out) const override {
+    std::ranges::fill(out.wheel_rad, 0.0);
+    out.hinges = HingeState{.n = out.hinges.n};
   }
 
  private:

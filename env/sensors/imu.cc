@@ -22,7 +22,7 @@ class Imu final : public Sensor {
       "standard deviation of the bias, drawn once an episode (m/s^2)");
   }
 
-  void Start(const SensorContext& context, const mjData*, const Sample& truth, const Stream& noise,
+  void Start(const SensorContext& context, const mjData*, const Truth& truth, const Stream& noise,
              Observation& out) override {
     model_ = context.scene.model.get();
     base_ = context.scene.base_body;
@@ -34,19 +34,26 @@ class Imu final : public Sensor {
     out.has_imu = true;
   }
 
-  void Sense(mjData* data, const Sample& truth, Observation& out) override {
+  void Sense(mjData* data, const Truth& truth, Observation& out) override {
     mjtNum V[6];  // turn, then travel, in the base's axes
     mj_objectVelocity(model_, data, mjOBJ_XBODY, base_, V, 1);
     const Rotation R_WB = RotationOf(data, base_);
     const Vec3 g_W(model_->opt.gravity[0], model_->opt.gravity[1], model_->opt.gravity[2]);
     const Vec3 force_W = (truth.v_WB_W - last_v_W_) / control_s_ - g_W;
     last_v_W_ = truth.v_WB_W;
+    out.has_imu = true;
     out.gyro_radps = Vec3(V) + gyro_offset_;
     out.accel_mps2 = R_WB.transpose() * force_W + accel_offset_;
     for (int i = 0; i < 3; ++i) {  // always as many draws: no key's value changes another's noise
       out.gyro_radps[i] += gyro_noise_ * stream_->Normal();
       out.accel_mps2[i] += accel_noise_ * stream_->Normal();
     }
+  }
+
+  // A device without power: neither rates nor force.
+  void Silence(Observation& out) const override {
+    out.has_imu = false;
+    out.gyro_radps = out.accel_mps2 = Vec3::Zero();
   }
 
  private:

@@ -36,7 +36,7 @@ class Lidar final : public Sensor {
     v("z_m", z_m_, Positive(), "height of the scan plane (m); none: of the model's site `lidar`");
   }
 
-  void Start(const SensorContext& context, const mjData* data, const Sample& truth,
+  void Start(const SensorContext& context, const mjData* data, const Truth& truth,
              const Stream& noise, Observation& out) override {
     context_.emplace(context);
     const mjModel* m = context.scene.model.get();
@@ -69,7 +69,7 @@ class Lidar final : public Sensor {
     next_s_ = truth.t_s;
   }
 
-  void Sense(mjData* data, const Sample& truth, Observation& out) override {
+  void Sense(mjData* data, const Truth& truth, Observation& out) override {
     LidarScan& scan = out.scan;
     scan.fresh = truth.t_s >= next_s_ - 1e-9;
     if (!scan.fresh) return;
@@ -90,9 +90,12 @@ class Lidar final : public Sensor {
       scan.range_m[i] = Told(SeenThrough(data, p_W, Vec3(&directions_W_[3 * i]), hits_[i]));
   }
 
+  // No scan is new.
+  void Silence(Observation& out) const override { out.scan.fresh = false; }
+
  private:
   // As the robot stands level, at its start.
-  Pose2 MountOn(const Sample& truth, const mjData* data) const {
+  Pose2 MountOn(const Truth& truth, const mjData* data) const {
     const Pose2 X_WR{data->xpos[3 * base_], data->xpos[3 * base_ + 1], truth.yaw_rad};
     const Vec2 p_W = X_WR * Vec2(p_R_.head<2>());
     return truth.X_WB().Inverse() * Pose2{p_W.x(), p_W.y(), truth.yaw_rad};

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 
 #include "base/params.h"
 #include "base/registry.h"
@@ -30,12 +31,23 @@ class Sensor : public Configurable {
   // Before the first step, the robot standing at its start; `noise` is this episode's stream of
   // this sensor. Sizes what Sense() fills. Throws InputError where the robot cannot carry it, its
   // line beginning with the key: it is heard when a scenario is read (run/scenario/start_check.h).
-  virtual void Start(const SensorContext& context, const mjData* data, const Sample& truth,
+  virtual void Start(const SensorContext& context, const mjData* data, const Truth& truth,
                      const Stream& noise, Observation& out) = 0;
   // After every physics step; for what must not be missed between two control periods.
-  virtual void OnStep(const Sample&) {}
+  virtual void OnStep(const Truth&) {}
   // Once a control period. Allocates nothing.
-  virtual void Sense(mjData* data, const Sample& truth, Observation& out) = 0;
+  virtual void Sense(mjData* data, const Truth& truth, Observation& out) = 0;
+  // In place of what it just told: what is heard of it when it is dead. It senses on, so that its
+  // noise is the same once it is heard again.
+  virtual void Silence(Observation& out) const = 0;
+};
+
+// One that a robot carries. `implied`: a part of the scenario brought it, and it has no parameters,
+// so that there is nothing to state or to refuse about it.
+struct NamedSensor {
+  std::string name;
+  std::unique_ptr<Sensor> sensor;
+  bool implied = false;
 };
 
 std::span<const PluginEntry<Sensor>> Sensors();

@@ -37,7 +37,7 @@ double LiveGeoms::Bounds::Distance(const Vec3& p_W) const {
   return (low_W - p_W).cwiseMax(p_W - high_W).cwiseMax(0.0).norm();
 }
 
-LiveGeoms::LiveGeoms(const Scene& scene) : scene_(scene), model_(*scene.model) {
+LiveGeoms::LiveGeoms(const Scene& scene, const mjModel& model) : scene_(scene), model_(model) {
   const bool pool = scene.pool.num > 0, pairs = model_.npair > kFewPairs,
              fixed = model_.body_geomnum[0] > kFewFixed;
   if (!(pool || pairs || fixed) || !NearnessIsKnown(&model_, scene.base_body)) return;

@@ -26,8 +26,8 @@ namespace floorproof {
 
 class LiveGeoms {
  public:
-  // `scene` outlives this.
-  explicit LiveGeoms(const Scene& scene);
+  // Both outlive this; `model` is the scene's, or a copy of it whose values may change.
+  LiveGeoms(const Scene& scene, const mjModel& model);
   // The model points into this object.
   LiveGeoms(const LiveGeoms&) = delete;
   LiveGeoms& operator=(const LiveGeoms&) = delete;
@@ -38,6 +38,8 @@ class LiveGeoms {
   // nothing. Throws InternalError if more walls are near than the pool holds, which its size rules
   // out.
   void Update(mjData* data);
+  // Values of `model` have changed: the next Update takes them over.
+  void Refresh() { chosen_ = false; }
 
  private:
   struct Ball {  // about a colliding geom of the robot
@@ -77,7 +79,7 @@ class LiveGeoms {
   int AddNode(std::vector<int>::iterator begin, std::vector<int>::iterator end);
 
   const Scene& scene_;
-  mjModel model_;             // borrows the scene's arrays, but for those below
+  mjModel model_;  // borrows the arrays of the model it was made from, but for those below
   std::vector<Ball> balls_;   // by colliding geom of the robot
   std::vector<int> ball_of_;  // by geom; -1: none of the robot's
   std::vector<Swing> swings_;

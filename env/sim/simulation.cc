@@ -38,15 +38,11 @@ Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec
     : scene_(scene),
       map_(map),
       robot_(robot),
-      live_(scene),
+      own_(CopyModel(scene.model.get())),
+      live_(scene, *own_),
       data_(MakeData(scene.model.get())),
-      battery_(robot.battery) {
-  // Voltages are the model's, and the scene's model is others' too.
-  if (robot.battery.resistance_ohm > 0 || robot.battery.capacity_wh) {
-    mjModel* own = live_.model();
-    gains_.assign(own->actuator_gainprm, own->actuator_gainprm + mjNGAIN * own->nu);
-    own->actuator_gainprm = gains_.data();
-  }
+      battery_(robot.battery),
+      voltage_changes_(robot.battery.resistance_ohm > 0 || robot.battery.capacity_wh) {
   const mjModel* m = model();
   for (const HingeSpec& hinge : robot.hinges) {
     const int joint = m->actuator_trnid[2 * mj_name2id(m, mjOBJ_ACTUATOR, hinge.name.c_str())];
@@ -81,7 +77,7 @@ void Simulation::Place(const Pose2& X_WB) {
 void Simulation::Reset(const Pose2& X_WB) {
   mj_resetData(model(), data_.get());
   battery_ = BatteryInUse(robot_.battery);
-  sample_ = Sample{};
+  truth_ = Truth{};
   Settle(X_WB, 0);
 }
 
@@ -128,8 +124,8 @@ bool Simulation::Step() {
   ReadPose();
   ReadContacts();
   ReadPower(model()->opt.timestep);
-  return !Diverged(data_.get()) && std::isfinite(sample_.p_WB.sum()) &&
-         std::isfinite(sample_.v_WB_W.sum());
+  return !Diverged(data_.get()) && std::isfinite(truth_.p_WB.sum()) &&
+         std::isfinite(truth_.v_WB_W.sum());
 }
 
 void Simulation::SetHingeSpeeds(const HingeState& hinges) {
@@ -138,15 +134,15 @@ void Simulation::SetHingeSpeeds(const HingeState& hinges) {
 
 void Simulation::ReadHinges() {
   constexpr double kInShape_rad = 0.05;  // play within which the hinges count as in a shape
-  sample_.shape = robot_.shape;
+  truth_.shape = robot_.shape;
   if (hinge_dof_.empty()) return;
-  sample_.hinges.n = static_cast<int>(hinge_dof_.size());
+  truth_.hinges.n = static_cast<int>(hinge_dof_.size());
   for (std::size_t h = 0; h < hinge_dof_.size(); ++h) {
-    sample_.hinges.rad[h] = data_->qpos[hinge_qpos_[h]];
-    sample_.hinges.radps[h] = data_->qvel[hinge_dof_[h]];
+    truth_.hinges.rad[h] = data_->qpos[hinge_qpos_[h]];
+    truth_.hinges.radps[h] = data_->qvel[hinge_dof_[h]];
   }
-  sample_.shape = ShapeOf(robot_, sample_.hinges, kInShape_rad);
-  blocks_ = MoveBlocks(robot_.blocks, robot_.hinges, sample_.hinges);
+  truth_.shape = ShapeOf(robot_, truth_.hinges, kInShape_rad);
+  blocks_ = MoveBlocks(robot_.blocks, robot_.hinges, truth_.hinges);
 }
 
 void Simulation::ReadPose() {
@@ -160,11 +156,11 @@ void Simulation::ReadPose() {
   mjtNum R[9];
   mju_quat2Mat(R, q + 3);
   ReadHinges();
-  sample_.t_s = d->time;
-  sample_.roll_rad = std::atan2(R[7], R[8]);
-  sample_.pitch_rad = std::asin(std::clamp(-R[6], -1.0, 1.0));
-  sample_.yaw_rad = std::atan2(R[3], R[0]);
-  sample_.tilt_rad = std::acos(std::clamp(R[8], -1.0, 1.0));
+  truth_.t_s = d->time;
+  truth_.roll_rad = std::atan2(R[7], R[8]);
+  truth_.pitch_rad = std::asin(std::clamp(-R[6], -1.0, 1.0));
+  truth_.yaw_rad = std::atan2(R[3], R[0]);
+  truth_.tilt_rad = std::acos(std::clamp(R[8], -1.0, 1.0));
   Vec3 w_W;
   mju_mulMatVec3(w_W.data(), R, v + 3);
   // From the base block's frame R to B, which moves against it as the hinges turn.
@@ -173,11 +169,11 @@ void Simulation::ReadPose() {
   mjtNum arm_W[3], slide_W[3], v_B[3];
   mju_mulMatVec3(arm_W, R, p_RB);
   mju_mulMatVec3(slide_W, R, v_RB);
-  sample_.p_WB = Vec3(q[0], q[1], q[2]) + Vec3(arm_W[0], arm_W[1], arm_W[2]);
-  sample_.v_WB_W = Vec3(v[0], v[1], v[2]) + w_W.cross(Vec3(arm_W[0], arm_W[1], arm_W[2])) +
-                   Vec3(slide_W[0], slide_W[1], slide_W[2]);
-  mju_mulMatTVec3(v_B, R, sample_.v_WB_W.data());
-  sample_.V_WB_B = {v_B[0], v_B[1], v[5]};
+  truth_.p_WB = Vec3(q[0], q[1], q[2]) + Vec3(arm_W[0], arm_W[1], arm_W[2]);
+  truth_.v_WB_W = Vec3(v[0], v[1], v[2]) + w_W.cross(Vec3(arm_W[0], arm_W[1], arm_W[2])) +
+                  Vec3(slide_W[0], slide_W[1], slide_W[2]);
+  mju_mulMatTVec3(v_B, R, truth_.v_WB_W.data());
+  truth_.V_WB_B = {v_B[0], v_B[1], v[5]};
 
   double lowest = 1e9;
   for (std::size_t w = 0; w < wheel_bodies_.size(); ++w) {
@@ -194,17 +190,17 @@ void Simulation::ReadPose() {
     lowest = p_W[2] - drop;
     lowest_wheel_W_ = {p_W[0], p_W[1]};
   }
-  sample_.wheel_floor_z_m = lowest;
+  truth_.wheel_floor_z_m = lowest;
 }
 
 void Simulation::ReadContacts() {
   const mjModel* m = model();
   const mjData* d = data_.get();
-  sample_.belly_load_n = 0;
-  sample_.belly_hazard = -1;
-  sample_.wheel_contacts = 0;
-  sample_.near_hazard = -1;
-  sample_.num_contacts = 0;
+  truth_.belly_load_n = 0;
+  truth_.belly_hazard = -1;
+  truth_.wheel_contacts = 0;
+  truth_.near_hazard = -1;
+  truth_.num_contacts = 0;
   support_.clear();
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& c = d->contact[i];
@@ -221,9 +217,9 @@ void Simulation::ReadContacts() {
     if (world.kind == GeomRole::Kind::kFloor && world.hazard < 0 && nz < kSteep)
       world.hazard =
           CutAt(Vec2(c.pos[0], c.pos[1]) + kBeside_m * toward * Vec2(c.frame[0], c.frame[1]));
-    if (world.hazard >= 0) sample_.near_hazard = world.hazard;
+    if (world.hazard >= 0) truth_.near_hazard = world.hazard;
     if (robot.kind == GeomRole::Kind::kWheel) {
-      ++sample_.wheel_contacts;
+      ++truth_.wheel_contacts;
       if (nz > kWedged) AddSupport(c.pos);
       continue;
     }
@@ -233,13 +229,13 @@ void Simulation::ReadContacts() {
     }
     mjtNum force[6];
     mj_contactForce(m, d, i, force);
-    sample_.belly_load_n += force[0] * nz;
+    truth_.belly_load_n += force[0] * nz;
     if (force[0] > 0) AddSupport(c.pos);
-    sample_.belly_hazard = world.hazard;
+    truth_.belly_hazard = world.hazard;
   }
-  if (sample_.near_hazard < 0 && sample_.wheel_floor_z_m < -kBelow_m)
-    sample_.near_hazard = CutAt(lowest_wheel_W_);  // a wheel that hangs in it
-  sample_.support_margin_m = SupportMargin();
+  if (truth_.near_hazard < 0 && truth_.wheel_floor_z_m < -kBelow_m)
+    truth_.near_hazard = CutAt(lowest_wheel_W_);  // a wheel that hangs in it
+  truth_.support_margin_m = SupportMargin();
 }
 
 // The hazard whose cut in the floor holds this point; -1: none.
@@ -252,7 +248,7 @@ int Simulation::CutAt(const Vec2& p_W) const {
 
 void Simulation::AddObstacle(const mjContact& contact, int hazard, int geom, double toward) {
   Vec2 normal_W(toward * contact.frame[0], toward * contact.frame[1]);
-  if (sample_.num_contacts == Sample::kMaxContacts || normal_W.norm() < 1e-9) return;
+  if (truth_.num_contacts == Truth::kMaxContacts || normal_W.norm() < 1e-9) return;
   normal_W.normalize();
   const mjModel* m = model();
   const mjData* d = data_.get();
@@ -267,7 +263,7 @@ void Simulation::AddObstacle(const mjContact& contact, int hazard, int geom, dou
   mjtNum force[6];
   mj_contactForce(m, d, static_cast<int>(&contact - d->contact), force);
 
-  ObstacleContact& out = sample_.contacts[static_cast<std::size_t>(sample_.num_contacts++)];
+  ObstacleContact& out = truth_.contacts[static_cast<std::size_t>(truth_.num_contacts++)];
   out.hazard = hazard;
   out.p_W = {contact.pos[0], contact.pos[1]};
   out.normal_W = normal_W;
@@ -313,23 +309,24 @@ double Simulation::SupportMargin() {
 void Simulation::ReadPower(double dt_s) {
   const mjModel* m = model();
   const mjData* d = data_.get();
-  double load_w = robot_.hotel_load_w;
+  double load_w = robot_.hotel_load_w * altered_.hotel_load;
   for (int a = 0; a < m->nu; ++a) {
     const mjtNum* gain = m->actuator_gainprm + mjNGAIN * a;
     const int dof = m->jnt_dofadr[m->actuator_trnid[2 * a]];
     load_w += MotorPower(MotorTorque(m, d, a), d->qvel[dof], gain[0], gain[1]);
   }
   const BatteryOutput out = battery_.Feed(load_w, dt_s);
-  sample_.power_w = out.power_w();
-  sample_.battery_v = out.voltage_v;
-  sample_.battery_a = out.current_a;
+  truth_.power_w = out.power_w();
+  truth_.battery_v = out.voltage_v;
+  truth_.battery_a = out.current_a;
   SetDriverVoltages();
 }
 
 // What the drivers can give in the next step.
 void Simulation::SetDriverVoltages() {
-  if (gains_.empty()) return;
-  for (int a = 0; a < model()->nu; ++a) SetDriverVoltage(model(), a, battery_.voltage_v());
+  if (!voltage_changes_) return;
+  for (int a = 0; a < model()->nu; ++a)
+    SetDriverVoltage(model(), a, battery_.voltage_v() * altered_.battery_voltage);
 }
 
 }  // namespace floorproof

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "env/core/alterations.h"
+#include "env/core/battery.h"
 #include "env/core/blocks.h"
 #include "env/core/motion.h"
 #include "env/core/robot_spec.h"
@@ -37,13 +39,18 @@ class Simulation {
   // the simulation is over then, an `error`. Allocates nothing. Throws InternalError when the
   // engine itself fails.
   bool Step();
-  // The state after the last step. command, cross_track_m and t_s belong to the caller's loop and
-  // stay as the caller set them, but t_s.
-  Sample& sample() { return sample_; }
+  // The state after the last step.
+  const Truth& truth() const { return truth_; }
+  // From now on, in place of what was altered before; `silent_sensors` is others' affair. What was
+  // altered stays so however often the live geoms are chosen anew, and no other simulation of the
+  // scene sees it. Throws InternalError where a list is not as long as the robot has wheels, or it
+  // has no rollers to drag. Allocates.
+  void Alter(const Alterations& alterations);
 
-  // Holds of the scene's walls and pairs what is near the robot (live_geoms.h).
+  // Holds of the scene's walls and pairs what is near the robot (live_geoms.h). All its arrays are
+  // this simulation's own.
   const mjModel* model() const { return live_.model(); }
-  // For rigs that tilt gravity or brake wheels; most of its arrays are the scene's own.
+  // For rigs that tilt gravity or brake wheels.
   mjModel* model() { return live_.model(); }
   mjData* data() { return data_.get(); }
   // As at the last step, since Reset.
@@ -57,6 +64,9 @@ class Simulation {
   void ReadContacts();
   void ReadPower(double dt_s);
   void SetDriverVoltages();
+  void AlterMotors();
+  void AlterFriction();
+  void AlterPayload();
   void AddObstacle(const mjContact& contact, int hazard, int geom, double toward);
   void AddSupport(const double* p_W);
   int CutAt(const Vec2& p_W) const;
@@ -65,11 +75,13 @@ class Simulation {
   const Scene& scene_;
   const HazardMap& map_;
   const RobotSpec& robot_;
+  ModelPtr own_;  // a copy of the scene's model, as altered
   LiveGeoms live_;
   DataPtr data_;
-  Sample sample_;
+  Truth truth_;
+  Alterations altered_;
   BatteryInUse battery_;
-  std::vector<mjtNum> gains_;                // the motors', where their drivers' voltage changes
+  bool voltage_changes_ = false;             // of the motors' drivers
   std::vector<int> wheel_bodies_;            // of the driven wheels, in actuator order
   std::vector<int> wheel_qpos_;              // addresses of their angles
   std::vector<int> hinge_qpos_, hinge_dof_;  // addresses of the hinges' joints

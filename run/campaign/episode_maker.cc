@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/campaign/episode_maker.h"
 
+#include "run/episode/execute.h"
 #include "run/episode/records.h"
 #include "run/scenario/plan_file.h"
 
@@ -58,17 +59,8 @@ const EpisodeMaker::Planned& EpisodeMaker::Plan(const Variant& variant, const Sc
 EpisodeRow EpisodeMaker::Run(const Variant& variant, std::uint64_t episode) try {
   Scenario s = file_.Read(episode, variant);
   const Planned& planned = Plan(variant, s);
-  EpisodeRecord record;
-  if (planned.plan.status != PlanStatus::kSuccess) {
-    record.outcome = Outcome::kNotPlanned;
-    record.message = planned.plan.message;
-  } else if (s.episode.drive == "none") {
-    record.outcome = Outcome::kSuccess;
-  } else {
-    const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
-    record = RunEpisode(s, scene, planned.plan);
-  }
-  return MakeRow(variant.name, s, planned.json, record);
+  std::optional<Scene> scene;
+  return MakeRow(variant.name, s, planned.json, ExecutePlan(s, planned.plan, scene));
 } catch (const InputError& e) {
   return Refused(variant, episode, e.what());
 } catch (const InternalError& e) {

@@ -6,11 +6,13 @@
 #include <optional>
 
 #include "base/streams.h"
+#include "env/sim/physics_plant.h"
 #include "run/episode/intervention.h"
+#include "run/episode/make_plan.h"
 #include "run/episode/path_error.h"
-#include "run/episode/pilot.h"
+#include "run/episode/plan_navigator.h"
 #include "run/episode/recorder.h"
-#include "run/scenario/plan_file.h"
+#include "run/episode/robot_side.h"
 
 namespace floorproof {
 
@@ -32,43 +34,38 @@ std::string_view Name(Outcome outcome) {
   return "?";
 }
 
-double PlanDuration(const Path& path, double cruise_mps) {
-  constexpr double kFold_s = 30;  // for each change of shape: three hinges, half a turn each
-  double t_s = path.empty() ? 0 : path.front().dwell_s;
-  for (std::size_t i = 1; i < path.size(); ++i)
-    t_s += (path[i].p_W - path[i - 1].p_W).norm() /
-               (path[i].speed_mps > 0 ? path[i].speed_mps : cruise_mps) +
-           path[i].dwell_s + (path[i].shape != path[i - 1].shape ? kFold_s : 0);
-  return t_s;
+namespace {
+
+Stream StreamOf(const Scenario& s, const std::string& name) {
+  return {static_cast<std::uint64_t>(s.episode.seed), s.episode_id, name};
 }
 
-PlanResult MakePlan(const Scenario& s) {
-  const RobotSpec& robot = s.robot.spec;
-  const HazardMap known = KnownPart(s.site.map);
-  auto risk = std::make_shared<const RiskMap>(ComputeRisk(known, robot, s.fmea, s.risk));
-  PlanResult plan;
-  if (s.planner) {
-    Stream stream(static_cast<std::uint64_t>(s.episode.seed), s.episode_id, "plan");
-    plan = s.planner->Plan({known, robot, s.start, s.goal, stream.Next(), risk.get()});
-  } else {
-    plan.path = s.user_plan;
-    // A user's plan need not begin where the robot stands: it drives there first, and is judged on
-    // the way as on any other.
-    if ((plan.path.front().p_W - s.start.p()).norm() > 1e-6) {
-      Waypoint start;
-      start.p_W = s.start.p();
-      plan.path.insert(plan.path.begin(), start);
-    }
-    plan.status = PlanStatus::kSuccess;
-    plan.clear = robot.clear;
-    plan.tool = robot.tool;
-    plan.tool_width_m = robot.tool_width_m;
-  }
-  plan.risk = std::move(risk);
-  return plan;
+void StartDetectors(Scenario& s) {
+  for (auto& detector : s.detectors)
+    detector->Start({s.site.map, s.robot.spec, s.physics.timestep_s});
 }
+
+// True when one of them fired; all see every sample.
+bool Detect(Scenario& s, const Sample& sample, Recorder& recorder) {
+  bool failed = false;
+  for (auto& detector : s.detectors) {
+    if (!detector->Update(sample)) continue;
+    recorder.OnEvent(detector->event());
+    failed = true;
+  }
+  return failed;
+}
+
+}  // namespace
 
 EpisodeRecord RunEpisode(Scenario& s, const Scene& scene, const PlanResult& plan,
+                         EpisodeObserver* observer) {
+  PhysicsPlant plant(scene, s.site.map, s.robot.spec, s.sensors, 1.0 / s.episode.control_hz,
+                     [&s](const std::string& name) { return StreamOf(s, name); });
+  return RunEpisode(s, plant, &plant.simulation(), plan, observer);
+}
+
+EpisodeRecord RunEpisode(Scenario& s, Plant& plant, Simulation* simulation, const PlanResult& plan,
                          EpisodeObserver* observer) {
   const RobotSpec& robot = s.robot.spec;
   const HazardMap known = KnownPart(s.site.map);
@@ -80,58 +77,62 @@ EpisodeRecord RunEpisode(Scenario& s, const Scene& scene, const PlanResult& plan
   const auto steps_a_control = std::lround(1.0 / (s.episode.control_hz * s.physics.timestep_s));
 
   Recorder recorder(s, area, *plan.risk, plan_s);
-  Simulation sim(scene, s.site.map, robot);
-  Sample& sample = sim.sample();
-  sim.Reset(s.start);
-  Pilot pilot(s, scene, known, plan);
-  pilot.Start(sim);
-  Interventions helper(s);
-  const auto start_detectors = [&] {
-    for (auto& detector : s.detectors) detector->Start({s.site.map, robot, s.physics.timestep_s});
+  Interventions interventions(s);
+  PlanNavigator navigator(plan, known, robot, s.recovery ? &*s.recovery : nullptr);
+  RobotSide side(robot, known, navigator,
+                 {*s.tracker, *s.estimator, s.mapper ? &*s.mapper : nullptr,
+                  s.recovery ? &*s.recovery : nullptr},
+                 1.0 / s.episode.control_hz);
+  Observation sensed;
+  Sample sample;
+  const auto look = [&] { static_cast<Truth&>(sample) = plant.truth(); };
+  const auto act = [&](const Actuation& actuation) {
+    plant.Apply(actuation);
+    sample.command = side.command();
+    sample.command.hinges = actuation.hinges;
+    sample.cross_track_half_width_m =
+        HalfWidth(side.clearance(), side.path(), sample.command.segment, sample.p_WB.head<2>());
   };
-  start_detectors();
+  plant.Reset(s.start, sensed);
+  look();
+  side.Start(s.start, StreamOf(s, "estimator"));
+  StartDetectors(s);
 
   std::optional<Outcome> ended;
   for (std::int64_t step = 0; !ended; ++step) {
     if (step % steps_a_control == 0) {
-      if (helper.awaited())
-        pilot.Stand(sim);
-      else
-        pilot.Control(sim);
-      recorder.OnControl(sample, pilot.estimate());
+      plant.Sense(sensed);
+      act(interventions.awaited() ? side.Stand(sensed) : side.Control(sensed));
+      recorder.OnControl(sample, side.estimate());
       if (sample.command.done) ended = Outcome::kSuccess;
-      if (sample.t_s >= limit_s + helper.extra_s()) ended = Outcome::kTimeout;
-      if (observer && !observer->OnControl({sim, pilot.sensed(), pilot.estimate(),
+      if (sample.t_s >= limit_s + interventions.extra_s()) ended = Outcome::kTimeout;
+      if (observer && !observer->OnControl({sample, sensed, side.estimate(), simulation,
                                             recorder.coverage(), recorder.driven_m() / plan_m}))
         ended = Outcome::kInterrupted;
       if (ended) break;
-      if (helper.HasCome(sample.t_s)) {  // after sensing: a bump was where it lay
-        recorder.OnIntervention(helper.SetDown(sim, pilot), s.detectors);
-        start_detectors();
+      if (interventions.HasCome(sample.t_s)) {  // after sensing: a bump was where it lay
+        recorder.OnIntervention(interventions.SetDown(plant, side), s.detectors);
+        look();
+        act(side.actuation());
+        StartDetectors(s);
       }
     }
-
-    if (!sim.Step()) {
+    const bool good = plant.Step();
+    look();
+    if (!good) {
       ended = Outcome::kError;
       break;
     }
-    sample.cross_track_m = CrossTrack(pilot.path(), sample.command.segment, sample.p_WB.head<2>());
+    sample.cross_track_m = CrossTrack(side.path(), sample.command.segment, sample.p_WB.head<2>());
     recorder.OnStep(sample);
-    pilot.OnStep(sample);
-
-    if (helper.awaited()) continue;  // that it does not get on is known
-    bool failed = false;
-    for (auto& detector : s.detectors) {
-      if (!detector->Update(sample)) continue;
-      recorder.OnEvent(detector->event());
-      failed = true;
-    }
-    if (failed && s.episode.on_failure != "ignore" && !helper.Call(pilot.path(), sample))
+    if (interventions.awaited()) continue;  // that it does not get on is known
+    if (Detect(s, sample, recorder) && s.episode.on_failure != "ignore" &&
+        !interventions.Call(side.path(), sample))
       ended = Outcome::kFailure;
   }
-  EpisodeRecord record = recorder.Finish(*ended, sample, plan, pilot, s.detectors,
-                                         s.episode.min_coverage, sim.battery().left());
-  if (record.message.empty()) record.message = helper.why_not();
+  EpisodeRecord record = recorder.Finish(*ended, sample, plan, side, s.detectors,
+                                         s.episode.min_coverage, plant.battery_left());
+  if (record.message.empty()) record.message = interventions.why_not();
   return record;
 }
 

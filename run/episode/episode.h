@@ -11,6 +11,7 @@
 #include "env/core/coverage.h"
 #include "env/core/event.h"
 #include "env/core/known_map.h"
+#include "env/sim/plant.h"
 #include "env/sim/simulation.h"
 #include "planners/planner.h"
 #include "run/scenario/scenario.h"
@@ -79,29 +80,31 @@ struct EpisodeRecord {
 
 // An episode as it stands at a control period.
 struct EpisodeView {
-  Simulation& simulation;
+  const Sample& sample;
   const Observation& sensed;
   const Estimate& estimate;
+  Simulation* simulation;  // nullptr: driven without physics
   double coverage = 0, plan_fraction = 0;
 };
 
-// Looks on once a control period: progress lines, films, Ctrl-C.
+// Looks on: progress lines, films, Ctrl-C.
 class EpisodeObserver {
  public:
   virtual ~EpisodeObserver() = default;
+  // Of Execute(): the plan is made, whatever its status; the scene is built.
+  virtual void OnPlan(const PlanResult&) {}
+  virtual void OnScene(const Scene&) {}
+  // Once a control period.
   // Returns false to end the episode here (outcome kInterrupted).
   virtual bool OnControl(const EpisodeView& now) = 0;
 };
-
-// The plan of the scenario: its planner's, or the user's file. The planner gets what is known.
-PlanResult MakePlan(const Scenario& scenario);
-
-// What the plan takes at its own speeds, without stopping to turn, s.
-double PlanDuration(const Path& path, double cruise_mps);
 
 // Drives the plan. The scenario's plug-ins are started afresh, so the same call gives the same
 // record.
 EpisodeRecord RunEpisode(Scenario& scenario, const Scene& scene, const PlanResult& plan,
                          EpisodeObserver* observer = nullptr);
+// The same on any plant; `simulation`: for observers, nullptr where there is none.
+EpisodeRecord RunEpisode(Scenario& scenario, Plant& plant, Simulation* simulation,
+                         const PlanResult& plan, EpisodeObserver* observer);
 
 }  // namespace floorproof

@@ -105,13 +105,14 @@ bool Interventions::Call(const Path& path, const Sample& failed) {
   return true;
 }
 
-Intervention Interventions::SetDown(Simulation& sim, Pilot& pilot) {
-  const Intervention assist{sim.sample().t_s, sim.sample().p_WB.head<2>(), place_->X_WB.p(),
-                            place_->X_WB.yaw_rad};
-  sim.SetDown(place_->X_WB);
-  pilot.GoOnFrom(place_->waypoint, sim);
+Intervention Interventions::SetDown(Plant& plant, RobotSide& side) {
+  const Truth& failed = plant.truth();
+  const Intervention help{failed.t_s, failed.p_WB.head<2>(), place_->X_WB.p(),
+                          place_->X_WB.yaw_rad};
+  plant.SetDown(place_->X_WB);
+  side.GoOnFrom(place_->waypoint);
   place_.reset();
-  return assist;
+  return help;
 }
 
 }  // namespace floorproof

@@ -14,9 +14,9 @@
 #include <string>
 
 #include "env/core/path.h"
-#include "env/sim/simulation.h"
+#include "env/sim/plant.h"
 #include "run/episode/episode.h"
-#include "run/episode/pilot.h"
+#include "run/episode/robot_side.h"
 
 namespace floorproof {
 
@@ -45,7 +45,7 @@ class Interventions {
   bool awaited() const { return place_.has_value(); }
   bool HasCome(double t_s) const { return awaited() && t_s >= comes_s_ - 1e-9; }
   // Carries the robot and sends it on its way; from here on nobody is awaited.
-  Intervention SetDown(Simulation& sim, Pilot& pilot);
+  Intervention SetDown(Plant& plant, RobotSide& side);
   // What waiting adds to a time limit that the scenario does not write.
   double extra_s() const { return s_.episode.time_limit_s ? 0 : calls_ * kComes_s; }
 

@@ -10,7 +10,7 @@
 
 #include "planners/risk/risk_meter.h"
 #include "run/episode/episode.h"
-#include "run/episode/pilot.h"
+#include "run/episode/robot_side.h"
 
 namespace floorproof {
 
@@ -103,8 +103,9 @@ class Recorder {
   // failure when something failed on the way, helped or not; a completed one that covered too
   // little is one as well.
   EpisodeRecord Finish(Outcome ended, const Sample& last, const PlanResult& plan,
-                       const Pilot& pilot, const std::vector<std::unique_ptr<Detector>>& detectors,
-                       double min_coverage, std::optional<double> battery_left) {
+                       const RobotSide& side,
+                       const std::vector<std::unique_ptr<Detector>>& detectors, double min_coverage,
+                       std::optional<double> battery_left) {
     Metrics& m = record_.metrics;
     if (shape_ >= 0) meter_.Add(last.X_WB());
     m.coverage = meter_.coverage();
@@ -115,9 +116,9 @@ class Recorder {
     m.mean_cross_track_m =
         record_.steps > 0 ? cross_track_sum_ / static_cast<double>(record_.steps) : 0;
     m.turns = CountTurns(plan.path);
-    m.reactions = pilot.reactions();
+    m.reactions = side.recoveries();
     FinishEstimateError();
-    if (pilot.known() != nullptr) record_.known = *pilot.known();
+    if (side.known() != nullptr) record_.known = *side.known();
     KeepMargins(detectors);
     record_.passes = meter_.passes();
     record_.passes_frame = area_.frame;

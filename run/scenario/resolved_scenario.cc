@@ -60,7 +60,7 @@ ConfigNode Goal(const Vec2& goal) {
 ConfigNode SensorsOf(const Scenario& s) {
   ConfigNode node = ConfigNode::Map();
   for (const NamedSensor& sensor : s.sensors)
-    node.Add(sensor.name, WithPlugin(ConfigNode::Map(), *sensor.sensor));
+    if (!sensor.implied) node.Add(sensor.name, WithPlugin(ConfigNode::Map(), *sensor.sensor));
   return node;
 }
 
@@ -148,7 +148,7 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
   if (stated("controller", robot_varies))
     root.Add("controller", WithPlugin(Named("name", s.tracker_name), *s.tracker));
   root.Add("estimator", WithPlugin(Named("name", s.estimator_name), *s.estimator));
-  if (!s.sensors.empty()) root.Add("sensors", SensorsOf(s));
+  if (!std::ranges::all_of(s.sensors, &NamedSensor::implied)) root.Add("sensors", SensorsOf(s));
   // One without a lidar came with `react`, as it is by default; stated, it would ask for a lidar.
   if (s.mapper && std::ranges::find(s.sensors, "lidar", &NamedSensor::name) != s.sensors.end()) {
     Mapper mapper = *s.mapper;

@@ -64,13 +64,20 @@ void CheckHashes(const ConfigNode& root, const fs::path& folder) {
 }  // namespace
 
 ScenarioFile::ScenarioFile(const fs::path& file, const std::vector<Override>& overrides)
-    : ScenarioFile(file, overrides, true) {}
+    : ScenarioFile(ReadYamlFile(file), file, overrides, Files::kCheck) {}
 
-ScenarioFile ScenarioFile::Recorded(const fs::path& file) { return {file, {}, false}; }
+ScenarioFile ScenarioFile::FromText(const std::string& text, const fs::path& file,
+                                    const std::vector<Override>& overrides) {
+  return {ParseYaml(text, file.string()), file, overrides, Files::kCheck};
+}
 
-ScenarioFile::ScenarioFile(const fs::path& file, const std::vector<Override>& overrides,
-                           bool check_files)
-    : file_(file), root_(ReadYamlFile(file)) {
+ScenarioFile ScenarioFile::Recorded(const fs::path& file) {
+  return {ReadYamlFile(file), file, {}, Files::kMayBeGone};
+}
+
+ScenarioFile::ScenarioFile(ConfigNode root, const fs::path& file,
+                           const std::vector<Override>& overrides, Files files)
+    : file_(file), root_(std::move(root)) {
   if (!root_.IsMap()) throw InputError({file.string(), 1}, "", "", "must be a map of keys");
   for (const Override& o : overrides)
     overrides_.emplace_back(o.key_path, ParseYaml(o.value, "--set " + o.key_path));
@@ -80,7 +87,7 @@ ScenarioFile::ScenarioFile(const fs::path& file, const std::vector<Override>& ov
   if (version == nullptr)
     throw InputError(root_.mark, "scenario", "", "the key is missing (scenario: 1)");
   AsInt(*version, "scenario", Between(1, 1));
-  if (check_files) CheckHashes(root_, file.parent_path());
+  if (files == Files::kCheck) CheckHashes(root_, file.parent_path());
   EpisodeParams params;
   ReadParams(
       root_, "", [&](ParamVisitor& v) { params.Visit(v); }, ScenarioKeys());

@@ -30,11 +30,6 @@
 
 namespace floorproof {
 
-struct NamedSensor {
-  std::string name;
-  std::unique_ptr<Sensor> sensor;
-};
-
 struct Scenario {
   std::filesystem::path file;
   std::uint64_t episode_id = 0;
@@ -88,6 +83,10 @@ class ScenarioFile {
   // set is not drawn. Throws InputError naming file, line, key, value and rule.
   explicit ScenarioFile(const std::filesystem::path& file,
                         const std::vector<Override>& overrides = {});
+  // The same of a text in memory, as if it stood in `file`: paths in it are relative to that file's
+  // folder, messages name it, and it need not be there.
+  static ScenarioFile FromText(const std::string& text, const std::filesystem::path& file,
+                               const std::vector<Override>& overrides = {});
   // One that is no more than looked into, as the files that it names may be gone: its variants, its
   // gate, whether it drives. Read() may throw.
   static ScenarioFile Recorded(const std::filesystem::path& file);
@@ -111,8 +110,9 @@ class ScenarioFile {
   void CheckDraws() const;
 
  private:
-  ScenarioFile(const std::filesystem::path& file, const std::vector<Override>& overrides,
-               bool check_files);
+  enum class Files { kCheck, kMayBeGone };
+  ScenarioFile(ConfigNode root, const std::filesystem::path& file,
+               const std::vector<Override>& overrides, Files files);
   Scenario ReadWith(std::optional<std::uint64_t> episode, const Variant& variant,
                     const Variant& forced) const;
   void ReadSitePart(const ConfigNode& root, const Variant& changes, bool episode,

@@ -237,8 +237,10 @@ void ReadSensors(const ConfigNode& root, Scenario& s) {
     const ConfigNode* params = written.Find(name);
     if (params == nullptr && std::ranges::find(needed, entry.name) == needed.end()) continue;
     s.sensors.push_back({name, entry.make()});
+    NamedSensor& sensor = s.sensors.back();
+    sensor.implied = params == nullptr && DocumentParams(*sensor.sensor).empty();
     if (params != nullptr && !params->IsNull())
-      ReadParams(*params, "sensors." + name + ".", *s.sensors.back().sensor);
+      ReadParams(*params, "sensors." + name + ".", *sensor.sensor);
   }
 }
 

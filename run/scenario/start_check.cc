@@ -43,7 +43,7 @@ void CheckStarts(const ConfigNode& root, Scenario& s) {
   Check(root, [&] {
     s.estimator->Start({known, s.robot.spec, s.start, Stream(0, 0, "estimator")});
   });
-  if (s.sensors.empty()) return;
+  if (std::ranges::all_of(s.sensors, &NamedSensor::implied)) return;
   HazardMap bare;
   bare.frame = {1, 1, 1, {}};
   bare.cells = Grid<CellState>(1, 1);
@@ -51,7 +51,7 @@ void CheckStarts(const ConfigNode& root, Scenario& s) {
   const DataPtr data = MakeData(scene.model.get());
   ForwardEngine(scene.model.get(), data.get());
   Observation sensed;
-  for (const auto& [name, sensor] : s.sensors)
+  for (const auto& [name, sensor, implied] : s.sensors)
     Check(root, [&, &name = name, &sensor = sensor] {
       sensor->Start({scene, bare, s.robot.spec, 1.0 / s.episode.control_hz}, data.get(), {},
                     Stream(0, 0, name), sensed);

@@ -134,9 +134,9 @@ TEST(AddingASensor, ItTellsTheNearestInEachConeGlassToo) {
   const auto dut = MakeSonar();
   ReadParams(ParseYaml("{cones: 4, noise_m: 0}", "keys"), "", *dut);
   Observation sensed;
-  dut->Start({scene, map, robot.spec, 0.02}, sim.data(), sim.sample(), Stream(1, 0, "sonar"),
+  dut->Start({scene, map, robot.spec, 0.02}, sim.data(), sim.truth(), Stream(1, 0, "sonar"),
              sensed);
-  dut->Sense(sim.data(), sim.sample(), sensed);
+  dut->Sense(sim.data(), sim.truth(), sensed);
   EXPECT_NEAR(sensed.scan.range_m[0], 2, 1e-3) << "ahead, the pane";
   EXPECT_NEAR(sensed.scan.range_m[1], 1, 1e-3) << "to the left, the border";
   EXPECT_NEAR(sensed.scan.range_m[2], 1, 1e-3);

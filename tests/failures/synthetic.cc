@@ -63,7 +63,7 @@ Trace Drive(const std::vector<Piece>& pieces) {
       sample.V_WB_B = v;
       sample.command.twist = v;
       sample.command.dwelling = piece.dwelling;
-      sample.command.cross_track_half_width_m = 1;
+      sample.cross_track_half_width_m = 1;
       sample.wheel_contacts = 3;
       sample.support_margin_m = 0.05;
       trace.push_back(sample);

@@ -9,7 +9,7 @@ namespace {
 // Off by cross_track_m for off_s, in a lane of that half width.
 Trace Off(double cross_track_m, double off_s, double half_width_m) {
   Trace trace = Drive({{8, {0.2, 0, 0}}});
-  for (Sample& s : trace) s.command.cross_track_half_width_m = half_width_m;
+  for (Sample& s : trace) s.cross_track_half_width_m = half_width_m;
   return With(
       trace, [&](Sample& s) { s.cross_track_m = cross_track_m; }, 2, 2 + off_s);
 }

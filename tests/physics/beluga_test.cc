@@ -13,7 +13,7 @@ namespace {
 TEST(Beluga, RestsOnItsWheelsAndCasters) {
   Rig dut("beluga");
   for (int i = 0; i < 500; ++i) dut.Step();
-  const Sample& s = dut.sample();
+  const Truth& s = dut.truth();
   EXPECT_NEAR(s.p_WB.z(), 0, 0.0005);
   EXPECT_LT(s.tilt_rad, 0.01);
   EXPECT_NEAR(s.V_WB_B.vx_mps, 0, 1e-4);
@@ -39,7 +39,7 @@ TEST(Beluga, MirroredCommandsGiveMirroredMotion) {
   Rig left("beluga"), right("beluga");
   left.Run({0.2, 0, 0.6}, 3);
   right.Run({0.2, 0, -0.6}, 3);
-  const Sample &l = left.sample(), &r = right.sample();
+  const Truth &l = left.truth(), &r = right.truth();
   constexpr double kSolver_m = 0.002;  // contacts are solved in an order that a mirror changes
   EXPECT_NEAR(l.p_WB.x(), r.p_WB.x(), kSolver_m);
   EXPECT_NEAR(l.p_WB.y(), -r.p_WB.y(), kSolver_m);
@@ -55,9 +55,9 @@ TEST(Beluga, OneTwoAndFourMillisecondsAgree) {
         PhysicsParams{.timestep_s = 0.004, .integrator = "implicitfast"}}) {
     Rig dut("beluga", {.physics = physics});
     dut.Run({0.2, 0, 0.4}, 4);
-    EXPECT_NEAR(dut.sample().p_WB.x(), fine.sample().p_WB.x(), 0.01);
-    EXPECT_NEAR(dut.sample().p_WB.y(), fine.sample().p_WB.y(), 0.01);
-    EXPECT_NEAR(dut.sample().yaw_rad, fine.sample().yaw_rad, 0.02);
+    EXPECT_NEAR(dut.truth().p_WB.x(), fine.truth().p_WB.x(), 0.01);
+    EXPECT_NEAR(dut.truth().p_WB.y(), fine.truth().p_WB.y(), 0.01);
+    EXPECT_NEAR(dut.truth().yaw_rad, fine.truth().yaw_rad, 0.02);
   }
 }
 

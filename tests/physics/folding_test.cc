@@ -72,14 +72,14 @@ TEST(Folding, BlocksThatRunIntoEachOtherCollide) {
 TEST(Folding, TheHingedSquareDrivesAsTheLockedOne) {
   const BodyTwist twist{0.15, 0.1, 0.2};
   Rig locked("htetro"), hinged("htetro", {.blocks = Blocks::kHinged});
-  EXPECT_EQ(locked.sample().hinges.n, 0);
-  EXPECT_EQ(hinged.sample().hinges.n, 3);
+  EXPECT_EQ(locked.truth().hinges.n, 0);
+  EXPECT_EQ(hinged.truth().hinges.n, 3);
   locked.Run(twist, 4);
   hinged.Run(twist, 4);
-  EXPECT_NEAR(hinged.sample().p_WB.x(), locked.sample().p_WB.x(), 0.003);
-  EXPECT_NEAR(hinged.sample().p_WB.y(), locked.sample().p_WB.y(), 0.003);
-  EXPECT_NEAR(hinged.sample().yaw_rad, locked.sample().yaw_rad, 0.005);
-  EXPECT_EQ(hinged.sample().shape, 0);
+  EXPECT_NEAR(hinged.truth().p_WB.x(), locked.truth().p_WB.x(), 0.003);
+  EXPECT_NEAR(hinged.truth().p_WB.y(), locked.truth().p_WB.y(), 0.003);
+  EXPECT_NEAR(hinged.truth().yaw_rad, locked.truth().yaw_rad, 0.005);
+  EXPECT_EQ(hinged.truth().shape, 0);
 }
 
 // Locked in any of its shapes it drives every way as its wheels turn.
@@ -92,7 +92,7 @@ TEST_P(LockedShape, DrivesEveryWay) {
        {BodyTwist{0.2, 0, 0}, BodyTwist{0, 0.2, 0}, BodyTwist{0, 0, 0.4}}) {
     Rig dut("htetro", {.changes = {.shape = GetParam()}});
     EXPECT_NEAR(dut.robot().mass_kg, 11, 1e-9);
-    EXPECT_EQ(dut.sample().wheel_contacts, 16);
+    EXPECT_EQ(dut.truth().wheel_contacts, 16);
     const BodyTwist v = dut.Run(twist, 2);
     EXPECT_NEAR(v.vx_mps, twist.vx_mps, 0.001);
     EXPECT_NEAR(v.vy_mps, twist.vy_mps, 0.001);
@@ -117,12 +117,12 @@ class Fold {
     constexpr double kRest_s = 0.5;
     if (step_++ % kStepsAControl == 0) {
       const HingeState hinges =
-          reconfiguration_.Update(rig_.sample().hinges, 0.004 * kStepsAControl);
+          reconfiguration_.Update(rig_.truth().hinges, 0.004 * kStepsAControl);
       rig_.Command({}, hinges);
     }
     rig_.Step();
-    if (!reconfiguration_.done()) done_s_ = rig_.sample().t_s;
-    return rig_.sample().t_s < done_s_ + kRest_s && rig_.sample().t_s < 60;
+    if (!reconfiguration_.done()) done_s_ = rig_.truth().t_s;
+    return rig_.truth().t_s < done_s_ + kRest_s && rig_.truth().t_s < 60;
   }
   Rig& rig() { return rig_; }
 
@@ -165,7 +165,7 @@ TEST(Folding, IsTheWorkOfItsMotors) {
     }
     for (int i = 0; i < 6 * m->nbody; ++i) ASSERT_EQ(d->xfrc_applied[i], 0);
   }
-  const Sample& s = dut.rig().sample();
+  const Truth& s = dut.rig().truth();
   EXPECT_EQ(s.shape, FindShape(dut.rig().robot(), "I"));
   EXPECT_LT(s.v_WB_W.norm(), 1e-3);
   EXPECT_LT(s.p_WB.head<2>().norm(), 0.01) << "its middle stays where it was";

@@ -98,9 +98,9 @@ TEST_P(Hazards, AWideGrooveIsNamedWhateverItDoes) {
 // A person's shove, aside of the way, for two seconds.
 struct Shove : EpisodeObserver {
   bool OnControl(const EpisodeView& now) override {
-    const double t_s = now.simulation.sample().t_s;
-    now.simulation.data()
-        ->xfrc_applied[6 * mj_name2id(now.simulation.model(), mjOBJ_BODY, "base") + 1] =
+    const double t_s = now.sample.t_s;
+    now.simulation->data()
+        ->xfrc_applied[6 * mj_name2id(now.simulation->model(), mjOBJ_BODY, "base") + 1] =
         t_s > 5 && t_s < 7 ? 1.3 * 9.81 * 12 : 0;
     return true;
   }

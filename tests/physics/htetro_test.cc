@@ -12,7 +12,7 @@ namespace {
 TEST(Htetro, RestsOnAllItsWheels) {
   Rig dut("htetro");
   for (int i = 0; i < 500; ++i) dut.Step();
-  const Sample& s = dut.sample();
+  const Truth& s = dut.truth();
   EXPECT_EQ(s.wheel_contacts, 16);
   EXPECT_NEAR(s.p_WB.z(), 0, 1e-4);
   EXPECT_NEAR(s.wheel_floor_z_m, 0, 1e-4) << "rollers included, the wheels reach the floor";
@@ -57,7 +57,7 @@ TEST(Htetro, MovesEveryWayAsItsWheelsTurn) {
       EXPECT_NEAR(v.vx_mps, twist.vx_mps, error * speed + 1e-5);
       EXPECT_NEAR(v.vy_mps, twist.vy_mps, error * speed + 1e-5);
       EXPECT_NEAR(v.wz_radps, twist.wz_radps, error * std::abs(twist.wz_radps) + 1e-4);
-      EXPECT_LT(std::abs(dut.sample().p_WB.z()), 1e-4) << "no ripple";
+      EXPECT_LT(std::abs(dut.truth().p_WB.z()), 1e-4) << "no ripple";
     }
 }
 
@@ -70,9 +70,9 @@ TEST(Htetro, OneTwoAndFourMillisecondsAndBothIntegratorsAgree) {
         PhysicsParams{.timestep_s = 0.004, .integrator = "implicitfast"}}) {
     Rig dut("htetro", {.physics = physics});
     dut.Run(twist, 4);
-    EXPECT_NEAR(dut.sample().p_WB.x(), fine.sample().p_WB.x(), 0.005);
-    EXPECT_NEAR(dut.sample().p_WB.y(), fine.sample().p_WB.y(), 0.005);
-    EXPECT_NEAR(dut.sample().yaw_rad, fine.sample().yaw_rad, 0.01);
+    EXPECT_NEAR(dut.truth().p_WB.x(), fine.truth().p_WB.x(), 0.005);
+    EXPECT_NEAR(dut.truth().p_WB.y(), fine.truth().p_WB.y(), 0.005);
+    EXPECT_NEAR(dut.truth().yaw_rad, fine.truth().yaw_rad, 0.01);
   }
 }
 
@@ -85,12 +85,12 @@ TEST(Htetro, ADeadWallThrowsNothingBack) {
     Rig dut("htetro", {.physics = {.timestep_s = timestep_s}, .hazards = {wall}});
     dut.Command({0.25, 0, 0});
     double back_mps = 0;
-    while (dut.sample().t_s < 3) {
+    while (dut.truth().t_s < 3) {
       dut.Step();
-      back_mps = std::max(back_mps, -dut.sample().V_WB_B.vx_mps);
+      back_mps = std::max(back_mps, -dut.truth().V_WB_B.vx_mps);
     }
     EXPECT_LT(back_mps, 0.2 * 0.25) << timestep_s;
-    EXPECT_NEAR(dut.sample().p_WB.x(), 0.25, 0.005) << "it stands at the wall";
+    EXPECT_NEAR(dut.truth().p_WB.x(), 0.25, 0.005) << "it stands at the wall";
   }
 }
 
@@ -106,8 +106,8 @@ TEST(Htetro, HeldWheelsHoldItEveryWay) {
     d->xfrc_applied[6 * dut.scene().base_body] = push_n * std::cos(angle);
     d->xfrc_applied[6 * dut.scene().base_body + 1] = push_n * std::sin(angle);
     for (int i = 0; i < 250; ++i) dut.Step();
-    EXPECT_LT(dut.sample().p_WB.head<2>().norm(), 0.10) << angle;
-    EXPECT_LT(dut.sample().v_WB_W.norm(), 0.10) << angle;
+    EXPECT_LT(dut.truth().p_WB.head<2>().norm(), 0.10) << angle;
+    EXPECT_LT(dut.truth().v_WB_W.norm(), 0.10) << angle;
   }
 }
 
@@ -117,8 +117,8 @@ bool Crosses(bool sideways, const Hazard& hazard) {
   constexpr double kSpeed_mps = 0.2;
   Rig dut("htetro", {.hazards = {hazard}});
   dut.Command(sideways ? BodyTwist{0, kSpeed_mps, 0} : BodyTwist{kSpeed_mps, 0, 0});
-  const auto way = [&] { return sideways ? dut.sample().p_WB.y() : dut.sample().p_WB.x(); };
-  while (dut.sample().t_s < 2.5 / kSpeed_mps && way() < 1.4) dut.Step();
+  const auto way = [&] { return sideways ? dut.truth().p_WB.y() : dut.truth().p_WB.x(); };
+  while (dut.truth().t_s < 2.5 / kSpeed_mps && way() < 1.4) dut.Step();
   return way() >= 1.4;
 }
 
@@ -153,9 +153,9 @@ TEST(Htetro, MirroredHazardsGiveMirroredMotion) {
         {.hazards = {Prism("plank", Rectangle({0.4, std::min(0.0, side)}, {2, std::max(0.0, side)}),
                            {}, 0.012)}});
     dut.Run({0.2, 0, 0}, 5);
-    return dut.sample();
+    return dut.truth();
   };
-  const Sample left = run(8), right = run(-8);
+  const Truth left = run(8), right = run(-8);
   EXPECT_GT(left.p_WB.x(), 0.8) << "it went up on one side";
   // Where a tyre lies along an edge, the engine finds the contact at one of its ends: half a tyre.
   constexpr double kTyre_m = 0.010;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "controllers/estimator.h"
+#include "run/episode/make_plan.h"
 #include "tests/physics/real_map.h"
 
 namespace floorproof {
@@ -67,7 +68,7 @@ class Listener final : public EpisodeObserver {
     dut_->Start({scenario.site.map, scenario.robot.spec, scenario.start, Stream(seed, 0, "dut")});
   }
   bool OnControl(const EpisodeView& now) override {
-    const Sample& truth = now.simulation.sample();
+    const Sample& truth = now.sample;
     const Estimate estimate = dut_->Update(now.sensed, truth, 0.02);
     error_m_ = (estimate.X_WB.p() - truth.X_WB().p()).norm();
     return truth.t_s < 120;

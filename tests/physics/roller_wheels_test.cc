@@ -32,7 +32,7 @@ BodyTwist Heading(double angle_deg) {
 TEST(RollerWheels, RestOnTheFloorLikeIdealOnes) {
   Rig dut("htetro", {.rollers = true});
   for (int i = 0; i < 100; ++i) dut.Step();
-  const Sample& s = dut.sample();
+  const Truth& s = dut.truth();
   EXPECT_EQ(s.wheel_contacts, 16) << "rollers count as wheels";
   EXPECT_NEAR(s.p_WB.z(), 0, 1e-4);
   EXPECT_NEAR(s.wheel_floor_z_m, 0, 1e-4);
@@ -65,7 +65,7 @@ TEST(RollerWheels, LoseSidewaysWhatTheSlantOfTheirRollersTakes) {
   const double x = kPi / kRollers;
   EXPECT_NEAR(v.vy_mps / 0.2, std::sin(x) / x, 0.006);
   EXPECT_NEAR(v.vx_mps, 0, 1e-3);
-  EXPECT_LT(std::abs(dut.sample().p_WB.z()), 5e-4) << "ripple";
+  EXPECT_LT(std::abs(dut.truth().p_WB.z()), 5e-4) << "ripple";
 }
 
 TEST(RollerWheels, ADeadWallThrowsNothingBack) {
@@ -73,12 +73,12 @@ TEST(RollerWheels, ADeadWallThrowsNothingBack) {
           {.hazards = {Prism("wall", Rectangle({0.35, -8}, {8, 8}), {}, 0.15)}, .rollers = true});
   dut.Command({0.25, 0, 0});
   double back_mps = 0;
-  while (dut.sample().t_s < 2) {
+  while (dut.truth().t_s < 2) {
     dut.Step();
-    back_mps = std::max(back_mps, -dut.sample().V_WB_B.vx_mps);
+    back_mps = std::max(back_mps, -dut.truth().V_WB_B.vx_mps);
   }
   EXPECT_LT(back_mps, 0.2 * 0.25);
-  EXPECT_NEAR(dut.sample().p_WB.x(), 0.10, 0.005) << "it stands at the wall";
+  EXPECT_NEAR(dut.truth().p_WB.x(), 0.10, 0.005) << "it stands at the wall";
 }
 
 // Whether all its wheels come to stand on a ledge of this height.
@@ -86,8 +86,8 @@ bool StandsOnTop(bool sideways, double height_m) {
   constexpr double kSpeed_mps = 0.2, kEdge_m = 0.35, kUp_m = 0.7;
   Rig dut("htetro", {.hazards = {Ledge(height_m, kEdge_m, sideways)}, .rollers = true});
   dut.Command(sideways ? BodyTwist{0, kSpeed_mps, 0} : BodyTwist{kSpeed_mps, 0, 0});
-  const auto way = [&] { return sideways ? dut.sample().p_WB.y() : dut.sample().p_WB.x(); };
-  while (dut.sample().t_s < 6 && way() < kUp_m) dut.Step();
+  const auto way = [&] { return sideways ? dut.truth().p_WB.y() : dut.truth().p_WB.x(); };
+  while (dut.truth().t_s < 6 && way() < kUp_m) dut.Step();
   return way() >= kUp_m;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // No seam is felt on real maps: each robot drives its own plan on each for some minutes, over a
 // floor that pits outside the map cut into slabs, and heaves less than the stated bound. Slow.
+#include "run/episode/make_plan.h"
 #include "tests/physics/real_map.h"
 #include "validate/vertical_motion.h"
 
@@ -11,7 +12,7 @@ namespace {
 class Heave final : public EpisodeObserver {
  public:
   bool OnControl(const EpisodeView& now) override {
-    motion.Update(now.simulation.sample());
+    motion.Update(now.sample);
     return true;
   }
   VerticalMotion motion{1};

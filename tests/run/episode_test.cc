@@ -96,7 +96,7 @@ TEST_F(EpisodeTest, AnInterruptedEpisodeKeepsWhatWasDriven) {
 class Vandal : public EpisodeObserver {
  public:
   bool OnControl(const EpisodeView& now) override {
-    if (++count_ == 20) now.simulation.data()->qvel[0] = 1e12;
+    if (++count_ == 20) now.simulation->data()->qvel[0] = 1e12;
     return true;
   }
 

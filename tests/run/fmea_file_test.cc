@@ -10,6 +10,7 @@
 #include "base/file_output.h"
 #include "base/input_file.h"
 #include "planners/risk/risk_meter.h"
+#include "run/episode/make_plan.h"
 #include "run/episode/records.h"
 #include "tests/planners/risk_floors.h"
 #include "tests/run/scenario_text.h"

@@ -172,7 +172,7 @@ class Tumbler : public EpisodeObserver {
   bool OnControl(const EpisodeView& now) override {
     if (done_ || !when_(now)) return true;
     done_ = true;
-    mjtNum* q = now.simulation.data()->qpos;
+    mjtNum* q = now.simulation->data()->qpos;
     q[2] += 0.5;
     q[3] = q[5] = q[6] = 0;
     q[4] = 1;
@@ -186,7 +186,7 @@ class Tumbler : public EpisodeObserver {
 };
 
 TEST_P(EachRobot, ARobotOnItsBackIsTurnedUpright) {
-  Tumbler tumbler([](const EpisodeView& now) { return now.simulation.sample().t_s > 2; });
+  Tumbler tumbler([](const EpisodeView& now) { return now.sample.t_s > 2; });
   const EpisodeRecord dut =
       Drive(Read(RoomScenario("", kAssist), {{"robot", GetParam()}}), &tumbler);
   ASSERT_THAT(dut.interventions, SizeIs(1));
@@ -220,7 +220,7 @@ class Witness : public Detector {
 
 // Whatever happens to a robot that waits is no failure of its own.
 TEST_F(AssistTest, NoDetectorIsAskedInBetweenAndAllStartAfresh) {
-  Tumbler tumbler([](const EpisodeView& now) { return now.simulation.sample().t_s > 25; });
+  Tumbler tumbler([](const EpisodeView& now) { return now.sample.t_s > 25; });
   Scenario scenario = Read(RoomScenario(Barrier(3), kAssist));
   Asked asked;
   scenario.detectors.push_back(std::make_unique<Witness>(asked));
@@ -340,7 +340,7 @@ class CountAllocations : public EpisodeObserver {
  public:
   bool OnControl(const EpisodeView& now) override {
     const std::int64_t count = AllocationCount();
-    if (last_ >= 0 && count > last_) at_s_.push_back(now.simulation.sample().t_s);
+    if (last_ >= 0 && count > last_) at_s_.push_back(now.sample.t_s);
     last_ = AllocationCount();
     return true;
   }

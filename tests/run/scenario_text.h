@@ -9,6 +9,7 @@
 #include <string>
 
 #include "run/episode/episode.h"
+#include "run/episode/execute.h"
 
 namespace floorproof {
 
@@ -33,11 +34,9 @@ class ScenarioTest : public ::testing::Test {
     return ReadScenario(Save("scenario.yaml", text), overrides);
   }
   static EpisodeRecord Drive(Scenario scenario, EpisodeObserver* observer = nullptr) {
-    const PlanResult plan = MakePlan(scenario);
-    EXPECT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
-    const Scene scene =
-        BuildScene(scenario.site.map, scenario.robot, scenario.physics, scenario.start);
-    return RunEpisode(scenario, scene, plan, observer);
+    const Execution execution = Execute(scenario, observer);
+    EXPECT_EQ(execution.plan.status, PlanStatus::kSuccess) << execution.plan.message;
+    return execution.record;
   }
 
   std::filesystem::path folder_;

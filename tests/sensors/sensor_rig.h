@@ -69,12 +69,12 @@ class SensorRig {
   }
   // The sensor that it carries, in another episode.
   void Start(std::uint64_t seed = 1) {
-    sensor_->Start({scene_, map_, robot_.spec, kControl_s}, sim_.data(), sim_.sample(),
+    sensor_->Start({scene_, map_, robot_.spec, kControl_s}, sim_.data(), sim_.truth(),
                    Stream(seed, 0, "noise"), sensed_);
   }
   const Observation& Sense() {
-    sensed_.t_s = sim_.sample().t_s;
-    sensor_->Sense(sim_.data(), sim_.sample(), sensed_);
+    sensed_.t_s = sim_.truth().t_s;
+    sensor_->Sense(sim_.data(), sim_.truth(), sensed_);
     return sensed_;
   }
   // One control period at this twist.
@@ -87,11 +87,11 @@ class SensorRig {
   // One physics step more, after which it does not sense.
   void StepOn() {
     EXPECT_TRUE(sim_.Step());
-    sensor_->OnStep(sim_.sample());
+    sensor_->OnStep(sim_.truth());
   }
   void Put(const Pose2& X_WB) { sim_.Reset(X_WB); }
 
-  const Sample& truth() { return sim_.sample(); }
+  const Truth& truth() { return sim_.truth(); }
   const Scene& scene() const { return scene_; }
   const RobotSpec& robot() const { return robot_.spec; }
   Simulation& sim() { return sim_; }

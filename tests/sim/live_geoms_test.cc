@@ -125,8 +125,8 @@ TEST_P(LiveGeomsOf, BumpIntoTheSameWallsAsTheWholeScene) {
     if (i % 400 == 0)
       dut.Command({draw.Uniform(-0.4, 0.4), draw.Uniform(-0.3, 0.3), draw.Uniform(-0.6, 0.6)});
     ASSERT_TRUE(dut.Step()) << "step " << i;
-    way_m += (dut.sim.sample().p_WB.head<2>() - last).norm();
-    last = dut.sim.sample().p_WB.head<2>();
+    way_m += (dut.sim.truth().p_WB.head<2>() - last).norm();
+    last = dut.sim.truth().p_WB.head<2>();
   }
   EXPECT_GT(way_m, 1) << "it chose anew on the way";
   EXPECT_GT(dut.touched_walls, 100);
@@ -140,7 +140,7 @@ TEST_P(LiveGeomsOf, CrossTheSamePlatesAsTheWholeScene) {
     if (i % 400 == 0)
       dut.Command({draw.Uniform(0.1, 0.4), draw.Uniform(-0.2, 0.2), draw.Uniform(-0.6, 0.6)});
     ASSERT_TRUE(dut.Step()) << "step " << i;
-    crossed += dut.sim.sample().near_hazard >= 0;
+    crossed += dut.sim.truth().near_hazard >= 0;
   }
   EXPECT_LE(dut.sim.model()->npair, dut.scene.model->npair / 10);
   EXPECT_GT(crossed, 100) << "and they were felt";

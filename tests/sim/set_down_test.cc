@@ -66,7 +66,7 @@ class SetDown : public ::testing::TestWithParam<const char*> {
       q[3] = q[5] = q[6] = 0;
       q[4] = 1;
       Drive({0.25, 0, 0}, 1);
-      ASSERT_GT(sim->sample().tilt_rad, 1);
+      ASSERT_GT(sim->truth().tilt_rad, 1);
     }
 
     RobotModel robot;
@@ -85,7 +85,7 @@ TEST_P(SetDown, StandsAsAtAStart) {
   dut.Fall();
   dut.sim->SetDown(kThere);
   fresh.sim->Reset(kThere);
-  const Sample &is = dut.sim->sample(), &should = fresh.sim->sample();
+  const Truth &is = dut.sim->truth(), &should = fresh.sim->truth();
   EXPECT_LT((is.p_WB - should.p_WB).norm(), 1e-5);
   EXPECT_NEAR(is.yaw_rad, kThere.yaw_rad, 1e-9);
   EXPECT_NEAR(is.tilt_rad, should.tilt_rad, 1e-5);
@@ -96,23 +96,23 @@ TEST_P(SetDown, StandsAsAtAStart) {
   for (int i = 0; i < dut.sim->model()->nu; ++i) EXPECT_EQ(dut.sim->data()->ctrl[i], 0);
   // And it stays there.
   dut.Drive({}, 1);
-  EXPECT_LT((dut.sim->sample().p_WB - should.p_WB).norm(), 1e-3);
+  EXPECT_LT((dut.sim->truth().p_WB - should.p_WB).norm(), 1e-3);
 }
 
 TEST_P(SetDown, TimeBatteryAndWheelsGoOn) {
   Rig dut(GetParam());
   dut.Fall();
-  const double t_s = dut.sim->sample().t_s, left = *dut.sim->battery().left();
+  const double t_s = dut.sim->truth().t_s, left = *dut.sim->battery().left();
   const std::vector<double> turned_rad = dut.Turned();
   ASSERT_LT(left, 1);
   ASSERT_GT(std::abs(turned_rad[0]), 1);
   dut.sim->SetDown(kThere);
-  EXPECT_EQ(dut.sim->sample().t_s, t_s);
+  EXPECT_EQ(dut.sim->truth().t_s, t_s);
   EXPECT_EQ(*dut.sim->battery().left(), left);
   for (std::size_t i = 0; i < turned_rad.size(); ++i)
     EXPECT_NEAR(dut.Turned()[i], turned_rad[i], 1e-3) << "wheel " << i;
   dut.Drive({}, 1);
-  EXPECT_NEAR(dut.sim->sample().t_s, t_s + 1, 1e-9);
+  EXPECT_NEAR(dut.sim->truth().t_s, t_s + 1, 1e-9);
   EXPECT_LT(*dut.sim->battery().left(), left);
 }
 
@@ -123,9 +123,9 @@ TEST_P(SetDown, MeetsTheWallsThatAreThere) {
   dut.Drive({0.25, 0, 0}, 1);
   dut.sim->SetDown(kThere);  // 0.75 m before a pillar's face
   dut.Drive({0.25, 0, 0}, 6);
-  EXPECT_GT(dut.sim->sample().num_contacts, 0);
-  EXPECT_LT(dut.sim->sample().p_WB.x(), 16);
-  EXPECT_GT(dut.sim->sample().p_WB.x(), kThere.x_m + 0.2);
+  EXPECT_GT(dut.sim->truth().num_contacts, 0);
+  EXPECT_LT(dut.sim->truth().p_WB.x(), 16);
+  EXPECT_GT(dut.sim->truth().p_WB.x(), kThere.x_m + 0.2);
 }
 
 }  // namespace

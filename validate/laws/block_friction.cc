@@ -40,8 +40,8 @@ Slide LetGo(double mu, double slope_rad, const WrongModel& wrong) {
   const Vec3 down_W(-std::cos(slope_rad), 0, -std::sin(slope_rad));
   const Vec3 start_W(kFoot_m + kRun_m / 2, 0, kRun_m / 2 * std::tan(slope_rad));
   rig.SetBase(start_W, q_WB, Vec3::Zero());
-  while (rig.sample().t_s < kTime_s - 1e-9) rig.Step();
-  return {(rig.sample().p_WB - start_W).dot(down_W), rig.sample().v_WB_W.dot(down_W)};
+  while (rig.truth().t_s < kTime_s - 1e-9) rig.Step();
+  return {(rig.truth().p_WB - start_W).dot(down_W), rig.truth().v_WB_W.dot(down_W)};
 }
 
 class BlockFriction final : public Law {

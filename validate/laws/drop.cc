@@ -37,13 +37,13 @@ class Drop final : public Law {
         rig.SetBase({0, 0, height_m}, Eigen::Quaterniond::Identity(), Vec3::Zero());
         double v_mps = 0;
         rig.Step();
-        while (rig.sample().wheel_contacts == 0) {
-          v_mps = -rig.sample().v_WB_W.z();
+        while (rig.truth().wheel_contacts == 0) {
+          v_mps = -rig.truth().v_WB_W.z();
           rig.Step();
         }
         const double way_m = height_m - CasterTravel(rig.sim().model());
         const std::string law = fmt::format("drop/{}/{}mm", robot, std::lround(height_m * 1000));
-        rows.push_back({law + "/time", std::sqrt(2 * way_m / kGravity_mps2), rig.sample().t_s,
+        rows.push_back({law + "/time", std::sqrt(2 * way_m / kGravity_mps2), rig.truth().t_s,
                         1.5 * step_s, "s"});
         rows.push_back({law + "/speed", std::sqrt(2 * kGravity_mps2 * way_m), v_mps,
                         1.5 * step_s * kGravity_mps2, "m/s"});

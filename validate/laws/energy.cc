@@ -33,7 +33,7 @@ constexpr double kSpeed_mps = 0.2;
 constexpr double kSlope_rad = 5 * kPi / 180;
 
 double Weight(const RobotSpec& robot) { return robot.mass_kg * kGravity_mps2; }
-double MotorsPower(const Rig& rig) { return rig.sample().power_w - rig.robot().hotel_load_w; }
+double MotorsPower(const Rig& rig) { return rig.truth().power_w - rig.robot().hotel_load_w; }
 
 // Friction of casters, which slide on the floor: by their springs' force and their own weight.
 double CasterDrag(const mjModel* m) {
@@ -98,7 +98,7 @@ class Account {
   double kinetic_j() const { return Kinetic() - kinetic_j_; }
 
  private:
-  const mjModel* Model() const { return rig_.scene().model.get(); }
+  const mjModel* Model() const { return rig_.sim().model(); }
   double Speed(int dof) const {
     return (before_[static_cast<std::size_t>(dof)] + rig_.data()->qvel[dof]) / 2;
   }
@@ -156,9 +156,9 @@ class Energy final : public Law {
     rig.SetGravity({-std::sin(slope_rad), 0, -std::cos(slope_rad)});
     rig.Run({kSpeed_mps, 0, 0}, kSteady_s);
     Account account(rig, truth);
-    const double start_s = rig.sample().t_s;
-    while (rig.sample().t_s < start_s + kDrive_s) account.Step();
-    const double time_s = rig.sample().t_s - start_s;
+    const double start_s = rig.truth().t_s;
+    while (rig.truth().t_s < start_s + kDrive_s) account.Step();
+    const double time_s = rig.truth().t_s - start_s;
     const auto row = [&](const char* what, double expected_w, double measured_j) {
       rows.push_back({"energy/" + truth.robot().name + "/" + name + "/" + what, expected_w,
                       measured_j / time_s, kSteadyShare * expected_w, "W"});
@@ -177,8 +177,8 @@ class Energy final : public Law {
     options.physics.timestep_s = kFine_s;
     Rig rig(robot.name, std::move(options));
     Account account(rig, truth);
-    while (rig.sample().t_s < kDrive_s) {
-      rig.Command({kSpeed_mps * std::min(1.0, rig.sample().t_s / kRamp_s), 0, 0});
+    while (rig.truth().t_s < kDrive_s) {
+      rig.Command({kSpeed_mps * std::min(1.0, rig.truth().t_s / kRamp_s), 0, 0});
       account.Step();
     }
     const mjModel* m = truth.scene().model.get();
@@ -205,8 +205,8 @@ class Energy final : public Law {
     Rig rig(truth.robot().name, std::move(options));
     rig.Run({kSpeed_mps, 0, 0}, 0.5);
     Account account(rig, truth);
-    const double start_s = rig.sample().t_s;
-    while (rig.sample().t_s < start_s + kDrive_s) account.Step();
+    const double start_s = rig.truth().t_s;
+    while (rig.truth().t_s < start_s + kDrive_s) account.Step();
     const double potential_j = Weight(truth.robot()) * height_m;
     rows.push_back({"energy/" + truth.robot().name + "/step/potential", potential_j,
                     account.left_j() - account.kinetic_j(), kStepShare * potential_j, "J"});

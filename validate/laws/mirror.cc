@@ -29,8 +29,8 @@ class Mirror final : public Law {
 
  private:
   // `side`: 1 left, -1 right.
-  static Sample Drive(const char* robot, const BodyTwist& twist, double plank_m, double side,
-                      const WrongModel& wrong) {
+  static Truth Drive(const char* robot, const BodyTwist& twist, double plank_m, double side,
+                     const WrongModel& wrong) {
     RigOptions options{.wrong = wrong};
     if (plank_m > 0) {
       constexpr double kWide_m = 2;
@@ -41,13 +41,13 @@ class Mirror final : public Law {
     }
     Rig rig(robot, std::move(options));
     rig.Run({twist.vx_mps, side * twist.vy_mps, side * twist.wz_radps}, 5);
-    return rig.sample();
+    return rig.truth();
   }
 
   static void Row(const std::string& name, const char* robot, const BodyTwist& twist,
                   double plank_m, const WrongModel& wrong, std::vector<LawRow>& rows) {
-    const Sample left = Drive(robot, twist, plank_m, 1, {});
-    const Sample right = Drive(robot, twist, plank_m, -1, wrong);
+    const Truth left = Drive(robot, twist, plank_m, 1, {});
+    const Truth right = Drive(robot, twist, plank_m, -1, wrong);
     const auto row = [&](const char* what, double difference, double tolerance, const char* unit) {
       rows.push_back({"mirror/" + name + "/" + what, 0, difference, tolerance, unit});
     };

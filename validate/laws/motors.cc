@@ -57,7 +57,7 @@ class Bench {
     constexpr double kHeld = 100;  // kg and kg m^2
     rig_.SetGravity(Vec3::Zero());
     rig_.SetBase(Vec3::UnitZ(), Eigen::Quaterniond::Identity(), Vec3::Zero());
-    mjModel* m = rig_.scene().model.get();
+    mjModel* m = rig_.sim().model();
     std::fill_n(m->dof_armature + m->body_dofadr[rig_.scene().base_body], 6, kHeld);
   }
   double wheels() const { return static_cast<double>(rig_.robot().wheels.size()); }
@@ -66,7 +66,7 @@ class Bench {
   // Asks every driver for a speed under a load until nothing changes.
   void Run(double command_radps, double load_nm) {
     constexpr int kSteps = 1000;
-    const mjModel* m = rig_.scene().model.get();
+    const mjModel* m = rig_.sim().model();
     for (int a = 0; a < m->nu; ++a) rig_.data()->qfrc_applied[Dof(a)] = -load_nm;
     rig_.CommandWheels(command_radps);
     for (int k = 0; k < kSteps; ++k) rig_.Step();
@@ -74,18 +74,18 @@ class Bench {
   // Holds every wheel still, by its inertia.
   void Block() {
     constexpr double kBlocked_kgm2 = 1000;
-    mjModel* m = rig_.scene().model.get();
+    mjModel* m = rig_.sim().model();
     for (int a = 0; a < m->nu; ++a) m->dof_armature[Dof(a)] = kBlocked_kgm2;
     rig_.SetBase(Vec3::UnitZ(), Eigen::Quaterniond::Identity(), Vec3::Zero());
     for (int a = 0; a < m->nu; ++a) rig_.data()->qvel[Dof(a)] = 0;
   }
   double speed_radps() { return rig_.data()->qvel[Dof(0)]; }
   double torque_nm() { return rig_.data()->actuator_force[0]; }
-  double battery_a() const { return rig_.sample().battery_a; }
+  double battery_a() const { return rig_.truth().battery_a; }
 
  private:
-  int Dof(int actuator) const {
-    const mjModel* m = rig_.scene().model.get();
+  int Dof(int actuator) {
+    const mjModel* m = rig_.sim().model();
     return m->jnt_dofadr[m->actuator_trnid[2 * actuator]];
   }
   Rig rig_;

@@ -45,14 +45,14 @@ class Impacts {
     double came = 0;
     bool touched = false;
     for (int k = 0; k < kMaxSteps; ++k) {
-      const double before = -rig_.sample().v_WB_W[axis];
+      const double before = -rig_.truth().v_WB_W[axis];
       rig_.Step();
       const bool touches = rig_.data()->ncon > 0;
       if (touches && !touched) came = before;
       if (touched && !touches) break;
       touched = touched || touches;
     }
-    const double e = std::max(0.0, rig_.sample().v_WB_W[axis]) / came;
+    const double e = std::max(0.0, rig_.truth().v_WB_W[axis]) / came;
     sum_ += e;
     worst_ = std::max(worst_, std::abs(e - chosen_));
     ++n_;

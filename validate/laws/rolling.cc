@@ -38,12 +38,12 @@ class Rolling final : public Law {
     const int num_wheels = static_cast<int>(rig.robot().wheels.size());
     double omega_radps = 0, v_mps = 0;
     int n = 0;
-    while (rig.sample().t_s < kEnd_s) {
+    while (rig.truth().t_s < kEnd_s) {
       rig.Step();
       for (int a = 0; a < num_wheels; ++a)
         omega_radps +=
             std::abs(rig.data()->qvel[m->jnt_dofadr[m->actuator_trnid[2 * a]]]) / num_wheels;
-      v_mps += rig.sample().v_WB_W.head<2>().norm();
+      v_mps += rig.truth().v_WB_W.head<2>().norm();
       ++n;
     }
     const double expected_mps = omega_radps / n * rig.robot().wheels.front().radius_m;

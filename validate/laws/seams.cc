@@ -41,9 +41,9 @@ class Seams final : public Law {
     Rig rig(robot, std::move(options));
     rig.Run(twist, kFrom_s);
     VerticalMotion motion;
-    while (rig.sample().t_s < kTo_s) {
+    while (rig.truth().t_s < kTo_s) {
       rig.Step();
-      motion.Update(rig.sample());
+      motion.Update(rig.truth());
     }
     const std::string law = "seams/" + robot + "/" + way;
     rows.push_back({law + "/acceleration", 0, motion.accel_mps2(), kMaxHeave_mps2, "m/s^2"});

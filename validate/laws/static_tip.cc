@@ -102,8 +102,8 @@ double GoesOver(const char* robot, const Edge& edge, const WrongModel& wrong) {
                     -std::cos(tilt_rad)});
     rig.Step();
     if (tilt_rad < near_rad + kNear_rad / 10)
-      stood_rad = rig.sample().tilt_rad;
-    else if (rig.sample().tilt_rad > stood_rad + kOver_rad)
+      stood_rad = rig.truth().tilt_rad;
+    else if (rig.truth().tilt_rad > stood_rad + kOver_rad)
       break;
   }
   return tilt_rad;

@@ -30,16 +30,16 @@ constexpr double kShare = 0.01, kNodding = 0.03, kCrept_m = 0.0003;
 double Slide(Rig& rig, double axle_m, double v_mps, double way_rad) {
   rig.Brake();
   const Vec3 along_W(std::cos(way_rad), std::sin(way_rad), 0);
-  rig.SetBase({0, 0, rig.sample().p_WB.z()}, Eigen::Quaterniond::Identity(), v_mps * along_W);
+  rig.SetBase({0, 0, rig.truth().p_WB.z()}, Eigen::Quaterniond::Identity(), v_mps * along_W);
   constexpr double kStands_mps = 0.003, kMax_s = 10;
   double way_m = 0, last_m = 0;
   do {
     rig.Step();
-    const Sample& sample = rig.sample();
+    const Truth& sample = rig.truth();
     last_m = way_m;
     way_m = (sample.p_WB + axle_m * Vec3(std::sin(sample.pitch_rad), 0, 0)).dot(along_W);
   } while (way_m - last_m > kStands_mps * rig.sim().model()->opt.timestep &&
-           rig.sample().t_s < kMax_s);
+           rig.truth().t_s < kMax_s);
   return way_m;
 }
 

@@ -83,7 +83,7 @@ class Timestep final : public Law {
     const auto drive = [&](const PhysicsParams& physics, const WrongModel& model) {
       Rig rig(robot.name, {.physics = physics, .wrong = model});
       rig.Run(robot.curve, 4);
-      return rig.sample().X_WB();
+      return rig.truth().X_WB();
     };
     const Pose2 fine = drive(kReference, {});
     for (const auto& physics : Others()) {

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is other than built while an episode runs: a fault's effect, or a model made wrong on
+// purpose. Plain data; the simulation and the sensors apply it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "env/geometry/geometry.h"
+
+namespace floorproof {
+
+struct Alterations {
+  // By driven wheel, RobotSpec's order; empty: as built.
+  // Share of its torque that the motor gives; 0: it turns freely.
+  std::vector<double> wheel_torque = {};
+  // Of Mecanum wheels. 0: the rollers run freely; 1: they are blocked.
+  std::vector<double> roller_drag = {};
+
+  // Factors on what was built.
+  double floor_friction = 1;    // of the floor, and of hazards that state none
+  double motor_resistance = 1;  // of every motor's windings
+  double battery_voltage = 1;
+  double hotel_load = 1;  // what all but the motors draws
+  double gravity = 1;
+
+  double payload_kg = 0;
+  Vec3 payload_p_B = Vec3::Zero();  // its centre, in the base's frame
+
+  std::vector<std::string> silent_sensors = {};  // by name: they tell nothing
+
+  bool operator==(const Alterations&) const = default;
+};
+
+}  // namespace floorproof

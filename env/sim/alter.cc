@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Alterations of the simulated model. Each value follows from the one that was built, in the
+// scene's model, so that altering twice is altering once.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+#include "env/sim/simulation.h"
+
+namespace floorproof {
+namespace {
+
+constexpr double kOpenCircuit_ohm = 1e12;  // of a motor that gives nothing
+
+void RequireOneEach(const std::vector<double>& values, std::size_t wheels, const char* of) {
+  if (!values.empty() && values.size() != wheels)
+    throw InternalError(std::string("alterations: ") + of + " must hold a value a driven wheel");
+}
+
+}  // namespace
+
+void Simulation::Alter(const Alterations& alterations) {
+  RequireOneEach(alterations.wheel_torque, robot_.wheels.size(), "wheel_torque");
+  RequireOneEach(alterations.roller_drag, robot_.wheels.size(), "roller_drag");
+  const bool has_rollers =
+      std::ranges::any_of(robot_.wheels, [](const WheelSpec& w) { return w.roller_radius_m > 0; });
+  if (!alterations.roller_drag.empty() && !has_rollers)
+    throw InternalError("alterations: roller_drag: the robot's wheels have no rollers");
+  const bool payload_changes = alterations.payload_kg != altered_.payload_kg ||
+                               alterations.payload_p_B != altered_.payload_p_B;
+  voltage_changes_ |= alterations.battery_voltage != 1;
+  altered_ = alterations;
+  AlterMotors();
+  AlterFriction();
+  if (payload_changes) AlterPayload();
+  for (int i = 0; i < 3; ++i)
+    model()->opt.gravity[i] = scene_.model->opt.gravity[i] * altered_.gravity;
+  SetDriverVoltages();
+  live_.Refresh();
+}
+
+// A motor that gives a share of its torque at any speed and voltage is one of higher resistance,
+// behind a driver of lower gain and limit.
+void Simulation::AlterMotors() {
+  const mjModel* built = scene_.model.get();
+  for (int a = 0; a < own_->nu; ++a) {
+    const auto wheel = static_cast<std::size_t>(a);
+    const bool weak = wheel < altered_.wheel_torque.size();
+    const double share = weak ? altered_.wheel_torque[wheel] : 1;
+    const mjtNum* was = built->actuator_gainprm + mjNGAIN * a;
+    mjtNum* gain = own_->actuator_gainprm + mjNGAIN * a;
+    constexpr int kResistance = 0, kVelocity = 6;
+    gain[kResistance] =
+        share > 0 ? was[kResistance] * altered_.motor_resistance / share : kOpenCircuit_ohm;
+    gain[kVelocity] = was[kVelocity] * share;
+    for (int i = 0; i < 2; ++i)
+      own_->actuator_forcerange[2 * a + i] = built->actuator_forcerange[2 * a + i] * share;
+  }
+}
+
+void Simulation::AlterFriction() {
+  const mjModel* built = scene_.model.get();
+  // Whether it has the floor's friction: walls have their own, and hazards may.
+  const auto is_floor = [&](int geom) {
+    const GeomRole& role = scene_.roles[static_cast<std::size_t>(geom)];
+    if (role.kind != GeomRole::Kind::kFloor && role.kind != GeomRole::Kind::kHazard) return false;
+    return role.hazard < 0 ||
+           !map_.hazards[static_cast<std::size_t>(role.hazard)].material.friction.has_value();
+  };
+  for (int g = 0; g < own_->ngeom; ++g)
+    if (is_floor(g))
+      own_->geom_friction[3 * g] = built->geom_friction[3 * g] * altered_.floor_friction;
+  // The driven wheel that a geom belongs to: itself, or a roller on it.
+  const auto wheel_of = [&](int geom) {
+    for (int body = own_->geom_bodyid[geom]; body > 0; body = own_->body_parentid[body])
+      if (const auto at = std::ranges::find(wheel_bodies_, body); at != wheel_bodies_.end())
+        return static_cast<int>(at - wheel_bodies_.begin());
+    return -1;
+  };
+  for (int p = 0; p < own_->npair; ++p) {
+    const std::array geoms = {own_->pair_geom1[p], own_->pair_geom2[p]};
+    const mjtNum* was = built->pair_friction + 5 * p;
+    mjtNum* friction = own_->pair_friction + 5 * p;
+    const bool floor = std::ranges::any_of(geoms, is_floor);
+    for (int i = 0; i < 2; ++i) friction[i] = was[i] * (floor ? altered_.floor_friction : 1);
+    if (altered_.roller_drag.empty()) continue;
+    for (const int geom : geoms)
+      if (const int wheel = wheel_of(geom); wheel >= 0)
+        friction[1] +=
+            altered_.roller_drag[static_cast<std::size_t>(wheel)] * (friction[0] - friction[1]);
+  }
+}
+
+// A point mass that rides on the base: mass, centre and inertia of both together.
+void Simulation::AlterPayload() {
+  using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  const mjModel* built = scene_.model.get();
+  const int base = scene_.base_body;
+  const double m1 = built->body_mass[base], m2 = altered_.payload_kg;
+  const Vec3 p1(built->body_ipos + 3 * base), p2 = altered_.payload_p_B;
+  const Vec3 p = (m1 * p1 + m2 * p2) / (m1 + m2);
+  const auto of_point = [](double mass, const Vec3& r) -> Matrix {
+    return mass * (r.squaredNorm() * Matrix::Identity() - r * r.transpose());
+  };
+  Matrix R;
+  mju_quat2Mat(R.data(), built->body_iquat + 4 * base);
+  const Vec3 principal(built->body_inertia + 3 * base);
+  const Matrix inertia =
+      R * principal.asDiagonal() * R.transpose() + of_point(m1, p1 - p) + of_point(m2, p2 - p);
+  mjtNum axes[9];
+  mju_eig3(own_->body_inertia + 3 * base, axes, own_->body_iquat + 4 * base, inertia.data());
+  std::copy_n(p.data(), 3, own_->body_ipos + 3 * base);
+  own_->body_mass[base] = m1 + m2;
+  if (m2 == 0) {  // as built, to the bit
+    std::copy_n(built->body_inertia + 3 * base, 3, own_->body_inertia + 3 * base);
+    std::copy_n(built->body_iquat + 4 * base, 4, own_->body_iquat + 4 * base);
+    std::copy_n(p1.data(), 3, own_->body_ipos + 3 * base);
+    own_->body_mass[base] = m1;
+  }
+  const DataPtr scratch = MakeData(own_.get());
+  mj_setConst(own_.get(), scratch.get());  // what the engine derives from masses
+  live_.model()->stat = own_->stat;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/sim/physics_plant.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace floorproof {
+
+PhysicsPlant::PhysicsPlant(const Scene& scene, const HazardMap& map, const RobotSpec& robot,
+                           const std::vector<NamedSensor>& sensors, double control_s,
+                           StreamOf stream_of)
+    : scene_(scene),
+      map_(map),
+      robot_(robot),
+      sensors_(sensors),
+      control_s_(control_s),
+      stream_of_(std::move(stream_of)),
+      simulation_(scene, map, robot),
+      silent_(sensors.size(), 0) {}
+
+void PhysicsPlant::Reset(const Pose2& X_WB, Observation& sensed) {
+  simulation_.Reset(X_WB);
+  for (const auto& [name, sensor, implied] : sensors_)
+    sensor->Start({scene_, map_, robot_, control_s_}, simulation_.data(), truth(),
+                  stream_of_("sensors." + name), sensed);
+}
+
+void PhysicsPlant::Apply(const Actuation& actuation) {
+  simulation_.SetWheelSpeeds(actuation.wheel_radps);
+  simulation_.SetHingeSpeeds(actuation.hinges);
+}
+
+void PhysicsPlant::Sense(Observation& sensed) {
+  sensed.t_s = truth().t_s;
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {
+    sensors_[i].sensor->Sense(simulation_.data(), truth(), sensed);
+    if (silent_[i]) sensors_[i].sensor->Silence(sensed);
+  }
+}
+
+bool PhysicsPlant::Step() {
+  const bool good = simulation_.Step();
+  if (good)
+    for (const NamedSensor& sensor : sensors_) sensor.sensor->OnStep(truth());
+  return good;
+}
+
+void PhysicsPlant::Alter(const Alterations& alterations) {
+  for (const std::string& name : alterations.silent_sensors)
+    if (std::ranges::find(sensors_, name, &NamedSensor::name) == sensors_.end())
+      throw InternalError("the robot carries no sensor " + name + " to silence");
+  for (std::size_t i = 0; i < sensors_.size(); ++i)
+    silent_[i] = std::ranges::find(alterations.silent_sensors, sensors_[i].name) !=
+                 alterations.silent_sensors.end();
+  simulation_.Alter(alterations);
+}
+
+}  // namespace floorproof

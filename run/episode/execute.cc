@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/episode/execute.h"
+
+namespace floorproof {
+
+Execution Execute(Scenario& scenario, EpisodeObserver* observer) {
+  Execution out;
+  out.plan = MakePlan(scenario);
+  if (observer) observer->OnPlan(out.plan);
+  out.record = ExecutePlan(scenario, out.plan, out.scene, observer);
+  return out;
+}
+
+EpisodeRecord ExecutePlan(Scenario& s, const PlanResult& plan, std::optional<Scene>& scene,
+                          EpisodeObserver* observer) {
+  EpisodeRecord record;
+  if (plan.status != PlanStatus::kSuccess) {
+    record.outcome = Outcome::kNotPlanned;
+    record.message = plan.message;
+    return record;
+  }
+  if (s.episode.drive == "none") {
+    record.outcome = Outcome::kSuccess;
+    return record;
+  }
+  scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
+  if (observer) observer->OnScene(*scene);
+  return RunEpisode(s, *scene, plan, observer);
+}
+
+}  // namespace floorproof

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plan that an episode drives.
+#pragma once
+
+#include "planners/planner.h"
+#include "run/scenario/scenario.h"
+
+namespace floorproof {
+
+// The plan of the scenario: its planner's, or the user's file. The planner gets what is known.
+PlanResult MakePlan(const Scenario& scenario);
+
+// What the plan takes at its own speeds, without stopping to turn, s.
+double PlanDuration(const Path& path, double cruise_mps);
+
+}  // namespace floorproof

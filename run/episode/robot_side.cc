@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/episode/robot_side.h"
+
+namespace floorproof {
+
+RobotSide::RobotSide(const RobotSpec& robot, const HazardMap& known, Navigator& navigator,
+                     const Parts& parts, double control_s)
+    : robot_(robot),
+      known_(known),
+      navigator_(navigator),
+      parts_(parts),
+      control_s_(control_s),
+      clearance_(ComputeClearance(known, robot.step_m)),
+      drive_(MakePlugin(Drives(), robot.drive, "drive")),
+      wheel_radps_(robot.wheels.size()) {
+  drive_->Configure(robot);
+  if (parts.mapper != nullptr) mapper_ = *parts.mapper;
+  if (parts.recovery != nullptr) recovery_.emplace();
+}
+
+void RobotSide::Start(const Pose2& start, const Stream& draws) {
+  parts_.estimator.Start({known_, robot_, start, draws});
+  if (mapper_) mapper_->Start(known_.frame, robot_);
+  if (recovery_) recovery_->Start(*parts_.recovery, robot_);
+  Follow();
+}
+
+const Actuation& RobotSide::Control(const Observation& sensed) {
+  Perceive(sensed);
+  const bool recovering = recovery_ && recovery_->Update(sensed, estimate_, control_s_, command_);
+  if (navigator_.Update({estimate_, known(), command_.segment, recovering && recovery_->ended()}))
+    Follow();
+  if (!recovering) command_ = parts_.tracker.Update(estimate_, sensed.t_s, control_s_);
+  return Actuate();
+}
+
+const Actuation& RobotSide::Stand(const Observation& sensed) {
+  Perceive(sensed);
+  command_.twist = {};
+  return Actuate();
+}
+
+void RobotSide::GoOnFrom(std::size_t waypoint) {
+  navigator_.GoOnFrom(waypoint);
+  if (recovery_) recovery_->Drop();
+  Follow();
+  Actuate();
+}
+
+void RobotSide::Perceive(const Observation& sensed) {
+  estimate_ = parts_.estimator.Update(sensed, control_s_);
+  if (mapper_) mapper_->Update(sensed, estimate_);
+}
+
+// A new path: what was commanded on the last one is over.
+void RobotSide::Follow() {
+  parts_.tracker.Start(navigator_.path(), robot_, &clearance_);
+  command_ = {};
+}
+
+const Actuation& RobotSide::Actuate() {
+  actuation_.twist = command_.twist;
+  actuation_.hinges = command_.hinges;
+  drive_->ToWheels(actuation_.twist, actuation_.hinges, wheel_radps_);
+  actuation_.wheel_radps = wheel_radps_;
+  return actuation_;
+}
+
+}  // namespace floorproof

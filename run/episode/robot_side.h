@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The robot's own side of an episode: from what its sensors told to what it commands. It knows the
+// map that it was given and the one that it draws, never the true one, the scenario or the physics.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "controllers/drive.h"
+#include "controllers/estimator.h"
+#include "controllers/mapper.h"
+#include "controllers/navigator.h"
+#include "controllers/recovery.h"
+#include "controllers/tracker.h"
+#include "env/core/observation.h"
+#include "env/sim/plant.h"
+
+namespace floorproof {
+
+class RobotSide {
+ public:
+  struct Parts {
+    Tracker& tracker;
+    Estimator& estimator;
+    const Mapper* mapper = nullptr;            // as configured; nullptr: it draws no map
+    const RecoveryParams* recovery = nullptr;  // nullptr: it drives blindly
+  };
+
+  // All outlive it. `known`: the map that the robot has.
+  RobotSide(const RobotSpec& robot, const HazardMap& known, Navigator& navigator,
+            const Parts& parts, double control_s);
+
+  // Before the first period. `start`: where it stands, which its estimator may know badly; `draws`:
+  // the estimator's.
+  void Start(const Pose2& start, const Stream& draws);
+  // One control period: estimate, map, navigate, track or recover. What is returned holds until the
+  // next call. Allocates only where the path changes.
+  const Actuation& Control(const Observation& sensed);
+  // The same of a robot that waits for help: its senses go on, its motors hold still.
+  const Actuation& Stand(const Observation& sensed);
+  // It was set down at this waypoint of its path: whatever it was about is over. Its estimator is
+  // not told. Allocates.
+  void GoOnFrom(std::size_t waypoint);
+
+  const Command& command() const { return command_; }
+  const Actuation& actuation() const { return actuation_; }  // the drive may have slowed hinges
+  const Path& path() const { return navigator_.path(); }
+  const Estimate& estimate() const { return estimate_; }
+  const ClearanceField& clearance() const { return clearance_; }  // of the known map
+  const KnownMap* known() const { return mapper_ ? &mapper_->map() : nullptr; }
+  int recoveries() const { return recovery_ ? recovery_->count() : 0; }
+
+ private:
+  void Perceive(const Observation& sensed);
+  void Follow();
+  const Actuation& Actuate();
+
+  const RobotSpec& robot_;
+  const HazardMap& known_;
+  Navigator& navigator_;
+  Parts parts_;
+  double control_s_;
+  ClearanceField clearance_;
+  std::unique_ptr<Drive> drive_;
+  std::optional<Mapper> mapper_;
+  std::optional<Recovery> recovery_;
+  Estimate estimate_;
+  Command command_;
+  std::vector<double> wheel_radps_;
+  Actuation actuation_;
+};
+
+}  // namespace floorproof

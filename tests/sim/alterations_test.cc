@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+// Alterations, each against the law that it changes, and against what must not notice.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "controllers/drive.h"
+#include "env/sim/physics_plant.h"
+
+namespace floorproof {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kControl_s = 0.02;
+
+HazardMap Floor() {
+  HazardMap map;
+  map.frame = {40, 40, 0.5, {-10, -10, 0}};
+  map.cells = Grid<CellState>(40, 40);
+  return map;
+}
+
+// Plates beside the way, so that there are more pairs than are kept live at once.
+HazardMap FloorWithPlates() {
+  HazardMap map = Floor();
+  for (int i = 0; i < 30; ++i) {
+    Hazard plate;
+    plate.id = "plate-" + std::to_string(i);
+    const Vec2 low(-6 + 0.4 * i, 1.5);
+    plate.solids = {{Solid::Kind::kPrism, Rectangle(low, low + Vec2(0.3, 0.3)), {}, 0, 0.004}};
+    map.hazards.push_back(std::move(plate));
+  }
+  return map;
+}
+
+class AlteredDrive {
+ public:
+  explicit AlteredDrive(const std::string& robot, HazardMap map = Floor())
+      : map_(std::move(map)),
+        robot_(ReadRobot(FindRobotFile(robot, {}))),
+        scene_(BuildScene(map_, robot_, {}, {})),
+        drive_(MakePlugin(Drives(), robot_.spec.drive, "drive")),
+        wheels_(robot_.spec.wheels.size()) {
+    drive_->Configure(robot_.spec);
+  }
+
+  // What it comes to at this twist.
+  Truth Run(const Alterations& alterations, const BodyTwist& twist, double t_s,
+            double altered_from_s = 0) {
+    Simulation sim(scene_, map_, robot_.spec);
+    sim.Reset({});
+    drive_->ToWheels(twist, wheels_);
+    sim.SetWheelSpeeds(wheels_);
+    bool altered = false;
+    most_torque_nm_ = 0;
+    while (sim.truth().t_s < t_s) {
+      if (!altered && sim.truth().t_s >= altered_from_s) {
+        sim.Alter(alterations);
+        altered = true;
+      }
+      EXPECT_TRUE(sim.Step());
+      for (int a = 0; a < static_cast<int>(wheels_.size()); ++a)
+        most_torque_nm_ =
+            std::max(most_torque_nm_, std::abs(MotorTorque(sim.model(), sim.data(), a)));
+    }
+    return sim.truth();
+  }
+  const RobotSpec& spec() const { return robot_.spec; }
+  const Scene& scene() const { return scene_; }
+  double most_torque_nm() const { return most_torque_nm_; }
+
+ private:
+  HazardMap map_;
+  RobotModel robot_;
+  Scene scene_;
+  std::unique_ptr<Drive> drive_;
+  std::vector<double> wheels_;
+  double most_torque_nm_ = 0;
+};
+
+class AlterationsOf : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Robots, AlterationsOf, ::testing::Values("beluga", "htetro"),
+                         [](const auto& robot) { return std::string(robot.param); });
+
+TEST_P(AlterationsOf, NoneIsAsBuiltToTheBit) {
+  AlteredDrive dut(GetParam());
+  const BodyTwist twist{0.1, 0, 0.2};
+  const Truth plain = dut.Run({}, twist, 2, 1e9), none = dut.Run({}, twist, 2);
+  EXPECT_EQ(plain.p_WB, none.p_WB);
+  EXPECT_EQ(plain.power_w, none.power_w);
+}
+
+TEST_P(AlterationsOf, AreTakenBack) {
+  AlteredDrive dut(GetParam());
+  HazardMap map = Floor();
+  Simulation sim(dut.scene(), map, dut.spec()), never(dut.scene(), map, dut.spec());
+  Alterations all{.wheel_torque = std::vector<double>(dut.spec().wheels.size(), 0.5),
+                  .floor_friction = 0.3,
+                  .battery_voltage = 0.7,
+                  .gravity = 2,
+                  .payload_kg = 5,
+                  .payload_p_B = {0.1, 0, 0.2}};
+  sim.Alter(all);
+  sim.Alter({});
+  sim.Reset({});
+  never.Reset({});
+  for (int i = 0; i < 200; ++i) {
+    ASSERT_TRUE(sim.Step());
+    ASSERT_TRUE(never.Step());
+  }
+  EXPECT_NEAR((sim.truth().p_WB - never.truth().p_WB).norm(), 0, 1e-9);
+}
+
+TEST_P(AlterationsOf, LeaveTheSharedSceneAsItWas) {
+  AlteredDrive dut(GetParam());
+  const BodyTwist twist{0.1, 0, 0};
+  const Truth before = dut.Run({}, twist, 1);
+  dut.Run({.floor_friction = 0.1, .gravity = 0.2, .payload_kg = 10}, twist, 1);
+  EXPECT_EQ(dut.Run({}, twist, 1).p_WB, before.p_WB);
+}
+
+TEST_P(AlterationsOf, SlipperyFloorIsLeftSlower) {
+  AlteredDrive dut(GetParam());
+  const BodyTwist ahead{0.3, 0, 0};
+  // While wheels spin, what pushes is mu m g, whatever the mass.
+  constexpr double kMu = 0.8 * 0.01, kEarly_s = 0.5;
+  const double least_m = dut.Run({.floor_friction = 0.01}, ahead, kEarly_s).p_WB.x();
+  EXPECT_GT(dut.Run({}, ahead, kEarly_s).p_WB.x(), 2 * least_m);
+  EXPECT_LT(least_m, 1.5 * kMu * 9.81 * kEarly_s * kEarly_s / 2);
+}
+
+TEST_P(AlterationsOf, StayWhenTheLivePairsAreChosenAnew) {
+  // Many plates: pairs are chosen anew as it drives past them.
+  AlteredDrive few(GetParam()), many(GetParam(), FloorWithPlates());
+  const Alterations ice{.floor_friction = 0.01};
+  const BodyTwist ahead{0.3, 0, 0};
+  const double plain_m = few.Run(ice, ahead, 6).p_WB.x();
+  EXPECT_NEAR(many.Run(ice, ahead, 6).p_WB.x(), plain_m, 0.02 * plain_m);
+  EXPECT_GT(many.Run({}, ahead, 6).p_WB.x(), 1.2 * plain_m);
+}
+
+TEST_P(AlterationsOf, AWeakMotorGivesItsShare) {
+  AlteredDrive dut(GetParam());
+  const BodyTwist ahead{dut.spec().max_speed_mps, 0, 0};
+  dut.Run({}, ahead, 0.2);
+  const double whole_nm = dut.most_torque_nm();
+  dut.Run({.wheel_torque = std::vector<double>(dut.spec().wheels.size(), 0.3)}, ahead, 0.2);
+  EXPECT_LT(dut.most_torque_nm(), 0.35 * whole_nm);
+  dut.Run({.wheel_torque = std::vector<double>(dut.spec().wheels.size(), 0.0)}, ahead, 0.2);
+  EXPECT_LT(dut.most_torque_nm(), 1e-6);
+}
+
+TEST_P(AlterationsOf, DeadMotorsOnOneSideTurnTheRobot) {
+  AlteredDrive dut(GetParam());
+  Alterations right_dead{.wheel_torque = std::vector<double>(dut.spec().wheels.size(), 1)};
+  for (std::size_t w = 0; w < dut.spec().wheels.size(); ++w)
+    if (dut.spec().wheels[w].p_BW.y() < 0) right_dead.wheel_torque[w] = 0;
+  const Truth whole = dut.Run({}, {0.1, 0, 0}, 3), dead = dut.Run(right_dead, {0.1, 0, 0}, 3, 0.5);
+  EXPECT_NEAR(whole.yaw_rad, 0, 0.02);
+  EXPECT_LT(dead.yaw_rad, -0.1) << "towards the dead side";
+}
+
+TEST_P(AlterationsOf, APayloadPressesTheFloorAndMovesTheCentreOfMass) {
+  AlteredDrive dut(GetParam());
+  const HazardMap map = Floor();
+  const auto mass_and_centre = [&](const Alterations& alterations) {
+    Simulation sim(dut.scene(), map, dut.spec());
+    sim.Alter(alterations);
+    sim.Reset({});
+    const int base = dut.scene().base_body;
+    return std::pair(sim.model()->body_subtreemass[base], Vec3(sim.data()->subtree_com + 3 * base));
+  };
+  constexpr double kLoad_kg = 4;
+  const Vec3 at_B(0.1, -0.05, 0.3);
+  const auto [mass_kg, p] = mass_and_centre({});
+  const auto [loaded_kg, p_loaded] = mass_and_centre({.payload_kg = kLoad_kg, .payload_p_B = at_B});
+  EXPECT_NEAR(loaded_kg, mass_kg + kLoad_kg, 1e-9);
+  EXPECT_NEAR(p_loaded.x(), (mass_kg * p.x() + kLoad_kg * at_B.x()) / loaded_kg, 2e-3);
+  EXPECT_NEAR(p_loaded.y(), (mass_kg * p.y() + kLoad_kg * at_B.y()) / loaded_kg, 2e-3);
+}
+
+TEST_P(AlterationsOf, AHungryComputerIsPaidFor) {
+  AlteredDrive dut(GetParam());
+  const double plain_w = dut.Run({}, {}, 0.5).power_w;
+  const double thrice_w = dut.Run({.hotel_load = 3}, {}, 0.5).power_w;
+  EXPECT_NEAR(thrice_w - plain_w, 2 * dut.spec().hotel_load_w, 0.05 * plain_w + 1e-3);
+}
+
+TEST(Alterations, BlockedRollersKeepAMecanumRobotFromGoingSideways) {
+  AlteredDrive dut("htetro");
+  const BodyTwist left{0, 0.1, 0};
+  const double free_m = dut.Run({}, left, 3).p_WB.y();
+  const double blocked_m =
+      dut.Run({.roller_drag = std::vector<double>(dut.spec().wheels.size(), 1)}, left, 3).p_WB.y();
+  EXPECT_GT(free_m, 0.25);
+  EXPECT_LT(std::abs(blocked_m), 0.2 * free_m);
+}
+
+TEST(Alterations, OfWhatTheRobotHasNotAreRefused) {
+  AlteredDrive dut("beluga");
+  const auto why = [&](const Alterations& alterations) -> std::string {
+    try {
+      dut.Run(alterations, {}, 0.01);
+    } catch (const InternalError& e) {
+      return e.what();
+    }
+    return "taken";
+  };
+  EXPECT_THAT(why({.wheel_torque = {1, 1, 1}}), HasSubstr("wheel_torque"));
+  EXPECT_THAT(why({.roller_drag = {1, 1}}), HasSubstr("no rollers"));
+}
+
+TEST(PhysicsPlant, ASilentSensorTellsNothingAndItsNoiseGoesOn) {
+  const HazardMap map = Floor();
+  const RobotModel robot = ReadRobot(FindRobotFile("beluga", {}));
+  const Scene scene = BuildScene(map, robot, {}, {});
+  std::vector<NamedSensor> sensors;
+  for (const char* name : {"encoders", "imu", "truth"})
+    sensors.push_back({name, MakePlugin(Sensors(), name, "sensor")});
+  const auto drive = [&](double silent_until_s) {
+    PhysicsPlant dut(scene, map, robot.spec, sensors, kControl_s,
+                     [](const std::string& name) { return Stream(7, 0, name); });
+    Observation sensed;
+    dut.Reset({}, sensed);
+    const std::vector<double> wheels(robot.spec.wheels.size(), 2.0);
+    bool silent = silent_until_s > 0;
+    if (silent) dut.Alter({.silent_sensors = {"encoders", "imu", "truth"}});
+    for (int k = 0; k < 100; ++k) {
+      if (silent && dut.truth().t_s >= silent_until_s) {
+        dut.Alter({});
+        silent = false;
+      }
+      dut.Sense(sensed);
+      if (silent) {
+        EXPECT_EQ(sensed.wheel_rad, std::vector<double>(wheels.size(), 0.0));
+        EXPECT_FALSE(sensed.has_imu);
+        EXPECT_FALSE(sensed.truth.has_value());
+      }
+      dut.Apply({.twist = {}, .wheel_radps = wheels, .hinges = {}});
+      for (int i = 0; i < 5; ++i) EXPECT_TRUE(dut.Step());
+    }
+    return sensed;
+  };
+  const Observation heard = drive(0), late = drive(1.0);
+  EXPECT_EQ(heard.gyro_radps, late.gyro_radps);
+  EXPECT_EQ(heard.wheel_rad, late.wheel_rad);
+  ASSERT_TRUE(late.truth.has_value());
+  EXPECT_EQ(heard.truth->X_WB.x_m, late.truth->X_WB.x_m);
+}
+
+}  // namespace
+}  // namespace floorproof
