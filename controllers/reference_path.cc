@@ -81,7 +81,9 @@ struct Kept {
 std::vector<Kept> KeepCorners(const Path& path, const ReferenceLimits& limits) {
   std::vector<Kept> kept = {{0, path[0].dwell_s, {path[0].shape}}};
   Cone cone(path[0].p_W, limits.straight_m);
+  std::size_t last = 0;  // that was kept, at a vertex of its own or not
   const auto keep = [&](std::size_t i) {
+    last = i;
     if ((path[i].p_W - path[kept.back().index].p_W).norm() < kSamePointM) {
       kept.back().dwell_s += path[i].dwell_s;
       kept.back().shapes.push_back(path[i].shape);
@@ -95,7 +97,7 @@ std::vector<Kept> KeepCorners(const Path& path, const ReferenceLimits& limits) {
         !limits.folds || path[i].shape.empty() || path[i].shape == path[i - 1].shape;
     const bool same_leg = same_shape && Speed(path[i], limits) == Speed(path[i - 1], limits) &&
                           SameYaw(HeldYaw(path[i], limits), HeldYaw(path[i - 1], limits));
-    if (i - 1 > kept.back().index && (!same_leg || !cone.Reaches(path[i].p_W))) keep(i - 1);
+    if (i - 1 > last && (!same_leg || !cone.Reaches(path[i].p_W))) keep(i - 1);
     cone.Add(path[i].p_W);
     if (path[i].dwell_s > 0 || i + 1 == path.size()) keep(i);
   }

@@ -86,6 +86,16 @@ TEST(ReferencePath, DwellsAtOnePlaceAddUp) {
   EXPECT_EQ(reference.vertices[1].dwell_s, 4);
 }
 
+TEST(ReferencePath, ADwellCountsOnceHoweverThePathGoesOn) {
+  Path path = MakePath({{0, 0}, {1, 0}, {1, 0}, {2, 0}});
+  path[1].dwell_s = 1;
+  path[2].dwell_s = 5;
+  path[3].speed_mps = 0.1;
+  const auto reference = MakeReference(path, kLimits);
+  ASSERT_EQ(reference.vertices.size(), 3u);
+  EXPECT_EQ(reference.vertices[1].dwell_s, 6);
+}
+
 TEST(ReferencePath, SharperBendsAreSlower) {
   double last_mps = 1e9;
   for (const double bend_rad : {0.05, 0.3, 0.5, 0.8}) {
