@@ -77,17 +77,22 @@ struct Kept {
   std::size_t index = 0;
   double dwell_s = 0;
   std::vector<std::string> shapes;  // of the waypoints at this place
+  std::vector<WaypointTask> tasks;  // the same
 };
 std::vector<Kept> KeepCorners(const Path& path, const ReferenceLimits& limits) {
-  std::vector<Kept> kept = {{0, path[0].dwell_s, {path[0].shape}}};
+  std::vector<Kept> kept = {{0, path[0].dwell_s, {path[0].shape}, {}}};
+  if (path[0].task) kept[0].tasks.push_back(*path[0].task);
   Cone cone(path[0].p_W, limits.straight_m);
+  std::size_t last = 0;  // that was kept, at a vertex of its own or not
   const auto keep = [&](std::size_t i) {
+    last = i;
     if ((path[i].p_W - path[kept.back().index].p_W).norm() < kSamePointM) {
       kept.back().dwell_s += path[i].dwell_s;
       kept.back().shapes.push_back(path[i].shape);
     } else {
-      kept.push_back({i, path[i].dwell_s, {}});
+      kept.push_back({i, path[i].dwell_s, {}, {}});
     }
+    if (path[i].task) kept.back().tasks.push_back(*path[i].task);
     cone = Cone(path[i].p_W, limits.straight_m);
   };
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -95,9 +100,9 @@ std::vector<Kept> KeepCorners(const Path& path, const ReferenceLimits& limits) {
         !limits.folds || path[i].shape.empty() || path[i].shape == path[i - 1].shape;
     const bool same_leg = same_shape && Speed(path[i], limits) == Speed(path[i - 1], limits) &&
                           SameYaw(HeldYaw(path[i], limits), HeldYaw(path[i - 1], limits));
-    if (i - 1 > kept.back().index && (!same_leg || !cone.Reaches(path[i].p_W))) keep(i - 1);
+    if (i - 1 > last && (!same_leg || !cone.Reaches(path[i].p_W))) keep(i - 1);
     cone.Add(path[i].p_W);
-    if (path[i].dwell_s > 0 || i + 1 == path.size()) keep(i);
+    if (path[i].dwell_s > 0 || path[i].task || i + 1 == path.size()) keep(i);
   }
   return kept;
 }
@@ -198,6 +203,7 @@ ReferencePath MakeReference(const Path& path, const ReferenceLimits& limits) {
     ReferenceVertex& vertex = vertices[k];
     vertex.p_W = path[kept[k].index].p_W;
     vertex.dwell_s = kept[k].dwell_s;
+    vertex.tasks = kept[k].tasks;
     vertex.stop = k == 0 || k + 1 == kept.size() || vertex.dwell_s > 0;
     if (k == 0) continue;
     ReferenceVertex& from = vertices[k - 1];

@@ -26,7 +26,7 @@ struct PlanRequest {
   Pose2 start;  // X_WB
   std::optional<Vec2> goal;
   std::uint64_t seed = 0;
-  const RiskMap* risk = nullptr;  // of this map and robot; planners by risk need it
+  const RiskMap* risk = nullptr;  // of this map and robot
 };
 
 enum class PlanStatus {
@@ -48,15 +48,32 @@ struct PlanResult {
   double tool_width_m = 0;
   // Of the floor that was planned on: kept by who asked for the plan, for those who measure it.
   std::shared_ptr<const RiskMap> risk;
+  // Free cells of the risk's grid that can be reached and are left out on purpose.
+  int left_out_cells = 0;
   // The planner's own figures, for plan.json and the columns plan.*, in order.
   std::vector<std::pair<std::string, double>> figures;
+};
+
+// What a planner promises of every plan that succeeds. Who asks for plans may rely on it, and the
+// tests over all registered planners hold it to that (tests/conformance/planners_test.cc).
+struct PlannerPromises {
+  enum class Covers {
+    kNothing,  // of its own accord: it goes where it is sent
+    kGround,   // what the tool can sweep of the floor that the clear shape can reach
+    kCells,    // the free cells of the risk's grid that can be reached, but for `left_out_cells`
+  };
+  Covers covers = Covers::kNothing;
+  double least_coverage = 0;  // share of what it covers, on floors that are no worse than usual
+  bool needs_risk = false;    // refuses a request without the floor's risk; else it takes no notice
+  bool needs_goal = false;    // refuses a request without a goal
+  bool ends_at_goal = false;  // if the request has one; else it takes no notice
+  bool uses_seed = false;     // else the same floor has the same plan, whatever the seed
 };
 
 class Planner : public Configurable {
  public:
   virtual PlanResult Plan(const PlanRequest& request) const = 0;
-  // Whether the plan hangs on the request's seed; else a campaign plans the same floor only once.
-  virtual bool uses_seed() const { return false; }
+  virtual PlannerPromises promises() const = 0;
 };
 
 std::span<const PluginEntry<Planner>> Planners();

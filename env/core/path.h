@@ -10,6 +10,15 @@
 
 namespace floorproof {
 
+// What the robot is to do at a waypoint beside driving there. Plans carry tasks from the planner to
+// who does them; nobody who drives a path needs to know of them.
+struct WaypointTask {
+  enum class Kind { kSample };  // to take one here
+  Kind kind = Kind::kSample;
+  int id = 0;  // the planner's number of it, by which its plan says more
+  bool operator==(const WaypointTask&) const = default;
+};
+
 struct Waypoint {
   Vec2 p_W = Vec2::Zero();
   std::optional<double>
@@ -17,6 +26,7 @@ struct Waypoint {
   std::string shape;     // of a reconfigurable robot; empty: as it is
   double speed_mps = 0;  // on the way here; 0: the robot's cruise speed
   double dwell_s = 0;    // stand here for this long, in simulated time
+  std::optional<WaypointTask> task = {};  // to be done here
 };
 
 using Path = std::vector<Waypoint>;

@@ -25,6 +25,9 @@ class CoveragePlanner : public Planner {
  public:
   void Visit(ParamVisitor& visit) override;
   PlanResult Plan(const PlanRequest& request) const override;
+  PlannerPromises promises() const override {
+    return {.covers = PlannerPromises::Covers::kGround, .least_coverage = 0.95};
+  }
 
  protected:
   // The lines that a planner is named for, up to one tool width apart. `swept` holds the laps along

@@ -21,7 +21,7 @@ std::vector<Path> FreePieces(const RejoinRequest& request, const Floor& floor, c
   Path piece;
   const auto close = [&] {
     if (Length(piece) >= kShortest_m ||
-        std::ranges::any_of(piece, [](const Waypoint& w) { return w.dwell_s > 0; }))
+        std::ranges::any_of(piece, [](const Waypoint& w) { return w.dwell_s > 0 || w.task; }))
       pieces.push_back(piece);
     piece.clear();
   };
@@ -37,7 +37,9 @@ std::vector<Path> FreePieces(const RejoinRequest& request, const Floor& floor, c
     const auto add = [&](int k) {
       piece.push_back(to);
       piece.back().p_W = point(k);
-      if (k < looks) piece.back().dwell_s = 0;
+      if (k == looks) return;  // what is to be done at the waypoint is done there
+      piece.back().dwell_s = 0;
+      piece.back().task.reset();
     };
     for (int k = 0; k <= looks;) {
       int end = k;  // of the run of looks from k on that are free

@@ -22,7 +22,7 @@ struct RejoinRequest {
 };
 
 // From the robot to the end of the path, without what the clear shape cannot drive beside the
-// marks. Waypoints keep their yaw, shape, speed and dwell. At least one waypoint; only the robot's
+// marks. Waypoints keep their yaw, shape, speed, dwell and task. At least one waypoint; only the robot's
 // place where nothing is left. Where the map says that the robot cannot be where it is, or came
 // from, the rest is driven as it was planned. Takes time and memory as the map's area.
 Path Rejoin(const RejoinRequest& request);

@@ -113,10 +113,11 @@ PlanResult CellPlanner::Plan(const PlanRequest& request) const {
   const CellTour tour = Tour(task, result.figures);
   Grid<std::uint8_t> left_out = task.free;
   for (const Cell cell : tour.cells) left_out(cell) = 0;
-  if (const auto n = std::ranges::count(left_out.cells, 1); n > 0)
+  result.left_out_cells = static_cast<int>(std::ranges::count(left_out.cells, 1));
+  if (result.left_out_cells > 0)
     result.message += (result.message.empty() ? "" : "; ") +
-                      ("left out for their risk: " + std::to_string(n)) + " of " +
-                      std::to_string(free) + " free cells";
+                      ("left out for their risk: " + std::to_string(result.left_out_cells)) +
+                      " of " + std::to_string(free) + " free cells";
   result.figures.push_back({"cell_m", grid.frame.cell_m});
   result.figures.push_back({"dead_ends", tour.dead_ends});
   result.figures.push_back({"unreachable_cells", static_cast<double>(lost)});

@@ -27,6 +27,12 @@ class CellPlanner : public Planner {
   // must not lie on a hazard. Free cells that neither floor nor terrain leads to are left out as
   // long as they are few (`unreachable_share`), else the floor has fallen apart: kFloorDivided.
   PlanResult Plan(const PlanRequest& request) const override;
+  PlannerPromises promises() const override {
+    return {.covers = PlannerPromises::Covers::kCells,
+            .least_coverage = 0.8,
+            .needs_risk = true,
+            .ends_at_goal = true};
+  }
 
  protected:
   using Figures = std::vector<std::pair<std::string, double>>;

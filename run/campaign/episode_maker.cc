@@ -30,7 +30,7 @@ std::string PlanInputs(const Scenario& s) {
   WriteParams([&](ParamVisitor& v) { risk.Visit(v); }, params);
   params.Add("tables", ConfigNode::Scalar(s.fmea_file.string(), true));
   text += "\n" + WriteYaml(params);
-  if (s.planner && s.planner->uses_seed()) text += std::to_string(s.episode_id);
+  if (s.planner && s.planner->promises().uses_seed) text += std::to_string(s.episode_id);
   return text;
 }
 

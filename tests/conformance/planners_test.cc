@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every registered planner promises, on floors drawn here and, where they are at hand, on a
-// real map. Planners of lines sweep 95 % of what the robot can; planners by risk go from cell to
-// cell of its width, and visit each free one that can be reached but for those that they say they
-// leave out.
+// What every registered planner promises (PlannerPromises), on floors drawn here, for every
+// registered robot and, where they are at hand, on real maps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <tuple>
 
 #include "env/map/site.h"
-#include "planners/lines/coverage_planner.h"
+#include "env/scene/robot_model.h"
 #include "tests/planners/risk_floors.h"
 
 namespace floorproof {
@@ -25,23 +25,11 @@ using testing::ExpectSound;
 using testing::MakePlanner;
 using testing::PaperTables;
 
-double Figure(const PlanResult& plan, const std::string& name) {
-  for (const auto& [key, value] : plan.figures)
-    if (key == name) return value;
-  return 0;
-}
-
-// What the planner promises to cover.
-void ExpectCovered(const Planner& planner, const PlanRequest& request, const PlanResult& plan) {
-  if (dynamic_cast<const CoveragePlanner*>(&planner) != nullptr) {
-    EXPECT_GE(Coverage(request.map, request.robot, request.start, plan), 0.95);
-    return;
-  }
+// Of the free cells that can be reached over floor and terrain.
+void ExpectCellsCovered(const PlanRequest& request, const PlanResult& plan, double least) {
   const RiskOfPath measured = MeasureRisk(*request.risk, plan.path);
   const RiskGrid& grid = request.risk->grid;
-  Grid<std::uint8_t> drivable(grid.cells.width, grid.cells.height);
-  for (std::size_t i = 0; i < drivable.cells.size(); ++i)
-    drivable.cells[i] = !grid.cells.cells[i].solid;
+  const Grid<std::uint8_t> drivable = CellsThat(grid, &RiskCell::drivable);
   const Grid<std::int32_t> steps = StepsFrom(drivable, grid.frame.ToCell(request.start.p()));
   int free = 0, missed = 0;
   for (std::size_t i = 0; i < drivable.cells.size(); ++i) {
@@ -51,8 +39,30 @@ void ExpectCovered(const Planner& planner, const PlanRequest& request, const Pla
   }
   EXPECT_GT(free, 0);
   EXPECT_NEAR(measured.coverage, 1 - static_cast<double>(missed) / free, 1e-12);
-  EXPECT_EQ(missed, Figure(plan, "high_risk_cells") + Figure(plan, "cut_off_cells"));
-  EXPECT_GE(measured.coverage, 0.8);
+  EXPECT_EQ(missed, plan.left_out_cells);
+  EXPECT_GE(measured.coverage, least);
+}
+
+// What the planner promises to cover.
+void ExpectCovered(const Planner& planner, const PlanRequest& request, const PlanResult& plan) {
+  const PlannerPromises promises = planner.promises();
+  switch (promises.covers) {
+    case PlannerPromises::Covers::kNothing:
+      return;
+    case PlannerPromises::Covers::kGround:
+      EXPECT_GE(Coverage(request.map, request.robot, request.start, plan), promises.least_coverage);
+      return;
+    case PlannerPromises::Covers::kCells:
+      ExpectCellsCovered(request, plan, promises.least_coverage);
+  }
+}
+
+void ExpectSamePath(const Path& a, const Path& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(a[i].p_W, b[i].p_W) << i;
+    ASSERT_EQ(a[i].yaw_rad, b[i].yaw_rad) << i;
+  }
 }
 
 struct Drawing {
@@ -169,7 +179,9 @@ class EveryPlanner : public ::testing::TestWithParam<Case> {
     risk_ = ComputeRisk(map_, robot_, PaperTables());
     return dut_->Plan(Request());
   }
-  PlanRequest Request() const { return {map_, robot_, start_, std::nullopt, 7, &risk_}; }
+  PlanRequest Request() const { return {map_, robot_, start_, goal_, seed_, &risk_}; }
+  std::optional<Vec2> goal_;
+  std::uint64_t seed_ = 7;
   RiskMap risk_;
 };
 
@@ -194,8 +206,46 @@ TEST_P(EveryPlanner, SaysWithWhatItPlanned) {
 
 TEST_P(EveryPlanner, SameSeedSamePath) {
   const PlanResult a = Plan(), b = Plan();
-  ASSERT_EQ(a.path.size(), b.path.size());
-  for (std::size_t i = 0; i < a.path.size(); ++i) EXPECT_EQ(a.path[i].p_W, b.path[i].p_W);
+  ExpectSamePath(a.path, b.path);
+}
+
+TEST_P(EveryPlanner, AnotherSeedGivesAnotherPathOnlyWhereItSaysSo) {
+  if (dut_->promises().uses_seed) GTEST_SKIP() << "its path may depend on the seed";
+  const Path path = Plan().path;
+  seed_ = 8;
+  ExpectSamePath(Plan().path, path);
+}
+
+TEST_P(EveryPlanner, AsksForTheRiskOrTakesNoNotice) {
+  const PlanResult with = Plan();
+  PlanRequest request = Request();
+  request.risk = nullptr;
+  const PlanResult without = dut_->Plan(request);
+  if (dut_->promises().needs_risk) {
+    EXPECT_EQ(without.status, PlanStatus::kFailed);
+    EXPECT_FALSE(without.message.empty());
+    EXPECT_TRUE(without.path.empty());
+  } else {
+    EXPECT_EQ(without.status, with.status);
+    ExpectSamePath(without.path, with.path);
+  }
+}
+
+TEST_P(EveryPlanner, EndsAtTheGoalOrTakesNoNotice) {
+  const PlannerPromises promises = dut_->promises();
+  const PlanResult free = Plan();
+  if (promises.needs_goal) {
+    EXPECT_NE(free.status, PlanStatus::kSuccess);
+    EXPECT_FALSE(free.message.empty());
+  }
+  goal_ = start_.p();  // a place where the robot fits
+  const PlanResult plan = Plan();
+  if (!promises.ends_at_goal) {
+    EXPECT_EQ(plan.status, free.status);
+    ExpectSamePath(plan.path, free.path);
+  } else if (plan.status == PlanStatus::kSuccess) {
+    EXPECT_LT((plan.path.back().p_W - *goal_).norm(), 1e-6);
+  }
 }
 
 TEST_P(EveryPlanner, HasNoPointsWithoutNeed) {
@@ -251,6 +301,74 @@ INSTANTIATE_TEST_SUITE_P(Planners, EveryPlanner, ::testing::ValuesIn(Cases()),
                          [](const auto& param_info) {
                            return std::get<0>(param_info.param) + "_" +
                                   std::get<1>(param_info.param).name;
+                         });
+
+// A robot's clear shape where a path leads it: on any way between two waypoints at the yaw of the
+// second, in the start's where it states none.
+double LeastRoom(const HazardMap& map, const Pose2& start, const PlanResult& plan) {
+  double least = std::numeric_limits<double>::infinity();
+  const double cell = map.frame.cell_m;
+  for (std::size_t i = 1; i < plan.path.size(); ++i) {
+    const Vec2 a = plan.path[i - 1].p_W, b = plan.path[i].p_W;
+    const int samples = 1 + static_cast<int>((b - a).norm() / 0.02);
+    for (int s = 0; s <= samples; ++s) {
+      const Vec2 p = a + (b - a) * s / samples;
+      const Pose2 X_BW =
+          Pose2{p.x(), p.y(), plan.path[i].yaw_rad.value_or(start.yaw_rad)}.Inverse();
+      const Cell at = map.frame.ToCell(p);
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+          if (!map.IsWall(at.ix + dx, at.iy + dy)) continue;
+          const Vec2 low((at.ix + dx) * cell, (at.iy + dy) * cell);  // X_WG is none here
+          for (double t = 0; t <= 1; t += 0.02)
+            for (const Vec2& q : {Vec2(t, 0), Vec2(t, 1), Vec2(0, t), Vec2(1, t)}) {
+              const Vec2 q_B = X_BW * Vec2(low + cell * q);
+              least = std::min(least, plan.clear.kind == Shape2::Kind::kCircle
+                                          ? q_B.norm() - plan.clear.radius_m
+                                          : SignedDistance(plan.clear.footprint_B, q_B));
+            }
+        }
+    }
+  }
+  return least;
+}
+
+using PlannerAndRobot = std::tuple<std::string, std::string>;
+class EveryPlannerAndRobot : public ::testing::TestWithParam<PlannerAndRobot> {};
+
+TEST_P(EveryPlannerAndRobot, CoversAFloorAndKeepsOffItsWalls) {
+  const auto dut = MakePlanner(std::get<0>(GetParam()));
+  const RobotSpec robot = ReadRobot(FindRobotFile(std::get<1>(GetParam()), {})).spec;
+  const HazardMap map = Draw(R"(
+      #########
+      #.......#
+      #...#...#
+      #...#...#
+      #.......#
+      #########)",
+                             1.0);
+  const Pose2 start{1.5, 1.5, 0};
+  const RiskMap risk = ComputeRisk(map, robot, PaperTables());
+  const PlanRequest request{map, robot, start, Vec2(7.5, 1.5), 7, &risk};
+  const PlanResult plan = dut->Plan(request);
+  ASSERT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
+  EXPECT_LT((plan.path.front().p_W - start.p()).norm(), 1e-6);
+  EXPECT_GE(LeastRoom(map, start, plan), -FineFrame(map.frame).cell_m / 2 - 1e-9);
+  ExpectCovered(*dut, request, plan);
+}
+
+std::vector<std::string> RobotNames() {
+  std::vector<std::string> names;
+  for (const RobotEntry& robot : Robots()) names.emplace_back(robot.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Planners, EveryPlannerAndRobot,
+                         ::testing::Combine(::testing::ValuesIn(PluginNames(Planners())),
+                                            ::testing::ValuesIn(RobotNames())),
+                         [](const auto& param_info) {
+                           return std::get<0>(param_info.param) + "_" +
+                                  std::get<1>(param_info.param);
                          });
 
 class EveryPlannerOnSites : public ::testing::TestWithParam<std::string> {};

@@ -86,6 +86,32 @@ TEST(ReferencePath, DwellsAtOnePlaceAddUp) {
   EXPECT_EQ(reference.vertices[1].dwell_s, 4);
 }
 
+TEST(ReferencePath, ADwellCountsOnceHoweverThePathGoesOn) {
+  Path path = MakePath({{0, 0}, {1, 0}, {1, 0}, {2, 0}});
+  path[1].dwell_s = 1;
+  path[2].dwell_s = 5;
+  path[3].speed_mps = 0.1;
+  const auto reference = MakeReference(path, kLimits);
+  ASSERT_EQ(reference.vertices.size(), 3u);
+  EXPECT_EQ(reference.vertices[1].dwell_s, 6);
+}
+
+TEST(ReferencePath, CarriesTheTasksOfItsWaypoints) {
+  Path path = MakePath({{0, 0}, {1, 0}, {2, 0}, {2, 0}, {3, 0}});
+  path[0].task = WaypointTask{.id = 7};
+  path[1].task = WaypointTask{.id = 1};
+  path[2].task = WaypointTask{.id = 2};
+  path[3].task = WaypointTask{.id = 3};
+  const auto reference = MakeReference(path, kLimits);
+  ASSERT_EQ(Points(reference), (std::vector<Vec2>{{0, 0}, {1, 0}, {2, 0}, {3, 0}}))
+      << "a waypoint with a task is no point to pass over";
+  EXPECT_EQ(reference.vertices[0].tasks, std::vector{*path[0].task});
+  EXPECT_EQ(reference.vertices[1].tasks, std::vector{*path[1].task});
+  EXPECT_EQ(reference.vertices[2].tasks, (std::vector{*path[2].task, *path[3].task}));
+  EXPECT_TRUE(reference.vertices[3].tasks.empty());
+  EXPECT_FALSE(reference.vertices[1].stop) << "carrying a task is no reason to stop";
+}
+
 TEST(ReferencePath, SharperBendsAreSlower) {
   double last_mps = 1e9;
   for (const double bend_rad : {0.05, 0.3, 0.5, 0.8}) {

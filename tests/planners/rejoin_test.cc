@@ -187,6 +187,7 @@ TEST(Rejoin, WaypointsKeepWhatThePlanSaysOfThem) {
     scene.path[i].speed_mps = 0.1 + 0.1 * static_cast<double>(i);
     scene.path[i].dwell_s = 10 + static_cast<double>(i);
     scene.path[i].shape = std::string(1, static_cast<char>('A' + i));
+    scene.path[i].task = WaypointTask{.id = static_cast<int>(i)};
   }
   scene.marks = {Mark({3.5, 0.5})};
   scene.X_WB = {1, 0.5, 0};
@@ -203,9 +204,10 @@ TEST(Rejoin, WaypointsKeepWhatThePlanSaysOfThem) {
     EXPECT_EQ(w->speed_mps, scene.path[i].speed_mps);
     EXPECT_EQ(w->shape, scene.path[i].shape);
     EXPECT_EQ(w->dwell_s, scene.path[i].dwell_s);
+    EXPECT_EQ(w->task, scene.path[i].task);
   }
   // What was cut in two, and the way between, belongs to the segment that was cut; nobody dwells
-  // there.
+  // there, nor does anything.
   int between = 0;
   double dwell_s = 0;
   for (const Waypoint& w : rest) {
@@ -215,6 +217,7 @@ TEST(Rejoin, WaypointsKeepWhatThePlanSaysOfThem) {
     EXPECT_EQ(w.yaw_rad, scene.path[2].yaw_rad);
     EXPECT_EQ(w.speed_mps, scene.path[2].speed_mps);
     EXPECT_EQ(w.dwell_s, 0);
+    EXPECT_FALSE(w.task);
   }
   EXPECT_GE(between, 3);
   EXPECT_EQ(dwell_s, 11 + 12 + 13);
@@ -238,6 +241,15 @@ TEST(Rejoin, APlaceToDwellAtIsNotLostForBeingNear) {
   const Path turned = scene.Rest();
   EXPECT_EQ(turned.back().dwell_s, 3);
   EXPECT_EQ(turned.back().yaw_rad, 1);
+}
+
+TEST(Rejoin, ATaskIsNotLostForBeingNear) {
+  Scene scene;
+  scene.path = Through({{0.5, 1.5}, {2.5, 1.5}});
+  scene.path[1].task = WaypointTask{.id = 4};
+  scene.X_WB = {2.44, 1.5, 0};
+  const Path rest = scene.Rest();
+  EXPECT_EQ(rest.back().task, scene.path[1].task);
 }
 
 TEST(Rejoin, AMarkOnAPlaceToDwellAtLeavesItOut) {

@@ -42,6 +42,31 @@ TEST_F(EpisodeTest, EnergyIsHotelLoadAndMotors) {
       << "the motors of a slow robot on flat floor take little";
 }
 
+// There and back, with something to do on the way.
+class Errand : public Planner {
+ public:
+  void Visit(ParamVisitor&) override {}
+  PlannerPromises promises() const override { return {}; }
+  PlanResult Plan(const PlanRequest& request) const override {
+    PlanResult plan;
+    plan.status = PlanStatus::kSuccess;
+    for (const double x_m : {0.0, 1.0, 0.0})
+      plan.path.emplace_back().p_W = request.start.p() + Vec2(x_m, 0);
+    plan.path[1].task = WaypointTask{.id = 3};
+    return plan;
+  }
+};
+
+TEST_F(EpisodeTest, APlansTasksReachTheOneWhoDrivesIt) {
+  Scenario scenario = Read(RoomScenario(""));
+  scenario.user_plan[1].task = WaypointTask{.id = 8};
+  EXPECT_EQ(MakePlan(scenario).path[1].task, scenario.user_plan[1].task);
+  scenario.planner = std::make_unique<Errand>();
+  const PlanResult plan = MakePlan(scenario);
+  EXPECT_EQ(plan.path[1].task, WaypointTask{.id = 3});
+  EXPECT_FALSE(plan.path[0].task || plan.path[2].task);
+}
+
 TEST_F(EpisodeTest, DwellingTakesItsTimeAndIsNotStuck) {
   Save("plan.csv", "x_m,y_m,dwell_s\n1.5,2.5,0\n2.5,2.5,15\n3,2.5,0\n");
   const EpisodeRecord dwelt = Drive(Read(RoomScenario("")));
