@@ -21,31 +21,30 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kConfidence = 0.95;
 const GridFrame kPlaces{0, 0, 0.5, {}};  // squares of the world, whatever the site's own cells
 
 // k episodes of n, with the exact interval.
 Json Rate(int k, int n) {
-  const Interval interval = ClopperPearson(k, n, kConfidence);
+  const Interval interval = ClopperPearson(k, n, kReportedConfidence);
   return {{"k", k},
           {"n", n},
           {"rate", n > 0 ? Json(static_cast<double>(k) / n) : Json(nullptr)},
           {"lower", interval.lower},
           {"upper", interval.upper},
           {"method", "clopper_pearson"},
-          {"confidence", kConfidence}};
+          {"confidence", kReportedConfidence}};
 }
 
 // k events in so many km or thousand hours.
 Json RatePer(int k, double exposure) {
-  const Interval interval = GarwoodInterval(k, exposure, kConfidence);
+  const Interval interval = GarwoodInterval(k, exposure, kReportedConfidence);
   return {{"k", k},
           {"exposure", exposure},
           {"rate", exposure > 0 ? Json(k / exposure) : Json(nullptr)},
           {"lower", interval.lower},
           {"upper", std::isfinite(interval.upper) ? Json(interval.upper) : Json(nullptr)},
           {"method", "garwood"},
-          {"confidence", kConfidence}};
+          {"confidence", kReportedConfidence}};
 }
 
 // Of the driven episodes, in any order.
@@ -70,7 +69,7 @@ struct Tally {
   std::map<std::string, int> kinds, hazards;               // episodes with one or more
   std::map<std::pair<int, int>, int> places;               // the same, by square of the floor
   std::map<std::string, std::uint64_t> first;              // by mode: the first episode's number
-  std::array<std::vector<double>, kMetricColumns.size()> metrics;
+  std::array<std::vector<double>, kMetrics.size()> metrics;
   double km = 0, hours = 0;
   std::string first_error;
 
@@ -82,8 +81,8 @@ struct Tally {
     ++n;
     driven += row.driven();
     any += row.any_failure();
-    km += row.metric("path_length_m") / 1e3;
-    hours += row.metric("duration_s") / 3600;
+    km += row.metric(&Metrics::path_length_m).value_or(0) / 1e3;
+    hours += row.metric(&Metrics::duration_s).value_or(0) / 3600;
     for (std::size_t i = 0; i < metrics.size(); ++i)
       if (row.metrics[i]) metrics[i].push_back(*row.metrics[i]);
     if (!row.any_failure()) return;
@@ -143,7 +142,7 @@ Json VariantJson(const Tally& tally) {
     places.push_back(std::move(rate));
   }
   for (std::size_t i = 0; i < tally.metrics.size(); ++i)
-    metrics[std::string(kMetricColumns[i])] = Spread(tally.metrics[i]);
+    metrics[std::string(kMetrics[i].name)] = Spread(tally.metrics[i]);
   for (const auto& [mode, episode] : tally.first) first[mode] = episode;
   return {{"n", tally.n},
           {"n_error", tally.count("error")},
