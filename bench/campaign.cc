@@ -17,7 +17,7 @@
 #include "base/interrupt.h"
 #include "bench/bare_loop.h"
 #include "run/campaign/campaign_about.h"
-#include "run/campaign/campaign_summary.h"
+#include "run/campaign/campaign_files.h"
 
 namespace floorproof {
 namespace {

@@ -33,6 +33,27 @@ EpisodeRow MakeRow(const std::string& variant, const Scenario& s, const std::str
   return row;
 }
 
+std::vector<Event> EventsOf(const EpisodeRow& row) {
+  try {
+    std::vector<Event> events;
+    for (const Json& json : Json::parse(row.events)) {
+      Event event;
+      event.kind = json.at("kind");
+      event.hazard = json.at("hazard");
+      event.t_s = json.at("t_s");
+      event.x_m = json.at("x_m");
+      event.y_m = json.at("y_m");
+      const std::string mode = json.at("mode");
+      for (int m = 0; m < kNumFailureModes; ++m)
+        if (mode == Name(static_cast<FailureMode>(m))) event.mode = static_cast<FailureMode>(m);
+      events.push_back(std::move(event));
+    }
+    return events;
+  } catch (const Json::exception& e) {
+    throw InternalError(e.what());
+  }
+}
+
 std::string ToLine(const EpisodeRow& row) {
   Json metrics = Json::array();
   for (const auto& value : row.metrics) metrics.push_back(value ? Json(*value) : Json(nullptr));

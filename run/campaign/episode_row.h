@@ -40,6 +40,9 @@ struct EpisodeRow {
 EpisodeRow MakeRow(const std::string& variant, const Scenario& scenario, const std::string& plan,
                    const EpisodeRecord& record);
 
+// Its events; their evidence is left out. Throws InternalError where the text is damaged.
+std::vector<Event> EventsOf(const EpisodeRow& row);
+
 // One line of text, and back; throws InternalError on any other text.
 std::string ToLine(const EpisodeRow& row);
 EpisodeRow FromLine(std::string_view line);
