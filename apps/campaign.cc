@@ -21,8 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kConfidence = 0.95;
-
 struct Options {
   std::string scenario, out, episodes;
   std::uint64_t n = 0;
@@ -75,7 +73,7 @@ class Progress final : public CampaignObserver {
           fmt::format("; {}{} of {} fail (at most {:.2g} %)",
                       p.variants.size() > 1 ? variants_[v].name + ": " : "", at.any_failure, at.n,
                       100 * ClopperPearsonUpper(static_cast<int>(at.any_failure),
-                                                static_cast<int>(at.n), kConfidence));
+                                                static_cast<int>(at.n), kReportedConfidence));
     }
     return text;
   }

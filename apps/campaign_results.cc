@@ -8,7 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "report/failing_episodes.h"
-#include "run/campaign/campaign_summary.h"
+#include "run/campaign/campaign_files.h"
+#include "run/campaign/summary_json.h"
 
 namespace floorproof {
 namespace {
@@ -45,39 +46,31 @@ double RoundedUp(double value) {
   return std::ceil(value / unit - 1e-9) * unit;
 }
 
-void SayRates(const nlohmann::ordered_json& summary, const Globals& globals) {
-  for (const auto& [name, variant] : summary["variants"].items()) {
-    globals.Say(fmt::format(
-        "{}: {} episodes, {} success, {} failure, {} timeout; {} errors, {} "
-        "without a plan",
-        name, variant["n"].get<int>(), variant["outcomes"]["success"].get<int>(),
-        variant["outcomes"]["failure"].get<int>(), variant["outcomes"]["timeout"].get<int>(),
-        variant["n_error"].get<int>(), variant["n_not_planned"].get<int>()));
-    if (!variant["first_error"].is_null())
-      globals.Say("  the first error: " + variant["first_error"].get<std::string>());
-    for (const auto& [mode, rate] : variant["failures"].items()) {
-      if (rate["n"] == 0) continue;
-      const double lower = 100 * rate["lower"].get<double>(),
-                   upper = 100 * rate["upper"].get<double>();
+void SayRates(const CampaignSummary& summary, const Globals& globals) {
+  for (const VariantSummary& v : summary.variants) {
+    globals.Say(
+        fmt::format("{}: {} episodes, {} success, {} failure, {} timeout; {} errors, {} without a "
+                    "plan",
+                    v.name, v.n, v.success, v.failure, v.timeout, v.errors, v.not_planned));
+    if (!v.first_error.empty()) globals.Say("  the first error: " + v.first_error);
+    for (const FailureRate& rate : v.failures) {
+      if (rate.n == 0) continue;
       const std::string text =
-          rate["k"] == 0 ? fmt::format("none; at most {:.3g} %", RoundedUp(upper))
-                         : fmt::format("{} = {:.3g} % ({:.3g} to {:.3g} %)", rate["k"].get<int>(),
-                                       100 * rate["rate"].get<double>(), lower, upper);
-      globals.Say(fmt::format("  {:<12} {}", mode, text));
+          rate.k == 0 ? fmt::format("none; at most {:.3g} %", RoundedUp(100 * rate.upper))
+                      : fmt::format("{} = {:.3g} % ({:.3g} to {:.3g} %)", rate.k, 100 * rate.rate,
+                                    100 * rate.lower, 100 * rate.upper);
+      globals.Say(fmt::format("  {:<12} {}", rate.name, text));
     }
   }
 }
 
-int StatusOf(const CampaignRun& run, const std::vector<GateState>& gate) {
+int StatusOf(const CampaignRun& run, const std::optional<GateSummary>& gate) {
   const bool broken = std::ranges::any_of(run.variants, [](const auto& v) { return v.errors > 0; });
   if (broken) return kBroken;
   if (run.end == CampaignEnd::kFailFast) return kNotSuccess;
-  if (!gate.empty()) {
-    const GateVerdict verdict = Overall(gate);
-    if (verdict == GateVerdict::kUndecided) return kGateUndecided;
-    return verdict == GateVerdict::kPassed ? kDone : kNotSuccess;
-  }
-  return kDone;
+  if (!gate) return kDone;
+  if (gate->verdict == GateVerdict::kUndecided) return kGateUndecided;
+  return gate->verdict == GateVerdict::kPassed ? kDone : kNotSuccess;
 }
 
 }  // namespace
@@ -91,16 +84,19 @@ int SayResults(const ScenarioFile& file, const CampaignStore& store, const Campa
   const bool whole = run.end == CampaignEnd::kComplete || run.end == CampaignEnd::kGateDecided;
   const CampaignEnding ending{whole ? "" : Unfinished(run, store.asked()),
                               run.end == CampaignEnd::kFailFast};
-  const auto summary = WriteSummaryFiles(store, variants, gate, ending, file.name(), folder);
-  globals.Result(summary);
+  const CampaignSummary summary =
+      WriteSummaryFiles(store, variants, gate, ending, file.name(), folder);
+  globals.Result(SummaryJson(summary));
   globals.Say(std::string(Why(run.end)) + "; results are in " + folder.string());
   SayRates(summary, globals);
   if (ListFailingEpisodes(store, variants, folder, globals) > 0 || variants.size() > 1)
     globals.Say(fmt::format("`floorproof report {}` shows them on a page", folder.string()));
-  for (std::size_t v = 0; v < gate.size(); ++v)
-    globals.Say(
-        fmt::format("gate{}: {}", gate.size() > 1 ? " " + variants[v].name : "", gate[v].Text()));
-  return StatusOf(run, gate);
+  if (summary.gate)
+    for (const VariantGate& variant : summary.gate->variants)
+      globals.Say(fmt::format("gate{}: {}",
+                              summary.gate->variants.size() > 1 ? " " + variant.variant : "",
+                              GateText(*summary.gate, variant)));
+  return StatusOf(run, summary.gate);
 }
 
 }  // namespace floorproof

@@ -14,8 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMaxBytes = 64u << 20;
-
 // The settings with their paths valid from `out`; as they are where what they name is gone.
 std::string SettingsFor(const fs::path& out, const ScenarioFile& scenario, const fs::path& recorded,
                         const Globals& globals) try {
@@ -24,7 +22,7 @@ std::string SettingsFor(const fs::path& out, const ScenarioFile& scenario, const
   globals.Say(fmt::format("{}: its paths hold from {}, not from here ({})",
                           (out / "scenario.resolved.yaml").string(),
                           recorded.parent_path().string(), e.what()));
-  return ReadInputFile(recorded, kMaxBytes);
+  return ReadInputFile(recorded, kMaxResultBytes);
 }
 
 bool IsFixed(const ScenarioFile& scenario, std::uint64_t n) {

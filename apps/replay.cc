@@ -10,13 +10,11 @@
 namespace floorproof {
 namespace {
 
-constexpr std::uintmax_t kMaxBytes = 64u << 20;
-
 // Events and outcome of the drive just made must be the recorded ones: the film shows what was
 // judged.
 void CheckSame(const std::filesystem::path& result_file, const nlohmann::ordered_json& now) {
   const auto before =
-      nlohmann::ordered_json::parse(ReadInputFile(result_file, kMaxBytes), nullptr, false);
+      nlohmann::ordered_json::parse(ReadInputFile(result_file, kMaxResultBytes), nullptr, false);
   if (!before.is_object())
     throw InputError({result_file.string(), 0}, "", "", "is not a result (a JSON object)");
   for (const char* key : {"outcome", "events", "metrics"})
@@ -25,7 +23,7 @@ void CheckSame(const std::filesystem::path& result_file, const nlohmann::ordered
 
 int ReplayRun(const std::filesystem::path& folder, bool video, const Globals& globals) {
   for (const char* needed : {"scenario.resolved.yaml", "result.json"})
-    if (const std::string why = WhyUnreadable(folder / needed, kMaxBytes); !why.empty())
+    if (const std::string why = WhyUnreadable(folder / needed, kMaxResultBytes); !why.empty())
       throw InputError({(folder / needed).string(), 0}, "", "",
                        why + ": not a folder of a finished `run`, nor of a `campaign`");
   Scenario scenario = ReadScenario(folder / "scenario.resolved.yaml", globals.Overrides());

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/input_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <limits>
 
 #include "base/config.h"
 #include "base/error.h"
@@ -31,20 +32,37 @@ std::string WhyUnreadable(const fs::path& file, std::uintmax_t most_bytes) {
   return "";
 }
 
-std::string ReadInputFile(const fs::path& file, std::uintmax_t most_bytes) {
+namespace {
+
+// At most `count` bytes.
+std::string Read(const fs::path& file, std::uintmax_t count, std::uintmax_t most_bytes) {
   if (const std::string why = WhyUnreadable(file, most_bytes); !why.empty())
     throw InputError({file.string(), 0}, "", "", why);
+  std::error_code ignored;
   std::ifstream in(file, std::ios::binary);
   std::string bytes;
+  bytes.reserve(std::min({count, most_bytes, fs::file_size(file, ignored)}));
   // Not to the end of the file as it was measured: one that grows must not grow without bound.
   char buffer[1 << 16];
-  while (in.read(buffer, sizeof buffer), in.gcount() > 0) {
+  while (bytes.size() < count && bytes.size() <= most_bytes) {
+    in.read(buffer, static_cast<std::streamsize>(
+                        std::min<std::uintmax_t>(sizeof buffer, count - bytes.size())));
+    if (in.gcount() == 0) break;
     bytes.append(buffer, static_cast<std::size_t>(in.gcount()));
-    if (bytes.size() > most_bytes) break;
   }
   if (in.bad() || bytes.size() > most_bytes)
     throw InputError({file.string(), 0}, "", "", "cannot be read to its end");
   return bytes;
+}
+
+}  // namespace
+
+std::string ReadInputFile(const fs::path& file, std::uintmax_t most_bytes) {
+  return Read(file, std::numeric_limits<std::uintmax_t>::max(), most_bytes);
+}
+
+std::string ReadStartOfFile(const fs::path& file, std::size_t count, std::uintmax_t most_bytes) {
+  return Read(file, count, most_bytes);
 }
 
 fs::path PathIn(const fs::path& folder, const ConfigNode& node, const std::string& key) {

@@ -15,8 +15,16 @@ struct ConfigNode;
 // permitted, a loop of links. Empty when it can. Never throws for what the path holds.
 std::string WhyUnreadable(const std::filesystem::path& file, std::uintmax_t most_bytes);
 
+// Of a file that the program wrote and reads again.
+inline constexpr std::uintmax_t kMaxResultBytes = 64u << 20;
+
 // The whole file. Throws InputError naming it.
 std::string ReadInputFile(const std::filesystem::path& file, std::uintmax_t most_bytes);
+
+// Its first `count` bytes, or all where it has fewer, to look at before the rest is read. Throws as
+// ReadInputFile.
+std::string ReadStartOfFile(const std::filesystem::path& file, std::size_t count,
+                            std::uintmax_t most_bytes);
 
 // A path written in a file of `folder`, under `key`. It may leave that folder only in plain words:
 // absolute, or beginning with "../" (a/../../b is refused). Throws InputError.

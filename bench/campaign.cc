@@ -17,7 +17,7 @@
 #include "base/interrupt.h"
 #include "bench/bare_loop.h"
 #include "run/campaign/campaign_about.h"
-#include "run/campaign/campaign_summary.h"
+#include "run/campaign/campaign_files.h"
 #include "run/episode/make_plan.h"
 
 namespace floorproof {
@@ -54,7 +54,7 @@ Timed RunOnce(const ScenarioFile& file, std::uint64_t n, int jobs, const fs::pat
   const double timestep_s = file.Read().physics.timestep_s;
   for (const Variant& variant : file.variants())
     store.ForEach(variant.name, [&](const EpisodeRow& row) {
-      timed.steps += row.metric("duration_s") / timestep_s;
+      timed.steps += row.metric(&Metrics::duration_s).value_or(0) / timestep_s;
     });
   return timed;
 }

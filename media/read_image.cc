@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Image files: the header is read and checked first, then the whole file, then it is decoded (PGM
 // and PPM here, PNG and BMP by the codec module).
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <string>
 
 #include "base/error.h"
@@ -19,15 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kStartBytes = 64 * 1024;  // room for a header with long comments
-
-std::string ReadBytes(std::ifstream& file, std::uint64_t count) {
-  std::string bytes(count, '\0');
-  file.seekg(0);
-  file.read(bytes.data(), static_cast<std::streamsize>(count));
-  if (static_cast<std::uint64_t>(file.gcount()) != count)
-    throw FormatError("could not be read to its end");
-  return bytes;
-}
 
 ImageHeader ReadHeader(std::string_view start, std::uint64_t file_size) {
   if (IsNetpbm(start)) return ReadNetpbmHeader(start, file_size);
@@ -94,18 +82,15 @@ Image DecodeWithModule(std::string_view file, const ImageHeader& header, const P
 }
 
 Image Decode(const fs::path& path, std::int64_t max_pixels) {
-  if (const std::string why = WhyUnreadable(path, kMaxImageBytes); !why.empty())
-    throw FormatError(why);
+  const std::string start = ReadStartOfFile(path, kStartBytes, kMaxImageBytes);
   std::error_code error;
   const std::uint64_t size = fs::file_size(path, error);
-  std::ifstream in(path, std::ios::binary);
-  if (error || !in) throw FormatError(std::string("cannot be opened: ") + std::strerror(errno));
+  if (error) throw FormatError("cannot be read: " + error.message());
+  CheckSize(ReadHeader(start, size), max_pixels);
 
-  const std::string start = ReadBytes(in, std::min<std::uint64_t>(size, kStartBytes));
-  const ImageHeader header = ReadHeader(start, size);
+  const std::string file = ReadInputFile(path, kMaxImageBytes);
+  const ImageHeader header = ReadHeader(file, file.size());  // of what is decoded
   CheckSize(header, max_pixels);
-
-  const std::string file = ReadBytes(in, size);
   if (IsNetpbm(file)) return DecodeNetpbm(file);
   if (!IsPng(file)) return DecodeWithModule(file, header, nullptr);
   const PngHeader png = CheckPng(file);

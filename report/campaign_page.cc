@@ -6,45 +6,56 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "base/input_file.h"
 #include "report/failing_episodes.h"
 #include "report/films.h"
 #include "report/pairs.h"
 #include "report/pictures.h"
-#include "report/summary.h"
 #include "run/campaign/campaign_store.h"
+#include "run/campaign/summary_json.h"
 
 namespace floorproof {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMaxBytes = 64u << 20;
 constexpr std::size_t kMaxEpisodes = 300;  // listed on the page, of all variants
+
+// Throws InputError naming the database where they are damaged.
+std::vector<Event> EventsIn(const EpisodeRow& row, const fs::path& database) {
+  try {
+    return EventsOf(row);
+  } catch (const InternalError& e) {
+    throw InputError({database.string(), 0}, "", "",
+                     fmt::format("holds events that cannot be read ({})", e.what()));
+  }
+}
 
 // The rows of a campaign, walked through once.
 class Rows {
  public:
   Rows(Report& report, const std::string& named) : report_(report), named_(named) {
-    share_ =
-        std::max<std::size_t>(10, kMaxEpisodes / std::max<std::size_t>(1, report.variants.size()));
+    const std::size_t variants = report.summary.variants.size();
+    share_ = std::max<std::size_t>(10, kMaxEpisodes / std::max<std::size_t>(1, variants));
   }
 
-  void Read(const CampaignStore& store, const ReportVariant& variant, const fs::path& summary) {
+  // Throws InputError where an event cannot be read, or the summary is of other episodes.
+  void Read(const CampaignStore& store, const VariantSummary& variant, const fs::path& folder) {
+    const fs::path database = folder / "campaign.sqlite", summary = folder / "summary.json";
     std::size_t listed = 0;
     int rows = 0;
     std::vector<Event> places;
     store.ForEach(variant.name, [&](const EpisodeRow& row) {
       ++rows;
       if (!IsListed(row)) return;
-      const std::vector<Event> events = EventsOf(row);
+      const std::vector<Event> events = EventsIn(row, database);
       if (row.counts()) places.insert(places.end(), events.begin(), events.end());
       what_[{variant.name, row.episode}] = WhatFailed(row, events);
       if (listed++ < share_)
         report_.episodes.push_back(
-            FailingEpisode(row, events, named_, report_.variants.size() > 1));
+            FailingEpisode(row, events, named_, report_.summary.variants.size() > 1));
       else
         ++report_.episodes_left_out;
     });
@@ -103,23 +114,25 @@ std::string PictureFile(const std::string& variant, std::size_t number) {
 }
 
 // The rates on a grid that spans them; none where no episode failed.
-std::optional<HeatValues> RatesOnFloor(const ReportPlaces& places) {
+std::optional<HeatValues> RatesOnFloor(const VariantSummary& variant) {
   constexpr int kMaxCells = 1 << 24;  // an event far off the map makes no picture's grid
-  if (places.rates.empty()) return std::nullopt;
-  Vec2 low = places.rates.front().p_W, high = low;
-  for (const ReportPlace& place : places.rates) {
+  const std::vector<FailurePlace>& places = variant.places;
+  const double cell_m = variant.place_m;
+  if (places.empty()) return std::nullopt;
+  Vec2 low = places.front().p_W, high = low;
+  for (const FailurePlace& place : places) {
     low = low.cwiseMin(place.p_W);
     high = high.cwiseMax(place.p_W);
   }
-  const Vec2 cells = (high - low) / places.cell_m + Vec2::Ones();
+  const Vec2 cells = (high - low) / cell_m + Vec2::Ones();
   if (!(cells.x() * cells.y() < kMaxCells)) return std::nullopt;
   HeatValues heat;
   heat.frame = {static_cast<int>(std::lround(cells.x())),
                 static_cast<int>(std::lround(cells.y())),
-                places.cell_m,
-                {low.x() - places.cell_m / 2, low.y() - places.cell_m / 2, 0}};
+                cell_m,
+                {low.x() - cell_m / 2, low.y() - cell_m / 2, 0}};
   heat.values = Grid<float>(heat.frame.width, heat.frame.height, HeatValues::kNone);
-  for (const ReportPlace& place : places.rates) {
+  for (const FailurePlace& place : places) {
     const Cell cell = heat.frame.ToCell(place.p_W);
     heat.values(cell.ix, cell.iy) = static_cast<float>(100 * place.rate.rate);
   }
@@ -135,30 +148,34 @@ void AddPlaces(const fs::path& folder, const Rows& rows, Report& report) {
   } catch (const InputError& e) {
     why = fmt::format("The map cannot be read any more: {}", e.what());
   }
-  for (std::size_t v = 0; v < report.variants.size(); ++v) {
-    ReportVariant& variant = report.variants[v];
-    const fs::path png = folder / PictureFile(variant.name, v + 1);
+  const auto& variants = report.summary.variants;
+  report.maps.resize(variants.size());
+  for (std::size_t v = 0; v < variants.size(); ++v) {
+    const std::string& name = variants[v].name;
+    ReportMap& map = report.maps[v];
+    const fs::path png = folder / PictureFile(name, v + 1);
     // What was drawn while the site could be read still shows where.
     const auto keep = [&](const std::string& note) {
-      variant.places_note = note;
-      if (WhyUnreadable(png, kMaxBytes).empty()) variant.places_png = ReadInputFile(png, kMaxBytes);
+      map.note = note;
+      if (WhyUnreadable(png, kMaxResultBytes).empty())
+        map.png = ReadInputFile(png, kMaxResultBytes);
     };
     if (!file) {
       keep(why);
       continue;
     }
     try {
-      const Scenario scenario = file->Read(std::nullopt, SiteOf(*file, variant.name));
+      const Scenario scenario = file->Read(std::nullopt, SiteOf(*file, name));
       if (!HasOneMap(scenario)) {
-        variant.places_note = "Each episode draws a floor of its own: there is no one map to show.";
+        map.note = "Each episode draws a floor of its own: there is no one map to show.";
         continue;
       }
-      const std::optional<HeatValues> rates = RatesOnFloor(variant.places);
-      WriteFailurePlaces(scenario.site.map, variant.name + " on " + scenario.site.map.name,
+      const std::optional<HeatValues> rates = RatesOnFloor(variants[v]);
+      WriteFailurePlaces(scenario.site.map, name + " on " + scenario.site.map.name,
                          rows.places()[v], rates ? &*rates : nullptr, nullptr, png);
-      variant.places_png = ReadInputFile(png, kMaxBytes);
+      map.png = ReadInputFile(png, kMaxResultBytes);
       if (!scenario.randomise.IsNull())
-        variant.places_note = "the map is the site as written, before an episode's draws";
+        map.note = "the map is the site as written, before an episode's draws";
     } catch (const InputError& e) {
       keep(fmt::format("The map cannot be read any more: {}", e.what()));
     }
@@ -168,32 +185,27 @@ void AddPlaces(const fs::path& folder, const Rows& rows, Report& report) {
 }  // namespace
 
 Report GatherReport(const fs::path& folder, const std::string& named) {
+  const fs::path summary_file = folder / "summary.json", database = folder / "campaign.sqlite";
   Report report;
-  ReadSummary(folder / "summary.json", report);
-  const fs::path database = folder / "campaign.sqlite";
+  report.summary = ReadSummary(summary_file);
+  const CampaignSummary& summary = report.summary;
   if (const std::string why = WhyUnreadable(database, std::numeric_limits<std::uintmax_t>::max());
       !why.empty())
     throw InputError({database.string(), 0}, "", "", why + ": not the folder of a `campaign`");
   const CampaignStore store = CampaignStore::Open(database, false);
-  if (store.about().id != report.campaign)
-    throw InputError({(folder / "summary.json").string(), 0}, "campaign", report.campaign,
+  if (store.about().id != summary.campaign)
+    throw InputError({summary_file.string(), 0}, "campaign", summary.campaign,
                      "is another campaign than campaign.sqlite's, " + store.about().id);
   Rows rows(report, named);
-  try {
-    for (const ReportVariant& variant : report.variants)
-      rows.Read(store, variant, folder / "summary.json");
-  } catch (const nlohmann::json::exception& e) {
-    throw InputError({database.string(), 0}, "", "",
-                     fmt::format("holds events that cannot be read ({})", e.what()));
-  }
-  for (std::size_t v = 1; v < report.variants.size(); ++v)
-    report.pairs.push_back(
-        ShownPair(CompareVariants(store, report.variants[0].name, store, report.variants[v].name)));
-  report.title = "campaign " + report.campaign;
+  for (const VariantSummary& variant : summary.variants) rows.Read(store, variant, folder);
+  for (std::size_t v = 1; v < summary.variants.size(); ++v)
+    report.pairs.push_back(ShownPair(
+        CompareVariants(store, summary.variants[0].name, store, summary.variants[v].name)));
+  report.title = "campaign " + summary.campaign;
   AddPlaces(folder, rows, report);
   AddFilms(
       folder, [&](const std::string& v, std::uint64_t id) { return rows.WhatOf(v, id); }, report);
-  report.settings = ReadInputFile(folder / "scenario.resolved.yaml", kMaxBytes);
+  report.settings = ReadInputFile(folder / "scenario.resolved.yaml", kMaxResultBytes);
   return report;
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "base/file_output.h"
@@ -12,8 +11,6 @@
 
 namespace floorproof {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // As a shell takes it.
 std::string ShellWord(const std::string& text) {
@@ -33,23 +30,6 @@ std::string Words(std::string name) {
 }  // namespace
 
 bool IsListed(const EpisodeRow& row) { return row.outcome != "success" || row.any_failure(); }
-
-std::vector<Event> EventsOf(const EpisodeRow& row) {
-  std::vector<Event> events;
-  for (const Json& json : Json::parse(row.events)) {
-    Event event;
-    event.kind = json.at("kind");
-    event.hazard = json.at("hazard");
-    event.t_s = json.at("t_s");
-    event.x_m = json.at("x_m");
-    event.y_m = json.at("y_m");
-    const std::string mode = json.at("mode");
-    for (int m = 0; m < kNumFailureModes; ++m)
-      if (mode == Name(static_cast<FailureMode>(m))) event.mode = static_cast<FailureMode>(m);
-    events.push_back(std::move(event));
-  }
-  return events;
-}
 
 std::string WhatFailed(const EpisodeRow& row, const std::vector<Event>& events) {
   if (events.empty()) return Words(row.outcome);

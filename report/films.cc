@@ -68,7 +68,7 @@ void AddFilms(const fs::path& folder,
               const std::function<std::string(const std::string&, std::uint64_t)>& what,
               Report& report) {
   std::uintmax_t embedded = 0;
-  for (const ReportVariant& variant : report.variants)
+  for (const VariantSummary& variant : report.summary.variants)
     for (const std::uint64_t id : Filmed(folder / "episodes" / variant.name)) {
       if (report.films.size() == kMaxFilms) {
         ++report.films_left_out;

@@ -13,22 +13,21 @@ namespace floorproof {
 namespace {
 
 // Of a variant in words, beginning with its name where there are several.
-std::string RateSentence(const ReportVariant& v, double confidence) {
+std::string RateSentence(const VariantSummary& v) {
   if (v.failures.empty() || v.failures.front().n == 0) return "drove in no episode that counts";
-  const ReportRate& rate = v.failures.front();
+  const FailureRate& rate = v.failures.front();
   const std::string times = rate.k == 0 ? fmt::format("in none of {} episodes", rate.n)
                                         : fmt::format("in {} of {} episodes ({})", rate.k, rate.n,
                                                       PercentText(rate.rate));
-  return fmt::format("failed {}, {} interval {} to {}", times, PercentText(confidence),
+  return fmt::format("failed {}, {} interval {} to {}", times, PercentText(kReportedConfidence),
                      NumberText(100 * rate.lower), PercentText(rate.upper));
 }
 
 std::string RatesVerdict(const Report& report) {
-  const auto& variants = report.variants;
+  const auto& variants = report.summary.variants;
   if (variants.empty()) return "No variant was driven.";
-  if (variants.size() == 1)
-    return "The robot " + RateSentence(variants.front(), report.confidence) + ".";
-  const auto rate = [](const ReportVariant& v) {
+  if (variants.size() == 1) return "The robot " + RateSentence(variants.front()) + ".";
+  const auto rate = [](const VariantSummary& v) {
     const bool driven = !v.failures.empty() && v.failures.front().n > 0;
     return driven ? v.failures.front().rate : 2.0;
   };
@@ -40,15 +39,14 @@ std::string RatesVerdict(const Report& report) {
     if (rate(*v) <= 1 && rate(*v) > rate(*most)) most = v;
   if (rate(*most) == rate(*least))
     return fmt::format("All {} variants failed equally often: {} {}.", variants.size(), least->name,
-                       RateSentence(*least, report.confidence));
-  return fmt::format("{} {}; {} {}.",
-                     variants.size() > 2 ? "Least often: " + least->name : least->name,
-                     RateSentence(*least, report.confidence),
-                     variants.size() > 2 ? "most often: " + most->name : most->name,
-                     RateSentence(*most, report.confidence));
+                       RateSentence(*least));
+  return fmt::format(
+      "{} {}; {} {}.", variants.size() > 2 ? "Least often: " + least->name : least->name,
+      RateSentence(*least), variants.size() > 2 ? "most often: " + most->name : most->name,
+      RateSentence(*most));
 }
 
-std::string GateVerdict(const ReportGate& gate, std::size_t variants) {
+std::string GateSentence(const GateSummary& gate, std::size_t variants) {
   std::string metric = gate.metric;
   std::ranges::replace(metric, '_', ' ');
   const std::string claim =
@@ -56,12 +54,12 @@ std::string GateVerdict(const ReportGate& gate, std::size_t variants) {
   const std::string sure = PercentText(gate.confidence) + " confidence";
   const std::string where = variants > 1 ? " in each variant" : "";
   switch (gate.verdict) {
-    case ReportGate::Verdict::kPassed:
+    case GateVerdict::kPassed:
       return fmt::format("The gate passed: {}{}, at {}.", claim, where, sure);
-    case ReportGate::Verdict::kFailed:
+    case GateVerdict::kFailed:
       return fmt::format("The gate failed: the rate of {} is not below {}{}, at {}.", metric,
                          PercentText(gate.max_rate), where, sure);
-    case ReportGate::Verdict::kUndecided:
+    case GateVerdict::kUndecided:
       return fmt::format("The gate is undecided: the episodes do not show, at {}, whether {}{}.",
                          sure, claim, where);
   }
@@ -70,19 +68,18 @@ std::string GateVerdict(const ReportGate& gate, std::size_t variants) {
 
 std::string VerdictBox(const Report& report) {
   std::string tone, list;
-  if (report.gate) {
-    tone = report.gate->verdict == ReportGate::Verdict::kPassed   ? " passed"
-           : report.gate->verdict == ReportGate::Verdict::kFailed ? " failed"
-                                                                  : " undecided";
-    for (const auto& [variant, text] : report.gate->texts)
-      list += "<li>" + MarkupText(report.gate->texts.size() > 1 ? variant + ": " + text : text) +
+  if (const auto& gate = report.summary.gate) {
+    tone = std::string(" ") + GateVerdictName(gate->verdict);
+    for (const auto& [variant, found] : gate->variants)
+      list += "<li>" +
+              MarkupText(gate->variants.size() > 1 ? variant + ": " + found.text : found.text) +
               "</li>";
     list += "<li>" + MarkupText(RatesVerdict(report)) + "</li>";
   }
-  if (!report.unfinished.empty())
-    list += "<li>The campaign is not whole: " + MarkupText(report.unfinished) + ".</li>";
+  if (!report.summary.unfinished.empty())
+    list += "<li>The campaign is not whole: " + MarkupText(report.summary.unfinished) + ".</li>";
   int errors = 0, not_planned = 0;
-  for (const ReportVariant& v : report.variants) {
+  for (const VariantSummary& v : report.summary.variants) {
     errors += v.errors;
     not_planned += v.not_planned;
   }
@@ -108,39 +105,41 @@ std::string Picture(const std::string& png, const std::string& caption) {
 
 std::string Rates(const Report& report) {
   std::string html;
-  if (report.variants.size() > 1)
+  if (report.summary.variants.size() > 1)
     html += "<div class=\"card\">" + VariantsTable(report) + "</div>\n";
-  for (const ReportVariant& v : report.variants)
-    html += fmt::format("<article class=\"card\">{}{}</article>\n",
-                        report.variants.size() > 1 ? "<h3>" + MarkupText(v.name) + "</h3>\n" : "",
-                        VariantRates(report, v));
+  for (const VariantSummary& v : report.summary.variants)
+    html += fmt::format(
+        "<article class=\"card\">{}{}</article>\n",
+        report.summary.variants.size() > 1 ? "<h3>" + MarkupText(v.name) + "</h3>\n" : "",
+        VariantRates(report, v));
   return html + fmt::format(
                     "<p class=\"note\">Rates are of episodes that ended in success, failure or "
                     "timeout; a failure counts once an episode. Bars: two-sided {} Clopper-Pearson "
                     "intervals, on one axis throughout{}.</p>\n",
-                    PercentText(report.confidence),
-                    report.gate ? "; dashed: the gate's limit" : "");
+                    PercentText(kReportedConfidence),
+                    report.summary.gate ? "; dashed: the gate's limit" : "");
 }
 
 std::string Places(const Report& report) {
   std::string html;
-  for (const ReportVariant& v : report.variants) {
+  const auto& variants = report.summary.variants;
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    const ReportMap& map = report.maps.at(i);
     html += "<div class=\"card places\">";
-    if (report.variants.size() > 1) html += "<h3>" + MarkupText(v.name) + "</h3>\n";
-    if (!v.places_png.empty())
-      html += Picture(v.places_png,
-                      "Where " + (report.variants.size() > 1 ? v.name : std::string("the robot")) +
-                          " failed" + (v.places_note.empty() ? "" : "; " + v.places_note));
+    if (variants.size() > 1) html += "<h3>" + MarkupText(variants[i].name) + "</h3>\n";
+    if (!map.png.empty())
+      html += Picture(map.png, "Where " + (variants.size() > 1 ? variants[i].name : "the robot") +
+                                   " failed" + (map.note.empty() ? "" : "; " + map.note));
     else
-      html += "<p class=\"note\">" + MarkupText(v.places_note) + "</p>\n";
-    html += PlaceRates(report, v) + "</div>\n";
+      html += "<p class=\"note\">" + MarkupText(map.note) + "</p>\n";
+    html += PlaceRates(report, variants[i]) + "</div>\n";
   }
   return html;
 }
 
 std::string Film(const Report& report, const ReportFilm& film) {
   std::string name = fmt::format("Episode {}", film.episode);
-  if (report.variants.size() > 1) name += " of " + film.variant;
+  if (report.summary.variants.size() > 1) name += " of " + film.variant;
   if (!film.what.empty()) name += ": " + film.what;
   std::string html = "<article class=\"card\"><h3>" + MarkupText(name) + "</h3>\n";
   if (!film.mp4.empty())
@@ -194,7 +193,7 @@ std::string Episodes(const Report& report) {
       "class=\"num\">Time</th><th scope=\"col\" class=\"num\">Place</th><th scope=\"col\">Film it"
       "</th></tr></thead><tbody>\n";
   for (const ReportEpisode& e : report.episodes)
-    html += EpisodeRowHtml(e, report.variants.size() > 1);
+    html += EpisodeRowHtml(e, report.summary.variants.size() > 1);
   html += "</tbody></table></div>\n";
   if (report.episodes_left_out > 0)
     html += fmt::format("<p>{} more stand in <code>episodes.csv</code>.</p>\n",
@@ -203,8 +202,8 @@ std::string Episodes(const Report& report) {
 }
 
 std::string Settings(const Report& report) {
-  std::string html = "<dl><dt>campaign</dt><dd>" + MarkupText(report.campaign) + "</dd>";
-  for (const auto& [name, version] : report.versions)
+  std::string html = "<dl><dt>campaign</dt><dd>" + MarkupText(report.summary.campaign) + "</dd>";
+  for (const auto& [name, version] : report.summary.versions)
     html += "<dt>" + MarkupText(name) + "</dt><dd>" + MarkupText(version) + "</dd>";
   return html +
          "</dl>\n<details><summary>The scenario, with every default stated</summary>\n<pre>" +
@@ -228,7 +227,8 @@ std::string Footer(const Report& report) {
 }  // namespace
 
 std::string VerdictText(const Report& report) {
-  return report.gate ? GateVerdict(*report.gate, report.variants.size()) : RatesVerdict(report);
+  return report.summary.gate ? GateSentence(*report.summary.gate, report.summary.variants.size())
+                             : RatesVerdict(report);
 }
 
 std::string ReportHtml(const Report& report) {

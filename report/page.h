@@ -6,65 +6,18 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "env/geometry/geometry.h"
+#include "run/campaign/campaign_summary.h"
 
 namespace floorproof {
 
-// k of n episodes; two-sided bounds. `rate` is NaN at n = 0.
-struct ReportRate {
-  std::string name{};
-  int k = 0, n = 0;
-  double rate = 0, lower = 0, upper = 1;
-};
-
-// k events over an exposure; NaN or infinite where the exposure says nothing.
-struct ReportRatePer {
-  std::string name{};
-  int k = 0;
-  double exposure = 0, rate = 0, lower = 0, upper = 0;
-};
-
-struct ReportMetric {
-  std::string name{};  // with its unit
-  double mean = 0, median = 0, min = 0, max = 0;
-};
-
-struct ReportGate {
-  enum class Verdict { kPassed, kFailed, kUndecided };
-  std::string metric{};  // as in ReportVariant::failures, or another
-  double max_rate = 0, confidence = 0;
-  std::string mode{};
-  Verdict verdict = Verdict::kUndecided;                     // of all variants
-  std::vector<std::pair<std::string, std::string>> texts{};  // variant: its sentence
-};
-
-struct ReportPlace {
-  Vec2 p_W{};  // the square's centre
-  ReportRate rate{};
-};
-
-// Squares of the floor in which an episode failed; in all others none did.
-struct ReportPlaces {
-  double cell_m = 0;
-  std::vector<ReportPlace> rates{};  // the worst first
-};
-
-struct ReportVariant {
-  std::string name{};
-  int n = 0, errors = 0, not_planned = 0, success = 0, failure = 0, timeout = 0;
-  std::vector<ReportRate> failures{};  // the first: any failure
-  std::vector<ReportRate> kinds{}, hazards{};
-  std::vector<ReportRatePer> per_km{}, per_1000_h{};  // as many as failures, in their order
-  std::vector<ReportMetric> metrics{};
-  ReportPlaces places{};
-  std::string places_png{};   // where failures happened; empty: `places_note` says why
-  std::string places_note{};  // also said below a picture
+// Where a variant's episodes failed.
+struct ReportMap {
+  std::string png{};   // empty: `note` says why
+  std::string note{};  // also said below a picture
 };
 
 // A difference of a metric, b - a, over so many pairs; ends may be infinite or NaN.
@@ -108,12 +61,9 @@ struct ReportEpisode {
 };
 
 struct Report {
-  std::string title{}, campaign{};
-  std::string unfinished{};  // why not all episodes asked for were driven; empty: they were
-  std::vector<std::pair<std::string, std::string>> versions{};
-  double confidence = 0.95;  // of all intervals
-  std::optional<ReportGate> gate{};
-  std::vector<ReportVariant> variants{};
+  std::string title{};
+  CampaignSummary summary{};
+  std::vector<ReportMap> maps{};    // one a variant of the summary
   std::vector<ReportPair> pairs{};  // each with the first variant
   std::vector<ReportFilm> films{};
   int films_left_out = 0;

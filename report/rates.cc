@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "report/html.h"
+#include "run/episode/metrics.h"
 
 namespace floorproof {
 namespace {
@@ -27,10 +29,10 @@ std::string PercentBetween(double lower, double upper) {
 
 // The right end of the axis that all plots of a page share, so that they compare.
 double AxisEnd(const Report& report) {
-  double most = report.gate ? report.gate->max_rate : 0;
-  for (const ReportVariant& variant : report.variants)
+  double most = report.summary.gate ? report.summary.gate->max_rate : 0;
+  for (const VariantSummary& variant : report.summary.variants)
     for (const auto* rates : {&variant.failures, &variant.kinds, &variant.hazards})
-      for (const ReportRate& rate : *rates) most = std::max(most, rate.upper);
+      for (const FailureRate& rate : *rates) most = std::max(most, rate.upper);
   for (double decade = 1e-9; decade < 1; decade *= 10)
     for (const double step : {1.0, 2.0, 5.0})
       if (most <= step * decade * (1 + 1e-9)) return step * decade;
@@ -39,7 +41,7 @@ double AxisEnd(const Report& report) {
 
 struct Plot {
   double reach = 1;  // the right end
-  const ReportGate* gate = nullptr;
+  const GateSummary* gate = nullptr;
 
   double At(double rate) const { return std::clamp(100 * rate / reach, 0.0, 100.0); }
 
@@ -52,7 +54,7 @@ struct Plot {
     return svg + "</svg>";
   }
 
-  std::string Row(const ReportRate& rate) const {
+  std::string Row(const FailureRate& rate) const {
     std::string svg = fmt::format("<svg class=\"plot\" role=\"img\" aria-label=\"{}\">",
                                   PercentBetween(rate.lower, rate.upper));
     for (const int x : {0, 50, 100})
@@ -74,12 +76,12 @@ struct Plot {
 };
 
 Plot PlotOf(const Report& report) {
-  return {AxisEnd(report), report.gate ? &*report.gate : nullptr};
+  return {AxisEnd(report), report.summary.gate ? &*report.summary.gate : nullptr};
 }
 
 // `names`: what stands in the first column, a row each; `total`: the first row is all of it.
 std::string RatesTable(const Report& report, const std::string& heading,
-                       const std::vector<std::string>& names, const std::vector<ReportRate>& rates,
+                       const std::vector<std::string>& names, const std::vector<FailureRate>& rates,
                        bool total = false) {
   const Plot plot = PlotOf(report);
   std::string html = fmt::format(
@@ -87,9 +89,9 @@ std::string RatesTable(const Report& report, const std::string& heading,
       "class=\"num\">Episodes</th><th scope=\"col\" class=\"num\">Rate</th><th scope=\"col\" "
       "class=\"num\">{} interval</th><th scope=\"col\" "
       "class=\"plotted\">{}</th></tr></thead><tbody>\n",
-      heading, PercentText(report.confidence), plot.Axis());
+      heading, PercentText(kReportedConfidence), plot.Axis());
   for (std::size_t i = 0; i < rates.size(); ++i) {
-    const ReportRate& rate = rates[i];
+    const FailureRate& rate = rates[i];
     html += fmt::format(
         "<tr{}><th scope=\"row\">{}</th><td class=\"num\">{} of {}</td><td class=\"num\">{}</td>"
         "<td class=\"num\">{}</td><td class=\"plotted\">{}</td></tr>\n",
@@ -100,13 +102,13 @@ std::string RatesTable(const Report& report, const std::string& heading,
   return html + "</tbody></table>\n";
 }
 
-std::vector<std::string> Names(const std::vector<ReportRate>& rates, bool as_words) {
+std::vector<std::string> Names(const std::vector<FailureRate>& rates, bool as_words) {
   std::vector<std::string> names;
-  for (const ReportRate& rate : rates) names.push_back(as_words ? Words(rate.name) : rate.name);
+  for (const FailureRate& rate : rates) names.push_back(as_words ? Words(rate.name) : rate.name);
   return names;
 }
 
-std::string Outcomes(const ReportVariant& v) {
+std::string Outcomes(const VariantSummary& v) {
   struct Part {
     const char* name;
     int count;
@@ -129,7 +131,7 @@ std::string Outcomes(const ReportVariant& v) {
       "<div class=\"outcomes\" aria-hidden=\"true\">{}</div><ul class=\"key\">{}</ul>\n", bar, key);
 }
 
-std::string PerTable(const Report& report, const ReportVariant& v) {
+std::string PerTable(const VariantSummary& v) {
   if (v.per_km.empty() || v.per_1000_h.empty()) return "";
   std::string html = fmt::format(
       "<h4>Events by distance and time</h4>\n<p class=\"note\">Driven: {} km in {} h. {} intervals "
@@ -139,9 +141,9 @@ std::string PerTable(const Report& report, const ReportVariant& v) {
       "h</th><th "
       "scope=\"col\" class=\"num\">Interval</th></tr></thead><tbody>\n",
       NumberText(v.per_km.front().exposure), NumberText(1000 * v.per_1000_h.front().exposure),
-      PercentText(report.confidence));
+      PercentText(kReportedConfidence));
   for (std::size_t i = 0; i < std::min(v.per_km.size(), v.per_1000_h.size()); ++i) {
-    const ReportRatePer &km = v.per_km[i], &hours = v.per_1000_h[i];
+    const FailureRatePer &km = v.per_km[i], &hours = v.per_1000_h[i];
     html += fmt::format(
         "<tr{}><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td><td "
         "class=\"num\">{}</td><td class=\"num\">{}</td><td class=\"num\">{}</td></tr>\n",
@@ -152,20 +154,28 @@ std::string PerTable(const Report& report, const ReportVariant& v) {
   return html + "</tbody></table></div>\n";
 }
 
-std::string MetricsTable(const ReportVariant& v) {
-  if (v.metrics.empty()) return "";
-  std::string html =
-      "<details><summary>Metrics of an episode</summary>\n<div class=\"scroll\"><table><thead><tr>"
-      "<th scope=\"col\">Metric</th><th scope=\"col\" class=\"num\">Mean</th><th scope=\"col\" "
-      "class=\"num\">Median</th><th scope=\"col\" class=\"num\">Least</th><th scope=\"col\" "
-      "class=\"num\">Greatest</th></tr></thead><tbody>\n";
-  for (const ReportMetric& m : v.metrics)
-    html += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td><td "
-        "class=\"num\">{}</td><td class=\"num\">{}</td></tr>\n",
-        MarkupText(m.name), NumberText(m.mean), NumberText(m.median), NumberText(m.min),
-        NumberText(m.max));
-  return html + "</tbody></table></div></details>\n";
+// path_length_m -> "path length [m]"
+std::string MetricLabel(const std::string& name) {
+  const auto column = std::ranges::find(kMetrics, name, &MetricColumn::name);
+  if (column == kMetrics.end() || column->unit.empty()) return Words(name);
+  return fmt::format("{} [{}]", Words(name.substr(0, name.rfind('_'))), column->unit);
+}
+
+std::string MetricsTable(const VariantSummary& v) {
+  std::string rows;
+  for (const auto& [name, spread] : v.metrics)
+    if (spread)
+      rows += fmt::format(
+          "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td><td "
+          "class=\"num\">{}</td><td class=\"num\">{}</td></tr>\n",
+          MarkupText(MetricLabel(name)), NumberText(spread->mean), NumberText(spread->median),
+          NumberText(spread->min), NumberText(spread->max));
+  if (rows.empty()) return "";
+  return "<details><summary>Metrics of an episode</summary>\n<div class=\"scroll\"><table><thead>"
+         "<tr><th scope=\"col\">Metric</th><th scope=\"col\" class=\"num\">Mean</th><th "
+         "scope=\"col\" class=\"num\">Median</th><th scope=\"col\" class=\"num\">Least</th><th "
+         "scope=\"col\" class=\"num\">Greatest</th></tr></thead><tbody>\n" +
+         rows + "</tbody></table></div></details>\n";
 }
 
 std::string Signed(double value, bool percent) {
@@ -179,27 +189,27 @@ std::string SignedBetween(double lower, double upper, bool percent) {
   return "too few pairs";
 }
 
-std::string PairSentence(const Report& report, const ReportPair& pair) {
+std::string PairSentence(const ReportPair& pair) {
   const std::string b = MarkupText(pair.b), a = MarkupText(pair.a);
   if (pair.n() == 0)
     return fmt::format("<b>{}</b> and <b>{}</b> share no episode that counts.", b, a);
   // By the exact test: with few pairs the score interval can leave out 0 where it does not.
-  const bool clear = pair.p <= 1 - report.confidence;
+  const bool clear = pair.p <= 1 - kReportedConfidence;
   const std::string verdict = !clear                ? "no clear difference"
                               : pair.difference > 0 ? fmt::format("<b>{}</b> fails more often", b)
                                                     : fmt::format("<b>{}</b> fails less often", b);
   return fmt::format(
       "<b>{}</b> against <b>{}</b> over {} shared episodes: {} (difference of the failure rates {} "
       "percentage points, {} interval {}; exact McNemar p = {}).",
-      b, a, pair.n(), verdict, Signed(pair.difference, true), PercentText(report.confidence),
+      b, a, pair.n(), verdict, Signed(pair.difference, true), PercentText(kReportedConfidence),
       SignedBetween(pair.lower, pair.upper, true), NumberText(pair.p));
 }
 
-std::string PairTable(const Report& report, const ReportPair& pair) {
+std::string PairTable(const ReportPair& pair) {
   std::string html = fmt::format(
       "<p>{}</p>\n<ul class=\"key\"><li>{} failed in both</li><li>{} in {} only</li><li>{} in {} "
       "only</li><li>{} in neither</li></ul>\n",
-      PairSentence(report, pair), pair.both, pair.only_a, MarkupText(pair.a), pair.only_b,
+      PairSentence(pair), pair.both, pair.only_a, MarkupText(pair.a), pair.only_b,
       MarkupText(pair.b), pair.neither);
   if (pair.metrics.empty()) return html;
   html += fmt::format(
@@ -207,7 +217,7 @@ std::string PairTable(const Report& report, const ReportPair& pair) {
       "Pairs</th><th scope=\"col\" class=\"num\">Mean</th><th scope=\"col\" class=\"num\">{0} "
       "interval</th><th scope=\"col\" class=\"num\">Median</th><th scope=\"col\" class=\"num\">{0} "
       "interval</th></tr></thead><tbody>\n",
-      PercentText(report.confidence));
+      PercentText(kReportedConfidence));
   for (const ReportDifference& d : pair.metrics)
     html += fmt::format(
         "<tr><th scope=\"row\">{}</th><td>{} {}</td><td class=\"num\">{}</td><td "
@@ -222,8 +232,8 @@ std::string PairTable(const Report& report, const ReportPair& pair) {
 
 std::string VariantsTable(const Report& report) {
   std::vector<std::string> names;
-  std::vector<ReportRate> rates;
-  for (const ReportVariant& variant : report.variants) {
+  std::vector<FailureRate> rates;
+  for (const VariantSummary& variant : report.summary.variants) {
     if (variant.failures.empty()) continue;
     names.push_back(variant.name);
     rates.push_back(variant.failures.front());
@@ -231,10 +241,10 @@ std::string VariantsTable(const Report& report) {
   return RatesTable(report, "Any failure, by variant", names, rates);
 }
 
-std::string VariantRates(const Report& report, const ReportVariant& v) {
+std::string VariantRates(const Report& report, const VariantSummary& v) {
   std::string html = Outcomes(v);
   html += RatesTable(report, "Failure", Names(v.failures, true), v.failures, true);
-  html += PerTable(report, v);
+  html += PerTable(v);
   if (!v.kinds.empty())
     html += "<h4>By kind</h4>\n" + RatesTable(report, "Kind", Names(v.kinds, true), v.kinds);
   if (!v.hazards.empty())
@@ -243,27 +253,32 @@ std::string VariantRates(const Report& report, const ReportVariant& v) {
   return html + MetricsTable(v);
 }
 
-std::string PlaceRates(const Report& report, const ReportVariant& v) {
+std::string PlaceRates(const Report& report, const VariantSummary& v) {
   constexpr std::size_t kShown = 10;
+  std::vector<const FailurePlace*> worst_first;
+  for (const FailurePlace& place : v.places) worst_first.push_back(&place);
+  std::ranges::stable_sort(worst_first, std::greater(),
+                           [](const FailurePlace* place) { return place->rate.k; });
   std::vector<std::string> names;
-  std::vector<ReportRate> rates;
-  for (std::size_t i = 0; i < std::min(kShown, v.places.rates.size()); ++i) {
-    names.push_back(v.places.rates[i].rate.name);
-    rates.push_back(v.places.rates[i].rate);
+  std::vector<FailureRate> rates;
+  for (std::size_t i = 0; i < std::min(kShown, worst_first.size()); ++i) {
+    const FailurePlace& place = *worst_first[i];
+    names.push_back(fmt::format("x {:.2f}, y {:.2f} m", place.p_W.x(), place.p_W.y()));
+    rates.push_back(place.rate);
   }
   if (rates.empty()) return "";
-  std::string html = RatesTable(
-      report, fmt::format("Square of {} m around", NumberText(v.places.cell_m)), names, rates);
-  if (v.places.rates.size() > kShown)
+  std::string html =
+      RatesTable(report, fmt::format("Square of {} m around", NumberText(v.place_m)), names, rates);
+  if (v.places.size() > kShown)
     html +=
         fmt::format("<p class=\"note\">{} more squares stand in <code>summary.json</code>.</p>\n",
-                    v.places.rates.size() - kShown);
+                    v.places.size() - kShown);
   return html;
 }
 
 std::string PairedTables(const Report& report) {
   std::string html;
-  for (const ReportPair& pair : report.pairs) html += PairTable(report, pair);
+  for (const ReportPair& pair : report.pairs) html += PairTable(pair);
   return html;
 }
 

@@ -11,9 +11,9 @@ namespace floorproof {
 // All variants' rates of any failure, one below the other.
 std::string VariantsTable(const Report& report);
 // One variant: outcomes, rates, rates per km and hour, kinds, hazards, metrics.
-std::string VariantRates(const Report& report, const ReportVariant& variant);
+std::string VariantRates(const Report& report, const VariantSummary& variant);
 // The squares of the floor where most episodes failed; empty where none did.
-std::string PlaceRates(const Report& report, const ReportVariant& variant);
+std::string PlaceRates(const Report& report, const VariantSummary& variant);
 // Each variant against the first.
 std::string PairedTables(const Report& report);
 

@@ -196,13 +196,4 @@ GateReport Gate::Report() const {
   return report;
 }
 
-GateReport JudgeGate(const GateSettings& settings, std::span<const std::uint8_t> outcomes) {
-  Gate gate(settings);
-  for (const std::uint8_t outcome : outcomes) {
-    if (gate.final()) break;
-    gate.Add(outcome != 0);
-  }
-  return gate.Report();
-}
-
 }  // namespace floorproof

@@ -3,8 +3,6 @@
 // `confidence`; where the episodes allow neither, the gate is undecided and says so.
 #pragma once
 
-#include <cstdint>
-#include <span>
 #include <string>
 
 #include "stats/interval.h"
@@ -77,8 +75,5 @@ class Gate {
   bool final_ = false;
   GateVerdict verdict_ = GateVerdict::kUndecided;
 };
-
-// The gate after `outcomes` (0: none, else a failure), a prefix of the episodes.
-GateReport JudgeGate(const GateSettings& settings, std::span<const std::uint8_t> outcomes);
 
 }  // namespace floorproof

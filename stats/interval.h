@@ -4,6 +4,9 @@
 
 namespace floorproof {
 
+// Of every interval that a campaign or a comparison states.
+inline constexpr double kReportedConfidence = 0.95;
+
 struct Interval {
   double lower = 0;
   double upper = 0;  // may be infinite where the data say nothing

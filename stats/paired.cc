@@ -16,41 +16,14 @@
 #include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 #include <limits>
-#include <string>
+#include <vector>
 
-#include "base/error.h"
-#include "base/params.h"
 #include "stats/checks.h"
 
 namespace floorproof {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-void CheckSeries(std::span<const EpisodeValue> series) {
-  for (std::size_t i = 0; i < series.size(); ++i) {
-    if (!std::isfinite(series[i].value))
-      throw InputError({}, "value", FormatDouble(series[i].value), "must be finite");
-    if (i > 0 && series[i].episode <= series[i - 1].episode)
-      throw InputError({}, "episode", std::to_string(series[i].episode),
-                       "must be greater than the one before");
-  }
-}
-
-template <typename Visit>
-void ForEachPair(std::span<const EpisodeValue> a, std::span<const EpisodeValue> b, Visit visit) {
-  CheckSeries(a);
-  CheckSeries(b);
-  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
-    if (a[i].episode < b[j].episode) {
-      ++i;
-    } else if (b[j].episode < a[i].episode) {
-      ++j;
-    } else {
-      visit(a[i++].value, b[j++].value);
-    }
-  }
-}
 
 // P(X <= k) of n fair coins.
 double FairCoinsAtMost(int k, int n) {
@@ -81,21 +54,6 @@ double TangoUpper(double only_a, double only_b, double n, double z) {
 }
 
 }  // namespace
-
-std::vector<double> PairedDifferences(std::span<const EpisodeValue> a,
-                                      std::span<const EpisodeValue> b) {
-  std::vector<double> differences;
-  ForEachPair(a, b, [&](double x, double y) { differences.push_back(x - y); });
-  return differences;
-}
-
-PairedCounts CountPairs(std::span<const EpisodeValue> a, std::span<const EpisodeValue> b) {
-  PairedCounts counts;
-  ForEachPair(a, b, [&](double x, double y) {
-    ++(x != 0 ? (y != 0 ? counts.both : counts.only_a) : (y != 0 ? counts.only_b : counts.neither));
-  });
-  return counts;
-}
 
 double McNemarExact(int only_a, int only_b) {
   CheckCount("only_a", only_a);

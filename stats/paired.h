@@ -3,32 +3,17 @@
 // chance did to one it did to the other.
 #pragma once
 
-#include <cstdint>
 #include <span>
-#include <vector>
 
 #include "stats/interval.h"
 
 namespace floorproof {
-
-// What one variant gave in one episode: a metric, or 1 for "failed" and 0 for "did not".
-struct EpisodeValue {
-  std::int64_t episode = 0;
-  double value = 0;
-};
 
 // A table of pairs of yes or no: a's answer first.
 struct PairedCounts {
   int both = 0, only_a = 0, only_b = 0, neither = 0;
   int n() const { return both + only_a + only_b + neither; }
 };
-
-// Joins by episode id; ids that only one side has are left out. Each side must be in ascending
-// order of id, without repeats, its values finite. Throws InputError otherwise.
-// Differences are a - b in order of id; a value other than 0 counts as yes.
-std::vector<double> PairedDifferences(std::span<const EpisodeValue> a,
-                                      std::span<const EpisodeValue> b);
-PairedCounts CountPairs(std::span<const EpisodeValue> a, std::span<const EpisodeValue> b);
 
 // Exact two-sided McNemar p-value from the discordant counts: under equal rates each discordant
 // pair falls to either side with chance 1/2. (12, 3) gives 0.035; no discordant pair gives 1.

@@ -28,9 +28,9 @@ struct Brief {
 };
 
 // One variant's ids: which are done, and what the prefix says.
-class Tracker {
+class PrefixTally {
  public:
-  Tracker(std::uint64_t begin, const std::optional<CampaignGate>& gate) : gate_(gate) {
+  PrefixTally(std::uint64_t begin, const std::optional<CampaignGate>& gate) : gate_(gate) {
     progress_.prefix = begin;
     if (gate) progress_.gate = gate->Start();
   }
@@ -88,7 +88,7 @@ class CampaignDrive {
     const auto& variants = file.variants();
     total_ = variants.size() * (options.end - options.begin);
     for (const Variant& variant : variants) {
-      trackers_.emplace_back(options.begin, options.gate);
+      tallies_.emplace_back(options.begin, options.gate);
       there_.push_back(store.Episodes(variant.name));
     }
     job_ = options.begin * variants.size();
@@ -96,7 +96,7 @@ class CampaignDrive {
 
   CampaignRun Run() {
     // Rows of earlier runs, judged as if they had just come.
-    for (std::size_t v = 0; v < trackers_.size(); ++v) {
+    for (std::size_t v = 0; v < tallies_.size(); ++v) {
       store_.SetExtraFrom(file_.variants()[v].name, options_.end);
       store_.ForEach(file_.variants()[v].name, [&](const EpisodeRow& row) {
         if (row.episode < options_.begin) return;
@@ -116,11 +116,11 @@ class CampaignDrive {
   }
 
  private:
-  const Variant& VariantOf(Job job) const { return file_.variants()[job % trackers_.size()]; }
+  const Variant& VariantOf(Job job) const { return file_.variants()[job % tallies_.size()]; }
 
   std::string Work(Job job) {
     const auto start = Clock::now();
-    EpisodeRow row = maker_.Run(VariantOf(job), job / trackers_.size());
+    EpisodeRow row = maker_.Run(VariantOf(job), job / tallies_.size());
     row.wall_s = Since(start);
     return ToLine(row);
   }
@@ -128,10 +128,10 @@ class CampaignDrive {
   // The next id that is not there; all variants of an episode together.
   std::optional<Job> Next() {
     if (ended_) return std::nullopt;
-    for (; job_ < options_.end * trackers_.size(); ++job_) {
-      const std::size_t v = job_ % trackers_.size();
-      const std::uint64_t episode = job_ / trackers_.size();
-      if (trackers_[v].decided()) continue;
+    for (; job_ < options_.end * tallies_.size(); ++job_) {
+      const std::size_t v = job_ % tallies_.size();
+      const std::uint64_t episode = job_ / tallies_.size();
+      if (tallies_[v].decided()) continue;
       if (episode > fail_at_) return std::nullopt;
       if (std::ranges::binary_search(there_[v], episode)) continue;
       return job_++;
@@ -151,15 +151,15 @@ class CampaignDrive {
   }
 
   void TakeCrash(Job job, const std::string& how) {
-    Take(maker_.Refused(VariantOf(job), job / trackers_.size(),
+    Take(maker_.Refused(VariantOf(job), job / tallies_.size(),
                         "crashed: its process was " + how + ", twice"));
   }
 
   // Whether this row ends the campaign, once all before it are done.
   void Judge(std::size_t v, const EpisodeRow& row) {
-    trackers_[v].Add(row);
+    tallies_[v].Add(row);
     if (!options_.fail_fast) return;
-    fail_at_ = std::min(fail_at_, trackers_[v].first_failure().value_or(kNone));
+    fail_at_ = std::min(fail_at_, tallies_[v].first_failure().value_or(kNone));
   }
 
   // Asked between answers.
@@ -171,10 +171,10 @@ class CampaignDrive {
     if (Interrupted()) ended_ = CampaignEnd::kInterrupted;
     if (options_.time_limit_s && Since(start_) > *options_.time_limit_s)
       ended_ = CampaignEnd::kTimeLimit;
-    const auto all = [&](auto&& is) { return std::ranges::all_of(trackers_, is); };
-    if (all([](const Tracker& t) { return t.decided(); })) ended_ = CampaignEnd::kGateDecided;
+    const auto all = [&](auto&& is) { return std::ranges::all_of(tallies_, is); };
+    if (all([](const PrefixTally& t) { return t.decided(); })) ended_ = CampaignEnd::kGateDecided;
     if (fail_at_ != kNone &&
-        all([&](const Tracker& t) { return t.decided() || t.progress().prefix > fail_at_; }))
+        all([&](const PrefixTally& t) { return t.decided() || t.progress().prefix > fail_at_; }))
       ended_ = CampaignEnd::kFailFast;
     return ended_.has_value();
   }
@@ -187,7 +187,7 @@ class CampaignDrive {
 
   CampaignProgress Progress() {
     shown_.clear();
-    for (const Tracker& tracker : trackers_) shown_.push_back(tracker.progress());
+    for (const PrefixTally& tally : tallies_) shown_.push_back(tally.progress());
     return {shown_, done_, total_, done_now_, Since(start_)};
   }
 
@@ -196,23 +196,23 @@ class CampaignDrive {
     CampaignRun run;
     // Neither a limit nor Ctrl-C ends what is done.
     bool complete = true;
-    for (Tracker& tracker : trackers_) {
-      if (tracker.progress().prefix >= options_.end) tracker.End();
-      complete &= tracker.decided() || tracker.progress().prefix >= options_.end;
+    for (PrefixTally& tally : tallies_) {
+      if (tally.progress().prefix >= options_.end) tally.End();
+      complete &= tally.decided() || tally.progress().prefix >= options_.end;
     }
     const bool cut = ended_ == CampaignEnd::kTimeLimit || ended_ == CampaignEnd::kInterrupted;
     if (ended_ && !(cut && complete)) run.end = *ended_;
     if (!ended_ && !complete) run.end = CampaignEnd::kMissing;
-    for (std::size_t v = 0; v < trackers_.size(); ++v) {
+    for (std::size_t v = 0; v < tallies_.size(); ++v) {
       // What lies beyond is kept and not judged: early arrivals would bias it.
-      std::uint64_t from = trackers_[v].progress().prefix;
+      std::uint64_t from = tallies_[v].progress().prefix;
       if (run.end == CampaignEnd::kFailFast) from = std::min(from, fail_at_ + 1);
       const std::string& name = file_.variants()[v].name;
       store_.SetExtraFrom(name, from);
-      run.variants.push_back(trackers_[v].progress());
+      run.variants.push_back(tallies_[v].progress());
       if (run.end != CampaignEnd::kFailFast) continue;
       // What is reported is what stays: a variant may have been ahead of the one that failed.
-      Tracker kept(options_.begin, options_.gate);
+      PrefixTally kept(options_.begin, options_.gate);
       store_.ForEach(name, [&](const EpisodeRow& row) { kept.Add(row); });
       run.variants.back() = kept.progress();
     }
@@ -226,7 +226,7 @@ class CampaignDrive {
   const CampaignOptions& options_;
   CampaignObserver* observer_;
   EpisodeMaker maker_;
-  std::vector<Tracker> trackers_;
+  std::vector<PrefixTally> tallies_;
   std::vector<std::vector<std::uint64_t>> there_;
   std::vector<EpisodeRow> batch_;
   std::vector<VariantProgress> shown_;

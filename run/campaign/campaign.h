@@ -14,6 +14,7 @@
 
 #include "run/campaign/campaign_gate.h"
 #include "run/campaign/campaign_store.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <map>
-#include <vector>
+#include <nlohmann/json.hpp>
 
 #include "base/file_output.h"
 #include "run/episode/records.h"
@@ -70,6 +70,17 @@ CampaignAbout DescribeCampaign(const ScenarioFile& file) {
   about.versions = VersionsJson().dump();
   about.id = Sha256(about.scenario + about.versions).substr(0, 16);
   return about;
+}
+
+std::vector<std::pair<std::string, std::string>> VersionsOf(const CampaignAbout& about) {
+  try {
+    std::vector<std::pair<std::string, std::string>> versions;
+    const auto json = nlohmann::ordered_json::parse(about.versions);
+    for (const auto& [name, version] : json.items()) versions.emplace_back(name, version);
+    return versions;
+  } catch (const nlohmann::ordered_json::exception& e) {
+    throw InternalError(e.what());
+  }
 }
 
 void RequireSame(const CampaignAbout& there, const CampaignAbout& now,

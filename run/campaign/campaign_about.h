@@ -2,6 +2,10 @@
 // What a campaign is, and whether two are the same.
 #pragma once
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "run/campaign/campaign_store.h"
 #include "run/scenario/scenario.h"
 
@@ -11,6 +15,9 @@ namespace floorproof {
 // and engine. Not in it: how many episodes, which of them, and on how many workers. Checks every
 // variant; throws InputError.
 CampaignAbout DescribeCampaign(const ScenarioFile& file);
+
+// Its versions, by name. Throws InternalError where they are damaged.
+std::vector<std::pair<std::string, std::string>> VersionsOf(const CampaignAbout& about);
 
 // Throws InputError naming `where` and the first thing that differs.
 void RequireSame(const CampaignAbout& there, const CampaignAbout& now,

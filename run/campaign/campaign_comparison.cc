@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "stats/paired.h"
@@ -13,8 +14,6 @@ namespace floorproof {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kConfidence = 0.95;
 
 // A row without its texts, of which a hundred thousand would not fit.
 struct BriefRow {
@@ -148,15 +147,9 @@ ComparedFailure CompareFailures(const std::string& mode, const std::vector<Pair>
   const PairedCounts counts{out.both, out.only_b, out.only_a, out.neither};  // b first: b - a
   out.difference = counts.n() > 0 ? static_cast<double>(out.only_b - out.only_a) / counts.n()
                                   : std::numeric_limits<double>::quiet_NaN();
-  out.interval = PairedRateDifference(counts, kConfidence);
+  out.interval = PairedRateDifference(counts, kReportedConfidence);
   out.p = McNemarExact(out.only_a, out.only_b);
   return out;
-}
-
-// What an episode that a failure cuts short has less of, for no merit of its own.
-bool NeedsSuccess(std::string_view metric) {
-  return metric == "duration_s" || metric == "energy_j" || metric == "charge_ah" ||
-         metric == "path_length_m" || metric == "turns" || metric == "cumulative_risk";
 }
 
 Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -186,9 +179,8 @@ Comparison CompareVariants(const CampaignStore& a, const std::string& variant_a,
     out.failures.push_back(
         CompareFailures(std::string(Name(static_cast<FailureMode>(m))), pairs,
                         [m](const EpisodeRow& row) { return row.events_of[m] > 0; }));
-  for (std::size_t i = 0; i < kMetricColumns.size(); ++i) {
-    ComparedMetric compared{
-        std::string(kMetricColumns[i]), NeedsSuccess(kMetricColumns[i]), {}, {}};
+  for (std::size_t i = 0; i < kMetrics.size(); ++i) {
+    ComparedMetric compared{std::string(kMetrics[i].name), kMetrics[i].needs_success, {}, {}};
     std::vector<double> differences;
     for (const Pair& pair : pairs) {
       const EpisodeRow &row_a = pair.a.row, &row_b = pair.b.row;
@@ -197,8 +189,8 @@ Comparison CompareVariants(const CampaignStore& a, const std::string& variant_a,
         differences.push_back(*row_b.metrics[i] - *row_a.metrics[i]);
     }
     if (differences.empty()) continue;
-    compared.mean = MeanDifference(differences, kConfidence);
-    compared.median = MedianDifference(differences, kConfidence);
+    compared.mean = MeanDifference(differences, kReportedConfidence);
+    compared.median = MedianDifference(differences, kReportedConfidence);
     out.metrics.push_back(std::move(compared));
   }
   for (std::size_t i = 0; i < figures.names().size(); ++i)
@@ -237,7 +229,7 @@ Json ComparisonJson(const Comparison& c) {
           {"n", c.n},
           {"only_a", c.only_a},
           {"only_b", c.only_b},
-          {"confidence", kConfidence},
+          {"confidence", kReportedConfidence},
           {"failures", std::move(failures)},
           {"metrics", std::move(metrics)},
           {"plans", std::move(plans)},

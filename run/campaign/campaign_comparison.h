@@ -2,7 +2,7 @@
 // Two variants on the same episodes, which have the same draws in both: a paired comparison.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>

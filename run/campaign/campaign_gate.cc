@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/campaign/campaign_gate.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -56,37 +54,6 @@ bool CampaignGate::Fails(const EpisodeRow& row) const {
   for (std::size_t m = 0; m < row.events_of.size(); ++m)
     if (params_.metric == Name(static_cast<FailureMode>(m))) return row.events_of[m] > 0;
   return false;
-}
-
-std::string GateState::Criterion() const {
-  return fmt::format("{} < {:.4g} % at {:.4g} %", params_.metric, 100 * params_.max_rate,
-                     100 * params_.confidence);
-}
-
-std::string GateState::Text() const {
-  return fmt::format("{} ({}): {}", GateVerdictName(verdict()), Criterion(), gate_.Report().text);
-}
-
-nlohmann::ordered_json GateState::CriterionJson() const {
-  return {{"metric", params_.metric},
-          {"max_rate", params_.max_rate},
-          {"confidence", params_.confidence},
-          {"mode", params_.mode}};
-}
-
-nlohmann::ordered_json GateState::Json() const {
-  const GateReport report = gate_.Report();
-  nlohmann::ordered_json json = {{"verdict", GateVerdictName(report.verdict)},
-                                 {"n", report.n},
-                                 {"k", report.k},
-                                 {"lower", report.rate.lower},
-                                 {"upper", report.rate.upper},
-                                 {"text", report.text}};
-  if (params_.mode == "sequential") {
-    json["log_e_pass"] = report.log_e_pass;
-    json["log_e_fail"] = report.log_e_fail;
-  }
-  return json;
 }
 
 GateVerdict Overall(const std::vector<GateState>& gates) {

@@ -2,7 +2,6 @@
 // A scenario's `gate`: the rate of one metric that a campaign must prove to be below a bound.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,10 +31,8 @@ class GateState {
   // No further episode changes the verdict.
   bool decided() const { return gate_.final(); }
   GateVerdict verdict() const { return gate_.verdict(); }
-  std::string Text() const;       // a sentence
-  std::string Criterion() const;  // "any_failure < 5 % at 95 %"
-  nlohmann::ordered_json CriterionJson() const;
-  nlohmann::ordered_json Json() const;
+  GateReport Report() const { return gate_.Report(); }
+  const GateParams& params() const { return params_; }
 
  private:
   GateParams params_;

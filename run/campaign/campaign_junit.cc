@@ -8,23 +8,24 @@
 namespace floorproof {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // What a variant did, in a few lines for people.
-std::string VariantText(const Json& summary) {
-  std::string text = fmt::format(
-      "{} episodes: {} success, {} failure, {} timeout; {} errors, {} without a plan\n",
-      summary["n"].get<int>(), summary["outcomes"]["success"].get<int>(),
-      summary["outcomes"]["failure"].get<int>(), summary["outcomes"]["timeout"].get<int>(),
-      summary["n_error"].get<int>(), summary["n_not_planned"].get<int>());
-  for (const auto& [mode, rate] : summary["failures"].items())
-    text += rate["rate"].is_null()
-                ? fmt::format("{}: nothing was driven\n", mode)
-                : fmt::format("{}: {} of {}, {:.3g} % (95 %: {:.3g} to {:.3g} %)\n", mode,
-                              rate["k"].get<int>(), rate["n"].get<int>(),
-                              100 * rate["rate"].get<double>(), 100 * rate["lower"].get<double>(),
-                              100 * rate["upper"].get<double>());
+std::string VariantText(const VariantSummary& v) {
+  std::string text =
+      fmt::format("{} episodes: {} success, {} failure, {} timeout; {} errors, {} without a plan\n",
+                  v.n, v.success, v.failure, v.timeout, v.errors, v.not_planned);
+  for (const FailureRate& rate : v.failures)
+    text += rate.n == 0
+                ? fmt::format("{}: nothing was driven\n", rate.name)
+                : fmt::format("{}: {} of {}, {:.3g} % (95 %: {:.3g} to {:.3g} %)\n", rate.name,
+                              rate.k, rate.n, 100 * rate.rate, 100 * rate.lower, 100 * rate.upper);
   return text;
+}
+
+double SimulatedTime(const VariantSummary& v) {
+  for (const auto& [name, spread] : v.metrics)
+    if (name == kMetrics[MetricIndex(&Metrics::duration_s)].name && spread)
+      return spread->mean * v.n;
+  return 0;
 }
 
 struct Suite {
@@ -40,39 +41,41 @@ std::string Case(const std::string& name, const std::string& criterion, double t
       MarkupText(name), MarkupText(criterion), time_s, verdict, MarkupText(text));
 }
 
-// `gate` may be nullptr.
-Suite VariantSuite(const std::string& name, const Json& variant, const Json& unfinished,
-                   bool failed_fast, const GateState* gate) {
+// Its case of the gate.
+std::string GateCase(const std::string& name, const GateSummary& gate, const VariantGate& variant,
+                     double time_s, const std::string& rates, Suite& suite) {
+  const std::string said = GateText(gate, variant), text = MarkupText(said);
+  const bool failed = variant.report.verdict == GateVerdict::kFailed,
+             undecided = variant.report.verdict == GateVerdict::kUndecided;
+  ++suite.tests;
+  suite.failures += failed;
+  suite.skipped += undecided;
+  std::string verdict;
+  if (failed) verdict = fmt::format("      <failure message=\"{0}\">{0}</failure>\n", text);
+  if (undecided) verdict = fmt::format("      <skipped message=\"{}\"/>\n", text);
+  return Case(name, Criterion(gate), time_s, verdict, said + "\n" + rates);
+}
+
+Suite VariantSuite(const std::string& name, std::size_t v, const CampaignSummary& summary,
+                   bool failed_fast) {
+  const VariantSummary& variant = summary.variants[v];
   Suite suite;
-  const Json& duration = variant["metrics"]["duration_s"];
-  const double time_s =
-      duration.is_null() ? 0.0 : duration["mean"].get<double>() * variant["n"].get<int>();
-  const int broken = variant["n_error"].get<int>();
-  suite.errors = broken > 0;
-  suite.tests = gate == nullptr ? 1 : 2;
+  suite.tests = 1;
+  suite.errors = variant.errors > 0;
   std::string ran;
-  if (broken > 0) {
-    const std::string why = MarkupText(variant["first_error"].get<std::string>());
-    ran = fmt::format("      <error message=\"{0} episodes ended in error\">{1}</error>\n", broken,
-                      why);
-  } else if (!unfinished.is_null()) {
+  if (variant.errors > 0) {
+    ran = fmt::format("      <error message=\"{0} episodes ended in error\">{1}</error>\n",
+                      variant.errors, MarkupText(variant.first_error));
+  } else if (!summary.unfinished.empty()) {
     ran = fmt::format("      <{} message=\"{}\"/>\n", failed_fast ? "failure" : "skipped",
-                      MarkupText(unfinished.get<std::string>()));
+                      MarkupText(summary.unfinished));
     ++(failed_fast ? suite.failures : suite.skipped);
   }
+  const double time_s = SimulatedTime(variant);
   const std::string rates = VariantText(variant);
   std::string cases = Case(name, "every episode ran", time_s, ran, rates);
-  if (gate != nullptr) {
-    const std::string text = MarkupText(gate->Text());
-    std::string verdict;
-    if (gate->verdict() == GateVerdict::kFailed)
-      verdict = fmt::format("      <failure message=\"{0}\">{0}</failure>\n", text);
-    if (gate->verdict() == GateVerdict::kUndecided)
-      verdict = fmt::format("      <skipped message=\"{}\"/>\n", text);
-    suite.skipped += gate->verdict() == GateVerdict::kUndecided;
-    cases += Case(name, gate->Criterion(), time_s, verdict, gate->Text() + "\n" + rates);
-    suite.failures += gate->verdict() == GateVerdict::kFailed;
-  }
+  if (summary.gate && v < summary.gate->variants.size())
+    cases += GateCase(name, *summary.gate, summary.gate->variants[v], time_s, rates, suite);
   suite.xml = fmt::format(
       "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" "
       "skipped=\"{}\" time=\"{:.3f}\">\n{}  </testsuite>\n",
@@ -82,19 +85,17 @@ Suite VariantSuite(const std::string& name, const Json& variant, const Json& unf
 
 }  // namespace
 
-std::string JunitXml(const Json& summary, const std::vector<GateState>& gate, bool failed_fast,
+std::string JunitXml(const CampaignSummary& summary, bool failed_fast,
                      const std::string& scenario_name) {
   Suite all;
-  std::size_t v = 0;
-  for (const auto& [name, variant] : summary["variants"].items()) {
-    const Suite suite = VariantSuite(scenario_name + "." + name, variant, summary["unfinished"],
-                                     failed_fast, v < gate.size() ? &gate[v] : nullptr);
+  for (std::size_t v = 0; v < summary.variants.size(); ++v) {
+    const Suite suite =
+        VariantSuite(scenario_name + "." + summary.variants[v].name, v, summary, failed_fast);
     all.xml += suite.xml;
     all.tests += suite.tests;
     all.failures += suite.failures;
     all.errors += suite.errors;
     all.skipped += suite.skipped;
-    ++v;
   }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"{}\" failures=\"{}\" "

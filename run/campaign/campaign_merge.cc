@@ -14,7 +14,7 @@ std::string Difference(const EpisodeRow& a, const EpisodeRow& b) {
   if (a.outcome != b.outcome) return "outcome, " + a.outcome + " and " + b.outcome;
   if (a.events_of != b.events_of || a.events != b.events) return "events";
   for (std::size_t i = 0; i < a.metrics.size(); ++i)
-    if (a.metrics[i] != b.metrics[i]) return std::string(kMetricColumns[i]);
+    if (a.metrics[i] != b.metrics[i]) return std::string(kMetrics[i].name);
   if (a.drawn != b.drawn) return "drawn";
   if (a.plan != b.plan) return "plan";
   return a.message == b.message ? "" : "message";

@@ -20,12 +20,11 @@ std::string Columns() {
       "NULL, message TEXT NOT NULL";
   for (int mode = 0; mode < kNumFailureModes; ++mode)
     columns += ", " + std::string(Name(static_cast<FailureMode>(mode))) + " INTEGER NOT NULL";
-  for (const std::string_view metric : kMetricColumns)
-    columns += ", " + std::string(metric) + " REAL";
+  for (const MetricColumn& metric : kMetrics) columns += ", " + std::string(metric.name) + " REAL";
   return columns + ", drawn TEXT NOT NULL, plan TEXT NOT NULL, events TEXT NOT NULL";
 }
 
-constexpr int kNumColumns = 5 + kNumFailureModes + static_cast<int>(kMetricColumns.size()) + 3;
+constexpr int kNumColumns = 5 + kNumFailureModes + static_cast<int>(kMetrics.size()) + 3;
 
 std::string Placeholders() {
   std::string marks = "?";

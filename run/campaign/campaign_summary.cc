@@ -4,14 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <limits>
 #include <map>
 #include <set>
 
-#include "base/file_output.h"
 #include "env/geometry/grid.h"
-#include "run/campaign/campaign_junit.h"
-#include "run/campaign/episodes_csv.h"
+#include "run/campaign/campaign_about.h"
 #include "stats/binomial.h"
 #include "stats/poisson.h"
 #include "stats/quantile.h"
@@ -19,47 +18,32 @@
 namespace floorproof {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr double kConfidence = 0.95;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 const GridFrame kPlaces{0, 0, 0.5, {}};  // squares of the world, whatever the site's own cells
 
-// k episodes of n, with the exact interval.
-Json Rate(int k, int n) {
-  const Interval interval = ClopperPearson(k, n, kConfidence);
-  return {{"k", k},
-          {"n", n},
-          {"rate", n > 0 ? Json(static_cast<double>(k) / n) : Json(nullptr)},
-          {"lower", interval.lower},
-          {"upper", interval.upper},
-          {"method", "clopper_pearson"},
-          {"confidence", kConfidence}};
+FailureRate Rate(const std::string& name, int k, int n) {
+  const Interval interval = ClopperPearson(k, n, kReportedConfidence);
+  return {name, k, n, n > 0 ? static_cast<double>(k) / n : kNone, interval.lower, interval.upper};
 }
 
 // k events in so many km or thousand hours.
-Json RatePer(int k, double exposure) {
-  const Interval interval = GarwoodInterval(k, exposure, kConfidence);
-  return {{"k", k},
-          {"exposure", exposure},
-          {"rate", exposure > 0 ? Json(k / exposure) : Json(nullptr)},
-          {"lower", interval.lower},
-          {"upper", std::isfinite(interval.upper) ? Json(interval.upper) : Json(nullptr)},
-          {"method", "garwood"},
-          {"confidence", kConfidence}};
+FailureRatePer RatePer(const std::string& name, int k, double exposure) {
+  const Interval interval = GarwoodInterval(k, exposure, kReportedConfidence);
+  return {name, k, exposure, exposure > 0 ? k / exposure : kNone, interval.lower, interval.upper};
 }
 
 // Of the driven episodes, in any order.
-Json Spread(std::vector<double> values) {
-  if (values.empty()) return nullptr;
+std::optional<MetricSpread> Spread(std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
   std::ranges::sort(values);
   double sum = 0;
   for (const double value : values) sum += value;
-  return {{"mean", sum / static_cast<double>(values.size())},
-          {"median", Quantile(values, 0.5)},
-          {"lower_quartile", Quantile(values, 0.25)},
-          {"upper_quartile", Quantile(values, 0.75)},
-          {"min", values.front()},
-          {"max", values.back()}};
+  return MetricSpread{.mean = sum / static_cast<double>(values.size()),
+                      .median = Quantile(values, 0.5),
+                      .lower_quartile = Quantile(values, 0.25),
+                      .upper_quartile = Quantile(values, 0.75),
+                      .min = values.front(),
+                      .max = values.back()};
 }
 
 // One variant's rows, added up.
@@ -70,7 +54,7 @@ struct Tally {
   std::map<std::string, int> kinds, hazards;               // episodes with one or more
   std::map<std::pair<int, int>, int> places;               // the same, by square of the floor
   std::map<std::string, std::uint64_t> first;              // by mode: the first episode's number
-  std::array<std::vector<double>, kMetricColumns.size()> metrics;
+  std::array<std::vector<double>, kMetrics.size()> metrics;
   double km = 0, hours = 0;
   std::string first_error;
 
@@ -82,8 +66,8 @@ struct Tally {
     ++n;
     driven += row.driven();
     any += row.any_failure();
-    km += row.metric("path_length_m") / 1e3;
-    hours += row.metric("duration_s") / 3600;
+    km += row.metric(&Metrics::path_length_m).value_or(0) / 1e3;
+    hours += row.metric(&Metrics::duration_s).value_or(0) / 3600;
     for (std::size_t i = 0; i < metrics.size(); ++i)
       if (row.metrics[i]) metrics[i].push_back(*row.metrics[i]);
     if (!row.any_failure()) return;
@@ -96,13 +80,11 @@ struct Tally {
     }
     std::set<std::string> seen_kinds, seen_hazards;
     std::set<std::pair<int, int>> seen_places;
-    const Json events_met = Json::parse(row.events);
-    for (const Json& event : events_met) {
-      const auto text = [&](const char* key) { return event.value(key, std::string()); };
-      seen_kinds.insert(text("mode") + (text("kind").empty() ? "" : "/" + text("kind")));
-      if (!text("hazard").empty()) seen_hazards.insert(text("hazard"));
-      const Cell place =
-          kPlaces.ToCell(Vec2(event.at("x_m").get<double>(), event.at("y_m").get<double>()));
+    for (const Event& event : EventsOf(row)) {
+      seen_kinds.insert(std::string(Name(event.mode)) +
+                        (event.kind.empty() ? "" : "/" + event.kind));
+      if (!event.hazard.empty()) seen_hazards.insert(event.hazard);
+      const Cell place = kPlaces.ToCell(Vec2(event.x_m, event.y_m));
       seen_places.emplace(place.ix, place.iy);
     }
     for (const std::string& kind : seen_kinds) ++kinds[kind];
@@ -116,85 +98,79 @@ struct Tally {
   }
 };
 
-Json VariantJson(const Tally& tally) {
-  Json failures = {{"any_failure", Rate(tally.any, tally.driven)}}, per_km, per_hour;
-  Json kinds = Json::object(), hazards = Json::object(), places = Json::array(),
-       metrics = Json::object(), first = Json::object();
+void AddRates(const Tally& tally, VariantSummary& out) {
   int events = 0;
   for (const int n : tally.events) events += n;
   if (const auto short_of = tally.kinds.find("coverage"); short_of != tally.kinds.end())
     events += short_of->second;
-  per_km["any_failure"] = RatePer(events, tally.km);
-  per_hour["any_failure"] = RatePer(events, tally.hours / 1000);
-  for (std::size_t m = 0; m < tally.events.size(); ++m) {
-    const std::string mode(Name(static_cast<FailureMode>(m)));
-    failures[mode] = Rate(tally.episodes[m], tally.driven);
-    per_km[mode] = RatePer(tally.events[m], tally.km);
-    per_hour[mode] = RatePer(tally.events[m], tally.hours / 1000);
-  }
-  const int none = tally.count("not_planned");
-  failures["not_success"] = Rate(tally.n - tally.count("success") + none, tally.n + none);
-  for (const auto& [kind, k] : tally.kinds) kinds[kind] = Rate(k, tally.driven);
-  for (const auto& [hazard, k] : tally.hazards) hazards[hazard] = Rate(k, tally.driven);
-  for (const auto& [place, k] : tally.places) {
-    const Vec2 centre = kPlaces.Center(place.first, place.second);
-    Json rate = {{"x_m", centre.x()}, {"y_m", centre.y()}};
-    rate.update(Rate(k, tally.driven));
-    places.push_back(std::move(rate));
-  }
-  for (std::size_t i = 0; i < tally.metrics.size(); ++i)
-    metrics[std::string(kMetricColumns[i])] = Spread(tally.metrics[i]);
-  for (const auto& [mode, episode] : tally.first) first[mode] = episode;
-  return {{"n", tally.n},
-          {"n_error", tally.count("error")},
-          {"n_not_planned", tally.count("not_planned")},
-          {"first_error", tally.first_error.empty() ? Json(nullptr) : Json(tally.first_error)},
-          {"outcomes",
-           {{"success", tally.count("success")},
-            {"failure", tally.count("failure")},
-            {"timeout", tally.count("timeout")}}},
-          {"failures", std::move(failures)},
-          {"per_km", std::move(per_km)},
-          {"per_1000_h", std::move(per_hour)},
-          {"by_kind", std::move(kinds)},
-          {"by_hazard", std::move(hazards)},
-          {"by_place", {{"cell_m", kPlaces.cell_m}, {"places", std::move(places)}}},
-          {"metrics", std::move(metrics)},
-          {"first_episode", std::move(first)}};
+  const auto add = [&](const std::string& name, int failed, int happened) {
+    out.failures.push_back(Rate(name, failed, tally.driven));
+    out.per_km.push_back(RatePer(name, happened, tally.km));
+    out.per_1000_h.push_back(RatePer(name, happened, tally.hours / 1000));
+  };
+  add("any_failure", tally.any, events);
+  for (std::size_t m = 0; m < tally.events.size(); ++m)
+    add(std::string(Name(static_cast<FailureMode>(m))), tally.episodes[m], tally.events[m]);
+  out.failures.push_back(
+      Rate("not_success", out.n - out.success + out.not_planned, out.n + out.not_planned));
+  for (const auto& [kind, k] : tally.kinds) out.kinds.push_back(Rate(kind, k, tally.driven));
+  for (const auto& [hazard, k] : tally.hazards)
+    out.hazards.push_back(Rate(hazard, k, tally.driven));
+  out.place_m = kPlaces.cell_m;
+  for (const auto& [place, k] : tally.places)
+    out.places.push_back({kPlaces.Center(place.first, place.second), Rate("", k, tally.driven)});
 }
 
-Json SummaryJson(const CampaignStore& store, const std::vector<Variant>& variants,
-                 const std::vector<GateState>& gate, const CampaignEnding& ending) {
-  Json json = {{"campaign", store.about().id},
-               {"episodes", store.asked()},
-               {"unfinished", ending.unfinished.empty() ? Json(nullptr) : Json(ending.unfinished)},
-               {"variants", Json::object()}};
-  for (const Variant& variant : variants) {
-    Tally tally;
-    store.ForEach(variant.name, [&](const EpisodeRow& row) { tally.Add(row); });
-    json["variants"][variant.name] = VariantJson(tally);
-  }
-  json["gate"] = nullptr;
-  if (!gate.empty()) {
-    json["gate"] = gate.front().CriterionJson();
-    json["gate"]["verdict"] = GateVerdictName(Overall(gate));
-    for (std::size_t v = 0; v < gate.size(); ++v)
-      json["gate"]["variants"][variants[v].name] = gate[v].Json();
-  }
-  json["versions"] = Json::parse(store.about().versions);
-  return json;
+VariantSummary SummaryOf(const std::string& name, const Tally& tally) {
+  VariantSummary out{.name = name, .n = tally.n};
+  out.errors = tally.count("error");
+  out.not_planned = tally.count("not_planned");
+  out.first_error = tally.first_error;
+  out.success = tally.count("success");
+  out.failure = tally.count("failure");
+  out.timeout = tally.count("timeout");
+  AddRates(tally, out);
+  for (std::size_t i = 0; i < tally.metrics.size(); ++i)
+    out.metrics.push_back({std::string(kMetrics[i].name), Spread(tally.metrics[i])});
+  out.first_episode.assign(tally.first.begin(), tally.first.end());
+  return out;
+}
+
+std::optional<GateSummary> SummaryOf(const std::vector<GateState>& gate,
+                                     const std::vector<Variant>& variants) {
+  if (gate.empty()) return std::nullopt;
+  const GateParams& params = gate.front().params();
+  GateSummary out{params.metric, params.max_rate, params.confidence, params.mode, Overall(gate)};
+  for (std::size_t v = 0; v < gate.size(); ++v)
+    out.variants.push_back({variants[v].name, gate[v].Report()});
+  return out;
 }
 
 }  // namespace
 
-Json WriteSummaryFiles(const CampaignStore& store, const std::vector<Variant>& variants,
-                       const std::vector<GateState>& gate, const CampaignEnding& ending,
-                       const std::string& scenario_name, const std::filesystem::path& folder) {
-  Json summary = SummaryJson(store, variants, gate, ending);
-  WriteFileWhole(folder / "episodes.csv", EpisodesCsv(store, variants));
-  WriteFileWhole(folder / "junit.xml", JunitXml(summary, gate, ending.failed_fast, scenario_name));
-  WriteFileWhole(folder / "summary.json", summary.dump(2) + "\n");
-  return summary;
+CampaignSummary Summarise(const CampaignStore& store, const std::vector<Variant>& variants,
+                          const std::vector<GateState>& gate, const std::string& unfinished) {
+  CampaignSummary out{.campaign = store.about().id,
+                      .episodes = store.asked(),
+                      .unfinished = unfinished,
+                      .gate = SummaryOf(gate, variants),
+                      .versions = VersionsOf(store.about())};
+  for (const Variant& variant : variants) {
+    Tally tally;
+    store.ForEach(variant.name, [&](const EpisodeRow& row) { tally.Add(row); });
+    out.variants.push_back(SummaryOf(variant.name, tally));
+  }
+  return out;
+}
+
+std::string Criterion(const GateSummary& gate) {
+  return fmt::format("{} < {:.4g} % at {:.4g} %", gate.metric, 100 * gate.max_rate,
+                     100 * gate.confidence);
+}
+
+std::string GateText(const GateSummary& gate, const VariantGate& variant) {
+  return fmt::format("{} ({}): {}", GateVerdictName(variant.report.verdict), Criterion(gate),
+                     variant.report.text);
 }
 
 }  // namespace floorproof

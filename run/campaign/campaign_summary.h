@@ -1,37 +1,97 @@
 // SPDX-License-Identifier: Apache-2.0
-// summary.json, episodes.csv and junit.xml: what a campaign's rows amount to.
+// What a campaign's rows amount to: the numbers of summary.json, junit.xml, the terminal's lines
+// and the report. summary_json.h writes and reads them.
 #pragma once
 
-#include <filesystem>
-#include <nlohmann/json.hpp>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "env/geometry/geometry.h"
 #include "run/campaign/campaign_gate.h"
 #include "run/campaign/campaign_store.h"
 #include "run/scenario/matrix.h"
 
 namespace floorproof {
 
-// How a campaign ended: `unfinished`, why not all episodes asked for were driven, in words (empty:
-// they were, or the gate was decided before), and whether it was at one that failed.
-struct CampaignEnding {
-  std::string unfinished;
-  bool failed_fast = false;
+// k of n episodes, with Clopper and Pearson's two-sided bounds. `rate` is NaN at n = 0.
+struct FailureRate {
+  std::string name{};  // a mode, kind or hazard
+  int k = 0, n = 0;
+  double rate = 0, lower = 0, upper = 1;
 };
 
-// The rows of the campaign by variant: outcomes; failures of each mode, kind, hazard and place (a
-// square of 0.5 m of the world) with exact intervals (two-sided Clopper-Pearson at 95 %), also per
-// km and per 1,000 h (Garwood); metrics. Rates are of the episodes that physics drove; a failure
-// without an event, too little covered, has the kind `coverage`.
-// `gate`: what the gate says of the prefix of each variant, in the order of `variants`; empty
-// without a gate.
-// Writes episodes.csv, junit.xml and, last, summary.json into the folder; returns the summary.
-nlohmann::ordered_json WriteSummaryFiles(const CampaignStore& store,
-                                         const std::vector<Variant>& variants,
-                                         const std::vector<GateState>& gate,
-                                         const CampaignEnding& ending,
-                                         const std::string& scenario_name,
-                                         const std::filesystem::path& folder);
+// k events over an exposure, with Garwood's bounds. Where the exposure says nothing the rate is NaN
+// and the upper bound infinite.
+struct FailureRatePer {
+  std::string name{};  // a mode
+  int k = 0;
+  double exposure = 0, rate = 0, lower = 0, upper = 0;
+};
+
+struct FailurePlace {
+  Vec2 p_W = Vec2::Zero();  // the middle of a square
+  FailureRate rate{};
+};
+
+// A metric's values over the driven episodes.
+struct MetricSpread {
+  double mean = 0, median = 0, lower_quartile = 0, upper_quartile = 0, min = 0, max = 0;
+};
+struct MetricSummary {
+  std::string name{};
+  std::optional<MetricSpread> spread{};  // none: no episode has it
+};
+
+// Rates are of the episodes that physics drove, but `not_success`, which counts those without a
+// plan too.
+struct VariantSummary {
+  std::string name{};
+  int n = 0;  // episodes with an outcome that counts: success, failure, timeout
+  int errors = 0, not_planned = 0;
+  std::string first_error{};  // empty: there is none
+  int success = 0, failure = 0, timeout = 0;
+  std::vector<FailureRate> failures{};                 // any_failure, each mode, not_success
+  std::vector<FailureRatePer> per_km{}, per_1000_h{};  // any_failure and each mode
+  std::vector<FailureRate> kinds{}, hazards{};         // too little covered has the kind `coverage`
+  double place_m = 0;                                  // side of the squares
+  std::vector<FailurePlace> places{};  // squares of the world in which an episode failed
+  std::vector<MetricSummary> metrics{};
+  std::vector<std::pair<std::string, std::uint64_t>> first_episode{};  // by mode, in its alphabet
+};
+
+// What the gate says of the prefix of a variant.
+struct VariantGate {
+  std::string variant{};
+  GateReport report{};
+};
+struct GateSummary {
+  std::string metric{};
+  double max_rate = 0, confidence = 0;
+  std::string mode{};
+  GateVerdict verdict = GateVerdict::kUndecided;  // of all: failed when one is
+  std::vector<VariantGate> variants{};
+};
+
+struct CampaignSummary {
+  std::string campaign{};      // its id
+  std::uint64_t episodes = 0;  // asked for, a variant
+  std::string unfinished{};    // why not all of them were driven, in words; empty: they were
+  std::vector<VariantSummary> variants{};
+  std::optional<GateSummary> gate{};
+  std::vector<std::pair<std::string, std::string>> versions{};
+};
+
+// Adds up the rows of the campaign by variant. `gate`: what the gate says of each variant's prefix,
+// in the order of `variants`; empty without a gate.
+CampaignSummary Summarise(const CampaignStore& store, const std::vector<Variant>& variants,
+                          const std::vector<GateState>& gate, const std::string& unfinished);
+
+// "any_failure < 5 % at 95 %"
+std::string Criterion(const GateSummary& gate);
+// The gate's verdict on one variant, in a sentence.
+std::string GateText(const GateSummary& gate, const VariantGate& variant);
 
 }  // namespace floorproof

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/campaign/episode_maker.h"
 
+#include <nlohmann/json.hpp>
+
 #include "run/episode/execute.h"
 #include "run/episode/records.h"
 #include "run/scenario/plan_file.h"

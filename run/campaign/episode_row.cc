@@ -2,7 +2,10 @@
 #include "run/campaign/episode_row.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
+#include "base/error.h"
+#include "run/episode/episode.h"
 #include "run/episode/records.h"
 
 namespace floorproof {
@@ -13,12 +16,6 @@ bool EpisodeRow::any_failure() const {
   return outcome == "failure" || std::ranges::any_of(events_of, [](int n) { return n > 0; });
 }
 
-double EpisodeRow::metric(std::string_view name) const {
-  const auto found = std::ranges::find(kMetricColumns, name);
-  if (found == kMetricColumns.end()) throw InternalError("no metric " + std::string(name));
-  return metrics[static_cast<std::size_t>(found - kMetricColumns.begin())].value_or(0);
-}
-
 EpisodeRow MakeRow(const std::string& variant, const Scenario& s, const std::string& plan,
                    const EpisodeRecord& record) {
   EpisodeRow row;
@@ -27,16 +24,34 @@ EpisodeRow MakeRow(const std::string& variant, const Scenario& s, const std::str
   row.outcome = Name(record.outcome);
   row.message = record.message;
   for (const Event& event : record.events) ++row.events_of[static_cast<std::size_t>(event.mode)];
-  if (record.steps > 0) {
-    const Json metrics = MetricsJson(record.metrics);
-    for (std::size_t i = 0; i < kMetricColumns.size(); ++i)
-      if (const Json& value = metrics.at(std::string(kMetricColumns[i])); !value.is_null())
-        row.metrics[i] = value.get<double>();
-  }
+  if (record.steps > 0)
+    for (std::size_t i = 0; i < kMetrics.size(); ++i)
+      row.metrics[i] = kMetrics[i].Of(record.metrics);
   row.drawn = DrawnJson(s.drawn).dump();
   row.plan = plan;
   row.events = EventsJson(record.events).dump();
   return row;
+}
+
+std::vector<Event> EventsOf(const EpisodeRow& row) {
+  try {
+    std::vector<Event> events;
+    for (const Json& json : Json::parse(row.events)) {
+      Event event;
+      event.kind = json.at("kind");
+      event.hazard = json.at("hazard");
+      event.t_s = json.at("t_s");
+      event.x_m = json.at("x_m");
+      event.y_m = json.at("y_m");
+      const std::string mode = json.at("mode");
+      for (int m = 0; m < kNumFailureModes; ++m)
+        if (mode == Name(static_cast<FailureMode>(m))) event.mode = static_cast<FailureMode>(m);
+      events.push_back(std::move(event));
+    }
+    return events;
+  } catch (const Json::exception& e) {
+    throw InternalError(e.what());
+  }
 }
 
 std::string ToLine(const EpisodeRow& row) {

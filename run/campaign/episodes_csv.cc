@@ -48,7 +48,7 @@ std::string EpisodesCsv(const CampaignStore& store, const std::vector<Variant>& 
   std::string csv = "variant,episode,outcome,message";
   for (int m = 0; m < kNumFailureModes; ++m)
     csv += "," + std::string(Name(static_cast<FailureMode>(m)));
-  for (const std::string_view metric : kMetricColumns) csv += "," + std::string(metric);
+  for (const MetricColumn& metric : kMetrics) csv += "," + std::string(metric.name);
   for (const std::string& name : columns.plan) csv += ",plan." + CsvField(name);
   for (const std::string& name : columns.drawn) csv += ",drawn." + CsvField(name);
   csv += "\n";

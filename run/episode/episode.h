@@ -14,42 +14,14 @@
 #include "env/sim/plant.h"
 #include "env/sim/simulation.h"
 #include "planners/planner.h"
+#include "run/episode/metrics.h"
+#include "run/episode/trace.h"
 #include "run/scenario/scenario.h"
 
 namespace floorproof {
 
 enum class Outcome { kSuccess, kFailure, kTimeout, kNotPlanned, kError, kInterrupted };
 std::string_view Name(Outcome outcome);
-
-// A row of trace.csv; truth unless est_.
-struct TraceRow {
-  double t_s;
-  float x_m, y_m, z_m, roll_rad, pitch_rad, yaw_rad, vx_mps, vy_mps, wz_radps;
-  float cmd_vx_mps, cmd_vy_mps, cmd_wz_radps, est_x_m, est_y_m, est_yaw_rad;
-  float cross_track_m, power_w, coverage;
-  int shape;           // as in Sample
-  float est_spread_m;  // as in Estimate
-};
-
-struct Metrics {
-  double coverage = 0, overlap = 0;
-  double path_length_m = 0;            // driven
-  double duration_s = 0;               // simulated
-  double energy_j = 0;                 // at the battery's terminals
-  double charge_ah = 0;                // drawn from it
-  double least_battery_v = 0;          // at its terminals
-  std::optional<double> battery_left;  // share of its capacity; none: the scenario states none
-  double max_cross_track_m = 0, mean_cross_track_m = 0;
-  int turns = 0;               // of the plan
-  double cumulative_risk = 0;  // of the cells that its centre came to, as driven (RiskMeter)
-  int interventions = 0;       // a person's
-  int reactions = 0;           // times the robot went back from what it met (the key `react`)
-  double max_estimate_error_m = 0, mean_estimate_error_m = 0;  // of the place, against the truth
-  double p95_estimate_error_m = 0;    // below which it was for 95 % of the time, to a millimetre
-  double mean_estimate_spread_m = 0;  // that the estimator itself believed in
-  int contacts = 0;                   // times the body met an obstacle
-  double max_impulse_ns = 0;          // of one physics step
-};
 
 struct Margin {
   std::string detector;

@@ -8,6 +8,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "base/file_output.h"
 #include "planners/risk/risk_meter.h"
@@ -106,27 +107,18 @@ Json DrawnJson(const Drawn& drawn) {
   return json;
 }
 
-Json MetricsJson(const Metrics& m) {
-  return {{"coverage", m.coverage},
-          {"overlap", m.overlap},
-          {"path_length_m", m.path_length_m},
-          {"duration_s", m.duration_s},
-          {"energy_j", m.energy_j},
-          {"charge_ah", m.charge_ah},
-          {"least_battery_v", m.least_battery_v},
-          {"battery_left", m.battery_left ? Json(*m.battery_left) : Json(nullptr)},
-          {"max_cross_track_m", m.max_cross_track_m},
-          {"mean_cross_track_m", m.mean_cross_track_m},
-          {"turns", m.turns},
-          {"cumulative_risk", m.cumulative_risk},
-          {"interventions", m.interventions},
-          {"reactions", m.reactions},
-          {"max_estimate_error_m", m.max_estimate_error_m},
-          {"mean_estimate_error_m", m.mean_estimate_error_m},
-          {"p95_estimate_error_m", m.p95_estimate_error_m},
-          {"mean_estimate_spread_m", m.mean_estimate_spread_m},
-          {"contacts", m.contacts},
-          {"max_impulse_ns", m.max_impulse_ns}};
+Json MetricsJson(const Metrics& metrics) {
+  Json json = Json::object();
+  for (const MetricColumn& column : kMetrics)
+    json[std::string(column.name)] = std::visit(
+        [&](auto member) -> Json {
+          if constexpr (std::is_same_v<decltype(member), std::optional<double> Metrics::*>)
+            return metrics.*member ? Json(*(metrics.*member)) : Json(nullptr);
+          else
+            return metrics.*member;
+        },
+        column.member);
+  return json;
 }
 
 Json PlanJson(const Scenario& s, const PlanResult& plan) {
@@ -177,23 +169,22 @@ Json ResultJson(const Scenario& s, const EpisodeRecord& record) {
 
 std::string TraceCsv(const EpisodeRecord& record, const RobotSpec& robot) {
   fmt::memory_buffer out;
-  fmt::format_to(std::back_inserter(out),
-                 "t_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,vx_mps,vy_mps,wz_radps,cmd_vx_mps,"
-                 "cmd_vy_mps,cmd_wz_radps,est_x_m,est_y_m,est_yaw_rad,cross_track_m,power_w,"
-                 "coverage,shape,est_spread_m\n");
-  // Empty of a robot with one shape, and between two.
-  const auto shape_name = [&](int shape) {
-    return shape < 0 || robot.shapes.empty()
-               ? std::string_view()
-               : std::string_view(robot.shapes[static_cast<std::size_t>(shape)].name);
+  const auto into = std::back_inserter(out);
+  const auto end_of = [](const TraceColumn& column) {
+    return &column == &kTraceColumns.back() ? '\n' : ',';
   };
-  for (const auto& r : record.trace)
-    fmt::format_to(std::back_inserter(out),
-                   "{:.3f},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.t_s,
-                   r.x_m, r.y_m, r.z_m, r.roll_rad, r.pitch_rad, r.yaw_rad, r.vx_mps, r.vy_mps,
-                   r.wz_radps, r.cmd_vx_mps, r.cmd_vy_mps, r.cmd_wz_radps, r.est_x_m, r.est_y_m,
-                   r.est_yaw_rad, r.cross_track_m, r.power_w, r.coverage, shape_name(r.shape),
-                   r.est_spread_m);
+  for (const TraceColumn& column : kTraceColumns)
+    fmt::format_to(into, "{}{}", column.name, end_of(column));
+  for (const TraceRow& row : record.trace)
+    for (const TraceColumn& column : kTraceColumns) {
+      if (const auto* time = std::get_if<double TraceRow::*>(&column.member))
+        fmt::format_to(into, "{:.3f}", row.**time);
+      else if (const auto* number = std::get_if<float TraceRow::*>(&column.member))
+        fmt::format_to(into, "{}", row.**number);
+      else
+        fmt::format_to(into, "{}", std::get<TraceColumn::Text>(column.member)(row, robot));
+      out.push_back(end_of(column));
+    }
   return fmt::to_string(out);
 }
 

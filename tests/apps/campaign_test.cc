@@ -60,11 +60,11 @@ TEST_F(CampaignTest, RunIsEpisodeNought) {
       seen = true;
       EXPECT_EQ(result["outcome"], row.outcome);
       EXPECT_EQ(result["events"].dump(), row.events);
-      for (std::size_t i = 0; i < kMetricColumns.size(); ++i) {
-        const Json& value = result["metrics"][std::string(kMetricColumns[i])];
-        EXPECT_EQ(value.is_null(), !row.metrics[i].has_value()) << kMetricColumns[i];
+      for (std::size_t i = 0; i < kMetrics.size(); ++i) {
+        const Json& value = result["metrics"][std::string(kMetrics[i].name)];
+        EXPECT_EQ(value.is_null(), !row.metrics[i].has_value()) << kMetrics[i].name;
         if (row.metrics[i]) {
-          EXPECT_EQ(value.get<double>(), *row.metrics[i]) << kMetricColumns[i];
+          EXPECT_EQ(value.get<double>(), *row.metrics[i]) << kMetrics[i].name;
         }
       }
     });

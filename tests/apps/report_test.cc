@@ -11,8 +11,8 @@
 
 #include "base/file_output.h"
 #include "run/campaign/campaign_about.h"
+#include "run/campaign/campaign_files.h"
 #include "run/campaign/campaign_store.h"
-#include "run/campaign/campaign_summary.h"
 #include "tests/report/html_page.h"
 
 namespace floorproof {

@@ -14,6 +14,8 @@
 #include "env/sensors/sensor.h"
 #include "env/sim/simulation.h"
 #include "planners/planner.h"
+#include "run/episode/metrics.h"
+#include "run/episode/trace.h"
 #include "validate/law.h"
 
 namespace floorproof {
@@ -143,12 +145,47 @@ TEST(AddingASensor, ItTellsTheNearestInEachConeGlassToo) {
   EXPECT_NEAR(sensed.scan.range_m[3], 1, 1e-3);
 }
 
+std::string Page(const std::string& name) {
+  std::ifstream file(std::string(FP_SOURCE_DIR "/docs/") + name);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 TEST(Validation, ThePageListsEveryLaw) {
-  std::ifstream file(FP_SOURCE_DIR "/docs/validation.md");
-  const std::string page(std::istreambuf_iterator<char>(file), {});
+  const std::string page = Page("validation.md");
   ASSERT_FALSE(Laws().empty());
   for (const auto& name : PluginNames(Laws()))
     EXPECT_NE(page.find("\n| `" + name + "` |"), std::string::npos) << name << " has no row";
+}
+
+// The table of that heading, as the page must hold it.
+std::string TableOf(const std::string& page, const std::string& heading) {
+  const std::size_t begin = page.find("\n|", page.find("\n## " + heading + "\n")) + 1;
+  return page.substr(begin, page.find("\n\n", begin) + 1 - begin);
+}
+
+std::string Line(std::string_view name, std::string_view unit, std::string_view type,
+                 std::string_view help) {
+  std::string line = "| `";
+  line.append(name).append("` | ").append(unit).append(unit.empty() ? "| " : " | ");
+  return line.append(type).append(" | ").append(help).append(" |\n");
+}
+
+constexpr const char* kHead = "| name | unit | type | meaning |\n|---|---|---|---|\n";
+
+TEST(Results, ThePageListsEveryMetric) {
+  constexpr const char* kTypes[] = {"real", "count", "real, or none"};  // as MetricColumn::Member
+  std::string table = kHead;
+  for (const MetricColumn& metric : kMetrics)
+    table += Line(metric.name, metric.unit, kTypes[metric.member.index()], metric.help);
+  EXPECT_EQ(TableOf(Page("results.md"), "Metrics"), table);
+}
+
+TEST(Results, ThePageListsEveryTraceColumn) {
+  constexpr const char* kTypes[] = {"time", "real", "word"};  // as TraceColumn::Member
+  std::string table = kHead;
+  for (const TraceColumn& column : kTraceColumns)
+    table += Line(column.name, column.unit, kTypes[column.member.index()], column.help);
+  EXPECT_EQ(TableOf(Page("results.md"), "trace.csv"), table);
 }
 
 }  // namespace

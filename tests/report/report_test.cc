@@ -16,27 +16,27 @@ using ::testing::Not;
 
 constexpr const char* kHostile = "<script>alert('x')</script>\" onload=\"y\" & co";
 
-ReportVariant Variant(const std::string& name, int k, int n) {
-  ReportVariant v{.name = name, .n = n, .success = n - k, .failure = k};
+VariantSummary Variant(const std::string& name, int k, int n) {
+  VariantSummary v{.name = name, .n = n, .success = n - k, .failure = k};
   const double rate = n > 0 ? static_cast<double>(k) / n : std::numeric_limits<double>::quiet_NaN();
   v.failures = {{"any_failure", k, n, rate, rate / 2, 0.5}, {"stuck", k, n, rate, rate / 2, 0.5}};
   for (auto* per : {&v.per_km, &v.per_1000_h})
     *per = {{"any_failure", k, 2.5, k / 2.5, 0.1, 9}, {"stuck", k, 2.5, k / 2.5, 0.1, 9}};
-  v.places_note = "no map";
   return v;
 }
 
 Report Full(const std::string& text) {
-  Report r{.title = text, .campaign = text, .versions = {{text, text}}};
-  r.gate =
-      ReportGate{.metric = text, .max_rate = 0.05, .confidence = 0.95, .texts = {{text, text}}};
+  Report r{.title = text};
+  r.summary.campaign = text;
+  r.summary.versions = {{text, text}};
+  r.summary.gate = GateSummary{.metric = text, .max_rate = 0.05, .confidence = 0.95};
+  r.summary.gate->variants = {{text, {.text = text}}};
   for (const char* number : {"1", "2"}) {
-    ReportVariant v = Variant(text + number, 5, 20);
+    VariantSummary v = Variant(text + number, 5, 20);
     v.kinds = v.hazards = {{text, 1, 20, 0.05, 0.01, 0.2}};
-    v.metrics = {{text, 1, 2, 3, 4}};
-    v.places_png = "png";
-    v.places_note = text;
-    r.variants.push_back(v);
+    v.metrics = {{text, MetricSpread{.mean = 1, .median = 2, .min = 3, .max = 4}}};
+    r.summary.variants.push_back(v);
+    r.maps.push_back({"png", text});
   }
   r.pairs = {{.a = text, .b = text, .both = 1, .only_a = 2, .only_b = 3, .neither = 4}};
   r.pairs[0].metrics = {{.name = text, .pairs = text, .n = 10}};
@@ -98,31 +98,31 @@ TEST(Report, SmallFilmsStandInThePageLargeOnesAreLinkedAndNamed) {
 
 TEST(Report, VerdictIsOneSentence) {
   Report r;
-  r.variants = {Variant("a", 0, 20)};
-  r.variants[0].failures[0].upper = 0.168;
+  r.summary.variants = {Variant("a", 0, 20)};
+  r.summary.variants[0].failures[0].upper = 0.168;
   EXPECT_EQ(VerdictText(r), "The robot failed in none of 20 episodes, 95 % interval 0 to 16.8 %.");
-  r.variants = {Variant("a", 5, 20), Variant("b", 2, 20)};
+  r.summary.variants = {Variant("a", 5, 20), Variant("b", 2, 20)};
   EXPECT_THAT(VerdictText(r), ::testing::StartsWith("b failed in 2 of 20 episodes (10 %)"));
-  r.variants = {Variant("a", 0, 0), Variant("b", 0, 0)};
+  r.summary.variants = {Variant("a", 0, 0), Variant("b", 0, 0)};
   EXPECT_EQ(VerdictText(r), "No robot drove: the episodes are plans only, or none counts.");
-  r.gate = ReportGate{.metric = "stuck", .max_rate = 0.05, .confidence = 0.95};
-  const auto verdict = [&](ReportGate::Verdict v) {
-    r.gate->verdict = v;
+  r.summary.gate = GateSummary{.metric = "stuck", .max_rate = 0.05, .confidence = 0.95};
+  const auto verdict = [&](GateVerdict v) {
+    r.summary.gate->verdict = v;
     return VerdictText(r);
   };
-  EXPECT_THAT(verdict(ReportGate::Verdict::kPassed),
-              HasSubstr("passed: the rate of stuck is below"));
-  EXPECT_THAT(verdict(ReportGate::Verdict::kFailed), HasSubstr("failed"));
-  EXPECT_THAT(verdict(ReportGate::Verdict::kUndecided), HasSubstr("undecided"));
+  EXPECT_THAT(verdict(GateVerdict::kPassed), HasSubstr("passed: the rate of stuck is below"));
+  EXPECT_THAT(verdict(GateVerdict::kFailed), HasSubstr("failed"));
+  EXPECT_THAT(verdict(GateVerdict::kUndecided), HasSubstr("undecided"));
 }
 
 TEST(Report, IntervalsAreDrawnOnOneAxisForAllVariants) {
   Report r;
-  r.variants = {Variant("a", 10, 100), Variant("b", 1, 100)};
-  r.variants[0].failures[0] = {"any_failure", 10, 100, 0.1, 0.05, 0.18};
-  r.variants[1].failures[0] = {"any_failure", 1, 100, 0.01, 0.0, 0.05};
-  for (auto& v : r.variants) v.failures.resize(1);
-  for (auto& v : r.variants) v.per_km.resize(1), v.per_1000_h.resize(1);
+  r.summary.variants = {Variant("a", 10, 100), Variant("b", 1, 100)};
+  r.summary.variants[0].failures[0] = {"any_failure", 10, 100, 0.1, 0.05, 0.18};
+  r.summary.variants[1].failures[0] = {"any_failure", 1, 100, 0.01, 0.0, 0.05};
+  for (auto& v : r.summary.variants) v.failures.resize(1);
+  for (auto& v : r.summary.variants) v.per_km.resize(1), v.per_1000_h.resize(1);
+  r.maps.assign(2, {"", "no map"});
   const std::string page = ReportHtml(r);  // the axis ends at 20 %
   EXPECT_THAT(page, HasSubstr("x1=\"25.00%\" x2=\"90.00%\""));
   EXPECT_THAT(page, HasSubstr("x1=\"0.00%\" x2=\"25.00%\""));

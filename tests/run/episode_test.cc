@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "run/episode/records.h"
 #include "tests/run/scenario_text.h"
 

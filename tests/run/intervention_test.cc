@@ -11,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "run/episode/records.h"
 #include "tests/controllers/allocation_guard.h"

@@ -30,8 +30,14 @@ std::vector<std::uint8_t> Outcomes(int n, std::initializer_list<int> failures) {
   return outcomes;
 }
 
+GateReport Judge(const GateSettings& settings, const std::vector<std::uint8_t>& outcomes) {
+  Gate gate(settings);
+  for (const std::uint8_t outcome : outcomes) gate.Add(outcome != 0);
+  return gate.Report();
+}
+
 TEST(FixedGate, FiftyNineCleanEpisodesShowLessThanFivePercent) {
-  const GateReport report = JudgeGate(Fixed(0.05, 59), Outcomes(59, {}));
+  const GateReport report = Judge(Fixed(0.05, 59), Outcomes(59, {}));
   EXPECT_EQ(report.verdict, GateVerdict::kPassed);
   EXPECT_TRUE(report.final);
   EXPECT_EQ(report.n, 59);
@@ -54,11 +60,11 @@ TEST(FixedGate, IsNotDecidedByPeeking) {
 }
 
 TEST(FixedGate, OneFailureInFiftyNineLeavesItUndecidedAtOnce) {
-  const GateReport report = JudgeGate(Fixed(0.05, 59), Outcomes(59, {54}));
+  const GateReport report = Judge(Fixed(0.05, 59), Outcomes(59, {54}));
   EXPECT_EQ(report.verdict, GateVerdict::kUndecided);
   EXPECT_TRUE(report.final);
   EXPECT_EQ(report.n, 55);  // with one failure it cannot pass, with five it would not yet fail
-  EXPECT_EQ(JudgeGate(Fixed(0.05, 59), Outcomes(54, {})).final, false);
+  EXPECT_EQ(Judge(Fixed(0.05, 59), Outcomes(54, {})).final, false);
 }
 
 // Where some of the planned episodes do not count, it is judged at those that do.
@@ -79,7 +85,7 @@ TEST(FixedGate, IsJudgedAtWhatThereIs) {
 
 TEST(FixedGate, FailsAsSoonAsEnoughHaveFailed) {
   std::vector<std::uint8_t> all(59, 1);
-  const GateReport report = JudgeGate(Fixed(0.05, 59), all);
+  const GateReport report = Judge(Fixed(0.05, 59), all);
   EXPECT_EQ(report.verdict, GateVerdict::kFailed);
   EXPECT_GT(ClopperPearsonLower(report.k, 59, 0.95), 0.05);
   EXPECT_LE(ClopperPearsonLower(report.k - 1, 59, 0.95), 0.05);
@@ -125,7 +131,7 @@ TEST(FixedGate, ErrsNoMoreOftenThanItSays) {
     for (int k = 0; k <= n; ++k) {
       std::vector<std::uint8_t> outcomes(static_cast<std::size_t>(n), 0);
       std::fill_n(outcomes.begin(), k, std::uint8_t{1});
-      const GateVerdict verdict = JudgeGate(Fixed(p0, n), outcomes).verdict;
+      const GateVerdict verdict = Judge(Fixed(p0, n), outcomes).verdict;
       if (verdict == GateVerdict::kPassed) passed += BinomialPmf(k, n, p0);
       if (verdict == GateVerdict::kFailed) failed += BinomialPmf(k, n, p0);
     }
@@ -137,7 +143,7 @@ TEST(FixedGate, ErrsNoMoreOftenThanItSays) {
 }
 
 TEST(SequentialGate, PassesAtTheFirstEpisodeThatAllowsIt) {
-  const GateReport report = JudgeGate(Sequential(0.01, 1, 3000), Outcomes(1000, {}));
+  const GateReport report = Judge(Sequential(0.01, 1, 3000), Outcomes(1000, {}));
   EXPECT_EQ(report.verdict, GateVerdict::kPassed);
   EXPECT_EQ(report.n, 361);
   EXPECT_LE(report.rate.upper, 0.01);
@@ -147,12 +153,12 @@ TEST(SequentialGate, PassesAtTheFirstEpisodeThatAllowsIt) {
 }
 
 TEST(SequentialGate, WaitsForMinNAndEndsAtMaxN) {
-  EXPECT_EQ(JudgeGate(Sequential(0.01, 500, 3000), Outcomes(1000, {})).n, 500);
+  EXPECT_EQ(Judge(Sequential(0.01, 500, 3000), Outcomes(1000, {})).n, 500);
   const std::vector<std::uint8_t> all(100, 1);
-  EXPECT_EQ(JudgeGate(Sequential(0.01, 50, 3000), all).n, 50);
-  EXPECT_EQ(JudgeGate(Sequential(0.01, 50, 3000), all).verdict, GateVerdict::kFailed);
+  EXPECT_EQ(Judge(Sequential(0.01, 50, 3000), all).n, 50);
+  EXPECT_EQ(Judge(Sequential(0.01, 50, 3000), all).verdict, GateVerdict::kFailed);
 
-  const GateReport ended = JudgeGate(Sequential(0.01, 1, 400), Outcomes(500, {10, 20}));
+  const GateReport ended = Judge(Sequential(0.01, 1, 400), Outcomes(500, {10, 20}));
   EXPECT_EQ(ended.verdict, GateVerdict::kUndecided);
   EXPECT_TRUE(ended.final);
   EXPECT_EQ(ended.n, 400);
@@ -160,10 +166,10 @@ TEST(SequentialGate, WaitsForMinNAndEndsAtMaxN) {
   EXPECT_THAT(ended.text,
               HasSubstr("2 of 400 episodes; with 95 % confidence the rate is shown neither"));
 
-  const GateReport going_on = JudgeGate(Sequential(0.01, 1, 400), Outcomes(100, {}));
+  const GateReport going_on = Judge(Sequential(0.01, 1, 400), Outcomes(100, {}));
   EXPECT_FALSE(going_on.final);
   EXPECT_EQ(going_on.text, "0 of the first 100 episodes; goes on to at most 400");
-  EXPECT_EQ(JudgeGate(Sequential(0.01, 1, 400), {}).rate.upper, 1);
+  EXPECT_EQ(Judge(Sequential(0.01, 1, 400), {}).rate.upper, 1);
 }
 
 // The verdict, the e-values and the bounds agree at every episode of a campaign.

@@ -19,26 +19,6 @@ PairedCounts Table(int only_a, int only_b, int n) {
   return {0, only_a, only_b, n - only_a - only_b};
 }
 
-TEST(Pairs, AreJoinedByEpisode) {
-  const std::vector<EpisodeValue> a = {{0, 1}, {1, 1}, {3, 0}, {4, 0}, {7, 1}},
-                                  b = {{1, 1}, {2, 1}, {3, 1}, {4, 0}, {7, 0}, {9, 1}};
-  EXPECT_EQ(PairedDifferences(a, b), (std::vector<double>{0, -1, 0, 1}));
-  const PairedCounts counts = CountPairs(a, b);
-  EXPECT_EQ(counts.both, 1);
-  EXPECT_EQ(counts.only_a, 1);
-  EXPECT_EQ(counts.only_b, 1);
-  EXPECT_EQ(counts.neither, 1);
-  EXPECT_TRUE(PairedDifferences(a, {}).empty());
-}
-
-TEST(Pairs, DisorderIsRefused) {
-  const std::vector<EpisodeValue> fine = {{0, 1}}, twice = {{3, 1}, {3, 1}},
-                                  back = {{3, 1}, {2, 1}}, nan = {{0, std::nan("")}};
-  EXPECT_THROW(CountPairs(fine, twice), InputError);
-  EXPECT_THROW(PairedDifferences(back, fine), InputError);
-  EXPECT_THROW(PairedDifferences(nan, fine), InputError);
-}
-
 TEST(McNemar, IsASignTestOnTheDiscordantPairs) {
   // 2 (C(15,0) + C(15,1) + C(15,2) + C(15,3)) / 2^15
   EXPECT_NEAR(McNemarExact(12, 3), 2.0 * (1 + 15 + 105 + 455) / 32768, 1e-14);

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an episode is measured by, as one table. result.json, campaign.sqlite, episodes.csv,
+// summary.json, comparisons and the report are made from it, and docs/results.md is held against
+// it. A new metric is a member, its row below, and the line that measures it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <variant>
+
+namespace floorproof {
+
+// What each means stands in kMetrics.
+struct Metrics {
+  double coverage = 0, overlap = 0;
+  double path_length_m = 0;
+  double duration_s = 0;
+  double energy_j = 0;
+  double charge_ah = 0;
+  double least_battery_v = 0;
+  std::optional<double> battery_left;
+  double max_cross_track_m = 0, mean_cross_track_m = 0;
+  int turns = 0;
+  double cumulative_risk = 0;
+  int interventions = 0;
+  int reactions = 0;
+  double max_estimate_error_m = 0, mean_estimate_error_m = 0, p95_estimate_error_m = 0;
+  double mean_estimate_spread_m = 0;
+  int contacts = 0;
+  double max_impulse_ns = 0;
+};
+
+struct MetricColumn {
+  // Its member's type is the metric's: a real number, a count, or a number that may be missing.
+  using Member = std::variant<double Metrics::*, int Metrics::*, std::optional<double> Metrics::*>;
+
+  std::string_view name;  // in all files
+  std::string_view unit;  // as people write it; empty: a share, a count or a sum without one
+  Member member;
+  std::string_view help;  // a line of docs/results.md
+  // An episode that a failure cuts short has less of it, for no merit of its own: pairs of episodes
+  // are compared by it where both succeed.
+  bool needs_success = false;
+
+  std::optional<double> Of(const Metrics& metrics) const {
+    return std::visit([&](auto m) -> std::optional<double> { return metrics.*m; }, member);
+  }
+};
+
+// In the order of result.json.
+inline constexpr auto kMetrics = std::to_array<MetricColumn>({
+    {"coverage", "", &Metrics::coverage,
+     "share of the floor that the tool can reach, that it swept"},
+    {"overlap", "", &Metrics::overlap,
+     "share of what was swept, that was swept in two passes or more"},
+    {"path_length_m", "m", &Metrics::path_length_m, "way driven", true},
+    {"duration_s", "s", &Metrics::duration_s, "simulated time", true},
+    {"energy_j", "J", &Metrics::energy_j, "energy at the battery's terminals", true},
+    {"charge_ah", "Ah", &Metrics::charge_ah, "charge drawn from the battery", true},
+    {"least_battery_v", "V", &Metrics::least_battery_v,
+     "lowest voltage at the battery's terminals"},
+    {"battery_left", "", &Metrics::battery_left,
+     "share of the battery's capacity that is left; none where the scenario states no capacity"},
+    {"max_cross_track_m", "m", &Metrics::max_cross_track_m,
+     "greatest distance of the true place from the path"},
+    {"mean_cross_track_m", "m", &Metrics::mean_cross_track_m, "that distance, mean over time"},
+    {"turns", "", &Metrics::turns, "turns of the plan", true},
+    {"cumulative_risk", "", &Metrics::cumulative_risk,
+     "risk factors of the cells that the robot's centre came to, as driven, each visit counted",
+     true},
+    {"interventions", "", &Metrics::interventions, "times that a person set the robot down anew"},
+    {"reactions", "", &Metrics::reactions, "times that it went back from what it met (`react`)"},
+    {"max_estimate_error_m", "m", &Metrics::max_estimate_error_m,
+     "greatest distance of the estimated place from the true one"},
+    {"mean_estimate_error_m", "m", &Metrics::mean_estimate_error_m,
+     "that distance, mean over time"},
+    {"p95_estimate_error_m", "m", &Metrics::p95_estimate_error_m,
+     "below which it was for 95 % of the time, to a millimetre"},
+    {"mean_estimate_spread_m", "m", &Metrics::mean_estimate_spread_m,
+     "standard deviation of the place that the estimator itself believed in, mean over time"},
+    {"contacts", "", &Metrics::contacts, "times that the body met an obstacle"},
+    {"max_impulse_ns", "N s", &Metrics::max_impulse_ns,
+     "greatest impulse of a contact in one physics step"},
+});
+
+// The place of a member in the table; no constant where it has no row.
+template <class T>
+constexpr std::size_t MetricIndex(T Metrics::*member) {
+  for (std::size_t i = 0; i < kMetrics.size(); ++i)
+    if (kMetrics[i].member == MetricColumn::Member(member)) return i;
+  throw "no metric";
+}
+
+}  // namespace floorproof
