@@ -21,7 +21,8 @@ target_compile_options(fp_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -W
 # 105651), the more so behind precompiled headers; there are none. Newer ones look.
 target_compile_options(fp_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  target_compile_options(fp_options INTERFACE -Wno-stringop-overflow -Wno-array-bounds)
+  target_compile_options(fp_options INTERFACE -Wno-stringop-overflow -Wno-stringop-overread
+                         -Wno-array-bounds)
 endif()
 # Results are promised bit for bit on one machine type: no fused multiply-add behind our back.
 target_compile_options(fp_options INTERFACE -ffp-contract=off)

@@ -35,7 +35,7 @@ HazardMap Room(double width_m, double depth_m) {
 RobotModel Burger() { return ReadRobot(FP_DOCS_CODE "/burger.xml"); }
 
 TEST(AddingARobot, TheModelSaysWhatThePageSays) {
-  const RobotSpec dut = Burger().robot;
+  const RobotSpec dut = Burger().spec;
   ASSERT_EQ(dut.wheels.size(), 2u);
   EXPECT_NEAR(dut.wheels[0].radius_m, 0.033, 1e-9);
   EXPECT_NEAR((dut.wheels[0].p_BW - dut.wheels[1].p_BW).norm(), 0.160, 1e-9);
@@ -57,7 +57,7 @@ TEST(AddingARobot, ItStandsWhereItIsPut) {
 
 TEST(AddingAPlanner, ItCoversARoomAlongEitherAxis) {
   const HazardMap map = Room(3, 2);
-  const RobotSpec robot = Burger().robot;
+  const RobotSpec robot = Burger().spec;
   double length_m[2] = {};
   for (const bool along_y : {false, true}) {
     const auto dut = MakePlainRows();
@@ -101,7 +101,7 @@ TEST(AddingAHazard, ALowSillIsABoxAndAHighOneIsBevelled) {
 
 TEST(AddingADetector, ASmallErrorThatLastsFailsAndALargeOneThatPassesDoesNot) {
   const HazardMap map = Room(3, 2);
-  const RobotSpec robot = Burger().robot;
+  const RobotSpec robot = Burger().spec;
   const auto count = [&](double error_m, double lasts_s) {
     const auto dut = MakeDrift();
     dut->Start({map, robot});

@@ -20,7 +20,7 @@ class RealMapTest : public ScenarioTest, public ::testing::WithParamInterface<Ro
     if (!std::filesystem::exists(map_)) GTEST_SKIP() << map_ << " is not here";
   }
   Scenario ReadInit(const std::vector<Override>& overrides = {}) const {
-    const RobotModel robot = ReadRobot(FindRobotFile(GetParam().spec, {}));
+    const RobotModel robot = ReadRobot(FindRobotFile(GetParam().robot, {}));
     const InitFiles files = MakeInitFiles(map_, robot.spec, folder_);
     Save("site.yaml", files.site_yaml);
     return Read(files.scenario_yaml, overrides);

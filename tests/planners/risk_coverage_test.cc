@@ -138,7 +138,7 @@ TEST(RiskCoverage, OverThePapersCellsItVisitsTheSameOnes) {
 }
 
 RiskGrid GridOf(const std::string& floor) {
-  return MakeRiskGrid(Floor(floor), Square(), Tables(), std::nullopt);
+  return MakeRiskGrid(DrawHazards(floor, 0.5), Square(), PaperTables(), std::nullopt);
 }
 
 TEST(TerrainYaw, TurnsWhereTheWayBendsBehindTheTerrainBefore) {

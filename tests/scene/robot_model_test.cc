@@ -80,7 +80,7 @@ TEST(RobotModel, MotorsAndWheelsNeedNoNames) {
   const RobotModel dut = ReadRobot(file, changes), with_names = ReadRobot(htetro, changes);
   ASSERT_EQ(dut.spec.wheels.size(), 16u);
   EXPECT_EQ(dut.spec.wheels[3].name, "actuator 3");
-  EXPECT_EQ(dut.spec.wheels[3].radius_m, with_names.robot.wheels[3].radius_m);
+  EXPECT_EQ(dut.spec.wheels[3].radius_m, with_names.spec.wheels[3].radius_m);
   HazardMap map;
   map.frame = {2, 2, 1, {}};
   map.cells = Grid<CellState>(2, 2);

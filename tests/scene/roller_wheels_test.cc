@@ -53,7 +53,7 @@ TEST(RollerWheelsModel, WeighAndStandAsIdealOnes) {
     ForwardEngine(rollers, b.get());
     for (int i = 0; i < 3; ++i)
       EXPECT_NEAR(a->subtree_com[3 * base + i], b->subtree_com[3 * base + i], 1e-9);
-    for (const WheelSpec& wheel : dut.rollers.robot.wheels) {
+    for (const WheelSpec& wheel : dut.rollers.spec.wheels) {
       const int body = mj_name2id(rollers, mjOBJ_BODY, wheel.name.c_str());
       ASSERT_GE(body, 0);
       const int ideal_body = mj_name2id(ideal, mjOBJ_BODY, wheel.name.c_str());
@@ -92,7 +92,7 @@ TEST(RollerWheelsModel, TheLowestRollerStandsAtTheAngle) {
   const mjModel* m = dut.with_rollers.model.get();
   const DataPtr data = MakeData(m);
   ForwardEngine(m, data.get());
-  for (const WheelSpec& wheel : dut.rollers.robot.wheels) {
+  for (const WheelSpec& wheel : dut.rollers.spec.wheels) {
     const int hub = mj_name2id(m, mjOBJ_BODY, wheel.name.c_str());
     int lowest = -1;
     for (int b = 1; b < m->nbody; ++b)
@@ -135,7 +135,7 @@ TEST(RollerWheelsModel, TheExportStandsAndDrivesSidewaysInTheStockEngine) {
   constexpr double kSpeed_mps = 0.1, kTime_s = 1.2;
   const double from_x = data->qpos[0], from_y = data->qpos[1], from_s = data->time;
   for (int a = 0; a < model->nu; ++a) {
-    const WheelSpec& wheel = dut.rollers.robot.wheels[static_cast<std::size_t>(a)];
+    const WheelSpec& wheel = dut.rollers.spec.wheels[static_cast<std::size_t>(a)];
     // To the left, a wheel turns against the tangent of its rollers' angle.
     data->ctrl[a] = kSpeed_mps / wheel.radius_m * (wheel.roller_angle_rad > 0 ? -1 : 1);
   }

@@ -56,10 +56,10 @@ class SensorRig {
       : map_(map),
         robot_(ReadRobot(FindRobotFile(robot, {}), changes)),
         scene_(BuildScene(map_, robot_, {}, start)),
-        sim_(scene_, map_, robot_.robot),
-        drive_(MakePlugin(Drives(), robot_.robot.drive, "drive")),
-        wheels_(robot_.robot.wheels.size()) {
-    drive_->Configure(robot_.robot);
+        sim_(scene_, map_, robot_.spec),
+        drive_(MakePlugin(Drives(), robot_.spec.drive, "drive")),
+        wheels_(robot_.spec.wheels.size()) {
+    drive_->Configure(robot_.spec);
     sim_.Reset(start);
   }
 
@@ -69,7 +69,7 @@ class SensorRig {
   }
   // The sensor that it carries, in another episode.
   void Start(std::uint64_t seed = 1) {
-    sensor_->Start({scene_, map_, robot_.robot, kControl_s}, sim_.data(), sim_.sample(),
+    sensor_->Start({scene_, map_, robot_.spec, kControl_s}, sim_.data(), sim_.sample(),
                    Stream(seed, 0, "noise"), sensed_);
   }
   const Observation& Sense() {
@@ -93,7 +93,7 @@ class SensorRig {
 
   const Sample& truth() { return sim_.sample(); }
   const Scene& scene() const { return scene_; }
-  const RobotSpec& robot() const { return robot_.robot; }
+  const RobotSpec& robot() const { return robot_.spec; }
   Simulation& sim() { return sim_; }
 
  private:
