@@ -20,6 +20,9 @@ constexpr double kLeastTrackM = 1e-3;  // below this the yaw rate is lost in rou
 
 class DifferentialDrive final : public Drive {
  public:
+  bool holonomic() const override { return false; }
+  bool turns_on_the_spot() const override { return true; }
+
   void Configure(const RobotSpec& robot) override {
     const auto refuse = [&](const std::string& rule) {
       throw InputError({robot.model_file, 0}, "drive", "differential", rule);

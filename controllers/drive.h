@@ -14,6 +14,11 @@ namespace floorproof {
 class Drive {
  public:
   virtual ~Drive() = default;
+
+  // What every robot on this drive can do; known before Configure.
+  virtual bool holonomic() const = 0;          // moves every way, whatever its heading
+  virtual bool turns_on_the_spot() const = 0;  // turns without driving on
+
   // Reads radii and places of the wheels; throws InputError when the robot lacks what the drive
   // needs.
   virtual void Configure(const RobotSpec& robot) = 0;
@@ -33,5 +38,7 @@ class Drive {
 };
 
 std::span<const PluginEntry<Drive>> Drives();
+// Whether the robot's drive is. Throws InputError when there is no such drive.
+bool IsHolonomic(const RobotSpec& robot);
 
 }  // namespace floorproof

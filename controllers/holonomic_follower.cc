@@ -16,7 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "controllers/obstacle_gap.h"
+#include "controllers/drive.h"
+#include "controllers/follower_params.h"
 #include "controllers/path_progress.h"
 #include "controllers/reconfiguration.h"
 #include "controllers/tracker.h"
@@ -24,8 +25,6 @@
 namespace floorproof {
 namespace {
 
-constexpr double kDecelShare = 0.8;  // of the accelerations: what is left corrects
-constexpr double kLagS = 0.15;       // wheels reach their speed some 0.1 s late
 constexpr double kGapAhead_m = 0.1;  // the gap is read here and this far ahead
 constexpr double kHold_m = 0.05;     // a turn nearer to its corner than this is kept there,
 constexpr double kHoldGain = 1.5;    // 1/s: by going back
@@ -33,43 +32,30 @@ constexpr double kHoldGain = 1.5;    // 1/s: by going back
 class HolonomicFollower final : public Tracker {
  public:
   void Visit(ParamVisitor& v) override {
-    v("corner_deg", corner_deg_, Between(5, 90), "corners sharper than this are stops");
-    v("anticipation_s", anticipation_s_, Between(0, 1),
-      "how long before a bend its direction is taken");
-    v("gain_per_s", gain_per_s_, Between(0.1, 10), "speed back to the path for each metre off it");
-    v("corner_cut_m", corner_cut_m_, Between(0.001, 0.5),
-      "how far bends may be cut that are driven through: slower is nearer");
-    v("corner_tolerance_m", corner_tolerance_m_, Between(0.002, 0.5),
-      "a corner or the last waypoint is reached within this along the way");
-    v("heading_tolerance_deg", heading_tolerance_deg_, Between(0.2, 20),
-      "a turn on the spot ends within this");
-    v("recover_deg", recover_deg_, Between(5, 150),
-      "when the yaw is wrong by more than this the robot stops and turns");
-    gap_.Visit(v);
+    const FollowerHelp help{"corners sharper than this are stops",
+                            "when the yaw is wrong by more than this the robot stops and turns", 5};
+    params_.Visit(v, help, [&] {
+      v("anticipation_s", anticipation_s_, Between(0, 1),
+        "how long before a bend its direction is taken");
+      v("gain_per_s", gain_per_s_, Between(0.1, 10),
+        "speed back to the path for each metre off it");
+    });
   }
 
-  std::vector<std::string> Drives() const override { return {"mecanum"}; }
+  bool Commands(const Drive& drive) const override { return drive.holonomic(); }
 
   void Start(const Path& path, const RobotSpec& robot, const ClearanceField* clearance) override {
     RequireLimits(robot, "holonomic_follower");
-    gap_.Start(robot, clearance);
+    gap_.Start(params_.obstacles, robot, clearance);
     cruise_mps_ = robot.cruise_mps;
     accel_mps2_ = robot.max_accel_mps2;
     yaw_rate_radps_ = robot.max_yaw_rate_radps;
     yaw_accel_radps2_ = robot.max_yaw_accel_radps2;
 
-    ReferenceLimits limits;
-    limits.corner_rad = Radians(corner_deg_);
-    limits.cut_m = corner_cut_m_;
-    limits.yaw_rate_radps = kDecelShare * yaw_rate_radps_;
-    limits.yaw_accel_radps2 = yaw_accel_radps2_;
-    limits.decel_mps2 = kDecelShare * accel_mps2_;
-    limits.lag_s = kLagS;
-    limits.cruise_mps = robot.cruise_mps;
-    limits.max_speed_mps = robot.max_speed_mps;
+    ReferenceLimits limits = params_.Limits(robot);
     limits.holds_yaw = true;
     limits.folds = !robot.hinges.empty();
-    progress_.Start(path, limits, corner_tolerance_m_);
+    progress_.Start(path, limits, params_.corner_tolerance_m);
     twist_ = {};
     reconfiguration_.Start(robot);
     FindWays(robot);
@@ -139,8 +125,6 @@ class HolonomicFollower final : public Tracker {
          kHoldGain * WrapAngle(hold_yaw_rad_ - X_WB.yaw_rad), dt_s);
   }
 
-  static double Radians(double deg) { return deg * kPi / 180; }
-
   void Pursue(const Pose2& X_WB, double dt_s) {
     const Vec2 p_W = X_WB.p();
     const double ahead_m = anticipation_s_ * std::hypot(twist_.vx_mps, twist_.vy_mps);
@@ -148,12 +132,14 @@ class HolonomicFollower final : public Tracker {
     const double wanted_rad =
         progress_.leg().yaw_rad.value_or(std::atan2(direction_W.y(), direction_W.x()));
     const double off_rad = WrapAngle(wanted_rad - X_WB.yaw_rad);
-    if (progress_.phase() == Phase::kDrive && std::abs(off_rad) > Radians(recover_deg_))
+    if (progress_.phase() == Phase::kDrive && std::abs(off_rad) > Radians(params_.recover_deg))
       progress_.Turn();
-    if (progress_.phase() == Phase::kTurn && std::abs(off_rad) <= Radians(heading_tolerance_deg_))
+    if (progress_.phase() == Phase::kTurn &&
+        std::abs(off_rad) <= Radians(params_.heading_tolerance_deg))
       progress_.Drive();
 
-    const double rate = StoppingSpeed(std::abs(off_rad), kDecelShare * yaw_accel_radps2_, kLagS);
+    const double rate =
+        StoppingSpeed(std::abs(off_rad), kPlannedShare * yaw_accel_radps2_, kWheelLag_s);
     const double wz_radps = std::copysign(std::min(yaw_rate_radps_, rate), off_rad);
     Vec2 v_W;
     if (progress_.phase() == Phase::kTurn) {
@@ -179,14 +165,14 @@ class HolonomicFollower final : public Tracker {
     twist_.wz_radps = std::clamp(wz_radps, twist_.wz_radps - dw, twist_.wz_radps + dw);
   }
 
-  double corner_deg_ = 50;  // 45 deg bends of grid contours are still driven through
-
+  FollowerParams params_{.corner_cut_m = 0.003,
+                         .corner_tolerance_m = 0.004,
+                         .heading_tolerance_deg = 1.0,
+                         .recover_deg = 15};
   // The wheels' lag and half of what a bend's change of velocity takes.
   double anticipation_s_ = 0.1, gain_per_s_ = 2.5;
-  double corner_cut_m_ = 0.003, corner_tolerance_m_ = 0.004;
-  double heading_tolerance_deg_ = 1.0, recover_deg_ = 15;
-  ObstacleGap gap_;
 
+  ObstacleGap gap_;
   PathProgress progress_;
   double cruise_mps_ = 0, accel_mps2_ = 0, yaw_rate_radps_ = 0, yaw_accel_radps2_ = 0;
   BodyTwist twist_;  // last commanded

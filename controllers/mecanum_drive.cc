@@ -23,6 +23,9 @@ namespace {
 
 class MecanumDrive final : public Drive {
  public:
+  bool holonomic() const override { return true; }
+  bool turns_on_the_spot() const override { return true; }
+
   void Configure(const RobotSpec& robot) override {
     const auto refuse = [&](const std::string& rule) {
       throw InputError({robot.model_file, 0}, "drive", "mecanum", rule);

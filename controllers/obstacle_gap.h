@@ -11,15 +11,21 @@
 
 namespace floorproof {
 
+struct ObstacleGapParams {
+  double gap_m = 0.10, speed_share = 0.6;
+  void Visit(ParamVisitor& v) {
+    v("obstacle_gap_m", gap_m, NonNegative(),
+      "gap between clear shape and known obstacles below which it slows down");
+    v("obstacle_speed_share", speed_share, Between(0.1, 1), "share of the speed at no gap");
+  }
+};
+
 class ObstacleGap {
  public:
-  void Visit(ParamVisitor& v) {
-    v("obstacle_gap_m", gap_m_, NonNegative(),
-      "gap between clear shape and known obstacles below which it slows down");
-    v("obstacle_speed_share", share_, Between(0.1, 1), "share of the speed at no gap");
-  }
   // `clearance` may be nullptr: no obstacle is known.
-  void Start(const RobotSpec& robot, const ClearanceField* clearance) {
+  void Start(const ObstacleGapParams& params, const RobotSpec& robot,
+             const ClearanceField* clearance) {
+    params_ = params;
     clearance_ = clearance;
     radius_m_ = 0;
     border_B_.clear();
@@ -38,21 +44,23 @@ class ObstacleGap {
   }
   // The speed allowed where the robot is and where it is heading.
   double Limit(double speed_mps, const Pose2& X_WB, const Vec2& target_W) const {
-    if (clearance_ == nullptr || gap_m_ <= 0) return speed_mps;
-    double gap_m = gap_m_ + radius_m_;
+    if (clearance_ == nullptr || params_.gap_m <= 0) return speed_mps;
+    double gap_m = params_.gap_m + radius_m_;
     for (const Vec2& p_B : border_B_) {
       const Vec2 offset_W = X_WB.Rotate(p_B);
       gap_m = std::min(
           {gap_m, clearance_->At(X_WB.p() + offset_W), clearance_->At(target_W + offset_W)});
     }
-    return speed_mps * (share_ + (1 - share_) * std::clamp((gap_m - radius_m_) / gap_m_, 0.0, 1.0));
+    const double share = params_.speed_share;
+    return speed_mps *
+           (share + (1 - share) * std::clamp((gap_m - radius_m_) / params_.gap_m, 0.0, 1.0));
   }
 
  private:
+  ObstacleGapParams params_;
   // Points from which the gap is read, less radius_m_: the middle of a circle, a footprint's
   // border.
   std::vector<Vec2> border_B_;
-  double gap_m_ = 0.10, share_ = 0.6;
   const ClearanceField* clearance_ = nullptr;
   double radius_m_ = 0;
 };

@@ -48,6 +48,17 @@ std::span<const PluginEntry<Tracker>> Trackers() {
   return kTable;
 }
 
+bool IsHolonomic(const RobotSpec& robot) {
+  return MakePlugin(Drives(), robot.drive, "drive")->holonomic();
+}
+
+std::vector<std::string> Tracker::Drives() const {
+  std::vector<std::string> names;
+  for (const auto& entry : floorproof::Drives())
+    if (Commands(*entry.make())) names.emplace_back(entry.name);
+  return names;
+}
+
 void RequireLimits(const RobotSpec& robot, std::string_view tracker) {
   const auto require = [&](const std::string& key, double value) {
     if (!(value > 0))

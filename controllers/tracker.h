@@ -5,6 +5,9 @@
 
 #include <memory>
 #include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "base/params.h"
 #include "base/registry.h"
@@ -15,10 +18,14 @@
 
 namespace floorproof {
 
+class Drive;
+
 class Tracker : public Configurable {
  public:
-  // The drives (RobotSpec::drive) that this tracker can command.
-  virtual std::vector<std::string> Drives() const = 0;
+  // Whether it can command a robot on this drive, judged by what the drive can do.
+  virtual bool Commands(const Drive& drive) const = 0;
+  // The names (RobotSpec::drive) of the registered drives that it commands.
+  std::vector<std::string> Drives() const;
   // Takes the plan, once, before the first Update. `clearance` is the known map's and outlives the
   // tracker, or is nullptr. May allocate; Update may not.
   virtual void Start(const Path& path, const RobotSpec& robot, const ClearanceField* clearance) = 0;

@@ -8,6 +8,7 @@
 #include "render/gl_context.h"
 
 #include <dlfcn.h>
+#include <fmt/format.h>
 
 #include <array>
 #include <cstdint>
@@ -116,9 +117,8 @@ class EglContext : public GlContext {
     const auto get_error = lib_.Get<int()>("eglGetError");
     const auto check = [&](bool ok, const char* what) {
       if (ok) return;
-      std::array<char, 16> code{};
-      std::snprintf(code.data(), code.size(), "0x%04x", static_cast<unsigned>(get_error()));
-      throw Unavailable(std::string(what) + " failed with EGL error " + code.data());
+      throw Unavailable(fmt::format("{} failed with EGL error 0x{:04x}", what,
+                                    static_cast<unsigned>(get_error())));
     };
     get_proc_ = lib_.Get<ProcAddress(const char*)>("eglGetProcAddress");
     make_current_ = lib_.Get<unsigned(void*, void*, void*, void*)>("eglMakeCurrent");

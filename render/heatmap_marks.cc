@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/heatmap_marks.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -74,7 +76,7 @@ double ApartOf(const HazardMap& map, const Path& plan) {
   return static_cast<double>(free) * map.frame.cell_m * map.frame.cell_m / Length(plan);
 }
 
-std::string NumberText(float value) { return Printf("%.6g", static_cast<double>(value)); }
+std::string NumberText(float value) { return fmt::format("{:.6g}", static_cast<double>(value)); }
 double Luma(const Rgb& c) { return 0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2]; }
 
 // The upper or the lower left corner of a cell, `reach_px` from its middle: where less is drawn
@@ -150,8 +152,8 @@ void DrawHazards(const HazardMap& map, const PanelFrame& frame, HeatPanel& panel
     }
     std::string label = hazard.type;
     std::replace(label.begin(), label.end(), '_', ' ');
-    label = Printf("C%d %s%s", static_cast<int>(in_class) + 1, label.c_str(),
-                   hazard.known ? "" : " (not on the map)");
+    label = fmt::format("C{} {}{}", static_cast<int>(in_class) + 1, label,
+                        hazard.known ? "" : " (not on the map)");
     AddOnce(legend,
             {hazard.known ? LegendLine::Kind::kOutline : LegendLine::Kind::kDashed, label, colour});
   }

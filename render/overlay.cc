@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/overlay.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -30,13 +32,14 @@ Rgb Colour(Banner::Tone tone) {
 
 std::string Clock(double t_s) {
   const auto tenths = static_cast<long>(std::floor(t_s * 10 + 1e-6));
-  return Printf("%ld:%02ld.%ld", tenths / 600, tenths / 10 % 60, tenths % 10);
+  return fmt::format("{}:{:02}.{}", tenths / 600, tenths / 10 % 60, tenths % 10);
 }
 
 std::string Pace(double speed_up) {
   if (std::abs(speed_up - 1) < 1e-9) return "real time";
-  if (speed_up < 1) return Printf("slow motion x%.2g", speed_up);
-  return Printf(speed_up < 9.95 ? "time lapse x%.2g" : "time lapse x%.0f", speed_up);
+  if (speed_up < 1) return fmt::format("slow motion x{:.2g}", speed_up);
+  return speed_up < 9.95 ? fmt::format("time lapse x{:.2g}", speed_up)
+                         : fmt::format("time lapse x{:.0f}", speed_up);
 }
 
 // The longest beginning of `text` that fits, with dots if it is not the whole.
@@ -64,7 +67,7 @@ void DrawStatus(const Overlay& overlay, Image& image, double unit) {
     const double length = 0.20 * w;
     TextStyle percent = big;
     percent.anchor = Anchor::kRight;
-    const std::string text = Printf("%.1f %%", 100 * overlay.coverage);
+    const std::string text = fmt::format("{:.1f} %", 100 * overlay.coverage);
     DrawText(image, gauge, base, text, percent);
     const int x1 = static_cast<int>(gauge - TextWidth("100.0 %", big) - 0.5 * margin);
     const int x0 = static_cast<int>(x1 - length);
@@ -109,17 +112,19 @@ std::string Describe(const Event& event) {
   const double v = event.value, limit = event.threshold;
   switch (event.mode) {
     case FailureMode::kVeerOff:
-      return Printf("%.2f m off the path, limit %.2f m", v, limit);
+      return fmt::format("{:.2f} m off the path, limit {:.2f} m", v, limit);
     case FailureMode::kStuck:
-      return Printf("moved %.2f m where %.2f m was due", v, limit);
+      return fmt::format("moved {:.2f} m where {:.2f} m was due", v, limit);
     case FailureMode::kRollOver:
-      if (event.kind == "fell") return Printf("wheels at %.3f m, lowest allowed %.3f m", v, limit);
-      if (event.kind == "tipped") return Printf("centre of mass %.3f m outside the wheels", -v);
-      return Printf("tilted %.0f deg, limit %.0f deg", v * 180 / kPi, limit * 180 / kPi);
+      if (event.kind == "fell")
+        return fmt::format("wheels at {:.3f} m, lowest allowed {:.3f} m", v, limit);
+      if (event.kind == "tipped")
+        return fmt::format("centre of mass {:.3f} m outside the wheels", -v);
+      return fmt::format("tilted {:.0f} deg, limit {:.0f} deg", v * 180 / kPi, limit * 180 / kPi);
     case FailureMode::kBounceBack:
       if (event.kind == "parted")
-        return Printf("parted by %.1f mm, limit %.1f mm", 1e3 * v, 1e3 * limit);
-      return Printf("thrown back at %.3f m/s, limit %.3f m/s", v, limit);
+        return fmt::format("parted by {:.1f} mm, limit {:.1f} mm", 1e3 * v, 1e3 * limit);
+      return fmt::format("thrown back at {:.3f} m/s, limit {:.3f} m/s", v, limit);
   }
   return "";
 }
@@ -131,8 +136,8 @@ Banner FailureBanner(const Event& event) {
   Banner banner;
   banner.headline = "FAILURE   " + mode + (kind.empty() ? "" : " (" + kind + ")");
   if (!event.hazard.empty()) banner.headline += "   at " + event.hazard;
-  banner.detail = Printf("%s;  t %.1f s,  x %.2f m,  y %.2f m", Describe(event).c_str(), event.t_s,
-                         event.x_m, event.y_m);
+  banner.detail = fmt::format("{};  t {:.1f} s,  x {:.2f} m,  y {:.2f} m", Describe(event),
+                              event.t_s, event.x_m, event.y_m);
   return banner;
 }
 

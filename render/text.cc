@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <opencv2/imgproc.hpp>
 #include <string>
 
@@ -94,17 +92,6 @@ void FillRectangle(Image& image, int x0, int y0, int x1, int y1, const Rgb& colo
       for (int k = 0; k < 3; ++k) pixel[k] = Mix(pixel[k], colour[k], a);
     }
   }
-}
-
-std::string Printf(const char* format, ...) {
-  std::va_list arguments, again;
-  va_start(arguments, format);
-  va_copy(again, arguments);
-  std::string text(static_cast<std::size_t>(std::vsnprintf(nullptr, 0, format, arguments)), ' ');
-  std::vsnprintf(text.data(), text.size() + 1, format, again);
-  va_end(again);
-  va_end(arguments);
-  return text;
 }
 
 }  // namespace floorproof

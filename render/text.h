@@ -30,7 +30,4 @@ void DrawText(Image& image, double x_px, double y_px, std::string_view text,
 // Mixes `colour` over the rectangle [x0, x1) x [y0, y1); alpha 0 leaves it, 1 covers it.
 void FillRectangle(Image& image, int x0, int y0, int x1, int y1, const Rgb& colour, double alpha);
 
-// printf into a string; locale-free as long as nobody sets a locale.
-[[gnu::format(printf, 1, 2)]] std::string Printf(const char* format, ...);
-
 }  // namespace floorproof

@@ -49,7 +49,8 @@ void Meet(BounceRow& row) {
 
 std::vector<BounceRow> BounceChart(int jobs) {
   std::vector<BounceRow> rows;
-  for (const char* robot : {"beluga", "htetro"}) {
+  for (const RobotEntry& entry : Robots()) {
+    const std::string robot(entry.name);
     const double mass_kg = ReadRobot(FindRobotFile(robot, {})).spec.mass_kg;
     for (const double restitution : {0.0, 0.1, 0.3, 0.5, 0.7})
       for (const double speed_mps : {0.1, 0.2, 0.3, 0.4})

@@ -22,18 +22,8 @@ constexpr double kClearances_m[] = {0.015, 0.018, 0.020, 0.022, 0.025, 0.030};
 constexpr double kMassFactors[] = {0.7, 1.0, 1.5};
 constexpr double kClear_m = 0.02;  // between what lies behind and the circle around the robot
 
-// Whether the wheels can move the robot aside: by asking the drive, there and back.
-bool MovesAside(const RobotSpec& robot) {
-  const auto drive = MakePlugin(Drives(), robot.drive, "drive");
-  drive->Configure(robot);
-  std::vector<double> wheels(robot.wheels.size());
-  constexpr double kAside_mps = 0.1;
-  drive->ToWheels({0, kAside_mps, 0}, wheels);
-  return drive->ToTwist(wheels).vy_mps > 0.5 * kAside_mps;
-}
-
 std::vector<Direction> DirectionsOf(const RobotSpec& robot) {
-  if (MovesAside(robot)) return {Direction::kForward, Direction::kSideways, Direction::kDiagonal};
+  if (IsHolonomic(robot)) return {Direction::kForward, Direction::kSideways, Direction::kDiagonal};
   return {Direction::kForward, Direction::kDiagonal};
 }
 
@@ -107,7 +97,7 @@ CrossingPlan PlanOf(const LadderCell& cell, const RobotSpec& robot, double size)
   const double angle_rad = cell.direction == Direction::kForward    ? 0
                            : cell.direction == Direction::kSideways ? kPi / 2
                                                                     : kPi / 4;
-  if (MovesAside(robot))
+  if (IsHolonomic(robot))
     plan.yaw_rad = -angle_rad;  // the way is the world's x
   else
     plan.travel_rad = plan.yaw_rad = angle_rad;

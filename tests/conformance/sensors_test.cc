@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every registered sensor promises, on both robots and on one in another shape.
+// What every registered sensor promises, on every registered robot, and on those that fold in
+// another shape too.
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -10,6 +11,7 @@
 
 #include "env/core/robot_spec.h"
 #include "tests/controllers/allocation_guard.h"
+#include "tests/robots.h"
 #include "tests/sensors/sensor_rig.h"
 
 namespace floorproof {
@@ -19,14 +21,22 @@ void PrintTo(const PluginEntry<Sensor>& entry, std::ostream* os) { *os << entry.
 namespace {
 
 struct Carrier {
-  const char* name;
-  const char* robot;
-  const char* shape;
+  std::string robot;
+  std::string shape;  // empty: the robot's own
+  std::string Name() const { return shape.empty() ? robot : robot + "_" + shape; }
 };
-void PrintTo(const Carrier& carrier, std::ostream* os) { *os << carrier.name; }
+void PrintTo(const Carrier& carrier, std::ostream* os) { *os << carrier.Name(); }
 
-const Carrier kCarriers[] = {
-    {"beluga", "beluga", ""}, {"htetro", "htetro", ""}, {"htetro_I", "htetro", "I"}};
+// A robot's first shape is the one that it starts in.
+std::vector<Carrier> Carriers() {
+  std::vector<Carrier> carriers;
+  for (const std::string& name : RobotNames()) {
+    carriers.push_back({name, ""});
+    const RobotSpec robot = ReadRobot(FindRobotFile(name, {})).spec;
+    if (robot.shapes.size() > 1) carriers.push_back({name, robot.shapes[1].name});
+  }
+  return carriers;
+}
 
 constexpr BodyTwist kAhead = {0.2, 0, 0.05};
 constexpr int kPeriods = 30;
@@ -158,10 +168,10 @@ TEST_P(SensorConformance, TheSameSeedTellsTheSameAnotherOtherNoise) {
 
 INSTANTIATE_TEST_SUITE_P(All, SensorConformance,
                          testing::Combine(testing::ValuesIn(Sensors()),
-                                          testing::ValuesIn(kCarriers)),
+                                          testing::ValuesIn(Carriers())),
                          [](const auto& suite) {
                            return std::string(std::get<0>(suite.param).name) + "_" +
-                                  std::get<1>(suite.param).name;
+                                  std::get<1>(suite.param).Name();
                          });
 
 }  // namespace

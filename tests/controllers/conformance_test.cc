@@ -11,26 +11,94 @@
 
 namespace floorproof {
 
-void PrintTo(const PluginEntry<Tracker>& entry, std::ostream* os) { *os << entry.name; }
+void PrintTo(const RobotSpec& robot, std::ostream* os) { *os << robot.name; }
 void PrintTo(const PluginEntry<Estimator>& entry, std::ostream* os) { *os << entry.name; }
 
 namespace {
 
-class TrackerConformance : public testing::TestWithParam<PluginEntry<Tracker>> {};
+// A drive under each robot that stands on it.
+class DriveConformance : public testing::TestWithParam<RobotSpec> {
+ protected:
+  DriveConformance() : dut_(MakePlugin(Drives(), robot().drive, "drive")) {
+    dut_->Configure(robot());
+  }
+  static const RobotSpec& robot() { return GetParam(); }
+  // What the wheels roll that are told this twist.
+  BodyTwist Rolled(const BodyTwist& twist) const {
+    std::vector<double> wheels(robot().wheels.size());
+    dut_->ToWheels(twist, wheels);
+    return dut_->ToTwist(wheels);
+  }
+  std::unique_ptr<Drive> dut_;
+};
+
+constexpr double kSlow_mps = 0.05, kSlow_radps = 0.1;  // far below what any motor can do
+
+TEST_P(DriveConformance, DrivesStraightOn) {
+  const BodyTwist rolled = Rolled({kSlow_mps, 0, 0});
+  EXPECT_NEAR(rolled.vx_mps, kSlow_mps, 1e-12);
+  EXPECT_NEAR(rolled.vy_mps, 0, 1e-12);
+  EXPECT_NEAR(rolled.wz_radps, 0, 1e-12);
+}
+
+TEST_P(DriveConformance, MovesAsideIfItSaysThatItIsHolonomic) {
+  const BodyTwist rolled = Rolled({0, kSlow_mps, 0});
+  EXPECT_NEAR(rolled.vy_mps, dut_->holonomic() ? kSlow_mps : 0, 1e-12);
+  EXPECT_NEAR(rolled.wz_radps, 0, 1e-12);
+}
+
+TEST_P(DriveConformance, TurnsOnTheSpotIfItSaysSo) {
+  const BodyTwist rolled = Rolled({0, 0, kSlow_radps});
+  const bool turns =
+      std::abs(rolled.wz_radps - kSlow_radps) < 1e-12 && std::abs(rolled.vx_mps) < 1e-12;
+  EXPECT_EQ(turns, dut_->turns_on_the_spot());
+}
+
+TEST_P(DriveConformance, SomeTrackerCommandsIt) {
+  EXPECT_THAT(PluginNames(Trackers()), testing::Contains(DefaultTracker(robot().drive)));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, DriveConformance, testing::ValuesIn(TestRobots()),
+                         [](const auto& suite) { return suite.param.name; });
+
+// Each tracker, on each robot that it commands.
+struct Tracked {
+  PluginEntry<Tracker> tracker;
+  RobotSpec robot;
+};
+void PrintTo(const Tracked& tracked, std::ostream* os) {
+  *os << tracked.tracker.name << " on " << tracked.robot.name;
+}
+std::vector<Tracked> AllTracked() {
+  std::vector<Tracked> all;
+  for (const auto& entry : Trackers())
+    for (const RobotSpec& robot : TestRobots())
+      if (entry.make()->Commands(*MakePlugin(Drives(), robot.drive, "drive")))
+        all.push_back({entry, robot});
+  return all;
+}
+
+class TrackerConformance : public testing::TestWithParam<Tracked> {
+ protected:
+  static std::unique_ptr<Tracker> Make() { return GetParam().tracker.make(); }
+  static const RobotSpec& robot() { return GetParam().robot; }
+};
 
 const Path kRows =
     MakePath({{0, 0}, {1.5, 0}, {1.5, 0.3}, {0, 0.3}, {0, 0.6}, {0.7, 0.6}, {1.2, 0.8}});
 
-TEST_P(TrackerConformance, CommandsARegisteredDrive) {
-  const auto dut = GetParam().make();
-  const auto drives = PluginNames(Drives());
-  ASSERT_FALSE(dut->Drives().empty());
-  for (const std::string& drive : dut->Drives()) EXPECT_THAT(drives, testing::Contains(drive));
+TEST(Trackers, CommandRegisteredDrives) {
+  for (const auto& entry : Trackers()) {
+    const auto drives = entry.make()->Drives();
+    EXPECT_FALSE(drives.empty()) << entry.name;
+    for (const std::string& drive : drives)
+      EXPECT_THAT(PluginNames(Drives()), testing::Contains(drive)) << entry.name;
+  }
 }
 
 TEST_P(TrackerConformance, ReachesTheEndOfAPathInOrder) {
-  const auto dut = GetParam().make();
-  const Driven driven = DriveAlong(*dut, kRows, {}, nullptr, RobotFor(*dut));
+  const auto dut = Make();
+  const Driven driven = DriveAlong(*dut, kRows, {}, nullptr, robot());
   ASSERT_TRUE(driven.done);
   EXPECT_TRUE(driven.SegmentsNeverDecrease());
   EXPECT_EQ(driven.steps.back().segment, kRows.size() - 2);
@@ -39,57 +107,57 @@ TEST_P(TrackerConformance, ReachesTheEndOfAPathInOrder) {
 }
 
 TEST_P(TrackerConformance, KeepsTheRobotsLimits) {
-  const auto dut = GetParam().make();
-  const RobotSpec robot = RobotFor(*dut);
-  const Driven driven = DriveAlong(*dut, kRows, {}, nullptr, RobotFor(*dut));
+  const auto dut = Make();
+  const Driven driven = DriveAlong(*dut, kRows, {}, nullptr, robot());
   constexpr double kDt = 0.02, kSlack = 1e-9;
   BodyTwist last;
   for (const auto& step : driven.steps) {
-    EXPECT_LE(std::hypot(step.twist.vx_mps, step.twist.vy_mps), robot.max_speed_mps + kSlack);
-    EXPECT_LE(std::abs(step.twist.wz_radps), robot.max_yaw_rate_radps + kSlack);
+    EXPECT_LE(std::hypot(step.twist.vx_mps, step.twist.vy_mps), robot().max_speed_mps + kSlack);
+    EXPECT_LE(std::abs(step.twist.wz_radps), robot().max_yaw_rate_radps + kSlack);
     EXPECT_LE(std::hypot(step.twist.vx_mps - last.vx_mps, step.twist.vy_mps - last.vy_mps),
-              robot.max_accel_mps2 * kDt + kSlack);
+              robot().max_accel_mps2 * kDt + kSlack);
     EXPECT_LE(std::abs(step.twist.wz_radps - last.wz_radps),
-              robot.max_yaw_accel_radps2 * kDt + kSlack);
+              robot().max_yaw_accel_radps2 * kDt + kSlack);
     last = step.twist;
   }
 }
 
 TEST_P(TrackerConformance, StartForgetsThePathBefore) {
-  const auto dut = GetParam().make();
-  const RobotSpec robot = RobotFor(*dut);
-  const Driven once = DriveAlong(*dut, kRows, {}, nullptr, robot);
-  const Driven again = DriveAlong(*dut, kRows, {}, nullptr, robot);
+  const auto dut = Make();
+  const Driven once = DriveAlong(*dut, kRows, {}, nullptr, robot());
+  const Driven again = DriveAlong(*dut, kRows, {}, nullptr, robot());
   ASSERT_EQ(once.steps.size(), again.steps.size());
   for (std::size_t i = 0; i < once.steps.size(); ++i)
     EXPECT_EQ(once.steps[i].twist.vx_mps, again.steps[i].twist.vx_mps);
 }
 
 TEST_P(TrackerConformance, UpdateAllocatesNothing) {
-  const auto dut = GetParam().make();
-  const RobotSpec robot = RobotFor(*dut);
-  const Driven driven = DriveAlong(
-      *dut, kRows, {}, nullptr, RobotFor(*dut));  // poses to replay, without the test's own vectors
-  dut->Start(kRows, robot, nullptr);
+  const auto dut = Make();
+  // Poses to replay, without the test's own vectors.
+  const Driven driven = DriveAlong(*dut, kRows, {}, nullptr, robot());
+  dut->Start(kRows, robot(), nullptr);
   const auto before = AllocationCount();
   for (const auto& step : driven.steps) dut->Update({step.X_WB, {}}, step.t_s, 0.02);
   EXPECT_EQ(AllocationCount(), before);
 }
 
 TEST_P(TrackerConformance, SaysWhichLimitARobotLacks) {
-  const auto dut = GetParam().make();
-  RobotSpec robot = RobotFor(*dut);
-  robot.max_accel_mps2 = 0;
-  EXPECT_THROW(dut->Start(kRows, robot, nullptr), InputError);
+  const auto dut = Make();
+  RobotSpec lame = robot();
+  lame.max_accel_mps2 = 0;
+  EXPECT_THROW(dut->Start(kRows, lame, nullptr), InputError);
 }
 
 TEST_P(TrackerConformance, ParametersAreDocumented) {
-  const auto dut = GetParam().make();
+  const auto dut = Make();
   for (const ParamDoc& doc : DocumentParams(*dut)) EXPECT_FALSE(doc.help.empty()) << doc.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, TrackerConformance, testing::ValuesIn(Trackers()),
-                         [](const auto& suite) { return std::string(suite.param.name); });
+INSTANTIATE_TEST_SUITE_P(All, TrackerConformance, testing::ValuesIn(AllTracked()),
+                         [](const auto& suite) {
+                           return std::string(suite.param.tracker.name) + "_" +
+                                  suite.param.robot.name;
+                         });
 
 TEST(DefaultTracker, CommandsItsDrive) {
   EXPECT_EQ(DefaultTracker("differential"), "regulated_pursuit");

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "tests/robots.h"
+
 namespace floorproof {
 namespace {
 
@@ -59,11 +61,14 @@ RobotSpec HolonomicRobot() {
   return robot;
 }
 
-RobotSpec RobotFor(const Tracker& tracker) {
-  for (const auto& robot : {RoundRobot(), HolonomicRobot()})
-    for (const std::string& drive : tracker.Drives())
-      if (drive == robot.drive) return robot;
-  throw InternalError("no robot for this tracker: add one here");
+const std::vector<RobotSpec>& TestRobots() {
+  static const std::vector<RobotSpec> robots = [] {
+    std::vector<RobotSpec> all = {RoundRobot(), HolonomicRobot()};
+    for (const std::string& name : RobotNames())
+      all.push_back(ReadRobot(FindRobotFile(name, {})).spec);
+    return all;
+  }();
+  return robots;
 }
 
 Path MakePath(const std::vector<Vec2>& points) {

@@ -16,8 +16,8 @@ namespace floorproof {
 RobotSpec RoundRobot();
 // The same on four Mecanum wheels.
 RobotSpec HolonomicRobot();
-// The one of the two that this tracker commands.
-RobotSpec RobotFor(const Tracker& tracker);
+// These two, and every registered robot.
+const std::vector<RobotSpec>& TestRobots();
 
 struct DriveOptions {
   std::optional<Pose2> start;  // none: on the first waypoint, facing along the path

@@ -36,12 +36,9 @@ TEST_P(Localisation, KeepsWithinTenCentimetresAndFailsNoMoreThanTheTruth) {
   RecordProperty("p95_mm", static_cast<int>(1000 * dut.metrics.p95_estimate_error_m));
   RecordProperty("max_mm", static_cast<int>(1000 * dut.metrics.max_estimate_error_m));
 }
-INSTANTIATE_TEST_SUITE_P(
-    Maps, Localisation,
-    ::testing::Values(RobotOnMap{"beluga", "lab_small"}, RobotOnMap{"htetro", "lab_small"},
-                      RobotOnMap{"beluga", "small_house"}, RobotOnMap{"htetro", "small_house"},
-                      RobotOnMap{"beluga", "apartment"}, RobotOnMap{"htetro", "apartment"},
-                      RobotOnMap{"beluga", "depot"}, RobotOnMap{"htetro", "depot"}));
+INSTANTIATE_TEST_SUITE_P(Maps, Localisation,
+                         ::testing::ValuesIn(EachRobotOn({"lab_small", "small_house", "apartment",
+                                                          "depot"})));
 
 // As it comes: adaptive, from guesses drawn from the prior.
 TEST_P(Localisation, DoesSoAsItComesFromGuessesOfItsPrior) {

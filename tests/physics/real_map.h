@@ -3,13 +3,21 @@
 #pragma once
 
 #include "env/map/init_files.h"
+#include "tests/robots.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {
 
 struct RobotOnMap {
-  const char *robot, *map;
+  std::string robot, map;
 };
+// Every registered robot on each of these maps.
+inline std::vector<RobotOnMap> EachRobotOn(const std::vector<std::string>& maps) {
+  std::vector<RobotOnMap> drives;
+  for (const std::string& map : maps)
+    for (const std::string& robot : RobotNames()) drives.push_back({robot, map});
+  return drives;
+}
 inline void PrintTo(const RobotOnMap& drive, std::ostream* os) {
   *os << drive.robot << " in " << drive.map;
 }

@@ -15,6 +15,7 @@
 
 #include "run/episode/records.h"
 #include "tests/controllers/allocation_guard.h"
+#include "tests/robots.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {
@@ -55,15 +56,15 @@ class AssistTest : public ScenarioTest {
   }
 };
 
-class EachRobot : public AssistTest, public ::testing::WithParamInterface<const char*> {
+class EachRobot : public AssistTest, public ::testing::WithParamInterface<std::string> {
  protected:
   // Stopped by a barrier at x = 3 m between the second waypoint and the third.
   EpisodeRecord Stopped(double height_m, const std::string& keys = kAssist) const {
     return Drive(Read(RoomScenario(Barrier(3, height_m), keys), {{"robot", GetParam()}}));
   }
 };
-INSTANTIATE_TEST_SUITE_P(Robots, EachRobot, ::testing::Values("beluga", "htetro"),
-                         [](const auto& robot) { return std::string(robot.param); });
+INSTANTIATE_TEST_SUITE_P(Robots, EachRobot, ::testing::ValuesIn(RobotNames()),
+                         [](const auto& robot) { return robot.param; });
 
 TEST_P(EachRobot, IsSetDownAtRestAtTheNextWaypointAndDrivesToTheEnd) {
   for (const double height_m : {0.06, -0.15}) {

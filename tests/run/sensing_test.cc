@@ -10,6 +10,7 @@
 #include "run/campaign/episode_maker.h"
 #include "run/episode/records.h"
 #include "tests/controllers/allocation_guard.h"
+#include "tests/robots.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {
@@ -248,7 +249,7 @@ constexpr const char* kPit =
     "{type: step, id: pit, polygon_m: [[3,2],[3.8,2],[3.8,3],[3,3]], height_m: -0.10, "
     "known: false}";
 
-class ReactionTest : public SensingTest, public ::testing::WithParamInterface<const char*> {
+class ReactionTest : public SensingTest, public ::testing::WithParamInterface<std::string> {
  protected:
   ReactionTest() { Save("plan.csv", "x_m,y_m\n1.8,2.5\n5.5,2.5\n"); }
   EpisodeRecord Past(const std::string& hazard, const std::string& keys) const {
@@ -298,8 +299,8 @@ TEST_P(ReactionTest, OnAFloorAsKnownItIsTheSameDrive) {
   EXPECT_EQ(Trace(Past("", "react: {}\n")), Trace(Past("", "")));
 }
 
-INSTANTIATE_TEST_SUITE_P(Robots, ReactionTest, ::testing::Values("beluga", "htetro"),
-                         [](const auto& suite) { return std::string(suite.param); });
+INSTANTIATE_TEST_SUITE_P(Robots, ReactionTest, ::testing::ValuesIn(RobotNames()),
+                         [](const auto& suite) { return suite.param; });
 
 }  // namespace
 }  // namespace floorproof

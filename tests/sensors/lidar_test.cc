@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/robots.h"
 #include "tests/sensors/sensor_rig.h"
 
 namespace floorproof {
@@ -35,7 +36,7 @@ std::size_t BeamAlong(const Observation& sensed, double body_yaw_rad, double yaw
 }
 
 TEST(Lidar, RangesAreThoseOfTheRoomToAMillimetre) {
-  for (const char* robot : {"beluga", "htetro"}) {
+  for (const std::string& robot : RobotNames()) {
     SensorRig rig(Room(6, 4), robot, {2, 2, 0});
     rig.Carry(MakeSensor("lidar", kExact));
     int told = 0;

@@ -2,6 +2,7 @@
 // Encoders and IMU: what they say of a motion against the motion, with and without slip.
 #include <cmath>
 
+#include "tests/robots.h"
 #include "tests/sensors/sensor_rig.h"
 
 namespace floorproof {
@@ -24,7 +25,7 @@ double Rolled(SensorRig& rig, const BodyTwist& twist, int periods) {
 }
 
 TEST(Encoders, TellTheWayThatWasDriven) {
-  for (const char* robot : {"beluga", "htetro"}) {
+  for (const std::string& robot : RobotNames()) {
     SensorRig rig(Room(8, 4), robot, {2, 3, 0});
     rig.Carry(MakeSensor("encoders"));
     rig.Sense();

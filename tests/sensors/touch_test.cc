@@ -3,6 +3,7 @@
 // into.
 #include <cmath>
 
+#include "tests/robots.h"
 #include "tests/sensors/sensor_rig.h"
 
 namespace floorproof {
@@ -42,7 +43,7 @@ HazardMap WithPit(double depth_m) {
 }
 
 TEST(Cliff, TellsADropBeforeTheWheelsAreOverIt) {
-  for (const char* robot : {"beluga", "htetro"}) {
+  for (const std::string& robot : RobotNames()) {
     SensorRig rig(WithPit(0.1), robot, {3, 3, 0});
     rig.Carry(MakeSensor("cliff"));
     EXPECT_FALSE(rig.Sense().cliffs.any()) << robot;

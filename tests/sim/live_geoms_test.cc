@@ -13,6 +13,7 @@
 #include "controllers/drive.h"
 #include "env/sim/simulation.h"
 #include "tests/controllers/allocation_guard.h"
+#include "tests/robots.h"
 
 namespace floorproof {
 namespace {
@@ -110,9 +111,9 @@ struct Twins {
 
 const Pose2 kMiddle{-0.7, 3.4, 1.0};  // of Pillars()
 
-class LiveGeomsOf : public ::testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Robots, LiveGeomsOf, ::testing::Values("htetro", "beluga"),
-                         [](const auto& robot) { return std::string(robot.param); });
+class LiveGeomsOf : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Robots, LiveGeomsOf, ::testing::ValuesIn(RobotNames()),
+                         [](const auto& robot) { return robot.param; });
 
 TEST_P(LiveGeomsOf, BumpIntoTheSameWallsAsTheWholeScene) {
   Twins dut(GetParam(), Pillars(), kMiddle);

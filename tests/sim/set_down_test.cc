@@ -11,6 +11,7 @@
 #include "base/registry.h"
 #include "controllers/drive.h"
 #include "env/sim/simulation.h"
+#include "tests/robots.h"
 
 namespace floorproof {
 namespace {
@@ -28,10 +29,10 @@ HazardMap Pillars() {
 
 const Pose2 kHere{3.25, 3.25, 0.4}, kThere{15.25, 12.25, 0};
 
-class SetDown : public ::testing::TestWithParam<const char*> {
+class SetDown : public ::testing::TestWithParam<std::string> {
  protected:
   struct Rig {
-    explicit Rig(const char* name)
+    explicit Rig(const std::string& name)
         : robot(ReadRobot(FindRobotFile(name, {}))),
           map(Pillars()),
           drive(MakePlugin(Drives(), robot.spec.drive, "drive")),
@@ -77,8 +78,8 @@ class SetDown : public ::testing::TestWithParam<const char*> {
     std::vector<double> wheels;
   };
 };
-INSTANTIATE_TEST_SUITE_P(Robots, SetDown, ::testing::Values("beluga", "htetro"),
-                         [](const auto& robot) { return std::string(robot.param); });
+INSTANTIATE_TEST_SUITE_P(Robots, SetDown, ::testing::ValuesIn(RobotNames()),
+                         [](const auto& robot) { return robot.param; });
 
 TEST_P(SetDown, StandsAsAtAStart) {
   Rig dut(GetParam()), fresh(GetParam());

@@ -30,9 +30,9 @@ class Drop final : public Law {
   std::vector<WrongModel> notices() const override { return {{.gravity_factor = 1.3}}; }
 
   void Check(const WrongModel& wrong, std::vector<LawRow>& rows) const override {
-    for (const char* robot : {"beluga", "htetro"})
+    for (const RobotEntry& robot : Robots())
       for (const double height_m : {0.05, 0.10, 0.20}) {
-        Rig rig(robot, {.wrong = wrong});
+        Rig rig(std::string(robot.name), {.wrong = wrong});
         const double step_s = rig.sim().model()->opt.timestep;
         rig.SetBase({0, 0, height_m}, Eigen::Quaterniond::Identity(), Vec3::Zero());
         double v_mps = 0;
@@ -42,7 +42,8 @@ class Drop final : public Law {
           rig.Step();
         }
         const double way_m = height_m - CasterTravel(rig.sim().model());
-        const std::string law = fmt::format("drop/{}/{}mm", robot, std::lround(height_m * 1000));
+        const std::string law =
+            fmt::format("drop/{}/{}mm", robot.name, std::lround(height_m * 1000));
         rows.push_back({law + "/time", std::sqrt(2 * way_m / kGravity_mps2), rig.truth().t_s,
                         1.5 * step_s, "s"});
         rows.push_back({law + "/speed", std::sqrt(2 * kGravity_mps2 * way_m), v_mps,

@@ -52,7 +52,7 @@ struct Motor {
 // A robot in the air whose body does not turn when its wheels are braked.
 class Bench {
  public:
-  Bench(const char* robot, const WrongModel& wrong) : rig_(robot, {.wrong = wrong}) {
+  Bench(const std::string& robot, const WrongModel& wrong) : rig_(robot, {.wrong = wrong}) {
     // More would blunt the solver, whose tolerance is relative to the mean inertia.
     constexpr double kHeld = 100;  // kg and kg m^2
     rig_.SetGravity(Vec3::Zero());
@@ -102,7 +102,7 @@ class Motors final : public Law {
   }
 
   void Check(const WrongModel& wrong, std::vector<LawRow>& rows) const override {
-    for (const char* robot : {"beluga", "htetro"}) CheckRobot(robot, wrong, rows);
+    for (const RobotEntry& robot : Robots()) CheckRobot(std::string(robot.name), wrong, rows);
   }
 
  private:
@@ -113,7 +113,7 @@ class Motors final : public Law {
       rows.push_back(
           {"motors/" + robot + "/" + name, expected, measured, kShare * std::abs(expected), unit});
     };
-    Bench bench(robot.c_str(), wrong);
+    Bench bench(robot, wrong);
     const Rig truth(robot);
     const Motor motor(truth.scene().model.get(), *truth.robot().battery.voltage_v);
     const auto battery_a = [&](double torque_nm, double speed_radps) {
