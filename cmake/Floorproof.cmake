@@ -60,6 +60,76 @@ function(fp_use_precompiled target name)
   endif()
 endfunction()
 
+# A folder's files compiled a few at a time as one: what they all include is read and instantiated
+# once. unity_groups.py says which may be together, so that nobody must mind the names in other files.
+option(FLOORPROOF_UNITY "Compile several files of a target as one" OFF)
+set(FLOORPROOF_UNITY_FILES 8 CACHE STRING "Most files that are compiled as one")
+if(FLOORPROOF_UNITY)
+  find_package(Python3 3.8 COMPONENTS Interpreter)
+  if(NOT Python3_FOUND)
+    message(WARNING "FLOORPROOF_UNITY needs Python 3.8 or later; each file is compiled by itself")
+  endif()
+endif()
+define_property(GLOBAL PROPERTY FP_UNITY_FILES BRIEF_DOCS "TARGET;FILE of all targets, in lines"
+                FULL_DOCS "What unity_groups.py is asked about")
+# fp_unity(TARGET): after its sources are known.
+function(fp_unity target)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source ${sources})
+    get_filename_component(source ${source} ABSOLUTE)
+    string(FIND ${source} ${PROJECT_BINARY_DIR}/ generated)
+    if(generated EQUAL -1)
+      set_property(GLOBAL APPEND_STRING PROPERTY FP_UNITY_FILES "${target};${source}\n")
+    endif()
+  endforeach()
+endfunction()
+# fp_group_sources(): once, after all targets.
+function(fp_group_sources)
+  if(NOT FLOORPROOF_UNITY OR NOT Python3_FOUND)
+    return()
+  endif()
+  get_property(lines GLOBAL PROPERTY FP_UNITY_FILES)
+  set(asked ${PROJECT_BINARY_DIR}/unity_files.txt)
+  set(script ${PROJECT_SOURCE_DIR}/cmake/unity_groups.py)
+  file(WRITE ${asked} "${lines}")
+  execute_process(
+    COMMAND ${Python3_EXECUTABLE} ${script} ${PROJECT_SOURCE_DIR} ${FLOORPROOF_UNITY_FILES}
+    INPUT_FILE ${asked} OUTPUT_VARIABLE answer RESULT_VARIABLE status)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${script} failed: ${status}")
+  endif()
+  string(REGEX MATCHALL "[^\n]+" answer "${answer}")
+  set(read ${script})
+  foreach(line IN LISTS answer)
+    string(REPLACE "|" ";" line "${line}")
+    list(GET line 0 what)
+    if(what STREQUAL "group")
+      list(GET line 1 target)
+      list(GET line 2 file)
+      list(GET line 3 group)
+      set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+      # Under the target's name: a file can be in two targets of a folder, and whichever group it is
+      # in then suits both.
+      set_source_files_properties(${file} TARGET_DIRECTORY ${target}
+                                  PROPERTIES UNITY_GROUP ${target}_${group})
+    else()
+      list(GET line 1 file)
+      list(APPEND read ${file})
+    endif()
+  endforeach()
+  set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${read})
+endfunction()
+
+# Linking is a tenth of the time with mold or lld.
+include(CheckLinkerFlag)
+foreach(linker mold lld)
+  check_linker_flag(CXX -fuse-ld=${linker} FLOORPROOF_LINKS_WITH_${linker})
+  if(FLOORPROOF_LINKS_WITH_${linker})
+    add_link_options(-fuse-ld=${linker})
+    break()
+  endif()
+endforeach()
+
 # fp_library(NAME SOURCES a.cc ... [PUBLIC targets ...] [PRIVATE targets ...])
 # A static library of one folder. PUBLIC: what its headers need; PRIVATE: what only its sources need;
 # PRECOMPILED: which headers it shares (fp_headers).
@@ -72,21 +142,36 @@ function(fp_library name)
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE fp_options ${ARG_PRIVATE})
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
   fp_use_precompiled(${name} ${ARG_PRECOMPILED})
+  fp_unity(${name})
 endfunction()
 
 # fp_test(NAME LABEL quick|slow SOURCES a_test.cc ... LINK targets ... [TIMEOUT seconds])
-# One executable of GoogleTest tests; each TEST becomes a ctest of that label.
+# One executable of GoogleTest tests; each TEST becomes a ctest of that label. Under sanitizers, where
+# starting a process is dear, the executable is one ctest. Slow ones are built by fp_slow_tests alone.
+add_custom_target(fp_quick_tests)
+add_custom_target(fp_slow_tests)
 function(fp_test name)
   cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 280)
   endif()
   add_executable(${name} ${ARG_SOURCES})
+  add_dependencies(fp_${ARG_LABEL}_tests ${name})
+  if(ARG_LABEL STREQUAL "slow")
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+  endif()
   target_link_libraries(${name} PRIVATE fp_options ${ARG_LINK} GTest::gtest_main GTest::gmock)
   fp_use_precompiled(${name} fp_test_headers)
+  fp_unity(${name})
   target_compile_definitions(${name} PRIVATE
     FP_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     FP_SHARED_MAPS_DIR="${PROJECT_SOURCE_DIR}/../shared/maps")
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
-    PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+  if(FLOORPROOF_SANITIZE)
+    add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
+    math(EXPR timeout "3 * ${ARG_TIMEOUT}")
+    set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${timeout})
+  else()
+    gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
+      PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+  endif()
 endfunction()

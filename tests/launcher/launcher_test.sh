@@ -163,11 +163,16 @@ reports_failed_tests() {
   expect "passing tests: 0" test "$status" = 0
   expect "the quick ones, with the caller's arguments" \
     grep -q -- "^ctest .*-L ^quick\$ .*-R Spiral$" "$work/calls"
+  expect "the slow ones are not built" grep -q -- '--target floorproof fp_codecs fp_quick_tests$' "$work/calls"
+  run demo
+  expect "the program is built with them" test "$(calls 'cmake --build')" = 1
   CTEST_STATUS=8 run test --all
+  expect "--all builds the slow ones" grep -q -- 'fp_quick_tests fp_slow_tests$' "$work/calls"
   expect "failing tests: 1" test "$status" = 1
   expect "--all has no label" test "$(grep -c -- '^ctest .*-L' "$work/calls")" = 1
   expect "and is not passed on" test "$(grep -c -- '^ctest .*--all' "$work/calls")" = 0
-  expect "nothing was built twice" test "$(calls 'cmake --build')" = 1
+  run test
+  expect "nothing was built twice" test "$(calls 'cmake --build')" = 2
 }
 
 builds_once() {
