@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boustrophedon ("as the ox ploughs"): back-and-forth rows. (1) The floor is cut into regions, each
-// with the direction that makes its rows long (planners/lines/regions.h); (2) rows lie at the
-// spacing and offset that fit a region best, broken by obstacles into the cells of a boustrophedon
-// decomposition (Choset & Pignon 1997); (3) the rows are ordered as a travelling salesman would and
-// joined by shortest ways; (4) transits are dropped, leftovers visited, and all is ordered again
-// (planners/lines/coverage_planner.h).
-// Parameters: those of every coverage planner, and direction_deg. With `edges` laps along walls
-// and furniture come first and the rows fill what these leave.
-// Not done: rows do not bend; ground narrower than the tool is visited, not rowed.
+// Boustrophedon ("as the ox ploughs"): back-and-forth rows.
+//
+// (1) The floor is cut into regions, each with the direction that makes its rows long
+// (planners/lines/regions.h). (2) Rows lie at the spacing and offset that fit a region best.
+// Obstacles break them into the cells of a boustrophedon decomposition (Choset & Pignon 1997).
+// (3) A tour leads over the rows, joined by shortest paths. (4) What sweeps nothing is dropped,
+// uncovered patches are visited, and the tour is made anew (planners/lines/coverage_planner.h).
+// Parameters: those of every coverage planner, and direction_deg. With `edges`, laps along walls
+// and furniture come first, and the rows fill what these leave.
+// Not done: rows do not bend. Ground narrower than the tool gets single visits, no rows.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +18,7 @@
 namespace floorproof {
 namespace {
 
-// A row's end costs about this much beside the row: the step to the next one and two turns.
+// What a row costs beside its length: about a step to the next one, and two turns.
 constexpr double kLinkWidths = 1.5;
 
 class Boustrophedon final : public CoveragePlanner {

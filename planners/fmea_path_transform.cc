@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coverage by risk, the planner of the hTetro FMEA paper (section 2.3): cells of high risk count as
-// obstacles, and from cell to cell it goes always to the unvisited neighbour of the highest score,
-// which grows with the distance from the end and falls with risk.
+// Coverage by risk: the planner of the hTetro FMEA paper (section 2.3). Cells of high risk count as
+// obstacles. The robot goes from cell to cell, always to the unvisited neighbour of the highest
+// score. The score grows with the distance from the end and falls with risk.
 //
-// Algorithm 1 as printed scores a step 15 or 20 less 2 RF and begins at the start. The text and
-// Eq. 5 say otherwise: the wave begins at the end, its scores of 15 and 20 add up along the way,
-// and a cell's total is that sum less K = 50 times its RF, normalised by RF_min and RF_max "for the
-// environment": of all cells within the outer walls, hazards included. Only this has a cell's score
-// say how far the end is, which Algorithm 2 needs, so this is what is built. K leaves totals below
-// 0 near the end of the wave, where the paper wants TotalScore > 0: an order does not change by
-// what is added to all. Wave: planners/risk/wave_front.h; cells: planners/risk/high_risk.h; order:
+// Algorithm 1 as printed scores a step 15 or 20 less 2 RF, and begins at the start. The text and
+// Eq. 5 say otherwise. The wave begins at the end. Its scores of 15 and 20 add up along the way. A
+// cell's total is that sum less K = 50 times its RF, normalised by RF_min and RF_max "for the
+// environment": of all cells within the outer walls, hazards included. Algorithm 2 needs scores
+// that say how far the end is, and only the second reading gives them, so it is what is built.
+// With this K totals near the end of the wave are below 0, where the paper wants TotalScore > 0.
+// That does no harm: an order does not change by what is added to all.
+// The wave: planners/risk/terrain_wave.h; the cells: planners/risk/high_risk.h; the order:
 // planners/walk/transform_tour.h.
 #include <algorithm>
 #include <limits>
 
 #include "planners/risk/high_risk.h"
-#include "planners/risk/wave_front.h"
+#include "planners/risk/terrain_wave.h"
 
 namespace floorproof {
 namespace {
@@ -36,7 +37,7 @@ class FmeaPathTransform final : public CellPlanner {
     figures.push_back({"opened_cells", floor.opened_cells});
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (std::size_t i = 0; i < floor.open.cells.size(); ++i)
-      if (!task.risk.grid.cells.cells[i].outer_wall()) {
+      if (!task.risk.grid.contents.cells[i].outer_wall()) {
         low = std::min(low, task.risk.rf.cells[i]);
         high = std::max(high, task.risk.rf.cells[i]);
       }

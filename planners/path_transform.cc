@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The conventional path transform (Zelinsky 1994; Dakulovic, Horvatic & Petrovic 2011, the hTetro
-// FMEA paper's reference 31), that paper's baseline: from cell to cell, always to the unvisited
-// neighbour that is farthest from the end. How far a cell is: the least sum, over ways to the end,
-// of the way's length and of the cost of being near solid obstacles (C1 to C3). Terrain is driven
-// like any floor.
-// Wave: planners/risk/wave_front.h; order: planners/walk/transform_tour.h.
+// FMEA paper's reference 31), which is that paper's baseline.
+//
+// The robot goes from cell to cell, always to the unvisited neighbour that is farthest from the
+// end. How far a cell is from the end: the least sum, over all paths there, of the path's length
+// and the cost of being near solid obstacles (C1 to C3). Terrain is driven like any floor. The
+// wave: planners/walk/wave_front.h; the order: planners/walk/transform_tour.h.
 #include <cmath>
 
 #include "env/core/coverage.h"
 #include "env/geometry/distance.h"
 #include "planners/risk/cell_planner.h"
 #include "planners/risk/high_risk.h"
-#include "planners/risk/wave_front.h"
+#include "planners/walk/wave_front.h"
 
 namespace floorproof {
 namespace {

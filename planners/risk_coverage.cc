@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coverage by risk, ours: the same risk as the hTetro FMEA paper's, but the cells are put in the
-// order that sums least. A path's cumulative RF is the sum over its cells once, which no order can
-// change, and over those that it comes back to, which is what is searched (cover_walk.h): as few
-// crossings of terrain as can be, then the least of RF and steps in equal parts. Terrain is crossed
-// squarely, away from walls where that costs no more than a step, and as fast and forward as the
-// robot does it best (RobotSpec's cover limits).
-// `cells: fmea` covers the cells that fmea_path_transform covers, `all` every free one that can be
-// reached.
+// Coverage by risk, our own: the risk is that of the hTetro FMEA paper, but the cells are put in
+// the order with the least sum.
+//
+// The cumulative RF of a path has two parts: the RF of all its cells once, which no order can
+// change, and the RF of the cells that it visits again. The second part is what is searched for
+// (planners/walk/cover_walk.h): as few crossings of terrain as possible, then the least of RF and
+// steps in equal parts. Terrain is crossed at right angles, away from walls where that costs no
+// more than a step, and at the speed and heading that suit the robot best (RobotSpec's cover
+// limits). `cells: fmea` covers the cells that fmea_path_transform covers, `all` every free cell
+// that can be reached. Not done: counting turns.
 #include <algorithm>
 #include <string>
 
@@ -16,13 +18,14 @@
 namespace floorproof {
 namespace {
 
-// A visit of terrain counts as a step more, so that it is crossed straight; beside a wall as two:
-// robots slow down there, and slow ones are held by covers that fast ones cross.
+// A visit of terrain counts as a step more, so that terrain is crossed straight. Beside a wall it
+// counts as two more: robots slow down there, and a slow robot is held by covers that a fast one
+// crosses.
 Grid<double> StepsMore(const RiskGrid& grid, bool avoid_walls) {
-  Grid<double> more(grid.cells.width, grid.cells.height);
-  const auto solid = [&](Cell c) { return !grid.cells.Inside(c) || grid.cells(c).solid; };
+  Grid<double> more(grid.contents.width, grid.contents.height);
+  const auto solid = [&](Cell c) { return !grid.contents.Inside(c) || grid.contents(c).solid; };
   for (std::size_t i = 0; i < more.cells.size(); ++i) {
-    if (!grid.cells.cells[i].terrain()) continue;
+    if (!grid.contents.cells[i].terrain()) continue;
     const Cell cell = CellAt(more, i);
     const auto beside_solid = [&](Cell step) { return solid(cell + step); };
     const bool tight = std::ranges::any_of(kSideSteps, beside_solid) ||
@@ -53,8 +56,8 @@ class RiskCoverage final : public CellPlanner {
     problem.start = task.start;
     problem.end = task.end;
     problem.open = task.drivable;
-    problem.wanted = task.free;
-    if (cells_ == "fmea") problem.open = problem.wanted = LowRiskFloor(task, high_risk_).open;
+    problem.required = task.free;
+    if (cells_ == "fmea") problem.open = problem.required = LowRiskFloor(task, high_risk_).open;
     problem.terrain = CellsThat(task.risk.grid, &RiskCell::terrain);
     problem.cost = task.risk.rf;
     // Where the paper's cells are given, so is where terrain is crossed.

@@ -22,7 +22,7 @@ template <class Value>
 HeatValues OnRiskCells(const RiskMap& risk, Value value) {
   HeatValues heat{risk.grid.frame, Grid<float>(risk.rf.width, risk.rf.height, HeatValues::kNone)};
   for (std::size_t i = 0; i < heat.values.cells.size(); ++i)
-    heat.values.cells[i] = value(i, risk.grid.cells.cells[i]);
+    heat.values.cells[i] = value(i, risk.grid.contents.cells[i]);
   return heat;
 }
 

@@ -5,24 +5,24 @@
 #include <cmath>
 #include <sstream>
 
-#include "planners/lines/laps.h"
-#include "planners/lines/leftovers.h"
 #include "planners/lines/pieces.h"
 #include "planners/lines/prune.h"
 #include "planners/lines/tour.h"
+#include "planners/lines/uncovered_patches.h"
+#include "planners/lines/wall_contours.h"
 
 namespace floorproof {
 namespace {
 
-// How far to go for the last of the ground. Worth: a detour stays when it sweeps more than this
-// share of width * length. Chosen on eight real maps: the coverage that the issue of this planner
-// asks for, with about one per cent to spare for a robot that tracks less than perfectly.
+// How far to go for the last of the ground. A detour is worth its length when it sweeps more than
+// this share of width * length. The values were chosen on eight real maps, for the coverage that is
+// asked of these planners and about one per cent more, as no robot tracks a path perfectly.
 struct Effort {
   double goal;  // coverage below which nothing is given up
   double worth;
   double least_goal;  // the same where the floor is dear
   double dear_worth;
-  double least_gain;  // a visit to leftover ground sweeps at least this, in width^2
+  double least_gain;  // a visit to an uncovered patch sweeps at least this, in width^2
   double open_share;  // of the tool's width, along walls
 };
 constexpr Effort kRowsOnly = {0.96, 0.4, 0.948, 0.7, 0.5, 0.4};
@@ -35,8 +35,8 @@ constexpr double kFirstWorth = 0.15;   // before a path is taken apart: only wha
 constexpr double kWorkingShare = 0.1;  // a segment that sweeps less of its own is a transit
 constexpr double kCutReach = 6;        // tool widths: from so far aside a line is left for a visit
 constexpr double kMaxGoal = 0.995;
-// What trackers err by on such plans, and a little more: round robots that turn first, and robots
-// that move every way.
+// The tracker's error on such plans, and a little more: of round robots, which turn on the spot,
+// and of holonomic robots with a footprint.
 constexpr double kMargin_m = 0.03, kFootprintMargin_m = 0.015;
 constexpr double kMaxLost = 0.04;       // of the ground, to a margin
 constexpr double kDriveLoss = 0.012;    // of the ground, measured: corners driven less than exactly
@@ -85,13 +85,14 @@ bool LooksTheSameTurned(const Polygon& footprint_B) {
   });
 }
 
-Polyline Drive(Ways& ways, const Vec2& start, const std::vector<Polyline>& lines, bool thorough) {
+Polyline Drive(ShortestPaths& paths, const Vec2& start, const std::vector<Polyline>& lines,
+               bool thorough) {
   std::vector<Polyline> ordered = {{start}};
-  for (const Stop& stop : OrderLines(ways, start, lines, thorough)) {
+  for (const Stop& stop : OrderLines(paths, start, lines, thorough)) {
     ordered.push_back(lines[stop.line]);
     if (stop.reversed) std::reverse(ordered.back().begin(), ordered.back().end());
   }
-  return MergeStraight(JoinByRoutes(ways, ordered));
+  return MergeStraight(JoinByRoutes(paths, ordered));
 }
 
 }  // namespace
@@ -113,7 +114,7 @@ Polyline CoveragePlanner::Sweep(const Floor& floor, const Vec2& start, double sh
   effort.goal = std::min(kMaxGoal, effort.goal + shortfall);
   effort.least_goal = std::min(kMaxGoal, effort.least_goal + shortfall);
   const double w = floor.tool_width;
-  Ways ways(floor);
+  ShortestPaths paths(floor);
   const std::vector<Polyline> walls = Contours(floor, PoseDepth(floor), 0);
 
   Swept covered(floor);
@@ -122,7 +123,7 @@ Polyline CoveragePlanner::Sweep(const Floor& floor, const Vec2& start, double sh
   double laps = 0;
   for (const Polyline& lap : lines) laps += PolylineLength(lap);
   for (Polyline& line : Lines(floor, covered, figures)) lines.push_back(std::move(line));
-  Polyline path = Drive(ways, start, lines, false);
+  Polyline path = Drive(paths, start, lines, false);
 
   for (int round = 1; round <= kMaxRounds; ++round) {
     Swept swept(floor);
@@ -134,11 +135,11 @@ Polyline CoveragePlanner::Sweep(const Floor& floor, const Vec2& start, double sh
         std::min(effort.least_gain * w * w, kSmall * floor.ground_cells) / round;
     std::vector<Polyline> rest =
         OpenParts(floor, walls, effort.open_share / round, min_gain, kWallTolerance, swept);
-    for (Polyline& line : LinesOverLeftovers(floor, ways, min_gain, swept))
+    for (Polyline& line : LinesOverUncoveredPatches(floor, paths, min_gain, swept))
       rest.push_back(std::move(line));
     CutBeside(floor, rest, kCutReach * w, pieces);
     for (Polyline& line : rest) pieces.push_back(std::move(line));
-    path = Drive(ways, start, pieces, round >= kRounds);
+    path = Drive(paths, start, pieces, round >= kRounds);
   }
 
   Swept swept(floor);
@@ -174,8 +175,8 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
         "own, or planned for in a convex shape";
     return result;
   }
-  // The yaw that is held: the start's, to the next of the map's quarters. A footprint that looks
-  // the same at all of them may be turned; another is planned for at this one alone.
+  // The yaw that is held is the start's, rounded to one of the map's quarters. A footprint that
+  // looks the same at all four may be turned; any other is planned for at this one yaw.
   const double map_yaw = request.map.frame.X_WG.yaw_rad, quarter = kPi / 2;
   const double turned = std::round((request.start.yaw_rad - map_yaw) / quarter) * quarter;
   const bool one_yaw = !circle && !LooksTheSameTurned(result.clear.footprint_B);
@@ -191,8 +192,8 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
     result.message = WhyNothing(request, area, result.clear, fits);
     return result;
   }
-  // Room for the tracker's error, as long as no more than a little of the floor is lost to it: half
-  // the margin, or none, where it would close a door.
+  // Room is kept for the tracker's error, as long as only a little of the floor is lost to it.
+  // Where the margin would close a door, half of it is tried, and then none.
   double margin_m = margin_m_.value_or(radius_m_ ? 0.0 : (circle ? kMargin_m : kFootprintMargin_m));
   double shortfall = 0;
   for (; margin_m > 0; margin_m = margin_m > kMargin_m / 4 ? margin_m / 2 : 0) {

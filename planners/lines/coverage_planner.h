@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What coverage planners of a known floor share: from lines over the floor to a path.
 //
-// (1) Laps along the walls, if asked for, and the planner's own lines; (2) a tour over them, joined
-// by shortest ways; (3) twice: what sweeps nothing is dropped, what is left open is visited, and
-// all that works is ordered anew; (4) detours not worth their length are cut out. Overlap means
-// that away from walls the tool counts as narrower than it is, by that share, so that neighbouring
-// lines overlap everywhere and a robot may stray by half of it.
+// (1) The lines are the planner's own, and laps along the walls if these are asked for. (2) A tour
+// leads over them, joined by shortest paths. (3) Twice, parts that sweep nothing are dropped, what
+// is still uncovered is visited, and the tour is made anew. (4) Detours that are not worth their
+// length are cut out.
+// Overlap: away from walls the tool counts as narrower than it is, by that share. So neighbouring
+// lines overlap everywhere, and a robot may stray by half of the overlap.
+// Assumed: the floor is known and does not change; a footprint is convex and keeps its yaw.
 #pragma once
 
 #include <optional>
@@ -13,8 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "planners/lines/shortest_paths.h"
 #include "planners/lines/swept.h"
-#include "planners/lines/ways.h"
 #include "planners/planner.h"
 
 namespace floorproof {
@@ -30,14 +32,14 @@ class CoveragePlanner : public Planner {
   }
 
  protected:
-  // The lines that a planner is named for, up to one tool width apart. `swept` holds the laps along
-  // the walls, if they are asked for, and is empty otherwise.
+  // The lines that the planner is named for, up to one tool width apart. `swept` holds the laps
+  // along the walls if they are asked for; else it is empty.
   virtual std::vector<Polyline> Lines(const Floor& floor, const Swept& swept,
                                       Figures& figures) const = 0;
 
  private:
-  // `shortfall`: share of the robot's ground that this floor lacks, or that driving loses; more of
-  // what is there is swept for it.
+  // `shortfall`: the share of the robot's ground that this floor lacks, or that driving loses. To
+  // make up for it, more of what is there is swept.
   Polyline Sweep(const Floor& floor, const Vec2& start, double shortfall, Figures& figures) const;
 
   std::optional<double> tool_width_m_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Room between cell centres is interpolated. A distance to obstacles is convex along a line near an
-// obstacle, so interpolation flatters it by at most cell^2 / (4 radius), and concave between two
-// obstacles, where it is on the safe side.
+// The margin between cell centres is interpolated. Along a line near one obstacle the distance to
+// it is convex, so interpolation makes it too large, by at most cell^2 / (4 radius). Between two
+// obstacles the distance is concave, and interpolation makes it too small, which is safe.
 #include "planners/lines/floor.h"
 
 #include <algorithm>
@@ -29,9 +29,9 @@ double Floor::MarginAt(const Vec2& p) const {
   return (1 - v) * low + v * high;
 }
 
-// Between cell centres a footprint is free just where it is free at the four around: what blocks it
-// is a rectangle in the plane of its poses, larger than a cell. So the line is looked at once in
-// each square of centres that it crosses.
+// Between cell centres a footprint is free exactly where it is free at the four centres around: in
+// the plane of its poses an obstacle is a rectangle larger than a cell. So the line is looked at
+// once in each square of four centres that it crosses.
 bool Floor::SeesWithFootprint(const Vec2& a, const Vec2& b) const {
   const Vec2 d = b - a;
   double next[2], every[2];
@@ -53,8 +53,8 @@ bool Floor::SeesWithFootprint(const Vec2& a, const Vec2& b) const {
 
 bool Floor::Sees(const Vec2& a, const Vec2& b) const {
   if (clears_footprint) return SeesWithFootprint(a, b);
-  // Where there is room to spare the next sample may be that much farther on: distances change by
-  // at most the way travelled.
+  // Where there is room to spare, the next sample may be that much farther on: a distance changes
+  // by no more than the way travelled.
   constexpr double kStep = 0.5;
   const double length = (b - a).norm();
   const Vec2 dir = length > 0 ? Vec2((b - a) / length) : Vec2(0, 0);
@@ -93,7 +93,7 @@ Floor CropFloor(const SweepArea& area, const Shape2& clear, const Shape2& tool, 
       const double room =
           circle ? (static_cast<double>(area.clearance_m(ix, iy)) - clear.radius_m) / cell_m
                  : (area.reachable(ix, iy) ? 0.0 : -1.0);
-      // What is clear yet not connected to the start is no place to be.
+      // A clear place that is not connected to the start counts as blocked.
       floor.margin(cx, cy) =
           static_cast<float>(area.reachable(ix, iy) ? std::max(room, 0.0) : std::min(room, -0.01));
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reachable part of a floor as coverage planners work on it: cropped, in cells.
+// The reachable part of a floor, as coverage planners work on it: cropped, and in cells.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,9 @@ struct Floor {
   bool clears_footprint = false;  // the clear shape is a footprint, `margin` 0 or -1
   Shape2 tool;
   double tool_reach = 0;  // farthest point of the tool from the robot's centre, cells
-  // Neighbouring lines are to overlap: the tool counts as `tool_width` cells wide, `narrow` times
-  // what it is, on the ground that it reaches like that (`inner`; the rest lies along walls).
+  // Neighbouring lines are to overlap. So the tool counts as `tool_width` cells wide, `narrow`
+  // times its true width, on the ground that it can reach with that width (`inner`). The rest of
+  // the ground lies along walls.
   double narrow = 1;
   double tool_width = 0;
   Grid<std::uint8_t> inner;
@@ -48,8 +49,8 @@ struct Floor {
   bool SeesWithFootprint(const Vec2& a, const Vec2& b) const;
 };
 
-// The part of `area` around its reachable poses. `clear`, `tool`: what the area was computed with.
-// `overlap`: of neighbouring lines, share of the tool's width.
+// The part of `area` around its reachable poses. `clear` and `tool` are those that the area was
+// computed with. `overlap`: of neighbouring lines, as a share of the tool's width.
 Floor CropFloor(const SweepArea& area, const Shape2& clear, const Shape2& tool, double tool_width_m,
                 double overlap = 0);
 

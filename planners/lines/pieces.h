@@ -6,13 +6,13 @@
 
 namespace floorproof {
 
-// The parts of `path` that sweep: runs of segments without those that alone sweep less than `share`
-// of their own width * length. `swept` holds the path before and the pieces after.
+// The parts of `path` that sweep something: runs of segments, cut at those that sweep less than
+// `share` of their own width * length. `swept` holds the path before and the pieces after.
 std::vector<Polyline> WorkingPieces(const Floor& floor, const Polyline& path, double share,
                                     Swept& swept);
 
-// Cuts `pieces` where an end of one of `lines` lies beside them, nearer than `reach` and in sight,
-// so that the line can be visited from there.
+// Cuts `pieces` where an end of one of `lines` lies beside them, nearer than `reach` and in sight.
+// So the tour can leave the piece there to visit the line.
 void CutBeside(const Floor& floor, const std::vector<Polyline>& lines, double reach,
                std::vector<Polyline>& pieces);
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A window of the path is replaced by the straight line between its ends, or a pair of corners is
-// drawn in along its two legs, where the floor can be seen through and the ground lost is little
-// against the length saved. Windows are tried again and again with rising tolerance, so that the
-// cheapest losses come first.
+// Two ways to shorten a path: a window of its points is replaced by the straight line between the
+// window's ends, or the two corners of a detour are drawn in along its legs. Either is done where
+// the floor allows it and the ground lost is little for the length saved. The path is gone through
+// several times with rising tolerance, so that the cheapest losses come first.
+// Not done: changing the order of what stays.
 #include "planners/lines/prune.h"
 
 #include <algorithm>
@@ -57,7 +58,8 @@ class Pruner {
            (lost <= 0 || swept_.swept_cells() >= options_.goal_cells);
   }
 
-  // Takes `old` for `fresh` if that is worth it; `lost` cells went when `old` was taken out.
+  // Replaces the old part by `fresh` if that is worth it. `lost` cells became uncovered when the
+  // old part was taken out.
   bool Accept(double old_length, int lost, const Polyline& fresh, double worth) {
     const double length = PolylineLength(fresh), saved = old_length - length;
     const double width = floor_.tool_width, most_back = (length + width) * width;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sweeping a spot in direction d costs 1 / width per area for the rows and, as each row ends in a
-// link, link / (width * chord) for the links, where the chord is the free line through the spot
-// along d. So: (1) the walls' own directions are the candidates; (2) small blocks of floor sum up
-// what each candidate costs them; (3) blocks join where one direction for both costs less than the
-// rows that end at the border between them would. A Potts labelling by greedy merging, and a few
-// rounds in which blocks at a border change sides (iterated conditional modes, Besag 1986).
-// Not a search for doors: a border appears only where it pays.
+// What it costs to sweep a spot by rows in direction d, per area: 1 / width for the rows, and
+// link / (width * chord) for the links at their ends. The chord is the free line through the spot
+// along d.
+//
+// (1) The directions of the walls are the candidates. (2) For each small block of floor the cost of
+// each candidate is summed up. (3) Two regions of blocks are merged where one direction for both
+// costs less than the rows that would end at the border between them. That is a Potts labelling by
+// greedy merging, the best saving first.
+// Not done: a search for doors. A border appears only where it pays.
 #include "planners/lines/regions.h"
 
 #include <algorithm>
@@ -15,6 +17,8 @@
 #include <numeric>
 #include <set>
 #include <tuple>
+
+#include "planners/search/index.h"
 
 namespace floorproof {
 namespace {
@@ -39,12 +43,11 @@ std::vector<double> WallDirections(const Floor& floor) {
     }
   const auto smooth = [&bins](int i) {
     double sum = 0;
-    for (int k = -2; k <= 2; ++k)
-      sum += (3 - std::abs(k)) * bins[static_cast<std::size_t>((i + k + kBins) % kBins)];
+    for (int k = -2; k <= 2; ++k) sum += (3 - std::abs(k)) * bins[Z((i + k + kBins) % kBins)];
     return sum;
   };
   std::array<double, kBins> smoothed{};
-  for (int i = 0; i < kBins; ++i) smoothed[static_cast<std::size_t>(i)] = smooth(i);
+  for (int i = 0; i < kBins; ++i) smoothed[Z(i)] = smooth(i);
   const double total = std::accumulate(smoothed.begin(), smoothed.end(), 0.0);
   std::vector<double> peaks;
   while (peaks.size() < kMaxCandidates / 2) {
@@ -52,7 +55,7 @@ std::vector<double> WallDirections(const Floor& floor) {
     if (*best <= 0 || *best < 0.06 * total / 5) break;
     const int i = static_cast<int>(best - smoothed.begin());
     peaks.push_back(i * (kPi / 2) / kBins);
-    for (int k = -7; k <= 7; ++k) smoothed[static_cast<std::size_t>((i + k + kBins) % kBins)] = 0;
+    for (int k = -7; k <= 7; ++k) smoothed[Z((i + k + kBins) % kBins)] = 0;
   }
   if (peaks.empty()) peaks.push_back(0);
   return peaks;
@@ -86,8 +89,7 @@ void AddChordCosts(const Floor& floor, double direction_rad, double link, std::s
     run.clear();
     const auto close = [&] {
       const double chord = static_cast<double>(run.size()) + floor.tool_width;
-      for (const int b : run)
-        blocks.grid.cells[static_cast<std::size_t>(b)].cost[candidate] += kLineGap * link / chord;
+      for (const int b : run) blocks.grid.cells[Z(b)].cost[candidate] += kLineGap * link / chord;
       run.clear();
     };
     for (double u = u0; u <= u1; u += 1) {
@@ -111,7 +113,7 @@ Blocks MakeBlocks(const Floor& floor) {
     for (int ix = 0; ix < floor.frame.width; ++ix) {
       if (!floor.pose(ix, iy)) continue;
       const int b = blocks.At(ix, iy);
-      ++blocks.grid.cells[static_cast<std::size_t>(b)].cells;
+      ++blocks.grid.cells[Z(b)].cells;
       for (const Cell n : {Cell{ix + 1, iy}, Cell{ix, iy + 1}})
         if (floor.pose(n) && blocks.At(n.ix, n.iy) != b)
           blocks.contact[{b, blocks.At(n.ix, n.iy)}] += 1;
@@ -133,8 +135,8 @@ class Merger {
     for (const Block& b : blocks.grid.cells) cost_.push_back(b.cost);
     border_.resize(parent_.size());
     for (const auto& [pair, length] : blocks.contact) {
-      border_[static_cast<std::size_t>(pair.first)][pair.second] = length;
-      border_[static_cast<std::size_t>(pair.second)][pair.first] = length;
+      border_[Z(pair.first)][pair.second] = length;
+      border_[Z(pair.second)][pair.first] = length;
     }
   }
 
@@ -148,43 +150,40 @@ class Merger {
       const auto [negative, a, b] = *queue.begin();
       if (negative >= 0) break;
       for (const int r : {a, b})
-        for (const auto& [c, length] : border_[static_cast<std::size_t>(r)])
+        for (const auto& [c, length] : border_[Z(r)])
           queue.erase({-Saving(std::min(r, c), std::max(r, c)), std::min(r, c), std::max(r, c)});
       Merge(a, b);
-      for (const auto& [c, length] : border_[static_cast<std::size_t>(a)])
+      for (const auto& [c, length] : border_[Z(a)])
         queue.insert({-Saving(std::min(a, c), std::max(a, c)), std::min(a, c), std::max(a, c)});
     }
   }
 
   int Root(int a) const {
-    while (parent_[static_cast<std::size_t>(a)] != a) a = parent_[static_cast<std::size_t>(a)];
+    while (parent_[Z(a)] != a) a = parent_[Z(a)];
     return a;
   }
-  std::size_t Direction(int root) const {
-    return BestOf(cost_[static_cast<std::size_t>(root)], n_);
-  }
+  std::size_t Direction(int root) const { return BestOf(cost_[Z(root)], n_); }
 
  private:
   double Saving(int a, int b) const {
-    const Costs &ca = cost_[static_cast<std::size_t>(a)], &cb = cost_[static_cast<std::size_t>(b)];
+    const Costs &ca = cost_[Z(a)], &cb = cost_[Z(b)];
     double apart_a = ca[0], apart_b = cb[0], together = ca[0] + cb[0];
     for (std::size_t k = 1; k < n_; ++k) {
       apart_a = std::min(apart_a, ca[k]), apart_b = std::min(apart_b, cb[k]);
       together = std::min(together, ca[k] + cb[k]);
     }
-    return border_cost_ * border_[static_cast<std::size_t>(a)].at(b) + apart_a + apart_b - together;
+    return border_cost_ * border_[Z(a)].at(b) + apart_a + apart_b - together;
   }
   void Merge(int a, int b) {
-    auto& into = border_[static_cast<std::size_t>(a)];
-    auto& from = border_[static_cast<std::size_t>(b)];
-    parent_[static_cast<std::size_t>(b)] = a;
-    for (std::size_t k = 0; k < n_; ++k)
-      cost_[static_cast<std::size_t>(a)][k] += cost_[static_cast<std::size_t>(b)][k];
+    auto& into = border_[Z(a)];
+    auto& from = border_[Z(b)];
+    parent_[Z(b)] = a;
+    for (std::size_t k = 0; k < n_; ++k) cost_[Z(a)][k] += cost_[Z(b)][k];
     into.erase(b);
     from.erase(a);
     for (const auto& [c, length] : from) {
       into[c] += length;
-      auto& back = border_[static_cast<std::size_t>(c)];
+      auto& back = border_[Z(c)];
       back.erase(b);
       back[a] += length;
     }

@@ -13,8 +13,8 @@ struct Regions {
   std::vector<double> direction_rad;  // per region, of its rows in the floor's frame, [0, pi)
 };
 
-// `link`: what a row costs beside its length, in cells (the step to the next one and its turns).
-// `fixed_rad`: one direction for all of the floor.
+// `link`: what a row costs beside its length, in cells: the step to the next one, and its turns.
+// `fixed_rad`: one direction for the whole floor.
 Regions FindRegions(const Floor& floor, double link, std::optional<double> fixed_rad);
 
 }  // namespace floorproof

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+// (1) What is left of the path is cut into the pieces that are free beside the marks. (2) The floor
+// that the robot can reach is computed from where it is, or from a place nearby where its clear
+// shape fits. (3) Piece by piece, the way there is the shortest path over that floor, or a straight
+// line. Not done: a better order of the pieces, or sweeping what was missed.
 #include "planners/lines/rejoin.h"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
-#include "planners/lines/ways.h"
+#include "planners/lines/shortest_paths.h"
 
 namespace floorproof {
 namespace {
@@ -16,7 +20,8 @@ constexpr double kAway_m = 0.12;     // kept from marks: they are as wrong as th
 constexpr double kShortest_m = 0.1;  // what is left of a piece and shorter than this is left out
 
 // What is left of the path, in the pieces that are free.
-std::vector<Path> FreePieces(const RejoinRequest& request, const Floor& floor, const Ways& ways) {
+std::vector<Path> FreePieces(const RejoinRequest& request, const Floor& floor,
+                             const ShortestPaths& paths) {
   std::vector<Path> pieces;
   Path piece;
   const auto close = [&] {
@@ -43,7 +48,7 @@ std::vector<Path> FreePieces(const RejoinRequest& request, const Floor& floor, c
     };
     for (int k = 0; k <= looks;) {
       int end = k;  // of the run of looks from k on that are free
-      while (end <= looks && ways.NearestPose(floor.ToCells(point(end)), kNear_cells).ix >= 0)
+      while (end <= looks && paths.NearestPose(floor.ToCells(point(end)), kNear_cells).ix >= 0)
         ++end;
       if (k > 0 || end == k) close();
       if (end > k) {
@@ -70,8 +75,8 @@ bool InSight(const ClearanceField& map, const Vec2& a, const Vec2& b) {
   return out;
 }
 
-// Places near the robot where its clear shape may fit, nearest first: what was met may be larger
-// than the way that it went back.
+// Places near the robot where its clear shape may fit, the nearest first. The robot has backed off,
+// but what it met may be larger than that.
 std::vector<Vec2> PlacesNearby(const HazardMap& marked, const RejoinRequest& request) {
   constexpr double kFarthest_m = 0.5, kStep_m = 0.1;
   constexpr int kWays = 8;
@@ -94,7 +99,7 @@ std::vector<Vec2> PlacesNearby(const HazardMap& marked, const RejoinRequest& req
 }
 
 // The shapes as the rest of the path holds them. A footprint is tried at the one yaw that the path
-// keeps; at the map's quarters where it keeps none.
+// keeps, or at the map's quarters where it keeps none.
 struct Held {
   Shape2 clear, tool;
   Yaws yaws = Yaws::kQuarters;
@@ -143,8 +148,8 @@ Path Rejoin(const RejoinRequest& request) {
     return path;
   }
   const Floor floor = CropFloor(area, held.clear, held.tool, robot.tool_width_m);
-  Ways ways(floor);
-  for (const Path& piece : FreePieces(request, floor, ways)) {
+  ShortestPaths paths(floor);
+  for (const Path& piece : FreePieces(request, floor, paths)) {
     const Vec2 last = floor.ToCells(path.back().p_W);
     if (!request.around) {
       const auto seen = std::ranges::find_if(
@@ -152,7 +157,7 @@ Path Rejoin(const RejoinRequest& request) {
       path.insert(path.end(), seen, piece.end());
       if (seen != piece.end()) continue;
     }
-    const Polyline route = ways.Route(last, floor.ToCells(piece.front().p_W));
+    const Polyline route = paths.Route(last, floor.ToCells(piece.front().p_W));
     if (route.empty()) continue;  // cut off by what was met
     for (std::size_t i = 1; i + 1 < route.size(); ++i) {
       Waypoint on_the_way;

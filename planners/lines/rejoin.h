@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rest of a plan, after something was met on it that the plan did not know.
+// Rejoin: the rest of a plan, after the robot has met something that the plan did not know of.
 #pragma once
 
 #include "env/core/known_map.h"
@@ -9,22 +9,25 @@
 namespace floorproof {
 
 struct RejoinRequest {
-  const HazardMap& known;  // as it was planned with, and what was seen since (WithSeen)
+  const HazardMap& known;  // what the plan was made with, and what was seen since (WithSeen)
   const std::vector<FloorMark>& marks;
   const RobotSpec& robot;
   const Shape2& clear;  // what the plan keeps clear
   const Path& path;
-  std::size_t segment = 0;  // that was driven
+  std::size_t segment = 0;  // of the path, on which the robot was
   Pose2 X_WB;               // where the robot thinks it is
-  // To where the path goes on beyond what was met, by the shortest way; else straight to the first
-  // place of that part that can be gone to so (around where there is none).
+  // True: the robot takes the shortest way to where the path goes on beyond what it met. False: it
+  // goes straight to the first place of that part to which a straight line leads, and takes the
+  // shortest way only where there is no such place.
   bool around = true;
 };
 
-// From the robot to the end of the path, without what the clear shape cannot drive beside the
-// marks. Waypoints keep their yaw, shape, speed, dwell and task. At least one waypoint; only the robot's
-// place where nothing is left. Where the map says that the robot cannot be where it is, or came
-// from, the rest is driven as it was planned. Takes time and memory as the map's area.
+// A path from the robot to the end of the old one. It leaves out the parts where the clear shape
+// would touch a mark, and what can no longer be reached. Waypoints that stay keep their yaw, shape,
+// speed, dwell and task. The path holds at least one waypoint: the robot's own place, where nothing
+// is left to drive.
+// If the map says that the robot can be neither where it is nor near there, the map is not trusted:
+// the rest is driven as it was planned. Time and memory grow with the map's area.
 Path Rejoin(const RejoinRequest& request);
 
 }  // namespace floorproof

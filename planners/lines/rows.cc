@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// A row's strip lies on sweepable ground altogether, and rows at full spacing do not overlap. So
-// what a set of rows leaves is known from their lengths alone: the ground less width * length less
-// the round ends. With ground left over costing kLeftover times what a row would, directions near
-// the region's own, spacings and offsets are compared without sweeping anything.
+// The strip of a row lies on sweepable ground, and rows at full spacing do not overlap. So the
+// ground that a set of rows leaves is known from their lengths alone: all ground, less width *
+// length, less the round ends. Ground that is left costs kUncovered times what a row over it would.
+// With that, spacings and offsets are compared without sweeping anything.
 #include "planners/lines/rows.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 
+#include "planners/search/index.h"
+
 namespace floorproof {
 namespace {
 
 constexpr double kRoughStep = 1.0, kFineStep = 0.5;  // cells along a row, to compare and to make
-constexpr double kLeftover = 2;  // cost of ground swept afterwards, in rows of the same ground
+constexpr double kUncovered = 2;  // cost of ground swept later, in rows over the same ground
 
 struct Box {
   double u0 = std::numeric_limits<double>::infinity(), u1 = -u0, v0 = u0, v1 = -u0;
@@ -41,7 +43,7 @@ class RegionRows {
       double from = 0, to = 0;
       for (double u = box.u0; u <= box.u1 + step; u += step) {
         const Vec2 p = base + u * along;
-        if (Wanted(p, across, step < 1)) {
+        if (NeedsRow(p, across, step < 1)) {
           if (!in) from = u;
           in = true;
           to = u;
@@ -65,7 +67,7 @@ class RegionRows {
   }
 
  private:
-  bool Wanted(const Vec2& p, const Vec2& across, bool exact) const {
+  bool NeedsRow(const Vec2& p, const Vec2& across, bool exact) const {
     const Cell c = Floor::CellAt(p);
     if (!floor_.pose.Inside(c) || regions_.label(c) != region_) return false;
     if (exact && !floor_.Free(p, floor_.tolerance)) return false;
@@ -87,8 +89,7 @@ std::vector<Row> MakeRows(const Floor& floor, const Regions& regions, const RowO
   std::vector<std::vector<Cell>> cells(regions.direction_rad.size());
   for (int iy = 0; iy < floor.frame.height; ++iy)
     for (int ix = 0; ix < floor.frame.width; ++ix)
-      if (const auto label = regions.label(ix, iy); label >= 0)
-        cells[static_cast<std::size_t>(label)].push_back({ix, iy});
+      if (const auto label = regions.label(ix, iy); label >= 0) cells[Z(label)].push_back({ix, iy});
 
   std::vector<Row> rows;
   const double w = floor.tool_width;
@@ -105,7 +106,7 @@ std::vector<Row> MakeRows(const Floor& floor, const Regions& regions, const RowO
                       [&](const Vec2& a, const Vec2& b, int) {
                         const double length = (b - a).norm();
                         const double ground = length * std::min(spacing, w) + kPi / 4 * w * w;
-                        value += kLeftover * ground / w - length - options.link;
+                        value += kUncovered * ground / w - length - options.link;
                       });
         if (value > best) best = value, best_spacing = spacing, best_offset = offset;
       }
@@ -131,7 +132,7 @@ int CountCells(const std::vector<Row>& rows, const Regions& regions) {
       before_begin = next ? line_begin : i, before_end = i;
       line_begin = i;
     }
-    const double yaw = regions.direction_rad[static_cast<std::size_t>(row.region)];
+    const double yaw = regions.direction_rad[Z(row.region)];
     const Vec2 along(std::cos(yaw), std::sin(yaw));
     for (std::size_t k = before_begin; k < before_end; ++k) {
       if (rows[k].b.dot(along) < row.a.dot(along) || rows[k].a.dot(along) > row.b.dot(along))

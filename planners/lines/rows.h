@@ -17,14 +17,14 @@ struct Row {
   int region = 0, line = 0;  // neighbours of one region have neighbouring lines
 };
 
-// Rows of each region in its direction, at the spacing and offset that fit it best. Where `swept`
-// is given only the parts that still have something to sweep.
+// Rows of each region in its direction, at the spacing and offset that fit it best. If `swept` is
+// given, only those parts of them that still have something to sweep.
 std::vector<Row> MakeRows(const Floor& floor, const Regions& regions, const RowOptions& options,
                           const Swept* swept);
 
-// Cells of the boustrophedon decomposition that the rows lie in: stacks of rows of which each has
-// one neighbour above and one below (Choset & Pignon 1997: a cell ends where a sweep line splits or
-// merges).
+// The number of cells of the boustrophedon decomposition that the rows lie in. A cell is a stack of
+// rows each of which has one neighbour above and one below: it ends where a sweep line splits or
+// merges (Choset & Pignon 1997).
 int CountCells(const std::vector<Row>& rows, const Regions& regions);
 
 }  // namespace floorproof

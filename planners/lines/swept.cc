@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tool that moves straight without turning sweeps the convex hull of its two ends: a capsule for
-// a disc; a footprint (held at the frame's yaw) is taken as its convex hull.
+// A tool that moves straight and does not turn sweeps the convex hull of where it begins and ends.
+// For a disc that is a capsule. A footprint is held at the frame's yaw and taken as its convex
+// hull.
 #include "planners/lines/swept.h"
 
 #include <algorithm>

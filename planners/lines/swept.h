@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// How often each cell of a floor lies under the tool along a set of lines; lines can be taken back.
-// Inner ground must lie under the narrow tool, so that lines beside it overlap as they should;
-// ground along walls, which that does not reach, under the whole tool.
+// How often each cell of a floor lies under the tool along a set of lines. Lines can be taken back.
+//
+// Inner ground counts as swept where the narrowed tool passes, so that neighbouring lines overlap
+// as they should (Floor::narrow). Ground along walls, which the narrowed tool does not reach,
+// counts as swept where the whole tool passes.
 #pragma once
 
 #include <cstdint>

@@ -1,51 +1,86 @@
 // SPDX-License-Identifier: Apache-2.0
-// A travelling salesman's open tour over lines that are driven from end to end: greedy matching of
-// near ends (no end twice, no ring), the pieces strung together from the start; then 2-opt
-// (reverse a stretch) and Or-opt (move a stretch of up to kMaxStretch lines elsewhere, either way
-// round) over each end's nearest neighbours until neither saves anything (Bentley, "Fast
-// Algorithms for Geometric Traveling Salesman Problems", 1992), and again after small shocks.
-// Deterministic (its own fixed stream); not optimal.
+// A travelling salesman's open tour over lines that are driven from end to end.
+//
+// Construction: greedy matching of near ends (no end twice, no cycle), then the pieces are strung
+// together from the start. Local search (planners/search/local_search.h), by two moves that keep
+// lines whole: 2-opt turns a part of the tour round, Or-opt moves a part of up to kMaxMoved lines
+// elsewhere, either way round. A kick exchanges two neighbouring parts (a local double bridge).
+// Assumed: going from an end to another costs the same both ways.
+// Deterministic: chance comes from a stream of its own. Not optimal.
 #include "planners/lines/tour.h"
 
 #include <algorithm>
-#include <deque>
 #include <initializer_list>
 #include <limits>
 #include <numeric>
 #include <tuple>
+#include <unordered_map>
 
 #include "base/streams.h"
-#include "planners/lines/index.h"
+#include "planners/search/local_search.h"
 
 namespace floorproof {
 namespace {
 
-constexpr int kMaxStretch = 150;
-// More kicks where they are cheap: a long tour takes longer to settle.
+constexpr int kMaxMoved = 150;
+// There are more kicks where they are cheap: a long tour takes longer to settle.
 constexpr int kKickReach = 30, kMaxKicks = 6000, kKickEffort = 1'000'000;
-constexpr std::size_t kNeighbours = 10;
+constexpr std::size_t kCandidates = 10;
 
 class Tour {
  public:
-  Tour(Ways& ways, const Vec2& start, const std::vector<Polyline>& lines)
-      : ways_(ways), n_(static_cast<int>(lines.size()) + 1) {
+  Tour(ShortestPaths& paths, const Vec2& start, const std::vector<Polyline>& lines)
+      : paths_(paths), n_(static_cast<int>(lines.size()) + 1), queue_(2 * Z(n_)) {
     points_.push_back(start);  // line 0 is the start: both its ends
     points_.push_back(start);
     for (const Polyline& line : lines) {
       points_.push_back(line.front());
       points_.push_back(line.back());
     }
-    FindNeighbours();
+    FindCandidates();
   }
 
   std::vector<Stop> Solve(bool thorough) {
     Match();
-    Improve();
-    if (thorough) Kick();
+    for (int p = 0; p < n_; ++p) Touch({p});
+    Settle();
+    if (thorough && n_ >= 5) {
+      keep_journal_ = true;
+      Perturb(*this);
+    }
     std::vector<Stop> visits;
     for (int p = 1; p < n_; ++p)
       visits.push_back({static_cast<std::size_t>(in_[Z(p)] / 2 - 1), in_[Z(p)] % 2 == 1});
     return visits;
+  }
+
+  // For Perturb.
+  bool MayKick() { return kicks_++ < std::min(kMaxKicks, kKickEffort / n_); }
+  bool Kick() {
+    const int most = std::min(kKickReach, (n_ - 2) / 2);
+    const int i = 1 + static_cast<int>(random_.Below(static_cast<std::uint64_t>(n_ - 2)));
+    const int j = i + static_cast<int>(random_.Below(static_cast<std::uint64_t>(most)));
+    const int k = j + 1 + static_cast<int>(random_.Below(static_cast<std::uint64_t>(most)));
+    if (k >= n_) return false;
+    before_kick_ = length_;
+    journal_.clear();
+    Move(i, j, k, false);
+    return true;
+  }
+  void Settle() {
+    floorproof::Settle(queue_, [this](int e) { return e > 0 && (TwoOpt(e) || OrOpt(e)); });
+  }
+  bool IsWorse() const { return length_ > before_kick_ - kLeast; }  // or as long
+  void Undo() {
+    for (auto it = journal_.rbegin(); it != journal_.rend(); ++it) {
+      scratch_in_ = it->second;
+      scratch_edge_.clear();
+      for (std::size_t k = 0; k + 1 < scratch_in_.size(); ++k)
+        scratch_edge_.push_back(D(Other(scratch_in_[k]), scratch_in_[k + 1]));
+      const int next = it->first + static_cast<int>(scratch_in_.size());
+      scratch_edge_.push_back(next < n_ ? D(Other(scratch_in_.back()), In(next)) : 0);
+      Write(it->first);
+    }
   }
 
  private:
@@ -59,47 +94,49 @@ class Tour {
     const std::uint64_t key = Key(a, b);
     const auto it = known_.find(key);
     if (it != known_.end()) return it->second;
-    const double d = ways_.Distance(points_[Z(a)], points_[Z(b)]);
+    const double d = paths_.Distance(points_[Z(a)], points_[Z(b)]);
     known_.emplace(key, static_cast<float>(d));
     return static_cast<double>(static_cast<float>(d));
   }
 
   double AtLeast(int a, int b) const { return (points_[Z(a)] - points_[Z(b)]).norm(); }
 
-  void FindNeighbours() {
-    ways_.IndexPlaces(points_);
-    near_.resize(points_.size());
+  void FindCandidates() {
+    paths_.IndexPlaces(points_);
+    candidates_.Close();  // of the start's first end, at which nothing ends
     for (int e = 1; e < 2 * n_; ++e) {
       std::vector<std::pair<double, int>> found;
-      for (const auto& [distance, f] : ways_.NearestPlaces(e, kNeighbours + 2)) {
+      for (const auto& [distance, f] : paths_.NearestPlaces(e, kCandidates + 2)) {
         if (f / 2 == e / 2 || f < 2) continue;
         const auto d = static_cast<float>(distance);
         found.push_back({static_cast<double>(known_.try_emplace(Key(e, f), d).first->second), f});
       }
       std::sort(found.begin(), found.end());
-      if (found.size() > kNeighbours) found.resize(kNeighbours);
-      for (const auto& [d, f] : found) near_[Z(e)].push_back(f);
+      if (found.size() > kCandidates) found.resize(kCandidates);
+      for (const auto& [d, f] : found) candidates_.Add(f);
+      candidates_.Close();
     }
   }
 
   void Match() {
     const int ends = 2 * n_;
-    std::vector<int> link(Z(ends), -1), chain(Z(n_));
+    std::vector<int> mate(Z(ends), -1), chain(Z(n_));
     std::iota(chain.begin(), chain.end(), 0);
     const auto root = [&chain](int a) {
       while (chain[Z(a)] != a) a = chain[Z(a)] = chain[Z(chain[Z(a)])];
       return a;
     };
     const auto join = [&](int a, int b) {
-      link[Z(a)] = b, link[Z(b)] = a;
+      mate[Z(a)] = b, mate[Z(b)] = a;
       chain[Z(root(a / 2))] = root(b / 2);
     };
     std::vector<std::tuple<double, int, int>> pairs;
     for (int e = 1; e < ends; ++e)
-      for (const int f : near_[Z(e)]) pairs.push_back({D(e, f), std::min(e, f), std::max(e, f)});
+      for (const int f : candidates_.Of(e))
+        pairs.push_back({D(e, f), std::min(e, f), std::max(e, f)});
     std::sort(pairs.begin(), pairs.end());
     for (const auto& [d, a, b] : pairs)
-      if (link[Z(a)] < 0 && link[Z(b)] < 0 && root(a / 2) != root(b / 2)) join(a, b);
+      if (mate[Z(a)] < 0 && mate[Z(b)] < 0 && root(a / 2) != root(b / 2)) join(a, b);
     // String the chains together: from the current end to the nearest chain's nearer end.
     std::vector<std::uint8_t> done(Z(n_), 0);
     in_.clear();
@@ -107,11 +144,11 @@ class Tour {
     in_.push_back(0);
     done[0] = 1;
     for (;;) {
-      int next = link[Z(end)];
+      int next = mate[Z(end)];
       if (next < 0) {
         double best = std::numeric_limits<double>::infinity();
         for (int e = 2; e < ends; ++e) {
-          if (done[Z(e / 2)] || link[Z(e)] >= 0) continue;
+          if (done[Z(e / 2)] || mate[Z(e)] >= 0) continue;
           const double straight = (points_[Z(e)] - points_[Z(end)]).norm();
           if (straight >= best) continue;
           const double d = D(end, e);
@@ -125,15 +162,15 @@ class Tour {
     }
     place_.resize(Z(n_));
     for (int p = 0; p < n_; ++p) place_[Z(in_[Z(p)] / 2)] = p;
-    link_.resize(Z(n_));
-    for (int p = 0; p + 1 < n_; ++p) length_ += link_[Z(p)] = D(Out(p), In(p + 1));
+    edge_.resize(Z(n_));
+    for (int p = 0; p + 1 < n_; ++p) length_ += edge_[Z(p)] = D(Out(p), In(p + 1));
   }
 
   int In(int p) const { return in_[Z(p)]; }
   int Out(int p) const { return Other(in_[Z(p)]); }
-  double Link(int p) const { return link_[Z(p)]; }  // behind place p
+  double Edge(int p) const { return edge_[Z(p)]; }  // behind place p
 
-  // A stretch of places, as it stands or turned round, with the links inside it.
+  // A part of the tour, as it stands or turned round, with the edges inside it.
   struct Piece {
     int from, to;
     bool reversed;
@@ -142,26 +179,26 @@ class Tour {
   // Puts the pieces, which together hold the places from .. from + their length - 1, in this order.
   void Rearrange(int from, std::initializer_list<Piece> pieces) {
     scratch_in_.clear();
-    scratch_link_.clear();
+    scratch_edge_.clear();
     for (const Piece& piece : pieces) {
       if (piece.to < piece.from) continue;
       if (!scratch_in_.empty())
-        scratch_link_.push_back(
+        scratch_edge_.push_back(
             D(Other(scratch_in_.back()), piece.reversed ? Out(piece.to) : In(piece.from)));
       if (piece.reversed) {
         for (int p = piece.to; p >= piece.from; --p) {
           scratch_in_.push_back(Out(p));
-          if (p > piece.from) scratch_link_.push_back(link_[Z(p - 1)]);
+          if (p > piece.from) scratch_edge_.push_back(edge_[Z(p - 1)]);
         }
       } else {
         for (int p = piece.from; p <= piece.to; ++p) {
           scratch_in_.push_back(In(p));
-          if (p < piece.to) scratch_link_.push_back(link_[Z(p)]);
+          if (p < piece.to) scratch_edge_.push_back(edge_[Z(p)]);
         }
       }
     }
     const int to = from + static_cast<int>(scratch_in_.size()) - 1;
-    scratch_link_.push_back(to + 1 < n_ ? D(Other(scratch_in_.back()), In(to + 1)) : 0);
+    scratch_edge_.push_back(to + 1 < n_ ? D(Other(scratch_in_.back()), In(to + 1)) : 0);
     if (keep_journal_) {
       journal_.push_back({from, {in_.begin() + from, in_.begin() + to + 1}});
     }
@@ -172,26 +209,14 @@ class Tour {
   void Write(int from) {
     for (std::size_t k = 0; k < scratch_in_.size(); ++k) {
       const std::size_t p = Z(from) + k;
-      length_ += scratch_link_[k] - link_[p];
+      length_ += scratch_edge_[k] - edge_[p];
       in_[p] = scratch_in_[k];
-      link_[p] = scratch_link_[k];
+      edge_[p] = scratch_edge_[k];
       place_[Z(scratch_in_[k] / 2)] = static_cast<int>(p);
     }
-    length_ -= link_[Z(from - 1)];
-    link_[Z(from - 1)] = D(Out(from - 1), In(from));
-    length_ += link_[Z(from - 1)];
-  }
-
-  void Undo() {
-    for (auto it = journal_.rbegin(); it != journal_.rend(); ++it) {
-      scratch_in_ = it->second;
-      scratch_link_.clear();
-      for (std::size_t k = 0; k + 1 < scratch_in_.size(); ++k)
-        scratch_link_.push_back(D(Other(scratch_in_[k]), scratch_in_[k + 1]));
-      const int next = it->first + static_cast<int>(scratch_in_.size());
-      scratch_link_.push_back(next < n_ ? D(Other(scratch_in_.back()), In(next)) : 0);
-      Write(it->first);
-    }
+    length_ -= edge_[Z(from - 1)];
+    edge_[Z(from - 1)] = D(Out(from - 1), In(from));
+    length_ += edge_[Z(from - 1)];
   }
 
   void Reverse(int i, int j) {
@@ -210,31 +235,25 @@ class Tour {
 
   // The ends at these places are to be looked at again.
   void Touch(std::initializer_list<int> places) {
-    for (const int p : places) {
-      if (p < 0 || p >= n_) continue;
-      for (const int e : {In(p), Out(p)})
-        if (!waiting_[Z(e)]) {
-          waiting_[Z(e)] = 1;
-          queue_.push_back(e);
-        }
-    }
+    for (const int p : places)
+      if (p >= 0 && p < n_) queue_.Push(In(p)), queue_.Push(Out(p));
   }
 
-  // Tries to give the end `e` a nearer neighbour by reversing a stretch.
+  // Tries to give the end `e` a nearer neighbour by turning a part round.
   bool TwoOpt(int e) {
     const int p = place_[Z(e / 2)];
     const bool is_out = Out(p) == e;
     if (is_out ? p + 1 >= n_ : p == 0) return false;
-    const double old = is_out ? Link(p) : Link(p - 1);
-    for (const int f : near_[Z(e)]) {
+    const double old = is_out ? Edge(p) : Edge(p - 1);
+    for (const int f : candidates_.Of(e)) {
       if (D(e, f) >= old - kLeast) break;
       const int q = place_[Z(f / 2)];
       if ((Out(q) == f) != is_out) continue;
-      // Two ends of the same kind: reverse what lies between their links.
+      // Two ends of the same kind: reverse what lies between their edges.
       const int i = (is_out ? std::min(p, q) + 1 : std::min(p, q));
       const int j = (is_out ? std::max(p, q) : std::max(p, q) - 1);
       if (i < 1 || j < i) continue;
-      const double before = Link(i - 1) + Link(j);
+      const double before = Edge(i - 1) + Edge(j);
       const double least =
           AtLeast(Out(i - 1), Out(j)) + (j + 1 < n_ ? AtLeast(In(i), In(j + 1)) : 0);
       if (least >= before - kLeast) continue;
@@ -247,26 +266,26 @@ class Tour {
     return false;
   }
 
-  // Tries to move a stretch that begins (or ends) with the end `e` next to a near end.
+  // Tries to move a part that begins (or ends) with the end `e` next to a near end.
   bool OrOpt(int e) {
     const int p = place_[Z(e / 2)];
     if (p == 0) return false;
-    const bool is_in = In(p) == e;  // the stretch goes on from e to higher places
+    const bool is_in = In(p) == e;  // the part goes on from e to higher places
     if (!is_in && p + 1 >= n_) return false;
-    const double old = is_in ? Link(p - 1) : Link(p);
-    for (const int f : near_[Z(e)]) {
+    const double old = is_in ? Edge(p - 1) : Edge(p);
+    for (const int f : candidates_.Of(e)) {
       const double first = D(e, f);
       if (first >= old - kLeast) break;
       const int q = place_[Z(f / 2)];
       const bool f_out = Out(q) == f;
       const int k = f_out ? q : q - 1;  // insert behind place k
       if (k < 0) continue;
-      for (int length = 1; length <= kMaxStretch; ++length) {
+      for (int length = 1; length <= kMaxMoved; ++length) {
         const int i = is_in ? p : p - length + 1, j = is_in ? p + length - 1 : p;
         if (i < 1 || j >= n_) break;
         if (k >= i - 1 && k <= j) break;
         const int far = is_in ? Out(j) : In(i);
-        const double removed = Link(i - 1) + Link(j) + Link(k);
+        const double removed = Edge(i - 1) + Edge(j) + Edge(k);
         double least = first;
         if (j + 1 < n_) least += AtLeast(Out(i - 1), In(j + 1));
         if (f_out ? k + 1 < n_ : true) least += AtLeast(far, f_out ? In(k + 1) : Out(k));
@@ -284,68 +303,32 @@ class Tour {
     return false;
   }
 
-  // Until no end that waits can be helped.
-  void Settle() {
-    while (!queue_.empty()) {
-      const int e = queue_.front();
-      queue_.pop_front();
-      waiting_[Z(e)] = 0;
-      while (e > 0 && (TwoOpt(e) || OrOpt(e))) {
-      }
-    }
-  }
-
-  void Improve() {
-    waiting_.assign(points_.size(), 0);
-    for (int p = 0; p < n_; ++p) Touch({p});
-    Settle();
-  }
-
-  // Iterated local search: two neighbouring stretches change places (a local double bridge), the
-  // tour settles again, and what is no shorter is undone (Martin, Otto & Felten 1991).
-  void Kick() {
-    if (n_ < 5) return;
-    Stream random(0, 0, "tour");
-    keep_journal_ = true;
-    const int kicks = std::min(kMaxKicks, kKickEffort / n_);
-    for (int kick = 0; kick < kicks; ++kick) {
-      const int most = std::min(kKickReach, (n_ - 2) / 2);
-      const int i = 1 + static_cast<int>(random.Below(static_cast<std::uint64_t>(n_ - 2)));
-      const int j = i + static_cast<int>(random.Below(static_cast<std::uint64_t>(most)));
-      const int k = j + 1 + static_cast<int>(random.Below(static_cast<std::uint64_t>(most)));
-      if (k >= n_) continue;
-      const double before = length_;
-      journal_.clear();
-      Move(i, j, k, false);
-      Settle();
-      if (length_ > before - kLeast) Undo();
-    }
-  }
-
   static constexpr double kLeast = 1e-3;  // cells
-  Ways& ways_;
+  ShortestPaths& paths_;
   int n_;
-  std::vector<Vec2> points_;  // ends: line e / 2, its front (even) or back (odd)
-  std::vector<std::vector<int>> near_;
+  std::vector<Vec2> points_;        // ends: line e / 2, its front (even) or back (odd)
+  CandidateLists<int> candidates_;  // by end: other lines' ends
   std::unordered_map<std::uint64_t, float> known_;
-  std::vector<int> in_;                // by place: the end by which the line there is entered
-  std::vector<int> place_;             // by line
-  std::vector<double> link_;           // by place: the way on to the next line
-  double length_ = 0;                  // of all links
-  std::vector<std::uint8_t> waiting_;  // by end
-  std::deque<int> queue_;
+  std::vector<int> in_;       // by place: the end by which the line there is entered
+  std::vector<int> place_;    // by line
+  std::vector<double> edge_;  // by place: the way on to the next line
+  double length_ = 0;         // of all edges
+  LookQueue queue_;           // of ends
+  Stream random_{0, 0, "tour"};
+  int kicks_ = 0;
+  double before_kick_ = 0;
   bool keep_journal_ = false;
   std::vector<std::pair<int, std::vector<int>>> journal_;  // first place, what stood there
   std::vector<int> scratch_in_;
-  std::vector<double> scratch_link_;
+  std::vector<double> scratch_edge_;
 };
 
 }  // namespace
 
-std::vector<Stop> OrderLines(Ways& ways, const Vec2& start, const std::vector<Polyline>& lines,
-                             bool thorough) {
+std::vector<Stop> OrderLines(ShortestPaths& paths, const Vec2& start,
+                             const std::vector<Polyline>& lines, bool thorough) {
   if (lines.empty()) return {};
-  return Tour(ways, start, lines).Solve(thorough);
+  return Tour(paths, start, lines).Solve(thorough);
 }
 
 }  // namespace floorproof

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order and sense in which to drive a set of lines so that the ways between them are short.
+// In which order, and in which direction each, to drive a set of lines: a short tour over them.
 #pragma once
 
-#include "planners/lines/ways.h"
+#include "planners/lines/shortest_paths.h"
 
 namespace floorproof {
 
@@ -11,9 +11,9 @@ struct Stop {
   bool reversed = false;
 };
 
-// An open tour from `start` over all lines. `thorough`: with iterated local search, which shortens
-// the links by some per cent more.
-std::vector<Stop> OrderLines(Ways& ways, const Vec2& start, const std::vector<Polyline>& lines,
-                             bool thorough = true);
+// An open tour from `start` over all lines. `thorough`: with kicks
+// (planners/search/local_search.h), which shorten the ways between lines by some per cent more.
+std::vector<Stop> OrderLines(ShortestPaths& paths, const Vec2& start,
+                             const std::vector<Polyline>& lines, bool thorough = true);
 
 }  // namespace floorproof

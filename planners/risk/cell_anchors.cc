@@ -5,7 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "planners/walk/cell_ways.h"
+#include "planners/search/grid_paths.h"
 
 namespace floorproof {
 namespace {
@@ -43,13 +43,13 @@ std::optional<Cell> CellAnchors::At(const Vec2& p_W, std::string& why) {
         why = "lies on a hazard, " + std::string(Name(hazard.hazard_class));
         return std::nullopt;
       }
-  if (grid_.cells(cell).terrain()) {
+  if (grid_.contents(cell).terrain()) {
     why = "its " + Width() + " cell holds a hazard, terrain (C4)";
     return std::nullopt;
   }
-  if (grid_.cells(cell).free() && LiesWithin(cell, p_W)) return cell;
+  if (grid_.contents(cell).free() && LiesWithin(cell, p_W)) return cell;
   if (!Fits(p_W)) {
-    const auto& hazard = grid_.cells(cell).hazard;
+    const auto& hazard = grid_.contents(cell).hazard;
     why = "the robot does not fit";
     if (hazard) why += ": its " + Width() + " cell holds a hazard, " + std::string(Name(*hazard));
     return std::nullopt;
@@ -60,7 +60,7 @@ std::optional<Cell> CellAnchors::At(const Vec2& p_W, std::string& why) {
   for (int dy = -kReach; dy <= kReach; ++dy)
     for (int dx = -kReach; dx <= kReach; ++dx) {
       const Cell near = cell + Cell{dx, dy};
-      if (!grid_.cells.Inside(near) || !grid_.cells(near).free()) continue;
+      if (!grid_.contents.Inside(near) || !grid_.contents(near).free()) continue;
       const double d = (grid_.frame.Center(near) - p_W).norm();
       if (d < least && Sees(p_W, grid_.frame.Center(near))) best = near, least = d;
     }
@@ -78,7 +78,7 @@ bool CellAnchors::LiesWithin(Cell cell, const Vec2& p_W) const {
   return off_G.cwiseAbs().maxCoeff() <= room_m + kTouch_m;
 }
 
-// Of places that do not keep to a free cell; its own, finer ruler.
+// Where the robot can be, in finer cells: for places at which it does not lie within a free cell.
 const SweepArea& CellAnchors::area() {
   if (!area_)
     area_ = ComputeSweepArea(request_.map, request_.robot.clear, request_.robot.tool,

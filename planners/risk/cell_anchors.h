@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which cell of the risk's grid a place of the robot belongs to: where a plan begins and ends.
+// Anchors: the cells of the risk's grid at which a plan begins and ends, given the robot's place.
 #pragma once
 
 #include <optional>
@@ -15,8 +15,9 @@ class CellAnchors {
  public:
   explicit CellAnchors(const PlanRequest& request);  // has a risk; outlives it
 
-  // The free cell that holds p_W and the robot there; where it stands beside a wall or solid, the
-  // nearest free one that it can drive straight to. None: `why` says why not.
+  // The free cell that holds p_W, if the robot at p_W lies within it. Else, beside a wall or a
+  // solid cell, the nearest free cell to which the robot can drive straight. None: `why` says why
+  // not.
   std::optional<Cell> At(const Vec2& p_W, std::string& why);
 
  private:

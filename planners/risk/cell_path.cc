@@ -41,7 +41,7 @@ std::vector<double> SpeedsOverTerrain(const RiskGrid& grid, const std::vector<Ce
                                       const RobotSpec& robot) {
   std::vector<double> speed_mps(tour.size(), 0);
   for (std::size_t i = 1; i < tour.size(); ++i)
-    if (grid.cells(tour[i]).terrain() || grid.cells(tour[i - 1]).terrain())
+    if (grid.contents(tour[i]).terrain() || grid.contents(tour[i - 1]).terrain())
       speed_mps[i] = robot.cover_speed_mps;
   return speed_mps;
 }

@@ -17,7 +17,7 @@ Cell FarthestFree(const Grid<std::int32_t>& steps, const RiskGrid& grid, Cell st
   Cell farthest = start;
   for (int iy = 0; iy < steps.height; ++iy)
     for (int ix = 0; ix < steps.width; ++ix)
-      if (grid.cells(ix, iy).free() && steps(ix, iy) > steps(farthest)) farthest = {ix, iy};
+      if (grid.contents(ix, iy).free() && steps(ix, iy) > steps(farthest)) farthest = {ix, iy};
   return farthest;
 }
 
@@ -82,7 +82,7 @@ PlanResult CellPlanner::Plan(const PlanRequest& request) const {
   for (std::size_t i = 0; i < drivable.cells.size(); ++i) {
     const bool reached = steps.cells[i] >= 0;
     drivable.cells[i] &= reached;
-    if (!grid.cells.cells[i].free()) continue;
+    if (!grid.contents.cells[i].free()) continue;
     ++free;
     task.free.cells[i] = reached;
     lost += !reached;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What planners by risk share: they go from cell to cell of the risk's own grid, each as wide as
-// the robot, from the start's to the goal's.
+// What planners by risk share: they go from cell to cell of the risk's own grid, from the start's
+// cell to the goal's. Each cell is as wide as the robot.
 #pragma once
 
 #include <string>
@@ -23,9 +23,10 @@ struct CellTask {
 class CellPlanner : public Planner {
  public:
   void Visit(ParamVisitor& visit) override;
-  // Without a goal it ends on the free cell with the longest way from the start. Start and goal
-  // must not lie on a hazard. Free cells that neither floor nor terrain leads to are left out as
-  // long as they are few (`unreachable_share`), else the floor has fallen apart: kFloorDivided.
+  // Without a goal the path ends on the free cell with the longest way from the start. Neither
+  // start nor goal may lie on a hazard. Free cells to which neither floor nor terrain leads are
+  // left out as long as they are few (`unreachable_share`); else the floor is divided:
+  // kFloorDivided.
   PlanResult Plan(const PlanRequest& request) const override;
   PlannerPromises promises() const override {
     return {.covers = PlannerPromises::Covers::kCells,
@@ -38,8 +39,8 @@ class CellPlanner : public Planner {
   using Figures = std::vector<std::pair<std::string, double>>;
   // A tour from task.start to task.end over cells of task.drivable.
   virtual CellTour Tour(const CellTask& task, Figures& figures) const = 0;
-  // Whether it crosses terrain as the robot does it best, where the model says how that is
-  // (RobotSpec's cover limits): fast, and, if it moves every way, forward (terrain_yaw.h).
+  // Whether it crosses terrain in the way that suits the robot best, as far as the model states
+  // that (RobotSpec's cover limits): fast, and forward if the robot is holonomic (terrain_yaw.h).
   virtual bool crosses_with_care() const { return false; }
 
  private:

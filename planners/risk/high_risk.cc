@@ -4,19 +4,19 @@
 #include <algorithm>
 #include <functional>
 
-#include "planners/risk/wave_front.h"
+#include "planners/risk/terrain_wave.h"
 
 namespace floorproof {
 namespace {
 
 constexpr double kWithLevelChanges = 0.15, kWithout = 0.03;  // section 2.3
 
-// 1 where the cell is among that share of those within the outer walls which have the highest RF;
-// of equals all or none.
+// 1 for the cells of high risk: that share of the cells within the outer walls which has the
+// highest RF. Of cells with equal RF all are taken or none.
 Grid<std::uint8_t> HighRisk(const RiskMap& risk, const std::optional<double>& given) {
   std::vector<double> rf;
   bool level_changes = false;
-  const auto& cells = risk.grid.cells.cells;
+  const auto& cells = risk.grid.contents.cells;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (cells[i].outer_wall()) continue;
     rf.push_back(risk.rf.cells[i]);
@@ -45,14 +45,14 @@ void HighRiskParams::Visit(ParamVisitor& visit) {
 LowRisk LowRiskFloor(const CellTask& task, const HighRiskParams& params) {
   LowRisk out;
   Grid<std::uint8_t> high = HighRisk(task.risk, params.share);
-  // Back for the way from start to end, if there is none without.
-  for (const Cell cell : LeastSumWay(
+  // These are no cells of high risk after all, if there is no way from start to end without them.
+  for (const Cell cell : LeastCostPath(
            task.drivable, {task.start},
            [&](Cell c) { return high(c) && task.free(c) ? task.risk.rf(c) : 0; },
            [&](Cell c) { return c == task.end; }))
     high(cell) = 0;
 
-  // What can be reached over terrain without them.
+  // What can be reached without cells of high risk, over any terrain.
   Grid<std::uint8_t> passable = task.drivable;
   for (std::size_t i = 0; i < passable.cells.size(); ++i)
     if (task.free.cells[i] && high.cells[i]) passable.cells[i] = 0;

@@ -90,7 +90,7 @@ RiskGrid MakeRiskGrid(const HazardMap& map, const RobotSpec& robot, const FmeaTa
   const Vec2 origin_W = map.frame.X_WG * Vec2(at.x0 * fine_m, at.y0 * fine_m);
   grid.frame = {
       at.width(), at.height(), width_m, {origin_W.x(), origin_W.y(), map.frame.X_WG.yaw_rad}};
-  grid.cells = Grid<RiskCell>(grid.frame.width, grid.frame.height);
+  grid.contents = Grid<RiskCell>(grid.frame.width, grid.frame.height);
 
   // What is occupied, and what is no floor for another reason.
   const int cut = at.fine.width / map.frame.width;
@@ -108,7 +108,7 @@ RiskGrid MakeRiskGrid(const HazardMap& map, const RobotSpec& robot, const FmeaTa
           wall |= state == CellState::kOccupied ||
                   (state == CellState::kUnknown && map.unknown_is_wall);
         }
-      grid.cells(ix, iy).solid = wall;
+      grid.contents(ix, iy).solid = wall;
     }
 
   const int right = grid.frame.width - 1, top = grid.frame.height - 1;
@@ -118,11 +118,11 @@ RiskGrid MakeRiskGrid(const HazardMap& map, const RobotSpec& robot, const FmeaTa
   grid.walled_all_round = true;
   for (int iy = 0; iy <= top; ++iy)
     for (int ix = 0; ix <= right; ++ix)
-      if (in_ring(ix, iy) && !grid.cells(ix, iy).solid) grid.walled_all_round = false;
+      if (in_ring(ix, iy) && !grid.contents(ix, iy).solid) grid.walled_all_round = false;
   for (int iy = 0; iy <= top; ++iy)
     for (int ix = 0; ix <= right; ++ix)
       if (occupied(ix, iy) && !(grid.walled_all_round && in_ring(ix, iy)))
-        AddHazard(HazardClass::kBlindObject, tables, grid.cells(ix, iy));
+        AddHazard(HazardClass::kBlindObject, tables, grid.contents(ix, iy));
 
   const Pose2 X_GW = grid.frame.X_WG.Inverse();
   for (const Hazard& hazard : map.hazards)
@@ -130,7 +130,7 @@ RiskGrid MakeRiskGrid(const HazardMap& map, const RobotSpec& robot, const FmeaTa
       Polygon p_G;
       for (const Vec2& p_W : footprint) p_G.push_back(X_GW * p_W / width_m);
       Rasterise(p_G, grid.frame.width, grid.frame.height, [&](int ix, int iy) {
-        AddHazard(hazard.hazard_class, tables, grid.cells(ix, iy));
+        AddHazard(hazard.hazard_class, tables, grid.contents(ix, iy));
       });
     }
   return grid;

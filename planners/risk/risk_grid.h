@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// A floor in cells as wide as a robot, each with what it holds: what risk is summed over, and what
-// planners by risk go from cell to cell of.
+// A floor in cells as wide as a robot, each with what it holds. Risk is summed over these cells,
+// and planners by risk go from one to the next.
 //
-// The rule by which any map comes to such cells (the FMEA paper draws its sites in them):
-//  - Where the map's own cells are at least as wide as the robot, they are the cells, each cut into
-//    equal parts where it holds several of its widths. Else a cell is as many of the map's (of
-//    0.05 m at most) as the robot needs; the lattice lies, to one of the map's cells, where most of
-//    its cells are free of walls (of several such places at the lowest x, then y).
-//  - A cell that a hazard's footprint touches with more than a border holds that hazard; one that
-//    touches anything occupied holds a blind object. Of several hazards, it holds the one of the
-//    greatest weight (FmeaTables), and is solid if one of them is.
-//  - A cell that reaches beyond the map, or that touches an unknown cell which counts as wall, is
-//    outer wall unless it holds a hazard. So is the outermost ring of cells where all of it is
-//    wall.
+// The FMEA paper draws its sites in such cells. The rule by which any map comes to them:
+//  - If the map's own cells are at least as wide as the robot, they are the cells. A map's cell
+//  that
+//    is several times as wide is cut into equal parts.
+//  - Else a cell is as many of the map's (of 0.05 m at most) as the robot needs. The lattice is
+//    placed, to one of the map's cells, where most of its cells are free of walls. Of several such
+//    places it takes the one with the lowest x, then y.
+//  - A cell that overlaps a hazard's footprint holds that hazard; a common border is not enough.
+//  One
+//    that overlaps anything occupied holds a blind object. Of several hazards a cell holds the one
+//    of the greatest weight (FmeaTables), and it is solid if one of them is.
+//  - A cell that reaches beyond the map, or that overlaps an unknown cell which counts as wall, is
+//    outer wall unless it holds a hazard. So is the outermost ring of cells if all of it is wall.
 #pragma once
 
 #include <cstdint>
@@ -37,24 +39,24 @@ struct RiskCell {
 
 struct RiskGrid {
   GridFrame frame;
-  Grid<RiskCell> cells;
+  Grid<RiskCell> contents;        // of each cell
   bool walled_all_round = false;  // the outermost ring is outer wall
 };
 
 // 1 on the cells that are so: CellsThat(grid, &RiskCell::terrain).
 template <class Are>
 Grid<std::uint8_t> CellsThat(const RiskGrid& grid, const Are& are) {
-  Grid<std::uint8_t> found(grid.cells.width, grid.cells.height);
+  Grid<std::uint8_t> found(grid.contents.width, grid.contents.height);
   for (std::size_t i = 0; i < found.cells.size(); ++i)
-    found.cells[i] = std::invoke(are, grid.cells.cells[i]);
+    found.cells[i] = std::invoke(are, grid.contents.cells[i]);
   return found;
 }
 
-// The narrowest cell that the robot moves in from neighbour to neighbour: its clear circle's
-// diameter, or the greater side of its clear footprint, m.
+// The narrowest cells in which the robot can move from neighbour to neighbour, m: its clear
+// circle's diameter, or the greater side of its clear footprint.
 double LeastCellWidth(const RobotSpec& robot);
 
-// `cell_m`: asked for; none: as wide as the robot. Rounded up to what the rule allows.
+// `cell_m`: the width asked for; none: as wide as the robot. Rounded up to what the rule allows.
 RiskGrid MakeRiskGrid(const HazardMap& map, const RobotSpec& robot, const FmeaTables& tables,
                       std::optional<double> cell_m);
 

@@ -13,8 +13,8 @@ double StepsToOne(double sum) {
   return sum > 0 ? std::pow(10, 14 - std::floor(std::log10(sum))) : 1;
 }
 
-// sources (x) kernel, where the kernel is 2 / (20 + scale * distance): a circular convolution, as
-// large as it takes for nothing to come round.
+// The convolution of the sources with the kernel 2 / (20 + scale * distance). It is circular, and
+// large enough that nothing comes round to the other side.
 cv::Mat1d Convolved(const cv::Mat1d& sources, double scale) {
   const int rows = cv::getOptimalDFTSize(2 * sources.rows - 1);
   const int cols = cv::getOptimalDFTSize(2 * sources.cols - 1);
@@ -54,11 +54,11 @@ RiskMap ComputeRisk(const HazardMap& map, const RobotSpec& robot, const FmeaTabl
   for (int iy = -1; iy <= height; ++iy)
     for (int ix = -1; ix <= width; ++ix) {
       double& source = sources(iy + 1, ix + 1);
-      if (!risk.grid.cells.Inside(ix, iy)) {
+      if (!risk.grid.contents.Inside(ix, iy)) {
         source = risk.grid.walled_all_round ? 0 : wall;
         continue;
       }
-      const RiskCell& cell = risk.grid.cells(ix, iy);
+      const RiskCell& cell = risk.grid.contents(ix, iy);
       const bool in_ring = ix == 0 || iy == 0 || ix == width - 1 || iy == height - 1;
       if (cell.hazard) source = tables.Weight(*cell.hazard);
       if (cell.outer_wall() && in_ring && risk.grid.walled_all_round) source = wall;

@@ -22,11 +22,11 @@ struct RiskMap {
 
 // RF(x) = sum over hazard cells H of class C of
 //   2 Weight(C) / (20 + distance_scale * |x - x_H|), distances from centre to centre in cells.
-// Linear in the hazard cells, hence one convolution: O(cells log cells), whatever their number.
-// `walls_are_hazards`: outer walls count as C1; the ring of cells within the map where it is walled
-// all round, else a ring of cells around it.
-// RF is rounded to 1e-14 of what all hazards in one place would sum to, so that places that are
-// alike have the same.
+// RF is linear in the hazard cells. So it is one convolution, which takes O(cells log cells)
+// however many hazards there are. `walls_are_hazards`: outer walls count as C1. They are the
+// outermost ring of cells if the map is walled all round, else a ring of cells around the map. RF
+// is rounded, to 1e-14 of what all hazards would sum to in one place, so that places that are alike
+// have the same RF.
 RiskMap ComputeRisk(const HazardMap& map, const RobotSpec& robot, const FmeaTables& tables,
                     const RiskParams& params = {});
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "planners/walk/cell_ways.h"
+#include "planners/search/grid_paths.h"
 
 namespace floorproof {
 namespace {
@@ -25,7 +25,7 @@ void RiskMeter::Lift() {
 }
 
 void RiskMeter::Visit(Cell cell) {
-  const auto terrain = [&](Cell c) { return risk_->grid.cells(c).terrain(); };
+  const auto terrain = [&](Cell c) { return risk_->grid.contents(c).terrain(); };
   if (terrain(cell) && !(in_ && terrain(*in_))) ++crossings_;
   in_ = cell;
   ++visits_;
@@ -59,7 +59,7 @@ RiskOfPath MeasureRisk(const RiskMap& risk, const Path& path) {
   out.terrain_crossings = meter.terrain_crossings();
   out.visits_of = meter.visits_of();
 
-  const auto& cells = risk.grid.cells.cells;
+  const auto& cells = risk.grid.contents.cells;
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t i = 0; i < cells.size(); ++i)
     if (!cells[i].solid)

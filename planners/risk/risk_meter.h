@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a way costs in risk: which cells the robot's centre visits, how often, and their sum.
+// What a path costs in risk: which cells the robot's centre visits, how often, and the sum of RF.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace floorproof {
 
-// The centre is in a cell until it is a tenth of a cell's width beyond it, then in the one where it
-// is: who drives along a border, or wavers on it, visits the cells of one side, each once. Add()
-// allocates nothing.
+// The centre counts as in a cell until it is a tenth of a cell's width beyond it. So a robot that
+// drives along a border, or wavers on it, visits the cells of one side, each once. Add() allocates
+// nothing.
 class RiskMeter {
  public:
   explicit RiskMeter(const RiskMap& risk);
   // The centre moved in a straight line from the last place to this one (the first only stands).
   void Add(const Vec2& p_W);
-  // The robot was carried: the next Add() starts afresh.
+  // The robot was carried to another place: the next Add() starts afresh.
   void Lift();
 
   double cumulative_risk() const { return sum_; }  // RF of each visit
@@ -42,9 +42,10 @@ class RiskMeter {
 // The paper's measures of a path (its Figures 3, 5 and 6).
 struct RiskOfPath {
   double cumulative_risk = 0;  // CRF
-  double each_cell_once = 0;   // what the cells that it visits sum to: no way over them has less
-  int visits = 0, cells = 0;   // cells: visited at least once
-  double coverage = 0;  // of the hazard-free cells that can be reached over floor and terrain
+  // RF of the cells that it visits, each once: no path over them has less.
+  double each_cell_once = 0;
+  int visits = 0, cells = 0;  // cells: visited at least once
+  double coverage = 0;        // of the hazard-free cells that can be reached over floor and terrain
   int terrain_crossings = 0;
   struct Range {
     double low = 0, high = 0;  // RF; the last one's upper end belongs to it

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "planners/walk/cell_ways.h"
+#include "planners/search/grid_paths.h"
 
 namespace floorproof {
 
@@ -12,15 +12,15 @@ std::vector<int> QuartersForwardOverTerrain(const RiskGrid& grid, const std::vec
   std::vector<int> turns(tour.size(), 0);  // quarters turned on the way to each cell
   const auto along_y = [&](std::size_t i) { return tour[i].ix == tour[i - 1].ix; };
   const auto roomy = [&](std::size_t i) {
-    return grid.cells(tour[i]).free() && std::ranges::all_of(kSideSteps, [&](Cell step) {
+    return grid.contents(tour[i]).free() && std::ranges::all_of(kSideSteps, [&](Cell step) {
              const Cell beside = tour[i] + step;
-             return grid.cells.Inside(beside) && !grid.cells(beside).solid;
+             return grid.contents.Inside(beside) && !grid.contents(beside).solid;
            });
   };
   std::size_t behind = 0;  // where the terrain before has been left
   int quarter = first;
   for (std::size_t i = 1; i < tour.size(); ++i) {
-    const bool on = grid.cells(tour[i]).terrain(), from = grid.cells(tour[i - 1]).terrain();
+    const bool on = grid.contents(tour[i]).terrain(), from = grid.contents(tour[i - 1]).terrain();
     if (from && !on) behind = i;
     if (!on || from || along_y(i) == (quarter % 2 == 1)) continue;
     // The turn is made in a cell, so on the way to the next one.

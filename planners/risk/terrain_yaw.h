@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Headings at which a robot that moves every way crosses terrain forward.
+// Headings at which a holonomic robot crosses terrain forward.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,13 @@
 
 namespace floorproof {
 
-// Quarter turns (0 to 3, from the grid's x) that the robot holds on its way to each cell of a tour;
-// cells are neighbours. It begins at `first` and turns as little as it must: before it steps onto
-// terrain along the other axis than its own (backwards is as good as forwards), in the last cell
-// behind the terrain before where there is room, if possible one where the way bends anyway. Room
-// is where the four cells around are not solid. Where there is none it crosses as it is.
+// By cell of a tour, whose cells are neighbours: the quarter turn (0 to 3, from the grid's x) that
+// the robot holds on its way there. It begins at `first` and turns as little as it must.
+//
+// It has to turn before it steps onto terrain along the axis that is not its own; backwards is as
+// good as forwards. It does so after the last terrain that it crossed, in a cell with room: one
+// whose four neighbours are not solid. It takes the last such cell where the way bends anyway, else
+// the last such cell. Where no cell has room, it crosses as it is.
 std::vector<int> QuartersForwardOverTerrain(const RiskGrid& grid, const std::vector<Cell>& tour,
                                             int first);
 

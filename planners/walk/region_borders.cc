@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Breadth first over the graph of regions, from the one that is asked for, no farther than need be:
-// on a floor in very many pieces ways are short. Rows are kept as long as there is room.
+// Breadth-first search over the graph of regions, from `to` on. It goes no farther than to `from`:
+// on a floor in very many pieces most ways are short. Rows are kept for later calls as long as
+// there is memory for them; then the row of another region is overwritten.
 #include "planners/walk/region_borders.h"
 
 #include <algorithm>
 
-#include "planners/lines/index.h"
+#include "planners/search/index.h"
 
 namespace floorproof {
 namespace {
 
-constexpr std::size_t kKept = std::size_t{1} << 25;
+constexpr std::size_t kMaxEntries = std::size_t{1} << 25;  // of all rows
 constexpr int kMaxBorders = 0xfffe;
 
 }  // namespace
 
 RegionBorders::RegionBorders(const WalkGraph& graph)
-    : graph_(graph), regions_(graph.touching.size()) {
-  const std::size_t rows = std::clamp<std::size_t>(kKept / regions_, 1, regions_);
+    : graph_(graph), regions_(graph.adjacent.size()) {
+  const std::size_t rows = std::clamp<std::size_t>(kMaxEntries / regions_, 1, regions_);
   borders_.resize(rows * regions_);
   row_region_.assign(rows, -1);
   depth_.assign(rows, -1);
@@ -28,17 +29,18 @@ const std::uint16_t* RegionBorders::To(int to, int from) {
   std::uint16_t* row = &borders_[slot * regions_];
   const bool kept = row_region_[slot] == to;
   if (kept && row[from] <= depth_[slot]) return row;
-  const int least = kept ? 2 * depth_[slot] : 1;  // not layer by layer over and over again
+  // A row that was not deep enough gets twice as deep, so that it is not begun anew for each layer.
+  const int least = kept ? 2 * depth_[slot] : 1;
   row_region_[slot] = to;
   const auto unknown = static_cast<std::uint16_t>(kMaxBorders + 1);
   std::fill(row, row + regions_, unknown);
   row[to] = 0;
-  int depth = kMaxBorders;  // the last layer wanted
+  int depth = kMaxBorders;  // of the last layer that is needed
   reached_.assign(1, to);
   for (std::size_t k = 0; k < reached_.size() && row[reached_[k]] <= depth; ++k) {
     const int region = reached_[k], borders = row[region];
     if (region == from) depth = std::max(borders, least);
-    for (const int next : graph_.touching[Z(region)])
+    for (const int next : graph_.adjacent[Z(region)])
       if (row[next] == unknown) {
         row[next] = static_cast<std::uint16_t>(std::min(borders + 1, kMaxBorders));
         reached_.push_back(next);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many borders between regions a way has to cross.
+// How many borders between regions a way has to cross at least.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,9 @@ class RegionBorders {
  public:
   explicit RegionBorders(const WalkGraph& graph);
 
-  // By region, borders on the way to `to`: as many as there are from `from` and from all that are
-  // no farther, at least as many from others. Valid until the next call.
+  // A row that holds, by region, the number of borders on the way from there to region `to`. It is
+  // exact for `from` and for every region that is no farther from `to`. For regions beyond it is a
+  // lower bound. The row is valid until the next call.
   const std::uint16_t* To(int to, int from);
 
   std::int64_t work = 0;  // regions looked at
@@ -23,8 +24,8 @@ class RegionBorders {
   const WalkGraph& graph_;
   std::size_t regions_;
   std::vector<std::uint16_t> borders_;  // rows, by region
-  std::vector<int> row_region_;         // by row; -1: none yet
-  std::vector<int> depth_;              // by row: up to where it is exact
+  std::vector<int> row_region_;         // by row: its `to`; -1: none yet
+  std::vector<int> depth_;              // by row: the number of borders up to which it is exact
   std::vector<int> reached_;
 };
 

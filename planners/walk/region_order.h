@@ -8,9 +8,10 @@
 
 namespace floorproof {
 
-// The regions that hold wanted cells (`wanted`: by cell), in an order with few crossings of
-// terrain: the start's first; the end's (-1: ends anywhere) last, unless it is the start's.
-std::vector<int> OrderRegions(const WalkGraph& graph, const std::vector<std::uint8_t>& wanted,
+// The regions that hold required cells (`required`: by cell), in an order with few crossings of
+// terrain. The start's region comes first. The region of `end` (-1: the walk ends anywhere) comes
+// last, unless it is the start's.
+std::vector<int> OrderRegions(const WalkGraph& graph, const std::vector<std::uint8_t>& required,
                               int start, int end);
 
 }  // namespace floorproof

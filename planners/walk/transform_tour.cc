@@ -16,30 +16,31 @@ CellTour TransformTour(const Grid<std::uint8_t>& open, const Grid<double>& score
     left -= !visited(cell);
     visited(cell) = 1;
   };
-  const auto wanted = [&](Cell c) {
+  // Whether the tour may go there next.
+  const auto is_next = [&](Cell c) {
     return open.Inside(c) && open(c) && !visited(c) && (left == 1 || !(c == end));
   };
-  CellWays ways(open);
+  GridPaths paths(open);
   visit(start);
   while (left > 0) {
     const Cell now = tour.cells.back();
     std::optional<Cell> next;
     for (const Cell step : kSideSteps) {
       const Cell cell = now + step;
-      if (wanted(cell) && (!next || score(cell) > score(*next))) next = cell;
+      if (is_next(cell) && (!next || score(cell) > score(*next))) next = cell;
     }
     if (next) {
       visit(*next);
       continue;
     }
     tour.dead_ends += left > 1 || visited(end);
-    const std::vector<Cell> way = ways.ToNearestRing(now, wanted);
-    for (std::size_t i = 1; i < way.size(); ++i) visit(way[i]);
-    if (way.empty()) break;
+    const std::vector<Cell> path = paths.ToNearestRing(now, is_next);
+    for (std::size_t i = 1; i < path.size(); ++i) visit(path[i]);
+    if (path.empty()) break;
   }
   if (!(tour.cells.back() == end)) {
-    const std::vector<Cell> way = ways.Shortest(tour.cells.back(), end);
-    for (std::size_t i = 1; i < way.size(); ++i) visit(way[i]);
+    const std::vector<Cell> path = paths.Shortest(tour.cells.back(), end);
+    for (std::size_t i = 1; i < path.size(); ++i) visit(path[i]);
   }
   return tour;
 }

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "planners/walk/cell_ways.h"
+#include "planners/search/grid_paths.h"
 
 namespace floorproof {
 
@@ -13,14 +13,15 @@ struct CellTour {
   int dead_ends = 0;  // times that all neighbours had been visited, and others but the end not
 };
 
-// From `start` always to the unvisited neighbour (T directions) of the highest score, of equals the
-// first of up, down, right, left; from a dead end by Algorithm 3 to the nearest unvisited cell; to
-// `end` when all else is visited. Every open cell must be reachable from the start.
+// From `start` the tour goes always to the unvisited neighbour (T directions) of the highest score;
+// of equals to the first of up, down, right, left. From a dead end Algorithm 3 leads it to the
+// nearest unvisited cell. It goes to `end` when all else is visited. Assumed: every open cell can
+// be reached from the start.
 //
-// Algorithm 2 as printed may visit the end on its way and stops where the last cell happens to be.
-// Its text says that the sequence "will ultimately reach the end cell after visiting all the
-// cells", and counts as a dead end what leaves "non-visited cells remaining other than the end
-// point": so the end is nobody's next cell until it is the last one.
+// Algorithm 2 as printed may visit the end on its way, and stops where the last cell happens to be.
+// But its text says that the sequence "will ultimately reach the end cell after visiting all the
+// cells". And it counts as a dead end what leaves "non-visited cells remaining other than the end
+// point". So here the end is not chosen as the next cell until it is the last one left.
 CellTour TransformTour(const Grid<std::uint8_t>& open, const Grid<double>& score, Cell start,
                        Cell end);
 

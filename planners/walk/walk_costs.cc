@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// A* (Hart, Nilsson & Raphael 1968). The bound ahead counts the regions still to be left, over the
-// graph of regions, and straight steps: a search for a way across terrain does not flood the floor
-// on this side first.
+// A* over the cells. Its lower bound counts the borders between regions that are still to be
+// crossed (region_borders.h), each of which costs more than any way within regions, and the
+// straight steps. So a search for a way across terrain does not flood the floor on this side first.
+//
+// With few places the costs of all pairs are tabled, by Dijkstra's search from each. With many
+// places the pairs that were asked for last are remembered.
 #include "planners/walk/walk_costs.h"
 
 #include <algorithm>
 #include <cstdlib>
-
-#include "planners/lines/index.h"
 
 namespace floorproof {
 namespace {
 
 constexpr int kTabled = 500;                          // places
 constexpr std::size_t kPairs = std::size_t{1} << 18;  // remembered
-constexpr int kLookedAt = 400;                        // cells, for the near ones of a place
+constexpr int kLookedAt = 400;                        // cells, for the candidates of a place
 constexpr std::int64_t kPopWork = 3;
 
 }  // namespace
@@ -24,11 +25,11 @@ WalkCosts::WalkCosts(const WalkGraph& graph, const std::vector<int>& places)
       places_(places),
       n_(static_cast<int>(places.size())),
       place_at_(graph.size(), -1),
-      nodes_(graph.size()),
+      search_(graph.size()),
       to_edge_(graph.size(), 0),
       borders_(graph) {
   for (int a = n_ - 1; a >= 0; --a) place_at_[Z(places[Z(a)])] = a;
-  if (graph.touching.size() > 1) MeasureToEdge();
+  if (graph.adjacent.size() > 1) MeasureToEdge();
   if (n_ <= kTabled) {
     table_.resize(Z(n_) * Z(n_));
     filled_.resize(Z(n_));
@@ -37,25 +38,25 @@ WalkCosts::WalkCosts(const WalkGraph& graph, const std::vector<int>& places)
   }
 }
 
-// Of each cell the least that the way to its region's edge costs, the cell itself left out.
+// The least that the way from each cell to the edge of its region costs, the cell itself left out.
 void WalkCosts::MeasureToEdge() {
-  ++stamp_;
-  heap_.clear();
+  search_.Begin();
   for (int at = 0; at < static_cast<int>(graph_.size()); ++at) {
     if (graph_.region[Z(at)] < 0) continue;
-    for (const int next : graph_.Beside(at))
-      if (graph_.region[Z(next)] >= 0 && graph_.terrain[Z(next)] != graph_.terrain[Z(at)] &&
-          Reach(at, 0, -1))
-        Push({0, 0, at});
+    for (const int next : graph_.Neighbours(at))
+      if (graph_.region[Z(next)] >= 0 && graph_.terrain[Z(next)] != graph_.terrain[Z(at)])
+        search_.Reach(at, 0);
   }
-  for (Open open; Pop(open);) {
-    to_edge_[Z(open.at)] = open.bound;
-    for (const int next : graph_.Beside(open.at))
-      if (graph_.region[Z(next)] == graph_.region[Z(open.at)]) {
-        const std::int64_t there = open.bound + graph_.weight[Z(open.at)];
-        if (Reach(next, there, open.at)) Push({there, 0, next});
-      }
-  }
+  search_.Run(
+      [&](const auto& at) {
+        to_edge_[Z(at.node)] = at.cost;
+        return false;
+      },
+      [&](const auto& at, const auto& reach) {
+        for (const int next : graph_.Neighbours(at.node))
+          if (graph_.region[Z(next)] == graph_.region[Z(at.node)])
+            reach(next, at.cost + graph_.weight[Z(at.node)]);
+      });
 }
 
 // Borders from one cell's region to all others, as far as it matters.
@@ -100,74 +101,44 @@ std::int64_t WalkCosts::Cost(int a, int b, std::int64_t limit) {
   return cost;
 }
 
-bool WalkCosts::Later(const Open& a, const Open& b) {
-  if (a.bound != b.bound) return a.bound > b.bound;
-  return a.rest != b.rest ? a.rest > b.rest : a.at > b.at;
-}
-
-void WalkCosts::Begin(int from) {
-  ++stamp_;
-  heap_.clear();
-  nodes_[Z(from)] = {0, -1, stamp_};
-}
-
-void WalkCosts::Push(const Open& open) {
-  heap_.push_back(open);
-  std::push_heap(heap_.begin(), heap_.end(), Later);
-}
-
-bool WalkCosts::Pop(Open& open) {
-  while (!heap_.empty()) {
-    std::pop_heap(heap_.begin(), heap_.end(), Later);
-    open = heap_.back();
-    heap_.pop_back();
-    work += kPopWork;
-    if (open.bound - open.rest == nodes_[Z(open.at)].cost) return true;
-  }
-  return false;
-}
-
-bool WalkCosts::Reach(int at, std::int64_t cost, int parent) {
-  Node& node = nodes_[Z(at)];
-  if (node.stamp == stamp_ && node.cost <= cost) return false;
-  node = {cost, parent, stamp_};
-  return true;
-}
-
+// The cost of the cheapest way; `limit` where that is not below it.
 std::int64_t WalkCosts::Search(int from, int to, std::int64_t limit) {
   const std::uint16_t* borders = BordersTo(to, from);
-  Begin(from);
-  const std::int64_t all = Ahead(from, to, borders);
-  Push({all, all, from});
-  for (Open open; Pop(open);) {
-    if (open.bound >= limit) return limit;
-    if (open.at == to) return open.bound;
-    const std::int64_t cost = open.bound - open.rest;
-    for (const int next : graph_.Beside(open.at)) {
-      if (graph_.region[Z(next)] < 0) continue;
-      std::int64_t there = cost + graph_.StepCost(open.at, next);
-      if (next == to) there -= graph_.weight[Z(to)];
-      if (!Reach(next, there, open.at)) continue;
-      const std::int64_t rest = Ahead(next, to, borders);
-      Push({there + rest, rest, next});
-    }
-  }
-  return limit;
+  const auto ahead = [&](int at) { return Ahead(at, to, borders); };
+  search_.Begin();
+  search_.Reach(from, 0, search_.kNone, ahead(from));
+  std::int64_t cost = limit;
+  search_.Run(
+      ahead,
+      [&](const auto& at) {
+        if (at.node == to) cost = std::min(limit, at.cost);
+        return at.node == to || at.bound >= limit;
+      },
+      [&](const auto& at, const auto& reach) {
+        for (const int next : graph_.Neighbours(at.node)) {
+          if (graph_.region[Z(next)] < 0) continue;
+          const std::int64_t there = at.cost + graph_.StepCost(at.node, next);
+          reach(next, next == to ? there - graph_.weight[Z(to)] : there);
+        }
+      });
+  work += kPopWork * search_.pops();
+  return cost;
 }
 
 template <class Visit>
 void WalkCosts::Spread(int from, const Visit& visit) {
-  Begin(from);
-  Push({0, 0, from});
-  for (Open open; Pop(open);) {
-    if (open.at != from && !visit(place_at_[Z(open.at)], open.bound - graph_.weight[Z(open.at)]))
-      return;
-    for (const int next : graph_.Beside(open.at)) {
-      if (graph_.region[Z(next)] < 0) continue;
-      const std::int64_t there = open.bound + graph_.StepCost(open.at, next);
-      if (Reach(next, there, open.at)) Push({there, 0, next});
-    }
-  }
+  search_.Begin();
+  search_.Reach(from, 0);
+  search_.Run(
+      [&](const auto& at) {
+        return at.node != from &&
+               !visit(place_at_[Z(at.node)], at.cost - graph_.weight[Z(at.node)]);
+      },
+      [&](const auto& at, const auto& reach) {
+        for (const int next : graph_.Neighbours(at.node))
+          if (graph_.region[Z(next)] >= 0) reach(next, at.cost + graph_.StepCost(at.node, next));
+      });
+  work += kPopWork * search_.pops();
 }
 
 void WalkCosts::FillRow(int a) {
@@ -180,30 +151,24 @@ void WalkCosts::FillRow(int a) {
   row[n_ - 1] = row[place_at_[Z(places_[Z(n_ - 1)])]];  // where the walk ends on its start
 }
 
-NearLinks WalkCosts::Near(std::size_t count) {
-  NearLinks near;
-  near.links.reserve(Z(n_) * count);
-  near.first.reserve(Z(n_) + 1);
+CandidateEdges WalkCosts::Candidates(std::size_t count) {
+  CandidateEdges candidates;
   for (const int place : places_) {
-    const std::size_t first = near.links.size();
     int looked_at = 0;
     Spread(place, [&](int b, std::int64_t cost) {
-      if (b >= 0) near.links.push_back({cost, b});
-      return near.links.size() < first + count && ++looked_at < kLookedAt;
+      if (b >= 0) candidates.Add({cost, b});
+      return candidates.Open().size() < count && ++looked_at < kLookedAt;
     });
-    std::stable_sort(near.links.begin() + static_cast<std::ptrdiff_t>(first), near.links.end(),
-                     [](const Link& x, const Link& y) { return x.cost < y.cost; });
-    near.first.push_back(near.links.size());
+    std::ranges::stable_sort(candidates.Open(), {}, &CandidateEdge::cost);
+    candidates.Close();
   }
-  return near;
+  return candidates;
 }
 
 void WalkCosts::AppendWay(int a, int b, std::vector<int>& cells) {
-  const int from = places_[Z(a)], to = places_[Z(b)];
-  Search(from, to, kUnlimited);
-  const auto first = static_cast<std::ptrdiff_t>(cells.size());
-  for (int at = to; at != from; at = nodes_[Z(at)].parent) cells.push_back(at);
-  std::reverse(cells.begin() + first, cells.end());
+  Search(places_[Z(a)], places_[Z(b)], kUnlimited);
+  const std::vector<int> way = search_.PathTo(places_[Z(b)]);
+  cells.insert(cells.end(), way.begin() + 1, way.end());
 }
 
 }  // namespace floorproof

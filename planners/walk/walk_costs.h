@@ -4,15 +4,16 @@
 
 #include <vector>
 
-#include "planners/walk/path_search.h"
+#include "planners/search/best_first.h"
+#include "planners/search/three_opt.h"
 #include "planners/walk/region_borders.h"
 #include "planners/walk/walk_graph.h"
 
 namespace floorproof {
 
-// Places are cells (the last may be the first once more). A link costs what lies between its cells
-// on the cheapest way: neighbours cost nothing, unless one of them is terrain.
-class WalkCosts : public LinkCosts {
+// Places are cells (the last one may be the first once more). An edge costs what lies between its
+// two cells on the cheapest way: neighbours cost nothing, unless one of them is terrain.
+class WalkCosts : public EdgeCosts {
  public:
   WalkCosts(const WalkGraph& graph, const std::vector<int>& places);
 
@@ -20,30 +21,15 @@ class WalkCosts : public LinkCosts {
   std::int64_t AtLeast(int a, int b) override;
   std::int64_t EndCost(int a) const override;
 
-  // About `count` links a place.
-  NearLinks Near(std::size_t count);
+  // About `count` edges a place.
+  CandidateEdges Candidates(std::size_t count);
   // Adds the cells behind a's up to b's.
   void AppendWay(int a, int b, std::vector<int>& cells);
 
  private:
-  struct Node {
-    std::int64_t cost = 0;
-    int parent = -1;
-    std::uint32_t stamp = 0;
-  };
-  struct Open {
-    std::int64_t bound, rest;  // of the whole way, of what lies ahead
-    int at;
-  };
-
   void MeasureToEdge();
   const std::uint16_t* BordersTo(int to, int from);
   std::int64_t Ahead(int from, int to, const std::uint16_t* borders) const;
-  static bool Later(const Open& a, const Open& b);
-  void Begin(int from);
-  void Push(const Open& open);
-  bool Pop(Open& open);
-  bool Reach(int at, std::int64_t cost, int parent);
   std::int64_t Search(int from, int to, std::int64_t limit);
   // Calls visit(place or -1, cost) for cells in the order of their cost, until it returns false.
   template <class Visit>
@@ -54,9 +40,7 @@ class WalkCosts : public LinkCosts {
   const std::vector<int>& places_;
   int n_;
   std::vector<int> place_at_;  // by cell; -1: none
-  std::vector<Node> nodes_;    // by cell, valid for one search
-  std::uint32_t stamp_ = 0;
-  std::vector<Open> heap_;
+  BestFirstSearch<std::int64_t, HeapFrontier<std::int64_t, Ties::kNearerGoal>> search_;
 
   std::vector<std::int64_t> to_edge_;  // by cell
   RegionBorders borders_;

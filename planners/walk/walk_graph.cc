@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planners/lines/index.h"
+#include "planners/search/index.h"
 
 namespace floorproof {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 double MeanCost(const CoverWalkProblem& problem) {
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < problem.open.cells.size(); ++i)
-    if (problem.open.cells[i] && problem.wanted.cells[i]) sum += problem.cost.cells[i], ++count;
+    if (problem.open.cells[i] && problem.required.cells[i]) sum += problem.cost.cells[i], ++count;
   return count > 0 ? sum / count : 1;
 }
 
@@ -20,26 +20,26 @@ void FindRegions(const std::vector<std::uint8_t>& open, WalkGraph& graph) {
   std::vector<int> stack;
   for (std::size_t i = 0; i < open.size(); ++i) {
     if (!open[i] || graph.region[i] >= 0) continue;
-    const auto name = static_cast<std::int32_t>(graph.touching.size());
-    graph.touching.emplace_back();
+    const auto name = static_cast<std::int32_t>(graph.adjacent.size());
+    graph.adjacent.emplace_back();
     graph.region[i] = name;
     stack.assign(1, static_cast<int>(i));
     while (!stack.empty()) {
       const int at = stack.back();
       stack.pop_back();
-      for (const int next : graph.Beside(at)) {
+      for (const int next : graph.Neighbours(at)) {
         if (!open[Z(next)]) continue;
         std::int32_t& other = graph.region[Z(next)];
         if (graph.terrain[Z(next)] == graph.terrain[Z(at)]) {
           if (other < 0) other = name, stack.push_back(next);
         } else if (other >= 0) {
-          graph.touching[Z(name)].push_back(other);
-          graph.touching[Z(other)].push_back(name);
+          graph.adjacent[Z(name)].push_back(other);
+          graph.adjacent[Z(other)].push_back(name);
         }
       }
     }
   }
-  for (auto& list : graph.touching) {
+  for (auto& list : graph.adjacent) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
   }
@@ -69,9 +69,9 @@ WalkGraph::WalkGraph(const CoverWalkProblem& problem, const CoverWalkOptions& op
       total += weight[at];
     }
   FindRegions(open, *this);
-  // No way through all regions costs as much, so no saving makes up for a crossing. (Not proven for
-  // floors in very many pieces, for which the sums would be too large.)
-  const std::size_t most = 64, regions = touching.size();
+  // A crossing costs more than any way through all regions, so no saving makes up for one. (On a
+  // floor in very many pieces the sums would be too large; there this is not proven.)
+  const std::size_t most = 64, regions = adjacent.size();
   half_crossing = (total + 1) * static_cast<std::int64_t>(regions <= most ? regions + 1 : 1);
 }
 

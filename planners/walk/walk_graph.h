@@ -10,16 +10,17 @@
 
 namespace floorproof {
 
-// Cells are numbered row by row, with a border of closed cells so that each has four neighbours.
+// Cells are numbered row by row. A border of closed cells is added, so that each cell of the floor
+// has four neighbours. A region is a connected set of open cells that are all terrain, or all not.
 struct WalkGraph {
-  static constexpr std::int64_t kStep = 1 << 16;  // the mean weight of a wanted cell
+  static constexpr std::int64_t kStep = 1 << 16;  // the mean weight of a required cell
 
   WalkGraph(const CoverWalkProblem& problem, const CoverWalkOptions& options);
 
   std::size_t size() const { return region.size(); }
   int At(Cell c) const { return (c.iy + 1) * stride + c.ix + 1; }
   Cell CellAt(int at) const { return {at % stride - 1, at / stride - 1}; }
-  std::array<int, 4> Beside(int at) const { return {at + 1, at + stride, at - 1, at - stride}; }
+  std::array<int, 4> Neighbours(int at) const { return {at + 1, at + stride, at - 1, at - stride}; }
   // What a step costs: the visit of `to`, and half a crossing where the kind of floor changes.
   std::int64_t StepCost(int from, int to) const {
     const auto a = static_cast<std::size_t>(from), b = static_cast<std::size_t>(to);
@@ -27,10 +28,10 @@ struct WalkGraph {
   }
 
   int stride = 0;
-  std::vector<std::int32_t> region;        // by cell: open cells of one kind that hang together; -1
+  std::vector<std::int32_t> region;        // by cell: connected open cells of one kind; -1: closed
   std::vector<std::uint8_t> terrain;       // by cell
   std::vector<std::int64_t> weight;        // by cell: of a visit
-  std::vector<std::vector<int>> touching;  // by region: the regions beside it, in order
+  std::vector<std::vector<int>> adjacent;  // by region: the regions beside it, in order
   std::int64_t least_weight = 0;
   std::int64_t half_crossing = 0;  // more than any way without a crossing
 };

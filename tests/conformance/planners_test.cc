@@ -33,7 +33,7 @@ void ExpectCellsCovered(const PlanRequest& request, const PlanResult& plan, doub
   const Grid<std::int32_t> steps = StepsFrom(drivable, grid.frame.ToCell(request.start.p()));
   int free = 0, missed = 0;
   for (std::size_t i = 0; i < drivable.cells.size(); ++i) {
-    if (!grid.cells.cells[i].free() || steps.cells[i] < 0) continue;
+    if (!grid.contents.cells[i].free() || steps.cells[i] < 0) continue;
     ++free;
     missed += measured.visits_of.cells[i] == 0;
   }

@@ -243,7 +243,7 @@ TEST_P(CellPlanners, StartsFromWhereverItFitsOnAFineMap) {
       continue;
     }
     ++planned;
-    off += !site.risk.grid.cells(site.risk.grid.frame.ToCell(start)).free();
+    off += !site.risk.grid.contents(site.risk.grid.frame.ToCell(start)).free();
     EXPECT_EQ(plan.path.front().p_W, start);
     for (std::size_t i = 1; i < plan.path.size(); ++i)
       for (int s = 0; s <= 100; ++s) {
@@ -274,7 +274,7 @@ TEST_P(CellPlanners, ALargeFloorEnds) {
   const RiskOfPath measured = site.Measure(plan);
   EXPECT_GE(measured.coverage, GetParam() == "fmea_path_transform" ? 0.8 : 1.0);
   for (std::size_t i = 0; i < measured.visits_of.cells.size(); ++i) {
-    if (site.risk.grid.cells.cells[i].solid) {
+    if (site.risk.grid.contents.cells[i].solid) {
       ASSERT_EQ(measured.visits_of.cells[i], 0) << i;
     }
   }

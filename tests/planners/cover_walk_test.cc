@@ -32,13 +32,13 @@ CoverWalkProblem Draw(const std::string& map) {
   for (std::string row; lines >> row;) rows.insert(rows.begin(), row);
   CoverWalkProblem problem;
   const int w = static_cast<int>(rows[0].size()), h = static_cast<int>(rows.size());
-  problem.open = problem.wanted = problem.terrain = Grid<std::uint8_t>(w, h);
+  problem.open = problem.required = problem.terrain = Grid<std::uint8_t>(w, h);
   problem.cost = Grid<double>(w, h, 1.0);
   for (int iy = 0; iy < h; ++iy)
     for (int ix = 0; ix < w; ++ix) {
       const char c = rows[static_cast<std::size_t>(iy)][static_cast<std::size_t>(ix)];
       problem.open(ix, iy) = c != '#';
-      problem.wanted(ix, iy) = c == '.' || c == 'T' || c == 'S' || c == 'E';
+      problem.required(ix, iy) = c == '.' || c == 'T' || c == 'S' || c == 'E';
       problem.terrain(ix, iy) = c == '~' || c == 'T';
       if (c == 'S') problem.start = {ix, iy};
       if (c == 'E') problem.end = Cell{ix, iy};
@@ -71,7 +71,7 @@ void ExpectSolves(const CoverWalk& walk, const CoverWalkProblem& problem) {
   if (problem.end) {
     EXPECT_EQ(walk.cells.back(), *problem.end);
   }
-  Grid<std::uint8_t> left = problem.wanted;
+  Grid<std::uint8_t> left = problem.required;
   for (std::size_t i = 0; i < walk.cells.size(); ++i) {
     const Cell c = walk.cells[i];
     ASSERT_TRUE(problem.open.Inside(c) && problem.open(c)) << c.ix << ' ' << c.iy;
@@ -88,7 +88,7 @@ void ExpectSolves(const CoverWalk& walk, const CoverWalkProblem& problem) {
 CoverWalkProblem Strewn(int w, int h, std::uint64_t seed) {
   Stream random(seed, 0, "cover_walk_test");
   CoverWalkProblem problem;
-  problem.open = problem.wanted = problem.terrain = Grid<std::uint8_t>(w, h);
+  problem.open = problem.required = problem.terrain = Grid<std::uint8_t>(w, h);
   problem.cost = Grid<double>(w, h);
   const double open = random.Uniform(0.6, 1), wanted = random.Uniform(0.5, 1),
                terrain = random.Below(2) ? random.Uniform(0, 0.4) : 0,
@@ -98,8 +98,8 @@ CoverWalkProblem Strewn(int w, int h, std::uint64_t seed) {
     problem.cost.cells[i] = std::pow(ratio, random.Uniform());
     problem.open.cells[i] = random.Uniform() < open;
     problem.terrain.cells[i] = random.Uniform() < terrain;
-    problem.wanted.cells[i] = problem.open.cells[i] && random.Uniform() < wanted &&
-                              (terrain_too || !problem.terrain.cells[i]);
+    problem.required.cells[i] = problem.open.cells[i] && random.Uniform() < wanted &&
+                                (terrain_too || !problem.terrain.cells[i]);
   }
   CountTerrainTwice(problem);
   const auto draw = [&] {
@@ -121,7 +121,7 @@ CoverWalkProblem Hall(int size, std::uint64_t seed) {
     return static_cast<int>(random.Below(static_cast<std::uint64_t>(n)));
   };
   CoverWalkProblem problem;
-  problem.open = problem.wanted = Grid<std::uint8_t>(size, size, 1);
+  problem.open = problem.required = Grid<std::uint8_t>(size, size, 1);
   problem.terrain = Grid<std::uint8_t>(size, size);
   problem.cost = Grid<double>(size, size);
   for (double& cost : problem.cost.cells) cost = random.Uniform(1, 1.2);
@@ -130,13 +130,13 @@ CoverWalkProblem Hall(int size, std::uint64_t seed) {
     const int at = 2 + below(size - 4), gap = strip == 0 ? size : below(size);
     for (int i = 0; i < size; ++i) {
       const Cell c = upright ? Cell{at, i} : Cell{i, at};
-      if (std::abs(i - gap) > 3) problem.terrain(c) = 1, problem.wanted(c) = 0;
+      if (std::abs(i - gap) > 3) problem.terrain(c) = 1, problem.required(c) = 0;
     }
   }
   for (int k = 0; k < size * size / 100; ++k) {
     Cell c{1 + below(size - 2), 1 + below(size - 2)};
     for (int cells = 1 + below(4); cells > 0 && problem.open.Inside(c); --cells) {
-      problem.open(c) = problem.wanted(c) = 0;
+      problem.open(c) = problem.required(c) = 0;
       (below(2) ? c.ix : c.iy) += 1;
     }
   }
@@ -157,7 +157,7 @@ std::optional<Least> Exhaust(const CoverWalkProblem& problem, const CoverWalkOpt
   std::size_t bits = 0;
   double mean = 0;
   for (std::size_t i = 0; i < n; ++i)
-    if (problem.wanted.cells[i]) bit[i] = std::size_t{1} << bits++, mean += problem.cost.cells[i];
+    if (problem.required.cells[i]) bit[i] = std::size_t{1} << bits++, mean += problem.cost.cells[i];
   mean = bits > 0 ? mean / static_cast<double>(bits) : 1;
   const auto weight = [&](std::size_t i) {
     return 1 - options.cost_share + options.cost_share * problem.cost.cells[i] / mean +
@@ -197,8 +197,8 @@ std::optional<Least> Exhaust(const CoverWalkProblem& problem, const CoverWalkOpt
 double Weight(const CoverWalkProblem& problem, const CoverWalkOptions& options,
               const CoverWalk& walk) {
   double mean = 0, wanted = 0, sum = 0;
-  for (std::size_t i = 0; i < problem.wanted.cells.size(); ++i)
-    if (problem.wanted.cells[i]) mean += problem.cost.cells[i], ++wanted;
+  for (std::size_t i = 0; i < problem.required.cells.size(); ++i)
+    if (problem.required.cells[i]) mean += problem.cost.cells[i], ++wanted;
   mean = wanted > 0 ? mean / wanted : 1;
   for (const Cell c : walk.cells)
     sum += 1 - options.cost_share + options.cost_share * problem.cost(c) / mean +
@@ -237,9 +237,9 @@ TEST(CoverWalk, OnAWideFloorFewCellsAreVisitedInTheBestOrderOnTheBestWays) {
     CoverWalkProblem problem = Hall(24, seed);
     for (double& cost : problem.cost.cells) cost = std::pow(10, random.Uniform());
     std::vector<std::size_t> wanted;
-    for (std::size_t i = 0; i < problem.wanted.cells.size(); ++i)
-      if (std::exchange(problem.wanted.cells[i], std::uint8_t{0})) wanted.push_back(i);
-    for (int k = 0; k < 6; ++k) problem.wanted.cells[wanted[random.Below(wanted.size())]] = 1;
+    for (std::size_t i = 0; i < problem.required.cells.size(); ++i)
+      if (std::exchange(problem.required.cells[i], std::uint8_t{0})) wanted.push_back(i);
+    for (int k = 0; k < 6; ++k) problem.required.cells[wanted[random.Below(wanted.size())]] = 1;
     const CoverWalkOptions options;
     const CoverWalk dut = ShortCoverWalk(problem, options);
     ExpectSolves(dut, problem);
@@ -259,8 +259,8 @@ TEST(CoverWalk, NoWalkIsBelowTheBound) {
     if (!steps) continue;
     const auto cost = Exhaust(problem, {.cost_share = 1}, false);
     double mean = 0, wanted = 0;
-    for (std::size_t i = 0; i < problem.wanted.cells.size(); ++i)
-      if (problem.wanted.cells[i]) mean += problem.cost.cells[i], ++wanted;
+    for (std::size_t i = 0; i < problem.required.cells.size(); ++i)
+      if (problem.required.cells[i]) mean += problem.cost.cells[i], ++wanted;
     mean = wanted > 0 ? mean / wanted : 1;
     const CoverWalkBound dut = BoundCoverWalk(problem);
     EXPECT_LE(static_cast<double>(dut.steps), steps->second - 1 + 1e-9);
@@ -288,7 +288,7 @@ TEST(CoverWalk, ALargeTreeNeedsNoSearch) {
   comb.cost = Grid<double>(201, 40, 1.0);
   for (int ix = 0; ix < 201; ++ix)
     for (int iy = 0; iy < (ix % 2 ? 1 : 40 - ix % 7); ++iy) comb.open(ix, iy) = 1;
-  comb.wanted = comb.open;
+  comb.required = comb.open;
   CountTerrainTwice(comb);
   const CoverWalk dut = ShortCoverWalk(comb, {.effort = 0});
   ExpectSolves(dut, comb);
@@ -374,14 +374,14 @@ TEST(CoverWalk, AStripIsCrossedOnceOrToAndFro) {
 CoverWalkProblem Rooms(int nx, int ny, bool posts, Cell start_room) {
   constexpr int kPitch = 16;
   CoverWalkProblem problem;
-  problem.open = problem.wanted = Grid<std::uint8_t>(nx * kPitch - 1, ny * kPitch - 1, 1);
+  problem.open = problem.required = Grid<std::uint8_t>(nx * kPitch - 1, ny * kPitch - 1, 1);
   problem.terrain = Grid<std::uint8_t>(problem.open.width, problem.open.height);
   problem.cost = Grid<double>(problem.open.width, problem.open.height, 1.0);
   for (int iy = 0; iy < problem.open.height; ++iy)
     for (int ix = 0; ix < problem.open.width; ++ix) {
       const bool x = (ix + 1) % kPitch == 0, y = (iy + 1) % kPitch == 0;
       problem.terrain(ix, iy) = x || y;
-      problem.wanted(ix, iy) = !x && !y;
+      problem.required(ix, iy) = !x && !y;
       problem.open(ix, iy) = !(x && y && posts);
     }
   CountTerrainTwice(problem);
@@ -417,7 +417,7 @@ TEST(CoverWalk, RoomsAreLeftWhereTheNextOneIsComeTo) {
   const CoverWalk dut = ShortCoverWalk(problem, {.effort = 0});
   ExpectSolves(dut, problem);
   // A step of terrain at each crossing, and few more.
-  const auto wanted = std::count(problem.wanted.cells.begin(), problem.wanted.cells.end(), 1);
+  const auto wanted = std::count(problem.required.cells.begin(), problem.required.cells.end(), 1);
   EXPECT_LE(Steps(dut), wanted - 1 + 3 * dut.crossings);
 }
 
@@ -486,7 +486,7 @@ TEST(CoverWalk, LargeHallsAreCoveredWithFewStepsTooMany) {
     const CoverWalkProblem problem = Hall(200, seed);
     const CoverWalk dut = ShortCoverWalk(problem, {.effort = 0.2});
     ExpectSolves(dut, problem);
-    const auto wanted = std::count(problem.wanted.cells.begin(), problem.wanted.cells.end(), 1);
+    const auto wanted = std::count(problem.required.cells.begin(), problem.required.cells.end(), 1);
     EXPECT_LT(static_cast<double>(Steps(dut) - (wanted - 1)), 0.01 * static_cast<double>(wanted));
     const CoverWalkBound bound = BoundCoverWalk(problem);
     EXPECT_GE(Steps(dut), bound.steps);
@@ -497,16 +497,16 @@ TEST(CoverWalk, LargeHallsAreCoveredWithFewStepsTooMany) {
 TEST(CoverWalk, FloorsInVeryManyPiecesComeToAnEnd) {
   // Terrain all over, and a checked floor of which each cell is a piece.
   CoverWalkProblem checked = Draw("S");
-  checked.open = checked.wanted = Grid<std::uint8_t>(60, 60, 1);
+  checked.open = checked.required = Grid<std::uint8_t>(60, 60, 1);
   checked.terrain = Grid<std::uint8_t>(60, 60);
   checked.cost = Grid<double>(60, 60, 1.0);
   for (int iy = 0; iy < 60; ++iy)
     for (int ix = 0; ix < 60; ++ix) checked.terrain(ix, iy) = (ix + iy) % 2 != 0;
   CountTerrainTwice(checked);
   ExpectSolves(ShortCoverWalk(checked, {.effort = 0.1}), checked);
-  checked.wanted = Grid<std::uint8_t>(60, 60);
-  for (std::size_t i = 0; i < checked.wanted.cells.size(); ++i)
-    checked.wanted.cells[i] = !checked.terrain.cells[i];
+  checked.required = Grid<std::uint8_t>(60, 60);
+  for (std::size_t i = 0; i < checked.required.cells.size(); ++i)
+    checked.required.cells[i] = !checked.terrain.cells[i];
   const CoverWalk dut = ShortCoverWalk(checked, {.effort = 0.1});
   ExpectSolves(dut, checked);
   EXPECT_EQ(dut.crossings, 1799);  // one from each of the 1800 pieces to the next

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "base/streams.h"
-#include "planners/lines/laps.h"
 #include "planners/lines/swept.h"
+#include "planners/lines/wall_contours.h"
 #include "tests/planners/floors.h"
 
 namespace floorproof {

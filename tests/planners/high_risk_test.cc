@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planners/risk/wave_front.h"
+#include "planners/risk/terrain_wave.h"
 #include "tests/planners/risk_floors.h"
 
 namespace floorproof {
@@ -16,11 +16,11 @@ CellTask Task(const RiskMap& risk, Cell start, Cell end) {
   CellTask task{risk, start, end, {risk.rf.width, risk.rf.height}, {}};
   Grid<std::uint8_t> drivable(risk.rf.width, risk.rf.height);
   for (std::size_t i = 0; i < drivable.cells.size(); ++i)
-    drivable.cells[i] = !risk.grid.cells.cells[i].solid;
+    drivable.cells[i] = !risk.grid.contents.cells[i].solid;
   const Grid<std::int32_t> steps = StepsFrom(drivable, start);
   for (std::size_t i = 0; i < drivable.cells.size(); ++i) {
     drivable.cells[i] = steps.cells[i] >= 0;
-    task.free.cells[i] = drivable.cells[i] && risk.grid.cells.cells[i].free();
+    task.free.cells[i] = drivable.cells[i] && risk.grid.contents.cells[i].free();
   }
   task.drivable = drivable;
   return task;

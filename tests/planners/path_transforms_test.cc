@@ -5,7 +5,7 @@
 #include <set>
 
 #include "base/streams.h"
-#include "planners/risk/wave_front.h"
+#include "planners/risk/terrain_wave.h"
 #include "planners/walk/transform_tour.h"
 #include "tests/planners/cell_site.h"
 
@@ -58,11 +58,11 @@ struct RandomSite {
   explicit RandomSite(Stream& random) : site(Rows(random)) {
     Grid<std::uint8_t> drivable(16, 12);
     for (std::size_t i = 0; i < drivable.cells.size(); ++i)
-      drivable.cells[i] = !site.risk.grid.cells.cells[i].solid;
+      drivable.cells[i] = !site.risk.grid.contents.cells[i].solid;
     const auto free = [&] {
       for (;;) {
         const Cell cell = CellAt(drivable, random.Below(drivable.cells.size()));
-        if (site.risk.grid.cells(cell).free()) return cell;
+        if (site.risk.grid.contents(cell).free()) return cell;
       }
     };
     Grid<std::int32_t> steps;
@@ -101,7 +101,7 @@ TEST(PathTransform, IsTheTourByDistanceFromTheEndAndFromObstacles) {
       double distance = std::min({c.ix, c.iy, 15 - c.ix, 11 - c.iy}) + 0.5;
       for (std::size_t i = 0; i < site.risk.rf.cells.size(); ++i) {
         const Cell other = CellAt(site.risk.rf, i);
-        if (site.risk.grid.cells(other).solid)
+        if (site.risk.grid.contents(other).solid)
           distance = std::min(distance, std::hypot(std::max(0.0, std::abs(c.ix - other.ix) - 0.5),
                                                    std::max(0.0, std::abs(c.iy - other.iy) - 0.5)));
       }
@@ -192,7 +192,8 @@ TEST(FmeaPathTransform, VisitsAllButTheCellsOfHighRisk) {
   // 50 cells within the walls: seven of the highest RF are 15 % of them, hazards included.
   std::vector<std::pair<double, std::size_t>> by_risk;
   for (std::size_t i = 0; i < site.risk.rf.cells.size(); ++i)
-    if (!site.risk.grid.cells.cells[i].outer_wall()) by_risk.push_back({site.risk.rf.cells[i], i});
+    if (!site.risk.grid.contents.cells[i].outer_wall())
+      by_risk.push_back({site.risk.rf.cells[i], i});
   ASSERT_EQ(by_risk.size(), 50u);
   std::ranges::sort(by_risk, std::greater<>());
   ASSERT_GT(by_risk[6].first, by_risk[7].first);
@@ -200,7 +201,8 @@ TEST(FmeaPathTransform, VisitsAllButTheCellsOfHighRisk) {
   const RiskOfPath measured = site.Measure(plan);
   for (std::size_t i = 0; i < by_risk.size(); ++i) {
     const std::size_t cell = by_risk[i].second;
-    EXPECT_EQ(measured.visits_of.cells[cell] > 0, i >= 7 && site.risk.grid.cells.cells[cell].free())
+    EXPECT_EQ(measured.visits_of.cells[cell] > 0,
+              i >= 7 && site.risk.grid.contents.cells[cell].free())
         << cell;
   }
   EXPECT_EQ(Figure(plan, "high_risk_cells"), 7 - 2);  // the drop's two cells are of them
@@ -228,7 +230,7 @@ TEST(FmeaPathTransform, NeverEntersACellOfHighRisk) {
   int high = 0;
   for (std::size_t i = 0; i < site.risk.rf.cells.size(); ++i) {
     if (site.risk.rf.cells[i] < least) continue;
-    high += site.risk.grid.cells.cells[i].free();
+    high += site.risk.grid.contents.cells[i].free();
     EXPECT_EQ(measured.visits_of.cells[i], 0) << i;
   }
   EXPECT_EQ(Figure(plan, "high_risk_cells"), high);

@@ -64,7 +64,7 @@ std::vector<std::size_t> LegsOntoTerrain(const Planned& p) {
     const Vec2 a = p.plan.path[i - 1].p_W, b = p.plan.path[i].p_W;
     for (double s = 0; s <= 1; s += 0.01) {
       const Cell cell = p.risk.grid.frame.ToCell(a + s * (b - a));
-      if (!p.risk.grid.cells(cell).terrain()) continue;
+      if (!p.risk.grid.contents(cell).terrain()) continue;
       legs.push_back(i);
       break;
     }

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "planners/risk/risk_meter.h"
-#include "planners/walk/cell_ways.h"
+#include "planners/search/grid_paths.h"
 #include "tests/planners/floors.h"
 
 namespace floorproof::testing {
@@ -79,9 +79,9 @@ inline RobotSpec SquareRobot(double side_m) {
 // C4; 'T' what is solid, though its hazard is terrain.
 inline std::string Text(const RiskGrid& grid) {
   std::string text;
-  for (int iy = grid.cells.height - 1; iy >= 0; --iy) {
-    for (int ix = 0; ix < grid.cells.width; ++ix) {
-      const RiskCell& cell = grid.cells(ix, iy);
+  for (int iy = grid.contents.height - 1; iy >= 0; --iy) {
+    for (int ix = 0; ix < grid.contents.width; ++ix) {
+      const RiskCell& cell = grid.contents(ix, iy);
       if (!cell.hazard) {
         text += cell.solid ? 'W' : '.';
       } else {

@@ -92,7 +92,7 @@ TEST(RiskGrid, OnFineMapsTheLatticeLiesWhereMostCellsAreFree) {
   // A robot of 0.36 m needs eight of the map's cells.
   const RiskGrid disc = Make(FineRoom(40, 20, 3, 2, 3, 2), DiscRobot(0.18, 0.3));
   EXPECT_NEAR(disc.frame.cell_m, 0.4, 1e-12);
-  EXPECT_EQ(std::ranges::count_if(disc.cells.cells, [](const RiskCell& c) { return c.free(); }),
+  EXPECT_EQ(std::ranges::count_if(disc.contents.cells, [](const RiskCell& c) { return c.free(); }),
             5 * 2);
   // Lengths that differ by a millimetre are the same.
   EXPECT_NEAR(Make(FineRoom(40, 20, 3, 2, 3, 2), SquareRobot(0.5008)).frame.cell_m, 0.5, 1e-12);
@@ -182,7 +182,7 @@ TEST(RiskGrid, ACellIsOfTheHazardOfTheGreatestWeightAndSolidIfOneIs) {
         HazardMap map = EmptyFloor(1, 1, 0.5);
         map.hazards = {Of(classes[swapped ? b : a], Rectangle({0.1, 0.1}, {0.2, 0.2})),
                        Of(classes[swapped ? a : b], Rectangle({0.3, 0.3}, {0.4, 0.4}))};
-        const RiskCell dut = Make(map).cells(0, 0);
+        const RiskCell dut = Make(map).contents(0, 0);
         EXPECT_EQ(dut.hazard, classes[a]) << a << ", " << b;
         EXPECT_EQ(dut.solid, !(a == 1 && b == 1)) << a << ", " << b;
         EXPECT_EQ(dut.terrain(), !dut.solid);
@@ -193,7 +193,7 @@ TEST(RiskGrid, ACellIsOfTheHazardOfTheGreatestWeightAndSolidIfOneIs) {
   HazardMap map = EmptyFloor(1, 1, 0.5);
   map.hazards = {Of(HazardClass::kLevelChange, Rectangle({0.1, 0.1}, {0.2, 0.2})),
                  Of(HazardClass::kGlass, Rectangle({0.3, 0.3}, {0.4, 0.4}))};
-  EXPECT_EQ(MakeRiskGrid(map, SquareRobot(0.5), tables, {}).cells(0, 0).hazard,
+  EXPECT_EQ(MakeRiskGrid(map, SquareRobot(0.5), tables, {}).contents(0, 0).hazard,
             HazardClass::kGlass);
 }
 
@@ -276,7 +276,7 @@ TEST(RiskGrid, OnAnyFineMapTheRuleHolds) {
     for (int iy = 0; iy < dut.frame.height; ++iy)
       for (int ix = 0; ix < dut.frame.width; ++ix) {
         const Seen seen = look(x0 + ix * side, y0 + iy * side);
-        const RiskCell& cell = dut.cells(ix, iy);
+        const RiskCell& cell = dut.contents(ix, iy);
         ASSERT_EQ(cell.solid, seen.beyond || seen.wall) << ix << ", " << iy;
         ASSERT_EQ(cell.hazard.has_value(), seen.occupied && !(walled && in_ring(ix, iy)))
             << ix << ", " << iy;

@@ -196,7 +196,7 @@ TEST(RiskOfPath, RangesHoldEachCellThatIsNoSolidOnce) {
   double low = 1e9, high = 0;
   int cells = 0, visits = 0;
   for (std::size_t i = 0; i < risk.rf.cells.size(); ++i) {
-    if (risk.grid.cells.cells[i].solid) continue;
+    if (risk.grid.contents.cells[i].solid) continue;
     low = std::min(low, risk.rf.cells[i]), high = std::max(high, risk.rf.cells[i]);
     ++cells, visits += dut.visits_of.cells[i];
   }
@@ -214,7 +214,7 @@ TEST(RiskOfPath, RangesHoldEachCellThatIsNoSolidOnce) {
     int expected = 0, expected_visits = 0;
     for (std::size_t i = 0; i < risk.rf.cells.size(); ++i) {
       const double rf = risk.rf.cells[i];
-      if (risk.grid.cells.cells[i].solid || rf < range.low) continue;
+      if (risk.grid.contents.cells[i].solid || rf < range.low) continue;
       if (rf < range.high || r == 9) ++expected, expected_visits += dut.visits_of.cells[i];
     }
     EXPECT_EQ(range.cells, expected) << r;

@@ -20,7 +20,7 @@ Floor MakeFloor(const HazardMap& map, const Vec2& start_W) {
                    robot.tool, 0.3);
 }
 
-TEST(Ways, ARouteRoundACornerIsTaut) {
+TEST(ShortestPaths, ARouteRoundACornerIsTaut) {
   // A wall from the lower edge up to y = 2 m, 0.5 m thick.
   const HazardMap map = Draw(R"(
     ..............
@@ -31,7 +31,7 @@ TEST(Ways, ARouteRoundACornerIsTaut) {
     ......#.......)",
                              0.5);
   const Floor floor = MakeFloor(map, {1, 1});
-  Ways dut(floor);
+  ShortestPaths dut(floor);
   const Vec2 a(1, 1), b(5.5, 1);
   const Polyline route = dut.Route(floor.ToCells(a), floor.ToCells(b));
   ASSERT_GE(route.size(), 3u);
@@ -45,21 +45,21 @@ TEST(Ways, ARouteRoundACornerIsTaut) {
               0.15 * PolylineLength(route));
 }
 
-TEST(Ways, InPlainSightTheWayIsStraight) {
+TEST(ShortestPaths, InPlainSightTheWayIsStraight) {
   const Floor floor = MakeFloor(testing::EmptyFloor(100, 100, 0.05), {1, 1});
-  Ways dut(floor);
+  ShortestPaths dut(floor);
   EXPECT_EQ(dut.Route({20, 20}, {70, 35}).size(), 2u);
   EXPECT_DOUBLE_EQ(dut.Distance({20, 20}, {30, 20}), 10);
 }
 
-TEST(Ways, NearPlacesAreNearByWayNotThroughWalls) {
+TEST(ShortestPaths, NearPlacesAreNearByWayNotThroughWalls) {
   const HazardMap map = Draw(R"(
     ..........
     #########.
     ..........)",
                              0.6);
   const Floor floor = MakeFloor(map, {1, 0.3});
-  Ways dut(floor);
+  ShortestPaths dut(floor);
   const std::vector<Vec2> places = {floor.ToCells(Vec2(1, 0.3)), floor.ToCells(Vec2(1, 1.5)),
                                     floor.ToCells(Vec2(4, 0.3))};
   dut.IndexPlaces(places);
@@ -68,13 +68,13 @@ TEST(Ways, NearPlacesAreNearByWayNotThroughWalls) {
   EXPECT_EQ(dut.NearestPlaces(0, 2).size(), 2u);
 }
 
-double TourLength(Ways& ways, const Vec2& start, const std::vector<Polyline>& lines,
+double TourLength(ShortestPaths& paths, const Vec2& start, const std::vector<Polyline>& lines,
                   const std::vector<Stop>& tour) {
   double links = 0;
   Vec2 at = start;
   for (const Stop& stop : tour) {
     const Polyline& line = lines[stop.line];
-    links += ways.Distance(at, stop.reversed ? line.back() : line.front());
+    links += paths.Distance(at, stop.reversed ? line.back() : line.front());
     at = stop.reversed ? line.front() : line.back();
   }
   return links;
@@ -82,20 +82,20 @@ double TourLength(Ways& ways, const Vec2& start, const std::vector<Polyline>& li
 
 TEST(OrderLines, RowsAreDrivenBackAndForth) {
   const Floor floor = MakeFloor(testing::EmptyFloor(100, 100, 0.05), {1, 1});
-  Ways ways(floor);
+  ShortestPaths paths(floor);
   std::vector<Polyline> rows;
   for (int i = 0; i < 14; ++i) rows.push_back({Vec2(8, 8 + 6.0 * i), Vec2(92, 8 + 6.0 * i)});
   Stream random(1, 0, "shuffle");
   for (std::size_t i = rows.size() - 1; i > 0; --i) std::swap(rows[i], rows[random.Below(i + 1)]);
   const Vec2 start(8, 8);
-  const auto dut = OrderLines(ways, start, rows);
+  const auto dut = OrderLines(paths, start, rows);
   ASSERT_EQ(dut.size(), rows.size());
-  EXPECT_NEAR(TourLength(ways, start, rows, dut), 13 * 6, 1e-3);
+  EXPECT_NEAR(TourLength(paths, start, rows, dut), 13 * 6, 1e-3);
 }
 
 TEST(OrderLines, EveryLineIsDrivenOnceAndFarCheaperThanAsGiven) {
   const Floor floor = MakeFloor(testing::EmptyFloor(200, 200, 0.05), {1, 1});
-  Ways ways(floor);
+  ShortestPaths paths(floor);
   Stream random(2, 0, "lines");
   std::vector<Polyline> lines;
   for (int i = 0; i < 200; ++i) {
@@ -103,24 +103,24 @@ TEST(OrderLines, EveryLineIsDrivenOnceAndFarCheaperThanAsGiven) {
     lines.push_back({p, p + Vec2(random.Uniform(-5, 5), random.Uniform(-5, 5))});
   }
   const Vec2 start(100, 100);
-  const auto dut = OrderLines(ways, start, lines);
+  const auto dut = OrderLines(paths, start, lines);
   std::vector<std::size_t> driven;
   std::vector<Stop> as_given;
   for (std::size_t i = 0; i < lines.size(); ++i) as_given.push_back({i, false});
   for (const Stop& stop : dut) driven.push_back(stop.line);
   std::sort(driven.begin(), driven.end());
   for (std::size_t i = 0; i < lines.size(); ++i) ASSERT_EQ(driven[i], i);
-  EXPECT_LT(TourLength(ways, start, lines, dut), 0.15 * TourLength(ways, start, lines, as_given));
+  EXPECT_LT(TourLength(paths, start, lines, dut), 0.15 * TourLength(paths, start, lines, as_given));
   // Random points in a square of side a: a good tour is about 0.7124 sqrt(n) a (Beardwood 1959);
   // lines of 4 cells shorten the links.
-  EXPECT_LT(TourLength(ways, start, lines, dut), 1.1 * 0.7124 * std::sqrt(200.0) * 180);
+  EXPECT_LT(TourLength(paths, start, lines, dut), 1.1 * 0.7124 * std::sqrt(200.0) * 180);
 }
 
 TEST(OrderLines, NothingToVisitIsNoTour) {
   const Floor floor = MakeFloor(testing::EmptyFloor(40, 40, 0.05), {1, 1});
-  Ways ways(floor);
-  EXPECT_TRUE(OrderLines(ways, {20, 20}, {}).empty());
-  EXPECT_EQ(OrderLines(ways, {20, 20}, {{Vec2(20, 20)}}).size(), 1u);
+  ShortestPaths paths(floor);
+  EXPECT_TRUE(OrderLines(paths, {20, 20}, {}).empty());
+  EXPECT_EQ(OrderLines(paths, {20, 20}, {{Vec2(20, 20)}}).size(), 1u);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/streams.h"
-#include "planners/risk/wave_front.h"
+#include "planners/walk/wave_front.h"
 #include "tests/planners/risk_floors.h"
 
 namespace floorproof {
@@ -136,7 +136,7 @@ TEST(TransformTour, OnAnyFloorItVisitsAllGoesUphillAndEndsAtTheEnd) {
         visit();
       }
     };
-    CellWays ways(open);
+    GridPaths ways(open);
     visit();
     while (left > 0) {
       double best = -1e9;

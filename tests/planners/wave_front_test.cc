@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planners/risk/wave_front.h"
-
 #include <gtest/gtest.h>
 
 #include "base/streams.h"
+#include "planners/risk/terrain_wave.h"
 #include "tests/planners/risk_floors.h"
 
 namespace floorproof {
@@ -18,7 +17,7 @@ constexpr double kNo = kOutOfReach;
 Grid<std::uint8_t> FreeCells(const RiskMap& risk) {
   Grid<std::uint8_t> open(risk.rf.width, risk.rf.height);
   for (std::size_t i = 0; i < open.cells.size(); ++i)
-    open.cells[i] = risk.grid.cells.cells[i].free();
+    open.cells[i] = risk.grid.contents.cells[i].free();
   return open;
 }
 
@@ -26,7 +25,7 @@ Grid<std::uint8_t> FreeCells(const RiskMap& risk) {
 std::vector<Cell> Opened(const RiskMap& risk, const Grid<std::uint8_t>& open) {
   std::vector<Cell> cells;
   for (std::size_t i = 0; i < open.cells.size(); ++i)
-    if (open.cells[i] && !risk.grid.cells.cells[i].free()) cells.push_back(CellAt(open, i));
+    if (open.cells[i] && !risk.grid.contents.cells[i].free()) cells.push_back(CellAt(open, i));
   return cells;
 }
 
@@ -172,7 +171,7 @@ TEST(WaveOverTerrain, OpensOneCrossingForEachPartOfTheFloor) {
   const Grid<double> dut = WaveOverTerrain(risk, {7, 3}, open);
   EXPECT_EQ(Opened(risk, open).size(), 3u);
   for (std::size_t i = 0; i < open.cells.size(); ++i) {
-    if (risk.grid.cells.cells[i].free()) {
+    if (risk.grid.contents.cells[i].free()) {
       EXPECT_LT(dut.cells[i], kNo) << i;
     }
   }
@@ -210,7 +209,7 @@ TEST(WaveOverTerrain, WhatNoTerrainLeadsToStaysOutOfReach) {
     for (int ix = 4; ix < 7; ++ix) EXPECT_EQ(dut(ix, iy), kNo);
   // Nor is solid terrain crossed.
   RiskMap solid = DrawRisk("..=..\n");
-  solid.grid.cells(2, 0).solid = true;
+  solid.grid.contents(2, 0).solid = true;
   open = FreeCells(solid);
   EXPECT_EQ(WaveOverTerrain(solid, {0, 0}, open)(4, 0), kNo);
   EXPECT_TRUE(Opened(solid, open).empty());

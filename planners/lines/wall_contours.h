@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines along walls and furniture: contours of the floor's poses.
+// Wall contours: lines along walls and furniture, traced around the robot's poses.
 #pragma once
 
 #include "planners/lines/swept.h"
@@ -13,12 +13,13 @@ Grid<float> PoseDepth(const Floor& floor);
 std::vector<Polyline> Contours(const Floor& floor, const Grid<float>& depth, double least_depth);
 
 // The parts of `lines` where at least `share` of the tool's width is still open, in the order
-// given; each is added to `swept` at once, so that a later line does not sweep it again. Parts that
-// gain less than `min_gain` cells are left out. Simplified within `tolerance` cells.
+// given. Each is added to `swept` at once, so that no later line sweeps it again. Parts that gain
+// less than `min_gain` cells are left out. They are simplified within `tolerance` cells.
 std::vector<Polyline> OpenParts(const Floor& floor, const std::vector<Polyline>& lines,
                                 double share, double min_gain, double tolerance, Swept& swept);
 
-// Fewer points, none farther than `tolerance` from the line, all straight runs in sight.
+// The line with fewer points: none of the old ones is farther than `tolerance` from it, and the
+// robot can drive each of its segments.
 Polyline Simplify(const Floor& floor, const Polyline& line, double tolerance);
 
 }  // namespace floorproof

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contours are traced along the cracks between cells in and out of a mask (each crack once, the
-// mask to the left), which closes every ring whatever the mask looks like. A contour at depth 0 is
-// the path on which the robot's clear shape slides along the wall.
-#include "planners/lines/laps.h"
+// Contours are traced along the cracks between cells inside a mask and cells outside, each crack
+// once, with the mask to the left. So every contour closes, whatever the mask looks like. On a
+// contour at depth 0 the robot's clear shape slides along the wall.
+#include "planners/lines/wall_contours.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,8 @@
 namespace floorproof {
 namespace {
 
-// Points of `chain` from i to j reduced by Douglas & Peucker 1973, with sight instead of faith.
+// The points of `chain` from i to j reduced as by Douglas & Peucker 1973. In addition the robot
+// must be able to drive each segment that results.
 void Reduce(const Floor& floor, const Polyline& chain, std::size_t i, std::size_t j,
             double tolerance, Polyline& out) {
   std::vector<std::pair<std::size_t, std::size_t>> stack = {{i, j}};
@@ -58,13 +59,13 @@ std::vector<Polyline> Contours(const Floor& floor, const Grid<float>& depth, dou
       if (!in(ix, iy)) continue;
       for (unsigned first = 0; first < 4; ++first) {
         if (in(ix + kOut[first].ix, iy + kOut[first].iy) || (seen(ix, iy) >> first & 1)) continue;
-        Polyline ring;
+        Polyline contour;
         Cell c{ix, iy};
         unsigned side = first;
         do {
           seen(c) = static_cast<std::uint8_t>(seen(c) | 1u << side);
           const Vec2 p = Floor::CentreOf(c);
-          if (ring.empty() || ring.back() != p) ring.push_back(p);
+          if (contour.empty() || contour.back() != p) contour.push_back(p);
           // Walk with the inside to the left: ahead is the next side counter-clockwise.
           const Cell ahead = kOut[(side + 1) % 4], out = kOut[side];
           const Cell diagonal{c.ix + ahead.ix + out.ix, c.iy + ahead.iy + out.iy};
@@ -72,7 +73,7 @@ std::vector<Polyline> Contours(const Floor& floor, const Grid<float>& depth, dou
           // A footprint slides round a corner cell by cell: aslant it would scrape.
           const bool by_cells = floor.clears_footprint;
           if (in(diagonal.ix, diagonal.iy) && (!by_cells || in(straight.ix, straight.iy))) {
-            if (by_cells) ring.push_back(Floor::CentreOf(straight));
+            if (by_cells) contour.push_back(Floor::CentreOf(straight));
             c = diagonal;
             side = (side + 3) % 4;
           } else if (in(straight.ix, straight.iy)) {
@@ -81,8 +82,9 @@ std::vector<Polyline> Contours(const Floor& floor, const Grid<float>& depth, dou
             side = (side + 1) % 4;
           }
         } while (c.ix != ix || c.iy != iy || side != first);
-        if (ring.size() > 1 && ring.back() != ring.front()) ring.push_back(ring.front());
-        contours.push_back(std::move(ring));
+        if (contour.size() > 1 && contour.back() != contour.front())
+          contour.push_back(contour.front());
+        contours.push_back(std::move(contour));
       }
     }
   return contours;
@@ -91,7 +93,7 @@ std::vector<Polyline> Contours(const Floor& floor, const Grid<float>& depth, dou
 Polyline Simplify(const Floor& floor, const Polyline& line, double tolerance) {
   if (line.size() < 3) return line;
   Polyline out = {line.front()};
-  if (line.front() == line.back()) {  // a ring has no chord to measure from
+  if (line.front() == line.back()) {  // a closed line has no chord to measure from
     std::size_t far = 0;
     double most = 0;
     for (std::size_t i = 0; i < line.size(); ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planners/lines/leftovers.h"
+#include "planners/lines/uncovered_patches.h"
 
 #include <gtest/gtest.h>
 
@@ -28,16 +28,16 @@ Polyline BackAndForth(const Floor& floor, const std::vector<double>& ys_m) {
   return path;
 }
 
-TEST(LinesOverLeftovers, AForgottenRowIsFound) {
+TEST(LinesOverUncoveredPatches, AForgottenRowIsFound) {
   const Floor floor = Hall();
-  const Ways ways(floor);
+  const ShortestPaths paths(floor);
   Swept swept(floor);
   std::vector<double> ys;
   for (double y = 0.225; y < 3.8; y += 0.296)
     if (std::abs(y - 1.7) > 0.1) ys.push_back(y);
   swept.Add(BackAndForth(floor, ys));
   const double before = swept.share();
-  const auto lines = LinesOverLeftovers(floor, ways, 20, swept);
+  const auto lines = LinesOverUncoveredPatches(floor, paths, 20, swept);
   EXPECT_GT(swept.share(), before + 0.05);
   EXPECT_GT(swept.share(), 0.97);
   double length = 0;
@@ -48,13 +48,13 @@ TEST(LinesOverLeftovers, AForgottenRowIsFound) {
   EXPECT_LT(length * 0.05, 10);  // the row is 4.5 m long
 }
 
-TEST(LinesOverLeftovers, SweptGroundNeedsNone) {
+TEST(LinesOverUncoveredPatches, SweptGroundNeedsNone) {
   const Floor floor = Hall();
-  const Ways ways(floor);
+  const ShortestPaths paths(floor);
   Swept swept(floor);
   for (double y = 0.225; y < 3.8; y += 0.05)
     swept.Add(floor.ToCells(Vec2(0.225, y)), floor.ToCells(Vec2(4.775, y)));
-  EXPECT_TRUE(LinesOverLeftovers(floor, ways, 20, swept).empty());
+  EXPECT_TRUE(LinesOverUncoveredPatches(floor, paths, 20, swept).empty());
 }
 
 TEST(Prune, ADetourOverSweptGroundGoesAndARowStays) {

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shortest ways over a floor, and what they cost.
+// Shortest paths over a floor, and about how long they are.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include "planners/lines/floor.h"
+#include "planners/search/best_first.h"
 
 namespace floorproof {
 
-class Ways {
+class ShortestPaths {
  public:
-  explicit Ways(const Floor& floor);
+  explicit ShortestPaths(const Floor& floor);
 
-  // The shortest way from a to b, both included, pulled taut. a and b are poses, or next to poses.
+  // The shortest path from a to b, both included, pulled taut. a and b are poses, or next to poses.
+  // Empty: there is none.
   Polyline Route(const Vec2& a, const Vec2& b);
   // About the length of Route(a, b), cells: exact in plain sight, over coarse cells nearby, over
   // blocks of floor from afar.
@@ -26,34 +26,30 @@ class Ways {
     double distance;  // as Distance()
     int place;
   };
-  // About `count` places nearest to the one given, by way length, itself excluded.
+  // About `count` places nearest to the one given, by the length of the path there, itself
+  // excluded.
   std::vector<Near> NearestPlaces(int place, std::size_t count);
   // The pose cell nearest to p within `reach` cells, or p's own; {-1, -1}: none.
   Cell NearestPose(const Vec2& p, double reach) const;
 
  private:
-  struct Node {
-    float cost = 0;
-    int parent = -1;
-    std::uint32_t stamp = 0;
-  };
-  bool Search(Cell from, Cell to, std::vector<Cell>& cells);
+  static constexpr int kStraight = 5, kDiagonal = 7;  // costs of steps, for NearestPlaces
+
+  std::vector<Cell> Search(Cell from, Cell to);
   double CoarseDistance(int from, int to);
   int CoarseAt(const Vec2& p) const;
+  void NameBlocks();
   void BuildBlocks();
 
   const Floor& floor_;
-  std::vector<Node> nodes_;  // fine cells, reused between searches
-  std::uint32_t stamp_ = 0;
-  std::vector<std::pair<float, int>> heap_;
+  BestFirstSearch<float> fine_search_;
 
-  int step_ = 2;  // fine cells a coarse one
+  int step_;  // fine cells a coarse one
   Grid<std::uint8_t> coarse_;
-  std::vector<Node> coarse_nodes_;
-  std::uint32_t coarse_stamp_ = 0;
+  BestFirstSearch<float> coarse_search_;
   std::int64_t coarse_budget_ = 4'000'000;  // cells to look at before the table must do
 
-  std::array<std::vector<int>, 8> buckets_;
+  BestFirstSearch<int, BucketFrontier<kDiagonal + 1>> place_search_;  // over coarse cells
   std::vector<Vec2> places_;
   std::vector<int> place_cell_;                // coarse cell of each place
   std::vector<int> first_place_, place_list_;  // places by coarse cell
@@ -64,7 +60,7 @@ class Ways {
   std::vector<float> block_distance_;  // all pairs
 };
 
-// Joins points by Route and returns the whole.
-Polyline JoinByRoutes(Ways& ways, const std::vector<Polyline>& lines);
+// Joins lines by Route and returns the whole.
+Polyline JoinByRoutes(ShortestPaths& paths, const std::vector<Polyline>& lines);
 
 }  // namespace floorproof

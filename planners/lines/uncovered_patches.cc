@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cluster of open cells gets rows along its longer principal axis, no more than its width needs.
-// A row's points lie amid the open cells there, moved to the nearest pose. Clusters are cut
-// where they grow longer than a few tool widths, so that an axis fits a bend.
-#include "planners/lines/leftovers.h"
+// A patch of open cells gets rows along its longer principal axis, as many as its width needs. The
+// points of a row lie in the middle of the open cells there, moved to the nearest pose. A patch
+// that is longer than a few tool widths is cut, so that each part's axis fits where the patch
+// bends.
+#include "planners/lines/uncovered_patches.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "planners/lines/laps.h"
+#include "planners/lines/wall_contours.h"
 
 namespace floorproof {
 namespace {
 
-std::vector<Cell> TakeCluster(const Floor& floor, const Swept& swept, Cell seed, int reach,
-                              Grid<std::uint8_t>& taken) {
+std::vector<Cell> TakePatch(const Floor& floor, const Swept& swept, Cell seed, int reach,
+                            Grid<std::uint8_t>& taken) {
   std::vector<Cell> cluster = {seed};
   taken(seed) = 1;
   for (std::size_t i = 0; i < cluster.size(); ++i)
@@ -30,8 +31,8 @@ std::vector<Cell> TakeCluster(const Floor& floor, const Swept& swept, Cell seed,
 
 }  // namespace
 
-std::vector<Polyline> LinesOverLeftovers(const Floor& floor, const Ways& ways, double min_cells,
-                                         Swept& swept) {
+std::vector<Polyline> LinesOverUncoveredPatches(const Floor& floor, const ShortestPaths& paths,
+                                                double min_cells, Swept& swept) {
   const double w = floor.tool_width, reach = floor.tool_reach;
   Grid<std::uint8_t> taken(floor.frame.width, floor.frame.height);
   std::vector<Polyline> lines;
@@ -39,7 +40,7 @@ std::vector<Polyline> LinesOverLeftovers(const Floor& floor, const Ways& ways, d
     for (int ix = 0; ix < taken.width; ++ix) {
       if (taken(ix, iy) || !swept.IsOpen(ix, iy)) continue;
       const auto cluster =
-          TakeCluster(floor, swept, {ix, iy}, static_cast<int>(std::lround(6 * w)), taken);
+          TakePatch(floor, swept, {ix, iy}, static_cast<int>(std::lround(6 * w)), taken);
       if (static_cast<double>(cluster.size()) < min_cells) continue;
       Vec2 mean = Vec2::Zero();
       for (const Cell c : cluster) mean += Floor::CentreOf(c);
@@ -96,7 +97,7 @@ std::vector<Polyline> LinesOverLeftovers(const Floor& floor, const Ways& ways, d
         for (const auto& [slice, p] : slices) {
           const bool tip = slice < first + spare || slice > last - spare;
           if (tip && last - first > 2 * spare) continue;
-          const Cell pose = ways.NearestPose(p, reach + 1);
+          const Cell pose = paths.NearestPose(p, reach + 1);
           if (pose.ix < 0) continue;
           const bool own = pose == Floor::CellAt(p) && floor.Free(p);
           const Vec2 q = own ? p : Floor::CentreOf(pose);

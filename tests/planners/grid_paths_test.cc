@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planners/walk/cell_ways.h"
+#include "planners/search/grid_paths.h"
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ Grid<double> LeastSums(const Grid<std::uint8_t>& open, const std::vector<Cell>& 
   return sum;
 }
 
-TEST(CellWays, StepsAreThoseOfTheShortestWay) {
+TEST(GridPaths, StepsAreThoseOfTheShortestWay) {
   const Grid<std::uint8_t> open = OpenCells(R"(
       ..#..
       .##.#
@@ -66,11 +66,11 @@ TEST(CellWays, StepsAreThoseOfTheShortestWay) {
   for (const std::int32_t steps : StepsFrom(open, {9, 9}).cells) EXPECT_EQ(steps, -1) << "outside";
 }
 
-TEST(CellWays, ShortestIsAsShortAsTheStepsSay) {
+TEST(GridPaths, ShortestIsAsShortAsTheStepsSay) {
   Stream random(1, 0, "shortest");
   for (int round = 0; round < 30; ++round) {
     const Grid<std::uint8_t> open = RandomCells(random, 17, 12, 0.35);
-    CellWays dut(open);  // one for many searches: its memory is reused
+    GridPaths dut(open);  // one for many searches: its memory is reused
     for (int i = 0; i < 20; ++i) {
       const Cell a = RandomOpen(random, open), b = RandomOpen(random, open);
       const std::vector<Cell> way = dut.Shortest(a, b);
@@ -83,7 +83,7 @@ TEST(CellWays, ShortestIsAsShortAsTheStepsSay) {
     }
   }
   const Grid<std::uint8_t> open = OpenCells("..#.\n");
-  CellWays dut(open);
+  GridPaths dut(open);
   EXPECT_TRUE(dut.Shortest({0, 0}, {2, 0}).empty());
   EXPECT_TRUE(dut.Shortest({0, 0}, {3, 0}).empty());
   EXPECT_TRUE(dut.Shortest({0, 0}, {4, 0}).empty());
@@ -91,14 +91,14 @@ TEST(CellWays, ShortestIsAsShortAsTheStepsSay) {
   EXPECT_EQ(dut.Shortest({1, 0}, {1, 0}), (std::vector<Cell>{{1, 0}}));
 }
 
-TEST(CellWays, TheRingComesBeforeTheWay) {
+TEST(GridPaths, TheRingComesBeforeTheWay) {
   // Algorithm 3: the cell behind the wall is two rings away and six steps, `far` three and three.
   const Grid<std::uint8_t> open = OpenCells(R"(
       ....#..
       ....#..
       ....#..
       .......)");
-  CellWays dut(open);
+  GridPaths dut(open);
   const Cell from{3, 2}, behind{5, 2}, far{0, 2}, near{1, 2};
   const auto way = dut.ToNearestRing(from, [&](Cell c) { return c == behind || c == far; });
   ASSERT_EQ(way.size(), 7u);
@@ -108,12 +108,12 @@ TEST(CellWays, TheRingComesBeforeTheWay) {
             (std::vector<Cell>{{3, 2}, {2, 2}, {1, 2}}));
 }
 
-TEST(CellWays, ToNearestRingIsTheLeastOfTheNearestRingThatCanBeReached) {
+TEST(GridPaths, ToNearestRingIsTheLeastOfTheNearestRingThatCanBeReached) {
   Stream random(2, 0, "rings");
   int found = 0, none = 0;
   for (int round = 0; round < 60; ++round) {
     const Grid<std::uint8_t> open = RandomCells(random, 15, 11, 0.4);
-    CellWays dut(open);
+    GridPaths dut(open);
     for (int i = 0; i < 10; ++i) {
       const Cell from = RandomOpen(random, open);
       Grid<std::uint8_t> wanted(15, 11);
@@ -148,28 +148,28 @@ TEST(CellWays, ToNearestRingIsTheLeastOfTheNearestRingThatCanBeReached) {
   EXPECT_GT(none, 20);
 }
 
-TEST(LeastSumWay, SumsItsCellsBothEndsIncluded) {
+TEST(LeastCostPath, SumsItsCellsBothEndsIncluded) {
   const auto risk = testing::Rows<double>({{1, 9, 1, 1},  //
                                            {1, 9, 1, 9},  //
                                            {1, 1, 3, 1}});
   const Grid<std::uint8_t> open(4, 3, 1);
   const auto cost = [&](Cell c) { return risk(c); };
   // 1 + 1 + 1 + 1 + 3 + 1 round the 9s.
-  EXPECT_EQ(LeastSumWay(open, {{0, 2}}, cost,
-                        [](Cell c) {
-                          return c == Cell{2, 1};
-                        }),
+  EXPECT_EQ(LeastCostPath(open, {{0, 2}}, cost,
+                          [](Cell c) {
+                            return c == Cell{2, 1};
+                          }),
             (std::vector<Cell>{{0, 2}, {0, 1}, {0, 0}, {1, 0}, {2, 0}, {2, 1}}));
   // The goal's own cost counts, and so does the source's.
-  EXPECT_EQ(LeastSumWay(open, {{2, 0}}, cost, [](Cell c) { return c.iy == 1 && c.ix > 0; }),
+  EXPECT_EQ(LeastCostPath(open, {{2, 0}}, cost, [](Cell c) { return c.iy == 1 && c.ix > 0; }),
             (std::vector<Cell>{{2, 0}, {2, 1}}));
-  EXPECT_EQ(LeastSumWay(open, {{1, 2}, {3, 2}, {1, 1}}, cost, [](Cell c) { return c.ix == 2; }),
+  EXPECT_EQ(LeastCostPath(open, {{1, 2}, {3, 2}, {1, 1}}, cost, [](Cell c) { return c.ix == 2; }),
             (std::vector<Cell>{{3, 2}, {2, 2}}));
-  EXPECT_EQ(LeastSumWay(open, {{2, 0}}, cost, [](Cell) { return true; }),
+  EXPECT_EQ(LeastCostPath(open, {{2, 0}}, cost, [](Cell) { return true; }),
             (std::vector<Cell>{{2, 0}}));
 }
 
-TEST(LeastSumWay, NoWayHasLess) {
+TEST(LeastCostPath, NoWayHasLess) {
   Stream random(3, 0, "sums");
   int found = 0;
   for (int round = 0; round < 60; ++round) {
@@ -180,7 +180,7 @@ TEST(LeastSumWay, NoWayHasLess) {
     const std::vector<Cell> from = {RandomOpen(random, open), RandomOpen(random, open)};
     const Cell a = RandomOpen(random, open), b = RandomOpen(random, open);
     const Grid<double> sums = LeastSums(open, from, cost);
-    const auto way = LeastSumWay(open, from, cost, [&](Cell c) { return c == a || c == b; });
+    const auto way = LeastCostPath(open, from, cost, [&](Cell c) { return c == a || c == b; });
     const double least = std::min(sums(a), sums(b));
     ASSERT_EQ(way.empty(), least == kNone);
     if (way.empty()) continue;
