@@ -78,11 +78,11 @@ void SayDrives(const Comparison& c, const Globals& globals) {
                             f.both + f.only_a, f.both + f.only_b, f.only_a, f.only_b,
                             Signed(f.difference, 100), Signed(f.interval.lower, 100),
                             Signed(f.interval.upper, 100), f.p));
-  globals.Say(fmt::format("  {:<22} {:>6}  {}", "metrics", "n", "mean b - a (95 %); median"));
+  globals.Say(fmt::format("  {:<28} {:>6}  {}", "metrics", "n", "mean b - a (95 %); median"));
   bool starred = false;
   for (const ComparedMetric& m : c.metrics) {
     starred |= m.successes_only;
-    globals.Say(fmt::format("  {:<22} {:>6}  {} ({} to {}); {}",
+    globals.Say(fmt::format("  {:<28} {:>6}  {} ({} to {}); {}",
                             m.metric + (m.successes_only ? " *" : ""), m.mean.n,
                             Signed(m.mean.estimate), Signed(m.mean.interval.lower),
                             Signed(m.mean.interval.upper), Signed(m.median.estimate)));

@@ -10,13 +10,25 @@
 namespace floorproof {
 namespace {
 
+// As this version names them.
+nlohmann::ordered_json Renamed(const nlohmann::ordered_json& metrics) {
+  if (!metrics.is_object()) return metrics;
+  nlohmann::ordered_json renamed = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : metrics.items()) {
+    const MetricColumn* column = FindMetric(name);
+    renamed[column == nullptr ? name : std::string(column->name)] = value;
+  }
+  return renamed;
+}
+
 // Events and outcome of the drive just made must be the recorded ones: the film shows what was
 // judged.
 void CheckSame(const std::filesystem::path& result_file, const nlohmann::ordered_json& now) {
-  const auto before =
+  auto before =
       nlohmann::ordered_json::parse(ReadInputFile(result_file, kMaxResultBytes), nullptr, false);
   if (!before.is_object())
     throw InputError({result_file.string(), 0}, "", "", "is not a result (a JSON object)");
+  if (before.contains("metrics")) before["metrics"] = Renamed(before["metrics"]);
   for (const char* key : {"outcome", "events", "metrics"})
     if (before.value(key, nlohmann::ordered_json()) != now[key]) RefuseReplay(result_file, key);
 }

@@ -72,7 +72,7 @@ class MclEstimator final : public Estimator {
     X_WB_ = Moved(X_WB_, twist, dt_s);
     since_ = Moved(since_, twist, dt_s);
     if (sensed.scan.fresh) Use(sensed.scan);
-    return {X_WB_, twist, sensed.hinges, particles_->spread_m()};
+    return {X_WB_, twist, sensed.hinges, particles_->position_std_m()};
   }
 
  private:

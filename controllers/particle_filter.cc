@@ -11,8 +11,8 @@ namespace {
 constexpr double kBin_m = 0.25, kBin_rad = 15 * kPi / 180;
 constexpr int kNearBins = 3;  // that a group reaches around its heaviest
 constexpr double kKldError = 0.05, kKldQuantile = 2.3263;  // of the normal distribution, at 99 %
-constexpr double kApart_m = 0.3;       // a spread from which on the wide likelihood is used
-constexpr double kWide_m = 0.3;        // at least its standard deviation
+constexpr double kApart_m = 0.3;  // a standard deviation from which on the wide likelihood is used
+constexpr double kWide_m = 0.3;   // at least its standard deviation
 constexpr int kTriesAnywhere = 10000;  // of a map, little of which may be floor
 constexpr int kTries = 100;            // to find a free place
 
@@ -120,7 +120,7 @@ bool ParticleFilter::Weigh(const LikelihoodField& field, const LidarScan& scan) 
     return false;
   }
   const auto beams = static_cast<double>(ends_.size());
-  const bool apart = spread_m_ > kApart_m;
+  const bool apart = position_std_m_ > kApart_m;
   double fit = 0, highest = -std::numeric_limits<double>::infinity();
   // Logarithms first, so that many beams do not underflow; `weight` holds them meanwhile.
   for (Particle& particle : particles_) {
@@ -223,7 +223,7 @@ void ParticleFilter::FindBest() {
     all += particle.weight;
     square += particle.weight * (particle.X_WB.p() - p).squaredNorm();
   }
-  spread_m_ = std::sqrt(square / all);
+  position_std_m_ = std::sqrt(square / all);
 }
 
 }  // namespace floorproof

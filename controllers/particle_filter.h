@@ -52,7 +52,7 @@ class ParticleFilter {
 
   // The middle of the heaviest group, and how far the particles lie around it (rms).
   Pose2 Best() const { return best_; }
-  double spread_m() const { return spread_m_; }
+  double position_std_m() const { return position_std_m_; }
   std::size_t size() const { return particles_.size(); }
 
  private:
@@ -87,7 +87,7 @@ class ParticleFilter {
   std::uint32_t turn_ = 0;
   double slow_ = 0, fast_ = 0;  // averages of how well scans fit
   Pose2 best_;
-  double spread_m_ = 0;
+  double position_std_m_ = 0;
 };
 
 }  // namespace floorproof

@@ -76,7 +76,7 @@ void WriteErrorPlot(const std::string& title, const EpisodeRecord& record,
          "time [s]",
          ticks,
          {Curve(trace, kSpread,
-                [](const TraceRow& row) { return static_cast<double>(row.est_spread_m); }),
+                [](const TraceRow& row) { return static_cast<double>(row.est_position_std_m); }),
           Curve(trace, kError, EstimateError)}});
     keys.push_back(key("error of the estimate", kError));
     keys.push_back(key("its spread", kSpread));

@@ -156,8 +156,8 @@ std::string PerTable(const VariantSummary& v) {
 
 // path_length_m -> "path length [m]"
 std::string MetricLabel(const std::string& name) {
-  const auto column = std::ranges::find(kMetrics, name, &MetricColumn::name);
-  if (column == kMetrics.end() || column->unit.empty()) return Words(name);
+  const MetricColumn* column = FindMetric(name);
+  if (column == nullptr || column->unit.empty()) return Words(name);
   return fmt::format("{} [{}]", Words(name.substr(0, name.rfind('_'))), column->unit);
 }
 

@@ -27,8 +27,8 @@ struct HingeState {
 struct Estimate {
   Pose2 X_WB;
   BodyTwist V_WB_B;
-  HingeState hinges = {};  // as their encoders say
-  double spread_m = 0;     // standard deviation of its place, by its own account
+  HingeState hinges = {};     // as their encoders say
+  double position_std_m = 0;  // standard deviation of its place, by its own account
 };
 
 // What a tracker asks for, and how far along the path it is (monotone).

@@ -79,8 +79,18 @@ struct CampaignStore::Statement {
                : std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(handle, column)));
   }
 
-  // Of a SELECT * from a table of episodes.
-  EpisodeRow Row() const {
+  // The columns in which a SELECT * from a table of episodes has its metrics; -1: it has not.
+  std::array<int, kMetrics.size()> MetricColumns() const {
+    std::array<int, kMetrics.size()> columns;
+    columns.fill(-1);
+    for (int i = 0; i < sqlite3_column_count(handle); ++i)
+      if (const MetricColumn* metric = FindMetric(sqlite3_column_name(handle, i)))
+        columns[static_cast<std::size_t>(metric - kMetrics.data())] = i;
+    return columns;
+  }
+
+  // Of such a SELECT.
+  EpisodeRow Row(const std::array<int, kMetrics.size()>& metric_columns) const {
     EpisodeRow row;
     row.variant = Text(1);
     row.episode = static_cast<std::uint64_t>(sqlite3_column_int64(handle, 2));
@@ -88,10 +98,11 @@ struct CampaignStore::Statement {
     row.message = Text(4);
     int at = 5;
     for (int& n : row.events_of) n = sqlite3_column_int(handle, at++);
-    for (auto& value : row.metrics) {
-      if (sqlite3_column_type(handle, at) != SQLITE_NULL) value = sqlite3_column_double(handle, at);
-      ++at;
-    }
+    for (std::size_t i = 0; i < row.metrics.size(); ++i)
+      if (const int column = metric_columns[i];
+          column >= 0 && sqlite3_column_type(handle, column) != SQLITE_NULL)
+        row.metrics[i] = sqlite3_column_double(handle, column);
+    at = sqlite3_column_count(handle) - 3;
     row.drawn = Text(at++);
     row.plan = Text(at++);
     row.events = Text(at);
@@ -318,7 +329,8 @@ void CampaignStore::ForEach(const std::string& variant,
                               " ORDER BY episode");
   select.Bind(1, about_.id);
   select.Bind(2, variant);
-  while (select.Step()) visit(select.Row());
+  const auto metric_columns = select.MetricColumns();
+  while (select.Step()) visit(select.Row(metric_columns));
 }
 
 std::optional<EpisodeRow> CampaignStore::Find(const std::string& variant,
@@ -331,7 +343,7 @@ std::optional<EpisodeRow> CampaignStore::Find(const std::string& variant,
   select.Bind(2, variant);
   select.Bind(3, static_cast<std::int64_t>(episode));
   if (!select.Step()) return std::nullopt;
-  return select.Row();
+  return select.Row(select.MetricColumns());
 }
 
 void CampaignStore::SetAsked(std::uint64_t episodes) {

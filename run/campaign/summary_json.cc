@@ -114,7 +114,8 @@ Json MetricsJson(const std::vector<MetricSummary>& metrics) {
 std::vector<MetricSummary> ReadMetrics(const Json& json) {
   std::vector<MetricSummary> metrics;
   for (const auto& [name, spread] : json.items()) {
-    metrics.push_back({name});
+    const MetricColumn* column = FindMetric(name);
+    metrics.push_back({column == nullptr ? name : std::string(column->name)});
     if (spread.is_null()) continue;
     metrics.back().spread =
         MetricSpread{spread.at("mean"),           spread.at("median"), spread.at("lower_quartile"),

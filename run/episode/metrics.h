@@ -27,7 +27,7 @@ struct Metrics {
   int interventions = 0;
   int reactions = 0;
   double max_estimate_error_m = 0, mean_estimate_error_m = 0, p95_estimate_error_m = 0;
-  double mean_estimate_spread_m = 0;
+  double mean_estimate_position_std_m = 0;
   int contacts = 0;
   double max_impulse_ns = 0;
 };
@@ -43,6 +43,7 @@ struct MetricColumn {
   // An episode that a failure cuts short has less of it, for no merit of its own: pairs of episodes
   // are compared by it where both succeed.
   bool needs_success = false;
+  std::string_view former_name = {};  // in files of earlier versions, which are still read
 
   std::optional<double> Of(const Metrics& metrics) const {
     return std::visit([&](auto m) -> std::optional<double> { return metrics.*m; }, member);
@@ -78,12 +79,20 @@ inline constexpr auto kMetrics = std::to_array<MetricColumn>({
      "that distance, mean over time"},
     {"p95_estimate_error_m", "m", &Metrics::p95_estimate_error_m,
      "below which it was for 95 % of the time, to a millimetre"},
-    {"mean_estimate_spread_m", "m", &Metrics::mean_estimate_spread_m,
-     "standard deviation of the place that the estimator itself believed in, mean over time"},
+    {"mean_estimate_position_std_m", "m", &Metrics::mean_estimate_position_std_m,
+     "standard deviation of the place that the estimator itself believed in, mean over time", false,
+     "mean_estimate_spread_m"},
     {"contacts", "", &Metrics::contacts, "times that the body met an obstacle"},
     {"max_impulse_ns", "N s", &Metrics::max_impulse_ns,
      "greatest impulse of a contact in one physics step"},
 });
+
+// By its name, of this version or an earlier one; nullptr: there is none.
+constexpr const MetricColumn* FindMetric(std::string_view name) {
+  for (const MetricColumn& column : kMetrics)
+    if (name == column.name || (!name.empty() && name == column.former_name)) return &column;
+  return nullptr;
+}
 
 // The place of a member in the table; no constant where it has no row.
 template <class T>

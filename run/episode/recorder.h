@@ -35,7 +35,7 @@ class Recorder {
     if (shape_ >= 0) meter_.Add(sample.X_WB());
     risk_.Add(sample.p_WB.head<2>());
     AddEstimateError((estimate.X_WB.p() - sample.p_WB.head<2>()).norm());
-    spread_sum_ += estimate.spread_m;
+    position_std_sum_ += estimate.position_std_m;
     if (control_++ % trace_every_ != 0) return;
     const auto f = [](double v) { return static_cast<float>(v); };
     const BodyTwist& cmd = sample.command.twist;
@@ -59,7 +59,7 @@ class Recorder {
                              f(sample.power_w),
                              f(meter_.coverage()),
                              sample.shape,
-                             f(estimate.spread_m)});
+                             f(estimate.position_std_m)});
   }
 
   void OnStep(const Sample& sample) {
@@ -153,7 +153,7 @@ class Recorder {
         static_cast<double>(std::accumulate(errors_mm_.begin(), errors_mm_.end(), std::int64_t{0}));
     if (all == 0) return;
     m.mean_estimate_error_m = estimate_error_sum_ / all;
-    m.mean_estimate_spread_m = spread_sum_ / all;
+    m.mean_estimate_position_std_m = position_std_sum_ / all;
     std::size_t mm = 0;
     for (auto below = static_cast<double>(errors_mm_[0]);
          below < 0.95 * all && mm + 1 < errors_mm_.size();)
@@ -188,7 +188,7 @@ class Recorder {
   const RobotSpec& robot_;
   CoverageMeter meter_;
   RiskMeter risk_;
-  double dt_s_, cross_track_sum_ = 0, estimate_error_sum_ = 0, spread_sum_ = 0;
+  double dt_s_, cross_track_sum_ = 0, estimate_error_sum_ = 0, position_std_sum_ = 0;
   static constexpr double kMaxMm = 10000;  // errors beyond are counted together
   std::vector<std::int64_t> errors_mm_ =
       std::vector<std::int64_t>(static_cast<std::size_t>(kMaxMm));

@@ -18,7 +18,7 @@ struct TraceRow {
   float cmd_vx_mps, cmd_vy_mps, cmd_wz_radps, est_x_m, est_y_m, est_yaw_rad;
   float cross_track_m, power_w, coverage;
   int shape;  // as in Sample
-  float est_spread_m;
+  float est_position_std_m;
 };
 
 struct TraceColumn {
@@ -59,7 +59,7 @@ inline constexpr auto kTraceColumns = std::to_array<TraceColumn>({
     {"coverage", "", &TraceRow::coverage, "the metric `coverage` so far"},
     {"shape", "", &ShapeName,
      "name of the robot's shape; empty between two, and of a robot that has one only"},
-    {"est_spread_m", "m", &TraceRow::est_spread_m,
+    {"est_position_std_m", "m", &TraceRow::est_position_std_m,
      "standard deviation of the place, as the estimator believes"},
 });
 

@@ -132,6 +132,18 @@ TEST_F(Cli, TheResolvedScenarioGivesTheSameBytes) {
   EXPECT_EQ(Run("replay a").status, 0);
 }
 
+// mean_estimate_position_std_m was mean_estimate_spread_m.
+TEST_F(Cli, ARecordWithAMetricsFormerNameIsReplayed) {
+  ASSERT_EQ(Run("run s.yaml --out a").status, 0);
+  std::string result = Slurp(folder_ / "a" / "result.json");
+  const std::string name = "mean_estimate_position_std_m";
+  ASSERT_NE(result.find(name), std::string::npos);
+  result.replace(result.find(name), name.size(), "mean_estimate_spread_m");
+  std::ofstream(folder_ / "a" / "result.json") << result;
+  const Result dut = Run("replay a");
+  EXPECT_EQ(dut.status, 0) << dut.err;
+}
+
 TEST_F(Cli, AReplayThatDiffersFromTheRecordSaysSo) {
   ASSERT_EQ(Run("run s.yaml --out a").status, 0);
   auto result = nlohmann::ordered_json::parse(Slurp(folder_ / "a" / "result.json"));

@@ -47,10 +47,10 @@ TEST_P(LocalisationStudy, WorsensWhatTheRobotKnowsOfItsPlace) {
 }
 
 const std::vector<const char*> kAll = {"mean_estimate_error_m", "max_estimate_error_m",
-                                       "mean_estimate_spread_m", "mean_cross_track_m"};
+                                       "mean_estimate_position_std_m", "mean_cross_track_m"};
 // Slip of a second or two is made good by the next scans.
 const std::vector<const char*> kErrors = {"mean_estimate_error_m", "max_estimate_error_m",
-                                          "mean_estimate_spread_m"};
+                                          "mean_estimate_position_std_m"};
 
 INSTANTIATE_TEST_SUITE_P(
     All, LocalisationStudy,

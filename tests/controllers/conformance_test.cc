@@ -232,7 +232,7 @@ TEST_P(EstimatorConformance, StandingStillItStaysWhereItIs) {
   for (int i = 0; i < 100; ++i) estimate = dut->Update(at.sensed, at.truth, 0.02);
   EXPECT_LT((estimate.X_WB.p() - at.truth.X_WB().p()).norm(), 0.1);
   EXPECT_LT(std::abs(estimate.X_WB.yaw_rad), 0.1);
-  EXPECT_LT(estimate.spread_m, 0.3);
+  EXPECT_LT(estimate.position_std_m, 0.3);
   EXPECT_EQ(estimate.V_WB_B.vx_mps, 0);
 }
 

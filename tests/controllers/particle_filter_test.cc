@@ -69,11 +69,11 @@ TEST(ParticleFilter, FindsThePoseWithinAGuess) {
     ParticleFilter filter({}, map, Stream(seed, 0, "mcl"));
     const Pose2 truth{2, 4, 0};
     filter.StartAround({2.35, 3.7, 0.3}, 0.5, 0.35);
-    EXPECT_GT(filter.spread_m(), 0.4);
+    EXPECT_GT(filter.position_std_m(), 0.4);
     const auto errors = Track(filter, map, field, truth, 30, 0.05);
     for (std::size_t i = 15; i < errors.size(); ++i)
       EXPECT_LT(errors[i], 0.1) << "seed " << seed << " step " << i;
-    EXPECT_LT(filter.spread_m(), 0.1);
+    EXPECT_LT(filter.position_std_m(), 0.1);
   }
 }
 

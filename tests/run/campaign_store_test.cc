@@ -121,6 +121,35 @@ TEST_F(CampaignStoreTest, RowsComeBackAsPut) {
   EXPECT_EQ(Bytes(folder_).size(), 1u) << "closed, it is one file";
 }
 
+// mean_estimate_position_std_m was mean_estimate_spread_m.
+TEST_F(CampaignStoreTest, AMetricsFormerNameIsStillRead) {
+  Make(4);
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(file_.c_str(), &db), SQLITE_OK);
+  for (const char* table : {"episode", "extra"})
+    ASSERT_EQ(sqlite3_exec(db,
+                           (std::string("ALTER TABLE ") + table +
+                            " RENAME COLUMN mean_estimate_position_std_m TO mean_estimate_spread_m")
+                               .c_str(),
+                           nullptr, nullptr, nullptr),
+              SQLITE_OK);
+  sqlite3_close(db);
+  CampaignStore store = CampaignStore::Open(file_, true);
+  store.Add(std::vector{Row(4)});
+  store.SetExtraFrom("default", 3);
+  store.SetExtraFrom("default", 4);
+  int rows = 0;
+  store.ForEach(
+      "default",
+      [&](const EpisodeRow& row) {
+        EXPECT_TRUE(Same(row, Row(row.episode))) << row.episode;
+        ++rows;
+      },
+      true);
+  EXPECT_EQ(rows, 5);
+  EXPECT_TRUE(Same(*store.Find("default", 4), Row(4)));
+}
+
 TEST_F(CampaignStoreTest, ABatchIsAllOrNothing) {
   CampaignStore store = CampaignStore::Create(file_, about_);
   store.Add(std::vector{Row(5)});

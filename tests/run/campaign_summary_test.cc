@@ -152,6 +152,16 @@ TEST_F(CampaignSummaryTest, IsReadBackAsItWasWritten) {
   }
 }
 
+TEST_F(CampaignSummaryTest, AMetricsFormerNameIsStillRead) {
+  const std::string text = SummaryJson(Summary("")).dump();
+  std::string former = text;
+  const std::string name = "mean_estimate_position_std_m";
+  for (auto at = former.find(name); at != std::string::npos; at = former.find(name, at))
+    former.replace(at, name.size(), "mean_estimate_spread_m");
+  ASSERT_NE(former, text);
+  EXPECT_EQ(SummaryJson(ReadSummary(Write(former))).dump(), text);
+}
+
 TEST_F(CampaignSummaryTest, TheGateIsSaidInWords) {
   const CampaignSummary dut = Summary("fixed");
   ASSERT_TRUE(dut.gate);
