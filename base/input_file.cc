@@ -36,7 +36,7 @@ std::string ReadInputFile(const fs::path& file, std::uintmax_t most_bytes) {
     throw InputError({file.string(), 0}, "", "", why);
   std::ifstream in(file, std::ios::binary);
   std::string bytes;
-  // Not to the end of the file as it was measured: one that grows must not grow without bound.
+  // Does not simply read to the end: a file that grows meanwhile must not be read without bound.
   char buffer[1 << 16];
   while (in.read(buffer, sizeof buffer), in.gcount() > 0) {
     bytes.append(buffer, static_cast<std::size_t>(in.gcount()));

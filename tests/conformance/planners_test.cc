@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every registered planner promises, on floors drawn here and, where they are at hand, on a
-// real map. Planners of lines sweep 95 % of what the robot can; planners by risk go from cell to
-// cell of its width, and visit each free one that can be reached but for those that they say they
-// leave out.
+// What every registered planner promises, on floors drawn here and, where they are available, on a
+// real map. Planners of lines sweep 95 % of what the robot can. Planners by risk go from cell to
+// cell of the robot's width, and visit each free cell that can be reached, except those that they
+// say they leave out.
 #include <gtest/gtest.h>
 
 #include <algorithm>
