@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Built on yaml-cpp's event parser rather than its node tree, so that line numbers, duplicate keys
-// and the cost of aliases are ours to judge.
+// Built on yaml-cpp's event parser and not on its node tree. So line numbers, duplicate keys and
+// the cost of aliases are under our control.
 #include "base/config.h"
 
 #include <yaml-cpp/emitter.h>

@@ -10,8 +10,9 @@ namespace floorproof {
 
 // Makes the folder and its parents; throws InputError when it cannot be.
 void MakeFolder(const std::filesystem::path& folder);
-// Writes beside the file and renames, so that a reader finds the old file or the whole new one.
-// Throws InputError naming the file when the disk is full or it cannot be written.
+// Writes a new file beside the old one and renames it. So a reader finds either the old file or the
+// whole new one. Throws InputError naming the file when the disk is full or the file cannot be
+// written.
 void WriteFileWhole(const std::filesystem::path& path, std::string_view text);
 // The text's SHA-256 in hexadecimal.
 std::string Sha256(std::string_view text);

@@ -42,7 +42,7 @@ std::string Read(const fs::path& file, std::uintmax_t count, std::uintmax_t most
   std::ifstream in(file, std::ios::binary);
   std::string bytes;
   bytes.reserve(std::min({count, most_bytes, fs::file_size(file, ignored)}));
-  // Not to the end of the file as it was measured: one that grows must not grow without bound.
+  // Does not simply read to the end: a file that grows meanwhile must not be read without bound.
   char buffer[1 << 16];
   while (bytes.size() < count && bytes.size() <= most_bytes) {
     in.read(buffer, static_cast<std::streamsize>(

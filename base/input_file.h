@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that the program reads because somebody named them: checked before they are opened, so that
-// a pipe or a device cannot make it wait for ever.
+// Files that a user names. They are checked before they are opened, so that a pipe or a device
+// cannot make the program wait for ever.
 #pragma once
 
 #include <cstdint>

@@ -12,8 +12,8 @@
 namespace floorproof {
 namespace {
 
-// How many holds there are, or kEnding. One atomic number decides between a handler that ends the
-// process (it may run on a codec's or driver's thread) and a thread that begins a hold.
+// The number of holds, or kEnding. One atomic number decides between a handler that ends the
+// process, perhaps on a thread of a codec or a driver, and a thread that begins a hold.
 constexpr int kEnding = -1;
 std::atomic<int> g_holds{0};
 std::atomic<bool> g_seen{false};

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ctrl-C and SIGTERM. Where no file is half written the process ends at once, saying what is there;
-// while interrupts are held the signal is remembered, and who holds them looks, tidies up and ends.
+// Ctrl-C and SIGTERM. Where no file is half written, the process ends at once and says what is
+// there. While interrupts are held, the signal is only remembered; whoever holds them checks,
+// tidies up and ends.
 //
-// Ending within the handler is what makes reading, planning and compiling interruptible everywhere,
-// in other people's libraries too, without a question in every loop.
+// Ending within the handler makes reading, planning and compiling interruptible everywhere, in
+// other people's libraries too, without a check in every loop.
 #pragma once
 
 #include <exception>
@@ -13,7 +14,8 @@ namespace floorproof {
 
 inline constexpr int kInterruptedExit = 130;
 
-// Installs the handlers; signals that the caller's shell ignores (nohup, a background job) stay so.
+// Installs the handlers. Signals that the caller's shell ignores (nohup, a background job) stay
+// ignored.
 void CatchInterrupts();
 
 // What the one line on stderr says from now on, behind "floorproof: interrupted: ".
@@ -31,8 +33,8 @@ class Interruption : public std::exception {
 // Prints the line and ends the process with status 130. For `main` alone.
 [[noreturn]] void EndInterrupted();
 
-// Holds interrupts as long as it lives; nests. A second signal meanwhile ends the process at once.
-// A signal that nobody looked for takes effect when the last hold ends.
+// Holds interrupts as long as it lives; holds nest. A second signal during a hold ends the process
+// at once. A signal that nobody checked for takes effect when the last hold ends.
 class HoldInterrupts {
  public:
   HoldInterrupts();

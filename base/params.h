@@ -60,9 +60,9 @@ class Configurable {
   virtual void Visit(ParamVisitor&) {}
 };
 
-// Reads the map `node` into `target`; keys in `also_allowed` are somebody else's and passed over.
-// Throws InputError on a wrong type, a broken rule, or an unknown key (naming the nearest known
-// one). `path` stands before the key in messages ("plan." gives "plan.overlap").
+// Reads the map `node` into `target`. Keys in `also_allowed` belong to somebody else and are
+// skipped. Throws InputError on a wrong type, a broken rule, or an unknown key, naming the nearest
+// known one. `path` stands before the key in messages ("plan." gives "plan.overlap").
 void ReadParams(const ConfigNode& node, const std::string& path, Configurable& target,
                 const std::vector<std::string>& also_allowed = {});
 void ReadParams(const ConfigNode& node, const std::string& path,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a long command is, in one line: rewritten in place on a terminal, a plain line every ten
-// seconds elsewhere.
+// One line that says how far a long command is. On a terminal it is rewritten in place; elsewhere a
+// plain line is written every ten seconds.
 #pragma once
 
 #include <chrono>

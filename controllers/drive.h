@@ -22,17 +22,18 @@ class Drive {
   // Reads radii and places of the wheels; throws InputError when the robot lacks what the drive
   // needs.
   virtual void Configure(const RobotSpec& robot) = 0;
-  // Wheel speeds (rad/s, RobotSpec's order) for a twist; components the drive cannot follow are
-  // dropped. `hinges`: how the blocks that carry the wheels stand and are to move. When a wheel
-  // would exceed its motor's no-load speed all are scaled down together, so that the curvature
-  // stays, and the hinges' rates with them.
+  // Wheel speeds (rad/s, in RobotSpec's order) for a twist. Components that the drive cannot follow
+  // are dropped. `hinges` says how the blocks that carry the wheels stand and are to move. When a
+  // wheel would exceed its motor's no-load speed, all wheel speeds and the hinges' rates are scaled
+  // down together, so that the curvature stays.
   virtual void ToWheels(const BodyTwist& twist, HingeState& hinges,
                         std::span<double> wheel_radps) const = 0;
   void ToWheels(const BodyTwist& twist, std::span<double> wheel_radps) const {
     HingeState none;
     ToWheels(twist, none, wheel_radps);
   }
-  // The twist that these wheel speeds roll, in the least-squares sense, while the hinges turn so.
+  // The twist that results when the wheels roll at these speeds while the hinges turn so, in the
+  // least-squares sense.
   virtual BodyTwist ToTwist(std::span<const double> wheel_radps,
                             const HingeState& hinges = {}) const = 0;
 };

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Path following for robots that move every way: the heading is the plan's, not the way's.
+// Path following for holonomic robots: the heading is the plan's, and not the direction of travel.
 //
-// The body's velocity is the path's own a moment ahead (feed-forward: a robot needs that moment to
-// change it), plus a share of the way back to the path (feedback, gain_per_s); the larger the way
-// back, the slower along. The yaw follows the plan's own for that leg, or the way where the plan
-// leaves it open (env/core/path.h). Speed is bounded by the passing speeds of the bends ahead, by
-// rests at corners (path_progress.h) and by the gap to known obstacles. At a stop the robot turns
-// to its next yaw first, holding its place. After Kanayama, Kimura, Miyazaki & Noguchi 1990, "A
-// stable tracking control method for an autonomous mobile robot", without the nonholonomic part.
-// Where the plan changes the shape of a robot of hinged blocks, it stops, holds its place and folds
-// (reconfiguration.h).
-// Assumes a drive that turns and moves at once; does not plan around obstacles.
+// The body's velocity has two parts. The first is the path's own velocity a moment ahead
+// (feed-forward: a robot needs that moment to change its velocity). The second leads back to the
+// path in proportion to the distance from it (feedback, gain_per_s); the larger it is, the slower
+// the robot drives along the path. The yaw is the one that the plan states for the leg, or the
+// direction of travel where the plan leaves it open (env/core/path.h). Speed is bounded by the
+// passing speeds of the bends ahead, by rests at corners (path_progress.h) and by the gap to known
+// obstacles. At a stop the robot first turns to its next yaw, holding its place. After Kanayama,
+// Kimura, Miyazaki & Noguchi 1990, "A stable tracking control method for an autonomous mobile
+// robot", without the nonholonomic part. Where the plan changes the shape of a robot of hinged
+// blocks, the robot stops, holds its place and folds (reconfiguration.h). Assumes a drive that
+// turns and moves at once; does not plan around obstacles.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -26,8 +27,8 @@ namespace floorproof {
 namespace {
 
 constexpr double kGapAhead_m = 0.1;  // the gap is read here and this far ahead
-constexpr double kHold_m = 0.05;     // a turn nearer to its corner than this is kept there,
-constexpr double kHoldGain = 1.5;    // 1/s: by going back
+constexpr double kHold_m = 0.05;     // a turn within this of its corner
+constexpr double kHoldGain = 1.5;    // 1/s: is kept there with this gain
 
 class HolonomicFollower final : public Tracker {
  public:
@@ -84,7 +85,7 @@ class HolonomicFollower final : public Tracker {
  private:
   using Phase = PathProgress::Phase;
 
-  // The ways of all changes of shape, searched before the drive.
+  // Searches the folding of every change of shape before the drive.
   void FindWays(const RobotSpec& robot) {
     const auto& vertices = progress_.reference().vertices;
     ways_.assign(vertices.size(), {});
@@ -117,7 +118,7 @@ class HolonomicFollower final : public Tracker {
     }
   }
 
-  // At the vertex, heading as it came.
+  // Stays at the vertex, with the heading with which it came.
   void HoldPlace(const Pose2& X_WB, double dt_s) {
     const Vec2 back_W = progress_.leg().p_W - X_WB.p();
     const Vec2 v_W = kHoldGain * std::min(1.0, kHold_m / std::max(back_W.norm(), 1e-12)) * back_W;
@@ -169,7 +170,7 @@ class HolonomicFollower final : public Tracker {
                          .corner_tolerance_m = 0.004,
                          .heading_tolerance_deg = 1.0,
                          .recover_deg = 15};
-  // The wheels' lag and half of what a bend's change of velocity takes.
+  // The wheels' lag, and half of the time that the change of velocity in a bend takes.
   double anticipation_s_ = 0.1, gain_per_s_ = 2.5;
 
   ObstacleGap gap_;

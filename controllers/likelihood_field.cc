@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kFinest_m = 0.05;
 
-// Whether a level scan at that height can meet it. Glass too: some beams end on it, and those that
-// pass end on what stands behind, which is as near to a wall as any.
+// Whether a level scan at that height can meet it. Glass counts too: some beams end on it, and
+// those that pass end on what stands behind, which is as near to a wall as any.
 bool IsMet(const Hazard& hazard, double height_m) {
   return std::ranges::any_of(hazard.solids, [&](const Solid& solid) {
     return solid.kind == Solid::Kind::kPrism && solid.z_low_m < height_m &&

@@ -64,8 +64,8 @@ void Mapper::AddBeam(const Vec2& from_G, const Vec2& to_G) {
   }
 }
 
-// The cells that beams of this scan end in are not taken for passed by others of it, which graze
-// them.
+// A cell in which a beam of this scan ends does not count as passed by other beams of the scan,
+// which only graze it.
 void Mapper::AddScan(const LidarScan& scan, const Pose2& X_WB) {
   const double cell_m = map_.frame.cell_m;
   const Pose2 X_GL = X_GW_ * X_WB * scan.X_BL;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws the map that a robot sees: scans, bumps and drops at the pose that it thinks it has.
+// Draws the map that a robot sees: scans, bumps and drops, placed at the pose that it believes.
 //
 // An occupancy grid of log odds (Moravec & Elfes, "High resolution maps from wide angle sonar",
-// 1985; in this form Thrun, Burgard & Fox, "Probabilistic Robotics", 2005, table 9.1): a beam makes
-// the cells that it passes more likely free and the one that it ends in more likely occupied. A
+// 1985; in this form Thrun, Burgard & Fox, "Probabilistic Robotics", 2005, table 9.1). A beam makes
+// the cells that it passes more likely free, and the cell in which it ends more likely occupied. A
 // beam that does not come back says nothing: it may have met black cloth or gone through glass.
-// Where the robot stands the floor is free. What is touched, or is no floor, is marked for good: a
-// scan passes over it.
+// Where the robot stands, the floor is free. What was touched, or has no floor, is marked for good,
+// because scans pass over it.
 #pragma once
 
 #include <array>

@@ -2,10 +2,10 @@
 // Monte Carlo localisation: where on the known map the lidar's scans fit, with odometry between
 // them (particle_filter.h). It starts around a guess, or anywhere.
 //
-// A scan is used when the robot has moved or turned a little since the last: standing still, the
-// same scan again would seem to be new evidence. The first is used several times over, the
-// particles scattered a little between, because the guess may be half a metre off. Assumes that the
-// robot stands on the floor, level; knows nothing of slip but its noise.
+// A scan is used when the robot has moved or turned a little since the last one. If it stands
+// still, the same scan again would look like new evidence. The first scan is used several times,
+// with the particles scattered a little in between, because the guess may be half a metre off.
+// Assumes that the robot stands level on the floor; knows nothing of slip but its noise.
 #include <algorithm>
 #include <cmath>
 #include <memory>

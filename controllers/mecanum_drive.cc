@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mecanum wheels, any number of them, that roll without slip.
 //
-// A wheel at (x, y) whose roller's axis at the floor stands at the angle g to its axle slides
-// freely across that axis and not along it: R w = (vx - wz y) - cot(g) (vy + wz x). One row a
-// wheel; wheel speeds follow from the twist exactly, the twist from wheel speeds in the
-// least-squares sense. Muir & Neuman, "Kinematic modeling for feedback control of an
+// A wheel at (x, y) slides freely across the axis of the roller that touches the floor, and not
+// along it. With g the angle from the axle to that axis: R w = (vx - wz y) - cot(g) (vy + wz x).
+// Each wheel gives one row. Wheel speeds follow from the twist exactly, the twist from wheel speeds
+// in the least-squares sense. Muir & Neuman, "Kinematic modeling for feedback control of an
 // omnidirectional wheeled mobile robot", 1987 (their eq. 18 is the case g = +-45 deg). x and y are
-// the wheel's own directions: wheels may stand at any yaw. Where hinges move the blocks that carry
-// the wheels, each wheel rolls with the velocity that its own block has there. Does not know slip.
+// in the wheel's own directions, so wheels may stand at any yaw. Where hinges move the blocks that
+// carry the wheels, each wheel rolls with the velocity that its own block has there. Does not know
+// slip.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>

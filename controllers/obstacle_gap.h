@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Slower the smaller the gap to known obstacles, as regulated pure pursuit does.
+// Slows the robot down near known obstacles, as regulated pure pursuit does.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Odometry alone: what the wheels rolled and the gyro turned, added up from the start. It never
-// sees where it is: slip, a wheel of another size and the gyro's bias add up for ever.
+// Odometry alone: the motion of the wheels and the turn of the gyro, added up from the start. It
+// never finds out where it really is, so slip, a wheel of another size and the gyro's bias add up
+// for ever.
 #include "controllers/estimator.h"
 #include "controllers/odometry.h"
 #include "controllers/start_error.h"

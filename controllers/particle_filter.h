@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Poses that the robot may have, each with its weight: the filter below `mcl`.
+// Poses that the robot may have, each with its weight: the filter behind `mcl`.
 //
-// Adaptive Monte Carlo localisation as in Thrun, Burgard & Fox, "Probabilistic Robotics", 2005: the
-// motion as odometry tells it, with noise (5.4); the scan's likelihood field (6.4); as many
-// particles as KLD sampling asks for (8.3.7); random ones when the scans fit much less well than
-// they used to (augmented MCL, 8.3.5, with a threshold as in Gutmann & Fox, "An experimental
-// comparison of localization methods continued", 2002: without it noise alone brings random
-// particles, and one of them may fit by chance).
+// Adaptive Monte Carlo localisation as in Thrun, Burgard & Fox, "Probabilistic Robotics", 2005. The
+// motion comes from odometry, with noise (5.4); the weights from the scan's likelihood field (6.4);
+// the number of particles from KLD sampling (8.3.7). Random particles are added when the scans fit
+// much worse than before: augmented MCL (8.3.5), with a threshold as in Gutmann & Fox, "An
+// experimental comparison of localization methods continued", 2002. Without the threshold, noise
+// alone brings random particles, and one of them may fit by chance.
 #pragma once
 
 #include <cstdint>
@@ -44,8 +44,8 @@ class ParticleFilter {
   // The robot moved by X_BB' as odometry tells it.
   void Move(const Pose2& motion_B);
   // Weighs the particles by a scan and draws them anew; not by one that says too little (false).
-  // While they lie far apart, beams may end further from what they met, or few particles near the
-  // truth would all seem wrong.
+  // While the particles lie far apart, beams may end farther from what they met. Otherwise the few
+  // particles near the truth would all seem wrong.
   bool Weigh(const LikelihoodField& field, const LidarScan& scan);
   // Scatters them a little: between passes over one scan.
   void Jitter(double sd_m, double sd_rad);

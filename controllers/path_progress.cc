@@ -92,8 +92,9 @@ std::size_t PathProgress::Segment(const Vec2& p_W) {
   return waypoint_;
 }
 
-// Moves ahead_ to the leg that holds the place `way_m` ahead, or, beyond a stop, to the leg that
-// ends there; returns how far along that leg's prolongation the place lies.
+// Moves ahead_ to the leg that holds the point `way_m` ahead. If that point lies beyond a stop,
+// ahead_ becomes the leg that ends at the stop. Returns the distance of the point along that leg or
+// its extension.
 double PathProgress::SeekAhead(const Vec2& p_W, double way_m) {
   const double s_m = Along(p_W) + way_m;
   ahead_ = std::max(ahead_, vertex_);
@@ -116,7 +117,7 @@ PathProgress::Aim PathProgress::AimFrom(const Vec2& p_W, double speed_mps,
                                         const Lookahead& lookahead) {
   if (homing_) return {Vertex(goal_).p_W, SpeedFrom(p_W)};
   if (phase_ == Phase::kTurn) speed_mps = leg().speed_mps;
-  // Beyond a stop the point lies on the leg's prolongation, so that the robot arrives straight.
+  // Beyond a stop the point lies on the leg's extension, so that the robot arrives straight.
   const double along_m = SeekAhead(p_W, std::clamp(speed_mps * lookahead.time_s, lookahead.min_m,
                                                    std::max(lookahead.min_m, lookahead.max_m)));
   return {Vertex(ahead_).p_W + along_m * Vertex(ahead_).direction_W, SpeedFrom(p_W)};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far along its plan a robot is, and where it should head next: what path trackers share.
 //
-// Progress is monotone: a leg is left once, at its end, never for a nearer one, so that
-// neighbouring rows cannot be mixed up. Past the end of a leg but beside it, the robot goes to the
-// corner itself. Nothing but Start() allocates.
+// Progress is monotone. A leg is left once, at its end, and never for a nearer one, so neighbouring
+// rows cannot be mixed up. A robot that is past the end of a leg but beside it goes to the corner
+// itself. Nothing but Start() allocates.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace floorproof {
 
-// How far ahead on the path the point lies that is pursued: time_s at the present speed, within
-// bounds.
+// How far ahead on the path the pursued point lies: the distance covered in time_s at the present
+// speed, within bounds.
 struct Lookahead {
   double time_s = 0.65, min_m = 0.12, max_m = 0.4;
 };
@@ -52,8 +52,8 @@ class PathProgress {
   };
   Aim AimFrom(const Vec2& p_W, double speed_mps, const Lookahead& lookahead);
 
-  // For a robot that moves every way: the path's direction `ahead_m` farther on, the way back to
-  // the leg, across it, and the speed allowed. Only while moving().
+  // For holonomic robots: the path's direction `ahead_m` farther on, the vector back to the leg,
+  // across it, and the speed allowed. Only while moving().
   struct Course {
     Vec2 direction_W;  // unit
     Vec2 offset_W;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Folding a robot of blocks from one shape into another.
 //
-// The way through the hinges' angles is searched once (A* on a lattice of 15 degrees, one hinge at
-// a step) so that no two blocks run into each other, then driven at a bounded rate with a rest at
-// each bend: a reference, and a share of the way back to it as feedback. Where a block lags behind,
-// the reference waits for it. Assumes free floor around the robot; the wheels of the moving blocks
-// must be driven along (Drive::ToWheels).
+// The path through the hinges' angles is searched once (A* on a lattice of 15 degrees, one hinge
+// per step), so that no two blocks run into each other. It is then driven at a bounded rate with a
+// rest at each bend: a reference, plus feedback in proportion to the distance from it. Where a
+// block lags behind, the reference waits for it. Assumes free floor around the robot; the wheels of
+// the moving blocks must be driven along (Drive::ToWheels).
 #pragma once
 
 #include <array>

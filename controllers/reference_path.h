@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // A plan made ready for tracking: cleaned of duplicate points, with stops and passing speeds.
 //
-// Points that lie on a straight to within straight_m are passed over (cone test, one pass), so that
-// noise and duplicates make no corners. A vertex is a stop where the plan dwells, ends, or turns by
-// more than corner_rad; through the others the robot drives, at a speed that keeps both the cut of
-// the corner and the yaw rate within bounds. One pass backwards makes the speeds reachable with the
-// deceleration. All in Start(): following it allocates nothing. Where the plan's yaw counts
-// (holonomic robots), a change of yaw is a stop, and a bend driven with held yaw is bounded by the
-// acceleration across it instead of the yaw rate. Where its shapes count (robots of hinged blocks),
-// a change of shape is a stop, too.
+// Points that lie on a straight line to within straight_m are dropped (cone test, one pass), so
+// that noise and duplicates make no corners. A vertex is a stop where the plan dwells, ends, or
+// turns by more than corner_rad. The robot drives through the other vertices, at a speed that
+// bounds both the cut of the corner and the yaw rate. One backward pass makes the speeds reachable
+// with the deceleration. All of this happens in Start(); following the path allocates nothing. For
+// robots that keep the plan's yaw (holonomic ones), a change of yaw is a stop, and a bend driven
+// with held yaw is bounded by the acceleration across it instead of the yaw rate. For robots that
+// take the plan's shapes (hinged blocks), a change of shape is a stop, too.
 #pragma once
 
 #include <cstddef>
@@ -30,8 +30,8 @@ struct ReferenceLimits {
   double lag_s = 0.15;       // time constant of the last centimetres before a stop
   double cruise_mps = 0.25;  // of waypoints that state no speed
   double max_speed_mps = 0.5;
-  bool holds_yaw = false;  // the plan's yaw is held; else it is passed over
-  bool folds = false;      // the plan's shapes are taken; else they are passed over
+  bool holds_yaw = false;  // the plan's yaw is held; else it is ignored
+  bool folds = false;      // the plan's shapes are taken; else they are ignored
 };
 
 struct ReferenceVertex {
@@ -54,13 +54,13 @@ struct ReferencePath {
 
 ReferencePath MakeReference(const Path& path, const ReferenceLimits& limits);
 
-// The speed (m/s, or rad/s) from which a robot that decelerates at `decel`, its wheels late by
-// lag_s, comes to rest within `way`.
+// The speed (m/s, or rad/s) from which a robot comes to rest within `way`, if it decelerates at
+// `decel` and its wheels are late by lag_s.
 double StoppingSpeed(double way, double decel, double lag_s);
 
 // The speed from which a robot that decelerates as `limits` say comes down to `then_mps` over
-// `way_m`. Like sqrt(then^2 + 2 a s) far away; near the end it falls with the way at the rate 1 /
-// lag_s, which a robot whose wheels lag can follow.
+// `way_m`. Far from the end it is about sqrt(then^2 + 2 a s). Near the end it falls with the
+// distance at the rate 1 / lag_s, which a robot whose wheels lag can follow.
 double ApproachSpeed(double then_mps, double way_m, const ReferenceLimits& limits);
 
 }  // namespace floorproof

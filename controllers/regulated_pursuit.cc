@@ -3,11 +3,12 @@
 //
 // Between stops the robot follows the arc to a point ahead on the path, v * lookahead_s away
 // (Coulter 1992, "Implementation of the pure pursuit path tracking algorithm"; curvature 2 y /
-// d^2). Speed is regulated (Macenski, Singh, Martin & Gines 2023, "Regulated pure pursuit for robot
-// path tracking") by the arc's curvature, by the gap to known obstacles, and by the passing speeds
-// of the bends ahead (reference_path.h); it comes to rest at the end of each straight that ends in
-// a corner, and turns there (path_progress.h). Pushed off, the robot turns to its leg and goes
-// back. Assumes a drive that turns on the spot; does not plan around obstacles, does not reverse.
+// d^2). The speed is regulated (Macenski, Singh, Martin & Gines 2023, "Regulated pure pursuit for
+// robot path tracking") by the arc's curvature, by the gap to known obstacles, and by the passing
+// speeds of the bends ahead (reference_path.h). The robot comes to rest at the end of each straight
+// that ends in a corner, and turns there (path_progress.h). If it was pushed off, it turns to its
+// leg and goes back. Assumes a drive that turns on the spot; does not plan around obstacles, does
+// not reverse.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -121,7 +122,8 @@ class RegulatedPursuit final : public Tracker {
                          .corner_tolerance_m = 0.01,
                          .heading_tolerance_deg = 1.5,
                          .recover_deg = 70};
-  // Less overshoots in bends when wheels are late by 0.25 s, more cuts 45 deg bends by over 0.03 m.
+  // A smaller value overshoots in bends when wheels are late by 0.25 s; a larger one cuts 45 deg
+  // bends by over 0.03 m.
   Lookahead lookahead_{0.65, 0.12, 0.4};
 
   ObstacleGap gap_;

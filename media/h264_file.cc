@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// FFmpeg's libraries are used directly, not through cv::VideoWriter, which cannot pass x264 the two
-// settings that make the same frames give the same bytes:
-// - no AVX-512: x264 r3095's AVX-512 code reads memory that it never wrote, so that a film depends
-// on
-//   what lay in the heap before (seen with MALLOC_PERTURB_; its AVX2 code gives one result);
-// - a fixed number of threads: x264's choices depend on how many it has, and that on the machine.
+// FFmpeg's libraries are used directly, and not through cv::VideoWriter, which cannot pass x264 the
+// two settings that make the same frames give the same bytes. First, no AVX-512: that code of x264
+// r3095 reads memory that it never wrote, so a film depends on what lay in the heap before (seen
+// with MALLOC_PERTURB_; its AVX2 code gives one result). Second, a fixed number of threads: x264's
+// choices depend on how many it has, and by default that number depends on the machine.
 #include "media/h264_file.h"
 
 extern "C" {

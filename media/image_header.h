@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an image file claims about itself, checked against its size before anything is decoded: a
-// file that lies must cost neither memory nor time, and a truncated one must not pass as grey rows.
+// What an image file claims about itself, checked against its size before anything is decoded. A
+// file that lies must cost neither memory nor time, and a truncated file must not pass as grey
+// rows.
 #pragma once
 
 #include <cstdint>

@@ -20,10 +20,10 @@ struct Image {
 
 inline constexpr std::uintmax_t kMaxImageBytes = 256u << 20;
 
-// Decodes PNG (every colour type), PGM/PPM (P2, P3, P5, P6) or BMP as stored, palettes expanded.
-// Throws InputError naming the file: missing, not an image, truncated, a file larger than
-// kMaxImageBytes, or an image larger than max_pixels (checked from the header before anything is
-// allocated).
+// Decodes PNG (every colour type), PGM/PPM (P2, P3, P5, P6) or BMP as stored, with palettes
+// expanded. Throws InputError naming the file when it is missing, not an image, truncated or larger
+// than kMaxImageBytes, or when the image is larger than max_pixels. That is checked from the
+// header, before anything is allocated.
 Image ReadImage(const std::filesystem::path& path, std::int64_t max_pixels = 64'000'000);
 // Writes PNG; throws InputError when the file cannot be written.
 void WritePng(const std::filesystem::path& path, const Image& image);

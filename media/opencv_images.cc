@@ -12,7 +12,7 @@
 namespace floorproof {
 namespace {
 
-// libpng prints on stderr what it dislikes, and OpenCV leaves no way to tell it not to.
+// libpng prints its complaints on stderr, and OpenCV offers no way to stop it.
 class QuietStderr {
  public:
   QuietStderr() : saved_(dup(STDERR_FILENO)) {

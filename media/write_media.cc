@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writing PNG and video: into a file beside the target that takes its name only once it is whole,
-// so that a reader never meets half a picture and a failed run leaves the old one.
+// Writes PNG and video into a file beside the target. The file takes the target's name only once it
+// is whole, so a reader never meets half a picture, and a failed run leaves the old one.
 #include <fstream>
 #include <string>
 

@@ -30,8 +30,8 @@ class Follower {
   Vec2 p_ = Vec2::Zero();
 };
 
-// Turns towards a heading. The heading is averaged first as a vector, so that a robot that mows to
-// and fro in a time lapse averages out instead of swinging the camera; then the rate is bounded.
+// Turns towards a heading. The heading is first averaged as a vector: for a robot that drives to
+// and fro in a time lapse it averages out instead of swinging the camera. Then the rate is bounded.
 class Panner {
  public:
   void Reset(double yaw_rad) {

@@ -59,8 +59,9 @@ struct Chart {
   std::vector<std::vector<ChartKey>> legend;  // a line each
 };
 
-// The y axes begin at 0 and reach beyond the highest value; negative values are not for it. As wide
-// as panels and lettering need. Ticks' labels and bars' values that find no room are left out.
+// The y axes begin at 0 and reach beyond the highest value; negative values are not supported. The
+// chart is as wide as its panels and lettering need. Tick labels and bar values that do not fit are
+// left out.
 Image DrawChart(const Chart& chart);
 // The same into a PNG; throws InputError when the file cannot be written.
 void WriteChart(const Chart& chart, const std::filesystem::path& png);

@@ -133,8 +133,8 @@ void PaintPlan(const Path& plan, double width_m, FloorPaint& paint) {
   }
 }
 
-// The last scan as a fan of beams on the floor, and an arrow's shaft where the robot thinks it is:
-// stripes that move.
+// The last scan as a fan of beams on the floor, and the shaft of an arrow where the robot thinks it
+// is. These stripes move.
 class Fan {
  public:
   Fan(std::span<const Recording::Senses> senses, double reach_m, FloorPaint& paint)

@@ -9,9 +9,9 @@ namespace floorproof {
 
 struct FilmPace {
   double fps = 30;
-  // Seconds simulated a second of film; 0: the least of 1, 2, 3, 5, 8, 10, 15, 20, 30, 50, 80, 100,
-  // .. that fits max_frames. Raised to one of these where the episode is too long for what is
-  // asked.
+  // Simulated seconds per second of film. 0: the smallest of 1, 2, 3, 5, 8, 10, 15, 20, 30, 50, 80,
+  // 100, .. that fits max_frames. Raised to one of these where the episode is too long for the
+  // value given.
   double speed_up = 0;
   int max_frames = 600;
   double before_s = 4, after_s = 2;  // around an event time runs no faster than it does
@@ -23,8 +23,8 @@ struct FilmFrame {
   double speed_up = 1;  // at which this frame is passed
 };
 
-// From begin_s to end_s, both shown; `events_s` ascending. Events whose slow passages would take
-// more than half of the film are passed at the film's speed, the later ones first.
+// From begin_s to end_s, both shown; `events_s` ascending. If the slow passages around events would
+// take more than half of the film, the later events are passed at the film's speed.
 std::vector<FilmFrame> ScheduleFilm(double begin_s, double end_s, std::span<const double> events_s,
                                     const FilmPace& pace);
 

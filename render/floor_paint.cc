@@ -35,8 +35,8 @@ std::size_t FloorPaint::Place(const mjvGeom& geom) {
   return slot;
 }
 
-// MuJoCo adds the sun's light to all that is not hidden: of two marks at exactly the same height
-// the overlap would shine twice. Neighbours therefore lie microns apart.
+// MuJoCo adds the sun's light to everything that is not hidden. If two marks were at exactly the
+// same height, their overlap would shine twice. Neighbours therefore lie microns apart.
 double FloorPaint::Layer(double z_m) {
   constexpr int kLayers = 50;
   constexpr double kApart_m = 20e-6;

@@ -16,14 +16,14 @@ namespace floorproof {
 class FloorPaint {
  public:
   explicit FloorPaint(int max_marks = 4000) : max_marks_(max_marks) {}
-  // A flat stripe from a to b, width_m wide, its top at z_m or up to 1 mm below; alpha below 1 lets
-  // the floor through. Returns its number. Beyond max_marks the oldest give way, but for those that
-  // are kept.
+  // A flat stripe from a to b, width_m wide, with its top at z_m or up to 1 mm below; with alpha
+  // below 1 the floor shows through. Returns its number. Beyond max_marks the oldest marks are
+  // dropped, except those that are kept.
   std::size_t AddStripe(const Vec2& a_W, const Vec2& b_W, double z_m, double width_m,
                         const std::array<float, 4>& rgba);
   void MoveStripe(std::size_t stripe, const Vec2& a_W, const Vec2& b_W);
   void AddDisc(const Vec2& p_W, double z_m, double radius_m, const std::array<float, 4>& rgba);
-  // What is painted so far never gives way.
+  // Everything painted so far is kept for good.
   void Keep() { kept_ = next_ = geoms_.size(); }
   const std::vector<mjvGeom>& geoms() const { return geoms_; }
   int max_marks() const { return max_marks_; }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// MuJoCo looks its GL functions up through eglGetProcAddress, OSMesaGetProcAddress or
-// glXGetProcAddressARB, whichever it finds first among the process's global symbols; the
+// MuJoCo looks up its GL functions through eglGetProcAddress, OSMesaGetProcAddress or
+// glXGetProcAddressARB, whichever it finds first among the process's global symbols. The
 // environment variable MUJOCO_GL says which to prefer. OpenCV brings libGLX along, so a loaded
-// library alone does not decide it: we publish the library that made the context (RTLD_GLOBAL) and
-// set MUJOCO_GL to it. A library that was opened stays open: drivers keep threads and exit
-// handlers.
+// library alone does not decide it. We therefore publish the library that made the context
+// (RTLD_GLOBAL) and set MUJOCO_GL to it. A library that was opened stays open, because drivers keep
+// threads and exit handlers.
 #include "render/gl_context.h"
 
 #include <dlfcn.h>

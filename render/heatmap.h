@@ -47,13 +47,13 @@ struct HeatMapOptions {
   const Path* plan = nullptr;
 };
 
-// Cells that hold hazards of that class: named as in the hTetro FMEA paper, in a pale shade of the
-// colour that its hazards are outlined in.
+// Marks the cells that hold hazards of that class, named as in the hTetro FMEA paper, in a pale
+// shade of the colour in which its hazards are outlined.
 HeatCategory CellsOf(HazardClass hazard_class);
 
-// In the map's own frame (an arrow shows the world's north, +y), cropped to what is known, 800 to
-// 1600 pixels on the longer side, or more where the lettering needs it. A pixel over many cells is
-// wall if one of them is, and shows the mean of their values. `values` may be null.
+// Drawn in the map's own frame (an arrow shows the world's north, +y) and cropped to what is known.
+// The longer side has 800 to 1600 pixels, or more where the lettering needs it. A pixel over many
+// cells is wall if one of them is, and shows the mean of their values. `values` may be null.
 Image DrawHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options);
 // The same into a PNG; throws InputError when the file cannot be written.
 void WriteHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options,

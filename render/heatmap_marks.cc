@@ -79,8 +79,9 @@ double ApartOf(const HazardMap& map, const Path& plan) {
 std::string NumberText(float value) { return fmt::format("{:.6g}", static_cast<double>(value)); }
 double Luma(const Rgb& c) { return 0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2]; }
 
-// The upper or the lower left corner of a cell, `reach_px` from its middle: where less is drawn
-// over the cell's colour. Not the right ones: numbers of neighbours would read as one.
+// The upper or the lower left corner of a cell, `reach_px` from its middle: the one where less is
+// drawn over the cell's colour. The right corners are not used, because the numbers of neighbours
+// would read as one.
 cv::Rect FreerCorner(const Image& image, const cv::Point2d& middle, double reach_px,
                      const cv::Size& size, const Rgb& cell) {
   const auto drawn = [&](const cv::Rect& box) {

@@ -101,8 +101,8 @@ bool IsGlass(const mjModel* model, const mjvGeom& geom) {
          kOpaque;
 }
 
-// Thins out what stands between the camera and its target; the nearer to the line, the thinner, so
-// that nothing pops when the camera moves on.
+// Makes transparent what stands between the camera and its target: the nearer to the line of sight,
+// the more transparent, so that nothing pops up when the camera moves on.
 void ThinOut(mjvGeom& geom, float top, const Eigen::Vector3f& eye, const Eigen::Vector3f& target) {
   if (geom.category != mjCAT_STATIC || geom.type != mjGEOM_BOX || geom.rgba[3] < kOpaque) return;
   if (top < target.z() + 0.1f) return;
@@ -190,8 +190,9 @@ void OffscreenRenderer::Compose(mjData* data, const CameraView& view, const Floo
     if (!endless && !sight.Touches(Pos(geom), geom.modelrbound + kShadowReach_m)) continue;
     const float top = TopOf(model_, geom);
     ThinOut(geom, top, eye, target);
-    // Decor casts no shadow: neither should glass, nor what is thinned to it; and the floor's own,
-    // which nothing shows, costs a whole map to draw and speckles at its border.
+    // Decorative geoms cast no shadow. Neither should glass, or what is made transparent. The
+    // floor's own shadow, which nothing shows, would cost a whole map to draw, and speckles at its
+    // border.
     const bool floor = geom.category == mjCAT_STATIC && top < kFloor_m;
     if (floor || geom.rgba[3] < 0.5f || IsGlass(model_, geom)) geom.category = mjCAT_DECOR;
     if (kept != i) scene.geoms[kept] = geom;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenCV's stroke font, written three times too large and averaged down: strokes as thin as a pixel
-// come out even, which its own anti-aliasing does not manage.
+// OpenCV's stroke font, drawn three times too large and averaged down. So strokes as thin as a
+// pixel come out even, which OpenCV's own anti-aliasing does not achieve.
 #include "render/text.h"
 
 #include <algorithm>

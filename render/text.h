@@ -23,8 +23,8 @@ struct TextStyle {
 };
 
 double TextWidth(std::string_view text, const TextStyle& style);  // px
-// Writes over an RGB picture, the base line at y_px, beginning, centred or ending at x_px; what
-// lies beyond the picture is cut off. Letters other than printable ASCII become '?'.
+// Writes onto an RGB picture with the base line at y_px; the text begins, is centred or ends at
+// x_px. What lies beyond the picture is cut off. Letters other than printable ASCII become '?'.
 void DrawText(Image& image, double x_px, double y_px, std::string_view text,
               const TextStyle& style);
 // Mixes `colour` over the rectangle [x0, x1) x [y0, y1); alpha 0 leaves it, 1 covers it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How bounce_back moves with restitution, speed and mass: each robot driven head-on into a pane.
+// How bounce_back depends on restitution, speed and mass: each robot is driven head-on into a pane.
 #pragma once
 
 #include <span>
@@ -18,8 +18,8 @@ struct BounceRow {
   bool bounce_back = false;  // the detector's word, with its defaults
 };
 
-// Both robots; restitution 0-0.7, 0.1-0.4 m/s, half, whole and twice the mass; on `jobs` threads,
-// in this order whatever finishes first.
+// Every bundled robot; restitution 0-0.7, 0.1-0.4 m/s, half, whole and twice the mass. Runs on
+// `jobs` threads; the order of the rows does not depend on which finishes first.
 std::vector<BounceRow> BounceChart(int jobs);
 
 // robot,restitution,speed_mps,mass_kg,closing_mps,rebound_mps,bounce_back

@@ -17,8 +17,8 @@ ClimbPlace PlaceEdge(Rig& rig, bool sideways);
 // The raised floor: half a plane, from the edge on.
 Hazard Ledge(double height_m, double edge_m, bool sideways);
 
-// Drives on until all wheels are on top (true), or until it has not got on by a millimetre in the
-// time that 6 cm take (false).
+// Drives on until all wheels are on top (true), or until it has not moved forward by a millimetre
+// in the time that 6 cm take (false).
 bool Climbs(Rig& rig, double end_m, bool sideways, double speed_mps);
 
 }  // namespace floorproof

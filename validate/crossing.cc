@@ -42,11 +42,11 @@ Path StraightPlan(const CrossingPlan& plan, double from_m) {
   return path;
 }
 
-// Notices that the robot gets on no more.
+// Notices when the robot makes no more progress.
 class Progress {
  public:
   explicit Progress(double speed_mps) : least_m_(0.02 * speed_mps * kWindow_s) {}
-  // False when it got on by less than that within the window; `s_m` along the way.
+  // False when it moved by less than that within the window; `s_m` is measured along the way.
   bool Update(double s_m, double t_s) {
     if (s_m > mark_m_ + least_m_) {
       mark_m_ = s_m;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // One robot driven straight over one hazard: does it cross?
 //
-// The project's own tracker drives a straight plan at a held speed: it is what users drive, and it
-// corrects what an edge turns aside. The product's own detectors judge, all of them, at their
-// defaults. Crossed: the whole robot lies beyond the hazard, and no detector fired on the way. To
-// save time a robot that gets on by less than 2 % of what was commanded for 2 s counts as held
-// (the detector `stuck` says the same, 10 s later). It starts at rest, as near as its acceleration
-// allows. One crossing is one draw: another start or heading may go otherwise at the limit.
+// The project's own tracker drives a straight plan at a held speed. That is what users drive, and
+// it corrects the robot when an edge turns it aside. All of the project's detectors judge, with
+// their defaults. Crossed means that the whole robot lies beyond the hazard and no detector fired
+// on the way. To save time, a robot counts as held when for 2 s it makes less than 2 % of the
+// commanded progress; the detector `stuck` says the same 10 s later. The robot starts at rest, as
+// near as its acceleration allows. One crossing is one sample: at the limit, another start or
+// heading may give another result.
 #pragma once
 
 #include <functional>

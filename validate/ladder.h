@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ladder: up to which size each robot crosses each kind of hazard. Its picture is the robot's
-// capability chart.
+// The ladder: the largest size of each kind of hazard that each robot crosses. Its picture is the
+// robot's capability chart.
 //
-// A cell is a robot that meets a kind of hazard in one direction at one speed on one friction; its
-// limit is found by rungs and bisection (limit_search.h) over single crossings (crossing.h). The
-// hazards are what a site file would hold, made by the product's own plug-ins.
+// A cell is a robot that meets a kind of hazard in one direction, at one speed, on one friction.
+// Its limit is found by rungs and bisection (limit_search.h) over single crossings (crossing.h).
+// The hazards are what a site file would hold, made by the same plug-ins.
 #pragma once
 
 #include <functional>
@@ -39,8 +39,9 @@ struct LadderHazard {
 std::span<const LadderHazard> LadderHazards();
 const LadderHazard& FindLadderHazard(std::string_view name);
 
-// Of the way in the body's frame: x, y, or between the two, the hazard's edge square to the way.
-// A robot that cannot move aside meets the edge at 45 degrees instead, and knows no sideways.
+// The direction of travel in the body's frame: x, y, or between the two, with the hazard's edge
+// square to it. A robot that is not holonomic meets the edge at 45 degrees instead, and has no
+// sideways.
 enum class Direction { kForward, kSideways, kDiagonal };
 std::string_view Name(Direction direction);
 

@@ -27,9 +27,9 @@ struct WheelDisagreement {
 };
 std::vector<WheelDisagreement> WheelDisagreements(std::span<const LadderRow> rows, double share);
 
-// The highest level change that is crossed up and down in every direction, at every speed, on
-// friction 0.8 by `robot` with either kind of wheels, m; nothing where there is no such row. What a
-// robot's step_m should not exceed.
+// The highest level change (m) that `robot` crosses up and down, in every direction and at every
+// speed, on friction 0.8, with either kind of wheels. Nothing where there is no such row. A robot's
+// step_m should not exceed it.
 std::optional<double> TrustedStep(std::span<const LadderRow> rows, std::string_view robot);
 
 }  // namespace floorproof

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Laws: what physics says in closed form against what the simulation does. A new one is one file in
-// env/validate/laws and one line in its list.inc.
+// Laws: what physics says in closed form, against what the simulation does. A new one is one file
+// in validate/laws and one line in its list.inc.
 #pragma once
 
 #include <cmath>
@@ -31,8 +31,9 @@ class Law {
   virtual ~Law() = default;
   // The law as a formula, with where it holds.
   virtual std::string_view statement() const = 0;
-  // The wrong models that it must notice: under each at least one of its rows fails, and of every
-  // robot and case (a row's name without its last part) at least one row fails under one of them.
+  // The wrong models that it must notice. Under each of them at least one of its rows fails. For
+  // every robot and case (a row's name without its last part), at least one row fails under one of
+  // them.
   virtual std::vector<WrongModel> notices() const = 0;
   // Takes more than some 3 s of CPU: its tests are labelled slow.
   virtual bool slow() const { return false; }

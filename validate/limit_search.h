@@ -20,10 +20,10 @@ struct Limit {
   bool above_all = false;  // every rung is crossed: the limit lies at `size` or above
 };
 
-// Climbs the rungs from the smallest; the first that fails ends the climb, and the limit is
-// bisected between it and the rung below. What might be crossed above that counts for nothing: a
+// Climbs the rungs from the smallest. The first that fails ends the climb, and the limit is found
+// by bisection between it and the rung below. What might be crossed above that does not count: a
 // limit says up to where everything is crossed. Between two rungs the outcome is taken to be
-// monotone; it need not be over all of them. Nothing when interrupted.
+// monotone; over all rungs it need not be. Nothing when interrupted.
 std::optional<Limit> FindLimit(const Rungs& rungs, const std::function<bool(double size)>& crosses);
 
 }  // namespace floorproof

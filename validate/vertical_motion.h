@@ -11,9 +11,9 @@
 namespace floorproof {
 
 // The bounds on a flat floor, whatever slabs it is made of. MuJoCo's contacts are a few micrometres
-// deep, so that where a wheel stands on two slabs at once, or scrubs, it may leave the floor for a
-// step of 4 ms and falls by a tenth of a millimetre: a single step's acceleration can be g and says
-// nothing. Over 20 ms the mean shows what a body of kilograms feels; a seam of 1 mm gives 4 m/s^2.
+// deep. Where a wheel stands on two slabs at once, or scrubs, it may leave the floor for a step of
+// 4 ms and fall by a tenth of a millimetre. So the acceleration of a single step can be g and says
+// nothing. The mean over 20 ms shows what a body of kilograms feels; a seam of 1 mm gives 4 m/s^2.
 inline constexpr double kMaxHeave_mps2 = 2.5;
 inline constexpr double kMaxHeave_m = 0.0003;
 

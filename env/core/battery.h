@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A battery that feeds motors' drivers and hotel load, and DC motors' power: plain functions.
 //
-// The battery is a constant voltage behind a resistance (Thevenin); a driver passes its motor's
+// The battery is a constant voltage behind a resistance (Thevenin). A driver passes its motor's
 // power on without loss, and nothing comes back from a motor that brakes. Energy is counted at the
 // terminals, E = integral of v(t) i(t) dt ("audit-sampling", Eq. 5). Not modelled: a voltage that
 // falls with the charge, temperature, ageing, losses of the drivers.
@@ -27,13 +27,13 @@ struct BatteryOutput {
   double power_w() const { return voltage_v * current_a; }
 };
 
-// What a load of this power, W, >= 0, gets from `voltage_v` behind `resistance_ohm`: v with
-// v (V - v) / R = P, the larger root. Nothing can feed a load above V^2 / (4 R): 0 V and no
-// current.
+// The voltage and current that a load of this power (W, >= 0) gets from `voltage_v` behind
+// `resistance_ohm`: the larger root of v (V - v) / R = P. No battery can feed a load above V^2 / (4
+// R); such a load gets 0 V and no current.
 BatteryOutput Feed(double voltage_v, double resistance_ohm, double load_w);
 
-// Electrical power of a DC motor with its driver, W: current i = torque / K, voltage v = R i + K
-// omega; v i, and nothing comes back when braking.
+// Electrical power of a DC motor with its driver, W: v i with the current i = torque / K and the
+// voltage v = R i + K omega. Nothing comes back when braking.
 double MotorPower(double torque_nm, double speed_radps, double resistance_ohm, double constant);
 
 // A motor whose driver holds a speed: MuJoCo's `dcmotor` with a velocity input.
@@ -46,8 +46,8 @@ struct VelocityDrive {
 // The torque, N m, at the joint: gain (command - speed), as far as the voltage and the limit allow.
 double DriveTorque(const VelocityDrive& drive, double command_radps, double speed_radps);
 
-// A battery in use. Once its capacity is drawn, or a load is more than it can feed, it cuts off: no
-// voltage, no current, from then on.
+// A battery in use. It cuts off when its capacity is used up, or when a load is more than it can
+// feed. From then on it gives no voltage and no current.
 class BatteryInUse {
  public:
   // Without a voltage: 12 V.

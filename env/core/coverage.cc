@@ -38,8 +38,8 @@ Grid<std::uint8_t> WallMask(const HazardMap& map, const GridFrame& fine) {
   return mask;
 }
 
-// Adds what robots must keep off. Where floors overlap the later one wins (design: site file): a
-// level change is taken back where a later floor that can be driven lies over it.
+// Adds what robots must keep off. Where floors overlap, the later one wins (design: site file). So
+// a level change is removed where a later floor that can be driven covers it.
 bool AddHazards(const HazardMap& map, double step_m, const GridFrame& fine,
                 Grid<std::uint8_t>& mask) {
   constexpr std::uint8_t kFloor = 2, kSolid = 1;
@@ -94,8 +94,8 @@ Grid<std::uint8_t> Component(const Grid<std::uint8_t>& free, Cell seed) {
   return out;
 }
 
-// The clear cell at `c`, or the nearest of its neighbours: a start that is clear may lie in a cell
-// whose centre just is not.
+// The clear cell at `c`, or else its nearest clear neighbour: a clear start may lie in a cell whose
+// centre is just not clear.
 std::optional<Cell> ClearCellAt(const Grid<std::uint8_t>& free, Cell c, const Vec2& p_G) {
   std::optional<Cell> best;
   double best_d = std::numeric_limits<double>::infinity();
@@ -148,9 +148,9 @@ bool Fits(const Stencil& stencil, const Grid<int>& sums, int ix, int iy) {
   return true;
 }
 
-// The footprint's poses: one layer of cells per yaw; a robot passes between cells at one yaw and
-// between yaws where both are free (turning through the angles between is not looked at). Not
-// aslant: between two free cells that only touch at a corner it would scrape.
+// The footprint's poses: one layer of cells per yaw. A robot passes between neighbouring cells at
+// one yaw, and between yaws where both are free; the angles in between are not checked. It does not
+// pass diagonally: between two free cells that touch only at a corner it would scrape.
 void ReachWithFootprint(const Shape2& clear, const Grid<std::uint8_t>& walls,
                         const Grid<std::uint8_t>* hazards, double inset_m, Cell start,
                         const Vec2& start_G, SweepArea& area,
@@ -275,7 +275,8 @@ SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shap
     ReachWithFootprint(clear, walls, any_hazard ? &hazards : nullptr, map.inset_m, start, start_G,
                        area, layers);
   } else {
-    // A clear start's cell may miss the radius by the way from the start to the cell's centre.
+    // The centre of a clear start's cell may be too close to an obstacle, by up to its distance
+    // from the start.
     const double slack_m = std::sqrt(0.5) * cell_m + kEps;
     if (!area.frame.Inside(start) ||
         static_cast<double>(area.clearance_m(start)) < clear.radius_m - slack_m)

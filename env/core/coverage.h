@@ -16,8 +16,8 @@ namespace floorproof {
 GridFrame FineFrame(const GridFrame& frame, double max_cell_m = 0.05);
 
 // 1 where a fine cell is wall, or touches a hazard that IsObstacle(step_m). `fine` divides the
-// map's own frame (FineFrame). A level change is none where a later floor that can be driven covers
-// it.
+// map's own frame (FineFrame). A level change does not count where a later floor that can be driven
+// covers it.
 Grid<std::uint8_t> ObstacleMask(const HazardMap& map, double step_m, const GridFrame& fine);
 
 // Distances to obstacles, for planners and controllers.
@@ -39,11 +39,11 @@ struct SweepArea {
     return static_cast<double>(sweepable_cells) * frame.cell_m * frame.cell_m;
   }
 };
-// `clear` and `tool` as in RobotSpec, or overridden by a plan's radius_m and tool_width_m (discs).
-// Walls are taken as built: drawn back by map.inset_m. A clear footprint is tried at yaws that are
-// multiples of 90 deg in the map's frame, and so is a tool's. Connectivity: 8 neighbours of a
-// circle, 4 of a footprint. An empty
-// area (sweepable_cells 0) when the start itself is not clear (to within its cell).
+// `clear` and `tool` are those of RobotSpec, or discs from a plan's radius_m and tool_width_m.
+// Walls are taken as built, that is, drawn back by map.inset_m. A clear footprint is tried at yaws
+// that are multiples of 90 deg in the map's frame, and so is a tool's. A circle moves between 8
+// neighbours, a footprint between 4. The area is empty (sweepable_cells 0) when the start itself is
+// not clear, to within its cell.
 enum class Yaws {
   kQuarters,  // all four
   kFirst,     // the map's own yaw alone: for a footprint that is never turned
@@ -51,7 +51,7 @@ enum class Yaws {
 SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shape2& tool,
                            double step_m, const Vec2& start_W, Yaws yaws = Yaws::kQuarters);
 
-// Marks what the tool sweeps as it moves: the cells whose centre it passes over, a footprint to
+// Marks what the tool sweeps as it moves: the cells whose centre it passes over, for a footprint to
 // within 2 mm. Add() costs O(tool area) and allocates nothing.
 class CoverageMeter {
  public:

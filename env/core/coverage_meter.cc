@@ -55,8 +55,8 @@ void CoverageMeter::SetTool(const Shape2& tool) {
   tool_ = tool;
   gap_m_ = 2 * Extent(tool);
   reach_m_ = Reach(tool);
-  // Rows often put a footprint's edge just on the cells' centres: a tenth of a millimetre must not
-  // decide whether they are swept.
+  // Rows of a plan often put a footprint's edge exactly on cell centres. A tenth of a millimetre
+  // must not decide whether these cells count as swept.
   constexpr double kEdge_m = 0.002;
   if (tool_.kind == Shape2::Kind::kFootprint) {
     tool_.footprint_B = Offset(tool_.footprint_B, kEdge_m);

@@ -38,7 +38,8 @@ struct Material {
   std::array<float, 4> rgba = {0.6f, 0.6f, 0.6f, 1.0f};
 };
 
-// What one hazard's plug-in made of its keys (env/hazards); nobody above env/map asks a plug-in.
+// The record that a hazard's plug-in makes from its keys (env/hazards). Nobody above env/map asks a
+// plug-in.
 struct Hazard {
   std::string id;    // unique on a site, default type-index
   std::string type;  // the plug-in's name
@@ -75,8 +76,8 @@ struct HazardMap {
 // The map without hazards of `known: false`: what planners and localisation get.
 HazardMap KnownPart(const HazardMap& map);
 
-// Whether a robot that manages steps of step_m must keep off this hazard: C1, C2, and level changes
-// higher or deeper than step_m. Terrain (C4) is driven over.
+// Whether a robot that can cross steps of step_m must keep off this hazard. True for C1 and C2, and
+// for level changes higher or deeper than step_m. Terrain (C4) is driven over.
 bool IsObstacle(const Hazard& hazard, double step_m);
 
 }  // namespace floorproof

@@ -15,9 +15,9 @@ struct WheelSpec {
   Vec3 p_BW = Vec3::Zero();  // wheel centre in the body frame B
   double radius_m = 0;       // rollers included
   double half_width_m = 0;   // of the wheel's cylinder: of a Mecanum wheel's core, without rollers
-  // Mecanum wheels (env/scene/mecanum_wheel.h): radius of the rollers, 0: a plain wheel; and the
-  // angle, seen from above at the floor, from the wheel's axle (left, +y) to its rollers' axes,
-  // counterclockwise positive.
+  // Mecanum wheels (env/scene/mecanum_wheel.h): the radius of the rollers, 0 for a plain wheel; and
+  // the angle from the wheel's axle (left, +y) to its rollers' axes at the floor, seen from above,
+  // positive counter-clockwise.
   double roller_radius_m = 0;
   double roller_angle_rad = 0;
   double yaw_rad = 0;          // of the wheel's own x (forward) in B
@@ -37,9 +37,9 @@ struct Shape2 {
 // From the shape's centre to its edge in this direction of its own frame, m.
 double EdgeAlong(const Shape2& shape, double bearing_rad);
 
-// A reconfigurable robot: blocks joined by hinges about vertical axes. R is the frame of the block
-// 0, the MJCF's `base`; in the model's own shape every block's frame K coincides with it. The body
-// frame B has R's axes and its origin at the mean of the blocks' centres, on the floor.
+// A reconfigurable robot: blocks joined by hinges about vertical axes. R is the frame of block 0,
+// the MJCF's `base`. In the model's own shape the frame K of every block coincides with R. The body
+// frame B has R's axes; its origin is the mean of the blocks' centres, on the floor.
 struct BlockSpec {
   std::string name;  // of its body
   Polygon outline_K;
@@ -64,7 +64,7 @@ struct ShapeSpec {
 struct RobotSpec {
   std::string name;
   std::string model_file;         // the MJCF
-  std::string drive;              // a name of controllers' drives: "differential", "mecanum"
+  std::string drive;              // the name of a drive, see controllers/drives.inc
   std::vector<WheelSpec> wheels;  // the driven ones, in actuator order
 
   std::vector<BlockSpec> blocks;  // empty: the robot does not change its shape
@@ -83,9 +83,9 @@ struct RobotSpec {
   double clearance_m = 0;     // belly above the floor
   double step_m = 0;          // highest level change it is trusted to cross
   double static_tip_rad = 0;  // least atan(d / h) over the edges of the wheels' support polygon
-  // Steepest flanks of a 20 mm cable cover that it crosses at 0.2 m/s on friction 0.8 (the ladder's
-  // capability chart), and the fastest that the chart holds, at which it crosses most. 0: the model
-  // states none.
+  // From the ladder's capability chart: the steepest flanks of a 20 mm cable cover that the robot
+  // crosses at 0.2 m/s on friction 0.8, forward and sideways, and the chart's highest speed, at
+  // which it crosses most. 0: the model states none.
   double cover_forward_rad = 0, cover_sideways_rad = 0, cover_speed_mps = 0;
 
   double cruise_mps = 0;  // default speed along a plan

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// F4, bounce back: the body meets an obstacle closing at > v; then within window_s it parts from it
-// by > part_m, or its normal velocity reverses by > u, against the command.
+// F4, bounce back: the body meets an obstacle at a closing speed > v; then, within window_s, it
+// parts from the obstacle by > part_m, or its normal velocity reverses by > u, against the command.
 //
-// A meeting is a contact that begins; the closing speed is that just before it. From then on the
-// body's distance to the plane through the contact is followed: the outermost point of its clear
-// shape against the contact normal, so that turning beside a wall is no parting. "Against the
-// command": as soon as the commanded twist moves that point away from the obstacle, the watch ends,
-// because a robot that backs off on purpose does not bounce.
+// An impact is a contact that begins; the closing speed is that just before it. From then on the
+// detector follows the body's distance to the plane through the contact. It is measured from the
+// outermost point of the clear shape against the contact normal, so that turning beside a wall does
+// not count as parting. "Against the command": the watch ends as soon as the commanded twist moves
+// that point away from the obstacle, because a robot that backs off on purpose does not bounce.
 // Only the first reversal counts, until the body approaches again or still touches kPressS after
-// the impact (an elastic contact is over in some 10 ms): a robot that goes on driving
-// into a dead wall rocks and chatters against it at some 0.03 m/s, and has not been thrown back.
-// Nor has one whose rebound is below rebound_share of its closing speed: a critically damped
-// contact, which is what "dead" means in a compliant engine, gives back exp(-2) = 0.135 of it
-// (Schwager & Poeschel 2007, "Coefficient of restitution and linear-dashpot model revisited", eq.
-// 20). The inequality once met, the event is held back until the rebound ends (mostly some 0.1 s)
-// so that its peak speed and travel are in the evidence; time and place are those at which it was
-// met. Judged by velocity and separation, not by a distance of centimetres: a robot limited by its
-// wheels' traction travels back only 5-26 mm from a nearly elastic wall. Definition: ours.
+// the impact (an elastic contact is over in about 10 ms). A robot that keeps driving into a dead
+// wall rocks and chatters against it at about 0.03 m/s; it has not been thrown back. Neither has
+// one whose rebound is below rebound_share of its closing speed: a critically damped contact, which
+// is what "dead" means in a compliant engine, gives back exp(-2) = 0.135 of it (Schwager & Poeschel
+// 2007, "Coefficient of restitution and linear-dashpot model revisited", eq. 20).
+//
+// Once the inequality is met, the event waits until the rebound ends, mostly about 0.1 s, so that
+// the peak speed and travel are in the evidence. Its time and place are those at which the
+// inequality was met. The detector judges by velocity and separation, and not by a distance of
+// centimetres: a robot limited by its wheels' traction travels back only 5-26 mm from a nearly
+// elastic wall. Definition: ours.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -195,8 +197,8 @@ class BounceBack final : public Detector {
       return touch.met;
     }
 
-    // Thrown back is what moves away as a whole: a body that pitches against the wall moves away
-    // where it touches, or at its origin, and not both.
+    // A robot is thrown back when it moves away as a whole. A body that pitches against the wall
+    // moves away either where it touches or at its origin, and not at both.
     const double body_mps = point.v_W.dot(n);
     const double away_mps = touch.touching ? std::min(touch.away_mps, body_mps) : body_mps;
     const double along_m = (sample.p_WB.head<2>() + point.r_W).dot(n);

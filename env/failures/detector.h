@@ -35,7 +35,8 @@ class Detector : public Configurable {
   // failure (it rearms when the condition has cleared); then event() has the evidence.
   virtual bool Update(const Sample& sample) = 0;
   const Event& event() const { return event_; }
-  // How far from failing, in the unit of the threshold, positive is safe: the least since Start().
+  // How far from failing, in the threshold's unit; positive is safe. It is the smallest value since
+  // Start().
   double margin() const { return margin_; }
 
  protected:

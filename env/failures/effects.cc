@@ -5,8 +5,8 @@
 //   the end
 // and Table 3 gives P(Fj, Ek) for hTetro. An event gets its mode's most probable effect:
 //   F1 E1 (0.75)   F2 E3 (0.9)   F3 E5 (0.7)   F4 E1 (0.55).
-// One kind departs from its mode: a robot that only tips off a wheel stands and can be set back by
-// a person, which is roll over's other effect in Table 3, E3 (0.3).
+// One kind differs from its mode: a robot that only tips off a wheel stands and can be set back by
+// a person. That is the other effect of roll over in Table 3, E3 (0.3).
 #include "env/failures/effects.h"
 
 #include <array>

@@ -118,8 +118,9 @@ class RollOver final : public Detector {
   }
 
  private:
-  // A wheel that lifts for one step empties the hull of the contacts; what counts is the best
-  // support within tipped_duration_s, as a share of that at rest. 1 until it is known.
+  // When a wheel lifts for one step, the hull of the contacts is empty. What counts is therefore
+  // the best support within tipped_duration_s, as a share of the support at rest. 1 until that is
+  // known.
   double SupportLeft(const Sample& sample) {
     if (sample.wheel_contacts > 0) {
       rest_support_m_ = std::max(rest_support_m_, sample.support_margin_m);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // F2, stuck: a move is commanded, yet displacement < r and turn < a within T.
 //
-// A sliding window over the last T seconds in which a move was commanded (standing still on purpose
-// stops its clock). Displacement and turn are the largest from the window's first pose, so that a
-// robot that drives out and back counts as moving. After Nav2's pose progress checker, but r scales
-// with what was asked: r = min(displacement_m, fraction * d_cmd), d_cmd the largest displacement
-// that the commands of the window lead to (v_cmd T where they go straight on). A slow robot is not
-// stuck for being slow, nor one that is told to wind about in a corner. Where next to no
-// translation was asked the turn is judged alike: a = min(turn_rad, fraction * w_cmd * T). Poses
-// are kept ten times a second in a ring made in Start().
+// A sliding window covers the last T seconds in which a move was commanded; standing still on
+// purpose stops its clock. Displacement and turn are the largest from the window's first pose, so a
+// robot that drives out and back counts as moving. This follows Nav2's pose progress checker, but r
+// scales with what was commanded: r = min(displacement_m, fraction * d_cmd). d_cmd is the largest
+// displacement that the commands of the window lead to; where they go straight ahead it is v_cmd T.
+// So a slow robot is not stuck for being slow, nor is one that is told to wind about in a corner.
+// Where next to no translation was commanded, the turn is judged in the same way: a = min(turn_rad,
+// fraction * w_cmd * T). Poses are kept ten times a second, in a ring made in Start().
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

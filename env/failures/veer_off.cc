@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // F1, veer off: cross-track error > e for d.
 //
-// The error is that of the true position to the segment now tracked (progress is monotone; never
-// the nearest point of the whole path, which would forgive a robot that skipped a row). e is half
-// the width between the obstacles across the segment there, at most max_cross_track_m: off by more
-// than that, the robot is nearer to what bounds its lane than to its lane. Steve Macenski et al.,
-// Nav2's path-tracking bounds, has the constant bound. The error must last, so that one step's
-// jerk is no failure. It does not ask why the robot is off.
+// The error is that of the true position to the tracked segment. Progress is monotone: it is never
+// measured to the nearest point of the whole path, which would forgive a robot that skipped a row.
+// e is half the width between the obstacles across the segment there, and at most
+// max_cross_track_m. A robot that is off by more is nearer to what bounds its lane than to its
+// lane. The constant bound is that of Nav2's path-tracking bounds (Steve Macenski et al.). The
+// error must last, so that the jerk of one step is no failure. The detector does not ask why the
+// robot is off.
 #include <algorithm>
 
 #include "env/failures/detector.h"
@@ -50,7 +51,8 @@ class VeerOff final : public Detector {
       off_ = true;
       off_since_s_ = sample.t_s;
     }
-    // Short of the duration the threshold was met, not failed: the margin's sign says which.
+    // Before the duration is over the threshold was exceeded, but the robot has not failed. The
+    // margin's sign says which.
     const bool lasted = sample.t_s - off_since_s_ >= duration_s_ - kTimeSlackS;
     margin_ = std::min(margin_, lasted ? margin_m : 0.0);
     if (!lasted || reported_) return false;

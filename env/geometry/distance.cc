@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Felzenszwalb & Huttenlocher, "Distance Transforms of Sampled Functions", 2012: first along
-// columns, then along each row as the lower envelope of parabolas. A row is cut at its set cells,
-// behind which no source can be the nearest, so what is mostly set costs little.
+// columns, then along each row, as the lower envelope of parabolas. A row is cut at its set cells,
+// because no source behind a set cell can be the nearest. So a grid that is mostly set costs
+// little.
 #include "env/geometry/distance.h"
 
 #include <algorithm>

@@ -8,9 +8,9 @@
 
 namespace floorproof {
 
-// Exact Euclidean distance, in cells, from each cell's centre to the nearest set cell's area (a
-// square, not its centre); what lies beyond the grid is set when `border_is_set`. 0 on set cells.
-// O(cells), after Felzenszwalb & Huttenlocher 2012.
+// Exact Euclidean distance, in cells, from each cell's centre to the nearest set cell's area (the
+// square, not its centre); 0 on set cells. With `border_is_set`, everything beyond the grid counts
+// as set. O(cells), after Felzenszwalb & Huttenlocher 2012.
 Grid<float> DistanceToSet(const Grid<std::uint8_t>& set, bool border_is_set);
 
 // Distance, in cells, from each cell's centre to the nearest set cell's centre (DistanceToSet

@@ -20,8 +20,8 @@ inline double WrapAngle(double a_rad) {
   return a_rad <= -kPi ? a_rad + 2 * kPi : a_rad;
 }
 
-// Degrees as they are written: in (-180, 180], to a billionth, so that a resolved file read again
-// gives the very same radians.
+// Degrees as they are written to files: in (-180, 180], rounded to a billionth, so that a resolved
+// file that is read again gives exactly the same radians.
 inline double CanonicalDegrees(double yaw_deg) {
   yaw_deg = std::round(std::remainder(yaw_deg, 360.0) * 1e9) / 1e9;
   return yaw_deg <= -180 ? yaw_deg + 360 : yaw_deg + 0.0;

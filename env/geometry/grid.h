@@ -44,8 +44,8 @@ struct GridFrame {
   double cell_m = 0.05;
   Pose2 X_WG;
 
-  // The cell that holds p_W; may lie outside the grid (of points that are very far, or not finite,
-  // only that much is true).
+  // The cell that holds p_W; it may lie outside the grid. For points that are very far away or not
+  // finite, only that much is right: the cell lies outside.
   Cell ToCell(const Vec2& p_W) const {
     const Vec2 p_G = X_WG.Inverse() * p_W;
     const auto index = [this](double along_m) {

@@ -37,9 +37,9 @@ std::vector<Region> Union(const std::vector<Polygon>& polygons);
 std::vector<Region> Difference(const std::vector<Region>& a, const std::vector<Polygon>& b);
 std::vector<Region> Intersection(const std::vector<Region>& a, const std::vector<Polygon>& b);
 
-// Convex polygons that tile the regions without overlap: a convex region stays whole; others are
-// cut along lines in direction `yaw_rad` through their corners (trapezoids), neighbours merged
-// where they form a rectangle or trapezoid again.
+// Convex polygons that tile the regions without overlap. A convex region stays whole. Others are
+// cut along lines in direction `yaw_rad` through their corners, into trapezoids; neighbours are
+// merged where together they form a rectangle or a trapezoid again.
 std::vector<Polygon> ConvexParts(const std::vector<Region>& regions, double yaw_rad = 0);
 
 }  // namespace floorproof

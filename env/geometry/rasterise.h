@@ -23,7 +23,7 @@ struct Stencil {
 };
 
 // The cells that the footprint touches, or those whose centre it holds, after turns of 90 deg and
-// with its edges drawn in by inset_m (small against the edges).
+// with its edges drawn in by inset_m. inset_m must be small compared with the edges.
 enum class StencilOf { kTouched, kCentres };
 Stencil MakeStencil(const Polygon& footprint_B, double cell_m, int quarter_turns, double inset_m,
                     StencilOf which);

@@ -22,7 +22,7 @@ class Glass : public HazardType {
     hazard.footprint = StripAlong(place, thickness_m_, "thickness_m");
     for (const Polygon& pane : hazard.footprint)
       hazard.solids.push_back({Solid::Kind::kPrism, pane, {}, 0, height_m_});
-    // Between a dead blow and the 0.9 of a hard ball on glass: a robot's shell gives. An
+    // Between a dead blow and the 0.9 of a hard ball on glass, because a robot's shell gives. An
     // assumption.
     hazard.material.restitution = 0.3;
     hazard.material.rgba = {0.55f, 0.80f, 0.88f, 0.35f};

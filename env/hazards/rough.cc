@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rough ground (C4 of the hTetro FMEA paper, Table 1): cobbles, a coarse mat, broken tiles.
 //
-// Bumps stand on a square lattice of pitch wavelength_m that is fixed to the world, so that areas
-// that touch share one lattice. Each is a frustum of a square pyramid, 0.9 pitch wide at the floor
-// and half that on top, so that its flanks are ramps, not kerbs. Heights are uniform in [0.3, 1]
-// amplitude_m, hashed from the bump's place in the lattice: the same floor on every run. A height
-// profile therefore has one dominant wavelength and a highest point of amplitude_m. Bumps that
-// would cross the polygon's border are left out. No source gives spectra of indoor floors: these
-// numbers are assumptions.
+// Bumps stand on a square lattice of pitch wavelength_m. The lattice is fixed to the world, so
+// areas that touch share it. Each bump is a frustum of a square pyramid, 0.9 pitch wide at the
+// floor and half that on top, so its flanks are ramps and not kerbs. Heights are uniform in [0.3,
+// 1] amplitude_m and hashed from the bump's place in the lattice: the floor is the same on every
+// run. A height profile therefore has one dominant wavelength, and amplitude_m as its highest
+// point. Bumps that would cross the polygon's border are left out. No source gives spectra of
+// indoor floors, so these numbers are assumptions.
 #include <cmath>
 #include <cstdint>
 

@@ -5,11 +5,11 @@
 //   G glass (C2)    v drop, ^ raised floor (C3)    = cable cover, g groove, r rough (C4)
 //
 // Glass, drops, raised floor and rough ground: cells joined by their sides are one hazard, made of
-// maximal rectangles. Cable covers and grooves: a run of cells is one strip along its run; a cell
-// of runs both ways goes with the longer, and a lone one or a tie along y; where a strip meets
-// another of its kind it reaches to the middle of that one's cell. Ids count in reading order.
-// Solids are drawn back by inset_m on faces before which a robot may drive, and meet the (drawn
-// back) faces of walls; footprints are whole cells.
+// maximal rectangles. Cable covers and grooves: a run of cells is one strip along its run. A cell
+// of runs both ways belongs to the longer one; a lone cell, or a tie, goes along y. Where a strip
+// meets another of its kind, it reaches to the middle of the other's cell. Ids count in reading
+// order. Solids are drawn back by inset_m on faces before which a robot may drive, and meet the
+// (drawn back) faces of walls; footprints are whole cells.
 #pragma once
 
 #include <string>

@@ -141,8 +141,8 @@ void FloorDrawing::AlongRing(const CellBox& b, Visit visit) const {
   for (int iy = b.y1; iy >= b.y0; --iy) visit(Cell{b.x0 - 1, iy}, iy == b.y1);
 }
 
-// Counts the pieces of driveable ring that touch the box by a side (a corner alone leads nowhere):
-// with exactly one, whatever was joined through the box still is.
+// Counts the driveable pieces of the ring that touch the box by a side (a corner alone leads
+// nowhere). If there is exactly one, everything that was joined through the box still is.
 bool FloorDrawing::HangsTogetherAround(const CellBox& box) const {
   int pieces = 0, blocked = 0;
   bool counted = false;              // the piece that we are in
@@ -272,8 +272,9 @@ int FloorDrawing::FurnishCellByCell(int most, Stream& stream) {
   return placed;
 }
 
-// What the look along a ring cannot tell (the way round is longer), a tree that spans the floor
-// can: its leaves may go. Breadth first, so that what is reached last has no cell behind it.
+// Where the detour around a cell is longer than its ring, looking along the ring cannot tell
+// whether the cell may go. A spanning tree of the floor can: its leaves may go. It is grown breadth
+// first, so that the cell reached last has no cell behind it.
 int FloorDrawing::FurnishLeaves(int most, Stream& stream) {
   Cell root{0, 0};
   for (int after = Below(free_, stream), iy = 0; iy < chars_.height; ++iy)

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A floor drawn at random, step by step, in the characters of char_grid.h.
 //
-// What a robot of one cell may drive on (`. = g r`) stays one piece, joined by the cells' sides,
-// after every step. A block that is no longer driven on is put only where the driveable cells
-// around it still hang together along its own ring: enough for the whole floor, and a look at a few
-// cells. It is not necessary (the way round may be longer than the ring): the last pieces of very
-// dense furniture are found by a tree that spans the floor instead.
-// Every step is a function of the stream alone and ends after a bounded number of tries; it says
-// whether it found a place. It knows nothing of robots or of what a hazard measures.
+// What a robot of one cell may drive on (`. = g r`) stays connected, by the cells' sides, after
+// every step. A block that is no longer driven on is placed only where the driveable cells of its
+// own ring stay connected along that ring. This is enough for the whole floor, and needs a look at
+// only a few cells. It is not necessary, because a detour may be longer than the ring; so the last
+// pieces of very dense furniture are found with a spanning tree of the floor instead. Every step is
+// a function of the stream alone and ends after a bounded number of tries; it says whether it found
+// a place. It knows nothing of robots or of what a hazard measures.
 #pragma once
 
 #include <cstdint>
@@ -46,8 +46,9 @@ class FloorDrawing {
   // wall; when no rectangle fits any more, cell by cell.
   bool Furnish(int total, const IntRange& cells, Stream& stream);
 
-  // A start two cells and more from hazards and outside doors (or as far as there is), and a goal
-  // of that kind, the farthest by the cells' sides. They are one cell only where no other is free.
+  // A start at least two cells from hazards and outside doors, or as far as there is, and a goal of
+  // the same kind that is farthest from it by the cells' sides. They are one cell only if no other
+  // is free.
   struct Ends {
     Cell start, goal;
   };

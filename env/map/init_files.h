@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A first site and scenario for a ROS map, with comments that a newcomer learns the format from.
+// A first site and scenario for a ROS map, with comments from which a newcomer learns the format.
 #pragma once
 
 #include <filesystem>

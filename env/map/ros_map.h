@@ -16,10 +16,11 @@
 //   `negate` does nothing. The map's own thresholds then divide 1..99 as they do p.
 // - The image's top row is the map's highest; `origin` is the pose of the outer corner of the lower
 //   left pixel, its yaw turning the whole map.
-// A map with free_thresh 0.25 (Nav2's map_saver writes it) makes 205 free. That is honoured, since
-// it is what the robot's own map_server does, and said in `warnings`. Stricter than map_server,
-// which takes them in silence: thresholds outside [0, 1] or the wrong way round. Kinder: `negate`
-// may be missing (0). Keys of other tools are passed over.
+// A map with free_thresh 0.25 (Nav2's map_saver writes it) makes grey 205 free. The reader follows
+// that, because the robot's own map_server does so, and says it in `warnings`. It is stricter than
+// map_server about thresholds outside [0, 1] or in the wrong order, which map_server accepts
+// silently. It is more lenient about `negate`, which may be missing (0). Keys of other tools are
+// ignored.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A site file is first read as it is written (ReadWritten), then either becomes a HazardMap or is
-// written again with every default stated. Both see the same structure, so that they cannot differ.
+// A site file is first read as it is written (ReadWritten). It then either becomes a HazardMap or
+// is written again with every default stated. Both start from the same structure, so they cannot
+// differ.
 #include "env/map/site.h"
 
 #include <algorithm>
@@ -143,7 +144,7 @@ void CheckOnMap(const ConfigNode& node, const std::string& key, const Vec2& p_W,
                        " and upper right " + shown(frame.X_WG * size));
 }
 
-// Hazards that lie off the map altogether are more likely a wrong origin than meant.
+// A hazard that lies completely off the map is more likely due to a wrong origin than intended.
 void WarnOfFarHazards(Site& site, const std::string& file) {
   const GridFrame& frame = site.map.frame;
   const Pose2 X_GW = frame.X_WG.Inverse();

@@ -16,8 +16,8 @@ constexpr int kMaxOfAKind = 1000;          // all seven stay below a drawing's 1
 constexpr int kMaxClusterCells = 10'000;
 constexpr int kShareForMore = 3;  // what need not be there, while hazards take a third of the floor
 
-// Drawings before a site is refused as too full; fewer of a large one, where chance evens out and
-// each takes its time.
+// How many drawings are tried before a site is refused as too full. A large site gets fewer,
+// because chance evens out there and each drawing takes its time.
 int MostDrawings(const GenerateParams& p) {
   constexpr int kMax = 20;
   return std::clamp(kMaxCellsInAll / (p.width * p.height), 1, kMax);

@@ -19,8 +19,8 @@
 
 namespace floorproof {
 
-// How many of each the site has: drawn from the range. What its least says is there; what lies
-// beyond it is there as far as it fits and hazards take no more than a third of the floor.
+// How many of each the site has, drawn from the range. The range's lower end is always there. What
+// exceeds it is there as far as it fits, while hazards take no more than a third of the floor.
 struct HazardMix {
   IntRange glass, drop, raised, rough;  // clusters
   IntRange cable_cover, groove;         // strips, each from wall to wall

@@ -96,8 +96,8 @@ void WallGrid::Near(const Vec2& low_G, const Vec2& high_G, std::vector<int>& fou
 }
 
 int WallGrid::MostNear(double half_side_m) const {
-  // A square whose middle lies in a bucket lies in the bucket widened by half a side; one whose
-  // middle lies beyond the grid meets no more than when it is moved to the border.
+  // A square whose centre lies in a bucket lies within that bucket widened by half a side. A square
+  // whose centre lies beyond the grid meets no more than the same square moved to the border.
   std::size_t most = 0;
   std::vector<int> found;
   const Vec2 half(half_side_m, half_side_m), side(bucket_m_, bucket_m_);

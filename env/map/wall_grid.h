@@ -28,9 +28,9 @@ class WallGrid {
   void Near(const Vec2& low_G, const Vec2& high_G, std::vector<int>& found) const;
   // At least as many as Near() finds in any square of this half side (m), wherever it stands.
   int MostNear(double half_side_m) const;
-  // Distance (m) along the ray to the first face of a box, as mj_ray measures it: from within a
-  // box, to where the ray leaves it. `direction_G` is of length 1; infinity where nothing is met
-  // within `most_m`. Takes time as the ray's length, not as the map's size.
+  // Distance (m) along the ray to the first face of a box, measured like mj_ray: from within a box,
+  // the distance to where the ray leaves it. `direction_G` has length 1. Infinity when nothing is
+  // met within `most_m`. Takes time proportional to the ray's length, not to the map's size.
   double Cast(const Vec2& from_G, const Vec2& direction_G, double most_m) const;
 
  private:

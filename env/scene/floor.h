@@ -15,8 +15,9 @@ struct FloorPiece {
   int hazard = -1;  // the hazard whose bottom it is; -1: the base floor
 };
 
-// Empty when nothing is cut: the floor is a plane then. Else slabs that tile the map and a margin
-// around it, seams along the longest edge of the first cut only, and the bottoms of the cuts.
+// Empty when nothing is cut: then the floor is a plane. Otherwise the bottoms of the cuts, and
+// slabs that tile the map and a margin around it, with seams only along the longest edge of the
+// first cut.
 std::vector<FloorPiece> FloorPieces(const HazardMap& map);
 
 }  // namespace floorproof

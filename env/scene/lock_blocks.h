@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A reconfigurable robot locked in one shape: hinges and their motors are taken out, the blocks
-// become one rigid body. What never changes its shape need not be simulated as if it could.
+// A reconfigurable robot locked in one shape. Hinges and their motors are removed, and the blocks
+// become one rigid body: a robot that never changes its shape need not be simulated as if it could.
 #pragma once
 
 #include <mujoco/mujoco.h>

@@ -24,9 +24,9 @@ void Inflate(mjPreContact* con, int n, double radius_m, double toward_wheel) {
   }
 }
 
-// One contact for each plane that is touched. Where contacts of one plane are equally deep, as
-// those of a wheel that stands upright are, theirs is the middle, so that the wheel turns without
-// scrubbing; as it leans, the deepest takes over without a jump.
+// One contact for each plane that is touched. Where the contacts of one plane are equally deep, as
+// for a wheel that stands upright, their mean is used, so that the wheel turns without scrubbing.
+// As the wheel leans, the deepest contact takes over without a jump.
 int MergeCoplanar(mjPreContact* con, int n) {
   std::array<bool, kMaxContacts> taken{};
   int merged = 0;
@@ -55,8 +55,8 @@ int MergeCoplanar(mjPreContact* con, int n) {
   return merged;
 }
 
-// Where a tyre that stands square lies along an edge or a face, the engine may name either end of
-// the core as the one contact; the middle is as true, and pulls to neither side.
+// Where a tyre lies squarely along an edge or a face, the engine may name either end of the core as
+// the one contact. The middle is just as true, and pulls to neither side.
 void Centre(const mjData* d, int wheel, mjPreContact* con) {
   constexpr double kSquare = 0.02;  // sine of the angle within which a tyre lies on what it touches
   const mjtNum* mat = d->geom_xmat + 9 * wheel;
@@ -164,10 +164,10 @@ void PairWheel(mjSpec* spec, const mjsGeom* wheel, const mjsGeom* other, double 
   const double friction[5] = {mu, mu_across, 0, 0, 0};
   std::copy(std::begin(friction), std::end(friction), pair->friction);
   std::copy(std::begin(other->solref), std::end(other->solref), pair->solref);
-  // MuJoCo's convex contacts press harder where that lets friction stop a slip sooner: with the
-  // normal's time constant 16 wheels that spin against a wall made the robot hop, and thrown back
-  // at a third of its speed by a dead wall. Three times as slow, friction does not; rolling is the
-  // same.
+  // MuJoCo's convex contacts press harder when that lets friction stop a slip sooner. With the time
+  // constant of the normal force, 16 wheels that spun against a wall made the robot hop, and a dead
+  // wall threw it back at a third of its speed. With friction three times as slow, neither happens,
+  // and rolling is the same.
   constexpr double kFrictionTimeConstant_s = 0.03;
   pair->solreffriction[0] = kFrictionTimeConstant_s;
   pair->solreffriction[1] = 1;

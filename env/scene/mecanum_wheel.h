@@ -3,12 +3,13 @@
 // Mecanum wheel of it.
 //
 // A wheel of radius R with rollers of radius r is a core cylinder of radius R - r, whose geom
-// carries `user="r angle"` (WheelSpec says which angle). The collider (1) inflates the core by r,
-// which makes it round: R forward, r sideways, as the rollers are; (2) turns each contact's first
-// tangent along the axis of the roller that touches there; (3) merges contacts of one plane into
-// one. With pairs that rub along the first tangent only, the rollers spin freely about their axes.
-// The rounding decides what the wheel climbs sideways; docs/physics.md has the figures.
-// Assumes infinitely many, massless, frictionless rollers; a roller never meets two obstacles.
+// carries `user="r angle"` (WheelSpec says which angle). The collider does three things. (1) It
+// inflates the core by r, which rounds it as the rollers do: R forward, r sideways. (2) It turns
+// each contact's first tangent along the axis of the roller that touches there. (3) It merges the
+// contacts of one plane into one. With pairs that have friction along the first tangent only, the
+// rollers spin freely about their axes. The rounding decides what the wheel climbs sideways;
+// docs/physics.md has the figures. Assumes infinitely many, massless, frictionless rollers; a
+// roller never meets two obstacles.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -33,9 +34,9 @@ void InstallWheelCollider();
 // after compiling.
 void InflateWheelBounds(mjModel* model);
 
-// Makes the wheel geom touch `other` through the collider, with friction `mu` along the rollers'
-// axes and `mu_across` across: none, unless the wheel is a roller that turns (roller_wheels.h).
-// Both need names. Softness is the other's.
+// Makes the wheel geom touch `other` through the collider. Friction is `mu` along the rollers' axes
+// and `mu_across` across them: 0, unless the wheel is a roller that turns (roller_wheels.h). Both
+// geoms need names. The softness is that of `other`.
 void PairWheel(mjSpec* spec, const mjsGeom* wheel, const mjsGeom* other, double mu,
                double mu_across = 0);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What MuJoCo's reader would hang on or choke on, looked for before it reads a robot's file: pipes
-// and devices among the files that it names, copies and pictures by the billion.
+// Looks for what MuJoCo's reader would hang or choke on, before it reads a robot's file: pipes and
+// devices among the files that it names, and copies or pictures by the billion.
 #pragma once
 
 #include <filesystem>

@@ -17,8 +17,8 @@ constexpr double kLeastRatio = 0.005;
 constexpr double kLiveliest = 0.95;
 
 ContactSoftness Softness(double stiffness_s, double damping_ratio) {
-  // Underdamped contacts keep their stiffness, so that a lively one lasts as many steps as another;
-  // overdamped ones keep their damping, of which a step can take no more.
+  // Underdamped contacts keep their stiffness, so that a lively contact lasts as many steps as any
+  // other. Overdamped contacts keep their damping, because a step cannot take more.
   return {stiffness_s / std::min(1.0, damping_ratio), damping_ratio};
 }
 

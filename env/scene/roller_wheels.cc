@@ -13,11 +13,11 @@
 namespace floorproof {
 namespace {
 
-// Of a wheel's mass. The pitch circle has about the core's radius: what the wheel's inertia gains
-// by it is some 2 % of its motor's armature in htetro.
+// The rollers' share of a wheel's mass. The pitch circle has about the core's radius; the wheel
+// gains an inertia of about 2 % of its motor's armature in htetro.
 constexpr double kRollersShare = 0.5;
-// Ideal rollers are free. So are these, nearly: a roller at 20 rad/s loses the torque of 0.3 mN at
-// its tread; but one that was lifted comes to rest, within seconds.
+// Ideal rollers turn freely, and these nearly do. A roller at 20 rad/s loses the torque of 0.3 mN
+// at its tread, yet one that was lifted comes to rest within seconds.
 constexpr double kDamping_nms = 1e-7;
 
 // A Mecanum wheel in the spec, found before anything is changed.

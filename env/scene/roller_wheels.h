@@ -3,14 +3,15 @@
 // (env/scene/mecanum_wheel.h), and what the stock MuJoCo can roll.
 //
 // Each wheel becomes a hub on the motor's hinge, with kRollers rollers that turn freely on hinges
-// of their own, at the same radius R, roller radius r and angle. A roller is an ellipsoid of
-// revolution: no facets, one contact. Its semi-axis makes the wheel as high where one roller hands
-// over to the next as on the middle of one; in between it is 0.05 mm higher (htetro).
-// Rollers meet floor and hazards with the friction and softness of what they meet, alike in all
-// directions, by pairs as ideal wheels do (BuildScene); they never meet each other or the body.
-// What differs from the ideal wheel: a roller that is not lowest stands aslant, which takes up to
-// 1 - sin(x) / x with x = pi / kRollers, 2.6 %, off its motion sideways; the contact wanders from
-// one side of the tyre to the other; an ellipsoid's end is more pointed than a rounded core's rim.
+// of their own, with the same radius R, roller radius r and angle. A roller is an ellipsoid of
+// revolution: it has no facets and one contact. Its semi-axis makes the wheel as high where one
+// roller hands over to the next as at the middle of one; in between the wheel is 0.05 mm higher
+// (htetro). Rollers meet floor and hazards with the friction and softness of what they meet, the
+// same in all directions, by pairs as ideal wheels do (BuildScene). They never meet each other or
+// the body. Three things differ from the ideal wheel. A roller that is not lowest stands aslant,
+// which takes up to 1 - sin(x) / x with x = pi / kRollers, 2.6 %, off the sideways motion. The
+// contact wanders from one side of the tyre to the other. The end of an ellipsoid is more pointed
+// than the rim of a rounded core.
 #pragma once
 
 #include "env/core/robot_spec.h"

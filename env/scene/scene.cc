@@ -53,7 +53,7 @@ class SceneBuilder {
       plane->size[2] = 1;
       mjs_setString(plane->material, "floor");
     }
-    // All reach down alike: beside a deep pit there is no slot under the floor.
+    // All slabs reach down equally deep: beside a deep pit there is no slot under the floor.
     double lowest_m = 0;
     for (const auto& piece : pieces) lowest_m = std::min(lowest_m, piece.z_top_m);
     for (const auto& piece : pieces) {

@@ -10,8 +10,9 @@
 namespace floorproof {
 namespace {
 
-// Least angle about an edge of the hull of the points that carry the robot: atan(d / h) with d
-// from the edge to the centre of mass, seen from above, and h its height.
+// The smallest angle about an edge of the hull of the points that carry the robot: atan(d / h),
+// with d the distance from the edge to the centre of mass, seen from above, and h the centre's
+// height.
 double StaticTip(const CompiledRobot& compiled, const RobotSpec& robot,
                  const std::vector<double>& hinge_rad) {
   const mjModel* m = compiled.model();

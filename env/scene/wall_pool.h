@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Few boxes that stand for many: of a map with many walls the model holds only as many boxes as a
-// robot can have near it anywhere on the map. Static geoms are not free: MuJoCo moves through all
-// of them at each step. env/sim/live_geoms.h lets the boxes be those near the robot.
+// Few boxes that stand for many. For a map with many walls, the model holds only as many boxes as a
+// robot can have near it anywhere on the map. Static geoms are not free: MuJoCo goes through all of
+// them at each step. env/sim/live_geoms.h makes the boxes those that are near the robot.
 #pragma once
 
 #include <mujoco/mujoco.h>

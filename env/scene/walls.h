@@ -10,15 +10,15 @@
 
 namespace floorproof {
 
-// 1 on the free cells (not IsWall) of the map that hang together with the start's by their sides;
-// on all free ones where the start's is none.
+// 1 on the free cells (not IsWall) of the map that are connected with the start's cell by their
+// sides. If the start's cell is not free, 1 on all free cells.
 Grid<std::uint8_t> FloorAround(const HazardMap& map, const Vec2& start_W);
 
-// Maximal rectangles of occupied cells (IsWall), one ring of cells beyond the map included, as far
-// as a robot that starts there can see or touch them: those within reach (its circumscribed circle
-// and 0.3 m more, so that a picture shows walls of some thickness) of the FloorAround the start. A
-// lidar sees into gaps that the robot does not fit into. Faces towards free cells are drawn back by
-// map.inset_m.
+// Maximal rectangles of occupied cells (IsWall), including one ring of cells beyond the map. Only
+// walls that a robot that starts there can see or touch are included: those within reach of the
+// FloorAround the start, where reach is its circumscribed circle and 0.3 m more, so that walls on a
+// picture have some thickness. (A lidar sees into gaps that the robot does not fit into.) Faces
+// towards free cells are drawn back by map.inset_m.
 std::vector<WallBox> WallBoxes(const HazardMap& map, const RobotSpec& robot, const Vec2& start_W);
 
 // Greedy cover of the set cells by rectangles that do not overlap: {ix, iy, width, height}.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a campaign survives: kills, full and read-only disks, Ctrl-C, crashing episodes, a corrupted
-// database. Afterwards every finished episode is there once, and going on gives what an undisturbed
+// database. Afterwards every finished episode is there once, and resuming gives what an undisturbed
 // campaign gives.
 //
-// Moments are drawn from a seed; which episode they hit hangs on the machine, what is asserted does
-// not.
+// Moments are drawn from a seed. Which episode they hit depends on the machine; what is asserted
+// does not.
 #include <sched.h>
 #include <sys/mount.h>
 #include <sys/stat.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ctrl-C at any moment: exit status 130, one line that says what is there, and every file that is
-// there is whole. Moments are taken from what the program has done so far, and spread in between;
-// what is asserted holds wherever they fall.
+// there is whole. The moments are derived from what the program has done so far, and spread in
+// between. What is asserted holds wherever they fall.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>

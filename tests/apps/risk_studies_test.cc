@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plans by risk over random sites, and driven: the bundled campaigns risk_study and risk_drive.
-// Slow. The seeds are none that the planners were developed on.
+// Slow. The planners were not developed on these seeds.
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/campaign_program.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A user's own robot that is none.
+// Robot files of a user that are broken.
 #include <sys/stat.h>
 
 #include "tests/bad_input/bad_input.h"

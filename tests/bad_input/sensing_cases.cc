@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sensors, estimators, mapper and reaction that cannot be: refused by whatever command reads the
-// scenario, before anything is planned or written.
+// Settings of sensors, estimators, mapper and recovery that cannot work. Whatever command reads the
+// scenario refuses them, before anything is planned or written.
 #include <fstream>
 #include <iterator>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that are no YAML, or more of it than anybody writes.
+// Files that are not YAML, or far larger than anybody writes.
 #include <filesystem>
 #include <fstream>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every registered drive, estimator and tracker owes.
+// What every registered drive, estimator and tracker promises: drives and trackers on every
+// registered robot.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tracker that keeps the plan's yaw while it goes every way.
+// A tracker that keeps the plan's yaw in whatever direction it moves.
 #include <gtest/gtest.h>
 
 #include <cmath>

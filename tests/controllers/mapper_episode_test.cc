@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a driven robot's map owes to its sensors, and to nothing else.
+// A driven robot's map holds what its sensors said, and nothing else.
 #include <gtest/gtest.h>
 
 #include <algorithm>

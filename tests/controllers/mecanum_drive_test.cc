@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Mecanum drive against the wheel's own law, written here a second time from its picture: the
-// rim's point at the floor may move only across the roller's axis.
+// The Mecanum drive against the law of a single wheel, derived here a second time from its
+// geometry: the rim's point at the floor may move only across the roller's axis.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A robot that moves exactly as it is told, and what it does when its sensors tell of trouble.
+// Recovery behaviour of a robot that moves exactly as it is told, when its sensors report trouble.
 #include "controllers/recovery.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every registered detector owes; a new one inherits these with its line in list.inc.
+// What every registered detector promises; a new one inherits these tests with its line in
+// list.inc.
 #include <gtest/gtest.h>
 
 #include <algorithm>

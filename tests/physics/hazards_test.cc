@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each robot's own physics says of hazards that lie across its path: which failure, where, and
-// that it is named; and that what must pass does.
+// What each robot's physics says of hazards that lie across its path: which failure occurs, where,
+// and that it is named; and that what must pass does.
 #include <gmock/gmock.h>
 
 #include "base/streams.h"

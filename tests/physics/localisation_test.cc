@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a robot thinks it is, against where it is, on real maps: what `mcl` owes. Slow: hours of
-// simulated driving.
+// Where a robot thinks it is against where it is, on real maps: what `mcl` must achieve. Slow:
+// hours of simulated driving.
 #include <cmath>
 
 #include "controllers/estimator.h"

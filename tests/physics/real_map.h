@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Robots on real maps, in the scenario that `init` makes of each. Skipped where the map is not.
+// Robots on real maps, in the scenario that `init` makes of each map. Skipped where the map is not
+// available.
 #pragma once
 
 #include "env/map/init_files.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// No seam is felt on real maps: each robot drives its own plan on each for some minutes, over a
-// floor that pits outside the map cut into slabs, and heaves less than the stated bound. Slow.
+// No seam is felt on real maps. Each robot drives its own plan on each map for some minutes, over a
+// floor that pits outside the map cut into slabs, and moves up and down less than the stated bound.
+// Slow.
 #include "run/episode/make_plan.h"
 #include "tests/physics/real_map.h"
 #include "validate/vertical_motion.h"

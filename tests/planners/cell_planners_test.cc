@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all planners do that go from cell to cell, seen from outside. That each covers what it
-// promises: tests/conformance/planners_test.cc.
+// What all planners that go from cell to cell have in common, seen from outside. That each covers
+// what it promises is in tests/conformance/planners_test.cc.
 #include <gmock/gmock.h>
 
 #include "base/streams.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the two planners of a known floor are for, on floors where the right answer is plain.
+// The two planners of a known floor, on floors where the right answer is obvious.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -99,8 +99,8 @@ inline double Coverage(const HazardMap& map, const RobotSpec& robot, const Pose2
   return MeasureCoverage(area, plan.tool, plan.path).coverage;
 }
 
-// What every successful plan keeps: it starts at the start and stays clear of walls as built, to
-// half a fine cell, at which a floor is looked at.
+// What every successful plan must satisfy: it starts at the start, and stays clear of walls as
+// built, to half a fine cell (the resolution at which a floor is looked at).
 inline void ExpectSound(const HazardMap& map, const Pose2& start, const PlanResult& plan) {
   ASSERT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
   ASSERT_FALSE(plan.path.empty());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What risk_coverage adds to the walk that it searches: over which cells, and how terrain is
-// crossed.
+// What risk_coverage adds to the walk that it searches: over which cells it goes, and how it
+// crosses terrain.
 #include <gtest/gtest.h>
 
 #include <set>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each backend alone, in a process of its own: MuJoCo takes its GL functions once a process.
+// Each backend alone, in a process of its own, because MuJoCo loads its GL functions once per
+// process.
 #include <gmock/gmock.h>
 
 #include <cstdlib>

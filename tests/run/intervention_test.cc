@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `on_failure: assist`: what a person does to a robot that failed, and what that does to the
-// record.
+// `on_failure: assist`: how a person helps a robot that failed, and how the record shows it.
 #include "run/episode/intervention.h"
 
 #include <fmt/format.h>

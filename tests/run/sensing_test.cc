@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sensors, estimator, mapper and reaction in a scenario and through an episode.
+// Sensors, estimator, mapper and recovery behaviour, in a scenario and through an episode.
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Workers that answer, that die once or twice, and none that stays behind.
+// Workers that answer, workers that die once or twice, and that none is left behind.
 #include "run/campaign/worker_pool.h"
 
 #include <fcntl.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders and IMU: what they say of a motion against the motion, with and without slip.
+// Encoders and IMU: their readings against the true motion, with and without slip.
 #include <cmath>
 
 #include "tests/robots.h"

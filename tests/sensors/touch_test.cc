@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bumpers and cliff sensors: pressed by what is met and where, a drop told before it is fallen
-// into.
+// Bumpers and cliff sensors: what presses a bumper and where, and that a drop is reported before
+// the robot falls into it.
 #include <cmath>
 
 #include "tests/robots.h"

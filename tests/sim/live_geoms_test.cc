@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the simulation leaves out because it is far away changes no bit of what is driven.
+// The simulation leaves out what is far away; that changes no bit of the drive.
 #include "env/sim/live_geoms.h"
 
 #include <gtest/gtest.h>

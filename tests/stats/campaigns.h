@@ -20,7 +20,8 @@ struct StopChances {
   double passed = 0, failed = 0;
 };
 
-// Exact: the chance of each count of campaigns that go on, carried from episode to episode.
+// Exact: the probability of each count among the campaigns that go on, carried from episode to
+// episode.
 inline StopChances Enumerate(const StoppingRule& rule, double p) {
   StopChances chances;
   std::vector<double> going_on(rule.pass_at_most.size() + 2, 0.0);  // by k

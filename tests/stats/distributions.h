@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chances of counts, written out from their definitions: what the quantiles are held against.
+// Probabilities of counts, computed from their definitions: the quantiles are checked against them.
 #pragma once
 
 #include <cmath>

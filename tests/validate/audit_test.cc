@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // BELUGA's pace and hotel load are those that environment 1 of the audit paper's Table 3 gives,
-// from wherever one begins; and the calibrated trials themselves are met.
+// whatever values the fit starts from; and the calibrated trials themselves are met.
 #include <gtest/gtest.h>
 
 #include "validate/audit_tour.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A livelier pane throws a robot back faster, so does a faster approach, never faster than it came;
-// a dead one hardly ever.
+// A livelier pane throws a robot back faster, and so does a faster approach, but never faster than
+// it came. A dead pane hardly ever throws it back.
 #include "validate/bounce_chart.h"
 
 #include <gtest/gtest.h>

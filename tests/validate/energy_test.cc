@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The balance of energy has two sides: the battery's is what the simulation computes, the heat of
-// the motors is the true model's. So a power computed wrongly is no longer heat on the other side.
+// The balance of energy has two sides: the battery's is computed by the simulation, the heat of the
+// motors by the true model. So a wrong power does not reappear as heat on the other side.
 #include <gmock/gmock.h>
 
 #include "validate/law.h"

@@ -2,11 +2,11 @@
 // Coulomb friction, by a block on a slope: it holds below atan(mu) and slides above, there with
 // the acceleration g (sin a - mu cos a). The slope is a solid of the scene, as a hazard's flank is.
 //
-// Tolerances: soft friction lets a block that holds creep by a few mm/s, so "slides" is above
-// 2 cm/s after a second, which g (sin a - mu cos a) reaches 0.14 deg above the angle; the bisection
-// leaves 0.1 deg. The acceleration is taken from the way slid from rest, 2 s / t^2, to 2 %:
+// Tolerances: with soft friction a block that holds creeps by a few mm/s. So "slides" means above 2
+// cm/s after a second, which g (sin a - mu cos a) reaches 0.14 deg above the angle; the bisection
+// leaves 0.1 deg. The acceleration is taken from the distance slid from rest, 2 s / t^2, to 2 %:
 // MuJoCo's convex contacts lift what slides, so that it hops by some tenths of a millimetre, and
-// its velocity is noisy where its way is not.
+// its velocity is noisy where its distance is not.
 #include <fmt/format.h>
 
 #include "validate/law.h"

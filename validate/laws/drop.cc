@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Free fall: a robot let go at a height h meets the floor after sqrt(2 h / g) with sqrt(2 g h).
-// BELUGA's casters hang out of it by their springs' travel meanwhile and meet the floor first, that
-// much earlier.
+// BELUGA's casters hang out of it meanwhile, by their springs' travel, and meet the floor earlier
+// by that much.
 //
-// Tolerances: the integrator moves by the new velocity, so that a fall ends half a step early;
-// which step finds the floor is a matter of one more. Neither friction nor wheels can be felt in a
-// fall (larger wheels only start it with the body higher): the wrong model is gravity x 1.3.
+// Tolerances: the integrator moves by the new velocity, so a fall ends half a step early; finding
+// the floor may take one more step. Neither friction nor wheels can be felt in a fall (larger
+// wheels only start it with the body higher), so the wrong model is gravity x 1.3.
 #include <fmt/format.h>
 
 #include "validate/law.h"

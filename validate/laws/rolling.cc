@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A wheel that rolls moves its axle by omega R, with the speed omega that its hub measures: what
-// odometry lives on. A Mecanum wheel at 45 deg does so forward and, its rollers turning, sideways
-// (Muir & Neuman 1987). The motors' droop, which the law of kinematics has, is not in this one.
+// A wheel that rolls moves its axle by omega R, with omega the speed that its hub measures:
+// odometry relies on this. A Mecanum wheel at 45 deg does so forward and, with its rollers turning,
+// sideways (Muir & Neuman 1987). The motors' droop, which is part of the law of kinematics, is not
+// part of this one.
 //
 // Tolerance 0.1 %: what is left is the creep of soft contacts under the force of rolling friction;
 // a plain wheel also shows the sink of some micrometres into the floor.

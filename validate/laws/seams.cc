@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// No seam is felt: where something is missing from a floor, it is made of slabs, and a robot that
-// rolls from one to the next must not notice. Pits beside the way cut the bench's floor into slabs
-// of 0.10 and 0.25 m; the latter is also the distance of hTetro's wheels, so that two rows meet a
-// seam at once, the worst case.
+// No seam is felt: where something is missing from a floor, the floor is made of slabs, and a robot
+// that rolls from one to the next must not notice. Pits beside the way cut the bench's floor into
+// slabs of 0.10 and 0.25 m. The latter is also the distance between hTetro's wheels, so that two
+// rows meet a seam at once, the worst case.
 //
 // The bounds and their reason are in vertical_motion.h; tests/physics holds them on real maps. The
 // wrong model has every second slab 1 mm lower: neither friction nor wheels say anything of seams.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The answer does not hang on how time is cut: 1, 2 and 4 ms and both integrators agree on whether
+// The answer does not depend on the time step: 1, 2 and 4 ms and both integrators agree on whether
 // a robot crosses a step at 85 and 115 per cent of its limit at 0.2 m/s, and on where it is after a
 // curve of 4 s. The limits were found by bisection at 1 ms: BELUGA 21.1 mm, hTetro forward 23.1 mm
-// and sideways 5.25 mm. `implicitfast` at 4 ms is the outlier, with 18.0, 21.0 and 4.8 mm: nearer
+// and sideways 5.25 mm. `implicitfast` at 4 ms is the outlier, with 18.0, 21.0 and 4.8 mm. Closer
 // to a limit than 15 per cent the settings differ, and a verdict there is a matter of chance.
 //
 // How far 15 per cent are from a limit shows in the wrong models: it takes friction 2 times to
