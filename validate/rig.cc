@@ -108,13 +108,13 @@ void Rig::Step() {
 
 BodyTwist Rig::Run(const BodyTwist& twist, double t_s) {
   Command(twist);
-  const double start_s = sample().t_s;
+  const double start_s = truth().t_s;
   BodyTwist mean;
   int n = 0;
-  while (sample().t_s < start_s + t_s) {
+  while (truth().t_s < start_s + t_s) {
     Step();
-    if (sample().t_s < start_s + t_s / 2) continue;
-    const BodyTwist& v = sample().V_WB_B;
+    if (truth().t_s < start_s + t_s / 2) continue;
+    const BodyTwist& v = truth().V_WB_B;
     mean.vx_mps += v.vx_mps;
     mean.vy_mps += v.vy_mps;
     mean.wz_radps += v.wz_radps;

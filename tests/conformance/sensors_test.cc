@@ -58,6 +58,9 @@ std::vector<double> Told(const Observation& o) {
   add({o.bump.pressed ? 1.0 : 0.0, o.bump.bearing_rad});
   for (int i = 0; i < o.cliffs.n; ++i)
     add({o.cliffs.p_B[i].x(), o.cliffs.p_B[i].y(), o.cliffs.drop[i] ? 1.0 : 0.0});
+  if (o.truth)
+    add({o.truth->X_WB.x_m, o.truth->X_WB.y_m, o.truth->X_WB.yaw_rad, o.truth->V_WB_B.vx_mps,
+         o.truth->V_WB_B.vy_mps, o.truth->V_WB_B.wz_radps});
   return told;
 }
 

@@ -66,7 +66,7 @@ class Listener final : public EpisodeObserver {
   }
   bool OnControl(const EpisodeView& now) override {
     const Sample& truth = now.sample;
-    const Estimate estimate = dut_->Update(now.sensed, truth, 0.02);
+    const Estimate estimate = dut_->Update(now.sensed, 0.02);
     error_m_ = (estimate.X_WB.p() - truth.X_WB().p()).norm();
     return truth.t_s < 120;
   }
