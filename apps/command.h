@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the commands share: global options, printing. A command is one file here and
-// one line in commands.inc.
+// What the commands share: global options, printing. A command is one file here and one line in
+// commands.inc: a function of (CommandLine&, const Globals&, int& status) that adds it to the line;
+// the command leaves the exit status in `status` when it runs.
 #pragma once
 
 #include <filesystem>
@@ -27,9 +28,6 @@ struct Globals : Console {
   // The result, with --json, on stdout.
   void Result(const nlohmann::ordered_json& json_result) const;
 };
-
-// Adds the command to the line; it leaves the exit status in `status` when it runs.
-using AddCommand = void (*)(CommandLine& line, const Globals& globals, int& status);
 
 // --out, or out/<stem of the scenario's file> in the working directory.
 std::filesystem::path OutputFolder(const std::string& out, const Scenario& scenario);
