@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "controllers/drive.h"
+
 namespace floorproof {
 namespace {
 
@@ -48,6 +50,7 @@ void RecoveryParams::Visit(ParamVisitor& v) {
 void Recovery::Start(const RecoveryParams& params, const RobotSpec& robot) {
   params_ = params;
   robot_ = &robot;
+  holonomic_ = IsHolonomic(robot);
   state_ = State::kIdle;
   ended_ = false;
   count_ = 0;
@@ -66,7 +69,7 @@ void Recovery::Begin(const Observation& sensed, const BodyTwist& commanded) {
   way_B_ = -Vec2(commanded.vx_mps, commanded.vy_mps);
   if (way_B_.norm() < kStanding_mps) {
     way_B_ = -Side(sensed, params_.bumper, params_.cliff);
-    if (robot_->drive == "differential") way_B_.y() = 0;
+    if (!holonomic_) way_B_.y() = 0;
     if (way_B_.norm() < 0.3 && std::abs(commanded.wz_radps) > kStanding_radps) {
       way_B_ = Vec2::Zero();
       turn_ = commanded.wz_radps > 0 ? -1 : 1;

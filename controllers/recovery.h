@@ -44,6 +44,7 @@ class Recovery {
 
   RecoveryParams params_;
   const RobotSpec* robot_ = nullptr;
+  bool holonomic_ = false;
   State state_ = State::kIdle;
   BodyTwist twist_;            // commanded now
   Vec2 way_B_ = Vec2::Zero();  // unit, away from what was met
