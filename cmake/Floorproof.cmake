@@ -120,7 +120,7 @@ function(fp_group_sources)
   set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${read})
 endfunction()
 
-# Linking is a tenth of the time with mold or lld.
+# A faster linker, where one is installed: some sixty programs are linked.
 include(CheckLinkerFlag)
 foreach(linker mold lld)
   check_linker_flag(CXX -fuse-ld=${linker} FLOORPROOF_LINKS_WITH_${linker})
