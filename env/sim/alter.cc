@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "env/scene/mecanum_wheel.h"
 #include "env/sim/simulation.h"
 
 namespace floorproof {
@@ -120,6 +121,7 @@ void Simulation::AlterPayload() {
   }
   const DataPtr scratch = MakeData(own_.get());
   mj_setConst(own_.get(), scratch.get());  // what the engine derives from masses
+  InflateWheelBounds(own_.get());          // and from the wheels' cores alone
   live_.model()->stat = own_->stat;
 }
 
