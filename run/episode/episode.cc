@@ -40,17 +40,143 @@ Stream StreamOf(const Scenario& s, const std::string& name) {
   return {static_cast<std::uint64_t>(s.episode.seed), s.episode_id, name};
 }
 
-void StartDetectors(Scenario& s) {
-  for (auto& detector : s.detectors)
-    detector->Start({s.site.map, s.robot.spec, s.physics.timestep_s});
+// The two sides of an episode, and who looks on: the plant, the robot's side, the person who helps,
+// the detectors, the recorder. They meet in the sample, which is written here alone.
+class Episode {
+ public:
+  Episode(Scenario& s, Plant& plant, Simulation* simulation, const PlanResult& plan,
+          EpisodeObserver* observer);
+
+  EpisodeRecord Run() {
+    Begin();
+    std::optional<Outcome> ended;
+    for (std::int64_t step = 0; !ended; ++step) {
+      if (step % steps_a_control_ == 0) ended = Control();
+      if (!ended) ended = Step();
+    }
+    EpisodeRecord record = recorder_.Finish(*ended, sample_, plan_, robot_side_, s_.detectors,
+                                            s_.episode.min_coverage, plant_.battery_left());
+    if (record.message.empty()) record.message = interventions_.why_not();
+    return record;
+  }
+
+ private:
+  void Begin();
+  std::optional<Outcome> Control();
+  std::optional<Outcome> Step();
+
+  void Look() { static_cast<Truth&>(sample_) = plant_.truth(); }
+  void Act(const Actuation& actuation);
+  void StartDetectors();
+  bool Detect();
+
+  Scenario& s_;
+  Plant& plant_;
+  Simulation* simulation_;
+  const PlanResult& plan_;
+  EpisodeObserver* observer_;
+  const RobotSpec& robot_;
+  HazardMap known_;
+  SweepArea area_;
+  double plan_s_, plan_m_, limit_s_;
+  std::int64_t steps_a_control_;
+  Recorder recorder_;
+  Interventions interventions_;
+  PlanNavigator navigator_;
+  RobotSide robot_side_;
+  Observation sensed_;
+  Sample sample_;
+};
+
+template <class T>
+const T* OrNull(const std::optional<T>& value) {
+  return value ? &*value : nullptr;
+}
+
+Episode::Episode(Scenario& s, Plant& plant, Simulation* simulation, const PlanResult& plan,
+                 EpisodeObserver* observer)
+    : s_(s),
+      plant_(plant),
+      simulation_(simulation),
+      plan_(plan),
+      observer_(observer),
+      robot_(s.robot.spec),
+      known_(KnownPart(s.site.map)),
+      area_(ComputeSweepArea(s.site.map, robot_.clear, robot_.tool, robot_.step_m, s.start.p())),
+      plan_s_(PlanDuration(plan.path, robot_.cruise_mps)),
+      plan_m_(std::max(Length(plan.path), 1e-9)),
+      limit_s_(s.episode.time_limit_s.value_or(60 + 3 * plan_s_)),
+      steps_a_control_(std::lround(1.0 / (s.episode.control_hz * s.physics.timestep_s))),
+      recorder_(s, area_, *plan.risk, plan_s_),
+      interventions_(s),
+      navigator_(plan, known_, robot_, OrNull(s.recovery)),
+      robot_side_(robot_, known_, navigator_,
+                  {*s.tracker, *s.estimator, OrNull(s.mapper), OrNull(s.recovery)},
+                  1.0 / s.episode.control_hz) {}
+
+void Episode::Begin() {
+  plant_.Reset(s_.start, sensed_);
+  Look();
+  robot_side_.Start(s_.start, StreamOf(s_, "estimator"));
+  StartDetectors();
+}
+
+// What happens once a control period: sense and command, keep a record, look on, help.
+std::optional<Outcome> Episode::Control() {
+  plant_.Sense(sensed_);
+  Act(interventions_.awaited() ? robot_side_.Stand(sensed_) : robot_side_.Control(sensed_));
+  recorder_.OnControl(sample_, robot_side_.estimate());
+
+  std::optional<Outcome> ended;
+  if (sample_.command.done) ended = Outcome::kSuccess;
+  if (sample_.t_s >= limit_s_ + interventions_.extra_s()) ended = Outcome::kTimeout;
+  if (observer_ && !observer_->OnControl({sample_, sensed_, robot_side_.estimate(), simulation_,
+                                          recorder_.coverage(), recorder_.driven_m() / plan_m_}))
+    ended = Outcome::kInterrupted;
+
+  if (!ended && interventions_.HasCome(sample_.t_s)) {  // after sensing: a bump was where it lay
+    recorder_.OnIntervention(interventions_.SetDown(plant_, robot_side_), s_.detectors);
+    Look();
+    Act(robot_side_.actuation());
+    StartDetectors();
+  }
+  return ended;
+}
+
+// One step of the plant, and what is to be said of it.
+std::optional<Outcome> Episode::Step() {
+  const bool good = plant_.Step();
+  Look();
+  if (!good) return Outcome::kError;
+  sample_.cross_track_m =
+      CrossTrack(robot_side_.path(), sample_.command.segment, sample_.p_WB.head<2>());
+  recorder_.OnStep(sample_);
+
+  if (interventions_.awaited()) return std::nullopt;  // that it does not get on is known
+  if (Detect() && s_.episode.on_failure != "ignore" &&
+      !interventions_.Call(robot_side_.path(), sample_))
+    return Outcome::kFailure;
+  return std::nullopt;
+}
+
+void Episode::Act(const Actuation& actuation) {
+  plant_.Apply(actuation);
+  sample_.command = robot_side_.command();
+  sample_.command.hinges = actuation.hinges;
+  sample_.cross_track_half_width_m = HalfWidth(robot_side_.clearance(), robot_side_.path(),
+                                               sample_.command.segment, sample_.p_WB.head<2>());
+}
+
+void Episode::StartDetectors() {
+  for (auto& detector : s_.detectors) detector->Start({s_.site.map, robot_, s_.physics.timestep_s});
 }
 
 // True when one of them fired; all see every sample.
-bool Detect(Scenario& s, const Sample& sample, Recorder& recorder) {
+bool Episode::Detect() {
   bool failed = false;
-  for (auto& detector : s.detectors) {
-    if (!detector->Update(sample)) continue;
-    recorder.OnEvent(detector->event());
+  for (auto& detector : s_.detectors) {
+    if (!detector->Update(sample_)) continue;
+    recorder_.OnEvent(detector->event());
     failed = true;
   }
   return failed;
@@ -67,73 +193,7 @@ EpisodeRecord RunEpisode(Scenario& s, const Scene& scene, const PlanResult& plan
 
 EpisodeRecord RunEpisode(Scenario& s, Plant& plant, Simulation* simulation, const PlanResult& plan,
                          EpisodeObserver* observer) {
-  const RobotSpec& robot = s.robot.spec;
-  const HazardMap known = KnownPart(s.site.map);
-  const SweepArea area =
-      ComputeSweepArea(s.site.map, robot.clear, robot.tool, robot.step_m, s.start.p());
-  const double plan_s = PlanDuration(plan.path, robot.cruise_mps),
-               plan_m = std::max(Length(plan.path), 1e-9);
-  const double limit_s = s.episode.time_limit_s.value_or(60 + 3 * plan_s);
-  const auto steps_a_control = std::lround(1.0 / (s.episode.control_hz * s.physics.timestep_s));
-
-  Recorder recorder(s, area, *plan.risk, plan_s);
-  Interventions interventions(s);
-  PlanNavigator navigator(plan, known, robot, s.recovery ? &*s.recovery : nullptr);
-  RobotSide side(robot, known, navigator,
-                 {*s.tracker, *s.estimator, s.mapper ? &*s.mapper : nullptr,
-                  s.recovery ? &*s.recovery : nullptr},
-                 1.0 / s.episode.control_hz);
-  Observation sensed;
-  Sample sample;
-  const auto look = [&] { static_cast<Truth&>(sample) = plant.truth(); };
-  const auto act = [&](const Actuation& actuation) {
-    plant.Apply(actuation);
-    sample.command = side.command();
-    sample.command.hinges = actuation.hinges;
-    sample.cross_track_half_width_m =
-        HalfWidth(side.clearance(), side.path(), sample.command.segment, sample.p_WB.head<2>());
-  };
-  plant.Reset(s.start, sensed);
-  look();
-  side.Start(s.start, StreamOf(s, "estimator"));
-  StartDetectors(s);
-
-  std::optional<Outcome> ended;
-  for (std::int64_t step = 0; !ended; ++step) {
-    if (step % steps_a_control == 0) {
-      plant.Sense(sensed);
-      act(interventions.awaited() ? side.Stand(sensed) : side.Control(sensed));
-      recorder.OnControl(sample, side.estimate());
-      if (sample.command.done) ended = Outcome::kSuccess;
-      if (sample.t_s >= limit_s + interventions.extra_s()) ended = Outcome::kTimeout;
-      if (observer && !observer->OnControl({sample, sensed, side.estimate(), simulation,
-                                            recorder.coverage(), recorder.driven_m() / plan_m}))
-        ended = Outcome::kInterrupted;
-      if (ended) break;
-      if (interventions.HasCome(sample.t_s)) {  // after sensing: a bump was where it lay
-        recorder.OnIntervention(interventions.SetDown(plant, side), s.detectors);
-        look();
-        act(side.actuation());
-        StartDetectors(s);
-      }
-    }
-    const bool good = plant.Step();
-    look();
-    if (!good) {
-      ended = Outcome::kError;
-      break;
-    }
-    sample.cross_track_m = CrossTrack(side.path(), sample.command.segment, sample.p_WB.head<2>());
-    recorder.OnStep(sample);
-    if (interventions.awaited()) continue;  // that it does not get on is known
-    if (Detect(s, sample, recorder) && s.episode.on_failure != "ignore" &&
-        !interventions.Call(side.path(), sample))
-      ended = Outcome::kFailure;
-  }
-  EpisodeRecord record = recorder.Finish(*ended, sample, plan, side, s.detectors,
-                                         s.episode.min_coverage, plant.battery_left());
-  if (record.message.empty()) record.message = interventions.why_not();
-  return record;
+  return Episode(s, plant, simulation, plan, observer).Run();
 }
 
 }  // namespace floorproof

@@ -22,8 +22,8 @@ struct VideoParams {
 // Scalars that stand at the top of the file.
 struct EpisodeParams {
   int control_hz = 50, trace_hz = 50;
-  // stop: the first failure ends the episode; assist: a person helps (assist.h); ignore: it is
-  // logged.
+  // stop: the first failure ends the episode; assist: a person helps (intervention.h); ignore: it
+  // is logged.
   std::string on_failure = "stop";
   double min_coverage = 0;
   std::optional<double> time_limit_s;  // none: three times the plan's own time, and a minute
