@@ -18,8 +18,9 @@
 #include <span>
 
 #include "base/error.h"
+#include "base/sanitizer.h"
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef FP_ADDRESS_SANITIZER
 // OSMesa never frees the frame buffer that OSMesaMakeCurrent makes for a context.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa.so\n"; }
 #endif

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <set>
 
+#include "base/sanitizer.h"
 #include "tests/bad_input/child.h"
 
 namespace floorproof {
@@ -16,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef FP_ADDRESS_SANITIZER
 constexpr double kMaxCpu_s = 20, kMaxMb = 4000;
 #else
 constexpr double kMaxCpu_s = 1, kMaxMb = 500;

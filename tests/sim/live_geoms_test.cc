@@ -29,9 +29,11 @@ HazardMap Pillars() {
   for (int y = 0; y < 80; y += 4)
     for (int x = 0; x < 80; x += 4)
       if (std::abs(x - 40) > 3 || std::abs(y - 40) > 3)
-        for (int k = 0; k < 2; ++k)
-          map.cells(x + static_cast<int>(draw.Below(2)), y + static_cast<int>(draw.Below(2))) =
-              CellState::kOccupied;
+        for (int k = 0; k < 2; ++k) {
+          // One after the other: compilers differ in which argument they evaluate first.
+          const int dy = static_cast<int>(draw.Below(2)), dx = static_cast<int>(draw.Below(2));
+          map.cells(x + dx, y + dy) = CellState::kOccupied;
+        }
   return map;
 }
 
