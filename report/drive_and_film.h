@@ -26,7 +26,8 @@ struct DriveResult {
 };
 
 // Plans and, unless the scenario says `drive: none`, drives; writes everything into `folder` and
-// says a line at each stage. An interruption ends the process here, with what is there in one line.
+// says a line at each stage. Interrupted, it writes what was driven, says what is there, and throws
+// Interruption.
 DriveResult DriveAndFilm(Scenario& scenario, const std::filesystem::path& folder,
                          const DriveOptions& options, const Console& console);
 
