@@ -36,6 +36,8 @@ set(FLOORPROOF_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, for example
 if(FLOORPROOF_SANITIZE)
   add_compile_options(-fsanitize=${FLOORPROOF_SANITIZE} -fno-sanitize-recover=all
                       -fno-omit-frame-pointer)
+  # What Eigen leaves uninitialised reads as NaN, so that whoever reads it is caught.
+  add_compile_definitions(EIGEN_INITIALIZE_MATRICES_BY_NAN)
   add_link_options(-fsanitize=${FLOORPROOF_SANITIZE})
 endif()
 

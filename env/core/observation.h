@@ -40,8 +40,9 @@ struct Bump {
 struct CliffRing {
   static constexpr int kMax = 8;
   int n = 0;
-  std::array<Vec2, kMax> p_B{};   // where each looks, body frame
-  std::array<bool, kMax> drop{};  // it sees no floor within its reach
+  std::array<Vec2, kMax> p_B;              // where each looks, body frame
+  std::array<bool, kMax> drop{};           // it sees no floor within its reach
+  CliffRing() { p_B.fill(Vec2::Zero()); }  // Eigen's own leaves them as they lie in memory
   bool any() const {
     for (int i = 0; i < n; ++i)
       if (drop[static_cast<std::size_t>(i)]) return true;
