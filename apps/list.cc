@@ -5,6 +5,7 @@
 
 #include "apps/command.h"
 #include "controllers/drive.h"
+#include "env/faults/schedule.h"
 #include "env/hazards/hazard_type.h"
 #include "env/sensors/sensor.h"
 
@@ -13,18 +14,27 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+void AddParams(Configurable& source, Json& params) {
+  for (const auto& doc : DocumentParams(source))
+    params.push_back({{"name", doc.name},
+                      {"default", doc.default_text},
+                      {"rule", doc.rule},
+                      {"help", doc.help}});
+}
+
+// When it is there.
+struct ScheduleKeys final : Configurable {
+  void Visit(ParamVisitor& v) override { timing.Visit(v); }
+  FaultTiming timing;
+};
+
+// `shared`: the keys that every one of the kind takes beside its own.
 template <class T>
-void AddEntries(std::span<const PluginEntry<T>> table, Json& out) {
+void AddEntries(std::span<const PluginEntry<T>> table, Json& out, Configurable* shared = nullptr) {
   for (const auto& entry : table) {
     Json params = Json::array();
-    if constexpr (std::is_base_of_v<Configurable, T>) {
-      const auto plugin = entry.make();
-      for (const auto& doc : DocumentParams(*plugin))
-        params.push_back({{"name", doc.name},
-                          {"default", doc.default_text},
-                          {"rule", doc.rule},
-                          {"help", doc.help}});
-    }
+    if constexpr (std::is_base_of_v<Configurable, T>) AddParams(*entry.make(), params);
+    if (shared != nullptr) AddParams(*shared, params);
     out.push_back({{"name", entry.name}, {"help", entry.help}, {"params", std::move(params)}});
   }
 }
@@ -36,6 +46,8 @@ Json Entries(const std::string& kind) {
   if (kind == "estimators") AddEntries(Estimators(), out);
   if (kind == "sensors") AddEntries(Sensors(), out);
   if (kind == "hazards") AddEntries(HazardTypes(), out);
+  ScheduleKeys schedule;
+  if (kind == "faults") AddEntries(Faults(), out, &schedule);
   if (kind == "failures") AddEntries(Detectors(), out);
   if (kind == "robots")
     for (const auto& robot : Robots())

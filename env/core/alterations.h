@@ -20,8 +20,8 @@ struct Alterations {
   // Factors on what was built.
   double floor_friction = 1;    // of the floor, and of hazards that state none
   double motor_resistance = 1;  // of every motor's windings
-  double battery_voltage = 1;
-  double hotel_load = 1;  // what all but the motors draws
+  double battery_voltage = 1;   // > 0
+  double hotel_load = 1;        // what all but the motors draws
   double gravity = 1;
 
   double payload_kg = 0;

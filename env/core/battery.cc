@@ -38,7 +38,13 @@ double DriveTorque(const VelocityDrive& drive, double command_radps, double spee
 BatteryInUse::BatteryInUse(const Battery& battery) : battery_(battery) {
   constexpr double kUsual_v = 12;
   if (!battery_.voltage_v) battery_.voltage_v = kUsual_v;
-  voltage_v_ = *battery_.voltage_v;
+  voltage_v_ = built_v_ = *battery_.voltage_v;
+}
+
+void BatteryInUse::Weaken(double share) {
+  const double before_v = *battery_.voltage_v, now_v = share * built_v_;
+  battery_.voltage_v = now_v;
+  voltage_v_ *= now_v / before_v;
 }
 
 BatteryOutput BatteryInUse::Feed(double load_w, double dt_s) {

@@ -54,6 +54,8 @@ class BatteryInUse {
   explicit BatteryInUse(const Battery& battery);
   // Feeds this load for this time. A battery that runs empty within it is empty after it.
   BatteryOutput Feed(double load_w, double dt_s);
+  // From now on it is one of this share of its voltage.
+  void Weaken(double share);
   bool empty() const { return battery_.capacity_wh && drawn_j_ >= *battery_.capacity_wh * 3600; }
   bool cut_off() const { return overloaded_ || empty(); }
   // Share of the capacity, 1: full; none without a capacity.
@@ -63,6 +65,7 @@ class BatteryInUse {
 
  private:
   Battery battery_;
+  double built_v_ = 0;
   bool overloaded_ = false;
   double drawn_j_ = 0;  // from the cells: at open-circuit voltage
   double voltage_v_ = 0;

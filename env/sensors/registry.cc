@@ -17,4 +17,10 @@ std::span<const PluginEntry<Sensor>> Sensors() {
   return kTable;
 }
 
+std::vector<std::string> SensorNames(std::span<const NamedSensor> sensors) {
+  std::vector<std::string> names;
+  for (const NamedSensor& sensor : sensors) names.push_back(sensor.name);
+  return names;
+}
+
 }  // namespace floorproof

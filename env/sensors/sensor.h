@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/params.h"
 #include "base/registry.h"
@@ -51,5 +52,7 @@ struct NamedSensor {
 };
 
 std::span<const PluginEntry<Sensor>> Sensors();
+
+std::vector<std::string> SensorNames(std::span<const NamedSensor> sensors);
 
 }  // namespace floorproof

@@ -32,6 +32,7 @@ void Simulation::Alter(const Alterations& alterations) {
                                alterations.payload_p_B != altered_.payload_p_B;
   voltage_changes_ |= alterations.battery_voltage != 1;
   altered_ = alterations;
+  battery_.Weaken(altered_.battery_voltage);
   AlterMotors();
   AlterFriction();
   if (payload_changes) AlterPayload();

@@ -7,12 +7,15 @@
 namespace floorproof {
 
 PhysicsPlant::PhysicsPlant(const Scene& scene, const HazardMap& map, const RobotSpec& robot,
-                           const std::vector<NamedSensor>& sensors, double control_s,
+                           const std::vector<NamedSensor>& sensors,
+                           std::span<const ScheduledFault> faults, double control_s,
                            StreamOf stream_of)
     : scene_(scene),
       map_(map),
       robot_(robot),
       sensors_(sensors),
+      sensor_names_(SensorNames(sensors)),
+      faults_(faults),
       control_s_(control_s),
       stream_of_(std::move(stream_of)),
       simulation_(scene, map, robot),
@@ -20,6 +23,8 @@ PhysicsPlant::PhysicsPlant(const Scene& scene, const HazardMap& map, const Robot
 
 void PhysicsPlant::Reset(const Pose2& X_WB, Observation& sensed) {
   simulation_.Reset(X_WB);
+  faults_.Start({robot_, sensor_names_});
+  BreakWhatIsDue();
   for (const auto& [name, sensor, implied] : sensors_)
     sensor->Start({scene_, map_, robot_, control_s_}, simulation_.data(), truth(),
                   stream_of_("sensors." + name), sensed);
@@ -39,10 +44,15 @@ void PhysicsPlant::Sense(Observation& sensed) {
 }
 
 bool PhysicsPlant::Step() {
+  BreakWhatIsDue();
   const bool good = simulation_.Step();
   if (good)
     for (const NamedSensor& sensor : sensors_) sensor.sensor->OnStep(truth());
   return good;
+}
+
+void PhysicsPlant::BreakWhatIsDue() {
+  if (const Alterations* alterations = faults_.Update(truth().t_s)) Alter(*alterations);
 }
 
 void PhysicsPlant::Alter(const Alterations& alterations) {

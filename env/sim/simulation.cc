@@ -77,6 +77,7 @@ void Simulation::Place(const Pose2& X_WB) {
 void Simulation::Reset(const Pose2& X_WB) {
   mj_resetData(model(), data_.get());
   battery_ = BatteryInUse(robot_.battery);
+  battery_.Weaken(altered_.battery_voltage);
   truth_ = Truth{};
   Settle(X_WB, 0);
 }
@@ -325,8 +326,7 @@ void Simulation::ReadPower(double dt_s) {
 // What the drivers can give in the next step.
 void Simulation::SetDriverVoltages() {
   if (!voltage_changes_) return;
-  for (int a = 0; a < model()->nu; ++a)
-    SetDriverVoltage(model(), a, battery_.voltage_v() * altered_.battery_voltage);
+  for (int a = 0; a < model()->nu; ++a) SetDriverVoltage(model(), a, battery_.voltage_v());
 }
 
 }  // namespace floorproof

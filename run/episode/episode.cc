@@ -186,7 +186,8 @@ bool Episode::Detect() {
 
 EpisodeRecord RunEpisode(Scenario& s, const Scene& scene, const PlanResult& plan,
                          EpisodeObserver* observer) {
-  PhysicsPlant plant(scene, s.site.map, s.robot.spec, s.sensors, 1.0 / s.episode.control_hz,
+  PhysicsPlant plant(scene, s.site.map, s.robot.spec, s.sensors, s.faults,
+                     1.0 / s.episode.control_hz,
                      [&s](const std::string& name) { return StreamOf(s, name); });
   return RunEpisode(s, plant, &plant.simulation(), plan, observer);
 }

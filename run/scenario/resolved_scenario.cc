@@ -5,6 +5,7 @@
 
 #include "base/file_output.h"
 #include "run/scenario/scenario_parts.h"
+#include "run/scenario/written_faults.h"
 
 namespace floorproof {
 namespace {
@@ -155,6 +156,7 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
     root.Add("mapper", WithPlugin(ConfigNode::Map(), mapper));
   }
   if (s.recovery) root.Add("react", WithParams(ConfigNode::Map(), *s.recovery));
+  if (!s.faults.empty()) root.Add("faults", WriteFaults(s.faults));
   root.Add("failures", Failures(s));
   root = WithParams(std::move(root), s.episode);
   if (stated("battery", robot_varies))

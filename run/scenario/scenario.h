@@ -18,6 +18,7 @@
 #include "controllers/recovery.h"
 #include "controllers/tracker.h"
 #include "env/failures/detector.h"
+#include "env/faults/schedule.h"
 #include "env/map/site.h"
 #include "env/scene/robot_model.h"
 #include "env/scene/scene.h"
@@ -65,6 +66,7 @@ struct Scenario {
   std::vector<NamedSensor> sensors;        // those written, and those that a part of it needs
   std::optional<Mapper> mapper;            // none: no map is drawn
   std::optional<RecoveryParams> recovery;  // none: the plan is driven blindly
+  std::vector<ScheduledFault> faults;      // what breaks on the robot
   std::vector<std::unique_ptr<Detector>> detectors;
   PhysicsParams physics;
   Battery battery;  // its voltage set, if only by the robot

@@ -9,6 +9,7 @@
 #include "run/scenario/fmea_file.h"
 #include "run/scenario/plan_file.h"
 #include "run/scenario/start_check.h"
+#include "run/scenario/written_faults.h"
 
 namespace floorproof {
 namespace {
@@ -244,6 +245,12 @@ void ReadSensors(const ConfigNode& root, Scenario& s) {
   }
 }
 
+void ReadFaultsPart(const ConfigNode& root, Scenario& s) {
+  const ConfigNode* node = Written(root, "faults");
+  if (node == nullptr) return;
+  s.faults = ReadFaults(*node, {s.robot.spec, SensorNames(s.sensors)});
+}
+
 void ReadFailures(const ConfigNode& root, Scenario& s) {
   const ConfigNode written = PluginMap(root, "failures", "detectors", PluginNames(Detectors()));
   for (const auto& entry : Detectors()) {
@@ -265,11 +272,11 @@ fs::path BundledTables() {
 
 const std::vector<std::string>& ScenarioKeys() {
   static const std::vector<std::string> keys = {
-      "name",       "scenario", "site",         "robot",      "start",    "goal",
-      "plan",       "risk",     "controller",   "estimator",  "sensors",  "mapper",
-      "react",      "physics",  "battery",      "control_hz", "trace_hz", "failures",
-      "on_failure", "success",  "time_limit_s", "seed",       "episode",  "drive",
-      "wheels",     "video",    "files",        "randomise",  "matrix",   "gate"};
+      "name",    "scenario",   "site",      "robot",    "start",      "goal",    "plan",
+      "risk",    "controller", "estimator", "sensors",  "mapper",     "react",   "physics",
+      "battery", "control_hz", "trace_hz",  "failures", "on_failure", "success", "time_limit_s",
+      "seed",    "episode",    "drive",     "wheels",   "video",      "files",   "randomise",
+      "matrix",  "gate",       "faults"};
   return keys;
 }
 
@@ -306,6 +313,7 @@ void ReadParts(const ConfigNode& root, Scenario& s) {
   ReadControl(root, s);
   ReadReaction(root, s);
   ReadSensors(root, s);
+  ReadFaultsPart(root, s);
   ReadFailures(root, s);
   CheckStarts(root, s);
 }

@@ -9,6 +9,7 @@
 
 #include "env/core/coverage.h"
 #include "env/failures/detector.h"
+#include "env/faults/fault.h"
 #include "env/hazards/hazard_type.h"
 #include "env/scene/scene.h"
 #include "env/sensors/sensor.h"
@@ -24,6 +25,7 @@ std::unique_ptr<Planner> MakePlainRows();
 std::unique_ptr<HazardType> MakeDoorSill();
 std::unique_ptr<Detector> MakeDrift();
 std::unique_ptr<Sensor> MakeSonar();
+std::unique_ptr<Fault> MakeHotMotors();
 
 namespace {
 
@@ -143,6 +145,15 @@ TEST(AddingASensor, ItTellsTheNearestInEachConeGlassToo) {
   EXPECT_NEAR(sensed.scan.range_m[1], 1, 1e-3) << "to the left, the border";
   EXPECT_NEAR(sensed.scan.range_m[2], 1, 1e-3);
   EXPECT_NEAR(sensed.scan.range_m[3], 1, 1e-3);
+}
+
+TEST(AddingAFault, HotWindingsResistMore) {
+  const auto dut = MakeHotMotors();
+  ReadParams(ParseYaml("{winding_c: 120}", "keys"), "", *dut);
+  dut->Start({Burger().spec, {}});
+  Alterations alterations;
+  dut->Break(alterations);
+  EXPECT_NEAR(alterations.motor_resistance, 1.393, 1e-9);
 }
 
 std::string Page(const std::string& name) {

@@ -228,7 +228,7 @@ TEST(PhysicsPlant, ASilentSensorTellsNothingAndItsNoiseGoesOn) {
   for (const char* name : {"encoders", "imu", "truth"})
     sensors.push_back({name, MakePlugin(Sensors(), name, "sensor")});
   const auto drive = [&](double silent_until_s) {
-    PhysicsPlant dut(scene, map, robot.spec, sensors, kControl_s,
+    PhysicsPlant dut(scene, map, robot.spec, sensors, {}, kControl_s,
                      [](const std::string& name) { return Stream(7, 0, name); });
     Observation sensed;
     dut.Reset({}, sensed);

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/scenario/written_faults.h"
+
+#include <algorithm>
+
+namespace floorproof {
+namespace {
+
+constexpr std::size_t kMaxFaults = 1000;
+
+// Where the key is written that the line begins with; else where the entry is.
+SourceMark MarkOf(const ConfigNode& entry, std::string_view line) {
+  const ConfigNode* key = entry.Find(line.substr(0, line.find_first_of(" :")));
+  return key != nullptr ? key->mark : entry.mark;
+}
+
+ScheduledFault ReadFault(const ConfigNode& node, const std::string& path,
+                         const FaultContext& context) {
+  if (!node.IsMap())
+    throw InputError(node.mark, path, "", "must be a map of keys: {type: ..., ...}");
+  const std::string prefix = path + ".";
+  const ConfigNode* type = node.Find("type");
+  if (type == nullptr) throw InputError(node.mark, prefix + "type", "", "missing");
+  ScheduledFault read;
+  read.type = AsString(*type, prefix + "type");
+  read.fault = MakePlugin(Faults(), read.type, prefix + "type", type->mark);
+  ReadParams(node, prefix,
+             [&](ParamVisitor& v) {
+               read.fault->Visit(v);
+               read.timing.Visit(v);
+             },
+             {"type", "id"});
+  if (const ConfigNode* id = node.Find("id")) {
+    read.id = AsString(*id, prefix + "id");
+    if (read.id.empty() || read.id.size() > 64)
+      throw InputError(id->mark, prefix + "id", read.id, "must be 1 to 64 characters");
+  }
+  try {
+    read.fault->Start(context);
+  } catch (const InputError& e) {
+    throw InputError(MarkOf(node, e.what()), "", "", prefix + e.what());
+  }
+  return read;
+}
+
+}  // namespace
+
+std::vector<ScheduledFault> ReadFaults(const ConfigNode& node, const FaultContext& context) {
+  if (!node.IsList() || node.items.size() > kMaxFaults)
+    throw InputError(
+        node.mark, "faults", "",
+        "must be a list of at most " + std::to_string(kMaxFaults) + " faults: [{type: ..., ...}]");
+  std::vector<ScheduledFault> faults;
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    faults.push_back(ReadFault(node.items[i], "faults[" + std::to_string(i) + "]", context));
+    const std::string& id = faults.back().id;
+    if (!id.empty() && std::ranges::count(faults, id, &ScheduledFault::id) > 1)
+      throw InputError(node.items[i].mark, "faults.id", id, "two faults have this id");
+  }
+  return faults;
+}
+
+ConfigNode WriteFaults(std::span<const ScheduledFault> faults) {
+  ConfigNode list = ConfigNode::List();
+  for (const ScheduledFault& written : faults) {
+    ConfigNode node = ConfigNode::Map();
+    node.Add("type", ConfigNode::Scalar(written.type));
+    if (!written.id.empty()) node.Add("id", ConfigNode::Scalar(written.id, true));
+    WriteParams(*written.fault, node);
+    FaultTiming timing = written.timing;
+    WriteParams([&](ParamVisitor& v) { timing.Visit(v); }, node);
+    list.items.push_back(std::move(node));
+  }
+  return list;
+}
+
+}  // namespace floorproof

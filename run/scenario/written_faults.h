@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scenario's faults as they are written: a list under the key `faults`.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/config.h"
+#include "env/faults/schedule.h"
+
+namespace floorproof {
+
+// Throws InputError, also where the robot has nothing that could break so. `node`: the list.
+std::vector<ScheduledFault> ReadFaults(const ConfigNode& node, const FaultContext& context);
+
+// The list again, with every default stated.
+ConfigNode WriteFaults(std::span<const ScheduledFault> faults);
+
+}  // namespace floorproof
