@@ -76,6 +76,11 @@ int main(int argc, char** argv) {
 #include "apps/commands.inc"
 #undef FP_COMMAND
 
+  // What broke while an interrupted program tidied up is said as well; how it ended is interrupted.
+  const auto said = [](int failure) {
+    if (Interrupted()) EndInterrupted();
+    return failure;
+  };
   try {
     app.parse(argc, argv);
     return status;
@@ -87,12 +92,12 @@ int main(int argc, char** argv) {
     EndInterrupted();
   } catch (const InputError& e) {
     std::fprintf(stderr, "floorproof: %s\n", e.what());
-    return kBadInput;
+    return said(kBadInput);
   } catch (const std::filesystem::filesystem_error& e) {
     std::fprintf(stderr, "floorproof: %s: %s\n", e.path1().c_str(), e.code().message().c_str());
-    return kBadInput;
+    return said(kBadInput);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "floorproof: %s\n", e.what());
-    return kBroken;
+    return said(kBroken);
   }
 }

@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -35,7 +36,7 @@ std::string Slurp(const fs::path& file) {
 class Program {
  public:
   Program(const std::vector<std::string>& arguments, const fs::path& folder,
-          void (*on_sigint)(int) = SIG_DFL)
+          void (*on_sigint)(int) = SIG_DFL, rlim_t most_bytes = RLIM_INFINITY)
       : said_(folder / ".." / (folder.filename().string() + ".said")) {
     std::vector<std::string> words = {FP_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
@@ -48,6 +49,9 @@ class Program {
     const int err = open(said_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     dup2(out, 0), dup2(out, 1), dup2(err, 2);
     signal(SIGINT, on_sigint), signal(SIGTERM, SIG_DFL);
+    const rlimit limit{most_bytes, most_bytes};  // of any file: a disk that is full
+    setrlimit(RLIMIT_FSIZE, &limit);
+    signal(SIGXFSZ, SIG_IGN);
     alarm(240);
     if (chdir(folder.c_str()) == 0) execv(argv[0], argv.data());
     _exit(127);
@@ -264,6 +268,24 @@ TEST_F(InterruptTest, OfADriveKeepsItsTrace) {
     with_trace += fs::exists(folder_ / "o/trace.csv");
   }
   EXPECT_GE(with_trace, 1);
+}
+
+// What was driven cannot be kept: both is said.
+TEST_F(InterruptTest, OfADriveOnAFullDiskIsStillAnInterruption) {
+  int interrupted = 0;
+  for (const int then_ms : {100, 200, 300, 400}) {
+    Fresh();
+    Program dut({"run", hall_, "--out", "o"}, folder_, SIG_DFL, 12'000);
+    while (!dut.HasEnded() && !IsThere(folder_ / "o/plan.json", 0)) usleep(200);
+    usleep(static_cast<useconds_t>(1000 * then_ms));
+    dut.Send(SIGINT);
+    const int status = dut.Wait();
+    if (dut.Said().find("interrupted: ") == std::string::npos) continue;  // it had ended
+    EXPECT_EQ(status, 130) << dut.Said();
+    const bool full = dut.Said().find("trace.csv: cannot be written") != std::string::npos;
+    interrupted += full && std::ranges::count(dut.Said(), '\n') == 2;
+  }
+  EXPECT_GE(interrupted, 1);
 }
 
 TEST_F(InterruptTest, OfTheOtherCommands) {
