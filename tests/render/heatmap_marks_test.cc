@@ -72,7 +72,7 @@ TEST(HeatMapMarks, ANumberKeepsOffTheWay) {
   }
 }
 
-constexpr Rgb kStart = {20, 150, 90}, kEnd = {190, 20, 120}, kLine = {40, 46, 56};
+constexpr Rgb kStart = {20, 150, 90}, kEnd = {190, 20, 120};
 
 TEST(HeatMapMarks, AClosedPlansStartAndEndBothShow) {
   HazardMap map = Hall(12, 12, 0.5);
