@@ -36,6 +36,13 @@ bool Ahead(const Observation& sensed, bool bumper, bool cliff, const Vec2& way_B
 
 }  // namespace
 
+std::vector<std::string_view> RecoveryParams::Needs() const {
+  std::vector<std::string_view> needs;
+  if (bumper) needs.push_back("bumper");
+  if (cliff) needs.push_back("cliff");
+  return needs;
+}
+
 void RecoveryParams::Visit(ParamVisitor& v) {
   v("bumper", bumper, "react when the shell is pressed");
   v("cliff", cliff, "react when a cliff sensor sees no floor");

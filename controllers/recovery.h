@@ -4,6 +4,8 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "base/params.h"
 #include "env/core/motion.h"
@@ -18,6 +20,8 @@ struct RecoveryParams {
   std::string then = "replan";
   int most = 50;  // reactions an episode: a robot that is caught does not struggle for ever
   void Visit(ParamVisitor& v);
+  // The sensors that it goes by, by name.
+  std::vector<std::string_view> Needs() const;
 };
 
 class Recovery {

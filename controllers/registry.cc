@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables of drives, estimators and trackers, made from their lists.
-#include <algorithm>
 #include <string>
 
 #include "controllers/drive.h"
@@ -52,13 +51,6 @@ bool IsHolonomic(const RobotSpec& robot) {
   return MakePlugin(Drives(), robot.drive, "drive")->holonomic();
 }
 
-std::vector<std::string> Tracker::Drives() const {
-  std::vector<std::string> names;
-  for (const auto& entry : floorproof::Drives())
-    if (Commands(*entry.make())) names.emplace_back(entry.name);
-  return names;
-}
-
 void RequireLimits(const RobotSpec& robot, std::string_view tracker) {
   const auto require = [&](const std::string& key, double value) {
     if (!(value > 0))
@@ -73,10 +65,9 @@ void RequireLimits(const RobotSpec& robot, std::string_view tracker) {
 }
 
 std::string_view DefaultTracker(std::string_view drive) {
-  for (const auto& entry : Trackers()) {
-    const auto drives = entry.make()->Drives();
-    if (std::ranges::find(drives, drive) != drives.end()) return entry.name;
-  }
+  for (const auto& known : Drives())
+    for (const auto& entry : Trackers())
+      if (known.name == drive && entry.make()->Commands(*known.make())) return entry.name;
   throw InputError("no tracker commands a robot of drive " + std::string(drive));
 }
 

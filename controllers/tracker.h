@@ -24,8 +24,6 @@ class Tracker : public Configurable {
  public:
   // Whether it can command a robot on this drive, judged by what the drive can do.
   virtual bool Commands(const Drive& drive) const = 0;
-  // The names (RobotSpec::drive) of the registered drives that it commands.
-  std::vector<std::string> Drives() const;
   // Takes the plan, once, before the first Update. `clearance` is the known map's and outlives the
   // tracker, or is nullptr. May allocate; Update may not.
   virtual void Start(const Path& path, const RobotSpec& robot, const ClearanceField* clearance) = 0;

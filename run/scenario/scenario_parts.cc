@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/input_file.h"
+#include "controllers/drive.h"
 #include "env/core/blocks.h"
 #include "env/scene/roller_wheels.h"
 #include "run/scenario/fmea_file.h"
@@ -196,8 +197,7 @@ void ReadControl(const ConfigNode& root, Scenario& s) {
   s.tracker_name = tracker.name;
   s.tracker = MakePlugin(Trackers(), tracker.name, "controller", tracker.mark);
   ReadParams(tracker.params, "controller.", *s.tracker, {"name"});
-  const auto drives = s.tracker->Drives();
-  if (std::ranges::find(drives, s.robot.spec.drive) == drives.end())
+  if (!s.tracker->Commands(*MakePlugin(Drives(), s.robot.spec.drive, "drive")))
     throw InputError(tracker.mark, "controller", tracker.name,
                      "cannot command the drive " + s.robot.spec.drive + " of " + s.robot_name);
   const Named estimator = ReadNamed(root, "estimator", "name", Estimators().front().name);
@@ -230,9 +230,11 @@ void ReadReaction(const ConfigNode& root, Scenario& s) {
 void ReadSensors(const ConfigNode& root, Scenario& s) {
   const ConfigNode written = PluginMap(root, "sensors", "sensors", PluginNames(Sensors()));
   auto needed = s.estimator->Needs();
-  if (Written(root, "mapper")) needed.push_back("lidar");
-  if (s.recovery && s.recovery->bumper) needed.push_back("bumper");
-  if (s.recovery && s.recovery->cliff) needed.push_back("cliff");
+  const auto add = [&needed](const std::vector<std::string_view>& more) {
+    needed.insert(needed.end(), more.begin(), more.end());
+  };
+  if (Written(root, "mapper")) add(Mapper::Needs());  // one that came with `react` does without
+  if (s.recovery) add(s.recovery->Needs());
   for (const auto& entry : Sensors()) {
     const std::string name(entry.name);
     const ConfigNode* params = written.Find(name);
