@@ -14,31 +14,6 @@
 namespace floorproof {
 namespace {
 
-std::string_view Why(CampaignEnd end) {
-  switch (end) {
-    case CampaignEnd::kComplete:
-      return "all episodes are done";
-    case CampaignEnd::kGateDecided:
-      return "the gate's verdict is final";
-    case CampaignEnd::kFailFast:
-      return "an episode failed (--fail-fast)";
-    case CampaignEnd::kTimeLimit:
-      return "the time limit is reached (--resume goes on)";
-    case CampaignEnd::kInterrupted:
-      return "interrupted (--resume goes on)";
-    case CampaignEnd::kMissing:
-      return "episodes are missing";
-  }
-  return "?";
-}
-
-// Of the variant that has least.
-std::string Unfinished(const CampaignRun& run, std::uint64_t asked) {
-  std::uint64_t least = asked;
-  for (const VariantProgress& variant : run.variants) least = std::min(least, variant.prefix);
-  return fmt::format("{} of {} episodes stand without a gap: {}", least, asked, Why(run.end));
-}
-
 // To three digits, never downwards: a bound that is told too low would seem to pass a gate.
 double RoundedUp(double value) {
   if (value <= 0) return value;
@@ -78,16 +53,9 @@ int StatusOf(const CampaignRun& run, const std::optional<GateSummary>& gate) {
 int SayResults(const ScenarioFile& file, const CampaignStore& store, const CampaignRun& run,
                const std::filesystem::path& folder, const Globals& globals) {
   const std::vector<Variant>& variants = file.variants();
-  std::vector<GateState> gate;
-  for (const VariantProgress& variant : run.variants)
-    if (variant.gate) gate.push_back(*variant.gate);
-  const bool whole = run.end == CampaignEnd::kComplete || run.end == CampaignEnd::kGateDecided;
-  const CampaignEnding ending{whole ? "" : Unfinished(run, store.asked()),
-                              run.end == CampaignEnd::kFailFast};
-  const CampaignSummary summary =
-      WriteSummaryFiles(store, variants, gate, ending, file.name(), folder);
+  const CampaignSummary summary = WriteSummaryFiles(store, file, run, folder);
   globals.Result(SummaryJson(summary));
-  globals.Say(std::string(Why(run.end)) + "; results are in " + folder.string());
+  globals.Say(std::string(WhyEnded(run.end)) + "; results are in " + folder.string());
   SayRates(summary, globals);
   if (ListFailingEpisodes(store, variants, folder, globals) > 0 || variants.size() > 1)
     globals.Say(fmt::format("`floorproof report {}` shows them on a page", folder.string()));

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "run/campaign/campaign_gate.h"
@@ -49,6 +50,9 @@ class CampaignObserver {
   virtual ~CampaignObserver() = default;
   virtual void OnProgress(const CampaignProgress&) {}
 };
+
+// "all episodes are done", or why they are not.
+std::string_view WhyEnded(CampaignEnd end);
 
 struct CampaignRun {
   CampaignEnd end = CampaignEnd::kComplete;
