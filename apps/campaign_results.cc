@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "report/failing_episodes.h"
-#include "run/campaign/campaign_files.h"
 #include "run/campaign/summary_json.h"
 
 namespace floorproof {
@@ -39,32 +38,33 @@ void SayRates(const CampaignSummary& summary, const Globals& globals) {
   }
 }
 
-int StatusOf(const CampaignRun& run, const std::optional<GateSummary>& gate) {
+}  // namespace
+
+void SayResults(const CampaignOutcome& outcome, const std::filesystem::path& folder,
+                const Globals& globals) {
+  const CampaignSummary& summary = outcome.summary;
+  globals.Result(SummaryJson(summary));
+  globals.Say(std::string(WhyEnded(outcome.run.end)) + "; results are in " + folder.string());
+  SayRates(summary, globals);
+  if (ListFailingEpisodes(outcome.store, outcome.variants, folder, globals) > 0 ||
+      outcome.variants.size() > 1)
+    globals.Say(fmt::format("`floorproof report {}` shows them on a page", folder.string()));
+  if (!summary.gate) return;
+  for (const VariantGate& variant : summary.gate->variants)
+    globals.Say(fmt::format("gate{}: {}",
+                            summary.gate->variants.size() > 1 ? " " + variant.variant : "",
+                            GateText(*summary.gate, variant)));
+}
+
+int ExitStatus(const CampaignOutcome& outcome) {
+  const CampaignRun& run = outcome.run;
   const bool broken = std::ranges::any_of(run.variants, [](const auto& v) { return v.errors > 0; });
   if (broken) return kBroken;
   if (run.end == CampaignEnd::kFailFast) return kNotSuccess;
+  const auto& gate = outcome.summary.gate;
   if (!gate) return kDone;
   if (gate->verdict == GateVerdict::kUndecided) return kGateUndecided;
   return gate->verdict == GateVerdict::kPassed ? kDone : kNotSuccess;
-}
-
-}  // namespace
-
-int SayResults(const ScenarioFile& file, const CampaignStore& store, const CampaignRun& run,
-               const std::filesystem::path& folder, const Globals& globals) {
-  const std::vector<Variant>& variants = file.variants();
-  const CampaignSummary summary = WriteSummaryFiles(store, file, run, folder);
-  globals.Result(SummaryJson(summary));
-  globals.Say(std::string(WhyEnded(run.end)) + "; results are in " + folder.string());
-  SayRates(summary, globals);
-  if (ListFailingEpisodes(store, variants, folder, globals) > 0 || variants.size() > 1)
-    globals.Say(fmt::format("`floorproof report {}` shows them on a page", folder.string()));
-  if (summary.gate)
-    for (const VariantGate& variant : summary.gate->variants)
-      globals.Say(fmt::format("gate{}: {}",
-                              summary.gate->variants.size() > 1 ? " " + variant.variant : "",
-                              GateText(*summary.gate, variant)));
-  return StatusOf(run, summary.gate);
 }
 
 }  // namespace floorproof

@@ -55,7 +55,7 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
   command.OnRun([options, &globals, &status] {
     const Scenario scenario = ReadScenario(options->scenario, globals.Overrides());
     for (const std::string& warning : Warnings(scenario)) globals.Say(warning);
-    const auto folder = OutputFolder(options->out, scenario);
+    const auto folder = OutputFolder(options->out, scenario.file);
     const PlanResult plan = MakePlan(scenario);
     const auto json = PlanJson(scenario, plan);
     const std::vector<RiskOfPlan> beside =
