@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "run/campaign/campaign.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <thread>
 
 #include "apps/campaign_results.h"
 #include "apps/command.h"
-#include "base/file_output.h"
 #include "base/interrupt.h"
 #include "base/progress_line.h"
 #include "report/campaign_films.h"
-#include "run/campaign/campaign_about.h"
-#include "run/scenario/warnings.h"
+#include "run/campaign/drive_campaign.h"
 #include "stats/binomial.h"
 
 namespace floorproof {
@@ -29,10 +24,9 @@ struct Options {
   bool resume = false, retry_errors = false, fail_fast = false, no_films = false;
 };
 
-// A:B, half-open; all of 0:n where it is empty.
-void ReadEpisodes(const Options& options, CampaignOptions& campaign) {
-  campaign.end = options.n;
-  if (options.episodes.empty()) return;
+// A:B, half-open; none: all of them.
+std::optional<EpisodeRange> ReadEpisodes(const Options& options) {
+  if (options.episodes.empty()) return {};
   const auto refuse = [&](const char* rule) {
     throw InputError({"--episodes", 0}, "", options.episodes, rule);
   };
@@ -43,15 +37,15 @@ void ReadEpisodes(const Options& options, CampaignOptions& campaign) {
     refuse("must be A:B, the first id and the one behind the last");
   if (a >= b) refuse("holds no episode");
   if (b > options.n) refuse("must lie within -n");
-  campaign.begin = a;
-  campaign.end = b;
+  return EpisodeRange{a, b};
 }
 
-// How it goes: what is done, the rates so far, time to go.
+// Warnings, then how it goes: what is done, the rates so far, time to go.
 class Progress final : public CampaignObserver {
  public:
   Progress(const Globals& globals, const std::vector<Variant>& variants)
-      : line_(globals), variants_(variants) {}
+      : globals_(globals), line_(globals), variants_(variants) {}
+  void OnWarning(const std::string& line) override { globals_.Say(line); }
   void OnProgress(const CampaignProgress& progress) override {
     if (line_.IsDue()) line_.Show(Text(progress));
   }
@@ -78,90 +72,33 @@ class Progress final : public CampaignObserver {
     return text;
   }
 
+  const Globals& globals_;
   ProgressLine line_;
   const std::vector<Variant>& variants_;
 };
 
-CampaignStore OpenStore(const fs::path& folder, const CampaignAbout& about, bool resume) {
-  const fs::path file = folder / "campaign.sqlite";
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) {
-    MakeFolder(folder);
-    return CampaignStore::Create(file, about);
-  }
-  if (!resume)
-    throw InputError({folder.string(), 0}, "", "",
-                     "holds a campaign: --resume goes on with it, --out names another folder");
-  CampaignStore store = CampaignStore::Open(file, false);
-  RequireSame(store.about(), about, file);
-  store.MakeWritable();  // another campaign's is not so much as opened to be written
-  return store;
-}
-
-// A fixed gate is judged once, at an n set beforehand: going on because it did not pass would pass
-// falsely far more often than it says.
-void RefuseSecondLook(CampaignStore& store, const ScenarioFile& file, std::uint64_t n) {
-  const std::uint64_t before = store.asked();
-  if (before == 0 || n <= before) return;
-  const auto gate = CampaignGate::Read(file.gate(), before, file.drives());
-  if (!gate || !gate->fixed()) return;
-  CampaignOptions nothing_more;
-  nothing_more.end = before;
-  nothing_more.jobs = 0;
-  nothing_more.gate = gate;
-  const CampaignRun then = RunCampaign(file, store, nothing_more);
-  const bool judged =
-      std::ranges::all_of(then.variants, [](const auto& v) { return v.gate->decided(); });
-  if (judged)
-    throw InputError({"-n", 0}, "", std::to_string(n),
-                     fmt::format("the fixed gate was judged at {} episodes; only a gate of `mode: "
-                                 "sequential` may go on",
-                                 before));
-}
-
 int RunIt(const Options& options, const Globals& globals) {
   auto overrides = globals.Overrides();
   if (options.seed >= 0) overrides.push_back({"seed", std::to_string(options.seed)});
-  CampaignOptions campaign;
-  campaign.fail_fast = options.fail_fast;
-  campaign.jobs = options.jobs > 0
-                      ? options.jobs
-                      : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  campaign.time_limit_s = options.time_limit_s;
-  ReadEpisodes(options, campaign);
-
+  const CampaignRequest request{.episodes = options.n,
+                                .shard = ReadEpisodes(options),
+                                .jobs = options.jobs > 0 ? options.jobs : Cores(),
+                                .resume = options.resume,
+                                .retry_errors = options.retry_errors,
+                                .fail_fast = options.fail_fast,
+                                .time_limit_s = options.time_limit_s};
   const ScenarioFile file(options.scenario, overrides);
-  const Scenario base = file.Read(std::nullopt);
-  const fs::path folder = OutputFolder(options.out, base);
-  SayWhenInterrupted(folder.string() + " is as before");
-  for (const std::string& warning : Warnings(base)) globals.Say(warning);
-  const CampaignAbout about = DescribeCampaign(file);
-  const std::vector<Variant>& variants = file.variants();
-  // Refused before there is a folder.
-  const auto gate = CampaignGate::Read(base.gate, options.n, file.drives());
-  file.CheckDraws();
-  if (options.episodes.empty()) campaign.gate = gate;
-
-  const HoldInterrupts hold;
-  std::optional<CampaignStore> opened = OpenStore(folder, about, options.resume);
-  CampaignStore& store = *opened;
-  RefuseSecondLook(store, file, options.n);
-  store.SetAsked(options.n);
-  if (options.retry_errors) store.DropErrors();
-  SayWhenInterrupted(folder.string() + " holds every episode saved so far; --resume goes on");
-  WriteFileWhole(folder / "scenario.resolved.yaml", ResolvedScenario(base, folder));
-  Progress progress(globals, variants);
-  const CampaignRun run = RunCampaign(file, store, campaign, &progress);
+  const fs::path folder = OutputFolder(options.out, file.file());
+  Progress progress(globals, file.variants());
+  const CampaignOutcome outcome = DriveCampaign(file, request, folder, &progress);
   progress.Clear();
-  const int status = SayResults(file, store, run, folder, globals);
-  if (!options.episodes.empty() && gate) globals.Say("a shard: `merge` judges the gate of all");
-  if (run.end == CampaignEnd::kInterrupted) {
-    opened.reset();  // closed as it should be, no file beside it
-    throw Interruption();
-  }
-  if (!options.no_films && run.end != CampaignEnd::kTimeLimit)
-    FilmFirstFailures(file, store, folder, globals);
-  return status;
+  SayResults(outcome, folder, globals);
+  if (request.shard && !file.gate().IsNull())
+    globals.Say("a shard: `merge` judges the gate of all");
+  if (outcome.run.end == CampaignEnd::kInterrupted) throw Interruption();
+  if (!options.no_films && outcome.run.end != CampaignEnd::kTimeLimit)
+    FilmFirstFailures(file, outcome.store, folder, globals);
+  return ExitStatus(outcome);
 }
 
 }  // namespace

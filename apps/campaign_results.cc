@@ -8,36 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "report/failing_episodes.h"
-#include "run/campaign/campaign_files.h"
 #include "run/campaign/summary_json.h"
 
 namespace floorproof {
 namespace {
-
-std::string_view Why(CampaignEnd end) {
-  switch (end) {
-    case CampaignEnd::kComplete:
-      return "all episodes are done";
-    case CampaignEnd::kGateDecided:
-      return "the gate's verdict is final";
-    case CampaignEnd::kFailFast:
-      return "an episode failed (--fail-fast)";
-    case CampaignEnd::kTimeLimit:
-      return "the time limit is reached (--resume goes on)";
-    case CampaignEnd::kInterrupted:
-      return "interrupted (--resume goes on)";
-    case CampaignEnd::kMissing:
-      return "episodes are missing";
-  }
-  return "?";
-}
-
-// Of the variant that has least.
-std::string Unfinished(const CampaignRun& run, std::uint64_t asked) {
-  std::uint64_t least = asked;
-  for (const VariantProgress& variant : run.variants) least = std::min(least, variant.prefix);
-  return fmt::format("{} of {} episodes stand without a gap: {}", least, asked, Why(run.end));
-}
 
 // To three digits, never downwards: a bound that is told too low would seem to pass a gate.
 double RoundedUp(double value) {
@@ -64,39 +38,33 @@ void SayRates(const CampaignSummary& summary, const Globals& globals) {
   }
 }
 
-int StatusOf(const CampaignRun& run, const std::optional<GateSummary>& gate) {
+}  // namespace
+
+void SayResults(const CampaignOutcome& outcome, const std::filesystem::path& folder,
+                const Globals& globals) {
+  const CampaignSummary& summary = outcome.summary;
+  globals.Result(SummaryJson(summary));
+  globals.Say(std::string(WhyEnded(outcome.run.end)) + "; results are in " + folder.string());
+  SayRates(summary, globals);
+  if (ListFailingEpisodes(outcome.store, outcome.variants, folder, globals) > 0 ||
+      outcome.variants.size() > 1)
+    globals.Say(fmt::format("`floorproof report {}` shows them on a page", folder.string()));
+  if (!summary.gate) return;
+  for (const VariantGate& variant : summary.gate->variants)
+    globals.Say(fmt::format("gate{}: {}",
+                            summary.gate->variants.size() > 1 ? " " + variant.variant : "",
+                            GateText(*summary.gate, variant)));
+}
+
+int ExitStatus(const CampaignOutcome& outcome) {
+  const CampaignRun& run = outcome.run;
   const bool broken = std::ranges::any_of(run.variants, [](const auto& v) { return v.errors > 0; });
   if (broken) return kBroken;
   if (run.end == CampaignEnd::kFailFast) return kNotSuccess;
+  const auto& gate = outcome.summary.gate;
   if (!gate) return kDone;
   if (gate->verdict == GateVerdict::kUndecided) return kGateUndecided;
   return gate->verdict == GateVerdict::kPassed ? kDone : kNotSuccess;
-}
-
-}  // namespace
-
-int SayResults(const ScenarioFile& file, const CampaignStore& store, const CampaignRun& run,
-               const std::filesystem::path& folder, const Globals& globals) {
-  const std::vector<Variant>& variants = file.variants();
-  std::vector<GateState> gate;
-  for (const VariantProgress& variant : run.variants)
-    if (variant.gate) gate.push_back(*variant.gate);
-  const bool whole = run.end == CampaignEnd::kComplete || run.end == CampaignEnd::kGateDecided;
-  const CampaignEnding ending{whole ? "" : Unfinished(run, store.asked()),
-                              run.end == CampaignEnd::kFailFast};
-  const CampaignSummary summary =
-      WriteSummaryFiles(store, variants, gate, ending, file.name(), folder);
-  globals.Result(SummaryJson(summary));
-  globals.Say(std::string(Why(run.end)) + "; results are in " + folder.string());
-  SayRates(summary, globals);
-  if (ListFailingEpisodes(store, variants, folder, globals) > 0 || variants.size() > 1)
-    globals.Say(fmt::format("`floorproof report {}` shows them on a page", folder.string()));
-  if (summary.gate)
-    for (const VariantGate& variant : summary.gate->variants)
-      globals.Say(fmt::format("gate{}: {}",
-                              summary.gate->variants.size() > 1 ? " " + variant.variant : "",
-                              GateText(*summary.gate, variant)));
-  return StatusOf(run, summary.gate);
 }
 
 }  // namespace floorproof

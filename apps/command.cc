@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/command.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "base/interrupt.h"
 
@@ -24,9 +26,11 @@ void Globals::Result(const nlohmann::ordered_json& json_result) const {
   if (json) std::printf("%s\n", json_result.dump(2).c_str());
 }
 
-std::filesystem::path OutputFolder(const std::string& out, const Scenario& scenario) {
-  return out.empty() ? fs::path("out") / scenario.file.stem() : fs::path(out);
+fs::path OutputFolder(const std::string& out, const fs::path& scenario) {
+  return out.empty() ? fs::path("out") / scenario.stem() : fs::path(out);
 }
+
+int Cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 int ExitStatus(Outcome outcome) {
   switch (outcome) {

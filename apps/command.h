@@ -30,7 +30,10 @@ struct Globals : Console {
 };
 
 // --out, or out/<stem of the scenario's file> in the working directory.
-std::filesystem::path OutputFolder(const std::string& out, const Scenario& scenario);
+std::filesystem::path OutputFolder(const std::string& out, const std::filesystem::path& scenario);
+
+// Of this machine; at least 1.
+int Cores();
 
 // The exit status of one episode.
 int ExitStatus(Outcome outcome);

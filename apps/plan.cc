@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
@@ -13,33 +12,6 @@
 #include "run/scenario/warnings.h"
 
 namespace floorproof {
-namespace {
-
-bool SameFloor(const RiskOfPath& a, const RiskOfPath& b) {
-  return std::ranges::equal(a.ranges, b.ranges, [](const auto& x, const auto& y) {
-    return x.low == y.low && x.high == y.high && x.cells == y.cells;
-  });
-}
-
-std::vector<RiskOfPlan> PlansBeside(const std::vector<std::string>& files, const RiskOfPlan& first,
-                                    const Globals& globals) {
-  std::vector<RiskOfPlan> plans;
-  for (const std::string& file : files) {
-    const Scenario scenario = ReadScenario(file, globals.Overrides());
-    const PlanResult plan = MakePlan(scenario);
-    if (plan.status != PlanStatus::kSuccess)
-      throw InputError({file, 0}, "", "", "has no plan: " + plan.message);
-    plans.push_back(MeasurePlan(scenario, plan));
-    if (plans.back().label == first.label) plans.back().label += " of " + scenario.name;
-    if (!SameFloor(first.risk, plans.back().risk))
-      throw InputError(
-          {file, 0}, "", "",
-          "has another floor, robot or risk: its plan cannot stand beside the first's");
-  }
-  return plans;
-}
-
-}  // namespace
 
 void AddPlan(CommandLine& line, const Globals& globals, int& status) {
   struct Options {
@@ -55,11 +27,11 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
   command.OnRun([options, &globals, &status] {
     const Scenario scenario = ReadScenario(options->scenario, globals.Overrides());
     for (const std::string& warning : Warnings(scenario)) globals.Say(warning);
-    const auto folder = OutputFolder(options->out, scenario);
+    const auto folder = OutputFolder(options->out, scenario.file);
     const PlanResult plan = MakePlan(scenario);
     const auto json = PlanJson(scenario, plan);
     const std::vector<RiskOfPlan> beside =
-        PlansBeside(options->beside, MeasurePlan(scenario, plan), globals);
+        PlansBeside(options->beside, globals.Overrides(), MeasurePlan(scenario, plan));
     MakeFolder(folder);
     SayWhenInterrupted(folder.string() + " may lack some of the plan's files");
     WritePlanFiles(scenario, plan, folder);

@@ -1,50 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "report/replay.h"
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
 #include "base/input_file.h"
-#include "report/campaign_films.h"
 #include "run/episode/records.h"
 
 namespace floorproof {
 namespace {
 
-// As this version names them.
-nlohmann::ordered_json Renamed(const nlohmann::ordered_json& metrics) {
-  if (!metrics.is_object()) return metrics;
-  nlohmann::ordered_json renamed = nlohmann::ordered_json::object();
-  for (const auto& [name, value] : metrics.items()) {
-    const MetricColumn* column = FindMetric(name);
-    renamed[column == nullptr ? name : std::string(column->name)] = value;
-  }
-  return renamed;
-}
-
-// Events and outcome of the drive just made must be the recorded ones: the film shows what was
-// judged.
-void CheckSame(const std::filesystem::path& result_file, const nlohmann::ordered_json& now) {
-  auto before =
-      nlohmann::ordered_json::parse(ReadInputFile(result_file, kMaxResultBytes), nullptr, false);
-  if (!before.is_object())
-    throw InputError({result_file.string(), 0}, "", "", "is not a result (a JSON object)");
-  if (before.contains("metrics")) before["metrics"] = Renamed(before["metrics"]);
-  for (const char* key : {"outcome", "events", "metrics"})
-    if (before.value(key, nlohmann::ordered_json()) != now[key]) RefuseReplay(result_file, key);
-}
-
-int ReplayRun(const std::filesystem::path& folder, bool video, const Globals& globals) {
+int ReplayOfRun(const std::filesystem::path& folder, bool video, const Globals& globals) {
   for (const char* needed : {"scenario.resolved.yaml", "result.json"})
     if (const std::string why = WhyUnreadable(folder / needed, kMaxResultBytes); !why.empty())
       throw InputError({(folder / needed).string(), 0}, "", "",
                        why + ": not a folder of a finished `run`, nor of a `campaign`");
-  Scenario scenario = ReadScenario(folder / "scenario.resolved.yaml", globals.Overrides());
-  const DriveResult result =
-      DriveAndFilm(scenario, folder, {.video = video, .write_records = false}, globals);
-  if (result.not_written) std::rethrow_exception(result.not_written);
-  const auto json = ResultJson(scenario, result.record);
-  if (globals.sets.empty()) CheckSame(folder / "result.json", json);
-  globals.Result(json);
+  globals.Result(ReplayRun(folder, globals.Overrides(), video, globals));
   return kDone;
 }
 
@@ -95,7 +67,7 @@ void AddReplay(CommandLine& line, const Globals& globals, int& status) {
     const std::filesystem::path folder = options->folder;
     std::error_code ignored;
     if (!std::filesystem::exists(folder / "campaign.sqlite", ignored)) {
-      status = ReplayRun(folder, options->video, globals);
+      status = ReplayOfRun(folder, options->video, globals);
       return;
     }
     std::optional<std::uint64_t> episode;

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "apps/command.h"
 #include "apps/ladder.h"
@@ -15,8 +14,6 @@ namespace floorproof {
 namespace {
 
 namespace fs = std::filesystem;
-
-int Cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 void SayLaw(const LawResult& result, const Globals& globals) {
   globals.Say(fmt::format("{}: {}", result.name, result.statement));

@@ -47,9 +47,9 @@ Timed RunOnce(const ScenarioFile& file, std::uint64_t n, int jobs, const fs::pat
   CampaignOptions options;
   options.end = n;
   options.jobs = jobs;
-  RunCampaign(file, store, options);
+  const CampaignRun run = RunCampaign(file, store, options);
   timed.drive_s = Since(drive_begin);
-  WriteSummaryFiles(store, file.variants(), {}, {}, file.name(), folder);
+  WriteSummaryFiles(store, file, run, folder);
   timed.wall_s = Since(begin);
   const double timestep_s = file.Read().physics.timestep_s;
   for (const Variant& variant : file.variants())

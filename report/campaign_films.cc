@@ -5,42 +5,11 @@
 
 #include <array>
 
-#include "run/campaign/episode_maker.h"
+#include "report/replay.h"
 
 namespace floorproof {
 
 namespace fs = std::filesystem;
-
-fs::path EpisodeFolder(const fs::path& campaign, const Variant& variant, std::uint64_t episode) {
-  return campaign / "episodes" / variant.name / std::to_string(episode);
-}
-
-void RefuseReplay(const fs::path& where, std::string_view what) {
-  throw InternalError(
-      fmt::format("{}: the replay differs from the record in '{}' (recorded with "
-                  "another version or on another machine type?)",
-                  where.string(), what));
-}
-
-DriveResult ReplayEpisode(const ScenarioFile& file, const Variant& variant, const EpisodeRow& row,
-                          const fs::path& folder, bool video, const Console& console) {
-  Scenario scenario = file.Read(row.episode, variant);
-  const fs::path into = EpisodeFolder(folder, variant, row.episode);
-  if (row.outcome == "error") console.Say("recorded as an error: " + row.message);
-  DriveResult result = DriveAndFilm(scenario, into, {.video = video}, console);
-  if (result.not_written) std::rethrow_exception(result.not_written);
-  const EpisodeRow now = MakeRow(variant.name, scenario, row.plan, result.record);
-  if (row.outcome == "error" && now.outcome != "error")
-    throw InternalError(
-        fmt::format("{}: recorded as an error ({}), which did not come again; `campaign --resume "
-                    "--retry-errors` drives it anew",
-                    into.string(), row.message));
-  for (const auto& [what, same] : {std::pair("outcome", now.outcome == row.outcome),
-                                   {"events", now.events == row.events},
-                                   {"metrics", now.metrics == row.metrics}})
-    if (!same) RefuseReplay(into, what);
-  return result;
-}
 
 void FilmFirstFailures(const ScenarioFile& file, const CampaignStore& store, const fs::path& folder,
                        const Console& console) {

@@ -9,6 +9,7 @@
 #include "render/chart.h"
 #include "render/heatmap.h"
 #include "report/pictures.h"
+#include "run/episode/make_plan.h"
 
 namespace floorproof {
 namespace {
@@ -109,11 +110,36 @@ struct Spans {
   int decimals = 3;
 };
 
+bool SameFloor(const RiskOfPath& a, const RiskOfPath& b) {
+  return std::ranges::equal(a.ranges, b.ranges, [](const auto& x, const auto& y) {
+    return x.low == y.low && x.high == y.high && x.cells == y.cells;
+  });
+}
+
 }  // namespace
 
 RiskOfPlan MeasurePlan(const Scenario& s, const PlanResult& plan) {
   return {s.planner ? s.planner_name : s.plan_file.filename().string(),
           MeasureRisk(*plan.risk, plan.path)};
+}
+
+std::vector<RiskOfPlan> PlansBeside(const std::vector<std::string>& files,
+                                    const std::vector<Override>& overrides,
+                                    const RiskOfPlan& first) {
+  std::vector<RiskOfPlan> plans;
+  for (const std::string& file : files) {
+    const Scenario scenario = ReadScenario(file, overrides);
+    const PlanResult plan = MakePlan(scenario);
+    if (plan.status != PlanStatus::kSuccess)
+      throw InputError({file, 0}, "", "", "has no plan: " + plan.message);
+    plans.push_back(MeasurePlan(scenario, plan));
+    if (plans.back().label == first.label) plans.back().label += " of " + scenario.name;
+    if (!SameFloor(first.risk, plans.back().risk))
+      throw InputError(
+          {file, 0}, "", "",
+          "has another floor, robot or risk: its plan cannot stand beside the first's");
+  }
+  return plans;
 }
 
 void WritePlanPictures(const Scenario& s, const PlanResult& plan,

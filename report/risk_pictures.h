@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "planners/risk/risk_meter.h"
 #include "run/episode/episode.h"
@@ -17,6 +18,11 @@ struct RiskOfPlan {
 };
 // Labelled by the planner, or by the plan's file.
 RiskOfPlan MeasurePlan(const Scenario& scenario, const PlanResult& plan);
+// Plans these scenarios, to stand beside `first`. Throws InputError naming the one that cannot be
+// read, has no plan, or has another floor, robot or risk.
+std::vector<RiskOfPlan> PlansBeside(const std::vector<std::string>& files,
+                                    const std::vector<Override>& overrides,
+                                    const RiskOfPlan& first);
 
 // heatmap_plan.png: the planned path over the map, cells with hazards coloured by their class.
 // heatmap_risk.png: the risk factor (RF) of each cell that is no outer wall.

@@ -36,6 +36,9 @@ void AddCells(const std::string& name, const RobotSpec& robot, const std::string
           cells.push_back({name, wheels, hazard.name, direction, speed_mps, friction, {}});
 }
 
+// Roller wheels take about so many times longer.
+double CostOf(const LadderCell& cell) { return cell.wheels == "rollers" ? 12 : 1; }
+
 std::string CsvRow(const LadderRow& row) {
   const LadderCell& cell = row.cell;
   return fmt::format("{},{},{},{},{},{},{},{}", cell.robot, cell.wheels, cell.hazard,
@@ -124,9 +127,10 @@ std::optional<LadderRow> FindRow(const LadderCell& cell) {
   return row;
 }
 
-std::vector<LadderRow> ClimbLadder(
-    std::span<const LadderCell> cells, int jobs,
-    const std::function<void(const LadderRow&, std::size_t done)>& on_row) {
+std::vector<LadderRow> ClimbLadder(std::span<const LadderCell> cells, int jobs,
+                                   const std::function<void(const LadderProgress&)>& on_row) {
+  double cost = 0, spent = 0;
+  for (const LadderCell& cell : cells) cost += CostOf(cell);
   std::vector<std::optional<LadderRow>> found(cells.size());
   std::mutex one_at_a_time;
   std::size_t done = 0;
@@ -136,12 +140,17 @@ std::vector<LadderRow> ClimbLadder(
     if (!row) return;
     const std::lock_guard lock(one_at_a_time);
     ++done;
-    if (on_row) on_row(*row, done);
+    spent += CostOf(row->cell);
+    if (on_row) on_row({done, (cost - spent) / spent});
   });
   std::vector<LadderRow> rows;
   for (auto& row : found)
     if (row) rows.push_back(std::move(*row));
   return rows;
+}
+
+std::string LimitText(const LadderRow& row) {
+  return fmt::format("{}{}", row.limit, row.above_all ? " or more" : "");
 }
 
 std::string LadderCsv(std::span<const LadderRow> rows) {

@@ -79,12 +79,20 @@ std::optional<LadderRow> FindRow(const LadderCell& cell);
 // How a robot of the cell meets its hazard.
 CrossingPlan PlanOf(const LadderCell& cell, const RobotSpec& robot, double size);
 
+// How far a climb is.
+struct LadderProgress {
+  std::size_t done = 0;  // rows
+  double to_go = 0;      // the time that the others will take, in times of what these took
+};
+
 // Finds the cells' limits on so many threads; rows in the cells' order whatever finished
 // first, without those that an interrupt kept from being found. `on_row` is called once a row, one
-// call at a time, with the number of rows that are done.
-std::vector<LadderRow> ClimbLadder(
-    std::span<const LadderCell> cells, int jobs,
-    const std::function<void(const LadderRow&, std::size_t done)>& on_row);
+// call at a time. Throws as FindRow.
+std::vector<LadderRow> ClimbLadder(std::span<const LadderCell> cells, int jobs,
+                                   const std::function<void(const LadderProgress&)>& on_row);
+
+// "24.5", or "30 or more".
+std::string LimitText(const LadderRow& row);
 
 // robot,wheels,hazard,direction,speed_mps,friction,limit,unit
 std::string LadderCsv(std::span<const LadderRow> rows);

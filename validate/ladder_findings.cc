@@ -10,6 +10,8 @@ namespace floorproof {
 namespace {
 
 constexpr double kFriction = 0.8;
+constexpr double kDisagreement = 0.2;  // of two wheel models' limits that is worth a line
+constexpr double kTrustedShare = 0.8;  // of a limit that a robot should be trusted with
 
 const LadderRow* Find(std::span<const LadderRow> rows, const LadderCell& cell) {
   for (const LadderRow& row : rows)
@@ -18,6 +20,25 @@ const LadderRow* Find(std::span<const LadderRow> rows, const LadderCell& cell) {
         row.cell.speed_mps == cell.speed_mps && row.cell.friction == cell.friction)
       return &row;
   return nullptr;
+}
+
+std::string Sentence(const WheelDisagreement& wheels) {
+  const LadderCell& cell = wheels.ideal.cell;
+  return fmt::format(
+      "ideal wheels and rollers part by more than {:.0f} %: {} {} {} {} m/s, friction {}: {} and "
+      "{} {}",
+      100 * kDisagreement, cell.robot, cell.hazard, Name(cell.direction), cell.speed_mps,
+      cell.friction, LimitText(wheels.ideal), LimitText(wheels.rollers),
+      FindLadderHazard(cell.hazard).unit);
+}
+
+std::string StepSentence(const std::string& robot, double crossed_m) {
+  const double model_m = ReadRobot(FindRobotFile(robot, {})).spec.step_m;
+  return fmt::format(
+      "{}: level changes up to {:.1f} mm are crossed every way at every speed on friction 0.8; its "
+      "step_m is {:.1f} mm, {:.0f} % of the limit {:.1f} mm",
+      robot, 1000 * crossed_m, 1000 * model_m, 100 * kTrustedShare,
+      1000 * kTrustedShare * crossed_m);
 }
 
 }  // namespace
@@ -69,6 +90,18 @@ std::optional<double> TrustedStep(std::span<const LadderRow> rows, std::string_v
   }
   if (!least_mm) return {};
   return *least_mm / 1000;
+}
+
+std::vector<std::string> Findings(std::span<const LadderRow> rows) {
+  std::vector<std::string> sentences;
+  for (const CoverGap& gap : CoverGaps(rows))
+    if (gap.cell.friction == kFriction) sentences.push_back(Sentence(gap));
+  for (const WheelDisagreement& wheels : WheelDisagreements(rows, kDisagreement))
+    sentences.push_back(Sentence(wheels));
+  for (const RobotEntry& robot : Robots())
+    if (const auto crossed_m = TrustedStep(rows, robot.name))
+      sentences.push_back(StepSentence(std::string(robot.name), *crossed_m));
+  return sentences;
 }
 
 }  // namespace floorproof

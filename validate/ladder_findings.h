@@ -32,4 +32,8 @@ std::vector<WheelDisagreement> WheelDisagreements(std::span<const LadderRow> row
 // step_m should not exceed it.
 std::optional<double> TrustedStep(std::span<const LadderRow> rows, std::string_view robot);
 
+// All of these as sentences: gaps on friction 0.8, wheels that part by a fifth, and each robot's
+// step_m beside what it crosses.
+std::vector<std::string> Findings(std::span<const LadderRow> rows);
+
 }  // namespace floorproof

@@ -239,6 +239,24 @@ class CampaignDrive {
 
 }  // namespace
 
+std::string_view WhyEnded(CampaignEnd end) {
+  switch (end) {
+    case CampaignEnd::kComplete:
+      return "all episodes are done";
+    case CampaignEnd::kGateDecided:
+      return "the gate's verdict is final";
+    case CampaignEnd::kFailFast:
+      return "an episode failed (--fail-fast)";
+    case CampaignEnd::kTimeLimit:
+      return "the time limit is reached (--resume goes on)";
+    case CampaignEnd::kInterrupted:
+      return "interrupted (--resume goes on)";
+    case CampaignEnd::kMissing:
+      return "episodes are missing";
+  }
+  return "?";
+}
+
 CampaignRun RunCampaign(const ScenarioFile& file, CampaignStore& store,
                         const CampaignOptions& options, CampaignObserver* observer) {
   return CampaignDrive(file, store, options, observer).Run();

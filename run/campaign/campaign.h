@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "run/campaign/campaign_gate.h"
@@ -22,8 +24,8 @@ struct CampaignOptions {
   std::uint64_t begin = 0, end = 0;  // episode ids, half-open
   std::optional<CampaignGate> gate;  // none of a shard: it is judged on the whole campaign
   int jobs = 1;
-  bool fail_fast = false;              // ends at the first episode that fails
-  std::optional<double> time_limit_s;  // wall time; what is in hand then is given up
+  bool fail_fast = false;                   // ends at the first episode that fails
+  std::optional<double> time_limit_s = {};  // wall time; what is in hand then is given up
 };
 
 enum class CampaignEnd { kComplete, kGateDecided, kFailFast, kTimeLimit, kInterrupted, kMissing };
@@ -47,8 +49,12 @@ struct CampaignProgress {
 class CampaignObserver {
  public:
   virtual ~CampaignObserver() = default;
+  virtual void OnWarning(const std::string&) {}  // before anything is driven
   virtual void OnProgress(const CampaignProgress&) {}
 };
+
+// "all episodes are done", or why they are not.
+std::string_view WhyEnded(CampaignEnd end);
 
 struct CampaignRun {
   CampaignEnd end = CampaignEnd::kComplete;

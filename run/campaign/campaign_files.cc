@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/campaign/campaign_files.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/file_output.h"
@@ -9,14 +12,28 @@
 #include "run/campaign/summary_json.h"
 
 namespace floorproof {
+namespace {
 
-CampaignSummary WriteSummaryFiles(const CampaignStore& store, const std::vector<Variant>& variants,
-                                  const std::vector<GateState>& gate, const CampaignEnding& ending,
-                                  const std::string& scenario_name,
-                                  const std::filesystem::path& folder) {
-  CampaignSummary summary = Summarise(store, variants, gate, ending.unfinished);
-  WriteFileWhole(folder / "episodes.csv", EpisodesCsv(store, variants));
-  WriteFileWhole(folder / "junit.xml", JunitXml(summary, ending.failed_fast, scenario_name));
+// Why not all episodes that were asked for were driven, of the variant that has least; empty: they
+// were, or the gate was decided before.
+std::string Unfinished(const CampaignRun& run, std::uint64_t asked) {
+  if (run.end == CampaignEnd::kComplete || run.end == CampaignEnd::kGateDecided) return "";
+  std::uint64_t least = asked;
+  for (const VariantProgress& variant : run.variants) least = std::min(least, variant.prefix);
+  return fmt::format("{} of {} episodes stand without a gap: {}", least, asked, WhyEnded(run.end));
+}
+
+}  // namespace
+
+CampaignSummary WriteSummaryFiles(const CampaignStore& store, const ScenarioFile& file,
+                                  const CampaignRun& run, const std::filesystem::path& folder) {
+  std::vector<GateState> gate;
+  for (const VariantProgress& variant : run.variants)
+    if (variant.gate) gate.push_back(*variant.gate);
+  CampaignSummary summary = Summarise(store, file.variants(), gate, Unfinished(run, store.asked()));
+  WriteFileWhole(folder / "episodes.csv", EpisodesCsv(store, file.variants()));
+  WriteFileWhole(folder / "junit.xml",
+                 JunitXml(summary, run.end == CampaignEnd::kFailFast, file.name()));
   WriteFileWhole(folder / "summary.json", SummaryJson(summary).dump(2) + "\n");
   return summary;
 }

@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/campaign/campaign_merge.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
+#include "base/file_output.h"
+#include "base/input_file.h"
+#include "run/campaign/campaign_about.h"
+#include "run/campaign/campaign_files.h"
+
 namespace floorproof {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::size_t kBatch = 1000;
 
@@ -20,8 +29,8 @@ std::string Difference(const EpisodeRow& a, const EpisodeRow& b) {
   return a.message == b.message ? "" : "message";
 }
 
-}  // namespace
-
+// Episodes that stand in two shards must be the same in both. Throws InputError naming the shards
+// (`names`, as `shards`), variant, episode and the column that differs.
 void CheckOverlaps(std::span<const CampaignStore> shards, std::span<const std::string> names,
                    std::span<const Variant> variants) {
   for (const Variant& variant : variants) {
@@ -53,6 +62,7 @@ void CheckOverlaps(std::span<const CampaignStore> shards, std::span<const std::s
   }
 }
 
+// Copies each episode once; returns the number behind the last one.
 std::uint64_t MergeRows(std::span<const CampaignStore> shards, std::span<const Variant> variants,
                         CampaignStore& into) {
   std::uint64_t end = 0;
@@ -72,6 +82,85 @@ std::uint64_t MergeRows(std::span<const CampaignStore> shards, std::span<const V
       into.Add(batch);
     }
   return end;
+}
+
+bool IsFixed(const ScenarioFile& scenario, std::uint64_t n) {
+  const auto gate = CampaignGate::Read(scenario.gate(), n, scenario.drives());
+  return gate && gate->fixed();
+}
+
+// Writes the settings with their paths valid from `out`; as they are where what they name is gone.
+// Returns what to say of that.
+std::string WriteSettings(const ScenarioFile& scenario, const fs::path& out) {
+  const fs::path file = out / "scenario.resolved.yaml";
+  std::string text, note;
+  try {
+    text = ResolvedScenario(scenario.Read(std::nullopt), out);
+  } catch (const InputError& e) {
+    note = fmt::format("{}: its paths hold from {}, not from here ({})", file.string(),
+                       scenario.file().parent_path().string(), e.what());
+    text = ReadInputFile(scenario.file(), kMaxResultBytes);
+  }
+  WriteFileWhole(file, text);
+  return note;
+}
+
+// What `there`, ascending, lacks of 0:end.
+std::vector<EpisodeRange> Missing(const std::vector<std::uint64_t>& there, std::uint64_t end) {
+  std::vector<EpisodeRange> missing;
+  std::uint64_t next = 0;
+  const auto gap = [&](std::uint64_t to) {
+    if (to > next) missing.push_back({next, to});
+    next = to + 1;
+  };
+  for (const std::uint64_t episode : there) gap(std::min(episode, end));
+  gap(end);
+  return missing;
+}
+
+}  // namespace
+
+MergeOutcome MergeCampaigns(const std::vector<std::string>& shards, const fs::path& out) {
+  const fs::path file = out / "campaign.sqlite";
+  std::error_code ignored;
+  if (fs::exists(file, ignored))
+    throw InputError({out.string(), 0}, "", "", "holds a campaign: --out names another folder");
+  SayWhenInterrupted(out.string() + " is as before, or holds part of the shards");
+  std::vector<CampaignStore> from;
+  for (const std::string& shard : shards) {
+    from.push_back(CampaignStore::Open(fs::path(shard) / "campaign.sqlite", false));
+    RequireSame(from.front().about(), from.back().about(), shard);
+  }
+  const ScenarioFile scenario =
+      ScenarioFile::Recorded(fs::path(shards.front()) / "scenario.resolved.yaml");
+  const std::vector<Variant>& variants = scenario.variants();
+  CheckOverlaps(from, shards, variants);
+  for (std::size_t i = 1; i < from.size(); ++i)
+    if (from[i].asked() != from[0].asked() && IsFixed(scenario, from[i].asked()))
+      throw InputError({shards[i], 0}, "-n", std::to_string(from[i].asked()),
+                       fmt::format("{} was driven with -n {}: a fixed gate is judged at one n",
+                                   shards[0], from[0].asked()));
+
+  auto hold = std::make_unique<HoldInterrupts>();
+  MakeFolder(out);
+  CampaignStore store = CampaignStore::Create(file, from.front().about());
+  std::uint64_t end = MergeRows(from, variants, store);
+  for (const CampaignStore& shard : from) end = std::max(end, shard.asked());
+  store.SetAsked(end);
+  std::string paths_note = WriteSettings(scenario, out);
+  CampaignOptions options;
+  options.end = end;
+  options.jobs = 0;  // nothing more is driven
+  options.gate = CampaignGate::Read(scenario.gate(), end, scenario.drives());
+  CampaignRun run = RunCampaign(scenario, store, options);
+  std::vector<MergeGap> gaps;
+  for (std::size_t v = 0; v < variants.size(); ++v)
+    if (run.end == CampaignEnd::kMissing && run.variants[v].prefix < end)
+      gaps.push_back({variants[v].name, Missing(store.Episodes(variants[v].name), end)});
+  CampaignSummary summary = WriteSummaryFiles(store, scenario, run, out);
+  return {{std::move(hold), std::move(store), variants, std::move(run), std::move(summary)},
+          std::move(paths_note),
+          std::move(gaps)};
 }
 
 }  // namespace floorproof

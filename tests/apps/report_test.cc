@@ -84,7 +84,7 @@ class ReportCommand : public ::testing::Test {
       store.Add(rows);
     }
     WriteFileWhole(folder_ / "out/scenario.resolved.yaml", ResolvedScenario(base, folder_ / "out"));
-    WriteSummaryFiles(store, file.variants(), {}, {}, base.name, folder_ / "out");
+    WriteSummaryFiles(store, file, {}, folder_ / "out");
   }
   ~ReportCommand() override { fs::remove_all(folder_); }
 

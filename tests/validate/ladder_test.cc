@@ -11,7 +11,9 @@
 namespace floorproof {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 constexpr Rungs kRungs = {.per_unit = 10, .first = 2, .spacing = 20, .last = 602};
@@ -136,6 +138,12 @@ TEST(Findings, AreReadFromTheRows) {
   EXPECT_EQ(part[0].rollers.limit, 4);
   EXPECT_EQ(TrustedStep(rows, "htetro"), 0.004) << "of both kinds of wheels";
   EXPECT_EQ(TrustedStep(rows, "beluga"), std::nullopt);
+  EXPECT_THAT(Findings(rows),
+              ElementsAre(Sentence(gaps[0]),
+                          "ideal wheels and rollers part by more than 20 %: htetro step sideways "
+                          "0.2 m/s, friction 0.8: 5.5 and 4 mm",
+                          AllOf(StartsWith("htetro: level changes up to 4.0 mm are crossed"),
+                                HasSubstr("80 % of the limit 3.2 mm"))));
 }
 
 CrossingResult Meet(const char* robot_name, const char* hazard, Direction direction, double size,
@@ -182,9 +190,13 @@ TEST(ClimbLadder, GivesTheSameRowsOnAnyNumberOfThreads) {
     cells.push_back(
         {"beluga", "ideal", FindLadderHazard("step").name, Direction::kForward, 0.3, friction, {}});
   std::vector<std::size_t> done;
-  const auto one =
-      ClimbLadder(cells, 1, [&](const LadderRow&, std::size_t n) { done.push_back(n); });
+  double to_go = -1;
+  const auto one = ClimbLadder(cells, 1, [&](const LadderProgress& p) {
+    done.push_back(p.done);
+    to_go = p.to_go;
+  });
   EXPECT_THAT(done, ElementsAre(1u, 2u, 3u));
+  EXPECT_EQ(to_go, 0);
   EXPECT_EQ(LadderCsv(one), LadderCsv(ClimbLadder(cells, 3, {})));
   EXPECT_LT(one[0].limit, one[1].limit) << "less friction, lower steps";
   EXPECT_LT(one[1].limit, one[2].limit);

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/replay.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/input_file.h"
+#include "run/campaign/episode_maker.h"
+#include "run/episode/records.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+// `what` of the replay is not what was recorded.
+[[noreturn]] void RefuseReplay(const fs::path& where, std::string_view what) {
+  throw InternalError(
+      fmt::format("{}: the replay differs from the record in '{}' (recorded with "
+                  "another version or on another machine type?)",
+                  where.string(), what));
+}
+
+// As this version names them.
+nlohmann::ordered_json Renamed(const nlohmann::ordered_json& metrics) {
+  if (!metrics.is_object()) return metrics;
+  nlohmann::ordered_json renamed = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : metrics.items()) {
+    const MetricColumn* column = FindMetric(name);
+    renamed[column == nullptr ? name : std::string(column->name)] = value;
+  }
+  return renamed;
+}
+
+void CheckSame(const fs::path& result_file, const nlohmann::ordered_json& now) {
+  auto before =
+      nlohmann::ordered_json::parse(ReadInputFile(result_file, kMaxResultBytes), nullptr, false);
+  if (!before.is_object())
+    throw InputError({result_file.string(), 0}, "", "", "is not a result (a JSON object)");
+  if (before.contains("metrics")) before["metrics"] = Renamed(before["metrics"]);
+  for (const char* key : {"outcome", "events", "metrics"})
+    if (before.value(key, nlohmann::ordered_json()) != now[key]) RefuseReplay(result_file, key);
+}
+
+}  // namespace
+
+nlohmann::ordered_json ReplayRun(const fs::path& folder, const std::vector<Override>& overrides,
+                                 bool video, const Console& console) {
+  Scenario scenario = ReadScenario(folder / "scenario.resolved.yaml", overrides);
+  const DriveResult result =
+      DriveAndFilm(scenario, folder, {.video = video, .write_records = false}, console);
+  if (result.not_written) std::rethrow_exception(result.not_written);
+  auto json = ResultJson(scenario, result.record);
+  if (overrides.empty()) CheckSame(folder / "result.json", json);
+  return json;
+}
+
+fs::path EpisodeFolder(const fs::path& campaign, const Variant& variant, std::uint64_t episode) {
+  return campaign / "episodes" / variant.name / std::to_string(episode);
+}
+
+DriveResult ReplayEpisode(const ScenarioFile& file, const Variant& variant, const EpisodeRow& row,
+                          const fs::path& folder, bool video, const Console& console) {
+  Scenario scenario = file.Read(row.episode, variant);
+  const fs::path into = EpisodeFolder(folder, variant, row.episode);
+  if (row.outcome == "error") console.Say("recorded as an error: " + row.message);
+  DriveResult result = DriveAndFilm(scenario, into, {.video = video}, console);
+  if (result.not_written) std::rethrow_exception(result.not_written);
+  const EpisodeRow now = MakeRow(variant.name, scenario, row.plan, result.record);
+  if (row.outcome == "error" && now.outcome != "error")
+    throw InternalError(
+        fmt::format("{}: recorded as an error ({}), which did not come again; `campaign --resume "
+                    "--retry-errors` drives it anew",
+                    into.string(), row.message));
+  for (const auto& [what, same] : {std::pair("outcome", now.outcome == row.outcome),
+                                   {"events", now.events == row.events},
+                                   {"metrics", now.metrics == row.metrics}})
+    if (!same) RefuseReplay(into, what);
+  return result;
+}
+
+}  // namespace floorproof

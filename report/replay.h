@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recorded drives, driven again.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "base/console.h"
+#include "report/drive_and_film.h"
+#include "run/campaign/campaign_store.h"
+#include "run/scenario/scenario.h"
+
+namespace floorproof {
+
+// Drives the run that `folder` holds again, its records kept; returns the result as result.json
+// has it. Throws InputError where the records cannot be read, and InternalError when, without
+// overrides, outcome, events or metrics are not the recorded ones: a film must show what was
+// judged.
+nlohmann::ordered_json ReplayRun(const std::filesystem::path& folder,
+                                 const std::vector<Override>& overrides, bool video,
+                                 const Console& console);
+
+// Where a campaign's episode is written when it is driven again.
+std::filesystem::path EpisodeFolder(const std::filesystem::path& campaign, const Variant& variant,
+                                    std::uint64_t episode);
+
+// Drives the recorded episode again into <folder>/episodes/<variant>/<id>, whole as `run` would.
+// Throws InternalError when outcome, events or metrics are not the recorded ones.
+DriveResult ReplayEpisode(const ScenarioFile& file, const Variant& variant, const EpisodeRow& row,
+                          const std::filesystem::path& folder, bool video, const Console& console);
+
+}  // namespace floorproof

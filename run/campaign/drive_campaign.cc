@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/campaign/drive_campaign.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/file_output.h"
+#include "run/campaign/campaign_about.h"
+#include "run/campaign/campaign_files.h"
+#include "run/scenario/warnings.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+CampaignStore OpenStore(const fs::path& folder, const CampaignAbout& about, bool resume) {
+  const fs::path file = folder / "campaign.sqlite";
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) {
+    MakeFolder(folder);
+    return CampaignStore::Create(file, about);
+  }
+  if (!resume)
+    throw InputError({folder.string(), 0}, "", "",
+                     "holds a campaign: --resume goes on with it, --out names another folder");
+  CampaignStore store = CampaignStore::Open(file, false);
+  RequireSame(store.about(), about, file);
+  store.MakeWritable();  // another campaign's is not so much as opened to be written
+  return store;
+}
+
+// A fixed gate is judged once, at an n set beforehand: going on because it did not pass would pass
+// falsely far more often than it says.
+void RefuseSecondLook(CampaignStore& store, const ScenarioFile& file, std::uint64_t n) {
+  const std::uint64_t before = store.asked();
+  if (before == 0 || n <= before) return;
+  const auto gate = CampaignGate::Read(file.gate(), before, file.drives());
+  if (!gate || !gate->fixed()) return;
+  const CampaignRun then = RunCampaign(file, store, {.end = before, .gate = gate, .jobs = 0});
+  const bool judged =
+      std::ranges::all_of(then.variants, [](const auto& v) { return v.gate->decided(); });
+  if (judged)
+    throw InputError({"-n", 0}, "", std::to_string(n),
+                     fmt::format("the fixed gate was judged at {} episodes; only a gate of `mode: "
+                                 "sequential` may go on",
+                                 before));
+}
+
+}  // namespace
+
+CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& request,
+                              const fs::path& folder, CampaignObserver* observer) {
+  const Scenario base = file.Read(std::nullopt);
+  SayWhenInterrupted(folder.string() + " is as before");
+  if (observer)
+    for (const std::string& warning : Warnings(base)) observer->OnWarning(warning);
+  const CampaignAbout about = DescribeCampaign(file);
+  // Refused before there is a folder.
+  const auto gate = CampaignGate::Read(base.gate, request.episodes, file.drives());
+  file.CheckDraws();
+
+  auto hold = std::make_unique<HoldInterrupts>();
+  CampaignStore store = OpenStore(folder, about, request.resume);
+  RefuseSecondLook(store, file, request.episodes);
+  store.SetAsked(request.episodes);
+  if (request.retry_errors) store.DropErrors();
+  SayWhenInterrupted(folder.string() + " holds every episode saved so far; --resume goes on");
+  WriteFileWhole(folder / "scenario.resolved.yaml", ResolvedScenario(base, folder));
+  CampaignOptions options{.end = request.episodes,
+                          .gate = gate,
+                          .jobs = request.jobs,
+                          .fail_fast = request.fail_fast,
+                          .time_limit_s = request.time_limit_s};
+  if (request.shard) {
+    options.begin = request.shard->begin;
+    options.end = request.shard->end;
+    options.gate = {};  // judged on the whole campaign
+  }
+  CampaignRun run = RunCampaign(file, store, options, observer);
+  CampaignSummary summary = WriteSummaryFiles(store, file, run, folder);
+  return {std::move(hold), std::move(store), file.variants(), std::move(run), std::move(summary)};
+}
+
+}  // namespace floorproof

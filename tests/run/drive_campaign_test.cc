@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Campaigns driven and merged by a call, without the command line: what comes back, what is left.
+#include "run/campaign/drive_campaign.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "run/campaign/campaign_merge.h"
+#include "run/campaign/summary_json.h"
+#include "tests/run/scenario_text.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::string Slurp(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {(std::istreambuf_iterator<char>(in)), {}};
+}
+
+std::string SummaryText(const CampaignOutcome& outcome) {
+  return SummaryJson(outcome.summary).dump(2) + "\n";
+}
+
+class Listener : public CampaignObserver {
+ public:
+  void OnWarning(const std::string& line) override { warnings.push_back(line); }
+  void OnProgress(const CampaignProgress& progress) override { done = progress.done; }
+  std::vector<std::string> warnings;
+  std::uint64_t done = 0;
+};
+
+// A room whose plan is drawn, judged and driven nowhere.
+class DriveCampaignTest : public ScenarioTest {
+ protected:
+  DriveCampaignTest() { Save("plan.csv", "x_m,y_m\n1.5,2.5\n3.0,2.5\n"); }
+
+  ScenarioFile File(const std::string& more = "") const {
+    return ScenarioFile(Save("s.yaml", RoomScenario("", "drive: none\n" + more)));
+  }
+  std::string Folder(const char* name) const { return (folder_ / name).string(); }
+  void Shard(const ScenarioFile& file, std::uint64_t n, EpisodeRange range, const char* out) const {
+    DriveCampaign(file, {.episodes = n, .shard = range}, Folder(out));
+  }
+};
+
+constexpr const char* kFixedGate = "gate: {metric: not_success, max_rate: 0.5}\n";
+
+std::string WhyRefused(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST_F(DriveCampaignTest, GivesTheSummaryThatItWrites) {
+  Listener listener;
+  const CampaignOutcome dut = DriveCampaign(File("matrix: {start.yaw_deg: [0, 10]}\n"),
+                                            {.episodes = 3, .jobs = 2}, Folder("o"), &listener);
+  EXPECT_EQ(dut.run.end, CampaignEnd::kComplete);
+  EXPECT_EQ(dut.variants.size(), 2u);
+  EXPECT_EQ(dut.summary.variants.at(1).success, 3);
+  EXPECT_EQ(listener.done, 6u);
+  EXPECT_EQ(Slurp(folder_ / "o/summary.json"), SummaryText(dut));
+  for (const char* file : {"scenario.resolved.yaml", "episodes.csv", "junit.xml"})
+    EXPECT_TRUE(fs::exists(folder_ / "o" / file)) << file;
+  EXPECT_THAT(dut.store.Episodes("yaw_deg=10"), ElementsAre(0u, 1u, 2u));
+}
+
+TEST_F(DriveCampaignTest, HandsWarningsToTheObserver) {
+  fs::create_directories(folder_ / "far");
+  fs::rename(folder_ / "plan.csv", folder_ / "far/plan.csv");
+  std::string text = RoomScenario("", "drive: none\n");
+  text.replace(text.find("plan.csv"), 8, "../far/plan.csv");
+  fs::create_directories(folder_ / "near");
+  Listener listener;
+  DriveCampaign(ScenarioFile(Save("near/s.yaml", text)), {.episodes = 1}, Folder("o"), &listener);
+  EXPECT_THAT(listener.warnings, ElementsAre(HasSubstr("reads outside the scenario's folder")));
+}
+
+TEST_F(DriveCampaignTest, AFixedGateIsNotLookedAtTwice) {
+  const ScenarioFile file = File(kFixedGate);
+  const std::string judged = SummaryText(DriveCampaign(file, {.episodes = 6}, Folder("o")));
+  EXPECT_THAT(judged, HasSubstr("\"verdict\": \"passed\""));
+  EXPECT_THAT(
+      WhyRefused([&] { DriveCampaign(file, {.episodes = 12, .resume = true}, Folder("o")); }),
+      HasSubstr("-n: 12: the fixed gate was judged at 6 episodes"));
+  EXPECT_EQ(CampaignStore::Open(folder_ / "o/campaign.sqlite", false).asked(), 6u);
+  EXPECT_EQ(Slurp(folder_ / "o/summary.json"), judged);
+}
+
+TEST_F(DriveCampaignTest, WhatIsRefusedLeavesNoFolder) {
+  EXPECT_THAT(WhyRefused([&] { DriveCampaign(File(kFixedGate), {.episodes = 2}, Folder("o")); }),
+              HasSubstr("gate"));
+  EXPECT_FALSE(fs::exists(folder_ / "o"));
+}
+
+TEST_F(DriveCampaignTest, ShardsMergeIntoTheWhole) {
+  const ScenarioFile file = File(kFixedGate);
+  Shard(file, 6, {0, 4}, "a");
+  Shard(file, 6, {3, 6}, "b");
+  const MergeOutcome dut = MergeCampaigns({Folder("b"), Folder("a")}, folder_ / "joined");
+  EXPECT_EQ(dut.summary.gate->verdict, GateVerdict::kPassed);
+  EXPECT_THAT(dut.gaps, IsEmpty());
+  EXPECT_EQ(dut.paths_note, "");
+  EXPECT_EQ(SummaryText(dut), SummaryText(DriveCampaign(file, {.episodes = 6}, Folder("whole"))));
+}
+
+TEST_F(DriveCampaignTest, MergeNamesWhatNoShardHolds) {
+  const ScenarioFile file = File(kFixedGate);
+  Shard(file, 9, {0, 3}, "a");
+  Shard(file, 9, {5, 6}, "b");
+  fs::remove(folder_ / "plan.csv");  // as on a machine that has only the shards
+  const MergeOutcome dut = MergeCampaigns({Folder("a"), Folder("b")}, folder_ / "joined");
+  EXPECT_EQ(dut.run.end, CampaignEnd::kMissing);
+  ASSERT_EQ(dut.gaps.size(), 1u);
+  EXPECT_EQ(dut.gaps[0].variant, "default");
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> missing;
+  for (const auto& [begin, end] : dut.gaps[0].missing) missing.emplace_back(begin, end);
+  EXPECT_THAT(missing, ElementsAre(std::pair(3u, 5u), std::pair(6u, 9u)));
+  EXPECT_EQ(dut.summary.variants.at(0).n, 3) << "the prefix alone counts";
+  EXPECT_EQ(dut.summary.gate->verdict, GateVerdict::kUndecided);
+  EXPECT_THAT(dut.paths_note,
+              AllOf(HasSubstr("its paths hold from " + Folder("a")), HasSubstr("no such file")));
+}
+
+}  // namespace
+}  // namespace floorproof
