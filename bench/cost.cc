@@ -32,15 +32,15 @@ double Since(Clock::time_point begin) {
 }
 
 void Fill(HazardMap& map, int x0, int y0, int width, int height, CellState state) {
-  for (int iy = std::max(0, y0); iy < std::min(map.cells.height, y0 + height); ++iy)
-    for (int ix = std::max(0, x0); ix < std::min(map.cells.width, x0 + width); ++ix)
-      map.cells(ix, iy) = state;
+  for (int iy = std::max(0, y0); iy < std::min(map.occupancy.height, y0 + height); ++iy)
+    for (int ix = std::max(0, x0); ix < std::min(map.occupancy.width, x0 + width); ++ix)
+      map.occupancy(ix, iy) = state;
 }
 
 HazardMap EmptyMap(int cells) {
   HazardMap map;
   map.frame = {cells, cells, 0.05, {-0.025 * cells, -0.025 * cells, 0}};
-  map.cells = Grid<CellState>(cells, cells);
+  map.occupancy = Grid<CellState>(cells, cells);
   return map;
 }
 

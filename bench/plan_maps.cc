@@ -153,7 +153,7 @@ int Main(int argc, char** argv) {
       const RosMap ros = ReadRosMap(folder / "map.yaml");
       HazardMap map;
       map.frame = ros.frame;
-      map.cells = ros.cells;
+      map.occupancy = ros.occupancy;
       for (const Tool& tool : kTools)
         PlanOne(folder.filename().string(), map, tool, edges, planner, extra, totals);
     }

@@ -38,7 +38,7 @@ HazardMap Strewn(int side, int hazards, const char* stream) {
   HazardMap map;
   constexpr double kCell_m = 0.5;
   map.frame = {side, side, kCell_m, {}};
-  map.cells = Grid<CellState>(side, side, CellState::kFree);
+  map.occupancy = Grid<CellState>(side, side, CellState::kFree);
   Grid<std::uint8_t> taken(side, side);
   taken(0, 0) = taken(side - 1, side - 1) = 1;
   for (int placed = 0; placed < hazards;) {
@@ -47,7 +47,7 @@ HazardMap Strewn(int side, int hazards, const char* stream) {
     ++placed;
     const auto hazard_class = static_cast<HazardClass>(random.Below(4));
     if (hazard_class == HazardClass::kBlindObject) {
-      map.cells(ix, iy) = CellState::kOccupied;
+      map.occupancy(ix, iy) = CellState::kOccupied;
       continue;
     }
     Hazard& hazard = map.hazards.emplace_back();

@@ -47,7 +47,7 @@ class MclEstimator final : public Estimator {
     const auto may_stand = [&](CellState cell) {
       return cell == CellState::kFree || (cell == CellState::kUnknown && !known_->unknown_is_wall);
     };
-    if (std::ranges::count_if(known_->cells.cells, may_stand) < 2)
+    if (std::ranges::count_if(known_->occupancy.cells, may_stand) < 2)
       throw InputError({}, "estimator", "mcl", "needs a map of more than one free cell");
     odometry_.Start(context.robot);
     FilterParams params = filter_;

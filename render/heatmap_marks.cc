@@ -72,7 +72,7 @@ void Mark(cv::Mat& image, const cv::Point& p, const Rgb& colour, int mark) {
 
 // How far the lines of a plan lie apart that covers all free floor, m.
 double ApartOf(const HazardMap& map, const Path& plan) {
-  const auto free = std::ranges::count(map.cells.cells, CellState::kFree);
+  const auto free = std::ranges::count(map.occupancy.cells, CellState::kFree);
   return static_cast<double>(free) * map.frame.cell_m * map.frame.cell_m / Length(plan);
 }
 

@@ -33,7 +33,7 @@ CellState Under(const HazardMap& map, const std::array<int, 2>& xs, const std::a
   CellState found = CellState::kUnknown;
   for (int iy = ys[0]; iy <= ys[1]; ++iy) {
     for (int ix = xs[0]; ix <= xs[1]; ++ix) {
-      const CellState s = map.cells(ix, iy);
+      const CellState s = map.occupancy(ix, iy);
       if (s == CellState::kOccupied) return s;
       if (s == CellState::kFree) found = s;
     }

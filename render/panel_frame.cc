@@ -16,9 +16,9 @@ Window KnownWindow(const HazardMap& map, const HeatMapOptions& options) {
   const auto include = [&](int ix, int iy) {
     w = {std::min(w.x0, ix), std::min(w.y0, iy), std::max(w.x1, ix + 1), std::max(w.y1, iy + 1)};
   };
-  for (int iy = 0; iy < map.cells.height; ++iy)
-    for (int ix = 0; ix < map.cells.width; ++ix)
-      if (map.cells(ix, iy) != CellState::kUnknown) include(ix, iy);
+  for (int iy = 0; iy < map.occupancy.height; ++iy)
+    for (int ix = 0; ix < map.occupancy.width; ++ix)
+      if (map.occupancy(ix, iy) != CellState::kUnknown) include(ix, iy);
   const auto include_point = [&](const Vec2& p_W) {
     const Cell c = map.frame.ToCell(p_W);
     include(std::clamp(c.ix, 0, map.frame.width - 1), std::clamp(c.iy, 0, map.frame.height - 1));

@@ -40,7 +40,7 @@ void WriteKnownMap(const Scenario& s, const KnownMap& known, const std::filesyst
   for (std::size_t i = 0; i < heat.values.cells.size(); ++i)
     heat.values.cells[i] = static_cast<float>(seen.cells.cells[i]);
   HazardMap bare = s.site.map;  // the walls shown are those that were sensed
-  std::ranges::fill(bare.cells.cells, CellState::kFree);
+  std::ranges::fill(bare.occupancy.cells, CellState::kFree);
   WriteHeatMap(bare, &heat, options, png);
 }
 

@@ -24,7 +24,7 @@ HazardMap Bench(Hazard hazard, double friction) {
   constexpr int kCells = 12;
   HazardMap map;
   map.frame = {kCells, kCells, 1.0, {-kCells / 2.0, -kCells / 2.0, 0}};
-  map.cells = Grid<CellState>(kCells, kCells);
+  map.occupancy = Grid<CellState>(kCells, kCells);
   map.floor_friction = friction;
   map.hazards = {std::move(hazard)};
   return map;

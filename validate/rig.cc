@@ -48,7 +48,7 @@ Rig::Rig(RobotModel body, RigOptions options) : true_robot_(body.spec), model_(s
 void Rig::Build(RigOptions options) {
   wrong_ = options.wrong;
   map_.frame = {kCells, kCells, kCell_m, {-kCells * kCell_m / 2, -kCells * kCell_m / 2, 0}};
-  map_.cells = Grid<CellState>(kCells, kCells);
+  map_.occupancy = Grid<CellState>(kCells, kCells);
   map_.hazards = std::move(options.hazards);
   for (Hazard& hazard : map_.hazards) hazard.material.restitution *= wrong_.restitution_factor;
   map_.floor_friction = options.friction;

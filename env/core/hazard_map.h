@@ -54,7 +54,7 @@ struct Hazard {
 struct HazardMap {
   std::string name;
   GridFrame frame;
-  Grid<CellState> cells;
+  Grid<CellState> occupancy;
   bool unknown_is_wall = true;
   // Solids of occupied cells are drawn back by this on faces towards free cells (scene only;
   // planners see whole cells).
@@ -66,8 +66,8 @@ struct HazardMap {
 
   // Walls and furniture, unknown cells by policy, and all that lies beyond the map.
   bool IsWall(int ix, int iy) const {
-    if (!cells.Inside(ix, iy)) return true;
-    const CellState s = cells(ix, iy);
+    if (!occupancy.Inside(ix, iy)) return true;
+    const CellState s = occupancy(ix, iy);
     return s == CellState::kOccupied || (s == CellState::kUnknown && unknown_is_wall);
   }
   bool IsWall(Cell c) const { return IsWall(c.ix, c.iy); }

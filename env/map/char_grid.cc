@@ -300,8 +300,8 @@ CharGrid ReadCharGrid(const ConfigNode& node, const std::string& key) {
   const SourceMark rows_mark = node.Find("rows")->mark;
   grid.frame = {chars.width, chars.height, cell_m, {}};
   CheckFloorSize(grid.frame, rows_mark, "grid.cell_m");
-  grid.cells = Grid<CellState>(chars.width, chars.height);
-  std::ranges::transform(chars.cells, grid.cells.cells.begin(), StateOf);
+  grid.occupancy = Grid<CellState>(chars.width, chars.height);
+  std::ranges::transform(chars.cells, grid.occupancy.cells.begin(), StateOf);
 
   const ConfigNode* sizes = node.Find("sizes");
   const std::string sizes_key = key + ".sizes";

@@ -22,7 +22,7 @@ namespace floorproof {
 
 struct CharGrid {
   GridFrame frame;  // its origin is the outer lower-left corner of cell (0, 0)
-  Grid<CellState> cells;
+  Grid<CellState> occupancy;
   double inset_m = 0.03;
   std::vector<Hazard> hazards;  // without ids
   ConfigNode resolved;          // the node with every default stated

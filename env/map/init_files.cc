@@ -162,7 +162,7 @@ InitFiles MakeInitFiles(const fs::path& map_yaml, const RobotSpec& robot,
   const RosMap ros = ReadRosMap(map_yaml);
   HazardMap map;
   map.frame = ros.frame;
-  map.cells = ros.cells;
+  map.occupancy = ros.occupancy;
   const Pose2 start = [&] {
     try {
       return ChooseStart(map, robot);

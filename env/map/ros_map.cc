@@ -212,7 +212,7 @@ RosMap ReadRosMap(const fs::path& yaml_path) {
   map.frame = {image.width, image.height, keys.resolution_m, keys.X_WG};
   CheckFloorSize(map.frame, {yaml_path.string(), 0}, "resolution");
   Tally tally;
-  map.cells = ToCells(image, keys, tally);
+  map.occupancy = ToCells(image, keys, tally);
   map.warnings = Warnings(keys, image, tally, yaml_path);
   return map;
 }

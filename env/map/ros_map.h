@@ -34,7 +34,7 @@ namespace floorproof {
 
 struct RosMap {
   GridFrame frame;
-  Grid<CellState> cells;
+  Grid<CellState> occupancy;
   std::filesystem::path image;
   std::vector<std::string> warnings;
 };

@@ -204,13 +204,13 @@ Site ReadSite(const ConfigNode& node, const fs::path& folder) {
   map.goal = written.goal;
   if (written.ros_map.empty()) {
     map.frame = written.grid.frame;
-    map.cells = std::move(written.grid.cells);
+    map.occupancy = std::move(written.grid.occupancy);
     map.inset_m = written.grid.inset_m;
     map.hazards = std::move(written.grid.hazards);
   } else {
     RosMap ros = ReadRosMap(written.ros_map);
     map.frame = ros.frame;
-    map.cells = std::move(ros.cells);
+    map.occupancy = std::move(ros.occupancy);
     site.files_read = {written.ros_map, ros.image};
     site.warnings = std::move(ros.warnings);
   }

@@ -103,7 +103,7 @@ RiskGrid MakeRiskGrid(const HazardMap& map, const RobotSpec& robot, const FmeaTa
       bool wall = beyond;
       for (int y = std::max(low, 0); y < std::min(low + at.side, at.fine.height); ++y)
         for (int x = std::max(left, 0); x < std::min(left + at.side, at.fine.width); ++x) {
-          const CellState state = map.cells(x / cut, y / cut);
+          const CellState state = map.occupancy(x / cut, y / cut);
           occupied(ix, iy) |= state == CellState::kOccupied;
           wall |= state == CellState::kOccupied ||
                   (state == CellState::kUnknown && map.unknown_is_wall);

@@ -46,7 +46,7 @@ void CheckStarts(const ConfigNode& root, Scenario& s) {
   if (std::ranges::all_of(s.sensors, &NamedSensor::implied)) return;
   HazardMap bare;
   bare.frame = {1, 1, 1, {}};
-  bare.cells = Grid<CellState>(1, 1);
+  bare.occupancy = Grid<CellState>(1, 1);
   const Scene scene = BuildScene(bare, s.robot, s.physics, {});
   const DataPtr data = MakeData(scene.model.get());
   ForwardEngine(scene.model.get(), data.get());

@@ -46,7 +46,7 @@ class FaultConformance
   static HazardMap Floor() {
     HazardMap map;
     map.frame = {40, 40, 0.5, {-10, -10, 0}};
-    map.cells = Grid<CellState>(40, 40);
+    map.occupancy = Grid<CellState>(40, 40);
     return map;
   }
 

@@ -422,7 +422,7 @@ TEST_P(EveryPlannerOnSites, CoversARealMap) {
   const RosMap ros = ReadRosMap(yaml);
   HazardMap map;
   map.frame = ros.frame;
-  map.cells = ros.cells;
+  map.occupancy = ros.occupancy;
   const ClearanceField clearance = ComputeClearance(map, 0.01);  // start amid the widest place
   const auto widest =
       std::max_element(clearance.distance_m.cells.begin(), clearance.distance_m.cells.end()) -

@@ -175,9 +175,9 @@ struct Standing {
 
   Standing() {
     map.frame = {60, 60, 0.1, {}};
-    map.cells = Grid<CellState>(60, 60, CellState::kOccupied);
+    map.occupancy = Grid<CellState>(60, 60, CellState::kOccupied);
     for (int iy = 5; iy < 55; ++iy)
-      for (int ix = 5; ix < 55; ++ix) map.cells(ix, iy) = CellState::kFree;
+      for (int ix = 5; ix < 55; ++ix) map.occupancy(ix, iy) = CellState::kFree;
     truth.p_WB = {2, 2.5, 0};
     sensed.wheel_rad.assign(robot.wheels.size(), 0);
     sensed.has_imu = true;

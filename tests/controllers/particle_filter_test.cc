@@ -16,13 +16,13 @@ namespace {
 HazardMap LRoom() {
   HazardMap map;
   map.frame = {90, 70, 0.1, {}};
-  map.cells = Grid<CellState>(90, 70, CellState::kOccupied);
+  map.occupancy = Grid<CellState>(90, 70, CellState::kOccupied);
   for (int iy = 5; iy < 65; ++iy)
-    for (int ix = 5; ix < 85; ++ix) map.cells(ix, iy) = CellState::kFree;
+    for (int ix = 5; ix < 85; ++ix) map.occupancy(ix, iy) = CellState::kFree;
   for (int iy = 40; iy < 65; ++iy)
-    for (int ix = 60; ix < 85; ++ix) map.cells(ix, iy) = CellState::kOccupied;
+    for (int ix = 60; ix < 85; ++ix) map.occupancy(ix, iy) = CellState::kOccupied;
   for (int iy = 20; iy < 24; ++iy)
-    for (int ix = 24; ix < 28; ++ix) map.cells(ix, iy) = CellState::kOccupied;
+    for (int ix = 24; ix < 28; ++ix) map.occupancy(ix, iy) = CellState::kOccupied;
   return map;
 }
 

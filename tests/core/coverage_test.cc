@@ -22,18 +22,18 @@ HazardMap FromRows(const std::string& text, double cell_m, const Pose2& X_WG = {
   HazardMap map;
   const int w = static_cast<int>(rows.front().size()), h = static_cast<int>(rows.size());
   map.frame = {w, h, cell_m, X_WG};
-  map.cells = Grid<CellState>(w, h, CellState::kFree);
+  map.occupancy = Grid<CellState>(w, h, CellState::kFree);
   for (int iy = 0; iy < h; ++iy)
     for (int ix = 0; ix < w; ++ix)
       if (rows[static_cast<std::size_t>(h - 1 - iy)][static_cast<std::size_t>(ix)] == '#')
-        map.cells(ix, iy) = CellState::kOccupied;
+        map.occupancy(ix, iy) = CellState::kOccupied;
   return map;
 }
 
 HazardMap EmptyFloor(int w, int h, double cell_m) {
   HazardMap map;
   map.frame = {w, h, cell_m, {}};
-  map.cells = Grid<CellState>(w, h, CellState::kFree);
+  map.occupancy = Grid<CellState>(w, h, CellState::kFree);
   return map;
 }
 

@@ -19,11 +19,11 @@ HazardMap Truth(const std::vector<std::string>& rows, double cell_m = 0.05) {
   HazardMap map;
   const int w = static_cast<int>(rows[0].size()), h = static_cast<int>(rows.size());
   map.frame = {w, h, cell_m, {}};
-  map.cells = Grid<CellState>(w, h, CellState::kFree);
+  map.occupancy = Grid<CellState>(w, h, CellState::kFree);
   for (int iy = 0; iy < h; ++iy)
     for (int ix = 0; ix < w; ++ix)
       if (rows[static_cast<std::size_t>(h - 1 - iy)][static_cast<std::size_t>(ix)] == '#')
-        map.cells(ix, iy) = CellState::kOccupied;
+        map.occupancy(ix, iy) = CellState::kOccupied;
   return map;
 }
 
@@ -124,7 +124,7 @@ TEST(WithMarks, KeepsTheMapAsItWas) {
   EXPECT_EQ(map.hazards.size(), 1u);
   ASSERT_EQ(dut.hazards.size(), 2u);
   EXPECT_EQ(dut.hazards[0].id, "chair");
-  EXPECT_EQ(dut.cells.cells, map.cells.cells);
+  EXPECT_EQ(dut.occupancy.cells, map.occupancy.cells);
   EXPECT_EQ(ComputeClearance(dut, 0.01).At({0.55, 0.55}), 0);
   EXPECT_EQ(WithMarks(map, {}).hazards.size(), 1u);
 }

@@ -32,7 +32,7 @@ namespace {
 HazardMap Room(double width_m, double depth_m) {
   HazardMap map;
   map.frame = {static_cast<int>(width_m / 0.05), static_cast<int>(depth_m / 0.05), 0.05, {}};
-  map.cells = Grid<CellState>(map.frame.width, map.frame.height, CellState::kFree);
+  map.occupancy = Grid<CellState>(map.frame.width, map.frame.height, CellState::kFree);
   return map;
 }
 

@@ -45,10 +45,10 @@ void ExpectSpan(const Span& actual, const Span& expected) {
 
 TEST(CharGridTest, TopRowIsTheFarSideAndTheOriginTheLowerLeftCorner) {
   const CharGrid dut = Draw("#.?\n...");
-  EXPECT_EQ(dut.cells(0, 1), CellState::kOccupied);
-  EXPECT_EQ(dut.cells(1, 1), CellState::kFree);
-  EXPECT_EQ(dut.cells(2, 1), CellState::kUnknown);
-  EXPECT_EQ(dut.cells(0, 0), CellState::kFree);
+  EXPECT_EQ(dut.occupancy(0, 1), CellState::kOccupied);
+  EXPECT_EQ(dut.occupancy(1, 1), CellState::kFree);
+  EXPECT_EQ(dut.occupancy(2, 1), CellState::kUnknown);
+  EXPECT_EQ(dut.occupancy(0, 0), CellState::kFree);
   EXPECT_EQ(dut.frame.ToCell({0.01, 0.01}), (Cell{0, 0}));
   EXPECT_EQ(dut.frame.width, 3);
   EXPECT_EQ(dut.frame.height, 2);
@@ -60,7 +60,7 @@ TEST(CharGridTest, HazardCharactersStandOnFreeCellsInReadingOrder) {
   std::vector<std::string> types;
   for (const Hazard& h : dut.hazards) types.push_back(h.type);
   EXPECT_THAT(types, ElementsAre("glass", "step", "step", "cable_cover", "groove", "rough"));
-  for (const CellState c : dut.cells.cells) EXPECT_EQ(c, CellState::kFree);
+  for (const CellState c : dut.occupancy.cells) EXPECT_EQ(c, CellState::kFree);
   EXPECT_EQ(dut.hazards[0].hazard_class, HazardClass::kGlass);
   EXPECT_LT(dut.hazards[1].height_m, 0);
   EXPECT_GT(dut.hazards[2].height_m, 0);

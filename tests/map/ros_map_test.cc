@@ -52,7 +52,7 @@ class RosMapTest : public TempFolder {
 TEST_F(RosMapTest, BlackIsWallWhiteIsFreeBetweenIsUnknown) {
   const RosMap dut = Read(Row({0, 89, 90, 128, 205, 206, 254, 255}));
   // p = 1 - grey / 255: wall above 0.65 (grey < 89.25), free below 0.196 (grey > 205.02).
-  EXPECT_THAT(dut.cells.cells,
+  EXPECT_THAT(dut.occupancy.cells,
               ElementsAre(kWall, kWall, kUnknown, kUnknown, kUnknown, kFree, kFree, kFree));
   EXPECT_THAT(dut.warnings, IsEmpty());
 }
@@ -63,9 +63,9 @@ TEST_F(RosMapTest, BlackIsWallWhiteIsFreeBetweenIsUnknown) {
 TEST_F(RosMapTest, OriginIsTheLowerLeftCorner) {
   const RosMap dut =
       Read("P2 3 2 255\n0 254 254\n254 254 205\n", {.resolution = "0.5", .origin = "[-1, 2, 0]"});
-  EXPECT_EQ(dut.cells(0, 1), kWall);
-  EXPECT_EQ(dut.cells(2, 0), kUnknown);
-  EXPECT_EQ(dut.cells(0, 0), kFree);
+  EXPECT_EQ(dut.occupancy(0, 1), kWall);
+  EXPECT_EQ(dut.occupancy(2, 0), kUnknown);
+  EXPECT_EQ(dut.occupancy(0, 0), kFree);
   EXPECT_EQ(dut.frame.ToCell({-1 + 0.01, 2 + 0.01}), (Cell{0, 0}));
   EXPECT_EQ(dut.frame.ToCell({-1 + 1.49, 2 + 0.99}), (Cell{2, 1}));
 }
@@ -81,10 +81,10 @@ TEST_F(RosMapTest, OriginYawTurnsTheWholeMap) {
 
 // 205 is what map savers write for unknown, and p = 50/255 = 0.19608 is just not below 0.196.
 TEST_F(RosMapTest, Grey205HangsOnTheFreeThreshold) {
-  EXPECT_EQ(Read(Row({205}), {.free = "0.196"}).cells(0, 0), kUnknown);
-  EXPECT_EQ(Read(Row({205}), {.free = "0.19607"}).cells(0, 0), kUnknown);
+  EXPECT_EQ(Read(Row({205}), {.free = "0.196"}).occupancy(0, 0), kUnknown);
+  EXPECT_EQ(Read(Row({205}), {.free = "0.19607"}).occupancy(0, 0), kUnknown);
   const RosMap loose = Read(Row({205, 205, 254}), {.free = "0.25"});
-  EXPECT_THAT(loose.cells.cells, ElementsAre(kFree, kFree, kFree));
+  EXPECT_THAT(loose.occupancy.cells, ElementsAre(kFree, kFree, kFree));
   ASSERT_THAT(loose.warnings, SizeIs(1));
   EXPECT_THAT(loose.warnings[0], HasSubstr("in 2 cells"));
   EXPECT_THAT(loose.warnings[0], HasSubstr("map.yaml: grey 205"));
@@ -93,40 +93,44 @@ TEST_F(RosMapTest, Grey205HangsOnTheFreeThreshold) {
 TEST_F(RosMapTest, ThresholdsThemselvesAreUnknown) {
   // 204 is p = 0.2 and 51 is p = 0.8, exactly: neither below nor above.
   const RosMap dut = Read(Row({204, 205, 51, 50}), {.occupied = "0.8", .free = "0.2"});
-  EXPECT_THAT(dut.cells.cells, ElementsAre(kUnknown, kFree, kUnknown, kWall));
+  EXPECT_THAT(dut.occupancy.cells, ElementsAre(kUnknown, kFree, kUnknown, kWall));
 }
 
 TEST_F(RosMapTest, NegateTurnsBlackAndWhiteRound) {
   for (const char* yes : {"1", "true", "True"})
-    EXPECT_THAT(Read(Row({0, 255}), {.negate = yes}).cells.cells, ElementsAre(kFree, kWall)) << yes;
+    EXPECT_THAT(Read(Row({0, 255}), {.negate = yes}).occupancy.cells, ElementsAre(kFree, kWall))
+        << yes;
   for (const char* no : {"0", "false"})
-    EXPECT_THAT(Read(Row({0, 255}), {.negate = no}).cells.cells, ElementsAre(kWall, kFree)) << no;
+    EXPECT_THAT(Read(Row({0, 255}), {.negate = no}).occupancy.cells, ElementsAre(kWall, kFree))
+        << no;
 }
 
 TEST_F(RosMapTest, EveryImageFormGivesTheSameCells) {
   const std::vector<CellState> expected = {kWall, kUnknown, kFree, kFree};
-  EXPECT_EQ(Read(Row({0, 128, 254, 255})).cells.cells, expected);
-  EXPECT_EQ(Read(std::string("P5 4 1 255\n\0\x80\xfe\xff", 15)).cells.cells, expected);
-  EXPECT_EQ(Read("P3 4 1 255\n0 0 0 128 128 128 254 254 254 255 255 255").cells.cells, expected);
+  EXPECT_EQ(Read(Row({0, 128, 254, 255})).occupancy.cells, expected);
+  EXPECT_EQ(Read(std::string("P5 4 1 255\n\0\x80\xfe\xff", 15)).occupancy.cells, expected);
+  EXPECT_EQ(Read("P3 4 1 255\n0 0 0 128 128 128 254 254 254 255 255 255").occupancy.cells,
+            expected);
   const MapKeys png{.image = "map.png"};
-  EXPECT_EQ(Read(Png(0, {0, 128, 254, 255}, 4), png).cells.cells, expected);
+  EXPECT_EQ(Read(Png(0, {0, 128, 254, 255}, 4), png).occupancy.cells, expected);
   EXPECT_EQ(
-      Read(Png(2, {0, 0, 0, 128, 128, 128, 254, 254, 254, 255, 255, 255}, 4), png).cells.cells,
+      Read(Png(2, {0, 0, 0, 128, 128, 128, 254, 254, 254, 255, 255, 255}, 4), png).occupancy.cells,
       expected);
   PngSpec palette{
       .width = 4, .height = 1, .bit_depth = 2, .color_type = 3, .samples = {0, 1, 2, 3}};
   palette.palette = std::string("\0\0\0\x80\x80\x80\xfe\xfe\xfe\xff\xff\xff", 12);
-  EXPECT_EQ(Read(MakePng(palette), png).cells.cells, expected);
+  EXPECT_EQ(Read(MakePng(palette), png).occupancy.cells, expected);
   std::vector<uchar> bmp;
   const cv::Mat row = (cv::Mat_<uchar>(1, 4) << 0, 128, 254, 255);
   cv::imencode(".bmp", row, bmp);
-  EXPECT_EQ(Read(std::string(bmp.begin(), bmp.end()), {.image = "map.bmp"}).cells.cells, expected);
+  EXPECT_EQ(Read(std::string(bmp.begin(), bmp.end()), {.image = "map.bmp"}).occupancy.cells,
+            expected);
 }
 
 TEST_F(RosMapTest, ColoursAreAveraged) {
   // (255 + 0 + 0) / 3 = 85: p = 2/3 > 0.65; (255 + 255 + 0) / 3 = 170: unknown.
   const RosMap dut = Read(Png(2, {255, 0, 0, 255, 255, 0, 255, 255, 255}, 3), {.image = "map.png"});
-  EXPECT_THAT(dut.cells.cells, ElementsAre(kWall, kUnknown, kFree));
+  EXPECT_THAT(dut.occupancy.cells, ElementsAre(kWall, kUnknown, kFree));
 }
 
 // Nav2: "average in alpha with color channels in Trinary mode".
@@ -139,8 +143,8 @@ TEST_F(RosMapTest, TrinaryCountsAlphaAsAFourthColour) {
   for (std::size_t i = 0; i < grey_alpha.size(); i += 2)
     rgba.insert(rgba.end(), {grey_alpha[i], grey_alpha[i], grey_alpha[i], grey_alpha[i + 1]});
   const RosMap la = Read(Png(4, grey_alpha, 5), keys), color = Read(Png(6, rgba, 5), keys);
-  EXPECT_THAT(la.cells.cells, ElementsAre(kWall, kFree, kFree, kUnknown, kWall));
-  EXPECT_EQ(color.cells.cells, la.cells.cells);
+  EXPECT_THAT(la.occupancy.cells, ElementsAre(kWall, kFree, kFree, kUnknown, kWall));
+  EXPECT_EQ(color.occupancy.cells, la.occupancy.cells);
   ASSERT_THAT(la.warnings, SizeIs(1));
   EXPECT_THAT(la.warnings[0], HasSubstr("alpha"));
 }
@@ -148,15 +152,15 @@ TEST_F(RosMapTest, TrinaryCountsAlphaAsAFourthColour) {
 TEST_F(RosMapTest, ScaleTakesWhatIsNotOpaqueAsUnknown) {
   const MapKeys keys{.image = "map.png", .extra = "mode: scale\n"};
   const RosMap dut = Read(Png(4, {0, 255, 0, 254, 255, 255, 255, 0, 128, 255}, 5), keys);
-  EXPECT_THAT(dut.cells.cells, ElementsAre(kWall, kUnknown, kFree, kUnknown, kUnknown));
+  EXPECT_THAT(dut.occupancy.cells, ElementsAre(kWall, kUnknown, kFree, kUnknown, kUnknown));
   // Between the thresholds the scale rounds: 205 lies 0.02 % above free and becomes 0.
-  EXPECT_THAT(Read(Row({205, 200}), {.extra = "mode: scale\n"}).cells.cells,
+  EXPECT_THAT(Read(Row({205, 200}), {.extra = "mode: scale\n"}).occupancy.cells,
               ElementsAre(kFree, kUnknown));
 }
 
 TEST_F(RosMapTest, RawIsPercent) {
   const RosMap dut = Read(Row({0, 10, 40, 70, 100, 101, 255}), {.extra = "mode: raw\n"});
-  EXPECT_THAT(dut.cells.cells,
+  EXPECT_THAT(dut.occupancy.cells,
               ElementsAre(kFree, kFree, kUnknown, kWall, kWall, kUnknown, kUnknown));
   EXPECT_THAT(Read(Row({0, 100}), {.negate = "1", .extra = "mode: raw\n"}).warnings, SizeIs(1));
 }
@@ -165,11 +169,11 @@ TEST_F(RosMapTest, ImageIsFoundFromTheMapsFolderOrByAbsolutePath) {
   std::filesystem::create_directory(folder_ / "images");
   EXPECT_EQ(Read(Row({0}), {.image = "images/a.pgm"}).image, folder_ / "images/a.pgm");
   const auto absolute = Save("b.pgm", Row({254}));
-  EXPECT_EQ(ReadRosMap(SaveYaml({.image = absolute.string()})).cells(0, 0), kFree);
+  EXPECT_EQ(ReadRosMap(SaveYaml({.image = absolute.string()})).occupancy(0, 0), kFree);
 }
 
 TEST_F(RosMapTest, ForeignKeysArePassedOver) {
-  EXPECT_EQ(Read(Row({254}), {.extra = "map_id: lobby\nregions: [1, {a: b}]\n"}).cells(0, 0),
+  EXPECT_EQ(Read(Row({254}), {.extra = "map_id: lobby\nregions: [1, {a: b}]\n"}).occupancy(0, 0),
             kFree);
 }
 
@@ -177,8 +181,8 @@ TEST_F(RosMapTest, HugeAndMostlyUnknown) {
   std::string p5 = "P5 4000 4000 255\n" + std::string(16'000'000, '\xcd');
   for (int i = 0; i < 4000; i += 2) p5[p5.size() - 1 - 4001U * static_cast<unsigned>(i)] = '\xfe';
   const RosMap dut = Read(p5);
-  EXPECT_EQ(std::ranges::count(dut.cells.cells, kFree), 2000);
-  EXPECT_EQ(std::ranges::count(dut.cells.cells, kUnknown), 16'000'000 - 2000);
+  EXPECT_EQ(std::ranges::count(dut.occupancy.cells, kFree), 2000);
+  EXPECT_EQ(std::ranges::count(dut.occupancy.cells, kUnknown), 16'000'000 - 2000);
 }
 
 struct Broken {
@@ -230,7 +234,7 @@ TEST_F(RosMapTest, AMissingKeyIsNamedAndItsMisspellingToo) {
   const std::string all =
       "image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\noccupied_thresh: 0.65\n"
       "free_thresh: 0.196\n";
-  EXPECT_EQ(ReadRosMap(Save("map.yaml", all)).cells(0, 0), kFree);
+  EXPECT_EQ(ReadRosMap(Save("map.yaml", all)).occupancy(0, 0), kFree);
   for (const std::string key :
        {"image", "resolution", "origin", "occupied_thresh", "free_thresh"}) {
     std::string text = all;

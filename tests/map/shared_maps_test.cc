@@ -52,13 +52,13 @@ TEST_P(SharedMapsTest, FreeCellsAgreeWithAnIndependentCount) {
       const bool is_free = !is_occupied && 1000 * dark < expected.free_per_mille * 765;
       free += is_free;
       occupied += is_occupied;
-      const CellState state = dut.cells(x, image.rows - 1 - row);
+      const CellState state = dut.occupancy(x, image.rows - 1 - row);
       wrong +=
           (state == CellState::kFree) != is_free || (state == CellState::kOccupied) != is_occupied;
     }
   EXPECT_EQ(wrong, 0);
-  EXPECT_EQ(std::ranges::count(dut.cells.cells, CellState::kFree), free);
-  EXPECT_EQ(std::ranges::count(dut.cells.cells, CellState::kOccupied), occupied);
+  EXPECT_EQ(std::ranges::count(dut.occupancy.cells, CellState::kFree), free);
+  EXPECT_EQ(std::ranges::count(dut.occupancy.cells, CellState::kOccupied), occupied);
   EXPECT_GT(free, 1000);
   RecordProperty("free_cells", static_cast<int>(free));
   std::printf("%s: %d x %d, free %ld, occupied %ld\n", expected.name, image.cols, image.rows, free,

@@ -106,7 +106,7 @@ TEST(SiteGenerator, WithASeedItIsOneSiteThatOfTheCampaignOfThatSeed) {
   EXPECT_NE(Drawn("kind: fmea, seed: 8", 1, 0), fixed);
   const Site read = ReadSite(SiteOf("kind: fmea, seed: 7"), ".");
   const Site drawn = ReadSite(GeneratedSite(SiteOf("kind: fmea"), 7, 0), ".");
-  EXPECT_EQ(read.map.cells.cells, drawn.map.cells.cells);
+  EXPECT_EQ(read.map.occupancy.cells, drawn.map.occupancy.cells);
   EXPECT_EQ(read.map.goal, drawn.map.goal);
 }
 

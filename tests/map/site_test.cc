@@ -207,7 +207,7 @@ TEST_F(SiteTest, ResolvedSaysEveryDefaultAndMeansTheSame) {
                           "thickness_m: cell", "id: \"step-1\"", "depth_m: 0.03"})
     EXPECT_THAT(text, HasSubstr(key));
   const Site before = ReadSite(node, "."), after = ReadSite(ParseYaml(text, "r.yaml"), ".");
-  EXPECT_EQ(before.map.cells.cells, after.map.cells.cells);
+  EXPECT_EQ(before.map.occupancy.cells, after.map.occupancy.cells);
   EXPECT_EQ(Ids(before.map), Ids(after.map));
   for (std::size_t i = 0; i < before.map.hazards.size(); ++i) {
     const Hazard &a = before.map.hazards[i], &b = after.map.hazards[i];

@@ -212,7 +212,7 @@ TEST_P(CellPlanners, StartsFromWhereverItFitsOnAFineMap) {
   for (int round = 0; round < 200; ++round) {
     HazardMap map = EmptyFloor(70, 60, 0.05);
     for (int i = 0; i < 20; ++i)
-      map.cells(static_cast<int>(random.Below(70)), static_cast<int>(random.Below(60))) =
+      map.occupancy(static_cast<int>(random.Below(70)), static_cast<int>(random.Below(60))) =
           CellState::kOccupied;
     const bool square = round % 2 == 0;
     const Site site(map, square ? SquareRobot(0.5) : DiscRobot(0.18, 0.3));

@@ -71,7 +71,7 @@ TEST(Boustrophedon, RowsFollowWallsThatStandAskew) {
     for (int ix = 0; ix < 240; ++ix) {
       const Vec2 p = X_WR.Inverse() * map.frame.Center(ix, iy);
       if (p.x() < 0 || p.x() > 10 || p.y() < 0 || p.y() > 3)
-        map.cells(ix, iy) = CellState::kOccupied;
+        map.occupancy(ix, iy) = CellState::kOccupied;
     }
   const Vec2 p = X_WR * Vec2(1, 1);
   const PlanResult plan = Plan("boustrophedon", "{}", map, DiscRobot(0.18, 0.3), {p.x(), p.y(), 0});
@@ -219,10 +219,10 @@ TEST_P(Both, AFootprintWithANotchIsRefused) {
 TEST_P(Both, AHugeMostlyUnknownMapIsNoHardship) {
   HazardMap map;
   map.frame = {2000, 2000, 0.05, {}};
-  map.cells = Grid<CellState>(2000, 2000, CellState::kUnknown);
+  map.occupancy = Grid<CellState>(2000, 2000, CellState::kUnknown);
   for (int iy = 900; iy < 1000; ++iy)
-    for (int ix = 1200; ix < 1290; ++ix) map.cells(ix, iy) = CellState::kFree;
-  for (int i = 0; i < 2000; i += 7) map.cells(i, (i * 37) % 2000) = CellState::kFree;  // specks
+    for (int ix = 1200; ix < 1290; ++ix) map.occupancy(ix, iy) = CellState::kFree;
+  for (int i = 0; i < 2000; i += 7) map.occupancy(i, (i * 37) % 2000) = CellState::kFree;  // specks
   const RobotSpec robot = DiscRobot(0.18, 0.3);
   const Pose2 start{62, 47, 0};
   const PlanResult plan = Plan(GetParam(), "{}", map, robot, start);

@@ -106,7 +106,7 @@ TEST(Swept, WhatIsTakenBackWasNeverThere) {
 TEST(Contours, ARoomWithAPillarHasTwoClosedOnesAndTheirLengthIsGeometry) {
   HazardMap map = testing::EmptyFloor(120, 100, 0.05);  // 6 m x 5 m, a pillar of 1 m
   for (int iy = 40; iy < 60; ++iy)
-    for (int ix = 50; ix < 70; ++ix) map.cells(ix, iy) = CellState::kOccupied;
+    for (int ix = 50; ix < 70; ++ix) map.occupancy(ix, iy) = CellState::kOccupied;
   const Prepared p = Prepare(std::move(map), 0.2, 0.3, {1, 1});
   const auto contours = Contours(p.floor, PoseDepth(p.floor), 0);
   ASSERT_EQ(contours.size(), 2u);

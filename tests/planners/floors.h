@@ -25,12 +25,12 @@ inline HazardMap Draw(const std::string& text, double cell_m, const Pose2& X_WG 
   HazardMap map;
   const int w = static_cast<int>(rows.front().size()), h = static_cast<int>(rows.size());
   map.frame = {w, h, cell_m, X_WG};
-  map.cells = Grid<CellState>(w, h, CellState::kFree);
+  map.occupancy = Grid<CellState>(w, h, CellState::kFree);
   for (int iy = 0; iy < h; ++iy)
     for (int ix = 0; ix < w; ++ix) {
       const char c = rows[static_cast<std::size_t>(h - 1 - iy)][static_cast<std::size_t>(ix)];
-      if (c == '#') map.cells(ix, iy) = CellState::kOccupied;
-      if (c == '?') map.cells(ix, iy) = CellState::kUnknown;
+      if (c == '#') map.occupancy(ix, iy) = CellState::kOccupied;
+      if (c == '?') map.occupancy(ix, iy) = CellState::kUnknown;
     }
   return map;
 }
@@ -38,16 +38,16 @@ inline HazardMap Draw(const std::string& text, double cell_m, const Pose2& X_WG 
 inline HazardMap EmptyFloor(int w, int h, double cell_m) {
   HazardMap map;
   map.frame = {w, h, cell_m, {}};
-  map.cells = Grid<CellState>(w, h, CellState::kFree);
+  map.occupancy = Grid<CellState>(w, h, CellState::kFree);
   return map;
 }
 
 // Left and right exchanged.
 inline HazardMap Mirrored(const HazardMap& map) {
   HazardMap out = map;
-  for (int iy = 0; iy < map.cells.height; ++iy)
-    for (int ix = 0; ix < map.cells.width; ++ix)
-      out.cells(ix, iy) = map.cells(map.cells.width - 1 - ix, iy);
+  for (int iy = 0; iy < map.occupancy.height; ++iy)
+    for (int ix = 0; ix < map.occupancy.width; ++ix)
+      out.occupancy(ix, iy) = map.occupancy(map.occupancy.width - 1 - ix, iy);
   return out;
 }
 

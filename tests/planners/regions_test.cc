@@ -72,7 +72,7 @@ TEST(MakeRows, RowsOfAHallFitItsWidthAndLieOnItsPoses) {
 TEST(MakeRows, APillarMakesFourCells) {
   HazardMap map = testing::EmptyFloor(200, 120, 0.05);
   for (int iy = 50; iy < 70; ++iy)
-    for (int ix = 90; ix < 110; ++ix) map.cells(ix, iy) = CellState::kOccupied;
+    for (int ix = 90; ix < 110; ++ix) map.occupancy(ix, iy) = CellState::kOccupied;
   const Floor floor = MakeFloor(map, {1, 1});
   const Regions regions = FindRegions(floor, 9, 0.0);
   EXPECT_EQ(CountCells(MakeRows(floor, regions, {6, 9}, nullptr), regions), 4);

@@ -108,9 +108,9 @@ Grid<T> Rows(const std::vector<std::vector<T>>& rows) {
 // 1 where the drawing has '.'.
 inline Grid<std::uint8_t> OpenCells(const std::string& text) {
   const HazardMap map = Draw(text, 1);
-  Grid<std::uint8_t> open(map.cells.width, map.cells.height);
+  Grid<std::uint8_t> open(map.occupancy.width, map.occupancy.height);
   for (std::size_t i = 0; i < open.cells.size(); ++i)
-    open.cells[i] = map.cells.cells[i] == CellState::kFree;
+    open.cells[i] = map.occupancy.cells[i] == CellState::kFree;
   return open;
 }
 

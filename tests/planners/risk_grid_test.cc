@@ -37,7 +37,7 @@ HazardMap FineRoom(int width, int height, int left, int below, int right, int ab
   for (int iy = 0; iy < map.frame.height; ++iy)
     for (int ix = 0; ix < map.frame.width; ++ix)
       if (ix < left || iy < below || ix >= left + width || iy >= below + height)
-        map.cells(ix, iy) = CellState::kOccupied;
+        map.occupancy(ix, iy) = CellState::kOccupied;
   return map;
 }
 
@@ -120,7 +120,7 @@ TEST(RiskGrid, CellsThatReachBeyondTheMapAreOuterWall) {
   EXPECT_FALSE(dut.walled_all_round);
   HazardMap map = EmptyFloor(25, 23, 0.05);
   map.hazards.push_back(Of(HazardClass::kTerrain, Rectangle({1.1, 0.1}, {1.2, 0.2})));
-  map.cells(22, 22) = CellState::kOccupied;
+  map.occupancy(22, 22) = CellState::kOccupied;
   EXPECT_EQ(Text(Make(map)), "WW#\n..W\n..T\n") << "hazards, the one yet nowhere to drive";
 }
 
@@ -199,8 +199,8 @@ TEST(RiskGrid, ACellIsOfTheHazardOfTheGreatestWeightAndSolidIfOneIs) {
 
 TEST(RiskGrid, AnythingOccupiedInACellIsABlindObject) {
   HazardMap map = FineRoom(40, 20, 3, 2, 3, 2);
-  map.cells(3 + 12, 2 + 9) = CellState::kOccupied;   // in the second cell, at its upper border
-  map.cells(3 + 35, 2 + 12) = CellState::kOccupied;  // in the fourth
+  map.occupancy(3 + 12, 2 + 9) = CellState::kOccupied;   // in the second cell, at its upper border
+  map.occupancy(3 + 35, 2 + 12) = CellState::kOccupied;  // in the fourth
   map.hazards.push_back(Of(HazardClass::kTerrain, Rectangle({1.66, 0.7}, {1.9, 0.8})));
   EXPECT_EQ(Text(Make(map)), "WWWWWW\nW...TW\nW.#..W\nWWWWWW\n");
 }
@@ -216,7 +216,7 @@ TEST(RiskGrid, OnAnyFineMapTheRuleHolds) {
     HazardMap map = EmptyFloor(8 + static_cast<int>(random.Below(30)),
                                8 + static_cast<int>(random.Below(30)), cell_m);
     map.unknown_is_wall = round % 3 != 0;
-    for (CellState& cell : map.cells.cells) {
+    for (CellState& cell : map.occupancy.cells) {
       const double u = random.Uniform();
       cell = u < 0.01 ? CellState::kOccupied : u < 0.02 ? CellState::kUnknown : CellState::kFree;
     }
@@ -224,7 +224,7 @@ TEST(RiskGrid, OnAnyFineMapTheRuleHolds) {
       for (int iy = 0; iy < map.frame.height; ++iy)
         for (int ix = 0; ix < map.frame.width; ++ix)
           if (ix == 0 || iy == 0 || ix == map.frame.width - 1 || iy == map.frame.height - 1)
-            map.cells(ix, iy) = CellState::kOccupied;
+            map.occupancy(ix, iy) = CellState::kOccupied;
     const int width = map.frame.width * cut, height = map.frame.height * cut;
     struct Seen {
       bool beyond = false, wall = false, occupied = false;
@@ -238,7 +238,7 @@ TEST(RiskGrid, OnAnyFineMapTheRuleHolds) {
             continue;
           }
           seen.wall |= map.IsWall(x / cut, y / cut);
-          seen.occupied |= map.cells(x / cut, y / cut) == CellState::kOccupied;
+          seen.occupied |= map.occupancy(x / cut, y / cut) == CellState::kOccupied;
         }
       return seen;
     };

@@ -118,7 +118,7 @@ TEST(RiskMap, ASumOverHazards) {
   for (HazardMap& part : parts) part.hazards.clear();
   for (std::size_t i = 0; i < both.map.hazards.size(); ++i)
     parts[i % 2].hazards.push_back(both.map.hazards[i]);
-  std::ranges::fill(parts[1].cells.cells, CellState::kFree);
+  std::ranges::fill(parts[1].occupancy.cells, CellState::kFree);
   const RiskMap dut = Risk(both.map), a = Risk(parts[0]), b = Risk(parts[1]);
   for (std::size_t i = 0; i < dut.rf.cells.size(); ++i)
     ASSERT_NEAR(dut.rf.cells[i], a.rf.cells[i] + b.rf.cells[i], 2e-9) << i;
@@ -257,7 +257,7 @@ TEST(RiskMap, AMillionCellsWithTenThousandHazards) {
     if (taken(h.ix, h.iy)++) continue;
     hazards.push_back(h);
     if (h.hazard_class == HazardClass::kBlindObject) {
-      map.cells(h.ix, h.iy) = CellState::kOccupied;
+      map.occupancy(h.ix, h.iy) = CellState::kOccupied;
       continue;
     }
     Hazard& hazard = map.hazards.emplace_back();

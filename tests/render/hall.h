@@ -14,9 +14,9 @@ inline HazardMap Hall(int w, int h, double cell_m) {
   HazardMap map;
   map.name = "hall";
   map.frame = {w, h, cell_m, {}};
-  map.cells = Grid<CellState>(w, h, CellState::kFree);
-  for (int x = 0; x < w; ++x) map.cells(x, 0) = map.cells(x, h - 1) = CellState::kOccupied;
-  for (int y = 0; y < h; ++y) map.cells(0, y) = map.cells(w - 1, y) = CellState::kOccupied;
+  map.occupancy = Grid<CellState>(w, h, CellState::kFree);
+  for (int x = 0; x < w; ++x) map.occupancy(x, 0) = map.occupancy(x, h - 1) = CellState::kOccupied;
+  for (int y = 0; y < h; ++y) map.occupancy(0, y) = map.occupancy(w - 1, y) = CellState::kOccupied;
   return map;
 }
 

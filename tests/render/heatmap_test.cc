@@ -113,9 +113,9 @@ TEST(HeatMapTest, CategoriesUseTheirColoursAndNoOthers) {
 TEST(HeatMapTest, UnknownSurroundingsAreCutOff) {
   HazardMap wide;
   wide.frame = {1000, 1000, 0.05, {}};
-  wide.cells = Grid<CellState>(1000, 1000, CellState::kUnknown);
+  wide.occupancy = Grid<CellState>(1000, 1000, CellState::kUnknown);
   for (int x = 500; x < 540; ++x)
-    for (int y = 300; y < 340; ++y) wide.cells(x, y) = CellState::kFree;
+    for (int y = 300; y < 340; ++y) wide.occupancy(x, y) = CellState::kFree;
   const Image image = DrawHeatMap(wide, nullptr, {});
   EXPECT_GT(Count(image, kFree), image.width * image.height / 3);
 }
@@ -150,7 +150,7 @@ TEST(HeatMapTest, PointsAndHazardsAreDrawnWhereTheyLie) {
 // A turned map is drawn in its own frame: the same panel, the arrow apart.
 TEST(HeatMapTest, TurningTheMapTurnsOnlyTheArrow) {
   HazardMap map = Hall(40, 30, 0.1);
-  map.cells(10, 20) = CellState::kOccupied;
+  map.occupancy(10, 20) = CellState::kOccupied;
   const Image straight = DrawHeatMap(map, nullptr, {});
   map.frame.X_WG = {3, -2, 0.7};
   const Image turned = DrawHeatMap(map, nullptr, {});

@@ -52,12 +52,12 @@ TEST_F(ScenarioFile, AGeneratedSiteIsResolvedAsDrawn) {
   EXPECT_EQ(first.site.map.frame.width, 12);
   const std::string once = ResolvedScenario(first, folder_);
   const Scenario second = Read(once);
-  EXPECT_EQ(second.site.map.cells.cells, first.site.map.cells.cells);
+  EXPECT_EQ(second.site.map.occupancy.cells, first.site.map.occupancy.cells);
   EXPECT_EQ(second.start.x_m, first.start.x_m);
   EXPECT_EQ(second.goal, first.goal);
   EXPECT_EQ(ResolvedScenario(second, folder_), once);
-  EXPECT_NE(Read(text, {{"seed", "4"}}).site.map.cells.cells,
-            Read(text, {{"seed", "3"}}).site.map.cells.cells);
+  EXPECT_NE(Read(text, {{"seed", "4"}}).site.map.occupancy.cells,
+            Read(text, {{"seed", "3"}}).site.map.occupancy.cells);
 }
 
 TEST_F(ScenarioFile, WheelsAreIdealOrHaveRollersThatAreBodies) {

@@ -83,7 +83,7 @@ TEST(RobotModel, MotorsAndWheelsNeedNoNames) {
   EXPECT_EQ(dut.spec.wheels[3].radius_m, with_names.spec.wheels[3].radius_m);
   HazardMap map;
   map.frame = {2, 2, 1, {}};
-  map.cells = Grid<CellState>(2, 2);
+  map.occupancy = Grid<CellState>(2, 2);
   const auto pairs = BuildScene(map, with_names, {}, {}).model->npair;
   EXPECT_EQ(pairs, 16) << "each wheel with the floor";
   EXPECT_EQ(BuildScene(map, dut, {}, {}).model->npair, pairs);

@@ -14,7 +14,7 @@ namespace {
 HazardMap Room() {
   HazardMap map;
   map.frame = {12, 12, 0.5, {}};
-  map.cells = Grid<CellState>(12, 12);
+  map.occupancy = Grid<CellState>(12, 12);
   return map;
 }
 

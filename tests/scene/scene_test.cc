@@ -11,7 +11,7 @@ namespace {
 HazardMap EmptyRoom(int width, int height) {
   HazardMap map;
   map.frame = {width, height, 0.5, {}};
-  map.cells = Grid<CellState>(width, height);
+  map.occupancy = Grid<CellState>(width, height);
   return map;
 }
 

@@ -13,11 +13,11 @@ HazardMap Drawn(const std::vector<std::string>& rows, double cell_m) {
   HazardMap map;
   const int w = static_cast<int>(rows[0].size()), h = static_cast<int>(rows.size());
   map.frame = {w, h, cell_m, {}};
-  map.cells = Grid<CellState>(w, h);
+  map.occupancy = Grid<CellState>(w, h);
   for (int iy = 0; iy < h; ++iy)
     for (int ix = 0; ix < w; ++ix)
       if (rows[static_cast<std::size_t>(h - 1 - iy)][static_cast<std::size_t>(ix)] == '#')
-        map.cells(ix, iy) = CellState::kOccupied;
+        map.occupancy(ix, iy) = CellState::kOccupied;
   return map;
 }
 

@@ -144,7 +144,7 @@ TEST(Lidar, DarkThingsAreSeenLessFar) {
 TEST(Lidar, LargeMapsAreSeenAsSmallOnes) {
   HazardMap map = Room(30, 30, 0.1);
   for (int k = 0; k < 200; ++k)
-    map.cells(40 + (k * 53) % 230, 30 + (k * 37) % 250) = CellState::kOccupied;
+    map.occupancy(40 + (k * 53) % 230, 30 + (k * 37) % 250) = CellState::kOccupied;
   SensorRig rig(map, "beluga", {16, 16, 0.3});
   ASSERT_GT(rig.scene().pool.num, 0);
   rig.Carry(

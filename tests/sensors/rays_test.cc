@@ -12,14 +12,14 @@ namespace {
 HazardMap RoomsAndPillars() {
   HazardMap map;
   map.frame = {90, 70, 0.1, {1.3, -2.1, 0.4}};
-  map.cells = Grid<CellState>(90, 70);
+  map.occupancy = Grid<CellState>(90, 70);
   map.inset_m = 0.015;
   Stream draw(4, 0, "cells");
   for (int k = 0; k < 300; ++k)
-    map.cells(static_cast<int>(draw.Below(90)), static_cast<int>(draw.Below(70))) =
+    map.occupancy(static_cast<int>(draw.Below(90)), static_cast<int>(draw.Below(70))) =
         CellState::kOccupied;
   for (int iy = 0; iy < 70; ++iy)
-    if (iy % 30 > 11) map.cells(45, iy) = CellState::kOccupied;
+    if (iy % 30 > 11) map.occupancy(45, iy) = CellState::kOccupied;
   return map;
 }
 

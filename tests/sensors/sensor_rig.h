@@ -22,9 +22,9 @@ inline HazardMap Room(double width_m, double height_m, double cell_m = 0.5) {
   const int nx = static_cast<int>(std::lround(width_m / cell_m)) + 2 * border;
   const int ny = static_cast<int>(std::lround(height_m / cell_m)) + 2 * border;
   map.frame = {nx, ny, cell_m, {}};
-  map.cells = Grid<CellState>(nx, ny, CellState::kOccupied);
+  map.occupancy = Grid<CellState>(nx, ny, CellState::kOccupied);
   for (int iy = border; iy < ny - border; ++iy)
-    for (int ix = border; ix < nx - border; ++ix) map.cells(ix, iy) = CellState::kFree;
+    for (int ix = border; ix < nx - border; ++ix) map.occupancy(ix, iy) = CellState::kFree;
   return map;
 }
 

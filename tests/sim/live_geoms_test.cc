@@ -23,7 +23,7 @@ namespace {
 HazardMap Pillars() {
   HazardMap map;
   map.frame = {80, 80, 0.25, {-7.3, -9.1, 0.3}};
-  map.cells = Grid<CellState>(80, 80);
+  map.occupancy = Grid<CellState>(80, 80);
   map.inset_m = 0.01;
   Stream draw(3, 0, "pillars");
   for (int y = 0; y < 80; y += 4)
@@ -32,7 +32,7 @@ HazardMap Pillars() {
         for (int k = 0; k < 2; ++k) {
           // One after the other: compilers differ in which argument they evaluate first.
           const int dy = static_cast<int>(draw.Below(2)), dx = static_cast<int>(draw.Below(2));
-          map.cells(x + dx, y + dy) = CellState::kOccupied;
+          map.occupancy(x + dx, y + dy) = CellState::kOccupied;
         }
   return map;
 }
@@ -52,7 +52,7 @@ Hazard Plate(int number, const Vec2& p_W) {
 HazardMap Plates() {
   HazardMap map;
   map.frame = {40, 40, 0.25, {-5, -5, 0}};
-  map.cells = Grid<CellState>(40, 40);
+  map.occupancy = Grid<CellState>(40, 40);
   for (int i = 0; i < 200; ++i)
     map.hazards.push_back(Plate(i, {-4.5 + 0.6 * (i % 16), -4.5 + 0.6 * (i / 16)}));
   return map;
@@ -235,7 +235,7 @@ TEST(LiveGeoms, APoolThatIsTooSmallIsAnErrorNotAMiss) {
 TEST(LiveGeoms, AreTheWholeSceneWhereItIsSmall) {
   HazardMap map;
   map.frame = {20, 20, 0.5, {}};
-  map.cells = Grid<CellState>(20, 20);
+  map.occupancy = Grid<CellState>(20, 20);
   const Twins dut("htetro", map, {5, 5, 0});
   EXPECT_EQ(dut.scene.pool.num, 0);
   EXPECT_EQ(dut.sim.model()->npair, dut.scene.model->npair);

@@ -20,10 +20,10 @@ namespace {
 HazardMap Pillars() {
   HazardMap map;
   map.frame = {112, 112, 0.25, {}};
-  map.cells = Grid<CellState>(112, 112);
+  map.occupancy = Grid<CellState>(112, 112);
   for (int y = 0; y < 112; ++y)
     for (int x = 0; x < 112; ++x)
-      if (x % 8 < 2 && y % 8 < 2) map.cells(x, y) = CellState::kOccupied;
+      if (x % 8 < 2 && y % 8 < 2) map.occupancy(x, y) = CellState::kOccupied;
   return map;
 }
 
