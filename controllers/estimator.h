@@ -27,8 +27,8 @@ struct EstimatorContext {
 
 class Estimator : public Configurable {
  public:
-  // Sensors that it cannot do without.
-  virtual std::vector<std::string_view> Needs() const { return {}; }
+  // What it cannot do without.
+  virtual std::vector<Reading> Needs() const { return {}; }
   // Throws InputError where map or robot do not let it work, its line beginning with the key: it is
   // heard when a scenario is read (run/scenario/start_check.h).
   virtual void Start(const EstimatorContext& context) = 0;

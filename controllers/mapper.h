@@ -10,7 +10,6 @@
 #pragma once
 
 #include <array>
-#include <string_view>
 #include <vector>
 
 #include "base/params.h"
@@ -24,8 +23,8 @@ namespace floorproof {
 class Mapper final : public Configurable {
  public:
   void Visit(ParamVisitor& v) override;
-  // The sensors that it draws by, by name; without them it keeps what was met.
-  static std::vector<std::string_view> Needs() { return {"lidar"}; }
+  // What it draws by; without it keeps what was met.
+  static std::vector<Reading> Needs() { return {Reading::kScan}; }
 
   // An empty map on this ground; `site` says where it ends, no more.
   void Start(const GridFrame& site, const RobotSpec& robot);

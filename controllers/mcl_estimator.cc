@@ -40,7 +40,9 @@ class MclEstimator final : public Estimator {
     v("recovery", recovery_, "draw random particles when scans fit worse than they used to");
     error_.Visit(v);
   }
-  std::vector<std::string_view> Needs() const override { return {"lidar", "encoders", "imu"}; }
+  std::vector<Reading> Needs() const override {
+    return {Reading::kScan, Reading::kWheels, Reading::kImu};
+  }
 
   void Start(const EstimatorContext& context) override {
     known_ = &context.known;

@@ -12,7 +12,7 @@ namespace {
 class OdometryEstimator final : public Estimator {
  public:
   void Visit(ParamVisitor& v) override { error_.Visit(v); }
-  std::vector<std::string_view> Needs() const override { return {"encoders", "imu"}; }
+  std::vector<Reading> Needs() const override { return {Reading::kWheels, Reading::kImu}; }
 
   void Start(const EstimatorContext& context) override {
     odometry_.Start(context.robot);

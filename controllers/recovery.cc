@@ -36,10 +36,10 @@ bool Ahead(const Observation& sensed, bool bumper, bool cliff, const Vec2& way_B
 
 }  // namespace
 
-std::vector<std::string_view> RecoveryParams::Needs() const {
-  std::vector<std::string_view> needs;
-  if (bumper) needs.push_back("bumper");
-  if (cliff) needs.push_back("cliff");
+std::vector<Reading> RecoveryParams::Needs() const {
+  std::vector<Reading> needs;
+  if (bumper) needs.push_back(Reading::kBump);
+  if (cliff) needs.push_back(Reading::kCliffs);
   return needs;
 }
 

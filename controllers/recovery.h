@@ -4,7 +4,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/params.h"
@@ -20,8 +19,8 @@ struct RecoveryParams {
   std::string then = "replan";
   int most = 50;  // reactions an episode: a robot that is caught does not struggle for ever
   void Visit(ParamVisitor& v);
-  // The sensors that it goes by, by name.
-  std::vector<std::string_view> Needs() const;
+  // What it goes by.
+  std::vector<Reading> Needs() const;
 };
 
 class Recovery {

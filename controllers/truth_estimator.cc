@@ -10,7 +10,7 @@ class TruthEstimator final : public Estimator {
  public:
   // It takes no heed of them: a campaign may draw them for all the estimators of its variants.
   void Visit(ParamVisitor& v) override { ignored_.Visit(v); }
-  std::vector<std::string_view> Needs() const override { return {"truth"}; }
+  std::vector<Reading> Needs() const override { return {Reading::kTruth}; }
   void Start(const EstimatorContext& context) override {
     estimate_ = {};
     estimate_.X_WB = context.start;

@@ -5,11 +5,22 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "env/core/motion.h"
 
 namespace floorproof {
+
+// The parts of an Observation. A sensor fills one of them, and whoever goes by an observation says
+// which it needs.
+enum class Reading { kWheels, kImu, kScan, kBump, kCliffs, kTruth };  // kWheels: hinges too
+inline constexpr Reading kReadings[] = {Reading::kWheels, Reading::kImu,    Reading::kScan,
+                                        Reading::kBump,   Reading::kCliffs, Reading::kTruth};
+constexpr std::string_view Name(Reading reading) {
+  constexpr std::string_view kNames[] = {"wheels' turns", "IMU", "scan", "bump", "cliffs", "truth"};
+  return kNames[static_cast<int>(reading)];
+}
 
 // One turn of a 2D lidar, taken at one moment.
 struct LidarScan {

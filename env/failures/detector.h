@@ -44,6 +44,11 @@ class Detector : public Configurable {
   double margin_ = 0;
 };
 
+struct NamedDetector {
+  std::string name;
+  std::unique_ptr<Detector> detector;
+};
+
 std::span<const PluginEntry<Detector>> Detectors();
 
 // The id of the hazard of that index, "wall" for a map's own obstacle when `contact`, else "".

@@ -16,6 +16,7 @@ namespace {
 
 class Encoders final : public Sensor {
  public:
+  Reading Fills() const override { return Reading::kWheels; }
   void Visit(ParamVisitor& v) override {
     v("ticks", ticks_, Between(1, 1e7), "a wheel's turn is counted in");
     v("noise", noise_, Between(0, 1), "standard deviation of a period's turn, as a share of it");
@@ -41,6 +42,7 @@ class Encoders final : public Sensor {
 
   void Sense(mjData* data, const Truth& truth, Observation& out) override {
     const double tick_rad = 2 * kPi / ticks_;
+    told_ = out.hinges;
     out.hinges = truth.hinges;
     for (int h = 0; h < out.hinges.n; ++h) {
       double& rad = out.hinges.rad[static_cast<std::size_t>(h)];
@@ -57,10 +59,11 @@ class Encoders final : public Sensor {
     }
   }
 
-  // The wheels seem to stand, the hinges as they were built.
+  // The wheels seem to stand, the hinges too, where they were heard of last.
   void Silence(Observation& out) const override {
     std::ranges::fill(out.wheel_rad, 0.0);
-    out.hinges = HingeState{.n = out.hinges.n};
+    out.hinges = told_;
+    out.hinges.radps = {};
   }
 
  private:
@@ -69,6 +72,7 @@ class Encoders final : public Sensor {
   std::optional<Stream> stream_;
   std::vector<int> joints_;  // addresses of the wheels' angles
   std::vector<double> last_rad_, remainder_rad_;
+  HingeState told_;  // in the period before
 };
 
 }  // namespace

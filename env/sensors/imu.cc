@@ -12,6 +12,7 @@ namespace {
 
 class Imu final : public Sensor {
  public:
+  Reading Fills() const override { return Reading::kImu; }
   void Visit(ParamVisitor& v) override {
     v("gyro_noise_radps", gyro_noise_, NonNegative(), "standard deviation of each reading (rad/s)");
     v("gyro_bias_radps", gyro_bias_, NonNegative(),

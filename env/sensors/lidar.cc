@@ -23,6 +23,7 @@ constexpr double kThrough_m = 1e-4;  // beyond a surface that let it pass
 
 class Lidar final : public Sensor {
  public:
+  Reading Fills() const override { return Reading::kScan; }
   void Visit(ParamVisitor& v) override {
     v("beams", beams_, Between(1, 3600), "in a turn, evenly spaced from straight ahead");
     v("rate_hz", rate_hz_, Between(0.1, 100), "turns a second");

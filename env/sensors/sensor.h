@@ -29,6 +29,8 @@ struct SensorContext {
 
 class Sensor : public Configurable {
  public:
+  // The part of the Observation that it fills, and it alone: a robot carries one sensor of each.
+  virtual Reading Fills() const = 0;
   // Before the first step, the robot standing at its start; `noise` is this episode's stream of
   // this sensor. Sizes what Sense() fills. Throws InputError where the robot cannot carry it, its
   // line beginning with the key: it is heard when a scenario is read (run/scenario/start_check.h).
@@ -38,8 +40,8 @@ class Sensor : public Configurable {
   virtual void OnStep(const Truth&) {}
   // Once a control period. Allocates nothing.
   virtual void Sense(mjData* data, const Truth& truth, Observation& out) = 0;
-  // In place of what it just told: what is heard of it when it is dead. It senses on, so that its
-  // noise is the same once it is heard again.
+  // In place of what it just told: what is heard of it while it is silent. It senses on, so that
+  // its noise is the same once it is heard again.
   virtual void Silence(Observation& out) const = 0;
 };
 

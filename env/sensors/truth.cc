@@ -8,6 +8,7 @@ namespace {
 
 class TruthSensor final : public Sensor {
  public:
+  Reading Fills() const override { return Reading::kTruth; }
   void Visit(ParamVisitor&) override {}
   void Start(const SensorContext&, const mjData*, const Truth& truth, const Stream&,
              Observation& out) override {

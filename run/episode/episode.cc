@@ -134,7 +134,8 @@ std::optional<Outcome> Episode::Control() {
                                           recorder_.coverage(), recorder_.driven_m() / plan_m_}))
     ended = Outcome::kInterrupted;
 
-  if (!ended && interventions_.HasCome(sample_.t_s)) {  // after sensing: a bump was where it lay
+  if (!ended && interventions_.HasCome(sample_.t_s)) {     // after sensing: a bump was where it lay
+    if (sample_.battery_v == 0) return Outcome::kFailure;  // cut off while it waited
     recorder_.OnIntervention(interventions_.SetDown(plant_, robot_side_), s_.detectors);
     Look();
     Act(robot_side_.actuation());
@@ -168,13 +169,14 @@ void Episode::Act(const Actuation& actuation) {
 }
 
 void Episode::StartDetectors() {
-  for (auto& detector : s_.detectors) detector->Start({s_.site.map, robot_, s_.physics.timestep_s});
+  for (auto& [name, detector] : s_.detectors)
+    detector->Start({s_.site.map, robot_, s_.physics.timestep_s});
 }
 
 // True when one of them fired; all see every sample.
 bool Episode::Detect() {
   bool failed = false;
-  for (auto& detector : s_.detectors) {
+  for (auto& [name, detector] : s_.detectors) {
     if (!detector->Update(sample_)) continue;
     recorder_.OnEvent(detector->event());
     failed = true;

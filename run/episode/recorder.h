@@ -87,8 +87,7 @@ class Recorder {
   void OnEvent(const Event& event) { record_.events.push_back(event); }
 
   // Before the detectors start afresh. What the tool is carried over is not swept.
-  void OnIntervention(const Intervention& assist,
-                      const std::vector<std::unique_ptr<Detector>>& detectors) {
+  void OnIntervention(const Intervention& assist, const std::vector<NamedDetector>& detectors) {
     record_.interventions.push_back(assist);
     ++record_.metrics.interventions;
     KeepMargins(detectors);
@@ -103,9 +102,8 @@ class Recorder {
   // failure when something failed on the way, helped or not; a completed one that covered too
   // little is one as well.
   EpisodeRecord Finish(Outcome ended, const Sample& last, const PlanResult& plan,
-                       const RobotSide& side,
-                       const std::vector<std::unique_ptr<Detector>>& detectors, double min_coverage,
-                       std::optional<double> battery_left) {
+                       const RobotSide& side, const std::vector<NamedDetector>& detectors,
+                       double min_coverage, std::optional<double> battery_left) {
     Metrics& m = record_.metrics;
     if (shape_ >= 0) meter_.Add(last.X_WB());
     m.coverage = meter_.coverage();
@@ -163,12 +161,12 @@ class Recorder {
   }
 
   // The least of all that the detectors said since each of their starts.
-  void KeepMargins(const std::vector<std::unique_ptr<Detector>>& detectors) {
+  void KeepMargins(const std::vector<NamedDetector>& detectors) {
     std::vector<Margin>& kept = record_.margins;
     for (std::size_t i = 0; i < detectors.size(); ++i) {
-      const double margin = detectors[i]->margin();
+      const double margin = detectors[i].detector->margin();
       if (i == kept.size())
-        kept.push_back({std::string(Name(detectors[i]->mode())), margin});
+        kept.push_back({detectors[i].name, margin});
       else
         kept[i].value = std::min(kept[i].value, margin);
     }

@@ -67,8 +67,8 @@ ConfigNode SensorsOf(const Scenario& s) {
 
 ConfigNode Failures(const Scenario& s) {
   ConfigNode node = ConfigNode::Map();
-  for (std::size_t i = 0; i < s.detectors.size(); ++i)
-    node.Add(std::string(Detectors()[i].name), WithPlugin(ConfigNode::Map(), *s.detectors[i]));
+  for (const auto& [name, detector] : s.detectors)
+    node.Add(name, WithPlugin(ConfigNode::Map(), *detector));
   return node;
 }
 
@@ -150,8 +150,11 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
     root.Add("controller", WithPlugin(Named("name", s.tracker_name), *s.tracker));
   root.Add("estimator", WithPlugin(Named("name", s.estimator_name), *s.estimator));
   if (!std::ranges::all_of(s.sensors, &NamedSensor::implied)) root.Add("sensors", SensorsOf(s));
-  // One without a lidar came with `react`, as it is by default; stated, it would ask for a lidar.
-  if (s.mapper && std::ranges::find(s.sensors, "lidar", &NamedSensor::name) != s.sensors.end()) {
+  // One without a scan came with `react`, as it is by default; stated, it would ask for a lidar.
+  const auto tells_scan = [](const NamedSensor& named) {
+    return named.sensor->Fills() == Reading::kScan;
+  };
+  if (s.mapper && std::ranges::any_of(s.sensors, tells_scan)) {
     Mapper mapper = *s.mapper;
     root.Add("mapper", WithPlugin(ConfigNode::Map(), mapper));
   }

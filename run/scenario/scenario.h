@@ -67,7 +67,7 @@ struct Scenario {
   std::optional<Mapper> mapper;            // none: no map is drawn
   std::optional<RecoveryParams> recovery;  // none: the plan is driven blindly
   std::vector<ScheduledFault> faults;      // what breaks on the robot
-  std::vector<std::unique_ptr<Detector>> detectors;
+  std::vector<NamedDetector> detectors;
   PhysicsParams physics;
   Battery battery;  // its voltage set, if only by the robot
   EpisodeParams episode;

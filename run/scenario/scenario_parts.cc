@@ -7,6 +7,7 @@
 #include "controllers/drive.h"
 #include "env/core/blocks.h"
 #include "env/scene/roller_wheels.h"
+#include "run/scenario/carried_sensors.h"
 #include "run/scenario/fmea_file.h"
 #include "run/scenario/plan_file.h"
 #include "run/scenario/start_check.h"
@@ -227,30 +228,26 @@ void ReadReaction(const ConfigNode& root, Scenario& s) {
   }
 }
 
-void ReadSensors(const ConfigNode& root, Scenario& s) {
-  const ConfigNode written = PluginMap(root, "sensors", "sensors", PluginNames(Sensors()));
-  auto needed = s.estimator->Needs();
-  const auto add = [&needed](const std::vector<std::string_view>& more) {
+// What the scenario's parts need to be told.
+std::vector<Reading> NeededReadings(const ConfigNode& root, const Scenario& s) {
+  std::vector<Reading> needed = s.estimator->Needs();
+  const auto add = [&needed](const std::vector<Reading>& more) {
     needed.insert(needed.end(), more.begin(), more.end());
   };
   if (Written(root, "mapper")) add(Mapper::Needs());  // one that came with `react` does without
   if (s.recovery) add(s.recovery->Needs());
-  for (const auto& entry : Sensors()) {
-    const std::string name(entry.name);
-    const ConfigNode* params = written.Find(name);
-    if (params == nullptr && std::ranges::find(needed, entry.name) == needed.end()) continue;
-    s.sensors.push_back({name, entry.make()});
-    NamedSensor& sensor = s.sensors.back();
-    sensor.implied = params == nullptr && DocumentParams(*sensor.sensor).empty();
-    if (params != nullptr && !params->IsNull())
-      ReadParams(*params, "sensors." + name + ".", *sensor.sensor);
-  }
+  return needed;
+}
+
+void ReadSensors(const ConfigNode& root, Scenario& s) {
+  const ConfigNode written = PluginMap(root, "sensors", "sensors", PluginNames(Sensors()));
+  s.sensors = CarriedSensors(Sensors(), written, NeededReadings(root, s));
 }
 
 void ReadFaultsPart(const ConfigNode& root, Scenario& s) {
   const ConfigNode* node = Written(root, "faults");
   if (node == nullptr) return;
-  s.faults = ReadFaults(*node, {s.robot.spec, SensorNames(s.sensors)});
+  s.faults = ReadFaults(*node, {s.robot.spec, SensorNames(s.sensors)}, s.physics.timestep_s);
 }
 
 void ReadFailures(const ConfigNode& root, Scenario& s) {
@@ -260,7 +257,7 @@ void ReadFailures(const ConfigNode& root, Scenario& s) {
     const std::string name(entry.name);
     if (const ConfigNode* params = written.Find(name))
       ReadParams(*params, "failures." + name + ".", *detector);
-    s.detectors.push_back(std::move(detector));
+    s.detectors.push_back({name, std::move(detector)});
   }
   if (s.episode.on_failure == "assist")
     RefuseFolding(s, MarkOf(root, "on_failure"), "on_failure", "assist");

@@ -15,7 +15,7 @@ SourceMark MarkOf(const ConfigNode& entry, std::string_view line) {
 }
 
 ScheduledFault ReadFault(const ConfigNode& node, const std::string& path,
-                         const FaultContext& context) {
+                         const FaultContext& context, double step_s) {
   if (!node.IsMap())
     throw InputError(node.mark, path, "", "must be a map of keys: {type: ..., ...}");
   const std::string prefix = path + ".";
@@ -32,8 +32,18 @@ ScheduledFault ReadFault(const ConfigNode& node, const std::string& path,
              {"type", "id"});
   if (const ConfigNode* id = node.Find("id")) {
     read.id = AsString(*id, prefix + "id");
-    if (read.id.empty() || read.id.size() > 64)
-      throw InputError(id->mark, prefix + "id", read.id, "must be 1 to 64 characters");
+    const bool number = read.id.find_first_not_of("0123456789") == std::string::npos;
+    if (number || read.id.size() > 64 || read.id.find('.') != std::string::npos)
+      throw InputError(id->mark, prefix + "id", read.id,
+                       "must be 1 to 64 characters without a dot, and not a number, which is a "
+                       "place in the list");
+  }
+  if (const auto& period_s = read.timing.period_s) {
+    const double duty = read.timing.duty;
+    if (*period_s * duty < step_s || (duty < 1 && *period_s * (1 - duty) < step_s))
+      throw InputError(MarkOf(node, "period_s"), prefix + "period_s", FormatDouble(*period_s),
+                       "must leave a physics step, " + FormatDouble(step_s) +
+                           " s, to the broken and to the sound share of it");
   }
   try {
     read.fault->Start(context);
@@ -45,17 +55,20 @@ ScheduledFault ReadFault(const ConfigNode& node, const std::string& path,
 
 }  // namespace
 
-std::vector<ScheduledFault> ReadFaults(const ConfigNode& node, const FaultContext& context) {
+std::vector<ScheduledFault> ReadFaults(const ConfigNode& node, const FaultContext& context,
+                                       double step_s) {
   if (!node.IsList() || node.items.size() > kMaxFaults)
     throw InputError(
         node.mark, "faults", "",
         "must be a list of at most " + std::to_string(kMaxFaults) + " faults: [{type: ..., ...}]");
   std::vector<ScheduledFault> faults;
   for (std::size_t i = 0; i < node.items.size(); ++i) {
-    faults.push_back(ReadFault(node.items[i], "faults[" + std::to_string(i) + "]", context));
+    faults.push_back(
+        ReadFault(node.items[i], "faults[" + std::to_string(i) + "]", context, step_s));
     const std::string& id = faults.back().id;
     if (!id.empty() && std::ranges::count(faults, id, &ScheduledFault::id) > 1)
-      throw InputError(node.items[i].mark, "faults.id", id, "two faults have this id");
+      throw InputError(node.items[i].mark, "faults[" + std::to_string(i) + "].id", id,
+                       "two faults have this id");
   }
   return faults;
 }

@@ -11,8 +11,10 @@
 
 namespace floorproof {
 
-// Throws InputError, also where the robot has nothing that could break so. `node`: the list.
-std::vector<ScheduledFault> ReadFaults(const ConfigNode& node, const FaultContext& context);
+// Throws InputError, also where the robot has nothing that could break so, and where a fault comes
+// and goes faster than the physics steps. `node`: the list.
+std::vector<ScheduledFault> ReadFaults(const ConfigNode& node, const FaultContext& context,
+                                       double step_s);
 
 // The list again, with every default stated.
 ConfigNode WriteFaults(std::span<const ScheduledFault> faults);

@@ -41,26 +41,48 @@ std::vector<Carrier> Carriers() {
 constexpr BodyTwist kAhead = {0.2, 0, 0.05};
 constexpr int kPeriods = 30;
 
-// All that a robot may know.
-std::vector<double> Told(const Observation& o) {
-  std::vector<double> told = o.wheel_rad;
+// What a robot is told by this reading.
+std::vector<double> Told(const Observation& o, Reading reading) {
+  std::vector<double> told;
   const auto add = [&told](std::initializer_list<double> values) {
     told.insert(told.end(), values);
   };
-  for (int i = 0; i < o.hinges.n; ++i) add({o.hinges.rad[i], o.hinges.radps[i]});
-  add({o.has_imu ? 1.0 : 0.0, o.gyro_radps.x(), o.gyro_radps.y(), o.gyro_radps.z(),
-       o.accel_mps2.x(), o.accel_mps2.y(), o.accel_mps2.z()});
-  const LidarScan& scan = o.scan;
-  add({scan.t_s, scan.fresh ? 1.0 : 0.0, scan.X_BL.x_m, scan.X_BL.y_m, scan.X_BL.yaw_rad,
-       scan.height_m, scan.least_m, scan.most_m});
-  told.insert(told.end(), scan.angle_rad.begin(), scan.angle_rad.end());
-  told.insert(told.end(), scan.range_m.begin(), scan.range_m.end());
-  add({o.bump.pressed ? 1.0 : 0.0, o.bump.bearing_rad});
-  for (int i = 0; i < o.cliffs.n; ++i)
-    add({o.cliffs.p_B[i].x(), o.cliffs.p_B[i].y(), o.cliffs.drop[i] ? 1.0 : 0.0});
-  if (o.truth)
-    add({o.truth->X_WB.x_m, o.truth->X_WB.y_m, o.truth->X_WB.yaw_rad, o.truth->V_WB_B.vx_mps,
-         o.truth->V_WB_B.vy_mps, o.truth->V_WB_B.wz_radps});
+  switch (reading) {
+    case Reading::kWheels:
+      told = o.wheel_rad;
+      for (int i = 0; i < o.hinges.n; ++i) add({o.hinges.rad[i], o.hinges.radps[i]});
+      break;
+    case Reading::kImu:
+      add({o.has_imu ? 1.0 : 0.0, o.gyro_radps.x(), o.gyro_radps.y(), o.gyro_radps.z(),
+           o.accel_mps2.x(), o.accel_mps2.y(), o.accel_mps2.z()});
+      break;
+    case Reading::kScan:
+      add({o.scan.t_s, o.scan.fresh ? 1.0 : 0.0, o.scan.X_BL.x_m, o.scan.X_BL.y_m,
+           o.scan.X_BL.yaw_rad, o.scan.height_m, o.scan.least_m, o.scan.most_m});
+      told.insert(told.end(), o.scan.angle_rad.begin(), o.scan.angle_rad.end());
+      told.insert(told.end(), o.scan.range_m.begin(), o.scan.range_m.end());
+      break;
+    case Reading::kBump:
+      add({o.bump.pressed ? 1.0 : 0.0, o.bump.bearing_rad});
+      break;
+    case Reading::kCliffs:
+      for (int i = 0; i < o.cliffs.n; ++i)
+        add({o.cliffs.p_B[i].x(), o.cliffs.p_B[i].y(), o.cliffs.drop[i] ? 1.0 : 0.0});
+      break;
+    case Reading::kTruth:
+      if (o.truth)
+        add({o.truth->X_WB.x_m, o.truth->X_WB.y_m, o.truth->X_WB.yaw_rad, o.truth->V_WB_B.vx_mps,
+             o.truth->V_WB_B.vy_mps, o.truth->V_WB_B.wz_radps});
+      break;
+  }
+  return told;
+}
+std::vector<double> Told(const Observation& o) {
+  std::vector<double> told;
+  for (const Reading reading : kReadings) {
+    const std::vector<double> part = Told(o, reading);
+    told.insert(told.end(), part.begin(), part.end());
+  }
   return told;
 }
 
@@ -127,6 +149,23 @@ TEST_P(SensorConformance, TellsSomethingOfADriveIntoAWall) {
   rig.Carry(Make());
   const auto told = Drive(rig);
   EXPECT_GE(std::set(told.begin(), told.end()).size(), 2u);
+}
+
+// Two sensors that fill one reading cannot be carried together: what it fills must be true.
+TEST_P(SensorConformance, FillsItsReadingAndNoOther) {
+  SensorRig rig(SlotBeforeAWall(), Robot(), Before(), Changes());
+  const Reading own = Make()->Fills();
+  rig.Carry(Make());
+  std::set<std::vector<double>> told = {Told(Observation{}, own)};
+  for (int i = 0; i < kPeriods; ++i) {
+    const Observation& sensed = i == 0 ? rig.Sense() : rig.Drive(kAhead);
+    told.insert(Told(sensed, own));
+    for (const Reading reading : kReadings) {
+      if (reading == own) continue;
+      EXPECT_EQ(Told(sensed, reading), Told(Observation{}, reading)) << Name(reading);
+    }
+  }
+  EXPECT_GE(told.size(), 2u);
 }
 
 // It has met the wall when the next episode starts, in the middle of a control period.

@@ -34,6 +34,23 @@ TEST_F(EpisodeTest, ACleanDriveEndsAtTheLastWaypoint) {
   for (const auto& margin : dut.margins) EXPECT_GT(margin.value, 0) << margin.detector;
 }
 
+// Two detectors of one failure mode do not hide each other's margins.
+TEST_F(EpisodeTest, EachDetectorHasItsOwnMargin) {
+  class Content final : public Detector {
+   public:
+    FailureMode mode() const override { return FailureMode::kStuck; }
+    void Start(const EpisodeContext&) override { margin_ = 1234; }
+    bool Update(const Sample&) override { return false; }
+  };
+  Scenario scenario = Read(RoomScenario(""));
+  scenario.detectors.push_back({"content", std::make_unique<Content>()});
+  const Execution dut = Execute(scenario);
+  const auto margins = ResultJson(scenario, dut.record).at("margins");
+  EXPECT_EQ(margins.size(), Detectors().size() + 1);
+  EXPECT_EQ(margins.at("content"), 1234);
+  EXPECT_LT(margins.at("stuck"), 10);
+}
+
 // E = integral of power: at least the hotel load for all of the time.
 TEST_F(EpisodeTest, EnergyIsHotelLoadAndMotors) {
   const Scenario scenario = Read(RoomScenario(""));

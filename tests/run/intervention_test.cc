@@ -224,7 +224,7 @@ TEST_F(AssistTest, NoDetectorIsAskedInBetweenAndAllStartAfresh) {
   Tumbler tumbler([](const EpisodeView& now) { return now.sample.t_s > 25; });
   Scenario scenario = Read(RoomScenario(Barrier(3), kAssist));
   Asked asked;
-  scenario.detectors.push_back(std::make_unique<Witness>(asked));
+  scenario.detectors.push_back({"witness", std::make_unique<Witness>(asked)});
   const EpisodeRecord dut = Drive(std::move(scenario), &tumbler);
   ASSERT_THAT(dut.events, SizeIs(1));
   ASSERT_THAT(dut.interventions, SizeIs(1));
@@ -361,6 +361,24 @@ TEST_F(AssistTest, OnlyAFailureAndItsHelpAllocate) {
         std::min(std::abs(t_s - record.events[0].t_s), std::abs(t_s - record.interventions[0].t_s));
     EXPECT_LT(after_s, 0.0201) << "at " << t_s;
   }
+}
+
+// It had enough when it failed, and stood without power when the person came.
+TEST_F(AssistTest, ABatteryThatCutsOffDuringTheWaitEndsTheEpisode) {
+  const std::string barrier = Barrier(3);
+  const EpisodeRecord full = Drive(Read(RoomScenario(barrier, kAssist)));
+  ASSERT_THAT(full.interventions, SizeIs(1));
+  double used_j = 0;
+  for (const TraceRow& row : full.trace)
+    if (row.t_s <= full.events[0].t_s) used_j += row.power_w * 0.02;
+  const EpisodeRecord dut =
+      Drive(Read(RoomScenario(barrier, kAssist),
+                 {{"battery.capacity_wh", std::to_string(used_j / 3600 + 0.1)}}));
+  EXPECT_THAT(dut.interventions, SizeIs(0));
+  ASSERT_THAT(dut.events, SizeIs(1));
+  EXPECT_EQ(dut.outcome, Outcome::kFailure);
+  EXPECT_THAT(dut.message, HasSubstr("the battery cut off after"));
+  EXPECT_NEAR(dut.metrics.duration_s, dut.events[0].t_s + 30, 0.03);
 }
 
 }  // namespace

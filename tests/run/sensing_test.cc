@@ -9,6 +9,7 @@
 #include "base/file_output.h"
 #include "run/campaign/episode_maker.h"
 #include "run/episode/records.h"
+#include "run/scenario/carried_sensors.h"
 #include "tests/controllers/allocation_guard.h"
 #include "tests/robots.h"
 #include "tests/run/scenario_text.h"
@@ -60,6 +61,30 @@ TEST_F(SensingTest, WhatAPartNeedsIsCarried) {
   EXPECT_THAT(carried("react: {}"), ElementsAre("bumper", "cliff", "truth"));
   EXPECT_THAT(carried("react: {bumper: false}"), ElementsAre("cliff", "truth"));
   EXPECT_THAT(carried("sensors: \nmapper: \nreact: "), ElementsAre("truth"));
+}
+
+// Two that fill the same part of the observation would overwrite each other.
+TEST_F(SensingTest, OfEachReadingThereIsOneSensor) {
+  const auto lidar = std::ranges::find(Sensors(), "lidar", &PluginEntry<Sensor>::name);
+  const auto imu = std::ranges::find(Sensors(), "imu", &PluginEntry<Sensor>::name);
+  const PluginEntry<Sensor> table[] = {*lidar, {"sonar", "", lidar->make}, *imu};
+  const auto carried = [&](const std::string& written, std::vector<Reading> needed = {}) {
+    std::vector<std::string> names;
+    for (const auto& s : CarriedSensors(table, ParseYaml(written, "scenario.yaml"), needed))
+      names.push_back(s.name);
+    return names;
+  };
+  EXPECT_THAT(carried("{}", {Reading::kScan}), ElementsAre("lidar"));
+  EXPECT_THAT(carried("{sonar: }", {Reading::kScan}), ElementsAre("sonar")) << "in its place";
+  EXPECT_THAT(carried("{sonar: }", {Reading::kScan, Reading::kImu}), ElementsAre("sonar", "imu"));
+  try {
+    carried("lidar: {}\nsonar: {}\n");
+    ADD_FAILURE() << "two scans";
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(),
+                 "scenario.yaml:2: sensors.sonar: tells the scan, as lidar does: a robot carries "
+                 "one of them");
+  }
 }
 
 TEST_F(SensingTest, WhoReactsKeepsWhatItMet) {
