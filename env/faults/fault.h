@@ -27,8 +27,8 @@ class Fault : public Configurable {
  public:
   static constexpr const char* kAll = "all";  // the word for all wheels, all sensors
 
-  // Before an episode. Throws InputError where the robot has nothing that could break so, without
-  // a mark; its key is one of Visit's.
+  // Before an episode. Throws InputError, without a mark, naming the key of Visit that asks for
+  // what the robot does not have.
   virtual void Start(const FaultContext& context) = 0;
   // Adds what is broken now to what is broken already: factors multiply. The lists by wheel hold a
   // value for each driven wheel; that of rollers is empty on a robot without.

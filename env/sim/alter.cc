@@ -13,6 +13,7 @@ namespace floorproof {
 namespace {
 
 constexpr double kOpenCircuit_ohm = 1e12;  // of a motor that gives nothing
+constexpr double kBlocked_nm = 10;         // holds a roller against anything that a floor can do
 
 void RequireOneEach(const std::vector<double>& values, std::size_t wheels, const char* of) {
   if (!values.empty() && values.size() != wheels)
@@ -35,6 +36,7 @@ void Simulation::Alter(const Alterations& alterations) {
   battery_.Weaken(altered_.battery_voltage);
   AlterMotors();
   AlterFriction();
+  AlterRollerBearings();
   if (payload_changes) AlterPayload();
   for (int i = 0; i < 3; ++i)
     model()->opt.gravity[i] = scene_.model->opt.gravity[i] * altered_.gravity;
@@ -91,6 +93,28 @@ void Simulation::AlterFriction() {
       if (const int wheel = wheel_of(geom); wheel >= 0)
         friction[1] +=
             altered_.roller_drag[static_cast<std::size_t>(wheel)] * (friction[0] - friction[1]);
+  }
+}
+
+// Rollers that are bodies are braked in their bearings: by the share of what the floor can turn
+// them with, under the weight that a wheel carries at rest.
+void Simulation::AlterRollerBearings() {
+  const auto wheels = static_cast<double>(robot_.wheels.size());
+  const double load_n = robot_.mass_kg * -own_->opt.gravity[2] * altered_.gravity / wheels;
+  for (int joint = 0; joint < own_->njnt; ++joint) {
+    const int carrier = own_->body_parentid[own_->jnt_bodyid[joint]];
+    const auto at = std::ranges::find(wheel_bodies_, carrier);
+    if (at == wheel_bodies_.end()) continue;
+    const auto wheel = static_cast<std::size_t>(at - wheel_bodies_.begin());
+    const double drag = altered_.roller_drag.empty() ? 0 : altered_.roller_drag[wheel];
+    const double floor_nm = map_.floor_friction * altered_.floor_friction * load_n *
+                            robot_.wheels[wheel].roller_radius_m;
+    const int dof = own_->jnt_dofadr[joint];
+    // A roller is so light that the engine's usual softness would let it creep round.
+    constexpr mjtNum kHard[mjNIMP] = {0.9999, 0.9999, 0.001, 0.5, 2};
+    std::copy_n(kHard, mjNIMP, own_->dof_solimp + mjNIMP * dof);
+    own_->dof_frictionloss[dof] =
+        scene_.model->dof_frictionloss[dof] + (drag < 1 ? drag * floor_nm : kBlocked_nm);
   }
 }
 

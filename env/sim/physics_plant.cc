@@ -22,9 +22,9 @@ PhysicsPlant::PhysicsPlant(const Scene& scene, const HazardMap& map, const Robot
       silent_(sensors.size(), 0) {}
 
 void PhysicsPlant::Reset(const Pose2& X_WB, Observation& sensed) {
-  simulation_.Reset(X_WB);
   faults_.Start({robot_, sensor_names_});
-  BreakWhatIsDue();
+  BreakWhatIsDue(0);
+  simulation_.Reset(X_WB);
   for (const auto& [name, sensor, implied] : sensors_)
     sensor->Start({scene_, map_, robot_, control_s_}, simulation_.data(), truth(),
                   stream_of_("sensors." + name), sensed);
@@ -36,6 +36,7 @@ void PhysicsPlant::Apply(const Actuation& actuation) {
 }
 
 void PhysicsPlant::Sense(Observation& sensed) {
+  BreakWhatIsDue(truth().t_s);
   sensed.t_s = truth().t_s;
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
     sensors_[i].sensor->Sense(simulation_.data(), truth(), sensed);
@@ -44,15 +45,15 @@ void PhysicsPlant::Sense(Observation& sensed) {
 }
 
 bool PhysicsPlant::Step() {
-  BreakWhatIsDue();
+  BreakWhatIsDue(truth().t_s);
   const bool good = simulation_.Step();
   if (good)
     for (const NamedSensor& sensor : sensors_) sensor.sensor->OnStep(truth());
   return good;
 }
 
-void PhysicsPlant::BreakWhatIsDue() {
-  if (const Alterations* alterations = faults_.Update(truth().t_s)) Alter(*alterations);
+void PhysicsPlant::BreakWhatIsDue(double t_s) {
+  if (const Alterations* alterations = faults_.Update(t_s)) Alter(*alterations);
 }
 
 void PhysicsPlant::Alter(const Alterations& alterations) {

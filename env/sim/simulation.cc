@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace floorproof {
 namespace {
@@ -95,15 +96,22 @@ void Simulation::SetDown(const Pose2& X_WB) {
 }
 
 // Springs and contacts take a moment to carry the weight: it stands still for that long while the
-// clock does not count, then is put exactly where it was asked for, at t_s.
+// clock does not count, then is put exactly where it was asked for, at t_s. A load that was put on
+// it is held until then: it might tip it.
 void Simulation::Settle(const Pose2& X_WB, double t_s) {
   constexpr double kSettle_s = 0.5;
   mjData* d = data_.get();
+  const double load_kg = std::exchange(altered_.payload_kg, 0);
+  if (load_kg > 0) AlterPayload();
   Place(X_WB);
   SetDriverVoltages();
   while (d->time < kSettle_s) {
     live_.Update(d);
     StepEngine(model(), d);
+  }
+  if (load_kg > 0) {
+    altered_.payload_kg = load_kg;
+    AlterPayload();
   }
   Place(X_WB);
   std::fill_n(d->qvel, model()->nv, 0.0);

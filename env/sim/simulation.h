@@ -66,6 +66,7 @@ class Simulation {
   void SetDriverVoltages();
   void AlterMotors();
   void AlterFriction();
+  void AlterRollerBearings();
   void AlterPayload();
   void AddObstacle(const mjContact& contact, int hazard, int geom, double toward);
   void AddSupport(const double* p_W);

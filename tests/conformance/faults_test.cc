@@ -131,27 +131,54 @@ TEST_P(FaultConformance, ThatNeverComesChangesNoBit) {
   EXPECT_EQ(Drive(faults), Drive({}));
 }
 
-TEST_P(FaultConformance, IsGoneFromTheNextEpisode) {
-  const auto faults = Made({.onset_s = kOnset_s, .duration_s = kDuration_s, .period_s = {}});
-  if (faults.empty()) GTEST_SKIP() << refused_;
-  PhysicsPlant plant = Plant(faults);
-  const auto once = Drive(plant);
-  EXPECT_EQ(Drive(plant), once);
+// Whether it had ended or not.
+TEST_P(FaultConformance, TheNextEpisodeBeginsSound) {
+  for (const std::optional<double> duration_s : {std::optional<double>(), {kDuration_s}}) {
+    const auto faults = Made({.onset_s = kOnset_s, .duration_s = duration_s, .period_s = {}});
+    if (faults.empty()) GTEST_SKIP() << refused_;
+    PhysicsPlant plant = Plant(faults);
+    const auto once = Drive(plant);
+    EXPECT_EQ(Drive(plant), once);
+  }
 }
 
+// A fault that sets a value would undo what another one broke.
 TEST_P(FaultConformance, BreaksOnTopOfWhatIsBroken) {
-  auto faults = Made();
+  const auto faults = Made();
   if (faults.empty()) GTEST_SKIP() << refused_;
-  Alterations once;
-  once.wheel_torque.assign(robot_.spec.wheels.size(), 1);
-  once.roller_drag.assign(robot_.spec.wheels.size(), 0);
-  once.floor_friction = once.battery_voltage = once.motor_resistance = once.hotel_load = 0.5;
-  const Alterations before = once;
-  faults[0].fault->Break(once);
-  EXPECT_NE(once, before);
-  Alterations again = before;
+  const std::size_t n = robot_.spec.wheels.size();
+  Alterations built, broken;
+  built.wheel_torque.assign(n, 1);
+  built.roller_drag.assign(n, 0);
+  broken = built;
+  broken.wheel_torque.assign(n, 0.5);
+  broken.roller_drag.assign(n, 0.5);
+  broken.floor_friction = broken.battery_voltage = 0.5;
+  broken.motor_resistance = broken.hotel_load = broken.gravity = 2;
+  broken.payload_kg = 3;
+  broken.silent_sensors = {"another"};
+  Alterations from_built = built, from_broken = broken;
+  faults[0].fault->Break(from_built);
+  faults[0].fault->Break(from_broken);
+  EXPECT_NE(from_built, built);
+  // What it changed is less, or more, than it was by the same share; the rest stays.
+  const auto scales = [](double was, double is, double from, double to, const char* what) {
+    EXPECT_NEAR(to, from * is / was, 1e-12) << what;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    scales(1, from_built.wheel_torque[i], 0.5, from_broken.wheel_torque[i], "wheel_torque");
+    scales(1, 1 - from_built.roller_drag[i], 0.5, 1 - from_broken.roller_drag[i], "roller_drag");
+  }
+  scales(1, from_built.floor_friction, 0.5, from_broken.floor_friction, "floor_friction");
+  scales(1, from_built.battery_voltage, 0.5, from_broken.battery_voltage, "battery_voltage");
+  scales(1, from_built.motor_resistance, 2, from_broken.motor_resistance, "motor_resistance");
+  scales(1, from_built.hotel_load, 2, from_broken.hotel_load, "hotel_load");
+  scales(1, from_built.gravity, 2, from_broken.gravity, "gravity");
+  EXPECT_NEAR(from_broken.payload_kg, from_built.payload_kg + 3, 1e-12);
+  EXPECT_EQ(from_broken.silent_sensors.size(), from_built.silent_sensors.size() + 1);
+  Alterations again = built;
   faults[0].fault->Break(again);
-  EXPECT_EQ(again, once) << "it does not depend on how often it was asked";
+  EXPECT_EQ(again, from_built) << "it does not depend on how often it was asked";
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FaultConformance,

@@ -68,7 +68,11 @@ TEST_F(FaultsInAScenario, BadOnesAreOneLineThatNamesTheRule) {
   EXPECT_THAT(Refusal("[{type: silent_sensor, sensor: lidar}]"),
               HasSubstr("the robot carries no such sensor (all, or one of: truth)"));
   EXPECT_THAT(Refusal("[{type: battery_sag, id: a}, {type: battery_sag, id: a}]"),
-              HasSubstr("two faults have this id"));
+              HasSubstr("faults[1].id = a: two faults have this id"));
+  EXPECT_THAT(Refusal("[{type: battery_sag, id: 1}]"), HasSubstr("faults[0].id = 1: must be"));
+  EXPECT_THAT(Refusal("[{type: battery_sag, id: a.b}]"), HasSubstr("without a dot"));
+  EXPECT_THAT(Refusal("[{type: battery_sag, period_s: 0.001, duty: 0.1}]"),
+              HasSubstr("faults[0].period_s = 0.001: must leave a physics step"));
 }
 
 // Its wheel is dragged: the other one turns the robot to the dead one's side.
@@ -111,6 +115,68 @@ TEST_F(FaultsInAScenario, AWeakBatterySlowsTheRobotWhileItLasts) {
   };
   EXPECT_LT(speed_at(5.5), 0.8 * speed_at(2.5));
   EXPECT_GT(speed_at(8), 0.95 * speed_at(2.5));
+}
+
+// A plain wheel does not give way to the side, whichever model of the wheels says so.
+TEST_F(FaultsInAScenario, BlockedRollersHoldAgainstASidewaysDrive) {
+  Save("plan.csv", "x_m,y_m,yaw_rad\n1.5,1.5,0\n1.5,3,0\n");
+  for (const char* wheels : {"ideal", "rollers"})
+    for (const char* drag : {"0", "1"}) {
+      const EpisodeRecord record = Drive(Read(RoomScenario("",
+                                                           "on_failure: ignore\ntime_limit_s: 9\n"
+                                                           "faults: [{type: blocked_rollers}]\n"),
+                                              {{"robot", "htetro"},
+                                               {"wheels", wheels},
+                                               {"start", "{x_m: 1.5, y_m: 1.5, yaw_deg: 0}"},
+                                               {"faults.0.drag", drag}}));
+      const double way_m = record.trace.back().y_m - 1.5;
+      if (drag[0] == '0') {
+        EXPECT_GT(way_m, 1) << wheels;
+      } else {
+        EXPECT_LT(way_m, 0.1) << wheels;
+      }
+    }
+}
+
+// A sensor is silent from the reading at the onset on, and heard at the end.
+TEST_F(FaultsInAScenario, ASensorIsSilentInThePeriodsOfTheFaultAndInNoOther) {
+  class Ear : public EpisodeObserver {
+   public:
+    bool OnControl(const EpisodeView& now) override {
+      if (!now.sensed.has_imu) silent_at.push_back(now.sensed.t_s);
+      return now.sensed.t_s < 3;
+    }
+    std::vector<double> silent_at;
+  };
+  const auto silent_at = [&](const std::string& timing) {
+    Ear ear;
+    Drive(
+        Read(RoomScenario("", "estimator: odometry\nfaults: [{type: silent_sensor, sensor: imu, " +
+                                  timing + "}]\n")),
+        &ear);
+    return ear.silent_at;
+  };
+  using ::testing::DoubleNear;
+  using ::testing::ElementsAre;
+  using ::testing::IsEmpty;
+  EXPECT_THAT(silent_at("onset_s: 1, duration_s: 0.04"),
+              ElementsAre(DoubleNear(1, 1e-6), DoubleNear(1.02, 1e-6)));
+  EXPECT_THAT(silent_at("onset_s: 0, duration_s: 0.02"), ElementsAre(DoubleNear(0, 1e-6)));
+  EXPECT_THAT(silent_at("onset_s: 1.004, duration_s: 0.012"), IsEmpty()) << "between two readings";
+}
+
+// It stands upright under a load that will tip it, and tips only then.
+TEST_F(FaultsInAScenario, APersonSetsATippingRobotDownOnItsWheels) {
+  const EpisodeRecord record = Drive(
+      Read(RoomScenario("{type: step, polygon_m: [[3, 1], [4, 1], [4, 4], [3, 4]], height_m: 0.06}",
+                        "on_failure: assist\ntime_limit_s: 90\n"
+                        "faults: [{type: shifted_load, mass_kg: 15, x_m: 0.3, onset_s: 20}]\n"),
+           {{"site.hazards.0.known", "false"}}));
+  ASSERT_FALSE(record.interventions.empty());
+  const double t_s = record.interventions[0].t_s;
+  const auto down = std::ranges::find_if(record.trace, [&](const auto& r) { return r.t_s > t_s; });
+  ASSERT_NE(down, record.trace.end());
+  EXPECT_LT(std::abs(down->z_m), 0.005) << "m above the floor, " << down->t_s - t_s << " s later";
 }
 
 TEST_F(FaultsInAScenario, TheSameEpisodeTwiceIsTheSame) {
