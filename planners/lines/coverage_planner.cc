@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "planners/lines/held_yaw.h"
 #include "planners/lines/pieces.h"
 #include "planners/lines/prune.h"
 #include "planners/lines/tour.h"
@@ -52,11 +53,6 @@ Shape2 Grown(const Shape2& shape, double margin_m) {
   return grown;
 }
 
-Shape2 Turned(Shape2 shape, double yaw_rad) {
-  for (Vec2& corner : shape.footprint_B) corner = Pose2{0, 0, yaw_rad}.Rotate(corner);
-  return shape;
-}
-
 std::string WhyNothing(const PlanRequest& request, const SweepArea& area, const Shape2& clear,
                        bool fits) {
   const Vec2 p = request.start.p();
@@ -75,14 +71,6 @@ std::string WhyNothing(const PlanRequest& request, const SweepArea& area, const 
       out << " and " << std::lround(1000 * clear.radius_m) << " mm are kept clear";
   }
   return out.str();
-}
-
-bool LooksTheSameTurned(const Polygon& footprint_B) {
-  constexpr double kSame_m = 1e-3;
-  const Pose2 turn{0, 0, kPi / 2};
-  return std::all_of(footprint_B.begin(), footprint_B.end(), [&](const Vec2& p) {
-    return std::abs(SignedDistance(footprint_B, turn * p)) < kSame_m;
-  });
 }
 
 Polyline Drive(ShortestPaths& paths, const Vec2& start, const std::vector<Polyline>& lines,
@@ -175,16 +163,9 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
         "own, or planned for in a convex shape";
     return result;
   }
-  // The yaw that is held is the start's, rounded to one of the map's quarters. A footprint that
-  // looks the same at all four may be turned; any other is planned for at this one yaw.
-  const double map_yaw = request.map.frame.X_WG.yaw_rad, quarter = kPi / 2;
-  const double turned = std::round((request.start.yaw_rad - map_yaw) / quarter) * quarter;
-  const bool one_yaw = !circle && !LooksTheSameTurned(result.clear.footprint_B);
-  const Yaws yaws = one_yaw ? Yaws::kFirst : Yaws::kQuarters;
-  const Shape2 clear = one_yaw ? Turned(result.clear, turned) : result.clear;
-  const Shape2 tool = one_yaw ? Turned(result.tool, turned) : result.tool;
-  SweepArea area =
-      ComputeSweepArea(request.map, clear, tool, request.robot.step_m, request.start.p(), yaws);
+  const HeldShapes held = HoldYaw(request.map, request.start, result.clear, result.tool);
+  SweepArea area = ComputeSweepArea(request.map, held.clear, held.tool, request.robot.step_m,
+                                    request.start.p(), held.yaws);
   if (area.sweepable_cells == 0) {
     const bool fits = std::find(area.reachable.cells.begin(), area.reachable.cells.end(), 1) !=
                       area.reachable.cells.end();
@@ -197,8 +178,8 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
   double margin_m = margin_m_.value_or(radius_m_ ? 0.0 : (circle ? kMargin_m : kFootprintMargin_m));
   double shortfall = 0;
   for (; margin_m > 0; margin_m = margin_m > kMargin_m / 4 ? margin_m / 2 : 0) {
-    SweepArea roomy = ComputeSweepArea(request.map, Grown(clear, margin_m), tool,
-                                       request.robot.step_m, request.start.p(), yaws);
+    SweepArea roomy = ComputeSweepArea(request.map, Grown(held.clear, margin_m), held.tool,
+                                       request.robot.step_m, request.start.p(), held.yaws);
     const double lost =
         1 - static_cast<double>(roomy.sweepable_cells) / static_cast<double>(area.sweepable_cells);
     if (lost > kMaxLost) continue;
@@ -207,12 +188,13 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
     break;
   }
   result.figures.push_back({"margin_m", margin_m});
-  const Floor floor = CropFloor(area, Grown(clear, margin_m), tool, result.tool_width_m, overlap_);
+  const Floor floor =
+      CropFloor(area, Grown(held.clear, margin_m), held.tool, result.tool_width_m, overlap_);
   const Polyline path = Sweep(floor, floor.ToCells(request.start.p()), shortfall, result.figures);
   for (const Vec2& p : path) {
     Waypoint w;
     w.p_W = floor.ToWorld(p);
-    if (!circle) w.yaw_rad = WrapAngle(map_yaw + turned);
+    w.yaw_rad = held.yaw_rad;
     result.path.push_back(w);
   }
   result.status = PlanStatus::kSuccess;

@@ -17,6 +17,18 @@ double PolylineLength(const Polyline& line) {
   return sum;
 }
 
+Polyline MergeStraight(const Polyline& line) {
+  constexpr double kSame = 1e-6, kOff = 0.02;  // cells
+  Polyline out;
+  for (const Vec2& p : line) {
+    if (!out.empty() && (p - out.back()).norm() < kSame) continue;
+    while (out.size() >= 2 && DistanceToSegment(out[out.size() - 2], p, out.back()) < kOff)
+      out.pop_back();
+    out.push_back(p);
+  }
+  return out;
+}
+
 double Floor::MarginAt(const Vec2& p) const {
   const double x = p.x() - 0.5, y = p.y() - 0.5;
   const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y));

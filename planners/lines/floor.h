@@ -12,6 +12,8 @@ namespace floorproof {
 // A chain of points, in cells of a Floor's frame (cell (0, 0) spans [0, 1] x [0, 1]).
 using Polyline = std::vector<Vec2>;
 double PolylineLength(const Polyline& line);
+// Leaves out points on straight runs and repeated points.
+Polyline MergeStraight(const Polyline& line);
 
 struct Floor {
   GridFrame frame;                // of the crop

@@ -126,16 +126,4 @@ void Prune(const Floor& floor, const PruneOptions& options, Polyline& path, Swep
     pruner.Round(options.worth * pass / options.passes);
 }
 
-Polyline MergeStraight(const Polyline& path) {
-  constexpr double kSame = 1e-6, kOff = 0.02;  // cells
-  Polyline out;
-  for (const Vec2& p : path) {
-    if (!out.empty() && (p - out.back()).norm() < kSame) continue;
-    while (out.size() >= 2 && DistanceToSegment(out[out.size() - 2], p, out.back()) < kOff)
-      out.pop_back();
-    out.push_back(p);
-  }
-  return out;
-}
-
 }  // namespace floorproof

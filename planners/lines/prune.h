@@ -15,7 +15,4 @@ struct PruneOptions {
 // Shortens `path` (its first point stays); `swept` holds the path and is kept up to date.
 void Prune(const Floor& floor, const PruneOptions& options, Polyline& path, Swept& swept);
 
-// Leaves out points on straight runs and repeated points.
-Polyline MergeStraight(const Polyline& path);
-
 }  // namespace floorproof

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <span>
 
+#include "planners/lines/held_yaw.h"
 #include "planners/lines/shortest_paths.h"
 
 namespace floorproof {
@@ -100,20 +101,17 @@ std::vector<Vec2> PlacesNearby(const HazardMap& marked, const RejoinRequest& req
 
 // The shapes as the rest of the path holds them. A footprint is tried at the one yaw that the path
 // keeps, or at the map's quarters where it keeps none.
-struct Held {
-  Shape2 clear, tool;
-  Yaws yaws = Yaws::kQuarters;
-};
-Held HeldShapes(const RejoinRequest& request) {
-  Held held{request.clear, request.robot.tool};
+HeldShapes HeldOnTheRest(const RejoinRequest& request) {
+  HeldShapes held{{}, request.clear, request.robot.tool};
   const auto first = std::min(request.segment + 1, request.path.size());
   const std::span<const Waypoint> rest = std::span(request.path).subspan(first);
   if (held.clear.kind == Shape2::Kind::kCircle || rest.empty() || !rest.front().yaw_rad ||
       std::ranges::any_of(rest, [&](const Waypoint& w) { return w.yaw_rad != rest[0].yaw_rad; }))
     return held;
-  const Pose2 turn{0, 0, *rest.front().yaw_rad - request.known.frame.X_WG.yaw_rad};
-  for (Shape2* shape : {&held.clear, &held.tool})
-    for (Vec2& corner : shape->footprint_B) corner = turn.Rotate(corner);
+  held.yaw_rad = rest.front().yaw_rad;
+  const double turned = *held.yaw_rad - request.known.frame.X_WG.yaw_rad;
+  held.clear = Turned(held.clear, turned);
+  held.tool = Turned(held.tool, turned);
   held.yaws = Yaws::kFirst;
   return held;
 }
@@ -129,7 +127,7 @@ Path Rejoin(const RejoinRequest& request) {
   Waypoint here;
   here.p_W = request.X_WB.p();
   Path path = {here};
-  const Held held = HeldShapes(request);
+  const HeldShapes held = HeldOnTheRest(request);
   const auto from = [&](const Vec2& p_W) {
     return ComputeSweepArea(marked, held.clear, held.tool, robot.step_m, p_W, held.yaws);
   };

@@ -132,5 +132,10 @@ TEST(OpenParts, AWallIsSweptOnceHoweverOftenItIsAskedFor) {
   EXPECT_TRUE(OpenParts(p.floor, walls, 0.2, 3, 0.7, swept).empty());
 }
 
+TEST(MergeStraight, PointsOnALineGoAndCornersStay) {
+  EXPECT_EQ(MergeStraight({{0, 0}, {1, 0}, {1, 0}, {2, 0}, {5, 0}, {5, 3}}).size(), 3u);
+  EXPECT_EQ(MergeStraight({{0, 0}, {4, 0}, {1, 0}}).size(), 3u);  // there and back again
+}
+
 }  // namespace
 }  // namespace floorproof

@@ -114,10 +114,5 @@ TEST(CutBeside, ALineIsCutWhereAVisitBranchesOff) {
   EXPECT_NEAR(PolylineLength(pieces[0]) + PolylineLength(pieces[1]), PolylineLength(row), 1e-9);
 }
 
-TEST(MergeStraight, PointsOnALineGoAndCornersStay) {
-  EXPECT_EQ(MergeStraight({{0, 0}, {1, 0}, {1, 0}, {2, 0}, {5, 0}, {5, 3}}).size(), 3u);
-  EXPECT_EQ(MergeStraight({{0, 0}, {4, 0}, {1, 0}}).size(), 3u);  // there and back again
-}
-
 }  // namespace
 }  // namespace floorproof
