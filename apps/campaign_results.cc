@@ -4,21 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "report/failing_episodes.h"
 #include "run/campaign/summary_json.h"
+#include "stats/outward.h"
 
 namespace floorproof {
 namespace {
-
-// To three digits, never downwards: a bound that is told too low would seem to pass a gate.
-double RoundedUp(double value) {
-  if (value <= 0) return value;
-  const double unit = std::pow(10, std::floor(std::log10(value)) - 2);
-  return std::ceil(value / unit - 1e-9) * unit;
-}
 
 void SayRates(const CampaignSummary& summary, const Globals& globals) {
   for (const VariantSummary& v : summary.variants) {
@@ -29,10 +22,11 @@ void SayRates(const CampaignSummary& summary, const Globals& globals) {
     if (!v.first_error.empty()) globals.Say("  the first error: " + v.first_error);
     for (const FailureRate& rate : v.failures) {
       if (rate.n == 0) continue;
-      const std::string text =
-          rate.k == 0 ? fmt::format("none; at most {:.3g} %", RoundedUp(100 * rate.upper))
-                      : fmt::format("{} = {:.3g} % ({:.3g} to {:.3g} %)", rate.k, 100 * rate.rate,
-                                    100 * rate.lower, 100 * rate.upper);
+      const Interval percent = RoundedOutward({100 * rate.lower, 100 * rate.upper});
+      const std::string text = rate.k == 0
+                                   ? fmt::format("none; at most {:.3g} %", percent.upper)
+                                   : fmt::format("{} = {:.3g} % ({:.3g} to {:.3g} %)", rate.k,
+                                                 100 * rate.rate, percent.lower, percent.upper);
       globals.Say(fmt::format("  {:<12} {}", rate.name, text));
     }
   }

@@ -13,7 +13,10 @@ CLI::Option* Require(CLI::Option* option, Subcommand::Need need) {
 }  // namespace
 
 Subcommand CommandLine::Add(const std::string& name, const std::string& help) {
-  return Subcommand(*app_.add_subcommand(name, help));
+  CLI::App* command = app_.add_subcommand(name, help);
+  command->footer(
+      "Every command takes --set KEY=VALUE, --json and --quiet: see floorproof --help.");
+  return Subcommand(*command);
 }
 
 void Subcommand::Text(const std::string& name, std::string& into, const std::string& help,

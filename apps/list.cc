@@ -36,6 +36,10 @@ void AddEntries(std::span<const PluginEntry<T>> table, Json& out, Configurable* 
     if constexpr (std::is_base_of_v<Configurable, T>) AddParams(*entry.make(), params);
     if (shared != nullptr) AddParams(*shared, params);
     out.push_back({{"name", entry.name}, {"help", entry.help}, {"params", std::move(params)}});
+    if constexpr (std::is_same_v<T, HazardType>) {
+      const bool line = entry.make()->placement() == HazardType::Placement::kLine;
+      out.back()["place"] = line ? "line_m" : "polygon_m";
+    }
   }
 }
 
@@ -76,6 +80,11 @@ void AddList(CommandLine& line, const Globals& globals, int&) {
         globals.Say(fmt::format("  {:<20} {}", entry["name"].get<std::string>(),
                                 entry["help"].get<std::string>()));
         if (kind->empty()) continue;
+        if (entry.contains("place"))
+          globals.Say(fmt::format("      {:<26} {:<10} {}", entry["place"].get<std::string>(), "",
+                                  entry["place"] == "line_m"
+                                      ? "where it lies: the points of a line"
+                                      : "where it lies: a polygon's corners"));
         for (const auto& p : entry["params"])
           globals.Say(fmt::format("      {:<26} {:<10} {} ({})", p["name"].get<std::string>(),
                                   p["default"].get<std::string>(), p["help"].get<std::string>(),

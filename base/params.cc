@@ -39,6 +39,17 @@ std::string Joined(const std::vector<std::string>& words) {
   return out;
 }
 
+// `also` ends the rule where other values are allowed too.
+double ReadDouble(const ConfigNode& node, const std::string& key, const Bounds& rule,
+                  const std::string& also) {
+  const auto value = node.IsScalar() && !node.quoted ? Parse<double>(node.scalar) : std::nullopt;
+  if (!value) throw InputError(node.mark, key, Shown(node), "must be a number" + also);
+  if (!rule.Allows(*value))
+    throw InputError(node.mark, key, Shown(node),
+                     (std::isfinite(*value) ? rule.Text() : "must be a finite number") + also);
+  return *value;
+}
+
 class Reader : public ParamVisitor {
  public:
   Reader(const ConfigNode& node, std::string path) : node_(node), path_(std::move(path)) {}
@@ -74,7 +85,7 @@ class Reader : public ParamVisitor {
     if (n->IsScalar() && n->scalar == "none")
       value.reset();
     else
-      value = AsDouble(*n, path_ + name, rule);
+      value = ReadDouble(*n, path_ + name, rule, ", or none");
   }
   void Group(const char* name, const std::function<void(ParamVisitor&)>& visit,
              const char*) override {
@@ -145,7 +156,8 @@ class Documenter : public ParamVisitor {
   }
   void operator()(const char* name, std::optional<double>& value, const Bounds& rule,
                   const char* help) override {
-    docs_.push_back({path_ + name, value ? FormatDouble(*value) : "none", rule.Text(), help});
+    docs_.push_back(
+        {path_ + name, value ? FormatDouble(*value) : "none", rule.Text() + ", or none", help});
   }
   void Group(const char* name, const std::function<void(ParamVisitor&)>& visit,
              const char*) override {
@@ -212,12 +224,7 @@ std::vector<ParamDoc> DocumentParams(Configurable& source) {
 }
 
 double AsDouble(const ConfigNode& node, const std::string& key, const Bounds& rule) {
-  const auto value = node.IsScalar() && !node.quoted ? Parse<double>(node.scalar) : std::nullopt;
-  if (!value) throw InputError(node.mark, key, Shown(node), "must be a number");
-  if (!rule.Allows(*value))
-    throw InputError(node.mark, key, Shown(node),
-                     std::isfinite(*value) ? rule.Text() : "must be a finite number");
-  return *value;
+  return ReadDouble(node, key, rule, "");
 }
 
 std::int64_t AsInt(const ConfigNode& node, const std::string& key, const Bounds& rule) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "stats/outward.h"
+
 namespace floorproof {
 
 std::string DataUri(std::string_view type, std::string_view bytes) {
@@ -48,6 +50,11 @@ std::string NumberText(double value) {
 
 std::string PercentText(double share) {
   return std::isfinite(share) ? NumberText(100 * share) + " %" : "–";
+}
+
+std::string PercentText(const Interval& share) {
+  const Interval percent = RoundedOutward({100 * share.lower, 100 * share.upper});
+  return NumberText(percent.lower) + " to " + PercentText(percent.upper / 100);
 }
 
 }  // namespace floorproof

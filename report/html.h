@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/markup.h"
+#include "stats/interval.h"
 
 namespace floorproof {
 
@@ -18,5 +19,7 @@ std::string UrlPath(std::string_view path);
 std::string NumberText(double value);
 // A share in percent: "25 %".
 std::string PercentText(double share);
+// An interval of shares, rounded outward: "0 to 60.3 %".
+std::string PercentText(const Interval& share);
 
 }  // namespace floorproof

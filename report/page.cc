@@ -19,8 +19,8 @@ std::string RateSentence(const VariantSummary& v) {
   const std::string times = rate.k == 0 ? fmt::format("in none of {} episodes", rate.n)
                                         : fmt::format("in {} of {} episodes ({})", rate.k, rate.n,
                                                       PercentText(rate.rate));
-  return fmt::format("failed {}, {} interval {} to {}", times, PercentText(kReportedConfidence),
-                     NumberText(100 * rate.lower), PercentText(rate.upper));
+  return fmt::format("failed {}, {} interval {}", times, PercentText(kReportedConfidence),
+                     PercentText(Interval{rate.lower, rate.upper}));
 }
 
 std::string RatesVerdict(const Report& report) {
@@ -38,8 +38,10 @@ std::string RatesVerdict(const Report& report) {
   for (auto v = variants.begin(); v != variants.end(); ++v)
     if (rate(*v) <= 1 && rate(*v) > rate(*most)) most = v;
   if (rate(*most) == rate(*least))
-    return fmt::format("All {} variants failed equally often: {} {}.", variants.size(), least->name,
-                       RateSentence(*least));
+    return fmt::format(
+        "{} failed equally often: {} {}.",
+        variants.size() == 2 ? "Both variants" : fmt::format("All {} variants", variants.size()),
+        least->name, RateSentence(*least));
   return fmt::format(
       "{} {}; {} {}.", variants.size() > 2 ? "Least often: " + least->name : least->name,
       RateSentence(*least), variants.size() > 2 ? "most often: " + most->name : most->name,

@@ -23,10 +23,6 @@ std::string Between(const std::string& lower, const std::string& upper) {
   return lower + " to " + upper;
 }
 
-std::string PercentBetween(double lower, double upper) {
-  return NumberText(100 * lower) + " to " + PercentText(upper);
-}
-
 // The right end of the axis that all plots of a page share, so that they compare.
 double AxisEnd(const Report& report) {
   double most = report.summary.gate ? report.summary.gate->max_rate : 0;
@@ -56,7 +52,7 @@ struct Plot {
 
   std::string Row(const FailureRate& rate) const {
     std::string svg = fmt::format("<svg class=\"plot\" role=\"img\" aria-label=\"{}\">",
-                                  PercentBetween(rate.lower, rate.upper));
+                                  PercentText(Interval{rate.lower, rate.upper}));
     for (const int x : {0, 50, 100})
       svg += fmt::format("<line class=\"grid\" x1=\"{0}%\" x2=\"{0}%\" y1=\"0\" y2=\"100%\"/>", x);
     if (gate != nullptr && gate->metric == rate.name)
@@ -96,7 +92,7 @@ std::string RatesTable(const Report& report, const std::string& heading,
         "<tr{}><th scope=\"row\">{}</th><td class=\"num\">{} of {}</td><td class=\"num\">{}</td>"
         "<td class=\"num\">{}</td><td class=\"plotted\">{}</td></tr>\n",
         total && i == 0 ? " class=\"total\"" : "", MarkupText(names[i]), rate.k, rate.n,
-        rate.n > 0 ? PercentText(rate.rate) : "–", PercentBetween(rate.lower, rate.upper),
+        rate.n > 0 ? PercentText(rate.rate) : "–", PercentText(Interval{rate.lower, rate.upper}),
         plot.Row(rate));
   }
   return html + "</tbody></table>\n";

@@ -16,13 +16,14 @@ namespace floorproof {
 enum class CellState : std::uint8_t { kFree = 0, kOccupied = 1, kUnknown = 2 };
 
 // Hazard classes of the hTetro FMEA paper, Table 1.
+// A hazard has one, for all directions from which a robot may come: the worst.
 enum class HazardClass { kBlindObject /*C1*/, kGlass /*C2*/, kLevelChange /*C3*/, kTerrain /*C4*/ };
 
 // A piece of matter, or of missing floor, in the world frame; z = 0 is the base floor.
 struct Solid {
   enum class Kind {
     kPrism,  // convex: `base` at z_low_m to `top` at z_high_m (equal corner counts; a box, a prism,
-             // a frustum)
+             // a frustum; a wedge, where corners of `top` coincide)
     kCut,    // the floor is missing within `base` (any simple polygon) down to z_low_m (negative)
   };
   Kind kind = Kind::kPrism;

@@ -3,6 +3,7 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "base/error.h"
@@ -14,21 +15,34 @@ namespace fs = std::filesystem;
 
 constexpr int kFormat = 1;
 
-std::string Columns() {
-  std::string columns =
-      "campaign TEXT NOT NULL, variant TEXT NOT NULL, episode INTEGER NOT NULL, outcome TEXT NOT "
-      "NULL, message TEXT NOT NULL";
+struct Column {
+  std::string name, type;
+};
+
+// Of the tables of episodes, in order.
+std::vector<Column> Columns() {
+  const std::string text = "TEXT NOT NULL", count = "INTEGER NOT NULL";
+  std::vector<Column> columns = {{"campaign", text},
+                                 {"variant", text},
+                                 {"episode", count},
+                                 {"outcome", text},
+                                 {"message", text}};
   for (int mode = 0; mode < kNumFailureModes; ++mode)
-    columns += ", " + std::string(Name(static_cast<FailureMode>(mode))) + " INTEGER NOT NULL";
-  for (const MetricColumn& metric : kMetrics) columns += ", " + std::string(metric.name) + " REAL";
-  return columns + ", drawn TEXT NOT NULL, plan TEXT NOT NULL, events TEXT NOT NULL";
+    columns.push_back({std::string(Name(static_cast<FailureMode>(mode))), count});
+  for (const MetricColumn& metric : kMetrics) columns.push_back({std::string(metric.name), "REAL"});
+  for (const char* name : {"drawn", "plan", "events"}) columns.push_back({name, text});
+  return columns;
 }
 
-constexpr int kNumColumns = 5 + kNumFailureModes + static_cast<int>(kMetrics.size()) + 3;
+// As this version calls it.
+std::string NameNow(const std::string& column) {
+  const MetricColumn* metric = FindMetric(column);
+  return metric == nullptr ? column : std::string(metric->name);
+}
 
 std::string Placeholders() {
   std::string marks = "?";
-  for (int i = 1; i < kNumColumns; ++i) marks += ",?";
+  for (std::size_t i = 1; i < Columns().size(); ++i) marks += ",?";
   return marks;
 }
 
@@ -182,9 +196,11 @@ void CampaignStore::Fill(const fs::path& file, const fs::path& part, const Campa
   if (code != SQLITE_OK) store.Refuse(code);
   store.Run("BEGIN");
   store.Run("CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID");
+  std::string columns;
+  for (const Column& column : Columns()) columns += column.name + " " + column.type + ", ";
   for (const char* table : {"episode", "extra"})
-    store.Run("CREATE TABLE " + std::string(table) + " (" + Columns() +
-              ", PRIMARY KEY (campaign, variant, episode)) WITHOUT ROWID");
+    store.Run("CREATE TABLE " + std::string(table) + " (" + columns +
+              "PRIMARY KEY (campaign, variant, episode)) WITHOUT ROWID");
   store.Run(
       "CREATE TABLE timing (variant TEXT NOT NULL, episode INTEGER NOT NULL, wall_s REAL NOT NULL, "
       "PRIMARY KEY (variant, episode)) WITHOUT ROWID");
@@ -232,6 +248,7 @@ CampaignStore CampaignStore::Open(const fs::path& file, bool write) {
 }
 
 void CampaignStore::MakeWritable() {
+  RequireColumns();
   CampaignStore writable = Connect(file_, SQLITE_OPEN_READWRITE);
   sqlite3_close(std::exchange(db_, std::exchange(writable.db_, nullptr)));
   // In this order: who owns the shared index when it closes also removes it.
@@ -268,6 +285,30 @@ void CampaignStore::CheckTexts() const {
       throw InputError(
           {file_.string(), 0}, "", "",
           "is damaged (a text of a row of table " + table + " is no JSON); it was left as it is");
+  }
+}
+
+// A row is written by the places of its columns.
+void CampaignStore::RequireColumns() const {
+  std::vector<std::string> wanted;
+  for (const Column& column : Columns()) wanted.push_back(column.name);
+  for (const std::string table : {"episode", "extra"}) {
+    std::vector<std::string> there;
+    Statement info(*this, "PRAGMA table_info(" + table + ")");
+    while (info.Step()) there.push_back(NameNow(info.Text(1)));
+    if (there == wanted) continue;
+    const auto lacked = [](const auto& from, const auto& in) {
+      return std::ranges::find_if(
+          from, [&](const auto& name) { return std::ranges::find(in, name) == in.end(); });
+    };
+    std::string what = "has its columns in another order";
+    if (const auto missing = lacked(wanted, there); missing != wanted.end())
+      what = "has no column " + *missing;
+    else if (const auto unknown = lacked(there, wanted); unknown != there.end())
+      what = "has a column " + *unknown + " that is not known";
+    throw InputError({file_.string(), 0}, "", "",
+                     "is another version's: its table " + table + " " + what +
+                         "; it can be read, not gone on with: start anew in another folder");
   }
 }
 

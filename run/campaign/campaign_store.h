@@ -34,7 +34,8 @@ class CampaignStore {
   // Opens one that is; read-only unless `write`. Throws InputError, the file untouched, when it is
   // damaged or no campaign's.
   static CampaignStore Open(const std::filesystem::path& file, bool write);
-  // What was opened to be read may be written from now on. Throws InputError.
+  // What was opened to be read may be written from now on. Throws InputError, also where a version
+  // of other metrics made it.
   void MakeWritable();
   CampaignStore(CampaignStore&&) noexcept;
   ~CampaignStore();
@@ -75,6 +76,7 @@ class CampaignStore {
   [[noreturn]] void Refuse(int code) const;
   void ReadAbout();
   void CheckTexts() const;
+  void RequireColumns() const;
 
   std::filesystem::path file_;
   sqlite3* db_ = nullptr;

@@ -204,6 +204,10 @@ TEST_F(Cli, ListNamesThePlugInsAndTheirKeys) {
     EXPECT_THAT(all.out, HasSubstr(name));
   EXPECT_THAT(planners.out, HasSubstr("overlap"));
   EXPECT_THAT(planners.out, Not(HasSubstr("beluga")));
+  EXPECT_THAT(Run("list hazards").out,
+              ::testing::AllOf(HasSubstr("line_m"), HasSubstr("polygon_m")));
+  const Result json = Run("--json list hazards");
+  EXPECT_THAT(json.out, HasSubstr("\"place\": \"line_m\""));
 }
 
 TEST_F(Cli, EachCommandExplainsItself) {
@@ -211,6 +215,8 @@ TEST_F(Cli, EachCommandExplainsItself) {
     const Result dut = Run(std::string(command) + " --help");
     EXPECT_EQ(dut.status, 0);
     EXPECT_THAT(dut.out, HasSubstr(command));
+    for (const char* global : {"--set", "--json", "--quiet"})
+      EXPECT_THAT(dut.out, HasSubstr(global)) << command;
   }
   EXPECT_EQ(Run("--version").status, 0);
 }

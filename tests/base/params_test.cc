@@ -55,6 +55,9 @@ TEST(Params, ARefusalNamesFileLineKeyValueAndRule) {
   EXPECT_THAT(Refusal("speed_mps: inf"), HasSubstr("must be a finite number"));
   EXPECT_THAT(Refusal("speed_mps: 'fast'"), HasSubstr("must be a number"));
   EXPECT_THAT(Refusal("speed_mps: [1]"), HasSubstr("must be a number"));
+  EXPECT_THAT(Refusal("width_m: null"), HasSubstr("must be a number, or none"));
+  EXPECT_THAT(Refusal("width_m: nothing"), HasSubstr("must be a number, or none"));
+  EXPECT_THAT(Refusal("width_m: 0"), HasSubstr("must be > 0, or none"));
   EXPECT_THAT(Refusal("fast: maybe"), HasSubstr("must be true or false"));
   EXPECT_THAT(Refusal("kind: be"), HasSubstr("did you mean bee?"));
   EXPECT_THAT(Refusal("sped_mps: 1"),
@@ -86,6 +89,7 @@ TEST(Params, EachParameterIsDocumented) {
   EXPECT_EQ(docs[0].name, "speed_mps");
   EXPECT_EQ(docs[0].default_text, "0.5");
   EXPECT_EQ(docs[0].rule, "must be > 0");
+  EXPECT_EQ(docs[4].rule, "must be > 0, or none");
   EXPECT_EQ(docs[5].name, "group.inner");
 }
 

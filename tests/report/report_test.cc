@@ -103,6 +103,11 @@ TEST(Report, VerdictIsOneSentence) {
   EXPECT_EQ(VerdictText(r), "The robot failed in none of 20 episodes, 95 % interval 0 to 16.8 %.");
   r.summary.variants = {Variant("a", 5, 20), Variant("b", 2, 20)};
   EXPECT_THAT(VerdictText(r), ::testing::StartsWith("b failed in 2 of 20 episodes (10 %)"));
+  r.summary.variants = {Variant("a", 2, 20), Variant("b", 2, 20)};
+  EXPECT_THAT(VerdictText(r),
+              ::testing::StartsWith("Both variants failed equally often: a failed"));
+  r.summary.variants.push_back(Variant("c", 2, 20));
+  EXPECT_THAT(VerdictText(r), ::testing::StartsWith("All 3 variants failed equally often: a"));
   r.summary.variants = {Variant("a", 0, 0), Variant("b", 0, 0)};
   EXPECT_EQ(VerdictText(r), "No robot drove: the episodes are plans only, or none counts.");
   r.summary.gate = GateSummary{.metric = "stuck", .max_rate = 0.05, .confidence = 0.95};
@@ -139,6 +144,8 @@ TEST(Report, NumbersForPeople) {
   EXPECT_EQ(NumberText(-1234567), "-1,230,000");
   EXPECT_EQ(NumberText(std::numeric_limits<double>::infinity()), "–");
   EXPECT_EQ(PercentText(0.25), "25 %");
+  EXPECT_EQ(PercentText(Interval{0, 0.60236}), "0 to 60.3 %") << "ends are rounded outward";
+  EXPECT_EQ(PercentText(Interval{0.012349, 0.25}), "1.23 to 25 %");
   EXPECT_EQ(DataUri("a/b", "M"), "data:a/b;base64,TQ==");
   EXPECT_EQ(DataUri("a/b", "Man"), "data:a/b;base64,TWFu");
   EXPECT_EQ(DataUri("a/b", std::string("\xff\x00", 2)), "data:a/b;base64,/wA=");

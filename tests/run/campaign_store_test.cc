@@ -150,6 +150,50 @@ TEST_F(CampaignStoreTest, AMetricsFormerNameIsStillRead) {
   EXPECT_TRUE(Same(*store.Find("default", 4), Row(4)));
 }
 
+// One made before a metric was added, after it was removed, or before it was moved.
+TEST_F(CampaignStoreTest, AnotherVersionsColumnsAreReadAndNotWritten) {
+  const auto alter = [&](const std::string& sql) {
+    sqlite3* db = nullptr;
+    ASSERT_EQ(sqlite3_open(file_.c_str(), &db), SQLITE_OK);
+    for (const std::string table : {"episode", "extra"})
+      ASSERT_EQ(sqlite3_exec(db, ("ALTER TABLE " + table + sql).c_str(), nullptr, nullptr, nullptr),
+                SQLITE_OK);
+    sqlite3_close(db);
+  };
+  const auto expect_refused = [&](const char* why) {
+    const auto before = Bytes(folder_);
+    const std::string said = WhyRefused(true);
+    EXPECT_THAT(said, HasSubstr(file_.string()));
+    EXPECT_THAT(said, HasSubstr(why));
+    EXPECT_THAT(said, HasSubstr("start anew in another folder"));
+    EXPECT_EQ(std::ranges::count(said, '\n'), 0) << said;
+    EXPECT_EQ(Bytes(folder_), before);
+    EXPECT_THAT(InTable(CampaignStore::Open(file_, false)), ElementsAre(0, 1, 2));
+  };
+  Make(3);
+  alter(" DROP COLUMN turns");
+  expect_refused("has no column turns");
+  CampaignStore::Open(file_, false).ForEach("default", [](const EpisodeRow& row) {
+    EpisodeRow want = Row(row.episode);
+    want.metrics[MetricIndex(&Metrics::turns)].reset();
+    EXPECT_TRUE(Same(row, want)) << row.episode;
+  });
+  fs::remove(file_);
+  Make(3);
+  alter(" RENAME COLUMN contacts TO knocks");
+  expect_refused("has no column contacts");
+  fs::remove(file_);
+  Make(3);
+  alter(" ADD COLUMN knocks REAL");
+  expect_refused("has a column knocks that is not known");
+  fs::remove(file_);
+  Make(3);
+  for (const char* sql : {" RENAME COLUMN turns TO x", " RENAME COLUMN contacts TO turns",
+                          " RENAME COLUMN x TO contacts"})
+    alter(sql);
+  expect_refused("has its columns in another order");
+}
+
 TEST_F(CampaignStoreTest, ABatchIsAllOrNothing) {
   CampaignStore store = CampaignStore::Create(file_, about_);
   store.Add(std::vector{Row(5)});

@@ -63,6 +63,21 @@ TEST(SceneTest, HazardsKeepTheirStatedHeights) {
     EXPECT_NEAR(SurfaceBelow(dut, data.get(), p), 0, kExact_m) << p.transpose();
 }
 
+// A wedge: corners of the top coincide.
+TEST(SceneTest, ATopMayBeALine) {
+  HazardMap map = EmptyRoom(20, 16);
+  Hazard wedge;
+  wedge.id = "wedge";
+  wedge.solids = {{Solid::Kind::kPrism, Rectangle({6, 1}, {7, 3}), {}, 0, 0.04}};
+  wedge.solids[0].top = {{7, 1}, {7, 1}, {7, 3}, {7, 3}};
+  map.hazards = {wedge};
+  const Scene dut = BuildScene(map, ReadRobot(FindRobotFile("beluga", {})), {}, {1, 1, 0});
+  const DataPtr data = MakeData(dut.model.get());
+  ForwardEngine(dut.model.get(), data.get());
+  EXPECT_NEAR(SurfaceBelow(dut, data.get(), {6.25, 2}), 0.01, 1e-6);
+  EXPECT_NEAR(SurfaceBelow(dut, data.get(), {6.75, 1.1}), 0.03, 1e-6);
+}
+
 TEST(SceneTest, TheExportLoadsAndStepsInTheStockEngine) {
   HazardMap map = EmptyRoom(12, 10);
   map.hazards.push_back(Cut({{3, 3}, {4, 3.2}, {3.5, 4}}, 0.15));

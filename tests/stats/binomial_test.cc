@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "stats/outward.h"
 #include "tests/stats/distributions.h"
 
 namespace floorproof {
@@ -24,6 +25,20 @@ TEST(Binomial, NoEventsAndOnlyEventsHaveClosedForms) {
   }
   EXPECT_EQ(ClopperPearson(0, 0, 0.95).lower, 0);
   EXPECT_EQ(ClopperPearson(0, 0, 0.95).upper, 1);
+}
+
+TEST(RoundedOutward, KeepsThreeDigitsAndAllThatWasHeld) {
+  const struct {
+    Interval exact, told;
+  } cases[] = {{{0, 60.236}, {0, 60.3}},
+               {{0.012345, 99.99}, {0.0123, 100}},
+               {{-1.2341, 0.1}, {-1.24, 0.1}},
+               {{16.8, 25}, {16.8, 25}}};
+  for (const auto& c : cases) {
+    const Interval dut = RoundedOutward(c.exact);
+    EXPECT_NEAR(dut.lower, c.told.lower, 1e-9);
+    EXPECT_NEAR(dut.upper, c.told.upper, 1e-9);
+  }
 }
 
 // How many clean episodes it takes: 3 / p, nearly.

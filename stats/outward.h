@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// An interval as it is told: rounded, it still holds all that it held.
+#pragma once
+
+#include "stats/interval.h"
+
+namespace floorproof {
+
+// To three digits, the lower end never upwards, the upper never downwards: a bound that is told too
+// low would seem to pass a gate.
+Interval RoundedOutward(const Interval& exact);
+
+}  // namespace floorproof
