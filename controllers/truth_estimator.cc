@@ -2,6 +2,7 @@
 // The estimate is the truth: what a plan is worth when the robot always knows where it is.
 #include "controllers/estimator.h"
 #include "controllers/start_error.h"
+#include "env/core/blocks.h"
 
 namespace floorproof {
 namespace {
@@ -14,6 +15,7 @@ class TruthEstimator final : public Estimator {
   void Start(const EstimatorContext& context) override {
     estimate_ = {};
     estimate_.X_WB = context.start;
+    estimate_.hinges = StartState(context.robot);
   }
   // Where the sensor is silent it stays with what it knew last.
   Estimate Update(const Observation& sensed, double) override {

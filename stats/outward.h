@@ -7,7 +7,7 @@
 namespace floorproof {
 
 // To three digits, the lower end never upwards, the upper never downwards: a bound that is told too
-// low would seem to pass a gate.
+// low would seem to pass a gate. (Within 1e-9 of the last digit an end counts as being there.)
 Interval RoundedOutward(const Interval& exact);
 
 }  // namespace floorproof

@@ -22,7 +22,6 @@ struct Alterations {
   double motor_resistance = 1;  // of every motor's windings
   double battery_voltage = 1;   // > 0
   double hotel_load = 1;        // what all but the motors draws
-  double gravity = 1;
 
   double payload_kg = 0;
   Vec3 payload_p_B = Vec3::Zero();  // its centre, in the base's frame

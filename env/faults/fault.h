@@ -17,7 +17,7 @@
 
 namespace floorproof {
 
-// On which robot; the references outlive the episode.
+// On which robot. The references hold during the call only.
 struct FaultContext {
   const RobotSpec& robot;
   std::span<const std::string> sensors;  // names of those that it carries

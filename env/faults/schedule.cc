@@ -7,7 +7,8 @@
 namespace floorproof {
 namespace {
 
-constexpr double kRounding_s = 1e-9;  // of a time that is a sum of steps
+// Of a time that is a sum of steps: 6e-8 s after an hour. The shortest step is 500 times as long.
+constexpr double kRounding_s = 1e-6;
 
 }  // namespace
 
@@ -15,7 +16,7 @@ void FaultTiming::Visit(ParamVisitor& v) {
   v("onset_s", onset_s, NonNegative(), "when it breaks, in the episode's time (s)");
   v("duration_s", duration_s, Positive(), "how long it is broken (s); none: to the end");
   v("period_s", period_s, Positive(), "of a fault that comes and goes (s); none: it stays");
-  v("duty", duty, {0, 1, true}, "share of each period in which it is broken, from its begin");
+  v("duty", duty, {0, 1, true}, "share of each period in which it is broken, from its start");
 }
 
 bool FaultTiming::Holds(double t_s) const {

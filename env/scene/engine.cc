@@ -21,6 +21,7 @@ void OnEngineMessage(const mjLogMessage* message) {
   if (message->level < mjLOG_ERROR) return;
   std::snprintf(t_message, sizeof t_message, "%s", message->subject);
   if (t_return_point != nullptr) std::longjmp(*t_return_point, 1);
+  // From a call that none of the below guards: the engine's handler may not return.
   std::fprintf(stderr, "floorproof: MuJoCo: %s\n", t_message);
   std::exit(3);
 }
@@ -94,6 +95,20 @@ ModelPtr CopyModel(const mjModel* model) {
           &models))
     Throw();
   return ModelPtr(models.to);
+}
+
+void SetConstEngine(mjModel* model, mjData* data) {
+  struct Both {
+    mjModel* model;
+    mjData* data;
+  } both{model, data};
+  if (!Caught(
+          [](void* p) {
+            auto* b = static_cast<Both*>(p);
+            mj_setConst(b->model, b->data);
+          },
+          &both))
+    Throw();
 }
 
 ModelPtr CompileSpec(mjSpec* spec) {

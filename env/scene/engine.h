@@ -25,6 +25,7 @@ void StepEngine(const mjModel* model, mjData* data);
 void ForwardEngine(const mjModel* model, mjData* data);
 DataPtr MakeData(const mjModel* model);
 ModelPtr CopyModel(const mjModel* model);
+void SetConstEngine(mjModel* model, mjData* data);
 // Throws InternalError with the compiler's message.
 ModelPtr CompileSpec(mjSpec* spec);
 

@@ -110,6 +110,8 @@ void AddRoller(const Wheel& wheel, const Vec3& outward, const std::string& name)
 
 }  // namespace
 
+std::string RollerPrefix(const std::string& wheel) { return wheel + "/roller/"; }
+
 bool HasMecanumWheels(const RobotSpec& robot) {
   return std::ranges::any_of(robot.wheels, [](const auto& w) { return w.roller_radius_m > 0; });
 }
@@ -127,7 +129,7 @@ RobotModel WithRollerWheels(const RobotModel& robot) {
     const Vec3 ahead = wheel.axle.cross(wheel.down);
     for (int k = 0; k < kRollers; ++k) {
       const double turn = 2 * kPi * k / kRollers;
-      out.rollers.push_back(wheel.spec.name + "/roller/" + std::to_string(k));
+      out.rollers.push_back(RollerPrefix(wheel.spec.name) + std::to_string(k));
       AddRoller(wheel, std::cos(turn) * wheel.down + std::sin(turn) * ahead, out.rollers.back());
     }
     MakeHub(wheel);

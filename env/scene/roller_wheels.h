@@ -14,6 +14,8 @@
 // than the rim of a rounded core.
 #pragma once
 
+#include <string>
+
 #include "env/core/robot_spec.h"
 #include "env/scene/robot_model.h"
 
@@ -22,6 +24,9 @@ namespace floorproof {
 constexpr int kRollers = 8;  // of a wheel
 
 bool HasMecanumWheels(const RobotSpec& robot);
+
+// What the names of the rollers' geoms of this wheel begin with; a number follows.
+std::string RollerPrefix(const std::string& wheel);
 
 // Half the length of a roller. With x = pi / kRollers, R and r the radii of wheel and roller and
 // alpha the angle, the wheel's height over the floor, turned by x from a roller's middle, is

@@ -23,8 +23,8 @@ class Encoders final : public Sensor {
     v("bias", bias_, Between(-0.5, 0.5), "share by which every turn is told too large");
   }
 
-  void Start(const SensorContext& context, const mjData* data, const Truth&, const Stream& noise,
-             Observation& out) override {
+  void Start(const SensorContext& context, const mjData* data, const Truth& truth,
+             const Stream& noise, Observation& out) override {
     const mjModel* m = context.scene.model.get();
     const std::vector<WheelSpec>& wheels = context.robot.wheels;
     stream_ = noise;
@@ -38,6 +38,7 @@ class Encoders final : public Sensor {
     for (const int adr : joints_) last_rad_.push_back(data->qpos[adr]);
     remainder_rad_.assign(wheels.size(), 0);
     out.wheel_rad.assign(wheels.size(), 0);
+    out.hinges = truth.hinges;
   }
 
   void Sense(mjData* data, const Truth& truth, Observation& out) override {

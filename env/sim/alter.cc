@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "base/error.h"
 #include "env/scene/mecanum_wheel.h"
+#include "env/scene/roller_wheels.h"
 #include "env/sim/simulation.h"
 
 namespace floorproof {
@@ -38,8 +40,6 @@ void Simulation::Alter(const Alterations& alterations) {
   AlterFriction();
   AlterRollerBearings();
   if (payload_changes) AlterPayload();
-  for (int i = 0; i < 3; ++i)
-    model()->opt.gravity[i] = scene_.model->opt.gravity[i] * altered_.gravity;
   SetDriverVoltages();
   live_.Refresh();
 }
@@ -56,7 +56,8 @@ void Simulation::AlterMotors() {
     mjtNum* gain = own_->actuator_gainprm + mjNGAIN * a;
     constexpr int kResistance = 0, kVelocity = 6;
     gain[kResistance] =
-        share > 0 ? was[kResistance] * altered_.motor_resistance / share : kOpenCircuit_ohm;
+        share > 0 ? std::min(was[kResistance] * altered_.motor_resistance / share, kOpenCircuit_ohm)
+                  : kOpenCircuit_ohm;
     gain[kVelocity] = was[kVelocity] * share;
     for (int i = 0; i < 2; ++i)
       own_->actuator_forcerange[2 * a + i] = built->actuator_forcerange[2 * a + i] * share;
@@ -99,22 +100,27 @@ void Simulation::AlterFriction() {
 // Rollers that are bodies are braked in their bearings: by the share of what the floor can turn
 // them with, under the weight that a wheel carries at rest.
 void Simulation::AlterRollerBearings() {
-  const auto wheels = static_cast<double>(robot_.wheels.size());
-  const double load_n = robot_.mass_kg * -own_->opt.gravity[2] * altered_.gravity / wheels;
+  const mjModel* built = scene_.model.get();
+  const double load_n = (robot_.mass_kg + altered_.payload_kg) * -built->opt.gravity[2] /
+                        static_cast<double>(robot_.wheels.size());
   for (int joint = 0; joint < own_->njnt; ++joint) {
-    const int carrier = own_->body_parentid[own_->jnt_bodyid[joint]];
-    const auto at = std::ranges::find(wheel_bodies_, carrier);
+    const int body = own_->jnt_bodyid[joint];
+    const auto at = std::ranges::find(wheel_bodies_, own_->body_parentid[body]);
     if (at == wheel_bodies_.end()) continue;
     const auto wheel = static_cast<std::size_t>(at - wheel_bodies_.begin());
+    const WheelSpec& spec = robot_.wheels[wheel];
+    const char* geom = mj_id2name(own_.get(), mjOBJ_GEOM, own_->body_geomadr[body]);
+    if (geom == nullptr || !std::string_view(geom).starts_with(RollerPrefix(spec.name))) continue;
     const double drag = altered_.roller_drag.empty() ? 0 : altered_.roller_drag[wheel];
-    const double floor_nm = map_.floor_friction * altered_.floor_friction * load_n *
-                            robot_.wheels[wheel].roller_radius_m;
+    const double floor_nm =
+        map_.floor_friction * altered_.floor_friction * load_n * spec.roller_radius_m;
     const int dof = own_->jnt_dofadr[joint];
     // A roller is so light that the engine's usual softness would let it creep round.
     constexpr mjtNum kHard[mjNIMP] = {0.9999, 0.9999, 0.001, 0.5, 2};
-    std::copy_n(kHard, mjNIMP, own_->dof_solimp + mjNIMP * dof);
+    std::copy_n(drag > 0 ? kHard : built->dof_solimp + mjNIMP * dof, mjNIMP,
+                own_->dof_solimp + mjNIMP * dof);
     own_->dof_frictionloss[dof] =
-        scene_.model->dof_frictionloss[dof] + (drag < 1 ? drag * floor_nm : kBlocked_nm);
+        built->dof_frictionloss[dof] + (drag < 1 ? drag * floor_nm : kBlocked_nm);
   }
 }
 
@@ -145,8 +151,8 @@ void Simulation::AlterPayload() {
     own_->body_mass[base] = m1;
   }
   const DataPtr scratch = MakeData(own_.get());
-  mj_setConst(own_.get(), scratch.get());  // what the engine derives from masses
-  InflateWheelBounds(own_.get());          // and from the wheels' cores alone
+  SetConstEngine(own_.get(), scratch.get());  // what the engine derives from masses
+  InflateWheelBounds(own_.get());             // and from the wheels' cores alone
   live_.model()->stat = own_->stat;
 }
 

@@ -23,7 +23,7 @@ PhysicsPlant::PhysicsPlant(const Scene& scene, const HazardMap& map, const Robot
 
 void PhysicsPlant::Reset(const Pose2& X_WB, Observation& sensed) {
   faults_.Start({robot_, sensor_names_});
-  BreakWhatIsDue(0);
+  UpdateFaults(0);
   simulation_.Reset(X_WB);
   for (const auto& [name, sensor, implied] : sensors_)
     sensor->Start({scene_, map_, robot_, control_s_}, simulation_.data(), truth(),
@@ -36,7 +36,7 @@ void PhysicsPlant::Apply(const Actuation& actuation) {
 }
 
 void PhysicsPlant::Sense(Observation& sensed) {
-  BreakWhatIsDue(truth().t_s);
+  UpdateFaults(truth().t_s);
   sensed.t_s = truth().t_s;
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
     sensors_[i].sensor->Sense(simulation_.data(), truth(), sensed);
@@ -45,14 +45,14 @@ void PhysicsPlant::Sense(Observation& sensed) {
 }
 
 bool PhysicsPlant::Step() {
-  BreakWhatIsDue(truth().t_s);
+  UpdateFaults(truth().t_s);
   const bool good = simulation_.Step();
   if (good)
     for (const NamedSensor& sensor : sensors_) sensor.sensor->OnStep(truth());
   return good;
 }
 
-void PhysicsPlant::BreakWhatIsDue(double t_s) {
+void PhysicsPlant::UpdateFaults(double t_s) {
   if (const Alterations* alterations = faults_.Update(t_s)) Alter(*alterations);
 }
 

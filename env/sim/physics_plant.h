@@ -40,7 +40,7 @@ class PhysicsPlant final : public Plant {
   Simulation& simulation() { return simulation_; }
 
  private:
-  void BreakWhatIsDue(double t_s);
+  void UpdateFaults(double t_s);
 
   const Scene& scene_;
   const HazardMap& map_;

@@ -26,9 +26,9 @@ class Plant {
   // The same in the middle of an episode: lifted and set down, at rest. Time goes on, and no sensor
   // notices.
   virtual void SetDown(const Pose2& X_WB) = 0;
-  // Holds from now on. Allocates nothing, as the next two.
+  // Holds from now on. Allocates nothing; nor do the next two, but where a fault comes or goes.
   virtual void Apply(const Actuation& actuation) = 0;
-  // What the robot's sensors tell at the begin of a control period.
+  // What the robot's sensors tell at the start of a control period.
   virtual void Sense(Observation& sensed) = 0;
   // One step; false when the plant broke: the episode is an `error`. Throws InternalError when the
   // engine itself fails.

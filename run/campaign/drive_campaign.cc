@@ -48,10 +48,24 @@ void RefuseSecondLook(CampaignStore& store, const ScenarioFile& file, std::uint6
                                  before));
 }
 
+void CheckRequest(const CampaignRequest& request) {
+  if (request.episodes == 0) throw InputError({"-n", 0}, "", "0", "must be at least 1");
+  if (request.jobs < 1)
+    throw InputError({"--jobs", 0}, "", std::to_string(request.jobs), "must be at least 1");
+  if (!request.shard) return;
+  const auto [begin, end] = *request.shard;
+  const auto refuse = [begin = begin, end = end](const char* rule) {
+    throw InputError({"--episodes", 0}, "", fmt::format("{}:{}", begin, end), rule);
+  };
+  if (begin >= end) refuse("holds no episode");
+  if (end > request.episodes) refuse("must lie within -n");
+}
+
 }  // namespace
 
 CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& request,
                               const fs::path& folder, CampaignObserver* observer) {
+  CheckRequest(request);
   const Scenario base = file.Read(std::nullopt);
   SayWhenInterrupted(folder.string() + " is as before");
   if (observer)

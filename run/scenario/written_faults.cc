@@ -38,6 +38,9 @@ ScheduledFault ReadFault(const ConfigNode& node, const std::string& path,
                        "must be 1 to 64 characters without a dot, and not a number, which is a "
                        "place in the list");
   }
+  if (const auto& duration_s = read.timing.duration_s; duration_s && *duration_s < step_s)
+    throw InputError(MarkOf(node, "duration_s"), prefix + "duration_s", FormatDouble(*duration_s),
+                     "must last a physics step, " + FormatDouble(step_s) + " s");
   if (const auto& period_s = read.timing.period_s) {
     const double duty = read.timing.duty;
     if (*period_s * duty < step_s || (duty < 1 && *period_s * (1 - duty) < step_s))

@@ -12,7 +12,7 @@
 namespace floorproof {
 
 // Throws InputError, also where the robot has nothing that could break so, and where a fault comes
-// and goes faster than the physics steps. `node`: the list.
+// or goes faster than the physics steps. `node`: the list.
 std::vector<ScheduledFault> ReadFaults(const ConfigNode& node, const FaultContext& context,
                                        double step_s);
 

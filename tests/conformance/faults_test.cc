@@ -154,7 +154,7 @@ TEST_P(FaultConformance, BreaksOnTopOfWhatIsBroken) {
   broken.wheel_torque.assign(n, 0.5);
   broken.roller_drag.assign(n, 0.5);
   broken.floor_friction = broken.battery_voltage = 0.5;
-  broken.motor_resistance = broken.hotel_load = broken.gravity = 2;
+  broken.motor_resistance = broken.hotel_load = 2;
   broken.payload_kg = 3;
   broken.silent_sensors = {"another"};
   Alterations from_built = built, from_broken = broken;
@@ -173,7 +173,6 @@ TEST_P(FaultConformance, BreaksOnTopOfWhatIsBroken) {
   scales(1, from_built.battery_voltage, 0.5, from_broken.battery_voltage, "battery_voltage");
   scales(1, from_built.motor_resistance, 2, from_broken.motor_resistance, "motor_resistance");
   scales(1, from_built.hotel_load, 2, from_broken.hotel_load, "hotel_load");
-  scales(1, from_built.gravity, 2, from_broken.gravity, "gravity");
   EXPECT_NEAR(from_broken.payload_kg, from_built.payload_kg + 3, 1e-12);
   EXPECT_EQ(from_broken.silent_sensors.size(), from_built.silent_sensors.size() + 1);
   Alterations again = built;

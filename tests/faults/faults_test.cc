@@ -76,6 +76,10 @@ TEST_F(FaultsTest, RoundingOfTheTimeDelaysNothing) {
   for (int i = 0; i < 50; ++i) t_s += 0.004;
   EXPECT_TRUE((FaultTiming{.onset_s = 0.2, .duration_s = {}, .period_s = {}}.Holds(t_s)));
   EXPECT_TRUE((FaultTiming{.onset_s = 0.2, .duration_s = {}, .period_s = {}}.Holds(0.2)));
+  while (t_s < 3600 - 0.002) t_s += 0.004;
+  ASSERT_LT(t_s, 3600) << "by 6e-8 s";
+  EXPECT_TRUE((FaultTiming{.onset_s = 3600, .duration_s = {}, .period_s = {}}.Holds(t_s)));
+  EXPECT_FALSE((FaultTiming{.onset_s = 3600, .duration_s = {}, .period_s = {}}.Holds(t_s - 0.004)));
 }
 
 TEST_F(FaultsTest, AnUpdateAnswersOnlyWhenSomethingComesOrGoes) {

@@ -75,6 +75,18 @@ TEST_F(DriveCampaignTest, GivesTheSummaryThatItWrites) {
   EXPECT_THAT(dut.store.Episodes("yaw_deg=10"), ElementsAre(0u, 1u, 2u));
 }
 
+TEST_F(DriveCampaignTest, RequestsThatMakeNoSenseAreRefusedBeforeThereIsAFolder) {
+  const auto why = [&](const CampaignRequest& request) {
+    return WhyRefused([&] { DriveCampaign(File(), request, Folder("o")); });
+  };
+  EXPECT_EQ(why({.episodes = 0}), "-n: 0: must be at least 1");
+  EXPECT_EQ(why({.episodes = 3, .jobs = 0}), "--jobs: 0: must be at least 1");
+  EXPECT_EQ(why({.episodes = 9, .shard = EpisodeRange{5, 3}}), "--episodes: 5:3: holds no episode");
+  EXPECT_EQ(why({.episodes = 9, .shard = EpisodeRange{5, 10}}),
+            "--episodes: 5:10: must lie within -n");
+  EXPECT_FALSE(fs::exists(folder_ / "o"));
+}
+
 TEST_F(DriveCampaignTest, HandsWarningsToTheObserver) {
   fs::create_directories(folder_ / "far");
   fs::rename(folder_ / "plan.csv", folder_ / "far/plan.csv");

@@ -71,6 +71,8 @@ TEST_F(FaultsInAScenario, BadOnesAreOneLineThatNamesTheRule) {
               HasSubstr("faults[1].id = a: two faults have this id"));
   EXPECT_THAT(Refusal("[{type: battery_sag, id: 1}]"), HasSubstr("faults[0].id = 1: must be"));
   EXPECT_THAT(Refusal("[{type: battery_sag, id: a.b}]"), HasSubstr("without a dot"));
+  EXPECT_THAT(Refusal("[{type: battery_sag, duration_s: 0.001}]"),
+              HasSubstr("faults[0].duration_s = 0.001: must last a physics step"));
   EXPECT_THAT(Refusal("[{type: battery_sag, period_s: 0.001, duty: 0.1}]"),
               HasSubstr("faults[0].period_s = 0.001: must leave a physics step"));
 }
@@ -163,6 +165,29 @@ TEST_F(FaultsInAScenario, ASensorIsSilentInThePeriodsOfTheFaultAndInNoOther) {
               ElementsAre(DoubleNear(1, 1e-6), DoubleNear(1.02, 1e-6)));
   EXPECT_THAT(silent_at("onset_s: 0, duration_s: 0.02"), ElementsAre(DoubleNear(0, 1e-6)));
   EXPECT_THAT(silent_at("onset_s: 1.004, duration_s: 0.012"), IsEmpty()) << "between two readings";
+}
+
+// What was never heard of is not heard of as 0: motors that fold would turn against it.
+TEST_F(FaultsInAScenario, ARobotOfHingesKeepsItsShapeWhateverIsSilentFromTheStart) {
+  Save("plan.csv", "x_m,y_m,shape\n1.5,2.5,O\n3,2.5,O\n3.5,2.5,I\n");
+  for (const char* estimator : {"odometry", "truth"}) {
+    const EpisodeRecord record = Drive(Read(RoomScenario("",
+                                                         "on_failure: ignore\ntime_limit_s: 6\n"
+                                                         "faults: [{type: silent_sensor}]\n"),
+                                            {{"robot", "htetro"}, {"estimator", estimator}}));
+    for (const TraceRow& row : record.trace)
+      ASSERT_EQ(row.shape, record.trace.front().shape) << estimator << " at " << row.t_s;
+  }
+}
+
+TEST_F(FaultsInAScenario, TheWeakestMotorIsADeadOne) {
+  const char* kShares[] = {"0", "1e-320"};
+  std::vector<float> x_m;
+  for (const char* share : kShares)
+    x_m.push_back(DriveWith(std::string("[{type: weak_motor, torque_share: ") + share + "}]")
+                      .trace.back()
+                      .x_m);
+  EXPECT_NEAR(x_m[0], x_m[1], 1e-6);
 }
 
 // It stands upright under a load that will tip it, and tips only then.

@@ -98,8 +98,8 @@ TEST_P(AlterationsOf, AreTakenBack) {
   Simulation sim(dut.scene(), map, dut.spec()), never(dut.scene(), map, dut.spec());
   Alterations all{.wheel_torque = std::vector<double>(dut.spec().wheels.size(), 0.5),
                   .floor_friction = 0.3,
+                  .motor_resistance = 2,
                   .battery_voltage = 0.7,
-                  .gravity = 2,
                   .payload_kg = 5,
                   .payload_p_B = {0.1, 0, 0.2}};
   sim.Alter(all);
@@ -117,7 +117,7 @@ TEST_P(AlterationsOf, LeaveTheSharedSceneAsItWas) {
   AlteredDrive dut(GetParam());
   const BodyTwist twist{0.1, 0, 0};
   const Truth before = dut.Run({}, twist, 1);
-  dut.Run({.floor_friction = 0.1, .gravity = 0.2, .payload_kg = 10}, twist, 1);
+  dut.Run({.floor_friction = 0.1, .payload_kg = 10}, twist, 1);
   EXPECT_EQ(dut.Run({}, twist, 1).p_WB, before.p_WB);
 }
 
