@@ -13,6 +13,7 @@
 #include "run/campaign/campaign_about.h"
 #include "run/campaign/campaign_files.h"
 #include "run/campaign/campaign_store.h"
+#include "stats/outward.h"
 #include "tests/report/html_page.h"
 
 namespace floorproof {
@@ -109,12 +110,13 @@ TEST_F(ReportCommand, PageSaysWhatTheSummarySays) {
   EXPECT_THAT(page, HasSubstr("&lt;b&gt;&#39;sill&#39;&amp;"));
   const auto summary = nlohmann::json::parse(Slurp(folder_ / "out/summary.json"));
   for (const auto& variant : summary["variants"])
-    for (const auto& [mode, rate] : variant["failures"].items())
-      for (const char* bound : {"lower", "upper"}) {
-        char text[40];
-        std::snprintf(text, sizeof text, "%.3g", 100 * rate[bound].get<double>());
-        EXPECT_THAT(page, HasSubstr(text)) << mode << " " << bound;
-      }
+    for (const auto& [mode, rate] : variant["failures"].items()) {
+      const Interval told =
+          RoundedOutward({100 * rate["lower"].get<double>(), 100 * rate["upper"].get<double>()});
+      char text[80];
+      std::snprintf(text, sizeof text, "%.3g to %.3g %%", told.lower, told.upper);
+      EXPECT_THAT(page, HasSubstr(text)) << mode;
+    }
   EXPECT_THAT(page, HasSubstr("4 of 10"));
   EXPECT_THAT(page, HasSubstr(summary["campaign"].get<std::string>()));
 }
