@@ -4,43 +4,40 @@
 #include <algorithm>
 #include <map>
 #include <string>
-#include <string_view>
-#include <utility>
 
 namespace floorproof {
 
 std::vector<NamedSensor> CarriedSensors(std::span<const PluginEntry<Sensor>> table,
                                         const ConfigNode& written,
                                         std::span<const Reading> needed) {
-  std::map<Reading, std::string_view> filled_by;
-  for (const auto& entry : table) {
-    const ConfigNode* params = written.Find(entry.name);
-    if (params == nullptr) continue;
-    const Reading reading = entry.make()->Fills();
-    const auto [first, is_first] = filled_by.try_emplace(reading, entry.name);
-    if (!is_first)
-      throw InputError(params->mark, "sensors." + std::string(entry.name), "",
-                       "tells the " + std::string(Name(reading)) + ", as " +
-                           std::string(first->second) + " does: a robot carries one of them");
-  }
-  for (const auto& entry : table)
-    if (const Reading reading = entry.make()->Fills();
-        std::ranges::find(needed, reading) != needed.end())
-      filled_by.try_emplace(reading, entry.name);
+  std::vector<NamedSensor> sensors;
+  for (const auto& entry : table) sensors.push_back({std::string(entry.name), entry.make()});
 
-  std::vector<NamedSensor> carried;
-  for (const auto& entry : table) {
-    auto sensor = entry.make();
-    const auto by = filled_by.find(sensor->Fills());
-    if (by == filled_by.end() || by->second != entry.name) continue;
-    const std::string name(entry.name);
+  std::map<Reading, std::string> filled_by;
+  for (const auto& [name, sensor, implied] : sensors) {
     const ConfigNode* params = written.Find(name);
-    const bool implied = params == nullptr && DocumentParams(*sensor).empty();
+    if (params == nullptr) continue;
+    const auto [first, is_first] = filled_by.try_emplace(sensor->Fills(), name);
+    if (!is_first)
+      throw InputError(params->mark, "sensors." + name, "",
+                       "tells the " + std::string(Name(sensor->Fills())) + ", as " + first->second +
+                           " does: a robot carries one of them");
+  }
+  for (const auto& [name, sensor, implied] : sensors)
+    if (std::ranges::find(needed, sensor->Fills()) != needed.end())
+      filled_by.try_emplace(sensor->Fills(), name);
+
+  std::erase_if(sensors, [&](const NamedSensor& s) {
+    const auto by = filled_by.find(s.sensor->Fills());
+    return by == filled_by.end() || by->second != s.name;
+  });
+  for (auto& [name, sensor, implied] : sensors) {
+    const ConfigNode* params = written.Find(name);
+    implied = params == nullptr && DocumentParams(*sensor).empty();
     if (params != nullptr && !params->IsNull())
       ReadParams(*params, "sensors." + name + ".", *sensor);
-    carried.push_back({name, std::move(sensor), implied});
   }
-  return carried;
+  return sensors;
 }
 
 }  // namespace floorproof
