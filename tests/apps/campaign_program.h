@@ -20,12 +20,9 @@
 #include <string>
 #include <vector>
 
-namespace floorproof {
+#include "tests/slurp.h"
 
-inline std::string Slurp(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {(std::istreambuf_iterator<char>(in)), {}};
-}
+namespace floorproof {
 
 inline std::vector<std::string> Words(const std::string& text) {
   std::istringstream in(text);

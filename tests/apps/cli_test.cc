@@ -12,6 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/slurp.h"
+
 namespace floorproof {
 namespace {
 
@@ -23,11 +25,6 @@ struct Result {
   int status = -1;
   std::string out, err;
 };
-
-std::string Slurp(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {(std::istreambuf_iterator<char>(in)), {}};
-}
 
 class Cli : public ::testing::Test {
  protected:

@@ -21,16 +21,12 @@
 
 #include "base/config.h"
 #include "media/media.h"
+#include "tests/slurp.h"
 
 namespace floorproof {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string Slurp(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {(std::istreambuf_iterator<char>(in)), {}};
-}
 
 // The program, running in `folder` on its own.
 class Program {

@@ -15,6 +15,7 @@
 #include "run/campaign/campaign_store.h"
 #include "stats/outward.h"
 #include "tests/report/html_page.h"
+#include "tests/slurp.h"
 
 namespace floorproof {
 namespace {
@@ -22,11 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-std::string Slurp(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {(std::istreambuf_iterator<char>(in)), {}};
-}
 
 constexpr const char* kScenario = R"(scenario: 1
 name: '<script>"floor" & co'

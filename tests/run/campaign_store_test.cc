@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "run/campaign/campaign_about.h"
+#include "tests/slurp.h"
 
 namespace floorproof {
 namespace {
@@ -19,11 +20,6 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-std::string Slurp(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {(std::istreambuf_iterator<char>(in)), {}};
-}
 
 // Every file of a folder, by name.
 std::map<std::string, std::string> Bytes(const fs::path& folder) {

@@ -9,6 +9,7 @@
 #include "run/campaign/campaign_merge.h"
 #include "run/campaign/summary_json.h"
 #include "tests/run/scenario_text.h"
+#include "tests/slurp.h"
 
 namespace floorproof {
 namespace {
@@ -18,11 +19,6 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-std::string Slurp(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {(std::istreambuf_iterator<char>(in)), {}};
-}
 
 std::string SummaryText(const CampaignOutcome& outcome) {
   return SummaryJson(outcome.summary).dump(2) + "\n";
