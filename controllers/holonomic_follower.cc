@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "controllers/drive.h"
+#include "controllers/drive_time.h"
 #include "controllers/follower_params.h"
 #include "controllers/path_progress.h"
 #include "controllers/reconfiguration.h"
@@ -60,7 +61,14 @@ class HolonomicFollower final : public Tracker {
     twist_ = {};
     reconfiguration_.Start(robot);
     FindWays(robot);
+    duration_s_ = DriveTime(progress_.reference(),
+                            {limits, params_.corner_tolerance_m,
+                             Radians(params_.heading_tolerance_deg), Radians(params_.recover_deg)},
+                            robot);
+    for (const HingeWay& way : ways_) duration_s_ += reconfiguration_.Duration(way);
   }
+
+  double Duration() const override { return duration_s_; }
 
   Command Update(const Estimate& estimate, double t_s, double dt_s) override {
     const Pose2& X_WB = estimate.X_WB;
@@ -77,6 +85,7 @@ class HolonomicFollower final : public Tracker {
     command.hinges = reconfiguration_.Update(estimate.hinges, dt_s);
     command.segment = progress_.Segment(X_WB.p());
     command.dwelling = progress_.phase() == Phase::kDwell;
+    command.turning = progress_.phase() == Phase::kTurn || progress_.phase() == Phase::kFold;
     command.done = progress_.phase() == Phase::kDone;
     command.twist = twist_;
     return command;
@@ -134,7 +143,7 @@ class HolonomicFollower final : public Tracker {
         progress_.leg().yaw_rad.value_or(std::atan2(direction_W.y(), direction_W.x()));
     const double off_rad = WrapAngle(wanted_rad - X_WB.yaw_rad);
     if (progress_.phase() == Phase::kDrive && std::abs(off_rad) > Radians(params_.recover_deg))
-      progress_.Turn();
+      progress_.Turn(p_W);
     if (progress_.phase() == Phase::kTurn &&
         std::abs(off_rad) <= Radians(params_.heading_tolerance_deg))
       progress_.Drive();
@@ -144,7 +153,7 @@ class HolonomicFollower final : public Tracker {
     const double wz_radps = std::copysign(std::min(yaw_rate_radps_, rate), off_rad);
     Vec2 v_W;
     if (progress_.phase() == Phase::kTurn) {
-      const Vec2 back_W = progress_.leg().p_W - p_W;
+      const Vec2 back_W = progress_.turn_W() - p_W;
       v_W = back_W.norm() < kHold_m ? Vec2(kHoldGain * back_W) : Vec2(Vec2::Zero());
     } else {
       const double limit_mps = gap_.Limit(speed_mps, X_WB, p_W + kGapAhead_m * direction_W);
@@ -182,6 +191,7 @@ class HolonomicFollower final : public Tracker {
   std::vector<HingeWay> ways_;  // by vertex: of the change of shape there, if any
   bool folding_ = false;
   double hold_yaw_rad_ = 0;
+  double duration_s_ = 0;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kTimeSlackS = 1e-9;     // sums of control periods are not exact
 constexpr double kBendGateM = 0.3;       // a leg is left only this near its end
+constexpr double kPushedBackM = 0.05;    // so far back, a bend that was near is ahead again
 constexpr double kBesideCornerM = 0.04;  // farther beside a corner than this it is not reached yet
 
 }  // namespace
@@ -22,6 +23,7 @@ void PathProgress::Start(const Path& path, const ReferenceLimits& limits,
   phase_ = reference_.vertices.empty() ? Phase::kDone : Phase::kDrive;
   homing_ = true;
   vertex_ = goal_ = ahead_ = waypoint_ = 0;
+  if (!reference_.vertices.empty()) turn_W_ = Vertex(0).p_W;
   dwell_until_s_ = 0;
 }
 
@@ -56,6 +58,7 @@ void PathProgress::Advance(const Vec2& p_W, double t_s) {
 
 void PathProgress::Arrive(std::size_t vertex, double t_s) {
   vertex_ = ahead_ = vertex;
+  turn_W_ = Vertex(vertex).p_W;
   homing_ = false;
   if (Vertex(vertex).dwell_s > 0) {
     phase_ = Phase::kDwell;
@@ -125,7 +128,14 @@ PathProgress::Aim PathProgress::AimFrom(const Vec2& p_W, double speed_mps,
 
 PathProgress::Course PathProgress::CourseFrom(const Vec2& p_W, double ahead_m) {
   if (homing_) return {(Vertex(goal_).p_W - p_W).normalized(), Vec2::Zero(), SpeedFrom(p_W)};
-  SeekAhead(p_W, ahead_m);
+  ahead_ = std::max(ahead_, vertex_);
+  const double left_m = Vertex(vertex_ + 1).s_m - Along(p_W);
+  if (ahead_ == vertex_ && left_m <= ahead_m && !Vertex(vertex_ + 1).stop) {
+    ++ahead_;
+    seen_m_ = left_m;
+  } else if (ahead_ > vertex_ && left_m > seen_m_ + kPushedBackM) {
+    ahead_ = vertex_;
+  }
   const Vec2 from_leg_W = p_W - leg().p_W, &along_W = leg().direction_W;
   return {Vertex(ahead_).direction_W, from_leg_W.dot(along_W) * along_W - from_leg_W,
           SpeedFrom(p_W)};

@@ -36,7 +36,11 @@ class PathProgress {
 
   Phase phase() const { return phase_; }
   bool moving() const { return phase_ == Phase::kTurn || phase_ == Phase::kDrive; }
-  void Turn() { phase_ = Phase::kTurn; }
+  // To turn where it is now, p_W.
+  void Turn(const Vec2& p_W) {
+    phase_ = Phase::kTurn;
+    turn_W_ = p_W;
+  }
   void Drive() { phase_ = Phase::kDrive; }
   // The robot has taken the shapes of vertex(), or there are none.
   void Folded();
@@ -44,6 +48,8 @@ class PathProgress {
   // The vertex at which the leg now tracked begins, and the leg itself.
   std::size_t vertex() const { return vertex_; }
   const ReferenceVertex& leg() const { return reference_.vertices[vertex_]; }
+  // Where the present turn, or the last, began: the vertex, or where the robot was on its leg.
+  const Vec2& turn_W() const { return turn_W_; }
 
   // The point to head for and the speed that the way ahead allows. Only while moving().
   struct Aim {
@@ -53,7 +59,9 @@ class PathProgress {
   Aim AimFrom(const Vec2& p_W, double speed_mps, const Lookahead& lookahead);
 
   // For holonomic robots: the path's direction `ahead_m` farther on, the vector back to the leg,
-  // across it, and the speed allowed. Only while moving().
+  // across it, and the speed allowed. It looks past one bend at most, so that the direction leads
+  // to the end of the leg, and never back again: a robot that slows down for what it saw would see
+  // it no more. Only while moving().
   struct Course {
     Vec2 direction_W;  // unit
     Vec2 offset_W;
@@ -79,8 +87,10 @@ class PathProgress {
   Phase phase_ = Phase::kDone;
   bool homing_ = false;  // going to vertex goal_ itself instead of along the leg
   std::size_t goal_ = 0;
-  std::size_t vertex_ = 0;    // the leg now tracked goes from here to the next
-  std::size_t ahead_ = 0;     // the leg that holds the point pursued
+  std::size_t vertex_ = 0;  // the leg now tracked goes from here to the next
+  std::size_t ahead_ = 0;   // the leg that holds the point pursued, or whose direction is taken
+  double seen_m_ = 0;       // how far before its bend that direction was taken
+  Vec2 turn_W_ = Vec2::Zero();
   std::size_t waypoint_ = 0;  // the plan's segment now tracked
   double dwell_until_s_ = 0;
 };

@@ -136,12 +136,22 @@ void Reconfiguration::Fold(const HingeWay& way) {
   s_rad_ = v_radps_ = 0;
 }
 
-// Of the leg now folded: the largest turn of a hinge on it.
-double Reconfiguration::LegLength() const {
+// The largest turn of a hinge on that leg.
+double Reconfiguration::LegLength(const HingeWay& way, std::size_t leg) const {
   double length_rad = 0;
   for (std::size_t h = 0; h < static_cast<std::size_t>(n_); ++h)
-    length_rad = std::max(length_rad, std::abs((*way_)[leg_ + 1][h] - (*way_)[leg_][h]));
+    length_rad = std::max(length_rad, std::abs(way[leg + 1][h] - way[leg][h]));
   return length_rad;
+}
+
+double Reconfiguration::Duration(const HingeWay& way) const {
+  double time_s = 0;
+  for (std::size_t leg = 0; leg + 1 < way.size(); ++leg) {  // from rest to rest
+    const double length_rad = LegLength(way, leg);
+    const double top_radps = std::min(max_rate_radps_, std::sqrt(kAccel_radps2 * length_rad));
+    if (length_rad > 0) time_s += length_rad / top_radps + top_radps / kAccel_radps2;
+  }
+  return time_s;
 }
 
 HingeState Reconfiguration::Update(const HingeState& now, double dt_s) {
@@ -153,7 +163,7 @@ HingeState Reconfiguration::Update(const HingeState& now, double dt_s) {
 
   double rate_radps = 0;
   if (way_ != nullptr && leg_ + 1 < way_->size()) {
-    const double left_rad = LegLength() - s_rad_;
+    const double left_rad = LegLength(*way_, leg_) - s_rad_;
     const double stopping = std::sqrt(2 * kAccel_radps2 * std::max(0.0, left_rad));
     v_radps_ = lag_rad > kLag_rad ? 0.0
                                   : std::min({v_radps_ + kAccel_radps2 * dt_s, max_rate_radps_,
@@ -168,14 +178,14 @@ HingeState Reconfiguration::Update(const HingeState& now, double dt_s) {
     double forward_radps = 0;
     if (way_ != nullptr && leg_ + 1 < way_->size()) {
       const double from = (*way_)[leg_][h], turn = (*way_)[leg_ + 1][h] - from;
-      hold_rad_[h] = from + turn * s_rad_ / LegLength();
-      forward_radps = turn / LegLength() * rate_radps;
+      hold_rad_[h] = from + turn * s_rad_ / LegLength(*way_, leg_);
+      forward_radps = turn / LegLength(*way_, leg_) * rate_radps;
     }
     command.rad[h] = now.rad[h];
     command.radps[h] = std::clamp(forward_radps + kGain_per_s * (hold_rad_[h] - now.rad[h]),
                                   -2 * max_rate_radps_, 2 * max_rate_radps_);
   }
-  if (way_ != nullptr && leg_ + 1 < way_->size() && s_rad_ >= LegLength() - 1e-12) {
+  if (way_ != nullptr && leg_ + 1 < way_->size() && s_rad_ >= LegLength(*way_, leg_) - 1e-12) {
     ++leg_;
     s_rad_ = v_radps_ = 0;
   }

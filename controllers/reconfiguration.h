@@ -34,9 +34,11 @@ class Reconfiguration {
   // One control period: what the hinges should do, given where they are.
   HingeState Update(const HingeState& now, double dt_s);
   bool done() const { return way_ == nullptr; }
+  // What folding along this way takes where nothing holds the hinges, s.
+  double Duration(const HingeWay& way) const;
 
  private:
-  double LegLength() const;
+  double LegLength(const HingeWay& way, std::size_t leg) const;
 
   int n_ = 0;
   double max_rate_radps_ = 0;

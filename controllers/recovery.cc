@@ -129,6 +129,7 @@ bool Recovery::Update(const Observation& sensed, const Estimate& estimate, doubl
   command.twist = twist_;
   command.hinges.radps = {};
   command.dwelling = false;
+  command.turning = turn_ != 0;
   return true;
 }
 

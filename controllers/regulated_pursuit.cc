@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "controllers/drive.h"
+#include "controllers/drive_time.h"
 #include "controllers/follower_params.h"
 #include "controllers/path_progress.h"
 #include "controllers/tracker.h"
@@ -54,7 +55,13 @@ class RegulatedPursuit final : public Tracker {
     progress_.Start(path, limits, params_.corner_tolerance_m);
     twist_ = {};
     turn_side_ = 0;
+    duration_s_ = DriveTime(progress_.reference(),
+                            {limits, params_.corner_tolerance_m,
+                             Radians(params_.heading_tolerance_deg), Radians(params_.recover_deg)},
+                            robot);
   }
+
+  double Duration() const override { return duration_s_; }
 
   Command Update(const Estimate& estimate, double t_s, double dt_s) override {
     const Pose2& X_WB = estimate.X_WB;
@@ -69,6 +76,7 @@ class RegulatedPursuit final : public Tracker {
     Command command;
     command.segment = progress_.Segment(X_WB.p());
     command.dwelling = progress_.phase() == Phase::kDwell;
+    command.turning = progress_.phase() == Phase::kTurn;
     command.done = progress_.phase() == Phase::kDone;
     command.twist = twist_;
     return command;
@@ -83,7 +91,7 @@ class RegulatedPursuit final : public Tracker {
     const Vec2 target_B = X_WB.Inverse() * target_W;
     const double aside_rad = std::atan2(target_B.y(), target_B.x());
     if (progress_.phase() == Phase::kDrive && std::abs(aside_rad) > Radians(params_.recover_deg)) {
-      progress_.Turn();
+      progress_.Turn(X_WB.p());
       turn_side_ = 0;
     }
     if (progress_.phase() == Phase::kTurn &&
@@ -131,6 +139,7 @@ class RegulatedPursuit final : public Tracker {
   double accel_mps2_ = 0, yaw_rate_radps_ = 0, yaw_accel_radps2_ = 0, bend_yaw_rate_radps_ = 0;
   BodyTwist twist_;  // last commanded
   int turn_side_ = 0;
+  double duration_s_ = 0;
 };
 
 }  // namespace

@@ -23,10 +23,11 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxEpisodes = 300;  // listed on the page, of all variants
 
-// Throws InputError naming the database where they are damaged.
-std::vector<Event> EventsIn(const EpisodeRow& row, const fs::path& database) {
+// What `read` returns, of a row. Throws InputError naming the database where its texts are damaged.
+template <class Read>
+auto FromRow(const fs::path& database, const Read& read) {
   try {
-    return EventsOf(row);
+    return read();
   } catch (const InternalError& e) {
     throw InputError({database.string(), 0}, "", "",
                      fmt::format("holds events that cannot be read ({})", e.what()));
@@ -50,12 +51,13 @@ class Rows {
     store.ForEach(variant.name, [&](const EpisodeRow& row) {
       ++rows;
       if (!IsListed(row)) return;
-      const std::vector<Event> events = EventsIn(row, database);
+      const std::vector<Event> events = FromRow(database, [&] { return EventsOf(row); });
       if (row.counts()) places.insert(places.end(), events.begin(), events.end());
       what_[{variant.name, row.episode}] = WhatFailed(row, events);
       if (listed++ < share_)
-        report_.episodes.push_back(
-            FailingEpisode(row, events, named_, report_.summary.variants.size() > 1));
+        report_.episodes.push_back(FromRow(database, [&] {
+          return FailingEpisode(row, events, named_, report_.summary.variants.size() > 1);
+        }));
       else
         ++report_.episodes_left_out;
     });

@@ -8,6 +8,7 @@
 
 #include "base/file_output.h"
 #include "run/campaign/episodes_csv.h"
+#include "run/episode/episode.h"
 
 namespace floorproof {
 namespace {
@@ -46,6 +47,11 @@ ReportEpisode FailingEpisode(const EpisodeRow& row, const std::vector<Event>& ev
     e.x_m = events.front().x_m;
     e.y_m = events.front().y_m;
     e.further = static_cast<int>(events.size()) - 1;
+  } else if (const std::optional<Timeout> timeout = TimeoutOf(row)) {
+    e.t_s = timeout->t_s;
+    e.x_m = timeout->X_WB.x_m;
+    e.y_m = timeout->X_WB.y_m;
+    if (!timeout->hazard.empty()) e.detail = timeout->hazard;
   }
   e.command = fmt::format("floorproof replay {} --episode {}", ShellWord(named), row.episode);
   if (variants) e.command += " --variant " + ShellWord(row.variant);

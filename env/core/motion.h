@@ -37,6 +37,7 @@ struct Command {
   HingeState hinges;        // to be held, or turned at these rates towards these angles
   std::size_t segment = 0;  // the segment now tracked goes from waypoint `segment` to `segment + 1`
   bool dwelling = false;    // standing still on purpose
+  bool turning = false;     // to turn or fold where it stands: it moves only to hold its place
   bool done = false;        // last waypoint reached
 };
 
@@ -84,6 +85,9 @@ struct Truth {
 struct Sample : Truth {
   Command command;           // of this control period
   double cross_track_m = 0;  // of the true position to the segment now tracked; unsigned
+  // The way gone along the path, m: metres along it, less the distance from it; falls when the
+  // robot goes back or aside. Where the path is replaced by another, it goes on from where it was.
+  double progress_m = 0;
   // Room across that segment to the nearer pair of obstacles, halved, when the period began.
   double cross_track_half_width_m = 0;
 };

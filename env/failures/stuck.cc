@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// F2, stuck: a move is commanded, yet displacement < r and turn < a within T.
+// F2, stuck: a move is commanded, yet the robot does not get on within T.
 //
 // A sliding window covers the last T seconds in which a move was commanded; standing still on
-// purpose stops its clock. Displacement and turn are the largest from the window's first pose, so a
-// robot that drives out and back counts as moving. This follows Nav2's pose progress checker, but r
-// scales with what was commanded: r = min(displacement_m, fraction * d_cmd). d_cmd is the largest
-// displacement that the commands of the window lead to; where they go straight ahead it is v_cmd T.
-// So a slow robot is not stuck for being slow, nor is one that is told to wind about in a corner.
-// Where next to no translation was commanded, the turn is judged in the same way: a = min(turn_rad,
-// fraction * w_cmd * T). Poses are kept ten times a second, in a ring made in Start().
+// purpose stops its clock. To get on is to gain way along the plan (Sample::progress_m): the
+// largest gain between two moments of the window, from the earlier to the later. Swaying, circling,
+// and pushing forward to fall back again gain nothing in the end. This follows Nav2's pose progress
+// checker, but r scales with what was commanded: r = min(displacement_m, fraction * way commanded),
+// and a slower command than least_speed_mps lets the clock run slower in proportion, so that a
+// window always holds a way that is worth judging. A robot that goes elsewhere is not stuck, it
+// veers off: it is spared where it gets away by half of the way commanded.
+//
+// While the plan asks for a turn on the spot, or for folding, that is what is judged, in the same
+// way: a = min(turn_rad, fraction * angle commanded), turned the way it was told. A window is about
+// whichever took most of it. One place of a plan asks for a turn or two; a robot that is told to
+// turn for kMostTurnsRad without getting further than ever before is turned away again and again,
+// and does not get on by turning. States are kept ten times a second, in a ring made in Start().
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "env/failures/detector.h"
@@ -21,10 +28,12 @@ namespace floorproof {
 namespace {
 
 constexpr double kGravity = 9.81;
-constexpr double kSampleS = 0.1;      // between kept poses; 1 % of the default window
-constexpr double kTimeSlackS = 1e-9;  // sums of time steps are not exact
-// Least r: tyres and suspension give by millimetres, which is no progress.
-constexpr double kLeastDisplacementM = 0.02;
+constexpr double kSampleS = 0.1;       // between kept states; 1 % of the default window
+constexpr double kTimeSlackS = 1e-9;   // sums of time steps are not exact
+constexpr double kNoSpeedMps = 0.001;  // no plan is slower
+constexpr double kAwayShare = 0.5;     // of the way commanded: so far away, it is not held
+constexpr double kFurtherM = 0.01;     // beyond where it was ever: tyres give by millimetres
+constexpr double kMostTurnsRad = 4 * kPi;
 
 class Stuck final : public Detector {
  public:
@@ -32,12 +41,16 @@ class Stuck final : public Detector {
     v("window_s", window_s_, Between(0.1, 3600),
       "T: time with a move commanded that is looked back upon");
     v("displacement_m", displacement_m_, Positive(),
-      "r: displacement that counts as progress, at most");
+      "r: way gained along the plan that counts as progress, at most");
     v("commanded_fraction", fraction_, Between(0, 1),
-      "share of the commanded displacement that counts as progress where it is less than that");
-    v("turn_rad", turn_rad_, Positive(), "a: turn that counts as progress");
-    v("least_speed_mps", least_speed_mps_, Positive(), "a command below this is no move");
-    v("least_yaw_rate_radps", least_yaw_rate_radps_, Positive(), "a command below this is no turn");
+      "share of the way, or of the turn, commanded that counts as progress where it is less than "
+      "that");
+    v("turn_rad", turn_rad_, Positive(),
+      "a: turn that counts as progress where the plan asks for one, at most");
+    v("least_speed_mps", least_speed_mps_, Positive(),
+      "a slower command lets T last longer, in proportion");
+    v("least_yaw_rate_radps", least_yaw_rate_radps_, Positive(),
+      "a slower turn lets T last longer, in proportion");
     v("belly_share", belly_share_, Between(0, 1),
       "kind high_centred: mean share of the weight on the belly, at least");
   }
@@ -54,9 +67,10 @@ class Stuck final : public Detector {
     ring_.assign(intervals + 1, {});
     count_ = 0;
     newest_ = intervals;
-    clock_s_ = angle_rad_ = belly_ns_ = 0;
-    commanded_W_.setZero();
+    now_ = {};
     ticks_ = 0;
+    further_than_m_ = -std::numeric_limits<double>::infinity();
+    turned_here_rad_ = 0;
     started_ = reported_ = false;
     hazards_.Clear();
     belly_hazard_ = -1;
@@ -72,98 +86,141 @@ class Stuck final : public Detector {
     const double dt_s = started_ ? sample.t_s - last_t_s_ : timestep_s_;
     started_ = true;
     last_t_s_ = sample.t_s;
-    const BodyTwist& cmd = sample.command.twist;
-    const double speed_mps = std::sqrt(cmd.vx_mps * cmd.vx_mps + cmd.vy_mps * cmd.vy_mps);
-    // A block that is to turn on its hinge counts as a turn of the robot.
-    double yaw_rate_radps = std::abs(cmd.wz_radps), folded_rad = 0;
-    for (std::size_t h = 0; h < static_cast<std::size_t>(sample.hinges.n); ++h) {
-      yaw_rate_radps = std::max(yaw_rate_radps, std::abs(sample.command.hinges.radps[h]));
-      folded_rad += sample.hinges.rad[h];
-    }
-    folded_rad_ = folded_rad;
-    if (sample.command.dwelling || sample.command.done ||
-        (speed_mps < least_speed_mps_ && yaw_rate_radps < least_yaw_rate_radps_))
-      return false;
+    if (sample.command.dwelling || sample.command.done) return false;
     if (count_ == 0) Keep(sample);
-    clock_s_ += dt_s;
-    commanded_W_ += Pose2{0, 0, sample.yaw_rad}.Rotate({cmd.vx_mps, cmd.vy_mps}) * dt_s;
-    angle_rad_ += yaw_rate_radps * dt_s;
-    belly_ns_ += sample.belly_load_n * dt_s;
-    if (clock_s_ < static_cast<double>(ticks_ + 1) * period_s_ - kTimeSlackS) return false;
+    Add(sample, dt_s);
+    if (now_.clock_s < static_cast<double>(ticks_ + 1) * period_s_ - kTimeSlackS) return false;
     ++ticks_;
     Keep(sample);
     return count_ == ring_.size() && Judge(sample);
   }
 
  private:
+  // What is summed up while moves are commanded, and where the robot then is.
   struct Kept {
+    double clock_s = 0;          // time with a move commanded
+    double moving_s = 0;         // of it: with a way commanded, not a turn on the spot
+    double way_m = 0;            // commanded
+    double angle_rad = 0;        // commanded on the spot: of the body, or of a hinge
+    double turned_rad = 0;       // of that angle, as commanded
+    bool turns_in_vain = false;  // so many turns commanded here are not the plan's
+    double belly_ns = 0;         // belly load
+    double progress_m = 0;
     Vec2 p_WB = Vec2::Zero();
-    double yaw_rad = 0;                  // unwrapped
-    double folded_rad = 0;               // sum of the hinges' angles
-    Vec2 commanded_W = Vec2::Zero();     // where commands alone would have led
-    double angle_rad = 0, belly_ns = 0;  // commanded turn, and belly load, summed up to here
     double t_s = 0;
   };
 
+  // A turn asked for on the spot: of the body, or of the hinge that is to turn fastest.
+  struct Turn {
+    double wanted_radps = 0, done_radps = 0;  // the latter positive where it turns as wanted
+  };
+  static Turn TurnOf(const Sample& sample) {
+    Turn turn;
+    const auto take = [&](double wanted, double done) {
+      if (std::abs(wanted) > turn.wanted_radps)
+        turn = {std::abs(wanted), wanted > 0 ? done : -done};
+    };
+    take(sample.command.twist.wz_radps, sample.V_WB_B.wz_radps);
+    for (std::size_t h = 0; h < static_cast<std::size_t>(sample.hinges.n); ++h)
+      take(sample.command.hinges.radps[h], sample.hinges.radps[h]);
+    return turn;
+  }
+
+  void Add(const Sample& sample, double dt_s) {
+    const BodyTwist& cmd = sample.command.twist;
+    const double speed_mps = std::sqrt(cmd.vx_mps * cmd.vx_mps + cmd.vy_mps * cmd.vy_mps);
+    double clock_s = 0;
+    if (sample.command.turning || speed_mps < kNoSpeedMps) {
+      const Turn turn = TurnOf(sample);
+      clock_s = dt_s * std::min(1.0, turn.wanted_radps / least_yaw_rate_radps_);
+      now_.angle_rad += turn.wanted_radps * dt_s;
+      now_.turned_rad += turn.done_radps * dt_s;
+      turned_here_rad_ += std::abs(cmd.wz_radps) * dt_s;
+    } else {
+      clock_s = dt_s * std::min(1.0, speed_mps / least_speed_mps_);
+      now_.moving_s += clock_s;
+      now_.way_m += speed_mps * dt_s;
+    }
+    if (sample.progress_m > further_than_m_ + kFurtherM) {
+      further_than_m_ = sample.progress_m;
+      turned_here_rad_ = 0;
+    }
+    now_.clock_s += clock_s;
+    now_.belly_ns += sample.belly_load_n * clock_s;
+  }
+
   void Keep(const Sample& sample) {
-    const double yaw_rad =
-        count_ == 0 ? sample.yaw_rad
-                    : ring_[newest_].yaw_rad + WrapAngle(sample.yaw_rad - ring_[newest_].yaw_rad);
+    now_.turns_in_vain = turned_here_rad_ > kMostTurnsRad;
+    now_.progress_m = sample.progress_m;
+    now_.p_WB = sample.p_WB.head<2>();
+    now_.t_s = sample.t_s;
     newest_ = (newest_ + 1) % ring_.size();
-    ring_[newest_] = {sample.p_WB.head<2>(),
-                      yaw_rad,
-                      folded_rad_,
-                      commanded_W_,
-                      angle_rad_,
-                      belly_ns_,
-                      sample.t_s};
+    ring_[newest_] = now_;
     count_ = std::min(count_ + 1, ring_.size());
   }
 
-  bool Judge(const Sample& sample) {
-    const Kept& first = ring_[(newest_ + 1) % ring_.size()];
-    const Kept& last = ring_[newest_];
-    double squared_m2 = 0, commanded_m2 = 0, turned_rad = 0;
-    for (const Kept& kept : ring_) {
-      squared_m2 = std::max(squared_m2, (kept.p_WB - first.p_WB).squaredNorm());
-      commanded_m2 = std::max(commanded_m2, (kept.commanded_W - first.commanded_W).squaredNorm());
-      turned_rad = std::max({turned_rad, std::abs(kept.yaw_rad - first.yaw_rad),
-                             std::abs(kept.folded_rad - first.folded_rad)});
-    }
-    const double moved_m = std::sqrt(squared_m2);
-    const double commanded_m = std::sqrt(commanded_m2);
-    const double commanded_rad = last.angle_rad - first.angle_rad;
-    const double least_m =
-        std::min(displacement_m_, std::max(kLeastDisplacementM, fraction_ * commanded_m));
-    const bool rotation_only = fraction_ * commanded_m < kLeastDisplacementM;
-    const double least_rad =
-        rotation_only ? std::min(turn_rad_, fraction_ * commanded_rad) : turn_rad_;
+  // What the robot did in the window, and what it had to do; as lengths.
+  struct Judgement {
+    double done_m = 0, least_m = 0;
+    double gained_m = 0, away_m = 0, turned_rad = 0, least_rad = 0;
+  };
 
-    const bool stuck = moved_m < least_m && turned_rad < least_rad;
-    // Progress by turning counts as so much displacement: the margin is in metres, and its sign is
-    // the verdict.
-    const double turned_share = least_rad > 0 ? turned_rad / least_rad : 1;
-    const double margin_m = (std::max(moved_m / least_m, turned_share) - 1) * least_m;
-    margin_ = std::min(margin_, margin_m);
+  Judgement Look() const {
+    const Kept &first = ring_[(newest_ + 1) % ring_.size()], &last = ring_[newest_];
+    double progress_m = first.progress_m, turned_rad = first.turned_rad, squared_m2 = 0;
+    Judgement out;
+    for (std::size_t i = 1; i <= ring_.size(); ++i) {
+      const Kept& kept = ring_[(newest_ + i) % ring_.size()];
+      progress_m = std::min(progress_m, kept.progress_m);
+      turned_rad = std::min(turned_rad, kept.turned_rad);
+      out.gained_m = std::max(out.gained_m, kept.progress_m - progress_m);
+      out.turned_rad = std::max(out.turned_rad, kept.turned_rad - turned_rad);
+      squared_m2 = std::max(squared_m2, (kept.p_WB - first.p_WB).squaredNorm());
+    }
+    out.away_m = std::sqrt(squared_m2);
+    const double way_m = last.way_m - first.way_m;
+    const double moving_s = last.moving_s - first.moving_s;
+    out.least_rad = std::min(turn_rad_, fraction_ * (last.angle_rad - first.angle_rad));
+    if (2 * moving_s >= last.clock_s - first.clock_s) {
+      out.least_m = std::min(displacement_m_, fraction_ * way_m);
+      const double away_m = out.away_m * out.least_m / (kAwayShare * way_m);
+      out.done_m = std::max(out.gained_m, away_m);
+    } else {  // a turn by turn_rad counts as a way of displacement_m
+      out.least_m = out.least_rad * displacement_m_ / turn_rad_;
+      out.done_m = last.turns_in_vain ? 0 : out.turned_rad * displacement_m_ / turn_rad_;
+    }
+    return out;
+  }
+
+  bool Judge(const Sample& sample) {
+    const Judgement now = Look();
+    margin_ = std::min(margin_, now.done_m - now.least_m);
+    const bool stuck = now.done_m < now.least_m;
     if (!stuck) reported_ = false;
     if (!stuck || reported_) return false;
     reported_ = true;
 
+    const Kept &first = ring_[(newest_ + 1) % ring_.size()], &last = ring_[newest_];
     const double belly_n = (last.belly_ns - first.belly_ns) / window_s_;
     const bool high_centred = weight_n_ > 0 && belly_n >= belly_share_ * weight_n_;
     const bool on_hazard = high_centred && belly_hazard_ >= 0 && belly_t_s_ >= first.t_s;
     std::string hazard = on_hazard ? HazardId(*map_, belly_hazard_, false) : "";
     if (hazard.empty()) hazard = hazards_.Recall(*map_, first.t_s);
     event_ = MakeEvent(mode(), high_centred ? "high_centred" : "", sample, std::move(hazard),
-                       moved_m, least_m);
-    event_.evidence = {{"turn_rad", turned_rad},     {"turn_threshold_rad", least_rad},
-                       {"commanded_m", commanded_m}, {"commanded_rad", commanded_rad},
-                       {"belly_load_n", belly_n},    {"since_s", first.t_s}};
+                       now.done_m, now.least_m);
+    event_.evidence = {{"gained_m", now.gained_m},
+                       {"away_m", now.away_m},
+                       {"commanded_m", last.way_m - first.way_m},
+                       {"turn_rad", now.turned_rad},
+                       {"turn_threshold_rad", now.least_rad},
+                       {"commanded_rad", last.angle_rad - first.angle_rad},
+                       {"belly_load_n", belly_n},
+                       {"since_s", first.t_s}};
     return true;
   }
 
   double window_s_ = 10, displacement_m_ = 0.5, fraction_ = 0.25, turn_rad_ = 0.5;
-  double least_speed_mps_ = 0.01, least_yaw_rate_radps_ = 0.05;
+  double least_speed_mps_ = 0.02, least_yaw_rate_radps_ = 0.05;
   double belly_share_ = 0.1;  // a belly that only grazes carries less
 
   const HazardMap* map_ = nullptr;
@@ -171,9 +228,9 @@ class Stuck final : public Detector {
   std::vector<Kept> ring_;
   std::size_t count_ = 0, newest_ = 0;
   double period_s_ = kSampleS;
-  double clock_s_ = 0;  // time with a move commanded
-  Vec2 commanded_W_ = Vec2::Zero();
-  double angle_rad_ = 0, belly_ns_ = 0, folded_rad_ = 0;
+  Kept now_;
+  double further_than_m_ = 0;   // along the plan, the robot has not been
+  double turned_here_rad_ = 0;  // commanded on the spot since it got there
   std::int64_t ticks_ = 0;
   double last_t_s_ = 0;
   bool started_ = false, reported_ = false;

@@ -30,7 +30,7 @@ std::vector<Column> Columns() {
   for (int mode = 0; mode < kNumFailureModes; ++mode)
     columns.push_back({std::string(Name(static_cast<FailureMode>(mode))), count});
   for (const MetricColumn& metric : kMetrics) columns.push_back({std::string(metric.name), "REAL"});
-  for (const char* name : {"drawn", "plan", "events"}) columns.push_back({name, text});
+  for (const char* name : {"drawn", "plan", "events", "timeout"}) columns.push_back({name, text});
   return columns;
 }
 
@@ -116,10 +116,13 @@ struct CampaignStore::Statement {
       if (const int column = metric_columns[i];
           column >= 0 && sqlite3_column_type(handle, column) != SQLITE_NULL)
         row.metrics[i] = sqlite3_column_double(handle, column);
-    at = sqlite3_column_count(handle) - 3;
-    row.drawn = Text(at++);
-    row.plan = Text(at++);
-    row.events = Text(at);
+    for (at = 0; at < sqlite3_column_count(handle); ++at) {
+      const std::string_view name = sqlite3_column_name(handle, at);
+      if (name == "drawn") row.drawn = Text(at);
+      if (name == "plan") row.plan = Text(at);
+      if (name == "events") row.events = Text(at);
+      if (name == "timeout") row.timeout = Text(at);  // not in files of earlier versions
+    }
     return row;
   }
 
@@ -278,9 +281,13 @@ void CampaignStore::ReadAbout() {
 // What lies in a row's further pages no check of the database looks at.
 void CampaignStore::CheckTexts() const {
   for (const std::string table : {"episode", "extra"}) {
-    Statement damaged(*this, "SELECT episode FROM " + table +
-                                 " WHERE NOT (json_valid(drawn) AND json_valid(plan) AND "
-                                 "json_valid(events)) LIMIT 1");
+    Statement first(*this, "SELECT * FROM " + table + " LIMIT 1");
+    std::string texts = "json_valid(drawn) AND json_valid(plan) AND json_valid(events)";
+    for (int i = 0; i < sqlite3_column_count(first.handle);
+         ++i)  // not in files of earlier versions
+      if (sqlite3_column_name(first.handle, i) == std::string_view("timeout"))
+        texts += " AND json_valid(timeout)";
+    Statement damaged(*this, "SELECT episode FROM " + table + " WHERE NOT (" + texts + ") LIMIT 1");
     if (damaged.Step())
       throw InputError(
           {file_.string(), 0}, "", "",
@@ -327,7 +334,8 @@ void CampaignStore::Add(std::span<const EpisodeRow> rows) {
       insert.Bind(++at, row.message);
       for (const int n : row.events_of) insert.Bind(++at, std::int64_t{n});
       for (const auto& value : row.metrics) insert.Bind(++at, value);
-      for (const std::string* text : {&row.drawn, &row.plan, &row.events}) insert.Bind(++at, *text);
+      for (const std::string* text : {&row.drawn, &row.plan, &row.events, &row.timeout})
+        insert.Bind(++at, *text);
       insert.Step();
       insert.Again();
       timing.Bind(1, row.variant);

@@ -30,6 +30,7 @@ EpisodeRow MakeRow(const std::string& variant, const Scenario& s, const std::str
   row.drawn = DrawnJson(s.drawn).dump();
   row.plan = plan;
   row.events = EventsJson(record.events).dump();
+  row.timeout = TimeoutJson(record.timeout).dump();
   return row;
 }
 
@@ -54,11 +55,22 @@ std::vector<Event> EventsOf(const EpisodeRow& row) {
   }
 }
 
+std::optional<Timeout> TimeoutOf(const EpisodeRow& row) {
+  try {
+    const Json json = Json::parse(row.timeout);
+    if (json.is_null()) return std::nullopt;
+    return Timeout{
+        json.at("t_s"), {json.at("x_m"), json.at("y_m"), json.at("yaw_rad")}, json.at("hazard")};
+  } catch (const Json::exception& e) {
+    throw InternalError(e.what());
+  }
+}
+
 std::string ToLine(const EpisodeRow& row) {
   Json metrics = Json::array();
   for (const auto& value : row.metrics) metrics.push_back(value ? Json(*value) : Json(nullptr));
   return Json({row.variant, row.episode, row.outcome, row.message, row.events_of, metrics,
-               row.drawn, row.plan, row.events, row.wall_s})
+               row.drawn, row.plan, row.events, row.timeout, row.wall_s})
       .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -77,7 +89,8 @@ EpisodeRow FromLine(std::string_view line) {
     row.drawn = json.at(6).get<std::string>();
     row.plan = json.at(7).get<std::string>();
     row.events = json.at(8).get<std::string>();
-    row.wall_s = json.at(9).get<double>();
+    row.timeout = json.at(9).get<std::string>();
+    row.wall_s = json.at(10).get<double>();
     return row;
   } catch (const Json::exception& e) {
     throw InternalError(std::string("a worker's answer cannot be read: ") + e.what());

@@ -16,6 +16,7 @@ namespace floorproof {
 
 struct EpisodeRecord;
 struct Scenario;
+struct Timeout;
 
 struct EpisodeRow {
   std::string variant;
@@ -24,6 +25,7 @@ struct EpisodeRow {
   std::array<int, kNumFailureModes> events_of{};                 // by mode
   std::array<std::optional<double>, kMetrics.size()> metrics{};  // as kMetrics; none: not driven
   std::string drawn = "{}", plan = "{}", events = "[]";          // JSON, as in result.json
+  std::string timeout = "null";                                  // the same
   double wall_s = 0;                                             // told apart: not a result
 
   // Counts in rates: its outcome is the robot's.
@@ -42,6 +44,9 @@ EpisodeRow MakeRow(const std::string& variant, const Scenario& scenario, const s
 
 // Its events; their evidence is left out. Throws InternalError where the text is damaged.
 std::vector<Event> EventsOf(const EpisodeRow& row);
+
+// Where its time ran out, if that is its outcome. Throws InternalError where the text is damaged.
+std::optional<Timeout> TimeoutOf(const EpisodeRow& row);
 
 // One line of text, and back; throws InternalError on any other text.
 std::string ToLine(const EpisodeRow& row);

@@ -16,12 +16,13 @@ std::string Field(const Json& value) {
   return CsvField(value.is_string() ? value.get<std::string>() : value.dump());
 }
 
-// Which plan.* and drawn.* columns there are, in the order first met.
+// Which plan.*, drawn.* and timeout.* columns there are, in the order first met.
 struct CsvColumns {
-  std::vector<std::string> plan, drawn;
+  std::vector<std::string> plan, drawn, timeout;
   void See(const EpisodeRow& row) {
     SeeKeys(row.plan, plan);
     SeeKeys(row.drawn, drawn);
+    SeeKeys(row.timeout, timeout);
   }
 
  private:
@@ -51,6 +52,7 @@ std::string EpisodesCsv(const CampaignStore& store, const std::vector<Variant>& 
   for (const MetricColumn& metric : kMetrics) csv += "," + std::string(metric.name);
   for (const std::string& name : columns.plan) csv += ",plan." + CsvField(name);
   for (const std::string& name : columns.drawn) csv += ",drawn." + CsvField(name);
+  for (const std::string& name : columns.timeout) csv += ",timeout." + name;
   csv += "\n";
   for (const Variant& variant : variants)
     store.ForEach(variant.name, [&](const EpisodeRow& row) {
@@ -59,8 +61,12 @@ std::string EpisodesCsv(const CampaignStore& store, const std::vector<Variant>& 
       for (const int n : row.events_of) csv += fmt::format(",{}", n);
       for (const auto& value : row.metrics) csv += value ? fmt::format(",{}", *value) : ",";
       const Json plan = Json::parse(row.plan), drawn = Json::parse(row.drawn);
+      Json timeout = Json::parse(row.timeout);
+      if (timeout.is_null()) timeout = Json::object();
       for (const std::string& name : columns.plan) csv += "," + Field(plan.value(name, Json()));
       for (const std::string& name : columns.drawn) csv += "," + Field(drawn.value(name, Json()));
+      for (const std::string& name : columns.timeout)
+        csv += "," + Field(timeout.value(name, Json()));
       csv += "\n";
     });
   return csv;

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/episode/episode.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "base/streams.h"
+#include "env/failures/evidence.h"
 #include "env/sim/physics_plant.h"
 #include "run/episode/intervention.h"
-#include "run/episode/make_plan.h"
 #include "run/episode/path_error.h"
 #include "run/episode/plan_navigator.h"
+#include "run/episode/plan_progress.h"
 #include "run/episode/recorder.h"
 #include "run/episode/robot_side.h"
 
@@ -40,6 +43,12 @@ Stream StreamOf(const Scenario& s, const std::string& name) {
   return {static_cast<std::uint64_t>(s.episode.seed), s.episode_id, name};
 }
 
+std::string Text(const Timeout& timeout) {
+  return fmt::format("still on its way after {:.0f} s, at x {:.2f}, y {:.2f} m{}", timeout.t_s,
+                     timeout.X_WB.x_m, timeout.X_WB.y_m,
+                     timeout.hazard.empty() ? "" : ", " + timeout.hazard);
+}
+
 // The two sides of an episode, and who looks on: the plant, the robot's side, the person who helps,
 // the detectors, the recorder. They meet in the sample, which is written here alone.
 class Episode {
@@ -56,6 +65,10 @@ class Episode {
     }
     EpisodeRecord record = recorder_.Finish(*ended, sample_, plan_, robot_side_, s_.detectors,
                                             s_.episode.min_coverage, plant_.battery_left());
+    if (record.outcome == Outcome::kTimeout) {
+      record.timeout = Unfinished();
+      if (record.message.empty()) record.message = Text(*record.timeout);
+    }
     if (record.message.empty()) record.message = interventions_.why_not();
     return record;
   }
@@ -69,6 +82,7 @@ class Episode {
   void Act(const Actuation& actuation);
   void StartDetectors();
   bool Detect();
+  Timeout Unfinished() const;
 
   Scenario& s_;
   Plant& plant_;
@@ -78,7 +92,7 @@ class Episode {
   const RobotSpec& robot_;
   HazardMap known_;
   SweepArea area_;
-  double plan_s_, plan_m_, limit_s_;
+  double plan_m_, limit_s_ = 0;
   std::int64_t steps_a_control_;
   Recorder recorder_;
   Interventions interventions_;
@@ -86,6 +100,8 @@ class Episode {
   RobotSide robot_side_;
   Observation sensed_;
   Sample sample_;
+  PlanProgress progress_;
+  HazardMemory met_;
 };
 
 template <class T>
@@ -103,11 +119,9 @@ Episode::Episode(Scenario& s, Plant& plant, Simulation* simulation, const PlanRe
       robot_(s.robot.spec),
       known_(KnownPart(s.site.map)),
       area_(ComputeSweepArea(s.site.map, robot_.clear, robot_.tool, robot_.step_m, s.start.p())),
-      plan_s_(PlanDuration(plan.path, robot_.cruise_mps)),
       plan_m_(std::max(Length(plan.path), 1e-9)),
-      limit_s_(s.episode.time_limit_s.value_or(60 + 3 * plan_s_)),
       steps_a_control_(std::lround(1.0 / (s.episode.control_hz * s.physics.timestep_s))),
-      recorder_(s, area_, *plan.risk, plan_s_),
+      recorder_(s, area_, *plan.risk),
       interventions_(s),
       navigator_(plan, known_, robot_, OrNull(s.recovery)),
       robot_side_(robot_, known_, navigator_,
@@ -118,6 +132,9 @@ void Episode::Begin() {
   plant_.Reset(s_.start, sensed_);
   Look();
   robot_side_.Start(s_.start, StreamOf(s_, "estimator"));
+  const double plan_s = s_.tracker->Duration();
+  limit_s_ = s_.episode.time_limit_s.value_or(60 + 3 * plan_s);
+  recorder_.Expect(plan_s);
   StartDetectors();
 }
 
@@ -151,6 +168,9 @@ std::optional<Outcome> Episode::Step() {
   if (!good) return Outcome::kError;
   sample_.cross_track_m =
       CrossTrack(robot_side_.path(), sample_.command.segment, sample_.p_WB.head<2>());
+  sample_.progress_m = progress_.Update(robot_side_.path(), robot_side_.paths(),
+                                        sample_.command.segment, sample_.p_WB.head<2>());
+  met_.Update(sample_);
   recorder_.OnStep(sample_);
 
   if (interventions_.awaited()) return std::nullopt;  // that it does not get on is known
@@ -171,6 +191,12 @@ void Episode::Act(const Actuation& actuation) {
 void Episode::StartDetectors() {
   for (auto& [name, detector] : s_.detectors)
     detector->Start({s_.site.map, robot_, s_.physics.timestep_s});
+}
+
+// Where the time ran out, and what the robot met last.
+Timeout Episode::Unfinished() const {
+  constexpr double kRecall_s = 10;  // what was met longer ago does not keep it
+  return {sample_.t_s, sample_.X_WB(), met_.Recall(s_.site.map, sample_.t_s - kRecall_s)};
 }
 
 // True when one of them fired; all see every sample.

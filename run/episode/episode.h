@@ -35,11 +35,20 @@ struct Intervention {
   double yaw_rad = 0;  // as it was set down
 };
 
+// Where a robot was when its time ran out. That is an outcome and no failure: nothing says that the
+// robot would not have got there.
+struct Timeout {
+  double t_s = 0;
+  Pose2 X_WB;
+  std::string hazard;  // what held it or was near it, as Event::hazard
+};
+
 struct EpisodeRecord {
   Outcome outcome = Outcome::kError;
   std::string message;  // why, where the outcome alone does not say it
   std::vector<Event> events;
   std::vector<Intervention> interventions;
+  std::optional<Timeout> timeout;  // where that is the outcome
   Metrics metrics;
   std::vector<Margin> margins;
   std::vector<TraceRow> trace;

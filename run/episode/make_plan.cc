@@ -5,16 +5,6 @@
 
 namespace floorproof {
 
-double PlanDuration(const Path& path, double cruise_mps) {
-  constexpr double kFold_s = 30;  // for each change of shape: three hinges, half a turn each
-  double t_s = path.empty() ? 0 : path.front().dwell_s;
-  for (std::size_t i = 1; i < path.size(); ++i)
-    t_s += (path[i].p_W - path[i - 1].p_W).norm() /
-               (path[i].speed_mps > 0 ? path[i].speed_mps : cruise_mps) +
-           path[i].dwell_s + (path[i].shape != path[i - 1].shape ? kFold_s : 0);
-  return t_s;
-}
-
 PlanResult MakePlan(const Scenario& s) {
   const RobotSpec& robot = s.robot.spec;
   const HazardMap known = KnownPart(s.site.map);

@@ -10,7 +10,4 @@ namespace floorproof {
 // The plan of the scenario: its planner's, or the user's file. The planner gets what is known.
 PlanResult MakePlan(const Scenario& scenario);
 
-// What the plan takes at its own speeds, without stopping to turn, s.
-double PlanDuration(const Path& path, double cruise_mps);
-
 }  // namespace floorproof

@@ -14,20 +14,23 @@
 
 namespace floorproof {
 
-// Keeps what an episode leaves behind. Allocates up front; a longer episode than planned for grows
-// by halves.
+// Keeps what an episode leaves behind. Allocates up front; a longer episode than expected grows by
+// halves.
 class Recorder {
  public:
-  Recorder(const Scenario& s, const SweepArea& area, const RiskMap& risk, double expected_s)
+  Recorder(const Scenario& s, const SweepArea& area, const RiskMap& risk)
       : area_(area),
         robot_(s.robot.spec),
         meter_(area, s.robot.spec.tool),
         risk_(risk),
         dt_s_(s.physics.timestep_s),
-        shape_(s.robot.spec.shape) {
-    trace_every_ = s.episode.control_hz / s.episode.trace_hz;
-    record_.trace.reserve(
-        static_cast<std::size_t>(std::min(2e6, (expected_s + 60) * s.episode.trace_hz)));
+        trace_hz_(s.episode.trace_hz),
+        trace_every_(s.episode.control_hz / s.episode.trace_hz),
+        shape_(s.robot.spec.shape) {}
+
+  // Before the drive: how long it will take.
+  void Expect(double duration_s) {
+    record_.trace.reserve(static_cast<std::size_t>(std::min(2e6, (duration_s + 60) * trace_hz_)));
   }
 
   void OnControl(const Sample& sample, const Estimate& estimate) {
@@ -132,8 +135,6 @@ class Recorder {
       record_.message = fmt::format(
           "the battery cut off after {:.1f} s: {}", empty_s_,
           m.battery_left && *m.battery_left <= 0 ? "it was empty" : "it cannot feed that load");
-    if (record_.outcome == Outcome::kTimeout && record_.message.empty())
-      record_.message = fmt::format("still on its way after {:.0f} s", last.t_s);
     if (ended == Outcome::kError) record_.message = "the physics diverged";
     return std::move(record_);
   }
@@ -190,7 +191,7 @@ class Recorder {
   static constexpr double kMaxMm = 10000;  // errors beyond are counted together
   std::vector<std::int64_t> errors_mm_ =
       std::vector<std::int64_t>(static_cast<std::size_t>(kMaxMm));
-  int trace_every_ = 1;
+  int trace_hz_, trace_every_;
   std::int64_t control_ = 0;
   int shape_ = 0;  // the robot's, as in Sample
   double last_touch_s_ = -1e9;

@@ -101,6 +101,15 @@ Json EventsJson(const std::vector<Event>& events) {
   return json;
 }
 
+Json TimeoutJson(const std::optional<Timeout>& timeout) {
+  if (!timeout) return nullptr;
+  return {{"t_s", timeout->t_s},
+          {"x_m", timeout->X_WB.x_m},
+          {"y_m", timeout->X_WB.y_m},
+          {"yaw_rad", timeout->X_WB.yaw_rad},
+          {"hazard", timeout->hazard}};
+}
+
 Json DrawnJson(const Drawn& drawn) {
   Json json = Json::object();
   for (const auto& [key, value] : drawn) json[key] = ValueJson(value);
@@ -151,20 +160,22 @@ Json PlanJson(const Scenario& s, const PlanResult& plan) {
 Json ResultJson(const Scenario& s, const EpisodeRecord& record) {
   Json margins = Json::object();
   for (const auto& margin : record.margins) margins[margin.detector] = margin.value;
-  return {{"schema", 1},
-          {"scenario", s.name},
-          {"robot", s.robot_name},
-          {"site", s.site.map.name},
-          {"outcome", Name(record.outcome)},
-          {"message", record.message},
-          {"events", EventsJson(record.events)},
-          {"assists", InterventionsJson(record.interventions)},
-          {"metrics", MetricsJson(record.metrics)},
-          {"margins", std::move(margins)},
-          {"steps", record.steps},
-          {"seed", s.episode.seed},
-          {"drawn", DrawnJson(s.drawn)},
-          {"versions", VersionsJson()}};
+  Json json = {{"schema", 1},
+               {"scenario", s.name},
+               {"robot", s.robot_name},
+               {"site", s.site.map.name},
+               {"outcome", Name(record.outcome)},
+               {"message", record.message}};
+  if (record.timeout) json["timeout"] = TimeoutJson(record.timeout);
+  json.update({{"events", EventsJson(record.events)},
+               {"assists", InterventionsJson(record.interventions)},
+               {"metrics", MetricsJson(record.metrics)},
+               {"margins", std::move(margins)},
+               {"steps", record.steps},
+               {"seed", s.episode.seed},
+               {"drawn", DrawnJson(s.drawn)},
+               {"versions", VersionsJson()}});
+  return json;
 }
 
 std::string TraceCsv(const EpisodeRecord& record, const RobotSpec& robot) {

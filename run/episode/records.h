@@ -12,11 +12,13 @@ namespace floorproof {
 
 // plan.json's content: status, planner, length_m, turns, coverage, overlap, ...
 nlohmann::ordered_json PlanJson(const Scenario& scenario, const PlanResult& plan);
-// result.json's content: schema, outcome, events, metrics, margins, seed, versions. No wall times.
+// result.json's content: schema, outcome, timeout (where that is the outcome), events, metrics,
+// margins, seed, versions. No wall times.
 nlohmann::ordered_json ResultJson(const Scenario& scenario, const EpisodeRecord& record);
 // Its parts: what a campaign keeps of each episode.
 nlohmann::ordered_json MetricsJson(const Metrics& metrics);
 nlohmann::ordered_json EventsJson(const std::vector<Event>& events);
+nlohmann::ordered_json TimeoutJson(const std::optional<Timeout>& timeout);  // null: there was none
 nlohmann::ordered_json DrawnJson(const Drawn& drawn);
 nlohmann::ordered_json VersionsJson();
 std::string TraceCsv(const EpisodeRecord& record, const RobotSpec& robot);

@@ -56,6 +56,7 @@ void RobotSide::Perceive(const Observation& sensed) {
 void RobotSide::Follow() {
   parts_.tracker.Start(navigator_.path(), robot_, &clearance_);
   command_ = {};
+  ++paths_;
 }
 
 const Actuation& RobotSide::Actuate() {

@@ -46,6 +46,7 @@ class RobotSide {
   const Command& command() const { return command_; }
   const Actuation& actuation() const { return actuation_; }  // the drive may have slowed hinges
   const Path& path() const { return navigator_.path(); }
+  int paths() const { return paths_; }  // how many it has been given to follow
   const Estimate& estimate() const { return estimate_; }
   const ClearanceField& clearance() const { return clearance_; }  // of the known map
   const KnownMap* known() const { return mapper_ ? &mapper_->map() : nullptr; }
@@ -69,6 +70,7 @@ class RobotSide {
   Command command_;
   std::vector<double> wheel_radps_;
   Actuation actuation_;
+  int paths_ = 0;
 };
 
 }  // namespace floorproof

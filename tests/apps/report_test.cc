@@ -58,6 +58,8 @@ EpisodeRow Row(const std::string& variant, std::uint64_t id) {
   } else if (id == 4) {
     row.outcome = "timeout";
     row.message = "out of time";
+    row.timeout =
+        R"({"t_s": 98.76, "x_m": 3.25, "y_m": 1.5, "yaw_rad": 0, "hazard": "the last <sill>"})";
   }
   return row;
 }
@@ -126,7 +128,9 @@ TEST_F(ReportCommand, ListsEachFailingEpisodeWithItsCommand) {
   EXPECT_THAT(page, Not(HasSubstr("--variant robot=beluga")));
   EXPECT_THAT(page, HasSubstr("stuck (held)"));
   EXPECT_THAT(page, HasSubstr("x 1.50, y 0.75 m"));
-  EXPECT_THAT(page, HasSubstr("out of time"));
+  EXPECT_THAT(page, HasSubstr("the last &lt;sill&gt;")) << "what was near when time ran out";
+  EXPECT_THAT(page, HasSubstr("98.8 s"));
+  EXPECT_THAT(page, HasSubstr("x 3.25, y 1.50 m"));
 }
 
 TEST_F(ReportCommand, ComparesWithTheFirstVariantOverSharedEpisodes) {

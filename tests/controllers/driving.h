@@ -34,7 +34,7 @@ struct Driven {
     Pose2 X_WB;
     BodyTwist twist;  // commanded
     std::size_t segment = 0;
-    bool dwelling = false;
+    bool dwelling = false, turning = false;
     double cross_track_m = 0;
   };
   std::vector<Step> steps;

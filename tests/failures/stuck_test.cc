@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/failures/synthetic.h"
 
 namespace floorproof {
@@ -8,7 +10,10 @@ namespace {
 
 // Moves as `piece` says while `command` is asked for.
 Trace Commanded(const Piece& piece, const BodyTwist& command) {
-  return With(Drive({piece}), [&](Sample& s) { s.command.twist = command; });
+  return With(Drive({piece}), [&](Sample& s) {
+    s.command.twist = command;
+    s.command.turning = command.vx_mps == 0 && command.vy_mps == 0;
+  });
 }
 
 std::size_t Count(const Trace& trace, const std::string& yaml = "") {
@@ -22,6 +27,7 @@ Trace Append(Trace a, const Trace& b) {
     const Pose2 X_WB = last.X_WB() * sample.X_WB();
     sample.p_WB = {X_WB.x_m, X_WB.y_m, 0};
     sample.yaw_rad = X_WB.yaw_rad;
+    sample.progress_m += last.progress_m;
     a.push_back(sample);
   }
   return a;
@@ -41,7 +47,10 @@ TEST(Stuck, WindingAboutAsToldIsProgress) {
   for (int row = 0; row < 10; ++row) rows.push_back({2, {row % 2 ? -0.2 : 0.2, 0.005, 0}});
   EXPECT_EQ(Count(Drive(rows)), 0u);
   Trace held = Drive(rows);
-  for (Sample& s : held) s.p_WB *= 0.05;
+  for (Sample& s : held) {
+    s.p_WB *= 0.05;
+    s.progress_m *= 0.05;
+  }
   EXPECT_EQ(Count(held), 1u);
 }
 
@@ -55,9 +64,101 @@ TEST(Stuck, NeedsTheWholeWindow) {
   EXPECT_EQ(Count(Commanded({4, {}}, {0.2, 0, 0}), "{window_s: 3}"), 1u);
 }
 
-TEST(Stuck, TurningIsProgress) {
-  EXPECT_EQ(Count(Commanded({10.2, {0, 0, 0.048}}, {0.2, 0, 0.2})), 1u);
-  EXPECT_EQ(Count(Commanded({10.2, {0, 0, 0.052}}, {0.2, 0, 0.2})), 0u);
+// The plan runs along x from the origin.
+Trace AlongX(Trace trace) {
+  for (Sample& s : trace) s.progress_m = s.p_WB.x() - std::abs(s.p_WB.y());
+  return trace;
+}
+
+// Whoever is to move gains nothing by turning, or by turning to and fro.
+TEST(Stuck, SwayingIsNoProgress) {
+  EXPECT_EQ(Count(Commanded({10.2, {0, 0, 0.2}}, {0.2, 0, 0.2})), 1u);
+  std::vector<Piece> sway;
+  for (int i = 0; i < 24; ++i) sway.push_back({1, {0.05, 0, i % 2 ? 1.2 : -1.2}});
+  Trace held = With(Drive(sway), [](Sample& s) {
+    s.command.twist = {0.2, 0, 0.3};
+    s.command.turning = false;
+    s.p_WB.x() = 0.05 * std::sin(s.yaw_rad);
+    s.p_WB.y() = 0.05 * std::cos(s.yaw_rad);
+  });
+  EXPECT_EQ(Count(AlongX(held)), 1u);
+}
+
+TEST(Stuck, CirclingIsNoProgress) {
+  for (const double radius_m : {0.05, 0.15}) {
+    const Trace circles = AlongX(Drive({{30, {0.25, 0, 0.25 / radius_m}}}));
+    EXPECT_EQ(Count(circles), 1u) << radius_m;
+  }
+}
+
+TEST(Stuck, PushingForwardAndFallingBackIsNoProgress) {
+  for (const double way_m : {0.02, 0.1}) {
+    std::vector<Piece> pieces;
+    for (double t_s = 0; t_s < 24; t_s += way_m / 0.2 + way_m / 0.1)
+      pieces.insert(pieces.end(), {{way_m / 0.2, {0.2, 0, 0}}, {way_m / 0.1, {-0.1, 0, 0}}});
+    const Trace pushing = With(Drive(pieces), [](Sample& s) { s.command.twist = {0.2, 0, 0}; });
+    EXPECT_EQ(Count(AlongX(pushing)), 1u) << way_m;
+  }
+}
+
+// Back from what it met, around it, and on: less way gained than driven, but gained.
+TEST(Stuck, AReactionIsNoFailure) {
+  const Trace around = AlongX(Drive({{2, {0.25, 0, 0}},
+                                     {1.5, {-0.1, 0, 0}},
+                                     {1.3, {0, 0, 1.2}},
+                                     {1, {0.25, 0, 0}},
+                                     {1.3, {0, 0, -1.2}},
+                                     {8, {0.25, 0, 0}}}));
+  EXPECT_EQ(Count(around), 0u);
+}
+
+// It is not where its plan is, but nothing holds it: that is veering off.
+TEST(Stuck, GoingElsewhereIsNotStuck) {
+  for (const double speed_mps : {0.02, 0.25})
+    EXPECT_EQ(Count(AlongX(Commanded({60, {0, speed_mps, 0}}, {0, speed_mps, 0}))), 0u);
+  // Sliding aside at a share of what was asked for is another thing.
+  EXPECT_EQ(Count(AlongX(Commanded({20, {0, 0.05, 0}}, {0.25, 0, 0}))), 1u);
+}
+
+// However slow the plan: who obeys gets on, and who is held is found, later in proportion.
+TEST(Stuck, SlowPlansAreJudgedOverALongerTime) {
+  for (const double speed_mps : {0.001, 0.005, 0.01, 0.02, 0.05}) {
+    const double window_s = std::max(10.0, 10 * 0.02 / speed_mps);
+    const auto dut = MakeDetector("stuck");
+    EXPECT_TRUE(Judge(*dut, Drive({{3 * window_s, {speed_mps, 0, 0}}})).empty());
+    EXPECT_GT(dut->margin(), 0.1) << "well above the threshold";
+    const auto held = Judge(*dut, Commanded({1.1 * window_s, {}}, {speed_mps, 0, 0}));
+    ASSERT_EQ(held.size(), 1u) << speed_mps;
+    EXPECT_NEAR(held[0].t_s, window_s, 0.03 * window_s);
+    EXPECT_GE(held[0].threshold, 0.05 - 1e-6);
+  }
+}
+
+// One place of a plan asks for a turn or two, and not for one after the other.
+TEST(Stuck, BeingTurnedAwayAgainAndAgainIsNoProgress) {
+  EXPECT_EQ(Count(Drive({{6, {0, 0, 1}}, {3, {0.2, 0, 0}}, {6, {0, 0, -1}}, {3, {0.2, 0, 0}}})),
+            0u);
+  std::vector<Piece> turns;
+  for (int i = 0; i < 20; ++i)
+    turns.insert(turns.end(),
+                 {{1.5, {0, 0, i % 2 ? 1.0 : -1.0}}, {0.2, {0.1, 0, 0}}, {0.2, {-0.1, 0, 0}}});
+  EXPECT_EQ(Count(AlongX(Drive(turns))), 1u);
+}
+
+// Blocks that turn on their hinges as told get on; one that is held does not.
+TEST(Stuck, FoldingIsProgress) {
+  const auto fold = [](double done_radps) {
+    return With(Drive({{15, {}}}), [done_radps](Sample& s) {
+      s.command.turning = true;
+      s.command.twist = {0.003, 0, 0};  // holding its place
+      s.hinges.n = s.command.hinges.n = 3;
+      s.command.hinges.radps[1] = -0.3;
+      s.hinges.radps[1] = done_radps;
+    });
+  };
+  EXPECT_EQ(Count(fold(-0.3)), 0u);
+  EXPECT_EQ(Count(fold(0)), 1u);
+  EXPECT_EQ(Count(fold(0.3)), 1u) << "the wrong way";
 }
 
 TEST(Stuck, ACommandedTurnOnTheSpotIsAMove) {

@@ -50,6 +50,7 @@ const EpisodeContext& TestContext() {
 Trace Drive(const std::vector<Piece>& pieces) {
   Trace trace;
   Pose2 X_WB;
+  double progress_m = 0;
   for (const Piece& piece : pieces) {
     const auto steps = static_cast<int>(std::lround(piece.duration_s / kStepS));
     for (int i = 0; i < steps; ++i) {
@@ -63,6 +64,9 @@ Trace Drive(const std::vector<Piece>& pieces) {
       sample.V_WB_B = v;
       sample.command.twist = v;
       sample.command.dwelling = piece.dwelling;
+      sample.command.turning = v.vx_mps == 0 && v.vy_mps == 0 && v.wz_radps != 0;
+      progress_m += std::hypot(v.vx_mps, v.vy_mps) * kStepS;
+      sample.progress_m = progress_m;
       sample.cross_track_half_width_m = 1;
       sample.wheel_contacts = 3;
       sample.support_margin_m = 0.05;
@@ -80,7 +84,7 @@ Trace DriveInto(const Hit& hit) {
     const double t_s = sample.t_s - kImpactS;
     const double speed_mps = t_s < kStepS / 2 ? hit.speed_mps : hit.after(t_s);
     x_m += speed_mps * kStepS;
-    sample.p_WB.x() = x_m;
+    sample.p_WB.x() = sample.progress_m = x_m;
     sample.v_WB_W.x() = sample.V_WB_B.vx_mps = speed_mps;
     if (t_s < -kStepS / 2) continue;
     if (t_s > kStepS / 2) sample.command.twist.vx_mps = hit.command_after_mps;

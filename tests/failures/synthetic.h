@@ -21,7 +21,8 @@ inline constexpr int kStepHazard = 0, kGlassHazard = 1;
 
 using Trace = std::vector<Sample>;
 
-// Motion from rest at the origin, a constant body twist per piece, followed exactly.
+// Motion from rest at the origin, a constant body twist per piece, followed exactly: as the plan
+// wants it.
 struct Piece {
   double duration_s = 0;
   BodyTwist twist;

@@ -41,6 +41,7 @@ EpisodeRow Row(std::uint64_t episode, const std::string& variant = "default") {
   row.drawn = R"({"site.floor.friction": 0.30000000000000004})";
   row.plan = R"({"status": "success"})";
   row.events = R"([{"mode": "stuck"}])";
+  row.timeout = R"({"t_s": 60, "x_m": 1.5, "y_m": 2, "yaw_rad": 0, "hazard": "it's"})";
   row.wall_s = 0.25;
   return row;
 }
@@ -48,7 +49,7 @@ EpisodeRow Row(std::uint64_t episode, const std::string& variant = "default") {
 bool Same(const EpisodeRow& a, const EpisodeRow& b) {
   return a.variant == b.variant && a.episode == b.episode && a.outcome == b.outcome &&
          a.message == b.message && a.events_of == b.events_of && a.metrics == b.metrics &&
-         a.drawn == b.drawn && a.plan == b.plan && a.events == b.events;
+         a.drawn == b.drawn && a.plan == b.plan && a.events == b.events && a.timeout == b.timeout;
 }
 
 class CampaignStoreTest : public ::testing::Test {
@@ -222,6 +223,26 @@ TEST_F(CampaignStoreTest, OneAtATimeWrites) {
   Make(2);
   const CampaignStore first = CampaignStore::Open(file_, true);
   EXPECT_THAT(WhyRefused(true), HasSubstr("is in use by another campaign"));
+}
+
+// Of a version that did not keep where time ran out.
+TEST_F(CampaignStoreTest, AFileWithoutTimeoutsIsReadAndNotGoneOnWith) {
+  Make(3);
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(file_.c_str(), &db), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(db,
+                         "ALTER TABLE episode DROP COLUMN timeout;"
+                         "ALTER TABLE extra DROP COLUMN timeout",
+                         nullptr, nullptr, nullptr),
+            SQLITE_OK);
+  sqlite3_close(db);
+  EXPECT_THAT(WhyRefused(true), HasSubstr("has no column timeout"));
+  const CampaignStore dut = CampaignStore::Open(file_, false);
+  const auto row = dut.Find("default", 2);
+  ASSERT_TRUE(row);
+  EXPECT_EQ(row->events, Row(2).events);
+  EXPECT_EQ(row->timeout, "null");
+  EXPECT_FALSE(TimeoutOf(*row));
 }
 
 // What a kill while it was made leaves behind is no campaign, and in nobody's way.

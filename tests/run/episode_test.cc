@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/episode/episode.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -101,6 +102,47 @@ TEST_F(EpisodeTest, ATimeLimitIsATimeoutAndNoFailure) {
   EXPECT_EQ(dut.outcome, Outcome::kTimeout);
   EXPECT_TRUE(dut.events.empty());
   EXPECT_NEAR(dut.metrics.duration_s, 3, 0.03);
+}
+
+TEST_F(EpisodeTest, ATimeoutSaysWhereAndByWhat) {
+  const Scenario scenario = Read(RoomScenario(""));
+  const EpisodeRecord open = Drive(Read(RoomScenario("", "time_limit_s: 3\n")));
+  ASSERT_TRUE(open.timeout);
+  EXPECT_EQ(open.timeout->t_s, open.metrics.duration_s);
+  EXPECT_EQ(open.timeout->hazard, "") << "nothing was near";
+  const auto json = ResultJson(scenario, open).at("timeout");
+  EXPECT_NEAR(json.at("x_m"), open.trace.back().x_m, 1e-6);
+  EXPECT_NEAR(json.at("y_m"), open.trace.back().y_m, 1e-6);
+  EXPECT_THAT(open.message, ::testing::HasSubstr("at x 2."));
+  // At a sill that is too high, before ten seconds have shown that it holds.
+  const EpisodeRecord held = Drive(Read(RoomScenario(
+      "{id: sill, type: step, height_m: 0.04, known: false, polygon_m: [[2.5, 1], [3, 1], [3, 4], "
+      "[2.5, 4]]}",
+      "time_limit_s: 8\n")));
+  ASSERT_TRUE(held.timeout) << held.message;
+  EXPECT_EQ(held.timeout->hazard, "sill");
+  EXPECT_NEAR(held.timeout->X_WB.x_m, 2.5 - 0.18, 0.08);
+  EXPECT_THAT(held.message, ::testing::HasSubstr("sill"));
+  // Any other outcome has none.
+  EXPECT_FALSE(ResultJson(scenario, Drive(Read(RoomScenario("")))).contains("timeout"));
+}
+
+// 60 right angles, and a minute of dwells: the limit knows them.
+TEST_F(EpisodeTest, TheDefaultTimeLimitCountsTurnsAndDwells) {
+  std::string stairs = "x_m,y_m,dwell_s\n";
+  Vec2 p(1.5, 2.5);
+  for (int i = 0; i < 60; ++i) {
+    stairs += fmt::format("{:.2f},{:.2f},{}\n", p.x(), p.y(), i % 10 == 0 ? 10 : 0);
+    if (i % 2 == 0)
+      p.x() += 0.15;
+    else
+      p.y() += i % 4 == 1 ? 0.15 : -0.15;
+  }
+  Save("plan.csv", stairs);
+  for (const char* robot : {"beluga", "htetro"}) {
+    const EpisodeRecord dut = Drive(Read(RoomScenario(""), {{"robot", robot}}));
+    EXPECT_EQ(dut.outcome, Outcome::kSuccess) << dut.message;
+  }
 }
 
 TEST_F(EpisodeTest, LessCoverageThanAskedForIsNoSuccess) {

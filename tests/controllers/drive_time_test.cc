@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a plan will take, foretold: sums and orderings. How near drives come to it is told by
+// polylines_test.cc.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/controllers/driving.h"
+
+namespace floorproof {
+namespace {
+
+// By the tracker of this robot.
+double Foretold(const Path& path, const RobotSpec& robot = RoundRobot()) {
+  const auto dut = MakePlugin(Trackers(), DefaultTracker(robot.drive), "controller");
+  dut->Start(path, robot, nullptr);
+  return dut->Duration();
+}
+
+// 40 legs of 0.3 m, each at this angle to the one before, left and right in turn.
+Path Zigzag(double turn_rad) {
+  std::vector<Vec2> points = {{0, 0}};
+  for (int i = 0; i < 40; ++i) {
+    const double heading_rad = i % 2 * turn_rad;
+    points.push_back(points.back() + 0.3 * Vec2(std::cos(heading_rad), std::sin(heading_rad)));
+  }
+  return MakePath(points);
+}
+
+TEST(DriveTime, OfALongStraightIsItsLengthByItsSpeed) {
+  for (const double speed_mps : {0.002, 0.01, 0.1, 0.4}) {
+    Path path = MakePath({{0, 0}, {20, 0}});
+    path[1].speed_mps = speed_mps;
+    const double least_s = 20 / speed_mps;
+    EXPECT_GT(Foretold(path), least_s);
+    EXPECT_LT(Foretold(path), least_s + 3);
+  }
+}
+
+TEST(DriveTime, TurnsTakeTime) {
+  for (const RobotSpec& robot : TestRobots()) {
+    double last_s = Foretold(Zigzag(0), robot);
+    for (const double turn_rad : {0.5, 1.0, kPi / 2, 2.5, kPi}) {
+      const double now_s = Foretold(Zigzag(turn_rad), robot);
+      EXPECT_GT(now_s, last_s) << robot.name << " " << turn_rad;
+      last_s = now_s;
+    }
+    // 39 half turns, none faster than the robot can.
+    EXPECT_GT(last_s, 39 * kPi / robot.max_yaw_rate_radps);
+  }
+}
+
+TEST(DriveTime, HeldYawNeedsNoTurns) {
+  Path path = Zigzag(kPi / 2);
+  const double turned_s = Foretold(path, HolonomicRobot());
+  for (Waypoint& waypoint : path) waypoint.yaw_rad = 0.3;
+  EXPECT_LT(Foretold(path, HolonomicRobot()), turned_s - 39);
+}
+
+TEST(DriveTime, DwellsAddTheirTime) {
+  Path path = Zigzag(kPi / 2);
+  const double without_s = Foretold(path);
+  path.front().dwell_s = 7;
+  path[5].dwell_s = 100;
+  path.back().dwell_s = 3;
+  EXPECT_NEAR(Foretold(path), without_s + 110, 1e-6);
+}
+
+TEST(DriveTime, FoldingTakesTime) {
+  for (const RobotSpec& robot : TestRobots()) {
+    if (robot.shapes.size() < 2) continue;
+    Path path = MakePath({{0, 0}, {1, 0}, {2, 0}});
+    const double without_s = Foretold(path, robot);
+    path[2].shape = robot.shapes[robot.shape == 0 ? 1 : 0].name;
+    const double folded_s = Foretold(path, robot);
+    EXPECT_GT(folded_s, without_s + kPi / 2 / 0.35) << "a quarter turn of a hinge at least";
+    EXPECT_LT(folded_s, without_s + 120);
+  }
+}
+
+TEST(DriveTime, OfNothingIsNone) {
+  EXPECT_EQ(Foretold({}), 0);
+  EXPECT_EQ(Foretold(MakePath({{1, 2}})), 0);
+  EXPECT_EQ(Foretold(MakePath({{1, 2}, {1, 2}})), 0);
+}
+
+}  // namespace
+}  // namespace floorproof
