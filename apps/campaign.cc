@@ -60,10 +60,14 @@ class Progress final : public CampaignObserver {
       const VariantProgress& at = p.variants[v];
       if (at.n == 0) continue;
       text +=
-          fmt::format("; {}{} of {} fail (at most {:.2g} %)",
-                      p.variants.size() > 1 ? variants_[v].name + ": " : "", at.any_failure, at.n,
-                      100 * ClopperPearsonUpper(static_cast<int>(at.any_failure),
-                                                static_cast<int>(at.n), kReportedConfidence));
+          fmt::format("; {}{} of {} fail", p.variants.size() > 1 ? variants_[v].name + ": " : "",
+                      at.any_failure, at.n);
+      text +=
+          at.repetition.repeated()
+              ? " (one episode, repeated)"
+              : fmt::format(" (at most {:.2g} %)",
+                            100 * ClopperPearsonUpper(static_cast<int>(at.any_failure),
+                                                      static_cast<int>(at.n), kReportedConfidence));
     }
     return text;
   }

@@ -19,6 +19,7 @@ void SayRates(const CampaignSummary& summary, const Globals& globals) {
         fmt::format("{}: {} episodes, {} success, {} failure, {} timeout; {} errors, {} without a "
                     "plan",
                     v.name, v.n, v.success, v.failure, v.timeout, v.errors, v.not_planned));
+    if (v.repeated) globals.Say("  " + RepetitionText(v));
     if (!v.first_error.empty()) globals.Say("  the first error: " + v.first_error);
     for (const FailureRate& rate : v.failures) {
       if (rate.n == 0) continue;

@@ -8,6 +8,7 @@
 
 #include "apps/command.h"
 #include "run/campaign/campaign_comparison.h"
+#include "run/scenario/chance.h"
 
 namespace floorproof {
 namespace {
@@ -104,6 +105,11 @@ void AddCompare(CommandLine& line, const Globals& globals, int& status) {
     globals.Result(ComparisonJson(comparison));
     globals.Say(fmt::format("a: {}\nb: {}\n{} episodes in both, with the same draws", comparison.a,
                             comparison.b, comparison.n));
+    if (comparison.repeats > 0)
+      globals.Say(
+          fmt::format("one pair, repeated: all {} came out the same on both sides, to the "
+                      "last bit, and count once; {}",
+                      comparison.repeats, kHowToDiffer));
     if (comparison.only_a + comparison.only_b > 0)
       globals.Say(fmt::format("left out: {} that only a planned or drove, {} that only b did",
                               comparison.only_a, comparison.only_b));

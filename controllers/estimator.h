@@ -29,6 +29,9 @@ class Estimator : public Configurable {
  public:
   // What it cannot do without.
   virtual std::vector<Reading> Needs() const { return {}; }
+  // Whether what it thinks hangs on its stream, beyond what it is told; false: another episode's
+  // stream changes nothing.
+  virtual bool draws() const { return true; }
   // Throws InputError where map or robot do not let it work, its line beginning with the key: it is
   // heard when a scenario is read (run/scenario/start_check.h).
   virtual void Start(const EstimatorContext& context) = 0;

@@ -12,6 +12,7 @@ namespace {
 class OdometryEstimator final : public Estimator {
  public:
   void Visit(ParamVisitor& v) override { error_.Visit(v); }
+  bool draws() const override { return false; }
   std::vector<Reading> Needs() const override { return {Reading::kWheels, Reading::kImu}; }
 
   void Start(const EstimatorContext& context) override {

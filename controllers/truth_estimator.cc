@@ -11,6 +11,7 @@ class TruthEstimator final : public Estimator {
  public:
   // It takes no heed of them: a campaign may draw them for all the estimators of its variants.
   void Visit(ParamVisitor& v) override { ignored_.Visit(v); }
+  bool draws() const override { return false; }
   std::vector<Reading> Needs() const override { return {Reading::kTruth}; }
   void Start(const EstimatorContext& context) override {
     estimate_ = {};

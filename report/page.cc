@@ -16,6 +16,9 @@ namespace {
 std::string RateSentence(const VariantSummary& v) {
   if (v.failures.empty() || v.failures.front().n == 0) return "drove in no episode that counts";
   const FailureRate& rate = v.failures.front();
+  if (v.repeated)
+    return fmt::format("{} in its one episode, which was driven {} times",
+                       rate.k == 0 ? "did not fail" : "failed", v.n);
   const std::string times = rate.k == 0 ? fmt::format("in none of {} episodes", rate.n)
                                         : fmt::format("in {} of {} episodes ({})", rate.k, rate.n,
                                                       PercentText(rate.rate));

@@ -31,6 +31,7 @@ struct ReportDifference {
 // Two variants over the episodes that count in both.
 struct ReportPair {
   std::string a{}, b{};
+  int repeats = 0;  // pairs that came out the same and count as one; 0: they differ
   int both = 0, only_a = 0, only_b = 0, neither = 0;   // failed
   double difference = 0, lower = 0, upper = 0, p = 1;  // of the failure rates, b - a
   std::vector<ReportDifference> metrics{};

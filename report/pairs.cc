@@ -31,6 +31,7 @@ ReportDifference Difference(const ComparedMetric& metric, const Shown& shown) {
 ReportPair ShownPair(const Comparison& comparison) {
   const ComparedFailure& any = comparison.failures.front();
   ReportPair pair{.a = comparison.a, .b = comparison.b};
+  pair.repeats = comparison.repeats;
   pair.both = any.both;
   pair.only_a = any.only_a;
   pair.only_b = any.only_b;

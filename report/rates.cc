@@ -190,6 +190,11 @@ std::string PairSentence(const ReportPair& pair) {
   if (pair.n() == 0)
     return fmt::format("<b>{}</b> and <b>{}</b> share no episode that counts.", b, a);
   // By the exact test: with few pairs the score interval can leave out 0 where it does not.
+  if (pair.repeats > 0)
+    return fmt::format(
+        "<b>{}</b> against <b>{}</b>: one pair of episodes, repeated: all {} came out the same, to "
+        "the last bit.",
+        b, a, pair.repeats);
   const bool clear = pair.p <= 1 - kReportedConfidence;
   const std::string verdict = !clear                ? "no clear difference"
                               : pair.difference > 0 ? fmt::format("<b>{}</b> fails more often", b)
@@ -239,6 +244,7 @@ std::string VariantsTable(const Report& report) {
 
 std::string VariantRates(const Report& report, const VariantSummary& v) {
   std::string html = Outcomes(v);
+  if (v.repeated) html += "<p class=\"note\">" + MarkupText(RepetitionText(v)) + ".</p>\n";
   html += RatesTable(report, "Failure", Names(v.failures, true), v.failures, true);
   html += PerTable(v);
   if (!v.kinds.empty())

@@ -12,6 +12,7 @@ namespace {
 class Bumper final : public Sensor {
  public:
   Reading Fills() const override { return Reading::kBump; }
+  bool draws() const override { return false; }
   void Visit(ParamVisitor& v) override {
     v("force_n", force_n_, Positive(), "that presses it (N)");
   }

@@ -15,6 +15,7 @@ namespace {
 class Cliff final : public Sensor {
  public:
   Reading Fills() const override { return Reading::kCliffs; }
+  bool draws() const override { return false; }
   void Visit(ParamVisitor& v) override {
     v("reach_m", reach_m_, Between(0.005, 1), "a floor lower than this is a drop (m)");
     v("inset_m", inset_m_, Between(0, 0.5), "from the robot's edge inwards to the sensors (m)");

@@ -17,6 +17,7 @@ namespace {
 class Encoders final : public Sensor {
  public:
   Reading Fills() const override { return Reading::kWheels; }
+  bool draws() const override { return noise_ > 0; }
   void Visit(ParamVisitor& v) override {
     v("ticks", ticks_, Between(1, 1e7), "a wheel's turn is counted in");
     v("noise", noise_, Between(0, 1), "standard deviation of a period's turn, as a share of it");

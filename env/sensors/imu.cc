@@ -13,6 +13,9 @@ namespace {
 class Imu final : public Sensor {
  public:
   Reading Fills() const override { return Reading::kImu; }
+  bool draws() const override {
+    return gyro_noise_ > 0 || gyro_bias_ > 0 || accel_noise_ > 0 || accel_bias_ > 0;
+  }
   void Visit(ParamVisitor& v) override {
     v("gyro_noise_radps", gyro_noise_, NonNegative(), "standard deviation of each reading (rad/s)");
     v("gyro_bias_radps", gyro_bias_, NonNegative(),

@@ -24,6 +24,7 @@ constexpr double kThrough_m = 1e-4;  // beyond a surface that let it pass
 class Lidar final : public Sensor {
  public:
   Reading Fills() const override { return Reading::kScan; }
+  bool draws() const override { return noise_m_ > 0 || noise_share_ > 0 || dropout_ > 0; }
   void Visit(ParamVisitor& v) override {
     v("beams", beams_, Between(1, 3600), "in a turn, evenly spaced from straight ahead");
     v("rate_hz", rate_hz_, Between(0.1, 100), "turns a second");

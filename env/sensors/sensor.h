@@ -31,6 +31,9 @@ class Sensor : public Configurable {
  public:
   // The part of the Observation that it fills, and it alone: a robot carries one sensor of each.
   virtual Reading Fills() const = 0;
+  // Whether what it tells hangs on its stream, as its parameters are; false: another episode's
+  // stream changes nothing.
+  virtual bool draws() const { return true; }
   // Before the first step, the robot standing at its start; `noise` is this episode's stream of
   // this sensor. Sizes what Sense() fills. Throws InputError where the robot cannot carry it, its
   // line beginning with the key: it is heard when a scenario is read (run/scenario/start_check.h).

@@ -9,6 +9,7 @@ namespace {
 class TruthSensor final : public Sensor {
  public:
   Reading Fills() const override { return Reading::kTruth; }
+  bool draws() const override { return false; }
   void Visit(ParamVisitor&) override {}
   void Start(const SensorContext&, const mjData*, const Truth& truth, const Stream&,
              Observation& out) override {

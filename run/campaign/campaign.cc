@@ -25,6 +25,7 @@ struct Brief {
   bool counts = false, error = false, any_failure = false;
   std::optional<bool> gated;  // whether the gate counts it as a failure; none: it does not count
   std::array<bool, kNumFailureModes> failed{};
+  std::string result;  // its hash
 };
 
 // One variant's ids: which are done, and what the prefix says.
@@ -42,6 +43,7 @@ class PrefixTally {
     for (std::size_t m = 0; m < brief.failed.size(); ++m) brief.failed[m] = row.events_of[m] > 0;
     brief.any_failure = row.any_failure();
     if (gate_ && gate_->Judges(row)) brief.gated = gate_->Fails(row);
+    if (!brief.error) brief.result = row.ResultHash();
     early_.emplace(row.episode, brief);
     // A decision is the prefix's, whatever comes later.
     for (auto next = early_.find(progress_.prefix); next != early_.end() && !decided();
@@ -65,7 +67,8 @@ class PrefixTally {
   void Take(const Brief& brief) {
     ++progress_.prefix;
     progress_.errors += brief.error;
-    if (brief.gated) progress_.gate->Add(*brief.gated);
+    if (brief.gated) progress_.gate->Add(*brief.gated, brief.result);
+    if (!brief.error) progress_.repetition.Add(brief.result);
     if (!brief.counts) return;
     ++progress_.n;
     for (std::size_t m = 0; m < brief.failed.size(); ++m) progress_.failures[m] += brief.failed[m];

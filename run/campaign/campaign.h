@@ -36,6 +36,7 @@ struct VariantProgress {
   std::uint64_t n = 0;       // of those, with an outcome that counts
   std::array<std::uint64_t, kNumFailureModes> failures{};
   std::uint64_t any_failure = 0, errors = 0;
+  Repetition repetition;
   std::optional<GateState> gate;
 };
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "run/campaign/repetition.h"
 #include "stats/paired.h"
 
 namespace floorproof {
@@ -18,6 +19,7 @@ using Json = nlohmann::ordered_json;
 // A row without its texts, of which a hundred thousand would not fit.
 struct BriefRow {
   EpisodeRow row;
+  std::string result;        // its hash
   std::vector<double> plan;  // its figures, in the order of PlanFigures; NaN: not there
 };
 struct Pair {
@@ -56,7 +58,8 @@ class PlanFigures {
 std::vector<Pair> Pairs(const CampaignStore& a, const CampaignStore& b, PlanFigures& figures,
                         Comparison& out) {
   const auto brief = [&](EpisodeRow row) {
-    BriefRow kept{std::move(row), {}};
+    BriefRow kept{std::move(row), {}, {}};
+    kept.result = kept.row.ResultHash();
     kept.plan = figures.Read(kept.row.plan);
     kept.row.plan.clear();
     kept.row.events.clear();
@@ -87,12 +90,32 @@ std::vector<Pair> Pairs(const CampaignStore& a, const CampaignStore& b, PlanFigu
   return pairs;
 }
 
+// Pairs that came out the same on both sides are one pair, driven again.
+void JoinRepeated(std::vector<Pair>& pairs, Comparison& out) {
+  Repetition repetition;
+  for (const Pair& pair : pairs) repetition.Add(pair.a.result + pair.b.result);
+  if (!repetition.repeated()) return;
+  out.repeats = out.n;
+  out.n = 1;
+  pairs.resize(1);
+}
+
+// What sums of numbers as large as these may have by rounding where they should have nothing.
+double Rounding(const std::vector<Pair>& pairs, std::size_t figure) {
+  double largest = 1;
+  for (const Pair& pair : pairs)
+    for (const BriefRow* row : {&pair.a, &pair.b})
+      if (const double value = PlanFigures::Of(*row, figure); !std::isnan(value))
+        largest = std::max(largest, std::abs(value));
+  return 1e-12 * largest;
+}
+
 // -1 where b is lower than a, 0 where they are the same but for rounding, 1 where it is higher;
 // none: one of them is not there.
-std::optional<int> Order(double a, double b) {
+std::optional<int> Order(double a, double b, double rounding) {
   constexpr double kSame = 1e-9;
   if (std::isnan(a) || std::isnan(b)) return std::nullopt;
-  const double same = kSame * std::abs(a);
+  const double same = std::max(kSame * std::abs(a), rounding);
   return b - a < -same ? -1 : b - a > same ? 1 : 0;
 }
 
@@ -101,13 +124,14 @@ ComparedPlanFigure ComparePlans(const std::string& name, std::size_t figure,
   ComparedPlanFigure out;
   out.figure = name;
   std::vector<double> a, b, change;
+  const double rounding = Rounding(pairs, figure);
   for (const Pair& pair : pairs) {
     const double of_a = PlanFigures::Of(pair.a, figure), of_b = PlanFigures::Of(pair.b, figure);
-    const std::optional<int> order = Order(of_a, of_b);
+    const std::optional<int> order = Order(of_a, of_b, rounding);
     if (!order) continue;
     a.push_back(of_a);
     b.push_back(of_b);
-    if (of_a != 0) change.push_back((of_b - of_a) / of_a);
+    if (std::abs(of_a) > rounding) change.push_back((of_b - of_a) / of_a);
     ++(*order < 0 ? out.lower : *order > 0 ? out.higher : out.same);
   }
   out.n = static_cast<int>(a.size());
@@ -120,12 +144,14 @@ ComparedPlanFigure ComparePlans(const std::string& name, std::size_t figure,
 
 ComparedPlans CompareRiskAndLength(const PlanFigures& figures, const std::vector<Pair>& pairs) {
   const std::size_t risk = figures.Find("cumulative_risk"), length = figures.Find("length_m");
+  const double risk_rounding = Rounding(pairs, risk), length_rounding = Rounding(pairs, length);
   ComparedPlans out;
   for (const Pair& pair : pairs) {
-    const auto order = [&](std::size_t figure) {
-      return Order(PlanFigures::Of(pair.a, figure), PlanFigures::Of(pair.b, figure));
+    const auto order = [&](std::size_t figure, double rounding) {
+      return Order(PlanFigures::Of(pair.a, figure), PlanFigures::Of(pair.b, figure), rounding);
     };
-    const std::optional<int> by_risk = order(risk), by_length = order(length);
+    const std::optional<int> by_risk = order(risk, risk_rounding),
+                             by_length = order(length, length_rounding);
     if (!by_risk || !by_length) continue;
     ++out.n;
     out.both_lower += *by_risk < 0 && *by_length < 0;
@@ -172,7 +198,8 @@ Comparison CompareVariants(const CampaignStore& a, const std::string& variant_a,
   Comparison out;
   out.a = variant_a;
   out.b = variant_b;
-  const std::vector<Pair> pairs = Pairs(a, b, figures, out);
+  std::vector<Pair> pairs = Pairs(a, b, figures, out);
+  JoinRepeated(pairs, out);
   out.failures.push_back(CompareFailures("any_failure", pairs,
                                          [](const EpisodeRow& row) { return row.any_failure(); }));
   for (std::size_t m = 0; m < kNumFailureModes; ++m)
@@ -227,6 +254,7 @@ Json ComparisonJson(const Comparison& c) {
   return {{"a", c.a},
           {"b", c.b},
           {"n", c.n},
+          {"repeats", c.repeats},
           {"only_a", c.only_a},
           {"only_b", c.only_b},
           {"confidence", kReportedConfidence},

@@ -31,7 +31,7 @@ struct ComparedPlanFigure {
   std::string figure;
   int n = 0;                            // pairs that both have it
   Quartiles a, b;                       // of its values
-  std::optional<Quartiles> change;      // (b - a) / a; none: some a is 0
+  std::optional<Quartiles> change;      // (b - a) / a; none: some a is 0, but for rounding
   int lower = 0, same = 0, higher = 0;  // b against a, to 1e-9 of a
 };
 // Risk and length of the plans together: a plan may buy the one with the other.
@@ -43,7 +43,8 @@ struct ComparedPlans {
 };
 struct Comparison {
   std::string a, b;
-  int n = 0;  // pairs of episodes that count in both: no errors, none without a plan
+  int n = 0;        // pairs of episodes that count in both: no errors, none without a plan
+  int repeats = 0;  // pairs that came out the same, to the last bit, and count as one: n is 1
   int only_a = 0, only_b = 0;  // episodes that count on one side alone
   std::vector<ComparedFailure> failures;
   std::vector<ComparedMetric> metrics;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/campaign/campaign_gate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "run/scenario/chance.h"
 
 namespace floorproof {
 
@@ -17,6 +21,34 @@ void GateParams::Visit(ParamVisitor& v) {
     "fixed: judged once, at the last episode; sequential: as soon as the evidence is enough");
   v("min_n", min_n, Between(1, 1e8), "sequential: fewest episodes that a verdict stands on");
   v("max_n", max_n, Between(1, 1e8), "most episodes judged; none: the campaign's -n");
+}
+
+void GateState::Add(bool failed, const std::string& result) {
+  if (decided()) return;
+  repetition_.Add(result);
+  if (repetition_.n() == 1) first_failed_ = failed;
+  if (repetition_.repeated()) {
+    ++held_;
+    return;
+  }
+  for (; held_ > 0; --held_) gate_.Add(first_failed_);
+  gate_.Add(failed);
+}
+
+void GateState::End() {
+  ended_ = true;
+  if (!repetition_.repeated()) gate_.End();
+}
+
+GateReport GateState::Report() const {
+  GateReport report = gate_.Report();
+  if (!repetition_.repeated() || report.verdict != GateVerdict::kUndecided) return report;
+  report.final = decided();
+  report.text = fmt::format(
+      "{} episodes came out the same, to the last bit: one episode, repeated, which says nothing "
+      "of how often; {}",
+      repetition_.n(), kHowToDiffer);
+  return report;
 }
 
 std::optional<CampaignGate> CampaignGate::Read(const ConfigNode& node, std::uint64_t n,

@@ -8,6 +8,7 @@
 
 #include "base/params.h"
 #include "run/campaign/episode_row.h"
+#include "run/campaign/repetition.h"
 #include "stats/gate.h"
 
 namespace floorproof {
@@ -25,18 +26,24 @@ struct GateParams {
 class GateState {
  public:
   GateState(const GateParams& params, const GateSettings& settings)
-      : params_(params), gate_(settings) {}
-  void Add(bool failed) { gate_.Add(failed); }
-  void End() { gate_.End(); }  // no further episode comes
+      : params_(params), gate_(settings), most_(static_cast<std::uint64_t>(settings.max_n)) {}
+  // The next episode, and its EpisodeRow::ResultHash. While no two differ they count as one: the
+  // first alone is evidence.
+  void Add(bool failed, const std::string& result);
+  void End();  // no further episode comes
   // No further episode changes the verdict.
-  bool decided() const { return gate_.final(); }
+  bool decided() const { return gate_.final() || ended_ || repetition_.n() >= most_; }
   GateVerdict verdict() const { return gate_.verdict(); }
-  GateReport Report() const { return gate_.Report(); }
+  GateReport Report() const;
   const GateParams& params() const { return params_; }
 
  private:
   GateParams params_;
   Gate gate_;
+  std::uint64_t most_;  // episodes that are judged
+  Repetition repetition_;
+  bool first_failed_ = false, ended_ = false;
+  std::uint64_t held_ = 0;  // repetitions of the first, which the gate was not told
 };
 
 class CampaignGate {

@@ -13,6 +13,7 @@ std::string VariantText(const VariantSummary& v) {
   std::string text =
       fmt::format("{} episodes: {} success, {} failure, {} timeout; {} errors, {} without a plan\n",
                   v.n, v.success, v.failure, v.timeout, v.errors, v.not_planned);
+  if (v.repeated) text += RepetitionText(v) + "\n";
   for (const FailureRate& rate : v.failures)
     text += rate.n == 0
                 ? fmt::format("{}: nothing was driven\n", rate.name)

@@ -11,6 +11,8 @@
 
 #include "env/geometry/grid.h"
 #include "run/campaign/campaign_about.h"
+#include "run/campaign/repetition.h"
+#include "run/scenario/chance.h"
 #include "stats/binomial.h"
 #include "stats/poisson.h"
 #include "stats/quantile.h"
@@ -111,8 +113,9 @@ void AddRates(const Tally& tally, VariantSummary& out) {
   add("any_failure", tally.any, events);
   for (std::size_t m = 0; m < tally.events.size(); ++m)
     add(std::string(Name(static_cast<FailureMode>(m))), tally.episodes[m], tally.events[m]);
+  const int unplanned = tally.count("not_planned");
   out.failures.push_back(
-      Rate("not_success", out.n - out.success + out.not_planned, out.n + out.not_planned));
+      Rate("not_success", tally.n - tally.count("success") + unplanned, tally.n + unplanned));
   for (const auto& [kind, k] : tally.kinds) out.kinds.push_back(Rate(kind, k, tally.driven));
   for (const auto& [hazard, k] : tally.hazards)
     out.hazards.push_back(Rate(hazard, k, tally.driven));
@@ -121,15 +124,17 @@ void AddRates(const Tally& tally, VariantSummary& out) {
     out.places.push_back({kPlaces.Center(place.first, place.second), Rate("", k, tally.driven)});
 }
 
-VariantSummary SummaryOf(const std::string& name, const Tally& tally) {
-  VariantSummary out{.name = name, .n = tally.n};
+// A variant's rows; `one` holds the first that is no error alone.
+VariantSummary SummaryOf(const std::string& name, const Tally& tally, const Tally& one,
+                         bool repeated) {
+  VariantSummary out{.name = name, .repeated = repeated, .n = tally.n};
   out.errors = tally.count("error");
   out.not_planned = tally.count("not_planned");
   out.first_error = tally.first_error;
   out.success = tally.count("success");
   out.failure = tally.count("failure");
   out.timeout = tally.count("timeout");
-  AddRates(tally, out);
+  AddRates(repeated ? one : tally, out);
   for (std::size_t i = 0; i < tally.metrics.size(); ++i)
     out.metrics.push_back({std::string(kMetrics[i].name), Spread(tally.metrics[i])});
   out.first_episode.assign(tally.first.begin(), tally.first.end());
@@ -156,11 +161,25 @@ CampaignSummary Summarise(const CampaignStore& store, const std::vector<Variant>
                       .gate = SummaryOf(gate, variants),
                       .versions = VersionsOf(store.about())};
   for (const Variant& variant : variants) {
-    Tally tally;
-    store.ForEach(variant.name, [&](const EpisodeRow& row) { tally.Add(row); });
-    out.variants.push_back(SummaryOf(variant.name, tally));
+    Tally tally, one;
+    Repetition repetition;
+    store.ForEach(variant.name, [&](const EpisodeRow& row) {
+      tally.Add(row);
+      if (row.outcome == "error") return;
+      if (repetition.n() == 0) one.Add(row);
+      repetition.Add(row.ResultHash());
+    });
+    out.variants.push_back(SummaryOf(variant.name, tally, one, repetition.repeated()));
   }
   return out;
+}
+
+std::string RepetitionText(const VariantSummary& variant) {
+  if (!variant.repeated) return "";
+  return fmt::format(
+      "one episode, repeated: all {} came out the same, to the last bit, and say nothing of how "
+      "often it fails; {}",
+      variant.n + variant.not_planned, kHowToDiffer);
 }
 
 std::string Criterion(const GateSummary& gate) {

@@ -46,10 +46,11 @@ struct MetricSummary {
 };
 
 // Rates are of the episodes that physics drove, but `not_success`, which counts those without a
-// plan too.
+// plan too. Where all came out the same they are of that one episode.
 struct VariantSummary {
   std::string name{};
-  int n = 0;  // episodes with an outcome that counts: success, failure, timeout
+  bool repeated = false;  // all episodes that are no error came out the same, to the last bit
+  int n = 0;              // episodes with an outcome that counts: success, failure, timeout
   int errors = 0, not_planned = 0;
   std::string first_error{};  // empty: there is none
   int success = 0, failure = 0, timeout = 0;
@@ -89,6 +90,8 @@ struct CampaignSummary {
 CampaignSummary Summarise(const CampaignStore& store, const std::vector<Variant>& variants,
                           const std::vector<GateState>& gate, const std::string& unfinished);
 
+// What is to be said of a variant whose episodes are one, repeated; empty of any other.
+std::string RepetitionText(const VariantSummary& variant);
 // "any_failure < 5 % at 95 %"
 std::string Criterion(const GateSummary& gate);
 // The gate's verdict on one variant, in a sentence.

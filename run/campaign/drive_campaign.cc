@@ -8,6 +8,7 @@
 #include "base/file_output.h"
 #include "run/campaign/campaign_about.h"
 #include "run/campaign/campaign_files.h"
+#include "run/scenario/chance.h"
 #include "run/scenario/warnings.h"
 
 namespace floorproof {
@@ -48,6 +49,22 @@ void RefuseSecondLook(CampaignStore& store, const ScenarioFile& file, std::uint6
                                  before));
 }
 
+// Episodes between which nothing differs are one: that it fails or not says nothing of how often.
+// What is judged on it is refused, else it is said.
+void CheckChance(const ScenarioFile& file, const ConfigNode& gate, CampaignObserver* observer) {
+  for (const Variant& variant : file.variants()) {
+    if (EpisodesCanDiffer(file, file.Read(std::nullopt, variant))) continue;
+    const std::string of = file.variants().size() > 1 ? " of " + variant.name : "";
+    const std::string why = fmt::format(
+        "nothing differs between the episodes{}: they are one, repeated, which says nothing of how "
+        "often it fails; {}",
+        of, kHowToDiffer);
+    if (!gate.IsNull()) throw InputError(gate.mark, "gate", "", why);
+    if (observer) observer->OnWarning("warning: " + why);
+    return;
+  }
+}
+
 void CheckRequest(const CampaignRequest& request) {
   if (request.episodes == 0) throw InputError({"-n", 0}, "", "0", "must be at least 1");
   if (request.jobs < 1)
@@ -74,6 +91,7 @@ CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& r
   // Refused before there is a folder.
   const auto gate = CampaignGate::Read(base.gate, request.episodes, file.drives());
   file.CheckDraws();
+  if (request.episodes > 1) CheckChance(file, base.gate, observer);
 
   auto hold = std::make_unique<HoldInterrupts>();
   CampaignStore store = OpenStore(folder, about, request.resume);

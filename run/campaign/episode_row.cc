@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/file_output.h"
+#include "base/params.h"
 #include "run/episode/episode.h"
 #include "run/episode/records.h"
 
@@ -14,6 +16,14 @@ using Json = nlohmann::ordered_json;
 
 bool EpisodeRow::any_failure() const {
   return outcome == "failure" || std::ranges::any_of(events_of, [](int n) { return n > 0; });
+}
+
+std::string EpisodeRow::ResultHash() const {
+  std::string text;
+  for (const std::string* part : {&outcome, &message, &plan, &events}) text += *part + '\n';
+  for (const int n : events_of) text += std::to_string(n) + ' ';
+  for (const auto& value : metrics) text += (value ? FormatDouble(*value) : "none") + ' ';
+  return Sha256(text);
 }
 
 EpisodeRow MakeRow(const std::string& variant, const Scenario& s, const std::string& plan,

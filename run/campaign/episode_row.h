@@ -31,6 +31,8 @@ struct EpisodeRow {
   // Counts in rates: its outcome is the robot's.
   bool counts() const { return outcome != "error" && outcome != "not_planned"; }
   bool driven() const { return metric(&Metrics::duration_s).has_value(); }
+  // Of what came out, without what was drawn: outcome, events, metrics, plan.
+  std::string ResultHash() const;
   // With a failure event, or, as a run that covered too little, without one.
   bool any_failure() const;
   template <class T>

@@ -128,6 +128,7 @@ Json VariantJson(const VariantSummary& v) {
   Json first = Json::object();
   for (const auto& [mode, episode] : v.first_episode) first[mode] = episode;
   return {{"n", v.n},
+          {"one_episode_repeated", v.repeated},
           {"n_error", v.errors},
           {"n_not_planned", v.not_planned},
           {"first_error", Text(v.first_error)},
@@ -143,7 +144,8 @@ Json VariantJson(const VariantSummary& v) {
 }
 
 VariantSummary ReadVariant(const std::string& name, const Json& json) {
-  VariantSummary v{.name = name, .n = json.at("n")};
+  VariantSummary v{
+      .name = name, .repeated = json.value("one_episode_repeated", false), .n = json.at("n")};
   v.errors = json.at("n_error");
   v.not_planned = json.at("n_not_planned");
   v.success = json.at("outcomes").at("success");

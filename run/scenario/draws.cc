@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/scenario/draws.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/params.h"
@@ -93,6 +94,13 @@ ConfigNode Distribution::Draw(Stream& stream) const {
     if (value >= min && value <= max) break;
   }
   return ConfigNode::Scalar(FormatDouble(value));
+}
+
+bool Distribution::varies() const {
+  if (kind == Kind::kUniform) return a < b;
+  if (kind != Kind::kChoice) return b > 0 && min < max;
+  return std::ranges::any_of(
+      choices, [&](const ConfigNode& c) { return WriteYaml(c) != WriteYaml(choices.front()); });
 }
 
 std::vector<RandomisedKey> ReadRandomise(const ConfigNode* node) {

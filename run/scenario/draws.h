@@ -23,6 +23,8 @@ struct Distribution {
   std::vector<ConfigNode> choices;   // each as likely
 
   ConfigNode Draw(Stream& stream) const;
+  // Whether two draws can differ.
+  bool varies() const;
 };
 
 struct RandomisedKey {

@@ -144,6 +144,11 @@ std::string ScenarioFile::name() const {
   return name ? AsString(*name, "name") : file_.stem().string();
 }
 
+bool ScenarioFile::draws_differ() const {
+  return std::ranges::any_of(randomised_,
+                             [](const auto& key) { return key.distribution.varies(); });
+}
+
 Drawn ScenarioFile::DrawnOf(std::uint64_t episode) const {
   return Draw(randomised_, static_cast<std::uint64_t>(seed_), episode);
 }

@@ -97,6 +97,8 @@ class ScenarioFile {
   // InputError.
   Scenario Read(std::optional<std::uint64_t> episode = 0, const Variant& variant = {}) const;
 
+  // Whether what `randomise` draws can differ between episodes.
+  bool draws_differ() const;
   // What `randomise` draws for an episode.
   Drawn DrawnOf(std::uint64_t episode) const;
 

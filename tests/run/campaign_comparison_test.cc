@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/error.h"
@@ -115,6 +116,48 @@ TEST_F(CompareVariantsTest, WhatDoesNotCountHasNoPair) {
   EXPECT_EQ(dut.n, 1);
   EXPECT_EQ(dut.only_a, 2);
   EXPECT_EQ(dut.only_b, 0);
+}
+
+TEST_F(CompareVariantsTest, PairsThatAreEqualAreOnePair) {
+  for (std::uint64_t episode = 0; episode < 20; ++episode)
+    Add({Row("a", episode, false), Row("b", episode, true)});
+  const Comparison dut = Compare();
+  EXPECT_EQ(dut.n, 1);
+  EXPECT_EQ(dut.repeats, 20);
+  EXPECT_EQ(dut.failures.front().only_b, 1);
+  EXPECT_EQ(dut.failures.front().p, 1) << "one pair shows nothing";
+  EXPECT_LE(dut.failures.front().interval.lower, 0);
+}
+
+TEST_F(CompareVariantsTest, APairThatDiffersMakesAllCount) {
+  for (std::uint64_t episode = 0; episode < 20; ++episode)
+    Add({Row("a", episode, false), Row("b", episode, episode > 0)});
+  const Comparison dut = Compare();
+  EXPECT_EQ(dut.n, 20);
+  EXPECT_EQ(dut.repeats, 0);
+  EXPECT_LT(dut.failures.front().p, 1e-4);
+}
+
+// Ninety degrees' cosine is 6e-17, not 0: no figure is a share of that.
+TEST_F(CompareVariantsTest, NothingIsDividedByRounding) {
+  const auto plan = [](double overlap, double length_m) {
+    return "{\"overlap\": " + std::to_string(overlap) +
+           "e-16, \"length_m\": " + std::to_string(length_m) + "}";
+  };
+  for (std::uint64_t episode = 0; episode < 4; ++episode) {
+    EpisodeRow a = Row("a", episode, false), b = Row("b", episode, false);
+    a.plan = plan(1 + static_cast<double>(episode), 10);
+    b.plan = plan(7, 11 + static_cast<double>(episode));
+    Add({a, b});
+  }
+  const Comparison dut = Compare();
+  const auto figure = [&](const std::string& name) {
+    return *std::ranges::find(dut.plans, name, &ComparedPlanFigure::figure);
+  };
+  EXPECT_FALSE(figure("overlap").change);
+  EXPECT_EQ(figure("overlap").same, 4);
+  ASSERT_TRUE(figure("length_m").change);
+  EXPECT_NEAR(figure("length_m").change->median, 0.25, 1e-12);
 }
 
 TEST_F(CompareVariantsTest, OtherDrawsAreRefused) {

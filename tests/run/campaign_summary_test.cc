@@ -77,7 +77,8 @@ class CampaignSummaryTest : public ::testing::Test {
       gates.emplace_back(params,
                          GateSettings{mode == "fixed" ? GateMode::kFixed : GateMode::kSequential,
                                       params.max_rate, params.confidence, 1, 400});
-      for (const bool failed : {false, false, true, true}) gates.front().Add(failed);
+      for (const bool failed : {false, false, true, true})
+        gates.front().Add(failed, failed ? "failed" : "passed");
     }
     Variant variant;
     variant.name = "v";

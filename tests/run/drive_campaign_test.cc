@@ -46,7 +46,9 @@ class DriveCampaignTest : public ScenarioTest {
   }
 };
 
-constexpr const char* kFixedGate = "gate: {metric: not_success, max_rate: 0.5}\n";
+constexpr const char* kGateAlone = "gate: {metric: not_success, max_rate: 0.5}\n";
+constexpr const char* kFixedGate =
+    "gate: {metric: not_success, max_rate: 0.5}\nrandomise: {start.x_m: {uniform: [1.4, 1.6]}}\n";
 
 std::string WhyRefused(const std::function<void()>& call) {
   try {

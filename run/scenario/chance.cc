@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/scenario/chance.h"
+
+#include <algorithm>
+
+namespace floorproof {
+
+bool EpisodesCanDiffer(const ScenarioFile& file, const Scenario& s) {
+  if (file.draws_differ()) return true;
+  const ConfigNode* generate = s.site_node.Find("generate");
+  if (generate != nullptr && generate->Find("seed") == nullptr) return true;
+  if (s.planner && s.planner->promises().uses_seed) return true;
+  if (s.episode.drive == "none") return false;
+  return s.estimator->draws() ||
+         std::ranges::any_of(s.sensors, [](const NamedSensor& n) { return n.sensor->draws(); });
+}
+
+}  // namespace floorproof
