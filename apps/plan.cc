@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
-#include "base/file_output.h"
 #include "base/interrupt.h"
+#include "base/result_folder.h"
 #include "report/risk_pictures.h"
 #include "run/episode/make_plan.h"
 #include "run/episode/records.h"
@@ -28,11 +28,12 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     const Scenario scenario = ReadScenario(options->scenario, globals.Overrides());
     for (const std::string& warning : Warnings(scenario)) globals.Say(warning);
     const auto folder = OutputFolder(options->out, scenario.file);
+    ResultFolder out(folder, EpisodeResults(), InputsOf(scenario));
     const PlanResult plan = MakePlan(scenario);
     const auto json = PlanJson(scenario, plan);
     const std::vector<RiskOfPlan> beside =
         PlansBeside(options->beside, globals.Overrides(), MeasurePlan(scenario, plan));
-    MakeFolder(folder);
+    out.Begin();
     SayWhenInterrupted(folder.string() + " may lack some of the plan's files");
     WritePlanFiles(scenario, plan, folder);
     SayWhenInterrupted(folder.string() + " holds the plan; pictures may be missing");

@@ -5,6 +5,7 @@
 
 #include "apps/command.h"
 #include "base/file_output.h"
+#include "base/result_folder.h"
 #include "report/campaign_page.h"
 #include "report/page.h"
 
@@ -13,7 +14,8 @@ namespace {
 
 int WriteReport(const std::string& named, const Globals& globals) {
   const std::filesystem::path folder = named;
-  const Report report = GatherReport(folder, named);
+  ResultFolder out(folder, PageResults(), {});
+  const Report report = GatherReport(folder, named, out);
   const std::string html = ReportHtml(report);
   const std::filesystem::path page = folder / "report.html";
   WriteFileWhole(page, html);

@@ -6,6 +6,7 @@
 #include "apps/command.h"
 #include "base/file_output.h"
 #include "base/interrupt.h"
+#include "base/result_folder.h"
 #include "env/scene/roller_wheels.h"
 #include "run/scenario/warnings.h"
 
@@ -25,6 +26,7 @@ void AddScene(CommandLine& line, const Globals& globals, int&) {
   command.OnRun([options, &globals] {
     const Scenario s = ReadScenario(options->scenario, globals.Overrides());
     for (const std::string& warning : Warnings(s)) globals.Say(warning);
+    RefuseToReplace(InputsOf(s), options->out);
     // The stock MuJoCo lacks the collider of ideal Mecanum wheels.
     const Scene scene =
         BuildScene(s.site.map, WithRollerWheels(s.robot), s.physics, s.start, WallSet::kAll);

@@ -7,6 +7,8 @@
 #include "apps/ladder.h"
 #include "base/file_output.h"
 #include "base/interrupt.h"
+#include "base/result_folder.h"
+#include "report/ladder_files.h"
 #include "validate/bounce_chart.h"
 #include "validate/law.h"
 
@@ -21,6 +23,13 @@ void SayLaw(const LawResult& result, const Globals& globals) {
     globals.Say(fmt::format("  {:<44} {:>12.5g} {:>12.5g} {:>10.2g} {:<6} {}", row.law,
                             row.expected, row.measured, row.tolerance, row.unit,
                             row.ok() ? "ok" : "FAILS"));
+}
+
+// The ladder's files among them.
+ResultNames LawResults() {
+  return {"laws", [](std::string_view name) {
+            return name == "validate.csv" || name == "bounce.csv" || IsLadderFile(name);
+          }};
 }
 
 // Returns how many comparisons failed; `json_result` gets the rows.
@@ -72,7 +81,8 @@ void AddValidate(CommandLine& line, const Globals& globals, int& status) {
                "20 minutes on two cores)");
   command.OnRun([options, &globals, &status] {
     const fs::path folder = options->out;
-    MakeFolder(folder);
+    ResultFolder out(folder, LawResults(), {});
+    out.Begin();
     // What an earlier run left does not stand for this one; and a full disk shows at once.
     WriteFileWhole(folder / "validate.csv", ValidateCsv({}));
     WriteFileWhole(folder / "bounce.csv", BounceCsv({}));

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/file_output.h"
 
+#include <fcntl.h>
 #include <sys/types.h>
+#include <unistd.h>
 // libmd's header wants the types above first.
 #include <sha256.h>
 
@@ -40,31 +42,44 @@ std::string WriteTo(const std::filesystem::path& path, std::string_view text) {
   return ok ? "" : std::strerror(why);
 }
 
+[[noreturn]] void RefuseToWrite(const std::filesystem::path& path, const std::string& why) {
+  throw InputError({path.string(), 0}, "", "", "cannot be written: " + why);
+}
+
 }  // namespace
 
+std::filesystem::path MakePartFile(const std::filesystem::path& path) {
+  std::filesystem::path part = std::filesystem::absolute(path);
+  part.replace_filename("." + path.stem().string() + ".part" + path.extension().string());
+  // One that a killed process left; a link is removed and not followed.
+  std::error_code ignored;
+  std::filesystem::remove(part, ignored);
+  const int file = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (file < 0) RefuseToWrite(path, std::strerror(errno));
+  close(file);
+  return part;
+}
+
 void WriteFileWhole(const std::filesystem::path& path, std::string_view text) {
-  const auto refuse = [&](const std::string& why) {
-    throw InputError({path.string(), 0}, "", "", "cannot be written: " + why);
-  };
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (std::filesystem::is_directory(status)) refuse("it is a folder");
+  if (std::filesystem::is_directory(status)) RefuseToWrite(path, "it is a folder");
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     // A pipe or a device (/dev/stdout) is written to; a file must not take its place.
-    if (const std::string why = WriteTo(path, text); !why.empty()) refuse(why);
+    if (const std::string why = WriteTo(path, text); !why.empty()) RefuseToWrite(path, why);
     return;
   }
   const HoldInterrupts until_renamed;
-  const std::filesystem::path part = path.string() + ".part";
+  const std::filesystem::path part = MakePartFile(path);
   if (const std::string why = WriteTo(part, text); !why.empty()) {
     std::filesystem::remove(part, error);
-    refuse(why);
+    RefuseToWrite(path, why);
   }
   std::filesystem::rename(part, path, error);
   if (error) {
     const std::string why = error.message();
     std::filesystem::remove(part, error);
-    refuse(why);
+    RefuseToWrite(path, why);
   }
 }
 

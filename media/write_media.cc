@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/file_output.h"
 #include "base/interrupt.h"
 #include "media/codecs.h"
 #include "media/media.h"
@@ -16,13 +17,6 @@ namespace fs = std::filesystem;
 
 InputError CannotWrite(const fs::path& path, const std::string& why) {
   return InputError({path.string(), 0}, "", "", "cannot be written: " + why);
-}
-
-// A name beside `path` with the same extension, which the video's container is chosen by.
-fs::path PartName(const fs::path& path) {
-  fs::path part = fs::absolute(path);
-  part.replace_filename("." + path.stem().string() + ".part" + path.extension().string());
-  return part;
 }
 
 void MoveInPlace(const fs::path& part, const fs::path& path) {
@@ -37,7 +31,7 @@ void MoveInPlace(const fs::path& part, const fs::path& path) {
 class CodecVideo : public VideoWriter {
  public:
   CodecVideo(const fs::path& path, int width, int height, double fps)
-      : path_(path), part_(PartName(path)), width_(width), height_(height) {
+      : path_(path), part_(MakePartFile(path)), width_(width), height_(height) {
     char error[kCodecErrorSize] = "";
     if (Codecs().open_video(part_.c_str(), width, height, fps, &video_, error) != 0) {
       Discard();
@@ -105,7 +99,7 @@ void WritePng(const fs::path& path, const Image& image) {
   const CodecHandle handle(owner, codecs.release);
 
   const HoldInterrupts until_renamed;
-  const fs::path part = PartName(path);
+  const fs::path part = MakePartFile(path);
   std::ofstream out(part, std::ios::binary | std::ios::trunc);
   out.write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(size));
   out.close();

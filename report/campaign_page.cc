@@ -186,7 +186,14 @@ void AddPlaces(const fs::path& folder, const Rows& rows, Report& report) {
 
 }  // namespace
 
-Report GatherReport(const fs::path& folder, const std::string& named) {
+ResultNames PageResults() {
+  return {"page", [](std::string_view name) {
+            return name == "report.html" ||
+                   (name.starts_with("heatmap_failures_") && name.ends_with(".png"));
+          }};
+}
+
+Report GatherReport(const fs::path& folder, const std::string& named, ResultFolder& out) {
   const fs::path summary_file = folder / "summary.json", database = folder / "campaign.sqlite";
   Report report;
   report.summary = ReadSummary(summary_file);
@@ -198,6 +205,7 @@ Report GatherReport(const fs::path& folder, const std::string& named) {
   if (store.about().id != summary.campaign)
     throw InputError({summary_file.string(), 0}, "campaign", summary.campaign,
                      "is another campaign than campaign.sqlite's, " + store.about().id);
+  out.Begin();
   Rows rows(report, named);
   for (const VariantSummary& variant : summary.variants) rows.Read(store, variant, folder);
   for (std::size_t v = 1; v < summary.variants.size(); ++v)

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <optional>
 
-#include "base/file_output.h"
 #include "base/interrupt.h"
+#include "base/result_folder.h"
 #include "report/pictures.h"
 #include "report/progress.h"
 #include "report/risk_pictures.h"
@@ -47,15 +47,14 @@ std::string EventLine(const Event& e) {
 // needs.
 class Witness : public EpisodeObserver {
  public:
-  Witness(Scenario& s, const std::filesystem::path& folder, const DriveOptions& options,
-          const Console& console)
+  Witness(Scenario& s, ResultFolder& folder, const DriveOptions& options, const Console& console)
       : s_(s), folder_(folder), options_(options), console_(console) {}
 
   // What an interruption's line says from now on.
   void There(const std::string& what) const {
     SayWhenInterrupted((options_.finished.empty() ? "" : options_.finished + " finished; ") +
-                       (options_.write_records ? folder_.string() + what
-                                               : folder_.string() + " has its records as before"));
+                       folder_.path().string() +
+                       (options_.write_records ? what : " has its records as before"));
   }
 
   Execution Watch() {
@@ -68,10 +67,10 @@ class Witness : public EpisodeObserver {
   void OnPlan(const PlanResult& plan) override {
     const double plan_s = Since(begin_);
     if (options_.write_records) {
-      MakeFolder(folder_);
+      folder_.Begin();
       There(" may lack some of the plan's files");
       RemoveEpisodeFiles(folder_);  // of an earlier run: they are not this plan's
-      WritePlanFiles(s_, plan, folder_);
+      WritePlanFiles(s_, plan, folder_.path());
       There(" holds the plan; nothing was driven");
     }
     if (plan.status != PlanStatus::kSuccess) {
@@ -105,7 +104,7 @@ class Witness : public EpisodeObserver {
 
  private:
   Scenario& s_;
-  const std::filesystem::path& folder_;
+  ResultFolder& folder_;
   const DriveOptions& options_;
   const Console& console_;
   Clock::time_point begin_ = Clock::now();
@@ -118,7 +117,9 @@ class Witness : public EpisodeObserver {
 
 DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
                          const DriveOptions& options, const Console& console) {
-  Witness witness(s, folder, options, console);
+  ResultFolder out(folder, options.write_records ? EpisodeResults() : FilmResults(), InputsOf(s));
+  if (!options.write_records) out.Begin();
+  Witness witness(s, out, options, console);
   witness.There(" is as before");
   for (const std::string& line : Warnings(s)) console.Say(line);
   DriveResult result;

@@ -12,6 +12,12 @@ namespace floorproof {
 
 namespace fs = std::filesystem;
 
+bool IsLadderFile(std::string_view name) {
+  return name == "ladder.csv" || name == "ladder_sweep.csv" ||
+         (name.ends_with(".png") &&
+          (name.starts_with("capability_") || name.starts_with("sweep_")));
+}
+
 void ClearLadder(const fs::path& folder) {
   WriteFileWhole(folder / "ladder.csv", LadderCsv({}));
   WriteFileWhole(folder / "ladder_sweep.csv", SweepCsv({}));

@@ -5,10 +5,14 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
+#include <string_view>
 
 #include "validate/ladder.h"
 
 namespace floorproof {
+
+// Whether the ladder writes a file of this name.
+bool IsLadderFile(std::string_view name);
 
 // Empties ladder.csv and ladder_sweep.csv and removes the charts: what an earlier climb left does
 // not stand for this one. Throws InputError where a table cannot be written.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/input_file.h"
+#include "base/result_folder.h"
 #include "run/campaign/episode_maker.h"
 #include "run/episode/records.h"
 
@@ -64,6 +65,7 @@ DriveResult ReplayEpisode(const ScenarioFile& file, const Variant& variant, cons
                           const fs::path& folder, bool video, const Console& console) {
   Scenario scenario = file.Read(row.episode, variant);
   const fs::path into = EpisodeFolder(folder, variant, row.episode);
+  RefuseLinks(folder, into);
   if (row.outcome == "error") console.Say("recorded as an error: " + row.message);
   DriveResult result = DriveAndFilm(scenario, into, {.video = video}, console);
   if (result.not_written) std::rethrow_exception(result.not_written);

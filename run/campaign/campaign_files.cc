@@ -25,6 +25,13 @@ std::string Unfinished(const CampaignRun& run, std::uint64_t asked) {
 
 }  // namespace
 
+ResultNames CampaignResults() {
+  return {"campaign", [](std::string_view name) {
+            return name == "scenario.resolved.yaml" || name == "episodes.csv" ||
+                   name == "junit.xml" || name == "summary.json" || name == "failing_episodes.csv";
+          }};
+}
+
 CampaignSummary WriteSummaryFiles(const CampaignStore& store, const ScenarioFile& file,
                                   const CampaignRun& run, const std::filesystem::path& folder) {
   std::vector<GateState> gate;

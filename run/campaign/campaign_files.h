@@ -4,10 +4,14 @@
 
 #include <filesystem>
 
+#include "base/result_folder.h"
 #include "run/campaign/campaign.h"
 #include "run/campaign/campaign_summary.h"
 
 namespace floorproof {
+
+// These, the settings and the list of failing episodes.
+ResultNames CampaignResults();
 
 // Writes episodes.csv, junit.xml and, last, summary.json of what `run` left in the store; returns
 // the summary. Throws InputError naming the file that cannot be written.

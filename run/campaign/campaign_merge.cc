@@ -142,7 +142,9 @@ MergeOutcome MergeCampaigns(const std::vector<std::string>& shards, const fs::pa
                                    shards[0], from[0].asked()));
 
   auto hold = std::make_unique<HoldInterrupts>();
-  MakeFolder(out);
+  auto results =
+      std::make_unique<ResultFolder>(out, CampaignResults(), std::span<const fs::path>());
+  results->Begin();
   CampaignStore store = CampaignStore::Create(file, from.front().about());
   std::uint64_t end = MergeRows(from, variants, store);
   for (const CampaignStore& shard : from) end = std::max(end, shard.asked());
@@ -158,7 +160,8 @@ MergeOutcome MergeCampaigns(const std::vector<std::string>& shards, const fs::pa
     if (run.end == CampaignEnd::kMissing && run.variants[v].prefix < end)
       gaps.push_back({variants[v].name, Missing(store.Episodes(variants[v].name), end)});
   CampaignSummary summary = WriteSummaryFiles(store, scenario, run, out);
-  return {{std::move(hold), std::move(store), variants, std::move(run), std::move(summary)},
+  return {{std::move(hold), std::move(results), std::move(store), variants, std::move(run),
+           std::move(summary)},
           std::move(paths_note),
           std::move(gaps)};
 }

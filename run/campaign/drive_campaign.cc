@@ -16,16 +16,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-CampaignStore OpenStore(const fs::path& folder, const CampaignAbout& about, bool resume) {
-  const fs::path file = folder / "campaign.sqlite";
+bool HoldsCampaign(const fs::path& folder, bool resume) {
   std::error_code ignored;
-  if (!fs::exists(file, ignored)) {
-    MakeFolder(folder);
-    return CampaignStore::Create(file, about);
-  }
+  if (!fs::exists(folder / "campaign.sqlite", ignored)) return false;
   if (!resume)
     throw InputError({folder.string(), 0}, "", "",
                      "holds a campaign: --resume goes on with it, --out names another folder");
+  return true;
+}
+
+CampaignStore OpenStore(const fs::path& folder, const CampaignAbout& about, bool there) {
+  const fs::path file = folder / "campaign.sqlite";
+  if (!there) {
+    MakeFolder(folder);
+    return CampaignStore::Create(file, about);
+  }
   CampaignStore store = CampaignStore::Open(file, false);
   RequireSame(store.about(), about, file);
   store.MakeWritable();  // another campaign's is not so much as opened to be written
@@ -94,10 +99,13 @@ CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& r
   if (request.episodes > 1) CheckChance(file, base.gate, observer);
 
   auto hold = std::make_unique<HoldInterrupts>();
-  CampaignStore store = OpenStore(folder, about, request.resume);
+  const bool there = HoldsCampaign(folder, request.resume);
+  auto out = std::make_unique<ResultFolder>(folder, CampaignResults(), InputsOf(base));
+  CampaignStore store = OpenStore(folder, about, there);
   RefuseSecondLook(store, file, request.episodes);
   store.SetAsked(request.episodes);
   if (request.retry_errors) store.DropErrors();
+  out->Begin();
   SayWhenInterrupted(folder.string() + " holds every episode saved so far; --resume goes on");
   WriteFileWhole(folder / "scenario.resolved.yaml", ResolvedScenario(base, folder));
   CampaignOptions options{.end = request.episodes,
@@ -112,7 +120,8 @@ CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& r
   }
   CampaignRun run = RunCampaign(file, store, options, observer);
   CampaignSummary summary = WriteSummaryFiles(store, file, run, folder);
-  return {std::move(hold), std::move(store), file.variants(), std::move(run), std::move(summary)};
+  return {std::move(hold), std::move(out), std::move(store),
+          file.variants(), std::move(run), std::move(summary)};
 }
 
 }  // namespace floorproof

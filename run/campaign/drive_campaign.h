@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/interrupt.h"
+#include "base/result_folder.h"
 #include "run/campaign/campaign.h"
 #include "run/campaign/campaign_summary.h"
 
@@ -32,6 +33,7 @@ struct CampaignRequest {
 struct CampaignOutcome {
   // As long as it lives Ctrl-C is only remembered, so that what is made of the outcome is whole.
   std::unique_ptr<HoldInterrupts> hold;
+  std::unique_ptr<ResultFolder> folder;  // further results are listed when it goes
   CampaignStore store;
   std::vector<Variant> variants;
   CampaignRun run;

@@ -84,6 +84,15 @@ void AddRisk(const PlanResult& plan, Json& json) {
   json["visits_by_risk"] = std::move(ranges);
 }
 
+bool IsPlanFile(std::string_view name) {
+  return name == "scenario.resolved.yaml" || name == "plan.csv" || name == "plan.json" ||
+         name == "risk.csv";
+}
+
+bool IsFilm(std::string_view name) {
+  return name == "video.mp4" || (name.starts_with("frame_") && name.ends_with(".png"));
+}
+
 }  // namespace
 
 Json VersionsJson() {
@@ -208,6 +217,17 @@ std::string RiskCsv(const RiskMap& risk) {
   return fmt::to_string(out);
 }
 
+ResultNames EpisodeResults() {
+  return {"episode", [](std::string_view name) {
+            return IsPlanFile(name) || IsFilm(name) || name == "result.json" ||
+                   name == "trace.csv" ||
+                   (name.ends_with(".png") &&
+                    (name.starts_with("heatmap_") || name.starts_with("plot_")));
+          }};
+}
+
+ResultNames FilmResults() { return {"episode", IsFilm, false}; }
+
 void WritePlanFiles(const Scenario& s, const PlanResult& plan,
                     const std::filesystem::path& folder) {
   WriteFileWhole(folder / "scenario.resolved.yaml", ResolvedScenario(s, folder));
@@ -216,18 +236,17 @@ void WritePlanFiles(const Scenario& s, const PlanResult& plan,
   WriteFileWhole(folder / "risk.csv", RiskCsv(*plan.risk));
 }
 
-void RemoveEpisodeFiles(const std::filesystem::path& folder) {
-  for (const char* name :
-       {"result.json", "trace.csv", "heatmap_plan.png", "heatmap_plan_visits.png",
-        "heatmap_risk.png", "plot_risk.png", "heatmap_visits.png", "heatmap_coverage.png",
-        "heatmap_failures.png", "heatmap_known.png", "plot_errors.png", "frame_start.png",
-        "frame_failure.png", "frame_end.png", "video.mp4"}) {
+void RemoveEpisodeFiles(const ResultFolder& folder) {
+  const auto remove = [&](const std::string& name) {
     std::error_code error;
-    std::filesystem::remove(folder / name, error);
+    std::filesystem::remove(folder.path() / name, error);
     if (error)
-      throw InputError({(folder / name).string(), 0}, "", "",
+      throw InputError({(folder.path() / name).string(), 0}, "", "",
                        "of an earlier run, cannot be removed: " + error.message());
-  }
+  };
+  remove("result.json");
+  for (const std::string& name : folder.Results())
+    if (!IsPlanFile(name)) remove(name);
 }
 
 void WriteEpisodeFiles(const Scenario& s, const EpisodeRecord& record,

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 
+#include "base/result_folder.h"
 #include "run/episode/episode.h"
 #include "run/scenario/scenario.h"
 
@@ -26,11 +27,16 @@ std::string TraceCsv(const EpisodeRecord& record, const RobotSpec& robot);
 // RF per cell, the top row first.
 std::string RiskCsv(const RiskMap& risk);
 
+// What a plan and an episode leave, pictures and film included; and the film with its stills alone.
+ResultNames EpisodeResults();
+ResultNames FilmResults();
+
 // scenario.resolved.yaml, plan.csv, plan.json and risk.csv.
 void WritePlanFiles(const Scenario& scenario, const PlanResult& plan,
                     const std::filesystem::path& folder);
-// Removes what an episode leaves beside its plan: result.json first, then trace, pictures, film.
-void RemoveEpisodeFiles(const std::filesystem::path& folder);
+// Removes what an earlier episode left beside its plan: result.json first, which says that the rest
+// is whole.
+void RemoveEpisodeFiles(const ResultFolder& folder);
 // trace.csv, and, unless the episode was interrupted, result.json (last: it says the rest is
 // whole).
 void WriteEpisodeFiles(const Scenario& scenario, const EpisodeRecord& record,

@@ -229,4 +229,10 @@ std::vector<fs::path> FilesRead(const Scenario& s) {
   return files;
 }
 
+std::vector<fs::path> InputsOf(const Scenario& s) {
+  std::vector<fs::path> files = FilesRead(s);
+  files.push_back(s.file);
+  return files;
+}
+
 }  // namespace floorproof

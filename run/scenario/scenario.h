@@ -139,6 +139,9 @@ Scenario ReadScenario(const std::filesystem::path& file,
 // The files it was read from, beside its own: site, map, image, robot, plan.
 std::vector<std::filesystem::path> FilesRead(const Scenario& scenario);
 
+// These and its own.
+std::vector<std::filesystem::path> InputsOf(const Scenario& scenario);
+
 // The scenario with every default stated, the site in it, paths valid from `folder` and the SHA-256
 // of each file read. Reading it gives the same scenario; resolving it again gives the same text.
 std::string ResolvedScenario(const Scenario& scenario, const std::filesystem::path& folder);
