@@ -8,7 +8,6 @@
 
 #include "base/file_output.h"
 #include "run/campaign/episodes_csv.h"
-#include "run/episode/episode.h"
 
 namespace floorproof {
 namespace {

@@ -11,12 +11,12 @@
 
 #include "env/core/event.h"
 #include "run/episode/metrics.h"
+#include "run/episode/timeout.h"
 
 namespace floorproof {
 
 struct EpisodeRecord;
 struct Scenario;
-struct Timeout;
 
 struct EpisodeRow {
   std::string variant;

@@ -15,6 +15,7 @@
 #include "env/sim/simulation.h"
 #include "planners/planner.h"
 #include "run/episode/metrics.h"
+#include "run/episode/timeout.h"
 #include "run/episode/trace.h"
 #include "run/scenario/scenario.h"
 
@@ -33,14 +34,6 @@ struct Intervention {
   double t_s = 0;      // of setting down
   Vec2 from_W, to_W;   // taken up, and the waypoint
   double yaw_rad = 0;  // as it was set down
-};
-
-// Where a robot was when its time ran out. That is an outcome and no failure: nothing says that the
-// robot would not have got there.
-struct Timeout {
-  double t_s = 0;
-  Pose2 X_WB;
-  std::string hazard;  // what held it or was near it, as Event::hazard
 };
 
 struct EpisodeRecord {
