@@ -149,8 +149,9 @@ std::optional<Outcome> Episode::Step() {
   const bool good = plant_.Step();
   Look();
   if (!good) return Outcome::kError;
-  sample_.cross_track_m =
-      CrossTrack(robot_side_.path(), sample_.command.segment, sample_.p_WB.head<2>());
+  sample_.off_track_W =
+      OffTrack(robot_side_.path(), sample_.command.segment, sample_.p_WB.head<2>());
+  sample_.cross_track_m = sample_.off_track_W.norm();
   recorder_.OnStep(sample_);
 
   if (interventions_.awaited()) return std::nullopt;  // that it does not get on is known
