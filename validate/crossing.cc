@@ -107,7 +107,8 @@ CrossingResult Cross(const RobotModel& model, Hazard hazard, const CrossingPlan&
     }
     if (!sim.Step()) throw InternalError("the physics diverged on the ladder");
     static_cast<Truth&>(sample) = sim.truth();
-    sample.cross_track_m = CrossTrack(path, sample.command.segment, sample.p_WB.head<2>());
+    sample.off_track_W = OffTrack(path, sample.command.segment, sample.p_WB.head<2>());
+    sample.cross_track_m = sample.off_track_W.norm();
     const double s_m = sample.p_WB.head<2>().dot(along);
     const auto held = [&](std::string by) {
       return CrossingResult{false, std::move(by), sample.t_s, s_m};

@@ -41,19 +41,38 @@ struct Command {
   bool done = false;        // last waypoint reached
 };
 
-// The body touching an obstacle (not a wheel on the floor).
+// The robot touching what stands in its way: its body, but for what it rests upon, or a wheel at a
+// face too steep to stand on.
 struct ObstacleContact {
   int hazard = -1;               // index into HazardMap::hazards; -1: wall or furniture of the map
   Vec2 p_W = Vec2::Zero();       // where
   Vec2 normal_W = Vec2::Zero();  // unit, from the obstacle to the robot, in the plane
-  int block = 0;                 // index into RobotSpec::blocks of what touches; 0 of a rigid robot
-  double closing_mps = 0;        // its speed into the obstacle there, just before this step
-  double impulse_ns = 0;         // normal force times the step
+  int block = 0;  // index into RobotSpec::blocks of what touches, or carries the wheel that
+                  // does; 0 of a rigid robot
+  double closing_mps = 0;  // the body's speed into the obstacle there, just before this step
+  double impulse_ns = 0;   // normal force times the step
+  double height_m = 0;     // of the place, world z
+  bool wheel = false;      // a wheel or caster touches
+};
+
+// Force on the robot in the world's axes, N, and its moment about the body's origin, N m.
+struct Wrench {
+  Vec3 force_W_n = Vec3::Zero(), moment_W_nm = Vec3::Zero();
+  // Power at a body that moves with this planar velocity, W.
+  double Power(const Vec2& v_W, double wz_radps) const {
+    return force_W_n.head<2>().dot(v_W) + moment_W_nm.z() * wz_radps;
+  }
+};
+
+// What one thing does to the robot through all of its contacts, wheels and body alike.
+struct Touch {
+  int hazard = -1;  // index into HazardMap::hazards; -1: walls or furniture of the map
+  Wrench normal, friction;
 };
 
 // What truly happened in one step of the plant. Fixed size: the loop allocates nothing.
 struct Truth {
-  static constexpr int kMaxContacts = 8;
+  static constexpr int kMaxContacts = 16, kMaxTouches = 8;
 
   double t_s = 0;
   Vec3 p_WB = Vec3::Zero();  // body origin: on the floor below the robot's centre at rest
@@ -68,14 +87,18 @@ struct Truth {
   double battery_a = 0;  // motors' drivers and hotel load
   double belly_load_n =
       0;  // weight that floor or hazards carry through the body instead of the wheels
-  int belly_hazard = -1;  // index of the hazard that carries it; -1: none or the floor
+  int belly_hazard = -1;  // index of the hazard that carries most of it; -1: none or the floor
   int wheel_contacts = 0;
-  double support_margin_m =
-      0;  // centre of mass to the border of the hull of what carries it, positive inside
-  double wheel_floor_z_m = 0;  // lowest point of the lowest driven wheel, world z
-  int near_hazard = -1;        // a hazard under or at a wheel or the body now; -1: none
-  std::array<ObstacleContact, kMaxContacts> contacts;  // the first num_contacts hold
+  // Centre of mass to the border of the hull of what carries it, positive inside. What pushes from
+  // aside moves the centre by its moment.
+  double support_margin_m = 0;
+  Vec2 off_support_W = Vec2::Zero();  // unit, from that border to the centre where it is outside
+  double wheel_floor_z_m = 0;         // lowest point of the lowest driven wheel, world z
+  int near_hazard = -1;               // a hazard under or at a wheel or the body now; -1: none
+  std::array<ObstacleContact, kMaxContacts> contacts;  // the first num_contacts hold, body first
   int num_contacts = 0;
+  std::array<Touch, kMaxTouches> touches;  // the first num_touches hold
+  int num_touches = 0;
 
   Pose2 X_WB() const { return {p_WB.x(), p_WB.y(), yaw_rad}; }
 };
@@ -83,8 +106,9 @@ struct Truth {
 // What detectors and records see: what happened, and what the robot was about. The episode's loop
 // puts it together.
 struct Sample : Truth {
-  Command command;           // of this control period
-  double cross_track_m = 0;  // of the true position to the segment now tracked; unsigned
+  Command command;                  // of this control period
+  double cross_track_m = 0;         // of the true position to the segment now tracked; unsigned
+  Vec2 off_track_W = Vec2::Zero();  // the same as a vector, from that segment to the robot, m
   // The way gone along the path, m: metres along it, less the distance from it; falls when the
   // robot goes back or aside. Where the path is replaced by another, it goes on from where it was.
   double progress_m = 0;

@@ -1,24 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// F4, bounce back: the body meets an obstacle at a closing speed > v; then, within window_s, it
-// parts from the obstacle by > part_m, or its normal velocity reverses by > u, against the command.
+// F4, bounce back: body or wheels meet an obstacle at a closing speed > v; then, within window_s
+// and against the command, the whole robot
+//   kind `reversed`: comes off it faster than u and than rebound_share of the closing speed;
+//   kind `parted`: leaves a gap of more than part_m to it.
 //
-// An impact is a contact that begins; the closing speed is that just before it. From then on the
-// detector follows the body's distance to the plane through the contact. It is measured from the
-// outermost point of the clear shape against the contact normal, so that turning beside a wall does
-// not count as parting. "Against the command": the watch ends as soon as the commanded twist moves
-// that point away from the obstacle, because a robot that backs off on purpose does not bounce.
-// Only the first reversal counts, until the body approaches again or still touches kPressS after
-// the impact (an elastic contact is over in about 10 ms). A robot that keeps driving into a dead
-// wall rocks and chatters against it at about 0.03 m/s; it has not been thrown back. Neither has
-// one whose rebound is below rebound_share of its closing speed: a critically damped contact, which
-// is what "dead" means in a compliant engine, gives back exp(-2) = 0.135 of it (Schwager & Poeschel
-// 2007, "Coefficient of restitution and linear-dashpot model revisited", eq. 20).
+// An impact is a contact that begins; the closing speed is that just before it. The whole robot has
+// moved back where both its centre of mass and what touched have, along the contact's normal: a
+// body that pitches or turns at the obstacle moves one of them only. What touched is the outermost
+// point of the clear shape against the normal, at the contact's height, so that turning beside a
+// wall does not count as parting. "Against the command": the watch ends as soon as the commanded
+// twist moves that point away from the obstacle, because a robot that backs off on purpose does not
+// bounce. Contacts are soft: a robot that is still pushed out of one has not come off it, and is
+// back by some 7 ms of its closing speed, less than 3 mm, before it has. An elastic contact is over
+// in 40 ms, the liveliest, which are soft, in 60 ms. A robot that still touches kPressS after the
+// impact presses on a dead obstacle, unless it comes off before kSoftestS and as fast as from a
+// lively one (wheel_share); where it comes off later, it rocks and chatters against it.
+// A driven wheel that meets a face rubs itself up it and comes down again: from a dead kerb hTetro
+// comes off at 0.25 to 0.42 of its closing speed, by up to 4 mm. So where a wheel meets the
+// obstacle the share is wheel_share, and the gap grows with the closing speed.
 //
-// Once the inequality is met, the event waits until the rebound ends, mostly about 0.1 s, so that
+// Once an inequality is met, the event waits until the rebound ends, mostly about 0.1 s, so that
 // the peak speed and travel are in the evidence. Its time and place are those at which the
-// inequality was met. The detector judges by velocity and separation, and not by a distance of
-// centimetres: a robot limited by its wheels' traction travels back only 5-26 mm from a nearly
-// elastic wall. Definition: ours.
+// inequality was met. A distance of centimetres would not do: a robot limited by its wheels'
+// traction travels back only 5-26 mm from a nearly elastic wall. Definition: ours.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -26,6 +30,7 @@
 #include "env/core/blocks.h"
 #include "env/failures/detector.h"
 #include "env/failures/evidence.h"
+#include "env/failures/posture.h"
 
 namespace floorproof {
 namespace {
@@ -34,16 +39,19 @@ constexpr double kTimeSlackS = 1e-9;     // sums of time steps are not exact
 constexpr double kBackingOffMps = 1e-3;  // a command this fast away from the obstacle retreats
 constexpr double kSamePlaceM = 0.1;      // contacts this near with like normals are one contact
 constexpr double kSameNormalCos = 0.9;
-constexpr double kPressS = 0.05;   // still touching this long after the impact, it presses
-constexpr double kChatterS = 0.1;  // a contact lost for less than this has not ended
+constexpr double kPressS = 0.05, kSoftestS = 0.08;
+constexpr double kTread_s = 0.015;  // way of a wheel up a face, over the closing speed
+constexpr double kChatterS = 0.1;   // a contact lost for less than this has not ended
 
 class BounceBack final : public Detector {
  public:
   void Visit(ParamVisitor& v) override {
     v("closing_mps", closing_mps_, NonNegative(), "v: slower meetings are touches, not impacts");
-    v("rebound_mps", rebound_mps_, Positive(), "u: speed away from the obstacle that is a rebound");
+    v("rebound_mps", rebound_mps_, Positive(), "u: speed off the obstacle that is a rebound");
     v("rebound_share", rebound_share_, Between(0, 1),
       "least share of the closing speed that is a rebound, where it is more than rebound_mps");
+    v("wheel_share", wheel_share_, Between(0, 1),
+      "the same where a wheel meets the obstacle, or the contact lasts for more than 50 ms");
     v("part_m", part_m_, Positive(), "gap to the obstacle after the impact that is a rebound");
     v("window_s", window_s_, Positive(), "how long after the impact a rebound counts");
   }
@@ -54,7 +62,8 @@ class BounceBack final : public Detector {
     map_ = &context.map;
     robot_ = &context.robot;
     clear_ = &robot_->clear;
-    touches_ = {};
+    meetings_ = {};
+    timestep_s_ = context.timestep_s;
     active_ = 0;
     armed_ = true;
     last_contact_s_ = -std::numeric_limits<double>::infinity();
@@ -69,54 +78,69 @@ class BounceBack final : public Detector {
   }
 
  private:
-  struct Touch {
+  // Along the contact's normal: of the centre of mass, and of what touched.
+  using Along = std::array<double, 2>;
+  static double Least(const Along& now, const Along& then) {
+    return std::min(now[0] - then[0], now[1] - then[1]);
+  }
+
+  struct Meeting {
     bool live = false, touching = false, seen = false;
     bool watched = false, met = false, settled = false;
     int hazard = -1;
     std::size_t block = 0;
     Vec2 p_W = Vec2::Zero(), normal_W = Vec2::Zero();
+    double height_m = 0;  // in the body's frame
     double since_s = 0, last_seen_s = 0;
     double closing_mps = 0, threshold_mps = 0;
-    double away_mps = 0;  // as the contact itself says, when touching
-    double touch_m = 0,
-           deepest_m = 0;  // distances along the normal: when last touching, at the deepest
+    double part_m = 0;
+    Along at{}, touched{}, deepest{};  // at the last step, when last touching, at the deepest
     double peak_mps = 0, gap_m = 0, back_m = 0;
     bool by_speed = false;  // which inequality was met first
     double t_s = 0;         // then and there
     Pose2 X_WB;
   };
 
-  // A point of what touches: from the body's origin, its velocity, and the one commanded.
-  struct Point {
-    Vec2 r_W, v_W, v_cmd_W;
-  };
-
-  // The outermost point against the normal: of the block that touches, where blocks swing; else of
-  // the clear shape. (A circle's radius does not change, so that its centre will do.)
-  Point Outermost(const Touch& touch, const Sample& sample) const {
+  // The outermost point against the normal, from the body's origin: of the block that touches,
+  // where blocks swing; else of the clear shape. (A circle's radius does not change.)
+  Vec2 Outermost(const Meeting& meeting, const Sample& sample) const {
     const Pose2 X_WB = sample.X_WB();
     const bool swings = sample.hinges.n > 0;
-    const BlockMotion& block = now_.block[touch.block];
-    const Polygon& outline = swings ? robot_->blocks[touch.block].outline_K : clear_->footprint_B;
-    Vec2 r_W = -clear_->radius_m * touch.normal_W;
+    const BlockMotion& block = now_.block[meeting.block];
+    const Polygon& outline = swings ? robot_->blocks[meeting.block].outline_K : clear_->footprint_B;
+    Vec2 r_W = -clear_->radius_m * meeting.normal_W;
     double least_m = std::numeric_limits<double>::infinity();
     if (swings || clear_->kind == Shape2::Kind::kFootprint)
       for (const Vec2& p_K : outline) {
         const Vec2 corner_W = X_WB.Rotate(swings ? block.X_BK * p_K : p_K);
-        if (corner_W.dot(touch.normal_W) >= least_m) continue;
-        least_m = corner_W.dot(touch.normal_W);
+        if (corner_W.dot(meeting.normal_W) >= least_m) continue;
+        least_m = corner_W.dot(meeting.normal_W);
         r_W = corner_W;
       }
+    return r_W;
+  }
+
+  // The commanded speed of that point away from the obstacle.
+  double CommandedAway(const Meeting& meeting, const Vec2& r_W, const Sample& sample) const {
+    const Pose2 X_WB = sample.X_WB();
     const BodyTwist& cmd = sample.command.twist;
-    const Vec2 arm_W(-r_W.y(), r_W.x());
-    Point point{r_W, sample.v_WB_W.head<2>() + sample.V_WB_B.wz_radps * arm_W,
-                X_WB.Rotate({cmd.vx_mps, cmd.vy_mps}) + cmd.wz_radps * arm_W};
-    if (swings) {
+    Vec2 v_cmd_W = X_WB.Rotate({cmd.vx_mps, cmd.vy_mps}) + cmd.wz_radps * Vec2(-r_W.y(), r_W.x());
+    if (sample.hinges.n > 0) {
       const Vec2 r_B = Pose2{0, 0, -X_WB.yaw_rad}.Rotate(r_W);
-      point.v_W += X_WB.Rotate(block.VelocityAt(r_B));
-      point.v_cmd_W += X_WB.Rotate(commanded_.block[touch.block].VelocityAt(r_B));
+      v_cmd_W += X_WB.Rotate(commanded_.block[meeting.block].VelocityAt(r_B));
     }
-    return point;
+    return v_cmd_W.dot(meeting.normal_W);
+  }
+
+  Along Place(const Meeting& meeting, const Vec2& r_W, const Sample& sample) const {
+    const Mat3 R_WB = Attitude(sample);
+    const Vec2 r_B = Pose2{0, 0, -sample.yaw_rad}.Rotate(r_W);
+    const auto along = [&](const Vec3& p_B) {
+      return (sample.p_WB + R_WB * p_B).head<2>().dot(meeting.normal_W);
+    };
+    const double touched_m = along({r_B.x(), r_B.y(), meeting.height_m});
+    // A block that swings is thrown back on its hinge, and not the robot.
+    return {sample.hinges.n > 0 ? touched_m : along(robot_->p_BCom), touched_m};
   }
 
   bool Follow(const Sample& sample) {
@@ -126,127 +150,147 @@ class BounceBack final : public Detector {
       now_ = MoveBlocks(robot_->blocks, robot_->hinges, sample.hinges);
       commanded_ = MoveBlocks(robot_->blocks, robot_->hinges, commanded);
     }
-    for (Touch& touch : touches_) touch.seen = false;
+    for (Meeting& meeting : meetings_) meeting.seen = false;
     for (int i = 0; i < sample.num_contacts; ++i)
-      See(sample.contacts[static_cast<std::size_t>(i)], sample.t_s);
+      See(sample.contacts[static_cast<std::size_t>(i)], sample);
     if (sample.num_contacts > 0) last_contact_s_ = sample.t_s;
 
     bool fires = false;
     active_ = 0;
-    for (Touch& touch : touches_) {
-      if (!touch.live) continue;
-      touch.touching = touch.seen;
-      if (touch.watched && Watch(touch, sample) && armed_) {
-        Report(touch, sample);
+    for (Meeting& meeting : meetings_) {
+      if (!meeting.live) continue;
+      meeting.touching = StillTouches(meeting);
+      if (meeting.watched && Watch(meeting, sample) && armed_) {
+        Report(meeting, sample);
         armed_ = false;
         fires = true;
       }
-      touch.live = touch.watched || sample.t_s - touch.last_seen_s <= kChatterS;
-      active_ += touch.live ? 1 : 0;
+      meeting.live = meeting.watched || sample.t_s - meeting.last_seen_s <= kChatterS;
+      active_ += meeting.live ? 1 : 0;
     }
     if (fires)
-      for (Touch& touch : touches_) touch.watched = false;
+      for (Meeting& meeting : meetings_) meeting.watched = false;
     return fires;
   }
 
-  Touch* Find(const ObstacleContact& contact) {
-    for (Touch& touch : touches_)
-      if (touch.live && touch.hazard == contact.hazard &&
-          (touch.p_W - contact.p_W).squaredNorm() < kSamePlaceM * kSamePlaceM &&
-          touch.normal_W.dot(contact.normal_W) > kSameNormalCos)
-        return &touch;
+  // There or elsewhere along the same face.
+  bool StillTouches(const Meeting& meeting) const {
+    return std::ranges::any_of(meetings_, [&](const Meeting& other) {
+      return other.live && other.seen && other.hazard == meeting.hazard &&
+             other.normal_W.dot(meeting.normal_W) > kSameNormalCos;
+    });
+  }
+
+  Meeting* Find(const ObstacleContact& contact) {
+    for (Meeting& meeting : meetings_)
+      if (meeting.live && meeting.hazard == contact.hazard &&
+          (meeting.p_W - contact.p_W).squaredNorm() < kSamePlaceM * kSamePlaceM &&
+          meeting.normal_W.dot(contact.normal_W) > kSameNormalCos)
+        return &meeting;
     return nullptr;
   }
 
   // Matches a contact to those of the last step, or begins one.
-  void See(const ObstacleContact& contact, double t_s) {
-    Touch* touch = Find(contact);
-    const bool begins = touch == nullptr;
-    if (touch == nullptr) {
-      const auto free = std::ranges::find_if(touches_, [](const Touch& t) { return !t.live; });
-      if (free == touches_.end()) return;  // as many contacts as a sample can hold are followed
-      touch = &*free;
-      *touch = {};
-      touch->live = true;
-      touch->hazard = contact.hazard;
+  void See(const ObstacleContact& contact, const Sample& sample) {
+    Meeting* meeting = Find(contact);
+    const bool begins = meeting == nullptr;
+    if (meeting == nullptr) {
+      const auto free = std::ranges::find_if(meetings_, [](const Meeting& m) { return !m.live; });
+      if (free == meetings_.end()) return;  // as many contacts as a sample can hold are followed
+      meeting = &*free;
+      *meeting = {};
+      meeting->live = true;
+      meeting->hazard = contact.hazard;
     }
-    touch->seen = true;
-    touch->last_seen_s = t_s;
-    touch->p_W = contact.p_W;
-    touch->away_mps = -contact.closing_mps;
-    if (!touch->watched) {
-      touch->normal_W = contact.normal_W;
-      touch->block = static_cast<std::size_t>(contact.block);
+    meeting->seen = true;
+    meeting->last_seen_s = sample.t_s;
+    meeting->p_W = contact.p_W;
+    if (!meeting->watched) {
+      meeting->normal_W = contact.normal_W;
+      meeting->block = static_cast<std::size_t>(contact.block);
+      meeting->height_m = contact.height_m - sample.p_WB.z();
     }
     if (!begins || !armed_ || !(contact.closing_mps > closing_mps_)) return;
-    touch->watched = true;
-    touch->since_s = t_s;
-    touch->closing_mps = contact.closing_mps;
-    touch->threshold_mps = std::max(rebound_mps_, rebound_share_ * contact.closing_mps);
-    touch->deepest_m = std::numeric_limits<double>::infinity();
+    meeting->watched = true;
+    meeting->since_s = sample.t_s;
+    meeting->closing_mps = contact.closing_mps;
+    meeting->threshold_mps = std::max(
+        rebound_mps_, (contact.wheel ? wheel_share_ : rebound_share_) * contact.closing_mps);
+    meeting->part_m = part_m_ + (contact.wheel ? kTread_s * contact.closing_mps : 0);
+    meeting->at = meeting->touched = meeting->deepest =
+        Place(*meeting, Outermost(*meeting, sample), sample);
   }
 
   // One step after an impact. True when a rebound is over, and with it its evidence complete.
-  bool Watch(Touch& touch, const Sample& sample) {
-    const Vec2& n = touch.normal_W;
-    const Point point = Outermost(touch, sample);
-    const bool backing_off = point.v_cmd_W.dot(n) > kBackingOffMps;
-    const bool late = sample.t_s - touch.since_s > window_s_ + kTimeSlackS;
+  bool Watch(Meeting& meeting, const Sample& sample) {
+    const Vec2 r_W = Outermost(meeting, sample);
+    const bool backing_off = CommandedAway(meeting, r_W, sample) > kBackingOffMps;
+    const bool late = sample.t_s - meeting.since_s > window_s_ + kTimeSlackS;
     if (backing_off || late) {
-      touch.watched = false;
-      return touch.met;
+      meeting.watched = false;
+      return meeting.met;
     }
 
-    // A robot is thrown back when it moves away as a whole. A body that pitches against the wall
-    // moves away either where it touches or at its origin, and not at both.
-    const double body_mps = point.v_W.dot(n);
-    const double away_mps = touch.touching ? std::min(touch.away_mps, body_mps) : body_mps;
-    const double along_m = (sample.p_WB.head<2>() + point.r_W).dot(n);
-    if (touch.touching) touch.touch_m = along_m;
-    touch.deepest_m = std::min(touch.deepest_m, along_m);
-    const bool approaches_again = touch.peak_mps > 0 && away_mps <= 0;
-    const bool presses = touch.touching && sample.t_s - touch.since_s > kPressS;
-    touch.settled = touch.settled || approaches_again || presses;
-    if (!touch.settled) touch.peak_mps = std::max(touch.peak_mps, away_mps);
-    touch.gap_m = std::max(touch.gap_m, along_m - touch.touch_m);
-    touch.back_m = std::max(touch.back_m, along_m - touch.deepest_m);
-    const double share = std::max(touch.peak_mps / touch.threshold_mps, touch.gap_m / part_m_);
-    margin_ = std::min(margin_, (1 - share) * rebound_mps_);
-    if (!touch.met && share > 1) {
-      touch.met = true;
-      touch.by_speed = touch.peak_mps > touch.threshold_mps;
-      touch.t_s = sample.t_s;
-      touch.X_WB = sample.X_WB();
+    const Along before = meeting.at;
+    meeting.at = Place(meeting, r_W, sample);
+    const double away_mps = Least(meeting.at, before) / timestep_s_;
+    for (std::size_t i = 0; i < meeting.at.size(); ++i)
+      meeting.deepest[i] = std::min(meeting.deepest[i], meeting.at[i]);
+    meeting.back_m = std::max(meeting.back_m, Least(meeting.at, meeting.deepest));
+    if (meeting.touching) {
+      const double pressed_s = sample.t_s - meeting.since_s;
+      meeting.touched = meeting.at;
+      meeting.settled = meeting.settled || pressed_s > kSoftestS;
+      if (pressed_s > kPressS) {
+        meeting.threshold_mps = std::max(meeting.threshold_mps, wheel_share_ * meeting.closing_mps);
+        meeting.part_m = std::numeric_limits<double>::infinity();
+      }
+    } else if (!meeting.settled) {
+      meeting.gap_m = std::max(meeting.gap_m, Least(meeting.at, meeting.touched));
+      meeting.peak_mps = std::max(meeting.peak_mps, away_mps);
     }
-    if (!touch.met || (away_mps > 0 && !sample.command.done)) return false;
-    touch.watched = false;
+    Judge(meeting, sample);
+    if (!meeting.met || (away_mps > 0 && !sample.command.done)) return false;
+    meeting.watched = false;
     return true;
   }
 
-  void Report(const Touch& touch, const Sample& sample) {
-    event_ = MakeEvent(mode(), touch.by_speed ? "reversed" : "parted", sample,
-                       HazardId(*map_, touch.hazard, true),
-                       touch.by_speed ? touch.peak_mps : touch.gap_m,
-                       touch.by_speed ? touch.threshold_mps : part_m_);
-    event_.t_s = touch.t_s;
-    event_.x_m = touch.X_WB.x_m;
-    event_.y_m = touch.X_WB.y_m;
-    event_.yaw_rad = touch.X_WB.yaw_rad;
-    event_.evidence = {{"closing_mps", touch.closing_mps},
-                       {"rebound_mps", touch.peak_mps},
-                       {"travel_back_m", touch.back_m},
-                       {"gap_m", touch.gap_m},
-                       {"impact_t_s", touch.since_s}};
+  void Judge(Meeting& meeting, const Sample& sample) {
+    const double by_speed = meeting.peak_mps / meeting.threshold_mps;
+    const double share = std::max(by_speed, meeting.gap_m / meeting.part_m);
+    margin_ = std::min(margin_, (1 - share) * rebound_mps_);
+    if (meeting.met || !(share > 1)) return;
+    meeting.met = true;
+    meeting.by_speed = by_speed > 1;
+    meeting.t_s = sample.t_s;
+    meeting.X_WB = sample.X_WB();
   }
 
-  double closing_mps_ = 0.05, rebound_mps_ = 0.02, rebound_share_ = 0.2, part_m_ = 0.001,
-         window_s_ = 1.0;
+  void Report(const Meeting& meeting, const Sample& sample) {
+    event_ = MakeEvent(mode(), meeting.by_speed ? "reversed" : "parted", sample,
+                       HazardId(*map_, meeting.hazard, true),
+                       meeting.by_speed ? meeting.peak_mps : meeting.gap_m,
+                       meeting.by_speed ? meeting.threshold_mps : meeting.part_m);
+    event_.t_s = meeting.t_s;
+    event_.x_m = meeting.X_WB.x_m;
+    event_.y_m = meeting.X_WB.y_m;
+    event_.yaw_rad = meeting.X_WB.yaw_rad;
+    event_.evidence = {{"closing_mps", meeting.closing_mps},
+                       {"rebound_mps", meeting.peak_mps},
+                       {"travel_back_m", meeting.back_m},
+                       {"gap_m", meeting.gap_m},
+                       {"impact_t_s", meeting.since_s}};
+  }
+
+  double closing_mps_ = 0.05, rebound_mps_ = 0.025, rebound_share_ = 0.1, wheel_share_ = 0.5,
+         part_m_ = 0.001, window_s_ = 1.0;
+  double timestep_s_ = 0.004;
 
   const HazardMap* map_ = nullptr;
   const RobotSpec* robot_ = nullptr;
   const Shape2* clear_ = nullptr;
   BlockMotions now_, commanded_;  // of a robot whose blocks swing
-  std::array<Touch, Sample::kMaxContacts> touches_;
+  std::array<Meeting, Sample::kMaxContacts> meetings_;
   int active_ = 0;
   bool armed_ = true;
   double last_contact_s_ = 0;

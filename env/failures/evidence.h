@@ -1,44 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the detectors share: which hazard was met last, and the making of an event.
+// What the detectors share: which hazard is to blame, and the making of an event.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <string>
 #include <string_view>
 
 #include "env/core/event.h"
-#include "env/core/hazard_map.h"
-#include "env/core/motion.h"
+#include "env/failures/detector.h"
 
 namespace floorproof {
 
-// The hazard that the robot met last. A failure is often established seconds after what caused it.
+// Who did it. Things that lie side by side are told apart by what their contacts did to the robot:
+// a mat under a wheel is not the wall that holds it. The effect of each thing fades with kFade_s;
+// the one to blame has the most. A failure is often established seconds after its cause.
 class HazardMemory {
  public:
-  void Clear() { *this = {}; }
+  // The effect that a touch has in a step, as a share of the robot's weight; not positive: none.
+  using Effect = double (*)(const RobotSpec& robot, const Sample& sample, const Touch& touch);
 
-  void Update(const Sample& sample) {
-    if (sample.num_contacts > 0) {
-      index_ = sample.contacts[0].hazard;
-      for (int i = 1; i < sample.num_contacts; ++i)  // a hazard says more than the wall beside it
-        if (index_ < 0) index_ = sample.contacts[static_cast<std::size_t>(i)].hazard;
-      if (index_ < 0) index_ = sample.near_hazard;
-      contact_ = true;
-      t_s_ = sample.t_s;
-    } else if (sample.near_hazard >= 0) {
-      index_ = sample.near_hazard;
-      contact_ = false;
-      t_s_ = sample.t_s;
-    }
-  }
+  // Holds the robot back against what is commanded.
+  static double Holds(const RobotSpec& robot, const Sample& sample, const Touch& touch);
+  // Pushes it off its path, or turns it.
+  static double PushesOff(const RobotSpec& robot, const Sample& sample, const Touch& touch);
+  // Tilts it towards the side to which it leans.
+  static double Tilts(const RobotSpec& robot, const Sample& sample, const Touch& touch);
 
-  // Its id when it was met at since_s or later, else "".
-  std::string Recall(const HazardMap& map, double since_s) const;
+  explicit HazardMemory(Effect effect) : effect_(effect) {}
+
+  void Start(const EpisodeContext& context);
+  void Update(const Sample& sample);
+
+  // The id of what had the most effect at since_s or later, "wall" for the map's own. Where nothing
+  // had any: of the gap or the slippery floor met last since then. Else "".
+  std::string Recall(double since_s) const;
 
  private:
-  int index_ = -1;
-  bool contact_ = false;
-  double t_s_ = -std::numeric_limits<double>::infinity();
+  static constexpr double kFade_s = 3, kLeast = 0.01;
+  struct Entry {
+    int hazard = -1;
+    double impulse_s = 0, t_s = -std::numeric_limits<double>::infinity();
+    double At(double t_s) const;
+  };
+
+  Effect effect_;
+  const HazardMap* map_ = nullptr;
+  const RobotSpec* robot_ = nullptr;
+  double timestep_s_ = 0, now_s_ = 0;
+  std::array<Entry, 2 * Sample::kMaxTouches> entries_;
+  Entry passive_;  // what has an effect without a push
 };
 
 // An event at this sample's time and pose, with the mode's effect.

@@ -1,25 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 // F3, roll over, in three ways, each an inequality on the true motion:
 //   tilt > min(tilt limit, static tip angle) for tilt_duration_s: it is about to lie on its side;
-//   kind `tipped`: the centre of mass lies outside the hull of the wheel contacts for
-//     tipped_duration_s while a wheel touches (a robot in the air is not tipped yet);
+//   kind `tipped`: the centre of mass lies outside the hull of what carries the robot, by more than
+//     tipped_share of the support at rest, on the side to which it leans, and does not come back
+//     for tipped_duration_s while a wheel touches (a robot in the air is not tipped yet);
 //   kind `fell`: the lowest driven wheel is more than fall_m below the plan's floor; a robot that
 //     lands on its wheels after a drop was never tilted much.
-// The tilt limit is mjlab's bad-orientation termination; the others are static stability.
-// The plan's floor is z = 0, or the lowest level change under the centre or a wheel that is known
-// and low enough to be driven over. It does not judge how hard a landing was.
+// The tilt limit is mjlab's bad-orientation termination; the others are static stability. What is
+// that deep outside falls on: an upright pendulum's deviation grows by cosh(t sqrt(g / h)), 13
+// times in half a second at h = 0.2 m. A robot that rocks over a bump crosses the border of its
+// support as well. It does so from the far side, coming back to level, or by less than that, until
+// the next wheel touches. One that rests on two points has no polygon, and no deviation beyond
+// noise either. The plan's floor is z = 0, or the lowest level change under the centre or a wheel
+// that is known and low enough to be driven over. It does not judge how hard a landing was.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
+#include "env/core/blocks.h"
 #include "env/failures/detector.h"
 #include "env/failures/evidence.h"
+#include "env/failures/posture.h"
 
 namespace floorproof {
 namespace {
 
 constexpr double kTimeSlackS = 1e-9;  // sums of time steps are not exact
 constexpr double kRecallS = 3.0;      // from the edge to the floor takes about a second
+
+// No contact is placed better than this: a support may be a line.
+constexpr double kNoise_m = 0.002;
+constexpr double kComesBack_rad = 0.005;  // lean lost by a robot that does not tip
+constexpr double kSunk_m = 0.005;         // of what has gone over an edge
 
 // True from the moment on that a condition has held for a duration.
 class Lasting {
@@ -48,6 +61,8 @@ class RollOver final : public Detector {
     v("tilt_duration_s", tilt_duration_s_, NonNegative(), "how long the tilt must last");
     v("tipped_duration_s", tipped_duration_s_, NonNegative(),
       "how long the centre of mass must stand outside the wheels' support");
+    v("tipped_share", tipped_share_, Between(0, 1),
+      "how far outside that is, as a share of the support at rest");
     v("fall_m", fall_m_, Positive(), "depth of the wheels below the plan's floor that is a fall");
   }
 
@@ -62,8 +77,10 @@ class RollOver final : public Detector {
     if (!robot.hinges.empty())
       for (const ShapeSpec& shape : robot.shapes)
         limit_rad_ = std::min(limit_rad_, shape.static_tip_rad);
-    feet_B_ = {Vec2::Zero()};
-    for (const WheelSpec& wheel : robot.wheels) feet_B_.push_back(wheel.p_BW.head<2>());
+    robot_ = &robot;
+    // From the centre of mass to the nearest edge of the wheels' polygon.
+    deep_m_ = std::max(kNoise_m, tipped_share_ * robot.p_BCom.z() * std::tan(robot.static_tip_rad));
+    start_ = MoveBlocks(robot.blocks, robot.hinges, StartState(robot));
     levels_.clear();
     highest_floor_m_ = 0;
     for (const Hazard& hazard : context.map.hazards) {
@@ -73,11 +90,11 @@ class RollOver final : public Detector {
       levels_.push_back(&hazard);
       highest_floor_m_ = std::max(highest_floor_m_, hazard.height_m);
     }
-    hazards_.Clear();
+    hazards_.Start(context);
     tilted_.Clear();
     unsupported_.Clear();
     reported_ = false;
-    rest_support_m_ = window_support_m_ = 0;
+    rest_support_m_ = window_support_m_ = most_lean_rad_ = 0;
     window_since_s_ = 0;
     margin_ = limit_rad_;
   }
@@ -87,20 +104,19 @@ class RollOver final : public Detector {
     const double tilt_margin_rad = limit_rad_ - sample.tilt_rad;
     const bool tilted = tilted_.Update(tilt_margin_rad < 0, sample.t_s, tilt_duration_s_);
 
-    const bool off_support = sample.wheel_contacts > 0 && sample.support_margin_m < 0;
+    const bool off_support = sample.wheel_contacts > 0 && FallsOn(sample);
     const bool tipped = unsupported_.Update(off_support, sample.t_s, tipped_duration_s_);
 
     // The exact floor matters only to a wheel that is below any floor the plan can have.
     double fall_threshold_m = highest_floor_m_ - fall_m_;
-    if (sample.wheel_floor_z_m < fall_threshold_m)
-      fall_threshold_m = PlanFloor(sample.X_WB()) - fall_m_;
+    if (sample.wheel_floor_z_m < fall_threshold_m) fall_threshold_m = PlanFloor(sample) - fall_m_;
     const bool fell = sample.wheel_floor_z_m < fall_threshold_m;
 
     // In radians of tilt: each inequality's share still left, times the tilt limit. Conditions that
     // have not lasted long enough count as just met.
     double left =
         tilted ? tilt_margin_rad / limit_rad_ : std::max(0.0, tilt_margin_rad / limit_rad_);
-    left = std::min(left, tipped && rest_support_m_ > 0 ? sample.support_margin_m / rest_support_m_
+    left = std::min(left, tipped && rest_support_m_ > 0 ? ShareOfSupport(sample.support_margin_m)
                                                         : SupportLeft(sample));
     left = std::min(left, (sample.wheel_floor_z_m - fall_threshold_m) / fall_m_);
     if (tipped || fell) left = std::min(left, -std::numeric_limits<double>::min());
@@ -118,6 +134,19 @@ class RollOver final : public Detector {
   }
 
  private:
+  // Outside on the low side, and not on its way back.
+  bool FallsOn(const Sample& sample) {
+    const double lean_rad = LeanOf(Attitude(sample)).dot(sample.off_support_W);
+    const bool outside = sample.support_margin_m < -deep_m_ && lean_rad > 0;
+    most_lean_rad_ = outside ? std::max(most_lean_rad_, lean_rad) : 0;
+    return outside && lean_rad > most_lean_rad_ - kComesBack_rad;
+  }
+
+  // 1 as at rest, 0 where it would fall on.
+  double ShareOfSupport(double margin_m) const {
+    return (margin_m + deep_m_) / (rest_support_m_ + deep_m_);
+  }
+
   // When a wheel lifts for one step, the hull of the contacts is empty. What counts is therefore
   // the best support within tipped_duration_s, as a share of the support at rest. 1 until that is
   // known.
@@ -128,44 +157,84 @@ class RollOver final : public Detector {
     }
     if (sample.t_s - window_since_s_ < tipped_duration_s_) return 1;
     const double best_m = window_support_m_;
-    window_support_m_ = 0;
+    window_support_m_ = -deep_m_;
     window_since_s_ = sample.t_s;
-    return rest_support_m_ > 0 && sample.wheel_contacts > 0 ? best_m / rest_support_m_ : 1;
+    return rest_support_m_ > 0 && sample.wheel_contacts > 0 ? ShareOfSupport(best_m) : 1;
   }
 
-  double PlanFloor(const Pose2& X_WB) const {
-    double lowest_m = std::numeric_limits<double>::infinity();
-    for (const Vec2& p_B : feet_B_) {
-      const Vec2 p_W = X_WB * p_B;
-      double floor_m = 0;
-      for (const Hazard* level : levels_)
-        for (const Polygon& polygon : level->footprint)
-          if (Contains(polygon, p_W)) floor_m = level->height_m;
-      lowest_m = std::min(lowest_m, floor_m);
-    }
+  // Where a driven wheel's centre is in the body frame: the block that carries it may have swung.
+  Vec3 WheelCentre(const Sample& sample, const WheelSpec& wheel) const {
+    if (sample.hinges.n == 0) return wheel.p_BW;
+    const auto block = static_cast<std::size_t>(wheel.block);
+    const Vec2 p_K = start_.block[block].X_BK.Inverse() * Vec2(wheel.p_BW.head<2>());
+    const BlockMotions now = MoveBlocks(robot_->blocks, robot_->hinges, sample.hinges);
+    const Vec2 p_B = now.block[block].X_BK * p_K;
+    return {p_B.x(), p_B.y(), wheel.p_BW.z()};
+  }
+
+  double FloorAt(const Vec2& p_W) const {
+    double floor_m = 0;
+    for (const Hazard* level : levels_)
+      for (const Polygon& polygon : level->footprint)
+        if (Contains(polygon, p_W)) floor_m = level->height_m;
+    return floor_m;
+  }
+
+  double PlanFloor(const Sample& sample) const {
+    double lowest_m = FloorAt(sample.X_WB().p());
+    for (const WheelSpec& wheel : robot_->wheels)
+      lowest_m =
+          std::min(lowest_m, FloorAt(sample.X_WB() * Vec2(WheelCentre(sample, wheel).head<2>())));
     return lowest_m;
   }
 
-  // The low floor under the centre or a wheel: a robot in the air touches no hazard.
-  std::string DropBelow(const Pose2& X_WB) const {
-    std::string id;
-    for (const Vec2& p_B : feet_B_)
-      for (const Hazard& hazard : map_->hazards)
-        for (const Polygon& polygon : hazard.footprint)
-          if (hazard.height_m < 0 && Contains(polygon, X_WB * p_B)) id = hazard.id;
-    return id;
+  // The low floor there; of several the last, as the floor is built.
+  const Hazard* DropAt(const Vec2& p_W) const {
+    for (std::size_t h = map_->hazards.size(); h-- > 0;)
+      for (const Polygon& polygon : map_->hazards[h].footprint)
+        if (map_->hazards[h].height_m < 0 && Contains(polygon, p_W)) return &map_->hazards[h];
+    return nullptr;
+  }
+
+  // The gap into which the robot has gone: below what has sunk deepest, of its wheels and its
+  // outline. A robot in the air touches no hazard.
+  std::string DropBelow(const Sample& sample) const {
+    const Mat3 R_WB = Attitude(sample);
+    const Hazard* drop = nullptr;
+    double deepest_m = kSunk_m;
+    const auto look = [&](const Vec3& p_B, double rest_m) {
+      const Vec3 p_W = sample.p_WB + R_WB * p_B;
+      if (rest_m - p_W.z() <= deepest_m) return;
+      const Hazard* below = DropAt(p_W.head<2>());
+      if (below == nullptr) return;
+      deepest_m = rest_m - p_W.z();
+      drop = below;
+    };
+    for (const WheelSpec& wheel : robot_->wheels) {
+      const Vec3 p_B = WheelCentre(sample, wheel);
+      look(p_B, p_B.z());
+    }
+    constexpr int kAround = 16;
+    for (int i = 0; i < kAround; ++i) {
+      const double bearing_rad = 2 * kPi * i / kAround;
+      const double r_m = EdgeAlong(robot_->clear, bearing_rad);
+      look({r_m * std::cos(bearing_rad), r_m * std::sin(bearing_rad), robot_->clearance_m},
+           robot_->clearance_m);
+    }
+    return drop == nullptr ? "" : drop->id;
   }
 
   void Report(const Sample& sample, bool tilted, bool fell, double fall_threshold_m) {
-    std::string hazard = hazards_.Recall(*map_, sample.t_s - kRecallS);
-    if (hazard.empty()) hazard = DropBelow(sample.X_WB());
+    std::string hazard = DropBelow(sample);
+    if (hazard.empty()) hazard = hazards_.Recall(sample.t_s - kRecallS);
     if (tilted)
       event_ = MakeEvent(mode(), "", sample, std::move(hazard), sample.tilt_rad, limit_rad_);
     else if (fell)
       event_ = MakeEvent(mode(), "fell", sample, std::move(hazard), sample.wheel_floor_z_m,
                          fall_threshold_m);
     else
-      event_ = MakeEvent(mode(), "tipped", sample, std::move(hazard), sample.support_margin_m, 0.0);
+      event_ =
+          MakeEvent(mode(), "tipped", sample, std::move(hazard), sample.support_margin_m, -deep_m_);
     event_.evidence = {{"tilt_rad", sample.tilt_rad},
                        {"support_margin_m", sample.support_margin_m},
                        {"wheel_floor_z_m", sample.wheel_floor_z_m},
@@ -175,13 +244,16 @@ class RollOver final : public Detector {
 
   double tilt_limit_deg_ = 70;  // mjlab's
   double tilt_duration_s_ = 0.1, tipped_duration_s_ = 0.5;
+  double tipped_share_ = 0.1;  // ours
   double fall_m_ = 0.030;
 
   const HazardMap* map_ = nullptr;
+  const RobotSpec* robot_ = nullptr;
   double limit_rad_ = 0, highest_floor_m_ = 0;
-  std::vector<Vec2> feet_B_;
+  double deep_m_ = 0, most_lean_rad_ = 0;
+  BlockMotions start_;                 // at the start
   std::vector<const Hazard*> levels_;  // known level changes that are driven over
-  HazardMemory hazards_;
+  HazardMemory hazards_{&HazardMemory::Tilts};
   Lasting tilted_, unsupported_;
   double rest_support_m_ = 0;  // the most seen: the support when standing well
   double window_support_m_ = 0, window_since_s_ = 0;

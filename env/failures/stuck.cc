@@ -72,7 +72,7 @@ class Stuck final : public Detector {
     further_than_m_ = -std::numeric_limits<double>::infinity();
     turned_here_rad_ = 0;
     started_ = reported_ = false;
-    hazards_.Clear();
+    hazards_.Start(context);
     belly_hazard_ = -1;
     margin_ = displacement_m_;
   }
@@ -205,7 +205,7 @@ class Stuck final : public Detector {
     const bool high_centred = weight_n_ > 0 && belly_n >= belly_share_ * weight_n_;
     const bool on_hazard = high_centred && belly_hazard_ >= 0 && belly_t_s_ >= first.t_s;
     std::string hazard = on_hazard ? HazardId(*map_, belly_hazard_, false) : "";
-    if (hazard.empty()) hazard = hazards_.Recall(*map_, first.t_s);
+    if (hazard.empty()) hazard = hazards_.Recall(first.t_s);
     event_ = MakeEvent(mode(), high_centred ? "high_centred" : "", sample, std::move(hazard),
                        now.done_m, now.least_m);
     event_.evidence = {{"gained_m", now.gained_m},
@@ -234,7 +234,7 @@ class Stuck final : public Detector {
   std::int64_t ticks_ = 0;
   double last_t_s_ = 0;
   bool started_ = false, reported_ = false;
-  HazardMemory hazards_;
+  HazardMemory hazards_{&HazardMemory::Holds};
   int belly_hazard_ = -1;
   double belly_t_s_ = 0;
 };

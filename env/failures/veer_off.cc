@@ -30,8 +30,7 @@ class VeerOff final : public Detector {
   FailureMode mode() const override { return FailureMode::kVeerOff; }
 
   void Start(const EpisodeContext& context) override {
-    map_ = &context.map;
-    hazards_.Clear();
+    hazards_.Start(context);
     off_ = reported_ = false;
     margin_ = max_cross_track_m_;
   }
@@ -57,7 +56,7 @@ class VeerOff final : public Detector {
     margin_ = std::min(margin_, lasted ? margin_m : 0.0);
     if (!lasted || reported_) return false;
     reported_ = true;
-    event_ = MakeEvent(mode(), "", sample, hazards_.Recall(*map_, sample.t_s - kRecallS),
+    event_ = MakeEvent(mode(), "", sample, hazards_.Recall(sample.t_s - kRecallS),
                        sample.cross_track_m, limit_m);
     event_.evidence = {{"half_width_m", half_width_m}, {"since_s", off_since_s_}};
     return true;
@@ -67,8 +66,7 @@ class VeerOff final : public Detector {
   double max_cross_track_m_ = 0.5;  // Nav2's bound for indoor robots
   double duration_s_ = 0.2;
 
-  const HazardMap* map_ = nullptr;
-  HazardMemory hazards_;
+  HazardMemory hazards_{&HazardMemory::PushesOff};
   bool off_ = false, reported_ = false;
   double off_since_s_ = 0;
 };

@@ -29,6 +29,7 @@ class Bumper final : public Sensor {
     Vec2 moment_W = Vec2::Zero();
     for (int i = 0; i < truth.num_contacts; ++i) {
       const ObstacleContact& contact = truth.contacts[static_cast<std::size_t>(i)];
+      if (contact.wheel) continue;  // the bumper is round the body
       const double pushes_n = contact.impulse_ns / timestep_s_;
       force_n += pushes_n;
       moment_W += pushes_n * contact.p_W;

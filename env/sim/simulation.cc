@@ -9,13 +9,6 @@
 namespace floorproof {
 namespace {
 
-constexpr std::size_t kMaxSupports = 64;
-// A contact whose normal stands steeper than this carries; one flatter than that obstructs.
-constexpr double kSteep = 0.7;
-constexpr double kWedged = 0.3;      // a wheel in a groove stands on rims as steep as this
-constexpr double kBeside_m = 0.005;  // into the gap beside a slab's side
-constexpr double kBelow_m = 0.005;   // below the floor a wheel hangs in something
-
 // The warnings after which the state is not to be believed.
 bool Diverged(const mjData* d) {
   return d->warning[mjWARN_BADQPOS].number > 0 || d->warning[mjWARN_BADQVEL].number > 0 ||
@@ -42,6 +35,7 @@ Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec
       own_(CopyModel(scene.model.get())),
       live_(scene, *own_),
       data_(MakeData(scene.model.get())),
+      contacts_(scene, map, robot),
       battery_(robot.battery),
       voltage_changes_(robot.battery.resistance_ohm > 0 || robot.battery.capacity_wh) {
   const mjModel* m = model();
@@ -50,16 +44,11 @@ Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec
     hinge_qpos_.push_back(m->jnt_qposadr[joint]);
     hinge_dof_.push_back(m->jnt_dofadr[joint]);
   }
-  if (!robot.hinges.empty())
-    for (const BlockSpec& block : robot.blocks)
-      block_bodies_.push_back(mj_name2id(m, mjOBJ_BODY, block.name.c_str()));
   for (int a = 0; a < static_cast<int>(robot.wheels.size()); ++a) {
     const int joint = m->actuator_trnid[2 * a];
     wheel_bodies_.push_back(m->jnt_bodyid[joint]);
     wheel_qpos_.push_back(m->jnt_qposadr[joint]);
   }
-  support_.reserve(kMaxSupports);
-  hull_.reserve(2 * kMaxSupports);
 }
 
 void Simulation::Place(const Pose2& X_WB) {
@@ -119,7 +108,7 @@ void Simulation::Settle(const Pose2& X_WB, double t_s) {
   live_.Update(d);
   ForwardEngine(model(), d);
   ReadPose();
-  ReadContacts();
+  contacts_.Read(model(), data_.get(), lowest_wheel_W_, truth_);
   ReadPower(0);
 }
 
@@ -131,7 +120,7 @@ bool Simulation::Step() {
   live_.Update(data_.get());
   StepEngine(model(), data_.get());
   ReadPose();
-  ReadContacts();
+  contacts_.Read(model(), data_.get(), lowest_wheel_W_, truth_);
   ReadPower(model()->opt.timestep);
   return !Diverged(data_.get()) && std::isfinite(truth_.p_WB.sum()) &&
          std::isfinite(truth_.v_WB_W.sum());
@@ -200,119 +189,6 @@ void Simulation::ReadPose() {
     lowest_wheel_W_ = {p_W[0], p_W[1]};
   }
   truth_.wheel_floor_z_m = lowest;
-}
-
-void Simulation::ReadContacts() {
-  const mjModel* m = model();
-  const mjData* d = data_.get();
-  truth_.belly_load_n = 0;
-  truth_.belly_hazard = -1;
-  truth_.wheel_contacts = 0;
-  truth_.near_hazard = -1;
-  truth_.num_contacts = 0;
-  support_.clear();
-  for (int i = 0; i < d->ncon; ++i) {
-    const mjContact& c = d->contact[i];
-    if (c.exclude || c.efc_address < 0) continue;
-    GeomRole world = scene_.roles[static_cast<std::size_t>(c.geom[0])];
-    GeomRole robot = scene_.roles[static_cast<std::size_t>(c.geom[1])];
-    double toward = 1;  // the contact's normal points from geom 0 to geom 1
-    if (m->geom_bodyid[c.geom[0]] != 0) {
-      std::swap(world, robot);
-      toward = -1;
-    }
-    const double nz = toward * c.frame[2];
-    // The side of a slab of floor is the edge of what is missing beside it.
-    if (world.kind == GeomRole::Kind::kFloor && world.hazard < 0 && nz < kSteep)
-      world.hazard =
-          CutAt(Vec2(c.pos[0], c.pos[1]) + kBeside_m * toward * Vec2(c.frame[0], c.frame[1]));
-    if (world.hazard >= 0) truth_.near_hazard = world.hazard;
-    if (robot.kind == GeomRole::Kind::kWheel) {
-      ++truth_.wheel_contacts;
-      if (nz > kWedged) AddSupport(c.pos);
-      continue;
-    }
-    if (nz <= kSteep) {
-      AddObstacle(c, world.hazard, c.geom[toward > 0 ? 1 : 0], toward);
-      continue;
-    }
-    mjtNum force[6];
-    mj_contactForce(m, d, i, force);
-    truth_.belly_load_n += force[0] * nz;
-    if (force[0] > 0) AddSupport(c.pos);
-    truth_.belly_hazard = world.hazard;
-  }
-  if (truth_.near_hazard < 0 && truth_.wheel_floor_z_m < -kBelow_m)
-    truth_.near_hazard = CutAt(lowest_wheel_W_);  // a wheel that hangs in it
-  truth_.support_margin_m = SupportMargin();
-}
-
-// The hazard whose cut in the floor holds this point; -1: none.
-int Simulation::CutAt(const Vec2& p_W) const {
-  for (std::size_t h = map_.hazards.size(); h-- > 0;)
-    for (const Solid& solid : map_.hazards[h].solids)
-      if (solid.kind == Solid::Kind::kCut && Contains(solid.base, p_W)) return static_cast<int>(h);
-  return -1;
-}
-
-void Simulation::AddObstacle(const mjContact& contact, int hazard, int geom, double toward) {
-  Vec2 normal_W(toward * contact.frame[0], toward * contact.frame[1]);
-  if (truth_.num_contacts == Truth::kMaxContacts || normal_W.norm() < 1e-9) return;
-  normal_W.normalize();
-  const mjModel* m = model();
-  const mjData* d = data_.get();
-  // Of what touches, at the point of touch: a body that pitches at the impact moves otherwise there
-  // than at its origin, and a block that swings otherwise than the robot. Velocities by body are
-  // those before the step.
-  const int body = m->body_weldid[m->geom_bodyid[geom]];
-  mjtNum V_W[6];
-  mj_objectVelocity(m, d, mjOBJ_XBODY, body, V_W, 0);
-  const Vec3 w_W(V_W[0], V_W[1], V_W[2]), v_W(V_W[3], V_W[4], V_W[5]);
-  const Vec3 r_W = Vec3(contact.pos) - Vec3(d->xpos + 3 * body);
-  mjtNum force[6];
-  mj_contactForce(m, d, static_cast<int>(&contact - d->contact), force);
-
-  ObstacleContact& out = truth_.contacts[static_cast<std::size_t>(truth_.num_contacts++)];
-  out.hazard = hazard;
-  out.p_W = {contact.pos[0], contact.pos[1]};
-  out.normal_W = normal_W;
-  const auto block = std::ranges::find(block_bodies_, body);
-  out.block = block == block_bodies_.end() ? 0 : static_cast<int>(block - block_bodies_.begin());
-  out.closing_mps = -Vec3(v_W + w_W.cross(r_W)).head<2>().dot(normal_W);
-  out.impulse_ns = force[0] * m->opt.timestep;
-}
-
-void Simulation::AddSupport(const double* p_W) {
-  if (support_.size() < kMaxSupports) support_.emplace_back(p_W[0], p_W[1]);
-}
-
-// Signed distance from the centre of mass, seen from above, to the border of the hull of the
-// wheels' contacts: positive inside. Andrew's monotone chain in scratch of fixed size.
-double Simulation::SupportMargin() {
-  const mjtNum* com = data_->subtree_com + 3 * scene_.base_body;
-  const Vec2 p(com[0], com[1]);
-  if (support_.empty()) return -robot_.circumscribed_radius_m;
-  std::ranges::sort(support_, [](const Vec2& a, const Vec2& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
-  hull_.clear();
-  const auto add = [this](const Vec2& q, std::size_t base) {
-    while (hull_.size() >= base + 2 &&
-           Cross(hull_.back() - hull_[hull_.size() - 2], q - hull_.back()) <= 0)
-      hull_.pop_back();
-    hull_.push_back(q);
-  };
-  for (const auto& q : support_) add(q, 0);
-  const std::size_t lower = hull_.size() - 1;
-  for (std::size_t i = support_.size() - 1; i-- > 0;) add(support_[i], lower);
-  double nearest = 1e9;
-  bool inside = hull_.size() > 3;  // the first corner stands twice
-  for (std::size_t i = 0; i + 1 < hull_.size(); ++i) {
-    nearest = std::min(nearest, DistanceToSegment(hull_[i], hull_[i + 1], p));
-    if (Cross(hull_[i + 1] - hull_[i], p - hull_[i]) < 0) inside = false;
-  }
-  if (hull_.size() == 1) nearest = (hull_[0] - p).norm();
-  return inside ? nearest : -nearest;
 }
 
 void Simulation::ReadPower(double dt_s) {

@@ -11,6 +11,7 @@
 #include "env/core/motion.h"
 #include "env/core/robot_spec.h"
 #include "env/scene/scene.h"
+#include "env/sim/contact_reader.h"
 #include "env/sim/live_geoms.h"
 
 namespace floorproof {
@@ -61,17 +62,12 @@ class Simulation {
   void Settle(const Pose2& X_WB, double t_s);
   void ReadHinges();
   void ReadPose();
-  void ReadContacts();
   void ReadPower(double dt_s);
   void SetDriverVoltages();
   void AlterMotors();
   void AlterFriction();
   void AlterRollerBearings();
   void AlterPayload();
-  void AddObstacle(const mjContact& contact, int hazard, int geom, double toward);
-  void AddSupport(const double* p_W);
-  int CutAt(const Vec2& p_W) const;
-  double SupportMargin();
 
   const Scene& scene_;
   const HazardMap& map_;
@@ -79,6 +75,7 @@ class Simulation {
   ModelPtr own_;  // a copy of the scene's model, as altered
   LiveGeoms live_;
   DataPtr data_;
+  ContactReader contacts_;
   Truth truth_;
   Alterations altered_;
   BatteryInUse battery_;
@@ -86,10 +83,8 @@ class Simulation {
   std::vector<int> wheel_bodies_;            // of the driven wheels, in actuator order
   std::vector<int> wheel_qpos_;              // addresses of their angles
   std::vector<int> hinge_qpos_, hinge_dof_;  // addresses of the hinges' joints
-  std::vector<int> block_bodies_;            // of a robot with hinges
   BlockMotions blocks_;                      // of a robot with hinges; else at rest
   Vec2 lowest_wheel_W_ = Vec2::Zero();
-  std::vector<Vec2> support_, hull_;  // scratch, capacity fixed
 };
 
 }  // namespace floorproof

@@ -101,7 +101,7 @@ class Episode {
   Observation sensed_;
   Sample sample_;
   PlanProgress progress_;
-  HazardMemory met_;
+  HazardMemory met_{&HazardMemory::Holds};
 };
 
 template <class T>
@@ -166,8 +166,9 @@ std::optional<Outcome> Episode::Step() {
   const bool good = plant_.Step();
   Look();
   if (!good) return Outcome::kError;
-  sample_.cross_track_m =
-      CrossTrack(robot_side_.path(), sample_.command.segment, sample_.p_WB.head<2>());
+  sample_.off_track_W =
+      OffTrack(robot_side_.path(), sample_.command.segment, sample_.p_WB.head<2>());
+  sample_.cross_track_m = sample_.off_track_W.norm();
   sample_.progress_m = progress_.Update(robot_side_.path(), robot_side_.paths(),
                                         sample_.command.segment, sample_.p_WB.head<2>());
   met_.Update(sample_);
@@ -189,14 +190,15 @@ void Episode::Act(const Actuation& actuation) {
 }
 
 void Episode::StartDetectors() {
-  for (auto& [name, detector] : s_.detectors)
-    detector->Start({s_.site.map, robot_, s_.physics.timestep_s});
+  const EpisodeContext context{s_.site.map, robot_, s_.physics.timestep_s};
+  met_.Start(context);
+  for (auto& [name, detector] : s_.detectors) detector->Start(context);
 }
 
-// Where the time ran out, and what the robot met last.
+// Where the time ran out, and what held the robot last.
 Timeout Episode::Unfinished() const {
   constexpr double kRecall_s = 10;  // what was met longer ago does not keep it
-  return {sample_.t_s, sample_.X_WB(), met_.Recall(s_.site.map, sample_.t_s - kRecall_s)};
+  return {sample_.t_s, sample_.X_WB(), met_.Recall(sample_.t_s - kRecall_s)};
 }
 
 // True when one of them fired; all see every sample.

@@ -29,6 +29,7 @@ struct Metrics {
   double max_estimate_error_m = 0, mean_estimate_error_m = 0, p95_estimate_error_m = 0;
   double mean_estimate_position_std_m = 0;
   int contacts = 0;
+  double contact_s = 0, contact_m = 0, max_contact_n = 0;
   double max_impulse_ns = 0;
 };
 
@@ -83,6 +84,11 @@ inline constexpr auto kMetrics = std::to_array<MetricColumn>({
      "standard deviation of the place that the estimator itself believed in, mean over time", false,
      "mean_estimate_spread_m"},
     {"contacts", "", &Metrics::contacts, "times that the body met an obstacle"},
+    {"contact_s", "s", &Metrics::contact_s,
+     "time in which the body touched an obstacle; what lets go for less than 0.25 s touches", true},
+    {"contact_m", "m", &Metrics::contact_m, "way driven while it did", true},
+    {"max_contact_n", "N", &Metrics::max_contact_n,
+     "greatest force with which obstacles pushed the body at one time"},
     {"max_impulse_ns", "N s", &Metrics::max_impulse_ns,
      "greatest impulse of a contact in one physics step"},
 });

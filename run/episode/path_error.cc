@@ -29,10 +29,11 @@ double HalfWidth(const ClearanceField& clearance, const Path& path, std::size_t 
   return width / 2;
 }
 
-double CrossTrack(const Path& path, std::size_t segment, const Vec2& p_W) {
-  if (path.size() < 2) return (path.front().p_W - p_W).norm();
+Vec2 OffTrack(const Path& path, std::size_t segment, const Vec2& p_W) {
+  if (path.size() < 2) return p_W - path.front().p_W;
   segment = std::min(segment, path.size() - 2);
-  return DistanceToSegment(path[segment].p_W, path[segment + 1].p_W, p_W);
+  const Vec2 &a = path[segment].p_W, &b = path[segment + 1].p_W;
+  return p_W - (a + NearestFraction(a, b, p_W) * (b - a));
 }
 
 }  // namespace floorproof

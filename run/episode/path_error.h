@@ -7,8 +7,8 @@
 
 namespace floorproof {
 
-// Distance from p_W to the segment from waypoint `segment` to the next, m; unsigned.
-double CrossTrack(const Path& path, std::size_t segment, const Vec2& p_W);
+// From the segment from waypoint `segment` to the next, the way to p_W, m.
+Vec2 OffTrack(const Path& path, std::size_t segment, const Vec2& p_W);
 
 // Half the free width across that segment beside p_W, m: from the path to the obstacles on both
 // sides, each looked for as far as 1 m.

@@ -42,27 +42,27 @@ class Recorder {
     if (control_++ % trace_every_ != 0) return;
     const auto f = [](double v) { return static_cast<float>(v); };
     const BodyTwist& cmd = sample.command.twist;
-    record_.trace.push_back({sample.t_s,
-                             f(sample.p_WB.x()),
-                             f(sample.p_WB.y()),
-                             f(sample.p_WB.z()),
-                             f(sample.roll_rad),
-                             f(sample.pitch_rad),
-                             f(sample.yaw_rad),
-                             f(sample.V_WB_B.vx_mps),
-                             f(sample.V_WB_B.vy_mps),
-                             f(sample.V_WB_B.wz_radps),
-                             f(cmd.vx_mps),
-                             f(cmd.vy_mps),
-                             f(cmd.wz_radps),
-                             f(estimate.X_WB.x_m),
-                             f(estimate.X_WB.y_m),
-                             f(estimate.X_WB.yaw_rad),
-                             f(sample.cross_track_m),
-                             f(sample.power_w),
-                             f(meter_.coverage()),
-                             sample.shape,
-                             f(estimate.position_std_m)});
+    record_.trace.push_back({.t_s = sample.t_s,
+                             .x_m = sample.p_WB.x(),
+                             .y_m = sample.p_WB.y(),
+                             .est_x_m = estimate.X_WB.x_m,
+                             .est_y_m = estimate.X_WB.y_m,
+                             .z_m = f(sample.p_WB.z()),
+                             .roll_rad = f(sample.roll_rad),
+                             .pitch_rad = f(sample.pitch_rad),
+                             .yaw_rad = f(sample.yaw_rad),
+                             .vx_mps = f(sample.V_WB_B.vx_mps),
+                             .vy_mps = f(sample.V_WB_B.vy_mps),
+                             .wz_radps = f(sample.V_WB_B.wz_radps),
+                             .cmd_vx_mps = f(cmd.vx_mps),
+                             .cmd_vy_mps = f(cmd.vy_mps),
+                             .cmd_wz_radps = f(cmd.wz_radps),
+                             .est_yaw_rad = f(estimate.X_WB.yaw_rad),
+                             .cross_track_m = f(sample.cross_track_m),
+                             .power_w = f(sample.power_w),
+                             .coverage = f(meter_.coverage()),
+                             .shape = sample.shape,
+                             .est_position_std_m = f(estimate.position_std_m)});
   }
 
   void OnStep(const Sample& sample) {
@@ -76,15 +76,7 @@ class Recorder {
     if (sample.battery_v == 0 && empty_s_ < 0) empty_s_ = sample.t_s;
     m.max_cross_track_m = std::max(m.max_cross_track_m, sample.cross_track_m);
     cross_track_sum_ += sample.cross_track_m;
-    if (sample.num_contacts > 0) {
-      // A body pressed against a wall lets go for single steps; that is one meeting.
-      constexpr double kApart_s = 0.25;
-      if (sample.t_s - last_touch_s_ > kApart_s) ++m.contacts;
-      last_touch_s_ = sample.t_s;
-    }
-    for (int i = 0; i < sample.num_contacts; ++i)
-      m.max_impulse_ns =
-          std::max(m.max_impulse_ns, sample.contacts[static_cast<std::size_t>(i)].impulse_ns);
+    AddContacts(sample);
   }
 
   void OnEvent(const Event& event) { record_.events.push_back(event); }
@@ -140,6 +132,32 @@ class Recorder {
   }
 
  private:
+  // Of the body; wheels meet every edge that they climb.
+  void AddContacts(const Sample& sample) {
+    Metrics& m = record_.metrics;
+    double impulse_ns = 0;
+    bool touches = false;
+    for (int i = 0; i < sample.num_contacts; ++i) {
+      const ObstacleContact& contact = sample.contacts[static_cast<std::size_t>(i)];
+      if (contact.wheel) continue;
+      touches = true;
+      impulse_ns += contact.impulse_ns;
+      m.max_impulse_ns = std::max(m.max_impulse_ns, contact.impulse_ns);
+    }
+    const double way_m = std::hypot(sample.v_WB_W.x(), sample.v_WB_W.y()) * dt_s_;
+    since_touch_m_ += way_m;
+    if (!touches) return;
+    // A body that is pressed against a wall or scrapes along it lets go for single steps; that is
+    // one meeting.
+    constexpr double kApart_s = 0.25;
+    const bool anew = sample.t_s - last_touch_s_ > kApart_s;
+    m.contacts += anew ? 1 : 0;
+    m.contact_s += anew ? dt_s_ : sample.t_s - last_touch_s_;
+    m.contact_m += anew ? way_m : since_touch_m_;
+    m.max_contact_n = std::max(m.max_contact_n, impulse_ns / dt_s_);
+    last_touch_s_ = sample.t_s;
+    since_touch_m_ = 0;
+  }
   void AddEstimateError(double error_m) {
     record_.metrics.max_estimate_error_m = std::max(record_.metrics.max_estimate_error_m, error_m);
     estimate_error_sum_ += error_m;
@@ -194,7 +212,7 @@ class Recorder {
   int trace_hz_, trace_every_;
   std::int64_t control_ = 0;
   int shape_ = 0;  // the robot's, as in Sample
-  double last_touch_s_ = -1e9;
+  double last_touch_s_ = -1e9, since_touch_m_ = 0;
   double empty_s_ = -1;  // when the battery had cut off; -1: it has not
 };
 

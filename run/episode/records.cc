@@ -64,6 +64,12 @@ Json ValueJson(const ConfigNode& node) {
   return node.scalar;
 }
 
+// To a hundredth of a millimetre, and without the sign of a zero.
+double Coordinate(double value_m) {
+  constexpr double kUnit = 1e5;
+  return std::round(value_m * kUnit) / kUnit + 0.0;
+}
+
 // The paper's measures of the path (planners/risk/risk_meter.h).
 void AddRisk(const PlanResult& plan, Json& json) {
   const RiskOfPath risk = MeasureRisk(*plan.risk, plan.path);
@@ -197,8 +203,10 @@ std::string TraceCsv(const EpisodeRecord& record, const RobotSpec& robot) {
     fmt::format_to(into, "{}{}", column.name, end_of(column));
   for (const TraceRow& row : record.trace)
     for (const TraceColumn& column : kTraceColumns) {
-      if (const auto* time = std::get_if<double TraceRow::*>(&column.member))
-        fmt::format_to(into, "{:.3f}", row.**time);
+      if (const auto* time = std::get_if<TraceColumn::Time>(&column.member))
+        fmt::format_to(into, "{:.3f}", row.*(time->value));
+      else if (const auto* place = std::get_if<TraceColumn::Place>(&column.member))
+        fmt::format_to(into, "{:.5f}", Coordinate(row.*(place->value)));
       else if (const auto* number = std::get_if<float TraceRow::*>(&column.member))
         fmt::format_to(into, "{}", row.**number);
       else

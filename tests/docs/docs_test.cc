@@ -227,7 +227,7 @@ TEST(Results, ThePageListsEveryMetric) {
 }
 
 TEST(Results, ThePageListsEveryTraceColumn) {
-  constexpr const char* kTypes[] = {"time", "real", "word"};  // as TraceColumn::Member
+  constexpr const char* kTypes[] = {"time", "place", "real", "word"};  // as TraceColumn::Member
   std::string table = kHead;
   for (const TraceColumn& column : kTraceColumns)
     table += Line(column.name, column.unit, kTypes[column.member.index()], column.help);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
+
 #include "tests/failures/synthetic.h"
 
 namespace floorproof {
@@ -19,7 +22,7 @@ Trace Tilted(double tilt_rad, double duration_s) {
 }
 
 Trace Sunk(double z_m) {
-  return Changed([=](Sample& s) { s.wheel_floor_z_m = z_m; }, 1);
+  return Changed([=](Sample& s) { s.wheel_floor_z_m = s.p_WB.z() = z_m; }, 1);
 }
 
 TEST(RollOver, TiltLimitIsTheLesserOfLimitAndStaticTip) {
@@ -38,22 +41,45 @@ TEST(RollOver, TiltMustLast) {
   EXPECT_EQ(events[0].effect, "E5");
 }
 
-TEST(RollOver, TippedWhenTheMassLeavesTheSupport) {
-  const auto off = [](double margin_m, int contacts, double duration_s) {
-    return Changed(
-        [=](Sample& s) {
-          s.support_margin_m = margin_m;
-          s.wheel_contacts = contacts;
-        },
-        duration_s);
+// The centre of mass ahead of the support by -margin_m; the body leans forward by lean_rad.
+std::function<void(Sample&)> Outside(double margin_m, double lean_rad, int contacts = 2) {
+  return [=](Sample& s) {
+    s.support_margin_m = margin_m;
+    s.off_support_W = {1, 0};
+    s.pitch_rad = lean_rad;
+    s.wheel_contacts = contacts;
   };
-  EXPECT_TRUE(Events(off(0.001, 2, 2)).empty());
-  EXPECT_TRUE(Events(off(-0.01, 2, 0.49)).empty());
-  const auto events = Events(off(-0.01, 2, 2));
+}
+
+TEST(RollOver, TippedWhenTheMassLeavesTheSupport) {
+  EXPECT_TRUE(Events(Changed(Outside(0.001, 0.1), 2)).empty());
+  EXPECT_TRUE(Events(Changed(Outside(-0.02, 0.1), 0.49)).empty());
+  const auto events = Events(Changed(Outside(-0.02, 0.1), 2));
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].kind, "tipped");
+  EXPECT_LT(events[0].value, events[0].threshold);
   EXPECT_NEAR(events[0].t_s, 2.5, 1.5 * kStepS);
-  EXPECT_TRUE(Events(off(-0.01, 0, 2)).empty()) << "in the air";
+  EXPECT_TRUE(Events(Changed(Outside(-0.02, 0.1, 0), 2)).empty()) << "in the air";
+}
+
+// The robot's support at rest is 0.08 m * tan 0.6.
+TEST(RollOver, AShallowWayOutsideIsNone) {
+  const double deep_m = 0.1 * 0.08 * std::tan(0.6);
+  EXPECT_TRUE(Events(Changed(Outside(-0.99 * deep_m, 0.1), 2)).empty());
+  EXPECT_EQ(Events(Changed(Outside(-1.01 * deep_m, 0.1), 2)).size(), 1u);
+  EXPECT_EQ(Events(Changed(Outside(-1.01 * deep_m, 0.1), 2), "{tipped_share: 0.2}").size(), 0u);
+  // On two points, exactly above the line between them but for noise.
+  EXPECT_TRUE(Events(Changed(Outside(-3.4e-9, 0.085), 2), "{tipped_share: 0}").empty());
+}
+
+// Over a bump: nose up, its mass ahead of the wheels, it comes down to level; or it leans out and
+// swings back.
+TEST(RollOver, ComingBackToLevelIsNoTip) {
+  EXPECT_TRUE(Events(Changed(Outside(-0.02, -0.1), 2)).empty());
+  const auto swinging = [](Sample& s) { Outside(-0.02, 0.1 - 0.05 * (s.t_s - 2))(s); };
+  EXPECT_TRUE(Events(Changed(swinging, 1.5)).empty());
+  const auto growing = [](Sample& s) { Outside(-0.02, 0.1 + 0.05 * (s.t_s - 2))(s); };
+  EXPECT_EQ(Events(Changed(growing, 1.5)).size(), 1u);
 }
 
 TEST(RollOver, FellWhenTheWheelsSinkBelowThePlansFloor) {
@@ -109,23 +135,68 @@ TEST(RollOver, OneEventForOneFallAndAnotherForTheNext) {
             2u);
 }
 
-TEST(RollOver, NamesTheHazardMet) {
-  const auto events = Events(With(
-      Sunk(-0.15), [](Sample& s) { s.near_hazard = kStepHazard; }, 1.5, 2.0));
-  ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].hazard, "sill");
+// Nose down on a sill that lifts its rear: behind the centre of mass an upward push tilts it on,
+// before it an upward push holds it.
+TEST(RollOver, NamesWhatTiltsIt) {
+  const auto judge = [](double sill_x_m, double door_x_m) {
+    const auto push = [](Sample& s, int hazard, double x_m) {
+      PushedBy(s, hazard, {0, 0, 50});
+      s.touches[static_cast<std::size_t>(s.num_touches - 1)].normal.moment_W_nm =
+          Vec3(x_m, 0, 0).cross(Vec3(0, 0, 50));
+    };
+    const auto events = Events(Changed(
+        [&](Sample& s) {
+          s.tilt_rad = s.pitch_rad = 0.7;
+          push(s, kStepHazard, sill_x_m);
+          push(s, kGlassHazard, door_x_m);
+        },
+        1));
+    EXPECT_EQ(events.size(), 1u);
+    return events.empty() ? "?" : events[0].hazard;
+  };
+  EXPECT_EQ(judge(-0.1, 0.3), "sill");
+  EXPECT_EQ(judge(-0.1, -0.05), "sill");
+  EXPECT_EQ(judge(0.3, -0.1), "door");
+}
+
+// A mat lies under its rear wheels, and it leans over the edge of a pit.
+TEST(RollOver, NamesTheGapThatItHasGoneInto) {
+  HazardMap map;
+  for (const double height_m : {0.001, -0.15}) {
+    Hazard hazard;
+    hazard.id = height_m > 0 ? "mat" : "pit";
+    hazard.height_m = height_m;
+    hazard.footprint = {height_m > 0 ? Rectangle({-5, -5}, {0.1, 5})
+                                     : Rectangle({0.1, -5}, {5, 5})};
+    map.hazards.push_back(hazard);
+  }
+  const RobotSpec robot = TestRobot();
+  const auto judge = [&](double pitch_rad) {
+    const auto dut = MakeDetector("roll_over");
+    dut->Start({map, robot, kStepS});
+    for (Sample s : Drive({{2, {0, 0, 0}}})) {
+      s.tilt_rad = 0.7;
+      s.pitch_rad = pitch_rad;
+      PushedBy(s, 0, {0, 0, 98});
+      s.touches[0].normal.moment_W_nm = Vec3(-0.1, 0, 0).cross(Vec3(0, 0, 98));
+      if (dut->Update(s)) return dut->event().hazard;
+    }
+    return std::string("?");
+  };
+  EXPECT_EQ(judge(0.7), "pit");
+  EXPECT_EQ(judge(-0.7), "") << "it fell the other way, where there is no gap";
 }
 
 TEST(RollOver, AWheelThatLiftsForAMomentCostsNoMargin) {
   const auto dut = MakeDetector("roll_over");
-  const auto hop = [](Sample& s) { s.support_margin_m = -0.1; };
-  Judge(*dut, With(Drive({{8, {0.2, 0, 0}}}), hop, 2, 2.02));
+  Judge(*dut, With(Drive({{8, {0.2, 0, 0}}}), Outside(-0.1, 0.1), 2, 2.02));
   EXPECT_DOUBLE_EQ(dut->margin(), 0.6);
-  Judge(*dut, With(Drive({{8, {0.2, 0, 0}}}), hop, 2, 4));
+  Judge(*dut, With(Drive({{8, {0.2, 0, 0}}}), Outside(-0.1, 0.1), 2, 4));
   EXPECT_LT(dut->margin(), 0);
   const auto lean = [](Sample& s) { s.support_margin_m = 0.02; };  // of 0.05 m at rest
   Judge(*dut, With(Drive({{8, {0.2, 0, 0}}}), lean, 2, 6));
-  EXPECT_NEAR(dut->margin(), 0.4 * 0.6, 1e-9);
+  const double deep_m = 0.1 * 0.08 * std::tan(0.6);
+  EXPECT_NEAR(dut->margin(), (0.02 + deep_m) / (0.05 + deep_m) * 0.6, 1e-9);
 }
 
 TEST(RollOver, MarginIsTheTiltStillLeft) {

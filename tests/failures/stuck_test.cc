@@ -205,15 +205,67 @@ TEST(Stuck, HighCentredWhenTheBellyCarriesWeight) {
   EXPECT_EQ(grazed[0].kind, "");
 }
 
-TEST(Stuck, NamesTheHazardMetDuringTheWindow) {
+TEST(Stuck, NamesWhatHoldsIt) {
   const Trace trace = Append(Drive({{20, {0.2, 0, 0}}}), Commanded({11, {}}, {0.2, 0, 0}));
-  const auto near = [](Sample& s) { s.near_hazard = kStepHazard; };
-  const auto during = Judge(*MakeDetector("stuck"), With(trace, near, 22, 23));
-  ASSERT_EQ(during.size(), 1u);
-  EXPECT_EQ(during[0].hazard, "sill");
-  const auto before = Judge(*MakeDetector("stuck"), With(trace, near, 2, 3));
-  ASSERT_EQ(before.size(), 1u);
-  EXPECT_EQ(before[0].hazard, "");
+  const auto judge = [&](const std::function<void(Sample&)>& met, double from_s, double to_s) {
+    const auto events = Judge(*MakeDetector("stuck"), With(trace, met, from_s, to_s));
+    EXPECT_EQ(events.size(), 1u);
+    return events.empty() ? "?" : events[0].hazard;
+  };
+  const auto by = [](int hazard, const Vec3& force_W_n) {
+    return [=](Sample& s) { PushedBy(s, hazard, force_W_n); };
+  };
+  EXPECT_EQ(judge(by(kStepHazard, {-20, 0, 0}), 20, 31), "sill");
+  EXPECT_EQ(judge(by(kStepHazard, {-20, 0, 0}), 2, 10), "") << "long before";
+  EXPECT_EQ(judge(by(kStepHazard, {20, 0, 60}), 20, 31), "") << "it helped";
+  EXPECT_EQ(judge(by(kStepHazard, {0, 0, 98}), 20, 31), "") << "it carried the robot, no more";
+  // A mat under the wheels, and the wall that they push against.
+  EXPECT_EQ(judge(
+                [](Sample& s) {
+                  PushedBy(s, kStepHazard, {0, 0, 98});
+                  s.touches[0].friction.force_W_n = {60, 0, 0};
+                  PushedBy(s, -1, {-60, 0, 0});
+                  s.near_hazard = kStepHazard;
+                },
+                20, 31),
+            "wall");
+}
+
+// Told to turn on the spot, by a leg beside its front.
+TEST(Stuck, NamesWhatHoldsItsTurn) {
+  const Trace trace = Commanded({11, {}}, {0, 0, 0.5});
+  const auto judge = [&](double moment_nm) {
+    const auto leg = [=](Sample& s) {
+      PushedBy(s, kGlassHazard, {-20, 0, 0});
+      s.touches[0].normal.moment_W_nm.z() = moment_nm;
+    };
+    const auto events = Judge(*MakeDetector("stuck"), With(trace, leg));
+    EXPECT_EQ(events.size(), 1u);
+    return events.empty() ? "?" : events[0].hazard;
+  };
+  EXPECT_EQ(judge(-3), "door");
+  EXPECT_EQ(judge(3), "");
+}
+
+// What lacks grip or a floor pushes nothing.
+TEST(Stuck, NamesAGapOrIceWhereNothingPushes) {
+  HazardMap map = TestMap();
+  const RobotSpec robot = TestRobot();
+  const auto judge = [&] {
+    const auto dut = MakeDetector("stuck");
+    dut->Start({map, robot, kStepS});
+    for (Sample s : Commanded({11, {}}, {0.2, 0, 0})) {
+      s.near_hazard = kStepHazard;
+      if (dut->Update(s)) return dut->event().hazard;
+    }
+    return std::string("?");
+  };
+  EXPECT_EQ(judge(), "") << "a sill that is only near";
+  map.hazards[kStepHazard].material.friction = map.floor_friction / 4;
+  EXPECT_EQ(judge(), "sill");
+  map.hazards[kStepHazard].material.friction.reset();
+  map.hazards[kStepHazard].height_m = -0.05;
+  EXPECT_EQ(judge(), "sill");
 }
 
 TEST(Stuck, MarginIsTheProgressBeyondTheThreshold) {

@@ -16,6 +16,9 @@ RobotSpec TestRobot() {
     robot.wheels.push_back(wheel);
   }
   robot.clear = {Shape2::Kind::kCircle, 0.18, {}};
+  robot.circumscribed_radius_m = 0.18;
+  robot.clearance_m = 0.025;
+  robot.p_BCom = {0, 0, 0.08};
   robot.mass_kg = 10;
   robot.step_m = 0.015;
   robot.static_tip_rad = 0.6;
@@ -90,7 +93,7 @@ Trace DriveInto(const Hit& hit) {
     if (t_s > kStepS / 2) sample.command.twist.vx_mps = hit.command_after_mps;
     if (t_s > hit.contact_s) continue;
     sample.num_contacts = 1;
-    sample.contacts[0] = {-1, Vec2(x_m + 0.18, 0), Vec2(-1, 0), 0, speed_mps, 0.01};
+    sample.contacts[0] = {-1, Vec2(x_m + 0.18, 0), Vec2(-1, 0), 0, speed_mps, 0.01, 0.05, false};
   }
   return trace;
 }
@@ -105,6 +108,14 @@ Trace Mirrored(Trace trace) {
     }
     s.yaw_rad *= -1;
     s.roll_rad *= -1;
+    s.off_track_W.y() *= -1;
+    s.off_support_W.y() *= -1;
+    for (Touch& touch : s.touches)
+      for (Wrench* wrench : {&touch.normal, &touch.friction}) {
+        wrench->force_W_n.y() *= -1;
+        wrench->moment_W_nm.x() *= -1;
+        wrench->moment_W_nm.z() *= -1;
+      }
     for (ObstacleContact& contact : s.contacts) {
       contact.p_W.y() *= -1;
       contact.normal_W.y() *= -1;
@@ -117,6 +128,11 @@ Trace With(Trace trace, const std::function<void(Sample&)>& change, double from_
   for (Sample& sample : trace)
     if (sample.t_s > from_s - kStepS / 2 && sample.t_s < to_s - kStepS / 2) change(sample);
   return trace;
+}
+
+void PushedBy(Sample& sample, int hazard, const Vec3& force_W_n) {
+  Touch& touch = sample.touches[static_cast<std::size_t>(sample.num_touches++)];
+  touch = {hazard, {force_W_n, Vec3::Zero()}, {}};
 }
 
 Trace FailingTrace(FailureMode mode) {

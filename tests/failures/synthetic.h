@@ -47,6 +47,9 @@ Trace Mirrored(Trace trace);
 Trace With(Trace trace, const std::function<void(Sample&)>& change, double from_s = 0,
            double to_s = 1e9);
 
+// In this step a thing (-1: a wall) pushes the body's origin with this force.
+void PushedBy(Sample& sample, int hazard, const Vec3& force_W_n);
+
 // A motion that shows a mode's failure and no other's.
 Trace FailingTrace(FailureMode mode);
 

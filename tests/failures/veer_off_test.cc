@@ -51,20 +51,27 @@ TEST(VeerOff, RearmsOnceBackInTheLane) {
   EXPECT_EQ(Count(trace), 2u);
 }
 
-TEST(VeerOff, NamesTheHazardMetShortlyBefore) {
-  const auto touch = [](Sample& s) {
-    s.num_contacts = 1;
-    s.contacts[0].hazard = kGlassHazard;
+TEST(VeerOff, NamesWhatPushedItOff) {
+  const auto judge = [](const std::function<void(Sample&)>& met, double from_s, double to_s) {
+    Trace trace = With(Off(0.6, 1, 2.0), [](Sample& s) { s.off_track_W = {0, s.cross_track_m}; });
+    const auto events = Judge(*MakeDetector("veer_off"), With(trace, met, from_s, to_s));
+    EXPECT_EQ(events.size(), 1u);
+    return events.empty() ? "?" : events[0].hazard;
   };
-  const auto soon = Judge(*MakeDetector("veer_off"), With(Off(0.6, 1, 2.0), touch, 1.0, 1.1));
-  ASSERT_EQ(soon.size(), 1u);
-  EXPECT_EQ(soon[0].hazard, "door");
-  const auto at_wall =
-      Judge(*MakeDetector("veer_off"),
-            With(
-                Off(0.6, 1, 2.0), [](Sample& s) { s.num_contacts = 1; }, 1.0, 1.1));
-  ASSERT_EQ(at_wall.size(), 1u);
-  EXPECT_EQ(at_wall[0].hazard, "wall");
+  const auto by = [](int hazard, const Vec3& force_W_n) {
+    return [=](Sample& s) { PushedBy(s, hazard, force_W_n); };
+  };
+  EXPECT_EQ(judge(by(kGlassHazard, {0, 30, 0}), 2.0, 2.3), "door");
+  EXPECT_EQ(judge(by(-1, {0, 30, 0}), 2.0, 2.3), "wall");
+  EXPECT_EQ(judge(by(kGlassHazard, {0, -30, 0}), 2.0, 2.3), "") << "it pushed the other way";
+  EXPECT_EQ(judge(by(kStepHazard, {0, 0, 98}), 2.0, 2.3), "") << "it only carried the robot";
+  EXPECT_EQ(judge(
+                [&](Sample& s) {
+                  PushedBy(s, kStepHazard, {0, 5, 98});
+                  PushedBy(s, kGlassHazard, {0, 30, 0});
+                },
+                2.0, 2.3),
+            "door");
 }
 
 TEST(VeerOff, MarginIsTheLeastDistanceToTheBound) {

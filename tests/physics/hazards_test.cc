@@ -56,7 +56,8 @@ TEST_P(Hazards, AStepOf40mmHoldsTheRobotAndIsNamed) {
 }
 
 TEST_P(Hazards, AGlassWallThrowsItBack) {
-  const EpisodeRecord dut = Meet(Line("type: glass, height_m: 1, thickness_m: 0.01"));
+  const EpisodeRecord dut =
+      Meet(Line("type: glass, height_m: 1, thickness_m: 0.01, restitution: 0.5"));
   ExpectFirst(dut, FailureMode::kBounceBack, "it");
   EXPECT_NEAR(dut.events.at(0).x_m, 4 - 0.005 - front_m(), 0.05);
 }

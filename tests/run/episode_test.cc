@@ -52,6 +52,46 @@ TEST_F(EpisodeTest, EachDetectorHasItsOwnMargin) {
   EXPECT_LT(margins.at("stuck"), 10);
 }
 
+// Its plan runs 2 cm inside the wall for 4 m.
+TEST_F(EpisodeTest, ScrapingIsMeasured) {
+  const EpisodeRecord clear = Drive(Read(RoomScenario("")));
+  EXPECT_EQ(clear.metrics.contact_s, 0);
+  EXPECT_EQ(clear.metrics.contact_m, 0);
+  EXPECT_EQ(clear.metrics.max_contact_n, 0);
+  const auto scrape = [&](double inside_m) {
+    const std::string y = std::to_string(0.5 + 0.18 - inside_m);
+    Save("plan.csv", "x_m,y_m\n1.5,2.5\n1.5,0.75\n2," + y + "\n6," + y + "\n6,2.5\n");
+    return Drive(Read(RoomScenario(""))).metrics;
+  };
+  const Metrics shallow = scrape(0.01), deep = scrape(0.02);
+  for (const Metrics& dut : {shallow, deep}) {
+    EXPECT_NEAR(dut.contact_m, 4, 0.3);
+    EXPECT_GT(dut.contact_s, dut.contact_m / 0.26) << "at its speed, at most";
+    EXPECT_LT(dut.contact_s, dut.duration_s);
+    EXPECT_GT(dut.max_contact_n, 0);
+    EXPECT_LT(dut.contacts, 5);
+  }
+  EXPECT_GT(deep.max_contact_n, 0.5 * shallow.max_contact_n);
+}
+
+// A ROS map may lie kilometres from the world's origin; its trace has the digits of any other.
+TEST(TraceCsv, KeepsATenthOfAMillimetreAnywhere) {
+  const auto line_of = [](double x_m) {
+    EpisodeRecord record;
+    TraceRow row{};
+    row.x_m = x_m;
+    row.y_m = -x_m;
+    row.est_x_m = x_m + 0.0001;
+    record.trace = {row};
+    const std::string csv = TraceCsv(record, {});
+    return csv.substr(csv.find('\n') + 1);
+  };
+  EXPECT_THAT(line_of(0.1234), ::testing::StartsWith("0.000,0.12340,-0.12340,"));
+  EXPECT_THAT(line_of(654321.1234), ::testing::StartsWith("0.000,654321.12340,-654321.12340,"));
+  EXPECT_THAT(line_of(654321.1234), ::testing::HasSubstr("654321.12350"));
+  EXPECT_THAT(line_of(1e-9), ::testing::StartsWith("0.000,0.00000,0.00000,"));
+}
+
 // E = integral of power: at least the hotel load for all of the time.
 TEST_F(EpisodeTest, EnergyIsHotelLoadAndMotors) {
   const Scenario scenario = Read(RoomScenario(""));

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/sim/contact_reader.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <utility>
+
+namespace floorproof {
+namespace {
+
+constexpr std::size_t kMaxSupports = 64;
+// A contact whose normal stands steeper than this carries; one flatter than that obstructs.
+constexpr double kSteep = 0.7;
+constexpr double kWedged = 0.3;      // a wheel in a groove stands on rims as steep as this
+constexpr double kBeside_m = 0.005;  // into the gap beside a slab's side
+constexpr double kBelow_m = 0.005;   // below the floor a wheel hangs in something
+constexpr double kHung = 0.5;        // share of the weight that what is aside carries, at most
+
+Wrench& operator+=(Wrench& sum, const Wrench& w) {
+  sum.force_W_n += w.force_W_n;
+  sum.moment_W_nm += w.moment_W_nm;
+  return sum;
+}
+
+}  // namespace
+
+ContactReader::ContactReader(const Scene& scene, const HazardMap& map, const RobotSpec& robot)
+    : scene_(scene), map_(map), far_m_(robot.circumscribed_radius_m) {
+  const mjModel* m = scene.model.get();
+  if (robot.hinges.empty())
+    block_bodies_ = {scene.base_body};
+  else
+    for (const BlockSpec& block : robot.blocks)
+      block_bodies_.push_back(mj_name2id(m, mjOBJ_BODY, block.name.c_str()));
+  block_of_.assign(static_cast<std::size_t>(m->nbody), 0);
+  for (int b = 1; b < m->nbody; ++b) {  // parents stand before children
+    const auto block = std::ranges::find(block_bodies_, b);
+    block_of_[static_cast<std::size_t>(b)] =
+        block != block_bodies_.end() ? static_cast<int>(block - block_bodies_.begin())
+                                     : block_of_[static_cast<std::size_t>(m->body_parentid[b])];
+  }
+  support_.reserve(kMaxSupports);
+  hull_.reserve(2 * kMaxSupports);
+  belly_n_.resize(map.hazards.size() + 1);
+}
+
+void ContactReader::Read(const mjModel* m, const mjData* d, const Vec2& lowest_wheel_W,
+                         Truth& truth) {
+  truth.belly_load_n = 0;
+  truth.wheel_contacts = truth.num_contacts = truth.num_touches = 0;
+  truth.near_hazard = -1;
+  support_.clear();
+  support_z_m_ = load_n_ = 0;
+  load_nm_.setZero();
+  side_n_.setZero();
+  std::ranges::fill(belly_n_, 0.0);
+  // The body's contacts first: where there are more than a sample holds, wheels are left out.
+  for (const bool wheels : {false, true})
+    for (int i = 0; i < d->ncon; ++i) {
+      Contact contact;
+      if (!Understand(m, d, i, contact) || contact.wheel != wheels) continue;
+      if (contact.world.hazard >= 0) truth.near_hazard = contact.world.hazard;
+      if (contact.world.hazard >= 0 || contact.world.kind == GeomRole::Kind::kWall)
+        AddTouch(contact, truth);
+      const double nz = contact.normal_W.z();
+      const bool carries = nz > (wheels ? kWedged : kSteep);
+      truth.wheel_contacts += wheels ? 1 : 0;
+      if (!wheels && nz > kWedged) AddBellyLoad(contact, truth);
+      if (nz <= kSteep) AddObstacle(m, d, contact, truth);
+      if (!carries)
+        AddLoad(contact);
+      else if (wheels || contact.normal_n > 0)
+        AddSupport(contact.p_W);
+    }
+  const auto most = std::ranges::max_element(belly_n_);
+  truth.belly_hazard = *most > 0 ? static_cast<int>(most - belly_n_.begin()) - 1 : -1;
+  if (truth.near_hazard < 0 && truth.wheel_floor_z_m < -kBelow_m)
+    truth.near_hazard = CutAt(lowest_wheel_W);  // a wheel that hangs in it
+  MeasureSupport(m, d, truth);
+}
+
+bool ContactReader::Understand(const mjModel* m, const mjData* d, int index, Contact& out) const {
+  const mjContact& c = d->contact[index];
+  if (c.exclude || c.efc_address < 0) return false;
+  const auto role = [this](int geom) { return scene_.roles[static_cast<std::size_t>(geom)]; };
+  const bool world_first = m->geom_bodyid[c.geom[0]] == 0;
+  const double toward = world_first ? 1 : -1;  // the frame's normal points from geom 0 to geom 1
+  out.raw = &c;
+  out.geom = c.geom[world_first ? 1 : 0];
+  out.world = role(c.geom[world_first ? 0 : 1]);
+  out.wheel = role(out.geom).kind == GeomRole::Kind::kWheel;
+  out.p_W = Vec3(c.pos);
+  out.normal_W = toward * Vec3(c.frame);
+  mjtNum force[6];
+  mj_contactForce(m, d, index, force);
+  out.normal_n = force[0];
+  out.friction_W_n = toward * (force[1] * Vec3(c.frame + 3) + force[2] * Vec3(c.frame + 6));
+  // The side of a slab of floor is the edge of what is missing beside it.
+  if (out.world.kind == GeomRole::Kind::kFloor && out.world.hazard < 0 && out.normal_W.z() < kSteep)
+    out.world.hazard = CutAt(out.p_W.head<2>() + kBeside_m * out.normal_W.head<2>());
+  return true;
+}
+
+// The hazard whose cut in the floor holds this point; -1: none.
+int ContactReader::CutAt(const Vec2& p_W) const {
+  for (std::size_t h = map_.hazards.size(); h-- > 0;)
+    for (const Solid& solid : map_.hazards[h].solids)
+      if (solid.kind == Solid::Kind::kCut && Contains(solid.base, p_W)) return static_cast<int>(h);
+  return -1;
+}
+
+void ContactReader::AddTouch(const Contact& contact, Truth& truth) const {
+  const auto end = truth.touches.begin() + truth.num_touches;
+  auto touch = std::find_if(truth.touches.begin(), end,
+                            [&](const Touch& t) { return t.hazard == contact.world.hazard; });
+  if (touch == end) {
+    if (truth.num_touches == Truth::kMaxTouches) return;
+    ++truth.num_touches;
+    *touch = {contact.world.hazard, {}, {}};
+  }
+  const Vec3 arm_W = contact.p_W - truth.p_WB, push_W_n = contact.normal_n * contact.normal_W;
+  touch->normal += {push_W_n, arm_W.cross(push_W_n)};
+  touch->friction += {contact.friction_W_n, arm_W.cross(contact.friction_W_n)};
+}
+
+void ContactReader::AddObstacle(const mjModel* m, const mjData* d, const Contact& contact,
+                                Truth& truth) const {
+  Vec2 normal_W = contact.normal_W.head<2>();
+  if (truth.num_contacts == Truth::kMaxContacts || normal_W.norm() < 1e-9) return;
+  normal_W.normalize();
+  // Of what touches, at the point of touch: a body that pitches at the impact moves otherwise there
+  // than at its origin, and a block that swings otherwise than the robot. A wheel moves as the
+  // block that carries it, whatever its tread does. Velocities by body are those before the step.
+  const int touching = m->geom_bodyid[contact.geom];
+  const int block = block_of_[static_cast<std::size_t>(touching)];
+  const int body =
+      contact.wheel ? block_bodies_[static_cast<std::size_t>(block)] : m->body_weldid[touching];
+  mjtNum V_W[6];
+  mj_objectVelocity(m, d, mjOBJ_XBODY, body, V_W, 0);
+  const Vec3 w_W(V_W[0], V_W[1], V_W[2]), v_W(V_W[3], V_W[4], V_W[5]);
+  const Vec3 r_W = contact.p_W - Vec3(d->xpos + 3 * body);
+
+  ObstacleContact& out = truth.contacts[static_cast<std::size_t>(truth.num_contacts++)];
+  out.hazard = contact.world.hazard;
+  out.p_W = contact.p_W.head<2>();
+  out.normal_W = normal_W;
+  out.block = block;
+  out.closing_mps = -Vec3(v_W + w_W.cross(r_W)).head<2>().dot(normal_W);
+  out.impulse_ns = contact.normal_n * m->opt.timestep;
+  out.height_m = contact.p_W.z();
+  out.wheel = contact.wheel;
+}
+
+void ContactReader::AddBellyLoad(const Contact& contact, Truth& truth) {
+  const double load_n = contact.normal_n * contact.normal_W.z();
+  truth.belly_load_n += load_n;
+  belly_n_[static_cast<std::size_t>(contact.world.hazard + 1)] += load_n;
+}
+
+void ContactReader::AddSupport(const Vec3& p_W) {
+  if (support_.size() == kMaxSupports) return;
+  support_.emplace_back(p_W.x(), p_W.y());
+  support_z_m_ += p_W.z();
+}
+
+void ContactReader::AddLoad(const Contact& contact) {
+  const Vec3 force_W_n = contact.force_W_n();
+  load_n_ += force_W_n.z();
+  load_nm_ += force_W_n.head<2>() * contact.p_W.z() - contact.p_W.head<2>() * force_W_n.z();
+  side_n_ += force_W_n.head<2>();
+}
+
+// The centre of mass, seen from above, against the hull of what carries. The moment of what pushes
+// from aside counts as so much weight elsewhere: a robot that leans on a wall does not tip.
+// Andrew's monotone chain in scratch of fixed size.
+void ContactReader::MeasureSupport(const mjModel* m, const mjData* d, Truth& truth) {
+  truth.off_support_W.setZero();
+  truth.support_margin_m = -far_m_;
+  if (support_.empty()) return;
+  const mjtNum* com = d->subtree_com + 3 * scene_.base_body;
+  const double weight_n = m->body_subtreemass[scene_.base_body] * -m->opt.gravity[2];
+  const double z_m = support_z_m_ / static_cast<double>(support_.size());
+  Vec2 p(com[0], com[1]);
+  if (load_n_ < kHung * weight_n && weight_n > 0)
+    p = (weight_n * p + load_nm_ - z_m * side_n_) / (weight_n - load_n_);
+
+  std::ranges::sort(support_, [](const Vec2& a, const Vec2& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  });
+  hull_.clear();
+  const auto add = [this](const Vec2& q, std::size_t base) {
+    while (hull_.size() >= base + 2 &&
+           Cross(hull_.back() - hull_[hull_.size() - 2], q - hull_.back()) <= 0)
+      hull_.pop_back();
+    hull_.push_back(q);
+  };
+  for (const auto& q : support_) add(q, 0);
+  const std::size_t lower = hull_.size() - 1;
+  for (std::size_t i = support_.size() - 1; i-- > 0;) add(support_[i], lower);
+
+  Vec2 nearest_W = hull_.front();  // of the border
+  bool inside = hull_.size() > 3;  // the first corner stands twice
+  for (std::size_t i = 0; i + 1 < hull_.size(); ++i) {
+    const Vec2 &a = hull_[i], &b = hull_[i + 1];
+    const Vec2 q = a + NearestFraction(a, b, p) * (b - a);
+    if ((q - p).squaredNorm() < (nearest_W - p).squaredNorm()) nearest_W = q;
+    if (Cross(b - a, p - a) < 0) inside = false;
+  }
+  const double distance_m = (p - nearest_W).norm();
+  truth.support_margin_m = inside ? distance_m : -distance_m;
+  if (!inside && distance_m > 0) truth.off_support_W = (p - nearest_W) / distance_m;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the engine's contacts mean: obstacles met, weight carried, and what each thing does to the
+// robot.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <vector>
+
+#include "env/core/hazard_map.h"
+#include "env/core/motion.h"
+#include "env/core/robot_spec.h"
+#include "env/scene/scene.h"
+
+namespace floorproof {
+
+class ContactReader {
+ public:
+  // `scene` and `map` outlive it.
+  ContactReader(const Scene& scene, const HazardMap& map, const RobotSpec& robot);
+
+  // Fills in all that `truth` says of contacts; its pose stands there already. Model and data are
+  // those of a simulation of the scene. Allocates nothing.
+  void Read(const mjModel* m, const mjData* d, const Vec2& lowest_wheel_W, Truth& truth);
+
+ private:
+  // One contact of the robot with the world.
+  struct Contact {
+    const mjContact* raw = nullptr;
+    int geom = -1;       // the robot's
+    GeomRole world;      // what it touches; the edge of a gap is the gap's
+    bool wheel = false;  // a wheel or caster touches
+    Vec3 p_W, normal_W;  // the normal towards the robot
+    double normal_n = 0;
+    Vec3 friction_W_n;  // on the robot
+    Vec3 force_W_n() const { return normal_n * normal_W + friction_W_n; }
+  };
+
+  bool Understand(const mjModel* m, const mjData* d, int index, Contact& out) const;
+  int CutAt(const Vec2& p_W) const;
+  void AddTouch(const Contact& contact, Truth& truth) const;
+  void AddObstacle(const mjModel* m, const mjData* d, const Contact& contact, Truth& truth) const;
+  void AddBellyLoad(const Contact& contact, Truth& truth);
+  void AddSupport(const Vec3& p_W);
+  void AddLoad(const Contact& contact);
+  void MeasureSupport(const mjModel* m, const mjData* d, Truth& truth);
+
+  const Scene& scene_;
+  const HazardMap& map_;
+  std::vector<int> block_bodies_;     // the base alone of a robot without hinges
+  std::vector<int> block_of_;         // by body: index of the block that it is, or is carried by
+  double far_m_;                      // of a robot that nothing carries
+  std::vector<Vec2> support_, hull_;  // scratch, capacity fixed
+  double support_z_m_ = 0;            // sum over them
+  std::vector<double> belly_n_;       // by hazard, scratch
+  // Vertical force of what pushes from aside, and its moment about the world's origin on the floor,
+  // as a shift of the centre of mass sees it.
+  double load_n_ = 0;
+  Vec2 load_nm_ = Vec2::Zero(), side_n_ = Vec2::Zero();
+};
+
+}  // namespace floorproof
