@@ -47,7 +47,8 @@ class RobotSide {
   const Actuation& actuation() const { return actuation_; }  // the drive may have slowed hinges
   const Path& path() const { return navigator_.path(); }
   const Estimate& estimate() const { return estimate_; }
-  const ClearanceField& clearance() const { return clearance_; }  // of the known map
+  // Of the known map, on the path that it follows.
+  const ClearanceField& clearance() const { return clearance_; }
   const KnownMap* known() const { return mapper_ ? &mapper_->map() : nullptr; }
   int recoveries() const { return recovery_ ? recovery_->count() : 0; }
 
@@ -61,6 +62,7 @@ class RobotSide {
   Navigator& navigator_;
   Parts parts_;
   double control_s_;
+  std::vector<std::size_t> on_the_way_;  // level changes, of which the clearance takes no notice
   ClearanceField clearance_;
   std::unique_ptr<Drive> drive_;
   std::optional<Mapper> mapper_;
