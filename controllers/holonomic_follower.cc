@@ -7,16 +7,18 @@
 // the robot drives along the path. The yaw is the one that the plan states for the leg, or the
 // direction of travel where the plan leaves it open (env/core/path.h). Speed is bounded by the
 // passing speeds of the bends ahead, by rests at corners (path_progress.h) and by the gap to known
-// obstacles. At a stop the robot first turns to its next yaw, holding its place. After Kanayama,
-// Kimura, Miyazaki & Noguchi 1990, "A stable tracking control method for an autonomous mobile
-// robot", without the nonholonomic part. Where the plan changes the shape of a robot of hinged
-// blocks, the robot stops, holds its place and folds (reconfiguration.h). Assumes a drive that
-// turns and moves at once; does not plan around obstacles.
+// obstacles. A robot that an edge holds gives way to it (compliance.h). At a stop the robot first
+// turns to its next yaw, holding its place. After Kanayama, Kimura, Miyazaki & Noguchi 1990, "A
+// stable tracking control method for an autonomous mobile robot", without the nonholonomic part.
+// Where the plan changes the shape of a robot of hinged blocks, the robot stops, holds its place
+// and folds (reconfiguration.h). Assumes a drive that turns and moves at once; does not plan around
+// obstacles.
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "controllers/compliance.h"
 #include "controllers/drive.h"
 #include "controllers/drive_time.h"
 #include "controllers/follower_params.h"
@@ -27,9 +29,10 @@
 namespace floorproof {
 namespace {
 
-constexpr double kGapAhead_m = 0.1;  // the gap is read here and this far ahead
-constexpr double kHold_m = 0.05;     // a turn within this of its corner
-constexpr double kHoldGain = 1.5;    // 1/s: is kept there with this gain
+constexpr double kGapAhead_m = 0.1;     // the gap is read here and this far ahead
+constexpr double kHold_m = 0.05;        // a turn within this of its corner
+constexpr double kHoldGain = 1.5;       // 1/s: is kept there with this gain
+constexpr double kBearableShare = 0.8;  // of recover_deg, by a robot that an edge turns
 
 class HolonomicFollower final : public Tracker {
  public:
@@ -58,6 +61,7 @@ class HolonomicFollower final : public Tracker {
     limits.holds_yaw = true;
     limits.folds = !robot.hinges.empty();
     progress_.Start(path, limits, params_.corner_tolerance_m);
+    compliance_.Start(robot, kBearableShare * Radians(params_.recover_deg));
     twist_ = {};
     reconfiguration_.Start(robot);
     FindWays(robot);
@@ -148,20 +152,34 @@ class HolonomicFollower final : public Tracker {
         std::abs(off_rad) <= Radians(params_.heading_tolerance_deg))
       progress_.Drive();
 
+    GiveWay(X_WB, direction_W, dt_s);
+    const double turn_rad = compliance_.YawError(off_rad);
     const double rate =
-        StoppingSpeed(std::abs(off_rad), kPlannedShare * yaw_accel_radps2_, kWheelLag_s);
-    const double wz_radps = std::copysign(std::min(yaw_rate_radps_, rate), off_rad);
+        StoppingSpeed(std::abs(turn_rad), kPlannedShare * yaw_accel_radps2_, kWheelLag_s);
+    const double wz_radps =
+        std::clamp(turn_rad == 0 ? compliance_.SquaringRate() : std::copysign(rate, turn_rad),
+                   -yaw_rate_radps_, yaw_rate_radps_);
     Vec2 v_W;
     if (progress_.phase() == Phase::kTurn) {
       const Vec2 back_W = progress_.turn_W() - p_W;
       v_W = back_W.norm() < kHold_m ? Vec2(kHoldGain * back_W) : Vec2(Vec2::Zero());
     } else {
       const double limit_mps = gap_.Limit(speed_mps, X_WB, p_W + kGapAhead_m * direction_W);
-      const double back_mps = std::min(gain_per_s_ * offset_W.norm(), cruise_mps_);
+      const double back_mps =
+          std::min(gain_per_s_ * offset_W.norm(), compliance_.BackSpeed(limit_mps, cruise_mps_));
       v_W = offset_W.normalized() * back_mps +
             direction_W * std::sqrt(std::max(0.0, limit_mps * limit_mps - back_mps * back_mps));
     }
     Slew(Pose2{0, 0, -X_WB.yaw_rad}.Rotate(v_W), wz_radps, dt_s);
+  }
+
+  void GiveWay(const Pose2& X_WB, const Vec2& direction_W, double dt_s) {
+    if (progress_.phase() == Phase::kTurn) {
+      compliance_.Drop();
+      return;
+    }
+    const Vec2 v_W = X_WB.Rotate({twist_.vx_mps, twist_.vy_mps});
+    compliance_.Update(X_WB.p(), direction_W, v_W.dot(direction_W), dt_s);
   }
 
   // Moves the command towards what is wanted as fast as the robot's accelerations allow.
@@ -184,6 +202,7 @@ class HolonomicFollower final : public Tracker {
 
   ObstacleGap gap_;
   PathProgress progress_;
+  Compliance compliance_;
   double cruise_mps_ = 0, accel_mps2_ = 0, yaw_rate_radps_ = 0, yaw_accel_radps2_ = 0;
   BodyTwist twist_;  // last commanded
 

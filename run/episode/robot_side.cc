@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/episode/robot_side.h"
 
+#include "env/core/driven_floor.h"
+
 namespace floorproof {
 
 RobotSide::RobotSide(const RobotSpec& robot, const HazardMap& known, Navigator& navigator,
@@ -54,6 +56,11 @@ void RobotSide::Perceive(const Observation& sensed) {
 
 // A new path: what was commanded on the last one is over.
 void RobotSide::Follow() {
+  auto on_the_way = LevelChangesOnTheWay(known_, navigator_.path());
+  if (on_the_way != on_the_way_) {
+    on_the_way_ = std::move(on_the_way);
+    clearance_ = ClearanceOnTheWay(known_, on_the_way_, robot_.step_m);
+  }
   parts_.tracker.Start(navigator_.path(), robot_, &clearance_);
   command_ = {};
   ++paths_;

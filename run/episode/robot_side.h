@@ -48,7 +48,8 @@ class RobotSide {
   const Path& path() const { return navigator_.path(); }
   int paths() const { return paths_; }  // how many it has been given to follow
   const Estimate& estimate() const { return estimate_; }
-  const ClearanceField& clearance() const { return clearance_; }  // of the known map
+  // Of the known map, on the path that it follows.
+  const ClearanceField& clearance() const { return clearance_; }
   const KnownMap* known() const { return mapper_ ? &mapper_->map() : nullptr; }
   int recoveries() const { return recovery_ ? recovery_->count() : 0; }
 
@@ -62,6 +63,7 @@ class RobotSide {
   Navigator& navigator_;
   Parts parts_;
   double control_s_;
+  std::vector<std::size_t> on_the_way_;  // level changes, of which the clearance takes no notice
   ClearanceField clearance_;
   std::unique_ptr<Drive> drive_;
   std::optional<Mapper> mapper_;
