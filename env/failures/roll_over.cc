@@ -7,7 +7,8 @@
 //     lands on its wheels after a drop was never tilted much.
 // The tilt limit is mjlab's bad-orientation termination; the others are static stability.
 // The plan's floor is z = 0, or the lowest level change under the centre or a wheel that is known
-// and low enough to be driven over. It does not judge how hard a landing was.
+// and low enough to be driven over, or on which the robot was set down. It does not judge how hard
+// a landing was.
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -73,6 +74,7 @@ class RollOver final : public Detector {
       levels_.push_back(&hazard);
       highest_floor_m_ = std::max(highest_floor_m_, hazard.height_m);
     }
+    starts_ = true;
     hazards_.Clear();
     tilted_.Clear();
     unsupported_.Clear();
@@ -84,6 +86,7 @@ class RollOver final : public Detector {
 
   bool Update(const Sample& sample) override {
     hazards_.Update(sample);
+    if (starts_) AddStartLevels(sample.X_WB());
     const double tilt_margin_rad = limit_rad_ - sample.tilt_rad;
     const bool tilted = tilted_.Update(tilt_margin_rad < 0, sample.t_s, tilt_duration_s_);
 
@@ -131,6 +134,23 @@ class RollOver final : public Detector {
     window_support_m_ = 0;
     window_since_s_ = sample.t_s;
     return rest_support_m_ > 0 && sample.wheel_contacts > 0 ? best_m / rest_support_m_ : 1;
+  }
+
+  // Whoever sets a robot down on a level means it to drive there.
+  void AddStartLevels(const Pose2& X_WB) {
+    starts_ = false;
+    std::vector<const Hazard*> levels;
+    for (const Hazard& hazard : map_->hazards) {
+      const bool under = hazard.hazard_class == HazardClass::kLevelChange &&
+                         std::ranges::any_of(hazard.footprint, [&](const Polygon& polygon) {
+                           return std::ranges::any_of(feet_B_, [&](const Vec2& p_B) {
+                             return Contains(polygon, X_WB * p_B);
+                           });
+                         });
+      if (under || std::ranges::find(levels_, &hazard) != levels_.end()) levels.push_back(&hazard);
+      if (under) highest_floor_m_ = std::max(highest_floor_m_, hazard.height_m);
+    }
+    levels_ = std::move(levels);  // in the map's order: later ones win
   }
 
   double PlanFloor(const Pose2& X_WB) const {
@@ -186,6 +206,7 @@ class RollOver final : public Detector {
   double rest_support_m_ = 0;  // the most seen: the support when standing well
   double window_support_m_ = 0, window_since_s_ = 0;
   bool reported_ = false;
+  bool starts_ = true;  // no sample was seen yet
 };
 
 }  // namespace
