@@ -12,7 +12,8 @@
 // support as well. It does so from the far side, coming back to level, or by less than that, until
 // the next wheel touches. One that rests on two points has no polygon, and no deviation beyond
 // noise either. The plan's floor is z = 0, or the lowest level change under the centre or a wheel
-// that is known and low enough to be driven over. It does not judge how hard a landing was.
+// that is known and low enough to be driven over, or on which the robot was set down. It does not
+// judge how hard a landing was.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -84,12 +85,12 @@ class RollOver final : public Detector {
     levels_.clear();
     highest_floor_m_ = 0;
     for (const Hazard& hazard : context.map.hazards) {
-      if (!hazard.known || hazard.hazard_class != HazardClass::kLevelChange ||
-          IsObstacle(hazard, robot.step_m))
-        continue;
-      levels_.push_back(&hazard);
-      highest_floor_m_ = std::max(highest_floor_m_, hazard.height_m);
+      if (hazard.hazard_class != HazardClass::kLevelChange) continue;
+      const bool driven = hazard.known && !IsObstacle(hazard, robot.step_m);
+      levels_.push_back({&hazard, driven});
+      if (driven) highest_floor_m_ = std::max(highest_floor_m_, hazard.height_m);
     }
+    starts_ = true;
     hazards_.Start(context);
     tilted_.Clear();
     unsupported_.Clear();
@@ -101,6 +102,7 @@ class RollOver final : public Detector {
 
   bool Update(const Sample& sample) override {
     hazards_.Update(sample);
+    if (starts_) AddStartLevels(sample);
     const double tilt_margin_rad = limit_rad_ - sample.tilt_rad;
     const bool tilted = tilted_.Update(tilt_margin_rad < 0, sample.t_s, tilt_duration_s_);
 
@@ -134,6 +136,11 @@ class RollOver final : public Detector {
   }
 
  private:
+  struct Level {
+    const Hazard* hazard;
+    bool driven;  // by the plan: known and low enough, or the start
+  };
+
   // Outside on the low side, and not on its way back.
   bool FallsOn(const Sample& sample) {
     const double lean_rad = LeanOf(Attitude(sample)).dot(sample.off_support_W);
@@ -174,17 +181,35 @@ class RollOver final : public Detector {
 
   double FloorAt(const Vec2& p_W) const {
     double floor_m = 0;
-    for (const Hazard* level : levels_)
-      for (const Polygon& polygon : level->footprint)
-        if (Contains(polygon, p_W)) floor_m = level->height_m;
+    for (const Level& level : levels_)  // in the map's order: later ones win
+      for (const Polygon& polygon : level.hazard->footprint)
+        if (level.driven && Contains(polygon, p_W)) floor_m = level.hazard->height_m;
     return floor_m;
   }
 
-  double PlanFloor(const Sample& sample) const {
-    double lowest_m = FloorAt(sample.X_WB().p());
+  // Whoever sets a robot down on a level means it to drive there.
+  void AddStartLevels(const Sample& sample) {
+    starts_ = false;
+    for (Level& level : levels_) {
+      ForEachFoot(sample, [&](const Vec2& p_W) {
+        for (const Polygon& polygon : level.hazard->footprint)
+          level.driven = level.driven || Contains(polygon, p_W);
+      });
+      if (level.driven) highest_floor_m_ = std::max(highest_floor_m_, level.hazard->height_m);
+    }
+  }
+
+  // The robot's centre, and those of its wheels.
+  template <class Look>
+  void ForEachFoot(const Sample& sample, const Look& look) const {
+    look(sample.X_WB().p());
     for (const WheelSpec& wheel : robot_->wheels)
-      lowest_m =
-          std::min(lowest_m, FloorAt(sample.X_WB() * Vec2(WheelCentre(sample, wheel).head<2>())));
+      look(Vec2(sample.X_WB() * Vec2(WheelCentre(sample, wheel).head<2>())));
+  }
+
+  double PlanFloor(const Sample& sample) const {
+    double lowest_m = std::numeric_limits<double>::infinity();
+    ForEachFoot(sample, [&](const Vec2& p_W) { lowest_m = std::min(lowest_m, FloorAt(p_W)); });
     return lowest_m;
   }
 
@@ -251,13 +276,14 @@ class RollOver final : public Detector {
   const RobotSpec* robot_ = nullptr;
   double limit_rad_ = 0, highest_floor_m_ = 0;
   double deep_m_ = 0, most_lean_rad_ = 0;
-  BlockMotions start_;                 // at the start
-  std::vector<const Hazard*> levels_;  // known level changes that are driven over
+  BlockMotions start_;         // at the start
+  std::vector<Level> levels_;  // all level changes
   HazardMemory hazards_{&HazardMemory::Tilts};
   Lasting tilted_, unsupported_;
   double rest_support_m_ = 0;  // the most seen: the support when standing well
   double window_support_m_ = 0, window_since_s_ = 0;
   bool reported_ = false;
+  bool starts_ = true;  // no sample was seen yet
 };
 
 }  // namespace

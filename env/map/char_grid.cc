@@ -211,9 +211,8 @@ class GridHazards {
     const Kind& kind = maker.kind();
     if (kind.shape == Kind::Shape::kRun) {
       for (const CellRun& run : Runs(chars_, kind.character)) {
-        const std::vector<Vec2> line = Line(run);
         Hazard hazard = maker.Empty();
-        maker.Add(hazard, line, line);
+        maker.Add(hazard, Line(run, 0), Line(run, inset_m_));
         Place(run.first, std::move(hazard), mark);
       }
       return;
@@ -258,10 +257,11 @@ class GridHazards {
     }
   }
 
-  std::vector<Vec2> Line(const CellRun& run) const {
+  // To the middle of another strip's cell, and so far into walls.
+  std::vector<Vec2> Line(const CellRun& run, double into_wall_m) const {
     const auto beyond = [&](CellRun::End end) {
       if (end == CellRun::End::kJoin) return cell_m_ / 2;
-      return end == CellRun::End::kWall ? inset_m_ : 0.0;
+      return end == CellRun::End::kWall ? into_wall_m : 0.0;
     };
     const Vec2 along = run.along_x ? Vec2(1, 0) : Vec2(0, 1);
     const Vec2 low = cell_m_ * Vec2(run.box.x0, run.box.y0);

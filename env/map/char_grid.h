@@ -9,7 +9,7 @@
 // of runs both ways belongs to the longer one; a lone cell, or a tie, goes along y. Where a strip
 // meets another of its kind, it reaches to the middle of the other's cell. Ids count in reading
 // order. Solids are drawn back by inset_m on faces before which a robot may drive, and meet the
-// (drawn back) faces of walls; footprints are whole cells.
+// (drawn back) faces of walls; footprints are whole cells, those of strips end with their cells.
 #pragma once
 
 #include <string>

@@ -10,6 +10,7 @@
 #include "base/input_file.h"
 #include "base/params.h"
 #include "env/map/char_grid.h"
+#include "env/map/lay_floors.h"
 #include "env/map/site_generator.h"
 #include "env/map/written_hazard.h"
 

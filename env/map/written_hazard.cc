@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <span>
 
 #include "base/params.h"
 
@@ -68,74 +67,6 @@ ConfigNode WritePoints(const std::vector<Vec2>& points) {
     list.items.push_back(ConfigNode::List(
         {ConfigNode::Scalar(FormatDouble(p.x())), ConfigNode::Scalar(FormatDouble(p.y()))}));
   return list;
-}
-
-struct Box {
-  Vec2 low, high;
-  explicit Box(const Polygon& polygon) : low(polygon[0]), high(polygon[0]) {
-    for (const Vec2& p : polygon) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  }
-  bool Meets(const Box& other) const {
-    return (low.array() < other.high.array()).all() && (other.low.array() < high.array()).all();
-  }
-};
-
-void CutAway(Solid solid, const std::vector<Polygon>& covers, std::vector<Solid>& rest) {
-  const Box box(solid.base);
-  std::vector<Polygon> meeting;
-  for (const Polygon& cover : covers)
-    if (box.Meets(Box(cover))) meeting.push_back(cover);
-  if (!solid.top.empty()) {
-    Vec2 middle = Vec2::Zero();
-    for (const Vec2& p : solid.base) middle += p / static_cast<double>(solid.base.size());
-    if (std::ranges::any_of(meeting, [&](const Polygon& c) { return Contains(c, middle); })) return;
-    meeting.clear();
-  }
-  if (meeting.empty()) {
-    rest.push_back(std::move(solid));
-    return;
-  }
-  const bool any_shape = solid.kind == Solid::Kind::kCut;
-  std::vector<Region> with_holes;
-  for (const Region& region : Difference({{solid.base, {}}}, meeting)) {
-    if (any_shape && region.holes.empty())
-      rest.push_back({solid.kind, region.outer, {}, solid.z_low_m, solid.z_high_m});
-    else
-      with_holes.push_back(region);
-  }
-  for (const Polygon& part : ConvexParts(with_holes))
-    rest.push_back({solid.kind, part, {}, solid.z_low_m, solid.z_high_m});
-}
-
-constexpr double kTouch = 1e-6;  // share of an area that is none
-
-// Puts the terrain's prisms on the last floor before it that holds them whole.
-void LayOn(std::span<const Hazard> before, Hazard& terrain, std::vector<std::string>& warnings) {
-  bool in_part = false;
-  for (Solid& solid : terrain.solids) {
-    if (solid.kind != Solid::Kind::kPrism) continue;
-    for (std::size_t j = before.size(); j-- > 0;) {
-      if (before[j].hazard_class != HazardClass::kLevelChange) continue;
-      const Box box(solid.base);
-      double share = 0;  // of the solid's ground that lies on this floor
-      for (const Polygon& floor : before[j].footprint)
-        if (box.Meets(Box(floor)))
-          share +=
-              Area(Intersection({{solid.base, {}}}, {floor})) / std::abs(SignedArea(solid.base));
-      if (share < kTouch) continue;
-      if (share > 1 - kTouch) {
-        solid.z_low_m += before[j].height_m;
-        solid.z_high_m += before[j].height_m;
-      } else {
-        in_part = true;
-      }
-      break;
-    }
-  }
-  if (in_part)
-    warnings.push_back(terrain.id +
-                       " lies across the edge of a level change: what is not on it as a whole "
-                       "stands on the base floor");
 }
 
 }  // namespace
@@ -240,28 +171,6 @@ void NameHazards(std::vector<Hazard*>& hazards, const SourceMark& mark) {
     if (!hazard->id.empty()) continue;
     do hazard->id = hazard->type + "-" + std::to_string(next[hazard->type]++);
     while (!taken.insert(hazard->id).second);
-  }
-}
-
-void LayFloors(std::vector<Hazard>& hazards, std::vector<std::string>& warnings) {
-  const auto is_cut = [](const Hazard& h) {
-    return std::ranges::any_of(h.solids,
-                               [](const Solid& s) { return s.kind == Solid::Kind::kCut; });
-  };
-  for (std::size_t i = 0; i < hazards.size(); ++i)
-    if (hazards[i].hazard_class == HazardClass::kTerrain)
-      LayOn(std::span(hazards).first(i), hazards[i], warnings);
-
-  std::vector<Polygon> later;  // what replaces the floor behind this one in the list
-  for (std::size_t i = hazards.size(); i-- > 0;) {
-    Hazard& hazard = hazards[i];
-    const bool level = hazard.hazard_class == HazardClass::kLevelChange;
-    if (!level && hazard.hazard_class != HazardClass::kTerrain) continue;
-    const bool replaces = level || is_cut(hazard);
-    std::vector<Solid> rest;
-    for (Solid& solid : hazard.solids) CutAway(std::move(solid), later, rest);
-    hazard.solids = std::move(rest);
-    if (replaces) later.insert(later.end(), hazard.footprint.begin(), hazard.footprint.end());
   }
 }
 

@@ -49,11 +49,4 @@ ConfigNode WriteHazard(WrittenHazard& written);
 // over ids that are taken. Throws InputError when two have the same.
 void NameHazards(std::vector<Hazard*>& hazards, const SourceMark& mark);
 
-// Where hazards that shape the floor (C3, C4) overlap, the later one wins. A level change or a
-// groove cuts the solids of earlier ones back to what it does not cover. Tapered solids (bumps,
-// covers) are removed where their middle is covered, and stay whole elsewhere. Terrain that is
-// written after a level change lies on its floor; `warnings` names what lies there only in part.
-// Footprints stay whole, so that a map without its unknown hazards does not show where they lie.
-void LayFloors(std::vector<Hazard>& hazards, std::vector<std::string>& warnings);
-
 }  // namespace floorproof

@@ -3,11 +3,23 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
+#include "env/core/standing.h"
+
 namespace floorproof {
 namespace {
+
+// Sets `quat` to the attitude `as`, turned about the vertical to this yaw.
+void Tilt(const std::array<mjtNum, 4>& as, double yaw_rad, mjtNum* quat) {
+  mjtNum R[9], turn[4];
+  mju_quat2Mat(R, as.data());
+  const mjtNum vertical[3] = {0, 0, 1};
+  mju_axisAngle2Quat(turn, vertical, yaw_rad - std::atan2(R[3], R[0]));
+  mju_mulQuat(quat, turn, as.data());
+}
 
 // The warnings after which the state is not to be believed.
 bool Diverged(const mjData* d) {
@@ -92,6 +104,9 @@ void Simulation::Settle(const Pose2& X_WB, double t_s) {
   mjData* d = data_.get();
   const double load_kg = std::exchange(altered_.payload_kg, 0);
   if (load_kg > 0) AlterPayload();
+  const Standing stands = StandAt(map_, robot_, X_WB);
+  mjtNum* q = d->qpos + model()->jnt_qposadr[model()->body_jntadr[scene_.base_body]];
+  q[2] += stands.rests_m;
   Place(X_WB);
   SetDriverVoltages();
   while (d->time < kSettle_s) {
@@ -102,7 +117,10 @@ void Simulation::Settle(const Pose2& X_WB, double t_s) {
     altered_.payload_kg = load_kg;
     AlterPayload();
   }
+  const std::array<mjtNum, 4> settled = {q[3], q[4], q[5], q[6]};
   Place(X_WB);
+  // On terrain it stands as it came to rest: level, its wheels would be in what tilts it.
+  if (stands.rests_m > stands.floor_m) Tilt(settled, X_WB.yaw_rad, q + 3);
   std::fill_n(d->qvel, model()->nv, 0.0);
   d->time = t_s;
   live_.Update(d);

@@ -95,20 +95,23 @@ RiskGrid MakeRiskGrid(const HazardMap& map, const RobotSpec& robot, const FmeaTa
   // What is occupied, and what is no floor for another reason.
   const int cut = at.fine.width / map.frame.width;
   Grid<std::uint8_t> occupied(grid.frame.width, grid.frame.height);
+  Grid<std::uint8_t> all_wall(grid.frame.width, grid.frame.height);
   for (int iy = 0; iy < grid.frame.height; ++iy)
     for (int ix = 0; ix < grid.frame.width; ++ix) {
       const int left = at.x0 + ix * at.side, low = at.y0 + iy * at.side;
       const bool beyond =
           left < 0 || low < 0 || left + at.side > at.fine.width || low + at.side > at.fine.height;
-      bool wall = beyond;
+      bool wall = beyond, all = true;
       for (int y = std::max(low, 0); y < std::min(low + at.side, at.fine.height); ++y)
         for (int x = std::max(left, 0); x < std::min(left + at.side, at.fine.width); ++x) {
           const CellState state = map.occupancy(x / cut, y / cut);
           occupied(ix, iy) |= state == CellState::kOccupied;
-          wall |= state == CellState::kOccupied ||
-                  (state == CellState::kUnknown && map.unknown_is_wall);
+          const bool here = map.IsWall(x / cut, y / cut);
+          wall |= here;
+          all &= here;
         }
       grid.contents(ix, iy).solid = wall;
+      all_wall(ix, iy) = all;
     }
 
   const int right = grid.frame.width - 1, top = grid.frame.height - 1;
@@ -129,7 +132,10 @@ RiskGrid MakeRiskGrid(const HazardMap& map, const RobotSpec& robot, const FmeaTa
     for (const Polygon& footprint : hazard.footprint) {
       Polygon p_G;
       for (const Vec2& p_W : footprint) p_G.push_back(X_GW * p_W / width_m);
+      const bool of_floor = hazard.hazard_class == HazardClass::kTerrain ||
+                            hazard.hazard_class == HazardClass::kLevelChange;
       Rasterise(p_G, grid.frame.width, grid.frame.height, [&](int ix, int iy) {
+        if (of_floor && all_wall(ix, iy)) return;  // a strip that ends in it
         AddHazard(hazard.hazard_class, tables, grid.contents(ix, iy));
       });
     }

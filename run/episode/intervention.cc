@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "env/geometry/rasterise.h"
+#include "env/core/standing.h"
 #include "env/scene/walls.h"
 
 namespace floorproof {
@@ -22,34 +22,20 @@ Polygon Outline(const Shape2& shape) {
   return RegularPolygon(Vec2::Zero(), shape.radius_m, kCorners);
 }
 
-Polygon At(const Pose2& X_WB, Polygon polygon) {
-  for (Vec2& p : polygon) p = X_WB * p;
-  return polygon;
-}
-
+// A level change that holds the whole of it is its floor.
 bool TouchesHazard(const HazardMap& map, const Pose2& X_WB, const RobotSpec& robot,
                    const Polygon& footprint_B) {
-  const std::vector<Region> footprint_W = {{At(X_WB, footprint_B), {}}};
-  const auto touches = [&](const Polygon& polygon) {
-    return SignedDistance(polygon, X_WB.p()) < robot.circumscribed_radius_m &&
-           !Intersection(footprint_W, {polygon}).empty();
-  };
+  constexpr double kWhole = 1 - 1e-6;
+  const std::vector<Region> footprint_W = {{InWorld(X_WB, footprint_B), {}}};
   return std::ranges::any_of(map.hazards, [&](const Hazard& hazard) {
-    return std::ranges::any_of(hazard.footprint, touches);
+    double met_m2 = 0;
+    for (const Polygon& polygon : hazard.footprint)
+      if (SignedDistance(polygon, X_WB.p()) < robot.circumscribed_radius_m)
+        met_m2 += Area(Intersection(footprint_W, {polygon}));
+    if (hazard.hazard_class == HazardClass::kLevelChange && met_m2 > kWhole * Area(footprint_W))
+      return false;
+    return met_m2 > 0;
   });
-}
-
-// Walls as built: `footprint_W` is drawn in by as much as their solids are drawn back.
-bool TouchesWall(const HazardMap& map, Polygon footprint_W) {
-  const GridFrame& frame = map.frame;
-  bool touches = false;
-  for (Vec2& p : footprint_W) {
-    p = frame.X_WG.Inverse() * p / frame.cell_m;
-    touches |= p.x() < 0 || p.y() < 0 || p.x() > frame.width || p.y() > frame.height;
-  }
-  Rasterise(footprint_W, frame.width, frame.height,
-            [&](int ix, int iy) { touches |= map.IsWall(ix, iy); });
-  return touches;
 }
 
 // Where the plan wants the body to head at this waypoint: as it says; else onwards, or at its end
@@ -79,7 +65,7 @@ std::optional<SetDownPlace> PlaceAhead(const Scenario& s, const Path& path, std:
   for (std::size_t i = first; i < path.size(); ++i) {
     const Pose2 X_WB{path[i].p_W.x(), path[i].p_W.y(), HeadingAt(path, i)};
     const Cell cell = map.frame.ToCell(path[i].p_W);
-    if (floor.Inside(cell) && floor(cell) && !TouchesWall(map, At(X_WB, among_walls_B)) &&
+    if (floor.Inside(cell) && floor(cell) && !TouchesWall(map, InWorld(X_WB, among_walls_B)) &&
         !TouchesHazard(map, X_WB, robot, inner_B))
       return SetDownPlace{i, X_WB};
   }

@@ -6,6 +6,7 @@
 #include "base/input_file.h"
 #include "controllers/drive.h"
 #include "env/core/blocks.h"
+#include "env/core/standing.h"
 #include "env/scene/roller_wheels.h"
 #include "run/scenario/carried_sensors.h"
 #include "run/scenario/fmea_file.h"
@@ -135,6 +136,11 @@ void CheckStart(const ConfigNode& root, const Scenario& s) {
     throw InputError(
         mark, "start", value,
         "lies in a wall, cell (" + std::to_string(cell.ix) + ", " + std::to_string(cell.iy) + ")");
+  const Standing stands = StandAt(s.site.map, s.robot.spec, s.start);
+  if (!stands.obstruction.empty())
+    throw InputError(mark, "start", value,
+                     s.robot_name + " at this heading " + stands.why +
+                         "; it must stand on one floor, clear of all solids");
 }
 
 std::optional<Vec2> ReadGoal(const ConfigNode& root, const HazardMap& map) {
@@ -282,7 +288,7 @@ const std::vector<std::string>& ScenarioKeys() {
 fs::path NamedFile(const fs::path& folder, const ConfigNode& node, const std::string& key) {
   fs::path file = PathIn(folder, node, key);
   if (const std::string why = WhyUnreadable(file, kMaxNamedBytes); !why.empty())
-    throw InputError(node.mark, key, node.scalar, why);
+    throw InputError(node.mark, key, node.scalar, why + ": " + file.string());
   return file;
 }
 

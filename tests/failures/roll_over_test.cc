@@ -95,6 +95,7 @@ TEST(RollOver, AKnownLowFloorThatIsDrivenOverIsThePlans) {
   //      0 ______            ______
   //              |__________|        -12 mm, driven over
   std::string hazard;
+  bool starts_in_it = false;
   const auto judge = [&](double height_m, bool known, double wheel_z_m) {
     HazardMap map;
     Hazard pit;
@@ -108,7 +109,15 @@ TEST(RollOver, AKnownLowFloorThatIsDrivenOverIsThePlans) {
     const auto dut = MakeDetector("roll_over");
     dut->Start({map, robot, kStepS});
     int events = 0;
-    for (const Sample& s : Sunk(wheel_z_m)) {
+    Trace trace = Sunk(wheel_z_m);
+    if (starts_in_it) {
+      for (Sample& s : trace)
+        if (s.wheel_floor_z_m == 0) s.wheel_floor_z_m = height_m;
+    } else {
+      trace.front().p_WB.x() -= 20;
+      trace.front().wheel_floor_z_m = 0;
+    }
+    for (const Sample& s : trace) {
       if (!dut->Update(s)) continue;
       ++events;
       hazard = dut->event().hazard;
@@ -122,6 +131,13 @@ TEST(RollOver, AKnownLowFloorThatIsDrivenOverIsThePlans) {
   EXPECT_EQ(hazard, "pit") << "it lies below, though nothing touches it";
   EXPECT_EQ(judge(0.012, true, -0.017), 0) << "a raised floor all around";
   EXPECT_EQ(judge(0.012, true, -0.019), 1);
+  starts_in_it = true;
+  for (const bool known : {false, true}) {
+    EXPECT_EQ(judge(-0.150, known, -0.150), 0) << "it was set down there";
+    EXPECT_EQ(judge(-0.150, known, -0.190), 1) << "and fell deeper";
+    EXPECT_EQ(judge(0.150, known, 0.150), 0);
+    EXPECT_EQ(judge(0.150, known, 0.110), 1) << "the raised floor is its floor";
+  }
 }
 
 TEST(RollOver, OneEventForOneFallAndAnotherForTheNext) {

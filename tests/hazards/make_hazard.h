@@ -20,10 +20,13 @@ inline Hazard MakeOf(const std::string& type, const std::string& keys,
 inline double Volume(const Hazard& hazard) {
   double volume = 0;
   for (const Solid& s : hazard.solids) {
-    const Polygon& top = s.top.empty() ? s.base : s.top;
-    Polygon middle;
-    for (std::size_t i = 0; i < s.base.size(); ++i) middle.push_back((s.base[i] + top[i]) / 2);
-    const double area = (SignedArea(s.base) + 4 * SignedArea(middle) + SignedArea(top)) / 6;
+    double area = SignedArea(s.base);
+    if (!s.top.empty()) {
+      Polygon middle;  // halfway up, of the convex hull of both
+      for (const Vec2& a : s.base)
+        for (const Vec2& b : s.top) middle.push_back((a + b) / 2);
+      area = (area + 4 * SignedArea(ConvexHull(middle)) + SignedArea(s.top)) / 6;
+    }
     volume += area * (s.z_high_m - s.z_low_m) * (s.kind == Solid::Kind::kCut ? -1 : 1);
   }
   return volume;

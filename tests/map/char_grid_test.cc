@@ -106,14 +106,17 @@ TEST(CharGridTest, AFullBlockIsOneRectangle) {
   EXPECT_THAT(dut.hazards[0].solids, SizeIs(1));
 }
 
-// Strips lie in the middle of their cells: from wall to wall (into the drawn-back faces).
+// Strips lie in the middle of their cells, from wall to wall: their ground is that of their cells,
+// their solids go on into the walls' drawn-back faces.
 TEST(CharGridTest, ARunIsOneStripAlongItself) {
   const CharGrid across = Draw("#===#", "  sizes: {cable_cover: {width_m: 0.2}}\n");
   ASSERT_THAT(across.hazards, SizeIs(1));
-  ExpectSpan(FootprintOf(across.hazards[0]), {0.9, 0.4, 4.1, 0.6});
+  ExpectSpan(FootprintOf(across.hazards[0]), {1, 0.4, 4, 0.6});
+  ExpectSpan(SolidsOf(across.hazards[0]), {0.9, 0.4, 4.1, 0.6});
   const CharGrid up = Draw(".=.\n.=.\n...", "  sizes: {cable_cover: {width_m: 0.2}}\n");
   ASSERT_THAT(up.hazards, SizeIs(1));
-  ExpectSpan(FootprintOf(up.hazards[0]), {1.4, 1, 1.6, 3.1});  // beyond the map is wall
+  ExpectSpan(FootprintOf(up.hazards[0]), {1.4, 1, 1.6, 3});
+  ExpectSpan(SolidsOf(up.hazards[0]), {1.4, 1, 1.6, 3.1});  // beyond the map is wall
 }
 
 TEST(CharGridTest, ALoneCellIsAStripAlongY) {
@@ -129,8 +132,10 @@ TEST(CharGridTest, ALoneCellIsAStripAlongY) {
 TEST(CharGridTest, ACornerIsJoined) {
   const CharGrid dut = Draw("....\n===.\n=...", "  sizes: {cable_cover: {width_m: 0.2}}\n");
   ASSERT_THAT(dut.hazards, SizeIs(2));
-  ExpectSpan(FootprintOf(dut.hazards[0]), {-0.1, 1.4, 3, 1.6});
-  ExpectSpan(FootprintOf(dut.hazards[1]), {0.4, -0.1, 0.6, 1.5});
+  ExpectSpan(FootprintOf(dut.hazards[0]), {0, 1.4, 3, 1.6});
+  ExpectSpan(SolidsOf(dut.hazards[0]), {-0.1, 1.4, 3, 1.6});
+  ExpectSpan(FootprintOf(dut.hazards[1]), {0.4, 0, 0.6, 1.5});
+  ExpectSpan(SolidsOf(dut.hazards[1]), {0.4, -0.1, 0.6, 1.5});
 }
 
 TEST(CharGridTest, SizesSetWhatACharacterMeasures) {

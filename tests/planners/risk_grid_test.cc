@@ -205,6 +205,21 @@ TEST(RiskGrid, AnythingOccupiedInACellIsABlindObject) {
   EXPECT_EQ(Text(Make(map)), "WWWWWW\nW...TW\nW.#..W\nWWWWWW\n");
 }
 
+// A strip that is drawn some way into a wall, lengthwise or beside it, does not make terrain of it.
+TEST(RiskGrid, WhatShapesTheFloorIsNotInAWall) {
+  for (const HazardClass of : {HazardClass::kTerrain, HazardClass::kLevelChange}) {
+    HazardMap map = EmptyFloor(5, 3, 0.5);
+    map.occupancy(3, 1) = CellState::kOccupied;
+    const std::string walls = Text(Make(map));
+    map.hazards = {Of(of, Rectangle({1.47, 0.6}, {1.53, 0.7}))};
+    const RiskGrid dut = Make(map);
+    EXPECT_EQ(dut.contents(2, 1).hazard, of);
+    EXPECT_EQ(dut.contents(3, 1).hazard, HazardClass::kBlindObject);
+    map.hazards = {Of(of, Rectangle({1.51, 0.51}, {1.99, 0.99}))};
+    EXPECT_EQ(Text(Make(map)), walls) << "it is in the wall as a whole";
+  }
+}
+
 // The rule of risk_grid.h once more, slowly: on random floors of fine cells.
 TEST(RiskGrid, OnAnyFineMapTheRuleHolds) {
   Stream random(1, 0, "specks");

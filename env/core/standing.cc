@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/core/standing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "env/geometry/rasterise.h"
+
+namespace floorproof {
+namespace {
+
+constexpr double kBeside_m = 0.001;  // nobody sets a robot down more exactly
+constexpr double kSameLevel_m = 1e-6;
+constexpr double kLeast_m2 = 1e-8;  // of an overlap
+
+bool Overlap(const Polygon& a, const Polygon& b) {
+  const auto box = [](const Polygon& polygon) {
+    Vec2 low = polygon[0], high = low;
+    for (const Vec2& p : polygon) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    return std::pair(low, high);
+  };
+  const auto [low_a, high_a] = box(a);
+  const auto [low_b, high_b] = box(b);
+  if (!(low_a.array() < high_b.array()).all() || !(low_b.array() < high_a.array()).all())
+    return false;
+  return Area(Intersection({{a, {}}}, {b})) > kLeast_m2;
+}
+
+// The ground plan of the wheel's cylinder up to this height over its lowest line.
+Polygon WheelUpTo(const WheelSpec& wheel, double height_m) {
+  const double r = wheel.radius_m, up = std::clamp(height_m, 0.0, r);
+  const double half = std::sqrt(up * (2 * r - up)), across = wheel.half_width_m;
+  return InWorld({wheel.p_BW.x(), wheel.p_BW.y(), wheel.yaw_rad},
+                 Rectangle({-half, -across}, {half, across}));
+}
+
+// The body, drawn in so that what touches does not overlap.
+Polygon Body(const RobotSpec& robot) {
+  constexpr int kCorners = 64;
+  if (robot.clear.kind == Shape2::Kind::kCircle)
+    return RegularPolygon(Vec2::Zero(), robot.inscribed_radius_m - kBeside_m, kCorners);
+  return Offset(robot.clear.footprint_B, -kBeside_m);
+}
+
+const Hazard* LevelHazardAt(const HazardMap& map, const Vec2& p_W) {
+  for (std::size_t h = map.hazards.size(); h-- > 0;) {
+    const Hazard& hazard = map.hazards[h];
+    if (hazard.hazard_class != HazardClass::kLevelChange) continue;
+    if (std::ranges::any_of(hazard.footprint, [&](const Polygon& p) { return Contains(p, p_W); }))
+      return &hazard;
+  }
+  return nullptr;
+}
+
+std::string Metres(double m) {
+  std::string text = std::to_string(m);
+  text.resize(text.find('.') + 4);
+  return text + " m";
+}
+
+// Stands it on its floor; false: across an edge.
+bool FindFloor(const HazardMap& map, const RobotSpec& robot, const Pose2& X_WB, Standing& out) {
+  bool first = true;
+  double low_m = 0;
+  const Hazard *high = nullptr, *low = nullptr;
+  for (const WheelSpec& wheel : robot.wheels) {
+    const Hazard* level = LevelHazardAt(map, X_WB * Vec2(wheel.p_BW.head<2>()));
+    const double height_m = level != nullptr ? level->height_m : 0;
+    if (first || height_m > out.floor_m) out.floor_m = height_m, high = level;
+    if (first || height_m < low_m) low_m = height_m, low = level;
+    first = false;
+  }
+  out.rests_m = out.floor_m;
+  if (out.floor_m - low_m <= kSameLevel_m) return true;
+  out.obstruction = (high != nullptr ? high : low)->id;
+  out.why = "stands across the edge of " + out.obstruction + ": its wheels are on floors at " +
+            Metres(low_m) + " and " + Metres(out.floor_m);
+  return false;
+}
+
+// A solid that it is in, or that a wheel rests on.
+void MeetSolid(const RobotSpec& robot, const Pose2& X_WB, const Hazard& hazard, const Solid& solid,
+               Standing& out) {
+  const double rise_m = solid.z_high_m - out.floor_m;
+  if (solid.kind == Solid::Kind::kCut || rise_m <= kSameLevel_m) return;
+  const Polygon& top = solid.top.empty() ? solid.base : solid.top;
+  const double belly_m = out.rests_m + robot.clearance_m, roof_m = out.rests_m + robot.height_m;
+  if (solid.z_high_m > belly_m + kBeside_m && solid.z_low_m < roof_m &&
+      Overlap(InWorld(X_WB, Body(robot)), top)) {
+    out.obstruction = hazard.id;
+    out.why = "overlaps " + hazard.id + ", " + hazard.type;
+    return;
+  }
+  for (const WheelSpec& wheel : robot.wheels) {
+    if (solid.z_low_m > out.floor_m + 2 * wheel.radius_m ||
+        !Overlap(InWorld(X_WB, WheelUpTo(wheel, rise_m - kBeside_m)), top))
+      continue;
+    if (hazard.hazard_class == HazardClass::kTerrain && rise_m <= robot.clearance_m) {
+      out.rests_m = std::max(out.rests_m, solid.z_high_m);
+      continue;
+    }
+    out.obstruction = hazard.id;
+    out.why = "has a wheel in " + hazard.id + ", " + hazard.type + ", " + Metres(rise_m) +
+              " over its floor";
+    return;
+  }
+}
+
+}  // namespace
+
+Polygon InWorld(const Pose2& X_WB, Polygon polygon_B) {
+  for (Vec2& p : polygon_B) p = X_WB * p;
+  return polygon_B;
+}
+
+bool TouchesWall(const HazardMap& map, Polygon polygon_W) {
+  const GridFrame& frame = map.frame;
+  bool touches = false;
+  for (Vec2& p : polygon_W) {
+    p = frame.X_WG.Inverse() * p / frame.cell_m;
+    touches |= p.x() < 0 || p.y() < 0 || p.x() > frame.width || p.y() > frame.height;
+  }
+  Rasterise(polygon_W, frame.width, frame.height,
+            [&](int ix, int iy) { touches |= map.IsWall(ix, iy); });
+  return touches;
+}
+
+double LevelAt(const HazardMap& map, const Vec2& p_W) {
+  const Hazard* level = LevelHazardAt(map, p_W);
+  return level != nullptr ? level->height_m : 0;
+}
+
+Standing StandAt(const HazardMap& map, const RobotSpec& robot, const Pose2& X_WB) {
+  Standing out;
+  if (!FindFloor(map, robot, X_WB, out)) return out;
+  // Walls' solids are drawn back: the body is drawn in by as much.
+  const double drawn_back_m = std::min(map.inset_m, robot.inscribed_radius_m / 2);
+  if (TouchesWall(map, InWorld(X_WB, Offset(Body(robot), -drawn_back_m)))) {
+    out.obstruction = "wall";
+    out.why = "overlaps a wall";
+    return out;
+  }
+  for (const Hazard& hazard : map.hazards)
+    for (const Solid& solid : hazard.solids) {
+      MeetSolid(robot, X_WB, hazard, solid, out);
+      if (!out.obstruction.empty()) return out;
+    }
+  return out;
+}
+
+}  // namespace floorproof

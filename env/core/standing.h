@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a robot stands at a pose: on which floor, and what is in its way.
+#pragma once
+
+#include <string>
+
+#include "env/core/hazard_map.h"
+#include "env/core/robot_spec.h"
+
+namespace floorproof {
+
+// Heights over the base floor of the map, m.
+struct Standing {
+  double floor_m = 0;       // of the level that carries its wheels: the highest under one
+  double rests_m = 0;       // of the highest that a wheel rests on: the floor, or terrain on it
+  std::string obstruction;  // the id of what it cannot stand on or in, or "wall"; empty: none
+  std::string why;          // in words, then
+};
+
+// Of the robot upright at X_WB on this map, as built. It stands on the level that its driven wheels
+// touch: the base floor, a raised floor, or the bottom of a pit. It cannot
+//  - across the edge of a level change, its wheels on floors of several heights;
+//  - with a wheel on terrain that rises over its floor by more than its belly does;
+//  - where its body (between its belly and its top) or a wheel would be within a solid of a hazard
+//    or a wall, known or not. The body is the clear footprint, or the inscribed circle of a robot
+//    that keeps a circle clear. What overlaps by less than 1 mm stands beside.
+Standing StandAt(const HazardMap& map, const RobotSpec& robot, const Pose2& X_WB);
+
+// A polygon of the robot at X_WB, in the world.
+Polygon InWorld(const Pose2& X_WB, Polygon polygon_B);
+// Whether it reaches into a wall's cell or beyond the map.
+bool TouchesWall(const HazardMap& map, Polygon polygon_W);
+
+// The height of the level at this place: that of the last level change which holds it, else 0.
+double LevelAt(const HazardMap& map, const Vec2& p_W);
+
+}  // namespace floorproof

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which of a site's hazards holds where they overlap.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "env/core/hazard_map.h"
+
+namespace floorproof {
+
+// Where hazards that shape the floor (C3, C4) overlap, the later one wins, exactly: a level change
+// or a groove cuts the solids of earlier ones back to what it does not cover, and terrain that is
+// written after a level change lies on its floor, each part on its own where it lies across an
+// edge; `warnings` names what does. Terrain on terrain stays: the higher is felt. Pieces narrower
+// than 0.1 mm are left out: they would be no solid. Footprints stay whole, so that a map without
+// its unknown hazards does not show where they lie.
+void LayFloors(std::vector<Hazard>& hazards, std::vector<std::string>& warnings);
+
+}  // namespace floorproof

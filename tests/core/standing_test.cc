@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// On which floor a robot stands, and what it cannot stand in.
+#include "env/core/standing.h"
+
+#include <gtest/gtest.h>
+
+namespace floorproof {
+namespace {
+
+// Round, 0.2 m in radius, two wheels beside the middle, belly at 30 mm, trusted with steps of 6 mm.
+RobotSpec Robot() {
+  RobotSpec robot;
+  for (const double y : {0.15, -0.15}) {
+    WheelSpec wheel;
+    wheel.p_BW = {0, y, 0.05};
+    wheel.radius_m = 0.05;
+    wheel.half_width_m = 0.01;
+    robot.wheels.push_back(wheel);
+  }
+  robot.clear.radius_m = robot.inscribed_radius_m = robot.circumscribed_radius_m = 0.2;
+  robot.clearance_m = 0.03;
+  robot.height_m = 0.3;
+  robot.step_m = 0.006;
+  return robot;
+}
+
+HazardMap Room() {
+  HazardMap map;
+  map.frame = {8, 8, 0.5, {}};
+  map.occupancy = Grid<CellState>(8, 8);
+  return map;
+}
+
+Hazard Level(const Polygon& outline, double height_m) {
+  Hazard hazard;
+  hazard.id = hazard.type = height_m > 0 ? "platform" : "pit";
+  hazard.hazard_class = HazardClass::kLevelChange;
+  hazard.height_m = height_m;
+  hazard.footprint = {outline};
+  if (height_m > 0)
+    hazard.solids = {{Solid::Kind::kPrism, outline, {}, 0, height_m}};
+  else
+    hazard.solids = {{Solid::Kind::kCut, outline, {}, height_m, 0}};
+  return hazard;
+}
+
+Hazard Block(HazardClass of, const Polygon& outline, double low_m, double high_m) {
+  Hazard hazard;
+  hazard.id = hazard.type = "block";
+  hazard.hazard_class = of;
+  hazard.footprint = {outline};
+  hazard.height_m = high_m;
+  hazard.solids = {{Solid::Kind::kPrism, outline, {}, low_m, high_m}};
+  return hazard;
+}
+
+Standing At(const HazardMap& map, double x_m, double y_m, double yaw_rad = 0) {
+  return StandAt(map, Robot(), {x_m, y_m, yaw_rad});
+}
+
+TEST(StandAt, ItStandsOnTheLevelUnderItsWheels) {
+  for (const double height_m : {0.004, 0.05, 0.15, -0.05, -0.5}) {
+    HazardMap map = Room();
+    map.hazards = {Level(Rectangle({1, 1}, {3, 3}), height_m)};
+    EXPECT_EQ(At(map, 2, 2).floor_m, height_m);
+    EXPECT_EQ(At(map, 2, 2).rests_m, height_m);
+    EXPECT_EQ(At(map, 2, 2).obstruction, "") << At(map, 2, 2).why;
+    EXPECT_EQ(At(map, 0.5, 0.5).floor_m, 0);
+    EXPECT_EQ(LevelAt(map, {2, 2}), height_m);
+  }
+}
+
+TEST(StandAt, TheLaterLevelIsTheFloor) {
+  HazardMap map = Room();
+  map.hazards = {Level(Rectangle({1, 1}, {3, 3}), 0.1), Level(Rectangle({1, 1}, {3, 3}), -0.2)};
+  map.hazards[0].solids.clear();  // as the pit has cut it
+  EXPECT_EQ(At(map, 2, 2).floor_m, -0.2);
+}
+
+TEST(StandAt, AcrossAnEdgeItDoesNotStand) {
+  for (const double height_m : {0.05, -0.05, 0.004}) {
+    HazardMap map = Room();
+    map.hazards = {Level(Rectangle({0, 2}, {4, 4}), height_m)};
+    EXPECT_EQ(At(map, 2, 2).obstruction, map.hazards[0].id) << height_m;
+    EXPECT_NE(At(map, 2, 2).why.find("across the edge"), std::string::npos);
+    // Along the edge its wheels are on one side.
+    if (height_m < 0) EXPECT_EQ(At(map, 2, 1.9, kPi / 2).obstruction, "") << "it reaches over it";
+  }
+}
+
+TEST(StandAt, ItsBodyDoesNotStandInAPlatformBesideIt) {
+  HazardMap map = Room();
+  map.hazards = {Level(Rectangle({0, 2}, {4, 4}), 0.05)};
+  EXPECT_EQ(At(map, 2, 1.79).obstruction, "");
+  EXPECT_EQ(At(map, 2, 1.81).obstruction, "platform");
+  // Lower than its belly and off its wheels, a platform lies beneath it.
+  map.hazards = {Level(Rectangle({0, 2}, {4, 4}), 0.02)};
+  EXPECT_EQ(At(map, 2, 1.83).obstruction, "");
+}
+
+TEST(StandAt, SolidsAreRefusedWhereTheyOverlapAndNotWhereTheyTouch) {
+  for (const HazardClass of : {HazardClass::kBlindObject, HazardClass::kGlass}) {
+    HazardMap map = Room();
+    map.hazards = {Block(of, Rectangle({2, 1}, {3, 3}), 0, 0.5)};
+    EXPECT_EQ(At(map, 1.8, 2).obstruction, "") << "it touches";
+    EXPECT_EQ(At(map, 1.81, 2).obstruction, "block");
+    EXPECT_EQ(At(map, 2.5, 2).obstruction, "block") << "it is in it";
+    EXPECT_NE(At(map, 2.5, 2).why.find("overlaps block"), std::string::npos);
+    map.hazards[0].solids[0].z_low_m = 0.4;
+    EXPECT_EQ(At(map, 2.5, 2).obstruction, "") << "over its head";
+  }
+}
+
+TEST(StandAt, LowTerrainCarriesAWheelHighTerrainDoesNot) {
+  HazardMap map = Room();
+  map.hazards = {Block(HazardClass::kTerrain, Rectangle({1, 2.1}, {3, 2.2}), 0, 0.005)};
+  EXPECT_EQ(At(map, 2, 2).obstruction, "");
+  EXPECT_EQ(At(map, 2, 2).floor_m, 0);
+  EXPECT_EQ(At(map, 2, 2).rests_m, 0.005);
+  EXPECT_EQ(At(map, 2, 2.5).rests_m, 0) << "beside it";
+  map.hazards[0].solids[0].z_high_m = 0.02;
+  EXPECT_EQ(At(map, 2, 2).rests_m, 0.02);
+  EXPECT_EQ(At(map, 2, 2.15).rests_m, 0) << "between its wheels, below its belly";
+  EXPECT_EQ(At(map, 2, 2.15).obstruction, "");
+  map.hazards[0].solids[0].z_high_m = 0.04;
+  EXPECT_EQ(At(map, 2, 2).obstruction, "block");
+}
+
+TEST(StandAt, WallsAreAsBuilt) {
+  HazardMap map = Room();
+  for (int i = 0; i < 8; ++i) map.occupancy(4, i) = CellState::kOccupied;
+  EXPECT_EQ(At(map, 1.8, 2).obstruction, "");
+  EXPECT_EQ(At(map, 1.82, 2).obstruction, "wall");
+  map.inset_m = 0.03;
+  EXPECT_EQ(At(map, 1.82, 2).obstruction, "");
+  EXPECT_EQ(At(map, 0.1, 2).obstruction, "wall") << "beyond the map";
+}
+
+TEST(StandAt, AMapTurnedAndMovedSaysTheSame) {
+  const Pose2 X{3, -2, 0.7};
+  HazardMap map = Room(), turned = Room();
+  map.hazards = {Level(Rectangle({0, 2}, {4, 4}), 0.05),
+                 Block(HazardClass::kGlass, Rectangle({1, 1}, {1.1, 1.5}), 0, 2)};
+  turned.frame.X_WG = X;
+  turned.hazards = map.hazards;
+  for (Hazard& hazard : turned.hazards) {
+    hazard.footprint[0] = InWorld(X, hazard.footprint[0]);
+    hazard.solids[0].base = InWorld(X, hazard.solids[0].base);
+  }
+  for (double x = 0.3; x < 3.8; x += 0.23)
+    for (double y = 0.3; y < 3.8; y += 0.23) {
+      const Standing a = StandAt(map, Robot(), {x, y, 0.3});
+      const Standing b = StandAt(turned, Robot(), X * Pose2{x, y, 0.3});
+      EXPECT_EQ(a.floor_m, b.floor_m) << x << " " << y;
+      EXPECT_EQ(a.obstruction, b.obstruction) << x << " " << y;
+    }
+}
+
+}  // namespace
+}  // namespace floorproof

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is left of hazards where they overlap, against what the site says: the later one wins.
+#include "env/map/lay_floors.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/streams.h"
+#include "tests/hazards/make_hazard.h"
+
+namespace floorproof {
+namespace {
+
+std::vector<Hazard> Laid(std::vector<Hazard> hazards) {
+  std::vector<std::string> warnings;
+  LayFloors(hazards, warnings);
+  return hazards;
+}
+
+// A cover along x from 0 to 2 m, 90 mm wide, 50 mm at its top, 20 mm high.
+Hazard Cover(double yaw_rad = 0) {
+  const Pose2 X{0, 0, yaw_rad};
+  return MakeOf("cable_cover", "{width_m: 0.09, top_width_m: 0.05, height_m: 0.02}",
+                {X * Vec2(0, 0), X * Vec2(2, 0)});
+}
+constexpr double kSection_m2 = 0.02 * (0.09 + 0.05) / 2;
+
+// Height of the cover over its floor at a place beside its line.
+double CoverHeight(double across_m) {
+  return std::clamp((0.045 - std::abs(across_m)) / 0.02, 0.0, 1.0) * 0.02;
+}
+
+// Height of a solid's upper side over its lower one at this place; 0 beside it.
+double HeightOf(const Solid& solid, const Vec2& p) {
+  const Polygon& top = solid.top.empty() ? solid.base : solid.top;
+  if (!Contains(solid.base, p)) return 0;
+  if (Contains(top, p)) return solid.z_high_m - solid.z_low_m;
+  double low = 0, high = 1;  // the highest cross-section that holds p: they shrink upwards
+  for (int i = 0; i < 40; ++i) {
+    const double share = (low + high) / 2;
+    std::vector<Vec2> corners;
+    for (const Vec2& a : solid.base)
+      for (const Vec2& b : top) corners.push_back(a + share * (b - a));
+    (Contains(ConvexHull(corners), p) ? low : high) = share;
+  }
+  return low * (solid.z_high_m - solid.z_low_m);
+}
+double TopAt(const Hazard& hazard, const Vec2& p) {
+  double top_m = 0;
+  for (const Solid& solid : hazard.solids)
+    if (Contains(solid.base, p)) top_m = std::max(top_m, solid.z_low_m + HeightOf(solid, p));
+  return top_m;
+}
+
+TEST(LayFloors, AGrooveAcrossACoverTakesItsOwnWidthAndNoMore) {
+  for (const double at_m : {0.3, 1.0, 1.7})  // through its middle and beside
+    for (const double width_m : {0.01, 0.032, 0.2}) {
+      const Hazard groove =
+          MakeOf("groove", "{depth_m: 0.005, width_m: " + std::to_string(width_m) + "}",
+                 {{at_m, -0.5}, {at_m, 0.5}});
+      const Hazard dut = Laid({Cover(), groove})[0];
+      EXPECT_NEAR(Volume(dut), kSection_m2 * (2 - width_m), 1e-9) << at_m << " " << width_m;
+      EXPECT_EQ(dut.solids.size(), 2u);
+      EXPECT_EQ(TopAt(dut, {at_m, 0}), 0);
+    }
+}
+
+TEST(LayFloors, WhatDoesNotReachACoverLeavesItWhole) {
+  const Hazard beside = MakeOf("groove", "{width_m: 0.1}", {{1, 0.2}, {1, 0.6}});
+  const Hazard touching = MakeOf("step", "{height_m: -0.1}", Rectangle({0, 0.045}, {2, 1}));
+  for (const Hazard& later : {beside, touching}) {
+    const Hazard dut = Laid({Cover(), later})[0];
+    ASSERT_EQ(dut.solids.size(), 1u);
+    EXPECT_EQ(dut.solids[0].base, Cover().solids[0].base);
+  }
+}
+
+// A drop over one half of it, along its line: the other half keeps its flank and half its top.
+TEST(LayFloors, ADropAlongACoverTakesOneFlank) {
+  for (const double edge_m : {-0.04, -0.03, 0.0, 0.03, 0.04}) {
+    const Hazard drop = MakeOf("step", "{height_m: -0.1}", Rectangle({-1, edge_m}, {3, 1}));
+    const Hazard dut = Laid({Cover(), drop})[0];
+    for (double across = -0.05; across < 0.05; across += 0.0021)
+      EXPECT_NEAR(TopAt(dut, {1, across}), across < edge_m ? CoverHeight(across) : 0, 2e-5)
+          << edge_m << " " << across;
+  }
+}
+
+// The same site turned has the same volumes, and at any place the cover's own height, or none.
+TEST(LayFloors, ACoverCutAskewKeepsItsHeightWhereItIsLeft) {
+  Stream draws(1, 0, "askew");
+  for (int i = 0; i < 60; ++i) {
+    const double yaw_rad = draws.Uniform(-kPi, kPi), middle_m = draws.Uniform(0, 2);
+    const double across_m = draws.Uniform(-0.06, 0.06), corner_m = draws.Uniform(0.01, 0.3);
+    const Pose2 X{middle_m, across_m, yaw_rad};
+    const int corners = 3 + static_cast<int>(draws.Below(4));
+    Polygon hole = RegularPolygon(Vec2::Zero(), corner_m, corners);
+    for (Vec2& p : hole) p = X * p;
+    const Hazard pit = MakeOf("step", "{height_m: -0.1}", hole);
+    const Hazard dut = Laid({Cover(), pit})[0];
+    for (int k = 0; k < 300; ++k) {
+      const Vec2 p(draws.Uniform(0.001, 1.999), draws.Uniform(-0.05, 0.05));
+      const double edge_m = SignedDistance(hole, p);
+      if (std::abs(edge_m) < 5e-4) continue;  // thin pieces are left out
+      EXPECT_NEAR(TopAt(dut, p), edge_m > 0 ? CoverHeight(p.y()) : 0, 1e-4)
+          << i << ": " << p.transpose() << ", " << edge_m << " from the hole";
+    }
+    const Pose2 turn{0.3, -0.2, 1.1};
+    Polygon turned_hole = hole;
+    for (Vec2& p : turned_hole) p = turn * p;
+    const Hazard turned =
+        Laid({MakeOf("cable_cover", "{width_m: 0.09, top_width_m: 0.05, height_m: 0.02}",
+                     {turn * Vec2(0, 0), turn * Vec2(2, 0)}),
+              MakeOf("step", "{height_m: -0.1}", turned_hole)})[0];
+    for (int k = 0; k < 50; ++k) {
+      const Vec2 p(draws.Uniform(0.001, 1.999), draws.Uniform(-0.05, 0.05));
+      if (std::abs(SignedDistance(hole, p)) < 5e-4) continue;
+      EXPECT_NEAR(TopAt(turned, turn * p), TopAt(dut, p), 1e-4) << i << ": " << p.transpose();
+    }
+  }
+}
+
+TEST(LayFloors, BumpsAreCutToo) {
+  const Hazard rough =
+      MakeOf("rough", "{amplitude_m: 0.01, wavelength_m: 0.1}", Rectangle({0, 0}, {1, 1}));
+  const Hazard half = MakeOf("step", "{height_m: -0.1}", Rectangle({0.5, -1}, {2, 2}));
+  const Hazard through = MakeOf("step", "{height_m: -0.1}", Rectangle({0.55, -1}, {2, 2}));
+  const double left = Volume(Laid({rough, half})[0]);
+  const double more = Volume(Laid({rough, through})[0]);
+  double column = 0;  // of the bumps that the second cuts through their middles
+  for (const Solid& s : rough.solids)
+    if (s.base[0].x() > 0.5 && s.base[0].x() < 0.55) {
+      Hazard one = rough;
+      one.solids = {s};
+      column += Volume(one);
+    }
+  EXPECT_GT(column, 0);
+  EXPECT_NEAR(more - left, column / 2, 1e-3 * column) << "half of each";
+}
+
+// On the platform from x = 1: each part of the cover lies on its own floor.
+TEST(LayFloors, ACoverAcrossAnEdgeLiesOnBothFloors) {
+  for (const double height_m : {0.05, -0.05}) {
+    std::vector<Hazard> hazards = {
+        MakeOf("step", "{height_m: " + std::to_string(height_m) + "}", Rectangle({1, -1}, {3, 1})),
+        Cover()};
+    std::vector<std::string> warnings;
+    hazards[1].id = "c";
+    LayFloors(hazards, warnings);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings[0].substr(0, 20), "c lies across the ed");
+    EXPECT_NEAR(Volume(hazards[1]), 2 * kSection_m2, 1e-9);
+    for (const Solid& s : hazards[1].solids)
+      EXPECT_NEAR(s.z_low_m, s.base[0].x() + s.base[1].x() > 2 ? height_m : 0, 1e-12);
+  }
+}
+
+TEST(LayFloors, CoversThatCrossStayBoth) {
+  const Hazard other = MakeOf("cable_cover", "{}", {{1, -1}, {1, 1}});
+  const auto dut = Laid({Cover(), other});
+  EXPECT_NEAR(Volume(dut[0]), Volume(Cover()), 1e-12);
+  EXPECT_NEAR(Volume(dut[1]), Volume(other), 1e-12);
+}
+
+}  // namespace
+}  // namespace floorproof

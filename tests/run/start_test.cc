@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// A start is where a robot can stand: on its floor, whatever the floor's level, and in nothing.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "run/episode/intervention.h"
+#include "tests/run/scenario_text.h"
+
+namespace floorproof {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class StartTest : public ScenarioTest {
+ protected:
+  StartTest() { Save("plan.csv", "x_m,y_m,yaw_rad\n1.5,2.5,0\n3.5,2.5,0\n"); }
+  // The floor from 0.75 m to 6 m lies so high.
+  static std::string Level(double height_m, bool known = true) {
+    return fmt::format(
+        "{{type: step, id: level, height_m: {}, known: {}, "
+        "polygon_m: [[0.75,0.75],[6,0.75],[6,4],[0.75,4]]}}",
+        height_m, known);
+  }
+  std::string WhyRefused(const std::string& hazards, const std::string& robot,
+                         const std::string& more = "") const {
+    try {
+      Read(RoomScenario(hazards, more), {{"robot", robot}});
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  }
+};
+
+// As on the base floor, whatever the level: the same drive, where the tracker knows of no edge that
+// it should slow down beside.
+TEST_F(StartTest, OnARaisedFloorAndInAPitItDrivesAsOnTheBaseFloor) {
+  for (const char* robot : {"beluga", "htetro"}) {
+    const EpisodeRecord flat = Drive(Read(RoomScenario(""), {{"robot", robot}}));
+    ASSERT_EQ(flat.outcome, Outcome::kSuccess) << robot;
+    for (const double height_m : {0.004, 0.15, -0.05, -0.5}) {
+      const EpisodeRecord told = Drive(Read(RoomScenario(Level(height_m)), {{"robot", robot}}));
+      EXPECT_EQ(told.outcome, Outcome::kSuccess) << robot << " " << height_m;
+      const EpisodeRecord dut =
+          Drive(Read(RoomScenario(Level(height_m, false)), {{"robot", robot}}));
+      EXPECT_EQ(dut.outcome, Outcome::kSuccess) << robot << " " << height_m;
+      EXPECT_THAT(dut.events, IsEmpty()) << robot << " " << height_m;
+      EXPECT_NEAR(dut.trace.front().z_m, height_m, 2e-3) << robot;
+      EXPECT_NEAR(dut.trace.back().z_m, height_m, 2e-3) << robot;
+      EXPECT_NEAR(dut.metrics.duration_s, flat.metrics.duration_s, 0.1) << robot << " " << height_m;
+      EXPECT_NEAR(dut.metrics.energy_j, flat.metrics.energy_j, 0.02 * flat.metrics.energy_j)
+          << robot << " " << height_m;
+    }
+  }
+}
+
+// It falls from the level that it was set down on: that is a failure still.
+TEST_F(StartTest, FromARaisedFloorItCanFall) {
+  Save("plan.csv", "x_m,y_m\n1.5,2.5\n7.5,2.5\n");
+  const EpisodeRecord dut = Drive(Read(RoomScenario(Level(0.15))));
+  ASSERT_EQ(dut.outcome, Outcome::kFailure);
+  EXPECT_EQ(dut.events.front().mode, FailureMode::kRollOver);
+  EXPECT_GT(dut.events.front().x_m, 5.5);
+}
+
+TEST_F(StartTest, WhatItOverlapsIsNamed) {
+  for (const char* robot : {"beluga", "htetro"}) {
+    for (const auto& [id, hazard] :
+         {std::pair("pillar",
+                    "{type: blind_object, id: pillar, "
+                    "polygon_m: [[1.6,2.4],[1.8,2.4],[1.8,2.6],[1.6,2.6]]}"),
+          {"pane", "{type: glass, id: pane, line_m: [[1.6,2],[1.6,3]]}"},
+          {"kerb",
+           "{type: step, id: kerb, height_m: 0.1, "
+           "polygon_m: [[1.6,2],[2.4,2],[2.4,3],[1.6,3]]}"}})
+      EXPECT_THAT(WhyRefused(hazard, robot),
+                  AllOf(HasSubstr("scenario.yaml:"), HasSubstr("start"), HasSubstr("1.5, 2.5"),
+                        HasSubstr(id), HasSubstr("must stand on one floor")))
+          << robot;
+    EXPECT_THAT(WhyRefused("", robot, "start: {x_m: 0.6, y_m: 2.5}\n"),
+                HasSubstr("overlaps a wall"))
+        << robot;
+    EXPECT_EQ(WhyRefused("{type: blind_object, polygon_m: [[2.5,2.4],[2.8,2.4],[2.8,2.6]]}", robot),
+              "");
+  }
+}
+
+TEST_F(StartTest, AcrossAnEdgeIsRefused) {
+  for (const double height_m : {0.004, 0.05, -0.05})
+    EXPECT_THAT(WhyRefused(fmt::format("{{type: step, id: level, height_m: {}, "
+                                       "polygon_m: [[1.5,1],[4,1],[4,4],[1.5,4]]}}",
+                                       height_m),
+                           "htetro"),
+                HasSubstr("across the edge of level"));
+}
+
+// Help sets a robot down on the floor at its waypoint, whatever its level.
+TEST_F(StartTest, HelpSetsItDownOnTheFloorThatIsThere) {
+  Path path(3);
+  path[0].p_W = {1.5, 2.5};
+  path[1].p_W = {6, 2.5};  // across the edge
+  path[2].p_W = {4, 2.5};
+  for (const char* robot : {"beluga", "htetro"})
+    for (const double height_m : {0.15, -0.15}) {
+      const auto dut = PlaceAhead(Read(RoomScenario(Level(height_m)), {{"robot", robot}}), path, 1);
+      ASSERT_TRUE(dut) << robot << " " << height_m;
+      EXPECT_EQ(dut->waypoint, 2u) << robot << " " << height_m;
+    }
+}
+
+// Rough ground below its belly: it stands on the bumps, and stays where it is.
+TEST_F(StartTest, OnRoughGroundItStandsStill) {
+  for (const char* robot : {"beluga", "htetro"}) {
+    Scenario s = Read(RoomScenario("{type: rough, amplitude_m: 0.003, wavelength_m: 0.07, "
+                                   "polygon_m: [[0.75,1.5],[3,1.5],[3,3.5],[0.75,3.5]]}"),
+                      {{"robot", robot}});
+    const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
+    Simulation dut(scene, s.site.map, s.robot.spec);
+    dut.Reset(s.start);
+    const Vec3 stood_W = dut.truth().p_WB;
+    for (int i = 0; i < 250; ++i) ASSERT_TRUE(dut.Step());
+    EXPECT_LT((dut.truth().p_WB - stood_W).norm(), 0.003) << robot;
+    EXPECT_LT(dut.truth().tilt_rad, 0.05) << robot;
+    EXPECT_GE(stood_W.z(), -1e-3) << robot;
+  }
+}
+
+}  // namespace
+}  // namespace floorproof
