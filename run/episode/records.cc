@@ -84,6 +84,16 @@ void AddRisk(const PlanResult& plan, Json& json) {
   json["visits_by_risk"] = std::move(ranges);
 }
 
+void Remove(std::initializer_list<const char*> names, const std::filesystem::path& folder) {
+  for (const char* name : names) {
+    std::error_code error;
+    std::filesystem::remove(folder / name, error);
+    if (error)
+      throw InputError({(folder / name).string(), 0}, "", "",
+                       "of an earlier run, cannot be removed: " + error.message());
+  }
+}
+
 }  // namespace
 
 Json VersionsJson() {
@@ -143,7 +153,7 @@ Json PlanJson(const Scenario& s, const PlanResult& plan) {
                {"tool_width_m", plan.tool_width_m},
                {"keeps_clear", circle ? "circle" : "footprint"},
                {"radius_m", circle ? plan.clear.radius_m : s.robot.spec.inscribed_radius_m}};
-  AddRisk(plan, json);
+  if (AsksForRisk(s)) AddRisk(plan, json);
   for (const auto& [name, value] : plan.figures) json[name] = value;
   return json;
 }
@@ -202,21 +212,18 @@ void WritePlanFiles(const Scenario& s, const PlanResult& plan,
   WriteFileWhole(folder / "scenario.resolved.yaml", ResolvedScenario(s, folder));
   WriteFileWhole(folder / "plan.csv", PlanCsv(plan.path));
   WriteFileWhole(folder / "plan.json", PlanJson(s, plan).dump(2) + "\n");
-  WriteFileWhole(folder / "risk.csv", RiskCsv(*plan.risk));
+  if (AsksForRisk(s))
+    WriteFileWhole(folder / "risk.csv", RiskCsv(*plan.risk));
+  else
+    Remove({"risk.csv", "heatmap_risk.png", "heatmap_plan_visits.png", "plot_risk.png"}, folder);
 }
 
 void RemoveEpisodeFiles(const std::filesystem::path& folder) {
-  for (const char* name :
-       {"result.json", "trace.csv", "heatmap_plan.png", "heatmap_plan_visits.png",
-        "heatmap_risk.png", "plot_risk.png", "heatmap_visits.png", "heatmap_coverage.png",
-        "heatmap_failures.png", "heatmap_known.png", "plot_errors.png", "frame_start.png",
-        "frame_failure.png", "frame_end.png", "video.mp4"}) {
-    std::error_code error;
-    std::filesystem::remove(folder / name, error);
-    if (error)
-      throw InputError({(folder / name).string(), 0}, "", "",
-                       "of an earlier run, cannot be removed: " + error.message());
-  }
+  Remove({"result.json", "trace.csv", "heatmap_plan.png", "heatmap_plan_visits.png",
+          "heatmap_risk.png", "plot_risk.png", "heatmap_visits.png", "heatmap_coverage.png",
+          "heatmap_failures.png", "heatmap_known.png", "plot_errors.png", "frame_start.png",
+          "frame_failure.png", "frame_end.png", "video.mp4"},
+         folder);
 }
 
 void WriteEpisodeFiles(const Scenario& s, const EpisodeRecord& record,
