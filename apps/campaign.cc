@@ -88,7 +88,7 @@ int RunIt(const Options& options, const Globals& globals) {
                                 .fail_fast = options.fail_fast,
                                 .time_limit_s = options.time_limit_s};
   const ScenarioFile file(options.scenario, overrides);
-  const fs::path folder = OutputFolder(options.out, file.file());
+  const fs::path folder = OutputFolder(options.out, file.file(), file.name());
   Progress progress(globals, file.variants());
   const CampaignOutcome outcome = DriveCampaign(file, request, folder, &progress);
   progress.Clear();

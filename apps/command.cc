@@ -26,8 +26,12 @@ void Globals::Result(const nlohmann::ordered_json& json_result) const {
   if (json) std::printf("%s\n", json_result.dump(2).c_str());
 }
 
-fs::path OutputFolder(const std::string& out, const fs::path& scenario) {
-  return out.empty() ? fs::path("out") / scenario.stem() : fs::path(out);
+fs::path OutputFolder(const std::string& out, const fs::path& scenario, const std::string& name) {
+  if (!out.empty()) return out;
+  const bool is_folder =
+      !name.empty() && name.front() != '.' && name.find('/') == std::string::npos;
+  return fs::path("out") /
+         (scenario.stem() == "scenario" && is_folder ? fs::path(name) : scenario.stem());
 }
 
 int Cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }

@@ -29,8 +29,10 @@ struct Globals : Console {
   void Result(const nlohmann::ordered_json& json_result) const;
 };
 
-// --out, or out/<stem of the scenario's file> in the working directory.
-std::filesystem::path OutputFolder(const std::string& out, const std::filesystem::path& scenario);
+// --out, or out/<stem of the scenario's file> in the working directory. Where the file is just
+// called scenario, as `init` calls all of them, its name stands for the stem.
+std::filesystem::path OutputFolder(const std::string& out, const std::filesystem::path& scenario,
+                                   const std::string& name);
 
 // Of this machine; at least 1.
 int Cores();

@@ -11,6 +11,14 @@ namespace {
 
 constexpr std::uintmax_t kMaxRobotBytes = 64u << 20;
 
+// Canonical, since ../ in a path through a symbolic link would lead elsewhere.
+std::string PathFrom(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  namespace fs = std::filesystem;
+  return fs::weakly_canonical(fs::absolute(file))
+      .lexically_relative(fs::weakly_canonical(fs::absolute(folder)))
+      .string();
+}
+
 }  // namespace
 
 void AddInit(CommandLine& line, const Globals& globals, int&) {
@@ -28,10 +36,13 @@ void AddInit(CommandLine& line, const Globals& globals, int&) {
   command.OnRun([options, &globals] {
     const auto robot_file = FindRobotFile(options->robot, {"--robot", 0});
     if (const std::string why = WhyUnreadable(robot_file, kMaxRobotBytes); !why.empty())
-      throw InputError({"--robot", 0}, "", options->robot, why);
+      throw InputError({"--robot", 0}, "", options->robot,
+                       why + ": " + std::filesystem::absolute(robot_file).string());
     const RobotModel robot = ReadRobot(robot_file);
     const std::filesystem::path folder = options->out;
-    const InitFiles files = MakeInitFiles(options->map, robot.spec, folder);
+    const bool bundled = robot_file != options->robot;
+    const InitFiles files = MakeInitFiles(options->map, robot.spec, folder,
+                                          bundled ? options->robot : PathFrom(folder, robot_file));
     for (const auto& warning : files.warnings) globals.Say("warning: " + warning);
     MakeFolder(folder);
     const auto write = [&](const char* name, const std::string& text) {

@@ -19,7 +19,8 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     std::vector<std::string> beside;
   };
   auto options = std::make_shared<Options>();
-  Subcommand command = line.Add("plan", "Plan only: plan.csv, plan.json, risk.csv and pictures");
+  Subcommand command = line.Add(
+      "plan", "Plan only: plan.csv, plan.json and pictures; risk.csv where risk is asked for");
   command.Text("SCENARIO", options->scenario, "Scenario file (YAML)", Subcommand::Need::kRequired);
   command.Text("--out", options->out, "Output folder (default: out/<scenario's stem>)");
   command.Texts("--beside", options->beside,
@@ -27,7 +28,7 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
   command.OnRun([options, &globals, &status] {
     const Scenario scenario = ReadScenario(options->scenario, globals.Overrides());
     for (const std::string& warning : Warnings(scenario)) globals.Say(warning);
-    const auto folder = OutputFolder(options->out, scenario.file);
+    const auto folder = OutputFolder(options->out, scenario.file, scenario.name);
     ResultFolder out(folder, EpisodeResults(), InputsOf(scenario));
     const PlanResult plan = MakePlan(scenario);
     const auto json = PlanJson(scenario, plan);

@@ -144,8 +144,9 @@ std::vector<RiskOfPlan> PlansBeside(const std::vector<std::string>& files,
 
 void WritePlanPictures(const Scenario& s, const PlanResult& plan,
                        const std::filesystem::path& folder, std::span<const RiskOfPlan> beside) {
-  std::vector<RiskOfPlan> plans = {MeasurePlan(s, plan)};
   WritePlanOverClasses(s, plan, folder / "heatmap_plan.png");
+  if (!AsksForRisk(s) && beside.empty()) return;
+  std::vector<RiskOfPlan> plans = {MeasurePlan(s, plan)};
   WriteRiskMap(s, plan, folder / "heatmap_risk.png");
   WritePlanVisits(s, plan, plans.front().risk, folder / "heatmap_plan_visits.png");
   plans.insert(plans.end(), beside.begin(), beside.end());

@@ -25,6 +25,7 @@ std::vector<RiskOfPlan> PlansBeside(const std::vector<std::string>& files,
                                     const RiskOfPlan& first);
 
 // heatmap_plan.png: the planned path over the map, cells with hazards coloured by their class.
+// The others where the scenario asks for risk (AsksForRisk), or there are plans beside it:
 // heatmap_risk.png: the risk factor (RF) of each cell that is no outer wall.
 // heatmap_plan_visits.png: how often the plan visits each cell.
 // plot_risk.png: the plot below, of this plan and those beside it.

@@ -22,8 +22,8 @@ enum class HazardClass { kBlindObject /*C1*/, kGlass /*C2*/, kLevelChange /*C3*/
 // A piece of matter, or of missing floor, in the world frame; z = 0 is the base floor.
 struct Solid {
   enum class Kind {
-    kPrism,  // convex: `base` at z_low_m to `top` at z_high_m (equal corner counts; a box, a prism,
-             // a frustum; a wedge, where corners of `top` coincide)
+    kPrism,  // the convex hull of `base` at z_low_m and `top` at z_high_m, both convex: a box, a
+             // prism, a frustum; a wedge, where corners of `top` coincide
     kCut,    // the floor is missing within `base` (any simple polygon) down to z_low_m (negative)
   };
   Kind kind = Kind::kPrism;

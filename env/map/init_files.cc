@@ -101,16 +101,45 @@ hazards:
 )";
 }
 
-std::string ScenarioText(const RobotSpec& robot, const Pose2& start, double area_m2) {
+// What nobody knows exactly, as lines of `randomise`; what the robot's model does not state is left
+// out.
+std::string DrawnText(const RobotSpec& robot, const Pose2& start) {
+  const auto around = [](double value, double deviation) {
+    return "{normal: [" + Metres(value) + ", " + Metres(deviation) + "]}";
+  };
+  std::string text =
+      "  site.floor.friction: {uniform: [0.6, 1.0]}   # dusty to clean\n"
+      "  start.x_m: " +
+      around(start.x_m, 0.02) + "   # nobody sets it down more exactly\n" +
+      "  start.y_m: " + around(start.y_m, 0.02) + "\n" +
+      "  start.yaw_deg: " + around(start.yaw_rad * 180 / kPi, 2) + "\n";
+  if (robot.mass_kg > 0)
+    text += "  robot.mass_kg: {uniform: [" + Metres(0.95 * robot.mass_kg) + ", " +
+            Metres(1.05 * robot.mass_kg) + "]}   # a full bin, another battery\n";
+  if (const auto& volts = robot.battery.voltage_v)
+    text += "  battery.voltage_v: {uniform: [" + Metres(0.9 * *volts) + ", " + Metres(*volts) +
+            "]}   # drawn low to full\n";
+  return text +
+         "  # How wrong its first guess is; `truth` takes no heed, mcl and odometry do.\n"
+         "  estimator.start_error_x_m: {normal: [0, 0.1]}\n"
+         "  estimator.start_error_y_m: {normal: [0, 0.1]}\n"
+         "  estimator.start_error_yaw_deg: {normal: [0, 5]}\n";
+}
+
+std::string ScenarioText(const std::string& name, const std::string& robot_key,
+                         const RobotSpec& robot, const Pose2& start, double area_m2) {
   const std::string pose = "{x_m: " + Metres(start.x_m) + ", y_m: " + Metres(start.y_m) +
                            ", yaw_deg: " + Metres(start.yaw_rad * 180 / kPi) + "}";
   return R"(# What is tried on the floor: a robot, a plan, and what counts as success.
 #   floorproof run scenario.yaml --video      drives it once and films it
-# What comes of it stands in out/scenario/, the verdict in result.json there.
+#   floorproof campaign scenario.yaml -n 60   drives it 60 times: how often does it fail?
+# What comes of it stands in out/NAME/, the verdict in result.json or summary.json there.
 scenario: 1                # version of this format
+name: )" +
+         Quoted(name) + R"(
 site: site.yaml            # relative to this file
 robot: )" +
-         robot.name + R"(
+         Quoted(robot_key) + R"(
 # From here about )" +
          std::to_string(std::lround(area_m2)) + R"( m^2 can be swept.
 start: )" +
@@ -126,6 +155,15 @@ estimator: truth           # mcl, odometry: `floorproof list estimators`, and do
 
 success:
   min_coverage: 0.95       # share of what can be swept; less is no success
+
+# What nobody knows exactly, drawn anew in each episode (`run` drives episode 0). Without it all
+# episodes of a campaign are one.
+randomise:
+)" + DrawnText(robot, start) +
+         R"(
+# What a campaign must show: exit status 0 where it does, 1 where it does not, 4 where the episodes
+# allow neither. 59 episodes without a failure show a rate below 5 %.
+gate: {metric: not_success, max_rate: 0.05, confidence: 0.95}
 
 seed: 1                    # the same seed gives the same bytes
 )";
@@ -158,7 +196,7 @@ Pose2 ChooseStart(const HazardMap& map, const RobotSpec& robot) {
 }
 
 InitFiles MakeInitFiles(const fs::path& map_yaml, const RobotSpec& robot,
-                        const fs::path& folder_out) {
+                        const fs::path& folder_out, const std::string& robot_key) {
   const RosMap ros = ReadRosMap(map_yaml);
   HazardMap map;
   map.frame = ros.frame;
@@ -173,8 +211,11 @@ InitFiles MakeInitFiles(const fs::path& map_yaml, const RobotSpec& robot,
   const SweepArea area = ComputeSweepArea(map, robot.clear, robot.tool, robot.step_m, start.p());
   const fs::path from = fs::weakly_canonical(fs::absolute(folder_out.empty() ? "." : folder_out));
   const fs::path relative = fs::weakly_canonical(fs::absolute(map_yaml)).lexically_relative(from);
-  return {SiteText(NameOf(map_yaml), relative.string(), ros, start),
-          ScenarioText(robot, start, area.area_m2()), ros.warnings};
+  const std::string name = NameOf(map_yaml);
+  return {
+      SiteText(name, relative.string(), ros, start),
+      ScenarioText(name, robot_key.empty() ? robot.name : robot_key, robot, start, area.area_m2()),
+      ros.warnings};
 }
 
 }  // namespace floorproof

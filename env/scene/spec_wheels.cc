@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads what motors turn: wheels, and the hinges between blocks.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -61,6 +62,19 @@ HingeSpec ReadHinge(CompiledRobot& compiled, const std::string& name) {
   return hinge;
 }
 
+// A wheel that turns about anything but its own axis is an eccentric, or a castor: it has no
+// radius.
+void RefuseOffAxis(const CompiledRobot& compiled, int joint, int geom, const std::string& name) {
+  constexpr double kAskew = 1e-3, kBeside_m = 1e-4;
+  const mjData* d = compiled.data();
+  const Vec3 hinge_W(d->xaxis + 3 * joint);
+  const mjtNum* R = d->geom_xmat + 9 * geom;
+  const Vec3 axis_W(R[2], R[5], R[8]);
+  const Vec3 arm_W = Vec3(d->geom_xpos + 3 * geom) - Vec3(d->xanchor + 3 * joint);
+  if (hinge_W.cross(axis_W).norm() > kAskew || hinge_W.cross(arm_W).norm() > kBeside_m)
+    compiled.Refuse(name, "the wheel's hinge must be its cylinder's axis");
+}
+
 WheelSpec ReadWheel(const CompiledRobot& compiled, int a, const std::string& name) {
   const mjModel* m = compiled.model();
   WheelSpec wheel;
@@ -73,6 +87,7 @@ WheelSpec ReadWheel(const CompiledRobot& compiled, int a, const std::string& nam
   for (int g = m->body_geomadr[body]; g < m->body_geomadr[body] + m->body_geomnum[body]; ++g)
     if (m->geom_type[g] == mjGEOM_CYLINDER && m->geom_conaffinity[g] != 0) geom = g;
   if (geom < 0) compiled.Refuse(name, "the wheel's body needs a cylinder that collides");
+  RefuseOffAxis(compiled, joint, geom, name);
   const Rollers rollers = RollersOf(m, geom);
   if (!(rollers.radius_m >= 0) || (rollers.radius_m > 0) != (rollers.angle_rad != 0) ||
       !(std::abs(rollers.angle_rad) < kPi / 2))

@@ -26,7 +26,7 @@ class Simulation {
   // `scene`, `map` and `robot` outlive the simulation.
   Simulation(const Scene& scene, const HazardMap& map, const RobotSpec& robot);
 
-  // At rest at the pose, settled on its wheels; time 0, the battery new.
+  // At rest at the pose, settled on its wheels on the floor there; time 0, the battery new.
   void Reset(const Pose2& X_WB);
   // The same in the middle of an episode: lifted and set down, upright and at rest, in its start
   // shape, its motors told to stand still. Time and battery go on as they were, and the driven

@@ -10,9 +10,9 @@
 //    placed, to one of the map's cells, where most of its cells are free of walls. Of several such
 //    places it takes the one with the lowest x, then y.
 //  - A cell that overlaps a hazard's footprint holds that hazard; a common border is not enough.
-//  One
-//    that overlaps anything occupied holds a blind object. Of several hazards a cell holds the one
-//    of the greatest weight (FmeaTables), and it is solid if one of them is.
+//    One that overlaps anything occupied holds a blind object. What shapes the floor (C3, C4) is
+//    not in a cell that is wall as a whole. Of several hazards a cell holds the one of the greatest
+//    weight (FmeaTables), and it is solid if one of them is.
 //  - A cell that reaches beyond the map, or that overlaps an unknown cell which counts as wall, is
 //    outer wall unless it holds a hazard. So is the outermost ring of cells if all of it is wall.
 #pragma once

@@ -23,7 +23,7 @@ struct Metrics {
   std::optional<double> battery_left;
   double max_cross_track_m = 0, mean_cross_track_m = 0;
   int turns = 0;
-  double cumulative_risk = 0;
+  std::optional<double> cumulative_risk;
   int interventions = 0;
   int reactions = 0;
   double max_estimate_error_m = 0, mean_estimate_error_m = 0, p95_estimate_error_m = 0;
@@ -70,7 +70,9 @@ inline constexpr auto kMetrics = std::to_array<MetricColumn>({
     {"mean_cross_track_m", "m", &Metrics::mean_cross_track_m, "that distance, mean over time"},
     {"turns", "", &Metrics::turns, "turns of the plan", true},
     {"cumulative_risk", "", &Metrics::cumulative_risk,
-     "risk factors of the cells that the robot's centre came to, as driven, each visit counted",
+     "risk factors of the cells that the robot's centre came to, as driven, each visit counted; "
+     "none "
+     "where neither a planner nor the key `risk` asks for risk",
      true},
     {"interventions", "", &Metrics::interventions, "times that a person set the robot down anew"},
     {"reactions", "", &Metrics::reactions, "times that it went back from what it met (`react`)"},

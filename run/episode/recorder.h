@@ -23,6 +23,7 @@ class Recorder {
         robot_(s.robot.spec),
         meter_(area, s.robot.spec.tool),
         risk_(risk),
+        asks_for_risk_(AsksForRisk(s)),
         dt_s_(s.physics.timestep_s),
         trace_hz_(s.episode.trace_hz),
         trace_every_(s.episode.control_hz / s.episode.trace_hz),
@@ -102,7 +103,7 @@ class Recorder {
     Metrics& m = record_.metrics;
     if (shape_ >= 0) meter_.Add(last.X_WB());
     m.coverage = meter_.coverage();
-    m.cumulative_risk = risk_.cumulative_risk();
+    if (asks_for_risk_) m.cumulative_risk = risk_.cumulative_risk();
     m.overlap = meter_.overlap();
     m.duration_s = last.t_s;
     m.battery_left = battery_left;
@@ -205,6 +206,7 @@ class Recorder {
   const RobotSpec& robot_;
   CoverageMeter meter_;
   RiskMeter risk_;
+  bool asks_for_risk_;
   double dt_s_, cross_track_sum_ = 0, estimate_error_sum_ = 0, position_std_sum_ = 0;
   static constexpr double kMaxMm = 10000;  // errors beyond are counted together
   std::vector<std::int64_t> errors_mm_ =

@@ -99,6 +99,14 @@ bool IsFilm(std::string_view name) {
   return name == "video.mp4" || (name.starts_with("frame_") && name.ends_with(".png"));
 }
 
+void Remove(const std::filesystem::path& file) {
+  std::error_code error;
+  std::filesystem::remove(file, error);
+  if (error)
+    throw InputError({file.string(), 0}, "", "",
+                     "of an earlier run, cannot be removed: " + error.message());
+}
+
 }  // namespace
 
 Json VersionsJson() {
@@ -167,7 +175,7 @@ Json PlanJson(const Scenario& s, const PlanResult& plan) {
                {"tool_width_m", plan.tool_width_m},
                {"keeps_clear", circle ? "circle" : "footprint"},
                {"radius_m", circle ? plan.clear.radius_m : s.robot.spec.inscribed_radius_m}};
-  AddRisk(plan, json);
+  if (AsksForRisk(s)) AddRisk(plan, json);
   for (const auto& [name, value] : plan.figures) json[name] = value;
   return json;
 }
@@ -241,20 +249,19 @@ void WritePlanFiles(const Scenario& s, const PlanResult& plan,
   WriteFileWhole(folder / "scenario.resolved.yaml", ResolvedScenario(s, folder));
   WriteFileWhole(folder / "plan.csv", PlanCsv(plan.path));
   WriteFileWhole(folder / "plan.json", PlanJson(s, plan).dump(2) + "\n");
-  WriteFileWhole(folder / "risk.csv", RiskCsv(*plan.risk));
+  if (AsksForRisk(s)) {
+    WriteFileWhole(folder / "risk.csv", RiskCsv(*plan.risk));
+  } else {
+    for (const char* name :
+         {"risk.csv", "heatmap_risk.png", "heatmap_plan_visits.png", "plot_risk.png"})
+      Remove(folder / name);
+  }
 }
 
 void RemoveEpisodeFiles(const ResultFolder& folder) {
-  const auto remove = [&](const std::string& name) {
-    std::error_code error;
-    std::filesystem::remove(folder.path() / name, error);
-    if (error)
-      throw InputError({(folder.path() / name).string(), 0}, "", "",
-                       "of an earlier run, cannot be removed: " + error.message());
-  };
-  remove("result.json");
+  Remove(folder.path() / "result.json");
   for (const std::string& name : folder.Results())
-    if (!IsPlanFile(name)) remove(name);
+    if (!IsPlanFile(name)) Remove(folder.path() / name);
 }
 
 void WriteEpisodeFiles(const Scenario& s, const EpisodeRecord& record,

@@ -142,10 +142,11 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
   if (s.goal && stated("goal", site_varies)) root.Add("goal", Goal(*s.goal));
   root.Add("plan", s.planner ? WithPlugin(Named("planner", s.planner_name), *s.planner)
                              : Named("file", PathFrom(folder, s.plan_file).string()));
-  root.Add("risk", WithParams(Named("tables", s.fmea_file == BundledTables()
-                                                  ? std::string(kBundledTables)
-                                                  : PathFrom(folder, s.fmea_file).string()),
-                              s.risk));
+  if (AsksForRisk(s))
+    root.Add("risk", WithParams(Named("tables", s.fmea_file == BundledTables()
+                                                    ? std::string(kBundledTables)
+                                                    : PathFrom(folder, s.fmea_file).string()),
+                                s.risk));
   if (stated("controller", robot_varies))
     root.Add("controller", WithPlugin(Named("name", s.tracker_name), *s.tracker));
   root.Add("estimator", WithPlugin(Named("name", s.estimator_name), *s.estimator));

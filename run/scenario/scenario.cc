@@ -39,6 +39,26 @@ void Apply(const Variant& changes, bool to_site, ConfigNode& root) {
   }
 }
 
+// Keys whose value may be a file's path.
+bool NamesFile(const std::string& key, const std::string& value) {
+  if (key == "robot" || key == "robot.name") return value.ends_with(".xml");
+  return key == "site" || key == "plan.file" || (key == "risk.tables" && value.ends_with(".yaml"));
+}
+
+// What is typed is meant from the folder in which it is typed, where a file lies there; else it is
+// read as if it stood in the scenario.
+void FindFromHere(const std::string& key, ConfigNode& value) {
+  std::error_code ignored;
+  if (value.IsScalar() && NamesFile(key, value.scalar) && fs::exists(value.scalar, ignored))
+    value.scalar = fs::absolute(value.scalar).string();
+}
+
+// A ROS map_server file has these and nothing of a scenario.
+bool IsRosMap(const ConfigNode& root) {
+  return root.Find("image") != nullptr && root.Find("resolution") != nullptr &&
+         root.Find("scenario") == nullptr;
+}
+
 // Whether setting `whole` replaces `key`.
 bool Replaces(const std::string& whole, const std::string& key) {
   return key == whole || key.starts_with(whole + ".");
@@ -79,8 +99,14 @@ ScenarioFile::ScenarioFile(ConfigNode root, const fs::path& file,
                            const std::vector<Override>& overrides, Files files)
     : file_(file), root_(std::move(root)) {
   if (!root_.IsMap()) throw InputError({file.string(), 1}, "", "", "must be a map of keys");
-  for (const Override& o : overrides)
+  if (IsRosMap(root_))
+    throw InputError({file.string(), 0}, "", "",
+                     "is a ROS map, not a scenario: `floorproof init " + file.string() +
+                         "` writes a scenario for it");
+  for (const Override& o : overrides) {
     overrides_.emplace_back(o.key_path, ParseYaml(o.value, "--set " + o.key_path));
+    FindFromHere(o.key_path, overrides_.back().second);
+  }
   Apply({"", overrides_}, false, root_);
   RefuseUnknownKeys(root_, "", ScenarioKeys());
   const ConfigNode* version = root_.Find("scenario");
@@ -218,6 +244,10 @@ Scenario ScenarioFile::ReadWith(std::optional<std::uint64_t> episode, const Vari
 Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrides) {
   const ScenarioFile scenario(file, overrides);
   return scenario.Read(scenario.episode());
+}
+
+bool AsksForRisk(const Scenario& s) {
+  return s.written.contains("risk") || (s.planner && s.planner->promises().needs_risk);
 }
 
 std::vector<fs::path> FilesRead(const Scenario& s) {

@@ -132,6 +132,10 @@ class ScenarioFile {
   mutable std::map<std::filesystem::path, ConfigNode> site_files_;  // read once each
 };
 
+// Whether its plan needs the floor's risk, or its key `risk` asks for it: of any other nothing is
+// said of risk.
+bool AsksForRisk(const Scenario& scenario);
+
 // The scenario itself, whatever its matrix says: episode 0, or the one that it names.
 Scenario ReadScenario(const std::filesystem::path& file,
                       const std::vector<Override>& overrides = {});

@@ -74,10 +74,12 @@ TEST_F(Cli, RunLeavesWhatTheContractNames) {
   const Result dut = Run("run s.yaml --out o");
   EXPECT_EQ(dut.status, 0) << dut.err << dut.out;
   for (const char* file :
-       {"scenario.resolved.yaml", "plan.csv", "plan.json", "trace.csv", "result.json", "risk.csv",
-        "heatmap_plan.png", "heatmap_risk.png", "heatmap_plan_visits.png", "plot_risk.png",
-        "heatmap_visits.png", "heatmap_coverage.png", "heatmap_failures.png"})
+       {"scenario.resolved.yaml", "plan.csv", "plan.json", "trace.csv", "result.json",
+        "heatmap_plan.png", "heatmap_visits.png", "heatmap_coverage.png", "heatmap_failures.png"})
     EXPECT_TRUE(fs::exists(folder_ / "o" / file)) << file;
+  for (const char* file :
+       {"risk.csv", "heatmap_risk.png", "heatmap_plan_visits.png", "plot_risk.png"})
+    EXPECT_FALSE(fs::exists(folder_ / "o" / file)) << file << ": nobody asked for risk";
   const auto result = nlohmann::json::parse(Slurp(folder_ / "o" / "result.json"));
   EXPECT_EQ(result["outcome"], "success");
   EXPECT_TRUE(result["events"].empty());
@@ -87,7 +89,7 @@ TEST_F(Cli, RunLeavesWhatTheContractNames) {
 
 TEST_F(Cli, RunThatDrivesNothingLeavesThePlanAndItsPictures) {
   ASSERT_EQ(Run("run s.yaml --out o").status, 0);
-  EXPECT_EQ(Run("run s.yaml --out o --set drive=none").status, 0);
+  EXPECT_EQ(Run("run s.yaml --out o --set drive=none --set risk.distance_scale=1").status, 0);
   for (const char* file : {"plan.csv", "plan.json", "risk.csv", "heatmap_plan.png",
                            "heatmap_risk.png", "heatmap_plan_visits.png", "plot_risk.png"})
     EXPECT_TRUE(fs::exists(folder_ / "o" / file)) << file;
@@ -100,7 +102,7 @@ TEST_F(Cli, PlansOfOneFloorStandBesideEachOtherInOnePlot) {
   std::string text = Slurp(folder_ / "s.yaml");
   text.replace(text.find("boustrophedon"), 13, "path_transform");
   std::ofstream(folder_ / "t.yaml") << text;
-  ASSERT_EQ(Run("plan s.yaml --out o").status, 0);
+  ASSERT_EQ(Run("plan s.yaml --out o --set risk.distance_scale=1").status, 0);
   const std::string alone = plot();
   ASSERT_EQ(Run("plan s.yaml --beside t.yaml --out o").status, 0);
   EXPECT_NE(plot(), alone);
@@ -153,10 +155,22 @@ TEST_F(Cli, AReplayThatDiffersFromTheRecordSaysSo) {
 
 TEST_F(Cli, AnOutcomeThatIsNoSuccessIsExitStatusOne) {
   EXPECT_EQ(Run("run s.yaml --out o --set time_limit_s=2").status, 1);
-  EXPECT_EQ(Run("run s.yaml --out p --set start.x_m=0.52 --set start.y_m=0.52").status, 1)
-      << "the robot does not fit where it starts";
-  EXPECT_EQ(nlohmann::json::parse(Slurp(folder_ / "p" / "plan.json"))["status"], "start_blocked");
+  EXPECT_EQ(Run("run s.yaml --out p --set plan=path_transform --set goal.x_m=2.25 --set "
+                "goal.y_m=1.25 --set 'site.hazards=[{type: blind_object, polygon_m: [[2,1],[2.5,1],"
+                "[2.5,1.5],[2,1.5]]}]'")
+                .status,
+            1)
+      << "the goal lies in a hazard";
+  EXPECT_EQ(nlohmann::json::parse(Slurp(folder_ / "p" / "plan.json"))["status"],
+            "goal_unreachable");
   EXPECT_EQ(nlohmann::json::parse(Slurp(folder_ / "p" / "result.json"))["outcome"], "not_planned");
+}
+
+TEST_F(Cli, AStartInAWallIsBadInput) {
+  const Result dut = Run("run s.yaml --out p --set start.x_m=0.52 --set start.y_m=0.52");
+  EXPECT_EQ(dut.status, 2);
+  EXPECT_THAT(dut.err, HasSubstr("start = 0.52, 0.52: beluga at this heading overlaps a wall"));
+  EXPECT_FALSE(fs::exists(folder_ / "p"));
 }
 
 TEST_F(Cli, JsonGoesToStdoutAlone) {
@@ -232,6 +246,26 @@ TEST_F(Cli, InitWritesARunnableScenarioAndLeavesExistingFiles) {
   std::ofstream(folder_ / "mine" / "site.yaml") << "mine";
   EXPECT_EQ(Run("init map.yaml --out mine").status, 0);
   EXPECT_EQ(Slurp(folder_ / "mine" / "site.yaml"), "mine");
+
+  // A map that stands where a scenario should.
+  for (const std::string command : {"run", "plan", "campaign -n 3"}) {
+    const auto refused = Run(command + " map.yaml");
+    EXPECT_EQ(refused.status, 2) << command;
+    EXPECT_THAT(refused.err, HasSubstr("`floorproof init map.yaml`")) << command;
+  }
+
+  // A robot of one's own, named from where one is; and what two maps give does not meet.
+  fs::create_directories(folder_ / "mine2/robots");
+  fs::copy_file(fs::path(FP_SOURCE_DIR) / "models/beluga.xml", folder_ / "my.xml");
+  fs::rename(folder_ / "map.yaml", folder_ / "hall.yaml");
+  ASSERT_EQ(Run("init hall.yaml --robot my.xml --out mine2").status, 0);
+  EXPECT_THAT(Slurp(folder_ / "mine2/scenario.yaml"), HasSubstr("robot: \"../my.xml\""));
+  EXPECT_EQ(Run("plan mine2/scenario.yaml").status, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "out/hall/plan.csv"));
+  EXPECT_EQ(Run("plan mine2/scenario.yaml --set robot=my.xml --out set").status, 0);
+  const auto missing = Run("plan mine2/scenario.yaml --set robot=none.xml");
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_THAT(missing.err, HasSubstr("no such file: mine2/none.xml"));
 }
 
 }  // namespace

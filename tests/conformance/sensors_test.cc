@@ -208,6 +208,20 @@ TEST_P(SensorConformance, TheSameSeedTellsTheSameAnotherOtherNoise) {
   }
 }
 
+// A campaign asks it whether its episodes can differ.
+TEST_P(SensorConformance, SaysWhetherItDraws) {
+  SensorRig rig(SlotBeforeAWall(), Robot(), Before(), Changes());
+  auto dut = Make();
+  const bool draws = dut->draws();
+  rig.Carry(std::move(dut));
+  const auto told = [&](std::uint64_t seed) {
+    rig.Put(Before());
+    rig.Start(seed);
+    return Drive(rig);
+  };
+  EXPECT_EQ(told(1) != told(2), draws);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, SensorConformance,
                          testing::Combine(testing::ValuesIn(Sensors()),
                                           testing::ValuesIn(Carriers())),

@@ -103,6 +103,25 @@ starts_at_once() {
   expect "a second start calls nothing" test ! -s "$work/calls"
 }
 
+installs_a_link() {
+  export HOME="$work/a home"
+  mkdir "$HOME"
+  run install
+  expect "a link is made" test "$status" = 0 -a "$(readlink "$HOME/.local/bin/floorproof")" = "$dut"
+  expect "a folder off the PATH is told of" says err "is not on your PATH"
+  expect "nothing is built for it" test ! -s "$work/calls"
+  export PATH="$HOME/.local/bin:$PATH"
+  run install
+  expect "again is as once" test "$status" = 0
+  expect "a folder on the PATH is not told of" test "$(grep -c "not on your PATH" "$work/err")" = 0
+  cd / && floorproof demo >"$work/out" 2>"$work/err"
+  expect "the link starts the program" grep -qF "[demo]" "$work/out"
+  rm "$HOME/.local/bin/floorproof"
+  echo mine >"$HOME/.local/bin/floorproof"
+  run install
+  expect "what is no link stays" test "$status" = 2 -a "$(<"$HOME/.local/bin/floorproof")" = mine
+}
+
 rebuilds_what_changed() {
   run demo
   : >"$work/calls"

@@ -75,6 +75,36 @@ TEST_F(InitFilesTest, TheTextsSayWhatTheDesignAsks) {
   EXPECT_EQ(site.Find("map")->scalar, "map.yaml");
 }
 
+// How often is answered from the first campaign on: something is drawn, and there is a gate.
+TEST_F(InitFilesTest, AFirstCampaignDrawsAndIsJudged) {
+  RobotSpec robot = Disc(0.15);
+  const auto drawn = [&] {
+    const InitFiles dut = MakeInitFiles(SaveMap(kTwoRooms, "[0, 0, 0]"), robot, folder_);
+    std::vector<std::string> keys;
+    const ConfigNode scenario = ParseYaml(dut.scenario_yaml, "scenario.yaml");
+    EXPECT_NE(scenario.Find("gate"), nullptr);
+    for (const auto& [key, value] : scenario.Find("randomise")->entries) keys.push_back(key);
+    return keys;
+  };
+  using ::testing::Contains;
+  using ::testing::IsSupersetOf;
+  using ::testing::Not;
+  EXPECT_THAT(drawn(), IsSupersetOf({"site.floor.friction", "start.x_m", "start.y_m",
+                                     "start.yaw_deg", "estimator.start_error_x_m"}));
+  EXPECT_THAT(drawn(), Not(Contains("robot.mass_kg"))) << "its model states none";
+  robot.mass_kg = 8;
+  robot.battery.voltage_v = 12;
+  EXPECT_THAT(drawn(), IsSupersetOf({"robot.mass_kg", "battery.voltage_v"}));
+}
+
+TEST_F(InitFilesTest, TheScenarioIsNamedAfterTheMapAndNamesTheRobotAsItIsTold) {
+  const InitFiles dut =
+      MakeInitFiles(SaveMap(kTwoRooms, "[0, 0, 0]"), Disc(0.15), folder_, "../my bot.xml");
+  const ConfigNode scenario = ParseYaml(dut.scenario_yaml, "scenario.yaml");
+  EXPECT_EQ(scenario.Find("name")->scalar, folder_.filename().string());
+  EXPECT_EQ(scenario.Find("robot")->scalar, "../my bot.xml");
+}
+
 // The commented examples are no decoration: without their '#' they read.
 TEST_F(InitFilesTest, TheCommentedHazardsRead) {
   const InitFiles dut = MakeInitFiles(SaveMap(kTwoRooms, "[0, 0, 0]"), Disc(0.15), folder_);

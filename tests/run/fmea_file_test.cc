@@ -247,7 +247,7 @@ TEST_F(FmeaFile, ResolvedTwiceIsItself) {
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), AllOf(HasSubstr("mine.yaml"), HasSubstr("the file has changed since")));
   }
-  const std::string bundled = ResolvedScenario(Read(RoomScenario("")), folder_);
+  const std::string bundled = ResolvedScenario(Read(RoomScenario("", "risk: {}\n")), folder_);
   EXPECT_THAT(bundled, HasSubstr("tables: \"htetro\""));
   EXPECT_THAT(bundled, HasSubstr("cell_m: none"));
 }
@@ -276,7 +276,7 @@ const char kDrop[] =
     "top_width_m: 0.05, height_m: 0.01}";
 
 TEST_F(FmeaFile, RiskCsvHasTheTopRowFirst) {
-  const Scenario scenario = Read(RoomScenario(kDrop));
+  const Scenario scenario = Read(RoomScenario(kDrop, "risk: {}\n"));
   const PlanResult plan = MakePlan(scenario);
   WritePlanFiles(scenario, plan, folder_);
   std::ifstream in(folder_ / "risk.csv");
@@ -327,10 +327,35 @@ TEST_F(FmeaFile, PlanJsonMeasuresTheRiskOfThePath) {
 
 TEST_F(FmeaFile, AUsersOwnPlanIsMeasuredToo) {
   Save("plan.csv", "x_m,y_m\n1.5,2.5\n7.25,2.5\n7.25,1.5\n");
-  const Scenario scenario = Read(RoomScenario(kDrop));
+  const Scenario scenario = Read(RoomScenario(kDrop, "risk: {}\n"));
   WritePlanFiles(scenario, MakePlan(scenario), folder_);
   EXPECT_EQ(ReadJson("plan.json")["terrain_crossings"], 1);
   EXPECT_GT(ReadJson("plan.json")["cumulative_risk"], 0);
+}
+
+// Of risk nothing is said where nobody asks: no file, no figure, no metric; and what an earlier
+// plan left of it goes.
+TEST_F(FmeaFile, RiskIsSpokenOfWhereItIsAskedFor) {
+  Save("plan.csv", "x_m,y_m\n1.5,2.5\n3,2.5\n");
+  const auto asks = [&](const std::string& more, const std::vector<Override>& overrides) {
+    Scenario scenario = Read(RoomScenario("", more), overrides);
+    const Execution execution = Execute(scenario);
+    WritePlanFiles(scenario, execution.plan, folder_);
+    const bool file = std::filesystem::exists(folder_ / "risk.csv");
+    EXPECT_EQ(AsksForRisk(scenario), file);
+    EXPECT_EQ(ReadJson("plan.json").contains("cumulative_risk"), file);
+    EXPECT_EQ(execution.record.metrics.cumulative_risk.has_value(), file);
+    EXPECT_EQ(ResolvedScenario(scenario, folder_).find("\nrisk:") != std::string::npos, file);
+    return file;
+  };
+  const std::vector<Override> none = {{"time_limit_s", "0.1"}};
+  const std::vector<Override> lanes = {{"plan", "boustrophedon"}, none[0]};
+  const std::vector<Override> cells = {{"plan", "path_transform"}, none[0]};
+  EXPECT_TRUE(asks("", cells));
+  EXPECT_FALSE(asks("", none));
+  EXPECT_TRUE(asks("risk: {}\n", none));
+  EXPECT_FALSE(asks("", lanes));
+  EXPECT_TRUE(asks("risk: {distance_scale: 2}\n", lanes));
 }
 
 TEST_F(FmeaFile, APlanThatIsRefusedLeavesItsRiskAllTheSame) {

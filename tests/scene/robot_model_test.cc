@@ -120,6 +120,26 @@ TEST(RobotModel, ABrokenRobotIsRefusedNamingWhatIsMissing) {
               HasSubstr("a robot needs at least one driven wheel"));
 }
 
+// BELUGA with its left wheel's joint written so.
+TEST(RobotModel, AWheelTurnsAboutItsOwnAxis) {
+  const auto with_joint = [](const std::string& name, const std::string& more) {
+    std::ifstream in(FindRobotFile("beluga", {}));
+    std::string xml((std::istreambuf_iterator<char>(in)), {});
+    const std::string joint = "<joint name=\"wheel_left\" class=\"wheel\"";
+    const std::size_t at = xml.find(joint);
+    EXPECT_NE(at, std::string::npos);
+    return RefusalOf(name, xml.replace(at, joint.size(), joint + more));
+  };
+  EXPECT_EQ(with_joint("as_it_is", ""), "accepted");
+  EXPECT_EQ(with_joint("along_it", " pos=\"0 0.01 0\""), "accepted");
+  EXPECT_EQ(with_joint("the_other_way", " axis=\"0 -1 0\""), "accepted");
+  const std::string rule = "wheel_left: the wheel's hinge must be its cylinder's axis";
+  EXPECT_THAT(with_joint("beside", " pos=\"0.005 0 0\""), HasSubstr(rule));
+  EXPECT_THAT(with_joint("above", " pos=\"0 0 0.005\""), HasSubstr(rule));
+  EXPECT_THAT(with_joint("steered", " axis=\"0 0 1\""), HasSubstr(rule));
+  EXPECT_THAT(with_joint("askew", " axis=\"0 1 0.05\""), HasSubstr(rule));
+}
+
 TEST(RobotModel, AnUnknownRobotNamesTheNearest) {
   try {
     FindRobotFile("belugo", {"a.yaml", 3});
