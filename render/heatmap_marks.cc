@@ -65,7 +65,12 @@ void EndMark(cv::Mat& image, const cv::Point2d& p) {
   Ring(image, p, 8.5, kEnd, 3);
 }
 
-void Mark(cv::Mat& image, const cv::Point& p, const Rgb& colour, int mark) {
+void Mark(cv::Mat& image, const cv::Point2d& at, const Rgb& colour, int mark) {
+  constexpr double kReach_px = 24;
+  if (!(std::abs(at.x - 0.5 * image.cols) < 0.5 * image.cols + kReach_px &&
+        std::abs(at.y - 0.5 * image.rows) < 0.5 * image.rows + kReach_px))
+    return;  // off the picture, and perhaps beyond whole numbers
+  const cv::Point p = at;
   cv::drawMarker(image, p, Colour(kWhite), mark, 17, 6, cv::LINE_AA);
   cv::drawMarker(image, p, Colour(colour), mark, 15, 2, cv::LINE_AA);
 }

@@ -8,7 +8,7 @@ namespace {
 class BlindObject : public HazardType {
  public:
   void Visit(ParamVisitor& v) override {
-    v("height_m", height_m_, {0, 10, true}, "height over the base floor");
+    v("height_m", height_m_, Between(kLeastSize_m, 10), "height over the base floor");
   }
   Placement placement() const override { return Placement::kPolygon; }
 

@@ -10,9 +10,10 @@ namespace {
 class CableCover : public HazardType {
  public:
   void Visit(ParamVisitor& v) override {
-    v("width_m", width_m_, {0, 2, true}, "width at the floor, across the line");
-    v("top_width_m", top_width_m_, {0, 2, true}, "width of its flat top; at most width_m");
-    v("height_m", height_m_, {0, 0.5, true}, "height over the base floor");
+    v("width_m", width_m_, Between(kLeastSize_m, 2), "width at the floor, across the line");
+    v("top_width_m", top_width_m_, Between(kLeastSize_m, 2),
+      "width of its flat top; at most width_m");
+    v("height_m", height_m_, Between(kLeastSize_m, 0.5), "height over the base floor");
   }
   Placement placement() const override { return Placement::kLine; }
 

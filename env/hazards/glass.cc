@@ -10,8 +10,9 @@ namespace {
 class Glass : public HazardType {
  public:
   void Visit(ParamVisitor& v) override {
-    v("height_m", height_m_, {0, 10, true}, "height over the base floor");
-    v("thickness_m", thickness_m_, {0, 100, true}, "thickness, half to each side of the line");
+    v("height_m", height_m_, Between(kLeastSize_m, 10), "height over the base floor");
+    v("thickness_m", thickness_m_, Between(kLeastSize_m, 100),
+      "thickness, half to each side of the line");
   }
   Placement placement() const override { return Placement::kLine; }
 

@@ -10,8 +10,8 @@ namespace {
 class Groove : public HazardType {
  public:
   void Visit(ParamVisitor& v) override {
-    v("width_m", width_m_, {0, 2, true}, "width across the line");
-    v("depth_m", depth_m_, {0, 2, true}, "depth below the base floor");
+    v("width_m", width_m_, Between(kLeastSize_m, 2), "width across the line");
+    v("depth_m", depth_m_, Between(kLeastSize_m, 2), "depth below the base floor");
   }
   Placement placement() const override { return Placement::kLine; }
 

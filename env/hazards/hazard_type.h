@@ -13,6 +13,9 @@
 
 namespace floorproof {
 
+// Of a hazard's solids: below it the engine finds no volume.
+inline constexpr double kLeastSize_m = 1e-4;
+
 class HazardType : public Configurable {
  public:
   // How its place is written in a site file.

@@ -31,7 +31,8 @@ double Hash(std::int64_t i, std::int64_t j) {
 class Rough : public HazardType {
  public:
   void Visit(ParamVisitor& v) override {
-    v("amplitude_m", amplitude_m_, {0, 0.2, true}, "height of the highest bump over the floor");
+    v("amplitude_m", amplitude_m_, Between(kLeastSize_m, 0.2),
+      "height of the highest bump over the floor");
     v("wavelength_m", wavelength_m_, {0.01, 2, false}, "distance from bump to bump");
   }
   Placement placement() const override { return Placement::kPolygon; }

@@ -51,6 +51,27 @@ TEST(HeatMapMarks, NumbersAreLeftOutWhereCellsAreTooSmall) {
   }
 }
 
+// What lies far off changes nothing that shows, and takes no time.
+TEST(HeatMapMarks, WhatLiesFarOffIsCut) {
+  const auto drawn = [](bool known, double far_m) {
+    HazardMap map = Hall(12, 12, 0.5);
+    Hazard hazard;
+    hazard.type = "step";
+    hazard.known = known;
+    hazard.footprint = {{{far_m, 2}, {3, 2}, {3, 2.5}, {far_m, 2.5}}};
+    map.hazards.push_back(hazard);
+    HeatMapOptions options;
+    options.points = {{{far_m, 1e9}, "stuck"}, {{4, 4}, "stuck"}};
+    return DrawHeatMap(map, nullptr, options);
+  };
+  EXPECT_EQ(drawn(true, -808564).data, drawn(true, -100).data);
+  for (const double far_m : {-808564.0, 808564.0, 1e15}) {
+    const Image dashed = drawn(false, far_m), outlined = drawn(true, far_m);
+    const int row = 64 + (dashed.height - 64) / 2;
+    EXPECT_GT(Changed(dashed, outlined, 24, 64, dashed.width - 300, 2 * row), 0) << far_m;
+  }
+}
+
 TEST(HeatMapMarks, ANumberKeepsOffTheWay) {
   const HazardMap map = Hall(12, 12, 0.5);
   const HeatValues values = Values(map, 2);
