@@ -38,21 +38,30 @@ void SayRows(std::span<const LadderRow> rows, const Globals& globals) {
 }  // namespace
 
 nlohmann::ordered_json RunLadder(const fs::path& folder, int jobs, const Globals& globals) {
-  const std::vector<LadderCell> cells = LadderCells({}), sweep_cells = SweepCells();
-  globals.Say(fmt::format("the ladder: {} limits, {} more over clearance and mass", cells.size(),
-                          sweep_cells.size()));
+  const std::vector<LadderCell> cells = LadderCells({}), oblique_cells = ObliqueCells(),
+                                sweep_cells = SweepCells();
+  globals.Say(fmt::format(
+      "the ladder: {} limits at {} degrees off square, {} more at other angles, {} over "
+      "clearance and mass",
+      cells.size(), kChartOblique_deg, oblique_cells.size(), sweep_cells.size()));
   const std::vector<LadderRow> rows = Climb(cells, jobs, globals);
   WriteFileWhole(folder / "ladder.csv", LadderCsv(rows));
+  const std::vector<LadderRow> oblique = Climb(oblique_cells, jobs, globals);
+  WriteFileWhole(folder / "ladder_oblique.csv", ObliqueCsv(oblique));
   const std::vector<LadderRow> sweep = Climb(sweep_cells, jobs, globals);
   WriteFileWhole(folder / "ladder_sweep.csv", SweepCsv(sweep));
-  SayWhenInterrupted(fmt::format("{} of {} rows of the ladder and {} of {} of its sweep are in {}",
-                                 rows.size(), cells.size(), sweep.size(), sweep_cells.size(),
-                                 folder.string()));
+  SayWhenInterrupted(
+      fmt::format("{} of {} rows of the ladder, {} of {} at other angles and {} of {} of its sweep "
+                  "are in {}",
+                  rows.size(), cells.size(), oblique.size(), oblique_cells.size(), sweep.size(),
+                  sweep_cells.size(), folder.string()));
   if (Interrupted()) return {};
   WriteLadderCharts(rows, sweep, folder);
   SayRows(rows, globals);
   for (const std::string& finding : Findings(rows)) globals.Say(finding);
-  return {{"rows", LadderJson(rows)}, {"sweep", LadderJson(sweep)}};
+  for (const std::string& finding : ObliqueFindings(oblique)) globals.Say(finding);
+  return {
+      {"rows", LadderJson(rows)}, {"oblique", LadderJson(oblique)}, {"sweep", LadderJson(sweep)}};
 }
 
 }  // namespace floorproof

@@ -13,8 +13,8 @@ namespace floorproof {
 // run's. Throws InputError when nothing can be written there, before minutes of work are lost.
 void ClearLadder(const std::filesystem::path& folder);
 
-// ladder.csv, ladder_sweep.csv, capability_ROBOT.png, sweep_ROBOT.png. Under HoldInterrupts: when
-// interrupted it writes the rows that are done and returns.
+// ladder.csv, ladder_oblique.csv, ladder_sweep.csv, capability_ROBOT.png, sweep_ROBOT.png. Under
+// HoldInterrupts: when interrupted it writes the rows that are done and returns.
 nlohmann::ordered_json RunLadder(const std::filesystem::path& folder, int jobs,
                                  const Globals& globals);
 

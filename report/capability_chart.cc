@@ -134,8 +134,10 @@ std::vector<std::string> Notes(std::span<const LadderRow> rows, const std::strin
   const bool aside =
       std::find(directions.begin(), directions.end(), Direction::kSideways) != directions.end();
   return {
-      "Up to the limit every size tried is crossed, driven straight by the robot's own tracker "
-      "and judged by the failure detectors; 0: none is.",
+      fmt::format("Up to the limit every size tried is crossed, driven straight, {:g} deg off "
+                  "square, by the robot's own tracker and judged by the failure detectors; 0: none "
+                  "is.",
+                  rows.front().cell.oblique_deg),
       setting + (aside ? " Diagonal: the way at 45 deg to the body, the hazard square to the "
                          "way. Series of equal values stand side by side."
                        : " Diagonal: the edge met at 45 deg. Series of equal values stand side "

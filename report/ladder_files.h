@@ -14,8 +14,9 @@ namespace floorproof {
 // Whether the ladder writes a file of this name.
 bool IsLadderFile(std::string_view name);
 
-// Empties ladder.csv and ladder_sweep.csv and removes the charts: what an earlier climb left does
-// not stand for this one. Throws InputError where a table cannot be written.
+// Empties ladder.csv, ladder_oblique.csv and ladder_sweep.csv and removes the charts: what an
+// earlier climb left does not stand for this one. Throws InputError where a table cannot be
+// written.
 void ClearLadder(const std::filesystem::path& folder);
 
 // Both charts of each robot (capability_chart.h), of the ladder's rows and its sweep's.

@@ -7,6 +7,7 @@
 
 #include "controllers/drive.h"
 #include "controllers/tracker.h"
+#include "env/core/driven_floor.h"
 #include "env/failures/detector.h"
 #include "env/sim/simulation.h"
 #include "run/episode/path_error.h"
@@ -15,7 +16,6 @@ namespace floorproof {
 namespace {
 
 constexpr int kControlHz = 50;     // a scenario's default
-constexpr double kRunUp_m = 0.03;  // at speed, before the edge
 constexpr double kLag_s = 0.15;    // wheels reach their speed some 0.1 s late
 constexpr double kRunOut_m = 1.5;  // the plan ends this far beyond: it does not slow down before
 
@@ -70,7 +70,7 @@ std::string Why(const Event& event) {
 CrossingResult Cross(const RobotModel& model, Hazard hazard, const CrossingPlan& plan) {
   const RobotSpec& robot = model.spec;
   const HazardMap map = Bench(std::move(hazard), plan.friction);
-  const double run_up_m = kRunUp_m + kLag_s * plan.speed_mps +
+  const double run_up_m = plan.run_up_m + kLag_s * plan.speed_mps +
                           plan.speed_mps * plan.speed_mps / (2 * robot.max_accel_mps2);
   // An edge met at an angle comes nearer to the circle that the robot fits in.
   const double from_m = robot.circumscribed_radius_m / std::cos(plan.travel_rad) + run_up_m;
@@ -84,7 +84,9 @@ CrossingResult Cross(const RobotModel& model, Hazard hazard, const CrossingPlan&
   const auto drive = MakePlugin(Drives(), robot.drive, "drive");
   drive->Configure(robot);
   const auto tracker = MakePlugin(Trackers(), DefaultTracker(robot.drive), "controller");
-  tracker->Start(path, robot, nullptr);
+  const ClearanceField clearance =
+      ClearanceOnTheWay(map, LevelChangesOnTheWay(map, path), robot.step_m);
+  tracker->Start(path, robot, &clearance);
   std::vector<std::unique_ptr<Detector>> detectors;
   for (const auto& entry : Detectors()) {
     detectors.push_back(entry.make());

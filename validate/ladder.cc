@@ -20,6 +20,8 @@ constexpr double kFrictions[] = {0.4, 0.6, 0.8};
 constexpr double kRollerFrictions[] = {0.4, 0.8};
 constexpr double kClearances_m[] = {0.015, 0.018, 0.020, 0.022, 0.025, 0.030};
 constexpr double kMassFactors[] = {0.7, 1.0, 1.5};
+constexpr double kObliques_deg[] = {0, 0.5, 1, 3, 5, 10};
+constexpr double kFarRunUp_m = 0.3;
 constexpr double kClear_m = 0.02;  // between what lies behind and the circle around the robot
 
 std::vector<Direction> DirectionsOf(const RobotSpec& robot) {
@@ -93,6 +95,26 @@ std::vector<LadderCell> SweepCells() {
   return cells;
 }
 
+std::vector<LadderCell> ObliqueCells() {
+  std::vector<LadderCell> cells;
+  for (const RobotEntry& entry : Robots()) {
+    const std::string name(entry.name);
+    const RobotSpec robot = ReadRobot(FindRobotFile(name, {})).spec;
+    for (const LadderHazard& hazard : LadderHazards())
+      for (const Direction direction : DirectionsOf(robot)) {
+        LadderCell cell{name, "ideal", hazard.name, direction, 0.2, 0.8, {}};
+        for (const double oblique_deg : kObliques_deg) {
+          cell.oblique_deg = oblique_deg;
+          cells.push_back(cell);
+        }
+        cell.oblique_deg = kChartOblique_deg;
+        cell.run_up_m = kFarRunUp_m;
+        cells.push_back(cell);
+      }
+  }
+  return cells;
+}
+
 CrossingPlan PlanOf(const LadderCell& cell, const RobotSpec& robot, double size) {
   CrossingPlan plan;
   plan.speed_mps = cell.speed_mps;
@@ -101,9 +123,12 @@ CrossingPlan PlanOf(const LadderCell& cell, const RobotSpec& robot, double size)
                            : cell.direction == Direction::kSideways ? kPi / 2
                                                                     : kPi / 4;
   if (IsHolonomic(robot))
-    plan.yaw_rad = -angle_rad;  // the way is the world's x
+    plan.yaw_rad = -angle_rad;  // the way is the world's x, but for the obliqueness
   else
     plan.travel_rad = plan.yaw_rad = angle_rad;
+  plan.travel_rad += cell.oblique_deg * kPi / 180;
+  plan.yaw_rad += cell.oblique_deg * kPi / 180;
+  plan.run_up_m = cell.run_up_m;
   const double end_m = FindLadderHazard(cell.hazard).length_m(size);
   plan.beyond_m = (end_m + robot.circumscribed_radius_m + kClear_m) / std::cos(plan.travel_rad);
   return plan;
@@ -156,6 +181,14 @@ std::string LimitText(const LadderRow& row) {
 std::string LadderCsv(std::span<const LadderRow> rows) {
   std::string out = fmt::format("{}\n", kColumns);
   for (const LadderRow& row : rows) out += CsvRow(row) + "\n";
+  return out;
+}
+
+std::string ObliqueCsv(std::span<const LadderRow> rows) {
+  std::string out = fmt::format("{},oblique_deg,run_up_m\n", kColumns);
+  for (const LadderRow& row : rows)
+    out += fmt::format("{},{},{}\n", CsvRow(row), FormatDouble(row.cell.oblique_deg),
+                       FormatDouble(row.cell.run_up_m));
   return out;
 }
 

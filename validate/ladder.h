@@ -2,7 +2,8 @@
 // The ladder: the largest size of each kind of hazard that each robot crosses. Its picture is the
 // robot's capability chart.
 //
-// A cell is a robot that meets a kind of hazard in one direction, at one speed, on one friction.
+// A cell is a robot that meets a kind of hazard in one direction, at one speed, on one friction, so
+// many degrees off square.
 // Its limit is found by rungs and bisection (limit_search.h) over single crossings (crossing.h).
 // The hazards are what a site file would hold, made by the same plug-ins.
 #pragma once
@@ -45,6 +46,10 @@ const LadderHazard& FindLadderHazard(std::string_view name);
 enum class Direction { kForward, kSideways, kDiagonal };
 std::string_view Name(Direction direction);
 
+// Degrees off square at which hazards are met: what a robot can hold that knows where it is, and
+// that a person's drawing of a floor is right to. Charts, and who plans by them, take this value.
+inline constexpr double kChartOblique_deg = 3;
+
 struct LadderCell {
   std::string robot;
   std::string wheels = "ideal";
@@ -53,6 +58,8 @@ struct LadderCell {
   double speed_mps = 0.2;
   double friction = 0.8;
   RobotChanges changes = {};  // both or none of clearance and mass
+  double oblique_deg = kChartOblique_deg;
+  double run_up_m = 0.03;  // at speed, before the hazard
 };
 
 struct LadderRow {
@@ -73,6 +80,10 @@ std::vector<LadderCell> LadderCells(const LadderOptions& options);
 // How limits move with belly clearance (15 to 30 mm) and mass (0.7, 1 and 1.5 times the model's):
 // ideal wheels, 0.2 m/s, friction 0.8.
 std::vector<LadderCell> SweepCells();
+
+// How limits move when a hazard is met square, and 0.5 to 10 degrees off; and from farther away:
+// ideal wheels, 0.2 m/s, friction 0.8.
+std::vector<LadderCell> ObliqueCells();
 
 // The cell's limit; nothing when interrupted. Throws InternalError when the physics diverges.
 std::optional<LadderRow> FindRow(const LadderCell& cell);
@@ -98,5 +109,7 @@ std::string LimitText(const LadderRow& row);
 std::string LadderCsv(std::span<const LadderRow> rows);
 // The same with clearance_m,mass_kg.
 std::string SweepCsv(std::span<const LadderRow> rows);
+// The same as ladder.csv with oblique_deg,run_up_m.
+std::string ObliqueCsv(std::span<const LadderRow> rows);
 
 }  // namespace floorproof

@@ -17,7 +17,8 @@ const LadderRow* Find(std::span<const LadderRow> rows, const LadderCell& cell) {
   for (const LadderRow& row : rows)
     if (row.cell.robot == cell.robot && row.cell.wheels == cell.wheels &&
         row.cell.hazard == cell.hazard && row.cell.direction == cell.direction &&
-        row.cell.speed_mps == cell.speed_mps && row.cell.friction == cell.friction)
+        row.cell.speed_mps == cell.speed_mps && row.cell.friction == cell.friction &&
+        row.cell.oblique_deg == cell.oblique_deg && row.cell.run_up_m == cell.run_up_m)
       return &row;
   return nullptr;
 }
@@ -90,6 +91,23 @@ std::optional<double> TrustedStep(std::span<const LadderRow> rows, std::string_v
   }
   if (!least_mm) return {};
   return *least_mm / 1000;
+}
+
+std::vector<std::string> ObliqueFindings(std::span<const LadderRow> rows) {
+  std::vector<std::string> sentences;
+  const LadderCell* last = nullptr;
+  for (const LadderRow& row : rows) {
+    const LadderCell& cell = row.cell;
+    if (last == nullptr || last->robot != cell.robot || last->hazard != cell.hazard ||
+        last->direction != cell.direction)
+      sentences.push_back(fmt::format("{} {} {}, {}:", cell.robot, cell.hazard,
+                                      Name(cell.direction), FindLadderHazard(cell.hazard).unit));
+    const bool afar = cell.run_up_m != LadderCell{}.run_up_m;
+    sentences.back() += fmt::format(" {} at {} deg{}", LimitText(row), cell.oblique_deg,
+                                    afar ? fmt::format(" from {} m away", cell.run_up_m) : "");
+    last = &cell;
+  }
+  return sentences;
 }
 
 std::vector<std::string> Findings(std::span<const LadderRow> rows) {

@@ -32,8 +32,11 @@ std::vector<WheelDisagreement> WheelDisagreements(std::span<const LadderRow> row
 // step_m should not exceed it.
 std::optional<double> TrustedStep(std::span<const LadderRow> rows, std::string_view robot);
 
-// All of these as sentences: gaps on friction 0.8, wheels that part by a fifth, and each robot's
-// step_m beside what it crosses.
+// Of each robot, hazard and direction: its limits by angle off square, and from farther away.
+std::vector<std::string> ObliqueFindings(std::span<const LadderRow> rows);
+
+// All but the last as sentences: gaps on friction 0.8, wheels that part by a fifth, and each
+// robot's step_m beside what it crosses.
 std::vector<std::string> Findings(std::span<const LadderRow> rows);
 
 }  // namespace floorproof

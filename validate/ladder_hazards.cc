@@ -20,7 +20,7 @@ Hazard Make(std::string_view type, const std::string& keys, const std::vector<Ve
   ReadParams(ParseYaml("{" + keys + "}", "ladder"), "", *plugin);
   Hazard hazard = plugin->Make(place);
   hazard.type = hazard.id = type;
-  hazard.known = false;  // detectors and trackers treat it as what nobody told them of
+  hazard.known = false;  // to detectors, which forgive going down what is known; the tracker knows
   return hazard;
 }
 

@@ -84,8 +84,8 @@ struct RobotSpec {
   double step_m = 0;          // highest level change it is trusted to cross
   double static_tip_rad = 0;  // least atan(d / h) over the edges of the wheels' support polygon
   // From the ladder's capability chart: the steepest flanks of a 20 mm cable cover that the robot
-  // crosses at 0.2 m/s on friction 0.8, forward and sideways, and the chart's highest speed, at
-  // which it crosses most. 0: the model states none.
+  // crosses at 0.2 m/s on friction 0.8, 3 degrees off square, forward and sideways, and the chart's
+  // highest speed, at which it crosses most. 0: the model states none.
   double cover_forward_rad = 0, cover_sideways_rad = 0, cover_speed_mps = 0;
 
   double cruise_mps = 0;  // default speed along a plan
