@@ -43,6 +43,10 @@ EpisodeRow MakeRow(const std::string& variant, const Scenario& scenario, const s
 // Its events; their evidence is left out. Throws InternalError where the text is damaged.
 std::vector<Event> EventsOf(const EpisodeRow& row);
 
+// Why what stands in the row cannot be used: its texts are no JSON of their kinds, its outcome is
+// none. Empty when it can.
+std::string WhyUnreadableRow(const EpisodeRow& row);
+
 // One line of text, and back; throws InternalError on any other text.
 std::string ToLine(const EpisodeRow& row);
 EpisodeRow FromLine(std::string_view line);

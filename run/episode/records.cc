@@ -95,6 +95,10 @@ bool IsFilm(std::string_view name) {
 
 }  // namespace
 
+std::string JsonText(const Json& json) {
+  return json.dump(2, ' ', true, Json::error_handler_t::replace);
+}
+
 Json VersionsJson() {
   utsname system{};
   uname(&system);
@@ -219,9 +223,9 @@ ResultNames FilmResults() { return {"episode", IsFilm, false}; }
 
 void WritePlanFiles(const Scenario& s, const PlanResult& plan,
                     const std::filesystem::path& folder) {
-  WriteFileWhole(folder / "scenario.resolved.yaml", ResolvedScenario(s, folder));
+  WriteResolvedScenario(s, folder);
   WriteFileWhole(folder / "plan.csv", PlanCsv(plan.path));
-  WriteFileWhole(folder / "plan.json", PlanJson(s, plan).dump(2) + "\n");
+  WriteFileWhole(folder / "plan.json", JsonText(PlanJson(s, plan)) + "\n");
   WriteFileWhole(folder / "risk.csv", RiskCsv(*plan.risk));
 }
 
@@ -242,7 +246,7 @@ void WriteEpisodeFiles(const Scenario& s, const EpisodeRecord& record,
                        const std::filesystem::path& folder) {
   WriteFileWhole(folder / "trace.csv", TraceCsv(record, s.robot.spec));
   if (record.outcome != Outcome::kInterrupted)
-    WriteFileWhole(folder / "result.json", ResultJson(s, record).dump(2) + "\n");
+    WriteFileWhole(folder / "result.json", JsonText(ResultJson(s, record)) + "\n");
 }
 
 }  // namespace floorproof
