@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "base/interrupt.h"
+#include "run/episode/records.h"
 
 namespace floorproof {
 namespace fs = std::filesystem;
@@ -23,7 +24,7 @@ std::vector<Override> Globals::Overrides() const {
 }
 
 void Globals::Result(const nlohmann::ordered_json& json_result) const {
-  if (json) std::printf("%s\n", json_result.dump(2).c_str());
+  if (json) std::printf("%s\n", JsonText(json_result).c_str());
 }
 
 fs::path OutputFolder(const std::string& out, const fs::path& scenario, const std::string& name) {

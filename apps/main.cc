@@ -3,11 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 
 #include "apps/command.h"
 #include "base/interrupt.h"
+#include "base/printable.h"
 
 namespace floorproof {
 #define FP_COMMAND(Function) void Function(CommandLine&, const Globals&, int&);
@@ -41,12 +44,22 @@ std::string Reason(const CLI::App& app, const CLI::ParseError& error) {
       .what();
 }
 
+// All that was said is there; else says why not.
+bool StdoutIsWritten() {
+  const bool written =
+      std::cout.flush().good() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (!written) std::fprintf(stderr, "floorproof: stdout cannot be written\n");
+  return written;
+}
+
 }  // namespace
 }  // namespace floorproof
 
 int main(int argc, char** argv) {
   using namespace floorproof;
   CatchInterrupts();
+  // Whoever reads stdout may go away: what is written to disk is written all the same.
+  std::signal(SIGPIPE, SIG_IGN);
   CLI::App app{
       "Floorproof drives a floor robot's plan through physics before the robot drives it over a "
       "floor.\nStart with `floorproof demo`, or with your own map: `floorproof init MAP.yaml`, "
@@ -83,9 +96,12 @@ int main(int argc, char** argv) {
   };
   try {
     app.parse(argc, argv);
-    return status;
+    return StdoutIsWritten() ? status : kBroken;
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    if (e.get_exit_code() == 0) {  // --help, --version
+      const int code = app.exit(e);
+      return StdoutIsWritten() ? code : kBroken;
+    }
     std::fprintf(stderr, "floorproof: %s (floorproof --help)\n", Reason(app, e).c_str());
     return kBadInput;
   } catch (const Interruption&) {
@@ -94,10 +110,11 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "floorproof: %s\n", e.what());
     return said(kBadInput);
   } catch (const std::filesystem::filesystem_error& e) {
-    std::fprintf(stderr, "floorproof: %s: %s\n", e.path1().c_str(), e.code().message().c_str());
+    std::fprintf(stderr, "floorproof: %s\n",
+                 InputError({e.path1().string(), 0}, "", "", e.code().message()).what());
     return said(kBadInput);
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "floorproof: %s\n", e.what());
+    std::fprintf(stderr, "floorproof: %s\n", Printable(e.what()).c_str());
     return said(kBroken);
   }
 }

@@ -11,9 +11,11 @@
 #include <charconv>
 #include <map>
 #include <sstream>
+#include <unordered_map>
 
-#include "base/input_file.h"
+#include "base/input_files.h"
 #include "base/params.h"
+#include "base/printable.h"
 
 namespace floorproof {
 namespace {
@@ -21,12 +23,28 @@ namespace {
 constexpr std::size_t kMaxNodes = 400'000;
 constexpr std::size_t kMaxNesting = 100;
 constexpr std::uintmax_t kMaxBytes = 8u << 20;
+constexpr std::size_t kMaxTreeBytes = 192u << 20;  // 400,000 nodes with room for their texts
 
-std::size_t CountNodes(const ConfigNode& node) {
-  std::size_t n = 1;
-  for (const auto& item : node.items) n += CountNodes(item);
-  for (const auto& entry : node.entries) n += CountNodes(entry.second);
-  return n;
+// What a tree takes.
+struct Cost {
+  std::size_t nodes = 0, bytes = 0;
+  Cost& operator+=(const Cost& more) {
+    nodes += more.nodes;
+    bytes += more.bytes;
+    return *this;
+  }
+};
+
+// Of the node alone.
+Cost CostOf(const ConfigNode& node, std::size_t key_bytes) {
+  return {1, sizeof node + key_bytes + node.scalar.size() + node.mark.file.size()};
+}
+
+Cost CostOfTree(const ConfigNode& node, std::size_t key_bytes = 0) {
+  Cost cost = CostOf(node, key_bytes);
+  for (const auto& item : node.items) cost += CostOfTree(item);
+  for (const auto& [key, value] : node.entries) cost += CostOfTree(value, key.size());
+  return cost;
 }
 
 // The list's entry of this `id`, or of this index.
@@ -59,9 +77,8 @@ class TreeBuilder : public YAML::EventHandler {
     const auto it = anchors_.find(anchor);
     if (it == anchors_.end())
       throw InputError(At(mark), "", "", "an alias inside its own anchor is not allowed");
-    nodes_ += CountNodes(it->second);
-    CheckCount(At(mark));
-    Put(it->second);
+    Charge(CostOfTree(it->second), At(mark));
+    PutCharged(it->second);
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
@@ -69,6 +86,8 @@ class TreeBuilder : public YAML::EventHandler {
     node.mark = At(mark);
     if (tag != "!" && tag != "?" && !tag.empty())
       throw InputError(node.mark, "", tag, "YAML tags are not allowed");
+    if (const std::string why = WhyUnprintable(value); !why.empty())
+      throw InputError(node.mark, "", value, why);
     if (!node.quoted && (value == "~" || value == "null" || value.empty()))
       node.kind = ConfigNode::Kind::kNull;
     Remember(anchor, node);
@@ -94,22 +113,31 @@ class TreeBuilder : public YAML::EventHandler {
     bool has_key = false;
     std::string key;
     SourceMark key_mark;
+    std::unordered_map<std::string, int> lines;  // by key
   };
 
   SourceMark At(const YAML::Mark& mark) const { return {file_, mark.line + 1}; }
-  void CheckCount(const SourceMark& mark) const {
-    if (nodes_ > kMaxNodes)
+  // What is copied counts each time: for aliases, and for anchors, which may be nested.
+  void Charge(const Cost& cost, const SourceMark& mark) {
+    cost_ += cost;
+    if (cost_.nodes > kMaxNodes)
       throw InputError(mark, "", "",
                        "more than " + std::to_string(kMaxNodes) + " values (aliases expanded)");
+    if (cost_.bytes > kMaxTreeBytes)
+      throw InputError(mark, "", "",
+                       "takes more than " + std::to_string(kMaxTreeBytes >> 20) +
+                           " MiB of memory (aliases expanded)");
   }
   void Remember(YAML::anchor_t anchor, const ConfigNode& node) {
-    if (anchor) anchors_[anchor] = node;
+    if (!anchor) return;
+    Charge({0, CostOfTree(node).bytes}, node.mark);
+    anchors_[anchor] = node;
   }
   void Open(ConfigNode node, const YAML::Mark& mark, YAML::anchor_t anchor) {
     node.mark = At(mark);
     if (stack_.size() >= kMaxNesting)
       throw InputError(node.mark, "", "", "nested more than 100 levels deep");
-    stack_.push_back({std::move(node), anchor, false, {}, {}});
+    stack_.push_back({std::move(node), anchor, false, {}, {}, {}});
   }
   void Close() {
     Level level = std::move(stack_.back());
@@ -117,9 +145,12 @@ class TreeBuilder : public YAML::EventHandler {
     Remember(level.anchor, level.node);
     Put(std::move(level.node));
   }
+  // The entries of a map or list were charged before.
   void Put(ConfigNode node) {
-    ++nodes_;
-    CheckCount(node.mark);
+    Charge(CostOf(node, 0), node.mark);
+    PutCharged(std::move(node));
+  }
+  void PutCharged(ConfigNode node) {
     if (stack_.empty()) {
       root_ = std::move(node);
       return;
@@ -129,10 +160,11 @@ class TreeBuilder : public YAML::EventHandler {
       top.node.items.push_back(std::move(node));
     } else if (!top.has_key) {
       if (!node.IsScalar()) throw InputError(node.mark, "", "", "a key must be plain text");
-      if (const auto* earlier = top.node.Find(node.scalar))
+      const auto [earlier, is_new] = top.lines.emplace(node.scalar, node.mark.line);
+      if (!is_new)
         throw InputError(
             node.mark, node.scalar, "",
-            "the key stands twice (first in line " + std::to_string(earlier->mark.line) + ")");
+            "the key stands twice (first in line " + std::to_string(earlier->second) + ")");
       top.has_key = true;
       top.key = node.scalar;
       top.key_mark = node.mark;
@@ -147,22 +179,8 @@ class TreeBuilder : public YAML::EventHandler {
   ConfigNode root_;
   std::vector<Level> stack_;
   std::map<YAML::anchor_t, ConfigNode> anchors_;
-  std::size_t nodes_ = 0;
+  Cost cost_;
 };
-
-bool IsUtf8Text(const std::string& text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    if (c < 0x20 && c != '\n' && c != '\r' && c != '\t') return false;
-    const std::size_t extra = c < 0x80 ? 0 : c >= 0xf0 && c < 0xf8 ? 3 : c >= 0xe0 ? 2 : 1;
-    if (c >= 0xf8 || (c >= 0x80 && c < 0xc2)) return false;
-    if (i + extra >= text.size() && extra > 0) return false;
-    for (std::size_t k = 1; k <= extra; ++k)
-      if ((static_cast<unsigned char>(text[i + k]) & 0xc0) != 0x80) return false;
-    i += extra + 1;
-  }
-  return true;
-}
 
 bool IsShortList(const ConfigNode& node) {
   for (const auto& item : node.items)
@@ -304,8 +322,12 @@ ConfigNode ParseYaml(const std::string& text, const std::string& file) {
 }
 
 ConfigNode ReadYamlFile(const std::filesystem::path& path) {
+  return ReadYamlFile(path, InputFiles());
+}
+
+ConfigNode ReadYamlFile(const std::filesystem::path& path, const InputFiles& files) {
   const std::string name = path.string();
-  const std::string text = ReadInputFile(path, kMaxBytes);
+  const std::string& text = files.Read(path, kMaxBytes);
   if (!IsUtf8Text(text)) throw InputError({name, 0}, "", "", "not a text file (UTF-8)");
   return ParseYaml(text, name);
 }

@@ -3,12 +3,14 @@
 
 #include <cstdio>
 
+#include "base/printable.h"
+
 namespace floorproof {
 
 void Console::Say(const std::string& line) const {
   if (quiet) return;
   std::FILE* out = json ? stderr : stdout;
-  std::fprintf(out, "%s\n", line.c_str());
+  std::fprintf(out, "%s\n", Printable(line).c_str());
   std::fflush(out);
 }
 

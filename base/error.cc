@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/printable.h"
+
 namespace floorproof {
 namespace {
 
@@ -15,11 +17,12 @@ std::string OneLine(std::string_view text, std::size_t most = std::string_view::
   // Not in the middle of a UTF-8 character.
   while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80)
     --end;
-  std::string out;
-  for (const char c : text.substr(0, end)) {
+  std::string out(text.substr(0, end));
+  for (char& c : out) {
     const auto u = static_cast<unsigned char>(c);
-    out += u < 0x20 || u == 0x7f ? ' ' : c;
+    if (u < 0x20 || u == 0x7f) c = ' ';
   }
+  out = Printable(out);
   if (end < text.size()) out += "...";
   return out;
 }

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <deque>
 
+#include "base/printable.h"
+
 namespace floorproof {
 namespace {
 
@@ -44,7 +46,7 @@ void OnSignal(int) {
 }  // namespace
 
 void CatchInterrupts() {
-  for (const int number : {SIGINT, SIGTERM}) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction action {};
     if (sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) continue;
     action = {};
@@ -58,7 +60,7 @@ void CatchInterrupts() {
 void SayWhenInterrupted(const std::string& what_is_there) {
   // Lines live for ever: a handler may be reading the one before.
   static auto& lines = *new std::deque<std::string>;
-  lines.push_back("floorproof: interrupted: " + what_is_there + "\n");
+  lines.push_back("floorproof: interrupted: " + Printable(what_is_there) + "\n");
   g_line = lines.back().c_str();
 }
 

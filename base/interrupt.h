@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ctrl-C and SIGTERM. Where no file is half written, the process ends at once and says what is
-// there. While interrupts are held, the signal is only remembered; whoever holds them checks,
-// tidies up and ends.
+// Ctrl-C, SIGTERM and SIGHUP (a terminal that closes). Where no file is half written, the process
+// ends at once and says what is there. While interrupts are held, the signal is only remembered;
+// whoever holds them checks, tidies up and ends.
 //
 // Ending within the handler makes reading, planning and compiling interruptible everywhere, in
 // other people's libraries too, without a check in every loop.

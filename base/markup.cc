@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/markup.h"
 
+#include "base/printable.h"
+
 namespace floorproof {
 
 std::string MarkupText(std::string_view text) {
   std::string out;
   out.reserve(text.size());
-  for (const char c : text) {
+  for (const char c : Printable(text)) {
     if (c == '&')
       out += "&amp;";
     else if (c == '<')

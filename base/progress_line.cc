@@ -5,6 +5,8 @@
 
 #include <cstdio>
 
+#include "base/printable.h"
+
 namespace floorproof {
 
 ProgressLine::ProgressLine(const Console& console)
@@ -19,7 +21,7 @@ bool ProgressLine::IsDue() {
 }
 
 void ProgressLine::Show(const std::string& line) {
-  std::fprintf(stderr, terminal_ ? "\r\033[K%s" : "%s\n", line.c_str());
+  std::fprintf(stderr, terminal_ ? "\r\033[K%s" : "%s\n", Printable(line).c_str());
   std::fflush(stderr);
   shown_ = true;
 }

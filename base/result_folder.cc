@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/result_folder.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <sstream>
 
 #include "base/error.h"
@@ -40,6 +45,11 @@ ResultFolder::ResultFolder(fs::path folder, ResultNames results, std::span<const
 }
 
 ResultFolder::~ResultFolder() {
+  List();
+  if (lock_ >= 0) close(lock_);
+}
+
+void ResultFolder::List() {
   if (!begun_) return;
   const HoldInterrupts until_listed;
   try {
@@ -52,8 +62,20 @@ ResultFolder::~ResultFolder() {
   }
 }
 
-void ResultFolder::Begin() {
+void ResultFolder::Lock() {
+  if (lock_ >= 0) return;
   MakeFolder(folder_);
+  lock_ = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  // A file system without locks is no reason not to write.
+  if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    close(lock_);
+    lock_ = -1;
+    throw InputError({folder_.string(), 0}, "", "", "is in use: another run is writing there");
+  }
+}
+
+void ResultFolder::Begin() {
+  Lock();
   unfinished_.emplace(results_.kind);
   WriteList();
   begun_ = true;

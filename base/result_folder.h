@@ -38,13 +38,17 @@ class ResultFolder {
   ResultFolder& operator=(const ResultFolder&) = delete;
 
   const std::filesystem::path& path() const { return folder_; }
-  // Makes the folder. Throws InputError when it cannot be, or the list cannot be written.
+  // Makes the folder and keeps others from writing there as long as this lives. Throws InputError
+  // when it cannot be made, or somebody writes there.
+  void Lock();
+  // Locks, and says in the list that results are being written. Throws InputError.
   void Begin();
   // Names of the results that are there, in alphabetical order.
   std::vector<std::string> Results() const;
 
  private:
   void ReadList();
+  void List();
   void RefuseInputs(std::span<const std::filesystem::path> inputs) const;
   void RefuseForeign() const;
   void WriteList() const;
@@ -54,6 +58,7 @@ class ResultFolder {
   std::map<std::string, std::string> written_;  // SHA-256 by name
   std::set<std::string> unfinished_;            // kinds
   bool begun_ = false, was_unfinished_ = false;
+  int lock_ = -1;  // of the folder itself, by flock
 };
 
 // Throws InputError where writing `file` would replace one of `inputs`.

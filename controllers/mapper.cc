@@ -18,6 +18,11 @@ void Mapper::Visit(ParamVisitor& v) {
   v("mark_m", mark_m_, Between(0.01, 1), "width of what a bump or a drop marks (m)");
 }
 
+double Mapper::CellsOn(const GridFrame& site) const {
+  const GridFrame frame = FineFrame(site, cell_m_);
+  return 1.0 * frame.width * frame.height;
+}
+
 void Mapper::Start(const GridFrame& site, const RobotSpec& robot) {
   robot_ = &robot;
   map_.frame = FineFrame(site, cell_m_);

@@ -26,6 +26,8 @@ class Mapper final : public Configurable {
   // What it draws by; without it keeps what was met.
   static std::vector<Reading> Needs() { return {Reading::kScan}; }
 
+  // How many cells its map of this ground has.
+  double CellsOn(const GridFrame& site) const;
   // An empty map on this ground; `site` says where it ends, no more.
   void Start(const GridFrame& site, const RobotSpec& robot);
   // One control period. Takes time as the beams' length; allocates only for marks.

@@ -9,6 +9,8 @@
 #include <memory>
 #include <vector>
 
+#include "base/input_files.h"
+
 namespace floorproof {
 
 // Rows from the top, channels interleaved (1: grey, 2: grey + alpha, 3: RGB, 4: RGBA), 8 bits each.
@@ -24,7 +26,8 @@ inline constexpr std::uintmax_t kMaxImageBytes = 256u << 20;
 // expanded. Throws InputError naming the file when it is missing, not an image, truncated or larger
 // than kMaxImageBytes, or when the image is larger than max_pixels. That is checked from the
 // header, before anything is allocated.
-Image ReadImage(const std::filesystem::path& path, std::int64_t max_pixels = 64'000'000);
+Image ReadImage(const std::filesystem::path& path, std::int64_t max_pixels = 64'000'000,
+                const InputFiles& files = {});
 // Writes PNG; throws InputError when the file cannot be written.
 void WritePng(const std::filesystem::path& path, const Image& image);
 

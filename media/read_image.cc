@@ -4,7 +4,6 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/input_file.h"
 #include "media/codecs.h"
 #include "media/image_header.h"
 #include "media/media.h"
@@ -81,14 +80,11 @@ Image DecodeWithModule(std::string_view file, const ImageHeader& header, const P
   return ToImage(decoded, png);
 }
 
-Image Decode(const fs::path& path, std::int64_t max_pixels) {
-  const std::string start = ReadStartOfFile(path, kStartBytes, kMaxImageBytes);
-  std::error_code error;
-  const std::uint64_t size = fs::file_size(path, error);
-  if (error) throw FormatError("cannot be read: " + error.message());
-  CheckSize(ReadHeader(start, size), max_pixels);
+Image Decode(const fs::path& path, std::int64_t max_pixels, const InputFiles& files) {
+  const std::string start = files.ReadStart(path, kStartBytes, kMaxImageBytes);
+  CheckSize(ReadHeader(start, files.Size(path)), max_pixels);
 
-  const std::string file = ReadInputFile(path, kMaxImageBytes);
+  const std::string& file = files.Read(path, kMaxImageBytes);
   const ImageHeader header = ReadHeader(file, file.size());  // of what is decoded
   CheckSize(header, max_pixels);
   if (IsNetpbm(file)) return DecodeNetpbm(file);
@@ -99,9 +95,9 @@ Image Decode(const fs::path& path, std::int64_t max_pixels) {
 
 }  // namespace
 
-Image ReadImage(const fs::path& path, std::int64_t max_pixels) {
+Image ReadImage(const fs::path& path, std::int64_t max_pixels, const InputFiles& files) {
   try {
-    return Decode(path, max_pixels);
+    return Decode(path, max_pixels, files);
   } catch (const FormatError& e) {
     throw InputError({path.string(), 0}, "", "", e.what());
   }

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <optional>
+#include <utility>
 
 #include "base/interrupt.h"
 #include "base/result_folder.h"
@@ -139,19 +140,29 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
                               result.record.metrics.duration_s));
     throw Interruption();
   }
-  witness.SayVerdict(result.record);
+  std::string missing = "trace, result and pictures";
+  auto say_verdict = [&, said = false]() mutable {
+    if (!std::exchange(said, true)) witness.SayVerdict(result.record);
+  };
   try {
     if (options.write_records) {
       WriteEpisodeFiles(s, result.record, folder);
       witness.There(" holds plan, trace and result; pictures may be missing");
     }
+    missing = "pictures";
+    say_verdict();  // what is said is on the disk
     witness.LetGo();
     if (options.write_records) WriteHeatMaps(s, result.plan, result.record, folder);
     witness.There(options.video ? " holds all but, perhaps, the film" : " is whole");
+    missing = "the film";
     if (options.video)
       console.Say(
           WriteVideo(s, *execution.scene, result.plan, result.record, witness.recording(), folder));
     witness.There(" is whole");
+  } catch (const InputError& e) {
+    say_verdict();
+    result.not_written =
+        std::make_exception_ptr(InternalError(std::string(e.what()) + "; missing: " + missing));
   } catch (...) {
     result.not_written = std::current_exception();
   }

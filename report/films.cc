@@ -26,7 +26,9 @@ std::vector<std::uint64_t> Filmed(const fs::path& folder) {
     std::uint64_t id = 0;
     const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), id);
     if (error != std::errc() || end != name.data() + name.size()) continue;
-    if (fs::is_regular_file(entry.path() / "video.mp4", ignored)) ids.push_back(id);
+    // A link could lead to a file that is nobody's to show.
+    if (fs::is_regular_file(fs::symlink_status(entry.path() / "video.mp4", ignored)))
+      ids.push_back(id);
   }
   std::ranges::sort(ids);
   return ids;
@@ -45,7 +47,8 @@ std::vector<ReportPicture> Pictures(const fs::path& folder, const std::string& p
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored))
     if (entry.path().filename().string().starts_with(prefix) &&
-        entry.path().extension() == ".png" && WhyUnreadable(entry.path(), kLargestPicture).empty())
+        entry.path().extension() == ".png" && !entry.is_symlink(ignored) &&
+        WhyUnreadable(entry.path(), kLargestPicture).empty())
       files.push_back(entry.path());
   // In the order of a film: start first, end last.
   const auto rank = [](const fs::path& file) {

@@ -16,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::int64_t kMaxPixels = 64'000'000;
 constexpr std::int64_t kMaxFineCells = 64'000'000;
 constexpr int kSaversUnknown = 205;  // the grey that every map_saver writes for unknown
 
@@ -70,14 +71,15 @@ Pose2 ReadOrigin(const ConfigNode& node) {
           WrapAngle(AsDouble(node.items[2], "origin[2]", Between(-1e3, 1e3)))};
 }
 
-Keys ReadKeys(const fs::path& yaml_path) {
-  const ConfigNode node = ReadYamlFile(yaml_path);
+Keys ReadKeys(const fs::path& yaml_path, const InputFiles& files) {
+  const ConfigNode node = ReadYamlFile(yaml_path, files);
   if (!node.IsMap())
     throw InputError({yaml_path.string(), 0}, "", "", "is not a ROS map (image, resolution, ...)");
   Keys keys;
   const ConfigNode& image = Need(node, "image");
   keys.image = PathIn(yaml_path.parent_path(), image, "image");
   keys.image_mark = image.mark;
+  if (fs::path(image.scalar).is_absolute()) files.MarkAbsolute(keys.image);
   keys.resolution_m = AsDouble(Need(node, "resolution"), "resolution", Between(1e-4, 100));
   keys.X_WG = ReadOrigin(Need(node, "origin"));
   keys.occupied_thresh = AsDouble(Need(node, "occupied_thresh"), "occupied_thresh", Between(0, 1));
@@ -92,15 +94,15 @@ Keys ReadKeys(const fs::path& yaml_path) {
 }
 
 // The image, or where else it may lie when it is not where the map says.
-Image ReadMapImage(const Keys& keys, const fs::path& yaml_path) {
-  if (std::string rule = WhyUnreadable(keys.image, kMaxImageBytes); !rule.empty()) {
+Image ReadMapImage(const Keys& keys, const fs::path& yaml_path, const InputFiles& files) {
+  if (std::string rule = files.WhyUnreadable(keys.image, kMaxImageBytes); !rule.empty()) {
     const fs::path beside = yaml_path.parent_path() / keys.image.filename();
     if (beside != keys.image && WhyUnreadable(beside, kMaxImageBytes).empty())
       rule +=
           "; one of that name lies beside the map: write image: " + keys.image.filename().string();
     throw InputError(keys.image_mark, "image", keys.image.string(), rule);
   }
-  return ReadImage(keys.image);
+  return ReadImage(keys.image, kMaxPixels, files);
 }
 
 // Cell states by the sum of the channels that count, from 0 (black) to 255 x channels.
@@ -204,9 +206,9 @@ void CheckFloorSize(const GridFrame& frame, const SourceMark& mark, const std::s
                          " m; at most 160000 m^2 (64 million cells of 0.05 m) are taken");
 }
 
-RosMap ReadRosMap(const fs::path& yaml_path) {
-  const Keys keys = ReadKeys(yaml_path);
-  const Image image = ReadMapImage(keys, yaml_path);
+RosMap ReadRosMap(const fs::path& yaml_path, const InputFiles& files) {
+  const Keys keys = ReadKeys(yaml_path, files);
+  const Image image = ReadMapImage(keys, yaml_path, files);
   RosMap map;
   map.image = keys.image;
   map.frame = {image.width, image.height, keys.resolution_m, keys.X_WG};

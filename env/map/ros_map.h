@@ -28,6 +28,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/input_files.h"
 #include "env/core/hazard_map.h"
 
 namespace floorproof {
@@ -40,7 +41,7 @@ struct RosMap {
 };
 
 // Throws InputError naming file, line, key and rule.
-RosMap ReadRosMap(const std::filesystem::path& yaml_path);
+RosMap ReadRosMap(const std::filesystem::path& yaml_path, const InputFiles& files = {});
 
 // Coverage is measured on cells of at most 0.05 m: refuses a floor that would need more than 64
 // million of them (400 m x 400 m).

@@ -193,8 +193,8 @@ ConfigNode GeneratedSite(const ConfigNode& node, std::uint64_t campaign_seed,
   return site;
 }
 
-Site ReadSite(const ConfigNode& node, const fs::path& folder) {
-  if (node.Find("generate") != nullptr) return ReadSite(FixedSite(node), folder);
+Site ReadSite(const ConfigNode& node, const fs::path& folder, const InputFiles& files) {
+  if (node.Find("generate") != nullptr) return ReadSite(FixedSite(node), folder, files);
   Written written = ReadWritten(node, folder);
   Site site;
   HazardMap& map = site.map;
@@ -209,7 +209,7 @@ Site ReadSite(const ConfigNode& node, const fs::path& folder) {
     map.inset_m = written.grid.inset_m;
     map.hazards = std::move(written.grid.hazards);
   } else {
-    RosMap ros = ReadRosMap(written.ros_map);
+    RosMap ros = ReadRosMap(written.ros_map, files);
     map.frame = ros.frame;
     map.occupancy = std::move(ros.occupancy);
     site.files_read = {written.ros_map, ros.image};

@@ -30,7 +30,8 @@ ConfigNode GeneratedSite(const ConfigNode& node, std::uint64_t campaign_seed,
 // path that leaves `folder` is refused, unless it says so plainly: it is absolute or starts with
 // "../". `generate` must have a seed. Without one it is not one site but one per episode, see
 // GeneratedSite. Throws InputError.
-Site ReadSite(const ConfigNode& node, const std::filesystem::path& folder);
+Site ReadSite(const ConfigNode& node, const std::filesystem::path& folder,
+              const InputFiles& files = {});
 Site ReadSiteFile(const std::filesystem::path& path);
 // The site file's tree, with every default stated and paths rewritten relative to `folder_out`.
 // Resolving the result again gives the same. `generate` is not drawn but stays, as the random part

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "base/printable.h"
 #include "env/scene/lock_blocks.h"
 #include "env/scene/mecanum_wheel.h"
 
@@ -39,7 +40,9 @@ double CompiledRobot::Number(const char* name, const Bounds& rule) const {
 std::string CompiledRobot::Text(const char* name) const {
   const int id = mj_name2id(m_, mjOBJ_TEXT, name);
   if (id < 0) Refuse(name, "missing under <custom>");
-  return m_->text_data + m_->text_adr[id];
+  const std::string text = m_->text_data + m_->text_adr[id];
+  if (const std::string why = WhyUnprintable(text); !why.empty()) Refuse(name, why);
+  return text;
 }
 
 std::vector<std::string> CompiledRobot::Words(const char* name) const {

@@ -111,8 +111,8 @@ void SetConstEngine(mjModel* model, mjData* data) {
     Throw();
 }
 
-ModelPtr CompileSpec(mjSpec* spec) {
-  mjModel* model = mj_compile(spec, nullptr);
+ModelPtr CompileSpec(mjSpec* spec, const mjVFS* assets) {
+  mjModel* model = mj_compile(spec, assets);
   if (model == nullptr) throw InternalError(std::string("MuJoCo: ") + mjs_getError(spec));
   return ModelPtr(model);
 }

@@ -26,8 +26,9 @@ void ForwardEngine(const mjModel* model, mjData* data);
 DataPtr MakeData(const mjModel* model);
 ModelPtr CopyModel(const mjModel* model);
 void SetConstEngine(mjModel* model, mjData* data);
-// Throws InternalError with the compiler's message.
-ModelPtr CompileSpec(mjSpec* spec);
+// Throws InternalError with the compiler's message. Files that the spec names are read through
+// `assets`; nullptr: from the disk.
+ModelPtr CompileSpec(mjSpec* spec, const mjVFS* assets = nullptr);
 
 // The joint that the motor of this name drives.
 mjsJoint* DrivenJoint(mjSpec* spec, const std::string& motor);

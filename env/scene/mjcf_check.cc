@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/input_file.h"
 
 namespace floorproof {
 namespace {
@@ -97,10 +96,12 @@ class Tags {
 
 class Scan {
  public:
+  explicit Scan(const InputFiles& files) : inputs_(files) {}
+
   void File(const std::filesystem::path& file) {
     if (++files_ > kMaxIncludes)
       throw InputError({file.string(), 0}, "include", "", "files include each other without end");
-    const std::string text = WithoutComments(ReadInputFile(file, kMaxBytes));
+    const std::string text = WithoutComments(inputs_.Read(file, kMaxBytes));
     std::vector<double> copies = {1};  // of what stands here, by nested <replicate>
     for (Tags tag(text); tag.Next();) {
       const bool replicate = tag.name == "replicate";
@@ -135,7 +136,8 @@ class Scan {
         if (!(Product(value) <= kMaxPixels))
           throw InputError(mark, key, value, "must be at most 8192");
       } else if (key == "meshdir" || key == "texturedir" || key == "assetdir") {
-        asset_folders_.push_back(file.parent_path() / value);
+        asset_folders_.emplace_back(file.parent_path() / value,
+                                    std::filesystem::path(value).is_absolute());
       } else if (key == "file") {
         Named(mark, file.parent_path(), tag.name, value);
       }
@@ -147,22 +149,32 @@ class Scan {
   void Named(const SourceMark& mark, const std::filesystem::path& folder, std::string_view tag,
              std::string_view value) {
     std::vector<std::filesystem::path> places = {folder / value};
-    for (const auto& place : asset_folders_) places.push_back(place / value);
-    std::error_code error;
+    for (const auto& place : asset_folders_) places.push_back(place.first / value);
     for (const auto& place : places) {
-      if (!std::filesystem::exists(place, error)) continue;
-      if (const std::string why = WhyUnreadable(place, kMaxBytes); !why.empty())
+      if (!IsThere(place)) continue;
+      if (const std::string why = inputs_.WhyUnreadable(place, kMaxBytes); !why.empty())
         throw InputError(mark, "file", value, why);
+      const bool by_folder = std::ranges::any_of(asset_folders_, [&](const auto& folder) {
+        return folder.second && place == folder.first / value;
+      });
+      if (by_folder || std::filesystem::path(value).is_absolute()) inputs_.MarkAbsolute(place);
     }
-    if (tag == "include" && std::filesystem::exists(places[0], error)) File(places[0]);
+    if (tag == "include" && IsThere(places[0])) File(places[0]);
+  }
+  bool IsThere(const std::filesystem::path& file) const {
+    std::error_code error;
+    return inputs_.HasStandIn(file) || std::filesystem::exists(file, error);
   }
 
   int files_ = 0;
-  std::vector<std::filesystem::path> asset_folders_;
+  const InputFiles& inputs_;
+  std::vector<std::pair<std::filesystem::path, bool>> asset_folders_;  // absolute as written
 };
 
 }  // namespace
 
-void CheckMjcf(const std::filesystem::path& file) { Scan().File(file); }
+void CheckMjcf(const std::filesystem::path& file, const InputFiles& files) {
+  Scan(files).File(file);
+}
 
 }  // namespace floorproof

@@ -5,9 +5,12 @@
 
 #include <filesystem>
 
+#include "base/input_files.h"
+
 namespace floorproof {
 
-// Throws InputError naming file, line, attribute, value and rule. Follows <include>.
-void CheckMjcf(const std::filesystem::path& file);
+// Throws InputError naming file, line, attribute, value and rule. Follows <include>. Files that are
+// named by an absolute path are marked so.
+void CheckMjcf(const std::filesystem::path& file, const InputFiles& files);
 
 }  // namespace floorproof

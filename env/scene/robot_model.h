@@ -3,12 +3,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/error.h"
+#include "base/input_files.h"
 #include "env/core/robot_spec.h"
 #include "env/scene/engine.h"
 #include "env/scene/robot_changes.h"
@@ -30,6 +32,8 @@ std::filesystem::path FindRobotFile(const std::string& name_or_path, const Sourc
 struct RobotModel {
   SpecPtr mjcf;  // the robot alone, changes applied
   RobotSpec spec;
+  std::vector<std::filesystem::path> files = {};  // that it was read from, the MJCF first
+  std::shared_ptr<const mjVFS> assets = {};       // those files, for whoever compiles `mjcf`
   std::vector<std::string> rollers = {};  // geoms of rollers that are bodies (roller_wheels.h)
 };
 
@@ -41,7 +45,7 @@ enum class Blocks { kLocked, kHinged };
 // numbers under <custom>; of a reconfigurable robot also hinges between blocks. Throws InputError
 // naming the file and what is missing.
 RobotModel ReadRobot(const std::filesystem::path& file, const RobotChanges& changes = {},
-                     Blocks blocks = Blocks::kLocked);
+                     Blocks blocks = Blocks::kLocked, const InputFiles& files = {});
 
 // Throws InputError that names the shapes there are.
 [[noreturn]] void RefuseShape(const RobotSpec& robot, const SourceMark& mark, std::string_view key,

@@ -31,8 +31,8 @@ struct Wheel {
   double mass_kg = 0;
 };
 
-std::vector<Wheel> FindWheels(mjSpec* spec, const RobotSpec& robot) {
-  const ModelPtr model = CompileSpec(spec);
+std::vector<Wheel> FindWheels(mjSpec* spec, const RobotSpec& robot, const mjVFS* assets) {
+  const ModelPtr model = CompileSpec(spec, assets);
   const DataPtr data = MakeData(model.get());
   ForwardEngine(model.get(), data.get());
   std::vector<Wheel> wheels;
@@ -124,8 +124,9 @@ double RollerHalfLength(const WheelSpec& wheel) {
 }
 
 RobotModel WithRollerWheels(const RobotModel& robot) {
-  RobotModel out{SpecPtr(mj_copySpec(robot.mjcf.get())), robot.spec, robot.rollers};
-  for (const Wheel& wheel : FindWheels(out.mjcf.get(), robot.spec)) {
+  RobotModel out{SpecPtr(mj_copySpec(robot.mjcf.get())), robot.spec, robot.files, robot.assets,
+                 robot.rollers};
+  for (const Wheel& wheel : FindWheels(out.mjcf.get(), robot.spec, robot.assets.get())) {
     const Vec3 ahead = wheel.axle.cross(wheel.down);
     for (int k = 0; k < kRollers; ++k) {
       const double turn = 2 * kPi * k / kRollers;

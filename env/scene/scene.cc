@@ -33,6 +33,7 @@ class SceneBuilder {
       : map_(map),
         robot_(robot.spec),
         rollers_(robot.rollers),
+        assets_(robot.assets.get()),
         spec_(spec),
         world_(mjs_findBody(spec, "world")) {
     for (mjsElement* e = mjs_firstElement(spec, mjOBJ_GEOM); e; e = mjs_nextElement(spec, e))
@@ -67,7 +68,7 @@ class SceneBuilder {
 
   void Walls(const Vec2& start_W, WallSet set) {
     const std::vector<WallBox> boxes = WallBoxes(map_, robot_, start_W);
-    if (set == WallSet::kNear) pool = MakeWallPool(boxes, map_.frame.X_WG, spec_);
+    if (set == WallSet::kNear) pool = MakeWallPool(boxes, map_.frame.X_WG, spec_, assets_);
     const std::size_t num = pool.num > 0 ? static_cast<std::size_t>(pool.num) : boxes.size();
     for (std::size_t i = 0; i < num; ++i) {
       mjsGeom* geom = Add(GeomRole::Kind::kWall, -1, 0.3, 0);
@@ -197,6 +198,7 @@ class SceneBuilder {
   const HazardMap& map_;
   const RobotSpec& robot_;
   const std::vector<std::string>& rollers_;
+  const mjVFS* assets_;
   mjSpec* spec_;
   mjsBody* world_;
 };
@@ -256,7 +258,7 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
   builder.Hazards();
   builder.PairWheels();
   InstallWheelCollider();
-  scene.model = CompileSpec(scene.spec.get());
+  scene.model = CompileSpec(scene.spec.get(), robot.assets.get());
   InflateWheelBounds(scene.model.get());
 
   const mjModel* m = scene.model.get();

@@ -14,10 +14,11 @@ constexpr std::size_t kFew = 128;  // boxes, at some 10 ns a step each
 
 }  // namespace
 
-WallPool MakeWallPool(const std::vector<WallBox>& boxes, const Pose2& X_WG, const mjSpec* spec) {
+WallPool MakeWallPool(const std::vector<WallBox>& boxes, const Pose2& X_WG, const mjSpec* spec,
+                      const mjVFS* assets) {
   if (boxes.size() <= kFew) return {};
   const SpecPtr copy(mj_copySpec(spec));
-  const ModelPtr model = CompileSpec(copy.get());
+  const ModelPtr model = CompileSpec(copy.get(), assets);
   InflateWheelBounds(model.get());
   const int base = mj_name2id(model.get(), mjOBJ_BODY, "base");
   if (!NearnessIsKnown(model.get(), base)) return {};

@@ -21,8 +21,9 @@ struct WallPool {
 };
 
 // Empty (num 0) where the walls are few or all of them may be near at once. `robot` is compiled in
-// a copy, to learn its reach.
-WallPool MakeWallPool(const std::vector<WallBox>& boxes, const Pose2& X_WG, const mjSpec* robot);
+// a copy, to learn its reach; `assets`: the robot's files.
+WallPool MakeWallPool(const std::vector<WallBox>& boxes, const Pose2& X_WG, const mjSpec* robot,
+                      const mjVFS* assets);
 
 // MuJoCo's position and half sizes of a box; its yaw is the frame's.
 void PlaceWall(const WallBox& box, const Pose2& X_WG, mjtNum* pos, mjtNum* size);

@@ -51,7 +51,7 @@ CampaignAbout DescribeCampaign(const ScenarioFile& file) {
     for (const auto& read : FilesRead(s)) {
       if (read == base.site_file) continue;  // it stands in the text
       std::vector<std::string>& known = hashes[read.filename().string()];
-      std::string hash = Sha256OfFile(read);
+      std::string hash = s.files.Sha256(read);
       if (std::ranges::find(known, hash) == known.end()) known.push_back(std::move(hash));
     }
   };

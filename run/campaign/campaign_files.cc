@@ -10,6 +10,7 @@
 #include "run/campaign/campaign_junit.h"
 #include "run/campaign/episodes_csv.h"
 #include "run/campaign/summary_json.h"
+#include "run/episode/records.h"
 
 namespace floorproof {
 namespace {
@@ -41,7 +42,7 @@ CampaignSummary WriteSummaryFiles(const CampaignStore& store, const ScenarioFile
   WriteFileWhole(folder / "episodes.csv", EpisodesCsv(store, file.variants()));
   WriteFileWhole(folder / "junit.xml",
                  JunitXml(summary, run.end == CampaignEnd::kFailFast, file.name()));
-  WriteFileWhole(folder / "summary.json", SummaryJson(summary).dump(2) + "\n");
+  WriteFileWhole(folder / "summary.json", JsonText(SummaryJson(summary)) + "\n");
   return summary;
 }
 

@@ -91,18 +91,19 @@ bool IsFixed(const ScenarioFile& scenario, std::uint64_t n) {
 
 // Writes the settings with their paths valid from `out`; as they are where what they name is gone.
 // Returns what to say of that.
-std::string WriteSettings(const ScenarioFile& scenario, const fs::path& out) {
-  const fs::path file = out / "scenario.resolved.yaml";
-  std::string text, note;
+std::string WriteSettings(const fs::path& settings, const fs::path& out) {
+  std::optional<ScenarioFile> scenario;
+  std::optional<Scenario> base;
   try {
-    text = ResolvedScenario(scenario.Read(std::nullopt), out);
+    base = scenario.emplace(settings).Read(std::nullopt);
   } catch (const InputError& e) {
-    note = fmt::format("{}: its paths hold from {}, not from here ({})", file.string(),
-                       scenario.file().parent_path().string(), e.what());
-    text = ReadInputFile(scenario.file(), kMaxResultBytes);
+    const fs::path file = out / "scenario.resolved.yaml";
+    WriteFileWhole(file, ReadInputFile(settings, kMaxResultBytes));
+    return fmt::format("{}: its paths hold from {}, not from here ({})", file.string(),
+                       settings.parent_path().string(), e.what());
   }
-  WriteFileWhole(file, text);
-  return note;
+  WriteResolvedScenario(*base, out, scenario->files().All());
+  return "";
 }
 
 // What `there`, ascending, lacks of 0:end.
@@ -118,13 +119,17 @@ std::vector<EpisodeRange> Missing(const std::vector<std::uint64_t>& there, std::
   return missing;
 }
 
+void RefuseCampaign(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::exists(folder / "campaign.sqlite", ignored))
+    throw InputError({folder.string(), 0}, "", "", "holds a campaign: --out names another folder");
+}
+
 }  // namespace
 
 MergeOutcome MergeCampaigns(const std::vector<std::string>& shards, const fs::path& out) {
   const fs::path file = out / "campaign.sqlite";
-  std::error_code ignored;
-  if (fs::exists(file, ignored))
-    throw InputError({out.string(), 0}, "", "", "holds a campaign: --out names another folder");
+  RefuseCampaign(out);
   SayWhenInterrupted(out.string() + " is as before, or holds part of the shards");
   std::vector<CampaignStore> from;
   for (const std::string& shard : shards) {
@@ -145,11 +150,12 @@ MergeOutcome MergeCampaigns(const std::vector<std::string>& shards, const fs::pa
   auto results =
       std::make_unique<ResultFolder>(out, CampaignResults(), std::span<const fs::path>());
   results->Begin();
+  RefuseCampaign(out);  // another may have begun it since
   CampaignStore store = CampaignStore::Create(file, from.front().about());
   std::uint64_t end = MergeRows(from, variants, store);
   for (const CampaignStore& shard : from) end = std::max(end, shard.asked());
   store.SetAsked(end);
-  std::string paths_note = WriteSettings(scenario, out);
+  std::string paths_note = WriteSettings(scenario.file(), out);
   CampaignOptions options;
   options.end = end;
   options.jobs = 0;  // nothing more is driven

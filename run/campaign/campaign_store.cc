@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/config.h"
 #include "base/error.h"
+#include "base/printable.h"
+#include "run/campaign/campaign_about.h"
 
 namespace floorproof {
 namespace {
@@ -14,6 +17,39 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kFormat = 1;
+constexpr std::size_t kFirst = 5 + kNumFailureModes;  // columns before the metrics
+constexpr int kMaxText_bytes = 16 << 20;              // of any value
+
+// Ends a statement that takes more steps of SQLite's machine than the file's size explains.
+class StepLimit {
+ public:
+  StepLimit(sqlite3* db, const fs::path& file) : db_(db) {
+    std::error_code error;
+    const std::uintmax_t bytes = fs::file_size(file, error);
+    left_ = 100'000 + (error ? 0 : static_cast<std::int64_t>(bytes / 100));
+    sqlite3_progress_handler(
+        db, 1000, [](void* self) { return --static_cast<StepLimit*>(self)->left_ < 0 ? 1 : 0; },
+        this);
+  }
+  ~StepLimit() { sqlite3_progress_handler(db_, 0, nullptr, nullptr); }
+  StepLimit(const StepLimit&) = delete;
+  StepLimit& operator=(const StepLimit&) = delete;
+
+ private:
+  sqlite3* db_;
+  std::int64_t left_;  // thousands of steps
+};
+
+// The last columns of the tables of episodes: JSON.
+struct RowText {
+  std::string_view name;
+  std::string EpisodeRow::*text;
+};
+constexpr std::array<RowText, 4> kTexts = {{{"drawn", &EpisodeRow::drawn},
+                                            {"plan", &EpisodeRow::plan},
+                                            {"events", &EpisodeRow::events},
+                                            {"timeout", &EpisodeRow::timeout}}};
+constexpr std::size_t kLeastTexts = 3;  // files of earlier versions have no `timeout`
 
 struct Column {
   std::string name, type;
@@ -30,7 +66,7 @@ std::vector<Column> Columns() {
   for (int mode = 0; mode < kNumFailureModes; ++mode)
     columns.push_back({std::string(Name(static_cast<FailureMode>(mode))), count});
   for (const MetricColumn& metric : kMetrics) columns.push_back({std::string(metric.name), "REAL"});
-  for (const char* name : {"drawn", "plan", "events", "timeout"}) columns.push_back({name, text});
+  for (const RowText& t : kTexts) columns.push_back({std::string(t.name), text});
   return columns;
 }
 
@@ -93,18 +129,27 @@ struct CampaignStore::Statement {
                : std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(handle, column)));
   }
 
-  // The columns in which a SELECT * from a table of episodes has its metrics; -1: it has not.
-  std::array<int, kMetrics.size()> MetricColumns() const {
-    std::array<int, kMetrics.size()> columns;
-    columns.fill(-1);
-    for (int i = 0; i < sqlite3_column_count(handle); ++i)
-      if (const MetricColumn* metric = FindMetric(sqlite3_column_name(handle, i)))
-        columns[static_cast<std::size_t>(metric - kMetrics.data())] = i;
-    return columns;
+  // Where a SELECT * from a table of episodes has its metrics and texts; -1: it has not.
+  struct Places {
+    std::array<int, kMetrics.size()> metrics;
+    std::array<int, kTexts.size()> texts;
+  };
+  Places PlacesOfColumns() const {
+    Places places;
+    places.metrics.fill(-1);
+    places.texts.fill(-1);
+    for (int i = 0; i < sqlite3_column_count(handle); ++i) {
+      const std::string_view name = sqlite3_column_name(handle, i);
+      if (const MetricColumn* metric = FindMetric(name))
+        places.metrics[static_cast<std::size_t>(metric - kMetrics.data())] = i;
+      if (const auto text = std::ranges::find(kTexts, name, &RowText::name); text != kTexts.end())
+        places.texts[static_cast<std::size_t>(text - kTexts.begin())] = i;
+    }
+    return places;
   }
 
   // Of such a SELECT.
-  EpisodeRow Row(const std::array<int, kMetrics.size()>& metric_columns) const {
+  EpisodeRow Row(const Places& places) const {
     EpisodeRow row;
     row.variant = Text(1);
     row.episode = static_cast<std::uint64_t>(sqlite3_column_int64(handle, 2));
@@ -113,16 +158,11 @@ struct CampaignStore::Statement {
     int at = 5;
     for (int& n : row.events_of) n = sqlite3_column_int(handle, at++);
     for (std::size_t i = 0; i < row.metrics.size(); ++i)
-      if (const int column = metric_columns[i];
+      if (const int column = places.metrics[i];
           column >= 0 && sqlite3_column_type(handle, column) != SQLITE_NULL)
         row.metrics[i] = sqlite3_column_double(handle, column);
-    for (at = 0; at < sqlite3_column_count(handle); ++at) {
-      const std::string_view name = sqlite3_column_name(handle, at);
-      if (name == "drawn") row.drawn = Text(at);
-      if (name == "plan") row.plan = Text(at);
-      if (name == "events") row.events = Text(at);
-      if (name == "timeout") row.timeout = Text(at);  // not in files of earlier versions
-    }
+    for (std::size_t i = 0; i < kTexts.size(); ++i)
+      if (places.texts[i] >= 0) row.*kTexts[i].text = Text(places.texts[i]);
     return row;
   }
 
@@ -154,6 +194,13 @@ void CampaignStore::Refuse(int code) const {
     case SQLITE_CANTOPEN:
       throw InputError({file_.string(), 0}, "", "",
                        "cannot be written: " + why + "; episodes before are kept");
+    case SQLITE_TOOBIG:
+      throw InputError({file_.string(), 0}, "", "",
+                       "is damaged (a text of more than " + std::to_string(kMaxText_bytes >> 20) +
+                           " MiB); it was left as it is");
+    case SQLITE_INTERRUPT:
+      throw InputError({file_.string(), 0}, "", "",
+                       "is damaged (reading it does not end); it was left as it is");
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       throw InputError({file_.string(), 0}, "", "", "is in use by another campaign");
@@ -229,25 +276,37 @@ CampaignStore CampaignStore::Connect(const fs::path& file, int flags) {
   const int code = sqlite3_open_v2(name.c_str(), &db, flags | SQLITE_OPEN_URI, nullptr);
   CampaignStore store(file, db);
   if (code != SQLITE_OK) store.Refuse(code);
+  store.Distrust();
   return store;
 }
 
 CampaignStore CampaignStore::Open(const fs::path& file, bool write) {
   std::error_code ignored;
-  if (!fs::exists(file, ignored))
+  if (!fs::exists(fs::symlink_status(file, ignored)))
     throw InputError({file.string(), 0}, "", "", "cannot be opened: no such file");
+  for (const char* end : {"", "-wal", "-shm", "-journal"}) {
+    const fs::file_status status = fs::symlink_status(file.string() + end, ignored);
+    if (fs::exists(status) && !fs::is_regular_file(status))
+      throw InputError({file.string() + end, 0}, "", "", "is no plain file");
+  }
   // Looked through read-only first: opening a damaged file for writing could change it.
   CampaignStore store = Connect(file, SQLITE_OPEN_READONLY);
-  {
-    Statement check(store, "PRAGMA quick_check(1)");
-    if (check.Step() && check.Text(0) != "ok")
-      throw InputError({file.string(), 0}, "", "",
-                       "is damaged (" + check.Text(0) + "); it was left as it is");
-  }
-  store.ReadAbout();
-  store.CheckTexts();
+  store.Check();
   if (write) store.MakeWritable();
   return store;
+}
+
+void CampaignStore::Check() {
+  const StepLimit limit(db_, file_);
+  CheckTables();
+  {
+    Statement check(*this, "PRAGMA quick_check(1)");
+    if (check.Step() && check.Text(0) != "ok")
+      throw InputError({file_.string(), 0}, "", "",
+                       "is damaged (" + check.Text(0) + "); it was left as it is");
+  }
+  ReadAbout();
+  CheckRows();
 }
 
 void CampaignStore::MakeWritable() {
@@ -272,26 +331,97 @@ void CampaignStore::ReadAbout() {
       if (key == "versions") about_.versions = value;
       if (key == "asked") asked_ = std::strtoull(value.c_str(), nullptr, 10);
     }
-    if (format == std::to_string(kFormat)) return;
+    if (format == std::to_string(kFormat) && IsUtf8Text(about_.id)) {
+      ParseYaml(about_.scenario, file_.string() + ", scenario");
+      VersionsOf(about_);
+      return;
+    }
   } catch (const InternalError&) {
   }
   throw InputError({file_.string(), 0}, "", "", "is not a campaign's database (table about)");
 }
 
-// What lies in a row's further pages no check of the database looks at.
-void CampaignStore::CheckTexts() const {
+// SQLite's own advice for files from elsewhere (sqlite.org/security.html): nothing of the file's is
+// run, and what is read has bounds.
+void CampaignStore::Distrust() const {
+  for (const auto& [option, value] : {std::pair(SQLITE_DBCONFIG_DEFENSIVE, 1),
+                                      {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
+                                      {SQLITE_DBCONFIG_ENABLE_TRIGGER, 0},
+                                      {SQLITE_DBCONFIG_ENABLE_VIEW, 0}})
+    sqlite3_db_config(db_, option, value, nullptr);
+  sqlite3_limit(db_, SQLITE_LIMIT_LENGTH, kMaxText_bytes);
+  sqlite3_exec(db_, "PRAGMA cell_size_check=ON; PRAGMA mmap_size=0", nullptr, nullptr, nullptr);
+}
+
+// No views, triggers or indexes, and no table but a campaign's own with the columns of one.
+void CampaignStore::CheckTables() const {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError({file_.string(), 0}, "", "", "is not a campaign's database (" + what + ")");
+  };
+  Statement schema(*this, "SELECT type, name, sql FROM sqlite_master");
+  std::vector<std::string> tables;
+  while (schema.Step()) {
+    const std::string type = schema.Text(0), name = schema.Text(1);
+    if (type != "table" || !schema.Text(2).starts_with("CREATE TABLE "))
+      refuse("it holds a " + (type == "table" ? "virtual table" : type) + " " + name);
+    tables.push_back(name);
+  }
+  std::ranges::sort(tables);
+  if (tables.empty()) refuse("table about");
+  if (tables != std::vector<std::string>{"about", "episode", "extra", "timing"})
+    refuse("its tables are not about, episode, extra, timing");
   for (const std::string table : {"episode", "extra"}) {
-    Statement first(*this, "SELECT * FROM " + table + " LIMIT 1");
-    std::string texts = "json_valid(drawn) AND json_valid(plan) AND json_valid(events)";
-    for (int i = 0; i < sqlite3_column_count(first.handle);
-         ++i)  // not in files of earlier versions
-      if (sqlite3_column_name(first.handle, i) == std::string_view("timeout"))
-        texts += " AND json_valid(timeout)";
-    Statement damaged(*this, "SELECT episode FROM " + table + " WHERE NOT (" + texts + ") LIMIT 1");
-    if (damaged.Step())
-      throw InputError(
-          {file_.string(), 0}, "", "",
-          "is damaged (a text of a row of table " + table + " is no JSON); it was left as it is");
+    std::vector<Column> there;
+    Statement info(*this, "PRAGMA table_xinfo(" + table + ")");
+    while (info.Step()) {
+      if (info.Text(6) != "0") refuse("table " + table + " computes a column");
+      there.push_back({info.Text(1), info.Text(2)});
+    }
+    // Behind the first columns stand the metrics of whatever version, and the texts.
+    const std::vector<Column> wanted = Columns();
+    const auto same = [](const Column& a, const Column& b) {
+      return a.name == b.name && !a.type.empty() && b.type.starts_with(a.type);
+    };
+    bool right = there.size() >= kFirst + kLeastTexts &&
+                 std::equal(there.begin(), there.begin() + kFirst, wanted.begin(), same);
+    std::size_t texts = 0;
+    for (std::size_t i = kFirst; right && i < there.size(); ++i) {
+      const bool is_text = std::ranges::find(kTexts, there[i].name, &RowText::name) != kTexts.end();
+      texts += is_text;
+      right = there[i].type == (is_text ? "TEXT" : "REAL");
+    }
+    right = right && texts >= kLeastTexts;
+    if (!right) refuse("table " + table + " has not the columns of one");
+  }
+}
+
+// What lies in a row's further pages no check of the database looks at; and a text may be JSON of
+// another kind than is asked for later, when rows have been added.
+void CampaignStore::CheckRows() const {
+  for (const std::string table : {"episode", "extra"}) {
+    Statement select(*this, "SELECT * FROM " + table);
+    const auto places = select.PlacesOfColumns();
+    const int columns = sqlite3_column_count(select.handle);
+    while (select.Step()) {
+      std::string why;
+      for (int i = 0; i < columns && why.empty(); ++i) {
+        const int type = sqlite3_column_type(select.handle, i);
+        const bool is_json = std::ranges::find(places.texts, i) != places.texts.end();
+        const bool is_text = is_json || i < 2 || i == 3 || i == 4;
+        const bool is_count = !is_text && i < static_cast<int>(kFirst);
+        if (is_text    ? type != SQLITE_TEXT
+            : is_count ? type != SQLITE_INTEGER || sqlite3_column_int64(select.handle, i) < 0
+                       : type != SQLITE_NULL && type != SQLITE_FLOAT && type != SQLITE_INTEGER)
+          why = "is of another type";
+        else if (is_text && !IsUtf8Text(select.Text(i)))
+          why = "is no UTF-8";
+      }
+      if (why.empty()) why = WhyUnreadableRow(select.Row(places));
+      if (!why.empty())
+        throw InputError({file_.string(), 0}, "", "",
+                         "is damaged (a text of a row of table " + table + " " + why +
+                             "); it was left as it is");
+    }
   }
 }
 
@@ -334,8 +464,7 @@ void CampaignStore::Add(std::span<const EpisodeRow> rows) {
       insert.Bind(++at, row.message);
       for (const int n : row.events_of) insert.Bind(++at, std::int64_t{n});
       for (const auto& value : row.metrics) insert.Bind(++at, value);
-      for (const std::string* text : {&row.drawn, &row.plan, &row.events, &row.timeout})
-        insert.Bind(++at, *text);
+      for (const RowText& text : kTexts) insert.Bind(++at, row.*text.text);
       insert.Step();
       insert.Again();
       timing.Bind(1, row.variant);
@@ -378,8 +507,8 @@ void CampaignStore::ForEach(const std::string& variant,
                               " ORDER BY episode");
   select.Bind(1, about_.id);
   select.Bind(2, variant);
-  const auto metric_columns = select.MetricColumns();
-  while (select.Step()) visit(select.Row(metric_columns));
+  const auto places = select.PlacesOfColumns();
+  while (select.Step()) visit(select.Row(places));
 }
 
 std::optional<EpisodeRow> CampaignStore::Find(const std::string& variant,
@@ -392,7 +521,7 @@ std::optional<EpisodeRow> CampaignStore::Find(const std::string& variant,
   select.Bind(2, variant);
   select.Bind(3, static_cast<std::int64_t>(episode));
   if (!select.Step()) return std::nullopt;
-  return select.Row(select.MetricColumns());
+  return select.Row(select.PlacesOfColumns());
 }
 
 void CampaignStore::SetAsked(std::uint64_t episodes) {

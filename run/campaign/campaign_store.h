@@ -31,7 +31,8 @@ class CampaignStore {
  public:
   // Makes the file, which must not be there.
   static CampaignStore Create(const std::filesystem::path& file, const CampaignAbout& about);
-  // Opens one that is; read-only unless `write`. Throws InputError, the file untouched, when it is
+  // Opens one that is; read-only unless `write`. Whoever made it is not trusted: it may hold these
+  // tables alone, and every text is parsed. Throws InputError, the file untouched, when it is
   // damaged or no campaign's.
   static CampaignStore Open(const std::filesystem::path& file, bool write);
   // What was opened to be read may be written from now on. Throws InputError, also where a version
@@ -74,8 +75,11 @@ class CampaignStore {
                    const CampaignAbout& about);
   void Run(const std::string& sql);
   [[noreturn]] void Refuse(int code) const;
+  void Check();
   void ReadAbout();
-  void CheckTexts() const;
+  void Distrust() const;
+  void CheckTables() const;
+  void CheckRows() const;
   void RequireColumns() const;
 
   std::filesystem::path file_;

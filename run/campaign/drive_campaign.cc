@@ -99,15 +99,17 @@ CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& r
   if (request.episodes > 1) CheckChance(file, base.gate, observer);
 
   auto hold = std::make_unique<HoldInterrupts>();
-  const bool there = HoldsCampaign(folder, request.resume);
-  auto out = std::make_unique<ResultFolder>(folder, CampaignResults(), InputsOf(base));
+  HoldsCampaign(folder, request.resume);
+  auto out = std::make_unique<ResultFolder>(folder, CampaignResults(), file.files().All());
+  out->Lock();
+  const bool there = HoldsCampaign(folder, request.resume);  // another may have begun it since
   CampaignStore store = OpenStore(folder, about, there);
   RefuseSecondLook(store, file, request.episodes);
   store.SetAsked(request.episodes);
   if (request.retry_errors) store.DropErrors();
   out->Begin();
   SayWhenInterrupted(folder.string() + " holds every episode saved so far; --resume goes on");
-  WriteFileWhole(folder / "scenario.resolved.yaml", ResolvedScenario(base, folder));
+  WriteResolvedScenario(base, folder, file.files().All());
   CampaignOptions options{.end = request.episodes,
                           .gate = gate,
                           .jobs = request.jobs,

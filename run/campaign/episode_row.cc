@@ -76,6 +76,32 @@ std::optional<Timeout> TimeoutOf(const EpisodeRow& row) {
   }
 }
 
+std::string WhyUnreadableRow(const EpisodeRow& row) {
+  for (const std::string* text : {&row.drawn, &row.plan}) {
+    const Json json = Json::parse(*text, nullptr, false);
+    if (json.is_discarded()) return "is no JSON";
+    if (!json.is_object()) return "is no JSON object";
+  }
+  const Json events = Json::parse(row.events, nullptr, false);
+  if (events.is_discarded()) return "is no JSON";
+  if (!events.is_array()) return "is no JSON list";
+  try {
+    EventsOf(row);
+  } catch (const InternalError&) {
+    return "holds an event without its keys";
+  }
+  try {
+    TimeoutOf(row);
+  } catch (const InternalError&) {
+    return "holds a timeout without its keys";
+  }
+  constexpr Outcome kAll[] = {Outcome::kSuccess,    Outcome::kFailure, Outcome::kTimeout,
+                              Outcome::kNotPlanned, Outcome::kError,   Outcome::kInterrupted};
+  if (std::ranges::none_of(kAll, [&](Outcome o) { return Name(o) == row.outcome; }))
+    return "names an outcome that is none";
+  return "";
+}
+
 std::string ToLine(const EpisodeRow& row) {
   Json metrics = Json::array();
   for (const auto& value : row.metrics) metrics.push_back(value ? Json(*value) : Json(nullptr));

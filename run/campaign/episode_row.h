@@ -50,6 +50,10 @@ std::vector<Event> EventsOf(const EpisodeRow& row);
 // Where its time ran out, if that is its outcome. Throws InternalError where the text is damaged.
 std::optional<Timeout> TimeoutOf(const EpisodeRow& row);
 
+// Why what stands in the row cannot be used: its texts are no JSON of their kinds, its outcome is
+// none. Empty when it can.
+std::string WhyUnreadableRow(const EpisodeRow& row);
+
 // One line of text, and back; throws InternalError on any other text.
 std::string ToLine(const EpisodeRow& row);
 EpisodeRow FromLine(std::string_view line);

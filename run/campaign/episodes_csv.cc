@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <nlohmann/json.hpp>
+
+#include "base/printable.h"
 
 namespace floorproof {
 namespace {
@@ -35,7 +38,14 @@ struct CsvColumns {
 
 }  // namespace
 
-std::string CsvField(const std::string& text) {
+std::string CsvField(const std::string& raw) {
+  // A spreadsheet runs what begins like a formula; a number is none.
+  double number = 0;
+  const auto [end, error] = std::from_chars(raw.data(), raw.data() + raw.size(), number);
+  const bool is_number = error == std::errc() && end == raw.data() + raw.size();
+  const bool formula = !raw.empty() && !is_number &&
+                       std::string_view("=+-@\t\r").find(raw.front()) != std::string_view::npos;
+  const std::string text = (formula ? "'" : "") + Printable(raw);
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);

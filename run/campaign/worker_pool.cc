@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <deque>
@@ -44,6 +45,17 @@ bool ReadAll(int fd, void* data, std::size_t size) {
     size -= static_cast<std::size_t>(n);
   }
   return true;
+}
+
+// Of what lies beyond stderr.
+void CloseAllBut(int a, int b) {
+  const auto [low, high] = std::minmax({static_cast<unsigned>(a), static_cast<unsigned>(b)});
+  const auto close_from = [](unsigned first, unsigned last) {
+    if (first <= last) close_range(first, last, 0);
+  };
+  close_from(3, low - 1);
+  close_from(low + 1, high - 1);
+  close_from(high + 1, ~0u);
 }
 
 std::string HowItEnded(int status) {
@@ -128,13 +140,12 @@ class Pool {
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (getppid() != parent) _exit(0);  // it died before
       signal(SIGINT, SIG_IGN);
+      signal(SIGHUP, SIG_IGN);
       signal(SIGTERM, SIG_DFL);
       signal(SIGPIPE, SIG_DFL);
-      close(jobs[1]);
-      close(answers[0]);
-      // The other workers' ends, or a worker would outlive the pipe's closing.
-      for (const Worker& other : workers_)
-        if (other.pid >= 0) close(other.jobs), close(other.answers);
+      // The other workers' ends, or a worker would outlive the pipe's closing; the lock on the
+      // campaign's folder, or it would outlive the parent's.
+      CloseAllBut(jobs[0], answers[1]);
       Serve(jobs[0], answers[1], callbacks_.work);
     }
     close(jobs[0]);

@@ -109,6 +109,10 @@ void Remove(const std::filesystem::path& file) {
 
 }  // namespace
 
+std::string JsonText(const Json& json) {
+  return json.dump(2, ' ', true, Json::error_handler_t::replace);
+}
+
 Json VersionsJson() {
   utsname system{};
   uname(&system);
@@ -246,9 +250,9 @@ ResultNames FilmResults() { return {"episode", IsFilm, false}; }
 
 void WritePlanFiles(const Scenario& s, const PlanResult& plan,
                     const std::filesystem::path& folder) {
-  WriteFileWhole(folder / "scenario.resolved.yaml", ResolvedScenario(s, folder));
+  WriteResolvedScenario(s, folder);
   WriteFileWhole(folder / "plan.csv", PlanCsv(plan.path));
-  WriteFileWhole(folder / "plan.json", PlanJson(s, plan).dump(2) + "\n");
+  WriteFileWhole(folder / "plan.json", JsonText(PlanJson(s, plan)) + "\n");
   if (AsksForRisk(s)) {
     WriteFileWhole(folder / "risk.csv", RiskCsv(*plan.risk));
   } else {
@@ -268,7 +272,7 @@ void WriteEpisodeFiles(const Scenario& s, const EpisodeRecord& record,
                        const std::filesystem::path& folder) {
   WriteFileWhole(folder / "trace.csv", TraceCsv(record, s.robot.spec));
   if (record.outcome != Outcome::kInterrupted)
-    WriteFileWhole(folder / "result.json", ResultJson(s, record).dump(2) + "\n");
+    WriteFileWhole(folder / "result.json", JsonText(ResultJson(s, record)) + "\n");
 }
 
 }  // namespace floorproof

@@ -11,6 +11,10 @@
 
 namespace floorproof {
 
+// As files and stdout have it: characters beyond ASCII are escaped, bytes that are no UTF-8
+// replaced.
+std::string JsonText(const nlohmann::ordered_json& json);
+
 // plan.json's content: status, planner, length_m, turns, coverage, overlap, ...
 nlohmann::ordered_json PlanJson(const Scenario& scenario, const PlanResult& plan);
 // result.json's content: schema, outcome, timeout (where that is the outcome), events, metrics,

@@ -52,8 +52,8 @@ void ReadRow(const ConfigNode& node, const std::string& path, const std::string&
 
 }  // namespace
 
-FmeaTables ReadFmeaTables(const std::filesystem::path& file) {
-  const ConfigNode root = ReadYamlFile(file);
+FmeaTables ReadFmeaTables(const std::filesystem::path& file, const InputFiles& files) {
+  const ConfigNode root = ReadYamlFile(file, files);
   if (!root.IsMap()) throw InputError({file.string(), 1}, "", "", "must be a map of keys");
   RefuseUnknownKeys(root, "", {"fmea", "classes", "modes", "effects"});
   const ConfigNode* version = root.Find("fmea");

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "base/input_files.h"
 #include "planners/risk/fmea_tables.h"
 
 namespace floorproof {
@@ -13,6 +14,6 @@ namespace floorproof {
 // Throws InputError naming file, line, key, value and rule: a missing or unknown key, a probability
 // outside [0, 1], a row of modes or effects that does not sum to 1 (to 1e-6), a detectability or
 // severity that is not positive.
-FmeaTables ReadFmeaTables(const std::filesystem::path& file);
+FmeaTables ReadFmeaTables(const std::filesystem::path& file, const InputFiles& files = {});
 
 }  // namespace floorproof

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "base/params.h"
 
@@ -15,6 +16,10 @@ constexpr std::size_t kLongestName = 200;  // films and pictures carry it in the
 // What all variants share, their draws above all, and what is read before they are made.
 const std::vector<std::string> kShared = {"scenario",  "name",   "seed", "episode",
                                           "randomise", "matrix", "gate", "files"};
+
+[[noreturn]] void RefuseMany(const SourceMark& mark, const std::string& key) {
+  throw InputError(mark, key, "", "more than " + std::to_string(kMaxVariants) + " variants");
+}
 
 std::string LastPart(const std::string& key_path) {
   return key_path.substr(key_path.rfind('.') + 1);
@@ -33,7 +38,9 @@ std::vector<Variant> Axis(const std::string& key, const ConfigNode& list) {
   const std::string path = "matrix." + key;
   if (!list.IsList() || list.items.empty())
     throw InputError(list.mark, path, list.scalar, "must be a list of a value or more");
+  if (list.items.size() > kMaxVariants) RefuseMany(list.mark, path);
   std::vector<Variant> axis;
+  std::set<std::string> names;
   for (const ConfigNode& item : list.items) {
     Variant variant;
     if (item.IsScalar()) {
@@ -54,10 +61,8 @@ std::vector<Variant> Axis(const std::string& key, const ConfigNode& list) {
       throw InputError(
           item.mark, path, variant.name,
           "a variant's name, its label where it has one, has no comma, colon, slash or line break");
-    for (const Variant& other : axis)
-      if (other.name == variant.name)
-        throw InputError(item.mark, path, variant.name,
-                         "two variants of one name: give them labels");
+    if (!names.insert(variant.name).second)
+      throw InputError(item.mark, path, variant.name, "two variants of one name: give them labels");
     axis.push_back(std::move(variant));
   }
   return axis;
@@ -72,9 +77,7 @@ std::vector<Variant> ReadMatrix(const ConfigNode* node) {
   std::vector<Variant> variants = {{"", {}}};
   for (const auto& [key, list] : node->entries) {
     const std::vector<Variant> axis = Axis(key, list);
-    if (variants.size() * axis.size() > kMaxVariants)
-      throw InputError(node->mark, "matrix", "",
-                       "more than " + std::to_string(kMaxVariants) + " variants");
+    if (variants.size() * axis.size() > kMaxVariants) RefuseMany(node->mark, "matrix");
     std::vector<Variant> product;
     for (const Variant& base : variants)
       for (const Variant& entry : axis) {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/config.h"
-#include "base/input_file.h"
 #include "base/params.h"
 
 namespace floorproof {
@@ -16,7 +15,8 @@ namespace {
 const std::vector<std::string> kColumns = {"x_m",   "y_m",       "yaw_rad",
                                            "shape", "speed_mps", "dwell_s"};
 constexpr std::uintmax_t kMaxBytes = 32u << 20;
-constexpr double kSlowest_mps = 1e-3, kLongestDwell_s = 1e5;  // beyond these a drive has no end
+// Beyond these a drive has no end; the dwells count together.
+constexpr double kSlowest_mps = 1e-3, kLongestDwell_s = 1e5;
 
 std::vector<std::string> SplitRow(std::string line) {
   if (!line.empty() && line.back() == '\r') line.pop_back();
@@ -84,12 +84,14 @@ Waypoint ReadRow(const std::vector<std::string>& header, const std::vector<std::
 
 }  // namespace
 
-Path ReadPlan(const std::filesystem::path& file, const GridFrame& map, std::vector<int>* lines) {
+Path ReadPlan(const std::filesystem::path& file, const GridFrame& map, std::vector<int>* lines,
+              const InputFiles& files) {
   const std::string name = file.string();
-  std::istringstream in(ReadInputFile(file, kMaxBytes));
+  std::istringstream in(files.Read(file, kMaxBytes));
   std::vector<std::string> header;
   Path path;
   int number = 0;
+  double dwell_s = 0;
   if (in.str().starts_with("\xEF\xBB\xBF")) in.seekg(3);  // spreadsheets put a byte order mark
   for (std::string line; std::getline(in, line);) {
     const SourceMark mark{name, ++number};
@@ -107,6 +109,11 @@ Path ReadPlan(const std::filesystem::path& file, const GridFrame& map, std::vect
     if (!map.Inside(map.ToCell(w.p_W)))
       throw InputError(mark, "x_m, y_m", FormatDouble(w.p_W.x()) + ", " + FormatDouble(w.p_W.y()),
                        "lies off the map");
+    dwell_s += w.dwell_s;
+    if (dwell_s > kLongestDwell_s)
+      throw InputError(
+          mark, "dwell_s", FormatDouble(w.dwell_s),
+          "makes more than " + FormatDouble(kLongestDwell_s) + " s together with those above");
     path.push_back(w);
     if (lines) lines->push_back(number);
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/input_files.h"
 #include "env/core/hazard_map.h"
 #include "env/core/path.h"
 
@@ -16,7 +17,7 @@ namespace floorproof {
 // value and rule: text for numbers, unknown columns, no waypoint, a point off the map. `lines` gets
 // the line of each waypoint.
 Path ReadPlan(const std::filesystem::path& file, const GridFrame& map,
-              std::vector<int>* lines = nullptr);
+              std::vector<int>* lines = nullptr, const InputFiles& files = {});
 std::string PlanCsv(const Path& path);
 
 }  // namespace floorproof

@@ -72,18 +72,49 @@ ConfigNode Failures(const Scenario& s) {
   return node;
 }
 
-std::string NameFrom(const fs::path& folder, const fs::path& file) {
-  const std::string in_models = PathFrom(ModelsFolder(), file).string();
-  if (!in_models.starts_with("..")) return std::string(kBundled) + in_models;
-  return PathFrom(folder, file).string();
+// Whether variants or draws set this key: what follows from its value must then not be stated.
+bool Varies(const Scenario& s, const std::string& key) {
+  const auto sets = [&](const std::string& path) { return path == key || path == key + ".name"; };
+  for (const ConfigNode* node : {&s.randomise, &s.matrix})
+    for (const auto& [path, value] : node->entries) {
+      if (sets(path)) return true;
+      for (const ConfigNode& item : value.items)
+        for (const auto& entry : item.entries)
+          if (sets(entry.first)) return true;
+    }
+  return false;
+}
+
+// Whether a scenario names it by a word: it comes with the program.
+bool IsBundled(const fs::path& file) {
+  const auto is = [&](const fs::path& bundled) {
+    return fs::absolute(bundled).lexically_normal() == fs::absolute(file).lexically_normal();
+  };
+  return is(BundledTables()) || std::ranges::any_of(Robots(), [&](const RobotEntry& robot) {
+           return is(ModelsFolder() / robot.file);
+         });
+}
+
+std::string NameFrom(const fs::path& folder, const fs::path& file, const InputFiles& files) {
+  if (IsBundled(file)) return std::string(kBundled) + PathFrom(ModelsFolder(), file).string();
+  return files.IsAbsolute(file) ? fs::absolute(file).lexically_normal().string()
+                                : PathFrom(folder, file).string();
 }
 
 // What reading the resolved file will read: the site now stands within it.
-ConfigNode Files(const Scenario& s, const fs::path& folder) {
+std::vector<fs::path> ListedFiles(const Scenario& s, const std::vector<fs::path>& more) {
+  std::vector<fs::path> listed;
+  const bool site_is_named = Varies(s, "site");
+  for (const auto& files : {FilesRead(s), more})
+    for (const fs::path& file : files)
+      if (file != s.file && (file != s.site_file || site_is_named)) listed.push_back(file);
+  return listed;
+}
+
+ConfigNode Files(const Scenario& s, const fs::path& folder, const std::vector<fs::path>& more) {
   ConfigNode node = ConfigNode::Map();
-  for (const fs::path& file : FilesRead(s))
-    if (file != s.site_file)
-      node.Add(NameFrom(folder, file), ConfigNode::Scalar(Sha256OfFile(file), true));
+  for (const fs::path& file : ListedFiles(s, more))
+    node.Add(NameFrom(folder, file, s.files), ConfigNode::Scalar(s.files.Sha256(file), true));
   return node;
 }
 
@@ -109,22 +140,10 @@ ConfigNode Rebased(ConfigNode node, const fs::path& from, const fs::path& to) {
   return node;
 }
 
-// Whether variants or draws set this key: what follows from its value must then not be stated.
-bool Varies(const Scenario& s, const std::string& key) {
-  const auto sets = [&](const std::string& path) { return path == key || path == key + ".name"; };
-  for (const ConfigNode* node : {&s.randomise, &s.matrix})
-    for (const auto& [path, value] : node->entries) {
-      if (sets(path)) return true;
-      for (const ConfigNode& item : value.items)
-        for (const auto& entry : item.entries)
-          if (sets(entry.first)) return true;
-    }
-  return false;
-}
-
 }  // namespace
 
-std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
+std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
+                             const std::vector<fs::path>& more) {
   ConfigNode root = ConfigNode::Map();
   root.Add("scenario", ConfigNode::Scalar("1"));
   root.Add("name", ConfigNode::Scalar(s.name, true));
@@ -170,8 +189,16 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder) {
   for (const auto& [key, written] :
        {std::pair("randomise", &s.randomise), {"matrix", &s.matrix}, {"gate", &s.gate}})
     if (!written->IsNull()) root.Add(key, Rebased(*written, s.file.parent_path(), folder));
-  root.Add("files", Files(s, folder));
+  root.Add("files", Files(s, folder, more));
   return "# Every key with the value used. Paths hold from this folder.\n" + WriteYaml(root);
+}
+
+void WriteResolvedScenario(const Scenario& s, const fs::path& folder,
+                           const std::vector<fs::path>& more) {
+  // First, so that whoever finds the settings finds what they name.
+  for (const fs::path& file : ListedFiles(s, more))
+    if (!IsBundled(file)) KeepCopy(s.files, file, folder);
+  WriteFileWhole(folder / "scenario.resolved.yaml", ResolvedScenario(s, folder, more));
 }
 
 }  // namespace floorproof

@@ -2,9 +2,11 @@
 #include "run/scenario/scenario.h"
 
 #include <algorithm>
+#include <ranges>
 
 #include "base/file_output.h"
 #include "base/input_file.h"
+#include "base/printable.h"
 #include "run/scenario/scenario_parts.h"
 
 namespace floorproof {
@@ -64,19 +66,30 @@ bool Replaces(const std::string& whole, const std::string& key) {
   return key == whole || key.starts_with(whole + ".");
 }
 
-// Refuses to run a resolved scenario whose files are no longer the ones it was resolved from.
-void CheckHashes(const ConfigNode& root, const fs::path& folder) {
+bool IsSha256(const std::string& text) {
+  return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+// The files that a resolved scenario was resolved from: a copy that is kept beside it stands in for
+// each; where there is none, one that is no longer the same is refused.
+void TakeListedFiles(const ConfigNode& root, const fs::path& folder, bool check,
+                     const InputFiles& inputs) {
   const ConfigNode* files = root.Find("files");
   if (files == nullptr) return;
   if (!files->IsMap()) throw InputError(files->mark, "files", "", "must be a map of path: SHA-256");
-  for (const auto& [path, hash] : files->entries) {
-    const fs::path read =
+  for (const auto& [path, node] : files->entries) {
+    const fs::path named =
         path.starts_with(kBundled) ? ModelsFolder() / path.substr(kBundled.size()) : folder / path;
-    if (const std::string why = WhyUnreadable(read, kMaxNamedBytes); !why.empty())
-      throw InputError(hash.mark, "files." + path, "", why);
-    const std::string now = Sha256OfFile(read);
-    if (now != AsString(hash, "files." + path))
-      throw InputError(hash.mark, "files." + path, hash.scalar,
+    const std::string hash = AsString(node, "files." + path);
+    if (const fs::path copy = KeptCopy(folder, hash);
+        IsSha256(hash) && WhyUnreadable(copy, kMaxNamedBytes).empty())
+      inputs.StandIn(named, hash, copy);
+    if (!check) continue;
+    if (const std::string why = inputs.WhyUnreadable(named, kMaxNamedBytes); !why.empty())
+      throw InputError(node.mark, "files." + path, "", why);
+    inputs.Read(named, kMaxNamedBytes);
+    if (const std::string& now = inputs.Sha256(named); now != hash)
+      throw InputError(node.mark, "files." + path, hash,
                        "the file has changed since: SHA-256 " + now);
   }
 }
@@ -84,7 +97,7 @@ void CheckHashes(const ConfigNode& root, const fs::path& folder) {
 }  // namespace
 
 ScenarioFile::ScenarioFile(const fs::path& file, const std::vector<Override>& overrides)
-    : ScenarioFile(ReadYamlFile(file), file, overrides, Files::kCheck) {}
+    : ScenarioFile(std::nullopt, file, overrides, Files::kCheck) {}
 
 ScenarioFile ScenarioFile::FromText(const std::string& text, const fs::path& file,
                                     const std::vector<Override>& overrides) {
@@ -92,12 +105,12 @@ ScenarioFile ScenarioFile::FromText(const std::string& text, const fs::path& fil
 }
 
 ScenarioFile ScenarioFile::Recorded(const fs::path& file) {
-  return {ReadYamlFile(file), file, {}, Files::kMayBeGone};
+  return {std::nullopt, file, {}, Files::kMayBeGone};
 }
 
-ScenarioFile::ScenarioFile(ConfigNode root, const fs::path& file,
+ScenarioFile::ScenarioFile(std::optional<ConfigNode> root, const fs::path& file,
                            const std::vector<Override>& overrides, Files files)
-    : file_(file), root_(std::move(root)) {
+    : file_(file), root_(root ? std::move(*root) : ReadYamlFile(file, files_)) {
   if (!root_.IsMap()) throw InputError({file.string(), 1}, "", "", "must be a map of keys");
   if (IsRosMap(root_))
     throw InputError({file.string(), 0}, "", "",
@@ -113,7 +126,7 @@ ScenarioFile::ScenarioFile(ConfigNode root, const fs::path& file,
   if (version == nullptr)
     throw InputError(root_.mark, "scenario", "", "the key is missing (scenario: 1)");
   AsInt(*version, "scenario", Between(1, 1));
-  if (files == Files::kCheck) CheckHashes(root_, file.parent_path());
+  TakeListedFiles(root_, file.parent_path(), files == Files::kCheck, files_);
   EpisodeParams params;
   ReadParams(
       root_, "", [&](ParamVisitor& v) { params.Visit(v); }, ScenarioKeys());
@@ -128,16 +141,21 @@ ScenarioFile::ScenarioFile(ConfigNode root, const fs::path& file,
   });
   variants_ = ReadMatrix(root_.Find("matrix"));
   // Of all variants: labelled ones need not change the same keys.
+  std::set<std::string> set_by_variants;
   for (const Variant& variant : variants_)
-    for (const auto& [key, value] : variant.overrides) {
-      for (const auto& o : overrides_)
-        if (Replaces(key, o.first) || Replaces(o.first, key))
-          throw InputError(o.second.mark, o.first, "", "the scenario's matrix sets " + key);
-      for (const RandomisedKey& r : randomised_)  // a part of what a variant sets may be drawn
-        if (Replaces(r.key_path, key))
-          throw InputError(r.mark, "randomise." + r.key_path, "",
-                           "the scenario's matrix sets " + key);
-    }
+    for (const auto& [key, value] : variant.overrides) set_by_variants.insert(key);
+  for (const std::string& key : set_by_variants)
+    for (const auto& o : overrides_)
+      if (Replaces(key, o.first) || Replaces(o.first, key))
+        throw InputError(o.second.mark, o.first, "", "the scenario's matrix sets " + key);
+  for (const RandomisedKey& r : randomised_) {  // a part of what a variant sets may be drawn
+    const auto first = set_by_variants.lower_bound(r.key_path);
+    const auto below = set_by_variants.lower_bound(r.key_path + ".");
+    for (const auto at : {first, below})
+      if (at != set_by_variants.end() && Replaces(r.key_path, *at))
+        throw InputError(r.mark, "randomise." + r.key_path, "",
+                         "the scenario's matrix sets " + *at);
+  }
 }
 
 void ScenarioFile::ReadSitePart(const ConfigNode& root, const Variant& changes, bool episode,
@@ -149,25 +167,25 @@ void ScenarioFile::ReadSitePart(const ConfigNode& root, const Variant& changes, 
     s.site_node = *node;
     s.site_folder = folder;
   } else {
-    s.site_file = NamedFile(folder, *node, "site");
+    s.site_file = NamedFile(folder, *node, "site", files_);
     auto known = site_files_.find(s.site_file);
     if (known == site_files_.end())
-      known = site_files_.emplace(s.site_file, ReadYamlFile(s.site_file)).first;
+      known = site_files_.emplace(s.site_file, ReadYamlFile(s.site_file, files_)).first;
     s.site_node = known->second;
     s.site_folder = s.site_file.parent_path();
   }
   Apply({"", overrides_}, true, s.site_node);
   Apply(changes, true, s.site_node);
   ConfigNode drawn = GeneratedSite(s.site_node, static_cast<std::uint64_t>(seed_), s.episode_id);
-  s.site = ReadSite(drawn, s.site_folder);
+  s.site = ReadSite(drawn, s.site_folder, files_);
   if (episode) s.site_node = std::move(drawn);  // else what is random about it stays so
   if (s.site.map.name.empty())
-    s.site.map.name = s.site_file.empty() ? s.name : s.site_file.stem().string();
+    s.site.map.name = s.site_file.empty() ? s.name : Printable(s.site_file.stem().string());
 }
 
 std::string ScenarioFile::name() const {
   const ConfigNode* name = root_.Find("name");
-  return name ? AsString(*name, "name") : file_.stem().string();
+  return name ? AsString(*name, "name") : Printable(file_.stem().string());
 }
 
 bool ScenarioFile::draws_differ() const {
@@ -218,6 +236,7 @@ Scenario ScenarioFile::ReadWith(std::optional<std::uint64_t> episode, const Vari
                                 const Variant& forced) const {
   Scenario s;
   s.file = file_;
+  s.files = files_;
   s.episode_id = episode.value_or(0);
   Variant changes = variant;
   if (episode) {
@@ -254,6 +273,7 @@ std::vector<fs::path> FilesRead(const Scenario& s) {
   std::vector<fs::path> files = s.site.files_read;
   if (!s.site_file.empty()) files.insert(files.begin(), s.site_file);
   files.push_back(s.robot_file);
+  for (const fs::path& file : s.robot.files | std::views::drop(1)) files.push_back(file);
   files.push_back(s.fmea_file);
   if (!s.plan_file.empty()) files.push_back(s.plan_file);
   return files;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/config.h"
+#include "base/input_files.h"
 #include "controllers/estimator.h"
 #include "controllers/mapper.h"
 #include "controllers/recovery.h"
@@ -33,6 +34,7 @@ namespace floorproof {
 
 struct Scenario {
   std::filesystem::path file;
+  InputFiles files;  // what it was read from
   std::uint64_t episode_id = 0;
   Drawn drawn;                         // what `randomise` drew for it
   std::set<std::string> written;       // the keys at its top
@@ -103,6 +105,8 @@ class ScenarioFile {
   Drawn DrawnOf(std::uint64_t episode) const;
 
   const std::filesystem::path& file() const { return file_; }
+  // Every file that was read for it so far, each once: what it gives does not change with them.
+  const InputFiles& files() const { return files_; }
   const std::vector<Variant>& variants() const { return variants_; }
   int seed() const { return seed_; }
   std::uint64_t episode() const { return episode_; }  // the key `episode`
@@ -115,7 +119,7 @@ class ScenarioFile {
 
  private:
   enum class Files { kCheck, kMayBeGone };
-  ScenarioFile(ConfigNode root, const std::filesystem::path& file,
+  ScenarioFile(std::optional<ConfigNode> root, const std::filesystem::path& file,
                const std::vector<Override>& overrides, Files files);
   Scenario ReadWith(std::optional<std::uint64_t> episode, const Variant& variant,
                     const Variant& forced) const;
@@ -123,6 +127,7 @@ class ScenarioFile {
                     Scenario& s) const;
 
   std::filesystem::path file_;
+  InputFiles files_;
   ConfigNode root_;
   std::vector<std::pair<std::string, ConfigNode>> overrides_;
   std::vector<RandomisedKey> randomised_;
@@ -147,7 +152,15 @@ std::vector<std::filesystem::path> FilesRead(const Scenario& scenario);
 std::vector<std::filesystem::path> InputsOf(const Scenario& scenario);
 
 // The scenario with every default stated, the site in it, paths valid from `folder` and the SHA-256
-// of each file read. Reading it gives the same scenario; resolving it again gives the same text.
-std::string ResolvedScenario(const Scenario& scenario, const std::filesystem::path& folder);
+// of each file read and of each of `more`. Reading it gives the same scenario; resolving it again
+// gives the same text.
+std::string ResolvedScenario(const Scenario& scenario, const std::filesystem::path& folder,
+                             const std::vector<std::filesystem::path>& more = {});
+
+// Writes scenario.resolved.yaml into the folder, and beside it copies of the files that it names,
+// so that the folder may be moved: reading takes the copies (base/input_files.h). Throws
+// InputError.
+void WriteResolvedScenario(const Scenario& scenario, const std::filesystem::path& folder,
+                           const std::vector<std::filesystem::path>& more = {});
 
 }  // namespace floorproof

@@ -88,7 +88,7 @@ void ReadRobotPart(const ConfigNode& root, const std::vector<int>& plan_lines, S
   if (s.robot_file == named.name) {  // not a bundled one
     ConfigNode path = ConfigNode::Scalar(named.name);
     path.mark = named.mark;
-    s.robot_file = NamedFile(s.file.parent_path(), path, "robot");
+    s.robot_file = NamedFile(s.file.parent_path(), path, "robot", s.files);
   }
   ReadParams(named.params, "robot.", [&](ParamVisitor& v) { s.robot_changes.Visit(v); }, {"name"});
   ReadGroup(root, "battery", s.battery);
@@ -96,7 +96,8 @@ void ReadRobotPart(const ConfigNode& root, const std::vector<int>& plan_lines, S
   const bool folds = std::ranges::any_of(s.user_plan, [&](const Waypoint& w) {
     return !w.shape.empty() && w.shape != s.robot_changes.shape;
   });
-  s.robot = ReadRobot(s.robot_file, s.robot_changes, folds ? Blocks::kHinged : Blocks::kLocked);
+  s.robot =
+      ReadRobot(s.robot_file, s.robot_changes, folds ? Blocks::kHinged : Blocks::kLocked, s.files);
   s.battery.voltage_v = s.robot.spec.battery.voltage_v;
   s.robot.spec.battery = s.battery;
   CheckShapes(s, plan_lines);
@@ -163,8 +164,8 @@ std::vector<int> ReadPlanPart(const ConfigNode& root, Scenario& s) {
   const ConfigNode* node = root.Find("plan");
   if (const ConfigNode* file = node && node->IsMap() ? node->Find("file") : nullptr) {
     RefuseUnknownKeys(*node, "plan.", {"file"});
-    s.plan_file = NamedFile(s.file.parent_path(), *file, "plan.file");
-    s.user_plan = ReadPlan(s.plan_file, s.site.map.frame, &lines);
+    s.plan_file = NamedFile(s.file.parent_path(), *file, "plan.file", s.files);
+    s.user_plan = ReadPlan(s.plan_file, s.site.map.frame, &lines, s.files);
     return lines;
   }
   const Named named = ReadNamed(root, "plan", "planner", "boustrophedon");
@@ -185,11 +186,11 @@ void ReadRisk(const ConfigNode& root, Scenario& s) {
   if (name == kBundledTables) {
     s.fmea_file = BundledTables();
   } else if (name.ends_with(".yaml")) {
-    s.fmea_file = NamedFile(s.file.parent_path(), *tables, "risk.tables");
+    s.fmea_file = NamedFile(s.file.parent_path(), *tables, "risk.tables", s.files);
   } else {
     throw InputError(tables->mark, "risk.tables", name, "must be htetro, or a .yaml file");
   }
-  s.fmea = ReadFmeaTables(s.fmea_file);
+  s.fmea = ReadFmeaTables(s.fmea_file, s.files);
   if (!s.risk.cell_m) return;
   constexpr double kMaxCells = 4e6;
   const GridFrame& frame = s.site.map.frame;
@@ -219,6 +220,18 @@ void RefuseFolding(const Scenario& s, const SourceMark& mark, const char* key, c
     throw InputError(mark, key, value, "cannot be with a plan that changes the robot's shape");
 }
 
+// A cell of the robot's map takes some 20 bytes.
+void CheckMapSize(const ConfigNode& node, const Mapper& mapper, const GridFrame& site) {
+  constexpr double kMaxCells = 64e6;  // of the largest floor at 0.05 m
+  const double cells = mapper.CellsOn(site);
+  if (cells <= kMaxCells) return;
+  const ConfigNode* written = node.Find("cell_m");
+  throw InputError(written ? written->mark : node.mark, "mapper.cell_m",
+                   written ? written->scalar : "",
+                   "makes " + std::to_string(std::lround(cells / 1e6)) +
+                       " million cells of the floor; at most 64 million are drawn");
+}
+
 // The mapper keeps what was met, so that a robot which reacts has one.
 void ReadReaction(const ConfigNode& root, Scenario& s) {
   if (const ConfigNode* node = Written(root, "react")) {
@@ -229,6 +242,7 @@ void ReadReaction(const ConfigNode& root, Scenario& s) {
   if (const ConfigNode* node = Written(root, "mapper")) {
     s.mapper.emplace();
     ReadParams(*node, "mapper.", *s.mapper);
+    CheckMapSize(*node, *s.mapper, s.site.map.frame);
   } else if (s.recovery) {
     s.mapper.emplace();
   }
@@ -285,9 +299,10 @@ const std::vector<std::string>& ScenarioKeys() {
   return keys;
 }
 
-fs::path NamedFile(const fs::path& folder, const ConfigNode& node, const std::string& key) {
+fs::path NamedFile(const fs::path& folder, const ConfigNode& node, const std::string& key,
+                   const InputFiles& files) {
   fs::path file = PathIn(folder, node, key);
-  if (const std::string why = WhyUnreadable(file, kMaxNamedBytes); !why.empty())
+  if (const std::string why = files.WhyUnreadable(file, kMaxNamedBytes); !why.empty())
     throw InputError(node.mark, key, node.scalar, why + ": " + file.string());
   return file;
 }

@@ -26,7 +26,7 @@ std::filesystem::path BundledTables();
 const std::vector<std::string>& ScenarioKeys();
 // A file that the scenario names and that can be read; throws InputError.
 std::filesystem::path NamedFile(const std::filesystem::path& folder, const ConfigNode& node,
-                                const std::string& key);
+                                const std::string& key, const InputFiles& files);
 // Parameters of the episode, of the physics and of the film. Throws InputError.
 void ReadTopKeys(const ConfigNode& root, Scenario& s);
 // Plan, robot, start, goal, plug-ins; the site is there. Throws InputError.

@@ -35,7 +35,8 @@ std::vector<std::string> Warnings(const Scenario& scenario) {
   }
   std::string outside;
   for (const fs::path& file : FilesRead(scenario))
-    if (!LiesIn(scenario.file.parent_path(), file) && !LiesIn(ModelsFolder(), file))
+    if (!scenario.files.HasStandIn(file) && !LiesIn(scenario.file.parent_path(), file) &&
+        !LiesIn(ModelsFolder(), file))
       outside += (outside.empty() ? "" : ", ") + file.lexically_normal().string();
   if (!outside.empty()) lines.push_back("reads outside the scenario's folder: " + outside);
   return lines;

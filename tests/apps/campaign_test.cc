@@ -283,6 +283,27 @@ TEST_F(CampaignTest, WithoutPhysicsNoFailureModeCanBeJudged) {
   EXPECT_THAT(refused.said, HasSubstr("gate.metric = stuck: must be not_success"));
 }
 
+TEST_F(CampaignTest, OfTwoStartsOnOneFolderOneGoesOn) {
+  for (const char* cwd : {"1", "2"}) std::filesystem::create_directories(folder_ / cwd);
+  const std::string arguments = "campaign ../s.yaml --no-films -n 20 --jobs 1 --out ../o";
+  Program first(arguments, folder_ / "1"), second(arguments, folder_ / "2");
+  const int statuses[] = {first.Wait(), second.Wait()};
+  ASSERT_TRUE((statuses[0] == 2) != (statuses[1] == 2)) << statuses[0] << ", " << statuses[1];
+  const Program& other = statuses[0] == 2 ? first : second;
+  EXPECT_THAT(other.Said(),
+              ::testing::AnyOf(HasSubstr("is in use"), HasSubstr("holds a campaign")));
+  EXPECT_EQ(Count("o", "SELECT count(*) FROM episode"), 20);
+}
+
+TEST_F(CampaignTest, AFolderFromAnotherMachineReplays) {
+  ASSERT_NE(Campaign("-n 3 --out a/b/o").status, 2);
+  std::filesystem::rename(folder_ / "a/b/o", folder_ / "o");
+  std::filesystem::remove(folder_ / "p.csv");
+  std::filesystem::remove(folder_ / "s.yaml");
+  const Ended dut = Run("replay o --episode 2");
+  EXPECT_EQ(dut.status, 0) << dut.said;
+}
+
 TEST_F(CampaignTest, AFixedGateIsNotLookedAtTwice) {
   Write("gate: {metric: not_success, max_rate: 0.5, confidence: 0.95}\n");
   ASSERT_NE(Campaign("-n 6 --out a").status, 2);

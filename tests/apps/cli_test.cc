@@ -179,6 +179,49 @@ TEST_F(Cli, JsonGoesToStdoutAlone) {
   EXPECT_EQ(nlohmann::json::parse(dut.out)["status"], "success");
 }
 
+TEST_F(Cli, WhatCannotBeSaidIsAnError) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  for (const char* arguments : {"--json list >/dev/full", "list >/dev/full",
+                                "run s.yaml --out o --json >/dev/full", "--help >/dev/full"}) {
+    const Result dut = Run(arguments);
+    EXPECT_EQ(dut.status, 3) << arguments;
+    EXPECT_THAT(dut.err, HasSubstr("stdout cannot be written")) << arguments;
+  }
+  EXPECT_TRUE(fs::exists(folder_ / "o" / "result.json"));
+}
+
+TEST_F(Cli, AReaderThatGoesAwayCostsNoFile) {
+  Run("run s.yaml --out o | true");
+  for (const char* file : {"result.json", "trace.csv", "plot_errors.png"})
+    EXPECT_TRUE(fs::exists(folder_ / "o" / file)) << file;
+}
+
+TEST_F(Cli, AUsersFilesAreNotWrittenOver) {
+  std::ofstream(folder_ / "plan.csv") << "x_m,y_m\n0.9,0.9\n2,0.9\n";
+  const std::string mine = Slurp(folder_ / "plan.csv");
+  const Result dut = Run("run s.yaml --out . --set 'plan={file: plan.csv}'");
+  EXPECT_EQ(dut.status, 2);
+  EXPECT_THAT(dut.err, HasSubstr("plan.csv: is read"));
+  EXPECT_EQ(Slurp(folder_ / "plan.csv"), mine);
+  fs::create_directories(folder_ / "o");
+  std::ofstream(folder_ / "o" / "video.mp4") << "my own";
+  EXPECT_EQ(Run("run s.yaml --out o").status, 2);
+  EXPECT_EQ(Slurp(folder_ / "o" / "video.mp4"), "my own");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "o"), {}), 1);
+  fs::remove(folder_ / "o" / "video.mp4");
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(Run("run s.yaml --out o").status, 0) << "its own";
+  EXPECT_EQ(Run("scene s.yaml --out s.yaml").status, 2);
+}
+
+TEST_F(Cli, NamesFromFilesNeverReachTheTerminalRaw) {
+  std::ofstream(folder_ / "a\x1b[2J\xff.yaml") << Slurp(folder_ / "s.yaml") << "drive: none\n";
+  const Result dut = Run("run a*.yaml --json");
+  EXPECT_EQ(dut.status, 0) << dut.err;
+  for (const std::string& text : {dut.out, dut.err})
+    EXPECT_EQ(text.find_first_of("\x1b\xff"), std::string::npos) << text;
+  EXPECT_EQ(nlohmann::json::parse(dut.out)["scenario"], "a?[2J?");
+}
+
 TEST_F(Cli, BadInputIsOneLineAndStatusTwo) {
   std::ofstream(folder_ / "bad.yaml") << "scenario: 1\nsite: s.yaml\nrobt: beluga\n";
   std::ofstream(folder_ / "binary.yaml") << std::string("\0\1\2\xff", 4);

@@ -44,7 +44,7 @@ class Program {
     const int out = open("/dev/null", O_RDWR);
     const int err = open(said_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     dup2(out, 0), dup2(out, 1), dup2(err, 2);
-    signal(SIGINT, on_sigint), signal(SIGTERM, SIG_DFL);
+    signal(SIGINT, on_sigint), signal(SIGTERM, SIG_DFL), signal(SIGHUP, SIG_DFL);
     const rlimit limit{most_bytes, most_bytes};  // of any file: a disk that is full
     setrlimit(RLIMIT_FSIZE, &limit);
     signal(SIGXFSZ, SIG_IGN);
@@ -213,6 +213,7 @@ TEST_F(InterruptTest, OfARunBeforeItsFilm) {
       {"o/plan.csv", 0, 0},
       {"o/plan.json", 0, 0},
       {"o/plan.json", 0, 0, SIGTERM},
+      {"o/plan.json", 0, 0, SIGHUP},
       {"o/plan.json", 0, 60},
       {"o/trace.csv", 0, 0},
       {"o/result.json", 0, 0},

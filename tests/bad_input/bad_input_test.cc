@@ -127,7 +127,7 @@ TEST_F(GoodInputTest, MayHaveNoPlan) {
 }
 
 // A disk that is full, wherever that is met: what was written before stays, no piece of a file is
-// left, and a verdict that was reached was said.
+// left, and a verdict that was reached was said: with status 3 and what is missing.
 using FullDiskTest = BadInputFolder;
 
 TEST_F(FullDiskTest, LeavesWholeFilesOnly) {
@@ -135,7 +135,6 @@ TEST_F(FullDiskTest, LeavesWholeFilesOnly) {
   for (const std::size_t room : {0, 100, 1500, 5000, 20000}) {
     fs::remove_all(folder_ / "o");
     const ChildResult dut = Run({"run", "drawn.yaml", "--out", "o"}, {.file_bytes = room});
-    EXPECT_EQ(dut.status, 2) << dut.err;
     EXPECT_EQ(std::ranges::count(dut.err, '\n'), 1) << dut.err;
     EXPECT_NE(dut.err.find("cannot be written: "), std::string::npos) << dut.err;
     for (const auto& entry : fs::directory_iterator(folder_ / "o")) {
@@ -144,8 +143,11 @@ TEST_F(FullDiskTest, LeavesWholeFilesOnly) {
       EXPECT_NE(entry.path().filename(), "result.json") << "says that the rest is whole";
     }
     bool driven = true;
-    for (const char* plans : {"/scenario.resolved.yaml", "/plan.csv", "/plan.json"})
-      driven = driven && dut.err.find(plans) == std::string::npos;
+    for (const char* before : {"/files.sha256", "/inputs/", "/scenario.resolved.yaml", "/plan.csv",
+                               "/plan.json", "/risk.csv"})
+      driven = driven && dut.err.find(before) == std::string::npos;
+    EXPECT_EQ(dut.status, driven ? 3 : 2) << dut.err;
+    EXPECT_EQ(dut.err.find("; missing: ") != std::string::npos, driven) << dut.err;
     EXPECT_EQ(dut.out.find("success: covered") != std::string::npos, driven) << dut.out << dut.err;
     some_driven |= driven, some_not |= !driven;
   }

@@ -57,6 +57,30 @@ std::vector<BadInput> YamlCases() {
                {file + ":3", "nested more than 100 levels deep"}),
       Scenario("ManyValues", first + "robot: [" + Repeated("1,", 1'200'000) + "1]\n",
                {file + ":2", "values (aliases expanded)"}),
+      Scenario("OneLongTextManyTimes",
+               first + "name: &a " + std::string(1'000'000, 'x') + "\nrobot: [*a" +
+                   Repeated(", *a", 4'000) + "]\n",
+               {file + ":", "MiB of memory (aliases expanded)"}),
+      Scenario("NestedAnchors",
+               first + "robot: " +
+                   [] {
+                     std::string text;
+                     for (int i = 0; i < 95; ++i) text += "&a" + std::to_string(i) + " [";
+                     return text + std::string(4'000'000, 'x') + std::string(95, ']') + "\n";
+                   }(),
+               {file + ":", "MiB of memory (aliases expanded)"}),
+      Scenario("ManyOtherKeys",
+               first + "randomise:\n" +
+                   [] {
+                     std::string text;
+                     for (int i = 0; i < 100'000; ++i) text += "  k" + std::to_string(i) + ": 1\n";
+                     return text;
+                   }(),
+               {file + ":3", "randomise.k0"}),
+      Scenario("AnEscapeInAName", first + "name: \"a\\e[2Jb\"\n",
+               {file + ":2", "name", "holds a control character"}),
+      Scenario("ATurnedName", first + "name: a\u202egnp.exe\n",
+               {file + ":2", "holds a mark of writing direction"}),
       Scenario("ManyKeys", first + Repeated("k: 1\n", 100'000), {file + ":3", "k", "stands twice"}),
       Scenario("LongLine", first + "site: site.yaml\nrobot: " + std::string(4'000'000, 'x') + "\n",
                {file + ":3", "robot = xxxxxxxx", "...", "unknown robot"}),

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sqlite3.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <fstream>
@@ -40,7 +41,7 @@ EpisodeRow Row(std::uint64_t episode, const std::string& variant = "default") {
     if (i % 3 != 1) row.metrics[i] = 0.1 + static_cast<double>(i * episode);
   row.drawn = R"({"site.floor.friction": 0.30000000000000004})";
   row.plan = R"({"status": "success"})";
-  row.events = R"([{"mode": "stuck"}])";
+  row.events = R"([{"mode": "stuck", "kind": "", "hazard": "", "t_s": 1, "x_m": 0, "y_m": 0}])";
   row.timeout = R"({"t_s": 60, "x_m": 1.5, "y_m": 2, "yaw_rad": 0, "hazard": "it's"})";
   row.wall_s = 0.25;
   return row;
@@ -302,6 +303,67 @@ TEST_F(CampaignStoreTest, ADamagedFileIsRefusedAndLeft) {
     EXPECT_TRUE(Slurp(file_) == bytes);
     for (const char* end : {"-wal", "-shm"}) fs::remove(file_.string() + end);
   }
+}
+
+// A file from elsewhere: what stands in it is refused before anything of it is run or written to.
+TEST_F(CampaignStoreTest, NothingOfAForeignFileIsRun) {
+  const auto expect_refused = [&](const std::string& sql, const char* why) {
+    fs::remove(file_);
+    Make(3);
+    sqlite3* db = nullptr;
+    ASSERT_EQ(sqlite3_open(file_.c_str(), &db), SQLITE_OK);
+    char* error = nullptr;
+    ASSERT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, &error), SQLITE_OK) << error;
+    sqlite3_close(db);
+    const auto before = Bytes(folder_);
+    for (const bool write : {false, true}) EXPECT_THAT(WhyRefused(write), HasSubstr(why)) << sql;
+    EXPECT_EQ(Bytes(folder_), before) << sql;
+  };
+  const std::string endless =
+      "WITH RECURSIVE r(n) AS (SELECT 1 UNION ALL SELECT n + 1 FROM r) SELECT 'format', n FROM r";
+  expect_refused("DROP TABLE about; CREATE VIEW about(key, value) AS " + endless, "holds a view");
+  expect_refused("DROP TABLE extra; CREATE VIEW extra AS SELECT * FROM episode", "holds a view");
+  expect_refused("CREATE TRIGGER t AFTER INSERT ON episode BEGIN DELETE FROM episode; END",
+                 "holds a trigger");
+  expect_refused("CREATE INDEX i ON episode(message)", "holds a index");
+  expect_refused("CREATE TABLE more(a)", "its tables are not about, episode, extra, timing");
+  expect_refused("ALTER TABLE episode ADD COLUMN c TEXT", "has not the columns of one");
+  expect_refused("ALTER TABLE episode ADD COLUMN c REAL AS (episode * 2)", "computes a column");
+}
+
+TEST_F(CampaignStoreTest, EveryTextIsReadBeforeAnyIsWritten) {
+  const auto expect_refused = [&](const std::string& set) {
+    fs::remove(file_);
+    Make(3);
+    sqlite3* db = nullptr;
+    ASSERT_EQ(sqlite3_open(file_.c_str(), &db), SQLITE_OK);
+    const std::string sql = "UPDATE episode SET " + set + " WHERE episode = 2";
+    ASSERT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << set;
+    sqlite3_close(db);
+    const auto before = Bytes(folder_);
+    EXPECT_THAT(WhyRefused(true), HasSubstr("is damaged")) << set;
+    EXPECT_EQ(Bytes(folder_), before) << set;
+  };
+  for (const char* set :
+       {"drawn = '[]'", "drawn = '3'", "plan = 'null'", "events = '{}'", "events = '[3]'",
+        "events = '[{\"mode\": 3}]'", "plan = '{\"a\": '", "outcome = 'triumph'", "message = x'ff'",
+        "message = CAST(x'41ff' AS TEXT)", "drawn = CAST(x'7b7dff' AS TEXT)", "turns = 'many'",
+        "stuck = -1", "message = zeroblob(17000000)"})
+    expect_refused(set);
+}
+
+TEST_F(CampaignStoreTest, OnlyPlainFilesAreOpened) {
+  Make(1);
+  fs::rename(file_, folder_ / "elsewhere");
+  fs::create_symlink(folder_ / "elsewhere", file_);
+  EXPECT_THAT(WhyRefused(true), HasSubstr("is no plain file"));
+  fs::remove(file_);
+  ASSERT_EQ(mkfifo(file_.c_str(), 0600), 0);
+  EXPECT_THAT(WhyRefused(false), HasSubstr("is no plain file"));
+  fs::remove(file_);
+  fs::rename(folder_ / "elsewhere", file_);
+  ASSERT_EQ(mkfifo((file_.string() + "-wal").c_str(), 0600), 0);
+  EXPECT_THAT(WhyRefused(true), HasSubstr("is no plain file"));
 }
 
 std::string WhyOther(const CampaignAbout& there, CampaignAbout now) {

@@ -96,6 +96,35 @@ TEST_F(DriveCampaignTest, HandsWarningsToTheObserver) {
   EXPECT_THAT(listener.warnings, ElementsAre(HasSubstr("reads outside the scenario's folder")));
 }
 
+// Overwrites the plan once the campaign has been read.
+class Meddler : public CampaignObserver {
+ public:
+  explicit Meddler(std::function<void()> meddle) : meddle_(std::move(meddle)) {}
+  void OnWarning(const std::string&) override { meddle_(); }
+
+ private:
+  std::function<void()> meddle_;
+};
+
+TEST_F(DriveCampaignTest, AllEpisodesAreOfOneInput) {
+  // A hazard off the map: a warning, which the meddler waits for.
+  const std::string text = RoomScenario(
+      "{type: step, polygon_m: [[50,50],[51,50],[51,51]], height_m: 0.1}", "drive: none\n");
+  const auto rows = [&](const char* out) {
+    std::vector<std::string> plans;
+    CampaignStore::Open(folder_ / out / "campaign.sqlite", false)
+        .ForEach("default", [&](const EpisodeRow& row) { plans.push_back(row.plan); });
+    return plans;
+  };
+  DriveCampaign(ScenarioFile(Save("s.yaml", text)), {.episodes = 4}, Folder("quiet"));
+  Meddler meddler([&] { Save("plan.csv", "x_m,y_m\n1.5,2.5\n6.0,2.5\n"); });
+  DriveCampaign(ScenarioFile(folder_ / "s.yaml"), {.episodes = 4, .jobs = 2}, Folder("o"),
+                &meddler);
+  ASSERT_THAT(Slurp(folder_ / "plan.csv"), HasSubstr("6.0")) << "the meddler was there";
+  EXPECT_EQ(rows("o"), rows("quiet"));
+  EXPECT_EQ(rows("o").size(), 4u);
+}
+
 TEST_F(DriveCampaignTest, AFixedGateIsNotLookedAtTwice) {
   const ScenarioFile file = File(kFixedGate);
   const std::string judged = SummaryText(DriveCampaign(file, {.episodes = 6}, Folder("o")));
@@ -138,7 +167,11 @@ TEST_F(DriveCampaignTest, MergeNamesWhatNoShardHolds) {
   EXPECT_THAT(missing, ElementsAre(std::pair(3u, 5u), std::pair(6u, 9u)));
   EXPECT_EQ(dut.summary.variants.at(0).n, 3) << "the prefix alone counts";
   EXPECT_EQ(dut.summary.gate->verdict, GateVerdict::kUndecided);
-  EXPECT_THAT(dut.paths_note,
+  EXPECT_EQ(dut.paths_note, "") << "the shards' copies of what is gone are enough";
+  fs::rename(folder_ / "joined", folder_ / "moved");
+  EXPECT_NO_THROW(ScenarioFile(folder_ / "moved/scenario.resolved.yaml").Read());
+  fs::remove_all(folder_ / "a/inputs");  // as of a version that kept none
+  EXPECT_THAT(MergeCampaigns({Folder("a"), Folder("b")}, folder_ / "again").paths_note,
               AllOf(HasSubstr("its paths hold from " + Folder("a")), HasSubstr("no such file")));
 }
 

@@ -30,6 +30,18 @@ TEST(Matrix, WithoutOneThereIsTheDefault) {
   EXPECT_TRUE(ReadMatrix(nullptr).front().overrides.empty());
 }
 
+// Refused by their number, before each is compared with all others.
+TEST(Matrix, ManyVariantsAreRefusedAtOnce) {
+  std::string list = "[0";
+  for (int i = 1; i < 100'000; ++i) list += "," + std::to_string(i);
+  try {
+    Read("seed_of_x: " + list + "]\n");
+    FAIL() << "taken";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("more than 10000 variants"));
+  }
+}
+
 TEST(Matrix, IsAllCombinationsTheLastKeyFastest) {
   const auto dut = Read("robot: [beluga, htetro]\nsite.floor.friction: [0.5, 1]\n");
   EXPECT_THAT(Names(dut), ElementsAre("robot=beluga,friction=0.5", "robot=beluga,friction=1",

@@ -47,6 +47,13 @@ TEST_F(PlanFile, ColumnsMayComeInAnyOrderAndMayBeMissing) {
   EXPECT_EQ(read[1].p_W, Vec2(4, 3));
 }
 
+// Each alone may be as long as all together.
+TEST_F(PlanFile, DwellsAreBoundedTogether) {
+  EXPECT_EQ(Refusal("x_m,y_m,dwell_s\n1,1,60000\n2,2,40000\n"), "accepted");
+  EXPECT_THAT(Refusal("x_m,y_m,dwell_s\n1,1,60000\n2,2,40000\n3,3,0.001\n"),
+              HasSubstr("plan.csv:4: dwell_s = 0.001: makes more than 100000 s"));
+}
+
 TEST_F(PlanFile, ARefusalNamesLineColumnAndRule) {
   EXPECT_THAT(Refusal("x_m,y_m\n1,2\n1,two\n"),
               HasSubstr("plan.csv:3: y_m = two: must be a number"));

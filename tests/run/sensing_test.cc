@@ -48,6 +48,27 @@ class SensingTest : public ScenarioTest {
   static std::string Trace(const EpisodeRecord& record) { return TraceCsv(record, {}); }
 };
 
+// By the memory that its cells take, whatever the floor's own cells are.
+TEST_F(SensingTest, ARobotsMapHasABoundedNumberOfCells) {
+  const auto refusal = [&](const std::string& cell_m) -> std::string {
+    std::string rows;
+    for (int y = 0; y < 40; ++y)
+      rows += "      " + (y % 39 == 0 ? std::string(160, '#') : "#" + std::string(158, '.') + "#") +
+              "\n";
+    try {
+      Read("scenario: 1\nsite:\n  site: 1\n  grid:\n    cell_m: 2.5\n    rows: |\n" + rows +
+           "  start: {x_m: 5, y_m: 5, yaw_deg: 0}\nrobot: beluga\nplan: {file: plan.csv}\n"
+           "mapper: {cell_m: " +
+           cell_m + "}\n");
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "taken";
+  };
+  EXPECT_EQ(refusal("0.05"), "taken");
+  EXPECT_THAT(refusal("0.01"), HasSubstr("mapper.cell_m = 0.01: makes 400 million cells"));
+}
+
 TEST_F(SensingTest, WhatAPartNeedsIsCarried) {
   const auto carried = [&](const std::string& keys) {
     return Carried(Read(RoomScenario("", keys + "\n")));

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/input_files.h"
+
+#include <map>
+#include <optional>
+
+#include "base/error.h"
+#include "base/file_output.h"
+#include "base/input_file.h"
+#include "base/result_folder.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kAnySize = std::uintmax_t{1} << 40;
+
+struct Input {
+  fs::path named;  // as first asked for
+  std::optional<std::string> bytes;
+  std::string sha256;
+  fs::path copy;  // that stands in for it; empty: none
+  bool absolute = false;
+};
+
+}  // namespace
+
+struct InputFiles::Shared {
+  std::map<fs::path, Input> inputs;         // by canonical path
+  std::map<std::string, Input*> spellings;  // asking again costs no look at the disk
+  std::vector<fs::path> order;
+
+  Input& At(const fs::path& file) {
+    Input*& known = spellings[file.string()];
+    if (known == nullptr) {
+      std::error_code error;
+      fs::path key = fs::weakly_canonical(fs::absolute(file), error);
+      if (error) key = fs::absolute(file).lexically_normal();  // a loop of links: reading says so
+      known = &inputs[key];
+      if (known->named.empty()) known->named = file;
+    }
+    return *known;
+  }
+
+  const std::string& Bytes(const fs::path& file, std::uintmax_t most_bytes) {
+    Input& input = At(file);
+    if (!input.bytes) {
+      std::string bytes = ReadInputFile(input.copy.empty() ? file : input.copy, most_bytes);
+      std::string hash = floorproof::Sha256(bytes);
+      if (!input.copy.empty() && hash != input.sha256)
+        throw InputError({input.copy.string(), 0}, "", "",
+                         "is not what its name says: SHA-256 " + hash);
+      input.bytes = std::move(bytes);
+      input.sha256 = std::move(hash);
+      order.push_back(input.named);
+    }
+    if (input.bytes->size() > most_bytes)
+      throw InputError({file.string(), 0}, "", "",
+                       "larger than " + std::to_string(most_bytes >> 20) + " MiB");
+    return *input.bytes;
+  }
+};
+
+InputFiles::InputFiles() : shared_(std::make_shared<Shared>()) {}
+
+const std::string& InputFiles::Read(const fs::path& file, std::uintmax_t most_bytes) const {
+  return shared_->Bytes(file, most_bytes);
+}
+
+std::string InputFiles::ReadStart(const fs::path& file, std::size_t count,
+                                  std::uintmax_t most_bytes) const {
+  const Input& input = shared_->At(file);
+  if (input.bytes) return input.bytes->substr(0, count);
+  return ReadStartOfFile(input.copy.empty() ? file : input.copy, count, most_bytes);
+}
+
+std::string InputFiles::WhyUnreadable(const fs::path& file, std::uintmax_t most_bytes) const {
+  const Input& input = shared_->At(file);
+  if (input.bytes && input.bytes->size() <= most_bytes) return "";
+  return floorproof::WhyUnreadable(input.copy.empty() ? file : input.copy, most_bytes);
+}
+
+const std::string& InputFiles::Sha256(const fs::path& file) const {
+  const Input& input = shared_->At(file);
+  if (input.sha256.empty()) shared_->Bytes(file, kAnySize);
+  return input.sha256;
+}
+
+std::uintmax_t InputFiles::Size(const fs::path& file) const {
+  const Input& input = shared_->At(file);
+  if (input.bytes) return input.bytes->size();
+  const fs::path& read = input.copy.empty() ? file : input.copy;
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(read, error);
+  if (error) throw InputError({read.string(), 0}, "", "", "cannot be read: " + error.message());
+  return size;
+}
+
+void InputFiles::StandIn(const fs::path& file, const std::string& sha256,
+                         const fs::path& copy) const {
+  Input& input = shared_->At(file);
+  input.sha256 = sha256;
+  input.copy = copy;
+}
+
+bool InputFiles::HasStandIn(const fs::path& file) const { return !shared_->At(file).copy.empty(); }
+
+std::vector<fs::path> InputFiles::StoodIn() const {
+  std::vector<fs::path> files;
+  for (const auto& [path, input] : shared_->inputs)
+    if (!input.copy.empty()) files.push_back(path);
+  return files;
+}
+
+void InputFiles::MarkAbsolute(const fs::path& file) const { shared_->At(file).absolute = true; }
+
+bool InputFiles::IsAbsolute(const fs::path& file) const { return shared_->At(file).absolute; }
+
+std::vector<fs::path> InputFiles::All() const { return shared_->order; }
+
+fs::path KeptCopy(const fs::path& folder, const std::string& sha256) {
+  return folder / "inputs" / sha256;
+}
+
+void KeepCopy(const InputFiles& files, const fs::path& file, const fs::path& folder) {
+  const std::string& hash = files.Sha256(file);
+  const fs::path copy = KeptCopy(folder, hash);
+  RefuseLinks(folder, copy.parent_path());
+  std::error_code ignored;
+  const fs::file_status there = fs::symlink_status(copy, ignored);
+  if (fs::exists(there)) {
+    if (!fs::is_regular_file(there) || Sha256OfFile(copy) != hash)
+      throw InputError({copy.string(), 0}, "", "",
+                       "is not what its name says; --out names another "
+                       "folder");
+    return;
+  }
+  MakeFolder(copy.parent_path());
+  WriteFileWhole(copy, files.Read(file, kAnySize));
+}
+
+}  // namespace floorproof

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The engine's own reading of files, answered from InputFiles: so that what it resolves (includes,
+// meshes, textures, height fields) is what is read once, hashed and kept.
+//
+// MuJoCo asks a provider for every file below the folder that the provider is mounted at, by its
+// absolute path. One is mounted at each folder of the root.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "base/input_files.h"
+
+namespace floorproof {
+
+class EngineFiles {
+ public:
+  EngineFiles() = default;
+  // For the model in `file`, an absolute path. Throws InternalError when MuJoCo mounts nothing.
+  EngineFiles(const InputFiles& files, const std::filesystem::path& file);
+
+  // As long as somebody holds it, what was read stays.
+  std::shared_ptr<const mjVFS> shared_vfs() const { return vfs_; }
+  const mjVFS* vfs() const { return vfs_.get(); }
+  // What the engine has opened so far, each once, in that order.
+  std::vector<std::filesystem::path> Opened() const;
+
+ private:
+  struct Served;
+  std::shared_ptr<Served> served_;
+  std::shared_ptr<const mjVFS> vfs_;
+};
+
+}  // namespace floorproof

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scenario is read from: read once, hashed, kept beside its record.
+#include <gmock/gmock.h>
+
+#include "base/file_output.h"
+#include "run/campaign/campaign_about.h"
+#include "run/episode/make_plan.h"
+#include "run/episode/records.h"
+#include "tests/run/scenario_text.h"
+#include "tests/slurp.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::Each;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string WhyRefused(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(InputFiles, AFileIsReadOnceUnderWhateverNames) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "InputFiles.Once";
+  fs::create_directories(folder);
+  std::ofstream(folder / "a") << "first";
+  const InputFiles dut, copy = dut, other;
+  EXPECT_EQ(dut.Read(folder / "a", 100), "first");
+  std::ofstream(folder / "a") << "second";
+  EXPECT_EQ(dut.Read(folder / "." / "a", 100), "first");
+  EXPECT_EQ(copy.Read(folder / "a", 100), "first") << "copies share";
+  EXPECT_EQ(dut.Sha256(folder / "a"), Sha256("first"));
+  EXPECT_EQ(other.Read(folder / "a", 100), "second");
+  EXPECT_EQ(dut.All().size(), 1u);
+  EXPECT_THROW(dut.Read(folder / "a", 3), InputError);
+  fs::remove_all(folder);
+}
+
+TEST(InputFiles, ACopyStandsInAndMustBeWhatItsNameSays) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "InputFiles.Copy";
+  fs::create_directories(folder);
+  std::ofstream(folder / "a") << "content";
+  KeepCopy(InputFiles(), folder / "a", folder);
+  const fs::path kept = KeptCopy(folder, Sha256("content"));
+  EXPECT_EQ(Slurp(kept), "content");
+  const InputFiles dut, damaged;
+  dut.StandIn("/nowhere/b", Sha256("content"), kept);
+  EXPECT_EQ(dut.WhyUnreadable("/nowhere/b", 100), "");
+  EXPECT_EQ(dut.Read("/nowhere/../nowhere/b", 100), "content");
+  std::ofstream(kept) << "other";
+  damaged.StandIn("/nowhere/b", Sha256("content"), kept);
+  EXPECT_THAT(WhyRefused([&] { damaged.Read("/nowhere/b", 100); }),
+              AllOf(HasSubstr(kept.string()), HasSubstr("is not what its name says")));
+  EXPECT_THAT(WhyRefused([&] { KeepCopy(InputFiles(), folder / "a", folder); }),
+              HasSubstr("is not what its name says"));
+  fs::remove_all(folder);
+}
+
+// BELUGA with a load that is a mesh, on a floor from a ROS map, after a plan of its own: all in
+// files of the user's.
+class ScenarioInputs : public ScenarioTest {
+ protected:
+  ScenarioInputs() {
+    for (const char* name : {"in/robot/parts", "in/robot/meshes", "in/map"})
+      fs::create_directories(folder_ / name);
+    std::string mjcf = Slurp(ModelsFolder() / "beluga.xml");
+    const std::string at = "<mujoco model=\"beluga\">", joint = "<freejoint name=\"root\"/>";
+    mjcf.replace(mjcf.find(at), at.size(), at + R"(<include file="parts/load.xml"/>)");
+    mjcf.replace(mjcf.find(joint), joint.size(), joint + R"(<geom type="mesh" mesh="load"
+        pos="0 0 0.1" contype="0" conaffinity="0" density="1000"/>)");
+    Save("in/robot/robot.xml", mjcf);
+    Save("in/robot/parts/load.xml",
+         R"(<mujoco><asset><mesh name="load" file="../meshes/load.obj"/></asset></mujoco>)");
+    SaveLoad(0.1);
+    SaveMap(20);
+    SavePlan(1.0);
+    Save("in/s.yaml",
+         "scenario: 1\nsite: {site: 1, map: map/map.yaml}\nrobot: robot/robot.xml\n"
+         "start: {x_m: 1, y_m: 1, yaw_deg: 0}\nplan: {file: plan.csv}\ndrive: none\n");
+  }
+  // A cube of that side, whose weight the robot's mass tells.
+  void SaveLoad(double side_m) const {
+    std::string obj;
+    for (int i = 0; i < 8; ++i)
+      obj += "v " + std::to_string(i & 1 ? side_m : 0) + " " + std::to_string(i & 2 ? side_m : 0) +
+             " " + std::to_string(i & 4 ? side_m : 0) + "\n";
+    for (const char* face : {"1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"})
+      obj += std::string("f ") + face + "\n";
+    Save("in/robot/meshes/load.obj", obj);
+  }
+  // A free floor of so many cells a side, of 0.2 m.
+  void SaveMap(int cells) const {
+    std::string image = "P2\n" + std::to_string(cells) + " " + std::to_string(cells) + "\n255\n";
+    for (int i = 0; i < cells * cells; ++i) image += "254\n";
+    Save("in/map/map.pgm", image);
+    Save("in/map/map.yaml",
+         "image: map.pgm\nresolution: 0.2\norigin: [0, 0, 0]\n"
+         "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  }
+  void SavePlan(double y_m) const {
+    Save("in/plan.csv", "x_m,y_m\n1,1\n2," + std::to_string(y_m) + "\n");
+  }
+  static std::string Read(const ScenarioFile& file, std::optional<std::uint64_t> episode = 0) {
+    const Scenario s = file.Read(episode);
+    return std::to_string(s.robot.spec.mass_kg) + " kg, " + std::to_string(s.site.map.frame.width) +
+           " cells, to y " + std::to_string(s.user_plan.back().p_W.y());
+  }
+  // Built, as an episode is: meshes are read by the compiler.
+  static double MassOfScene(const ScenarioFile& file) {
+    const Scenario s = file.Read();
+    const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
+    return scene.model->body_subtreemass[scene.base_body];
+  }
+  std::vector<std::string> FilesListed(const std::string& resolved) const {
+    std::vector<std::string> names;
+    const ConfigNode root = ParseYaml(resolved, "");
+    for (const auto& [name, hash] : root.Find("files")->entries) names.push_back(name);
+    return names;
+  }
+};
+
+TEST_F(ScenarioInputs, EpisodesKeepToTheInputsOfTheFirst) {
+  const ScenarioFile dut(folder_ / "in/s.yaml");
+  const std::string before = Read(dut);
+  const double mass_kg = MassOfScene(dut);
+  SavePlan(2.0);
+  SaveMap(30);
+  SaveLoad(0.2);
+  EXPECT_EQ(Read(dut, 1), before);
+  EXPECT_EQ(MassOfScene(dut), mass_kg);
+  const ScenarioFile anew(folder_ / "in/s.yaml");
+  EXPECT_THAT(Read(anew), AllOf(HasSubstr("30 cells"), HasSubstr("y 2.0")));
+  EXPECT_NEAR(MassOfScene(anew) - mass_kg, 7.0, 1e-6) << "8 l of water, and 1 l before";
+  EXPECT_EQ(MassOfScene(dut), mass_kg) << "whoever reads it in between";
+}
+
+TEST_F(ScenarioInputs, EveryFileThatTheEngineOpensIsListed) {
+  const ScenarioFile file(folder_ / "in/s.yaml");
+  const std::string resolved = ResolvedScenario(file.Read(), folder_ / "out");
+  for (const char* name :
+       {"../in/robot/robot.xml", "../in/robot/parts/load.xml", "../in/robot/meshes/load.obj",
+        "../in/map/map.yaml", "../in/map/map.pgm", "../in/plan.csv"})
+    EXPECT_THAT(FilesListed(resolved), ::testing::Contains(name));
+}
+
+TEST_F(ScenarioInputs, AnotherMeshIsAnotherCampaign) {
+  const CampaignAbout before = DescribeCampaign(ScenarioFile(folder_ / "in/s.yaml"));
+  RequireSame(before, DescribeCampaign(ScenarioFile(folder_ / "in/s.yaml")), "o");
+  SaveLoad(0.2);
+  const CampaignAbout after = DescribeCampaign(ScenarioFile(folder_ / "in/s.yaml"));
+  EXPECT_THAT(WhyRefused([&] { RequireSame(before, after, "o"); }), HasSubstr("load.obj"));
+}
+
+TEST_F(ScenarioInputs, ARecordIsReadWhereItIsMovedTo) {
+  const ScenarioFile file(folder_ / "in/s.yaml");
+  const std::string before = Read(file);
+  const double mass_kg = MassOfScene(file);
+  fs::create_directories(folder_ / "out");
+  WriteResolvedScenario(file.Read(), folder_ / "out");
+  fs::create_directories(folder_ / "some/where");
+  fs::rename(folder_ / "out", folder_ / "some/where/else");
+  fs::remove_all(folder_ / "in");
+  const fs::path record = folder_ / "some/where/else/scenario.resolved.yaml";
+  const ScenarioFile dut(record);
+  EXPECT_EQ(Read(dut), before);
+  EXPECT_EQ(MassOfScene(dut), mass_kg);
+  EXPECT_EQ(ResolvedScenario(dut.Read(), record.parent_path()), Slurp(record));
+  // Moved on, and from there again.
+  fs::create_directories(folder_ / "third");
+  WriteResolvedScenario(dut.Read(), folder_ / "third");
+  fs::remove_all(folder_ / "some");
+  EXPECT_EQ(Read(ScenarioFile(folder_ / "third/scenario.resolved.yaml")), before);
+}
+
+// Named by absolute paths, in the map and in the robot.
+TEST_F(ScenarioInputs, AbsolutePathsMoveToo) {
+  Save("in/robot/parts/load.xml", R"(<mujoco><asset><mesh name="load" file=")" +
+                                      (folder_ / "in/robot/meshes/load.obj").string() +
+                                      R"("/></asset></mujoco>)");
+  Save("in/map/map.yaml", "image: " + (folder_ / "in/map/map.pgm").string() +
+                              "\nresolution: 0.2\norigin: [0, 0, 0]\noccupied_thresh: 0.65\n"
+                              "free_thresh: 0.196\n");
+  const ScenarioFile file(folder_ / "in/s.yaml");
+  const std::string before = Read(file);
+  const double mass_kg = MassOfScene(file);
+  fs::create_directories(folder_ / "out");
+  WriteResolvedScenario(file.Read(), folder_ / "out");
+  fs::create_directories(folder_ / "a/b");
+  fs::rename(folder_ / "out", folder_ / "a/b/c");
+  fs::remove_all(folder_ / "in");
+  const ScenarioFile dut(folder_ / "a/b/c/scenario.resolved.yaml");
+  EXPECT_EQ(Read(dut), before);
+  EXPECT_EQ(MassOfScene(dut), mass_kg);
+}
+
+TEST_F(ScenarioInputs, ACopyThatWasChangedIsRefused) {
+  fs::create_directories(folder_ / "out");
+  const Scenario s = ScenarioFile(folder_ / "in/s.yaml").Read();
+  WriteResolvedScenario(s, folder_ / "out");
+  for (const auto& entry : fs::directory_iterator(folder_ / "out/inputs")) {
+    const std::string was = Slurp(entry.path());
+    std::ofstream(entry.path()) << was << "\n";
+    EXPECT_THAT(
+        WhyRefused([&] { ScenarioFile(folder_ / "out/scenario.resolved.yaml").Read(); }),
+        AllOf(HasSubstr(entry.path().filename().string()), HasSubstr("is not what its name says")));
+    std::ofstream(entry.path()) << was;
+  }
+}
+
+// A record of a version that kept no copies.
+TEST_F(ScenarioInputs, WithoutCopiesTheFilesThemselvesAreReadAndCompared) {
+  fs::create_directories(folder_ / "out");
+  const ScenarioFile file(folder_ / "in/s.yaml");
+  WriteResolvedScenario(file.Read(), folder_ / "out");
+  fs::remove_all(folder_ / "out/inputs");
+  EXPECT_EQ(Read(ScenarioFile(folder_ / "out/scenario.resolved.yaml")), Read(file));
+  SaveLoad(0.2);
+  EXPECT_THAT(WhyRefused([&] { ScenarioFile(folder_ / "out/scenario.resolved.yaml").Read(); }),
+              AllOf(HasSubstr("load.obj"), HasSubstr("has changed since")));
+}
+
+}  // namespace
+}  // namespace floorproof
