@@ -41,6 +41,7 @@ constexpr double kSamePlaceM = 0.1;      // contacts this near with like normals
 constexpr double kSameNormalCos = 0.9;
 constexpr double kPressS = 0.05, kSoftestS = 0.08;
 constexpr double kTread_s = 0.015;  // way of a wheel up a face, over the closing speed
+constexpr double kPast_m = 0.002;   // beyond where it touched
 constexpr double kChatterS = 0.1;   // a contact lost for less than this has not ended
 
 class BounceBack final : public Detector {
@@ -248,6 +249,13 @@ class BounceBack final : public Detector {
     } else if (!meeting.settled) {
       meeting.gap_m = std::max(meeting.gap_m, Least(meeting.at, meeting.touched));
       meeting.peak_mps = std::max(meeting.peak_mps, away_mps);
+    }
+    // Driven on, over it: what comes later is another obstacle's.
+    const bool past =
+        std::max(meeting.at[0] - meeting.touched[0], meeting.at[1] - meeting.touched[1]) < -kPast_m;
+    if (past && !meeting.touching && !meeting.met) {
+      meeting.watched = false;
+      return false;
     }
     Judge(meeting, sample);
     if (!meeting.met || (away_mps > 0 && !sample.command.done)) return false;
