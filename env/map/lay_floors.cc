@@ -46,25 +46,6 @@ double Width(const Polygon& convex) {
   return least;
 }
 
-// Without corners that are one with the next, or lie on a straight side: in single precision a
-// mesh's faces there would have no direction.
-Polygon Plain(const Polygon& polygon) {
-  constexpr double kOne_m = 1e-5;
-  Polygon apart;
-  for (const Vec2& p : polygon)
-    if (apart.empty() || (p - apart.back()).norm() > kOne_m) apart.push_back(p);
-  while (apart.size() > 1 && (apart.front() - apart.back()).norm() <= kOne_m) apart.pop_back();
-  Polygon plain;
-  const std::size_t n = apart.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec2 &before = apart[(i + n - 1) % n], &after = apart[(i + 1) % n];
-    const Vec2 across = after - before;
-    if (std::abs(Cross(across, apart[i] - before)) > kOne_m / 10 * across.norm())
-      plain.push_back(apart[i]);
-  }
-  return plain;
-}
-
 // A tapered solid's cross-section, `share` of the way up. Corners that fall together are one.
 Polygon Section(const Solid& solid, double share) {
   Polygon section;
@@ -111,7 +92,7 @@ void AddWithin(const Solid& solid, const Polygon& column, std::vector<Solid>& ou
   const double height_m = solid.z_high_m - solid.z_low_m;
   const auto within = [&](double share) {
     const auto regions = Intersection({{column, {}}}, {Section(solid, share)});
-    return regions.empty() ? Polygon{} : Plain(regions.front().outer);
+    return regions.empty() ? Polygon{} : regions.front().outer;
   };
   const std::vector<double> levels = Levels(solid, column);
   double from = 0;

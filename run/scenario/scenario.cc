@@ -49,9 +49,10 @@ bool NamesFile(const std::string& key, const std::string& value) {
 
 // What is typed is meant from the folder in which it is typed, where a file lies there; else it is
 // read as if it stood in the scenario.
-void FindFromHere(const std::string& key, ConfigNode& value) {
+void FindFromHere(const std::string& key, const fs::path& folder, ConfigNode& value) {
   std::error_code ignored;
-  if (value.IsScalar() && NamesFile(key, value.scalar) && fs::exists(value.scalar, ignored))
+  if (value.IsScalar() && NamesFile(key, value.scalar) && fs::exists(value.scalar, ignored) &&
+      !fs::equivalent(value.scalar, folder / value.scalar, ignored))
     value.scalar = fs::absolute(value.scalar).string();
 }
 
@@ -118,7 +119,7 @@ ScenarioFile::ScenarioFile(std::optional<ConfigNode> root, const fs::path& file,
                          "` writes a scenario for it");
   for (const Override& o : overrides) {
     overrides_.emplace_back(o.key_path, ParseYaml(o.value, "--set " + o.key_path));
-    FindFromHere(o.key_path, overrides_.back().second);
+    FindFromHere(o.key_path, file.parent_path(), overrides_.back().second);
   }
   Apply({"", overrides_}, false, root_);
   RefuseUnknownKeys(root_, "", ScenarioKeys());
