@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t kMaxNodes = 400'000;
 constexpr std::size_t kMaxNesting = 100;
 constexpr std::uintmax_t kMaxBytes = 8u << 20;
-constexpr std::size_t kMaxTreeBytes = 192u << 20;  // 400,000 nodes with room for their texts
+constexpr std::size_t kMaxTreeBytes = 96u << 20;  // 400,000 nodes with room for their texts
 
 // What a tree takes.
 struct Cost {
@@ -87,7 +87,7 @@ class TreeBuilder : public YAML::EventHandler {
     if (tag != "!" && tag != "?" && !tag.empty())
       throw InputError(node.mark, "", tag, "YAML tags are not allowed");
     if (const std::string why = WhyUnprintable(value); !why.empty())
-      throw InputError(node.mark, "", value, why);
+      throw InputError(node.mark, KeyHere(), value, why);
     if (!node.quoted && (value == "~" || value == "null" || value.empty()))
       node.kind = ConfigNode::Kind::kNull;
     Remember(anchor, node);
@@ -117,6 +117,10 @@ class TreeBuilder : public YAML::EventHandler {
   };
 
   SourceMark At(const YAML::Mark& mark) const { return {file_, mark.line + 1}; }
+  // Of the value that is read now; none in a list, or where it is a key itself.
+  std::string KeyHere() const {
+    return !stack_.empty() && stack_.back().has_key ? stack_.back().key : "";
+  }
   // What is copied counts each time: for aliases, and for anchors, which may be nested.
   void Charge(const Cost& cost, const SourceMark& mark) {
     cost_ += cost;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/input_file.h"
 #include "base/result_folder.h"
@@ -34,14 +35,12 @@ nlohmann::ordered_json Renamed(const nlohmann::ordered_json& metrics) {
   return renamed;
 }
 
-void CheckSame(const fs::path& result_file, const nlohmann::ordered_json& now) {
-  auto before =
-      nlohmann::ordered_json::parse(ReadInputFile(result_file, kMaxResultBytes), nullptr, false);
-  if (!before.is_object())
-    throw InputError({result_file.string(), 0}, "", "", "is not a result (a JSON object)");
-  if (before.contains("metrics")) before["metrics"] = Renamed(before["metrics"]);
-  for (const char* key : {"outcome", "events", "metrics"})
-    if (before.value(key, nlohmann::ordered_json()) != now[key]) RefuseReplay(result_file, key);
+nlohmann::ordered_json ReadResult(const fs::path& file) {
+  auto result = nlohmann::ordered_json::parse(ReadInputFile(file, kMaxResultBytes), nullptr, false);
+  if (!result.is_object())
+    throw InputError({file.string(), 0}, "", "", "is not a result (a JSON object)");
+  if (result.contains("metrics")) result["metrics"] = Renamed(result["metrics"]);
+  return result;
 }
 
 }  // namespace
@@ -49,11 +48,16 @@ void CheckSame(const fs::path& result_file, const nlohmann::ordered_json& now) {
 nlohmann::ordered_json ReplayRun(const fs::path& folder, const std::vector<Override>& overrides,
                                  bool video, const Console& console) {
   Scenario scenario = ReadScenario(folder / "scenario.resolved.yaml", overrides);
+  const fs::path result_file = folder / "result.json";
+  std::optional<nlohmann::ordered_json> recorded;  // none: another drive than this one's
+  if (overrides.empty()) recorded = ReadResult(result_file);
   const DriveResult result =
       DriveAndFilm(scenario, folder, {.video = video, .write_records = false}, console);
   if (result.not_written) std::rethrow_exception(result.not_written);
   auto json = ResultJson(scenario, result.record);
-  if (overrides.empty()) CheckSame(folder / "result.json", json);
+  for (const char* key : {"outcome", "events", "metrics"})
+    if (recorded && recorded->value(key, nlohmann::ordered_json()) != json[key])
+      RefuseReplay(result_file, key);
   return json;
 }
 

@@ -191,6 +191,16 @@ class BounceBack final : public Detector {
     return nullptr;
   }
 
+  // A robot that presses on a dead face rocks against it: what then touches more softly than at the
+  // impact is no impact of its own.
+  bool Chatters(const Meeting& meeting, const ObstacleContact& contact) const {
+    return std::ranges::any_of(meetings_, [&](const Meeting& other) {
+      return other.watched && other.settled && other.hazard == meeting.hazard &&
+             other.normal_W.dot(meeting.normal_W) > kSameNormalCos &&
+             other.closing_mps >= contact.closing_mps;
+    });
+  }
+
   // Matches a contact to those of the last step, or begins one.
   void See(const ObstacleContact& contact, const Sample& sample) {
     Meeting* meeting = Find(contact);
@@ -211,7 +221,8 @@ class BounceBack final : public Detector {
       meeting->block = static_cast<std::size_t>(contact.block);
       meeting->height_m = contact.height_m - sample.p_WB.z();
     }
-    if (!begins || !armed_ || !(contact.closing_mps > closing_mps_)) return;
+    if (!begins || !armed_ || !(contact.closing_mps > closing_mps_) || Chatters(*meeting, contact))
+      return;
     meeting->watched = true;
     meeting->since_s = sample.t_s;
     meeting->closing_mps = contact.closing_mps;

@@ -188,6 +188,10 @@ class Stuck final : public Detector {
     } else {  // a turn by turn_rad counts as a way of displacement_m
       out.least_m = out.least_rad * displacement_m_ / turn_rad_;
       out.done_m = last.turns_in_vain ? 0 : out.turned_rad * displacement_m_ / turn_rad_;
+      // Between the turns it may have got on by the way that was commanded.
+      if (way_m >= least_speed_mps_ * window_s_)
+        out.done_m = std::max(
+            out.done_m, out.least_m * out.gained_m / std::min(displacement_m_, fraction_ * way_m));
     }
     return out;
   }

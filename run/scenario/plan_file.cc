@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/scenario/plan_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <sstream>
@@ -113,7 +115,7 @@ Path ReadPlan(const std::filesystem::path& file, const GridFrame& map, std::vect
     if (dwell_s > kLongestDwell_s)
       throw InputError(
           mark, "dwell_s", FormatDouble(w.dwell_s),
-          "makes more than " + FormatDouble(kLongestDwell_s) + " s together with those above");
+          fmt::format("makes more than {:.0f} s together with those above", kLongestDwell_s));
     path.push_back(w);
     if (lines) lines->push_back(number);
   }

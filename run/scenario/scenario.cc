@@ -52,7 +52,7 @@ bool NamesFile(const std::string& key, const std::string& value) {
 void FindFromHere(const std::string& key, const fs::path& folder, ConfigNode& value) {
   std::error_code ignored;
   if (value.IsScalar() && NamesFile(key, value.scalar) && fs::exists(value.scalar, ignored) &&
-      !fs::equivalent(value.scalar, folder / value.scalar, ignored))
+      !fs::equivalent(".", folder / ".", ignored))
     value.scalar = fs::absolute(value.scalar).string();
 }
 

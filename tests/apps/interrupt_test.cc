@@ -247,6 +247,8 @@ TEST_F(InterruptTest, OfARunInAUsedFolder) {
   fs::create_directories(folder_ / "o");
   std::ofstream(folder_ / "o/result.json") << "{}";
   std::ofstream(folder_ / "o/trace.csv") << "old\n";
+  std::ofstream(folder_ / "o/files.sha256")
+      << "# written by floorproof; `sha256sum --check` compares\n# being written: episode\n";
   EXPECT_TRUE(Interrupt({"run", hall_, "--out", "o"}, {"o/plan.json", 0, 30}));
   EXPECT_FALSE(fs::exists(folder_ / "o/result.json"));
   if (fs::exists(folder_ / "o/trace.csv")) {

@@ -121,7 +121,7 @@ TEST_F(GoodInputTest, MayComeFromWindows) {
 
 // What a plan or a robot cannot do is an outcome, not bad input.
 TEST_F(GoodInputTest, MayHaveNoPlan) {
-  const ChildResult dut = Run({"plan", "drawn.yaml", "--out", "o", "--set", "start.x_m=0.52"});
+  const ChildResult dut = Run({"plan", "drawn.yaml", "--out", "o", "--set", "plan.radius_m=1.5"});
   EXPECT_EQ(dut.status, 1) << dut.err;
   EXPECT_TRUE(fs::exists(folder_ / "o" / "plan.json"));
 }

@@ -82,12 +82,12 @@ std::vector<BadInput> CommandCases() {
               return geteuid() != 0 && chmod((folder / "shut").c_str(), 0500) == 0;
             }),
       Words("AFolderInTheResultsPlace", {run, "drawn.yaml", "--out", "o"},
-            {"o/result.json: of an earlier run, cannot be removed"},
+            {"o/result.json: is no plain file", "--out names another folder"},
             [](const fs::path& folder) {
               return fs::create_directories(folder / "o/result.json/x");
             }),
       Words("PlanCannotBeWritten", {"plan", "drawn.yaml", "--out", "o"},
-            {"o/scenario.resolved.yaml: cannot be written: it is a folder"},
+            {"o/scenario.resolved.yaml: is no plain file", "--out names another folder"},
             [](const fs::path& folder) {
               return fs::create_directories(folder / "o/scenario.resolved.yaml");
             }),

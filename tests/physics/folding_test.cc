@@ -223,9 +223,9 @@ TEST_F(Folded, AGapNarrowerThanTheSquareIsPassedAsABar) {
   EXPECT_THAT(square.events[0].hazard, ::testing::StartsWith("partition"));
 }
 
-// A block that swings meets a pane while the robot's middle stands: judged by the block's own
-// speed.
-TEST_F(Folded, WhatASwingingBlockMeetsIsJudgedByItsOwnSpeed) {
+// A block that swings against a pane, lively or dead, presses on it: its hinge is too slow and too
+// weak to be thrown back by more than a fraction of a millimetre.
+TEST_F(Folded, WhatASwingingBlockPressesOnDoesNotThrowItBack) {
   Save("plan.csv", "x_m,y_m,yaw_rad,shape\n3,2,0,I\n3,2,0,O\n");
   for (const double restitution : {0.0, 0.8}) {
     SCOPED_TRACE(restitution);
@@ -235,18 +235,7 @@ TEST_F(Folded, WhatASwingingBlockMeetsIsJudgedByItsOwnSpeed) {
                      std::to_string(restitution) + "}"),
         {{"robot", "{name: htetro, shape: I}"}, {"site.start", "{x_m: 3, y_m: 2, yaw_deg: 0}"}}));
     EXPECT_GT(dut.metrics.contacts, 0);
-    if (restitution == 0) {
-      EXPECT_TRUE(dut.events.empty()) << "dead glass stops it";
-      continue;
-    }
-    ASSERT_EQ(dut.events.size(), 1u);
-    EXPECT_EQ(dut.events[0].mode, FailureMode::kBounceBack);
-    EXPECT_EQ(dut.events[0].hazard, "pane");
-    EXPECT_GT(dut.events[0].evidence[0].second, 0.05) << "closing";
-    for (const TraceRow& row : dut.trace) {
-      if (row.t_s > dut.events[0].t_s - 0.05) break;
-      EXPECT_LT(std::hypot(row.vx_mps, row.vy_mps), 0.03) << "at " << row.t_s;
-    }
+    EXPECT_THAT(dut.events, ::testing::Each(::testing::Field(&Event::mode, FailureMode::kStuck)));
   }
 }
 

@@ -59,7 +59,8 @@ TEST_F(EpisodeTest, ScrapingIsMeasured) {
   EXPECT_EQ(clear.metrics.contact_m, 0);
   EXPECT_EQ(clear.metrics.max_contact_n, 0);
   const auto scrape = [&](double inside_m) {
-    const std::string y = std::to_string(0.5 + 0.18 - inside_m);
+    constexpr double kWall_m = 0.5 - 0.03;  // drawn back by inset_m
+    const std::string y = std::to_string(kWall_m + 0.18 - inside_m);
     Save("plan.csv", "x_m,y_m\n1.5,2.5\n1.5,0.75\n2," + y + "\n6," + y + "\n6,2.5\n");
     return Drive(Read(RoomScenario(""))).metrics;
   };

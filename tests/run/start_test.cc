@@ -56,13 +56,15 @@ TEST_F(StartTest, OnARaisedFloorAndInAPitItDrivesAsOnTheBaseFloor) {
   }
 }
 
-// It falls from the level that it was set down on: that is a failure still.
-TEST_F(StartTest, FromARaisedFloorItCanFall) {
+// The edge of the level that it was set down on is a hazard still: its belly hangs there.
+TEST_F(StartTest, TheEdgeOfARaisedFloorHoldsIt) {
   Save("plan.csv", "x_m,y_m\n1.5,2.5\n7.5,2.5\n");
   const EpisodeRecord dut = Drive(Read(RoomScenario(Level(0.15))));
   ASSERT_EQ(dut.outcome, Outcome::kFailure);
-  EXPECT_EQ(dut.events.front().mode, FailureMode::kRollOver);
-  EXPECT_GT(dut.events.front().x_m, 5.5);
+  EXPECT_EQ(dut.events.front().mode, FailureMode::kStuck);
+  EXPECT_EQ(dut.events.front().kind, "high_centred");
+  EXPECT_EQ(dut.events.front().hazard, "level");
+  EXPECT_NEAR(dut.events.front().x_m, 6.0, 0.2);
 }
 
 TEST_F(StartTest, WhatItOverlapsIsNamed) {
