@@ -16,17 +16,17 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kAnySize = std::uintmax_t{1} << 40;
 
-struct Input {
-  fs::path named;  // as first asked for
-  std::optional<std::string> bytes;
-  std::string sha256;
-  fs::path copy;  // that stands in for it; empty: none
-  bool absolute = false;
-};
-
 }  // namespace
 
 struct InputFiles::Shared {
+  struct Input {
+    fs::path named;  // as first asked for
+    std::optional<std::string> bytes;
+    std::string sha256;
+    fs::path copy;  // that stands in for it; empty: none
+    bool absolute = false;
+  };
+
   std::map<fs::path, Input> inputs;         // by canonical path
   std::map<std::string, Input*> spellings;  // asking again costs no look at the disk
   std::vector<fs::path> order;
@@ -70,25 +70,25 @@ const std::string& InputFiles::Read(const fs::path& file, std::uintmax_t most_by
 
 std::string InputFiles::ReadStart(const fs::path& file, std::size_t count,
                                   std::uintmax_t most_bytes) const {
-  const Input& input = shared_->At(file);
+  const Shared::Input& input = shared_->At(file);
   if (input.bytes) return input.bytes->substr(0, count);
   return ReadStartOfFile(input.copy.empty() ? file : input.copy, count, most_bytes);
 }
 
 std::string InputFiles::WhyUnreadable(const fs::path& file, std::uintmax_t most_bytes) const {
-  const Input& input = shared_->At(file);
+  const Shared::Input& input = shared_->At(file);
   if (input.bytes && input.bytes->size() <= most_bytes) return "";
   return floorproof::WhyUnreadable(input.copy.empty() ? file : input.copy, most_bytes);
 }
 
 const std::string& InputFiles::Sha256(const fs::path& file) const {
-  const Input& input = shared_->At(file);
+  const Shared::Input& input = shared_->At(file);
   if (input.sha256.empty()) shared_->Bytes(file, kAnySize);
   return input.sha256;
 }
 
 std::uintmax_t InputFiles::Size(const fs::path& file) const {
-  const Input& input = shared_->At(file);
+  const Shared::Input& input = shared_->At(file);
   if (input.bytes) return input.bytes->size();
   const fs::path& read = input.copy.empty() ? file : input.copy;
   std::error_code error;
@@ -99,7 +99,7 @@ std::uintmax_t InputFiles::Size(const fs::path& file) const {
 
 void InputFiles::StandIn(const fs::path& file, const std::string& sha256,
                          const fs::path& copy) const {
-  Input& input = shared_->At(file);
+  Shared::Input& input = shared_->At(file);
   input.sha256 = sha256;
   input.copy = copy;
 }

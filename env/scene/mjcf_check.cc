@@ -154,8 +154,8 @@ class Scan {
       if (!IsThere(place)) continue;
       if (const std::string why = inputs_.WhyUnreadable(place, kMaxBytes); !why.empty())
         throw InputError(mark, "file", value, why);
-      const bool by_folder = std::ranges::any_of(asset_folders_, [&](const auto& folder) {
-        return folder.second && place == folder.first / value;
+      const bool by_folder = std::ranges::any_of(asset_folders_, [&](const auto& assets) {
+        return assets.second && place == assets.first / value;
       });
       if (by_folder || std::filesystem::path(value).is_absolute()) inputs_.MarkAbsolute(place);
     }

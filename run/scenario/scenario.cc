@@ -2,7 +2,6 @@
 #include "run/scenario/scenario.h"
 
 #include <algorithm>
-#include <ranges>
 
 #include "base/file_output.h"
 #include "base/input_file.h"
@@ -274,7 +273,8 @@ std::vector<fs::path> FilesRead(const Scenario& s) {
   std::vector<fs::path> files = s.site.files_read;
   if (!s.site_file.empty()) files.insert(files.begin(), s.site_file);
   files.push_back(s.robot_file);
-  for (const fs::path& file : s.robot.files | std::views::drop(1)) files.push_back(file);
+  if (!s.robot.files.empty())
+    files.insert(files.end(), s.robot.files.begin() + 1, s.robot.files.end());
   files.push_back(s.fmea_file);
   if (!s.plan_file.empty()) files.push_back(s.plan_file);
   return files;

@@ -151,7 +151,9 @@ TEST_P(Polylines, AreDriven) {
       EXPECT_EQ(Stuck(driven, path, robot), "");
       EXPECT_LT(driven.time_s, 1.4 * foretold_s + 3);
       // Legs as short as a corner's tolerance may be passed over.
-      if (ShortestLeg(path) > 0.015) EXPECT_GT(driven.time_s, 0.6 * foretold_s - 3);
+      if (ShortestLeg(path) > 0.015) {
+        EXPECT_GT(driven.time_s, 0.6 * foretold_s - 3);
+      }
     }
 }
 

@@ -84,7 +84,9 @@ TEST(StandAt, AcrossAnEdgeItDoesNotStand) {
     EXPECT_EQ(At(map, 2, 2).obstruction, map.hazards[0].id) << height_m;
     EXPECT_NE(At(map, 2, 2).why.find("across the edge"), std::string::npos);
     // Along the edge its wheels are on one side.
-    if (height_m < 0) EXPECT_EQ(At(map, 2, 1.9, kPi / 2).obstruction, "") << "it reaches over it";
+    if (height_m < 0) {
+      EXPECT_EQ(At(map, 2, 1.9, kPi / 2).obstruction, "") << "it reaches over it";
+    }
   }
 }
 

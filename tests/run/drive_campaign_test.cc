@@ -46,7 +46,6 @@ class DriveCampaignTest : public ScenarioTest {
   }
 };
 
-constexpr const char* kGateAlone = "gate: {metric: not_success, max_rate: 0.5}\n";
 constexpr const char* kFixedGate =
     "gate: {metric: not_success, max_rate: 0.5}\nrandomise: {start.x_m: {uniform: [1.4, 1.6]}}\n";
 

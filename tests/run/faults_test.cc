@@ -182,7 +182,7 @@ TEST_F(FaultsInAScenario, ARobotOfHingesKeepsItsShapeWhateverIsSilentFromTheStar
 
 TEST_F(FaultsInAScenario, TheWeakestMotorIsADeadOne) {
   const char* kShares[] = {"0", "1e-320"};
-  std::vector<float> x_m;
+  std::vector<double> x_m;
   for (const char* share : kShares)
     x_m.push_back(DriveWith(std::string("[{type: weak_motor, torque_share: ") + share + "}]")
                       .trace.back()
