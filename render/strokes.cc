@@ -61,8 +61,12 @@ void Dashes(cv::Mat& canvas, const cv::Point2d& a, const cv::Point2d& b, const R
   const auto [first, last] = ShownPart(canvas, a, b);
   // The dashes that show are those that the whole line would have there.
   const double from = std::floor(std::max(0.0, first * length / period_px)) * period_px;
-  for (double s = from; s < length && s <= last * length; s += period_px)
+  // Counted: so far along the line that a period is lost in rounding, a sum would not grow.
+  const double dashes = std::ceil((std::min(last, 1.0) * length - from) / period_px);
+  for (int k = 0; k < dashes; ++k) {
+    const double s = from + k * period_px;
     Line(canvas, a + d * (s / length), a + d * (std::min(s + on_px, length) / length), colour, px);
+  }
 }
 
 void Disc(cv::Mat& canvas, const cv::Point2d& middle, double radius_px, const Rgb& colour) {
