@@ -2,7 +2,8 @@
 // F4, bounce back: body or wheels meet an obstacle at a closing speed > v; then, within window_s
 // and against the command, the whole robot
 //   kind `reversed`: comes off it faster than u and than rebound_share of the closing speed;
-//   kind `parted`: leaves a gap of more than part_m to it.
+//   kind `parted`: leaves a gap of more than part_m to it, or goes back by that much more than a
+//     soft contact pushes it out of itself.
 //
 // An impact is a contact that begins; the closing speed is that just before it. The whole robot has
 // moved back where both its centre of mass and what touched have, along the contact's normal: a
@@ -41,6 +42,7 @@ constexpr double kSamePlaceM = 0.1;      // contacts this near with like normals
 constexpr double kSameNormalCos = 0.9;
 constexpr double kPressS = 0.05, kSoftestS = 0.08;
 constexpr double kTread_s = 0.015;  // way of a wheel up a face, over the closing speed
+constexpr double kSoft_s = 0.008;   // way out of a soft contact, over the closing speed
 constexpr double kPast_m = 0.002;   // beyond where it touched
 constexpr double kChatterS = 0.1;   // a contact lost for less than this has not ended
 
@@ -87,18 +89,20 @@ class BounceBack final : public Detector {
 
   struct Meeting {
     bool live = false, touching = false, seen = false;
-    bool watched = false, met = false, settled = false;
+    bool watched = false, met = false, pressed = false, settled = false;
+    bool first = true, wheel = false;  // of this face; by a wheel
     int hazard = -1;
     std::size_t block = 0;
     Vec2 p_W = Vec2::Zero(), normal_W = Vec2::Zero();
     double height_m = 0;  // in the body's frame
     double since_s = 0, last_seen_s = 0;
     double closing_mps = 0, threshold_mps = 0;
-    double part_m = 0;
+    double part_m = 0, soft_m = 0;
     Along at{}, touched{}, deepest{};  // at the last step, when last touching, at the deepest
-    double peak_mps = 0, gap_m = 0, back_m = 0;
-    bool by_speed = false;  // which inequality was met first
-    double t_s = 0;         // then and there
+    double peak_mps = 0, gap_m = 0;
+    double swing_m = 0, back_m = 0;  // way back until it settles, and until the watch ends
+    bool by_speed = false;           // which inequality was met first
+    double t_s = 0;                  // then and there
     Pose2 X_WB;
   };
 
@@ -161,6 +165,7 @@ class BounceBack final : public Detector {
     for (Meeting& meeting : meetings_) {
       if (!meeting.live) continue;
       meeting.touching = StillTouches(meeting);
+      if (meeting.touching && sample.t_s - meeting.since_s > kSoftestS) meeting.settled = true;
       if (meeting.watched && Watch(meeting, sample) && armed_) {
         Report(meeting, sample);
         armed_ = false;
@@ -191,14 +196,16 @@ class BounceBack final : public Detector {
     return nullptr;
   }
 
-  // A robot that presses on a dead face rocks against it: what then touches more softly than at the
-  // impact is no impact of its own.
-  bool Chatters(const Meeting& meeting, const ObstacleContact& contact) const {
-    return std::ranges::any_of(meetings_, [&](const Meeting& other) {
-      return other.watched && other.settled && other.hazard == meeting.hazard &&
-             other.normal_W.dot(meeting.normal_W) > kSameNormalCos &&
-             other.closing_mps >= contact.closing_mps;
-    });
+  // The meeting of that face that was the hardest, of those before this one. A robot meets a face
+  // with several corners and wheels, one after the other.
+  const Meeting* Harder(const Meeting& meeting, const ObstacleContact& contact) const {
+    const Meeting* hardest = nullptr;
+    for (const Meeting& other : meetings_)
+      if (&other != &meeting && other.live && other.hazard == meeting.hazard &&
+          other.normal_W.dot(contact.normal_W) > kSameNormalCos &&
+          other.closing_mps >= (hardest ? hardest->closing_mps : contact.closing_mps))
+        hardest = &other;
+    return hardest;
   }
 
   // Matches a contact to those of the last step, or begins one.
@@ -212,6 +219,8 @@ class BounceBack final : public Detector {
       *meeting = {};
       meeting->live = true;
       meeting->hazard = contact.hazard;
+      meeting->since_s = sample.t_s;
+      meeting->closing_mps = contact.closing_mps;
     }
     meeting->seen = true;
     meeting->last_seen_s = sample.t_s;
@@ -221,14 +230,18 @@ class BounceBack final : public Detector {
       meeting->block = static_cast<std::size_t>(contact.block);
       meeting->height_m = contact.height_m - sample.p_WB.z();
     }
-    if (!begins || !armed_ || !(contact.closing_mps > closing_mps_) || Chatters(*meeting, contact))
-      return;
+    if (!begins || !armed_ || !(contact.closing_mps > closing_mps_)) return;
+    const Meeting* harder = Harder(*meeting, contact);
+    // What presses on a dead face rocks against it.
+    if (harder != nullptr && harder->settled) return;
     meeting->watched = true;
-    meeting->since_s = sample.t_s;
-    meeting->closing_mps = contact.closing_mps;
-    meeting->threshold_mps = std::max(
-        rebound_mps_, (contact.wheel ? wheel_share_ : rebound_share_) * contact.closing_mps);
-    meeting->part_m = part_m_ + (contact.wheel ? kTread_s * contact.closing_mps : 0);
+    meeting->first = harder == nullptr;
+    meeting->wheel = contact.wheel || (harder != nullptr && harder->wheel);
+    const double closing_mps = harder != nullptr ? harder->closing_mps : contact.closing_mps;
+    meeting->threshold_mps =
+        std::max(rebound_mps_, (meeting->wheel ? wheel_share_ : rebound_share_) * closing_mps);
+    meeting->part_m = part_m_ + (meeting->wheel ? kTread_s * closing_mps : 0);
+    meeting->soft_m = kSoft_s * closing_mps;
     meeting->at = meeting->touched = meeting->deepest =
         Place(*meeting, Outermost(*meeting, sample), sample);
   }
@@ -249,17 +262,17 @@ class BounceBack final : public Detector {
     for (std::size_t i = 0; i < meeting.at.size(); ++i)
       meeting.deepest[i] = std::min(meeting.deepest[i], meeting.at[i]);
     meeting.back_m = std::max(meeting.back_m, Least(meeting.at, meeting.deepest));
+    if (!meeting.settled) meeting.swing_m = meeting.back_m;
     if (meeting.touching) {
-      const double pressed_s = sample.t_s - meeting.since_s;
       meeting.touched = meeting.at;
-      meeting.settled = meeting.settled || pressed_s > kSoftestS;
-      if (pressed_s > kPressS) {
+      if (sample.t_s - meeting.since_s > kPressS) {
+        meeting.pressed = true;
         meeting.threshold_mps = std::max(meeting.threshold_mps, wheel_share_ * meeting.closing_mps);
-        meeting.part_m = std::numeric_limits<double>::infinity();
       }
     } else if (!meeting.settled) {
-      meeting.gap_m = std::max(meeting.gap_m, Least(meeting.at, meeting.touched));
       meeting.peak_mps = std::max(meeting.peak_mps, away_mps);
+      if (!meeting.pressed)
+        meeting.gap_m = std::max(meeting.gap_m, Least(meeting.at, meeting.touched));
     }
     // Driven on, over it: what comes later is another obstacle's.
     const bool past =
@@ -274,9 +287,22 @@ class BounceBack final : public Detector {
     return true;
   }
 
+  struct Way {
+    double m, most_m;
+    double share() const { return m / most_m; }
+  };
+  // The gap, or the way back, whichever is more beyond what it may be.
+  static Way Parted(const Meeting& meeting) {
+    const Way gap{meeting.gap_m, meeting.part_m};
+    const Way back{meeting.swing_m, meeting.soft_m + meeting.part_m};
+    return gap.share() > back.share() ? gap : back;
+  }
+
   void Judge(Meeting& meeting, const Sample& sample) {
-    const double by_speed = meeting.peak_mps / meeting.threshold_mps;
-    const double share = std::max(by_speed, meeting.gap_m / meeting.part_m);
+    double by_speed = meeting.peak_mps / meeting.threshold_mps;
+    // A second corner comes off as the robot swings about the first.
+    if (!meeting.first) by_speed = std::min(by_speed, meeting.swing_m / meeting.soft_m);
+    const double share = std::max(by_speed, Parted(meeting).share());
     margin_ = std::min(margin_, (1 - share) * rebound_mps_);
     if (meeting.met || !(share > 1)) return;
     meeting.met = true;
@@ -286,10 +312,11 @@ class BounceBack final : public Detector {
   }
 
   void Report(const Meeting& meeting, const Sample& sample) {
+    const Way parted = Parted(meeting);
     event_ = MakeEvent(mode(), meeting.by_speed ? "reversed" : "parted", sample,
                        HazardId(*map_, meeting.hazard, true),
-                       meeting.by_speed ? meeting.peak_mps : meeting.gap_m,
-                       meeting.by_speed ? meeting.threshold_mps : meeting.part_m);
+                       meeting.by_speed ? meeting.peak_mps : parted.m,
+                       meeting.by_speed ? meeting.threshold_mps : parted.most_m);
     event_.t_s = meeting.t_s;
     event_.x_m = meeting.X_WB.x_m;
     event_.y_m = meeting.X_WB.y_m;

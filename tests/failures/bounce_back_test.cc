@@ -116,7 +116,76 @@ TEST(BounceBack, OnlyWithinTheWindow) {
 
 TEST(BounceBack, PressedAgainstItForLongerThanAnElasticContactLasts) {
   EXPECT_EQ(Events(DriveInto(Rebound(0.06, 0.1, 0.04))).size(), 1u);
-  EXPECT_TRUE(Events(DriveInto(Rebound(0.06, 0.1, 0.06))).empty());
+  EXPECT_TRUE(Events(DriveInto(Rebound(0.06, 0.04, 0.06))).empty());
+}
+
+// It is back before it has come off.
+TEST(BounceBack, TheWayOutOfASoftContactIsNone) {
+  const auto rebound = [](double back_m) {
+    const double dt_s = 0.02;
+    Hit hit;
+    hit.contact_s = 2 * dt_s;
+    hit.after = [=](double t_s) {
+      return t_s < dt_s ? 0.05 : t_s < 2 * dt_s ? -back_m / dt_s : 0.0;
+    };
+    return Events(DriveInto(hit)).size();
+  };
+  EXPECT_EQ(rebound(0.0024), 0u);
+  EXPECT_EQ(rebound(0.0028), 1u);
+}
+
+TEST(BounceBack, FarBackIsOneHoweverSlowlyItComesOff) {
+  Hit hit = Rebound(0.09, 0.06, 0.02);
+  hit.contact_s = 0.07;  // pressed for longer than elastic contacts last, and still touched
+  const auto events = Events(DriveInto(hit));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, "parted");
+  EXPECT_GT(events[0].value, events[0].threshold);
+}
+
+// It leans on the wall and turns, as it was told; another corner of it then touches no harder than
+// the first did, and comes off.
+TEST(BounceBack, RockingAgainstAWallIsNoneWhateverIsCommanded) {
+  for (const bool pressed : {true, false}) {
+    Trace trace = DriveInto(Rebound(0.03, 0.02, 0.42));
+    for (Sample& s : trace) {
+      s.num_contacts = 0;
+      const auto touch = [&](double y_m, double closing_mps) {
+        ObstacleContact& contact = s.contacts[static_cast<std::size_t>(s.num_contacts++)];
+        contact = {};
+        contact.p_W = {s.p_WB.x() + 0.2, y_m};
+        contact.normal_W = {-1, 0};
+        contact.closing_mps = closing_mps;
+      };
+      const double t_s = s.t_s - 1.0;
+      if (t_s > 0 && t_s < 0.41 && pressed) touch(0.15, 0.2);
+      if (t_s > 0.4 && t_s < 0.42) touch(-0.15, 0.19);
+      if (t_s > 0.05 && t_s < 0.35) s.command.twist = {-0.06, 0, 0};
+    }
+    EXPECT_EQ(Events(trace).empty(), pressed);
+  }
+}
+
+// One corner meets the wall, then a second one, more softly, which comes off as the robot swings
+// about the first. Alone it would be a rebound.
+TEST(BounceBack, ASecondCornerThatSwingsOffIsNone) {
+  for (const bool both : {true, false}) {
+    Trace trace = DriveInto(Rebound(0.03, 0.02, 0.05));
+    for (Sample& s : trace) {
+      s.num_contacts = 0;
+      const auto touch = [&](double y_m, double closing_mps) {
+        ObstacleContact& contact = s.contacts[static_cast<std::size_t>(s.num_contacts++)];
+        contact = {};
+        contact.p_W = {s.p_WB.x() + 0.2, y_m};
+        contact.normal_W = {-1, 0};
+        contact.closing_mps = closing_mps;
+      };
+      const double t_s = s.t_s - 1.0;
+      if (t_s > 0 && t_s < 0.03 && both) touch(0.15, 0.4);
+      if (t_s > 0.03 && t_s < 0.05) touch(-0.15, 0.08);
+    }
+    EXPECT_EQ(Events(trace).empty(), both);
+  }
 }
 
 TEST(BounceBack, BackingOffOnPurposeIsNone) {
