@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <boost/geometry.hpp>
-#include <boost/geometry/geometries/multi_polygon.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
 #include <limits>
+#include <map>
+#include <polyclipping/clipper.hpp>
+#include <utility>
 
 #include "base/error.h"
 
@@ -17,46 +19,76 @@ namespace {
 namespace bg = boost::geometry;
 using BPoint = bg::model::d2::point_xy<double>;
 using BPolygon = bg::model::polygon<BPoint, /*ClockWise=*/false, /*Closed=*/false>;
-using BMulti = bg::model::multi_polygon<BPolygon>;
 
 constexpr double kTouch_m = 1e-9;
 constexpr double kSliver_m2 = 1e-10;
 
-BPolygon ToBoost(const Region& region) {
-  BPolygon out;
-  for (const auto& p : region.outer) out.outer().emplace_back(p.x(), p.y());
-  for (const auto& hole : region.holes) {
-    auto& ring = out.inners().emplace_back();
-    for (const auto& p : hole) ring.emplace_back(p.x(), p.y());
+// Boolean operations are done on whole numbers, about a nanometre apart: in floating point, edges
+// that lie on one another but for rounding make whole regions vanish, or appear.
+constexpr double kPerMetre = 1 << 30;
+constexpr double kFarthest_m = 4e9;  // what the numbers hold
+
+class WholeNumbers {
+ public:
+  ClipperLib::Path From(const Polygon& polygon, bool positive) {
+    ClipperLib::Path path;
+    path.reserve(polygon.size());
+    for (const Vec2& p : polygon) {
+      if (!(p.cwiseAbs().maxCoeff() < kFarthest_m))
+        throw InternalError("a polygon's corner is more than 4e9 m away");
+      const ClipperLib::IntPoint q(std::llround(p.x() * kPerMetre),
+                                   std::llround(p.y() * kPerMetre));
+      corners_.try_emplace({q.X, q.Y}, p);
+      path.push_back(q);
+    }
+    if (ClipperLib::Orientation(path) != positive) ClipperLib::ReversePath(path);
+    return path;
   }
-  bg::correct(out);
-  return out;
-}
-
-BMulti ToBoost(const std::vector<Region>& regions) {
-  BMulti out;
-  for (const auto& region : regions) out.push_back(ToBoost(region));
-  return out;
-}
-
-std::vector<Region> FromBoost(const BMulti& multi) {
-  const auto corners = [](const auto& ring) {
+  // Corners that were there before come out with all their digits.
+  Polygon Back(const ClipperLib::Path& path) const {
     Polygon polygon;
-    for (const auto& p : ring) {
-      const Vec2 q(p.x(), p.y());
-      if (polygon.empty() || (q - polygon.back()).norm() > kTouch_m) polygon.push_back(q);
+    for (const ClipperLib::IntPoint& q : path) {
+      const auto before = corners_.find({q.X, q.Y});
+      const Vec2 p = before != corners_.end() ? before->second
+                                              : Vec2(static_cast<double>(q.X) / kPerMetre,
+                                                     static_cast<double>(q.Y) / kPerMetre);
+      if (polygon.empty() || (p - polygon.back()).norm() > kTouch_m) polygon.push_back(p);
     }
     while (polygon.size() > 1 && (polygon.front() - polygon.back()).norm() <= kTouch_m)
       polygon.pop_back();
     return polygon;
+  }
+
+ private:
+  std::map<std::pair<ClipperLib::cInt, ClipperLib::cInt>, Vec2> corners_;
+};
+
+std::vector<Region> Combine(ClipperLib::ClipType operation, const std::vector<Region>& a,
+                            const std::vector<Polygon>& b) {
+  WholeNumbers numbers;
+  ClipperLib::Clipper clipper;
+  for (const Region& region : a) {
+    clipper.AddPath(numbers.From(region.outer, true), ClipperLib::ptSubject, true);
+    for (const Polygon& hole : region.holes)
+      clipper.AddPath(numbers.From(hole, false), ClipperLib::ptSubject, true);
+  }
+  for (const Polygon& polygon : b)
+    clipper.AddPath(numbers.From(polygon, true), ClipperLib::ptClip, true);
+  ClipperLib::PolyTree tree;
+  clipper.Execute(operation, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+
+  const auto is_sliver = [](const ClipperLib::PolyNode& node) {
+    return std::abs(ClipperLib::Area(node.Contour)) < kSliver_m2 * kPerMetre * kPerMetre;
   };
   std::vector<Region> out;
-  for (const auto& polygon : multi) {
-    if (bg::area(polygon) < kSliver_m2) continue;
-    Region region{corners(polygon.outer()), {}};
-    for (const auto& inner : polygon.inners())
-      if (std::abs(bg::area(inner)) >= kSliver_m2) region.holes.push_back(corners(inner));
-    if (region.outer.size() >= 3) out.push_back(std::move(region));
+  for (const ClipperLib::PolyNode* node = tree.GetFirst(); node != nullptr;
+       node = node->GetNext()) {
+    if (node->IsHole() || is_sliver(*node)) continue;
+    Region region{numbers.Back(node->Contour), {}};
+    if (region.outer.size() < 3) continue;
+    for (const ClipperLib::PolyNode* hole : node->Childs)
+      if (!is_sliver(*hole)) region.holes.push_back(numbers.Back(hole->Contour));
+    out.push_back(std::move(region));
   }
   return out;
 }
@@ -231,29 +263,15 @@ Polygon ConvexHull(std::vector<Vec2> points) {
 }
 
 std::vector<Region> Union(const std::vector<Polygon>& polygons) {
-  BMulti sum;
-  for (const auto& polygon : polygons) {
-    BMulti next;
-    bg::union_(sum, ToBoost(Region{polygon, {}}), next);
-    sum = std::move(next);
-  }
-  return FromBoost(sum);
+  return Combine(ClipperLib::ctUnion, {}, polygons);
 }
 
 std::vector<Region> Difference(const std::vector<Region>& a, const std::vector<Polygon>& b) {
-  BMulti rest = ToBoost(a);
-  for (const auto& polygon : b) {
-    BMulti next;
-    bg::difference(rest, ToBoost(Region{polygon, {}}), next);
-    rest = std::move(next);
-  }
-  return FromBoost(rest);
+  return Combine(ClipperLib::ctDifference, a, b);
 }
 
 std::vector<Region> Intersection(const std::vector<Region>& a, const std::vector<Polygon>& b) {
-  BMulti common;
-  bg::intersection(ToBoost(a), ToBoost(Union(b)), common);
-  return FromBoost(common);
+  return Combine(ClipperLib::ctIntersection, a, b);
 }
 
 std::vector<Polygon> ConvexParts(const std::vector<Region>& regions, double yaw_rad) {

@@ -9,9 +9,13 @@ namespace {
 
 std::atomic<std::int64_t> count{0};
 
-void* Allocate(std::size_t size) {
+void* TryToAllocate(std::size_t size) {
   count.fetch_add(1, std::memory_order_relaxed);
-  if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
+  return std::malloc(size == 0 ? 1 : size);
+}
+
+void* Allocate(std::size_t size) {
+  if (void* p = TryToAllocate(size)) return p;
   throw std::bad_alloc();
 }
 
@@ -28,10 +32,16 @@ void* operator new(std::size_t size) { return Allocate(size); }
 void* operator new[](std::size_t size) { return Allocate(size); }
 void* operator new(std::size_t size, std::align_val_t a) { return Allocate(size, a); }
 void* operator new[](std::size_t size, std::align_val_t a) { return Allocate(size, a); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return TryToAllocate(size); }
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
+  return TryToAllocate(size);
+}
 void operator delete(void* p) noexcept { std::free(p); }
 void operator delete[](void* p) noexcept { std::free(p); }
 void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
+void operator delete(void* p, const std::nothrow_t&) noexcept { std::free(p); }
+void operator delete[](void* p, const std::nothrow_t&) noexcept { std::free(p); }
 void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
 void operator delete[](void* p, std::align_val_t) noexcept { std::free(p); }
 void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "base/streams.h"
+
 namespace floorproof {
 namespace {
 
@@ -30,6 +32,41 @@ TEST(Polygon, AreasOfUnionAndDifferenceAddUp) {
   EXPECT_NEAR(Area(Difference({Region{a, {}}}, {b})), 3, kRounding_m2);
   EXPECT_NEAR(Area(Intersection({Region{a, {}}}, {b})), 1, kRounding_m2);
   EXPECT_TRUE(Difference({Region{a, {}}}, {Rectangle({-1, -1}, {5, 5})}).empty());
+}
+
+// Strips across one another, each replacing what it crosses, as floors do: their edges lie on one
+// another but for rounding. Nothing is lost, and nothing is there twice.
+TEST(Polygon, WhatIsPutTogetherAgainIsWhole) {
+  const Polygon ground = Rectangle({-2, -2}, {6, 6});
+  Stream draws(1, 0, "strips");
+  for (int site = 0; site < 1000; ++site) {
+    std::vector<Polygon> strips;
+    for (std::uint64_t i = 0, n = 2 + draws.Below(4); i < n; ++i) {
+      const double x_m = draws.Uniform(1, 3), y_m = draws.Uniform(1, 3);
+      const double yaw_rad = draws.Below(2) == 0 ? 0 : draws.Uniform(-kPi, kPi);
+      const Pose2 X{x_m, y_m, yaw_rad};
+      const double length_m = draws.Uniform(0.3, 1), width_m = draws.Uniform(0.02, 0.15);
+      strips.push_back(Rectangle({-length_m, -width_m / 2}, {length_m, width_m / 2}));
+      for (Vec2& p : strips.back()) p = X * p;
+    }
+    std::vector<Polygon> pieces;
+    double strips_m2 = 0;
+    for (std::size_t i = 0; i < strips.size(); ++i) {
+      const std::vector<Polygon> later(strips.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                                       strips.end());
+      const std::vector<Region> whole = {{strips[i], {}}};
+      const std::vector<Region> rest = Difference(whole, later);
+      EXPECT_NEAR(Area(rest) + Area(Intersection(whole, later)), SignedArea(strips[i]),
+                  kRounding_m2);
+      for (const Polygon& part : ConvexParts(rest)) pieces.push_back(part);
+      strips_m2 += Area(rest);
+    }
+    EXPECT_NEAR(Area(Union(strips)), strips_m2, kRounding_m2) << site;
+    EXPECT_NEAR(Area(Union(pieces)), strips_m2, kRounding_m2) << site;
+    const std::vector<Region> floor = Difference({Region{ground, {}}}, pieces);
+    EXPECT_NEAR(Area(floor), 64 - strips_m2, kRounding_m2) << site;
+    EXPECT_NEAR(TotalArea(ConvexParts(floor)), 64 - strips_m2, kRounding_m2) << site;
+  }
 }
 
 // A floor with two pits: the parts are convex, do not overlap, miss the pits and leave nothing out.
