@@ -15,7 +15,7 @@ namespace {
 int WriteReport(const std::string& named, const Globals& globals) {
   const std::filesystem::path folder = named;
   ResultFolder out(folder, PageResults(), {});
-  const Report report = GatherReport(folder, named, out);
+  const Report report = GatherReport(folder, named, out, globals);
   const std::string html = ReportHtml(report);
   const std::filesystem::path page = folder / "report.html";
   WriteFileWhole(page, html);

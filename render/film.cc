@@ -8,7 +8,6 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
-#include "render/renderer.h"
 
 namespace floorproof {
 namespace {
@@ -198,7 +197,7 @@ class Studio {
         fan_(script.senses ? std::span(script.recording->senses())
                            : std::span<const Recording::Senses>(),
              2 * script.set.robot_radius_m, paint_),
-        renderer_(script.model, options.width, options.height, paint_.max_marks()),
+        renderer_(script.model, options.width, options.height, paint_.max_marks(), options.quality),
         image_(renderer_.MakeImage()) {
     if (script.plan != nullptr)
       PaintPlan(*script.plan, 0.012 + 0.0012 * (set_.high_W - set_.low_W).maxCoeff(), paint_);
@@ -276,10 +275,15 @@ FilmResult WriteFilm(const FilmScript& script, const FilmOptions& options,
                      const std::filesystem::path& path) {
   Check(script, options);
   const Recording& recording = *script.recording;
+  const double begin_s = recording.t_s(0), end_s = recording.t_s(recording.size() - 1);
   std::vector<double> events_s;
   for (const Event& event : script.events) events_s.push_back(event.t_s);
+  const bool whole = options.only_around_s.empty();
   const auto frames =
-      ScheduleFilm(recording.t_s(0), recording.t_s(recording.size() - 1), events_s, options.pace);
+      whole ? ScheduleFilm(begin_s, end_s, events_s, options.pace)
+            : SchedulePassages(PassagesAround(begin_s, end_s, options.only_around_s, options.pace),
+                               options.pace);
+  const std::vector<double>& shown_s = whole ? events_s : options.only_around_s;
   Studio studio(script, options);
   const auto video = OpenVideo(path, options.width, options.height, options.pace.fps);
   const auto still = [&](const char* name, const Image& image) {
@@ -292,20 +296,22 @@ FilmResult WriteFilm(const FilmScript& script, const FilmOptions& options,
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (Interrupted()) return result;  // the unfinished film goes with `video`
     const FilmFrame& frame = frames[i];
-    const bool last = frame.t_s == frames.back().t_s;
-    const bool stands = last && i > 0 && frames[i - 1].t_s == frame.t_s;
+    const bool ends = frame.t_s == frames.back().t_s, last = ends && frame.t_s == end_s;
+    const bool stands = ends && i > 0 && frames[i - 1].t_s == frame.t_s;
     const auto begin = std::chrono::steady_clock::now();
     if (!stands) image = &studio.Draw(frame, last);
     result.render_s += Seconds(begin);
 
     if (i == 0) still("frame_start.png", *image);
-    if (!failure_shown && !events_s.empty() && (last || frame.t_s >= events_s.front() - 1e-9)) {
+    if (!failure_shown && !shown_s.empty() && (ends || frame.t_s >= shown_s.front() - 1e-9)) {
       still("frame_failure.png", *image);
       failure_shown = true;
     }
     const auto encode = std::chrono::steady_clock::now();
     video->Add(*image);
     result.encode_s += Seconds(encode);
+    if (options.on_frame)
+      options.on_frame(static_cast<int>(i + 1), static_cast<int>(frames.size()));
   }
   still("frame_end.png", *image);
   video->Close();

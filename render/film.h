@@ -5,6 +5,7 @@
 #include <mujoco/mujoco.h>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +16,7 @@
 #include "render/camera.h"
 #include "render/film_schedule.h"
 #include "render/overlay.h"
+#include "render/renderer.h"
 
 namespace floorproof {
 
@@ -74,7 +76,12 @@ struct FilmOptions {
   std::string camera = "auto";    // a name of Cameras()
   int width = 960, height = 540;  // even
   FilmPace pace;
-  // Where frame_start.png, frame_failure.png (the first event) and frame_end.png go; none: nowhere.
+  RenderQuality quality = RenderQuality::kFull;
+  // Not empty: only the seconds around these events, as the pace has them; ascending.
+  std::vector<double> only_around_s;
+  std::function<void(int done, int all)> on_frame;  // after each
+  // Where frame_start.png, frame_failure.png (the first event that is shown) and frame_end.png go;
+  // none: nowhere.
   std::optional<std::filesystem::path> stills;
 };
 

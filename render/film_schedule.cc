@@ -7,18 +7,15 @@
 namespace floorproof {
 namespace {
 
-struct Passage {
-  double begin_s, end_s;
-};
-
 // The stretches around events, merged where they overlap, of at most budget_s together.
-std::vector<Passage> SlowPassages(double begin_s, double end_s, std::span<const double> events_s,
-                                  const FilmPace& pace, double budget_s) {
-  std::vector<Passage> slow;
+std::vector<FilmPassage> SlowPassages(double begin_s, double end_s,
+                                      std::span<const double> events_s, const FilmPace& pace,
+                                      double budget_s) {
+  std::vector<FilmPassage> slow;
   double used_s = 0;
   for (const double event_s : events_s) {
-    Passage p = {std::max(begin_s, event_s - pace.before_s),
-                 std::min(end_s, event_s + pace.after_s)};
+    FilmPassage p = {std::max(begin_s, event_s - pace.before_s),
+                     std::min(end_s, event_s + pace.after_s)};
     if (!slow.empty()) p.begin_s = std::max(p.begin_s, slow.back().end_s);
     if (p.end_s <= p.begin_s) continue;
     if (slow.empty()) p.begin_s = std::max(p.begin_s, p.end_s - budget_s);
@@ -44,6 +41,40 @@ double LeastSpeedUp(double least) {
 
 }  // namespace
 
+std::vector<FilmPassage> PassagesAround(double begin_s, double end_s,
+                                        std::span<const double> events_s, const FilmPace& pace) {
+  std::vector<FilmPassage> passages;
+  for (const double event_s : events_s) {
+    // An event may lie a step behind the last state.
+    const FilmPassage p = {std::clamp(event_s - pace.before_s, begin_s, end_s),
+                           std::clamp(event_s + pace.after_s, begin_s, end_s)};
+    if (!passages.empty() && p.begin_s <= passages.back().end_s)
+      passages.back().end_s = std::max(passages.back().end_s, p.end_s);
+    else
+      passages.push_back(p);
+  }
+  return passages;
+}
+
+std::vector<FilmFrame> SchedulePassages(std::span<const FilmPassage> passages,
+                                        const FilmPace& pace) {
+  const int hold = static_cast<int>(std::lround(pace.hold_s * pace.fps));
+  double all_s = 0;
+  for (const FilmPassage& p : passages) all_s += p.end_s - p.begin_s;
+  // Each passage's last picture stands beside its steps.
+  const double room = std::max(1, pace.max_frames - hold - static_cast<int>(passages.size()));
+  const double speed_up = std::max(1.0, all_s * pace.fps / room);
+  std::vector<FilmFrame> frames;
+  for (const FilmPassage& p : passages) {
+    const double step_s = speed_up / pace.fps;
+    const int steps = static_cast<int>(std::floor((p.end_s - p.begin_s) / step_s - 1e-9));
+    for (int i = 0; i <= steps; ++i) frames.push_back({p.begin_s + i * step_s, speed_up});
+    frames.push_back({p.end_s, speed_up});
+  }
+  if (!frames.empty()) frames.insert(frames.end(), hold, frames.back());
+  return frames;
+}
+
 std::vector<FilmFrame> ScheduleFilm(double begin_s, double end_s, std::span<const double> events_s,
                                     const FilmPace& pace) {
   const int hold = std::min(static_cast<int>(std::lround(pace.hold_s * pace.fps)),
@@ -54,7 +85,7 @@ std::vector<FilmFrame> ScheduleFilm(double begin_s, double end_s, std::span<cons
                       2 * static_cast<int>(std::min(events_s.size(), std::size_t{20})));
   const auto slow = SlowPassages(begin_s, end_s, events_s, pace, 0.5 * room / pace.fps);
   double slow_s = 0;
-  for (const Passage& p : slow) slow_s += p.end_s - p.begin_s;
+  for (const FilmPassage& p : slow) slow_s += p.end_s - p.begin_s;
   const double fast_s = std::max(0.0, end_s - begin_s - slow_s);
   const double least = fast_s * pace.fps / std::max(1.0, room - slow_s * pace.fps);
   double speed_up = pace.speed_up;

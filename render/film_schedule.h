@@ -23,9 +23,23 @@ struct FilmFrame {
   double speed_up = 1;  // at which this frame is passed
 };
 
+// A stretch of an episode.
+struct FilmPassage {
+  double begin_s = 0, end_s = 0;
+};
+
+// The seconds around each event, as `pace` has them, cut to what is recorded; ascending, those that
+// overlap joined.
+std::vector<FilmPassage> PassagesAround(double begin_s, double end_s,
+                                        std::span<const double> events_s, const FilmPace& pace);
+
 // From begin_s to end_s, both shown; `events_s` ascending. If the slow passages around events would
 // take more than half of the film, the later events are passed at the film's speed.
 std::vector<FilmFrame> ScheduleFilm(double begin_s, double end_s, std::span<const double> events_s,
                                     const FilmPace& pace);
+// These stretches alone, in real time, the last picture held. Where max_frames is too few, frames
+// are left out evenly.
+std::vector<FilmFrame> SchedulePassages(std::span<const FilmPassage> passages,
+                                        const FilmPace& pace);
 
 }  // namespace floorproof

@@ -8,20 +8,20 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "render/heatmap_marks.h"
+#include "render/heatmap_legend.h"
 #include "render/heatmap_panel.h"
 #include "render/strokes.h"
 
 namespace floorproof {
 namespace {
 
-constexpr int kLeastColumn_px = 250, kTop_px = 64, kFoot_px = 64, kMargin_px = 24,
+constexpr int kLeastColumn_px = 250, kTop_px = 76, kTitle_y = 36, kMargin_px = 24,
               kLeastHeight_px = 420;
+constexpr int kNorth_px = 36;  // the arrow's reach, its letter included
 
 constexpr TextStyle kTitle = {.cap_px = 17, .colour = kInk, .bold = true},
                     kName = {.cap_px = 11, .colour = kInk, .bold = true},
                     kLabel = {.cap_px = 10, .colour = kInk};
-constexpr int kSwatch_px = 32, kLine_px = 22;  // of the legend
 
 void DrawColourBar(Image& image, int x, int y, int height, const HeatPanel& panel,
                    const HeatMapOptions& options) {
@@ -57,35 +57,8 @@ std::string LegendName(const HeatMapOptions& options) {
 
 // The right column's, wide enough for its longest line.
 int ColumnWidth(const HeatPanel& panel, const HeatMapOptions& options) {
-  double widest = TextWidth(LegendName(options), kName);
-  for (const LegendLine& line : panel.legend)
-    widest = std::max(widest, kSwatch_px + TextWidth(line.label, kLabel));
-  return std::max(static_cast<int>(widest) + kMargin_px, kLeastColumn_px);
-}
-
-void DrawLegend(Image& image, int x, int y, const std::vector<LegendLine>& lines) {
-  cv::Mat canvas = Canvas(image);
-  for (const LegendLine& line : lines) {
-    DrawSwatch(canvas, {x, y - 12, 22, 14}, line);
-    DrawText(image, x + kSwatch_px, y, line.label, kLabel);
-    y += kLine_px;
-  }
-}
-
-// A bar of 1, 2 or 5 times a power of ten metres, about a fifth of the panel, with its ends marked.
-// Returns where its lettering ends.
-int DrawScaleBar(Image& image, int x, int y, double px_per_m, int panel_px) {
-  double metres = NiceStep(0.12 * panel_px / px_per_m);
-  const int length = static_cast<int>(std::lround(metres * px_per_m));
-  cv::Mat canvas = Canvas(image);
-  FillRectangle(image, x, y, x + length + 1, y + 4, kInk, 1);
-  FillRectangle(image, x, y - 5, x + 2, y + 4, kInk, 1);
-  FillRectangle(image, x + length - 1, y - 5, x + length + 1, y + 4, kInk, 1);
-  const std::string text =
-      metres < 0.995 ? fmt::format("{:.6g} cm", 100 * metres) : fmt::format("{:.6g} m", metres);
-  const TextStyle style{.cap_px = 12, .colour = kInk};
-  DrawText(image, x + length + 12, y + 5, text, style);
-  return x + length + 12 + static_cast<int>(TextWidth(text, style));
+  const int name = static_cast<int>(std::ceil(TextWidth(LegendName(options), kName)));
+  return std::max(std::max(name, LegendWidth(panel.legend)) + kMargin_px, kLeastColumn_px);
 }
 
 // Towards the world's +y.
@@ -113,11 +86,13 @@ void DrawNorth(Image& image, int x, int y, double map_yaw_rad) {
 }  // namespace
 
 Image DrawHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options) {
-  HeatPanel panel = DrawPanel(map, values, options);
+  const PanelFrame frame(map.frame, KnownWindow(map, options));
+  const MapAxes axes(frame);
+  HeatPanel panel = DrawPanel(map, values, options, frame, axes);
   const bool bar = values != nullptr && options.categories.empty();
-  const int lines = static_cast<int>(panel.legend.size());
+  const int lines = kLegendLine_px * static_cast<int>(panel.legend.size());
   const int inner = std::max(panel.image.height, kLeastHeight_px);
-  const int bar_px = std::clamp(inner - kLine_px * lines - 84, 120, 320);
+  const int bar_px = std::clamp(inner - lines - 84, 120, 320);
   const int name_y = kTop_px + 12;
   int legend_y = name_y;
   if (bar)
@@ -125,29 +100,28 @@ Image DrawHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapO
   else if (!options.quantity.empty())
     legend_y += 28;
 
+  const cv::Rect place(kMargin_px + axes.left_px(), kTop_px, panel.image.width, panel.image.height);
+  const int column = place.br().x + kMargin_px;
+  const int title_px = static_cast<int>(std::ceil(TextWidth(options.title, kTitle)));
   Image image;
-  image.width = std::max(
-      kMargin_px + panel.image.width + kMargin_px + ColumnWidth(panel, options),
-      kMargin_px + static_cast<int>(std::ceil(TextWidth(options.title, kTitle))) + kMargin_px);
-  image.height = std::max(kTop_px + inner + kFoot_px, legend_y + kLine_px * lines);
+  image.width = std::max(column + ColumnWidth(panel, options),
+                         kMargin_px + title_px + kMargin_px + 2 * kNorth_px);
+  image.height = std::max(kTop_px + inner + MapAxes::kBelow_px + kMargin_px / 2, legend_y + lines);
   image.channels = 3;
   image.data.assign(static_cast<std::size_t>(image.width) * image.height * 3, 255);
   cv::Mat canvas = Canvas(image);
-  const cv::Rect place(kMargin_px, kTop_px, panel.image.width, panel.image.height);
   Canvas(panel.image).copyTo(canvas(place));
   cv::rectangle(canvas, cv::Rect(place.x - 1, place.y - 1, place.width + 2, place.height + 2),
                 Colour(kGrey), 1);
+  axes.Draw(image, place);
 
-  DrawText(image, kMargin_px, 40, options.title, kTitle);
-  const int column = place.x + place.width + kMargin_px;
+  DrawText(image, kMargin_px, kTitle_y, options.title, kTitle);
+  DrawNorth(image, image.width - kNorth_px, kNorth_px, map.frame.X_WG.yaw_rad);
   if (bar)
     DrawColourBar(image, column, name_y, bar_px, panel, options);
   else
     DrawText(image, column, name_y, LegendName(options), kName);
   DrawLegend(image, column, legend_y, panel.legend);
-  const int foot = place.br().y + 34;
-  const int scale_end = DrawScaleBar(image, kMargin_px, foot, panel.px_per_m, place.width);
-  DrawNorth(image, std::max(place.br().x - 22, scale_end + 40), foot + 2, map.frame.X_WG.yaw_rad);
   return image;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A quantity over a floor, as a picture: map, values in colour, hazards, points, legend, scale.
+// A quantity over a floor, as a picture: map, values in colour, hazards, paths, failures, axes in
+// metres, legend.
 #pragma once
 
 #include <filesystem>
@@ -34,6 +35,14 @@ struct HeatPoint {
   std::string series;  // points of one series share a mark and a line of the legend
 };
 
+// Drawn as a numbered mark; the legend says what each number stands for. Of many, those that would
+// hide another share its mark.
+struct HeatFailure {
+  Vec2 p_W = Vec2::Zero();
+  std::string number;  // where it is listed
+  std::string label;   // what failed
+};
+
 struct HeatMapOptions {
   std::string title;
   std::string quantity, unit;  // over the colour bar: "quantity [unit]"
@@ -44,14 +53,18 @@ struct HeatMapOptions {
   std::vector<HeatCategory> categories;
   bool numbers = false;  // each value in its cell, where cells are large enough for all of them
   std::vector<HeatPoint> points;
+  std::vector<HeatFailure> failures;
+  std::string failures_by;  // over their lines of the legend: what the numbers are
   const Path* plan = nullptr;
+  std::vector<std::vector<Vec2>> driven;  // in stretches between which the robot was carried
 };
 
 // Marks the cells that hold hazards of that class, named as in the hTetro FMEA paper, in a pale
 // shade of the colour in which its hazards are outlined.
 HeatCategory CellsOf(HazardClass hazard_class);
 
-// Drawn in the map's own frame (an arrow shows the world's north, +y) and cropped to what is known.
+// Drawn in the map's own frame (an arrow shows the world's north, +y) and cropped to what is known;
+// the axes are the world's, in metres. What was driven lies over the plan, narrower than it.
 // The longer side has 800 to 1600 pixels, or more where the lettering needs it. A pixel over many
 // cells is wall if one of them is, and shows the mean of their values. `values` may be null.
 Image DrawHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options);

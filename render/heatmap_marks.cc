@@ -13,19 +13,17 @@ namespace floorproof {
 namespace {
 
 constexpr Rgb kUnknown = {214, 217, 221}, kHatch = {190, 194, 200};
-constexpr Rgb kPath = {40, 46, 56}, kStart = {20, 150, 90}, kEnd = {190, 20, 120};
+// Paths in blue and orange, which every eye tells apart from each other and from walls.
+constexpr Rgb kPath = {0, 114, 178}, kDriven = {240, 136, 0}, kStart = {20, 150, 90},
+              kEnd = {190, 20, 120};
 // By class; chosen to stand out from viridis, inferno and cividis, inside a white casing.
 constexpr std::array<Rgb, 4> kHazards = {
-    {{112, 60, 170}, {20, 110, 220}, {214, 39, 40}, {255, 127, 14}}};
+    {{112, 60, 170}, {70, 180, 230}, {200, 20, 70}, {150, 104, 10}}};
 constexpr double kThick_px = 12, kCased_px = 20;  // apart: there is room for such lines
 constexpr std::array<Rgb, 5> kSeries = {
     {{200, 20, 40}, {120, 40, 180}, {230, 110, 0}, {0, 110, 190}, {60, 60, 60}}};
 constexpr std::array<int, 5> kMarks = {cv::MARKER_TILTED_CROSS, cv::MARKER_TRIANGLE_UP,
                                        cv::MARKER_DIAMOND, cv::MARKER_SQUARE, cv::MARKER_STAR};
-
-void HazardDashes(cv::Mat& image, const cv::Point2d& a, const cv::Point2d& b, const Rgb& colour) {
-  Dashes(image, a, b, colour, 2, 7, 12);
-}
 
 Rgb Mix(const Rgb& from, const Rgb& to, double share) {
   Rgb mixed;
@@ -55,30 +53,31 @@ void AddOnce(std::vector<LegendLine>& legend, const LegendLine& line) {
   legend.push_back(line);
 }
 
-void StartMark(cv::Mat& image, const cv::Point2d& p) {
-  Disc(image, p, 7, kWhite);
-  Disc(image, p, 5, kStart);
-}
-// Wide enough to show around the start's.
-void EndMark(cv::Mat& image, const cv::Point2d& p) {
-  Disc(image, p, 11, kWhite);
-  Ring(image, p, 8.5, kEnd, 3);
-}
-
-void Mark(cv::Mat& image, const cv::Point2d& at, const Rgb& colour, int mark) {
-  constexpr double kReach_px = 24;
-  if (!(std::abs(at.x - 0.5 * image.cols) < 0.5 * image.cols + kReach_px &&
-        std::abs(at.y - 0.5 * image.rows) < 0.5 * image.rows + kReach_px))
-    return;  // off the picture, and perhaps beyond whole numbers
-  const cv::Point p = at;
-  cv::drawMarker(image, p, Colour(kWhite), mark, 17, 6, cv::LINE_AA);
-  cv::drawMarker(image, p, Colour(colour), mark, 15, 2, cv::LINE_AA);
-}
-
 // How far the lines of a plan lie apart that covers all free floor, m.
 double ApartOf(const HazardMap& map, const Path& plan) {
   const auto free = std::ranges::count(map.occupancy.cells, CellState::kFree);
   return static_cast<double>(free) * map.frame.cell_m * map.frame.cell_m / Length(plan);
+}
+
+// Of strokes, px; 0: none. A plan shows on both sides of what was driven along it.
+struct Widths {
+  int casing, plan, driven;
+};
+Widths WidthsOf(const HazardMap& map, const HeatMapOptions& options, const PanelFrame& frame) {
+  const double apart_px = options.plan != nullptr && options.plan->size() > 1
+                              ? ApartOf(map, *options.plan) * frame.px_per_m()
+                              : kCased_px;
+  const bool driven = !options.driven.empty();
+  if (apart_px >= kCased_px) return driven ? Widths{9, 7, 3} : Widths{5, 3, 3};
+  if (apart_px >= kThick_px) return driven ? Widths{0, 5, 2} : Widths{0, 2, 2};
+  return driven && apart_px >= kThick_px / 2 ? Widths{0, 3, 1} : Widths{0, 1 + driven, 1};
+}
+
+void Polylines(cv::Mat& canvas, const std::vector<std::vector<Vec2>>& lines,
+               const PanelFrame& frame, const Rgb& colour, int px) {
+  for (const std::vector<Vec2>& line : lines)
+    for (std::size_t i = 1; i < line.size(); ++i)
+      Line(canvas, frame.Pixel(line[i - 1]), frame.Pixel(line[i]), colour, px);
 }
 
 std::string NumberText(float value) { return fmt::format("{:.6g}", static_cast<double>(value)); }
@@ -106,6 +105,29 @@ cv::Rect FreerCorner(const Image& image, const cv::Point2d& middle, double reach
 
 }  // namespace
 
+void HazardDashes(cv::Mat& image, const cv::Point2d& a, const cv::Point2d& b, const Rgb& colour) {
+  Dashes(image, a, b, colour, 2, 7, 12);
+}
+
+void StartMark(cv::Mat& image, const cv::Point2d& p) {
+  Disc(image, p, 7, kWhite);
+  Disc(image, p, 5, kStart);
+}
+void EndMark(cv::Mat& image, const cv::Point2d& p) {
+  Disc(image, p, 11, kWhite);
+  Ring(image, p, 8.5, kEnd, 3);
+}
+
+void Mark(cv::Mat& image, const cv::Point2d& at, const Rgb& colour, int mark) {
+  constexpr double kReach_px = 24;
+  if (!(std::abs(at.x - 0.5 * image.cols) < 0.5 * image.cols + kReach_px &&
+        std::abs(at.y - 0.5 * image.rows) < 0.5 * image.rows + kReach_px))
+    return;  // off the picture, and perhaps beyond whole numbers
+  const cv::Point p = at;
+  cv::drawMarker(image, p, Colour(kWhite), mark, 17, 6, cv::LINE_AA);
+  cv::drawMarker(image, p, Colour(colour), mark, 15, 2, cv::LINE_AA);
+}
+
 HeatCategory CellsOf(HazardClass hazard_class) {
   constexpr std::array<const char*, 4> kNames = {"C1 blind object", "C2 glass", "C3 level change",
                                                  "C4 terrain"};
@@ -113,20 +135,26 @@ HeatCategory CellsOf(HazardClass hazard_class) {
   return {kNames[i], Mix(kHazards[i], kWhite, 0.6)};
 }
 
-void DrawPlan(const HazardMap& map, const Path* plan, const PanelFrame& frame, HeatPanel& panel) {
+void DrawPaths(const HazardMap& map, const HeatMapOptions& options, const PanelFrame& frame,
+               HeatPanel& panel) {
   cv::Mat canvas = Canvas(panel.image);
+  const Path* plan = options.plan;
+  const Widths widths = WidthsOf(map, options, frame);
+  std::vector<std::vector<Vec2>> planned;
   if (plan != nullptr && plan->size() > 1) {
-    const double apart_px = ApartOf(map, *plan) * frame.px_per_m();
-    std::vector<std::pair<Rgb, int>> strokes = {{kPath, apart_px < kThick_px ? 1 : 2}};
-    if (apart_px >= kCased_px) strokes.insert(strokes.begin(), {kWhite, 4});
-    for (const auto& [colour, px] : strokes)
-      for (std::size_t i = 1; i < plan->size(); ++i)
-        Line(canvas, frame.Pixel((*plan)[i - 1].p_W), frame.Pixel((*plan)[i].p_W), colour, px);
-    panel.legend.push_back({LegendLine::Kind::kLine, "plan", kPath, strokes.back().second});
+    planned.emplace_back();
+    for (const Waypoint& waypoint : *plan) planned.back().push_back(waypoint.p_W);
   }
+  if (widths.casing > 0) Polylines(canvas, planned, frame, kWhite, widths.casing);
+  Polylines(canvas, planned, frame, kPath, widths.plan);
+  Polylines(canvas, options.driven, frame, kDriven, widths.driven);
+  if (!planned.empty())
+    panel.legend.push_back({LegendLine::Kind::kLine, "plan", kPath, widths.plan});
+  if (!options.driven.empty())
+    panel.legend.push_back({LegendLine::Kind::kLine, "driven", kDriven, widths.driven});
   if (plan != nullptr && !plan->empty()) {
     EndMark(canvas, frame.Pixel(plan->back().p_W));
-    panel.legend.push_back({LegendLine::Kind::kEnd, "end"});
+    panel.legend.push_back({LegendLine::Kind::kEnd, "end of the plan"});
   }
   if (map.start) {
     StartMark(canvas, frame.Pixel(map.start->p()));
@@ -206,40 +234,5 @@ void DrawNumbers(const HeatValues& values, const PanelFrame& frame, HeatPanel& p
 }
 
 Rgb HatchedAt(int x, int y) { return (x + y) % 9 < 2 ? kHatch : kUnknown; }
-
-void DrawSwatch(cv::Mat& canvas, const cv::Rect& place, const LegendLine& line) {
-  const cv::Point2d left(place.x, place.y + 0.5 * place.height),
-      right(place.x + place.width, place.y + 0.5 * place.height), middle = 0.5 * (left + right);
-  switch (line.kind) {
-    case LegendLine::Kind::kArea:
-      cv::rectangle(canvas, place, Colour(line.colour), cv::FILLED);
-      break;
-    case LegendLine::Kind::kHatched:
-      for (int y = place.y; y < place.br().y; ++y)
-        for (int x = place.x; x < place.br().x; ++x) {
-          const Rgb colour = HatchedAt(x, y);
-          canvas.at<cv::Vec3b>(y, x) = {colour[0], colour[1], colour[2]};
-        }
-      break;
-    case LegendLine::Kind::kOutline:
-      cv::rectangle(canvas, place, Colour(line.colour), 2, cv::LINE_AA);
-      break;
-    case LegendLine::Kind::kDashed:
-      HazardDashes(canvas, left, right, line.colour);
-      break;
-    case LegendLine::Kind::kLine:
-      Line(canvas, left, right, line.colour, line.px);
-      break;
-    case LegendLine::Kind::kStart:
-      StartMark(canvas, middle);
-      break;
-    case LegendLine::Kind::kEnd:
-      EndMark(canvas, middle);
-      break;
-    case LegendLine::Kind::kMark:
-      Mark(canvas, (place.tl() + place.br()) / 2, line.colour, line.mark);
-      break;
-  }
-}
 
 }  // namespace floorproof

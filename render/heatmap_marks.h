@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies over a heat map's cells: the plan, hazards, points, numbers. Each adds its lines to the
+// What lies over a heat map's cells: paths, hazards, points, numbers. Each adds its lines to the
 // legend. For heatmap*.cc only.
 #pragma once
 
@@ -8,8 +8,10 @@
 
 namespace floorproof {
 
-// Start and end too. Thick and cased where there is room between its lines.
-void DrawPlan(const HazardMap& map, const Path* plan, const PanelFrame& frame, HeatPanel& panel);
+// The plan with start and end, thick and cased where there is room between its lines; over it, and
+// narrower, what was driven.
+void DrawPaths(const HazardMap& map, const HeatMapOptions& options, const PanelFrame& frame,
+               HeatPanel& panel);
 // Outlines: a class's colour, a shade of it for each of its types, broken where it is on no map.
 void DrawHazards(const HazardMap& map, const PanelFrame& frame, HeatPanel& panel);
 void DrawPoints(const HeatMapOptions& options, const PanelFrame& frame, HeatPanel& panel);
@@ -17,8 +19,11 @@ void DrawPoints(const HeatMapOptions& options, const PanelFrame& frame, HeatPane
 // To be drawn last: it looks at what is there.
 void DrawNumbers(const HeatValues& values, const PanelFrame& frame, HeatPanel& panel);
 
-// The legend's picture of a line, within `place`.
-void DrawSwatch(cv::Mat& canvas, const cv::Rect& place, const LegendLine& line);
+// What they are drawn with; the legend is too.
+void StartMark(cv::Mat& image, const cv::Point2d& p);
+void EndMark(cv::Mat& image, const cv::Point2d& p);  // shows around the start's
+void Mark(cv::Mat& image, const cv::Point2d& at, const Rgb& colour, int mark);
+void HazardDashes(cv::Mat& image, const cv::Point2d& a, const cv::Point2d& b, const Rgb& colour);
 // Ground that nobody knows, at that pixel.
 Rgb HatchedAt(int x, int y);
 

@@ -6,8 +6,9 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "render/heatmap_failures.h"
 #include "render/heatmap_marks.h"
-#include "render/panel_frame.h"
+#include "render/strokes.h"
 
 namespace floorproof {
 namespace {
@@ -143,21 +144,22 @@ Rgb HeatPanel::ColourOf(double value) const {
   return colours[static_cast<std::size_t>(std::lround(255 * std::clamp(share, 0.0, 1.0)))];
 }
 
-HeatPanel DrawPanel(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options) {
-  const PanelFrame frame(map.frame, KnownWindow(map, options));
+HeatPanel DrawPanel(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options,
+                    const PanelFrame& frame, const MapAxes& axes) {
   HeatPanel panel;
   panel.image.width = frame.width;
   panel.image.height = frame.height;
   panel.image.channels = 3;
   panel.image.data.resize(static_cast<std::size_t>(frame.width) * frame.height * 3);
-  panel.px_per_m = frame.px_per_m();
   panel.range = RangeOf(values, options);
   panel.colours = Colours(options.colour_map);
   DrawCells(map, values, options, frame, panel);
-  DrawPlan(map, options.plan, frame, panel);
+  axes.DrawGrid(Canvas(panel.image));
+  DrawPaths(map, options, frame, panel);
   DrawHazards(map, frame, panel);
   DrawPoints(options, frame, panel);
   if (values != nullptr && options.numbers) DrawNumbers(*values, frame, panel);
+  DrawFailures(options, frame, panel);
   std::ranges::stable_sort(panel.legend, {}, &LegendLine::kind);
   return panel;
 }

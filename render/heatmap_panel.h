@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "render/heatmap.h"
+#include "render/map_axes.h"
+#include "render/panel_frame.h"
 
 namespace floorproof {
 
@@ -16,17 +18,29 @@ struct HeatRange {
 
 struct LegendLine {
   // In the legend's order.
-  enum class Kind { kArea, kHatched, kOutline, kDashed, kLine, kStart, kEnd, kMark };
+  enum class Kind {
+    kArea,
+    kHatched,
+    kOutline,
+    kDashed,
+    kLine,
+    kStart,
+    kEnd,
+    kMark,
+    kHeading,
+    kNumber,
+    kDot
+  };
   Kind kind = Kind::kArea;
   std::string label;
   Rgb colour = {0, 0, 0};
   int px = 1;    // of a line
   int mark = 0;  // of cv::MarkerTypes
+  std::string number = {};
 };
 
 struct HeatPanel {
   Image image;
-  double px_per_m = 1;
   HeatRange range;
   std::array<Rgb, 256> colours = {};  // from the range's low end to its high one
   std::vector<LegendLine> legend;
@@ -34,6 +48,7 @@ struct HeatPanel {
   Rgb ColourOf(double value) const;
 };
 
-HeatPanel DrawPanel(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options);
+HeatPanel DrawPanel(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options,
+                    const PanelFrame& frame, const MapAxes& axes);
 
 }  // namespace floorproof

@@ -116,7 +116,8 @@ void ThinOut(mjvGeom& geom, float top, const Eigen::Vector3f& eye, const Eigen::
 
 // The C structs and their frees.
 struct OffscreenRenderer::Gl {
-  Gl(const mjModel* model, int width, int height, int max_marks) : context(MakeGlContext()) {
+  Gl(const mjModel* model, int width, int height, int max_marks, RenderQuality quality)
+      : context(MakeGlContext()) {
     if (std::min(width, height) < 1 || std::max(width, height) > context->max_side_px()) {
       throw InternalError("cannot draw " + std::to_string(width) + " x " + std::to_string(height) +
                           " pixels: at most " + std::to_string(context->max_side_px()) + " a side");
@@ -135,6 +136,11 @@ struct OffscreenRenderer::Gl {
     mjModel sized = *model;  // borrows the arrays; only the picture's size differs
     sized.vis.global.offwidth = width;
     sized.vis.global.offheight = height;
+    if (quality == RenderQuality::kDraft) {
+      sized.vis.quality.offsamples = 0;
+      sized.vis.quality.shadowsize = 0;
+      scene.flags[mjRND_SHADOW] = scene.flags[mjRND_REFLECTION] = 0;
+    }
     mjr_makeContext(&sized, &draw, mjFONTSCALE_50);
     mjr_setBuffer(mjFB_OFFSCREEN, &draw);
     if (draw.currentBuffer != mjFB_OFFSCREEN) throw InternalError("no off-screen frame buffer");
@@ -153,11 +159,12 @@ struct OffscreenRenderer::Gl {
   mjvCamera camera;
 };
 
-OffscreenRenderer::OffscreenRenderer(const mjModel* model, int width, int height, int max_marks)
+OffscreenRenderer::OffscreenRenderer(const mjModel* model, int width, int height, int max_marks,
+                                     RenderQuality quality)
     : model_(model),
       width_(width),
       height_(height),
-      gl_(std::make_unique<Gl>(model, width, height, max_marks)) {}
+      gl_(std::make_unique<Gl>(model, width, height, max_marks, quality)) {}
 
 OffscreenRenderer::~OffscreenRenderer() = default;
 

@@ -12,6 +12,9 @@
 
 namespace floorproof {
 
+// Of a picture: as the model states it; or quick: no shadows, one sample a pixel.
+enum class RenderQuality { kFull, kDraft };
+
 // Draws with the lights, materials and quality that the model states (mjModel.vis), at a size of
 // its own. Geoms that cannot be seen are left out; world geoms between the camera and its target
 // are drawn as if of thin glass; shadows of directional lights are drawn around the target.
@@ -19,7 +22,8 @@ class OffscreenRenderer {
  public:
   // Throws InternalError when there is no GL to draw with or the picture is too large for it.
   // The model must outlive the renderer.
-  OffscreenRenderer(const mjModel* model, int width, int height, int max_marks = 4000);
+  OffscreenRenderer(const mjModel* model, int width, int height, int max_marks = 4000,
+                    RenderQuality quality = RenderQuality::kFull);
   ~OffscreenRenderer();
   OffscreenRenderer(const OffscreenRenderer&) = delete;
   OffscreenRenderer& operator=(const OffscreenRenderer&) = delete;

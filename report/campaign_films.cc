@@ -3,13 +3,26 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <string>
+#include <vector>
 
 #include "report/replay.h"
 
 namespace floorproof {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+struct Filming {
+  const Variant* variant = nullptr;
+  EpisodeRow row;
+  std::vector<FailureMode> modes = {};
+};
+
+}  // namespace
 
 void FilmFirstFailures(const ScenarioFile& file, const CampaignStore& store, const fs::path& folder,
                        const Console& console) {
@@ -27,15 +40,29 @@ void FilmFirstFailures(const ScenarioFile& file, const CampaignStore& store, con
         if (row.events_of[m] > 0 && earlier) first = {&variant, row};
       }
     });
+  std::vector<Filming> filmings;  // an episode may be the first of several modes
   for (std::size_t m = 0; m < firsts.size(); ++m) {
     const auto& [variant, row] = firsts[m];
     if (variant == nullptr) continue;
-    const fs::path film = EpisodeFolder(folder, *variant, row.episode) / "video.mp4";
+    const auto same = std::ranges::find_if(filmings, [&](const Filming& f) {
+      return f.variant == variant && f.row.episode == row.episode;
+    });
+    Filming& filming =
+        same != filmings.end() ? *same : filmings.emplace_back(Filming{variant, row});
+    filming.modes.push_back(static_cast<FailureMode>(m));
+  }
+  std::erase_if(filmings, [&](const Filming& f) {
     std::error_code ignored;
-    if (fs::exists(film, ignored)) continue;
-    console.Say(fmt::format("filming the first {}: episode {} of {}",
-                            Name(static_cast<FailureMode>(m)), row.episode, variant->name));
-    ReplayEpisode(file, *variant, row, folder, true, console);
+    return fs::exists(EpisodeFolder(folder, *f.variant, f.row.episode) / "video.mp4", ignored);
+  });
+  for (std::size_t i = 0; i < filmings.size(); ++i) {
+    const auto& [variant, row, modes] = filmings[i];
+    std::string names;
+    for (const FailureMode mode : modes)
+      names += (names.empty() ? "" : ", ") + std::string(Name(mode));
+    console.Say(fmt::format("film {} of {}: the first {}, episode {} of {}", i + 1, filmings.size(),
+                            names, row.episode, variant->name));
+    ReplayEpisode(file, *variant, row, folder, {.video = true, .draft_around = modes}, console);
   }
 }
 

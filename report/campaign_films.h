@@ -10,7 +10,8 @@
 
 namespace floorproof {
 
-// The first failing episode of each mode, of all variants; a film that is there stays.
+// The first failing episode of each mode, of all variants: drafts of the seconds around the
+// failure. A film that is there stays.
 void FilmFirstFailures(const ScenarioFile& file, const CampaignStore& store,
                        const std::filesystem::path& folder, const Console& console);
 

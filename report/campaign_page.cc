@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "base/error.h"
 #include "base/input_file.h"
+#include "report/drawing_progress.h"
+#include "report/drive_marks.h"
 #include "report/failing_episodes.h"
 #include "report/films.h"
 #include "report/pairs.h"
@@ -47,12 +50,12 @@ class Rows {
     const fs::path database = folder / "campaign.sqlite", summary = folder / "summary.json";
     std::size_t listed = 0;
     int rows = 0;
-    std::vector<Event> places;
+    std::vector<HeatFailure> places;
     store.ForEach(variant.name, [&](const EpisodeRow& row) {
       ++rows;
       if (!IsListed(row)) return;
       const std::vector<Event> events = FromRow(database, [&] { return EventsOf(row); });
-      if (row.counts()) places.insert(places.end(), events.begin(), events.end());
+      if (row.counts()) AddPlaces(row.episode, events, places);
       what_[{variant.name, row.episode}] = WhatFailed(row, events);
       if (listed++ < share_)
         report_.episodes.push_back(FromRow(database, [&] {
@@ -70,17 +73,26 @@ class Rows {
     places_.push_back(std::move(places));
   }
 
-  const std::vector<std::vector<Event>>& places() const { return places_; }
+  const std::vector<std::vector<HeatFailure>>& places() const { return places_; }
   std::string WhatOf(const std::string& variant, std::uint64_t episode) const {
     const auto found = what_.find({variant, episode});
     return found == what_.end() ? "success" : found->second;
   }
 
  private:
+  // Numbered by the episode, under which the page lists it and `replay` drives it again.
+  static void AddPlaces(std::uint64_t episode, const std::vector<Event>& events,
+                        std::vector<HeatFailure>& places) {
+    for (std::size_t i = 0; i < events.size(); ++i)
+      places.push_back({{events[i].x_m, events[i].y_m},
+                        i == 0 ? fmt::format("{}", episode) : fmt::format("{}.{}", episode, i + 1),
+                        FailureText(events[i])});
+  }
+
   Report& report_;
   std::string named_;
   std::size_t share_ = 0;  // episodes listed of a variant
-  std::vector<std::vector<Event>> places_;
+  std::vector<std::vector<HeatFailure>> places_;
   std::map<std::pair<std::string, std::uint64_t>, std::string> what_;
 };
 
@@ -141,7 +153,7 @@ std::optional<HeatValues> RatesOnFloor(const VariantSummary& variant) {
   return heat;
 }
 
-void AddPlaces(const fs::path& folder, const Rows& rows, Report& report) {
+void AddMaps(const fs::path& folder, const Rows& rows, const Console& console, Report& report) {
   std::optional<ScenarioFile> file;
   std::string why;
   try {
@@ -152,7 +164,9 @@ void AddPlaces(const fs::path& folder, const Rows& rows, Report& report) {
   }
   const auto& variants = report.summary.variants;
   report.maps.resize(variants.size());
+  DrawingProgress progress(console, "drawing maps");
   for (std::size_t v = 0; v < variants.size(); ++v) {
+    progress.Show(static_cast<int>(v), static_cast<int>(variants.size()));
     const std::string& name = variants[v].name;
     ReportMap& map = report.maps[v];
     const fs::path png = folder / PictureFile(name, v + 1);
@@ -173,8 +187,11 @@ void AddPlaces(const fs::path& folder, const Rows& rows, Report& report) {
         continue;
       }
       const std::optional<HeatValues> rates = RatesOnFloor(variants[v]);
+      HeatMapOptions options;
+      options.failures = rows.places()[v];
+      options.failures_by = "failures, by episode";
       WriteFailurePlaces(scenario.site.map, name + " on " + scenario.site.map.name,
-                         rows.places()[v], rates ? &*rates : nullptr, nullptr, png);
+                         std::move(options), rates ? &*rates : nullptr, png);
       map.png = ReadInputFile(png, kMaxResultBytes);
       if (!scenario.randomise.IsNull())
         map.note = "the map is the site as written, before an episode's draws";
@@ -193,7 +210,8 @@ ResultNames PageResults() {
           }};
 }
 
-Report GatherReport(const fs::path& folder, const std::string& named, ResultFolder& out) {
+Report GatherReport(const fs::path& folder, const std::string& named, ResultFolder& out,
+                    const Console& console) {
   const fs::path summary_file = folder / "summary.json", database = folder / "campaign.sqlite";
   Report report;
   report.summary = ReadSummary(summary_file);
@@ -212,7 +230,7 @@ Report GatherReport(const fs::path& folder, const std::string& named, ResultFold
     report.pairs.push_back(ShownPair(
         CompareVariants(store, summary.variants[0].name, store, summary.variants[v].name)));
   report.title = "campaign " + summary.campaign;
-  AddPlaces(folder, rows, report);
+  AddMaps(folder, rows, console, report);
   AddFilms(
       folder, [&](const std::string& v, std::uint64_t id) { return rows.WhatOf(v, id); }, report);
   report.settings = ReadInputFile(folder / "scenario.resolved.yaml", kMaxResultBytes);

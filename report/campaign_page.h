@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "base/console.h"
 #include "base/result_folder.h"
 #include "report/page.h"
 
@@ -14,7 +15,7 @@ namespace floorproof {
 // the folder as the commands on the page name it; `out`: the same, of PageResults. Throws
 // InputError where a file is missing, damaged, or not of the same episodes as the others.
 Report GatherReport(const std::filesystem::path& folder, const std::string& named,
-                    ResultFolder& out);
+                    ResultFolder& out, const Console& console);
 
 // The page and its pictures.
 ResultNames PageResults();

@@ -38,10 +38,12 @@ std::string Verdict(const EpisodeRecord& record) {
   return line;
 }
 
-std::string EventLine(const Event& e) {
-  return fmt::format("  {}{} at {:.1f} s, x {:.2f} y {:.2f} m{}: {:.3g} against {:.3g}, effect {}",
-                     Name(e.mode), e.kind.empty() ? "" : " (" + e.kind + ")", e.t_s, e.x_m, e.y_m,
-                     e.hazard.empty() ? "" : ", " + e.hazard, e.value, e.threshold, e.effect);
+// `number`: of the event, from 1; the maps name it by that.
+std::string EventLine(std::size_t number, const Event& e) {
+  return fmt::format(
+      "  {}. {}{} at {:.1f} s, x {:.2f} y {:.2f} m{}: {:.3g} against {:.3g}, effect {}", number,
+      Name(e.mode), e.kind.empty() ? "" : " (" + e.kind + ")", e.t_s, e.x_m, e.y_m,
+      e.hazard.empty() ? "" : ", " + e.hazard, e.value, e.threshold, e.effect);
 }
 
 // Says how far a drive is, writes the plan's files when there is a plan, and records what a film
@@ -94,7 +96,8 @@ class Witness : public EpisodeObserver {
 
   void SayVerdict(const EpisodeRecord& record) const {
     console_.Say(Verdict(record));
-    for (const auto& event : record.events) console_.Say(EventLine(event));
+    for (std::size_t i = 0; i < record.events.size(); ++i)
+      console_.Say(EventLine(i + 1, record.events[i]));
     console_.Say(fmt::format("drove {:.0f}x faster than real time ({:.1f} s)",
                              record.metrics.duration_s / drive_s_, drive_s_));
   }
@@ -152,12 +155,12 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
     missing = "pictures";
     say_verdict();  // what is said is on the disk
     witness.LetGo();
-    if (options.write_records) WriteHeatMaps(s, result.plan, result.record, folder);
+    if (options.write_records) WriteHeatMaps(s, result.plan, result.record, folder, console);
     witness.There(options.video ? " holds all but, perhaps, the film" : " is whole");
     missing = "the film";
     if (options.video)
-      console.Say(
-          WriteVideo(s, *execution.scene, result.plan, result.record, witness.recording(), folder));
+      console.Say(WriteVideo(s, *execution.scene, result.plan, result.record, witness.recording(),
+                             options.draft_around, folder, console));
     witness.There(" is whole");
   } catch (const InputError& e) {
     say_verdict();

@@ -5,6 +5,7 @@
 #include <exception>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "base/console.h"
 #include "run/episode/episode.h"
@@ -13,6 +14,8 @@ namespace floorproof {
 
 struct DriveOptions {
   bool video = false;
+  // Of the film: not empty: a draft of the seconds around the first failure of each of these modes.
+  std::vector<FailureMode> draft_around = {};
   bool write_records = true;  // replay keeps what was recorded
   std::string finished = {};  // folders that an interruption's line names as whole
 };

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/file_output.h"
+#include "report/drive_marks.h"
 #include "run/campaign/episodes_csv.h"
 
 namespace floorproof {
@@ -33,8 +34,7 @@ bool IsListed(const EpisodeRow& row) { return row.outcome != "success" || row.an
 
 std::string WhatFailed(const EpisodeRow& row, const std::vector<Event>& events) {
   if (events.empty()) return Words(row.outcome);
-  const std::string mode = Words(std::string(Name(events.front().mode)));
-  return events.front().kind.empty() ? mode : mode + " (" + Words(events.front().kind) + ")";
+  return FailureText(events.front());
 }
 
 ReportEpisode FailingEpisode(const EpisodeRow& row, const std::vector<Event>& events,

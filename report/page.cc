@@ -134,7 +134,8 @@ std::string Places(const Report& report) {
     if (variants.size() > 1) html += "<h3>" + MarkupText(variants[i].name) + "</h3>\n";
     if (!map.png.empty())
       html += Picture(map.png, "Where " + (variants.size() > 1 ? variants[i].name : "the robot") +
-                                   " failed" + (map.note.empty() ? "" : "; " + map.note));
+                                   " failed; numbers are episodes" +
+                                   (map.note.empty() ? "" : "; " + map.note));
     else
       html += "<p class=\"note\">" + MarkupText(map.note) + "</p>\n";
     html += PlaceRates(report, variants[i]) + "</div>\n";

@@ -4,7 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
+#include <utility>
 
+#include "report/drawing_progress.h"
+#include "report/drive_marks.h"
 #include "report/error_plot.h"
 #include "report/risk_pictures.h"
 
@@ -21,7 +26,9 @@ HeatValues OverSweepable(const EpisodeRecord& record, float (*value)(std::uint8_
 
 // What the robot's own map says, and where it is wrong: by more than a cell of its own or of the
 // site, which walls are drawn to.
-void WriteKnownMap(const Scenario& s, const KnownMap& known, const std::filesystem::path& png) {
+void WriteKnownMap(const Scenario& s, const EpisodeRecord& record,
+                   const std::filesystem::path& png) {
+  const KnownMap& known = *record.known;
   const KnownAgainstTruth seen =
       Compare(known, s.site.map, s.robot.spec.step_m, 2 * known.frame.cell_m);
   HeatMapOptions options;
@@ -36,12 +43,59 @@ void WriteKnownMap(const Scenario& s, const KnownMap& known, const std::filesyst
   for (const FloorMark& mark : known.marks)
     options.points.push_back(
         {mark.p_W, mark.kind == FloorMark::Kind::kDrop ? "drop sensed" : "bump sensed"});
+  ShowDrive(record, Way::kHidden, options);
   HeatValues heat{known.frame, Grid<float>(seen.cells.width, seen.cells.height)};
   for (std::size_t i = 0; i < heat.values.cells.size(); ++i)
     heat.values.cells[i] = static_cast<float>(seen.cells.cells[i]);
   HazardMap bare = s.site.map;  // the walls shown are those that were sensed
   std::ranges::fill(bare.occupancy.cells, CellState::kFree);
   WriteHeatMap(bare, &heat, options, png);
+}
+
+void WriteVisits(const Scenario& s, const EpisodeRecord& record, const std::filesystem::path& png) {
+  HeatMapOptions options;
+  options.title = PictureTitle(s) + ": visits";
+  options.quantity = "passes of the tool";
+  options.unit = "count";
+  options.whole_numbers = true;
+  options.low = 0;
+  ShowDrive(record, Way::kHidden, options);
+  const HeatValues heat =
+      OverSweepable(record, [](std::uint8_t passes) { return static_cast<float>(passes); });
+  WriteHeatMap(s.site.map, &heat, options, png);
+}
+
+void WriteCoverage(const Scenario& s, const EpisodeRecord& record,
+                   const std::filesystem::path& png) {
+  HeatMapOptions options;
+  options.title =
+      fmt::format("{}: coverage {:.1f} %", PictureTitle(s), 100 * record.metrics.coverage);
+  // Apart for eyes that see red and green alike, too.
+  options.categories = {{"can be swept, was not", {236, 176, 70}}, {"swept", {112, 168, 196}}};
+  ShowDrive(record, Way::kHidden, options);
+  const HeatValues heat =
+      OverSweepable(record, [](std::uint8_t passes) { return passes > 0 ? 1.0f : 0.0f; });
+  WriteHeatMap(s.site.map, &heat, options, png);
+}
+
+// A quick film of a failure: what led to it, and what came of it.
+void MakeDraft(const EpisodeRecord& record, const std::vector<FailureMode>& modes,
+               FilmOptions& options) {
+  constexpr int kWidth = 640;
+  constexpr double kFps = 15;
+  if (options.width > kWidth) {
+    options.height = std::max(64, options.height * kWidth / options.width) & ~1;
+    options.width = kWidth;
+  }
+  options.pace.fps = std::min(options.pace.fps, kFps);
+  options.pace.before_s = 6;
+  options.pace.after_s = 2;
+  options.quality = RenderQuality::kDraft;
+  for (const FailureMode mode : modes) {
+    const auto first = std::ranges::find(record.events, mode, &Event::mode);
+    if (first != record.events.end()) options.only_around_s.push_back(first->t_s);
+  }
+  std::ranges::sort(options.only_around_s);
 }
 
 // Where no single event says how it ended.
@@ -62,56 +116,46 @@ Banner ClosingBanner(const EpisodeRecord& record) {
 std::string PictureTitle(const Scenario& s) { return s.robot_name + " on " + s.site.map.name; }
 
 void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecord& record,
-                   const std::filesystem::path& folder) {
-  WritePlanPictures(s, plan, folder);
-  {
-    HeatMapOptions options;
-    options.title = PictureTitle(s) + ": visits";
-    options.quantity = "passes of the tool";
-    options.unit = "count";
-    options.whole_numbers = true;
-    options.low = 0;
-    const HeatValues heat =
-        OverSweepable(record, [](std::uint8_t passes) { return static_cast<float>(passes); });
-    WriteHeatMap(s.site.map, &heat, options, folder / "heatmap_visits.png");
+                   const std::filesystem::path& folder, const Console& console) {
+  const std::function<void()> pictures[] = {
+      [&] { WritePlanPictures(s, plan, folder, {}, &record); },
+      [&] { WriteVisits(s, record, folder / "heatmap_visits.png"); },
+      [&] { WriteCoverage(s, record, folder / "heatmap_coverage.png"); },
+      [&] {
+        HeatMapOptions options;
+        options.plan = &plan.path;
+        ShowDrive(record, Way::kShown, options);
+        WriteFailurePlaces(s.site.map, PictureTitle(s), std::move(options), nullptr,
+                           folder / "heatmap_failures.png");
+      },
+      [&] {
+        if (record.known) WriteKnownMap(s, record, folder / "heatmap_known.png");
+      },
+      [&] { WriteErrorPlot(PictureTitle(s), record, folder / "plot_errors.png"); }};
+  DrawingProgress progress(console, "drawing maps");
+  int done = 0;
+  for (const auto& draw : pictures) {
+    progress.Show(done++, static_cast<int>(std::size(pictures)));
+    draw();
   }
-  {
-    HeatMapOptions options;
-    options.title =
-        fmt::format("{}: coverage {:.1f} %", PictureTitle(s), 100 * record.metrics.coverage);
-    options.categories = {{"can be swept, was not", {222, 90, 60}}, {"swept", {70, 150, 110}}};
-    const HeatValues heat =
-        OverSweepable(record, [](std::uint8_t passes) { return passes > 0 ? 1.0f : 0.0f; });
-    WriteHeatMap(s.site.map, &heat, options, folder / "heatmap_coverage.png");
-  }
-  WriteFailurePlaces(s.site.map, PictureTitle(s), record.events, nullptr, &plan.path,
-                     folder / "heatmap_failures.png");
-  if (record.known) WriteKnownMap(s, *record.known, folder / "heatmap_known.png");
-  WriteErrorPlot(PictureTitle(s), record, folder / "plot_errors.png");
 }
 
-void WriteFailurePlaces(const HazardMap& map, const std::string& title,
-                        const std::vector<Event>& events, const HeatValues* rates, const Path* plan,
-                        const std::filesystem::path& png) {
-  constexpr std::size_t kManyPoints = 200;  // they would hide the squares
-  HeatMapOptions options;
-  options.title =
-      fmt::format("{}: {} failure event{}", title, events.size(), events.size() == 1 ? "" : "s");
-  if (rates == nullptr || events.size() <= kManyPoints)
-    for (const auto& event : events)
-      options.points.push_back({{event.x_m, event.y_m}, std::string(Name(event.mode))});
+void WriteFailurePlaces(const HazardMap& map, const std::string& title, HeatMapOptions options,
+                        const HeatValues* rates, const std::filesystem::path& png) {
+  const std::size_t n = options.failures.size();
+  options.title = fmt::format("{}: {} failure event{}", title, n, n == 1 ? "" : "s");
   if (rates != nullptr) {
     options.quantity = "episodes failing here";
     options.unit = "%";
     options.low = 0;
   }
-  options.plan = plan;
   WriteHeatMap(map, rates, options, png);
 }
 
 std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& plan,
                        const EpisodeRecord& record, const Recording& recording,
-                       const std::filesystem::path& folder) {
+                       const std::vector<FailureMode>& draft_around,
+                       const std::filesystem::path& folder, const Console& console) {
   const HazardMap& map = s.site.map;
   // A film shows all walls, near and far.
   Scene whole;
@@ -147,6 +191,9 @@ std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& 
   options.pace.speed_up = s.video.speed_up.value_or(0);
   options.pace.max_frames = s.video.max_frames;
   options.stills = folder;
+  if (!draft_around.empty()) MakeDraft(record, draft_around, options);
+  DrawingProgress progress(console, "filming, frames");
+  options.on_frame = [&](int done, int all) { progress.Show(done, all); };
   const FilmResult film = WriteFilm(script, options, folder / "video.mp4");
   return fmt::format("filmed: {} frames ({:.1f} s to draw, {:.1f} s to encode): {}", film.frames,
                      film.render_s, film.encode_s, (folder / "video.mp4").string());

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/console.h"
 #include "render/film.h"
 #include "render/heatmap.h"
 #include "run/episode/episode.h"
@@ -15,17 +16,20 @@ namespace floorproof {
 // "ROBOT on SITE", how the titles of an episode's pictures begin.
 std::string PictureTitle(const Scenario& scenario);
 // The plan's pictures (report/risk_pictures.h); heatmap_visits.png, heatmap_coverage.png,
-// heatmap_failures.png and plot_errors.png; of a robot that draws a map, heatmap_known.png.
+// heatmap_failures.png and plot_errors.png; of a robot that draws a map, heatmap_known.png. Each
+// map has the failures; those of the plan and of the failures show what was driven, too.
 void WriteHeatMaps(const Scenario& scenario, const PlanResult& plan, const EpisodeRecord& record,
-                   const std::filesystem::path& folder);
-// Failures as points over the map, on the share of episodes that failed in each square where that
-// is given, and the plan where there is one.
-void WriteFailurePlaces(const HazardMap& map, const std::string& title,
-                        const std::vector<Event>& events, const HeatValues* rates, const Path* plan,
-                        const std::filesystem::path& png);
-// video.mp4 and frame_*.png; returns a line that says how it went.
+                   const std::filesystem::path& folder, const Console& console);
+// Failures over the map, on the share of episodes that failed in each square where that is given.
+// `options` holds the failures and what else lies over the map.
+void WriteFailurePlaces(const HazardMap& map, const std::string& title, HeatMapOptions options,
+                        const HeatValues* rates, const std::filesystem::path& png);
+// video.mp4 and frame_*.png; returns a line that says how it went. In the scenario's own size and
+// pace; `draft_around` not empty: a small, quick film of the seconds around the first event of each
+// of these modes.
 std::string WriteVideo(const Scenario& scenario, const Scene& scene, const PlanResult& plan,
                        const EpisodeRecord& record, const Recording& recording,
-                       const std::filesystem::path& folder);
+                       const std::vector<FailureMode>& draft_around,
+                       const std::filesystem::path& folder, const Console& console);
 
 }  // namespace floorproof

@@ -66,12 +66,13 @@ fs::path EpisodeFolder(const fs::path& campaign, const Variant& variant, std::ui
 }
 
 DriveResult ReplayEpisode(const ScenarioFile& file, const Variant& variant, const EpisodeRow& row,
-                          const fs::path& folder, bool video, const Console& console) {
+                          const fs::path& folder, const DriveOptions& options,
+                          const Console& console) {
   Scenario scenario = file.Read(row.episode, variant);
   const fs::path into = EpisodeFolder(folder, variant, row.episode);
   RefuseLinks(folder, into);
   if (row.outcome == "error") console.Say("recorded as an error: " + row.message);
-  DriveResult result = DriveAndFilm(scenario, into, {.video = video}, console);
+  DriveResult result = DriveAndFilm(scenario, into, options, console);
   if (result.not_written) std::rethrow_exception(result.not_written);
   const EpisodeRow now = MakeRow(variant.name, scenario, row.plan, result.record);
   if (row.outcome == "error" && now.outcome != "error")

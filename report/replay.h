@@ -28,6 +28,7 @@ std::filesystem::path EpisodeFolder(const std::filesystem::path& campaign, const
 // Drives the recorded episode again into <folder>/episodes/<variant>/<id>, whole as `run` would.
 // Throws InternalError when outcome, events or metrics are not the recorded ones.
 DriveResult ReplayEpisode(const ScenarioFile& file, const Variant& variant, const EpisodeRow& row,
-                          const std::filesystem::path& folder, bool video, const Console& console);
+                          const std::filesystem::path& folder, const DriveOptions& options,
+                          const Console& console);
 
 }  // namespace floorproof

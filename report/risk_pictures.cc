@@ -8,6 +8,7 @@
 
 #include "render/chart.h"
 #include "render/heatmap.h"
+#include "report/drive_marks.h"
 #include "report/pictures.h"
 #include "run/episode/make_plan.h"
 
@@ -35,11 +36,12 @@ std::string Title(const Scenario& s, const PlanResult& plan, const std::string& 
              : fmt::format("{}no plan ({})", title, Name(plan.status));
 }
 
-void WritePlanOverClasses(const Scenario& s, const PlanResult& plan,
+void WritePlanOverClasses(const Scenario& s, const PlanResult& plan, const EpisodeRecord* record,
                           const std::filesystem::path& png) {
   HeatMapOptions options;
-  options.title = Title(s, plan, "plan");
+  options.title = Title(s, plan, record == nullptr ? "plan" : "plan and drive");
   options.plan = &plan.path;
+  if (record != nullptr) ShowDrive(*record, Way::kShown, options);
   for (const auto c : {HazardClass::kBlindObject, HazardClass::kGlass, HazardClass::kLevelChange,
                        HazardClass::kTerrain})
     options.categories.push_back(CellsOf(c));
@@ -51,8 +53,10 @@ void WritePlanOverClasses(const Scenario& s, const PlanResult& plan,
   WriteHeatMap(s.site.map, &classes, options, png);
 }
 
-void WriteRiskMap(const Scenario& s, const PlanResult& plan, const std::filesystem::path& png) {
+void WriteRiskMap(const Scenario& s, const PlanResult& plan, const EpisodeRecord* record,
+                  const std::filesystem::path& png) {
   HeatMapOptions options;
+  if (record != nullptr) ShowDrive(*record, Way::kHidden, options);
   const auto [least, most] = std::ranges::minmax(plan.risk->rf.cells);
   options.title = PictureTitle(s) + ": risk";
   if (least > 0) options.title += fmt::format(", highest / lowest {:.2f}", most / least);
@@ -65,8 +69,9 @@ void WriteRiskMap(const Scenario& s, const PlanResult& plan, const std::filesyst
 }
 
 void WritePlanVisits(const Scenario& s, const PlanResult& plan, const RiskOfPath& risk,
-                     const std::filesystem::path& png) {
+                     const EpisodeRecord* record, const std::filesystem::path& png) {
   HeatMapOptions options;
+  if (record != nullptr) ShowDrive(*record, Way::kHidden, options);
   options.title = Title(s, plan, fmt::format("{} visits of {} cells", risk.visits, risk.cells));
   options.quantity = "visits by the plan";
   options.unit = "count";
@@ -143,12 +148,13 @@ std::vector<RiskOfPlan> PlansBeside(const std::vector<std::string>& files,
 }
 
 void WritePlanPictures(const Scenario& s, const PlanResult& plan,
-                       const std::filesystem::path& folder, std::span<const RiskOfPlan> beside) {
-  WritePlanOverClasses(s, plan, folder / "heatmap_plan.png");
+                       const std::filesystem::path& folder, std::span<const RiskOfPlan> beside,
+                       const EpisodeRecord* record) {
+  WritePlanOverClasses(s, plan, record, folder / "heatmap_plan.png");
   if (!AsksForRisk(s) && beside.empty()) return;
   std::vector<RiskOfPlan> plans = {MeasurePlan(s, plan)};
-  WriteRiskMap(s, plan, folder / "heatmap_risk.png");
-  WritePlanVisits(s, plan, plans.front().risk, folder / "heatmap_plan_visits.png");
+  WriteRiskMap(s, plan, record, folder / "heatmap_risk.png");
+  WritePlanVisits(s, plan, plans.front().risk, record, folder / "heatmap_plan_visits.png");
   plans.insert(plans.end(), beside.begin(), beside.end());
   WriteRiskPlot(Title(s, plan, "visits by risk"), plans, folder / "plot_risk.png");
 }

@@ -29,9 +29,10 @@ std::vector<RiskOfPlan> PlansBeside(const std::vector<std::string>& files,
 // heatmap_risk.png: the risk factor (RF) of each cell that is no outer wall.
 // heatmap_plan_visits.png: how often the plan visits each cell.
 // plot_risk.png: the plot below, of this plan and those beside it.
+// `record`: of its drive; maps then have its failures, and the first what was driven over the plan.
 void WritePlanPictures(const Scenario& scenario, const PlanResult& plan,
-                       const std::filesystem::path& folder,
-                       std::span<const RiskOfPlan> beside = {});
+                       const std::filesystem::path& folder, std::span<const RiskOfPlan> beside = {},
+                       const EpisodeRecord* record = nullptr);
 
 // Visits by ranges of RF (Figure 6), beside the number of cells in each: what visiting each once
 // would be. At least one plan, all of one floor and robot; each is compared with the first.

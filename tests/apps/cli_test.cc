@@ -2,15 +2,19 @@
 // The program as its users meet it: commands, files, exit statuses, one line for bad input.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <pty.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "tests/slurp.h"
 
@@ -309,6 +313,54 @@ TEST_F(Cli, InitWritesARunnableScenarioAndLeavesExistingFiles) {
   const auto missing = Run("plan mine2/scenario.yaml --set robot=none.xml");
   EXPECT_EQ(missing.status, 2);
   EXPECT_THAT(missing.err, HasSubstr("no such file: mine2/none.xml"));
+}
+
+// Of a program whose stderr is a terminal. What it writes there, carriage returns and all.
+std::string OnATerminal(const fs::path& folder, const std::vector<std::string>& arguments) {
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    std::vector<char*> argv = {const_cast<char*>(FP_PROGRAM)};
+    for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+    argv.push_back(nullptr);
+    if (chdir(folder.c_str()) == 0) execv(FP_PROGRAM, argv.data());
+    _exit(127);
+  }
+  std::string seen;
+  std::array<char, 4096> buffer;
+  for (ssize_t n; (n = read(terminal, buffer.data(), buffer.size())) > 0;)
+    seen.append(buffer.data(), static_cast<std::size_t>(n));
+  close(terminal);
+  int code = 0;
+  waitpid(child, &code, 0);
+  EXPECT_TRUE(WIFEXITED(code));
+  return seen;
+}
+
+// The counts of "WHAT: N of M".
+std::vector<int> Counts(const std::string& seen, const std::string& what) {
+  std::vector<int> counts;
+  for (std::size_t at = 0; (at = seen.find(what + ": ", at)) != std::string::npos;) {
+    at += what.size() + 2;
+    counts.push_back(std::atoi(seen.c_str() + at));
+  }
+  return counts;
+}
+
+TEST_F(Cli, ATerminalIsToldHowFarDrawingIs) {
+  const auto run = [](const std::string& frames) -> std::vector<std::string> {
+    return {"run", "s.yaml", "--video", "--out", "o", "--set", "video.max_frames=" + frames};
+  };
+  const std::string seen = OnATerminal(folder_, run("40"));
+  if (seen.find("filmed: ") == std::string::npos) GTEST_SKIP() << "nothing can be filmed: " << seen;
+  const std::vector<int> frames = Counts(seen, "filming, frames");
+  ASSERT_GE(frames.size(), 1u) << seen;
+  EXPECT_TRUE(std::ranges::is_sorted(frames));
+  EXPECT_THAT(seen, HasSubstr(" s to go"));
+
+  std::vector<std::string> quiet = run("9");
+  quiet.insert(quiet.begin(), "--quiet");
+  EXPECT_EQ(OnATerminal(folder_, quiet), "");
 }
 
 }  // namespace

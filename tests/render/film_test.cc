@@ -63,6 +63,41 @@ TEST(FilmScheduleTest, AskedSpeedIsKeptWhereItFits) {
   EXPECT_GT(ScheduleFilm(0, 1000, {}, pace).front().speed_up, 50);
 }
 
+TEST(FilmScheduleTest, PassagesLieAroundTheirEvents) {
+  FilmPace pace;
+  pace.before_s = 6;
+  pace.after_s = 2;
+  const double events_s[] = {2, 50, 53, 99.5, 100.02};
+  const auto dut = PassagesAround(0, 100, events_s, pace);
+  ASSERT_EQ(dut.size(), 3u);
+  EXPECT_EQ(std::pair(dut[0].begin_s, dut[0].end_s), std::pair(0.0, 4.0));
+  EXPECT_EQ(std::pair(dut[1].begin_s, dut[1].end_s), std::pair(44.0, 55.0));
+  EXPECT_EQ(std::pair(dut[2].begin_s, dut[2].end_s), std::pair(93.5, 100.0));
+}
+
+TEST(FilmScheduleTest, OfPassagesNothingElseIsShown) {
+  FilmPace pace;
+  pace.fps = 15;
+  const FilmPassage passages[] = {{1, 4}, {10, 18}};
+  for (const int max_frames : {600, 60}) {
+    pace.max_frames = max_frames;
+    const auto dut = SchedulePassages(passages, pace);
+    EXPECT_LE(static_cast<int>(dut.size()), max_frames + 2);
+    EXPECT_EQ(dut.front().t_s, 1);
+    EXPECT_EQ(dut.back().t_s, 18);
+    int jumps = 0;
+    for (std::size_t i = 0; i < dut.size(); ++i) {
+      EXPECT_TRUE((dut[i].t_s >= 1 && dut[i].t_s <= 4) || (dut[i].t_s >= 10 && dut[i].t_s <= 18));
+      if (i == 0) continue;
+      const double step_s = dut[i].t_s - dut[i - 1].t_s;
+      EXPECT_GE(step_s, 0);
+      jumps += step_s > dut[i].speed_up / 15 + 1e-9;
+    }
+    EXPECT_EQ(jumps, 1);
+    EXPECT_EQ(dut.front().speed_up == 1, max_frames == 600) << "in real time where it fits";
+  }
+}
+
 TEST(FilmScheduleTest, ManyEventsLeaveHalfOfTheFilmToTheRest) {
   std::vector<double> events;
   for (int i = 0; i < 50; ++i) events.push_back(20.0 * i);
@@ -213,6 +248,66 @@ TEST_F(FilmTest, ANoticeStandsBetweenEvents) {
   };
   EXPECT_EQ(last_picture(event_.t_s + 0.3), "green");
   EXPECT_EQ(last_picture(event_.t_s - 0.3), "red");
+}
+
+// Of two failures the film is about the first: what came later is not in it, nor in its banner.
+TEST_F(FilmTest, OnlyTheSecondsAroundAnEventAreShown) {
+  FP_NEED_GL();
+  Open();
+  std::vector<Event> events(2, event_);
+  events[0].mode = FailureMode::kStuck;
+  events[0].t_s = 5;
+  options_.pace.fps = 5;
+  options_.pace.before_s = 2;
+  options_.pace.after_s = 1;
+  options_.pace.max_frames = 100;
+  options_.only_around_s = {5};
+  options_.stills = folder_.path();
+  int done = 0, all = 0;
+  options_.on_frame = [&](int now, int of) {
+    EXPECT_EQ(now, done + 1);
+    done = now;
+    all = of;
+  };
+  const auto filmed = [&](std::size_t n) {
+    done = 0;
+    script_.events = {events.data(), n};
+    const FilmResult result = WriteFilm(script_, options_, folder_ / "video.mp4");
+    EXPECT_EQ(done, result.frames);
+    EXPECT_EQ(all, result.frames);
+    EXPECT_NEAR(result.frames, 5 * (2 + 1 + options_.pace.hold_s), 2);
+    return std::array{ReadImage(folder_ / "frame_start.png").data,
+                      ReadImage(folder_ / "frame_failure.png").data,
+                      ReadImage(folder_ / "frame_end.png").data};
+  };
+  const auto both = filmed(2), alone = filmed(1);
+  EXPECT_EQ(both, alone);
+  EXPECT_NE(both[0], both[1]);
+  EXPECT_NE(both[1], both[2]);
+  options_.only_around_s = {11.4};
+  EXPECT_NE(filmed(2)[1], both[1]);
+}
+
+// The same scene without shadows and smooth edges.
+TEST_F(FilmTest, ADraftShowsTheSameForLess) {
+  FP_NEED_GL();
+  Open();
+  options_.stills = folder_.path();
+  const auto start = [&](RenderQuality quality) {
+    options_.quality = quality;
+    WriteFilm(script_, options_, folder_ / "video.mp4");
+    return ReadImage(folder_ / "frame_start.png");
+  };
+  const Image full = start(RenderQuality::kFull), draft = start(RenderQuality::kDraft);
+  ASSERT_EQ(full.data.size(), draft.data.size());
+  double apart = 0, darker = 0;
+  for (int y = 0; y < full.height; ++y)
+    for (int x = 0; x < full.width; ++x) {
+      apart += Difference(full, draft, x, y);
+      darker += Luma(full, x, y) < Luma(draft, x, y) - 20;
+    }
+  EXPECT_LT(apart / (full.width * full.height), 12);
+  EXPECT_GT(darker, 50) << "shadows";
 }
 
 TEST_F(FilmTest, BadOptionsAreRefusedInWords) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "render/heatmap.h"
+#include "render/map_axes.h"
+#include "render/panel_frame.h"
 #include "tests/render/room.h"
 
 namespace floorproof {
@@ -18,6 +20,20 @@ inline HazardMap Hall(int w, int h, double cell_m) {
   for (int x = 0; x < w; ++x) map.occupancy(x, 0) = map.occupancy(x, h - 1) = CellState::kOccupied;
   for (int y = 0; y < h; ++y) map.occupancy(0, y) = map.occupancy(w - 1, y) = CellState::kOccupied;
   return map;
+}
+
+// Where a place lies in the picture that DrawHeatMap() gives.
+inline Vec2 PixelOf(const HazardMap& map, const HeatMapOptions& options, const Vec2& p_W) {
+  constexpr int kLeft_px = 24, kTop_px = 76;
+  const PanelFrame frame(map.frame, KnownWindow(map, options));
+  const cv::Point2d p = frame.Pixel(p_W);
+  return {kLeft_px + MapAxes(frame).left_px() + p.x, kTop_px + p.y};
+}
+inline Rgb ColourAt(const Image& image, const Vec2& p_px) {
+  const std::uint8_t* p =
+      image.data.data() +
+      3 * (static_cast<std::size_t>(p_px.y()) * image.width + static_cast<std::size_t>(p_px.x()));
+  return {p[0], p[1], p[2]};
 }
 
 inline HeatValues Values(const HazardMap& map, float value) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What lies over a heat map's cells: numbers, the plan, hazards.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
 
 #include "tests/render/hall.h"
@@ -8,11 +10,17 @@
 namespace floorproof {
 namespace {
 
-// The panel of a hall of w x h cells begins 24 px from the left and 64 px from the top.
-struct PanelPlace {
-  PanelPlace(const Image& image, int w) : cell_px((image.width - 250 - 48) / w) {}
-  int Left(int ix) const { return 24 + cell_px * ix; }
-  int cell_px;
+// A square cell's place in the picture.
+struct CellPlace {
+  CellPlace(const HazardMap& map, const HeatMapOptions& options, int ix, int iy) {
+    const double cell_m = map.frame.cell_m;
+    const Vec2 upper = PixelOf(map, options, cell_m * Vec2(ix, iy + 1)),
+               lower = PixelOf(map, options, cell_m * Vec2(ix + 1, iy));
+    x = static_cast<int>(upper.x());
+    y = static_cast<int>(upper.y());
+    size = static_cast<int>(lower.x()) - x;
+  }
+  int x, y, size;
 };
 
 int Changed(const Image& a, const Image& b, int x0, int y0, int x1, int y1) {
@@ -30,13 +38,12 @@ TEST(HeatMapMarks, NumbersStandInTheirCells) {
   const Image plain = DrawHeatMap(map, &values, options);
   options.numbers = true;
   const Image dut = DrawHeatMap(map, &values, options);
-  const PanelPlace place(dut, 12);
-  for (int row = 1; row < 11; ++row)
-    for (int column = 1; column < 11; ++column) {
-      const int x = place.Left(column), y = 64 + place.cell_px * row;
-      const bool empty = column == 5 && row == 12 - 1 - 5;
-      EXPECT_EQ(Changed(dut, plain, x, y, x + place.cell_px, y + place.cell_px) > 5, !empty)
-          << column << ", " << row;
+  for (int iy = 1; iy < 11; ++iy)
+    for (int ix = 1; ix < 11; ++ix) {
+      const CellPlace at(map, options, ix, iy);
+      const bool empty = ix == 5 && iy == 5;
+      EXPECT_EQ(Changed(dut, plain, at.x, at.y, at.x + at.size, at.y + at.size) > 5, !empty)
+          << ix << ", " << iy;
     }
 }
 
@@ -67,7 +74,7 @@ TEST(HeatMapMarks, WhatLiesFarOffIsCut) {
   EXPECT_EQ(drawn(true, -808564).data, drawn(true, -100).data);
   for (const double far_m : {-808564.0, 808564.0, 1e15}) {
     const Image dashed = drawn(false, far_m), outlined = drawn(true, far_m);
-    EXPECT_GT(Changed(dashed, outlined, 24, 64, dashed.width - 300, dashed.height), 0) << far_m;
+    EXPECT_GT(Changed(dashed, outlined, 80, 76, dashed.width - 300, dashed.height), 0) << far_m;
   }
 }
 
@@ -83,8 +90,8 @@ TEST(HeatMapMarks, ANumberKeepsOffTheWay) {
     const Image plain = DrawHeatMap(map, &values, options);
     options.numbers = true;
     const Image dut = DrawHeatMap(map, &values, options);
-    const PanelPlace place(dut, 12);
-    const int x = place.Left(5), top = 64 + place.cell_px * 6, half = place.cell_px / 2;
+    const CellPlace at(map, options, 5, 5);
+    const int x = at.x, top = at.y, half = at.size / 2;
     const int up = Changed(dut, plain, x, top, x + 2 * half, top + half),
               down = Changed(dut, plain, x, top + half, x + 2 * half, top + 2 * half);
     EXPECT_GT(above ? down : up, 5);
@@ -115,7 +122,8 @@ TEST(HeatMapMarks, LinesOfADensePlanAreThin) {
     HeatMapOptions options;
     options.plan = &path;
     const Image dut = DrawHeatMap(map, nullptr, options);
-    const int bottom = 64 + 11 * 100, y = bottom - 11 * 10, x = 24 + 11 * 50;
+    const Vec2 at = PixelOf(map, options, {5, 1});
+    const int x = static_cast<int>(at.x()), y = static_cast<int>(at.y());
     int n = 0;
     for (int dy = -4; dy <= 4; ++dy) n += Luma(dut, x, y + dy) < 150;
     return n;
@@ -145,8 +153,7 @@ TEST(HeatMapMarks, AHazardsColourIsItsClasssWhateverElseThereIs) {
     const Image dut = DrawHeatMap(map, nullptr, {});
     std::vector<Rgb> seen;  // at the middle of the left border of each place
     for (const double x : {1.0, 3.0, 5.0}) {
-      const std::uint8_t* p = Pixel(dut, 24 + static_cast<int>(x * 140), 64 + 140 * 5 / 2);
-      seen.push_back({p[0], p[1], p[2]});
+      seen.push_back(ColourAt(dut, PixelOf(map, {}, {x, 2.5})));
     }
     return seen;
   };
@@ -167,6 +174,66 @@ TEST(HeatMapMarks, ClassesOfCellsAreToldApart) {
     EXPECT_EQ(std::ranges::count(colours, dut.colour), 0) << dut.label;
     colours.push_back(dut.colour);
   }
+}
+
+constexpr Rgb kWall = {52, 60, 72}, kFree = {238, 240, 243}, kPlan = {0, 114, 178},
+              kDriven = {240, 136, 0};
+
+TEST(HeatMapMarks, WhatWasDrivenLiesOverThePlanWhichShowsBesideIt) {
+  const HazardMap map = Hall(40, 30, 0.1);
+  const Path plan = Straight({{0.5, 1}, {3.5, 1}});
+  HeatMapOptions options;
+  options.plan = &plan;
+  options.driven = {{{0.5, 1}, {2, 1}, {2, 2}}, {{3, 2}, {3, 2.5}}};
+  const Image dut = DrawHeatMap(map, nullptr, options);
+  const auto at = [&](double x_m, double y_m) { return PixelOf(map, options, {x_m, y_m}); };
+  const auto near = [&](const Vec2& p, const Rgb& colour) {
+    int n = 0;
+    for (int dy = -4; dy <= 4; ++dy) n += ColourAt(dut, p + Vec2(0, dy)) == colour;
+    return n;
+  };
+  EXPECT_GT(near(at(1.2, 1), kDriven), 0);
+  EXPECT_GT(near(at(1.2, 1), kPlan), 0) << "beside it";
+  EXPECT_EQ(near(at(2.8, 1), kDriven), 0) << "not driven";
+  EXPECT_GT(near(at(2.8, 1), kPlan), 0);
+  EXPECT_EQ(ColourAt(dut, at(2, 1.5)), kDriven) << "off the plan";
+  EXPECT_EQ(ColourAt(dut, at(2.5, 2)), kFree) << "carried, not driven";
+  EXPECT_EQ(ColourAt(dut, at(0.05, 1)), kWall);
+}
+
+// A colour as an eye sees it that lacks a kind of cone (Machado, Oliveira and Fernandes, 2009, of
+// full severity), in linear light.
+using Cones = std::array<std::array<double, 3>, 3>;
+constexpr Cones kAll = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+constexpr Cones kNoLong = {{{0.152286, 1.052583, -0.204868},
+                            {0.114503, 0.786281, 0.099216},
+                            {-0.003882, -0.048116, 1.051998}}};
+constexpr Cones kNoMiddle = {{{0.367322, 0.860646, -0.227968},
+                              {0.280085, 0.672501, 0.047413},
+                              {-0.011820, 0.042940, 0.968881}}};
+constexpr Cones kNoShort = {{{1.255528, -0.076749, -0.178779},
+                             {-0.078411, 0.930809, 0.147602},
+                             {0.004733, 0.691367, 0.303900}}};
+Vec3 SeenAs(const Rgb& colour, const Cones& cones) {
+  Vec3 seen = Vec3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) seen[i] += cones[i][k] * std::pow(colour[k] / 255.0, 2.2);
+    seen[i] = 255 * std::pow(std::clamp(seen[i], 0.0, 1.0), 1 / 2.2);
+  }
+  return seen;
+}
+
+TEST(HeatMapMarks, EveryEyeTellsPathsWallsAndFloorApart) {
+  constexpr double kApart = 60;  // of 255, over three channels
+  const Rgb colours[] = {kWall, kFree, kPlan, kDriven};
+  for (const Cones& cones : {kAll, kNoLong, kNoMiddle, kNoShort})
+    for (const Rgb& a : colours)
+      for (const Rgb& b : colours)
+        if (a != b) {
+          EXPECT_GT((SeenAs(a, cones) - SeenAs(b, cones)).norm(), kApart);
+        }
+  // The measure itself tells: red and green of one lightness are the same without long cones.
+  EXPECT_LT((SeenAs({190, 90, 60}, kNoMiddle) - SeenAs({128, 120, 50}, kNoMiddle)).norm(), kApart);
 }
 
 }  // namespace
