@@ -42,7 +42,7 @@ struct ConfigNode {
 // than 400,000 nodes (aliases are expanded; what bad input may cost in time and memory), nesting
 // beyond 100, or tags.
 ConfigNode ParseYaml(const std::string& text, const std::string& file);
-// As ParseYaml, from a file of at most 8 MiB; refuses what is missing, a folder, a pipe or device,
+// As ParseYaml, from a file of at most 3 MiB; refuses what is missing, a folder, a pipe or device,
 // or not UTF-8 text.
 ConfigNode ReadYamlFile(const std::filesystem::path& path);
 // Block style, short lists of scalars in one line; ParseYaml(WriteYaml(n)) gives n's values again.

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -15,12 +16,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMaxBytes = 64u << 20;  // as CheckMjcf allows
+constexpr std::uintmax_t kMaxBytesOfAll = 256u << 20;
+
+bool IsBelow(const fs::path& folder, const fs::path& file) {
+  return std::ranges::mismatch(folder, file).in1 == folder.end();
+}
 
 }  // namespace
 
 struct EngineFiles::Served {
-  explicit Served(const InputFiles& from) : files(from) { mj_defaultVFS(&vfs); }
+  Served(const InputFiles& from, const fs::path& main)
+      : files(from), model(main), folder(fs::weakly_canonical(main.parent_path())) {
+    mj_defaultVFS(&vfs);
+  }
   ~Served() { mj_deleteVFS(&vfs); }
   Served(const Served&) = delete;
   Served& operator=(const Served&) = delete;
@@ -30,15 +38,43 @@ struct EngineFiles::Served {
     auto* served = static_cast<Served*>(resource->provider->data);
     const std::scoped_lock lock(served->mutex);
     const fs::path file(resource->name);
+    std::error_code error;
+    if (!served->files.HasStandIn(file) && !fs::exists(file, error) && !error) return 0;
+    if (const std::string why = served->WhyNot(file); !why.empty()) {
+      if (!served->refused) served->refused = {served->NameOf(file), why};
+      static std::string nothing;
+      resource->data = &nothing;
+      return 1;
+    }
     resource->data = const_cast<std::string*>(&served->files.Read(file, kMaxBytes));
     // What the engine keeps of a file holds as long as its bytes do.
     std::snprintf(resource->timestamp, sizeof resource->timestamp, "%s",
                   served->files.Sha256(file).c_str());
-    if (std::ranges::find(served->opened, file) == served->opened.end())
+    if (std::ranges::find(served->opened, file) == served->opened.end()) {
       served->opened.push_back(file);
+      served->bytes += served->files.Size(file);
+    }
     return 1;
   } catch (const std::exception&) {
     return 0;
+  }
+  // Why the model may not have this file; empty when it may.
+  std::string WhyNot(const fs::path& file) const {
+    std::error_code error;
+    if (file != model && !files.HasStandIn(file) &&
+        !IsBelow(folder, fs::weakly_canonical(file, error)))
+      return "lies outside the folder of the robot's file";
+    if (std::string why = files.WhyUnreadable(file, kMaxBytes); !why.empty()) return why;
+    if (std::ranges::find(opened, file) == opened.end() &&
+        bytes + files.Size(file) > kMaxBytesOfAll)
+      return "with the files before it larger than " + std::to_string(kMaxBytesOfAll >> 20) +
+             " MiB";
+    return "";
+  }
+  // As short as it can be written in the model.
+  std::string NameOf(const fs::path& file) const {
+    const fs::path from = model.parent_path();
+    return IsBelow(from, file) ? file.lexically_relative(from).string() : file.string();
   }
   static int Read(mjResource* resource, const void** buffer) {
     const auto* bytes = static_cast<const std::string*>(resource->data);
@@ -53,13 +89,16 @@ struct EngineFiles::Served {
 
   std::mutex mutex;  // laws compile a robot on several threads
   InputFiles files;
+  fs::path model, folder;  // the latter without links
   std::vector<fs::path> opened;
+  std::uintmax_t bytes = 0;  // of these
+  std::optional<std::pair<std::string, std::string>> refused;
   mjpResourceProvider provider{};
   mjVFS vfs{};
 };
 
 EngineFiles::EngineFiles(const InputFiles& files, const fs::path& file)
-    : served_(std::make_shared<Served>(files)) {
+    : served_(std::make_shared<Served>(files, file)) {
   mjpResourceProvider& provider = served_->provider;
   provider.prefix = "inputs";
   provider.open = Served::Open;
@@ -85,5 +124,9 @@ EngineFiles::EngineFiles(const InputFiles& files, const fs::path& file)
 }
 
 std::vector<fs::path> EngineFiles::Opened() const { return served_->opened; }
+
+std::optional<std::pair<std::string, std::string>> EngineFiles::Refused() const {
+  return served_->refused;
+}
 
 }  // namespace floorproof

@@ -4,12 +4,19 @@
 //
 // MuJoCo asks a provider for every file below the folder that the provider is mounted at, by its
 // absolute path. One is mounted at each folder of the root.
+//
+// A model has plain files below its own folder, and no others: whatever it names, and however it
+// spells that. What else it asks for is told to the engine as an empty file.
 #pragma once
 
 #include <mujoco/mujoco.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "base/input_files.h"
@@ -18,6 +25,8 @@ namespace floorproof {
 
 class EngineFiles {
  public:
+  static constexpr std::uintmax_t kMaxBytes = 64u << 20;  // of a file
+
   EngineFiles() = default;
   // For the model in `file`, an absolute path. Throws InternalError when MuJoCo mounts nothing.
   EngineFiles(const InputFiles& files, const std::filesystem::path& file);
@@ -27,6 +36,9 @@ class EngineFiles {
   const mjVFS* vfs() const { return vfs_.get(); }
   // What the engine has opened so far, each once, in that order.
   std::vector<std::filesystem::path> Opened() const;
+  // The first file that the engine asked for and may not have, and why: a pipe or a device, too
+  // large, outside the model's folder.
+  std::optional<std::pair<std::string, std::string>> Refused() const;
 
  private:
   struct Served;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "env/scene/engine.h"
+#include "env/scene/robot_limits.h"
 
 namespace floorproof {
 namespace {
@@ -88,11 +89,11 @@ void ScaleMass(mjsBody* body, double factor) {
 }
 
 void RobotChanges::Visit(ParamVisitor& v) {
-  v("mass_kg", mass_kg, Positive(), "total mass (kg); none: the model's");
-  v("clearance_m", clearance_m, Positive(), "belly above the floor (m); none: the model's");
-  v("wheel_radius_m", wheel_radius_m, Positive(),
+  v("mass_kg", mass_kg, kMass_kg, "total mass (kg); none: the model's");
+  v("clearance_m", clearance_m, kClearance_m, "belly above the floor (m); none: the model's");
+  v("wheel_radius_m", wheel_radius_m, kWheelRadius_m,
     "of the driven wheels, rollers included (m); none: the model's");
-  v("roller_radius_m", roller_radius_m, Positive(),
+  v("roller_radius_m", roller_radius_m, kWheelRadius_m,
     "of a Mecanum wheel's rollers (m); none: the model's");
   v("shape", shape, {}, "of a reconfigurable robot, at the start; empty: the model's");
 }

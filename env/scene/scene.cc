@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "env/scene/floor.h"
+#include "env/scene/free_names.h"
 #include "env/scene/mecanum_wheel.h"
 #include "env/scene/restitution.h"
 #include "env/scene/scene_looks.h"
@@ -29,13 +30,16 @@ void SetYaw(double* quat, double yaw_rad) {
 
 class SceneBuilder {
  public:
-  SceneBuilder(const HazardMap& map, const RobotModel& robot, mjSpec* spec)
+  SceneBuilder(const HazardMap& map, const RobotModel& robot, const Looks& looks, mjSpec* spec)
       : map_(map),
+        looks_(looks),
         robot_(robot.spec),
         rollers_(robot.rollers),
         assets_(robot.assets.get()),
         spec_(spec),
-        world_(mjs_findBody(spec, "world")) {
+        world_(mjs_findBody(spec, "world")),
+        geom_names_(spec, mjOBJ_GEOM),
+        mesh_names_(spec, mjOBJ_MESH) {
     for (mjsElement* e = mjs_firstElement(spec, mjOBJ_GEOM); e; e = mjs_nextElement(spec, e))
       if (RollersOf(mjs_asGeom(e)).radius_m > 0) mecanum.push_back(mjs_asGeom(e));
   }
@@ -52,7 +56,7 @@ class SceneBuilder {
       plane->size[0] = map_.frame.width * map_.frame.cell_m / 2 + 2;
       plane->size[1] = map_.frame.height * map_.frame.cell_m / 2 + 2;
       plane->size[2] = 1;
-      mjs_setString(plane->material, "floor");
+      mjs_setString(plane->material, looks_.floor.c_str());
     }
     // All slabs reach down equally deep: beside a deep pit there is no slot under the floor.
     double lowest_m = 0;
@@ -62,7 +66,7 @@ class SceneBuilder {
       const double friction = base ? map_.floor_friction : Friction(map_.hazards[piece.hazard]);
       mjsGeom* geom = Extrude(piece.outline, piece.outline, lowest_m - kSlab_m, piece.z_top_m,
                               GeomRole::Kind::kFloor, piece.hazard, friction, 0);
-      mjs_setString(geom->material, base ? "floor" : "pit");
+      mjs_setString(geom->material, (base ? looks_.floor : looks_.pit).c_str());
     }
   }
 
@@ -78,7 +82,7 @@ class SceneBuilder {
       else
         PlaceWall(boxes[i], map_.frame.X_WG, geom->pos, geom->size);
       SetYaw(geom->quat, map_.frame.X_WG.yaw_rad);
-      mjs_setString(geom->material, "wall");
+      mjs_setString(geom->material, looks_.wall.c_str());
     }
   }
 
@@ -139,7 +143,7 @@ class SceneBuilder {
     std::copy(std::begin(kSolimp), std::end(kSolimp), geom->solimp);
     if (restitution > 0) geom->solimp[0] = geom->solimp[1];  // as SoftnessFor assumes
     added.emplace_back(geom, GeomRole{kind, hazard});
-    const std::string name = Name(kind, hazard);
+    const std::string name = geom_names_.For(Name(kind, hazard));
     mjs_setName(geom->element, name.c_str());
     return geom;
   }
@@ -179,7 +183,7 @@ class SceneBuilder {
     add_ring(base, z_low);
     add_ring(top, z_high);
     mjsMesh* mesh = mjs_addMesh(spec_, nullptr);
-    const std::string name = "mesh/" + std::to_string(added.size());
+    const std::string name = mesh_names_.For("mesh/" + std::to_string(added.size()));
     mjs_setName(mesh->element, name.c_str());
     mjs_setFloat(mesh->uservert, vertices.data(), static_cast<int>(vertices.size()));
     geom->type = mjGEOM_MESH;
@@ -196,11 +200,13 @@ class SceneBuilder {
   }
 
   const HazardMap& map_;
+  const Looks& looks_;
   const RobotSpec& robot_;
   const std::vector<std::string>& rollers_;
   const mjVFS* assets_;
   mjSpec* spec_;
   mjsBody* world_;
+  FreeNames geom_names_, mesh_names_;
 };
 
 void SetPhysics(mjSpec* spec, const PhysicsParams& physics) {
@@ -251,8 +257,8 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
   scene.spec.reset(mj_copySpec(robot.mjcf.get()));
   SetPhysics(scene.spec.get(), physics);
   PlaceRobot(scene.spec.get(), start);
-  AddLooks(map.frame, scene.spec.get());
-  SceneBuilder builder(map, robot, scene.spec.get());
+  const Looks looks = AddLooks(map.frame, scene.spec.get());
+  SceneBuilder builder(map, robot, looks, scene.spec.get());
   builder.Floor();
   builder.Walls(start.p(), walls);
   builder.Hazards();

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "env/scene/free_names.h"
+
 namespace floorproof {
 namespace {
 
@@ -13,9 +15,11 @@ void Copy(std::array<T, 3> from, T* to) {
 }
 
 // Tiles of half a metre with a joint between them, on a plane and on slabs alike.
-void AddFloorTiles(mjSpec* spec) {
+std::string AddFloorTiles(mjSpec* spec) {
+  const std::string tiles = FreeNames(spec, mjOBJ_TEXTURE).For("floor");
+  const std::string name = FreeNames(spec, mjOBJ_MATERIAL).For("floor");
   mjsTexture* texture = mjs_addTexture(spec, nullptr);
-  mjs_setName(texture->element, "floor");
+  mjs_setName(texture->element, tiles.c_str());
   texture->type = mjTEXTURE_2D;
   texture->builtin = mjBUILTIN_FLAT;
   texture->mark = mjMARK_EDGE;
@@ -23,16 +27,18 @@ void AddFloorTiles(mjSpec* spec) {
   Copy<double>({0.74, 0.72, 0.68}, texture->markrgb);
   texture->width = texture->height = 256;
   mjsMaterial* material = mjs_addMaterial(spec, nullptr);
-  mjs_setName(material->element, "floor");
-  mjs_setInStringVec(material->textures, mjTEXROLE_RGB, "floor");
+  mjs_setName(material->element, name.c_str());
+  mjs_setInStringVec(material->textures, mjTEXROLE_RGB, tiles.c_str());
   material->texuniform = 1;
   material->texrepeat[0] = material->texrepeat[1] = 4;
   material->specular = 0;
+  return name;
 }
 
 void AddSky(mjSpec* spec) {
+  const std::string name = FreeNames(spec, mjOBJ_TEXTURE).For("sky");
   mjsTexture* texture = mjs_addTexture(spec, nullptr);
-  mjs_setName(texture->element, "sky");
+  mjs_setName(texture->element, name.c_str());
   texture->type = mjTEXTURE_SKYBOX;
   texture->builtin = mjBUILTIN_GRADIENT;
   Copy<double>({0.93, 0.95, 0.97}, texture->rgb1);
@@ -41,12 +47,14 @@ void AddSky(mjSpec* spec) {
   texture->height = 384;
 }
 
-void AddMaterial(mjSpec* spec, const char* name, std::array<float, 4> rgba) {
+std::string AddMaterial(mjSpec* spec, const char* wanted, std::array<float, 4> rgba) {
+  const std::string name = FreeNames(spec, mjOBJ_MATERIAL).For(wanted);
   mjsMaterial* material = mjs_addMaterial(spec, nullptr);
-  mjs_setName(material->element, name);
+  mjs_setName(material->element, name.c_str());
   std::copy(rgba.begin(), rgba.end(), material->rgba);
   material->specular = 0.1f;
   material->shininess = 0.1f;
+  return name;
 }
 
 }  // namespace
@@ -55,11 +63,12 @@ Vec2 MiddleOf(const GridFrame& frame) {
   return frame.X_WG * Vec2(frame.width * frame.cell_m / 2, frame.height * frame.cell_m / 2);
 }
 
-void AddLooks(const GridFrame& frame, mjSpec* spec) {
-  AddFloorTiles(spec);
+Looks AddLooks(const GridFrame& frame, mjSpec* spec) {
+  Looks looks;
+  looks.floor = AddFloorTiles(spec);
   AddSky(spec);
-  AddMaterial(spec, "wall", {0.52f, 0.58f, 0.66f, 1.0f});
-  AddMaterial(spec, "pit", {0.36f, 0.33f, 0.31f, 1.0f});
+  looks.wall = AddMaterial(spec, "wall", {0.52f, 0.58f, 0.66f, 1.0f});
+  looks.pit = AddMaterial(spec, "pit", {0.36f, 0.33f, 0.31f, 1.0f});
   // The lights add up to just below 1 on the floor, so that it does not burn out.
   mjsLight* sun = mjs_addLight(mjs_findBody(spec, "world"), nullptr);
   const Vec2 middle = MiddleOf(frame);
@@ -83,6 +92,7 @@ void AddLooks(const GridFrame& frame, mjSpec* spec) {
   // Sizes of shadows, clipping planes and lights follow the extent.
   spec->stat.extent = std::max(frame.width, frame.height) * frame.cell_m;
   Copy<double>({middle.x(), middle.y(), 0}, spec->stat.center);
+  return looks;
 }
 
 }  // namespace floorproof

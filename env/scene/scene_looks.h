@@ -5,6 +5,8 @@
 
 #include <mujoco/mujoco.h>
 
+#include <string>
+
 #include "env/geometry/grid.h"
 
 namespace floorproof {
@@ -12,7 +14,12 @@ namespace floorproof {
 // The middle of the map, in the world.
 Vec2 MiddleOf(const GridFrame& frame);
 
-// Adds the materials "floor", "wall" and "pit", and all that lights a map of this frame.
-void AddLooks(const GridFrame& frame, mjSpec* spec);
+// The names of the scene's materials.
+struct Looks {
+  std::string floor, wall, pit;
+};
+
+// Adds the materials, and all that lights a map of this frame.
+Looks AddLooks(const GridFrame& frame, mjSpec* spec);
 
 }  // namespace floorproof

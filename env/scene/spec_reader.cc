@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "env/scene/robot_changes.h"
+#include "env/scene/robot_limits.h"
 #include "env/scene/spec_parts.h"
 
 namespace floorproof {
@@ -15,14 +16,14 @@ namespace {
 
 void ReadCustom(const CompiledRobot& compiled, RobotSpec& robot) {
   robot.drive = compiled.Text("drive");
-  robot.tool_width_m = compiled.Number("tool_width_m", Positive());
-  robot.step_m = compiled.Number("step_m", NonNegative());
-  robot.cruise_mps = compiled.Number("cruise_mps", Positive());
-  robot.max_speed_mps = compiled.Number("max_speed_mps", AtLeast(robot.cruise_mps));
-  robot.max_accel_mps2 = compiled.Number("max_accel_mps2", Positive());
-  robot.max_yaw_rate_radps = compiled.Number("max_yaw_rate_radps", Positive());
-  robot.max_yaw_accel_radps2 = compiled.Number("max_yaw_accel_radps2", Positive());
-  robot.hotel_load_w = compiled.Number("hotel_load_w", NonNegative());
+  robot.tool_width_m = compiled.Number("tool_width_m", kToolWidth_m);
+  robot.step_m = compiled.Number("step_m", kStep_m);
+  robot.cruise_mps = compiled.Number("cruise_mps", kSpeed_mps);
+  robot.max_speed_mps = compiled.Number("max_speed_mps", Between(robot.cruise_mps, kSpeed_mps.max));
+  robot.max_accel_mps2 = compiled.Number("max_accel_mps2", kAcceleration_mps2);
+  robot.max_yaw_rate_radps = compiled.Number("max_yaw_rate_radps", kYawRate_radps);
+  robot.max_yaw_accel_radps2 = compiled.Number("max_yaw_accel_radps2", kYawAcceleration_radps2);
+  robot.hotel_load_w = compiled.Number("hotel_load_w", kPower_w);
   const auto is_there = [&](const char* name) {
     return mj_name2id(compiled.model(), mjOBJ_NUMERIC, name) >= 0;
   };
@@ -35,8 +36,7 @@ void ReadCustom(const CompiledRobot& compiled, RobotSpec& robot) {
     robot.cover_speed_mps = compiled.Number("cover_speed_mps", Between(0.001, robot.max_speed_mps));
   if (is_there("audit_speed_mps"))
     robot.audit_speed_mps = compiled.Number("audit_speed_mps", Between(0.001, robot.max_speed_mps));
-  if (is_there("audit_dwell_s"))
-    robot.audit_dwell_s = compiled.Number("audit_dwell_s", NonNegative());
+  if (is_there("audit_dwell_s")) robot.audit_dwell_s = compiled.Number("audit_dwell_s", kDwell_s);
 }
 
 // One battery feeds every driver: all have its voltage.
@@ -90,6 +90,7 @@ void ReadBody(const CompiledRobot& compiled, RobotSpec& robot) {
 }  // namespace
 
 RobotSpec ReadSpec(const mjModel* model, const std::string& file) {
+  RefuseBeyondLimits(model, file);
   CompiledRobot compiled(model, file);
   RobotSpec robot;
   robot.model_file = file;

@@ -7,6 +7,7 @@
 #include "env/core/blocks.h"
 #include "env/scene/mecanum_wheel.h"
 #include "env/scene/robot_changes.h"
+#include "env/scene/robot_limits.h"
 #include "env/scene/spec_parts.h"
 
 namespace floorproof {
@@ -28,6 +29,13 @@ Motor ReadMotor(const CompiledRobot& compiled, int a, const std::string& name) {
   Motor motor{volt / constant, constant * volt / resistance};
   if (m->actuator_forcelimited[a])
     motor.stall_nm = std::min(motor.stall_nm, m->actuator_forcerange[2 * a + 1]);
+  const auto check = [&](double value, const char* what, const Bounds& rule) {
+    if (!rule.Allows(value))
+      compiled.Refuse(name, what + rule.Text() + ", is " + FormatDouble(value));
+  };
+  check(volt, "its driver's voltage (V) ", kMotorVoltage_v);
+  check(motor.no_load_radps, "its speed without load (rad/s) ", kMotorSpeed_radps);
+  check(motor.stall_nm, "its stall torque (N m) ", kMotorTorque_nm);
   return motor;
 }
 
@@ -94,6 +102,9 @@ WheelSpec ReadWheel(const CompiledRobot& compiled, int a, const std::string& nam
     compiled.Refuse(
         name, "user must be the rollers' radius (m, > 0) and angle (rad, not 0, within +-pi/2)");
   wheel.radius_m = m->geom_size[3 * geom] + rollers.radius_m;
+  if (!kWheelRadius_m.Allows(wheel.radius_m))
+    compiled.Refuse(name, "the wheel's radius (m) " + kWheelRadius_m.Text() + ", is " +
+                              FormatDouble(wheel.radius_m));
   wheel.half_width_m = m->geom_size[3 * geom + 1];
   wheel.roller_radius_m = rollers.radius_m;
   wheel.roller_angle_rad = rollers.angle_rad;

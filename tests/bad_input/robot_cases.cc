@@ -2,6 +2,10 @@
 // Robot files of a user that are broken.
 #include <sys/stat.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
 #include "tests/bad_input/bad_input.h"
 
 namespace floorproof {
@@ -13,6 +17,153 @@ BadInput Robot(const std::string& name, const std::string& text, std::vector<std
           {"plan", "scenario.yaml", "--out", "o", "--set", "robot=mine.xml"},
           {{"mine.xml", text}},
           std::move(named)};
+}
+
+std::string Beluga() {
+  std::ifstream file(FP_SOURCE_DIR "/models/beluga.xml");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// BELUGA with these lines before its others: whatever is wrong is wrong with them.
+BadInput Beside(const std::string& name, const std::string& lines, std::vector<std::string> named) {
+  return Robot(name, Replaced(Beluga(), "<custom>", lines + "<custom>"), std::move(named));
+}
+BadInput Asset(const std::string& name, const std::string& line, std::vector<std::string> named) {
+  return Beside(name, "<asset>" + line + "</asset>", std::move(named));
+}
+// BELUGA with this in its body `base`.
+BadInput Carried(const std::string& name, const std::string& line, std::vector<std::string> named) {
+  const std::string joint = "<freejoint name=\"root\"/>";
+  return Robot(name, Replaced(Beluga(), joint, joint + line), std::move(named));
+}
+
+BadInput WithFiles(BadInput bad, const Files& files) {
+  bad.files.insert(files.begin(), files.end());
+  return bad;
+}
+
+// With this made beside the robot's file.
+BadInput Prepared(BadInput bad, std::function<bool(const std::filesystem::path&)> prepare) {
+  bad.prepare = std::move(prepare);
+  return bad;
+}
+
+bool MakePipe(const std::filesystem::path& folder) {
+  return mkfifo((folder / "pipe").c_str(), 0600) == 0;
+}
+
+// A tetrahedron, in the folder above the robot's.
+bool SaveOutside(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder / "below");
+  std::ofstream(folder / "outside.obj")
+      << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  std::filesystem::rename(folder / "mine.xml", folder / "below/mine.xml");
+  std::filesystem::create_symlink("../outside.obj", folder / "below/link.obj");
+  return true;
+}
+BadInput FromOutside(const std::string& name, const std::string& file,
+                     std::vector<std::string> named) {
+  BadInput bad = Prepared(Asset(name, "<mesh name=\"m\" file=\"" + file + "\"/>", {}), SaveOutside);
+  bad.arguments.back() = "robot=below/mine.xml";
+  named.insert(named.begin(), "floorproof: below/mine.xml:");
+  bad.named = std::move(named);
+  return bad;
+}
+
+// What crashes MuJoCo's compiler, or makes it build what nobody can hold.
+std::vector<BadInput> CompilerCases() {
+  const auto builtin = [](const std::string& name, const std::string& shape) {
+    return Asset(name, "<mesh name=\"m\" builtin=" + shape + "/>",
+                 {"MuJoCo", "while it compiled this robot"});
+  };
+  std::string field(8, '\0');
+  field[1] = field[5] = '\x7f';  // 32512 x 32512
+  return {
+      builtin("ABuiltinPlate", "\"plate\" params=\"100000 100000\""),
+      builtin("ABuiltinSupersphere", "\"supersphere\" params=\"1000000 1 1\""),
+      builtin("ABuiltinWedge", "\"wedge\" params=\"100000 100000 90 90 0\""),
+      builtin("ABuiltinSupertorus", "\"supertorus\" params=\"1000000 0.5 1 1\""),
+      Asset("AModelOfItself", "<model name=\"x\" file=\"mine.xml\"/>",
+            {"MuJoCo", "while it compiled this robot"}),
+      Beside("ABillionUserNumbers", "<size nuser_geom=\"1000000000\"/>",
+             {"MuJoCo", "while it compiled this robot"}),
+      Carried("ABodyBeyondTheUniverse", "<body pos=\"1e100 0 0.1\"><geom size=\"0.01\"/></body>",
+              {"body 2 = 1e+100", "within 10 m of the robot's base"}),
+      WithFiles(Asset("AHugeHeightField", "<hfield name=\"h\" file=\"h.bin\" size=\"1 1 1 1\"/>",
+                      {"does not compile"}),
+                {{"h.bin", field}}),
+      Asset("AHugeHeightFieldInNumbers",
+            "<hfield name=\"h\" nrow=\"40000\" ncol=\"40000\" size=\"1 1 1 1\"/>",
+            {"MuJoCo", "while it compiled this robot"}),
+      Asset("AWideHeightField", "<hfield name=\"h\" nrow=\"8193\" ncol=\"2\" size=\"1 1 1 1\"/>",
+            {"nrow = 8193", "8192"}),
+      WithFiles(Asset("AHugePicture", "<texture name=\"t\" type=\"2d\" file=\"t.png\"/>",
+                      {"does not compile"}),
+                {{"t.png", PngOfSize(30'000, 30'000)}}),
+      Carried("ManyCopies",
+              "<replicate count=\"&#50;001\"><site size=\"0.001\"/><geom size=\"0.001\" "
+              "pos=\"0 0 0.1\"/></replicate>",
+              {"geoms = 20", "at most 2000"}),
+  };
+}
+
+// Files that a model may not have, however it spells them.
+std::vector<BadInput> FileCases() {
+  return {
+      Asset("MeshByAnEntity", "<mesh name=\"m\" file=\"&#47;dev/zero\"/>",
+            {"file = /dev/zero", "outside the folder"}),
+      Asset("MeshBehindACommentThatIsNone",
+            "<material name=\"<!--\"/><mesh name=\"m\" "
+            "file=\"/dev/zero\"/><material name=\"-->\"/>",
+            {":", "file = /dev/zero", "outside the folder"}),
+      Prepared(Asset("MeshIsAPipe",
+                     "<mesh name=\"m\" file=\"&#112;ipe\" "
+                     "content_type=\"model/obj\"/>",
+                     {"file = pipe", "a pipe or a device"}),
+               MakePipe),
+      Prepared(WithFiles(Beside("IncludesAPipeDeepWithin", "<include file=\"a.xml\"/>",
+                                {"file = pipe", "a pipe or a device"}),
+                         {{"a.xml", "<mujoco><include file=\"b.xml\"/></mujoco>"},
+                          {"b.xml", "<mujoco><include file='&#112;ipe'/></mujoco>"}}),
+               MakePipe),
+      FromOutside("MeshOutside", "../outside.obj", {"outside.obj", "outside the folder"}),
+      FromOutside("MeshOutsideByALink", "link.obj", {"file = link.obj", "outside the folder"}),
+      Beside("IncludesAFolder", "<include file=\".\"/>", {"is a folder"}),
+  };
+}
+
+// Larger, faster or heavier than a floor robot is.
+std::vector<BadInput> LimitCases() {
+  const auto custom = [](const std::string& name, const std::string& from, const std::string& to,
+                         std::vector<std::string> named) {
+    return Robot(name, Replaced(Beluga(), from, to), std::move(named));
+  };
+  const auto set = [](const std::string& name, const std::string& key, const std::string& value) {
+    return BadInput{name,
+                    {"plan", "scenario.yaml", "--out", "o", "--set", "robot=beluga", "--set",
+                     "robot." + key + "=" + value},
+                    {},
+                    {"robot." + key + " = " + value, "must be in ["}};
+  };
+  return {
+      custom("AToolOfAContinent", "name=\"tool_width_m\" data=\"",
+             "name=\"tool_width_m\" data=\"1e9 ", {"tool_width_m = 1e+09", "must be in ["}),
+      custom("AToolOfADustGrain", "name=\"tool_width_m\" data=\"",
+             "name=\"tool_width_m\" data=\"1e-9 ", {"tool_width_m = ", "must be in ["}),
+      custom("FasterThanLight", "name=\"max_speed_mps\" data=\"",
+             "name=\"max_speed_mps\" data=\"1e9 ", {"max_speed_mps = 1e+09", "must be in ["}),
+      Carried("AGeomFarAway", "<geom size=\"0.01\" pos=\"11 0 0.1\"/>",
+              {"geom ", "within 10 m of the robot's base"}),
+      Carried("AGeomAsLargeAsAHall", "<geom size=\"11\" pos=\"0 0 0.1\" mass=\"1\"/>",
+              {"geom ", "within 10 m of the robot's base"}),
+      Carried("AsHeavyAsAShip", "<geom size=\"0.01\" pos=\"0 0 0.1\" mass=\"1e6\"/>",
+              {"body base", "mass (kg)", "10000"}),
+      set("WheelsOfAPlanet", "wheel_radius_m", "1e9"),
+      set("ClearanceOfAPlanet", "clearance_m", "1e9"),
+      set("MassOfAPlanet", "mass_kg", "1e24"),
+      set("RollersOfAPlanet", "roller_radius_m", "1e9"),
+      set("WheelsOfNothing", "wheel_radius_m", "1e-9"),
+  };
 }
 
 }  // namespace
@@ -59,21 +210,20 @@ std::vector<BadInput> RobotCases() {
               return text;
             }(),
             {"MJCF"}),
-      Robot("ABillionCopies",
-            with_base("<replicate count=\"1000\"><replicate count=\"1000\"><geom "
+      Robot("CopiesOfCopies",
+            with_base("<replicate count=\"60\"><replicate count=\"60\"><geom "
                       "size=\"0.1\"/></replicate></replicate>"),
-            {":1: count = 1000", "10000 copies"}),
+            {"geoms = 3601", "at most 2000"}),
       Robot("AHugeTexture",
             "<mujoco><asset><texture name=\"t\" type=\"2d\" builtin=\"flat\" width=\"200000\" "
             "height=\"200000\"/></asset></mujoco>",
             {"width = 200000", "8192"}),
-      Robot("IncludesItself", "<mujoco><include file=\"mine.xml\"/></mujoco>",
-            {"include", "without end"}),
+      Robot("IncludesItself", "<mujoco><include file=\"mine.xml\"/></mujoco>", {"MJCF"}),
       Robot("MeshIsADevice",
             "<mujoco><asset>\n<mesh name=\"m\" file=\"/dev/zero\"/></asset></mujoco>",
-            {":2: file = /dev/zero", "a pipe or a device"}),
+            {":2: file = /dev/zero", "outside the folder"}),
       Robot("IncludesADevice", "<mujoco><include file='/dev/zero'/></mujoco>",
-            {"file = /dev/zero", "a pipe or a device"}),
+            {"file = /dev/zero", "outside the folder"}),
       Robot(
           "MissingMesh",
           "<mujoco><asset><mesh name=\"m\" file=\"none.stl\"/></asset><worldbody><body "
@@ -95,6 +245,8 @@ std::vector<BadInput> RobotCases() {
                    [](const std::filesystem::path& folder) {
                      return mkfifo((folder / "pipe.xml").c_str(), 0600) == 0;
                    }});
+  for (const auto& more : {CompilerCases(), FileCases(), LimitCases()})
+    cases.insert(cases.end(), more.begin(), more.end());
   return cases;
 }
 

@@ -66,7 +66,7 @@ std::vector<BadInput> YamlCases() {
                    [] {
                      std::string text;
                      for (int i = 0; i < 95; ++i) text += "&a" + std::to_string(i) + " [";
-                     return text + std::string(4'000'000, 'x') + std::string(95, ']') + "\n";
+                     return text + std::string(2'000'000, 'x') + std::string(95, ']') + "\n";
                    }(),
                {file + ":", "MiB of memory (aliases expanded)"}),
       Scenario("ManyOtherKeys",
@@ -82,7 +82,12 @@ std::vector<BadInput> YamlCases() {
       Scenario("ATurnedName", first + "name: a\u202egnp.exe\n",
                {file + ":2", "holds a mark of writing direction"}),
       Scenario("ManyKeys", first + Repeated("k: 1\n", 100'000), {file + ":3", "k", "stands twice"}),
-      Scenario("LongLine", first + "site: site.yaml\nrobot: " + std::string(4'000'000, 'x') + "\n",
+      // What takes the parser longest, byte for byte.
+      Scenario("PlainTextInBrackets", first + "robot: [" + Repeated("x ", 1'500'000) + "]\n",
+               {file + ":", "the key is missing"}),
+      Scenario("LargerThanAnybodyWrites", first + "robot: [" + Repeated("x ", 2'000'000) + "]\n",
+               {file + ": ", "larger than 3 MiB"}),
+      Scenario("LongLine", first + "site: site.yaml\nrobot: " + std::string(3'000'000, 'x') + "\n",
                {file + ":3", "robot = xxxxxxxx", "...", "unknown robot"}),
       Scenario("TwiceTheSameKey", first + "seed: 1\nseed: 2\n",
                {file + ":3", "seed", "stands twice", "line 2"}),

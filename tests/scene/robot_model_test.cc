@@ -89,6 +89,43 @@ TEST(RobotModel, MotorsAndWheelsNeedNoNames) {
   EXPECT_EQ(BuildScene(map, dut, {}, {}).model->npair, pairs);
 }
 
+// Whatever the scene calls its own parts.
+TEST(RobotModel, PartsMayHaveAnyNames) {
+  std::ifstream in(FindRobotFile("beluga", {}));
+  std::string xml((std::istreambuf_iterator<char>(in)), {});
+  std::string looks = "<asset>";
+  for (const char* name : {"floor", "sky"})
+    looks += std::string("<texture name='") + name +
+             "' type='2d' builtin='flat' width='8' height='8' rgb1='1 0 0'/>";
+  for (const char* name : {"floor", "floor_", "wall", "pit"})
+    looks += std::string("<material name='") + name + "' texture='floor' rgba='1 0 0 1'/>";
+  const std::string custom = "<custom>", joint = "<freejoint name=\"root\"/>";
+  xml.insert(xml.find(custom), looks + "</asset>");
+  std::string geoms;
+  for (const char* name : {"floor/0", "wall/1"})
+    geoms += std::string("<geom name='") + name +
+             "' material='floor' size='0.01' pos='0 0 0.1' contype='0' conaffinity='0'/>";
+  xml.insert(xml.find(joint) + joint.size(), geoms);
+  const std::string file = ::testing::TempDir() + "/any_names.xml";
+  std::ofstream(file) << xml;
+  HazardMap map;
+  map.frame = {4, 4, 1, {}};
+  map.occupancy = Grid<CellState>(4, 4);
+  map.occupancy(1, 1) = CellState::kOccupied;
+  const Scene dut = BuildScene(map, ReadRobot(file), {}, {});
+  const mjModel* m = dut.model.get();
+  const int mine = mj_name2id(m, mjOBJ_MATERIAL, "floor");
+  ASSERT_GE(mine, 0);
+  EXPECT_EQ(m->mat_rgba[4 * mine + 1], 0) << "the robot's own is red";
+  EXPECT_EQ(m->geom_matid[mj_name2id(m, mjOBJ_GEOM, "floor/0")], mine);
+  int of_floor = -1;
+  for (int g = 0; g < m->ngeom; ++g)
+    if (m->geom_type[g] == mjGEOM_PLANE) of_floor = m->geom_matid[g];
+  ASSERT_GE(of_floor, 0);
+  EXPECT_NE(of_floor, mine);
+  EXPECT_EQ(m->mat_rgba[4 * of_floor + 1], 1) << "the floor is not";
+}
+
 std::string RefusalOf(const std::string& name, const std::string& xml) {
   const std::string file = ::testing::TempDir() + "/" + name + ".xml";
   std::ofstream(file) << xml;
@@ -118,6 +155,17 @@ TEST(RobotModel, ABrokenRobotIsRefusedNamingWhatIsMissing) {
   EXPECT_THAT(RefusalOf("no_custom", "<mujoco>" + body + "</mujoco>"), HasSubstr("drive"));
   EXPECT_THAT(RefusalOf("no_wheels", "<mujoco>" + custom + "</custom>" + body + "</mujoco>"),
               HasSubstr("a robot needs at least one driven wheel"));
+}
+
+// MuJoCo copies until no memory is left; whoever asked for it goes on.
+TEST(RobotModel, WhatMuJoCoDoesNotSurviveIsRefused) {
+  const std::string copies = "<replicate count='&#49;000'>";
+  const std::string dut = RefusalOf(
+      "copies", "<mujoco><worldbody><body name='base'>" + copies + copies +
+                    "<geom size='.001'/></replicate></replicate></body></worldbody></mujoco>");
+  EXPECT_THAT(dut, HasSubstr("copies.xml: MuJoCo "));
+  EXPECT_THAT(dut, HasSubstr(" while it compiled this robot"));
+  EXPECT_EQ(Beluga().spec.wheels.size(), 2u);
 }
 
 // BELUGA with its left wheel's joint written so.
