@@ -8,6 +8,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "base/quantity.h"
 #include "render/heatmap_marks.h"
 #include "render/heatmap_panel.h"
 #include "render/strokes.h"
@@ -45,8 +46,8 @@ void DrawColourBar(Image& image, int x, int y, int height, const HeatPanel& pane
         y +
         static_cast<int>(std::lround((height - 1) * (range.high - v) / (range.high - range.low)));
     cv::line(canvas, {x + kWidth, row}, {x + kWidth + 5, row}, Colour(kInk), 1);
-    DrawText(image, x + kWidth + 10, row + 5,
-             fmt::format("{:.6g}", std::abs(v) < 1e-9 * step ? 0.0 : v), kLabel);
+    DrawText(image, x + kWidth + 10, row + 5, NumberText(std::abs(v) < 1e-9 * step ? 0.0 : v, 6),
+             kLabel);
   }
 }
 
@@ -82,7 +83,7 @@ int DrawScaleBar(Image& image, int x, int y, double px_per_m, int panel_px) {
   FillRectangle(image, x, y - 5, x + 2, y + 4, kInk, 1);
   FillRectangle(image, x + length - 1, y - 5, x + length + 1, y + 4, kInk, 1);
   const std::string text =
-      metres < 0.995 ? fmt::format("{:.6g} cm", 100 * metres) : fmt::format("{:.6g} m", metres);
+      metres < 0.995 ? NumberText(100 * metres, 6) + " cm" : NumberText(metres, 6) + " m";
   const TextStyle style{.cap_px = 12, .colour = kInk};
   DrawText(image, x + length + 12, y + 5, text, style);
   return x + length + 12 + static_cast<int>(TextWidth(text, style));
