@@ -7,6 +7,7 @@
 #include "apps/command.h"
 #include "base/interrupt.h"
 #include "base/progress_line.h"
+#include "base/quantity.h"
 #include "report/campaign_films.h"
 #include "run/campaign/drive_campaign.h"
 #include "stats/binomial.h"
@@ -62,12 +63,13 @@ class Progress final : public CampaignObserver {
       text +=
           fmt::format("; {}{} of {} fail", p.variants.size() > 1 ? variants_[v].name + ": " : "",
                       at.any_failure, at.n);
-      text +=
-          at.repetition.repeated()
-              ? " (one episode, repeated)"
-              : fmt::format(" (at most {:.2g} %)",
-                            100 * ClopperPearsonUpper(static_cast<int>(at.any_failure),
-                                                      static_cast<int>(at.n), kReportedConfidence));
+      text += at.repetition.repeated()
+                  ? " (one episode, repeated)"
+                  : fmt::format(" (at most {})",
+                                PercentText(ClopperPearsonUpper(static_cast<int>(at.any_failure),
+                                                                static_cast<int>(at.n),
+                                                                kReportedConfidence),
+                                            2));
     }
     return text;
   }
@@ -92,12 +94,18 @@ int RunIt(const Options& options, const Globals& globals) {
   Progress progress(globals, file.variants());
   const CampaignOutcome outcome = DriveCampaign(file, request, folder, &progress);
   progress.Clear();
-  SayResults(outcome, folder, globals);
-  if (request.shard && !file.gate().IsNull())
-    globals.Say("a shard: `merge` judges the gate of all");
-  if (outcome.run.end == CampaignEnd::kInterrupted) throw Interruption();
-  if (!options.no_films && outcome.run.end != CampaignEnd::kTimeLimit)
-    FilmFirstFailures(file, outcome.store, folder, globals);
+  const char* missing = "failing_episodes.csv and the films";
+  try {
+    SayResults(outcome, folder, globals);
+    if (request.shard && !file.gate().IsNull())
+      globals.Say("a shard: `merge` judges the gate of all");
+    if (outcome.run.end == CampaignEnd::kInterrupted) throw Interruption();
+    missing = "films of the first failures";
+    if (!options.no_films && outcome.run.end != CampaignEnd::kTimeLimit)
+      FilmFirstFailures(file, outcome.store, folder, globals);
+  } catch (const InputError& e) {
+    throw InternalError(std::string(e.what()) + "; missing: " + missing);
+  }
   return ExitStatus(outcome);
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/quantity.h"
 #include "report/failing_episodes.h"
 #include "run/campaign/summary_json.h"
 #include "stats/outward.h"
@@ -24,10 +25,10 @@ void SayRates(const CampaignSummary& summary, const Globals& globals) {
     for (const FailureRate& rate : v.failures) {
       if (rate.n == 0) continue;
       const Interval percent = RoundedOutward({100 * rate.lower, 100 * rate.upper});
-      const std::string text = rate.k == 0
-                                   ? fmt::format("none; at most {:.3g} %", percent.upper)
-                                   : fmt::format("{} = {:.3g} % ({:.3g} to {:.3g} %)", rate.k,
-                                                 100 * rate.rate, percent.lower, percent.upper);
+      const std::string text =
+          rate.k == 0 ? "none; at most " + PercentText(percent.upper / 100)
+                      : fmt::format("{} = {} ({} to {})", rate.k, PercentText(rate.rate),
+                                    NumberText(percent.lower), PercentText(percent.upper / 100));
       globals.Say(fmt::format("  {:<12} {}", rate.name, text));
     }
   }

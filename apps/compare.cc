@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
+#include "base/quantity.h"
 #include "run/campaign/campaign_comparison.h"
 #include "run/scenario/chance.h"
 
@@ -37,13 +38,19 @@ Side OpenSide(const std::string& text) {
 }
 
 std::string Signed(double value, double scale = 1) {
-  return std::isfinite(value) ? fmt::format("{:+.4g}", scale * value) : "-";
+  return std::isfinite(value) ? (scale * value < 0 ? "" : "+") + NumberText(scale * value, 4) : "-";
+}
+
+std::string Significance(double p) {
+  constexpr double kLeastShown = 1e-4;
+  return p < kLeastShown ? "p < " + NumberText(kLeastShown) : "p = " + NumberText(p);
 }
 
 // Of the figures that differ anywhere, and of those that a reader asks for.
 void SayPlans(const Comparison& c, const Globals& globals) {
   const auto spread = [](const Quartiles& q) {
-    return fmt::format("{:.4g} [{:.4g}, {:.4g}]", q.median, q.lower, q.upper);
+    return fmt::format("{} [{}, {}]", NumberText(q.median, 4), NumberText(q.lower, 4),
+                       NumberText(q.upper, 4));
   };
   bool first = true;
   for (const ComparedPlanFigure& f : c.plans) {
@@ -75,10 +82,10 @@ void SayDrives(const Comparison& c, const Globals& globals) {
   globals.Say(fmt::format("  {:<14} {:>6} {:>6} {:>7} {:>7}  {}", "failures", "a", "b", "only a",
                           "only b", "rate b - a (95 %); exact McNemar p"));
   for (const ComparedFailure& f : c.failures)
-    globals.Say(fmt::format("  {:<14} {:>6} {:>6} {:>7} {:>7}  {} % ({} to {}); p = {:.3g}", f.mode,
+    globals.Say(fmt::format("  {:<14} {:>6} {:>6} {:>7} {:>7}  {} % ({} to {}); {}", f.mode,
                             f.both + f.only_a, f.both + f.only_b, f.only_a, f.only_b,
                             Signed(f.difference, 100), Signed(f.interval.lower, 100),
-                            Signed(f.interval.upper, 100), f.p));
+                            Signed(f.interval.upper, 100), Significance(f.p)));
   globals.Say(fmt::format("  {:<28} {:>6}  {}", "metrics", "n", "mean b - a (95 %); median"));
   bool starred = false;
   for (const ComparedMetric& m : c.metrics) {

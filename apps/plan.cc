@@ -5,10 +5,12 @@
 
 #include "apps/command.h"
 #include "base/interrupt.h"
+#include "base/quantity.h"
 #include "base/result_folder.h"
 #include "report/risk_pictures.h"
 #include "run/episode/make_plan.h"
 #include "run/episode/records.h"
+#include "run/plan_check/plan_check.h"
 #include "run/scenario/warnings.h"
 
 namespace floorproof {
@@ -26,12 +28,12 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
   command.Texts("--beside", options->beside,
                 "Scenarios of the same floor and robot, whose plans plot_risk.png shows too");
   command.OnRun([options, &globals, &status] {
-    const Scenario scenario = ReadScenario(options->scenario, globals.Overrides());
+    Scenario scenario = ReadScenario(options->scenario, globals.Overrides());
     for (const std::string& warning : Warnings(scenario)) globals.Say(warning);
     const auto folder = OutputFolder(options->out, scenario.file, scenario.name);
     ResultFolder out(folder, EpisodeResults(), InputsOf(scenario));
     const PlanResult plan = MakePlan(scenario);
-    const auto json = PlanJson(scenario, plan);
+    auto json = PlanJson(scenario, plan);
     const std::vector<RiskOfPlan> beside =
         PlansBeside(options->beside, globals.Overrides(), MeasurePlan(scenario, plan));
     out.Begin();
@@ -42,10 +44,13 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     SayWhenInterrupted(folder.string() + " holds the plan");
     const bool found = plan.status == PlanStatus::kSuccess;
     if (found) {
-      globals.Say(fmt::format("planned: {} waypoints, {:.1f} m, {} turns, covers {:.1f} %",
-                              plan.path.size(), Length(plan.path), CountTurns(plan.path),
-                              100 * json["coverage"].get<double>()));
+      globals.Say(fmt::format("planned: {} waypoints, {} m, {} turns, covers {:.1f} %",
+                              plan.path.size(), FixedText(Length(plan.path), 1),
+                              CountTurns(plan.path), 100 * json["coverage"].get<double>()));
       if (!plan.message.empty()) globals.Say(plan.message);
+      const PlanCheck check = CheckPlan(scenario, plan);
+      for (const std::string& said : PlanLines(scenario, plan, check)) globals.Say(said);
+      json["check"] = PlanCheckJson(check);
     } else {
       globals.Say(fmt::format("no plan ({}): {}", Name(plan.status), plan.message));
     }

@@ -10,13 +10,20 @@
 namespace floorproof {
 
 inline constexpr std::size_t kCodecErrorSize = 256;
-inline constexpr int kCodecApiVersion = 1;
+inline constexpr int kCodecApiVersion = 2;
 
 // Rows from the top, channels interleaved in the order grey | R G B | R G B A.
 struct CodecImage {
   int width, height, channels;
   int depth_bits;  // 8, or 16 (machine byte order)
   const void* data;
+};
+
+// Letters as the share of each pixel that they cover: 8 bits, one channel.
+struct CodecText {
+  CodecImage coverage;
+  int base;  // row of the base line
+  double advance_px;
 };
 
 struct CodecApi {
@@ -28,6 +35,12 @@ struct CodecApi {
   int (*encode_png)(const CodecImage* image, const std::uint8_t** file, std::size_t* size,
                     void** handle, char* error);
   void (*release)(void* handle);
+
+  // Draws one line of UTF-8; `handle` owns the pixels until release_text(handle), and is nullptr
+  // where no installed font has all letters.
+  int (*draw_text)(const char* utf8, double cap_px, int bold, CodecText* text, void** handle,
+                   char* error);
+  void (*release_text)(void* handle);
 
   // `path` is absolute and ends in .mp4; width and height are even.
   int (*open_video)(const char* path, int width, int height, double fps, void** video, char* error);

@@ -6,6 +6,7 @@
 
 #include "media/codec_api.h"
 #include "media/h264_file.h"
+#include "media/letters.h"
 #include "media/opencv_images.h"
 
 namespace floorproof {
@@ -48,6 +49,23 @@ int EncodePng(const CodecImage* image, const std::uint8_t** file, std::size_t* s
 
 void Release(void* handle) { delete static_cast<ImageBuffer*>(handle); }
 
+int DrawText(const char* utf8, double cap_px, int bold, CodecText* text, void** handle,
+             char* error) {
+  return Guarded(error, [&] {
+    auto drawn = DrawLetters(utf8, cap_px, bold != 0);
+    if (!drawn) {
+      *handle = nullptr;
+      return;
+    }
+    *text = {{drawn->coverage.cols, drawn->coverage.rows, 1, 8, drawn->coverage.data},
+             drawn->base,
+             drawn->advance_px};
+    *handle = drawn.release();
+  });
+}
+
+void ReleaseText(void* handle) { delete static_cast<DrawnLetters*>(handle); }
+
 int OpenVideoFile(const char* path, int width, int height, double fps, void** video, char* error) {
   return Guarded(error, [&] { *video = new H264File(path, width, height, fps); });
 }
@@ -63,6 +81,8 @@ constexpr CodecApi kApi = {.version = kCodecApiVersion,
                            .decode = Decode,
                            .encode_png = EncodePng,
                            .release = Release,
+                           .draw_text = DrawText,
+                           .release_text = ReleaseText,
                            .open_video = OpenVideoFile,
                            .add_frame = AddFrame,
                            .finish_video = FinishVideo,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "base/quantity.h"
 #include "render/strokes.h"
 
 namespace floorproof {
@@ -94,7 +95,7 @@ TextStyle At(TextStyle style, Anchor anchor) {
 }
 
 std::string XText(const ChartPanel& panel, double x) {
-  return panel.x_decimals ? fmt::format("{:.{}f}", x, *panel.x_decimals) : fmt::format("{:.6g}", x);
+  return panel.x_decimals ? fmt::format("{:.{}f}", x, *panel.x_decimals) : NumberText(x, 6);
 }
 
 void DrawAxes(Image& image, const ChartPanel& panel, const cv::Rect& plot, const Axes& axes) {
@@ -102,7 +103,7 @@ void DrawAxes(Image& image, const ChartPanel& panel, const cv::Rect& plot, const
   for (double y = 0; y <= axes.y_high * (1 + 1e-9); y += axes.y_step) {
     const int row = static_cast<int>(std::lround(axes.Pixel(0, y).y));
     cv::line(canvas, {plot.x, row}, {plot.br().x, row}, Colour(kGrid), 1);
-    DrawText(image, plot.x - 8, row + 5, fmt::format("{:.6g}", y), At(kTick, Anchor::kRight));
+    DrawText(image, plot.x - 8, row + 5, NumberText(y, 6), At(kTick, Anchor::kRight));
   }
   constexpr double kApart_px = 6;
   double free_from_px = 0;  // right of the last label
@@ -133,12 +134,12 @@ void DrawBars(Image& image, const ChartSeries& series, const Axes& axes) {
               right = static_cast<int>(std::lround(foot.x)) + series.aside_px;
     FillRectangle(image, left, static_cast<int>(std::lround(top.y)), right,
                   static_cast<int>(std::lround(foot.y)), series.style.colour, 1);
-    room = room && TextWidth(fmt::format("{:.6g}", point.y), kValue) + 4 <= right - left;
+    room = room && TextWidth(NumberText(point.y, 6), kValue) + 4 <= right - left;
   }
   if (!room) return;
   for (const ChartPoint& point : series.points) {
     const cv::Point2d top = axes.Pixel(point.x, point.y);
-    DrawText(image, top.x + series.aside_px, top.y - 4, fmt::format("{:.6g}", point.y), kValue);
+    DrawText(image, top.x + series.aside_px, top.y - 4, NumberText(point.y, 6), kValue);
   }
 }
 

@@ -230,7 +230,7 @@ class Studio {
     for (const Event& event : script_.events) {
       // The event that ended the episode may lie a step behind the last recorded state.
       if (!last && event.t_s > t_s) break;
-      banner = FailureBanner(event);
+      banner = FailureBanner(event, script_.map ? *script_.map : HazardMap{});
       since_s = event.t_s;
     }
     for (const Notice& notice : script_.notices)

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "env/core/event.h"
+#include "env/core/hazard_map.h"
 #include "env/core/path.h"
 #include "render/camera.h"
 #include "render/film_schedule.h"
@@ -63,13 +64,14 @@ struct FilmScript {
   const mjModel* model = nullptr;
   int base_body = -1;  // the robot's; stands on a free joint, its origin at the floor
   const Recording* recording = nullptr;
-  std::span<const Event> events;  // ascending in time; each is shown by a banner from its time on
-  std::vector<Notice> notices;    // ascending in time
-  std::optional<Banner> closing;  // over the last picture
-  std::string title;              // "beluga on staircase hall"
-  FilmSet set;                    // `aspect` is taken from the options
-  const Path* plan = nullptr;     // drawn on the floor
-  bool senses = true;             // what the recording holds of them, too
+  std::span<const Event> events;   // ascending in time; each is shown by a banner from its time on
+  const HazardMap* map = nullptr;  // whose hazards the events name; none: by their ids alone
+  std::vector<Notice> notices;     // ascending in time
+  std::optional<Banner> closing;   // over the last picture
+  std::string title;               // "beluga on staircase hall"
+  FilmSet set;                     // `aspect` is taken from the options
+  const Path* plan = nullptr;      // drawn on the floor
+  bool senses = true;              // what the recording holds of them, too
 };
 
 struct FilmOptions {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "base/quantity.h"
 #include "render/heatmap_legend.h"
 #include "render/heatmap_panel.h"
 #include "render/strokes.h"
@@ -45,8 +46,8 @@ void DrawColourBar(Image& image, int x, int y, int height, const HeatPanel& pane
         y +
         static_cast<int>(std::lround((height - 1) * (range.high - v) / (range.high - range.low)));
     cv::line(canvas, {x + kWidth, row}, {x + kWidth + 5, row}, Colour(kInk), 1);
-    DrawText(image, x + kWidth + 10, row + 5,
-             fmt::format("{:.6g}", std::abs(v) < 1e-9 * step ? 0.0 : v), kLabel);
+    DrawText(image, x + kWidth + 10, row + 5, NumberText(std::abs(v) < 1e-9 * step ? 0.0 : v, 6),
+             kLabel);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "base/quantity.h"
 #include "render/strokes.h"
 
 namespace floorproof {
@@ -80,7 +81,7 @@ void Polylines(cv::Mat& canvas, const std::vector<std::vector<Vec2>>& lines,
       Line(canvas, frame.Pixel(line[i - 1]), frame.Pixel(line[i]), colour, px);
 }
 
-std::string NumberText(float value) { return fmt::format("{:.6g}", static_cast<double>(value)); }
+std::string CellText(float value) { return NumberText(static_cast<double>(value), 6); }
 double Luma(const Rgb& c) { return 0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2]; }
 
 // The upper or the lower left corner of a cell, `reach_px` from its middle: the one where less is
@@ -216,12 +217,12 @@ void DrawNumbers(const HeatValues& values, const PanelFrame& frame, HeatPanel& p
   const double pad = std::max(2.0, 0.06 * cell_px);
   TextStyle style{.cap_px = std::clamp(0.24 * cell_px, 8.0, 14.0)};
   for (const float value : values.values.cells)
-    if (std::isfinite(value) && TextWidth(NumberText(value), style) + 2 * pad > cell_px) return;
+    if (std::isfinite(value) && TextWidth(CellText(value), style) + 2 * pad > cell_px) return;
   for (int iy = 0; iy < values.values.height; ++iy)
     for (int ix = 0; ix < values.values.width; ++ix) {
       const float value = values.values(ix, iy);
       if (!std::isfinite(value)) continue;
-      const std::string text = NumberText(value);
+      const std::string text = CellText(value);
       const Rgb under = panel.ColourOf(value);
       const cv::Rect box = FreerCorner(
           panel.image, frame.Pixel(values.frame.Center(ix, iy)), 0.5 * cell_px - pad,

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "env/geometry/geometry.h"
+#include "base/quantity.h"
+#include "env/core/failure_text.h"
 #include "render/text.h"
 
 namespace floorproof {
@@ -37,16 +38,16 @@ std::string Clock(double t_s) {
 
 std::string Pace(double speed_up) {
   if (std::abs(speed_up - 1) < 1e-9) return "real time";
-  if (speed_up < 1) return fmt::format("slow motion x{:.2g}", speed_up);
-  return speed_up < 9.95 ? fmt::format("time lapse x{:.2g}", speed_up)
-                         : fmt::format("time lapse x{:.0f}", speed_up);
+  if (speed_up < 1) return "slow motion x" + NumberText(speed_up, 2);
+  return speed_up < 9.95 ? "time lapse x" + NumberText(speed_up, 2)
+                         : "time lapse x" + FixedText(speed_up, 0);
 }
 
 // The longest beginning of `text` that fits, with dots if it is not the whole.
 std::string Fit(const std::string& text, double width_px, const TextStyle& style) {
   if (TextWidth(text, style) <= width_px) return text;
   std::string cut = text;
-  while (!cut.empty() && TextWidth(cut + "...", style) > width_px) cut.pop_back();
+  while (!cut.empty() && TextWidth(cut + "...", style) > width_px) cut = WithoutLastLetter(cut);
   return cut.empty() ? "" : cut + "...";
 }
 
@@ -108,37 +109,10 @@ void DrawOverlay(const Overlay& overlay, Image& image) {
   if (overlay.banner != nullptr) DrawBanner(*overlay.banner, image, unit);
 }
 
-std::string Describe(const Event& event) {
-  const double v = event.value, limit = event.threshold;
-  switch (event.mode) {
-    case FailureMode::kVeerOff:
-      return fmt::format("{:.2f} m off the path, limit {:.2f} m", v, limit);
-    case FailureMode::kStuck:
-      return fmt::format("moved {:.2f} m where {:.2f} m was due", v, limit);
-    case FailureMode::kRollOver:
-      if (event.kind == "fell")
-        return fmt::format("wheels at {:.3f} m, lowest allowed {:.3f} m", v, limit);
-      if (event.kind == "tipped")
-        return fmt::format("centre of mass {:.3f} m outside the wheels", -v);
-      return fmt::format("tilted {:.0f} deg, limit {:.0f} deg", v * 180 / kPi, limit * 180 / kPi);
-    case FailureMode::kBounceBack:
-      if (event.kind == "parted")
-        return fmt::format("parted by {:.1f} mm, limit {:.1f} mm", 1e3 * v, 1e3 * limit);
-      return fmt::format("thrown back at {:.3f} m/s, limit {:.3f} m/s", v, limit);
-  }
-  return "";
-}
-
-Banner FailureBanner(const Event& event) {
-  std::string mode(Name(event.mode)), kind = event.kind;
-  std::replace(mode.begin(), mode.end(), '_', ' ');
-  std::replace(kind.begin(), kind.end(), '_', ' ');
-  Banner banner;
-  banner.headline = "FAILURE   " + mode + (kind.empty() ? "" : " (" + kind + ")");
-  if (!event.hazard.empty()) banner.headline += "   at " + event.hazard;
-  banner.detail = fmt::format("{};  t {:.1f} s,  x {:.2f} m,  y {:.2f} m", Describe(event),
-                              event.t_s, event.x_m, event.y_m);
-  return banner;
+Banner FailureBanner(const Event& event, const HazardMap& map) {
+  return {Banner::Tone::kFailure,
+          "FAILURE   " + FailureName(event) + (event.hazard.empty() ? "" : "   at " + event.hazard),
+          FailureSentence(event, map) + ";  t " + FixedText(event.t_s, 1) + " s"};
 }
 
 }  // namespace floorproof

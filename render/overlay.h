@@ -5,6 +5,7 @@
 #include <string>
 
 #include "env/core/event.h"
+#include "env/core/hazard_map.h"
 #include "media/media.h"
 
 namespace floorproof {
@@ -32,8 +33,8 @@ struct OverlayRows {
 };
 OverlayRows RowsOf(const Image& image);
 
-// "wheels at -0.148 m, lowest allowed -0.030 m": an event's inequality in words.
-std::string Describe(const Event& event);
-Banner FailureBanner(const Event& event);
+// What failed, in words (env/core/failure_text.h), with place and time. Of hazards that are not on
+// the map only their ids are said.
+Banner FailureBanner(const Event& event, const HazardMap& map);
 
 }  // namespace floorproof

@@ -22,9 +22,14 @@ struct TextStyle {
   bool bold = false;
 };
 
+// The text without its last letter, of however many bytes.
+std::string_view WithoutLastLetter(std::string_view text);
 double TextWidth(std::string_view text, const TextStyle& style);  // px
 // Writes onto an RGB picture with the base line at y_px; the text begins, is centred or ends at
-// x_px. What lies beyond the picture is cut off. Letters other than printable ASCII become '?'.
+// x_px. What lies beyond the picture is cut off. Letters beyond ASCII are drawn in an installed
+// font that has them, each word in its own direction of writing; where none has them, they are
+// escaped
+// (\u4e2d). Control characters and bytes that are no UTF-8 become '?'.
 void DrawText(Image& image, double x_px, double y_px, std::string_view text,
               const TextStyle& style);
 // Mixes `colour` over the rectangle [x0, x1) x [y0, y1); alpha 0 leaves it, 1 covers it.

@@ -8,12 +8,15 @@
 #include <utility>
 
 #include "base/interrupt.h"
+#include "base/quantity.h"
 #include "base/result_folder.h"
+#include "env/core/failure_text.h"
 #include "report/pictures.h"
 #include "report/progress.h"
 #include "report/risk_pictures.h"
 #include "run/episode/execute.h"
 #include "run/episode/records.h"
+#include "run/plan_check/plan_check.h"
 #include "run/scenario/warnings.h"
 
 namespace floorproof {
@@ -27,11 +30,11 @@ double Since(Clock::time_point start) {
 
 std::string Verdict(const EpisodeRecord& record) {
   const Metrics& m = record.metrics;
-  std::string line = fmt::format(
-      "{}: covered {:.1f} % in {:.0f} s over {:.1f} m, off the path by {:.0f} mm at most, {:.3g} "
-      "kJ",
-      Name(record.outcome), 100 * m.coverage, m.duration_s, m.path_length_m,
-      1000 * m.max_cross_track_m, m.energy_j / 1000);
+  std::string line =
+      fmt::format("{}: covered {:.1f} % in {} s over {} m, off the path by {} mm at most, {}",
+                  Name(record.outcome), 100 * m.coverage, FixedText(m.duration_s, 0),
+                  FixedText(m.path_length_m, 1), FixedText(1000 * m.max_cross_track_m, 0),
+                  EnergyText(m.energy_j));
   if (const std::size_t times = record.interventions.size(); times > 0)
     line += fmt::format(", helped {} time{}", times, times == 1 ? "" : "s");
   if (!record.message.empty()) line += " (" + record.message + ")";
@@ -39,11 +42,9 @@ std::string Verdict(const EpisodeRecord& record) {
 }
 
 // `number`: of the event, from 1; the maps name it by that.
-std::string EventLine(std::size_t number, const Event& e) {
-  return fmt::format(
-      "  {}. {}{} at {:.1f} s, x {:.2f} y {:.2f} m{}: {:.3g} against {:.3g}, effect {}", number,
-      Name(e.mode), e.kind.empty() ? "" : " (" + e.kind + ")", e.t_s, e.x_m, e.y_m,
-      e.hazard.empty() ? "" : ", " + e.hazard, e.value, e.threshold, e.effect);
+std::string EventLine(std::size_t number, const Event& e, const HazardMap& map) {
+  return fmt::format("  {}. {} at {} s: {}; effect {}", number, FailureName(e), FixedText(e.t_s, 1),
+                     FailureSentence(e, map), e.effect);
 }
 
 // Says how far a drive is, writes the plan's files when there is a plan, and records what a film
@@ -80,9 +81,13 @@ class Witness : public EpisodeObserver {
       console_.Say(fmt::format("no plan ({}): {}", Name(plan.status), plan.message));
       return;
     }
-    console_.Say(fmt::format("planned: {} waypoints, {:.1f} m, {} turns, in {:.2f} s",
-                             plan.path.size(), Length(plan.path), CountTurns(plan.path), plan_s));
+    console_.Say(fmt::format("planned: {} waypoints, {} m, {} turns, in {:.2f} s", plan.path.size(),
+                             FixedText(Length(plan.path), 1), CountTurns(plan.path), plan_s));
     if (!plan.message.empty()) console_.Say(plan.message);
+    // A planner keeps clear of what it knows; a file may lead anywhere.
+    if (s_.planner) return;
+    if (const std::string conflicts = ConflictsLine(CheckClearance(s_, plan)); !conflicts.empty())
+      console_.Say(conflicts + ", see `floorproof plan`");
   }
 
   void OnScene(const Scene& scene) override {
@@ -97,7 +102,7 @@ class Witness : public EpisodeObserver {
   void SayVerdict(const EpisodeRecord& record) const {
     console_.Say(Verdict(record));
     for (std::size_t i = 0; i < record.events.size(); ++i)
-      console_.Say(EventLine(i + 1, record.events[i]));
+      console_.Say(EventLine(i + 1, record.events[i], s_.site.map));
     console_.Say(fmt::format("drove {:.0f}x faster than real time ({:.1f} s)",
                              record.metrics.duration_s / drive_s_, drive_s_));
   }

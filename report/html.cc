@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdint>
 
 #include "stats/outward.h"
@@ -36,20 +35,6 @@ std::string UrlPath(std::string_view path) {
       out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
   }
   return out;
-}
-
-std::string NumberText(double value) {
-  if (!std::isfinite(value)) return "–";
-  if (std::abs(value) < 999.5) return fmt::format("{:.3g}", value);
-  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 2);
-  std::string digits = fmt::format("{:.0f}", std::round(value / unit) * unit);
-  const std::size_t first = digits.front() == '-' ? 1 : 0;
-  for (std::size_t at = digits.size(); at > first + 3;) digits.insert(at -= 3, ",");
-  return digits;
-}
-
-std::string PercentText(double share) {
-  return std::isfinite(share) ? NumberText(100 * share) + " %" : "–";
 }
 
 std::string PercentText(const Interval& share) {

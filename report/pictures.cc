@@ -166,6 +166,7 @@ std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& 
   script.base_body = scene.base_body;
   script.recording = &recording;
   script.events = record.events;
+  script.map = &map;
   script.title = PictureTitle(s);
   script.plan = &plan.path;
   script.senses = s.video.scan;

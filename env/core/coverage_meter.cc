@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "env/core/coverage.h"
+#include "env/core/plan_passes.h"
 
 namespace floorproof {
 namespace {
@@ -185,13 +185,18 @@ void CoverageMeter::Add(const Pose2& X_WB) {
   has_last_ = true;
 }
 
-PathCoverage MeasureCoverage(const SweepArea& area, const Shape2& tool, const Path& path) {
+CoverageMeter PassesOf(const SweepArea& area, const Shape2& tool, const Path& path) {
   CoverageMeter meter(area, tool);
   double yaw_rad = area.frame.X_WG.yaw_rad;
   for (const Waypoint& w : path) {
     yaw_rad = w.yaw_rad.value_or(yaw_rad);
     meter.Add({w.p_W.x(), w.p_W.y(), yaw_rad});
   }
+  return meter;
+}
+
+PathCoverage MeasureCoverage(const SweepArea& area, const Shape2& tool, const Path& path) {
+  const CoverageMeter meter = PassesOf(area, tool, path);
   return {meter.coverage(), meter.overlap()};
 }
 

@@ -34,6 +34,7 @@ constexpr double kNoSpeedMps = 0.001;  // no plan is slower
 constexpr double kAwayShare = 0.5;     // of the way commanded: so far away, it is not held
 constexpr double kFurtherM = 0.01;     // beyond where it was ever: tyres give by millimetres
 constexpr double kMostTurnsRad = 4 * kPi;
+constexpr double kStillM = 0.02;  // a robot that stays within this stands still
 
 class Stuck final : public Detector {
  public:
@@ -163,6 +164,7 @@ class Stuck final : public Detector {
   struct Judgement {
     double done_m = 0, least_m = 0;
     double gained_m = 0, away_m = 0, turned_rad = 0, least_rad = 0;
+    bool turning = false;  // the window is about a turn
   };
 
   Judgement Look() const {
@@ -186,6 +188,7 @@ class Stuck final : public Detector {
       const double away_m = out.away_m * out.least_m / (kAwayShare * way_m);
       out.done_m = std::max(out.gained_m, away_m);
     } else {  // a turn by turn_rad counts as a way of displacement_m
+      out.turning = true;
       out.least_m = out.least_rad * displacement_m_ / turn_rad_;
       out.done_m = last.turns_in_vain ? 0 : out.turned_rad * displacement_m_ / turn_rad_;
       // Between the turns it may have got on by the way that was commanded.
@@ -194,6 +197,18 @@ class Stuck final : public Detector {
             out.done_m, out.least_m * out.gained_m / std::min(displacement_m_, fraction_ * way_m));
     }
     return out;
+  }
+
+  // For how long, up to the window, it has been where it is.
+  double Still() const {
+    const Kept& last = ring_[newest_];
+    double since_s = last.t_s;
+    for (std::size_t i = 0; i < ring_.size(); ++i) {
+      const Kept& kept = ring_[(newest_ + ring_.size() - i) % ring_.size()];
+      if ((kept.p_WB - last.p_WB).norm() > kStillM) break;
+      since_s = kept.t_s;
+    }
+    return last.t_s - since_s;
   }
 
   bool Judge(const Sample& sample) {
@@ -218,6 +233,8 @@ class Stuck final : public Detector {
                        {"turn_rad", now.turned_rad},
                        {"turn_threshold_rad", now.least_rad},
                        {"commanded_rad", last.angle_rad - first.angle_rad},
+                       {"turning", now.turning ? 1 : 0},
+                       {"still_s", Still()},
                        {"belly_load_n", belly_n},
                        {"since_s", first.t_s}};
     return true;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/markup.h"
+#include "base/quantity.h"
 
 namespace floorproof {
 namespace {
@@ -15,10 +16,10 @@ std::string VariantText(const VariantSummary& v) {
                   v.n, v.success, v.failure, v.timeout, v.errors, v.not_planned);
   if (v.repeated) text += RepetitionText(v) + "\n";
   for (const FailureRate& rate : v.failures)
-    text += rate.n == 0
-                ? fmt::format("{}: nothing was driven\n", rate.name)
-                : fmt::format("{}: {} of {}, {:.3g} % (95 %: {:.3g} to {:.3g} %)\n", rate.name,
-                              rate.k, rate.n, 100 * rate.rate, 100 * rate.lower, 100 * rate.upper);
+    text += rate.n == 0 ? fmt::format("{}: nothing was driven\n", rate.name)
+                        : fmt::format("{}: {} of {}, {} (95 %: {} to {})\n", rate.name, rate.k,
+                                      rate.n, PercentText(rate.rate), NumberText(100 * rate.lower),
+                                      PercentText(rate.upper));
   return text;
 }
 

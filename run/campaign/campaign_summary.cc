@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "base/quantity.h"
 #include "env/geometry/grid.h"
 #include "run/campaign/campaign_about.h"
 #include "run/campaign/repetition.h"
@@ -183,8 +184,8 @@ std::string RepetitionText(const VariantSummary& variant) {
 }
 
 std::string Criterion(const GateSummary& gate) {
-  return fmt::format("{} < {:.4g} % at {:.4g} %", gate.metric, 100 * gate.max_rate,
-                     100 * gate.confidence);
+  return fmt::format("{} < {} at {}", gate.metric, PercentText(gate.max_rate, 4),
+                     PercentText(gate.confidence, 4));
 }
 
 std::string GateText(const GateSummary& gate, const VariantGate& variant) {

@@ -70,6 +70,17 @@ void CheckChance(const ScenarioFile& file, const ConfigNode& gate, CampaignObser
   }
 }
 
+// What is asked for is right, yet its results do not reach the disk: the tool has failed, and says
+// what is not there.
+template <class Write>
+auto Keep(const char* missing, const Write& write) {
+  try {
+    return write();
+  } catch (const InputError& e) {
+    throw InternalError(fmt::format("{}; missing: {}; --resume goes on", e.what(), missing));
+  }
+}
+
 void CheckRequest(const CampaignRequest& request) {
   if (request.episodes == 0) throw InputError({"-n", 0}, "", "0", "must be at least 1");
   if (request.jobs < 1)
@@ -109,7 +120,8 @@ CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& r
   if (request.retry_errors) store.DropErrors();
   out->Begin();
   SayWhenInterrupted(folder.string() + " holds every episode saved so far; --resume goes on");
-  WriteResolvedScenario(base, folder, file.files().All());
+  Keep("scenario.resolved.yaml and every episode",
+       [&] { WriteResolvedScenario(base, folder, file.files().All()); });
   CampaignOptions options{.end = request.episodes,
                           .gate = gate,
                           .jobs = request.jobs,
@@ -120,8 +132,11 @@ CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& r
     options.end = request.shard->end;
     options.gate = {};  // judged on the whole campaign
   }
-  CampaignRun run = RunCampaign(file, store, options, observer);
-  CampaignSummary summary = WriteSummaryFiles(store, file, run, folder);
+  CampaignRun run =
+      Keep("the episodes that are not in campaign.sqlite, and all that is made from them",
+           [&] { return RunCampaign(file, store, options, observer); });
+  CampaignSummary summary = Keep("some of episodes.csv, junit.xml, summary.json and the films",
+                                 [&] { return WriteSummaryFiles(store, file, run, folder); });
   return {std::move(hold), std::move(out), std::move(store),
           file.variants(), std::move(run), std::move(summary)};
 }

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <optional>
 
+#include "base/quantity.h"
 #include "base/streams.h"
+#include "env/core/failure_text.h"
 #include "env/failures/evidence.h"
 #include "env/sim/physics_plant.h"
 #include "run/episode/intervention.h"
@@ -43,10 +45,10 @@ Stream StreamOf(const Scenario& s, const std::string& name) {
   return {static_cast<std::uint64_t>(s.episode.seed), s.episode_id, name};
 }
 
-std::string Text(const Timeout& timeout) {
-  return fmt::format("still on its way after {:.0f} s, at x {:.2f}, y {:.2f} m{}", timeout.t_s,
-                     timeout.X_WB.x_m, timeout.X_WB.y_m,
-                     timeout.hazard.empty() ? "" : ", " + timeout.hazard);
+std::string Text(const Timeout& timeout, const HazardMap& map) {
+  return fmt::format("still on its way after {} s, at {}{}", FixedText(timeout.t_s, 0),
+                     PlaceText(timeout.X_WB.x_m, timeout.X_WB.y_m),
+                     timeout.hazard.empty() ? "" : ", at " + ObstaclePhrase(map, timeout.hazard));
 }
 
 // The two sides of an episode, and who looks on: the plant, the robot's side, the person who helps,
@@ -67,7 +69,7 @@ class Episode {
                                             s_.episode.min_coverage, plant_.battery_left());
     if (record.outcome == Outcome::kTimeout) {
       record.timeout = Unfinished();
-      if (record.message.empty()) record.message = Text(*record.timeout);
+      if (record.message.empty()) record.message = Text(*record.timeout, s_.site.map);
     }
     if (record.message.empty()) record.message = interventions_.why_not();
     return record;

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file_output.h"
+#include "env/core/failure_text.h"
 #include "planners/risk/risk_meter.h"
 #include "run/scenario/plan_file.h"
 
@@ -187,6 +188,9 @@ Json PlanJson(const Scenario& s, const PlanResult& plan) {
 Json ResultJson(const Scenario& s, const EpisodeRecord& record) {
   Json margins = Json::object();
   for (const auto& margin : record.margins) margins[margin.detector] = margin.value;
+  Json events = EventsJson(record.events);
+  for (std::size_t i = 0; i < events.size(); ++i)
+    events[i]["text"] = FailureSentence(record.events[i], s.site.map);
   Json json = {{"schema", 1},
                {"scenario", s.name},
                {"robot", s.robot_name},
@@ -194,7 +198,7 @@ Json ResultJson(const Scenario& s, const EpisodeRecord& record) {
                {"outcome", Name(record.outcome)},
                {"message", record.message}};
   if (record.timeout) json["timeout"] = TimeoutJson(record.timeout);
-  json.update({{"events", EventsJson(record.events)},
+  json.update({{"events", std::move(events)},
                {"assists", InterventionsJson(record.interventions)},
                {"metrics", MetricsJson(record.metrics)},
                {"margins", std::move(margins)},

@@ -151,7 +151,10 @@ TEST_F(CampaignFaults, AFileThatMayNotGrow) {
       const rlimit most = {48 << 10, 48 << 10};
       setrlimit(RLIMIT_FSIZE, &most);
     });
-    ExpectOneLine(Finish(dut), 2, "campaign.sqlite: cannot be written: ");
+    const Ended ended = Finish(dut);
+    ExpectOneLine(ended, 3, "campaign.sqlite: cannot be written: ");
+    EXPECT_THAT(ended.said, HasSubstr("; missing: the episodes that are not in campaign.sqlite"));
+    EXPECT_THAT(ended.said, HasSubstr("; --resume goes on"));
   }
   EXPECT_LT(ExpectRowsOfTheWhole(), kEpisodes);
   EXPECT_EQ(Run(Command(kEpisodes)).status, 0);

@@ -26,7 +26,7 @@ FREE = ("tests", "bench", "fuzz")  # these may include everything
 LIBRARIES = {
     "MuJoCo": "mujoco/", "OpenCV": "opencv2/", "FFmpeg": "libav", "yaml-cpp": "yaml-cpp/",
     "Boost": "boost/", "nlohmann-json": "nlohmann/", "SQLite": "sqlite3.h", "CLI11": "CLI/",
-    "libmd": "sha256.h", "Clipper": "polyclipping/",
+    "libmd": "sha256.h", "Clipper": "polyclipping/", "Fontconfig": "fontconfig/",
 }
 
 

@@ -29,7 +29,7 @@ TEST_P(OverlaySizes, DrawsWithinItsRowsOnly) {
   Image image = plain;
   Event event;
   event.mode = FailureMode::kRollOver;
-  const Banner banner = FailureBanner(event);
+  const Banner banner = FailureBanner(event, {});
   DrawOverlay({"robot on site", 12.3, 0.5, 20, &banner}, image);
   const OverlayRows rows = RowsOf(image);
   EXPECT_LT(rows.top + plain.height - rows.bottom, plain.height / 4);
@@ -89,31 +89,20 @@ TEST(OverlayTest, GaugeGrowsWithCoverage) {
   EXPECT_EQ(green(1.7), green(1.0));
 }
 
-TEST(OverlayTest, EventReadsAsItsInequality) {
+TEST(OverlayTest, AFailureSaysWhatWhereAndWhen) {
   Event event;
   event.mode = FailureMode::kRollOver;
   event.kind = "fell";
   event.hazard = "drop-1";
   event.t_s = 12.34;
+  event.x_m = 1;
   event.value = -0.148;
   event.threshold = -0.030;
-  const Banner fell = FailureBanner(event);
+  const Banner fell = FailureBanner(event, {});
   EXPECT_EQ(fell.headline, "FAILURE   roll over (fell)   at drop-1");
-  EXPECT_THAT(fell.detail, ::testing::StartsWith("wheels at -0.148 m, lowest allowed -0.030 m"));
-  EXPECT_THAT(fell.detail, ::testing::HasSubstr("t 12.3 s"));
-  event.kind = "";
-  event.value = 75 * kPi / 180;
-  event.threshold = 70 * kPi / 180;
-  EXPECT_EQ(Describe(event), "tilted 75 deg, limit 70 deg");
-  event.mode = FailureMode::kStuck;
-  event.value = 0.02;
-  event.threshold = 0.25;
-  EXPECT_EQ(Describe(event), "moved 0.02 m where 0.25 m was due");
-  event.mode = FailureMode::kVeerOff;
-  EXPECT_EQ(Describe(event), "0.02 m off the path, limit 0.25 m");
-  event.mode = FailureMode::kBounceBack;
-  event.kind = "reversed";
-  EXPECT_EQ(Describe(event), "thrown back at 0.020 m/s, limit 0.250 m/s");
+  EXPECT_THAT(fell.detail, ::testing::HasSubstr("below the base floor by 148 mm"));
+  EXPECT_THAT(fell.detail, ::testing::HasSubstr("at x 1.00, y 0.00 m"));
+  EXPECT_THAT(fell.detail, ::testing::EndsWith("t 12.3 s"));
 }
 
 TEST(TextTest, IsCutAtThePicturesBordersAndTakesAnyBytes) {
@@ -122,7 +111,49 @@ TEST(TextTest, IsCutAtThePicturesBordersAndTakesAnyBytes) {
     for (const double y : {-5.0, 0.0, 10.0, 25.0}) DrawText(image, x, y, "M\xC3\xBC\xFF\n", {});
   }
   EXPECT_EQ(image.data.size(), 40u * 20 * 3);
-  EXPECT_DOUBLE_EQ(TextWidth("\xC3\xBC", {}), TextWidth("?", {}));
+  EXPECT_DOUBLE_EQ(TextWidth("\xFF\n", {}), TextWidth("??", {}));
+}
+
+// Other letters make other pictures: neither boxes nor question marks stand for them.
+TEST(TextTest, NamesOfAnyScriptAreDrawn) {
+  const auto draw = [](const char* text) {
+    Image image = Grey(300, 60);
+    DrawText(image, 10, 40, text, {.cap_px = 16});
+    return image.data;
+  };
+  const char* const names[] = {"größe", "groesse", "порог", "ступень", "门槛",
+                               "楼梯",  "عتبة",    "باب",   "αβγ",     "δεζ"};
+  for (const char* one : names)
+    for (const char* other : names) {
+      EXPECT_EQ(draw(one) == draw(other), one == other) << one << " " << other;
+    }
+  EXPECT_NE(draw("step 门槛"), draw("step 楼梯"));
+  // Scripts that no one font has together.
+  EXPECT_NE(draw("门槛 порог عتبة"), draw("\\u95e8\\u69db порог عتبة"));
+  EXPECT_NE(draw("门槛 порог عتبة"), draw("楼梯 порог عتبة"));
+}
+
+// Letters of Arabic are joined: together they are narrower than one by one.
+TEST(TextTest, LettersAreShapedAsTheirScriptWants) {
+  const TextStyle style{.cap_px = 40};
+  const double apart = TextWidth("ع", style) + TextWidth("ت", style) + TextWidth("ب", style);
+  EXPECT_LT(TextWidth("عتب", style), 0.9 * apart);
+}
+
+TEST(TextTest, ALetterThatNoFontHasIsEscaped) {
+  const auto draw = [](const char* text) {
+    Image image = Grey(300, 60);
+    DrawText(image, 10, 40, text, {});
+    return image.data;
+  };
+  EXPECT_EQ(draw("\xF3\xBF\xBF\xBD"), draw("\\U000ffffd"));  // for private use
+}
+
+TEST(TextTest, IsCutByWholeLetters) {
+  EXPECT_EQ(WithoutLastLetter("aé"), "a");
+  EXPECT_EQ(WithoutLastLetter("门槛"), "门");
+  EXPECT_EQ(WithoutLastLetter("ab"), "a");
+  EXPECT_EQ(WithoutLastLetter(""), "");
 }
 
 TEST(TextTest, AnchorsAgree) {

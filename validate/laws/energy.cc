@@ -22,6 +22,7 @@
 // it falls with the time step, which is 1 ms here; 2 % of m v^2 / 2, twice the droop of the speed.
 #include <algorithm>
 
+#include "env/scene/driving_power.h"
 #include "validate/law.h"
 
 namespace floorproof {
@@ -34,19 +35,6 @@ constexpr double kSlope_rad = 5 * kPi / 180;
 
 double Weight(const RobotSpec& robot) { return robot.mass_kg * kGravity_mps2; }
 double MotorsPower(const Rig& rig) { return rig.truth().power_w - rig.robot().hotel_load_w; }
-
-// Friction of casters, which slide on the floor: by their springs' force and their own weight.
-double CasterDrag(const mjModel* m) {
-  double drag_n = 0;
-  for (int j = 0; j < m->njnt; ++j) {
-    if (m->jnt_type[j] != mjJNT_SLIDE) continue;
-    const int body = m->jnt_bodyid[j], q = m->jnt_qposadr[j];
-    const double load_n = m->jnt_stiffness[j] * (m->qpos0[q] - m->qpos_spring[q]) +
-                          m->body_mass[body] * kGravity_mps2;
-    drag_n += m->geom_friction[3 * m->body_geomadr[body]] * load_n;
-  }
-  return drag_n;
-}
 
 // What the motors draw, and the speed they hold, driving along a slope; in closed form.
 struct Steadily {

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/core/failure_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "base/quantity.h"
+#include "env/geometry/geometry.h"
+
+namespace floorproof {
+namespace {
+
+std::string Words(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+const Hazard* Find(const HazardMap& map, const std::string& id) {
+  const auto hazard = std::ranges::find(map.hazards, id, &Hazard::id);
+  return hazard == map.hazards.end() ? nullptr : &*hazard;
+}
+
+std::optional<double> Evidence(const Event& event, std::string_view name) {
+  for (const auto& [key, value] : event.evidence)
+    if (key == name) return value;
+  return {};
+}
+
+double Lasted(const Event& event) {
+  return event.t_s - Evidence(event, "since_s").value_or(event.t_s);
+}
+
+// The words before it and the hazard, empty where none is to blame; other words for what lies below
+// the floor.
+std::string Beside(const Event& event, const HazardMap& map, std::string_view up,
+                   std::string_view down) {
+  if (event.hazard.empty()) return "";
+  const Hazard* hazard = Find(map, event.hazard);
+  const bool below = hazard != nullptr && hazard->height_m < 0;
+  return std::string(below ? down : up) + " " + ObstaclePhrase(map, event.hazard);
+}
+
+std::string Is(const Compared& compared, std::string_view rule) {
+  return compared.value + ", " + compared.limit + " " + std::string(rule);
+}
+
+std::string VeerOffText(const Event& event, const HazardMap& map) {
+  std::string text =
+      "was off its path by " + Is(ComparedText(event.value, event.threshold, 2, "m"), "is allowed");
+  if (const double lasted_s = Lasted(event); lasted_s > 0) text += ", for " + TimeText(lasted_s);
+  return text + Beside(event, map, ", after it met", ", after it met");
+}
+
+std::string StuckText(const Event& event, const HazardMap& map) {
+  constexpr double kDegree = kPi / 180;
+  const double window_s = Lasted(event);
+  const double gained_m = Evidence(event, "gained_m").value_or(event.value);
+  // Of records without it: it stands where it gains next to nothing.
+  const double still_s = Evidence(event, "still_s").value_or(gained_m < 0.02 ? window_s : 0);
+  if (event.kind == "high_centred") {
+    std::string text = "stood still for " + TimeText(std::max(still_s, window_s / 2));
+    text += event.hazard.empty() ? " on its belly"
+                                 : " with its belly on " + ObstaclePhrase(map, event.hazard);
+    if (const auto load_n = Evidence(event, "belly_load_n"))
+      text += ", which carries " + NumberText(*load_n) + " N of its weight";
+    return text;
+  }
+  const std::string where = Beside(event, map, event.hazard == "wall" ? " at" : " before", " in");
+  if (still_s >= window_s / 2) return "stood still for " + TimeText(still_s) + where;
+  const std::string in = " in " + TimeText(window_s) + where;
+  if (Evidence(event, "turning").value_or(0) == 0)
+    return "got on by " + Is(ComparedText(gained_m, event.threshold, 2, "m"), "was due") + "," + in;
+  const double turned_rad = Evidence(event, "turn_rad").value_or(0);
+  const double least_rad = Evidence(event, "turn_threshold_rad").value_or(0);
+  if (turned_rad >= least_rad) return "turned to and fro without getting on" + in;
+  return "turned by " +
+         Is(ComparedText(turned_rad / kDegree, least_rad / kDegree, 0, "deg"), "was due") + "," +
+         in;
+}
+
+std::string RollOverText(const Event& event, const HazardMap& map) {
+  if (event.kind == "fell") {
+    const Compared mm = ComparedText(-1000 * event.value, -1000 * event.threshold, 0, "mm");
+    const std::string text =
+        event.threshold <= 0
+            ? "fell: a wheel was below the base floor by " + Is(mm, "is allowed")
+            : "fell: a wheel was above the base floor by " +
+                  Is(ComparedText(1000 * event.value, 1000 * event.threshold, 0, "mm"), "is due");
+    return text + Beside(event, map, ", off", ", into");
+  }
+  if (event.kind == "tipped") {
+    const Compared mm = ComparedText(-1000 * event.value, -1000 * event.threshold, 0, "mm");
+    return "tipped: its centre of mass was outside of what its wheels stand on by " +
+           Is(mm, "is allowed") + Beside(event, map, ", at", ", in");
+  }
+  constexpr double kDegree = kPi / 180;
+  const Compared deg = ComparedText(event.value / kDegree, event.threshold / kDegree, 0, "deg");
+  return "leaned by " + Is(deg, "is allowed") + Beside(event, map, ", at", ", in");
+}
+
+std::string BounceBackText(const Event& event, const HazardMap& map) {
+  std::string text =
+      "hit " + (event.hazard.empty() ? "an obstacle" : ObstaclePhrase(map, event.hazard));
+  if (const auto closing_mps = Evidence(event, "closing_mps"))
+    text += " at " + FixedText(*closing_mps, 2) + " m/s";
+  if (event.kind == "parted")
+    return text + " and came off it by " +
+           Is(ComparedText(1000 * event.value, 1000 * event.threshold, 1, "mm"), "is allowed");
+  return text + " and was thrown back at " +
+         Is(ComparedText(event.value, event.threshold, 3, "m/s"), "is allowed");
+}
+
+}  // namespace
+
+std::string HazardPhrase(const Hazard& hazard) {
+  std::string text = "'" + hazard.id + "' (" + Words(hazard.type);
+  if (hazard.height_m > 0) text += ", " + LengthText(hazard.height_m);
+  if (hazard.height_m < 0) text += ", " + LengthText(-hazard.height_m) + " deep";
+  return text + ")";
+}
+
+std::string ObstaclePhrase(const HazardMap& map, const std::string& id) {
+  if (const Hazard* hazard = Find(map, id)) return HazardPhrase(*hazard);
+  return id == "wall" ? "a wall" : "'" + id + "'";
+}
+
+std::string FailureText(const Event& event, const HazardMap& map) {
+  switch (event.mode) {
+    case FailureMode::kVeerOff:
+      return VeerOffText(event, map);
+    case FailureMode::kStuck:
+      return StuckText(event, map);
+    case FailureMode::kRollOver:
+      return RollOverText(event, map);
+    case FailureMode::kBounceBack:
+      return BounceBackText(event, map);
+  }
+  return "";
+}
+
+std::string FailureSentence(const Event& event, const HazardMap& map) {
+  return FailureText(event, map) + ", at " + PlaceText(event.x_m, event.y_m);
+}
+
+std::string FailureName(const Event& event) {
+  const std::string name = Words(std::string(Name(event.mode)));
+  return event.kind.empty() ? name : name + " (" + Words(event.kind) + ")";
+}
+
+std::string PlaceText(double x_m, double y_m) {
+  return "x " + FixedText(x_m, 2) + ", y " + FixedText(y_m, 2) + " m";
+}
+
+}  // namespace floorproof

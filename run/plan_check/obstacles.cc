@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/plan_check/obstacles.h"
+
+#include <algorithm>
+
+#include "env/scene/walls.h"
+
+namespace floorproof {
+namespace {
+
+WallBox BoxAround(const Polygon& polygon) {
+  WallBox box{polygon.front(), polygon.front()};
+  for (const Vec2& p : polygon) {
+    box.low_G = box.low_G.cwiseMin(p);
+    box.high_G = box.high_G.cwiseMax(p);
+  }
+  return box;
+}
+
+bool IsFloor(const Hazard& hazard) {
+  return hazard.hazard_class == HazardClass::kLevelChange ||
+         hazard.hazard_class == HazardClass::kTerrain;
+}
+
+}  // namespace
+
+Obstacles::Obstacles(const HazardMap& known, const RobotSpec& robot, const Vec2& start_W) {
+  for (const WallBox& box : WallBoxes(known, robot, start_W))
+    parts_.push_back({Rectangle(box.low_G, box.high_G), kWall});
+  for (std::size_t i = 0; i < known.hazards.size(); ++i) {
+    ids_.push_back(known.hazards[i].id);
+    if (IsObstacle(known.hazards[i], robot.step_m)) AddHazard(known, i, robot.step_m);
+  }
+  std::vector<WallBox> boxes;
+  for (const Part& part : parts_) boxes.push_back(BoxAround(part.polygon_G));
+  boxes_ = WallGrid(std::move(boxes));
+}
+
+void Obstacles::AddHazard(const HazardMap& known, std::size_t index, double step_m) {
+  const Hazard& hazard = known.hazards[index];
+  std::vector<Polygon> later;
+  if (IsFloor(hazard))
+    for (std::size_t k = index + 1; k < known.hazards.size(); ++k)
+      if (IsFloor(known.hazards[k]) && !IsObstacle(known.hazards[k], step_m))
+        later.insert(later.end(), known.hazards[k].footprint.begin(),
+                     known.hazards[k].footprint.end());
+  const Pose2 X_GW = known.frame.X_WG.Inverse();
+  for (const Polygon& footprint : hazard.footprint) {
+    std::vector<Region> left = {{footprint, {}}};
+    if (!later.empty()) left = Difference(left, later);
+    for (Polygon part : ConvexParts(left)) {
+      for (Vec2& p : part) p = X_GW * p;
+      parts_.push_back({std::move(part), static_cast<int>(index)});
+    }
+  }
+}
+
+std::optional<double> Obstacles::Cast(const Vec2& from_G, const Vec2& direction_G, double most_m) {
+  std::optional<double> nearest;
+  const Vec2 to_G = from_G + most_m * direction_G;
+  Near(from_G.cwiseMin(to_G), from_G.cwiseMax(to_G), [&](const Part& part) {
+    const Polygon& polygon = part.polygon_G;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vec2 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+      const double across = Cross(direction_G, edge);
+      if (std::abs(across) < 1e-12) continue;
+      const Vec2 to_corner = polygon[i] - from_G;
+      const double along_m = Cross(to_corner, edge) / across;
+      const double share = Cross(to_corner, direction_G) / across;
+      if (along_m < 0 || along_m > most_m || share < 0 || share > 1) continue;
+      if (!nearest || along_m < *nearest) nearest = along_m;
+    }
+  });
+  return nearest;
+}
+
+std::string Obstacles::Id(int hazard) const {
+  return hazard == kWall ? "wall" : ids_[static_cast<std::size_t>(hazard)];
+}
+
+}  // namespace floorproof

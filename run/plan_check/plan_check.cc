@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/plan_check/plan_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "base/quantity.h"
+#include "env/core/failure_text.h"
+
+namespace floorproof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Why = UncoveredPocket::Why;
+
+constexpr std::size_t kListed = 5;
+constexpr std::array<std::string_view, 5> kWhyNames = {"not_visited", "narrow", "behind_hazard",
+                                                       "closed", "other_level"};
+
+// To a millimetre: more is known of nothing here.
+std::string Metres(double length_m) { return LengthText(std::round(1000 * length_m) / 1000); }
+
+std::string At(const Vec2& p_W) { return PlaceText(p_W.x(), p_W.y()); }
+
+std::string Named(const Scenario& s, const std::string& id) {
+  return ObstaclePhrase(s.site.map, id);
+}
+
+std::string Line(const Scenario& s, const PlanConflict& c) {
+  std::string line = fmt::format("  {}, {} m along: ", At(c.p_W), FixedText(c.along_m, 1));
+  if (c.gap_m)
+    line += fmt::format("a gap {} wide at {}, the robot is {} wide", Metres(*c.gap_m),
+                        Named(s, c.obstacle), Metres(c.width_m));
+  else
+    line += fmt::format("overlaps {} by {}", Named(s, c.obstacle), Metres(c.overlap_m));
+  if (c.over_m >= 0.5) line += fmt::format(", over {} m of the way", FixedText(c.over_m, 1));
+  if (c.times > 1) line += fmt::format(", {} times", c.times);
+  return line;
+}
+
+std::string Reason(const Scenario& s, const UncoveredPocket& pocket, const PlanResult& plan) {
+  const std::string needs = Metres(LeastPassage(plan.clear));
+  switch (pocket.why) {
+    case Why::kNotVisited:
+      return "the tool could reach it, the plan does not go there";
+    case Why::kNarrow:
+      if (pocket.gap_m && *pocket.gap_m < LeastPassage(plan.clear))
+        return fmt::format("behind a gap about {} wide at {}; the robot keeps {} clear",
+                           Metres(*pocket.gap_m), At(pocket.gap_W), needs);
+      if (pocket.width_m < LeastPassage(plan.clear))
+        return fmt::format("about {} wide; the robot keeps {} clear", Metres(pocket.width_m),
+                           needs);
+      return "the robot finds no clear way in";
+    case Why::kBehind:
+      return "cut off by " + Named(s, pocket.hazard) + ", which the robot must keep off";
+    case Why::kClosed:
+      return "walls all around";
+    case Why::kKeptOff:
+      return fmt::format("{}; the robot crosses {} at most", Named(s, pocket.hazard),
+                         Metres(s.robot.spec.step_m));
+  }
+  return "";
+}
+
+void AddClearance(const Scenario& s, const PlanClearance& c, std::vector<std::string>& lines) {
+  if (c.conflicts.empty()) {
+    lines.push_back(
+        c.obstacle.empty()
+            ? fmt::format("least clearance: more than {}", Metres(PlanClearance::kFarthest_m))
+            : fmt::format("least clearance: {} to {}, at {}, {} m along",
+                          Metres(std::max(0.0, c.least_m)), Named(s, c.obstacle), At(c.p_W),
+                          FixedText(c.along_m, 1)));
+    return;
+  }
+  lines.push_back(ConflictsLine(c) + ":");
+  for (std::size_t i = 0; i < std::min(kListed, c.conflicts.size()); ++i)
+    lines.push_back(Line(s, c.conflicts[i]));
+  if (c.conflicts.size() > kListed)
+    lines.push_back(fmt::format("  and {} more", c.conflicts.size() - kListed));
+}
+
+void AddUncovered(const Scenario& s, const PlanResult& plan, const UncoveredFloor& u,
+                  std::vector<std::string>& lines) {
+  const double left_m2 = u.floor_m2 - u.covered_m2;
+  lines.push_back(
+      fmt::format("uncovered: {} of {} m2 of free floor ({}), {} m2 of it along walls, "
+                  "in corners and between rows",
+                  NumberText(left_m2), NumberText(u.floor_m2),
+                  PercentText(u.floor_m2 > 0 ? left_m2 / u.floor_m2 : 0), NumberText(u.edges_m2)));
+  double more_m2 = 0;
+  for (std::size_t i = 0; i < u.pockets.size(); ++i) {
+    const UncoveredPocket& pocket = u.pockets[i];
+    if (i >= kListed)
+      more_m2 += pocket.area_m2;
+    else
+      lines.push_back(fmt::format("  {} m2 around {}: {}", NumberText(pocket.area_m2),
+                                  At(pocket.p_W), Reason(s, pocket, plan)));
+  }
+  if (u.pockets.size() > kListed)
+    lines.push_back(
+        fmt::format("  and {} more, {} m2", u.pockets.size() - kListed, NumberText(more_m2)));
+}
+
+Json PlaceJson(const Vec2& p_W) { return {{"x_m", p_W.x()}, {"y_m", p_W.y()}}; }
+
+}  // namespace
+
+PlanCheck CheckPlan(Scenario& s, const PlanResult& plan) {
+  const SweepArea area = ComputeSweepArea(KnownPart(s.site.map), plan.clear, plan.tool,
+                                          s.robot.spec.step_m, s.start.p());
+  return {CheckClearance(s, plan), FindUncovered(s, plan, area), EstimateBudget(s, plan)};
+}
+
+std::string ConflictsLine(const PlanClearance& clearance) {
+  const std::size_t n = clearance.conflicts.size();
+  if (n == 0) return "";
+  return fmt::format("warning: the plan leads the robot into obstacles at {} place{}", n,
+                     n == 1 ? "" : "s");
+}
+
+std::vector<std::string> PlanLines(const Scenario& s, const PlanResult& plan,
+                                   const PlanCheck& check) {
+  std::vector<std::string> lines;
+  std::string takes = fmt::format("expected: {}, {}", TimeText(check.budget.time_s),
+                                  EnergyText(check.budget.energy_j));
+  if (check.budget.battery_share) {
+    takes += fmt::format(", {} of the battery", PercentText(*check.budget.battery_share));
+    if (*check.budget.battery_share > 1) lines.push_back("warning: the battery does not last");
+  }
+  lines.insert(lines.begin(), takes);
+  AddClearance(s, check.clearance, lines);
+  AddUncovered(s, plan, check.uncovered, lines);
+  return lines;
+}
+
+Json PlanCheckJson(const PlanCheck& check) {
+  const PlanClearance& c = check.clearance;
+  Json conflicts = Json::array();
+  for (const PlanConflict& conflict : c.conflicts) {
+    Json json = PlaceJson(conflict.p_W);
+    json.update({{"along_m", conflict.along_m},
+                 {"obstacle", conflict.obstacle},
+                 {"overlap_m", conflict.overlap_m},
+                 {"over_m", conflict.over_m},
+                 {"times", conflict.times},
+                 {"robot_width_m", conflict.width_m},
+                 {"gap_m", conflict.gap_m ? Json(*conflict.gap_m) : Json(nullptr)}});
+    conflicts.push_back(std::move(json));
+  }
+  Json pockets = Json::array();
+  for (const UncoveredPocket& pocket : check.uncovered.pockets) {
+    Json json = PlaceJson(pocket.p_W);
+    json.update({{"area_m2", pocket.area_m2},
+                 {"width_m", pocket.width_m},
+                 {"why", kWhyNames[static_cast<std::size_t>(pocket.why)]},
+                 {"hazard", pocket.hazard},
+                 {"gap", nullptr}});
+    if (pocket.gap_m) {
+      json["gap"] = PlaceJson(pocket.gap_W);
+      json["gap"]["width_m"] = *pocket.gap_m;
+    }
+    pockets.push_back(std::move(json));
+  }
+  Json least = PlaceJson(c.p_W);
+  least.update({{"along_m", c.along_m}, {"obstacle", c.obstacle}, {"clearance_m", c.least_m}});
+  return {{"least_clearance", c.obstacle.empty() ? Json(nullptr) : std::move(least)},
+          {"conflicts", std::move(conflicts)},
+          {"free_floor_m2", check.uncovered.floor_m2},
+          {"covered_m2", check.uncovered.covered_m2},
+          {"uncovered_edges_m2", check.uncovered.edges_m2},
+          {"uncovered_pockets", std::move(pockets)},
+          {"expected_s", check.budget.time_s},
+          {"expected_energy_j", check.budget.energy_j},
+          {"expected_battery_share",
+           check.budget.battery_share ? Json(*check.budget.battery_share) : Json(nullptr)}};
+}
+
+}  // namespace floorproof

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What can be said of a plan before it is driven: whether it leads the robot into anything, what it
+// leaves uncovered, what it takes.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "run/plan_check/plan_budget.h"
+#include "run/plan_check/plan_clearance.h"
+#include "run/plan_check/uncovered_pockets.h"
+
+namespace floorproof {
+
+struct PlanCheck {
+  PlanClearance clearance;
+  UncoveredFloor uncovered;
+  PlanBudget budget;
+};
+
+// Of a plan that was found.
+PlanCheck CheckPlan(Scenario& scenario, const PlanResult& plan);
+
+// In words, a line each; what needs a look begins with "warning: ". At most five places and five
+// pockets are listed, the rest counted.
+std::vector<std::string> PlanLines(const Scenario& scenario, const PlanResult& plan,
+                                   const PlanCheck& check);
+nlohmann::ordered_json PlanCheckJson(const PlanCheck& check);
+
+// One line for who drives a plan; empty where it leads the robot into nothing.
+std::string ConflictsLine(const PlanClearance& clearance);
+
+}  // namespace floorproof

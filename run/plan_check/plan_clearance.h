@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// How near a plan leads the robot to what it must not touch, before anything is driven.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planners/planner.h"
+#include "run/scenario/scenario.h"
+
+namespace floorproof {
+
+// A place where the plan leads the robot into something.
+struct PlanConflict {
+  std::string obstacle;              // the id of the hazard; "wall" for the map's own
+  Vec2 p_W = Vec2::Zero();           // of the robot's centre, where it overlaps most
+  double along_m = 0;                // its way along the plan to there
+  double overlap_m = 0;              // the side of the robot would have to be that much farther in
+  double over_m = 0;                 // way along the plan that overlaps, to a quarter of a metre
+  int times = 1;                     // the plan comes to this place
+  double width_m = 0;                // of the robot, across its way there
+  std::optional<double> gap_m = {};  // that the way leads through; none: it is wider than the robot
+};
+
+struct PlanClearance {
+  // Between the robot and the nearest obstacle on the whole way, kFarthest_m at most; negative: the
+  // greatest overlap.
+  double least_m = kFarthest_m;
+  std::string obstacle;     // which; empty where all are farther
+  Vec2 p_W = Vec2::Zero();  // of the robot's centre, there
+  double along_m = 0;
+  std::vector<PlanConflict> conflicts;  // the greatest overlap first
+
+  static constexpr double kFarthest_m = 1;
+};
+
+// Moves the robot's own outline (OutlineOf; blocks where it folds) along the plan: straight from
+// waypoint to waypoint, with the plan's yaw where its drive holds one, else heading along the way,
+// turning and folding where it stands. It is compared with what is known of the floor: walls as
+// they are built, drawn back by `inset_m`, and the polygons of the hazards that the robot must keep
+// off (IsObstacle), whatever their cells. What overlaps by less than a millimetre touches.
+// Not looked at: how far a tracker strays from the plan, and what it cuts off in bends.
+PlanClearance CheckClearance(const Scenario& scenario, const PlanResult& plan);
+
+}  // namespace floorproof

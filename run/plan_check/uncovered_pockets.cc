@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every uncovered cell has a reason; cells of one reason that hang together are one pocket, cut
+// where they are thinner than a quarter of the tool: the seams along walls would join everything.
+// The widest way into what the robot does not fit into is found for all such cells at once, by a
+// search that always goes on from the cell with the widest way to it.
+#include "run/plan_check/uncovered_pockets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include "env/core/plan_passes.h"
+#include "env/geometry/distance.h"
+#include "env/geometry/rasterise.h"
+
+namespace floorproof {
+namespace {
+
+using Why = UncoveredPocket::Why;
+using Mask = Grid<std::uint8_t>;
+
+constexpr Cell kSides[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+
+// Cells of `free` that hang together with a set cell of `from` by their sides.
+Mask Connected(const Mask& free, const Mask& from) {
+  Mask out(free.width, free.height);
+  std::vector<Cell> stack;
+  for (int iy = 0; iy < free.height; ++iy)
+    for (int ix = 0; ix < free.width; ++ix)
+      if (from(ix, iy) && free(ix, iy)) {
+        out(ix, iy) = 1;
+        stack.push_back({ix, iy});
+      }
+  while (!stack.empty()) {
+    const Cell c = stack.back();
+    stack.pop_back();
+    for (const Cell& d : kSides) {
+      const Cell n{c.ix + d.ix, c.iy + d.iy};
+      if (!free.Inside(n) || !free(n) || out(n)) continue;
+      out(n) = 1;
+      stack.push_back(n);
+    }
+  }
+  return out;
+}
+
+// The cells that this obstacle of the map touches.
+Mask CellsOf(const Hazard& hazard, const GridFrame& frame) {
+  Mask cells(frame.width, frame.height);
+  for (const Polygon& footprint : hazard.footprint) {
+    Polygon p_G;
+    for (const Vec2& p_W : footprint) p_G.push_back(frame.X_WG.Inverse() * p_W / frame.cell_m);
+    Rasterise(p_G, frame.width, frame.height, [&](int ix, int iy) { cells(ix, iy) = 1; });
+  }
+  return cells;
+}
+
+// Per cell, the narrowest place of the widest way to it from where the robot can be, as a clearance
+// to either side; and where that is.
+struct WaysIn {
+  Grid<float> narrowest_m;
+  Grid<std::uint32_t> where;
+};
+WaysIn FindWaysIn(const SweepArea& area, const Mask& free) {
+  WaysIn ways{Grid<float>(free.width, free.height, -1.0f),
+              Grid<std::uint32_t>(free.width, free.height)};
+  using Entry = std::pair<float, std::uint32_t>;
+  std::priority_queue<Entry> open;
+  const auto reach = [&](Cell c, float narrowest_m, std::uint32_t where) {
+    const auto at = static_cast<std::uint32_t>(free.Index(c.ix, c.iy));
+    const float own_m = area.clearance_m(c);
+    if (own_m < narrowest_m) narrowest_m = own_m, where = at;
+    if (ways.narrowest_m.cells[at] >= narrowest_m) return;
+    ways.narrowest_m.cells[at] = narrowest_m;
+    ways.where.cells[at] = where;
+    open.push({narrowest_m, at});
+  };
+  const auto width = static_cast<std::uint32_t>(free.width);
+  const auto spread = [&](Cell c, float narrowest_m, std::uint32_t where) {
+    for (const Cell& d : kSides) {
+      const Cell n{c.ix + d.ix, c.iy + d.iy};
+      if (free.Inside(n) && free(n) && !area.reachable(n)) reach(n, narrowest_m, where);
+    }
+  };
+  for (int iy = 0; iy < free.height; ++iy)
+    for (int ix = 0; ix < free.width; ++ix)
+      if (area.reachable(ix, iy))
+        spread({ix, iy}, std::numeric_limits<float>::infinity(),
+               static_cast<std::uint32_t>(free.Index(ix, iy)));
+  while (!open.empty()) {
+    const auto [narrowest_m, at] = open.top();
+    open.pop();
+    if (narrowest_m < ways.narrowest_m.cells[at]) continue;
+    spread({static_cast<int>(at % width), static_cast<int>(at / width)}, narrowest_m,
+           ways.where.cells[at]);
+  }
+  return ways;
+}
+
+struct Patch {
+  std::int64_t cells = 0;
+  Cell widest;
+  float half_width = 0;  // cells, there
+};
+
+// The patches of `cells` that are thicker than 2 * least_half cells somewhere; `rest` counts the
+// cells that belong to none.
+std::vector<Patch> Patches(const Mask& cells, double least_half, std::int64_t& rest) {
+  Mask others(cells.width, cells.height);
+  for (std::size_t i = 0; i < cells.cells.size(); ++i) others.cells[i] = !cells.cells[i];
+  const Grid<float> half = DistanceToSet(others, true);
+  Mask taken(cells.width, cells.height);
+  const auto grow =
+      static_cast<int>(std::ceil(least_half)) + 1;  // back to what the core was cut of
+  std::vector<Patch> patches;
+  std::vector<std::pair<Cell, int>> queue;
+  std::int64_t all = 0, in_patches = 0;
+  for (int iy = 0; iy < cells.height; ++iy)
+    for (int ix = 0; ix < cells.width; ++ix) {
+      all += cells(ix, iy);
+      if (taken(ix, iy) || !cells(ix, iy) || static_cast<double>(half(ix, iy)) < least_half)
+        continue;
+      Patch patch;
+      taken(ix, iy) = 1;
+      queue.assign(1, {{ix, iy}, 0});
+      for (std::size_t k = 0; k < queue.size(); ++k) {
+        const auto [c, from_core] = queue[k];
+        ++patch.cells;
+        if (half(c) > patch.half_width) patch.half_width = half(c), patch.widest = c;
+        for (const Cell& d : kSides) {
+          const Cell n{c.ix + d.ix, c.iy + d.iy};
+          if (!cells.Inside(n) || !cells(n) || taken(n)) continue;
+          const int steps = static_cast<double>(half(n)) >= least_half ? 0 : from_core + 1;
+          if (steps > grow) continue;
+          taken(n) = 1;
+          queue.push_back({n, steps});
+        }
+      }
+      in_patches += patch.cells;
+      patches.push_back(patch);
+    }
+  rest += all - in_patches;
+  return patches;
+}
+
+class Finder {
+ public:
+  Finder(const Scenario& s, const PlanResult& plan, const SweepArea& area)
+      : known_(KnownPart(s.site.map)), step_m_(s.robot.spec.step_m), area_(area), plan_(plan) {
+    free_ = ObstacleMask(known_, step_m_, area.frame);
+    for (std::uint8_t& cell : free_.cells) cell = !cell;
+    const double cell_m = area.frame.cell_m;
+    least_half_ = std::max(1.0, plan.tool_width_m / 8 / cell_m);
+    least_cells_ = std::pow(plan.tool_width_m / 2 / cell_m, 2);
+  }
+
+  UncoveredFloor Find() {
+    const CoverageMeter meter = PassesOf(area_, plan_.tool, plan_.path);
+    const Mask from_floor = Connected(free_, area_.reachable);
+    const Mask from_start = Connected(FreeOfWalls(), area_.reachable);
+    Mask of[4];
+    for (Mask& mask : of) mask = Mask(free_.width, free_.height);
+    const double cell_m2 = area_.frame.cell_m * area_.frame.cell_m;
+    std::int64_t floor = 0, covered = 0;
+    for (std::size_t i = 0; i < free_.cells.size(); ++i) {
+      if (!free_.cells[i]) continue;
+      ++floor;
+      if (area_.sweepable.cells[i] && meter.passes().cells[i] > 0) {
+        ++covered;
+        continue;
+      }
+      const Why why = area_.sweepable.cells[i] ? Why::kNotVisited
+                      : from_floor.cells[i]    ? Why::kNarrow
+                      : from_start.cells[i]    ? Why::kBehind
+                                               : Why::kClosed;
+      of[static_cast<std::size_t>(why)].cells[i] = 1;
+    }
+    out_.floor_m2 = static_cast<double>(floor) * cell_m2;
+    out_.covered_m2 = static_cast<double>(covered) * cell_m2;
+    for (const Why why : {Why::kNotVisited, Why::kNarrow, Why::kBehind, Why::kClosed})
+      AddPockets(why, of[static_cast<std::size_t>(why)]);
+    out_.edges_m2 = static_cast<double>(rest_) * cell_m2;
+    AddLevels();
+    std::ranges::stable_sort(out_.pockets, std::ranges::greater(), &UncoveredPocket::area_m2);
+    return std::move(out_);
+  }
+
+ private:
+  Mask FreeOfWalls() const {
+    HazardMap bare = known_;
+    bare.hazards.clear();
+    Mask free = ObstacleMask(bare, step_m_, area_.frame);
+    for (std::uint8_t& cell : free.cells) cell = !cell;
+    return free;
+  }
+
+  void AddPockets(Why why, const Mask& cells) {
+    const std::vector<Patch> patches = Patches(cells, least_half_, rest_);
+    for (const Patch& patch : patches) {
+      if (static_cast<double>(patch.cells) < least_cells_) {
+        rest_ += patch.cells;
+        continue;
+      }
+      UncoveredPocket pocket;
+      pocket.why = why;
+      pocket.area_m2 = static_cast<double>(patch.cells) * area_.frame.cell_m * area_.frame.cell_m;
+      pocket.p_W = area_.frame.Center(patch.widest);
+      pocket.width_m = 2 * static_cast<double>(patch.half_width) * area_.frame.cell_m;
+      if (why == Why::kNarrow) FindGap(patch, pocket);
+      if (why == Why::kBehind) pocket.hazard = NearestHazard(pocket.p_W);
+      out_.pockets.push_back(std::move(pocket));
+    }
+  }
+
+  void FindGap(const Patch& patch, UncoveredPocket& pocket) {
+    if (ways_in_.narrowest_m.cells.empty()) ways_in_ = FindWaysIn(area_, free_);
+    // The widest place of the pocket; the patch was measured between uncovered cells.
+    const double narrowest_m = static_cast<double>(ways_in_.narrowest_m(patch.widest));
+    const double own_m = static_cast<double>(area_.clearance_m(patch.widest));
+    pocket.width_m = 2 * own_m;
+    if (narrowest_m < 0 || own_m - narrowest_m < area_.frame.cell_m) return;
+    const std::uint32_t at = ways_in_.where(patch.widest);
+    const auto width = static_cast<std::uint32_t>(free_.width);
+    pocket.gap_m = 2 * narrowest_m;
+    pocket.gap_W = area_.frame.Center(static_cast<int>(at % width), static_cast<int>(at / width));
+  }
+
+  std::string NearestHazard(const Vec2& p_W) const {
+    double nearest_m = std::numeric_limits<double>::infinity();
+    std::string id;
+    for (const Hazard& hazard : known_.hazards) {
+      if (!IsObstacle(hazard, step_m_)) continue;
+      for (const Polygon& footprint : hazard.footprint) {
+        const double away_m = SignedDistance(footprint, p_W);
+        if (away_m < nearest_m) nearest_m = away_m, id = hazard.id;
+      }
+    }
+    return id;
+  }
+
+  // Floors of another level, as far as they lie within the walls.
+  void AddLevels() {
+    for (const Hazard& hazard : known_.hazards) {
+      if (hazard.hazard_class != HazardClass::kLevelChange || !IsObstacle(hazard, step_m_))
+        continue;
+      Mask cells = CellsOf(hazard, area_.frame);
+      for (std::size_t i = 0; i < cells.cells.size(); ++i)
+        cells.cells[i] = cells.cells[i] && !free_.cells[i];
+      std::int64_t thin = 0;
+      for (const Patch& patch : Patches(cells, least_half_, thin)) {
+        const double cell_m = area_.frame.cell_m;
+        if (static_cast<double>(patch.cells) < least_cells_) continue;
+        out_.pockets.push_back({Why::kKeptOff,
+                                static_cast<double>(patch.cells) * cell_m * cell_m,
+                                area_.frame.Center(patch.widest),
+                                2 * static_cast<double>(patch.half_width) * cell_m,
+                                {},
+                                Vec2::Zero(),
+                                hazard.id});
+      }
+    }
+  }
+
+  HazardMap known_;
+  double step_m_;
+  const SweepArea& area_;
+  const PlanResult& plan_;
+  Mask free_;
+  double least_half_ = 1, least_cells_ = 1;
+  std::int64_t rest_ = 0;
+  WaysIn ways_in_;
+  UncoveredFloor out_;
+};
+
+}  // namespace
+
+double LeastPassage(const Shape2& clear) {
+  if (clear.kind == Shape2::Kind::kCircle) return 2 * clear.radius_m;
+  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
+  for (const Vec2& p : clear.footprint_B) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  return (high - low).minCoeff();
+}
+
+UncoveredFloor FindUncovered(const Scenario& s, const PlanResult& plan, const SweepArea& area) {
+  return Finder(s, plan, area).Find();
+}
+
+}  // namespace floorproof

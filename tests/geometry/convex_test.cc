@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/geometry/convex.h"
+
+#include <gtest/gtest.h>
+
+namespace floorproof {
+namespace {
+
+Polygon Turned(Polygon polygon, const Pose2& by) {
+  for (Vec2& p : polygon) p = by * p;
+  return polygon;
+}
+
+TEST(Convex, DistancesAreThoseOfTheNearestPoints) {
+  const Polygon a = Rectangle({0, 0}, {2, 1});
+  EXPECT_NEAR(Separate(a, Rectangle({2.5, 0}, {3, 1})).distance_m, 0.5, 1e-12);
+  const Separation corner = Separate(a, Rectangle({2.3, 1.4}, {3, 3}));
+  EXPECT_NEAR(corner.distance_m, 0.5, 1e-12);
+  EXPECT_NEAR((corner.place - Vec2(2.3, 1.4)).norm(), 0, 1e-12);
+}
+
+TEST(Convex, AnOverlapIsAsDeepAsTheSideIsClipped) {
+  const Polygon a = Rectangle({0, 0}, {2, 1});
+  EXPECT_NEAR(Separate(a, Rectangle({-5, 0.98}, {5, 3})).distance_m, -0.02, 2e-5);
+  EXPECT_NEAR(Separate(a, Rectangle({0.5, -3}, {1.5, 3})).distance_m, -0.5, 2e-5);
+  EXPECT_NEAR(Separate(a, Rectangle({0.9, 0.15}, {1.1, 0.2})).distance_m, -0.2, 2e-5);
+}
+
+TEST(Convex, TouchingIsNeitherApartNorOverlapping) {
+  const Polygon a = Rectangle({0, 0}, {2, 1});
+  EXPECT_NEAR(Separate(a, Rectangle({2, 0.2}, {3, 0.4})).distance_m, 0, 2e-5);
+}
+
+TEST(Convex, NothingDependsOnWhereAndHowTheyLie) {
+  const Polygon a = Rectangle({-1, -0.5}, {1, 0.5});
+  for (const double d_m : {-0.3, -0.02, -0.001, 0.001, 0.02, 0.7}) {
+    const Polygon b = Rectangle({1 + d_m, -0.2}, {4, 0.3});
+    for (int deg = 0; deg < 360; deg += 17) {
+      const Pose2 X{30, -7, deg * kPi / 180};
+      EXPECT_NEAR(Separate(Turned(a, X), Turned(b, X)).distance_m, d_m, 3e-5) << deg;
+    }
+  }
+}
+
+TEST(Convex, WhatIsSweptHoldsEveryPlaceOnTheWay) {
+  const Polygon a = Rectangle({0, 0}, {0.4, 0.4});
+  const Vec2 by(1, 0.3);
+  const Polygon dut = SweptBy(a, by);
+  for (double t = 0; t <= 1; t += 0.1)
+    for (const Vec2& p : a) EXPECT_LT(SignedDistance(dut, p + t * by), 1e-9);
+  // The square, and a band as wide as the square is across the way.
+  EXPECT_NEAR(SignedArea(dut), 0.16 + 0.4 * (1 + 0.3), 1e-9);
+}
+
+}  // namespace
+}  // namespace floorproof

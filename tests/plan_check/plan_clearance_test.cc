@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is said of a plan's clearance, against geometry that is known, and against physics.
+#include "run/plan_check/plan_clearance.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <random>
+#include <string>
+
+#include "run/plan_check/plan_check.h"
+#include "tests/run/scenario_text.h"
+#include "tests/slurp.h"
+
+namespace floorproof {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+constexpr double kBeluga_m = 0.36;  // its width, whatever its heading
+constexpr double kWall_m = 0.47;    // y of the room's lower wall as it is built, `inset_m` back
+
+std::string Block(const char* id, const Pose2& X, const Vec2& low, const Vec2& high) {
+  std::string corners;
+  for (const Vec2& p : Rectangle(low, high)) {
+    const Vec2 p_W = X * p;
+    corners += fmt::format("{}[{}, {}]", corners.empty() ? "" : ", ", p_W.x(), p_W.y());
+  }
+  return fmt::format("{{type: blind_object, id: {}, polygon_m: [{}]}}", id, corners);
+}
+
+// A gap of that width, its middle at X, the way through along X's x axis.
+std::string Gap(const Pose2& X, double width_m) {
+  return Block("left", X, {-0.1, width_m / 2}, {0.1, width_m / 2 + 0.6}) + ", " +
+         Block("right", X, {-0.1, -width_m / 2 - 0.6}, {0.1, -width_m / 2});
+}
+
+class PlanClearanceTest : public ScenarioTest {
+ protected:
+  // A plan in the room of RoomScenario, starting at (1.5, 2.5).
+  Scenario Room(const std::string& hazards, const std::string& rows, const std::string& more = "") {
+    Save("plan.csv", "x_m,y_m\n1.5,2.5\n" + rows);
+    return Read(RoomScenario(hazards, more));
+  }
+  static PlanClearance Check(const Scenario& scenario) {
+    return CheckClearance(scenario, MakePlan(scenario));
+  }
+};
+
+TEST_F(PlanClearanceTest, IsTheDistanceToTheNearestWall) {
+  const PlanClearance dut = Check(Room("", "6,2.5\n6,0.9\n"));
+  EXPECT_THAT(dut.conflicts, IsEmpty());
+  EXPECT_EQ(dut.obstacle, "wall");
+  EXPECT_NEAR(dut.least_m, 0.9 - kWall_m - kBeluga_m / 2, 0.001);
+  EXPECT_NEAR(dut.p_W.y(), 0.9, 0.01);
+  EXPECT_NEAR(dut.along_m, 4.5 + 1.6, 0.01);
+}
+
+TEST_F(PlanClearanceTest, AWallThatIsClippedIsSaidWhereAndHowDeep) {
+  const PlanClearance dut = Check(Room("", "4,2.5\n5,0.62\n6,2.5\n"));
+  ASSERT_THAT(dut.conflicts, SizeIs(1));
+  const PlanConflict& clip = dut.conflicts.front();
+  EXPECT_EQ(clip.obstacle, "wall");
+  EXPECT_NEAR(clip.overlap_m, 0.03, 0.001);
+  EXPECT_NEAR((clip.p_W - Vec2(5, 0.62)).norm(), 0, 0.05);
+  EXPECT_FALSE(clip.gap_m);
+  EXPECT_NEAR(dut.least_m, -0.03, 0.001);
+}
+
+// Wherever a gap lies and however it is turned, half a millimetre of cells' edges included: it is
+// said where it is narrower than the robot, and not where it is wider.
+TEST_F(PlanClearanceTest, AGapIsSaidWhereItIsNarrowerThanTheRobot) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> of(0, 1);
+  for (const double d_m : {-0.05, -0.02, -0.005, 0.005, 0.02, 0.05}) {
+    for (int i = 0; i < 6; ++i) {
+      const Pose2 X{3.5 + 2 * of(random), 2 + of(random), 0.6 * (of(random) - 0.5)};
+      const Vec2 before = X * Vec2(-0.7, 0), after = X * Vec2(0.7, 0);
+      const PlanClearance dut =
+          Check(Room(Gap(X, kBeluga_m + d_m),
+                     fmt::format("{},{}\n{},{}\n", before.x(), before.y(), after.x(), after.y())));
+      const auto told = fmt::format("{} m more at x {} y {} yaw {}", d_m, X.x_m, X.y_m, X.yaw_rad);
+      EXPECT_EQ(!dut.conflicts.empty(), d_m < 0) << told;
+      EXPECT_NEAR(dut.least_m, d_m / 2, 0.001) << told;
+      for (const PlanConflict& c : dut.conflicts) {
+        ASSERT_TRUE(c.gap_m) << told;
+        EXPECT_NEAR(*c.gap_m, kBeluga_m + d_m, 0.002) << told;
+        EXPECT_NEAR(c.width_m, kBeluga_m, 0.002) << told;
+        EXPECT_LT((c.p_W - X.p()).norm(), 0.2) << told;
+      }
+    }
+  }
+}
+
+// The claim meets physics: what overlaps is touched, what does not is not. Off by 2 cm to a side
+// (1 cm of tracking included).
+TEST_F(PlanClearanceTest, WhatIsSaidToOverlapIsTouchedInADrive) {
+  for (const double d_m : {-0.04, 0.04}) {
+    const Pose2 X{4, 2.5, 0};
+    Scenario scenario = Room(Gap(X, kBeluga_m + d_m), "5.5,2.5\n");
+    const bool said = !Check(scenario).conflicts.empty();
+    const EpisodeRecord record = Drive(std::move(scenario));
+    EXPECT_EQ(said, d_m < 0);
+    EXPECT_EQ(record.metrics.contacts > 0, said) << d_m;
+    EXPECT_EQ(record.outcome == Outcome::kSuccess, !said) << d_m;
+  }
+}
+
+TEST_F(PlanClearanceTest, AWallThatIsSaidToBeClippedIsTouchedInADrive) {
+  for (const double d_m : {-0.03, 0.03}) {
+    const double y_m = kWall_m + kBeluga_m / 2 + d_m;
+    Scenario scenario = Room("", fmt::format("2.5,2.5\n3.5,{0}\n5.5,{0}\n", y_m));
+    const PlanClearance dut = Check(scenario);
+    EXPECT_EQ(dut.conflicts.size(), d_m < 0 ? 1u : 0u);
+    EXPECT_NEAR(dut.least_m, d_m, 0.001);
+    EXPECT_EQ(Drive(std::move(scenario)).metrics.contacts > 0, d_m < 0) << d_m;
+  }
+}
+
+TEST_F(PlanClearanceTest, APlaceThatIsPassedOftenIsOnePlace) {
+  const PlanClearance dut =
+      Check(Room(Gap({4, 2.5, 0}, 0.3), "5.5,2.5\n1.5,2.5\n5.5,2.5\n1.5,2.5\n"));
+  ASSERT_THAT(dut.conflicts, SizeIs(2)) << "left and right";
+  for (const PlanConflict& c : dut.conflicts) EXPECT_EQ(c.times, 4);
+}
+
+TEST_F(PlanClearanceTest, ALongClipIsOneStretch) {
+  const PlanClearance dut = Check(Room("", "1.5,0.63\n6.5,0.63\n6.5,2.5\n"));
+  ASSERT_THAT(dut.conflicts, SizeIs(1));
+  EXPECT_NEAR(dut.conflicts.front().over_m, 5, 0.8);
+}
+
+TEST_F(PlanClearanceTest, WhatIsNotKnownIsNotSaid) {
+  std::string hazard = Block("box", {4, 2.5, 0}, {-0.2, -0.2}, {0.2, 0.2});
+  EXPECT_THAT(Check(Room(hazard, "5.5,2.5\n")).conflicts, SizeIs(1));
+  hazard.insert(hazard.size() - 1, ", known: false");
+  EXPECT_THAT(Check(Room(hazard, "5.5,2.5\n")).conflicts, IsEmpty());
+}
+
+TEST_F(PlanClearanceTest, AStepIsAnObstacleWhereTheRobotIsNotTrustedToCrossIt) {
+  for (const double height_m : {0.008, 0.015, -0.05}) {
+    const std::string step = fmt::format(
+        "{{type: step, id: sill, polygon_m: [[4, 0.5], [4.2, 0.5], [4.2, 4.5], [4, 4.5]], "
+        "height_m: {}}}",
+        height_m);
+    const PlanClearance dut = Check(Room(step, "5.5,2.5\n"));
+    EXPECT_EQ(dut.conflicts.size(), height_m == 0.008 ? 0u : 1u) << height_m;
+  }
+}
+
+// hTetro is a square of 0.5 m: along its side it passes where it does not pass diagonally.
+TEST_F(PlanClearanceTest, TheFootprintIsThatOfTheHeadingAndTheShape) {
+  const auto square = [&](double yaw_deg, double gap_m) {
+    Save("plan.csv", fmt::format("x_m,y_m,yaw_rad\n1.5,2.5,{0}\n3,2.5,{0}\n5.5,2.5,{0}\n",
+                                 yaw_deg * kPi / 180));
+    return Check(Read(RoomScenario(Gap({4, 2.5, 0}, gap_m)), {{"robot", "htetro"}}));
+  };
+  EXPECT_THAT(square(0, 0.52).conflicts, IsEmpty());
+  EXPECT_THAT(square(45, 0.52).conflicts, SizeIs(2));
+  EXPECT_THAT(square(45, 0.72).conflicts, IsEmpty());
+  EXPECT_THAT(square(0, 0.48).conflicts, SizeIs(2));
+  const auto folded = [&](const char* shape) {
+    Save("plan.csv", fmt::format("x_m,y_m,yaw_rad,shape\n1.5,2.5,0,O\n2.5,2.5,0,{0}\n"
+                                 "5.5,2.5,0,{0}\n",
+                                 shape));
+    return Check(Read(RoomScenario(Gap({4, 2.5, 0}, 0.4)), {{"robot", "htetro"}}));
+  };
+  EXPECT_THAT(folded("O").conflicts, SizeIs(2));
+  // In a row, along x or y: one of the two fits through 0.4 m.
+  const bool along = folded("I").conflicts.empty();
+  Save("plan.csv",
+       "x_m,y_m,yaw_rad,shape\n1.5,2.5,0,O\n2.5,2.5,0,I\n3,2.5,1.5707963,I\n"
+       "5.5,2.5,1.5707963,I\n");
+  const bool across =
+      Check(Read(RoomScenario(Gap({4, 2.5, 0}, 0.4)), {{"robot", "htetro"}})).conflicts.empty();
+  EXPECT_NE(along, across);
+}
+
+// A robot that keeps a circle clear need not fill it: a box 0.4 m long and 0.2 m wide passes
+// lengthwise through 0.24 m, and where it turns its corners reach out.
+TEST_F(PlanClearanceTest, ARobotThatKeepsACircleClearIsCheckedByItsBody) {
+  std::string mjcf = Slurp(ModelsFolder() / "beluga.xml");
+  const std::string round = R"(type="cylinder" size="0.180 0.045" pos="0 0 0.070")";
+  ASSERT_NE(mjcf.find(round), std::string::npos);
+  mjcf.replace(mjcf.find(round), round.size(),
+               R"(type="box" size="0.20 0.10 0.045" pos="0 0 0.070")");
+  for (const char* wheel : {"0 0.135 0.05", "0 -0.135 0.05"})
+    mjcf.replace(mjcf.find(wheel), std::string(wheel).size(),
+                 wheel[2] == '-' ? "0 -0.085 0.05" : "0 0.085 0.05");
+  const std::string deck = R"(type="cylinder" size="0.125 0.075" pos="-0.02 0 0.19")";
+  ASSERT_NE(mjcf.find(deck), std::string::npos);
+  mjcf.replace(mjcf.find(deck), deck.size(),
+               R"(type="cylinder" size="0.08 0.075" pos="-0.02 0 0.19")");
+  Save("box.xml", mjcf);
+  const auto check = [&](const std::string& rows, double gap_m) {
+    Save("plan.csv", "x_m,y_m\n1.5,2.5\n" + rows);
+    return Check(
+        Read(RoomScenario(Gap({4, 2.5, 0}, gap_m)), {{"robot", (folder_ / "box.xml").string()}}));
+  };
+  EXPECT_THAT(check("5.5,2.5\n", 0.24).conflicts, IsEmpty());
+  EXPECT_THAT(check("5.5,2.5\n", 0.18).conflicts, SizeIs(2));
+  EXPECT_THAT(check("4,2.5\n4,3.2\n", 0.24).conflicts, Not(IsEmpty())) << "turns in the gap";
+}
+
+TEST_F(PlanClearanceTest, LinesNameThePlacesAndCountTheRest) {
+  std::string posts, rows;
+  for (int i = 0; i < 7; ++i) {
+    const double x_m = 2.2 + 0.8 * i;
+    posts += (i > 0 ? ", " : "") +
+             Block(fmt::format("post{}", i).c_str(), {x_m, 2.5, 0}, {-0.05, 0.15}, {0.05, 0.3});
+  }
+  Scenario scenario = Room(posts, "7.8,2.5\n");
+  const PlanResult plan = MakePlan(scenario);
+  const auto lines = PlanLines(scenario, plan, CheckPlan(scenario, plan));
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  EXPECT_THAT(text, HasSubstr("warning: the plan leads the robot into obstacles at 7 places:"));
+  EXPECT_THAT(text, HasSubstr("overlaps 'post0' (blind object, 500 mm) by 30 mm"));
+  EXPECT_THAT(text, HasSubstr("  and 2 more\n"));
+}
+
+}  // namespace
+}  // namespace floorproof

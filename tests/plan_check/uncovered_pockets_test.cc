@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/plan_check/uncovered_pockets.h"
+
+#include <gmock/gmock.h>
+
+#include "run/plan_check/plan_budget.h"
+#include "tests/run/scenario_text.h"
+
+namespace floorproof {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+using Why = UncoveredPocket::Why;
+
+// Rooms of 4 x 3 m side by side, drawn in cells of 0.1 m: `door` rows of the wall between them are
+// free.
+std::string TwoRooms(int door_cells, const std::string& hazards = "") {
+  constexpr int kWidth = 82, kHeight = 32;
+  std::string rows;
+  for (int y = 0; y < kHeight; ++y) {
+    rows += "      ";
+    for (int x = 0; x < kWidth; ++x) {
+      const bool wall = x == 0 || y == 0 || x == kWidth - 1 || y == kHeight - 1;
+      const bool between = x == kWidth / 2 && (y < 12 || y >= 12 + door_cells);
+      rows += wall || between ? '#' : '.';
+    }
+    rows += "\n";
+  }
+  return "scenario: 1\nsite:\n  site: 1\n  name: rooms\n  grid:\n    cell_m: 0.1\n    rows: |\n" +
+         rows + "  start: {x_m: 1.0, y_m: 1.5, yaw_deg: 0}\n  hazards: [" + hazards +
+         "]\nrobot: beluga\nplan: boustrophedon\n";
+}
+
+class UncoveredTest : public ScenarioTest {
+ protected:
+  static UncoveredFloor Find(const Scenario& s) {
+    const PlanResult plan = MakePlan(s);
+    EXPECT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
+    return FindUncovered(s, plan,
+                         ComputeSweepArea(KnownPart(s.site.map), plan.clear, plan.tool,
+                                          s.robot.spec.step_m, s.start.p()));
+  }
+};
+
+TEST_F(UncoveredTest, WhatIsCoveredAndWhatIsNotMakeTheFloor) {
+  const UncoveredFloor dut = Find(Read(TwoRooms(10)));
+  EXPECT_NEAR(dut.floor_m2, 40 * 30 * 0.01 + 40 * 30 * 0.01 - 0.3 + 0.1, 0.3);
+  double pockets_m2 = 0;
+  for (const UncoveredPocket& pocket : dut.pockets) pockets_m2 += pocket.area_m2;
+  EXPECT_NEAR(dut.covered_m2 + dut.edges_m2 + pockets_m2, dut.floor_m2, 1e-6);
+  EXPECT_GT(dut.covered_m2, 0.95 * dut.floor_m2);
+}
+
+TEST_F(UncoveredTest, ARoomBehindANarrowDoorIsSaidWithTheDoor) {
+  const UncoveredFloor dut = Find(Read(TwoRooms(3)));  // 0.3 m, the robot is 0.36 m wide
+  ASSERT_THAT(dut.pockets, Not(IsEmpty()));
+  const UncoveredPocket& room = dut.pockets.front();
+  EXPECT_EQ(room.why, Why::kNarrow);
+  EXPECT_NEAR(room.area_m2, 11.8, 0.5);
+  EXPECT_GT(room.p_W.x(), 4.1);
+  ASSERT_TRUE(room.gap_m);
+  EXPECT_NEAR(*room.gap_m, 0.3, 0.1);
+  EXPECT_NEAR((room.gap_W - Vec2(4.15, 3.2 - 1.35)).norm(), 0, 0.25);
+}
+
+TEST_F(UncoveredTest, ARoomWithoutADoorIsClosed) {
+  const UncoveredFloor dut = Find(Read(TwoRooms(0)));
+  ASSERT_THAT(dut.pockets, Not(IsEmpty()));
+  EXPECT_EQ(dut.pockets.front().why, Why::kClosed);
+}
+
+TEST_F(UncoveredTest, ARoomBehindAHazardNamesIt) {
+  const UncoveredFloor dut = Find(Read(TwoRooms(
+      10,
+      "{type: step, id: sill, polygon_m: [[4.0, 0.1], [4.3, 0.1], [4.3, 3.1], [4.0, 3.1]], "
+      "height_m: 0.03}")));
+  ASSERT_THAT(dut.pockets, SizeIs(::testing::Ge(2)));
+  EXPECT_EQ(dut.pockets[0].why, Why::kBehind);
+  EXPECT_EQ(dut.pockets[0].hazard, "sill");
+  EXPECT_TRUE(std::ranges::any_of(dut.pockets, [](const UncoveredPocket& pocket) {
+    return pocket.why == Why::kKeptOff && pocket.hazard == "sill";
+  }));
+}
+
+TEST_F(UncoveredTest, WhatAUsersPlanLeavesIsNotVisited) {
+  Save("plan.csv", "x_m,y_m\n1.5,2.5\n6,2.5\n");
+  const UncoveredFloor dut = Find(Read(RoomScenario("")));
+  ASSERT_THAT(dut.pockets, SizeIs(1));
+  EXPECT_EQ(dut.pockets[0].why, Why::kNotVisited);
+  EXPECT_NEAR(dut.pockets[0].area_m2, 32 - 4.5 * 0.3 - 0.07, 0.5);
+}
+
+// On open floor, what a plan is expected to take is what its drive takes.
+TEST_F(UncoveredTest, TimeAndEnergyAreThoseOfADrive) {
+  for (const char* robot : {"beluga", "htetro"}) {
+    Save("plan.csv", "x_m,y_m\n1.5,2.5\n6,2.5\n6,2.0\n2,2.0\n");
+    Scenario scenario = Read(RoomScenario(""), {{"robot", robot}});
+    const PlanBudget dut = EstimateBudget(scenario, MakePlan(scenario));
+    EXPECT_FALSE(dut.battery_share);
+    const EpisodeRecord record = Drive(std::move(scenario));
+    EXPECT_EQ(record.outcome, Outcome::kSuccess);
+    EXPECT_NEAR(dut.time_s, record.metrics.duration_s, 0.1 * record.metrics.duration_s) << robot;
+    EXPECT_NEAR(dut.energy_j, record.metrics.energy_j, 0.1 * record.metrics.energy_j) << robot;
+  }
+}
+
+TEST_F(UncoveredTest, TheBatterysShareIsThatOfADrive) {
+  Save("plan.csv", "x_m,y_m\n1.5,2.5\n6,2.5\n6,2.0\n2,2.0\n");
+  const std::vector<Override> battery = {{"battery.capacity_wh", "2"},
+                                         {"battery.resistance_ohm", "0.2"}};
+  Scenario scenario = Read(RoomScenario(""), battery);
+  const PlanBudget dut = EstimateBudget(scenario, MakePlan(scenario));
+  const EpisodeRecord record = Drive(std::move(scenario));
+  ASSERT_TRUE(dut.battery_share && record.metrics.battery_left);
+  EXPECT_NEAR(*dut.battery_share, 1 - *record.metrics.battery_left, 0.1 * *dut.battery_share);
+}
+
+}  // namespace
+}  // namespace floorproof
