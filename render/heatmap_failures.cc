@@ -18,6 +18,7 @@ constexpr TextStyle kNumber = {
     .cap_px = 10, .colour = kWhite, .anchor = Anchor::kCentre, .bold = true};
 constexpr int kHeight_px = 22, kRim_px = 2;
 constexpr std::size_t kMostMarks = 20;  // and lines of the legend
+constexpr std::size_t kMostLabels = 2;  // beside the first's, of those that share a mark
 constexpr std::size_t kMostDots = 200;  // more would hide the values
 constexpr double kDot_px = 3.5;
 
@@ -74,10 +75,15 @@ std::vector<FailureMark> PlaceFailures(const std::vector<HeatFailure>& failures,
     const cv::Rect box = BoxOf(failures[i], frame);
     const auto shared = std::ranges::find_if(
         marks, [&](const FailureMark& mark) { return (mark.box & box).area() > 0; });
-    if (shared != marks.end())
+    if (shared != marks.end()) {
       ++shared->more;
-    else if (marks.size() < kMostMarks)
-      marks.push_back({i, box, 0});
+      const std::string& label = failures[i].label;
+      if (shared->also.size() < kMostLabels && label != failures[shared->failure].label &&
+          std::ranges::find(shared->also, label) == shared->also.end())
+        shared->also.push_back(label);
+    } else if (marks.size() < kMostMarks) {
+      marks.push_back({i, box});
+    }
   }
   return marks;
 }
@@ -99,11 +105,10 @@ void DrawFailures(const HeatMapOptions& options, const PanelFrame& frame, HeatPa
     const int width = WidthOf(number);  // of one alone it is less than its room
     const int left = mark.box.x + (mark.box.width - width) / 2;
     NumberMark(panel.image, {left, mark.box.y, width, mark.box.height}, number);
-    panel.legend.push_back(
-        {.kind = Kind::kNumber,
-         .label =
-             failure.label + (mark.more > 0 ? fmt::format(", and {} more here", mark.more) : ""),
-         .number = number});
+    std::string label = failure.label;
+    for (const std::string& also : mark.also) label += "; " + also;
+    if (mark.more > 0) label += fmt::format("; {} here", mark.more + 1);
+    panel.legend.push_back({.kind = Kind::kNumber, .label = label, .number = number});
     told += 1 + static_cast<std::size_t>(mark.more);
   }
   if (told < failures.size())

@@ -2,6 +2,7 @@
 // Failures as numbered marks on a heat map, with their lines of the legend. For heatmap*.cc only.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "render/heatmap_panel.h"
@@ -10,9 +11,10 @@ namespace floorproof {
 
 // A failure's mark, with those that share it: they would hide it.
 struct FailureMark {
-  std::size_t failure = 0;  // of the options' list
-  cv::Rect box;             // on the panel
-  int more = 0;             // that share it
+  std::size_t failure = 0;             // of the options' list
+  cv::Rect box;                        // on the panel
+  int more = 0;                        // that share it
+  std::vector<std::string> also = {};  // what else failed there; the first two
 };
 
 // In the list's order; a failure whose mark would touch an earlier one shares that one. At most 20:

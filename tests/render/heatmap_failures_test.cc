@@ -104,6 +104,11 @@ TEST(HeatMapFailures, OfManyAFewAreNumberedNoneOverAnotherAndNoneIsLost) {
   const std::vector<FailureMark> one = PlaceFailures(alike, frame);
   ASSERT_EQ(one.size(), 1u);
   EXPECT_EQ(one[0].more, 69);
+  EXPECT_TRUE(one[0].also.empty());
+  // What else failed there is told once each.
+  std::vector<HeatFailure> mixed = alike;
+  mixed[5].label = mixed[9].label = "veer off";
+  EXPECT_EQ(PlaceFailures(mixed, frame).at(0).also, std::vector<std::string>{"veer off"});
 }
 
 TEST(HeatMapFailures, ThousandsLeaveTheValuesVisible) {

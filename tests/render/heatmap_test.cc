@@ -185,7 +185,7 @@ TEST(HeatMapTest, ATitleStandsWholeOverANarrowFloor) {
   options.title = std::string(60, 'w');
   const Image wide = DrawHeatMap(Hall(60, 60, 0.1), nullptr, options),
               dut = DrawHeatMap(Hall(10, 600, 0.1), nullptr, options);
-  EXPECT_EQ(Ink(dut, 0, 0, dut.width, 55), Ink(wide, 0, 0, wide.width, 55));
+  EXPECT_EQ(Ink(dut, 0, 0, dut.width, 48), Ink(wide, 0, 0, wide.width, 48));
 }
 
 TEST(HeatMapTest, ALegendOfManyLinesStandsWhole) {
