@@ -33,14 +33,16 @@ void Limit(int resource, rlim_t most) {
   setrlimit(static_cast<__rlimit_resource_t>(resource), &limit);
 }
 
-// What the process holds that counts against RLIMIT_DATA.
-std::size_t DataBytes() {
-  unsigned long data_pages = 0;
+// Beyond what the process holds already.
+void LimitData([[maybe_unused]] std::size_t more_bytes) {
+#ifndef FP_ADDRESS_SANITIZER  // whose own mappings RLIMIT_DATA does not bound
+  unsigned long pages = 0;
   if (std::FILE* statm = std::fopen("/proc/self/statm", "r")) {
-    if (std::fscanf(statm, "%*u %*u %*u %*u %*u %lu", &data_pages) != 1) data_pages = 0;
+    if (std::fscanf(statm, "%*u %*u %*u %*u %*u %lu", &pages) != 1) pages = 0;
     std::fclose(statm);
   }
-  return data_pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  Limit(RLIMIT_DATA, pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + more_bytes);
+#endif
 }
 
 [[noreturn]] void Work(int answers, pid_t parent, const std::function<std::string()>& work,
@@ -57,9 +59,7 @@ std::size_t DataBytes() {
   std::set_new_handler(EndForWantOfMemory);
   Limit(RLIMIT_CORE, 0);
   Limit(RLIMIT_CPU, static_cast<rlim_t>(limits.cpu_s));
-#ifndef FP_ADDRESS_SANITIZER
-  Limit(RLIMIT_DATA, DataBytes() + limits.memory_bytes);
-#endif
+  LimitData(limits.memory_bytes);
   std::string answer;
   try {
     answer = work();

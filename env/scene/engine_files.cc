@@ -64,9 +64,10 @@ struct EngineFiles::Served {
     if (file != model && !files.HasStandIn(file) &&
         !IsBelow(folder, fs::weakly_canonical(file, error)))
       return "lies outside the folder of the robot's file";
+    const bool again = std::ranges::find(opened, file) != opened.end();
+    if (again && file == model) return "is the robot's file itself";
     if (std::string why = files.WhyUnreadable(file, kMaxBytes); !why.empty()) return why;
-    if (std::ranges::find(opened, file) == opened.end() &&
-        bytes + files.Size(file) > kMaxBytesOfAll)
+    if (!again && bytes + files.Size(file) > kMaxBytesOfAll)
       return "with the files before it larger than " + std::to_string(kMaxBytesOfAll >> 20) +
              " MiB";
     return "";

@@ -69,6 +69,9 @@ void ReadBody(const CompiledRobot& compiled, RobotSpec& robot) {
   for (int g = 0; g < m->ngeom; ++g) {
     if (!compiled.Collides(g)) continue;
     for (const Vec3& p : compiled.SurfacePoints(g)) {
+      if (!(p.norm() <= kMaxReach_m))  // rollers are the robot's own data: MuJoCo knows no bound
+        compiled.Refuse("geom " + std::to_string(g),
+                        "must end within " + FormatDouble(kMaxReach_m) + " m of the robot's base");
       high = std::max(high, p.z());
       if (compiled.IsCarried(g)) low = std::min(low, p.z());
       reach = std::max(reach, p.head<2>().norm());

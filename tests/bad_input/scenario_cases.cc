@@ -104,7 +104,7 @@ std::vector<BadInput> ScenarioCases() {
               {kFile + ":3: robot = belga", "did you mean beluga?"}),
       Changed("NoRobot", "robot: beluga\n", "", {kFile + ":1: robot", "missing"}),
       Changed("NegativeMass", "robot: beluga", "robot: {name: beluga, mass_kg: -1}",
-              {kFile + ":3: robot.mass_kg = -1", "must be > 0"}),
+              {kFile + ":3: robot.mass_kg = -1", "must be in [0.01, 10000]"}),
       Changed("UnknownPlanner", "{file: plan.csv}", "{planner: boustrofedon}",
               {kFile + ":5: plan.planner = boustrofedon", "did you mean boustrophedon?"}),
       Changed("UnknownTracker", "regulated_pursuit", "regulated_persuit",
