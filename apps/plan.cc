@@ -45,8 +45,9 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     const bool found = plan.status == PlanStatus::kSuccess;
     if (found) {
       globals.Say(fmt::format("planned: {} waypoints, {} m, {} turns, covers {:.1f} %",
-                              plan.path.size(), FixedText(Length(plan.path), 1),
-                              CountTurns(plan.path), 100 * json["coverage"].get<double>()));
+                              FixedText(static_cast<double>(plan.path.size()), 0),
+                              FixedText(Length(plan.path), 1), FixedText(CountTurns(plan.path), 0),
+                              100 * json["coverage"].get<double>()));
       if (!plan.message.empty()) globals.Say(plan.message);
       const PlanCheck check = CheckPlan(scenario, plan);
       for (const std::string& said : PlanLines(scenario, plan, check)) globals.Say(said);

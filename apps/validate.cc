@@ -7,6 +7,7 @@
 #include "apps/ladder.h"
 #include "base/file_output.h"
 #include "base/interrupt.h"
+#include "base/quantity.h"
 #include "base/result_folder.h"
 #include "report/ladder_files.h"
 #include "validate/bounce_chart.h"
@@ -20,9 +21,9 @@ namespace fs = std::filesystem;
 void SayLaw(const LawResult& result, const Globals& globals) {
   globals.Say(fmt::format("{}: {}", result.name, result.statement));
   for (const LawRow& row : result.rows)
-    globals.Say(fmt::format("  {:<44} {:>12.5g} {:>12.5g} {:>10.2g} {:<6} {}", row.law,
-                            row.expected, row.measured, row.tolerance, row.unit,
-                            row.ok() ? "ok" : "FAILS"));
+    globals.Say(fmt::format("  {:<44} {:>12} {:>12} {:>10} {:<6} {}", row.law,
+                            NumberText(row.expected, 5), NumberText(row.measured, 5),
+                            NumberText(row.tolerance, 2), row.unit, row.ok() ? "ok" : "FAILS"));
 }
 
 // The ladder's files among them.

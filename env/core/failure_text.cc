@@ -55,7 +55,7 @@ std::string VeerOffText(const Event& event, const HazardMap& map) {
 
 std::string StuckText(const Event& event, const HazardMap& map) {
   constexpr double kDegree = kPi / 180;
-  const double window_s = Lasted(event);
+  const double window_s = Evidence(event, "commanded_s").value_or(Lasted(event));
   const double gained_m = Evidence(event, "gained_m").value_or(event.value);
   // Of records without it: it stands where it gains next to nothing.
   const double still_s = Evidence(event, "still_s").value_or(gained_m < 0.02 ? window_s : 0);

@@ -100,6 +100,7 @@ class Stuck final : public Detector {
   // What is summed up while moves are commanded, and where the robot then is.
   struct Kept {
     double clock_s = 0;          // time with a move commanded
+    double commanded_s = 0;      // the same, where a slow command counts in full
     double moving_s = 0;         // of it: with a way commanded, not a turn on the spot
     double way_m = 0;            // commanded
     double angle_rad = 0;        // commanded on the spot: of the body, or of a hinge
@@ -147,6 +148,7 @@ class Stuck final : public Detector {
       turned_here_rad_ = 0;
     }
     now_.clock_s += clock_s;
+    now_.commanded_s += dt_s;
     now_.belly_ns += sample.belly_load_n * clock_s;
   }
 
@@ -199,16 +201,16 @@ class Stuck final : public Detector {
     return out;
   }
 
-  // For how long, up to the window, it has been where it is.
+  // For how long, up to the window, it has been where it is while a move was commanded.
   double Still() const {
     const Kept& last = ring_[newest_];
-    double since_s = last.t_s;
+    double since_s = last.commanded_s;
     for (std::size_t i = 0; i < ring_.size(); ++i) {
       const Kept& kept = ring_[(newest_ + ring_.size() - i) % ring_.size()];
       if ((kept.p_WB - last.p_WB).norm() > kStillM) break;
-      since_s = kept.t_s;
+      since_s = kept.commanded_s;
     }
-    return last.t_s - since_s;
+    return last.commanded_s - since_s;
   }
 
   bool Judge(const Sample& sample) {
@@ -234,6 +236,7 @@ class Stuck final : public Detector {
                        {"turn_threshold_rad", now.least_rad},
                        {"commanded_rad", last.angle_rad - first.angle_rad},
                        {"turning", now.turning ? 1 : 0},
+                       {"commanded_s", last.commanded_s - first.commanded_s},
                        {"still_s", Still()},
                        {"belly_load_n", belly_n},
                        {"since_s", first.t_s}};

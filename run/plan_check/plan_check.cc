@@ -48,14 +48,15 @@ std::string Reason(const Scenario& s, const UncoveredPocket& pocket, const PlanR
   switch (pocket.why) {
     case Why::kNotVisited:
       return "the tool could reach it, the plan does not go there";
-    case Why::kNarrow:
-      if (pocket.gap_m && *pocket.gap_m < LeastPassage(plan.clear))
-        return fmt::format("behind a gap about {} wide at {}; the robot keeps {} clear",
-                           Metres(*pocket.gap_m), At(pocket.gap_W), needs);
-      if (pocket.width_m < LeastPassage(plan.clear))
-        return fmt::format("about {} wide; the robot keeps {} clear", Metres(pocket.width_m),
-                           needs);
-      return "the robot finds no clear way in";
+    case Why::kNarrow: {
+      // What is wide enough for the shape at its narrowest need not be so at the headings tried.
+      const bool turned = plan.clear.kind == Shape2::Kind::kFootprint;
+      const std::string clear = fmt::format("the robot keeps {} clear{}", needs,
+                                            turned ? ", at headings of multiples of 90 deg" : "");
+      return pocket.gap_m ? fmt::format("behind a gap about {} wide at {}; {}",
+                                        Metres(*pocket.gap_m), At(pocket.gap_W), clear)
+                          : fmt::format("about {} wide; {}", Metres(pocket.width_m), clear);
+    }
     case Why::kBehind:
       return "cut off by " + Named(s, pocket.hazard) + ", which the robot must keep off";
     case Why::kClosed:

@@ -178,6 +178,29 @@ TEST(Stuck, StandingOnPurposeStopsTheClock) {
   EXPECT_NEAR(events[0].t_s, 70, 2 * kStepS);
 }
 
+// The evidence says for how long it stood where it is, a dwell on purpose not counted.
+TEST(Stuck, TheEvidenceSaysForHowLongItStood) {
+  const auto evidence = [](const Event& event, std::string_view name) {
+    for (const auto& [key, value] : event.evidence)
+      if (key == name) return value;
+    return -1.0;
+  };
+  const Trace drive = Drive({{6, {0.25, 0, 0}}});
+  const Trace blocked = Commanded({20, {}}, {0.25, 0, 0});
+  for (const bool dwells : {false, true}) {
+    const Trace trace = dwells ? Append(Append(Append(drive, Commanded({3, {}}, {0.25, 0, 0})),
+                                               Drive({{30, {}, true}})),
+                                        blocked)
+                               : Append(drive, blocked);
+    const auto events = Judge(*MakeDetector("stuck"), trace);
+    ASSERT_EQ(events.size(), 1u);
+    // The last 2 s of driving gain the 0.5 m that it owes in 10 s.
+    EXPECT_NEAR(evidence(events[0], "still_s"), 8, 0.3) << dwells;
+    EXPECT_NEAR(evidence(events[0], "commanded_s"), 10, 0.1) << dwells;
+    EXPECT_EQ(evidence(events[0], "turning"), 0);
+  }
+}
+
 TEST(Stuck, DrivingOutAndBackIsProgress) {
   EXPECT_EQ(Count(Drive({{5, {0.3, 0, 0}}, {5.2, {-0.3, 0, 0}}})), 0u);
 }
