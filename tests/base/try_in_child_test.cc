@@ -53,8 +53,10 @@ TEST(TryInChild, SaysHowItFailed) {
 TEST(TryInChild, EndsWhatHangsWorkingOrWaiting) {
   EXPECT_EQ(FailureOf(
                 []() -> std::string {
-                  for (volatile int i = 0;; i = i + 1) {
+                  volatile bool on = true;
+                  while (on) {
                   }
+                  return "";
                 },
                 {.cpu_s = 1}),
             "took more than 1 s of processor time");
