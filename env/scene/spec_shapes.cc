@@ -71,7 +71,7 @@ ShapeSpec ReadShape(const CompiledRobot& compiled, const RobotSpec& robot,
     const HingeSpec& hinge = robot.hinges[h];
     shape.hinge_rad.push_back(angles_deg[h] * kPi / 180);
     constexpr double kStep_rad = kPi / 12;  // of the ways between shapes (controllers)
-    if (std::abs(std::remainder(shape.hinge_rad[h], kStep_rad)) > 1e-6)
+    if (!(std::abs(std::remainder(shape.hinge_rad[h], kStep_rad)) <= 1e-6))  // NaN, too
       compiled.Refuse(key, "angles must be multiples of 15 degrees");
     if (shape.hinge_rad[h] < hinge.min_rad || shape.hinge_rad[h] > hinge.max_rad)
       compiled.Refuse(key, "lies beyond the range of " + hinge.name);
