@@ -157,6 +157,10 @@ void ReachWithFootprint(const Shape2& clear, const Grid<std::uint8_t>& walls,
                         std::vector<Grid<std::uint8_t>>& layers) {
   const Grid<int> wall_sums = RowSums(walls);
   const Grid<int> hazard_sums = hazards ? RowSums(*hazards) : Grid<int>();
+  // With so much room a footprint touches nothing at any yaw: most of a large floor needs no look.
+  double reach_m = 0;
+  for (const Vec2& p : clear.footprint_B) reach_m = std::max(reach_m, p.norm());
+  const auto plenty_m = static_cast<float>(reach_m + inset_m + 2 * area.frame.cell_m);
   std::vector<Grid<std::uint8_t>> free(layers.size());
   for (int k = 0; k < static_cast<int>(layers.size()); ++k) {
     const Stencil built =
@@ -167,8 +171,9 @@ void ReachWithFootprint(const Shape2& clear, const Grid<std::uint8_t>& walls,
     layer = Grid<std::uint8_t>(walls.width, walls.height);
     for (int iy = 0; iy < walls.height; ++iy)
       for (int ix = 0; ix < walls.width; ++ix)
-        layer(ix, iy) = !walls(ix, iy) && Fits(built, wall_sums, ix, iy) &&
-                        (!hazards || Fits(whole, hazard_sums, ix, iy));
+        layer(ix, iy) = area.clearance_m(ix, iy) > plenty_m ||
+                        (!walls(ix, iy) && Fits(built, wall_sums, ix, iy) &&
+                         (!hazards || Fits(whole, hazard_sums, ix, iy)));
   }
   struct State {
     Cell cell;
@@ -203,13 +208,15 @@ void DilateFootprint(const Grid<std::uint8_t>& set, const Shape2& tool, double c
   const Stencil stencil = MakeStencil(tool.footprint_B, cell_m, yaw, 0, StencilOf::kCentres);
   Grid<int> edges(set.width + 1, set.height);  // +1 where a swept span begins, -1 behind its end
   for (int iy = 0; iy < set.height; ++iy)
-    for (int ix = 0; ix < set.width; ++ix) {
-      if (!set(ix, iy)) continue;
+    for (int begin = 0, end; begin < set.width; begin = end) {
+      end = begin + 1;
+      if (!set(begin, iy)) continue;
+      while (end < set.width && set(end, iy)) ++end;
       for (const Stencil::Span& s : stencil.spans) {
-        const int y = iy + s.iy;
-        if (y < 0 || y >= set.height || ix + s.x1 < 0 || ix + s.x0 >= set.width) continue;
-        ++edges(std::max(0, ix + s.x0), y);
-        --edges(std::min(set.width, ix + s.x1 + 1), y);
+        const int y = iy + s.iy, x0 = begin + s.x0, x1 = end - 1 + s.x1;
+        if (y < 0 || y >= set.height || x1 < 0 || x0 >= set.width) continue;
+        ++edges(std::max(0, x0), y);
+        --edges(std::min(set.width, x1 + 1), y);
       }
     }
   for (int iy = 0; iy < set.height; ++iy)
