@@ -65,30 +65,21 @@ void CheckSizes(const fs::path& file, mjSpec* spec) {
   });
 }
 
-// Files that the model names by an absolute path stay where they are when a record of it moves.
-void MarkAbsolutes(mjSpec* spec, const std::vector<fs::path>& opened, const InputFiles& files) {
-  std::vector<std::string> absolute;
-  const auto add = [&](const mjString* folder, const mjString* file) {
-    const fs::path written(mjs_getString(file));
-    const fs::path whole = fs::path(mjs_getString(folder)) / written;
-    if (whole.is_absolute()) absolute.push_back(whole.lexically_normal().string());
+// Files that the model names by an absolute path, or by its folder's, stay where they are when a
+// record of it moves. By the texts: the engine makes some relative paths of an include absolute.
+void MarkAbsolutes(const std::vector<fs::path>& opened, const InputFiles& files) {
+  const auto is_written = [&](const std::string& path) {
+    return std::ranges::any_of(opened, [&](const fs::path& text) {
+      return text.extension() == ".xml" &&
+             files.Read(text, EngineFiles::kMaxBytes).find('"' + path) != std::string::npos;
+    });
   };
-  const mjsCompiler& compiler = spec->compiler;
-  ForEach<mjsMesh>(spec, mjOBJ_MESH, mjs_asMesh,
-                   [&](mjsMesh* mesh) { add(compiler.meshdir, mesh->file); });
-  ForEach<mjsHField>(spec, mjOBJ_HFIELD, mjs_asHField,
-                     [&](mjsHField* field) { add(compiler.meshdir, field->file); });
-  ForEach<mjsTexture>(spec, mjOBJ_TEXTURE, mjs_asTexture,
-                      [&](mjsTexture* texture) { add(compiler.texturedir, texture->file); });
-  for (const fs::path& file : opened) {
-    bool written = std::ranges::find(absolute, file.string()) != absolute.end();
-    for (const fs::path& text : opened)  // an include
-      written =
-          written || (text.extension() == ".xml" &&
-                      files.Read(text, EngineFiles::kMaxBytes).find('"' + file.string() + '"') !=
-                          std::string::npos);
-    if (written) files.MarkAbsolute(file);
-  }
+  for (const fs::path& file : opened)
+    for (fs::path part = file; part.has_relative_path(); part = part.parent_path())
+      if (is_written(part.string() + '"') || is_written(part.string() + "/\"")) {
+        files.MarkAbsolute(file);
+        break;
+      }
 }
 
 ParsedMjcf Parse(const fs::path& file, const fs::path& path, const InputFiles& files) {
@@ -105,7 +96,7 @@ ParsedMjcf Parse(const fs::path& file, const fs::path& path, const InputFiles& f
   if (!model || out.engine_files.Refused())
     Refuse(file, out, files, mjs_getError(copy.get()), "does not compile");
   const std::vector<fs::path> opened = out.engine_files.Opened();
-  MarkAbsolutes(out.spec.get(), opened, files);
+  MarkAbsolutes(opened, files);
   for (const fs::path& one : opened) out.hashes.emplace_back(one, files.Sha256(one));
   return out;
 }
