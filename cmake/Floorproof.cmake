@@ -147,16 +147,16 @@ function(fp_library name)
   fp_unity(${name})
 endfunction()
 
-# fp_test(NAME LABEL quick|slow SOURCES a_test.cc ... LINK targets ... [TIMEOUT seconds])
-# One executable of GoogleTest tests; each TEST becomes a ctest of that label. Under sanitizers, where
-# starting a process is dear, the executable is one ctest. Slow ones are built by fp_slow_tests alone.
+# fp_test(NAME LABEL quick|slow SOURCES a_test.cc ... LINK targets ... [TIMEOUT seconds] [WHOLE])
+# One executable of GoogleTest tests; each TEST becomes a ctest of that label. Where starting a process
+# is dear, under sanitizers or where WHOLE says so, the executable is one ctest. Slow ones are built by fp_slow_tests alone.
 # A source with a * stands for the folder's files of such names that no fp_test above it has.
 define_property(GLOBAL PROPERTY FP_TEST_SOURCES BRIEF_DOCS "Sources of all tests, absolute"
                 FULL_DOCS "What fp_find_lost_tests compares the folders with")
 add_custom_target(fp_quick_tests)
 add_custom_target(fp_slow_tests)
 function(fp_test name)
-  cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "WHOLE" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 280)
   endif()
@@ -182,10 +182,14 @@ function(fp_test name)
   target_compile_definitions(${name} PRIVATE
     FP_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     FP_SHARED_MAPS_DIR="${PROJECT_SOURCE_DIR}/../shared/maps")
-  if(FLOORPROOF_SANITIZE)
+  if(FLOORPROOF_SANITIZE OR ARG_WHOLE)
     add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
-    math(EXPR timeout "3 * ${ARG_TIMEOUT}")
-    set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${timeout})
+    set(timeout ${ARG_TIMEOUT})
+    if(FLOORPROOF_SANITIZE)
+      math(EXPR timeout "3 * ${ARG_TIMEOUT}")
+    endif()
+    # The longest first.
+    set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${timeout} COST 100)
   else()
     gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
       PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
