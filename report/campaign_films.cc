@@ -42,13 +42,13 @@ void FilmFirstFailures(const ScenarioFile& file, const CampaignStore& store, con
     });
   std::vector<Filming> filmings;  // an episode may be the first of several modes
   for (std::size_t m = 0; m < firsts.size(); ++m) {
-    const auto& [variant, row] = firsts[m];
-    if (variant == nullptr) continue;
+    const auto& first = firsts[m];
+    if (first.variant == nullptr) continue;
     const auto same = std::ranges::find_if(filmings, [&](const Filming& f) {
-      return f.variant == variant && f.row.episode == row.episode;
+      return f.variant == first.variant && f.row.episode == first.row.episode;
     });
     Filming& filming =
-        same != filmings.end() ? *same : filmings.emplace_back(Filming{variant, row});
+        same != filmings.end() ? *same : filmings.emplace_back(Filming{first.variant, first.row});
     filming.modes.push_back(static_cast<FailureMode>(m));
   }
   std::erase_if(filmings, [&](const Filming& f) {

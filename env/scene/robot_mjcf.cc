@@ -139,8 +139,9 @@ void Try(const fs::path& file, const fs::path& path, const InputFiles& files,
   if (answer.front() == kRefused) throw InputError(answer.substr(1));
   // The same bytes are read here.
   auto next = [&answer, at = std::size_t{1}]() mutable {
-    const std::size_t end = answer.find(kEnd, at);
-    return answer.substr(std::exchange(at, end + 1), end - at);
+    const std::size_t begin = at, end = answer.find(kEnd, begin);
+    at = end + 1;
+    return answer.substr(begin, end - begin);
   };
   for (std::string name = next(); !name.empty(); name = next()) {
     files.Read(name, EngineFiles::kMaxBytes);

@@ -176,7 +176,8 @@ CampaignStore::CampaignStore(CampaignStore&& other) noexcept
     : file_(std::move(other.file_)),
       db_(std::exchange(other.db_, nullptr)),
       about_(std::move(other.about_)),
-      asked_(other.asked_) {}
+      asked_(other.asked_),
+      sound_(other.sound_) {}
 
 CampaignStore::~CampaignStore() { sqlite3_close(db_); }
 
@@ -204,6 +205,11 @@ void CampaignStore::Refuse(int code) const {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       throw InputError({file_.string(), 0}, "", "", "is in use by another campaign");
+    case SQLITE_ERROR:  // of statements that are right: what the file says of itself cannot be read
+      if (!sound_)
+        throw InputError({file_.string(), 0}, "", "",
+                         "is damaged (" + why + "); it was left as it is");
+      [[fallthrough]];
     default:
       throw InternalError(file_.string() + ": " + why);
   }
@@ -244,6 +250,7 @@ void CampaignStore::Fill(const fs::path& file, const fs::path& part, const Campa
       sqlite3_open_v2(part.c_str(), &db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
   CampaignStore store(file, db);
   if (code != SQLITE_OK) store.Refuse(code);
+  store.sound_ = true;  // its own
   store.Run("BEGIN");
   store.Run("CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID");
   std::string columns;
@@ -307,6 +314,7 @@ void CampaignStore::Check() {
   }
   ReadAbout();
   CheckRows();
+  sound_ = true;
 }
 
 void CampaignStore::MakeWritable() {

@@ -86,6 +86,7 @@ class CampaignStore {
   sqlite3* db_ = nullptr;
   CampaignAbout about_;
   std::uint64_t asked_ = 0;
+  bool sound_ = false;  // looked through
 };
 
 }  // namespace floorproof

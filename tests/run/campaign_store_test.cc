@@ -305,6 +305,24 @@ TEST_F(CampaignStoreTest, ADamagedFileIsRefusedAndLeft) {
   }
 }
 
+// The header's bytes are sizes, versions and numbers of pages; some may be anything.
+TEST_F(CampaignStoreTest, AnyByteOfTheHeaderIsTakenOrRefused) {
+  Make(3);
+  const std::string whole = Slurp(file_);
+  int refused = 0;
+  for (std::size_t i = 0; i < 100; ++i) {
+    std::string bytes = whole;
+    bytes[i] = '\x20';
+    std::ofstream(file_, std::ios::binary | std::ios::trunc) << bytes;
+    const std::string said = WhyRefused(false);
+    refused += !said.empty();
+    EXPECT_EQ(std::ranges::count(said, '\n'), 0) << said;
+    EXPECT_TRUE(Slurp(file_) == bytes);
+    for (const char* end : {"-wal", "-shm"}) fs::remove(file_.string() + end);
+  }
+  EXPECT_GT(refused, 20);
+}
+
 // A file from elsewhere: what stands in it is refused before anything of it is run or written to.
 TEST_F(CampaignStoreTest, NothingOfAForeignFileIsRun) {
   const auto expect_refused = [&](const std::string& sql, const char* why) {
