@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -41,9 +41,10 @@ class FailureSweep : public ScenarioTest, public ::testing::WithParamInterface<i
   FailureSweep() { Save("one_caster.xml", kOneCaster); }
 
   // The numbers of this part's cases.
-  static auto Seeds(int cases) {
-    const auto first = static_cast<std::uint64_t>(GetParam()) * static_cast<std::uint64_t>(cases);
-    return std::views::iota(first, first + static_cast<std::uint64_t>(cases));
+  static std::vector<std::uint64_t> Seeds(int cases) {
+    std::vector<std::uint64_t> seeds(static_cast<std::size_t>(cases));
+    std::iota(seeds.begin(), seeds.end(), static_cast<std::uint64_t>(GetParam()) * seeds.size());
+    return seeds;
   }
 
   Way DrawWay(Stream& draw) const {
