@@ -76,20 +76,27 @@ bool AddHazards(const HazardMap& map, double step_m, const GridFrame& fine,
   return any;
 }
 
-// Cells of `free` that are 8-connected to `seed`.
+// Cells of `free` that are 8-connected to `seed`: run by run of free cells in a row.
 Grid<std::uint8_t> Component(const Grid<std::uint8_t>& free, Cell seed) {
   Grid<std::uint8_t> out(free.width, free.height);
-  std::vector<Cell> stack = {seed};
-  out(seed) = 1;
+  std::vector<Cell> stack = {seed};  // a cell of each run
   while (!stack.empty()) {
     const Cell c = stack.back();
     stack.pop_back();
-    for (int iy = std::max(0, c.iy - 1); iy <= std::min(free.height - 1, c.iy + 1); ++iy)
-      for (int ix = std::max(0, c.ix - 1); ix <= std::min(free.width - 1, c.ix + 1); ++ix)
-        if (free(ix, iy) && !out(ix, iy)) {
-          out(ix, iy) = 1;
-          stack.push_back({ix, iy});
-        }
+    if (out(c)) continue;
+    int first = c.ix, last = c.ix;
+    while (first > 0 && free(first - 1, c.iy)) --first;
+    while (last + 1 < free.width && free(last + 1, c.iy)) ++last;
+    std::fill_n(out.cells.begin() + static_cast<std::ptrdiff_t>(out.Index(first, c.iy)),
+                last - first + 1, std::uint8_t{1});
+    for (const int iy : {c.iy - 1, c.iy + 1}) {
+      if (iy < 0 || iy >= free.height) continue;
+      for (int ix = std::max(0, first - 1); ix <= std::min(free.width - 1, last + 1); ++ix) {
+        if (!free(ix, iy)) continue;
+        if (!out(ix, iy)) stack.push_back({ix, iy});
+        while (ix + 1 < free.width && free(ix + 1, iy)) ++ix;
+      }
+    }
   }
   return out;
 }
@@ -253,33 +260,36 @@ ClearanceField ComputeClearance(const HazardMap& map, double step_m) {
   return field;
 }
 
-SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shape2& tool,
-                           double step_m, const Vec2& start_W, Yaws yaws) {
+FloorRoom::FloorRoom(const HazardMap& map, double step_m)
+    : frame_(FineFrame(map.frame)), inset_m_(map.inset_m) {
+  walls_ = WallMask(map, frame_);
+  hazards_ = Grid<std::uint8_t>(walls_.width, walls_.height);
+  any_hazard_ = AddHazards(map, step_m, frame_, hazards_);
+  clearance_m_ = DistanceToSet(walls_, true);
+  const auto inset = static_cast<float>(map.inset_m / frame_.cell_m);
+  for (float& d : clearance_m_.cells) d = d > 0 ? d + inset : 0;
+  if (any_hazard_) {
+    const Grid<float> to_hazard = DistanceToSet(hazards_, false);
+    for (std::size_t i = 0; i < to_hazard.cells.size(); ++i)
+      clearance_m_.cells[i] = std::min(clearance_m_.cells[i], to_hazard.cells[i]);
+  }
+  for (float& d : clearance_m_.cells) d *= static_cast<float>(frame_.cell_m);
+}
+
+SweepArea FloorRoom::Sweepable(const Shape2& clear, const Shape2& tool, const Vec2& start_W,
+                               Yaws yaws) const {
   SweepArea area;
-  area.frame = FineFrame(map.frame);
+  area.frame = frame_;
   const double cell_m = area.frame.cell_m;
   area.reachable = area.sweepable = Grid<std::uint8_t>(area.frame.width, area.frame.height);
-
-  Grid<std::uint8_t> walls = WallMask(map, area.frame);
-  Grid<std::uint8_t> hazards(walls.width, walls.height);
-  const bool any_hazard = AddHazards(map, step_m, area.frame, hazards);
-  const auto inset = static_cast<float>(map.inset_m / cell_m);
-  area.clearance_m = DistanceToSet(walls, true);
-  for (float& d : area.clearance_m.cells) d = d > 0 ? d + inset : 0;
-  if (any_hazard) {
-    const Grid<float> to_hazard = DistanceToSet(hazards, false);
-    for (std::size_t i = 0; i < to_hazard.cells.size(); ++i)
-      area.clearance_m.cells[i] = std::min(area.clearance_m.cells[i], to_hazard.cells[i]);
-  }
-  for (float& d : area.clearance_m.cells) d *= static_cast<float>(cell_m);
-
+  area.clearance_m = clearance_m_;
   const Cell start = area.frame.ToCell(start_W);
   const Vec2 start_G = ToGrid(area.frame, start_W);
   const int turns = yaws == Yaws::kFirst ? 1 : 4;
   std::vector<Grid<std::uint8_t>> layers(static_cast<std::size_t>(turns));
   const bool has_layers = clear.kind == Shape2::Kind::kFootprint;
   if (has_layers) {
-    ReachWithFootprint(clear, walls, any_hazard ? &hazards : nullptr, map.inset_m, start, start_G,
+    ReachWithFootprint(clear, walls_, any_hazard_ ? &hazards_ : nullptr, inset_m_, start, start_G,
                        area, layers);
   } else {
     // The centre of a clear start's cell may be too close to an obstacle, by up to its distance
@@ -288,7 +298,7 @@ SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shap
     if (!area.frame.Inside(start) ||
         static_cast<double>(area.clearance_m(start)) < clear.radius_m - slack_m)
       return area;
-    Grid<std::uint8_t> free(walls.width, walls.height);
+    Grid<std::uint8_t> free(walls_.width, walls_.height);
     const auto least = static_cast<float>(clear.radius_m - kEps * cell_m);
     for (std::size_t i = 0; i < free.cells.size(); ++i)
       free.cells[i] = area.clearance_m.cells[i] >= least && area.clearance_m.cells[i] > 0;
@@ -304,10 +314,15 @@ SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shap
                       cell_m, k, area.sweepable);
   }
   for (std::size_t i = 0; i < area.sweepable.cells.size(); ++i) {
-    if (walls.cells[i] || hazards.cells[i]) area.sweepable.cells[i] = 0;
+    if (walls_.cells[i] || hazards_.cells[i]) area.sweepable.cells[i] = 0;
     area.sweepable_cells += area.sweepable.cells[i];
   }
   return area;
+}
+
+SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shape2& tool,
+                           double step_m, const Vec2& start_W, Yaws yaws) {
+  return FloorRoom(map, step_m).Sweepable(clear, tool, start_W, yaws);
 }
 
 }  // namespace floorproof

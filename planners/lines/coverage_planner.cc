@@ -164,8 +164,8 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
     return result;
   }
   const HeldShapes held = HoldYaw(request.map, request.start, result.clear, result.tool);
-  SweepArea area = ComputeSweepArea(request.map, held.clear, held.tool, request.robot.step_m,
-                                    request.start.p(), held.yaws);
+  const FloorRoom room(request.map, request.robot.step_m);
+  SweepArea area = room.Sweepable(held.clear, held.tool, request.start.p(), held.yaws);
   if (area.sweepable_cells == 0) {
     const bool fits = std::find(area.reachable.cells.begin(), area.reachable.cells.end(), 1) !=
                       area.reachable.cells.end();
@@ -178,8 +178,8 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
   double margin_m = margin_m_.value_or(radius_m_ ? 0.0 : (circle ? kMargin_m : kFootprintMargin_m));
   double shortfall = 0;
   for (; margin_m > 0; margin_m = margin_m > kMargin_m / 4 ? margin_m / 2 : 0) {
-    SweepArea roomy = ComputeSweepArea(request.map, Grown(held.clear, margin_m), held.tool,
-                                       request.robot.step_m, request.start.p(), held.yaws);
+    SweepArea roomy =
+        room.Sweepable(Grown(held.clear, margin_m), held.tool, request.start.p(), held.yaws);
     const double lost =
         1 - static_cast<double>(roomy.sweepable_cells) / static_cast<double>(area.sweepable_cells);
     if (lost > kMaxLost) continue;
