@@ -21,8 +21,12 @@
 #include "base/sanitizer.h"
 
 #ifdef FP_ADDRESS_SANITIZER
-// OSMesa never frees the frame buffer that OSMesaMakeCurrent makes for a context.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa.so\n"; }
+// What libraries never free: OSMesa the frame buffer that OSMesaMakeCurrent makes for a context,
+// Fontconfig, which finds fonts for the pictures' letters, some of what it matched.
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libOSMesa.so\nleak:libfontconfig.so\n";
+}
+extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
 #endif
 
 namespace floorproof {
