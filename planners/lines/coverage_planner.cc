@@ -34,9 +34,11 @@ constexpr Effort kWithEdges = {0.989, 0.25, 0.981, 0.6, 0.3, 0.2, 0.4};
 constexpr double kSmall = 0.02;  // of the ground: worth a visit however small
 constexpr int kRounds = 2;       // before a path is good enough to be finished
 constexpr int kMaxRounds = 4;    // of a path that leaves too much; later ones visit smaller patches
-// A path of few points is cheap to make anew, from what the last one left: the best is kept.
-constexpr int kTriedPoints = 600, kMostTries = 3;
-constexpr double kBend = 0.15;         // tool widths that a bend costs
+// A path of few points is cheap to shift more finely, and to make anew from what the last one left:
+// the best is kept.
+constexpr std::size_t kFewPoints = 1000;
+constexpr int kTriedPoints = 1800, kMostTries = 3;
+constexpr double kPointCost = 0.15;    // tool widths
 constexpr double kLacking = 3;         // what ground below the goal costs, in rows over it
 constexpr double kDear = 1.25;         // length above this many times ground / width
 constexpr double kLapShare = 0.4;      // of the tool's width open: a lap along a wall pays
@@ -92,16 +94,18 @@ Outcome Finish(const Floor& floor, const Effort& effort, Polyline& path) {
   Swept swept(floor);
   swept.Add(path);
   Relax(floor, {goal_cells, effort.relaxed_worth, 1, 0.5}, path, swept);
-  Prune(floor, {goal_cells, effort.worth}, path, swept);
-  Relax(floor, {goal_cells, effort.relaxed_worth, 0.5, 0.5}, path, swept);
-  Prune(floor, {goal_cells, effort.worth}, path, swept);
+  Prune(floor, {goal_cells, effort.worth, 1}, path, swept);
+  if (path.size() < kFewPoints) {
+    Relax(floor, {goal_cells, effort.relaxed_worth, 0.5, 0.5}, path, swept);
+    Prune(floor, {goal_cells, effort.worth, 1}, path, swept);
+  }
   if (PolylineLength(path) * floor.tool_width > kDear * floor.ground_cells) {
     goal_cells = effort.least_goal * floor.ground_cells;
     Prune(floor, {goal_cells, effort.dear_worth}, path, swept);
   }
   path = MergeStraight(path);
   const double lacking = std::max(0.0, goal_cells - swept.swept_cells());
-  const double bends = kBend * floor.tool_width * static_cast<double>(path.size());
+  const double bends = kPointCost * floor.tool_width * static_cast<double>(path.size());
   return {PolylineLength(path) + bends + kLacking * lacking / floor.tool_width,
           swept.swept_cells() >= effort.least_goal * floor.ground_cells};
 }

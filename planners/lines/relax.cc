@@ -4,8 +4,8 @@
 // lies half on its neighbour slides off it, and a link between two rows draws back to where the
 // rows are needed. The steps become finer, and `worth` rises with them to what is asked, so that
 // the cheapest ground is given up first. What did not move and has no neighbour that did is not
-// looked at again before the next step. Not done: changing the order of the points, or their number
-// (prune.h does that).
+// looked at again before the next step. Long legs keep their direction. Not done: changing the
+// order of the points, or their number (prune.h does that).
 #include "planners/lines/relax.h"
 
 #include <algorithm>
@@ -19,10 +19,13 @@ namespace {
 
 constexpr double kLeast = 0.5;       // ground cells: less is not worth a move
 constexpr double kBlocked = -1;      // ground cells: about what a step into a wall would lose
-constexpr double kMostRows = 2.5e6;  // of the grid, looked at in one call before the last pass
+constexpr double kMostRows = 0.3e6;  // of the grid, looked at in one call before the last pass
 constexpr int kMostSteps = 8;        // of a point or leg in one pass
 // What a bend costs, in tool widths of length; less where it is gentler than what counts as a turn.
 constexpr double kBend = 0.1, kTurn = 0.2126;  // tan 12 deg
+
+constexpr double kLong = 6;       // tool widths: a longer leg is not turned
+constexpr double kTurned = 0.02;  // cells, of its end
 
 class Relaxer {
  public:
@@ -53,21 +56,35 @@ class Relaxer {
     return any;
   }
 
-  // Along the leg that ends there, across it, or both.
+  bool IsLong(const Vec2& leg) const { return leg.norm() > kLong * floor_.tool_width; }
+
+  // The leg before point i or the one behind it, whichever is long; the first if both are, or none.
+  Vec2 LongerSide(std::size_t before, std::size_t behind) const {
+    const Vec2 first = path_[before] - path_[before - 1];
+    if (IsLong(first) || behind + 1 >= path_.size()) return first;
+    const Vec2 second = path_[behind + 1] - path_[behind];
+    return IsLong(second) ? second : first;
+  }
+
+  // Along the leg that ends there, or a long one that begins there, across it, or both.
   bool MovePoint(std::size_t i, double step) {
-    const Vec2 leg = path_[i] - path_[i - 1];
+    const Vec2 leg = LongerSide(i, i);
     const double length = leg.norm();
     const Vec2 along = length > 0 ? Vec2(step / length * leg) : Vec2(step, 0);
     return Move(i, i, along, {-along.y(), along.x()});
   }
 
-  // The leg from point i on.
+  // The leg from point i on: along a long leg beside it, or across itself.
   bool MoveLeg(std::size_t i, double step) {
     if (i + 1 >= path_.size()) return false;
-    const Vec2 along = path_[i + 1] - path_[i];
-    const double length = along.norm();
+    const Vec2 leg = path_[i + 1] - path_[i];
+    const double length = leg.norm();
     if (length < 1) return false;
-    return Move(i, i + 1, step / length * Vec2(-along.y(), along.x()), Vec2::Zero());
+    const Vec2 beside = LongerSide(i, i + 1);
+    return Move(i, i + 1,
+                IsLong(beside) && !IsLong(leg) ? Vec2(step / beside.norm() * beside)
+                                               : Vec2(step / length * Vec2(-leg.y(), leg.x())),
+                Vec2::Zero());
   }
 
   // Moves the points from .. to by +-u, +-v (if that is not zero), or one of both, whatever is
@@ -90,7 +107,7 @@ class Relaxer {
     // What is gained; kBlocked where it may not be done.
     const auto look = [&](const Vec2& by) {
       shift(by);
-      if (!Free(chain)) return kBlocked;
+      if (TurnsLongLeg(old, chain) || !Free(chain)) return kBlocked;
       looked_ += rows;
       const int won = exchange_.Won(chain);
       if (won < 0 && swept_.swept_cells() + won < goal_cells_) return kBlocked;
@@ -128,6 +145,15 @@ class Relaxer {
     for (std::size_t i = 1; i < chain.size(); ++i)
       rows += std::abs(chain[i].y() - chain[i - 1].y()) + 2 * floor_.tool_reach;
     return rows;
+  }
+
+  // Rows stay straight: a robot that drives beside a wall or another row drives along it.
+  bool TurnsLongLeg(std::span<const Vec2> old, std::span<const Vec2> fresh) const {
+    for (std::size_t i = 1; i < old.size(); ++i) {
+      const Vec2 was = old[i] - old[i - 1], is = fresh[i] - fresh[i - 1];
+      if (IsLong(was) && std::abs(Cross(was, is)) > kTurned * was.norm()) return true;
+    }
+    return false;
   }
 
   bool Free(std::span<const Vec2> chain) const {

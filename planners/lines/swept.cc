@@ -54,8 +54,8 @@ class Swept::Strip {
  private:
   Cells Within(double low, double high) const {
     if (!(low <= high)) return {};
-    const Cells cells{static_cast<int>(std::ceil(std::max(0.0, low - 0.5))),
-                      std::min(width_ - 1, static_cast<int>(std::floor(high - 0.5)))};
+    const Cells cells{-Floor::Down(-std::max(0.0, low - 0.5)),
+                      std::min(width_ - 1, Floor::Down(high - 0.5))};
     return cells.first <= cells.last ? cells : Cells{};
   }
 

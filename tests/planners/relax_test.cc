@@ -107,6 +107,16 @@ TEST(Relax, ALinkBetweenRowsDrawsBackWhereTheRestIsSwept) {
   EXPECT_GT(out.after, 0.98 * out.before);
 }
 
+// What shortens the path most would be to draw the rows' far ends together.
+TEST(Relax, LongRowsKeepTheirDirection) {
+  const Floor floor = OfDisc(HallWithPillar(), {1, 1});
+  const Polyline rows = Rows(floor, {0.3, 0.55, 0.9, 1.05, 1.4});
+  const Outcome out = Relaxed(floor, rows, 0, 0.8);
+  ASSERT_NE(out.path, rows);
+  for (std::size_t i = 1; i < rows.size(); i += 2)
+    EXPECT_NEAR(out.path[i].y(), out.path[i - 1].y(), 0.5) << i;
+}
+
 TEST(Relax, NeverLeavesLessThanTheGoal) {
   const Floor floor = OfDisc(HallWithPillar(), {1, 1});
   const Polyline rows =
