@@ -76,20 +76,42 @@ bool AddHazards(const HazardMap& map, double step_m, const GridFrame& fine,
   return any;
 }
 
-// Cells of `free` that are 8-connected to `seed`.
-Grid<std::uint8_t> Component(const Grid<std::uint8_t>& free, Cell seed) {
-  Grid<std::uint8_t> out(free.width, free.height);
-  std::vector<Cell> stack = {seed};
-  out(seed) = 1;
+// A cell of a layer of cells.
+struct LayerCell {
+  Cell cell;
+  std::size_t layer;
+};
+
+// The cells of `free` that the seeds are connected to, one layer each: cells of a layer with their
+// 4 neighbours, or with 8, and layers with one another in each cell. Found run by run of free cells
+// in a row.
+std::vector<Grid<std::uint8_t>> Connected(const std::vector<Grid<std::uint8_t>>& free,
+                                          std::vector<LayerCell> seeds, bool diagonal) {
+  std::vector<Grid<std::uint8_t>> out(free.size());
+  for (auto& layer : out) layer = Grid<std::uint8_t>(free[0].width, free[0].height);
+  std::vector<LayerCell>& stack = seeds;  // a cell of each run that is to be filled
   while (!stack.empty()) {
-    const Cell c = stack.back();
+    const auto [c, layer] = stack.back();
     stack.pop_back();
-    for (int iy = std::max(0, c.iy - 1); iy <= std::min(free.height - 1, c.iy + 1); ++iy)
-      for (int ix = std::max(0, c.ix - 1); ix <= std::min(free.width - 1, c.ix + 1); ++ix)
-        if (free(ix, iy) && !out(ix, iy)) {
-          out(ix, iy) = 1;
-          stack.push_back({ix, iy});
-        }
+    const Grid<std::uint8_t>& clear = free[layer];
+    if (out[layer](c)) continue;
+    int first = c.ix, last = c.ix;
+    while (first > 0 && clear(first - 1, c.iy)) --first;
+    while (last + 1 < clear.width && clear(last + 1, c.iy)) ++last;
+    std::fill_n(out[layer].cells.begin() + static_cast<std::ptrdiff_t>(clear.Index(first, c.iy)),
+                last - first + 1, std::uint8_t{1});
+    const auto reach = [&](std::size_t to, int iy, int beside) {
+      if (iy < 0 || iy >= clear.height) return;
+      const int end = std::min(clear.width - 1, last + beside);
+      for (int ix = std::max(0, first - beside); ix <= end; ++ix) {
+        if (!free[to](ix, iy)) continue;
+        if (!out[to](ix, iy)) stack.push_back({{ix, iy}, to});
+        while (ix < end && free[to](ix + 1, iy)) ++ix;
+      }
+    };
+    for (const int iy : {c.iy - 1, c.iy + 1}) reach(layer, iy, diagonal);
+    for (std::size_t other = 0; other < free.size(); ++other)
+      if (other != layer) reach(other, c.iy, 0);
   }
   return out;
 }
@@ -175,31 +197,12 @@ void ReachWithFootprint(const Shape2& clear, const Grid<std::uint8_t>& walls,
                         (!walls(ix, iy) && Fits(built, wall_sums, ix, iy) &&
                          (!hazards || Fits(whole, hazard_sums, ix, iy)));
   }
-  struct State {
-    Cell cell;
-    std::size_t yaw;
-  };
-  std::vector<State> stack;
-  for (std::size_t k = 0; k < layers.size(); ++k) {
-    layers[k] = Grid<std::uint8_t>(walls.width, walls.height);
-    const auto seed = stack.empty() ? ClearCellAt(free[k], start, start_G) : std::nullopt;
-    if (!seed) continue;
-    layers[k](*seed) = 1;
-    stack.push_back({*seed, k});
-  }
-  while (!stack.empty()) {
-    const auto [c, yaw] = stack.back();
-    stack.pop_back();
-    area.reachable(c) = 1;
-    const auto visit = [&](int ix, int iy, std::size_t k) {
-      if (!free[k].Inside(ix, iy) || !free[k](ix, iy) || layers[k](ix, iy)) return;
-      layers[k](ix, iy) = 1;
-      stack.push_back({{ix, iy}, k});
-    };
-    for (const Cell d : {Cell{1, 0}, Cell{-1, 0}, Cell{0, 1}, Cell{0, -1}})
-      visit(c.ix + d.ix, c.iy + d.iy, yaw);
-    for (std::size_t k = 0; k < layers.size(); ++k) visit(c.ix, c.iy, k);
-  }
+  std::vector<LayerCell> seeds;
+  for (std::size_t k = 0; k < free.size() && seeds.empty(); ++k)
+    if (const auto seed = ClearCellAt(free[k], start, start_G)) seeds.push_back({*seed, k});
+  layers = Connected(free, std::move(seeds), false);
+  for (const auto& layer : layers)
+    for (std::size_t i = 0; i < layer.cells.size(); ++i) area.reachable.cells[i] |= layer.cells[i];
 }
 
 // Marks what the tool touches when it stands on the set cells at a multiple of 90 deg.
@@ -253,33 +256,36 @@ ClearanceField ComputeClearance(const HazardMap& map, double step_m) {
   return field;
 }
 
-SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shape2& tool,
-                           double step_m, const Vec2& start_W, Yaws yaws) {
+FloorRoom::FloorRoom(const HazardMap& map, double step_m)
+    : frame_(FineFrame(map.frame)), inset_m_(map.inset_m) {
+  walls_ = WallMask(map, frame_);
+  hazards_ = Grid<std::uint8_t>(walls_.width, walls_.height);
+  any_hazard_ = AddHazards(map, step_m, frame_, hazards_);
+  clearance_m_ = DistanceToSet(walls_, true);
+  const auto inset = static_cast<float>(map.inset_m / frame_.cell_m);
+  for (float& d : clearance_m_.cells) d = d > 0 ? d + inset : 0;
+  if (any_hazard_) {
+    const Grid<float> to_hazard = DistanceToSet(hazards_, false);
+    for (std::size_t i = 0; i < to_hazard.cells.size(); ++i)
+      clearance_m_.cells[i] = std::min(clearance_m_.cells[i], to_hazard.cells[i]);
+  }
+  for (float& d : clearance_m_.cells) d *= static_cast<float>(frame_.cell_m);
+}
+
+SweepArea FloorRoom::Sweepable(const Shape2& clear, const Shape2& tool, const Vec2& start_W,
+                               Yaws yaws) const {
   SweepArea area;
-  area.frame = FineFrame(map.frame);
+  area.frame = frame_;
   const double cell_m = area.frame.cell_m;
   area.reachable = area.sweepable = Grid<std::uint8_t>(area.frame.width, area.frame.height);
-
-  Grid<std::uint8_t> walls = WallMask(map, area.frame);
-  Grid<std::uint8_t> hazards(walls.width, walls.height);
-  const bool any_hazard = AddHazards(map, step_m, area.frame, hazards);
-  const auto inset = static_cast<float>(map.inset_m / cell_m);
-  area.clearance_m = DistanceToSet(walls, true);
-  for (float& d : area.clearance_m.cells) d = d > 0 ? d + inset : 0;
-  if (any_hazard) {
-    const Grid<float> to_hazard = DistanceToSet(hazards, false);
-    for (std::size_t i = 0; i < to_hazard.cells.size(); ++i)
-      area.clearance_m.cells[i] = std::min(area.clearance_m.cells[i], to_hazard.cells[i]);
-  }
-  for (float& d : area.clearance_m.cells) d *= static_cast<float>(cell_m);
-
+  area.clearance_m = clearance_m_;
   const Cell start = area.frame.ToCell(start_W);
   const Vec2 start_G = ToGrid(area.frame, start_W);
   const int turns = yaws == Yaws::kFirst ? 1 : 4;
   std::vector<Grid<std::uint8_t>> layers(static_cast<std::size_t>(turns));
   const bool has_layers = clear.kind == Shape2::Kind::kFootprint;
   if (has_layers) {
-    ReachWithFootprint(clear, walls, any_hazard ? &hazards : nullptr, map.inset_m, start, start_G,
+    ReachWithFootprint(clear, walls_, any_hazard_ ? &hazards_ : nullptr, inset_m_, start, start_G,
                        area, layers);
   } else {
     // The centre of a clear start's cell may be too close to an obstacle, by up to its distance
@@ -288,12 +294,13 @@ SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shap
     if (!area.frame.Inside(start) ||
         static_cast<double>(area.clearance_m(start)) < clear.radius_m - slack_m)
       return area;
-    Grid<std::uint8_t> free(walls.width, walls.height);
+    std::vector<Grid<std::uint8_t>> layer(1, Grid<std::uint8_t>(walls_.width, walls_.height));
+    Grid<std::uint8_t>& free = layer[0];
     const auto least = static_cast<float>(clear.radius_m - kEps * cell_m);
     for (std::size_t i = 0; i < free.cells.size(); ++i)
       free.cells[i] = area.clearance_m.cells[i] >= least && area.clearance_m.cells[i] > 0;
     if (const auto seed = ClearCellAt(free, start, start_G))
-      area.reachable = Component(free, *seed);
+      area.reachable = std::move(Connected(layer, {{*seed, 0}}, true)[0]);
   }
 
   if (tool.kind == Shape2::Kind::kCircle) {
@@ -304,10 +311,15 @@ SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shap
                       cell_m, k, area.sweepable);
   }
   for (std::size_t i = 0; i < area.sweepable.cells.size(); ++i) {
-    if (walls.cells[i] || hazards.cells[i]) area.sweepable.cells[i] = 0;
+    if (walls_.cells[i] || hazards_.cells[i]) area.sweepable.cells[i] = 0;
     area.sweepable_cells += area.sweepable.cells[i];
   }
   return area;
+}
+
+SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shape2& tool,
+                           double step_m, const Vec2& start_W, Yaws yaws) {
+  return FloorRoom(map, step_m).Sweepable(clear, tool, start_W, yaws);
 }
 
 }  // namespace floorproof

@@ -39,15 +39,31 @@ struct SweepArea {
     return static_cast<double>(sweepable_cells) * frame.cell_m * frame.cell_m;
   }
 };
-// `clear` and `tool` are those of RobotSpec, or discs from a plan's radius_m and tool_width_m.
-// Walls are taken as built, that is, drawn back by map.inset_m. A clear footprint is tried at yaws
-// that are multiples of 90 deg in the map's frame, and so is a tool's. A circle moves between 8
-// neighbours, a footprint between 4. The area is empty (sweepable_cells 0) when the start itself is
-// not clear, to within its cell.
 enum class Yaws {
   kQuarters,  // all four
   kFirst,     // the map's own yaw alone: for a footprint that is never turned
 };
+
+// What the sweepable areas of one floor have in common, whatever drives there.
+class FloorRoom {
+ public:
+  // Walls are taken as built, that is, drawn back by map.inset_m.
+  FloorRoom(const HazardMap& map, double step_m);
+  // `clear` and `tool` are those of RobotSpec, or discs from a plan's radius_m and tool_width_m. A
+  // clear footprint is tried at yaws that are multiples of 90 deg in the map's frame, and so is a
+  // tool's. A circle moves between 8 neighbours, a footprint between 4. The area is empty
+  // (sweepable_cells 0) when the start itself is not clear, to within its cell.
+  SweepArea Sweepable(const Shape2& clear, const Shape2& tool, const Vec2& start_W,
+                      Yaws yaws = Yaws::kQuarters) const;
+
+ private:
+  GridFrame frame_;
+  double inset_m_;
+  Grid<std::uint8_t> walls_, hazards_;
+  bool any_hazard_ = false;
+  Grid<float> clearance_m_;
+};
+// Of one robot from one start.
 SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shape2& tool,
                            double step_m, const Vec2& start_W, Yaws yaws = Yaws::kQuarters);
 

@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t kMaxPixels = 64'000'000;
-constexpr std::int64_t kMaxFineCells = 64'000'000;
+// More of them take longer to plan for than anybody waits, and gigabytes (bench_plan_area).
+constexpr double kMaxFineCells = 40e6;
 constexpr int kSaversUnknown = 205;  // the grey that every map_saver writes for unknown
 
 enum class Mode { kTrinary, kScale, kRaw };
@@ -202,8 +203,10 @@ void CheckFloorSize(const GridFrame& frame, const SourceMark& mark, const std::s
     throw InputError(mark, key, FormatDouble(frame.cell_m),
                      "the floor measures " +
                          std::to_string(std::lround(frame.width * frame.cell_m)) + " m x " +
-                         std::to_string(std::lround(frame.height * frame.cell_m)) +
-                         " m; at most 160000 m^2 (64 million cells of 0.05 m) are taken");
+                         std::to_string(std::lround(frame.height * frame.cell_m)) + " m, " +
+                         std::to_string(std::lround(cells / 1e6)) +
+                         " million cells of at most 0.05 m; at most 40 million are taken (100000 "
+                         "m^2 in cells of 0.05 m)");
 }
 
 RosMap ReadRosMap(const fs::path& yaml_path, const InputFiles& files) {

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "planners/lines/held_yaw.h"
 #include "planners/lines/pieces.h"
 #include "planners/lines/prune.h"
+#include "planners/lines/relax.h"
 #include "planners/lines/tour.h"
 #include "planners/lines/uncovered_patches.h"
 #include "planners/lines/wall_contours.h"
@@ -23,13 +25,21 @@ struct Effort {
   double worth;
   double least_goal;  // the same where the floor is dear
   double dear_worth;
-  double least_gain;  // a visit to an uncovered patch sweeps at least this, in width^2
-  double open_share;  // of the tool's width, along walls
+  double least_gain;     // a visit to an uncovered patch sweeps at least this, in width^2
+  double open_share;     // of the tool's width, along walls
+  double relaxed_worth;  // as `worth`, where points and lines are shifted
 };
-constexpr Effort kRowsOnly = {0.96, 0.4, 0.948, 0.7, 0.5, 0.4};
-constexpr Effort kWithEdges = {0.988, 0.25, 0.981, 0.6, 0.3, 0.2};
+constexpr Effort kRowsOnly = {0.965, 0.4, 0.948, 0.7, 0.5, 0.4, 1.05};
+constexpr Effort kWithEdges = {0.989, 0.25, 0.981, 0.6, 0.3, 0.2, 0.4};
 constexpr double kSmall = 0.02;  // of the ground: worth a visit however small
-constexpr int kRounds = 2, kMaxRounds = 4;
+constexpr int kRounds = 2;       // before a path is good enough to be finished
+constexpr int kMaxRounds = 4;    // of a path that leaves too much; later ones visit smaller patches
+// A path of few points is cheap to shift more finely, and to make anew from what the last one left:
+// the best is kept.
+constexpr std::size_t kFewPoints = 1000;
+constexpr int kTriedPoints = 1800, kMostTries = 3;
+constexpr double kPointCost = 0.15;    // tool widths
+constexpr double kLacking = 3;         // what ground below the goal costs, in rows over it
 constexpr double kDear = 1.25;         // length above this many times ground / width
 constexpr double kLapShare = 0.4;      // of the tool's width open: a lap along a wall pays
 constexpr double kFirstWorth = 0.15;   // before a path is taken apart: only what is plainly lost
@@ -73,6 +83,33 @@ std::string WhyNothing(const PlanRequest& request, const SweepArea& area, const 
   return out.str();
 }
 
+struct Outcome {
+  double cost;  // its length and bends, and what it would take to sweep the ground that lacks
+  bool enough;  // is swept
+};
+
+// Shortens a path to what is worth its length.
+Outcome Finish(const Floor& floor, const Effort& effort, Polyline& path) {
+  double goal_cells = effort.goal * floor.ground_cells;
+  Swept swept(floor);
+  swept.Add(path);
+  Relax(floor, {goal_cells, effort.relaxed_worth, 1, 0.5}, path, swept);
+  Prune(floor, {goal_cells, effort.worth, 1}, path, swept);
+  if (path.size() < kFewPoints) {
+    Relax(floor, {goal_cells, effort.relaxed_worth, 0.5, 0.5}, path, swept);
+    Prune(floor, {goal_cells, effort.worth, 1}, path, swept);
+  }
+  if (PolylineLength(path) * floor.tool_width > kDear * floor.ground_cells) {
+    goal_cells = effort.least_goal * floor.ground_cells;
+    Prune(floor, {goal_cells, effort.dear_worth}, path, swept);
+  }
+  path = MergeStraight(path);
+  const double lacking = std::max(0.0, goal_cells - swept.swept_cells());
+  const double bends = kPointCost * floor.tool_width * static_cast<double>(path.size());
+  return {PolylineLength(path) + bends + kLacking * lacking / floor.tool_width,
+          swept.swept_cells() >= effort.least_goal * floor.ground_cells};
+}
+
 Polyline Drive(ShortestPaths& paths, const Vec2& start, const std::vector<Polyline>& lines,
                bool thorough) {
   std::vector<Polyline> ordered = {{start}};
@@ -101,6 +138,7 @@ Polyline CoveragePlanner::Sweep(const Floor& floor, const Vec2& start, double sh
   Effort effort = edges_ ? kWithEdges : kRowsOnly;
   effort.goal = std::min(kMaxGoal, effort.goal + shortfall);
   effort.least_goal = std::min(kMaxGoal, effort.least_goal + shortfall);
+  const double goal_cells = effort.goal * floor.ground_cells;
   const double w = floor.tool_width;
   ShortestPaths paths(floor);
   const std::vector<Polyline> walls = Contours(floor, PoseDepth(floor), 0);
@@ -113,29 +151,35 @@ Polyline CoveragePlanner::Sweep(const Floor& floor, const Vec2& start, double sh
   for (Polyline& line : Lines(floor, covered, figures)) lines.push_back(std::move(line));
   Polyline path = Drive(paths, start, lines, false);
 
-  for (int round = 1; round <= kMaxRounds; ++round) {
+  Polyline best;
+  double best_cost = std::numeric_limits<double>::infinity();
+  for (int round = 1, tries = 1; tries > 0; ++round) {
     Swept swept(floor);
     swept.Add(path);
-    if (round > kRounds && swept.share() >= effort.least_goal) break;
-    Prune(floor, {effort.goal * floor.ground_cells, kFirstWorth, 1}, path, swept);
+    Prune(floor, {goal_cells, kFirstWorth, 1}, path, swept);
+    if (round >= kRounds) Relax(floor, {goal_cells, effort.relaxed_worth, 2, 1}, path, swept);
     std::vector<Polyline> pieces = WorkingPieces(floor, path, kWorkingShare, swept);
-    const double min_gain =
-        std::min(effort.least_gain * w * w, kSmall * floor.ground_cells) / round;
+    const int care = std::min(round, kMaxRounds);
+    const double min_gain = std::min(effort.least_gain * w * w, kSmall * floor.ground_cells) / care;
     std::vector<Polyline> rest =
-        OpenParts(floor, walls, effort.open_share / round, min_gain, kWallTolerance, swept);
+        OpenParts(floor, walls, effort.open_share / care, min_gain, kWallTolerance, swept);
     for (Polyline& line : LinesOverUncoveredPatches(floor, paths, min_gain, swept))
       rest.push_back(std::move(line));
     CutBeside(floor, rest, kCutReach * w, pieces);
     for (Polyline& line : rest) pieces.push_back(std::move(line));
     path = Drive(paths, start, pieces, round >= kRounds);
-  }
+    if (round < kRounds) continue;
 
+    if (round == kRounds)
+      tries = std::clamp(kTriedPoints / static_cast<int>(path.size()), 1, kMostTries);
+    const Outcome outcome = Finish(floor, effort, path);
+    if (outcome.cost < best_cost) best_cost = outcome.cost, best = path;
+    --tries;
+    if (tries == 0 && !outcome.enough && round < kMaxRounds) tries = 1;
+  }
+  path = best;
   Swept swept(floor);
   swept.Add(path);
-  Prune(floor, {effort.goal * floor.ground_cells, effort.worth}, path, swept);
-  if (PolylineLength(path) * w > kDear * floor.ground_cells)
-    Prune(floor, {effort.least_goal * floor.ground_cells, effort.dear_worth}, path, swept);
-  path = MergeStraight(path);
 
   const double cell_m = floor.frame.cell_m;
   double working = 0;
@@ -164,8 +208,8 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
     return result;
   }
   const HeldShapes held = HoldYaw(request.map, request.start, result.clear, result.tool);
-  SweepArea area = ComputeSweepArea(request.map, held.clear, held.tool, request.robot.step_m,
-                                    request.start.p(), held.yaws);
+  const FloorRoom room(request.map, request.robot.step_m);
+  SweepArea area = room.Sweepable(held.clear, held.tool, request.start.p(), held.yaws);
   if (area.sweepable_cells == 0) {
     const bool fits = std::find(area.reachable.cells.begin(), area.reachable.cells.end(), 1) !=
                       area.reachable.cells.end();
@@ -178,8 +222,8 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
   double margin_m = margin_m_.value_or(radius_m_ ? 0.0 : (circle ? kMargin_m : kFootprintMargin_m));
   double shortfall = 0;
   for (; margin_m > 0; margin_m = margin_m > kMargin_m / 4 ? margin_m / 2 : 0) {
-    SweepArea roomy = ComputeSweepArea(request.map, Grown(held.clear, margin_m), held.tool,
-                                       request.robot.step_m, request.start.p(), held.yaws);
+    SweepArea roomy =
+        room.Sweepable(Grown(held.clear, margin_m), held.tool, request.start.p(), held.yaws);
     const double lost =
         1 - static_cast<double>(roomy.sweepable_cells) / static_cast<double>(area.sweepable_cells);
     if (lost > kMaxLost) continue;

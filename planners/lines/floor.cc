@@ -31,7 +31,7 @@ Polyline MergeStraight(const Polyline& line) {
 
 double Floor::MarginAt(const Vec2& p) const {
   const double x = p.x() - 0.5, y = p.y() - 0.5;
-  const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y));
+  const int ix = Down(x), iy = Down(y);
   if (ix < 0 || iy < 0 || ix + 1 >= margin.width || iy + 1 >= margin.height) return -1;
   const float* row = &margin.cells[margin.Index(ix, iy)];
   const float* above = row + margin.width;

@@ -36,7 +36,12 @@ struct Floor {
   Vec2 ToCells(const Vec2& p_W) const { return frame.X_WG.Inverse() * p_W / frame.cell_m; }
   Vec2 ToWorld(const Vec2& p) const { return frame.X_WG * (p * frame.cell_m); }
   static Cell CellAt(const Vec2& p) {
-    return {static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y()))};
+    return {Down(p.x()), Down(p.y())};
+  }
+  // As std::floor, which is a call where the processor is any x86-64.
+  static int Down(double x) {
+    const int i = static_cast<int>(x);
+    return i - (x < i);
   }
   static Vec2 CentreOf(Cell c) { return {c.ix + 0.5, c.iy + 0.5}; }
 

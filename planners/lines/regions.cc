@@ -15,8 +15,8 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <set>
-#include <tuple>
+#include <queue>
+#include <utility>
 
 #include "planners/search/index.h"
 
@@ -69,7 +69,8 @@ struct Block {
 struct Blocks {
   int size = 1;  // cells a side
   Grid<Block> grid;
-  std::map<std::pair<int, int>, double> contact;  // cells of common border, by indices a < b
+  // Cells of common border with the block to the right, and with the one above.
+  Grid<int> right, above;
   int At(int ix, int iy) const { return iy / size * grid.width + ix / size; }
 };
 
@@ -107,16 +108,17 @@ void AddChordCosts(const Floor& floor, double direction_rad, double link, std::s
 Blocks MakeBlocks(const Floor& floor) {
   Blocks blocks;
   blocks.size = std::max(2, static_cast<int>(std::lround(0.4 / floor.frame.cell_m)));
-  blocks.grid = Grid<Block>((floor.frame.width + blocks.size - 1) / blocks.size,
-                            (floor.frame.height + blocks.size - 1) / blocks.size);
+  const int w = (floor.frame.width + blocks.size - 1) / blocks.size;
+  const int h = (floor.frame.height + blocks.size - 1) / blocks.size;
+  blocks.grid = Grid<Block>(w, h);
+  blocks.right = blocks.above = Grid<int>(w, h);
   for (int iy = 0; iy < floor.frame.height; ++iy)
     for (int ix = 0; ix < floor.frame.width; ++ix) {
       if (!floor.pose(ix, iy)) continue;
-      const int b = blocks.At(ix, iy);
-      ++blocks.grid.cells[Z(b)].cells;
-      for (const Cell n : {Cell{ix + 1, iy}, Cell{ix, iy + 1}})
-        if (floor.pose(n) && blocks.At(n.ix, n.iy) != b)
-          blocks.contact[{b, blocks.At(n.ix, n.iy)}] += 1;
+      const std::size_t b = Z(blocks.At(ix, iy));
+      ++blocks.grid.cells[b].cells;
+      if ((ix + 1) % blocks.size == 0) blocks.right.cells[b] += floor.pose(ix + 1, iy);
+      if ((iy + 1) % blocks.size == 0) blocks.above.cells[b] += floor.pose(ix, iy + 1);
     }
   return blocks;
 }
@@ -133,38 +135,50 @@ class Merger {
     std::iota(parent_.begin(), parent_.end(), 0);
     cost_.reserve(parent_.size());
     for (const Block& b : blocks.grid.cells) cost_.push_back(b.cost);
+    std::vector<std::size_t> direction;
+    for (const Costs& cost : cost_) direction.push_back(BestOf(cost, n_));
+    ForEachBorder(blocks, [&](int a, int b, int) {
+      if (direction[Z(a)] == direction[Z(b)]) Join(Root(a), Root(b));
+    });
     border_.resize(parent_.size());
-    for (const auto& [pair, length] : blocks.contact) {
-      border_[Z(pair.first)][pair.second] = length;
-      border_[Z(pair.second)][pair.first] = length;
-    }
+    ForEachBorder(blocks, [&](int a, int b, int length) {
+      const int p = Root(a), q = Root(b);
+      if (p == q) return;
+      border_[Z(p)][q] += length;
+      border_[Z(q)][p] += length;
+    });
   }
 
   void Run() {
-    std::set<std::tuple<double, int, int>> queue;  // best saving first, ties by index
-    for (std::size_t a = 0; a < border_.size(); ++a)
-      for (const auto& [b, length] : border_[a])
-        if (static_cast<int>(a) < b)
-          queue.insert({-Saving(static_cast<int>(a), b), static_cast<int>(a), b});
-    while (!queue.empty()) {
-      const auto [negative, a, b] = *queue.begin();
-      if (negative >= 0) break;
-      for (const int r : {a, b})
-        for (const auto& [c, length] : border_[Z(r)])
-          queue.erase({-Saving(std::min(r, c), std::max(r, c)), std::min(r, c), std::max(r, c)});
-      Merge(a, b);
-      for (const auto& [c, length] : border_[Z(a)])
-        queue.insert({-Saving(std::min(a, c), std::max(a, c)), std::min(a, c), std::max(a, c)});
+    for (int a = 0; a < static_cast<int>(border_.size()); ++a)
+      for (const auto& [b, length] : border_[Z(a)])
+        if (a < b) Offer(a, b);
+    while (!queue_.empty()) {
+      const auto [saving, a, b] = queue_.top();
+      queue_.pop();
+      if (!border_[Z(a)].contains(b)) continue;  // one of them is part of another now
+      if (const double now = Saving(a, b); now < saving) {
+        if (now > 0) queue_.push({now, a, b});
+      } else {
+        Merge(a, b);
+      }
     }
   }
 
-  int Root(int a) const {
-    while (parent_[Z(a)] != a) a = parent_[Z(a)];
+  int Root(int a) {
+    while (parent_[Z(a)] != a) a = parent_[Z(a)] = parent_[Z(parent_[Z(a)])];
     return a;
   }
   std::size_t Direction(int root) const { return BestOf(cost_[Z(root)], n_); }
 
  private:
+  template <class Use>
+  static void ForEachBorder(const Blocks& blocks, const Use& use) {
+    for (int b = 0; b < static_cast<int>(blocks.grid.cells.size()); ++b) {
+      if (const int length = blocks.right.cells[Z(b)]) use(b, b + 1, length);
+      if (const int length = blocks.above.cells[Z(b)]) use(b, b + blocks.grid.width, length);
+    }
+  }
   double Saving(int a, int b) const {
     const Costs &ca = cost_[Z(a)], &cb = cost_[Z(b)];
     double apart_a = ca[0], apart_b = cb[0], together = ca[0] + cb[0];
@@ -174,27 +188,48 @@ class Merger {
     }
     return border_cost_ * border_[Z(a)].at(b) + apart_a + apart_b - together;
   }
+  // The part's costs are the whole's.
+  void Join(int whole, int part) {
+    if (whole == part) return;
+    parent_[Z(part)] = whole;
+    for (std::size_t k = 0; k < n_; ++k) cost_[Z(whole)][k] += cost_[Z(part)][k];
+  }
+  void Offer(int a, int b) {
+    if (const double saving = Saving(a, b); saving > 0)
+      queue_.push({saving, std::min(a, b), std::max(a, b)});
+  }
+  // Neighbours of the smaller part alone are offered anew: what merging with the others saves is
+  // looked at when their turn comes.
   void Merge(int a, int b) {
+    if (border_[Z(a)].size() < border_[Z(b)].size()) std::swap(a, b);
     auto& into = border_[Z(a)];
-    auto& from = border_[Z(b)];
-    parent_[Z(b)] = a;
-    for (std::size_t k = 0; k < n_; ++k) cost_[Z(a)][k] += cost_[Z(b)][k];
     into.erase(b);
-    from.erase(a);
+    border_[Z(b)].erase(a);
+    Join(a, b);
+    const auto from = std::exchange(border_[Z(b)], {});
     for (const auto& [c, length] : from) {
-      into[c] += length;
       auto& back = border_[Z(c)];
       back.erase(b);
-      back[a] += length;
+      back[a] = into[c] += length;
+      Offer(a, c);
     }
-    from.clear();
   }
+
+  struct Offered {
+    double saving;
+    int a, b;
+    bool operator<(const Offered& other) const {  // the greatest saving first, ties by index
+      return saving != other.saving ? saving < other.saving
+                                    : std::pair(a, b) > std::pair(other.a, other.b);
+    }
+  };
 
   std::size_t n_;
   double border_cost_;
   std::vector<int> parent_;
   std::vector<Costs> cost_;
   std::vector<std::map<int, double>> border_;
+  std::priority_queue<Offered> queue_;
 };
 
 }  // namespace

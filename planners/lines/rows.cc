@@ -17,84 +17,88 @@ namespace {
 constexpr double kRoughStep = 1.0, kFineStep = 0.5;  // cells along a row, to compare and to make
 constexpr double kUncovered = 2;  // cost of ground swept later, in rows over the same ground
 
-struct Box {
+// A region's extent along its direction and across.
+struct Extent {
+  Vec2 along, across;
   double u0 = std::numeric_limits<double>::infinity(), u1 = -u0, v0 = u0, v1 = -u0;
 };
 
-// One region's cells and what of it a row needs to visit.
+std::vector<Extent> Extents(const Regions& regions) {
+  std::vector<Extent> extents;
+  for (const double yaw : regions.direction_rad) {
+    Extent& extent = extents.emplace_back();
+    extent.along = {std::cos(yaw), std::sin(yaw)};
+    extent.across = {-extent.along.y(), extent.along.x()};
+  }
+  for (int iy = 0; iy < regions.label.height; ++iy)
+    for (int ix = 0; ix < regions.label.width; ++ix) {
+      const std::int32_t label = regions.label(ix, iy);
+      if (label < 0) continue;
+      Extent& extent = extents[Z(label)];
+      const Vec2 p = Floor::CentreOf({ix, iy});
+      const double u = p.dot(extent.along), v = p.dot(extent.across);
+      extent.u0 = std::min(extent.u0, u), extent.u1 = std::max(extent.u1, u);
+      extent.v0 = std::min(extent.v0, v), extent.v1 = std::max(extent.v1, v);
+    }
+  return extents;
+}
+
+// What of a region a row needs to visit.
 class RegionRows {
  public:
   RegionRows(const Floor& floor, const Regions& regions, int region, const Swept* swept,
-             const std::vector<Cell>& cells)
-      : floor_(floor), regions_(regions), region_(region), swept_(swept), cells_(cells) {}
+             const Extent& extent)
+      : floor_(floor), regions_(regions), region_(region), swept_(swept), extent_(extent) {}
 
   // Calls use(a, b, line) for each row.
   template <class Use>
-  void ForEach(double direction_rad, double spacing, double offset, double step,
-               const Use& use) const {
-    const Vec2 along(std::cos(direction_rad), std::sin(direction_rad)),
-        across(-along.y(), along.x());
-    const Box box = Bounds(along, across);
-    const int first = static_cast<int>(std::ceil((box.v0 - offset) / spacing));
-    const int last = static_cast<int>(std::floor((box.v1 - offset) / spacing));
+  void ForEach(double spacing, double offset, double step, const Use& use) const {
+    const int first = static_cast<int>(std::ceil((extent_.v0 - offset) / spacing));
+    const int last = static_cast<int>(std::floor((extent_.v1 - offset) / spacing));
     for (int line = first; line <= last; ++line) {
-      const Vec2 base = (offset + line * spacing) * across;
+      const Vec2 base = (offset + line * spacing) * extent_.across;
+      const auto at = [&](double u) { return Vec2(base + u * extent_.along); };
       bool in = false;
       double from = 0, to = 0;
-      for (double u = box.u0; u <= box.u1 + step; u += step) {
-        const Vec2 p = base + u * along;
-        if (NeedsRow(p, across, step < 1)) {
+      for (double u = extent_.u0; u <= extent_.u1 + step; u += step) {
+        if (NeedsRow(at(u), step < 1)) {
           if (!in) from = u;
           in = true;
           to = u;
         } else if (in) {
-          use(Vec2(base + from * along), Vec2(base + to * along), line);
+          use(at(from), at(to), line);
           in = false;
         }
       }
-      if (in) use(Vec2(base + from * along), Vec2(base + to * along), line);
+      if (in) use(at(from), at(to), line);
     }
-  }
-
-  Box Bounds(const Vec2& along, const Vec2& across) const {
-    Box box;
-    for (const Cell c : cells_) {
-      const Vec2 p = Floor::CentreOf(c);
-      box.u0 = std::min(box.u0, p.dot(along)), box.u1 = std::max(box.u1, p.dot(along));
-      box.v0 = std::min(box.v0, p.dot(across)), box.v1 = std::max(box.v1, p.dot(across));
-    }
-    return box;
   }
 
  private:
-  bool NeedsRow(const Vec2& p, const Vec2& across, bool exact) const {
+  bool NeedsRow(const Vec2& p, bool exact) const {
     const Cell c = Floor::CellAt(p);
     if (!floor_.pose.Inside(c) || regions_.label(c) != region_) return false;
     if (exact && !floor_.Free(p, floor_.tolerance)) return false;
     if (!swept_) return true;
-    return swept_->OpenShareAcross(p, across) > 0;
+    return swept_->OpenShareAcross(p, extent_.across) > 0;
   }
 
   const Floor& floor_;
   const Regions& regions_;
   int region_;
   const Swept* swept_;
-  const std::vector<Cell>& cells_;
+  const Extent& extent_;
 };
 
 }  // namespace
 
 std::vector<Row> MakeRows(const Floor& floor, const Regions& regions, const RowOptions& options,
                           const Swept* swept) {
-  std::vector<std::vector<Cell>> cells(regions.direction_rad.size());
-  for (int iy = 0; iy < floor.frame.height; ++iy)
-    for (int ix = 0; ix < floor.frame.width; ++ix)
-      if (const auto label = regions.label(ix, iy); label >= 0) cells[Z(label)].push_back({ix, iy});
-
+  const std::vector<Extent> extents = Extents(regions);
   std::vector<Row> rows;
   const double w = floor.tool_width;
-  for (std::size_t region = 0; region < cells.size(); ++region) {
-    const RegionRows maker(floor, regions, static_cast<int>(region), swept, cells[region]);
+  for (std::size_t region = 0; region < extents.size(); ++region) {
+    const RegionRows maker(floor, regions, static_cast<int>(region), swept, extents[region]);
     double best = -std::numeric_limits<double>::infinity(), best_spacing = 0, best_offset = 0;
     for (const double narrow : {1.0, 0.96, 0.92, 0.88}) {
       const double spacing = options.spacing * narrow;
@@ -102,16 +106,15 @@ std::vector<Row> MakeRows(const Floor& floor, const Regions& regions, const RowO
       for (int i = 0; i < kOffsets; ++i) {
         const double offset = spacing * i / kOffsets;
         double value = 0;
-        maker.ForEach(regions.direction_rad[region], spacing, offset, kRoughStep,
-                      [&](const Vec2& a, const Vec2& b, int) {
-                        const double length = (b - a).norm();
-                        const double ground = length * std::min(spacing, w) + kPi / 4 * w * w;
-                        value += kUncovered * ground / w - length - options.link;
-                      });
+        maker.ForEach(spacing, offset, kRoughStep, [&](const Vec2& a, const Vec2& b, int) {
+          const double length = (b - a).norm();
+          const double ground = length * std::min(spacing, w) + kPi / 4 * w * w;
+          value += kUncovered * ground / w - length - options.link;
+        });
         if (value > best) best = value, best_spacing = spacing, best_offset = offset;
       }
     }
-    maker.ForEach(regions.direction_rad[region], best_spacing, best_offset, kFineStep,
+    maker.ForEach(best_spacing, best_offset, kFineStep,
                   [&](const Vec2& a, const Vec2& b, int line) {
                     rows.push_back({a, b, static_cast<int>(region), line});
                   });

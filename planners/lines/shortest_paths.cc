@@ -65,8 +65,11 @@ ShortestPaths::ShortestPaths(const Floor& floor)
 // Cuts the floor into the connected pieces of square blocks, which grow until there are few enough
 // pieces for the table.
 void ShortestPaths::NameBlocks() {
+  const auto cells = static_cast<std::size_t>(
+      std::count(coarse_.cells.begin(), coarse_.cells.end(), std::uint8_t{1}));
   int side = 8;  // coarse cells a block
   for (;; side = side * 3 / 2) {
+    if (cells > kMaxBlocks * Z(side) * Z(side)) continue;  // too many blocks, whatever their shape
     block_of_ = Grid<std::int32_t>(coarse_.width, coarse_.height, -1);
     block_at_.clear();
     std::vector<Cell> stack;
@@ -246,30 +249,78 @@ void ShortestPaths::IndexPlaces(const std::vector<Vec2>& places) {
   places_ = places;
   place_cell_.clear();
   for (const Vec2& p : places) place_cell_.push_back(CoarseAt(p));
-  first_place_.assign(coarse_.cells.size() + 1, 0);
-  for (const int c : place_cell_) ++first_place_[Z(c) + 1];
-  std::partial_sum(first_place_.begin(), first_place_.end(), first_place_.begin());
-  place_list_.resize(places.size());
-  std::vector<int> next = first_place_;
-  for (std::size_t i = 0; i < places.size(); ++i)
-    place_list_[Z(next[Z(place_cell_[i])]++)] = static_cast<int>(i);
+  on_coarse_.Fill(coarse_.cells.size(), place_cell_);
+
+  // About two places a square, were they spread over the whole floor.
+  const double w = floor_.frame.width, h = floor_.frame.height;
+  square_ = std::max(1.0, std::sqrt(2 * w * h / std::max(1.0, static_cast<double>(places.size()))));
+  squares_ = Grid<char>(static_cast<int>(w / square_) + 1, static_cast<int>(h / square_) + 1);
+  std::vector<int> square_of;
+  for (const Vec2& p : places) square_of.push_back(NumberOf(squares_, SquareAt(p)));
+  on_squares_.Fill(squares_.cells.size(), square_of);
 }
 
-// Dijkstra's search. All places at the distance of the last one are found.
-std::vector<ShortestPaths::Near> ShortestPaths::NearestPlaces(int place, std::size_t count) {
-  std::vector<Near> found;
+Cell ShortestPaths::SquareAt(const Vec2& p) const {
+  return {std::clamp(static_cast<int>(p.x() / square_), 0, squares_.width - 1),
+          std::clamp(static_cast<int>(p.y() / square_), 0, squares_.height - 1)};
+}
+
+// In plain sight, by the straight line. `hidden`: whether a place that is none of them is as near.
+std::vector<ShortestPaths::Near> ShortestPaths::NearestInSight(int place, std::size_t count,
+                                                               bool& hidden) const {
+  constexpr std::size_t kMost = 8;  // times as many places are looked at
   const Vec2& a = places_[Z(place)];
+  const Cell middle = SquareAt(a);
+  std::vector<Near> near, found;
+  std::size_t looked = 0;
+  hidden = false;
+  for (int ring = 0; ring <= std::max(squares_.width, squares_.height); ++ring) {
+    for (int iy = middle.iy - ring; iy <= middle.iy + ring; ++iy)
+      for (int ix = middle.ix - ring; ix <= middle.ix + ring; ++ix) {
+        const bool on_ring = std::abs(iy - middle.iy) == ring || std::abs(ix - middle.ix) == ring;
+        if (!on_ring || !squares_.Inside(ix, iy)) continue;
+        for (const int other : on_squares_.Of(NumberOf(squares_, {ix, iy})))
+          if (other != place) near.push_back({(places_[Z(other)] - a).norm(), other});
+      }
+    std::sort(near.begin(), near.end(), [](const Near& p, const Near& q) {
+      return p.distance != q.distance ? p.distance < q.distance : p.place < q.place;
+    });
+    // Nothing that is nearer than this lies beyond the ring.
+    const double whole = ring * square_;
+    for (; looked < near.size() && near[looked].distance < whole; ++looked) {
+      if (found.size() == count || looked == kMost * count) return found;
+      if (floor_.Sees(a, places_[Z(near[looked].place)])) {
+        found.push_back(near[looked]);
+      } else {
+        hidden = true;
+      }
+    }
+  }
+  return found;
+}
+
+// The straight line is the shortest way to what is in plain sight, and no way is shorter. So the
+// nearest places are known once so many are seen, unless one as near is hidden. Then ways are
+// looked for, by Dijkstra's search: to all places at the distance of the last one, or, where many
+// are seen anyway, not farther than is soon done.
+std::vector<ShortestPaths::Near> ShortestPaths::NearestPlaces(int place, std::size_t count) {
+  constexpr std::int64_t kSoon = 2000;  // coarse cells
+  bool hidden = false;
+  const std::vector<Near> seen = NearestInSight(place, count, hidden);
+  const bool many = seen.size() == count;
+  if (many && !hidden) return seen;
+  std::vector<Near> found;
   int cost = 0;
   place_search_.Begin();
   place_search_.Reach(place_cell_[Z(place)], 0);
   place_search_.Run(
       [&](const auto& at) {
         if (at.cost > cost && found.size() >= count) return true;
+        if (many && place_search_.pops() > kSoon) return true;
         cost = at.cost;
-        for (int k = first_place_[Z(at.node)]; k < first_place_[Z(at.node) + 1]; ++k) {
-          const int other = place_list_[Z(k)];
+        for (const int other : on_coarse_.Of(at.node)) {
           if (other == place) continue;
-          const Vec2& b = places_[Z(other)];
+          const Vec2 &a = places_[Z(place)], &b = places_[Z(other)];
           const double straight = (b - a).norm();
           const double way = static_cast<double>(cost) / kStraight * step_;
           found.push_back({floor_.Sees(a, b) ? straight : std::max(straight, way), other});
@@ -284,6 +335,13 @@ std::vector<ShortestPaths::Near> ShortestPaths::NearestPlaces(int place, std::si
             reach(NumberOf(coarse_, n), at.cost + (IsDiagonal(d) ? kDiagonal : kStraight));
         }
       });
+  const std::size_t ways = found.size();
+  for (const Near& one : seen) {
+    if (found.size() >= count) break;
+    const auto end = found.begin() + static_cast<std::ptrdiff_t>(ways);
+    if (std::none_of(found.begin(), end, [&](const Near& f) { return f.place == one.place; }))
+      found.push_back(one);
+  }
   return found;
 }
 

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <numeric>
+#include <span>
 #include <vector>
 
 #include "planners/lines/floor.h"
 #include "planners/search/best_first.h"
+#include "planners/search/index.h"
 
 namespace floorproof {
 
@@ -33,11 +36,34 @@ class ShortestPaths {
   Cell NearestPose(const Vec2& p, double reach) const;
 
  private:
+  // Numbers of places, by the cell of some grid that they lie in.
+  class PlacesBy {
+   public:
+    // cell_of: of each place.
+    void Fill(std::size_t cells, const std::vector<int>& cell_of) {
+      first_.assign(cells + 1, 0);
+      for (const int c : cell_of) ++first_[Z(c) + 1];
+      std::partial_sum(first_.begin(), first_.end(), first_.begin());
+      list_.resize(cell_of.size());
+      std::vector<int> next = first_;
+      for (std::size_t i = 0; i < cell_of.size(); ++i)
+        list_[Z(next[Z(cell_of[i])]++)] = static_cast<int>(i);
+    }
+    std::span<const int> Of(int cell) const {
+      return std::span(list_).subspan(Z(first_[Z(cell)]), Z(first_[Z(cell) + 1] - first_[Z(cell)]));
+    }
+
+   private:
+    std::vector<int> first_, list_;
+  };
+
   static constexpr int kStraight = 5, kDiagonal = 7;  // costs of steps, for NearestPlaces
 
   std::vector<Cell> Search(Cell from, Cell to);
   double CoarseDistance(int from, int to);
   int CoarseAt(const Vec2& p) const;
+  Cell SquareAt(const Vec2& p) const;
+  std::vector<Near> NearestInSight(int place, std::size_t count, bool& hidden) const;
   void NameBlocks();
   void BuildBlocks();
 
@@ -51,8 +77,10 @@ class ShortestPaths {
 
   BestFirstSearch<int, BucketFrontier<kDiagonal + 1>> place_search_;  // over coarse cells
   std::vector<Vec2> places_;
-  std::vector<int> place_cell_;                // coarse cell of each place
-  std::vector<int> first_place_, place_list_;  // places by coarse cell
+  std::vector<int> place_cell_;  // coarse cell of each place
+  double square_ = 1;            // side, cells
+  Grid<char> squares_;           // their frame
+  PlacesBy on_coarse_, on_squares_;
 
   int block_ = 16;               // fine cells a block
   Grid<std::int32_t> block_of_;  // per coarse cell: the connected piece of a block it is in

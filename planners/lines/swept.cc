@@ -5,15 +5,99 @@
 #include "planners/lines/swept.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <optional>
+
+#include "planners/search/index.h"
 
 namespace floorproof {
 namespace {
 
-constexpr int kTile = 16;      // cells
-constexpr double kRim = 1e-6;  // cells: the rim counts, as in ComputeSweepArea
+constexpr int kTile = 16;                     // cells
+constexpr std::uint16_t kNoGround = 1 << 15;  // more than ever lies over a cell
+constexpr double kRim = 1e-6;                 // cells: the rim counts, as in ComputeSweepArea
 
 }  // namespace
+
+// The cells under the tool while it moves straight from a to b, row by row.
+class Swept::Strip {
+ public:
+  Strip(const Layer& layer, const Vec2& from, const Vec2& to) : width_(layer.count.width) {
+    // One order for both ways, so that what was added one way can be taken back the other.
+    const bool swap = to.x() < from.x() || (to.x() == from.x() && to.y() < from.y());
+    a_ = swap ? to : from, b_ = swap ? from : to;
+    first_row_ = std::max(0, static_cast<int>(std::min(a_.y(), b_.y()) - layer.reach - 1));
+    last_row_ = std::min(layer.count.height - 1,
+                         static_cast<int>(std::max(a_.y(), b_.y()) + layer.reach + 1));
+    if (!layer.tool.empty()) {
+      for (const Vec2& p : layer.tool) hull_.push_back(a_ + p), hull_.push_back(b_ + p);
+      hull_ = ConvexHull(hull_);
+      return;
+    }
+    // The strip between the ends has two long sides, offset by +-side; its short ones lie within
+    // the discs. Where a row crosses a long side: x = a.x + side.x + (y - a.y - side.y) * slope.
+    r_ = layer.reach + kRim;
+    const Vec2 way = b_ - a_;
+    const double length = way.norm();
+    if (length > 0) side_ = Vec2(-way.y() / length * r_, way.x() / length * r_);
+    slope_ = way.y() != 0 ? way.x() / way.y() : 0;
+  }
+
+  int first_row() const { return first_row_; }
+  int last_row() const { return last_row_; }
+  Cells At(int iy) const {
+    if (iy < first_row_ || iy > last_row_) return {};
+    return hull_.empty() ? Capsule(iy + 0.5) : Hull(iy + 0.5);
+  }
+
+ private:
+  Cells Within(double low, double high) const {
+    if (!(low <= high)) return {};
+    const Cells cells{-Floor::Down(-std::max(0.0, low - 0.5)),
+                      std::min(width_ - 1, Floor::Down(high - 0.5))};
+    return cells.first <= cells.last ? cells : Cells{};
+  }
+
+  Cells Capsule(double y) const {
+    const double da = y - a_.y(), db = y - b_.y();
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    if (const double h2 = r_ * r_ - da * da; h2 >= 0) {
+      const double h = std::sqrt(h2);
+      low = a_.x() - h, high = a_.x() + h;
+    }
+    if (const double h2 = r_ * r_ - db * db; h2 >= 0) {
+      const double h = std::sqrt(h2);
+      low = std::min(low, b_.x() - h), high = std::max(high, b_.x() + h);
+    }
+    if ((da <= side_.y()) != (db <= side_.y())) {
+      const double x = a_.x() + side_.x() + (da - side_.y()) * slope_;
+      low = std::min(low, x), high = std::max(high, x);
+    }
+    if ((da <= -side_.y()) != (db <= -side_.y())) {
+      const double x = a_.x() - side_.x() + (da + side_.y()) * slope_;
+      low = std::min(low, x), high = std::max(high, x);
+    }
+    return Within(low, high);
+  }
+
+  Cells Hull(double y) const {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t k = 0; k < hull_.size(); ++k) {
+      const Vec2 &p = hull_[k], &q = hull_[(k + 1) % hull_.size()];
+      if ((p.y() <= y) == (q.y() <= y)) continue;
+      const double x = p.x() + (y - p.y()) / (q.y() - p.y()) * (q.x() - p.x());
+      low = std::min(low, x), high = std::max(high, x);
+    }
+    return Within(low - kRim, high + kRim);
+  }
+
+  int width_, first_row_ = 0, last_row_ = -1;
+  Vec2 a_, b_;
+  double r_ = 0, slope_ = 0;
+  Vec2 side_ = Vec2::Zero();
+  Polygon hull_;  // of a footprint
+};
 
 Swept::Swept(const Floor& floor) : floor_(&floor) {
   layers_.push_back(MakeLayer(floor.narrow, floor.inner));
@@ -35,7 +119,7 @@ Swept::Layer Swept::MakeLayer(double scale, const Grid<std::uint8_t>& mask) cons
   layer.tiles = Grid<std::uint8_t>(mask.width / kTile + 1, mask.height / kTile + 1);
   for (int iy = 0; iy < mask.height; ++iy)
     for (int ix = 0; ix < mask.width; ++ix) {
-      layer.count(ix, iy) = !mask(ix, iy);
+      layer.count(ix, iy) = mask(ix, iy) ? 0 : kNoGround;
       layer.tiles(ix / kTile, iy / kTile) |= mask(ix, iy);
     }
   return layer;
@@ -64,10 +148,7 @@ double Swept::OpenShareAcross(const Vec2& p, const Vec2& across) const {
   return static_cast<double>(open) / n;
 }
 
-int Swept::Span(Layer& layer, int iy, double low, double high, int by) {
-  const int x0 = static_cast<int>(std::ceil(std::max(0.0, low - 0.5)));
-  const int x1 = std::min(layer.count.width - 1, static_cast<int>(std::floor(high - 0.5)));
-  if (x1 < x0) return 0;
+int Swept::Span(Layer& layer, int iy, int x0, int x1, int by) {
   const std::uint8_t* tile = &layer.tiles.cells[layer.tiles.Index(x0 / kTile, iy / kTile)];
   bool any = false;
   for (int t = x0 / kTile; t <= x1 / kTile; ++t) any = any || *tile++;
@@ -90,68 +171,117 @@ int Swept::Change(const Vec2& from, const Vec2& to, int by) {
 }
 
 int Swept::Change(Layer& layer, const Vec2& from, const Vec2& to, int by) {
-  // One order for both ways, so that what was added one way can be taken back the other.
-  const bool swap = to.x() < from.x() || (to.x() == from.x() && to.y() < from.y());
-  const Vec2 &a = swap ? to : from, &b = swap ? from : to;
-  return layer.tool.empty() ? ChangeDisc(layer, a, b, by) : ChangeFootprint(layer, a, b, by);
-}
-
-int Swept::ChangeDisc(Layer& layer, const Vec2& a, const Vec2& b, int by) {
-  const double r = layer.reach + kRim;
-  const Vec2 way = b - a;
-  const double length = way.norm();
-  // The strip between the ends has two long sides, offset by +-side; its short ones lie within the
-  // discs. Where a row crosses a long side: x = a.x + side.x + (y - a.y - side.y) * slope.
-  const Vec2 side = length > 0 ? Vec2(-way.y() / length * r, way.x() / length * r) : Vec2(0, 0);
-  const double slope = way.y() != 0 ? way.x() / way.y() : 0;
+  const Strip strip(layer, from, to);
   int changed = 0;
-  const int y0 = std::max(0, static_cast<int>(std::min(a.y(), b.y()) - layer.reach - 1));
-  const int y1 =
-      std::min(layer.count.height - 1, static_cast<int>(std::max(a.y(), b.y()) + layer.reach + 1));
-  for (int iy = y0; iy <= y1; ++iy) {
-    const double y = iy + 0.5, da = y - a.y(), db = y - b.y();
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    if (const double h2 = r * r - da * da; h2 >= 0) {
-      const double h = std::sqrt(h2);
-      low = a.x() - h, high = a.x() + h;
-    }
-    if (const double h2 = r * r - db * db; h2 >= 0) {
-      const double h = std::sqrt(h2);
-      low = std::min(low, b.x() - h), high = std::max(high, b.x() + h);
-    }
-    if ((da <= side.y()) != (db <= side.y())) {
-      const double x = a.x() + side.x() + (da - side.y()) * slope;
-      low = std::min(low, x), high = std::max(high, x);
-    }
-    if ((da <= -side.y()) != (db <= -side.y())) {
-      const double x = a.x() - side.x() + (da + side.y()) * slope;
-      low = std::min(low, x), high = std::max(high, x);
-    }
-    if (low <= high) changed += Span(layer, iy, low, high, by);
-  }
+  for (int iy = strip.first_row(); iy <= strip.last_row(); ++iy)
+    if (const Cells cells = strip.At(iy); cells.first <= cells.last)
+      changed += Span(layer, iy, cells.first, cells.last, by);
   return changed;
 }
 
-int Swept::ChangeFootprint(Layer& layer, const Vec2& a, const Vec2& b, int by) {
-  Polygon hull;
-  for (const Vec2& p : layer.tool) hull.push_back(a + p), hull.push_back(b + p);
-  hull = ConvexHull(hull);
-  int changed = 0;
-  const int y0 = std::max(0, static_cast<int>(std::min(a.y(), b.y()) - layer.reach - 1));
-  const int y1 =
-      std::min(layer.count.height - 1, static_cast<int>(std::max(a.y(), b.y()) + layer.reach + 1));
-  for (int iy = y0; iy <= y1; ++iy) {
-    const double y = iy + 0.5;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (std::size_t k = 0; k < hull.size(); ++k) {
-      const Vec2 &p = hull[k], &q = hull[(k + 1) % hull.size()];
-      if ((p.y() <= y) == (q.y() <= y)) continue;
-      const double x = p.x() + (y - p.y()) / (q.y() - p.y()) * (q.x() - p.x());
-      low = std::min(low, x), high = std::max(high, x);
+void Swept::Exchange::Begin(std::span<const Vec2> old) {
+  legs_ = old.size() - 1;
+  for (std::size_t l = 0; l < swept_.layers_.size(); ++l) {
+    const Layer& layer = swept_.layers_[l];
+    Rows& rows = rows_[l];
+    std::array<std::optional<Strip>, kMaxLegs> strips;
+    rows.first = layer.count.height;
+    rows.last = -1;
+    for (std::size_t k = 0; k < legs_; ++k) {
+      const Strip& strip = strips[k].emplace(layer, old[k], old[k + 1]);
+      rows.first = std::min(rows.first, strip.first_row());
+      rows.last = std::max(rows.last, strip.last_row());
     }
-    if (low <= high) changed += Span(layer, iy, low - kRim, high + kRim, by);
+    rows.cells.assign(static_cast<std::size_t>(std::max(0, rows.last - rows.first + 1)), {});
+    for (int iy = rows.first; iy <= rows.last; ++iy)
+      for (std::size_t k = 0; k < legs_; ++k)
+        rows.cells[static_cast<std::size_t>(iy - rows.first)][k] = strips[k]->At(iy);
   }
-  return changed;
+}
+
+int Swept::Exchange::Won(std::span<const Vec2> fresh) const {
+  int won = 0;
+  for (std::size_t l = 0; l < swept_.layers_.size(); ++l) {
+    const Layer& layer = swept_.layers_[l];
+    const Rows& rows = rows_[l];
+    std::array<std::optional<Strip>, kMaxLegs> strips;
+    int first = rows.first, last = rows.last;
+    for (std::size_t k = 0; k < legs_; ++k) {
+      const Strip& strip = strips[k].emplace(layer, fresh[k], fresh[k + 1]);
+      first = std::min(first, strip.first_row());
+      last = std::max(last, strip.last_row());
+    }
+    for (int iy = first; iy <= last; ++iy) {
+      LegCells before, after;
+      if (iy >= rows.first && iy <= rows.last)
+        before = rows.cells[static_cast<std::size_t>(iy - rows.first)];
+      for (std::size_t k = 0; k < legs_; ++k) after[k] = strips[k]->At(iy);
+      if (before != after)
+        won += WonInRow(&layer.count.cells[layer.count.Index(0, iy)], before, after);
+    }
+  }
+  return won;
+}
+
+namespace {
+
+// Cells of a row from `from` to before `to` that lie under so many strips.
+int Count(const std::uint16_t* count, int from, int to, int strips) {
+  int n = 0;
+  for (int ix = from; ix < to; ++ix) n += count[ix] == strips;
+  return n;
+}
+
+}  // namespace
+
+// The leg that alone has cells; -1: there are several, or none.
+int Swept::Exchange::OnlyOne(const LegCells& legs) {
+  int only = -1;
+  for (std::size_t k = 0; k < kMaxLegs; ++k)
+    if (legs[k].first <= legs[k].last) {
+      if (only >= 0) return -1;
+      only = static_cast<int>(k);
+    }
+  return only;
+}
+
+// Where the number of strips over a cell changes between none and some, the count tells whether
+// others sweep it too.
+int Swept::Exchange::WonInRow(const std::uint16_t* count, const LegCells& before,
+                              const LegCells& after) {
+  // Mostly one leg crosses the row: only what lies between its old sides and its new ones changes.
+  const int a = OnlyOne(before), b = OnlyOne(after);
+  if (a >= 0 && b >= 0) {
+    const Cells &was = before[Z(a)], &is = after[Z(b)];
+    if (was.first <= is.last && is.first <= was.last)
+      return Count(count, is.first, was.first, 0) - Count(count, was.first, is.first, 1) +
+             Count(count, was.last + 1, is.last + 1, 0) -
+             Count(count, is.last + 1, was.last + 1, 1);
+  }
+  struct Border {
+    int at, before, after;  // what begins (1) or ends (-1) there
+  };
+  std::array<Border, 4 * kMaxLegs> borders;
+  std::size_t n = 0;
+  const auto add = [&](Border border) {
+    std::size_t k = n++;
+    for (; k > 0 && borders[k - 1].at > border.at; --k) borders[k] = borders[k - 1];
+    borders[k] = border;
+  };
+  for (const Cells& cells : before)
+    if (cells.first <= cells.last) add({cells.first, 1, 0}), add({cells.last + 1, -1, 0});
+  for (const Cells& cells : after)
+    if (cells.first <= cells.last) add({cells.first, 0, 1}), add({cells.last + 1, 0, -1});
+
+  int won = 0, over_before = 0, over_after = 0;
+  for (std::size_t k = 0; k + 1 < n; ++k) {
+    over_before += borders[k].before;
+    over_after += borders[k].after;
+    if ((over_before > 0) == (over_after > 0)) continue;
+    const int alone = Count(count, borders[k].at, borders[k + 1].at, over_before);
+    won += over_before > 0 ? -alone : alone;
+  }
+  return won;
 }
 
 }  // namespace floorproof

@@ -101,6 +101,10 @@ class Tour {
 
   double AtLeast(int a, int b) const { return (points_[Z(a)] - points_[Z(b)]).norm(); }
 
+  bool Within(int a, int b, double distance) const {
+    return distance > 0 && (points_[Z(a)] - points_[Z(b)]).squaredNorm() < distance * distance;
+  }
+
   void FindCandidates() {
     paths_.IndexPlaces(points_);
     candidates_.Close();  // of the start's first end, at which nothing ends
@@ -286,10 +290,13 @@ class Tour {
         if (k >= i - 1 && k <= j) break;
         const int far = is_in ? Out(j) : In(i);
         const double removed = Edge(i - 1) + Edge(j) + Edge(k);
-        double least = first;
-        if (j + 1 < n_) least += AtLeast(Out(i - 1), In(j + 1));
-        if (f_out ? k + 1 < n_ : true) least += AtLeast(far, f_out ? In(k + 1) : Out(k));
-        if (least >= removed - kLeast) continue;
+        // Straight lines are looked at first: they are never longer than the way.
+        double most = removed - kLeast - first;
+        if (j + 1 < n_ && !Within(Out(i - 1), In(j + 1), most)) continue;
+        if (f_out ? k + 1 < n_ : true) {
+          if (j + 1 < n_) most -= AtLeast(Out(i - 1), In(j + 1));
+          if (!Within(far, f_out ? In(k + 1) : Out(k), most)) continue;
+        }
         double added = first;
         if (j + 1 < n_) added += D(Out(i - 1), In(j + 1));
         if (f_out ? k + 1 < n_ : true) added += D(far, f_out ? In(k + 1) : Out(k));

@@ -68,6 +68,40 @@ TEST(ShortestPaths, NearPlacesAreNearByWayNotThroughWalls) {
   EXPECT_EQ(dut.NearestPlaces(0, 2).size(), 2u);
 }
 
+// Places on both sides of a wall with a door, seen and hidden ones: the nearest by a search that
+// stands for itself, the length of every path.
+TEST(ShortestPaths, FindsTheNearestPlacesAmongMany) {
+  for (const bool wall : {false, true}) {
+    HazardMap map = testing::EmptyFloor(160, 160, 0.05);
+    for (int iy = 0; wall && iy < 120; ++iy) map.occupancy(80, iy) = CellState::kOccupied;
+    const Floor floor = MakeFloor(map, {1, 1});
+    ShortestPaths dut(floor);
+    Stream random(2, 0, "places");
+    std::vector<Vec2> places;
+    while (places.size() < 120) {
+      const Cell c{static_cast<int>(random.Below(160)), static_cast<int>(random.Below(160))};
+      if (floor.pose.Inside(c) && floor.pose(c)) places.push_back(Floor::CentreOf(c));
+    }
+    dut.IndexPlaces(places);
+    constexpr std::size_t kCount = 8;
+    for (int place = 0; place < 120; place += 10) {
+      std::vector<double> ways;
+      for (int other = 0; other < 120; ++other)
+        if (other != place)
+          ways.push_back(PolylineLength(dut.Route(places[Z(place)], places[Z(other)])));
+      std::sort(ways.begin(), ways.end());
+      const auto found = dut.NearestPlaces(place, kCount);
+      ASSERT_GE(found.size(), kCount);
+      // To within the coarse cells that hidden places are found over.
+      for (const auto& near : found) {
+        const double way = PolylineLength(dut.Route(places[Z(place)], places[Z(near.place)]));
+        EXPECT_LE(way, 1.1 * ways[kCount - 1] + 4) << place << " wall " << wall;
+        EXPECT_NEAR(near.distance, way, 0.1 * way + 4);
+      }
+    }
+  }
+}
+
 double TourLength(ShortestPaths& paths, const Vec2& start, const std::vector<Polyline>& lines,
                   const std::vector<Stop>& tour) {
   double links = 0;
