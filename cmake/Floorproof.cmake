@@ -147,16 +147,17 @@ function(fp_library name)
   fp_unity(${name})
 endfunction()
 
-# fp_test(NAME LABEL quick|slow SOURCES a_test.cc ... LINK targets ... [TIMEOUT seconds] [WHOLE])
+# fp_test(NAME LABEL quick|slow SOURCES a_test.cc ... LINK targets ... [TIMEOUT seconds] [WHOLE] [SANITIZED_EVERY n])
 # One executable of GoogleTest tests; each TEST becomes a ctest of that label. Where starting a process
 # is dear, under sanitizers or where WHOLE says so, the executable is one ctest. Slow ones are built by fp_slow_tests alone.
+# SANITIZED_EVERY: so many drives or plans of one kind that under sanitizers every n-th test of it is run.
 # A source with a * stands for the folder's files of such names that no fp_test above it has.
 define_property(GLOBAL PROPERTY FP_TEST_SOURCES BRIEF_DOCS "Sources of all tests, absolute"
                 FULL_DOCS "What fp_find_lost_tests compares the folders with")
 add_custom_target(fp_quick_tests)
 add_custom_target(fp_slow_tests)
 function(fp_test name)
-  cmake_parse_arguments(ARG "WHOLE" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "WHOLE" "LABEL;TIMEOUT;SANITIZED_EVERY" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 280)
   endif()
@@ -187,6 +188,10 @@ function(fp_test name)
     set(timeout ${ARG_TIMEOUT})
     if(FLOORPROOF_SANITIZE)
       math(EXPR timeout "3 * ${ARG_TIMEOUT}")
+      if(ARG_SANITIZED_EVERY)
+        set_tests_properties(${name} PROPERTIES ENVIRONMENT
+          "GTEST_TOTAL_SHARDS=${ARG_SANITIZED_EVERY};GTEST_SHARD_INDEX=0")
+      endif()
     endif()
     # The longest first.
     set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${timeout} COST 100)

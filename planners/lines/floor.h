@@ -35,9 +35,7 @@ struct Floor {
   double ToCells(double length_m) const { return length_m / frame.cell_m; }
   Vec2 ToCells(const Vec2& p_W) const { return frame.X_WG.Inverse() * p_W / frame.cell_m; }
   Vec2 ToWorld(const Vec2& p) const { return frame.X_WG * (p * frame.cell_m); }
-  static Cell CellAt(const Vec2& p) {
-    return {Down(p.x()), Down(p.y())};
-  }
+  static Cell CellAt(const Vec2& p) { return {Down(p.x()), Down(p.y())}; }
   // As std::floor, which is a call where the processor is any x86-64.
   static int Down(double x) {
     const int i = static_cast<int>(x);
