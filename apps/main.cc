@@ -60,6 +60,8 @@ int main(int argc, char** argv) {
   CatchInterrupts();
   // Whoever reads stdout may go away: what is written to disk is written all the same.
   std::signal(SIGPIPE, SIG_IGN);
+  // Who starts the program may have ignored it, and how a child ended would never be known.
+  std::signal(SIGCHLD, SIG_DFL);
   CLI::App app{
       "Floorproof drives a floor robot's plan through physics before the robot drives it over a "
       "floor.\nStart with `floorproof demo`, or with your own map: `floorproof init MAP.yaml`, "

@@ -37,6 +37,7 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     const std::vector<RiskOfPlan> beside =
         PlansBeside(options->beside, globals.Overrides(), MeasurePlan(scenario, plan));
     out.Begin();
+    RemoveEpisodeFiles(out);  // of a drive of another plan
     SayWhenInterrupted(folder.string() + " may lack some of the plan's files");
     WritePlanFiles(scenario, plan, folder);
     SayWhenInterrupted(folder.string() + " holds the plan; pictures may be missing");
@@ -44,10 +45,11 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     SayWhenInterrupted(folder.string() + " holds the plan");
     const bool found = plan.status == PlanStatus::kSuccess;
     if (found) {
-      globals.Say(fmt::format("planned: {} waypoints, {} m, {} turns, covers {:.1f} %",
-                              FixedText(static_cast<double>(plan.path.size()), 0),
-                              FixedText(Length(plan.path), 1), FixedText(CountTurns(plan.path), 0),
-                              100 * json["coverage"].get<double>()));
+      globals.Say(fmt::format(
+          "planned: {} waypoints, {} m, {} turns, covers {:.1f} % of {} m2 in reach",
+          FixedText(static_cast<double>(plan.path.size()), 0), FixedText(Length(plan.path), 1),
+          FixedText(CountTurns(plan.path), 0), 100 * json["coverage"].get<double>(),
+          NumberText(json["sweepable_m2"].get<double>())));
       if (!plan.message.empty()) globals.Say(plan.message);
       const PlanCheck check = CheckPlan(scenario, plan);
       for (const std::string& said : PlanLines(scenario, plan, check)) globals.Say(said);

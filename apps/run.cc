@@ -25,6 +25,8 @@ void AddRun(CommandLine& line, const Globals& globals, int& status) {
     if (options->seed >= 0) overrides.push_back({"seed", std::to_string(options->seed)});
     Scenario scenario = ReadScenario(options->scenario, overrides);
     const auto folder = OutputFolder(options->out, scenario.file, scenario.name);
+    if (!scenario.drawn.empty())  // a value in the file is not the one that is driven
+      globals.Say("drawn: " + DrawnText(scenario.drawn));
     if (!scenario.matrix.IsNull())
       globals.Say("this is the scenario itself: `campaign` drives the variants of its matrix");
     const DriveResult result = DriveAndFilm(scenario, folder, {.video = options->video}, globals);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/input_file.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -36,22 +40,34 @@ namespace {
 
 // At most `count` bytes.
 std::string Read(const fs::path& file, std::uintmax_t count, std::uintmax_t most_bytes) {
-  if (const std::string why = WhyUnreadable(file, most_bytes); !why.empty())
+  const auto refuse = [&](const std::string& why) {
     throw InputError({file.string(), 0}, "", "", why);
-  std::error_code ignored;
-  std::ifstream in(file, std::ios::binary);
+  };
+  if (const std::string why = WhyUnreadable(file, most_bytes); !why.empty()) refuse(why);
+  // What it is now may be something else, and a pipe would wait for a writer.
+  struct Opened {
+    int fd;
+    ~Opened() {
+      if (fd >= 0) close(fd);
+    }
+  } const opened{open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
+  struct stat status {};
+  if (opened.fd < 0 || fstat(opened.fd, &status) != 0)
+    refuse(std::string("cannot be read: ") + std::strerror(errno));
+  if (!S_ISREG(status.st_mode)) refuse("is a pipe or a device, not a file");
   std::string bytes;
-  bytes.reserve(std::min({count, most_bytes, fs::file_size(file, ignored)}));
+  bytes.reserve(std::min({count, most_bytes, static_cast<std::uintmax_t>(status.st_size)}));
   // Does not simply read to the end: a file that grows meanwhile must not be read without bound.
   char buffer[1 << 16];
   while (bytes.size() < count && bytes.size() <= most_bytes) {
-    in.read(buffer, static_cast<std::streamsize>(
-                        std::min<std::uintmax_t>(sizeof buffer, count - bytes.size())));
-    if (in.gcount() == 0) break;
-    bytes.append(buffer, static_cast<std::size_t>(in.gcount()));
+    const ssize_t n =
+        read(opened.fd, buffer, std::min<std::uintmax_t>(sizeof buffer, count - bytes.size()));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) refuse(std::string("cannot be read: ") + std::strerror(errno));
+    if (n == 0) break;
+    bytes.append(buffer, static_cast<std::size_t>(n));
   }
-  if (in.bad() || bytes.size() > most_bytes)
-    throw InputError({file.string(), 0}, "", "", "cannot be read to its end");
+  if (bytes.size() > most_bytes) refuse("cannot be read to its end");
   return bytes;
 }
 

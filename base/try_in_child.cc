@@ -135,8 +135,9 @@ TrialOutcome TryInChild(const std::function<std::string()>& work, const TrialLim
   close(ends[0]);
   if (!in_time) kill(child, SIGKILL);
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  while (waitpid(child, &status, 0) < 0)
+    if (errno != EINTR)  // who ignores SIGCHLD never learns how a child ended
+      throw InternalError(std::string("lost a child process: ") + std::strerror(errno));
   if (in_time && WIFEXITED(status) && WEXITSTATUS(status) == 0)
     outcome.answer = std::move(text);
   else

@@ -17,8 +17,8 @@ struct DriveTimeLimits {
 };
 
 // Seconds from the first vertex, the robot heading along its leg, to the last: ways, stops, turns
-// on the spot and dwells. Not counted: folding, slowing down beside obstacles, and whatever goes
-// wrong.
+// on the spot and dwells. Not counted: folding, slowing down beside obstacles (ObstacleGap::Delay),
+// and whatever goes wrong.
 double DriveTime(const ReferencePath& path, const DriveTimeLimits& limits, const RobotSpec& robot);
 
 }  // namespace floorproof

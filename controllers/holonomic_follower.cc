@@ -69,6 +69,7 @@ class HolonomicFollower final : public Tracker {
                             {limits, params_.corner_tolerance_m,
                              Radians(params_.heading_tolerance_deg), Radians(params_.recover_deg)},
                             robot);
+    duration_s_ += gap_.Delay(progress_.reference());
     for (const HingeWay& way : ways_) duration_s_ += reconfiguration_.Duration(way);
   }
 

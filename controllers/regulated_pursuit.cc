@@ -59,6 +59,7 @@ class RegulatedPursuit final : public Tracker {
                             {limits, params_.corner_tolerance_m,
                              Radians(params_.heading_tolerance_deg), Radians(params_.recover_deg)},
                             robot);
+    duration_s_ += gap_.Delay(progress_.reference());
   }
 
   double Duration() const override { return duration_s_; }

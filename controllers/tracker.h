@@ -28,7 +28,7 @@ class Tracker : public Configurable {
   // tracker, or is nullptr. May allocate; Update may not.
   virtual void Start(const Path& path, const RobotSpec& robot, const ClearanceField* clearance) = 0;
   // What the path taken takes by its own speeds, where nothing goes wrong (s): ways, stops, turns,
-  // dwells, folding. Time limits are made from it.
+  // dwells, folding, and slowing down beside what is known. Time limits are made from it.
   virtual double Duration() const = 0;
   // One control period. `t_s` is simulated time; `dt_s` the period.
   virtual Command Update(const Estimate& estimate, double t_s, double dt_s) = 0;

@@ -42,6 +42,10 @@ void WritePlanOverClasses(const Scenario& s, const PlanResult& plan, const Episo
   options.title = Title(s, plan, record == nullptr ? "plan" : "plan and drive");
   options.plan = &plan.path;
   if (record != nullptr) ShowDrive(*record, Way::kShown, options);
+  if (!AsksForRisk(s)) {  // whose cells are as wide as the robot, and no hazards
+    WriteHeatMap(s.site.map, nullptr, options, png);
+    return;
+  }
   for (const auto c : {HazardClass::kBlindObject, HazardClass::kGlass, HazardClass::kLevelChange,
                        HazardClass::kTerrain})
     options.categories.push_back(CellsOf(c));

@@ -18,25 +18,42 @@ namespace fs = std::filesystem;
 
 constexpr int kMaxPixels = 8192;  // of a picture's side that the engine draws, or a height field's
 
+// The file's own name in the folder that the system finds: `link/..` is where the link leads.
+fs::path Whole(const fs::path& file) {
+  std::error_code error;
+  const fs::path folder = fs::weakly_canonical(fs::absolute(file).parent_path(), error);
+  return error ? fs::absolute(file).lexically_normal() : folder / file.filename();
+}
+
 bool IsBundled(const fs::path& path) {
   return std::ranges::any_of(Robots(), [&](const RobotEntry& robot) {
-    return fs::absolute(ModelsFolder() / robot.file).lexically_normal() == path;
+    return Whole(ModelsFolder() / robot.file) == path;
   });
+}
+
+// Of the one attribute that is this; 0: there is none (in an include, or spelled otherwise), or
+// several.
+int LineOf(const std::string& text, const std::string& value) {
+  std::size_t found = std::string::npos;
+  for (const char quote : {'"', '\''}) {
+    const std::string attribute = quote + value + quote;
+    const std::size_t at = text.find(attribute);
+    if (at == std::string::npos) continue;
+    if (found != std::string::npos || text.find(attribute, at + 1) != std::string::npos) return 0;
+    found = at;
+  }
+  if (found == std::string::npos) return 0;
+  const auto end = text.begin() + static_cast<std::ptrdiff_t>(found);
+  return static_cast<int>(1 + std::count(text.begin(), end, '\n'));
 }
 
 // What the engine opened and must not have goes before what the engine says of it.
 [[noreturn]] void Refuse(const fs::path& file, const ParsedMjcf& parsed, const InputFiles& files,
                          std::string_view message, std::string_view rule) {
   if (const auto refused = parsed.engine_files.Refused()) {
-    const std::string& text = files.Read(file, EngineFiles::kMaxBytes);
-    const std::size_t at =
-        text.find(refused->first);  // nowhere: in an include, or spelled otherwise
-    const auto line =
-        at == std::string::npos
-            ? 0
-            : 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-    throw InputError({file.string(), static_cast<int>(line)}, "file", refused->first,
-                     refused->second);
+    throw InputError(
+        {file.string(), LineOf(files.Read(file, EngineFiles::kMaxBytes), refused->first)}, "file",
+        refused->first, refused->second);
   }
   throw InputError({file.string(), 0}, "", message, rule);
 }
@@ -65,21 +82,45 @@ void CheckSizes(const fs::path& file, mjSpec* spec) {
   });
 }
 
-// Files that the model names by an absolute path, or by its folder's, stay where they are when a
-// record of it moves. By the texts: the engine makes some relative paths of an include absolute.
-void MarkAbsolutes(const std::vector<fs::path>& opened, const InputFiles& files) {
-  const auto is_written = [&](const std::string& path) {
-    return std::ranges::any_of(opened, [&](const fs::path& text) {
-      return text.extension() == ".xml" &&
-             files.Read(text, EngineFiles::kMaxBytes).find('"' + path) != std::string::npos;
-    });
+bool IsXml(const std::string& bytes) {
+  const std::size_t at = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  return at != std::string::npos && bytes[at] == '<';
+}
+
+// Whether an attribute of the text is this path, with or without a slash at its end.
+bool IsAttribute(const std::string& text, const std::string& path) {
+  const auto is_quote = [&](std::size_t at) {
+    return at < text.size() && (text[at] == '"' || text[at] == '\'');
   };
+  for (std::size_t at = text.find(path); at != std::string::npos; at = text.find(path, at + 1)) {
+    const std::size_t end = at + path.size();
+    if (at > 0 && is_quote(at - 1) && (is_quote(end) || (text[end] == '/' && is_quote(end + 1))))
+      return true;
+  }
+  return false;
+}
+
+// Files that the model names by an absolute path, or an asset's folder by one, stay where they are
+// when a record of it moves. By the texts: the engine makes some relative paths of an include
+// absolute.
+std::vector<fs::path> Absolutes(const std::vector<fs::path>& opened, const InputFiles& files) {
+  std::vector<const std::string*> texts;
   for (const fs::path& file : opened)
-    for (fs::path part = file; part.has_relative_path(); part = part.parent_path())
-      if (is_written(part.string() + '"') || is_written(part.string() + "/\"")) {
-        files.MarkAbsolute(file);
-        break;
-      }
+    if (const std::string& bytes = files.Read(file, EngineFiles::kMaxBytes); IsXml(bytes))
+      texts.push_back(&bytes);
+  const auto is_written = [&](const fs::path& path) {
+    return std::ranges::any_of(
+        texts, [&](const std::string* text) { return IsAttribute(*text, path.string()); });
+  };
+  std::vector<fs::path> absolutes;
+  for (const fs::path& file : opened) {
+    bool absolute = is_written(file);
+    if (!IsXml(files.Read(file, EngineFiles::kMaxBytes)))  // includes know no folder of their own
+      for (fs::path part = file.parent_path(); part.has_relative_path(); part = part.parent_path())
+        absolute = absolute || is_written(part);
+    if (absolute) absolutes.push_back(file);
+  }
+  return absolutes;
 }
 
 ParsedMjcf Parse(const fs::path& file, const fs::path& path, const InputFiles& files) {
@@ -96,7 +137,7 @@ ParsedMjcf Parse(const fs::path& file, const fs::path& path, const InputFiles& f
   if (!model || out.engine_files.Refused())
     Refuse(file, out, files, mjs_getError(copy.get()), "does not compile");
   const std::vector<fs::path> opened = out.engine_files.Opened();
-  MarkAbsolutes(opened, files);
+  out.absolutes = Absolutes(opened, files);
   for (const fs::path& one : opened) out.hashes.emplace_back(one, files.Sha256(one));
   return out;
 }
@@ -136,7 +177,7 @@ void Try(const fs::path& file, const fs::path& path, const InputFiles& files,
     throw InputError({file.string(), 0}, "", "",
                      "MuJoCo " + outcome.failure + " while it compiled this robot");
   const std::string& answer = *outcome.answer;
-  if (answer.front() == kRefused) throw InputError(answer.substr(1));
+  if (answer.starts_with(kRefused)) throw InputError(answer.substr(1));
   // The same bytes are read here.
   auto next = [&answer, at = std::size_t{1}]() mutable {
     const std::size_t begin = at, end = answer.find(kEnd, begin);
@@ -155,15 +196,21 @@ void Try(const fs::path& file, const fs::path& path, const InputFiles& files,
 const ParsedMjcf& ReadMjcf(const fs::path& file, const InputFiles& files,
                            const std::function<void(const ParsedMjcf&)>& use) {
   static std::map<fs::path, ParsedMjcf> parsed;
-  const fs::path path = fs::absolute(file).lexically_normal();
-  const auto same = [&](const auto& known) { return files.Sha256(known.first) == known.second; };
-  // Parsing takes 20 ms and a copy 0.3 ms, and a campaign reads its robot in every episode.
-  if (const auto known = parsed.find(path);
-      known != parsed.end() && std::ranges::all_of(known->second.hashes, same))
-    return known->second;
+  const fs::path path = Whole(file);
   files.Read(file, EngineFiles::kMaxBytes);  // what cannot be read says so itself
-  if (!IsBundled(path)) Try(file, path, files, use);
-  return parsed.insert_or_assign(path, Parse(file, path, files)).first->second;
+  const auto same = [&](const auto& part) {
+    if (!files.WhyUnreadable(part.first, EngineFiles::kMaxBytes).empty()) return false;
+    files.Read(part.first, EngineFiles::kMaxBytes);
+    return files.Sha256(part.first) == part.second;
+  };
+  // Parsing takes 20 ms and a copy 0.3 ms, and a campaign reads its robot in every episode.
+  auto known = parsed.find(path);
+  if (known == parsed.end() || !std::ranges::all_of(known->second.hashes, same)) {
+    if (!IsBundled(path) || files.HasStandIn(path)) Try(file, path, files, use);
+    known = parsed.insert_or_assign(path, Parse(file, path, files)).first;
+  }
+  for (const fs::path& part : known->second.absolutes) files.MarkAbsolute(part);
+  return known->second;
 }
 
 }  // namespace floorproof

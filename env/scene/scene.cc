@@ -209,6 +209,18 @@ class SceneBuilder {
   FreeNames geom_names_, mesh_names_;
 };
 
+// A robot's file does not rule the world: gravity and wind, solver and its scale, memory, looks.
+void TakeDefaults(mjSpec* spec) {
+  const SpecPtr fresh(mj_makeSpec());
+  spec->option = fresh->option;
+  spec->visual = fresh->visual;
+  spec->stat = fresh->stat;
+  spec->memory = fresh->memory;
+  spec->nconmax = fresh->nconmax;
+  spec->njmax = fresh->njmax;
+  spec->nstack = fresh->nstack;
+}
+
 void SetPhysics(mjSpec* spec, const PhysicsParams& physics) {
   spec->option.timestep = physics.timestep_s;
   spec->option.integrator = physics.integrator == "discrete" ? mjINT_DISCRETE : mjINT_IMPLICITFAST;
@@ -255,6 +267,7 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
                  const Pose2& start, WallSet walls) {
   Scene scene;
   scene.spec.reset(mj_copySpec(robot.mjcf.get()));
+  TakeDefaults(scene.spec.get());
   SetPhysics(scene.spec.get(), physics);
   PlaceRobot(scene.spec.get(), start);
   const Looks looks = AddLooks(map.frame, scene.spec.get());

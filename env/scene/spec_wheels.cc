@@ -97,10 +97,13 @@ WheelSpec ReadWheel(const CompiledRobot& compiled, int a, const std::string& nam
   if (geom < 0) compiled.Refuse(name, "the wheel's body needs a cylinder that collides");
   RefuseOffAxis(compiled, joint, geom, name);
   const Rollers rollers = RollersOf(m, geom);
+  constexpr double kLeastAngle_rad = 0.1;  // along the axle rollers would be as long as it is far
   if (!(rollers.radius_m >= 0) || (rollers.radius_m > 0) != (rollers.angle_rad != 0) ||
-      !(std::abs(rollers.angle_rad) < kPi / 2))
-    compiled.Refuse(
-        name, "user must be the rollers' radius (m, > 0) and angle (rad, not 0, within +-pi/2)");
+      !(std::abs(rollers.angle_rad) < kPi / 2) ||
+      (rollers.radius_m > 0 && !(std::abs(rollers.angle_rad) >= kLeastAngle_rad)))
+    compiled.Refuse(name,
+                    "user must be the rollers' radius (m, > 0) and angle (rad, 0.1 to pi/2, or as "
+                    "much the other way)");
   wheel.radius_m = m->geom_size[3 * geom] + rollers.radius_m;
   if (!kWheelRadius_m.Allows(wheel.radius_m))
     compiled.Refuse(name, "the wheel's radius (m) " + kWheelRadius_m.Text() + ", is " +

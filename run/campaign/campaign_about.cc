@@ -2,7 +2,6 @@
 #include "run/campaign/campaign_about.h"
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "base/file_output.h"
@@ -10,6 +9,8 @@
 
 namespace floorproof {
 namespace {
+
+namespace fs = std::filesystem;
 
 // The first key whose values differ, with both; empty: none.
 std::string Difference(const ConfigNode& a, const ConfigNode& b, const std::string& path) {
@@ -44,26 +45,14 @@ std::string Difference(const ConfigNode& a, const ConfigNode& b, const std::stri
 
 CampaignAbout DescribeCampaign(const ScenarioFile& file) {
   const Scenario base = file.Read(std::nullopt);
-  ConfigNode resolved = ParseYaml(ResolvedScenario(base, base.file.parent_path()), "scenario");
-  // By name, not by path: shards are driven anywhere. Two files may have one name.
-  std::map<std::string, std::vector<std::string>> hashes;
-  const auto add = [&](const Scenario& s) {
-    for (const auto& read : FilesRead(s)) {
-      if (read == base.site_file) continue;  // it stands in the text
-      std::vector<std::string>& known = hashes[read.filename().string()];
-      std::string hash = s.files.Sha256(read);
-      if (std::ranges::find(known, hash) == known.end()) known.push_back(std::move(hash));
-    }
-  };
-  add(base);
-  for (const Variant& variant : file.variants()) add(file.Read(std::nullopt, variant));
-  resolved.Remove("files");
-  ConfigNode& files = resolved.Add("files", ConfigNode::Map());
-  for (const auto& [name, known] : hashes) {
-    std::string all;
-    for (const std::string& hash : known) all += (all.empty() ? "" : " ") + hash;
-    files.Add(name, ConfigNode::Scalar(all, true));
-  }
+  // All files that an episode may read, those that only variants or draws name too.
+  for (const Variant& variant : file.variants()) file.Read(std::nullopt, variant);
+  file.CheckDraws();
+  const fs::path folder = base.file.parent_path();  // shards are driven anywhere
+  ConfigNode resolved = ParseYaml(ResolvedScenario(base, folder, file.files().All()), "scenario");
+  if (ConfigNode* files = resolved.Find("files"))  // in whatever order they were read
+    std::ranges::sort(files->entries,
+                      [](const auto& x, const auto& y) { return x.first < y.first; });
 
   CampaignAbout about;
   about.scenario = WriteYaml(resolved);

@@ -11,9 +11,9 @@
 
 namespace floorproof {
 
-// The scenario resolved, with the SHA-256 of the files of all variants, and the versions of program
-// and engine. Not in it: how many episodes, which of them, and on how many workers. Checks every
-// variant; throws InputError.
+// The scenario resolved, with the SHA-256 of the files of all variants and draws, and the versions
+// of program and engine. Not in it: how many episodes, which of them, and on how many workers.
+// Checks every variant and the draws (ScenarioFile::CheckDraws); throws InputError.
 CampaignAbout DescribeCampaign(const ScenarioFile& file);
 
 // Its versions, by name. Throws InternalError where they are damaged.

@@ -106,7 +106,6 @@ CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& r
   const CampaignAbout about = DescribeCampaign(file);
   // Refused before there is a folder.
   const auto gate = CampaignGate::Read(base.gate, request.episodes, file.drives());
-  file.CheckDraws();
   if (request.episodes > 1) CheckChance(file, base.gate, observer);
 
   auto hold = std::make_unique<HoldInterrupts>();

@@ -8,7 +8,8 @@
 namespace floorproof {
 
 PlanBudget EstimateBudget(Scenario& s, const PlanResult& plan) {
-  s.tracker->Start(plan.path, s.robot.spec, nullptr);
+  const ClearanceField clearance = ComputeClearance(KnownPart(s.site.map), s.robot.spec.step_m);
+  s.tracker->Start(plan.path, s.robot.spec, &clearance);  // it is started anew before it drives
   PlanBudget out;
   out.time_s = s.tracker->Duration();
   double dwell_s = 0;

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "base/params.h"
+#include "base/printable.h"
+#include "base/quantity.h"
 
 namespace floorproof {
 namespace {
@@ -126,6 +129,20 @@ Drawn Draw(const std::vector<RandomisedKey>& keys, std::uint64_t seed, std::uint
     drawn.back().second.mark = key.mark;
   }
   return drawn;
+}
+
+std::string DrawnText(const Drawn& drawn) {
+  std::string text;
+  for (const auto& [key, value] : drawn) {
+    char* end = nullptr;
+    const double number = std::strtod(value.scalar.c_str(), &end);
+    const bool is_number = value.IsScalar() && !value.scalar.empty() && *end == '\0';
+    text += (text.empty() ? "" : ", ") + key + " " +
+            (is_number          ? NumberText(number)
+             : value.IsScalar() ? Printable(value.scalar)
+                                : "a value in parts");
+  }
+  return text;
 }
 
 }  // namespace floorproof

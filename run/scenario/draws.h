@@ -40,5 +40,7 @@ std::vector<RandomisedKey> ReadRandomise(const ConfigNode* node);
 // What this episode draws, in the order written.
 using Drawn = std::vector<std::pair<std::string, ConfigNode>>;
 Drawn Draw(const std::vector<RandomisedKey>& keys, std::uint64_t seed, std::uint64_t episode);
+// For people, in one line: "site.floor.friction 0.733, robot beluga".
+std::string DrawnText(const Drawn& drawn);
 
 }  // namespace floorproof

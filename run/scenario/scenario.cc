@@ -78,11 +78,11 @@ void TakeListedFiles(const ConfigNode& root, const fs::path& folder, bool check,
   if (files == nullptr) return;
   if (!files->IsMap()) throw InputError(files->mark, "files", "", "must be a map of path: SHA-256");
   for (const auto& [path, node] : files->entries) {
-    const fs::path named =
-        path.starts_with(kBundled) ? ModelsFolder() / path.substr(kBundled.size()) : folder / path;
+    const bool bundled = path.starts_with(kBundled);  // nothing stands in for what is trusted
+    const fs::path named = bundled ? ModelsFolder() / path.substr(kBundled.size()) : folder / path;
     const std::string hash = AsString(node, "files." + path);
     if (const fs::path copy = KeptCopy(folder, hash);
-        IsSha256(hash) && WhyUnreadable(copy, kMaxNamedBytes).empty())
+        !bundled && IsSha256(hash) && WhyUnreadable(copy, kMaxNamedBytes).empty())
       inputs.StandIn(named, hash, copy);
     if (!check) continue;
     if (const std::string why = inputs.WhyUnreadable(named, kMaxNamedBytes); !why.empty())
@@ -134,11 +134,17 @@ ScenarioFile::ScenarioFile(std::optional<ConfigNode> root, const fs::path& file,
   episode_ = static_cast<std::uint64_t>(params.episode);
 
   randomised_ = ReadRandomise(root_.Find("randomise"));
-  std::erase_if(randomised_, [&](const RandomisedKey& key) {
+  // What is set is not drawn, nor in the record.
+  const auto is_set = [&](const std::string& key) {
     return std::ranges::any_of(overrides_, [&](const auto& o) {
-      return Replaces(o.first, key.key_path) || Replaces(key.key_path, o.first);
+      return Replaces(o.first, key) || Replaces(key, o.first);
     });
-  });
+  };
+  std::erase_if(randomised_, [&](const RandomisedKey& key) { return is_set(key.key_path); });
+  if (ConfigNode* draws = root_.Find("randomise"); draws != nullptr && draws->IsMap()) {
+    std::erase_if(draws->entries, [&](const auto& entry) { return is_set(entry.first); });
+    if (draws->entries.empty()) root_.Remove("randomise");
+  }
   variants_ = ReadMatrix(root_.Find("matrix"));
   // Of all variants: labelled ones need not change the same keys.
   std::set<std::string> set_by_variants;

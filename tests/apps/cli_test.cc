@@ -101,6 +101,15 @@ TEST_F(Cli, RunThatDrivesNothingLeavesThePlanAndItsPictures) {
     EXPECT_FALSE(fs::exists(folder_ / "o" / file)) << file << " is an earlier run's";
 }
 
+TEST_F(Cli, APlanTakesThePlaceOfADrive) {
+  ASSERT_LE(Run("run s.yaml --out o --set time_limit_s=1").status, 1);
+  ASSERT_TRUE(fs::exists(folder_ / "o/result.json"));
+  ASSERT_EQ(Run("plan s.yaml --out o").status, 0);
+  for (const char* file : {"result.json", "trace.csv", "heatmap_visits.png"})
+    EXPECT_FALSE(fs::exists(folder_ / "o" / file)) << file;
+  EXPECT_TRUE(fs::exists(folder_ / "o/plan.csv"));
+}
+
 TEST_F(Cli, PlansOfOneFloorStandBesideEachOtherInOnePlot) {
   const auto plot = [&] { return Slurp(folder_ / "o" / "plot_risk.png"); };
   std::string text = Slurp(folder_ / "s.yaml");

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/error.h"
 #include "base/sanitizer.h"
 
 namespace floorproof {
@@ -48,6 +49,12 @@ TEST(TryInChild, SaysHowItFailed) {
   EXPECT_EQ(FailureOf([]() -> std::string { std::exit(0); }), "gave up");
   EXPECT_EQ(FailureOf([]() -> std::string { throw std::runtime_error("no"); }), "gave up");
   EXPECT_EQ(FailureOf([]() -> std::string { EndForWantOfMemory(); }), "needed more than 384 MiB");
+}
+
+TEST(TryInChild, DoesNotTakeALostChildsEndForAnAnswer) {
+  const auto before = signal(SIGCHLD, SIG_IGN);  // as a shell's `trap '' CHLD` leaves it
+  EXPECT_THROW(TryInChild([]() -> std::string { std::abort(); }), InternalError);
+  signal(SIGCHLD, before);
 }
 
 TEST(TryInChild, EndsWhatHangsWorkingOrWaiting) {

@@ -39,6 +39,25 @@ TEST(DriveTime, OfALongStraightIsItsLengthByItsSpeed) {
   }
 }
 
+// The share of the speed that is allowed falls with the gap, and the time is its inverse.
+TEST(DriveTime, SlowingDownBesideObstaclesTakesTime) {
+  for (const RobotSpec& robot : TestRobots()) {
+    const Path path = MakePath({{2, 5}, {8, 5}});
+    const auto foretold = [&](double distance_m) {
+      ClearanceField field{{200, 200, 0.05, {}}, Grid<float>(200, 200)};
+      for (float& d : field.distance_m.cells) d = static_cast<float>(distance_m);
+      const auto dut = MakePlugin(Trackers(), DefaultTracker(robot.drive), "controller");
+      dut->Start(path, robot, &field);
+      return dut->Duration();
+    };
+    const double free_s = Foretold(path, robot);
+    EXPECT_DOUBLE_EQ(foretold(2), free_s) << robot.name;
+    // With no gap at all six tenths of the speed are left.
+    EXPECT_NEAR(foretold(0), free_s + 6 / robot.cruise_mps * (1 / 0.6 - 1), 0.02 * free_s)
+        << robot.name;
+  }
+}
+
 TEST(DriveTime, TurnsTakeTime) {
   for (const RobotSpec& robot : TestRobots()) {
     double last_s = Foretold(Zigzag(0), robot);

@@ -158,6 +158,84 @@ TEST_F(ScenarioInputs, AnotherMeshIsAnotherCampaign) {
   EXPECT_THAT(WhyRefused([&] { RequireSame(before, after, "o"); }), HasSubstr("load.obj"));
 }
 
+// A record is of what was driven: drawn again, it would be another experiment.
+TEST_F(ScenarioInputs, WhatIsSetIsNotDrawnNorInTheRecord) {
+  std::ofstream(folder_ / "in/drawn.yaml") << Slurp(folder_ / "in/s.yaml")
+                                           << "randomise: {site.floor.friction: {uniform: [0.5, "
+                                              "0.9]}, start.x_m: {normal: [1, 0.05]}}\n";
+  fs::create_directories(folder_ / "out");
+  for (const auto& set : std::vector<std::vector<Override>>{
+           {{"site.floor.friction", "0.3"}},
+           {{"site.floor.friction", "0.3"}, {"start", "{x_m: 1.1, y_m: 1, yaw_deg: 0}"}}}) {
+    const Scenario driven = ScenarioFile(folder_ / "in/drawn.yaml", set).Read();
+    EXPECT_EQ(driven.site.map.floor_friction, 0.3);
+    EXPECT_EQ(driven.drawn.size(), 2 - set.size());
+    WriteResolvedScenario(driven, folder_ / "out");
+    const Scenario again = ScenarioFile(folder_ / "out/scenario.resolved.yaml").Read();
+    EXPECT_EQ(again.site.map.floor_friction, 0.3);
+    EXPECT_EQ(again.start.x_m, driven.start.x_m);
+    EXPECT_EQ(again.drawn.size(), driven.drawn.size());
+  }
+}
+
+// Two robots that only draws name, and two files of one name.
+TEST_F(ScenarioInputs, AnotherDrawnRobotIsAnotherCampaign) {
+  for (const char* robot : {"r1", "r2"}) {
+    fs::create_directories(folder_ / "in" / robot);
+    fs::copy(ModelsFolder() / "beluga.xml", folder_ / "in" / robot / "mine.xml");
+  }
+  const auto heavier = [&](const char* robot) {
+    std::string text = Slurp(ModelsFolder() / "beluga.xml");
+    const std::size_t at = text.find("mass=\"");
+    ASSERT_NE(at, std::string::npos);
+    text.insert(at + 6, "1");
+    std::ofstream(folder_ / "in" / robot / "mine.xml") << text;
+  };
+  std::ofstream(folder_ / "in/drawn.yaml")
+      << Slurp(folder_ / "in/s.yaml")
+      << "randomise: {robot: {choice: [r1/mine.xml, r2/mine.xml]}}\n";
+  const auto describe = [&] { return DescribeCampaign(ScenarioFile(folder_ / "in/drawn.yaml")); };
+  const CampaignAbout same = describe();
+  RequireSame(same, describe(), "o");
+  heavier("r2");
+  const CampaignAbout second = describe();
+  EXPECT_THAT(WhyRefused([&] { RequireSame(same, second, "o"); }), HasSubstr("r2/mine.xml"));
+  fs::copy(ModelsFolder() / "beluga.xml", folder_ / "in/r2/mine.xml",
+           fs::copy_options::overwrite_existing);
+  heavier("r1");
+  EXPECT_NE(describe().id, second.id) << "the same two files, each in the other's place";
+}
+
+// `link/..` is the folder above the one that the link leads to.
+TEST_F(ScenarioInputs, TheRobotThatIsHashedIsTheOneThatIsRead) {
+  fs::create_directories(folder_ / "real/deep");
+  fs::create_directory_symlink(folder_ / "real/deep", folder_ / "link");
+  for (const char* at : {"real/r", "r"}) fs::create_directories(folder_ / at);
+  const std::string text = Slurp(ModelsFolder() / "beluga.xml");
+  std::ofstream(folder_ / "real/r/mine.xml") << text;
+  std::ofstream(folder_ / "r/mine.xml") << "no robot";
+  std::ofstream(folder_ / "real/deep/s.yaml")
+      << "scenario: 1\nsite: {site: 1, grid: {rows: [......, ......, ......]}, start: {x_m: 1, "
+         "y_m: 0.7}}\nrobot: ../r/mine.xml\n";
+  const Scenario dut = ScenarioFile(folder_ / "link/s.yaml").Read();
+  EXPECT_EQ(dut.files.Sha256(dut.robot_file), Sha256(text));
+  ASSERT_EQ(dut.robot.files.size(), 1u);
+  EXPECT_EQ(fs::canonical(dut.robot.files[0]), fs::canonical(folder_ / "real/r/mine.xml"));
+}
+
+// What the program trusts as its own is its own.
+TEST_F(ScenarioInputs, NothingStandsInForABundledRobot) {
+  const std::string text = "<mujoco><asset><mesh name=\"a\" builtin=\"plate\"/></asset></mujoco>";
+  fs::create_directories(folder_ / "in/inputs");
+  std::ofstream(folder_ / "in/inputs" / Sha256(text)) << text;
+  std::ofstream(folder_ / "in/bundled.yaml")
+      << "scenario: 1\nsite: {site: 1, grid: {rows: [......, ......, ......]}, start: {x_m: 1, "
+         "y_m: 0.7}}\nrobot: beluga\nfiles: {\"bundled:beluga.xml\": \""
+      << Sha256(text) << "\"}\n";
+  EXPECT_THAT(WhyRefused([&] { ScenarioFile(folder_ / "in/bundled.yaml").Read(); }),
+              HasSubstr("the file has changed since"));
+}
+
 TEST_F(ScenarioInputs, ARecordIsReadWhereItIsMovedTo) {
   const ScenarioFile file(folder_ / "in/s.yaml");
   const std::string before = Read(file);
