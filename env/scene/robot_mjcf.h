@@ -22,6 +22,7 @@ struct ParsedMjcf {
   SpecPtr spec;
   EngineFiles engine_files;
   std::vector<std::pair<std::filesystem::path, std::string>> hashes;  // SHA-256 of each file
+  std::vector<std::filesystem::path> absolutes;  // of these: named by an absolute path
 };
 
 // The parsed file, kept as long as none of its files has other bytes. `use` is called in the child,

@@ -10,7 +10,9 @@
 #include "env/core/blocks.h"
 #include "env/scene/lock_blocks.h"
 #include "env/scene/mecanum_wheel.h"
+#include "env/scene/robot_limits.h"
 #include "env/scene/robot_mjcf.h"
+#include "env/scene/roller_wheels.h"
 #include "env/scene/scene.h"
 #include "env/scene/spec_reader.h"
 
@@ -91,18 +93,40 @@ void Finish(RobotModel& out, const std::string& file, const RobotChanges& change
   TakeShape(out.spec, shapes, shape);
 }
 
-// All that becomes of a robot, once: read in each of its ways, and put on a floor.
-void UseOnce(const ParsedMjcf& parsed, const std::string& file) {
+void PutOnFloor(const RobotModel& robot) {
   HazardMap floor;
   floor.frame = {8, 8, 0.5, {}};
   floor.occupancy = Grid<CellState>(8, 8);
+  const Scene scene = BuildScene(floor, robot, {}, {2, 2, 0});
+  const DataPtr data = MakeData(scene.model.get());
+  for (int step = 0; step < 3; ++step) StepEngine(scene.model.get(), data.get());
+}
+
+void PutOnRollers(const RobotModel& robot, const std::string& file) {
+  if (!HasMecanumWheels(robot.spec)) return;
+  const RobotModel rollers = WithRollerWheels(robot);
+  const ModelPtr model(mj_compile(rollers.mjcf.get(), rollers.assets.get()));
+  if (!model)
+    throw InputError({file, 0}, "wheels: rollers", mjs_getError(rollers.mjcf.get()),
+                     "does not compile");
+  RefuseBeyondLimits(model.get(), file);
+  PutOnFloor(rollers);
+}
+
+// All that becomes of a robot, once: read in each of its ways and shapes, with each kind of wheels,
+// and put on a floor.
+void UseOnce(const ParsedMjcf& parsed, const std::string& file) {
   for (const Blocks blocks : {Blocks::kLocked, Blocks::kHinged}) {
     RobotModel robot = CopyOf(parsed);
     Finish(robot, file, {}, blocks);
-    const Scene scene = BuildScene(floor, robot, {}, {2, 2, 0});
-    const DataPtr data = MakeData(scene.model.get());
-    for (int step = 0; step < 3; ++step) StepEngine(scene.model.get(), data.get());
+    PutOnFloor(robot);
+    PutOnRollers(robot, file);
     if (robot.spec.shapes.empty()) return;
+    for (const ShapeSpec& shape : robot.spec.shapes) {
+      RobotModel shaped = CopyOf(parsed);
+      Finish(shaped, file, {.shape = shape.name}, blocks);
+      PutOnFloor(shaped);
+    }
   }
 }
 

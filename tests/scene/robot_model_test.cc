@@ -157,6 +157,70 @@ TEST(RobotModel, ABrokenRobotIsRefusedNamingWhatIsMissing) {
               HasSubstr("a robot needs at least one driven wheel"));
 }
 
+std::string BelugaWith(const std::string& before, const std::string& more) {
+  std::ifstream in(FindRobotFile("beluga", {}));
+  std::string xml((std::istreambuf_iterator<char>(in)), {});
+  const std::size_t at = xml.find(before);
+  EXPECT_NE(at, std::string::npos) << before;
+  return xml.insert(at, more);
+}
+
+// Whoever judges the robot rules gravity, solver and light.
+TEST(RobotModel, ItsFileDoesNotRuleTheWorld) {
+  const std::string file = ::testing::TempDir() + "/ruler.xml";
+  std::ofstream(file) << BelugaWith(
+      "<custom>",
+      "<option gravity='1 0 -1' wind='9 0 0' density='1.2' iterations='1' impratio='7'>"
+      "<flag contact='disable'/></option><statistic meaninertia='1e9' meansize='5'/>"
+      "<visual><quality numslices='1000' numstacks='1000'/><headlight active='0'/></visual>"
+      "<size memory='1M'/>");
+  HazardMap map;
+  map.frame = {4, 4, 1, {}};
+  map.occupancy = Grid<CellState>(4, 4);
+  const Scene dut = BuildScene(map, ReadRobot(file), {}, {});
+  const Scene plain = BuildScene(map, Beluga(), {}, {});
+  const mjModel &a = *dut.model, &b = *plain.model;
+  EXPECT_EQ(std::vector<double>(a.opt.gravity, a.opt.gravity + 3),
+            std::vector<double>(b.opt.gravity, b.opt.gravity + 3));
+  EXPECT_EQ(a.opt.wind[0], 0);
+  EXPECT_EQ(a.opt.density, b.opt.density);
+  EXPECT_EQ(a.opt.iterations, b.opt.iterations);
+  EXPECT_EQ(a.opt.impratio, b.opt.impratio);
+  EXPECT_EQ(a.opt.disableflags, b.opt.disableflags);
+  EXPECT_EQ(a.stat.meaninertia, b.stat.meaninertia);
+  EXPECT_EQ(a.stat.meansize, b.stat.meansize);
+  EXPECT_EQ(a.vis.quality.numslices, b.vis.quality.numslices);
+  EXPECT_EQ(a.vis.headlight.active, b.vis.headlight.active);
+  EXPECT_EQ(a.narena, b.narena);
+}
+
+TEST(RobotModel, TheFileHoldsTheRobotAlone) {
+  const std::string rule = "stands beside the robot";
+  const auto beside = [&](const std::string& name, const std::string& part) {
+    return RefusalOf(name, BelugaWith("<body name=\"base\"", part));
+  };
+  EXPECT_THAT(beside("floor", "<geom name='mine' type='plane' size='9 9 1'/>"),
+              HasSubstr("geom mine: " + rule));
+  EXPECT_THAT(beside("crate", "<body name='crate' pos='1 0 0.1'><geom size='.1'/></body>"),
+              HasSubstr("body crate: " + rule));
+}
+
+// A drawer that runs out by 20 m, and a hinge far from what turns about it.
+TEST(RobotModel, PartsStayNearWhereverTheirJointsTakeThem) {
+  const auto carried = [&](const std::string& name, const std::string& joint) {
+    return RefusalOf(name, BelugaWith("<freejoint name=\"root\"/>",
+                                      "<body name='far'>" + joint +
+                                          "<geom size='.01' mass='.01' pos='0 0 .1' contype='0' "
+                                          "conaffinity='0'/></body>"));
+  };
+  const std::string rule = "must be within 10 m of the robot's base";
+  EXPECT_THAT(carried("drawer", "<joint type='slide' axis='1 0 0' range='0 20'/>"),
+              HasSubstr(rule));
+  EXPECT_THAT(carried("door", "<joint type='hinge' axis='0 0 1' pos='6 0 0'/>"), HasSubstr(rule));
+  EXPECT_THAT(carried("near", "<joint type='slide' axis='1 0 0' range='0 0.1'/>"),
+              ::testing::Not(HasSubstr(rule)));
+}
+
 // MuJoCo copies until no memory is left; whoever asked for it goes on.
 TEST(RobotModel, WhatMuJoCoDoesNotSurviveIsRefused) {
   const std::string copies = "<replicate count='&#49;000'>";
