@@ -132,10 +132,18 @@ class Pool {
   void Start(Worker& worker) {
     int jobs[2], answers[2];
     if (pipe(jobs) != 0) throw InternalError(std::string("no pipe: ") + std::strerror(errno));
-    if (pipe(answers) != 0) throw InternalError(std::string("no pipe: ") + std::strerror(errno));
+    if (pipe(answers) != 0) {
+      const int error = errno;
+      close(jobs[0]), close(jobs[1]);
+      throw InternalError(std::string("no pipe: ") + std::strerror(error));
+    }
     const pid_t parent = getpid();
     const pid_t pid = fork();
-    if (pid < 0) throw InternalError(std::string("no worker process: ") + std::strerror(errno));
+    if (pid < 0) {
+      const int error = errno;
+      for (const int end : {jobs[0], jobs[1], answers[0], answers[1]}) close(end);
+      throw InternalError(std::string("no worker process: ") + std::strerror(error));
+    }
     if (pid == 0) {
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (getppid() != parent) _exit(0);  // it died before

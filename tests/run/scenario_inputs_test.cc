@@ -215,7 +215,8 @@ TEST_F(ScenarioInputs, TheRobotThatIsHashedIsTheOneThatIsRead) {
   std::ofstream(folder_ / "real/r/mine.xml") << text;
   std::ofstream(folder_ / "r/mine.xml") << "no robot";
   std::ofstream(folder_ / "real/deep/s.yaml")
-      << "scenario: 1\nsite: {site: 1, grid: {rows: [......, ......, ......]}, start: {x_m: 1, "
+      << "scenario: 1\nsite: {site: 1, grid: {cell_m: 0.5, rows: \"......\\n......\\n......\"}, "
+         "start: {x_m: 1, "
          "y_m: 0.7}}\nrobot: ../r/mine.xml\n";
   const Scenario dut = ScenarioFile(folder_ / "link/s.yaml").Read();
   EXPECT_EQ(dut.files.Sha256(dut.robot_file), Sha256(text));
@@ -229,7 +230,8 @@ TEST_F(ScenarioInputs, NothingStandsInForABundledRobot) {
   fs::create_directories(folder_ / "in/inputs");
   std::ofstream(folder_ / "in/inputs" / Sha256(text)) << text;
   std::ofstream(folder_ / "in/bundled.yaml")
-      << "scenario: 1\nsite: {site: 1, grid: {rows: [......, ......, ......]}, start: {x_m: 1, "
+      << "scenario: 1\nsite: {site: 1, grid: {cell_m: 0.5, rows: \"......\\n......\\n......\"}, "
+         "start: {x_m: 1, "
          "y_m: 0.7}}\nrobot: beluga\nfiles: {\"bundled:beluga.xml\": \""
       << Sha256(text) << "\"}\n";
   EXPECT_THAT(WhyRefused([&] { ScenarioFile(folder_ / "in/bundled.yaml").Read(); }),
