@@ -113,21 +113,19 @@ void PutOnRollers(const RobotModel& robot, const std::string& file) {
   PutOnFloor(rollers);
 }
 
-// All that becomes of a robot, once: read in each of its ways and shapes, with each kind of wheels,
-// and put on a floor.
+// What becomes of a robot, once: its blocks locked and hinged, on rollers, in each shape.
 void UseOnce(const ParsedMjcf& parsed, const std::string& file) {
-  for (const Blocks blocks : {Blocks::kLocked, Blocks::kHinged}) {
+  const auto finish = [&](const RobotChanges& changes, Blocks blocks) {
     RobotModel robot = CopyOf(parsed);
-    Finish(robot, file, {}, blocks);
+    Finish(robot, file, changes, blocks);
     PutOnFloor(robot);
-    PutOnRollers(robot, file);
-    if (robot.spec.shapes.empty()) return;
-    for (const ShapeSpec& shape : robot.spec.shapes) {
-      RobotModel shaped = CopyOf(parsed);
-      Finish(shaped, file, {.shape = shape.name}, blocks);
-      PutOnFloor(shaped);
-    }
-  }
+    return robot;
+  };
+  const RobotModel robot = finish({}, Blocks::kLocked);
+  PutOnRollers(robot, file);
+  if (robot.spec.shapes.empty()) return;
+  finish({}, Blocks::kHinged);
+  for (const ShapeSpec& shape : robot.spec.shapes) finish({.shape = shape.name}, Blocks::kLocked);
 }
 
 }  // namespace
