@@ -44,6 +44,7 @@ constexpr double kPressS = 0.05, kSoftestS = 0.08;
 constexpr double kTread_s = 0.015;  // way of a wheel up a face, over the closing speed
 constexpr double kSoft_s = 0.008;   // way out of a soft contact, over the closing speed
 constexpr double kPast_m = 0.002;   // beyond where it touched
+constexpr double kSlapShare = 0.5;  // of the first corner's closing speed
 constexpr double kChatterS = 0.1;   // a contact lost for less than this has not ended
 
 class BounceBack final : public Detector {
@@ -232,8 +233,11 @@ class BounceBack final : public Detector {
     }
     if (!begins || !armed_ || !(contact.closing_mps > closing_mps_)) return;
     const Meeting* harder = Harder(*meeting, contact);
-    // What presses on a dead face rocks against it.
-    if (harder != nullptr && harder->settled) return;
+    // What presses on a dead face rocks against it; that is softer than the slap of a second
+    // corner.
+    if (harder != nullptr && harder->settled &&
+        contact.closing_mps < kSlapShare * harder->closing_mps)
+      return;
     meeting->watched = true;
     meeting->first = harder == nullptr;
     meeting->wheel = contact.wheel || (harder != nullptr && harder->wheel);
