@@ -142,6 +142,7 @@ struct Holder {
   std::string hazards, more, id;
   double y_end_m = 2.5;
   bool low_belly = false;
+  std::optional<Vec2> normal = std::nullopt;  // of a face that it may slide along
 };
 Holder DrawHolder(const std::string& robot, Stream& draw) {
   const double turn_rad = draw.Uniform(-0.9, 0.9);
@@ -149,12 +150,16 @@ Holder DrawHolder(const std::string& robot, Stream& draw) {
   switch (static_cast<int>(7 * draw.Uniform())) {
     case 0: {  // the map's wall, straight on or askew
       const double y_m = draw.Uniform() < 0.5 ? 4.9 : 0.1;
-      return {"", "", "wall", y_m};
+      return {"", "", "wall", y_m, false, Vec2(0, 1)};
     }
     case 1:  // too high, whichever way it lies; BELUGA sways at the lower ones
       return {Step("sill", draw.Uniform(robot == "beluga" ? 0.0235 : 0.03, 0.06),
                    Box(ahead, 0.3, 3.5, turn_rad), false),
-              "", "sill"};
+              "",
+              "sill",
+              2.5,
+              false,
+              Vec2(std::cos(turn_rad), std::sin(turn_rad))};
     case 2: {  // a gap that is too narrow
       const double gap_m = robot == "beluga" ? 0.24 : 0.36;
       return {fmt::format(
@@ -199,7 +204,9 @@ TEST_P(GettingOn, WhoIsHeldIsFoundBlamedAndPlaced) {
       EXPECT_THAT(stuck->hazard, ::testing::StartsWith(holder.id));
       EXPECT_EQ(stuck->hazard.empty(), holder.id.empty());
       const TraceRow& end = dut.trace.back();
-      EXPECT_LT((Vec2(stuck->x_m, stuck->y_m) - Vec2(end.x_m, end.y_m)).norm(), 0.3);
+      // Wheels that roll sideways may draw it along a face, no farther over it.
+      const Vec2 since = Vec2(end.x_m, end.y_m) - Vec2(stuck->x_m, stuck->y_m);
+      EXPECT_LT(holder.normal ? std::abs(since.dot(*holder.normal)) : since.norm(), 0.3);
       // It was held from when it first came near where it stayed.
       const auto held = std::ranges::find_if(dut.trace, [&](const TraceRow& row) {
         return std::hypot(row.x_m - stuck->x_m, row.y_m - stuck->y_m) < 0.1;
@@ -208,8 +215,8 @@ TEST_P(GettingOn, WhoIsHeldIsFoundBlamedAndPlaced) {
     }
 }
 
-// hTetro over edges of 1 to 3 mm, square on to nearly along: who gets there in good time was not
-// stuck, and who never gets there was, at the edge.
+// hTetro over edges of 1 to 3 mm, square on to nearly along: who gets there in good time, along its
+// way, was not stuck, and who never gets there was, at the edge.
 TEST_P(GettingOn, TheVerdictAtAnEdgeIsWhatBecomesOfTheDrive) {
   for (int i = 0; i < kEdges; ++i) {
     const int k = GetParam() * kEdges + i;
@@ -231,7 +238,9 @@ TEST_P(GettingOn, TheVerdictAtAnEdgeIsWhatBecomesOfTheDrive) {
     const TraceRow& end = dut.trace.back();
     const bool arrived = (Vec2(end.x_m, end.y_m) - c.goal).norm() < 0.03;
     const Event* stuck = FindStuck(dut);
-    if (arrived && dut.metrics.duration_s < fair_s) {
+    const bool strayed = std::ranges::any_of(
+        dut.events, [](const Event& event) { return event.mode == FailureMode::kVeerOff; });
+    if (arrived && !strayed && dut.metrics.duration_s < fair_s) {
       EXPECT_EQ(stuck, nullptr);
     } else if (!arrived) {
       ASSERT_NE(stuck, nullptr);
