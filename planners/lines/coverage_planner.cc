@@ -37,8 +37,10 @@ constexpr int kMaxRounds = 4;    // of a path that leaves too much; later ones v
 // A path of few points is cheap to shift more finely, and to make anew from what the last one left:
 // the best is kept.
 constexpr std::size_t kFewPoints = 1000;
-constexpr int kTriedPoints = 1800, kMostTries = 3;
+constexpr double kTriedEffort = 2600, kMostTries = 9;
 constexpr double kPointCost = 0.15;    // tool widths
+constexpr double kPocket = 1;          // width^2: what is left of this size and more, people see
+constexpr double kVisitCost = 4;       // tool widths
 constexpr double kLacking = 3;         // what ground below the goal costs, in rows over it
 constexpr double kDear = 1.25;         // length above this many times ground / width
 constexpr double kLapShare = 0.4;      // of the tool's width open: a lap along a wall pays
@@ -89,7 +91,8 @@ struct Outcome {
 };
 
 // Shortens a path to what is worth its length.
-Outcome Finish(const Floor& floor, const Effort& effort, Polyline& path) {
+Outcome Finish(const Floor& floor, const ShortestPaths& paths, const Effort& effort,
+               Polyline& path) {
   double goal_cells = effort.goal * floor.ground_cells;
   Swept swept(floor);
   swept.Add(path);
@@ -105,9 +108,20 @@ Outcome Finish(const Floor& floor, const Effort& effort, Polyline& path) {
   }
   path = MergeStraight(path);
   const double lacking = std::max(0.0, goal_cells - swept.swept_cells());
-  const double bends = kPointCost * floor.tool_width * static_cast<double>(path.size());
-  return {PolylineLength(path) + bends + kLacking * lacking / floor.tool_width,
-          swept.swept_cells() >= effort.least_goal * floor.ground_cells};
+  const bool enough = swept.swept_cells() >= effort.least_goal * floor.ground_cells;
+  const double w = floor.tool_width;
+  double cost = PolylineLength(path) + kLacking * lacking / w +
+                kPointCost * w * static_cast<double>(path.size());
+  for (const Polyline& line : LinesOverUncoveredPatches(floor, paths, kPocket * w * w, swept))
+    cost += PolylineLength(line) + kVisitCost * w;
+  return {cost, enough};
+}
+
+// What making a path anew takes, about: in points, with those that its length is worth.
+double EffortOfTry(const Floor& floor, const Polyline& path) {
+  constexpr double kWidthsOfPoint = 6;
+  return static_cast<double>(path.size()) +
+         PolylineLength(path) / (kWidthsOfPoint * floor.tool_width);
 }
 
 Polyline Drive(ShortestPaths& paths, const Vec2& start, const std::vector<Polyline>& lines,
@@ -171,8 +185,9 @@ Polyline CoveragePlanner::Sweep(const Floor& floor, const Vec2& start, double sh
     if (round < kRounds) continue;
 
     if (round == kRounds)
-      tries = std::clamp(kTriedPoints / static_cast<int>(path.size()), 1, kMostTries);
-    const Outcome outcome = Finish(floor, effort, path);
+      tries =
+          static_cast<int>(std::clamp(kTriedEffort / EffortOfTry(floor, path), 1.0, kMostTries));
+    const Outcome outcome = Finish(floor, paths, effort, path);
     if (outcome.cost < best_cost) best_cost = outcome.cost, best = path;
     --tries;
     if (tries == 0 && !outcome.enough && round < kMaxRounds) tries = 1;

@@ -24,8 +24,9 @@ namespace {
 
 constexpr int kMaxMoved = 150;
 // There are more kicks where they are cheap: a long tour takes longer to settle.
-constexpr int kKickReach = 30, kMaxKicks = 6000, kKickEffort = 1'000'000;
+constexpr int kKickReach = 30, kKicksOfLine = 30, kMaxKicks = 6000, kKickEffort = 1'000'000;
 constexpr std::size_t kCandidates = 10;
+constexpr int kTable = 700;  // lines whose distances fit in a table
 
 class Tour {
  public:
@@ -37,6 +38,7 @@ class Tour {
       points_.push_back(line.front());
       points_.push_back(line.back());
     }
+    if (n_ <= kTable) table_.assign(Z(2 * n_) * Z(2 * n_), -1.0f);
     FindCandidates();
   }
 
@@ -55,7 +57,7 @@ class Tour {
   }
 
   // For Perturb.
-  bool MayKick() { return kicks_++ < std::min(kMaxKicks, kKickEffort / n_); }
+  bool MayKick() { return kicks_++ < std::min({kMaxKicks, kKicksOfLine * n_, kKickEffort / n_}); }
   bool Kick() {
     const int most = std::min(kKickReach, (n_ - 2) / 2);
     const int i = 1 + static_cast<int>(random_.Below(static_cast<std::uint64_t>(n_ - 2)));
@@ -91,12 +93,22 @@ class Tour {
            static_cast<std::uint32_t>(std::max(a, b));
   }
   double D(int a, int b) {
-    const std::uint64_t key = Key(a, b);
-    const auto it = known_.find(key);
-    if (it != known_.end()) return it->second;
-    const double d = paths_.Distance(points_[Z(a)], points_[Z(b)]);
-    known_.emplace(key, static_cast<float>(d));
-    return static_cast<double>(static_cast<float>(d));
+    if (table_.empty()) {
+      const auto [it, fresh] = known_.try_emplace(Key(a, b), 0.0f);
+      if (fresh) it->second = static_cast<float>(paths_.Distance(points_[Z(a)], points_[Z(b)]));
+      return static_cast<double>(it->second);
+    }
+    float& known = Entry(a, b);
+    if (known < 0) known = static_cast<float>(paths_.Distance(points_[Z(a)], points_[Z(b)]));
+    return static_cast<double>(known);
+  }
+  float& Entry(int a, int b) { return table_[Z(std::min(a, b)) * Z(2 * n_) + Z(std::max(a, b))]; }
+  // What the candidates' search says, where nothing is known yet.
+  double Known(int a, int b, double distance) {
+    const auto d = static_cast<float>(distance);
+    if (table_.empty()) return static_cast<double>(known_.try_emplace(Key(a, b), d).first->second);
+    if (Entry(a, b) < 0) Entry(a, b) = d;
+    return static_cast<double>(Entry(a, b));
   }
 
   double AtLeast(int a, int b) const { return (points_[Z(a)] - points_[Z(b)]).norm(); }
@@ -112,8 +124,7 @@ class Tour {
       std::vector<std::pair<double, int>> found;
       for (const auto& [distance, f] : paths_.NearestPlaces(e, kCandidates + 2)) {
         if (f / 2 == e / 2 || f < 2) continue;
-        const auto d = static_cast<float>(distance);
-        found.push_back({static_cast<double>(known_.try_emplace(Key(e, f), d).first->second), f});
+        found.push_back({Known(e, f, distance), f});
       }
       std::sort(found.begin(), found.end());
       if (found.size() > kCandidates) found.resize(kCandidates);
@@ -315,7 +326,8 @@ class Tour {
   int n_;
   std::vector<Vec2> points_;        // ends: line e / 2, its front (even) or back (odd)
   CandidateLists<int> candidates_;  // by end: other lines' ends
-  std::unordered_map<std::uint64_t, float> known_;
+  std::vector<float> table_;  // of few lines: by two ends, the lower first; below 0: not known
+  std::unordered_map<std::uint64_t, float> known_;  // of many
   std::vector<int> in_;       // by place: the end by which the line there is entered
   std::vector<int> place_;    // by line
   std::vector<double> edge_;  // by place: the way on to the next line
