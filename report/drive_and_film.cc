@@ -88,8 +88,10 @@ class Witness : public EpisodeObserver {
     if (!plan.message.empty()) console_.Say(plan.message);
     // A planner keeps clear of what it knows; a file may lead anywhere.
     if (s_.planner) return;
-    if (const std::string conflicts = ConflictsLine(CheckClearance(s_, plan)); !conflicts.empty())
+    const PlanClearance clearance = CheckClearance(s_, plan);
+    if (const std::string conflicts = ConflictsLine(clearance); !conflicts.empty())
       console_.Say(conflicts + ", see `floorproof plan`");
+    for (const std::string& line : CrossingLines(s_, clearance)) console_.Say(line);
   }
 
   void OnScene(const Scene& scene) override {

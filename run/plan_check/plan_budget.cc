@@ -3,12 +3,15 @@
 
 #include <algorithm>
 
+#include "env/core/driven_floor.h"
 #include "env/scene/driving_power.h"
 
 namespace floorproof {
 
 PlanBudget EstimateBudget(Scenario& s, const PlanResult& plan) {
-  const ClearanceField clearance = ComputeClearance(KnownPart(s.site.map), s.robot.spec.step_m);
+  const HazardMap known = KnownPart(s.site.map);
+  const ClearanceField clearance =
+      ClearanceOnTheWay(known, LevelChangesOnTheWay(known, plan.path), s.robot.spec.step_m);
   s.tracker->Start(plan.path, s.robot.spec, &clearance);  // it is started anew before it drives
   PlanBudget out;
   out.time_s = s.tracker->Duration();

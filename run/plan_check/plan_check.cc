@@ -85,6 +85,16 @@ void AddClearance(const Scenario& s, const PlanClearance& c, std::vector<std::st
     lines.push_back(fmt::format("  and {} more", c.conflicts.size() - kListed));
 }
 
+// "crosses 'sill' (step, 4 mm) at x 4.00, y 3.00 m, 2.0 m along: higher than the robot is trusted
+// to cross (1 mm)"
+std::string Line(const Scenario& s, const PlanCrossing& c) {
+  std::string line = fmt::format("crosses {} at {}, {} m along", Named(s, c.hazard), At(c.p_W),
+                                 FixedText(c.along_m, 1));
+  if (c.times > 1) line += fmt::format(", {} times", c.times);
+  return line + fmt::format(": {} than the robot is trusted to cross ({})",
+                            c.height_m < 0 ? "deeper" : "higher", Metres(s.robot.spec.step_m));
+}
+
 void AddUncovered(const Scenario& s, const PlanResult& plan, const UncoveredFloor& u,
                   std::vector<std::string>& lines) {
   const double left_m2 = u.floor_m2 - u.covered_m2;
@@ -124,6 +134,16 @@ std::string ConflictsLine(const PlanClearance& clearance) {
                      n == 1 ? "" : "s");
 }
 
+std::vector<std::string> CrossingLines(const Scenario& s, const PlanClearance& clearance) {
+  std::vector<std::string> lines;
+  const std::vector<PlanCrossing>& crossings = clearance.crossings;
+  for (std::size_t i = 0; i < std::min(kListed, crossings.size()); ++i)
+    lines.push_back("warning: the plan " + Line(s, crossings[i]));
+  if (crossings.size() > kListed)
+    lines.push_back(fmt::format("  and {} more", crossings.size() - kListed));
+  return lines;
+}
+
 std::vector<std::string> PlanLines(const Scenario& s, const PlanResult& plan,
                                    const PlanCheck& check) {
   std::vector<std::string> lines;
@@ -135,6 +155,7 @@ std::vector<std::string> PlanLines(const Scenario& s, const PlanResult& plan,
   }
   lines.insert(lines.begin(), takes);
   AddClearance(s, check.clearance, lines);
+  for (std::string& line : CrossingLines(s, check.clearance)) lines.push_back(std::move(line));
   AddUncovered(s, plan, check.uncovered, lines);
   return lines;
 }
@@ -152,6 +173,15 @@ Json PlanCheckJson(const PlanCheck& check) {
                  {"robot_width_m", conflict.width_m},
                  {"gap_m", conflict.gap_m ? Json(*conflict.gap_m) : Json(nullptr)}});
     conflicts.push_back(std::move(json));
+  }
+  Json crossings = Json::array();
+  for (const PlanCrossing& crossing : c.crossings) {
+    Json json = PlaceJson(crossing.p_W);
+    json.update({{"along_m", crossing.along_m},
+                 {"hazard", crossing.hazard},
+                 {"height_m", crossing.height_m},
+                 {"times", crossing.times}});
+    crossings.push_back(std::move(json));
   }
   Json pockets = Json::array();
   for (const UncoveredPocket& pocket : check.uncovered.pockets) {
@@ -171,6 +201,7 @@ Json PlanCheckJson(const PlanCheck& check) {
   least.update({{"along_m", c.along_m}, {"obstacle", c.obstacle}, {"clearance_m", c.least_m}});
   return {{"least_clearance", c.obstacle.empty() ? Json(nullptr) : std::move(least)},
           {"conflicts", std::move(conflicts)},
+          {"crossings", std::move(crossings)},
           {"free_floor_m2", check.uncovered.floor_m2},
           {"covered_m2", check.uncovered.covered_m2},
           {"uncovered_edges_m2", check.uncovered.edges_m2},

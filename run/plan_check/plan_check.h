@@ -28,6 +28,10 @@ std::vector<std::string> PlanLines(const Scenario& scenario, const PlanResult& p
                                    const PlanCheck& check);
 nlohmann::ordered_json PlanCheckJson(const PlanCheck& check);
 
+// What it crosses beyond what the robot is trusted to, a warning each, five at most and the rest
+// counted.
+std::vector<std::string> CrossingLines(const Scenario& scenario, const PlanClearance& clearance);
+
 // One line for who drives a plan; empty where it leads the robot into nothing.
 std::string ConflictsLine(const PlanClearance& clearance);
 

@@ -2,7 +2,8 @@
 // Each piece of the way is compared with the obstacles whose boxes it may meet, no farther off than
 // the nearest that was found so far: what is far is never looked at. Pieces one after the other
 // that overlap the same thing are one stretch, and stretches whose deepest places lie within the
-// robot's length of each other one place, to which the plan comes several times.
+// robot's length of each other one place, to which the plan comes several times. A stretch on which
+// the centre itself gets into a level change crosses it.
 #include "run/plan_check/plan_clearance.h"
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "env/core/driven_floor.h"
 #include "env/geometry/convex.h"
 #include "run/plan_check/obstacles.h"
 #include "run/plan_check/plan_sweep.h"
@@ -21,12 +23,33 @@ namespace {
 constexpr double kTouch_m = 0.001;  // as a start that stands beside a wall (env/core/standing.h)
 constexpr double kSameStretch_m = 0.3;
 
+// How far along the way from `a` to `b` it first is within the convex polygon or on its border, as
+// a share of the way; none: nowhere.
+std::optional<double> FirstWithin(const Polygon& polygon, const Vec2& a, const Vec2& b) {
+  double from = 0, to = 1;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 edge = (polygon[(i + 1) % polygon.size()] - polygon[i]).normalized();
+    const double inside_m = Cross(edge, a - polygon[i]), gained_m = Cross(edge, b - a);
+    if (std::abs(gained_m) < 1e-12) {
+      if (inside_m < -kTouch_m) return {};
+      continue;
+    }
+    const double share = -inside_m / gained_m;
+    (gained_m > 0 ? from : to) = gained_m > 0 ? std::max(from, share) : std::min(to, share);
+  }
+  return from <= to ? std::optional(from) : std::nullopt;
+}
+
 class Check {
  public:
-  Check(const HazardMap& known, const RobotSpec& robot, const Vec2& start_W)
+  Check(const HazardMap& known, const RobotSpec& robot, const Vec2& start_W, const Path& path)
       : X_GW_(known.frame.X_WG.Inverse()),
         obstacles_(known, robot, start_W),
-        place_m_(std::max(0.1, 2 * robot.circumscribed_radius_m)) {}
+        place_m_(std::max(0.1, 2 * robot.circumscribed_radius_m)),
+        hazards_(known.hazards),
+        on_the_way_(known.hazards.size()) {
+    for (const std::size_t i : LevelChangesOnTheWay(known, path)) on_the_way_[i] = true;
+  }
 
   void Look(const SweptPiece& piece) {
     for (const Polygon& part_W : piece.parts_W) Look(piece, part_W);
@@ -38,6 +61,8 @@ class Check {
     std::ranges::stable_sort(out_.conflicts, [](const PlanConflict& a, const PlanConflict& b) {
       return std::pair(-a.overlap_m, a.along_m) < std::pair(-b.overlap_m, b.along_m);
     });
+    for (auto& [hazard, crossing] : crossings_) out_.crossings.push_back(std::move(crossing));
+    std::ranges::stable_sort(out_.crossings, {}, &PlanCrossing::along_m);
     return std::move(out_);
   }
 
@@ -45,6 +70,7 @@ class Check {
   struct Stretch {
     PlanConflict conflict;
     double end_m = 0;
+    std::optional<PlanCrossing> crossing = {};  // where the centre gets into a level change
   };
 
   void Look(const SweptPiece& piece, const Polygon& part_W) {
@@ -60,13 +86,21 @@ class Check {
     for (const Obstacles::Part* obstacle : found_) {
       const Separation apart = Separate(part_G, obstacle->polygon_G);
       if (apart.distance_m < -kTouch_m) Overlaps(piece, *obstacle, apart);
-      if (apart.distance_m >= out_.least_m) continue;
+      if (OnTheWay(obstacle->hazard) || apart.distance_m >= out_.least_m) continue;
       const auto [p_W, along_m] = Where(piece, apart);
-      out_.least_m = apart.distance_m;
-      out_.obstacle = obstacles_.Id(obstacle->hazard);
-      out_.p_W = p_W;
-      out_.along_m = along_m;
+      Nearest(apart.distance_m, obstacles_.Id(obstacle->hazard), p_W, along_m);
     }
+  }
+
+  void Nearest(double least_m, const std::string& obstacle, const Vec2& p_W, double along_m) {
+    out_.least_m = least_m;
+    out_.obstacle = obstacle;
+    out_.p_W = p_W;
+    out_.along_m = along_m;
+  }
+
+  bool OnTheWay(int hazard) const {
+    return hazard != Obstacles::kWall && on_the_way_[static_cast<std::size_t>(hazard)];
   }
 
   // Where on the piece the robot's centre is beside that place.
@@ -86,12 +120,23 @@ class Check {
     const double before_m = std::max(stretch.end_m, piece.along_m);
     conflict.over_m += std::max(0.0, end_m - (conflict.overlap_m > 0 ? before_m : piece.along_m));
     stretch.end_m = std::max(stretch.end_m, end_m);
+    if (OnTheWay(obstacle.hazard) && !stretch.crossing) Crosses(piece, obstacle, stretch);
     if (-apart.distance_m <= conflict.overlap_m) return;
     conflict.obstacle = obstacles_.Id(obstacle.hazard);
     conflict.overlap_m = -apart.distance_m;
     conflict.width_m = piece.width_m;
     std::tie(conflict.p_W, conflict.along_m) = Where(piece, apart);
     conflict.gap_m = Gap(piece, apart);
+  }
+
+  void Crosses(const SweptPiece& piece, const Obstacles::Part& obstacle, Stretch& stretch) {
+    const Vec2 from_W = piece.X_WB.p(), way_W = piece.length_m * piece.direction_W;
+    const auto share =
+        FirstWithin(obstacle.polygon_G, X_GW_ * from_W, X_GW_ * Vec2(from_W + way_W));
+    if (!share) return;
+    const Hazard& hazard = hazards_[static_cast<std::size_t>(obstacle.hazard)];
+    stretch.crossing = {hazard.id, hazard.height_m, from_W + *share * way_W,
+                        piece.along_m + *share * piece.length_m};
   }
 
   // Across the way beside that place; none where an obstacle stands in the middle of the way, or
@@ -119,8 +164,15 @@ class Check {
 
   // The stretch is over: it is a place of its own, or one that the plan came to before.
   void Close(int hazard, Stretch& stretch) {
-    PlanConflict conflict = std::exchange(stretch, {}).conflict;
+    auto [conflict, end_m, crossing] = std::exchange(stretch, {});
     if (conflict.overlap_m == 0) return;
+    if (crossing) {
+      const auto [known, is_new] = crossings_.try_emplace(hazard, std::move(*crossing));
+      if (!is_new) ++known->second.times;
+      return;
+    }
+    if (-conflict.overlap_m < out_.least_m)
+      Nearest(-conflict.overlap_m, conflict.obstacle, conflict.p_W, conflict.along_m);
     const auto cell = [this](double along_m) {
       return static_cast<int>(std::floor(along_m / place_m_));
     };
@@ -145,16 +197,20 @@ class Check {
   Pose2 X_GW_;
   Obstacles obstacles_;
   double place_m_;
+  const std::vector<Hazard>& hazards_;
+  std::vector<bool> on_the_way_;  // of each of them
   std::vector<const Obstacles::Part*> found_;
   std::map<int, Stretch> stretches_;  // by hazard
   std::map<std::tuple<int, int, int>, PlanConflict> places_;
+  std::map<int, PlanCrossing> crossings_;  // by hazard
   PlanClearance out_;
 };
 
 }  // namespace
 
 PlanClearance CheckClearance(const Scenario& s, const PlanResult& plan) {
-  Check check(KnownPart(s.site.map), s.robot.spec, s.start.p());
+  const HazardMap known = KnownPart(s.site.map);
+  Check check(known, s.robot.spec, s.start.p(), plan.path);
   SweepPlan(s.robot, s.start, plan.path, [&](const SweptPiece& piece) { check.Look(piece); });
   return check.Finish();
 }

@@ -23,6 +23,15 @@ struct PlanConflict {
   std::optional<double> gap_m = {};  // that the way leads through; none: it is wider than the robot
 };
 
+// A known level change that the plan leads over and that is beyond the robot's `step_m`.
+struct PlanCrossing {
+  std::string hazard;       // its id
+  double height_m = 0;      // its floor over the base floor; negative: below
+  Vec2 p_W = Vec2::Zero();  // where the robot's centre first comes to its edge
+  double along_m = 0;       // the way along the plan to there
+  int times = 1;            // the plan comes to it
+};
+
 struct PlanClearance {
   // Between the robot and the nearest obstacle on the whole way, kFarthest_m at most; negative: the
   // greatest overlap.
@@ -31,6 +40,7 @@ struct PlanClearance {
   Vec2 p_W = Vec2::Zero();  // of the robot's centre, there
   double along_m = 0;
   std::vector<PlanConflict> conflicts;  // the greatest overlap first
+  std::vector<PlanCrossing> crossings;  // one a level change, in the order of the way
 
   static constexpr double kFarthest_m = 1;
 };
@@ -40,6 +50,8 @@ struct PlanClearance {
 // turning and folding where it stands. It is compared with what is known of the floor: walls as
 // they are built, drawn back by `inset_m`, and the polygons of the hazards that the robot must keep
 // off (IsObstacle), whatever their cells. What overlaps by less than a millimetre touches.
+// A level change that the plan's line meets (LevelChangesOnTheWay) is crossed, and no obstacle but
+// where the robot's side alone reaches over its edge.
 // Not looked at: how far a tracker strays from the plan, and what it cuts off in bends.
 PlanClearance CheckClearance(const Scenario& scenario, const PlanResult& plan);
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 
@@ -35,6 +36,16 @@ std::string Block(const char* id, const Pose2& X, const Vec2& low, const Vec2& h
 std::string Gap(const Pose2& X, double width_m) {
   return Block("left", X, {-0.1, width_m / 2}, {0.1, width_m / 2 + 0.6}) + ", " +
          Block("right", X, {-0.1, -width_m / 2 - 0.6}, {0.1, -width_m / 2});
+}
+
+// A step 0.2 m wide right across the room, along X's y axis.
+std::string Sill(const Pose2& X, double height_m) {
+  std::string corners;
+  for (const Vec2& p : Rectangle({-0.1, -3}, {0.1, 3})) {
+    const Vec2 p_W = X * p;
+    corners += fmt::format("{}[{}, {}]", corners.empty() ? "" : ", ", p_W.x(), p_W.y());
+  }
+  return fmt::format("{{type: step, id: sill, height_m: {}, polygon_m: [{}]}}", height_m, corners);
 }
 
 class PlanClearanceTest : public ScenarioTest {
@@ -139,15 +150,77 @@ TEST_F(PlanClearanceTest, WhatIsNotKnownIsNotSaid) {
   EXPECT_THAT(Check(Room(hazard, "5.5,2.5\n")).conflicts, IsEmpty());
 }
 
-TEST_F(PlanClearanceTest, AStepIsAnObstacleWhereTheRobotIsNotTrustedToCrossIt) {
-  for (const double height_m : {0.008, 0.015, -0.05}) {
-    const std::string step = fmt::format(
-        "{{type: step, id: sill, polygon_m: [[4, 0.5], [4.2, 0.5], [4.2, 4.5], [4, 4.5]], "
-        "height_m: {}}}",
-        height_m);
-    const PlanClearance dut = Check(Room(step, "5.5,2.5\n"));
-    EXPECT_EQ(dut.conflicts.size(), height_m == 0.008 ? 0u : 1u) << height_m;
+// What the plan leads over is no obstacle; where it is more than the robot is trusted to cross,
+// that is said, with the place of its edge, whatever the heading.
+TEST_F(PlanClearanceTest, AStepOnTheWayIsCrossedAndNoObstacle) {
+  for (const double height_m : {0.008, 0.015, -0.05})
+    for (const double turned_rad : {0.0, kPi / 180, 0.5}) {
+      const Pose2 X{4.5, 2.5, turned_rad};
+      const PlanClearance dut = Check(Room(Sill(X, height_m), "6.5,2.5\n"));
+      const std::string told = fmt::format("{} m, {} rad", height_m, turned_rad);
+      EXPECT_THAT(dut.conflicts, IsEmpty()) << told;
+      EXPECT_NE(dut.obstacle, "sill") << told;
+      ASSERT_EQ(dut.crossings.size(), height_m == 0.008 ? 0u : 1u) << told;
+      if (dut.crossings.empty()) continue;
+      const PlanCrossing& crossing = dut.crossings.front();
+      EXPECT_EQ(crossing.hazard, "sill");
+      EXPECT_EQ(crossing.height_m, height_m);
+      EXPECT_EQ(crossing.times, 1);
+      EXPECT_NEAR((crossing.p_W - Vec2(4.5 - 0.1 / std::cos(turned_rad), 2.5)).norm(), 0, 0.002);
+      EXPECT_NEAR(crossing.along_m, crossing.p_W.x() - 1.5, 0.002) << told;
+    }
+}
+
+TEST_F(PlanClearanceTest, AStepThatIsCrossedOftenIsSaidOnce) {
+  const PlanClearance dut =
+      Check(Room(Sill({4, 2.5, 0}, 0.015), "6,2.5\n6,2.0\n1.5,2.0\n1.5,3\n6,3\n"));
+  ASSERT_THAT(dut.crossings, SizeIs(1));
+  EXPECT_EQ(dut.crossings.front().times, 3);
+  EXPECT_NEAR((dut.crossings.front().p_W - Vec2(3.9, 2.5)).norm(), 0, 0.002);
+}
+
+// Beside the way a step stays an obstacle: before it, along it, and where another stretch of the
+// same plan crosses it.
+TEST_F(PlanClearanceTest, AStepThatOnlyTheRobotsSideReachesIsOverlapped) {
+  const double beside_m = kBeluga_m / 2 - 0.03;
+  const std::string up_to = fmt::format("{},2.5\n", 3.9 - beside_m);
+  for (const std::string& rows : {up_to, up_to + fmt::format("{},3.5\n", 3.9 - beside_m)}) {
+    const PlanClearance dut = Check(Room(Sill({4, 2.5, 0}, 0.015), rows));
+    EXPECT_THAT(dut.crossings, IsEmpty()) << rows;
+    ASSERT_THAT(dut.conflicts, SizeIs(1)) << rows;
+    EXPECT_EQ(dut.conflicts.front().obstacle, "sill");
+    EXPECT_NEAR(dut.conflicts.front().overlap_m, 0.03, 0.001) << rows;
+    EXPECT_NEAR(dut.least_m, -0.03, 0.001) << rows;
   }
+  const PlanClearance dut =
+      Check(Room(Sill({4, 2.5, 0}, 0.015),
+                 fmt::format("{0},2.5\n{0},3.5\n2,3.5\n2,3\n6,3\n", 3.9 - beside_m)));
+  EXPECT_THAT(dut.crossings, SizeIs(1));
+  ASSERT_THAT(dut.conflicts, SizeIs(1));
+  EXPECT_NEAR(dut.conflicts.front().overlap_m, 0.03, 0.001);
+  EXPECT_NEAR(dut.least_m, -0.03, 0.001);
+}
+
+TEST_F(PlanClearanceTest, ACrossingIsSaidInWordsOfItsOwn) {
+  const auto said = [&](double height_m, std::string& text, std::string& json) {
+    Scenario scenario = Room(Sill({4, 2.5, 0}, height_m), "6,2.5\n1.5,2.5\n");
+    const PlanResult plan = MakePlan(scenario);
+    const PlanCheck check = CheckPlan(scenario, plan);
+    text.clear();
+    for (const std::string& line : PlanLines(scenario, plan, check)) text += line + "\n";
+    json = PlanCheckJson(check).dump();
+  };
+  std::string text, json;
+  said(0.015, text, json);
+  EXPECT_THAT(text, HasSubstr("warning: the plan crosses 'sill' (step, 15 mm) at x 3.90, y 2.50 m, "
+                              "2.4 m along, 2 times: higher than the robot is trusted to cross "
+                              "(10 mm)\n"));
+  EXPECT_THAT(text, Not(HasSubstr("into obstacles")));
+  EXPECT_THAT(json, HasSubstr(R"("conflicts":[],"crossings":[{)"));
+  EXPECT_THAT(json, HasSubstr(R"("hazard":"sill","height_m":0.015,"times":2}])"));
+  said(-0.015, text, json);
+  EXPECT_THAT(text, HasSubstr("crosses 'sill' (step, 15 mm deep) at"));
+  EXPECT_THAT(text, HasSubstr(": deeper than the robot is trusted to cross (10 mm)\n"));
 }
 
 // hTetro is a square of 0.5 m: along its side it passes where it does not pass diagonally.

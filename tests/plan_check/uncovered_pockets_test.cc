@@ -106,6 +106,21 @@ TEST_F(UncoveredTest, TimeAndEnergyAreThoseOfADrive) {
   }
 }
 
+// A step that the plan crosses slows nobody down, in a drive and in what is expected of one.
+TEST_F(UncoveredTest, AStepOnTheWayIsNotExpectedToSlowTheDriveDown) {
+  for (const char* robot : {"beluga", "htetro"})
+    for (const char* height_m : {"0.0105", "-0.02"}) {
+      const std::string step = std::string("{type: step, height_m: ") + height_m +
+                               ", polygon_m: [[3, 0.5], [7, 0.5], [7, 4.5], [3, 4.5]]}";
+      Save("plan.csv", "x_m,y_m\n1.5,2.5\n5.5,2.5\n");
+      Scenario bare = Read(RoomScenario(""), {{"robot", robot}});
+      Scenario scenario = Read(RoomScenario(step), {{"robot", robot}});
+      ASSERT_TRUE(IsObstacle(scenario.site.map.hazards[0], scenario.robot.spec.step_m));
+      const double time_s = EstimateBudget(scenario, MakePlan(scenario)).time_s;
+      EXPECT_NEAR(time_s, EstimateBudget(bare, MakePlan(bare)).time_s, 1e-9) << robot << height_m;
+    }
+}
+
 TEST_F(UncoveredTest, TheBatterysShareIsThatOfADrive) {
   Save("plan.csv", "x_m,y_m\n1.5,2.5\n6,2.5\n6,2.0\n2,2.0\n");
   const std::vector<Override> battery = {{"battery.capacity_wh", "2"},
