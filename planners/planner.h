@@ -21,7 +21,7 @@ namespace floorproof {
 struct RiskMap;  // planners/risk/risk_map.h
 
 struct PlanRequest {
-  const HazardMap& map;  // what is known of the floor
+  const HazardMap& map;  // what is known of the floor, heights from that of the start (SeenFrom)
   const RobotSpec& robot;
   Pose2 start;  // X_WB
   std::optional<Vec2> goal;

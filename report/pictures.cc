@@ -12,6 +12,7 @@
 #include "report/drive_marks.h"
 #include "report/error_plot.h"
 #include "report/risk_pictures.h"
+#include "run/scenario/floors.h"
 
 namespace floorproof {
 namespace {
@@ -30,7 +31,7 @@ void WriteKnownMap(const Scenario& s, const EpisodeRecord& record,
                    const std::filesystem::path& png) {
   const KnownMap& known = *record.known;
   const KnownAgainstTruth seen =
-      Compare(known, s.site.map, s.robot.spec.step_m, 2 * known.frame.cell_m);
+      Compare(known, TrueFloor(s), s.robot.spec.step_m, 2 * known.frame.cell_m);
   HeatMapOptions options;
   options.title = fmt::format("{}: known {:.1f} %, of it wrong {:.1f} %", PictureTitle(s),
                               100 * seen.known, 100 * seen.wrong);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "env/core/levels.h"
+
 namespace floorproof {
 namespace {
 
@@ -24,10 +26,16 @@ bool Meets(const Polygon& footprint, const Vec2& a, const Vec2& b) {
   return false;
 }
 
-bool Meets(const Hazard& hazard, const Path& path) {
-  return std::ranges::any_of(hazard.footprint, [&](const Polygon& footprint) {
-    for (std::size_t i = 0; i < path.size(); ++i)
-      if (Meets(footprint, path[i > 0 ? i - 1 : 0].p_W, path[i].p_W)) return true;
+bool Meets(const std::vector<Polygon>& floor, const Path& path) {
+  return std::ranges::any_of(floor, [&](const Polygon& polygon) {
+    Vec2 low = polygon[0], high = low;
+    for (const Vec2& p : polygon) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      const Vec2 &a = path[i > 0 ? i - 1 : 0].p_W, &b = path[i].p_W;
+      const bool near = (a.cwiseMin(b).array() <= high.array()).all() &&
+                        (a.cwiseMax(b).array() >= low.array()).all();
+      if (near && Meets(polygon, a, b)) return true;
+    }
     return false;
   });
 }
@@ -37,7 +45,7 @@ bool Meets(const Hazard& hazard, const Path& path) {
 std::vector<std::size_t> LevelChangesOnTheWay(const HazardMap& map, const Path& path) {
   std::vector<std::size_t> met;
   for (std::size_t i = 0; i < map.hazards.size(); ++i)
-    if (map.hazards[i].hazard_class == HazardClass::kLevelChange && Meets(map.hazards[i], path))
+    if (map.hazards[i].hazard_class == HazardClass::kLevelChange && Meets(BareFloor(map, i), path))
       met.push_back(i);
   return met;
 }

@@ -18,6 +18,7 @@
 #include "run/episode/plan_progress.h"
 #include "run/episode/recorder.h"
 #include "run/episode/robot_side.h"
+#include "run/scenario/floors.h"
 
 namespace floorproof {
 
@@ -119,8 +120,8 @@ Episode::Episode(Scenario& s, Plant& plant, Simulation* simulation, const PlanRe
       plan_(plan),
       observer_(observer),
       robot_(s.robot.spec),
-      known_(KnownPart(s.site.map)),
-      area_(ComputeSweepArea(s.site.map, robot_.clear, robot_.tool, robot_.step_m, s.start.p())),
+      known_(KnownFloor(s)),
+      area_(ComputeSweepArea(TrueFloor(s), robot_.clear, robot_.tool, robot_.step_m, s.start.p())),
       plan_m_(std::max(Length(plan.path), 1e-9)),
       steps_a_control_(std::lround(1.0 / (s.episode.control_hz * s.physics.timestep_s))),
       recorder_(s, area_, *plan.risk),

@@ -2,12 +2,13 @@
 #include "run/episode/make_plan.h"
 
 #include "base/streams.h"
+#include "run/scenario/floors.h"
 
 namespace floorproof {
 
 PlanResult MakePlan(const Scenario& s) {
   const RobotSpec& robot = s.robot.spec;
-  const HazardMap known = KnownPart(s.site.map);
+  const HazardMap known = KnownFloor(s);
   auto risk = std::make_shared<const RiskMap>(ComputeRisk(known, robot, s.fmea, s.risk));
   PlanResult plan;
   if (s.planner) {

@@ -13,6 +13,7 @@
 #include "base/file_output.h"
 #include "env/core/failure_text.h"
 #include "planners/risk/risk_meter.h"
+#include "run/scenario/floors.h"
 #include "run/scenario/plan_file.h"
 
 namespace floorproof {
@@ -163,8 +164,8 @@ Json PlanJson(const Scenario& s, const PlanResult& plan) {
   PathCoverage covered;
   double area_m2 = 0;
   if (!plan.path.empty()) {
-    const SweepArea area = ComputeSweepArea(KnownPart(s.site.map), plan.clear, plan.tool,
-                                            s.robot.spec.step_m, s.start.p());
+    const SweepArea area =
+        ComputeSweepArea(KnownFloor(s), plan.clear, plan.tool, s.robot.spec.step_m, s.start.p());
     covered = MeasureCoverage(area, plan.tool, plan.path);
     area_m2 = area.area_m2();
   }

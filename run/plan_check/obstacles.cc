@@ -29,19 +29,19 @@ Obstacles::Obstacles(const HazardMap& known, const RobotSpec& robot, const Vec2&
     parts_.push_back({Rectangle(box.low_G, box.high_G), kWall});
   for (std::size_t i = 0; i < known.hazards.size(); ++i) {
     ids_.push_back(known.hazards[i].id);
-    if (IsObstacle(known.hazards[i], robot.step_m)) AddHazard(known, i, robot.step_m);
+    if (IsObstacle(known.hazards[i], robot.step_m)) AddHazard(known, i);
   }
   std::vector<WallBox> boxes;
   for (const Part& part : parts_) boxes.push_back(BoxAround(part.polygon_G));
   boxes_ = WallGrid(std::move(boxes));
 }
 
-void Obstacles::AddHazard(const HazardMap& known, std::size_t index, double step_m) {
+void Obstacles::AddHazard(const HazardMap& known, std::size_t index) {
   const Hazard& hazard = known.hazards[index];
   std::vector<Polygon> later;
   if (IsFloor(hazard))
     for (std::size_t k = index + 1; k < known.hazards.size(); ++k)
-      if (IsFloor(known.hazards[k]) && !IsObstacle(known.hazards[k], step_m))
+      if (IsFloor(known.hazards[k]))
         later.insert(later.end(), known.hazards[k].footprint.begin(),
                      known.hazards[k].footprint.end());
   const Pose2 X_GW = known.frame.X_WG.Inverse();

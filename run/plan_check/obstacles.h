@@ -21,8 +21,7 @@ class Obstacles {
   };
 
   // Of what is known of the map: the walls that a robot which starts there can meet, and the
-  // hazards that it must keep off. A level change does not count where a later floor that can be
-  // driven covers it.
+  // hazards that it must keep off. A level change does not count where a later floor covers it.
   Obstacles(const HazardMap& known, const RobotSpec& robot, const Vec2& start_W);
 
   // The parts whose bounding boxes meet the rectangle [low, high].
@@ -36,7 +35,7 @@ class Obstacles {
   std::string Id(int hazard) const;
 
  private:
-  void AddHazard(const HazardMap& known, std::size_t index, double step_m);
+  void AddHazard(const HazardMap& known, std::size_t index);
 
   std::vector<Part> parts_;
   std::vector<std::string> ids_;

@@ -5,11 +5,12 @@
 
 #include "env/core/driven_floor.h"
 #include "env/scene/driving_power.h"
+#include "run/scenario/floors.h"
 
 namespace floorproof {
 
 PlanBudget EstimateBudget(Scenario& s, const PlanResult& plan) {
-  const HazardMap known = KnownPart(s.site.map);
+  const HazardMap known = KnownFloor(s);
   const ClearanceField clearance =
       ClearanceOnTheWay(known, LevelChangesOnTheWay(known, plan.path), s.robot.spec.step_m);
   s.tracker->Start(plan.path, s.robot.spec, &clearance);  // it is started anew before it drives

@@ -11,6 +11,7 @@
 
 #include "base/quantity.h"
 #include "env/core/failure_text.h"
+#include "run/scenario/floors.h"
 
 namespace floorproof {
 namespace {
@@ -27,23 +28,21 @@ std::string Metres(double length_m) { return LengthText(std::round(1000 * length
 
 std::string At(const Vec2& p_W) { return PlaceText(p_W.x(), p_W.y()); }
 
-std::string Named(const Scenario& s, const std::string& id) {
-  return ObstaclePhrase(s.site.map, id);
-}
-
-std::string Line(const Scenario& s, const PlanConflict& c) {
+std::string Line(const HazardMap& floor, const PlanConflict& c) {
   std::string line = fmt::format("  {}, {} m along: ", At(c.p_W), FixedText(c.along_m, 1));
   if (c.gap_m)
     line += fmt::format("a gap {} wide at {}, the robot is {} wide", Metres(*c.gap_m),
-                        Named(s, c.obstacle), Metres(c.width_m));
+                        ObstaclePhrase(floor, c.obstacle), Metres(c.width_m));
   else
-    line += fmt::format("overlaps {} by {}", Named(s, c.obstacle), Metres(c.overlap_m));
+    line +=
+        fmt::format("overlaps {} by {}", ObstaclePhrase(floor, c.obstacle), Metres(c.overlap_m));
   if (c.over_m >= 0.5) line += fmt::format(", over {} m of the way", FixedText(c.over_m, 1));
   if (c.times > 1) line += fmt::format(", {} times", c.times);
   return line;
 }
 
-std::string Reason(const Scenario& s, const UncoveredPocket& pocket, const PlanResult& plan) {
+std::string Reason(const HazardMap& floor, const RobotSpec& robot, const UncoveredPocket& pocket,
+                   const PlanResult& plan) {
   const std::string needs = Metres(LeastPassage(plan.clear));
   switch (pocket.why) {
     case Why::kNotVisited:
@@ -58,45 +57,55 @@ std::string Reason(const Scenario& s, const UncoveredPocket& pocket, const PlanR
                           : fmt::format("about {} wide; {}", Metres(pocket.width_m), clear);
     }
     case Why::kBehind:
-      return "cut off by " + Named(s, pocket.hazard) + ", which the robot must keep off";
+      return "cut off by " + ObstaclePhrase(floor, pocket.hazard) +
+             ", which the robot must keep off";
     case Why::kClosed:
       return "walls all around";
     case Why::kKeptOff:
-      return fmt::format("{}; the robot crosses {} at most", Named(s, pocket.hazard),
-                         Metres(s.robot.spec.step_m));
+      return fmt::format("{}; the robot crosses {} at most", ObstaclePhrase(floor, pocket.hazard),
+                         Metres(robot.step_m));
   }
   return "";
 }
 
-void AddClearance(const Scenario& s, const PlanClearance& c, std::vector<std::string>& lines) {
+void AddClearance(const HazardMap& floor, const PlanClearance& c, std::vector<std::string>& lines) {
   if (c.conflicts.empty()) {
     lines.push_back(
         c.obstacle.empty()
             ? fmt::format("least clearance: more than {}", Metres(PlanClearance::kFarthest_m))
             : fmt::format("least clearance: {} to {}, at {}, {} m along",
-                          Metres(std::max(0.0, c.least_m)), Named(s, c.obstacle), At(c.p_W),
-                          FixedText(c.along_m, 1)));
+                          Metres(std::max(0.0, c.least_m)), ObstaclePhrase(floor, c.obstacle),
+                          At(c.p_W), FixedText(c.along_m, 1)));
     return;
   }
   lines.push_back(ConflictsLine(c) + ":");
   for (std::size_t i = 0; i < std::min(kListed, c.conflicts.size()); ++i)
-    lines.push_back(Line(s, c.conflicts[i]));
+    lines.push_back(Line(floor, c.conflicts[i]));
   if (c.conflicts.size() > kListed)
     lines.push_back(fmt::format("  and {} more", c.conflicts.size() - kListed));
 }
 
 // "crosses 'sill' (step, 4 mm) at x 4.00, y 3.00 m, 2.0 m along: higher than the robot is trusted
 // to cross (1 mm)"
-std::string Line(const Scenario& s, const PlanCrossing& c) {
-  std::string line = fmt::format("crosses {} at {}, {} m along", Named(s, c.hazard), At(c.p_W),
-                                 FixedText(c.along_m, 1));
+std::string Line(const HazardMap& floor, const RobotSpec& robot, const PlanCrossing& c) {
+  std::string line = fmt::format("crosses {} at {}, {} m along", ObstaclePhrase(floor, c.hazard),
+                                 At(c.p_W), FixedText(c.along_m, 1));
   if (c.times > 1) line += fmt::format(", {} times", c.times);
   return line + fmt::format(": {} than the robot is trusted to cross ({})",
-                            c.height_m < 0 ? "deeper" : "higher", Metres(s.robot.spec.step_m));
+                            c.height_m < 0 ? "deeper" : "higher", Metres(robot.step_m));
 }
 
-void AddUncovered(const Scenario& s, const PlanResult& plan, const UncoveredFloor& u,
+void AddCrossings(const HazardMap& floor, const RobotSpec& robot, const PlanClearance& clearance,
                   std::vector<std::string>& lines) {
+  const std::vector<PlanCrossing>& crossings = clearance.crossings;
+  for (std::size_t i = 0; i < std::min(kListed, crossings.size()); ++i)
+    lines.push_back("warning: the plan " + Line(floor, robot, crossings[i]));
+  if (crossings.size() > kListed)
+    lines.push_back(fmt::format("  and {} more", crossings.size() - kListed));
+}
+
+void AddUncovered(const HazardMap& floor, const RobotSpec& robot, const PlanResult& plan,
+                  const UncoveredFloor& u, std::vector<std::string>& lines) {
   const double left_m2 = u.floor_m2 - u.covered_m2;
   lines.push_back(
       fmt::format("uncovered: {} of {} m2 of free floor ({}), {} m2 of it along walls, "
@@ -110,7 +119,7 @@ void AddUncovered(const Scenario& s, const PlanResult& plan, const UncoveredFloo
       more_m2 += pocket.area_m2;
     else
       lines.push_back(fmt::format("  {} m2 around {}: {}", NumberText(pocket.area_m2),
-                                  At(pocket.p_W), Reason(s, pocket, plan)));
+                                  At(pocket.p_W), Reason(floor, robot, pocket, plan)));
   }
   if (u.pockets.size() > kListed)
     lines.push_back(
@@ -122,8 +131,8 @@ Json PlaceJson(const Vec2& p_W) { return {{"x_m", p_W.x()}, {"y_m", p_W.y()}}; }
 }  // namespace
 
 PlanCheck CheckPlan(Scenario& s, const PlanResult& plan) {
-  const SweepArea area = ComputeSweepArea(KnownPart(s.site.map), plan.clear, plan.tool,
-                                          s.robot.spec.step_m, s.start.p());
+  const SweepArea area =
+      ComputeSweepArea(KnownFloor(s), plan.clear, plan.tool, s.robot.spec.step_m, s.start.p());
   return {CheckClearance(s, plan), FindUncovered(s, plan, area), EstimateBudget(s, plan)};
 }
 
@@ -136,11 +145,7 @@ std::string ConflictsLine(const PlanClearance& clearance) {
 
 std::vector<std::string> CrossingLines(const Scenario& s, const PlanClearance& clearance) {
   std::vector<std::string> lines;
-  const std::vector<PlanCrossing>& crossings = clearance.crossings;
-  for (std::size_t i = 0; i < std::min(kListed, crossings.size()); ++i)
-    lines.push_back("warning: the plan " + Line(s, crossings[i]));
-  if (crossings.size() > kListed)
-    lines.push_back(fmt::format("  and {} more", crossings.size() - kListed));
+  AddCrossings(KnownFloor(s), s.robot.spec, clearance, lines);
   return lines;
 }
 
@@ -154,9 +159,10 @@ std::vector<std::string> PlanLines(const Scenario& s, const PlanResult& plan,
     if (*check.budget.battery_share > 1) lines.push_back("warning: the battery does not last");
   }
   lines.insert(lines.begin(), takes);
-  AddClearance(s, check.clearance, lines);
-  for (std::string& line : CrossingLines(s, check.clearance)) lines.push_back(std::move(line));
-  AddUncovered(s, plan, check.uncovered, lines);
+  const HazardMap floor = KnownFloor(s);
+  AddClearance(floor, check.clearance, lines);
+  AddCrossings(floor, s.robot.spec, check.clearance, lines);
+  AddUncovered(floor, s.robot.spec, plan, check.uncovered, lines);
   return lines;
 }
 

@@ -16,6 +16,7 @@
 #include "env/geometry/convex.h"
 #include "run/plan_check/obstacles.h"
 #include "run/plan_check/plan_sweep.h"
+#include "run/scenario/floors.h"
 
 namespace floorproof {
 namespace {
@@ -209,7 +210,7 @@ class Check {
 }  // namespace
 
 PlanClearance CheckClearance(const Scenario& s, const PlanResult& plan) {
-  const HazardMap known = KnownPart(s.site.map);
+  const HazardMap known = KnownFloor(s);
   Check check(known, s.robot.spec, s.start.p(), plan.path);
   SweepPlan(s.robot, s.start, plan.path, [&](const SweptPiece& piece) { check.Look(piece); });
   return check.Finish();

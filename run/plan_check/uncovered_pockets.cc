@@ -14,6 +14,7 @@
 #include "env/core/plan_passes.h"
 #include "env/geometry/distance.h"
 #include "env/geometry/rasterise.h"
+#include "run/scenario/floors.h"
 
 namespace floorproof {
 namespace {
@@ -148,7 +149,7 @@ std::vector<Patch> Patches(const Mask& cells, double least_half, std::int64_t& r
 class Finder {
  public:
   Finder(const Scenario& s, const PlanResult& plan, const SweepArea& area)
-      : known_(KnownPart(s.site.map)), step_m_(s.robot.spec.step_m), area_(area), plan_(plan) {
+      : known_(KnownFloor(s)), step_m_(s.robot.spec.step_m), area_(area), plan_(plan) {
     free_ = ObstacleMask(known_, step_m_, area.frame);
     for (std::uint8_t& cell : free_.cells) cell = !cell;
     const double cell_m = area.frame.cell_m;

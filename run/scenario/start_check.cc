@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "run/scenario/floors.h"
 #include "run/scenario/scenario_parts.h"
 
 namespace floorproof {
@@ -39,7 +40,7 @@ void Check(const ConfigNode& root, Start start) {
 }  // namespace
 
 void CheckStarts(const ConfigNode& root, Scenario& s) {
-  const HazardMap known = KnownPart(s.site.map);
+  const HazardMap known = KnownFloor(s);
   Check(root, [&] {
     s.estimator->Start({known, s.robot.spec, s.start, Stream(0, 0, "estimator")});
   });

@@ -223,6 +223,67 @@ TEST_F(PlanClearanceTest, ACrossingIsSaidInWordsOfItsOwn) {
   EXPECT_THAT(text, HasSubstr(": deeper than the robot is trusted to cross (10 mm)\n"));
 }
 
+// From a raised floor or a pit: what is said is of the floor on which the robot starts.
+TEST_F(PlanClearanceTest, HeightsAreOverTheFloorOfTheStart) {
+  for (const double height_m : {0.05, -0.05}) {
+    const std::string level = fmt::format(
+        "{{type: step, height_m: {}, polygon_m: [[0.75,0.75],[6,0.75],[6,4],[0.75,4]]}}", height_m);
+    const std::string on_it = fmt::format(
+        "{{type: step, id: sill, height_m: {}, polygon_m: [[3,0.75],[4,0.75],[4,4],[3,4]]}}",
+        height_m + 0.015);
+    PlanClearance dut = Check(Room(level, "5,2.5\n"));
+    EXPECT_THAT(dut.conflicts, IsEmpty()) << height_m;
+    EXPECT_THAT(dut.crossings, IsEmpty()) << height_m;
+    EXPECT_EQ(dut.obstacle, "base_floor") << height_m;
+    EXPECT_NEAR(dut.least_m, 0.75 - kBeluga_m / 2, 0.001) << "where it starts";
+
+    dut = Check(Room(level, "7,2.5\n"));
+    EXPECT_THAT(dut.conflicts, IsEmpty()) << height_m;
+    ASSERT_THAT(dut.crossings, SizeIs(1)) << height_m;
+    EXPECT_EQ(dut.crossings[0].hazard, "base_floor");
+    EXPECT_EQ(dut.crossings[0].height_m, -height_m);
+    EXPECT_NEAR((dut.crossings[0].p_W - Vec2(6, 2.5)).norm(), 0, 0.002);
+
+    dut = Check(Room(level + ", " + on_it, "5,2.5\n"));
+    ASSERT_THAT(dut.crossings, SizeIs(1)) << height_m;
+    EXPECT_EQ(dut.crossings[0].hazard, "sill");
+    EXPECT_NEAR(dut.crossings[0].height_m, 0.015, 1e-9);
+  }
+}
+
+TEST_F(PlanClearanceTest, OnARaisedFloorTheFloorBelowHasAName) {
+  const auto said = [&](const char* height_m) {
+    const std::string level = std::string("{type: step, height_m: ") + height_m +
+                              ", polygon_m: [[0.75,0.75],[6,0.75],[6,4],[0.75,4]]}";
+    Scenario scenario = Room(level, "7,2.5\n");
+    const PlanResult plan = MakePlan(scenario);
+    std::string text;
+    for (const std::string& line : PlanLines(scenario, plan, CheckPlan(scenario, plan)))
+      text += line + "\n";
+    return text;
+  };
+  EXPECT_THAT(
+      said("0.05"),
+      HasSubstr("crosses 'base_floor' (floor, 50 mm deep) at x 6.00, y 2.50 m, 4.5 m along: "
+                "deeper than the robot is trusted to cross (10 mm)"));
+  EXPECT_THAT(said("-0.05"),
+              HasSubstr("crosses 'base_floor' (floor, 50 mm) at x 6.00, y 2.50 m, 4.5 m "
+                        "along: higher than the robot is trusted to cross (10 mm)"));
+}
+
+// Where floors overlap, the later one is crossed, and not what it covers.
+TEST_F(PlanClearanceTest, WhatABridgeCoversIsNotCrossed) {
+  const std::string pit =
+      "{type: step, id: pit, height_m: -0.3, polygon_m: [[3,0.5],[5,0.5],[5,4.5],[3,4.5]]}, "
+      "{type: step, id: bridge, height_m: 0.02, polygon_m: [[2.5,2],[5.5,2],[5.5,3],[2.5,3]]}";
+  const PlanClearance dut = Check(Room(pit, "6.5,2.5\n"));
+  ASSERT_THAT(dut.crossings, SizeIs(1));
+  EXPECT_EQ(dut.crossings[0].hazard, "bridge");
+  EXPECT_THAT(dut.conflicts, IsEmpty());
+  EXPECT_EQ(dut.obstacle, "pit");
+  EXPECT_NEAR(dut.least_m, 0.5 - kBeluga_m / 2, 0.001);
+}
+
 // hTetro is a square of 0.5 m: along its side it passes where it does not pass diagonally.
 TEST_F(PlanClearanceTest, TheFootprintIsThatOfTheHeadingAndTheShape) {
   const auto square = [&](double yaw_deg, double gap_m) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "run/plan_check/plan_budget.h"
+#include "run/scenario/floors.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {
@@ -38,9 +39,9 @@ class UncoveredTest : public ScenarioTest {
   static UncoveredFloor Find(const Scenario& s) {
     const PlanResult plan = MakePlan(s);
     EXPECT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
-    return FindUncovered(s, plan,
-                         ComputeSweepArea(KnownPart(s.site.map), plan.clear, plan.tool,
-                                          s.robot.spec.step_m, s.start.p()));
+    return FindUncovered(
+        s, plan,
+        ComputeSweepArea(KnownFloor(s), plan.clear, plan.tool, s.robot.spec.step_m, s.start.p()));
   }
 };
 
@@ -82,6 +83,25 @@ TEST_F(UncoveredTest, ARoomBehindAHazardNamesIt) {
   EXPECT_TRUE(std::ranges::any_of(dut.pockets, [](const UncoveredPocket& pocket) {
     return pocket.why == Why::kKeptOff && pocket.hazard == "sill";
   }));
+}
+
+// On a raised floor, or in a pit, that floor is what is free, and the base floor is another level:
+// within the walls alone.
+TEST_F(UncoveredTest, TheFloorIsThatOfTheStart) {
+  Save("plan.csv", "x_m,y_m\n1.5,2.5\n5,2.5\n");
+  for (const char* height_m : {"0.05", "-0.05"}) {
+    const UncoveredFloor dut =
+        Find(Read(RoomScenario(std::string("{type: step, height_m: ") + height_m +
+                               ", polygon_m: [[0.75,0.75],[6,0.75],[6,4],[0.75,4]]}")));
+    EXPECT_NEAR(dut.floor_m2, 5.25 * 3.25, 0.05);
+    EXPECT_NEAR(dut.covered_m2, 3.5 * 0.3 + 0.07, 0.1);
+    ASSERT_THAT(dut.pockets, SizeIs(2)) << height_m;
+    EXPECT_EQ(dut.pockets[0].why, Why::kNotVisited);
+    EXPECT_NEAR(dut.pockets[0].area_m2, dut.floor_m2 - dut.covered_m2 - dut.edges_m2, 1e-6);
+    EXPECT_EQ(dut.pockets[1].why, Why::kKeptOff);
+    EXPECT_EQ(dut.pockets[1].hazard, "base_floor");
+    EXPECT_NEAR(dut.pockets[1].area_m2, 8 * 4 - 5.25 * 3.25, 0.5);
+  }
 }
 
 TEST_F(UncoveredTest, WhatAUsersPlanLeavesIsNotVisited) {

@@ -43,6 +43,8 @@ TEST_F(StartTest, OnARaisedFloorAndInAPitItDrivesAsOnTheBaseFloor) {
     for (const double height_m : {0.004, 0.15, -0.05, -0.5}) {
       const EpisodeRecord told = Drive(Read(RoomScenario(Level(height_m)), {{"robot", robot}}));
       EXPECT_EQ(told.outcome, Outcome::kSuccess) << robot << " " << height_m;
+      EXPECT_NEAR(told.metrics.duration_s, flat.metrics.duration_s, 0.1) << robot << height_m;
+      EXPECT_GT(told.metrics.coverage, 0.02) << robot << " " << height_m;
       const EpisodeRecord dut =
           Drive(Read(RoomScenario(Level(height_m, false)), {{"robot", robot}}));
       EXPECT_EQ(dut.outcome, Outcome::kSuccess) << robot << " " << height_m;
@@ -53,6 +55,50 @@ TEST_F(StartTest, OnARaisedFloorAndInAPitItDrivesAsOnTheBaseFloor) {
       EXPECT_NEAR(dut.metrics.energy_j, flat.metrics.energy_j, 0.02 * flat.metrics.energy_j)
           << robot << " " << height_m;
     }
+  }
+}
+
+// A room whose whole floor lies so high has the plans, and the drives, of a room.
+TEST_F(StartTest, ARaisedRoomIsPlannedAndDrivenAsARoom) {
+  const std::string all =
+      "{{type: step, height_m: {}, polygon_m: [[0.5,0.5],[8.5,0.5],[8.5,4.5],[0.5,4.5]]}}";
+  for (const char* planner : {"boustrophedon", "spiral", "path_transform"}) {
+    const std::vector<Override> drawn = {{"plan", planner}, {"risk", "{}"}};
+    const PlanResult flat = MakePlan(Read(RoomScenario(""), drawn));
+    ASSERT_EQ(flat.status, PlanStatus::kSuccess) << planner << ": " << flat.message;
+    for (const double height_m : {0.15, -0.05}) {
+      const PlanResult dut =
+          MakePlan(Read(RoomScenario(fmt::format(fmt::runtime(all), height_m)), drawn));
+      ASSERT_EQ(dut.status, PlanStatus::kSuccess) << planner << ": " << dut.message;
+      ASSERT_EQ(dut.path.size(), flat.path.size()) << planner << " " << height_m;
+      for (std::size_t i = 0; i < dut.path.size(); ++i)
+        EXPECT_EQ(dut.path[i].p_W, flat.path[i].p_W) << planner << " " << height_m;
+    }
+  }
+  const EpisodeRecord flat = Drive(Read(RoomScenario("")));
+  const EpisodeRecord dut = Drive(Read(RoomScenario(fmt::format(fmt::runtime(all), 0.15))));
+  EXPECT_NEAR(dut.metrics.coverage, flat.metrics.coverage, 0.002);
+  EXPECT_GT(dut.metrics.coverage, 0.01);
+}
+
+// Its lidar looks over the robot's own floor: from a pit it meets the base floor's side.
+TEST_F(StartTest, InAPitItIsLocalisedByThePitsWalls) {
+  const EpisodeRecord dut =
+      Drive(Read(RoomScenario(Level(-0.5), "sensors: {lidar: {}}\n"), {{"estimator", "mcl"}}));
+  EXPECT_EQ(dut.outcome, Outcome::kSuccess);
+  EXPECT_LT(dut.metrics.max_estimate_error_m, 0.1);
+}
+
+// Planners keep to the floor on which the robot starts, and off its edge.
+TEST_F(StartTest, PlansStayOnTheFloorOfTheStart) {
+  for (const double height_m : {0.15, -0.05}) {
+    const Scenario s = Read(RoomScenario(Level(height_m)), {{"plan", "boustrophedon"}});
+    const PlanResult dut = MakePlan(s);
+    ASSERT_EQ(dut.status, PlanStatus::kSuccess) << dut.message;
+    for (const Waypoint& w : dut.path)
+      EXPECT_LT(SignedDistance(s.site.map.hazards[0].footprint[0], w.p_W),
+                -s.robot.spec.inscribed_radius_m);
+    EXPECT_GT(Length(dut.path) * s.robot.spec.tool_width_m, 0.8 * 5.25 * 3.25) << height_m;
   }
 }
 

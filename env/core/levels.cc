@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// Level changes that are cut to their bare floor do not overlap, so it does not matter any more
+// which of them comes later, and terrain before them in the list takes none of them away.
+#include "env/core/levels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "env/core/standing.h"
+
+namespace floorproof {
+namespace {
+
+constexpr double kSameLevel_m = 1e-6;
+constexpr double kThinnest_m = 1e-4;  // of a piece of floor: borders that are one, but for rounding
+
+bool IsLevel(const Hazard& hazard) { return hazard.hazard_class == HazardClass::kLevelChange; }
+
+struct Box {
+  Vec2 low, high;
+  explicit Box(const Polygon& polygon) : low(polygon[0]), high(polygon[0]) {
+    for (const Vec2& p : polygon) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  }
+  bool Meets(const Box& other) const {
+    return (low.array() < other.high.array()).all() && (other.low.array() < high.array()).all();
+  }
+};
+
+bool IsThin(const Polygon& polygon) {
+  double around_m = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    around_m += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
+  return std::abs(SignedArea(polygon)) < kThinnest_m * around_m / 2;
+}
+
+// Adds what of the polygon these leave: the whole of it, or convex parts.
+void AddBare(const Polygon& polygon, const std::vector<Polygon>& covers,
+             std::vector<Polygon>& bare) {
+  const Box box(polygon);
+  std::vector<Polygon> meeting;
+  std::ranges::copy_if(covers, std::back_inserter(meeting),
+                       [&](const Polygon& cover) { return box.Meets(Box(cover)); });
+  if (meeting.empty()) {
+    bare.push_back(polygon);
+    return;
+  }
+  for (Polygon& part : ConvexParts(Difference({{polygon, {}}}, meeting)))
+    if (!IsThin(part)) bare.push_back(std::move(part));
+}
+
+std::vector<Polygon> LevelsFrom(const HazardMap& map, std::size_t first) {
+  std::vector<Polygon> levels;
+  for (std::size_t i = first; i < map.hazards.size(); ++i)
+    if (const Hazard& hazard = map.hazards[i]; IsLevel(hazard))
+      levels.insert(levels.end(), hazard.footprint.begin(), hazard.footprint.end());
+  return levels;
+}
+
+// The cells that are no wall as few rectangles: runs of a row, as long as the rows above repeat
+// them.
+std::vector<Polygon> FreeRectangles(const HazardMap& map) {
+  struct Run {
+    int first, end, bottom;
+  };
+  std::vector<Polygon> rectangles;
+  std::vector<Run> open, row;
+  for (int iy = 0; iy <= map.frame.height; ++iy) {
+    row.clear();
+    for (int ix = 0, end = 0; iy < map.frame.height && ix < map.frame.width; ix = end + 1) {
+      for (end = ix; end < map.frame.width && !map.IsWall(end, iy);) ++end;
+      if (end > ix) row.push_back({ix, end, iy});
+    }
+    for (const Run& run : open) {
+      const auto same = std::ranges::lower_bound(row, run.first, {}, &Run::first);
+      if (same != row.end() && same->first == run.first && same->end == run.end) {
+        same->bottom = run.bottom;
+        continue;
+      }
+      Polygon rectangle = Rectangle(map.frame.cell_m * Vec2(run.first, run.bottom),
+                                    map.frame.cell_m * Vec2(run.end, iy));
+      for (Vec2& p : rectangle) p = map.frame.X_WG * p;
+      rectangles.push_back(std::move(rectangle));
+    }
+    std::swap(open, row);
+  }
+  return rectangles;
+}
+
+std::string FreeId(const HazardMap& map, std::string id) {
+  while (std::ranges::find(map.hazards, id, &Hazard::id) != map.hazards.end()) id += "_";
+  return id;
+}
+
+// The base floor as a step or a drop: so high over what is level 0.
+Hazard BaseFloor(const HazardMap& map, double height_m) {
+  Hazard base;
+  base.id = FreeId(map, "base_floor");
+  base.type = "floor";
+  base.hazard_class = HazardClass::kLevelChange;
+  base.height_m = height_m;
+  const std::vector<Polygon> levels = LevelsFrom(map, 0);
+  for (const Polygon& rectangle : FreeRectangles(map)) AddBare(rectangle, levels, base.footprint);
+  const auto kind = height_m < 0 ? Solid::Kind::kCut : Solid::Kind::kPrism;
+  for (const Polygon& part : base.footprint)
+    base.solids.push_back({kind, part, {}, std::min(height_m, 0.0), std::max(height_m, 0.0)});
+  return base;
+}
+
+}  // namespace
+
+std::vector<Polygon> BareFloor(const HazardMap& map, std::size_t level_change) {
+  const std::vector<Polygon> later = LevelsFrom(map, level_change + 1);
+  std::vector<Polygon> bare;
+  for (const Polygon& polygon : map.hazards[level_change].footprint) AddBare(polygon, later, bare);
+  return bare;
+}
+
+HazardMap SeenFrom(HazardMap map, const RobotSpec& robot, const Pose2& X_WB) {
+  const double floor_m = StandAt(map, robot, X_WB).floor_m;
+  if (std::abs(floor_m) <= kSameLevel_m) return map;
+  std::vector<Hazard> seen, levels;
+  for (std::size_t i = 0; i < map.hazards.size(); ++i) {
+    Hazard hazard = map.hazards[i];
+    for (Solid& solid : hazard.solids) solid.z_low_m -= floor_m, solid.z_high_m -= floor_m;
+    if (!IsLevel(hazard)) {
+      seen.push_back(std::move(hazard));
+      continue;
+    }
+    hazard.height_m -= floor_m;
+    if (std::abs(hazard.height_m) <= kSameLevel_m) continue;
+    hazard.footprint = BareFloor(map, i);
+    if (!hazard.footprint.empty()) levels.push_back(std::move(hazard));
+  }
+  Hazard base = BaseFloor(map, -floor_m);
+  if (!base.footprint.empty()) levels.push_back(std::move(base));
+  seen.insert(seen.end(), std::make_move_iterator(levels.begin()),
+              std::make_move_iterator(levels.end()));
+  map.hazards = std::move(seen);
+  return map;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Floors of several levels: which one lies where, and how all of them look from one.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "env/core/hazard_map.h"
+#include "env/core/robot_spec.h"
+
+namespace floorproof {
+
+// Where this level change of the map is the floor: its footprint but for later level changes.
+// Pieces narrower than 0.1 mm are left out.
+std::vector<Polygon> BareFloor(const HazardMap& map, std::size_t level_change);
+
+// The map as a robot has it that stands at X_WB: heights are over the floor that carries its wheels
+// (StandAt), which is floor as any other then, and no level change. If that is not the base floor,
+// the base floor is a level change: a hazard of the type `floor`, where no wall and no other level
+// lies. Level changes are cut to their bare floor. From the base floor the map stays as it is.
+HazardMap SeenFrom(HazardMap map, const RobotSpec& robot, const Pose2& X_WB);
+
+}  // namespace floorproof
