@@ -24,13 +24,13 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
   Subcommand command = line.Add(
       "plan", "Plan only: plan.csv, plan.json and pictures; risk.csv where risk is asked for");
   command.Text("SCENARIO", options->scenario, "Scenario file (YAML)", Subcommand::Need::kRequired);
-  command.Text("--out", options->out, "Output folder (default: out/<scenario's stem>)");
+  command.Text("--out", options->out, kOutputHelp);
   command.Texts("--beside", options->beside,
                 "Scenarios of the same floor and robot, whose plans plot_risk.png shows too");
   command.OnRun([options, &globals, &status] {
     Scenario scenario = ReadScenario(options->scenario, globals.Overrides());
     for (const std::string& warning : Warnings(scenario)) globals.Say(warning);
-    const auto folder = OutputFolder(options->out, scenario.file, scenario.name);
+    const std::filesystem::path folder = OutputFolder(options->out, scenario.file);
     ResultFolder out(folder, EpisodeResults(), InputsOf(scenario));
     const PlanResult plan = MakePlan(scenario);
     auto json = PlanJson(scenario, plan);
