@@ -59,6 +59,11 @@ fs::path CampaignFolder(const std::string& out, const fs::path& scenario) {
   return out.empty() ? DefaultFolder(scenario) / "campaign" : fs::path(out);
 }
 
+void SayDrawn(const Scenario& scenario, const Globals& globals) {
+  if (!scenario.drawn.empty())
+    globals.Say("drawn by `randomise`, whatever else is written: " + DrawnText(scenario.drawn));
+}
+
 int Cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 int ExitStatus(Outcome outcome) {

@@ -41,6 +41,9 @@ std::filesystem::path CampaignFolder(const std::string& out, const std::filesyst
 inline constexpr const char* kCampaignHelp =
     "Output folder (default: out/PATH/campaign, PATH that of SCENARIO without .yaml)";
 
+// What the episode's draws put in place of what is written.
+void SayDrawn(const Scenario& scenario, const Globals& globals);
+
 // Of this machine; at least 1.
 int Cores();
 

@@ -25,8 +25,7 @@ void AddRun(CommandLine& line, const Globals& globals, int& status) {
     if (options->seed >= 0) overrides.push_back({"seed", std::to_string(options->seed)});
     Scenario scenario = ReadScenario(options->scenario, overrides);
     const std::filesystem::path folder = OutputFolder(options->out, scenario.file);
-    if (!scenario.drawn.empty())  // a value in the file is not the one that is driven
-      globals.Say("drawn by `randomise`, whatever else is written: " + DrawnText(scenario.drawn));
+    SayDrawn(scenario, globals);
     if (!scenario.matrix.IsNull())
       globals.Say("this is the scenario itself: `campaign` drives the variants of its matrix");
     const DriveResult result = DriveAndFilm(scenario, folder, {.video = options->video}, globals);

@@ -47,6 +47,13 @@ TEST_F(CampaignTest, AnotherSeedIsAnotherCampaign) {
   ASSERT_EQ(Campaign("-n 2 --seed 1 --out a").status, 0);
   ASSERT_EQ(Campaign("-n 2 --seed 2 --out b").status, 0);
   EXPECT_NE(Select("a", "SELECT drawn FROM episode"), Select("b", "SELECT drawn FROM episode"));
+  const Ended other = Run("compare a b");
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.said, HasSubstr(" in a and "));
+  EXPECT_THAT(other.said, Not(HasSubstr("{")));
+  // Variants of one name, told apart by their folders.
+  ASSERT_EQ(Campaign("-n 2 --seed 1 --set physics.timestep_s=0.002 --out c").status, 0);
+  EXPECT_THAT(Run("compare a c").out, HasSubstr("a: a:default\nb: c:default\n"));
 }
 
 TEST_F(CampaignTest, RunIsEpisodeNought) {

@@ -382,6 +382,16 @@ TEST_F(Cli, InitWritesARunnableScenarioAndLeavesExistingFiles) {
   EXPECT_EQ(Run("init map.yaml --out mine").status, 0);
   EXPECT_EQ(Slurp(folder_ / "mine" / "site.yaml"), "mine");
 
+  // What is driven is what was drawn, and said; what is set is not drawn.
+  for (const std::string command : {"run", "plan"}) {
+    const std::string set = command + " mine3/scenario.yaml --out d --set drive=none";
+    ASSERT_EQ(Run("init map.yaml --out mine3").status, 0);
+    EXPECT_THAT(Run(set).out, HasSubstr("drawn by `randomise`, whatever else is written: "
+                                        "site.floor.friction 0."));
+    EXPECT_THAT(Run(set + " --set site.floor.friction=0.7").out,
+                ::testing::AllOf(HasSubstr("drawn by"), Not(HasSubstr("site.floor.friction"))));
+  }
+
   // A map that stands where a scenario should.
   for (const std::string command : {"run", "plan", "campaign -n 3"}) {
     const auto refused = Run(command + " map.yaml");
