@@ -108,15 +108,16 @@ void ReadRobotPart(const ConfigNode& root, const std::vector<int>& plan_lines, S
   s.robot = WithRollerWheels(s.robot);
 }
 
-// What a message about a place is about: what was drawn or set of it, which stands elsewhere than
-// the place itself; else where the place is written.
-SourceMark MarkOfPlace(const ConfigNode& root, const std::string& key, const Drawn& drawn) {
-  for (const auto& [path, value] : drawn)
-    if (path == key || path.starts_with(key + ".")) return value.mark;
+// What a message about a place is about: what was set of it, else what was drawn, which both stand
+// elsewhere than the place itself; else where the place is written.
+SourceMark MarkOfPlace(const ConfigNode& root, const std::string& key, const Scenario& s) {
   const SourceMark mark = MarkOf(root, key);
-  if (const ConfigNode* place = root.Find(key))
-    for (const auto& [name, part] : place->entries)
-      if (part.mark.file != mark.file) return part.mark;
+  const ConfigNode* place = root.Find(key);
+  if (place == nullptr || mark.file != s.file.string()) return mark;
+  for (const auto& [name, part] : place->entries)
+    if (part.mark.file != mark.file) return part.mark;
+  for (const auto& [path, value] : s.drawn)
+    if (path == key || path.starts_with(key + ".")) return value.mark;
   return mark;
 }
 
@@ -141,7 +142,7 @@ Pose2 ReadStart(const ConfigNode& root, const HazardMap& map) {
 }
 
 void CheckStart(const ConfigNode& root, const Scenario& s) {
-  const SourceMark mark = MarkOfPlace(root, "start", s.drawn);
+  const SourceMark mark = MarkOfPlace(root, "start", s);
   const Cell cell = s.site.map.frame.ToCell(s.start.p());
   const std::string value = FormatDouble(s.start.x_m) + ", " + FormatDouble(s.start.y_m);
   if (!s.site.map.frame.Inside(cell)) throw InputError(mark, "start", value, "lies off the map");
@@ -166,7 +167,7 @@ std::optional<Vec2> ReadGoal(const ConfigNode& root, const Scenario& s) {
     v("y_m", goal.y(), Any(), "m");
   });
   if (!map.frame.Inside(map.frame.ToCell(goal)))
-    throw InputError(MarkOfPlace(root, "goal", s.drawn), "goal",
+    throw InputError(MarkOfPlace(root, "goal", s), "goal",
                      FormatDouble(goal.x()) + ", " + FormatDouble(goal.y()), "lies off the map");
   return goal;
 }

@@ -330,6 +330,7 @@ TEST_F(Cli, BadInputIsOneLineAndStatusTwo) {
       {"run list.yaml", "list.yaml:1: must be a map of keys (scenario: 1,"},
       {"run s.yaml --set start.x_m=1000", "--set start.x_m:1: start = 1000, 0.9: lies off the map"},
       {"run s.yaml --set goal.y_m=-7", "--set goal.y_m:1: goal = 0, -7: lies off the map"},
+      {"run drawn.yaml --set start.y_m=-9", "--set start.y_m:1: start = 0.52, -9: lies off"},
       {"run drawn.yaml", "drawn.yaml:3: start = 0.52, 0.9: beluga at this heading overlaps"},
       {"run s.yaml --set plan.overlap=0 --set plan.file=p.csv", "plan.overlap: unknown key"},
       {"scene s.yaml --out /nonexistent/x.xml", "/nonexistent/x.xml: cannot be written"},
