@@ -92,6 +92,11 @@ Keys ReadKeys(const fs::path& yaml_path, const InputFiles& files) {
   const ConfigNode node = ReadYamlFile(yaml_path, files);
   if (!node.IsMap())
     throw InputError({yaml_path.string(), 0}, "", "", "is not a ROS map (image, resolution, ...)");
+  for (const char* kind : {"scenario", "site"})
+    if (node.Find(kind) != nullptr && node.Find("image") == nullptr)
+      throw InputError({yaml_path.string(), 0}, "", "",
+                       std::string("is a ") + kind +
+                           ", not a ROS map: name the map's own .yaml (image, resolution, ...)");
   Keys keys;
   const ConfigNode& image = Need(node, "image");
   keys.image = PathIn(yaml_path.parent_path(), image, "image");

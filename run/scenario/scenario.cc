@@ -98,13 +98,15 @@ void RefuseOtherKinds(const ConfigNode& root, const std::string& file) {
                          "`, `robot: beluga`; `floorproof init` writes one for a ROS map");
 }
 
-// `none` or empty: a campaign without a gate.
-void RemoveNoGate(ConfigNode& root) {
-  const ConfigNode* gate = root.Find("gate");
-  if (gate == nullptr) return;
-  const bool none = gate->IsNull() || (gate->IsMap() && gate->entries.empty()) ||
-                    (gate->IsScalar() && !gate->quoted && gate->scalar == "none");
-  if (none) root.Remove("gate");
+// What is `none`, or empty, is not there: no gate, nothing drawn, no variants.
+void RemoveNone(ConfigNode& root) {
+  for (const char* key : {"gate", "randomise", "matrix"}) {
+    const ConfigNode* node = root.Find(key);
+    if (node == nullptr) continue;
+    const bool none = node->IsNull() || (node->IsMap() && node->entries.empty()) ||
+                      (node->IsScalar() && !node->quoted && node->scalar == "none");
+    if (none) root.Remove(key);
+  }
 }
 
 // Whether setting `whole` replaces `key`.
@@ -165,7 +167,7 @@ ScenarioFile::ScenarioFile(std::optional<ConfigNode> root, const fs::path& file,
     ChooseWhosePlan(o.key_path, root_);
   }
   Apply({"", overrides_}, false, root_);
-  RemoveNoGate(root_);
+  RemoveNone(root_);
   RefuseUnknownKeys(root_, "", ScenarioKeys());
   const ConfigNode* version = root_.Find("scenario");
   if (version == nullptr)

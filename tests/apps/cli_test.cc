@@ -303,6 +303,7 @@ TEST_F(Cli, NamesFromFilesNeverReachTheTerminalRaw) {
 TEST_F(Cli, BadInputIsOneLineAndStatusTwo) {
   std::ofstream(folder_ / "bad.yaml") << "scenario: 1\nsite: s.yaml\nrobt: beluga\n";
   std::ofstream(folder_ / "site.yaml") << "site: 1\nmap: map.yaml\n";
+  std::ofstream(folder_ / "map.yaml") << "image: map.pgm\nresolution: 0.05\n";
   std::ofstream(folder_ / "list.yaml") << "- scenario\n";
   std::ofstream(folder_ / "map.pgm") << "P5 2 2 255\nabcd";
   std::ofstream(folder_ / "p.csv") << "x_m,y_m\n0.9,0.9\n2,0.9\n";
@@ -326,6 +327,10 @@ TEST_F(Cli, BadInputIsOneLineAndStatusTwo) {
       {"replay .", "not a folder of a finished `run`"},
       {"init missing.yaml", "missing.yaml"},
       {"init map.pgm", "map.pgm: is the map's image: name its .yaml"},
+      {"init site.yaml", "site.yaml: is a site, not a ROS map: name the map's own .yaml"},
+      {"init s.yaml", "s.yaml: is a scenario, not a ROS map: name the map's own .yaml"},
+      {"run s.yaml --set site=s.yaml", "s.yaml: is a scenario, not a site"},
+      {"run s.yaml --set site=map.yaml", "map.yaml: is a ROS map, not a site: a site names it"},
       {"run site.yaml", "site.yaml: is a site, not a scenario: a scenario names it"},
       {"run list.yaml", "list.yaml:1: must be a map of keys (scenario: 1,"},
       {"run s.yaml --set start.x_m=1000", "--set start.x_m:1: start = 1000, 0.9: lies off the map"},
@@ -392,6 +397,17 @@ TEST_F(Cli, InitWritesARunnableScenarioAndLeavesExistingFiles) {
     EXPECT_THAT(Run(set + " --set site.floor.friction=0.7").out,
                 ::testing::AllOf(HasSubstr("drawn by"), Not(HasSubstr("site.floor.friction"))));
   }
+
+  // A map is found from the current folder, and without draws nothing is said of any.
+  fs::create_directories(folder_ / "maps");
+  for (const char* file : {"map.yaml", "map.pgm"})
+    fs::copy_file(folder_ / file, folder_ / "maps" / file);
+  const Result set =
+      Run("plan mine3/scenario.yaml --out d --set site.map=maps/map.yaml "
+          "--set randomise=none");
+  EXPECT_EQ(set.status, 0) << set.err;
+  EXPECT_THAT(set.out, Not(HasSubstr("drawn by")));
+  EXPECT_THAT(Slurp(folder_ / "d/scenario.resolved.yaml"), HasSubstr("map: \"../maps/map.yaml\""));
 
   // A map that stands where a scenario should.
   for (const std::string command : {"run", "plan", "campaign -n 3"}) {

@@ -100,7 +100,7 @@ std::vector<BadInput> CommandCases() {
             {"/dev/full: cannot be written: No space left on device"},
             [](const fs::path&) { return fs::is_character_file("/dev/full"); }),
       Words("InitOfNothing", {"init", "no.yaml"}, {"no.yaml: no such file"}),
-      Words("InitOfASite", {"init", "site.yaml"}, {"site.yaml: image", "missing"}),
+      Words("InitOfASite", {"init", "site.yaml"}, {"site.yaml: is a site, not a ROS map"}),
       Words("InitOfAnUnknownRobot", {"init", "map.yaml", "--robot", "belga"},
             {"--robot", "belga", "did you mean beluga?"}),
       Words("InitOntoAFile", {"init", "map.yaml", "--out", "map.pgm"}, {"map.pgm: cannot make"}),
