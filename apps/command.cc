@@ -43,20 +43,27 @@ fs::path DefaultFolder(const fs::path& scenario) {
   return "out" / path;
 }
 
+// Settings of an episode and of a campaign have one name: neither replaces the other's.
+void RefuseFolderThatHolds(const fs::path& folder, const char* file, const char* what) {
+  std::error_code ignored;
+  if (fs::exists(folder / file, ignored))
+    throw InputError({folder.string(), 0}, "", "",
+                     std::string("holds ") + what +
+                         ", whose settings this would replace: --out names another folder");
+}
+
 }  // namespace
 
 fs::path OutputFolder(const std::string& out, const fs::path& scenario) {
   fs::path folder = out.empty() ? DefaultFolder(scenario) : fs::path(out);
-  std::error_code ignored;
-  if (fs::exists(folder / "campaign.sqlite", ignored))
-    throw InputError({folder.string(), 0}, "", "",
-                     "holds a campaign, whose settings this would replace: --out names another "
-                     "folder");
+  RefuseFolderThatHolds(folder, "campaign.sqlite", "a campaign");
   return folder;
 }
 
 fs::path CampaignFolder(const std::string& out, const fs::path& scenario) {
-  return out.empty() ? DefaultFolder(scenario) / "campaign" : fs::path(out);
+  fs::path folder = out.empty() ? DefaultFolder(scenario) / "campaign" : fs::path(out);
+  RefuseFolderThatHolds(folder, "plan.json", "a plan or a run");
+  return folder;
 }
 
 void SayDrawn(const Scenario& scenario, const Globals& globals) {

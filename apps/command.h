@@ -31,12 +31,12 @@ struct Globals : Console {
 
 // Where the results of `run` and `plan` go: --out, or out/PATH in the working directory, where PATH
 // is the scenario's file as it is from there (all of its path, where it lies outside), without
-// .yaml. No two scenarios share one. Throws InputError where it holds a campaign: an episode's
-// settings and a campaign's have one name.
+// .yaml. No two scenarios share one. Throws InputError where it holds a campaign.
 std::filesystem::path OutputFolder(const std::string& out, const std::filesystem::path& scenario);
 inline constexpr const char* kOutputHelp =
     "Output folder (default: out/PATH, PATH that of SCENARIO without .yaml)";
-// A campaign's: --out, or the folder `campaign` there.
+// A campaign's: --out, or the folder `campaign` there. Throws InputError where it holds a plan or a
+// run.
 std::filesystem::path CampaignFolder(const std::string& out, const std::filesystem::path& scenario);
 inline constexpr const char* kCampaignHelp =
     "Output folder (default: out/PATH/campaign, PATH that of SCENARIO without .yaml)";

@@ -39,19 +39,28 @@ class Check {
              std::pair(-b.conflict.overlap_m, b.conflict.along_m);
     });
     JoinSidesOfGaps();
-    for (Place& place : places_) out_.conflicts.push_back(std::move(place.conflict));
+    for (Place& place : places_) {
+      place.conflict.times = static_cast<int>(place.passes.size());
+      for (const Pass& pass : place.passes) place.conflict.over_m += pass.over_m;
+      out_.conflicts.push_back(std::move(place.conflict));
+    }
     return std::move(out_);
   }
 
  private:
+  struct Pass {
+    double begin_m = 0, end_m = 0;  // along the plan
+    double over_m = 0;              // of that, what overlaps
+  };
   struct Stretch {
     PlanConflict conflict;
-    double end_m = 0;
+    Pass pass;
     std::vector<Vec2> way_W;  // of the robot's centre, a point each quarter of place_m_ or more
   };
   struct Place {
     int hazard;
     PlanConflict conflict;
+    std::vector<Pass> passes;
     std::vector<Vec2> way_W;  // of its first stretch
   };
 
@@ -87,13 +96,13 @@ class Check {
 
   void Overlaps(const SweptPiece& piece, const Obstacles::Part& obstacle, const Separation& apart) {
     Stretch& stretch = stretches_[obstacle.hazard];
-    if (stretch.conflict.overlap_m > 0 && piece.along_m > stretch.end_m + Obstacles::kSameStretch_m)
-      Close(obstacle.hazard, stretch);
     PlanConflict& conflict = stretch.conflict;
+    Pass& pass = stretch.pass;
+    if (conflict.overlap_m > 0 && !IsSamePass(pass, piece.along_m)) Close(obstacle.hazard, stretch);
+    if (conflict.overlap_m == 0) pass = {piece.along_m, piece.along_m, 0};
     const double end_m = piece.along_m + piece.length_m;
-    const double before_m = std::max(stretch.end_m, piece.along_m);
-    conflict.over_m += std::max(0.0, end_m - (conflict.overlap_m > 0 ? before_m : piece.along_m));
-    stretch.end_m = std::max(stretch.end_m, end_m);
+    pass.over_m += std::max(0.0, end_m - std::max(pass.end_m, piece.along_m));
+    pass.end_m = std::max(pass.end_m, end_m);
     AddToWay(piece.X_WB.p(), stretch);
     AddToWay(piece.X_WB.p() + piece.length_m * piece.direction_W, stretch);
     if (-apart.distance_m <= conflict.overlap_m) return;
@@ -102,6 +111,10 @@ class Check {
     conflict.width_m = piece.width_m;
     std::tie(conflict.p_W, conflict.along_m) = Where(piece, apart);
     FindGap(piece, apart, obstacle.hazard, conflict);
+  }
+
+  static bool IsSamePass(const Pass& pass, double along_m) {
+    return along_m <= pass.end_m + Obstacles::kSameStretch_m;
   }
 
   void AddToWay(const Vec2& p_W, Stretch& stretch) const {
@@ -149,20 +162,15 @@ class Check {
     PlanConflict& conflict = stretch.conflict;
     if (conflict.overlap_m == 0) return;
     if (Place* known = FindPlace(hazard, stretch)) {
-      conflict.times += known->conflict.times;
-      conflict.over_m += known->conflict.over_m;
-      if (conflict.overlap_m <= known->conflict.overlap_m) {
-        known->conflict.times = conflict.times;
-        known->conflict.over_m = conflict.over_m;
-        return;
-      }
+      known->passes.push_back(stretch.pass);
+      if (conflict.overlap_m <= known->conflict.overlap_m) return;
       known->conflict = std::move(conflict);
       Index(known->conflict.p_W, static_cast<std::size_t>(known - places_.data()));
       return;
     }
     for (const Vec2& p_W : stretch.way_W) Index(p_W, places_.size());
     Index(conflict.p_W, places_.size());
-    places_.push_back({hazard, std::move(conflict), std::move(stretch.way_W)});
+    places_.push_back({hazard, std::move(conflict), {stretch.pass}, std::move(stretch.way_W)});
   }
 
   // The first that is the same; nullptr: none.
@@ -214,10 +222,25 @@ class Check {
       const auto other = std::find_if(places_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                                       places_.end(), is_other);
       if (other == places_.end()) continue;
-      a.times = std::max(a.times, other->conflict.times);
-      a.over_m = std::max(a.over_m, other->conflict.over_m);
+      places_[i].passes = Joined(std::move(places_[i].passes), other->passes);
       places_.erase(other);
     }
+  }
+
+  // Of both sides of a gap: one pass may touch one side or both.
+  static std::vector<Pass> Joined(std::vector<Pass> all, const std::vector<Pass>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+    std::ranges::sort(all, {}, &Pass::begin_m);
+    std::vector<Pass> joined;
+    for (const Pass& pass : all) {
+      if (joined.empty() || !IsSamePass(joined.back(), pass.begin_m)) {
+        joined.push_back(pass);
+        continue;
+      }
+      joined.back().end_m = std::max(joined.back().end_m, pass.end_m);
+      joined.back().over_m = std::max(joined.back().over_m, pass.over_m);
+    }
+    return joined;
   }
 
   Pose2 X_GW_;

@@ -264,6 +264,9 @@ TEST_F(Cli, EveryScenarioHasAFolderOfItsOwn) {
     EXPECT_THAT(dut.err, HasSubstr("out/a/wet/campaign: holds a campaign"));
   }
   EXPECT_EQ(Slurp(folder_ / "out/a/wet/campaign/scenario.resolved.yaml"), settings);
+  const Result dut = Run("campaign wet.yaml -n 1 --out out/wet");
+  EXPECT_EQ(dut.status, 2);
+  EXPECT_THAT(dut.err, HasSubstr("out/wet: holds a plan or a run"));
 }
 
 TEST_F(Cli, APlanThatIsSetTakesThePlaceOfThePlanner) {

@@ -150,6 +150,15 @@ TEST_F(PlanClearanceTest, AGapThatIsPassedThereAndBackIsOnePlace) {
     }
 }
 
+// Off its middle by more than it is too narrow: there the one side is touched, back the other.
+TEST_F(PlanClearanceTest, AGapThatIsTouchedAtOneSideEachTimeIsOnePlace) {
+  const PlanClearance dut =
+      Check(Room(Gap({4, 2.5, 0}, 0.34), "2,2.53\n5.5,2.53\n5.5,2.47\n2,2.47\n"));
+  ASSERT_THAT(dut.conflicts, SizeIs(1));
+  EXPECT_EQ(dut.conflicts.front().times, 2);
+  EXPECT_NEAR(dut.conflicts.front().gap_m.value_or(0), 0.34, 0.002);
+}
+
 // Two gaps one behind the other are two.
 TEST_F(PlanClearanceTest, GapsApartAreNotOne) {
   std::string gaps = Gap({3, 2.5, 0}, 0.3);
