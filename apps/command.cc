@@ -17,7 +17,7 @@ std::vector<Override> Globals::Overrides() const {
   for (const auto& text : sets) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw InputError({"--set", 0}, text, "", "must be key.path=value");
+      throw InputError({"--set", 0}, "", text, "must be KEY=VALUE, as in --set robot=htetro");
     overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
   }
   return overrides;
@@ -27,12 +27,48 @@ void Globals::Result(const nlohmann::ordered_json& json_result) const {
   if (json) std::printf("%s\n", JsonText(json_result).c_str());
 }
 
-fs::path OutputFolder(const std::string& out, const fs::path& scenario, const std::string& name) {
-  if (!out.empty()) return out;
-  const bool is_folder =
-      !name.empty() && name.front() != '.' && name.find('/') == std::string::npos;
-  return fs::path("out") /
-         (scenario.stem() == "scenario" && is_folder ? fs::path(name) : scenario.stem());
+namespace {
+
+// Where the file itself lies, not what it links to: what it names is found from there.
+fs::path PlaceOf(const fs::path& file) {
+  const fs::path absolute = fs::absolute(file);
+  return fs::weakly_canonical(absolute.parent_path()) / absolute.filename();
+}
+
+fs::path DefaultFolder(const fs::path& scenario) {
+  const fs::path place = PlaceOf(scenario);
+  fs::path path = place.lexically_relative(fs::weakly_canonical(fs::current_path()));
+  if (path.empty() || *path.begin() == "..") path = place.relative_path();
+  if (path.extension() == ".yaml") path.replace_extension();
+  return "out" / path;
+}
+
+// Settings of an episode and of a campaign have one name: neither replaces the other's.
+void RefuseFolderThatHolds(const fs::path& folder, const char* file, const char* what) {
+  std::error_code ignored;
+  if (fs::exists(folder / file, ignored))
+    throw InputError({folder.string(), 0}, "", "",
+                     std::string("holds ") + what +
+                         ", whose settings this would replace: --out names another folder");
+}
+
+}  // namespace
+
+fs::path OutputFolder(const std::string& out, const fs::path& scenario) {
+  fs::path folder = out.empty() ? DefaultFolder(scenario) : fs::path(out);
+  RefuseFolderThatHolds(folder, "campaign.sqlite", "a campaign");
+  return folder;
+}
+
+fs::path CampaignFolder(const std::string& out, const fs::path& scenario) {
+  fs::path folder = out.empty() ? DefaultFolder(scenario) / "campaign" : fs::path(out);
+  RefuseFolderThatHolds(folder, "plan.json", "a plan or a run");
+  return folder;
+}
+
+void SayDrawn(const Scenario& scenario, const Globals& globals) {
+  if (!scenario.drawn.empty())
+    globals.Say("drawn by `randomise`, whatever else is written: " + DrawnText(scenario.drawn));
 }
 
 int Cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }

@@ -29,10 +29,20 @@ struct Globals : Console {
   void Result(const nlohmann::ordered_json& json_result) const;
 };
 
-// --out, or out/<stem of the scenario's file> in the working directory. Where the file is just
-// called scenario, as `init` calls all of them, its name stands for the stem.
-std::filesystem::path OutputFolder(const std::string& out, const std::filesystem::path& scenario,
-                                   const std::string& name);
+// Where the results of `run` and `plan` go: --out, or out/PATH in the working directory, where PATH
+// is the scenario's file as it is from there (all of its path, where it lies outside), without
+// .yaml. No two scenarios share one. Throws InputError where it holds a campaign.
+std::filesystem::path OutputFolder(const std::string& out, const std::filesystem::path& scenario);
+inline constexpr const char* kOutputHelp =
+    "Output folder (default: out/PATH, PATH that of SCENARIO without .yaml)";
+// A campaign's: --out, or the folder `campaign` there. Throws InputError where it holds a plan or a
+// run.
+std::filesystem::path CampaignFolder(const std::string& out, const std::filesystem::path& scenario);
+inline constexpr const char* kCampaignHelp =
+    "Output folder (default: out/PATH/campaign, PATH that of SCENARIO without .yaml)";
+
+// What the episode's draws put in place of what is written.
+void SayDrawn(const Scenario& scenario, const Globals& globals);
 
 // Of this machine; at least 1.
 int Cores();

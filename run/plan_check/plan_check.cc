@@ -25,6 +25,11 @@ constexpr std::array<std::string_view, 5> kWhyNames = {"not_visited", "narrow", 
 // To a millimetre: more is known of nothing here.
 std::string Metres(double length_m) { return LengthText(std::round(1000 * length_m) / 1000); }
 
+// "1 turn", "1,250 turns"
+std::string Counted(std::size_t n, const char* what) {
+  return FixedText(static_cast<double>(n), 0) + " " + what + (n == 1 ? "" : "s");
+}
+
 std::string At(const Vec2& p_W) { return PlaceText(p_W.x(), p_W.y()); }
 
 std::string Named(const Scenario& s, const std::string& id) {
@@ -34,8 +39,11 @@ std::string Named(const Scenario& s, const std::string& id) {
 std::string Line(const Scenario& s, const PlanConflict& c) {
   std::string line = fmt::format("  {}, {} m along: ", At(c.p_W), FixedText(c.along_m, 1));
   if (c.gap_m)
-    line += fmt::format("a gap {} wide at {}, the robot is {} wide", Metres(*c.gap_m),
-                        Named(s, c.obstacle), Metres(c.width_m));
+    line += fmt::format("a gap {} wide {}, the robot is {} wide", Metres(*c.gap_m),
+                        c.other_side == c.obstacle
+                            ? "at " + Named(s, c.obstacle)
+                            : "between " + Named(s, c.obstacle) + " and " + Named(s, c.other_side),
+                        Metres(c.width_m));
   else
     line += fmt::format("overlaps {} by {}", Named(s, c.obstacle), Metres(c.overlap_m));
   if (c.over_m >= 0.5) line += fmt::format(", over {} m of the way", FixedText(c.over_m, 1));
@@ -85,6 +93,20 @@ void AddClearance(const Scenario& s, const PlanClearance& c, std::vector<std::st
     lines.push_back(fmt::format("  and {} more", c.conflicts.size() - kListed));
 }
 
+void AddDrivenOver(const Scenario& s, const std::vector<DrivenOver>& driven,
+                   std::vector<std::string>& lines) {
+  for (std::size_t i = 0; i < std::min(kListed, driven.size()); ++i) {
+    const Hazard& hazard = s.site.map.hazards[driven[i].hazard];
+    const bool keeps_off = IsObstacle(hazard, s.robot.spec.step_m);
+    lines.push_back(fmt::format("{} {}{} {}", keeps_off ? "leads into" : "drives over",
+                                HazardPhrase(hazard),
+                                hazard.known ? "" : ", which the planner is not told of,",
+                                Counted(static_cast<std::size_t>(driven[i].times), "time")));
+  }
+  if (driven.size() > kListed)
+    lines.push_back(fmt::format("  and over {} more", driven.size() - kListed));
+}
+
 void AddUncovered(const Scenario& s, const PlanResult& plan, const UncoveredFloor& u,
                   std::vector<std::string>& lines) {
   const double left_m2 = u.floor_m2 - u.covered_m2;
@@ -111,17 +133,23 @@ Json PlaceJson(const Vec2& p_W) { return {{"x_m", p_W.x()}, {"y_m", p_W.y()}}; }
 
 }  // namespace
 
+std::string PlannedText(const PlanResult& plan) {
+  return fmt::format("planned: {}, {} m, {}", Counted(plan.path.size(), "waypoint"),
+                     FixedText(Length(plan.path), 1),
+                     Counted(static_cast<std::size_t>(CountTurns(plan.path)), "turn"));
+}
+
 PlanCheck CheckPlan(Scenario& s, const PlanResult& plan) {
   const SweepArea area = ComputeSweepArea(KnownPart(s.site.map), plan.clear, plan.tool,
                                           s.robot.spec.step_m, s.start.p());
-  return {CheckClearance(s, plan), FindUncovered(s, plan, area), EstimateBudget(s, plan)};
+  return {CheckClearance(s, plan), FindDrivenOver(s, plan), FindUncovered(s, plan, area),
+          EstimateBudget(s, plan)};
 }
 
 std::string ConflictsLine(const PlanClearance& clearance) {
-  const std::size_t n = clearance.conflicts.size();
-  if (n == 0) return "";
-  return fmt::format("warning: the plan leads the robot into obstacles at {} place{}", n,
-                     n == 1 ? "" : "s");
+  if (clearance.conflicts.empty()) return "";
+  return "warning: the plan leads the robot into obstacles at " +
+         Counted(clearance.conflicts.size(), "place");
 }
 
 std::vector<std::string> PlanLines(const Scenario& s, const PlanResult& plan,
@@ -135,11 +163,12 @@ std::vector<std::string> PlanLines(const Scenario& s, const PlanResult& plan,
   }
   lines.insert(lines.begin(), takes);
   AddClearance(s, check.clearance, lines);
+  AddDrivenOver(s, check.driven_over, lines);
   AddUncovered(s, plan, check.uncovered, lines);
   return lines;
 }
 
-Json PlanCheckJson(const PlanCheck& check) {
+Json PlanCheckJson(const Scenario& s, const PlanCheck& check) {
   const PlanClearance& c = check.clearance;
   Json conflicts = Json::array();
   for (const PlanConflict& conflict : c.conflicts) {
@@ -150,8 +179,17 @@ Json PlanCheckJson(const PlanCheck& check) {
                  {"over_m", conflict.over_m},
                  {"times", conflict.times},
                  {"robot_width_m", conflict.width_m},
-                 {"gap_m", conflict.gap_m ? Json(*conflict.gap_m) : Json(nullptr)}});
+                 {"gap_m", conflict.gap_m ? Json(*conflict.gap_m) : Json(nullptr)},
+                 {"gap_other_side", conflict.gap_m ? Json(conflict.other_side) : Json(nullptr)}});
     conflicts.push_back(std::move(json));
+  }
+  Json over = Json::array();
+  for (const DrivenOver& driven : check.driven_over) {
+    const Hazard& hazard = s.site.map.hazards[driven.hazard];
+    over.push_back({{"hazard", hazard.id},
+                    {"known", hazard.known},
+                    {"times", driven.times},
+                    {"over_m", driven.over_m}});
   }
   Json pockets = Json::array();
   for (const UncoveredPocket& pocket : check.uncovered.pockets) {
@@ -171,6 +209,7 @@ Json PlanCheckJson(const PlanCheck& check) {
   least.update({{"along_m", c.along_m}, {"obstacle", c.obstacle}, {"clearance_m", c.least_m}});
   return {{"least_clearance", c.obstacle.empty() ? Json(nullptr) : std::move(least)},
           {"conflicts", std::move(conflicts)},
+          {"driven_over", std::move(over)},
           {"free_floor_m2", check.uncovered.floor_m2},
           {"covered_m2", check.uncovered.covered_m2},
           {"uncovered_edges_m2", check.uncovered.edges_m2},
