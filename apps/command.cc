@@ -29,41 +29,37 @@ void Globals::Result(const nlohmann::ordered_json& json_result) const {
 
 namespace {
 
-// Where the file itself lies, not what it links to: what it names is found from there.
-fs::path PlaceOf(const fs::path& file) {
-  const fs::path absolute = fs::absolute(file);
-  return fs::weakly_canonical(absolute.parent_path()) / absolute.filename();
+fs::path DefaultFolder(const fs::path& scenario, const std::string& name) {
+  const bool is_folder =
+      !name.empty() && name.front() != '.' && name.find('/') == std::string::npos;
+  return fs::path("out") /
+         (scenario.stem() == "scenario" && is_folder ? fs::path(name) : scenario.stem());
 }
 
-fs::path DefaultFolder(const fs::path& scenario) {
-  const fs::path place = PlaceOf(scenario);
-  fs::path path = place.lexically_relative(fs::weakly_canonical(fs::current_path()));
-  if (path.empty() || *path.begin() == "..") path = place.relative_path();
-  if (path.extension() == ".yaml") path.replace_extension();
-  return "out" / path;
+bool Holds(const fs::path& folder, const char* file) {
+  std::error_code ignored;
+  return fs::exists(folder / file, ignored);
 }
 
 // Settings of an episode and of a campaign have one name: neither replaces the other's.
-void RefuseFolderThatHolds(const fs::path& folder, const char* file, const char* what) {
-  std::error_code ignored;
-  if (fs::exists(folder / file, ignored))
-    throw InputError({folder.string(), 0}, "", "",
+fs::path Apart(const std::string& out, const fs::path& folder, const char* others, const char* what,
+               const char* beside) {
+  if (!out.empty() && Holds(out, others))
+    throw InputError({out, 0}, "", "",
                      std::string("holds ") + what +
                          ", whose settings this would replace: --out names another folder");
+  if (!out.empty()) return out;
+  return Holds(folder, others) ? folder / beside : folder;
 }
 
 }  // namespace
 
-fs::path OutputFolder(const std::string& out, const fs::path& scenario) {
-  fs::path folder = out.empty() ? DefaultFolder(scenario) : fs::path(out);
-  RefuseFolderThatHolds(folder, "campaign.sqlite", "a campaign");
-  return folder;
+fs::path OutputFolder(const std::string& out, const fs::path& scenario, const std::string& name) {
+  return Apart(out, DefaultFolder(scenario, name), "campaign.sqlite", "a campaign", "run");
 }
 
-fs::path CampaignFolder(const std::string& out, const fs::path& scenario) {
-  fs::path folder = out.empty() ? DefaultFolder(scenario) / "campaign" : fs::path(out);
-  RefuseFolderThatHolds(folder, "plan.json", "a plan or a run");
-  return folder;
+fs::path CampaignFolder(const std::string& out, const fs::path& scenario, const std::string& name) {
+  return Apart(out, DefaultFolder(scenario, name), "plan.json", "a plan or a run", "campaign");
 }
 
 void SayDrawn(const Scenario& scenario, const Globals& globals) {

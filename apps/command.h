@@ -29,17 +29,17 @@ struct Globals : Console {
   void Result(const nlohmann::ordered_json& json_result) const;
 };
 
-// Where the results of `run` and `plan` go: --out, or out/PATH in the working directory, where PATH
-// is the scenario's file as it is from there (all of its path, where it lies outside), without
-// .yaml. No two scenarios share one. Throws InputError where it holds a campaign.
-std::filesystem::path OutputFolder(const std::string& out, const std::filesystem::path& scenario);
+// Where the results of `run` and `plan` go: --out, or out/NAME in the working directory. NAME is
+// the stem of the scenario's file; where that is just `scenario`, as `init` calls all of them, its
+// name. Where a campaign lies there, it is the folder `run` in it; with --out it is refused
+// (InputError).
+std::filesystem::path OutputFolder(const std::string& out, const std::filesystem::path& scenario,
+                                   const std::string& name);
 inline constexpr const char* kOutputHelp =
-    "Output folder (default: out/PATH, PATH that of SCENARIO without .yaml)";
-// A campaign's: --out, or the folder `campaign` there. Throws InputError where it holds a plan or a
-// run.
-std::filesystem::path CampaignFolder(const std::string& out, const std::filesystem::path& scenario);
-inline constexpr const char* kCampaignHelp =
-    "Output folder (default: out/PATH/campaign, PATH that of SCENARIO without .yaml)";
+    "Output folder (default: out/NAME, NAME that of SCENARIO's file without .yaml)";
+// A campaign's, likewise: the folder `campaign` there, where a plan or a run lies.
+std::filesystem::path CampaignFolder(const std::string& out, const std::filesystem::path& scenario,
+                                     const std::string& name);
 
 // What the episode's draws put in place of what is written.
 void SayDrawn(const Scenario& scenario, const Globals& globals);

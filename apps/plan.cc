@@ -31,7 +31,7 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     Scenario scenario = ReadScenario(options->scenario, globals.Overrides());
     for (const std::string& warning : Warnings(scenario)) globals.Say(warning);
     SayDrawn(scenario, globals);
-    const std::filesystem::path folder = OutputFolder(options->out, scenario.file);
+    const std::filesystem::path folder = OutputFolder(options->out, scenario.file, scenario.name);
     ResultFolder out(folder, EpisodeResults(), InputsOf(scenario));
     const PlanResult plan = MakePlan(scenario);
     auto json = PlanJson(scenario, plan);

@@ -24,7 +24,7 @@ void AddRun(CommandLine& line, const Globals& globals, int& status) {
     auto overrides = globals.Overrides();
     if (options->seed >= 0) overrides.push_back({"seed", std::to_string(options->seed)});
     Scenario scenario = ReadScenario(options->scenario, overrides);
-    const std::filesystem::path folder = OutputFolder(options->out, scenario.file);
+    const std::filesystem::path folder = OutputFolder(options->out, scenario.file, scenario.name);
     SayDrawn(scenario, globals);
     if (!scenario.matrix.IsNull())
       globals.Say("this is the scenario itself: `campaign` drives the variants of its matrix");

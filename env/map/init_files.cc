@@ -148,9 +148,8 @@ std::string ScenarioText(const std::string& name, const std::string& robot_key,
   return R"(# What is tried on the floor: a robot, a plan, and what counts as success.
 #   floorproof run scenario.yaml --video      drives it once and films it
 #   floorproof campaign scenario.yaml -n 60   drives it 60 times: how often does it fail?
-# Results go to out/PATH/ in the current folder, where PATH is this file's, from there and without
-# .yaml: the verdict of `run` stands in out/PATH/result.json, that of `campaign` in
-# out/PATH/campaign/summary.json.
+# Results go to out/NAME/ in the current folder: the verdict of `run` to result.json there, that of
+# `campaign` to summary.json there, or in the folder campaign/ beside a run.
 scenario: 1                # version of this format
 name: )" +
          Quoted(name) + R"(

@@ -224,49 +224,49 @@ TEST_F(Cli, AUsersFilesAreNotWrittenOver) {
   fs::remove(folder_ / "o" / "video.mp4");
   for (int i = 0; i < 2; ++i) EXPECT_EQ(Run("run s.yaml --out o").status, 0) << "its own";
   EXPECT_EQ(Run("scene s.yaml --out s.yaml").status, 2);
+  for (const char* others : {"notes.xml", "link.xml"}) {
+    std::ofstream(folder_ / "notes.xml") << "<mujoco/>";
+    fs::create_symlink("notes.xml", folder_ / "link.xml");
+    const Result scene = Run(std::string("scene s.yaml --out ") + others);
+    EXPECT_EQ(scene.status, 2);
+    EXPECT_THAT(scene.err, HasSubstr(std::string(others) + ": is not a file that `scene` wrote"));
+    EXPECT_EQ(Slurp(folder_ / "notes.xml"), "<mujoco/>");
+    fs::remove(folder_ / "link.xml");
+  }
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(Run("scene s.yaml --out its_own.xml").status, 0);
 }
 
-// Two scenarios of one map, of one name in two folders, a run and a campaign: none replaces what
-// another left.
-TEST_F(Cli, EveryScenarioHasAFolderOfItsOwn) {
+// A run and a campaign of one scenario: neither replaces what the other left.
+TEST_F(Cli, RunsAndCampaignsKeepApart) {
   const std::string text = Slurp(folder_ / "s.yaml") + "name: hall\ndrive: none\n";
-  fs::create_directories(folder_ / "a/b");
-  fs::create_directories(folder_ / "c");
-  for (const char* file : {"scenario.yaml", "a/scenario.yaml", "a/wet.yaml", "a/b/scenario.yaml",
-                           "wet.yaml", "wet.yml"})
+  fs::create_directories(folder_ / "a");
+  for (const char* file : {"scenario.yaml", "a/wet.yaml", "dry.yaml"})
     std::ofstream(folder_ / file) << text;
-  const std::string whole = fs::canonical(folder_).relative_path().string();
   const std::pair<std::string, std::string> cases[] = {
-      {"plan scenario.yaml", "out/scenario"},
-      {"plan a/scenario.yaml", "out/a/scenario"},
-      {"plan ./a/b/../wet.yaml", "out/a/wet"},
-      {"plan a/b/scenario.yaml", "out/a/b/scenario"},
-      {"plan '" + folder_.string() + "/wet.yaml'", "out/wet"},
-      {"run wet.yml", "out/wet.yml"},
-      {"campaign a/wet.yaml -n 1", "out/a/wet/campaign"},
+      {"plan scenario.yaml", "out/hall"},
+      {"run scenario.yaml", "out/hall"},
+      {"campaign scenario.yaml -n 1", "out/hall/campaign"},
+      {"plan scenario.yaml", "out/hall"},
+      {"campaign a/wet.yaml -n 1", "out/wet"},
+      {"run '" + folder_.string() + "/a/wet.yaml'", "out/wet/run"},
+      {"plan dry.yaml", "out/dry"},
   };
   for (const auto& [command, out] : cases) {
     const Result dut = Run(command);
     EXPECT_EQ(dut.status, 0) << command << dut.err;
     EXPECT_THAT(dut.out, HasSubstr("results are in " + out + "\n")) << command;
+    EXPECT_TRUE(fs::exists(folder_ / out / "scenario.resolved.yaml")) << command;
   }
-  for (const auto& [command, out] : cases)
-    EXPECT_TRUE(fs::exists(folder_ / out / "scenario.resolved.yaml")) << out;
-  const Result outside =
-      Run("plan a/wet.yaml --out c/x && cd c && '" FP_PROGRAM "' plan ../wet.yaml");
-  EXPECT_EQ(outside.status, 0) << outside.err;
-  EXPECT_TRUE(fs::exists(folder_ / "c/out" / whole / "wet/plan.csv"));
-  // A campaign's settings are not replaced by a run's.
-  const std::string settings = Slurp(folder_ / "out/a/wet/campaign/scenario.resolved.yaml");
+  const std::string settings = Slurp(folder_ / "out/wet/scenario.resolved.yaml");
   for (const std::string command : {"run", "plan"}) {
-    const Result dut = Run(command + " wet.yaml --out out/a/wet/campaign");
+    const Result dut = Run(command + " dry.yaml --out out/wet");
     EXPECT_EQ(dut.status, 2);
-    EXPECT_THAT(dut.err, HasSubstr("out/a/wet/campaign: holds a campaign"));
+    EXPECT_THAT(dut.err, HasSubstr("out/wet: holds a campaign"));
   }
-  EXPECT_EQ(Slurp(folder_ / "out/a/wet/campaign/scenario.resolved.yaml"), settings);
-  const Result dut = Run("campaign wet.yaml -n 1 --out out/wet");
+  EXPECT_EQ(Slurp(folder_ / "out/wet/scenario.resolved.yaml"), settings);
+  const Result dut = Run("campaign dry.yaml -n 1 --out out/dry");
   EXPECT_EQ(dut.status, 2);
-  EXPECT_THAT(dut.err, HasSubstr("out/wet: holds a plan or a run"));
+  EXPECT_THAT(dut.err, HasSubstr("out/dry: holds a plan or a run"));
 }
 
 TEST_F(Cli, APlanThatIsSetTakesThePlaceOfThePlanner) {
@@ -387,8 +387,16 @@ TEST_F(Cli, InitWritesARunnableScenarioAndLeavesExistingFiles) {
          "0.65\nfree_thresh: 0.196\n";
   ASSERT_EQ(Run("init map.yaml --out mine").status, 0);
   EXPECT_EQ(Run("run mine/scenario.yaml --out o").status, 0);
+  EXPECT_EQ(Run("init map.yaml --out mine").status, 0) << "the same again";
+  // What it says to drive next is what it was asked for.
+  fs::copy_file(folder_ / "map.yaml", folder_ / "other.yaml");
+  for (const std::string command : {"init other.yaml", "init map.yaml --robot htetro"}) {
+    const Result dut = Run(command + " --out mine");
+    EXPECT_EQ(dut.status, 2) << command;
+    EXPECT_THAT(dut.err, HasSubstr("is there already, changed or of another map or robot"));
+  }
   std::ofstream(folder_ / "mine" / "site.yaml") << "mine";
-  EXPECT_EQ(Run("init map.yaml --out mine").status, 0);
+  EXPECT_EQ(Run("init map.yaml --out mine").status, 2);
   EXPECT_EQ(Slurp(folder_ / "mine" / "site.yaml"), "mine");
 
   // What is driven is what was drawn, and said; what is set is not drawn.
@@ -426,7 +434,7 @@ TEST_F(Cli, InitWritesARunnableScenarioAndLeavesExistingFiles) {
   ASSERT_EQ(Run("init hall.yaml --robot my.xml --out mine2").status, 0);
   EXPECT_THAT(Slurp(folder_ / "mine2/scenario.yaml"), HasSubstr("robot: \"../my.xml\""));
   EXPECT_EQ(Run("plan mine2/scenario.yaml").status, 0);
-  EXPECT_TRUE(fs::exists(folder_ / "out/mine2/scenario/plan.csv"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/hall/plan.csv"));
   EXPECT_EQ(Run("plan mine2/scenario.yaml --set robot=my.xml --out set").status, 0);
   const auto missing = Run("plan mine2/scenario.yaml --set robot=none.xml");
   EXPECT_EQ(missing.status, 2);

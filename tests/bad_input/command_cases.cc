@@ -83,12 +83,13 @@ std::vector<BadInput> CommandCases() {
               return geteuid() != 0 && chmod((folder / "shut").c_str(), 0500) == 0;
             }),
       Words("AFolderInTheResultsPlace", {run, "drawn.yaml", "--out", "o"},
-            {"o/result.json: is no plain file", "--out names another folder"},
+            {"o/result.json: is no plain file", "name another folder, or move the file away"},
             [](const fs::path& folder) {
               return fs::create_directories(folder / "o/result.json/x");
             }),
       Words("PlanCannotBeWritten", {"plan", "drawn.yaml", "--out", "o"},
-            {"o/scenario.resolved.yaml: is no plain file", "--out names another folder"},
+            {"o/scenario.resolved.yaml: is no plain file",
+             "name another folder, or move the file away"},
             [](const fs::path& folder) {
               return fs::create_directories(folder / "o/scenario.resolved.yaml");
             }),
