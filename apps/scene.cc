@@ -19,12 +19,15 @@ namespace {
 
 constexpr std::string_view kMark = "<!-- Written by floorproof scene, which may replace it. -->\n";
 
+// What is no file, writing to it says.
 void RefuseToReplaceOthers(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(std::filesystem::symlink_status(file, ignored))) return;
   constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 40;
-  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(file, ignored)) ||
-      ReadStartOfFile(file, kMark.size(), kMostBytes) != kMark)
+  std::error_code ignored;
+  using Type = std::filesystem::file_type;
+  const bool is_link = std::filesystem::is_symlink(file, ignored);
+  const Type there = std::filesystem::status(file, ignored).type();
+  if (is_link ? there == Type::regular || there == Type::not_found
+              : there == Type::regular && ReadStartOfFile(file, kMark.size(), kMostBytes) != kMark)
     throw InputError({file.string(), 0}, "", "",
                      "is not a file that `scene` wrote, and is not replaced; --out names another");
 }
