@@ -90,7 +90,7 @@ int RunIt(const Options& options, const Globals& globals) {
                                 .fail_fast = options.fail_fast,
                                 .time_limit_s = options.time_limit_s};
   const ScenarioFile file(options.scenario, overrides);
-  const fs::path folder = OutputFolder(options.out, file.file(), file.name());
+  const fs::path folder = CampaignFolder(options.out, file.file(), file.name());
   Progress progress(globals, file.variants());
   const CampaignOutcome outcome = DriveCampaign(file, request, folder, &progress);
   progress.Clear();
@@ -122,7 +122,7 @@ void AddCampaign(CommandLine& line, const Globals& globals, int& status) {
   command.Integer("--jobs", options->jobs, "Worker processes (default: one a core)", 1, 1024);
   command.Text("--episodes", options->episodes,
                "A:B, ids from A to before B only: a shard for `merge`; its gate is judged there");
-  command.Text("--out", options->out, "Output folder (default: out/<scenario's stem>)");
+  command.Text("--out", options->out, kOutputHelp);
   command.Flag("--resume", options->resume, "Go on with the campaign that the folder holds");
   command.Flag("--retry-errors", options->retry_errors,
                "With --resume: drive again what ended in an error");

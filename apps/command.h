@@ -29,10 +29,20 @@ struct Globals : Console {
   void Result(const nlohmann::ordered_json& json_result) const;
 };
 
-// --out, or out/<stem of the scenario's file> in the working directory. Where the file is just
-// called scenario, as `init` calls all of them, its name stands for the stem.
+// Where the results of `run` and `plan` go: --out, or out/NAME in the working directory. NAME is
+// the stem of the scenario's file; where that is just `scenario`, as `init` calls all of them, its
+// name. Where a campaign lies there, it is the folder `run` in it; with --out it is refused
+// (InputError).
 std::filesystem::path OutputFolder(const std::string& out, const std::filesystem::path& scenario,
                                    const std::string& name);
+inline constexpr const char* kOutputHelp =
+    "Output folder (default: out/NAME, NAME that of SCENARIO's file without .yaml)";
+// A campaign's, likewise: the folder `campaign` there, where a plan or a run lies.
+std::filesystem::path CampaignFolder(const std::string& out, const std::filesystem::path& scenario,
+                                     const std::string& name);
+
+// What the episode's draws put in place of what is written.
+void SayDrawn(const Scenario& scenario, const Globals& globals);
 
 // Of this machine; at least 1.
 int Cores();

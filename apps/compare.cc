@@ -18,8 +18,11 @@ namespace fs = std::filesystem;
 
 // DIR or DIR:VARIANT; without a variant the only one.
 struct Side {
-  std::string text, variant;
+  fs::path folder;
+  std::string variant;
   CampaignStore store;
+
+  std::string name() const { return folder.string() + ":" + variant; }
 };
 
 Side OpenSide(const std::string& text) {
@@ -27,7 +30,7 @@ Side OpenSide(const std::string& text) {
   std::error_code ignored;
   const auto colon = fs::exists(text, ignored) ? std::string::npos : text.rfind(':');
   const fs::path folder = text.substr(0, colon);
-  Side side{text, colon == std::string::npos ? "" : text.substr(colon + 1),
+  Side side{folder, colon == std::string::npos ? "" : text.substr(colon + 1),
             CampaignStore::Open(folder / "campaign.sqlite", false)};
   const std::vector<std::string> variants = side.store.Variants();
   if (side.variant.empty() && variants.size() == 1) side.variant = variants.front();
@@ -109,9 +112,12 @@ void AddCompare(CommandLine& line, const Globals& globals, int& status) {
   command.OnRun([sides, &globals, &status] {
     const Side a = OpenSide(sides->at(0)), b = OpenSide(sides->at(1));
     const Comparison comparison = CompareVariants(a.store, a.variant, b.store, b.variant);
-    globals.Result(ComparisonJson(comparison));
-    globals.Say(fmt::format("a: {}\nb: {}\n{} episodes in both, with the same draws", comparison.a,
-                            comparison.b, comparison.n));
+    auto json = ComparisonJson(comparison);
+    json["a_folder"] = a.folder.string();
+    json["b_folder"] = b.folder.string();
+    globals.Result(json);
+    globals.Say(fmt::format("a: {}\nb: {}\n{} episode{} in both, with the same draws", a.name(),
+                            b.name(), comparison.n, comparison.n == 1 ? "" : "s"));
     if (comparison.repeats > 0)
       globals.Say(
           fmt::format("one pair, repeated: all {} came out the same on both sides, to the "

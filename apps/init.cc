@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
 #include "apps/command.h"
 #include "base/file_output.h"
 #include "base/input_file.h"
@@ -9,7 +11,7 @@ namespace floorproof {
 
 namespace {
 
-constexpr std::uintmax_t kMaxRobotBytes = 64u << 20;
+constexpr std::uintmax_t kMaxRobotBytes = 64u << 20, kMaxTextBytes = 3u << 20;
 
 // Canonical, since ../ in a path through a symbolic link would lead elsewhere.
 std::string PathFrom(const std::filesystem::path& folder, const std::filesystem::path& file) {
@@ -17,6 +19,17 @@ std::string PathFrom(const std::filesystem::path& folder, const std::filesystem:
   return fs::weakly_canonical(fs::absolute(file))
       .lexically_relative(fs::weakly_canonical(fs::absolute(folder)))
       .string();
+}
+
+// What a user has changed, or made of another map, stays; to drive it in this map's name would
+// mislead.
+void RefuseOther(const std::filesystem::path& file, const std::string& text) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(std::filesystem::symlink_status(file, ignored))) return;
+  if (!WhyUnreadable(file, kMaxTextBytes).empty() || ReadInputFile(file, kMaxTextBytes) != text)
+    throw InputError({file.string(), 0}, "", "",
+                     "is there already, changed or of another map or robot: --out names another "
+                     "folder");
 }
 
 }  // namespace
@@ -32,7 +45,9 @@ void AddInit(CommandLine& line, const Globals& globals, int&) {
                Subcommand::Need::kRequired);
   command.TextWithDefault("--robot", options->robot,
                           "A name of `floorproof list robots`, or an MJCF");
-  command.TextWithDefault("--out", options->out, "Folder to write into (existing files stay)");
+  command.TextWithDefault(
+      "--out", options->out,
+      "Folder to write into; what is changed or another map's there is refused");
   command.OnRun([options, &globals] {
     const auto robot_file = FindRobotFile(options->robot, {"--robot", 0});
     if (const std::string why = WhyUnreadable(robot_file, kMaxRobotBytes); !why.empty())
@@ -43,16 +58,16 @@ void AddInit(CommandLine& line, const Globals& globals, int&) {
     const bool bundled = robot_file != options->robot;
     const InitFiles files = MakeInitFiles(options->map, robot.spec, folder,
                                           bundled ? options->robot : PathFrom(folder, robot_file));
+    const std::pair<std::filesystem::path, const std::string*> written[] = {
+        {folder / "site.yaml", &files.site_yaml}, {folder / "scenario.yaml", &files.scenario_yaml}};
+    for (const auto& [file, text] : written) RefuseOther(file, *text);
     for (const auto& warning : files.warnings) globals.Say("warning: " + warning);
     MakeFolder(folder);
-    const auto write = [&](const char* name, const std::string& text) {
-      const bool stays = std::filesystem::exists(folder / name);
-      if (!stays) WriteFileWhole(folder / name, text);
-      SayWhenInterrupted((folder / name).string() + " is there");
-      globals.Say((folder / name).string() + (stays ? " is there already and stays" : " written"));
-    };
-    write("site.yaml", files.site_yaml);
-    write("scenario.yaml", files.scenario_yaml);
+    for (const auto& [file, text] : written) {
+      WriteFileWhole(file, *text);
+      SayWhenInterrupted(file.string() + " is there");
+      globals.Say(file.string() + " written");
+    }
     globals.Say("next: floorproof run " + (folder / "scenario.yaml").string() + " --video");
   });
 }

@@ -24,13 +24,14 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
   Subcommand command = line.Add(
       "plan", "Plan only: plan.csv, plan.json and pictures; risk.csv where risk is asked for");
   command.Text("SCENARIO", options->scenario, "Scenario file (YAML)", Subcommand::Need::kRequired);
-  command.Text("--out", options->out, "Output folder (default: out/<scenario's stem>)");
+  command.Text("--out", options->out, kOutputHelp);
   command.Texts("--beside", options->beside,
                 "Scenarios of the same floor and robot, whose plans plot_risk.png shows too");
   command.OnRun([options, &globals, &status] {
     Scenario scenario = ReadScenario(options->scenario, globals.Overrides());
     for (const std::string& warning : Warnings(scenario)) globals.Say(warning);
-    const auto folder = OutputFolder(options->out, scenario.file, scenario.name);
+    SayDrawn(scenario, globals);
+    const std::filesystem::path folder = OutputFolder(options->out, scenario.file, scenario.name);
     ResultFolder out(folder, EpisodeResults(), InputsOf(scenario));
     const PlanResult plan = MakePlan(scenario);
     auto json = PlanJson(scenario, plan);
@@ -45,15 +46,13 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     SayWhenInterrupted(folder.string() + " holds the plan");
     const bool found = plan.status == PlanStatus::kSuccess;
     if (found) {
-      globals.Say(fmt::format(
-          "planned: {} waypoints, {} m, {} turns, covers {:.1f} % of {} m2 in reach",
-          FixedText(static_cast<double>(plan.path.size()), 0), FixedText(Length(plan.path), 1),
-          FixedText(CountTurns(plan.path), 0), 100 * json["coverage"].get<double>(),
-          NumberText(json["sweepable_m2"].get<double>())));
+      globals.Say(fmt::format("{}, covers {:.1f} % of {} m2 in reach", PlannedText(plan),
+                              100 * json["coverage"].get<double>(),
+                              NumberText(json["sweepable_m2"].get<double>())));
       if (!plan.message.empty()) globals.Say(plan.message);
       const PlanCheck check = CheckPlan(scenario, plan);
       for (const std::string& said : PlanLines(scenario, plan, check)) globals.Say(said);
-      json["check"] = PlanCheckJson(check);
+      json["check"] = PlanCheckJson(scenario, check);
     } else {
       globals.Say(fmt::format("no plan ({}): {}", Name(plan.status), plan.message));
     }

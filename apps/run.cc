@@ -18,15 +18,14 @@ void AddRun(CommandLine& line, const Globals& globals, int& status) {
       line.Add("run", "Plan, drive the plan through physics once, and judge it (one episode)");
   command.Text("SCENARIO", options->scenario, "Scenario file (YAML)", Subcommand::Need::kRequired);
   command.NonNegative("--seed", options->seed, "Overrides the scenario's seed");
-  command.Text("--out", options->out, "Output folder (default: out/<scenario's stem>)");
+  command.Text("--out", options->out, kOutputHelp);
   command.Flag("--video", options->video, "Film it: video.mp4 and frame_*.png");
   command.OnRun([options, &globals, &status] {
     auto overrides = globals.Overrides();
     if (options->seed >= 0) overrides.push_back({"seed", std::to_string(options->seed)});
     Scenario scenario = ReadScenario(options->scenario, overrides);
-    const auto folder = OutputFolder(options->out, scenario.file, scenario.name);
-    if (!scenario.drawn.empty())  // a value in the file is not the one that is driven
-      globals.Say("drawn: " + DrawnText(scenario.drawn));
+    const std::filesystem::path folder = OutputFolder(options->out, scenario.file, scenario.name);
+    SayDrawn(scenario, globals);
     if (!scenario.matrix.IsNull())
       globals.Say("this is the scenario itself: `campaign` drives the variants of its matrix");
     const DriveResult result = DriveAndFilm(scenario, folder, {.video = options->video}, globals);

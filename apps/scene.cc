@@ -1,16 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "apps/command.h"
 #include "base/file_output.h"
+#include "base/input_file.h"
 #include "base/interrupt.h"
 #include "base/result_folder.h"
 #include "env/scene/roller_wheels.h"
 #include "run/scenario/warnings.h"
 
 namespace floorproof {
+
+namespace {
+
+constexpr std::string_view kMark = "<!-- Written by floorproof scene, which may replace it. -->\n";
+
+// What is no file, writing to it says.
+void RefuseToReplaceOthers(const std::filesystem::path& file) {
+  constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 40;
+  std::error_code ignored;
+  using Type = std::filesystem::file_type;
+  const bool is_link = std::filesystem::is_symlink(file, ignored);
+  const Type there = std::filesystem::status(file, ignored).type();
+  if (is_link ? there == Type::regular || there == Type::not_found
+              : there == Type::regular && ReadStartOfFile(file, kMark.size(), kMostBytes) != kMark)
+    throw InputError({file.string(), 0}, "", "",
+                     "is not a file that `scene` wrote, and is not replaced; --out names another");
+}
+
+}  // namespace
 
 void AddScene(CommandLine& line, const Globals& globals, int&) {
   struct Options {
@@ -27,10 +49,11 @@ void AddScene(CommandLine& line, const Globals& globals, int&) {
     const Scenario s = ReadScenario(options->scenario, globals.Overrides());
     for (const std::string& warning : Warnings(s)) globals.Say(warning);
     RefuseToReplace(InputsOf(s), options->out);
+    RefuseToReplaceOthers(options->out);
     // The stock MuJoCo lacks the collider of ideal Mecanum wheels.
     const Scene scene =
         BuildScene(s.site.map, WithRollerWheels(s.robot), s.physics, s.start, WallSet::kAll);
-    WriteFileWhole(options->out, SceneXml(scene));
+    WriteFileWhole(options->out, std::string(kMark) + SceneXml(scene));
     SayWhenInterrupted(options->out + " is written");
     globals.Say(fmt::format("{}: {} wall, {} floor and {} hazard geoms", options->out,
                             scene.num_wall_geoms, scene.num_floor_geoms, scene.num_hazard_geoms));

@@ -26,7 +26,8 @@ constexpr std::size_t kHashDigits = 64;
 constexpr std::uintmax_t kMaxListBytes = 16u << 20;
 
 [[noreturn]] void Refuse(const fs::path& file, const std::string& why) {
-  throw InputError({file.string(), 0}, "", "", why + "; --out names another folder");
+  throw InputError({file.string(), 0}, "", "",
+                   why + "; name another folder, or move the file away");
 }
 
 bool IsPlainFile(const fs::path& file) {

@@ -81,10 +81,7 @@ class Witness : public EpisodeObserver {
       console_.Say(fmt::format("no plan ({}): {}", Name(plan.status), plan.message));
       return;
     }
-    console_.Say(fmt::format("planned: {} waypoints, {} m, {} turns, in {:.2f} s",
-                             FixedText(static_cast<double>(plan.path.size()), 0),
-                             FixedText(Length(plan.path), 1), FixedText(CountTurns(plan.path), 0),
-                             plan_s));
+    console_.Say(fmt::format("{}, in {:.2f} s", PlannedText(plan), plan_s));
     if (!plan.message.empty()) console_.Say(plan.message);
     // A planner keeps clear of what it knows; a file may lead anywhere.
     if (s_.planner) return;

@@ -70,8 +70,13 @@ std::string StuckText(const Event& event, const HazardMap& map) {
   const std::string where = Beside(event, map, event.hazard == "wall" ? " at" : " before", " in");
   if (still_s >= window_s / 2) return "stood still for " + TimeText(still_s) + where;
   const std::string in = " in " + TimeText(window_s) + where;
-  if (Evidence(event, "turning").value_or(0) == 0)
-    return "got on by " + Is(ComparedText(gained_m, event.threshold, 2, "m"), "was due") + "," + in;
+  if (Evidence(event, "turning").value_or(0) == 0) {
+    constexpr double kNotable_s = 1;
+    // The limit is a share of the way commanded, and mostly met by a hair: it says nothing.
+    const double commanded_m = Evidence(event, "commanded_m").value_or(4 * event.threshold);
+    return "got on by " + FixedText(gained_m, 2) + " m of " + FixedText(commanded_m, 2) + " m" +
+           in + (still_s >= kNotable_s ? ", and stood still for " + TimeText(still_s) : "");
+  }
   const double turned_rad = Evidence(event, "turn_rad").value_or(0);
   const double least_rad = Evidence(event, "turn_threshold_rad").value_or(0);
   if (turned_rad >= least_rad) return "turned to and fro without getting on" + in;

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // F3, roll over, in three ways, each an inequality on the true motion:
-//   tilt > min(tilt limit, static tip angle) for tilt_duration_s: it is about to lie on its side;
+//   tilt > tilt limit for tilt_duration_s: it lies on its side, or is about to;
 //   kind `tipped`: the centre of mass lies outside the hull of what carries the robot, by more than
 //     tipped_share of the support at rest, on the side to which it leans, and does not come back
 //     for tipped_duration_s while a wheel touches (a robot in the air is not tipped yet);
 //   kind `fell`: the lowest driven wheel is more than fall_m below the plan's floor; a robot that
 //     lands on its wheels after a drop was never tilted much.
-// The tilt limit is mjlab's bad-orientation termination; the others are static stability. What is
-// that deep outside falls on: an upright pendulum's deviation grows by cosh(t sqrt(g / h)), 13
-// times in half a second at h = 0.2 m. A robot that rocks over a bump crosses the border of its
-// support as well. It does so from the far side, coming back to level, or by less than that, until
-// the next wheel touches. One that rests on two points has no polygon, and no deviation beyond
-// noise either. The plan's floor is z = 0, or the lowest level change under the centre or a wheel
-// that is known and low enough to be driven over, or on which the robot was set down. It does not
-// judge how hard a landing was.
+// The tilt limit is mjlab's bad-orientation termination; the others are static stability. The
+// static tip angle is no limit: a robot that rears up on a cover leans by more and comes back, one
+// that rests on its belly's edge leans by more and drives. What is that deep outside falls on: an
+// upright pendulum's deviation grows by cosh(t sqrt(g / h)), 13 times in half a second at h = 0.2
+// m. A robot that rocks over a bump crosses the border of its support as well. It does so from the
+// far side, coming back to level, or by less than that, until the next wheel touches. One that
+// rests on two points has no polygon, and no deviation beyond noise either. The plan's floor is z =
+// 0, or the lowest level change under the centre or a wheel that is known and low enough to be
+// driven over, or on which the robot was set down. It does not judge how hard a landing was.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -57,8 +58,7 @@ class Lasting {
 class RollOver final : public Detector {
  public:
   void Visit(ParamVisitor& v) override {
-    v("tilt_limit_deg", tilt_limit_deg_, Between(1, 180),
-      "tilt allowed at most; the robot's static tip angle where that is less");
+    v("tilt_limit_deg", tilt_limit_deg_, Between(1, 180), "tilt allowed at most");
     v("tilt_duration_s", tilt_duration_s_, NonNegative(), "how long the tilt must last");
     v("tipped_duration_s", tipped_duration_s_, NonNegative(),
       "how long the centre of mass must stand outside the wheels' support");
@@ -73,11 +73,6 @@ class RollOver final : public Detector {
     map_ = &context.map;
     const RobotSpec& robot = context.robot;
     limit_rad_ = tilt_limit_deg_ * kPi / 180;
-    if (robot.static_tip_rad > 0) limit_rad_ = std::min(limit_rad_, robot.static_tip_rad);
-    // While it folds, and in whatever shape a plan may give it, the least stable shape's limit.
-    if (!robot.hinges.empty())
-      for (const ShapeSpec& shape : robot.shapes)
-        limit_rad_ = std::min(limit_rad_, shape.static_tip_rad);
     robot_ = &robot;
     // From the centre of mass to the nearest edge of the wheels' polygon.
     deep_m_ = std::max(kNoise_m, tipped_share_ * robot.p_BCom.z() * std::tan(robot.static_tip_rad));

@@ -90,6 +90,16 @@ Separation Separate(const Polygon& a, const Polygon& b) {
   return {-low_m, Mean(left)};
 }
 
+Polygon ConvexIntersection(const Polygon& a, const Polygon& b) {
+  constexpr double kTouch_m = 1e-9, kOneCorner_m = 5e-9;
+  Polygon shared;
+  for (const Vec2& p : CutBy(a, -kTouch_m, b))
+    if (shared.empty() || (p - shared.back()).norm() > kOneCorner_m) shared.push_back(p);
+  while (shared.size() > 1 && (shared.front() - shared.back()).norm() <= kOneCorner_m)
+    shared.pop_back();
+  return shared;
+}
+
 Polygon SweptBy(const Polygon& polygon, const Vec2& by) {
   std::vector<Vec2> points = polygon;
   for (const Vec2& p : polygon) points.push_back(p + by);

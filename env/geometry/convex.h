@@ -18,6 +18,10 @@ struct Separation {
 // wall right across -half of a's width). O(corners of a * corners of b).
 Separation Separate(const Polygon& a, const Polygon& b);
 
+// What two convex polygons share. Where they but touch, to within a nanometre, that is one corner
+// or two; empty where they are apart.
+Polygon ConvexIntersection(const Polygon& a, const Polygon& b);
+
 // All that the polygon covers while it moves straight by `by`, without turning.
 Polygon SweptBy(const Polygon& polygon, const Vec2& by);
 

@@ -274,6 +274,30 @@ std::vector<Region> Intersection(const std::vector<Region>& a, const std::vector
   return Combine(ClipperLib::ctIntersection, a, b);
 }
 
+std::vector<Region> Simplified(const std::vector<Region>& regions, double by_m) {
+  std::vector<Region> out;
+  for (const Region& region : regions) {
+    BPolygon whole, fewer;
+    whole.inners().resize(region.holes.size());
+    for (const Vec2& p : region.outer) whole.outer().emplace_back(p.x(), p.y());
+    for (std::size_t i = 0; i < region.holes.size(); ++i)
+      for (const Vec2& p : region.holes[i]) whole.inners()[i].emplace_back(p.x(), p.y());
+    bg::simplify(whole, fewer, by_m);
+    const auto ring = [](const auto& points) {
+      Polygon polygon;
+      for (const BPoint& p : points) polygon.emplace_back(p.x(), p.y());
+      if (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
+      return polygon;
+    };
+    Region simple{ring(fewer.outer()), {}};
+    if (simple.outer.size() < 3) continue;
+    for (const auto& inner : fewer.inners())
+      if (Polygon hole = ring(inner); hole.size() >= 3) simple.holes.push_back(std::move(hole));
+    out.push_back(std::move(simple));
+  }
+  return out;
+}
+
 std::vector<Polygon> ConvexParts(const std::vector<Region>& regions, double yaw_rad) {
   std::vector<Polygon> parts;
   std::vector<Region> rest;

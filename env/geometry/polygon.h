@@ -37,6 +37,10 @@ std::vector<Region> Union(const std::vector<Polygon>& polygons);
 std::vector<Region> Difference(const std::vector<Region>& a, const std::vector<Polygon>& b);
 std::vector<Region> Intersection(const std::vector<Region>& a, const std::vector<Polygon>& b);
 
+// The regions with fewer corners (Douglas & Peucker 1973): none that is left out was farther than
+// by_m from the new border. What is no wider may vanish.
+std::vector<Region> Simplified(const std::vector<Region>& regions, double by_m);
+
 // Convex polygons that tile the regions without overlap. A convex region stays whole. Others are
 // cut along lines in direction `yaw_rad` through their corners, into trapezoids; neighbours are
 // merged where together they form a rectangle or a trapezoid again.

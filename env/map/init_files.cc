@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/config.h"
 #include "base/params.h"
+#include "base/quantity.h"
 #include "env/core/coverage.h"
 #include "env/map/ros_map.h"
 
@@ -87,6 +89,8 @@ map: )" + Quoted(map_path) +
          R"(
 unknown: wall              # cells the map knows nothing of: wall, or free
 floor:
+  # scenario.yaml draws it anew in each episode (`randomise`: site.floor.friction), and what is drawn
+  # wins over what stands here.
   friction: 0.8            # wheels on floor: 0.6 (smooth, dusty) to 1.0 (clean, dry)
 
 # What the map does not show. Take away a '#' to try one; with 'known: false' it lies on the floor
@@ -99,6 +103,13 @@ hazards:
 #  - {type: glass, line_m: )" +
          door + R"(, height_m: 2.0}
 )";
+}
+
+// What of the robot's own is drawn, in words; empty: nothing, as its model states nothing.
+std::string DrawnOfRobot(const RobotSpec& robot) {
+  const char* mass = robot.mass_kg > 0 ? "mass" : "";
+  const char* volts = robot.battery.voltage_v ? "battery's voltage" : "";
+  return std::string(mass) + (*mass && *volts ? " and " : "") + volts;
 }
 
 // What nobody knows exactly, as lines of `randomise`; what the robot's model does not state is left
@@ -130,18 +141,24 @@ std::string ScenarioText(const std::string& name, const std::string& robot_key,
                          const RobotSpec& robot, const Pose2& start, double area_m2) {
   const std::string pose = "{x_m: " + Metres(start.x_m) + ", y_m: " + Metres(start.y_m) +
                            ", yaw_deg: " + Metres(start.yaw_rad * 180 / kPi) + "}";
+  const std::string drawn = DrawnOfRobot(robot);
+  const std::string of_robot = drawn.empty() ? ""
+                                             : "# `randomise` below draws its " + drawn +
+                                                   ": with another robot change that there, too.\n";
   return R"(# What is tried on the floor: a robot, a plan, and what counts as success.
 #   floorproof run scenario.yaml --video      drives it once and films it
 #   floorproof campaign scenario.yaml -n 60   drives it 60 times: how often does it fail?
-# What comes of it stands in out/NAME/, the verdict in result.json or summary.json there.
+# Results go to out/NAME/ in the current folder: the verdict of `run` to result.json there, that of
+# `campaign` to summary.json there, or in the folder campaign/ beside a run.
 scenario: 1                # version of this format
 name: )" +
          Quoted(name) + R"(
 site: site.yaml            # relative to this file
 robot: )" +
-         Quoted(robot_key) + R"(
-# From here about )" +
-         std::to_string(std::lround(area_m2)) + R"( m^2 can be swept.
+         Quoted(robot_key) + "\n" + of_robot + R"(# From here about )" +
+         std::to_string(std::lround(area_m2)) +
+         R"( m^2 can be swept. `randomise` below draws x_m, y_m and yaw_deg about this
+# place, and what is drawn wins: to start elsewhere change them there, too.
 start: )" +
          pose + R"(
 
@@ -154,19 +171,36 @@ estimator: truth           # mcl, odometry: `floorproof list estimators`, and do
 # react: {then: replan}    # at bumps and drops; without it the plan is driven blindly
 
 success:
-  min_coverage: 0.95       # share of what can be swept; less is no success
+  # Share of what can be swept; less is no success. A plan of your own that is to cover less needs a
+  # lower one: 0 asks for none.
+  min_coverage: 0.95
 
-# What nobody knows exactly, drawn anew in each episode (`run` drives episode 0). Without it all
-# episodes of a campaign are one.
+# What nobody knows exactly, drawn anew in each episode (`run` drives episode 0, and says what it
+# drew). What is drawn wins over what is written, above and in site.yaml: change it here, or take its
+# line away. What `--set KEY=VALUE` sets is not drawn. Without `randomise` all episodes of a campaign
+# are one.
 randomise:
 )" + DrawnText(robot, start) +
          R"(
 # What a campaign must show: exit status 0 where it does, 1 where it does not, 4 where the episodes
-# allow neither. 59 episodes without a failure show a rate below 5 %.
+# allow neither. 59 episodes without a failure show a rate below 5 %, fewer cannot: to drive fewer,
+# `--set gate=none`.
 gate: {metric: not_success, max_rate: 0.05, confidence: 0.95}
 
 seed: 1                    # the same seed gives the same bytes
 )";
+}
+
+// Of floor that no drive from this start sweeps.
+std::string WarnOfFloorOutOfReach(const HazardMap& map, const SweepArea& area) {
+  constexpr double kNoticed = 0.2;
+  const auto free = std::ranges::count(map.occupancy.cells, CellState::kFree);
+  const double free_m2 = static_cast<double>(free) * map.frame.cell_m * map.frame.cell_m;
+  if (area.area_m2() >= (1 - kNoticed) * free_m2) return "";
+  return "from the start the robot can sweep " + NumberText(area.area_m2()) + " of " +
+         NumberText(free_m2) +
+         " m2 of free floor; the rest is too narrow for it, or lies beyond what is: to drive "
+         "another part, change `start` in scenario.yaml, and what `randomise` draws of it";
 }
 
 }  // namespace
@@ -212,10 +246,13 @@ InitFiles MakeInitFiles(const fs::path& map_yaml, const RobotSpec& robot,
   const fs::path from = fs::weakly_canonical(fs::absolute(folder_out.empty() ? "." : folder_out));
   const fs::path relative = fs::weakly_canonical(fs::absolute(map_yaml)).lexically_relative(from);
   const std::string name = NameOf(map_yaml);
+  std::vector<std::string> warnings = ros.warnings;
+  if (std::string warning = WarnOfFloorOutOfReach(map, area); !warning.empty())
+    warnings.push_back(std::move(warning));
   return {
       SiteText(name, relative.string(), ros, start),
       ScenarioText(name, robot_key.empty() ? robot.name : robot_key, robot, start, area.area_m2()),
-      ros.warnings};
+      std::move(warnings)};
 }
 
 }  // namespace floorproof

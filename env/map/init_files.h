@@ -13,7 +13,7 @@ namespace floorproof {
 
 struct InitFiles {
   std::string site_yaml, scenario_yaml;  // texts; the scenario names the site as "site.yaml"
-  std::vector<std::string> warnings;     // of the map
+  std::vector<std::string> warnings;     // of the map; of floor out of reach
 };
 
 // The texts of site.yaml and scenario.yaml for this robot on this map, with paths relative to

@@ -2,6 +2,10 @@
 // A tapered solid (a cover, a bump) within an upright convex column is convex again, but its upper
 // corners lie at several heights: where the column's sides cross its slanted edges. Cut level
 // through at these heights it falls into layers, each a solid from one cross-section to the next.
+//
+// The corners of a layer's two cross-sections do not go by pairs any more, so a layer cannot be cut
+// again. Each solid is cut once, as its hazard made it: first its ground plan is divided among the
+// floors and what replaces them, then the solid is cut to the parts.
 #include "env/map/lay_floors.h"
 
 #include <algorithm>
@@ -9,11 +13,13 @@
 #include <limits>
 #include <span>
 
+#include "env/geometry/convex.h"
+
 namespace floorproof {
 namespace {
 
 constexpr double kThinnest_m = 1e-4;  // of a piece
-constexpr double kTouch = 1e-6;       // share of an area that is none
+constexpr double kTouch_m = 1e-6;     // mean width of an overlap that is none
 
 struct Box {
   Vec2 low, high;
@@ -25,12 +31,67 @@ struct Box {
   }
 };
 
+// Those of the polygons that the base may overlap.
 std::vector<Polygon> Meeting(const Polygon& base, const std::vector<Polygon>& covers) {
   const Box box(base);
   std::vector<Polygon> meeting;
   for (const Polygon& cover : covers)
     if (box.Meets(Box(cover))) meeting.push_back(cover);
   return meeting;
+}
+
+// The floor that a hazard makes: where it is built, which on a drawing is not its whole cells.
+std::vector<Polygon> FloorOf(const Hazard& hazard) {
+  const bool level = hazard.hazard_class == HazardClass::kLevelChange;
+  const bool terrain = hazard.hazard_class == HazardClass::kTerrain;
+  std::vector<Polygon> floor;
+  for (const Solid& solid : hazard.solids)
+    if (level || (terrain && solid.kind == Solid::Kind::kCut)) floor.push_back(solid.base);
+  return floor;
+}
+
+struct Split {
+  std::vector<Region> within, beyond;
+};
+
+// What of the regions these polygons cover, and the rest. Regions that they but touch are whole.
+Split SplitBy(const std::vector<Region>& regions, const std::vector<Polygon>& covers) {
+  const auto without_touches = [](std::vector<Region> parts) {
+    std::erase_if(parts, [](const Region& part) {
+      double around_m = 0;
+      for (std::size_t i = 0; i < part.outer.size(); ++i)
+        around_m += (part.outer[(i + 1) % part.outer.size()] - part.outer[i]).norm();
+      return Area({part}) < kTouch_m * around_m / 2;
+    });
+    return parts;
+  };
+  if (covers.empty()) return {{}, regions};
+  Split split;
+  split.within = without_touches(Intersection(regions, covers));
+  if (split.within.empty()) return {{}, regions};
+  split.beyond = without_touches(Difference(regions, covers));
+  if (split.beyond.empty()) return {regions, {}};
+  return split;
+}
+
+// A part of a solid's ground plan, and the floor that it stands on.
+struct Ground {
+  std::vector<Region> regions;
+  double floor_m = 0;
+};
+
+// The ground plan, divided among the last of these level changes that hold it and the base floor.
+std::vector<Ground> Grounds(std::span<const Hazard> before, const Polygon& base) {
+  std::vector<Ground> grounds;
+  std::vector<Region> rest = {{base, {}}};
+  for (std::size_t j = before.size(); j-- > 0 && !rest.empty();) {
+    if (before[j].hazard_class != HazardClass::kLevelChange) continue;
+    Split split = SplitBy(rest, Meeting(base, FloorOf(before[j])));
+    if (!split.within.empty()) grounds.push_back({std::move(split.within), before[j].height_m});
+    rest = std::move(split.beyond);
+  }
+  if (!rest.empty()) grounds.push_back({std::move(rest), 0});
+  return grounds;
 }
 
 // The least width of a convex polygon.
@@ -46,15 +107,11 @@ double Width(const Polygon& convex) {
   return least;
 }
 
-// A tapered solid's cross-section, `share` of the way up. Corners that fall together are one.
+// A tapered solid's cross-section, `share` of the way up.
 Polygon Section(const Solid& solid, double share) {
   Polygon section;
-  for (std::size_t i = 0; i < solid.base.size(); ++i) {
-    const Vec2 p = solid.base[i] + share * (solid.top[i] - solid.base[i]);
-    if (section.empty() || (p - section.back()).norm() > 1e-9) section.push_back(p);
-  }
-  while (section.size() > 1 && (section.front() - section.back()).norm() <= 1e-9)
-    section.pop_back();
+  for (std::size_t i = 0; i < solid.base.size(); ++i)
+    section.push_back(solid.base[i] + share * (solid.top[i] - solid.base[i]));
   return section;
 }
 
@@ -91,8 +148,7 @@ std::vector<double> Levels(const Solid& solid, const Polygon& column) {
 void AddWithin(const Solid& solid, const Polygon& column, std::vector<Solid>& out) {
   const double height_m = solid.z_high_m - solid.z_low_m;
   const auto within = [&](double share) {
-    const auto regions = Intersection({{column, {}}}, {Section(solid, share)});
-    return regions.empty() ? Polygon{} : regions.front().outer;
+    return ConvexIntersection(column, Section(solid, share));
   };
   const std::vector<double> levels = Levels(solid, column);
   double from = 0;
@@ -101,9 +157,7 @@ void AddWithin(const Solid& solid, const Polygon& column, std::vector<Solid>& ou
     if (low.size() < 3 || Width(low) < kThinnest_m) break;
     if ((to - from) * height_m < kThinnest_m / 10) continue;  // levels that are one
     Polygon high = within(to);
-    for (const double short_of : {1e-6, 1e-3})  // where it runs out, in an edge or a corner
-      if (high.size() < 3) high = within(to - short_of * (to - from));
-    if (high.size() < 3) break;
+    if (high.empty()) break;
     out.push_back(
         {solid.kind, low, high, solid.z_low_m + from * height_m, solid.z_low_m + to * height_m});
     low = std::move(high);
@@ -111,17 +165,25 @@ void AddWithin(const Solid& solid, const Polygon& column, std::vector<Solid>& ou
   }
 }
 
-// Adds what of the solid stands on these regions of its ground.
-void AddOn(const Solid& solid, const std::vector<Region>& regions, std::vector<Solid>& out) {
+// Adds what of the solid, as its hazard made it, stands on this ground.
+void AddOn(Solid solid, const Ground& ground, std::vector<Solid>& out) {
+  solid.z_low_m += ground.floor_m;
+  solid.z_high_m += ground.floor_m;
   std::vector<Region> to_part;
-  for (const Region& region : regions) {
-    if (solid.kind == Solid::Kind::kCut && region.holes.empty())  // any shape
+  for (const Region& region : ground.regions) {
+    if (region.outer == solid.base && region.holes.empty())  // nothing cut
+      out.push_back(solid);
+    else if (solid.kind == Solid::Kind::kCut && region.holes.empty())  // any shape
       out.push_back({solid.kind, region.outer, {}, solid.z_low_m, solid.z_high_m});
     else
       to_part.push_back(region);
   }
+  // Left out, a thin piece of a floor is a slot that no wheel feels; one of a cut would be a fin
+  // that stands in the pit. Between close corners of a curve pieces are thin one after the other.
+  const bool prism = solid.kind == Solid::Kind::kPrism;
+  if (prism) to_part = Simplified(to_part, kThinnest_m / 2);
   for (const Polygon& part : ConvexParts(to_part)) {
-    if (Width(part) < kThinnest_m) continue;
+    if (prism && Width(part) < kThinnest_m) continue;
     if (solid.top.empty())
       out.push_back({solid.kind, part, {}, solid.z_low_m, solid.z_high_m});
     else
@@ -129,88 +191,36 @@ void AddOn(const Solid& solid, const std::vector<Region>& regions, std::vector<S
   }
 }
 
-void CutAway(Solid solid, const std::vector<Polygon>& covers, std::vector<Solid>& rest) {
-  const std::vector<Polygon> meeting = Meeting(solid.base, covers);
-  if (meeting.empty()) {
-    rest.push_back(std::move(solid));
-    return;
-  }
-  const std::vector<Region> left = Difference({{solid.base, {}}}, meeting);
-  if (Area(left) > (1 - kTouch) * std::abs(SignedArea(solid.base)))
-    rest.push_back(std::move(solid));  // they but touch
-  else
-    AddOn(solid, left, rest);
-}
-
-// Adds the solid, put on the last of these floors that holds its ground; what none holds stays.
-// True where it lies across an edge of one.
-bool LayOn(std::span<const Hazard> before, Solid solid, std::vector<Solid>& laid) {
-  for (std::size_t j = before.size(); j-- > 0;) {
-    if (before[j].hazard_class != HazardClass::kLevelChange) continue;
-    const std::vector<Polygon> floor = Meeting(solid.base, before[j].footprint);
-    if (floor.empty()) continue;
-    const std::vector<Region> ground = {{solid.base, {}}};
-    const std::vector<Region> on = Intersection(ground, floor);
-    const double share = Area(on) / std::abs(SignedArea(solid.base));
-    if (share < kTouch) continue;
-    std::vector<Solid> lifted;
-    if (share > 1 - kTouch)
-      lifted = {solid};
-    else
-      AddOn(solid, on, lifted);
-    for (Solid& part : lifted) {
-      part.z_low_m += before[j].height_m;
-      part.z_high_m += before[j].height_m;
-      laid.push_back(std::move(part));
-    }
-    if (share > 1 - kTouch) return false;
-    std::vector<Solid> beside;
-    AddOn(solid, Difference(ground, floor), beside);
-    for (Solid& part : beside) LayOn(before.first(j), std::move(part), laid);
-    return true;
-  }
-  laid.push_back(std::move(solid));
-  return false;
-}
-
-void LayTerrain(std::span<const Hazard> before, Hazard& terrain,
-                std::vector<std::string>& warnings) {
-  bool across = false;
-  std::vector<Solid> laid;
-  for (Solid& solid : terrain.solids) {
-    if (solid.kind == Solid::Kind::kPrism)
-      across |= LayOn(before, std::move(solid), laid);
-    else
-      laid.push_back(std::move(solid));
-  }
-  terrain.solids = std::move(laid);
-  if (across)
-    warnings.push_back(terrain.id +
-                       " lies across the edge of a level change: each part lies on its own floor");
-}
-
 }  // namespace
 
 void LayFloors(std::vector<Hazard>& hazards, std::vector<std::string>& warnings) {
-  const auto is_cut = [](const Hazard& h) {
-    return std::ranges::any_of(h.solids,
-                               [](const Solid& s) { return s.kind == Solid::Kind::kCut; });
-  };
-  for (std::size_t i = 0; i < hazards.size(); ++i)
-    if (hazards[i].hazard_class == HazardClass::kTerrain)
-      LayTerrain(std::span(hazards).first(i), hazards[i], warnings);
-
-  std::vector<Polygon> later;  // what replaces the floor behind this one in the list
+  std::vector<Polygon> later;       // the floors of those behind this one in the list
+  std::vector<std::string> across;  // from the last to the first
   for (std::size_t i = hazards.size(); i-- > 0;) {
     Hazard& hazard = hazards[i];
-    const bool level = hazard.hazard_class == HazardClass::kLevelChange;
-    if (!level && hazard.hazard_class != HazardClass::kTerrain) continue;
-    const bool replaces = level || is_cut(hazard);
-    std::vector<Solid> rest;
-    for (Solid& solid : hazard.solids) CutAway(std::move(solid), later, rest);
-    hazard.solids = std::move(rest);
-    if (replaces) later.insert(later.end(), hazard.footprint.begin(), hazard.footprint.end());
+    const bool terrain = hazard.hazard_class == HazardClass::kTerrain;
+    if (!terrain && hazard.hazard_class != HazardClass::kLevelChange) continue;
+    const std::vector<Polygon> floor = FloorOf(hazard);
+    bool on_several = false;
+    std::vector<Solid> laid;
+    for (const Solid& solid : hazard.solids) {
+      const bool lies = terrain && solid.kind == Solid::Kind::kPrism;
+      const std::size_t floors_below = lies ? i : 0;
+      std::vector<Ground> grounds = Grounds(std::span(hazards).first(floors_below), solid.base);
+      on_several |= grounds.size() > 1;
+      const std::vector<Polygon> replaced = Meeting(solid.base, later);
+      for (Ground& ground : grounds) {
+        ground.regions = SplitBy(ground.regions, replaced).beyond;
+        AddOn(solid, ground, laid);
+      }
+    }
+    hazard.solids = std::move(laid);
+    if (on_several)
+      across.push_back(hazard.id +
+                       " lies across the edge of a level change: each part lies on its own floor");
+    later.insert(later.end(), floor.begin(), floor.end());
   }
+  warnings.insert(warnings.end(), across.rbegin(), across.rend());
 }
 
 }  // namespace floorproof

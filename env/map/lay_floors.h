@@ -11,10 +11,13 @@ namespace floorproof {
 
 // Where hazards that shape the floor (C3, C4) overlap, the later one wins, exactly: a level change
 // or a groove cuts the solids of earlier ones back to what it does not cover, and terrain that is
-// written after a level change lies on its floor, each part on its own where it lies across an
-// edge; `warnings` names what does. Terrain on terrain stays: the higher is felt. Pieces narrower
-// than 0.1 mm are left out: they would be no solid. Footprints stay whole, so that a map without
-// its unknown hazards does not show where they lie.
+// written after level changes lies on their floors, each part on its own where it lies across
+// edges; `warnings` names what does. It bridges a groove before it. A floor is where it is built:
+// the bases of its solids, which on a drawing are smaller than its cells. Terrain on terrain stays:
+// the higher is felt. Pieces narrower than 0.1 mm are left out: they would be no solid; along
+// curves of many corners a cut may be off by half of that. Footprints stay whole, so that a map
+// without its unknown hazards does not show where they lie. The solids must be as their types make
+// them: those that taper with a corner of `top` for each of `base`.
 void LayFloors(std::vector<Hazard>& hazards, std::vector<std::string>& warnings);
 
 }  // namespace floorproof

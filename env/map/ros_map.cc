@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 
@@ -72,10 +73,30 @@ Pose2 ReadOrigin(const ConfigNode& node) {
           WrapAngle(AsDouble(node.items[2], "origin[2]", Between(-1e3, 1e3)))};
 }
 
+// The picture is what people think of as the map.
+void RefuseImage(const fs::path& yaml_path, const InputFiles& files) {
+  const std::string start = files.ReadStart(yaml_path, 4, kMaxImageBytes);
+  const bool netpbm = start.size() > 2 && start[0] == 'P' && start[1] >= '1' && start[1] <= '6' &&
+                      std::isspace(static_cast<unsigned char>(start[2]));
+  if (!netpbm && !start.starts_with("\x89PNG") && !start.starts_with("BM")) return;
+  fs::path beside = yaml_path;
+  beside.replace_extension(".yaml");
+  throw InputError(
+      {yaml_path.string(), 0}, "", "",
+      "is the map's image: name its .yaml, which says how large a pixel is and where it lies" +
+          (WhyUnreadable(beside, kMaxImageBytes).empty() ? ", " + beside.string() : ""));
+}
+
 Keys ReadKeys(const fs::path& yaml_path, const InputFiles& files) {
+  RefuseImage(yaml_path, files);
   const ConfigNode node = ReadYamlFile(yaml_path, files);
   if (!node.IsMap())
     throw InputError({yaml_path.string(), 0}, "", "", "is not a ROS map (image, resolution, ...)");
+  for (const char* kind : {"scenario", "site"})
+    if (node.Find(kind) != nullptr && node.Find("image") == nullptr)
+      throw InputError({yaml_path.string(), 0}, "", "",
+                       std::string("is a ") + kind +
+                           ", not a ROS map: name the map's own .yaml (image, resolution, ...)");
   Keys keys;
   const ConfigNode& image = Need(node, "image");
   keys.image = PathIn(yaml_path.parent_path(), image, "image");

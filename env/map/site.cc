@@ -107,8 +107,15 @@ void CheckOneFloor(const ConfigNode& node) {
 
 Written ReadWritten(const ConfigNode& node, const fs::path& folder) {
   if (!node.IsMap()) throw InputError(node.mark, "site", "", "must be a map of keys");
-  RefuseUnknownKeys(node, "", kKnown);
   const ConfigNode* version = node.Find("site");
+  const fs::path file = fs::path(node.mark.file);
+  if (version == nullptr && node.Find("image") && node.Find("resolution"))
+    throw InputError({file.string(), 0}, "", "",
+                     "is a ROS map, not a site: a site names it, `site: 1` and `map: " +
+                         file.filename().string() + "`; `floorproof init` writes one");
+  if (node.Find("scenario") != nullptr)
+    throw InputError({file.string(), 0}, "", "", "is a scenario, not a site");
+  RefuseUnknownKeys(node, "", kKnown);
   if (version == nullptr)
     throw InputError({node.mark.file, 0}, "site", "",
                      "missing; write site: 1 (the format's version)");
@@ -116,7 +123,7 @@ Written ReadWritten(const ConfigNode& node, const fs::path& folder) {
     throw InputError(version->mark, "site", version->scalar, "must be 1, the format's version");
 
   Written site;
-  site.name = fs::path(node.mark.file).stem().string();
+  site.name = file.stem().string();
   if (site.name.empty()) site.name = "site";
   if (const ConfigNode* name = node.Find("name")) site.name = AsString(*name, "name");
   CheckOneFloor(node);

@@ -95,10 +95,18 @@ bool ContactReader::Understand(const mjModel* m, const mjData* d, int index, Con
   mj_contactForce(m, d, index, force);
   out.normal_n = force[0];
   out.friction_W_n = toward * (force[1] * Vec3(c.frame + 3) + force[2] * Vec3(c.frame + 6));
-  // The side of a slab of floor is the edge of what is missing beside it.
-  if (out.world.kind == GeomRole::Kind::kFloor && out.world.hazard < 0 && out.normal_W.z() < kSteep)
-    out.world.hazard = CutAt(out.p_W.head<2>() + kBeside_m * out.normal_W.head<2>());
+  // The side of a slab of floor is the edge of what is missing beside it; of a hazard's slab, where
+  // the hazard would go on there.
+  const Vec2 beside_W = out.p_W.head<2>() + kBeside_m * out.normal_W.head<2>();
+  if (out.normal_W.z() < kSteep && GoesOn(out.world, beside_W))
+    out.world.hazard = std::max(out.world.hazard, CutAt(beside_W));
   return true;
+}
+
+bool ContactReader::GoesOn(const GeomRole& slab, const Vec2& p_W) const {
+  if (slab.hazard < 0) return slab.kind == GeomRole::Kind::kFloor;
+  return std::ranges::any_of(map_.hazards[static_cast<std::size_t>(slab.hazard)].footprint,
+                             [&](const Polygon& part) { return Contains(part, p_W); });
 }
 
 // The hazard whose cut in the floor holds this point; -1: none.

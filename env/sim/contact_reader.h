@@ -37,6 +37,8 @@ class ContactReader {
   };
 
   bool Understand(const mjModel* m, const mjData* d, int index, Contact& out) const;
+  // Whether what this slab is a part of would be at this point, too.
+  bool GoesOn(const GeomRole& slab, const Vec2& p_W) const;
   int CutAt(const Vec2& p_W) const;
   void AddTouch(const Contact& contact, Truth& truth) const;
   void AddObstacle(const mjModel* m, const mjData* d, const Contact& contact, Truth& truth) const;

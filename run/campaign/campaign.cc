@@ -247,7 +247,7 @@ std::string_view WhyEnded(CampaignEnd end) {
     case CampaignEnd::kComplete:
       return "all episodes are done";
     case CampaignEnd::kGateDecided:
-      return "the gate's verdict is final";
+      return "more episodes would not change the gate's verdict";
     case CampaignEnd::kFailFast:
       return "an episode failed (--fail-fast)";
     case CampaignEnd::kTimeLimit:

@@ -54,6 +54,32 @@ class PlanFigures {
   std::vector<std::string> names_;
 };
 
+// What two episodes drew that differs, in words; empty: nothing.
+std::string DifferentDraws(const std::string& text_a, const std::string& text_b) {
+  constexpr int kShown = 3;
+  if (text_a == text_b) return "";
+  const Json a = Json::parse(text_a), b = Json::parse(text_b);
+  const auto shown = [](const Json& value) {
+    return value.is_structured() ? std::string("a value in parts")
+           : value.is_string()   ? value.get<std::string>()
+                                 : value.dump();
+  };
+  std::string text;
+  int different = 0;
+  const auto add = [&](const std::string& difference) {
+    if (++different <= kShown) text += (text.empty() ? "" : ", ") + difference;
+  };
+  for (const auto& [key, value] : a.items())
+    if (!b.contains(key))
+      add(key + " in a alone");
+    else if (b[key] != value)
+      add(key + " " + shown(value) + " in a and " + shown(b[key]) + " in b");
+  for (const auto& [key, value] : b.items())
+    if (!a.contains(key)) add(key + " in b alone");
+  if (different > kShown) text += " and " + std::to_string(different - kShown) + " more";
+  return text;
+}
+
 // Fills in how many episodes there are of which side.
 std::vector<Pair> Pairs(const CampaignStore& a, const CampaignStore& b, PlanFigures& figures,
                         Comparison& out) {
@@ -77,10 +103,12 @@ std::vector<Pair> Pairs(const CampaignStore& a, const CampaignStore& b, PlanFigu
       ++out.only_b;
       return;
     }
-    if (found->second.row.drawn != row.drawn)
+    if (const std::string differs = DifferentDraws(found->second.row.drawn, row.drawn);
+        !differs.empty())
       throw InputError({}, "episode", std::to_string(row.episode),
-                       "has other draws on the two sides, " + found->second.row.drawn + " and " +
-                           row.drawn + ": a paired comparison needs the same");
+                       "drew " + differs +
+                           ": a paired comparison needs the same draws, of the same `seed` and "
+                           "the same `randomise`");
     pairs.push_back({std::move(found->second), brief(row)});
     pairs.back().a.row.drawn.clear();
     pairs.back().b.row.drawn.clear();

@@ -69,8 +69,10 @@ std::optional<CampaignGate> CampaignGate::Read(const ConfigNode& node, std::uint
     CheckGate(gate.settings_);
   } catch (const InputError& e) {
     std::string why = e.what();
-    // Not written: it is the command line's.
-    if (!p.max_n && why.starts_with("max_n")) why.replace(0, 5, "-n");
+    if (!p.max_n && why.starts_with("max_n")) {  // not written: it is the command line's
+      why.replace(0, 5, "-n");
+      why += "; for rates without a verdict: --set gate=none";
+    }
     throw InputError(node.mark, "gate", "", why);
   }
   return gate;

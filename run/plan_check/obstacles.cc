@@ -29,22 +29,40 @@ Obstacles::Obstacles(const HazardMap& known, const RobotSpec& robot, const Vec2&
     parts_.push_back({Rectangle(box.low_G, box.high_G), kWall});
   for (std::size_t i = 0; i < known.hazards.size(); ++i) {
     ids_.push_back(known.hazards[i].id);
-    if (IsObstacle(known.hazards[i], robot.step_m)) AddHazard(known, i);
+    if (IsObstacle(known.hazards[i], robot.step_m)) AddHazard(known, i, IsFloor);
   }
+  FindByPlace();
+}
+
+Obstacles Obstacles::OthersOf(const HazardMap& map, const RobotSpec& robot) {
+  Obstacles others;
+  const auto replaces = [](const Hazard& later) {
+    return later.hazard_class == HazardClass::kLevelChange;
+  };
+  for (std::size_t i = 0; i < map.hazards.size(); ++i) {
+    const Hazard& hazard = map.hazards[i];
+    others.ids_.push_back(hazard.id);
+    if (!hazard.known || !IsObstacle(hazard, robot.step_m)) others.AddHazard(map, i, replaces);
+  }
+  others.FindByPlace();
+  return others;
+}
+
+void Obstacles::FindByPlace() {
   std::vector<WallBox> boxes;
   for (const Part& part : parts_) boxes.push_back(BoxAround(part.polygon_G));
   boxes_ = WallGrid(std::move(boxes));
 }
 
-void Obstacles::AddHazard(const HazardMap& known, std::size_t index) {
-  const Hazard& hazard = known.hazards[index];
+template <class Covers>
+void Obstacles::AddHazard(const HazardMap& map, std::size_t index, const Covers& covers) {
+  const Hazard& hazard = map.hazards[index];
   std::vector<Polygon> later;
   if (IsFloor(hazard))
-    for (std::size_t k = index + 1; k < known.hazards.size(); ++k)
-      if (IsFloor(known.hazards[k]))
-        later.insert(later.end(), known.hazards[k].footprint.begin(),
-                     known.hazards[k].footprint.end());
-  const Pose2 X_GW = known.frame.X_WG.Inverse();
+    for (std::size_t k = index + 1; k < map.hazards.size(); ++k)
+      if (covers(map.hazards[k]))
+        later.insert(later.end(), map.hazards[k].footprint.begin(), map.hazards[k].footprint.end());
+  const Pose2 X_GW = map.frame.X_WG.Inverse();
   for (const Polygon& footprint : hazard.footprint) {
     std::vector<Region> left = {{footprint, {}}};
     if (!later.empty()) left = Difference(left, later);
@@ -55,8 +73,9 @@ void Obstacles::AddHazard(const HazardMap& known, std::size_t index) {
   }
 }
 
-std::optional<double> Obstacles::Cast(const Vec2& from_G, const Vec2& direction_G, double most_m) {
-  std::optional<double> nearest;
+std::optional<Obstacles::Hit> Obstacles::Cast(const Vec2& from_G, const Vec2& direction_G,
+                                              double most_m) {
+  std::optional<Hit> nearest;
   const Vec2 to_G = from_G + most_m * direction_G;
   Near(from_G.cwiseMin(to_G), from_G.cwiseMax(to_G), [&](const Part& part) {
     const Polygon& polygon = part.polygon_G;
@@ -68,7 +87,7 @@ std::optional<double> Obstacles::Cast(const Vec2& from_G, const Vec2& direction_
       const double along_m = Cross(to_corner, edge) / across;
       const double share = Cross(to_corner, direction_G) / across;
       if (along_m < 0 || along_m > most_m || share < 0 || share > 1) continue;
-      if (!nearest || along_m < *nearest) nearest = along_m;
+      if (!nearest || along_m < nearest->along_m) nearest = Hit{along_m, part.hazard};
     }
   });
   return nearest;

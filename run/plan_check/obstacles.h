@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a robot must keep off, as convex polygons that are found by place.
+// What a robot must keep off, and what it may come over, as convex polygons that are found by
+// place.
 #pragma once
 
 #include <optional>
@@ -15,6 +16,8 @@ namespace floorproof {
 class Obstacles {
  public:
   static constexpr int kWall = -1;
+  static constexpr double kTouch_m = 0.001;      // as a start beside a wall (env/core/standing.h)
+  static constexpr double kSameStretch_m = 0.3;  // what is met again within that is still met
   struct Part {
     Polygon polygon_G;   // convex, in the map's grid frame, m
     int hazard = kWall;  // index into the known map's hazards
@@ -24,18 +27,30 @@ class Obstacles {
   // hazards that it must keep off. A level change does not count where a later floor covers it.
   Obstacles(const HazardMap& known, const RobotSpec& robot, const Vec2& start_W);
 
+  // Of all other hazards of the map: those that can be driven over, and those that are not known.
+  // A later step, drop or groove takes away what it covers.
+  static Obstacles OthersOf(const HazardMap& map, const RobotSpec& robot);
+
   // The parts whose bounding boxes meet the rectangle [low, high].
   template <class Visit>
   void Near(const Vec2& low_G, const Vec2& high_G, const Visit& visit) {
     boxes_.Near(low_G, high_G, found_);
     for (const int i : found_) visit(parts_[static_cast<std::size_t>(i)]);
   }
-  // Along the ray, which has length 1, to the first of them; none within `most_m`.
-  std::optional<double> Cast(const Vec2& from_G, const Vec2& direction_G, double most_m);
+  // Along the ray, which has length 1, the first of them; none within `most_m`.
+  struct Hit {
+    double along_m = 0;
+    int hazard = kWall;
+  };
+  std::optional<Hit> Cast(const Vec2& from_G, const Vec2& direction_G, double most_m);
   std::string Id(int hazard) const;
 
  private:
-  void AddHazard(const HazardMap& known, std::size_t index);
+  Obstacles() = default;
+  // Less what later hazards of which `covers` holds lie over.
+  template <class Covers>
+  void AddHazard(const HazardMap& map, std::size_t index, const Covers& covers);
+  void FindByPlace();
 
   std::vector<Part> parts_;
   std::vector<std::string> ids_;

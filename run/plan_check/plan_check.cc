@@ -26,13 +26,22 @@ constexpr std::array<std::string_view, 5> kWhyNames = {"not_visited", "narrow", 
 // To a millimetre: more is known of nothing here.
 std::string Metres(double length_m) { return LengthText(std::round(1000 * length_m) / 1000); }
 
+// "1 turn", "1,250 turns"
+std::string Counted(std::size_t n, const char* what) {
+  return FixedText(static_cast<double>(n), 0) + " " + what + (n == 1 ? "" : "s");
+}
+
 std::string At(const Vec2& p_W) { return PlaceText(p_W.x(), p_W.y()); }
 
 std::string Line(const HazardMap& floor, const PlanConflict& c) {
   std::string line = fmt::format("  {}, {} m along: ", At(c.p_W), FixedText(c.along_m, 1));
   if (c.gap_m)
-    line += fmt::format("a gap {} wide at {}, the robot is {} wide", Metres(*c.gap_m),
-                        ObstaclePhrase(floor, c.obstacle), Metres(c.width_m));
+    line +=
+        fmt::format("a gap {} wide {}, the robot is {} wide", Metres(*c.gap_m),
+                    c.other_side == c.obstacle ? "at " + ObstaclePhrase(floor, c.obstacle)
+                                               : "between " + ObstaclePhrase(floor, c.obstacle) +
+                                                     " and " + ObstaclePhrase(floor, c.other_side),
+                    Metres(c.width_m));
   else
     line +=
         fmt::format("overlaps {} by {}", ObstaclePhrase(floor, c.obstacle), Metres(c.overlap_m));
@@ -85,6 +94,20 @@ void AddClearance(const HazardMap& floor, const PlanClearance& c, std::vector<st
     lines.push_back(fmt::format("  and {} more", c.conflicts.size() - kListed));
 }
 
+void AddDrivenOver(const HazardMap& true_floor, const RobotSpec& robot,
+                   const std::vector<DrivenOver>& driven, std::vector<std::string>& lines) {
+  for (std::size_t i = 0; i < std::min(kListed, driven.size()); ++i) {
+    const Hazard& hazard = true_floor.hazards[driven[i].hazard];
+    const bool keeps_off = IsObstacle(hazard, robot.step_m);
+    lines.push_back(fmt::format("{} {}{} {}", keeps_off ? "leads into" : "drives over",
+                                HazardPhrase(hazard),
+                                hazard.known ? "" : ", which the planner is not told of,",
+                                Counted(static_cast<std::size_t>(driven[i].times), "time")));
+  }
+  if (driven.size() > kListed)
+    lines.push_back(fmt::format("  and over {} more", driven.size() - kListed));
+}
+
 // "crosses 'sill' (step, 4 mm) at x 4.00, y 3.00 m, 2.0 m along: higher than the robot is trusted
 // to cross (1 mm)"
 std::string Line(const HazardMap& floor, const RobotSpec& robot, const PlanCrossing& c) {
@@ -130,17 +153,23 @@ Json PlaceJson(const Vec2& p_W) { return {{"x_m", p_W.x()}, {"y_m", p_W.y()}}; }
 
 }  // namespace
 
+std::string PlannedText(const PlanResult& plan) {
+  return fmt::format("planned: {}, {} m, {}", Counted(plan.path.size(), "waypoint"),
+                     FixedText(Length(plan.path), 1),
+                     Counted(static_cast<std::size_t>(CountTurns(plan.path)), "turn"));
+}
+
 PlanCheck CheckPlan(Scenario& s, const PlanResult& plan) {
   const SweepArea area =
       ComputeSweepArea(KnownFloor(s), plan.clear, plan.tool, s.robot.spec.step_m, s.start.p());
-  return {CheckClearance(s, plan), FindUncovered(s, plan, area), EstimateBudget(s, plan)};
+  return {CheckClearance(s, plan), FindDrivenOver(s, plan), FindUncovered(s, plan, area),
+          EstimateBudget(s, plan)};
 }
 
 std::string ConflictsLine(const PlanClearance& clearance) {
-  const std::size_t n = clearance.conflicts.size();
-  if (n == 0) return "";
-  return fmt::format("warning: the plan leads the robot into obstacles at {} place{}", n,
-                     n == 1 ? "" : "s");
+  if (clearance.conflicts.empty()) return "";
+  return "warning: the plan leads the robot into obstacles at " +
+         Counted(clearance.conflicts.size(), "place");
 }
 
 std::vector<std::string> CrossingLines(const Scenario& s, const PlanClearance& clearance) {
@@ -162,11 +191,12 @@ std::vector<std::string> PlanLines(const Scenario& s, const PlanResult& plan,
   const HazardMap floor = KnownFloor(s);
   AddClearance(floor, check.clearance, lines);
   AddCrossings(floor, s.robot.spec, check.clearance, lines);
+  AddDrivenOver(TrueFloor(s), s.robot.spec, check.driven_over, lines);
   AddUncovered(floor, s.robot.spec, plan, check.uncovered, lines);
   return lines;
 }
 
-Json PlanCheckJson(const PlanCheck& check) {
+Json PlanCheckJson(const Scenario& s, const PlanCheck& check) {
   const PlanClearance& c = check.clearance;
   Json conflicts = Json::array();
   for (const PlanConflict& conflict : c.conflicts) {
@@ -177,7 +207,8 @@ Json PlanCheckJson(const PlanCheck& check) {
                  {"over_m", conflict.over_m},
                  {"times", conflict.times},
                  {"robot_width_m", conflict.width_m},
-                 {"gap_m", conflict.gap_m ? Json(*conflict.gap_m) : Json(nullptr)}});
+                 {"gap_m", conflict.gap_m ? Json(*conflict.gap_m) : Json(nullptr)},
+                 {"gap_other_side", conflict.gap_m ? Json(conflict.other_side) : Json(nullptr)}});
     conflicts.push_back(std::move(json));
   }
   Json crossings = Json::array();
@@ -188,6 +219,15 @@ Json PlanCheckJson(const PlanCheck& check) {
                  {"height_m", crossing.height_m},
                  {"times", crossing.times}});
     crossings.push_back(std::move(json));
+  }
+  const HazardMap true_floor = TrueFloor(s);
+  Json over = Json::array();
+  for (const DrivenOver& driven : check.driven_over) {
+    const Hazard& hazard = true_floor.hazards[driven.hazard];
+    over.push_back({{"hazard", hazard.id},
+                    {"known", hazard.known},
+                    {"times", driven.times},
+                    {"over_m", driven.over_m}});
   }
   Json pockets = Json::array();
   for (const UncoveredPocket& pocket : check.uncovered.pockets) {
@@ -208,6 +248,7 @@ Json PlanCheckJson(const PlanCheck& check) {
   return {{"least_clearance", c.obstacle.empty() ? Json(nullptr) : std::move(least)},
           {"conflicts", std::move(conflicts)},
           {"crossings", std::move(crossings)},
+          {"driven_over", std::move(over)},
           {"free_floor_m2", check.uncovered.floor_m2},
           {"covered_m2", check.uncovered.covered_m2},
           {"uncovered_edges_m2", check.uncovered.edges_m2},

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What can be said of a plan before it is driven: whether it leads the robot into anything, what it
-// leaves uncovered, what it takes.
+// leads it over, what it leaves uncovered, what it takes.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "run/plan_check/driven_over.h"
 #include "run/plan_check/plan_budget.h"
 #include "run/plan_check/plan_clearance.h"
 #include "run/plan_check/uncovered_pockets.h"
@@ -15,18 +16,22 @@ namespace floorproof {
 
 struct PlanCheck {
   PlanClearance clearance;
+  std::vector<DrivenOver> driven_over;
   UncoveredFloor uncovered;
   PlanBudget budget;
 };
 
+// "planned: 71 waypoints, 120.5 m, 69 turns": of a plan that was found.
+std::string PlannedText(const PlanResult& plan);
+
 // Of a plan that was found.
 PlanCheck CheckPlan(Scenario& scenario, const PlanResult& plan);
 
-// In words, a line each; what needs a look begins with "warning: ". At most five places and five
-// pockets are listed, the rest counted.
+// In words, a line each; what needs a look begins with "warning: ". Of places,
+// hazards and pockets at most five each are listed, the rest counted.
 std::vector<std::string> PlanLines(const Scenario& scenario, const PlanResult& plan,
                                    const PlanCheck& check);
-nlohmann::ordered_json PlanCheckJson(const PlanCheck& check);
+nlohmann::ordered_json PlanCheckJson(const Scenario& scenario, const PlanCheck& check);
 
 // What it crosses beyond what the robot is trusted to, a warning each, five at most and the rest
 // counted.

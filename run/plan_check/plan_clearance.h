@@ -21,6 +21,7 @@ struct PlanConflict {
   int times = 1;                     // the plan comes to this place
   double width_m = 0;                // of the robot, across its way there
   std::optional<double> gap_m = {};  // that the way leads through; none: it is wider than the robot
+  std::string other_side = {};  // of the gap: `obstacle` stands on the one side, this on the other
 };
 
 // A known level change that the plan leads over and that is beyond the robot's `step_m`.

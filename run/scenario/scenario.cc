@@ -30,6 +30,16 @@ void MakeMap(ConfigNode& root, const std::string& key_path) {
   }
 }
 
+// A plan is made by a planner or read from a file: who sets the one on the command line takes the
+// other away, with its keys.
+void ChooseWhosePlan(const std::string& key_path, ConfigNode& root) {
+  const ConfigNode* plan = root.Find("plan");
+  if (plan == nullptr) return;
+  const bool from_file = plan->Find("file") != nullptr;
+  if ((key_path == "plan.file" && !from_file) || (key_path == "plan.planner" && from_file))
+    root.Remove("plan");
+}
+
 // Keys site.* reach into the site's own tree, once that is read.
 void Apply(const Variant& changes, bool to_site, ConfigNode& root) {
   for (const auto& [key, value] : changes.overrides) {
@@ -43,15 +53,19 @@ void Apply(const Variant& changes, bool to_site, ConfigNode& root) {
 // Keys whose value may be a file's path.
 bool NamesFile(const std::string& key, const std::string& value) {
   if (key == "robot" || key == "robot.name") return value.ends_with(".xml");
-  return key == "site" || key == "plan.file" || (key == "risk.tables" && value.ends_with(".yaml"));
+  return key == "site" || key == "site.map" || key == "plan.file" ||
+         (key == "risk.tables" && value.ends_with(".yaml"));
 }
 
 // What is typed is meant from the folder in which it is typed, where a file lies there; else it is
 // read as if it stood in the scenario.
 void FindFromHere(const std::string& key, const fs::path& folder, ConfigNode& value) {
   std::error_code ignored;
-  if (value.IsScalar() && NamesFile(key, value.scalar) && fs::exists(value.scalar, ignored) &&
-      !fs::equivalent(".", folder / ".", ignored))
+  for (auto& [name, part] : value.entries) FindFromHere(key + "." + name, folder, part);
+  if (!value.IsScalar() || !NamesFile(key, value.scalar) || !fs::exists(value.scalar, ignored))
+    return;
+  // A site's paths are found from its own folder, which may be another.
+  if (key == "site.map" || !fs::equivalent(".", folder / ".", ignored))
     value.scalar = fs::absolute(value.scalar).string();
 }
 
@@ -61,9 +75,44 @@ bool IsRosMap(const ConfigNode& root) {
          root.Find("scenario") == nullptr;
 }
 
+// A site file's own: its format version, where a scenario names its site.
+bool IsSite(const ConfigNode& root) {
+  const ConfigNode* version = root.Find("site");
+  return version != nullptr && version->scalar == "1" && root.Find("scenario") == nullptr;
+}
+
+// What is no scenario, yet stands where one should.
+void RefuseOtherKinds(const ConfigNode& root, const std::string& file) {
+  if (!root.IsMap())
+    throw InputError({file, 1}, "", "",
+                     "must be a map of keys (scenario: 1, site: site.yaml, robot: beluga, ...)");
+  if (IsRosMap(root))
+    throw InputError(
+        {file, 0}, "", "",
+        "is a ROS map, not a scenario: `floorproof init " + file + "` writes a scenario for it");
+  if (IsSite(root))
+    throw InputError({file, 0}, "", "",
+                     "is a site, not a scenario: a scenario names it, at least `scenario: 1`, "
+                     "`site: " +
+                         fs::path(file).filename().string() +
+                         "`, `robot: beluga`; `floorproof init` writes one for a ROS map");
+}
+
+// What is `none`, or empty, is not there: no gate, nothing drawn, no variants.
+void RemoveNone(ConfigNode& root) {
+  for (const char* key : {"gate", "randomise", "matrix"}) {
+    const ConfigNode* node = root.Find(key);
+    if (node == nullptr) continue;
+    const bool none = node->IsNull() || (node->IsMap() && node->entries.empty()) ||
+                      (node->IsScalar() && !node->quoted && node->scalar == "none");
+    if (none) root.Remove(key);
+  }
+}
+
 // Whether setting `whole` replaces `key`.
 bool Replaces(const std::string& whole, const std::string& key) {
-  return key == whole || key.starts_with(whole + ".");
+  return key == whole || key.starts_with(whole + ".") ||
+         (whole == "plan.file" && key.starts_with("plan."));
 }
 
 bool IsSha256(const std::string& text) {
@@ -111,16 +160,14 @@ ScenarioFile ScenarioFile::Recorded(const fs::path& file) {
 ScenarioFile::ScenarioFile(std::optional<ConfigNode> root, const fs::path& file,
                            const std::vector<Override>& overrides, Files files)
     : file_(file), root_(root ? std::move(*root) : ReadYamlFile(file, files_)) {
-  if (!root_.IsMap()) throw InputError({file.string(), 1}, "", "", "must be a map of keys");
-  if (IsRosMap(root_))
-    throw InputError({file.string(), 0}, "", "",
-                     "is a ROS map, not a scenario: `floorproof init " + file.string() +
-                         "` writes a scenario for it");
+  RefuseOtherKinds(root_, file.string());
   for (const Override& o : overrides) {
     overrides_.emplace_back(o.key_path, ParseYaml(o.value, "--set " + o.key_path));
     FindFromHere(o.key_path, file.parent_path(), overrides_.back().second);
+    ChooseWhosePlan(o.key_path, root_);
   }
   Apply({"", overrides_}, false, root_);
+  RemoveNone(root_);
   RefuseUnknownKeys(root_, "", ScenarioKeys());
   const ConfigNode* version = root_.Find("scenario");
   if (version == nullptr)

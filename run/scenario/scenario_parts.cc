@@ -108,6 +108,19 @@ void ReadRobotPart(const ConfigNode& root, const std::vector<int>& plan_lines, S
   s.robot = WithRollerWheels(s.robot);
 }
 
+// What a message about a place is about: what was set of it, else what was drawn, which both stand
+// elsewhere than the place itself; else where the place is written.
+SourceMark MarkOfPlace(const ConfigNode& root, const std::string& key, const Scenario& s) {
+  const SourceMark mark = MarkOf(root, key);
+  const ConfigNode* place = root.Find(key);
+  if (place == nullptr || mark.file != s.file.string()) return mark;
+  for (const auto& [name, part] : place->entries)
+    if (part.mark.file != mark.file) return part.mark;
+  for (const auto& [path, value] : s.drawn)
+    if (path == key || path.starts_with(key + ".")) return value.mark;
+  return mark;
+}
+
 Pose2 ReadStart(const ConfigNode& root, const HazardMap& map) {
   Pose2 start = map.start.value_or(Pose2{});
   const ConfigNode* node = root.Find("start");
@@ -129,7 +142,7 @@ Pose2 ReadStart(const ConfigNode& root, const HazardMap& map) {
 }
 
 void CheckStart(const ConfigNode& root, const Scenario& s) {
-  const SourceMark mark = MarkOf(root, "start");
+  const SourceMark mark = MarkOfPlace(root, "start", s);
   const Cell cell = s.site.map.frame.ToCell(s.start.p());
   const std::string value = FormatDouble(s.start.x_m) + ", " + FormatDouble(s.start.y_m);
   if (!s.site.map.frame.Inside(cell)) throw InputError(mark, "start", value, "lies off the map");
@@ -144,7 +157,8 @@ void CheckStart(const ConfigNode& root, const Scenario& s) {
                          "; it must stand on one floor, clear of all solids");
 }
 
-std::optional<Vec2> ReadGoal(const ConfigNode& root, const HazardMap& map) {
+std::optional<Vec2> ReadGoal(const ConfigNode& root, const Scenario& s) {
+  const HazardMap& map = s.site.map;
   const ConfigNode* node = root.Find("goal");
   if (node == nullptr) return map.goal;
   Vec2 goal = map.goal.value_or(Vec2::Zero());
@@ -153,8 +167,8 @@ std::optional<Vec2> ReadGoal(const ConfigNode& root, const HazardMap& map) {
     v("y_m", goal.y(), Any(), "m");
   });
   if (!map.frame.Inside(map.frame.ToCell(goal)))
-    throw InputError(node->mark, "goal", FormatDouble(goal.x()) + ", " + FormatDouble(goal.y()),
-                     "lies off the map");
+    throw InputError(MarkOfPlace(root, "goal", s), "goal",
+                     FormatDouble(goal.x()) + ", " + FormatDouble(goal.y()), "lies off the map");
   return goal;
 }
 
@@ -163,6 +177,10 @@ std::vector<int> ReadPlanPart(const ConfigNode& root, Scenario& s) {
   std::vector<int> lines;
   const ConfigNode* node = root.Find("plan");
   if (const ConfigNode* file = node && node->IsMap() ? node->Find("file") : nullptr) {
+    if (const ConfigNode* planner = node->Find("planner"))
+      throw InputError(planner->mark, "plan.planner", planner->scalar,
+                       "stands beside plan.file: a plan is either made by a planner or read from a "
+                       "file; take one of them away");
     RefuseUnknownKeys(*node, "plan.", {"file"});
     s.plan_file = NamedFile(s.file.parent_path(), *file, "plan.file", s.files);
     s.user_plan = ReadPlan(s.plan_file, s.site.map.frame, &lines, s.files);
@@ -328,7 +346,7 @@ void ReadParts(const ConfigNode& root, Scenario& s) {
   s.start = ReadStart(root, s.site.map);
   s.site.map.start = s.start;  // the scenario's own wins, on pictures too
   CheckStart(root, s);
-  s.goal = ReadGoal(root, s.site.map);
+  s.goal = ReadGoal(root, s);
   ReadRisk(root, s);
   ReadControl(root, s);
   ReadReaction(root, s);

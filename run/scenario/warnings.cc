@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "base/quantity.h"
 #include "env/scene/restitution.h"
 
 namespace floorproof {
@@ -15,6 +18,28 @@ bool LiesIn(const fs::path& folder, const fs::path& file) {
   const fs::path from = fs::canonical(folder.empty() ? "." : folder, ignored);
   const fs::path to = fs::canonical(file, ignored).lexically_relative(from);
   return !to.empty() && *to.begin() != "..";
+}
+
+// What asks for more speed than the robot has gets less, silently: trackers cap it.
+void WarnOfSpeeds(const Scenario& s, std::vector<std::string>& lines) {
+  const double most_mps = s.robot.spec.max_speed_mps;
+  const auto capped = [&](const std::string& what, double asked_mps) {
+    lines.push_back(fmt::format("warning: {} {} m/s is more than {} drives: {} m/s at most", what,
+                                NumberText(asked_mps), s.robot_name, NumberText(most_mps)));
+  };
+  std::size_t fast = 0, first = 0;
+  double asked_mps = 0;
+  for (std::size_t i = 0; i < s.user_plan.size(); ++i) {
+    if (s.user_plan[i].speed_mps <= most_mps) continue;
+    if (fast++ == 0) first = i + 1;
+    asked_mps = std::max(asked_mps, s.user_plan[i].speed_mps);
+  }
+  if (fast > 0)
+    capped(fmt::format("{}, {} of {} waypoints from number {} on: speed_mps of up to",
+                       s.plan_file.string(), fast, s.user_plan.size(), first),
+           asked_mps);
+  if (s.recovery && s.recovery->back_off_mps > most_mps)
+    capped("react.back_off_mps", s.recovery->back_off_mps);
 }
 
 }  // namespace
@@ -33,6 +58,7 @@ std::vector<std::string> Warnings(const Scenario& scenario) {
                       "(shorter physics.timestep_s, livelier contacts)",
                       hazard.id, asked, walk.timestep_s, most));
   }
+  WarnOfSpeeds(scenario, lines);
   std::string outside;
   for (const fs::path& file : FilesRead(scenario))
     if (!scenario.files.HasStandIn(file) && !LiesIn(scenario.file.parent_path(), file) &&

@@ -15,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using Json = nlohmann::ordered_json;
 
 // Half of the episodes fail, so that a few show it.
@@ -46,6 +47,13 @@ TEST_F(CampaignTest, AnotherSeedIsAnotherCampaign) {
   ASSERT_EQ(Campaign("-n 2 --seed 1 --out a").status, 0);
   ASSERT_EQ(Campaign("-n 2 --seed 2 --out b").status, 0);
   EXPECT_NE(Select("a", "SELECT drawn FROM episode"), Select("b", "SELECT drawn FROM episode"));
+  const Ended other = Run("compare a b");
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.said, HasSubstr(" in a and "));
+  EXPECT_THAT(other.said, Not(HasSubstr("{")));
+  // Variants of one name, told apart by their folders.
+  ASSERT_EQ(Campaign("-n 2 --seed 1 --set physics.timestep_s=0.002 --out c").status, 0);
+  EXPECT_THAT(Run("compare a c").out, HasSubstr("a: a:default\nb: c:default\n"));
 }
 
 TEST_F(CampaignTest, RunIsEpisodeNought) {
@@ -218,7 +226,9 @@ TEST_F(CampaignTest, BadInputIsOneLineAndStatusTwo) {
            {"-n 3 --time-limit 0", "--time-limit"},
            {"-n 3 --out file", "a file is in the way"},
            {"-n 3 --set gate.max_rate=2", "gate.max_rate = 2: must be"},
-           {"-n 3 --set gate.max_rate=0.05", "gate"},
+           {"-n 3 --set gate.max_rate=0.05",
+            "-n = 3: must be >= 59: with fewer episodes no outcome passes at this max_rate and "
+            "confidence; for rates without a verdict: --set gate=none"},
            {"-n 3 --set randomise.seed.uniform=[1,2]", "cannot differ between episodes"},
        }) {
     const Ended dut = Campaign(arguments);
@@ -236,6 +246,18 @@ TEST_F(CampaignTest, ExitStatuses) {
   Write(kGate);
   EXPECT_EQ(Campaign("-n 200 --out failed").status, 1);
   EXPECT_EQ(Campaign("-n 200 --time-limit 0.01 --out undecided").status, 4);
+  EXPECT_EQ(Campaign("-n 2 --out refused").status, 2);
+  int outs = 0;
+  for (const char* none : {"none", "{}", ""})
+    EXPECT_EQ(
+        Campaign("-n 2 --set gate=" + std::string(none) + " --out none" + std::to_string(++outs))
+            .status,
+        0)
+        << none;
+  Write("gate: none\n");
+  const Ended without = Campaign("-n 2 --out without");
+  EXPECT_EQ(without.status, 0);
+  EXPECT_THAT(without.out, Not(HasSubstr("gate")));
   Write("gate: {metric: roll_over, max_rate: 0.6, confidence: 0.9}\n");
   EXPECT_EQ(Campaign("-n 5 --out passed").status, 0);
   Write("", "  start.x_m: {uniform: [0.1, 0.7]}\n");

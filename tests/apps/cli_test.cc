@@ -224,6 +224,74 @@ TEST_F(Cli, AUsersFilesAreNotWrittenOver) {
   fs::remove(folder_ / "o" / "video.mp4");
   for (int i = 0; i < 2; ++i) EXPECT_EQ(Run("run s.yaml --out o").status, 0) << "its own";
   EXPECT_EQ(Run("scene s.yaml --out s.yaml").status, 2);
+  for (const char* others : {"notes.xml", "link.xml"}) {
+    std::ofstream(folder_ / "notes.xml") << "<mujoco/>";
+    fs::create_symlink("notes.xml", folder_ / "link.xml");
+    const Result scene = Run(std::string("scene s.yaml --out ") + others);
+    EXPECT_EQ(scene.status, 2);
+    EXPECT_THAT(scene.err, HasSubstr(std::string(others) + ": is not a file that `scene` wrote"));
+    EXPECT_EQ(Slurp(folder_ / "notes.xml"), "<mujoco/>");
+    fs::remove(folder_ / "link.xml");
+  }
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(Run("scene s.yaml --out its_own.xml").status, 0);
+}
+
+// A run and a campaign of one scenario: neither replaces what the other left.
+TEST_F(Cli, RunsAndCampaignsKeepApart) {
+  const std::string text = Slurp(folder_ / "s.yaml") + "name: hall\ndrive: none\n";
+  fs::create_directories(folder_ / "a");
+  for (const char* file : {"scenario.yaml", "a/wet.yaml", "dry.yaml"})
+    std::ofstream(folder_ / file) << text;
+  const std::pair<std::string, std::string> cases[] = {
+      {"plan scenario.yaml", "out/hall"},
+      {"run scenario.yaml", "out/hall"},
+      {"campaign scenario.yaml -n 1", "out/hall/campaign"},
+      {"plan scenario.yaml", "out/hall"},
+      {"campaign a/wet.yaml -n 1", "out/wet"},
+      {"run '" + folder_.string() + "/a/wet.yaml'", "out/wet/run"},
+      {"plan dry.yaml", "out/dry"},
+  };
+  for (const auto& [command, out] : cases) {
+    const Result dut = Run(command);
+    EXPECT_EQ(dut.status, 0) << command << dut.err;
+    EXPECT_THAT(dut.out, HasSubstr("results are in " + out + "\n")) << command;
+    EXPECT_TRUE(fs::exists(folder_ / out / "scenario.resolved.yaml")) << command;
+  }
+  const std::string settings = Slurp(folder_ / "out/wet/scenario.resolved.yaml");
+  for (const std::string command : {"run", "plan"}) {
+    const Result dut = Run(command + " dry.yaml --out out/wet");
+    EXPECT_EQ(dut.status, 2);
+    EXPECT_THAT(dut.err, HasSubstr("out/wet: holds a campaign"));
+  }
+  EXPECT_EQ(Slurp(folder_ / "out/wet/scenario.resolved.yaml"), settings);
+  const Result dut = Run("campaign dry.yaml -n 1 --out out/dry");
+  EXPECT_EQ(dut.status, 2);
+  EXPECT_THAT(dut.err, HasSubstr("out/dry: holds a plan or a run"));
+}
+
+TEST_F(Cli, APlanThatIsSetTakesThePlaceOfThePlanner) {
+  fs::create_directories(folder_ / "mine");
+  std::ofstream(folder_ / "p.csv") << "x_m,y_m\n0.9,0.9\n2.345,0.9\n";
+  for (const char* plan :
+       {"boustrophedon", "{planner: boustrophedon, overlap: 0.1}", "{file: other.csv}"}) {
+    std::string text = Slurp(folder_ / "s.yaml");
+    text.replace(text.find("plan: "), std::string::npos, std::string("plan: ") + plan + "\n");
+    std::ofstream(folder_ / "mine/t.yaml") << text;
+    for (const char* set : {"plan.file=p.csv", "'plan={file: p.csv}'", "plan.file=../p.csv"}) {
+      const Result dut = Run(std::string("plan mine/t.yaml --out o --set ") + set);
+      EXPECT_EQ(dut.status, 0) << plan << " " << set << ": " << dut.err;
+      EXPECT_THAT(Slurp(folder_ / "o/plan.csv"), HasSubstr("2.345"));
+    }
+    EXPECT_EQ(Run("plan mine/t.yaml --out o --set plan.planner=spiral").status, 0) << plan;
+    EXPECT_THAT(Slurp(folder_ / "o/plan.csv"), Not(HasSubstr("2.345")));
+  }
+  std::ofstream(folder_ / "both.yaml") << [&] {
+    std::string text = Slurp(folder_ / "s.yaml");
+    return text.replace(text.find("plan: "), std::string::npos,
+                        "plan: {planner: spiral, file: p.csv}\n");
+  }();
+  EXPECT_THAT(Run("plan both.yaml").err,
+              HasSubstr("a plan is either made by a planner or read from a file"));
 }
 
 TEST_F(Cli, NamesFromFilesNeverReachTheTerminalRaw) {
@@ -237,6 +305,14 @@ TEST_F(Cli, NamesFromFilesNeverReachTheTerminalRaw) {
 
 TEST_F(Cli, BadInputIsOneLineAndStatusTwo) {
   std::ofstream(folder_ / "bad.yaml") << "scenario: 1\nsite: s.yaml\nrobt: beluga\n";
+  std::ofstream(folder_ / "site.yaml") << "site: 1\nmap: map.yaml\n";
+  std::ofstream(folder_ / "map.yaml") << "image: map.pgm\nresolution: 0.05\n";
+  std::ofstream(folder_ / "list.yaml") << "- scenario\n";
+  std::ofstream(folder_ / "map.pgm") << "P5 2 2 255\nabcd";
+  std::ofstream(folder_ / "p.csv") << "x_m,y_m\n0.9,0.9\n2,0.9\n";
+  std::ofstream(folder_ / "drawn.yaml")
+      << "start: {x_m: 2, y_m: 0.9}\nrandomise:\n  start.x_m: {choice: [0.52]}\n"
+      << Slurp(folder_ / "s.yaml");
   std::ofstream(folder_ / "binary.yaml") << std::string("\0\1\2\xff", 4);
   const std::pair<const char*, const char*> cases[] = {
       {"run missing.yaml", "missing.yaml: no such file"},
@@ -244,7 +320,7 @@ TEST_F(Cli, BadInputIsOneLineAndStatusTwo) {
       {"run binary.yaml", "not a text file"},
       {"run .", "not a file"},
       {"run s.yaml --set robot=belug", "did you mean beluga?"},
-      {"run s.yaml --set nonsense", "must be key.path=value"},
+      {"run s.yaml --set robt:1", "--set: robt:1: must be KEY=VALUE, as in --set robot=htetro"},
       {"run s.yaml --set control_hz=0", "control_hz = 0: must be in [1, 2000]"},
       {"run s.yaml --out s.yaml", "a file is in the way"},
       {"run s.yaml --seed -1", "floorproof:"},
@@ -253,6 +329,18 @@ TEST_F(Cli, BadInputIsOneLineAndStatusTwo) {
       {"list planers", "floorproof:"},
       {"replay .", "not a folder of a finished `run`"},
       {"init missing.yaml", "missing.yaml"},
+      {"init map.pgm", "map.pgm: is the map's image: name its .yaml"},
+      {"init site.yaml", "site.yaml: is a site, not a ROS map: name the map's own .yaml"},
+      {"init s.yaml", "s.yaml: is a scenario, not a ROS map: name the map's own .yaml"},
+      {"run s.yaml --set site=s.yaml", "s.yaml: is a scenario, not a site"},
+      {"run s.yaml --set site=map.yaml", "map.yaml: is a ROS map, not a site: a site names it"},
+      {"run site.yaml", "site.yaml: is a site, not a scenario: a scenario names it"},
+      {"run list.yaml", "list.yaml:1: must be a map of keys (scenario: 1,"},
+      {"run s.yaml --set start.x_m=1000", "--set start.x_m:1: start = 1000, 0.9: lies off the map"},
+      {"run s.yaml --set goal.y_m=-7", "--set goal.y_m:1: goal = 0, -7: lies off the map"},
+      {"run drawn.yaml --set start.y_m=-9", "--set start.y_m:1: start = 0.52, -9: lies off"},
+      {"run drawn.yaml", "drawn.yaml:3: start = 0.52, 0.9: beluga at this heading overlaps"},
+      {"run s.yaml --set plan.overlap=0 --set plan.file=p.csv", "plan.overlap: unknown key"},
       {"scene s.yaml --out /nonexistent/x.xml", "/nonexistent/x.xml: cannot be written"},
   };
   for (const auto& [arguments, message] : cases) {
@@ -299,9 +387,38 @@ TEST_F(Cli, InitWritesARunnableScenarioAndLeavesExistingFiles) {
          "0.65\nfree_thresh: 0.196\n";
   ASSERT_EQ(Run("init map.yaml --out mine").status, 0);
   EXPECT_EQ(Run("run mine/scenario.yaml --out o").status, 0);
+  EXPECT_EQ(Run("init map.yaml --out mine").status, 0) << "the same again";
+  // What it says to drive next is what it was asked for.
+  fs::copy_file(folder_ / "map.yaml", folder_ / "other.yaml");
+  for (const std::string command : {"init other.yaml", "init map.yaml --robot htetro"}) {
+    const Result dut = Run(command + " --out mine");
+    EXPECT_EQ(dut.status, 2) << command;
+    EXPECT_THAT(dut.err, HasSubstr("is there already, changed or of another map or robot"));
+  }
   std::ofstream(folder_ / "mine" / "site.yaml") << "mine";
-  EXPECT_EQ(Run("init map.yaml --out mine").status, 0);
+  EXPECT_EQ(Run("init map.yaml --out mine").status, 2);
   EXPECT_EQ(Slurp(folder_ / "mine" / "site.yaml"), "mine");
+
+  // What is driven is what was drawn, and said; what is set is not drawn.
+  for (const std::string command : {"run", "plan"}) {
+    const std::string set = command + " mine3/scenario.yaml --out d --set drive=none";
+    ASSERT_EQ(Run("init map.yaml --out mine3").status, 0);
+    EXPECT_THAT(Run(set).out, HasSubstr("drawn by `randomise`, whatever else is written: "
+                                        "site.floor.friction 0."));
+    EXPECT_THAT(Run(set + " --set site.floor.friction=0.7").out,
+                ::testing::AllOf(HasSubstr("drawn by"), Not(HasSubstr("site.floor.friction"))));
+  }
+
+  // A map is found from the current folder, and without draws nothing is said of any.
+  fs::create_directories(folder_ / "maps");
+  for (const char* file : {"map.yaml", "map.pgm"})
+    fs::copy_file(folder_ / file, folder_ / "maps" / file);
+  const Result set =
+      Run("plan mine3/scenario.yaml --out d --set site.map=maps/map.yaml "
+          "--set randomise=none");
+  EXPECT_EQ(set.status, 0) << set.err;
+  EXPECT_THAT(set.out, Not(HasSubstr("drawn by")));
+  EXPECT_THAT(Slurp(folder_ / "d/scenario.resolved.yaml"), HasSubstr("map: \"../maps/map.yaml\""));
 
   // A map that stands where a scenario should.
   for (const std::string command : {"run", "plan", "campaign -n 3"}) {

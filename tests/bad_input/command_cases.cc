@@ -38,8 +38,8 @@ std::vector<BadInput> CommandCases() {
       Words("SeedInWords", {run, s, "--seed", "three"}, {"--seed", "three"}),
       Words("NegativeSeed", {run, s, "--seed", "-1"}, {"--seed"}),
       Words("SeedBeyondInt", {run, s, "--seed", "99999999999"}, {"--seed"}),
-      Words("SetWithoutEquals", {run, s, "--set", "seed"}, {"--set", "seed", "key.path=value"}),
-      Words("SetWithoutKey", {run, s, "--set", "=3"}, {"--set", "=3", "key.path=value"}),
+      Words("SetWithoutEquals", {run, s, "--set", "seed"}, {"--set", "seed", "must be KEY=VALUE"}),
+      Words("SetWithoutKey", {run, s, "--set", "=3"}, {"--set", "=3", "must be KEY=VALUE"}),
       Words("SetUnknownKey", {run, s, "--set", "sed=3"},
             {"--set sed:1: sed", "did you mean seed?"}),
       Words("SetBelowAValue", {run, s, "--set", "seed.a=3"}, {"--set seed.a", "below a value"}),
@@ -68,7 +68,8 @@ std::vector<BadInput> CommandCases() {
               return geteuid() != 0 && chmod((folder / "scenario.yaml").c_str(), 0) == 0;
             }),
       Words("ScenarioIsAnImage", {run, "map.png"}, {"map.png: not a text file"}),
-      Words("ScenarioIsASite", {run, "site.yaml"}, {"site.yaml:", "unknown key"}),
+      Words("ScenarioIsASite", {run, "site.yaml"},
+            {"site.yaml:", "is a site, not a scenario", "floorproof init"}),
       Words("OutIsAFile", {run, s, "--out", s}, {"scenario.yaml: cannot make this folder"}),
       Words("OutIsBelowAFile", {run, s, "--out", "map.pgm/o"},
             {"map.pgm/o: cannot make this folder"}),
@@ -82,12 +83,13 @@ std::vector<BadInput> CommandCases() {
               return geteuid() != 0 && chmod((folder / "shut").c_str(), 0500) == 0;
             }),
       Words("AFolderInTheResultsPlace", {run, "drawn.yaml", "--out", "o"},
-            {"o/result.json: is no plain file", "--out names another folder"},
+            {"o/result.json: is no plain file", "name another folder, or move the file away"},
             [](const fs::path& folder) {
               return fs::create_directories(folder / "o/result.json/x");
             }),
       Words("PlanCannotBeWritten", {"plan", "drawn.yaml", "--out", "o"},
-            {"o/scenario.resolved.yaml: is no plain file", "--out names another folder"},
+            {"o/scenario.resolved.yaml: is no plain file",
+             "name another folder, or move the file away"},
             [](const fs::path& folder) {
               return fs::create_directories(folder / "o/scenario.resolved.yaml");
             }),
@@ -99,7 +101,7 @@ std::vector<BadInput> CommandCases() {
             {"/dev/full: cannot be written: No space left on device"},
             [](const fs::path&) { return fs::is_character_file("/dev/full"); }),
       Words("InitOfNothing", {"init", "no.yaml"}, {"no.yaml: no such file"}),
-      Words("InitOfASite", {"init", "site.yaml"}, {"site.yaml: image", "missing"}),
+      Words("InitOfASite", {"init", "site.yaml"}, {"site.yaml: is a site, not a ROS map"}),
       Words("InitOfAnUnknownRobot", {"init", "map.yaml", "--robot", "belga"},
             {"--robot", "belga", "did you mean beluga?"}),
       Words("InitOntoAFile", {"init", "map.yaml", "--out", "map.pgm"}, {"map.pgm: cannot make"}),

@@ -83,7 +83,7 @@ std::vector<BadInput> ScenarioCases() {
               {kFile + ":2: site = sight.yaml", "no such file"}),
       Changed("SiteIsAFolder", "site.yaml", ".", {kFile + ":2: site = .", "folder"}),
       Changed("SiteIsTheScenario", "site.yaml", "scenario.yaml",
-              {"floorproof: scenario.yaml:1: scenario", "unknown key"}),
+              {"floorproof: scenario.yaml: is a scenario, not a site"}),
       Changed("SiteIsADevice", "site.yaml", "/dev/zero",
               {kFile + ":2: site = /dev/zero", "a pipe or a device"}),
       With(Changed("SiteIsAPipe", "site.yaml", "pipe", {kFile + ":2: site = pipe", "a pipe or"}),

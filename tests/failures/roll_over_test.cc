@@ -25,16 +25,20 @@ Trace Sunk(double z_m) {
   return Changed([=](Sample& s) { s.wheel_floor_z_m = s.p_WB.z() = z_m; }, 1);
 }
 
-TEST(RollOver, TiltLimitIsTheLesserOfLimitAndStaticTip) {
-  EXPECT_TRUE(Events(Tilted(0.599, 1)).empty());  // the robot tips at 0.6 rad
-  EXPECT_EQ(Events(Tilted(0.601, 1)).size(), 1u);
+constexpr double kLimit_rad = 70 * kPi / 180;
+
+// The robot's static tip angle is 0.6 rad: it may rear up by more and come back, or rest on its
+// belly's edge.
+TEST(RollOver, TiltCountsBeyondItsLimitWhereverItWouldTip) {
+  EXPECT_TRUE(Events(Tilted(kLimit_rad - 0.001, 1)).empty());
+  EXPECT_EQ(Events(Tilted(kLimit_rad + 0.001, 1)).size(), 1u);
   EXPECT_TRUE(Events(Tilted(0.34, 1), "{tilt_limit_deg: 20}").empty());
   EXPECT_EQ(Events(Tilted(0.36, 1), "{tilt_limit_deg: 20}").size(), 1u);
 }
 
 TEST(RollOver, TiltMustLast) {
-  EXPECT_TRUE(Events(Tilted(1.0, 0.096)).empty());
-  const auto events = Events(Tilted(1.0, 1));
+  EXPECT_TRUE(Events(Tilted(1.3, 0.096)).empty());
+  const auto events = Events(Tilted(1.3, 1));
   ASSERT_EQ(events.size(), 1u);
   EXPECT_NEAR(events[0].t_s, 2.1, 1.5 * kStepS);
   EXPECT_EQ(events[0].kind, "");
@@ -141,12 +145,12 @@ TEST(RollOver, AKnownLowFloorThatIsDrivenOverIsThePlans) {
 }
 
 TEST(RollOver, OneEventForOneFallAndAnotherForTheNext) {
-  Trace trace = Tilted(1.0, 1);
+  Trace trace = Tilted(1.3, 1);
   trace = With(
       trace, [](Sample& s) { s.wheel_floor_z_m = -0.2; }, 2.5, 3);
   EXPECT_EQ(Events(trace).size(), 1u);
   EXPECT_EQ(Events(With(
-                       trace, [](Sample& s) { s.tilt_rad = 1; }, 5, 6))
+                       trace, [](Sample& s) { s.tilt_rad = 1.3; }, 5, 6))
                 .size(),
             2u);
 }
@@ -162,7 +166,8 @@ TEST(RollOver, NamesWhatTiltsIt) {
     };
     const auto events = Events(Changed(
         [&](Sample& s) {
-          s.tilt_rad = s.pitch_rad = 0.7;
+          s.tilt_rad = 1.3;
+          s.pitch_rad = 0.7;
           push(s, kStepHazard, sill_x_m);
           push(s, kGlassHazard, door_x_m);
         },
@@ -191,7 +196,7 @@ TEST(RollOver, NamesTheGapThatItHasGoneInto) {
     const auto dut = MakeDetector("roll_over");
     dut->Start({map, robot, kStepS});
     for (Sample s : Drive({{2, {0, 0, 0}}})) {
-      s.tilt_rad = 0.7;
+      s.tilt_rad = 1.3;
       s.pitch_rad = pitch_rad;
       PushedBy(s, 0, {0, 0, 98});
       s.touches[0].normal.moment_W_nm = Vec3(-0.1, 0, 0).cross(Vec3(0, 0, 98));
@@ -206,25 +211,25 @@ TEST(RollOver, NamesTheGapThatItHasGoneInto) {
 TEST(RollOver, AWheelThatLiftsForAMomentCostsNoMargin) {
   const auto dut = MakeDetector("roll_over");
   Judge(*dut, With(Drive({{8, {0.2, 0, 0}}}), Outside(-0.1, 0.1), 2, 2.02));
-  EXPECT_DOUBLE_EQ(dut->margin(), 0.6);
+  EXPECT_DOUBLE_EQ(dut->margin(), kLimit_rad);
   Judge(*dut, With(Drive({{8, {0.2, 0, 0}}}), Outside(-0.1, 0.1), 2, 4));
   EXPECT_LT(dut->margin(), 0);
   const auto lean = [](Sample& s) { s.support_margin_m = 0.02; };  // of 0.05 m at rest
   Judge(*dut, With(Drive({{8, {0.2, 0, 0}}}), lean, 2, 6));
   const double deep_m = 0.1 * 0.08 * std::tan(0.6);
-  EXPECT_NEAR(dut->margin(), (0.02 + deep_m) / (0.05 + deep_m) * 0.6, 1e-9);
+  EXPECT_NEAR(dut->margin(), (0.02 + deep_m) / (0.05 + deep_m) * kLimit_rad, 1e-9);
 }
 
 TEST(RollOver, MarginIsTheTiltStillLeft) {
   const auto dut = MakeDetector("roll_over");
   Judge(*dut, Tilted(0.25, 1));
-  EXPECT_DOUBLE_EQ(dut->margin(), 0.35);
-  Judge(*dut, Tilted(0.7, 0.05));
+  EXPECT_DOUBLE_EQ(dut->margin(), kLimit_rad - 0.25);
+  Judge(*dut, Tilted(1.3, 0.05));
   EXPECT_EQ(dut->margin(), 0);
-  Judge(*dut, Tilted(0.7, 1));
-  EXPECT_NEAR(dut->margin(), -0.1, 1e-12);
+  Judge(*dut, Tilted(1.3, 1));
+  EXPECT_NEAR(dut->margin(), kLimit_rad - 1.3, 1e-12);
   Judge(*dut, Sunk(-0.015));  // half of what makes a fall
-  EXPECT_NEAR(dut->margin(), 0.3, 1e-12);
+  EXPECT_NEAR(dut->margin(), kLimit_rad / 2, 1e-12);
 }
 
 }  // namespace

@@ -145,7 +145,7 @@ Trace FailingTrace(FailureMode mode) {
       return With(Drive({{12, {0, 0, 0}}}), [](Sample& s) { s.command.twist.vx_mps = 0.2; });
     case FailureMode::kRollOver:
       return With(
-          clean, [](Sample& s) { s.tilt_rad = 0.9; }, 5);
+          clean, [](Sample& s) { s.tilt_rad = 1.3; }, 5);
     case FailureMode::kBounceBack: {
       Hit hit;
       hit.after = [](double t_s) { return t_s < 0.1 ? -0.06 : 0.0; };

@@ -42,6 +42,25 @@ TEST(Convex, NothingDependsOnWhereAndHowTheyLie) {
   }
 }
 
+TEST(Convex, WhatTwoShareMayBeAnEdgeOrACorner) {
+  const Polygon a = Rectangle({0, 0}, {1, 1});
+  const auto shared = [&](const Vec2& low, const Vec2& high) {
+    return ConvexIntersection(a, Rectangle(low, high));
+  };
+  EXPECT_NEAR(SignedArea(shared({0.5, 0.25}, {2, 0.75})), 0.25, 1e-8);
+  EXPECT_NEAR(SignedArea(shared({-1, -1}, {2, 2})), 1, 1e-8);
+  EXPECT_EQ(shared({1, 1}, {2, 2}).size(), 1u);
+  EXPECT_TRUE(shared({1.001, 0}, {2, 1}).empty());
+  double along_m = 0;
+  for (const Vec2& p : shared({1, 0.25}, {2, 0.75})) {
+    EXPECT_NEAR(p.x(), 1, 1e-8);
+    along_m = std::max(along_m, p.y());
+  }
+  EXPECT_NEAR(along_m, 0.75, 1e-8);
+  // A diamond that touches with its corner, as the last cross-section in a column's corner does.
+  EXPECT_FALSE(ConvexIntersection(a, {{1, 0.5}, {1.5, 0}, {2, 0.5}, {1.5, 1}}).empty());
+}
+
 TEST(Convex, WhatIsSweptHoldsEveryPlaceOnTheWay) {
   const Polygon a = Rectangle({0, 0}, {0.4, 0.4});
   const Vec2 by(1, 0.3);

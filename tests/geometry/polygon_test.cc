@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/streams.h"
@@ -100,6 +101,21 @@ TEST(Polygon, AConvexRegionStaysWhole) {
   const auto parts = ConvexParts({Region{triangle, {}}});
   ASSERT_EQ(parts.size(), 1u);
   EXPECT_EQ(parts[0], triangle);
+}
+
+// A round hole of many corners: fewer are left, the border hardly moves, sharp corners stay.
+TEST(Polygon, SimplifiedKeepsTheBorderAndItsSharpCorners) {
+  const Polygon square = Rectangle({-1, -1}, {1, 1});
+  Polygon round = RegularPolygon(Vec2::Zero(), 0.1, 4000);
+  std::ranges::reverse(round);
+  const auto dut = Simplified({Region{square, {round}}}, 5e-5);
+  ASSERT_EQ(dut.size(), 1u);
+  EXPECT_EQ(dut[0].outer.size(), 4u);
+  EXPECT_DOUBLE_EQ(SignedArea(dut[0].outer), 4);
+  ASSERT_EQ(dut[0].holes.size(), 1u);
+  EXPECT_LT(dut[0].holes[0].size(), 200u);
+  EXPECT_LT(SignedArea(dut[0].holes[0]), 0) << "clockwise as before";
+  for (const Vec2& p : round) EXPECT_LT(std::abs(SignedDistance(dut[0].holes[0], p)), 5e-5 + 1e-9);
 }
 
 TEST(Polygon, TheHullOfPointsHoldsThemAll) {

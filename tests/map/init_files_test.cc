@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdio>
+
 #include "env/core/coverage.h"
 #include "env/map/site.h"
 #include "tests/map/temp_folder.h"
@@ -73,6 +76,62 @@ TEST_F(InitFilesTest, TheTextsSayWhatTheDesignAsks) {
   EXPECT_EQ(scenario.Find("success")->Find("min_coverage")->scalar, "0.95");
   const ConfigNode site = ParseYaml(dut.site_yaml, "site.yaml");
   EXPECT_EQ(site.Find("map")->scalar, "map.yaml");
+}
+
+// A value that is written and drawn is not the one that is driven: beside each it says so.
+TEST_F(InitFilesTest, WhereAValueIsDrawnItSaysThatTheDrawWins) {
+  RobotSpec robot = Disc(0.15);
+  robot.mass_kg = 8;
+  robot.battery.voltage_v = 12;
+  const InitFiles dut = MakeInitFiles(SaveMap(kTwoRooms, "[0, 0, 0]"), robot, folder_);
+  // The comment that ends with the line of the key.
+  const auto comment = [](const std::string& text, const std::string& key) {
+    const std::size_t at = text.find("\n" + key + ":");
+    EXPECT_NE(at, std::string::npos) << key;
+    std::size_t begin = at;
+    for (std::size_t line = text.rfind('\n', begin - 1);
+         text[text.find_first_not_of(' ', line + 1)] == '#'; line = text.rfind('\n', line - 1))
+      begin = line;
+    return text.substr(begin, at - begin);
+  };
+  EXPECT_THAT(comment(dut.site_yaml, "  friction"), HasSubstr("what is drawn"));
+  EXPECT_THAT(comment(dut.scenario_yaml, "start"), HasSubstr("what is drawn wins"));
+  EXPECT_THAT(comment(dut.scenario_yaml, "randomise"), HasSubstr("What is drawn wins"));
+  EXPECT_THAT(dut.scenario_yaml,
+              HasSubstr("`randomise` below draws its mass and battery's voltage"));
+  robot.mass_kg = 0;
+  EXPECT_THAT(MakeInitFiles(folder_ / "map.yaml", robot, folder_).scenario_yaml,
+              HasSubstr("`randomise` below draws its battery's voltage"));
+  EXPECT_THAT(comment(dut.scenario_yaml, "  min_coverage"), HasSubstr("A plan of your own"));
+}
+
+// Two rooms without a door: only one is driven. The larger it is, the less is missed.
+TEST_F(InitFilesTest, FloorOutOfReachIsSaid) {
+  using ::testing::IsEmpty;
+  const auto warnings = [&](std::size_t wall) {
+    std::vector<std::string> rows(42, "#" + std::string(60, '.') + "#");
+    for (std::string& row : rows)
+      if (wall > 0) row[wall] = '#';
+    rows.front() = rows.back() = std::string(62, '#');
+    return MakeInitFiles(SaveMap(rows, "[0, 0, 0]"), Disc(0.15), folder_).warnings;
+  };
+  EXPECT_THAT(warnings(0), IsEmpty()) << "seams and corners alone";
+  EXPECT_THAT(warnings(5), IsEmpty()) << "a closet";
+  for (const std::size_t wall : {20u, 30u, 45u}) {
+    const double free_m2 = 40 * 59 * 0.01;
+    const double room_m2 = 0.4 * static_cast<double>(std::max(wall - 1, 60 - wall));
+    const auto said = warnings(wall);
+    ASSERT_EQ(said.size(), 1u) << wall;
+    double swept_m2 = 0, of_m2 = 0;
+    ASSERT_EQ(std::sscanf(said.front().c_str(), "from the start the robot can sweep %lf of %lf m2",
+                          &swept_m2, &of_m2),
+              2)
+        << said.front();
+    EXPECT_NEAR(of_m2, free_m2, 0.1);
+    EXPECT_LE(swept_m2, room_m2 + 0.1);
+    EXPECT_GT(swept_m2, 0.95 * room_m2);
+    EXPECT_THAT(said.front(), HasSubstr("change `start` in scenario.yaml"));
+  }
 }
 
 // How often is answered from the first campaign on: something is drawn, and there is a gate.

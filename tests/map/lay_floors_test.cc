@@ -156,6 +156,68 @@ TEST(LayFloors, ACoverAcrossAnEdgeLiesOnBothFloors) {
   }
 }
 
+// In a pit, on a platform within it, and on plain floor: the cover's own height everywhere.
+TEST(LayFloors, ACoverAcrossSeveralEdgesKeepsItsHeight) {
+  Stream draws(2, 0, "edges");
+  for (int i = 0; i < 30; ++i) {
+    std::vector<Hazard> hazards;
+    for (const double height_m : {-0.1, 0.05, 0.02}) {
+      const Pose2 X{draws.Uniform(0.3, 1.7), draws.Uniform(-0.1, 0.1), draws.Uniform(-kPi, kPi)};
+      Polygon outline = RegularPolygon(Vec2::Zero(), draws.Uniform(0.1, 0.6),
+                                       3 + static_cast<int>(draws.Below(4)));
+      for (Vec2& p : outline) p = X * p;
+      hazards.push_back(MakeOf("step", "{height_m: " + std::to_string(height_m) + "}", outline));
+    }
+    const std::vector<Hazard> levels = hazards;
+    // After one, two or all of them: what follows it takes its share.
+    const int after = 1 + i % 3;
+    hazards.insert(hazards.begin() + after, Cover());
+    const Hazard dut = Laid(hazards)[static_cast<std::size_t>(after)];
+    for (int k = 0; k < 200; ++k) {
+      const Vec2 p(draws.Uniform(0.001, 1.999), draws.Uniform(-0.044, 0.044));
+      double floor_m = 0, border_m = 1;
+      bool replaced = false;
+      for (std::size_t j = 0; j < levels.size(); ++j) {
+        const double off_m = SignedDistance(levels[j].footprint[0], p);
+        border_m = std::min(border_m, std::abs(off_m));
+        if (off_m > 0) continue;
+        floor_m = levels[j].height_m;
+        replaced |= static_cast<int>(j) >= after;
+      }
+      if (border_m < 5e-4) continue;
+      double top_m = -1;
+      for (const Solid& solid : dut.solids)
+        if (Contains(solid.base, p)) top_m = std::max(top_m, solid.z_low_m + HeightOf(solid, p));
+      EXPECT_NEAR(top_m, replaced ? -1 : floor_m + CoverHeight(p.y()), 1e-4)
+          << i << ": " << p.transpose();
+    }
+  }
+}
+
+// However small it is beside what it is cut from.
+TEST(LayFloors, ASmallHoleInALargeFloorIsOpen) {
+  const Hazard hall = MakeOf("step", "{height_m: 0.05}", Rectangle({0, 0}, {60, 60}));
+  for (const double size_m : {0.001, 0.02, 0.05}) {
+    const Polygon hole = Rectangle({30, 30}, {30 + size_m, 30 + size_m});
+    const Hazard dut = Laid({hall, MakeOf("step", "{height_m: -0.05}", hole)})[0];
+    EXPECT_EQ(TopAt(dut, {30 + size_m / 2, 30 + size_m / 2}), 0) << size_m;
+    EXPECT_NEAR(TopAt(dut, {30 - 1e-3, 30}), 0.05, 1e-12) << size_m;
+  }
+}
+
+// A circle of many corners leaves no slots beside it, where slices between two corners are thin.
+TEST(LayFloors, ARoundHoleOfManyCornersLeavesTheRestWhole) {
+  const Hazard floor = MakeOf("step", "{height_m: 0.05}", Rectangle({-1, -1}, {1, 1}));
+  for (const int corners : {40, 400, 4000}) {
+    const Polygon hole = RegularPolygon(Vec2::Zero(), 0.1, corners);
+    const Hazard dut = Laid({floor, MakeOf("step", "{height_m: -0.05}", hole)})[0];
+    EXPECT_NEAR(Volume(dut), 0.05 * (4 - SignedArea(hole)), 1e-4) << corners;
+    double slots_m = 0;  // one above the hole, one below it
+    for (double y = -0.11; y < 0.11; y += 5e-5) slots_m += TopAt(dut, {0.3, y}) == 0 ? 5e-5 : 0;
+    EXPECT_LT(slots_m, 4e-4) << corners;
+  }
+}
+
 TEST(LayFloors, CoversThatCrossStayBoth) {
   const Hazard other = MakeOf("cable_cover", "{}", {{1, -1}, {1, 1}});
   const auto dut = Laid({Cover(), other});

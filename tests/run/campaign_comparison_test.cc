@@ -162,9 +162,17 @@ TEST_F(CompareVariantsTest, NothingIsDividedByRounding) {
 
 TEST_F(CompareVariantsTest, OtherDrawsAreRefused) {
   EpisodeRow other = Row("b", 3, false);
-  other.drawn = R"({"site.floor.friction": 0.6})";
+  other.drawn = R"({"site.floor.friction": 0.6, "seat": [1, 2]})";
   Add({Row("a", 3, false), other});
-  EXPECT_THROW(Compare(), InputError);
+  try {
+    Compare();
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(),
+                 "episode = 3: drew site.floor.friction 0.5 in a and 0.6 in b, seat in b alone: a "
+                 "paired comparison needs the same draws, of the same `seed` and the same "
+                 "`randomise`");
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "base/file_output.h"
+#include "run/scenario/warnings.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {
@@ -31,6 +32,24 @@ TEST_F(ScenarioFile, OverridesReachIntoScenarioAndSite) {
                                                {"failures.stuck.turn_rad", "0.7"}});
   EXPECT_EQ(dut.episode.control_hz, 25);
   EXPECT_EQ(dut.site.map.floor_friction, 0.5);
+}
+
+// Trackers cap what is asked for: that it is not driven so fast is said.
+TEST_F(ScenarioFile, ASpeedThatTheRobotDoesNotHaveIsSaid) {
+  const auto warnings = [&](double mps, const std::string& more = "") {
+    Save("plan.csv",
+         "x_m,y_m,speed_mps\n1.5,2.5,\n2,2.5,0.1\n3,2.5," + std::to_string(mps) + "\n4,2.5,0.1\n");
+    std::string said;
+    for (const std::string& line : Warnings(Read(RoomScenario("", more)))) said += line + "\n";
+    return said;
+  };
+  const double most_mps = Read(RoomScenario("")).robot.spec.max_speed_mps;
+  EXPECT_EQ(warnings(most_mps), "");
+  EXPECT_THAT(warnings(2), HasSubstr("plan.csv, 1 of 4 waypoints from number 3 on: speed_mps of up "
+                                     "to 2 m/s is more than beluga drives: "));
+  EXPECT_EQ(warnings(0.1, "react: {back_off_mps: 0.1}\n"), "");
+  EXPECT_THAT(warnings(0.1, "react: {back_off_mps: 7}\n"),
+              HasSubstr("react.back_off_mps 7 m/s is more than beluga drives: "));
 }
 
 TEST_F(ScenarioFile, ResolvedTwiceIsItself) {
