@@ -8,7 +8,9 @@
 namespace floorproof {
 namespace {
 
-constexpr double kLately_s = 0.4;   // what is older counts for less
+// What is older than this counts for less: a time, or at a slow pace the time that this way takes.
+// A robot at 0.05 m/s would never be expected to have come as far as is judged.
+constexpr double kLately_s = 0.4, kLately_m = 0.04;
 constexpr double kLeast_m = 0.02;   // of way expected before the way made is judged
 constexpr double kHeldShare = 0.5;  // who makes less of it is held
 constexpr double kAside_s = 0.1;    // over which the slide is smoothed; later, it overshoots
@@ -38,8 +40,9 @@ void Compliance::Update(const Vec2& p_W, const Vec2& direction_W, double command
   const double step_m = step_W.dot(direction_W);
   const auto share = [dt_s](double time_s) { return std::min(1.0, dt_s / time_s); };
   expected_mps_ += (commanded_mps - expected_mps_) * share(kWheelLag_s);
-  expected_m_ += expected_mps_ * dt_s - expected_m_ * share(kLately_s);
-  made_m_ += step_m - made_m_ * share(kLately_s);
+  const double lately_s = std::max(kLately_s, kLately_m / std::max(expected_mps_, 1e-6));
+  expected_m_ += expected_mps_ * dt_s - expected_m_ * share(lately_s);
+  made_m_ += step_m - made_m_ * share(lately_s);
   aside_mps_ += (Cross(direction_W, step_W) / dt_s - aside_mps_) * share(kAside_s);
 
   to_bear_m_ = std::max(0.0, to_bear_m_ - std::max(0.0, step_m));

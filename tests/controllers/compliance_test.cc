@@ -56,6 +56,18 @@ TEST_F(ComplianceTest, GettingOnChangesNothing) {
   EXPECT_EQ(dut_.BackSpeed(0.2, 0.25), 0.25);
 }
 
+// However slow it is meant to be: after 4 cm of way that it was to make, it knows.
+TEST_F(ComplianceTest, WhoIsHeldNoticesAtAnyPace) {
+  for (const double speed_mps : {0.01, 0.02, 0.05, 0.1, 0.3}) {
+    dut_.Drop();
+    Drive(speed_mps, {speed_mps, 0}, 0.2 / speed_mps);
+    EXPECT_FALSE(dut_.active()) << speed_mps;
+    Drive(speed_mps, {0, 0.1 * speed_mps}, std::max(0.4, 0.04 / speed_mps));
+    EXPECT_TRUE(dut_.held()) << speed_mps;
+    EXPECT_LT(dut_.SquaringRate(), 0) << speed_mps;
+  }
+}
+
 // A robot of weak motors is slow all the time, and not held.
 TEST_F(ComplianceTest, BeingSlowIsNotBeingHeld) {
   Drive(0.2, {0.13, 0}, 5);
