@@ -250,7 +250,7 @@ TEST_F(PlanClearanceTest, ACrossingIsSaidInWordsOfItsOwn) {
     const PlanCheck check = CheckPlan(scenario, plan);
     text.clear();
     for (const std::string& line : PlanLines(scenario, plan, check)) text += line + "\n";
-    json = PlanCheckJson(check).dump();
+    json = PlanCheckJson(scenario, check).dump();
   };
   std::string text, json;
   said(0.015, text, json);
