@@ -50,7 +50,7 @@ class Progress final : public CampaignObserver {
 
  private:
   std::string Text(const CampaignProgress& p) const {
-    std::string text = fmt::format("  {} of {} episodes", p.done, p.total);
+    std::string text = fmt::format("  {} of {}", p.done, CountText(p.total, "episode"));
     if (p.done_now > 0) {
       const double rate = static_cast<double>(p.done_now) / p.elapsed_s;
       text += fmt::format(", {:.1f} a second, {:.0f} s to go at most", rate,

@@ -36,7 +36,7 @@ std::string Verdict(const EpisodeRecord& record) {
                   FixedText(m.path_length_m, 1), FixedText(1000 * m.max_cross_track_m, 0),
                   EnergyText(m.energy_j));
   if (const std::size_t times = record.interventions.size(); times > 0)
-    line += fmt::format(", helped {} time{}", times, times == 1 ? "" : "s");
+    line += fmt::format(", helped {}", CountText(times, "time"));
   if (!record.message.empty()) line += " (" + record.message + ")";
   return line;
 }

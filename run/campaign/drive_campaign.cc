@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/file_output.h"
+#include "base/quantity.h"
 #include "run/campaign/campaign_about.h"
 #include "run/campaign/campaign_files.h"
 #include "run/scenario/chance.h"
@@ -49,9 +50,9 @@ void RefuseSecondLook(CampaignStore& store, const ScenarioFile& file, std::uint6
       std::ranges::all_of(then.variants, [](const auto& v) { return v.gate->decided(); });
   if (judged)
     throw InputError({"-n", 0}, "", std::to_string(n),
-                     fmt::format("the fixed gate was judged at {} episodes; only a gate of `mode: "
+                     fmt::format("the fixed gate was judged at {}; only a gate of `mode: "
                                  "sequential` may go on",
-                                 before));
+                                 CountText(before, "episode")));
 }
 
 // Episodes between which nothing differs are one: that it fails or not says nothing of how often.
