@@ -67,7 +67,8 @@ std::vector<BadInput> CommandCases() {
             [](const fs::path& folder) {
               return geteuid() != 0 && chmod((folder / "scenario.yaml").c_str(), 0) == 0;
             }),
-      Words("ScenarioIsAnImage", {run, "map.png"}, {"map.png: not a text file"}),
+      Words("ScenarioIsAnImage", {run, "map.png"},
+            {"map.png: is an image, not a scenario", "floorproof init"}),
       Words("ScenarioIsASite", {run, "site.yaml"},
             {"site.yaml:", "is a site, not a scenario", "floorproof init"}),
       Words("OutIsAFile", {run, s, "--out", s}, {"scenario.yaml: cannot make this folder"}),
