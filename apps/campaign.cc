@@ -103,7 +103,7 @@ int RunIt(const Options& options, const Globals& globals) {
     missing = "films of the first failures";
     if (!options.no_films && outcome.run.end != CampaignEnd::kTimeLimit)
       FilmFirstFailures(file, outcome.store, folder, globals);
-  } catch (const InputError& e) {
+  } catch (const std::runtime_error& e) {
     throw InternalError(std::string(e.what()) + "; missing: " + missing);
   }
   return ExitStatus(outcome);

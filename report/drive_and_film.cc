@@ -168,7 +168,7 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
       console.Say(WriteVideo(s, *execution.scene, result.plan, result.record, witness.recording(),
                              options.draft_around, folder, console));
     witness.There(" is whole");
-  } catch (const InputError& e) {
+  } catch (const std::runtime_error& e) {
     say_verdict();
     result.not_written =
         std::make_exception_ptr(InternalError(std::string(e.what()) + "; missing: " + missing));
