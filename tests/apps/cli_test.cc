@@ -427,13 +427,13 @@ TEST_F(Cli, InitWritesARunnableScenarioAndLeavesExistingFiles) {
     EXPECT_THAT(refused.err, HasSubstr("`floorproof init map.yaml`")) << command;
   }
   // And its image: it is the map that one sees. What is no text is the same in any size.
-  fs::copy_file(folder_ / "map.pgm", folder_ / "other.pgm");
+  fs::copy_file(folder_ / "map.pgm", folder_ / "lone.pgm");
   std::ofstream(folder_ / "big.png") << "\x89PNG" << std::string(4 << 20, '\xff');
   std::ofstream(folder_ / "of_image.yaml") << "scenario: 1\nsite: map.pgm\nrobot: beluga\n";
   const std::pair<const char*, const char*> images[] = {
       {"run map.pgm", "map.pgm: is an image, not a scenario: `floorproof init map.yaml`"},
       {"plan map.pgm", "map.pgm: is an image, not a scenario: `floorproof init map.yaml`"},
-      {"campaign other.pgm -n 3", "other.pgm: is an image, not a scenario: `floorproof init MAP.y"},
+      {"campaign lone.pgm -n 3", "lone.pgm: is an image, not a scenario: `floorproof init MAP.y"},
       {"scene big.png --out x", "big.png: is an image, not a scenario: `floorproof init MAP.yaml`"},
       {"run of_image.yaml", "map.pgm: is an image, not a site: `floorproof init map.yaml` writes"},
       {"plan mine3/scenario.yaml --set site=map.pgm", "map.pgm: is an image, not a site: `floor"}};
