@@ -298,10 +298,13 @@ TEST_F(BrokenGenerateTest, IsRefusedInALine) {
       {"seed: 1, cells: 2",
        "site.yaml:2: generate.cells = 2: must be at least 3: the outer wall is counted, and one "
        "cell of floor lies within it"},
-      {"cells: 1", "site.yaml:2: generate.cells = 1: must be at least 3: the outer wall"},
-      {"cells: -7", "site.yaml:2: generate.cells = -7: must be at least 3: the outer wall"},
-      {"cells: [1, 30]", "site.yaml:2: generate.cells[0] = 1: must be at least 3: the outer wall"},
-      {"cells: [30, 0]", "site.yaml:2: generate.cells[1] = 0: must be at least 3: the outer wall"},
+      {"seed: 1, cells: 1", "site.yaml:2: generate.cells = 1: must be at least 3: the outer wall"},
+      {"seed: 1, cells: -7",
+       "site.yaml:2: generate.cells = -7: must be at least 3: the outer wall"},
+      {"seed: 1, cells: [1, 30]",
+       "site.yaml:2: generate.cells[0] = 1: must be at least 3: the outer wall"},
+      {"seed: 1, cells: [30, 0]",
+       "site.yaml:2: generate.cells[1] = 0: must be at least 3: the outer wall"},
       {"seed: 1, cells: [10, 4001]", "generate.cells[1] = 4001: must be at most 4000"},
       {"seed: 1, cells: [4000, 4000], cell_m: 0.05", "must be at most 4000000 cells in all"},
       {"seed: 1, cells: [4000, 400]", "generate.cells"},  // 2 km
