@@ -50,7 +50,7 @@ class Progress final : public CampaignObserver {
 
  private:
   std::string Text(const CampaignProgress& p) const {
-    std::string text = fmt::format("  {} of {} episodes", p.done, p.total);
+    std::string text = fmt::format("  {} of {}", p.done, CountText(p.total, "episode"));
     if (p.done_now > 0) {
       const double rate = static_cast<double>(p.done_now) / p.elapsed_s;
       text += fmt::format(", {:.1f} a second, {:.0f} s to go at most", rate,
@@ -103,7 +103,7 @@ int RunIt(const Options& options, const Globals& globals) {
     missing = "films of the first failures";
     if (!options.no_films && outcome.run.end != CampaignEnd::kTimeLimit)
       FilmFirstFailures(file, outcome.store, folder, globals);
-  } catch (const InputError& e) {
+  } catch (const std::runtime_error& e) {
     throw InternalError(std::string(e.what()) + "; missing: " + missing);
   }
   return ExitStatus(outcome);

@@ -17,10 +17,10 @@ namespace {
 void SayRates(const CampaignSummary& summary, const Globals& globals) {
   for (const VariantSummary& v : summary.variants) {
     globals.Say(
-        fmt::format("{}: {} episode{}, {} success, {} failure, {} timeout; {} error{}, {} without "
+        fmt::format("{}: {}, {} success, {} failure, {} timeout; {}, {} without "
                     "a plan",
-                    v.name, v.n, v.n == 1 ? "" : "s", v.success, v.failure, v.timeout, v.errors,
-                    v.errors == 1 ? "" : "s", v.not_planned));
+                    v.name, CountText(v.n, "episode"), v.success, v.failure, v.timeout,
+                    CountText(v.errors, "error"), v.not_planned));
     if (v.repeated) globals.Say("  " + RepetitionText(v));
     if (!v.first_error.empty()) globals.Say("  the first error: " + v.first_error);
     for (const FailureRate& rate : v.failures) {

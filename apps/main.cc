@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "apps/command.h"
+#include "base/file_output.h"
 #include "base/interrupt.h"
 #include "base/printable.h"
 
@@ -84,7 +85,8 @@ int main(int argc, char** argv) {
   app.footer(
       "Exit status: 0 done; 1 the outcome is not success, a plan was not found, or a gate failed; "
       "2 "
-      "bad usage or\nbad input; 3 the tool or the physics broke; 4 a gate is undecided; 130 "
+      "bad usage or\nbad input; 3 the tool or the physics broke, or the disk is full; 4 a gate is "
+      "undecided; 130 "
       "interrupted (what was done is kept).");
   CommandLine line(app);
 #define FP_COMMAND(Function) Function(line, globals, status);
@@ -114,7 +116,7 @@ int main(int argc, char** argv) {
   } catch (const std::filesystem::filesystem_error& e) {
     std::fprintf(stderr, "floorproof: %s\n",
                  InputError({e.path1().string(), 0}, "", "", e.code().message()).what());
-    return said(kBadInput);
+    return said(IsOfTheDisk(e.code()) ? kBroken : kBadInput);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "floorproof: %s\n", Printable(e.what()).c_str());
     return said(kBroken);

@@ -9,41 +9,54 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 
-#include "base/error.h"
 #include "base/interrupt.h"
 
 namespace floorproof {
+
+bool IsOfTheDisk(const std::error_code& reason) {
+  using std::errc;
+  return reason == errc::no_space_on_device || reason == errc::file_too_large ||
+         reason == errc::io_error || reason == std::error_code(EDQUOT, std::generic_category());
+}
+
+void RefuseToWrite(const std::filesystem::path& path, const std::error_code& reason,
+                   const std::string& why) {
+  const InputError refusal({path.string(), 0}, "", "", why);
+  if (IsOfTheDisk(reason)) throw DiskError(refusal.what());
+  throw refusal;
+}
 
 void MakeFolder(const std::filesystem::path& folder) {
   std::error_code error, ignored;
   std::filesystem::create_directories(folder, error);
   if (std::filesystem::is_directory(folder, ignored)) return;
   const bool in_the_way = std::filesystem::exists(folder, ignored);
-  throw InputError(
-      {folder.string(), 0}, "", "",
+  RefuseToWrite(
+      folder, error,
       "cannot make this folder: " + (in_the_way ? "a file is in the way" : error.message()));
 }
 
 namespace {
 
-// Returns why it failed; empty when it did not.
-std::string WriteTo(const std::filesystem::path& path, std::string_view text) {
+std::error_code Errno(int number) { return {number, std::generic_category()}; }
+
+// Returns why it failed; none when it did not.
+std::error_code WriteTo(const std::filesystem::path& path, std::string_view text) {
   errno = 0;
   std::FILE* file = std::fopen(path.c_str(), "wb");
-  if (file == nullptr) return std::strerror(errno);
+  if (file == nullptr) return Errno(errno);
   bool ok = std::fwrite(text.data(), 1, text.size(), file) == text.size();
   int why = errno;
   if (std::fclose(file) != 0) {  // what was buffered meets the disk here
     if (ok) why = errno;
     ok = false;
   }
-  return ok ? "" : std::strerror(why);
+  return ok ? std::error_code() : Errno(why);
 }
 
-[[noreturn]] void RefuseToWrite(const std::filesystem::path& path, const std::string& why) {
-  throw InputError({path.string(), 0}, "", "", "cannot be written: " + why);
+[[noreturn]] void Refuse(const std::filesystem::path& path, const std::error_code& reason) {
+  RefuseToWrite(path, reason, "cannot be written: " + reason.message());
 }
 
 }  // namespace
@@ -55,7 +68,7 @@ std::filesystem::path MakePartFile(const std::filesystem::path& path) {
   std::error_code ignored;
   std::filesystem::remove(part, ignored);
   const int file = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (file < 0) RefuseToWrite(path, std::strerror(errno));
+  if (file < 0) Refuse(path, Errno(errno));
   close(file);
   return part;
 }
@@ -63,23 +76,24 @@ std::filesystem::path MakePartFile(const std::filesystem::path& path) {
 void WriteFileWhole(const std::filesystem::path& path, std::string_view text) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (std::filesystem::is_directory(status)) RefuseToWrite(path, "it is a folder");
+  if (std::filesystem::is_directory(status))
+    RefuseToWrite(path, {}, "cannot be written: it is a folder");
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     // A pipe or a device (/dev/stdout) is written to; a file must not take its place.
-    if (const std::string why = WriteTo(path, text); !why.empty()) RefuseToWrite(path, why);
+    if (const std::error_code why = WriteTo(path, text)) Refuse(path, why);
     return;
   }
   const HoldInterrupts until_renamed;
   const std::filesystem::path part = MakePartFile(path);
-  if (const std::string why = WriteTo(part, text); !why.empty()) {
+  if (const std::error_code why = WriteTo(part, text)) {
     std::filesystem::remove(part, error);
-    RefuseToWrite(path, why);
+    Refuse(path, why);
   }
   std::filesystem::rename(part, path, error);
   if (error) {
-    const std::string why = error.message();
+    const std::error_code why = error;
     std::filesystem::remove(part, error);
-    RefuseToWrite(path, why);
+    Refuse(path, why);
   }
 }
 

@@ -1,21 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writing result files: whole or not at all.
+// Writing result files: whole or not at all. A place that cannot be written to is bad input; a disk
+// that is full, or fails, is not: whoever named the place did nothing wrong.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <system_error>
+
+#include "base/error.h"
 
 namespace floorproof {
 
-// Makes the folder and its parents; throws InputError when it cannot be.
+// The disk is full, or fails (exit status 3).
+class DiskError : public InternalError {
+ public:
+  using InternalError::InternalError;
+};
+// Whether that is the reason: no space, no quota, a file as large as they may be, an input/output
+// error.
+bool IsOfTheDisk(const std::error_code& reason);
+// Throws "PATH: WHY": DiskError where the reason is of the disk, else InputError.
+[[noreturn]] void RefuseToWrite(const std::filesystem::path& path, const std::error_code& reason,
+                                const std::string& why);
+
+// All below throw as RefuseToWrite does.
+
+// Makes the folder and its parents.
 void MakeFolder(const std::filesystem::path& folder);
 // Makes a new, empty file beside `path`, hidden and of its extension, to be renamed to it once it
-// is whole. A link of that name is replaced, not followed. Throws InputError naming `path`.
+// is whole. A link of that name is replaced, not followed. What it throws names `path`.
 std::filesystem::path MakePartFile(const std::filesystem::path& path);
 // Writes a new file beside the old one and renames it. So a reader finds either the old file or the
-// whole new one. Throws InputError naming the file when the disk is full or the file cannot be
-// written.
+// whole new one. A device or pipe is written to.
 void WriteFileWhole(const std::filesystem::path& path, std::string_view text);
 // The text's SHA-256 in hexadecimal.
 std::string Sha256(std::string_view text);

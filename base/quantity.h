@@ -2,6 +2,7 @@
 // Numbers as people read them: plain decimals, thousands grouped, never in powers of ten.
 #pragma once
 
+#include <concepts>
 #include <string>
 #include <string_view>
 
@@ -20,6 +21,11 @@ std::string EnergyText(double energy_j);
 std::string LengthText(double length_m);
 // A time given in s: "8.2 s", "964 s", from two hours on "2.7 h".
 std::string TimeText(double time_s);
+// So many of what `one` names in the singular: "1 turn", "1,250 turns".
+template <std::integral Number>
+std::string CountText(Number n, std::string_view one) {
+  return FixedText(static_cast<double>(n), 0).append(" ").append(one).append(n == 1 ? "" : "s");
+}
 // What exceeds a limit, and the limit, with as many decimals as tell them apart (`decimals` at
 // least, six at most): "0.2504 m, limit 0.2500 m" is not "0.25 m, limit 0.25 m". `unit` may be
 // empty.

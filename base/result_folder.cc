@@ -58,7 +58,7 @@ void ResultFolder::List() {
     for (const std::string& name : Results()) written_[name] = Sha256OfFile(folder_ / name);
     if (results_.all_of_kind || !was_unfinished_) unfinished_.erase(std::string(results_.kind));
     WriteList();
-  } catch (const InputError&) {
+  } catch (const std::runtime_error&) {  // InputError, DiskError
     // The list goes on to say that results are being written, which keeps them replaceable.
   }
 }

@@ -28,7 +28,7 @@ inline constexpr std::uintmax_t kMaxImageBytes = 256u << 20;
 // header, before anything is allocated.
 Image ReadImage(const std::filesystem::path& path, std::int64_t max_pixels = 64'000'000,
                 const InputFiles& files = {});
-// Writes PNG; throws InputError when the file cannot be written.
+// Writes PNG; throws as WriteFileWhole does.
 void WritePng(const std::filesystem::path& path, const Image& image);
 
 // H.264 in MP4 (High profile, yuv420p) that browsers play.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes PNG and video into a file beside the target. The file takes the target's name only once it
 // is whole, so a reader never meets half a picture, and a failed run leaves the old one.
-#include <fstream>
 #include <string>
 
 #include "base/error.h"
@@ -25,7 +24,7 @@ void MoveInPlace(const fs::path& part, const fs::path& path) {
   if (!error) return;
   std::error_code ignored;
   fs::remove(part, ignored);
-  throw CannotWrite(path, error.message());
+  RefuseToWrite(path, error, "cannot be written: " + error.message());
 }
 
 class CodecVideo : public VideoWriter {
@@ -98,17 +97,7 @@ void WritePng(const fs::path& path, const Image& image) {
   if (codecs.encode_png(&raw, &bytes, &size, &owner, error) != 0) throw CannotWrite(path, error);
   const CodecHandle handle(owner, codecs.release);
 
-  const HoldInterrupts until_renamed;
-  const fs::path part = MakePartFile(path);
-  std::ofstream out(part, std::ios::binary | std::ios::trunc);
-  out.write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(size));
-  out.close();
-  if (!out) {
-    std::error_code ignored;
-    fs::remove(part, ignored);
-    throw CannotWrite(path, "is the folder there, writable and not full?");
-  }
-  MoveInPlace(part, path);
+  WriteFileWhole(path, {reinterpret_cast<const char*>(bytes), size});
 }
 
 std::unique_ptr<VideoWriter> OpenVideo(const fs::path& path, int width, int height, double fps) {

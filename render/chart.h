@@ -63,7 +63,7 @@ struct Chart {
 // chart is as wide as its panels and lettering need. Tick labels and bar values that do not fit are
 // left out.
 Image DrawChart(const Chart& chart);
-// The same into a PNG; throws InputError when the file cannot be written.
+// The same into a PNG; throws as WriteFileWhole does.
 void WriteChart(const Chart& chart, const std::filesystem::path& png);
 
 }  // namespace floorproof

@@ -68,7 +68,7 @@ HeatCategory CellsOf(HazardClass hazard_class);
 // The longer side has 800 to 1600 pixels, or more where the lettering needs it. A pixel over many
 // cells is wall if one of them is, and shows the mean of their values. `values` may be null.
 Image DrawHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options);
-// The same into a PNG; throws InputError when the file cannot be written.
+// The same into a PNG; throws as WriteFileWhole does.
 void WriteHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options,
                   const std::filesystem::path& png);
 

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/input_file.h"
+#include "base/quantity.h"
 #include "report/drawing_progress.h"
 #include "report/drive_marks.h"
 #include "report/failing_episodes.h"
@@ -65,11 +66,10 @@ class Rows {
         ++report_.episodes_left_out;
     });
     if (rows != variant.n + variant.errors + variant.not_planned)
-      throw InputError(
-          {summary.string(), 0}, "variants." + variant.name, "",
-          fmt::format("is not of the {} episodes that campaign.sqlite holds: `campaign "
-                      "--resume` writes it anew",
-                      rows));
+      throw InputError({summary.string(), 0}, "variants." + variant.name, "",
+                       fmt::format("is not of the {} that campaign.sqlite holds: `campaign "
+                                   "--resume` writes it anew",
+                                   CountText(rows, "episode")));
     places_.push_back(std::move(places));
   }
 

@@ -36,7 +36,7 @@ std::string Verdict(const EpisodeRecord& record) {
                   FixedText(m.path_length_m, 1), FixedText(1000 * m.max_cross_track_m, 0),
                   EnergyText(m.energy_j));
   if (const std::size_t times = record.interventions.size(); times > 0)
-    line += fmt::format(", helped {} time{}", times, times == 1 ? "" : "s");
+    line += fmt::format(", helped {}", CountText(times, "time"));
   if (!record.message.empty()) line += " (" + record.message + ")";
   return line;
 }
@@ -168,7 +168,7 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
       console.Say(WriteVideo(s, *execution.scene, result.plan, result.record, witness.recording(),
                              options.draft_around, folder, console));
     witness.There(" is whole");
-  } catch (const InputError& e) {
+  } catch (const std::runtime_error& e) {
     say_verdict();
     result.not_written =
         std::make_exception_ptr(InternalError(std::string(e.what()) + "; missing: " + missing));

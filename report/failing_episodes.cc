@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/file_output.h"
+#include "base/quantity.h"
 #include "report/drive_marks.h"
 #include "run/campaign/episodes_csv.h"
 
@@ -85,8 +86,8 @@ std::uint64_t ListFailingEpisodes(const CampaignStore& store, const std::vector<
   const std::filesystem::path file = folder / "failing_episodes.csv";
   WriteFileWhole(file, csv);
   if (all > 0)
-    console.Say(fmt::format("{} failing episode{}, with the command that films each: {}", all,
-                            all == 1 ? "" : "s", file.string()));
+    console.Say(fmt::format("{}, with the command that films each: {}",
+                            CountText(all, "failing episode"), file.string()));
   return all;
 }
 

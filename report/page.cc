@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/quantity.h"
 #include "report/html.h"
 #include "report/rates.h"
 #include "report/style.h"
@@ -19,9 +20,10 @@ std::string RateSentence(const VariantSummary& v) {
   if (v.repeated)
     return fmt::format("{} in its one episode, which was driven {} times",
                        rate.k == 0 ? "did not fail" : "failed", v.n);
-  const std::string times = rate.k == 0 ? fmt::format("in none of {} episodes", rate.n)
-                                        : fmt::format("in {} of {} episodes ({})", rate.k, rate.n,
-                                                      PercentText(rate.rate));
+  const std::string times = rate.k == 0
+                                ? "in none of " + CountText(rate.n, "episode")
+                                : fmt::format("in {} of {} ({})", rate.k,
+                                              CountText(rate.n, "episode"), PercentText(rate.rate));
   return fmt::format("failed {}, {} interval {}", times, PercentText(kReportedConfidence),
                      PercentText(Interval{rate.lower, rate.upper}));
 }
@@ -89,12 +91,11 @@ std::string VerdictBox(const Report& report) {
     not_planned += v.not_planned;
   }
   if (not_planned > 0)
-    list += fmt::format("<li>For {} {} there was no plan; no robot drove.</li>", not_planned,
-                        not_planned == 1 ? "episode" : "episodes");
+    list += fmt::format("<li>For {} there was no plan; no robot drove.</li>",
+                        CountText(not_planned, "episode"));
   if (errors > 0)
-    list +=
-        fmt::format("<li>{} {} in an error and {} not count.</li>", errors,
-                    errors == 1 ? "episode ended" : "episodes ended", errors == 1 ? "does" : "do");
+    list += fmt::format("<li>{} ended in an error and {} not count.</li>",
+                        CountText(errors, "episode"), errors == 1 ? "does" : "do");
   return fmt::format("<div class=\"verdict{}\"><p>{}</p>{}</div>\n", tone,
                      MarkupText(VerdictText(report)), list.empty() ? "" : "<ul>" + list + "</ul>");
 }

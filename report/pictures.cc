@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "base/quantity.h"
 #include "report/drawing_progress.h"
 #include "report/drive_marks.h"
 #include "report/error_plot.h"
@@ -107,8 +108,7 @@ Banner ClosingBanner(const EpisodeRecord& record) {
   if (record.interventions.empty())
     return {Banner::Tone::kWarning, std::string(Name(record.outcome)), record.message};
   const std::size_t times = record.interventions.size();
-  return {Banner::Tone::kFailure,
-          fmt::format("FAILURE   helped {} time{}", times, times == 1 ? "" : "s"),
+  return {Banner::Tone::kFailure, fmt::format("FAILURE   helped {}", CountText(times, "time")),
           record.message.empty() ? covered : covered + ";  " + record.message};
 }
 
@@ -144,7 +144,7 @@ void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecor
 void WriteFailurePlaces(const HazardMap& map, const std::string& title, HeatMapOptions options,
                         const HeatValues* rates, const std::filesystem::path& png) {
   const std::size_t n = options.failures.size();
-  options.title = fmt::format("{}: {} failure event{}", title, n, n == 1 ? "" : "s");
+  options.title = fmt::format("{}: {}", title, CountText(n, "failure event"));
   if (rates != nullptr) {
     options.quantity = "episodes failing here";
     options.unit = "%";

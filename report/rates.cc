@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/quantity.h"
 #include "report/html.h"
 #include "run/episode/metrics.h"
 
@@ -200,10 +201,11 @@ std::string PairSentence(const ReportPair& pair) {
                               : pair.difference > 0 ? fmt::format("<b>{}</b> fails more often", b)
                                                     : fmt::format("<b>{}</b> fails less often", b);
   return fmt::format(
-      "<b>{}</b> against <b>{}</b> over {} shared episodes: {} (difference of the failure rates {} "
+      "<b>{}</b> against <b>{}</b> over {}: {} (difference of the failure rates {} "
       "percentage points, {} interval {}; exact McNemar p = {}).",
-      b, a, pair.n(), verdict, Signed(pair.difference, true), PercentText(kReportedConfidence),
-      SignedBetween(pair.lower, pair.upper, true), NumberText(pair.p));
+      b, a, CountText(pair.n(), "shared episode"), verdict, Signed(pair.difference, true),
+      PercentText(kReportedConfidence), SignedBetween(pair.lower, pair.upper, true),
+      NumberText(pair.p));
 }
 
 std::string PairTable(const ReportPair& pair) {

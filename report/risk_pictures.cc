@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/quantity.h"
 #include "render/chart.h"
 #include "render/heatmap.h"
 #include "report/drive_marks.h"
@@ -92,10 +93,9 @@ void WritePlanVisits(const Scenario& s, const PlanResult& plan, const RiskOfPath
 }
 
 std::string Figures(const RiskOfPath& risk) {
-  return fmt::format(
-      "CRF {:.1f}, {} visits of {} cells, hazard-free {:.1f} %, {} terrain crossing{}",
-      risk.cumulative_risk, risk.visits, risk.cells, 100 * risk.coverage, risk.terrain_crossings,
-      risk.terrain_crossings == 1 ? "" : "s");
+  return fmt::format("CRF {:.1f}, {} visits of {} cells, hazard-free {:.1f} %, {}",
+                     risk.cumulative_risk, risk.visits, risk.cells, 100 * risk.coverage,
+                     CountText(risk.terrain_crossings, "terrain crossing"));
 }
 
 std::string Against(const RiskOfPath& first, const RiskOfPath& risk) {

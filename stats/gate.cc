@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/params.h"
+#include "base/quantity.h"
 #include "stats/binomial.h"
 #include "stats/checks.h"
 #include "stats/sequential_gate.h"
@@ -53,12 +54,13 @@ std::string Percent(double rate) {
 std::string Sentence(const GateSettings& settings, const GateReport& report) {
   const bool fixed = settings.mode == GateMode::kFixed;
   const bool early = report.n < settings.max_n;
-  const std::string planned = std::to_string(settings.max_n);
-  std::string text = std::to_string(report.k) + " of ";
-  if (early) text += "the first " + std::to_string(report.n) + (fixed ? " of " : "");
-  if (fixed || !early) text += planned;
-  text += " episodes; ";
-  if (!report.final) return text + (fixed ? "judged at " : "goes on to at most ") + planned;
+  const auto number = [](int n) { return FixedText(n, 0); };
+  std::string text = number(report.k) + " of ";
+  if (early) text += "the first ";
+  if (early && fixed) text += number(report.n) + " of ";
+  text += CountText(early && !fixed ? report.n : settings.max_n, "episode") + "; ";
+  if (!report.final)
+    return text + (fixed ? "judged at " : "goes on to at most ") + number(settings.max_n);
   const std::string limit = Percent(settings.max_rate);
   text += "with " + Percent(settings.confidence) + " confidence the rate is ";
   if (report.verdict == GateVerdict::kPassed) {

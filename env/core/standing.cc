@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "env/geometry/rasterise.h"
 
@@ -42,11 +43,29 @@ Polygon Body(const RobotSpec& robot) {
   return Offset(robot.clear.footprint_B, -kBeside_m);
 }
 
+bool IsBuiltAt(const Hazard& hazard, const Vec2& p_W) {
+  return std::ranges::any_of(hazard.solids, [&](const Solid& s) { return Contains(s.base, p_W); });
+}
+
+bool IsGrooveAt(std::span<const Hazard> hazards, const Vec2& p_W) {
+  return std::ranges::any_of(hazards, [&](const Hazard& hazard) {
+    return hazard.hazard_class == HazardClass::kTerrain &&
+           std::ranges::any_of(hazard.solids, [&](const Solid& solid) {
+             return solid.kind == Solid::Kind::kCut && Contains(solid.base, p_W);
+           });
+  });
+}
+
+// A level is where it is built: on a drawing that is less than its cells, its footprint. A later
+// groove has cut it, and leaves it the floor beside.
 const Hazard* LevelHazardAt(const HazardMap& map, const Vec2& p_W) {
   for (std::size_t h = map.hazards.size(); h-- > 0;) {
     const Hazard& hazard = map.hazards[h];
     if (hazard.hazard_class != HazardClass::kLevelChange) continue;
-    if (std::ranges::any_of(hazard.footprint, [&](const Polygon& p) { return Contains(p, p_W); }))
+    if (IsBuiltAt(hazard, p_W)) return &hazard;
+    const auto holds = [&](const Polygon& p) { return Contains(p, p_W); };
+    if (std::ranges::any_of(hazard.footprint, holds) &&
+        IsGrooveAt(std::span(map.hazards).subspan(h + 1), p_W))
       return &hazard;
   }
   return nullptr;
@@ -106,6 +125,38 @@ void MeetSolid(const RobotSpec& robot, const Pose2& X_WB, const Hazard& hazard, 
   }
 }
 
+// Terrain that bridges what is below the wheel.
+bool IsBridged(const HazardMap& map, const Polygon& wheel_W) {
+  return std::ranges::any_of(map.hazards, [&](const Hazard& hazard) {
+    return hazard.hazard_class == HazardClass::kTerrain &&
+           std::ranges::any_of(hazard.solids, [&](const Solid& solid) {
+             return solid.kind == Solid::Kind::kPrism && Overlap(wheel_W, solid.base);
+           });
+  });
+}
+
+// A slot in which a wheel sinks deeper than the belly is high; over a narrow one it stays.
+void MeetSlot(const HazardMap& map, const RobotSpec& robot, const Pose2& X_WB, const Hazard& hazard,
+              Standing& out) {
+  if (hazard.hazard_class != HazardClass::kTerrain) return;
+  double deep_m = 0;
+  std::vector<Polygon> slots;
+  for (const Solid& solid : hazard.solids)
+    if (solid.kind == Solid::Kind::kCut && out.floor_m - solid.z_low_m > robot.clearance_m) {
+      slots.push_back(solid.base);
+      deep_m = std::max(deep_m, out.floor_m - solid.z_low_m);
+    }
+  if (slots.empty()) return;
+  for (const WheelSpec& wheel : robot.wheels) {
+    const Polygon sunk = InWorld(X_WB, WheelUpTo(wheel, robot.clearance_m));
+    if (Area(Difference({{sunk, {}}}, slots)) > kLeast_m2 || IsBridged(map, sunk)) continue;
+    out.obstruction = hazard.id;
+    out.why = "has a wheel in " + hazard.id + ", " + hazard.type + ", " + Metres(deep_m) +
+              " below its floor";
+    return;
+  }
+}
+
 }  // namespace
 
 Polygon InWorld(const Pose2& X_WB, Polygon polygon_B) {
@@ -140,11 +191,14 @@ Standing StandAt(const HazardMap& map, const RobotSpec& robot, const Pose2& X_WB
     out.why = "overlaps a wall";
     return out;
   }
-  for (const Hazard& hazard : map.hazards)
+  for (const Hazard& hazard : map.hazards) {
     for (const Solid& solid : hazard.solids) {
       MeetSolid(robot, X_WB, hazard, solid, out);
       if (!out.obstruction.empty()) return out;
     }
+    MeetSlot(map, robot, X_WB, hazard, out);
+    if (!out.obstruction.empty()) return out;
+  }
   return out;
 }
 

@@ -20,7 +20,8 @@ struct Standing {
 // Of the robot upright at X_WB on this map, as built. It stands on the level that its driven wheels
 // touch: the base floor, a raised floor, or the bottom of a pit. It cannot
 //  - across the edge of a level change, its wheels on floors of several heights;
-//  - with a wheel on terrain that rises over its floor by more than its belly does;
+//  - with a wheel on terrain that rises over its floor by more than its belly does, or in a groove
+//    in which it sinks by more than that;
 //  - where its body (between its belly and its top) or a wheel would be within a solid of a hazard
 //    or a wall, known or not. The body is the clear footprint, or the inscribed circle of a robot
 //    that keeps a circle clear. What overlaps by less than 1 mm stands beside.
@@ -31,7 +32,7 @@ Polygon InWorld(const Pose2& X_WB, Polygon polygon_B);
 // Whether it reaches into a wall's cell or beyond the map.
 bool TouchesWall(const HazardMap& map, Polygon polygon_W);
 
-// The height of the level at this place: that of the last level change which holds it, else 0.
+// The height of the level at this place: that of the last level change that is built there, else 0.
 double LevelAt(const HazardMap& map, const Vec2& p_W);
 
 }  // namespace floorproof

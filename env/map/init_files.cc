@@ -105,32 +105,35 @@ hazards:
 )";
 }
 
-// What of the robot's own is drawn, in words; empty: nothing, as its model states nothing.
-std::string DrawnOfRobot(const RobotSpec& robot) {
-  const char* mass = robot.mass_kg > 0 ? "mass" : "";
-  const char* volts = robot.battery.voltage_v ? "battery's voltage" : "";
-  return std::string(mass) + (*mass && *volts ? " and " : "") + volts;
+// What is drawn of the robot's own, in words and as lines of `randomise`: what its model states.
+struct DrawnOfRobot {
+  std::string words, lines;
+};
+DrawnOfRobot DrawOfRobot(const RobotSpec& robot) {
+  DrawnOfRobot drawn;
+  const auto add = [&](const std::string& word, const std::string& line) {
+    drawn.words += (drawn.words.empty() ? "" : " and ") + word;
+    drawn.lines += line;
+  };
+  if (robot.mass_kg > 0)
+    add("mass", "  robot.mass_kg: {uniform: [" + Metres(0.95 * robot.mass_kg) + ", " +
+                    Metres(1.05 * robot.mass_kg) + "]}   # a full bin, another battery\n");
+  if (const auto& volts = robot.battery.voltage_v)
+    add("battery's voltage", "  battery.voltage_v: {uniform: [" + Metres(0.9 * *volts) + ", " +
+                                 Metres(*volts) + "]}   # drawn low to full\n");
+  return drawn;
 }
 
-// What nobody knows exactly, as lines of `randomise`; what the robot's model does not state is left
-// out.
-std::string DrawnText(const RobotSpec& robot, const Pose2& start) {
+// What nobody knows exactly, as lines of `randomise`.
+std::string RandomiseText(const Pose2& start, const DrawnOfRobot& of_robot) {
   const auto around = [](double value, double deviation) {
     return "{normal: [" + Metres(value) + ", " + Metres(deviation) + "]}";
   };
-  std::string text =
-      "  site.floor.friction: {uniform: [0.6, 1.0]}   # dusty to clean\n"
-      "  start.x_m: " +
-      around(start.x_m, 0.02) + "   # nobody sets it down more exactly\n" +
-      "  start.y_m: " + around(start.y_m, 0.02) + "\n" +
-      "  start.yaw_deg: " + around(start.yaw_rad * 180 / kPi, 2) + "\n";
-  if (robot.mass_kg > 0)
-    text += "  robot.mass_kg: {uniform: [" + Metres(0.95 * robot.mass_kg) + ", " +
-            Metres(1.05 * robot.mass_kg) + "]}   # a full bin, another battery\n";
-  if (const auto& volts = robot.battery.voltage_v)
-    text += "  battery.voltage_v: {uniform: [" + Metres(0.9 * *volts) + ", " + Metres(*volts) +
-            "]}   # drawn low to full\n";
-  return text +
+  return "  site.floor.friction: {uniform: [0.6, 1.0]}   # dusty to clean\n"
+         "  start.x_m: " +
+         around(start.x_m, 0.02) +
+         "   # nobody sets it down more exactly\n  start.y_m: " + around(start.y_m, 0.02) + "\n" +
+         "  start.yaw_deg: " + around(start.yaw_rad * 180 / kPi, 2) + "\n" + of_robot.lines +
          "  # How wrong its first guess is; `truth` takes no heed, mcl and odometry do.\n"
          "  estimator.start_error_x_m: {normal: [0, 0.1]}\n"
          "  estimator.start_error_y_m: {normal: [0, 0.1]}\n"
@@ -141,10 +144,11 @@ std::string ScenarioText(const std::string& name, const std::string& robot_key,
                          const RobotSpec& robot, const Pose2& start, double area_m2) {
   const std::string pose = "{x_m: " + Metres(start.x_m) + ", y_m: " + Metres(start.y_m) +
                            ", yaw_deg: " + Metres(start.yaw_rad * 180 / kPi) + "}";
-  const std::string drawn = DrawnOfRobot(robot);
-  const std::string of_robot = drawn.empty() ? ""
-                                             : "# `randomise` below draws its " + drawn +
-                                                   ": with another robot change that there, too.\n";
+  const DrawnOfRobot drawn = DrawOfRobot(robot);
+  const std::string of_robot = drawn.words.empty()
+                                   ? ""
+                                   : "# `randomise` below draws its " + drawn.words +
+                                         ": with another robot change that there, too.\n";
   return R"(# What is tried on the floor: a robot, a plan, and what counts as success.
 #   floorproof run scenario.yaml --video      drives it once and films it
 #   floorproof campaign scenario.yaml -n 60   drives it 60 times: how often does it fail?
@@ -180,7 +184,7 @@ success:
 # line away. What `--set KEY=VALUE` sets is not drawn. Without `randomise` all episodes of a campaign
 # are one.
 randomise:
-)" + DrawnText(robot, start) +
+)" + RandomiseText(start, drawn) +
          R"(
 # What a campaign must show: exit status 0 where it does, 1 where it does not, 4 where the episodes
 # allow neither. 59 episodes without a failure show a rate below 5 %, fewer cannot: to drive fewer,

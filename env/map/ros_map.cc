@@ -73,18 +73,29 @@ Pose2 ReadOrigin(const ConfigNode& node) {
           WrapAngle(AsDouble(node.items[2], "origin[2]", Between(-1e3, 1e3)))};
 }
 
-// The picture is what people think of as the map.
-void RefuseImage(const fs::path& yaml_path, const InputFiles& files) {
-  const std::string start = files.ReadStart(yaml_path, 4, kMaxImageBytes);
+// Whether the file begins as an image does: the picture is what people think of as the map. What
+// cannot be read is told by who reads it.
+bool IsImage(const fs::path& file, const InputFiles& files) {
+  if (!files.WhyUnreadable(file, kMaxImageBytes).empty()) return false;
+  const std::string start = files.ReadStart(file, 4, kMaxImageBytes);
   const bool netpbm = start.size() > 2 && start[0] == 'P' && start[1] >= '1' && start[1] <= '6' &&
                       std::isspace(static_cast<unsigned char>(start[2]));
-  if (!netpbm && !start.starts_with("\x89PNG") && !start.starts_with("BM")) return;
-  fs::path beside = yaml_path;
-  beside.replace_extension(".yaml");
+  return netpbm || start.starts_with("\x89PNG") || start.starts_with("BM");
+}
+
+// The .yaml of the image's name that lies beside it; empty: none does.
+std::string YamlBeside(fs::path image) {
+  image.replace_extension(".yaml");
+  return WhyUnreadable(image, kMaxImageBytes).empty() ? image.string() : "";
+}
+
+void RefuseImage(const fs::path& yaml_path, const InputFiles& files) {
+  if (!IsImage(yaml_path, files)) return;
+  const std::string beside = YamlBeside(yaml_path);
   throw InputError(
       {yaml_path.string(), 0}, "", "",
       "is the map's image: name its .yaml, which says how large a pixel is and where it lies" +
-          (WhyUnreadable(beside, kMaxImageBytes).empty() ? ", " + beside.string() : ""));
+          (beside.empty() ? "" : ", " + beside));
 }
 
 Keys ReadKeys(const fs::path& yaml_path, const InputFiles& files) {
@@ -216,6 +227,15 @@ std::vector<std::string> Warnings(const Keys& keys, const Image& image, const Ta
 }
 
 }  // namespace
+
+void RefuseMapImage(const fs::path& file, const std::string& expected, const InputFiles& files) {
+  if (!IsImage(file, files)) return;
+  const std::string beside = YamlBeside(file);
+  throw InputError({file.string(), 0}, "", "",
+                   "is an image, not " + expected + ": `floorproof init " +
+                       (beside.empty() ? "MAP.yaml" : beside) +
+                       "` writes a site and a scenario for the ROS map that names it");
+}
 
 void CheckFloorSize(const GridFrame& frame, const SourceMark& mark, const std::string& key) {
   const double per_cell = std::max(1.0, std::ceil(frame.cell_m / 0.05 - 1e-9));

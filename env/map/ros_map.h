@@ -43,6 +43,11 @@ struct RosMap {
 // Throws InputError naming file, line, key and rule.
 RosMap ReadRosMap(const std::filesystem::path& yaml_path, const InputFiles& files = {});
 
+// Refuses an image, which people take for the map, where a file of another kind is expected ("a
+// scenario"): `init` takes the .yaml that names it. Reads but its start. Throws InputError.
+void RefuseMapImage(const std::filesystem::path& file, const std::string& expected,
+                    const InputFiles& files);
+
 // Coverage is measured on cells of at most 0.05 m: refuses a floor that would need more than 64
 // million of them (400 m x 400 m).
 void CheckFloorSize(const GridFrame& frame, const SourceMark& mark, const std::string& key);

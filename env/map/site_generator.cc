@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/quantity.h"
 #include "env/map/char_grid.h"
 #include "env/map/ros_map.h"
 
@@ -77,14 +78,23 @@ ConfigNode WriteRange(const IntRange& range) {
 }
 
 void ReadCells(const ConfigNode& node, GenerateParams& p) {
-  const Bounds rule = Between(kLeastCells, kMaxCells);
   const std::string key = "generate.cells";
+  const auto side = [](const ConfigNode& written, const std::string& of) {
+    const std::int64_t n = AsInt(written, of);
+    if (n < kLeastCells)
+      throw InputError(written.mark, of, written.scalar,
+                       "must be at least " + std::to_string(kLeastCells) +
+                           ": the outer wall is counted, and one cell of floor lies within it");
+    if (n > kMaxCells)
+      throw InputError(written.mark, of, written.scalar,
+                       "must be at most " + std::to_string(kMaxCells));
+    return static_cast<int>(n);
+  };
   if (node.IsList() && node.items.size() != 2)
     throw InputError(node.mark, key, "", "must be [width, height], or one number for a square");
-  const ConfigNode &width = node.IsList() ? node.items[0] : node,
-                   &height = node.IsList() ? node.items[1] : node;
-  p.width = static_cast<int>(AsInt(width, key, rule));
-  p.height = static_cast<int>(AsInt(height, key, rule));
+  const bool pair = node.IsList();
+  p.width = pair ? side(node.items[0], key + "[0]") : side(node, key);
+  p.height = pair ? side(node.items[1], key + "[1]") : p.width;
   if (p.width > kMaxCellsInAll / p.height)
     throw InputError(node.mark, key, std::to_string(p.width) + " x " + std::to_string(p.height),
                      "must be at most " + std::to_string(kMaxCellsInAll) + " cells in all");
@@ -233,8 +243,7 @@ ConfigNode DrawSite(const GenerateParams& p, const ConfigNode& node, Stream& str
       const ConfigNode& written = Written(node, full);
       throw InputError(written.mark, "generate." + full, written.scalar,
                        "no room for so much on " + std::to_string(p.width) + " x " +
-                           std::to_string(p.height) + " cells, in " + std::to_string(most) +
-                           (most == 1 ? " drawing" : " drawings"));
+                           std::to_string(p.height) + " cells, in " + CountText(most, "drawing"));
     }
     floor = walls;
     full = Populate(p, furniture_cells, floor, stream);

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "run/campaign/repetition.h"
+#include "run/scenario/draws.h"
 #include "stats/paired.h"
 
 namespace floorproof {
@@ -60,7 +61,7 @@ std::string DifferentDraws(const std::string& text_a, const std::string& text_b)
   if (text_a == text_b) return "";
   const Json a = Json::parse(text_a), b = Json::parse(text_b);
   const auto shown = [](const Json& value) {
-    return value.is_structured() ? std::string("a value in parts")
+    return value.is_structured() ? std::string(kValueInParts)
            : value.is_string()   ? value.get<std::string>()
                                  : value.dump();
   };

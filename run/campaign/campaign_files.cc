@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file_output.h"
+#include "base/quantity.h"
 #include "run/campaign/campaign_junit.h"
 #include "run/campaign/episodes_csv.h"
 #include "run/campaign/summary_json.h"
@@ -21,7 +22,8 @@ std::string Unfinished(const CampaignRun& run, std::uint64_t asked) {
   if (run.end == CampaignEnd::kComplete || run.end == CampaignEnd::kGateDecided) return "";
   std::uint64_t least = asked;
   for (const VariantProgress& variant : run.variants) least = std::min(least, variant.prefix);
-  return fmt::format("{} of {} episodes stand without a gap: {}", least, asked, WhyEnded(run.end));
+  return fmt::format("{} of {} stand without a gap: {}", least, CountText(asked, "episode"),
+                     WhyEnded(run.end));
 }
 
 }  // namespace

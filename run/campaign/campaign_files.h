@@ -14,7 +14,7 @@ namespace floorproof {
 ResultNames CampaignResults();
 
 // Writes episodes.csv, junit.xml and, last, summary.json of what `run` left in the store; returns
-// the summary. Throws InputError naming the file that cannot be written.
+// the summary. Throws as WriteFileWhole does.
 CampaignSummary WriteSummaryFiles(const CampaignStore& store, const ScenarioFile& file,
                                   const CampaignRun& run, const std::filesystem::path& folder);
 

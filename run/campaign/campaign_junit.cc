@@ -11,9 +11,9 @@ namespace {
 
 // What a variant did, in a few lines for people.
 std::string VariantText(const VariantSummary& v) {
-  std::string text =
-      fmt::format("{} episodes: {} success, {} failure, {} timeout; {} errors, {} without a plan\n",
-                  v.n, v.success, v.failure, v.timeout, v.errors, v.not_planned);
+  std::string text = fmt::format("{}: {} success, {} failure, {} timeout; {}, {} without a plan\n",
+                                 CountText(v.n, "episode"), v.success, v.failure, v.timeout,
+                                 CountText(v.errors, "error"), v.not_planned);
   if (v.repeated) text += RepetitionText(v) + "\n";
   for (const FailureRate& rate : v.failures)
     text += rate.n == 0 ? fmt::format("{}: nothing was driven\n", rate.name)
@@ -66,8 +66,8 @@ Suite VariantSuite(const std::string& name, std::size_t v, const CampaignSummary
   suite.errors = variant.errors > 0;
   std::string ran;
   if (variant.errors > 0) {
-    ran = fmt::format("      <error message=\"{0} episodes ended in error\">{1}</error>\n",
-                      variant.errors, MarkupText(variant.first_error));
+    ran = fmt::format("      <error message=\"{0} ended in error\">{1}</error>\n",
+                      CountText(variant.errors, "episode"), MarkupText(variant.first_error));
   } else if (!summary.unfinished.empty()) {
     ran = fmt::format("      <{} message=\"{}\"/>\n", failed_fast ? "failure" : "skipped",
                       MarkupText(summary.unfinished));

@@ -2,12 +2,14 @@
 #include "run/campaign/campaign_store.h"
 
 #include <sqlite3.h>
+#include <sys/statvfs.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "base/config.h"
 #include "base/error.h"
+#include "base/file_output.h"
 #include "base/printable.h"
 #include "run/campaign/campaign_about.h"
 
@@ -92,6 +94,15 @@ std::string ReadOnlyName(const fs::path& file) {
   for (const char c : fs::absolute(file).string())
     uri += c == '%' ? "%25" : c == '?' ? "%3f" : c == '#' ? "%23" : std::string(1, c);
   return uri + "?immutable=1";
+}
+
+std::error_code Full() { return std::make_error_code(std::errc::no_space_on_device); }
+
+// SQLite does not keep why a file, or a log beside it, cannot be opened.
+bool HasRoomForAFile(const fs::path& file) {
+  struct statvfs disk {};
+  if (statvfs(fs::absolute(file).parent_path().c_str(), &disk) != 0) return true;
+  return disk.f_bavail > 0 && (disk.f_files == 0 || disk.f_favail > 0);  // 0: it counts no files
 }
 
 }  // namespace
@@ -190,11 +201,12 @@ void CampaignStore::Refuse(int code) const {
                        "is damaged (" + why + "); it was left as it is");
     case SQLITE_FULL:
     case SQLITE_IOERR:
+      RefuseToWrite(file_, Full(), "cannot be written: " + why + "; episodes before are kept");
     case SQLITE_READONLY:
     case SQLITE_PERM:
     case SQLITE_CANTOPEN:
-      throw InputError({file_.string(), 0}, "", "",
-                       "cannot be written: " + why + "; episodes before are kept");
+      RefuseToWrite(file_, HasRoomForAFile(file_) ? std::error_code() : Full(),
+                    "cannot be written: " + why + "; episodes before are kept");
     case SQLITE_TOOBIG:
       throw InputError({file_.string(), 0}, "", "",
                        "is damaged (a text of more than " + std::to_string(kMaxText_bytes >> 20) +
@@ -236,7 +248,7 @@ CampaignStore CampaignStore::Create(const fs::path& file, const CampaignAbout& a
     fs::rename(part, file);
   } catch (const fs::filesystem_error& e) {
     remove_part();
-    throw InputError({file.string(), 0}, "", "", "cannot be written: " + e.code().message());
+    RefuseToWrite(file, e.code(), "cannot be written: " + e.code().message());
   } catch (...) {
     remove_part();
     throw;
@@ -344,6 +356,8 @@ void CampaignStore::ReadAbout() {
       VersionsOf(about_);
       return;
     }
+  } catch (const DiskError&) {
+    throw;
   } catch (const InternalError&) {
   }
   throw InputError({file_.string(), 0}, "", "", "is not a campaign's database (table about)");

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/file_output.h"
+#include "base/quantity.h"
 #include "run/campaign/campaign_about.h"
 #include "run/campaign/campaign_files.h"
 #include "run/scenario/chance.h"
@@ -49,9 +50,9 @@ void RefuseSecondLook(CampaignStore& store, const ScenarioFile& file, std::uint6
       std::ranges::all_of(then.variants, [](const auto& v) { return v.gate->decided(); });
   if (judged)
     throw InputError({"-n", 0}, "", std::to_string(n),
-                     fmt::format("the fixed gate was judged at {} episodes; only a gate of `mode: "
+                     fmt::format("the fixed gate was judged at {}; only a gate of `mode: "
                                  "sequential` may go on",
-                                 before));
+                                 CountText(before, "episode")));
 }
 
 // Episodes between which nothing differs are one: that it fails or not says nothing of how often.
@@ -72,12 +73,12 @@ void CheckChance(const ScenarioFile& file, const ConfigNode& gate, CampaignObser
 
 // What is asked for is right, yet its results do not reach the disk: the tool has failed, and says
 // what is not there.
-template <class Write>
+template <class Error, class Write>
 auto Keep(const char* missing, const Write& write) {
   try {
     return write();
-  } catch (const InputError& e) {
-    throw InternalError(fmt::format("{}; missing: {}; --resume goes on", e.what(), missing));
+  } catch (const Error& e) {
+    throw InternalError(fmt::format("{}; missing: {}", e.what(), missing));
   }
 }
 
@@ -111,16 +112,20 @@ CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& r
   auto hold = std::make_unique<HoldInterrupts>();
   HoldsCampaign(folder, request.resume);
   auto out = std::make_unique<ResultFolder>(folder, CampaignResults(), file.files().All());
-  out->Lock();
-  const bool there = HoldsCampaign(folder, request.resume);  // another may have begun it since
-  CampaignStore store = OpenStore(folder, about, there);
-  RefuseSecondLook(store, file, request.episodes);
-  store.SetAsked(request.episodes);
-  if (request.retry_errors) store.DropErrors();
-  out->Begin();
+  // A folder that is refused is bad input, and nothing is missing.
+  CampaignStore store = Keep<DiskError>("every episode that is not in campaign.sqlite", [&] {
+    out->Lock();
+    const bool there = HoldsCampaign(folder, request.resume);  // another may have begun it since
+    CampaignStore opened = OpenStore(folder, about, there);
+    RefuseSecondLook(opened, file, request.episodes);
+    opened.SetAsked(request.episodes);
+    if (request.retry_errors) opened.DropErrors();
+    out->Begin();
+    return opened;
+  });
   SayWhenInterrupted(folder.string() + " holds every episode saved so far; --resume goes on");
-  Keep("scenario.resolved.yaml and every episode",
-       [&] { WriteResolvedScenario(base, folder, file.files().All()); });
+  Keep<std::runtime_error>("scenario.resolved.yaml and every episode; --resume goes on",
+                           [&] { WriteResolvedScenario(base, folder, file.files().All()); });
   CampaignOptions options{.end = request.episodes,
                           .gate = gate,
                           .jobs = request.jobs,
@@ -131,11 +136,13 @@ CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& r
     options.end = request.shard->end;
     options.gate = {};  // judged on the whole campaign
   }
-  CampaignRun run =
-      Keep("the episodes that are not in campaign.sqlite, and all that is made from them",
-           [&] { return RunCampaign(file, store, options, observer); });
-  CampaignSummary summary = Keep("some of episodes.csv, junit.xml, summary.json and the films",
-                                 [&] { return WriteSummaryFiles(store, file, run, folder); });
+  CampaignRun run = Keep<std::runtime_error>(
+      "the episodes that are not in campaign.sqlite, and all that is made from them; --resume goes "
+      "on",
+      [&] { return RunCampaign(file, store, options, observer); });
+  CampaignSummary summary = Keep<std::runtime_error>(
+      "some of episodes.csv, junit.xml, summary.json and the films; --resume goes on",
+      [&] { return WriteSummaryFiles(store, file, run, folder); });
   return {std::move(hold), std::move(out), std::move(store),
           file.variants(), std::move(run), std::move(summary)};
 }

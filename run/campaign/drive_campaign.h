@@ -44,7 +44,8 @@ struct CampaignOutcome {
 // lacks and writes scenario.resolved.yaml and the files of WriteSummaryFiles. The process must not
 // have threads. Throws InputError where the scenario, its gate or the request makes no sense, where
 // the folder holds a campaign (with `resume`: another one), where a fixed gate would be judged
-// twice, and where a file cannot be written. Interrupted it returns, with run.end saying so.
+// twice, and where the folder cannot be written to; InternalError, with what is missing, where the
+// disk is full or results cannot be written. Interrupted it returns, with run.end saying so.
 CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& request,
                               const std::filesystem::path& folder,
                               CampaignObserver* observer = nullptr);

@@ -26,11 +26,6 @@ constexpr std::array<std::string_view, 5> kWhyNames = {"not_visited", "narrow", 
 // To a millimetre: more is known of nothing here.
 std::string Metres(double length_m) { return LengthText(std::round(1000 * length_m) / 1000); }
 
-// "1 turn", "1,250 turns"
-std::string Counted(std::size_t n, const char* what) {
-  return FixedText(static_cast<double>(n), 0) + " " + what + (n == 1 ? "" : "s");
-}
-
 std::string At(const Vec2& p_W) { return PlaceText(p_W.x(), p_W.y()); }
 
 std::string Line(const HazardMap& floor, const PlanConflict& c) {
@@ -102,7 +97,7 @@ void AddDrivenOver(const HazardMap& true_floor, const RobotSpec& robot,
     lines.push_back(fmt::format("{} {}{} {}", keeps_off ? "leads into" : "drives over",
                                 HazardPhrase(hazard),
                                 hazard.known ? "" : ", which the planner is not told of,",
-                                Counted(static_cast<std::size_t>(driven[i].times), "time")));
+                                CountText(driven[i].times, "time")));
   }
   if (driven.size() > kListed)
     lines.push_back(fmt::format("  and over {} more", driven.size() - kListed));
@@ -154,9 +149,8 @@ Json PlaceJson(const Vec2& p_W) { return {{"x_m", p_W.x()}, {"y_m", p_W.y()}}; }
 }  // namespace
 
 std::string PlannedText(const PlanResult& plan) {
-  return fmt::format("planned: {}, {} m, {}", Counted(plan.path.size(), "waypoint"),
-                     FixedText(Length(plan.path), 1),
-                     Counted(static_cast<std::size_t>(CountTurns(plan.path)), "turn"));
+  return fmt::format("planned: {}, {} m, {}", CountText(plan.path.size(), "waypoint"),
+                     FixedText(Length(plan.path), 1), CountText(CountTurns(plan.path), "turn"));
 }
 
 PlanCheck CheckPlan(Scenario& s, const PlanResult& plan) {
@@ -169,7 +163,7 @@ PlanCheck CheckPlan(Scenario& s, const PlanResult& plan) {
 std::string ConflictsLine(const PlanClearance& clearance) {
   if (clearance.conflicts.empty()) return "";
   return "warning: the plan leads the robot into obstacles at " +
-         Counted(clearance.conflicts.size(), "place");
+         CountText(clearance.conflicts.size(), "place");
 }
 
 std::vector<std::string> CrossingLines(const Scenario& s, const PlanClearance& clearance) {

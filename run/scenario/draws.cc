@@ -140,7 +140,7 @@ std::string DrawnText(const Drawn& drawn) {
     text += (text.empty() ? "" : ", ") + key + " " +
             (is_number          ? NumberText(number)
              : value.IsScalar() ? Printable(value.scalar)
-                                : "a value in parts");
+                                : kValueInParts);
   }
   return text;
 }

@@ -40,6 +40,8 @@ std::vector<RandomisedKey> ReadRandomise(const ConfigNode* node);
 // What this episode draws, in the order written.
 using Drawn = std::vector<std::pair<std::string, ConfigNode>>;
 Drawn Draw(const std::vector<RandomisedKey>& keys, std::uint64_t seed, std::uint64_t episode);
+// Stands for a drawn value that is no scalar, in a line for people.
+inline constexpr const char* kValueInParts = "a value in parts";
 // For people, in one line: "site.floor.friction 0.733, robot beluga".
 std::string DrawnText(const Drawn& drawn);
 

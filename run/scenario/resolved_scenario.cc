@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scenario written out with every default stated, so that it survives a change of defaults.
 #include <algorithm>
-#include <functional>
+#include <set>
 
 #include "base/file_output.h"
 #include "run/scenario/scenario_parts.h"
@@ -72,15 +72,15 @@ ConfigNode Failures(const Scenario& s) {
   return node;
 }
 
-// Whether variants or draws set this key: what follows from its value must then not be stated.
-bool Varies(const Scenario& s, const std::string& key) {
-  const auto sets = [&](const std::string& path) { return path == key || path == key + ".name"; };
+// Whether variants or draws set one of these keys: what follows from their values must then not be
+// stated.
+bool Vary(const Scenario& s, const std::set<std::string>& keys) {
   for (const ConfigNode* node : {&s.randomise, &s.matrix})
     for (const auto& [path, value] : node->entries) {
-      if (sets(path)) return true;
+      if (keys.contains(path)) return true;
       for (const ConfigNode& item : value.items)
         for (const auto& entry : item.entries)
-          if (sets(entry.first)) return true;
+          if (keys.contains(entry.first)) return true;
     }
   return false;
 }
@@ -104,7 +104,7 @@ std::string NameFrom(const fs::path& folder, const fs::path& file, const InputFi
 // What reading the resolved file will read: the site now stands within it.
 std::vector<fs::path> ListedFiles(const Scenario& s, const std::vector<fs::path>& more) {
   std::vector<fs::path> listed;
-  const bool site_is_named = Varies(s, "site");
+  const bool site_is_named = Vary(s, {"site"});
   for (const auto& files : {FilesRead(s), more})
     for (const fs::path& file : files)
       if (file != s.file && (file != s.site_file || site_is_named)) listed.push_back(file);
@@ -118,25 +118,27 @@ ConfigNode Files(const Scenario& s, const fs::path& folder, const std::vector<fs
   return node;
 }
 
+// A key's value, and what is within it.
+void Rebase(const std::string& key, const fs::path& from, const fs::path& to, ConfigNode& value) {
+  if (value.IsScalar() && NamesFile(key, value.scalar))
+    value = ConfigNode::Scalar(PathFrom(to, from / value.scalar).string(), true);
+  for (auto& [name, part] : value.entries) Rebase(key + "." + name, from, to, part);
+}
+
 // `randomise` and `matrix` with the paths that they set made valid from `to`; all else as it is.
 ConfigNode Rebased(ConfigNode node, const fs::path& from, const fs::path& to) {
-  const std::function<void(const std::string&, ConfigNode&)> visit = [&](const std::string& key,
-                                                                         ConfigNode& value) {
-    const bool names_file =
-        key == "site" || key == "plan.file" ||
-        (key == "risk.tables" && value.scalar.ends_with(".yaml")) ||
-        ((key == "robot" || key == "robot.name") && value.scalar.ends_with(".xml"));
-    if (value.IsScalar() && names_file)
-      value = ConfigNode::Scalar(PathFrom(to, from / value.scalar).string(), true);
-    for (ConfigNode& item : value.items) visit(key, item);
-    // A map is a distribution, a labelled entry of keys, or a value in parts.
-    for (auto& [name, entry] : value.entries)
-      visit(name == "choice"                                   ? key
-            : key == "plan" || key == "robot" || key == "risk" ? key + "." + name
-                                                               : name,
-            entry);
-  };
-  for (auto& [key, value] : node.entries) visit(key, value);
+  for (auto& [key, value] : node.entries) {
+    if (ConfigNode* choice = value.Find("choice"))
+      for (ConfigNode& item : choice->items) Rebase(key, from, to, item);
+    for (ConfigNode& item : value.items) {
+      if (item.Find("label") == nullptr) {
+        Rebase(key, from, to, item);
+        continue;
+      }
+      for (auto& [name, set] : item.entries)
+        if (name != "label") Rebase(name, from, to, set);
+    }
+  }
   return node;
 }
 
@@ -155,10 +157,14 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
   const auto stated = [&](const char* key, bool varies) {
     return s.written.contains(key) || !varies;
   };
-  const bool site_varies = Varies(s, "site") || s.site_node.Find("generate") != nullptr;
-  const bool robot_varies = Varies(s, "robot");
-  if (stated("start", site_varies)) root.Add("start", Start(s.start));
-  if (s.goal && stated("goal", site_varies)) root.Add("goal", Goal(*s.goal));
+  const bool site_varies = Vary(s, {"site"}) || s.site_node.Find("generate") != nullptr;
+  const bool robot_varies = Vary(s, {"robot", "robot.name"});
+  if (stated("start", site_varies || Vary(s, {"site.start", "site.start.x_m", "site.start.y_m",
+                                              "site.start.yaw_deg"})))
+    root.Add("start", Start(s.start));
+  if (s.goal &&
+      stated("goal", site_varies || Vary(s, {"site.goal", "site.goal.x_m", "site.goal.y_m"})))
+    root.Add("goal", Goal(*s.goal));
   root.Add("plan", s.planner ? WithPlugin(Named("planner", s.planner_name), *s.planner)
                              : Named("file", PathFrom(folder, s.plan_file).string()));
   if (AsksForRisk(s))

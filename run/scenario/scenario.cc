@@ -6,6 +6,7 @@
 #include "base/file_output.h"
 #include "base/input_file.h"
 #include "base/printable.h"
+#include "env/map/ros_map.h"
 #include "run/scenario/scenario_parts.h"
 
 namespace floorproof {
@@ -40,21 +41,30 @@ void ChooseWhosePlan(const std::string& key_path, ConfigNode& root) {
     root.Remove("plan");
 }
 
-// Keys site.* reach into the site's own tree, once that is read.
-void Apply(const Variant& changes, bool to_site, ConfigNode& root) {
+void Apply(const Variant& changes, ConfigNode& root) {
   for (const auto& [key, value] : changes.overrides) {
-    const bool is_site = key.starts_with(kSite);
-    if (is_site != to_site) continue;
-    if (!is_site) MakeMap(root, key);
-    root.SetPath(is_site ? std::string_view(key).substr(kSite.size()) : key, value);
+    if (key.starts_with(kSite)) continue;
+    MakeMap(root, key);
+    root.SetPath(key, value);
   }
 }
 
-// Keys whose value may be a file's path.
-bool NamesFile(const std::string& key, const std::string& value) {
-  if (key == "robot" || key == "robot.name") return value.ends_with(".xml");
-  return key == "site" || key == "site.map" || key == "plan.file" ||
-         (key == "risk.tables" && value.ends_with(".yaml"));
+// Keys site.* reach into the site's own tree, once that is read. Their paths are the scenario's,
+// from its folder, wherever the site lies.
+void ApplyToSite(const Variant& changes, const fs::path& scenario_folder, ConfigNode& site) {
+  for (const auto& [key, value] : changes.overrides) {
+    if (!key.starts_with(kSite)) continue;
+    ConfigNode set = value;
+    if (NamesFile(key, value.scalar))
+      set.scalar = fs::absolute(PathIn(scenario_folder, value, key)).string();
+    site.SetPath(std::string_view(key).substr(kSite.size()), std::move(set));
+  }
+}
+
+// A file that should hold a scenario, or a site.
+ConfigNode ReadTree(const fs::path& file, const std::string& expected, const InputFiles& files) {
+  RefuseMapImage(file, expected, files);
+  return ReadYamlFile(file, files);
 }
 
 // What is typed is meant from the folder in which it is typed, where a file lies there; else it is
@@ -64,8 +74,7 @@ void FindFromHere(const std::string& key, const fs::path& folder, ConfigNode& va
   for (auto& [name, part] : value.entries) FindFromHere(key + "." + name, folder, part);
   if (!value.IsScalar() || !NamesFile(key, value.scalar) || !fs::exists(value.scalar, ignored))
     return;
-  // A site's paths are found from its own folder, which may be another.
-  if (key == "site.map" || !fs::equivalent(".", folder / ".", ignored))
+  if (!fs::equivalent(".", folder / ".", ignored))
     value.scalar = fs::absolute(value.scalar).string();
 }
 
@@ -159,14 +168,14 @@ ScenarioFile ScenarioFile::Recorded(const fs::path& file) {
 
 ScenarioFile::ScenarioFile(std::optional<ConfigNode> root, const fs::path& file,
                            const std::vector<Override>& overrides, Files files)
-    : file_(file), root_(root ? std::move(*root) : ReadYamlFile(file, files_)) {
+    : file_(file), root_(root ? std::move(*root) : ReadTree(file, "a scenario", files_)) {
   RefuseOtherKinds(root_, file.string());
   for (const Override& o : overrides) {
-    overrides_.emplace_back(o.key_path, ParseYaml(o.value, "--set " + o.key_path));
+    overrides_.emplace_back(o.key_path, ParseYaml(o.value, std::string(kSet) + o.key_path));
     FindFromHere(o.key_path, file.parent_path(), overrides_.back().second);
     ChooseWhosePlan(o.key_path, root_);
   }
-  Apply({"", overrides_}, false, root_);
+  Apply({"", overrides_}, root_);
   RemoveNone(root_);
   RefuseUnknownKeys(root_, "", ScenarioKeys());
   const ConfigNode* version = root_.Find("scenario");
@@ -223,12 +232,12 @@ void ScenarioFile::ReadSitePart(const ConfigNode& root, const Variant& changes, 
     s.site_file = NamedFile(folder, *node, "site", files_);
     auto known = site_files_.find(s.site_file);
     if (known == site_files_.end())
-      known = site_files_.emplace(s.site_file, ReadYamlFile(s.site_file, files_)).first;
+      known = site_files_.emplace(s.site_file, ReadTree(s.site_file, "a site", files_)).first;
     s.site_node = known->second;
     s.site_folder = s.site_file.parent_path();
   }
-  Apply({"", overrides_}, true, s.site_node);
-  Apply(changes, true, s.site_node);
+  ApplyToSite({"", overrides_}, folder, s.site_node);
+  ApplyToSite(changes, folder, s.site_node);
   ConfigNode drawn = GeneratedSite(s.site_node, static_cast<std::uint64_t>(seed_), s.episode_id);
   s.site = ReadSite(drawn, s.site_folder, files_);
   if (episode) s.site_node = std::move(drawn);  // else what is random about it stays so
@@ -299,7 +308,7 @@ Scenario ScenarioFile::ReadWith(std::optional<std::uint64_t> episode, const Vari
   changes.overrides.insert(changes.overrides.end(), forced.overrides.begin(),
                            forced.overrides.end());
   ConfigNode root = root_;
-  Apply(changes, false, root);
+  Apply(changes, root);
   RefuseUnknownKeys(root, "", ScenarioKeys());  // a variant's too
   s.name = name();
   for (auto [key, node] :

@@ -301,6 +301,13 @@ void ReadFailures(const ConfigNode& root, Scenario& s) {
     RefuseFolding(s, MarkOf(root, "on_failure"), "on_failure", "assist");
 }
 
+// Where the file was looked for. What is set was looked for in the current folder, too.
+std::string Tried(const fs::path& file, const ConfigNode& node) {
+  const std::string there = fs::absolute(file).lexically_normal().string();
+  const std::string here = fs::absolute(node.scalar).lexically_normal().string();
+  return node.mark.file.starts_with(kSet) && here != there ? here + ", nor " + there : there;
+}
+
 }  // namespace
 
 fs::path BundledTables() {
@@ -317,11 +324,17 @@ const std::vector<std::string>& ScenarioKeys() {
   return keys;
 }
 
+bool NamesFile(const std::string& key_path, const std::string& value) {
+  if (key_path == "robot" || key_path == "robot.name") return value.ends_with(".xml");
+  return key_path == "site" || key_path == "site.map" || key_path == "plan.file" ||
+         (key_path == "risk.tables" && value.ends_with(".yaml"));
+}
+
 fs::path NamedFile(const fs::path& folder, const ConfigNode& node, const std::string& key,
                    const InputFiles& files) {
   fs::path file = PathIn(folder, node, key);
   if (const std::string why = files.WhyUnreadable(file, kMaxNamedBytes); !why.empty())
-    throw InputError(node.mark, key, node.scalar, why + ": " + file.string());
+    throw InputError(node.mark, key, node.scalar, why + ": " + Tried(file, node));
   return file;
 }
 

@@ -22,6 +22,11 @@ inline constexpr std::string_view kBundled = "bundled:";
 inline constexpr std::string_view kBundledTables = "htetro";
 std::filesystem::path BundledTables();
 
+// What a value set on the command line is marked with, in place of a file.
+inline constexpr std::string_view kSet = "--set ";
+
+// Whether this value of this key is a file's path.
+bool NamesFile(const std::string& key_path, const std::string& value);
 // All keys that may stand at the top.
 const std::vector<std::string>& ScenarioKeys();
 // A file that the scenario names and that can be read; throws InputError.

@@ -35,8 +35,8 @@ void WarnOfSpeeds(const Scenario& s, std::vector<std::string>& lines) {
     asked_mps = std::max(asked_mps, s.user_plan[i].speed_mps);
   }
   if (fast > 0)
-    capped(fmt::format("{}, {} of {} waypoints from number {} on: speed_mps of up to",
-                       s.plan_file.string(), fast, s.user_plan.size(), first),
+    capped(fmt::format("{}, {} of {} from number {} on: speed_mps of up to", s.plan_file.string(),
+                       fast, CountText(s.user_plan.size(), "waypoint"), first),
            asked_mps);
   if (s.recovery && s.recovery->back_off_mps > most_mps)
     capped("react.back_off_mps", s.recovery->back_off_mps);

@@ -194,25 +194,44 @@ TEST_F(CampaignFaults, AFullDisk) {
   if (!disk.mounted()) GTEST_SKIP() << "no disk can be mounted here: " << disk.why();
   constexpr int kEpisodes = 80;
   MakeWhole(kEpisodes);
-  ExpectOneLine(Run(Command(kEpisodes)), 2, "cannot be written: ");
+  ExpectOneLine(Run(Command(kEpisodes)), 3, "cannot be written: ");
   const long first = ExpectRowsOfTheWhole();
   EXPECT_LT(first, kEpisodes);
-  ExpectOneLine(Run(Command(kEpisodes)), 2, "cannot be written: ");
+  ExpectOneLine(Run(Command(kEpisodes)), 3, "cannot be written: ");
   EXPECT_GE(ExpectRowsOfTheWhole(), first);
   disk.Change(0, "size=16m");
   EXPECT_EQ(Run(Command(kEpisodes)).status, 0);
   ExpectSameResults("whole", "o");
 }
 
-// Full before the first row: nothing that would be in the way is left.
+// Full before the first row, whichever file meets that: nothing that would be in the way is left.
 TEST_F(CampaignFaults, AFullDiskFromTheStart) {
-  const OwnDisk disk(folder_ / "o", "size=8k");
-  if (!disk.mounted()) GTEST_SKIP() << "no disk can be mounted here: " << disk.why();
   MakeWhole(2);
-  ExpectOneLine(Run(Command(2)), 2, "cannot be written: ");
-  disk.Change(0, "size=16m");
-  EXPECT_EQ(Run(Command(2)).status, 0);
-  ExpectSameResults("whole", "o");
+  for (const char* size : {"size=4k", "size=8k", "size=24k", "size=48k"}) {
+    SCOPED_TRACE(size);
+    const OwnDisk disk(folder_ / "o", size);
+    if (!disk.mounted()) GTEST_SKIP() << "no disk can be mounted here: " << disk.why();
+    const Ended full = Run(Command(2));
+    ExpectOneLine(full, 3, "cannot be written: ");
+    EXPECT_THAT(full.said, HasSubstr("; missing: "));
+    disk.Change(0, "size=16m");
+    EXPECT_EQ(Run(Command(2)).status, 0);
+    ExpectSameResults("whole", "o");
+  }
+}
+
+// No room for another file's name.
+TEST_F(CampaignFaults, ADiskWithoutRoomForNames) {
+  MakeWhole(2);
+  for (const char* names : {"nr_inodes=1", "nr_inodes=2", "nr_inodes=3", "nr_inodes=5"}) {
+    SCOPED_TRACE(names);
+    const OwnDisk disk(folder_ / "o", names);
+    if (!disk.mounted()) GTEST_SKIP() << "no disk can be mounted here: " << disk.why();
+    ExpectOneLine(Run(Command(2)), 3, "; missing: ");
+    disk.Change(0, "nr_inodes=100");
+    EXPECT_EQ(Run(Command(2)).status, 0);
+    ExpectSameResults("whole", "o");
+  }
 }
 
 TEST_F(CampaignFaults, AReadOnlyFolder) {

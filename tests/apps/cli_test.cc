@@ -426,6 +426,22 @@ TEST_F(Cli, InitWritesARunnableScenarioAndLeavesExistingFiles) {
     EXPECT_EQ(refused.status, 2) << command;
     EXPECT_THAT(refused.err, HasSubstr("`floorproof init map.yaml`")) << command;
   }
+  // And its image: it is the map that one sees. What is no text is the same in any size.
+  fs::copy_file(folder_ / "map.pgm", folder_ / "lone.pgm");
+  std::ofstream(folder_ / "big.png") << "\x89PNG" << std::string(4 << 20, '\xff');
+  std::ofstream(folder_ / "of_image.yaml") << "scenario: 1\nsite: map.pgm\nrobot: beluga\n";
+  const std::pair<const char*, const char*> images[] = {
+      {"run map.pgm", "map.pgm: is an image, not a scenario: `floorproof init map.yaml`"},
+      {"plan map.pgm", "map.pgm: is an image, not a scenario: `floorproof init map.yaml`"},
+      {"campaign lone.pgm -n 3", "lone.pgm: is an image, not a scenario: `floorproof init MAP.y"},
+      {"scene big.png --out x", "big.png: is an image, not a scenario: `floorproof init MAP.yaml`"},
+      {"run of_image.yaml", "map.pgm: is an image, not a site: `floorproof init map.yaml` writes"},
+      {"plan mine3/scenario.yaml --set site=map.pgm", "map.pgm: is an image, not a site: `floor"}};
+  for (const auto& [command, why] : images) {
+    const auto refused = Run(command);
+    EXPECT_EQ(refused.status, 2) << command;
+    EXPECT_THAT(refused.err, HasSubstr(why)) << command;
+  }
 
   // A robot of one's own, named from where one is; and what two maps give does not meet.
   fs::create_directories(folder_ / "mine2/robots");
@@ -438,7 +454,11 @@ TEST_F(Cli, InitWritesARunnableScenarioAndLeavesExistingFiles) {
   EXPECT_EQ(Run("plan mine2/scenario.yaml --set robot=my.xml --out set").status, 0);
   const auto missing = Run("plan mine2/scenario.yaml --set robot=none.xml");
   EXPECT_EQ(missing.status, 2);
-  EXPECT_THAT(missing.err, HasSubstr("no such file: mine2/none.xml"));
+  const std::string here = fs::weakly_canonical(folder_).string();
+  EXPECT_THAT(missing.err, HasSubstr("robot = none.xml: no such file: " + here + "/none.xml, nor " +
+                                     here + "/mine2/none.xml"));
+  EXPECT_THAT(Run("plan mine2/scenario.yaml --set robot=/none.xml").err,
+              HasSubstr("no such file: /none.xml\n"));
 }
 
 // Of a program whose stderr is a terminal. What it writes there, carriage returns and all.

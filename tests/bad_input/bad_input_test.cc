@@ -127,7 +127,7 @@ TEST_F(GoodInputTest, MayHaveNoPlan) {
 }
 
 // A disk that is full, wherever that is met: what was written before stays, no piece of a file is
-// left, and a verdict that was reached was said: with status 3 and what is missing.
+// left, and a verdict that was reached was said, with what is missing; the status is 3.
 using FullDiskTest = BadInputFolder;
 
 TEST_F(FullDiskTest, LeavesWholeFilesOnly) {
@@ -146,12 +146,34 @@ TEST_F(FullDiskTest, LeavesWholeFilesOnly) {
     for (const char* before : {"/files.sha256", "/inputs/", "/scenario.resolved.yaml", "/plan.csv",
                                "/plan.json", "/risk.csv"})
       driven = driven && dut.err.find(before) == std::string::npos;
-    EXPECT_EQ(dut.status, driven ? 3 : 2) << dut.err;
+    EXPECT_EQ(dut.status, 3) << dut.err;
     EXPECT_EQ(dut.err.find("; missing: ") != std::string::npos, driven) << dut.err;
     EXPECT_EQ(dut.out.find("success: covered") != std::string::npos, driven) << dut.out << dut.err;
     some_driven |= driven, some_not |= !driven;
   }
   EXPECT_TRUE(some_driven && some_not) << "the disk was full before the drive, and behind it";
+}
+
+TEST_F(FullDiskTest, IsNoBadInputOfAnyCommand) {
+  const std::vector<std::vector<std::string>> commands = {
+      {"plan", "drawn.yaml", "--out", "o"},
+      {"campaign", "drawn.yaml", "-n", "2", "--jobs", "1", "--set", "gate=none", "--out", "o"},
+      {"scene", "drawn.yaml", "--out", "scene.xml"},
+      {"init", "map.yaml", "--out", "o"},
+      {"validate", "--out", "o"}};
+  for (const std::vector<std::string>& command : commands)
+    for (const std::size_t room : {0, 40}) {
+      fs::remove_all(folder_ / "o");
+      const ChildResult dut = Run(command, {.file_bytes = room});
+      EXPECT_EQ(dut.status, 3) << command[0] << ": " << dut.err;
+      EXPECT_EQ(std::ranges::count(dut.err, '\n'), 1) << dut.err;
+      EXPECT_NE(dut.err.find("cannot be written: "), std::string::npos) << dut.err;
+    }
+  if (!fs::is_character_file("/dev/full")) return;
+  const ChildResult dut = Run({"scene", "drawn.yaml", "--out", "/dev/full"});
+  EXPECT_EQ(dut.status, 3);
+  EXPECT_NE(dut.err.find("/dev/full: cannot be written: No space left on device"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -46,6 +46,13 @@ TEST(Quantity, NoNumberIsWrittenInPowersOfTen) {
     }
 }
 
+TEST(Quantity, OneIsSingular) {
+  EXPECT_EQ(CountText(0, "turn"), "0 turns");
+  EXPECT_EQ(CountText(1, "turn"), "1 turn");
+  EXPECT_EQ(CountText(std::size_t{2}, "turn"), "2 turns");
+  EXPECT_EQ(CountText(1250u, "failing episode"), "1,250 failing episodes");
+}
+
 TEST(Quantity, WhatIsNoNumberIsADash) {
   EXPECT_EQ(NumberText(std::nan("")), "–");
   EXPECT_EQ(PercentText(std::numeric_limits<double>::infinity()), "–");

@@ -77,6 +77,55 @@ TEST(StandAt, TheLaterLevelIsTheFloor) {
   EXPECT_EQ(At(map, 2, 2).floor_m, -0.2);
 }
 
+// A drawing's level is drawn back from its cells: over their rim there is none.
+TEST(StandAt, ALevelIsWhereItIsBuilt) {
+  for (const double height_m : {0.05, -0.15}) {
+    HazardMap map = Room();
+    map.hazards = {Level(Rectangle({1.1, 1.1}, {2.9, 2.9}), height_m)};
+    map.hazards[0].footprint = {Rectangle({1, 1}, {3, 3})};
+    EXPECT_EQ(At(map, 2, 2).floor_m, height_m);
+    EXPECT_EQ(LevelAt(map, {2.95, 2}), 0);
+    EXPECT_NE(At(map, 2, 2.8).why.find("stands across the edge of"), std::string::npos);
+  }
+}
+
+// Whatever floor the groove lies in, and however it and the robot are turned.
+TEST(StandAt, AWheelDoesNotSinkInAGroove) {
+  const auto groove = [](double width_m, double depth_m) {
+    Hazard hazard = Block(HazardClass::kTerrain,
+                          Rectangle({0.5, 2 - width_m / 2}, {3.5, 2 + width_m / 2}), -depth_m, 0);
+    hazard.id = "trench";
+    hazard.solids[0].kind = Solid::Kind::kCut;
+    return hazard;
+  };
+  HazardMap map = Room();
+  for (const double yaw_rad : {0.0, 0.4, 1.5}) {
+    map.hazards = {groove(0.6, 0.05)};
+    EXPECT_EQ(At(map, 2, 2, yaw_rad).obstruction, "trench");
+    EXPECT_NE(At(map, 2, 2, yaw_rad).why.find("0.050 m below its floor"), std::string::npos);
+    EXPECT_EQ(At(map, 2, 2.6, yaw_rad).obstruction, "") << "beside it";
+    map.hazards = {groove(0.6, 0.02)};
+    EXPECT_EQ(At(map, 2, 2, yaw_rad).obstruction, "") << "no deeper than its belly";
+    map.hazards = {groove(0.6, 0.05),
+                   Block(HazardClass::kTerrain, Rectangle({1, 1}, {3, 3}), 0, 0.01)};
+    EXPECT_EQ(At(map, 2, 2, yaw_rad).obstruction, "") << "bridged";
+  }
+  // A wheel that rolls across a narrow one stays on its edges; one that rolls along it sinks.
+  map.hazards = {groove(0.06, 0.05)};
+  EXPECT_EQ(At(map, 2, 2, kPi / 2).obstruction, "");
+  EXPECT_EQ(At(map, 2, 2.15).obstruction, "trench");
+  Hazard platform = Level(Rectangle({1, 1}, {3, 3}), 0.1);
+  platform.solids.push_back(platform.solids[0]);  // as the groove has cut it
+  platform.solids[0].base = Rectangle({1, 1}, {3, 1.97});
+  platform.solids[1].base = Rectangle({1, 2.03}, {3, 3});
+  map.hazards = {platform, groove(0.06, 0.05)};
+  EXPECT_EQ(At(map, 2, 2, kPi / 2).obstruction, "");
+  EXPECT_EQ(At(map, 2, 2, kPi / 2).floor_m, 0.1);
+  EXPECT_EQ(At(map, 2, 2, 0.3).floor_m, 0.1);
+  map.hazards = {Level(Rectangle({1, 1}, {3, 3}), 0.1), groove(0.6, 0.01)};
+  EXPECT_NE(At(map, 2, 2).why.find("0.110 m below its floor"), std::string::npos);
+}
+
 TEST(StandAt, AcrossAnEdgeItDoesNotStand) {
   for (const double height_m : {0.05, -0.05, 0.004}) {
     HazardMap map = Room();

@@ -101,6 +101,8 @@ TEST(Report, VerdictIsOneSentence) {
   r.summary.variants = {Variant("a", 0, 20)};
   r.summary.variants[0].failures[0].upper = 0.168;
   EXPECT_EQ(VerdictText(r), "The robot failed in none of 20 episodes, 95 % interval 0 to 16.8 %.");
+  r.summary.variants = {Variant("a", 0, 1)};
+  EXPECT_THAT(VerdictText(r), ::testing::StartsWith("The robot failed in none of 1 episode, "));
   r.summary.variants = {Variant("a", 5, 20), Variant("b", 2, 20)};
   EXPECT_THAT(VerdictText(r), ::testing::StartsWith("b failed in 2 of 20 episodes (10 %)"));
   r.summary.variants = {Variant("a", 2, 20), Variant("b", 2, 20)};

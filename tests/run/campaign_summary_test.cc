@@ -171,7 +171,21 @@ TEST_F(CampaignSummaryTest, TheGateIsSaidInWords) {
               HasSubstr("undecided (any_failure < 5 % at 95 %): 2 of the first 4"));
   const std::string junit = JunitXml(dut, false, "s");
   EXPECT_THAT(junit, HasSubstr("name=\"any_failure &lt; 5 % at 95 %\""));
-  EXPECT_THAT(junit, HasSubstr("<error message=\"1 episodes ended in error\">episode 5: a wall<"));
+  EXPECT_THAT(junit, HasSubstr("<error message=\"1 episode ended in error\">episode 5: a wall<"));
+}
+
+// Of each number that can be one.
+TEST_F(CampaignSummaryTest, OneEpisodeIsSaidInTheSingular) {
+  CampaignSummary dut = Summary("fixed");
+  VariantSummary& variant = dut.variants[0];
+  variant.n = 1;
+  for (const int errors : {0, 1, 2}) {
+    variant.errors = errors;
+    const std::string junit = JunitXml(dut, false, "s");
+    EXPECT_THAT(junit, HasSubstr("1 episode: ")) << errors;
+    EXPECT_EQ(junit.find("; 1 error, ") != std::string::npos, errors == 1);
+    EXPECT_EQ(junit.find(" 2 errors, ") != std::string::npos, errors == 2);
+  }
 }
 
 // Each value in turn is of another kind, each key not there: one line that names the file.

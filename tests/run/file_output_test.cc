@@ -26,7 +26,7 @@ TEST_F(FileOutput, AFullDiskLeavesNothingThatLooksFinished) {
   const rlimit small = {64 << 10, before.rlim_max};
   const auto handler = signal(SIGXFSZ, SIG_IGN);
   setrlimit(RLIMIT_FSIZE, &small);
-  EXPECT_THROW(WriteFileWhole(folder_ / "a", std::string(1 << 20, 'x')), InputError);
+  EXPECT_THROW(WriteFileWhole(folder_ / "a", std::string(1 << 20, 'x')), DiskError);
   setrlimit(RLIMIT_FSIZE, &before);
   signal(SIGXFSZ, handler);
   EXPECT_TRUE(std::filesystem::is_empty(folder_));

@@ -178,6 +178,71 @@ TEST_F(ScenarioInputs, WhatIsSetIsNotDrawnNorInTheRecord) {
   }
 }
 
+// Wherever a scenario names a file, the path is from its folder; the record's, from its own.
+TEST_F(ScenarioInputs, PathsAreTheScenariosWhereverTheyAreWritten) {
+  for (const char* folder : {"in/floors", "in/maps"}) fs::create_directories(folder_ / folder);
+  const auto map = [](const char* cell_m) {
+    return std::string("image: ../map/map.pgm\nresolution: ") + cell_m +
+           "\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+  };
+  Save("in/maps/wide.yaml", map("0.4"));
+  Save("in/maps/wider.yaml", map("0.5"));
+  Save("in/floors/site.yaml", "site: 1\nmap: ../map/map.yaml\n");
+  const std::string written =
+      "scenario: 1\nsite: floors/site.yaml\nrobot: beluga\nstart: {x_m: 1, y_m: 1}\n"
+      "plan: {file: plan.csv}\ndrive: none\n";
+  const auto widths = [](const ScenarioFile& file) {
+    std::vector<double> cells_m;
+    for (const Variant& variant : file.variants())
+      cells_m.push_back(file.Read(0, variant).site.map.frame.cell_m);
+    return cells_m;
+  };
+  const std::vector<std::pair<std::string, std::vector<double>>> cases = {
+      {"matrix: {site.map: [maps/wide.yaml, maps/wider.yaml]}", {0.4, 0.5}},
+      {"matrix: {floor: [{label: a, site.map: maps/wide.yaml}]}", {0.4}},
+      {"matrix: {site: [{label: a, site: {site: 1, map: maps/wide.yaml}}, floors/site.yaml]}",
+       {0.4, 0.2}},
+      {"matrix: {site: [{label: a, site: floors/site.yaml}]}", {0.2}},
+      {"matrix: {robot: [{label: a, robot: robot/robot.xml}, {label: b, robot.name: beluga}]}",
+       {0.2, 0.2}},
+      {"matrix: {plan: [{label: a, plan: {file: plan.csv}}, {label: b, plan: spiral}]}",
+       {0.2, 0.2}},
+      {"randomise: {site.map: {choice: [maps/wide.yaml]}}", {0.4}},
+      {"randomise: {site: {choice: [{site: 1, map: maps/wider.yaml}]}}", {0.5}},
+      {"randomise: {robot: {choice: [{name: robot/robot.xml}]}}", {0.2}},
+      {"randomise: {plan: {choice: [{file: plan.csv}]}}", {0.2}}};
+  fs::create_directories(folder_ / "far/out");
+  for (const auto& [draws, expected] : cases) {
+    SCOPED_TRACE(draws);
+    Save("in/s.yaml", written + draws + "\n");
+    const ScenarioFile file(folder_ / "in/s.yaml");
+    EXPECT_EQ(widths(file), expected);
+    WriteResolvedScenario(file.Read(std::nullopt), folder_ / "far/out", file.files().All());
+    EXPECT_EQ(widths(ScenarioFile(folder_ / "far/out/scenario.resolved.yaml")), expected);
+  }
+  Save("in/s.yaml", written);
+  const ScenarioFile set(folder_ / "in/s.yaml", {{"site.map", "maps/wide.yaml"}});
+  EXPECT_EQ(widths(set), std::vector<double>{0.4});
+}
+
+// A site's start that is drawn is not the record's for all episodes.
+TEST_F(ScenarioInputs, ADrawnStartOfTheSiteIsDrawnAgain) {
+  fs::create_directories(folder_ / "out");
+  for (const char* draws : {"randomise: {site.start.x_m: {choice: [1.5]}}",
+                            "randomise: {site.start: {choice: [{x_m: 1.5, y_m: 1}]}}",
+                            "matrix: {site.start.x_m: [1.5]}"}) {
+    SCOPED_TRACE(draws);
+    Save("in/s.yaml", std::string("scenario: 1\nsite: {site: 1, map: map/map.yaml, start: {x_m: 1, "
+                                  "y_m: 1}}\nrobot: beluga\ndrive: none\n") +
+                          draws + "\n");
+    const ScenarioFile file(folder_ / "in/s.yaml");
+    ASSERT_EQ(file.Read(0, file.variants().front()).start.x_m, 1.5);
+    WriteResolvedScenario(file.Read(std::nullopt), folder_ / "out", file.files().All());
+    const ScenarioFile again(folder_ / "out/scenario.resolved.yaml");
+    EXPECT_EQ(again.Read(0, again.variants().front()).start.x_m, 1.5);
+  }
+}
+
 // Two robots that only draws name, and two files of one name.
 TEST_F(ScenarioInputs, AnotherDrawnRobotIsAnotherCampaign) {
   for (const char* robot : {"r1", "r2"}) {

@@ -18,6 +18,7 @@ namespace floorproof {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 GateSettings Fixed(double max_rate, int n) { return {GateMode::kFixed, max_rate, 0.95, 1, n}; }
 GateSettings Sequential(double max_rate, int min_n, int max_n) {
@@ -45,6 +46,13 @@ TEST(FixedGate, FiftyNineCleanEpisodesShowLessThanFivePercent) {
   EXPECT_NEAR(report.rate.upper, 1 - std::pow(0.05, 1.0 / 59), 1e-12);
   EXPECT_EQ(report.text,
             "0 of 59 episodes; with 95 % confidence the rate is below 5 % (at most 4.951 %)");
+}
+
+TEST(FixedGate, OneEpisodeIsSaidInTheSingular) {
+  EXPECT_THAT(Judge(Fixed(0.96, 1), Outcomes(1, {0})).text,
+              StartsWith("1 of 1 episode; with 95 % confidence"));
+  EXPECT_EQ(Judge(Sequential(0.05, 1, 400), Outcomes(1, {})).text,
+            "0 of the first 1 episode; goes on to at most 400");
 }
 
 TEST(FixedGate, IsNotDecidedByPeeking) {
