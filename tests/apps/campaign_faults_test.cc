@@ -194,7 +194,7 @@ TEST_F(CampaignFaults, AFullDisk) {
   if (!disk.mounted()) GTEST_SKIP() << "no disk can be mounted here: " << disk.why();
   constexpr int kEpisodes = 80;
   MakeWhole(kEpisodes);
-  ExpectOneLine(Run(Command(kEpisodes)), 2, "cannot be written: ");
+  ExpectOneLine(Run(Command(kEpisodes)), 3, "cannot be written: ");
   const long first = ExpectRowsOfTheWhole();
   EXPECT_LT(first, kEpisodes);
   ExpectOneLine(Run(Command(kEpisodes)), 2, "cannot be written: ");
