@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/quantity.h"
+#include "env/core/levels.h"
 #include "env/geometry/geometry.h"
 
 namespace floorproof {
@@ -33,12 +34,13 @@ double Lasted(const Event& event) {
 }
 
 // The words before it and the hazard, empty where none is to blame; other words for what lies below
-// the floor.
+// this floor.
 std::string Beside(const Event& event, const HazardMap& map, std::string_view up,
-                   std::string_view down) {
+                   std::string_view down, double floor_m = 0) {
   if (event.hazard.empty()) return "";
   const Hazard* hazard = Find(map, event.hazard);
-  const bool below = hazard != nullptr && hazard->height_m < 0;
+  const bool below = hazard != nullptr ? hazard->height_m < floor_m
+                                       : event.hazard == BaseFloorId(map) && floor_m > 0;
   return std::string(below ? down : up) + " " + ObstaclePhrase(map, event.hazard);
 }
 
@@ -93,7 +95,7 @@ std::string RollOverText(const Event& event, const HazardMap& map) {
             ? "fell: a wheel was below the base floor by " + Is(mm, "is allowed")
             : "fell: a wheel was above the base floor by " +
                   Is(ComparedText(1000 * event.value, 1000 * event.threshold, 0, "mm"), "is due");
-    return text + Beside(event, map, ", off", ", into");
+    return text + Beside(event, map, ", off", ", into", std::max(0.0, event.threshold));
   }
   if (event.kind == "tipped") {
     const Compared mm = ComparedText(-1000 * event.value, -1000 * event.threshold, 0, "mm");
@@ -128,6 +130,7 @@ std::string HazardPhrase(const Hazard& hazard) {
 
 std::string ObstaclePhrase(const HazardMap& map, const std::string& id) {
   if (const Hazard* hazard = Find(map, id)) return HazardPhrase(*hazard);
+  if (id == BaseFloorId(map)) return "the base floor";
   return id == "wall" ? "a wall" : "'" + id + "'";
 }
 

@@ -88,15 +88,10 @@ std::vector<Polygon> FreeRectangles(const HazardMap& map) {
   return rectangles;
 }
 
-std::string FreeId(const HazardMap& map, std::string id) {
-  while (std::ranges::find(map.hazards, id, &Hazard::id) != map.hazards.end()) id += "_";
-  return id;
-}
-
 // The base floor as a step or a drop: so high over what is level 0.
 Hazard BaseFloor(const HazardMap& map, double height_m) {
   Hazard base;
-  base.id = FreeId(map, "base_floor");
+  base.id = BaseFloorId(map);
   base.type = "floor";
   base.hazard_class = HazardClass::kLevelChange;
   base.height_m = height_m;
@@ -115,6 +110,12 @@ std::vector<Polygon> BareFloor(const HazardMap& map, std::size_t level_change) {
   std::vector<Polygon> bare;
   for (const Polygon& polygon : map.hazards[level_change].footprint) AddBare(polygon, later, bare);
   return bare;
+}
+
+std::string BaseFloorId(const HazardMap& map) {
+  std::string id = "base_floor";
+  while (std::ranges::find(map.hazards, id, &Hazard::id) != map.hazards.end()) id += "_";
+  return id;
 }
 
 HazardMap SeenFrom(HazardMap map, const RobotSpec& robot, const Pose2& X_WB) {

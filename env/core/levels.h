@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "env/core/hazard_map.h"
@@ -13,6 +14,9 @@ namespace floorproof {
 // Where this level change of the map is the floor: its footprint but for later level changes.
 // Pieces narrower than 0.1 mm are left out.
 std::vector<Polygon> BareFloor(const HazardMap& map, std::size_t level_change);
+
+// What the base floor is called where it is a level change: no hazard of the map.
+std::string BaseFloorId(const HazardMap& map);
 
 // The map as a robot has it that stands at X_WB: heights are over the floor that carries its wheels
 // (StandAt), which is floor as any other then, and no level change. If that is not the base floor,

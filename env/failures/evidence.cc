@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "env/failures/effects.h"
+#include "env/failures/footing.h"
 #include "env/failures/posture.h"
 
 namespace floorproof {
@@ -14,6 +15,12 @@ namespace {
 constexpr double kGravity = 9.81;
 
 double Weight(const RobotSpec& robot) { return robot.mass_kg * kGravity; }
+
+// As a floor pushes, and no edge of it.
+bool IsUpright(const Vec3& force_W_n) {
+  constexpr double kAside = 0.05;
+  return force_W_n.head<2>().norm() <= kAside * force_W_n.z();
+}
 
 }  // namespace
 
@@ -65,12 +72,18 @@ void HazardMemory::Start(const EpisodeContext& context) {
   entries_ = {};
   passive_ = {};
   now_s_ = 0;
+  starts_ = true;
 }
 
 void HazardMemory::Update(const Sample& sample) {
   now_s_ = sample.t_s;
+  if (starts_) floor_m_ = FloorUnder(*map_, *robot_, sample);
+  starts_ = false;
   for (int i = 0; i < sample.num_touches; ++i) {
     const Touch& touch = sample.touches[static_cast<std::size_t>(i)];
+    if (touch.hazard >= 0 && IsUpright(touch.normal.force_W_n) &&
+        IsFloor(map_->hazards[static_cast<std::size_t>(touch.hazard)], floor_m_))
+      continue;
     const double effect = effect_(*robot_, sample, touch);
     if (!(effect > 0)) continue;
     auto entry = std::ranges::find_if(
@@ -85,7 +98,7 @@ void HazardMemory::Update(const Sample& sample) {
   if (sample.near_hazard < 0) return;
   const Hazard& near = map_->hazards[static_cast<std::size_t>(sample.near_hazard)];
   const bool slippery = near.material.friction && *near.material.friction < map_->floor_friction;
-  if (near.height_m < 0 || slippery) passive_ = {sample.near_hazard, 0, now_s_};
+  if (IsGap(near, floor_m_) || slippery) passive_ = {sample.near_hazard, 0, now_s_};
 }
 
 std::string HazardMemory::Recall(double since_s) const {

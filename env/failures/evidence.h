@@ -14,7 +14,9 @@ namespace floorproof {
 
 // Who did it. Things that lie side by side are told apart by what their contacts did to the robot:
 // a mat under a wheel is not the wall that holds it. The effect of each thing fades with kFade_s;
-// the one to blame has the most. A failure is often established seconds after its cause.
+// the one to blame has the most. A failure is often established seconds after its cause. The level
+// on which the robot was set down carries it as the base floor would, and its edge alone has an
+// effect.
 class HazardMemory {
  public:
   // The effect that a touch has in a step, as a share of the robot's weight; not positive: none.
@@ -48,6 +50,8 @@ class HazardMemory {
   const HazardMap* map_ = nullptr;
   const RobotSpec* robot_ = nullptr;
   double timestep_s_ = 0, now_s_ = 0;
+  double floor_m_ = 0;   // on which it was set down
+  bool starts_ = false;  // no sample was seen yet
   std::array<Entry, 2 * Sample::kMaxTouches> entries_;
   Entry passive_;  // what has an effect without a push
 };

@@ -12,17 +12,19 @@
 // upright pendulum's deviation grows by cosh(t sqrt(g / h)), 13 times in half a second at h = 0.2
 // m. A robot that rocks over a bump crosses the border of its support as well. It does so from the
 // far side, coming back to level, or by less than that, until the next wheel touches. One that
-// rests on two points has no polygon, and no deviation beyond noise either. The plan's floor is z =
-// 0, or the lowest level change under the centre or a wheel that is known and low enough to be
-// driven over, or on which the robot was set down. It does not judge how hard a landing was.
+// rests on two points has no polygon, and no deviation beyond noise either. The plan's floor is
+// that on which the robot was set down, or the lowest level under the centre or a wheel that the
+// plan may drive over: known, and low enough or high enough beside that floor. The base floor is a
+// level as others are. It does not judge how hard a landing was.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "env/core/blocks.h"
+#include "env/core/levels.h"
 #include "env/failures/detector.h"
 #include "env/failures/evidence.h"
+#include "env/failures/footing.h"
 #include "env/failures/posture.h"
 
 namespace floorproof {
@@ -76,15 +78,10 @@ class RollOver final : public Detector {
     robot_ = &robot;
     // From the centre of mass to the nearest edge of the wheels' polygon.
     deep_m_ = std::max(kNoise_m, tipped_share_ * robot.p_BCom.z() * std::tan(robot.static_tip_rad));
-    start_ = MoveBlocks(robot.blocks, robot.hinges, StartState(robot));
-    levels_.clear();
-    highest_floor_m_ = 0;
-    for (const Hazard& hazard : context.map.hazards) {
-      if (hazard.hazard_class != HazardClass::kLevelChange) continue;
-      const bool driven = hazard.known && !IsObstacle(hazard, robot.step_m);
-      levels_.push_back({&hazard, driven});
-      if (driven) highest_floor_m_ = std::max(highest_floor_m_, hazard.height_m);
-    }
+    levels_ = {Level{}};
+    for (const Hazard& hazard : context.map.hazards)
+      if (hazard.hazard_class == HazardClass::kLevelChange)
+        levels_.push_back({&hazard, hazard.height_m});
     starts_ = true;
     hazards_.Start(context);
     tilted_.Clear();
@@ -97,7 +94,7 @@ class RollOver final : public Detector {
 
   bool Update(const Sample& sample) override {
     hazards_.Update(sample);
-    if (starts_) AddStartLevels(sample);
+    if (starts_) FindDrivenLevels(sample);
     const double tilt_margin_rad = limit_rad_ - sample.tilt_rad;
     const bool tilted = tilted_.Update(tilt_margin_rad < 0, sample.t_s, tilt_duration_s_);
 
@@ -132,8 +129,14 @@ class RollOver final : public Detector {
 
  private:
   struct Level {
-    const Hazard* hazard;
-    bool driven;  // by the plan: known and low enough, or the start
+    const Hazard* hazard = nullptr;  // none: the base floor
+    double height_m = 0;
+    bool driven = false;  // by the plan: known and near enough to the start's floor, or the start
+    bool Holds(const Vec2& p_W) const {
+      return hazard == nullptr || std::ranges::any_of(hazard->footprint, [&](const Polygon& part) {
+               return Contains(part, p_W);
+             });
+    }
   };
 
   // Outside on the low side, and not on its way back.
@@ -164,34 +167,28 @@ class RollOver final : public Detector {
     return rest_support_m_ > 0 && sample.wheel_contacts > 0 ? ShareOfSupport(best_m) : 1;
   }
 
-  // Where a driven wheel's centre is in the body frame: the block that carries it may have swung.
-  Vec3 WheelCentre(const Sample& sample, const WheelSpec& wheel) const {
-    if (sample.hinges.n == 0) return wheel.p_BW;
-    const auto block = static_cast<std::size_t>(wheel.block);
-    const Vec2 p_K = start_.block[block].X_BK.Inverse() * Vec2(wheel.p_BW.head<2>());
-    const BlockMotions now = MoveBlocks(robot_->blocks, robot_->hinges, sample.hinges);
-    const Vec2 p_B = now.block[block].X_BK * p_K;
-    return {p_B.x(), p_B.y(), wheel.p_BW.z()};
-  }
-
   double FloorAt(const Vec2& p_W) const {
-    double floor_m = 0;
+    double floor_m = start_floor_m_;
     for (const Level& level : levels_)  // in the map's order: later ones win
-      for (const Polygon& polygon : level.hazard->footprint)
-        if (level.driven && Contains(polygon, p_W)) floor_m = level.hazard->height_m;
+      if (level.driven && level.Holds(p_W)) floor_m = level.height_m;
     return floor_m;
   }
 
   // Whoever sets a robot down on a level means it to drive there.
-  void AddStartLevels(const Sample& sample) {
+  void FindDrivenLevels(const Sample& sample) {
     starts_ = false;
-    for (Level& level : levels_) {
-      ForEachFoot(sample, [&](const Vec2& p_W) {
-        for (const Polygon& polygon : level.hazard->footprint)
-          level.driven = level.driven || Contains(polygon, p_W);
-      });
-      if (level.driven) highest_floor_m_ = std::max(highest_floor_m_, level.hazard->height_m);
-    }
+    start_floor_m_ = FloorUnder(*map_, *robot_, sample);
+    for (Level& level : levels_)
+      level.driven = (level.hazard == nullptr || level.hazard->known) &&
+                     std::abs(level.height_m - start_floor_m_) <= robot_->step_m;
+    ForEachFoot(sample, [&](const Vec2& p_W) {
+      std::ranges::find_if(levels_.rbegin(), levels_.rend(), [&](const Level& level) {
+        return level.Holds(p_W);
+      })->driven = true;
+    });
+    highest_floor_m_ = start_floor_m_;
+    for (const Level& level : levels_)
+      if (level.driven) highest_floor_m_ = std::max(highest_floor_m_, level.height_m);
   }
 
   // The robot's centre, and those of its wheels.
@@ -199,7 +196,7 @@ class RollOver final : public Detector {
   void ForEachFoot(const Sample& sample, const Look& look) const {
     look(sample.X_WB().p());
     for (const WheelSpec& wheel : robot_->wheels)
-      look(Vec2(sample.X_WB() * Vec2(WheelCentre(sample, wheel).head<2>())));
+      look(Vec2(sample.X_WB() * Vec2(WheelCentre(*robot_, sample, wheel).head<2>())));
   }
 
   double PlanFloor(const Sample& sample) const {
@@ -208,30 +205,35 @@ class RollOver final : public Detector {
     return lowest_m;
   }
 
-  // The low floor there; of several the last, as the floor is built.
-  const Hazard* DropAt(const Vec2& p_W) const {
-    for (std::size_t h = map_->hazards.size(); h-- > 0;)
-      for (const Polygon& polygon : map_->hazards[h].footprint)
-        if (map_->hazards[h].height_m < 0 && Contains(polygon, p_W)) return &map_->hazards[h];
-    return nullptr;
+  // The id of the gap there: in the floor, or a floor below that of the start. Else "".
+  std::string DropAt(const Vec2& p_W) const {
+    for (std::size_t h = map_->hazards.size(); h-- > 0;) {
+      const Hazard& hazard = map_->hazards[h];
+      for (const Polygon& polygon : hazard.footprint)
+        if (IsGap(hazard, start_floor_m_) && Contains(polygon, p_W)) return hazard.id;
+    }
+    const bool on_base = std::ranges::none_of(
+        levels_, [&](const Level& level) { return level.hazard != nullptr && level.Holds(p_W); });
+    return on_base && start_floor_m_ > 0 ? BaseFloorId(*map_) : "";
   }
 
   // The gap into which the robot has gone: below what has sunk deepest, of its wheels and its
   // outline. A robot in the air touches no hazard.
   std::string DropBelow(const Sample& sample) const {
     const Mat3 R_WB = Attitude(sample);
-    const Hazard* drop = nullptr;
+    std::string drop;
     double deepest_m = kSunk_m;
     const auto look = [&](const Vec3& p_B, double rest_m) {
       const Vec3 p_W = sample.p_WB + R_WB * p_B;
-      if (rest_m - p_W.z() <= deepest_m) return;
-      const Hazard* below = DropAt(p_W.head<2>());
-      if (below == nullptr) return;
-      deepest_m = rest_m - p_W.z();
-      drop = below;
+      const double sunk_m = start_floor_m_ + rest_m - p_W.z();
+      if (sunk_m <= deepest_m) return;
+      std::string below = DropAt(p_W.head<2>());
+      if (below.empty()) return;
+      deepest_m = sunk_m;
+      drop = std::move(below);
     };
     for (const WheelSpec& wheel : robot_->wheels) {
-      const Vec3 p_B = WheelCentre(sample, wheel);
+      const Vec3 p_B = WheelCentre(*robot_, sample, wheel);
       look(p_B, p_B.z());
     }
     constexpr int kAround = 16;
@@ -241,7 +243,7 @@ class RollOver final : public Detector {
       look({r_m * std::cos(bearing_rad), r_m * std::sin(bearing_rad), robot_->clearance_m},
            robot_->clearance_m);
     }
-    return drop == nullptr ? "" : drop->id;
+    return drop;
   }
 
   void Report(const Sample& sample, bool tilted, bool fell, double fall_threshold_m) {
@@ -269,10 +271,10 @@ class RollOver final : public Detector {
 
   const HazardMap* map_ = nullptr;
   const RobotSpec* robot_ = nullptr;
-  double limit_rad_ = 0, highest_floor_m_ = 0;
+  double limit_rad_ = 0;
+  double start_floor_m_ = 0, highest_floor_m_ = 0;
   double deep_m_ = 0, most_lean_rad_ = 0;
-  BlockMotions start_;         // at the start
-  std::vector<Level> levels_;  // all level changes
+  std::vector<Level> levels_;  // the base floor and all level changes
   HazardMemory hazards_{&HazardMemory::Tilts};
   Lasting tilted_, unsupported_;
   double rest_support_m_ = 0;  // the most seen: the support when standing well

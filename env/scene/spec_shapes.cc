@@ -39,6 +39,7 @@ double StaticTip(const CompiledRobot& compiled, const RobotSpec& robot,
   }
   const double d = -SignedDistance(hull, com.head<2>());
   if (d <= 0) compiled.Refuse("base", "the centre of mass lies outside the wheels' support");
+  if (!(com.z() > 0)) compiled.Refuse("base", "the centre of mass must lie above the floor");
   return std::atan2(d, com.z());
 }
 

@@ -125,6 +125,14 @@ TEST(FailureText, RollOverInThreeWays) {
   // From a raised floor.
   EXPECT_EQ(FailureText(Make(FailureMode::kRollOver, "fell", "", 0.02, 0.07), Floor()),
             "fell: a wheel was above the base floor by 20 mm, 70 mm is due");
+  const auto onto = [](const char* hazard, double start_m) {
+    return FailureText(Make(FailureMode::kRollOver, "fell", hazard, start_m - 0.05, start_m - 0.03),
+                       Floor());
+  };
+  EXPECT_THAT(onto("threshold", 0.1), HasSubstr(", into 'threshold' (step, 15 mm)"));
+  EXPECT_THAT(onto("threshold", 0), HasSubstr(", off 'threshold' (step, 15 mm)"));
+  EXPECT_THAT(onto("slot", 0.1), HasSubstr(", into 'slot'"));
+  EXPECT_THAT(onto("base_floor", 0.1), HasSubstr("70 mm is due, into the base floor"));
 }
 
 TEST(FailureText, BounceBackInTwoWays) {

@@ -144,6 +144,113 @@ TEST(RollOver, AKnownLowFloorThatIsDrivenOverIsThePlans) {
   }
 }
 
+// A robot that starts at x < 1 and goes over an edge at x = 1. The base floor is one of the two
+// levels, or none of them.
+//
+//   ____________
+//   start       |__________  lower by drop_m
+//        x < 1     x > 1
+struct Edge {
+  double start_m = 0, drop_m = 0;
+  bool known = false;
+  bool whole_platform = false;  // the level of the start lies below the other one as well
+};
+
+HazardMap TwoLevels(const Edge& edge) {
+  HazardMap map;
+  const auto add = [&map](const char* id, double height_m, const Polygon& where, bool known) {
+    if (height_m == 0) return;
+    Hazard level;
+    level.id = id;
+    level.hazard_class = HazardClass::kLevelChange;
+    level.known = known;
+    level.height_m = height_m;
+    level.footprint = {where};
+    map.hazards.push_back(level);
+  };
+  add("start", edge.start_m, Rectangle({-5, -5}, {edge.whole_platform ? 9.0 : 1.0, 5}), true);
+  add("lower", edge.start_m - edge.drop_m, Rectangle({1, -5}, {9, 5}), edge.known);
+  return map;
+}
+
+std::vector<Event> GoesOver(const Edge& edge) {
+  const HazardMap map = TwoLevels(edge);
+  const RobotSpec robot = TestRobot();
+  const auto dut = MakeDetector("roll_over");
+  dut->Start({map, robot, kStepS});
+  std::vector<Event> events;
+  for (Sample& s : Trace(Drive({{10, {0.2, 0, 0}}}))) {
+    const bool over = s.p_WB.x() > 1;
+    s.p_WB.z() = s.wheel_floor_z_m = edge.start_m - (over ? edge.drop_m : 0);
+    if (dut->Update(s)) events.push_back(dut->event());
+  }
+  return events;
+}
+
+TEST(RollOver, AFallIsTheSameFromWhateverFloorItStarts) {
+  for (const double start_m : {0.0, 0.1, 0.05, 0.2, -0.1, -0.05})
+    for (const bool known : {false, true}) {
+      const double drop_m = 0.1;
+      const auto events = GoesOver({start_m, drop_m, known});
+      const bool to_base = std::abs(start_m - drop_m) < 1e-9;
+      ASSERT_EQ(events.size(), 1u) << "from " << start_m;
+      EXPECT_EQ(events[0].kind, "fell");
+      EXPECT_EQ(events[0].hazard, to_base ? "base_floor" : "lower") << "from " << start_m;
+      EXPECT_NEAR(events[0].threshold, start_m - 0.03, 1e-12);
+      EXPECT_TRUE(GoesOver({start_m, 0.029, known}).empty()) << "from " << start_m;
+      EXPECT_TRUE(GoesOver({start_m, -0.1, known}).empty()) << "up is no fall";
+    }
+  EXPECT_EQ(GoesOver({0.1, 0.08, true, true}).size(), 1u) << "a hole in a platform";
+  EXPECT_EQ(GoesOver({0.1, 0.08, true, true})[0].hazard, "lower");
+}
+
+TEST(RollOver, LevelsNearTheStartsAreThePlansWhereverThatLies) {
+  for (const double start_m : {0.0, 0.1, -0.1})
+    for (const double drop_m : {0.012, -0.012}) {
+      // Beyond the edge, 29 mm deeper than a level that the plan drives over is none.
+      const auto deeper = [&](double by_m) {
+        const HazardMap map = TwoLevels({start_m, drop_m, true});
+        const RobotSpec robot = TestRobot();
+        const auto dut = MakeDetector("roll_over");
+        dut->Start({map, robot, kStepS});
+        bool fell = false;
+        for (Sample& s : Trace(Drive({{10, {0.2, 0, 0}}}))) {
+          s.wheel_floor_z_m = start_m - (s.p_WB.x() > 1 ? drop_m + by_m : 0);
+          fell |= dut->Update(s);
+        }
+        return fell;
+      };
+      EXPECT_FALSE(deeper(0.029)) << start_m << " " << drop_m;
+      EXPECT_TRUE(deeper(0.031)) << start_m << " " << drop_m;
+    }
+}
+
+// It leans forward on its rear wheels: the level that carries them did not tip it, but would have
+// by its edge, or if the robot had not been set down on it.
+TEST(RollOver, ALevelIsToBlameWhereItIsNotTheFloorOfTheStart) {
+  const auto judge = [](double start_x_m, double aside_n) {
+    const HazardMap map = TwoLevels({0.1, 0.1});
+    const RobotSpec robot = TestRobot();
+    const auto dut = MakeDetector("roll_over");
+    dut->Start({map, robot, kStepS});
+    std::string hazard = "?";
+    for (Sample& s : Trace(Drive({{2, {0, 0, 0}}}))) {
+      s.p_WB.x() = start_x_m;
+      s.p_WB.z() = s.wheel_floor_z_m = 0.1;
+      s.tilt_rad = 1.3;
+      s.pitch_rad = 0.7;
+      const Vec3 push_W_n(aside_n, 0, 98);
+      PushedBy(s, 0, push_W_n);
+      s.touches[0].normal.moment_W_nm = Vec3(-0.1, 0, 0).cross(push_W_n);
+      if (dut->Update(s)) hazard = dut->event().hazard;
+    }
+    return hazard;
+  };
+  EXPECT_EQ(judge(0, 0), "");
+  EXPECT_EQ(judge(0, 20), "start");
+  EXPECT_EQ(judge(2, 0), "start") << "it came from the base floor";
+}
+
 TEST(RollOver, OneEventForOneFallAndAnotherForTheNext) {
   Trace trace = Tilted(1.3, 1);
   trace = With(

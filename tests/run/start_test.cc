@@ -102,15 +102,29 @@ TEST_F(StartTest, PlansStayOnTheFloorOfTheStart) {
   }
 }
 
-// The edge of the level that it was set down on is a hazard still: its belly hangs there.
-TEST_F(StartTest, TheEdgeOfARaisedFloorHoldsIt) {
+// The edge of the level that it was set down on is a hazard still: its front wheels fall, and its
+// belly hangs there, as at the edge of a pit.
+TEST_F(StartTest, TheEdgeOfARaisedFloorIsThatOfAPit) {
   Save("plan.csv", "x_m,y_m\n1.5,2.5\n7.5,2.5\n");
-  const EpisodeRecord dut = Drive(Read(RoomScenario(Level(0.15))));
-  ASSERT_EQ(dut.outcome, Outcome::kFailure);
-  EXPECT_EQ(dut.events.front().mode, FailureMode::kStuck);
-  EXPECT_EQ(dut.events.front().kind, "high_centred");
-  EXPECT_EQ(dut.events.front().hazard, "level");
-  EXPECT_NEAR(dut.events.front().x_m, 6.0, 0.2);
+  const std::string pit =
+      "{type: step, id: pit, height_m: -0.15, polygon_m: [[6,0.75],[8.5,0.75],[8.5,4],[6,4]]}";
+  for (const char* robot : {"beluga", "htetro"}) {
+    const auto drive = [&](const std::string& hazards) {
+      return Drive(Read(RoomScenario(hazards, "on_failure: ignore\n"), {{"robot", robot}}));
+    };
+    const EpisodeRecord raised = drive(Level(0.15)), dut = drive(pit);
+    ASSERT_GE(raised.events.size(), 2u) << robot;
+    ASSERT_GE(dut.events.size(), 2u) << robot;
+    for (const bool is_pit : {false, true}) {
+      const std::vector<Event>& events = is_pit ? dut.events : raised.events;
+      EXPECT_EQ(events[0].kind, "fell") << robot;
+      EXPECT_EQ(events[0].hazard, is_pit ? "pit" : "base_floor") << robot;
+      EXPECT_NEAR(events[0].x_m, 6.0, 0.2) << robot;
+      EXPECT_EQ(events[1].kind, "high_centred") << robot;
+      EXPECT_EQ(events[1].hazard, is_pit ? "pit" : "level") << robot;
+    }
+    EXPECT_NEAR(raised.events[0].t_s, dut.events[0].t_s, 0.1) << robot;
+  }
 }
 
 TEST_F(StartTest, WhatItOverlapsIsNamed) {

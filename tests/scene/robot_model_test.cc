@@ -221,6 +221,19 @@ TEST(RobotModel, PartsStayNearWhereverTheirJointsTakeThem) {
               ::testing::Not(HasSubstr(rule)));
 }
 
+TEST(RobotModel, ItsMassLiesAboveTheFloor) {
+  // A weight that touches nothing.
+  const auto with_keel = [](const std::string& name, double z_m) {
+    return RefusalOf(name, BelugaWith("<freejoint name=\"root\"/>",
+                                      "<geom size='.01' mass='20' contype='0' conaffinity='0' "
+                                      "pos='0 0 " +
+                                          std::to_string(z_m) + "'/>"));
+  };
+  EXPECT_EQ(with_keel("low_keel", 0.01), "accepted");
+  EXPECT_THAT(with_keel("deep_keel", -0.5),
+              HasSubstr("base: the centre of mass must lie above the floor"));
+}
+
 // MuJoCo copies until no memory is left; whoever asked for it goes on.
 TEST(RobotModel, WhatMuJoCoDoesNotSurviveIsRefused) {
   const std::string copies = "<replicate count='&#49;000'>";
