@@ -38,8 +38,8 @@ Grid<std::uint8_t> WallMask(const HazardMap& map, const GridFrame& fine) {
   return mask;
 }
 
-// Adds what robots must keep off. Where floors overlap, the later one wins (design: site file). So
-// a level change is removed where a later floor that can be driven covers it.
+// Adds what robots must keep off. A level change is none where a later one that can be driven
+// covers it. Terrain lies on it, and takes nothing away.
 bool AddHazards(const HazardMap& map, double step_m, const GridFrame& fine,
                 Grid<std::uint8_t>& mask) {
   constexpr std::uint8_t kFloor = 2, kSolid = 1;
@@ -49,8 +49,7 @@ bool AddHazards(const HazardMap& map, double step_m, const GridFrame& fine,
     const bool obstacle = IsObstacle(hazard, step_m);
     if (!obstacle && !any) continue;
     any = true;
-    const bool is_floor = hazard.hazard_class == HazardClass::kLevelChange ||
-                          hazard.hazard_class == HazardClass::kTerrain;
+    const bool is_floor = hazard.hazard_class == HazardClass::kLevelChange;
     for (const Polygon& footprint : hazard.footprint) {
       Polygon p_G;
       for (const Vec2& p_W : footprint) p_G.push_back(ToGrid(fine, p_W));

@@ -52,7 +52,7 @@ std::vector<std::size_t> LevelChangesOnTheWay(const HazardMap& map, const Path& 
 
 ClearanceField ClearanceOnTheWay(HazardMap map, const std::vector<std::size_t>& on_the_way,
                                  double step_m) {
-  for (const std::size_t i : on_the_way) map.hazards[i].hazard_class = HazardClass::kTerrain;
+  for (const std::size_t i : on_the_way) map.hazards[i].height_m = 0;
   return ComputeClearance(map, step_m);
 }
 

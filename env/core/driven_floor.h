@@ -16,8 +16,8 @@ namespace floorproof {
 // Steps beside it are not among them, nor are blind objects and glass, which nobody crosses.
 std::vector<std::size_t> LevelChangesOnTheWay(const HazardMap& map, const Path& path);
 
-// Distances to what the driver of a path must keep off: these level changes count as terrain, which
-// is driven over, and lie on what they cover as terrain does.
+// Distances to what the driver of a path must keep off: these level changes count as floor like any
+// other.
 ClearanceField ClearanceOnTheWay(HazardMap map, const std::vector<std::size_t>& on_the_way,
                                  double step_m);
 

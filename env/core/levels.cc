@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Level changes that are cut to their bare floor do not overlap, so it does not matter any more
-// which of them comes later, and terrain before them in the list takes none of them away.
 #include "env/core/levels.h"
 
 #include <algorithm>
@@ -50,12 +48,20 @@ void AddBare(const Polygon& polygon, const std::vector<Polygon>& covers,
     if (!IsThin(part)) bare.push_back(std::move(part));
 }
 
-std::vector<Polygon> LevelsFrom(const HazardMap& map, std::size_t first) {
-  std::vector<Polygon> levels;
-  for (std::size_t i = first; i < map.hazards.size(); ++i)
-    if (const Hazard& hazard = map.hazards[i]; IsLevel(hazard))
-      levels.insert(levels.end(), hazard.footprint.begin(), hazard.footprint.end());
-  return levels;
+bool IsTerrain(const Hazard& hazard) { return hazard.hazard_class == HazardClass::kTerrain; }
+
+// The floors that the hazards from `first` on make: levels, and grooves where they count.
+std::vector<Polygon> FloorsFrom(const HazardMap& map, std::size_t first, bool grooves) {
+  std::vector<Polygon> floors;
+  for (std::size_t i = first; i < map.hazards.size(); ++i) {
+    const Hazard& hazard = map.hazards[i];
+    if (IsLevel(hazard))
+      floors.insert(floors.end(), hazard.footprint.begin(), hazard.footprint.end());
+    else if (grooves && IsTerrain(hazard))
+      for (const Solid& solid : hazard.solids)
+        if (solid.kind == Solid::Kind::kCut) floors.push_back(solid.base);
+  }
+  return floors;
 }
 
 // The cells that are no wall as few rectangles: runs of a row, as long as the rows above repeat
@@ -88,6 +94,15 @@ std::vector<Polygon> FreeRectangles(const HazardMap& map) {
   return rectangles;
 }
 
+// What a level so high is built of: it stands on level 0, or is cut into it.
+Solid LevelSolid(const Polygon& base, double height_m) {
+  return {height_m < 0 ? Solid::Kind::kCut : Solid::Kind::kPrism,
+          base,
+          {},
+          std::min(height_m, 0.0),
+          std::max(height_m, 0.0)};
+}
+
 // The base floor as a step or a drop: so high over what is level 0.
 Hazard BaseFloor(const HazardMap& map, double height_m) {
   Hazard base;
@@ -95,20 +110,20 @@ Hazard BaseFloor(const HazardMap& map, double height_m) {
   base.type = "floor";
   base.hazard_class = HazardClass::kLevelChange;
   base.height_m = height_m;
-  const std::vector<Polygon> levels = LevelsFrom(map, 0);
+  const std::vector<Polygon> levels = FloorsFrom(map, 0, false);
   for (const Polygon& rectangle : FreeRectangles(map)) AddBare(rectangle, levels, base.footprint);
-  const auto kind = height_m < 0 ? Solid::Kind::kCut : Solid::Kind::kPrism;
-  for (const Polygon& part : base.footprint)
-    base.solids.push_back({kind, part, {}, std::min(height_m, 0.0), std::max(height_m, 0.0)});
+  for (const Polygon& part : base.footprint) base.solids.push_back(LevelSolid(part, height_m));
   return base;
 }
 
 }  // namespace
 
-std::vector<Polygon> BareFloor(const HazardMap& map, std::size_t level_change) {
-  const std::vector<Polygon> later = LevelsFrom(map, level_change + 1);
+std::vector<Polygon> BareFloor(const HazardMap& map, std::size_t hazard) {
+  const Hazard& of = map.hazards[hazard];
+  if (!IsLevel(of) && !IsTerrain(of)) return of.footprint;
+  const std::vector<Polygon> later = FloorsFrom(map, hazard + 1, IsTerrain(of));
   std::vector<Polygon> bare;
-  for (const Polygon& polygon : map.hazards[level_change].footprint) AddBare(polygon, later, bare);
+  for (const Polygon& polygon : of.footprint) AddBare(polygon, later, bare);
   return bare;
 }
 
@@ -121,23 +136,29 @@ std::string BaseFloorId(const HazardMap& map) {
 HazardMap SeenFrom(HazardMap map, const RobotSpec& robot, const Pose2& X_WB) {
   const double floor_m = StandAt(map, robot, X_WB).floor_m;
   if (std::abs(floor_m) <= kSameLevel_m) return map;
-  std::vector<Hazard> seen, levels;
+  std::vector<Hazard> seen, others;
+  if (Hazard base = BaseFloor(map, -floor_m); !base.footprint.empty())
+    seen.push_back(std::move(base));
   for (std::size_t i = 0; i < map.hazards.size(); ++i) {
     Hazard hazard = map.hazards[i];
-    for (Solid& solid : hazard.solids) solid.z_low_m -= floor_m, solid.z_high_m -= floor_m;
+    hazard.footprint = BareFloor(map, i);
     if (!IsLevel(hazard)) {
-      seen.push_back(std::move(hazard));
+      for (Solid& solid : hazard.solids) solid.z_low_m -= floor_m, solid.z_high_m -= floor_m;
+      if (!hazard.footprint.empty()) others.push_back(std::move(hazard));
       continue;
     }
     hazard.height_m -= floor_m;
-    if (std::abs(hazard.height_m) <= kSameLevel_m) continue;
-    hazard.footprint = BareFloor(map, i);
-    if (!hazard.footprint.empty()) levels.push_back(std::move(hazard));
+    if (std::abs(hazard.height_m) <= kSameLevel_m || hazard.footprint.empty()) continue;
+    std::vector<Solid>
+        built;  // a pit's bases need not be convex, what rises over a deeper one must
+    for (const Solid& solid : hazard.solids)
+      for (const Polygon& part : ConvexParts({{solid.base, {}}}))
+        built.push_back(LevelSolid(part, hazard.height_m));
+    hazard.solids = std::move(built);
+    seen.push_back(std::move(hazard));
   }
-  Hazard base = BaseFloor(map, -floor_m);
-  if (!base.footprint.empty()) levels.push_back(std::move(base));
-  seen.insert(seen.end(), std::make_move_iterator(levels.begin()),
-              std::make_move_iterator(levels.end()));
+  seen.insert(seen.end(), std::make_move_iterator(others.begin()),
+              std::make_move_iterator(others.end()));
   map.hazards = std::move(seen);
   return map;
 }

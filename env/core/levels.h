@@ -11,9 +11,10 @@
 
 namespace floorproof {
 
-// Where this level change of the map is the floor: its footprint but for later level changes.
-// Pieces narrower than 0.1 mm are left out.
-std::vector<Polygon> BareFloor(const HazardMap& map, std::size_t level_change);
+// Where this hazard of the map, counted from 0, is still there: its footprint, of a level change
+// but for later level changes, and of terrain but for these and later grooves. Pieces narrower than
+// 0.1 mm are left out.
+std::vector<Polygon> BareFloor(const HazardMap& map, std::size_t hazard);
 
 // What the base floor is called where it is a level change: no hazard of the map.
 std::string BaseFloorId(const HazardMap& map);
@@ -21,7 +22,8 @@ std::string BaseFloorId(const HazardMap& map);
 // The map as a robot has it that stands at X_WB: heights are over the floor that carries its wheels
 // (StandAt), which is floor as any other then, and no level change. If that is not the base floor,
 // the base floor is a level change: a hazard of the type `floor`, where no wall and no other level
-// lies. Level changes are cut to their bare floor. From the base floor the map stays as it is.
+// lies. Level changes come first, cut to their bare floor as terrain is: the order among them says
+// nothing any more. From the base floor the map stays as it is.
 HazardMap SeenFrom(HazardMap map, const RobotSpec& robot, const Pose2& X_WB);
 
 }  // namespace floorproof

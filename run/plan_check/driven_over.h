@@ -12,7 +12,7 @@ namespace floorproof {
 
 // A hazard of the site that the robot's outline comes over.
 struct DrivenOver {
-  std::size_t hazard = 0;  // index into the site's hazards
+  std::size_t hazard = 0;  // index into TrueFloor's hazards (run/scenario/floors.h)
   int times = 0;           // that the plan comes to it; again within 0.3 m of its way is once
   double over_m = 0;       // way along the plan above it, to a quarter of a metre
 };

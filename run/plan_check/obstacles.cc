@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/plan_check/obstacles.h"
 
-#include <algorithm>
-
+#include "env/core/levels.h"
 #include "env/scene/walls.h"
 
 namespace floorproof {
@@ -17,11 +16,6 @@ WallBox BoxAround(const Polygon& polygon) {
   return box;
 }
 
-bool IsFloor(const Hazard& hazard) {
-  return hazard.hazard_class == HazardClass::kLevelChange ||
-         hazard.hazard_class == HazardClass::kTerrain;
-}
-
 }  // namespace
 
 Obstacles::Obstacles(const HazardMap& known, const RobotSpec& robot, const Vec2& start_W) {
@@ -29,20 +23,17 @@ Obstacles::Obstacles(const HazardMap& known, const RobotSpec& robot, const Vec2&
     parts_.push_back({Rectangle(box.low_G, box.high_G), kWall});
   for (std::size_t i = 0; i < known.hazards.size(); ++i) {
     ids_.push_back(known.hazards[i].id);
-    if (IsObstacle(known.hazards[i], robot.step_m)) AddHazard(known, i, IsFloor);
+    if (IsObstacle(known.hazards[i], robot.step_m)) AddHazard(known, i);
   }
   FindByPlace();
 }
 
 Obstacles Obstacles::OthersOf(const HazardMap& map, const RobotSpec& robot) {
   Obstacles others;
-  const auto replaces = [](const Hazard& later) {
-    return later.hazard_class == HazardClass::kLevelChange;
-  };
   for (std::size_t i = 0; i < map.hazards.size(); ++i) {
     const Hazard& hazard = map.hazards[i];
     others.ids_.push_back(hazard.id);
-    if (!hazard.known || !IsObstacle(hazard, robot.step_m)) others.AddHazard(map, i, replaces);
+    if (!hazard.known || !IsObstacle(hazard, robot.step_m)) others.AddHazard(map, i);
   }
   others.FindByPlace();
   return others;
@@ -54,19 +45,10 @@ void Obstacles::FindByPlace() {
   boxes_ = WallGrid(std::move(boxes));
 }
 
-template <class Covers>
-void Obstacles::AddHazard(const HazardMap& map, std::size_t index, const Covers& covers) {
-  const Hazard& hazard = map.hazards[index];
-  std::vector<Polygon> later;
-  if (IsFloor(hazard))
-    for (std::size_t k = index + 1; k < map.hazards.size(); ++k)
-      if (covers(map.hazards[k]))
-        later.insert(later.end(), map.hazards[k].footprint.begin(), map.hazards[k].footprint.end());
+void Obstacles::AddHazard(const HazardMap& map, std::size_t index) {
   const Pose2 X_GW = map.frame.X_WG.Inverse();
-  for (const Polygon& footprint : hazard.footprint) {
-    std::vector<Region> left = {{footprint, {}}};
-    if (!later.empty()) left = Difference(left, later);
-    for (Polygon part : ConvexParts(left)) {
+  for (const Polygon& bare : BareFloor(map, index)) {
+    for (Polygon part : ConvexParts({{bare, {}}})) {
       for (Vec2& p : part) p = X_GW * p;
       parts_.push_back({std::move(part), static_cast<int>(index)});
     }

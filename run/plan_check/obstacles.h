@@ -24,11 +24,11 @@ class Obstacles {
   };
 
   // Of what is known of the map: the walls that a robot which starts there can meet, and the
-  // hazards that it must keep off. A level change does not count where a later floor covers it.
+  // hazards that it must keep off, where they are still there (BareFloor).
   Obstacles(const HazardMap& known, const RobotSpec& robot, const Vec2& start_W);
 
-  // Of all other hazards of the map: those that can be driven over, and those that are not known.
-  // A later step, drop or groove takes away what it covers.
+  // Of all other hazards of the map, where they are still there: those that can be driven over, and
+  // those that are not known.
   static Obstacles OthersOf(const HazardMap& map, const RobotSpec& robot);
 
   // The parts whose bounding boxes meet the rectangle [low, high].
@@ -47,9 +47,7 @@ class Obstacles {
 
  private:
   Obstacles() = default;
-  // Less what later hazards of which `covers` holds lie over.
-  template <class Covers>
-  void AddHazard(const HazardMap& map, std::size_t index, const Covers& covers);
+  void AddHazard(const HazardMap& map, std::size_t index);
   void FindByPlace();
 
   std::vector<Part> parts_;

@@ -113,6 +113,11 @@ TEST(ObstacleMask, ALaterFloorTakesALevelChangeBackAndAGlassStays) {
   EXPECT_TRUE(last(15, 5) && last(35, 5) && last(25, 35));
   map.hazards = {ramp, drop, glass};
   EXPECT_TRUE(ObstacleMask(map, 0.01, fine)(25, 5));
+  // What is laid into a pit does not fill it.
+  Hazard mat = ramp;
+  mat.hazard_class = HazardClass::kTerrain;
+  map.hazards = {drop, glass, mat};
+  EXPECT_TRUE(ObstacleMask(map, 0.01, fine)(25, 5));
 }
 
 TEST(ComputeSweepArea, AnOpenFloorsCornersAreOutOfADiscsReach) {

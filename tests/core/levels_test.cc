@@ -141,13 +141,62 @@ TEST(SeenFrom, LaterLevelsHold) {
                  Level("same", {}, {5.5, 2}, {7, 4}, 0.05),
                  Level("near", {}, {7, 2}, {8, 4}, 0.055)};
   const HazardMap dut = From(map, {}, {3, 3});
-  EXPECT_THAT(Ids(dut), ElementsAre("hole", "near", "base_floor"));
+  EXPECT_THAT(Ids(dut), ElementsAre("base_floor", "hole", "near"));
   const ClearanceField field = ComputeClearance(dut, kStep_m);
   EXPECT_EQ(field.At({4.5, 3}), 0) << "the hole";
   EXPECT_EQ(field.At({1.5, 3}), 0) << "the base floor";
   EXPECT_GT(field.At({3, 3}), 0.9);
   EXPECT_GT(field.At({5.75, 3}), 0.7) << "where two of one height overlap";
   EXPECT_GT(field.At({7, 3}), 0.9) << "from one level to one that is hardly higher";
+}
+
+// From a deep floor one that is less deep rises, and a lidar meets its face.
+TEST(SeenFrom, ALessDeepPitIsAStepUp) {
+  for (const Pose2& X : kFrames) {
+    HazardMap map = Room(X);
+    map.hazards = {Level("deep", X, {1, 1}, {5, 5}, -0.5),
+                   Level("shallow", X, {5, 1}, {9, 5}, -0.1)};
+    const HazardMap dut = From(map, X, {3, 3});
+    ASSERT_THAT(Ids(dut), ElementsAre("shallow"));
+    EXPECT_NEAR(dut.hazards[0].height_m, 0.4, 1e-12);
+    double area_m2 = 0;
+    for (const Solid& solid : dut.hazards[0].solids) {
+      EXPECT_EQ(solid.kind, Solid::Kind::kPrism);
+      EXPECT_TRUE(IsConvex(solid.base));
+      EXPECT_EQ(solid.z_low_m, 0);
+      EXPECT_NEAR(solid.z_high_m, 0.4, 1e-12);
+      area_m2 += SignedArea(solid.base);
+    }
+    EXPECT_NEAR(area_m2, 16, 1e-9);
+    const HazardMap down = From(map, X, {7, 3});
+    ASSERT_THAT(Ids(down), ElementsAre("deep"));
+    EXPECT_EQ(down.hazards[0].solids[0].kind, Solid::Kind::kCut);
+    EXPECT_NEAR(down.hazards[0].solids[0].z_low_m, -0.4, 1e-12);
+  }
+}
+
+// Wherever the robot starts, terrain is met where it lies.
+TEST(SeenFrom, TerrainStaysWhereNoLaterFloorTookIt) {
+  HazardMap map = Room();
+  map.hazards = {Level("platform", {}, {1, 1}, {3, 5}, 0.05),
+                 Of(HazardClass::kTerrain, "mat", {}, {4, 2}, {8, 4}, 0.01),
+                 Level("pit", {}, {5, 1}, {6, 5}, -0.3),
+                 Of(HazardClass::kTerrain, "groove", {}, {7, 1}, {7.5, 5}, -0.02)};
+  const auto area_m2 = [](const std::vector<Polygon>& polygons) {
+    double sum_m2 = 0;
+    for (const Polygon& polygon : polygons) sum_m2 += SignedArea(polygon);
+    return sum_m2;
+  };
+  EXPECT_NEAR(area_m2(BareFloor(map, 1)), 2 * (4 - 1 - 0.5), 1e-9);
+  for (const Vec2& start : {Vec2(2, 3), Vec2(4.5, 4.7)}) {
+    const HazardMap dut = From(map, {}, start);
+    for (std::size_t i = 0; i < dut.hazards.size(); ++i) {
+      if (dut.hazards[i].id == "mat")
+        EXPECT_NEAR(area_m2(BareFloor(dut, i)), 2 * (4 - 1 - 0.5), 1e-9);
+      if (dut.hazards[i].id == "pit") EXPECT_NEAR(area_m2(BareFloor(dut, i)), 4, 1e-9);
+    }
+    EXPECT_EQ(Mask(dut)(110, 60), 1) << "the pit, at (5.5, 3)";
+  }
 }
 
 // A cover on the floor below bridges no edge, and one on the robot's own floor is none.
@@ -171,9 +220,10 @@ TEST(SeenFrom, TheBaseFloorIsNoWallAndHasAnIdOfItsOwn) {
                  Of(HazardClass::kTerrain, "base_floor_", {}, {3, 2.5}, {4, 3}, 0.01)};
   map.occupancy(15, 5) = CellState::kOccupied;
   const HazardMap dut = From(map, {}, {2.5, 3});
-  ASSERT_THAT(Ids(dut), ElementsAre("base_floor_", "base_floor__"));
+  // The cover lies below the platform, which is written first, and so on it.
+  ASSERT_THAT(Ids(dut), ElementsAre("base_floor__", "base_floor_"));
   double area_m2 = 0;
-  for (const Polygon& part : dut.hazards[1].footprint) {
+  for (const Polygon& part : dut.hazards[0].footprint) {
     EXPECT_TRUE(IsConvex(part));
     area_m2 += SignedArea(part);
   }

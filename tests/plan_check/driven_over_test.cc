@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "run/plan_check/plan_check.h"
+#include "run/scenario/floors.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {
@@ -75,7 +76,7 @@ TEST_F(DrivenOverTest, WhatIsNotKnownIsSaidWhateverItIs) {
   EXPECT_THAT(Find(Room(post + ", known: false}", "3.5,2.5\n")), IsEmpty()) << "stops before it";
 }
 
-// A pit through a cover takes the cover away there.
+// A pit through a cover takes the cover away there, and so does a wide groove.
 TEST_F(DrivenOverTest, WhatALaterFloorTookAwayIsNotMet) {
   const std::string sill =
       "{type: step, id: sill, polygon_m: [[3, 1.5], [5, 1.5], [5, 3.5], [3, 3.5]], height_m: "
@@ -84,12 +85,32 @@ TEST_F(DrivenOverTest, WhatALaterFloorTookAwayIsNotMet) {
     const Scenario scenario = Room(hazards, "5.5,2.5\n");
     std::vector<std::string> found;
     for (const DrivenOver& driven : Find(scenario))
-      found.push_back(scenario.site.map.hazards[driven.hazard].id);
+      found.push_back(TrueFloor(scenario).hazards[driven.hazard].id);
     return found;
   };
   using ::testing::UnorderedElementsAre;
+  const std::string groove =
+      "{type: groove, id: groove, line_m: [[4, 0.5], [4, 4.5]], width_m: 1, depth_m: 0.002}";
+  EXPECT_THAT(ids(std::string(kCover) + "}, " + groove), UnorderedElementsAre("groove"));
+  EXPECT_THAT(ids(groove + ", " + kCover + "}"), UnorderedElementsAre("groove", "cover"));
   EXPECT_THAT(ids(std::string(kCover) + "}, " + sill), UnorderedElementsAre("sill"));
   EXPECT_THAT(ids(sill + ", " + kCover + "}"), UnorderedElementsAre("sill", "cover"));
+}
+
+// Whatever floor it starts on.
+TEST_F(DrivenOverTest, FromARaisedFloorTheSameIsMet) {
+  const std::string cover = std::string(kCover) + ", known: false}";
+  for (const char* platform :
+       {"",
+        "{type: step, id: low, polygon_m: [[0.5, 0.5], [3, 0.5], [3, 4.5], [0.5, 4.5]], "
+        "height_m: 0.005}, "}) {
+    const Scenario scenario = Room(platform + cover, "5.5,2.5\n");
+    const auto dut = Find(scenario);
+    const HazardMap floor = TrueFloor(scenario);
+    ASSERT_FALSE(dut.empty());
+    EXPECT_EQ(floor.hazards[dut.front().hazard].id, "cover") << platform;
+    EXPECT_EQ(dut.front().times, 1);
+  }
 }
 
 TEST_F(DrivenOverTest, LinesAndJsonSayWhatThePlannerIsNotToldOf) {

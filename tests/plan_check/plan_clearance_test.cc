@@ -213,6 +213,18 @@ TEST_F(PlanClearanceTest, AStepOnTheWayIsCrossedAndNoObstacle) {
     }
 }
 
+// A mat over a pit lies in it.
+TEST_F(PlanClearanceTest, APitIsCrossedWhateverLiesInIt) {
+  const std::string
+      pit = Sill({4, 2.5, 0}, -0.5),
+      mat = "{type: rough, id: mat, polygon_m: [[3.5, 0.5], [4.5, 0.5], [4.5, 4.5], [3.5, 4.5]]}";
+  for (const std::string& hazards : {pit, pit + ", " + mat, mat + ", " + pit}) {
+    const PlanClearance dut = Check(Room(hazards, "6,2.5\n"));
+    ASSERT_THAT(dut.crossings, SizeIs(1)) << hazards;
+    EXPECT_EQ(dut.crossings.front().height_m, -0.5);
+  }
+}
+
 TEST_F(PlanClearanceTest, AStepThatIsCrossedOftenIsSaidOnce) {
   const PlanClearance dut =
       Check(Room(Sill({4, 2.5, 0}, 0.015), "6,2.5\n6,2.0\n1.5,2.0\n1.5,3\n6,3\n"));
