@@ -191,9 +191,11 @@ TEST(SeenFrom, TerrainStaysWhereNoLaterFloorTookIt) {
   for (const Vec2& start : {Vec2(2, 3), Vec2(4.5, 4.7)}) {
     const HazardMap dut = From(map, {}, start);
     for (std::size_t i = 0; i < dut.hazards.size(); ++i) {
-      if (dut.hazards[i].id == "mat")
+      if (dut.hazards[i].id == "mat") {
         EXPECT_NEAR(area_m2(BareFloor(dut, i)), 2 * (4 - 1 - 0.5), 1e-9);
-      if (dut.hazards[i].id == "pit") EXPECT_NEAR(area_m2(BareFloor(dut, i)), 4, 1e-9);
+      } else if (dut.hazards[i].id == "pit") {
+        EXPECT_NEAR(area_m2(BareFloor(dut, i)), 4, 1e-9);
+      }
     }
     EXPECT_EQ(Mask(dut)(110, 60), 1) << "the pit, at (5.5, 3)";
   }
