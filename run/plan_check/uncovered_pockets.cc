@@ -47,15 +47,32 @@ Mask Connected(const Mask& free, const Mask& from) {
   return out;
 }
 
-// The cells that this obstacle of the map touches.
-Mask CellsOf(const Hazard& hazard, const GridFrame& frame) {
-  Mask cells(frame.width, frame.height);
+// The cells that an obstacle of the map touches, in a grid of its own: a floor may have thousands
+// of obstacles, and each is small beside it.
+struct Touched {
+  Cell low;  // of the map's grid, where this one begins
+  Mask cells;
+};
+Touched CellsOf(const Hazard& hazard, const GridFrame& frame) {
+  std::vector<Polygon> polygons;
+  const Vec2 size(frame.width, frame.height);
+  Vec2 low = size, high = Vec2::Zero();  // in cells
   for (const Polygon& footprint : hazard.footprint) {
-    Polygon p_G;
-    for (const Vec2& p_W : footprint) p_G.push_back(frame.X_WG.Inverse() * p_W / frame.cell_m);
-    Rasterise(p_G, frame.width, frame.height, [&](int ix, int iy) { cells(ix, iy) = 1; });
+    Polygon& p_G = polygons.emplace_back();
+    for (const Vec2& p_W : footprint) {
+      p_G.push_back(frame.X_WG.Inverse() * p_W / frame.cell_m);
+      low = low.cwiseMin(p_G.back());
+      high = high.cwiseMax(p_G.back());
+    }
   }
-  return cells;
+  const Eigen::Vector2i first = low.cwiseMax(0.0).cast<int>();
+  const Eigen::Vector2i end = high.cwiseMin(size - Vec2::Ones()).cast<int>().array() + 1;
+  if ((first.array() >= end.array()).any()) return {};
+  Touched touched{{first.x(), first.y()}, Mask(end.x() - first.x(), end.y() - first.y())};
+  for (const Polygon& p_G : polygons)
+    Rasterise(p_G, frame.width, frame.height,
+              [&](int ix, int iy) { touched.cells(ix - touched.low.ix, iy - touched.low.iy) = 1; });
+  return touched;
 }
 
 // Per cell, the narrowest place of the widest way to it from where the robot can be, as a clearance
@@ -246,20 +263,22 @@ class Finder {
     for (const Hazard& hazard : known_.hazards) {
       if (hazard.hazard_class != HazardClass::kLevelChange || !IsObstacle(hazard, step_m_))
         continue;
-      Mask cells = CellsOf(hazard, area_.frame);
-      for (std::size_t i = 0; i < cells.cells.size(); ++i)
-        cells.cells[i] = cells.cells[i] && !free_.cells[i];
+      auto [low, cells] = CellsOf(hazard, area_.frame);
+      for (int iy = 0; iy < cells.height; ++iy)
+        for (int ix = 0; ix < cells.width; ++ix)
+          if (free_(low.ix + ix, low.iy + iy)) cells(ix, iy) = 0;
       std::int64_t thin = 0;
       for (const Patch& patch : Patches(cells, least_half_, thin)) {
         const double cell_m = area_.frame.cell_m;
         if (static_cast<double>(patch.cells) < least_cells_) continue;
-        out_.pockets.push_back({Why::kKeptOff,
-                                static_cast<double>(patch.cells) * cell_m * cell_m,
-                                area_.frame.Center(patch.widest),
-                                2 * static_cast<double>(patch.half_width) * cell_m,
-                                {},
-                                Vec2::Zero(),
-                                hazard.id});
+        out_.pockets.push_back(
+            {Why::kKeptOff,
+             static_cast<double>(patch.cells) * cell_m * cell_m,
+             area_.frame.Center(low.ix + patch.widest.ix, low.iy + patch.widest.iy),
+             2 * static_cast<double>(patch.half_width) * cell_m,
+             {},
+             Vec2::Zero(),
+             hazard.id});
       }
     }
   }

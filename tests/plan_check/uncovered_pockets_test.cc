@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "run/plan_check/plan_budget.h"
 #include "run/scenario/floors.h"
 #include "tests/run/scenario_text.h"
@@ -102,6 +104,63 @@ TEST_F(UncoveredTest, TheFloorIsThatOfTheStart) {
     EXPECT_EQ(dut.pockets[1].hazard, "base_floor");
     EXPECT_NEAR(dut.pockets[1].area_m2, 8 * 4 - 5.25 * 3.25, 0.5);
   }
+}
+
+// Up and down by turns, each turned by some degrees more; they lie across one another, and those at
+// the rims reach into the walls and beyond the map.
+std::string Shingle(int i) {
+  const double x_m = 3.2 + 0.6 * (i % 10), y_m = 0.2 + 0.75 * (i / 10), turn = 0.13 * i;
+  std::string corners;
+  for (int k = 0; k < 4; ++k) {
+    const double at = turn + k * kPi / 2;
+    corners += (k > 0 ? ", [" : "[") + std::to_string(x_m + 0.5 * std::cos(at)) + ", " +
+               std::to_string(y_m + 0.5 * std::sin(at)) + "]";
+  }
+  return "{type: step, id: shingle" + std::to_string(i) +
+         ", height_m: " + (i % 2 ? "0.05" : "-0.05") + ", polygon_m: [" + corners + "]}";
+}
+
+std::vector<UncoveredPocket> LevelsOf(const UncoveredFloor& floor, const std::string& id) {
+  std::vector<UncoveredPocket> levels;
+  for (const UncoveredPocket& pocket : floor.pockets)
+    if (pocket.why == Why::kKeptOff && pocket.hazard == id) levels.push_back(pocket);
+  return levels;
+}
+
+TEST_F(UncoveredTest, EachOfManyLevelsThatOverlapIsThePocketThatItIsAlone) {
+  constexpr int kShingles = 70;
+  Save("plan.csv", "x_m,y_m\n1.5,2.5\n2.2,2.5\n");
+  std::string all;
+  for (int i = 0; i < kShingles; ++i) all += (i > 0 ? ", " : "") + Shingle(i);
+  const Scenario scenario = Read(RoomScenario(all));
+  const UncoveredFloor dut = Find(scenario);
+  for (int i = 0; i < kShingles; ++i) {
+    const std::string id = "shingle" + std::to_string(i);
+    const std::vector<UncoveredPocket> level = LevelsOf(dut, id);
+    ASSERT_THAT(level, SizeIs(1)) << id;
+    const Polygon& polygon = scenario.site.map.hazards[static_cast<std::size_t>(i)].footprint[0];
+    EXPECT_LT(SignedDistance(polygon, level[0].p_W), 0) << id;
+    if (i % 8 != 0) continue;
+    const std::vector<UncoveredPocket> alone = LevelsOf(Find(Read(RoomScenario(Shingle(i)))), id);
+    ASSERT_THAT(alone, SizeIs(1)) << id;
+    EXPECT_EQ(level[0].area_m2, alone[0].area_m2) << id;
+    EXPECT_EQ(level[0].width_m, alone[0].width_m) << id;
+    EXPECT_EQ(level[0].p_W, alone[0].p_W) << id;
+  }
+}
+
+TEST_F(UncoveredTest, ALevelBesideTheMapIsNoPocket) {
+  Save("plan.csv", "x_m,y_m\n1.5,2.5\n2.2,2.5\n");
+  for (const Vec2& side : {Vec2(1, 0), Vec2(-1, 0), Vec2(0, 1), Vec2(0, -1)})
+    for (const double away_m : {6.0, 9e5}) {
+      const Vec2 at = Vec2(4.5, 2.5) + away_m * side;
+      const std::string level = "{type: step, id: level, height_m: 0.05, polygon_m: [[" +
+                                std::to_string(at.x()) + ", " + std::to_string(at.y()) + "], [" +
+                                std::to_string(at.x() + 1) + ", " + std::to_string(at.y()) +
+                                "], [" + std::to_string(at.x()) + ", " +
+                                std::to_string(at.y() + 1) + "]]}";
+      EXPECT_THAT(LevelsOf(Find(Read(RoomScenario(level))), "level"), IsEmpty()) << level;
+    }
 }
 
 TEST_F(UncoveredTest, WhatAUsersPlanLeavesIsNotVisited) {
