@@ -166,6 +166,11 @@ HazardMap TwoLevels(const Edge& edge) {
     level.known = known;
     level.height_m = height_m;
     level.footprint = {where};
+    level.solids = {{height_m < 0 ? Solid::Kind::kCut : Solid::Kind::kPrism,
+                     where,
+                     {},
+                     std::min(height_m, 0.0),
+                     std::max(height_m, 0.0)}};
     map.hazards.push_back(level);
   };
   add("start", edge.start_m, Rectangle({-5, -5}, {edge.whole_platform ? 9.0 : 1.0, 5}), true);
