@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "env/geometry/box.h"
+
 namespace floorproof {
 namespace {
 
@@ -86,10 +88,7 @@ double ToolWidth(const RobotSpec& robot, int shape) {
   if (shape < 0) return 0;
   if (shape == robot.shape || robot.tool.kind != Shape2::Kind::kFootprint)
     return robot.tool_width_m;
-  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
-  for (const Vec2& p : robot.shapes[static_cast<std::size_t>(shape)].footprint_B)
-    low = low.cwiseMin(p), high = high.cwiseMax(p);
-  return (high - low).minCoeff();
+  return BoxAround(robot.shapes[static_cast<std::size_t>(shape)].footprint_B).Size().minCoeff();
 }
 
 int FindShape(const RobotSpec& robot, std::string_view name) {

@@ -6,15 +6,14 @@
 #include <limits>
 
 #include "env/core/plan_passes.h"
+#include "env/geometry/box.h"
 
 namespace floorproof {
 namespace {
 
 double Extent(const Shape2& tool) {
   if (tool.kind == Shape2::Kind::kCircle) return 2 * tool.radius_m;
-  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
-  for (const Vec2& p : tool.footprint_B) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  return (high - low).maxCoeff();
+  return BoxAround(tool.footprint_B).Size().maxCoeff();
 }
 
 double Reach(const Shape2& tool) {

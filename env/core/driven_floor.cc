@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "env/core/levels.h"
+#include "env/geometry/box.h"
 
 namespace floorproof {
 namespace {
@@ -28,8 +29,7 @@ bool Meets(const Polygon& footprint, const Vec2& a, const Vec2& b) {
 
 bool Meets(const std::vector<Polygon>& floor, const Path& path) {
   return std::ranges::any_of(floor, [&](const Polygon& polygon) {
-    Vec2 low = polygon[0], high = low;
-    for (const Vec2& p : polygon) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    const auto [low, high] = BoxAround(polygon);
     for (std::size_t i = 0; i < path.size(); ++i) {
       const Vec2 &a = path[i > 0 ? i - 1 : 0].p_W, &b = path[i].p_W;
       const bool near = (a.cwiseMin(b).array() <= high.array()).all() &&

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "env/core/standing.h"
+#include "env/geometry/box.h"
 
 namespace floorproof {
 namespace {
@@ -15,16 +16,6 @@ constexpr double kSameLevel_m = 1e-6;
 constexpr double kThinnest_m = 1e-4;  // of a piece of floor: borders that are one, but for rounding
 
 bool IsLevel(const Hazard& hazard) { return hazard.hazard_class == HazardClass::kLevelChange; }
-
-struct Box {
-  Vec2 low, high;
-  explicit Box(const Polygon& polygon) : low(polygon[0]), high(polygon[0]) {
-    for (const Vec2& p : polygon) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  }
-  bool Meets(const Box& other) const {
-    return (low.array() < other.high.array()).all() && (other.low.array() < high.array()).all();
-  }
-};
 
 bool IsThin(const Polygon& polygon) {
   double around_m = 0;
@@ -36,10 +27,10 @@ bool IsThin(const Polygon& polygon) {
 // Adds what of the polygon these leave: the whole of it, or convex parts.
 void AddBare(const Polygon& polygon, const std::vector<Polygon>& covers,
              std::vector<Polygon>& bare) {
-  const Box box(polygon);
+  const Box2 box = BoxAround(polygon);
   std::vector<Polygon> meeting;
   std::ranges::copy_if(covers, std::back_inserter(meeting),
-                       [&](const Polygon& cover) { return box.Meets(Box(cover)); });
+                       [&](const Polygon& cover) { return Overlap(box, BoxAround(cover)); });
   if (meeting.empty()) {
     bare.push_back(polygon);
     return;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "env/geometry/box.h"
 #include "env/geometry/rasterise.h"
 
 namespace floorproof {
@@ -15,16 +16,7 @@ constexpr double kSameLevel_m = 1e-6;
 constexpr double kLeast_m2 = 1e-8;  // of an overlap
 
 bool Overlap(const Polygon& a, const Polygon& b) {
-  const auto box = [](const Polygon& polygon) {
-    Vec2 low = polygon[0], high = low;
-    for (const Vec2& p : polygon) low = low.cwiseMin(p), high = high.cwiseMax(p);
-    return std::pair(low, high);
-  };
-  const auto [low_a, high_a] = box(a);
-  const auto [low_b, high_b] = box(b);
-  if (!(low_a.array() < high_b.array()).all() || !(low_b.array() < high_a.array()).all())
-    return false;
-  return Area(Intersection({{a, {}}}, {b})) > kLeast_m2;
+  return Overlap(BoxAround(a), BoxAround(b)) && Area(Intersection({{a, {}}}, {b})) > kLeast_m2;
 }
 
 // The ground plan of the wheel's cylinder up to this height over its lowest line.

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "env/geometry/box.h"
 #include "env/hazards/hazard_type.h"
 
 namespace floorproof {
@@ -49,8 +50,7 @@ class Rough : public HazardType {
 
  private:
   std::vector<Solid> Bumps(const Polygon& place) const {
-    Vec2 low = place[0], high = place[0];
-    for (const Vec2& p : place) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    const auto [low, high] = BoxAround(place);
     const double bumps = std::abs(SignedArea(place)) / (wavelength_m_ * wavelength_m_);
     // The second bound keeps the search below short in a polygon that is mostly empty box.
     if (bumps > kMaxBumps || (high - low).prod() / (wavelength_m_ * wavelength_m_) > 1e6)

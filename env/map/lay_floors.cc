@@ -13,6 +13,7 @@
 #include <limits>
 #include <span>
 
+#include "env/geometry/box.h"
 #include "env/geometry/convex.h"
 
 namespace floorproof {
@@ -21,22 +22,12 @@ namespace {
 constexpr double kThinnest_m = 1e-4;  // of a piece
 constexpr double kTouch_m = 1e-6;     // mean width of an overlap that is none
 
-struct Box {
-  Vec2 low, high;
-  explicit Box(const Polygon& polygon) : low(polygon[0]), high(polygon[0]) {
-    for (const Vec2& p : polygon) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  }
-  bool Meets(const Box& other) const {
-    return (low.array() < other.high.array()).all() && (other.low.array() < high.array()).all();
-  }
-};
-
 // Those of the polygons that the base may overlap.
 std::vector<Polygon> Meeting(const Polygon& base, const std::vector<Polygon>& covers) {
-  const Box box(base);
+  const Box2 box = BoxAround(base);
   std::vector<Polygon> meeting;
   for (const Polygon& cover : covers)
-    if (box.Meets(Box(cover))) meeting.push_back(cover);
+    if (Overlap(box, BoxAround(cover))) meeting.push_back(cover);
   return meeting;
 }
 

@@ -71,7 +71,7 @@ class SceneBuilder {
   }
 
   void Walls(const Vec2& start_W, WallSet set) {
-    const std::vector<WallBox> boxes = WallBoxes(map_, robot_, start_W);
+    const std::vector<Box2> boxes = WallBoxes(map_, robot_, start_W);
     if (set == WallSet::kNear) pool = MakeWallPool(boxes, map_.frame.X_WG, spec_, assets_);
     const std::size_t num = pool.num > 0 ? static_cast<std::size_t>(pool.num) : boxes.size();
     for (std::size_t i = 0; i < num; ++i) {

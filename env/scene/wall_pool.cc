@@ -6,6 +6,7 @@
 #include "env/scene/engine.h"
 #include "env/scene/mecanum_wheel.h"
 #include "env/scene/robot_reach.h"
+#include "env/scene/walls.h"
 
 namespace floorproof {
 namespace {
@@ -14,7 +15,7 @@ constexpr std::size_t kFew = 128;  // boxes, at some 10 ns a step each
 
 }  // namespace
 
-WallPool MakeWallPool(const std::vector<WallBox>& boxes, const Pose2& X_WG, const mjSpec* spec,
+WallPool MakeWallPool(const std::vector<Box2>& boxes, const Pose2& X_WG, const mjSpec* spec,
                       const mjVFS* assets) {
   if (boxes.size() <= kFew) return {};
   const SpecPtr copy(mj_copySpec(spec));
@@ -22,20 +23,20 @@ WallPool MakeWallPool(const std::vector<WallBox>& boxes, const Pose2& X_WG, cons
   InflateWheelBounds(model.get());
   const int base = mj_name2id(model.get(), mjOBJ_BODY, "base");
   if (!NearnessIsKnown(model.get(), base)) return {};
-  WallPool pool{WallGrid(boxes), X_WG, -1, 0};
+  WallPool pool{BoxGrid(boxes), X_WG, -1, 0};
   const int most = pool.grid.MostNear(ComputeReach(model.get(), base).surface_m + kSlack_m);
   if (static_cast<std::size_t>(most) >= boxes.size()) return {};
   pool.num = std::max(most, 1);
   return pool;
 }
 
-void PlaceWall(const WallBox& box, const Pose2& X_WG, mjtNum* pos, mjtNum* size) {
-  const Vec2 p_W = X_WG * Vec2((box.low_G + box.high_G) / 2);
+void PlaceWall(const Box2& box, const Pose2& X_WG, mjtNum* pos, mjtNum* size) {
+  const Vec2 p_W = X_WG * Vec2((box.low + box.high) / 2);
   pos[0] = p_W.x();
   pos[1] = p_W.y();
   pos[2] = kWallHeight_m / 2;
-  size[0] = (box.high_G.x() - box.low_G.x()) / 2;
-  size[1] = (box.high_G.y() - box.low_G.y()) / 2;
+  size[0] = box.Size().x() / 2;
+  size[1] = box.Size().y() / 2;
   size[2] = kWallHeight_m / 2;
 }
 

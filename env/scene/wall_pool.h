@@ -6,7 +6,7 @@
 
 #include <mujoco/mujoco.h>
 
-#include "env/map/wall_grid.h"
+#include "env/geometry/box_grid.h"
 
 namespace floorproof {
 
@@ -15,18 +15,18 @@ namespace floorproof {
 constexpr double kSlack_m = 0.10, kTrigger_m = 0.08;
 
 struct WallPool {
-  WallGrid grid;  // all walls of the map
+  BoxGrid grid;  // all walls of the map, in its grid frame
   Pose2 X_WG;
   int first_geom = -1, num = 0;  // the pool's geoms in the model, one after the other
 };
 
 // Empty (num 0) where the walls are few or all of them may be near at once. `robot` is compiled in
 // a copy, to learn its reach; `assets`: the robot's files.
-WallPool MakeWallPool(const std::vector<WallBox>& boxes, const Pose2& X_WG, const mjSpec* robot,
+WallPool MakeWallPool(const std::vector<Box2>& boxes, const Pose2& X_WG, const mjSpec* robot,
                       const mjVFS* assets);
 
 // MuJoCo's position and half sizes of a box; its yaw is the frame's.
-void PlaceWall(const WallBox& box, const Pose2& X_WG, mjtNum* pos, mjtNum* size);
+void PlaceWall(const Box2& box, const Pose2& X_WG, mjtNum* pos, mjtNum* size);
 // Of one that stands for no wall: deep below any floor.
 void ParkWall(mjtNum* pos, mjtNum* size);
 

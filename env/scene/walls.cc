@@ -94,13 +94,13 @@ std::vector<CellRect> MaximalRectangles(const Grid<std::uint8_t>& set) {
   return rects;
 }
 
-std::vector<WallBox> WallBoxes(const HazardMap& map, const RobotSpec& robot, const Vec2& start_W) {
+std::vector<Box2> WallBoxes(const HazardMap& map, const RobotSpec& robot, const Vec2& start_W) {
   const Grid<std::uint8_t> in_sight = WallsInSight(map, robot, start_W);
   const double cell = map.frame.cell_m;
-  std::vector<WallBox> boxes;
+  std::vector<Box2> boxes;
   for (const CellRect& r : MaximalRectangles(in_sight)) {
     const int x0 = r.ix - 1, y0 = r.iy - 1, x1 = x0 + r.width, y1 = y0 + r.height;  // map cells
-    WallBox box{Vec2(x0, y0) * cell, Vec2(x1, y1) * cell};
+    Box2 box{Vec2(x0, y0) * cell, Vec2(x1, y1) * cell};
     if (map.inset_m > 0) {
       // A face is drawn back when any cell before it is free.
       const auto free_column = [&](int x) {
@@ -113,10 +113,10 @@ std::vector<WallBox> WallBoxes(const HazardMap& map, const RobotSpec& robot, con
           if (!map.IsWall(x, y)) return true;
         return false;
       };
-      if (free_column(x0 - 1)) box.low_G.x() += map.inset_m;
-      if (free_column(x1)) box.high_G.x() -= map.inset_m;
-      if (free_row(y0 - 1)) box.low_G.y() += map.inset_m;
-      if (free_row(y1)) box.high_G.y() -= map.inset_m;
+      if (free_column(x0 - 1)) box.low.x() += map.inset_m;
+      if (free_column(x1)) box.high.x() -= map.inset_m;
+      if (free_row(y0 - 1)) box.low.y() += map.inset_m;
+      if (free_row(y1)) box.high.y() -= map.inset_m;
     }
     boxes.push_back(box);
   }

@@ -6,9 +6,11 @@
 
 #include "env/core/hazard_map.h"
 #include "env/core/robot_spec.h"
-#include "env/map/wall_grid.h"
+#include "env/geometry/box.h"
 
 namespace floorproof {
+
+constexpr double kWallHeight_m = 0.45;  // of the boxes, from the base floor up
 
 // 1 on the free cells (not IsWall) of the map that are connected with the start's cell by their
 // sides. If the start's cell is not free, 1 on all free cells.
@@ -18,8 +20,8 @@ Grid<std::uint8_t> FloorAround(const HazardMap& map, const Vec2& start_W);
 // walls that a robot that starts there can see or touch are included: those within reach of the
 // FloorAround the start, where reach is its circumscribed circle and 0.3 m more, so that walls on a
 // picture have some thickness. (A lidar sees into gaps that the robot does not fit into.) Faces
-// towards free cells are drawn back by map.inset_m.
-std::vector<WallBox> WallBoxes(const HazardMap& map, const RobotSpec& robot, const Vec2& start_W);
+// towards free cells are drawn back by map.inset_m. In the map's grid frame G, m.
+std::vector<Box2> WallBoxes(const HazardMap& map, const RobotSpec& robot, const Vec2& start_W);
 
 // Greedy cover of the set cells by rectangles that do not overlap: {ix, iy, width, height}.
 struct CellRect {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "env/map/wall_grid.h"
+#include "env/scene/walls.h"
 
 namespace floorproof {
 namespace {

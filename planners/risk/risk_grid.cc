@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "env/core/coverage.h"
+#include "env/geometry/box.h"
 #include "env/geometry/rasterise.h"
 
 namespace floorproof {
@@ -77,8 +78,7 @@ void AddHazard(HazardClass hazard_class, const FmeaTables& tables, RiskCell& cel
 
 double LeastCellWidth(const RobotSpec& robot) {
   if (robot.clear.kind == Shape2::Kind::kCircle) return 2 * robot.clear.radius_m;
-  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
-  for (const Vec2& p : robot.clear.footprint_B) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const auto [low, high] = BoxAround(robot.clear.footprint_B);
   return 2 * std::max({high.x(), high.y(), -low.x(), -low.y()});
 }
 

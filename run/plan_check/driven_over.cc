@@ -5,6 +5,7 @@
 #include <set>
 #include <tuple>
 
+#include "env/geometry/box.h"
 #include "env/geometry/convex.h"
 #include "run/plan_check/obstacles.h"
 #include "run/plan_check/plan_sweep.h"
@@ -25,8 +26,7 @@ class Meeting {
     std::set<int> hazards;
     for (Polygon part : piece.parts_W) {
       for (Vec2& p : part) p = X_GW_ * p;
-      Vec2 low = part.front(), high = low;
-      for (const Vec2& p : part) low = low.cwiseMin(p), high = high.cwiseMax(p);
+      const auto [low, high] = BoxAround(part);
       others_.Near(low, high, [&](const Obstacles::Part& other) {
         if (!hazards.contains(other.hazard) &&
             Separate(part, other.polygon_G).distance_m < -Obstacles::kTouch_m)

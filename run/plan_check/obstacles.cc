@@ -5,22 +5,10 @@
 #include "env/scene/walls.h"
 
 namespace floorproof {
-namespace {
-
-WallBox BoxAround(const Polygon& polygon) {
-  WallBox box{polygon.front(), polygon.front()};
-  for (const Vec2& p : polygon) {
-    box.low_G = box.low_G.cwiseMin(p);
-    box.high_G = box.high_G.cwiseMax(p);
-  }
-  return box;
-}
-
-}  // namespace
 
 Obstacles::Obstacles(const HazardMap& known, const RobotSpec& robot, const Vec2& start_W) {
-  for (const WallBox& box : WallBoxes(known, robot, start_W))
-    parts_.push_back({Rectangle(box.low_G, box.high_G), kWall});
+  for (const Box2& box : WallBoxes(known, robot, start_W))
+    parts_.push_back({Rectangle(box.low, box.high), kWall});
   for (std::size_t i = 0; i < known.hazards.size(); ++i) {
     ids_.push_back(known.hazards[i].id);
     if (IsObstacle(known.hazards[i], robot.step_m)) AddHazard(known, i);
@@ -40,9 +28,9 @@ Obstacles Obstacles::OthersOf(const HazardMap& map, const RobotSpec& robot) {
 }
 
 void Obstacles::FindByPlace() {
-  std::vector<WallBox> boxes;
+  std::vector<Box2> boxes;
   for (const Part& part : parts_) boxes.push_back(BoxAround(part.polygon_G));
-  boxes_ = WallGrid(std::move(boxes));
+  boxes_ = BoxGrid(std::move(boxes));
 }
 
 void Obstacles::AddHazard(const HazardMap& map, std::size_t index) {

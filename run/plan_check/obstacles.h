@@ -9,7 +9,7 @@
 
 #include "env/core/hazard_map.h"
 #include "env/core/robot_spec.h"
-#include "env/map/wall_grid.h"
+#include "env/geometry/box_grid.h"
 
 namespace floorproof {
 
@@ -52,7 +52,7 @@ class Obstacles {
 
   std::vector<Part> parts_;
   std::vector<std::string> ids_;
-  WallGrid boxes_;  // around each part
+  BoxGrid boxes_;  // around each part
   std::vector<int> found_;
 };
 

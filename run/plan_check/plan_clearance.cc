@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "env/core/driven_floor.h"
+#include "env/geometry/box.h"
 #include "env/geometry/convex.h"
 #include "run/plan_check/obstacles.h"
 #include "run/plan_check/plan_sweep.h"
@@ -94,8 +95,7 @@ class Check {
   void Look(const SweptPiece& piece, const Polygon& part_W) {
     Polygon part_G = part_W;
     for (Vec2& p : part_G) p = X_GW_ * p;
-    Vec2 low = part_G.front(), high = low;
-    for (const Vec2& p : part_G) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    const auto [low, high] = BoxAround(part_G);
     const double reach_m = std::max(0.0, out_.least_m);
     const Vec2 reach(reach_m, reach_m);
     found_.clear();

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "env/core/plan_passes.h"
+#include "env/geometry/box.h"
 #include "env/geometry/distance.h"
 #include "env/geometry/rasterise.h"
 #include "run/scenario/floors.h"
@@ -298,9 +299,7 @@ class Finder {
 
 double LeastPassage(const Shape2& clear) {
   if (clear.kind == Shape2::Kind::kCircle) return 2 * clear.radius_m;
-  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
-  for (const Vec2& p : clear.footprint_B) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  return (high - low).minCoeff();
+  return BoxAround(clear.footprint_B).Size().minCoeff();
 }
 
 UncoveredFloor FindUncovered(const Scenario& s, const PlanResult& plan, const SweepArea& area) {

@@ -27,9 +27,9 @@ RobotSpec Disc(double radius_m) {
   return robot;
 }
 
-bool Covered(const std::vector<WallBox>& boxes, const Vec2& p) {
+bool Covered(const std::vector<Box2>& boxes, const Vec2& p) {
   for (const auto& b : boxes)
-    if (p.x() > b.low_G.x() && p.x() < b.high_G.x() && p.y() > b.low_G.y() && p.y() < b.high_G.y())
+    if (p.x() > b.low.x() && p.x() < b.high.x() && p.y() > b.low.y() && p.y() < b.high.y())
       return true;
   return false;
 }

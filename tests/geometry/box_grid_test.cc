@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "env/map/wall_grid.h"
+#include "env/geometry/box_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -14,9 +14,9 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 // Boxes of a few centimetres to 8 m, some of which touch.
-std::vector<WallBox> RandomBoxes(int n) {
+std::vector<Box2> RandomBoxes(int n) {
   Stream draw(2, 0, "boxes");
-  std::vector<WallBox> boxes;
+  std::vector<Box2> boxes;
   for (int i = 0; i < n; ++i) {
     const double step = 0.25;
     const Vec2 low(step * std::floor(draw.Uniform(-80, 80)),
@@ -27,8 +27,8 @@ std::vector<WallBox> RandomBoxes(int n) {
   return boxes;
 }
 
-TEST(WallGrid, FindsWhatMeetsARectangleInOrderAndOnce) {
-  const WallGrid dut(RandomBoxes(500));
+TEST(BoxGrid, FindsWhatMeetsARectangleInOrderAndOnce) {
+  const BoxGrid dut(RandomBoxes(500));
   Stream draw(2, 0, "rectangles");
   std::vector<int> found, expected;
   for (int k = 0; k < 300; ++k) {
@@ -36,9 +36,9 @@ TEST(WallGrid, FindsWhatMeetsARectangleInOrderAndOnce) {
     const Vec2 high = low + Vec2(draw.Uniform(0, 4), draw.Uniform(0, 4));
     expected.clear();
     for (int i = 0; i < 500; ++i) {
-      const WallBox& box = dut.boxes()[static_cast<std::size_t>(i)];
-      if (box.low_G.x() <= high.x() && box.high_G.x() >= low.x() && box.low_G.y() <= high.y() &&
-          box.high_G.y() >= low.y())
+      const Box2& box = dut.boxes()[static_cast<std::size_t>(i)];
+      if (box.low.x() <= high.x() && box.high.x() >= low.x() && box.low.y() <= high.y() &&
+          box.high.y() >= low.y())
         expected.push_back(i);
     }
     dut.Near(low, high, found);
@@ -46,8 +46,8 @@ TEST(WallGrid, FindsWhatMeetsARectangleInOrderAndOnce) {
   }
 }
 
-TEST(WallGrid, NoSquareMeetsMoreThanIsSaid) {
-  const WallGrid dut(RandomBoxes(500));
+TEST(BoxGrid, NoSquareMeetsMoreThanIsSaid) {
+  const BoxGrid dut(RandomBoxes(500));
   Stream draw(2, 0, "squares");
   const double half_m = 0.8;
   const auto most = static_cast<std::size_t>(dut.MostNear(half_m));
@@ -63,8 +63,8 @@ TEST(WallGrid, NoSquareMeetsMoreThanIsSaid) {
 }
 
 // Against the plain way: all boxes, each by its faces.
-TEST(WallGrid, ARayMeetsTheFirstBoxOnItsWay) {
-  const WallGrid dut(RandomBoxes(500));
+TEST(BoxGrid, ARayMeetsTheFirstBoxOnItsWay) {
+  const BoxGrid dut(RandomBoxes(500));
   Stream draw(2, 0, "rays");
   int met = 0;
   for (int k = 0; k < 3000; ++k) {
@@ -72,12 +72,11 @@ TEST(WallGrid, ARayMeetsTheFirstBoxOnItsWay) {
     const double yaw = k % 8 == 0 ? kPi / 2 * (k % 32) / 8 : draw.Uniform(-kPi, kPi);
     const Vec2 d(std::cos(yaw), std::sin(yaw));
     double expected = kNone;
-    for (const WallBox& box : dut.boxes())
+    for (const Box2& box : dut.boxes())
       for (int axis = 0; axis < 2; ++axis)
-        for (const double face : {box.low_G[axis], box.high_G[axis]}) {
+        for (const double face : {box.low[axis], box.high[axis]}) {
           const double t = (face - p[axis]) / d[axis], across = p[1 - axis] + t * d[1 - axis];
-          if (t >= 0 && t < expected && across >= box.low_G[1 - axis] &&
-              across <= box.high_G[1 - axis])
+          if (t >= 0 && t < expected && across >= box.low[1 - axis] && across <= box.high[1 - axis])
             expected = t;
         }
     const double range = dut.Cast(p, d, 12);
@@ -91,8 +90,8 @@ TEST(WallGrid, ARayMeetsTheFirstBoxOnItsWay) {
   EXPECT_GT(met, 1000);
 }
 
-TEST(WallGrid, WithoutBoxesThereIsNothingToMeet) {
-  const WallGrid dut;
+TEST(BoxGrid, WithoutBoxesThereIsNothingToMeet) {
+  const BoxGrid dut;
   std::vector<int> found = {1};
   dut.Near({0, 0}, {1, 1}, found);
   EXPECT_TRUE(found.empty());
