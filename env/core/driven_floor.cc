@@ -43,9 +43,10 @@ bool Meets(const std::vector<Polygon>& floor, const Path& path) {
 }  // namespace
 
 std::vector<std::size_t> LevelChangesOnTheWay(const HazardMap& map, const Path& path) {
+  const std::vector<std::vector<Polygon>> bare = BareFloors(map);
   std::vector<std::size_t> met;
   for (std::size_t i = 0; i < map.hazards.size(); ++i)
-    if (map.hazards[i].hazard_class == HazardClass::kLevelChange && Meets(BareFloor(map, i), path))
+    if (map.hazards[i].hazard_class == HazardClass::kLevelChange && Meets(bare[i], path))
       met.push_back(i);
   return met;
 }

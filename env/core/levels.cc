@@ -6,8 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include "env/core/made_floors.h"
 #include "env/core/standing.h"
-#include "env/geometry/box.h"
 
 namespace floorproof {
 namespace {
@@ -24,35 +24,35 @@ bool IsThin(const Polygon& polygon) {
   return std::abs(SignedArea(polygon)) < kThinnest_m * around_m / 2;
 }
 
-// Adds what of the polygon these leave: the whole of it, or convex parts.
-void AddBare(const Polygon& polygon, const std::vector<Polygon>& covers,
+bool IsTerrain(const Hazard& hazard) { return hazard.hazard_class == HazardClass::kTerrain; }
+
+MadeFloors FloorsOf(const HazardMap& map) {
+  std::vector<MadeFloor> floors;
+  for (std::size_t i = 0; i < map.hazards.size(); ++i) {
+    const Hazard& hazard = map.hazards[i];
+    if (IsLevel(hazard)) {
+      for (const Polygon& polygon : hazard.footprint) floors.push_back({polygon, i, true});
+    } else if (IsTerrain(hazard)) {
+      for (const Solid& solid : hazard.solids)
+        if (solid.kind == Solid::Kind::kCut) floors.push_back({solid.base, i, false});
+    }
+  }
+  return MadeFloors(std::move(floors));
+}
+
+// Adds what of the polygon the floors leave that the hazards from `first` on make, grooves where
+// they count: the whole of it, or convex parts.
+void AddBare(const Polygon& polygon, MadeFloors& floors, std::size_t first, bool grooves,
              std::vector<Polygon>& bare) {
-  const Box2 box = BoxAround(polygon);
-  std::vector<Polygon> meeting;
-  std::ranges::copy_if(covers, std::back_inserter(meeting),
-                       [&](const Polygon& cover) { return Overlap(box, BoxAround(cover)); });
-  if (meeting.empty()) {
+  std::vector<Polygon> later;
+  for (const MadeFloor* floor : floors.Near(polygon))
+    if (floor->hazard >= first && (floor->level || grooves)) later.push_back(floor->polygon);
+  if (later.empty()) {
     bare.push_back(polygon);
     return;
   }
-  for (Polygon& part : ConvexParts(Difference({{polygon, {}}}, meeting)))
+  for (Polygon& part : ConvexParts(Difference({{polygon, {}}}, later)))
     if (!IsThin(part)) bare.push_back(std::move(part));
-}
-
-bool IsTerrain(const Hazard& hazard) { return hazard.hazard_class == HazardClass::kTerrain; }
-
-// The floors that the hazards from `first` on make: levels, and grooves where they count.
-std::vector<Polygon> FloorsFrom(const HazardMap& map, std::size_t first, bool grooves) {
-  std::vector<Polygon> floors;
-  for (std::size_t i = first; i < map.hazards.size(); ++i) {
-    const Hazard& hazard = map.hazards[i];
-    if (IsLevel(hazard))
-      floors.insert(floors.end(), hazard.footprint.begin(), hazard.footprint.end());
-    else if (grooves && IsTerrain(hazard))
-      for (const Solid& solid : hazard.solids)
-        if (solid.kind == Solid::Kind::kCut) floors.push_back(solid.base);
-  }
-  return floors;
 }
 
 // The cells that are no wall as few rectangles: runs of a row, as long as the rows above repeat
@@ -95,26 +95,33 @@ Solid LevelSolid(const Polygon& base, double height_m) {
 }
 
 // The base floor as a step or a drop: so high over what is level 0.
-Hazard BaseFloor(const HazardMap& map, double height_m) {
+Hazard BaseFloor(const HazardMap& map, MadeFloors& floors, double height_m) {
   Hazard base;
   base.id = BaseFloorId(map);
   base.type = "floor";
   base.hazard_class = HazardClass::kLevelChange;
   base.height_m = height_m;
-  const std::vector<Polygon> levels = FloorsFrom(map, 0, false);
-  for (const Polygon& rectangle : FreeRectangles(map)) AddBare(rectangle, levels, base.footprint);
+  for (const Polygon& rectangle : FreeRectangles(map))
+    AddBare(rectangle, floors, 0, false, base.footprint);
   for (const Polygon& part : base.footprint) base.solids.push_back(LevelSolid(part, height_m));
   return base;
 }
 
+std::vector<Polygon> BareFloor(const HazardMap& map, MadeFloors& floors, std::size_t i) {
+  const Hazard& hazard = map.hazards[i];
+  if (!IsLevel(hazard) && !IsTerrain(hazard)) return hazard.footprint;
+  std::vector<Polygon> bare;
+  for (const Polygon& polygon : hazard.footprint)
+    AddBare(polygon, floors, i + 1, IsTerrain(hazard), bare);
+  return bare;
+}
+
 }  // namespace
 
-std::vector<Polygon> BareFloor(const HazardMap& map, std::size_t hazard) {
-  const Hazard& of = map.hazards[hazard];
-  if (!IsLevel(of) && !IsTerrain(of)) return of.footprint;
-  const std::vector<Polygon> later = FloorsFrom(map, hazard + 1, IsTerrain(of));
-  std::vector<Polygon> bare;
-  for (const Polygon& polygon : of.footprint) AddBare(polygon, later, bare);
+std::vector<std::vector<Polygon>> BareFloors(const HazardMap& map) {
+  MadeFloors floors = FloorsOf(map);
+  std::vector<std::vector<Polygon>> bare;
+  for (std::size_t i = 0; i < map.hazards.size(); ++i) bare.push_back(BareFloor(map, floors, i));
   return bare;
 }
 
@@ -127,12 +134,13 @@ std::string BaseFloorId(const HazardMap& map) {
 HazardMap SeenFrom(HazardMap map, const RobotSpec& robot, const Pose2& X_WB) {
   const double floor_m = StandAt(map, robot, X_WB).floor_m;
   if (std::abs(floor_m) <= kSameLevel_m) return map;
+  MadeFloors floors = FloorsOf(map);
   std::vector<Hazard> seen, others;
-  if (Hazard base = BaseFloor(map, -floor_m); !base.footprint.empty())
+  if (Hazard base = BaseFloor(map, floors, -floor_m); !base.footprint.empty())
     seen.push_back(std::move(base));
   for (std::size_t i = 0; i < map.hazards.size(); ++i) {
     Hazard hazard = map.hazards[i];
-    hazard.footprint = BareFloor(map, i);
+    hazard.footprint = BareFloor(map, floors, i);
     if (!IsLevel(hazard)) {
       for (Solid& solid : hazard.solids) solid.z_low_m -= floor_m, solid.z_high_m -= floor_m;
       if (!hazard.footprint.empty()) others.push_back(std::move(hazard));

@@ -11,10 +11,10 @@
 
 namespace floorproof {
 
-// Where this hazard of the map, counted from 0, is still there: its footprint, of a level change
-// but for later level changes, and of terrain but for these and later grooves. Pieces narrower than
-// 0.1 mm are left out.
-std::vector<Polygon> BareFloor(const HazardMap& map, std::size_t hazard);
+// Where each hazard of the map is still there: its footprint, of a level change but for later level
+// changes, and of terrain but for these and later grooves. Pieces narrower than 0.1 mm are left
+// out.
+std::vector<std::vector<Polygon>> BareFloors(const HazardMap& map);
 
 // What the base floor is called where it is a level change: no hazard of the map.
 std::string BaseFloorId(const HazardMap& map);

@@ -10,10 +10,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <map>
 #include <span>
+#include <utility>
 
-#include "env/geometry/box.h"
+#include "env/core/made_floors.h"
 #include "env/geometry/convex.h"
 
 namespace floorproof {
@@ -22,23 +25,18 @@ namespace {
 constexpr double kThinnest_m = 1e-4;  // of a piece
 constexpr double kTouch_m = 1e-6;     // mean width of an overlap that is none
 
-// Those of the polygons that the base may overlap.
-std::vector<Polygon> Meeting(const Polygon& base, const std::vector<Polygon>& covers) {
-  const Box2 box = BoxAround(base);
-  std::vector<Polygon> meeting;
-  for (const Polygon& cover : covers)
-    if (Overlap(box, BoxAround(cover))) meeting.push_back(cover);
-  return meeting;
-}
-
-// The floor that a hazard makes: where it is built, which on a drawing is not its whole cells.
-std::vector<Polygon> FloorOf(const Hazard& hazard) {
-  const bool level = hazard.hazard_class == HazardClass::kLevelChange;
-  const bool terrain = hazard.hazard_class == HazardClass::kTerrain;
-  std::vector<Polygon> floor;
-  for (const Solid& solid : hazard.solids)
-    if (level || (terrain && solid.kind == Solid::Kind::kCut)) floor.push_back(solid.base);
-  return floor;
+// The floors that the hazards make: where they are built, which on a drawing is not their whole
+// cells.
+MadeFloors FloorsOf(std::span<const Hazard> hazards) {
+  std::vector<MadeFloor> floors;
+  for (std::size_t i = 0; i < hazards.size(); ++i) {
+    const bool level = hazards[i].hazard_class == HazardClass::kLevelChange;
+    const bool terrain = hazards[i].hazard_class == HazardClass::kTerrain;
+    for (const Solid& solid : hazards[i].solids)
+      if (level || (terrain && solid.kind == Solid::Kind::kCut))
+        floors.push_back({solid.base, i, level});
+  }
+  return MadeFloors(std::move(floors));
 }
 
 struct Split {
@@ -71,14 +69,26 @@ struct Ground {
   double floor_m = 0;
 };
 
-// The ground plan, divided among the last of these level changes that hold it and the base floor.
-std::vector<Ground> Grounds(std::span<const Hazard> before, const Polygon& base) {
+using LevelsBelow = std::map<std::size_t, std::vector<Polygon>, std::greater<>>;  // by hazard
+
+// Those of the floors that are level changes before hazard i.
+LevelsBelow Below(std::size_t i, std::span<const MadeFloor* const> floors) {
+  LevelsBelow levels;
+  for (const MadeFloor* floor : floors)
+    if (floor->level && floor->hazard < i) levels[floor->hazard].push_back(floor->polygon);
+  return levels;
+}
+
+// The ground plan, divided among the last of the levels that hold it and the base floor.
+std::vector<Ground> Grounds(std::span<const Hazard> hazards, const LevelsBelow& levels,
+                            const Polygon& base) {
   std::vector<Ground> grounds;
   std::vector<Region> rest = {{base, {}}};
-  for (std::size_t j = before.size(); j-- > 0 && !rest.empty();) {
-    if (before[j].hazard_class != HazardClass::kLevelChange) continue;
-    Split split = SplitBy(rest, Meeting(base, FloorOf(before[j])));
-    if (!split.within.empty()) grounds.push_back({std::move(split.within), before[j].height_m});
+  for (const auto& [hazard, polygons] : levels) {
+    if (rest.empty()) break;
+    Split split = SplitBy(rest, polygons);
+    if (!split.within.empty())
+      grounds.push_back({std::move(split.within), hazards[hazard].height_m});
     rest = std::move(split.beyond);
   }
   if (!rest.empty()) grounds.push_back({std::move(rest), 0});
@@ -182,34 +192,41 @@ void AddOn(Solid solid, const Ground& ground, std::vector<Solid>& out) {
   }
 }
 
+// Adds what the floors leave of hazard i's solid, each part on its own ground; whether there are
+// several.
+bool LaySolid(const Solid& solid, std::span<const Hazard> hazards, std::size_t i,
+              MadeFloors& floors, std::vector<Solid>& laid) {
+  const bool lies =
+      hazards[i].hazard_class == HazardClass::kTerrain && solid.kind == Solid::Kind::kPrism;
+  const std::vector<const MadeFloor*>& near = floors.Near(solid.base);
+  const LevelsBelow below = lies ? Below(i, near) : LevelsBelow();
+  std::vector<Polygon> replaced;
+  for (const MadeFloor* floor : near)
+    if (floor->hazard > i) replaced.push_back(floor->polygon);
+  const std::vector<Ground> grounds = Grounds(hazards, below, solid.base);
+  for (const Ground& ground : grounds)
+    AddOn(solid, {SplitBy(ground.regions, replaced).beyond, ground.floor_m}, laid);
+  return grounds.size() > 1;
+}
+
 }  // namespace
 
 void LayFloors(std::vector<Hazard>& hazards, std::vector<std::string>& warnings) {
-  std::vector<Polygon> later;       // the floors of those behind this one in the list
+  MadeFloors floors = FloorsOf(hazards);
   std::vector<std::string> across;  // from the last to the first
   for (std::size_t i = hazards.size(); i-- > 0;) {
     Hazard& hazard = hazards[i];
-    const bool terrain = hazard.hazard_class == HazardClass::kTerrain;
-    if (!terrain && hazard.hazard_class != HazardClass::kLevelChange) continue;
-    const std::vector<Polygon> floor = FloorOf(hazard);
+    if (hazard.hazard_class != HazardClass::kTerrain &&
+        hazard.hazard_class != HazardClass::kLevelChange)
+      continue;
     bool on_several = false;
     std::vector<Solid> laid;
-    for (const Solid& solid : hazard.solids) {
-      const bool lies = terrain && solid.kind == Solid::Kind::kPrism;
-      const std::size_t floors_below = lies ? i : 0;
-      std::vector<Ground> grounds = Grounds(std::span(hazards).first(floors_below), solid.base);
-      on_several |= grounds.size() > 1;
-      const std::vector<Polygon> replaced = Meeting(solid.base, later);
-      for (Ground& ground : grounds) {
-        ground.regions = SplitBy(ground.regions, replaced).beyond;
-        AddOn(solid, ground, laid);
-      }
-    }
+    for (const Solid& solid : hazard.solids)
+      on_several |= LaySolid(solid, hazards, i, floors, laid);
     hazard.solids = std::move(laid);
     if (on_several)
       across.push_back(hazard.id +
                        " lies across the edge of a level change: each part lies on its own floor");
-    later.insert(later.end(), floor.begin(), floor.end());
   }
   warnings.insert(warnings.end(), across.rbegin(), across.rend());
 }

@@ -9,20 +9,15 @@ namespace floorproof {
 Obstacles::Obstacles(const HazardMap& known, const RobotSpec& robot, const Vec2& start_W) {
   for (const Box2& box : WallBoxes(known, robot, start_W))
     parts_.push_back({Rectangle(box.low, box.high), kWall});
-  for (std::size_t i = 0; i < known.hazards.size(); ++i) {
-    ids_.push_back(known.hazards[i].id);
-    if (IsObstacle(known.hazards[i], robot.step_m)) AddHazard(known, i);
-  }
+  AddHazards(known, [&](const Hazard& hazard) { return IsObstacle(hazard, robot.step_m); });
   FindByPlace();
 }
 
 Obstacles Obstacles::OthersOf(const HazardMap& map, const RobotSpec& robot) {
   Obstacles others;
-  for (std::size_t i = 0; i < map.hazards.size(); ++i) {
-    const Hazard& hazard = map.hazards[i];
-    others.ids_.push_back(hazard.id);
-    if (!hazard.known || !IsObstacle(hazard, robot.step_m)) others.AddHazard(map, i);
-  }
+  others.AddHazards(map, [&](const Hazard& hazard) {
+    return !hazard.known || !IsObstacle(hazard, robot.step_m);
+  });
   others.FindByPlace();
   return others;
 }
@@ -33,13 +28,17 @@ void Obstacles::FindByPlace() {
   boxes_ = BoxGrid(std::move(boxes));
 }
 
-void Obstacles::AddHazard(const HazardMap& map, std::size_t index) {
+void Obstacles::AddHazards(const HazardMap& map, const std::function<bool(const Hazard&)>& counts) {
   const Pose2 X_GW = map.frame.X_WG.Inverse();
-  for (const Polygon& bare : BareFloor(map, index)) {
-    for (Polygon part : ConvexParts({{bare, {}}})) {
-      for (Vec2& p : part) p = X_GW * p;
-      parts_.push_back({std::move(part), static_cast<int>(index)});
-    }
+  const std::vector<std::vector<Polygon>> floors = BareFloors(map);
+  for (std::size_t i = 0; i < map.hazards.size(); ++i) {
+    ids_.push_back(map.hazards[i].id);
+    if (!counts(map.hazards[i])) continue;
+    for (const Polygon& bare : floors[i])
+      for (Polygon part : ConvexParts({{bare, {}}})) {
+        for (Vec2& p : part) p = X_GW * p;
+        parts_.push_back({std::move(part), static_cast<int>(i)});
+      }
   }
 }
 

@@ -3,6 +3,7 @@
 // place.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,7 +25,7 @@ class Obstacles {
   };
 
   // Of what is known of the map: the walls that a robot which starts there can meet, and the
-  // hazards that it must keep off, where they are still there (BareFloor).
+  // hazards that it must keep off, where they are still there (BareFloors).
   Obstacles(const HazardMap& known, const RobotSpec& robot, const Vec2& start_W);
 
   // Of all other hazards of the map, where they are still there: those that can be driven over, and
@@ -47,7 +48,7 @@ class Obstacles {
 
  private:
   Obstacles() = default;
-  void AddHazard(const HazardMap& map, std::size_t index);
+  void AddHazards(const HazardMap& map, const std::function<bool(const Hazard&)>& counts);
   void FindByPlace();
 
   std::vector<Part> parts_;

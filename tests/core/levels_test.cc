@@ -187,14 +187,14 @@ TEST(SeenFrom, TerrainStaysWhereNoLaterFloorTookIt) {
     for (const Polygon& polygon : polygons) sum_m2 += SignedArea(polygon);
     return sum_m2;
   };
-  EXPECT_NEAR(area_m2(BareFloor(map, 1)), 2 * (4 - 1 - 0.5), 1e-9);
+  EXPECT_NEAR(area_m2(BareFloors(map)[1]), 2 * (4 - 1 - 0.5), 1e-9);
   for (const Vec2& start : {Vec2(2, 3), Vec2(4.5, 4.7)}) {
     const HazardMap dut = From(map, {}, start);
     for (std::size_t i = 0; i < dut.hazards.size(); ++i) {
       if (dut.hazards[i].id == "mat") {
-        EXPECT_NEAR(area_m2(BareFloor(dut, i)), 2 * (4 - 1 - 0.5), 1e-9);
+        EXPECT_NEAR(area_m2(BareFloors(dut)[i]), 2 * (4 - 1 - 0.5), 1e-9);
       } else if (dut.hazards[i].id == "pit") {
-        EXPECT_NEAR(area_m2(BareFloor(dut, i)), 4, 1e-9);
+        EXPECT_NEAR(area_m2(BareFloors(dut)[i]), 4, 1e-9);
       }
     }
     EXPECT_EQ(Mask(dut)(110, 60), 1) << "the pit, at (5.5, 3)";
@@ -232,16 +232,17 @@ TEST(SeenFrom, TheBaseFloorIsNoWallAndHasAnIdOfItsOwn) {
   EXPECT_NEAR(area_m2, 8 * 4 - 4 * 2 - 0.25, 1e-9);
 }
 
-TEST(BareFloor, IsWhatLaterLevelChangesLeave) {
+TEST(BareFloors, IsWhatLaterLevelChangesLeave) {
   HazardMap map = Room();
   map.hazards = {Level("pit", {}, {2, 2}, {6, 4}, -0.2),
                  Level("bridge", {}, {1, 2.5}, {7, 3.5}, 0.02),
                  Level("whole", {}, {1, 1}, {8, 5}, 0.1)};
-  EXPECT_THAT(BareFloor(map, 0), IsEmpty());
-  EXPECT_THAT(BareFloor(map, 2), SizeIs(1));
+  EXPECT_THAT(BareFloors(map)[0], IsEmpty());
+  EXPECT_THAT(BareFloors(map)[2], SizeIs(1));
   map.hazards.pop_back();
   double area_m2 = 0;
-  for (const Polygon& part : BareFloor(map, 0)) area_m2 += SignedArea(part);
+  const std::vector<Polygon> bare = BareFloors(map)[0];
+  for (const Polygon& part : bare) area_m2 += SignedArea(part);
   EXPECT_NEAR(area_m2, 4, 1e-9);
 
   // Who drives over the bridge does not cross the pit, and keeps off it.
