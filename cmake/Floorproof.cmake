@@ -150,7 +150,7 @@ endfunction()
 # fp_test(NAME LABEL quick|slow SOURCES a_test.cc ... LINK targets ... [TIMEOUT seconds] [WHOLE] [SANITIZED_EVERY n])
 # One executable of GoogleTest tests; each TEST becomes a ctest of that label. Where starting a process
 # is dear, under sanitizers or where WHOLE says so, the executable is one ctest. Slow ones are built by fp_slow_tests alone.
-# SANITIZED_EVERY: so many drives or plans of one kind that under sanitizers every n-th test of it is run.
+# SANITIZED_EVERY: so many drives, plans or runs of the program of one kind that under sanitizers every n-th test of it is run.
 # A source with a * stands for the folder's files of such names that no fp_test above it has.
 define_property(GLOBAL PROPERTY FP_TEST_SOURCES BRIEF_DOCS "Sources of all tests, absolute"
                 FULL_DOCS "What fp_find_lost_tests compares the folders with")
