@@ -12,7 +12,6 @@
 namespace floorproof {
 namespace {
 
-constexpr double kSameLevel_m = 1e-6;
 constexpr double kThinnest_m = 1e-4;  // of a piece of floor: borders that are one, but for rounding
 
 bool IsLevel(const Hazard& hazard) { return hazard.hazard_class == HazardClass::kLevelChange; }
@@ -25,20 +24,6 @@ bool IsThin(const Polygon& polygon) {
 }
 
 bool IsTerrain(const Hazard& hazard) { return hazard.hazard_class == HazardClass::kTerrain; }
-
-MadeFloors FloorsOf(const HazardMap& map) {
-  std::vector<MadeFloor> floors;
-  for (std::size_t i = 0; i < map.hazards.size(); ++i) {
-    const Hazard& hazard = map.hazards[i];
-    if (IsLevel(hazard)) {
-      for (const Polygon& polygon : hazard.footprint) floors.push_back({polygon, i, true});
-    } else if (IsTerrain(hazard)) {
-      for (const Solid& solid : hazard.solids)
-        if (solid.kind == Solid::Kind::kCut) floors.push_back({solid.base, i, false});
-    }
-  }
-  return MadeFloors(std::move(floors));
-}
 
 // Adds what of the polygon the floors leave that the hazards from `first` on make, grooves where
 // they count: the whole of it, or convex parts.
@@ -119,7 +104,7 @@ std::vector<Polygon> BareFloor(const HazardMap& map, MadeFloors& floors, std::si
 }  // namespace
 
 std::vector<std::vector<Polygon>> BareFloors(const HazardMap& map) {
-  MadeFloors floors = FloorsOf(map);
+  MadeFloors floors(map.hazards, MadeFloors::Levels::kFootprints);
   std::vector<std::vector<Polygon>> bare;
   for (std::size_t i = 0; i < map.hazards.size(); ++i) bare.push_back(BareFloor(map, floors, i));
   return bare;
@@ -134,7 +119,7 @@ std::string BaseFloorId(const HazardMap& map) {
 HazardMap SeenFrom(HazardMap map, const RobotSpec& robot, const Pose2& X_WB) {
   const double floor_m = StandAt(map, robot, X_WB).floor_m;
   if (std::abs(floor_m) <= kSameLevel_m) return map;
-  MadeFloors floors = FloorsOf(map);
+  MadeFloors floors(map.hazards, MadeFloors::Levels::kFootprints);
   std::vector<Hazard> seen, others;
   if (Hazard base = BaseFloor(map, floors, -floor_m); !base.footprint.empty())
     seen.push_back(std::move(base));
@@ -148,8 +133,8 @@ HazardMap SeenFrom(HazardMap map, const RobotSpec& robot, const Pose2& X_WB) {
     }
     hazard.height_m -= floor_m;
     if (std::abs(hazard.height_m) <= kSameLevel_m || hazard.footprint.empty()) continue;
-    std::vector<Solid>
-        built;  // a pit's bases need not be convex, what rises over a deeper one must
+    // A pit's bases need not be convex, those of what rises over a deeper one must be.
+    std::vector<Solid> built;
     for (const Solid& solid : hazard.solids)
       for (const Polygon& part : ConvexParts({{solid.base, {}}}))
         built.push_back(LevelSolid(part, hazard.height_m));

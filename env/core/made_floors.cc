@@ -5,7 +5,17 @@
 
 namespace floorproof {
 
-MadeFloors::MadeFloors(std::vector<MadeFloor> floors) : floors_(std::move(floors)) {
+MadeFloors::MadeFloors(std::span<const Hazard> hazards, Levels levels) {
+  for (std::size_t i = 0; i < hazards.size(); ++i) {
+    const bool level = hazards[i].hazard_class == HazardClass::kLevelChange;
+    if (!level && hazards[i].hazard_class != HazardClass::kTerrain) continue;
+    if (level && levels == Levels::kFootprints) {
+      for (const Polygon& polygon : hazards[i].footprint) floors_.push_back({polygon, i, true});
+      continue;
+    }
+    for (const Solid& solid : hazards[i].solids)
+      if (level || solid.kind == Solid::Kind::kCut) floors_.push_back({solid.base, i, level});
+  }
   std::vector<Box2> boxes;
   for (const MadeFloor& floor : floors_) boxes.push_back(BoxAround(floor.polygon));
   boxes_ = BoxGrid(std::move(boxes));

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
+#include "env/core/hazard_map.h"
 #include "env/geometry/box_grid.h"
 
 namespace floorproof {
@@ -17,14 +19,17 @@ struct MadeFloor {
 
 class MadeFloors {
  public:
-  explicit MadeFloors(std::vector<MadeFloor> floors);
-  // Those that the polygon may overlap, in their order: the boxes around both share more than a
-  // border. The list is valid until the next call.
+  // A level change is a floor all over its footprint, or where it is built, which on a drawing is
+  // not its whole cells. A groove is one where it is cut.
+  enum class Levels { kFootprints, kBuilt };
+  MadeFloors(std::span<const Hazard> hazards, Levels levels);
+  // Those that the polygon may overlap, in the hazards' order: the boxes around both share more
+  // than a border. The list is valid until the next call.
   const std::vector<const MadeFloor*>& Near(const Polygon& polygon);
 
  private:
-  std::vector<MadeFloor> floors_;
-  BoxGrid boxes_;  // around each
+  std::vector<MadeFloor> floors_;  // in the hazards' order
+  BoxGrid boxes_;                  // around each
   std::vector<int> found_;
   std::vector<const MadeFloor*> near_;
 };

@@ -12,8 +12,7 @@ namespace floorproof {
 namespace {
 
 constexpr double kBeside_m = 0.001;  // nobody sets a robot down more exactly
-constexpr double kSameLevel_m = 1e-6;
-constexpr double kLeast_m2 = 1e-8;  // of an overlap
+constexpr double kLeast_m2 = 1e-8;   // of an overlap
 
 bool Overlap(const Polygon& a, const Polygon& b) {
   return Overlap(BoxAround(a), BoxAround(b)) && Area(Intersection({{a, {}}}, {b})) > kLeast_m2;

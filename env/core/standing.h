@@ -9,6 +9,8 @@
 
 namespace floorproof {
 
+constexpr double kSameLevel_m = 1e-6;  // floors whose heights differ by no more are one level
+
 // Heights over the base floor of the map, m.
 struct Standing {
   double floor_m = 0;       // of the level that carries its wheels: the highest under one

@@ -5,31 +5,31 @@
 #include <cmath>
 #include <limits>
 
-#include "env/core/blocks.h"
 #include "env/core/standing.h"
 
 namespace floorproof {
-namespace {
 
-constexpr double kSameLevel_m = 1e-6;
+WheelCentres::WheelCentres(const RobotSpec& robot, const Sample& sample)
+    : swung_(sample.hinges.n > 0) {
+  if (!swung_) return;
+  start_ = MoveBlocks(robot.blocks, robot.hinges, StartState(robot));
+  now_ = MoveBlocks(robot.blocks, robot.hinges, sample.hinges);
+}
 
-}  // namespace
-
-Vec3 WheelCentre(const RobotSpec& robot, const Sample& sample, const WheelSpec& wheel) {
-  if (sample.hinges.n == 0) return wheel.p_BW;
+Vec3 WheelCentres::Of(const WheelSpec& wheel) const {
+  if (!swung_) return wheel.p_BW;
   const auto block = static_cast<std::size_t>(wheel.block);
-  const BlockMotions start = MoveBlocks(robot.blocks, robot.hinges, StartState(robot));
-  const BlockMotions now = MoveBlocks(robot.blocks, robot.hinges, sample.hinges);
-  const Vec2 p_K = start.block[block].X_BK.Inverse() * Vec2(wheel.p_BW.head<2>());
-  const Vec2 p_B = now.block[block].X_BK * p_K;
+  const Vec2 p_K = start_.block[block].X_BK.Inverse() * Vec2(wheel.p_BW.head<2>());
+  const Vec2 p_B = now_.block[block].X_BK * p_K;
   return {p_B.x(), p_B.y(), wheel.p_BW.z()};
 }
 
 double FloorUnder(const HazardMap& map, const RobotSpec& robot, const Sample& sample) {
   if (robot.wheels.empty()) return LevelAt(map, sample.X_WB().p());
   double floor_m = -std::numeric_limits<double>::infinity();
+  const WheelCentres centres(robot, sample);
   for (const WheelSpec& wheel : robot.wheels) {
-    const Vec2 p_B = WheelCentre(robot, sample, wheel).head<2>();
+    const Vec2 p_B = centres.Of(wheel).head<2>();
     floor_m = std::max(floor_m, LevelAt(map, sample.X_WB() * p_B));
   }
   return floor_m;

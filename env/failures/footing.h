@@ -2,15 +2,24 @@
 // On which floor a robot stands, and what is a gap from there.
 #pragma once
 
+#include "env/core/blocks.h"
 #include "env/core/hazard_map.h"
 #include "env/core/motion.h"
 #include "env/core/robot_spec.h"
 
 namespace floorproof {
 
-// A driven wheel's centre in the body frame, m, wherever the hinges have swung the block that
-// carries it.
-Vec3 WheelCentre(const RobotSpec& robot, const Sample& sample, const WheelSpec& wheel);
+// The driven wheels' centres in the body frame, m, wherever the hinges have swung the blocks that
+// carry them. Allocates nothing.
+class WheelCentres {
+ public:
+  WheelCentres(const RobotSpec& robot, const Sample& sample);
+  Vec3 Of(const WheelSpec& wheel) const;
+
+ private:
+  bool swung_;
+  BlockMotions start_, now_;  // of the shape that the model states, and of the sample's
+};
 
 // Height of the level under the driven wheels over the base floor, m: the highest, as in StandAt.
 double FloorUnder(const HazardMap& map, const RobotSpec& robot, const Sample& sample);

@@ -195,8 +195,9 @@ class RollOver final : public Detector {
   template <class Look>
   void ForEachFoot(const Sample& sample, const Look& look) const {
     look(sample.X_WB().p());
+    const WheelCentres centres(*robot_, sample);
     for (const WheelSpec& wheel : robot_->wheels)
-      look(Vec2(sample.X_WB() * Vec2(WheelCentre(*robot_, sample, wheel).head<2>())));
+      look(Vec2(sample.X_WB() * Vec2(centres.Of(wheel).head<2>())));
   }
 
   double PlanFloor(const Sample& sample) const {
@@ -232,8 +233,9 @@ class RollOver final : public Detector {
       deepest_m = sunk_m;
       drop = std::move(below);
     };
+    const WheelCentres centres(*robot_, sample);
     for (const WheelSpec& wheel : robot_->wheels) {
-      const Vec3 p_B = WheelCentre(*robot_, sample, wheel);
+      const Vec3 p_B = centres.Of(wheel);
       look(p_B, p_B.z());
     }
     constexpr int kAround = 16;

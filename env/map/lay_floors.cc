@@ -25,20 +25,6 @@ namespace {
 constexpr double kThinnest_m = 1e-4;  // of a piece
 constexpr double kTouch_m = 1e-6;     // mean width of an overlap that is none
 
-// The floors that the hazards make: where they are built, which on a drawing is not their whole
-// cells.
-MadeFloors FloorsOf(std::span<const Hazard> hazards) {
-  std::vector<MadeFloor> floors;
-  for (std::size_t i = 0; i < hazards.size(); ++i) {
-    const bool level = hazards[i].hazard_class == HazardClass::kLevelChange;
-    const bool terrain = hazards[i].hazard_class == HazardClass::kTerrain;
-    for (const Solid& solid : hazards[i].solids)
-      if (level || (terrain && solid.kind == Solid::Kind::kCut))
-        floors.push_back({solid.base, i, level});
-  }
-  return MadeFloors(std::move(floors));
-}
-
 struct Split {
   std::vector<Region> within, beyond;
 };
@@ -212,7 +198,7 @@ bool LaySolid(const Solid& solid, std::span<const Hazard> hazards, std::size_t i
 }  // namespace
 
 void LayFloors(std::vector<Hazard>& hazards, std::vector<std::string>& warnings) {
-  MadeFloors floors = FloorsOf(hazards);
+  MadeFloors floors(hazards, MadeFloors::Levels::kBuilt);
   std::vector<std::string> across;  // from the last to the first
   for (std::size_t i = hazards.size(); i-- > 0;) {
     Hazard& hazard = hazards[i];

@@ -9,6 +9,7 @@
 
 #include "base/input_file.h"
 #include "base/params.h"
+#include "env/geometry/box.h"
 #include "env/map/char_grid.h"
 #include "env/map/lay_floors.h"
 #include "env/map/site_generator.h"
@@ -159,13 +160,9 @@ void WarnOfFarHazards(Site& site, const std::string& file) {
   const Vec2 size = frame.cell_m * Vec2(frame.width, frame.height);
   for (const Hazard& hazard : site.map.hazards) {
     bool near = false;
-    for (const Polygon& polygon : hazard.footprint) {
-      Vec2 low = X_GW * polygon[0], high = low;
-      for (const Vec2& p_W : polygon) {
-        const Vec2 p_G = X_GW * p_W;
-        low = low.cwiseMin(p_G), high = high.cwiseMax(p_G);
-      }
-      near |= (low.array() < size.array()).all() && (high.array() > 0).all();
+    for (Polygon polygon : hazard.footprint) {
+      for (Vec2& p : polygon) p = X_GW * p;
+      near |= Overlap(BoxAround(polygon), {Vec2::Zero(), size});
     }
     if (!near) site.warnings.push_back(file + ": hazard " + hazard.id + " lies off the map");
   }

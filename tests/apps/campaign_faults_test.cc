@@ -204,33 +204,36 @@ TEST_F(CampaignFaults, AFullDisk) {
   ExpectSameResults("whole", "o");
 }
 
-// Full before the first row, whichever file meets that: nothing that would be in the way is left.
-TEST_F(CampaignFaults, AFullDiskFromTheStart) {
+// Too small for the first row, whichever file meets that: nothing that would be in the way is left.
+class CampaignOnASmallDisk : public CampaignFaults {
+ protected:
+  Ended FullThenWhole(const OwnDisk& disk, const char* enough) const {
+    Ended full = Run(Command(2));
+    ExpectOneLine(full, 3, "; missing: ");
+    disk.Change(0, enough);
+    EXPECT_EQ(Run(Command(2)).status, 0);
+    ExpectSameResults("whole", "o");
+    return full;
+  }
+};
+
+TEST_F(CampaignOnASmallDisk, IsFullFromTheStart) {
   MakeWhole(2);
   for (const char* size : {"size=4k", "size=8k", "size=24k", "size=48k"}) {
     SCOPED_TRACE(size);
     const OwnDisk disk(folder_ / "o", size);
     if (!disk.mounted()) GTEST_SKIP() << "no disk can be mounted here: " << disk.why();
-    const Ended full = Run(Command(2));
-    ExpectOneLine(full, 3, "cannot be written: ");
-    EXPECT_THAT(full.said, HasSubstr("; missing: "));
-    disk.Change(0, "size=16m");
-    EXPECT_EQ(Run(Command(2)).status, 0);
-    ExpectSameResults("whole", "o");
+    EXPECT_THAT(FullThenWhole(disk, "size=16m").said, HasSubstr("cannot be written: "));
   }
 }
 
-// No room for another file's name.
-TEST_F(CampaignFaults, ADiskWithoutRoomForNames) {
+TEST_F(CampaignOnASmallDisk, HasNoRoomForNames) {
   MakeWhole(2);
   for (const char* names : {"nr_inodes=1", "nr_inodes=2", "nr_inodes=3", "nr_inodes=5"}) {
     SCOPED_TRACE(names);
     const OwnDisk disk(folder_ / "o", names);
     if (!disk.mounted()) GTEST_SKIP() << "no disk can be mounted here: " << disk.why();
-    ExpectOneLine(Run(Command(2)), 3, "; missing: ");
-    disk.Change(0, "nr_inodes=100");
-    EXPECT_EQ(Run(Command(2)).status, 0);
-    ExpectSameResults("whole", "o");
+    FullThenWhole(disk, "nr_inodes=100");
   }
 }
 
