@@ -96,6 +96,9 @@ class BounceBack final : public Detector {
     std::size_t block = 0;
     Vec2 p_W = Vec2::Zero(), normal_W = Vec2::Zero();
     double height_m = 0;  // in the body's frame
+    bool rolls = false;   // a wheel touches, here: at this point of its block's frame
+    Vec2 p_K = Vec2::Zero();
+    double rolled_m = 0;  // of that point along the normal, when last touching
     double since_s = 0, last_seen_s = 0;
     double closing_mps = 0, threshold_mps = 0;
     double part_m = 0, soft_m = 0;
@@ -147,6 +150,11 @@ class BounceBack final : public Detector {
     const double touched_m = along({r_B.x(), r_B.y(), meeting.height_m});
     // A block that swings is thrown back on its hinge, and not the robot.
     return {sample.hinges.n > 0 ? touched_m : along(robot_->p_BCom), touched_m};
+  }
+
+  // The frame of what touches, which a turn moves as it moves the robot's corners.
+  Pose2 Frame(const Meeting& meeting, const Sample& sample) const {
+    return sample.hinges.n > 0 ? sample.X_WB() * now_.block[meeting.block].X_BK : sample.X_WB();
   }
 
   bool Follow(const Sample& sample) {
@@ -244,6 +252,10 @@ class BounceBack final : public Detector {
     const double closing_mps = harder != nullptr ? harder->closing_mps : contact.closing_mps;
     meeting->threshold_mps =
         std::max(rebound_mps_, (meeting->wheel ? wheel_share_ : rebound_share_) * closing_mps);
+    meeting->rolls = contact.wheel;
+    const Pose2 X_WK = Frame(*meeting, sample);
+    meeting->p_K = X_WK.Inverse() * contact.p_W;
+    meeting->rolled_m = contact.p_W.dot(meeting->normal_W);
     meeting->part_m = part_m_ + (meeting->wheel ? kTread_s * closing_mps : 0);
     meeting->soft_m = kSoft_s * closing_mps;
     meeting->at = meeting->touched = meeting->deepest =
@@ -267,8 +279,10 @@ class BounceBack final : public Detector {
       meeting.deepest[i] = std::min(meeting.deepest[i], meeting.at[i]);
     meeting.back_m = std::max(meeting.back_m, Least(meeting.at, meeting.deepest));
     if (!meeting.settled) meeting.swing_m = meeting.back_m;
+    const double rolled_m = (Frame(meeting, sample) * meeting.p_K).dot(meeting.normal_W);
     if (meeting.touching) {
       meeting.touched = meeting.at;
+      meeting.rolled_m = rolled_m;
       if (sample.t_s - meeting.since_s > kPressS) {
         meeting.pressed = true;
         meeting.threshold_mps = std::max(meeting.threshold_mps, wheel_share_ * meeting.closing_mps);
@@ -278,9 +292,11 @@ class BounceBack final : public Detector {
       if (!meeting.pressed)
         meeting.gap_m = std::max(meeting.gap_m, Least(meeting.at, meeting.touched));
     }
-    // Driven on, over it: what comes later is another obstacle's.
-    const bool past =
-        std::max(meeting.at[0] - meeting.touched[0], meeting.at[1] - meeting.touched[1]) < -kPast_m;
+    // Driven on, over it: what comes later is another obstacle's. A robot that turns where it
+    // stands drives on with a wheel alone.
+    const bool past = std::max(meeting.at[0] - meeting.touched[0],
+                               meeting.at[1] - meeting.touched[1]) < -kPast_m ||
+                      (meeting.rolls && rolled_m - meeting.rolled_m < -kPast_m);
     if (past && !meeting.touching && !meeting.met) {
       meeting.watched = false;
       return false;

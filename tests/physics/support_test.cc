@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands, rocks or leans has not tipped.
+// What stands, rocks or leans has not tipped; what turns over an edge was not thrown back.
 #include <gmock/gmock.h>
 
 #include "tests/physics/one_caster.h"
@@ -63,6 +63,21 @@ TEST_F(Support, RockingOverACoverIsNoTip) {
     const EpisodeRecord dut = DriveAlong("beluga", cover, 4.5, speed_mps);
     EXPECT_EQ(dut.outcome, Outcome::kSuccess) << speed_mps;
     EXPECT_THAT(dut.events, IsEmpty()) << speed_mps;
+  }
+}
+
+// As it turns where it stands a caster meets the edge and swings over it, and the robot drifts by
+// millimetres.
+TEST_F(Support, TurningOverAnEdgeIsNoRebound) {
+  const std::string sill =
+      "{type: step, height_m: 0.006, polygon_m: [[3, 0.7], [3.1, 0.7], [3.1, 4.3], [3, 4.3]]}";
+  for (int mm = 3060; mm <= 3160; mm += 10) {
+    const std::string x_m = std::to_string(mm / 1000.0);
+    Save("plan.csv",
+         "x_m,y_m,speed_mps\n1.5,2.5,0.25\n" + x_m + ",2.5,0.25\n" + x_m + ",1.2,0.25\n");
+    const EpisodeRecord dut = Drive(Read(RoomScenario(sill)));
+    EXPECT_EQ(dut.outcome, Outcome::kSuccess) << x_m;
+    EXPECT_THAT(dut.events, IsEmpty()) << x_m;
   }
 }
 
