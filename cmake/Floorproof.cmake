@@ -147,17 +147,18 @@ function(fp_library name)
   fp_unity(${name})
 endfunction()
 
-# fp_test(NAME LABEL quick|slow SOURCES a_test.cc ... LINK targets ... [TIMEOUT seconds] [WHOLE] [SANITIZED_EVERY n])
+# fp_test(NAME LABEL quick|slow SOURCES a_test.cc ... LINK targets ... [TIMEOUT seconds] [WHOLE] [SANITIZED_EVERY n] [OPTIMISED])
 # One executable of GoogleTest tests; each TEST becomes a ctest of that label. Where starting a process
 # is dear, under sanitizers or where WHOLE says so, the executable is one ctest. Slow ones are built by fp_slow_tests alone.
 # SANITIZED_EVERY: so many drives, plans or runs of the program of one kind that under sanitizers every n-th test of it is run.
+# OPTIMISED: long loops of its own. Under sanitizers other tests' own code is compiled at -O0, in half the time.
 # A source with a * stands for the folder's files of such names that no fp_test above it has.
 define_property(GLOBAL PROPERTY FP_TEST_SOURCES BRIEF_DOCS "Sources of all tests, absolute"
                 FULL_DOCS "What fp_find_lost_tests compares the folders with")
 add_custom_target(fp_quick_tests)
 add_custom_target(fp_slow_tests)
 function(fp_test name)
-  cmake_parse_arguments(ARG "WHOLE" "LABEL;TIMEOUT;SANITIZED_EVERY" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "WHOLE;OPTIMISED" "LABEL;TIMEOUT;SANITIZED_EVERY" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 280)
   endif()
@@ -178,7 +179,14 @@ function(fp_test name)
     set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
   endif()
   target_link_libraries(${name} PRIVATE fp_options ${ARG_LINK} GTest::gtest_main GTest::gmock)
-  fp_use_precompiled(${name} fp_test_headers)
+  if(FLOORPROOF_SANITIZE AND NOT ARG_OPTIMISED)
+    target_compile_options(${name} PRIVATE -O0)
+  endif()
+  if(FLOORPROOF_SANITIZE AND ARG_OPTIMISED)
+    fp_use_precompiled(${name} fp_headers)  # fp_test_headers were read at -O0
+  else()
+    fp_use_precompiled(${name} fp_test_headers)
+  endif()
   fp_unity(${name})
   target_compile_definitions(${name} PRIVATE
     FP_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
