@@ -299,6 +299,8 @@ class BounceBack final : public Detector {
                       (meeting.rolls && rolled_m - meeting.rolled_m < -kPast_m);
     if (past && !meeting.touching && !meeting.met) {
       meeting.watched = false;
+      meeting.last_seen_s =
+          -std::numeric_limits<double>::infinity();  // a new touch is a new impact
       return false;
     }
     Judge(meeting, sample);
