@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "planners/risk/risk_meter.h"
 #include "run/episode/episode.h"
@@ -69,7 +70,7 @@ class Recorder {
   void OnStep(const Sample& sample) {
     Metrics& m = record_.metrics;
     ++record_.steps;
-    m.path_length_m += std::hypot(sample.v_WB_W.x(), sample.v_WB_W.y()) * dt_s_;
+    AddWay(sample.p_WB.head<2>());
     m.energy_j += sample.power_w * dt_s_;
     m.charge_ah += sample.battery_a * dt_s_ / 3600;
     m.least_battery_v =
@@ -89,6 +90,8 @@ class Recorder {
     KeepMargins(detectors);
     meter_.Lift();
     risk_.Lift();
+    way_m_ = record_.metrics.path_length_m;
+    was_W_.reset();
   }
 
   double coverage() const { return meter_.coverage(); }
@@ -133,6 +136,18 @@ class Recorder {
   }
 
  private:
+  // In chords of a centimetre: a robot that is held trembles, and gets nowhere.
+  void AddWay(const Vec2& p_W) {
+    constexpr double kChord_m = 0.01;
+    if (!was_W_) was_W_ = p_W;
+    const double chord_m = (p_W - *was_W_).norm();
+    double& path_length_m = record_.metrics.path_length_m;
+    path_length_m = std::max(path_length_m, way_m_ + chord_m);
+    if (chord_m < kChord_m) return;
+    way_m_ += chord_m;
+    was_W_ = p_W;
+  }
+
   // Of the body; wheels meet every edge that they climb.
   void AddContacts(const Sample& sample) {
     Metrics& m = record_.metrics;
@@ -145,8 +160,6 @@ class Recorder {
       impulse_ns += contact.impulse_ns;
       m.max_impulse_ns = std::max(m.max_impulse_ns, contact.impulse_ns);
     }
-    const double way_m = std::hypot(sample.v_WB_W.x(), sample.v_WB_W.y()) * dt_s_;
-    since_touch_m_ += way_m;
     if (!touches) return;
     // A body that is pressed against a wall or scrapes along it lets go for single steps; that is
     // one meeting.
@@ -154,10 +167,10 @@ class Recorder {
     const bool anew = sample.t_s - last_touch_s_ > kApart_s;
     m.contacts += anew ? 1 : 0;
     m.contact_s += anew ? dt_s_ : sample.t_s - last_touch_s_;
-    m.contact_m += anew ? way_m : since_touch_m_;
+    m.contact_m += anew ? 0 : m.path_length_m - last_touch_m_;
     m.max_contact_n = std::max(m.max_contact_n, impulse_ns / dt_s_);
     last_touch_s_ = sample.t_s;
-    since_touch_m_ = 0;
+    last_touch_m_ = m.path_length_m;
   }
   void AddEstimateError(double error_m) {
     record_.metrics.max_estimate_error_m = std::max(record_.metrics.max_estimate_error_m, error_m);
@@ -213,9 +226,11 @@ class Recorder {
       std::vector<std::int64_t>(static_cast<std::size_t>(kMaxMm));
   int trace_hz_, trace_every_;
   std::int64_t control_ = 0;
-  int shape_ = 0;  // the robot's, as in Sample
-  double last_touch_s_ = -1e9, since_touch_m_ = 0;
-  double empty_s_ = -1;  // when the battery had cut off; -1: it has not
+  int shape_ = 0;                                  // the robot's, as in Sample
+  double last_touch_s_ = -1e9, last_touch_m_ = 0;  // when, and after which way
+  double way_m_ = 0;                               // up to the last chord's end
+  std::optional<Vec2> was_W_;                      // there
+  double empty_s_ = -1;                            // when the battery had cut off; -1: it has not
 };
 
 }  // namespace floorproof

@@ -245,5 +245,18 @@ TEST_F(EpisodeTest, IgnoredFailuresAreLoggedAndTheDriveGoesOn) {
   EXPECT_NEAR(dut.metrics.duration_s, 60, 0.1);
 }
 
+// Held aslant it trembles for a minute and more.
+TEST_F(EpisodeTest, ARobotThatIsHeldDrivesNoWay) {
+  Save("plan.csv", "x_m,y_m\n1.5,1.5\n6,1.5\n");
+  const EpisodeRecord dut = Drive(
+      Read(RoomScenario("{type: blind_object, known: false, height_m: 0.5, polygon_m: [[3, 0.7], "
+                        "[3.5, 0.7], [3.5, 2.2], [3.3, 2.3]]}",
+                        "on_failure: ignore\ntime_limit_s: 100\n"),
+           {{"site.start.y_m", "1.5"}}));
+  EXPECT_GT(dut.metrics.contact_s, 60);
+  EXPECT_LT(dut.metrics.contact_m, 0.15);
+  EXPECT_NEAR(dut.metrics.path_length_m, dut.trace.back().x_m - 1.5, 0.1);
+}
+
 }  // namespace
 }  // namespace floorproof
