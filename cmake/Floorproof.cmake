@@ -75,7 +75,7 @@ if(FLOORPROOF_UNITY)
 endif()
 define_property(GLOBAL PROPERTY FP_UNITY_FILES BRIEF_DOCS "TARGET;FILE of all targets, in lines"
                 FULL_DOCS "What unity_groups.py is asked about")
-option(FLOORPROOF_UNITY_REVERSED "In the other order" OFF)
+option(FLOORPROOF_UNITY_REVERSED "List the sources of each unity group last first" OFF)
 # fp_unity(TARGET): after its sources are known.
 function(fp_unity target)
   get_target_property(sources ${target} SOURCES)

@@ -253,8 +253,7 @@ class BounceBack final : public Detector {
     meeting->threshold_mps =
         std::max(rebound_mps_, (meeting->wheel ? wheel_share_ : rebound_share_) * closing_mps);
     meeting->rolls = contact.wheel;
-    const Pose2 X_WK = Frame(*meeting, sample);
-    meeting->p_K = X_WK.Inverse() * contact.p_W;
+    meeting->p_K = Frame(*meeting, sample).Inverse() * contact.p_W;
     meeting->rolled_m = contact.p_W.dot(meeting->normal_W);
     meeting->part_m = part_m_ + (meeting->wheel ? kTread_s * closing_mps : 0);
     meeting->soft_m = kSoft_s * closing_mps;
@@ -279,7 +278,8 @@ class BounceBack final : public Detector {
       meeting.deepest[i] = std::min(meeting.deepest[i], meeting.at[i]);
     meeting.back_m = std::max(meeting.back_m, Least(meeting.at, meeting.deepest));
     if (!meeting.settled) meeting.swing_m = meeting.back_m;
-    const double rolled_m = (Frame(meeting, sample) * meeting.p_K).dot(meeting.normal_W);
+    const double rolled_m =
+        meeting.rolls ? (Frame(meeting, sample) * meeting.p_K).dot(meeting.normal_W) : 0;
     if (meeting.touching) {
       meeting.touched = meeting.at;
       meeting.rolled_m = rolled_m;
@@ -299,8 +299,8 @@ class BounceBack final : public Detector {
                       (meeting.rolls && rolled_m - meeting.rolled_m < -kPast_m);
     if (past && !meeting.touching && !meeting.met) {
       meeting.watched = false;
-      meeting.last_seen_s =
-          -std::numeric_limits<double>::infinity();  // a new touch is a new impact
+      // Forgotten, so that a new touch is a new impact.
+      meeting.last_seen_s = -std::numeric_limits<double>::infinity();
       return false;
     }
     Judge(meeting, sample);

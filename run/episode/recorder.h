@@ -91,7 +91,7 @@ class Recorder {
     meter_.Lift();
     risk_.Lift();
     way_m_ = record_.metrics.path_length_m;
-    was_W_.reset();
+    chord_end_W_.reset();
   }
 
   double coverage() const { return meter_.coverage(); }
@@ -139,13 +139,13 @@ class Recorder {
   // In chords of a centimetre: a robot that is held trembles, and gets nowhere.
   void AddWay(const Vec2& p_W) {
     constexpr double kChord_m = 0.01;
-    if (!was_W_) was_W_ = p_W;
-    const double chord_m = (p_W - *was_W_).norm();
+    if (!chord_end_W_) chord_end_W_ = p_W;
+    const double chord_m = (p_W - *chord_end_W_).norm();
     double& path_length_m = record_.metrics.path_length_m;
     path_length_m = std::max(path_length_m, way_m_ + chord_m);
     if (chord_m < kChord_m) return;
     way_m_ += chord_m;
-    was_W_ = p_W;
+    chord_end_W_ = p_W;
   }
 
   // Of the body; wheels meet every edge that they climb.
@@ -226,11 +226,13 @@ class Recorder {
       std::vector<std::int64_t>(static_cast<std::size_t>(kMaxMm));
   int trace_hz_, trace_every_;
   std::int64_t control_ = 0;
-  int shape_ = 0;                                  // the robot's, as in Sample
-  double last_touch_s_ = -1e9, last_touch_m_ = 0;  // when, and after which way
-  double way_m_ = 0;                               // up to the last chord's end
-  std::optional<Vec2> was_W_;                      // there
-  double empty_s_ = -1;                            // when the battery had cut off; -1: it has not
+  int shape_ = 0;  // the robot's, as in Sample
+  // The last time that the body touched something, and the way driven until then.
+  double last_touch_s_ = -1e9, last_touch_m_ = 0;
+  // The way driven up to the last chord's end, and where that is.
+  double way_m_ = 0;
+  std::optional<Vec2> chord_end_W_;
+  double empty_s_ = -1;  // when the battery had cut off; -1: it has not
 };
 
 }  // namespace floorproof

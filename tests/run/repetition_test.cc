@@ -22,6 +22,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 constexpr const char* kGate = "gate: {metric: not_success, max_rate: 0.5}\n";
 // A plan's floor is not told its friction: it changes nothing without physics.
@@ -34,9 +35,9 @@ class RepetitionTest : public ScenarioTest {
     return ScenarioFile(Save("s.yaml", RoomScenario("", more)));
   }
   std::string Folder(const char* name) const { return (folder_ / name).string(); }
-  std::string WhyRefused(const std::string& more) const {
+  std::string WhyRefused(const std::string& more, int episodes = 10) const {
     try {
-      DriveCampaign(File("drive: none\n" + more), {.episodes = 10}, Folder("o"));
+      DriveCampaign(File("drive: none\n" + more), {.episodes = episodes}, Folder("o"));
     } catch (const InputError& e) {
       return e.what();
     }
@@ -60,6 +61,14 @@ TEST_F(RepetitionTest, AGateOnOneEpisodeIsRefusedBeforeAnythingIsDriven) {
     EXPECT_FALSE(fs::exists(folder_ / "o")) << draws;
   }
   EXPECT_EQ(WhyRefused(std::string(kGate) + "randomise: {start.x_m: {uniform: [1.4, 1.6]}}\n"), "");
+}
+
+TEST_F(RepetitionTest, WithoutChanceMoreEpisodesAreNotAskedFor) {
+  // Ten clean episodes cannot show less than 0.1 %.
+  const std::string gate = "gate: {metric: not_success, max_rate: 0.001}\n";
+  EXPECT_THAT(WhyRefused(gate), AllOf(HasSubstr("nothing differs"), Not(HasSubstr("-n"))));
+  EXPECT_THAT(WhyRefused(gate + "randomise: {start.x_m: {uniform: [1.4, 1.6]}}\n"),
+              AllOf(HasSubstr("-n"), Not(HasSubstr("nothing differs"))));
 }
 
 TEST_F(RepetitionTest, ChanceIsFoundWhereverItIs) {
