@@ -35,7 +35,7 @@ class RepetitionTest : public ScenarioTest {
     return ScenarioFile(Save("s.yaml", RoomScenario("", more)));
   }
   std::string Folder(const char* name) const { return (folder_ / name).string(); }
-  std::string WhyRefused(const std::string& more, int episodes = 10) const {
+  std::string WhyRefused(const std::string& more, std::uint64_t episodes = 10) const {
     try {
       DriveCampaign(File("drive: none\n" + more), {.episodes = episodes}, Folder("o"));
     } catch (const InputError& e) {
