@@ -25,25 +25,16 @@ double Mapper::CellsOn(const GridFrame& site) const {
 
 void Mapper::Start(const GridFrame& site, const RobotSpec& robot) {
   robot_ = &robot;
-  map_.frame = FineFrame(site, cell_m_);
-  map_.log_odds = Grid<float>(map_.frame.width, map_.frame.height);
-  map_.marked = Grid<std::uint8_t>(map_.frame.width, map_.frame.height);
+  map_ = KnownMap(FineFrame(site, cell_m_));
   last_end_ = Grid<std::uint32_t>(map_.frame.width, map_.frame.height);
   scans_ = 0;
   ends_.clear();
   ends_.reserve(4096);
-  map_.marks.clear();
   map_.marks.reserve(64);
   X_GW_ = map_.frame.X_WG.Inverse();
   stood_W_ = Vec2::Constant(1e9);
   pressed_ = false;
   dropped_ = {};
-}
-
-void Mapper::Add(int ix, int iy, double log_odds) {
-  if (!map_.log_odds.Inside(ix, iy)) return;
-  float& cell = map_.log_odds(ix, iy);
-  cell = static_cast<float>(std::clamp(static_cast<double>(cell) + log_odds, -most_, most_));
 }
 
 // From cell to cell (Amanatides & Woo, 1987); `to_G` is where it ended, in cells.
@@ -95,26 +86,6 @@ void Mapper::AddScan(const LidarScan& scan, const Pose2& X_WB) {
             from_G + std::min(scan.range_m[i], range_m_) / cell_m * Vec2(std::cos(a), std::sin(a)));
   }
   for (const Cell& cell : ends_) Add(cell.ix, cell.iy, hit_);
-}
-
-// What is met again is larger than it was thought to be.
-void Mapper::Mark(FloorMark::Kind kind, const Vec2& p_W) {
-  const double r_m = mark_m_ / 2;
-  auto mark = std::ranges::find_if(map_.marks,
-                                   [&](const FloorMark& m) { return (m.p_W - p_W).norm() < r_m; });
-  if (mark != map_.marks.end())
-    mark->radius_m += r_m / 2;
-  else
-    mark = map_.marks.insert(map_.marks.end(), {kind, p_W, r_m});
-  const Vec2 p_G = X_GW_ * mark->p_W / map_.frame.cell_m;
-  const int reach = static_cast<int>(std::ceil(mark->radius_m / map_.frame.cell_m));
-  const int cx = static_cast<int>(std::floor(p_G.x())), cy = static_cast<int>(std::floor(p_G.y()));
-  for (int iy = cy - reach; iy <= cy + reach; ++iy)
-    for (int ix = cx - reach; ix <= cx + reach; ++ix)
-      if (map_.marked.Inside(ix, iy) &&
-          ((ix == cx && iy == cy) ||
-           (map_.frame.Center(ix, iy) - mark->p_W).norm() <= mark->radius_m))
-        map_.marked(ix, iy) = 1;
 }
 
 void Mapper::Update(const Observation& sensed, const Estimate& estimate) {

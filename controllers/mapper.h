@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "base/params.h"
-#include "env/core/known_map.h"
 #include "env/core/motion.h"
 #include "env/core/observation.h"
 #include "env/core/robot_spec.h"
+#include "env/known/known_map.h"
 
 namespace floorproof {
 
@@ -38,8 +38,8 @@ class Mapper final : public Configurable {
  private:
   void AddScan(const LidarScan& scan, const Pose2& X_WB);
   void AddBeam(const Vec2& from_G, const Vec2& to_G);
-  void Mark(FloorMark::Kind kind, const Vec2& p_W);
-  void Add(int ix, int iy, double log_odds);
+  void Mark(FloorMark::Kind kind, const Vec2& p_W) { map_.Mark(kind, p_W, mark_m_ / 2); }
+  void Add(int ix, int iy, double log_odds) { map_.Add(ix, iy, log_odds, most_); }
 
   double cell_m_ = 0.05, hit_ = 0.85, miss_ = 0.4, most_ = 4, mark_m_ = 0.1, range_m_ = 12;
   const RobotSpec* robot_ = nullptr;

@@ -6,9 +6,9 @@
 
 #include <cstddef>
 
-#include "env/core/known_map.h"
 #include "env/core/motion.h"
 #include "env/core/path.h"
+#include "env/known/known_map.h"
 
 namespace floorproof {
 

@@ -13,8 +13,6 @@
 
 namespace floorproof {
 
-enum class CellState : std::uint8_t { kFree = 0, kOccupied = 1, kUnknown = 2 };
-
 // Hazard classes of the hTetro FMEA paper, Table 1.
 // A hazard has one, for all directions from which a robot may come: the worst.
 enum class HazardClass { kBlindObject /*C1*/, kGlass /*C2*/, kLevelChange /*C3*/, kTerrain /*C4*/ };

@@ -1,35 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What flows through an episode's loop: estimates, commands, and the true motion as detectors see
-// it.
+// What flows through an episode's loop: commands, and the true motion as detectors see it.
 #pragma once
 
 #include <array>
 #include <cstddef>
 
-#include "env/geometry/geometry.h"
+#include "env/known/estimate.h"
 
 namespace floorproof {
-
-// Velocity of the body, in its own frame: x forward, y left.
-struct BodyTwist {
-  double vx_mps = 0, vy_mps = 0, wz_radps = 0;
-};
-
-// Angles and rates of the hinges between a reconfigurable robot's blocks, in the order of
-// RobotSpec::hinges; n = 0: the robot is one rigid body.
-struct HingeState {
-  static constexpr int kMax = 8;
-  int n = 0;
-  std::array<double, kMax> rad{}, radps{};
-};
-
-// Where the robot thinks it is.
-struct Estimate {
-  Pose2 X_WB;
-  BodyTwist V_WB_B;
-  HingeState hinges = {};     // as their encoders say
-  double position_std_m = 0;  // standard deviation of its place, by its own account
-};
 
 // What a tracker asks for, and how far along the path it is (monotone).
 struct Command {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "env/geometry/geometry.h"
@@ -13,6 +14,9 @@ struct Cell {
   int ix = 0, iy = 0;
   bool operator==(const Cell&) const = default;
 };
+
+// What a map says of a cell.
+enum class CellState : std::uint8_t { kFree = 0, kOccupied = 1, kUnknown = 2 };
 
 // width x height values, row by row from the lowest; cell (0, 0) is the lower left, as in ROS maps.
 template <class T>

@@ -2,7 +2,7 @@
 // Rejoin: the rest of a plan, after the robot has met something that the plan did not know of.
 #pragma once
 
-#include "env/core/known_map.h"
+#include "env/core/drawn_map.h"
 #include "env/core/path.h"
 #include "env/core/robot_spec.h"
 

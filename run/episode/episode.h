@@ -10,7 +10,7 @@
 
 #include "env/core/coverage.h"
 #include "env/core/event.h"
-#include "env/core/known_map.h"
+#include "env/core/drawn_map.h"
 #include "env/sim/plant.h"
 #include "env/sim/simulation.h"
 #include "planners/planner.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "env/core/known_map.h"
+#include "env/core/drawn_map.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "env/core/known_map.h"
+#include "env/core/drawn_map.h"
 
 #include <gtest/gtest.h>
 
@@ -29,11 +29,8 @@ HazardMap Truth(const std::vector<std::string>& rows, double cell_m = 0.05) {
 
 // '.' known free, '#' known occupied, '?' unknown.
 KnownMap Known(const std::vector<std::string>& rows, double cell_m = 0.05) {
-  KnownMap known;
   const int w = static_cast<int>(rows[0].size()), h = static_cast<int>(rows.size());
-  known.frame = {w, h, cell_m, {}};
-  known.log_odds = Grid<float>(w, h);
-  known.marked = Grid<std::uint8_t>(w, h);
+  KnownMap known({w, h, cell_m, {}});
   for (int iy = 0; iy < h; ++iy)
     for (int ix = 0; ix < w; ++ix) {
       const char c = rows[static_cast<std::size_t>(h - 1 - iy)][static_cast<std::size_t>(ix)];
@@ -53,30 +50,6 @@ Hazard Box(HazardClass of, const Vec2& low, const Vec2& high) {
   hazard.hazard_class = of;
   hazard.footprint = {Rectangle(low, high)};
   return hazard;
-}
-
-TEST(KnownMap, ACellIsKnownOnceItsLogOddsAreSure) {
-  KnownMap dut = Known({"?"});
-  const std::vector<std::pair<float, CellState>> cases = {{0.0f, CellState::kUnknown},
-                                                          {0.79f, CellState::kUnknown},
-                                                          {-0.79f, CellState::kUnknown},
-                                                          {KnownMap::kSure, CellState::kOccupied},
-                                                          {-KnownMap::kSure, CellState::kFree},
-                                                          {4.0f, CellState::kOccupied},
-                                                          {-4.0f, CellState::kFree}};
-  for (const auto& [odds, state] : cases) {
-    dut.log_odds(0, 0) = odds;
-    EXPECT_EQ(dut.At(0, 0), state) << odds;
-  }
-}
-
-TEST(KnownMap, AMarkWinsOverEveryScan) {
-  KnownMap dut = Known({"?"});
-  dut.marked(0, 0) = 1;
-  for (const float odds : {-4.0f, 0.0f, 4.0f}) {
-    dut.log_odds(0, 0) = odds;
-    EXPECT_EQ(dut.At(0, 0), CellState::kOccupied) << odds;
-  }
 }
 
 // Never more room than there is; less by no more than the corners of the polygon that stands for

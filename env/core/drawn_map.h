@@ -1,37 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a robot knows of a floor from its own sensors. An online planner sees nothing else.
+// The map that a robot drew, joined to the one that it was given, and held against the truth.
 #pragma once
 
 #include <vector>
 
 #include "env/core/hazard_map.h"
+#include "env/known/known_map.h"
 
 namespace floorproof {
-
-// A place where the robot was touched, or where it found no floor. Scans pass over such a place, so
-// no scan can erase the mark.
-struct FloorMark {
-  enum class Kind { kBump, kDrop };
-  Kind kind = Kind::kBump;
-  Vec2 p_W = Vec2::Zero();
-  double radius_m = 0;
-};
-
-struct KnownMap {
-  static constexpr float kSure = 0.8f;  // beyond these log odds a cell counts as free, or occupied
-
-  GridFrame frame;
-  Grid<float> log_odds;          // of occupied, from the scans; 0: unknown
-  Grid<std::uint8_t> marked;     // 1: the cell lies within a mark
-  std::vector<FloorMark> marks;  // in the order in which they were made
-
-  CellState At(int ix, int iy) const {
-    if (marked(ix, iy)) return CellState::kOccupied;
-    const float odds = log_odds(ix, iy);
-    if (odds >= kSure) return CellState::kOccupied;
-    return odds <= -kSure ? CellState::kFree : CellState::kUnknown;
-  }
-};
 
 // The map with one more hazard: all that was seen and lies farther than slack_m from everything on
 // the map. It blocks the way.

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a robot thinks it is, and how it moves.
+#pragma once
+
+#include <array>
+
+#include "env/geometry/geometry.h"
+
+namespace floorproof {
+
+// Velocity of the body, in its own frame: x forward, y left.
+struct BodyTwist {
+  double vx_mps = 0, vy_mps = 0, wz_radps = 0;
+};
+
+// Angles and rates of the hinges between a reconfigurable robot's blocks, in the order of
+// RobotSpec::hinges; n = 0: the robot is one rigid body.
+struct HingeState {
+  static constexpr int kMax = 8;
+  int n = 0;
+  std::array<double, kMax> rad{}, radps{};
+};
+
+struct Estimate {
+  Pose2 X_WB;
+  BodyTwist V_WB_B;
+  HingeState hinges = {};     // as their encoders say
+  double position_std_m = 0;  // standard deviation of its place, by its own account
+};
+
+}  // namespace floorproof
