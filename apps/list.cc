@@ -45,7 +45,10 @@ void AddEntries(std::span<const PluginEntry<T>> table, Json& out, Configurable* 
 
 Json Entries(const std::string& kind) {
   Json out = Json::array();
-  if (kind == "planners") AddEntries(Planners(), out);
+  if (kind == "planners") {
+    AddEntries(Planners(), out);
+    AddEntries(OnlinePlanners(), out);
+  }
   if (kind == "controllers") AddEntries(Trackers(), out);
   if (kind == "estimators") AddEntries(Estimators(), out);
   if (kind == "sensors") AddEntries(Sensors(), out);

@@ -27,12 +27,15 @@ std::vector<std::string> PluginNames(std::span<const PluginEntry<T>> table) {
 }
 
 // Makes the plug-in of that name; throws InputError at `mark`, naming the nearest and all names.
+// `others`: of another table, which would have done as well.
 template <class T>
 std::unique_ptr<T> MakePlugin(std::span<const PluginEntry<T>> table, std::string_view name,
-                              std::string_view key, const SourceMark& mark = {}) {
+                              std::string_view key, const SourceMark& mark = {},
+                              const std::vector<std::string>& others = {}) {
   for (const auto& entry : table)
     if (entry.name == name) return entry.make();
-  const auto names = PluginNames(table);
+  auto names = PluginNames(table);
+  names.insert(names.end(), others.begin(), others.end());
   std::string rule = "unknown";
   if (const std::string near = Nearest(name, names); !near.empty())
     rule += "; did you mean " + near + "?";

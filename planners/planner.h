@@ -35,6 +35,7 @@ enum class PlanStatus {
   kNoFloor,       // nothing to cover or visit can be reached
   kGoalUnreachable,
   kFloorDivided,  // much of the floor cannot be reached from the start
+  kOnline,        // there is none beforehand: it is made on the way
   kFailed,        // any other reason; the message says it
 };
 std::string_view Name(PlanStatus status);

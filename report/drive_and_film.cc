@@ -28,8 +28,13 @@ double Since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::string Verdict(const EpisodeRecord& record) {
+std::string Verdict(const Scenario& s, const EpisodeRecord& record) {
   const Metrics& m = record.metrics;
+  const std::string why = record.message.empty() ? "" : " (" + record.message + ")";
+  if (s.episode.drive == "cells")
+    return fmt::format("{}: covered {:.1f} % of the cells, {:.1f} % twice or more, over {} m{}",
+                       Name(record.outcome), 100 * m.coverage, 100 * m.revisited,
+                       FixedText(m.path_length_m, 1), why);
   std::string line =
       fmt::format("{}: covered {:.1f} % in {} s over {} m, off the path by {} mm at most, {}",
                   Name(record.outcome), 100 * m.coverage, FixedText(m.duration_s, 0),
@@ -37,8 +42,7 @@ std::string Verdict(const EpisodeRecord& record) {
                   EnergyText(m.energy_j));
   if (const std::size_t times = record.interventions.size(); times > 0)
     line += fmt::format(", helped {}", CountText(times, "time"));
-  if (!record.message.empty()) line += " (" + record.message + ")";
-  return line;
+  return line + why;
 }
 
 // `number`: of the event, from 1; the maps name it by that.
@@ -77,6 +81,10 @@ class Witness : public EpisodeObserver {
       WritePlanFiles(s_, plan, folder_.path());
       There(" holds the plan; nothing was driven");
     }
+    if (plan.status == PlanStatus::kOnline) {
+      console_.Say(plan.message);
+      return;
+    }
     if (plan.status != PlanStatus::kSuccess) {
       console_.Say(fmt::format("no plan ({}): {}", Name(plan.status), plan.message));
       return;
@@ -84,7 +92,7 @@ class Witness : public EpisodeObserver {
     console_.Say(fmt::format("{}, in {:.2f} s", PlannedText(plan), plan_s));
     if (!plan.message.empty()) console_.Say(plan.message);
     // A planner keeps clear of what it knows; a file may lead anywhere.
-    if (s_.planner) return;
+    if (s_.plan_file.empty()) return;
     const PlanClearance clearance = CheckClearance(s_, plan);
     if (const std::string conflicts = ConflictsLine(clearance); !conflicts.empty())
       console_.Say(conflicts + ", see `floorproof plan`");
@@ -93,15 +101,16 @@ class Witness : public EpisodeObserver {
 
   void OnScene(const Scene& scene) override {
     recording_.emplace(static_cast<int>(scene.model->nq));
-    progress_.emplace(console_, s_.robot.spec, s_.episode.control_hz,
-                      options_.video ? &*recording_ : nullptr);
-    begin_ = Clock::now();
+    Begin(options_.video ? &*recording_ : nullptr);
   }
 
-  bool OnControl(const EpisodeView& now) override { return progress_->OnControl(now); }
+  bool OnControl(const EpisodeView& now) override {
+    if (!progress_) Begin(nullptr);  // there is no scene
+    return progress_->OnControl(now);
+  }
 
   void SayVerdict(const EpisodeRecord& record) const {
-    console_.Say(Verdict(record));
+    console_.Say(Verdict(s_, record));
     for (std::size_t i = 0; i < record.events.size(); ++i)
       console_.Say(EventLine(i + 1, record.events[i], s_.site.map));
     console_.Say(fmt::format("drove {:.0f}x faster than real time ({:.1f} s)",
@@ -113,6 +122,11 @@ class Witness : public EpisodeObserver {
   const Recording& recording() const { return *recording_; }
 
  private:
+  void Begin(Recording* recording) {
+    progress_.emplace(console_, s_.robot.spec, s_.episode.control_hz, recording);
+    begin_ = Clock::now();
+  }
+
   Scenario& s_;
   ResultFolder& folder_;
   const DriveOptions& options_;
@@ -138,7 +152,7 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
   result.record = std::move(execution.record);
   if (result.record.outcome == Outcome::kNotPlanned && options.write_records)
     WriteEpisodeFiles(s, result.record, folder);
-  if (!execution.scene) {  // nothing was driven
+  if (!execution.scene && result.record.steps == 0) {  // nothing was driven
     if (result.record.outcome == Outcome::kSuccess && options.write_records)
       WritePlanPictures(s, result.plan, folder);
     return result;
@@ -164,7 +178,8 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
     if (options.write_records) WriteHeatMaps(s, result.plan, result.record, folder, console);
     witness.There(options.video ? " holds all but, perhaps, the film" : " is whole");
     missing = "the film";
-    if (options.video)
+    if (options.video && !execution.scene) console.Say("no film: there was no physics");
+    if (options.video && execution.scene)
       console.Say(WriteVideo(s, *execution.scene, result.plan, result.record, witness.recording(),
                              options.draft_around, folder, console));
     witness.There(" is whole");

@@ -132,7 +132,10 @@ void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecor
       [&] {
         if (record.known) WriteKnownMap(s, record, folder / "heatmap_known.png");
       },
-      [&] { WriteErrorPlot(PictureTitle(s), record, folder / "plot_errors.png"); }};
+      [&] {  // an ideal robot has none
+        if (s.episode.drive == "physics")
+          WriteErrorPlot(PictureTitle(s), record, folder / "plot_errors.png");
+      }};
   DrawingProgress progress(console, "drawing maps");
   int done = 0;
   for (const auto& draw : pictures) {

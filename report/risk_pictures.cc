@@ -32,6 +32,7 @@ HeatValues OnRiskCells(const RiskMap& risk, Value value) {
 // What the picture is of; without a plan it says so.
 std::string Title(const Scenario& s, const PlanResult& plan, const std::string& what) {
   const std::string title = PictureTitle(s) + ": ";
+  if (plan.status == PlanStatus::kOnline) return title + "drive";
   return plan.status == PlanStatus::kSuccess
              ? title + what
              : fmt::format("{}no plan ({})", title, Name(plan.status));
@@ -128,7 +129,7 @@ bool SameFloor(const RiskOfPath& a, const RiskOfPath& b) {
 }  // namespace
 
 RiskOfPlan MeasurePlan(const Scenario& s, const PlanResult& plan) {
-  return {s.planner ? s.planner_name : s.plan_file.filename().string(),
+  return {s.planner_name.empty() ? s.plan_file.filename().string() : s.planner_name,
           MeasureRisk(*plan.risk, plan.path)};
 }
 

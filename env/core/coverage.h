@@ -78,13 +78,18 @@ class CoverageMeter {
   void Add(const Pose2& X_WB);
   // The tool was carried: the next Add() starts afresh.
   void Lift() { has_last_ = false; }
-  double coverage() const;  // swept sweepable cells / sweepable cells; 0 if there are none
-  double overlap() const;   // of the swept cells, the share swept in two or more passes
+  // Of the sweepable cells: the share swept (J_hc), and that swept in two or more passes (J_cc);
+  // the passes beyond each cell's first. 0 if there are none.
+  double coverage() const { return OfSweepable(swept_); }
+  double revisited() const { return OfSweepable(twice_); }
+  double extra() const { return OfSweepable(passed_ - swept_); }
+  double overlap() const;  // of the swept cells, the share swept in two or more passes
   // Passes per fine cell (saturating at 255): a new pass begins when the tool comes back to a cell
   // after travelling more than twice its own width since it last touched it.
   const Grid<std::uint8_t>& passes() const { return passes_; }
 
  private:
+  double OfSweepable(std::int64_t cells) const;
   void SweepDisc(const Vec2& from_G, const Vec2& to_G, double length_m);
   void StampFootprint(const Pose2& X_GB, double s_m);
   void Touch(int ix, int iy, double enter_s_m, double leave_s_m);
@@ -97,7 +102,7 @@ class CoverageMeter {
   double s_m_ = 0, gap_m_ = 0, reach_m_ = 0;
   Polygon footprint_G_;            // of the tool where it is, in cells
   std::vector<double> crossings_;  // of a row with its edges
-  std::int64_t swept_ = 0, twice_ = 0;
+  std::int64_t swept_ = 0, twice_ = 0, passed_ = 0;
 };
 
 // Coverage and overlap of a path driven exactly.

@@ -65,10 +65,10 @@ void CoverageMeter::SetTool(const Shape2& tool) {
   }
 }
 
-double CoverageMeter::coverage() const {
+double CoverageMeter::OfSweepable(std::int64_t cells) const {
   return area_->sweepable_cells == 0
              ? 0.0
-             : static_cast<double>(swept_) / static_cast<double>(area_->sweepable_cells);
+             : static_cast<double>(cells) / static_cast<double>(area_->sweepable_cells);
 }
 
 double CoverageMeter::overlap() const {
@@ -83,6 +83,7 @@ void CoverageMeter::Touch(int ix, int iy, double enter_s_m, double leave_s_m) {
     if (area_->sweepable(ix, iy)) {
       swept_ += passes == 1;
       twice_ += passes == 2;
+      ++passed_;
     }
   }
   last = std::max(last, static_cast<float>(leave_s_m));

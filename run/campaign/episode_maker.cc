@@ -24,8 +24,8 @@ std::string PlanInputs(const Scenario& s) {
     text += " " + FormatDouble(value);
   if (s.goal) text += " to " + FormatDouble(s.goal->x()) + " " + FormatDouble(s.goal->y());
   ConfigNode params = ConfigNode::Map();
-  if (s.planner)
-    WriteParams(*s.planner, params);
+  if (Configurable* planner = PlannerOf(s))
+    WriteParams(*planner, params);
   else
     text += "\n" + PlanCsv(s.user_plan);
   RiskParams risk = s.risk;
@@ -34,6 +34,14 @@ std::string PlanInputs(const Scenario& s) {
   text += "\n" + WriteYaml(params);
   if (s.planner && s.planner->promises().uses_seed) text += std::to_string(s.episode_id);
   return text;
+}
+
+// The plan's JSON with what an online planner has to say after the drive.
+std::string WithFigures(const std::string& plan, const EpisodeRecord& record) {
+  if (record.figures.empty()) return plan;
+  auto json = nlohmann::ordered_json::parse(plan);
+  for (const auto& [name, value] : record.figures) json[name] = value;
+  return json.dump();
 }
 
 // Paths within the scenario's folder are told from there, so that a shard driven elsewhere says the
@@ -62,7 +70,8 @@ EpisodeRow EpisodeMaker::Run(const Variant& variant, std::uint64_t episode) try 
   Scenario s = file_.Read(episode, variant);
   const Planned& planned = Plan(variant, s);
   std::optional<Scene> scene;
-  return MakeRow(variant.name, s, planned.json, ExecutePlan(s, planned.plan, scene));
+  const EpisodeRecord record = ExecutePlan(s, planned.plan, scene);
+  return MakeRow(variant.name, s, WithFigures(planned.json, record), record);
 } catch (const InputError& e) {
   return Refused(variant, episode, e.what());
 } catch (const InternalError& e) {

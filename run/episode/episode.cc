@@ -40,6 +40,13 @@ std::string_view Name(Outcome outcome) {
   return "?";
 }
 
+void EpisodeRecord::RequireCoverage(double least) {
+  if (outcome != Outcome::kSuccess || metrics.coverage >= least) return;
+  outcome = Outcome::kFailure;
+  message = fmt::format("coverage {:.2f} % is below success.min_coverage, {:.2f} %",
+                        100 * metrics.coverage, 100 * least);
+}
+
 namespace {
 
 Stream StreamOf(const Scenario& s, const std::string& name) {
@@ -148,7 +155,9 @@ std::optional<Outcome> Episode::Control() {
   recorder_.OnControl(sample_, robot_side_.estimate());
 
   std::optional<Outcome> ended;
-  if (sample_.command.done) ended = Outcome::kSuccess;
+  const std::optional<double>& enough = s_.episode.stop_at_coverage;
+  if (sample_.command.done || (enough && recorder_.coverage() >= *enough))
+    ended = Outcome::kSuccess;
   if (sample_.t_s >= limit_s_ + interventions_.extra_s()) ended = Outcome::kTimeout;
   if (observer_ && !observer_->OnControl({sample_, sensed_, robot_side_.estimate(), simulation_,
                                           recorder_.coverage(), recorder_.driven_m() / plan_m_}))

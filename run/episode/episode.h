@@ -6,11 +6,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "env/core/coverage.h"
-#include "env/core/event.h"
 #include "env/core/drawn_map.h"
+#include "env/core/event.h"
 #include "env/sim/plant.h"
 #include "env/sim/simulation.h"
 #include "planners/planner.h"
@@ -50,6 +51,11 @@ struct EpisodeRecord {
   Grid<std::uint8_t> sweepable;
   std::optional<KnownMap> known;  // what the robot's mapper drew, where it has one
   std::int64_t steps = 0;
+  // Of an online planner: its own, for result.json and the columns plan.*, in order.
+  std::vector<std::pair<std::string, double>> figures;
+
+  // A success that covered less than it must is a failure, and says so.
+  void RequireCoverage(double least);
 };
 
 // An episode as it stands at a control period.

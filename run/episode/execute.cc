@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/episode/execute.h"
 
+#include "run/episode/cell_drive.h"
+
 namespace floorproof {
 
 Execution Execute(Scenario& scenario, EpisodeObserver* observer) {
@@ -13,6 +15,8 @@ Execution Execute(Scenario& scenario, EpisodeObserver* observer) {
 
 EpisodeRecord ExecutePlan(Scenario& s, const PlanResult& plan, std::optional<Scene>& scene,
                           EpisodeObserver* observer) {
+  if (plan.status == PlanStatus::kOnline && s.episode.drive == "cells")
+    return DriveCells(s, observer);
   EpisodeRecord record;
   if (plan.status != PlanStatus::kSuccess) {
     record.outcome = Outcome::kNotPlanned;

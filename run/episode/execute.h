@@ -12,12 +12,13 @@ namespace floorproof {
 
 struct Execution {
   PlanResult plan;
-  std::optional<Scene> scene;  // none: there was no plan, or `drive: none`
+  std::optional<Scene> scene;  // none: there was no plan, or no physics
   EpisodeRecord record;
 };
 
 // Plans, builds the scene, drives. Without a plan the outcome is kNotPlanned; with `drive: none` it
-// is kSuccess, and nothing is driven. Throws InputError, InternalError.
+// is kSuccess, and nothing is driven; with `drive: cells` there is no scene. Throws InputError,
+// InternalError.
 Execution Execute(Scenario& scenario, EpisodeObserver* observer = nullptr);
 
 // The rest of it, the plan made before.

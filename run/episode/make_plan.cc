@@ -14,6 +14,12 @@ PlanResult MakePlan(const Scenario& s) {
   if (s.planner) {
     Stream stream(static_cast<std::uint64_t>(s.episode.seed), s.episode_id, "plan");
     plan = s.planner->Plan({known, robot, s.start, s.goal, stream.Next(), risk.get()});
+  } else if (s.online) {
+    plan.status = PlanStatus::kOnline;
+    plan.message = s.planner_name + " plans while it drives, as the floor becomes known";
+    plan.clear = robot.clear;
+    plan.tool = robot.tool;
+    plan.tool_width_m = robot.tool_width_m;
   } else {
     plan.path = s.user_plan;
     // A user's plan need not begin where the robot stands: it drives there first, and is judged on

@@ -14,7 +14,7 @@ namespace floorproof {
 
 // What each means stands in kMetrics.
 struct Metrics {
-  double coverage = 0, overlap = 0;
+  double coverage = 0, overlap = 0, revisited = 0, extra_visits = 0;
   double path_length_m = 0;
   double duration_s = 0;
   double energy_j = 0;
@@ -57,6 +57,11 @@ inline constexpr auto kMetrics = std::to_array<MetricColumn>({
      "share of the floor that the tool can reach, that it swept"},
     {"overlap", "", &Metrics::overlap,
      "share of what was swept, that was swept in two passes or more"},
+    {"revisited", "", &Metrics::revisited,
+     "share of the floor that the tool can reach, that it swept in two passes or more"},
+    {"extra_visits", "", &Metrics::extra_visits,
+     "passes beyond the first, over the floor that the tool can reach: 1 is a second pass over all "
+     "of it"},
     {"path_length_m", "m", &Metrics::path_length_m, "way driven", true},
     {"duration_s", "s", &Metrics::duration_s, "simulated time", true},
     {"energy_j", "J", &Metrics::energy_j, "energy at the battery's terminals", true},

@@ -63,6 +63,7 @@ class Recorder {
                              .cross_track_m = f(sample.cross_track_m),
                              .power_w = f(sample.power_w),
                              .coverage = f(meter_.coverage()),
+                             .revisited = f(meter_.revisited()),
                              .shape = sample.shape,
                              .est_position_std_m = f(estimate.position_std_m)});
   }
@@ -108,6 +109,8 @@ class Recorder {
     m.coverage = meter_.coverage();
     if (asks_for_risk_) m.cumulative_risk = risk_.cumulative_risk();
     m.overlap = meter_.overlap();
+    m.revisited = meter_.revisited();
+    m.extra_visits = meter_.extra();
     m.duration_s = last.t_s;
     m.battery_left = battery_left;
     m.mean_cross_track_m =
@@ -122,11 +125,7 @@ class Recorder {
     record_.sweepable = area_.sweepable;
     const bool judged = ended == Outcome::kSuccess || ended == Outcome::kTimeout;
     record_.outcome = judged && !record_.events.empty() ? Outcome::kFailure : ended;
-    if (record_.outcome == Outcome::kSuccess && m.coverage < min_coverage) {
-      record_.outcome = Outcome::kFailure;
-      record_.message = fmt::format("coverage {:.2f} % is below success.min_coverage, {:.2f} %",
-                                    100 * m.coverage, 100 * min_coverage);
-    }
+    record_.RequireCoverage(min_coverage);
     if (empty_s_ >= 0)
       record_.message = fmt::format(
           "the battery cut off after {:.1f} s: {}", empty_s_,

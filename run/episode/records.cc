@@ -171,7 +171,7 @@ Json PlanJson(const Scenario& s, const PlanResult& plan) {
   }
   Json json = {{"status", Name(plan.status)},
                {"message", plan.message},
-               {"planner", s.planner ? s.planner_name : "file"},
+               {"planner", s.planner_name.empty() ? "file" : s.planner_name},
                {"length_m", Length(plan.path)},
                {"turns", CountTurns(plan.path)},
                {"waypoints", plan.path.size()},
@@ -189,6 +189,8 @@ Json PlanJson(const Scenario& s, const PlanResult& plan) {
 Json ResultJson(const Scenario& s, const EpisodeRecord& record) {
   Json margins = Json::object();
   for (const auto& margin : record.margins) margins[margin.detector] = margin.value;
+  Json figures = Json::object();
+  for (const auto& [name, value] : record.figures) figures[name] = value;
   Json events = EventsJson(record.events);
   for (std::size_t i = 0; i < events.size(); ++i)
     events[i]["text"] = FailureSentence(record.events[i], s.site.map);
@@ -199,6 +201,7 @@ Json ResultJson(const Scenario& s, const EpisodeRecord& record) {
                {"outcome", Name(record.outcome)},
                {"message", record.message}};
   if (record.timeout) json["timeout"] = TimeoutJson(record.timeout);
+  if (!record.figures.empty()) json["planner"] = std::move(figures);
   json.update({{"events", std::move(events)},
                {"assists", InterventionsJson(record.interventions)},
                {"metrics", MetricsJson(record.metrics)},

@@ -17,7 +17,7 @@ struct TraceRow {
   double x_m, y_m, est_x_m, est_y_m;  // a map may lie far from the world's origin
   float z_m, roll_rad, pitch_rad, yaw_rad, vx_mps, vy_mps, wz_radps;
   float cmd_vx_mps, cmd_vy_mps, cmd_wz_radps, est_yaw_rad;
-  float cross_track_m, power_w, coverage;
+  float cross_track_m, power_w, coverage, revisited;
   int shape;  // as in Sample
   float est_position_std_m;
 };
@@ -65,6 +65,7 @@ inline constexpr auto kTraceColumns = std::to_array<TraceColumn>({
     {"cross_track_m", "m", &TraceRow::cross_track_m, "distance of the true place from the path"},
     {"power_w", "W", &TraceRow::power_w, "electrical power of motors and all else aboard"},
     {"coverage", "", &TraceRow::coverage, "the metric `coverage` so far"},
+    {"revisited", "", &TraceRow::revisited, "the metric `revisited` so far"},
     {"shape", "", &ShapeName,
      "name of the robot's shape; empty between two, and of a robot that has one only"},
     {"est_position_std_m", "m", &TraceRow::est_position_std_m,

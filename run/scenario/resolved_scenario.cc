@@ -165,8 +165,9 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
   if (s.goal &&
       stated("goal", site_varies || Vary(s, {"site.goal", "site.goal.x_m", "site.goal.y_m"})))
     root.Add("goal", Goal(*s.goal));
-  root.Add("plan", s.planner ? WithPlugin(Named("planner", s.planner_name), *s.planner)
-                             : Named("file", PathFrom(folder, s.plan_file).string()));
+  Configurable* planner = PlannerOf(s);
+  root.Add("plan", planner != nullptr ? WithPlugin(Named("planner", s.planner_name), *planner)
+                                      : Named("file", PathFrom(folder, s.plan_file).string()));
   if (AsksForRisk(s))
     root.Add("risk", WithParams(Named("tables", s.fmea_file == BundledTables()
                                                     ? std::string(kBundledTables)

@@ -327,6 +327,11 @@ Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrid
   return scenario.Read(scenario.episode());
 }
 
+Configurable* PlannerOf(const Scenario& s) {
+  if (s.planner) return s.planner.get();
+  return s.online.get();
+}
+
 bool AsksForRisk(const Scenario& s) {
   return s.written.contains("risk") || (s.planner && s.planner->promises().needs_risk);
 }

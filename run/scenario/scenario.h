@@ -24,6 +24,7 @@
 #include "env/scene/robot_model.h"
 #include "env/scene/scene.h"
 #include "env/sensors/sensor.h"
+#include "planners/online/online_planner.h"
 #include "planners/planner.h"
 #include "planners/risk/risk_map.h"
 #include "run/scenario/draws.h"
@@ -53,8 +54,10 @@ struct Scenario {
   Pose2 start;
   std::optional<Vec2> goal;
 
+  // One of three makes the plan.
   std::string planner_name;  // empty: plan_file
   std::unique_ptr<Planner> planner;
+  std::unique_ptr<OnlinePlanner> online;  // on the way, as the floor becomes known
   std::filesystem::path plan_file;
   Path user_plan;  // what it holds
 
@@ -112,7 +115,7 @@ class ScenarioFile {
   std::uint64_t episode() const { return episode_; }  // the key `episode`
   std::string name() const;                           // the key `name`, else the file's stem
   ConfigNode gate() const;                            // null: none
-  bool drives() const;                                // through physics
+  bool drives() const;                                // through physics: it can fail
   // Reads each variant, and each choice of `randomise` in it, as some of the first episodes would
   // be: throws InputError where none of them makes sense (a key that is none, a robot unknown).
   void CheckDraws() const;
@@ -136,6 +139,9 @@ class ScenarioFile {
   std::uint64_t episode_ = 0;
   mutable std::map<std::filesystem::path, ConfigNode> site_files_;  // read once each
 };
+
+// Its planner's parameters, whichever kind it is; nullptr: a user's plan.
+Configurable* PlannerOf(const Scenario& scenario);
 
 // Whether its plan needs the floor's risk, or its key `risk` asks for it: of any other nothing is
 // said of risk.

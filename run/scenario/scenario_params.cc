@@ -25,12 +25,17 @@ void EpisodeParams::Visit(ParamVisitor& v) {
       "success",
       [this](ParamVisitor& g) {
         g("min_coverage", min_coverage, Between(0, 1), "least coverage that counts as success");
+        g("stop_at_coverage", stop_at_coverage, Between(0, 1),
+          "the drive ends when so much is covered, which no robot on an unknown floor can tell; "
+          "none: when its planner, or its plan, ends");
       },
       "what counts as success");
   v("time_limit_s", time_limit_s, Positive(),
     "simulated seconds; none: a minute and three times what the plan takes at its own speeds, not "
-    "counting waits for help");
-  v("drive", drive, {"physics", "none"}, "physics: drive the plan; none: plan only");
+    "counting waits for help; of a planner of unknown floors three hours");
+  v("drive", drive, {"physics", "cells", "none"},
+    "physics: drive the plan; cells: an ideal robot from cell to cell, for planners of unknown "
+    "floors; none: plan only");
   v("seed", seed, Between(0, 2147483647.0), "of every random stream");
   v("episode", episode, Between(0, 1e8), "of the seed's episodes, the one that `run` drives");
   v("wheels", wheels, {"ideal", "rollers"},

@@ -26,8 +26,10 @@ struct EpisodeParams {
   // is logged.
   std::string on_failure = "stop";
   double min_coverage = 0;
-  std::optional<double> time_limit_s;  // none: three times the plan's own time, and a minute
-  std::string drive = "physics";       // none: the plan only
+  std::optional<double> stop_at_coverage;  // none: the planner, or the plan's end, says when
+  // none: three times the plan's own time, and a minute; of an online planner kOnlineLimit_s
+  std::optional<double> time_limit_s;
+  std::string drive = "physics";  // cells: an ideal robot on cells; none: the plan only
   int seed = 0;
   int episode = 0;               // that `run` drives: of a campaign's resolved episode its own
   std::string wheels = "ideal";  // of Mecanum robots: ideal, or rollers that are bodies

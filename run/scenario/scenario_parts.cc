@@ -188,9 +188,40 @@ std::vector<int> ReadPlanPart(const ConfigNode& root, Scenario& s) {
   }
   const Named named = ReadNamed(root, "plan", "planner", "boustrophedon");
   s.planner_name = named.name;
-  s.planner = MakePlugin(Planners(), named.name, "plan.planner", named.mark);
-  ReadParams(named.params, "plan.", *s.planner, {"planner"});
+  const std::vector<std::string> online = PluginNames(OnlinePlanners());
+  if (std::ranges::find(online, named.name) != online.end())
+    s.online = MakePlugin(OnlinePlanners(), named.name, "plan.planner", named.mark);
+  else
+    s.planner = MakePlugin(Planners(), named.name, "plan.planner", named.mark, online);
+  ReadParams(named.params, "plan.", *PlannerOf(s), {"planner"});
   return lines;
+}
+
+// What a planner of unknown floors and the way it is driven must have in common.
+void CheckOnline(const ConfigNode& root, const Scenario& s) {
+  const bool cells = s.episode.drive == "cells";
+  if (cells && !s.online)
+    throw InputError(MarkOf(root, "drive"), "drive", "cells",
+                     "is for planners of unknown floors, which `floorproof list planners` names");
+  if (!s.online) return;
+  if (s.episode.drive == "physics")
+    throw InputError(MarkOf(root, "drive"), "drive", "physics",
+                     s.planner_name + " drives cells so far: `drive: cells`");
+  const double cell_m = s.site.map.frame.cell_m;
+  const double step_m = s.online->step_m().value_or(cells ? cell_m : s.robot.spec.tool_width_m);
+  const auto mark = [&](const char* key) {
+    const ConfigNode* plan = root.Find("plan");
+    const ConfigNode* node = plan->IsMap() ? plan->Find(key) : nullptr;
+    return node != nullptr ? node->mark : plan->mark;
+  };
+  if (cells && std::abs(step_m - cell_m) > 1e-9 * cell_m)
+    throw InputError(mark("step_m"), "plan.step_m", FormatDouble(step_m),
+                     "must be the site's cell, " + FormatDouble(cell_m) +
+                         " m, or none: with `drive: cells` a step leads to the next cell");
+  if (s.online->radius_m() < step_m)
+    throw InputError(mark("radius_m"), "plan.radius_m", FormatDouble(s.online->radius_m()),
+                     "must be at least the step, " + FormatDouble(step_m) +
+                         " m: else the robot does not see where it steps");
 }
 
 // Tables are named like robots: a bundled one's name, or a path that ends in .yaml.
@@ -360,6 +391,7 @@ void ReadParts(const ConfigNode& root, Scenario& s) {
   s.site.map.start = s.start;  // the scenario's own wins, on pictures too
   CheckStart(root, s);
   s.goal = ReadGoal(root, s);
+  CheckOnline(root, s);
   ReadRisk(root, s);
   ReadControl(root, s);
   ReadReaction(root, s);

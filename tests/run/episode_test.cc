@@ -258,5 +258,26 @@ TEST_F(EpisodeTest, ARobotThatIsHeldDrivesNoWay) {
   EXPECT_NEAR(dut.metrics.path_length_m, dut.trace.back().x_m - 1.5, 0.1);
 }
 
+TEST_F(EpisodeTest, StopsWhenEnoughIsCovered) {
+  Save("plan.csv", "x_m,y_m\n1.5,1.5\n6,1.5\n1.5,1.5\n");
+  const EpisodeRecord whole = Drive(Read(RoomScenario("")));
+  const double enough = 0.5 * whole.metrics.coverage;
+  const EpisodeRecord dut =
+      Drive(Read(RoomScenario(""), {{"success.stop_at_coverage", std::to_string(enough)}}));
+  EXPECT_EQ(dut.outcome, Outcome::kSuccess) << dut.message;
+  EXPECT_GE(dut.metrics.coverage, enough);
+  EXPECT_LT(dut.metrics.coverage, enough + 0.01);
+  EXPECT_LT(dut.metrics.path_length_m, 0.5 * whole.metrics.path_length_m);
+}
+
+// Out and back on one line: nearly all that is swept is swept again.
+TEST_F(EpisodeTest, WhatIsSweptAgainIsRevisitedOnce) {
+  Save("plan.csv", "x_m,y_m\n1.5,1.5\n6,1.5\n1.5,1.5\n");
+  const Metrics dut = Drive(Read(RoomScenario(""))).metrics;
+  EXPECT_NEAR(dut.revisited, dut.overlap * dut.coverage, 1e-12);
+  EXPECT_GT(dut.revisited, 0.7 * dut.coverage);
+  EXPECT_NEAR(dut.extra_visits, dut.revisited, 0.002) << "no third pass";
+}
+
 }  // namespace
 }  // namespace floorproof

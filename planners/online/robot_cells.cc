@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planners/online/robot_cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace floorproof {
+namespace {
+
+constexpr double kSlack = 1e-9;  // of a cell: sums of lengths are not exact
+
+// Where a row of cells of this side begins, at 0 or less than a side before it, such that `middle`
+// is the middle of one.
+double Corner(double middle, double side) {
+  const double cells = middle / side - 0.5;
+  const double beyond = cells - std::floor(cells + kSlack);
+  return beyond < kSlack ? 0 : (beyond - 1) * side;
+}
+
+}  // namespace
+
+RobotCells::RobotCells(const GridFrame& ground, const Vec2& start_W, double step_m,
+                       double keep_clear_m)
+    : ground_(ground),
+      side_(step_m / ground.cell_m),
+      keep_clear_(keep_clear_m / ground.cell_m),
+      taken_(ground.width, ground.height, CellState::kUnknown) {
+  const Vec2 start = ground.X_WG.Inverse() * start_W / ground.cell_m;
+  corner_ = {Corner(start.x(), side_), Corner(start.y(), side_)};
+  const auto cells = [this](int n, double corner) {
+    return static_cast<int>(std::ceil((n - corner) / side_ - kSlack));
+  };
+  const Vec2 corner_W = ground.X_WG * Vec2(corner_ * ground.cell_m);
+  frame_ = {cells(ground.width, corner_.x()),
+            cells(ground.height, corner_.y()),
+            step_m,
+            {corner_W.x(), corner_W.y(), ground.X_WG.yaw_rad}};
+  visits_ = Grid<std::int32_t>(frame_.width, frame_.height);
+  not_free_ = blocked_ = Grid<std::int32_t>(frame_.width, frame_.height);
+  for (int iy = 0; iy < frame_.height; ++iy)
+    for (int ix = 0; ix < frame_.width; ++ix) {
+      const Needed needed = NeededBy({ix, iy});
+      not_free_(ix, iy) = needed.cells;
+      blocked_(ix, iy) = needed.beyond;
+    }
+}
+
+Vec2 RobotCells::MiddleOnGround(Cell c) const {
+  return corner_ + side_ * Vec2(c.ix + 0.5, c.iy + 0.5);
+}
+
+// Whether any of it lies in the cell's middle, or nearer to it than what is to be kept clear.
+bool RobotCells::Needs(Cell c, Cell ground) const {
+  const Vec2 middle = MiddleOnGround(c);
+  const Vec2 low(ground.ix, ground.iy);
+  const Vec2 nearest = middle.cwiseMax(low).cwiseMin(low + Vec2::Ones());
+  return (nearest - middle).norm() < std::max(keep_clear_ - kSlack, kSlack);
+}
+
+RobotCells::Needed RobotCells::NeededBy(Cell c) const {
+  const Vec2 middle = MiddleOnGround(c);
+  const auto first = [this](double m) { return static_cast<int>(std::floor(m - keep_clear_)); };
+  const auto last = [this](double m) { return static_cast<int>(std::floor(m + keep_clear_)); };
+  Needed needed;
+  for (int iy = first(middle.y()); iy <= last(middle.y()); ++iy)
+    for (int ix = first(middle.x()); ix <= last(middle.x()); ++ix) {
+      if (!Needs(c, {ix, iy})) continue;
+      ++needed.cells;
+      needed.beyond += ground_.Inside({ix, iy}) ? 0 : 1;
+    }
+  return needed;
+}
+
+void RobotCells::Update(const KnownMap& known, std::span<const Cell> changed) {
+  changed_.clear();
+  for (const Cell& c : changed) {
+    const CellState now = known.At(c);
+    if (now == taken_(c)) continue;
+    Take(c, taken_(c), now);
+    taken_(c) = now;
+  }
+}
+
+void RobotCells::Take(Cell ground, CellState was, CellState now) {
+  const double reach = keep_clear_;
+  const auto first = [&](int at, double corner, int least) {
+    return std::max(least, static_cast<int>(std::floor((at - reach - corner) / side_ - 0.5)));
+  };
+  const auto last = [&](int at, double corner, int most) {
+    return std::min(most, static_cast<int>(std::ceil((at + 1 + reach - corner) / side_ - 0.5)));
+  };
+  const int x1 = last(ground.ix, corner_.x(), frame_.width - 1),
+            y1 = last(ground.iy, corner_.y(), frame_.height - 1);
+  for (int iy = first(ground.iy, corner_.y(), 0); iy <= y1; ++iy)
+    for (int ix = first(ground.ix, corner_.x(), 0); ix <= x1; ++ix)
+      if (Needs({ix, iy}, ground)) {
+        not_free_(ix, iy) += (was == CellState::kFree ? 1 : 0) - (now == CellState::kFree ? 1 : 0);
+        blocked_(ix, iy) +=
+            (now == CellState::kOccupied ? 1 : 0) - (was == CellState::kOccupied ? 1 : 0);
+        changed_.push_back({ix, iy});
+      }
+}
+
+void RobotCells::Visit(Cell c) {
+  if (frame_.Inside(c)) ++visits_(c);
+}
+
+}  // namespace floorproof

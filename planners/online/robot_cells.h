@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The known floor in cells of the robot's step, and how often the robot was in each.
+//
+// After Li et al., "A Complete Coverage Path Planning Algorithm for Mobile Robot Based on FSM and
+// Rolling Window Approach in Unknown Environment", section 2: the cells' properties Flag (Eq. 1)
+// and Visited (Eq. 2), and their steps to 8 neighbours. A cell is free where the robot, its centre
+// in the middle of the cell, keeps clear of all that is known to be occupied, and all of the floor
+// there is known. On a known map with the same cells, and nothing to keep clear of, the two are
+// one.
+//
+// What the robot sees is taken over cell by cell as it comes: an update takes time as what is new.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "env/known/known_map.h"
+#include "planners/search/neighbours.h"
+
+namespace floorproof {
+
+// The eight steps, counter-clockwise from east; odd ones are diagonal.
+inline constexpr std::array<Cell, 8> kSteps = {Cell{1, 0},  Cell{1, 1},   Cell{0, 1},  Cell{-1, 1},
+                                               Cell{-1, 0}, Cell{-1, -1}, Cell{0, -1}, Cell{1, -1}};
+
+class RobotCells {
+ public:
+  RobotCells() = default;
+  // Cells of `step_m` over `ground`, the known map's frame, laid such that `start_W` is the middle
+  // of one. `keep_clear_m`: from the robot's centre.
+  RobotCells(const GridFrame& ground, const Vec2& start_W, double step_m, double keep_clear_m);
+
+  void Update(const KnownMap& known, std::span<const Cell> changed);
+  // The cells of which IsFree or MayBeFree may have changed in the last update, some of them twice.
+  std::span<const Cell> changed() const { return changed_; }
+
+  const GridFrame& frame() const { return frame_; }
+  Cell At(const Vec2& p_W) const { return frame_.ToCell(p_W); }
+  bool IsFree(Cell c) const { return frame_.Inside(c) && not_free_(c) == 0; }
+  // Free, for all that is known.
+  bool MayBeFree(Cell c) const { return frame_.Inside(c) && blocked_(c) == 0; }
+  // Whether the robot may take this of kSteps: to a free cell, without cutting a corner.
+  bool MayStep(Cell from, std::size_t step) const {
+    const Cell by = kSteps[step];
+    if (!IsFree(from + by)) return false;
+    return step % 2 == 0 || (IsFree(from + Cell{by.ix, 0}) && IsFree(from + Cell{0, by.iy}));
+  }
+
+  // The robot has come into the cell.
+  void Visit(Cell c);
+  int visits(Cell c) const { return visits_(c); }
+  bool IsUncovered(Cell c) const { return IsFree(c) && visits_(c) == 0; }
+
+ private:
+  Vec2 MiddleOnGround(Cell c) const;
+  bool Needs(Cell c, Cell ground) const;
+  // Of the ground's cells that a cell needs to be free: how many there are, and how many of them
+  // lie beyond the ground.
+  struct Needed {
+    int cells = 0, beyond = 0;
+  };
+  Needed NeededBy(Cell c) const;
+  void Take(Cell ground, CellState was, CellState now);
+
+  GridFrame frame_, ground_;
+  // In cells of the ground: where the corner of cell (0, 0) lies, a cell's side, what to keep
+  // clear.
+  Vec2 corner_ = Vec2::Zero();
+  double side_ = 1, keep_clear_ = 0;
+  Grid<CellState> taken_;  // the ground, as last taken over
+  // How many of the ground's cells that a cell needs are not known to be free; and are occupied, or
+  // beyond the ground.
+  Grid<std::int32_t> not_free_, blocked_;
+  Grid<std::int32_t> visits_;
+  std::vector<Cell> changed_;
+};
+
+}  // namespace floorproof

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/episode/cell_drive.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "base/streams.h"
+#include "env/core/failure_text.h"
+#include "run/episode/cell_world.h"
+#include "run/episode/online_limit.h"
+#include "run/scenario/floors.h"
+
+namespace floorproof {
+namespace {
+
+constexpr int kLookEvery = 1000;  // moves; who looks on is asked so often
+constexpr int kMostBumps = 100;   // in a row, before the planner is given up
+
+class CellDrive {
+ public:
+  CellDrive(Scenario& s, Grid<std::uint8_t> blocked, Cell start, EpisodeObserver* observer)
+      : s_(s),
+        observer_(observer),
+        world_(s.site.map.frame, std::move(blocked), start, s.online->radius_m()),
+        known_(s.site.map.frame),
+        limit_s_(s.episode.time_limit_s.value_or(kOnlineLimit_s)) {
+    known_.changed.emplace();
+    sample_.yaw_rad = s.start.yaw_rad;
+    Look();
+  }
+
+  EpisodeRecord Run() {
+    Stream seed(static_cast<std::uint64_t>(s_.episode.seed), s_.episode_id, "plan");
+    s_.online->Start({world_.frame(), estimate_.X_WB, 0, world_.frame().cell_m, seed.Next()});
+    std::optional<Outcome> ended;
+    for (Trace(); !ended;) ended = Period();
+    return Finish(*ended);
+  }
+
+ private:
+  // From one target to the next.
+  std::optional<Outcome> Period() {
+    if (const auto stop = s_.episode.stop_at_coverage; stop && world_.coverage() >= *stop)
+      return Outcome::kSuccess;
+    if (sample_.t_s >= limit_s_) return Outcome::kTimeout;
+    if (observer_ != nullptr && world_.moves() % kLookEvery == 0 &&
+        !observer_->OnControl({sample_, sensed_, estimate_, nullptr, world_.coverage(), 0}))
+      return Outcome::kInterrupted;
+    world_.Sense(known_);
+    const OnlineStep next = s_.online->Next({known_, *known_.changed, estimate_, bumps_ > 0});
+    known_.changed->clear();
+    if (next.kind == OnlineStep::Kind::kTarget)
+      return DriveTo(world_.frame().ToCell(next.target_W));
+    record_.message = next.why;
+    const bool nowhere = next.kind == OnlineStep::Kind::kNowhere && world_.moves() == 0;
+    return nowhere ? Outcome::kNotPlanned : Outcome::kSuccess;
+  }
+
+  // Straight, cell by cell, as far as it can.
+  std::optional<Outcome> DriveTo(Cell to) {
+    const Cell from = world_.here();
+    const int dx = to.ix - from.ix, dy = to.iy - from.iy, n = std::max(std::abs(dx), std::abs(dy));
+    for (int i = 1; i <= n; ++i) {
+      const Cell next = {from.ix + static_cast<int>(std::lround(1.0 * i * dx / n)),
+                         from.iy + static_cast<int>(std::lround(1.0 * i * dy / n))};
+      if (!Step(next)) {
+        if (++bumps_ < kMostBumps) return std::nullopt;
+        const Vec2 p_W = world_.frame().Center(to);
+        record_.message = fmt::format("{} goes for what it cannot reach, at {}", s_.planner_name,
+                                      PlaceText(p_W.x(), p_W.y()));
+        return Outcome::kError;
+      }
+      bumps_ = 0;
+    }
+    return std::nullopt;
+  }
+
+  bool Step(Cell next) {
+    const Vec2 was_W = sample_.p_WB.head<2>();
+    if (!world_.Step(next)) return false;
+    const Vec2 way_W = world_.frame().Center(next) - was_W;
+    const double yaw_rad = std::atan2(way_W.y(), way_W.x());
+    turns_ += world_.moves() > 1 && std::abs(WrapAngle(yaw_rad - sample_.yaw_rad)) > 0.1;
+    sample_.yaw_rad = yaw_rad;
+    length_m_ += way_W.norm();
+    sample_.t_s = length_m_ / s_.robot.spec.cruise_mps;
+    Look();
+    Trace();
+    return true;
+  }
+
+  void Look() {
+    const Vec2 p_W = world_.frame().Center(world_.here());
+    sample_.p_WB = {p_W.x(), p_W.y(), 0};
+    estimate_.X_WB = sample_.X_WB();
+  }
+
+  void Trace() {
+    TraceRow row{};
+    row.t_s = sample_.t_s;
+    row.x_m = row.est_x_m = sample_.p_WB.x();
+    row.y_m = row.est_y_m = sample_.p_WB.y();
+    row.yaw_rad = row.est_yaw_rad = static_cast<float>(sample_.yaw_rad);
+    row.coverage = static_cast<float>(world_.coverage());
+    row.revisited = static_cast<float>(world_.revisited_share());
+    record_.trace.push_back(row);
+  }
+
+  EpisodeRecord Finish(Outcome ended) {
+    Metrics& m = record_.metrics;
+    m.coverage = world_.coverage();
+    m.revisited = world_.revisited_share();
+    m.overlap = static_cast<double>(world_.revisited()) / static_cast<double>(world_.visited());
+    m.extra_visits = static_cast<double>(world_.moves() + 1 - world_.visited()) /
+                     static_cast<double>(world_.reachable_cells());
+    m.path_length_m = length_m_;
+    m.duration_s = sample_.t_s;
+    m.turns = turns_;
+    record_.steps = world_.moves() + 1;
+    record_.passes_frame = world_.frame();
+    record_.passes = Grid<std::uint8_t>(world_.frame().width, world_.frame().height);
+    std::ranges::transform(world_.visits().cells, record_.passes.cells.begin(),
+                           [](int n) { return static_cast<std::uint8_t>(std::min(n, 255)); });
+    record_.sweepable = world_.reachable();
+    known_.changed.reset();
+    record_.known = std::move(known_);
+    record_.figures = s_.online->figures();
+    record_.outcome = ended;
+    record_.RequireCoverage(s_.episode.min_coverage);
+    if (ended == Outcome::kTimeout) record_.timeout = Timeout{sample_.t_s, sample_.X_WB(), ""};
+    return std::move(record_);
+  }
+
+  Scenario& s_;
+  EpisodeObserver* observer_;
+  CellWorld world_;
+  KnownMap known_;
+  double limit_s_, length_m_ = 0;
+  int turns_ = 0, bumps_ = 0;
+  Sample sample_;
+  Observation sensed_;
+  Estimate estimate_;
+  EpisodeRecord record_;
+};
+
+}  // namespace
+
+EpisodeRecord DriveCells(Scenario& s, EpisodeObserver* observer) {
+  const GridFrame& frame = s.site.map.frame;
+  Grid<std::uint8_t> blocked = ObstacleMask(TrueFloor(s), s.robot.spec.step_m, frame);
+  const Cell start = frame.ToCell(s.start.p());
+  if (blocked(start)) {
+    EpisodeRecord record;
+    record.outcome = Outcome::kNotPlanned;
+    record.message = "the robot starts in a cell that is not free";
+    return record;
+  }
+  return CellDrive(s, std::move(blocked), start, observer).Run();
+}
+
+}  // namespace floorproof
