@@ -113,8 +113,12 @@ class Witness : public EpisodeObserver {
     console_.Say(Verdict(s_, record));
     for (std::size_t i = 0; i < record.events.size(); ++i)
       console_.Say(EventLine(i + 1, record.events[i], s_.site.map));
-    console_.Say(fmt::format("drove {:.0f}x faster than real time ({:.1f} s)",
-                             record.metrics.duration_s / drive_s_, drive_s_));
+    if (s_.episode.drive == "cells")
+      console_.Say(
+          fmt::format("drove {} in {:.2f} s", CountText(record.steps - 1, "move"), drive_s_));
+    else
+      console_.Say(fmt::format("drove {:.0f}x faster than real time ({:.1f} s)",
+                               record.metrics.duration_s / drive_s_, drive_s_));
   }
 
   // The records are written: interrupts end the process again.

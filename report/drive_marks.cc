@@ -24,15 +24,18 @@ std::vector<HeatFailure> ListedFailures(const std::vector<Event>& events) {
 }
 
 std::vector<std::vector<Vec2>> WayDriven(const std::vector<TraceRow>& trace) {
-  constexpr double kJump_m = 0.3;  // in a control period: the robot was carried
+  constexpr double kJump_m = 0.3, kJump_mps = 3;  // so far, so fast: the robot was carried
   constexpr double kStray_m = 0.005;
   constexpr std::size_t kMostBetween = 200;  // bounds what is looked at again
   std::vector<std::vector<Vec2>> way;
   std::vector<Vec2> between;  // since the last point that is kept
+  double last_s = 0;
   for (const TraceRow& row : trace) {
     const Vec2 p(row.x_m, row.y_m);
     const Vec2 last = between.empty() ? (way.empty() ? p : way.back().back()) : between.back();
-    if (way.empty() || (p - last).norm() > kJump_m) {
+    const double gone_m = (p - last).norm(), most_m = kJump_mps * (row.t_s - last_s);
+    last_s = row.t_s;
+    if (way.empty() || gone_m > std::max(kJump_m, most_m)) {
       if (!between.empty()) way.back().push_back(between.back());
       way.push_back({p});
       between.clear();

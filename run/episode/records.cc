@@ -160,6 +160,8 @@ Json MetricsJson(const Metrics& metrics) {
 }
 
 Json PlanJson(const Scenario& s, const PlanResult& plan) {
+  if (plan.status == PlanStatus::kOnline)  // there is nothing to measure yet
+    return {{"status", Name(plan.status)}, {"message", plan.message}, {"planner", s.planner_name}};
   const bool circle = plan.clear.kind == Shape2::Kind::kCircle;
   PathCoverage covered;
   double area_m2 = 0;
@@ -259,7 +261,10 @@ ResultNames FilmResults() { return {"episode", IsFilm, false}; }
 void WritePlanFiles(const Scenario& s, const PlanResult& plan,
                     const std::filesystem::path& folder) {
   WriteResolvedScenario(s, folder);
-  WriteFileWhole(folder / "plan.csv", PlanCsv(plan.path));
+  if (plan.status == PlanStatus::kOnline)
+    Remove(folder / "plan.csv");
+  else
+    WriteFileWhole(folder / "plan.csv", PlanCsv(plan.path));
   WriteFileWhole(folder / "plan.json", JsonText(PlanJson(s, plan)) + "\n");
   if (AsksForRisk(s)) {
     WriteFileWhole(folder / "risk.csv", RiskCsv(*plan.risk));

@@ -2,6 +2,8 @@
 // `drive: cells`: from the scenario to its record, and what is refused.
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "base/error.h"
 #include "run/episode/records.h"
 #include "run/scenario/chance.h"
@@ -34,8 +36,8 @@ class CellDriveTest : public ScenarioTest {
 };
 
 TEST_F(CellDriveTest, CoversTheFloorAndSaysWhatItDrove) {
-  const Scenario s = Read(Text("plan: rolling_window\ndrive: cells\n"));
-  Execution dut = Execute(const_cast<Scenario&>(s));
+  Scenario s = Read(Text("plan: rolling_window\ndrive: cells\n"));
+  const Execution dut = Execute(s);
   EXPECT_EQ(dut.plan.status, PlanStatus::kOnline);
   const EpisodeRecord& record = dut.record;
   EXPECT_EQ(record.outcome, Outcome::kSuccess) << record.message;
@@ -97,6 +99,15 @@ TEST_F(CellDriveTest, WhatDoesNotGoTogetherIsRefusedAtItsKey) {
   EXPECT_THAT(WhyRefused("plan: random_walk\n"), HasSubstr("`drive: cells`"));
   EXPECT_THAT(WhyRefused("drive: cells\nplan: rolling_windows\n"),
               AllOf(HasSubstr("did you mean rolling_window?"), HasSubstr("boustrophedon")));
+}
+
+// Nothing of it is measured beforehand.
+TEST_F(CellDriveTest, ItsPlanSaysThatItIsMadeOnTheWay) {
+  const Scenario s = Read(Text("plan: rolling_window\ndrive: cells\n"));
+  const auto json = PlanJson(s, MakePlan(s));
+  EXPECT_EQ(json["status"], "online");
+  EXPECT_EQ(json["planner"], "rolling_window");
+  EXPECT_FALSE(json.contains("length_m"));
 }
 
 TEST_F(CellDriveTest, WithoutADriveThereIsNoPlan) {

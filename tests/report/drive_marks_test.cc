@@ -14,11 +14,12 @@
 namespace floorproof {
 namespace {
 
-std::vector<TraceRow> Trace(const std::vector<Vec2>& places) {
+std::vector<TraceRow> Trace(const std::vector<Vec2>& places, double period_s = 0.02) {
   std::vector<TraceRow> trace;
   for (const Vec2& p : places) {
     TraceRow& row = trace.emplace_back();
     row = {};
+    row.t_s = period_s * static_cast<double>(trace.size());
     row.x_m = p.x();
     row.y_m = p.y();
   }
@@ -57,6 +58,14 @@ TEST(DriveMarks, BeingCarriedIsNoWay) {
   EXPECT_GT(Off(dut, {2, 0.5}), 0.9);
   EXPECT_TRUE(WayDriven({}).empty());
   EXPECT_EQ(WayDriven(Trace({{1, 1}})).size(), 1u);
+}
+
+// From cell to cell, or in a trace of few rows.
+TEST(DriveMarks, FarApartInALongTimeIsDriven) {
+  std::vector<Vec2> places;
+  for (int i = 0; i <= 10; ++i) places.emplace_back(0.5 * i, 0);
+  EXPECT_EQ(WayDriven(Trace(places, 2)).size(), 1u);
+  EXPECT_EQ(WayDriven(Trace(places)).size(), places.size());
 }
 
 TEST(DriveMarks, NumbersAreThePlacesInTheList) {
