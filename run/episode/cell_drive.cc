@@ -17,7 +17,7 @@ namespace floorproof {
 namespace {
 
 constexpr int kLookEvery = 1000;  // moves; who looks on is asked so often
-constexpr int kMostBumps = 100;   // in a row, before the planner is given up
+constexpr int kMostBumps = 100;   // targets missed in a row, before the planner is given up
 
 class CellDrive {
  public:
@@ -66,16 +66,14 @@ class CellDrive {
     for (int i = 1; i <= n; ++i) {
       const Cell next = {from.ix + static_cast<int>(std::lround(1.0 * i * dx / n)),
                          from.iy + static_cast<int>(std::lround(1.0 * i * dy / n))};
-      if (!Step(next)) {
-        if (++bumps_ < kMostBumps) return std::nullopt;
-        const Vec2 p_W = world_.frame().Center(to);
-        record_.message = fmt::format("{} goes for what it cannot reach, at {}", s_.planner_name,
-                                      PlaceText(p_W.x(), p_W.y()));
-        return Outcome::kError;
-      }
-      bumps_ = 0;
+      if (!Step(next)) break;
     }
-    return std::nullopt;
+    bumps_ = world_.here() == to && n > 0 ? 0 : bumps_ + 1;
+    if (bumps_ < kMostBumps) return std::nullopt;
+    const Vec2 p_W = world_.frame().Center(to);
+    record_.message = fmt::format("{} goes for what it cannot reach, at {}", s_.planner_name,
+                                  PlaceText(p_W.x(), p_W.y()));
+    return Outcome::kError;
   }
 
   bool Step(Cell next) {
@@ -98,15 +96,23 @@ class CellDrive {
     estimate_.X_WB = sample_.X_WB();
   }
 
+  // A row a move; of very long drives every second, then every fourth, and so on.
   void Trace() {
-    TraceRow row{};
+    constexpr std::size_t kMostRows = 1'000'000;
+    std::vector<TraceRow>& trace = record_.trace;
+    if (world_.moves() % trace_every_ != 0) return;
+    if (trace.size() == kMostRows) {
+      trace_every_ *= 2;
+      for (std::size_t i = 0; 2 * i < trace.size(); ++i) trace[i] = trace[2 * i];
+      trace.resize(kMostRows / 2);
+    }
+    TraceRow& row = trace.emplace_back();
     row.t_s = sample_.t_s;
     row.x_m = row.est_x_m = sample_.p_WB.x();
     row.y_m = row.est_y_m = sample_.p_WB.y();
     row.yaw_rad = row.est_yaw_rad = static_cast<float>(sample_.yaw_rad);
     row.coverage = static_cast<float>(world_.coverage());
     row.revisited = static_cast<float>(world_.revisited_share());
-    record_.trace.push_back(row);
   }
 
   EpisodeRecord Finish(Outcome ended) {
@@ -140,6 +146,7 @@ class CellDrive {
   KnownMap known_;
   double limit_s_, length_m_ = 0;
   int turns_ = 0, bumps_ = 0;
+  std::int64_t trace_every_ = 1;  // moves
   Sample sample_;
   Observation sensed_;
   Estimate estimate_;

@@ -222,6 +222,11 @@ void CheckOnline(const ConfigNode& root, const Scenario& s) {
     throw InputError(mark("radius_m"), "plan.radius_m", FormatDouble(s.online->radius_m()),
                      "must be at least the step, " + FormatDouble(step_m) +
                          " m: else the robot does not see where it steps");
+  constexpr int kMostSteps = 200;  // a window takes memory and time as its area
+  if (s.online->radius_m() > kMostSteps * step_m)
+    throw InputError(mark("radius_m"), "plan.radius_m", FormatDouble(s.online->radius_m()),
+                     "must be at most " + std::to_string(kMostSteps) + " steps, " +
+                         FormatDouble(kMostSteps * step_m) + " m");
 }
 
 // Tables are named like robots: a bundled one's name, or a path that ends in .yaml.

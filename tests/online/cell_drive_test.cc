@@ -2,6 +2,7 @@
 // `drive: cells`: from the scenario to its record, and what is refused.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -94,11 +95,26 @@ TEST_F(CellDriveTest, WhatDoesNotGoTogetherIsRefusedAtItsKey) {
                     HasSubstr("at least the step, 0.5 m")));
   EXPECT_THAT(WhyRefused("drive: cells\nplan: {planner: rolling_window, step_m: 0.25}\n"),
               AllOf(HasSubstr("plan.step_m"), HasSubstr("the site's cell, 0.5 m")));
+  EXPECT_THAT(WhyRefused("drive: cells\nplan: {planner: random_walk, radius_m: 1e9}\n"),
+              AllOf(HasSubstr("plan.radius_m"), HasSubstr("at most 200 steps, 100 m")));
   EXPECT_THAT(WhyRefused("drive: cells\nplan: spiral\n"),
               AllOf(HasSubstr("scenario.yaml:4"), HasSubstr("planners of unknown floors")));
   EXPECT_THAT(WhyRefused("plan: random_walk\n"), HasSubstr("`drive: cells`"));
   EXPECT_THAT(WhyRefused("drive: cells\nplan: rolling_windows\n"),
               AllOf(HasSubstr("did you mean rolling_window?"), HasSubstr("boustrophedon")));
+}
+
+// However long it takes, with one row for every so many moves.
+TEST_F(CellDriveTest, AVeryLongDriveKeepsItsTraceInBounds) {
+  const EpisodeRecord dut =
+      Record(Read(Text("plan: random_walk\ndrive: cells\ntime_limit_s: 7e6\n")));
+  EXPECT_EQ(dut.outcome, Outcome::kTimeout);
+  EXPECT_GT(dut.steps, 2'000'000);
+  EXPECT_LE(dut.trace.size(), 1'000'000u);
+  EXPECT_GT(dut.trace.size(), 400'000u);
+  EXPECT_EQ(dut.trace.front().t_s, 0);
+  EXPECT_GT(dut.trace.back().t_s, 6.9e6);
+  EXPECT_TRUE(std::ranges::is_sorted(dut.trace, {}, &TraceRow::t_s));
 }
 
 // Nothing of it is measured beforehand.
