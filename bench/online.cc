@@ -54,7 +54,7 @@ Found Drive(const PluginEntry<OnlinePlanner>& entry, int cells, std::int64_t mov
   const GridFrame frame = {cells, cells, kCell_m, {}};
   const Grid<std::uint8_t> blocked = Room(cells);
   const auto planner = entry.make();
-  CellWorld world(frame, blocked, {1, 1}, planner->radius_m());
+  CellWorld world(frame, blocked, {1, 1}, planner->params().radius_m);
   KnownMap known(frame);
   known.changed.emplace();
   if (all_seen)
@@ -66,7 +66,7 @@ Found Drive(const PluginEntry<OnlinePlanner>& entry, int cells, std::int64_t mov
     estimate.X_WB = {p_W.x(), p_W.y(), 0};
   };
   look();
-  planner->Start({frame, estimate.X_WB, 0, kCell_m, 1});
+  planner->Start({frame, estimate.X_WB, {}, {}, kCell_m, 1});
   std::vector<Cell> way;
   Found found;
   const auto begin = Clock::now();
@@ -82,7 +82,7 @@ Found Drive(const PluginEntry<OnlinePlanner>& entry, int cells, std::int64_t mov
   }
   const double with_s = Since(begin);
   found.moves_per_s = static_cast<double>(way.size()) / with_s;
-  CellWorld bare(frame, blocked, {1, 1}, planner->radius_m());
+  CellWorld bare(frame, blocked, {1, 1}, planner->params().radius_m);
   KnownMap seen(frame);
   const auto again = Clock::now();
   for (const Cell to : way) {

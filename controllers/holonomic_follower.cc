@@ -73,6 +73,11 @@ class HolonomicFollower final : public Tracker {
     for (const HingeWay& way : ways_) duration_s_ += reconfiguration_.Duration(way);
   }
 
+  void Extend(const Path& path) override {
+    progress_.Extend(path);
+    ways_.assign(progress_.reference().vertices.size(), {});
+  }
+
   double Duration() const override { return duration_s_; }
 
   Command Update(const Estimate& estimate, double t_s, double dt_s) override {

@@ -23,9 +23,10 @@ double Mapper::CellsOn(const GridFrame& site) const {
   return 1.0 * frame.width * frame.height;
 }
 
-void Mapper::Start(const GridFrame& site, const RobotSpec& robot) {
+void Mapper::Start(const GridFrame& site, const RobotSpec& robot, bool tells) {
   robot_ = &robot;
   map_ = KnownMap(FineFrame(site, cell_m_));
+  if (tells) map_.changed.emplace().reserve(4096);
   last_end_ = Grid<std::uint32_t>(map_.frame.width, map_.frame.height);
   scans_ = 0;
   ends_.clear();

@@ -28,8 +28,12 @@ class Mapper final : public Configurable {
 
   // How many cells its map of this ground has.
   double CellsOn(const GridFrame& site) const;
-  // An empty map on this ground; `site` says where it ends, no more.
-  void Start(const GridFrame& site, const RobotSpec& robot);
+  // An empty map on this ground; `site` says where it ends, no more. `tells`: its map tells what
+  // has changed (KnownMap::changed), until ForgetChanges().
+  void Start(const GridFrame& site, const RobotSpec& robot, bool tells = false);
+  void ForgetChanges() {
+    if (map_.changed) map_.changed->clear();
+  }
   // One control period. Takes time as the beams' length; allocates only for marks.
   void Update(const Observation& sensed, const Estimate& estimate);
 

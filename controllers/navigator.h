@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 
 #include "env/core/motion.h"
 #include "env/core/path.h"
@@ -14,20 +15,37 @@ namespace floorproof {
 
 // What a navigator may know in a control period.
 struct NavigatorInput {
+  double t_s = 0;
   const Estimate& estimate;
   const KnownMap* known = nullptr;  // what the robot has drawn; nullptr: it draws no map
   std::size_t segment = 0;          // of path() that is tracked
-  bool recovered = false;           // it has just gone back from what it met on the way
+  bool at_end = false;              // of path()
+  // It has just gone back from what it met on the way; and that was a drop, not a touch.
+  bool recovered = false, met_drop = false;
+};
+
+enum class PathChange {
+  kNone,
+  kAnew,    // path() leads on from where the robot thinks it is
+  kLonger,  // path() begins on the segment that was tracked, and goes on beyond where it ended
 };
 
 class Navigator {
  public:
+  // Where the end of path() is: the path will be continued; the drive's end; there is nowhere to
+  // go.
+  enum class Leads { kOn, kToEnd, kNowhere };
+
   virtual ~Navigator() = default;
   // What the tracker follows; it changes in the calls below alone.
   virtual const Path& path() const = 0;
-  // One control period. True: path() is a new one, from where the robot thinks it is. Allocates
-  // only then.
-  virtual bool Update(const NavigatorInput& input) = 0;
+  // One control period. Allocates only where the path changes.
+  virtual PathChange Update(const NavigatorInput& input) = 0;
+  virtual Leads leads() const = 0;
+  // In words, where the drive ended for another reason than that a plan was driven.
+  virtual std::string_view why() const { return {}; }
+  // The plan; or what was gone along so far, where there was none beforehand.
+  virtual const Path& plan() const = 0;
   // A person has set the robot down at this waypoint: path() begins there now.
   virtual void GoOnFrom(std::size_t waypoint) = 0;
 };

@@ -27,6 +27,14 @@ void PathProgress::Start(const Path& path, const ReferenceLimits& limits,
   dwell_until_s_ = 0;
 }
 
+// A corner that was passed beside is not gone back to: the way leads on.
+void PathProgress::Extend(const Path& path) {
+  reference_ = MakeReference(path, limits_);
+  homing_ = false;
+  vertex_ = goal_ = ahead_ = waypoint_ = 0;
+  seen_m_ = 0;
+}
+
 void PathProgress::Update(const Vec2& p_W, double t_s) {
   if (phase_ == Phase::kDwell && t_s >= dwell_until_s_ - kTimeSlackS) Depart();
   if (moving()) Advance(p_W, t_s);

@@ -30,6 +30,10 @@ class PathProgress {
 
   void Start(const Path& path, const ReferenceLimits& limits, double corner_tolerance_m);
 
+  // The same way, longer: this path begins with the segment that is tracked now. Not once it is
+  // done.
+  void Extend(const Path& path);
+
   // Takes the robot's place at this time: leaves legs whose end is passed, stops at a corner that
   // is reached, ends dwells.
   void Update(const Vec2& p_W, double t_s);

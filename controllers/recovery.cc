@@ -71,6 +71,7 @@ bool Recovery::Alarm(const Observation& sensed) const {
 // from what it met.
 void Recovery::Begin(const Observation& sensed, const BodyTwist& commanded) {
   ++count_;
+  met_drop_ = params_.cliff && sensed.cliffs.any();
   left_s_ = 2 * params_.back_off_m / params_.back_off_mps + 2;
   turn_ = 0;
   way_B_ = -Vec2(commanded.vx_mps, commanded.vy_mps);

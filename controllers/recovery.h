@@ -38,6 +38,8 @@ class Recovery {
   // It has gone back: the tracker needs a new path. True once a reaction.
   bool ended() const { return ended_; }
   int count() const { return count_; }
+  // What it reacted to last was a drop, not a touch.
+  bool met_drop() const { return met_drop_; }
 
  private:
   enum class State { kIdle, kBrake, kBack };
@@ -54,7 +56,7 @@ class Recovery {
   double turn_ = 0;            // or the sense to turn back in
   Pose2 from_;                 // the estimate where going back began
   double left_s_ = 0;
-  bool ended_ = false;
+  bool ended_ = false, met_drop_ = false;
   int count_ = 0;
 };
 

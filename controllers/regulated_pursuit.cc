@@ -62,6 +62,8 @@ class RegulatedPursuit final : public Tracker {
     duration_s_ += gap_.Delay(progress_.reference());
   }
 
+  void Extend(const Path& path) override { progress_.Extend(path); }
+
   double Duration() const override { return duration_s_; }
 
   Command Update(const Estimate& estimate, double t_s, double dt_s) override {

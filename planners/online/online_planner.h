@@ -18,14 +18,16 @@
 #include "base/registry.h"
 #include "env/known/estimate.h"
 #include "env/known/known_map.h"
+#include "planners/online/extent.h"
 
 namespace floorproof {
 
 // What it is told before the drive.
 struct OnlineTask {
-  GridFrame ground;         // of the known map; its borders say how far floor may reach, no more
-  Pose2 start;              // X_WB, as the robot believes it
-  double keep_clear_m = 0;  // least distance from the robot's centre to what it must not touch
+  GridFrame ground;   // of the known map; its borders say how far floor may reach, no more
+  Pose2 start;        // X_WB, as the robot believes it
+  Extent clear = {};  // is to stay free around the robot's centre
+  Extent tool = {};   // is swept around it
   double tool_width_m = 0;
   std::uint64_t seed = 0;
 };
@@ -34,8 +36,11 @@ struct OnlineTask {
 struct OnlineInput {
   const KnownMap& known;
   std::span<const Cell> changed;  // the cells of `known` of another state than at the last call
+  // Where it is. So that a robot need not stop at each target it is asked shortly before, with the
+  // target that it is about to reach as its place.
   const Estimate& estimate;
   bool bumped = false, dropped = false;  // since the last call: it was touched, or met an edge
+  bool missed = false;                   // it never reached the place of the last call
 };
 
 struct OnlineStep {
@@ -49,12 +54,18 @@ struct OnlineStep {
   std::string_view why = {};  // of the last two, in words
 };
 
+// Keys that all of them have.
+struct OnlineParams {
+  double radius_m = 1.5;            // r
+  std::optional<double> step_m;     // epsilon
+  std::optional<double> speed_mps;  // none: the robot's cruise
+  void Visit(ParamVisitor& v);
+};
+
 class OnlinePlanner : public Configurable {
  public:
-  // How far it wants to know the floor around the robot, from its centre, m.
-  virtual double radius_m() const = 0;
-  // Side of its cells, m; none: the tool's width. No more than radius_m, for who starts it.
-  virtual std::optional<double> step_m() const = 0;
+  // No step is longer than radius_m: for who starts it.
+  virtual const OnlineParams& params() const = 0;
   // Whether it draws from the task's seed: else the same floor has the same drive.
   virtual bool uses_seed() const { return false; }
   // Whether it covers all that can be reached, and says so then.

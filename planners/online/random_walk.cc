@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "base/streams.h"
-#include "planners/online/cell_params.h"
 #include "planners/online/online_planner.h"
 #include "planners/online/robot_cells.h"
 
@@ -18,13 +17,12 @@ namespace {
 class RandomWalk final : public OnlinePlanner {
  public:
   void Visit(ParamVisitor& v) override { params_.Visit(v); }
-  double radius_m() const override { return params_.radius_m; }
-  std::optional<double> step_m() const override { return params_.step_m; }
+  const OnlineParams& params() const override { return params_; }
   bool uses_seed() const override { return true; }
   bool covers_all() const override { return false; }
 
   void Start(const OnlineTask& task) override {
-    cells_ = params_.Cells(task);
+    cells_ = CellsOf(task, params_);
     draws_ = Stream(task.seed, 0, "random_walk");
     way_ = Vec2::Zero();
     from_ = {};
@@ -33,7 +31,7 @@ class RandomWalk final : public OnlinePlanner {
 
   OnlineStep Next(const OnlineInput& input) override {
     cells_.Update(input.known, input.changed);
-    const Cell here = cells_.At(input.estimate.X_WB.p());
+    const Cell here = cells_.FreeAt(input.estimate.X_WB.p());
     std::size_t step = StepOn(here);
     if (input.bumped || input.dropped || step == kNone || !cells_.MayStep(here, step)) {
       if (!IsAnyOpen(here))
@@ -76,7 +74,7 @@ class RandomWalk final : public OnlinePlanner {
     return static_cast<std::size_t>(step - kSteps.begin());
   }
 
-  CellParams params_;
+  OnlineParams params_;
   RobotCells cells_;
   Stream draws_{0, 0, ""};
   // Along which line, from where, and how many steps were taken on it.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace floorproof {
 namespace {
@@ -19,11 +20,15 @@ double Corner(double middle, double side) {
 
 }  // namespace
 
+RobotCells CellsOf(const OnlineTask& task, const OnlineParams& params) {
+  return {task.ground, task.start.p(), params.step_m.value_or(task.tool_width_m), task.clear};
+}
+
 RobotCells::RobotCells(const GridFrame& ground, const Vec2& start_W, double step_m,
-                       double keep_clear_m)
+                       const Extent& clear)
     : ground_(ground),
       side_(step_m / ground.cell_m),
-      keep_clear_(keep_clear_m / ground.cell_m),
+      clear_(clear / ground.cell_m),
       taken_(ground.width, ground.height, CellState::kUnknown) {
   const Vec2 start = ground.X_WG.Inverse() * start_W / ground.cell_m;
   corner_ = {Corner(start.x(), side_), Corner(start.y(), side_)};
@@ -45,6 +50,23 @@ RobotCells::RobotCells(const GridFrame& ground, const Vec2& start_W, double step
     }
 }
 
+Cell RobotCells::FreeAt(const Vec2& p_W) const {
+  const Cell here = At(p_W);
+  if (IsFree(here)) return here;
+  constexpr int kReach = 2;
+  Cell nearest = here;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (int iy = -kReach; iy <= kReach; ++iy)
+    for (int ix = -kReach; ix <= kReach; ++ix) {
+      const Cell c = here + Cell{ix, iy};
+      const double way_m = (frame_.Center(c) - p_W).norm();
+      if (!IsFree(c) || way_m >= least_m) continue;
+      least_m = way_m;
+      nearest = c;
+    }
+  return nearest;
+}
+
 Vec2 RobotCells::MiddleOnGround(Cell c) const {
   return corner_ + side_ * Vec2(c.ix + 0.5, c.iy + 0.5);
 }
@@ -54,16 +76,18 @@ bool RobotCells::Needs(Cell c, Cell ground) const {
   const Vec2 middle = MiddleOnGround(c);
   const Vec2 low(ground.ix, ground.iy);
   const Vec2 nearest = middle.cwiseMax(low).cwiseMin(low + Vec2::Ones());
-  return (nearest - middle).norm() < std::max(keep_clear_ - kSlack, kSlack);
+  const Vec2 by = nearest - middle;
+  return by.norm() < kSlack || clear_.Holds(by, kSlack);
 }
 
 RobotCells::Needed RobotCells::NeededBy(Cell c) const {
   const Vec2 middle = MiddleOnGround(c);
-  const auto first = [this](double m) { return static_cast<int>(std::floor(m - keep_clear_)); };
-  const auto last = [this](double m) { return static_cast<int>(std::floor(m + keep_clear_)); };
+  const Vec2 reach = clear_.Reach();
+  const Vec2 low = middle - reach, high = middle + reach;
+  const auto down = [](double m) { return static_cast<int>(std::floor(m)); };
   Needed needed;
-  for (int iy = first(middle.y()); iy <= last(middle.y()); ++iy)
-    for (int ix = first(middle.x()); ix <= last(middle.x()); ++ix) {
+  for (int iy = down(low.y()); iy <= down(high.y()); ++iy)
+    for (int ix = down(low.x()); ix <= down(high.x()); ++ix) {
       if (!Needs(c, {ix, iy})) continue;
       ++needed.cells;
       needed.beyond += ground_.Inside({ix, iy}) ? 0 : 1;
@@ -82,27 +106,23 @@ void RobotCells::Update(const KnownMap& known, std::span<const Cell> changed) {
 }
 
 void RobotCells::Take(Cell ground, CellState was, CellState now) {
-  const double reach = keep_clear_;
-  const auto first = [&](int at, double corner, int least) {
-    return std::max(least, static_cast<int>(std::floor((at - reach - corner) / side_ - 0.5)));
+  const Vec2 low = Vec2(ground.ix, ground.iy) - corner_ - clear_.Reach();
+  const Vec2 high = Vec2(ground.ix + 1, ground.iy + 1) - corner_ + clear_.Reach();
+  const auto first = [&](double m) {
+    return std::max(0, static_cast<int>(std::floor(m / side_ - 0.5)));
   };
-  const auto last = [&](int at, double corner, int most) {
-    return std::min(most, static_cast<int>(std::ceil((at + 1 + reach - corner) / side_ - 0.5)));
+  const auto last = [&](double m, int cells) {
+    return std::min(cells - 1, static_cast<int>(std::ceil(m / side_ - 0.5)));
   };
-  const int x1 = last(ground.ix, corner_.x(), frame_.width - 1),
-            y1 = last(ground.iy, corner_.y(), frame_.height - 1);
-  for (int iy = first(ground.iy, corner_.y(), 0); iy <= y1; ++iy)
-    for (int ix = first(ground.ix, corner_.x(), 0); ix <= x1; ++ix)
+  const int x1 = last(high.x(), frame_.width), y1 = last(high.y(), frame_.height);
+  for (int iy = first(low.y()); iy <= y1; ++iy)
+    for (int ix = first(low.x()); ix <= x1; ++ix)
       if (Needs({ix, iy}, ground)) {
         not_free_(ix, iy) += (was == CellState::kFree ? 1 : 0) - (now == CellState::kFree ? 1 : 0);
         blocked_(ix, iy) +=
             (now == CellState::kOccupied ? 1 : 0) - (was == CellState::kOccupied ? 1 : 0);
         changed_.push_back({ix, iy});
       }
-}
-
-void RobotCells::Visit(Cell c) {
-  if (frame_.Inside(c)) ++visits_(c);
 }
 
 }  // namespace floorproof

@@ -17,6 +17,8 @@
 #include <vector>
 
 #include "env/known/known_map.h"
+#include "planners/online/extent.h"
+#include "planners/online/online_planner.h"
 #include "planners/search/neighbours.h"
 
 namespace floorproof {
@@ -29,8 +31,8 @@ class RobotCells {
  public:
   RobotCells() = default;
   // Cells of `step_m` over `ground`, the known map's frame, laid such that `start_W` is the middle
-  // of one. `keep_clear_m`: from the robot's centre.
-  RobotCells(const GridFrame& ground, const Vec2& start_W, double step_m, double keep_clear_m);
+  // of one.
+  RobotCells(const GridFrame& ground, const Vec2& start_W, double step_m, const Extent& clear);
 
   void Update(const KnownMap& known, std::span<const Cell> changed);
   // The cells of which IsFree or MayBeFree may have changed in the last update, some of them twice.
@@ -48,9 +50,13 @@ class RobotCells {
     return step % 2 == 0 || (IsFree(from + Cell{by.ix, 0}) && IsFree(from + Cell{0, by.iy}));
   }
 
-  // The robot has come into the cell.
-  void Visit(Cell c);
+  // The robot has come into the cell; or has not, though that was said.
+  void Visit(Cell c) { Count(c, 1); }
+  void TakeBack(Cell c) { Count(c, -1); }
   int visits(Cell c) const { return visits_(c); }
+  // The robot's cell; where it is not free, the nearest that is, within two steps. The robot may
+  // have been pushed, or what it met may have been marked as larger than it is.
+  Cell FreeAt(const Vec2& p_W) const;
   bool IsUncovered(Cell c) const { return IsFree(c) && visits_(c) == 0; }
 
  private:
@@ -63,12 +69,16 @@ class RobotCells {
   };
   Needed NeededBy(Cell c) const;
   void Take(Cell ground, CellState was, CellState now);
+  void Count(Cell c, int more) {
+    if (frame_.Inside(c)) visits_(c) += more;
+  }
 
   GridFrame frame_, ground_;
   // In cells of the ground: where the corner of cell (0, 0) lies, a cell's side, what to keep
-  // clear.
+  // clear of its middle.
   Vec2 corner_ = Vec2::Zero();
-  double side_ = 1, keep_clear_ = 0;
+  double side_ = 1;
+  Extent clear_;
   Grid<CellState> taken_;  // the ground, as last taken over
   // How many of the ground's cells that a cell needs are not known to be free; and are occupied, or
   // beyond the ground.
@@ -76,5 +86,8 @@ class RobotCells {
   Grid<std::int32_t> visits_;
   std::vector<Cell> changed_;
 };
+
+// As wide as the planner's steps: as stated, else as the tool.
+RobotCells CellsOf(const OnlineTask& task, const OnlineParams& params);
 
 }  // namespace floorproof

@@ -24,7 +24,6 @@
 #include <optional>
 #include <vector>
 
-#include "planners/online/cell_params.h"
 #include "planners/online/nearest_uncovered.h"
 #include "planners/online/online_planner.h"
 #include "planners/online/robot_cells.h"
@@ -39,11 +38,10 @@ class RollingWindow final : public OnlinePlanner {
     v("turn_deg", turn_deg_, Between(1, 180), "theta: by how much F3 turns at a time (deg)");
     v("most_turns", most_turns_, AtLeast(1), "after so many turns for one target F3 gives up");
   }
-  double radius_m() const override { return params_.radius_m; }
-  std::optional<double> step_m() const override { return params_.step_m; }
+  const OnlineParams& params() const override { return params_; }
 
   void Start(const OnlineTask& task) override {
-    cells_ = params_.Cells(task);
+    cells_ = CellsOf(task, params_);
     way_out_.emplace(cells_.frame());
     radius_ = params_.radius_m / cells_.frame().cell_m + kSlack;
     window_.clear();
@@ -60,8 +58,9 @@ class RollingWindow final : public OnlinePlanner {
 
   OnlineStep Next(const OnlineInput& input) override {
     cells_.Update(input.known, input.changed);
-    const Cell here = cells_.At(input.estimate.X_WB.p());
-    if (here_ != here) cells_.Visit(here);
+    if (input.missed && here_) cells_.TakeBack(*here_);
+    const Cell here = cells_.FreeAt(input.estimate.X_WB.p());
+    if (here_ != here || input.missed) cells_.Visit(here);
     const bool first = !here_;
     here_ = here;
     if (const std::optional<Cell> next = Choose())
@@ -84,7 +83,7 @@ class RollingWindow final : public OnlinePlanner {
 
   // The cell to step to. State S1, at the start, is S2 or S3; without a cell it is S5.
   std::optional<Cell> Choose() {
-    if (target_ == here_) target_.reset();
+    if (target_ == here_ || (target_ && !cells_.IsFree(*target_))) target_.reset();
     if (!target_ && route_.empty()) {
       if (const auto beside = GreatestRelated()) return beside;  // S2
       target_ = NearestInWindow();                               // S3
@@ -178,7 +177,7 @@ class RollingWindow final : public OnlinePlanner {
     return next;
   }
 
-  CellParams params_;
+  OnlineParams params_;
   double turn_deg_ = 45;
   int most_turns_ = 16;
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "base/streams.h"
 #include "env/core/failure_text.h"
 #include "run/episode/cell_world.h"
+#include "run/episode/make_plan.h"
 #include "run/episode/online_limit.h"
 #include "run/scenario/floors.h"
 
@@ -24,7 +24,7 @@ class CellDrive {
   CellDrive(Scenario& s, Grid<std::uint8_t> blocked, Cell start, EpisodeObserver* observer)
       : s_(s),
         observer_(observer),
-        world_(s.site.map.frame, std::move(blocked), start, s.online->radius_m()),
+        world_(s.site.map.frame, std::move(blocked), start, s.online->params().radius_m),
         known_(s.site.map.frame),
         limit_s_(s.episode.time_limit_s.value_or(kOnlineLimit_s)) {
     known_.changed.emplace();
@@ -33,8 +33,7 @@ class CellDrive {
   }
 
   EpisodeRecord Run() {
-    Stream seed(static_cast<std::uint64_t>(s_.episode.seed), s_.episode_id, "plan");
-    s_.online->Start({world_.frame(), estimate_.X_WB, 0, world_.frame().cell_m, seed.Next()});
+    s_.online->Start({world_.frame(), estimate_.X_WB, {}, {}, world_.frame().cell_m, PlanSeed(s_)});
     std::optional<Outcome> ended;
     for (Trace(); !ended;) ended = Period();
     return Finish(*ended);
@@ -84,7 +83,7 @@ class CellDrive {
     turns_ += world_.moves() > 1 && std::abs(WrapAngle(yaw_rad - sample_.yaw_rad)) > 0.1;
     sample_.yaw_rad = yaw_rad;
     length_m_ += way_W.norm();
-    sample_.t_s = length_m_ / s_.robot.spec.cruise_mps;
+    sample_.t_s = length_m_ / s_.online->params().speed_mps.value_or(s_.robot.spec.cruise_mps);
     Look();
     Trace();
     return true;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <optional>
 
 #include "base/quantity.h"
@@ -13,8 +15,9 @@
 #include "env/failures/evidence.h"
 #include "env/sim/physics_plant.h"
 #include "run/episode/intervention.h"
+#include "run/episode/make_navigator.h"
+#include "run/episode/online_limit.h"
 #include "run/episode/path_error.h"
-#include "run/episode/plan_navigator.h"
 #include "run/episode/plan_progress.h"
 #include "run/episode/recorder.h"
 #include "run/episode/robot_side.h"
@@ -73,8 +76,10 @@ class Episode {
       if (step % steps_a_control_ == 0) ended = Control();
       if (!ended) ended = Step();
     }
-    EpisodeRecord record = recorder_.Finish(*ended, sample_, plan_, robot_side_, s_.detectors,
+    EpisodeRecord record = recorder_.Finish(*ended, sample_, robot_side_, s_.detectors,
                                             s_.episode.min_coverage, plant_.battery_left());
+    if (s_.online && !navigator_->plan().empty()) record.figures = s_.online->figures();
+    if (record.message.empty()) record.message = navigator_->why();
     if (record.outcome == Outcome::kTimeout) {
       record.timeout = Unfinished();
       if (record.message.empty()) record.message = Text(*record.timeout, s_.site.map);
@@ -97,7 +102,6 @@ class Episode {
   Scenario& s_;
   Plant& plant_;
   Simulation* simulation_;
-  const PlanResult& plan_;
   EpisodeObserver* observer_;
   const RobotSpec& robot_;
   HazardMap known_;
@@ -106,7 +110,7 @@ class Episode {
   std::int64_t steps_a_control_;
   Recorder recorder_;
   Interventions interventions_;
-  PlanNavigator navigator_;
+  std::unique_ptr<Navigator> navigator_;
   RobotSide robot_side_;
   Observation sensed_;
   Sample sample_;
@@ -124,18 +128,18 @@ Episode::Episode(Scenario& s, Plant& plant, Simulation* simulation, const PlanRe
     : s_(s),
       plant_(plant),
       simulation_(simulation),
-      plan_(plan),
       observer_(observer),
       robot_(s.robot.spec),
       known_(KnownFloor(s)),
       area_(ComputeSweepArea(TrueFloor(s), robot_.clear, robot_.tool, robot_.step_m, s.start.p())),
-      plan_m_(std::max(Length(plan.path), 1e-9)),
+      plan_m_(s.online ? std::numeric_limits<double>::infinity()
+                       : std::max(Length(plan.path), 1e-9)),
       steps_a_control_(std::lround(1.0 / (s.episode.control_hz * s.physics.timestep_s))),
       recorder_(s, area_, *plan.risk),
       interventions_(s),
-      navigator_(plan, known_, robot_, OrNull(s.recovery)),
-      robot_side_(robot_, known_, navigator_,
-                  {*s.tracker, *s.estimator, OrNull(s.mapper), OrNull(s.recovery)},
+      navigator_(MakeNavigator(s, plan, known_)),
+      robot_side_(robot_, known_, *navigator_,
+                  {*s.tracker, *s.estimator, OrNull(s.mapper), OrNull(s.recovery), !s.online},
                   1.0 / s.episode.control_hz) {}
 
 void Episode::Begin() {
@@ -143,7 +147,7 @@ void Episode::Begin() {
   Look();
   robot_side_.Start(s_.start, StreamOf(s_, "estimator"));
   const double plan_s = s_.tracker->Duration();
-  limit_s_ = s_.episode.time_limit_s.value_or(60 + 3 * plan_s);
+  limit_s_ = s_.episode.time_limit_s.value_or(s_.online ? kOnlineLimit_s : 60 + 3 * plan_s);
   recorder_.Expect(plan_s);
   StartDetectors();
 }
@@ -156,8 +160,9 @@ std::optional<Outcome> Episode::Control() {
 
   std::optional<Outcome> ended;
   const std::optional<double>& enough = s_.episode.stop_at_coverage;
-  if (sample_.command.done || (enough && recorder_.coverage() >= *enough))
-    ended = Outcome::kSuccess;
+  if (robot_side_.done() || (enough && recorder_.coverage() >= *enough))
+    ended = navigator_->leads() == Navigator::Leads::kNowhere ? Outcome::kNotPlanned
+                                                              : Outcome::kSuccess;
   if (sample_.t_s >= limit_s_ + interventions_.extra_s()) ended = Outcome::kTimeout;
   if (observer_ && !observer_->OnControl({sample_, sensed_, robot_side_.estimate(), simulation_,
                                           recorder_.coverage(), recorder_.driven_m() / plan_m_}))

@@ -6,14 +6,17 @@
 
 namespace floorproof {
 
+std::uint64_t PlanSeed(const Scenario& s) {
+  return Stream(static_cast<std::uint64_t>(s.episode.seed), s.episode_id, "plan").Next();
+}
+
 PlanResult MakePlan(const Scenario& s) {
   const RobotSpec& robot = s.robot.spec;
   const HazardMap known = KnownFloor(s);
   auto risk = std::make_shared<const RiskMap>(ComputeRisk(known, robot, s.fmea, s.risk));
   PlanResult plan;
   if (s.planner) {
-    Stream stream(static_cast<std::uint64_t>(s.episode.seed), s.episode_id, "plan");
-    plan = s.planner->Plan({known, robot, s.start, s.goal, stream.Next(), risk.get()});
+    plan = s.planner->Plan({known, robot, s.start, s.goal, PlanSeed(s), risk.get()});
   } else if (s.online) {
     plan.status = PlanStatus::kOnline;
     plan.message = s.planner_name + " plans while it drives, as the floor becomes known";

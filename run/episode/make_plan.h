@@ -2,6 +2,8 @@
 // The plan that an episode drives.
 #pragma once
 
+#include <cstdint>
+
 #include "planners/planner.h"
 #include "run/scenario/scenario.h"
 
@@ -9,5 +11,8 @@ namespace floorproof {
 
 // The plan of the scenario: its planner's, or the user's file. The planner gets what is known.
 PlanResult MakePlan(const Scenario& scenario);
+
+// What the draws of an episode's planner begin with.
+std::uint64_t PlanSeed(const Scenario& scenario);
 
 }  // namespace floorproof

@@ -20,12 +20,12 @@ PlanNavigator::PlanNavigator(const PlanResult& plan, const HazardMap& known, con
       path_(plan.path) {}
 
 // Where it went is not asked again: the rest of the path, joined from where the robot thinks it is.
-bool PlanNavigator::Update(const NavigatorInput& input) {
-  if (!input.recovered || input.known == nullptr) return false;
+PathChange PlanNavigator::Update(const NavigatorInput& input) {
+  if (!input.recovered || input.known == nullptr) return PathChange::kNone;
   const HazardMap known = WithSeen(known_, *input.known, robot_.step_m, kSeenAway_m);
   path_ = Rejoin({known, input.known->marks, robot_, plan_.clear, path_, input.segment,
                   input.estimate.X_WB, around_});
-  return true;
+  return PathChange::kAnew;
 }
 
 void PlanNavigator::GoOnFrom(std::size_t waypoint) {

@@ -18,7 +18,9 @@ class PlanNavigator final : public Navigator {
                 const RecoveryParams* recovery);
 
   const Path& path() const override { return path_; }
-  bool Update(const NavigatorInput& input) override;
+  PathChange Update(const NavigatorInput& input) override;
+  Leads leads() const override { return Leads::kToEnd; }
+  const Path& plan() const override { return plan_.path; }
   void GoOnFrom(std::size_t waypoint) override;
 
  private:

@@ -101,9 +101,9 @@ class Recorder {
   // `ended`: why the loop stopped. A drive that was completed, or that ran out of time, is a
   // failure when something failed on the way, helped or not; a completed one that covered too
   // little is one as well.
-  EpisodeRecord Finish(Outcome ended, const Sample& last, const PlanResult& plan,
-                       const RobotSide& side, const std::vector<NamedDetector>& detectors,
-                       double min_coverage, std::optional<double> battery_left) {
+  EpisodeRecord Finish(Outcome ended, const Sample& last, const RobotSide& side,
+                       const std::vector<NamedDetector>& detectors, double min_coverage,
+                       std::optional<double> battery_left) {
     Metrics& m = record_.metrics;
     if (shape_ >= 0) meter_.Add(last.X_WB());
     m.coverage = meter_.coverage();
@@ -115,7 +115,7 @@ class Recorder {
     m.battery_left = battery_left;
     m.mean_cross_track_m =
         record_.steps > 0 ? cross_track_sum_ / static_cast<double>(record_.steps) : 0;
-    m.turns = CountTurns(plan.path);
+    m.turns = CountTurns(side.navigator().plan());
     m.reactions = side.recoveries();
     FinishEstimateError();
     if (side.known() != nullptr) record_.known = *side.known();

@@ -22,7 +22,7 @@ RobotSide::RobotSide(const RobotSpec& robot, const HazardMap& known, Navigator& 
 
 void RobotSide::Start(const Pose2& start, const Stream& draws) {
   parts_.estimator.Start({known_, robot_, start, draws});
-  if (mapper_) mapper_->Start(known_.frame, robot_);
+  if (mapper_) mapper_->Start(known_.frame, robot_, !parts_.drives_by_map);
   if (recovery_) recovery_->Start(*parts_.recovery, robot_);
   Follow();
 }
@@ -30,8 +30,7 @@ void RobotSide::Start(const Pose2& start, const Stream& draws) {
 const Actuation& RobotSide::Control(const Observation& sensed) {
   Perceive(sensed);
   const bool recovering = recovery_ && recovery_->Update(sensed, estimate_, control_s_, command_);
-  if (navigator_.Update({estimate_, known(), command_.segment, recovering && recovery_->ended()}))
-    Follow();
+  if (!recovering || recovery_->ended()) Navigate(sensed);
   if (!recovering) command_ = parts_.tracker.Update(estimate_, sensed.t_s, control_s_);
   return Actuate();
 }
@@ -49,6 +48,24 @@ void RobotSide::GoOnFrom(std::size_t waypoint) {
   Actuate();
 }
 
+void RobotSide::Navigate(const Observation& sensed) {
+  const bool recovered = recovery_ && recovery_->ended();
+  switch (navigator_.Update({sensed.t_s, estimate_, known(), command_.segment, command_.done,
+                             recovered, recovered && recovery_->met_drop()})) {
+    case PathChange::kNone:
+      break;
+    case PathChange::kAnew:
+      Follow();
+      break;
+    case PathChange::kLonger:
+      parts_.tracker.Extend(navigator_.path());
+      command_.segment = 0;
+      ++paths_;
+      break;
+  }
+  if (mapper_) mapper_->ForgetChanges();
+}
+
 void RobotSide::Perceive(const Observation& sensed) {
   estimate_ = parts_.estimator.Update(sensed, control_s_);
   if (mapper_) mapper_->Update(sensed, estimate_);
@@ -56,14 +73,18 @@ void RobotSide::Perceive(const Observation& sensed) {
 
 // A new path: what was commanded on the last one is over.
 void RobotSide::Follow() {
+  command_ = {};
+  ++paths_;
+  if (!parts_.drives_by_map) {
+    parts_.tracker.Start(navigator_.path(), robot_, nullptr);
+    return;
+  }
   auto on_the_way = LevelChangesOnTheWay(known_, navigator_.path());
   if (on_the_way != on_the_way_) {
     on_the_way_ = std::move(on_the_way);
     clearance_ = ClearanceOnTheWay(known_, on_the_way_, robot_.step_m);
   }
   parts_.tracker.Start(navigator_.path(), robot_, &clearance_);
-  command_ = {};
-  ++paths_;
 }
 
 const Actuation& RobotSide::Actuate() {

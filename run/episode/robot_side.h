@@ -25,6 +25,8 @@ class RobotSide {
     Estimator& estimator;
     const Mapper* mapper = nullptr;            // as configured; nullptr: it draws no map
     const RecoveryParams* recovery = nullptr;  // nullptr: it drives blindly
+    // false: the map is its estimator's alone; it drives by what it draws itself.
+    bool drives_by_map = true;
   };
 
   // All outlive it. `known`: the map that the robot has.
@@ -48,6 +50,9 @@ class RobotSide {
   const Path& path() const { return navigator_.path(); }
   int paths() const { return paths_; }  // how many it has been given to follow
   const Estimate& estimate() const { return estimate_; }
+  // Whether it has driven all that its navigator leads along.
+  bool done() const { return command_.done && navigator_.leads() != Navigator::Leads::kOn; }
+  const Navigator& navigator() const { return navigator_; }
   // Of the known map, on the path that it follows.
   const ClearanceField& clearance() const { return clearance_; }
   const KnownMap* known() const { return mapper_ ? &mapper_->map() : nullptr; }
@@ -55,6 +60,7 @@ class RobotSide {
 
  private:
   void Perceive(const Observation& sensed);
+  void Navigate(const Observation& sensed);
   void Follow();
   const Actuation& Actuate();
 

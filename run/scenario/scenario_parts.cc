@@ -204,11 +204,9 @@ void CheckOnline(const ConfigNode& root, const Scenario& s) {
     throw InputError(MarkOf(root, "drive"), "drive", "cells",
                      "is for planners of unknown floors, which `floorproof list planners` names");
   if (!s.online) return;
-  if (s.episode.drive == "physics")
-    throw InputError(MarkOf(root, "drive"), "drive", "physics",
-                     s.planner_name + " drives cells so far: `drive: cells`");
+  const OnlineParams& asked = s.online->params();
   const double cell_m = s.site.map.frame.cell_m;
-  const double step_m = s.online->step_m().value_or(cells ? cell_m : s.robot.spec.tool_width_m);
+  const double step_m = asked.step_m.value_or(cells ? cell_m : s.robot.spec.tool_width_m);
   const auto mark = [&](const char* key) {
     const ConfigNode* plan = root.Find("plan");
     const ConfigNode* node = plan->IsMap() ? plan->Find(key) : nullptr;
@@ -218,13 +216,13 @@ void CheckOnline(const ConfigNode& root, const Scenario& s) {
     throw InputError(mark("step_m"), "plan.step_m", FormatDouble(step_m),
                      "must be the site's cell, " + FormatDouble(cell_m) +
                          " m, or none: with `drive: cells` a step leads to the next cell");
-  if (s.online->radius_m() < step_m)
-    throw InputError(mark("radius_m"), "plan.radius_m", FormatDouble(s.online->radius_m()),
+  if (asked.radius_m < step_m)
+    throw InputError(mark("radius_m"), "plan.radius_m", FormatDouble(asked.radius_m),
                      "must be at least the step, " + FormatDouble(step_m) +
                          " m: else the robot does not see where it steps");
   constexpr int kMostSteps = 200;  // a window takes memory and time as its area
-  if (s.online->radius_m() > kMostSteps * step_m)
-    throw InputError(mark("radius_m"), "plan.radius_m", FormatDouble(s.online->radius_m()),
+  if (asked.radius_m > kMostSteps * step_m)
+    throw InputError(mark("radius_m"), "plan.radius_m", FormatDouble(asked.radius_m),
                      "must be at most " + std::to_string(kMostSteps) + " steps, " +
                          FormatDouble(kMostSteps * step_m) + " m");
 }
@@ -286,10 +284,17 @@ void CheckMapSize(const ConfigNode& node, const Mapper& mapper, const GridFrame&
                        " million cells of the floor; at most 64 million are drawn");
 }
 
+// On an unknown floor a robot goes by what it draws, and by what it meets.
+bool PlansByItsMap(const Scenario& s) { return s.online && s.episode.drive == "physics"; }
+
 // The mapper keeps what was met, so that a robot which reacts has one.
 void ReadReaction(const ConfigNode& root, Scenario& s) {
+  if (PlansByItsMap(s)) {
+    constexpr int kMost = 1000;  // reactions: to meet things is how it learns of them
+    s.recovery.emplace().most = kMost;
+  }
   if (const ConfigNode* node = Written(root, "react")) {
-    s.recovery.emplace();
+    if (!s.recovery) s.recovery.emplace();
     ReadParams(*node, "react.", [&](ParamVisitor& v) { s.recovery->Visit(v); });
     RefuseFolding(s, node->mark, "react", "");
   }
@@ -299,6 +304,7 @@ void ReadReaction(const ConfigNode& root, Scenario& s) {
     CheckMapSize(*node, *s.mapper, s.site.map.frame);
   } else if (s.recovery) {
     s.mapper.emplace();
+    if (PlansByItsMap(s)) CheckMapSize(*root.Find("plan"), *s.mapper, s.site.map.frame);
   }
 }
 
@@ -308,7 +314,8 @@ std::vector<Reading> NeededReadings(const ConfigNode& root, const Scenario& s) {
   const auto add = [&needed](const std::vector<Reading>& more) {
     needed.insert(needed.end(), more.begin(), more.end());
   };
-  if (Written(root, "mapper")) add(Mapper::Needs());  // one that came with `react` does without
+  // One that came with `react` does without.
+  if (Written(root, "mapper") || PlansByItsMap(s)) add(Mapper::Needs());
   if (s.recovery) add(s.recovery->Needs());
   return needed;
 }

@@ -142,6 +142,50 @@ TEST_P(TrackerConformance, UpdateAllocatesNothing) {
   EXPECT_EQ(AllocationCount(), before);
 }
 
+TEST_P(TrackerConformance, AWayThatGoesOnIsDrivenWithoutAStop) {
+  const auto dut = Make();
+  bool longer = false;
+  DriveOptions options;
+  options.push = [&](double, Pose2& X_WB) {
+    if (longer || X_WB.x_m < 0.6) return;
+    longer = true;
+    dut->Extend(MakePath({{0, 0}, {1, 0}, {2, 0}}));
+  };
+  const Driven driven = DriveAlong(*dut, MakePath({{0, 0}, {1, 0}}), options, nullptr, robot());
+  EXPECT_TRUE(driven.done);
+  EXPECT_NEAR(driven.steps.back().X_WB.x_m, 2, 0.02);
+  for (const auto& step : driven.steps)
+    if (step.X_WB.x_m > 0.6 && step.X_WB.x_m < 1.5)
+      EXPECT_GT(step.twist.vx_mps, 0.95 * robot().cruise_mps) << step.X_WB.x_m;
+}
+
+// In the middle of a turn on the spot, or on the way to one.
+TEST_P(TrackerConformance, AWayThatGoesOnAroundACornerIsKeptTo) {
+  for (const bool turning : {true, false}) {
+    const auto dut = Make();
+    bool longer = false;
+    DriveOptions options;
+    options.push = [&](double, Pose2& X_WB) {
+      if (longer || (turning ? X_WB.yaw_rad < 0.5 : X_WB.y_m < 0.6)) return;
+      longer = true;
+      dut->Extend(MakePath({{1, 0}, {1, 1}, {2, 1}}));
+    };
+    const Driven driven =
+        DriveAlong(*dut, MakePath({{0, 0}, {1, 0}, {1, 1}}), options, nullptr, robot());
+    EXPECT_TRUE(longer);
+    EXPECT_TRUE(driven.done);
+    EXPECT_LT((driven.steps.back().X_WB.p() - Vec2(2, 1)).norm(), 0.02);
+    double off_m = 0;
+    for (const auto& step : driven.steps) {
+      const Vec2 p_W = step.X_WB.p();
+      off_m = std::max(off_m, std::min({DistanceToSegment({0, 0}, {1, 0}, p_W),
+                                        DistanceToSegment({1, 0}, {1, 1}, p_W),
+                                        DistanceToSegment({1, 1}, {2, 1}, p_W)}));
+    }
+    EXPECT_LT(off_m, 0.03);
+  }
+}
+
 TEST_P(TrackerConformance, SaysWhichLimitARobotLacks) {
   const auto dut = Make();
   RobotSpec lame = robot();

@@ -99,7 +99,6 @@ TEST_F(CellDriveTest, WhatDoesNotGoTogetherIsRefusedAtItsKey) {
               AllOf(HasSubstr("plan.radius_m"), HasSubstr("at most 200 steps, 100 m")));
   EXPECT_THAT(WhyRefused("drive: cells\nplan: spiral\n"),
               AllOf(HasSubstr("scenario.yaml:4"), HasSubstr("planners of unknown floors")));
-  EXPECT_THAT(WhyRefused("plan: random_walk\n"), HasSubstr("`drive: cells`"));
   EXPECT_THAT(WhyRefused("drive: cells\nplan: rolling_windows\n"),
               AllOf(HasSubstr("did you mean rolling_window?"), HasSubstr("boustrophedon")));
 }

@@ -36,12 +36,12 @@ struct CellFloor {
 class CellRun {
  public:
   CellRun(OnlinePlanner& planner, const CellFloor& floor, std::uint64_t seed = 0)
-      : world(floor.frame, floor.blocked, floor.start, planner.radius_m()),
+      : world(floor.frame, floor.blocked, floor.start, planner.params().radius_m),
         known(floor.frame),
         planner_(planner) {
     known.changed.emplace();
     Look();
-    planner.Start({floor.frame, estimate_.X_WB, 0, kCell_m, seed});
+    planner.Start({floor.frame, estimate_.X_WB, {}, {}, kCell_m, seed});
   }
 
   // Asks once, and goes there: a planner goes only where it knows the floor to be free.

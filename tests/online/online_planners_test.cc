@@ -119,7 +119,7 @@ TEST_P(EveryOnlinePlanner, WhatIsOutOfSightChangesNothing) {
   for (int iy = 0; iy < 9; ++iy) other.blocked(20, iy) = 1;
   const auto twin = Make();
   CellRun a(*dut_, open, 3), b(*twin, other, 3);
-  const int sight = static_cast<int>(dut_->radius_m() / testing::kCell_m);
+  const int sight = static_cast<int>(dut_->params().radius_m / testing::kCell_m);
   for (int i = 0; i < 400 && a.world.here().ix + sight < 20; ++i) {
     ASSERT_EQ(a.world.here(), b.world.here()) << "step " << i;
     if (a.Step().kind != OnlineStep::Kind::kTarget) break;

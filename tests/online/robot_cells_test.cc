@@ -25,11 +25,13 @@ KnownMap AllFree(const GridFrame& frame) {
   return known;
 }
 
+Extent Round(double radius_m) { return {Vec2::Constant(radius_m), true}; }
+
 TEST(RobotCells, OfTheMapsOwnSizeAreTheMap) {
   const GridFrame frame = {6, 4, 0.5, {1, 2, 0.3}};
   KnownMap known = AllFree(frame);
   known.Add(2, 1, 2 * kMost, kMost);
-  RobotCells dut(frame, frame.Center(1, 1), 0.5, 0);
+  RobotCells dut(frame, frame.Center(1, 1), 0.5, {});
   EXPECT_EQ(dut.frame().width, 6);
   EXPECT_EQ(dut.frame().height, 4);
   EXPECT_FALSE(dut.IsFree({0, 0})) << "nothing is known yet";
@@ -51,7 +53,7 @@ TEST(RobotCells, TheStartIsTheMiddleOfOneAndAllGroundLiesInThem) {
   const GridFrame frame = {100, 60, 0.05, {-1, 2, 0.7}};
   for (const Vec2& at : {Vec2(0.31, 1.234), Vec2(2.5, 0.05), Vec2(4.99, 2.99)}) {
     const Vec2 start_W = frame.X_WG * at;
-    const RobotCells dut(frame, start_W, 0.33, 0.1);
+    const RobotCells dut(frame, start_W, 0.33, Round(0.1));
     EXPECT_LT((dut.frame().Center(dut.At(start_W)) - start_W).norm(), 1e-9);
     for (const Cell corner : {Cell{0, 0}, Cell{99, 0}, Cell{0, 59}, Cell{99, 59}})
       EXPECT_TRUE(dut.frame().Inside(dut.At(frame.Center(corner))));
@@ -66,7 +68,7 @@ TEST(RobotCells, KeepClearOfWhatIsOccupiedUnknownOrBeyondTheMap) {
   const Cell wall = {41, 37};
   known.Add(wall.ix, wall.iy, 2 * kMost, kMost);
   known.Add(10, 60, kMost, kMost);  // unknown again
-  RobotCells dut(frame, {2.0, 2.0}, step_m, clear_m);
+  RobotCells dut(frame, {2.0, 2.0}, step_m, Round(clear_m));
   Take(known, dut);
   const auto to = [&](const Vec2& p, Cell c) {
     const Vec2 low = frame.cell_m * Vec2(c.ix, c.iy);
@@ -86,10 +88,43 @@ TEST(RobotCells, KeepClearOfWhatIsOccupiedUnknownOrBeyondTheMap) {
   EXPECT_GE(kept_off, 1);
 }
 
+// A footprint that is kept upright clears a rectangle, wherever the map's axes point.
+TEST(RobotCells, ARectangleIsExtentInTheGroundsAxes) {
+  const GridFrame frame = {60, 60, 0.1, {3, -2, 0.8}};
+  const Vec2 half_m(0.5, 0.2);
+  const double step_m = 0.1;
+  KnownMap known = AllFree(frame);
+  known.Add(30, 30, 2 * kMost, kMost);
+  RobotCells dut(frame, frame.Center(30, 30), step_m, {half_m, false});
+  Take(known, dut);
+  for (int iy = 10; iy < 50; ++iy)
+    for (int ix = 10; ix < 50; ++ix) {
+      const Vec2 p_W = dut.frame().Center(ix, iy);
+      const Vec2 by = (frame.X_WG.Inverse() * p_W - Vec2(3.05, 3.05)).cwiseAbs();
+      const bool meets = by.x() < 0.55 - 1e-6 && by.y() < 0.25 - 1e-6;
+      EXPECT_EQ(dut.IsFree({ix, iy}), !meets) << by.transpose();
+    }
+}
+
+// Pushed into a cell that is not free, the robot goes on from the nearest that is.
+TEST(RobotCells, BesideAMarkTheNearestFreeCellStandsForTheRobots) {
+  const GridFrame frame = {40, 40, 0.1, {}};
+  KnownMap known = AllFree(frame);
+  RobotCells dut(frame, frame.Center(20, 20), 0.3, Round(0.2));
+  known.Mark(FloorMark::Kind::kBump, {2.25, 2.05}, 0.05);
+  Take(known, dut);
+  const Vec2 here_W(2.0, 2.05);
+  ASSERT_FALSE(dut.IsFree(dut.At(here_W)));
+  const Cell nearest = dut.FreeAt(here_W);
+  EXPECT_EQ(nearest, dut.At(here_W) + (Cell{-1, 0}));
+  EXPECT_EQ(dut.FreeAt(dut.frame().Center(nearest)), nearest);
+  EXPECT_EQ(dut.FreeAt({-5, -5}), dut.At({-5, -5})) << "there is none near";
+}
+
 TEST(RobotCells, WhatIsSeenOtherwiseLaterIsTakenOver) {
   const GridFrame frame = {20, 20, 0.1, {}};
   KnownMap known = AllFree(frame);
-  RobotCells dut(frame, frame.Center(10, 10), 0.3, 0.1);
+  RobotCells dut(frame, frame.Center(10, 10), 0.3, Round(0.1));
   Take(known, dut);
   const Cell c = dut.At(frame.Center(10, 10));
   ASSERT_TRUE(dut.IsFree(c));
@@ -110,7 +145,7 @@ TEST(NearestUncovered, IsTheNearestByTheWayThere) {
   const testing::CellFloor floor({".....",  //
                                   "####.",  //
                                   "S...."});
-  RobotCells cells(floor.frame, floor.frame.Center(floor.start), testing::kCell_m, 0);
+  RobotCells cells(floor.frame, floor.frame.Center(floor.start), testing::kCell_m, {});
   KnownMap known(floor.frame);
   known.changed.emplace();
   for (int iy = 0; iy < 3; ++iy)

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planners/online/tool_floor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace floorproof {
+namespace {
+
+constexpr double kSlack = 1e-6;                             // cells
+constexpr int kToolCells = 12;                              // across, at least
+constexpr int kStraight = 5, kDiagonal = 7, kSqueeze = 15;  // costs
+constexpr double kPinned_m = 0.5;  // so near to the robot, where it knows no other way
+
+int Division(const GridFrame& ground, const Extent& tool) {
+  const double across = 2 * std::min(tool.Reach().x(), tool.Reach().y()) / ground.cell_m;
+  return std::max(1, static_cast<int>(std::ceil(kToolCells / across - kSlack)));
+}
+
+// Walls mostly lie on borders of the ground's cells. Of poses whose middles lie on borders of the
+// grid or between them, those that come nearer to such a wall, which is to stay `clear_m` away.
+double FirstPose(double clear_m, double cell_m) {
+  const auto away = [=](double first_m) {
+    return first_m + std::ceil((clear_m - first_m) / cell_m - kSlack) * cell_m;
+  };
+  return away(0) < away(cell_m / 2) ? 0 : cell_m / 2;
+}
+
+}  // namespace
+
+ToolFloor::ToolFloor(const GridFrame& ground, const Extent& clear, const Extent& tool)
+    : division_(Division(ground, tool)),
+      clear_(clear / (ground.cell_m / division_)),
+      tool_(tool / (ground.cell_m / division_)),
+      poses_(ground,
+             ground.X_WG * Vec2::Constant(FirstPose(clear.half_m.x(), ground.cell_m / division_)),
+             ground.cell_m / division_, clear),
+      known_free_(poses_.frame().width, poses_.frame().height),
+      open_(known_free_),
+      stood_(known_free_),
+      swept_(known_free_.width, known_free_.height),
+      search_(known_free_.cells.size()) {
+  const Vec2 reach = tool_.Reach();
+  const int rx = static_cast<int>(reach.x()), ry = static_cast<int>(reach.y());
+  const auto holds = [this](Cell by) { return tool_.Holds(Vec2(by.ix, by.iy), kSlack); };
+  for (std::size_t k = 0; k < kSteps.size(); ++k) {
+    const Cell aside = kSteps[(k + 2) % kSteps.size()];
+    while (holds(beside_[k])) beside_[k] = beside_[k] + aside;
+    if (k % 2 == 0) beside_[k] = beside_[k] + aside;
+  }
+  for (int iy = -ry; iy <= ry; ++iy)
+    for (int ix = -rx; ix <= rx; ++ix) {
+      const Cell by = {ix, iy};
+      if (!holds(by)) continue;
+      tool_cells_.push_back(by);
+      if (ix % 3 == 0 && iy % 3 == 0) probes_.push_back(by);
+      for (std::size_t k = 0; k < kSteps.size(); ++k)
+        if (!holds(by + kSteps[k])) added_[k].push_back(by);
+    }
+}
+
+void ToolFloor::Update(const KnownMap& known, std::span<const Cell> changed) {
+  poses_.Update(known, changed);
+  for (const Cell& ground : changed) {
+    const bool free = known.At(ground) == CellState::kFree;
+    if (known.marked(ground)) ForgetStanding(ground);
+    for (int iy = ground.iy * division_; iy < (ground.iy + 1) * division_; ++iy)
+      for (int ix = ground.ix * division_; ix < (ground.ix + 1) * division_; ++ix) {
+        known_free_(ix, iy) = free;
+        Tell({ix, iy});
+      }
+  }
+}
+
+// Whether the tool, on its way from the origin, passes over p.
+bool ToolFloor::PassesOver(const Vec2& p, const Vec2& way) const {
+  if (tool_.round)
+    return tool_.Holds(
+        p - std::clamp(p.dot(way) / std::max(way.squaredNorm(), 1e-12), 0.0, 1.0) * way, kSlack);
+  double first = 0, last = 1;  // of the way, while it is within both pairs of sides
+  for (int k = 0; k < 2; ++k) {
+    const double half = tool_.half_m[k] - kSlack;
+    if (std::abs(way[k]) < 1e-12) {
+      if (std::abs(p[k]) >= half) return false;
+      continue;
+    }
+    const double in = (p[k] - half) / way[k], out = (p[k] + half) / way[k];
+    first = std::max(first, std::min(in, out));
+    last = std::min(last, std::max(in, out));
+  }
+  return first <= last;
+}
+
+// Cells whose middles the tool passes over.
+void ToolFloor::Count(const Vec2& a_W, const Vec2& b_W, int by) {
+  const Pose2 X_GW = frame().X_WG.Inverse();
+  const Vec2 half = Vec2::Constant(0.5);  // a cell's middle is at its number
+  const Vec2 a = X_GW * a_W / frame().cell_m - half, way = X_GW * b_W / frame().cell_m - half - a;
+  const Vec2 reach = tool_.Reach();
+  const Vec2 low = a.cwiseMin(a + way) - reach, high = a.cwiseMax(a + way) + reach;
+  const int x0 = std::max(0, static_cast<int>(std::ceil(low.x()))),
+            y0 = std::max(0, static_cast<int>(std::ceil(low.y()))),
+            x1 = std::min(swept_.width - 1, static_cast<int>(std::floor(high.x()))),
+            y1 = std::min(swept_.height - 1, static_cast<int>(std::floor(high.y())));
+  for (int iy = y0; iy <= y1; ++iy)
+    for (int ix = x0; ix <= x1; ++ix) {
+      if (!PassesOver(Vec2(ix, iy) - a, way)) continue;
+      std::uint16_t& swept = swept_(ix, iy);
+      swept = static_cast<std::uint16_t>(std::clamp(swept + by, 0, 0xffff));
+      Tell({ix, iy});
+    }
+}
+
+void ToolFloor::Stand(const Vec2& a_W, const Vec2& b_W) {
+  const double step_m = frame().cell_m / 2;
+  const int n = static_cast<int>(std::ceil((b_W - a_W).norm() / step_m));
+  for (int i = 0; i <= n; ++i) {
+    const Cell at = poses_.At(a_W + (b_W - a_W) * i / std::max(n, 1));
+    for (const Cell by : {Cell{0, 0}, Cell{1, 0}, Cell{0, 1}, Cell{-1, 0}, Cell{0, -1}})
+      if (stood_.Inside(at + by)) stood_(at + by) = 1;
+  }
+}
+
+Cell ToolFloor::FreeAt(const Vec2& p_W, double reach_m) const {
+  const Cell here = poses_.At(p_W);
+  if (IsFree(here)) return here;
+  const int reach = static_cast<int>(reach_m / frame().cell_m);
+  Cell nearest = here;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (int iy = -reach; iy <= reach; ++iy)
+    for (int ix = -reach; ix <= reach; ++ix) {
+      const Cell c = here + Cell{ix, iy};
+      if (!IsFree(c)) continue;
+      const double way_m = (frame().Center(c) - p_W).norm();
+      if (way_m >= least_m) continue;
+      least_m = way_m;
+      nearest = c;
+    }
+  return nearest;
+}
+
+int ToolFloor::OpenAt(Cell c) const {
+  int open = 0;
+  for (const Cell& by : tool_cells_) open += IsOpen(c + by);
+  return open;
+}
+
+// No place beside it has more: the robot goes as deep into what is open as it can.
+bool ToolFloor::IsPeak(Cell c, int open) const {
+  return std::ranges::none_of(
+      kSteps, [&](Cell step) { return IsFree(c + step) && OpenAt(c + step) > open; });
+}
+
+void ToolFloor::ForgetStanding(Cell ground) {
+  const int rx = static_cast<int>(clear_.Reach().x()) + division_,
+            ry = static_cast<int>(clear_.Reach().y()) + division_;
+  const Cell middle = {ground.ix * division_ + division_ / 2,
+                       ground.iy * division_ + division_ / 2};
+  for (int iy = -ry; iy <= ry; ++iy)
+    for (int ix = -rx; ix <= rx; ++ix)
+      if (stood_.Inside(middle + Cell{ix, iy})) stood_(middle + Cell{ix, iy}) = 0;
+}
+
+bool ToolFloor::Sees(Cell a, Cell b) const {
+  const int dx = b.ix - a.ix, dy = b.iy - a.iy, n = 2 * std::max(std::abs(dx), std::abs(dy));
+  for (int i = 0; i <= n; ++i)
+    if (!IsFree({a.ix + static_cast<int>(std::lround(1.0 * i * dx / n)),
+                 a.iy + static_cast<int>(std::lround(1.0 * i * dy / n))}))
+      return false;
+  return true;
+}
+
+std::vector<Vec2> ToolFloor::WayToOpen(Cell from, int least) {
+  std::vector<Vec2> way = WayToOpen(from, least, 0);
+  if (way.empty()) way = WayToOpen(from, least, static_cast<int>(kPinned_m / frame().cell_m));
+  return way;
+}
+
+// Within `pinned` cells around `from`, and where it once went, the robot squeezes past what it is
+// to keep clear of.
+std::vector<Vec2> ToolFloor::WayToOpen(Cell from, int least, int pinned) {
+  const int width = frame().width;
+  const auto number = [width](Cell c) { return c.iy * width + c.ix; };
+  const auto cell = [width](int node) { return Cell{node % width, node / width}; };
+  const auto squeezes = [&](Cell c) {
+    if (pinned == 0 || !known_free_.Inside(c)) return false;
+    const bool near = std::abs(c.ix - from.ix) < pinned && std::abs(c.iy - from.iy) < pinned;
+    return stood_(c) || (near && known_free_(c));
+  };
+  search_.Begin();
+  search_.Reach(number(from), 0);
+  const int found = search_.Run(
+      [&](const auto& at) {
+        const Cell c = cell(at.node);
+        if (std::ranges::none_of(probes_, [&](Cell by) { return IsOpen(c + by); })) return false;
+        const int open = OpenAt(c);
+        return open >= least && IsFree(c) && IsPeak(c, open);
+      },
+      [&](const auto& at, const auto& reach) {
+        const Cell here = cell(at.node);
+        for (std::size_t k = 0; k < kSteps.size(); ++k) {
+          const int cost = at.cost + (k % 2 == 0 ? kStraight : kDiagonal);
+          if (poses_.MayStep(here, k))
+            reach(number(here + kSteps[k]), cost);
+          else if (squeezes(here + kSteps[k]))
+            reach(number(here + kSteps[k]), cost + kSqueeze);
+        }
+      });
+  std::vector<Vec2> corners;
+  if (found == search_.kNone) return corners;
+  const std::vector<int> path = search_.PathTo(found);
+  for (std::size_t i = 0; i + 1 < path.size();) {
+    std::size_t next = i + 1;
+    while (next + 1 < path.size() && Sees(cell(path[i]), cell(path[next + 1]))) ++next;
+    corners.push_back(frame().Center(cell(path[next])));
+    i = next;
+  }
+  if (path.size() == 1) corners.push_back(frame().Center(cell(found)));
+  return corners;
+}
+
+}  // namespace floorproof

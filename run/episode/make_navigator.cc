@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/episode/make_navigator.h"
+
+#include "planners/lines/held_yaw.h"
+#include "run/episode/make_plan.h"
+#include "run/episode/online_navigator.h"
+#include "run/episode/plan_navigator.h"
+
+namespace floorproof {
+namespace {
+
+// Kept beyond the clear shape, for the tracker's error; holonomic robots hold their path better.
+constexpr double kCircleMargin_m = 0.03, kFootprintMargin_m = 0.015;
+
+// As wide, seen from the robot's centre, as the shape is where it is widest.
+Extent Around(const Shape2& shape) {
+  if (shape.kind == Shape2::Kind::kCircle) return {Vec2::Constant(shape.radius_m), true};
+  Extent extent{Vec2::Zero(), false};
+  for (const Vec2& corner : shape.footprint_B)
+    extent.half_m = extent.half_m.cwiseMax(corner.cwiseAbs());
+  return extent;
+}
+
+}  // namespace
+
+std::unique_ptr<Navigator> MakeNavigator(const Scenario& s, const PlanResult& plan,
+                                         const HazardMap& known) {
+  const RobotSpec& robot = s.robot.spec;
+  if (!s.online)
+    return std::make_unique<PlanNavigator>(plan, known, robot, s.recovery ? &*s.recovery : nullptr);
+  const HeldShapes held = HoldYaw(known, s.start, robot.clear, robot.tool);
+  Extent clear = Around(held.clear);
+  clear.half_m += Vec2::Constant(clear.round ? kCircleMargin_m : kFootprintMargin_m);
+  return std::make_unique<OnlineNavigator>(
+      *s.online, OnlineNavigator::Robot{clear, Around(held.tool), robot.tool_width_m, held.yaw_rad},
+      s.start.p(), PlanSeed(s));
+}
+
+}  // namespace floorproof

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// What leads a scenario's robot: its plan, or its planner of unknown floors.
+#pragma once
+
+#include <memory>
+
+#include "controllers/navigator.h"
+#include "planners/planner.h"
+#include "run/scenario/scenario.h"
+
+namespace floorproof {
+
+// All outlive it. `plan` was made on `known`; of an unknown floor it is empty.
+std::unique_ptr<Navigator> MakeNavigator(const Scenario& scenario, const PlanResult& plan,
+                                         const HazardMap& known);
+
+}  // namespace floorproof
