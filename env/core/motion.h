@@ -16,6 +16,7 @@ struct Command {
   std::size_t segment = 0;  // the segment now tracked goes from waypoint `segment` to `segment + 1`
   bool dwelling = false;    // standing still on purpose
   bool turning = false;     // to turn or fold where it stands: it moves only to hold its place
+  bool reacting = false;    // going back from what it met; `segment` is the one that it left
   bool done = false;        // last waypoint reached
 };
 

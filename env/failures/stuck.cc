@@ -7,8 +7,10 @@
 // and pushing forward to fall back again gain nothing in the end. This follows Nav2's pose progress
 // checker, but r scales with what was commanded: r = min(displacement_m, fraction * way commanded),
 // and a slower command than least_speed_mps lets the clock run slower in proportion, so that a
-// window always holds a way that is worth judging. A robot that goes elsewhere is not stuck, it
-// veers off: it is spared where it gets away by half of the way commanded.
+// window always holds a way that is worth judging. A robot that goes back from what it met, as it
+// is told, is about something else: that stops the clock, too, and being held there does not. A
+// robot that goes elsewhere is not stuck, it veers off: it is spared where it gets away by half of
+// the way commanded.
 //
 // While the plan asks for a turn on the spot, or for folding, that is what is judged, in the same
 // way: a = min(turn_rad, fraction * angle commanded), turned the way it was told. A window is about
@@ -87,7 +89,7 @@ class Stuck final : public Detector {
     const double dt_s = started_ ? sample.t_s - last_t_s_ : timestep_s_;
     started_ = true;
     last_t_s_ = sample.t_s;
-    if (sample.command.dwelling || sample.command.done) return false;
+    if (sample.command.dwelling || sample.command.done || GoesBack(sample)) return false;
     if (count_ == 0) Keep(sample);
     Add(sample, dt_s);
     if (now_.clock_s < static_cast<double>(ticks_ + 1) * period_s_ - kTimeSlackS) return false;
@@ -126,6 +128,17 @@ class Stuck final : public Detector {
     for (std::size_t h = 0; h < static_cast<std::size_t>(sample.hinges.n); ++h)
       take(sample.command.hinges.radps[h], sample.hinges.radps[h]);
     return turn;
+  }
+
+  // As it is told to, from what it met.
+  static bool GoesBack(const Sample& sample) {
+    constexpr double kShare = 0.5;  // of the speed commanded
+    const BodyTwist &cmd = sample.command.twist, &v = sample.V_WB_B;
+    if (!sample.command.reacting) return false;
+    const double speed_mps = std::hypot(cmd.vx_mps, cmd.vy_mps);
+    if (sample.command.turning || speed_mps < kNoSpeedMps)
+      return v.wz_radps * cmd.wz_radps >= kShare * cmd.wz_radps * cmd.wz_radps;
+    return v.vx_mps * cmd.vx_mps + v.vy_mps * cmd.vy_mps >= kShare * speed_mps * speed_mps;
   }
 
   void Add(const Sample& sample, double dt_s) {

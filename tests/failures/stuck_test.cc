@@ -101,6 +101,42 @@ TEST(Stuck, PushingForwardAndFallingBackIsNoProgress) {
   }
 }
 
+// Going back as it is told stops the clock.
+Trace Reacting(Trace trace) {
+  return With(std::move(trace), [](Sample& s) { s.command.reacting = s.command.twist.vx_mps < 0; });
+}
+
+// Along a pane that it cannot see, a robot meets it again and again, and gets on.
+TEST(Stuck, SomeReactionsInAWindowAreNoFailure) {
+  std::vector<Piece> pieces = {{2, {0.25, 0, 0}}};
+  for (int i = 0; i < 5; ++i)
+    pieces.insert(pieces.end(), {{0.7, {0.25, 0, 0}}, {1.5, {-0.1, 0, 0}}});
+  pieces.push_back({8, {0.25, 0, 0}});
+  EXPECT_EQ(Count(Reacting(AlongX(Drive(pieces)))), 0u);
+  EXPECT_EQ(Count(AlongX(Drive(pieces))), 1u) << "its tracker led it to and fro";
+}
+
+TEST(Stuck, ReactingForEverIsOne) {
+  std::vector<Piece> pieces;
+  for (int i = 0; i < 25; ++i)
+    pieces.insert(pieces.end(), {{0.6, {0.25, 0, 0}}, {1.5, {-0.1, 0, 0}}});
+  EXPECT_EQ(Count(Reacting(AlongX(Drive(pieces)))), 1u);
+}
+
+// Held where it is to go back, or to turn back.
+TEST(Stuck, ARobotThatCannotGoBackIsHeld) {
+  for (const BodyTwist& back : {BodyTwist{-0.1, 0, 0}, BodyTwist{0, 0, 0.6}}) {
+    const Trace held =
+        With(Commanded({12, {}}, back), [](Sample& s) { s.command.reacting = true; });
+    EXPECT_EQ(Count(held), 1u);
+    const Trace goes = With(Commanded({12, back}, back), [](Sample& s) {
+      s.command.reacting = true;
+      s.progress_m = 0;
+    });
+    EXPECT_EQ(Count(goes), 0u);
+  }
+}
+
 // Back from what it met, around it, and on: less way gained than driven, but gained.
 TEST(Stuck, AReactionIsNoFailure) {
   const Trace around = AlongX(Drive({{2, {0.25, 0, 0}},
