@@ -10,7 +10,6 @@
 #pragma once
 
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "planners/online/online_planner.h"

@@ -70,8 +70,7 @@ class RandomWalk final : public OnlinePlanner {
     };
     if (here != at(steps_)) return kNone;
     const Cell next = at(steps_ + 1);
-    const auto step = std::ranges::find(kSteps, Cell{next.ix - here.ix, next.iy - here.iy});
-    return static_cast<std::size_t>(step - kSteps.begin());
+    return StepOf({next.ix - here.ix, next.iy - here.iy});
   }
 
   OnlineParams params_;

@@ -50,14 +50,13 @@ RobotCells::RobotCells(const GridFrame& ground, const Vec2& start_W, double step
     }
 }
 
-Cell RobotCells::FreeAt(const Vec2& p_W) const {
+Cell RobotCells::FreeAt(const Vec2& p_W, int reach) const {
   const Cell here = At(p_W);
   if (IsFree(here)) return here;
-  constexpr int kReach = 2;
   Cell nearest = here;
   double least_m = std::numeric_limits<double>::infinity();
-  for (int iy = -kReach; iy <= kReach; ++iy)
-    for (int ix = -kReach; ix <= kReach; ++ix) {
+  for (int iy = -reach; iy <= reach; ++iy)
+    for (int ix = -reach; ix <= reach; ++ix) {
       const Cell c = here + Cell{ix, iy};
       const double way_m = (frame_.Center(c) - p_W).norm();
       if (!IsFree(c) || way_m >= least_m) continue;

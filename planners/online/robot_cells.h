@@ -11,7 +11,10 @@
 // What the robot sees is taken over cell by cell as it comes: an update takes time as what is new.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -26,6 +29,16 @@ namespace floorproof {
 // The eight steps, counter-clockwise from east; odd ones are diagonal.
 inline constexpr std::array<Cell, 8> kSteps = {Cell{1, 0},  Cell{1, 1},   Cell{0, 1},  Cell{-1, 1},
                                                Cell{-1, 0}, Cell{-1, -1}, Cell{0, -1}, Cell{1, -1}};
+
+// Which of them leads by so much; kSteps.size(): none.
+inline std::size_t StepOf(Cell by) {
+  return static_cast<std::size_t>(std::ranges::find(kSteps, by) - kSteps.begin());
+}
+// The cell that a straight line from a cell passes after i of n equal parts of `way`, from there.
+inline Cell OnLine(Cell way, int i, int n) {
+  return {static_cast<int>(std::lround(1.0 * i * way.ix / n)),
+          static_cast<int>(std::lround(1.0 * i * way.iy / n))};
+}
 
 class RobotCells {
  public:
@@ -54,9 +67,9 @@ class RobotCells {
   void Visit(Cell c) { Count(c, 1); }
   void TakeBack(Cell c) { Count(c, -1); }
   int visits(Cell c) const { return visits_(c); }
-  // The robot's cell; where it is not free, the nearest that is, within two steps. The robot may
-  // have been pushed, or what it met may have been marked as larger than it is.
-  Cell FreeAt(const Vec2& p_W) const;
+  // The robot's cell; where it is not free, the nearest that is, within `reach` cells. The robot
+  // may have been pushed, or what it met may have been marked as larger than it is.
+  Cell FreeAt(const Vec2& p_W, int reach = 2) const;
   bool IsUncovered(Cell c) const { return IsFree(c) && visits_(c) == 0; }
 
  private:

@@ -147,10 +147,8 @@ class RollingWindow final : public OnlinePlanner {
     if (n == 0) return std::nullopt;
     Cell at = {0, 0}, first = {0, 0};
     for (int i = 1; i <= n; ++i) {
-      const Cell next = {static_cast<int>(std::lround(1.0 * i * to.ix / n)),
-                         static_cast<int>(std::lround(1.0 * i * to.iy / n))};
-      const auto step = std::ranges::find(kSteps, Cell{next.ix - at.ix, next.iy - at.iy});
-      if (!cells_.MayStep(*here_ + at, static_cast<std::size_t>(step - kSteps.begin())))
+      const Cell next = OnLine(to, i, n);
+      if (!cells_.MayStep(*here_ + at, StepOf({next.ix - at.ix, next.iy - at.iy})))
         return std::nullopt;
       at = next;
       if (i == 1) first = next;
@@ -162,10 +160,8 @@ class RollingWindow final : public OnlinePlanner {
   std::optional<Cell> AlongRoute() {
     const auto leads_on = [this] {
       if (route_.empty()) return false;
-      const Cell by = {route_.back().ix - here_->ix, route_.back().iy - here_->iy};
-      const auto step = std::ranges::find(kSteps, by);
-      return step != kSteps.end() &&
-             cells_.MayStep(*here_, static_cast<std::size_t>(step - kSteps.begin()));
+      const auto step = StepOf({route_.back().ix - here_->ix, route_.back().iy - here_->iy});
+      return step < kSteps.size() && cells_.MayStep(*here_, step);
     };
     if (!leads_on()) {
       route_ = way_out_->PathFrom(*here_, cells_);

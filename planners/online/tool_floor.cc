@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 
 namespace floorproof {
 namespace {
@@ -123,24 +122,6 @@ void ToolFloor::Stand(const Vec2& a_W, const Vec2& b_W) {
   }
 }
 
-Cell ToolFloor::FreeAt(const Vec2& p_W, double reach_m) const {
-  const Cell here = poses_.At(p_W);
-  if (IsFree(here)) return here;
-  const int reach = static_cast<int>(reach_m / frame().cell_m);
-  Cell nearest = here;
-  double least_m = std::numeric_limits<double>::infinity();
-  for (int iy = -reach; iy <= reach; ++iy)
-    for (int ix = -reach; ix <= reach; ++ix) {
-      const Cell c = here + Cell{ix, iy};
-      if (!IsFree(c)) continue;
-      const double way_m = (frame().Center(c) - p_W).norm();
-      if (way_m >= least_m) continue;
-      least_m = way_m;
-      nearest = c;
-    }
-  return nearest;
-}
-
 int ToolFloor::OpenAt(Cell c) const {
   int open = 0;
   for (const Cell& by : tool_cells_) open += IsOpen(c + by);
@@ -164,11 +145,10 @@ void ToolFloor::ForgetStanding(Cell ground) {
 }
 
 bool ToolFloor::Sees(Cell a, Cell b) const {
-  const int dx = b.ix - a.ix, dy = b.iy - a.iy, n = 2 * std::max(std::abs(dx), std::abs(dy));
+  const Cell way = {b.ix - a.ix, b.iy - a.iy};
+  const int n = 2 * std::max(std::abs(way.ix), std::abs(way.iy));
   for (int i = 0; i <= n; ++i)
-    if (!IsFree({a.ix + static_cast<int>(std::lround(1.0 * i * dx / n)),
-                 a.iy + static_cast<int>(std::lround(1.0 * i * dy / n))}))
-      return false;
+    if (!IsFree(a + OnLine(way, i, n))) return false;
   return true;
 }
 

@@ -35,7 +35,9 @@ class ToolFloor {
   // Whether the robot's centre may be in this cell.
   bool IsFree(Cell c) const { return poses_.IsFree(c); }
   // The nearest such cell, within `reach_m`; else the place's own.
-  Cell FreeAt(const Vec2& p_W, double reach_m) const;
+  Cell FreeAt(const Vec2& p_W, double reach_m) const {
+    return poses_.FreeAt(p_W, static_cast<int>(reach_m / frame().cell_m));
+  }
   // Known to be free, and not swept.
   bool IsOpen(Cell c) const { return open_.Inside(c) && open_(c); }
 

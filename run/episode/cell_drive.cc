@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "env/core/failure_text.h"
+#include "planners/online/robot_cells.h"
 #include "run/episode/cell_world.h"
 #include "run/episode/make_plan.h"
 #include "run/episode/online_limit.h"
@@ -61,12 +62,10 @@ class CellDrive {
   // Straight, cell by cell, as far as it can.
   std::optional<Outcome> DriveTo(Cell to) {
     const Cell from = world_.here();
-    const int dx = to.ix - from.ix, dy = to.iy - from.iy, n = std::max(std::abs(dx), std::abs(dy));
-    for (int i = 1; i <= n; ++i) {
-      const Cell next = {from.ix + static_cast<int>(std::lround(1.0 * i * dx / n)),
-                         from.iy + static_cast<int>(std::lround(1.0 * i * dy / n))};
-      if (!Step(next)) break;
-    }
+    const Cell way = {to.ix - from.ix, to.iy - from.iy};
+    const int n = std::max(std::abs(way.ix), std::abs(way.iy));
+    for (int i = 1; i <= n; ++i)
+      if (!Step(from + OnLine(way, i, n))) break;
     bumps_ = world_.here() == to && n > 0 ? 0 : bumps_ + 1;
     if (bumps_ < kMostBumps) return std::nullopt;
     const Vec2 p_W = world_.frame().Center(to);
