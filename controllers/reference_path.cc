@@ -102,7 +102,7 @@ std::vector<Kept> KeepCorners(const Path& path, const ReferenceLimits& limits) {
                           SameYaw(HeldYaw(path[i], limits), HeldYaw(path[i - 1], limits));
     if (i - 1 > last && (!same_leg || !cone.Reaches(path[i].p_W))) keep(i - 1);
     cone.Add(path[i].p_W);
-    if (path[i].dwell_s > 0 || path[i].task || i + 1 == path.size()) keep(i);
+    if (path[i].dwell_s > 0 || path[i].task || path[i].stops || i + 1 == path.size()) keep(i);
   }
   return kept;
 }
@@ -215,7 +215,8 @@ ReferencePath MakeReference(const Path& path, const ReferenceLimits& limits) {
     vertex.yaw_rad = from.yaw_rad = HeldYaw(path[kept[k].index], limits);
     if (k == 1) continue;
     const ReferenceVertex& before = vertices[k - 2];
-    if (std::abs(TurnAngle(before.direction_W, from.direction_W)) > limits.corner_rad ||
+    const double turn_rad = std::abs(TurnAngle(before.direction_W, from.direction_W));
+    if (turn_rad > (path[kept[k - 1].index].stops ? kNoBendRad : limits.corner_rad) ||
         !SameYaw(before.yaw_rad, from.yaw_rad))
       from.stop = true;
   }

@@ -26,6 +26,7 @@ struct Waypoint {
   std::string shape;     // of a reconfigurable robot; empty: as it is
   double speed_mps = 0;  // on the way here; 0: the robot's cruise speed
   double dwell_s = 0;    // stand here for this long, in simulated time
+  bool stops = false;    // where the way bends here it is not cut: the robot stops, and then turns
   std::optional<WaypointTask> task = {};  // to be done here
 };
 

@@ -26,10 +26,11 @@ namespace floorproof {
 struct OnlineTask {
   GridFrame ground;   // of the known map; its borders say how far floor may reach, no more
   Pose2 start;        // X_WB, as the robot believes it
-  Extent clear = {};  // is to stay free around the robot's centre
+  Extent clear = {};  // is to stay free around the robot's centre: its body, and a margin
   Extent tool = {};   // is swept around it
   double tool_width_m = 0;
   std::uint64_t seed = 0;
+  Extent body = {};
 };
 
 // What it is told on the way.
@@ -40,7 +41,9 @@ struct OnlineInput {
   // target that it is about to reach as its place.
   const Estimate& estimate;
   bool bumped = false, dropped = false;  // since the last call: it was touched, or met an edge
-  bool missed = false;                   // it never reached the place of the last call
+  // It never reached the place of the last call, or it was stopped on its way to the target: what
+  // had come into sight lies across.
+  bool missed = false, stopped = false;
 };
 
 struct OnlineStep {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/episode/make_navigator.h"
 
+#include "controllers/follower_params.h"
 #include "planners/lines/held_yaw.h"
 #include "run/episode/make_plan.h"
 #include "run/episode/online_navigator.h"
@@ -9,8 +10,8 @@
 namespace floorproof {
 namespace {
 
-// Kept beyond the clear shape, for the tracker's error; holonomic robots hold their path better.
-constexpr double kCircleMargin_m = 0.03, kFootprintMargin_m = 0.015;
+// Kept beyond the clear shape, for the tracker's error.
+constexpr double kMargin_m = 0.015;
 
 // As wide, seen from the robot's centre, as the shape is where it is widest.
 Extent Around(const Shape2& shape) {
@@ -29,10 +30,11 @@ std::unique_ptr<Navigator> MakeNavigator(const Scenario& s, const PlanResult& pl
   if (!s.online)
     return std::make_unique<PlanNavigator>(plan, known, robot, s.recovery ? &*s.recovery : nullptr);
   const HeldShapes held = HoldYaw(known, s.start, robot.clear, robot.tool);
-  Extent clear = Around(held.clear);
-  clear.half_m += Vec2::Constant(clear.round ? kCircleMargin_m : kFootprintMargin_m);
+  const Extent body = Around(held.clear);
   return std::make_unique<OnlineNavigator>(
-      *s.online, OnlineNavigator::Robot{clear, Around(held.tool), robot.tool_width_m, held.yaw_rad},
+      *s.online,
+      OnlineNavigator::Robot{body, body.Wider(kMargin_m), Around(held.tool), robot.tool_width_m,
+                             kPlannedShare * robot.max_accel_mps2, held.yaw_rad},
       s.start.p(), PlanSeed(s));
 }
 

@@ -2,6 +2,7 @@
 #include "run/episode/online_navigator.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace floorproof {
 namespace {
@@ -10,7 +11,11 @@ constexpr double kLook_s = 1;  // at the start the robot stands for some turns o
 constexpr double kAskAhead_m =
     0.5;  // more than it needs to brake, and than its tracker looks ahead
 constexpr double kSamePlace_m = 1e-3;
-constexpr int kMostVain = 100;  // targets where the robot is, in a row
+constexpr double kCut_m = 0.1;      // of room around the place of a bend that is driven through
+constexpr double kGraze_m = 0.005;  // so deep into the body, what is seen may be noise
+constexpr double kLag_s = 0.15;     // until motors brake
+constexpr double kStands_m = 0.02;  // a way that needs no braking
+constexpr int kMostVain = 100;      // targets where the robot is, in a row
 
 }  // namespace
 
@@ -40,39 +45,61 @@ PathChange OnlineNavigator::Update(const NavigatorInput& input) {
     if (!HasLooked(input)) return PathChange::kNone;
     started_ = true;
     planner_.Start({input.known->frame, input.estimate.X_WB, robot_.clear, robot_.tool,
-                    robot_.tool_width_m, seed_});
+                    robot_.tool_width_m, seed_, robot_.body});
     driven_ = {At(input.estimate.X_WB.p())};
-  } else if (!input.recovered && (leads_ != Leads::kOn || !input.at_end)) {
-    return leads_ == Leads::kOn ? GoOn(input) : PathChange::kNone;
+  } else if (!input.recovered) {
+    if (IsBlocked(input)) return StopAhead(input);
+    if (!input.at_end || leads_ != Leads::kOn) return GoOn(input);
   }
-  // From where it stands.
+  return FromHere(input, false);
+}
+
+PathChange OnlineNavigator::FromHere(const NavigatorInput& input, bool stopped) {
   path_ = {At(input.estimate.X_WB.p())};
-  Ask(input, input.estimate);
-  asked_from_ = 0;
+  Ask(input, stopped);
   return PathChange::kAnew;
 }
 
-// Asks for the next target once the robot is near the last one.
+// Asks for the next target once the robot is near the last one; looks after the bends ahead.
 PathChange OnlineNavigator::GoOn(const NavigatorInput& input) {
-  if (input.segment + 2 < path_.size()) return PathChange::kNone;
-  const Vec2 last_W = path_.back().p_W;
-  if ((last_W - input.estimate.X_WB.p()).norm() > kAskAhead_m) return PathChange::kNone;
-  Estimate there = input.estimate;
-  there.X_WB.x_m = last_W.x();
-  there.X_WB.y_m = last_W.y();
-  const std::size_t from = path_.size() - 1;
-  if (!Ask(input, there)) return PathChange::kNone;
-  path_.erase(path_.begin(), path_.begin() + static_cast<std::ptrdiff_t>(input.segment));
-  asked_from_ = from - input.segment;
+  const Vec2 left_W = path_.back().p_W - input.estimate.X_WB.p();
+  const bool longer = leads_ == Leads::kOn && input.segment + 2 >= path_.size() &&
+                      left_W.norm() <= kAskAhead_m && Ask(input, false);
+  if (!longer && input.known->changed->empty()) return PathChange::kNone;
+  if (!StopAtNarrowBends(*input.known, input.segment) && !longer) return PathChange::kNone;
+  GoOnFrom(input.segment);
   return PathChange::kLonger;
 }
 
-// Whether there is a new target.
-bool OnlineNavigator::Ask(const NavigatorInput& input, const Estimate& at) {
+// It comes to rest as soon as it can on the leg that it is on, and goes on from there.
+PathChange OnlineNavigator::StopAhead(const NavigatorInput& input) {
+  const BodyTwist& v = input.estimate.V_WB_B;
+  const double speed_mps = std::hypot(v.vx_mps, v.vy_mps);
+  const double brakes_m =
+      speed_mps * (kLag_s + speed_mps / (2 * std::max(robot_.brakes_mps2, 1e-3)));
+  const Vec2 here_W = input.estimate.X_WB.p();
+  const Vec2 way_W = path_[input.segment + 1].p_W - here_W;
+  if (input.at_end || brakes_m < kStands_m || way_W.norm() < kStands_m)
+    return FromHere(input, true);
+  path_.resize(input.segment + 1);
+  path_.push_back(At(here_W + way_W * std::min(1.0, brakes_m / way_W.norm())));
+  Ask(input, true);
+  StopAtNarrowBends(*input.known, input.segment);
+  GoOnFrom(input.segment);
+  return PathChange::kLonger;
+}
+
+// Asks for a target behind the end of the path; whether there is one.
+bool OnlineNavigator::Ask(const NavigatorInput& input, bool stopped) {
+  Estimate there = input.estimate;
+  there.X_WB.x_m = path_.back().p_W.x();
+  there.X_WB.y_m = path_.back().p_W.y();
+  const bool ended = input.recovered || stopped;
   const OnlineStep next = planner_.Next(
-      {*input.known, changed_, at, input.recovered && !input.met_drop,
-       input.recovered && input.met_drop, input.recovered && input.segment < asked_from_});
+      {*input.known, changed_, there, input.recovered && !input.met_drop,
+       input.recovered && input.met_drop, ended && input.segment < asked_from_, stopped});
   changed_.clear();
+  asked_from_ = path_.size() - 1;
   const bool first = driven_.size() == 1;
   switch (next.kind) {
     case OnlineStep::Kind::kTarget:
@@ -95,6 +122,52 @@ bool OnlineNavigator::Ask(const NavigatorInput& input, const Estimate& at) {
       break;
   }
   why_ = next.why;
+  return false;
+}
+
+// Whether that changes any.
+bool OnlineNavigator::StopAtNarrowBends(const KnownMap& known, std::size_t segment) {
+  bool any = false;
+  for (std::size_t i = segment + 1; i + 1 < path_.size(); ++i) {
+    if (path_[i].stops || !IsNarrow(known, path_[i].p_W)) continue;
+    path_[i].stops = any = true;
+  }
+  return any;
+}
+
+// Whether a bend there must not be cut.
+bool OnlineNavigator::IsNarrow(const KnownMap& known, const Vec2& p_W) const {
+  const Extent near = robot_.clear.Wider(kCut_m) / known.frame.cell_m;
+  const Vec2 middle = known.frame.X_WG.Inverse() * p_W / known.frame.cell_m - Vec2(0.5, 0.5);
+  const Vec2 low = middle - near.Reach(), high = middle + near.Reach();
+  for (int iy = static_cast<int>(std::ceil(low.y())); iy <= high.y(); ++iy)
+    for (int ix = static_cast<int>(std::ceil(low.x())); ix <= high.x(); ++ix)
+      if (!known.frame.Inside({ix, iy}) ||
+          (near.Holds(Vec2(ix, iy) - middle) && known.At(ix, iy) == CellState::kOccupied))
+        return true;
+  return false;
+}
+
+// Whether something has come into sight that the body would meet on its way, and does not touch
+// where it is.
+bool OnlineNavigator::IsBlocked(const NavigatorInput& input) const {
+  const KnownMap& known = *input.known;
+  const double cell_m = known.frame.cell_m;
+  const Extent met = robot_.body.Wider(cell_m / 2 - kGraze_m) / cell_m;
+  const Pose2 X_GW = known.frame.X_WG.Inverse();
+  const auto on_grid = [&](const Vec2& p_W) -> Vec2 { return X_GW * p_W / cell_m; };
+  const Vec2 here = on_grid(input.estimate.X_WB.p());
+  for (const Cell& c : *known.changed) {
+    if (known.At(c) != CellState::kOccupied) continue;
+    const Vec2 p = Vec2(c.ix + 0.5, c.iy + 0.5);
+    if (met.Holds(p - here)) continue;
+    Vec2 from = here;
+    for (std::size_t i = input.segment + 1; i < path_.size(); ++i) {
+      const Vec2 to = on_grid(path_[i].p_W);
+      if (met.PassesOver(p - from, to - from)) return true;
+      from = to;
+    }
+  }
   return false;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Drives where a planner of unknown floors says. The planner is asked at the start, after a look
-// around; shortly before each target is reached, so that the robot need not stop there; and after
-// the robot has gone back from what it met.
+// around; shortly before each target is reached, so that the robot need not stop there; after the
+// robot has gone back from what it met; and where something comes into sight across its way. Beside
+// what it knows of, the robot stops where its way bends, so that it does not cut the corner.
 #pragma once
 
 #include <optional>
@@ -18,8 +19,9 @@ class OnlineNavigator final : public Navigator {
   // What stays the same all the time. The known map's frame is the task's ground, the robot's first
   // estimate its start.
   struct Robot {
-    Extent clear, tool;
+    Extent body, clear, tool;  // `clear`: the body, and the margin to be kept around it
     double tool_width_m = 0;
+    double brakes_mps2 = 0;         // that it plans with
     std::optional<double> yaw_rad;  // that it holds; none: it faces where it goes
   };
   // `planner` outlives it.
@@ -35,8 +37,13 @@ class OnlineNavigator final : public Navigator {
 
  private:
   bool HasLooked(const NavigatorInput& input);
+  PathChange FromHere(const NavigatorInput& input, bool stopped);
   PathChange GoOn(const NavigatorInput& input);
-  bool Ask(const NavigatorInput& input, const Estimate& at);
+  PathChange StopAhead(const NavigatorInput& input);
+  bool Ask(const NavigatorInput& input, bool stopped);
+  bool StopAtNarrowBends(const KnownMap& known, std::size_t segment);
+  bool IsNarrow(const KnownMap& known, const Vec2& p_W) const;
+  bool IsBlocked(const NavigatorInput& input) const;
   Waypoint At(const Vec2& p_W) const;
 
   OnlinePlanner& planner_;
@@ -49,7 +56,7 @@ class OnlineNavigator final : public Navigator {
   std::optional<double> since_s_;
   bool started_ = false;
   int vain_ = 0;
-  // The waypoint of path_ with which the planner was asked ahead as the robot's place.
+  // The waypoint of path_ with which the planner was asked last as the robot's place.
   std::size_t asked_from_ = 0;
 };
 
