@@ -17,6 +17,7 @@ CellFrontier::CellFrontier(const OnlineTask& task, const OnlineParams& params, i
     : look_around_(look_around),
       cells_(CellsOf(task, params)),
       floor_(cells_.frame(), params.radius_m >= std::sqrt(2.0) * cells_.frame().cell_m) {
+  cells_.TellChanges();
   for (int iy = 0; iy < cells_.frame().height; ++iy)
     for (int ix = 0; ix < cells_.frame().width; ++ix)
       floor_.SetOpen(floor_.NumberOf({ix, iy}), cells_.MayBeFree({ix, iy}));

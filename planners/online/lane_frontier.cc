@@ -8,12 +8,14 @@
 namespace floorproof {
 namespace {
 
-constexpr double kBeside = 0.25;     // worth of a metre with the frontier on one side, of new floor
-constexpr double kAskew = 0.15;      // of new floor, that a metre along a diagonal costs
-constexpr double kTurn_m = 0.03;     // of new floor, that 45 degrees of turning cost
-constexpr double kLeastNew = 0.3;    // of the tool's width, that a lane is to sweep
-constexpr double kLeastOpen = 0.15;  // of the tool's area, that a place is worth going to
-constexpr double kSecondLeg = 1.0;   // tool widths
+constexpr double kBeside = 0.4;     // worth of a metre with the frontier on one side, of new floor
+constexpr double kAskew = 0.1;      // of new floor, that a metre along a diagonal costs
+constexpr double kTurn_m = 0.015;   // of new floor, that 45 degrees of turning cost
+constexpr double kLeastNew = 0.25;  // of the tool's width, that a lane is to sweep
+// Of the tool's area, that must be open at a place that the robot goes to: at the least, more for
+// each metre of the way, and what is always enough.
+constexpr double kLeastOpen = 0.08, kOpenAMetre = 0.17, kEnoughOpen = 0.5;
+constexpr double kSecondLeg = 1.0;  // tool widths
 constexpr double kFirstLegs[] = {0.1, 0.25, 0.5, 1.0};
 constexpr double kSamePlace_m = 1e-3;
 
@@ -26,7 +28,7 @@ int Turns(int from, std::size_t to) {
 }  // namespace
 
 LaneFrontier::LaneFrontier(const OnlineTask& task)
-    : floor_(task.ground, task.clear, task.tool),
+    : floor_(task.ground, task.body, task.clear, task.tool),
       width_(task.tool_width_m / floor_.frame().cell_m) {}
 
 struct LaneFrontier::Tried {
@@ -104,14 +106,15 @@ OnlineStep LaneFrontier::Next(const OnlineInput& input) {
   floor_.Update(input.known, input.changed);
   Sweep(input);
   const Cell here = floor_.FreeAt(*here_W_, floor_.frame().cell_m * width_);
-  if (input.bumped || input.dropped) route_.clear();
+  if (input.bumped || input.dropped || input.stopped) route_.clear();
   if (route_.empty()) {
     if (const Legs legs = BestLegs(here); legs.value > 0) {
       heading_ = legs.heading;
       return {OnlineStep::Kind::kTarget, floor_.frame().Center(legs.first)};
     }
+    const auto tool = static_cast<double>(floor_.tool().size());
     route_ = floor_.WayToOpen(
-        here, static_cast<int>(std::ceil(kLeastOpen * static_cast<double>(floor_.tool().size()))));
+        here, {kLeastOpen * tool, kEnoughOpen * tool, kOpenAMetre * tool * floor_.frame().cell_m});
     std::ranges::reverse(route_);
     dead_ends_ += !route_.empty();
   }

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,14 +49,19 @@ class RobotCells {
   RobotCells(const GridFrame& ground, const Vec2& start_W, double step_m, const Extent& clear);
 
   void Update(const KnownMap& known, std::span<const Cell> changed);
+  // From now on, changed() tells.
+  void TellChanges() { changed_.emplace(); }
   // The cells of which IsFree or MayBeFree may have changed in the last update, some of them twice.
-  std::span<const Cell> changed() const { return changed_; }
+  std::span<const Cell> changed() const { return *changed_; }
 
   const GridFrame& frame() const { return frame_; }
   Cell At(const Vec2& p_W) const { return frame_.ToCell(p_W); }
   bool IsFree(Cell c) const { return frame_.Inside(c) && not_free_(c) == 0; }
   // Free, for all that is known.
   bool MayBeFree(Cell c) const { return frame_.Inside(c) && blocked_(c) == 0; }
+  // The same with another extent around the robot's centre, in cells of the ground. Takes time as
+  // that is large.
+  bool IsFreeFor(const Extent& extent, Cell c) const;
   // Whether the robot may take this of kSteps: to a free cell, without cutting a corner.
   bool MayStep(Cell from, std::size_t step) const {
     const Cell by = kSteps[step];
@@ -74,14 +80,24 @@ class RobotCells {
 
  private:
   Vec2 MiddleOnGround(Cell c) const;
-  bool Needs(Cell c, Cell ground) const;
+  bool Needs(Cell c, Cell ground) const { return Needs(MiddleOnGround(c), clear_, ground); }
+  static bool Needs(const Vec2& middle, const Extent& extent, Cell ground);
+  template <class See>
+  void ForEachNeeded(Cell c, const Extent& extent, const See& see) const;
   // Of the ground's cells that a cell needs to be free: how many there are, and how many of them
   // lie beyond the ground.
   struct Needed {
     int cells = 0, beyond = 0;
   };
   Needed NeededBy(Cell c) const;
+  struct Span {
+    Cell low, high;  // both included
+  };
+  Span Near(Cell ground) const;
+  void ListNeeding();
+  void CountNeeded();
   void Take(Cell ground, CellState was, CellState now);
+  void Change(int ix, int iy, int not_free, int blocked);
   void Count(Cell c, int more) {
     if (frame_.Inside(c)) visits_(c) += more;
   }
@@ -97,7 +113,14 @@ class RobotCells {
   // beyond the ground.
   Grid<std::int32_t> not_free_, blocked_;
   Grid<std::int32_t> visits_;
-  std::vector<Cell> changed_;
+  // Where `division_` cells lie along one of the ground: those that need cell (0, 0) of the ground
+  // to be free, by rows; every other cell's lie likewise around it.
+  struct Row {
+    int iy, first, last;
+  };
+  int division_ = 0;  // 0: the ground's cells are not divided evenly
+  std::vector<Row> needing_;
+  std::optional<std::vector<Cell>> changed_;
 };
 
 // As wide as the planner's steps: as stated, else as the tool.

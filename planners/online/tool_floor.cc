@@ -9,13 +9,28 @@ namespace floorproof {
 namespace {
 
 constexpr double kSlack = 1e-6;                             // cells
-constexpr int kToolCells = 12;                              // across, at least
+constexpr double kLeastAcross = 12, kMostAcross = 24;       // cells of the tool
+constexpr double kWorthIt = 0.01;                           // of a lane's width, more than that
 constexpr int kStraight = 5, kDiagonal = 7, kSqueeze = 15;  // costs
-constexpr double kPinned_m = 0.5;  // so near to the robot, where it knows no other way
+constexpr double kPinned_m = 0.5;  // so near to the robot, where it can go no farther
 
+// How far apart lanes of a tool that is `across` cells wide lie. Where tools touch on the middles
+// of cells, within this, these count as swept.
+int LaneCells(double across) { return static_cast<int>(across + 0.05); }
+
+// Into how many parts a cell of the ground is divided. Lanes lie whole cells apart: of the
+// finenesses at which the tool is some cells wide, the coarsest is taken at which lanes are almost
+// as far apart as at any.
 int Division(const GridFrame& ground, const Extent& tool) {
   const double across = 2 * std::min(tool.Reach().x(), tool.Reach().y()) / ground.cell_m;
-  return std::max(1, static_cast<int>(std::ceil(kToolCells / across - kSlack)));
+  const auto share = [&](int division) {
+    return LaneCells(division * across) / (division * across);
+  };
+  const int coarsest = std::max(1, static_cast<int>(std::ceil(kLeastAcross / across - kSlack)));
+  int best = coarsest;
+  for (int d = coarsest + 1; d * across <= kMostAcross; ++d)
+    if (share(d) > share(best) + kWorthIt) best = d;
+  return best;
 }
 
 // Walls mostly lie on borders of the ground's cells. Of poses whose middles lie on borders of the
@@ -29,8 +44,10 @@ double FirstPose(double clear_m, double cell_m) {
 
 }  // namespace
 
-ToolFloor::ToolFloor(const GridFrame& ground, const Extent& clear, const Extent& tool)
+ToolFloor::ToolFloor(const GridFrame& ground, const Extent& body, const Extent& clear,
+                     const Extent& tool)
     : division_(Division(ground, tool)),
+      body_(body / ground.cell_m),
       clear_(clear / (ground.cell_m / division_)),
       tool_(tool / (ground.cell_m / division_)),
       poses_(ground,
@@ -40,21 +57,28 @@ ToolFloor::ToolFloor(const GridFrame& ground, const Extent& clear, const Extent&
       open_(known_free_),
       stood_(known_free_),
       swept_(known_free_.width, known_free_.height),
+      under_(known_free_.width, known_free_.height),
       search_(known_free_.cells.size()) {
   const Vec2 reach = tool_.Reach();
   const int rx = static_cast<int>(reach.x()), ry = static_cast<int>(reach.y());
   const auto holds = [this](Cell by) { return tool_.Holds(Vec2(by.ix, by.iy), kSlack); };
   for (std::size_t k = 0; k < kSteps.size(); ++k) {
     const Cell aside = kSteps[(k + 2) % kSteps.size()];
-    while (holds(beside_[k])) beside_[k] = beside_[k] + aside;
-    if (k % 2 == 0) beside_[k] = beside_[k] + aside;
+    while (holds(beside_[k] + aside)) beside_[k] = beside_[k] + aside;
+    if (k % 2 == 1) {
+      beside_[k] = beside_[k] + aside;
+      continue;
+    }
+    // The last cell under the tool of a lane beside this one.
+    const int under = std::abs(beside_[k].ix + beside_[k].iy);
+    const int by = LaneCells(2 * (aside.ix != 0 ? reach.x() : reach.y())) - under;
+    beside_[k] = {by * aside.ix, by * aside.iy};
   }
   for (int iy = -ry; iy <= ry; ++iy)
     for (int ix = -rx; ix <= rx; ++ix) {
       const Cell by = {ix, iy};
       if (!holds(by)) continue;
       tool_cells_.push_back(by);
-      if (ix % 3 == 0 && iy % 3 == 0) probes_.push_back(by);
       for (std::size_t k = 0; k < kSteps.size(); ++k)
         if (!holds(by + kSteps[k])) added_[k].push_back(by);
     }
@@ -73,25 +97,6 @@ void ToolFloor::Update(const KnownMap& known, std::span<const Cell> changed) {
   }
 }
 
-// Whether the tool, on its way from the origin, passes over p.
-bool ToolFloor::PassesOver(const Vec2& p, const Vec2& way) const {
-  if (tool_.round)
-    return tool_.Holds(
-        p - std::clamp(p.dot(way) / std::max(way.squaredNorm(), 1e-12), 0.0, 1.0) * way, kSlack);
-  double first = 0, last = 1;  // of the way, while it is within both pairs of sides
-  for (int k = 0; k < 2; ++k) {
-    const double half = tool_.half_m[k] - kSlack;
-    if (std::abs(way[k]) < 1e-12) {
-      if (std::abs(p[k]) >= half) return false;
-      continue;
-    }
-    const double in = (p[k] - half) / way[k], out = (p[k] + half) / way[k];
-    first = std::max(first, std::min(in, out));
-    last = std::min(last, std::max(in, out));
-  }
-  return first <= last;
-}
-
 // Cells whose middles the tool passes over.
 void ToolFloor::Count(const Vec2& a_W, const Vec2& b_W, int by) {
   const Pose2 X_GW = frame().X_WG.Inverse();
@@ -105,11 +110,22 @@ void ToolFloor::Count(const Vec2& a_W, const Vec2& b_W, int by) {
             y1 = std::min(swept_.height - 1, static_cast<int>(std::floor(high.y())));
   for (int iy = y0; iy <= y1; ++iy)
     for (int ix = x0; ix <= x1; ++ix) {
-      if (!PassesOver(Vec2(ix, iy) - a, way)) continue;
+      if (!tool_.PassesOver(Vec2(ix, iy) - a, way, kSlack)) continue;
       std::uint16_t& swept = swept_(ix, iy);
       swept = static_cast<std::uint16_t>(std::clamp(swept + by, 0, 0xffff));
       Tell({ix, iy});
     }
+}
+
+void ToolFloor::Tell(Cell c) {
+  const bool open = known_free_(c) && swept_(c) == 0;
+  if (open == (open_(c) != 0)) return;
+  open_(c) = open;
+  for (const Cell& by : tool_cells_) {
+    const Cell pose = {c.ix - by.ix, c.iy - by.iy};
+    if (under_.Inside(pose))
+      under_(pose) = static_cast<std::uint16_t>(under_(pose) + (open ? 1 : -1));
+  }
 }
 
 void ToolFloor::Stand(const Vec2& a_W, const Vec2& b_W) {
@@ -120,12 +136,6 @@ void ToolFloor::Stand(const Vec2& a_W, const Vec2& b_W) {
     for (const Cell by : {Cell{0, 0}, Cell{1, 0}, Cell{0, 1}, Cell{-1, 0}, Cell{0, -1}})
       if (stood_.Inside(at + by)) stood_(at + by) = 1;
   }
-}
-
-int ToolFloor::OpenAt(Cell c) const {
-  int open = 0;
-  for (const Cell& by : tool_cells_) open += IsOpen(c + by);
-  return open;
 }
 
 // No place beside it has more: the robot goes as deep into what is open as it can.
@@ -144,39 +154,51 @@ void ToolFloor::ForgetStanding(Cell ground) {
       if (stood_.Inside(middle + Cell{ix, iy})) stood_(middle + Cell{ix, iy}) = 0;
 }
 
+// Whether all is free on a straight way from cell to cell. Where it passes between the middles of
+// two cells, both must be.
 bool ToolFloor::Sees(Cell a, Cell b) const {
-  const Cell way = {b.ix - a.ix, b.iy - a.iy};
-  const int n = 2 * std::max(std::abs(way.ix), std::abs(way.iy));
-  for (int i = 0; i <= n; ++i)
-    if (!IsFree(a + OnLine(way, i, n))) return false;
+  const int dx = b.ix - a.ix, dy = b.iy - a.iy, n = std::max(std::abs(dx), std::abs(dy));
+  for (int i = 0; i <= n; ++i) {
+    const double x = a.ix + 1.0 * i * dx / std::max(n, 1), y = a.iy + 1.0 * i * dy / std::max(n, 1);
+    const Cell low = {static_cast<int>(std::floor(x + kSlack)),
+                      static_cast<int>(std::floor(y + kSlack))};
+    const Cell high = {static_cast<int>(std::ceil(x - kSlack)),
+                       static_cast<int>(std::ceil(y - kSlack))};
+    if (!IsFree(low) || !IsFree(high)) return false;
+  }
   return true;
 }
 
-std::vector<Vec2> ToolFloor::WayToOpen(Cell from, int least) {
-  std::vector<Vec2> way = WayToOpen(from, least, 0);
-  if (way.empty()) way = WayToOpen(from, least, static_cast<int>(kPinned_m / frame().cell_m));
+std::vector<Vec2> ToolFloor::WayToOpen(Cell from, const Worth& worth) {
+  std::vector<Vec2> way = WayToOpen(from, worth, nullptr);
+  const auto around = static_cast<std::int64_t>(2 * kPinned_m / frame().cell_m);
+  if (!way.empty() || search_.pops() > around * around) return way;
+  // It is pinned. What is known may be a cell wrong.
+  for (const Extent& squeezed : {body_, body_.Wider(-1)})
+    if (way.empty()) way = WayToOpen(from, worth, &squeezed);
   return way;
 }
 
-// Within `pinned` cells around `from`, and where it once went, the robot squeezes past what it is
-// to keep clear of.
-std::vector<Vec2> ToolFloor::WayToOpen(Cell from, int least, int pinned) {
+// Near `from`, and where it once went, the robot squeezes past what it is to keep clear of.
+std::vector<Vec2> ToolFloor::WayToOpen(Cell from, const Worth& worth, const Extent* squeezed) {
+  const int pinned = static_cast<int>(kPinned_m / frame().cell_m);
   const int width = frame().width;
   const auto number = [width](Cell c) { return c.iy * width + c.ix; };
   const auto cell = [width](int node) { return Cell{node % width, node / width}; };
   const auto squeezes = [&](Cell c) {
-    if (pinned == 0 || !known_free_.Inside(c)) return false;
+    if (squeezed == nullptr || !known_free_.Inside(c)) return false;
     const bool near = std::abs(c.ix - from.ix) < pinned && std::abs(c.iy - from.iy) < pinned;
-    return stood_(c) || (near && known_free_(c));
+    return stood_(c) || (near && poses_.IsFreeFor(*squeezed, c));
   };
   search_.Begin();
   search_.Reach(number(from), 0);
   const int found = search_.Run(
       [&](const auto& at) {
         const Cell c = cell(at.node);
-        if (std::ranges::none_of(probes_, [&](Cell by) { return IsOpen(c + by); })) return false;
         const int open = OpenAt(c);
-        return open >= least && IsFree(c) && IsPeak(c, open);
+        const double way = static_cast<double>(at.cost) / kStraight;
+        return open >= std::min(worth.least + worth.a_cell * way, worth.most) && IsFree(c) &&
+               IsPeak(c, open);
       },
       [&](const auto& at, const auto& reach) {
         const Cell here = cell(at.node);

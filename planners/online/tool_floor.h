@@ -21,7 +21,7 @@ namespace floorproof {
 class ToolFloor {
  public:
   // Over `ground`, the known map's frame.
-  ToolFloor(const GridFrame& ground, const Extent& clear, const Extent& tool);
+  ToolFloor(const GridFrame& ground, const Extent& body, const Extent& clear, const Extent& tool);
 
   void Update(const KnownMap& known, std::span<const Cell> changed);
   // The tool went straight from a to b; taken back: it did not.
@@ -44,33 +44,38 @@ class ToolFloor {
   // The tool's cells, from its own; and those of them that a step of kSteps adds.
   std::span<const Cell> tool() const { return tool_cells_; }
   std::span<const Cell> added(std::size_t step) const { return added_[step]; }
-  // From the tool's middle the first cell on its left that is not under it, on its way along a step
-  // of kSteps.
+  // From the tool's middle the nearest cell on its left that is under a tool in the lane beside
+  // it, on its way along a step of kSteps.
   Cell beside(std::size_t step) const { return beside_[step]; }
 
   // The cells of the tool at this place that are open.
-  int OpenAt(Cell c) const;
-  // The way to the nearest place where so many are, as corners to be gone straight to; empty:
-  // there is none. Where what is known leaves no way out, the robot may squeeze past what is near:
-  // it got there. Takes time as the floor that is nearer.
-  std::vector<Vec2> WayToOpen(Cell from, int least);
+  int OpenAt(Cell c) const { return under_.Inside(c) ? under_(c) : 0; }
+  // How many a place must have that the robot goes to: more, the farther it is away.
+  struct Worth {
+    double least = 0, most = 0;  // cells
+    double a_cell = 0;           // cells for each of the way
+  };
+  // The way to the nearest place that has as many, as corners to be gone straight to; empty:
+  // there is none. Where what is known lets the robot go no farther, it may squeeze past what is
+  // near, as its body fits: it got there. Takes time as the floor that is nearer.
+  std::vector<Vec2> WayToOpen(Cell from, const Worth& worth);
 
  private:
-  bool PassesOver(const Vec2& p, const Vec2& way) const;
   void Count(const Vec2& a_W, const Vec2& b_W, int by);
-  void Tell(Cell c) { open_(c) = known_free_(c) && swept_(c) == 0; }
+  void Tell(Cell c);
   // The robot was touched there, or met an edge.
   void ForgetStanding(Cell ground);
-  std::vector<Vec2> WayToOpen(Cell from, int least, int pinned);
+  std::vector<Vec2> WayToOpen(Cell from, const Worth& worth, const Extent* squeezed);
   bool Sees(Cell a, Cell b) const;
   bool IsPeak(Cell c, int open) const;
 
   int division_ = 1;     // of the ground's cells
+  Extent body_;          // in the ground's cells
   Extent clear_, tool_;  // in cells
   RobotCells poses_;
   Grid<std::uint8_t> known_free_, open_, stood_;
-  Grid<std::uint16_t> swept_;
-  std::vector<Cell> tool_cells_, probes_;
+  Grid<std::uint16_t> swept_, under_;  // under_: what is open under the tool
+  std::vector<Cell> tool_cells_;
   std::array<std::vector<Cell>, kSteps.size()> added_;
   std::array<Cell, kSteps.size()> beside_;
   BestFirstSearch<int, BucketFrontier<23>> search_;

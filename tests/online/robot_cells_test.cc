@@ -125,6 +125,7 @@ TEST(RobotCells, WhatIsSeenOtherwiseLaterIsTakenOver) {
   const GridFrame frame = {20, 20, 0.1, {}};
   KnownMap known = AllFree(frame);
   RobotCells dut(frame, frame.Center(10, 10), 0.3, Round(0.1));
+  dut.TellChanges();
   Take(known, dut);
   const Cell c = dut.At(frame.Center(10, 10));
   ASSERT_TRUE(dut.IsFree(c));
