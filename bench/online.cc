@@ -2,11 +2,13 @@
 // What a planner of unknown floors costs: moves a second of one core, the world that it moves in
 // included, and how many times as long as the world alone takes for the same moves; then a step on
 // a floor of 1,000 x 1,000 cells that is known but for a strip: median, 99th percentile and
-// longest.
+// longest. Last, of those that cover all, the step when all of such a floor is covered and a cell
+// turns out to be free at the corner that is farthest away.
 //   bench_online [CELLS]
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <vector>
@@ -93,6 +95,46 @@ Found Drive(const PluginEntry<OnlinePlanner>& entry, int cells, std::int64_t mov
   return found;
 }
 
+// The way there is one way out over all of the floor, whatever the planner looks at near itself.
+void FindFarCell(const PluginEntry<OnlinePlanner>& entry, int cells) {
+  const GridFrame frame = {cells, cells, kCell_m, {}};
+  const auto planner = entry.make();
+  if (!planner->covers_all()) return;
+  if (entry.name == "frontier_coverage")  // a million steps would take minutes
+    ReadParams(ParseYaml("{look_around: 0}", "params"), "", *planner);
+  CellWorld world(frame, Grid<std::uint8_t>(cells, cells), {1, 1}, planner->params().radius_m);
+  KnownMap known(frame);
+  known.changed.emplace();
+  const std::array<Cell, 4> corners = {Cell{0, 0}, Cell{cells - 1, 0}, Cell{0, cells - 1},
+                                       Cell{cells - 1, cells - 1}};
+  for (const Cell c : corners) known.Add(c.ix, c.iy, 4, 4);
+  Estimate estimate;
+  const auto ask = [&] {
+    const Vec2 p_W = frame.Center(world.here());
+    estimate.X_WB = {p_W.x(), p_W.y(), 0};
+    world.Sense(known);
+    const OnlineStep step = planner->Next({known, *known.changed, estimate});
+    known.changed->clear();
+    return step;
+  };
+  planner->Start(
+      {frame, {frame.Center({1, 1}).x(), frame.Center({1, 1}).y(), 0}, {}, {}, kCell_m, 1});
+  while (true) {
+    const OnlineStep step = ask();
+    if (step.kind != OnlineStep::Kind::kTarget || !world.Step(frame.ToCell(step.target_W))) break;
+  }
+  const auto way = [&](Cell c) {
+    return std::max(std::abs(c.ix - world.here().ix), std::abs(c.iy - world.here().iy));
+  };
+  const Cell far = *std::ranges::max_element(corners, {}, way);
+  known.Add(far.ix, far.iy, -8, 4);
+  const auto asked = Clock::now();
+  const OnlineStep step = ask();
+  fmt::print("{:20} to a free cell {} cells away, all between covered: {:.1f} ms{}\n", entry.name,
+             way(far), 1e3 * Since(asked),
+             step.kind == OnlineStep::Kind::kTarget ? "" : " (not found)");
+}
+
 void Run(int cells) {
   fmt::print("{:20} {:>12} {:>12}   step on {} x {} known cells, us\n", "planner", "moves/s",
              "x the world", cells, cells);
@@ -107,6 +149,7 @@ void Run(int cells) {
     fmt::print("{:20} {:12.0f} {:12.1f}   median {:.1f}, 99 % {:.1f}, longest {:.1f}\n", entry.name,
                small.moves_per_s, small.over_world, us(0.5), us(0.99), us(1));
   }
+  for (const auto& entry : OnlinePlanners()) FindFarCell(entry, cells);
 }
 
 }  // namespace

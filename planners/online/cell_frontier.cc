@@ -2,21 +2,27 @@
 #include "planners/online/cell_frontier.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 
 namespace floorproof {
 namespace {
 
 constexpr int kNone = ThoughtFloor::kNone;
+// What another way must cost less than the one that the robot is about to go, at the least.
+constexpr int kBetter = 2 * ThoughtFloor::kStraight;
+
+// What it would step to must be seen: diagonals, too.
+bool SeesDiagonals(const OnlineParams& params, const RobotCells& cells) {
+  return params.radius_m >= std::sqrt(2.0) * cells.frame().cell_m;
+}
 
 }  // namespace
 
-// What it would step to must be seen: diagonals, too.
 CellFrontier::CellFrontier(const OnlineTask& task, const OnlineParams& params, int look_around)
-    : look_around_(look_around),
-      cells_(CellsOf(task, params)),
-      floor_(cells_.frame(), params.radius_m >= std::sqrt(2.0) * cells_.frame().cell_m) {
+    : cells_(CellsOf(task, params)),
+      floor_(cells_.frame().width, cells_.frame().height, SeesDiagonals(params, cells_)) {
+  if (look_around > 0) ahead_.emplace(look_around, SeesDiagonals(params, cells_));
   cells_.TellChanges();
   for (int iy = 0; iy < cells_.frame().height; ++iy)
     for (int ix = 0; ix < cells_.frame().width; ++ix)
@@ -50,7 +56,7 @@ int CellFrontier::Choose(int at) {
     }
     const int step = by_rule != kNone ? by_rule : route_.back();
     if (cells_.MayStep(*here_, Z(step))) {
-      if (by_rule != kNone) return LookAhead(at, by_rule);
+      if (by_rule != kNone) return Best(at, by_rule);
       route_.pop_back();
       return step;
     }
@@ -62,7 +68,8 @@ int CellFrontier::Choose(int at) {
 // What was thought free is not known to be: it is not entered, unless it is seen to be free.
 void CellFrontier::NotThatWay(int at, std::size_t step) {
   const auto close = [&](std::size_t k) {
-    if (!cells_.IsFree(*here_ + kSteps[k])) floor_.SetOpen(floor_.After(at, k), false);
+    if (!cells_.IsFree(*here_ + kSteps[k]))
+      floor_.SetOpen(floor_.After(at, static_cast<int>(k)), false);
   };
   close(step);
   if (step % 2 == 0) return;
@@ -70,23 +77,31 @@ void CellFrontier::NotThatWay(int at, std::size_t step) {
   close((step + 1) % kSteps.size());
 }
 
-int CellFrontier::LookAhead(int at, int by_rule) {
-  std::array<int, kSteps.size()> choices;
-  std::size_t n = 0;
-  choices[n++] = by_rule;
-  for (std::size_t k = 0; k < kSteps.size(); ++k)
-    if (static_cast<int>(k) != by_rule && cells_.MayStep(*here_, k) &&
-        floor_.IsUncovered(floor_.After(at, k)))
-      choices[n++] = static_cast<int>(k);
-  if (n == 1 || look_around_ == 0) return by_rule;
-  int best = by_rule, least = 1'000'000'000;
-  for (std::size_t i = 0; i < n; ++i) {
-    const int cost = floor_.Rollout(at, choices[i], look_around_, least);
-    if (cost >= least) continue;
+// The step that the rule takes, the one that was planned, or another to an uncovered cell.
+int CellFrontier::Best(int at, int by_rule) {
+  if (!ahead_) return by_rule;
+  const auto leads_on = [&](int step) {
+    return cells_.MayStep(*here_, Z(step)) && floor_.IsUncovered(floor_.After(at, step));
+  };
+  if (planned_from_ != here_ || (!plan_.empty() && !leads_on(plan_.front()))) plan_.clear();
+  const bool planned = !plan_.empty();
+  if (!planned) plan_.assign(1, by_rule);
+  ahead_->Stand(floor_, at);
+  int least = ahead_->CostOf(plan_, std::numeric_limits<int>::max()) - kBetter;
+  plan_ = ahead_->way();
+  const auto consider = [&](int step) {
+    const int cost = ahead_->CostOf({&step, 1}, least);
+    if (cost >= least) return;
     least = cost;
-    best = choices[i];
-  }
-  return best;
+    plan_ = ahead_->way();
+  };
+  if (planned) consider(by_rule);
+  for (int k = 0; k < static_cast<int>(kSteps.size()); ++k)
+    if (k != by_rule && leads_on(k)) consider(k);
+  const int step = plan_.front();
+  plan_.erase(plan_.begin());
+  planned_from_ = *here_ + kSteps[Z(step)];
+  return step;
 }
 
 }  // namespace floorproof

@@ -37,7 +37,7 @@ class FrontierCoverage final : public OnlinePlanner {
 
  private:
   OnlineParams params_;
-  int look_around_ = 16;
+  int look_around_ = 28;
   std::optional<CellFrontier> cells_;
   std::optional<LaneFrontier> lanes_;
 };
