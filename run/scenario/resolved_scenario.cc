@@ -2,6 +2,7 @@
 // A scenario written out with every default stated, so that it survives a change of defaults.
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "base/file_output.h"
 #include "run/scenario/scenario_parts.h"
@@ -142,6 +143,14 @@ ConfigNode Rebased(ConfigNode node, const fs::path& from, const fs::path& to) {
   return node;
 }
 
+// Without what sets keys of a generated site: it stands drawn in the file.
+ConfigNode WithoutGenerate(ConfigNode node) {
+  std::erase_if(node.entries, [](const auto& entry) {
+    return entry.first == "site.generate" || entry.first.starts_with("site.generate.");
+  });
+  return node;
+}
+
 }  // namespace
 
 std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
@@ -193,8 +202,12 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
     root.Add("battery", WithParams(ConfigNode::Map(), s.battery));
   root.Add("physics", WithParams(ConfigNode::Map(), s.physics));
   root.Add("video", WithParams(ConfigNode::Map(), s.video));
-  for (const auto& [key, written] :
-       {std::pair("randomise", &s.randomise), {"matrix", &s.matrix}, {"gate", &s.gate}})
+  ConfigNode randomise = s.randomise;
+  if (root.Find("site")->Find("generate") == nullptr) randomise = WithoutGenerate(randomise);
+  if (randomise.entries.empty()) randomise = {};
+  for (const auto& [key, written] : {std::pair("randomise", &std::as_const(randomise)),
+                                     {"matrix", &s.matrix},
+                                     {"gate", &s.gate}})
     if (!written->IsNull()) root.Add(key, Rebased(*written, s.file.parent_path(), folder));
   root.Add("files", Files(s, folder, more));
   return "# Every key with the value used. Paths hold from this folder.\n" + WriteYaml(root);

@@ -79,6 +79,20 @@ TEST_F(ScenarioFile, AGeneratedSiteIsResolvedAsDrawn) {
             Read(text, {{"seed", "3"}}).site.map.occupancy.cells);
 }
 
+// Its keys may be drawn; the site stands drawn in the resolved file, and takes none.
+TEST_F(ScenarioFile, AGeneratedSiteOfDrawnKeysIsReadAgainAsItWas) {
+  const Scenario first = Read(
+      "scenario: 1\nrobot: beluga\ndrive: none\nsite: {site: 1, generate: {kind: room}}\n"
+      "randomise: {site.generate.cells: {choice: [[12, 9], [9, 12]]}, "
+      "start.yaw_deg: {uniform: [0, 90]}}\n");
+  const std::string once = ResolvedScenario(first, folder_);
+  const Scenario second = Read(once);
+  EXPECT_EQ(second.site.map.occupancy.cells, first.site.map.occupancy.cells);
+  EXPECT_EQ(second.start.yaw_rad, first.start.yaw_rad) << "drawn again as before";
+  EXPECT_EQ(ResolvedScenario(second, folder_), once);
+  EXPECT_THAT(once, ::testing::Not(HasSubstr("site.generate")));
+}
+
 TEST_F(ScenarioFile, WheelsAreIdealOrHaveRollersThatAreBodies) {
   const std::vector<Override> htetro = {{"robot", "htetro"}, {"wheels", "rollers"}};
   const Scenario dut = Read(RoomScenario(""), htetro);
