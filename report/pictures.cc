@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/quantity.h"
+#include "report/coverage_plot.h"
 #include "report/drawing_progress.h"
 #include "report/drive_marks.h"
 #include "report/error_plot.h"
@@ -131,6 +132,9 @@ void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecor
       },
       [&] {
         if (record.known) WriteKnownMap(s, record, folder / "heatmap_known.png");
+      },
+      [&] {
+        if (s.online) WriteCoveragePlot(PictureTitle(s), record, folder / "plot_coverage.png");
       },
       [&] {  // an ideal robot has none
         if (s.episode.drive == "physics")

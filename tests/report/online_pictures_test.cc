@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a drive over an unknown floor leaves in plots says what its record says.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "report/coverage_plot.h"
+#include "report/drive_and_film.h"
+#include "run/episode/execute.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+class OnlinePictures : public ::testing::Test {
+ protected:
+  OnlinePictures() {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~OnlinePictures() override { fs::remove_all(folder_); }
+
+  // A random walk over cells, until nine in ten are covered.
+  static std::string Text(const std::string& plan = "random_walk") {
+    return "scenario: 1\nname: hall\nsite: {site: 1, grid: {cell_m: 0.5, rows: \""
+           "############\\n#..........#\\n#..###.....#\\n#..#.#.....#\\n#..###.....#\\n"
+           "#..........#\\n############\\n\"}, start: {x_m: 0.75, y_m: 0.75, yaw_deg: 0}}\n"
+           "robot: beluga\nplan: {planner: " +
+           plan + ", radius_m: 1}\ndrive: cells\nsuccess: {stop_at_coverage: 0.9}\n";
+  }
+  Scenario Read(const std::string& text, const std::vector<Override>& overrides = {}) const {
+    std::ofstream(folder_ / "s.yaml") << text;
+    return ReadScenario(folder_ / "s.yaml", overrides);
+  }
+  fs::path folder_ = fs::path(::testing::TempDir()) /
+                     ::testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+TEST_F(OnlinePictures, TheCurvesEndAtTheMetrics) {
+  Scenario s = Read(Text());
+  const EpisodeRecord record = Execute(s).record;
+  const Metrics& m = record.metrics;
+  ASSERT_GT(m.revisited, 0.1);
+  const Chart dut = CoverageChart("hall", record);
+  ASSERT_EQ(dut.panels.size(), 2u);
+  const double ends[] = {m.duration_s, m.path_length_m};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const ChartPanel& panel = dut.panels[i];
+    ASSERT_EQ(panel.series.size(), 2u);
+    for (const ChartSeries& series : panel.series) {
+      EXPECT_EQ(series.points.back().x, ends[i]);
+      for (std::size_t k = 1; k < series.points.size(); ++k) {
+        EXPECT_GE(series.points[k].x, series.points[k - 1].x);
+        EXPECT_GE(series.points[k].y, series.points[k - 1].y - 1e-4) << "in percent, from a float";
+      }
+    }
+    EXPECT_EQ(panel.series[0].points.back().y, 100 * m.coverage);
+    EXPECT_EQ(panel.series[1].points.back().y, 100 * m.revisited);
+    EXPECT_GE(panel.x_ticks.back(), 0.9 * ends[i]);
+  }
+}
+
+// From cell to cell the way is that of the metric, to the bit of its sum.
+TEST_F(OnlinePictures, OnCellsTheWayIsExact) {
+  Scenario s = Read(Text(), {{"success.stop_at_coverage", "0.3"}});
+  const EpisodeRecord record = Execute(s).record;
+  const ChartSeries dut = CoverageChart("hall", record).panels[1].series[0];
+  ASSERT_EQ(dut.points.size(), record.trace.size() + 1) << "a point each, and the end";
+  double way_m = 0;
+  for (std::size_t i = 1; i < record.trace.size(); ++i) {
+    way_m += std::hypot(record.trace[i].x_m - record.trace[i - 1].x_m,
+                        record.trace[i].y_m - record.trace[i - 1].y_m);
+    EXPECT_NEAR(dut.points[i].x, way_m, 1e-9);
+  }
+  EXPECT_NEAR(way_m, record.metrics.path_length_m, 1e-9);
+}
+
+// Of planners that know the floor there are none of these.
+TEST_F(OnlinePictures, OnlyUnknownFloorsAreShownSo) {
+  std::string text = Text("boustrophedon");
+  text.replace(text.find(", radius_m: 1"), 13, "");
+  text.replace(text.find("drive: cells"), 12, "drive: physics");
+  text += "time_limit_s: 2\n";
+  Scenario s = Read(text);
+  DriveAndFilm(s, folder_ / "out", {}, {.quiet = true});
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "heatmap_visits.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "plot_coverage.png"));
+}
+
+}  // namespace
+}  // namespace floorproof
