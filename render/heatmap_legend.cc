@@ -33,6 +33,7 @@ void DrawSwatch(Image& image, const cv::Rect& place, const LegendLine& line) {
   switch (line.kind) {
     case Kind::kArea:
       cv::rectangle(canvas, place, Colour(line.colour), cv::FILLED);
+      if (line.colour == kWhite) cv::rectangle(canvas, place, Colour(kGrey), 1);
       break;
     case Kind::kHatched:
       for (int y = place.y; y < place.br().y; ++y)
@@ -58,6 +59,9 @@ void DrawSwatch(Image& image, const cv::Rect& place, const LegendLine& line) {
       break;
     case Kind::kMark:
       Mark(canvas, (place.tl() + place.br()) / 2, line.colour, line.mark);
+      break;
+    case Kind::kRing:
+      RingMark(canvas, middle, 7.5, 2, line.colour);
       break;
     case Kind::kNumber:
       NumberSwatch(image, place.x, place.y + place.height / 2, line.number);

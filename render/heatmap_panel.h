@@ -27,6 +27,7 @@ struct LegendLine {
     kStart,
     kEnd,
     kMark,
+    kRing,
     kHeading,
     kNumber,
     kDot

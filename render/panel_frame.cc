@@ -27,6 +27,7 @@ Window KnownWindow(const HazardMap& map, const HeatMapOptions& options) {
     for (const Polygon& polygon : hazard.footprint)
       for (const Vec2& p_W : polygon) include_point(p_W);
   for (const HeatPoint& point : options.points) include_point(point.p_W);
+  for (const HeatRing& ring : options.rings) include_point(ring.p_W);
   for (const HeatFailure& failure : options.failures) include_point(failure.p_W);
   if (w.x1 <= w.x0) return {0, 0, map.frame.width, map.frame.height};
   const int margin = std::max(w.width(), w.height()) / 50;

@@ -17,7 +17,8 @@ struct Window {
   int height() const { return y1 - y0; }
 };
 
-// What is worth showing: known cells, hazards, points and failures, and some cells around.
+// What is worth showing: known cells, hazards, points, rings' middles and failures, and some cells
+// around.
 Window KnownWindow(const HazardMap& map, const HeatMapOptions& options);
 
 // Pixels of the panel and metres in the map's frame G and the world.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/quantity.h"
+#include "report/cell_picture.h"
 #include "report/coverage_plot.h"
 #include "report/drawing_progress.h"
 #include "report/drive_marks.h"
@@ -132,6 +133,9 @@ void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecor
       },
       [&] {
         if (record.known) WriteKnownMap(s, record, folder / "heatmap_known.png");
+      },
+      [&] {
+        if (s.online) WriteCellPicture(s, record, folder / "heatmap_cells.png");
       },
       [&] {
         if (s.online) WriteCoveragePlot(PictureTitle(s), record, folder / "plot_coverage.png");

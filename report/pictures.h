@@ -17,8 +17,8 @@ namespace floorproof {
 std::string PictureTitle(const Scenario& scenario);
 // The plan's pictures (report/risk_pictures.h); heatmap_visits.png, heatmap_coverage.png,
 // heatmap_failures.png and plot_errors.png; of a robot that draws a map, heatmap_known.png; of a
-// planner of unknown floors, plot_coverage.png. Each map has the failures; those of the plan and of
-// the failures show what was driven, too.
+// planner of unknown floors, heatmap_cells.png and plot_coverage.png. Each map has the failures;
+// those of the plan and of the failures show what was driven, too.
 void WriteHeatMaps(const Scenario& scenario, const PlanResult& plan, const EpisodeRecord& record,
                    const std::filesystem::path& folder, const Console& console);
 // Failures over the map, on the share of episodes that failed in each square where that is given.

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a drive over an unknown floor leaves in plots says what its record says.
+// What a drive over an unknown floor leaves in plots and pictures says what its record says.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 
+#include "report/cell_picture.h"
 #include "report/coverage_plot.h"
 #include "report/drive_and_film.h"
 #include "run/episode/execute.h"
@@ -78,6 +79,30 @@ TEST_F(OnlinePictures, OnCellsTheWayIsExact) {
   EXPECT_NEAR(way_m, record.metrics.path_length_m, 1e-9);
 }
 
+TEST_F(OnlinePictures, ThePictureHasTheRecordsCells) {
+  Scenario s = Read(Text());
+  const EpisodeRecord record = Execute(s).record;
+  const auto counts = CountProperties(record);
+  const HeatValues dut = CellProperties(s.site.map, record);
+  std::array<std::int64_t, kNumCellProperties> drawn{};
+  for (const float v : dut.values.cells)
+    if (std::isfinite(v)) ++drawn[static_cast<std::size_t>(v)];
+  const auto of = [](const auto& all, CellProperty p) { return all[static_cast<std::size_t>(p)]; };
+  const auto lost = static_cast<std::size_t>(CellProperty::kOutOfReach);
+  EXPECT_EQ(drawn[lost], 1) << "the one that is walled in";
+  drawn[lost] = 0;
+  EXPECT_EQ(drawn, counts);
+  std::int64_t all = 0;
+  for (const auto n : counts) all += n;
+  const auto share = [&](std::int64_t n) {
+    return static_cast<double>(n) / static_cast<double>(all);
+  };
+  EXPECT_NEAR(share(all - of(counts, CellProperty::kNotCovered)), record.metrics.coverage, 1e-12);
+  EXPECT_NEAR(share(of(counts, CellProperty::kTwice) + of(counts, CellProperty::kMore)),
+              record.metrics.revisited, 1e-12);
+  EXPECT_GT(of(counts, CellProperty::kMore), 0);
+}
+
 // Of planners that know the floor there are none of these.
 TEST_F(OnlinePictures, OnlyUnknownFloorsAreShownSo) {
   std::string text = Text("boustrophedon");
@@ -87,6 +112,7 @@ TEST_F(OnlinePictures, OnlyUnknownFloorsAreShownSo) {
   Scenario s = Read(text);
   DriveAndFilm(s, folder_ / "out", {}, {.quiet = true});
   EXPECT_TRUE(fs::exists(folder_ / "out" / "heatmap_visits.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "heatmap_cells.png"));
   EXPECT_FALSE(fs::exists(folder_ / "out" / "plot_coverage.png"));
 }
 
