@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 
 #include "base/error.h"
-#include "base/interrupt.h"
 
 namespace floorproof {
 namespace {
@@ -23,10 +21,6 @@ constexpr double kJump_m = 0.3;  // between two states: the robot was carried
 struct DataDeleter {
   void operator()(mjData* data) const { mj_deleteData(data); }
 };
-
-double Seconds(std::chrono::steady_clock::time_point since) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
-}
 
 // Poses of the robot between recorded states.
 class Puppet {
@@ -169,13 +163,7 @@ void Check(const FilmScript& script, const FilmOptions& options) {
   if (script.recording->nq() != script.model->nq) {
     throw InternalError("the recording is of another model");
   }
-  if (options.width % 2 != 0 || options.height % 2 != 0 || options.width < 64 ||
-      options.height < 64) {
-    throw InputError("a film's width and height must be even and at least 64 pixels");
-  }
-  if (!(options.pace.fps > 0) || options.pace.fps > 240 || options.pace.max_frames < 2) {
-    throw InputError("a film needs at least 2 frames, at most 240 a second");
-  }
+  CheckReel(options);
 }
 
 FilmSet WithAspect(FilmSet set, const FilmOptions& options) {
@@ -285,38 +273,12 @@ FilmResult WriteFilm(const FilmScript& script, const FilmOptions& options,
                                options.pace);
   const std::vector<double>& shown_s = whole ? events_s : options.only_around_s;
   Studio studio(script, options);
-  const auto video = OpenVideo(path, options.width, options.height, options.pace.fps);
-  const auto still = [&](const char* name, const Image& image) {
-    if (options.stills) WritePng(*options.stills / name, image);
-  };
-
-  FilmResult result;
-  const Image* image = nullptr;
-  bool failure_shown = false;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (Interrupted()) return result;  // the unfinished film goes with `video`
-    const FilmFrame& frame = frames[i];
-    const bool ends = frame.t_s == frames.back().t_s, last = ends && frame.t_s == end_s;
-    const bool stands = ends && i > 0 && frames[i - 1].t_s == frame.t_s;
-    const auto begin = std::chrono::steady_clock::now();
-    if (!stands) image = &studio.Draw(frame, last);
-    result.render_s += Seconds(begin);
-
-    if (i == 0) still("frame_start.png", *image);
-    if (!failure_shown && !shown_s.empty() && (ends || frame.t_s >= shown_s.front() - 1e-9)) {
-      still("frame_failure.png", *image);
-      failure_shown = true;
-    }
-    const auto encode = std::chrono::steady_clock::now();
-    video->Add(*image);
-    result.encode_s += Seconds(encode);
-    if (options.on_frame)
-      options.on_frame(static_cast<int>(i + 1), static_cast<int>(frames.size()));
-  }
-  still("frame_end.png", *image);
-  video->Close();
-  result.frames = static_cast<int>(frames.size());
-  return result;
+  FilmMoments moments{.frames = frames, .end_s = end_s, .failure_s = {}};
+  if (!shown_s.empty()) moments.failure_s = shown_s.front();
+  return WriteReel(
+      moments, options,
+      [&](const FilmFrame& frame, bool last) -> const Image& { return studio.Draw(frame, last); },
+      path);
 }
 
 }  // namespace floorproof

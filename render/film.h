@@ -5,7 +5,6 @@
 #include <mujoco/mujoco.h>
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,7 +14,7 @@
 #include "env/core/hazard_map.h"
 #include "env/core/path.h"
 #include "render/camera.h"
-#include "render/film_schedule.h"
+#include "render/film_reel.h"
 #include "render/overlay.h"
 #include "render/renderer.h"
 
@@ -74,22 +73,11 @@ struct FilmScript {
   bool senses = true;              // what the recording holds of them, too
 };
 
-struct FilmOptions {
-  std::string camera = "auto";    // a name of Cameras()
-  int width = 960, height = 540;  // even
-  FilmPace pace;
+struct FilmOptions : ReelOptions {
+  std::string camera = "auto";  // a name of Cameras()
   RenderQuality quality = RenderQuality::kFull;
   // Not empty: only the seconds around these events, as the pace has them; ascending.
   std::vector<double> only_around_s;
-  std::function<void(int done, int all)> on_frame;  // after each
-  // Where frame_start.png, frame_failure.png (the first event that is shown) and frame_end.png go;
-  // none: nowhere.
-  std::optional<std::filesystem::path> stills;
-};
-
-struct FilmResult {
-  int frames = 0;
-  double render_s = 0, encode_s = 0;  // wall time: picture and overlay; writing the film
 };
 
 // Writes an MP4. Throws InputError (a file that cannot be written, an unknown camera, an odd size)

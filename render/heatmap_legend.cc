@@ -26,6 +26,8 @@ int Indent(const std::vector<LegendLine>& legend) {
   return widest + kGap_px;
 }
 
+}  // namespace
+
 void DrawSwatch(Image& image, const cv::Rect& place, const LegendLine& line) {
   cv::Mat canvas = Canvas(image);
   const cv::Point2d left(place.x, place.y + 0.5 * place.height),
@@ -73,8 +75,6 @@ void DrawSwatch(Image& image, const cv::Rect& place, const LegendLine& line) {
       break;
   }
 }
-
-}  // namespace
 
 int LegendWidth(const std::vector<LegendLine>& legend) {
   double widest = 0;

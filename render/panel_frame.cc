@@ -42,8 +42,22 @@ PanelFrame::PanelFrame(const GridFrame& frame, const Window& window)
   scale_ =
       cells <= kLong_px ? std::max(1, kLong_px / cells) : static_cast<double>(kLong_px) / cells;
   if (cells <= kLong_px && scale_ * cells < 700) scale_ = static_cast<double>(kLong_px) / cells;
-  width = std::max(1, static_cast<int>(std::lround(scale_ * window.width())));
-  height = std::max(1, static_cast<int>(std::lround(scale_ * window.height())));
+  TakeSize();
+}
+
+PanelFrame::PanelFrame(const GridFrame& frame, const Window& window, int most_width,
+                       int most_height)
+    : frame_(frame), window_(window) {
+  constexpr double kRounded = 4;  // from here on whole pixels a cell cost little of the room
+  scale_ = std::min(static_cast<double>(most_width) / window.width(),
+                    static_cast<double>(most_height) / window.height());
+  if (scale_ >= kRounded) scale_ = std::floor(scale_);
+  TakeSize();
+}
+
+void PanelFrame::TakeSize() {
+  width = std::max(1, static_cast<int>(std::lround(scale_ * window_.width())));
+  height = std::max(1, static_cast<int>(std::lround(scale_ * window_.height())));
 }
 
 std::array<int, 2> PanelFrame::Columns(int column) const {

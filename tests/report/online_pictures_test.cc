@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a drive over an unknown floor leaves in plots and pictures says what its record says.
+// What a drive over an unknown floor leaves in plots, pictures and films says what its record says.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
 
+#include "base/result_folder.h"
 #include "report/cell_picture.h"
 #include "report/coverage_plot.h"
 #include "report/drive_and_film.h"
+#include "report/replay.h"
 #include "run/episode/execute.h"
 
 namespace floorproof {
@@ -36,6 +40,11 @@ class OnlinePictures : public ::testing::Test {
     std::ofstream(folder_ / "s.yaml") << text;
     return ReadScenario(folder_ / "s.yaml", overrides);
   }
+  static std::string Bytes(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
   fs::path folder_ = fs::path(::testing::TempDir()) /
                      ::testing::UnitTest::GetInstance()->current_test_info()->name();
 };
@@ -101,6 +110,25 @@ TEST_F(OnlinePictures, ThePictureHasTheRecordsCells) {
   EXPECT_NEAR(share(of(counts, CellProperty::kTwice) + of(counts, CellProperty::kMore)),
               record.metrics.revisited, 1e-12);
   EXPECT_GT(of(counts, CellProperty::kMore), 0);
+}
+
+TEST_F(OnlinePictures, ADriveOverCellsIsFilmedWithoutPhysicsAndAgainTheSame) {
+  Scenario s = Read(Text(), {{"video.width", "320"},
+                             {"video.height", "180"},
+                             {"video.fps", "10"},
+                             {"video.max_frames", "60"}});
+  const fs::path out = folder_ / "out";
+  fs::create_directories(out);
+  const DriveResult driven = DriveAndFilm(s, out, {.video = true}, {.quiet = true});
+  EXPECT_FALSE(driven.not_written);
+  for (const char* name :
+       {"video.mp4", "frame_start.png", "frame_end.png", "heatmap_cells.png", "plot_coverage.png"})
+    EXPECT_GT(Bytes(out / name).size(), 500u) << name;
+  EXPECT_FALSE(fs::exists(out / "plot_errors.png")) << "an ideal robot has none";
+  const std::string film = Bytes(out / "video.mp4");
+  fs::remove(out / "video.mp4");
+  ReplayRun(out, {}, true, {.quiet = true});
+  EXPECT_EQ(Bytes(out / "video.mp4"), film);
 }
 
 // Of planners that know the floor there are none of these.
