@@ -59,6 +59,13 @@ struct Notice {
   Banner banner;
 };
 
+// Floor that is swept a second time, from t_s on: a stripe from a to b.
+struct FloorPatch {
+  double t_s = 0;
+  Vec2 a_W = Vec2::Zero(), b_W = Vec2::Zero();
+  double width_m = 0, floor_m = 0;  // floor_m: how high it lies there
+};
+
 struct FilmScript {
   const mjModel* model = nullptr;
   int base_body = -1;  // the robot's; stands on a free joint, its origin at the floor
@@ -71,6 +78,8 @@ struct FilmScript {
   FilmSet set;                     // `aspect` is taken from the options
   const Path* plan = nullptr;      // drawn on the floor
   bool senses = true;              // what the recording holds of them, too
+  std::vector<FloorPatch> swept_again;  // ascending in time
+  double window_m = 0;  // radius of a circle around the place that the robot thinks it has; 0: none
 };
 
 struct FilmOptions : ReelOptions {

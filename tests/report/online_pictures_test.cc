@@ -13,7 +13,9 @@
 #include "report/coverage_plot.h"
 #include "report/drive_and_film.h"
 #include "report/replay.h"
+#include "report/swept_again.h"
 #include "run/episode/execute.h"
+#include "run/episode/tool_meter.h"
 
 namespace floorproof {
 namespace {
@@ -129,6 +131,48 @@ TEST_F(OnlinePictures, ADriveOverCellsIsFilmedWithoutPhysicsAndAgainTheSame) {
   fs::remove(out / "video.mp4");
   ReplayRun(out, {}, true, {.quiet = true});
   EXPECT_EQ(Bytes(out / "video.mp4"), film);
+}
+
+// A tool of a robot that drives a lane twice and half of a third time.
+TEST_F(OnlinePictures, WhatIsSweptAgainIsPaintedWhereAndWhenItIs) {
+  const Scenario s = Read(Text());
+  const RobotSpec& robot = s.robot.spec;
+  SweepArea area;
+  area.frame = {80, 40, 0.05, {1, 2, 0.3}};
+  area.sweepable = Grid<std::uint8_t>(80, 40, 1);
+  area.sweepable_cells = 80 * 40;
+  EpisodeRecord record;
+  record.passes_frame = area.frame;
+  record.sweepable = area.sweepable;
+  ToolMeter meter(area, robot);
+  for (int i = 0; i <= 300; ++i) {
+    const int k = i % 200;
+    const double along_m = 0.5 + 0.03 * (k <= 100 ? k : 200 - k);
+    const Vec2 p_W = area.frame.X_WG * Vec2(along_m, 1);
+    TraceRow& row = record.trace.emplace_back();
+    row = {};
+    row.t_s = i;
+    row.x_m = p_W.x();
+    row.y_m = p_W.y();
+    row.shape = robot.shape;
+    meter.Add({p_W.x(), p_W.y(), 0});
+  }
+  record.passes = meter.swept().passes();
+  const auto dut = SweptAgainPatches(record, robot);
+  ASSERT_FALSE(dut.empty());
+  double painted_m2 = 0, last_s = 0;
+  for (const FloorPatch& patch : dut) {
+    painted_m2 += (patch.b_W - patch.a_W).norm() * patch.width_m;
+    EXPECT_GE(patch.t_s, last_s);
+    EXPECT_GT(patch.t_s, 100) << "on the way back";
+    last_s = patch.t_s;
+    const Vec2 middle = area.frame.X_WG.Inverse() * Vec2(0.5 * (patch.a_W + patch.b_W));
+    EXPECT_NEAR(middle.y(), 1, 0.5 * s.robot.spec.circumscribed_radius_m + 0.2);
+  }
+  const double again_m2 = meter.swept().revisited() * area.area_m2();
+  EXPECT_GT(again_m2, 0.3);
+  EXPECT_NEAR(painted_m2, again_m2, 1e-9) << "all of it, once";
+  EXPECT_LT(dut.size(), 100u) << "in few rectangles";
 }
 
 // Of planners that know the floor there are none of these.
