@@ -86,6 +86,22 @@ bool Vary(const Scenario& s, const std::set<std::string>& keys) {
   return false;
 }
 
+// Its planner with all keys. Where variants have others, which need not know them, those alone that
+// are not as by default.
+ConfigNode PlannerKeys(const Scenario& s) {
+  ConfigNode node = WithPlugin(Named("planner", s.planner_name), *PlannerOf(s));
+  if (!Vary(s, {"plan.planner"})) return node;
+  const auto defaults = [&](auto planners) {
+    return WithPlugin(ConfigNode::Map(), *MakePlugin(planners, s.planner_name, "plan.planner"));
+  };
+  const ConfigNode usual = s.online ? defaults(OnlinePlanners()) : defaults(Planners());
+  std::erase_if(node.entries, [&](const auto& entry) {
+    const ConfigNode* other = usual.Find(entry.first);
+    return other != nullptr && WriteYaml(*other) == WriteYaml(entry.second);
+  });
+  return node;
+}
+
 // Whether a scenario names it by a word: it comes with the program.
 bool IsBundled(const fs::path& file) {
   const auto is = [&](const fs::path& bundled) {
@@ -174,9 +190,8 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
   if (s.goal &&
       stated("goal", site_varies || Vary(s, {"site.goal", "site.goal.x_m", "site.goal.y_m"})))
     root.Add("goal", Goal(*s.goal));
-  Configurable* planner = PlannerOf(s);
-  root.Add("plan", planner != nullptr ? WithPlugin(Named("planner", s.planner_name), *planner)
-                                      : Named("file", PathFrom(folder, s.plan_file).string()));
+  root.Add("plan", PlannerOf(s) != nullptr ? PlannerKeys(s)
+                                           : Named("file", PathFrom(folder, s.plan_file).string()));
   if (AsksForRisk(s))
     root.Add("risk", WithParams(Named("tables", s.fmea_file == BundledTables()
                                                     ? std::string(kBundledTables)
