@@ -60,7 +60,8 @@ void WriteCellPicture(const Scenario& s, const EpisodeRecord& record,
     if (property != CellProperty::kOutOfReach) {
       const std::string share = FixedText(
           100 * static_cast<double>(n) / static_cast<double>(std::max<std::int64_t>(all, 1)), 1);
-      label += cells ? fmt::format(": {}, {} %", n, share) : ": " + share + " %";
+      label += cells ? fmt::format(": {}, {} %", FixedText(static_cast<double>(n), 0), share)
+                     : ": " + share + " %";
     }
     options.categories.push_back({label, ColourOf(property)});
   }
