@@ -74,9 +74,10 @@ class Axes {
     double most = 0;
     for (const ChartSeries& series : panel.series)
       for (const ChartPoint& point : series.points) most = std::max(most, point.y);
+    if (panel.y_end) most = *panel.y_end;
     y_step = NiceStep(most > 0 ? most / 5 : 0.2, !panel.whole_numbers);
     if (panel.whole_numbers) y_step = std::max(1.0, y_step);
-    y_high = y_step * std::ceil(most / y_step + 0.3);
+    y_high = panel.y_end ? most : y_step * std::ceil(most / y_step + 0.3);
   }
   cv::Point2d Pixel(double x, double y) const {
     return {plot_.x + plot_.width * (x - x_low_) / (x_high_ - x_low_),

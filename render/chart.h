@@ -43,6 +43,7 @@ struct ChartPanel {
   std::vector<ChartSeries> series;
   std::optional<int> x_decimals = {};  // of the ticks; none: as many as they need
   bool whole_numbers = false;          // ticks of y at whole numbers only
+  std::optional<double> y_end = {};    // none: beyond the highest value
 };
 
 struct ChartKey {

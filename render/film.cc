@@ -2,31 +2,17 @@
 #include "render/film.h"
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cmath>
 
 #include "base/error.h"
-#include "base/interrupt.h"
+#include "render/film_floor.h"
 
 namespace floorproof {
 namespace {
 
-constexpr std::array<float, 4> kPlanRgba = {0.13f, 0.33f, 0.78f, 1.0f};
-constexpr std::array<float, 4> kTraceRgba = {0.58f, 0.83f, 0.78f, 1.0f};
-constexpr std::array<float, 4> kBeamRgba = {0.90f, 0.25f, 0.12f, 0.55f};
-constexpr std::array<float, 4> kEstimateRgba = {0.62f, 0.12f, 0.55f, 1.0f};
-constexpr double kBeamZ_m = 0.006, kEstimateZ_m = 0.0075;
-constexpr double kTraceZ_m = 0.0020, kPlanZ_m = 0.0035;
-constexpr double kJump_m = 0.3;  // between two states: the robot was carried
-
 struct DataDeleter {
   void operator()(mjData* data) const { mj_deleteData(data); }
 };
-
-double Seconds(std::chrono::steady_clock::time_point since) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
-}
 
 // Poses of the robot between recorded states.
 class Puppet {
@@ -53,7 +39,7 @@ class Puppet {
     mju_copy(data_->qpos, recording_.qpos(i), static_cast<int>(model_->nq));
     p_WB_ = recording_.p_WB(i);
     const Vec3 way = recording_.p_WB(std::min(i + 1, recording_.size() - 1)) - p_WB_;
-    if (i + 1 < recording_.size() && way.norm() < kJump_m) {
+    if (i + 1 < recording_.size() && way.norm() < kFilmJump_m) {
       const double span_s = recording_.t_s(i + 1) - recording_.t_s(i);
       const double share = std::clamp((t_s - recording_.t_s(i)) / span_s, 0.0, 1.0);
       mj_differentiatePos(model_, velocity_.data(), 1, recording_.qpos(i), recording_.qpos(i + 1));
@@ -80,102 +66,12 @@ class Puppet {
   std::size_t at_ = 0;
 };
 
-// Paints what was driven as few straight stripes with round corners, as a disc-shaped tool sweeps.
-class Trail {
- public:
-  explicit Trail(FloorPaint& paint) : paint_(paint) {}
-
-  void Add(const Vec3& p, double width_m) {
-    constexpr double kStep_m = 0.02, kStray_m = 0.015;
-    const double z_m = p.z() > 0.01 ? p.z() + kTraceZ_m : kTraceZ_m;
-    const Vec2 q(p.x(), p.y());
-    if (width_m != width_m_) run_.clear();
-    width_m_ = width_m;
-    if (width_m <= 0) return;
-    if (run_.empty() || (q - run_.back()).norm() > kJump_m) {
-      Begin(q, z_m);
-      return;
-    }
-    if ((q - run_.back()).norm() < kStep_m) return;
-    const bool strays = std::any_of(run_.begin() + 1, run_.end(), [&](const Vec2& between) {
-      return DistanceToSegment(run_.front(), q, between) > kStray_m;
-    });
-    if (strays || std::abs(z_m - z_m_) > 0.005) Begin(run_.back(), z_m);
-    run_.push_back(q);
-    paint_.MoveStripe(stripe_, run_.front(), q);
-  }
-
- private:
-  void Begin(const Vec2& p, double z_m) {
-    run_.assign(1, p);
-    z_m_ = z_m;
-    paint_.AddDisc(p, z_m, 0.5 * width_m_, kTraceRgba);
-    stripe_ = paint_.AddStripe(p, p, z_m, width_m_, kTraceRgba);
-  }
-
-  FloorPaint& paint_;
-  double width_m_ = 0, z_m_ = 0;
-  std::vector<Vec2> run_;  // points since the last corner
-  std::size_t stripe_ = 0;
-};
-
-void PaintPlan(const Path& plan, double width_m, FloorPaint& paint) {
-  std::size_t from = 0;
-  for (std::size_t i = 1; i < plan.size(); ++i) {
-    const Vec2 &a = plan[from].p_W, &b = plan[i].p_W;
-    const bool straight_on = i + 1 < plan.size() &&
-                             DistanceToSegment(a, plan[i + 1].p_W, b) < 1e-3 &&
-                             (b - a).dot(plan[i + 1].p_W - b) >= 0;
-    if (straight_on || (b - a).norm() == 0) continue;
-    paint.AddStripe(a, b, kPlanZ_m, width_m, kPlanRgba);
-    from = i;
-  }
-}
-
-// The last scan as a fan of beams on the floor, and the shaft of an arrow where the robot thinks it
-// is. These stripes move.
-class Fan {
- public:
-  Fan(std::span<const Recording::Senses> senses, double reach_m, FloorPaint& paint)
-      : all_(senses), paint_(paint), reach_m_(reach_m) {
-    if (all_.empty()) return;
-    std::size_t most = 0;
-    for (const auto& one : all_) most = std::max(most, one.ends_W.size());
-    for (std::size_t i = 0; i < most; ++i)
-      beams_.push_back(paint.AddStripe({0, 0}, {0, 0}, kBeamZ_m, 0.008, kBeamRgba));
-    estimate_ = paint.AddStripe({0, 0}, {0, 0}, kEstimateZ_m, 0.03, kEstimateRgba);
-  }
-
-  void Show(std::size_t state) {
-    while (at_ + 1 < all_.size() && all_[at_ + 1].state <= state) ++at_;
-    if (all_.empty() || all_[at_].state > state) return;
-    const auto& now = all_[at_];
-    for (std::size_t i = 0; i < beams_.size(); ++i)
-      paint_.MoveStripe(beams_[i], now.lidar_W,
-                        i < now.ends_W.size() ? now.ends_W[i].cast<double>() : now.lidar_W);
-    paint_.MoveStripe(estimate_, now.estimate.p(), now.estimate * Vec2(reach_m_, 0));
-  }
-
- private:
-  std::span<const Recording::Senses> all_;
-  FloorPaint& paint_;
-  double reach_m_;
-  std::vector<std::size_t> beams_;
-  std::size_t estimate_ = 0, at_ = 0;
-};
-
 void Check(const FilmScript& script, const FilmOptions& options) {
   if (script.recording->size() == 0) throw InternalError("there are no states to film");
   if (script.recording->nq() != script.model->nq) {
     throw InternalError("the recording is of another model");
   }
-  if (options.width % 2 != 0 || options.height % 2 != 0 || options.width < 64 ||
-      options.height < 64) {
-    throw InputError("a film's width and height must be even and at least 64 pixels");
-  }
-  if (!(options.pace.fps > 0) || options.pace.fps > 240 || options.pace.max_frames < 2) {
-    throw InputError("a film needs at least 2 frames, at most 240 a second");
-  }
+  CheckReel(options);
 }
 
 FilmSet WithAspect(FilmSet set, const FilmOptions& options) {
@@ -192,15 +88,17 @@ class Studio {
         frame_s_(1 / options.pace.fps),
         camera_(MakePlugin(Cameras(), options.camera, "video.camera")),
         puppet_(script),
-        paint_((script.plan == nullptr ? 0 : static_cast<int>(script.plan->size())) + 6000),
+        paint_((script.plan == nullptr ? 0 : static_cast<int>(script.plan->size())) +
+               static_cast<int>(script.swept_again.size()) + 6000),
         trail_(paint_),
+        again_(script.swept_again, paint_),
         fan_(script.senses ? std::span(script.recording->senses())
                            : std::span<const Recording::Senses>(),
              2 * script.set.robot_radius_m, paint_),
+        window_(script.window_m, LineWidth(), paint_),
         renderer_(script.model, options.width, options.height, paint_.max_marks(), options.quality),
         image_(renderer_.MakeImage()) {
-    if (script.plan != nullptr)
-      PaintPlan(*script.plan, 0.012 + 0.0012 * (set_.high_W - set_.low_W).maxCoeff(), paint_);
+    if (script.plan != nullptr) PaintPlan(*script.plan, LineWidth(), paint_);
     paint_.Keep();
   }
 
@@ -210,7 +108,9 @@ class Studio {
     if (trodden_ == 0) camera_->Reset(set_, puppet_.X_WB());
     for (; trodden_ <= state; ++trodden_)
       trail_.Add(script_.recording->p_WB(trodden_), script_.recording->tool_width_m(trodden_));
+    again_.Show(script_.recording->t_s(state));
     fan_.Show(state);
+    window_.Show(ThoughtPlace(state));
     renderer_.Render(data, camera_->Next(puppet_.X_WB(), frame_s_, frame.speed_up), &paint_,
                      image_);
 
@@ -223,6 +123,14 @@ class Studio {
   }
 
  private:
+  // Of lines on the floor: they are to be seen from above.
+  double LineWidth() const { return 0.012 + 0.0012 * (set_.high_W - set_.low_W).maxCoeff(); }
+  // Where the robot thinks it is; without a scan so far, where it is. States only ascend.
+  Vec2 ThoughtPlace(std::size_t state) {
+    const std::vector<Recording::Senses>& all = script_.recording->senses();
+    while (sensed_ < all.size() && all[sensed_].state <= state) ++sensed_;
+    return sensed_ == 0 ? puppet_.X_WB().p() : all[sensed_ - 1].estimate.p();
+  }
   // Of the last event or notice.
   std::optional<Banner> BannerAt(double t_s, bool last) const {
     std::optional<Banner> banner;
@@ -245,10 +153,12 @@ class Studio {
   Puppet puppet_;
   FloorPaint paint_;
   Trail trail_;
+  SweptAgain again_;
   Fan fan_;
+  WindowRing window_;
   OffscreenRenderer renderer_;
   Image image_;
-  std::size_t trodden_ = 0;
+  std::size_t trodden_ = 0, sensed_ = 0;
 };
 
 }  // namespace
@@ -285,38 +195,12 @@ FilmResult WriteFilm(const FilmScript& script, const FilmOptions& options,
                                options.pace);
   const std::vector<double>& shown_s = whole ? events_s : options.only_around_s;
   Studio studio(script, options);
-  const auto video = OpenVideo(path, options.width, options.height, options.pace.fps);
-  const auto still = [&](const char* name, const Image& image) {
-    if (options.stills) WritePng(*options.stills / name, image);
-  };
-
-  FilmResult result;
-  const Image* image = nullptr;
-  bool failure_shown = false;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (Interrupted()) return result;  // the unfinished film goes with `video`
-    const FilmFrame& frame = frames[i];
-    const bool ends = frame.t_s == frames.back().t_s, last = ends && frame.t_s == end_s;
-    const bool stands = ends && i > 0 && frames[i - 1].t_s == frame.t_s;
-    const auto begin = std::chrono::steady_clock::now();
-    if (!stands) image = &studio.Draw(frame, last);
-    result.render_s += Seconds(begin);
-
-    if (i == 0) still("frame_start.png", *image);
-    if (!failure_shown && !shown_s.empty() && (ends || frame.t_s >= shown_s.front() - 1e-9)) {
-      still("frame_failure.png", *image);
-      failure_shown = true;
-    }
-    const auto encode = std::chrono::steady_clock::now();
-    video->Add(*image);
-    result.encode_s += Seconds(encode);
-    if (options.on_frame)
-      options.on_frame(static_cast<int>(i + 1), static_cast<int>(frames.size()));
-  }
-  still("frame_end.png", *image);
-  video->Close();
-  result.frames = static_cast<int>(frames.size());
-  return result;
+  FilmMoments moments{.frames = frames, .end_s = end_s, .failure_s = {}};
+  if (!shown_s.empty()) moments.failure_s = shown_s.front();
+  return WriteReel(
+      moments, options,
+      [&](const FilmFrame& frame, bool last) -> const Image& { return studio.Draw(frame, last); },
+      path);
 }
 
 }  // namespace floorproof

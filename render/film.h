@@ -5,7 +5,6 @@
 #include <mujoco/mujoco.h>
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,7 +14,7 @@
 #include "env/core/hazard_map.h"
 #include "env/core/path.h"
 #include "render/camera.h"
-#include "render/film_schedule.h"
+#include "render/film_reel.h"
 #include "render/overlay.h"
 #include "render/renderer.h"
 
@@ -60,6 +59,13 @@ struct Notice {
   Banner banner;
 };
 
+// Floor that is swept a second time, from t_s on: a stripe from a to b.
+struct FloorPatch {
+  double t_s = 0;
+  Vec2 a_W = Vec2::Zero(), b_W = Vec2::Zero();
+  double width_m = 0, floor_m = 0;  // floor_m: how high it lies there
+};
+
 struct FilmScript {
   const mjModel* model = nullptr;
   int base_body = -1;  // the robot's; stands on a free joint, its origin at the floor
@@ -72,24 +78,15 @@ struct FilmScript {
   FilmSet set;                     // `aspect` is taken from the options
   const Path* plan = nullptr;      // drawn on the floor
   bool senses = true;              // what the recording holds of them, too
+  std::vector<FloorPatch> swept_again;  // ascending in time
+  double window_m = 0;  // radius of a circle around the place that the robot thinks it has; 0: none
 };
 
-struct FilmOptions {
-  std::string camera = "auto";    // a name of Cameras()
-  int width = 960, height = 540;  // even
-  FilmPace pace;
+struct FilmOptions : ReelOptions {
+  std::string camera = "auto";  // a name of Cameras()
   RenderQuality quality = RenderQuality::kFull;
   // Not empty: only the seconds around these events, as the pace has them; ascending.
   std::vector<double> only_around_s;
-  std::function<void(int done, int all)> on_frame;  // after each
-  // Where frame_start.png, frame_failure.png (the first event that is shown) and frame_end.png go;
-  // none: nowhere.
-  std::optional<std::filesystem::path> stills;
-};
-
-struct FilmResult {
-  int frames = 0;
-  double render_s = 0, encode_s = 0;  // wall time: picture and overlay; writing the film
 };
 
 // Writes an MP4. Throws InputError (a file that cannot be written, an unknown camera, an odd size)

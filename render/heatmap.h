@@ -43,6 +43,14 @@ struct HeatFailure {
   std::string label;   // what failed
 };
 
+// A circle around a place that is marked, cut off at the map's border.
+struct HeatRing {
+  Vec2 p_W = Vec2::Zero();
+  double radius_m = 0;
+  std::string label;
+  Rgb colour = {0, 0, 0};
+};
+
 struct HeatMapOptions {
   std::string title;
   std::string quantity, unit;  // over the colour bar: "quantity [unit]"
@@ -53,6 +61,7 @@ struct HeatMapOptions {
   std::vector<HeatCategory> categories;
   bool numbers = false;  // each value in its cell, where cells are large enough for all of them
   std::vector<HeatPoint> points;
+  std::vector<HeatRing> rings;
   std::vector<HeatFailure> failures;
   std::string failures_by;  // over their lines of the legend: what the numbers are
   const Path* plan = nullptr;

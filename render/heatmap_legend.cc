@@ -26,6 +26,8 @@ int Indent(const std::vector<LegendLine>& legend) {
   return widest + kGap_px;
 }
 
+}  // namespace
+
 void DrawSwatch(Image& image, const cv::Rect& place, const LegendLine& line) {
   cv::Mat canvas = Canvas(image);
   const cv::Point2d left(place.x, place.y + 0.5 * place.height),
@@ -33,6 +35,7 @@ void DrawSwatch(Image& image, const cv::Rect& place, const LegendLine& line) {
   switch (line.kind) {
     case Kind::kArea:
       cv::rectangle(canvas, place, Colour(line.colour), cv::FILLED);
+      if (line.colour == kWhite) cv::rectangle(canvas, place, Colour(kGrey), 1);
       break;
     case Kind::kHatched:
       for (int y = place.y; y < place.br().y; ++y)
@@ -59,6 +62,9 @@ void DrawSwatch(Image& image, const cv::Rect& place, const LegendLine& line) {
     case Kind::kMark:
       Mark(canvas, (place.tl() + place.br()) / 2, line.colour, line.mark);
       break;
+    case Kind::kRing:
+      RingMark(canvas, middle, 7.5, 2, line.colour);
+      break;
     case Kind::kNumber:
       NumberSwatch(image, place.x, place.y + place.height / 2, line.number);
       break;
@@ -69,8 +75,6 @@ void DrawSwatch(Image& image, const cv::Rect& place, const LegendLine& line) {
       break;
   }
 }
-
-}  // namespace
 
 int LegendWidth(const std::vector<LegendLine>& legend) {
   double widest = 0;

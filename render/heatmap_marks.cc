@@ -129,6 +129,14 @@ void Mark(cv::Mat& image, const cv::Point2d& at, const Rgb& colour, int mark) {
   cv::drawMarker(image, p, Colour(colour), mark, 15, 2, cv::LINE_AA);
 }
 
+void RingMark(cv::Mat& image, const cv::Point2d& middle, double radius_px, double dot_px,
+              const Rgb& colour) {
+  Ring(image, middle, radius_px, kWhite, 5);
+  Ring(image, middle, radius_px, colour, 2);
+  Disc(image, middle, dot_px + 2, kWhite);
+  Disc(image, middle, dot_px, colour);
+}
+
 HeatCategory CellsOf(HazardClass hazard_class) {
   constexpr std::array<const char*, 4> kNames = {"C1 blind object", "C2 glass", "C3 level change",
                                                  "C4 terrain"};
@@ -194,6 +202,14 @@ void DrawHazards(const HazardMap& map, const PanelFrame& frame, HeatPanel& panel
   }
   std::ranges::stable_sort(legend, {}, &LegendLine::label);
   panel.legend.insert(panel.legend.end(), legend.begin(), legend.end());
+}
+
+void DrawRings(const HeatMapOptions& options, const PanelFrame& frame, HeatPanel& panel) {
+  cv::Mat canvas = Canvas(panel.image);
+  for (const HeatRing& ring : options.rings) {
+    RingMark(canvas, frame.Pixel(ring.p_W), ring.radius_m * frame.px_per_m(), 6, ring.colour);
+    AddOnce(panel.legend, {LegendLine::Kind::kRing, ring.label, ring.colour});
+  }
 }
 
 void DrawPoints(const HeatMapOptions& options, const PanelFrame& frame, HeatPanel& panel) {

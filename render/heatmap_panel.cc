@@ -13,7 +13,7 @@
 namespace floorproof {
 namespace {
 
-constexpr Rgb kWall = {52, 60, 72}, kFree = {238, 240, 243};
+constexpr Rgb kFree = {238, 240, 243};
 
 std::array<Rgb, 256> Colours(ColourMap map) {
   const int id = map == ColourMap::kViridis   ? cv::COLORMAP_VIRIDIS
@@ -108,7 +108,7 @@ void DrawCells(const HazardMap& map, const HeatValues* values, const HeatMapOpti
       const CellState state = Under(map, frame.Columns(column), ys);
       Rgb colour = kFree;
       if (state == CellState::kOccupied) {
-        colour = kWall;
+        colour = kWallColour;
         walls = true;
       } else if (state == CellState::kUnknown) {
         colour = HatchedAt(column, row);
@@ -133,7 +133,7 @@ void DrawCells(const HazardMap& map, const HeatValues* values, const HeatMapOpti
           {LegendLine::Kind::kArea, options.categories[i].label, options.categories[i].colour});
     }
   }
-  if (walls) panel.legend.push_back({LegendLine::Kind::kArea, "wall, furniture", kWall});
+  if (walls) panel.legend.push_back({LegendLine::Kind::kArea, "wall, furniture", kWallColour});
   if (unknown) panel.legend.push_back({LegendLine::Kind::kHatched, "unknown"});
 }
 
@@ -157,6 +157,7 @@ HeatPanel DrawPanel(const HazardMap& map, const HeatValues* values, const HeatMa
   axes.DrawGrid(Canvas(panel.image));
   DrawPaths(map, options, frame, panel);
   DrawHazards(map, frame, panel);
+  DrawRings(options, frame, panel);
   DrawPoints(options, frame, panel);
   if (values != nullptr && options.numbers) DrawNumbers(*values, frame, panel);
   DrawFailures(options, frame, panel);

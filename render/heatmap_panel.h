@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The map itself within a heat map, and what its legend must explain. For heatmap*.cc only.
+// The map itself within a heat map, and what its legend must explain. For heatmap*.cc and
+// cell_*.cc only.
 #pragma once
 
 #include <array>
@@ -11,6 +12,8 @@
 #include "render/panel_frame.h"
 
 namespace floorproof {
+
+inline constexpr Rgb kWallColour = {52, 60, 72};
 
 struct HeatRange {
   double low = 0, high = 1;  // low < high
@@ -27,6 +30,7 @@ struct LegendLine {
     kStart,
     kEnd,
     kMark,
+    kRing,
     kHeading,
     kNumber,
     kDot

@@ -60,10 +60,12 @@ void DrawStatus(const Overlay& overlay, Image& image, double unit) {
   TextStyle right = small;
   right.anchor = Anchor::kRight;
   DrawText(image, margin, base, Clock(overlay.t_s), big);
-  DrawText(image, w - margin, base, Pace(overlay.speed_up), right);
+  const std::string pace = Pace(overlay.speed_up);
+  DrawText(image, w - margin, base, pace, right);
 
   // From the middle outwards: the gauge, then the title in what is left of it.
-  double gauge = w - margin - TextWidth("time lapse x9999", right) - margin;
+  double gauge =
+      w - 2 * margin - std::max(TextWidth("time lapse x9999", right), TextWidth(pace, right));
   if (overlay.coverage >= 0) {
     const double length = 0.20 * w;
     TextStyle percent = big;

@@ -27,6 +27,7 @@ Window KnownWindow(const HazardMap& map, const HeatMapOptions& options) {
     for (const Polygon& polygon : hazard.footprint)
       for (const Vec2& p_W : polygon) include_point(p_W);
   for (const HeatPoint& point : options.points) include_point(point.p_W);
+  for (const HeatRing& ring : options.rings) include_point(ring.p_W);
   for (const HeatFailure& failure : options.failures) include_point(failure.p_W);
   if (w.x1 <= w.x0) return {0, 0, map.frame.width, map.frame.height};
   const int margin = std::max(w.width(), w.height()) / 50;
@@ -41,8 +42,22 @@ PanelFrame::PanelFrame(const GridFrame& frame, const Window& window)
   scale_ =
       cells <= kLong_px ? std::max(1, kLong_px / cells) : static_cast<double>(kLong_px) / cells;
   if (cells <= kLong_px && scale_ * cells < 700) scale_ = static_cast<double>(kLong_px) / cells;
-  width = std::max(1, static_cast<int>(std::lround(scale_ * window.width())));
-  height = std::max(1, static_cast<int>(std::lround(scale_ * window.height())));
+  TakeSize();
+}
+
+PanelFrame::PanelFrame(const GridFrame& frame, const Window& window, int most_width,
+                       int most_height)
+    : frame_(frame), window_(window) {
+  constexpr double kRounded = 4;  // from here on whole pixels a cell cost little of the room
+  scale_ = std::min(static_cast<double>(most_width) / window.width(),
+                    static_cast<double>(most_height) / window.height());
+  if (scale_ >= kRounded) scale_ = std::floor(scale_);
+  TakeSize();
+}
+
+void PanelFrame::TakeSize() {
+  width = std::max(1, static_cast<int>(std::lround(scale_ * window_.width())));
+  height = std::max(1, static_cast<int>(std::lround(scale_ * window_.height())));
 }
 
 std::array<int, 2> PanelFrame::Columns(int column) const {

@@ -17,13 +17,17 @@ struct Window {
   int height() const { return y1 - y0; }
 };
 
-// What is worth showing: known cells, hazards, points and failures, and some cells around.
+// What is worth showing: known cells, hazards, points, rings' middles and failures, and some cells
+// around.
 Window KnownWindow(const HazardMap& map, const HeatMapOptions& options);
 
 // Pixels of the panel and metres in the map's frame G and the world.
 class PanelFrame {
  public:
+  // As large as heat maps are.
   PanelFrame(const GridFrame& frame, const Window& window);
+  // As large as fits.
+  PanelFrame(const GridFrame& frame, const Window& window, int most_width, int most_height);
 
   double px_per_m() const { return scale_ / frame_.cell_m; }
   // Cells under a pixel's row or column, [first, last], counted from the map's lower left.
@@ -35,6 +39,7 @@ class PanelFrame {
   int width, height;
 
  private:
+  void TakeSize();
   std::array<int, 2> Span(double first, int end) const;
 
   const GridFrame& frame_;

@@ -11,6 +11,7 @@
 #include "base/quantity.h"
 #include "base/result_folder.h"
 #include "env/core/failure_text.h"
+#include "report/drive_video.h"
 #include "report/pictures.h"
 #include "report/progress.h"
 #include "report/risk_pictures.h"
@@ -182,10 +183,11 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
     if (options.write_records) WriteHeatMaps(s, result.plan, result.record, folder, console);
     witness.There(options.video ? " holds all but, perhaps, the film" : " is whole");
     missing = "the film";
-    if (options.video && !execution.scene) console.Say("no film: there was no physics");
-    if (options.video && execution.scene)
-      console.Say(WriteVideo(s, *execution.scene, result.plan, result.record, witness.recording(),
-                             options.draft_around, folder, console));
+    if (options.video)
+      console.Say(execution.scene
+                      ? WriteVideo(s, *execution.scene, result.plan, result.record,
+                                   witness.recording(), options.draft_around, folder, console)
+                      : WriteCellVideo(s, result.record, folder, console));
     witness.There(" is whole");
   } catch (const std::runtime_error& e) {
     say_verdict();

@@ -10,8 +10,10 @@
 #include <optional>
 
 #include "planners/risk/risk_meter.h"
+#include "run/episode/driven_way.h"
 #include "run/episode/episode.h"
 #include "run/episode/robot_side.h"
+#include "run/episode/tool_meter.h"
 
 namespace floorproof {
 
@@ -21,14 +23,12 @@ class Recorder {
  public:
   Recorder(const Scenario& s, const SweepArea& area, const RiskMap& risk)
       : area_(area),
-        robot_(s.robot.spec),
-        meter_(area, s.robot.spec.tool),
+        meter_(area, s.robot.spec),
         risk_(risk),
         asks_for_risk_(AsksForRisk(s)),
         dt_s_(s.physics.timestep_s),
         trace_hz_(s.episode.trace_hz),
-        trace_every_(s.episode.control_hz / s.episode.trace_hz),
-        shape_(s.robot.spec.shape) {}
+        trace_every_(s.episode.control_hz / s.episode.trace_hz) {}
 
   // Before the drive: how long it will take.
   void Expect(double duration_s) {
@@ -36,8 +36,8 @@ class Recorder {
   }
 
   void OnControl(const Sample& sample, const Estimate& estimate) {
-    if (sample.shape != shape_) TakeShape(sample.shape);
-    if (shape_ >= 0) meter_.Add(sample.X_WB());
+    meter_.Take(sample.shape);
+    meter_.Add(sample.X_WB());
     risk_.Add(sample.p_WB.head<2>());
     AddEstimateError((estimate.X_WB.p() - sample.p_WB.head<2>()).norm());
     position_std_sum_ += estimate.position_std_m;
@@ -62,8 +62,8 @@ class Recorder {
                              .est_yaw_rad = f(estimate.X_WB.yaw_rad),
                              .cross_track_m = f(sample.cross_track_m),
                              .power_w = f(sample.power_w),
-                             .coverage = f(meter_.coverage()),
-                             .revisited = f(meter_.revisited()),
+                             .coverage = f(meter_.swept().coverage()),
+                             .revisited = f(meter_.swept().revisited()),
                              .shape = sample.shape,
                              .est_position_std_m = f(estimate.position_std_m)});
   }
@@ -71,7 +71,8 @@ class Recorder {
   void OnStep(const Sample& sample) {
     Metrics& m = record_.metrics;
     ++record_.steps;
-    AddWay(sample.p_WB.head<2>());
+    way_.Add(sample.p_WB.head<2>());
+    m.path_length_m = way_.length_m();
     m.energy_j += sample.power_w * dt_s_;
     m.charge_ah += sample.battery_a * dt_s_ / 3600;
     m.least_battery_v =
@@ -91,11 +92,10 @@ class Recorder {
     KeepMargins(detectors);
     meter_.Lift();
     risk_.Lift();
-    way_m_ = record_.metrics.path_length_m;
-    chord_end_W_.reset();
+    way_.Lift();
   }
 
-  double coverage() const { return meter_.coverage(); }
+  double coverage() const { return meter_.swept().coverage(); }
   double driven_m() const { return record_.metrics.path_length_m; }
 
   // `ended`: why the loop stopped. A drive that was completed, or that ran out of time, is a
@@ -105,12 +105,13 @@ class Recorder {
                        const std::vector<NamedDetector>& detectors, double min_coverage,
                        std::optional<double> battery_left) {
     Metrics& m = record_.metrics;
-    if (shape_ >= 0) meter_.Add(last.X_WB());
-    m.coverage = meter_.coverage();
+    meter_.Add(last.X_WB());
+    const CoverageMeter& swept = meter_.swept();
+    m.coverage = swept.coverage();
     if (asks_for_risk_) m.cumulative_risk = risk_.cumulative_risk();
-    m.overlap = meter_.overlap();
-    m.revisited = meter_.revisited();
-    m.extra_visits = meter_.extra();
+    m.overlap = swept.overlap();
+    m.revisited = swept.revisited();
+    m.extra_visits = swept.extra();
     m.duration_s = last.t_s;
     m.battery_left = battery_left;
     m.mean_cross_track_m =
@@ -120,7 +121,7 @@ class Recorder {
     FinishEstimateError();
     if (side.known() != nullptr) record_.known = *side.known();
     KeepMargins(detectors);
-    record_.passes = meter_.passes();
+    record_.passes = swept.passes();
     record_.passes_frame = area_.frame;
     record_.sweepable = area_.sweepable;
     const bool judged = ended == Outcome::kSuccess || ended == Outcome::kTimeout;
@@ -135,18 +136,6 @@ class Recorder {
   }
 
  private:
-  // In chords of a centimetre: a robot that is held trembles, and gets nowhere.
-  void AddWay(const Vec2& p_W) {
-    constexpr double kChord_m = 0.01;
-    if (!chord_end_W_) chord_end_W_ = p_W;
-    const double chord_m = (p_W - *chord_end_W_).norm();
-    double& path_length_m = record_.metrics.path_length_m;
-    path_length_m = std::max(path_length_m, way_m_ + chord_m);
-    if (chord_m < kChord_m) return;
-    way_m_ += chord_m;
-    chord_end_W_ = p_W;
-  }
-
   // Of the body; wheels meet every edge that they climb.
   void AddContacts(const Sample& sample) {
     Metrics& m = record_.metrics;
@@ -204,19 +193,9 @@ class Recorder {
     }
   }
 
-  // Between two shapes the tool is lifted; then it is the new shape's.
-  void TakeShape(int shape) {
-    shape_ = shape;
-    meter_.Lift();
-    if (shape < 0 || robot_.tool.kind != Shape2::Kind::kFootprint) return;
-    meter_.SetTool(
-        {Shape2::Kind::kFootprint, 0, robot_.shapes[static_cast<std::size_t>(shape)].footprint_B});
-  }
-
   EpisodeRecord record_;
   const SweepArea& area_;
-  const RobotSpec& robot_;
-  CoverageMeter meter_;
+  ToolMeter meter_;
   RiskMeter risk_;
   bool asks_for_risk_;
   double dt_s_, cross_track_sum_ = 0, estimate_error_sum_ = 0, position_std_sum_ = 0;
@@ -225,12 +204,9 @@ class Recorder {
       std::vector<std::int64_t>(static_cast<std::size_t>(kMaxMm));
   int trace_hz_, trace_every_;
   std::int64_t control_ = 0;
-  int shape_ = 0;  // the robot's, as in Sample
   // The last time that the body touched something, and the way driven until then.
   double last_touch_s_ = -1e9, last_touch_m_ = 0;
-  // The way driven up to the last chord's end, and where that is.
-  double way_m_ = 0;
-  std::optional<Vec2> chord_end_W_;
+  DrivenWay way_;
   double empty_s_ = -1;  // when the battery had cut off; -1: it has not
 };
 

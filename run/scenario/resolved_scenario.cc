@@ -2,6 +2,7 @@
 // A scenario written out with every default stated, so that it survives a change of defaults.
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "base/file_output.h"
 #include "run/scenario/scenario_parts.h"
@@ -85,6 +86,22 @@ bool Vary(const Scenario& s, const std::set<std::string>& keys) {
   return false;
 }
 
+// Its planner with all keys. Where variants have others, which need not know them, those alone that
+// are not as by default.
+ConfigNode PlannerKeys(const Scenario& s) {
+  ConfigNode node = WithPlugin(Named("planner", s.planner_name), *PlannerOf(s));
+  if (!Vary(s, {"plan.planner"})) return node;
+  const auto defaults = [&](auto planners) {
+    return WithPlugin(ConfigNode::Map(), *MakePlugin(planners, s.planner_name, "plan.planner"));
+  };
+  const ConfigNode usual = s.online ? defaults(OnlinePlanners()) : defaults(Planners());
+  std::erase_if(node.entries, [&](const auto& entry) {
+    const ConfigNode* other = usual.Find(entry.first);
+    return other != nullptr && WriteYaml(*other) == WriteYaml(entry.second);
+  });
+  return node;
+}
+
 // Whether a scenario names it by a word: it comes with the program.
 bool IsBundled(const fs::path& file) {
   const auto is = [&](const fs::path& bundled) {
@@ -142,6 +159,14 @@ ConfigNode Rebased(ConfigNode node, const fs::path& from, const fs::path& to) {
   return node;
 }
 
+// Without what sets keys of a generated site: it stands drawn in the file.
+ConfigNode WithoutGenerate(ConfigNode node) {
+  std::erase_if(node.entries, [](const auto& entry) {
+    return entry.first == "site.generate" || entry.first.starts_with("site.generate.");
+  });
+  return node;
+}
+
 }  // namespace
 
 std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
@@ -165,9 +190,8 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
   if (s.goal &&
       stated("goal", site_varies || Vary(s, {"site.goal", "site.goal.x_m", "site.goal.y_m"})))
     root.Add("goal", Goal(*s.goal));
-  Configurable* planner = PlannerOf(s);
-  root.Add("plan", planner != nullptr ? WithPlugin(Named("planner", s.planner_name), *planner)
-                                      : Named("file", PathFrom(folder, s.plan_file).string()));
+  root.Add("plan", PlannerOf(s) != nullptr ? PlannerKeys(s)
+                                           : Named("file", PathFrom(folder, s.plan_file).string()));
   if (AsksForRisk(s))
     root.Add("risk", WithParams(Named("tables", s.fmea_file == BundledTables()
                                                     ? std::string(kBundledTables)
@@ -193,8 +217,12 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
     root.Add("battery", WithParams(ConfigNode::Map(), s.battery));
   root.Add("physics", WithParams(ConfigNode::Map(), s.physics));
   root.Add("video", WithParams(ConfigNode::Map(), s.video));
-  for (const auto& [key, written] :
-       {std::pair("randomise", &s.randomise), {"matrix", &s.matrix}, {"gate", &s.gate}})
+  ConfigNode randomise = s.randomise;
+  if (root.Find("site")->Find("generate") == nullptr) randomise = WithoutGenerate(randomise);
+  if (randomise.entries.empty()) randomise = {};
+  for (const auto& [key, written] : {std::pair("randomise", &std::as_const(randomise)),
+                                     {"matrix", &s.matrix},
+                                     {"gate", &s.gate}})
     if (!written->IsNull()) root.Add(key, Rebased(*written, s.file.parent_path(), folder));
   root.Add("files", Files(s, folder, more));
   return "# Every key with the value used. Paths hold from this folder.\n" + WriteYaml(root);

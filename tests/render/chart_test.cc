@@ -49,6 +49,16 @@ TEST(Chart, MoreIsHigherAndFartherRight) {
   EXPECT_GT(red.y, blue.y);
 }
 
+TEST(Chart, AnAxisEndsWhereItIsTold) {
+  const auto row = [](std::optional<double> y_end) {
+    Chart chart = OnePanel({Dot(kRed, 0.1, 100)});
+    chart.panels[0].y_end = y_end;
+    return Find(DrawChart(chart), kRed).y;
+  };
+  EXPECT_GT(row({}), row(100) + 10) << "beyond the highest value";
+  EXPECT_NEAR(row(200) - row(100), 125, 2) << "half of the plot lower";
+}
+
 TEST(Chart, StrokesAreToldApart) {
   const auto pixels = [](ChartStyle::Stroke stroke) {
     return Find(DrawChart(

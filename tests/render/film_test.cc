@@ -205,6 +205,32 @@ TEST_F(FilmTest, StillsShowStartFailureAndEnd) {
   EXPECT_NE(failure.data, start.data);
 }
 
+TEST_F(FilmTest, TheWindowAndWhatIsSweptAgainAreSeen) {
+  FP_NEED_GL();
+  Open();
+  options_.camera = "top";
+  options_.stills = folder_.path();
+  const auto count = [&](const char* still, const auto& is) {
+    const Image image = ReadImage(folder_ / still);
+    int n = 0;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) n += is(Pixel(image, x, y));
+    return n;
+  };
+  const auto blue = [](const std::uint8_t* p) { return p[2] > p[0] + 90 && p[2] > p[1] + 60; };
+  const auto orange = [](const std::uint8_t* p) { return p[0] > p[2] + 90 && p[1] > p[2] + 40; };
+  script_.plan = nullptr;
+  WriteFilm(script_, options_, folder_ / "without.mp4");
+  const int blue_before = count("frame_start.png", blue),
+            orange_before = count("frame_end.png", orange);
+  script_.window_m = 0.8;
+  script_.swept_again = {{6, {-1.2, 1}, {0.2, 1}, 0.5, 0}};
+  WriteFilm(script_, options_, folder_ / "with.mp4");
+  EXPECT_GT(count("frame_start.png", blue), blue_before + 60);
+  EXPECT_LT(count("frame_start.png", orange), orange_before + 60) << "not yet";
+  EXPECT_GT(count("frame_end.png", orange), orange_before + 300);
+}
+
 // Events are timed by physics steps, states recorded less often.
 TEST_F(FilmTest, EventAfterTheLastStateIsStillShown) {
   FP_NEED_GL();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "render/cell_property.h"
 #include "tests/render/hall.h"
 
 namespace floorproof {
@@ -201,6 +202,45 @@ TEST(HeatMapMarks, WhatWasDrivenLiesOverThePlanWhichShowsBesideIt) {
   EXPECT_EQ(ColourAt(dut, at(0.05, 1)), kWall);
 }
 
+TEST(HeatMapMarks, ARingHasItsRadiusAndALineInTheLegend) {
+  const HazardMap map = Hall(80, 60, 0.1);
+  HeatMapOptions options;
+  options.rings = {{{3.5, 2.5}, 1.2, "its window", kWindowBlue}};
+  const Image dut = DrawHeatMap(map, nullptr, options);
+  const Vec2 middle = PixelOf(map, options, {3.5, 2.5});
+  const double px_per_m = (PixelOf(map, options, {4.5, 2.5}) - middle).x();
+  int on_ring = 0, in_dot = 0, in_legend = 0;
+  for (int y = 0; y < dut.height; ++y)
+    for (int x = 0; x < dut.width; ++x) {
+      if (!Is(dut, x, y, kWindowBlue)) continue;
+      const double d_m = (Vec2(x + 0.5, y + 0.5) - middle).norm() / px_per_m;
+      if (d_m < 0.1)
+        ++in_dot;
+      else if (x > PixelOf(map, options, {8, 0}).x())
+        ++in_legend;
+      else {
+        ++on_ring;
+        EXPECT_NEAR(d_m, 1.2, 0.02);
+      }
+    }
+  EXPECT_GT(on_ring, 2 * kPi * 1.2 * px_per_m);
+  EXPECT_GT(in_dot, 30);
+  EXPECT_GT(in_legend, 10);
+}
+
+TEST(HeatMapMarks, OfARingBeyondTheMapTheRestIsShown) {
+  const HazardMap map = Hall(40, 30, 0.1);
+  HeatMapOptions options;
+  options.rings = {{{0.5, 0.5}, 1, "its window", kWindowBlue}};
+  const Image dut = DrawHeatMap(map, nullptr, options);
+  const int left = static_cast<int>(PixelOf(map, options, {0, 0}).x());
+  int beyond = 0;
+  for (int y = 0; y < dut.height; ++y)
+    for (int x = 0; x < left; ++x) beyond += Is(dut, x, y, kWindowBlue);
+  EXPECT_EQ(beyond, 0);
+  EXPECT_GT(Count(dut, kWindowBlue), 100);
+}
+
 // A colour as an eye sees it that lacks a kind of cone (Machado, Oliveira and Fernandes, 2009, of
 // full severity), in linear light.
 using Cones = std::array<std::array<double, 3>, 3>;
@@ -223,12 +263,21 @@ Vec3 SeenAs(const Rgb& colour, const Cones& cones) {
   return seen;
 }
 
-TEST(HeatMapMarks, EveryEyeTellsPathsWallsAndFloorApart) {
+TEST(HeatMapMarks, EveryEyeTellsPathsWallsAndFloorApartAndPropertiesOfCells) {
   constexpr double kApart = 60;  // of 255, over three channels
   const Rgb colours[] = {kWall, kFree, kPlan, kDriven};
   for (const Cones& cones : {kAll, kNoLong, kNoMiddle, kNoShort})
     for (const Rgb& a : colours)
       for (const Rgb& b : colours)
+        if (a != b) {
+          EXPECT_GT((SeenAs(a, cones) - SeenAs(b, cones)).norm(), kApart);
+        }
+  std::vector<Rgb> cells = {kWall, kWindowBlue};
+  for (int i = 0; i < kNumCellProperties; ++i)
+    cells.push_back(ColourOf(static_cast<CellProperty>(i)));
+  for (const Cones& cones : {kAll, kNoLong, kNoMiddle, kNoShort})
+    for (const Rgb& a : cells)
+      for (const Rgb& b : cells)
         if (a != b) {
           EXPECT_GT((SeenAs(a, cones) - SeenAs(b, cones)).norm(), kApart);
         }

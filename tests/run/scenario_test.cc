@@ -79,6 +79,37 @@ TEST_F(ScenarioFile, AGeneratedSiteIsResolvedAsDrawn) {
             Read(text, {{"seed", "3"}}).site.map.occupancy.cells);
 }
 
+// Its keys may be drawn; the site stands drawn in the resolved file, and takes none.
+TEST_F(ScenarioFile, AGeneratedSiteOfDrawnKeysIsReadAgainAsItWas) {
+  const Scenario first = Read(
+      "scenario: 1\nrobot: beluga\ndrive: none\nsite: {site: 1, generate: {kind: room}}\n"
+      "randomise: {site.generate.cells: {choice: [[12, 9], [9, 12]]}, "
+      "start.yaw_deg: {uniform: [0, 90]}}\n");
+  const std::string once = ResolvedScenario(first, folder_);
+  const Scenario second = Read(once);
+  EXPECT_EQ(second.site.map.occupancy.cells, first.site.map.occupancy.cells);
+  EXPECT_EQ(second.start.yaw_rad, first.start.yaw_rad) << "drawn again as before";
+  EXPECT_EQ(ResolvedScenario(second, folder_), once);
+  EXPECT_THAT(once, ::testing::Not(HasSubstr("site.generate")));
+}
+
+// Each variant's planner has its own keys; what is written of them is not lost.
+TEST_F(ScenarioFile, ItsVariantsMayHaveOtherPlannersOnceItIsResolved) {
+  const std::string text = RoomScenario("");
+  const floorproof::ScenarioFile file(
+      Save("v.yaml", text.substr(0, text.find("plan:")) +
+                         "plan: {planner: rolling_window, radius_m: 2.5}\ndrive: cells\n"
+                         "matrix: {plan.planner: [rolling_window, random_walk]}\n"));
+  const std::string once = ResolvedScenario(file.Read(std::nullopt), folder_);
+  const floorproof::ScenarioFile again(Save("r.yaml", once));
+  ASSERT_EQ(again.variants().size(), 2u);
+  for (const Variant& variant : again.variants()) {
+    const Scenario dut = again.Read(0, variant);
+    EXPECT_EQ(dut.online->params().radius_m, 2.5) << dut.planner_name;
+  }
+  EXPECT_EQ(ResolvedScenario(again.Read(std::nullopt), folder_), once);
+}
+
 TEST_F(ScenarioFile, WheelsAreIdealOrHaveRollersThatAreBodies) {
   const std::vector<Override> htetro = {{"robot", "htetro"}, {"wheels", "rollers"}};
   const Scenario dut = Read(RoomScenario(""), htetro);

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/drive_video.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/quantity.h"
+#include "render/cell_film.h"
+#include "report/drawing_progress.h"
+#include "report/pictures.h"
+#include "report/swept_again.h"
+
+namespace floorproof {
+namespace {
+
+// A quick film of a failure: what led to it, and what came of it.
+void MakeDraft(const EpisodeRecord& record, const std::vector<FailureMode>& modes,
+               FilmOptions& options) {
+  constexpr int kWidth = 640;
+  constexpr double kFps = 15;
+  if (options.width > kWidth) {
+    options.height = std::max(64, options.height * kWidth / options.width) & ~1;
+    options.width = kWidth;
+  }
+  options.pace.fps = std::min(options.pace.fps, kFps);
+  options.pace.before_s = 6;
+  options.pace.after_s = 2;
+  options.quality = RenderQuality::kDraft;
+  for (const FailureMode mode : modes) {
+    const auto first = std::ranges::find(record.events, mode, &Event::mode);
+    if (first != record.events.end()) options.only_around_s.push_back(first->t_s);
+  }
+  std::ranges::sort(options.only_around_s);
+}
+
+// Where no single event says how it ended.
+Banner ClosingBanner(const EpisodeRecord& record) {
+  const std::string covered = fmt::format("covered {:.1f} %", 100 * record.metrics.coverage);
+  if (record.outcome == Outcome::kSuccess)
+    return {Banner::Tone::kSuccess, "SUCCESS", covered + " without a failure"};
+  if (record.interventions.empty())
+    return {Banner::Tone::kWarning, std::string(Name(record.outcome)), record.message};
+  const std::size_t times = record.interventions.size();
+  return {Banner::Tone::kFailure, fmt::format("FAILURE   helped {}", CountText(times, "time")),
+          record.message.empty() ? covered : covered + ";  " + record.message};
+}
+
+// The film's size and pace.
+ReelOptions AsWritten(const VideoParams& video, const std::filesystem::path& stills) {
+  ReelOptions options;
+  options.width = video.width & ~1;
+  options.height = video.height & ~1;
+  options.pace.fps = video.fps;
+  options.pace.speed_up = video.speed_up.value_or(0);
+  options.pace.max_frames = video.max_frames;
+  options.stills = stills;
+  return options;
+}
+
+std::string FilmedLine(const FilmResult& film, const std::filesystem::path& mp4) {
+  return fmt::format("filmed: {} frames ({:.1f} s to draw, {:.1f} s to encode): {}", film.frames,
+                     film.render_s, film.encode_s, mp4.string());
+}
+
+}  // namespace
+
+std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& plan,
+                       const EpisodeRecord& record, const Recording& recording,
+                       const std::vector<FailureMode>& draft_around,
+                       const std::filesystem::path& folder, const Console& console) {
+  const HazardMap& map = s.site.map;
+  // A film shows all walls, near and far.
+  Scene whole;
+  if (scene.pool.num > 0)
+    whole = BuildScene(s.site.map, s.robot, s.physics, s.start, WallSet::kAll);
+  FilmScript script;
+  script.model = whole.model ? whole.model.get() : scene.model.get();
+  script.base_body = scene.base_body;
+  script.recording = &recording;
+  script.events = record.events;
+  script.map = &map;
+  script.title = PictureTitle(s);
+  script.plan = &plan.path;
+  script.senses = s.video.scan;
+  const double w = map.frame.width * map.frame.cell_m, h = map.frame.height * map.frame.cell_m;
+  Vec2 low = map.frame.X_WG.p(), high = low;
+  for (const Vec2& corner : {Vec2(w, 0), Vec2(0, h), Vec2(w, h)}) {
+    low = low.cwiseMin(map.frame.X_WG * corner);
+    high = high.cwiseMax(map.frame.X_WG * corner);
+  }
+  script.set = {low, high, s.robot.spec.circumscribed_radius_m};
+  for (const Intervention& help : record.interventions)
+    script.notices.push_back({help.t_s,
+                              {Banner::Tone::kWarning, "HELPED   set down by a person",
+                               fmt::format("at the waypoint x {:.2f} m, y {:.2f} m;  t {:.1f} s",
+                                           help.to_W.x(), help.to_W.y(), help.t_s)}});
+  if (record.events.empty() || !record.interventions.empty())
+    script.closing = ClosingBanner(record);
+  if (s.online) {
+    script.window_m = s.online->params().radius_m;
+    script.swept_again = SweptAgainPatches(record, s.robot.spec);
+  }
+  FilmOptions options;
+  static_cast<ReelOptions&>(options) = AsWritten(s.video, folder);
+  options.camera = s.video.camera;
+  if (!draft_around.empty()) MakeDraft(record, draft_around, options);
+  DrawingProgress progress(console, "filming, frames");
+  options.on_frame = [&](int done, int all) { progress.Show(done, all); };
+  const std::filesystem::path mp4 = folder / "video.mp4";
+  return FilmedLine(WriteFilm(script, options, mp4), mp4);
+}
+
+std::string WriteCellVideo(const Scenario& s, const EpisodeRecord& record,
+                           const std::filesystem::path& folder, const Console& console) {
+  CellFilmScript script;
+  script.map = &s.site.map;
+  script.in_reach = &record.sweepable;
+  script.visits = &record.passes;
+  script.known = record.known ? &*record.known : nullptr;
+  script.window_m = s.online->params().radius_m;
+  script.title = PictureTitle(s) + ", " + s.planner_name;
+  script.closing = ClosingBanner(record);
+  for (const TraceRow& row : record.trace)
+    script.steps.push_back({row.t_s,
+                            {row.x_m, row.y_m},
+                            static_cast<double>(row.coverage),
+                            static_cast<double>(row.revisited)});
+  ReelOptions options = AsWritten(s.video, folder);
+  DrawingProgress progress(console, "filming, frames");
+  options.on_frame = [&](int done, int all) { progress.Show(done, all); };
+  const std::filesystem::path mp4 = folder / "video.mp4";
+  return FilmedLine(WriteCellFilm(script, options, mp4), mp4);
+}
+
+}  // namespace floorproof

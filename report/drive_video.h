@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// An episode's film.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/console.h"
+#include "render/film.h"
+#include "run/episode/episode.h"
+
+namespace floorproof {
+
+// video.mp4 and frame_*.png; returns a line that says how it went. In the scenario's own size and
+// pace; `draft_around` not empty: a small, quick film of the seconds around the first event of each
+// of these modes.
+std::string WriteVideo(const Scenario& scenario, const Scene& scene, const PlanResult& plan,
+                       const EpisodeRecord& record, const Recording& recording,
+                       const std::vector<FailureMode>& draft_around,
+                       const std::filesystem::path& folder, const Console& console);
+// The same of `drive: cells`: from above, without physics or GL. Nothing fails there.
+std::string WriteCellVideo(const Scenario& scenario, const EpisodeRecord& record,
+                           const std::filesystem::path& folder, const Console& console);
+
+}  // namespace floorproof
