@@ -170,25 +170,28 @@ bool ToolFloor::Sees(Cell a, Cell b) const {
 }
 
 std::vector<Vec2> ToolFloor::WayToOpen(Cell from, const Worth& worth) {
-  std::vector<Vec2> way = WayToOpen(from, worth, nullptr);
+  std::vector<Vec2> way = WayToOpen(from, worth, Squeeze::kNot, body_);
   const auto around = static_cast<std::int64_t>(2 * kPinned_m / frame().cell_m);
-  if (!way.empty() || search_.pops() > around * around) return way;
-  // It is pinned. What is known may be a cell wrong.
-  for (const Extent& squeezed : {body_, body_.Wider(-1)})
-    if (way.empty()) way = WayToOpen(from, worth, &squeezed);
+  const bool pinned = search_.pops() < around * around;
+  if (way.empty()) way = WayToOpen(from, worth, Squeeze::kWhereItWent, body_);
+  if (!way.empty() || !pinned) return way;
+  // What is known may be a cell wrong.
+  for (const Extent& body : {body_, body_.Wider(-1)})
+    if (way.empty()) way = WayToOpen(from, worth, Squeeze::kNearby, body);
   return way;
 }
 
-// Near `from`, and where it once went, the robot squeezes past what it is to keep clear of.
-std::vector<Vec2> ToolFloor::WayToOpen(Cell from, const Worth& worth, const Extent* squeezed) {
-  const int pinned = static_cast<int>(kPinned_m / frame().cell_m);
+std::vector<Vec2> ToolFloor::WayToOpen(Cell from, const Worth& worth, Squeeze squeeze,
+                                       const Extent& body) {
+  const int near = static_cast<int>(kPinned_m / frame().cell_m);
   const int width = frame().width;
   const auto number = [width](Cell c) { return c.iy * width + c.ix; };
   const auto cell = [width](int node) { return Cell{node % width, node / width}; };
   const auto squeezes = [&](Cell c) {
-    if (squeezed == nullptr || !known_free_.Inside(c)) return false;
-    const bool near = std::abs(c.ix - from.ix) < pinned && std::abs(c.iy - from.iy) < pinned;
-    return stood_(c) || (near && poses_.IsFreeFor(*squeezed, c));
+    if (squeeze == Squeeze::kNot || !known_free_.Inside(c)) return false;
+    if (stood_(c)) return true;
+    return squeeze == Squeeze::kNearby && std::abs(c.ix - from.ix) < near &&
+           std::abs(c.iy - from.iy) < near && poses_.IsFreeFor(body, c);
   };
   search_.Begin();
   search_.Reach(number(from), 0);

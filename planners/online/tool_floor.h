@@ -55,9 +55,10 @@ class ToolFloor {
     double least = 0, most = 0;  // cells
     double a_cell = 0;           // cells for each of the way
   };
-  // The way to the nearest place that has as many, as corners to be gone straight to; empty:
-  // there is none. Where what is known lets the robot go no farther, it may squeeze past what is
-  // near, as its body fits: it got there. Takes time as the floor that is nearer.
+  // The way to the nearest place that has as many, as corners to be gone straight to; empty: there
+  // is none. Where there is none else, it may lead past things where the robot went before; and
+  // where the robot is pinned, out of there as its body fits: it got in. Takes time as the floor
+  // that is nearer.
   std::vector<Vec2> WayToOpen(Cell from, const Worth& worth);
 
  private:
@@ -65,7 +66,9 @@ class ToolFloor {
   void Tell(Cell c);
   // The robot was touched there, or met an edge.
   void ForgetStanding(Cell ground);
-  std::vector<Vec2> WayToOpen(Cell from, const Worth& worth, const Extent* squeezed);
+  // Whether it may come nearer to things than it is to keep clear of them.
+  enum class Squeeze { kNot, kWhereItWent, kNearby };
+  std::vector<Vec2> WayToOpen(Cell from, const Worth& worth, Squeeze squeeze, const Extent& body);
   bool Sees(Cell a, Cell b) const;
   bool IsPeak(Cell c, int open) const;
 

@@ -75,6 +75,19 @@ TEST(ReferencePath, StopsAtSharpCornersAndDwellsOnly) {
   }
 }
 
+TEST(ReferencePath, WhereAWaypointStopsABendIsAStopAStraightIsNone) {
+  Path path = MakePath({{0, 0}, {1, 0}, {2, 0}, {3, 0.3}, {4, 0.6}, {5, 0.6}});
+  path[1].stops = path[2].stops = path[3].stops = true;
+  const auto reference = MakeReference(path, kLimits);
+  ASSERT_EQ(Points(reference),
+            (std::vector<Vec2>{{0, 0}, {1, 0}, {2, 0}, {3, 0.3}, {4, 0.6}, {5, 0.6}}));
+  EXPECT_FALSE(reference.vertices[1].stop) << "straight on";
+  EXPECT_TRUE(reference.vertices[2].stop);
+  EXPECT_FALSE(reference.vertices[3].stop) << "straight on, too";
+  EXPECT_FALSE(reference.vertices[4].stop) << "a bend that may be cut";
+  EXPECT_GT(reference.vertices[1].passing_mps, 0.05);
+}
+
 TEST(ReferencePath, DwellsAtOnePlaceAddUp) {
   Path path = MakePath({{0, 0}, {0, 0}, {1, 0}, {1, 0}});
   path[0].dwell_s = 1;

@@ -134,6 +134,16 @@ TEST(RegulatedPursuit, TurnsOnTheSpotAtCornersAndDrivesThroughBends) {
   EXPECT_EQ(least_speed(1.0), 0);
 }
 
+TEST(RegulatedPursuit, CutsNoBendWhereAWaypointStops) {
+  Path path = MakePath({{0, 0}, {2, 0}, {3, 1}});
+  const Driven cut = Follow(path);
+  path[1].stops = true;
+  const Driven exact = Follow(path);
+  EXPECT_TRUE(exact.done);
+  EXPECT_GT(cut.max_cross_track_m, 0.015);
+  EXPECT_LT(exact.max_cross_track_m, 0.011);
+}
+
 TEST(RegulatedPursuit, CollinearAndDuplicatePointsChangeNothing) {
   const Driven plain = Follow(MakePath({{0, 0}, {2, 0}, {2, 1}}));
   const Driven dotted = Follow(MakePath({{0, 0},

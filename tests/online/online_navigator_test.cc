@@ -16,14 +16,14 @@ class ScriptedPlanner final : public OnlinePlanner {
   struct Asked {
     Vec2 p_W;
     std::size_t changed;
-    bool bumped, dropped, missed;
+    bool bumped, dropped, missed, stopped;
   };
   void Visit(ParamVisitor&) override {}
   const OnlineParams& params() const override { return params_; }
   void Start(const OnlineTask& task) override { tasks.push_back(task); }
   OnlineStep Next(const OnlineInput& input) override {
-    asked.push_back(
-        {input.estimate.X_WB.p(), input.changed.size(), input.bumped, input.dropped, input.missed});
+    asked.push_back({input.estimate.X_WB.p(), input.changed.size(), input.bumped, input.dropped,
+                     input.missed, input.stopped});
     if (asked.size() > says.size()) return {Kind::kDone, {}, "all is done"};
     return says[asked.size() - 1];
   }
@@ -49,6 +49,7 @@ class OnlineNavigatorTest : public ::testing::Test {
                     bool drop) {
     Estimate estimate;
     estimate.X_WB = X_WB;
+    estimate.V_WB_B.vx_mps = speed_mps_;
     t_s_ += 0.02;
     const PathChange change =
         dut_.Update({t_s_, estimate, &known_, segment, at_end, recovered, drop});
@@ -66,10 +67,14 @@ class OnlineNavigatorTest : public ::testing::Test {
   }
 
   ScriptedPlanner planner_;
-  OnlineNavigator dut_{
-      planner_, {{Vec2(0.2, 0.2), true}, {Vec2(0.15, 0.15), true}, 0.3, 0.5}, {0, 0}, 7};
+  static Extent Disc(double radius_m) { return {Vec2::Constant(radius_m), true}; }
+  OnlineNavigator dut_{planner_, {Disc(0.18), Disc(0.2), Disc(0.15), 0.3, 0.4, 0.5}, {0, 0}, 7};
+  void See(const Vec2& p_W) {
+    const Cell c = known_.frame.ToCell(p_W);
+    known_.Add(c.ix, c.iy, 8, 4);
+  }
   KnownMap known_;
-  double t_s_ = 0;
+  double t_s_ = 0, speed_mps_ = 0;
 };
 
 TEST_F(OnlineNavigatorTest, LooksAroundBeforeItAsks) {
@@ -121,6 +126,7 @@ TEST_F(OnlineNavigatorTest, AfterAReactionItAsksFromWhereTheRobotIs) {
   EXPECT_EQ(planner_.asked[2].p_W, Vec2(0.5, 0));
   EXPECT_TRUE(planner_.asked[2].bumped && !planner_.asked[2].dropped);
   EXPECT_TRUE(planner_.asked[2].missed) << "it was asked with (1, 0) as the robot's place";
+  EXPECT_FALSE(planner_.asked[2].stopped);
   EXPECT_THAT(Path(), ElementsAre(Vec2(0.5, 0), Vec2(0, 0.5)));
 
   At({0.2, 0.3});
@@ -128,6 +134,57 @@ TEST_F(OnlineNavigatorTest, AfterAReactionItAsksFromWhereTheRobotIs) {
   EXPECT_EQ(Recovered({-0.3, 0.5}, 1, true), PathChange::kAnew);
   EXPECT_TRUE(planner_.asked[4].dropped && !planner_.asked[4].bumped);
   EXPECT_FALSE(planner_.asked[4].missed) << "(0, 0.5) was reached";
+}
+
+// Cells of 0.1 m: what is seen across the way to (1.5, 1).
+class OnlineNavigatorSeesTest : public OnlineNavigatorTest {
+ protected:
+  OnlineNavigatorSeesTest() {
+    known_ = KnownMap({30, 30, 0.1, {}});
+    known_.changed.emplace();
+    planner_.says.assign(9, {Kind::kTarget, {1.5, 1}});
+    while (planner_.asked.empty()) At({0.5, 1}, 0, true);
+  }
+};
+
+TEST_F(OnlineNavigatorSeesTest, WhatComesIntoSightAcrossTheWayStopsTheRobot) {
+  speed_mps_ = 0.25;
+  planner_.says[1] = {Kind::kTarget, {0.7, 2}};
+  See({1.25, 1.15});
+  EXPECT_EQ(At({0.6, 1}), PathChange::kLonger);
+  ASSERT_EQ(planner_.asked.size(), 2u);
+  EXPECT_TRUE(planner_.asked[1].stopped && !planner_.asked[1].missed);
+  // 0.25 m/s: 0.0375 m until it brakes, and 0.25^2 / (2 * 0.4) m.
+  EXPECT_NEAR((planner_.asked[1].p_W - Vec2(0.716, 1)).norm(), 0, 1e-3);
+  EXPECT_THAT(Path(), ElementsAre(Vec2(0.5, 1), planner_.asked[1].p_W, Vec2(0.7, 2)));
+  // A robot that stands goes on from where it is.
+  speed_mps_ = 0;
+  See({0.75, 1.65});
+  EXPECT_EQ(At({0.7, 1.1}, 1), PathChange::kAnew);
+  EXPECT_EQ(Path().front(), Vec2(0.7, 1.1));
+  EXPECT_TRUE(planner_.asked.back().stopped);
+}
+
+TEST_F(OnlineNavigatorSeesTest, WhatLiesBesideTheWayOrBehindDoesNot) {
+  speed_mps_ = 0.25;
+  See({1.25, 1.35});  // 0.3 m beside; the body reaches 0.18 m
+  See({0.25, 1.05});
+  EXPECT_EQ(At({0.6, 1}), PathChange::kNone);
+  See({0.65, 1.05});  // where it is: it cannot keep off
+  EXPECT_EQ(At({0.6, 1}), PathChange::kNone);
+  EXPECT_EQ(planner_.asked.size(), 1u);
+}
+
+TEST_F(OnlineNavigatorSeesTest, ABendBesideSomethingIsAStop) {
+  planner_.says[1] = {Kind::kTarget, {2.2, 1.7}};
+  EXPECT_EQ(At({1.1, 1}), PathChange::kLonger);
+  ASSERT_EQ(dut_.path().size(), 3u);
+  EXPECT_FALSE(dut_.path()[1].stops) << "there is room to cut it";
+  EXPECT_EQ(At({1.2, 1}), PathChange::kNone);
+  See({1.65, 0.75});
+  EXPECT_EQ(At({1.2, 1}), PathChange::kLonger) << "it came into sight later";
+  EXPECT_TRUE(dut_.path()[1].stops);
+  EXPECT_EQ(planner_.asked.size(), 2u);
 }
 
 TEST_F(OnlineNavigatorTest, TheDriveEndsWithTheLastPath) {

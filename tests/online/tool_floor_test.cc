@@ -20,7 +20,7 @@ class ToolFloorTest : public ::testing::Test {
       }
   }
   ToolFloor Floor(const Extent& clear, const Extent& tool) {
-    ToolFloor floor(kFrame, clear, tool);
+    ToolFloor floor(kFrame, kBody, clear, tool);
     Take(floor);
     return floor;
   }
@@ -41,6 +41,8 @@ class ToolFloorTest : public ::testing::Test {
   inline static const GridFrame kFrame = {80, 60, kCell_m, {1, 2, 0.4}};
   inline static const Extent kDisc = {Vec2::Constant(0.15), true};
   inline static const Extent kSquare = {Vec2::Constant(0.25), false};
+  inline static const Extent kBody = {Vec2::Constant(0.17), true};
+  static constexpr ToolFloor::Worth kAny = {20, 20, 0};
   KnownMap known_;
 };
 
@@ -91,7 +93,7 @@ TEST_F(ToolFloorTest, TheWayLeadsAroundToTheNearestOpenPlace) {
   ToolFloor dut = Floor({Vec2::Constant(0.18), true}, kDisc);
   for (double y_m = 0.1; y_m < 3; y_m += 0.1) dut.Sweep(At(0.1, y_m), At(2.2, y_m));
   const Cell here = dut.FreeAt(At(1, 0.5), 0.1);
-  const std::vector<Vec2> way = dut.WayToOpen(here, 20);
+  const std::vector<Vec2> way = dut.WayToOpen(here, kAny);
   ASSERT_GE(way.size(), 2u);
   const Vec2 end = kFrame.X_WG.Inverse() * way.back();
   EXPECT_GT(end.x(), 2.05) << "beyond the wall";
@@ -99,7 +101,48 @@ TEST_F(ToolFloorTest, TheWayLeadsAroundToTheNearestOpenPlace) {
   EXPECT_GT(corner.y(), 2.25 + 0.1) << "through the gap";
   // Nothing is worth a way where all is swept.
   for (double y_m = 0.1; y_m < 3; y_m += 0.1) dut.Sweep(At(0.1, y_m), At(3.9, y_m));
-  EXPECT_TRUE(dut.WayToOpen(here, 20).empty());
+  EXPECT_TRUE(dut.WayToOpen(here, kAny).empty());
+}
+
+// A patch at the far end of the room: near enough for a robot that goes far for it.
+TEST_F(ToolFloorTest, APlaceFarAwayMustHaveMore) {
+  ToolFloor dut = Floor({Vec2::Constant(0.18), true}, kDisc);
+  for (double y_m = 0.1; y_m < 3; y_m += 0.1) dut.Sweep(At(0.1, y_m), At(3.3, y_m));
+  const Cell here = dut.FreeAt(At(0.5, 1.5), 0.1);
+  const double tool = static_cast<double>(dut.tool().size());
+  const double way = 2.9 / dut.frame().cell_m;  // about
+  EXPECT_FALSE(dut.WayToOpen(here, {0.1 * tool, tool, 0}).empty());
+  EXPECT_FALSE(dut.WayToOpen(here, {0.1 * tool, 0.5 * tool, 9 * tool / way}).empty());
+  EXPECT_TRUE(dut.WayToOpen(here, {0.1 * tool, 2 * tool, 2 * tool / way}).empty());
+}
+
+// Of two lanes that lie as far apart as beside() tells, the second leaves nothing between; and its
+// tool reaches less than a cell into the first.
+TEST_F(ToolFloorTest, LanesLieSideBySide) {
+  for (const double cell_m : {0.05, 0.0506424, 0.068, 0.1})
+    for (const Extent& tool : {kDisc, kSquare}) {
+      const GridFrame frame = {60, 60, cell_m, {}};
+      known_ = KnownMap(frame);
+      known_.changed.emplace();
+      for (int i = 0; i < 60 * 60; ++i) known_.Add(i % 60, i / 60, -kMost, kMost);
+      ToolFloor dut(frame, kBody, {Vec2::Constant(0.2), true}, tool);
+      Take(dut);
+      const double width = 2 * tool.half_m.x() / dut.frame().cell_m;
+      int under = 0;
+      for (const Cell& c : dut.tool()) under = std::max(under, c.iy);
+      const int apart = dut.beside(0).iy + under;
+      EXPECT_GT(apart, 0.94 * width) << cell_m;
+      EXPECT_LE(apart, width + 0.06) << cell_m;
+      const Cell a = dut.frame().ToCell({1, 1.5}), b = dut.frame().ToCell({2, 1.5});
+      for (const int up : {0, apart})
+        dut.Sweep(dut.frame().Center(a + Cell{0, up}), dut.frame().Center(b + Cell{0, up}));
+      const int middle = (a.ix + b.ix) / 2;
+      int left_open = 0;
+      for (int iy = a.iy; iy <= a.iy + apart; ++iy) left_open += dut.IsOpen({middle, iy});
+      // Where the tool is whole cells wide, the middles of those on both borders count as
+      // neither's.
+      EXPECT_LE(left_open, std::abs(width - std::round(width)) < 1e-6 ? 1 : 0) << cell_m;
+    }
 }
 
 // What is seen later may close the door through which it came: it was there, so it may go back.
@@ -110,13 +153,13 @@ TEST_F(ToolFloorTest, ARobotThatIsWalledInByNoiseGoesBackTheWayItCame) {
     if (iy < 27 || iy > 32) known_.Add(40, iy, 2 * kMost, kMost);
   Take(dut);
   for (double y_m = 0.1; y_m < 3; y_m += 0.1) dut.Sweep(At(2.0, y_m), At(3.9, y_m));
-  const std::vector<Vec2> way = dut.WayToOpen(dut.FreeAt(At(3, 1.5), 0.1), 20);
+  const std::vector<Vec2> way = dut.WayToOpen(dut.FreeAt(At(3, 1.5), 0.1), kAny);
   ASSERT_FALSE(way.empty());
   EXPECT_LT((kFrame.X_WG.Inverse() * way.back()).x(), 2);
   // Not where it was touched since.
   known_.Mark(FloorMark::Kind::kBump, At(2.025, 1.5), 0.05);
   Take(dut);
-  EXPECT_TRUE(dut.WayToOpen(dut.FreeAt(At(3, 1.5), 0.1), 20).empty());
+  EXPECT_TRUE(dut.WayToOpen(dut.FreeAt(At(3, 1.5), 0.1), kAny).empty());
 }
 
 }  // namespace
