@@ -74,14 +74,18 @@ ToolFloor::ToolFloor(const GridFrame& ground, const Extent& body, const Extent& 
     const int by = LaneCells(2 * (aside.ix != 0 ? reach.x() : reach.y())) - under;
     beside_[k] = {by * aside.ix, by * aside.iy};
   }
-  for (int iy = -ry; iy <= ry; ++iy)
+  for (int iy = -ry; iy <= ry; ++iy) {
+    ToolRow row = {iy, -1};
     for (int ix = -rx; ix <= rx; ++ix) {
       const Cell by = {ix, iy};
       if (!holds(by)) continue;
+      row.half = ix;
       tool_cells_.push_back(by);
       for (std::size_t k = 0; k < kSteps.size(); ++k)
         if (!holds(by + kSteps[k])) added_[k].push_back(by);
     }
+    if (row.half >= 0) tool_rows_.push_back(row);
+  }
 }
 
 void ToolFloor::Update(const KnownMap& known, std::span<const Cell> changed) {
@@ -121,10 +125,13 @@ void ToolFloor::Tell(Cell c) {
   const bool open = known_free_(c) && swept_(c) == 0;
   if (open == (open_(c) != 0)) return;
   open_(c) = open;
-  for (const Cell& by : tool_cells_) {
-    const Cell pose = {c.ix - by.ix, c.iy - by.iy};
-    if (under_.Inside(pose))
-      under_(pose) = static_cast<std::uint16_t>(under_(pose) + (open ? 1 : -1));
+  for (const ToolRow& row : tool_rows_) {
+    const int iy = c.iy - row.iy;
+    if (iy < 0 || iy >= under_.height) continue;
+    const int first = std::max(0, c.ix - row.half),
+              last = std::min(under_.width - 1, c.ix + row.half);
+    for (int ix = first; ix <= last; ++ix)
+      under_(ix, iy) = static_cast<std::uint16_t>(under_(ix, iy) + (open ? 1 : -1));
   }
 }
 

@@ -79,6 +79,10 @@ class ToolFloor {
   Grid<std::uint8_t> known_free_, open_, stood_;
   Grid<std::uint16_t> swept_, under_;  // under_: what is open under the tool
   std::vector<Cell> tool_cells_;
+  struct ToolRow {
+    int iy, half;  // cells to either side of its middle
+  };
+  std::vector<ToolRow> tool_rows_;  // the same
   std::array<std::vector<Cell>, kSteps.size()> added_;
   std::array<Cell, kSteps.size()> beside_;
   BestFirstSearch<int, BucketFrontier<23>> search_;
