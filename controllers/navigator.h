@@ -27,7 +27,8 @@ struct NavigatorInput {
 enum class PathChange {
   kNone,
   kAnew,    // path() leads on from where the robot thinks it is
-  kLonger,  // path() begins on the segment that was tracked, and goes on beyond where it ended
+  kLonger,  // path() begins on the segment that was tracked; from there it leads farther, or
+            // elsewhere
 };
 
 class Navigator {

@@ -3,7 +3,7 @@
 //
 // Progress is monotone. A leg is left once, at its end, and never for a nearer one, so neighbouring
 // rows cannot be mixed up. A robot that is past the end of a leg but beside it goes to the corner
-// itself. Nothing but Start() allocates.
+// itself. Nothing but Start() and Extend() allocates.
 #pragma once
 
 #include <cstddef>
@@ -30,8 +30,8 @@ class PathProgress {
 
   void Start(const Path& path, const ReferenceLimits& limits, double corner_tolerance_m);
 
-  // The same way, longer: this path begins with the segment that is tracked now. Not once it is
-  // done.
+  // Another way on, mostly the same and longer: this path begins on the segment that is tracked
+  // now. Not once it is done. Allocates.
   void Extend(const Path& path);
 
   // Takes the robot's place at this time: leaves legs whose end is passed, stops at a corner that

@@ -5,11 +5,11 @@
 // that noise and duplicates make no corners. A vertex is a stop where the plan dwells, ends, turns
 // by more than corner_rad, or bends at all at a waypoint that stops. The robot drives through the
 // other vertices, at a speed that bounds both the cut of the corner and the yaw rate. One backward
-// pass makes the speeds reachable with the deceleration. All of this happens in Start(); following
-// the path allocates nothing. For robots that keep the plan's yaw (holonomic ones), a change of yaw
-// is a stop, and a bend driven with held yaw is bounded by the acceleration across it instead of
-// the yaw rate. For robots that take the plan's shapes (hinged blocks), a change of shape is a
-// stop, too.
+// pass makes the speeds reachable with the deceleration. All of this happens in a tracker's Start()
+// and Extend(); following the path allocates nothing. For robots that keep the plan's yaw
+// (holonomic ones), a change of yaw is a stop, and a bend driven with held yaw is bounded by the
+// acceleration across it instead of the yaw rate. For robots that take the plan's shapes (hinged
+// blocks), a change of shape is a stop, too.
 #pragma once
 
 #include <cstddef>

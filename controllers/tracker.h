@@ -27,8 +27,9 @@ class Tracker : public Configurable {
   // Takes the plan, once, before the first Update. `clearance` is the known map's and outlives the
   // tracker, or is nullptr. May allocate; Update may not.
   virtual void Start(const Path& path, const RobotSpec& robot, const ClearanceField* clearance) = 0;
-  // The way goes on: this path begins with the segment that is tracked, and is longer than the one
-  // before. The robot keeps moving. Its shape stays. May allocate.
+  // The way goes on: this path begins on the segment that is tracked. It leads farther than the one
+  // before, or leaves it for what came into sight. The robot keeps moving. Its shape stays. May
+  // allocate.
   virtual void Extend(const Path& path) = 0;
   // What the path taken takes by its own speeds, where nothing goes wrong (s): ways, stops, turns,
   // dwells, folding, and slowing down beside what is known. Time limits are made from it.

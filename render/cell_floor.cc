@@ -59,6 +59,7 @@ CellFloor::CellFloor(const HazardMap& map, const Grid<std::uint8_t>& in_reach, i
 
 void CellFloor::SetVisits(Cell cell, int visits) {
   const auto number = [](int n) { return static_cast<std::size_t>(PropertyOf(n)); };
+  if (!in_reach_(cell)) return;
   const std::size_t before = number(visits_(cell)), after = number(visits);
   visits_(cell) = visits;
   if (before == after) return;

@@ -25,7 +25,7 @@ class CellFloor {
   CellFloor(const HazardMap& map, const Grid<std::uint8_t>& in_reach, int most_width,
             int most_height);
 
-  void SetVisits(Cell cell, int visits);  // of a cell in reach
+  void SetVisits(Cell cell, int visits);  // others than those in reach are passed over
   void See(Cell cell);                    // no veil from now on
 
   int visits(Cell cell) const { return visits_(cell); }

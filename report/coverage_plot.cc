@@ -21,7 +21,7 @@ std::vector<double> WayAlong(const EpisodeRecord& record) {
   DrivenWay way;
   auto help = record.interventions.begin();
   for (const TraceRow& row : record.trace) {
-    for (; help != record.interventions.end() && help->t_s <= row.t_s; ++help) way.Lift();
+    for (; help != record.interventions.end() && help->t_s < row.t_s; ++help) way.Lift();
     way.Add({row.x_m, row.y_m});
     way_m.push_back(way.length_m());
   }

@@ -89,7 +89,7 @@ std::vector<FloorPatch> SweptAgainPatches(const EpisodeRecord& record, const Rob
   double since_m = 0;  // driven since the last stretch ended
   const TraceRow* last = nullptr;
   for (const TraceRow& row : record.trace) {
-    for (; help != record.interventions.end() && help->t_s <= row.t_s; ++help) meter.Lift();
+    for (; help != record.interventions.end() && help->t_s < row.t_s; ++help) meter.Lift();
     meter.Take(row.shape);
     meter.Add({row.x_m, row.y_m, static_cast<double>(row.yaw_rad)});
     const double gone_m =

@@ -30,7 +30,7 @@ struct OnlineTask {
   Extent tool = {};   // is swept around it
   double tool_width_m = 0;
   std::uint64_t seed = 0;
-  Extent body = {};
+  Extent body = {};  // of the robot around its centre (m), without a margin
 };
 
 // What it is told on the way.
@@ -41,9 +41,8 @@ struct OnlineInput {
   // target that it is about to reach as its place.
   const Estimate& estimate;
   bool bumped = false, dropped = false;  // since the last call: it was touched, or met an edge
-  // It never reached the place of the last call, or it was stopped on its way to the target: what
-  // had come into sight lies across.
-  bool missed = false, stopped = false;
+  bool missed = false;                   // it never reached the place of the last call
+  bool stopped = false;  // what has come into sight lies across its way to the target
 };
 
 struct OnlineStep {
@@ -77,7 +76,7 @@ class OnlinePlanner : public Configurable {
   // Forgets the drive before.
   virtual void Start(const OnlineTask& task) = 0;
   // Where to go from here: asked at the start, whenever the target is reached, and when the robot
-  // could not get there.
+  // could not get there or had to stop on its way.
   virtual OnlineStep Next(const OnlineInput& input) = 0;
   // Its own figures of the drive, for plan.json and the columns plan.*, in order.
   virtual std::vector<std::pair<std::string, double>> figures() const { return {}; }

@@ -33,7 +33,8 @@ class RandomWalk final : public OnlinePlanner {
     cells_.Update(input.known, input.changed);
     const Cell here = cells_.FreeAt(input.estimate.X_WB.p());
     std::size_t step = StepOn(here);
-    if (input.bumped || input.dropped || step == kNone || !cells_.MayStep(here, step)) {
+    const bool blocked = input.bumped || input.dropped || input.stopped;
+    if (blocked || step == kNone || !cells_.MayStep(here, step)) {
       if (!IsAnyOpen(here))
         return {OnlineStep::Kind::kNowhere, {}, "there is no free floor around the robot"};
       do {

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kSlack = 1e-6;                             // cells
 constexpr double kLeastAcross = 12, kMostAcross = 24;       // cells of the tool
+constexpr double kMostCells = 4e7;                          // of a finer grid: some 30 bytes each
 constexpr double kWorthIt = 0.01;                           // of a lane's width, more than that
 constexpr int kStraight = 5, kDiagonal = 7, kSqueeze = 15;  // costs
 constexpr double kPinned_m = 0.5;  // so near to the robot, where it can go no farther
@@ -28,7 +29,8 @@ int Division(const GridFrame& ground, const Extent& tool) {
   };
   const int coarsest = std::max(1, static_cast<int>(std::ceil(kLeastAcross / across - kSlack)));
   int best = coarsest;
-  for (int d = coarsest + 1; d * across <= kMostAcross; ++d)
+  const double cells = 1.0 * ground.width * ground.height;
+  for (int d = coarsest + 1; d * across <= kMostAcross && d * d * cells <= kMostCells; ++d)
     if (share(d) > share(best) + kWorthIt) best = d;
   return best;
 }
@@ -69,7 +71,7 @@ ToolFloor::ToolFloor(const GridFrame& ground, const Extent& body, const Extent& 
       beside_[k] = beside_[k] + aside;
       continue;
     }
-    // The last cell under the tool of a lane beside this one.
+    // So far do both tools reach, this one and that of the lane beside it.
     const int under = std::abs(beside_[k].ix + beside_[k].iy);
     const int by = LaneCells(2 * (aside.ix != 0 ? reach.x() : reach.y())) - under;
     beside_[k] = {by * aside.ix, by * aside.iy};
@@ -162,7 +164,7 @@ void ToolFloor::ForgetStanding(Cell ground) {
 }
 
 // Whether all is free on a straight way from cell to cell. Where it passes between the middles of
-// two cells, both must be.
+// two cells, both must be; along a diagonal it passes through middles alone.
 bool ToolFloor::Sees(Cell a, Cell b) const {
   const int dx = b.ix - a.ix, dy = b.iy - a.iy, n = std::max(std::abs(dx), std::abs(dy));
   for (int i = 0; i <= n; ++i) {
@@ -183,7 +185,8 @@ std::vector<Vec2> ToolFloor::WayToOpen(Cell from, const Worth& worth) {
   if (way.empty()) way = WayToOpen(from, worth, Squeeze::kWhereItWent, body_);
   if (!way.empty() || !pinned) return way;
   // What is known may be a cell wrong.
-  for (const Extent& body : {body_, body_.Wider(-1)})
+  const double wrong = std::min(1.0, body_.half_m.minCoeff() / 4);
+  for (const Extent& body : {body_, body_.Wider(-wrong)})
     if (way.empty()) way = WayToOpen(from, worth, Squeeze::kNearby, body);
   return way;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "controllers/follower_params.h"
+
 namespace floorproof {
 namespace {
 
@@ -13,7 +15,6 @@ constexpr double kAskAhead_m =
 constexpr double kSamePlace_m = 1e-3;
 constexpr double kCut_m = 0.1;      // of room around the place of a bend that is driven through
 constexpr double kGraze_m = 0.005;  // so deep into the body, what is seen may be noise
-constexpr double kLag_s = 0.15;     // until motors brake
 constexpr double kStands_m = 0.02;  // a way that needs no braking
 constexpr int kMostVain = 100;      // targets where the robot is, in a row
 
@@ -55,55 +56,75 @@ PathChange OnlineNavigator::Update(const NavigatorInput& input) {
 }
 
 PathChange OnlineNavigator::FromHere(const NavigatorInput& input, bool stopped) {
+  const std::size_t reached = input.at_end ? path_.size() - 1 : input.segment;
+  LeaveOut(path_.size() - 1 - reached);
   path_ = {At(input.estimate.X_WB.p())};
-  Ask(input, stopped);
+  if ((path_.back().p_W - driven_.back().p_W).norm() > kStands_m) driven_.push_back(path_.back());
+  Ask(input, reached, stopped);
   return PathChange::kAnew;
+}
+
+// The last targets were not reached: what was driven ends elsewhere.
+void OnlineNavigator::LeaveOut(std::size_t targets) {
+  driven_.resize(driven_.size() - std::min(targets, driven_.size() - 1));
 }
 
 // Asks for the next target once the robot is near the last one; looks after the bends ahead.
 PathChange OnlineNavigator::GoOn(const NavigatorInput& input) {
   const Vec2 left_W = path_.back().p_W - input.estimate.X_WB.p();
   const bool longer = leads_ == Leads::kOn && input.segment + 2 >= path_.size() &&
-                      left_W.norm() <= kAskAhead_m && Ask(input, false);
+                      left_W.norm() <= kAskAhead_m && Ask(input, asked_from_, false);
   if (!longer && input.known->changed->empty()) return PathChange::kNone;
   if (!StopAtNarrowBends(*input.known, input.segment) && !longer) return PathChange::kNone;
   GoOnFrom(input.segment);
   return PathChange::kLonger;
 }
 
-// It comes to rest as soon as it can on the leg that it is on, and goes on from there.
+// Its way leads elsewhere from where it can have come to rest.
 PathChange OnlineNavigator::StopAhead(const NavigatorInput& input) {
   const BodyTwist& v = input.estimate.V_WB_B;
   const double speed_mps = std::hypot(v.vx_mps, v.vy_mps);
-  const double brakes_m =
-      speed_mps * (kLag_s + speed_mps / (2 * std::max(robot_.brakes_mps2, 1e-3)));
-  const Vec2 here_W = input.estimate.X_WB.p();
-  const Vec2 way_W = path_[input.segment + 1].p_W - here_W;
-  if (input.at_end || brakes_m < kStands_m || way_W.norm() < kStands_m)
-    return FromHere(input, true);
-  path_.resize(input.segment + 1);
-  path_.push_back(At(here_W + way_W * std::min(1.0, brakes_m / way_W.norm())));
-  Ask(input, true);
+  double left_m = speed_mps * (kWheelLag_s + speed_mps / (2 * std::max(robot_.brakes_mps2, 1e-3)));
+  if (input.at_end || left_m < kStands_m) return FromHere(input, true);
+  Vec2 stop_W = input.estimate.X_WB.p();
+  std::size_t next = input.segment + 1;
+  for (; next < path_.size(); ++next) {
+    const Vec2 way_W = path_[next].p_W - stop_W;
+    if (way_W.norm() > left_m) {
+      stop_W += way_W.normalized() * left_m;
+      break;
+    }
+    left_m -= way_W.norm();
+    stop_W = path_[next].p_W;
+  }
+  if (next < path_.size()) {
+    LeaveOut(path_.size() - next);
+    path_.resize(next);
+    path_.push_back(At(stop_W));
+    driven_.push_back(path_.back());
+  }
+  path_.back().stops = true;
+  Ask(input, next - 1, true);
   StopAtNarrowBends(*input.known, input.segment);
   GoOnFrom(input.segment);
   return PathChange::kLonger;
 }
 
-// Asks for a target behind the end of the path; whether there is one.
-bool OnlineNavigator::Ask(const NavigatorInput& input, bool stopped) {
+// Asks for a target behind the end of the path; whether there is one. `reached`: the last waypoint
+// of the path that the planner knew to which the robot comes.
+bool OnlineNavigator::Ask(const NavigatorInput& input, std::size_t reached, bool stopped) {
   Estimate there = input.estimate;
   there.X_WB.x_m = path_.back().p_W.x();
   there.X_WB.y_m = path_.back().p_W.y();
-  const bool ended = input.recovered || stopped;
-  const OnlineStep next = planner_.Next(
-      {*input.known, changed_, there, input.recovered && !input.met_drop,
-       input.recovered && input.met_drop, ended && input.segment < asked_from_, stopped});
+  const OnlineStep next =
+      planner_.Next({*input.known, changed_, there, input.recovered && !input.met_drop,
+                     input.recovered && input.met_drop, reached < asked_from_, stopped});
   changed_.clear();
   asked_from_ = path_.size() - 1;
-  const bool first = driven_.size() == 1;
   switch (next.kind) {
     case OnlineStep::Kind::kTarget:
       leads_ = Leads::kOn;
+      any_target_ = true;
       if ((next.target_W - path_.back().p_W).norm() < kSamePlace_m) {
         if (++vain_ < kMostVain) return false;
         leads_ = Leads::kNowhere;
@@ -118,7 +139,7 @@ bool OnlineNavigator::Ask(const NavigatorInput& input, bool stopped) {
       leads_ = Leads::kToEnd;
       break;
     case OnlineStep::Kind::kNowhere:
-      leads_ = first ? Leads::kNowhere : Leads::kToEnd;
+      leads_ = any_target_ ? Leads::kToEnd : Leads::kNowhere;
       break;
   }
   why_ = next.why;

@@ -40,7 +40,8 @@ class OnlineNavigator final : public Navigator {
   PathChange FromHere(const NavigatorInput& input, bool stopped);
   PathChange GoOn(const NavigatorInput& input);
   PathChange StopAhead(const NavigatorInput& input);
-  bool Ask(const NavigatorInput& input, bool stopped);
+  void LeaveOut(std::size_t targets);
+  bool Ask(const NavigatorInput& input, std::size_t reached, bool stopped);
   bool StopAtNarrowBends(const KnownMap& known, std::size_t segment);
   bool IsNarrow(const KnownMap& known, const Vec2& p_W) const;
   bool IsBlocked(const NavigatorInput& input) const;
@@ -54,7 +55,7 @@ class OnlineNavigator final : public Navigator {
   std::string_view why_;
   std::vector<Cell> changed_;  // of the known map, since the planner was asked last
   std::optional<double> since_s_;
-  bool started_ = false;
+  bool started_ = false, any_target_ = false;
   int vain_ = 0;
   // The waypoint of path_ with which the planner was asked last as the robot's place.
   std::size_t asked_from_ = 0;

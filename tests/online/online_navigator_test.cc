@@ -157,12 +157,48 @@ TEST_F(OnlineNavigatorSeesTest, WhatComesIntoSightAcrossTheWayStopsTheRobot) {
   // 0.25 m/s: 0.0375 m until it brakes, and 0.25^2 / (2 * 0.4) m.
   EXPECT_NEAR((planner_.asked[1].p_W - Vec2(0.716, 1)).norm(), 0, 1e-3);
   EXPECT_THAT(Path(), ElementsAre(Vec2(0.5, 1), planner_.asked[1].p_W, Vec2(0.7, 2)));
+  EXPECT_TRUE(dut_.path()[1].stops);
+  EXPECT_EQ(dut_.plan().size(), 3u) << "what was not reached is no part of what was driven";
   // A robot that stands goes on from where it is.
   speed_mps_ = 0;
   See({0.75, 1.65});
   EXPECT_EQ(At({0.7, 1.1}, 1), PathChange::kAnew);
   EXPECT_EQ(Path().front(), Vec2(0.7, 1.1));
   EXPECT_TRUE(planner_.asked.back().stopped);
+}
+
+TEST_F(OnlineNavigatorSeesTest, StoppedShortOfThePlaceThatWasAskedForItWasMissed) {
+  speed_mps_ = 0.25;
+  planner_.says[1] = {Kind::kTarget, {2.5, 1}};
+  EXPECT_EQ(At({1.1, 1}), PathChange::kLonger);
+  See({1.45, 1.05});
+  planner_.says[2] = {Kind::kTarget, {0.6, 1}};
+  EXPECT_EQ(At({1.12, 1}), PathChange::kLonger);
+  ASSERT_EQ(planner_.asked.size(), 3u);
+  EXPECT_TRUE(planner_.asked[2].stopped && planner_.asked[2].missed);
+  ASSERT_EQ(dut_.plan().size(), 3u);
+  EXPECT_NEAR(dut_.plan()[1].p_W.x(), 1.236, 1e-3);
+}
+
+TEST_F(OnlineNavigatorSeesTest, WhereTheLegIsTooShortItStopsOnTheNext) {
+  speed_mps_ = 0.25;
+  planner_.says[1] = {Kind::kTarget, {1.5, 2.5}};
+  EXPECT_EQ(At({1.1, 1}), PathChange::kLonger);
+  See({1.55, 2.05});
+  EXPECT_EQ(At({1.45, 1}), PathChange::kLonger);
+  EXPECT_TRUE(planner_.asked[2].stopped && !planner_.asked[2].missed) << "(1.5, 1) is passed";
+  EXPECT_NEAR((planner_.asked[2].p_W - Vec2(1.5, 1.066)).norm(), 0, 1e-3);
+}
+
+TEST_F(OnlineNavigatorSeesTest, OnItsLastWayToo) {
+  speed_mps_ = 0.25;
+  planner_.says.resize(1);
+  EXPECT_EQ(At({1.1, 1}), PathChange::kNone);
+  EXPECT_EQ(dut_.leads(), Navigator::Leads::kToEnd);
+  planner_.says.assign(9, {Kind::kTarget, {0.5, 1}});
+  See({1.45, 1.05});
+  EXPECT_EQ(At({1.12, 1}), PathChange::kLonger);
+  EXPECT_EQ(dut_.leads(), Navigator::Leads::kOn);
 }
 
 TEST_F(OnlineNavigatorSeesTest, WhatLiesBesideTheWayOrBehindDoesNot) {

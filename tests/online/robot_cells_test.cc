@@ -121,6 +121,19 @@ TEST(RobotCells, BesideAMarkTheNearestFreeCellStandsForTheRobots) {
   EXPECT_EQ(dut.FreeAt({-5, -5}), dut.At({-5, -5})) << "there is none near";
 }
 
+// Of another extent: a thin robot fits where the clearance does not.
+TEST(RobotCells, AreFreeForAnExtentThatFits) {
+  const GridFrame frame = {40, 40, 0.05, {}};
+  KnownMap known = AllFree(frame);
+  known.Add(20, 20, 2 * kMost, kMost);
+  RobotCells dut(frame, frame.Center(20, 20), 0.05, Round(0.3));
+  Take(known, dut);
+  EXPECT_FALSE(dut.IsFree({24, 20}));
+  EXPECT_TRUE(dut.IsFreeFor(Round(0.17) / 0.05, {24, 20})) << "0.175 m from its face";
+  EXPECT_FALSE(dut.IsFreeFor(Round(0.18) / 0.05, {24, 20}));
+  EXPECT_FALSE(dut.IsFreeFor(Round(0.001) / 0.05, {20, 20})) << "in it";
+}
+
 TEST(RobotCells, WhatIsSeenOtherwiseLaterIsTakenOver) {
   const GridFrame frame = {20, 20, 0.1, {}};
   KnownMap known = AllFree(frame);
