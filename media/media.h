@@ -4,6 +4,7 @@
 // milliseconds.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -19,6 +20,12 @@ struct Image {
   std::vector<std::uint8_t> data;
   bool sixteen_bit = false;  // the file had 16 bits a channel, scaled down
 };
+
+// In RGB, one grey all over.
+inline Image GreyImage(int width, int height, std::uint8_t grey) {
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  return {width, height, 3, std::vector<std::uint8_t>(3 * pixels, grey), false};
+}
 
 inline constexpr std::uintmax_t kMaxImageBytes = 256u << 20;
 

@@ -20,15 +20,6 @@ constexpr double kSlack = 1e-9;  // of the window, in cells
 constexpr Rgb kBar = {18, 24, 32};
 constexpr double kFirstLine = 4.6, kLine = 1.1;  // of the legend, in units: bases
 
-Image White(int width, int height) {
-  Image image;
-  image.width = width;
-  image.height = height;
-  image.channels = 3;
-  image.data.assign(static_cast<std::size_t>(width) * height * 3, 255);
-  return image;
-}
-
 // Cells whose middles lie within it, from its own.
 std::vector<Cell> WindowCells(double radius) {
   std::vector<Cell> cells;
@@ -83,7 +74,7 @@ TextStyle CellStage::Headline() const {
 }
 
 void CellStage::DrawBackdrop(const Layout& layout) {
-  backdrop_ = White(layout.width, layout.height);
+  backdrop_ = GreyImage(layout.width, layout.height, 255);
   FillRectangle(backdrop_, 0, layout.bottom, layout.width, layout.height, kBar, 1);
   const double u = unit_px_;
   if (layout.column > 0) DrawText(backdrop_, 0.55 * u, 1.26 * u, script_.title, Headline());

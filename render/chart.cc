@@ -219,11 +219,8 @@ Image DrawChart(const Chart& chart) {
   const int head_px = kTitle_px + kNote_px * static_cast<int>(chart.notes.size()) + 8;
   const int legend_px = kKey_px * static_cast<int>(chart.legend.size());
   const int panel_px = kLeft_px + chart.plot_width_px + kGap_px;
-  Image image;
-  image.width = WidthOf(chart, columns, panel_px);
-  image.height = head_px + rows * kPanelHeight_px + legend_px + kMargin_px;
-  image.channels = 3;
-  image.data.assign(static_cast<std::size_t>(image.width) * image.height * 3, 255);
+  Image image = GreyImage(WidthOf(chart, columns, panel_px),
+                          head_px + rows * kPanelHeight_px + legend_px + kMargin_px, 255);
   DrawText(image, kMargin_px, 40, chart.title, kTitle);
   int y = kTitle_px + 8;
   for (const std::string& note : chart.notes) {

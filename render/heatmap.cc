@@ -104,12 +104,11 @@ Image DrawHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapO
   const cv::Rect place(kMargin_px + axes.left_px(), kTop_px, panel.image.width, panel.image.height);
   const int column = place.br().x + kMargin_px;
   const int title_px = static_cast<int>(std::ceil(TextWidth(options.title, kTitle)));
-  Image image;
-  image.width = std::max(column + ColumnWidth(panel, options),
-                         kMargin_px + title_px + kMargin_px + 2 * kNorth_px);
-  image.height = std::max(kTop_px + inner + MapAxes::kBelow_px + kMargin_px / 2, legend_y + lines);
-  image.channels = 3;
-  image.data.assign(static_cast<std::size_t>(image.width) * image.height * 3, 255);
+  const int width = std::max(column + ColumnWidth(panel, options),
+                             kMargin_px + title_px + kMargin_px + 2 * kNorth_px);
+  const int height =
+      std::max(kTop_px + inner + MapAxes::kBelow_px + kMargin_px / 2, legend_y + lines);
+  Image image = GreyImage(width, height, 255);
   cv::Mat canvas = Canvas(image);
   Canvas(panel.image).copyTo(canvas(place));
   cv::rectangle(canvas, cv::Rect(place.x - 1, place.y - 1, place.width + 2, place.height + 2),

@@ -147,10 +147,7 @@ Rgb HeatPanel::ColourOf(double value) const {
 HeatPanel DrawPanel(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options,
                     const PanelFrame& frame, const MapAxes& axes) {
   HeatPanel panel;
-  panel.image.width = frame.width;
-  panel.image.height = frame.height;
-  panel.image.channels = 3;
-  panel.image.data.resize(static_cast<std::size_t>(frame.width) * frame.height * 3);
+  panel.image = GreyImage(frame.width, frame.height, 0);
   panel.range = RangeOf(values, options);
   panel.colours = Colours(options.colour_map);
   DrawCells(map, values, options, frame, panel);

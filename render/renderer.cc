@@ -168,14 +168,7 @@ OffscreenRenderer::OffscreenRenderer(const mjModel* model, int width, int height
 
 OffscreenRenderer::~OffscreenRenderer() = default;
 
-Image OffscreenRenderer::MakeImage() const {
-  Image image;
-  image.width = width_;
-  image.height = height_;
-  image.channels = 3;
-  image.data.assign(static_cast<std::size_t>(width_) * height_ * 3, 0);
-  return image;
-}
+Image OffscreenRenderer::MakeImage() const { return GreyImage(width_, height_, 0); }
 
 void OffscreenRenderer::Compose(mjData* data, const CameraView& view, const FloorPaint* paint) {
   mjvScene& scene = gl_->scene;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/quantity.h"
+#include "report/carried.h"
 #include "report/curves.h"
 #include "run/episode/driven_way.h"
 
@@ -19,9 +20,9 @@ constexpr Rgb kCovered = {0, 114, 178}, kTwice = {213, 94, 0};
 std::vector<double> WayAlong(const EpisodeRecord& record) {
   std::vector<double> way_m;
   DrivenWay way;
-  auto help = record.interventions.begin();
+  Carried carried(record.interventions);
   for (const TraceRow& row : record.trace) {
-    for (; help != record.interventions.end() && help->t_s < row.t_s; ++help) way.Lift();
+    if (carried.Before(row)) way.Lift();
     way.Add({row.x_m, row.y_m});
     way_m.push_back(way.length_m());
   }

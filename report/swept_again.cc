@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "report/carried.h"
 #include "run/episode/tool_meter.h"
 
 namespace floorproof {
@@ -85,11 +86,11 @@ std::vector<FloorPatch> SweptAgainPatches(const EpisodeRecord& record, const Rob
   area.sweepable_cells = std::ranges::count(record.sweepable.cells, std::uint8_t{1});
   ToolMeter meter(area, robot);
   Patches patches(area);
-  auto help = record.interventions.begin();
+  Carried carried(record.interventions);
   double since_m = 0;  // driven since the last stretch ended
   const TraceRow* last = nullptr;
   for (const TraceRow& row : record.trace) {
-    for (; help != record.interventions.end() && help->t_s < row.t_s; ++help) meter.Lift();
+    if (carried.Before(row)) meter.Lift();
     meter.Take(row.shape);
     meter.Add({row.x_m, row.y_m, static_cast<double>(row.yaw_rad)});
     const double gone_m =

@@ -10,22 +10,13 @@
 namespace floorproof {
 namespace {
 
-Image Grey(int width, int height) {
-  Image image;
-  image.width = width;
-  image.height = height;
-  image.channels = 3;
-  image.data.assign(static_cast<std::size_t>(width) * height * 3, 128);
-  return image;
-}
-
 struct Size {
   int width, height;
 };
 class OverlaySizes : public ::testing::TestWithParam<Size> {};
 
 TEST_P(OverlaySizes, DrawsWithinItsRowsOnly) {
-  const Image plain = Grey(GetParam().width, GetParam().height);
+  const Image plain = GreyImage(GetParam().width, GetParam().height, 128);
   Image image = plain;
   Event event;
   event.mode = FailureMode::kRollOver;
@@ -43,7 +34,7 @@ TEST_P(OverlaySizes, DrawsWithinItsRowsOnly) {
 
 // Letters stand out from their bar, in the picture's own resolution.
 TEST_P(OverlaySizes, TextIsReadable) {
-  Image image = Grey(GetParam().width, GetParam().height);
+  Image image = GreyImage(GetParam().width, GetParam().height, 128);
   DrawOverlay({"", 83.4, -1, 1, nullptr}, image);
   int light = 0;
   for (int y = RowsOf(image).bottom; y < image.height; ++y)
@@ -54,7 +45,7 @@ TEST_P(OverlaySizes, TextIsReadable) {
 
 TEST_P(OverlaySizes, LongTitleLeavesTheGaugeAlone) {
   const auto draw = [&](std::string title) {
-    Image image = Grey(GetParam().width, GetParam().height);
+    Image image = GreyImage(GetParam().width, GetParam().height, 128);
     DrawOverlay({std::move(title), 1, 0.5, 1, nullptr}, image);
     return image;
   };
@@ -76,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, OverlaySizes,
 
 TEST(OverlayTest, GaugeGrowsWithCoverage) {
   const auto green = [](double coverage) {
-    Image image = Grey(960, 540);
+    Image image = GreyImage(960, 540, 128);
     DrawOverlay({"", 1, coverage, 1, nullptr}, image);
     int n = 0;
     for (int y = RowsOf(image).bottom; y < image.height; ++y)
@@ -106,7 +97,7 @@ TEST(OverlayTest, AFailureSaysWhatWhereAndWhen) {
 }
 
 TEST(TextTest, IsCutAtThePicturesBordersAndTakesAnyBytes) {
-  Image image = Grey(40, 20);
+  Image image = GreyImage(40, 20, 128);
   for (const double x : {-30.0, 10.0, 39.0, 500.0}) {
     for (const double y : {-5.0, 0.0, 10.0, 25.0}) DrawText(image, x, y, "M\xC3\xBC\xFF\n", {});
   }
@@ -117,7 +108,7 @@ TEST(TextTest, IsCutAtThePicturesBordersAndTakesAnyBytes) {
 // Other letters make other pictures: neither boxes nor question marks stand for them.
 TEST(TextTest, NamesOfAnyScriptAreDrawn) {
   const auto draw = [](const char* text) {
-    Image image = Grey(300, 60);
+    Image image = GreyImage(300, 60, 128);
     DrawText(image, 10, 40, text, {.cap_px = 16});
     return image.data;
   };
@@ -142,7 +133,7 @@ TEST(TextTest, LettersAreShapedAsTheirScriptWants) {
 
 TEST(TextTest, ALetterThatNoFontHasIsEscaped) {
   const auto draw = [](const char* text) {
-    Image image = Grey(300, 60);
+    Image image = GreyImage(300, 60, 128);
     DrawText(image, 10, 40, text, {});
     return image.data;
   };
@@ -160,7 +151,7 @@ TEST(TextTest, AnchorsAgree) {
   const TextStyle style{.cap_px = 14};
   const double width = TextWidth("covered", style);
   const auto draw = [&](double x, Anchor anchor) {
-    Image image = Grey(200, 40);
+    Image image = GreyImage(200, 40, 128);
     TextStyle s = style;
     s.anchor = anchor;
     DrawText(image, x, 30, "covered", s);
