@@ -59,6 +59,7 @@ void Recovery::Start(const RecoveryParams& params, const RobotSpec& robot) {
   robot_ = &robot;
   holonomic_ = IsHolonomic(robot);
   state_ = State::kIdle;
+  room_m_ = 0;
   ended_ = false;
   count_ = 0;
 }
@@ -68,12 +69,19 @@ bool Recovery::Alarm(const Observation& sensed) const {
 }
 
 // Back along the way it came, which is known to be free; a robot that stood or turned goes away
-// from what it met.
+// from what it met. All of the way back again would lead into what it met before.
 void Recovery::Begin(const Observation& sensed, const BodyTwist& commanded) {
   ++count_;
   met_drop_ = params_.cliff && sensed.cliffs.any();
   left_s_ = 2 * params_.back_off_m / params_.back_off_mps + 2;
+  state_ = State::kBrake;
+  back_m_ = params_.back_off_m;
   turn_ = 0;
+  if (room_m_ > 0 && Ahead(sensed, params_.bumper, params_.cliff, way_B_)) {
+    back_m_ = room_m_ / 2;
+    way_B_ = -way_B_;
+    return;
+  }
   way_B_ = -Vec2(commanded.vx_mps, commanded.vy_mps);
   if (way_B_.norm() < kStanding_mps) {
     way_B_ = -Side(sensed, params_.bumper, params_.cliff);
@@ -84,7 +92,6 @@ void Recovery::Begin(const Observation& sensed, const BodyTwist& commanded) {
     }
   }
   if (way_B_.norm() > 0) way_B_.normalize();
-  state_ = State::kBrake;
 }
 
 // Brakes at once; gathers speed as the robot can.
@@ -100,7 +107,10 @@ bool Recovery::Update(const Observation& sensed, const Estimate& estimate, doubl
                       Command& command) {
   ended_ = false;
   if (state_ == State::kIdle) {
-    if (command.done || count_ >= params_.most || !Alarm(sensed)) return false;
+    if (command.done || count_ >= params_.most || !Alarm(sensed)) {
+      room_m_ = 0;
+      return false;
+    }
     Begin(sensed, command.twist);
   }
   left_s_ -= dt_s;
@@ -121,9 +131,10 @@ bool Recovery::Update(const Observation& sensed, const Estimate& estimate, doubl
                               (turn_ != 0 ? robot_->circumscribed_radius_m : 0);
     // It goes back no further into something else, nor for ever.
     const bool meets = Ahead(sensed, params_.bumper, params_.cliff, way_B_);
-    if (gone_m >= params_.back_off_m || meets || left_s_ < 0) {
+    if (gone_m >= back_m_ || meets || left_s_ < 0) {
       state_ = State::kIdle;
       ended_ = true;
+      room_m_ = meets ? gone_m : 0;
       twist_ = {};
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a driving robot does when its shell is pressed or there is no floor ahead: it brakes, goes
 // back the way it came, and then wants the rest of its plan joined anew (planners/lines/rejoin.h).
+// Where it meets something behind it too, it goes to the middle between both.
 #pragma once
 
 #include <string>
@@ -33,6 +34,7 @@ class Recovery {
   // What it was about is over: the robot was set down elsewhere.
   void Drop() {
     state_ = State::kIdle;
+    room_m_ = 0;
     ended_ = false;
   }
   // It has gone back: the tracker needs a new path. True once a reaction.
@@ -55,6 +57,8 @@ class Recovery {
   Vec2 way_B_ = Vec2::Zero();  // unit, away from what was met
   double turn_ = 0;            // or the sense to turn back in
   Pose2 from_;                 // the estimate where going back began
+  double back_m_ = 0;          // to be gone
+  double room_m_ = 0;          // that it went until it met something behind; 0: it did not
   double left_s_ = 0;
   bool ended_ = false, met_drop_ = false;
   int count_ = 0;

@@ -232,6 +232,46 @@ TEST(Recovery, ItGoesNoFurtherBackIntoSomethingElse) {
   }
 }
 
+// Between a table and a wall that are nearer to each other than it goes back: it does not go to and
+// fro between them, but stays in the middle, so that it can turn and leave.
+TEST(Recovery, BetweenTwoThingsItGoesToTheMiddle) {
+  for (const double room_m : {0.05, 0.09, 0.13}) {
+    Rig dut(Differential());
+    dut.tracked = {0.1, 0, 0};
+    for (int i = 0; i < 5; ++i) dut.Step();
+    const Pose2 met = dut.X_WB;
+    double low_m = 0, high_m = 0;
+    int reactions = 0;
+    // It is pressed where it is, or goes, beyond the room behind where it met the first.
+    const auto feel = [&] {
+      const double x_m = (met.Inverse() * dut.X_WB.p()).x();
+      low_m = std::min(low_m, x_m);
+      high_m = std::max(high_m, x_m);
+      dut.Release();
+      if (x_m >= 0) dut.Press(0);
+      if (x_m <= -room_m) dut.Press(kPi);
+    };
+    for (int i = 0; i < 500; ++i) {
+      feel();
+      if (!dut.Step()) break;
+      reactions += dut.dut.ended();
+      // What the tracker asks for then: on, whatever the robot has felt.
+      if (dut.dut.ended()) dut.command.twist = dut.tracked;
+    }
+    EXPECT_EQ(reactions, 2) << room_m;
+    EXPECT_NEAR((met.Inverse() * dut.X_WB.p()).x(), -room_m / 2, 0.005) << room_m;
+    EXPECT_LT(high_m, 0.005);
+    EXPECT_GT(low_m, -room_m - 0.005);
+    // Later it goes back as far as ever.
+    dut.Release();
+    for (int i = 0; i < 5; ++i) dut.Step();
+    const Pose2 again = dut.X_WB;
+    dut.Press(0);
+    dut.React([&] { dut.Release(); });
+    EXPECT_NEAR((again.Inverse() * dut.X_WB.p()).x(), -0.15, 0.005) << room_m;
+  }
+}
+
 // On a plank: no floor ahead, and before it has gone far none behind. Two alarms on opposite sides
 // do not make up for each other.
 TEST(Recovery, ItDoesNotGoOverAnEdgeBehindWhileTheOneAheadIsStillSeen) {
