@@ -8,6 +8,16 @@
 #include "env/core/coverage.h"
 
 namespace floorproof {
+namespace {
+
+constexpr double kNear_m = 3;         // noise of farther beams is as large as a cell
+constexpr float kAskew_rad = 0.087f;  // 5 degrees: so far off its normal a lidar sees glass
+constexpr float kLatest = 0.2f;       // weight of the latest beam's direction
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+float Direction(const Vec2& way) { return static_cast<float>(std::atan2(way.y(), way.x())); }
+
+}  // namespace
 
 void Mapper::Visit(ParamVisitor& v) {
   v("cell_m", cell_m_, Between(0.01, 1), "largest cell of the map (m)");
@@ -16,6 +26,8 @@ void Mapper::Visit(ParamVisitor& v) {
   v("most", most_, AtLeast(1), "log odds that no cell exceeds, either way");
   v("range_m", range_m_, Positive(), "of a beam only so much is used (m)");
   v("mark_m", mark_m_, Between(0.01, 1), "width of what a bump or a drop marks (m)");
+  v("glass", glass_,
+    "keep what was seen from near by though beams pass it askew, as they do glass");
 }
 
 double Mapper::CellsOn(const GridFrame& site) const {
@@ -28,6 +40,8 @@ void Mapper::Start(const GridFrame& site, const RobotSpec& robot, bool tells) {
   map_ = KnownMap(FineFrame(site, cell_m_));
   if (tells) map_.changed.emplace().reserve(4096);
   last_end_ = Grid<std::uint32_t>(map_.frame.width, map_.frame.height);
+  seen_along_rad_ = {};
+  if (glass_) seen_along_rad_ = Grid<float>(map_.frame.width, map_.frame.height, kNone);
   scans_ = 0;
   ends_.clear();
   ends_.reserve(4096);
@@ -41,6 +55,7 @@ void Mapper::Start(const GridFrame& site, const RobotSpec& robot, bool tells) {
 // From cell to cell (Amanatides & Woo, 1987); `to_G` is where it ended, in cells.
 void Mapper::AddBeam(const Vec2& from_G, const Vec2& to_G) {
   const Vec2 way = to_G - from_G;
+  const float along_rad = glass_ ? Direction(way) : kNone;
   int cell[2], last[2], step[2];
   double next[2], stride[2];
   for (int k = 0; k < 2; ++k) {
@@ -54,11 +69,29 @@ void Mapper::AddBeam(const Vec2& from_G, const Vec2& to_G) {
   while (cell[0] != last[0] || cell[1] != last[1]) {
     const int k = next[0] < next[1] ? 0 : 1;
     if (next[k] > 1) return;  // rounding: it would pass the end
-    if (last_end_.Inside(cell[0], cell[1]) && last_end_(cell[0], cell[1]) != scans_)
-      Add(cell[0], cell[1], -miss_);
+    const Cell at{cell[0], cell[1]};
+    if (last_end_.Inside(at) && last_end_(at) != scans_ && !(glass_ && SaysNothing(at, along_rad)))
+      Add(at.ix, at.iy, -miss_);
     cell[k] += step[k];
     next[k] += stride[k];
   }
+}
+
+void Mapper::SeenAlong(Cell c, const Vec2& way, double range_m) {
+  float& seen_rad = seen_along_rad_(c);
+  const float now_rad = Direction(way);
+  if (range_m > kNear_m)
+    seen_rad = kNone;
+  else if (std::isnan(seen_rad))
+    seen_rad = now_rad;
+  else
+    seen_rad += kLatest * static_cast<float>(WrapAngle(now_rad - seen_rad));
+}
+
+// A beam that passes what was seen, but not along the way on which it was seen.
+bool Mapper::SaysNothing(Cell c, float direction_rad) const {
+  if (map_.log_odds(c) < KnownMap::kSure) return false;
+  return std::abs(WrapAngle(direction_rad - seen_along_rad_(c))) > kAskew_rad;
 }
 
 // A cell in which a beam of this scan ends does not count as passed by other beams of the scan,
@@ -79,6 +112,7 @@ void Mapper::AddScan(const LidarScan& scan, const Pose2& X_WB) {
     if (!last_end_.Inside(cell) || last_end_(cell) == scans_) continue;
     last_end_(cell) = scans_;
     ends_.push_back(cell);
+    if (glass_) SeenAlong(cell, in_G - from_G, range_m);
   }
   for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
     if (!std::isfinite(scan.range_m[i])) continue;

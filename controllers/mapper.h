@@ -5,6 +5,9 @@
 // 1985; in this form Thrun, Burgard & Fox, "Probabilistic Robotics", 2005, table 9.1). A beam makes
 // the cells that it passes more likely free, and the cell in which it ends more likely occupied. A
 // beam that does not come back says nothing: it may have met black cloth or gone through glass.
+// With `glass` it takes heed of where things were seen from, after Foster, Sun, Park & Kuipers,
+// "VisAGGE: Visible angle grid for glass environments", 2013: glass is seen head-on, from near by,
+// and beams that pass it askew afterwards do not free it.
 // Where the robot stands, the floor is free. What was touched, or has no floor, is marked for good,
 // because scans pass over it.
 #pragma once
@@ -42,12 +45,18 @@ class Mapper final : public Configurable {
  private:
   void AddScan(const LidarScan& scan, const Pose2& X_WB);
   void AddBeam(const Vec2& from_G, const Vec2& to_G);
+  void SeenAlong(Cell c, const Vec2& way, double range_m);
+  bool SaysNothing(Cell c, float direction_rad) const;
   void Mark(FloorMark::Kind kind, const Vec2& p_W) { map_.Mark(kind, p_W, mark_m_ / 2); }
   void Add(int ix, int iy, double log_odds) { map_.Add(ix, iy, log_odds, most_); }
 
   double cell_m_ = 0.05, hit_ = 0.85, miss_ = 0.4, most_ = 4, mark_m_ = 0.1, range_m_ = 12;
+  bool glass_ = false;
   const RobotSpec* robot_ = nullptr;
   KnownMap map_;
+  // With glass: in which direction beams went that ended in a cell, on the whole of the last ones,
+  // where they were short; not a number elsewhere.
+  Grid<float> seen_along_rad_;
   Grid<std::uint32_t> last_end_;  // the number of the scan of which a beam last ended in a cell
   std::uint32_t scans_ = 0;
   std::vector<Cell> ends_;  // of this scan

@@ -295,6 +295,38 @@ TEST_F(MapperTest, NoScanTakesAMarkBack) {
   EXPECT_EQ(dut_.map().marks.size(), 1u);
 }
 
+// A pane along the robot's way: seen while it is abeam, passed by beams before and after.
+TEST_F(MapperTest, GlassIsKeptThoughBeamsPassItAskew) {
+  const Vec2 pane(3.02, 4.02);
+  for (const bool glass : {false, true}) {
+    Start(glass ? "{glass: true}" : "{}");
+    const auto drive_by = [&] {
+      for (int i = -50; i <= 50; ++i) {
+        const Vec2 here(pane.x() + 0.02 * i, 3.02), way = pane - here;
+        const bool head_on = std::abs(way.x() / way.y()) < std::tan(5 * kPi / 180);
+        dut_.Update(OneBeam(head_on ? way.norm() - 0.02 : way.norm() + 0.7),
+                    At({here.x(), here.y(), std::atan2(way.y(), way.x())}));
+      }
+    };
+    drive_by();
+    drive_by();
+    EXPECT_EQ(StateAt(dut_.map(), pane), glass ? CellState::kOccupied : CellState::kFree);
+    // A door that opens: beams pass along where it was seen.
+    for (int i = 0; i < 30; ++i) dut_.Update(OneBeam(1.7), At({3.02, 3.02, kPi / 2}));
+    EXPECT_EQ(StateAt(dut_.map(), pane), CellState::kFree);
+  }
+}
+
+// There noise alone puts ends of beams into cells that are free.
+TEST_F(MapperTest, WhatIsSeenFromFarIsFreedFromAnywhere) {
+  Start("{glass: true}");
+  const Vec2 cell(5.52, 3.02);
+  for (int i = 0; i < 10; ++i) dut_.Update(OneBeam(3.5 - 0.02), At({2.02, 3.02, 0}));
+  EXPECT_EQ(StateAt(dut_.map(), cell), CellState::kOccupied);
+  for (int i = 0; i < 30; ++i) dut_.Update(OneBeam(2), At({5.52, 2.02, kPi / 2}));
+  EXPECT_EQ(StateAt(dut_.map(), cell), CellState::kFree);
+}
+
 TEST_F(MapperTest, WhatStaysPressedIsMarkedOnce) {
   Start();
   for (int i = 0; i < 30; ++i) dut_.Update(Bumped(0), At({3 - 0.002 * i, 3, 0}));
