@@ -14,7 +14,7 @@ constexpr double kTurn_m = 0.015;   // of new floor, that 45 degrees of turning 
 constexpr double kLeastNew = 0.25;  // of the tool's width, that a lane is to sweep
 // Of the tool's area, that must be open at a place that the robot goes to: at the least, more for
 // each metre of the way, and what is always enough.
-constexpr double kLeastOpen = 0.08, kOpenAMetre = 0.19, kEnoughOpen = 0.5;
+constexpr double kLeastOpen = 0.08, kOpenAMetre = 0.14, kEnoughOpen = 0.8;
 constexpr double kSecondLeg = 1.0;  // tool widths
 constexpr double kFirstLegs[] = {0.1, 0.25, 0.5, 1.0};
 constexpr double kSamePlace_m = 1e-3;
