@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scenario written out with every default stated, so that it survives a change of defaults.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -225,7 +227,11 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
                                      {"gate", &s.gate}})
     if (!written->IsNull()) root.Add(key, Rebased(*written, s.file.parent_path(), folder));
   root.Add("files", Files(s, folder, more));
-  return "# Every key with the value used. Paths hold from this folder.\n" + WriteYaml(root);
+  const char* except = Vary(s, {"plan.planner"})
+                           ? "; of `plan`, whose planner varies, what is not as by default"
+                           : "";
+  return fmt::format("# Every key with the value used{}. Paths hold from this folder.\n", except) +
+         WriteYaml(root);
 }
 
 void WriteResolvedScenario(const Scenario& s, const fs::path& folder,
