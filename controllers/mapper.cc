@@ -10,7 +10,7 @@
 namespace floorproof {
 namespace {
 
-constexpr double kNear_m = 3;         // noise of farther beams is as large as a cell
+constexpr double kNear_m = 3;         // noise of farther beams nears a cell's size
 constexpr float kAskew_rad = 0.087f;  // 5 degrees: so far off its normal a lidar sees glass
 constexpr float kLatest = 0.2f;       // weight of the latest beam's direction
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
