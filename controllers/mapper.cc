@@ -15,8 +15,6 @@ constexpr float kAskew_rad = 0.087f;  // 5 degrees: so far off its normal a lida
 constexpr float kLatest = 0.2f;       // weight of the latest beam's direction
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
-float Direction(const Vec2& way) { return static_cast<float>(std::atan2(way.y(), way.x())); }
-
 }  // namespace
 
 void Mapper::Visit(ParamVisitor& v) {
@@ -52,10 +50,10 @@ void Mapper::Start(const GridFrame& site, const RobotSpec& robot, bool tells) {
   dropped_ = {};
 }
 
-// From cell to cell (Amanatides & Woo, 1987); `to_G` is where it ended, in cells.
-void Mapper::AddBeam(const Vec2& from_G, const Vec2& to_G) {
+// From cell to cell (Amanatides & Woo, 1987); `to_G` is where it ended, in cells, and `yaw_rad` the
+// beam's direction on the map.
+void Mapper::AddBeam(const Vec2& from_G, const Vec2& to_G, double yaw_rad) {
   const Vec2 way = to_G - from_G;
-  const float along_rad = glass_ ? Direction(way) : kNone;
   int cell[2], last[2], step[2];
   double next[2], stride[2];
   for (int k = 0; k < 2; ++k) {
@@ -70,28 +68,27 @@ void Mapper::AddBeam(const Vec2& from_G, const Vec2& to_G) {
     const int k = next[0] < next[1] ? 0 : 1;
     if (next[k] > 1) return;  // rounding: it would pass the end
     const Cell at{cell[0], cell[1]};
-    if (last_end_.Inside(at) && last_end_(at) != scans_ && !(glass_ && SaysNothing(at, along_rad)))
+    if (last_end_.Inside(at) && last_end_(at) != scans_ && !(glass_ && SaysNothing(at, yaw_rad)))
       Add(at.ix, at.iy, -miss_);
     cell[k] += step[k];
     next[k] += stride[k];
   }
 }
 
-void Mapper::SeenAlong(Cell c, const Vec2& way, double range_m) {
+void Mapper::SeenAlong(Cell c, double yaw_rad, double range_m) {
   float& seen_rad = seen_along_rad_(c);
-  const float now_rad = Direction(way);
   if (range_m > kNear_m)
     seen_rad = kNone;
   else if (std::isnan(seen_rad))
-    seen_rad = now_rad;
+    seen_rad = static_cast<float>(yaw_rad);
   else
-    seen_rad += kLatest * static_cast<float>(WrapAngle(now_rad - seen_rad));
+    seen_rad += kLatest * static_cast<float>(WrapAngle(yaw_rad - seen_rad));
 }
 
 // A beam that passes what was seen, but not along the way on which it was seen.
-bool Mapper::SaysNothing(Cell c, float direction_rad) const {
+bool Mapper::SaysNothing(Cell c, double yaw_rad) const {
   if (map_.log_odds(c) < KnownMap::kSure) return false;
-  return std::abs(WrapAngle(direction_rad - seen_along_rad_(c))) > kAskew_rad;
+  return std::abs(WrapAngle(yaw_rad - seen_along_rad_(c))) > kAskew_rad;
 }
 
 // A cell in which a beam of this scan ends does not count as passed by other beams of the scan,
@@ -112,13 +109,14 @@ void Mapper::AddScan(const LidarScan& scan, const Pose2& X_WB) {
     if (!last_end_.Inside(cell) || last_end_(cell) == scans_) continue;
     last_end_(cell) = scans_;
     ends_.push_back(cell);
-    if (glass_) SeenAlong(cell, in_G - from_G, range_m);
+    if (glass_) SeenAlong(cell, a, range_m);
   }
   for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
     if (!std::isfinite(scan.range_m[i])) continue;
     const double a = X_GL.yaw_rad + scan.angle_rad[i];
-    AddBeam(from_G,
-            from_G + std::min(scan.range_m[i], range_m_) / cell_m * Vec2(std::cos(a), std::sin(a)));
+    const Vec2 way_G =
+        std::min(scan.range_m[i], range_m_) / cell_m * Vec2(std::cos(a), std::sin(a));
+    AddBeam(from_G, from_G + way_G, a);
   }
   for (const Cell& cell : ends_) Add(cell.ix, cell.iy, hit_);
 }

@@ -44,9 +44,9 @@ class Mapper final : public Configurable {
 
  private:
   void AddScan(const LidarScan& scan, const Pose2& X_WB);
-  void AddBeam(const Vec2& from_G, const Vec2& to_G);
-  void SeenAlong(Cell c, const Vec2& way, double range_m);
-  bool SaysNothing(Cell c, float direction_rad) const;
+  void AddBeam(const Vec2& from_G, const Vec2& to_G, double yaw_rad);
+  void SeenAlong(Cell c, double yaw_rad, double range_m);
+  bool SaysNothing(Cell c, double yaw_rad) const;
   void Mark(FloorMark::Kind kind, const Vec2& p_W) { map_.Mark(kind, p_W, mark_m_ / 2); }
   void Add(int ix, int iy, double log_odds) { map_.Add(ix, iy, log_odds, most_); }
 
