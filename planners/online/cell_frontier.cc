@@ -34,7 +34,10 @@ OnlineStep CellFrontier::Next(const OnlineInput& input) {
   for (const Cell c : cells_.changed()) floor_.SetOpen(floor_.NumberOf(c), cells_.MayBeFree(c));
   if (input.missed && here_) floor_.TakeBack(floor_.NumberOf(*here_));
   // Its steps began elsewhere.
-  if (input.missed || input.stopped || input.bumped || input.dropped) route_.clear(), plan_.clear();
+  if (input.missed || input.left_its_way()) {
+    route_.clear();
+    plan_.clear();
+  }
   const Cell here = cells_.FreeAt(input.estimate.X_WB.p());
   if (here_ != here || input.missed) floor_.Visit(floor_.NumberOf(here));
   const bool first = !here_;

@@ -106,7 +106,7 @@ OnlineStep LaneFrontier::Next(const OnlineInput& input) {
   floor_.Update(input.known, input.changed);
   Sweep(input);
   const Cell here = floor_.FreeAt(*here_W_, floor_.frame().cell_m * width_);
-  if (input.bumped || input.dropped || input.stopped) route_.clear();
+  if (input.left_its_way()) route_.clear();
   if (route_.empty()) {
     if (const Legs legs = BestLegs(here); legs.value > 0) {
       heading_ = legs.heading;

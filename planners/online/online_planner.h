@@ -43,6 +43,8 @@ struct OnlineInput {
   bool bumped = false, dropped = false;  // since the last call: it was touched, or met an edge
   bool missed = false;                   // it never reached the place of the last call
   bool stopped = false;  // what has come into sight lies across its way to the target
+  // It is not on its way to the target any more.
+  bool left_its_way() const { return bumped || dropped || stopped; }
 };
 
 struct OnlineStep {

@@ -33,8 +33,7 @@ class RandomWalk final : public OnlinePlanner {
     cells_.Update(input.known, input.changed);
     const Cell here = cells_.FreeAt(input.estimate.X_WB.p());
     std::size_t step = StepOn(here);
-    const bool blocked = input.bumped || input.dropped || input.stopped;
-    if (blocked || step == kNone || !cells_.MayStep(here, step)) {
+    if (input.left_its_way() || step == kNone || !cells_.MayStep(here, step)) {
       if (!IsAnyOpen(here))
         return {OnlineStep::Kind::kNowhere, {}, "there is no free floor around the robot"};
       do {
