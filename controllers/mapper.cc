@@ -10,10 +10,12 @@
 namespace floorproof {
 namespace {
 
-constexpr double kNear_m = 3;         // noise of farther beams nears a cell's size
-constexpr float kAskew_rad = 0.087f;  // 5 degrees: so far off its normal a lidar sees glass
-constexpr float kLatest = 0.2f;       // weight of the latest beam's direction
-constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+constexpr double kNear_m = 3;              // farther off a lidar hardly tells cells apart
+constexpr double kAskew_rad = kPi / 36;    // as lidars see glass by default (glass_angle_deg)
+constexpr std::uint16_t kMostBeams = 250;  // of a mean: it may still move
+
+// Between two lines: glass is seen from both sides.
+double BetweenLines(double a_rad, double b_rad) { return std::remainder(a_rad - b_rad, kPi); }
 
 }  // namespace
 
@@ -38,8 +40,8 @@ void Mapper::Start(const GridFrame& site, const RobotSpec& robot, bool tells) {
   map_ = KnownMap(FineFrame(site, cell_m_));
   if (tells) map_.changed.emplace().reserve(4096);
   last_end_ = Grid<std::uint32_t>(map_.frame.width, map_.frame.height);
-  seen_along_rad_ = {};
-  if (glass_) seen_along_rad_ = Grid<float>(map_.frame.width, map_.frame.height, kNone);
+  seen_ = {};
+  if (glass_) seen_ = Grid<Seen>(map_.frame.width, map_.frame.height);
   scans_ = 0;
   ends_.clear();
   ends_.reserve(4096);
@@ -75,20 +77,17 @@ void Mapper::AddBeam(const Vec2& from_G, const Vec2& to_G, double yaw_rad) {
   }
 }
 
-void Mapper::SeenAlong(Cell c, double yaw_rad, double range_m) {
-  float& seen_rad = seen_along_rad_(c);
-  if (range_m > kNear_m)
-    seen_rad = kNone;
-  else if (std::isnan(seen_rad))
-    seen_rad = static_cast<float>(yaw_rad);
-  else
-    seen_rad += kLatest * static_cast<float>(WrapAngle(yaw_rad - seen_rad));
+void Mapper::See(Cell c, double yaw_rad) {
+  Seen& seen = seen_(c);
+  if (map_.log_odds(c) <= miss_ - most_) seen.beams = 0;  // it has been free for long
+  if (seen.beams < kMostBeams) ++seen.beams;
+  seen.yaw_rad += static_cast<float>(BetweenLines(yaw_rad, seen.yaw_rad) / seen.beams);
 }
 
-// A beam that passes what was seen, but not along the way on which it was seen.
+// A beam that passes what was seen, but not along the line on which it was seen.
 bool Mapper::SaysNothing(Cell c, double yaw_rad) const {
-  if (map_.log_odds(c) < KnownMap::kSure) return false;
-  return std::abs(WrapAngle(yaw_rad - seen_along_rad_(c))) > kAskew_rad;
+  return map_.log_odds(c) >= KnownMap::kSure && seen_(c).beams > 0 &&
+         std::abs(BetweenLines(yaw_rad, seen_(c).yaw_rad)) > kAskew_rad;
 }
 
 // A cell in which a beam of this scan ends does not count as passed by other beams of the scan,
@@ -109,7 +108,7 @@ void Mapper::AddScan(const LidarScan& scan, const Pose2& X_WB) {
     if (!last_end_.Inside(cell) || last_end_(cell) == scans_) continue;
     last_end_(cell) = scans_;
     ends_.push_back(cell);
-    if (glass_) SeenAlong(cell, a, range_m);
+    if (glass_ && range_m <= kNear_m) See(cell, a);
   }
   for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
     if (!std::isfinite(scan.range_m[i])) continue;

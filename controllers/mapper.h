@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "base/params.h"
@@ -45,7 +46,7 @@ class Mapper final : public Configurable {
  private:
   void AddScan(const LidarScan& scan, const Pose2& X_WB);
   void AddBeam(const Vec2& from_G, const Vec2& to_G, double yaw_rad);
-  void SeenAlong(Cell c, double yaw_rad, double range_m);
+  void See(Cell c, double yaw_rad);
   bool SaysNothing(Cell c, double yaw_rad) const;
   void Mark(FloorMark::Kind kind, const Vec2& p_W) { map_.Mark(kind, p_W, mark_m_ / 2); }
   void Add(int ix, int iy, double log_odds) { map_.Add(ix, iy, log_odds, most_); }
@@ -54,9 +55,13 @@ class Mapper final : public Configurable {
   bool glass_ = false;
   const RobotSpec* robot_ = nullptr;
   KnownMap map_;
-  // With glass: in which direction beams went that ended in a cell, on the whole of the last ones,
-  // where they were short; not a number elsewhere.
-  Grid<float> seen_along_rad_;
+  // With glass: the line along which a cell was seen, on the mean of the short beams that ended
+  // there since it was last free.
+  struct Seen {
+    float yaw_rad = 0;
+    std::uint16_t beams = 0;
+  };
+  Grid<Seen> seen_;
   Grid<std::uint32_t> last_end_;  // the number of the scan of which a beam last ended in a cell
   std::uint32_t scans_ = 0;
   std::vector<Cell> ends_;  // of this scan

@@ -10,6 +10,7 @@ namespace floorproof {
 namespace {
 
 constexpr double kStanding_mps = 0.02, kStanding_radps = 0.05;
+constexpr double kAhead = 0.1, kBehind = 0.5;  // cosines: so much on its way; squarely behind
 
 // Calls see(side) with where each alarm came from, unit, body frame.
 template <class See>
@@ -27,11 +28,13 @@ Vec2 Side(const Observation& sensed, bool bumper, bool cliff) {
   return sum;
 }
 
-// One of them lies on this way; alarms on opposite sides do not make up for each other.
-bool Ahead(const Observation& sensed, bool bumper, bool cliff, const Vec2& way_B) {
-  bool any = false;
-  ForEachAlarm(sensed, bumper, cliff, [&](const Vec2& side) { any |= side.dot(way_B) > 0.1; });
-  return any;
+// How squarely one of them lies on this way, at most 1; alarms on opposite sides do not make up for
+// each other.
+double Ahead(const Observation& sensed, bool bumper, bool cliff, const Vec2& way_B) {
+  double most = -1;
+  ForEachAlarm(sensed, bumper, cliff,
+               [&](const Vec2& side) { most = std::max(most, side.dot(way_B)); });
+  return most;
 }
 
 }  // namespace
@@ -59,7 +62,6 @@ void Recovery::Start(const RecoveryParams& params, const RobotSpec& robot) {
   robot_ = &robot;
   holonomic_ = IsHolonomic(robot);
   state_ = State::kIdle;
-  room_m_ = 0;
   ended_ = false;
   count_ = 0;
 }
@@ -69,19 +71,13 @@ bool Recovery::Alarm(const Observation& sensed) const {
 }
 
 // Back along the way it came, which is known to be free; a robot that stood or turned goes away
-// from what it met. All of the way back again would lead into what it met before.
+// from what it met.
 void Recovery::Begin(const Observation& sensed, const BodyTwist& commanded) {
   ++count_;
   met_drop_ = params_.cliff && sensed.cliffs.any();
-  left_s_ = 2 * params_.back_off_m / params_.back_off_mps + 2;
-  state_ = State::kBrake;
-  back_m_ = params_.back_off_m;
+  between_ = false;
   turn_ = 0;
-  if (room_m_ > 0 && Ahead(sensed, params_.bumper, params_.cliff, way_B_)) {
-    back_m_ = room_m_ / 2;
-    way_B_ = -way_B_;
-    return;
-  }
+  GoBack(params_.back_off_m);
   way_B_ = -Vec2(commanded.vx_mps, commanded.vy_mps);
   if (way_B_.norm() < kStanding_mps) {
     way_B_ = -Side(sensed, params_.bumper, params_.cliff);
@@ -92,6 +88,13 @@ void Recovery::Begin(const Observation& sensed, const BodyTwist& commanded) {
     }
   }
   if (way_B_.norm() > 0) way_B_.normalize();
+}
+
+// So far, once it stands.
+void Recovery::GoBack(double m) {
+  back_m_ = m;
+  left_s_ = 2 * params_.back_off_m / params_.back_off_mps + 2;
+  state_ = State::kBrake;
 }
 
 // Brakes at once; gathers speed as the robot can.
@@ -107,10 +110,7 @@ bool Recovery::Update(const Observation& sensed, const Estimate& estimate, doubl
                       Command& command) {
   ended_ = false;
   if (state_ == State::kIdle) {
-    if (command.done || count_ >= params_.most || !Alarm(sensed)) {
-      room_m_ = 0;
-      return false;
-    }
+    if (command.done || count_ >= params_.most || !Alarm(sensed)) return false;
     Begin(sensed, command.twist);
   }
   left_s_ -= dt_s;
@@ -129,12 +129,18 @@ bool Recovery::Update(const Observation& sensed, const Estimate& estimate, doubl
     const double gone_m = (estimate.X_WB.p() - from_.p()).norm() +
                           std::abs(WrapAngle(estimate.X_WB.yaw_rad - from_.yaw_rad)) *
                               (turn_ != 0 ? robot_->circumscribed_radius_m : 0);
-    // It goes back no further into something else, nor for ever.
-    const bool meets = Ahead(sensed, params_.bumper, params_.cliff, way_B_);
-    if (gone_m >= back_m_ || meets || left_s_ < 0) {
+    // It goes back no further into something else, nor for ever. From there all of the way back
+    // again would lead into what it met before; to the middle it has just come along.
+    const double ahead = between_ ? -1 : Ahead(sensed, params_.bumper, params_.cliff, way_B_);
+    if (ahead > kBehind && gone_m < back_m_) {
+      between_ = true;
+      met_drop_ |= params_.cliff && sensed.cliffs.any();
+      way_B_ = -way_B_;
+      GoBack(gone_m / 2);
+      twist_ = {};
+    } else if (gone_m >= back_m_ || ahead > kAhead || left_s_ < 0) {
       state_ = State::kIdle;
       ended_ = true;
-      room_m_ = meets ? gone_m : 0;
       twist_ = {};
     }
   }

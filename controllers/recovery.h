@@ -34,7 +34,6 @@ class Recovery {
   // What it was about is over: the robot was set down elsewhere.
   void Drop() {
     state_ = State::kIdle;
-    room_m_ = 0;
     ended_ = false;
   }
   // It has gone back: the tracker needs a new path. True once a reaction.
@@ -47,6 +46,7 @@ class Recovery {
   enum class State { kIdle, kBrake, kBack };
   bool Alarm(const Observation& sensed) const;
   void Begin(const Observation& sensed, const BodyTwist& commanded);
+  void GoBack(double m);
   void Approach(const BodyTwist& wanted, double dt_s);
 
   RecoveryParams params_;
@@ -58,7 +58,7 @@ class Recovery {
   double turn_ = 0;            // or the sense to turn back in
   Pose2 from_;                 // the estimate where going back began
   double back_m_ = 0;          // to be gone
-  double room_m_ = 0;          // that it went until it met something behind; 0: it did not
+  bool between_ = false;       // it met something behind, too, and goes to the middle
   double left_s_ = 0;
   bool ended_ = false, met_drop_ = false;
   int count_ = 0;

@@ -295,26 +295,35 @@ TEST_F(MapperTest, NoScanTakesAMarkBack) {
   EXPECT_EQ(dut_.map().marks.size(), 1u);
 }
 
-// A pane along the robot's way: seen while it is abeam, passed by beams before and after.
+// A pane along the robot's way: seen while it is abeam, passed by beams before and after; from one
+// side and from the other, by few beams and by many.
 TEST_F(MapperTest, GlassIsKeptThoughBeamsPassItAskew) {
   const Vec2 pane(3.02, 4.02);
-  for (const bool glass : {false, true}) {
-    Start(glass ? "{glass: true}" : "{}");
-    const auto drive_by = [&] {
-      for (int i = -50; i <= 50; ++i) {
-        const Vec2 here(pane.x() + 0.02 * i, 3.02), way = pane - here;
-        const bool head_on = std::abs(way.x() / way.y()) < std::tan(5 * kPi / 180);
-        dut_.Update(OneBeam(head_on ? way.norm() - 0.02 : way.norm() + 0.7),
-                    At({here.x(), here.y(), std::atan2(way.y(), way.x())}));
+  for (const bool glass : {false, true})
+    for (const double step_m : {0.02, 0.01, 0.005, 0.002}) {
+      Start(glass ? "{glass: true}" : "{}");
+      for (const double side : {-1, -1, 1, -1}) {
+        for (double x_m = -1; x_m <= 1; x_m += step_m) {
+          const Vec2 here(pane.x() + x_m, pane.y() + side), way = pane - here;
+          const bool head_on = std::abs(way.x() / way.y()) < std::tan(5 * kPi / 180);
+          dut_.Update(OneBeam(head_on ? way.norm() - 0.02 : way.norm() + 0.7),
+                      At({here.x(), here.y(), std::atan2(way.y(), way.x())}));
+        }
+        EXPECT_EQ(StateAt(dut_.map(), pane), glass ? CellState::kOccupied : CellState::kFree)
+            << step_m << " " << side;
       }
-    };
-    drive_by();
-    drive_by();
-    EXPECT_EQ(StateAt(dut_.map(), pane), glass ? CellState::kOccupied : CellState::kFree);
-    // A door that opens: beams pass along where it was seen.
-    for (int i = 0; i < 30; ++i) dut_.Update(OneBeam(1.7), At({3.02, 3.02, kPi / 2}));
-    EXPECT_EQ(StateAt(dut_.map(), pane), CellState::kFree);
-  }
+      // What was seen from far away says nothing else.
+      dut_.Update(OneBeam(3.5 - 0.02), At({pane.x() - 3.5, pane.y(), 0}));
+      for (int i = 0; i < 30; ++i) dut_.Update(OneBeam(1.7), At({2.02, 3.02, kPi / 4}));
+      EXPECT_EQ(StateAt(dut_.map(), pane), glass ? CellState::kOccupied : CellState::kFree);
+      // A door that opens: beams pass along where it was seen.
+      for (int i = 0; i < 30; ++i) dut_.Update(OneBeam(1.7), At({3.02, 3.02, kPi / 2}));
+      EXPECT_EQ(StateAt(dut_.map(), pane), CellState::kFree);
+      // And comes to stand across: what is seen now counts, not how it was seen before.
+      for (int i = 0; i < 10; ++i) dut_.Update(OneBeam(1 - 0.02), At({2.02, 4.02, 0}));
+      for (int i = 0; i < 30; ++i) dut_.Update(OneBeam(1.7), At({3.02, 3.02, kPi / 2}));
+      EXPECT_EQ(StateAt(dut_.map(), pane), glass ? CellState::kOccupied : CellState::kFree);
+    }
 }
 
 // There noise alone puts ends of beams into cells that are free.

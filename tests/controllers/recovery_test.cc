@@ -212,80 +212,82 @@ TEST(Recovery, ItWaitsUntilItStands) {
   EXPECT_NEAR((rest.Inverse() * dut.X_WB.p()).x(), -0.15, 0.003);
 }
 
-TEST(Recovery, ItGoesNoFurtherBackIntoSomethingElse) {
-  for (const bool bump : {true, false}) {
-    Rig dut(Differential());
-    dut.tracked = {0.2, 0, 0};
-    for (int i = 0; i < 5; ++i) dut.Step();
-    const Pose2 met = dut.X_WB;
-    dut.Press(0);
-    dut.React([&] {
-      dut.Release();
-      if ((dut.X_WB.p() - met.p()).norm() < 0.05) return;
-      if (bump)
-        dut.Press(kPi);
-      else
-        dut.Drop(3 * kPi / 4);
-    });
-    EXPECT_EQ(dut.ended, 1);
-    EXPECT_NEAR((dut.X_WB.p() - met.p()).norm(), 0.05, 0.005);
-  }
-}
-
-// Between a table and a wall that are nearer to each other than it goes back: it does not go to and
-// fro between them, but stays in the middle, so that it can turn and leave.
-TEST(Recovery, BetweenTwoThingsItGoesToTheMiddle) {
-  for (const double room_m : {0.05, 0.09, 0.13}) {
-    Rig dut(Differential());
-    dut.tracked = {0.1, 0, 0};
-    for (int i = 0; i < 5; ++i) dut.Step();
-    const Pose2 met = dut.X_WB;
-    double low_m = 0, high_m = 0;
-    int reactions = 0;
-    // It is pressed where it is, or goes, beyond the room behind where it met the first.
-    const auto feel = [&] {
-      const double x_m = (met.Inverse() * dut.X_WB.p()).x();
-      low_m = std::min(low_m, x_m);
-      high_m = std::max(high_m, x_m);
-      dut.Release();
-      if (x_m >= 0) dut.Press(0);
-      if (x_m <= -room_m) dut.Press(kPi);
-    };
-    for (int i = 0; i < 500; ++i) {
-      feel();
-      if (!dut.Step()) break;
-      reactions += dut.dut.ended();
-      // What the tracker asks for then: on, whatever the robot has felt.
-      if (dut.dut.ended()) dut.command.twist = dut.tracked;
-    }
-    EXPECT_EQ(reactions, 2) << room_m;
-    EXPECT_NEAR((met.Inverse() * dut.X_WB.p()).x(), -room_m / 2, 0.005) << room_m;
-    EXPECT_LT(high_m, 0.005);
-    EXPECT_GT(low_m, -room_m - 0.005);
-    // Later it goes back as far as ever.
-    dut.Release();
-    for (int i = 0; i < 5; ++i) dut.Step();
-    const Pose2 again = dut.X_WB;
-    dut.Press(0);
-    dut.React([&] { dut.Release(); });
-    EXPECT_NEAR((again.Inverse() * dut.X_WB.p()).x(), -0.15, 0.005) << room_m;
-  }
-}
-
-// On a plank: no floor ahead, and before it has gone far none behind. Two alarms on opposite sides
-// do not make up for each other.
-TEST(Recovery, ItDoesNotGoOverAnEdgeBehindWhileTheOneAheadIsStillSeen) {
-  Rig dut(Differential());
+// How far it got from where it met the first, and where it ended.
+struct Between {
+  double farthest_m = 0, end_m = 0;
+};
+// `behind` presses or shows what is behind, once it has gone 0.05 m; held: for as long as it is
+// there, else for one period.
+Between GoesBackBetween(const RobotSpec& robot, bool held, const std::function<void(Rig&)>& behind,
+                        const std::function<void(Rig&)>& ahead,
+                        const std::function<void(Rig&)>& release) {
+  Rig dut(robot);
   dut.tracked = {0.2, 0, 0};
   for (int i = 0; i < 5; ++i) dut.Step();
   const Pose2 met = dut.X_WB;
-  for (const double a : {-kPi / 4, 0.0, kPi / 4}) dut.Drop(a);
+  Between got;
+  bool shown = false;
+  ahead(dut);
   dut.React([&] {
-    if ((dut.X_WB.p() - met.p()).norm() < 0.05) return;
-    for (const double a : {-kPi / 4, 0.0, kPi / 4}) dut.Drop(a + kPi);
+    const double gone_m = (dut.X_WB.p() - met.p()).norm();
+    got.farthest_m = std::max(got.farthest_m, gone_m);
+    release(dut);
+    if (gone_m < 0.05 || (shown && !held)) return;
+    shown = true;
+    behind(dut);
   });
   EXPECT_EQ(dut.ended, 1);
-  EXPECT_NEAR((dut.X_WB.p() - met.p()).norm(), 0.05, 0.005);
+  EXPECT_EQ(dut.dut.count(), 1);
+  got.end_m = (dut.X_WB.p() - met.p()).norm();
+  // Later it goes back as far as ever.
+  dut.Release();
+  dut.sensed.cliffs = Ring();
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(dut.Step());
+  const Pose2 again = dut.X_WB;
+  dut.Press(0);
+  dut.React([&] { dut.Release(); });
+  EXPECT_NEAR((again.Inverse() * dut.X_WB.p()).x(), -0.15, 0.005);
+  return got;
+}
+
+// Between a table and a wall that are nearer to each other than it goes back: it does not go to and
+// fro between them, but to the middle, so that it can turn and leave; however short the touch.
+TEST(Recovery, BetweenTwoThingsItGoesToTheMiddle) {
+  for (const RobotSpec& robot : {Differential(), Holonomic()})
+    for (const bool held : {true, false})
+      for (const bool bump : {true, false}) {
+        const Between got = GoesBackBetween(
+            robot, held, [&](Rig& r) { bump ? r.Press(kPi) : r.Drop(kPi); },
+            [](Rig& r) { r.Press(0); },
+            [](Rig& r) {
+              r.Release();
+              r.Drop(kPi, false);
+            });
+        EXPECT_NEAR(got.farthest_m, 0.05, 0.005);
+        EXPECT_NEAR(got.end_m, 0.025, 0.005);
+      }
+}
+
+// On a plank: no floor ahead, and before it has gone far none behind. Two alarms on opposite sides
+// do not make up for each other, and that ahead may still be seen from the middle.
+TEST(Recovery, OnAPlankItGoesToTheMiddle) {
+  const auto edge = [](Rig& r, double side) {
+    for (const double a : {-kPi / 4, 0.0, kPi / 4}) r.Drop(side + a);
+  };
+  const Between got = GoesBackBetween(
+      Differential(), true, [&](Rig& r) { edge(r, kPi); }, [&](Rig& r) { edge(r, 0); },
+      [](Rig&) {});
+  EXPECT_NEAR(got.farthest_m, 0.05, 0.005);
+  EXPECT_NEAR(got.end_m, 0.025, 0.005);
+}
+
+// What presses from aside ends the way back: it is not behind.
+TEST(Recovery, ItGoesNoFurtherAlongWhatIsBesideIt) {
+  const Between got = GoesBackBetween(
+      Holonomic(), true, [](Rig& r) { r.Press(100 * kPi / 180); }, [](Rig& r) { r.Press(0); },
+      [](Rig& r) { r.Release(); });
+  EXPECT_NEAR(got.farthest_m, 0.05, 0.005);
+  EXPECT_NEAR(got.end_m, 0.05, 0.005);
 }
 
 // What it drove into still touches it for the first of the way back; that is nothing behind.
