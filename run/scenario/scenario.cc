@@ -209,7 +209,8 @@ ScenarioFile::ScenarioFile(std::optional<ConfigNode> root, const fs::path& file,
   for (const std::string& key : set_by_variants)
     for (const auto& o : overrides_)
       if (Replaces(key, o.first) || Replaces(o.first, key))
-        throw InputError(o.second.mark, o.first, "", "the scenario's matrix sets " + key);
+        throw InputError(o.second.mark, o.first, "",
+                         "the scenario's matrix sets " + key + "; --set matrix=null takes it away");
   for (const RandomisedKey& r : randomised_) {  // a part of what a variant sets may be drawn
     const auto first = set_by_variants.lower_bound(r.key_path);
     const auto below = set_by_variants.lower_bound(r.key_path + ".");
