@@ -41,6 +41,19 @@ struct Extent {
     }
     return first <= last;
   }
+  // The same of an upright square, of which `by` is the middle.
+  bool PassesOverSquare(const Vec2& by, double half_side, const Vec2& way, double slack = 0) const {
+    if (!round) return Wider(half_side).PassesOver(by, way, slack);
+    const Vec2 half = Vec2::Constant(half_side);
+    for (int k = 0; k < 2; ++k) {
+      Extent beside{half, false};
+      beside.half_m[k] += half_m.x() - slack;
+      if (beside.PassesOver(by, way)) return true;
+    }
+    for (const Vec2& corner : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)})
+      if (PassesOver(by + corner * half_side, way, slack)) return true;
+    return false;
+  }
 };
 
 }  // namespace floorproof

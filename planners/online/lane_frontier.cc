@@ -13,11 +13,11 @@ constexpr double kAskew = 0.1;      // of new floor, that a metre along a diagon
 constexpr double kTurn_m = 0.015;   // of new floor, that 45 degrees of turning cost
 constexpr double kLeastNew = 0.25;  // of the tool's width, that a lane is to sweep
 // Of the tool's area, that must be open at a place that the robot goes to: at the least, more for
-// each metre of the way, and what is always enough.
-constexpr double kLeastOpen = 0.08, kOpenAMetre = 0.14, kEnoughOpen = 0.8;
+// each metre of the way, and what is always enough. A narrow tool finds more places that are small:
+// for it a metre asks for more.
+constexpr double kLeastOpen = 0.08, kOpenAMetre = 0.09, kNarrow = 0.025, kEnoughOpen = 0.8;
 constexpr double kSecondLeg = 1.0;  // tool widths
 constexpr double kFirstLegs[] = {0.1, 0.25, 0.5, 1.0};
-constexpr double kSamePlace_m = 1e-3;
 
 int Turns(int from, std::size_t to) {
   if (from < 0) return 0;
@@ -106,22 +106,28 @@ OnlineStep LaneFrontier::Next(const OnlineInput& input) {
   floor_.Update(input.known, input.changed);
   Sweep(input);
   const Cell here = floor_.FreeAt(*here_W_, floor_.frame().cell_m * width_);
-  if (input.left_its_way()) route_.clear();
+  while (!route_.empty() && IsAt(route_.back().to_W)) route_.pop_back();
+  // Since the way was found, something may have come into sight on its later legs.
+  const bool blocked = !route_.empty() && route_.back().is_free &&
+                       !floor_.Sees(here, floor_.frame().ToCell(route_.back().to_W));
+  if (blocked || input.left_its_way()) route_.clear();
   if (route_.empty()) {
     if (const Legs legs = BestLegs(here); legs.value > 0) {
       heading_ = legs.heading;
       return {OnlineStep::Kind::kTarget, floor_.frame().Center(legs.first)};
     }
     const auto tool = static_cast<double>(floor_.tool().size());
-    route_ = floor_.WayToOpen(
-        here, {kLeastOpen * tool, kEnoughOpen * tool, kOpenAMetre * tool * floor_.frame().cell_m});
+    const double cell_m = floor_.frame().cell_m;
+    const double a_metre = kOpenAMetre + kNarrow / (width_ * cell_m);
+    route_ =
+        floor_.WayToOpen(here, {kLeastOpen * tool, kEnoughOpen * tool, a_metre * tool * cell_m});
     std::ranges::reverse(route_);
     dead_ends_ += !route_.empty();
   }
   while (!route_.empty()) {
-    const Vec2 next_W = route_.back();
+    const Vec2 next_W = route_.back().to_W;
     route_.pop_back();
-    if ((next_W - *here_W_).norm() < kSamePlace_m) continue;
+    if (IsAt(next_W)) continue;
     const Vec2 way = floor_.frame().X_WG.Inverse().Rotate(next_W - *here_W_);
     heading_ = static_cast<int>(std::lround(std::atan2(way.y(), way.x()) / (kPi / 4)) + 8) % 8;
     return {OnlineStep::Kind::kTarget, next_W};

@@ -25,12 +25,14 @@ class LaneFrontier {
   double dead_ends() const { return dead_ends_; }
 
  private:
+  static constexpr double kSamePlace_m = 1e-3;
   struct Legs {
     double value = 0;
     Cell first;        // where the first leg ends
     int heading = -1;  // of it, a step of kSteps
   };
   void Sweep(const OnlineInput& input);
+  bool IsAt(const Vec2& p_W) const { return (p_W - *here_W_).norm() < kSamePlace_m; }
   Legs BestLegs(Cell from) const;
   struct Tried;
   void Go(std::size_t step, int most, Tried& way) const;
@@ -39,7 +41,7 @@ class LaneFrontier {
   double width_;  // of the tool, cells
   std::optional<Vec2> here_W_, before_W_;
   int heading_ = -1;
-  std::vector<Vec2> route_;  // to the nearest open place; the next corner is the last
+  std::vector<ToolFloor::Leg> route_;  // to the nearest open place; the next leg is the last
   double dead_ends_ = 0;
 };
 

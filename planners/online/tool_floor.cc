@@ -163,8 +163,8 @@ void ToolFloor::ForgetStanding(Cell ground) {
       if (stood_.Inside(middle + Cell{ix, iy})) stood_(middle + Cell{ix, iy}) = 0;
 }
 
-// Whether all is free on a straight way from cell to cell. Where it passes between the middles of
-// two cells, both must be; along a diagonal it passes through middles alone.
+// Where the way passes between the middles of two cells, both must be free; along a diagonal it
+// passes through middles alone.
 bool ToolFloor::Sees(Cell a, Cell b) const {
   const int dx = b.ix - a.ix, dy = b.iy - a.iy, n = std::max(std::abs(dx), std::abs(dy));
   for (int i = 0; i <= n; ++i) {
@@ -178,8 +178,8 @@ bool ToolFloor::Sees(Cell a, Cell b) const {
   return true;
 }
 
-std::vector<Vec2> ToolFloor::WayToOpen(Cell from, const Worth& worth) {
-  std::vector<Vec2> way = WayToOpen(from, worth, Squeeze::kNot, body_);
+std::vector<ToolFloor::Leg> ToolFloor::WayToOpen(Cell from, const Worth& worth) {
+  std::vector<Leg> way = WayToOpen(from, worth, Squeeze::kNot, body_);
   const auto around = static_cast<std::int64_t>(2 * kPinned_m / frame().cell_m);
   const bool pinned = search_.pops() < around * around;
   if (way.empty()) way = WayToOpen(from, worth, Squeeze::kWhereItWent, body_);
@@ -191,8 +191,8 @@ std::vector<Vec2> ToolFloor::WayToOpen(Cell from, const Worth& worth) {
   return way;
 }
 
-std::vector<Vec2> ToolFloor::WayToOpen(Cell from, const Worth& worth, Squeeze squeeze,
-                                       const Extent& body) {
+std::vector<ToolFloor::Leg> ToolFloor::WayToOpen(Cell from, const Worth& worth, Squeeze squeeze,
+                                                 const Extent& body) {
   const int near = static_cast<int>(kPinned_m / frame().cell_m);
   const int width = frame().width;
   const auto number = [width](Cell c) { return c.iy * width + c.ix; };
@@ -223,17 +223,17 @@ std::vector<Vec2> ToolFloor::WayToOpen(Cell from, const Worth& worth, Squeeze sq
             reach(number(here + kSteps[k]), cost + kSqueeze);
         }
       });
-  std::vector<Vec2> corners;
-  if (found == search_.kNone) return corners;
+  std::vector<Leg> legs;
+  if (found == search_.kNone) return legs;
   const std::vector<int> path = search_.PathTo(found);
   for (std::size_t i = 0; i + 1 < path.size();) {
     std::size_t next = i + 1;
     while (next + 1 < path.size() && Sees(cell(path[i]), cell(path[next + 1]))) ++next;
-    corners.push_back(frame().Center(cell(path[next])));
+    legs.push_back({frame().Center(cell(path[next])), Sees(cell(path[i]), cell(path[next]))});
     i = next;
   }
-  if (path.size() == 1) corners.push_back(frame().Center(cell(found)));
-  return corners;
+  if (path.size() == 1) legs.push_back({frame().Center(cell(found)), true});
+  return legs;
 }
 
 }  // namespace floorproof

@@ -55,11 +55,16 @@ class ToolFloor {
     double least = 0, most = 0;  // cells
     double a_cell = 0;           // cells for each of the way
   };
-  // The way to the nearest place that has as many, as corners to be gone straight to; empty: there
-  // is none. Where there is none else, it may lead past things where the robot went before; and
-  // where the robot is pinned, out of there as its body fits: it got in. Takes time as the floor
-  // that is nearer.
-  std::vector<Vec2> WayToOpen(Cell from, const Worth& worth);
+  struct Leg {
+    Vec2 to_W;     // straight
+    bool is_free;  // else it squeezes past something
+  };
+  // The way to the nearest place that has as many; empty: there is none. Where there is none else,
+  // it may lead past things where the robot went before; and where the robot is pinned, out of
+  // there as its body fits: it got in. Takes time as the floor that is nearer.
+  std::vector<Leg> WayToOpen(Cell from, const Worth& worth);
+  // Whether the robot may go straight from cell to cell.
+  bool Sees(Cell a, Cell b) const;
 
  private:
   void Count(const Vec2& a_W, const Vec2& b_W, int by);
@@ -68,8 +73,7 @@ class ToolFloor {
   void ForgetStanding(Cell ground);
   // Whether it may come nearer to things than it is to keep clear of them.
   enum class Squeeze { kNot, kWhereItWent, kNearby };
-  std::vector<Vec2> WayToOpen(Cell from, const Worth& worth, Squeeze squeeze, const Extent& body);
-  bool Sees(Cell a, Cell b) const;
+  std::vector<Leg> WayToOpen(Cell from, const Worth& worth, Squeeze squeeze, const Extent& body);
   bool IsPeak(Cell c, int open) const;
 
   int division_ = 1;     // of the ground's cells

@@ -15,6 +15,8 @@ constexpr double kAskAhead_m =
 constexpr double kSamePlace_m = 1e-3;
 constexpr double kCut_m = 0.1;      // of room around the place of a bend that is driven through
 constexpr double kGraze_m = 0.005;  // so deep into the body, what is seen may be noise
+constexpr double kApart_m = 0.002;  // so near to the body, what is known will be touched
+constexpr double kAside_m = 0.01;   // so far from its path it has come off
 constexpr double kStands_m = 0.02;  // a way that needs no braking
 constexpr int kMostVain = 100;      // targets where the robot is, in a row
 
@@ -49,7 +51,7 @@ PathChange OnlineNavigator::Update(const NavigatorInput& input) {
                     robot_.tool_width_m, seed_, robot_.body});
     driven_ = {At(input.estimate.X_WB.p())};
   } else if (!input.recovered) {
-    if (IsBlocked(input)) return StopAhead(input);
+    if (IsBlocked(input) || IsAstray(input)) return StopAhead(input);
     if (!input.at_end || leads_ != Leads::kOn) return GoOn(input);
   }
   return FromHere(input, false);
@@ -80,11 +82,15 @@ PathChange OnlineNavigator::GoOn(const NavigatorInput& input) {
   return PathChange::kLonger;
 }
 
+double OnlineNavigator::BrakingDistance(const Estimate& estimate) const {
+  const BodyTwist& v = estimate.V_WB_B;
+  const double speed_mps = std::hypot(v.vx_mps, v.vy_mps);
+  return speed_mps * (kWheelLag_s + speed_mps / (2 * std::max(robot_.brakes_mps2, 1e-3)));
+}
+
 // Its way leads elsewhere from where it can have come to rest.
 PathChange OnlineNavigator::StopAhead(const NavigatorInput& input) {
-  const BodyTwist& v = input.estimate.V_WB_B;
-  const double speed_mps = std::hypot(v.vx_mps, v.vy_mps);
-  double left_m = speed_mps * (kWheelLag_s + speed_mps / (2 * std::max(robot_.brakes_mps2, 1e-3)));
+  double left_m = BrakingDistance(input.estimate);
   if (input.at_end || left_m < kStands_m) return FromHere(input, true);
   Vec2 stop_W = input.estimate.X_WB.p();
   std::size_t next = input.segment + 1;
@@ -169,26 +175,62 @@ bool OnlineNavigator::IsNarrow(const KnownMap& known, const Vec2& p_W) const {
   return false;
 }
 
+bool OnlineNavigator::PassesOver(const KnownMap& known, Cell c, double wider_m, const Vec2& from_W,
+                                 const Vec2& way_W) const {
+  const double cell_m = known.frame.cell_m;
+  const Pose2 X_GW = known.frame.X_WG.Inverse();
+  const Vec2 from = X_GW * from_W / cell_m, way = X_GW.Rotate(way_W) / cell_m;
+  return (robot_.body / cell_m)
+      .PassesOverSquare(Vec2(c.ix + 0.5, c.iy + 0.5) - from, 0.5, way, -wider_m / cell_m);
+}
+
+bool OnlineNavigator::PathPassesOver(const NavigatorInput& input, Cell c, double wider_m,
+                                     Vec2 from_W) const {
+  for (std::size_t i = input.segment + 1; i < path_.size(); ++i) {
+    if (PassesOver(*input.known, c, wider_m, from_W, path_[i].p_W - from_W)) return true;
+    from_W = path_[i].p_W;
+  }
+  return false;
+}
+
 // Whether something has come into sight that the body would meet on its way, and does not touch
 // where it is.
 bool OnlineNavigator::IsBlocked(const NavigatorInput& input) const {
   const KnownMap& known = *input.known;
-  const double cell_m = known.frame.cell_m;
-  const Extent met = robot_.body.Wider(cell_m / 2 - kGraze_m) / cell_m;
-  const Pose2 X_GW = known.frame.X_WG.Inverse();
-  const auto on_grid = [&](const Vec2& p_W) -> Vec2 { return X_GW * p_W / cell_m; };
-  const Vec2 here = on_grid(input.estimate.X_WB.p());
-  for (const Cell& c : *known.changed) {
-    if (known.At(c) != CellState::kOccupied) continue;
-    const Vec2 p = Vec2(c.ix + 0.5, c.iy + 0.5);
-    if (met.Holds(p - here)) continue;
-    Vec2 from = here;
-    for (std::size_t i = input.segment + 1; i < path_.size(); ++i) {
-      const Vec2 to = on_grid(path_[i].p_W);
-      if (met.PassesOver(p - from, to - from)) return true;
-      from = to;
+  return std::ranges::any_of(*known.changed, [&](Cell c) {
+    return known.At(c) == CellState::kOccupied &&
+           !PassesOver(known, c, -kGraze_m, input.estimate.X_WB.p(), Vec2::Zero()) &&
+           PathPassesOver(input, c, -kGraze_m, input.estimate.X_WB.p());
+  });
+}
+
+// Whether the robot, which does not follow its path to the millimetre, is about to touch what lies
+// beside the path, before its next waypoint; unless it stops there anyway.
+bool OnlineNavigator::IsAstray(const NavigatorInput& input) const {
+  if (input.segment + 1 >= path_.size()) return false;
+  const KnownMap& known = *input.known;
+  const Pose2& X_WB = input.estimate.X_WB;
+  const Waypoint& next = path_[input.segment + 1];
+  const double ahead_m = BrakingDistance(input.estimate);
+  const Vec2 left_W = next.p_W - X_WB.p(), leg_W = next.p_W - path_[input.segment].p_W;
+  const double aside_m = std::abs(Cross(left_W, leg_W)) / std::max(leg_W.norm(), kSamePlace_m);
+  if (ahead_m < kStands_m || aside_m < kAside_m) return false;
+  if (next.stops && left_W.norm() < ahead_m + kStands_m) return false;
+  const BodyTwist& v = input.estimate.V_WB_B;
+  const Vec2 way_W = X_WB.Rotate(Vec2(v.vx_mps, v.vy_mps)).normalized() *
+                     std::min(ahead_m + kStands_m, left_W.norm());
+  const Cell here = known.frame.ToCell(X_WB.p());
+  const double reach_m = robot_.body.Reach().maxCoeff() + way_W.norm();
+  const int reach = static_cast<int>(reach_m / known.frame.cell_m) + 1;
+  for (int iy = here.iy - reach; iy <= here.iy + reach; ++iy)
+    for (int ix = here.ix - reach; ix <= here.ix + reach; ++ix) {
+      const Cell c = {ix, iy};
+      if (known.frame.Inside(c) && known.At(c) == CellState::kOccupied &&
+          PassesOver(known, c, kApart_m, X_WB.p(), way_W) &&
+          !PassesOver(known, c, kApart_m, X_WB.p(), Vec2::Zero()) &&
+          !PathPassesOver(input, c, kApart_m, path_[input.segment].p_W))
+        return true;
     }
-  }
   return false;
 }
 

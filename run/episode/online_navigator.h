@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Drives where a planner of unknown floors says. The planner is asked at the start, after a look
 // around; shortly before each target is reached, so that the robot need not stop there; after the
-// robot has gone back from what it met; and where something comes into sight across its way. Beside
-// what it knows of, the robot stops where its way bends, so that it does not cut the corner.
+// robot has gone back from what it met; where something comes into sight across its way; and where
+// it has come off its way, towards something. Beside what it knows of, the robot stops where its
+// way bends, so that it does not cut the corner.
 #pragma once
 
 #include <optional>
@@ -44,7 +45,13 @@ class OnlineNavigator final : public Navigator {
   bool Ask(const NavigatorInput& input, std::size_t reached, bool stopped);
   bool StopAtNarrowBends(const KnownMap& known, std::size_t segment);
   bool IsNarrow(const KnownMap& known, const Vec2& p_W) const;
+  double BrakingDistance(const Estimate& estimate) const;
+  // Of cells; the body is wider by so much.
+  bool PassesOver(const KnownMap& known, Cell c, double wider_m, const Vec2& from_W,
+                  const Vec2& way_W) const;
+  bool PathPassesOver(const NavigatorInput& input, Cell c, double wider_m, Vec2 from_W) const;
   bool IsBlocked(const NavigatorInput& input) const;
+  bool IsAstray(const NavigatorInput& input) const;
   Waypoint At(const Vec2& p_W) const;
 
   OnlinePlanner& planner_;

@@ -211,6 +211,33 @@ TEST_F(OnlineNavigatorSeesTest, WhatLiesBesideTheWayOrBehindDoesNot) {
   EXPECT_EQ(planner_.asked.size(), 1u);
 }
 
+// 0.23 m from the way, its corner 0.16 m: the body reaches 0.18 m.
+TEST_F(OnlineNavigatorSeesTest, TheCornerOfACellIsMetToo) {
+  speed_mps_ = 0.25;
+  planner_.says[1] = {Kind::kTarget, {2.5, 2.05}};
+  EXPECT_EQ(At({1.1, 1}), PathChange::kLonger);
+  See({2.15, 1.35});
+  EXPECT_EQ(At({1.15, 1}), PathChange::kLonger);
+  ASSERT_EQ(planner_.asked.size(), 3u);
+  EXPECT_TRUE(planner_.asked[2].stopped);
+}
+
+// Trackers cut bends. The path keeps clear of what is beside it; the robot has come off the path.
+TEST_F(OnlineNavigatorSeesTest, ARobotThatComesOffItsWayStopsBeforeWhatIsBesideIt) {
+  See({0.95, 1.25});  // 0.2 m from the path
+  for (const double aside_m : {0.0, 0.01, 0.03}) {
+    speed_mps_ = 0;
+    EXPECT_EQ(At({0.7, 1 + aside_m}), PathChange::kNone) << "it stands";
+    speed_mps_ = 0.25;
+    EXPECT_EQ(At({0.55, 1 + aside_m}), PathChange::kNone) << "it can still turn away";
+    EXPECT_EQ(planner_.asked.size(), 1u);
+    EXPECT_EQ(At({0.74, 1 + aside_m}), aside_m > 0.02 ? PathChange::kLonger : PathChange::kNone);
+  }
+  ASSERT_EQ(planner_.asked.size(), 2u);
+  EXPECT_TRUE(planner_.asked[1].stopped);
+  EXPECT_NEAR(planner_.asked[1].p_W.x(), 0.856, 1e-3);
+}
+
 TEST_F(OnlineNavigatorSeesTest, ABendBesideSomethingIsAStop) {
   planner_.says[1] = {Kind::kTarget, {2.2, 1.7}};
   EXPECT_EQ(At({1.1, 1}), PathChange::kLonger);

@@ -93,11 +93,11 @@ TEST_F(ToolFloorTest, TheWayLeadsAroundToTheNearestOpenPlace) {
   ToolFloor dut = Floor({Vec2::Constant(0.18), true}, kDisc);
   for (double y_m = 0.1; y_m < 3; y_m += 0.1) dut.Sweep(At(0.1, y_m), At(2.2, y_m));
   const Cell here = dut.FreeAt(At(1, 0.5), 0.1);
-  const std::vector<Vec2> way = dut.WayToOpen(here, kAny);
+  const std::vector<ToolFloor::Leg> way = dut.WayToOpen(here, kAny);
   ASSERT_GE(way.size(), 2u);
-  const Vec2 end = kFrame.X_WG.Inverse() * way.back();
+  const Vec2 end = kFrame.X_WG.Inverse() * way.back().to_W;
   EXPECT_GT(end.x(), 2.05) << "beyond the wall";
-  const Vec2 corner = kFrame.X_WG.Inverse() * way.front();
+  const Vec2 corner = kFrame.X_WG.Inverse() * way.front().to_W;
   EXPECT_GT(corner.y(), 2.25 + 0.1) << "through the gap";
   // Nothing is worth a way where all is swept.
   for (double y_m = 0.1; y_m < 3; y_m += 0.1) dut.Sweep(At(0.1, y_m), At(3.9, y_m));
@@ -153,9 +153,9 @@ TEST_F(ToolFloorTest, ARobotThatIsWalledInByNoiseGoesBackTheWayItCame) {
     if (iy < 27 || iy > 32) known_.Add(40, iy, 2 * kMost, kMost);
   Take(dut);
   for (double y_m = 0.1; y_m < 3; y_m += 0.1) dut.Sweep(At(2.0, y_m), At(3.9, y_m));
-  const std::vector<Vec2> way = dut.WayToOpen(dut.FreeAt(At(3, 1.5), 0.1), kAny);
+  const std::vector<ToolFloor::Leg> way = dut.WayToOpen(dut.FreeAt(At(3, 1.5), 0.1), kAny);
   ASSERT_FALSE(way.empty());
-  EXPECT_LT((kFrame.X_WG.Inverse() * way.back()).x(), 2);
+  EXPECT_LT((kFrame.X_WG.Inverse() * way.back().to_W).x(), 2);
   // Not where it was touched since.
   known_.Mark(FloorMark::Kind::kBump, At(2.025, 1.5), 0.05);
   Take(dut);
