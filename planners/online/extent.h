@@ -41,7 +41,12 @@ struct Extent {
     }
     return first <= last;
   }
-  // The same of an upright square, of which `by` is the middle.
+  // Whether any of an upright square is inside, of which `by` is the middle.
+  bool HoldsPartOf(const Vec2& by, double half_side, double slack = 0) const {
+    const Vec2 half = Vec2::Constant(half_side);
+    return Holds(Vec2::Zero().cwiseMax(by - half).cwiseMin(by + half), slack);
+  }
+  // The same on its way.
   bool PassesOverSquare(const Vec2& by, double half_side, const Vec2& way, double slack = 0) const {
     if (!round) return Wider(half_side).PassesOver(by, way, slack);
     const Vec2 half = Vec2::Constant(half_side);

@@ -18,6 +18,7 @@ constexpr double kLeastNew = 0.25;  // of the tool's width, that a lane is to sw
 constexpr double kLeastOpen = 0.08, kOpenAMetre = 0.09, kNarrow = 0.025, kEnoughOpen = 0.8;
 constexpr double kSecondLeg = 1.0;  // tool widths
 constexpr double kFirstLegs[] = {0.1, 0.25, 0.5, 1.0};
+constexpr double kSamePlace_m = 1e-3;
 
 int Turns(int from, std::size_t to) {
   if (from < 0) return 0;
@@ -101,12 +102,17 @@ void LaneFrontier::Sweep(const OnlineInput& input) {
   floor_.Sweep(*before_W_, now_W);
 }
 
+void LaneFrontier::PopReached() {
+  while (!route_.empty() && (route_.back().to_W - *here_W_).norm() < kSamePlace_m)
+    route_.pop_back();
+}
+
 OnlineStep LaneFrontier::Next(const OnlineInput& input) {
   const bool first = !here_W_;
   floor_.Update(input.known, input.changed);
   Sweep(input);
   const Cell here = floor_.FreeAt(*here_W_, floor_.frame().cell_m * width_);
-  while (!route_.empty() && IsAt(route_.back().to_W)) route_.pop_back();
+  PopReached();
   // Since the way was found, something may have come into sight on its later legs.
   const bool blocked = !route_.empty() && route_.back().is_free &&
                        !floor_.Sees(here, floor_.frame().ToCell(route_.back().to_W));
@@ -123,11 +129,11 @@ OnlineStep LaneFrontier::Next(const OnlineInput& input) {
         floor_.WayToOpen(here, {kLeastOpen * tool, kEnoughOpen * tool, a_metre * tool * cell_m});
     std::ranges::reverse(route_);
     dead_ends_ += !route_.empty();
+    PopReached();
   }
-  while (!route_.empty()) {
+  if (!route_.empty()) {
     const Vec2 next_W = route_.back().to_W;
     route_.pop_back();
-    if (IsAt(next_W)) continue;
     const Vec2 way = floor_.frame().X_WG.Inverse().Rotate(next_W - *here_W_);
     heading_ = static_cast<int>(std::lround(std::atan2(way.y(), way.x()) / (kPi / 4)) + 8) % 8;
     return {OnlineStep::Kind::kTarget, next_W};

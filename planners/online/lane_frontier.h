@@ -25,14 +25,14 @@ class LaneFrontier {
   double dead_ends() const { return dead_ends_; }
 
  private:
-  static constexpr double kSamePlace_m = 1e-3;
   struct Legs {
     double value = 0;
     Cell first;        // where the first leg ends
     int heading = -1;  // of it, a step of kSteps
   };
   void Sweep(const OnlineInput& input);
-  bool IsAt(const Vec2& p_W) const { return (p_W - *here_W_).norm() < kSamePlace_m; }
+  // Leaves out legs that end where the robot is.
+  void PopReached();
   Legs BestLegs(Cell from) const;
   struct Tried;
   void Go(std::size_t step, int most, Tried& way) const;

@@ -42,7 +42,7 @@ struct OnlineInput {
   const Estimate& estimate;
   bool bumped = false, dropped = false;  // since the last call: it was touched, or met an edge
   bool missed = false;                   // it never reached the place of the last call
-  bool stopped = false;  // what has come into sight lies across its way to the target
+  bool stopped = false;  // something lies across its way to the target, or it came off that way
   // It is not on its way to the target any more.
   bool left_its_way() const { return bumped || dropped || stopped; }
 };

@@ -89,10 +89,8 @@ Vec2 RobotCells::MiddleOnGround(Cell c) const {
 
 // Whether any of it lies in the middle of a cell, or nearer to it than what is to be kept clear.
 bool RobotCells::Needs(const Vec2& middle, const Extent& extent, Cell ground) {
-  const Vec2 low(ground.ix, ground.iy);
-  const Vec2 nearest = middle.cwiseMax(low).cwiseMin(low + Vec2::Ones());
-  const Vec2 by = nearest - middle;
-  return by.norm() < kSlack || extent.Holds(by, kSlack);
+  const Vec2 by = Vec2(ground.ix + 0.5, ground.iy + 0.5) - middle;
+  return by.cwiseAbs().maxCoeff() < 0.5 + kSlack || extent.HoldsPartOf(by, 0.5, kSlack);
 }
 
 // The cells whose middles are so near to the ground's cell that they may need it.

@@ -229,7 +229,8 @@ std::vector<ToolFloor::Leg> ToolFloor::WayToOpen(Cell from, const Worth& worth, 
   for (std::size_t i = 0; i + 1 < path.size();) {
     std::size_t next = i + 1;
     while (next + 1 < path.size() && Sees(cell(path[i]), cell(path[next + 1]))) ++next;
-    legs.push_back({frame().Center(cell(path[next])), Sees(cell(path[i]), cell(path[next]))});
+    const bool is_free = next > i + 1 || Sees(cell(path[i]), cell(path[next]));
+    legs.push_back({frame().Center(cell(path[next])), is_free});
     i = next;
   }
   if (path.size() == 1) legs.push_back({frame().Center(cell(found)), true});

@@ -175,38 +175,42 @@ bool OnlineNavigator::IsNarrow(const KnownMap& known, const Vec2& p_W) const {
   return false;
 }
 
-bool OnlineNavigator::PassesOver(const KnownMap& known, Cell c, double wider_m, const Vec2& from_W,
-                                 const Vec2& way_W) const {
-  const double cell_m = known.frame.cell_m;
-  const Pose2 X_GW = known.frame.X_WG.Inverse();
-  const Vec2 from = X_GW * from_W / cell_m, way = X_GW.Rotate(way_W) / cell_m;
-  return (robot_.body / cell_m)
-      .PassesOverSquare(Vec2(c.ix + 0.5, c.iy + 0.5) - from, 0.5, way, -wider_m / cell_m);
+// From there to the next waypoint, and on along the path.
+void OnlineNavigator::LayOnGrid(const NavigatorInput& input, const Vec2& from_W) {
+  const GridFrame& grid = input.known->frame;
+  const Pose2 X_GW = grid.X_WG.Inverse();
+  on_grid_.clear();
+  on_grid_.push_back(X_GW * from_W / grid.cell_m);
+  for (std::size_t i = input.segment + 1; i < path_.size(); ++i)
+    on_grid_.push_back(X_GW * path_[i].p_W / grid.cell_m);
 }
 
-bool OnlineNavigator::PathPassesOver(const NavigatorInput& input, Cell c, double wider_m,
-                                     Vec2 from_W) const {
-  for (std::size_t i = input.segment + 1; i < path_.size(); ++i) {
-    if (PassesOver(*input.known, c, wider_m, from_W, path_[i].p_W - from_W)) return true;
-    from_W = path_[i].p_W;
-  }
+bool OnlineNavigator::PassesOver(Cell c, const Extent& body, double slack) const {
+  const Vec2 middle(c.ix + 0.5, c.iy + 0.5);
+  for (std::size_t i = 0; i + 1 < on_grid_.size(); ++i)
+    if (body.PassesOverSquare(middle - on_grid_[i], 0.5, on_grid_[i + 1] - on_grid_[i], slack))
+      return true;
   return false;
 }
 
 // Whether something has come into sight that the body would meet on its way, and does not touch
 // where it is.
-bool OnlineNavigator::IsBlocked(const NavigatorInput& input) const {
+bool OnlineNavigator::IsBlocked(const NavigatorInput& input) {
   const KnownMap& known = *input.known;
+  if (known.changed->empty()) return false;
+  LayOnGrid(input, input.estimate.X_WB.p());
+  const Extent body = robot_.body / known.frame.cell_m;
+  const double slack = kGraze_m / known.frame.cell_m;
   return std::ranges::any_of(*known.changed, [&](Cell c) {
     return known.At(c) == CellState::kOccupied &&
-           !PassesOver(known, c, -kGraze_m, input.estimate.X_WB.p(), Vec2::Zero()) &&
-           PathPassesOver(input, c, -kGraze_m, input.estimate.X_WB.p());
+           !body.HoldsPartOf(Vec2(c.ix + 0.5, c.iy + 0.5) - on_grid_[0], 0.5, slack) &&
+           PassesOver(c, body, slack);
   });
 }
 
 // Whether the robot, which does not follow its path to the millimetre, is about to touch what lies
 // beside the path, before its next waypoint; unless it stops there anyway.
-bool OnlineNavigator::IsAstray(const NavigatorInput& input) const {
+bool OnlineNavigator::IsAstray(const NavigatorInput& input) {
   if (input.segment + 1 >= path_.size()) return false;
   const KnownMap& known = *input.known;
   const Pose2& X_WB = input.estimate.X_WB;
@@ -219,16 +223,21 @@ bool OnlineNavigator::IsAstray(const NavigatorInput& input) const {
   const BodyTwist& v = input.estimate.V_WB_B;
   const Vec2 way_W = X_WB.Rotate(Vec2(v.vx_mps, v.vy_mps)).normalized() *
                      std::min(ahead_m + kStands_m, left_W.norm());
-  const Cell here = known.frame.ToCell(X_WB.p());
-  const double reach_m = robot_.body.Reach().maxCoeff() + way_W.norm();
-  const int reach = static_cast<int>(reach_m / known.frame.cell_m) + 1;
-  for (int iy = here.iy - reach; iy <= here.iy + reach; ++iy)
-    for (int ix = here.ix - reach; ix <= here.ix + reach; ++ix) {
+  LayOnGrid(input, path_[input.segment].p_W);
+  const double cell_m = known.frame.cell_m;
+  const Pose2 X_GW = known.frame.X_WG.Inverse();
+  const Vec2 here = X_GW * X_WB.p() / cell_m, way = X_GW.Rotate(way_W) / cell_m;
+  const Extent body = robot_.body / cell_m;
+  const double slack = -kApart_m / cell_m;
+  const Cell at = known.frame.ToCell(X_WB.p());
+  const int reach = static_cast<int>(body.Reach().maxCoeff() + way.norm()) + 1;
+  for (int iy = at.iy - reach; iy <= at.iy + reach; ++iy)
+    for (int ix = at.ix - reach; ix <= at.ix + reach; ++ix) {
       const Cell c = {ix, iy};
+      const Vec2 by = Vec2(ix + 0.5, iy + 0.5) - here;
       if (known.frame.Inside(c) && known.At(c) == CellState::kOccupied &&
-          PassesOver(known, c, kApart_m, X_WB.p(), way_W) &&
-          !PassesOver(known, c, kApart_m, X_WB.p(), Vec2::Zero()) &&
-          !PathPassesOver(input, c, kApart_m, path_[input.segment].p_W))
+          body.PassesOverSquare(by, 0.5, way, slack) && !body.HoldsPartOf(by, 0.5, slack) &&
+          !PassesOver(c, body, slack))
         return true;
     }
   return false;

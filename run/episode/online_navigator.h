@@ -46,18 +46,17 @@ class OnlineNavigator final : public Navigator {
   bool StopAtNarrowBends(const KnownMap& known, std::size_t segment);
   bool IsNarrow(const KnownMap& known, const Vec2& p_W) const;
   double BrakingDistance(const Estimate& estimate) const;
-  // Of cells; the body is wider by so much.
-  bool PassesOver(const KnownMap& known, Cell c, double wider_m, const Vec2& from_W,
-                  const Vec2& way_W) const;
-  bool PathPassesOver(const NavigatorInput& input, Cell c, double wider_m, Vec2 from_W) const;
-  bool IsBlocked(const NavigatorInput& input) const;
-  bool IsAstray(const NavigatorInput& input) const;
+  void LayOnGrid(const NavigatorInput& input, const Vec2& from_W);
+  bool PassesOver(Cell c, const Extent& body, double slack) const;
+  bool IsBlocked(const NavigatorInput& input);
+  bool IsAstray(const NavigatorInput& input);
   Waypoint At(const Vec2& p_W) const;
 
   OnlinePlanner& planner_;
   Robot robot_;
   std::uint64_t seed_;
   Path path_, driven_;
+  std::vector<Vec2> on_grid_;  // what is left of the path, in cells of the known map
   Leads leads_ = Leads::kOn;
   std::string_view why_;
   std::vector<Cell> changed_;  // of the known map, since the planner was asked last

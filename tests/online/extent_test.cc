@@ -37,6 +37,9 @@ TEST(Extent, PassesOverASquareThatItsBodyTouchesOnTheWay) {
     if (std::abs(deep) < 0.005) continue;
     const bool passes = extent.PassesOverSquare(by, half_side, way, slack);
     EXPECT_EQ(passes, deep > 0) << i;
+    if (way.isZero()) {
+      EXPECT_EQ(extent.HoldsPartOf(by, half_side, slack), passes) << i;
+    }
     ++(passes ? passed : not_passed);
   }
   EXPECT_GT(passed, 1000);
