@@ -21,4 +21,12 @@ double EdgeAlong(const Shape2& shape, double bearing_rad) {
   return farthest;
 }
 
+Shape2 Grown(Shape2 shape, double margin_m) {
+  if (shape.kind == Shape2::Kind::kCircle)
+    shape.radius_m += margin_m;
+  else
+    shape.footprint_B = Offset(shape.footprint_B, margin_m);
+  return shape;
+}
+
 }  // namespace floorproof

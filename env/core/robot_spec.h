@@ -36,6 +36,8 @@ struct Shape2 {
 
 // From the shape's centre to its edge in this direction of its own frame, m.
 double EdgeAlong(const Shape2& shape, double bearing_rad);
+// The shape with so much room around it.
+Shape2 Grown(Shape2 shape, double margin_m);
 
 // A reconfigurable robot: blocks joined by hinges about vertical axes. R is the frame of block 0,
 // the MJCF's `base`. In the model's own shape the frame K of every block coincides with R. The body

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "planners/lines/held_yaw.h"
 #include "planners/lines/pieces.h"
@@ -13,6 +12,7 @@
 #include "planners/lines/tour.h"
 #include "planners/lines/uncovered_patches.h"
 #include "planners/lines/wall_contours.h"
+#include "planners/lines/why_nothing.h"
 
 namespace floorproof {
 namespace {
@@ -54,36 +54,6 @@ constexpr double kMargin_m = 0.03, kFootprintMargin_m = 0.015;
 constexpr double kMaxLost = 0.04;       // of the ground, to a margin
 constexpr double kDriveLoss = 0.012;    // of the ground, measured: corners driven less than exactly
 constexpr double kWallTolerance = 0.7;  // cells: a traced contour's staircase
-
-Shape2 Grown(const Shape2& shape, double margin_m) {
-  Shape2 grown = shape;
-  if (shape.kind == Shape2::Kind::kCircle) {
-    grown.radius_m += margin_m;
-    return grown;
-  }
-  grown.footprint_B = Offset(shape.footprint_B, margin_m);
-  return grown;
-}
-
-std::string WhyNothing(const PlanRequest& request, const SweepArea& area, const Shape2& clear,
-                       bool fits) {
-  const Vec2 p = request.start.p();
-  const Cell cell = request.map.frame.ToCell(p), fine = area.frame.ToCell(p);
-  std::ostringstream out;
-  out << "start (" << FormatDouble(p.x()) << ", " << FormatDouble(p.y()) << ") m, cell (" << cell.ix
-      << ", " << cell.iy << "): ";
-  if (fits) {
-    out << "the tool sweeps no floor from there";
-  } else if (!request.map.frame.Inside(cell)) {
-    out << "lies off the map";
-  } else {
-    out << "the robot does not fit: an obstacle is "
-        << std::lround(1000 * static_cast<double>(area.clearance_m(fine))) << " mm away";
-    if (clear.kind == Shape2::Kind::kCircle)
-      out << " and " << std::lround(1000 * clear.radius_m) << " mm are kept clear";
-  }
-  return out.str();
-}
 
 struct Outcome {
   double cost;  // its length and bends, and what it would take to sweep the ground that lacks
@@ -217,19 +187,15 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
   }
   const bool circle = result.clear.kind == Shape2::Kind::kCircle;
   if (!circle && !IsConvex(result.clear.footprint_B)) {
-    result.message =
-        "the robot's footprint is not convex; it can be driven along a plan of your "
-        "own, or planned for in a convex shape";
+    result.message = kNotConvex;
     return result;
   }
   const HeldShapes held = HoldYaw(request.map, request.start, result.clear, result.tool);
   const FloorRoom room(request.map, request.robot.step_m);
   SweepArea area = room.Sweepable(held.clear, held.tool, request.start.p(), held.yaws);
   if (area.sweepable_cells == 0) {
-    const bool fits = std::find(area.reachable.cells.begin(), area.reachable.cells.end(), 1) !=
-                      area.reachable.cells.end();
-    result.status = fits ? PlanStatus::kNoFloor : PlanStatus::kStartBlocked;
-    result.message = WhyNothing(request, area, result.clear, fits);
+    result.status = StartFits(area) ? PlanStatus::kNoFloor : PlanStatus::kStartBlocked;
+    result.message = WhyNothing(request, area, result.clear);
     return result;
   }
   // Room is kept for the tracker's error, as long as only a little of the floor is lost to it.
