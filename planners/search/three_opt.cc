@@ -3,7 +3,8 @@
 // it costs less. A move begins at an edge t1 - t2 that costs something, and the first edges put in
 // are candidates (planners/search/local_search.h). A kick exchanges two neighbouring parts of the
 // tour near such an edge. Its outcome is kept when it is no worse, not only when it is better: on a
-// floor most tours cost as much as their neighbours.
+// floor most tours cost as much as their neighbours. With `heat`, worse ones are kept at times,
+// too, as by simulated annealing (Martin, Otto & Felten 1991), and the best tour is what comes out.
 //
 // The open tour is closed by one more vertex between its end and its start. Edges to that vertex
 // cost what it costs to end there; a fixed end's cost so little that they are never taken out.
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "base/streams.h"
 #include "planners/search/array_tour.h"
@@ -44,7 +46,9 @@ class ThreeOpt {
   std::vector<int> Solve() {
     for (const int v : tour_.order()) queue_.Push(v);
     Settle();
+    if (options_.heat > 0) Warm();
     if (tour_.size() >= 5) Perturb(*this);
+    if (best_ > value_) tour_ = ArrayTour(best_order_);
     if (tour_.Next(closing_) != first_) tour_.Mirror();
     std::vector<int> places;
     for (int v = first_; v != closing_; v = tour_.Next(v)) places.push_back(v);
@@ -88,7 +92,13 @@ class ThreeOpt {
   void Settle() {
     floorproof::Settle(queue_, [this](int v) { return !Spent() && Improve(v); });
   }
-  bool IsWorse() const { return saved_ < 0; }
+  // Unless it is kept although it is.
+  bool IsWorse() {
+    if (saved_ < 0 && !Bears(-saved_)) return true;
+    value_ += saved_;
+    if (options_.heat > 0 && value_ > best_) KeepAsBest();
+    return false;
+  }
   void Undo() { tour_.UndoTo(0); }
 
  private:
@@ -105,7 +115,28 @@ class ThreeOpt {
     if (b == closing_) return ClosingCost(a);
     return costs_.Cost(a, b, limit);
   }
-  bool Spent() const { return work_ + tour_.work() + costs_.work >= options_.max_work; }
+  std::int64_t Work() const { return work_ + tour_.work() + costs_.work; }
+  bool Spent() const { return Work() >= options_.max_work; }
+
+  // Metropolis' rule: worse by `more` with the probability exp(-more / temperature).
+  bool Bears(std::int64_t more) {
+    if (heat_ <= 0) return false;
+    const double left = 1 - static_cast<double>(Work()) / static_cast<double>(options_.max_work);
+    return static_cast<double>(more) < -heat_ * left * std::log(1 - random_.Uniform());
+  }
+  void Warm() {
+    double sum = 0;
+    for (const int v : tour_.order())
+      if (const std::int64_t cost = Cost(v, tour_.Next(v)); cost < kFixed / 2 && cost > 0)
+        sum += static_cast<double>(cost);
+    heat_ = options_.heat * sum / tour_.size();
+    KeepAsBest();
+  }
+  void KeepAsBest() {
+    best_ = value_;
+    best_order_ = tour_.order();
+    work_ += tour_.size() / 8;
+  }
 
   // Replaces an edge of t1, on either side, if that pays.
   bool Improve(int t1) {
@@ -231,9 +262,12 @@ class ThreeOpt {
   ArrayTour tour_;
   LookQueue queue_;
   Stream random_;
-  std::vector<int> costly_;  // places whose next edge costs something, found now and then
-  std::size_t kicks_ = 0;    // since they were found
-  std::int64_t saved_ = 0;   // since the last kick began
+  std::vector<int> costly_;            // places whose next edge costs something, found now and then
+  std::size_t kicks_ = 0;              // since they were found
+  std::int64_t saved_ = 0;             // since the last kick began
+  std::int64_t value_ = 0, best_ = 0;  // saved by kicks: of the tour, and at most
+  std::vector<int> best_order_;        // with `heat`: the tour that saved `best_`
+  double heat_ = 0;                    // the temperature at first, in costs
   std::int64_t work_;
 };
 

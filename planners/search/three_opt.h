@@ -37,6 +37,9 @@ using CandidateEdges = CandidateLists<CandidateEdge>;
 struct ThreeOptOptions {
   bool fixed_end = false;     // the last place stays the last, as the first one stays the first
   std::int64_t max_work = 0;  // elementary steps: an edge looked at, or eight places turned round
+  // At first a kick's outcome is kept with a chance of 1 / e that is worse by this share of the
+  // mean edge; the share falls to none as the work is spent. 0: nothing worse is ever kept.
+  double heat = 0;
 };
 
 // Shortens `tour`, which holds each place once and begins at its first.
