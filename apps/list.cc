@@ -8,6 +8,7 @@
 #include "env/faults/schedule.h"
 #include "env/hazards/hazard_type.h"
 #include "env/sensors/sensor.h"
+#include "planners/orders/visit_order.h"
 
 namespace floorproof {
 namespace {
@@ -49,6 +50,7 @@ Json Entries(const std::string& kind) {
     AddEntries(Planners(), out);
     AddEntries(OnlinePlanners(), out);
   }
+  if (kind == "orders") AddEntries(VisitOrders(), out);
   if (kind == "controllers") AddEntries(Trackers(), out);
   if (kind == "estimators") AddEntries(Estimators(), out);
   if (kind == "sensors") AddEntries(Sensors(), out);
@@ -65,9 +67,9 @@ Json Entries(const std::string& kind) {
 }  // namespace
 
 void AddList(CommandLine& line, const Globals& globals, int&) {
-  static const std::vector<std::string> kKinds = {"planners", "controllers", "estimators",
-                                                  "sensors",  "hazards",     "robots",
-                                                  "faults",   "failures"};
+  static const std::vector<std::string> kKinds = {"planners",   "orders",  "controllers",
+                                                  "estimators", "sensors", "hazards",
+                                                  "robots",     "faults",  "failures"};
   auto kind = std::make_shared<std::string>();
   Subcommand command =
       line.Add("list", "List what a scenario may name; with a kind, the keys of each as well");

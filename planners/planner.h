@@ -15,6 +15,7 @@
 #include "env/core/hazard_map.h"
 #include "env/core/path.h"
 #include "env/core/robot_spec.h"
+#include "env/core/sample_place.h"
 
 namespace floorproof {
 
@@ -26,7 +27,8 @@ struct PlanRequest {
   Pose2 start;  // X_WB
   std::optional<Vec2> goal;
   std::uint64_t seed = 0;
-  const RiskMap* risk = nullptr;  // of this map and robot
+  const RiskMap* risk = nullptr;      // of this map and robot
+  std::span<const Vec2> places = {};  // p_W, to be visited; none: the planner finds its own
 };
 
 enum class PlanStatus {
@@ -34,9 +36,10 @@ enum class PlanStatus {
   kStartBlocked,  // the robot does not fit where it starts
   kNoFloor,       // nothing to cover or visit can be reached
   kGoalUnreachable,
-  kFloorDivided,  // much of the floor cannot be reached from the start
-  kOnline,        // there is none beforehand: it is made on the way
-  kFailed,        // any other reason; the message says it
+  kFloorDivided,   // much of the floor cannot be reached from the start
+  kTooFewSamples,  // that the robot can reach, for a tour
+  kOnline,         // there is none beforehand: it is made on the way
+  kFailed,         // any other reason; the message says it
 };
 std::string_view Name(PlanStatus status);
 
@@ -51,6 +54,10 @@ struct PlanResult {
   std::shared_ptr<const RiskMap> risk;
   // Free cells of the risk's grid that can be reached and are left out on purpose.
   int left_out_cells = 0;
+  std::vector<SamplePlace> samples;  // of an audit, those that cannot be reached too
+  std::vector<Vec2> boundary;  // p_W along the room's boundary, if the places were found by it
+  // The best length after each iteration of a search that has some, m.
+  std::vector<double> convergence_m;
   // The planner's own figures, for plan.json and the columns plan.*, in order.
   std::vector<std::pair<std::string, double>> figures;
 };
@@ -69,6 +76,7 @@ struct PlannerPromises {
   bool needs_goal = false;    // refuses a request without a goal
   bool ends_at_goal = false;  // if the request has one; else it takes no notice
   bool uses_seed = false;     // else the same floor has the same plan, whatever the seed
+  bool visits_places = false;  // that the request gives; else it takes no notice
 };
 
 class Planner : public Configurable {

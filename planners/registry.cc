@@ -28,6 +28,8 @@ std::string_view Name(PlanStatus status) {
       return "goal_unreachable";
     case PlanStatus::kFloorDivided:
       return "floor_divided";
+    case PlanStatus::kTooFewSamples:
+      return "too_few_samples";
     case PlanStatus::kOnline:
       return "online";
     case PlanStatus::kFailed:

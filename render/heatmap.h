@@ -51,6 +51,13 @@ struct HeatRing {
   Rgb colour = {0, 0, 0};
 };
 
+// A closed line over the floor, for what has no area.
+struct HeatOutline {
+  std::vector<Vec2> p_W;
+  std::string label;
+  Rgb colour = {0, 0, 0};
+};
+
 struct HeatMapOptions {
   std::string title;
   std::string quantity, unit;  // over the colour bar: "quantity [unit]"
@@ -61,6 +68,10 @@ struct HeatMapOptions {
   std::vector<HeatCategory> categories;
   bool numbers = false;  // each value in its cell, where cells are large enough for all of them
   std::vector<HeatPoint> points;
+  // Series that have their marks by this order, so that pictures without some of them show the
+  // others alike. Any others come after, as they are met.
+  std::vector<std::string> series;
+  std::vector<HeatOutline> outlines;
   std::vector<HeatRing> rings;
   std::vector<HeatFailure> failures;
   std::string failures_by;  // over their lines of the legend: what the numbers are

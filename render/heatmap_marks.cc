@@ -204,6 +204,16 @@ void DrawHazards(const HazardMap& map, const PanelFrame& frame, HeatPanel& panel
   panel.legend.insert(panel.legend.end(), legend.begin(), legend.end());
 }
 
+void DrawOutlines(const HeatMapOptions& options, const PanelFrame& frame, HeatPanel& panel) {
+  cv::Mat canvas = Canvas(panel.image);
+  for (const HeatOutline& outline : options.outlines) {
+    for (std::size_t i = 0; i < outline.p_W.size(); ++i)
+      Line(canvas, frame.Pixel(outline.p_W[i]),
+           frame.Pixel(outline.p_W[(i + 1) % outline.p_W.size()]), outline.colour, 2);
+    AddOnce(panel.legend, {LegendLine::Kind::kOutline, outline.label, outline.colour});
+  }
+}
+
 void DrawRings(const HeatMapOptions& options, const PanelFrame& frame, HeatPanel& panel) {
   cv::Mat canvas = Canvas(panel.image);
   for (const HeatRing& ring : options.rings) {
@@ -214,7 +224,7 @@ void DrawRings(const HeatMapOptions& options, const PanelFrame& frame, HeatPanel
 
 void DrawPoints(const HeatMapOptions& options, const PanelFrame& frame, HeatPanel& panel) {
   cv::Mat canvas = Canvas(panel.image);
-  std::vector<std::string> series;
+  std::vector<std::string> series = options.series;
   for (const HeatPoint& point : options.points) {
     const std::size_t i = NumberOf(series, point.series);
     const Rgb& colour = kSeries[i % kSeries.size()];

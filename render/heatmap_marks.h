@@ -14,6 +14,7 @@ void DrawPaths(const HazardMap& map, const HeatMapOptions& options, const PanelF
                HeatPanel& panel);
 // Outlines: a class's colour, a shade of it for each of its types, broken where it is on no map.
 void DrawHazards(const HazardMap& map, const PanelFrame& frame, HeatPanel& panel);
+void DrawOutlines(const HeatMapOptions& options, const PanelFrame& frame, HeatPanel& panel);
 void DrawRings(const HeatMapOptions& options, const PanelFrame& frame, HeatPanel& panel);
 void DrawPoints(const HeatMapOptions& options, const PanelFrame& frame, HeatPanel& panel);
 // Each value in a corner of its cell where little else is drawn, if there is room for all of them.

@@ -154,6 +154,7 @@ HeatPanel DrawPanel(const HazardMap& map, const HeatValues* values, const HeatMa
   axes.DrawGrid(Canvas(panel.image));
   DrawPaths(map, options, frame, panel);
   DrawHazards(map, frame, panel);
+  DrawOutlines(options, frame, panel);
   DrawRings(options, frame, panel);
   DrawPoints(options, frame, panel);
   if (values != nullptr && options.numbers) DrawNumbers(*values, frame, panel);

@@ -9,6 +9,7 @@
 #include "base/quantity.h"
 #include "render/chart.h"
 #include "render/heatmap.h"
+#include "report/audit_pictures.h"
 #include "report/drive_marks.h"
 #include "report/pictures.h"
 #include "run/episode/make_plan.h"
@@ -156,6 +157,10 @@ void WritePlanPictures(const Scenario& s, const PlanResult& plan,
                        const std::filesystem::path& folder, std::span<const RiskOfPlan> beside,
                        const EpisodeRecord* record) {
   WritePlanOverClasses(s, plan, record, folder / "heatmap_plan.png");
+  if (!plan.samples.empty())
+    WriteSamples(PictureTitle(s), s.site.map, plan, folder / "heatmap_samples.png");
+  if (!plan.convergence_m.empty())
+    WriteConvergence(PictureTitle(s), plan, folder / "plot_convergence.png");
   if (!AsksForRisk(s) && beside.empty()) return;
   std::vector<RiskOfPlan> plans = {MeasurePlan(s, plan)};
   WriteRiskMap(s, plan, record, folder / "heatmap_risk.png");

@@ -28,6 +28,7 @@ std::string PlanInputs(const Scenario& s) {
     WriteParams(*planner, params);
   else
     text += "\n" + PlanCsv(s.user_plan);
+  for (const Vec2& p : s.places) text += "\n" + FormatDouble(p.x()) + " " + FormatDouble(p.y());
   RiskParams risk = s.risk;
   WriteParams([&](ParamVisitor& v) { risk.Visit(v); }, params);
   params.Add("tables", ConfigNode::Scalar(s.fmea_file.string(), true));
@@ -60,7 +61,8 @@ const EpisodeMaker::Planned& EpisodeMaker::Plan(const Variant& variant, const Sc
     last.inputs = inputs;
     last.plan = MakePlan(s);
     auto json = PlanJson(s, last.plan);
-    json.erase("visits_by_risk");  // a row holds numbers
+    for (const char* list : {"visits_by_risk", "sample_places", "convergence_m"})
+      json.erase(list);  // a row holds numbers
     last.json = json.dump();
   }
   return last;

@@ -16,7 +16,7 @@ PlanResult MakePlan(const Scenario& s) {
   auto risk = std::make_shared<const RiskMap>(ComputeRisk(known, robot, s.fmea, s.risk));
   PlanResult plan;
   if (s.planner) {
-    plan = s.planner->Plan({known, robot, s.start, s.goal, PlanSeed(s), risk.get()});
+    plan = s.planner->Plan({known, robot, s.start, s.goal, PlanSeed(s), risk.get(), s.places});
   } else if (s.online) {
     plan.status = PlanStatus::kOnline;
     plan.message = s.planner_name + " plans while it drives, as the floor becomes known";

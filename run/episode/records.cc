@@ -72,6 +72,17 @@ double Coordinate(double value_m) {
   return std::round(value_m * kUnit) / kUnit + 0.0;
 }
 
+Json SamplesJson(const std::vector<SamplePlace>& samples) {
+  Json json = Json::array();
+  for (const SamplePlace& sample : samples)
+    json.push_back({{"x_m", Coordinate(sample.p_W.x())},
+                    {"y_m", Coordinate(sample.p_W.y())},
+                    {"kinds", Names(sample.kinds)},
+                    {"reachable", sample.reachable},
+                    {"visit", sample.visit > 0 ? Json(sample.visit) : Json(nullptr)}});
+  return json;
+}
+
 // The paper's measures of the path (planners/risk/risk_meter.h).
 void AddRisk(const PlanResult& plan, Json& json) {
   const RiskOfPath risk = MeasureRisk(*plan.risk, plan.path);
@@ -185,6 +196,8 @@ Json PlanJson(const Scenario& s, const PlanResult& plan) {
                {"radius_m", circle ? plan.clear.radius_m : s.robot.spec.inscribed_radius_m}};
   if (AsksForRisk(s)) AddRisk(plan, json);
   for (const auto& [name, value] : plan.figures) json[name] = value;
+  if (!plan.samples.empty()) json["sample_places"] = SamplesJson(plan.samples);
+  if (!plan.convergence_m.empty()) json["convergence_m"] = plan.convergence_m;
   return json;
 }
 

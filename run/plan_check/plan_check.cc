@@ -144,6 +144,28 @@ void AddUncovered(const HazardMap& floor, const RobotSpec& robot, const PlanResu
         fmt::format("  and {} more, {} m2", u.pockets.size() - kListed, NumberText(more_m2)));
 }
 
+// Of an audit: how long its tour is against the shortest there can be, and which places it lacks.
+void AddSamples(const PlanResult& plan, std::vector<std::string>& lines) {
+  const auto figure = [&](std::string_view name) {
+    const auto found = std::ranges::find(plan.figures, name, [](const auto& f) { return f.first; });
+    return found == plan.figures.end() ? std::optional<double>() : found->second;
+  };
+  if (const auto bound_m = figure("tour_bound_m"))
+    lines.push_back(
+        fmt::format("no order of these places is shorter than {} m: the tour is at most {} longer",
+                    FixedText(*bound_m, 1), PercentText(figure("tour_gap").value_or(0))));
+  std::vector<Vec2> missed;
+  for (const SamplePlace& sample : plan.samples)
+    if (!sample.reachable) missed.push_back(sample.p_W);
+  if (missed.empty()) return;
+  std::string line = CountText(missed.size(), "sample") + " out of the robot's reach: ";
+  for (std::size_t i = 0; i < std::min(kListed, missed.size()); ++i)
+    line += (i > 0 ? "; " : "") + At(missed[i]);
+  if (missed.size() > kListed)
+    line += fmt::format("; and {} more (plan.json lists them)", missed.size() - kListed);
+  lines.push_back(line);
+}
+
 Json PlaceJson(const Vec2& p_W) { return {{"x_m", p_W.x()}, {"y_m", p_W.y()}}; }
 
 }  // namespace
@@ -186,7 +208,10 @@ std::vector<std::string> PlanLines(const Scenario& s, const PlanResult& plan,
   AddClearance(floor, check.clearance, lines);
   AddCrossings(floor, s.robot.spec, check.clearance, lines);
   AddDrivenOver(TrueFloor(s), s.robot.spec, check.driven_over, lines);
-  AddUncovered(floor, s.robot.spec, plan, check.uncovered, lines);
+  if (plan.samples.empty())
+    AddUncovered(floor, s.robot.spec, plan, check.uncovered, lines);
+  else
+    AddSamples(plan, lines);
   return lines;
 }
 

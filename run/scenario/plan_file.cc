@@ -5,17 +5,21 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "base/config.h"
 #include "base/params.h"
+#include "env/core/coverage.h"
 
 namespace floorproof {
 namespace {
 
 const std::vector<std::string> kColumns = {"x_m",   "y_m",       "yaw_rad",
                                            "shape", "speed_mps", "dwell_s"};
+const std::vector<std::string> kPlaceColumns = {"x_m", "y_m"};
 constexpr std::uintmax_t kMaxBytes = 32u << 20;
 // Beyond these a drive has no end; the dwells count together.
 constexpr double kSlowest_mps = 1e-3, kLongestDwell_s = 1e5;
@@ -32,11 +36,12 @@ std::vector<std::string> SplitRow(std::string line) {
   return cells;
 }
 
-std::vector<std::string> ReadHeader(const std::string& line, const SourceMark& mark) {
+std::vector<std::string> ReadHeader(const std::string& line, const SourceMark& mark,
+                                    const std::vector<std::string>& columns) {
   const auto header = SplitRow(line);
   for (const auto& name : header) {
-    if (std::ranges::find(kColumns, name) == kColumns.end()) {
-      const std::string near = Nearest(name, kColumns);
+    if (std::ranges::find(columns, name) == columns.end()) {
+      const std::string near = Nearest(name, columns);
       throw InputError(mark, name, "",
                        near.empty()
                            ? "unknown column (the first row names the columns: x_m,y_m,...)"
@@ -84,9 +89,9 @@ Waypoint ReadRow(const std::vector<std::string>& header, const std::vector<std::
   return w;
 }
 
-}  // namespace
-
-Path ReadPlan(const std::filesystem::path& file, const GridFrame& map, std::vector<int>* lines,
+// What a row is, in messages where there is none.
+Path ReadRows(const std::filesystem::path& file, const GridFrame& map,
+              const std::vector<std::string>& columns, const char* row, std::vector<int>* lines,
               const InputFiles& files) {
   const std::string name = file.string();
   std::istringstream in(files.Read(file, kMaxBytes));
@@ -99,7 +104,7 @@ Path ReadPlan(const std::filesystem::path& file, const GridFrame& map, std::vect
     const SourceMark mark{name, ++number};
     if (line.empty() || line == "\r" || line[0] == '#') continue;
     if (header.empty()) {
-      header = ReadHeader(line, mark);
+      header = ReadHeader(line, mark, columns);
       continue;
     }
     const auto cells = SplitRow(line);
@@ -119,8 +124,36 @@ Path ReadPlan(const std::filesystem::path& file, const GridFrame& map, std::vect
     path.push_back(w);
     if (lines) lines->push_back(number);
   }
-  if (path.empty()) throw InputError({name, 0}, "", "", "holds no waypoint");
+  if (path.empty()) throw InputError({name, 0}, "", "", std::string("holds no ") + row);
   return path;
+}
+
+}  // namespace
+
+Path ReadPlan(const std::filesystem::path& file, const GridFrame& map, std::vector<int>* lines,
+              const InputFiles& files) {
+  return ReadRows(file, map, kColumns, "waypoint", lines, files);
+}
+
+std::vector<Vec2> ReadPlaces(const std::filesystem::path& file, const GridFrame& map,
+                             const InputFiles& files) {
+  std::vector<int> lines;
+  const Path rows = ReadRows(file, map, kPlaceColumns, "place", &lines, files);
+  const GridFrame fine = FineFrame(map);
+  std::map<std::pair<int, int>, int> line_of;  // by cell
+  std::vector<Vec2> places;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Vec2& p = rows[i].p_W;
+    const Cell cell = fine.ToCell(p);
+    const auto [it, fresh] = line_of.try_emplace({cell.ix, cell.iy}, lines[i]);
+    if (!fresh)
+      throw InputError({file.string(), lines[i]}, "x_m, y_m",
+                       FormatDouble(p.x()) + ", " + FormatDouble(p.y()),
+                       fmt::format("lies in the same cell of {} m as the place in line {}",
+                                   FormatDouble(fine.cell_m), it->second));
+    places.push_back(p);
+  }
+  return places;
 }
 
 std::string PlanCsv(const Path& path) {

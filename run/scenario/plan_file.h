@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// plan.csv: a waypoint a row, ours and a user's own alike.
+// plan.csv: a waypoint a row, ours and a user's own alike; and a user's places to visit, a row
+// each.
 #pragma once
 
 #include <filesystem>
@@ -19,5 +20,10 @@ namespace floorproof {
 Path ReadPlan(const std::filesystem::path& file, const GridFrame& map,
               std::vector<int>* lines = nullptr, const InputFiles& files = {});
 std::string PlanCsv(const Path& path);
+
+// Columns x_m, y_m alone. Throws InputError as ReadPlan does, and for two places in one of the
+// cells in which plans are made (FineFrame), naming both lines.
+std::vector<Vec2> ReadPlaces(const std::filesystem::path& file, const GridFrame& map,
+                             const InputFiles& files = {});
 
 }  // namespace floorproof

@@ -90,8 +90,10 @@ bool Vary(const Scenario& s, const std::set<std::string>& keys) {
 
 // Its planner with all keys. Where variants have others, which need not know them, those alone that
 // are not as by default.
-ConfigNode PlannerKeys(const Scenario& s) {
+ConfigNode PlannerKeys(const Scenario& s, const fs::path& folder) {
   ConfigNode node = WithPlugin(Named("planner", s.planner_name), *PlannerOf(s));
+  if (!s.places_file.empty())
+    *node.Find("samples") = Named("file", PathFrom(folder, s.places_file).string());
   if (!Vary(s, {"plan.planner"})) return node;
   const auto defaults = [&](auto planners) {
     return WithPlugin(ConfigNode::Map(), *MakePlugin(planners, s.planner_name, "plan.planner"));
@@ -192,7 +194,7 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
   if (s.goal &&
       stated("goal", site_varies || Vary(s, {"site.goal", "site.goal.x_m", "site.goal.y_m"})))
     root.Add("goal", Goal(*s.goal));
-  root.Add("plan", PlannerOf(s) != nullptr ? PlannerKeys(s)
+  root.Add("plan", PlannerOf(s) != nullptr ? PlannerKeys(s, folder)
                                            : Named("file", PathFrom(folder, s.plan_file).string()));
   if (AsksForRisk(s))
     root.Add("risk", WithParams(Named("tables", s.fmea_file == BundledTables()

@@ -345,6 +345,7 @@ std::vector<fs::path> FilesRead(const Scenario& s) {
     files.insert(files.end(), s.robot.files.begin() + 1, s.robot.files.end());
   files.push_back(s.fmea_file);
   if (!s.plan_file.empty()) files.push_back(s.plan_file);
+  if (!s.places_file.empty()) files.push_back(s.places_file);
   return files;
 }
 

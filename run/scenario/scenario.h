@@ -59,7 +59,9 @@ struct Scenario {
   std::unique_ptr<Planner> planner;
   std::unique_ptr<OnlinePlanner> online;  // on the way, as the floor becomes known
   std::filesystem::path plan_file;
-  Path user_plan;  // what it holds
+  Path user_plan;                     // what it holds
+  std::filesystem::path places_file;  // that the planner is to visit; empty: it finds its own
+  std::vector<Vec2> places;           // what it holds, p_W
 
   std::filesystem::path fmea_file;
   FmeaTables fmea;

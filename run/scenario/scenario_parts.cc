@@ -172,6 +172,21 @@ std::optional<Vec2> ReadGoal(const ConfigNode& root, const Scenario& s) {
   return goal;
 }
 
+// A user's own places, taken out of the planner's keys.
+void ReadPlacesPart(ConfigNode& plan, Scenario& s) {
+  const ConfigNode* samples = plan.Find("samples");
+  const ConfigNode* file = samples && samples->IsMap() ? samples->Find("file") : nullptr;
+  if (file == nullptr) return;
+  for (const auto& [key, value] : samples->entries)
+    if (key != "file")
+      throw InputError(value.mark, "plan.samples." + key, value.scalar,
+                       "stands beside plan.samples.file: places are either found or read from a "
+                       "file; take one of them away");
+  s.places_file = NamedFile(s.file.parent_path(), *file, "plan.samples.file", s.files);
+  s.places = ReadPlaces(s.places_file, s.site.map.frame, s.files);
+  plan.Remove("samples");
+}
+
 // Returns the line of each waypoint of a user's plan.
 std::vector<int> ReadPlanPart(const ConfigNode& root, Scenario& s) {
   std::vector<int> lines;
@@ -186,13 +201,14 @@ std::vector<int> ReadPlanPart(const ConfigNode& root, Scenario& s) {
     s.user_plan = ReadPlan(s.plan_file, s.site.map.frame, &lines, s.files);
     return lines;
   }
-  const Named named = ReadNamed(root, "plan", "planner", "boustrophedon");
+  Named named = ReadNamed(root, "plan", "planner", "boustrophedon");
   s.planner_name = named.name;
   const std::vector<std::string> online = PluginNames(OnlinePlanners());
   if (std::ranges::find(online, named.name) != online.end())
     s.online = MakePlugin(OnlinePlanners(), named.name, "plan.planner", named.mark);
   else
     s.planner = MakePlugin(Planners(), named.name, "plan.planner", named.mark, online);
+  if (s.planner && s.planner->promises().visits_places) ReadPlacesPart(named.params, s);
   ReadParams(named.params, "plan.", *PlannerOf(s), {"planner"});
   return lines;
 }
@@ -370,7 +386,7 @@ const std::vector<std::string>& ScenarioKeys() {
 bool NamesFile(const std::string& key_path, const std::string& value) {
   if (key_path == "robot" || key_path == "robot.name") return value.ends_with(".xml");
   return key_path == "site" || key_path == "site.map" || key_path == "plan.file" ||
-         (key_path == "risk.tables" && value.ends_with(".yaml"));
+         key_path == "plan.samples.file" || (key_path == "risk.tables" && value.ends_with(".yaml"));
 }
 
 fs::path NamedFile(const fs::path& folder, const ConfigNode& node, const std::string& key,

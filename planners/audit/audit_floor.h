@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The floor as an audit drives over it: which places the robot can get to, how far they are from
+// one another, and the ways between them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "planners/lines/floor.h"
+#include "planners/lines/held_yaw.h"
+#include "planners/orders/visit_order.h"
+#include "planners/planner.h"
+
+namespace floorproof {
+
+// Distances along the shortest collision-free ways of the robot's clear shape ("audit-sampling",
+// section 5, which takes A* for each pair; here one search from a place reaches all others). Ways
+// turn at any angle: straight on where the floor between is free.
+class AuditFloor {
+ public:
+  // `area` and `shapes`: with the robot's own clear shape. `margin_m` is kept beyond it on the way,
+  // for the tracker's error, but for the surroundings of places that lie closer to an obstacle; and
+  // less of it, or none, where it would cut a place off.
+  AuditFloor(const PlanRequest& request, const FloorRoom& room, const SweepArea& area,
+             const HeldShapes& shapes, const std::vector<Vec2>& places, double margin_m);
+
+  double margin_m() const { return margin_m_; }  // what is kept in the end
+  // The start, and the places that can be reached, in the order given: what the table's places are.
+  const std::vector<Vec2>& stops() const { return stops_; }
+  // Of each place given, which stop it is; 0: it cannot be reached.
+  const std::vector<int>& stop_of() const { return stop_of_; }
+  const PlaceDistances& distances() const { return distances_; }
+  // The way from one stop to another, both included, world frame.
+  std::vector<Vec2> Way(int from, int to) const;
+
+ private:
+  // Whether the robot gets to all stops within this mask; then distances and ways are known.
+  bool Measure(const Grid<std::uint8_t>& free);
+  Cell CellOf(const Vec2& p_W) const { return Floor::CellAt(floor_.ToCells(p_W)); }
+
+  Floor floor_;
+  double margin_m_ = 0;
+  std::vector<Vec2> stops_;
+  std::vector<int> stop_of_;
+  PlaceDistances distances_{0};
+  std::vector<std::vector<std::vector<Cell>>>
+      bends_;  // [a][b - a - 1], b > a: of the way, ends too
+};
+
+}  // namespace floorproof

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planners/audit/room.h"
+
+#include <cmath>
+#include <vector>
+
+#include "env/geometry/distance.h"
+
+namespace floorproof {
+namespace {
+
+// From a pose to the farthest cell of the room, in the shape's reach: a disc in the corner of a
+// room leaves (sqrt(2) - 1) of its radius. And in cells, as poses lie at their middles.
+constexpr double kReaches = 1.5, kCells = 1.5;
+
+// The cells of `open` that are connected with those of `from`, by their sides.
+Grid<std::uint8_t> ConnectedWith(const Grid<std::uint8_t>& from, const Grid<std::uint8_t>& open) {
+  Grid<std::uint8_t> inside(open.width, open.height);
+  std::vector<Cell> stack;
+  const auto add = [&](int ix, int iy) {
+    if (!open.Inside(ix, iy) || !open(ix, iy) || inside(ix, iy)) return;
+    inside(ix, iy) = 1;
+    stack.push_back({ix, iy});
+  };
+  for (int iy = 0; iy < open.height; ++iy)
+    for (int ix = 0; ix < open.width; ++ix)
+      if (from(ix, iy)) add(ix, iy);
+  while (!stack.empty()) {
+    const Cell c = stack.back();
+    stack.pop_back();
+    add(c.ix - 1, c.iy), add(c.ix + 1, c.iy), add(c.ix, c.iy - 1), add(c.ix, c.iy + 1);
+  }
+  return inside;
+}
+
+bool Touches(const Grid<std::uint8_t>& set, int ix, int iy) {
+  for (int y = iy - 1; y <= iy + 1; ++y)
+    for (int x = ix - 1; x <= ix + 1; ++x)
+      if (set.Inside(x, y) && set(x, y)) return true;
+  return false;
+}
+
+}  // namespace
+
+Room MakeRoom(const HazardMap& map, double step_m, const SweepArea& area, double reach_m) {
+  Room room;
+  room.frame = area.frame;
+  const Grid<std::uint8_t> solid = ObstacleMask(map, step_m, area.frame);
+  const Grid<float> away = DistanceToCentres(area.reachable);
+  const double near = kReaches * reach_m / area.frame.cell_m + kCells;
+  Grid<std::uint8_t> open(solid.width, solid.height);
+  for (std::size_t i = 0; i < open.cells.size(); ++i)
+    open.cells[i] = !solid.cells[i] && static_cast<double>(away.cells[i]) <= near;
+  room.inside = ConnectedWith(area.reachable, open);
+
+  const double ratio = area.frame.cell_m / map.frame.cell_m;
+  room.pixels = Grid<std::uint8_t>(solid.width, solid.height, kUnknownPixel);
+  for (int iy = 0; iy < solid.height; ++iy)
+    for (int ix = 0; ix < solid.width; ++ix) {
+      std::uint8_t& pixel = room.pixels(ix, iy);
+      const auto cell = [ratio](int i) { return static_cast<int>((i + 0.5) * ratio); };
+      if (room.inside(ix, iy))
+        pixel = kFreePixel;
+      else if (Touches(room.inside, ix, iy) ||
+               (solid(ix, iy) && map.occupancy(cell(ix), cell(iy)) != CellState::kUnknown))
+        pixel = kOccupiedPixel;
+    }
+  return room;
+}
+
+}  // namespace floorproof
