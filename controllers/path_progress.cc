@@ -68,9 +68,16 @@ void PathProgress::Arrive(std::size_t vertex, double t_s) {
   vertex_ = ahead_ = vertex;
   turn_W_ = Vertex(vertex).p_W;
   homing_ = false;
-  if (Vertex(vertex).dwell_s > 0) {
+  if (Vertex(vertex).face_rad)
+    phase_ = Phase::kFace;
+  else
+    Faced(t_s);
+}
+
+void PathProgress::Faced(double t_s) {
+  if (Vertex(vertex_).dwell_s > 0) {
     phase_ = Phase::kDwell;
-    dwell_until_s_ = t_s + Vertex(vertex).dwell_s;
+    dwell_until_s_ = t_s + Vertex(vertex_).dwell_s;
   } else {
     Depart();
   }

@@ -23,6 +23,7 @@ class PathProgress {
   enum class Phase {
     kTurn,   // at a stop, or pushed off: turn towards the way first
     kDrive,  // along the leg
+    kFace,   // at a stop: to turn to the yaw at which it dwells, until Faced()
     kDwell,  // standing still on purpose
     kFold,   // at a stop: to take another shape, until Folded()
     kDone,   // last waypoint reached
@@ -46,6 +47,8 @@ class PathProgress {
     turn_W_ = p_W;
   }
   void Drive() { phase_ = Phase::kDrive; }
+  // The robot faces as the plan says at vertex(), or cannot: the dwell begins.
+  void Faced(double t_s);
   // The robot has taken the shapes of vertex(), or there are none.
   void Folded();
   const ReferencePath& reference() const { return reference_; }

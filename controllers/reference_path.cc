@@ -76,23 +76,29 @@ bool SameYaw(const std::optional<double>& a, const std::optional<double>& b) {
 struct Kept {
   std::size_t index = 0;
   double dwell_s = 0;
-  std::vector<std::string> shapes;  // of the waypoints at this place
-  std::vector<WaypointTask> tasks;  // the same
+  std::optional<double> dwell_yaw_rad;  // of the first waypoint here that dwells and has one
+  std::vector<std::string> shapes;      // of the waypoints at this place
+  std::vector<WaypointTask> tasks;      // the same
 };
 std::vector<Kept> KeepCorners(const Path& path, const ReferenceLimits& limits) {
-  std::vector<Kept> kept = {{0, path[0].dwell_s, {path[0].shape}, {}}};
-  if (path[0].task) kept[0].tasks.push_back(*path[0].task);
+  std::vector<Kept> kept = {{0, 0, {}, {path[0].shape}, {}}};
+  const auto stand = [&](const Waypoint& w) {
+    Kept& here = kept.back();
+    here.dwell_s += w.dwell_s;
+    if (w.dwell_s > 0 && !here.dwell_yaw_rad) here.dwell_yaw_rad = w.yaw_rad;
+    if (w.task) here.tasks.push_back(*w.task);
+  };
+  stand(path[0]);
   Cone cone(path[0].p_W, limits.straight_m);
   std::size_t last = 0;  // that was kept, at a vertex of its own or not
   const auto keep = [&](std::size_t i) {
     last = i;
     if ((path[i].p_W - path[kept.back().index].p_W).norm() < kSamePointM) {
-      kept.back().dwell_s += path[i].dwell_s;
       kept.back().shapes.push_back(path[i].shape);
     } else {
-      kept.push_back({i, path[i].dwell_s, {}, {}});
+      kept.push_back({i, 0, {}, {}, {}});
     }
-    if (path[i].task) kept.back().tasks.push_back(*path[i].task);
+    stand(path[i]);
     cone = Cone(path[i].p_W, limits.straight_m);
   };
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -203,6 +209,7 @@ ReferencePath MakeReference(const Path& path, const ReferenceLimits& limits) {
     ReferenceVertex& vertex = vertices[k];
     vertex.p_W = path[kept[k].index].p_W;
     vertex.dwell_s = kept[k].dwell_s;
+    if (limits.faces) vertex.face_rad = kept[k].dwell_yaw_rad;
     vertex.tasks = kept[k].tasks;
     vertex.stop = k == 0 || k + 1 == kept.size() || vertex.dwell_s > 0;
     if (k == 0) continue;

@@ -33,6 +33,7 @@ struct ReferenceLimits {
   double max_speed_mps = 0.5;
   bool holds_yaw = false;  // the plan's yaw is held; else it is ignored
   bool folds = false;      // the plan's shapes are taken; else they are ignored
+  bool faces = false;      // where the plan dwells its yaw is turned to; else it is ignored there
 };
 
 struct ReferenceVertex {
@@ -42,6 +43,7 @@ struct ReferenceVertex {
   double speed_mps = 0;             // allowed from here to the next vertex
   double passing_mps = 0;           // at most here; 0 at stops
   double dwell_s = 0;
+  std::optional<double> face_rad;  // turned to before the dwell
   bool stop = false;
   std::optional<double> yaw_rad;    // held from here to the next vertex; none: along the way
   std::vector<std::string> shapes;  // taken here, one after the other, before going on

@@ -50,7 +50,8 @@ class RegulatedPursuit final : public Tracker {
     yaw_rate_radps_ = robot.max_yaw_rate_radps;
     yaw_accel_radps2_ = robot.max_yaw_accel_radps2;
 
-    const ReferenceLimits limits = params_.Limits(robot);
+    ReferenceLimits limits = params_.Limits(robot);
+    limits.faces = true;
     bend_yaw_rate_radps_ = limits.yaw_rate_radps;
     progress_.Start(path, limits, params_.corner_tolerance_m);
     twist_ = {};
@@ -71,7 +72,9 @@ class RegulatedPursuit final : public Tracker {
     const std::size_t vertex = progress_.vertex();
     progress_.Update(X_WB.p(), t_s);
     if (progress_.vertex() != vertex) turn_side_ = 0;
-    if (progress_.moving())
+    if (progress_.phase() == Phase::kFace)
+      Face(X_WB, t_s, dt_s);
+    else if (progress_.moving())
       Pursue(X_WB, dt_s);
     else
       Slew(0, 0, dt_s);
@@ -79,7 +82,7 @@ class RegulatedPursuit final : public Tracker {
     Command command;
     command.segment = progress_.Segment(X_WB.p());
     command.dwelling = progress_.phase() == Phase::kDwell;
-    command.turning = progress_.phase() == Phase::kTurn;
+    command.turning = progress_.phase() == Phase::kTurn || progress_.phase() == Phase::kFace;
     command.done = progress_.phase() == Phase::kDone;
     command.twist = twist_;
     return command;
@@ -104,6 +107,15 @@ class RegulatedPursuit final : public Tracker {
       Turn(aside_rad, dt_s);
     else
       Follow(target_B, gap_.Limit(speed_mps, X_WB, target_W), dt_s);
+  }
+
+  // Turned far enough, it comes to rest in the dwell.
+  void Face(const Pose2& X_WB, double t_s, double dt_s) {
+    const double aside_rad = WrapAngle(*progress_.leg().face_rad - X_WB.yaw_rad);
+    Turn(aside_rad, dt_s);
+    if (std::abs(aside_rad) > Radians(params_.heading_tolerance_deg)) return;
+    turn_side_ = 0;
+    progress_.Faced(t_s);
   }
 
   void Turn(double aside_rad, double dt_s) {

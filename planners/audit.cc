@@ -7,12 +7,13 @@
 // (2) Distances between those that the robot can reach are measured along ways that it can drive
 // (planners/audit/audit_floor.h). (3) An order of visit is chosen (section 5; planners/orders), by
 // length alone: energy is proportional to it (Eqs. 2 and 3, E = M D). (4) The ways are joined; at
-// each place the robot stands for as long as a sample takes.
+// each place the robot turns its sensor there and stands for as long as a sample takes.
 // Assumed: a known floor. Not done: weighing how much dirt a place promises; every place is
 // visited.
 #include <algorithm>
 #include <cmath>
 
+#include "env/geometry/distance.h"
 #include "planners/audit/audit_floor.h"
 #include "planners/audit/find_samples.h"
 #include "planners/lines/why_nothing.h"
@@ -70,7 +71,7 @@ class AuditPlanner final : public Planner {
     }
     if (!FindPlaces(request, area, result)) return result;
 
-    std::vector<Vec2> places;
+    std::vector<Vec2> places;  // p_W
     for (const SamplePlace& place : result.samples) places.push_back(place.p_W);
     const AuditFloor floor(request, room, area, held, places, margin_m_);
     if (floor.stops().size() < 1 + kLeastStops) {
@@ -93,8 +94,10 @@ class AuditPlanner final : public Planner {
     }
     const RobotSpec& robot = request.robot;
     const Room room = MakeRoom(request.map, robot.step_m, area, robot.circumscribed_radius_m);
-    FoundSamples found =
-        FindSamples(room, area.reachable, 2 * robot.inscribed_radius_m, samples_, request.seed);
+    const bool faces = robot.clear.kind == Shape2::Kind::kCircle;
+    FoundSamples found = FindSamples(
+        room, Within(area.reachable, faces ? robot.audit_sensor_x_m / area.frame.cell_m : 0),
+        2 * robot.inscribed_radius_m, samples_, request.seed);
     result.message = found.why;
     if (!found.why.empty()) return false;
     result.samples = std::move(found.places);
@@ -104,6 +107,16 @@ class AuditPlanner final : public Planner {
     result.figures.push_back({"corner_samples", found.corner});
     result.figures.push_back({"random_samples", found.random});
     return true;
+  }
+
+  // The cells at most so many cells from the set ones.
+  static Grid<std::uint8_t> Within(const Grid<std::uint8_t>& set, double cells) {
+    if (cells <= 0) return set;
+    const Grid<float> away = DistanceToCentres(set);
+    Grid<std::uint8_t> within(set.width, set.height);
+    for (std::size_t i = 0; i < set.cells.size(); ++i)
+      within.cells[i] = static_cast<double>(away.cells[i]) <= cells;
+    return within;
   }
 
   static std::string TooFew(std::size_t places, std::size_t reached) {
@@ -133,8 +146,9 @@ class AuditPlanner final : public Planner {
                 PlanResult& result) const {
     const RobotSpec& robot = request.robot;
     const auto& chosen = *std::ranges::find(orders_, order_, &Named::first)->second;
-    const VisitSequence tour =
-        chosen.Order({floor.distances(), floor.stops(), closed_, request.seed});
+    std::vector<Vec2> stops;  // p_W
+    for (const AuditFloor::Stop& stop : floor.stops()) stops.push_back(stop.p_W);
+    const VisitSequence tour = chosen.Order({floor.distances(), stops, closed_, request.seed});
     MarkReachable(floor, tour.order, result);
 
     const double speed_mps = speed_mps_.value_or(robot.audit_speed_mps);  // 0: at cruise speed
@@ -150,13 +164,14 @@ class AuditPlanner final : public Planner {
       if (floor.stop_of()[i] > 0) sample_at[Z(floor.stop_of()[i])] = static_cast<int>(i);
     std::vector<int> order = tour.order;
     if (closed_) order.push_back(order.front());
-    add(floor.stops()[0]).speed_mps = 0;
+    add(stops[0]).speed_mps = 0;
     for (std::size_t k = 1; k < order.size(); ++k) {
       const std::vector<Vec2> way = floor.Way(order[k - 1], order[k]);
       for (std::size_t i = 1; i < way.size(); ++i) add(way[i]);
       if (sample_at[Z(order[k])] < 0) continue;  // back at the start
       Waypoint& stop = result.path.back();
       stop.dwell_s = dwell_s_.value_or(robot.audit_dwell_s);
+      if (const auto& yaw_W = floor.stops()[Z(order[k])].yaw_rad) stop.yaw_rad = yaw_W;
       stop.task = {WaypointTask::Kind::kSample, sample_at[Z(order[k])]};
     }
     result.status = PlanStatus::kSuccess;

@@ -99,6 +99,7 @@ struct RobotSpec {
   Battery battery;          // its voltage set, to that of the motors' drivers
   // An audit's pace: speed from stop to stop and time a sample takes. 0: the model states none.
   double audit_speed_mps = 0, audit_dwell_s = 0;
+  double audit_sensor_x_m = 0;  // of what takes the sample, in B
 };
 
 }  // namespace floorproof

@@ -37,6 +37,8 @@ void ReadCustom(const CompiledRobot& compiled, RobotSpec& robot) {
   if (is_there("audit_speed_mps"))
     robot.audit_speed_mps = compiled.Number("audit_speed_mps", Between(0.001, robot.max_speed_mps));
   if (is_there("audit_dwell_s")) robot.audit_dwell_s = compiled.Number("audit_dwell_s", kDwell_s);
+  if (is_there("audit_sensor_x_m"))
+    robot.audit_sensor_x_m = compiled.Number("audit_sensor_x_m", Between(0, 10));
 }
 
 // One battery feeds every driver: all have its voltage.

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kAround_m = 0.3;  // of a place closer to an obstacle: no margin is kept there
 constexpr double kLeastMargin_m = 0.005;
+constexpr int kHeadings = 64;  // that are tried at a place
 constexpr int kFewStops = 16;  // for which a second thread is not worth it
 
 // `all` within reach of the middles, besides `roomy`.
@@ -43,12 +44,12 @@ AuditFloor::AuditFloor(const PlanRequest& request, const FloorRoom& room, const 
           cropped(ix, iy) = mask(ix - shift.ix, iy - shift.iy);
     return cropped;
   };
-  stops_.push_back(request.start.p());
+  stops_.push_back({request.start.p(), {}});
+  const double sensor_x_m = shapes.yaw_rad ? 0 : request.robot.audit_sensor_x_m;
   for (const Vec2& p : places) {
-    const Cell c = CellOf(p);
-    const bool reachable = floor_.pose.Inside(c) && floor_.pose(c);
-    stop_of_.push_back(reachable ? static_cast<int>(stops_.size()) : 0);
-    if (reachable) stops_.push_back(p);
+    const std::optional<Stop> stop = StopFor(p, sensor_x_m, margin_m);
+    stop_of_.push_back(stop ? static_cast<int>(stops_.size()) : 0);
+    if (stop) stops_.push_back(*stop);
   }
   for (margin_m_ = margin_m; margin_m_ >= kLeastMargin_m; margin_m_ /= 2) {
     const SweepArea roomy =
@@ -56,19 +57,43 @@ AuditFloor::AuditFloor(const PlanRequest& request, const FloorRoom& room, const 
     if (roomy.sweepable_cells == 0) continue;
     const Grid<std::uint8_t> clear = crop(roomy.reachable);
     std::vector<Cell> close;
-    for (const Vec2& p : stops_)
-      if (const Cell c = CellOf(p); floor_.pose.Inside(c) && !clear(c)) close.push_back(c);
+    for (const Stop& stop : stops_)
+      if (const Cell c = CellOf(stop.p_W); floor_.pose.Inside(c) && !clear(c)) close.push_back(c);
     if (Measure(WithSurroundings(floor_.pose, clear, close, floor_.ToCells(kAround_m)))) return;
   }
   margin_m_ = 0;
   Measure(floor_.pose);
 }
 
+std::optional<AuditFloor::Stop> AuditFloor::StopFor(const Vec2& place_W, double sensor_x_m,
+                                                    double margin_m) const {
+  const auto is_pose = [this](const Vec2& p_W) {
+    const Cell c = CellOf(p_W);
+    return floor_.pose.Inside(c) && floor_.pose(c);
+  };
+  if (sensor_x_m <= 0) return is_pose(place_W) ? std::optional<Stop>({place_W, {}}) : std::nullopt;
+  std::optional<Stop> best;
+  double best_room = 0, best_way = 0;
+  for (int k = 0; k < kHeadings; ++k) {
+    const double yaw_rad = WrapAngle(2 * kPi * k / kHeadings);
+    const Vec2 p_W = place_W - sensor_x_m * Vec2(std::cos(yaw_rad), std::sin(yaw_rad));
+    if (!is_pose(p_W)) continue;
+    const double room = std::min(floor_.MarginAt(floor_.ToCells(p_W)), floor_.ToCells(margin_m));
+    const double way = (p_W - stops_.front().p_W).norm();
+    if (room < 0 || (best && (room < best_room || (room == best_room && way >= best_way))))
+      continue;
+    best = Stop{p_W, yaw_rad};
+    best_room = room;
+    best_way = way;
+  }
+  return best;
+}
+
 bool AuditFloor::Measure(const Grid<std::uint8_t>& free) {
   const auto n = static_cast<int>(stops_.size());
   const AnyAngleFloor floor(free);
   std::vector<Cell> cells;
-  for (const Vec2& p : stops_) cells.push_back(CellOf(p));
+  for (const Stop& stop : stops_) cells.push_back(CellOf(stop.p_W));
   // A start may be clear in a cell whose centre is just not (env/core/coverage.h).
   for (Cell& c : cells)
     for (int k = 0; k < 9 && !(free.Inside(c) && free(c)); ++k)
@@ -115,8 +140,8 @@ std::vector<Vec2> AuditFloor::Way(int from, int to) const {
     else
       way.insert(front ? way.begin() : way.end(), p);
   };
-  end_at(stops_[Z(from)], true);
-  end_at(stops_[Z(to)], false);
+  end_at(stops_[Z(from)].p_W, true);
+  end_at(stops_[Z(to)].p_W, false);
   way = MergeStraight(way);
   for (Vec2& p : way) p = floor_.ToWorld(p);
   return way;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "planners/lines/floor.h"
@@ -18,15 +19,24 @@ namespace floorproof {
 // turn at any angle: straight on where the floor between is free.
 class AuditFloor {
  public:
-  // `area` and `shapes`: with the robot's own clear shape. `margin_m` is kept beyond it on the way,
+  // Where the robot's middle stands for a sample, and which way it faces there; none: any.
+  struct Stop {
+    Vec2 p_W = Vec2::Zero();
+    std::optional<double> yaw_rad;
+  };
+
+  // `area` and `shapes`: with the robot's own clear shape. A robot that may face anywhere, with its
+  // sensor ahead of its middle, turns it to the place: it reaches places closer to a wall than its
+  // own radius. `margin_m` is kept beyond it on the way,
   // for the tracker's error, but for the surroundings of places that lie closer to an obstacle; and
   // less of it, or none, where it would cut a place off.
   AuditFloor(const PlanRequest& request, const FloorRoom& room, const SweepArea& area,
              const HeldShapes& shapes, const std::vector<Vec2>& places, double margin_m);
 
   double margin_m() const { return margin_m_; }  // what is kept in the end
-  // The start, and the places that can be reached, in the order given: what the table's places are.
-  const std::vector<Vec2>& stops() const { return stops_; }
+  // The start, and a stop for each of the places that can be reached, in the order given: what the
+  // table's places are.
+  const std::vector<Stop>& stops() const { return stops_; }
   // Of each place given, which stop it is; 0: it cannot be reached.
   const std::vector<int>& stop_of() const { return stop_of_; }
   const PlaceDistances& distances() const { return distances_; }
@@ -34,13 +44,16 @@ class AuditFloor {
   std::vector<Vec2> Way(int from, int to) const;
 
  private:
+  // Where to stand so that the sensor, ahead of the middle, is over the place: with the margin
+  // where there is a choice, and then nearest to the start. None: nowhere.
+  std::optional<Stop> StopFor(const Vec2& place_W, double sensor_x_m, double margin_m) const;
   // Whether the robot gets to all stops within this mask; then distances and ways are known.
   bool Measure(const Grid<std::uint8_t>& free);
   Cell CellOf(const Vec2& p_W) const { return Floor::CellAt(floor_.ToCells(p_W)); }
 
   Floor floor_;
   double margin_m_ = 0;
-  std::vector<Vec2> stops_;
+  std::vector<Stop> stops_;
   std::vector<int> stop_of_;
   PlaceDistances distances_{0};
   std::vector<std::vector<std::vector<Cell>>>

@@ -31,7 +31,8 @@ struct FoundSamples {
 
 // The general sample locations are a lattice of free cells inside the room, at the intervals `du_m`
 // and `dv_m` along the rows and columns of its grid, to whole cells; how it lies is chosen by what
-// the robot reaches (`reachable`). Places are those of them near the boundary, those near corners,
+// the robot reaches (`reachable`: cells from which it can take
+// a sample). Places are those of them near the boundary, those near corners,
 // and a few random ones of the rest (Eq. 1). `width_m`: of the robot, after which the intervals are
 // chosen where they are not given. The paper's "proportional to the robot footprint".
 FoundSamples FindSamples(const Room& room, const Grid<std::uint8_t>& reachable, double width_m,

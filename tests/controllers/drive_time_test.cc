@@ -39,6 +39,27 @@ TEST(DriveTime, OfALongStraightIsItsLengthByItsSpeed) {
   }
 }
 
+// Turned away from the way on, and back again.
+TEST(DriveTime, FacingElsewhereAtAStopTakesTwoTurns) {
+  Path path = MakePath({{0, 0}, {2, 0}, {4, 0}});
+  path[1].dwell_s = 5;
+  const double straight_s = Foretold(path);
+  path[1].yaw_rad = 0;
+  EXPECT_DOUBLE_EQ(Foretold(path), straight_s);
+  double last_s = straight_s;
+  for (const double yaw_rad : {0.5, 1.5, 3.0}) {
+    path[1].yaw_rad = yaw_rad;
+    EXPECT_GT(Foretold(path), last_s);
+    last_s = Foretold(path);
+  }
+  path[1].yaw_rad = -1.5;
+  Path right = path;
+  right[1].yaw_rad = 1.5;
+  EXPECT_DOUBLE_EQ(Foretold(path), Foretold(right));
+  const RobotSpec robot = RoundRobot();
+  EXPECT_GT(Foretold(path) - straight_s, 2 * 1.5 / robot.max_yaw_rate_radps);
+}
+
 // The share of the speed that is allowed falls with the gap, and the time is its inverse.
 TEST(DriveTime, SlowingDownBesideObstaclesTakesTime) {
   for (const RobotSpec& robot : TestRobots()) {

@@ -279,6 +279,27 @@ TEST(RegulatedPursuit, DwellsInSimulatedTime) {
   }
 }
 
+// As an audit robot turns its sensor to the wall.
+TEST(RegulatedPursuit, FacesThePlansYawWhereItDwellsAndOnlyThere) {
+  for (const double yaw_rad : {0.0, 2.0, -3.0, kPi}) {
+    Path path = MakePath({{0, 0}, {1, 0}, {2, 0.5}});
+    path[1].dwell_s = 3;
+    path[1].yaw_rad = yaw_rad;
+    path[2].yaw_rad = 1.5;  // nothing is done there
+    const Driven driven = Follow(path);
+    ASSERT_TRUE(driven.done) << yaw_rad;
+    int dwelling = 0;
+    for (const auto& step : driven.steps) {
+      if (!step.dwelling) continue;
+      ++dwelling;
+      EXPECT_LT(std::abs(WrapAngle(step.X_WB.yaw_rad - yaw_rad)), 0.04) << yaw_rad;
+      EXPECT_LT((step.X_WB.p() - path[1].p_W).norm(), 0.03) << yaw_rad;
+    }
+    EXPECT_NEAR(dwelling * 0.02, 3, 0.05) << yaw_rad;
+    EXPECT_LT(std::abs(WrapAngle(driven.steps.back().X_WB.yaw_rad - std::atan2(0.5, 1))), 0.1);
+  }
+}
+
 TEST(RegulatedPursuit, OnePointIsDwelledAtAndDone) {
   Path path = MakePath({{1, 1}});
   path[0].dwell_s = 2;

@@ -91,8 +91,7 @@ TEST_F(AuditTest, ALargerDistanceTakesMoreOfTheLatticeAndAllOfItInTheEnd) {
     EXPECT_GT(plan.samples.size(), last) << yaml;
     last = plan.samples.size();
   }
-  EXPECT_EQ(static_cast<double>(last),
-            Figure(Plan("samples: {boundary_m: 9}"), "general_samples"));
+  EXPECT_EQ(static_cast<double>(last), Figure(Plan("samples: {boundary_m: 9}"), "general_samples"));
 }
 
 // The same floor with a margin of unknown cells around it, as mapping programs store it.
@@ -153,6 +152,27 @@ TEST_F(AuditTest, TheRobotStandsAtEachSampleInTheOrderThatThePlanLists) {
   EXPECT_EQ(other.path.back().speed_mps, 0.2);
 }
 
+// A sensor at the robot's nose gets closer to a wall than its middle does.
+TEST_F(AuditTest, TheRobotTurnsItsSensorToThePlace) {
+  places_ = {{0.6, 3.0}, {3.5, 2.42}, {5.0, 1.5}, {0.515, 3.6}};
+  robot_.audit_dwell_s = 9;
+  EXPECT_EQ(Plan().status, PlanStatus::kTooFewSamples)
+      << "its middle cannot stand at three of them";
+  robot_.audit_sensor_x_m = 0.135;
+  const PlanResult plan = Plan();
+  ExpectSound(map_, start_, plan);
+  EXPECT_FALSE(plan.samples[3].reachable) << "15 mm from the wall";
+  int visits = 0;
+  for (const Waypoint& w : plan.path) {
+    if (!w.task) continue;
+    ++visits;
+    ASSERT_TRUE(w.yaw_rad);
+    const Vec2 sensor_W = w.p_W + 0.135 * Vec2(std::cos(*w.yaw_rad), std::sin(*w.yaw_rad));
+    EXPECT_LT((sensor_W - places_[static_cast<std::size_t>(w.task->id)]).norm(), 1e-6);
+  }
+  EXPECT_EQ(visits, 3);
+}
+
 TEST_F(AuditTest, TheTourIsAsLongAsItsPath) {
   for (const auto& order : VisitOrders()) {
     const PlanResult plan = Plan("{order: " + std::string(order.name) +
@@ -195,7 +215,8 @@ TEST_F(AuditTest, ItsBoundIsBelowEveryOrder) {
   EXPECT_LT(Figure(Plan(), "tour_gap"), 0.03);
 }
 
-// A door as wide as the robot and 60 mm, of which poses in cells leave 5 mm on either side: the margin must give way, or the second room is lost.
+// A door as wide as the robot and 60 mm, of which poses in cells leave 5 mm on either side: the
+// margin must give way, or the second room is lost.
 TEST_F(AuditTest, TheMarginGivesWayToADoor) {
   map_ = Draw(R"(
     ######################
