@@ -42,6 +42,16 @@ void WarnOfSpeeds(const Scenario& s, std::vector<std::string>& lines) {
     capped("react.back_off_mps", s.recovery->back_off_mps);
 }
 
+// A drive over places is no coverage: judged by it, each one fails.
+void WarnOfCoverage(const Scenario& s, std::vector<std::string>& lines) {
+  const double least = s.episode.min_coverage;
+  if (least > 0 && s.planner && s.planner->promises().covers == PlannerPromises::Covers::kNothing)
+    lines.push_back(
+        fmt::format("warning: success.min_coverage is {}, and the planner {} goes to "
+                    "places and covers no floor: 0 is what judges its drives",
+                    NumberText(least), s.planner_name));
+}
+
 }  // namespace
 
 std::vector<std::string> Warnings(const Scenario& scenario) {
@@ -59,6 +69,7 @@ std::vector<std::string> Warnings(const Scenario& scenario) {
                       hazard.id, asked, walk.timestep_s, most));
   }
   WarnOfSpeeds(scenario, lines);
+  WarnOfCoverage(scenario, lines);
   std::string outside;
   for (const fs::path& file : FilesRead(scenario))
     if (!scenario.files.HasStandIn(file) && !LiesIn(scenario.file.parent_path(), file) &&

@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <string>
 
 #include "base/streams.h"
+#include "env/map/ros_map.h"
 #include "planners/audit/features.h"
+#include "planners/search/grid_paths.h"
 #include "tests/planners/floors.h"
 
 namespace floorproof {
@@ -158,6 +162,54 @@ TEST(BoundaryTest, MayLieOnTheMapsOwnEdge) {
   for (const Cell c : boundary)
     EXPECT_TRUE(c.ix == -1 || c.iy == -1 || c.ix == 40 || c.iy == 40) << c.ix << ", " << c.iy;
 }
+
+class SharedMap : public ::testing::TestWithParam<std::string> {};
+
+// Scanned maps, ragged and with fans of beams: the boundary goes once around all of the room.
+TEST_P(SharedMap, TheBoundaryEnclosesTheRoom) {
+  const std::filesystem::path yaml =
+      std::filesystem::path(FP_SHARED_MAPS_DIR) / GetParam() / "map.yaml";
+  if (!std::filesystem::exists(yaml)) GTEST_SKIP() << "no shared maps here";
+  const RosMap ros = ReadRosMap(yaml);
+  HazardMap map;
+  map.frame = ros.frame;
+  map.occupancy = ros.occupancy;
+  const ClearanceField clearance = ComputeClearance(map, 0.01);
+  const auto widest = static_cast<int>(std::ranges::max_element(clearance.distance_m.cells) -
+                                       clearance.distance_m.cells.begin());
+  const Room room = RoomOf(
+      map, clearance.frame.Center(widest % clearance.frame.width, widest / clearance.frame.width));
+  const std::vector<Cell> boundary = BoundaryOf(room);
+  ASSERT_FALSE(boundary.empty());
+  // Each step of it goes to a neighbour, beside the room, and the last leads to the first.
+  Grid<std::uint8_t> line(room.inside.width + 4, room.inside.height + 4);
+  for (std::size_t i = 0; i < boundary.size(); ++i) {
+    const Cell a = boundary[i], b = boundary[(i + 1) % boundary.size()];
+    ASSERT_LE(std::max(std::abs(a.ix - b.ix), std::abs(a.iy - b.iy)), 1) << i;
+    line(a.ix + 2, a.iy + 2) = 1;
+    bool beside = false;
+    for (int k = 0; k < 9; ++k) {
+      const Cell n{a.ix + k % 3 - 1, a.iy + k / 3 - 1};
+      beside = beside || (room.inside.Inside(n) && room.inside(n));
+    }
+    ASSERT_TRUE(beside) << a.ix << ", " << a.iy;
+  }
+  // What cannot be come to from outside without crossing it holds the room.
+  Grid<std::uint8_t> open = line;
+  for (std::uint8_t& cell : open.cells) cell = !cell;
+  const Grid<std::int32_t> outside = StepsFrom(open, {0, 0});
+  int come_to = 0;
+  for (int iy = 0; iy < room.inside.height; ++iy)
+    for (int ix = 0; ix < room.inside.width; ++ix)
+      come_to += room.inside(ix, iy) && outside(ix + 2, iy + 2) >= 0;
+  EXPECT_EQ(come_to, 0) << "cells of the room";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SharedMap,
+                         ::testing::Values("apartment", "depot", "fetch_hq_2015", "lab_small",
+                                           "office_plan", "office_scan", "small_house",
+                                           "willow_2010"),
+                         [](const auto& param_info) { return param_info.param; });
 
 }  // namespace
 }  // namespace floorproof

@@ -52,6 +52,20 @@ TEST_F(ScenarioFile, ASpeedThatTheRobotDoesNotHaveIsSaid) {
               HasSubstr("react.back_off_mps 7 m/s is more than beluga drives: "));
 }
 
+// `init` writes one, for coverage; an audit judged by it fails each time.
+TEST_F(ScenarioFile, ACoverageThatIsAskedOfAnAuditIsSaidToBeInTheWay) {
+  const auto warnings = [&](const std::string& planner) {
+    std::string said;
+    for (const std::string& line :
+         Warnings(Read(RoomScenario("", "success: {min_coverage: 0.95}\n"),
+                       {{"plan", "{planner: " + planner + "}"}})))
+      said += line + "\n";
+    return said;
+  };
+  EXPECT_EQ(warnings("boustrophedon"), "");
+  EXPECT_THAT(warnings("audit"), HasSubstr("success.min_coverage is 0.95, and the planner audit"));
+}
+
 TEST_F(ScenarioFile, ResolvedTwiceIsItself) {
   const Scenario first =
       Read(RoomScenario("{type: step, polygon_m: [[3, 1], [4, 1], [4, 2]], height_m: 0.002}",
