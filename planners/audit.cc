@@ -21,7 +21,8 @@
 namespace floorproof {
 namespace {
 
-constexpr std::size_t kLeastStops = 2;  // of a tour, beside the start
+constexpr std::size_t kLeastStops = 2;     // of a tour, beside the start
+constexpr std::size_t kMostPlaces = 5000;  // memory and time grow as their square: minutes, 1 GB
 
 class AuditPlanner final : public Planner {
  public:
@@ -71,6 +72,13 @@ class AuditPlanner final : public Planner {
     }
     if (!FindPlaces(request, area, result)) return result;
 
+    if (result.samples.size() > kMostPlaces) {
+      result.message = std::to_string(result.samples.size()) +
+                       " places to sample are more than the " + std::to_string(kMostPlaces) +
+                       " that a tour takes: larger intervals (samples.du_m) give fewer";
+      result.samples.clear();
+      return result;
+    }
     std::vector<Vec2> places;  // p_W
     for (const SamplePlace& place : result.samples) places.push_back(place.p_W);
     const AuditFloor floor(request, room, area, held, places, margin_m_);

@@ -99,7 +99,7 @@ bool AuditFloor::Measure(const Grid<std::uint8_t>& free) {
     for (int k = 0; k < 9 && !(free.Inside(c) && free(c)); ++k)
       if (const Cell d{c.ix + k % 3 - 1, c.iy + k / 3 - 1}; free.Inside(d) && free(d)) c = d;
   distances_ = PlaceDistances(n);
-  bends_.assign(Z(n), {});
+  ways_.assign(Z(n), {});
   std::atomic<int> next = 0;
   std::atomic<bool> all = true;
   const auto search = [&] {
@@ -113,7 +113,9 @@ bool AuditFloor::Measure(const Grid<std::uint8_t>& free) {
           break;
         }
         distances_.Set(a, b, distance * floor_.frame.cell_m);
-        bends_[Z(a)].push_back(field.PathTo(cells[Z(b)]));
+        Ways& ways = ways_[Z(a)];
+        for (const Cell c : field.PathTo(cells[Z(b)])) ways.cells.push_back(NumberOf(free, c));
+        ways.ends.push_back(ways.cells.size());
       }
     }
   };
@@ -128,7 +130,10 @@ bool AuditFloor::Measure(const Grid<std::uint8_t>& free) {
 std::vector<Vec2> AuditFloor::Way(int from, int to) const {
   const int a = std::min(from, to), b = std::max(from, to);
   std::vector<Vec2> way;
-  for (const Cell c : bends_[Z(a)][Z(b - a - 1)]) way.push_back(Floor::CentreOf(c));
+  const Ways& ways = ways_[Z(a)];
+  const auto k = Z(b - a - 1);
+  for (std::size_t i = k > 0 ? ways.ends[k - 1] : 0; i < ways.ends[k]; ++i)
+    way.push_back(Floor::CentreOf(floorproof::CellAt(floor_.pose, Z(ways.cells[i]))));
   if (from > to) std::reverse(way.begin(), way.end());
   // Stops lie anywhere in their cells: the way ends there, by the cell's middle where it must.
   const auto end_at = [&](const Vec2& p_W, bool front) {

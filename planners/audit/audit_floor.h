@@ -56,8 +56,13 @@ class AuditFloor {
   std::vector<Stop> stops_;
   std::vector<int> stop_of_;
   PlaceDistances distances_{0};
-  std::vector<std::vector<std::vector<Cell>>>
-      bends_;  // [a][b - a - 1], b > a: of the way, ends too
+  // From a stop to each later one, in turn: the numbers of the cells where the way begins, bends
+  // and ends, and where it ends in that list. There are as many ways as pairs of stops.
+  struct Ways {
+    std::vector<int> cells;
+    std::vector<std::size_t> ends;
+  };
+  std::vector<Ways> ways_;
 };
 
 }  // namespace floorproof

@@ -155,8 +155,8 @@ class Colony {
 class AntColony final : public VisitOrder {
  public:
   void Visit(ParamVisitor& v) override {
-    v("ants", rules_.ants, AtLeast(1), "walks in each iteration");
-    v("iterations", rules_.iterations, AtLeast(1), "how often all ants walk");
+    v("ants", rules_.ants, Between(1, 1e4), "walks in each iteration");
+    v("iterations", rules_.iterations, Between(1, 1e6), "how often all ants walk");
     v("evaporation", rules_.evaporation, Between(0, 1), "share of a trace that an iteration takes");
     v("sight", rules_.sight, Between(0, 20), "exponent of 1 / distance (beta)");
     v("traces", rules_.traces, Between(0, 20), "exponent of the trace (alpha)");

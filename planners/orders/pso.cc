@@ -31,12 +31,12 @@ struct Particle {
 class ParticleSwarm final : public VisitOrder {
  public:
   void Visit(ParamVisitor& v) override {
-    v("particles", particles_, AtLeast(1), "how many there are");
+    v("particles", particles_, Between(1, 1e4), "how many there are");
     v("inertia", inertia_, NonNegative(), "share of its speed that a particle keeps at first");
     v("damping", damping_, Between(0, 1), "factor on the inertia after each iteration");
     v("learning_local", learning_local_, NonNegative(), "pull of a particle's own best position");
     v("learning_global", learning_global_, NonNegative(), "pull of the best position of all");
-    v("iterations", iterations_, AtLeast(1), "how often all particles move");
+    v("iterations", iterations_, Between(1, 1e6), "how often all particles move");
   }
 
   VisitSequence Order(const OrderRequest& request) const override {

@@ -73,7 +73,7 @@ class Tour final : public VisitOrder {
  public:
   void Visit(ParamVisitor& v) override {
     v("effort", effort_, Between(0, 1e6), "factor on the work of the local search");
-    v("bound_iterations", bound_iterations_, NonNegative(),
+    v("bound_iterations", bound_iterations_, Between(0, 1e6),
       "spanning trees made for the bound; 0: no bound but of a dozen places");
   }
 

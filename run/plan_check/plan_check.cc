@@ -150,10 +150,15 @@ void AddSamples(const PlanResult& plan, std::vector<std::string>& lines) {
     const auto found = std::ranges::find(plan.figures, name, [](const auto& f) { return f.first; });
     return found == plan.figures.end() ? std::optional<double>() : found->second;
   };
-  if (const auto bound_m = figure("tour_bound_m"))
-    lines.push_back(
-        fmt::format("no order of these places is shorter than {} m: the tour is at most {} longer",
-                    FixedText(*bound_m, 1), PercentText(figure("tour_gap").value_or(0))));
+  constexpr double kProven = 1e-6;  // of the length: the bound's own rounding is less
+  if (const auto bound_m = figure("tour_bound_m")) {
+    const double gap = figure("tour_gap").value_or(0);
+    lines.push_back(gap < kProven
+                        ? "no order of these places is shorter"
+                        : fmt::format("no order of these places is shorter than {} m: the "
+                                      "tour is at most {} longer",
+                                      FixedText(*bound_m, 1), PercentText(gap)));
+  }
   std::vector<Vec2> missed;
   for (const SamplePlace& sample : plan.samples)
     if (!sample.reachable) missed.push_back(sample.p_W);

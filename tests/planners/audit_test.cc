@@ -257,6 +257,13 @@ TEST_F(AuditTest, SaysWhyThereIsNoTour) {
   EXPECT_NE(bare.message.find("free all over"), std::string::npos) << bare.message;
 }
 
+TEST_F(AuditTest, TooManyPlacesAreRefusedBeforeTheyTakeAllMemory) {
+  const PlanResult plan = Plan("samples: {du_m: 0.05, boundary_m: 9}");
+  EXPECT_EQ(plan.status, PlanStatus::kFailed);
+  EXPECT_NE(plan.message.find("more than the 5000 that a tour takes"), std::string::npos)
+      << plan.message;
+}
+
 TEST_F(AuditTest, RandomSamplesHangOnTheSeedAndTheOthersDoNot) {
   const auto chosen = [](const PlanResult& plan, bool random) {
     std::set<std::pair<double, double>> at;
