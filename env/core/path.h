@@ -23,10 +23,10 @@ struct Waypoint {
   Vec2 p_W = Vec2::Zero();
   std::optional<double> yaw_rad;  // body heading on the way here (holonomic robots); none: along
                                   // the way. Others that turn on the spot face it where they dwell
-  std::string shape;     // of a reconfigurable robot; empty: as it is
-  double speed_mps = 0;  // on the way here; 0: the robot's cruise speed
-  double dwell_s = 0;    // stand here for this long, in simulated time
-  bool stops = false;    // where the way bends here it is not cut: the robot stops, and then turns
+  std::string shape;              // of a reconfigurable robot; empty: as it is
+  double speed_mps = 0;           // on the way here; 0: the robot's cruise speed
+  double dwell_s = 0;             // stand here for this long, in simulated time
+  bool stops = false;  // where the way bends here it is not cut: the robot stops, and then turns
   std::optional<WaypointTask> task = {};  // to be done here
 };
 
