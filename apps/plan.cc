@@ -52,7 +52,8 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
                                 NumberText(json["sweepable_m2"].get<double>())));
       else
         globals.Say(PlannedText(plan) + ", " + CountText(plan.samples.size(), "sample"));
-      if (!plan.message.empty()) globals.Say(plan.message);
+      // Of samples out of reach the check's lines say more.
+      if (!plan.message.empty() && plan.samples.empty()) globals.Say(plan.message);
       const PlanCheck check = CheckPlan(scenario, plan);
       for (const std::string& said : PlanLines(scenario, plan, check)) globals.Say(said);
       json["check"] = PlanCheckJson(scenario, check);

@@ -36,10 +36,10 @@ class AuditPlanner final : public Planner {
     visit("margin_m", margin_m_, NonNegative(),
           "kept beyond the clear shape for the tracker's error, except around places that lie "
           "closer to an obstacle; less where that would cut a place off");
-    visit("speed_mps", speed_mps_, Positive(),
+    visit("speed_mps", speed_mps_, Between(0.001, 10),
           "between places; none: the pace of the robot's audits, else its cruise speed");
-    visit("dwell_s", dwell_s_, NonNegative(),
-          "that a sample takes; none: as the robot's model states, else 0");
+    visit("dwell_s", dwell_s_, Between(0.1, 600),
+          "that a sample takes; none: as the robot's model states, else 1");
     visit.Group(
         "samples", [this](ParamVisitor& v) { samples_.Visit(v); },
         "where to sample; or file: points.csv, places of your own");
@@ -73,9 +73,10 @@ class AuditPlanner final : public Planner {
     if (!FindPlaces(request, area, result)) return result;
 
     if (result.samples.size() > kMostPlaces) {
-      result.message = std::to_string(result.samples.size()) +
-                       " places to sample are more than the " + std::to_string(kMostPlaces) +
-                       " that a tour takes: larger intervals (samples.du_m) give fewer";
+      result.message =
+          std::to_string(result.samples.size()) + " places to sample are more than the " +
+          std::to_string(kMostPlaces) + " that a tour takes" +
+          (request.places.empty() ? ": larger intervals (samples.du_m) give fewer" : "");
       result.samples.clear();
       return result;
     }
@@ -104,7 +105,7 @@ class AuditPlanner final : public Planner {
     const Room room = MakeRoom(request.map, robot.step_m, area, robot.circumscribed_radius_m);
     const bool faces = robot.clear.kind == Shape2::Kind::kCircle;
     FoundSamples found = FindSamples(
-        room, Within(area.reachable, faces ? robot.audit_sensor_x_m / area.frame.cell_m : 0),
+        room, Within(area.reachable, faces ? robot.audit_sensor_x_m / area.frame.cell_m + 0.5 : 0),
         2 * robot.inscribed_radius_m, samples_, request.seed);
     result.message = found.why;
     if (!found.why.empty()) return false;
@@ -178,7 +179,7 @@ class AuditPlanner final : public Planner {
       for (std::size_t i = 1; i < way.size(); ++i) add(way[i]);
       if (sample_at[Z(order[k])] < 0) continue;  // back at the start
       Waypoint& stop = result.path.back();
-      stop.dwell_s = dwell_s_.value_or(robot.audit_dwell_s);
+      stop.dwell_s = dwell_s_.value_or(robot.audit_dwell_s > 0 ? robot.audit_dwell_s : 1.0);
       if (const auto& yaw_W = floor.stops()[Z(order[k])].yaw_rad) stop.yaw_rad = yaw_W;
       stop.task = {WaypointTask::Kind::kSample, sample_at[Z(order[k])]};
     }

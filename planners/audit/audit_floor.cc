@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kAround_m = 0.3;  // of a place closer to an obstacle: no margin is kept there
 constexpr double kLeastMargin_m = 0.005;
+constexpr double kApart_m = 0.02;
 constexpr int kHeadings = 64;  // that are tried at a place
 constexpr int kFewStops = 16;  // for which a second thread is not worth it
 
@@ -78,6 +79,9 @@ std::optional<AuditFloor::Stop> AuditFloor::StopFor(const Vec2& place_W, double 
     const double yaw_rad = WrapAngle(2 * kPi * k / kHeadings);
     const Vec2 p_W = place_W - sensor_x_m * Vec2(std::cos(yaw_rad), std::sin(yaw_rad));
     if (!is_pose(p_W)) continue;
+    // A stop of its own: at one place a robot faces one way.
+    if (std::ranges::any_of(stops_, [&](const Stop& s) { return (s.p_W - p_W).norm() < kApart_m; }))
+      continue;
     const double room = std::min(floor_.MarginAt(floor_.ToCells(p_W)), floor_.ToCells(margin_m));
     const double way = (p_W - stops_.front().p_W).norm();
     if (room < 0 || (best && (room < best_room || (room == best_room && way >= best_way))))
@@ -107,15 +111,14 @@ bool AuditFloor::Measure(const Grid<std::uint8_t>& free) {
     for (int a = next++; a < n && all; a = next++) {
       field.From(cells[Z(a)]);
       for (int b = a + 1; b < n; ++b) {
-        const double distance = field.DistanceTo(cells[Z(b)]);
-        if (!std::isfinite(distance)) {
+        if (!std::isfinite(field.DistanceTo(cells[Z(b)]))) {
           all = false;
           break;
         }
-        distances_.Set(a, b, distance * floor_.frame.cell_m);
         Ways& ways = ways_[Z(a)];
         for (const Cell c : field.PathTo(cells[Z(b)])) ways.cells.push_back(NumberOf(free, c));
         ways.ends.push_back(ways.cells.size());
+        distances_.Set(a, b, PolylineLength(Way(a, b)));  // as it is driven
       }
     }
   };

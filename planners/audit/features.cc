@@ -34,11 +34,17 @@ std::vector<Cell> BoundaryOf(const Room& room) {
   Thin(edge);
   const cv::Mat image(height, width, CV_8U, edge.cells.data());
   std::vector<std::vector<cv::Point>> contours;
-  cv::findContours(image, contours, cv::RETR_LIST, cv::CHAIN_APPROX_NONE);
-  const auto largest = std::ranges::max_element(
-      contours, {}, [](const auto& contour) { return cv::contourArea(contour); });
+  std::vector<cv::Vec4i> kin;  // of each: next, before, child, parent
+  cv::findContours(image, contours, kin, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
+  const std::vector<cv::Point>* largest = nullptr;
+  double most = -1;
+  for (std::size_t i = 0; i < contours.size(); ++i) {
+    const bool hole = kin[i][3] >= 0;
+    const double area = hole ? cv::contourArea(contours[i]) : -1;
+    if (area > most) largest = &contours[i], most = area;
+  }
   std::vector<Cell> boundary;
-  if (largest != contours.end())
+  if (largest != nullptr)
     for (const cv::Point& p : *largest) boundary.push_back({p.x - kPad, p.y - kPad});
   return boundary;
 }

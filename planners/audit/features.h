@@ -13,7 +13,8 @@ namespace floorproof {
 // no contour.
 //
 // Section 4.1, steps 2 and 3: threshold, Zhang-Suen thinning, contours, of which the one that
-// encloses most is the boundary; those around furniture are smaller. Thinned is the line of cells
+// encloses most is the boundary; those around furniture are smaller. It is followed on the room's
+// side, along both sides of a thin wall that stands into the room. Thinned is the line of cells
 // next to the room (MakeRoom), not walls as thick as they are drawn: so the boundary lies one cell
 // outside the room on any map, however ragged.
 std::vector<Cell> BoundaryOf(const Room& room);

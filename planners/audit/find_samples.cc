@@ -85,8 +85,9 @@ FoundSamples FindSamples(const Room& room, const Grid<std::uint8_t>& reachable, 
   const Grid<float> to_corner = DistanceTo(CornersOf(room), 1, width, height);
 
   Stream random(seed, 0, "audit_samples");
-  const auto cells = [cell_m](double interval_m) {
-    return std::max(1, static_cast<int>(std::lround(interval_m / cell_m)));
+  const auto cells = [&](double interval_m) {
+    const double most = std::max(width, height);  // one place then
+    return std::max(1, static_cast<int>(std::lround(std::min(interval_m / cell_m, most))));
   };
   const Lattice lattice = PlaceLattice(room, reachable, cells(du_m), cells(dv_m));
   std::vector<SamplePlace> rest;

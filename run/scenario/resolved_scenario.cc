@@ -94,6 +94,8 @@ ConfigNode PlannerKeys(const Scenario& s, const fs::path& folder) {
   ConfigNode node = WithPlugin(Named("planner", s.planner_name), *PlannerOf(s));
   if (!s.places_file.empty())
     *node.Find("samples") = Named("file", PathFrom(folder, s.places_file).string());
+  // A file of places stands alone; what variants without one have is as by default.
+  if (Vary(s, {"plan.samples", "plan.samples.file"})) node.Remove("samples");
   if (!Vary(s, {"plan.planner"})) return node;
   const auto defaults = [&](auto planners) {
     return WithPlugin(ConfigNode::Map(), *MakePlugin(planners, s.planner_name, "plan.planner"));

@@ -258,9 +258,10 @@ TEST_P(EveryPlanner, HasNoPointsWithoutNeed) {
   const Path path = Plan().path;
   for (std::size_t i = 1; i < path.size(); ++i)
     EXPECT_GT((path[i].p_W - path[i - 1].p_W).norm(), 1e-6) << i;
-  for (std::size_t i = 2; i < path.size(); ++i)
-    if (!path[i - 1].task)  // which is a need
-      EXPECT_GT(DistanceToSegment(path[i - 2].p_W, path[i].p_W, path[i - 1].p_W), 1e-6) << i;
+  for (std::size_t i = 2; i < path.size(); ++i) {
+    if (path[i - 1].task) continue;  // which is a need
+    EXPECT_GT(DistanceToSegment(path[i - 2].p_W, path[i].p_W, path[i - 1].p_W), 1e-6) << i;
+  }
 }
 
 TEST_P(EveryPlanner, RefusesAStartWhereTheRobotDoesNotFit) {

@@ -130,6 +130,19 @@ TEST(BoundaryTest, IsTheRoomsAndNotTheFurnitures) {
     EXPECT_TRUE(c.ix < 10 || c.iy < 10 || c.ix >= 190 || c.iy >= 190) << c.ix << ", " << c.iy;
 }
 
+// Of one cell, it thins to a spur of the line around the room.
+TEST(BoundaryTest, GoesAlongBothSidesOfAThinWall) {
+  for (const int thick : {1, 2, 3}) {
+    const HazardMap map = MapOf(140, 120, [&](double x, double y) {
+      const bool partition = x > 60 && x < 60 + thick && y < 70;
+      return x > 10 && x < 130 && y > 10 && y < 110 && !partition;
+    });
+    const std::vector<Cell> boundary = BoundaryOf(RoomOf(map, kCell_m * Vec2(30, 30)));
+    for (int iy = 12; iy < 68; ++iy)
+      EXPECT_LE(NearestCell(boundary, Vec2(60.5, iy + 0.5)), 1.5) << thick << " " << iy;
+  }
+}
+
 // Beams that left the room through a gap draw free cells among unknown ones.
 TEST(BoundaryTest, DoesNotFollowFansOfBeams) {
   const auto room = [](double x, double y) { return x > 20 && x < 80 && y > 20 && y < 80; };

@@ -173,12 +173,34 @@ TEST_F(AuditTest, TheRobotTurnsItsSensorToThePlace) {
   EXPECT_EQ(visits, 3);
 }
 
+// Around the start each of them can be sampled from there: but not all at once.
+TEST_F(AuditTest, EachPlaceHasAStopOfItsOwn) {
+  robot_.audit_sensor_x_m = 0.135;
+  robot_.audit_dwell_s = 9;
+  start_ = {2.0, 2.0, 0};
+  places_ = {{2.135, 2.0}, {1.865, 2.0}, {2.0, 2.135}, {2.0, 1.865}, {4.5, 1.5}};
+  const PlanResult plan = Plan();
+  ExpectSound(map_, start_, plan);
+  const auto stops =
+      std::ranges::count_if(plan.path, [](const Waypoint& w) { return w.dwell_s == 9; });
+  EXPECT_EQ(stops, 5);
+  std::set<int> sampled;
+  for (const Waypoint& w : plan.path)
+    if (w.task) sampled.insert(w.task->id);
+  EXPECT_EQ(sampled.size(), 5u);
+}
+
+TEST_F(AuditTest, AnIntervalWiderThanTheRoomLeavesOnePlace) {
+  const PlanResult plan = Plan("samples: {du_m: 1.0e+300, boundary_m: 9}");
+  EXPECT_EQ(plan.status, PlanStatus::kTooFewSamples) << plan.message;
+}
+
 TEST_F(AuditTest, TheTourIsAsLongAsItsPath) {
   for (const auto& order : VisitOrders()) {
     const PlanResult plan = Plan("{order: " + std::string(order.name) +
                                  ", aco: {iterations: 20}, pso: {iterations: 20}}");
     ExpectSound(map_, start_, plan);
-    EXPECT_NEAR(Length(plan.path), Figure(plan, "tour_m"), 0.1) << order.name;
+    EXPECT_NEAR(Length(plan.path), Figure(plan, "tour_m"), 1e-6) << order.name;
   }
 }
 

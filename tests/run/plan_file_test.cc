@@ -134,6 +134,19 @@ TEST_F(AuditScenario, PlacesOfTheUsersStandInForThoseFound) {
   EXPECT_EQ(ResolvedScenario(again, folder_), resolved);
 }
 
+TEST_F(AuditScenario, AFileThatTheMatrixSetsIsReadBackFromTheResolvedScenario) {
+  Save("points.csv", "x_m,y_m\n1,2\n2,1\n");
+  Save("more.csv", "x_m,y_m\n1,2\n2,1\n2,2\n");
+  const std::string text =
+      With("{planner: audit}") + "matrix: {plan.samples.file: [points.csv, more.csv]}\n";
+  const ScenarioFile first(Save("scenario.yaml", text));
+  const std::string resolved = ResolvedScenario(first.Read(0, first.variants()[0]), folder_);
+  const ScenarioFile again(Save("scenario.yaml", resolved));
+  ASSERT_EQ(again.variants().size(), 2u);
+  EXPECT_EQ(again.Read(0, again.variants()[0]).places.size(), 2u);
+  EXPECT_EQ(again.Read(0, again.variants()[1]).places.size(), 3u);
+}
+
 TEST_F(AuditScenario, WhatStandsBesideThatFileIsRefused) {
   Save("points.csv", "x_m,y_m\n1,2\n2,1\n");
   try {
