@@ -14,11 +14,11 @@ namespace floorproof {
 
 // Assumptions. The audit paper cleans its room five rounds, states neither dirt nor cleaner in
 // figures, and then finds 0.43 and 0.54 of an even grid's samples dirty (section 6.1, tables 1 and
-// 2). These, the density of DirtParams and rows of a tool 0.2 m wide leave 0.45 of a grid's dirty
-// in a room of that size (tests/audit/gathering_test.cc). Denser dirt and a better cleaner would
-// too.
+// 2). `pick_up` is fitted to the 0.43, given the density of DirtParams, on 20 rooms like that of
+// trial 1a (tests/audit/gathering_study_test.cc; docs/audit.md). Denser dirt and a better cleaner
+// would do as well.
 struct CleaningParams {
-  double pick_up = 0.2;  // of a particle, in each pass over it
+  double pick_up = 0.175;  // of a particle, in each pass over it
   // Of those that were not taken up, the share that the brush puts beside its lane, up to so far
   // away. Lane by lane they wander to the walls, where no later lane takes them up.
   double push_aside = 0.3;

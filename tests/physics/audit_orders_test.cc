@@ -31,9 +31,11 @@ TEST_P(AuditOrders, StandToEachOtherAsInThePaper) {
     driven[variant.name.substr(prefix.size())] = execution.record.metrics;
   }
   ASSERT_EQ(driven.size(), 5u);
+  const auto length_m = [&](const char* order) { return driven.at(order).path_length_m; };
+  EXPECT_LE(length_m("tour"), length_m("aco") + 0.05);
   for (const auto measure : {&Metrics::path_length_m, &Metrics::duration_s, &Metrics::energy_j}) {
     const auto of = [&](const char* order) { return driven.at(order).*measure; };
-    EXPECT_LE(of("tour"), 1.005 * of("aco"));
+    EXPECT_LE(of("tour"), 1.03 * of("aco"));  // turns count in time and energy
     EXPECT_LT(of("aco"), std::min(of("zigzag"), of("pso")));
     EXPECT_GT(of("random_order"), std::max(of("zigzag"), of("pso")));
   }
