@@ -26,11 +26,11 @@ std::vector<RiskOfPlan> PlansBeside(const std::vector<std::string>& files,
 
 // heatmap_plan.png: the planned path over the map; where risk is asked for, over its cells, those
 // with hazards coloured by their class. Of an audit, heatmap_samples.png, and plot_convergence.png
-// where its order was found by iterations (report/audit_pictures.h). The others where the scenario asks for risk (AsksForRisk),
-// or there are plans beside it: heatmap_risk.png: the risk factor (RF) of each cell that is no
-// outer wall. heatmap_plan_visits.png: how often the plan visits each cell. plot_risk.png: the plot
-// below, of this plan and those beside it. `record`: of its drive; maps then have its failures, and
-// the first what was driven over the plan.
+// where its order was found by iterations (report/audit_pictures.h). The others where the scenario
+// asks for risk (AsksForRisk), or there are plans beside it: heatmap_risk.png: the risk factor (RF)
+// of each cell that is no outer wall. heatmap_plan_visits.png: how often the plan visits each cell.
+// plot_risk.png: the plot below, of this plan and those beside it. `record`: of its drive; maps
+// then have its failures, and the first what was driven over the plan.
 void WritePlanPictures(const Scenario& scenario, const PlanResult& plan,
                        const std::filesystem::path& folder, std::span<const RiskOfPlan> beside = {},
                        const EpisodeRecord* record = nullptr);
