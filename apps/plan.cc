@@ -46,14 +46,14 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     SayWhenInterrupted(folder.string() + " holds the plan");
     const bool found = plan.status == PlanStatus::kSuccess;
     if (found) {
-      if (plan.samples.empty())
+      if (plan.samples.empty()) {
         globals.Say(fmt::format("{}, covers {:.1f} % of {} m2 in reach", PlannedText(plan),
                                 100 * json["coverage"].get<double>(),
                                 NumberText(json["sweepable_m2"].get<double>())));
-      else
+        if (!plan.message.empty()) globals.Say(plan.message);
+      } else {  // of samples out of reach the check's lines say more than the message
         globals.Say(PlannedText(plan) + ", " + CountText(plan.samples.size(), "sample"));
-      // Of samples out of reach the check's lines say more.
-      if (!plan.message.empty() && plan.samples.empty()) globals.Say(plan.message);
+      }
       const PlanCheck check = CheckPlan(scenario, plan);
       for (const std::string& said : PlanLines(scenario, plan, check)) globals.Say(said);
       json["check"] = PlanCheckJson(scenario, check);

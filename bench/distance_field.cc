@@ -12,7 +12,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <string>
@@ -20,6 +19,7 @@
 #include <vector>
 
 #include "base/streams.h"
+#include "bench/cpu_time.h"
 #include "planners/search/any_angle_field.h"
 
 namespace floorproof {
@@ -27,11 +27,6 @@ namespace {
 
 using Cells = Grid<std::uint8_t>;
 
-double CpuSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 double Seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }

@@ -7,21 +7,15 @@
 #include <fmt/core.h>
 #include <sys/resource.h>
 
-#include <ctime>
 #include <iostream>
 
 #include "base/streams.h"
+#include "bench/cpu_time.h"
 #include "env/core/coverage.h"
 #include "planners/planner.h"
 
 namespace floorproof {
 namespace {
-
-double ProcessorSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 void Fill(HazardMap& map, int x, int y, int w, int h, CellState state) {
   for (int iy = std::max(0, y); iy < std::min(map.frame.height, y + h); ++iy)
@@ -66,9 +60,9 @@ double PlanOne(const std::string& planner, const HazardMap& map, double tool_wid
   params.Add("radius_m", ConfigNode::Scalar(FormatDouble(radius_m)));
   const auto dut = MakePlugin(Planners(), planner, "planner");
   ReadParams(params, "plan.", *dut);
-  const double begin = ProcessorSeconds();
+  const double begin = CpuSeconds();
   const PlanResult plan = dut->Plan({map, robot, {2, 2, 0}, std::nullopt, 0});
-  const double seconds = ProcessorSeconds() - begin;
+  const double seconds = CpuSeconds() - begin;
   fmt::print("{:5} x {:4} {:9.1f} {:10.0f} {:8.2f} {:>8}\n", map.frame.width, map.frame.height,
              1e-6 * map.frame.width * map.frame.height, Length(plan.path), seconds,
              smaller_s > 0 ? fmt::format("{:.2f}", seconds / smaller_s) : "");

@@ -6,21 +6,15 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <ctime>
 #include <iostream>
 #include <map>
 
 #include "base/streams.h"
+#include "bench/cpu_time.h"
 #include "planners/orders/visit_order.h"
 
 namespace floorproof {
 namespace {
-
-double ProcessorSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 std::vector<Vec2> Draw(int count, std::uint64_t seed) {
   Stream random(seed, 0, "places");
@@ -49,9 +43,9 @@ void Compare(int count, bool closed, std::uint64_t seeds) {
       ConfigNode params = ConfigNode::Map();
       WriteParams(*dut, params);
       if (count >= 1000 && params.Find("iterations")) continue;
-      const double begin = ProcessorSeconds();
+      const double begin = CpuSeconds();
       const VisitSequence found = dut->Order({distances, places, closed, seed});
-      sums[entry.name].seconds += ProcessorSeconds() - begin;
+      sums[entry.name].seconds += CpuSeconds() - begin;
       if (found.bound_m) bound_m = *found.bound_m;
       sums[entry.name].ratio += found.length_m / bound_m;
     }

@@ -56,19 +56,20 @@ double DriveTime(const ReferencePath& path, const DriveTimeLimits& limits, const
   for (std::size_t i = 0; i < path.vertices.size(); ++i) {
     const ReferenceVertex& vertex = path.vertices[i];
     time_s += vertex.dwell_s;
+    const auto turn = [&](double turn_rad) {
+      double at_end = 0;
+      time_s += about.Time(turn_rad, 0, 0, at_end) + reference.lag_s;
+    };
     double facing_rad = i == 0 ? Heading(vertex) : Heading(path.vertices[i - 1]);
     if (vertex.face_rad) {
-      double at_end = 0;
       const double turn_rad = std::abs(WrapAngle(*vertex.face_rad - facing_rad));
-      if (turn_rad > limits.tolerance_rad)
-        time_s += about.Time(turn_rad, 0, 0, at_end) + reference.lag_s;
+      if (turn_rad > limits.tolerance_rad) turn(turn_rad);
       facing_rad = *vertex.face_rad;
     }
     if (i + 1 == path.vertices.size()) break;
     const double turn_rad = std::abs(WrapAngle(Heading(vertex) - facing_rad));
     if ((vertex.stop && turn_rad > limits.tolerance_rad) || turn_rad > limits.turn_above_rad) {
-      double at_end = 0;
-      time_s += about.Time(turn_rad, 0, 0, at_end) + reference.lag_s;
+      turn(turn_rad);
       speed_mps = 0;
     }
     if (vertex.stop) {

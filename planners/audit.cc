@@ -102,11 +102,13 @@ class AuditPlanner final : public Planner {
       return true;
     }
     const RobotSpec& robot = request.robot;
-    const Room room = MakeRoom(request.map, robot.step_m, area, robot.circumscribed_radius_m);
+    const Room room = MakeRoom(request.map, area, robot.circumscribed_radius_m);
     const bool faces = robot.clear.kind == Shape2::Kind::kCircle;
-    FoundSamples found = FindSamples(
-        room, Within(area.reachable, faces ? robot.audit_sensor_x_m / area.frame.cell_m + 0.5 : 0),
-        2 * robot.inscribed_radius_m, samples_, request.seed);
+    Grid<std::uint8_t> within_reach = area.reachable;
+    if (faces)
+      DilateDisc(area.reachable, robot.audit_sensor_x_m / area.frame.cell_m + 0.5, within_reach);
+    FoundSamples found =
+        FindSamples(room, within_reach, 2 * robot.inscribed_radius_m, samples_, request.seed);
     result.message = found.why;
     if (!found.why.empty()) return false;
     result.samples = std::move(found.places);
@@ -116,16 +118,6 @@ class AuditPlanner final : public Planner {
     result.figures.push_back({"corner_samples", found.corner});
     result.figures.push_back({"random_samples", found.random});
     return true;
-  }
-
-  // The cells at most so many cells from the set ones.
-  static Grid<std::uint8_t> Within(const Grid<std::uint8_t>& set, double cells) {
-    if (cells <= 0) return set;
-    const Grid<float> away = DistanceToCentres(set);
-    Grid<std::uint8_t> within(set.width, set.height);
-    for (std::size_t i = 0; i < set.cells.size(); ++i)
-      within.cells[i] = static_cast<double>(away.cells[i]) <= cells;
-    return within;
   }
 
   static std::string TooFew(std::size_t places, std::size_t reached) {

@@ -129,28 +129,6 @@ std::optional<Cell> ClearCellAt(const Grid<std::uint8_t>& free, Cell c, const Ve
   return best;
 }
 
-// Marks the cells within `radius` cells of the set ones.
-void DilateDisc(const Grid<std::uint8_t>& set, double radius, Grid<std::uint8_t>& out) {
-  int x0 = set.width, x1 = -1, y0 = set.height, y1 = -1;
-  for (int iy = 0; iy < set.height; ++iy)
-    for (int ix = 0; ix < set.width; ++ix)
-      if (set(ix, iy)) {
-        x0 = std::min(x0, ix), x1 = std::max(x1, ix);
-        y0 = std::min(y0, iy), y1 = iy;
-      }
-  if (x1 < 0) return;
-  const int margin = static_cast<int>(std::ceil(radius));
-  x0 = std::max(0, x0 - margin), x1 = std::min(set.width - 1, x1 + margin);
-  y0 = std::max(0, y0 - margin), y1 = std::min(set.height - 1, y1 + margin);
-  Grid<std::uint8_t> crop(x1 - x0 + 1, y1 - y0 + 1);
-  for (int iy = y0; iy <= y1; ++iy)
-    for (int ix = x0; ix <= x1; ++ix) crop(ix - x0, iy - y0) = set(ix, iy);
-  const Grid<float> distance = DistanceToCentres(crop);
-  for (int iy = y0; iy <= y1; ++iy)
-    for (int ix = x0; ix <= x1; ++ix)
-      if (distance(ix - x0, iy - y0) <= radius + kEps) out(ix, iy) = 1;
-}
-
 // Set cells before ix in each row, for ix in 0 .. width.
 Grid<int> RowSums(const Grid<std::uint8_t>& mask) {
   Grid<int> sums(mask.width + 1, mask.height);

@@ -17,4 +17,8 @@ Grid<float> DistanceToSet(const Grid<std::uint8_t>& set, bool border_is_set);
 // measures to its area); infinite where nothing is set.
 Grid<float> DistanceToCentres(const Grid<std::uint8_t>& set);
 
+// Marks in `out` the cells whose centre lies within `radius` cells of a set cell's, with 1; the
+// others stay as they are.
+void DilateDisc(const Grid<std::uint8_t>& set, double radius, Grid<std::uint8_t>& out);
+
 }  // namespace floorproof

@@ -79,12 +79,12 @@ std::optional<AuditFloor::Stop> AuditFloor::StopFor(const Vec2& place_W, double 
     const double yaw_rad = WrapAngle(2 * kPi * k / kHeadings);
     const Vec2 p_W = place_W - sensor_x_m * Vec2(std::cos(yaw_rad), std::sin(yaw_rad));
     if (!is_pose(p_W)) continue;
-    // A stop of its own: at one place a robot faces one way.
-    if (std::ranges::any_of(stops_, [&](const Stop& s) { return (s.p_W - p_W).norm() < kApart_m; }))
-      continue;
     const double room = std::min(floor_.MarginAt(floor_.ToCells(p_W)), floor_.ToCells(margin_m));
     const double way = (p_W - stops_.front().p_W).norm();
     if (room < 0 || (best && (room < best_room || (room == best_room && way >= best_way))))
+      continue;
+    // A stop of its own: at one place a robot faces one way.
+    if (std::ranges::any_of(stops_, [&](const Stop& s) { return (s.p_W - p_W).norm() < kApart_m; }))
       continue;
     best = Stop{p_W, yaw_rad};
     best_room = room;

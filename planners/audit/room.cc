@@ -42,27 +42,28 @@ bool Touches(const Grid<std::uint8_t>& set, int ix, int iy) {
 
 }  // namespace
 
-Room MakeRoom(const HazardMap& map, double step_m, const SweepArea& area, double reach_m) {
+Room MakeRoom(const HazardMap& map, const SweepArea& area, double reach_m) {
   Room room;
   room.frame = area.frame;
-  const Grid<std::uint8_t> solid = ObstacleMask(map, step_m, area.frame);
-  const Grid<float> away = DistanceToCentres(area.reachable);
+  const auto solid = [&area](std::size_t i) { return area.clearance_m.cells[i] <= 0; };
   const double near = kReaches * reach_m / area.frame.cell_m + kCells;
-  Grid<std::uint8_t> open(solid.width, solid.height);
+  Grid<std::uint8_t> open(area.frame.width, area.frame.height);
+  DilateDisc(area.reachable, near, open);
   for (std::size_t i = 0; i < open.cells.size(); ++i)
-    open.cells[i] = !solid.cells[i] && static_cast<double>(away.cells[i]) <= near;
+    if (solid(i)) open.cells[i] = 0;
   room.inside = ConnectedWith(area.reachable, open);
 
   const double ratio = area.frame.cell_m / map.frame.cell_m;
-  room.pixels = Grid<std::uint8_t>(solid.width, solid.height, kUnknownPixel);
-  for (int iy = 0; iy < solid.height; ++iy)
-    for (int ix = 0; ix < solid.width; ++ix) {
+  room.pixels = Grid<std::uint8_t>(area.frame.width, area.frame.height, kUnknownPixel);
+  for (int iy = 0; iy < area.frame.height; ++iy)
+    for (int ix = 0; ix < area.frame.width; ++ix) {
       std::uint8_t& pixel = room.pixels(ix, iy);
       const auto cell = [ratio](int i) { return static_cast<int>((i + 0.5) * ratio); };
       if (room.inside(ix, iy))
         pixel = kFreePixel;
       else if (Touches(room.inside, ix, iy) ||
-               (solid(ix, iy) && map.occupancy(cell(ix), cell(iy)) != CellState::kUnknown))
+               (solid(open.Index(ix, iy)) &&
+                map.occupancy(cell(ix), cell(iy)) != CellState::kUnknown))
         pixel = kOccupiedPixel;
     }
   return room;

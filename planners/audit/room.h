@@ -27,6 +27,6 @@ struct Room {
 // end at the room's edge. Cells that are free and not inside count as unknown in the image, and
 // cells around the inside that are not free count as occupied: the edge of what is known is closed
 // by them.
-Room MakeRoom(const HazardMap& map, double step_m, const SweepArea& area, double reach_m);
+Room MakeRoom(const HazardMap& map, const SweepArea& area, double reach_m);
 
 }  // namespace floorproof

@@ -26,7 +26,7 @@ namespace {
 constexpr int kBits = 28;  // of the greatest length and weight: three of them fit in 31
 constexpr double kFirstLambda = 1, kLeastLambda = 1e-3, kShrink = 0.7;
 constexpr double kNoLength_m = 1e-200;  // nor scaled any more
-constexpr double kMargin = 1e-12;       // n additions of doubles are wrong by less, for n < 4000
+constexpr double kMargin = 1e-12;       // n additions of doubles are wrong by less, for n < 9000
 
 class Ascent {
  public:

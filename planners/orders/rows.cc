@@ -6,12 +6,20 @@
 
 namespace floorproof {
 
+std::vector<int> OrderByY(const OrderRequest& request) {
+  std::vector<int> order = AsNumbered(request.distances.size());
+  if (order.empty()) return order;
+  std::ranges::sort(order.begin() + 1, order.end(), {}, [&](int a) {
+    const Vec2& p = request.places[Z(a)];
+    return std::tuple(p.y(), p.x(), a);
+  });
+  return order;
+}
+
 std::vector<int> OrderByRows(const OrderRequest& request, double row_m) {
   const auto& p = request.places;
-  std::vector<int> order = AsNumbered(request.distances.size());
+  std::vector<int> order = OrderByY(request);
   if (order.size() < 2) return order;
-  std::ranges::sort(order.begin() + 1, order.end(), {},
-                    [&](int a) { return std::tuple(p[Z(a)].y(), p[Z(a)].x(), a); });
   bool ascending = true;
   for (auto row = order.begin() + 1; row != order.end();) {
     const double end_m = p[Z(*row)].y() + row_m;

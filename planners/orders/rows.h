@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The zig-zag over places: row by row along y, to and fro along x.
+// Places by y; and the zig-zag over them: row by row along y, to and fro along x.
 #pragma once
 
 #include <vector>
@@ -7,6 +7,9 @@
 #include "planners/orders/visit_order.h"
 
 namespace floorproof {
+
+// The start, then the places by growing y, of equals the lesser x first; ties by place number.
+std::vector<int> OrderByY(const OrderRequest& request);
 
 // A row begins with the least y that is left and holds all places up to `row_m` above it. Rows are
 // gone through from the least y on, by turns with x ascending and descending; the first one from

@@ -7,9 +7,6 @@
 // gone through to and fro, as cleaning robots do (planners/orders/rows.h). x and y are the world's.
 // Not done: looking at the distances, but for the end of the first row to begin at; and choosing
 // the direction of the rows.
-#include <algorithm>
-#include <tuple>
-
 #include "planners/orders/rows.h"
 
 namespace floorproof {
@@ -26,22 +23,12 @@ class Zigzag final : public VisitOrder {
 
   VisitSequence Order(const OrderRequest& request) const override {
     VisitSequence found;
-    found.order = literal_ ? ByY(request) : OrderByRows(request, row_m_);
+    found.order = literal_ ? OrderByY(request) : OrderByRows(request, row_m_);
     found.length_m = TourLength(request.distances, found.order, request.closed);
     return found;
   }
 
  private:
-  static std::vector<int> ByY(const OrderRequest& request) {
-    std::vector<int> order = AsNumbered(request.distances.size());
-    if (order.empty()) return order;
-    std::ranges::sort(order.begin() + 1, order.end(), {}, [&](int a) {
-      const Vec2& p = request.places[Z(a)];
-      return std::tuple(p.y(), p.x(), a);
-    });
-    return order;
-  }
-
   double row_m_ = 0.05;
   bool literal_ = false;
 };

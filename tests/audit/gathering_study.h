@@ -127,7 +127,7 @@ class StudyFloor {
   }
   // Those of the planner `audit`, as far as they are within reach.
   std::vector<Vec2> Geometric(const SampleParams& params) const {
-    const Room room = MakeRoom(map(), robot().step_m, area_, robot().circumscribed_radius_m);
+    const Room room = MakeRoom(map(), area_, robot().circumscribed_radius_m);
     Grid<std::uint8_t> within(room.inside.width, room.inside.height);
     for (int iy = 0; iy < within.height; ++iy)
       for (int ix = 0; ix < within.width; ++ix)

@@ -32,7 +32,7 @@ HazardMap MapOf(int width, int height, const Inside& inside) {
 
 Room RoomOf(const HazardMap& map, const Vec2& start_W) {
   const Shape2 disc{Shape2::Kind::kCircle, kRadius_m, {}};
-  return MakeRoom(map, 0.01, ComputeSweepArea(map, disc, disc, 0.01, start_W), kRadius_m);
+  return MakeRoom(map, ComputeSweepArea(map, disc, disc, 0.01, start_W), kRadius_m);
 }
 Vec2 MiddleOf(const HazardMap& map) {
   return 0.5 * kCell_m * Vec2(map.frame.width, map.frame.height);
