@@ -95,6 +95,7 @@ class HolonomicFollower final : public Tracker {
     command.hinges = reconfiguration_.Update(estimate.hinges, dt_s);
     command.segment = progress_.Segment(X_WB.p());
     command.dwelling = progress_.phase() == Phase::kDwell;
+    command.tasks = progress_.tasks();
     command.turning = progress_.phase() == Phase::kTurn || progress_.phase() == Phase::kFold;
     command.done = progress_.phase() == Phase::kDone;
     command.twist = twist_;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "controllers/reference_path.h"
 
@@ -55,6 +56,10 @@ class PathProgress {
   // The vertex at which the leg now tracked begins, and the leg itself.
   std::size_t vertex() const { return vertex_; }
   const ReferenceVertex& leg() const { return reference_.vertices[vertex_]; }
+  // What is done in the dwell that goes on; none while there is no dwell.
+  std::span<const WaypointTask> tasks() const {
+    return phase_ == Phase::kDwell ? std::span(leg().tasks) : std::span<const WaypointTask>();
+  }
   // Where the present turn, or the last, began: the vertex, or where the robot was on its leg.
   const Vec2& turn_W() const { return turn_W_; }
 

@@ -147,6 +147,7 @@ bool Recovery::Update(const Observation& sensed, const Estimate& estimate, doubl
   command.twist = twist_;
   command.hinges.radps = {};
   command.dwelling = false;
+  command.tasks = {};
   command.reacting = true;
   command.turning = turn_ != 0;
   return true;

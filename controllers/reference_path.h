@@ -47,7 +47,7 @@ struct ReferenceVertex {
   bool stop = false;
   std::optional<double> yaw_rad;    // held from here to the next vertex; none: along the way
   std::vector<std::string> shapes;  // taken here, one after the other, before going on
-  std::vector<WaypointTask> tasks;  // of the waypoints here, in their order; carried, not done
+  std::vector<WaypointTask> tasks;  // of the waypoints here, in their order: done in the dwell
 };
 
 struct ReferencePath {

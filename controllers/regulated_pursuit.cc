@@ -82,6 +82,7 @@ class RegulatedPursuit final : public Tracker {
     Command command;
     command.segment = progress_.Segment(X_WB.p());
     command.dwelling = progress_.phase() == Phase::kDwell;
+    command.tasks = progress_.tasks();
     command.turning = progress_.phase() == Phase::kTurn || progress_.phase() == Phase::kFace;
     command.done = progress_.phase() == Phase::kDone;
     command.twist = twist_;

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 
+#include "env/core/path.h"
 #include "env/known/estimate.h"
 
 namespace floorproof {
@@ -15,9 +17,11 @@ struct Command {
   HingeState hinges;        // to be held, or turned at these rates towards these angles
   std::size_t segment = 0;  // the segment now tracked goes from waypoint `segment` to `segment + 1`
   bool dwelling = false;    // standing still on purpose
-  bool turning = false;     // to turn or fold where it stands: it moves only to hold its place
-  bool reacting = false;    // going back from what it met; `segment` is the one that it left
-  bool done = false;        // last waypoint reached
+  // To be done in this dwell, in order: the tracker's own list, until its path changes.
+  std::span<const WaypointTask> tasks = {};
+  bool turning = false;   // to turn or fold where it stands: it moves only to hold its place
+  bool reacting = false;  // going back from what it met; `segment` is the one that it left
+  bool done = false;      // last waypoint reached
 };
 
 // The robot touching what stands in its way: its body, but for what it rests upon, or a wheel at a

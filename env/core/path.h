@@ -11,7 +11,7 @@
 namespace floorproof {
 
 // What the robot is to do at a waypoint beside driving there. Plans carry tasks from the planner to
-// who does them; nobody who drives a path needs to know of them.
+// who does them. A tracker knows nothing of them: it hands them on while it dwells there.
 struct WaypointTask {
   enum class Kind { kSample };  // to take one here
   Kind kind = Kind::kSample;

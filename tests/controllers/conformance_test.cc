@@ -132,6 +132,29 @@ TEST_P(TrackerConformance, StartForgetsThePathBefore) {
     EXPECT_EQ(once.steps[i].twist.vx_mps, again.steps[i].twist.vx_mps);
 }
 
+// What is to be done at a waypoint is done in its dwell: the tracker says so from its beginning to
+// its end, and at no other time.
+TEST_P(TrackerConformance, TellsTheTasksOfTheDwellThatGoesOn) {
+  const auto dut = Make();
+  Path path = kRows;
+  path[1].dwell_s = path[4].dwell_s = path[6].dwell_s = 1;
+  path[1].task = WaypointTask{.id = 7};
+  path[4].task = WaypointTask{.id = 5};
+  path[6].task = WaypointTask{.id = 9};  // at the end
+  const Driven driven = DriveAlong(*dut, path, {}, nullptr, robot());
+  ASSERT_TRUE(driven.done);
+  std::vector<int> order;
+  for (const auto& step : driven.steps) {
+    EXPECT_EQ(step.tasks.size(), step.dwelling ? 1u : 0u) << step.t_s;
+    if (!step.dwelling) continue;
+    const int id = step.tasks.front();
+    if (order.empty() || order.back() != id) order.push_back(id);
+    const Vec2& place = path[id == 7 ? 1 : id == 5 ? 4 : 6].p_W;
+    EXPECT_LT((step.X_WB.p() - place).norm(), 0.05) << id;
+  }
+  EXPECT_EQ(order, (std::vector<int>{7, 5, 9}));
+}
+
 TEST_P(TrackerConformance, UpdateAllocatesNothing) {
   const auto dut = Make();
   // Poses to replay, without the test's own vectors.

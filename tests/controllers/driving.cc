@@ -116,7 +116,8 @@ Driven DriveAlong(Tracker& dut, const Path& path, const DriveOptions& options,
     if (options.push) options.push(t_s, X_WB);
     const Command command = dut.Update({X_WB, drive->ToTwist(wheels), {}}, t_s, options.control_s);
     Driven::Step step{t_s, X_WB, command.twist, command.segment, command.dwelling, command.turning,
-                      0};
+                      0,   {}};
+    for (const WaypointTask& task : command.tasks) step.tasks.push_back(task.id);
     if (!path.empty())
       step.cross_track_m =
           DistanceToSegment(path[command.segment].p_W,

@@ -36,6 +36,7 @@ struct Driven {
     std::size_t segment = 0;
     bool dwelling = false, turning = false;
     double cross_track_m = 0;
+    std::vector<int> tasks;  // ids of those that it says are done now
   };
   std::vector<Step> steps;
   bool done = false;
