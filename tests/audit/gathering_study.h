@@ -13,11 +13,10 @@
 #include <vector>
 
 #include "base/streams.h"
+#include "env/audit/audit_sample.h"
 #include "env/audit/brush.h"
-#include "env/audit/dirt_count.h"
 #include "env/audit/dirt_field.h"
 #include "env/audit/gathering.h"
-#include "env/audit/tape_image.h"
 #include "env/core/coverage.h"
 #include "env/geometry/distance.h"
 #include "planners/audit/find_samples.h"
@@ -185,14 +184,10 @@ class StudyFloor {
 // What the microscope counts on a tape at each place.
 inline std::vector<int> SampleAt(DirtField field, std::span<const Vec2> places,
                                  std::uint64_t seed) {
-  Stream lift(seed, 0, "study_lift"), tape(seed, 0, "study_tape");
-  const MicroscopeParams microscope;
+  Stream random(seed, 0, "study_samples");
   std::vector<int> counts;
-  for (const Vec2& p_W : places) {
-    const auto lifted = LiftTape(field, {p_W.x(), p_W.y(), 0}, {}, lift);
-    const TapeImages images = PhotographTape(lifted, {}, microscope, tape.Next());
-    counts.push_back(CountDirt(images.after, microscope.pixels_per_mm).count);
-  }
+  for (const Vec2& p_W : places)
+    counts.push_back(TakeSample(field, {p_W.x(), p_W.y(), 0}, {}, random).counted.count);
   return counts;
 }
 

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "env/audit/audit_sample.h"
 #include "env/audit/brush.h"
-#include "env/audit/dirt_count.h"
 #include "tests/audit/audit_floors.h"
 
 namespace floorproof {
@@ -29,18 +29,6 @@ TEST(Gathering, GivesThePapersEfficiencies) {
 
 TEST(Gathering, OfNoSampleThereIsNone) { EXPECT_FALSE(Gather({}).Efficiency()); }
 
-TEST(SpaceScore, IsTheMeanAndItsStandardError) {
-  const std::vector<double> scores = {0.9, 0.8, 1.0, 0.7};
-  const SpaceScore dut = ScoreOfSpace(scores);
-  EXPECT_EQ(dut.samples, 4);
-  EXPECT_NEAR(*dut.mean, 0.85, 1e-12);
-  EXPECT_NEAR(*dut.standard_error, std::sqrt(0.05 / 3 / 4), 1e-12);
-  const std::vector<double> one = {0.9};
-  EXPECT_EQ(*ScoreOfSpace(one).mean, 0.9);
-  EXPECT_FALSE(ScoreOfSpace(one).standard_error);
-  EXPECT_FALSE(ScoreOfSpace({}).mean);
-}
-
 // A room as in section 6.1, cleaned five rounds back and forth.
 class CleanedRoom : public ::testing::Test {
  protected:
@@ -56,14 +44,10 @@ class CleanedRoom : public ::testing::Test {
   }
   // What is read from tapes at these places, through the microscope.
   static Gathering Sampled(DirtField field, const std::vector<Vec2>& places) {
-    Stream random(1, 0, "lift");
+    Stream random(1, 0, "samples");
     std::vector<int> counts;
-    const MicroscopeParams microscope;
-    for (const Vec2& p : places) {
-      const auto lifted = LiftTape(field, {p.x(), p.y(), 0}, {}, random);
-      const TapeImages images = PhotographTape(lifted, {}, microscope, counts.size());
-      counts.push_back(CountDirt(images.after, microscope.pixels_per_mm).count);
-    }
+    for (const Vec2& p : places)
+      counts.push_back(TakeSample(field, {p.x(), p.y(), 0}, {}, random).counted.count);
     return Gather(counts);
   }
   static std::vector<Vec2> Grid7() {
