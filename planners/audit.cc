@@ -113,10 +113,12 @@ class AuditPlanner final : public Planner {
     if (!found.why.empty()) return false;
     result.samples = std::move(found.places);
     result.boundary = std::move(found.boundary_W);
+    result.near_walls_share = found.near_walls_share;
     result.figures.push_back({"general_samples", found.general});
     result.figures.push_back({"boundary_samples", found.boundary});
     result.figures.push_back({"corner_samples", found.corner});
     result.figures.push_back({"random_samples", found.random});
+    result.figures.push_back({"near_walls_share", found.near_walls_share});
     return true;
   }
 

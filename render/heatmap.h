@@ -62,6 +62,7 @@ struct HeatMapOptions {
   std::string title;
   std::string quantity, unit;  // over the colour bar: "quantity [unit]"
   ColourMap colour_map = ColourMap::kViridis;
+  bool reversed = false;            // the colours run from the high end to the low one
   std::optional<double> low, high;  // of the colour bar; none: of the values
   bool whole_numbers = false;       // ticks at whole numbers only
   // Not empty: a value v is category round(v), and the legend replaces the colour bar.

@@ -150,6 +150,7 @@ HeatPanel DrawPanel(const HazardMap& map, const HeatValues* values, const HeatMa
   panel.image = GreyImage(frame.width, frame.height, 0);
   panel.range = RangeOf(values, options);
   panel.colours = Colours(options.colour_map);
+  if (options.reversed) std::ranges::reverse(panel.colours);
   DrawCells(map, values, options, frame, panel);
   axes.DrawGrid(Canvas(panel.image));
   DrawPaths(map, options, frame, panel);

@@ -11,6 +11,7 @@
 #include "base/quantity.h"
 #include "base/result_folder.h"
 #include "env/core/failure_text.h"
+#include "report/dirt_pictures.h"
 #include "report/drive_video.h"
 #include "report/pictures.h"
 #include "report/progress.h"
@@ -110,8 +111,9 @@ class Witness : public EpisodeObserver {
     return progress_->OnControl(now);
   }
 
-  void SayVerdict(const EpisodeRecord& record) const {
+  void SayVerdict(const PlanResult& plan, const EpisodeRecord& record) const {
     console_.Say(Verdict(s_, record));
+    if (record.audit) console_.Say(AuditText(s_, plan, *record.audit));
     for (std::size_t i = 0; i < record.events.size(); ++i)
       console_.Say(EventLine(i + 1, record.events[i], s_.site.map));
     if (s_.episode.drive == "cells")
@@ -156,25 +158,25 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
   result.plan = std::move(execution.plan);
   result.record = std::move(execution.record);
   if (result.record.outcome == Outcome::kNotPlanned && options.write_records)
-    WriteEpisodeFiles(s, result.record, folder);
+    WriteEpisodeFiles(s, result.plan, result.record, folder);
   if (!execution.scene && result.record.steps == 0) {  // nothing was driven
     if (result.record.outcome == Outcome::kSuccess && options.write_records)
       WritePlanPictures(s, result.plan, folder);
     return result;
   }
   if (result.record.outcome == Outcome::kInterrupted) {
-    if (options.write_records) WriteEpisodeFiles(s, result.record, folder);
+    if (options.write_records) WriteEpisodeFiles(s, result.plan, result.record, folder);
     witness.There(fmt::format(" holds the plan and the trace of the {:.0f} s driven",
                               result.record.metrics.duration_s));
     throw Interruption();
   }
   std::string missing = "trace, result and pictures";
   auto say_verdict = [&, said = false]() mutable {
-    if (!std::exchange(said, true)) witness.SayVerdict(result.record);
+    if (!std::exchange(said, true)) witness.SayVerdict(result.plan, result.record);
   };
   try {
     if (options.write_records) {
-      WriteEpisodeFiles(s, result.record, folder);
+      WriteEpisodeFiles(s, result.plan, result.record, folder);
       witness.There(" holds plan, trace and result; pictures may be missing");
     }
     missing = "pictures";

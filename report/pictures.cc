@@ -11,6 +11,7 @@
 #include "base/quantity.h"
 #include "report/cell_picture.h"
 #include "report/coverage_plot.h"
+#include "report/dirt_pictures.h"
 #include "report/drawing_progress.h"
 #include "report/drive_marks.h"
 #include "report/error_plot.h"
@@ -107,6 +108,13 @@ void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecor
       },
       [&] {
         if (s.online) WriteCoveragePlot(PictureTitle(s), record, folder / "plot_coverage.png");
+      },
+      [&] {
+        if (record.audit) WriteDirt(s, plan, *record.audit, folder / "heatmap_dirt.png");
+      },
+      [&] {
+        if (record.audit && !record.audit->samples.empty())
+          WriteTapes(s, *record.audit, folder / "plot_tapes.png");
       },
       [&] {  // an ideal robot has none
         if (s.episode.drive == "physics")

@@ -16,6 +16,7 @@ struct SampleKinds {
   bool corner = false;    // near a sharp corner
   bool random = false;    // so that the rest of the floor is looked at, too
   bool given = false;     // the user's own
+  bool near_walls() const { return boundary || corner; }
   bool operator==(const SampleKinds&) const = default;
 };
 

@@ -84,6 +84,20 @@ FoundSamples FindSamples(const Room& room, const Grid<std::uint8_t>& reachable, 
   const Grid<float> to_boundary = DistanceTo(boundary, kEvery, width, height);
   const Grid<float> to_corner = DistanceTo(CornersOf(room), 1, width, height);
 
+  const auto within = [cell_m](float cells, double limit_m) {
+    return static_cast<double>(cells) * cell_m < limit_m;
+  };
+  const auto kinds_at = [&](int ix, int iy) {
+    return SampleKinds{.boundary = within(to_boundary(ix + 1, iy + 1), boundary_m),
+                       .corner = within(to_corner(ix + 1, iy + 1), corner_m)};
+  };
+  std::int64_t inside = 0, near_walls = 0;
+  for (int iy = 0; iy < height; ++iy)
+    for (int ix = 0; ix < width; ++ix)
+      if (room.inside(ix, iy)) ++inside, near_walls += kinds_at(ix, iy).near_walls();
+  if (inside > 0)
+    found.near_walls_share = static_cast<double>(near_walls) / static_cast<double>(inside);
+
   Stream random(seed, 0, "audit_samples");
   const auto cells = [&](double interval_m) {
     const double most = std::max(width, height);  // one place then
@@ -95,17 +109,12 @@ FoundSamples FindSamples(const Room& room, const Grid<std::uint8_t>& reachable, 
     for (int ix = lattice.x0; ix < width; ix += lattice.du) {
       if (!room.inside(ix, iy)) continue;
       ++found.general;
-      const auto within = [&](const Grid<float>& distance, double limit_m) {
-        return static_cast<double>(distance(ix + 1, iy + 1)) * cell_m < limit_m;
-      };
       SamplePlace place;
       place.p_W = room.frame.Center(ix, iy);
-      place.kinds.boundary = within(to_boundary, boundary_m);
-      place.kinds.corner = within(to_corner, corner_m);
+      place.kinds = kinds_at(ix, iy);
       found.boundary += place.kinds.boundary;
       found.corner += place.kinds.corner;
-      const bool chosen = place.kinds.boundary || place.kinds.corner;
-      (chosen ? found.places : rest).push_back(place);
+      (place.kinds.near_walls() ? found.places : rest).push_back(place);
     }
   const auto wanted =
       static_cast<std::size_t>(std::ceil(params.random_share * static_cast<double>(rest.size())));

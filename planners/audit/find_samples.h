@@ -27,6 +27,7 @@ struct FoundSamples {
   std::vector<Vec2> boundary_W;     // of cells along the room's boundary, in order
   // General sample locations, and of them those of each kind, which may be several at once.
   int general = 0, boundary = 0, corner = 0, random = 0;
+  double near_walls_share = 0;  // of the room: so near to its boundary or a corner
 };
 
 // The general sample locations are a lattice of free cells inside the room, at the intervals `du_m`

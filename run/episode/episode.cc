@@ -10,10 +10,10 @@
 #include <optional>
 
 #include "base/quantity.h"
-#include "base/streams.h"
 #include "env/core/failure_text.h"
 #include "env/failures/evidence.h"
 #include "env/sim/physics_plant.h"
+#include "run/episode/episode_stream.h"
 #include "run/episode/intervention.h"
 #include "run/episode/make_navigator.h"
 #include "run/episode/online_limit.h"
@@ -51,10 +51,6 @@ void EpisodeRecord::RequireCoverage(double least) {
 }
 
 namespace {
-
-Stream StreamOf(const Scenario& s, const std::string& name) {
-  return {static_cast<std::uint64_t>(s.episode.seed), s.episode_id, name};
-}
 
 std::string Text(const Timeout& timeout, const HazardMap& map) {
   return fmt::format("still on its way after {} s, at {}{}", FixedText(timeout.t_s, 0),
@@ -135,7 +131,7 @@ Episode::Episode(Scenario& s, Plant& plant, Simulation* simulation, const PlanRe
       plan_m_(s.online ? std::numeric_limits<double>::infinity()
                        : std::max(Length(plan.path), 1e-9)),
       steps_a_control_(std::lround(1.0 / (s.episode.control_hz * s.physics.timestep_s))),
-      recorder_(s, area_, *plan.risk),
+      recorder_(s, area_, plan),
       interventions_(s),
       navigator_(MakeNavigator(s, plan, known_)),
       robot_side_(robot_, known_, *navigator_,
@@ -145,7 +141,7 @@ Episode::Episode(Scenario& s, Plant& plant, Simulation* simulation, const PlanRe
 void Episode::Begin() {
   plant_.Reset(s_.start, sensed_);
   Look();
-  robot_side_.Start(s_.start, StreamOf(s_, "estimator"));
+  robot_side_.Start(s_.start, EpisodeStream(s_, "estimator"));
   const double plan_s = s_.tracker->Duration();
   limit_s_ = s_.episode.time_limit_s.value_or(s_.online ? kOnlineLimit_s : 60 + 3 * plan_s);
   recorder_.Expect(plan_s);
@@ -235,7 +231,7 @@ EpisodeRecord RunEpisode(Scenario& s, const Scene& scene, const PlanResult& plan
                          EpisodeObserver* observer) {
   PhysicsPlant plant(scene, s.site.map, s.robot.spec, s.sensors, s.faults,
                      1.0 / s.episode.control_hz,
-                     [&s](const std::string& name) { return StreamOf(s, name); });
+                     [&s](const std::string& name) { return EpisodeStream(s, name); });
   return RunEpisode(s, plant, &plant.simulation(), plan, observer);
 }
 

@@ -15,7 +15,9 @@
 #include "env/sim/plant.h"
 #include "env/sim/simulation.h"
 #include "planners/planner.h"
+#include "run/episode/floor_audit.h"
 #include "run/episode/metrics.h"
+#include "run/episode/sample_log.h"
 #include "run/episode/timeout.h"
 #include "run/episode/trace.h"
 #include "run/scenario/scenario.h"
@@ -49,7 +51,9 @@ struct EpisodeRecord {
   Grid<std::uint8_t> passes;  // of the tool, on the sweep area's grid
   GridFrame passes_frame;
   Grid<std::uint8_t> sweepable;
-  std::optional<KnownMap> known;  // what the robot's mapper drew, where it has one
+  std::vector<SampleStop> sample_stops;  // of an audit's plan: what it took, in order
+  std::optional<FloorAudit> audit;       // what that says, where dirt is laid
+  std::optional<KnownMap> known;         // what the robot's mapper drew, where it has one
   std::int64_t steps = 0;
   // Of an online planner: its own, for result.json and the columns plan.*, in order.
   std::vector<std::pair<std::string, double>> figures;

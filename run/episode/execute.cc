@@ -1,9 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/episode/execute.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "run/episode/cell_drive.h"
 
 namespace floorproof {
+namespace {
+
+void MeasureSamples(const RobotSpec& robot, const PlanResult& plan, EpisodeRecord& record) {
+  if (plan.samples.empty()) return;
+  Metrics& m = record.metrics;
+  m.samples_taken = static_cast<double>(record.sample_stops.size());
+  for (const SampleStop& stop : record.sample_stops)
+    m.max_sample_off_m = std::max(m.max_sample_off_m.value_or(0), OffPlace(robot, plan, stop));
+  if (!record.audit) return;
+  m.dirt_gathering = record.audit->gathering.Efficiency();
+  m.audit_score = record.audit->region.score.mean;
+}
+
+}  // namespace
 
 Execution Execute(Scenario& scenario, EpisodeObserver* observer) {
   Execution out;
@@ -28,9 +45,14 @@ EpisodeRecord ExecutePlan(Scenario& s, const PlanResult& plan, std::optional<Sce
     record.outcome = Outcome::kSuccess;
     return record;
   }
+  std::optional<DirtField> dirt;  // laid before the drive: what is wrong with it costs no drive
+  if (s.dirt) dirt = DirtyFloor(s, *plan.risk);
   scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
   if (observer) observer->OnScene(*scene);
-  return RunEpisode(s, *scene, plan, observer);
+  record = RunEpisode(s, *scene, plan, observer);
+  if (dirt) record.audit = AuditFloor(s, plan, record.sample_stops, std::move(*dirt));
+  MeasureSamples(s.robot.spec, plan, record);
+  return record;
 }
 
 }  // namespace floorproof

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/episode/make_plan.h"
 
-#include "base/streams.h"
+#include "run/episode/episode_stream.h"
 #include "run/scenario/floors.h"
 
 namespace floorproof {
 
-std::uint64_t PlanSeed(const Scenario& s) {
-  return Stream(static_cast<std::uint64_t>(s.episode.seed), s.episode_id, "plan").Next();
-}
+std::uint64_t PlanSeed(const Scenario& s) { return EpisodeStream(s, "plan").Next(); }
 
 PlanResult MakePlan(const Scenario& s) {
   const RobotSpec& robot = s.robot.spec;

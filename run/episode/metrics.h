@@ -31,6 +31,7 @@ struct Metrics {
   int contacts = 0;
   double contact_s = 0, contact_m = 0, max_contact_n = 0;
   double max_impulse_ns = 0;
+  std::optional<double> samples_taken, max_sample_off_m, dirt_gathering, audit_score;
 };
 
 struct MetricColumn {
@@ -98,6 +99,14 @@ inline constexpr auto kMetrics = std::to_array<MetricColumn>({
      "greatest force with which obstacles pushed the body at one time"},
     {"max_impulse_ns", "N s", &Metrics::max_impulse_ns,
      "greatest impulse of a contact in one physics step"},
+    {"samples_taken", "", &Metrics::samples_taken,
+     "samples that an audit took; none where the plan takes none", true},
+    {"max_sample_off_m", "m", &Metrics::max_sample_off_m,
+     "greatest distance of a tape's true place from the place that was to be sampled"},
+    {"dirt_gathering", "", &Metrics::dirt_gathering,
+     "share of the samples that are dirty; none without `dirt`"},
+    {"audit_score", "", &Metrics::audit_score,
+     "how clean the region is by its samples, 1 as if nothing lay there; none without `dirt`"},
 });
 
 // By its name, of this version or an earlier one; nullptr: there is none.

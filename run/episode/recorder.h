@@ -13,6 +13,7 @@
 #include "run/episode/driven_way.h"
 #include "run/episode/episode.h"
 #include "run/episode/robot_side.h"
+#include "run/episode/sample_log.h"
 #include "run/episode/tool_meter.h"
 
 namespace floorproof {
@@ -21,10 +22,12 @@ namespace floorproof {
 // halves.
 class Recorder {
  public:
-  Recorder(const Scenario& s, const SweepArea& area, const RiskMap& risk)
+  // All outlive it.
+  Recorder(const Scenario& s, const SweepArea& area, const PlanResult& plan)
       : area_(area),
         meter_(area, s.robot.spec),
-        risk_(risk),
+        risk_(*plan.risk),
+        samples_(plan.samples.size()),
         asks_for_risk_(AsksForRisk(s)),
         dt_s_(s.physics.timestep_s),
         trace_hz_(s.episode.trace_hz),
@@ -39,6 +42,7 @@ class Recorder {
     meter_.Take(sample.shape);
     meter_.Add(sample.X_WB());
     risk_.Add(sample.p_WB.head<2>());
+    samples_.OnControl(sample);
     AddEstimateError((estimate.X_WB.p() - sample.p_WB.head<2>()).norm());
     position_std_sum_ += estimate.position_std_m;
     if (control_++ % trace_every_ != 0) return;
@@ -91,6 +95,7 @@ class Recorder {
     ++record_.metrics.interventions;
     KeepMargins(detectors);
     meter_.Lift();
+    samples_.BreakOff();
     risk_.Lift();
     way_.Lift();
   }
@@ -121,6 +126,7 @@ class Recorder {
     FinishEstimateError();
     if (side.known() != nullptr) record_.known = *side.known();
     KeepMargins(detectors);
+    record_.sample_stops = samples_.stops();
     record_.passes = swept.passes();
     record_.passes_frame = area_.frame;
     record_.sweepable = area_.sweepable;
@@ -197,6 +203,7 @@ class Recorder {
   const SweepArea& area_;
   ToolMeter meter_;
   RiskMeter risk_;
+  SampleLog samples_;
   bool asks_for_risk_;
   double dt_s_, cross_track_sum_ = 0, estimate_error_sum_ = 0, position_std_sum_ = 0;
   static constexpr double kMaxMm = 10000;  // errors beyond are counted together

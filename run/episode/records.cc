@@ -72,14 +72,76 @@ double Coordinate(double value_m) {
   return std::round(value_m * kUnit) / kUnit + 0.0;
 }
 
-Json SamplesJson(const std::vector<SamplePlace>& samples) {
+Json PlaceJson(const SamplePlace& sample) {
+  return {{"x_m", Coordinate(sample.p_W.x())},
+          {"y_m", Coordinate(sample.p_W.y())},
+          {"kinds", Names(sample.kinds)},
+          {"reachable", sample.reachable},
+          {"visit", sample.visit > 0 ? Json(sample.visit) : Json(nullptr)},
+          {"status", sample.reachable ? "planned" : "out_of_reach"},
+          {"dirt_count", nullptr},
+          {"score", nullptr}};
+}
+
+// What was read from its tape, as far as the image let it.
+void AddReadings(const AuditSample& sample, Json& json) {
+  if (sample.counted.status == ImageStatus::kSuccess)
+    json["dirt_count"] = sample.counted.count;
+  else
+    json["status"] = Name(sample.counted.status);
+  if (sample.score.status == ImageStatus::kSuccess) json["score"] = sample.score.score;
+  if (const std::string& why = sample.counted.message; !why.empty()) json["message"] = why;
+  json["tape"]["particles"] = sample.lifted.size();
+}
+
+// `driven`: nullptr before the drive.
+Json SamplesJson(const Scenario& s, const PlanResult& plan, const EpisodeRecord* driven) {
   Json json = Json::array();
-  for (const SamplePlace& sample : samples)
-    json.push_back({{"x_m", Coordinate(sample.p_W.x())},
-                    {"y_m", Coordinate(sample.p_W.y())},
-                    {"kinds", Names(sample.kinds)},
-                    {"reachable", sample.reachable},
-                    {"visit", sample.visit > 0 ? Json(sample.visit) : Json(nullptr)}});
+  for (const SamplePlace& sample : plan.samples) {
+    json.push_back(PlaceJson(sample));
+    if (driven != nullptr && sample.reachable) json.back()["status"] = "not_taken";
+  }
+  if (driven == nullptr) return json;
+  for (std::size_t i = 0; i < driven->sample_stops.size(); ++i) {
+    const SampleStop& stop = driven->sample_stops[i];
+    const Pose2 X_WT = TapePose(s.robot.spec, stop);
+    Json& taken = json[static_cast<std::size_t>(stop.place)];
+    taken["status"] = "taken";
+    taken["tape"] = {{"t_s", stop.t_s},
+                     {"x_m", Coordinate(X_WT.x_m)},
+                     {"y_m", Coordinate(X_WT.y_m)},
+                     {"yaw_rad", X_WT.yaw_rad},
+                     {"off_m", OffPlace(s.robot.spec, plan, stop)}};
+    if (driven->audit) AddReadings(driven->audit->samples[i].sample, taken);
+  }
+  return json;
+}
+
+Json RegionJson(const RegionScore& region) {
+  const SpaceScore& score = region.score;
+  const auto or_null = [](const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+  };
+  Json json = {{"samples", score.samples},
+               {"score", or_null(score.mean)},
+               {"lower", nullptr},
+               {"upper", nullptr},
+               {"confidence", kReportedConfidence}};
+  if (region.interval) {
+    json["lower"] = region.interval->lower;
+    json["upper"] = region.interval->upper;
+  }
+  return json;
+}
+
+Json AuditJson(const FloorAudit& audit) {
+  Json json = RegionJson(audit.region);
+  json["represents"] = audit.region.score.represented;
+  if (audit.near_walls) json["near_walls"] = RegionJson(*audit.near_walls);
+  if (audit.elsewhere) json["elsewhere"] = RegionJson(*audit.elsewhere);
+  json["dirty"] = audit.gathering.dirty;
+  json["clean"] = audit.gathering.clean;
+  json["true_dirt_per_m2"] = audit.mean_dirt_per_m2;
   return json;
 }
 
@@ -170,7 +232,7 @@ Json MetricsJson(const Metrics& metrics) {
   return json;
 }
 
-Json PlanJson(const Scenario& s, const PlanResult& plan) {
+Json PlanJson(const Scenario& s, const PlanResult& plan, const EpisodeRecord* driven) {
   if (plan.status == PlanStatus::kOnline)  // there is nothing to measure yet
     return {{"status", Name(plan.status)}, {"message", plan.message}, {"planner", s.planner_name}};
   const bool circle = plan.clear.kind == Shape2::Kind::kCircle;
@@ -196,7 +258,7 @@ Json PlanJson(const Scenario& s, const PlanResult& plan) {
                {"radius_m", circle ? plan.clear.radius_m : s.robot.spec.inscribed_radius_m}};
   if (AsksForRisk(s)) AddRisk(plan, json);
   for (const auto& [name, value] : plan.figures) json[name] = value;
-  if (!plan.samples.empty()) json["sample_places"] = SamplesJson(plan.samples);
+  if (!plan.samples.empty()) json["sample_places"] = SamplesJson(s, plan, driven);
   if (!plan.convergence_m.empty()) json["convergence_m"] = plan.convergence_m;
   return json;
 }
@@ -217,6 +279,7 @@ Json ResultJson(const Scenario& s, const EpisodeRecord& record) {
                {"message", record.message}};
   if (record.timeout) json["timeout"] = TimeoutJson(record.timeout);
   if (!record.figures.empty()) json["planner"] = std::move(figures);
+  if (record.audit) json["audit"] = AuditJson(*record.audit);
   json.update({{"events", std::move(events)},
                {"assists", InterventionsJson(record.interventions)},
                {"metrics", MetricsJson(record.metrics)},
@@ -294,9 +357,11 @@ void RemoveEpisodeFiles(const ResultFolder& folder) {
     if (!IsPlanFile(name)) Remove(folder.path() / name);
 }
 
-void WriteEpisodeFiles(const Scenario& s, const EpisodeRecord& record,
+void WriteEpisodeFiles(const Scenario& s, const PlanResult& plan, const EpisodeRecord& record,
                        const std::filesystem::path& folder) {
   WriteFileWhole(folder / "trace.csv", TraceCsv(record, s.robot.spec));
+  if (!plan.samples.empty() && record.steps > 0)
+    WriteFileWhole(folder / "plan.json", JsonText(PlanJson(s, plan, &record)) + "\n");
   if (record.outcome != Outcome::kInterrupted)
     WriteFileWhole(folder / "result.json", JsonText(ResultJson(s, record)) + "\n");
 }

@@ -15,8 +15,10 @@ namespace floorproof {
 // replaced.
 std::string JsonText(const nlohmann::ordered_json& json);
 
-// plan.json's content: status, planner, length_m, turns, coverage, overlap, ...
-nlohmann::ordered_json PlanJson(const Scenario& scenario, const PlanResult& plan);
+// plan.json's content: status, planner, length_m, turns, coverage, overlap, ... `driven`: of an
+// audit that was, so that the plan says what its samples held; nullptr: only planned.
+nlohmann::ordered_json PlanJson(const Scenario& scenario, const PlanResult& plan,
+                                const EpisodeRecord* driven = nullptr);
 // result.json's content: schema, outcome, timeout (where that is the outcome), events, metrics,
 // margins, seed, versions. No wall times.
 nlohmann::ordered_json ResultJson(const Scenario& scenario, const EpisodeRecord& record);
@@ -41,9 +43,9 @@ void WritePlanFiles(const Scenario& scenario, const PlanResult& plan,
 // Removes what an earlier episode left beside its plan: result.json first, which says that the rest
 // is whole.
 void RemoveEpisodeFiles(const ResultFolder& folder);
-// trace.csv, and, unless the episode was interrupted, result.json (last: it says the rest is
-// whole).
-void WriteEpisodeFiles(const Scenario& scenario, const EpisodeRecord& record,
-                       const std::filesystem::path& folder);
+// trace.csv, of an audit plan.json anew, and, unless the episode was interrupted, result.json
+// (last: it says the rest is whole).
+void WriteEpisodeFiles(const Scenario& scenario, const PlanResult& plan,
+                       const EpisodeRecord& record, const std::filesystem::path& folder);
 
 }  // namespace floorproof

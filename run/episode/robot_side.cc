@@ -60,6 +60,7 @@ void RobotSide::Navigate(const Observation& sensed) {
     case PathChange::kLonger:
       parts_.tracker.Extend(navigator_.path());
       command_.segment = 0;
+      command_.tasks = {};
       ++paths_;
       break;
   }

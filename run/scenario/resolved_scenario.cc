@@ -217,6 +217,7 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
   }
   if (s.recovery) root.Add("react", WithParams(ConfigNode::Map(), *s.recovery));
   if (!s.faults.empty()) root.Add("faults", WriteFaults(s.faults));
+  if (s.dirt) root.Add("dirt", WriteDirt(*s.dirt));
   root.Add("failures", Failures(s));
   root = WithParams(std::move(root), s.episode);
   if (stated("battery", robot_varies))

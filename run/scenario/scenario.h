@@ -28,6 +28,7 @@
 #include "planners/planner.h"
 #include "planners/risk/risk_map.h"
 #include "run/scenario/draws.h"
+#include "run/scenario/floor_dirt.h"
 #include "run/scenario/matrix.h"
 #include "run/scenario/scenario_params.h"
 
@@ -74,6 +75,7 @@ struct Scenario {
   std::optional<Mapper> mapper;            // none: no map is drawn
   std::optional<RecoveryParams> recovery;  // none: the plan is driven blindly
   std::vector<ScheduledFault> faults;      // what breaks on the robot
+  std::optional<FloorDirt> dirt;           // none: nobody asks for it
   std::vector<NamedDetector> detectors;
   PhysicsParams physics;
   Battery battery;  // its voltage set, if only by the robot

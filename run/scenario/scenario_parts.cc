@@ -9,7 +9,9 @@
 #include "env/core/standing.h"
 #include "env/scene/roller_wheels.h"
 #include "run/scenario/carried_sensors.h"
+#include "run/scenario/floor_dirt.h"
 #include "run/scenario/fmea_file.h"
+#include "run/scenario/named_plugin.h"
 #include "run/scenario/plan_file.h"
 #include "run/scenario/start_check.h"
 #include "run/scenario/written_faults.h"
@@ -18,12 +20,6 @@ namespace floorproof {
 namespace {
 
 namespace fs = std::filesystem;
-
-ConfigNode EmptyMap(const SourceMark& mark) {
-  ConfigNode node = ConfigNode::Map();
-  node.mark = mark;
-  return node;
-}
 
 // Where the key is written; the file's own mark where it is not.
 SourceMark MarkOf(const ConfigNode& root, std::string_view key) {
@@ -41,7 +37,7 @@ const ConfigNode* Written(const ConfigNode& root, std::string_view key) {
 ConfigNode PluginMap(const ConfigNode& root, const std::string& key, const char* of,
                      const std::vector<std::string>& names) {
   const ConfigNode* node = Written(root, key);
-  if (node == nullptr) return EmptyMap(root.mark);
+  if (node == nullptr) return ConfigNode::Map();
   if (!node->IsMap()) throw InputError(node->mark, key, "", std::string("must be a map of ") + of);
   RefuseUnknownKeys(*node, key + ".", names);
   return *node;
@@ -54,23 +50,6 @@ void ReadGroup(const ConfigNode& root, const std::string& key, Params& params) {
     ReadParams(*node, key + ".", [&](ParamVisitor& v) { params.Visit(v); });
 }
 
-// A plug-in written as NAME, or as a map with its name under `name_key` and its parameters beside.
-struct Named {
-  std::string name;
-  ConfigNode params;
-  SourceMark mark;
-};
-Named ReadNamed(const ConfigNode& root, const char* key, const char* name_key,
-                std::string_view default_name) {
-  const ConfigNode* node = Written(root, key);
-  if (node == nullptr) return {std::string(default_name), EmptyMap(root.mark), root.mark};
-  if (node->IsScalar()) return {node->scalar, EmptyMap(node->mark), node->mark};
-  if (!node->IsMap()) throw InputError(node->mark, key, "", "must be a name or a map");
-  const ConfigNode* name = node->Find(name_key);
-  return {name ? AsString(*name, std::string(key) + "." + name_key) : std::string(default_name),
-          *node, name ? name->mark : node->mark};
-}
-
 // A plan names shapes before its robot is known.
 void CheckShapes(const Scenario& s, const std::vector<int>& plan_lines) {
   for (std::size_t i = 0; i < s.user_plan.size(); ++i) {
@@ -81,7 +60,7 @@ void CheckShapes(const Scenario& s, const std::vector<int>& plan_lines) {
 }
 
 void ReadRobotPart(const ConfigNode& root, const std::vector<int>& plan_lines, Scenario& s) {
-  const Named named = ReadNamed(root, "robot", "name", "");
+  const NamedPlugin named = ReadNamed(root, "robot", "name", "");
   if (named.name.empty()) throw InputError(named.mark, "robot", "", "the key is missing");
   s.robot_name = named.name;
   s.robot_file = FindRobotFile(named.name, named.mark);
@@ -201,7 +180,7 @@ std::vector<int> ReadPlanPart(const ConfigNode& root, Scenario& s) {
     s.user_plan = ReadPlan(s.plan_file, s.site.map.frame, &lines, s.files);
     return lines;
   }
-  Named named = ReadNamed(root, "plan", "planner", "boustrophedon");
+  NamedPlugin named = ReadNamed(root, "plan", "planner", "boustrophedon");
   s.planner_name = named.name;
   const std::vector<std::string> online = PluginNames(OnlinePlanners());
   if (std::ranges::find(online, named.name) != online.end())
@@ -269,14 +248,15 @@ void ReadRisk(const ConfigNode& root, Scenario& s) {
 }
 
 void ReadControl(const ConfigNode& root, Scenario& s) {
-  const Named tracker = ReadNamed(root, "controller", "name", DefaultTracker(s.robot.spec.drive));
+  const NamedPlugin tracker =
+      ReadNamed(root, "controller", "name", DefaultTracker(s.robot.spec.drive));
   s.tracker_name = tracker.name;
   s.tracker = MakePlugin(Trackers(), tracker.name, "controller", tracker.mark);
   ReadParams(tracker.params, "controller.", *s.tracker, {"name"});
   if (!s.tracker->Commands(*MakePlugin(Drives(), s.robot.spec.drive, "drive")))
     throw InputError(tracker.mark, "controller", tracker.name,
                      "cannot command the drive " + s.robot.spec.drive + " of " + s.robot_name);
-  const Named estimator = ReadNamed(root, "estimator", "name", Estimators().front().name);
+  const NamedPlugin estimator = ReadNamed(root, "estimator", "name", Estimators().front().name);
   s.estimator_name = estimator.name;
   s.estimator = MakePlugin(Estimators(), estimator.name, "estimator", estimator.mark);
   ReadParams(estimator.params, "estimator.", *s.estimator, {"name"});
@@ -347,6 +327,10 @@ void ReadFaultsPart(const ConfigNode& root, Scenario& s) {
   s.faults = ReadFaults(*node, {s.robot.spec, SensorNames(s.sensors)}, s.physics.timestep_s);
 }
 
+void ReadDirtPart(const ConfigNode& root, Scenario& s) {
+  if (const ConfigNode* node = Written(root, "dirt")) s.dirt = ReadDirt(*node, s.site.map);
+}
+
 void ReadFailures(const ConfigNode& root, Scenario& s) {
   const ConfigNode written = PluginMap(root, "failures", "detectors", PluginNames(Detectors()));
   for (const auto& entry : Detectors()) {
@@ -379,7 +363,7 @@ const std::vector<std::string>& ScenarioKeys() {
       "risk",    "controller", "estimator", "sensors",  "mapper",     "react",   "physics",
       "battery", "control_hz", "trace_hz",  "failures", "on_failure", "success", "time_limit_s",
       "seed",    "episode",    "drive",     "wheels",   "video",      "files",   "randomise",
-      "matrix",  "gate",       "faults"};
+      "matrix",  "gate",       "faults",    "dirt"};
   return keys;
 }
 
@@ -425,6 +409,7 @@ void ReadParts(const ConfigNode& root, Scenario& s) {
   ReadReaction(root, s);
   ReadSensors(root, s);
   ReadFaultsPart(root, s);
+  ReadDirtPart(root, s);
   ReadFailures(root, s);
   CheckStarts(root, s);
 }

@@ -52,6 +52,11 @@ void WarnOfCoverage(const Scenario& s, std::vector<std::string>& lines) {
                     NumberText(least), s.planner_name));
 }
 
+void WarnOfDirt(const Scenario& s, std::vector<std::string>& lines) {
+  if (s.dirt && !(s.planner && s.planner->promises().visits_places))
+    lines.push_back("warning: dirt is laid, and this plan takes no samples of it");
+}
+
 }  // namespace
 
 std::vector<std::string> Warnings(const Scenario& scenario) {
@@ -70,6 +75,7 @@ std::vector<std::string> Warnings(const Scenario& scenario) {
   }
   WarnOfSpeeds(scenario, lines);
   WarnOfCoverage(scenario, lines);
+  WarnOfDirt(scenario, lines);
   std::string outside;
   for (const fs::path& file : FilesRead(scenario))
     if (!scenario.files.HasStandIn(file) && !LiesIn(scenario.file.parent_path(), file) &&

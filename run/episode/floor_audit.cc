@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/episode/floor_audit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "env/audit/brush.h"
+#include "run/episode/episode_stream.h"
+#include "run/scenario/floors.h"
+#include "stats/student.h"
+
+namespace floorproof {
+namespace {
+
+constexpr double kDirtCell_m = 0.1;  // of the map of true dirt: a tape covers a 25th of it
+
+// Where a robot is that drives this path, turning on the spot at its corners unless the plan says
+// how it heads.
+std::vector<Pose2> PosesAlong(const Path& path) {
+  std::vector<Pose2> poses;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Vec2& p_W = path[i].p_W;
+    const auto add = [&](const Waypoint& to, const Vec2& way) {
+      poses.push_back({p_W.x(), p_W.y(), to.yaw_rad.value_or(std::atan2(way.y(), way.x()))});
+    };
+    if (i > 0) add(path[i], p_W - path[i - 1].p_W);
+    if (i + 1 < path.size()) add(path[i + 1], path[i + 1].p_W - p_W);
+  }
+  return poses;
+}
+
+void Clean(const Scenario& s, const RiskMap& risk, DirtField& field) {
+  const HazardMap known = KnownFloor(s);
+  const PlanResult plan = s.dirt->cleaner->Plan(
+      {known, s.robot.spec, s.start, s.goal, EpisodeStream(s, "cleaner").Next(), &risk});
+  if (plan.status != PlanStatus::kSuccess)
+    throw InputError(fmt::format("dirt.cleaning: {} finds no plan ({}): {}", s.dirt->cleaner_name,
+                                 Name(plan.status), plan.message));
+  const std::vector<Pose2> poses = PosesAlong(plan.path);
+  Stream random = EpisodeStream(s, "cleaning");
+  for (int round = 0; round < s.dirt->cleaning.rounds; ++round)
+    CleanAlong(field, plan.tool, poses, s.dirt->cleaning.brush, random);
+}
+
+void MeasureDirt(const DirtField& field, FloorAudit& audit) {
+  const GridFrame& bins = field.frame();
+  const int k = std::max(1, static_cast<int>(std::lround(kDirtCell_m / bins.cell_m)));
+  GridFrame& frame = audit.dirt_frame;
+  frame = bins;
+  frame.cell_m = k * bins.cell_m;
+  frame.width = (bins.width + k - 1) / k;
+  frame.height = (bins.height + k - 1) / k;
+  audit.dirt_per_m2 = Grid<float>(frame.width, frame.height, std::nanf(""));
+  for (int cy = 0; cy < frame.height; ++cy)
+    for (int cx = 0; cx < frame.width; ++cx) {
+      std::int64_t particles = 0;
+      int floor = 0;
+      for (int iy = cy * k; iy < std::min((cy + 1) * k, bins.height); ++iy)
+        for (int ix = cx * k; ix < std::min((cx + 1) * k, bins.width); ++ix)
+          if (field.IsFloor(ix, iy)) ++floor, particles += field.CountIn(ix, iy);
+      if (floor > 0)
+        audit.dirt_per_m2(cx, cy) = static_cast<float>(static_cast<double>(particles) /
+                                                       (floor * bins.cell_m * bins.cell_m));
+    }
+  if (const double floor_m2 = field.floor_m2(); floor_m2 > 0)
+    audit.mean_dirt_per_m2 = static_cast<double>(field.size()) / floor_m2;
+}
+
+RegionScore ScoreOf(std::span<const Stratum> strata) {
+  RegionScore region{ScoreOfSpace(strata), {}};
+  if (const auto& error = region.score.standard_error) {
+    region.interval = StudentInterval(*region.score.mean, *error, region.score.degrees_of_freedom,
+                                      kReportedConfidence);
+    region.interval->upper = std::min(region.interval->upper, 1.0);  // no score is above
+  }
+  return region;
+}
+
+void Score(const PlanResult& plan, int dirty_above, FloorAudit& audit) {
+  const double share = plan.near_walls_share.value_or(1);
+  Stratum strata[] = {{share, {}}, {1 - share, {}}};  // near walls, or given; elsewhere
+  std::vector<int> counts;
+  for (const AuditedSample& taken : audit.samples) {
+    const SampleKinds& kinds = plan.samples[static_cast<std::size_t>(taken.stop.place)].kinds;
+    const AuditSample& sample = taken.sample;
+    if (sample.counted.status == ImageStatus::kSuccess) counts.push_back(sample.counted.count);
+    if (sample.score.status == ImageStatus::kSuccess)
+      strata[kinds.near_walls() || kinds.given ? 0 : 1].scores.push_back(sample.score.score);
+  }
+  audit.gathering = Gather(counts, dirty_above);
+  audit.region = ScoreOf(strata);
+  if (!plan.near_walls_share) return;
+  audit.near_walls = ScoreOf({strata, 1});
+  audit.elsewhere = ScoreOf({strata + 1, 1});
+}
+
+}  // namespace
+
+Pose2 TapePose(const RobotSpec& robot, const SampleStop& stop) {
+  return stop.X_WB * Pose2{robot.audit_sensor_x_m, 0, 0};
+}
+
+double OffPlace(const RobotSpec& robot, const PlanResult& plan, const SampleStop& stop) {
+  const SamplePlace& place = plan.samples[static_cast<std::size_t>(stop.place)];
+  return (TapePose(robot, stop).p() - place.p_W).norm();
+}
+
+DirtField DirtyFloor(const Scenario& s, const RiskMap& risk) {
+  DirtField field = LayDirt(s.site.map, s.dirt->params.laid, EpisodeStream(s, "dirt").Next());
+  if (s.dirt->cleaning.rounds > 0) Clean(s, risk, field);
+  return field;
+}
+
+FloorAudit AuditFloor(const Scenario& s, const PlanResult& plan,
+                      const std::vector<SampleStop>& stops, DirtField field) {
+  FloorAudit audit;
+  MeasureDirt(field, audit);
+  Stream random = EpisodeStream(s, "samples");
+  for (const SampleStop& stop : stops) {
+    const Pose2 X_WT = TapePose(s.robot.spec, stop);
+    audit.samples.push_back({stop, X_WT, TakeSample(field, X_WT, s.dirt->params.sampling, random)});
+  }
+  Score(plan, s.dirt->params.dirty_above, audit);
+  return audit;
+}
+
+}  // namespace floorproof

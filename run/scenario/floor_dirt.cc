@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/scenario/floor_dirt.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "run/scenario/named_plugin.h"
+
+namespace floorproof {
+namespace {
+
+const std::string kPath = "dirt.", kCleaningPath = "dirt.cleaning.";
+
+void ReadCleaning(const ConfigNode& node, FloorDirt& dirt) {
+  ReadParams(node, kCleaningPath, [&](ParamVisitor& v) { dirt.cleaning.Visit(v); }, {"plan"});
+  const NamedPlugin named = ReadNamed(node, "plan", "planner", "boustrophedon", kCleaningPath);
+  dirt.cleaner_name = named.name;
+  dirt.cleaner = MakePlugin(Planners(), named.name, kCleaningPath + "plan.planner", named.mark);
+  if (dirt.cleaner->promises().covers == PlannerPromises::Covers::kNothing)
+    throw InputError(named.mark, kCleaningPath + "plan.planner", named.name,
+                     "goes to places and cleans no floor");
+  ReadParams(named.params, kCleaningPath + "plan.", *dirt.cleaner, {"planner"});
+}
+
+double FloorArea(const HazardMap& map) {
+  std::int64_t cells = 0;
+  for (int iy = 0; iy < map.frame.height; ++iy)
+    for (int ix = 0; ix < map.frame.width; ++ix) cells += !map.IsWall(ix, iy);
+  return static_cast<double>(cells) * map.frame.cell_m * map.frame.cell_m;
+}
+
+template <class Params>
+ConfigNode Written(Params params) {  // a copy: who visits may change them
+  ConfigNode node = ConfigNode::Map();
+  WriteParams([&](ParamVisitor& v) { params.Visit(v); }, node);
+  return node;
+}
+
+}  // namespace
+
+void CleaningRounds::Visit(ParamVisitor& v) {
+  v("rounds", rounds, Between(0, 1000), "how often its plan was driven");
+  brush.Visit(v);
+}
+
+void DirtAuditParams::Visit(ParamVisitor& v) {
+  laid.Visit(v);
+  sampling.Visit(v);
+  v("dirty_above", dirty_above, Between(0, 1e6), "a sample with more particles counted is dirty");
+}
+
+FloorDirt ReadDirt(const ConfigNode& node, const HazardMap& map) {
+  FloorDirt dirt;
+  ReadParams(node, kPath, [&](ParamVisitor& v) { dirt.params.Visit(v); }, {"cleaning"});
+  const auto refuse = [&](const char* key, double value, const std::string& rule) {
+    const ConfigNode* written = node.Find(key);
+    throw InputError(written != nullptr ? written->mark : node.mark, kPath + key,
+                     FormatDouble(value), rule);
+  };
+  const DirtParams& laid = dirt.params.laid;
+  if (laid.least_diameter_m > laid.most_diameter_m)
+    refuse("least_diameter_m", laid.least_diameter_m,
+           "must not be above most_diameter_m, " + FormatDouble(laid.most_diameter_m));
+  constexpr double kMostPixels = 2000;  // of an image's side: some 100 MB while it is drawn
+  const SamplingParams& sampling = dirt.params.sampling;
+  const double pixels = 1000 * sampling.tape.side_m * sampling.microscope.pixels_per_mm;
+  if (pixels > kMostPixels)
+    refuse("microscope", sampling.microscope.pixels_per_mm,
+           "pixels a mm make an image of " + std::to_string(std::lround(pixels)) +
+               " pixels a side; at most 2000 are drawn");
+  // Of those in the open; what gathers at walls is counted where it is laid.
+  const double most_per_m2 = static_cast<double>(kMostParticles) / std::max(FloorArea(map), 1e-9);
+  if (laid.density_per_m2 > most_per_m2)
+    refuse("density_per_m2", laid.density_per_m2,
+           "must be at most " + std::to_string(static_cast<std::int64_t>(most_per_m2)) +
+               " on this floor: more than " + std::to_string(kMostParticles / 1'000'000) +
+               " million particles are not laid");
+  ConfigNode cleaning = ConfigNode::Map();
+  cleaning.mark = node.mark;
+  if (const ConfigNode* written = node.Find("cleaning"); written != nullptr && !written->IsNull())
+    cleaning = *written;
+  ReadCleaning(cleaning, dirt);
+  return dirt;
+}
+
+ConfigNode WriteDirt(const FloorDirt& dirt) {
+  ConfigNode node = Written(dirt.params), cleaning = Written(dirt.cleaning);
+  ConfigNode plan = ConfigNode::Map();
+  plan.Add("planner", ConfigNode::Scalar(dirt.cleaner_name, true));
+  WriteParams(*dirt.cleaner, plan);
+  cleaning.Add("plan", std::move(plan));
+  node.Add("cleaning", std::move(cleaning));
+  return node;
+}
+
+}  // namespace floorproof

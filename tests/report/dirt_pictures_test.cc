@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a drive over a dirty floor leaves: pictures, and plan.json written anew.
+#include "report/dirt_pictures.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "media/media.h"
+#include "report/drive_and_film.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class DirtPictures : public ::testing::Test {
+ protected:
+  DirtPictures() {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    std::ofstream(folder_ / "points.csv") << "x_m,y_m\n1,2\n2,1\n2.5,2\n";
+  }
+  ~DirtPictures() override { fs::remove_all(folder_); }
+
+  EpisodeRecord Drive(const std::string& dirt) {
+    std::ofstream(folder_ / "s.yaml")
+        << "scenario: 1\nname: room\nsite: {site: 1, grid: {cell_m: 0.5, rows: \""
+           "#######\\n#.....#\\n#.....#\\n#.....#\\n#.....#\\n#######\\n\"}, "
+           "start: {x_m: 1, y_m: 1, yaw_deg: 0}}\nrobot: beluga\n"
+           "plan: {planner: audit, samples: {file: points.csv}, dwell_s: 1, speed_mps: 0.2}\n" +
+               dirt;
+    Scenario s = ReadScenario(folder_ / "s.yaml");
+    const DriveResult result = DriveAndFilm(s, folder_ / "out", {}, {.quiet = true});
+    EXPECT_FALSE(result.not_written);
+    if (result.record.audit) said_ = AuditText(s, result.plan, *result.record.audit);
+    return result.record;
+  }
+  bool Left(const char* name) const { return fs::exists(folder_ / "out" / name); }
+  nlohmann::json Plan() const {
+    std::ifstream in(folder_ / "out" / "plan.json");
+    return nlohmann::json::parse(in);
+  }
+
+  std::string said_;
+  fs::path folder_ = fs::path(::testing::TempDir()) /
+                     ::testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+TEST_F(DirtPictures, ADriveOverDirtLeavesMapsTapesAndCounts) {
+  const EpisodeRecord record = Drive("dirt: {}\n");
+  const Image maps = ReadImage(folder_ / "out" / "heatmap_dirt.png");
+  EXPECT_GT(maps.width, 2 * 600);  // two, side by side
+  const Image tapes = ReadImage(folder_ / "out" / "plot_tapes.png");
+  std::size_t rings = 0;  // red ink, which nothing else on the sheet is drawn in
+  for (std::size_t i = 0; i + 2 < tapes.data.size(); i += 3)
+    rings += tapes.data[i] > 180 && tapes.data[i + 1] < 90;
+  EXPECT_GT(rings, 20u * static_cast<std::size_t>(record.audit->samples[0].sample.counted.count));
+  EXPECT_THAT(said_, HasSubstr("audit: 3 of 3 samples taken, 3 dirty (more than 10 particles)"));
+  for (const auto& place : Plan()["sample_places"]) EXPECT_GT(place["dirt_count"], 10);
+}
+
+TEST_F(DirtPictures, WithoutDirtThereAreNone) {
+  Drive("");
+  EXPECT_FALSE(Left("heatmap_dirt.png") || Left("plot_tapes.png"));
+  EXPECT_EQ(Plan()["sample_places"][0]["status"], "taken");
+}
+
+// What an earlier drive left would be taken for this one's.
+TEST_F(DirtPictures, ThoseOfAnEarlierDriveGo) {
+  Drive("dirt: {}\n");
+  ASSERT_TRUE(Left("heatmap_dirt.png") && Left("plot_tapes.png"));
+  Drive("");
+  EXPECT_FALSE(Left("heatmap_dirt.png") || Left("plot_tapes.png"));
+}
+
+}  // namespace
+}  // namespace floorproof
