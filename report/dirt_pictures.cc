@@ -57,7 +57,7 @@ HeatValues ScoresAround(const FloorAudit& audit) {
   const double reach_m = ReachOf(audit.samples);
   const int around = static_cast<int>(std::ceil(reach_m / heat.frame.cell_m));
   for (const AuditedSample& taken : audit.samples) {
-    if (taken.sample.score.status != ImageStatus::kSuccess) continue;
+    if (!taken.sample.read()) continue;
     const Cell middle = heat.frame.ToCell(taken.X_WT.p());
     for (int iy = middle.iy - around; iy <= middle.iy + around; ++iy)
       for (int ix = middle.ix - around; ix <= middle.ix + around; ++ix) {
@@ -99,6 +99,7 @@ std::string AuditText(const Scenario& s, const PlanResult& plan, const FloorAudi
       fmt::format("audit: {} of {} taken, {} dirty (more than {} particles); score {}",
                   audit.samples.size(), CountText(plan.samples.size(), "sample"),
                   audit.gathering.dirty, s.dirt->params.dirty_above, ScoreText(audit.region));
+  if (audit.unreadable > 0) text += fmt::format(", {} could not be read", audit.unreadable);
   if (audit.near_walls && audit.elsewhere)
     text += fmt::format(", near walls {}, elsewhere {}", ScoreText(*audit.near_walls),
                         ScoreText(*audit.elsewhere));
@@ -110,7 +111,7 @@ void WriteDirt(const Scenario& s, const PlanResult& plan, const FloorAudit& audi
   HeatMapOptions dirt, scores;
   dirt.title = fmt::format("{}: true dirt", PictureTitle(s));
   dirt.quantity = "particles a square metre";
-  dirt.unit = "1000 / m2";
+  dirt.unit = "1000 / m2; 2 % of it lies above";
   dirt.low = 0;
   dirt.colour_map = scores.colour_map = ColourMap::kCividis;
   HeatValues thousands{audit.dirt_frame, audit.dirt_per_m2};
@@ -121,8 +122,11 @@ void WriteDirt(const Scenario& s, const PlanResult& plan, const FloorAudit& audi
   scores.unit = "1: clean";
   scores.reversed = true;
   scores.high = 1;
-  for (const AuditedSample& taken : audit.samples)
-    scores.points.push_back({taken.X_WT.p(), "tape"});
+  scores.low = 0.8;  // a floor that is clean all over looks so
+  for (const AuditedSample& taken : audit.samples) {
+    scores.points.push_back({taken.X_WT.p(), taken.sample.read() ? "tape" : "tape, not readable"});
+    if (taken.sample.read()) scores.low = std::min(*scores.low, taken.sample.score.score);
+  }
   for (const SamplePlace& place : plan.samples)
     if (!place.reachable) scores.points.push_back({place.p_W, "out of the robot's reach"});
   const HeatValues around = ScoresAround(audit);
@@ -130,24 +134,26 @@ void WriteDirt(const Scenario& s, const PlanResult& plan, const FloorAudit& audi
                        DrawHeatMap(s.site.map, &around, scores)));
 }
 
-void WriteTapes(const Scenario& s, const FloorAudit& audit, const std::filesystem::path& png) {
+void WriteTapes(const Scenario& s, const PlanResult& plan, const FloorAudit& audit,
+                const std::filesystem::path& png) {
   constexpr std::size_t kMost = 30;
   const std::size_t n = audit.samples.size(), shown = std::min(kMost, n);
   const SamplingParams& params = s.dirt->params.sampling;
   std::vector<SheetImage> tapes;
   for (std::size_t i = 0; i < shown; ++i) {
-    const std::size_t visit = i * n / shown;
-    const AuditSample& sample = audit.samples[visit].sample;
+    const AuditedSample& taken = audit.samples[i * n / shown];
+    const AuditSample& sample = taken.sample;
+    const int visit = plan.samples[static_cast<std::size_t>(taken.stop.place)].visit;
     SheetImage& tape = tapes.emplace_back();
     tape.grey =
         PhotographTape(sample.lifted, params.tape, params.microscope, sample.tape_seed).after;
     for (const Vec2& p_mm : sample.counted.centroids_mm)
       tape.ringed.push_back(p_mm * params.microscope.pixels_per_mm +
                             Vec2(tape.grey.width, tape.grey.height) / 2);
-    tape.caption = sample.counted.status == ImageStatus::kSuccess
-                       ? fmt::format("{}. {} counted of {}, {:.2f}", visit + 1,
-                                     sample.counted.count, sample.lifted.size(), sample.score.score)
-                       : fmt::format("{}. {}", visit + 1, Name(sample.counted.status));
+    tape.caption = sample.read()
+                       ? fmt::format("{}. {} counted of {}, {:.2f}", visit, sample.counted.count,
+                                     sample.lifted.size(), sample.score.score)
+                       : fmt::format("{}. {}", visit, Name(sample.status()));
   }
   WritePng(png, DrawContactSheet(
                     fmt::format("{}: the tapes of {}{}; particles counted, of those lifted; score",

@@ -18,8 +18,9 @@ std::string AuditText(const Scenario& scenario, const PlanResult& plan, const Fl
 void WriteDirt(const Scenario& scenario, const PlanResult& plan, const FloorAudit& audit,
                const std::filesystem::path& png);
 
-// The tapes as the microscope saw them, with what was counted ringed; of many, 30 along the tour.
-void WriteTapes(const Scenario& scenario, const FloorAudit& audit,
+// The tapes as the microscope saw them, each by the number of its visit, with what was counted
+// ringed; of many, 30 along the tour.
+void WriteTapes(const Scenario& scenario, const PlanResult& plan, const FloorAudit& audit,
                 const std::filesystem::path& png);
 
 }  // namespace floorproof

@@ -114,7 +114,7 @@ void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecor
       },
       [&] {
         if (record.audit && !record.audit->samples.empty())
-          WriteTapes(s, *record.audit, folder / "plot_tapes.png");
+          WriteTapes(s, plan, *record.audit, folder / "plot_tapes.png");
       },
       [&] {  // an ideal robot has none
         if (s.episode.drive == "physics")

@@ -13,10 +13,10 @@ void SamplingParams::Visit(ParamVisitor& v) {
 }
 
 AuditSample TakeSample(DirtField& field, const Pose2& X_WT, const SamplingParams& params,
-                       Stream& random) {
+                       Stream& lift, std::uint64_t tape_seed) {
   AuditSample sample;
-  sample.lifted = LiftTape(field, X_WT, params.tape, random);
-  sample.tape_seed = random.Next();
+  sample.lifted = LiftTape(field, X_WT, params.tape, lift);
+  sample.tape_seed = tape_seed;
   const TapeImages images =
       PhotographTape(sample.lifted, params.tape, params.microscope, sample.tape_seed);
   sample.counted = CountDirt(images.after, params.microscope.pixels_per_mm, params.count);

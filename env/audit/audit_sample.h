@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "base/params.h"
@@ -26,12 +27,21 @@ struct AuditSample {
   std::uint64_t tape_seed = 0;         // PhotographTape(lifted, ..., tape_seed) is what was seen
   DirtCount counted;
   SampleScore score;
+
+  // A sample is read where its images allow both, count and score; else what is wrong with them.
+  bool read() const { return status() == ImageStatus::kSuccess; }
+  ImageStatus status() const {
+    return counted.status != ImageStatus::kSuccess ? counted.status : score.status;
+  }
+  const std::string& message() const {
+    return counted.status != ImageStatus::kSuccess ? counted.message : score.message;
+  }
 };
 
 // Lifts a tape with its middle at X_WT off the field, looks at it before and after, counts and
 // scores. What it lifts is gone: of two samples at one place the second is cleaner.
-// Draws from `random`: the lift, then the tape's seed.
+// `lift`: which particles stick; `tape_seed`: the tape and its images.
 AuditSample TakeSample(DirtField& field, const Pose2& X_WT, const SamplingParams& params,
-                       Stream& random);
+                       Stream& lift, std::uint64_t tape_seed);
 
 }  // namespace floorproof

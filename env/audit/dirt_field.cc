@@ -160,6 +160,11 @@ std::vector<Particle> DirtField::All() const {
   return all;
 }
 
+double ExpectedParticles(const HazardMap& map, const DirtParams& params) {
+  const std::vector<double> up_to = Expected(DirtField(map), params);
+  return up_to.empty() ? 0.0 : up_to.back();
+}
+
 DirtField LayDirt(const HazardMap& map, const DirtParams& params, std::uint64_t seed) {
   Check(params);
   DirtField field(map);

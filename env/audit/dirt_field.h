@@ -93,6 +93,9 @@ struct DirtParams {
 
 inline constexpr std::int64_t kMostParticles = 100'000'000;  // 600 MB
 
+// How many particles LayDirt lays, before they are rounded to a number. O(bins).
+double ExpectedParticles(const HazardMap& map, const DirtParams& params);
+
 // Lays dirt on the whole floor of the map, all of it by chance: places by the density above, which
 // is taken as even within a bin; diameters evenly between the two. The number is the density's sum
 // over the floor, rounded. Draws from Stream(seed, 0, "dirt"). O(particles + bins). Throws

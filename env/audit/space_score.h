@@ -19,7 +19,7 @@ struct Stratum {
 struct SpaceScore {
   int samples = 0;
   double represented = 0;      // share of the region, by weight, whose strata have samples
-  std::optional<double> mean;  // of that share; none: no sample
+  std::optional<double> mean;  // of that share; none: there is no such share
   // Of the mean; none: a stratum has one sample only.
   std::optional<double> standard_error;
   double degrees_of_freedom = 0;  // of the standard error: mean -+ t * standard_error
@@ -29,7 +29,8 @@ struct SpaceScore {
 // audits" and does not say how; the plain mean of samples that were chosen near walls would be the
 // walls'. Cochran, "Sampling Techniques" (1977), equations (5.6) and (5.16), without a correction
 // for the share of a stratum that was sampled: a tape is a thousandth of what it speaks for. One
-// stratum gives Student's mean and interval.
+// stratum gives Student's mean and interval. Both take the places of a stratum for drawn by chance
+// from it: those of a lattice that all lie at one distance from a wall speak for that distance.
 // Throws InputError on a weight that is negative or not finite.
 SpaceScore ScoreOfSpace(std::span<const Stratum> strata);
 

@@ -46,7 +46,7 @@ EpisodeRecord ExecutePlan(Scenario& s, const PlanResult& plan, std::optional<Sce
     return record;
   }
   std::optional<DirtField> dirt;  // laid before the drive: what is wrong with it costs no drive
-  if (s.dirt) dirt = DirtyFloor(s, *plan.risk);
+  if (s.dirt && !plan.samples.empty()) dirt = DirtyFloor(s, *plan.risk);
   scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
   if (observer) observer->OnScene(*scene);
   record = RunEpisode(s, *scene, plan, observer);

@@ -23,6 +23,7 @@ std::vector<Pose2> PosesAlong(const Path& path) {
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Vec2& p_W = path[i].p_W;
     const auto add = [&](const Waypoint& to, const Vec2& way) {
+      if (way.isZero()) return;
       poses.push_back({p_W.x(), p_W.y(), to.yaw_rad.value_or(std::atan2(way.y(), way.x()))});
     };
     if (i > 0) add(path[i], p_W - path[i - 1].p_W);
@@ -36,8 +37,8 @@ void Clean(const Scenario& s, const RiskMap& risk, DirtField& field) {
   const PlanResult plan = s.dirt->cleaner->Plan(
       {known, s.robot.spec, s.start, s.goal, EpisodeStream(s, "cleaner").Next(), &risk});
   if (plan.status != PlanStatus::kSuccess)
-    throw InputError(fmt::format("dirt.cleaning: {} finds no plan ({}): {}", s.dirt->cleaner_name,
-                                 Name(plan.status), plan.message));
+    throw InputError(s.dirt->cleaner_mark, "dirt.cleaning.plan.planner", s.dirt->cleaner_name,
+                     fmt::format("finds no plan ({}): {}", Name(plan.status), plan.message));
   const std::vector<Pose2> poses = PosesAlong(plan.path);
   Stream random = EpisodeStream(s, "cleaning");
   for (int round = 0; round < s.dirt->cleaning.rounds; ++round)
@@ -73,7 +74,8 @@ RegionScore ScoreOf(std::span<const Stratum> strata) {
   if (const auto& error = region.score.standard_error) {
     region.interval = StudentInterval(*region.score.mean, *error, region.score.degrees_of_freedom,
                                       kReportedConfidence);
-    region.interval->upper = std::min(region.interval->upper, 1.0);  // no score is above
+    region.interval->lower = std::max(region.interval->lower, -1.0);  // no score lies beyond
+    region.interval->upper = std::min(region.interval->upper, 1.0);
   }
   return region;
 }
@@ -84,10 +86,10 @@ void Score(const PlanResult& plan, int dirty_above, FloorAudit& audit) {
   std::vector<int> counts;
   for (const AuditedSample& taken : audit.samples) {
     const SampleKinds& kinds = plan.samples[static_cast<std::size_t>(taken.stop.place)].kinds;
-    const AuditSample& sample = taken.sample;
-    if (sample.counted.status == ImageStatus::kSuccess) counts.push_back(sample.counted.count);
-    if (sample.score.status == ImageStatus::kSuccess)
-      strata[kinds.near_walls() || kinds.given ? 0 : 1].scores.push_back(sample.score.score);
+    audit.unreadable += !taken.sample.read();
+    if (!taken.sample.read()) continue;
+    counts.push_back(taken.sample.counted.count);
+    strata[kinds.near_walls() || kinds.given ? 0 : 1].scores.push_back(taken.sample.score.score);
   }
   audit.gathering = Gather(counts, dirty_above);
   audit.region = ScoreOf(strata);
@@ -117,10 +119,11 @@ FloorAudit AuditFloor(const Scenario& s, const PlanResult& plan,
                       const std::vector<SampleStop>& stops, DirtField field) {
   FloorAudit audit;
   MeasureDirt(field, audit);
-  Stream random = EpisodeStream(s, "samples");
+  Stream lift = EpisodeStream(s, "samples_lift"), tapes = EpisodeStream(s, "samples_tapes");
   for (const SampleStop& stop : stops) {
     const Pose2 X_WT = TapePose(s.robot.spec, stop);
-    audit.samples.push_back({stop, X_WT, TakeSample(field, X_WT, s.dirt->params.sampling, random)});
+    audit.samples.push_back(
+        {stop, X_WT, TakeSample(field, X_WT, s.dirt->params.sampling, lift, tapes.Next())});
   }
   Score(plan, s.dirt->params.dirty_above, audit);
   return audit;

@@ -29,7 +29,8 @@ struct AuditedSample {
 
 struct RegionScore {
   SpaceScore score;
-  std::optional<Interval> interval;  // of the mean, at kReportedConfidence; none: too few samples
+  // Of the mean, at kReportedConfidence, over places like those sampled; none: too few samples.
+  std::optional<Interval> interval;
 };
 
 struct FloorAudit {
@@ -39,6 +40,7 @@ struct FloorAudit {
   double mean_dirt_per_m2 = 0;
   std::vector<AuditedSample> samples;  // in the order of visit
   Gathering gathering;
+  int unreadable = 0;  // samples whose images let nothing be read; they count for nothing else
   // Of the floor near walls and corners; of the rest, where a few places were drawn; of both, each
   // by its share of the room. Places that the user gave are a region without parts.
   RegionScore region;
@@ -46,7 +48,7 @@ struct FloorAudit {
 };
 
 // The floor of this episode as the robot finds it: the scenario's dirt is laid, and cleaned as it
-// says. Throws InputError where there is too much of it, or its cleaner finds no plan. `risk`: of
+// says. Throws InputError where its cleaner finds no plan. `risk`: of
 // the floor, for cleaners that need it.
 DirtField DirtyFloor(const Scenario& scenario, const RiskMap& risk);
 

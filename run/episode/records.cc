@@ -78,19 +78,22 @@ Json PlaceJson(const SamplePlace& sample) {
           {"kinds", Names(sample.kinds)},
           {"reachable", sample.reachable},
           {"visit", sample.visit > 0 ? Json(sample.visit) : Json(nullptr)},
-          {"status", sample.reachable ? "planned" : "out_of_reach"},
+          {"status", sample.visit > 0   ? "planned"
+                     : sample.reachable ? "not_planned"
+                                        : "out_of_reach"},
           {"dirt_count", nullptr},
           {"score", nullptr}};
 }
 
-// What was read from its tape, as far as the image let it.
+// What was read from its tape, or why nothing was.
 void AddReadings(const AuditSample& sample, Json& json) {
-  if (sample.counted.status == ImageStatus::kSuccess)
+  if (sample.read()) {
     json["dirt_count"] = sample.counted.count;
-  else
-    json["status"] = Name(sample.counted.status);
-  if (sample.score.status == ImageStatus::kSuccess) json["score"] = sample.score.score;
-  if (const std::string& why = sample.counted.message; !why.empty()) json["message"] = why;
+    json["score"] = sample.score.score;
+  } else {
+    json["status"] = Name(sample.status());
+    json["message"] = sample.message();
+  }
   json["tape"]["particles"] = sample.lifted.size();
 }
 
@@ -99,7 +102,7 @@ Json SamplesJson(const Scenario& s, const PlanResult& plan, const EpisodeRecord*
   Json json = Json::array();
   for (const SamplePlace& sample : plan.samples) {
     json.push_back(PlaceJson(sample));
-    if (driven != nullptr && sample.reachable) json.back()["status"] = "not_taken";
+    if (driven != nullptr && sample.visit > 0) json.back()["status"] = "not_taken";
   }
   if (driven == nullptr) return json;
   for (std::size_t i = 0; i < driven->sample_stops.size(); ++i) {
@@ -141,6 +144,7 @@ Json AuditJson(const FloorAudit& audit) {
   if (audit.elsewhere) json["elsewhere"] = RegionJson(*audit.elsewhere);
   json["dirty"] = audit.gathering.dirty;
   json["clean"] = audit.gathering.clean;
+  json["unreadable"] = audit.unreadable;
   json["true_dirt_per_m2"] = audit.mean_dirt_per_m2;
   return json;
 }

@@ -2,6 +2,7 @@
 // Where a robot stood as it took its samples.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -17,7 +18,7 @@ struct SampleStop {
 };
 
 // A sample is taken as its dwell ends, where the robot then truly stands. A dwell that is broken
-// off, by a reaction or by help, took none; what is dwelled at again takes it then.
+// off, by a reaction or by help, took none; if the robot dwells there again it takes it then.
 class SampleLog {
  public:
   // `places`: of the plan; tasks of others are none of its samples.
@@ -27,7 +28,7 @@ class SampleLog {
     at_.reserve(kAtOnePlace);
   }
 
-  // Once a control period. Allocates nothing.
+  // Once a control period. Allocates nothing, but at a place of more than eight samples.
   void OnControl(const Sample& sample) {
     const Command& command = sample.command;
     if (command.reacting) at_.clear();
@@ -47,7 +48,9 @@ class SampleLog {
     return !tasks.empty() && tasks.front().id == at_.front().place;
   }
   void TakeThose() {
-    stops_.insert(stops_.end(), at_.begin(), at_.end());
+    for (const SampleStop& stop : at_)  // each once
+      if (std::ranges::find(stops_, stop.place, &SampleStop::place) == stops_.end())
+        stops_.push_back(stop);
     at_.clear();
   }
 

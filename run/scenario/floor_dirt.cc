@@ -12,11 +12,13 @@ namespace floorproof {
 namespace {
 
 const std::string kPath = "dirt.", kCleaningPath = "dirt.cleaning.";
+constexpr const char* kTooMany = "more than 100 million particles are not laid";
 
 void ReadCleaning(const ConfigNode& node, FloorDirt& dirt) {
   ReadParams(node, kCleaningPath, [&](ParamVisitor& v) { dirt.cleaning.Visit(v); }, {"plan"});
   const NamedPlugin named = ReadNamed(node, "plan", "planner", "boustrophedon", kCleaningPath);
   dirt.cleaner_name = named.name;
+  dirt.cleaner_mark = named.mark;
   dirt.cleaner = MakePlugin(Planners(), named.name, kCleaningPath + "plan.planner", named.mark);
   if (dirt.cleaner->promises().covers == PlannerPromises::Covers::kNothing)
     throw InputError(named.mark, kCleaningPath + "plan.planner", named.name,
@@ -29,6 +31,25 @@ double FloorArea(const HazardMap& map) {
   for (int iy = 0; iy < map.frame.height; ++iy)
     for (int ix = 0; ix < map.frame.width; ++ix) cells += !map.IsWall(ix, iy);
   return static_cast<double>(cells) * map.frame.cell_m * map.frame.cell_m;
+}
+
+// The side of the tape's image.
+void CheckImage(const ConfigNode& node, const SamplingParams& sampling) {
+  constexpr double kLeast = 11;   // the window of the structural similarity
+  constexpr double kMost = 2000;  // some 100 MB while it is drawn
+  const double pixels = 1000 * sampling.tape.side_m * sampling.microscope.pixels_per_mm;
+  if (pixels >= kLeast && pixels <= kMost) return;
+  const auto written = [&](const char* group, const char* key) -> const ConfigNode* {
+    const ConfigNode* in = node.Find(group);
+    return in != nullptr ? in->Find(key) : nullptr;
+  };
+  const ConfigNode* scale = written("microscope", "pixels_per_mm");
+  const ConfigNode* named = scale != nullptr ? scale : written("tape", "side_m");
+  throw InputError(named != nullptr ? named->mark : node.mark,
+                   kPath + (scale != nullptr ? "microscope.pixels_per_mm" : "tape.side_m"),
+                   named != nullptr ? named->scalar : "",
+                   "makes an image of " + std::to_string(std::lround(pixels)) +
+                       " pixels a side: it must have 11 to 2000");
 }
 
 template <class Params>
@@ -63,20 +84,18 @@ FloorDirt ReadDirt(const ConfigNode& node, const HazardMap& map) {
   if (laid.least_diameter_m > laid.most_diameter_m)
     refuse("least_diameter_m", laid.least_diameter_m,
            "must not be above most_diameter_m, " + FormatDouble(laid.most_diameter_m));
-  constexpr double kMostPixels = 2000;  // of an image's side: some 100 MB while it is drawn
-  const SamplingParams& sampling = dirt.params.sampling;
-  const double pixels = 1000 * sampling.tape.side_m * sampling.microscope.pixels_per_mm;
-  if (pixels > kMostPixels)
-    refuse("microscope", sampling.microscope.pixels_per_mm,
-           "pixels a mm make an image of " + std::to_string(std::lround(pixels)) +
-               " pixels a side; at most 2000 are drawn");
-  // Of those in the open; what gathers at walls is counted where it is laid.
-  const double most_per_m2 = static_cast<double>(kMostParticles) / std::max(FloorArea(map), 1e-9);
+  CheckImage(node, dirt.params.sampling);
+  const double floor_m2 = std::max(FloorArea(map), 1e-9);
+  const double most_per_m2 = static_cast<double>(kMostParticles) / floor_m2;
   if (laid.density_per_m2 > most_per_m2)
     refuse("density_per_m2", laid.density_per_m2,
            "must be at most " + std::to_string(static_cast<std::int64_t>(most_per_m2)) +
-               " on this floor: more than " + std::to_string(kMostParticles / 1'000'000) +
-               " million particles are not laid");
+               " on this floor: " + kTooMany);
+  // What gathers at walls is counted only where it might be too much: that takes time.
+  if (laid.density_per_m2 + 2 * laid.wall_density_per_m2 > most_per_m2 &&
+      ExpectedParticles(map, laid) > static_cast<double>(kMostParticles))
+    refuse("wall_density_per_m2", laid.wall_density_per_m2,
+           std::string("must be less on this floor: ") + kTooMany);
   ConfigNode cleaning = ConfigNode::Map();
   cleaning.mark = node.mark;
   if (const ConfigNode* written = node.Find("cleaning"); written != nullptr && !written->IsNull())

@@ -36,6 +36,7 @@ struct FloorDirt {
   // the same start.
   CleaningRounds cleaning;
   std::string cleaner_name;
+  SourceMark cleaner_mark;           // where it is named
   std::unique_ptr<Planner> cleaner;  // covers floor
 };
 

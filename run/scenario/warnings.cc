@@ -53,8 +53,11 @@ void WarnOfCoverage(const Scenario& s, std::vector<std::string>& lines) {
 }
 
 void WarnOfDirt(const Scenario& s, std::vector<std::string>& lines) {
-  if (s.dirt && !(s.planner && s.planner->promises().visits_places))
-    lines.push_back("warning: dirt is laid, and this plan takes no samples of it");
+  if (!s.dirt) return;
+  if (!(s.planner && s.planner->promises().visits_places))
+    lines.push_back("warning: `dirt` has no effect: this plan takes no samples");
+  else if (s.episode.drive != "physics")
+    lines.push_back("warning: `dirt` has no effect: nothing is driven");
 }
 
 }  // namespace

@@ -184,10 +184,10 @@ class StudyFloor {
 // What the microscope counts on a tape at each place.
 inline std::vector<int> SampleAt(DirtField field, std::span<const Vec2> places,
                                  std::uint64_t seed) {
-  Stream random(seed, 0, "study_samples");
+  Stream lift(seed, 0, "study_lift"), tape(seed, 0, "study_tape");
   std::vector<int> counts;
   for (const Vec2& p_W : places)
-    counts.push_back(TakeSample(field, {p_W.x(), p_W.y(), 0}, {}, random).counted.count);
+    counts.push_back(TakeSample(field, {p_W.x(), p_W.y(), 0}, {}, lift, tape.Next()).counted.count);
   return counts;
 }
 

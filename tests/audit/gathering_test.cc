@@ -44,10 +44,10 @@ class CleanedRoom : public ::testing::Test {
   }
   // What is read from tapes at these places, through the microscope.
   static Gathering Sampled(DirtField field, const std::vector<Vec2>& places) {
-    Stream random(1, 0, "samples");
+    Stream lift(1, 0, "lift");
     std::vector<int> counts;
     for (const Vec2& p : places)
-      counts.push_back(TakeSample(field, {p.x(), p.y(), 0}, {}, random).counted.count);
+      counts.push_back(TakeSample(field, {p.x(), p.y(), 0}, {}, lift, counts.size()).counted.count);
     return Gather(counts);
   }
   static std::vector<Vec2> Grid7() {

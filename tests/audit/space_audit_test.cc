@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The region's score against the region: what its interval says of a floor on which dirt gathers at
-// the walls, as seen by samples of which most were taken there.
+// the walls, as seen by samples drawn by chance, of which most were taken there.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ class SpaceAudit : public ::testing::Test {
     return p;
   }
   double ScoreAt(const Vec2& p) {
-    return TakeSample(field_, {p.x(), p.y(), 0}, params_, random_).score.score;
+    return TakeSample(field_, {p.x(), p.y(), 0}, params_, random_, random_.Next()).score.score;
   }
   std::vector<double> Scores(int n, bool near) {
     std::vector<double> scores;
@@ -54,10 +54,9 @@ class SpaceAudit : public ::testing::Test {
     for (int i = 0; i < kTapes; ++i) mean += ScoreAt(Anywhere()) / kTapes;
     return mean;
   }
-  static bool Holds(const std::vector<Stratum>& strata, double truth) {
+  static Interval IntervalOf(const std::vector<Stratum>& strata) {
     const SpaceScore score = ScoreOfSpace(strata);
-    return StudentInterval(*score.mean, *score.standard_error, score.degrees_of_freedom, 0.95)
-        .Contains(truth);
+    return StudentInterval(*score.mean, *score.standard_error, score.degrees_of_freedom, 0.95);
   }
 
   DirtField floor_{testing::BareRoom(1, 1)}, field_ = floor_;
@@ -69,15 +68,19 @@ TEST_F(SpaceAudit, TheIntervalHoldsTheTrueScoreAndThePlainMeansDoesNot) {
   const double truth = TrueScore();
   constexpr int kAudits = 100;
   int holds = 0, plain_holds = 0;
+  double width = 0;
   for (int i = 0; i < kAudits; ++i) {
     field_ = floor_;
     const std::vector<double> near = Scores(20, true), elsewhere = Scores(6, false);
-    holds += Holds({{kNearShare, near}, {1 - kNearShare, elsewhere}}, truth);
+    const Interval interval = IntervalOf({{kNearShare, near}, {1 - kNearShare, elsewhere}});
+    holds += interval.Contains(truth);
+    width += (interval.upper - interval.lower) / kAudits;
     std::vector<double> all = near;
     all.insert(all.end(), elsewhere.begin(), elsewhere.end());
-    plain_holds += Holds({{1, all}}, truth);
+    plain_holds += IntervalOf({{1, all}}).Contains(truth);
   }
   EXPECT_GE(1.0 * holds / kAudits, 0.88);  // 0.95, less three standard deviations
+  EXPECT_LT(width, 0.06);                  // an interval that says nothing would hold it always
   EXPECT_LT(1.0 * plain_holds / kAudits, 0.60);
 }
 

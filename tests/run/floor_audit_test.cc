@@ -17,6 +17,7 @@
 namespace floorproof {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -266,7 +267,15 @@ TEST_F(FloorAuditTest, WhatCannotBeIsRefusedWithItsKey) {
   EXPECT_THAT(refusal("{least_diameter_m: 0.002}"),
               HasSubstr("dirt.least_diameter_m = 0.002: must not be above most_diameter_m, 0.001"));
   EXPECT_THAT(refusal("{tape: {side_m: 0.1}, microscope: {pixels_per_mm: 50}}"),
-              HasSubstr("5000 pixels a side"));
+              HasSubstr("dirt.microscope.pixels_per_mm = 50: makes an image of 5000 pixels"));
+  EXPECT_THAT(refusal("{tape: {side_m: 0.1}, microscope: {pixels_per_mm: 50}}"),
+              HasSubstr("scenario.yaml:"));
+  EXPECT_THAT(refusal("{tape: {side_m: 0.001}, microscope: {pixels_per_mm: 5}}"),
+              HasSubstr("makes an image of 5 pixels a side: it must have 11 to 2000"));
+  EXPECT_THAT(refusal("{tape: {side_m: 0.1}, microscope: {blur_px: 1}}"), "taken");
+  EXPECT_THAT(refusal("{wall_density_per_m2: 1e12}"),
+              HasSubstr("dirt.wall_density_per_m2 = 1e+12: must be less on this floor"));
+  EXPECT_THAT(refusal("{wall_density_per_m2: 1e7}"), "taken");
   EXPECT_THAT(refusal("{cleaning: {plan: audit}}"),
               HasSubstr("dirt.cleaning.plan.planner = audit: goes to places and cleans no floor"));
   EXPECT_THAT(refusal("{cleaning: {plan: boustrofedon}}"), HasSubstr("did you mean boustrophedon"));
@@ -279,8 +288,10 @@ TEST_F(FloorAuditTest, ACleanerThatFindsNoPlanEndsTheEpisodeBeforeItsDrive) {
   Scenario s = Read(Room(kGiven,
                          "dirt: {cleaning: {rounds: 1, plan: {planner: boustrophedon, "
                          "radius_m: 3}}}"));
-  EXPECT_THAT([&] { Execute(s); },
-              ThrowsMessage<InputError>(HasSubstr("dirt.cleaning: boustrophedon finds no plan")));
+  EXPECT_THAT([&] { Execute(s); }, ThrowsMessage<InputError>(AllOf(
+                                       HasSubstr("scenario.yaml:"),
+                                       HasSubstr("dirt.cleaning.plan.planner = boustrophedon: "
+                                                 "finds no plan"))));
 }
 
 TEST_F(FloorAuditTest, DirtThatNobodySamplesIsWarnedOf) {
@@ -290,6 +301,8 @@ TEST_F(FloorAuditTest, DirtThatNobodySamplesIsWarnedOf) {
   EXPECT_THAT(warnings("boustrophedon", "dirt: {}"), Contains(HasSubstr("takes no samples")));
   EXPECT_THAT(warnings(kGiven, "dirt: {}"), Not(Contains(HasSubstr("takes no samples"))));
   EXPECT_THAT(warnings("boustrophedon", ""), IsEmpty());
+  EXPECT_THAT(warnings(kGiven, "dirt: {}\ndrive: none"), Contains(HasSubstr("nothing is driven")));
+  EXPECT_FALSE(Run("boustrophedon", "dirt: {}\ntime_limit_s: 1").record().audit);
 }
 
 }  // namespace
