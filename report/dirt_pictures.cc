@@ -89,6 +89,8 @@ std::string ScoreText(const RegionScore& region) {
   std::string text = fmt::format("{:.3f}", *region.score.mean);
   if (region.interval)
     text += fmt::format(" ({:.3f} to {:.3f})", region.interval->lower, region.interval->upper);
+  else
+    text += " (too few samples for an interval)";
   return text;
 }
 
@@ -99,6 +101,9 @@ std::string AuditText(const Scenario& s, const PlanResult& plan, const FloorAudi
       fmt::format("audit: {} of {} taken, {} dirty (more than {} particles); score {}",
                   audit.samples.size(), CountText(plan.samples.size(), "sample"),
                   audit.gathering.dirty, s.dirt->params.dirty_above, ScoreText(audit.region));
+  constexpr double kWhole = 0.995;
+  if (const SpaceScore& region = audit.region.score; region.mean && region.represented < kWhole)
+    text += fmt::format(", of {:.0f} % of the room", 100 * region.represented);
   if (audit.unreadable > 0) text += fmt::format(", {} could not be read", audit.unreadable);
   if (audit.near_walls && audit.elsewhere)
     text += fmt::format(", near walls {}, elsewhere {}", ScoreText(*audit.near_walls),
@@ -127,8 +132,15 @@ void WriteDirt(const Scenario& s, const PlanResult& plan, const FloorAudit& audi
     scores.points.push_back({taken.X_WT.p(), taken.sample.read() ? "tape" : "tape, not readable"});
     if (taken.sample.read()) scores.low = std::min(*scores.low, taken.sample.score.score);
   }
-  for (const SamplePlace& place : plan.samples)
-    if (!place.reachable) scores.points.push_back({place.p_W, "out of the robot's reach"});
+  for (std::size_t i = 0; i < plan.samples.size(); ++i) {
+    const SamplePlace& place = plan.samples[i];
+    const bool taken = std::ranges::any_of(audit.samples, [i](const AuditedSample& a) {
+      return static_cast<std::size_t>(a.stop.place) == i;
+    });
+    if (!taken)
+      scores.points.push_back(
+          {place.p_W, place.reachable ? "sample not taken" : "out of the robot's reach"});
+  }
   const HeatValues around = ScoresAround(audit);
   WritePng(png, Beside(DrawHeatMap(s.site.map, &thousands, dirt),
                        DrawHeatMap(s.site.map, &around, scores)));
