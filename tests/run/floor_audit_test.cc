@@ -147,9 +147,9 @@ TEST_F(FloorAuditTest, RoundsOfCleaningTakeDirtUpWhereTheBrushGets) {
 
 TEST_F(FloorAuditTest, DirtIsTheEpisodesAndTheSameEachTime) {
   const auto particles = [&](const char* episode) {
+    const Audited dut = Run(kGiven, "dirt: {}", {{"episode", episode}});
     std::vector<std::size_t> lifted;
-    for (const AuditedSample& taken :
-         Run(kGiven, "dirt: {}", {{"episode", episode}}).audit().samples)
+    for (const AuditedSample& taken : dut.audit().samples)
       lifted.push_back(taken.sample.lifted.size());
     return lifted;
   };
