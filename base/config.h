@@ -48,4 +48,10 @@ ConfigNode ReadYamlFile(const std::filesystem::path& path);
 // Block style, short lists of scalars in one line; ParseYaml(WriteYaml(n)) gives n's values again.
 std::string WriteYaml(const ConfigNode& node);
 
+// Where the key is written; the node's own mark where it is not.
+inline const SourceMark& MarkOf(const ConfigNode& node, std::string_view key) {
+  const ConfigNode* written = node.Find(key);
+  return written != nullptr ? written->mark : node.mark;
+}
+
 }  // namespace floorproof

@@ -71,6 +71,12 @@ void ReadParams(const ConfigNode& node, const std::string& path,
 // Adds every parameter with its value to the map `node`.
 void WriteParams(Configurable& source, ConfigNode& node);
 void WriteParams(const std::function<void(ParamVisitor&)>& visit, ConfigNode& node);
+// The node with them added. Takes a copy: who visits parameters may change them.
+template <class Params>
+ConfigNode WithParams(ConfigNode node, Params params) {
+  WriteParams([&](ParamVisitor& v) { params.Visit(v); }, node);
+  return node;
+}
 
 struct ParamDoc {
   std::string name, default_text, rule, help;

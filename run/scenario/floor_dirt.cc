@@ -52,13 +52,6 @@ void CheckImage(const ConfigNode& node, const SamplingParams& sampling) {
                        " pixels a side: it must have 11 to 2000");
 }
 
-template <class Params>
-ConfigNode Written(Params params) {  // a copy: who visits may change them
-  ConfigNode node = ConfigNode::Map();
-  WriteParams([&](ParamVisitor& v) { params.Visit(v); }, node);
-  return node;
-}
-
 }  // namespace
 
 void CleaningRounds::Visit(ParamVisitor& v) {
@@ -76,9 +69,7 @@ FloorDirt ReadDirt(const ConfigNode& node, const HazardMap& map) {
   FloorDirt dirt;
   ReadParams(node, kPath, [&](ParamVisitor& v) { dirt.params.Visit(v); }, {"cleaning"});
   const auto refuse = [&](const char* key, double value, const std::string& rule) {
-    const ConfigNode* written = node.Find(key);
-    throw InputError(written != nullptr ? written->mark : node.mark, kPath + key,
-                     FormatDouble(value), rule);
+    throw InputError(MarkOf(node, key), kPath + key, FormatDouble(value), rule);
   };
   const DirtParams& laid = dirt.params.laid;
   if (laid.least_diameter_m > laid.most_diameter_m)
@@ -105,7 +96,8 @@ FloorDirt ReadDirt(const ConfigNode& node, const HazardMap& map) {
 }
 
 ConfigNode WriteDirt(const FloorDirt& dirt) {
-  ConfigNode node = Written(dirt.params), cleaning = Written(dirt.cleaning);
+  ConfigNode node = WithParams(ConfigNode::Map(), dirt.params);
+  ConfigNode cleaning = WithParams(ConfigNode::Map(), dirt.cleaning);
   ConfigNode plan = ConfigNode::Map();
   plan.Add("planner", ConfigNode::Scalar(dirt.cleaner_name, true));
   WriteParams(*dirt.cleaner, plan);

@@ -28,12 +28,6 @@ ConfigNode Named(const char* key, const std::string& text) {
   return node;
 }
 
-// Takes a copy: who visits parameters may change them.
-template <class Params>
-ConfigNode WithParams(ConfigNode node, Params params) {
-  WriteParams([&](ParamVisitor& v) { params.Visit(v); }, node);
-  return node;
-}
 ConfigNode WithPlugin(ConfigNode node, Configurable& plugin) {
   WriteParams(plugin, node);
   return node;

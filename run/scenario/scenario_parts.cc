@@ -21,12 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where the key is written; the file's own mark where it is not.
-SourceMark MarkOf(const ConfigNode& root, std::string_view key) {
-  const ConfigNode* node = root.Find(key);
-  return node ? node->mark : root.mark;
-}
-
 // What is written under the key; nullptr where that is nothing, or null.
 const ConfigNode* Written(const ConfigNode& root, std::string_view key) {
   const ConfigNode* node = root.Find(key);
@@ -202,11 +196,7 @@ void CheckOnline(const ConfigNode& root, const Scenario& s) {
   const OnlineParams& asked = s.online->params();
   const double cell_m = s.site.map.frame.cell_m;
   const double step_m = asked.step_m.value_or(cells ? cell_m : s.robot.spec.tool_width_m);
-  const auto mark = [&](const char* key) {
-    const ConfigNode* plan = root.Find("plan");
-    const ConfigNode* node = plan->IsMap() ? plan->Find(key) : nullptr;
-    return node != nullptr ? node->mark : plan->mark;
-  };
+  const auto mark = [&](const char* key) { return MarkOf(*root.Find("plan"), key); };
   if (cells && std::abs(step_m - cell_m) > 1e-9 * cell_m)
     throw InputError(mark("step_m"), "plan.step_m", FormatDouble(step_m),
                      "must be the site's cell, " + FormatDouble(cell_m) +

@@ -9,9 +9,8 @@ namespace {
 constexpr std::size_t kMaxFaults = 1000;
 
 // Where the key is written that the line begins with; else where the entry is.
-SourceMark MarkOf(const ConfigNode& entry, std::string_view line) {
-  const ConfigNode* key = entry.Find(line.substr(0, line.find_first_of(" :")));
-  return key != nullptr ? key->mark : entry.mark;
+SourceMark MarkOfLine(const ConfigNode& entry, std::string_view line) {
+  return MarkOf(entry, line.substr(0, line.find_first_of(" :")));
 }
 
 ScheduledFault ReadFault(const ConfigNode& node, const std::string& path,
@@ -51,7 +50,7 @@ ScheduledFault ReadFault(const ConfigNode& node, const std::string& path,
   try {
     read.fault->Start(context);
   } catch (const InputError& e) {
-    throw InputError(MarkOf(node, e.what()), "", "", prefix + e.what());
+    throw InputError(MarkOfLine(node, e.what()), "", "", prefix + e.what());
   }
   return read;
 }
@@ -83,9 +82,7 @@ ConfigNode WriteFaults(std::span<const ScheduledFault> faults) {
     node.Add("type", ConfigNode::Scalar(written.type));
     if (!written.id.empty()) node.Add("id", ConfigNode::Scalar(written.id, true));
     WriteParams(*written.fault, node);
-    FaultTiming timing = written.timing;
-    WriteParams([&](ParamVisitor& v) { timing.Visit(v); }, node);
-    list.items.push_back(std::move(node));
+    list.items.push_back(WithParams(std::move(node), written.timing));
   }
   return list;
 }
