@@ -55,16 +55,17 @@ double DriveTime(const ReferencePath& path, const DriveTimeLimits& limits, const
   double time_s = 0, speed_mps = 0;
   for (std::size_t i = 0; i < path.vertices.size(); ++i) {
     const ReferenceVertex& vertex = path.vertices[i];
-    time_s += vertex.dwell_s;
     const auto turn = [&](double turn_rad) {
       double at_end = 0;
       time_s += about.Time(turn_rad, 0, 0, at_end) + reference.lag_s;
     };
     double facing_rad = i == 0 ? Heading(vertex) : Heading(path.vertices[i - 1]);
-    if (vertex.face_rad) {
-      const double turn_rad = std::abs(WrapAngle(*vertex.face_rad - facing_rad));
+    for (const ReferenceDwell& dwell : vertex.dwells) {
+      time_s += dwell.time_s;
+      if (!dwell.face_rad) continue;
+      const double turn_rad = std::abs(WrapAngle(*dwell.face_rad - facing_rad));
       if (turn_rad > limits.tolerance_rad) turn(turn_rad);
-      facing_rad = *vertex.face_rad;
+      facing_rad = *dwell.face_rad;
     }
     if (i + 1 == path.vertices.size()) break;
     const double turn_rad = std::abs(WrapAngle(Heading(vertex) - facing_rad));

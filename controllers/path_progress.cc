@@ -31,12 +31,16 @@ void PathProgress::Start(const Path& path, const ReferenceLimits& limits,
 void PathProgress::Extend(const Path& path) {
   reference_ = MakeReference(path, limits_);
   homing_ = false;
-  vertex_ = goal_ = ahead_ = waypoint_ = 0;
+  // Where it stands to dwell, the segment that is tracked is the one that led there.
+  vertex_ = standing() && vertex_ > 0 && reference_.vertices.size() > 1 ? 1 : 0;
+  goal_ = ahead_ = vertex_;
+  waypoint_ = 0;
   seen_m_ = 0;
+  if (standing() && dwell_ >= leg().dwells.size()) Depart();
 }
 
 void PathProgress::Update(const Vec2& p_W, double t_s) {
-  if (phase_ == Phase::kDwell && t_s >= dwell_until_s_ - kTimeSlackS) Depart();
+  if (phase_ == Phase::kDwell) EndDwells(t_s);
   if (moving()) Advance(p_W, t_s);
 }
 
@@ -68,19 +72,29 @@ void PathProgress::Arrive(std::size_t vertex, double t_s) {
   vertex_ = ahead_ = vertex;
   turn_W_ = Vertex(vertex).p_W;
   homing_ = false;
-  if (Vertex(vertex).face_rad)
+  dwell_ = 0;
+  BeginDwell(t_s);
+}
+
+void PathProgress::BeginDwell(double t_s) {
+  if (dwell_ == leg().dwells.size())
+    Depart();
+  else if (leg().dwells[dwell_].face_rad)
     phase_ = Phase::kFace;
   else
     Faced(t_s);
 }
 
 void PathProgress::Faced(double t_s) {
-  if (Vertex(vertex_).dwell_s > 0) {
-    phase_ = Phase::kDwell;
-    dwell_until_s_ = t_s + Vertex(vertex_).dwell_s;
-  } else {
-    Depart();
-  }
+  phase_ = Phase::kDwell;
+  dwell_until_s_ = t_s + leg().dwells[dwell_].time_s;
+  EndDwells(t_s);
+}
+
+void PathProgress::EndDwells(double t_s) {
+  if (t_s < dwell_until_s_ - kTimeSlackS) return;
+  ++dwell_;
+  BeginDwell(t_s);
 }
 
 void PathProgress::Depart() {
@@ -97,7 +111,7 @@ void PathProgress::Folded() {
 // The way along the legs that p_W has come, not before the leg now tracked.
 double PathProgress::Along(const Vec2& p_W) const {
   const ReferenceVertex& from = Vertex(vertex_);
-  if (homing_ || vertex_ + 1 == reference_.vertices.size()) return from.s_m;
+  if (homing_ || standing() || vertex_ + 1 == reference_.vertices.size()) return from.s_m;
   const double leg_m = Vertex(vertex_ + 1).s_m - from.s_m;
   return from.s_m + std::clamp((p_W - from.p_W).dot(from.direction_W), 0.0, leg_m);
 }
@@ -106,7 +120,8 @@ std::size_t PathProgress::Segment(const Vec2& p_W) {
   const std::size_t n = reference_.waypoint_s_m.size();
   if (n < 2) return 0;
   const double s_m = Along(p_W);
-  while (waypoint_ + 2 < n && reference_.waypoint_s_m[waypoint_ + 1] <= s_m) ++waypoint_;
+  const auto left = [&](double end_m) { return standing() ? end_m < s_m : end_m <= s_m; };
+  while (waypoint_ + 2 < n && left(reference_.waypoint_s_m[waypoint_ + 1])) ++waypoint_;
   return waypoint_;
 }
 

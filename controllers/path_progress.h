@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "controllers/reference_path.h"
@@ -41,6 +42,7 @@ class PathProgress {
   void Update(const Vec2& p_W, double t_s);
 
   Phase phase() const { return phase_; }
+  bool standing() const { return phase_ == Phase::kFace || phase_ == Phase::kDwell; }
   bool moving() const { return phase_ == Phase::kTurn || phase_ == Phase::kDrive; }
   // To turn where it is now, p_W.
   void Turn(const Vec2& p_W) {
@@ -48,7 +50,7 @@ class PathProgress {
     turn_W_ = p_W;
   }
   void Drive() { phase_ = Phase::kDrive; }
-  // The robot faces as the plan says at vertex(), or cannot: the dwell begins.
+  // The robot faces as face_rad() says, or cannot: the dwell begins.
   void Faced(double t_s);
   // The robot has taken the shapes of vertex(), or there are none.
   void Folded();
@@ -56,9 +58,12 @@ class PathProgress {
   // The vertex at which the leg now tracked begins, and the leg itself.
   std::size_t vertex() const { return vertex_; }
   const ReferenceVertex& leg() const { return reference_.vertices[vertex_]; }
+  // Only while standing(): what it turned, or turns, to.
+  std::optional<double> face_rad() const { return leg().dwells[dwell_].face_rad; }
   // What is done in the dwell that goes on; none while there is no dwell.
   std::span<const WaypointTask> tasks() const {
-    return phase_ == Phase::kDwell ? std::span(leg().tasks) : std::span<const WaypointTask>();
+    return phase_ == Phase::kDwell ? std::span(leg().dwells[dwell_].tasks)
+                                   : std::span<const WaypointTask>();
   }
   // Where the present turn, or the last, began: the vertex, or where the robot was on its leg.
   const Vec2& turn_W() const { return turn_W_; }
@@ -81,13 +86,16 @@ class PathProgress {
   };
   Course CourseFrom(const Vec2& p_W, double ahead_m);
 
-  // The plan's segment now tracked; never one of no length.
+  // The plan's segment now tracked; never one of no length. While the robot stands at a stop, until
+  // its dwell is over, it is the one that led there: whoever breaks off then has the stop ahead.
   std::size_t Segment(const Vec2& p_W);
 
  private:
   const ReferenceVertex& Vertex(std::size_t i) const { return reference_.vertices[i]; }
   void Advance(const Vec2& p_W, double t_s);
   void Arrive(std::size_t vertex, double t_s);
+  void BeginDwell(double t_s);
+  void EndDwells(double t_s);
   void Depart();
   double Along(const Vec2& p_W) const;
   double SeekAhead(const Vec2& p_W, double way_m);
@@ -104,6 +112,7 @@ class PathProgress {
   double seen_m_ = 0;       // how far before its bend that direction was taken
   Vec2 turn_W_ = Vec2::Zero();
   std::size_t waypoint_ = 0;  // the plan's segment now tracked
+  std::size_t dwell_ = 0;  // of vertex_'s
   double dwell_until_s_ = 0;
 };
 

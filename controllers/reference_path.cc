@@ -72,21 +72,25 @@ bool SameYaw(const std::optional<double>& a, const std::optional<double>& b) {
 }
 
 // Indices of the waypoints that become vertices. A waypoint at the same place as the last vertex
-// becomes none; its dwell is added there.
+// becomes none; it dwells there.
 struct Kept {
   std::size_t index = 0;
-  double dwell_s = 0;
-  std::optional<double> dwell_yaw_rad;  // of the first waypoint here that dwells and has one
-  std::vector<std::string> shapes;      // of the waypoints at this place
-  std::vector<WaypointTask> tasks;      // the same
+  std::vector<ReferenceDwell> dwells;
+  std::vector<std::string> shapes;  // of the waypoints at this place
 };
 std::vector<Kept> KeepCorners(const Path& path, const ReferenceLimits& limits) {
-  std::vector<Kept> kept = {{0, 0, {}, {path[0].shape}, {}}};
+  std::vector<Kept> kept = {{0, {}, {path[0].shape}}};
   const auto stand = [&](const Waypoint& w) {
-    Kept& here = kept.back();
-    here.dwell_s += w.dwell_s;
-    if (w.dwell_s > 0 && !here.dwell_yaw_rad) here.dwell_yaw_rad = w.yaw_rad;
-    if (w.task) here.tasks.push_back(*w.task);
+    if (w.dwell_s == 0 && !w.task) return;
+    const std::optional<double> face_rad = limits.faces ? w.yaw_rad : std::nullopt;
+    std::vector<ReferenceDwell>& dwells = kept.back().dwells;
+    const bool turns = w.dwell_s > 0 && face_rad && !dwells.empty() && dwells.back().time_s > 0 &&
+                       !SameYaw(dwells.back().face_rad, face_rad);
+    if (dwells.empty() || turns) dwells.emplace_back();
+    ReferenceDwell& dwell = dwells.back();
+    dwell.time_s += w.dwell_s;
+    if (w.dwell_s > 0 && !dwell.face_rad) dwell.face_rad = face_rad;
+    if (w.task) dwell.tasks.push_back(*w.task);
   };
   stand(path[0]);
   Cone cone(path[0].p_W, limits.straight_m);
@@ -96,7 +100,7 @@ std::vector<Kept> KeepCorners(const Path& path, const ReferenceLimits& limits) {
     if ((path[i].p_W - path[kept.back().index].p_W).norm() < kSamePointM) {
       kept.back().shapes.push_back(path[i].shape);
     } else {
-      kept.push_back({i, 0, {}, {}, {}});
+      kept.push_back({i, {}, {}});
     }
     stand(path[i]);
     cone = Cone(path[i].p_W, limits.straight_m);
@@ -208,10 +212,10 @@ ReferencePath MakeReference(const Path& path, const ReferenceLimits& limits) {
   for (std::size_t k = 0; k < kept.size(); ++k) {
     ReferenceVertex& vertex = vertices[k];
     vertex.p_W = path[kept[k].index].p_W;
-    vertex.dwell_s = kept[k].dwell_s;
-    if (limits.faces) vertex.face_rad = kept[k].dwell_yaw_rad;
-    vertex.tasks = kept[k].tasks;
-    vertex.stop = k == 0 || k + 1 == kept.size() || vertex.dwell_s > 0;
+    vertex.dwells = kept[k].dwells;
+    vertex.stop =
+        k == 0 || k + 1 == kept.size() ||
+        std::ranges::any_of(vertex.dwells, [](const auto& dwell) { return dwell.time_s > 0; });
     if (k == 0) continue;
     ReferenceVertex& from = vertices[k - 1];
     const Vec2 way = vertex.p_W - from.p_W;

@@ -36,18 +36,23 @@ struct ReferenceLimits {
   bool faces = false;      // where the plan dwells its yaw is turned to; else it is ignored there
 };
 
+struct ReferenceDwell {
+  double time_s = 0;
+  std::optional<double> face_rad;   // turned to before
+  std::vector<WaypointTask> tasks;  // done meanwhile, in the plan's order
+};
+
 struct ReferenceVertex {
   Vec2 p_W = Vec2::Zero();
   Vec2 direction_W = Vec2::Zero();  // unit, to the next vertex; at the last: as before
   double s_m = 0;                   // way from the first vertex
   double speed_mps = 0;             // allowed from here to the next vertex
   double passing_mps = 0;           // at most here; 0 at stops
-  double dwell_s = 0;
-  std::optional<double> face_rad;  // turned to before the dwell
+  // Of the waypoints here, one after the other; those that face the same way are one.
+  std::vector<ReferenceDwell> dwells;
   bool stop = false;
   std::optional<double> yaw_rad;    // held from here to the next vertex; none: along the way
   std::vector<std::string> shapes;  // taken here, one after the other, before going on
-  std::vector<WaypointTask> tasks;  // of the waypoints here, in their order: done in the dwell
 };
 
 struct ReferencePath {

@@ -112,7 +112,7 @@ class RegulatedPursuit final : public Tracker {
 
   // Turned far enough, it comes to rest in the dwell.
   void Face(const Pose2& X_WB, double t_s, double dt_s) {
-    const double aside_rad = WrapAngle(*progress_.leg().face_rad - X_WB.yaw_rad);
+    const double aside_rad = WrapAngle(*progress_.face_rad() - X_WB.yaw_rad);
     Turn(aside_rad, dt_s);
     if (std::abs(aside_rad) > Radians(params_.heading_tolerance_deg)) return;
     turn_side_ = 0;

@@ -15,7 +15,9 @@ namespace floorproof {
 struct Command {
   BodyTwist twist;
   HingeState hinges;        // to be held, or turned at these rates towards these angles
-  std::size_t segment = 0;  // the segment now tracked goes from waypoint `segment` to `segment + 1`
+  // The segment now tracked goes from waypoint `segment` to `segment + 1`. Until a dwell is over it
+  // is the one that led there.
+  std::size_t segment = 0;
   bool dwelling = false;    // standing still on purpose
   // To be done in this dwell, in order: the tracker's own list, until its path changes.
   std::span<const WaypointTask> tasks = {};

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <ostream>
+#include <set>
 
 #include "controllers/drive.h"
 #include "controllers/estimator.h"
@@ -153,6 +154,50 @@ TEST_P(TrackerConformance, TellsTheTasksOfTheDwellThatGoesOn) {
     EXPECT_LT((step.X_WB.p() - place).norm(), 0.05) << id;
   }
   EXPECT_EQ(order, (std::vector<int>{7, 5, 9}));
+}
+
+// So whoever breaks off there has the waypoint ahead of it, and the dwell is not forgotten.
+TEST_P(TrackerConformance, WhatLedToADwellIsTrackedUntilItIsOver) {
+  const auto dut = Make();
+  Path path = kRows;
+  path[2].dwell_s = path[4].dwell_s = 1;
+  path[2].yaw_rad = -2;  // some turn to it first
+  path[4].task = WaypointTask{.id = 5};
+  const Driven driven = DriveAlong(*dut, path, {}, nullptr, robot());
+  ASSERT_TRUE(driven.done);
+  EXPECT_TRUE(driven.SegmentsNeverDecrease());
+  std::set<std::size_t> dwelt;
+  bool after = false;  // a dwell, and not moved on yet
+  for (const auto& step : driven.steps) {
+    if (step.dwelling) dwelt.insert(step.segment);
+    if (after && !step.dwelling) {
+      EXPECT_TRUE(step.segment == 2 || step.segment == 4) << step.segment;
+    }
+    after = step.dwelling;
+  }
+  EXPECT_EQ(dwelt, (std::set<std::size_t>{1, 3}));
+}
+
+TEST_P(TrackerConformance, AWayThatGoesOnFromADwellIsDrivenFromThere) {
+  const auto dut = Make();
+  Path path = MakePath({{0, 0}, {0.5, 0}, {1, 0}});
+  path[1].dwell_s = 2;
+  const Driven plain = DriveAlong(*dut, path, {}, nullptr, robot());
+  Path longer = path;
+  longer.push_back(longer.back());
+  longer.back().p_W = {1.5, 0};
+  int periods = 0;
+  DriveOptions options;
+  options.push = [&](double, Pose2& X_WB) {
+    if (X_WB.x_m > 0.48 && ++periods == 50) dut->Extend(longer);  // in the dwell
+  };
+  const Driven driven = DriveAlong(*dut, path, options, nullptr, robot());
+  EXPECT_TRUE(driven.done);
+  EXPECT_NEAR(driven.steps.back().X_WB.x_m, 1.5, 0.02);
+  const auto dwelt = [](const Driven& d) {
+    return std::ranges::count_if(d.steps, [](const auto& step) { return step.dwelling; });
+  };
+  EXPECT_EQ(dwelt(driven), dwelt(plain));
 }
 
 TEST_P(TrackerConformance, UpdateAllocatesNothing) {

@@ -95,8 +95,31 @@ TEST(ReferencePath, DwellsAtOnePlaceAddUp) {
   path[3].dwell_s = 4;
   const auto reference = MakeReference(path, kLimits);
   ASSERT_EQ(reference.vertices.size(), 2u);
-  EXPECT_EQ(reference.vertices[0].dwell_s, 3);
-  EXPECT_EQ(reference.vertices[1].dwell_s, 4);
+  ASSERT_EQ(reference.vertices[0].dwells.size(), 1u);
+  EXPECT_EQ(reference.vertices[0].dwells[0].time_s, 3);
+  ASSERT_EQ(reference.vertices[1].dwells.size(), 1u);
+  EXPECT_EQ(reference.vertices[1].dwells[0].time_s, 4);
+}
+
+TEST(ReferencePath, DwellsAtOnePlaceThatFaceApartAreTwo) {
+  Path path = MakePath({{0, 0}, {1, 0}, {1, 0}, {1, 0}, {2, 0}});
+  for (std::size_t i = 1; i <= 3; ++i) {
+    path[i].dwell_s = static_cast<double>(i);
+    path[i].yaw_rad = i < 3 ? 0.5 : -2;
+    path[i].task = WaypointTask{.id = static_cast<int>(i)};
+  }
+  ReferenceLimits limits = kLimits;
+  EXPECT_EQ(MakeReference(path, limits).vertices[1].dwells.size(), 1u) << "it faces nowhere";
+  limits.faces = true;
+  const auto reference = MakeReference(path, limits);
+  const auto& dwells = reference.vertices[1].dwells;
+  ASSERT_EQ(dwells.size(), 2u);
+  EXPECT_EQ(dwells[0].time_s, 3);
+  EXPECT_EQ(dwells[0].face_rad, 0.5);
+  EXPECT_EQ(dwells[0].tasks, (std::vector{*path[1].task, *path[2].task}));
+  EXPECT_EQ(dwells[1].time_s, 3);
+  EXPECT_EQ(dwells[1].face_rad, -2);
+  EXPECT_EQ(dwells[1].tasks, std::vector{*path[3].task});
 }
 
 TEST(ReferencePath, ADwellCountsOnceHoweverThePathGoesOn) {
@@ -106,7 +129,8 @@ TEST(ReferencePath, ADwellCountsOnceHoweverThePathGoesOn) {
   path[3].speed_mps = 0.1;
   const auto reference = MakeReference(path, kLimits);
   ASSERT_EQ(reference.vertices.size(), 3u);
-  EXPECT_EQ(reference.vertices[1].dwell_s, 6);
+  ASSERT_EQ(reference.vertices[1].dwells.size(), 1u);
+  EXPECT_EQ(reference.vertices[1].dwells[0].time_s, 6);
 }
 
 TEST(ReferencePath, CarriesTheTasksOfItsWaypoints) {
@@ -118,10 +142,11 @@ TEST(ReferencePath, CarriesTheTasksOfItsWaypoints) {
   const auto reference = MakeReference(path, kLimits);
   ASSERT_EQ(Points(reference), (std::vector<Vec2>{{0, 0}, {1, 0}, {2, 0}, {3, 0}}))
       << "a waypoint with a task is no point to pass over";
-  EXPECT_EQ(reference.vertices[0].tasks, std::vector{*path[0].task});
-  EXPECT_EQ(reference.vertices[1].tasks, std::vector{*path[1].task});
-  EXPECT_EQ(reference.vertices[2].tasks, (std::vector{*path[2].task, *path[3].task}));
-  EXPECT_TRUE(reference.vertices[3].tasks.empty());
+  const auto tasks = [&](std::size_t k) { return reference.vertices[k].dwells.at(0).tasks; };
+  EXPECT_EQ(tasks(0), std::vector{*path[0].task});
+  EXPECT_EQ(tasks(1), std::vector{*path[1].task});
+  EXPECT_EQ(tasks(2), (std::vector{*path[2].task, *path[3].task}));
+  EXPECT_TRUE(reference.vertices[3].dwells.empty());
   EXPECT_FALSE(reference.vertices[1].stop) << "carrying a task is no reason to stop";
 }
 
