@@ -21,10 +21,16 @@ constexpr Rgb kPath = {0, 114, 178}, kDriven = {240, 136, 0}, kStart = {20, 150,
 constexpr std::array<Rgb, 4> kHazards = {
     {{112, 60, 170}, {70, 180, 230}, {200, 20, 70}, {150, 104, 10}}};
 constexpr double kThick_px = 12, kCased_px = 20;  // apart: there is room for such lines
-constexpr std::array<Rgb, 5> kSeries = {
-    {{200, 20, 40}, {120, 40, 180}, {230, 110, 0}, {0, 110, 190}, {60, 60, 60}}};
-constexpr std::array<int, 5> kMarks = {cv::MARKER_TILTED_CROSS, cv::MARKER_TRIANGLE_UP,
-                                       cv::MARKER_DIAMOND, cv::MARKER_SQUARE, cv::MARKER_STAR};
+constexpr std::array<Rgb, 7> kSeries = {{{200, 20, 40},
+                                         {120, 40, 180},
+                                         {230, 110, 0},
+                                         {0, 110, 190},
+                                         {60, 60, 60},
+                                         {214, 39, 140},
+                                         {120, 80, 20}}};
+constexpr std::array<int, kSeries.size()> kMarks = {
+    cv::MARKER_TILTED_CROSS, cv::MARKER_TRIANGLE_UP,   cv::MARKER_DIAMOND, cv::MARKER_SQUARE,
+    cv::MARKER_STAR,         cv::MARKER_TRIANGLE_DOWN, cv::MARKER_CROSS};
 
 Rgb Mix(const Rgb& from, const Rgb& to, double share) {
   Rgb mixed;

@@ -8,22 +8,12 @@
 #include "base/quantity.h"
 #include "render/heatmap.h"
 #include "report/curves.h"
+#include "report/sample_marks.h"
 
 namespace floorproof {
 namespace {
 
 constexpr Rgb kBoundary = {0, 150, 136}, kLength = {0, 114, 178};
-
-// Series in the order in which the legend lists them.
-constexpr std::string_view kKinds[] = {"corner", "boundary", "random", "given"};
-constexpr const char* kOutOfReach = "out of the robot's reach";
-
-std::string Label(std::string_view kind) {
-  if (kind == "corner") return "sample near a corner";
-  if (kind == "boundary") return "sample near the boundary";
-  if (kind == "random") return "random sample";
-  return "sample at a place given";
-}
 
 }  // namespace
 
@@ -34,15 +24,10 @@ void WriteSamples(const std::string& title, const HazardMap& map, const PlanResu
   options.title = fmt::format("{}: {} of {} within reach", title, reached,
                               CountText(plan.samples.size(), "sample"));
   options.plan = &plan.path;
-  for (const std::string_view kind : kKinds) {
-    options.series.push_back(Label(kind));
+  options.series = SampleSeries();
+  for (const std::string& series : options.series)  // those that tell more below the others
     for (const SamplePlace& sample : plan.samples)
-      if (sample.reachable && Names(sample.kinds).front() == kind)
-        options.points.push_back({sample.p_W, Label(kind)});
-  }
-  options.series.push_back(kOutOfReach);
-  for (const SamplePlace& sample : plan.samples)
-    if (!sample.reachable) options.points.push_back({sample.p_W, kOutOfReach});
+      if (SampleSeriesOf(sample) == series) options.points.push_back({sample.p_W, series});
   if (!plan.boundary.empty())
     options.outlines.push_back({plan.boundary, "the room's boundary", kBoundary});
   WriteHeatMap(map, nullptr, options, png);

@@ -11,6 +11,7 @@
 #include "render/contact_sheet.h"
 #include "render/heatmap.h"
 #include "report/pictures.h"
+#include "report/sample_marks.h"
 
 namespace floorproof {
 namespace {
@@ -86,12 +87,12 @@ double HighEnd(const Grid<float>& values) {
 
 std::string ScoreText(const RegionScore& region) {
   if (!region.score.mean) return "none";
-  std::string text = fmt::format("{:.3f}", *region.score.mean);
+  const std::string mean = fmt::format("{:.3f}", *region.score.mean);
   if (region.interval)
-    text += fmt::format(" ({:.3f} to {:.3f})", region.interval->lower, region.interval->upper);
-  else
-    text += " (too few samples for an interval)";
-  return text;
+    return mean +
+           fmt::format(" ({:.3f} to {:.3f})", region.interval->lower, region.interval->upper);
+  return mean + (region.score.standard_error ? " (no interval: a lattice; see samples.jitter)"
+                                             : " (too few samples for an interval)");
 }
 
 }  // namespace
@@ -127,9 +128,12 @@ void WriteDirt(const Scenario& s, const PlanResult& plan, const FloorAudit& audi
   scores.unit = "1: clean";
   scores.reversed = true;
   scores.high = 1;
+  scores.series = SampleSeries();
   scores.low = 0.8;  // a floor that is clean all over looks so
   for (const AuditedSample& taken : audit.samples) {
-    scores.points.push_back({taken.X_WT.p(), taken.sample.read() ? "tape" : "tape, not readable"});
+    const SamplePlace& place = plan.samples[static_cast<std::size_t>(taken.stop.place)];
+    scores.points.push_back(
+        {taken.X_WT.p(), taken.sample.read() ? SampleSeriesOf(place) : "tape, not readable"});
     if (taken.sample.read()) scores.low = std::min(*scores.low, taken.sample.score.score);
   }
   for (std::size_t i = 0; i < plan.samples.size(); ++i) {
@@ -139,7 +143,7 @@ void WriteDirt(const Scenario& s, const PlanResult& plan, const FloorAudit& audi
     });
     if (!taken)
       scores.points.push_back(
-          {place.p_W, place.reachable ? "sample not taken" : "out of the robot's reach"});
+          {place.p_W, place.reachable ? "sample not taken" : SampleSeriesOf(place)});
   }
   const HeatValues around = ScoresAround(audit);
   WritePng(png, Beside(DrawHeatMap(s.site.map, &thousands, dirt),

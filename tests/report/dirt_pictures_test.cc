@@ -10,6 +10,7 @@
 
 #include "media/media.h"
 #include "report/drive_and_film.h"
+#include "report/sample_marks.h"
 
 namespace floorproof {
 namespace {
@@ -62,6 +63,21 @@ TEST_F(DirtPictures, ADriveOverDirtLeavesMapsTapesAndCounts) {
   EXPECT_THAT(said_, HasSubstr("audit: 3 of 3 samples taken, 3 dirty (more than 10 particles)"));
   const nlohmann::json plan = Plan();
   for (const auto& place : plan["sample_places"]) EXPECT_GT(place["dirt_count"], 10);
+}
+
+// Both pictures list the same series, so a place has the same mark in both.
+TEST(SampleMarks, EachKindHasOneOfItsOwn) {
+  std::vector<SamplePlace> places(5);
+  places[0].kinds.boundary = places[0].kinds.corner = true;
+  places[1].kinds.boundary = true;
+  places[2].kinds.random = true;
+  places[3].kinds.given = true;
+  for (SamplePlace& place : places) place.reachable = true;
+  places[4].kinds.corner = true;
+  places[4].reachable = false;
+  std::vector<std::string> series;
+  for (const SamplePlace& place : places) series.push_back(SampleSeriesOf(place));
+  EXPECT_EQ(series, SampleSeries());
 }
 
 TEST_F(DirtPictures, WithoutDirtThereAreNone) {
