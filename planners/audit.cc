@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "env/geometry/distance.h"
 #include "planners/audit/audit_floor.h"
 #include "planners/audit/find_samples.h"
 #include "planners/lines/why_nothing.h"
@@ -103,22 +102,19 @@ class AuditPlanner final : public Planner {
     }
     const RobotSpec& robot = request.robot;
     const Room room = MakeRoom(request.map, area, robot.circumscribed_radius_m);
-    const bool faces = robot.clear.kind == Shape2::Kind::kCircle;
-    Grid<std::uint8_t> within_reach = area.reachable;
-    if (faces)
-      DilateDisc(area.reachable, robot.audit_sensor_x_m / area.frame.cell_m + 0.5, within_reach);
-    FoundSamples found =
-        FindSamples(room, within_reach, 2 * robot.inscribed_radius_m, samples_, request.seed);
+    FoundSamples found = FindSamples(room, SensorReach(area, robot), 2 * robot.inscribed_radius_m,
+                                     samples_, request.seed);
     result.message = found.why;
     if (!found.why.empty()) return false;
     result.samples = std::move(found.places);
     result.boundary = std::move(found.boundary_W);
-    result.near_walls_share = found.near_walls_share;
+    result.sampled_parts = found.parts;
     result.figures.push_back({"general_samples", found.general});
     result.figures.push_back({"boundary_samples", found.boundary});
     result.figures.push_back({"corner_samples", found.corner});
     result.figures.push_back({"random_samples", found.random});
-    result.figures.push_back({"near_walls_share", found.near_walls_share});
+    result.figures.push_back({"near_walls_share", found.parts.near_walls});
+    result.figures.push_back({"elsewhere_share", found.parts.elsewhere});
     return true;
   }
 

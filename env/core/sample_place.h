@@ -30,4 +30,14 @@ struct SamplePlace {
   int visit = 0;           // the how manieth stop of the plan, from 1 on; 0: none
 };
 
+// The room that is audited, by the parts whose places were chosen alike: shares of its floor where
+// the robot's sensor gets to. What is left to 1 lies out of its reach.
+struct SampledParts {
+  double near_walls = 0;  // and corners
+  double elsewhere = 0;
+  // The places near walls may lie anywhere there; else they keep to the lattice, so that along a
+  // straight wall all are at one or two distances from it.
+  bool by_chance = false;
+};
+
 }  // namespace floorproof

@@ -24,18 +24,34 @@ struct Lattice {
 
 // The paper does not say where its lattice lies. Here it lies so that the robot reaches as many of
 // the places as it can, and as few as can be are out of its reach. Of equals, the first.
-Lattice PlaceLattice(const Room& room, const Grid<std::uint8_t>& reachable, int du, int dv) {
+Lattice PlaceLattice(const Room& room, const Grid<float>& reach, int du, int dv) {
   // From the room's own edge: where a map begins must make no difference.
-  int x0 = reachable.width, y0 = reachable.height;
-  for (int iy = 0; iy < reachable.height; ++iy)
-    for (int ix = 0; ix < reachable.width; ++ix)
+  int x0 = reach.width, y0 = reach.height;
+  for (int iy = 0; iy < reach.height; ++iy)
+    for (int ix = 0; ix < reach.width; ++ix)
       if (room.inside(ix, iy)) x0 = std::min(x0, ix), y0 = std::min(y0, iy);
   Grid<int> score(du, dv);
-  for (int iy = y0; iy < reachable.height; ++iy)
-    for (int ix = x0; ix < reachable.width; ++ix)
-      if (room.inside(ix, iy)) score((ix - x0) % du, (iy - y0) % dv) += reachable(ix, iy) ? 1 : -1;
+  for (int iy = y0; iy < reach.height; ++iy)
+    for (int ix = x0; ix < reach.width; ++ix)
+      if (room.inside(ix, iy)) score((ix - x0) % du, (iy - y0) % dv) += reach(ix, iy) > 0 ? 1 : -1;
   const auto best = static_cast<int>(std::ranges::max_element(score.cells) - score.cells.begin());
   return {du, dv, x0 + best % du, y0 + best / du};
+}
+
+// add(p_C): a point drawn from each du x dv of the grid, which lie around the lattice's cells, in
+// cells. Some begin before the grid, where its first rows and columns would else be in none.
+template <class Add>
+void Jitter(const Lattice& lattice, int width, int height, std::uint64_t seed, const Add& add) {
+  Stream random(seed, 0, "audit_jitter");
+  const auto first = [](int origin, int interval) {  // in (-interval, 0]
+    const int before = (origin - interval / 2) % interval;
+    return before > 0 ? before - interval : before;
+  };
+  for (int y = first(lattice.y0, lattice.dv); y < height; y += lattice.dv)
+    for (int x = first(lattice.x0, lattice.du); x < width; x += lattice.du) {
+      const double u = random.Uniform(), v = random.Uniform();
+      add(Vec2(x + lattice.du * u, y + lattice.dv * v));
+    }
 }
 
 // Distance to the nearest of these cells, which may lie off the grid by one, in cells.
@@ -61,9 +77,12 @@ void SampleParams::Visit(ParamVisitor& visit) {
   visit("corner_m", corner_m, Positive(), "R_c: of a sharp corner; none: boundary_m");
   visit("random_share", random_share, Between(0, 1),
         "of the places on the rest of the floor, at least one of them unless it is 0");
+  visit("jitter", jitter,
+        "each place lies by chance in its du x dv of the lattice: then the score of the floor near "
+        "walls has an interval");
 }
 
-FoundSamples FindSamples(const Room& room, const Grid<std::uint8_t>& reachable, double width_m,
+FoundSamples FindSamples(const Room& room, const Grid<float>& reach, double width_m,
                          const SampleParams& params, std::uint64_t seed) {
   FoundSamples found;
   if (OneColour(room.pixels)) {
@@ -91,31 +110,41 @@ FoundSamples FindSamples(const Room& room, const Grid<std::uint8_t>& reachable, 
     return SampleKinds{.boundary = within(to_boundary(ix + 1, iy + 1), boundary_m),
                        .corner = within(to_corner(ix + 1, iy + 1), corner_m)};
   };
-  std::int64_t inside = 0, near_walls = 0;
+  double inside = 0, near_walls = 0, elsewhere = 0;  // cells
   for (int iy = 0; iy < height; ++iy)
-    for (int ix = 0; ix < width; ++ix)
-      if (room.inside(ix, iy)) ++inside, near_walls += kinds_at(ix, iy).near_walls();
-  if (inside > 0)
-    found.near_walls_share = static_cast<double>(near_walls) / static_cast<double>(inside);
+    for (int ix = 0; ix < width; ++ix) {
+      if (!room.inside(ix, iy)) continue;
+      ++inside;
+      const auto reached = static_cast<double>(reach(ix, iy));
+      (kinds_at(ix, iy).near_walls() ? near_walls : elsewhere) += reached;
+    }
+  const double whole = std::max(inside, 1.0);
+  found.parts = {near_walls / whole, elsewhere / whole, params.jitter};
 
-  Stream random(seed, 0, "audit_samples");
   const auto cells = [&](double interval_m) {
     const double most = std::max(width, height);  // one place then
     return std::max(1, static_cast<int>(std::lround(std::min(interval_m / cell_m, most))));
   };
-  const Lattice lattice = PlaceLattice(room, reachable, cells(du_m), cells(dv_m));
+  const Lattice lattice = PlaceLattice(room, reach, cells(du_m), cells(dv_m));
   std::vector<SamplePlace> rest;
-  for (int iy = lattice.y0; iy < height; iy += lattice.dv)
-    for (int ix = lattice.x0; ix < width; ix += lattice.du) {
-      if (!room.inside(ix, iy)) continue;
-      ++found.general;
-      SamplePlace place;
-      place.p_W = room.frame.Center(ix, iy);
-      place.kinds = kinds_at(ix, iy);
-      found.boundary += place.kinds.boundary;
-      found.corner += place.kinds.corner;
-      (place.kinds.near_walls() ? found.places : rest).push_back(place);
-    }
+  const auto add = [&](const Vec2& p_C) {
+    const int ix = static_cast<int>(std::floor(p_C.x())),
+              iy = static_cast<int>(std::floor(p_C.y()));
+    if (!room.inside.Inside(ix, iy) || !room.inside(ix, iy)) return;
+    ++found.general;
+    SamplePlace place;
+    place.p_W = room.frame.X_WG * (cell_m * p_C);
+    place.kinds = kinds_at(ix, iy);
+    found.boundary += place.kinds.boundary;
+    found.corner += place.kinds.corner;
+    (place.kinds.near_walls() ? found.places : rest).push_back(place);
+  };
+  if (params.jitter)
+    Jitter(lattice, width, height, seed, add);
+  else
+    for (int iy = lattice.y0; iy < height; iy += lattice.dv)
+      for (int ix = lattice.x0; ix < width; ix += lattice.du) add(Vec2(ix + 0.5, iy + 0.5));
+  Stream random(seed, 0, "audit_samples");
   const auto wanted =
       static_cast<std::size_t>(std::ceil(params.random_share * static_cast<double>(rest.size())));
   for (std::size_t i = 0; i < wanted; ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "planners/audit/room.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -67,6 +68,25 @@ Room MakeRoom(const HazardMap& map, const SweepArea& area, double reach_m) {
         pixel = kOccupiedPixel;
     }
   return room;
+}
+
+Grid<float> SensorReach(const SweepArea& area, const RobotSpec& robot) {
+  Grid<float> reach(area.frame.width, area.frame.height);
+  if (robot.clear.kind != Shape2::Kind::kCircle) {
+    std::ranges::copy(area.reachable.cells, reach.cells.begin());
+    return reach;
+  }
+  const double cell_m = area.frame.cell_m;
+  Grid<std::uint8_t> near(reach.width, reach.height);
+  DilateDisc(area.reachable, robot.audit_sensor_x_m / cell_m + 0.5, near);
+  // Along a wall the sensor gets so near to it.
+  const double least_m = robot.clear.radius_m - robot.audit_sensor_x_m;
+  for (std::size_t i = 0; i < reach.cells.size(); ++i) {
+    const double beyond_m = static_cast<double>(area.clearance_m.cells[i]) - least_m;
+    if (near.cells[i])
+      reach.cells[i] = static_cast<float>(std::clamp(beyond_m / cell_m + 0.5, 0.0, 1.0));
+  }
+  return reach;
 }
 
 }  // namespace floorproof

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "env/core/coverage.h"
+#include "env/core/robot_spec.h"
 
 namespace floorproof {
 
@@ -28,5 +29,10 @@ struct Room {
 // cells around the inside that are not free count as occupied: the edge of what is known is closed
 // by them.
 Room MakeRoom(const HazardMap& map, const SweepArea& area, double reach_m);
+
+// Of each cell, the share that the robot's sensor gets to, about. A robot whose clear shape is a
+// circle turns its sensor to a place from wherever its middle may be; others hold their yaw, with
+// their middle over it.
+Grid<float> SensorReach(const SweepArea& area, const RobotSpec& robot);
 
 }  // namespace floorproof

@@ -33,12 +33,7 @@ std::vector<Pose2> PosesAlong(const Path& path) {
 }
 
 void Clean(const Scenario& s, const RiskMap& risk, DirtField& field) {
-  const HazardMap known = KnownFloor(s);
-  const PlanResult plan = s.dirt->cleaner->Plan(
-      {known, s.robot.spec, s.start, s.goal, EpisodeStream(s, "cleaner").Next(), &risk});
-  if (plan.status != PlanStatus::kSuccess)
-    throw InputError(s.dirt->cleaner_mark, "dirt.cleaning.plan.planner", s.dirt->cleaner_name,
-                     fmt::format("finds no plan ({}): {}", Name(plan.status), plan.message));
+  const PlanResult plan = CleanerPlan(s, risk);
   const std::vector<Pose2> poses = PosesAlong(plan.path);
   Stream random = EpisodeStream(s, "cleaning");
   for (int round = 0; round < s.dirt->cleaning.rounds; ++round)
@@ -81,8 +76,13 @@ RegionScore ScoreOf(std::span<const Stratum> strata) {
 }
 
 void Score(const PlanResult& plan, int dirty_above, FloorAudit& audit) {
-  const double share = plan.near_walls_share.value_or(1);
-  Stratum strata[] = {{share, {}}, {1 - share, {}}};  // near walls, or given; elsewhere
+  const SampledParts parts = plan.sampled_parts.value_or(SampledParts{1, 0, true});
+  // Near walls, or given; elsewhere; out of reach.
+  Stratum strata[] = {
+      {parts.near_walls, {}},
+      {parts.elsewhere, {}},
+      {std::max(0.0, 1 - parts.near_walls - parts.elsewhere), {}},
+  };
   std::vector<int> counts;
   for (const AuditedSample& taken : audit.samples) {
     const SampleKinds& kinds = plan.samples[static_cast<std::size_t>(taken.stop.place)].kinds;
@@ -93,9 +93,10 @@ void Score(const PlanResult& plan, int dirty_above, FloorAudit& audit) {
   }
   audit.gathering = Gather(counts, dirty_above);
   audit.region = ScoreOf(strata);
-  if (!plan.near_walls_share) return;
+  if (!plan.sampled_parts) return;
   audit.near_walls = ScoreOf({strata, 1});
   audit.elsewhere = ScoreOf({strata + 1, 1});
+  if (!parts.by_chance) audit.region.interval = audit.near_walls->interval = {};
 }
 
 }  // namespace
@@ -107,6 +108,16 @@ Pose2 TapePose(const RobotSpec& robot, const SampleStop& stop) {
 double OffPlace(const RobotSpec& robot, const PlanResult& plan, const SampleStop& stop) {
   const SamplePlace& place = plan.samples[static_cast<std::size_t>(stop.place)];
   return (TapePose(robot, stop).p() - place.p_W).norm();
+}
+
+PlanResult CleanerPlan(const Scenario& s, const RiskMap& risk) {
+  const HazardMap known = KnownFloor(s);
+  PlanResult plan = s.dirt->cleaner->Plan(
+      {known, s.robot.spec, s.start, s.goal, EpisodeStream(s, "cleaner").Next(), &risk});
+  if (plan.status != PlanStatus::kSuccess)
+    throw InputError(s.dirt->cleaner_mark, "dirt.cleaning.plan.planner", s.dirt->cleaner_name,
+                     fmt::format("finds no plan ({}): {}", Name(plan.status), plan.message));
+  return plan;
 }
 
 DirtField DirtyFloor(const Scenario& s, const RiskMap& risk) {

@@ -29,7 +29,7 @@ struct AuditedSample {
 
 struct RegionScore {
   SpaceScore score;
-  // Of the mean, at kReportedConfidence, over places like those sampled; none: too few samples.
+  // Of the mean, at kReportedConfidence. None: too few samples, or places that keep to a lattice.
   std::optional<Interval> interval;
 };
 
@@ -42,14 +42,18 @@ struct FloorAudit {
   Gathering gathering;
   int unreadable = 0;  // samples whose images let nothing be read; they count for nothing else
   // Of the floor near walls and corners; of the rest, where a few places were drawn; of both, each
-  // by its share of the room. Places that the user gave are a region without parts.
+  // by its share of the room. Places that the user gave are a region without parts, and are taken
+  // for drawn by chance.
   RegionScore region;
   std::optional<RegionScore> near_walls, elsewhere;
 };
 
+// A round of the cleaner; the scenario has the key `dirt`. Throws InputError where it finds none.
+// `risk`: of the floor, for cleaners that need it.
+PlanResult CleanerPlan(const Scenario& scenario, const RiskMap& risk);
+
 // The floor of this episode as the robot finds it: the scenario's dirt is laid, and cleaned as it
-// says. Throws InputError where its cleaner finds no plan. `risk`: of
-// the floor, for cleaners that need it.
+// says. Throws as CleanerPlan does.
 DirtField DirtyFloor(const Scenario& scenario, const RiskMap& risk);
 
 // Takes the samples where the robot truly stood, in order. The scenario has the key `dirt`.

@@ -127,10 +127,10 @@ class StudyFloor {
   // Those of the planner `audit`, as far as they are within reach.
   std::vector<Vec2> Geometric(const SampleParams& params) const {
     const Room room = MakeRoom(map(), area_, robot().circumscribed_radius_m);
-    Grid<std::uint8_t> within(room.inside.width, room.inside.height);
+    Grid<float> within(room.inside.width, room.inside.height);
     for (int iy = 0; iy < within.height; ++iy)
       for (int ix = 0; ix < within.width; ++ix)
-        within(ix, iy) = room.inside(ix, iy) && WithinReach(room.frame.Center(ix, iy));
+        if (room.inside(ix, iy) && WithinReach(room.frame.Center(ix, iy))) within(ix, iy) = 1;
     std::vector<Vec2> places;
     for (const SamplePlace& place :
          FindSamples(room, within, 2 * robot().inscribed_radius_m, params, seed_).places)
