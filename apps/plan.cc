@@ -8,6 +8,7 @@
 #include "base/quantity.h"
 #include "base/result_folder.h"
 #include "report/risk_pictures.h"
+#include "run/episode/floor_audit.h"
 #include "run/episode/make_plan.h"
 #include "run/episode/records.h"
 #include "run/plan_check/plan_check.h"
@@ -34,6 +35,8 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     const std::filesystem::path folder = OutputFolder(options->out, scenario.file, scenario.name);
     ResultFolder out(folder, EpisodeResults(), InputsOf(scenario));
     const PlanResult plan = MakePlan(scenario);
+    if (scenario.dirt && scenario.dirt->cleaning.rounds > 0 && !plan.samples.empty())
+      CleanerPlan(scenario, *plan.risk);  // else its drive would be the first to try
     auto json = PlanJson(scenario, plan);
     const std::vector<RiskOfPlan> beside =
         PlansBeside(options->beside, globals.Overrides(), MeasurePlan(scenario, plan));

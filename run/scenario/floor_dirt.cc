@@ -14,15 +14,29 @@ namespace {
 const std::string kPath = "dirt.", kCleaningPath = "dirt.cleaning.";
 constexpr const char* kTooMany = "more than 100 million particles are not laid";
 
+std::unique_ptr<Planner> MakeCleaner(const NamedPlugin& named) {
+  const std::string key = kCleaningPath + "plan.planner";
+  for (const auto& entry : OnlinePlanners())
+    if (entry.name == named.name)
+      throw InputError(named.mark, key, named.name,
+                       "plans on the way over an unknown floor: rounds of cleaning follow a plan "
+                       "that is known before");
+  std::vector<PluginEntry<Planner>> cleaners;
+  for (const auto& entry : Planners()) {
+    if (entry.make()->promises().covers != PlannerPromises::Covers::kNothing)
+      cleaners.push_back(entry);
+    else if (entry.name == named.name)
+      throw InputError(named.mark, key, named.name, "goes to places and cleans no floor");
+  }
+  return MakePlugin(std::span<const PluginEntry<Planner>>(cleaners), named.name, key, named.mark);
+}
+
 void ReadCleaning(const ConfigNode& node, FloorDirt& dirt) {
   ReadParams(node, kCleaningPath, [&](ParamVisitor& v) { dirt.cleaning.Visit(v); }, {"plan"});
   const NamedPlugin named = ReadNamed(node, "plan", "planner", "boustrophedon", kCleaningPath);
   dirt.cleaner_name = named.name;
   dirt.cleaner_mark = named.mark;
-  dirt.cleaner = MakePlugin(Planners(), named.name, kCleaningPath + "plan.planner", named.mark);
-  if (dirt.cleaner->promises().covers == PlannerPromises::Covers::kNothing)
-    throw InputError(named.mark, kCleaningPath + "plan.planner", named.name,
-                     "goes to places and cleans no floor");
+  dirt.cleaner = MakeCleaner(named);
   ReadParams(named.params, kCleaningPath + "plan.", *dirt.cleaner, {"planner"});
 }
 
@@ -84,9 +98,15 @@ FloorDirt ReadDirt(const ConfigNode& node, const HazardMap& map) {
                " on this floor: " + kTooMany);
   // What gathers at walls is counted only where it might be too much: that takes time.
   if (laid.density_per_m2 + 2 * laid.wall_density_per_m2 > most_per_m2 &&
-      ExpectedParticles(map, laid) > static_cast<double>(kMostParticles))
+      ExpectedParticles(map, laid) > static_cast<double>(kMostParticles)) {
+    // Their number is linear in it.
+    const double even = laid.density_per_m2 * floor_m2;
+    const double most = laid.wall_density_per_m2 * (static_cast<double>(kMostParticles) - even) /
+                        (ExpectedParticles(map, laid) - even);
     refuse("wall_density_per_m2", laid.wall_density_per_m2,
-           std::string("must be less on this floor: ") + kTooMany);
+           "must be at most " + std::to_string(static_cast<std::int64_t>(most)) +
+               " on this floor: " + kTooMany);
+  }
   ConfigNode cleaning = ConfigNode::Map();
   cleaning.mark = node.mark;
   if (const ConfigNode* written = node.Find("cleaning"); written != nullptr && !written->IsNull())

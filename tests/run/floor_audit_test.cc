@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "run/campaign/episode_row.h"
@@ -157,19 +158,28 @@ TEST_F(FloorAuditTest, DirtIsTheEpisodesAndTheSameEachTime) {
   EXPECT_NE(particles("0"), particles("1"));
 }
 
-TEST_F(FloorAuditTest, TheRegionIsScoredByPartsWhereThePlaceWereFound) {
-  const Audited found = Run(kFound, "dirt: {wall_density_per_m2: 200000}");
+TEST_F(FloorAuditTest, TheRegionIsScoredByPartsWhereThePlacesWereFound) {
+  const std::string gathers = "dirt: {wall_density_per_m2: 200000}";
+  const Audited found = Run(kFound, gathers, {{"plan.samples.jitter", "true"}});
   const FloorAudit& audit = found.audit();
   ASSERT_TRUE(audit.near_walls && audit.elsewhere);
   EXPECT_LT(*audit.near_walls->score.mean, *audit.elsewhere->score.mean - 0.03);
-  const double share = *found.execution.plan.near_walls_share;
-  // Of 2.5 m x 2 m, what lies within 0.3 m of the wall.
-  EXPECT_NEAR(share, 1 - 1.9 * 1.4 / 5, 0.08);
+  const SampledParts parts = *found.execution.plan.sampled_parts;
+  // Of 2.5 m x 2 m, what lies within 0.3 m of the wall; the nose gets to all but some 4 cm of it.
+  EXPECT_NEAR(parts.elsewhere, 1.9 * 1.4 / 5, 0.08);
+  EXPECT_NEAR(parts.near_walls + parts.elsewhere, 2.41 * 1.91 / 5, 0.05);
+  EXPECT_NEAR(audit.region.score.represented, parts.near_walls + parts.elsewhere, 1e-9);
   EXPECT_NEAR(*audit.region.score.mean,
-              share * *audit.near_walls->score.mean + (1 - share) * *audit.elsewhere->score.mean,
+              (parts.near_walls * *audit.near_walls->score.mean +
+               parts.elsewhere * *audit.elsewhere->score.mean) /
+                  audit.region.score.represented,
               1e-9);
   EXPECT_TRUE(audit.region.interval->Contains(*audit.region.score.mean));
   EXPECT_LE(audit.region.interval->upper, 1);
+  // Along a wall a lattice sees one or two distances, so it cannot say how the rest may differ.
+  const Audited lattice = Run(kFound, gathers);
+  EXPECT_TRUE(lattice.audit().region.score.mean && lattice.audit().elsewhere->interval);
+  EXPECT_FALSE(lattice.audit().region.interval || lattice.audit().near_walls->interval);
   const Audited given = Run(kGiven, "dirt: {}");
   EXPECT_FALSE(given.audit().near_walls || given.audit().elsewhere);
   EXPECT_EQ(given.audit().region.score.samples, 4);
@@ -223,6 +233,53 @@ TEST_F(FloorAuditTest, ADriveThatEndsEarlyTookFewer) {
   EXPECT_EQ(not_taken, 4 - taken);
 }
 
+// Whoever comes or bumps in the middle of a dwell.
+class BreaksOff : public EpisodeObserver {
+ public:
+  BreaksOff(int place, std::function<void(mjData&)> how) : place_(place), how_(std::move(how)) {}
+  bool OnControl(const EpisodeView& now) override {
+    const Command& command = now.sample.command;
+    if (command.tasks.empty() || command.tasks.front().id != place_) return true;
+    constexpr int kPeriods = 10;  // of its second
+    if (++periods_ == kPeriods) how_(*now.simulation->data());
+    return true;
+  }
+
+ private:
+  int place_;
+  std::function<void(mjData&)> how_;
+  int periods_ = 0;
+};
+
+TEST_F(FloorAuditTest, ASampleThatABumpBrokeOffIsTakenAfterAll) {
+  Scenario s = Read(Room(kGiven, "dirt: {}\nreact: {}\non_failure: ignore"));
+  // Carried a metre away, and pushed against a wall.
+  const double x_m = 3 - s.robot.spec.circumscribed_radius_m - 0.02;
+  BreaksOff bump(3, [x_m](mjData& d) {
+    d.qpos[0] = x_m;
+    d.qpos[3] = 1;
+    d.qpos[4] = d.qpos[5] = d.qpos[6] = 0;
+    d.qvel[0] = 1;
+  });
+  const Execution dut = Execute(s, &bump);
+  EXPECT_EQ(dut.record.metrics.reactions, 1);
+  EXPECT_EQ(dut.record.metrics.samples_taken, 4);
+  EXPECT_LT(*dut.record.metrics.max_sample_off_m, 0.02);
+}
+
+TEST_F(FloorAuditTest, ASampleThatAFailureBrokeOffIsTakenOnceTheRobotIsHelped) {
+  Scenario s = Read(Room(kGiven, "dirt: {}\non_failure: assist"));
+  BreaksOff fall(3, [](mjData& d) {  // onto its back
+    d.qpos[2] += 0.5;
+    d.qpos[3] = d.qpos[5] = d.qpos[6] = 0;
+    d.qpos[4] = 1;
+  });
+  const Execution dut = Execute(s, &fall);
+  ASSERT_THAT(dut.record.interventions, SizeIs(1));
+  EXPECT_EQ(dut.record.metrics.samples_taken, 4);
+  EXPECT_LT(*dut.record.metrics.max_sample_off_m, 0.02);
+}
+
 TEST_F(FloorAuditTest, ABlindMicroscopeIsSaidAndCountsForNothing) {
   const Audited dut = Run(kGiven,
                           "dirt: {density_per_m2: 0, microscope: {mottle_grey: 0, light_fall: 0, "
@@ -273,12 +330,19 @@ TEST_F(FloorAuditTest, WhatCannotBeIsRefusedWithItsKey) {
   EXPECT_THAT(refusal("{tape: {side_m: 0.001}, microscope: {pixels_per_mm: 5}}"),
               HasSubstr("makes an image of 5 pixels a side: it must have 11 to 2000"));
   EXPECT_THAT(refusal("{tape: {side_m: 0.1}, microscope: {blur_px: 1}}"), "taken");
-  EXPECT_THAT(refusal("{wall_density_per_m2: 1e12}"),
-              HasSubstr("dirt.wall_density_per_m2 = 1e+12: must be less on this floor"));
+  const std::string too_much = refusal("{wall_density_per_m2: 1e12}");
+  EXPECT_THAT(too_much, HasSubstr("dirt.wall_density_per_m2 = 1e+12: must be at most "));
+  const auto most = std::stoll(too_much.substr(too_much.find("at most ") + 8));
+  EXPECT_THAT(refusal("{wall_density_per_m2: " + std::to_string(most) + "}"), "taken");
+  EXPECT_THAT(refusal("{wall_density_per_m2: " + std::to_string(most + 2) + "}"),
+              HasSubstr("at most"));
   EXPECT_THAT(refusal("{wall_density_per_m2: 1e7}"), "taken");
   EXPECT_THAT(refusal("{cleaning: {plan: audit}}"),
               HasSubstr("dirt.cleaning.plan.planner = audit: goes to places and cleans no floor"));
-  EXPECT_THAT(refusal("{cleaning: {plan: boustrofedon}}"), HasSubstr("did you mean boustrophedon"));
+  EXPECT_THAT(refusal("{cleaning: {plan: rolling_window}}"), HasSubstr("unknown floor"));
+  EXPECT_THAT(refusal("{cleaning: {plan: boustrofedon}}"),
+              AllOf(HasSubstr("did you mean boustrophedon"), Not(HasSubstr("audit)")),
+                    Not(HasSubstr("audit "))));
   EXPECT_THAT(refusal("{cleaning: {round: 3}}"), HasSubstr("rounds"));
   EXPECT_THAT(refusal("clean"), HasSubstr("dirt"));
   EXPECT_THAT(refusal("[1]"), HasSubstr("dirt"));
