@@ -112,7 +112,7 @@ class PathProgress {
   double seen_m_ = 0;       // how far before its bend that direction was taken
   Vec2 turn_W_ = Vec2::Zero();
   std::size_t waypoint_ = 0;  // the plan's segment now tracked
-  std::size_t dwell_ = 0;  // of vertex_'s
+  std::size_t dwell_ = 0;     // of vertex_'s
   double dwell_until_s_ = 0;
 };
 

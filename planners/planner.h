@@ -54,7 +54,7 @@ struct PlanResult {
   std::shared_ptr<const RiskMap> risk;
   // Free cells of the risk's grid that can be reached and are left out on purpose.
   int left_out_cells = 0;
-  std::vector<SamplePlace> samples;  // of an audit, those that cannot be reached too
+  std::vector<SamplePlace> samples;           // of an audit, those that cannot be reached too
   std::optional<SampledParts> sampled_parts;  // what the samples speak for; none: of given places
   std::vector<Vec2> boundary;  // p_W along the room's boundary, if the places were found by it
   // The best length after each iteration of a search that has some, m.

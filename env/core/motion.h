@@ -14,11 +14,11 @@ namespace floorproof {
 // What a tracker asks for, and how far along the path it is (monotone).
 struct Command {
   BodyTwist twist;
-  HingeState hinges;        // to be held, or turned at these rates towards these angles
+  HingeState hinges;  // to be held, or turned at these rates towards these angles
   // The segment now tracked goes from waypoint `segment` to `segment + 1`. Until a dwell is over it
   // is the one that led there.
   std::size_t segment = 0;
-  bool dwelling = false;    // standing still on purpose
+  bool dwelling = false;  // standing still on purpose
   // To be done in this dwell, in order: the tracker's own list, until its path changes.
   std::span<const WaypointTask> tasks = {};
   bool turning = false;   // to turn or fold where it stands: it moves only to hold its place

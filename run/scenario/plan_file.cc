@@ -124,7 +124,8 @@ Path ReadRows(const std::filesystem::path& file, const GridFrame& map,
     path.push_back(w);
     if (lines) lines->push_back(number);
   }
-  if (path.empty()) throw InputError({name, std::max(1, number)}, "", "", std::string("holds no ") + row);
+  if (path.empty())
+    throw InputError({name, std::max(1, number)}, "", "", std::string("holds no ") + row);
   return path;
 }
 
