@@ -35,7 +35,8 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     const std::filesystem::path folder = OutputFolder(options->out, scenario.file, scenario.name);
     ResultFolder out(folder, EpisodeResults(), InputsOf(scenario));
     const PlanResult plan = MakePlan(scenario);
-    if (scenario.dirt && scenario.dirt->cleaning.rounds > 0 && !plan.samples.empty())
+    if (scenario.dirt && scenario.dirt->cleaning.rounds > 0 && !plan.samples.empty() &&
+        plan.status == PlanStatus::kSuccess)
       CleanerPlan(scenario, *plan.risk);  // else its drive would be the first to try
     auto json = PlanJson(scenario, plan);
     const std::vector<RiskOfPlan> beside =

@@ -36,7 +36,9 @@ void PathProgress::Extend(const Path& path) {
   goal_ = ahead_ = vertex_;
   waypoint_ = 0;
   seen_m_ = 0;
-  if (standing() && dwell_ >= leg().dwells.size()) Depart();
+  const bool gone = standing() && (dwell_ >= leg().dwells.size() ||
+                                   (phase_ == Phase::kFace && !leg().dwells[dwell_].face_rad));
+  if (gone) Depart();
 }
 
 void PathProgress::Update(const Vec2& p_W, double t_s) {

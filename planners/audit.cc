@@ -119,6 +119,8 @@ class AuditPlanner final : public Planner {
   }
 
   static std::string TooFew(std::size_t places, std::size_t reached) {
+    if (places == 0)
+      return "no place to sample lies on the floor: smaller intervals (samples.du_m) give more";
     return std::to_string(reached) + " of " + std::to_string(places) +
            (places == 1 ? " place" : " places") + " to sample can be reached: a tour needs two";
   }

@@ -106,8 +106,9 @@ void Check(const DirtParams& params) {
 }  // namespace
 
 void DirtParams::Visit(ParamVisitor& v) {
-  v("density_per_m2", density_per_m2, NonNegative(), "particles on a square metre of open floor");
-  v("wall_density_per_m2", wall_density_per_m2, NonNegative(),
+  const Bounds density = Between(0, 1e15);  // far more than is laid, and sums stay finite
+  v("density_per_m2", density_per_m2, density, "particles on a square metre of open floor");
+  v("wall_density_per_m2", wall_density_per_m2, density,
     "particles that a square metre at a straight wall holds more");
   v("reach_m", reach_m, {0, 1, true}, "how far from walls they gather");
   v("least_diameter_m", least_diameter_m, {0, 0.065, true}, "of the smallest particles");
@@ -170,7 +171,7 @@ DirtField LayDirt(const HazardMap& map, const DirtParams& params, std::uint64_t 
   DirtField field(map);
   const std::vector<double> up_to = Expected(field, params);
   const double expected = up_to.empty() ? 0.0 : up_to.back();
-  if (expected > static_cast<double>(kMostParticles))
+  if (!(expected <= static_cast<double>(kMostParticles)))
     throw InputError("dirt: more than 100 million particles on this floor");
   Stream random(seed, 0, "dirt");
   std::vector<std::uint32_t> falls(up_to.size());

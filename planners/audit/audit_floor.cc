@@ -72,7 +72,11 @@ std::optional<AuditFloor::Stop> AuditFloor::StopFor(const Vec2& place_W, double 
     const Cell c = CellOf(p_W);
     return floor_.pose.Inside(c) && floor_.pose(c);
   };
-  if (sensor_x_m <= 0) return is_pose(place_W) ? std::optional<Stop>({place_W, {}}) : std::nullopt;
+  if (sensor_x_m <= 0) {
+    constexpr double kRounding = 1e-6;  // cells: at a cell's own centre none of the others count
+    const bool clear = is_pose(place_W) && floor_.Free(floor_.ToCells(place_W), kRounding);
+    return clear ? std::optional<Stop>({place_W, {}}) : std::nullopt;
+  }
   std::optional<Stop> best;
   double best_room = 0, best_way = 0;
   for (int k = 0; k < kHeadings; ++k) {

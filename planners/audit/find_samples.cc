@@ -122,7 +122,7 @@ FoundSamples FindSamples(const Room& room, const Grid<float>& reach, double widt
   found.parts = {near_walls / whole, elsewhere / whole, params.jitter};
 
   const auto cells = [&](double interval_m) {
-    const double most = std::max(width, height);  // one place then
+    const double most = std::max(width, height);  // one place in the lattice then
     return std::max(1, static_cast<int>(std::lround(std::min(interval_m / cell_m, most))));
   };
   const Lattice lattice = PlaceLattice(room, reach, cells(du_m), cells(dv_m));

@@ -73,7 +73,21 @@ Room MakeRoom(const HazardMap& map, const SweepArea& area, double reach_m) {
 Grid<float> SensorReach(const SweepArea& area, const RobotSpec& robot) {
   Grid<float> reach(area.frame.width, area.frame.height);
   if (robot.clear.kind != Shape2::Kind::kCircle) {
-    std::ranges::copy(area.reachable.cells, reach.cells.begin());
+    // Between cell centres a footprint is free where it is at the four centres around
+    // (planners/lines/floor.cc). Where that is no part of the cell, there is its centre.
+    constexpr float kCentre = 0.01F;
+    const auto free = [&area](int ix, int iy) {
+      return area.reachable.Inside(ix, iy) && area.reachable(ix, iy);
+    };
+    for (int iy = 0; iy < reach.height; ++iy)
+      for (int ix = 0; ix < reach.width; ++ix) {
+        if (!free(ix, iy)) continue;
+        float quarters = 0;
+        for (const int dx : {-1, 1})
+          for (const int dy : {-1, 1})
+            if (free(ix + dx, iy) && free(ix, iy + dy) && free(ix + dx, iy + dy)) ++quarters;
+        reach(ix, iy) = std::max(kCentre, quarters / 4);
+      }
     return reach;
   }
   const double cell_m = area.frame.cell_m;

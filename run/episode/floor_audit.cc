@@ -96,7 +96,9 @@ void Score(const PlanResult& plan, int dirty_above, FloorAudit& audit) {
   if (!plan.sampled_parts) return;
   audit.near_walls = ScoreOf({strata, 1});
   audit.elsewhere = ScoreOf({strata + 1, 1});
-  if (!parts.by_chance) audit.region.interval = audit.near_walls->interval = {};
+  if (parts.by_chance) return;
+  for (RegionScore* region : {&audit.region, &*audit.near_walls, &*audit.elsewhere})
+    region->interval = {};
 }
 
 }  // namespace

@@ -101,8 +101,8 @@ FloorDirt ReadDirt(const ConfigNode& node, const HazardMap& map) {
       ExpectedParticles(map, laid) > static_cast<double>(kMostParticles)) {
     // Their number is linear in it.
     const double even = laid.density_per_m2 * floor_m2;
-    const double most = laid.wall_density_per_m2 * (static_cast<double>(kMostParticles) - even) /
-                        (ExpectedParticles(map, laid) - even);
+    const double each = (ExpectedParticles(map, laid) - even) / laid.wall_density_per_m2;
+    const double most = (static_cast<double>(kMostParticles) - even) / each;
     refuse("wall_density_per_m2", laid.wall_density_per_m2,
            "must be at most " + std::to_string(static_cast<std::int64_t>(most)) +
                " on this floor: " + kTooMany);

@@ -9,6 +9,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "env/core/standing.h"
 #include "run/campaign/episode_row.h"
 #include "run/episode/make_plan.h"
 #include "run/episode/records.h"
@@ -178,8 +179,9 @@ TEST_F(FloorAuditTest, TheRegionIsScoredByPartsWhereThePlacesWereFound) {
   EXPECT_LE(audit.region.interval->upper, 1);
   // Along a wall a lattice sees one or two distances, so it cannot say how the rest may differ.
   const Audited lattice = Run(kFound, gathers);
-  EXPECT_TRUE(lattice.audit().region.score.mean && lattice.audit().elsewhere->interval);
-  EXPECT_FALSE(lattice.audit().region.interval || lattice.audit().near_walls->interval);
+  EXPECT_TRUE(lattice.audit().region.score.mean);
+  EXPECT_FALSE(lattice.audit().region.interval || lattice.audit().near_walls->interval ||
+               lattice.audit().elsewhere->interval);
   const Audited given = Run(kGiven, "dirt: {}");
   EXPECT_FALSE(given.audit().near_walls || given.audit().elsewhere);
   EXPECT_EQ(given.audit().region.score.samples, 4);
@@ -308,6 +310,27 @@ TEST_F(FloorAuditTest, TheResolvedScenarioReadsBackAsTheSame) {
   EXPECT_FALSE(Read(Room(kGiven, "dirt: null")).dirt);
 }
 
+// Places that lie anywhere in their cells are no reason to stop within a wall.
+TEST_F(FloorAuditTest, AFootprintIsClearOfWallsWhereverItsPlacesLie) {
+  int stops = 0;
+  for (const char* seed : {"0", "1", "2", "3", "4", "5"}) {
+    const Scenario s =
+        Read(Room("{planner: audit, samples: {du_m: 0.2, jitter: true}}", ""),
+             {{"robot", "htetro"}, {"seed", seed}, {"start.x_m", "1.75"}, {"start.y_m", "1.5"}});
+    const PlanResult plan = MakePlan(s);
+    ASSERT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
+    // Walls of a drawn grid stand back from their cells' edges.
+    const Polygon clear_B = Offset(s.robot.spec.clear.footprint_B, -s.site.map.inset_m - 0.0005);
+    for (const Waypoint& w : plan.path) {
+      if (!w.task) continue;
+      ++stops;
+      const Pose2 X_WB{w.p_W.x(), w.p_W.y(), w.yaw_rad.value_or(0)};
+      EXPECT_FALSE(TouchesWall(s.site.map, InWorld(X_WB, clear_B))) << seed << ": " << w.p_W;
+    }
+  }
+  EXPECT_GT(stops, 30);
+}
+
 TEST_F(FloorAuditTest, WhatCannotBeIsRefusedWithItsKey) {
   const auto refusal = [&](const std::string& dirt) -> std::string {
     try {
@@ -318,7 +341,8 @@ TEST_F(FloorAuditTest, WhatCannotBeIsRefusedWithItsKey) {
     return "taken";
   };
   EXPECT_THAT(refusal("{densty_per_m2: 1}"), HasSubstr("density_per_m2"));
-  EXPECT_THAT(refusal("{density_per_m2: -1}"), HasSubstr("dirt.density_per_m2 = -1: must be >= 0"));
+  EXPECT_THAT(refusal("{density_per_m2: -1}"),
+              HasSubstr("dirt.density_per_m2 = -1: must be in [0, 1e+15]"));
   EXPECT_THAT(refusal("{density_per_m2: 3e7}"),
               HasSubstr("must be at most 20000000 on this floor"));
   EXPECT_THAT(refusal("{least_diameter_m: 0.002}"),
@@ -336,6 +360,9 @@ TEST_F(FloorAuditTest, WhatCannotBeIsRefusedWithItsKey) {
   EXPECT_THAT(refusal("{wall_density_per_m2: " + std::to_string(most) + "}"), "taken");
   EXPECT_THAT(refusal("{wall_density_per_m2: " + std::to_string(most + 2) + "}"),
               HasSubstr("at most"));
+  EXPECT_THAT(refusal("{wall_density_per_m2: 1e308}"),
+              HasSubstr("dirt.wall_density_per_m2 = 1e308: must be in"));
+  EXPECT_THAT(refusal("{density_per_m2: 1e308}"), HasSubstr("dirt.density_per_m2 = 1e308: must"));
   EXPECT_THAT(refusal("{wall_density_per_m2: 1e7}"), "taken");
   EXPECT_THAT(refusal("{cleaning: {plan: audit}}"),
               HasSubstr("dirt.cleaning.plan.planner = audit: goes to places and cleans no floor"));
