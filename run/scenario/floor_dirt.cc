@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "planners/online/online_planner.h"
 #include "run/scenario/named_plugin.h"
 
 namespace floorproof {
