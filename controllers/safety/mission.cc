@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "controllers/safety/mission.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "base/error.h"
+
+namespace floorproof {
+namespace {
+
+constexpr std::size_t kMostNodes = 10'000;
+
+// The paper's names of a scale's values, and what each counts.
+template <class T>
+using Scale = std::span<const std::pair<std::string_view, T>>;
+
+constexpr std::pair<std::string_view, Severity> kSeverities[] = {
+    {"absence", Severity::kAbsence},
+    {"minor", Severity::kMinor},
+    {"catastrophic", Severity::kCatastrophic}};
+constexpr std::pair<std::string_view, Extent> kExtents[] = {{"isolated", Extent::kIsolated},
+                                                            {"external", Extent::kExternal}};
+constexpr std::pair<std::string_view, Availability> kAvailabilities[] = {
+    {"redundant", Availability::kRedundant},
+    {"eminent", Availability::kEminent},
+    {"singular", Availability::kSingular}};
+constexpr std::pair<std::string_view, Occurrence> kOccurrences[] = {
+    {"very_low", Occurrence::kVeryLow},
+    {"low", Occurrence::kLow},
+    {"high", Occurrence::kHigh},
+    {"relatively_high", Occurrence::kRelativelyHigh}};
+
+// By its name or by what it counts.
+template <class T>
+void ReadRating(const ConfigNode& node, const char* key, const std::string& path, Scale<T> scale,
+                T& rating) {
+  const ConfigNode* written = node.Find(key);
+  if (written == nullptr) return;
+  const std::string text = AsString(*written, path + key);
+  std::string rule = "must be one of";
+  for (const auto& [name, value] : scale) {
+    const std::string number = std::to_string(static_cast<int>(value));
+    if (text == name || text == number) {
+      rating = value;
+      return;
+    }
+    rule += " " + std::string(name) + " (" + number + ")";
+  }
+  throw InputError(written->mark, path + key, text, rule);
+}
+
+const ConfigNode& Needed(const ConfigNode& node, const char* key, ConfigNode::Kind kind,
+                         const char* what) {
+  const ConfigNode* found = node.Find(key);
+  if (found == nullptr) throw InputError(node.mark, key, "", std::string("is missing: ") + what);
+  if (found->kind != kind || (found->IsMap() && found->entries.empty()) ||
+      (found->IsList() && found->items.empty()))
+    throw InputError(found->mark, key, found->scalar, std::string("must hold ") + what);
+  return *found;
+}
+
+std::vector<std::string> NamesOf(const ConfigNode& map) {
+  std::vector<std::string> names;
+  for (const auto& [name, entry] : map.entries) names.push_back(name);
+  return names;
+}
+
+class MissionReader {
+ public:
+  MissionReader(const ConfigNode& root, std::span<const std::string> types)
+      : root_(root), types_(types) {}
+
+  Mission Read() {
+    RefuseUnknownKeys(root_, "",
+                      {"mission", "name", "primitives", "skills", "tasks", "run", "weights",
+                       "levels", "decision"});
+    constexpr int kVersion = 1;
+    const ConfigNode* version = root_.Find("mission");
+    if (version == nullptr) throw InputError(root_.mark, "mission", "", "is missing: mission: 1");
+    AsInt(*version, "mission", Between(kVersion, kVersion));
+    if (const ConfigNode* name = root_.Find("name")) mission_.name = AsString(*name, "name");
+    ReadNumbers();
+    ReadPrimitives();
+    skills_ = &Needed(root_, "skills", ConfigNode::Kind::kMap, "skills by name");
+    tasks_ = &Needed(root_, "tasks", ConfigNode::Kind::kMap, "tasks by name");
+    const ConfigNode& run =
+        Needed(root_, "run", ConfigNode::Kind::kList, "the mission's tasks in order");
+    Refuse(*skills_, "skills");
+    Refuse(*tasks_, "tasks");
+    Add(MissionNode::Kind::kMission, mission_.name, root_.mark);
+    for (const ConfigNode& task : run.items) AddTask(0, task, "run");
+    return std::move(mission_);
+  }
+
+ private:
+  void ReadNumbers() {
+    const auto read = [this](const char* key, auto& params) -> const ConfigNode* {
+      const ConfigNode* node = root_.Find(key);
+      if (node != nullptr)
+        ReadParams(*node, std::string(key) + ".", [&](ParamVisitor& v) { params.Visit(v); });
+      return node;
+    };
+    read("weights", mission_.weights);
+    if (const ConfigNode* node = read("levels", mission_.levels))
+      mission_.levels.Check(*node, "levels.");
+    if (const ConfigNode* node = read("decision", mission_.decision))
+      mission_.decision.Check(*node, "decision.");
+  }
+
+  void ReadPrimitives() {
+    const ConfigNode& all =
+        Needed(root_, "primitives", ConfigNode::Kind::kMap, "primitives by name");
+    for (const auto& [name, node] : all.entries) {
+      const std::string path = "primitives." + name + ".";
+      if (!node.IsMap() && !node.IsNull())
+        throw InputError(node.mark, "primitives." + name, node.scalar,
+                         "must hold what is said of its failures");
+      MissionPrimitive& primitive = mission_.primitives.emplace_back();
+      primitive.name = primitive.type = name;
+      const ConfigNode* type = node.Find("type");
+      if (type != nullptr) primitive.type = AsString(*type, path + "type");
+      if (std::ranges::find(types_, primitive.type) == types_.end())
+        throw InputError(type != nullptr ? type->mark : node.mark, path + "type", primitive.type,
+                         "is no primitive" + Known(primitive.type, {types_.begin(), types_.end()}));
+      FailureRating& rating = primitive.rating;
+      ReadRating(node, "severity", path, Scale<Severity>(kSeverities), rating.severity);
+      ReadRating(node, "extent", path, Scale<Extent>(kExtents), rating.extent);
+      ReadRating(node, "availability", path, Scale<Availability>(kAvailabilities),
+                 rating.availability);
+      ReadRating(node, "occurrence", path, Scale<Occurrence>(kOccurrences), rating.occurrence);
+      primitive.params = node.IsMap() ? node : ConfigNode::Map();
+      for (const char* key : {"type", "severity", "extent", "availability", "occurrence"})
+        primitive.params.Remove(key);
+    }
+  }
+
+  static std::string Known(const std::string& name, const std::vector<std::string>& names) {
+    std::string text;
+    if (const std::string near = Nearest(name, names); !near.empty())
+      text += "; did you mean " + near + "?";
+    text += " (known:";
+    for (const std::string& known : names) text += " " + known;
+    return text + ")";
+  }
+
+  // One name for two things would not say which of them is meant.
+  void Refuse(const ConfigNode& map, const char* key) const {
+    for (const auto& [name, node] : map.entries) {
+      const bool primitive =
+          std::ranges::find(mission_.primitives, name, &MissionPrimitive::name) !=
+          mission_.primitives.end();
+      if (primitive || (&map == tasks_ && skills_->Find(name) != nullptr))
+        throw InputError(
+            node.mark, std::string(key) + "." + name, "",
+            primitive ? "is the name of a primitive, too" : "is the name of a skill, too");
+    }
+  }
+
+  std::size_t Add(MissionNode::Kind kind, const std::string& name, const SourceMark& mark) {
+    if (mission_.nodes.size() == kMostNodes)
+      throw InputError(mark, "run", "", "makes a tree of more than 10,000 nodes");
+    MissionNode& node = mission_.nodes.emplace_back();
+    node.kind = kind;
+    node.name = name;
+    return mission_.nodes.size() - 1;
+  }
+
+  void AddTask(std::size_t parent, const ConfigNode& named, const std::string& key) {
+    const std::string name = AsString(named, key);
+    const ConfigNode* task = tasks_->Find(name);
+    if (task == nullptr)
+      throw InputError(named.mark, key, name,
+                       std::string(skills_->Find(name) ? "is a skill, and no task" : "is no task") +
+                           Known(name, NamesOf(*tasks_)));
+    if (std::ranges::find(within_, name) != within_.end())
+      throw InputError(named.mark, key, name, "is part of itself: " + Cycle(name));
+    const std::string path = "tasks." + name;
+    if (!task->IsList() || task->items.empty())
+      throw InputError(task->mark, path, task->scalar, "must be a list of skills or tasks");
+    const std::size_t node = Add(MissionNode::Kind::kTask, name, named.mark);
+    mission_.nodes[parent].children.push_back(node);
+    within_.push_back(name);
+    for (const ConfigNode& step : task->items) {
+      const std::string of = AsString(step, path);
+      if (const ConfigNode* skill = skills_->Find(of))
+        AddSkill(node, of, *skill, step.mark);
+      else if (tasks_->Find(of) != nullptr)
+        AddTask(node, step, path);
+      else
+        throw InputError(step.mark, path, of,
+                         "is neither skill nor task" + Known(of, NamesOf(*skills_)));
+    }
+    within_.pop_back();
+  }
+
+  std::string Cycle(const std::string& name) const {
+    std::string text;
+    for (auto it = std::ranges::find(within_, name); it != within_.end(); ++it)
+      text += *it + " -> ";
+    return text + name;
+  }
+
+  void AddSkill(std::size_t parent, const std::string& name, const ConfigNode& skill,
+                const SourceMark& mark) {
+    const std::string path = "skills." + name;
+    if (!skill.IsMap())
+      throw InputError(skill.mark, path, skill.scalar,
+                       "must hold run, its primitives in order, and may hold with");
+    RefuseUnknownKeys(skill, path + ".", {"run", "with"});
+    const std::size_t node = Add(MissionNode::Kind::kSkill, name, mark);
+    mission_.nodes[parent].children.push_back(node);
+    for (const char* key : {"run", "with"}) {
+      const ConfigNode* list = skill.Find(key);
+      const bool needed = std::string_view(key) == "run";
+      if (list == nullptr && !needed) continue;
+      const std::string of = path + "." + key;
+      if (list == nullptr || !list->IsList() || (needed && list->items.empty()))
+        throw InputError(list != nullptr ? list->mark : skill.mark, of,
+                         list != nullptr ? list->scalar : "", "must be a list of primitives");
+      for (const ConfigNode& item : list->items) AddPrimitive(node, item, of, !needed);
+    }
+  }
+
+  void AddPrimitive(std::size_t parent, const ConfigNode& item, const std::string& key,
+                    bool parallel) {
+    const std::string name = AsString(item, key);
+    const auto found = std::ranges::find(mission_.primitives, name, &MissionPrimitive::name);
+    if (found == mission_.primitives.end()) {
+      std::vector<std::string> names;
+      for (const MissionPrimitive& p : mission_.primitives) names.push_back(p.name);
+      const bool skill = skills_->Find(name) != nullptr;
+      throw InputError(item.mark, key, name,
+                       std::string(skill ? "is a skill: skills are made of primitives"
+                                         : "is no primitive of this mission") +
+                           Known(name, names));
+    }
+    const std::size_t node = Add(MissionNode::Kind::kPrimitive, name, item.mark);
+    mission_.nodes[node].parallel = parallel;
+    mission_.nodes[node].primitive = static_cast<std::size_t>(found - mission_.primitives.begin());
+    mission_.nodes[parent].children.push_back(node);
+  }
+
+  const ConfigNode& root_;
+  std::span<const std::string> types_;
+  const ConfigNode* skills_ = nullptr;
+  const ConfigNode* tasks_ = nullptr;
+  std::vector<std::string> within_;  // the tasks that are being read
+  Mission mission_;
+};
+
+}  // namespace
+
+Mission ReadMission(const ConfigNode& root, std::span<const std::string> types) {
+  if (!root.IsMap()) throw InputError(root.mark, "mission", root.scalar, "must be a map of keys");
+  return MissionReader(root, types).Read();
+}
+
+}  // namespace floorproof

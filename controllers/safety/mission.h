@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// A mission as a tree: tasks in order, each of skills, each of primitives ("safety-monitoring",
+// section 3.1), with what is said of each primitive's failures.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "controllers/safety/decision.h"
+#include "controllers/safety/safety_state.h"
+
+namespace floorproof {
+
+struct MissionPrimitive {
+  std::string name, type;
+  FailureRating rating;
+  ConfigNode params;  // its own keys, for whoever makes the type
+};
+
+struct MissionNode {
+  enum class Kind { kMission, kTask, kSkill, kPrimitive };
+  Kind kind = Kind::kMission;
+  std::string name;
+  std::vector<std::size_t> children;  // into Mission::nodes; they run one after the other
+  bool parallel = false;              // a primitive: it runs as long as its skill does
+  std::size_t primitive = 0;          // a primitive: into Mission::primitives
+};
+
+struct Mission {
+  std::string name;
+  std::vector<MissionPrimitive> primitives;
+  std::vector<MissionNode> nodes;  // the first is the mission; each stands before its children
+  SafetyWeights weights;
+  LevelLimits levels;
+  DecisionParams decision;
+};
+
+// A file of a mission: docs/safety.md. `types`: of the primitives that there are. Throws InputError
+// with file, line and key: unknown keys, types and names, a task that is part of itself, ratings
+// that are not on the paper's scales, thresholds out of order, more than 10,000 nodes.
+Mission ReadMission(const ConfigNode& root, std::span<const std::string> types);
+
+}  // namespace floorproof

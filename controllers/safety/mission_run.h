@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// A mission as it runs: what each node of its tree has come to, and how safe it is.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "controllers/safety/mission.h"
+
+namespace floorproof {
+
+enum class NodeStatus { kWaiting, kRunning, kDone, kFailed };  // waiting: its turn has not come
+std::string_view Name(NodeStatus status);
+
+// A unique operation of the robot ("safety-monitoring", section 3.1), with the monitors that watch
+// it.
+class Primitive {
+ public:
+  virtual ~Primitive() = default;
+  virtual void Start(double t_s) = 0;
+  // One period; running, done or failed. Not once it is done or failed.
+  virtual NodeStatus Update(double t_s) = 0;
+  // What its monitors say now; none: it does what it should.
+  virtual std::optional<Failure> failure() const = 0;
+};
+
+class MissionRun {
+ public:
+  using Make = std::function<std::unique_ptr<Primitive>(const MissionPrimitive&)>;
+
+  // `mission` outlives it. `make`: called for each primitive of the tree.
+  MissionRun(const Mission& mission, const Make& make);
+
+  // One period of all that runs now. Where something is done, what comes after it begins in the
+  // same period. A node fails with its first child that fails; a skill is done when those of its
+  // primitives are that run in order. Allocates nothing.
+  NodeStatus Update(double t_s);
+
+  NodeStatus status(std::size_t node) const { return status_[node]; }
+  // Eq. 1, of the skills below a node, and their sum: a skill's is that of its worst primitive, in
+  // parallel or in its turn. What waits or is done is no risk; what has failed remains one.
+  struct Risk {
+    double greatest = 0, sum = 0;
+  };
+  const Risk& risk(std::size_t node) const { return risk_[node]; }
+  // All skills of the tree, in order, and R_i of each.
+  std::span<const std::size_t> skills() const { return skills_; }
+  std::span<const double> safety_states() const { return states_; }
+
+ private:
+  NodeStatus Run(std::size_t node, double t_s);
+  NodeStatus RunInOrder(std::size_t node, double t_s);
+  NodeStatus RunSkill(std::size_t node, double t_s);
+  void Assess();
+
+  const Mission& mission_;
+  std::vector<std::unique_ptr<Primitive>> primitives_;  // by node; of the others nullptr
+  std::vector<NodeStatus> status_;
+  std::vector<Risk> risk_;
+  std::vector<std::size_t> skills_;
+  std::vector<double> states_;
+};
+
+}  // namespace floorproof
