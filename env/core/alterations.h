@@ -3,6 +3,7 @@
 // purpose. Plain data; the simulation and the sensors apply it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct Alterations {
   std::vector<double> wheel_torque = {};
   // Of Mecanum wheels. 0: the rollers run freely; 1: they are blocked.
   std::vector<double> roller_drag = {};
+  // Speed that the motor's driver holds whatever it is told, rad/s; none: it does as it is told.
+  std::vector<std::optional<double>> wheel_stuck_radps = {};
 
   // Factors on what was built.
   double floor_friction = 1;    // of the floor, and of hazards that state none
@@ -27,6 +30,9 @@ struct Alterations {
   Vec3 payload_p_B = Vec3::Zero();  // its centre, in the base's frame
 
   std::vector<std::string> silent_sensors = {};  // by name: they tell nothing
+  // The bumper says that it is pressed there, from the body's x, counter-clockwise; none: it tells
+  // what there is.
+  std::optional<double> bump_stuck_rad = {};
 
   bool operator==(const Alterations&) const = default;
 };

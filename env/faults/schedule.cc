@@ -30,6 +30,7 @@ void FaultSchedule::Start(const FaultContext& context) {
   const auto& wheels = context.robot.wheels;
   built_ = {};
   built_.wheel_torque.assign(wheels.size(), 1);
+  built_.wheel_stuck_radps.assign(wheels.size(), {});
   if (std::ranges::any_of(wheels, [](const WheelSpec& w) { return w.roller_radius_m > 0; }))
     built_.roller_drag.assign(wheels.size(), 0);
   holds_.clear();

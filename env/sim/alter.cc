@@ -17,7 +17,8 @@ namespace {
 constexpr double kOpenCircuit_ohm = 1e12;  // of a motor that gives nothing
 constexpr double kBlocked_nm = 10;         // holds a roller against anything that a floor can do
 
-void RequireOneEach(const std::vector<double>& values, std::size_t wheels, const char* of) {
+template <class T>
+void RequireOneEach(const std::vector<T>& values, std::size_t wheels, const char* of) {
   if (!values.empty() && values.size() != wheels)
     throw InternalError(std::string("alterations: ") + of + " must hold a value a driven wheel");
 }
@@ -27,6 +28,7 @@ void RequireOneEach(const std::vector<double>& values, std::size_t wheels, const
 void Simulation::Alter(const Alterations& alterations) {
   RequireOneEach(alterations.wheel_torque, robot_.wheels.size(), "wheel_torque");
   RequireOneEach(alterations.roller_drag, robot_.wheels.size(), "roller_drag");
+  RequireOneEach(alterations.wheel_stuck_radps, robot_.wheels.size(), "wheel_stuck_radps");
   const bool has_rollers =
       std::ranges::any_of(robot_.wheels, [](const WheelSpec& w) { return w.roller_radius_m > 0; });
   if (!alterations.roller_drag.empty() && !has_rollers)
@@ -42,6 +44,7 @@ void Simulation::Alter(const Alterations& alterations) {
   if (payload_changes) AlterPayload();
   SetDriverVoltages();
   live_.Refresh();
+  HoldStuckWheels();
 }
 
 // A motor that gives a share of its torque at any speed and voltage is one of higher resistance,

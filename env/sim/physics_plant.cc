@@ -42,6 +42,7 @@ void PhysicsPlant::Sense(Observation& sensed) {
     sensors_[i].sensor->Sense(simulation_.data(), truth(), sensed);
     if (silent_[i]) sensors_[i].sensor->Silence(sensed);
   }
+  if (bump_stuck_rad_) sensed.bump = {true, *bump_stuck_rad_};
 }
 
 bool PhysicsPlant::Step() {
@@ -63,6 +64,7 @@ void PhysicsPlant::Alter(const Alterations& alterations) {
   for (std::size_t i = 0; i < sensors_.size(); ++i)
     silent_[i] = std::ranges::find(alterations.silent_sensors, sensors_[i].name) !=
                  alterations.silent_sensors.end();
+  bump_stuck_rad_ = alterations.bump_stuck_rad;
   simulation_.Alter(alterations);
 }
 

@@ -52,6 +52,7 @@ class PhysicsPlant final : public Plant {
   StreamOf stream_of_;
   Simulation simulation_;
   std::vector<char> silent_;  // by sensor
+  std::optional<double> bump_stuck_rad_;
 };
 
 }  // namespace floorproof

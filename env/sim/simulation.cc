@@ -132,6 +132,12 @@ void Simulation::Settle(const Pose2& X_WB, double t_s) {
 
 void Simulation::SetWheelSpeeds(std::span<const double> wheel_radps) {
   std::copy(wheel_radps.begin(), wheel_radps.end(), data_->ctrl);
+  HoldStuckWheels();
+}
+
+void Simulation::HoldStuckWheels() {
+  for (std::size_t w = 0; w < altered_.wheel_stuck_radps.size(); ++w)
+    if (const auto& stuck_radps = altered_.wheel_stuck_radps[w]) data_->ctrl[w] = *stuck_radps;
 }
 
 bool Simulation::Step() {

@@ -42,7 +42,7 @@ class Simulation {
   bool Step();
   // The state after the last step.
   const Truth& truth() const { return truth_; }
-  // From now on, in place of what was altered before; `silent_sensors` is others' affair. What was
+  // From now on, in place of what was altered before; what sensors tell is others' affair. What was
   // altered stays so however often the live geoms are chosen anew, and no other simulation of the
   // scene sees it. Throws InternalError where a list is not as long as the robot has wheels, or it
   // has no rollers to drag. Allocates.
@@ -64,6 +64,7 @@ class Simulation {
   void ReadPose();
   void ReadPower(double dt_s);
   void SetDriverVoltages();
+  void HoldStuckWheels();
   void AlterMotors();
   void AlterFriction();
   void AlterRollerBearings();

@@ -29,7 +29,7 @@ struct Moment {
   Vec3 p_WB;
   double yaw_rad, battery_v, power_w;
   std::vector<double> wheel_rad;
-  bool has_imu;
+  bool has_imu, pressed;
   bool operator==(const Moment&) const = default;
 };
 
@@ -39,7 +39,7 @@ class FaultConformance
   FaultConformance()
       : robot_(ReadRobot(FindRobotFile(std::get<1>(GetParam()), {}))),
         scene_(BuildScene(map_, robot_, {}, {})) {
-    for (const char* name : {"encoders", "imu"})
+    for (const char* name : {"encoders", "imu", "bumper"})
       sensors_.push_back({name, MakePlugin(Sensors(), name, "sensor")});
   }
 
@@ -82,8 +82,8 @@ class FaultConformance
     while (plant.truth().t_s < kEnd_s - kControl_s / 2) {
       plant.Sense(sensed);
       const Truth& t = plant.truth();
-      moments.push_back(
-          {t.p_WB, t.yaw_rad, t.battery_v, t.power_w, sensed.wheel_rad, sensed.has_imu});
+      moments.push_back({t.p_WB, t.yaw_rad, t.battery_v, t.power_w, sensed.wheel_rad,
+                         sensed.has_imu, sensed.bump.pressed});
       plant.Apply({.twist = {}, .wheel_radps = wheels, .hinges = {}});
       for (int i = 0; i < kStepsAControl; ++i) EXPECT_TRUE(plant.Step());
     }
@@ -149,6 +149,7 @@ TEST_P(FaultConformance, BreaksOnTopOfWhatIsBroken) {
   const std::size_t n = robot_.spec.wheels.size();
   Alterations built, broken;
   built.wheel_torque.assign(n, 1);
+  built.wheel_stuck_radps.assign(n, {});
   built.roller_drag.assign(n, 0);
   broken = built;
   broken.wheel_torque.assign(n, 0.5);

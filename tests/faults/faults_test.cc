@@ -138,6 +138,24 @@ TEST_F(FaultsTest, RollersThatAreBlockedStayBlocked) {
   EXPECT_THAT(WhyNot(), HasSubstr("no rollers"));
 }
 
+TEST_F(FaultsTest, AStuckMotorRunsAtAShareOfItsSpeedWithoutLoad) {
+  RobotSpec robot = TwoWheels();
+  for (WheelSpec& wheel : robot.wheels) wheel.max_speed_radps = 10;
+  Add("stuck_motor", "{}");
+  Add("stuck_motor", "{wheel: left, speed_share: -0.5}");
+  EXPECT_THAT(At(0, robot).wheel_stuck_radps, ElementsAre(-5, 10)) << "the later one counts";
+  faults_.clear();
+  Add("stuck_motor", "{wheel: right, speed_share: 0}");
+  EXPECT_THAT(At(0, robot).wheel_stuck_radps, ElementsAre(std::nullopt, 0)) << "0 is no none";
+}
+
+TEST_F(FaultsTest, AStuckBumperSaysWhere) {
+  Add("stuck_bumper", "{bearing_deg: 90}");
+  EXPECT_THAT(WhyNot(), HasSubstr("sensor = bumper: the robot carries no such sensor"));
+  sensors_.push_back("bumper");
+  EXPECT_NEAR(At(0).bump_stuck_rad.value(), kPi / 2, 1e-12);
+}
+
 TEST_F(FaultsTest, SilenceTheSensorThatIsNamed) {
   Add("silent_sensor", "{sensor: lidar}");
   EXPECT_THAT(At(0).silent_sensors, ElementsAre("lidar"));

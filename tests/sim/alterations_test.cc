@@ -196,6 +196,19 @@ TEST_P(AlterationsOf, AHungryComputerIsPaidFor) {
   EXPECT_NEAR(thrice_w - plain_w, 2 * dut.spec().hotel_load_w, 0.05 * plain_w + 1e-3);
 }
 
+TEST_P(AlterationsOf, StuckMotorsRunAsIfTheyHadBeenTold) {
+  AlteredDrive dut(GetParam());
+  const auto drive = MakePlugin(Drives(), dut.spec().drive, "drive");
+  drive->Configure(dut.spec());
+  std::vector<double> radps(dut.spec().wheels.size());
+  const BodyTwist twist{0.15, 0, 0.3};
+  drive->ToWheels(twist, radps);
+  const Truth told = dut.Run({}, twist, 2);
+  const Truth stuck = dut.Run({.wheel_stuck_radps = {radps.begin(), radps.end()}}, {-0.1, 0, 0}, 2);
+  EXPECT_NEAR((stuck.p_WB - told.p_WB).norm(), 0, 0.005);
+  EXPECT_GT(told.p_WB.head<2>().norm(), 0.2);
+}
+
 TEST(Alterations, BlockedRollersKeepAMecanumRobotFromGoingSideways) {
   AlteredDrive dut("htetro");
   const BodyTwist left{0, 0.1, 0};
@@ -217,6 +230,7 @@ TEST(Alterations, OfWhatTheRobotHasNotAreRefused) {
     return "taken";
   };
   EXPECT_THAT(why({.wheel_torque = {1, 1, 1}}), HasSubstr("wheel_torque"));
+  EXPECT_THAT(why({.wheel_stuck_radps = {std::nullopt}}), HasSubstr("wheel_stuck_radps"));
   EXPECT_THAT(why({.roller_drag = {1, 1}}), HasSubstr("no rollers"));
 }
 
