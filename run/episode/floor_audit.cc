@@ -64,9 +64,10 @@ void MeasureDirt(const DirtField& field, FloorAudit& audit) {
     audit.mean_dirt_per_m2 = static_cast<double>(field.size()) / floor_m2;
 }
 
-RegionScore ScoreOf(std::span<const Stratum> strata) {
+// `by_chance`: the places may lie anywhere, which an interval needs.
+RegionScore ScoreOf(std::span<const Stratum> strata, bool by_chance) {
   RegionScore region{ScoreOfSpace(strata), {}};
-  if (const auto& error = region.score.standard_error) {
+  if (const auto& error = region.score.standard_error; error && by_chance) {
     region.interval = StudentInterval(*region.score.mean, *error, region.score.degrees_of_freedom,
                                       kReportedConfidence);
     region.interval->lower = std::max(region.interval->lower, -1.0);  // no score lies beyond
@@ -92,13 +93,10 @@ void Score(const PlanResult& plan, int dirty_above, FloorAudit& audit) {
     strata[kinds.near_walls() || kinds.given ? 0 : 1].scores.push_back(taken.sample.score.score);
   }
   audit.gathering = Gather(counts, dirty_above);
-  audit.region = ScoreOf(strata);
+  audit.region = ScoreOf(strata, parts.by_chance);
   if (!plan.sampled_parts) return;
-  audit.near_walls = ScoreOf({strata, 1});
-  audit.elsewhere = ScoreOf({strata + 1, 1});
-  if (parts.by_chance) return;
-  for (RegionScore* region : {&audit.region, &*audit.near_walls, &*audit.elsewhere})
-    region->interval = {};
+  audit.near_walls = ScoreOf({strata, 1}, parts.by_chance);
+  audit.elsewhere = ScoreOf({strata + 1, 1}, parts.by_chance);
 }
 
 }  // namespace

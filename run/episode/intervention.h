@@ -5,8 +5,8 @@
 // It is set down at the first waypoint ahead, past the segment that it tracks, where its footprint
 // touches no hazard of any class, known or not, and no wall; heading as the plan does there. It
 // goes on from that waypoint, thinking that it is where it thought it was: only `truth` knows
-// better. Each time it is at least one waypoint further, but for a stop whose
-// dwell was not over, which it is given once more: so that an episode ends.
+// better. Each time it is at least one waypoint further, but for a stop whose dwell was not over,
+// which it is given once more: so that an episode ends.
 // Not modelled: what gyro, accelerometer or lidar would tell while it is carried.
 #pragma once
 

@@ -98,15 +98,16 @@ FloorDirt ReadDirt(const ConfigNode& node, const HazardMap& map) {
            "must be at most " + std::to_string(static_cast<std::int64_t>(most_per_m2)) +
                " on this floor: " + kTooMany);
   // What gathers at walls is counted only where it might be too much: that takes time.
-  if (laid.density_per_m2 + 2 * laid.wall_density_per_m2 > most_per_m2 &&
-      ExpectedParticles(map, laid) > static_cast<double>(kMostParticles)) {
+  if (laid.density_per_m2 + 2 * laid.wall_density_per_m2 > most_per_m2) {
+    const double expected = ExpectedParticles(map, laid);
     // Their number is linear in it.
     const double even = laid.density_per_m2 * floor_m2;
-    const double each = (ExpectedParticles(map, laid) - even) / laid.wall_density_per_m2;
+    const double each = (expected - even) / laid.wall_density_per_m2;
     const double most = (static_cast<double>(kMostParticles) - even) / each;
-    refuse("wall_density_per_m2", laid.wall_density_per_m2,
-           "must be at most " + std::to_string(static_cast<std::int64_t>(most)) +
-               " on this floor: " + kTooMany);
+    if (expected > static_cast<double>(kMostParticles))
+      refuse("wall_density_per_m2", laid.wall_density_per_m2,
+             "must be at most " + std::to_string(static_cast<std::int64_t>(most)) +
+                 " on this floor: " + kTooMany);
   }
   ConfigNode cleaning = ConfigNode::Map();
   cleaning.mark = node.mark;

@@ -69,6 +69,11 @@ class MissionTest : public ::testing::Test {
     ADD_FAILURE() << name;
     return 0;
   }
+  // Of the primitive and of all that it is part of.
+  static void ExpectFromLineUp(const MissionRun& dut, const Mission& mission, NodeStatus status) {
+    for (const char* name : {"inspect the bridge", "drive", "go_to", "line"})
+      EXPECT_EQ(dut.status(Find(mission, name)), status) << name;
+  }
   std::map<std::string, Script> scripts_;
   std::vector<std::string> log_;  // what began, in order
 };
@@ -83,8 +88,7 @@ TEST_F(MissionTest, RunsItsTasksSkillsAndPrimitivesInOrder) {
   while (dut.Update(0.02 * periods) == NodeStatus::kRunning) ++periods;
   EXPECT_THAT(log_, ElementsAre("acceleration_control", "rotation", "line", "rotation"));
   EXPECT_EQ(periods, 2 + 2 + 1) << "where one is done the next begins in the same period";
-  for (const char* name : {"inspect the bridge", "drive", "go_to", "line"})
-    EXPECT_EQ(dut.status(Find(mission, name)), NodeStatus::kDone) << name;
+  ExpectFromLineUp(dut, mission, NodeStatus::kDone);
 }
 
 TEST_F(MissionTest, AFailureGoesUpToTheMissionAndWhatFollowsWaits) {
@@ -93,8 +97,7 @@ TEST_F(MissionTest, AFailureGoesUpToTheMissionAndWhatFollowsWaits) {
   scripts_["acceleration_control"].periods = 1000;
   scripts_["line"].fails = true;
   EXPECT_EQ(dut.Update(0), NodeStatus::kFailed);
-  for (const char* name : {"inspect the bridge", "drive", "go_to", "line"})
-    EXPECT_EQ(dut.status(Find(mission, name)), NodeStatus::kFailed) << name;
+  ExpectFromLineUp(dut, mission, NodeStatus::kFailed);
   EXPECT_EQ(dut.status(mission.nodes.size() - 2), NodeStatus::kWaiting) << "the second rotation";
   EXPECT_EQ(dut.Update(1), NodeStatus::kFailed) << "and stays so";
 }
@@ -109,8 +112,8 @@ TEST_F(MissionTest, OneThatRunsInParallelFailsItsSkill) {
 }
 
 // Section 4, an intermittent fault of the thrusters: availability singular, persistence 1. The text
-// prints 24 for Line and 8 for Rotation, which is Eq. 1 with the availability left out of neither
-// the one nor the other case: by its own assumptions they are 36 and 16 (docs/safety.md).
+// prints 24 for Line and 8 for Rotation; by its own assumptions they are 36 and 16
+// (docs/safety.md).
 TEST_F(MissionTest, TheWorkedExample) {
   const Mission mission = Read(kGoTo);
   MissionRun run = Run(mission);
@@ -124,7 +127,6 @@ TEST_F(MissionTest, TheWorkedExample) {
   EXPECT_EQ(of("acceleration_control", Persistence::kIntermittent), 60);
   EXPECT_EQ(of("acceleration_control", Persistence::kPermanent), 96);
 
-  for (auto& [name, script] : scripts_) script.periods = 1000;
   for (const char* name : {"rotation", "line", "acceleration_control"}) {
     scripts_[name].periods = 1000;
     scripts_[name].failure = Failure{Persistence::kIntermittent, Availability::kSingular};
