@@ -39,10 +39,7 @@ std::string Reason(const CLI::App& app, const CLI::ParseError& error) {
     for (const CLI::App* command : app.get_subcommands(nullptr))
       known.push_back(command->get_name());
   }
-  const std::string near = Nearest(*first, known);
-  return InputError({*first, 0}, "", "",
-                    "unknown " + kind + (near.empty() ? "" : "; did you mean " + near + "?"))
-      .what();
+  return InputError({*first, 0}, "", "", "unknown " + kind + DidYouMean(*first, known)).what();
 }
 
 // All that was said is there; else says why not.

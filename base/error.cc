@@ -78,4 +78,15 @@ std::string Nearest(std::string_view word, std::span<const std::string> candidat
   return best;
 }
 
+std::string DidYouMean(std::string_view word, std::span<const std::string> candidates) {
+  const std::string near = Nearest(word, candidates);
+  return near.empty() ? near : "; did you mean " + near + "?";
+}
+
+std::string DidYouMeanOneOf(std::string_view word, std::span<const std::string> candidates) {
+  std::string text = DidYouMean(word, candidates) + " (known:";
+  for (const std::string& name : candidates) text += " " + name;
+  return text + ")";
+}
+
 }  // namespace floorproof

@@ -32,5 +32,10 @@ class InternalError : public std::runtime_error {
 
 // The candidate with the least edit distance to `word`; empty when none is near.
 std::string Nearest(std::string_view word, std::span<const std::string> candidates);
+// "; did you mean X?" of that one, to go behind a rule; empty when none is near.
+std::string DidYouMean(std::string_view word, std::span<const std::string> candidates);
+
+// That, and behind it " (known: ...)" with all of them.
+std::string DidYouMeanOneOf(std::string_view word, std::span<const std::string> candidates);
 
 }  // namespace floorproof

@@ -73,10 +73,8 @@ class Reader : public ParamVisitor {
     if (n == nullptr) return;
     value = AsString(*n, path_ + name);
     if (choices.empty() || std::ranges::find(choices, value) != choices.end()) return;
-    std::string rule = "must be one of " + Joined(choices);
-    if (const auto near = Nearest(value, choices); !near.empty())
-      rule += "; did you mean " + near + "?";
-    throw InputError(n->mark, path_ + name, value, rule);
+    throw InputError(n->mark, path_ + name, value,
+                     "must be one of " + Joined(choices) + DidYouMean(value, choices));
   }
   void operator()(const char* name, std::optional<double>& value, const Bounds& rule,
                   const char*) override {
@@ -253,10 +251,7 @@ void RefuseUnknownKeys(const ConfigNode& node, const std::string& path,
                        const std::vector<std::string>& known) {
   for (const auto& [key, value] : node.entries) {
     if (std::ranges::find(known, key) != known.end()) continue;
-    std::string rule = "unknown key";
-    if (const auto near = Nearest(key, known); !near.empty())
-      rule += "; did you mean " + near + "?";
-    throw InputError(value.mark, path + key, "", rule);
+    throw InputError(value.mark, path + key, "", "unknown key" + DidYouMean(key, known));
   }
 }
 

@@ -36,12 +36,7 @@ std::unique_ptr<T> MakePlugin(std::span<const PluginEntry<T>> table, std::string
     if (entry.name == name) return entry.make();
   auto names = PluginNames(table);
   names.insert(names.end(), others.begin(), others.end());
-  std::string rule = "unknown";
-  if (const std::string near = Nearest(name, names); !near.empty())
-    rule += "; did you mean " + near + "?";
-  rule += " (known:";
-  for (const auto& n : names) rule += " " + n;
-  throw InputError(mark, key, name, rule + ")");
+  throw InputError(mark, key, name, "unknown" + DidYouMeanOneOf(name, names));
 }
 
 }  // namespace floorproof

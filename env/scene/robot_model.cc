@@ -151,11 +151,9 @@ std::filesystem::path FindRobotFile(const std::string& name_or_path, const Sourc
     names.emplace_back(entry.name);
   }
   if (name_or_path.ends_with(".xml")) return name_or_path;
-  std::string rule = "unknown robot";
-  if (const auto near = Nearest(name_or_path, names); !near.empty())
-    rule += "; did you mean " + near + "?";
   throw InputError(mark, "robot", name_or_path,
-                   rule + " (a name of `list robots`, or an .xml file)");
+                   "unknown robot" + DidYouMean(name_or_path, names) +
+                       " (a name of `list robots`, or an .xml file)");
 }
 
 RobotModel ReadRobot(const std::filesystem::path& file, const RobotChanges& changes, Blocks blocks,

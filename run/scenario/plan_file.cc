@@ -41,11 +41,11 @@ std::vector<std::string> ReadHeader(const std::string& line, const SourceMark& m
   const auto header = SplitRow(line);
   for (const auto& name : header) {
     if (std::ranges::find(columns, name) == columns.end()) {
-      const std::string near = Nearest(name, columns);
-      throw InputError(mark, name, "",
-                       near.empty()
-                           ? "unknown column (the first row names the columns: x_m,y_m,...)"
-                           : "unknown column; did you mean " + near + "?");
+      const std::string near = DidYouMean(name, columns);
+      throw InputError(
+          mark, name, "",
+          "unknown column" +
+              (near.empty() ? " (the first row names the columns: x_m,y_m,...)" : near));
     }
     if (std::ranges::count(header, name) > 1)
       throw InputError(mark, name, "", "the column stands twice");
