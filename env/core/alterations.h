@@ -19,6 +19,8 @@ struct Alterations {
   std::vector<double> roller_drag = {};
   // Speed that the motor's driver holds whatever it is told, rad/s; none: it does as it is told.
   std::vector<std::optional<double>> wheel_stuck_radps = {};
+  // The most friction that the wheel finds on anything, its rollers included; none: as built.
+  std::vector<std::optional<double>> wheel_friction = {};
 
   // Factors on what was built.
   double floor_friction = 1;    // of the floor, and of hazards that state none
@@ -33,6 +35,10 @@ struct Alterations {
   // The bumper says that it is pressed there, from the body's x, counter-clockwise; none: it tells
   // what there is.
   std::optional<double> bump_stuck_rad = {};
+
+  // The robot is taken up and set down elsewhere, once, as this begins: from its place to there, in
+  // its own axes.
+  std::optional<Pose2> carried = {};
 
   bool operator==(const Alterations&) const = default;
 };

@@ -82,6 +82,7 @@ struct Truth {
   int near_hazard = -1;               // a hazard under or at a wheel or the body now; -1: none
   std::array<ObstacleContact, kMaxContacts> contacts;  // the first num_contacts hold, body first
   int num_contacts = 0;
+  int carried = 0;  // how often it was taken up and set down elsewhere by what befell it
   std::array<Touch, kMaxTouches> touches;  // the first num_touches hold
   int num_touches = 0;
 

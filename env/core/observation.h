@@ -14,11 +14,13 @@ namespace floorproof {
 
 // The parts of an Observation. A sensor fills one of them, and whoever goes by an observation says
 // which it needs.
-enum class Reading { kWheels, kImu, kScan, kBump, kCliffs, kTruth };  // kWheels: hinges too
+enum class Reading { kWheels, kImu, kScan, kBump, kCliffs, kPower, kTruth };  // kWheels: hinges too
 inline constexpr Reading kReadings[] = {Reading::kWheels, Reading::kImu,    Reading::kScan,
-                                        Reading::kBump,   Reading::kCliffs, Reading::kTruth};
+                                        Reading::kBump,   Reading::kCliffs, Reading::kPower,
+                                        Reading::kTruth};
 constexpr std::string_view Name(Reading reading) {
-  constexpr std::string_view kNames[] = {"wheels' turns", "IMU", "scan", "bump", "cliffs", "truth"};
+  constexpr std::string_view kNames[] = {"wheels' turns", "IMU",   "scan", "bump",
+                                         "cliffs",        "power", "truth"};
   return kNames[static_cast<int>(reading)];
 }
 
@@ -61,6 +63,15 @@ struct CliffRing {
   }
 };
 
+// What the motors' drivers and the battery measure.
+struct PowerReading {
+  bool heard = false;
+  // Of each driven wheel's motor, A, RobotSpec's order; positive: it drives the wheel forward. The
+  // mean since the last period.
+  std::vector<double> motor_a;
+  double battery_v = 0;  // at its terminals
+};
+
 // As no sensor of a real robot tells it.
 struct TruePose {
   Pose2 X_WB;
@@ -80,6 +91,7 @@ struct Observation {
   LidarScan scan;
   Bump bump;
   CliffRing cliffs;
+  PowerReading power;
   std::optional<TruePose> truth;  // of the sensor `truth` alone
 };
 

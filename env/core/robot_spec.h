@@ -24,6 +24,7 @@ struct WheelSpec {
   int block = 0;               // the block that carries it
   double max_speed_radps = 0;  // no-load speed of the motor at the wheel
   double max_torque_nm = 0;    // at the wheel
+  VelocityDrive motor;         // as built; gain 0: its driver holds no speed
 };
 
 // The shape that must stay free of obstacles, or that the tool sweeps, at the robot's centre.

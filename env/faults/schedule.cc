@@ -31,6 +31,7 @@ void FaultSchedule::Start(const FaultContext& context) {
   built_ = {};
   built_.wheel_torque.assign(wheels.size(), 1);
   built_.wheel_stuck_radps.assign(wheels.size(), {});
+  built_.wheel_friction.assign(wheels.size(), {});
   if (std::ranges::any_of(wheels, [](const WheelSpec& w) { return w.roller_radius_m > 0; }))
     built_.roller_drag.assign(wheels.size(), 0);
   holds_.clear();
@@ -38,16 +39,21 @@ void FaultSchedule::Start(const FaultContext& context) {
 
 const Alterations* FaultSchedule::Update(double t_s) {
   bool changed = holds_.size() != faults_.size();
-  holds_.resize(faults_.size());
+  holds_.resize(faults_.size(), kSound);
   for (std::size_t i = 0; i < faults_.size(); ++i) {
-    const char holds = faults_[i].timing.Holds(t_s) ? 1 : 0;
-    changed |= holds != holds_[i];
-    holds_[i] = holds;
+    State& state = holds_[i];
+    const bool held = state != kSound, holds = faults_[i].timing.Holds(t_s);
+    changed |= holds != held;
+    state = !holds ? kSound : held ? kBroken : kBreaks;
   }
   if (!changed) return nullptr;
   now_ = built_;
-  for (std::size_t i = 0; i < faults_.size(); ++i)
-    if (holds_[i]) faults_[i].fault->Break(now_);
+  for (std::size_t i = 0; i < faults_.size(); ++i) {
+    if (holds_[i] == kSound) continue;
+    const std::optional<Pose2> carried = now_.carried;
+    faults_[i].fault->Break(now_);
+    if (holds_[i] == kBroken) now_.carried = carried;  // that was when it began
+  }
   return &now_;
 }
 

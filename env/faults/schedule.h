@@ -42,7 +42,8 @@ class FaultSchedule {
  private:
   std::span<const ScheduledFault> faults_;
   Alterations built_, now_;
-  std::vector<char> holds_;  // by fault, at the last call; empty: there was none
+  enum State : char { kSound, kBreaks, kBroken };  // breaks: since this call
+  std::vector<State> holds_;  // by fault, at the last call; empty: there was none
 };
 
 }  // namespace floorproof

@@ -47,6 +47,7 @@ struct Pose2 {
     const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
     return {-c * x_m - s * y_m, s * x_m - c * y_m, WrapAngle(-yaw_rad)};
   }
+  bool operator==(const Pose2&) const = default;
 };
 
 // The point of segment ab nearest to p, as the fraction in [0, 1] of the way from a to b.

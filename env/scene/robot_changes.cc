@@ -77,6 +77,15 @@ void SetDriverVoltage(mjModel* model, int actuator, double voltage_v) {
   model->actuator_gainprm[mjNGAIN * actuator + kVmax] = std::max(voltage_v, kLeast_v);
 }
 
+std::optional<VelocityDrive> DriveOf(const mjModel* model, int actuator) {
+  constexpr int kPosition = 4, kVelocity = 6;  // gains of the driver
+  const mjtNum* gain = model->actuator_gainprm + mjNGAIN * actuator;
+  if (gain[kPosition] != 0 || gain[kVelocity] == 0) return std::nullopt;
+  const double most_nm =
+      model->actuator_forcelimited[actuator] ? model->actuator_forcerange[2 * actuator + 1] : 0;
+  return VelocityDrive{gain[0], gain[1], gain[kVelocity], DriverVoltage(model, actuator), most_nm};
+}
+
 void ScaleMass(mjsBody* body, double factor) {
   for (mjsElement* e = mjs_firstChild(body, mjOBJ_GEOM, 0); e; e = mjs_nextChild(body, e, 0)) {
     mjs_asGeom(e)->mass *= factor;  // NaN where the density rules

@@ -28,6 +28,9 @@ struct RobotChanges {
 // The most that a dcmotor's driver gives, V; 0: no limit. Set to no less than a microvolt.
 double DriverVoltage(const mjModel* model, int actuator);
 void SetDriverVoltage(mjModel* model, int actuator, double voltage_v);
+// The motor of a dcmotor with its driver, as the model has it now; none: its driver holds an angle,
+// or no speed.
+std::optional<VelocityDrive> DriveOf(const mjModel* model, int actuator);
 
 // Scales the masses and inertias of the body and of its own geoms.
 void ScaleMass(mjsBody* body, double factor);

@@ -115,6 +115,7 @@ WheelSpec ReadWheel(const CompiledRobot& compiled, int a, const std::string& nam
   const Motor motor = ReadMotor(compiled, a, name);
   wheel.max_speed_radps = motor.no_load_radps;
   wheel.max_torque_nm = motor.stall_nm;
+  wheel.motor = DriveOf(m, a).value_or(VelocityDrive{});
   wheel.block = compiled.BlockOf(body);
   // The wheel's axle, to the left; its own forward lies a quarter turn to the right of it.
   const mjtNum* axis_W = compiled.data()->xaxis + 3 * joint;

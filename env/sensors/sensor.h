@@ -25,6 +25,8 @@ struct SensorContext {
   const HazardMap& map;  // the true one
   const RobotSpec& robot;
   double control_s = 0.02;
+  // Torque of each actuator at the last step, N m, as it changes from step to step.
+  std::span<const double> motor_nm = {};
 };
 
 class Sensor : public Configurable {

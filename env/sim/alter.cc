@@ -29,6 +29,7 @@ void Simulation::Alter(const Alterations& alterations) {
   RequireOneEach(alterations.wheel_torque, robot_.wheels.size(), "wheel_torque");
   RequireOneEach(alterations.roller_drag, robot_.wheels.size(), "roller_drag");
   RequireOneEach(alterations.wheel_stuck_radps, robot_.wheels.size(), "wheel_stuck_radps");
+  RequireOneEach(alterations.wheel_friction, robot_.wheels.size(), "wheel_friction");
   const bool has_rollers =
       std::ranges::any_of(robot_.wheels, [](const WheelSpec& w) { return w.roller_radius_m > 0; });
   if (!alterations.roller_drag.empty() && !has_rollers)
@@ -54,7 +55,8 @@ void Simulation::AlterMotors() {
   for (int a = 0; a < own_->nu; ++a) {
     const auto wheel = static_cast<std::size_t>(a);
     const bool weak = wheel < altered_.wheel_torque.size();
-    const double share = weak ? altered_.wheel_torque[wheel] : 1;
+    const double given = weak ? altered_.wheel_torque[wheel] : 1;
+    const double share = wheel < cut_.size() && cut_[wheel] ? 0 : given;
     const mjtNum* was = built->actuator_gainprm + mjNGAIN * a;
     mjtNum* gain = own_->actuator_gainprm + mjNGAIN * a;
     constexpr int kResistance = 0, kVelocity = 6;
@@ -69,6 +71,12 @@ void Simulation::AlterMotors() {
 
 void Simulation::AlterFriction() {
   const mjModel* built = scene_.model.get();
+  // None: as built.
+  const auto most_of_wheel = [&](int wheel) -> std::optional<double> {
+    const auto at = static_cast<std::size_t>(wheel);
+    return wheel >= 0 && at < altered_.wheel_friction.size() ? altered_.wheel_friction[at]
+                                                             : std::nullopt;
+  };
   // Whether it has the floor's friction: walls have their own, and hazards may.
   const auto is_floor = [&](int geom) {
     const GeomRole& role = scene_.roles[static_cast<std::size_t>(geom)];
@@ -76,9 +84,6 @@ void Simulation::AlterFriction() {
     return role.hazard < 0 ||
            !map_.hazards[static_cast<std::size_t>(role.hazard)].material.friction.has_value();
   };
-  for (int g = 0; g < own_->ngeom; ++g)
-    if (is_floor(g))
-      own_->geom_friction[3 * g] = built->geom_friction[3 * g] * altered_.floor_friction;
   // The driven wheel that a geom belongs to: itself, or a roller on it.
   const auto wheel_of = [&](int geom) {
     for (int body = own_->geom_bodyid[geom]; body > 0; body = own_->body_parentid[body])
@@ -86,18 +91,41 @@ void Simulation::AlterFriction() {
         return static_cast<int>(at - wheel_bodies_.begin());
     return -1;
   };
+  for (int g = 0; g < own_->ngeom; ++g) {
+    const mjtNum* was = built->geom_friction + 3 * g;
+    mjtNum* friction = own_->geom_friction + 3 * g;
+    if (is_floor(g)) friction[0] = was[0] * altered_.floor_friction;
+    if (const int wheel = wheel_of(g); wheel >= 0) AlterGrip(g, most_of_wheel(wheel));
+  }
   for (int p = 0; p < own_->npair; ++p) {
     const std::array geoms = {own_->pair_geom1[p], own_->pair_geom2[p]};
     const mjtNum* was = built->pair_friction + 5 * p;
     mjtNum* friction = own_->pair_friction + 5 * p;
     const bool floor = std::ranges::any_of(geoms, is_floor);
     for (int i = 0; i < 2; ++i) friction[i] = was[i] * (floor ? altered_.floor_friction : 1);
-    if (altered_.roller_drag.empty()) continue;
-    for (const int geom : geoms)
-      if (const int wheel = wheel_of(geom); wheel >= 0)
+    for (const int geom : geoms) {
+      const int wheel = wheel_of(geom);
+      if (const auto most = most_of_wheel(wheel))
+        for (int i = 0; i < 2; ++i) friction[i] = std::min(friction[i], *most);
+      if (wheel >= 0 && !altered_.roller_drag.empty())
         friction[1] +=
             altered_.roller_drag[static_cast<std::size_t>(wheel)] * (friction[0] - friction[1]);
+    }
   }
+}
+
+// What is met rules over friction (scene.cc), but for a wheel that finds less. The softness of the
+// contact stays the floor's.
+void Simulation::AlterGrip(int geom, std::optional<double> most) {
+  constexpr int kOverAll = 3;
+  const mjModel* built = scene_.model.get();
+  const auto floor = std::ranges::find(scene_.roles, GeomRole::Kind::kFloor, &GeomRole::kind);
+  const auto like = most ? static_cast<int>(floor - scene_.roles.begin()) : geom;
+  own_->geom_priority[geom] = most ? kOverAll : built->geom_priority[geom];
+  std::copy_n(built->geom_solref + mjNREF * like, mjNREF, own_->geom_solref + mjNREF * geom);
+  std::copy_n(built->geom_solimp + mjNIMP * like, mjNIMP, own_->geom_solimp + mjNIMP * geom);
+  own_->geom_friction[3 * geom] =
+      most ? std::min(*most, own_->geom_friction[3 * like]) : built->geom_friction[3 * geom];
 }
 
 // Rollers that are bodies are braked in their bearings: by the share of what the floor can turn

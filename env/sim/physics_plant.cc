@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "env/core/standing.h"
+
 namespace floorproof {
 
 PhysicsPlant::PhysicsPlant(const Scene& scene, const HazardMap& map, const RobotSpec& robot,
@@ -23,15 +25,18 @@ PhysicsPlant::PhysicsPlant(const Scene& scene, const HazardMap& map, const Robot
 
 void PhysicsPlant::Reset(const Pose2& X_WB, Observation& sensed) {
   faults_.Start({robot_, sensor_names_});
+  begun_ = false;
   UpdateFaults(0);
   simulation_.Reset(X_WB);
+  begun_ = true;
   for (const auto& [name, sensor, implied] : sensors_)
-    sensor->Start({scene_, map_, robot_, control_s_}, simulation_.data(), truth(),
-                  stream_of_("sensors." + name), sensed);
+    sensor->Start({scene_, map_, robot_, control_s_, simulation_.motor_nm()}, simulation_.data(),
+                  truth(), stream_of_("sensors." + name), sensed);
 }
 
 void PhysicsPlant::Apply(const Actuation& actuation) {
   simulation_.SetWheelSpeeds(actuation.wheel_radps);
+  simulation_.CutMotors(actuation.cut);
   simulation_.SetHingeSpeeds(actuation.hinges);
 }
 
@@ -66,6 +71,21 @@ void PhysicsPlant::Alter(const Alterations& alterations) {
                  alterations.silent_sensors.end();
   bump_stuck_rad_ = alterations.bump_stuck_rad;
   simulation_.Alter(alterations);
+  if (alterations.carried) Carry(*alterations.carried);
+}
+
+// As far as it can stand there: whoever takes it up does not set it down in a wall. Before an
+// episode it stands where it is put.
+void PhysicsPlant::Carry(const Pose2& X_BC) {
+  constexpr int kShares = 20;
+  const Pose2 from = truth().X_WB();
+  for (int share = kShares; share > 0 && begun_; --share) {
+    const double part = static_cast<double>(share) / kShares;
+    const Pose2 to = from * Pose2{part * X_BC.x_m, part * X_BC.y_m, part * X_BC.yaw_rad};
+    if (!StandAt(map_, robot_, to).obstruction.empty()) continue;
+    simulation_.CarryTo(to);
+    return;
+  }
 }
 
 }  // namespace floorproof

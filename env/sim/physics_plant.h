@@ -41,6 +41,7 @@ class PhysicsPlant final : public Plant {
 
  private:
   void UpdateFaults(double t_s);
+  void Carry(const Pose2& X_BC);
 
   const Scene& scene_;
   const HazardMap& map_;
@@ -53,6 +54,7 @@ class PhysicsPlant final : public Plant {
   Simulation simulation_;
   std::vector<char> silent_;  // by sensor
   std::optional<double> bump_stuck_rad_;
+  bool begun_ = false;  // the episode: it stands on the floor
 };
 
 }  // namespace floorproof

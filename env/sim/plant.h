@@ -16,6 +16,7 @@ struct Actuation {
   BodyTwist twist;                      // of the body
   std::span<const double> wheel_radps;  // the same by driven wheel, RobotSpec's order
   HingeState hinges;                    // the rates that their motors hold
+  std::span<const char> cut = {};       // wheels whose motors are cut off their power; empty: none
 };
 
 class Plant {

@@ -31,13 +31,10 @@ bool Diverged(const mjData* d) {
 }  // namespace
 
 double MotorTorque(const mjModel* m, const mjData* d, int actuator) {
-  const mjtNum* gain = m->actuator_gainprm + mjNGAIN * actuator;
-  constexpr int kPosition = 4, kVelocity = 6;  // gains of the driver
-  if (gain[kPosition] != 0 || gain[kVelocity] == 0) return d->actuator_force[actuator];
-  const double most_nm =
-      m->actuator_forcelimited[actuator] ? m->actuator_forcerange[2 * actuator + 1] : 0;
-  return DriveTorque({gain[0], gain[1], gain[kVelocity], DriverVoltage(m, actuator), most_nm},
-                     d->ctrl[actuator], d->qvel[m->jnt_dofadr[m->actuator_trnid[2 * actuator]]]);
+  const auto drive = DriveOf(m, actuator);
+  if (!drive) return d->actuator_force[actuator];
+  return DriveTorque(*drive, d->ctrl[actuator],
+                     d->qvel[m->jnt_dofadr[m->actuator_trnid[2 * actuator]]]);
 }
 
 Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec& robot)
@@ -48,6 +45,8 @@ Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec
       live_(scene, *own_),
       data_(MakeData(scene.model.get())),
       contacts_(scene, map, robot),
+      cut_(robot.wheels.size(), 0),
+      motor_nm_(static_cast<std::size_t>(scene.model->nu)),
       battery_(robot.battery),
       voltage_changes_(robot.battery.resistance_ohm > 0 || robot.battery.capacity_wh) {
   const mjModel* m = model();
@@ -81,6 +80,7 @@ void Simulation::Reset(const Pose2& X_WB) {
   battery_ = BatteryInUse(robot_.battery);
   battery_.Weaken(altered_.battery_voltage);
   truth_ = Truth{};
+  CutMotors({});
   Settle(X_WB, 0);
 }
 
@@ -94,6 +94,13 @@ void Simulation::SetDown(const Pose2& X_WB) {
   mj_resetData(model(), d);
   for (std::size_t w = 0; w < turned_rad.size(); ++w) d->qpos[wheel_qpos_[w]] = turned_rad[w];
   Settle(X_WB, t_s);
+}
+
+void Simulation::CarryTo(const Pose2& X_WB) {
+  const std::vector<mjtNum> orders(data_->ctrl, data_->ctrl + model()->nu);
+  SetDown(X_WB);
+  std::ranges::copy(orders, data_->ctrl);
+  ++truth_.carried;
 }
 
 // Springs and contacts take a moment to carry the weight: it stands still for that long while the
@@ -133,6 +140,16 @@ void Simulation::Settle(const Pose2& X_WB, double t_s) {
 void Simulation::SetWheelSpeeds(std::span<const double> wheel_radps) {
   std::copy(wheel_radps.begin(), wheel_radps.end(), data_->ctrl);
   HoldStuckWheels();
+}
+
+void Simulation::CutMotors(std::span<const char> cut) {
+  const auto is_cut = [&](std::size_t w) { return w < cut.size() && cut[w] != 0; };
+  bool changed = false;
+  for (std::size_t w = 0; w < cut_.size(); ++w)
+    changed |= std::exchange(cut_[w], is_cut(w) ? 1 : 0) != (is_cut(w) ? 1 : 0);
+  if (!changed) return;
+  AlterMotors();
+  SetDriverVoltages();
 }
 
 void Simulation::HoldStuckWheels() {
@@ -222,7 +239,9 @@ void Simulation::ReadPower(double dt_s) {
   for (int a = 0; a < m->nu; ++a) {
     const mjtNum* gain = m->actuator_gainprm + mjNGAIN * a;
     const int dof = m->jnt_dofadr[m->actuator_trnid[2 * a]];
-    load_w += MotorPower(MotorTorque(m, d, a), d->qvel[dof], gain[0], gain[1]);
+    double& torque_nm = motor_nm_[static_cast<std::size_t>(a)];
+    torque_nm = MotorTorque(m, d, a);
+    load_w += MotorPower(torque_nm, d->qvel[dof], gain[0], gain[1]);
   }
   const BatteryOutput out = battery_.Feed(load_w, dt_s);
   truth_.power_w = out.power_w();

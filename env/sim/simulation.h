@@ -2,6 +2,7 @@
 // Steps the physics and says, after each step, what truly happened.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,8 +33,13 @@ class Simulation {
   // shape, its motors told to stand still. Time and battery go on as they were, and the driven
   // wheels have not turned: no encoder notices.
   void SetDown(const Pose2& X_WB);
+  // The same by what befalls it, its orders as they were: Truth::carried counts it.
+  void CarryTo(const Pose2& X_WB);
   // Speeds that the wheels' motor drivers hold from now on, rad/s, RobotSpec's order.
   void SetWheelSpeeds(std::span<const double> wheel_radps);
+  // Which motors of the wheels are cut off their power from now on, a flag each, or none at all:
+  // they give nothing, and turn freely.
+  void CutMotors(std::span<const char> cut);
   // The same for the motors of the hinges: the rates alone count.
   void SetHingeSpeeds(const HingeState& hinges);
   // One physics step; false when the state diverged (MuJoCo warned, or a number is not finite):
@@ -54,6 +60,8 @@ class Simulation {
   // For rigs that tilt gravity or brake wheels.
   mjModel* model() { return live_.model(); }
   mjData* data() { return data_.get(); }
+  // By actuator, N m at the joint, as at the last step. The span holds as long as this does.
+  std::span<const double> motor_nm() const { return motor_nm_; }
   // As at the last step, since Reset.
   const BatteryInUse& battery() const { return battery_; }
 
@@ -67,6 +75,7 @@ class Simulation {
   void HoldStuckWheels();
   void AlterMotors();
   void AlterFriction();
+  void AlterGrip(int geom, std::optional<double> most);
   void AlterRollerBearings();
   void AlterPayload();
 
@@ -79,6 +88,8 @@ class Simulation {
   ContactReader contacts_;
   Truth truth_;
   Alterations altered_;
+  std::vector<char> cut_;  // by wheel
+  std::vector<double> motor_nm_;
   BatteryInUse battery_;
   bool voltage_changes_ = false;             // of the motors' drivers
   std::vector<int> wheel_bodies_;            // of the driven wheels, in actuator order

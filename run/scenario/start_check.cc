@@ -52,10 +52,11 @@ void CheckStarts(const ConfigNode& root, Scenario& s) {
   const DataPtr data = MakeData(scene.model.get());
   ForwardEngine(scene.model.get(), data.get());
   Observation sensed;
+  const std::vector<double> motor_nm(static_cast<std::size_t>(scene.model->nu));
   for (const auto& [name, sensor, implied] : s.sensors)
     Check(root, [&, &name = name, &sensor = sensor] {
-      sensor->Start({scene, bare, s.robot.spec, 1.0 / s.episode.control_hz}, data.get(), {},
-                    Stream(0, 0, name), sensed);
+      sensor->Start({scene, bare, s.robot.spec, 1.0 / s.episode.control_hz, motor_nm}, data.get(),
+                    {}, Stream(0, 0, name), sensed);
     });
 }
 

@@ -150,6 +150,7 @@ TEST_P(FaultConformance, BreaksOnTopOfWhatIsBroken) {
   Alterations built, broken;
   built.wheel_torque.assign(n, 1);
   built.wheel_stuck_radps.assign(n, {});
+  built.wheel_friction.assign(n, {});
   built.roller_drag.assign(n, 0);
   broken = built;
   broken.wheel_torque.assign(n, 0.5);

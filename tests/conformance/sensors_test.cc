@@ -69,6 +69,10 @@ std::vector<double> Told(const Observation& o, Reading reading) {
       for (int i = 0; i < o.cliffs.n; ++i)
         add({o.cliffs.p_B[i].x(), o.cliffs.p_B[i].y(), o.cliffs.drop[i] ? 1.0 : 0.0});
       break;
+    case Reading::kPower:
+      add({o.power.heard ? 1.0 : 0.0, o.power.battery_v});
+      told.insert(told.end(), o.power.motor_a.begin(), o.power.motor_a.end());
+      break;
     case Reading::kTruth:
       if (o.truth)
         add({o.truth->X_WB.x_m, o.truth->X_WB.y_m, o.truth->X_WB.yaw_rad, o.truth->V_WB_B.vx_mps,

@@ -149,6 +149,34 @@ TEST_F(FaultsTest, AStuckMotorRunsAtAShareOfItsSpeedWithoutLoad) {
   EXPECT_THAT(At(0, robot).wheel_stuck_radps, ElementsAre(std::nullopt, 0)) << "0 is no none";
 }
 
+TEST_F(FaultsTest, OfTwoSlipperyTreadsTheSlipperierCounts) {
+  Add("slippery_wheel", "{wheel: left, friction: 0.05}");
+  Add("slippery_wheel", "{}");
+  EXPECT_THAT(At(0).wheel_friction, ElementsAre(0.05, 0.1));
+}
+
+// Also where other faults come and go meanwhile.
+TEST_F(FaultsTest, ARobotIsKidnappedOnceEachTime) {
+  Add("kidnapped", "{forward_m: 1, left_m: 0, turn_deg: 90}",
+      {.onset_s = 1, .duration_s = {}, .period_s = 4});
+  Add("battery_sag", "{}", {.onset_s = 2, .duration_s = {}, .period_s = 0.5});
+  const RobotSpec robot = TwoWheels();
+  FaultSchedule dut(faults_);
+  dut.Start({robot, sensors_});
+  int carried = 0;
+  for (int i = 0; i < 1000; ++i)
+    if (const Alterations* now = dut.Update(0.01 * i)) carried += now->carried ? 1 : 0;
+  EXPECT_EQ(carried, 3) << "after 1, 5 and 9 s";
+}
+
+TEST_F(FaultsTest, WhoIsKidnappedTwiceAtOnceIsCarriedOnFromThere) {
+  Add("kidnapped", "{forward_m: 1, left_m: 0, turn_deg: 90}");
+  Add("kidnapped", "{forward_m: 1, left_m: 0, turn_deg: 0}");
+  const Pose2 carried = At(0).carried.value();
+  EXPECT_NEAR(carried.x_m, 1, 1e-12);
+  EXPECT_NEAR(carried.y_m, 1, 1e-12);
+}
+
 TEST_F(FaultsTest, AStuckBumperSaysWhere) {
   Add("stuck_bumper", "{bearing_deg: 90}");
   EXPECT_THAT(WhyNot(), HasSubstr("sensor = bumper: the robot carries no such sensor"));

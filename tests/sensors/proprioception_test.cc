@@ -77,6 +77,38 @@ TEST(Encoders, ABiasedWheelTellsMore) {
 constexpr const char* kExactImu =
     "{gyro_noise_radps: 0, gyro_bias_radps: 0, accel_noise_mps2: 0, accel_bias_mps2: 0}";
 
+// Newton's law through the motors: what they drive is what the robot gains, but for losses.
+TEST(Power, CurrentsAreTheTorqueThatSpeedsTheRobotUp) {
+  SensorRig rig(Room(6, 4), "beluga", {2, 3, 0});
+  rig.Carry(MakeSensor("power", "{current_noise_a: 0, voltage_noise_v: 0}"));
+  double impulse_ns = 0;
+  const WheelSpec& wheel = rig.robot().wheels[0];
+  const double constant = wheel.motor.constant;
+  for (int i = 1; i <= 40; ++i) {
+    const Observation& told = rig.Drive({0.01 * i, 0, 0});
+    for (const double a : told.power.motor_a)
+      impulse_ns += a * constant / wheel.radius_m * SensorRig::kControl_s;
+  }
+  const double gained_ns = rig.robot().mass_kg * rig.truth().V_WB_B.vx_mps;
+  EXPECT_GT(impulse_ns, gained_ns);
+  EXPECT_LT(impulse_ns, 1.6 * gained_ns) << "wheels turn too, and casters rub";
+  EXPECT_GT(gained_ns, 2);
+}
+
+TEST(Power, TellsTheBatterysVoltageAndWhatIsSilentTellsNone) {
+  SensorRig rig(Room(6, 4), "htetro", {2, 3, 0});
+  auto sensor = MakeSensor("power", "{voltage_noise_v: 0}");
+  const Sensor& dut = *sensor;
+  rig.Carry(std::move(sensor));
+  Observation told = rig.Drive({0.2, 0, 0});
+  EXPECT_TRUE(told.power.heard);
+  EXPECT_NEAR(told.power.battery_v, rig.truth().battery_v, 1e-12);
+  EXPECT_EQ(told.power.motor_a.size(), 16u);
+  dut.Silence(told);
+  EXPECT_FALSE(told.power.heard);
+  EXPECT_EQ(told.power.battery_v, 0);
+}
+
 TEST(Imu, AtRestTellsGravityAlone) {
   SensorRig rig(Room(4, 4), "beluga", {3, 3, 0});
   rig.Carry(MakeSensor("imu", kExactImu));

@@ -69,8 +69,8 @@ class SensorRig {
   }
   // The sensor that it carries, in another episode.
   void Start(std::uint64_t seed = 1) {
-    sensor_->Start({scene_, map_, robot_.spec, kControl_s}, sim_.data(), sim_.truth(),
-                   Stream(seed, 0, "noise"), sensed_);
+    sensor_->Start({scene_, map_, robot_.spec, kControl_s, sim_.motor_nm()}, sim_.data(),
+                   sim_.truth(), Stream(seed, 0, "noise"), sensed_);
   }
   const Observation& Sense() {
     sensed_.t_s = sim_.truth().t_s;

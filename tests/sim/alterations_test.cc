@@ -69,6 +69,7 @@ class AlteredDrive {
   }
   const RobotSpec& spec() const { return robot_.spec; }
   const Scene& scene() const { return scene_; }
+  const HazardMap& map() const { return map_; }
   double most_torque_nm() const { return most_torque_nm_; }
 
  private:
@@ -209,6 +210,76 @@ TEST_P(AlterationsOf, StuckMotorsRunAsIfTheyHadBeenTold) {
   EXPECT_GT(told.p_WB.head<2>().norm(), 0.2);
 }
 
+// Braking from a stand: what the floor gives is friction times weight, and no more.
+TEST_P(AlterationsOf, SlipperyWheelsSpeedUpByTheirFriction) {
+  AlteredDrive dut(GetParam());
+  constexpr double kFriction = 0.03;
+  const std::vector<std::optional<double>> slippery(dut.spec().wheels.size(), kFriction);
+  const BodyTwist fast{0.4, 0, 0};
+  const double t_s = 0.5, most_m = kFriction * 9.81 * t_s * t_s / 2;
+  const double slides_m = dut.Run({.wheel_friction = slippery}, fast, t_s).p_WB.x();
+  EXPECT_LT(slides_m, 1.05 * most_m);
+  EXPECT_GT(slides_m, 0.4 * most_m);
+  EXPECT_GT(dut.Run({}, fast, t_s).p_WB.x(), 3 * most_m);
+}
+
+TEST(Alterations, OneSlipperyWheelTurnsBelugaAsItSpeedsUp) {
+  AlteredDrive dut("beluga");
+  const Truth slips = dut.Run({.wheel_friction = {0.02, {}}}, {0.4, 0, 0}, 1);
+  EXPECT_GT(slips.yaw_rad, 0.1) << "its left one";
+  EXPECT_LT(dut.Run({.wheel_friction = {{}, 0.02}}, {0.4, 0, 0}, 1).yaw_rad, -0.1);
+  EXPECT_NEAR(dut.Run({.wheel_friction = {5, 5}}, {0.4, 0, 0}, 1).yaw_rad, 0, 1e-3);
+}
+
+TEST_P(AlterationsOf, MotorsThatAreCutOffGiveNothing) {
+  AlteredDrive dut(GetParam());
+  const std::size_t n = dut.spec().wheels.size();
+  Simulation sim(dut.scene(), dut.map(), dut.spec());
+  const auto drive = MakePlugin(Drives(), dut.spec().drive, "drive");
+  drive->Configure(dut.spec());
+  std::vector<double> wheels(n);
+  drive->ToWheels({0.2, 0, 0}, wheels);
+  sim.Reset({});
+  const auto run = [&](double for_s, std::span<const char> cut) {
+    double most_nm = 0;
+    for (const double until_s = sim.truth().t_s + for_s; sim.truth().t_s < until_s;) {
+      sim.SetWheelSpeeds(wheels);
+      sim.CutMotors(cut);
+      EXPECT_TRUE(sim.Step());
+      for (std::size_t w = 0; w < n; ++w) most_nm = std::max(most_nm, std::abs(sim.motor_nm()[w]));
+    }
+    return most_nm;
+  };
+  EXPECT_GT(run(1, {}), 0.01);
+  EXPECT_GT(sim.truth().V_WB_B.vx_mps, 0.15);
+  EXPECT_LT(run(5, std::vector<char>(n, 1)), 1e-9);
+  EXPECT_LT(sim.truth().V_WB_B.vx_mps, 0.02) << "it rolls out";
+  run(1, {});
+  EXPECT_GT(sim.truth().V_WB_B.vx_mps, 0.15) << "and drives again";
+}
+
+TEST(PhysicsPlant, ARobotIsCarriedAsFarAsItCanStand) {
+  HazardMap map = Floor();
+  for (int iy = 0; iy < 40; ++iy) map.occupancy(23, iy) = CellState::kOccupied;  // x from 1.5 m
+  const RobotModel robot = ReadRobot(FindRobotFile("beluga", {}));
+  const Scene scene = BuildScene(map, robot, {}, {});
+  std::vector<NamedSensor> sensors;
+  PhysicsPlant dut(scene, map, robot.spec, sensors, {}, kControl_s,
+                   [](const std::string& name) { return Stream(7, 0, name); });
+  Observation sensed;
+  dut.Reset({0, 0, 0}, sensed);
+  dut.Alter({.carried = Pose2{0, 1, kPi / 2}});
+  EXPECT_EQ(dut.truth().carried, 1);
+  EXPECT_NEAR(dut.truth().X_WB().y_m, 1, 1e-3);
+  EXPECT_NEAR(dut.truth().yaw_rad, kPi / 2, 1e-3);
+  dut.Alter({.carried = Pose2{0, -1.6, 0}});  // to the east, into the wall
+  EXPECT_GT(dut.truth().X_WB().x_m, 1);
+  EXPECT_LT(dut.truth().X_WB().x_m, 1.5 - robot.spec.inscribed_radius_m + 0.01);
+  EXPECT_EQ(dut.truth().carried, 2);
+  dut.Reset({0, 0, 0}, sensed);
+  EXPECT_EQ(dut.truth().carried, 0);
+}
+
 TEST(Alterations, BlockedRollersKeepAMecanumRobotFromGoingSideways) {
   AlteredDrive dut("htetro");
   const BodyTwist left{0, 0.1, 0};
@@ -230,6 +301,7 @@ TEST(Alterations, OfWhatTheRobotHasNotAreRefused) {
     return "taken";
   };
   EXPECT_THAT(why({.wheel_torque = {1, 1, 1}}), HasSubstr("wheel_torque"));
+  EXPECT_THAT(why({.wheel_friction = {0.1}}), HasSubstr("wheel_friction"));
   EXPECT_THAT(why({.wheel_stuck_radps = {std::nullopt}}), HasSubstr("wheel_stuck_radps"));
   EXPECT_THAT(why({.roller_drag = {1, 1}}), HasSubstr("no rollers"));
 }
