@@ -42,6 +42,8 @@ class DifferentialDrive final : public Drive {
     axle_x_m_ = 0.5 * (robot.wheels[0].p_BW.x() + robot.wheels[1].p_BW.x());
   }
 
+  bool Exclude(std::span<const char> wheels) override { return !wheels[0] && !wheels[1]; }
+
   void ToWheels(const BodyTwist& twist, HingeState&, std::span<double> wheel_radps) const override {
     double scale = 1;
     for (std::size_t i = 0; i < 2; ++i) {

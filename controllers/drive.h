@@ -22,6 +22,11 @@ class Drive {
   // Reads radii and places of the wheels; throws InputError when the robot lacks what the drive
   // needs.
   virtual void Configure(const RobotSpec& robot) = 0;
+  // From now on these wheels, a flag each, are out of use: what they turn says nothing of the
+  // twist, and their motors' speeds bound nothing. They are still told to turn along, so that they
+  // drag less. False, and nothing changes, where the others cannot move the robot every way that it
+  // could. Not before Configure.
+  virtual bool Exclude(std::span<const char> wheels) = 0;
   // Wheel speeds (rad/s, in RobotSpec's order) for a twist. Components that the drive cannot follow
   // are dropped. `hinges` says how the blocks that carry the wheels stand and are to move. When a
   // wheel would exceed its motor's no-load speed, all wheel speeds and the hinges' rates are scaled

@@ -35,6 +35,8 @@ class Estimator : public Configurable {
   // Throws InputError where map or robot do not let it work, its line beginning with the key: it is
   // heard when a scenario is read (run/scenario/start_check.h).
   virtual void Start(const EstimatorContext& context) = 0;
+  // What these wheels turn, a flag each, is not to be believed any more, until Start.
+  virtual void Exclude(std::span<const char>) {}
   // One control period.
   virtual Estimate Update(const Observation& sensed, double dt_s) = 0;
 };

@@ -63,6 +63,7 @@ class HolonomicFollower final : public Tracker {
     progress_.Start(path, limits, params_.corner_tolerance_m);
     compliance_.Start(robot, kBearableShare * Radians(params_.recover_deg));
     twist_ = {};
+    share_ = 1;
     reconfiguration_.Start(robot);
     FindWays(robot);
     duration_s_ = DriveTime(progress_.reference(),
@@ -77,6 +78,8 @@ class HolonomicFollower final : public Tracker {
     progress_.Extend(path);
     ways_.assign(progress_.reference().vertices.size(), {});
   }
+
+  void Slow(double share) override { share_ = share; }
 
   double Duration() const override { return duration_s_; }
 
@@ -192,12 +195,12 @@ class HolonomicFollower final : public Tracker {
   // Moves the command towards what is wanted as fast as the robot's accelerations allow.
   void Slew(const Vec2& v_B, double wz_radps, double dt_s) {
     const Vec2 last(twist_.vx_mps, twist_.vy_mps);
-    Vec2 change = v_B - last;
+    Vec2 change = share_ * v_B - last;
     change *= std::min(1.0, accel_mps2_ * dt_s / std::max(change.norm(), 1e-12));
     twist_.vx_mps = last.x() + change.x();
     twist_.vy_mps = last.y() + change.y();
     const double dw = yaw_accel_radps2_ * dt_s;
-    twist_.wz_radps = std::clamp(wz_radps, twist_.wz_radps - dw, twist_.wz_radps + dw);
+    twist_.wz_radps = std::clamp(share_ * wz_radps, twist_.wz_radps - dw, twist_.wz_radps + dw);
   }
 
   FollowerParams params_{.corner_cut_m = 0.003,
@@ -212,6 +215,7 @@ class HolonomicFollower final : public Tracker {
   Compliance compliance_;
   double cruise_mps_ = 0, accel_mps2_ = 0, yaw_rate_radps_ = 0, yaw_accel_radps2_ = 0;
   BodyTwist twist_;  // last commanded
+  double share_ = 1;
 
   Reconfiguration reconfiguration_;
   std::vector<HingeWay> ways_;  // by vertex: of the change of shape there, if any

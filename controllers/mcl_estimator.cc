@@ -69,6 +69,8 @@ class MclEstimator final : public Estimator {
     X_WB_ = particles_->Best();
   }
 
+  void Exclude(std::span<const char> wheels) override { odometry_.Exclude(wheels); }
+
   Estimate Update(const Observation& sensed, double dt_s) override {
     const BodyTwist twist = odometry_.Update(sensed, dt_s);
     X_WB_ = Moved(X_WB_, twist, dt_s);

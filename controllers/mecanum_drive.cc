@@ -47,13 +47,22 @@ class MecanumDrive final : public Drive {
       const auto block = static_cast<std::size_t>(hinges_.empty() ? 0 : wheel.block);
       wheels_.push_back({block, start.block[block].X_BK.Inverse() * X_BW,
                          1 / std::tan(wheel.roller_angle_rad), wheel.radius_m,
-                         wheel.max_speed_radps});
+                         wheel.max_speed_radps, false});
       to_wheels_.row(static_cast<Eigen::Index>(wheels_.size()) - 1) = wheels_.back().Row(X_BW);
     }
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixX3d> solver(to_wheels_);
-    if (solver.rank() < 3)
+    if (!Exclude(std::vector<char>(wheels_.size(), 0)))
       refuse("these wheels cannot turn and move every way: some need rollers of the other hand");
-    to_twist_ = solver.solve(Eigen::MatrixXd::Identity(n, n));
+  }
+
+  bool Exclude(std::span<const char> wheels) override {
+    Eigen::MatrixX3d rows = to_wheels_;
+    for (Eigen::Index i = 0; i < rows.rows(); ++i)
+      if (wheels[static_cast<std::size_t>(i)]) rows.row(i).setZero();
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixX3d> solver(rows);
+    if (solver.rank() < 3) return false;
+    to_twist_ = solver.solve(Eigen::MatrixXd::Identity(rows.rows(), rows.rows()));
+    for (std::size_t i = 0; i < wheels_.size(); ++i) wheels_[i].out = wheels[i] != 0;
+    return true;
   }
 
   void ToWheels(const BodyTwist& twist, HingeState& hinges,
@@ -65,7 +74,7 @@ class MecanumDrive final : public Drive {
     for (std::size_t i = 0; i < wheels_.size(); ++i) {
       wheel_radps[i] = hinges.n > 0 ? wheels_[i].Row(motions).dot(V) + wheels_[i].Swing(motions)
                                     : to_wheels_.row(static_cast<Eigen::Index>(i)).dot(V);
-      const double speed = std::abs(wheel_radps[i]);
+      const double speed = wheels_[i].out ? 0 : std::abs(wheel_radps[i]);
       if (speed > wheels_[i].max_speed_radps)
         scale = std::min(scale, wheels_[i].max_speed_radps / speed);
     }
@@ -83,6 +92,7 @@ class MecanumDrive final : public Drive {
       const BlockMotions motions = MoveBlocks(blocks_, hinges_, hinges);
       Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
       for (std::size_t i = 0; i < wheels_.size(); ++i) {
+        if (wheels_[i].out) continue;
         const Vec3 row = wheels_[i].Row(motions);
         normal += row * row.transpose();
         twist += row * (wheel_radps[i] - wheels_[i].Swing(motions));
@@ -97,6 +107,7 @@ class MecanumDrive final : public Drive {
     std::size_t block;  // that carries it, in whose frame K it stands
     Pose2 X_KW;
     double cot, radius_m, max_speed_radps;
+    bool out = false;  // of use
     Pose2 X_BW(const BlockMotions& motions) const { return motions.block[block].X_BK * X_KW; }
     // Its speed when its centre moves at v_B and its own x points along yaw_rad.
     double Speed(double yaw_rad, const Vec2& v_B) const {

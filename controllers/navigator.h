@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string_view>
 
 #include "env/core/motion.h"
@@ -12,6 +13,13 @@
 #include "env/known/known_map.h"
 
 namespace floorproof {
+
+// A straight way that a mission asks for.
+struct AskedLine {
+  int number = 0;  // another one: another line
+  Vec2 to_W = Vec2::Zero();
+  std::optional<double> speed_mps;  // none: the robot's own
+};
 
 // What a navigator may know in a control period.
 struct NavigatorInput {
@@ -22,6 +30,7 @@ struct NavigatorInput {
   bool at_end = false;              // of path()
   // It has just gone back from what it met on the way; and that was a drop, not a touch.
   bool recovered = false, met_drop = false;
+  const AskedLine* line = nullptr;  // nullptr: no mission asks for one
 };
 
 enum class PathChange {

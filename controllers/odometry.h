@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "controllers/drive.h"
@@ -15,6 +16,9 @@ class Odometry {
   void Start(const RobotSpec& robot);
   // The twist of the last period: travel from the wheels, turn from the gyro where there is one.
   BodyTwist Update(const Observation& sensed, double dt_s);
+
+  // See Drive::Exclude.
+  void Exclude(std::span<const char> wheels) { drive_->Exclude(wheels); }
 
  private:
   std::unique_ptr<Drive> drive_;

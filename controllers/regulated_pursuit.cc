@@ -55,6 +55,7 @@ class RegulatedPursuit final : public Tracker {
     bend_yaw_rate_radps_ = limits.yaw_rate_radps;
     progress_.Start(path, limits, params_.corner_tolerance_m);
     twist_ = {};
+    share_ = 1;
     turn_side_ = 0;
     duration_s_ = DriveTime(progress_.reference(),
                             {limits, params_.corner_tolerance_m,
@@ -64,6 +65,8 @@ class RegulatedPursuit final : public Tracker {
   }
 
   void Extend(const Path& path) override { progress_.Extend(path); }
+
+  void Slow(double share) override { share_ = share; }
 
   double Duration() const override { return duration_s_; }
 
@@ -134,6 +137,8 @@ class RegulatedPursuit final : public Tracker {
 
   // Moves the command towards what is wanted as fast as the robot's accelerations allow.
   void Slew(double vx_mps, std::optional<double> wz_radps, double dt_s, double curvature = 0) {
+    vx_mps *= share_;
+    if (wz_radps) *wz_radps *= share_;
     const double dv = accel_mps2_ * dt_s, dw = yaw_accel_radps2_ * dt_s;
     twist_.vx_mps = std::clamp(vx_mps, twist_.vx_mps - dv, twist_.vx_mps + dv);
     const double wanted =
@@ -154,6 +159,7 @@ class RegulatedPursuit final : public Tracker {
   PathProgress progress_;
   double accel_mps2_ = 0, yaw_rate_radps_ = 0, yaw_accel_radps2_ = 0, bend_yaw_rate_radps_ = 0;
   BodyTwist twist_;  // last commanded
+  double share_ = 1;
   int turn_side_ = 0;
   double duration_s_ = 0;
 };

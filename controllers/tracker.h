@@ -31,6 +31,9 @@ class Tracker : public Configurable {
   // before, or leaves it for what came into sight. The robot keeps moving. Its shape stays. May
   // allocate.
   virtual void Extend(const Path& path) = 0;
+  // From now on, until Start, its speeds and turns are at most this share of what they would be; 0:
+  // it comes to rest where it is, and stays.
+  virtual void Slow(double share) = 0;
   // What the path taken takes by its own speeds, where nothing goes wrong (s): ways, stops, turns,
   // dwells, folding, and slowing down beside what is known. Time limits are made from it.
   virtual double Duration() const = 0;

@@ -58,6 +58,28 @@ TEST_P(DriveConformance, TurnsOnTheSpotIfItSaysSo) {
   EXPECT_EQ(turns, dut_->turns_on_the_spot());
 }
 
+// What wheels turn that are out of use is not believed; without too many it cannot do.
+TEST_P(DriveConformance, WheelsOutOfUseSayNothing) {
+  const std::size_t n = robot().wheels.size();
+  std::vector<char> out(n, 0);
+  EXPECT_TRUE(dut_->Exclude(out));
+  out[0] = 1;
+  std::vector<double> wheels(n);
+  const BodyTwist twist{0.05, dut_->holonomic() ? 0.03 : 0, 0.1};
+  dut_->ToWheels(twist, wheels);
+  const BodyTwist all = dut_->ToTwist(wheels);
+  wheels[0] += 5;
+  if (dut_->Exclude(out)) {
+    const BodyTwist rest = dut_->ToTwist(wheels);
+    EXPECT_NEAR(rest.vx_mps, all.vx_mps, 1e-12);
+    EXPECT_NEAR(rest.vy_mps, all.vy_mps, 1e-12);
+    EXPECT_NEAR(rest.wz_radps, all.wz_radps, 1e-12);
+  }
+  EXPECT_FALSE(dut_->Exclude(std::vector<char>(n, 1)));
+  EXPECT_TRUE(dut_->Exclude(std::vector<char>(n, 0))) << "they may come back";
+  EXPECT_NE(dut_->ToTwist(wheels).vx_mps, all.vx_mps);
+}
+
 TEST_P(DriveConformance, SomeTrackerCommandsIt) {
   EXPECT_THAT(PluginNames(Trackers()), testing::Contains(DefaultTracker(robot().drive)));
 }
@@ -122,6 +144,32 @@ TEST_P(TrackerConformance, KeepsTheRobotsLimits) {
               robot().max_yaw_accel_radps2 * kDt + kSlack);
     last = step.twist;
   }
+}
+
+TEST_P(TrackerConformance, IsSlowedAndHeldByItsSupervision) {
+  const auto dut = Make();
+  const double whole_s = DriveAlong(*dut, kRows, {}, nullptr, robot()).steps.back().t_s;
+  DriveOptions options;
+  double share = 0.5;
+  Pose2 held;
+  options.push = [&](double t_s, Pose2& X_WB) {
+    if (t_s > 10 && t_s < 20) share = 0;
+    if (t_s > 20) share = 0.5;
+    if (t_s < 13) held = X_WB;
+    if (t_s < 20) {
+      EXPECT_LT((X_WB.p() - held.p()).norm(), 1e-3) << t_s;
+    }
+    dut->Slow(share);
+  };
+  const Driven driven = DriveAlong(*dut, kRows, options, nullptr, robot());
+  ASSERT_TRUE(driven.done);
+  for (const auto& step : driven.steps) {
+    if (step.t_s < 1) continue;
+    EXPECT_LE(std::hypot(step.twist.vx_mps, step.twist.vy_mps), robot().cruise_mps / 2 + 1e-9);
+  }
+  EXPECT_LT(driven.max_cross_track_m, 0.10);
+  EXPECT_GT(driven.steps.back().t_s, 10 + 1.5 * whole_s);
+  EXPECT_LT(driven.steps.back().t_s, 12 + 2.2 * whole_s);
 }
 
 TEST_P(TrackerConformance, StartForgetsThePathBefore) {
