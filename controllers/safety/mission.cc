@@ -20,8 +20,8 @@ constexpr std::pair<std::string_view, Severity> kSeverities[] = {
     {"absence", Severity::kAbsence},
     {"minor", Severity::kMinor},
     {"catastrophic", Severity::kCatastrophic}};
-constexpr std::pair<std::string_view, Extent> kExtents[] = {{"isolated", Extent::kIsolated},
-                                                            {"external", Extent::kExternal}};
+constexpr std::pair<std::string_view, HarmExtent> kExtents[] = {
+    {"isolated", HarmExtent::kIsolated}, {"external", HarmExtent::kExternal}};
 constexpr std::pair<std::string_view, Availability> kAvailabilities[] = {
     {"redundant", Availability::kRedundant},
     {"eminent", Availability::kEminent},
@@ -69,7 +69,7 @@ std::vector<std::string> NamesOf(const ConfigNode& map) {
 
 class MissionReader {
  public:
-  MissionReader(const ConfigNode& root, std::span<const std::string> types)
+  MissionReader(const ConfigNode& root, std::span<const PrimitiveType> types)
       : root_(root), types_(types) {}
 
   Mission Read() {
@@ -121,28 +121,25 @@ class MissionReader {
       primitive.name = primitive.type = name;
       const ConfigNode* type = node.Find("type");
       if (type != nullptr) primitive.type = AsString(*type, path + "type");
-      if (std::ranges::find(types_, primitive.type) == types_.end())
+      const auto known = std::ranges::find(types_, primitive.type, &PrimitiveType::name);
+      if (known == types_.end()) {
+        std::vector<std::string> names;
+        for (const PrimitiveType& t : types_) names.push_back(t.name);
         throw InputError(type != nullptr ? type->mark : node.mark, path + "type", primitive.type,
-                         "is no primitive" + Known(primitive.type, {types_.begin(), types_.end()}));
+                         "is no primitive" + DidYouMeanOneOf(primitive.type, names));
+      }
       FailureRating& rating = primitive.rating;
       ReadRating(node, "severity", path, Scale<Severity>(kSeverities), rating.severity);
-      ReadRating(node, "extent", path, Scale<Extent>(kExtents), rating.extent);
+      ReadRating(node, "extent", path, Scale<HarmExtent>(kExtents), rating.extent);
       ReadRating(node, "availability", path, Scale<Availability>(kAvailabilities),
                  rating.availability);
       ReadRating(node, "occurrence", path, Scale<Occurrence>(kOccurrences), rating.occurrence);
       primitive.params = node.IsMap() ? node : ConfigNode::Map();
+      primitive.params.mark = node.mark;
       for (const char* key : {"type", "severity", "extent", "availability", "occurrence"})
         primitive.params.Remove(key);
+      RefuseUnknownKeys(primitive.params, path, known->keys);
     }
-  }
-
-  static std::string Known(const std::string& name, const std::vector<std::string>& names) {
-    std::string text;
-    if (const std::string near = Nearest(name, names); !near.empty())
-      text += "; did you mean " + near + "?";
-    text += " (known:";
-    for (const std::string& known : names) text += " " + known;
-    return text + ")";
   }
 
   // One name for two things would not say which of them is meant.
@@ -173,7 +170,7 @@ class MissionReader {
     if (task == nullptr)
       throw InputError(named.mark, key, name,
                        std::string(skills_->Find(name) ? "is a skill, and no task" : "is no task") +
-                           Known(name, NamesOf(*tasks_)));
+                           DidYouMeanOneOf(name, NamesOf(*tasks_)));
     if (std::ranges::find(within_, name) != within_.end())
       throw InputError(named.mark, key, name, "is part of itself: " + Cycle(name));
     const std::string path = "tasks." + name;
@@ -190,7 +187,7 @@ class MissionReader {
         AddTask(node, step, path);
       else
         throw InputError(step.mark, path, of,
-                         "is neither skill nor task" + Known(of, NamesOf(*skills_)));
+                         "is neither skill nor task" + DidYouMeanOneOf(of, NamesOf(*skills_)));
     }
     within_.pop_back();
   }
@@ -208,7 +205,9 @@ class MissionReader {
     if (!skill.IsMap())
       throw InputError(skill.mark, path, skill.scalar,
                        "must hold run, its primitives in order, and may hold with");
-    RefuseUnknownKeys(skill, path + ".", {"run", "with"});
+    ConfigNode params = skill;  // what it hands to its primitives
+    params.Remove("run");
+    params.Remove("with");
     const std::size_t node = Add(MissionNode::Kind::kSkill, name, mark);
     mission_.nodes[parent].children.push_back(node);
     for (const char* key : {"run", "with"}) {
@@ -219,12 +218,18 @@ class MissionReader {
       if (list == nullptr || !list->IsList() || (needed && list->items.empty()))
         throw InputError(list != nullptr ? list->mark : skill.mark, of,
                          list != nullptr ? list->scalar : "", "must be a list of primitives");
-      for (const ConfigNode& item : list->items) AddPrimitive(node, item, of, !needed);
+      for (const ConfigNode& item : list->items) AddPrimitive(node, item, of, !needed, params);
     }
+    std::vector<std::string> known = {"run", "with"};
+    for (const std::size_t child : mission_.nodes[node].children) {
+      const std::vector<std::string>& keys = TypeOf(mission_.nodes[child]).keys;
+      known.insert(known.end(), keys.begin(), keys.end());
+    }
+    RefuseUnknownKeys(skill, path + ".", known);
   }
 
   void AddPrimitive(std::size_t parent, const ConfigNode& item, const std::string& key,
-                    bool parallel) {
+                    bool parallel, const ConfigNode& of_skill) {
     const std::string name = AsString(item, key);
     const auto found = std::ranges::find(mission_.primitives, name, &MissionPrimitive::name);
     if (found == mission_.primitives.end()) {
@@ -234,16 +239,29 @@ class MissionReader {
       throw InputError(item.mark, key, name,
                        std::string(skill ? "is a skill: skills are made of primitives"
                                          : "is no primitive of this mission") +
-                           Known(name, names));
+                           DidYouMeanOneOf(name, names));
     }
-    const std::size_t node = Add(MissionNode::Kind::kPrimitive, name, item.mark);
-    mission_.nodes[node].parallel = parallel;
-    mission_.nodes[node].primitive = static_cast<std::size_t>(found - mission_.primitives.begin());
-    mission_.nodes[parent].children.push_back(node);
+    const std::size_t index = Add(MissionNode::Kind::kPrimitive, name, item.mark);
+    mission_.nodes[parent].children.push_back(index);
+    MissionNode& node = mission_.nodes[index];
+    node.parallel = parallel;
+    node.primitive = static_cast<std::size_t>(found - mission_.primitives.begin());
+    node.params = found->params;
+    const std::vector<std::string>& keys = TypeOf(node).keys;
+    for (const auto& [key, value] : of_skill.entries) {
+      if (std::ranges::find(keys, key) == keys.end()) continue;
+      node.params.Remove(key);  // the skill's rules
+      node.params.Add(key, value);
+    }
+  }
+
+  const PrimitiveType& TypeOf(const MissionNode& primitive) const {
+    return *std::ranges::find(types_, mission_.primitives[primitive.primitive].type,
+                              &PrimitiveType::name);
   }
 
   const ConfigNode& root_;
-  std::span<const std::string> types_;
+  std::span<const PrimitiveType> types_;
   const ConfigNode* skills_ = nullptr;
   const ConfigNode* tasks_ = nullptr;
   std::vector<std::string> within_;  // the tasks that are being read
@@ -252,7 +270,7 @@ class MissionReader {
 
 }  // namespace
 
-Mission ReadMission(const ConfigNode& root, std::span<const std::string> types) {
+Mission ReadMission(const ConfigNode& root, std::span<const PrimitiveType> types) {
   if (!root.IsMap()) throw InputError(root.mark, "mission", root.scalar, "must be a map of keys");
   return MissionReader(root, types).Read();
 }

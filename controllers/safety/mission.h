@@ -13,10 +13,17 @@
 
 namespace floorproof {
 
+// A type of primitive that there is, and the keys that it knows beside what is said of its
+// failures.
+struct PrimitiveType {
+  std::string name;
+  std::vector<std::string> keys;
+};
+
 struct MissionPrimitive {
   std::string name, type;
   FailureRating rating;
-  ConfigNode params;  // its own keys, for whoever makes the type
+  ConfigNode params;  // its own keys
 };
 
 struct MissionNode {
@@ -26,6 +33,9 @@ struct MissionNode {
   std::vector<std::size_t> children;  // into Mission::nodes; they run one after the other
   bool parallel = false;              // a primitive: it runs as long as its skill does
   std::size_t primitive = 0;          // a primitive: into Mission::primitives
+  // A primitive: its keys, for whoever makes it; its own, and those of its skill that its type
+  // knows.
+  ConfigNode params;
 };
 
 struct Mission {
@@ -37,9 +47,9 @@ struct Mission {
   DecisionParams decision;
 };
 
-// A file of a mission: docs/safety.md. `types`: of the primitives that there are. Throws InputError
-// with file, line and key: unknown keys, types and names, a task that is part of itself, ratings
-// that are not on the paper's scales, thresholds out of order, more than 10,000 nodes.
-Mission ReadMission(const ConfigNode& root, std::span<const std::string> types);
+// A file of a mission: docs/safety.md. Throws InputError with file, line and key: unknown keys,
+// types and names, a task that is part of itself, ratings that are not on the paper's scales,
+// thresholds out of order, more than 10,000 nodes.
+Mission ReadMission(const ConfigNode& root, std::span<const PrimitiveType> types);
 
 }  // namespace floorproof

@@ -24,8 +24,7 @@ MissionRun::MissionRun(const Mission& mission, const Make& make)
       risk_(mission.nodes.size()) {
   for (std::size_t i = 0; i < mission.nodes.size(); ++i) {
     const MissionNode& node = mission.nodes[i];
-    if (node.kind == MissionNode::Kind::kPrimitive)
-      primitives_[i] = make(mission.primitives[node.primitive]);
+    if (node.kind == MissionNode::Kind::kPrimitive) primitives_[i] = make(node);
     if (node.kind == MissionNode::Kind::kSkill) skills_.push_back(i);
   }
   states_.assign(skills_.size(), 0);
@@ -73,16 +72,20 @@ NodeStatus MissionRun::RunSkill(std::size_t node, double t_s) {
   return RunInOrder(node, t_s);
 }
 
+std::optional<Failure> MissionRun::failure(std::size_t node) const {
+  if (status_[node] == NodeStatus::kWaiting || status_[node] == NodeStatus::kDone) return {};
+  return primitives_[node]->failure();
+}
+
 // Children stand behind their parents, so backwards each node is whole before it is added.
 void MissionRun::Assess() {
   risk_.assign(risk_.size(), {});
   for (std::size_t i = mission_.nodes.size(); i-- > 0;) {
     const MissionNode& node = mission_.nodes[i];
     if (node.kind == MissionNode::Kind::kPrimitive) {
-      if (status_[i] == NodeStatus::kWaiting || status_[i] == NodeStatus::kDone) continue;
-      if (const std::optional<Failure> failure = primitives_[i]->failure())
+      if (const std::optional<Failure> failed = failure(i))
         risk_[i].greatest = risk_[i].sum =
-            SafetyStateOf(mission_.primitives[node.primitive].rating, *failure, mission_.weights);
+            SafetyStateOf(mission_.primitives[node.primitive].rating, *failed, mission_.weights);
       continue;
     }
     const bool skill = node.kind == MissionNode::Kind::kSkill;

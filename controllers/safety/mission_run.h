@@ -31,9 +31,9 @@ class Primitive {
 
 class MissionRun {
  public:
-  using Make = std::function<std::unique_ptr<Primitive>(const MissionPrimitive&)>;
+  using Make = std::function<std::unique_ptr<Primitive>(const MissionNode&)>;
 
-  // `mission` outlives it. `make`: called for each primitive of the tree.
+  // `mission` outlives it. `make`: called for each primitive of the tree, in its order.
   MissionRun(const Mission& mission, const Make& make);
 
   // One period of all that runs now. Where something is done, what comes after it begins in the
@@ -48,6 +48,8 @@ class MissionRun {
     double greatest = 0, sum = 0;
   };
   const Risk& risk(std::size_t node) const { return risk_[node]; }
+  // What its monitors say of a primitive that runs, or has failed.
+  std::optional<Failure> failure(std::size_t node) const;
   // All skills of the tree, in order, and R_i of each.
   std::span<const std::size_t> skills() const { return skills_; }
   std::span<const double> safety_states() const { return states_; }

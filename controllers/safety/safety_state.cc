@@ -18,7 +18,7 @@ double QualityAssessment(Persistence persistence, Occurrence occurrence,
          static_cast<int>(occurrence);
 }
 
-double SeverityOfHarm(Severity severity, Extent extent, const SafetyWeights& weights) {
+double SeverityOfHarm(Severity severity, HarmExtent extent, const SafetyWeights& weights) {
   return weights.severity * static_cast<int>(severity) * weights.extent * static_cast<int>(extent);
 }
 

@@ -13,7 +13,7 @@ namespace floorproof {
 // What the consequences cost, beside what the service is worth.
 enum class Severity { kAbsence = 0, kMinor = 2, kCatastrophic = 6 };
 // Whether it stays in this component or has an impact on all.
-enum class Extent { kIsolated = 1, kExternal = 2 };
+enum class HarmExtent { kIsolated = 1, kExternal = 2 };
 // What is left of the service: all of it, with loss of quality, or none.
 enum class Availability { kRedundant = 0, kEminent = 1, kSingular = 2 };
 // Whether it comes and goes, or does not go without help.
@@ -24,7 +24,7 @@ enum class Occurrence { kVeryLow = 1, kLow = 2, kHigh = 3, kRelativelyHigh = 4 }
 // What is said of a primitive beforehand, by experts or from tests.
 struct FailureRating {
   Severity severity = Severity::kMinor;
-  Extent extent = Extent::kIsolated;
+  HarmExtent extent = HarmExtent::kIsolated;
   Availability availability = Availability::kSingular;  // after a failure
   Occurrence occurrence = Occurrence::kLow;
 };
@@ -46,7 +46,7 @@ struct SafetyWeights {
 double QualityAssessment(Persistence persistence, Occurrence occurrence,
                          const SafetyWeights& weights = {});
 // Upsilon, Eq. 3: severity x extent.
-double SeverityOfHarm(Severity severity, Extent extent, const SafetyWeights& weights = {});
+double SeverityOfHarm(Severity severity, HarmExtent extent, const SafetyWeights& weights = {});
 // A primitive's share of Eq. 1: Upsilon x [chi + psi]. A skill takes the greatest of its
 // primitives'; one that has not failed adds 0. From 0 to 120, without weights.
 double SafetyStateOf(const FailureRating& rating, const Failure& failure,

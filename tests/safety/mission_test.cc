@@ -13,7 +13,10 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const std::vector<std::string> kTypes = {"rotation", "line", "acceleration_control", "stand"};
+const std::vector<PrimitiveType> kTypes = {{"rotation", {"yaw_deg", "p1_s"}},
+                                           {"line", {"x_m", "y_m", "p1_s"}},
+                                           {"acceleration_control", {"p2_s"}},
+                                           {"stand", {}}};
 
 // The paper's example: one skill, Rotation-Line-Rotation with AccelerationControl in parallel, and
 // what section 4 assumes of them.
@@ -59,8 +62,8 @@ class Scripted : public Primitive {
 class MissionTest : public ::testing::Test {
  protected:
   MissionRun Run(const Mission& mission) {
-    return MissionRun(mission, [this](const MissionPrimitive& p) {
-      return std::make_unique<Scripted>(scripts_[p.name], p.name, log_);
+    return MissionRun(mission, [this](const MissionNode& node) {
+      return std::make_unique<Scripted>(scripts_[node.name], node.name, log_);
     });
   }
   static std::size_t Find(const Mission& mission, const std::string& name) {
@@ -210,6 +213,22 @@ TEST(MissionFile, KeepsARatingsOwnKeysForItsType) {
   EXPECT_EQ(mission.decision.zz_crit, 100);
 }
 
+TEST(MissionFile, ASkillHandsItsKeysToThoseOfItsPrimitivesThatKnowThem) {
+  const Mission mission = Read(
+      "mission: 1\nprimitives: {line: {p1_s: 3}, rotation: {}}\n"
+      "skills: {go: {run: [rotation, line], x_m: 2, p1_s: 4}, on: {run: [line]}}\n"
+      "tasks: {a: [go, on]}\nrun: [a]\n");
+  const auto keys = [&](std::size_t node) {
+    std::map<std::string, std::string> keys;
+    for (const auto& [key, value] : mission.nodes[node].params.entries) keys[key] = value.scalar;
+    return keys;
+  };
+  using Keys = std::map<std::string, std::string>;
+  EXPECT_EQ(keys(3), Keys({{"p1_s", "4"}})) << "the rotation knows no x_m";
+  EXPECT_EQ(keys(4), Keys({{"p1_s", "4"}, {"x_m", "2"}})) << "the skill's rules";
+  EXPECT_EQ(keys(6), Keys({{"p1_s", "3"}})) << "another skill's are not its own";
+}
+
 TEST(MissionFile, WhatCannotBeIsRefusedWithLineAndKey) {
   const auto refusal = [](const std::string& from, const std::string& to) -> std::string {
     std::string text = kTwoTasks;
@@ -251,6 +270,10 @@ TEST(MissionFile, WhatCannotBeIsRefusedWithLineAndKey) {
   EXPECT_THAT(refusal("name: hall", "weights: {severity: 11}"),
               HasSubstr("weights.severity = 11: must be in [0, 10]"));
   EXPECT_THAT(refusal("name: hall", "nmae: hall"), HasSubstr("nmae"));
+  EXPECT_THAT(refusal("run: [line], with: [watch]", "run: [line], x: 2"),
+              HasSubstr("m.yaml:9: skills.go.x: unknown key; did you mean x_m?"));
+  EXPECT_THAT(refusal("severity: minor, extent: isolated", "severty: minor"),
+              HasSubstr("m.yaml:4: primitives.rotation.severty: unknown key"));
   EXPECT_THAT(refusal("mission: 1", "mission: 2"), HasSubstr("mission = 2"));
   EXPECT_THAT(refusal("run: [and_back, there]", "run: []"), HasSubstr("run"));
   EXPECT_THAT(refusal("  turn: {run: [rotation]}", "  line: {run: [rotation]}"),

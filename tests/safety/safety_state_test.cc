@@ -35,7 +35,8 @@ TEST(SafetyState, Table1QualityAndAvailability) {
   for (const QualityRow& row : kTable1) {
     EXPECT_EQ(QualityAssessment(row.persistence, row.occurrence), row.psi);
     const auto sum = [&](Availability availability) {  // where Upsilon is 2, half of Eq. 1
-      const FailureRating rating{Severity::kMinor, Extent::kIsolated, kSingular, row.occurrence};
+      const FailureRating rating{Severity::kMinor, HarmExtent::kIsolated, kSingular,
+                                 row.occurrence};
       return SafetyStateOf(rating, {row.persistence, availability}) / 2;
     };
     EXPECT_EQ(sum(kRedundant), row.redundant);
@@ -47,17 +48,20 @@ TEST(SafetyState, Table1QualityAndAvailability) {
 // Table 2: the safety state by severity and extent, for chi + psi from 1 to 10.
 struct HarmRow {
   int upsilon;
-  Extent extent;
+  HarmExtent extent;
   Severity severity;
   int states[10];
 };
 constexpr HarmRow kTable2[] = {
-    {0, Extent::kIsolated, Severity::kAbsence, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0}},
-    {2, Extent::kIsolated, Severity::kMinor, {2, 4, 6, 8, 10, 12, 14, 16, 18, 20}},
-    {6, Extent::kIsolated, Severity::kCatastrophic, {6, 12, 18, 24, 30, 36, 42, 48, 54, 60}},
-    {0, Extent::kExternal, Severity::kAbsence, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0}},
-    {4, Extent::kExternal, Severity::kMinor, {4, 8, 12, 16, 20, 24, 28, 32, 36, 40}},
-    {12, Extent::kExternal, Severity::kCatastrophic, {12, 24, 36, 48, 60, 72, 84, 96, 108, 120}},
+    {0, HarmExtent::kIsolated, Severity::kAbsence, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0}},
+    {2, HarmExtent::kIsolated, Severity::kMinor, {2, 4, 6, 8, 10, 12, 14, 16, 18, 20}},
+    {6, HarmExtent::kIsolated, Severity::kCatastrophic, {6, 12, 18, 24, 30, 36, 42, 48, 54, 60}},
+    {0, HarmExtent::kExternal, Severity::kAbsence, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0}},
+    {4, HarmExtent::kExternal, Severity::kMinor, {4, 8, 12, 16, 20, 24, 28, 32, 36, 40}},
+    {12,
+     HarmExtent::kExternal,
+     Severity::kCatastrophic,
+     {12, 24, 36, 48, 60, 72, 84, 96, 108, 120}},
 };
 
 // A failure whose chi + psi is so much; Table 1 holds all from 1 to 10.
@@ -86,7 +90,7 @@ TEST(SafetyState, Table2SafetyStateBySeverityAndExtent) {
 // Table 3: between which values the example's primitives lie. Least: redundant and intermittent.
 TEST(SafetyState, Table3RangesOfTheExample) {
   const auto range = [](Severity severity, Occurrence occurrence) {
-    const FailureRating rating{severity, Extent::kExternal, kSingular, occurrence};
+    const FailureRating rating{severity, HarmExtent::kExternal, kSingular, occurrence};
     return std::pair(SafetyStateOf(rating, {kIntermittent, kRedundant}),
                      SafetyStateOf(rating, {kPermanent, kSingular}));
   };
@@ -107,7 +111,7 @@ TEST(SafetyState, LevelsEndWhereTheTextSaysAndEachBeginsAboveTheLast) {
 }
 
 TEST(SafetyState, EachWeightMultipliesItsParameterAlone) {
-  const FailureRating rating{Severity::kCatastrophic, Extent::kExternal, kSingular,
+  const FailureRating rating{Severity::kCatastrophic, HarmExtent::kExternal, kSingular,
                              Occurrence::kHigh};
   const Failure failure{kPermanent, kEminent};
   ASSERT_EQ(SafetyStateOf(rating, failure), 12 * (1 + 6));

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "controllers/monitors/wheel_shares.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace floorproof {
+
+void WheelShares::Start(const WheelShareParams& params, const RobotSpec& robot) {
+  constexpr double kTurns = 0.2;  // of its speed at cruise
+  params_ = params;
+  wheels_.clear();
+  for (const WheelSpec& wheel : robot.wheels)
+    wheels_.push_back({kTurns * robot.cruise_mps / wheel.radius_m, true, 0, {}});
+  shares_.assign(wheels_.size(), {});
+  turning_a_.reserve(wheels_.size());
+}
+
+std::span<const std::optional<double>> WheelShares::Update(const MonitorReadings& now) {
+  if (!now.power.heard) return {};
+  turning_a_.clear();
+  for (std::size_t w = 0; w < wheels_.size(); ++w) {
+    Wheel& wheel = wheels_[w];
+    const double told = now.commanded_radps[w];
+    const bool turns = std::abs(told) > wheel.least_radps;
+    wheel.turns_s = turns && (told > 0) == wheel.forward ? wheel.turns_s + now.dt_s : 0;
+    wheel.forward = told > 0;
+    shares_[w].reset();
+    if (wheel.turns_s == 0) wheel.draws_a.Reset();
+    if (!turns) continue;
+    const double along_a = (told > 0 ? 1 : -1) * now.power.motor_a[w];
+    const double mean_a = wheel.draws_a.Update(along_a, now.dt_s, params_.mean_s);
+    if (wheel.turns_s <= params_.mean_s) continue;
+    shares_[w] = mean_a;
+    turning_a_.push_back(mean_a);
+  }
+  constexpr std::size_t kFewest = 4;
+  if (turning_a_.size() < kFewest) return {};
+  const auto middle = turning_a_.begin() + static_cast<std::ptrdiff_t>(turning_a_.size() / 2);
+  std::ranges::nth_element(turning_a_, middle);
+  if (*middle < params_.least_a) return {};
+  for (std::optional<double>& share : shares_)
+    if (share) *share /= *middle;
+  return shares_;
+}
+
+}  // namespace floorproof

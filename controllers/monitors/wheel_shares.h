@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// How wheels that roll alike share what there is to drive: each one's current in its own direction,
+// the mean over a while, by the median of all that turn.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "controllers/monitors/monitor.h"
+
+namespace floorproof {
+
+struct WheelShareParams {
+  double least_a = 0.02, mean_s = 1;
+  void Visit(ParamVisitor& v) {
+    v("least_a", least_a, NonNegative(), "a median below this says nothing (A)");
+    v("mean_s", mean_s, Positive(), "time constant of the mean (s)");
+  }
+};
+
+class WheelShares {
+ public:
+  // May allocate; Update may not.
+  void Start(const WheelShareParams& params, const RobotSpec& robot);
+  // One period. By driven wheel; none of one that has not turned this way for long. Empty while
+  // nothing can be said: fewer than four wheels turn, or all of them roll freely.
+  std::span<const std::optional<double>> Update(const MonitorReadings& now);
+
+ private:
+  struct Wheel {
+    double least_radps;  // slower it does not turn
+    bool forward = true;
+    double turns_s = 0;  // this way
+    LowPass draws_a;
+  };
+  WheelShareParams params_;
+  std::vector<Wheel> wheels_;
+  std::vector<std::optional<double>> shares_;
+  std::vector<double> turning_a_;
+};
+
+}  // namespace floorproof

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drives straight from where it thinks it is to a place, by the scenario's tracker.
+#include "controllers/supervision/primitives/target.h"
+#include "controllers/supervision/robot_primitive.h"
+
+namespace floorproof {
+namespace {
+
+class Line final : public RobotPrimitive {
+ public:
+  void Visit(ParamVisitor& v) override {
+    target_.Visit(v);
+    v("speed_mps", speed_mps_, Positive(), "v_n: nominal speed (m/s); none: the robot's cruise");
+    time_out_.Visit(v);
+  }
+
+  std::optional<Vec2> LeadsTo() const override { return target_.p_W(); }
+
+  void Start(double t_s) override {
+    time_out_.Start(t_s);
+    Begin();
+  }
+  NodeStatus Update(double t_s) override {
+    constexpr double kLess_m = 0.005;
+    const double left_m = (target_.p_W() - now().estimate.X_WB.p()).norm();
+    time_out_.Update(t_s, left_m, kLess_m, board().held || board().busy);
+    if (left_m <= target_.tolerance_m) return NodeStatus::kDone;
+    MotionWish& wish = board().wish;
+    const bool begun = wish.kind == MotionWish::Kind::kLine;
+    if (begun && board().at_end) Begin();  // the tracker is content, and it is not there
+    return NodeStatus::kRunning;
+  }
+
+ private:
+  void Begin() {
+    MotionWish& wish = board().wish;
+    wish.kind = MotionWish::Kind::kLine;
+    wish.line = {wish.line.number + 1, target_.p_W(), speed_mps_};
+    board().at_end = false;
+  }
+  std::optional<Persistence> TimedOut() const override { return time_out_.persistence(); }
+
+  Target target_;
+  std::optional<double> speed_mps_;
+  TimeOut time_out_;
+};
+
+}  // namespace
+
+FP_DEFINE_PLUGIN(RobotPrimitive, Line)
+
+}  // namespace floorproof

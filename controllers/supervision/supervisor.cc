@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "controllers/supervision/supervisor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace floorproof {
+namespace {
+
+constexpr double kComesToRest_s = 1.5;  // from its highest speed, by its drivers
+
+// Where a node stands in the tree, from its task on.
+std::vector<std::string> PathsOf(const Mission& mission) {
+  std::vector<std::string> paths(mission.nodes.size());
+  paths[0] = mission.name.empty() ? "mission" : mission.name;
+  for (std::size_t i = 0; i < mission.nodes.size(); ++i)
+    for (const std::size_t child : mission.nodes[i].children)
+      paths[child] = (i == 0 ? "" : paths[i] + ".") + mission.nodes[child].name;
+  return paths;
+}
+
+}  // namespace
+
+Supervisor::Supervisor(const SafetyPlan& plan, const RobotSpec& robot, const HazardMap& known)
+    : plan_(plan),
+      robot_(robot),
+      wheels_(robot),
+      drive_(MakePlugin(Drives(), robot.drive, "drive")),
+      board_{.now = nullptr, .monitors = plan.monitors, .wheels = &wheels_, .wish = {}},
+      run_(plan.mission,
+           [&](const MissionNode& node) {
+             std::vector<std::size_t> monitors;
+             for (const std::string& name : MonitorsOf(node)) {
+               const auto found = std::ranges::find(plan.monitors, name, &NamedMonitor::name);
+               if (found != plan.monitors.end())
+                 monitors.push_back(static_cast<std::size_t>(found - plan.monitors.begin()));
+             }
+             auto primitive = MakePrimitive(plan.mission, node);
+             primitive->Prepare({robot, plan.mission.primitives[node.primitive].rating, board_,
+                                 std::move(monitors)});
+             primitives_.resize(plan.mission.nodes.size());
+             primitives_[static_cast<std::size_t>(&node - plan.mission.nodes.data())] =
+                 primitive.get();
+             return primitive;
+           }),
+      decision_(plan.mission.decision),
+      logged_(plan.mission.nodes.size(), 0),
+      wheels_raised_(robot.wheels.size(), 0),
+      all_wheels_(robot.wheels.size(), 1),
+      paths_(PathsOf(plan.mission)) {
+  primitives_.resize(plan.mission.nodes.size());
+  drive_->Configure(robot);
+  for (const NamedMonitor& monitor : plan.monitors) {
+    monitor.monitor->Start({robot, *drive_, known});
+    raised_.emplace_back(monitor.monitor->alarms().size(), 0);
+  }
+  rows_.reserve(256);
+}
+
+void Supervisor::Update(const MonitorReadings& now, const Motion& motion) {
+  board_.now = &now;
+  board_.at_end = motion.at_end;
+  board_.busy = motion.busy;
+  board_.held = share_ < 1;
+  if (stopped_.empty()) Watch(now);
+  const bool over = !stopped_.empty() || asks_;
+  if (!over) run_.Update(now.t_s);
+  decision_.Update(now.t_s, run_.safety_states(), std::exchange(reconfigured_, {}));
+  Log(now.t_s);
+  if (!over && plan_.reaction.react) React(now.t_s);
+  if (!plan_.reaction.react && decision_.state() == DecisionState::kReconfiguring)
+    reconfigured_ = false;  // nothing is tried
+  if (share_ != shares_.back().share) shares_.push_back({now.t_s, share_});
+  if (share_ > 0) told_to_stand_s_ = now.t_s;
+  if (share_ == 0) held_s_ += now.dt_s;
+  cuts_all_ |= !stopped_.empty() && now.t_s - told_to_stand_s_ > kComesToRest_s;
+  board_.now = nullptr;
+}
+
+void Supervisor::Watch(const MonitorReadings& now) {
+  for (std::size_t m = 0; m < plan_.monitors.size(); ++m) {
+    plan_.monitors[m].monitor->Update(now);
+    const std::span<const Alarm> alarms = plan_.monitors[m].monitor->alarms();
+    for (std::size_t i = 0; i < alarms.size(); ++i) {
+      int& raised = raised_[m][i];
+      if (alarms[i].raised() && raised == 0) {
+        alarms_.push_back({now.t_s,
+                           plan_.monitors[m].name,
+                           plan_.monitors[m].monitor->by_wheel() ? robot_.wheels[i].name : "",
+                           {}});
+        raised = static_cast<int>(alarms_.size());
+      } else if (!alarms[i].raised() && raised > 0) {
+        alarms_[static_cast<std::size_t>(raised) - 1].until_s = now.t_s;
+        raised = 0;
+      }
+    }
+  }
+}
+
+void Supervisor::React(double t_s) {
+  const ReactionParams& reaction = plan_.reaction;
+  if (run_.status(0) == NodeStatus::kFailed) return Stop(t_s, "the mission failed");
+  switch (decision_.state()) {
+    case DecisionState::kAbort:
+      return Stop(t_s, std::string(Name(SupervisionPrimitive::kDefinitiveStop)));
+    case DecisionState::kReconfiguring:
+      reconfigured_ = Reconfigure(t_s, Availability::kEminent);
+      return;
+    case DecisionState::kNormal:
+    case DecisionState::kFaultMode:
+    case DecisionState::kAssessment:
+      break;
+  }
+  const bool fault = decision_.state() != DecisionState::kNormal;
+  const SafetyLevel level = fault ? this->level() : SafetyLevel::kHigh;
+  if (level >= SafetyLevel::kSerious || (fault && wait_until_s_)) return Wait(t_s);
+  if (std::exchange(wait_until_s_, {})) GoOn(t_s, "all is well again");
+  if (level >= SafetyLevel::kMedium) Reconfigure(t_s, Availability::kRedundant);
+  const bool adapts = level == SafetyLevel::kWeak || t_s < cautious_until_s_;
+  share_ = adapts ? reaction.adapt_share : 1;
+  if (std::exchange(adapted_, adapts) != adapts)
+    Say(t_s, 0,
+        adapts ? fmt::format("adaptation: {:.0f} % of its speed", 100 * share_)
+               : "its full speed again");
+  // What comes back soon is the same trouble; what does not is another.
+  if (fault) calm_since_s_ = t_s;
+  if (t_s - calm_since_s_ > reaction.cautious_s + reaction.wait_s) waits_ = 0;
+}
+
+// Stands for a while, then looks at everything anew, and drives on with care.
+void Supervisor::Wait(double t_s) {
+  const ReactionParams& reaction = plan_.reaction;
+  share_ = 0;
+  calm_since_s_ = t_s;
+  if (!wait_until_s_) {
+    if (waits_ >= reaction.most_waits) return HandOver(t_s);
+    ++waits_;
+    wait_until_s_ = t_s + reaction.wait_s;
+    return Say(t_s, 0, fmt::format("safety waiting, {} of {}", waits_, reaction.most_waits));
+  }
+  if (!Stands() && t_s - told_to_stand_s_ > kComesToRest_s)
+    return Stop(t_s, "it does not stand when it is told to");
+  if (t_s < *wait_until_s_) return;
+  if (SeesItNow(t_s)) {  // to try would be no trial
+    if (t_s - told_to_stand_s_ >= reaction.patience_s) HandOver(t_s);
+    return;
+  }
+  wait_until_s_.reset();
+  Rearm();
+  GoOn(t_s, "it tries again");
+}
+
+void Supervisor::GoOn(double t_s, const char* why) {
+  cautious_until_s_ = t_s + plan_.reaction.cautious_s;
+  Say(t_s, 0, why);
+}
+
+// Hardware: the drive's control without the wheels that are in alarm, their motors cut off, where
+// that leaves it no worse than `most`. Software: there is nothing whose change would mend a fault
+// (the paper halves the nominal velocity, which "does not change the Safety State"); adaptation
+// does that.
+bool Supervisor::Reconfigure(double t_s, Availability most) {
+  std::ranges::fill(wheels_raised_, 0);
+  bool any = false;
+  for (const NamedMonitor& monitor : plan_.monitors) {
+    if (!monitor.monitor->by_wheel()) continue;
+    const std::span<const Alarm> alarms = monitor.monitor->alarms();
+    for (std::size_t w = 0; w < alarms.size(); ++w)
+      if (alarms[w].raised()) {
+        wheels_raised_[w] = 1;
+        any = true;
+      }
+  }
+  if (!any) return false;
+  if (wheels_.Without(wheels_raised_) > most || !wheels_.Exclude(wheels_raised_)) {
+    if (most == Availability::kEminent)
+      Say(t_s, 0, "reconfiguration: the other wheels alone cannot drive it");
+    return false;
+  }
+  drive_->Exclude(wheels_.out());
+  ++reconfigurations_;
+  std::string names;
+  for (std::size_t w = 0; w < wheels_raised_.size(); ++w) {
+    if (!wheels_raised_[w]) continue;
+    names += (names.empty() ? "" : " ") + robot_.wheels[w].name;
+    for (const NamedMonitor& monitor : plan_.monitors) monitor.monitor->Ignore(w);
+  }
+  Say(t_s, 0, "reconfiguration: driven without " + names);
+  return true;
+}
+
+// Whether an alarm of what it waits for is of now, and not of when it last drove.
+bool Supervisor::SeesItNow(double t_s) const {
+  constexpr double kNow_s = 0.5;
+  return std::ranges::any_of(plan_.monitors, [&](const NamedMonitor& monitor) {
+    return std::ranges::any_of(monitor.monitor->alarms(), [&](const Alarm& alarm) {
+      return alarm.raised() && t_s - alarm.last_s() < kNow_s;
+    });
+  });
+}
+
+// By its own odometry.
+bool Supervisor::Stands() const {
+  constexpr double kStands_mps = 0.03, kStands_radps = 0.1;
+  const BodyTwist& V = board_.now->estimate.V_WB_B;
+  return std::hypot(V.vx_mps, V.vy_mps) < kStands_mps && std::abs(V.wz_radps) < kStands_radps;
+}
+
+void Supervisor::Rearm() {
+  for (const NamedMonitor& monitor : plan_.monitors) monitor.monitor->Rearm();
+}
+
+void Supervisor::HandOver(double t_s) {
+  Say(t_s, 0, "autonomy adjustment: it hands over");
+  if (!plan_.helped) return Stop(t_s, "it handed over, and nobody comes");
+  asks_ = true;
+}
+
+void Supervisor::Helped(double t_s) {
+  asks_ = false;
+  waits_ = 0;
+  Rearm();
+  GoOn(t_s, "a person has set it down and told it where it is");
+}
+
+void Supervisor::Stop(double t_s, const std::string& why) {
+  share_ = 0;
+  stopped_ = why;
+  // What it stopped for is the last that the machine said of it.
+  const auto& transitions = decision_.transitions();
+  if (decision_.state() == DecisionState::kAbort)
+    stopped_ += ": " + Reason(transitions.back(), plan_.mission.decision,
+                              paths_[run_.skills()[transitions.back().worst]]);
+  for (std::size_t i = 0; i < primitives_.size(); ++i)
+    if (primitives_[i] != nullptr && run_.failure(i)) stopped_ += "; " + WhatIsWrong(i);
+  Say(t_s, 0, stopped_);
+}
+
+// What the monitors of a primitive say, in words.
+std::string Supervisor::WhatIsWrong(std::size_t node) const {
+  std::string text;
+  const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+  for (const std::size_t m : primitives_[node]->monitors()) {
+    const NamedMonitor& monitor = plan_.monitors[m];
+    const std::span<const Alarm> alarms = monitor.monitor->alarms();
+    for (std::size_t i = 0; i < alarms.size(); ++i) {
+      if (!alarms[i].raised()) continue;
+      const std::string of = monitor.monitor->by_wheel() ? " of " + robot_.wheels[i].name : "";
+      add(fmt::format("{}{}: {:.3g} beyond {:.3g}", monitor.name, of, alarms[i].value(),
+                      alarms[i].limit()));
+    }
+  }
+  if (text.empty()) add("its time-out has run out");
+  const Failure failure = *run_.failure(node);
+  return text + (failure.persistence == Persistence::kPermanent ? "; permanent" : "; intermittent");
+}
+
+// A row for each node whose safety state has changed, then one for each transition.
+void Supervisor::Log(double t_s) {
+  for (std::size_t i = logged_.size(); i-- > 0;) {
+    const double state = run_.risk(i).greatest;
+    if (state == logged_[i]) continue;
+    logged_[i] = state;
+    std::string reason = "by its worst";
+    if (primitives_[i] != nullptr)
+      reason = run_.failure(i) ? WhatIsWrong(i) : "as it should be";
+    else if (state == 0)
+      reason = "as it should be";
+    Say(t_s, i, std::move(reason));
+  }
+  const auto& transitions = decision_.transitions();
+  for (; transitions_ < transitions.size(); ++transitions_) {
+    const DecisionTransition& t = transitions[transitions_];
+    Say(t_s, 0, Reason(t, plan_.mission.decision, paths_[run_.skills()[t.worst]]));
+    rows_.back().machine = t.to;
+  }
+}
+
+void Supervisor::Say(double t_s, std::size_t node, std::string reason) {
+  const double state = run_.risk(node).greatest;
+  rows_.push_back({t_s, paths_[node], state, LevelOf(state, plan_.mission.levels),
+                   decision_.state(), std::move(reason)});
+}
+
+}  // namespace floorproof
