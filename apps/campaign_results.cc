@@ -17,10 +17,10 @@ namespace {
 void SayRates(const CampaignSummary& summary, const Globals& globals) {
   for (const VariantSummary& v : summary.variants) {
     globals.Say(
-        fmt::format("{}: {}, {} success, {} failure, {} timeout; {}, {} without "
+        fmt::format("{}: {}, {} success, {} failure, {} timeout{}; {}, {} without "
                     "a plan",
                     v.name, CountText(v.n, "episode"), v.success, v.failure, v.timeout,
-                    CountText(v.errors, "error"), v.not_planned));
+                    AbortedText(v), CountText(v.errors, "error"), v.not_planned));
     if (v.repeated) globals.Say("  " + RepetitionText(v));
     if (!v.first_error.empty()) globals.Say("  the first error: " + v.first_error);
     for (const FailureRate& rate : v.failures) {

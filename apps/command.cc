@@ -75,6 +75,7 @@ int ExitStatus(Outcome outcome) {
       return kDone;
     case Outcome::kFailure:
     case Outcome::kTimeout:
+    case Outcome::kAborted:
     case Outcome::kNotPlanned:
       return kNotSuccess;
     case Outcome::kError:

@@ -5,6 +5,7 @@
 
 #include "apps/command.h"
 #include "controllers/drive.h"
+#include "controllers/supervision/robot_primitive.h"
 #include "env/faults/schedule.h"
 #include "env/hazards/hazard_type.h"
 #include "env/sensors/sensor.h"
@@ -57,6 +58,8 @@ Json Entries(const std::string& kind) {
   if (kind == "hazards") AddEntries(HazardTypes(), out);
   ScheduleKeys schedule;
   if (kind == "faults") AddEntries(Faults(), out, &schedule);
+  if (kind == "monitors") AddEntries(Monitors(), out);
+  if (kind == "primitives") AddEntries(RobotPrimitives(), out);
   if (kind == "failures") AddEntries(Detectors(), out);
   if (kind == "robots")
     for (const auto& robot : Robots())
@@ -67,9 +70,9 @@ Json Entries(const std::string& kind) {
 }  // namespace
 
 void AddList(CommandLine& line, const Globals& globals, int&) {
-  static const std::vector<std::string> kKinds = {"planners",   "orders",  "controllers",
-                                                  "estimators", "sensors", "hazards",
-                                                  "robots",     "faults",  "failures"};
+  static const std::vector<std::string> kKinds = {
+      "planners", "orders", "controllers", "estimators", "sensors",   "hazards",
+      "robots",   "faults", "failures",    "monitors",   "primitives"};
   auto kind = std::make_shared<std::string>();
   Subcommand command =
       line.Add("list", "List what a scenario may name; with a kind, the keys of each as well");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/printable.h"
 
+#include <charconv>
 #include <cstdint>
 
 namespace floorproof {
@@ -73,6 +74,20 @@ std::string Printable(std::string_view text) {
     text.remove_prefix(shown || c.bytes > 0 ? c.bytes : 1);
   }
   return out;
+}
+
+std::string CsvField(const std::string& raw) {
+  // A spreadsheet runs what begins like a formula; a number is none.
+  double number = 0;
+  const auto [end, error] = std::from_chars(raw.data(), raw.data() + raw.size(), number);
+  const bool is_number = error == std::errc() && end == raw.data() + raw.size();
+  const bool formula = !raw.empty() && !is_number &&
+                       std::string_view("=+-@\t\r").find(raw.front()) != std::string_view::npos;
+  const std::string text = (formula ? "'" : "") + Printable(raw);
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
 }
 
 }  // namespace floorproof

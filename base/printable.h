@@ -19,4 +19,8 @@ std::string WhyUnprintable(std::string_view text);
 // The text with a question mark for each such character or byte.
 std::string Printable(std::string_view text);
 
+// The same as a field of a CSV file: in quotes where it needs them; what a spreadsheet would run,
+// as text.
+std::string CsvField(const std::string& text);
+
 }  // namespace floorproof

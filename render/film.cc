@@ -119,6 +119,7 @@ class Studio {
     DrawOverlay({script_.title, frame.t_s, script_.recording->coverage(state), frame.speed_up,
                  banner ? &*banner : nullptr},
                 image_);
+    if (script_.timeline) DrawTimelineStrip(*script_.timeline, frame.t_s, image_);
     return image_;
   }
 

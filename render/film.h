@@ -17,6 +17,7 @@
 #include "render/film_reel.h"
 #include "render/overlay.h"
 #include "render/renderer.h"
+#include "render/timeline.h"
 
 namespace floorproof {
 
@@ -74,11 +75,12 @@ struct FilmScript {
   const HazardMap* map = nullptr;  // whose hazards the events name; none: by their ids alone
   std::vector<Notice> notices;     // ascending in time
   std::optional<Banner> closing;   // over the last picture
-  std::string title;               // "beluga on staircase hall"
-  FilmSet set;                     // `aspect` is taken from the options
-  const Path* plan = nullptr;      // drawn on the floor
-  bool senses = true;              // what the recording holds of them, too
-  std::vector<FloorPatch> swept_again;  // ascending in time
+  std::optional<Timeline> timeline = {};  // as a strip, with a line at the frame's time
+  std::string title;                      // "beluga on staircase hall"
+  FilmSet set;                            // `aspect` is taken from the options
+  const Path* plan = nullptr;             // drawn on the floor
+  bool senses = true;                     // what the recording holds of them, too
+  std::vector<FloorPatch> swept_again;    // ascending in time
   double window_m = 0;  // radius of a circle around the place that the robot thinks it has; 0: none
 };
 

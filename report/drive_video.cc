@@ -9,6 +9,7 @@
 #include "render/cell_film.h"
 #include "report/drawing_progress.h"
 #include "report/pictures.h"
+#include "report/safety_timeline.h"
 #include "report/swept_again.h"
 
 namespace floorproof {
@@ -97,6 +98,7 @@ std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& 
                                            help.to_W.x(), help.to_W.y(), help.t_s)}});
   if (record.events.empty() || !record.interventions.empty())
     script.closing = ClosingBanner(record);
+  if (s.safety) script.timeline = SafetyTimeline(s, record);
   if (s.online) {
     script.window_m = s.online->params().radius_m;
     script.swept_again = SweptAgainPatches(record, s.robot.spec);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/file_output.h"
+#include "base/printable.h"
 #include "base/quantity.h"
 #include "report/drive_marks.h"
 #include "run/campaign/episodes_csv.h"

@@ -16,6 +16,7 @@
 #include "report/drive_marks.h"
 #include "report/error_plot.h"
 #include "report/risk_pictures.h"
+#include "report/safety_timeline.h"
 #include "run/scenario/floors.h"
 
 namespace floorproof {
@@ -115,6 +116,10 @@ void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecor
       [&] {
         if (record.audit && !record.audit->samples.empty())
           WriteTapes(s, plan, *record.audit, folder / "plot_tapes.png");
+      },
+      [&] {
+        if (s.safety && record.steps > 0)
+          WriteSafetyTimeline(s, record, folder / "plot_safety.png");
       },
       [&] {  // an ideal robot has none
         if (s.episode.drive == "physics")

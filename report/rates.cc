@@ -111,9 +111,10 @@ std::string Outcomes(const VariantSummary& v) {
     int count;
     const char* tone;
   };
-  const std::array<Part, 5> parts = {{{"success", v.success, "good"},
+  const std::array<Part, 6> parts = {{{"success", v.success, "good"},
                                       {"failure", v.failure, "bad"},
                                       {"timeout", v.timeout, "warn"},
+                                      {"stopped by itself", v.aborted, "warn"},
                                       {"error", v.errors, "broken"},
                                       {"without a plan", v.not_planned, "idle"}}};
   std::string bar, key;

@@ -11,9 +11,10 @@ namespace {
 
 // What a variant did, in a few lines for people.
 std::string VariantText(const VariantSummary& v) {
-  std::string text = fmt::format("{}: {} success, {} failure, {} timeout; {}, {} without a plan\n",
-                                 CountText(v.n, "episode"), v.success, v.failure, v.timeout,
-                                 CountText(v.errors, "error"), v.not_planned);
+  std::string text =
+      fmt::format("{}: {} success, {} failure, {} timeout{}; {}, {} without a plan\n",
+                  CountText(v.n, "episode"), v.success, v.failure, v.timeout, AbortedText(v),
+                  CountText(v.errors, "error"), v.not_planned);
   if (v.repeated) text += RepetitionText(v) + "\n";
   for (const FailureRate& rate : v.failures)
     text += rate.n == 0 ? fmt::format("{}: nothing was driven\n", rate.name)

@@ -135,6 +135,7 @@ VariantSummary SummaryOf(const std::string& name, const Tally& tally, const Tall
   out.success = tally.count("success");
   out.failure = tally.count("failure");
   out.timeout = tally.count("timeout");
+  out.aborted = tally.count("aborted");
   AddRates(repeated ? one : tally, out);
   for (std::size_t i = 0; i < tally.metrics.size(); ++i)
     out.metrics.push_back({std::string(kMetrics[i].name), Spread(tally.metrics[i])});
@@ -173,6 +174,10 @@ CampaignSummary Summarise(const CampaignStore& store, const std::vector<Variant>
     out.variants.push_back(SummaryOf(variant.name, tally, one, repetition.repeated()));
   }
   return out;
+}
+
+std::string AbortedText(const VariantSummary& v) {
+  return v.aborted > 0 ? fmt::format(", {} stopped by themselves", v.aborted) : "";
 }
 
 std::string RepetitionText(const VariantSummary& variant) {

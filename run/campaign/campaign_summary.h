@@ -50,10 +50,10 @@ struct MetricSummary {
 struct VariantSummary {
   std::string name{};
   bool repeated = false;  // all episodes that are no error came out the same, to the last bit
-  int n = 0;              // episodes with an outcome that counts: success, failure, timeout
+  int n = 0;  // episodes with an outcome that counts: success, failure, timeout, aborted
   int errors = 0, not_planned = 0;
   std::string first_error{};  // empty: there is none
-  int success = 0, failure = 0, timeout = 0;
+  int success = 0, failure = 0, timeout = 0, aborted = 0;
   std::vector<FailureRate> failures{};                 // any_failure, each mode, not_success
   std::vector<FailureRatePer> per_km{}, per_1000_h{};  // any_failure and each mode
   std::vector<FailureRate> kinds{}, hazards{};         // too little covered has the kind `coverage`
@@ -92,6 +92,8 @@ CampaignSummary Summarise(const CampaignStore& store, const std::vector<Variant>
 
 // What is to be said of a variant whose episodes are one, repeated; empty of any other.
 std::string RepetitionText(const VariantSummary& variant);
+// ", 3 stopped by themselves", behind the outcomes; empty where there are none.
+std::string AbortedText(const VariantSummary& variant);
 // "any_failure < 5 % at 95 %"
 std::string Criterion(const GateSummary& gate);
 // The gate's verdict on one variant, in a sentence.

@@ -95,8 +95,9 @@ std::string WhyUnreadableRow(const EpisodeRow& row) {
   } catch (const InternalError&) {
     return "holds a timeout without its keys";
   }
-  constexpr Outcome kAll[] = {Outcome::kSuccess,    Outcome::kFailure, Outcome::kTimeout,
-                              Outcome::kNotPlanned, Outcome::kError,   Outcome::kInterrupted};
+  constexpr Outcome kAll[] = {Outcome::kSuccess,    Outcome::kFailure,    Outcome::kTimeout,
+                              Outcome::kAborted,    Outcome::kNotPlanned, Outcome::kError,
+                              Outcome::kInterrupted};
   if (std::ranges::none_of(kAll, [&](Outcome o) { return Name(o) == row.outcome; }))
     return "names an outcome that is none";
   return "";

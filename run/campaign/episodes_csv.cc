@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "base/printable.h"
@@ -37,20 +36,6 @@ struct CsvColumns {
 };
 
 }  // namespace
-
-std::string CsvField(const std::string& raw) {
-  // A spreadsheet runs what begins like a formula; a number is none.
-  double number = 0;
-  const auto [end, error] = std::from_chars(raw.data(), raw.data() + raw.size(), number);
-  const bool is_number = error == std::errc() && end == raw.data() + raw.size();
-  const bool formula = !raw.empty() && !is_number &&
-                       std::string_view("=+-@\t\r").find(raw.front()) != std::string_view::npos;
-  const std::string text = (formula ? "'" : "") + Printable(raw);
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
 
 std::string EpisodesCsv(const CampaignStore& store, const std::vector<Variant>& variants) {
   CsvColumns columns;

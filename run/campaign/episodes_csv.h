@@ -10,9 +10,6 @@
 
 namespace floorproof {
 
-// A text as a field of a CSV file: in quotes where it needs them.
-std::string CsvField(const std::string& text);
-
 // By variant and episode: outcome, events by mode, metrics, then plan.*, drawn.* and timeout.*
 // columns as far as any row has them.
 std::string EpisodesCsv(const CampaignStore& store, const std::vector<Variant>& variants);

@@ -132,7 +132,11 @@ Json VariantJson(const VariantSummary& v) {
           {"n_error", v.errors},
           {"n_not_planned", v.not_planned},
           {"first_error", Text(v.first_error)},
-          {"outcomes", {{"success", v.success}, {"failure", v.failure}, {"timeout", v.timeout}}},
+          {"outcomes",
+           {{"success", v.success},
+            {"failure", v.failure},
+            {"timeout", v.timeout},
+            {"aborted", v.aborted}}},
           {"failures", RatesJson(v.failures)},
           {"per_km", RatesPerJson(v.per_km)},
           {"per_1000_h", RatesPerJson(v.per_1000_h)},
@@ -151,6 +155,7 @@ VariantSummary ReadVariant(const std::string& name, const Json& json) {
   v.success = json.at("outcomes").at("success");
   v.failure = json.at("outcomes").at("failure");
   v.timeout = json.at("outcomes").at("timeout");
+  v.aborted = json.at("outcomes").value("aborted", 0);  // files of earlier versions have none
   v.failures = ReadRates(json.at("failures"));
   v.kinds = ReadRates(json.at("by_kind"));
   v.hazards = ReadRates(json.at("by_hazard"));

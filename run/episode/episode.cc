@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "base/quantity.h"
 #include "env/core/failure_text.h"
@@ -33,6 +34,8 @@ std::string_view Name(Outcome outcome) {
       return "failure";
     case Outcome::kTimeout:
       return "timeout";
+    case Outcome::kAborted:
+      return "aborted";
     case Outcome::kNotPlanned:
       return "not_planned";
     case Outcome::kError:
@@ -80,6 +83,8 @@ class Episode {
       record.timeout = Unfinished();
       if (record.message.empty()) record.message = Text(*record.timeout, s_.site.map);
     }
+    if (record.message.empty() && record.outcome == Outcome::kAborted)
+      record.message = robot_side_.supervisor()->stopped();
     if (record.message.empty()) record.message = interventions_.why_not();
     return record;
   }
@@ -93,6 +98,7 @@ class Episode {
   void Act(const Actuation& actuation);
   void StartDetectors();
   bool Detect();
+  std::optional<Outcome> HandedOver(const Supervisor& supervisor);
   Timeout Unfinished() const;
 
   Scenario& s_;
@@ -111,6 +117,7 @@ class Episode {
   Observation sensed_;
   Sample sample_;
   PlanProgress progress_;
+  int carried_ = 0;
   HazardMemory met_{&HazardMemory::Holds};
 };
 
@@ -135,7 +142,8 @@ Episode::Episode(Scenario& s, Plant& plant, Simulation* simulation, const PlanRe
       interventions_(s),
       navigator_(MakeNavigator(s, plan, known_)),
       robot_side_(robot_, known_, *navigator_,
-                  {*s.tracker, *s.estimator, OrNull(s.mapper), OrNull(s.recovery), !s.online},
+                  {*s.tracker, *s.estimator, OrNull(s.mapper), OrNull(s.recovery), OrNull(s.safety),
+                   !s.online},
                   1.0 / s.episode.control_hz) {}
 
 void Episode::Begin() {
@@ -159,6 +167,8 @@ std::optional<Outcome> Episode::Control() {
   if (robot_side_.done() || (enough && recorder_.coverage() >= *enough))
     ended = navigator_->leads() == Navigator::Leads::kNowhere ? Outcome::kNotPlanned
                                                               : Outcome::kSuccess;
+  if (const Supervisor* supervisor = robot_side_.supervisor())
+    if (const auto over = HandedOver(*supervisor)) ended = over;
   if (sample_.t_s >= limit_s_ + interventions_.extra_s()) ended = Outcome::kTimeout;
   if (observer_ && !observer_->OnControl({sample_, sensed_, robot_side_.estimate(), simulation_,
                                           recorder_.coverage(), recorder_.driven_m() / plan_m_}))
@@ -168,10 +178,25 @@ std::optional<Outcome> Episode::Control() {
     if (sample_.battery_v == 0) return Outcome::kFailure;  // cut off while it waited
     recorder_.OnIntervention(interventions_.SetDown(plant_, robot_side_), s_.detectors);
     Look();
+    if (robot_side_.supervisor() && robot_side_.supervisor()->asks_for_help())
+      robot_side_.Helped(sample_.X_WB(), EpisodeStream(s_, "estimator"), sample_.t_s);
     Act(robot_side_.actuation());
     StartDetectors();
   }
   return ended;
+}
+
+// A robot that asks for help is helped as after a failure, and told where it stands; one that has
+// stopped for good has done so once it is at rest.
+std::optional<Outcome> Episode::HandedOver(const Supervisor& supervisor) {
+  if (supervisor.asks_for_help() && !interventions_.awaited() &&
+      !interventions_.Call(robot_side_.path(), sample_))
+    return Outcome::kAborted;
+  if (supervisor.stopped().empty()) return std::nullopt;
+  constexpr double kAtRest_mps = 0.005, kAtRest_radps = 0.01;
+  const bool at_rest =
+      sample_.v_WB_W.norm() < kAtRest_mps && std::abs(sample_.V_WB_B.wz_radps) < kAtRest_radps;
+  return at_rest ? std::optional(Outcome::kAborted) : std::nullopt;
 }
 
 // One step of the plant, and what is to be said of it.
@@ -179,6 +204,10 @@ std::optional<Outcome> Episode::Step() {
   const bool good = plant_.Step();
   Look();
   if (!good) return Outcome::kError;
+  if (std::exchange(carried_, sample_.carried) != sample_.carried) {
+    recorder_.OnCarried(s_.detectors);
+    StartDetectors();  // nothing that it did brought it there
+  }
   sample_.off_track_W =
       OffTrack(robot_side_.path(), sample_.command.segment, sample_.p_WB.head<2>());
   sample_.cross_track_m = sample_.off_track_W.norm();

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "controllers/supervision/supervisor.h"
 #include "env/core/coverage.h"
 #include "env/core/drawn_map.h"
 #include "env/core/event.h"
@@ -24,7 +25,8 @@
 
 namespace floorproof {
 
-enum class Outcome { kSuccess, kFailure, kTimeout, kNotPlanned, kError, kInterrupted };
+// Aborted: the robot has stopped for good, by its own decision (controllers/supervision).
+enum class Outcome { kSuccess, kFailure, kTimeout, kAborted, kNotPlanned, kError, kInterrupted };
 std::string_view Name(Outcome outcome);
 
 struct Margin {
@@ -45,6 +47,9 @@ struct EpisodeRecord {
   std::vector<Event> events;
   std::vector<Intervention> interventions;
   std::optional<Timeout> timeout;  // where that is the outcome
+  std::vector<SafetyRow> safety;   // of a supervised robot
+  std::vector<RaisedAlarm> alarms;
+  std::vector<SpeedShare> speed_shares;
   Metrics metrics;
   std::vector<Margin> margins;
   std::vector<TraceRow> trace;

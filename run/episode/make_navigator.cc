@@ -3,6 +3,7 @@
 
 #include "controllers/follower_params.h"
 #include "planners/lines/held_yaw.h"
+#include "run/episode/go_to_navigator.h"
 #include "run/episode/make_plan.h"
 #include "run/episode/online_navigator.h"
 #include "run/episode/plan_navigator.h"
@@ -27,6 +28,7 @@ Extent Around(const Shape2& shape) {
 std::unique_ptr<Navigator> MakeNavigator(const Scenario& s, const PlanResult& plan,
                                          const HazardMap& known) {
   const RobotSpec& robot = s.robot.spec;
+  if (LeadsItself(s)) return std::make_unique<GoToNavigator>(plan);
   if (!s.online)
     return std::make_unique<PlanNavigator>(plan, known, robot, s.recovery ? &*s.recovery : nullptr);
   const HeldShapes held = HoldYaw(known, s.start, robot.clear, robot.tool);

@@ -31,6 +31,7 @@ struct Metrics {
   int contacts = 0;
   double contact_s = 0, contact_m = 0, max_contact_n = 0;
   double max_impulse_ns = 0;
+  std::optional<double> alarms, false_alarms, detection_s, held_s;
   std::optional<double> samples_taken, max_sample_off_m, dirt_gathering, audit_score;
 };
 
@@ -99,6 +100,16 @@ inline constexpr auto kMetrics = std::to_array<MetricColumn>({
      "greatest force with which obstacles pushed the body at one time"},
     {"max_impulse_ns", "N s", &Metrics::max_impulse_ns,
      "greatest impulse of a contact in one physics step"},
+    {"alarms", "", &Metrics::alarms,
+     "alarms that the robot's monitors raised; none without `safety`"},
+    {"false_alarms", "", &Metrics::false_alarms,
+     "of them, those raised before anything was broken; none without `safety`"},
+    {"detection_s", "s", &Metrics::detection_s,
+     "from when the first fault came to the first alarm after it; none where there was no fault, "
+     "or "
+     "no alarm"},
+    {"held_s", "s", &Metrics::held_s,
+     "time for which its supervision held the robot still; none without `safety`"},
     {"samples_taken", "", &Metrics::samples_taken,
      "samples that an audit took; none where the plan takes none", true},
     {"max_sample_off_m", "m", &Metrics::max_sample_off_m,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -31,7 +32,10 @@ class Recorder {
         asks_for_risk_(AsksForRisk(s)),
         dt_s_(s.physics.timestep_s),
         trace_hz_(s.episode.trace_hz),
-        trace_every_(s.episode.control_hz / s.episode.trace_hz) {}
+        trace_every_(s.episode.control_hz / s.episode.trace_hz) {
+    for (const ScheduledFault& fault : s.faults)
+      first_fault_s_ = std::min(first_fault_s_, fault.timing.onset_s);
+  }
 
   // Before the drive: how long it will take.
   void Expect(double duration_s) {
@@ -93,6 +97,11 @@ class Recorder {
   void OnIntervention(const Intervention& assist, const std::vector<NamedDetector>& detectors) {
     record_.interventions.push_back(assist);
     ++record_.metrics.interventions;
+    OnCarried(detectors);
+  }
+
+  // The same of a robot that something has carried off.
+  void OnCarried(const std::vector<NamedDetector>& detectors) {
     KeepMargins(detectors);
     meter_.Lift();
     samples_.BreakOff();
@@ -124,13 +133,15 @@ class Recorder {
     m.turns = CountTurns(side.navigator().plan());
     m.reactions = side.recoveries();
     FinishEstimateError();
+    if (const Supervisor* supervisor = side.supervisor()) MeasureSafety(*supervisor);
     if (side.known() != nullptr) record_.known = *side.known();
     KeepMargins(detectors);
     record_.sample_stops = samples_.stops();
     record_.passes = swept.passes();
     record_.passes_frame = area_.frame;
     record_.sweepable = area_.sweepable;
-    const bool judged = ended == Outcome::kSuccess || ended == Outcome::kTimeout;
+    const bool judged =
+        ended == Outcome::kSuccess || ended == Outcome::kTimeout || ended == Outcome::kAborted;
     record_.outcome = judged && !record_.events.empty() ? Outcome::kFailure : ended;
     record_.RequireCoverage(min_coverage);
     if (empty_s_ >= 0)
@@ -142,6 +153,21 @@ class Recorder {
   }
 
  private:
+  // What the robot noticed beside what was broken, which it is not told.
+  void MeasureSafety(const Supervisor& supervisor) {
+    Metrics& m = record_.metrics;
+    record_.safety.assign(supervisor.rows().begin(), supervisor.rows().end());
+    record_.alarms.assign(supervisor.alarms().begin(), supervisor.alarms().end());
+    record_.speed_shares.assign(supervisor.speed_shares().begin(), supervisor.speed_shares().end());
+    const auto early = [&](const RaisedAlarm& alarm) { return alarm.t_s < first_fault_s_; };
+    m.alarms = static_cast<double>(record_.alarms.size());
+    m.false_alarms = static_cast<double>(std::ranges::count_if(record_.alarms, early));
+    m.held_s = supervisor.held_s();
+    if (const auto noticed = std::ranges::find_if_not(record_.alarms, early);
+        noticed != record_.alarms.end())
+      m.detection_s = noticed->t_s - first_fault_s_;
+  }
+
   // Of the body; wheels meet every edge that they climb.
   void AddContacts(const Sample& sample) {
     Metrics& m = record_.metrics;
@@ -210,6 +236,7 @@ class Recorder {
   std::vector<std::int64_t> errors_mm_ =
       std::vector<std::int64_t>(static_cast<std::size_t>(kMaxMm));
   int trace_hz_, trace_every_;
+  double first_fault_s_ = std::numeric_limits<double>::infinity();
   std::int64_t control_ = 0;
   // The last time that the body touched something, and the way driven until then.
   double last_touch_s_ = -1e9, last_touch_m_ = 0;

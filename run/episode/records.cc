@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file_output.h"
+#include "base/printable.h"
 #include "env/core/failure_text.h"
 #include "planners/risk/risk_meter.h"
 #include "run/scenario/floors.h"
@@ -207,6 +208,16 @@ Json EventsJson(const std::vector<Event>& events) {
   return json;
 }
 
+Json AlarmsJson(const std::vector<RaisedAlarm>& alarms) {
+  Json json = Json::array();
+  for (const RaisedAlarm& alarm : alarms)
+    json.push_back({{"t_s", alarm.t_s},
+                    {"monitor", alarm.monitor},
+                    {"wheel", alarm.wheel.empty() ? Json(nullptr) : Json(alarm.wheel)},
+                    {"until_s", alarm.until_s ? Json(*alarm.until_s) : Json(nullptr)}});
+  return json;
+}
+
 Json TimeoutJson(const std::optional<Timeout>& timeout) {
   if (!timeout) return nullptr;
   return {{"t_s", timeout->t_s},
@@ -284,6 +295,7 @@ Json ResultJson(const Scenario& s, const EpisodeRecord& record) {
   if (record.timeout) json["timeout"] = TimeoutJson(record.timeout);
   if (!record.figures.empty()) json["planner"] = std::move(figures);
   if (record.audit) json["audit"] = AuditJson(*record.audit);
+  if (s.safety) json["alarms"] = AlarmsJson(record.alarms);
   json.update({{"events", std::move(events)},
                {"assists", InterventionsJson(record.interventions)},
                {"metrics", MetricsJson(record.metrics)},
@@ -318,6 +330,14 @@ std::string TraceCsv(const EpisodeRecord& record, const RobotSpec& robot) {
   return fmt::to_string(out);
 }
 
+std::string SafetyCsv(const EpisodeRecord& record) {
+  std::string csv = "t_s,node,safety_state,level,machine_state,reason\n";
+  for (const SafetyRow& row : record.safety)
+    csv += fmt::format("{:.2f},{},{:g},{},{},{}\n", row.t_s, CsvField(row.node), row.safety_state,
+                       Name(row.level), Name(row.machine), CsvField(row.reason));
+  return csv;
+}
+
 std::string RiskCsv(const RiskMap& risk) {
   fmt::memory_buffer out;
   for (int iy = risk.rf.height - 1; iy >= 0; --iy)
@@ -330,7 +350,7 @@ std::string RiskCsv(const RiskMap& risk) {
 ResultNames EpisodeResults() {
   return {"episode", [](std::string_view name) {
             return IsPlanFile(name) || IsFilm(name) || name == "result.json" ||
-                   name == "trace.csv" ||
+                   name == "trace.csv" || name == "safety.csv" ||
                    (name.ends_with(".png") &&
                     (name.starts_with("heatmap_") || name.starts_with("plot_")));
           }};
@@ -364,6 +384,7 @@ void RemoveEpisodeFiles(const ResultFolder& folder) {
 void WriteEpisodeFiles(const Scenario& s, const PlanResult& plan, const EpisodeRecord& record,
                        const std::filesystem::path& folder) {
   WriteFileWhole(folder / "trace.csv", TraceCsv(record, s.robot.spec));
+  if (s.safety) WriteFileWhole(folder / "safety.csv", SafetyCsv(record));
   if (!plan.samples.empty() && record.steps > 0)
     WriteFileWhole(folder / "plan.json", JsonText(PlanJson(s, plan, &record)) + "\n");
   if (record.outcome != Outcome::kInterrupted)

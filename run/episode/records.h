@@ -31,6 +31,9 @@ nlohmann::ordered_json VersionsJson();
 std::string TraceCsv(const EpisodeRecord& record, const RobotSpec& robot);
 
 // RF per cell, the top row first.
+// safety.csv: a row at each change.
+std::string SafetyCsv(const EpisodeRecord& record);
+
 std::string RiskCsv(const RiskMap& risk);
 
 // What a plan and an episode leave, pictures and film included; and the film with its stills alone.

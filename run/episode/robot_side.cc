@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/episode/robot_side.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "controllers/follower_params.h"
 #include "env/core/driven_floor.h"
 
 namespace floorproof {
@@ -18,6 +22,8 @@ RobotSide::RobotSide(const RobotSpec& robot, const HazardMap& known, Navigator& 
   drive_->Configure(robot);
   if (parts.mapper != nullptr) mapper_ = *parts.mapper;
   if (parts.recovery != nullptr) recovery_.emplace();
+  if (parts.safety != nullptr)
+    supervisor_ = std::make_unique<Supervisor>(*parts.safety, robot, known);
 }
 
 void RobotSide::Start(const Pose2& start, const Stream& draws) {
@@ -29,10 +35,49 @@ void RobotSide::Start(const Pose2& start, const Stream& draws) {
 
 const Actuation& RobotSide::Control(const Observation& sensed) {
   Perceive(sensed);
-  const bool recovering = recovery_ && recovery_->Update(sensed, estimate_, control_s_, command_);
+  if (supervisor_) Supervise(sensed);
+  if (supervisor_ && supervisor_->wish().kind == MotionWish::Kind::kTurn)
+    Turn(supervisor_->wish().yaw_rad);
+  else
+    GoOn(sensed);
+  return Actuate();
+}
+
+// It is watched by what it was told to do and what its sensors tell of that.
+void RobotSide::Supervise(const Observation& sensed) {
+  supervisor_->Update(
+      {sensed.t_s, control_s_, actuation_.twist, wheel_radps_, sensed.wheel_rad, sensed.hinges,
+       sensed.has_imu, sensed.gyro_radps, sensed.accel_mps2, sensed.scan, sensed.bump, sensed.power,
+       estimate_},
+      {supervisor_->wish().kind == MotionWish::Kind::kLine ? command_.done : at_end(),
+       command_.dwelling || command_.turning || command_.reacting});
+  parts_.tracker.Slow(supervisor_->speed_share());
+  if (reconfigurations_ == supervisor_->reconfigurations()) return;
+  reconfigurations_ = supervisor_->reconfigurations();
+  drive_->Exclude(supervisor_->wheels_out());
+  parts_.estimator.Exclude(supervisor_->wheels_out());
+}
+
+void RobotSide::GoOn(const Observation& sensed) {
+  const bool held = supervisor_ && supervisor_->speed_share() == 0;
+  const bool recovering =
+      !held && recovery_ && recovery_->Update(sensed, estimate_, control_s_, command_);
   if (!recovering || recovery_->ended()) Navigate(sensed);
   if (!recovering) command_ = parts_.tracker.Update(estimate_, sensed.t_s, control_s_);
-  return Actuate();
+}
+
+// On the spot to this heading, as fast as it may and can come to rest there.
+void RobotSide::Turn(double yaw_rad) {
+  const double left_rad = WrapAngle(yaw_rad - estimate_.X_WB.yaw_rad);
+  const double rate = std::min(
+      robot_.max_yaw_rate_radps,
+      StoppingSpeed(std::abs(left_rad), kPlannedShare * robot_.max_yaw_accel_radps2, kWheelLag_s));
+  const double wanted = supervisor_->speed_share() * std::copysign(rate, left_rad);
+  const double most = robot_.max_yaw_accel_radps2 * control_s_;
+  const double now = command_.twist.wz_radps;
+  command_.twist = {0, 0, std::clamp(wanted, now - most, now + most)};
+  command_.turning = true;
+  command_.dwelling = command_.done = false;
 }
 
 const Actuation& RobotSide::Stand(const Observation& sensed) {
@@ -48,10 +93,20 @@ void RobotSide::GoOnFrom(std::size_t waypoint) {
   Actuate();
 }
 
+void RobotSide::Helped(const Pose2& X_WB, const Stream& draws, double t_s) {
+  parts_.estimator.Start({known_, robot_, X_WB, draws});
+  if (supervisor_) {
+    parts_.estimator.Exclude(supervisor_->wheels_out());
+    supervisor_->Helped(t_s);
+  }
+}
+
 void RobotSide::Navigate(const Observation& sensed) {
   const bool recovered = recovery_ && recovery_->ended();
+  const bool line = supervisor_ && supervisor_->wish().kind == MotionWish::Kind::kLine;
   switch (navigator_.Update({sensed.t_s, estimate_, known(), command_.segment, command_.done,
-                             recovered, recovered && recovery_->met_drop()})) {
+                             recovered, recovered && recovery_->met_drop(),
+                             line ? &supervisor_->wish().line : nullptr})) {
     case PathChange::kNone:
       break;
     case PathChange::kAnew:
@@ -93,6 +148,7 @@ const Actuation& RobotSide::Actuate() {
   actuation_.hinges = command_.hinges;
   drive_->ToWheels(actuation_.twist, actuation_.hinges, wheel_radps_);
   actuation_.wheel_radps = wheel_radps_;
+  if (supervisor_) actuation_.cut = supervisor_->cut();
   return actuation_;
 }
 

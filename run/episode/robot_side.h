@@ -12,6 +12,7 @@
 #include "controllers/mapper.h"
 #include "controllers/navigator.h"
 #include "controllers/recovery.h"
+#include "controllers/supervision/supervisor.h"
 #include "controllers/tracker.h"
 #include "env/core/observation.h"
 #include "env/sim/plant.h"
@@ -25,6 +26,7 @@ class RobotSide {
     Estimator& estimator;
     const Mapper* mapper = nullptr;            // as configured; nullptr: it draws no map
     const RecoveryParams* recovery = nullptr;  // nullptr: it drives blindly
+    const SafetyPlan* safety = nullptr;        // nullptr: nobody watches it
     // false: the map is its estimator's alone; it drives by what it draws itself.
     bool drives_by_map = true;
   };
@@ -44,14 +46,18 @@ class RobotSide {
   // It was set down at this waypoint of its path: whatever it was about is over. Its estimator is
   // not told. Allocates.
   void GoOnFrom(std::size_t waypoint);
+  // And it is told where it stands.
+  void Helped(const Pose2& X_WB, const Stream& draws, double t_s);
 
   const Command& command() const { return command_; }
   const Actuation& actuation() const { return actuation_; }  // the drive may have slowed hinges
   const Path& path() const { return navigator_.path(); }
   int paths() const { return paths_; }  // how many it has been given to follow
   const Estimate& estimate() const { return estimate_; }
-  // Whether it has driven all that its navigator leads along.
-  bool done() const { return command_.done && navigator_.leads() != Navigator::Leads::kOn; }
+  // Whether it has driven all that its navigator leads along, or done its mission.
+  bool done() const { return supervisor_ ? supervisor_->done() : at_end(); }
+  // nullptr: nobody watches it.
+  const Supervisor* supervisor() const { return supervisor_.get(); }
   const Navigator& navigator() const { return navigator_; }
   // Of the known map, on the path that it follows.
   const ClearanceField& clearance() const { return clearance_; }
@@ -59,6 +65,10 @@ class RobotSide {
   int recoveries() const { return recovery_ ? recovery_->count() : 0; }
 
  private:
+  bool at_end() const { return command_.done && navigator_.leads() != Navigator::Leads::kOn; }
+  void Supervise(const Observation& sensed);
+  void GoOn(const Observation& sensed);
+  void Turn(double yaw_rad);
   void Perceive(const Observation& sensed);
   void Navigate(const Observation& sensed);
   void Follow();
@@ -74,6 +84,8 @@ class RobotSide {
   std::unique_ptr<Drive> drive_;
   std::optional<Mapper> mapper_;
   std::optional<Recovery> recovery_;
+  std::unique_ptr<Supervisor> supervisor_;
+  int reconfigurations_ = 0;  // that its drive and its estimator know of
   Estimate estimate_;
   Command command_;
   std::vector<double> wheel_radps_;

@@ -9,6 +9,7 @@
 #include "base/file_output.h"
 #include "run/scenario/scenario_parts.h"
 #include "run/scenario/written_faults.h"
+#include "run/scenario/written_safety.h"
 
 namespace floorproof {
 namespace {
@@ -190,8 +191,10 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
   if (s.goal &&
       stated("goal", site_varies || Vary(s, {"site.goal", "site.goal.x_m", "site.goal.y_m"})))
     root.Add("goal", Goal(*s.goal));
-  root.Add("plan", PlannerOf(s) != nullptr ? PlannerKeys(s, folder)
-                                           : Named("file", PathFrom(folder, s.plan_file).string()));
+  if (!LeadsItself(s))
+    root.Add("plan", PlannerOf(s) != nullptr
+                         ? PlannerKeys(s, folder)
+                         : Named("file", PathFrom(folder, s.plan_file).string()));
   if (AsksForRisk(s))
     root.Add("risk", WithParams(Named("tables", s.fmea_file == BundledTables()
                                                     ? std::string(kBundledTables)
@@ -210,6 +213,13 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
     root.Add("mapper", WithPlugin(ConfigNode::Map(), mapper));
   }
   if (s.recovery) root.Add("react", WithParams(ConfigNode::Map(), *s.recovery));
+  if (s.safety) {
+    root.Add("mission", ConfigNode::Scalar(s.mission_file == BundledMission()
+                                               ? std::string(kBundledMission)
+                                               : PathFrom(folder, s.mission_file).string(),
+                                           true));
+    root.Add("safety", WriteSafety(*s.safety));
+  }
   if (!s.faults.empty()) root.Add("faults", WriteFaults(s.faults));
   if (s.dirt) root.Add("dirt", WriteDirt(*s.dirt));
   root.Add("failures", Failures(s));

@@ -333,6 +333,8 @@ Configurable* PlannerOf(const Scenario& s) {
   return s.online.get();
 }
 
+bool LeadsItself(const Scenario& s) { return !s.planner && !s.online && s.plan_file.empty(); }
+
 bool AsksForRisk(const Scenario& s) {
   return s.written.contains("risk") || (s.planner && s.planner->promises().needs_risk);
 }
@@ -346,6 +348,7 @@ std::vector<fs::path> FilesRead(const Scenario& s) {
   files.push_back(s.fmea_file);
   if (!s.plan_file.empty()) files.push_back(s.plan_file);
   if (!s.places_file.empty()) files.push_back(s.places_file);
+  if (!s.mission_file.empty()) files.push_back(s.mission_file);
   return files;
 }
 

@@ -17,6 +17,7 @@
 #include "controllers/estimator.h"
 #include "controllers/mapper.h"
 #include "controllers/recovery.h"
+#include "controllers/supervision/safety_plan.h"
 #include "controllers/tracker.h"
 #include "env/failures/detector.h"
 #include "env/faults/schedule.h"
@@ -55,12 +56,12 @@ struct Scenario {
   Pose2 start;
   std::optional<Vec2> goal;
 
-  // One of three makes the plan.
+  // One of three makes the plan; or the mission says where to drive.
   std::string planner_name;  // empty: plan_file
   std::unique_ptr<Planner> planner;
   std::unique_ptr<OnlinePlanner> online;  // on the way, as the floor becomes known
   std::filesystem::path plan_file;
-  Path user_plan;                     // what it holds
+  Path user_plan;                     // what it holds, or the mission's places
   std::filesystem::path places_file;  // that the planner is to visit; empty: it finds its own
   std::vector<Vec2> places;           // what it holds, p_W
 
@@ -74,6 +75,8 @@ struct Scenario {
   std::vector<NamedSensor> sensors;        // those written, and those that a part of it needs
   std::optional<Mapper> mapper;            // none: no map is drawn
   std::optional<RecoveryParams> recovery;  // none: the plan is driven blindly
+  std::optional<SafetyPlan> safety;        // none: nobody watches it
+  std::filesystem::path mission_file;      // of which that is; empty: none
   std::vector<ScheduledFault> faults;      // what breaks on the robot
   std::optional<FloorDirt> dirt;           // none: nobody asks for it
   std::vector<NamedDetector> detectors;
@@ -146,6 +149,9 @@ class ScenarioFile {
 
 // Its planner's parameters, whichever kind it is; nullptr: a user's plan.
 Configurable* PlannerOf(const Scenario& scenario);
+
+// Whether its mission says where to drive, and there is no plan but its places.
+bool LeadsItself(const Scenario& scenario);
 
 // Whether its plan needs the floor's risk, or its key `risk` asks for it: of any other nothing is
 // said of risk.

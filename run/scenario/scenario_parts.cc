@@ -15,6 +15,7 @@
 #include "run/scenario/plan_file.h"
 #include "run/scenario/start_check.h"
 #include "run/scenario/written_faults.h"
+#include "run/scenario/written_safety.h"
 
 namespace floorproof {
 namespace {
@@ -160,9 +161,45 @@ void ReadPlacesPart(ConfigNode& plan, Scenario& s) {
   plan.Remove("samples");
 }
 
+// A mission is named like risk tables: the bundled one's name, or a path that ends in .yaml.
+void ReadSafetyPart(const ConfigNode& root, Scenario& s) {
+  const ConfigNode* safety = Written(root, "safety");
+  const ConfigNode* mission = Written(root, "mission");
+  if (safety == nullptr && mission == nullptr) return;
+  const std::string name =
+      mission != nullptr ? AsString(*mission, "mission") : std::string(kBundledMission);
+  if (name == kBundledMission)
+    s.mission_file = BundledMission();
+  else if (name.ends_with(".yaml"))
+    s.mission_file = NamedFile(s.file.parent_path(), *mission, "mission", s.files);
+  else
+    throw InputError(mission->mark, "mission", name, "must be follow_plan, or a .yaml file");
+  const ConfigNode tree = ReadYamlFile(s.mission_file, s.files);
+  s.safety = ReadSafety(safety, tree);
+  s.safety->helped = s.episode.on_failure == "assist";
+  for (const Vec2& place : PlacesOf(s.safety->mission, tree)) {
+    if (!s.site.map.frame.Inside(s.site.map.frame.ToCell(place)))
+      throw InputError({s.mission_file.string(), 0}, "skills",
+                       FormatDouble(place.x()) + ", " + FormatDouble(place.y()),
+                       "lies off the map");
+    Waypoint waypoint;
+    waypoint.p_W = place;
+    s.user_plan.push_back(waypoint);
+  }
+}
+
 // Returns the line of each waypoint of a user's plan.
 std::vector<int> ReadPlanPart(const ConfigNode& root, Scenario& s) {
   std::vector<int> lines;
+  if (!s.user_plan.empty()) {
+    if (const ConfigNode* plan = root.Find("plan"))
+      throw InputError(plan->mark, "plan", "",
+                       "stands beside a mission that says itself where to drive; take one of them "
+                       "away");
+    s.planner_name = "mission";
+    lines.assign(s.user_plan.size(), 0);
+    return lines;
+  }
   const ConfigNode* node = root.Find("plan");
   if (const ConfigNode* file = node && node->IsMap() ? node->Find("file") : nullptr) {
     if (const ConfigNode* planner = node->Find("planner"))
@@ -303,12 +340,17 @@ std::vector<Reading> NeededReadings(const ConfigNode& root, const Scenario& s) {
   // One that came with `react` does without.
   if (Written(root, "mapper") || PlansByItsMap(s)) add(Mapper::Needs());
   if (s.recovery) add(s.recovery->Needs());
+  if (s.safety) add(NeededBy(*s.safety));
   return needed;
 }
 
 void ReadSensors(const ConfigNode& root, Scenario& s) {
   const ConfigNode written = PluginMap(root, "sensors", "sensors", PluginNames(Sensors()));
   s.sensors = CarriedSensors(Sensors(), written, NeededReadings(root, s));
+  if (!s.safety) return;
+  std::vector<Reading> told;
+  for (const NamedSensor& named : s.sensors) told.push_back(named.sensor->Fills());
+  KeepMonitorsOf(told, *s.safety);
 }
 
 void ReadFaultsPart(const ConfigNode& root, Scenario& s) {
@@ -353,14 +395,15 @@ const std::vector<std::string>& ScenarioKeys() {
       "risk",    "controller", "estimator", "sensors",  "mapper",     "react",   "physics",
       "battery", "control_hz", "trace_hz",  "failures", "on_failure", "success", "time_limit_s",
       "seed",    "episode",    "drive",     "wheels",   "video",      "files",   "randomise",
-      "matrix",  "gate",       "faults",    "dirt"};
+      "matrix",  "gate",       "faults",    "dirt",     "safety",     "mission"};
   return keys;
 }
 
 bool NamesFile(const std::string& key_path, const std::string& value) {
   if (key_path == "robot" || key_path == "robot.name") return value.ends_with(".xml");
   return key_path == "site" || key_path == "site.map" || key_path == "plan.file" ||
-         key_path == "plan.samples.file" || (key_path == "risk.tables" && value.ends_with(".yaml"));
+         key_path == "plan.samples.file" || (key_path == "mission" && value.ends_with(".yaml")) ||
+         (key_path == "risk.tables" && value.ends_with(".yaml"));
 }
 
 fs::path NamedFile(const fs::path& folder, const ConfigNode& node, const std::string& key,
@@ -387,6 +430,7 @@ void ReadTopKeys(const ConfigNode& root, Scenario& s) {
 }
 
 void ReadParts(const ConfigNode& root, Scenario& s) {
+  ReadSafetyPart(root, s);
   const std::vector<int> plan_lines = ReadPlanPart(root, s);
   ReadRobotPart(root, plan_lines, s);  // whether it folds hangs on the plan
   s.start = ReadStart(root, s.site.map);

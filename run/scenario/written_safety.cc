@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/scenario/written_safety.h"
+
+#include <algorithm>
+
+#include "env/scene/robot_model.h"
+
+namespace floorproof {
+namespace {
+
+// Encoders, IMU and the drivers' currents cost nothing; a lidar is more than a monitor is worth.
+constexpr Reading kCheap[] = {Reading::kWheels, Reading::kImu, Reading::kPower};
+
+template <class Has>
+bool AllOf(const Monitor& monitor, const Has& has) {
+  const std::vector<Reading> needs = monitor.Needs();
+  return std::ranges::all_of(needs, has);
+}
+
+}  // namespace
+
+std::filesystem::path BundledMission() {
+  return ModelsFolder() / "missions" / (std::string(kBundledMission) + ".yaml");
+}
+
+SafetyPlan ReadSafety(const ConfigNode* safety, const ConfigNode& root) {
+  SafetyPlan plan;
+  plan.mission = ReadMission(root, RobotPrimitiveTypes());
+  for (const MissionNode& node : plan.mission.nodes)
+    if (node.kind == MissionNode::Kind::kPrimitive) MakePrimitive(plan.mission, node);
+  const std::vector<std::string> named = MonitorsOf(plan.mission);
+  const ConfigNode* written = nullptr;
+  if (safety != nullptr) {
+    ReadParams(*safety, "safety.", [&](ParamVisitor& v) { plan.reaction.Visit(v); }, {"monitors"});
+    written = safety->Find("monitors");
+    if (written != nullptr && !written->IsMap())
+      throw InputError(written->mark, "safety.monitors", written->scalar,
+                       "must be a map of monitors, each with its keys");
+    if (written != nullptr) RefuseUnknownKeys(*written, "safety.monitors.", named);
+  }
+  for (const std::string& name : named) {
+    const ConfigNode* keys = written != nullptr ? written->Find(name) : nullptr;
+    if (keys != nullptr && keys->IsScalar() && keys->scalar == "none") continue;
+    auto monitor = MakePlugin(Monitors(), name, "monitors");
+    if (keys != nullptr) ReadParams(*keys, "safety.monitors." + name + ".", *monitor);
+    plan.monitors.push_back({name, std::move(monitor)});
+  }
+  return plan;
+}
+
+std::vector<Reading> NeededBy(const SafetyPlan& plan) {
+  std::vector<Reading> needed;
+  for (const NamedMonitor& monitor : plan.monitors)
+    for (const Reading reading : monitor.monitor->Needs())
+      if (std::ranges::find(kCheap, reading) != std::end(kCheap)) needed.push_back(reading);
+  return needed;
+}
+
+void KeepMonitorsOf(std::span<const Reading> told, SafetyPlan& plan) {
+  std::erase_if(plan.monitors, [&](const NamedMonitor& named) {
+    return !AllOf(*named.monitor,
+                  [&](Reading r) { return std::ranges::find(told, r) != told.end(); });
+  });
+}
+
+ConfigNode WriteSafety(const SafetyPlan& plan) {
+  ReactionParams reaction = plan.reaction;
+  ConfigNode node = WithParams(ConfigNode::Map(), reaction);
+  ConfigNode monitors = ConfigNode::Map();
+  const auto is_kept = [&](const std::string& name) {
+    return std::ranges::find(plan.monitors, name, &NamedMonitor::name) != plan.monitors.end();
+  };
+  for (const NamedMonitor& named : plan.monitors) {
+    ConfigNode keys = ConfigNode::Map();
+    WriteParams(*named.monitor, keys);
+    monitors.Add(named.name, std::move(keys));
+  }
+  for (const std::string& name : MonitorsOf(plan.mission))
+    if (!is_kept(name)) monitors.Add(name, ConfigNode::Scalar("none"));
+  node.Add("monitors", std::move(monitors));
+  return node;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// A robot's supervision as it is written: the keys `safety` and `mission`.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/config.h"
+#include "base/input_files.h"
+#include "controllers/supervision/safety_plan.h"
+
+namespace floorproof {
+
+// The mission that stands where none is named: it drives the scenario's plan.
+inline constexpr std::string_view kBundledMission = "follow_plan";
+std::filesystem::path BundledMission();
+
+// `safety`, the key's map; nullptr: as it is by default. `root`: the mission's file, parsed. Throws
+// InputError with file, line and key. Which monitors the robot can have is not asked yet.
+SafetyPlan ReadSafety(const ConfigNode* safety, const ConfigNode& root);
+// What its monitors go by and every robot can carry: the rest is not carried for their sake.
+std::vector<Reading> NeededBy(const SafetyPlan& plan);
+// Takes away the monitors that go by what the robot is not told.
+void KeepMonitorsOf(std::span<const Reading> told, SafetyPlan& plan);
+
+// The key `safety` again, with every default stated.
+ConfigNode WriteSafety(const SafetyPlan& plan);
+
+}  // namespace floorproof
