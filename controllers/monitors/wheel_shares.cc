@@ -17,7 +17,7 @@ void WheelShares::Start(const WheelShareParams& params, const RobotSpec& robot) 
 }
 
 std::span<const std::optional<double>> WheelShares::Update(const MonitorReadings& now) {
-  if (!now.power.heard) return {};
+  if (!now.power.heard || now.hinges.n > 0) return {};
   turning_a_.clear();
   for (std::size_t w = 0; w < wheels_.size(); ++w) {
     Wheel& wheel = wheels_[w];

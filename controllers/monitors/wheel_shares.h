@@ -24,7 +24,8 @@ class WheelShares {
   // May allocate; Update may not.
   void Start(const WheelShareParams& params, const RobotSpec& robot);
   // One period. By driven wheel; none of one that has not turned this way for long. Empty while
-  // nothing can be said: fewer than four wheels turn, or all of them roll freely.
+  // nothing can be said: fewer than four wheels turn, all of them roll freely, or they stand on
+  // blocks that fold, which do not carry alike.
   std::span<const std::optional<double>> Update(const MonitorReadings& now);
 
  private:

@@ -166,6 +166,11 @@ void ReadSafetyPart(const ConfigNode& root, Scenario& s) {
   const ConfigNode* safety = Written(root, "safety");
   const ConfigNode* mission = Written(root, "mission");
   if (safety == nullptr && mission == nullptr) return;
+  if (s.episode.drive == "cells")
+    throw InputError(
+        (safety != nullptr ? safety : mission)->mark, safety != nullptr ? "safety" : "mission", "",
+        "is for drives through physics; with `drive: cells` nothing is sensed that could "
+        "be watched");
   const std::string name =
       mission != nullptr ? AsString(*mission, "mission") : std::string(kBundledMission);
   if (name == kBundledMission)

@@ -220,6 +220,8 @@ TEST_F(SupervisedDrive, BadOnesAreOneLineThatNamesTheRule) {
               HasSubstr("safety.monitors.tilt.limit: unknown key; did you mean limit_deg?"));
   EXPECT_THAT(Refusal("safety: {monitors: {tillt: {}}}\n"), HasSubstr("did you mean tilt?"));
   EXPECT_THAT(Refusal("safety: {monitors: 3}\n"), HasSubstr("safety.monitors = 3: must be a map"));
+  EXPECT_THAT(Refusal("safety: {}\ndrive: cells\n"),
+              HasSubstr("safety: is for drives through physics"));
   EXPECT_THAT(Refusal("mission: go\n"),
               HasSubstr("mission = go: must be follow_plan, or a .yaml file"));
   EXPECT_THAT(Refusal("mission: n.yaml\n"), HasSubstr("n.yaml"));
