@@ -248,10 +248,10 @@ class MissionReader {
     node.primitive = static_cast<std::size_t>(found - mission_.primitives.begin());
     node.params = found->params;
     const std::vector<std::string>& keys = TypeOf(node).keys;
-    for (const auto& [key, value] : of_skill.entries) {
-      if (std::ranges::find(keys, key) == keys.end()) continue;
-      node.params.Remove(key);  // the skill's rules
-      node.params.Add(key, value);
+    for (const auto& [handed, value] : of_skill.entries) {
+      if (std::ranges::find(keys, handed) == keys.end()) continue;
+      node.params.Remove(handed);  // the skill's rules
+      node.params.Add(handed, value);
     }
   }
 

@@ -69,7 +69,11 @@ NodeStatus MissionRun::RunSkill(std::size_t node, double t_s) {
   for (const std::size_t child : children)
     if (mission_.nodes[child].parallel && Run(child, t_s) == NodeStatus::kFailed)
       return NodeStatus::kFailed;
-  return RunInOrder(node, t_s);
+  const NodeStatus status = RunInOrder(node, t_s);
+  if (status == NodeStatus::kDone)  // what ran beside it has nothing left to run beside
+    for (const std::size_t child : children)
+      if (mission_.nodes[child].parallel) status_[child] = NodeStatus::kDone;
+  return status;
 }
 
 std::optional<Failure> MissionRun::failure(std::size_t node) const {

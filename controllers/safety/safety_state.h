@@ -33,6 +33,7 @@ struct FailureRating {
 struct Failure {
   Persistence persistence = Persistence::kIntermittent;
   Availability availability = Availability::kSingular;
+  bool operator==(const Failure&) const = default;
 };
 
 // The paper's coefficients "to be decided according to each case, to each parameter": each

@@ -234,8 +234,11 @@ void Supervisor::Stop(double t_s, const std::string& why) {
   if (decision_.state() == DecisionState::kAbort)
     stopped_ += ": " + Reason(transitions.back(), plan_.mission.decision,
                               paths_[run_.skills()[transitions.back().worst]]);
-  for (std::size_t i = 0; i < primitives_.size(); ++i)
-    if (primitives_[i] != nullptr && run_.failure(i)) stopped_ += "; " + WhatIsWrong(i);
+  for (std::size_t i = 0; i < primitives_.size(); ++i) {
+    if (primitives_[i] == nullptr || !run_.failure(i)) continue;
+    const std::string wrong = "; " + WhatIsWrong(i);  // others may be watched by the same monitors
+    if (stopped_.find(wrong) == std::string::npos) stopped_ += wrong;
+  }
   Say(t_s, 0, stopped_);
 }
 
@@ -246,6 +249,11 @@ std::string Supervisor::WhatIsWrong(std::size_t node) const {
   for (const std::size_t m : primitives_[node]->monitors()) {
     const NamedMonitor& monitor = plan_.monitors[m];
     const std::span<const Alarm> alarms = monitor.monitor->alarms();
+    constexpr std::ptrdiff_t kSingly = 3;
+    if (const auto raised = std::ranges::count_if(alarms, &Alarm::raised); raised > kSingly) {
+      add(fmt::format("{} of {} wheels", monitor.name, raised));
+      continue;
+    }
     for (std::size_t i = 0; i < alarms.size(); ++i) {
       if (!alarms[i].raised()) continue;
       const std::string of = monitor.monitor->by_wheel() ? " of " + robot_.wheels[i].name : "";

@@ -180,6 +180,31 @@ TEST_F(SupervisedDrive, AMissionOfGoTosIsDrivenWithoutAPlan) {
   }
 }
 
+// Section 4 in physics: an intermittent fault of both motors is 60, and 96 once it is permanent.
+TEST_F(SupervisedDrive, TheWorkedExampleIsDriven) {
+  std::string mission = kMission;
+  for (const char* name : {"rotation: {", "line: {", "acceleration_control: {"})
+    mission.insert(mission.find(name) + std::string(name).size(),
+                   "monitors: [wheel_speed, motor_current], ");
+  Save("m.yaml", mission);
+  std::string text =
+      RoomScenario("", "mission: m.yaml\nfaults: [{type: weak_motor, wheel: all, onset_s: 9}]\n");
+  text.replace(text.find("plan: {file: plan.csv}\n"), 23, "");
+  const EpisodeRecord dut = Drive(Read(text));
+  EXPECT_EQ(dut.outcome, Outcome::kAborted);
+  std::vector<double> states;  // of the GoTo skill
+  std::vector<DecisionState> machine;
+  for (const SafetyRow& row : dut.safety) {
+    if (row.node == "there.go" && row.safety_state > 0) states.push_back(row.safety_state);
+    if (machine.empty() || machine.back() != row.machine) machine.push_back(row.machine);
+  }
+  EXPECT_EQ(states, (std::vector<double>{60, 60, 96}));
+  EXPECT_THAT(dut.safety, Contains(Field(&SafetyRow::safety_state, 36))) << "Line";
+  EXPECT_THAT(machine, Contains(DecisionState::kReconfiguring));
+  EXPECT_EQ(machine.back(), DecisionState::kAbort);
+  EXPECT_THAT(dut.message, HasSubstr("there.go reached Zcrit: 96 >= 61"));
+}
+
 TEST_F(SupervisedDrive, IsResolvedWithEveryDefaultAndDrivesTheSame) {
   Save("m.yaml", kMission);
   for (const char* more : {"safety: {wait_s: 3}\n", "mission: m.yaml\nsafety: {monitors: {}}\n"}) {

@@ -91,6 +91,10 @@ TEST_F(MissionTest, RunsItsTasksSkillsAndPrimitivesInOrder) {
   while (dut.Update(0.02 * periods) == NodeStatus::kRunning) ++periods;
   EXPECT_THAT(log_, ElementsAre("acceleration_control", "rotation", "line", "rotation"));
   EXPECT_EQ(periods, 2 + 2 + 1) << "where one is done the next begins in the same period";
+  scripts_["acceleration_control"].failure = Failure{};
+  const std::size_t beside = Find(mission, "acceleration_control");
+  EXPECT_EQ(dut.status(beside), NodeStatus::kDone) << "it ran as long as its skill did";
+  EXPECT_EQ(dut.failure(beside), std::nullopt);
   ExpectFromLineUp(dut, mission, NodeStatus::kDone);
 }
 
@@ -219,9 +223,9 @@ TEST(MissionFile, ASkillHandsItsKeysToThoseOfItsPrimitivesThatKnowThem) {
       "skills: {go: {run: [rotation, line], x_m: 2, p1_s: 4}, on: {run: [line]}}\n"
       "tasks: {a: [go, on]}\nrun: [a]\n");
   const auto keys = [&](std::size_t node) {
-    std::map<std::string, std::string> keys;
-    for (const auto& [key, value] : mission.nodes[node].params.entries) keys[key] = value.scalar;
-    return keys;
+    std::map<std::string, std::string> found;
+    for (const auto& [key, value] : mission.nodes[node].params.entries) found[key] = value.scalar;
+    return found;
   };
   using Keys = std::map<std::string, std::string>;
   EXPECT_EQ(keys(3), Keys({{"p1_s", "4"}})) << "the rotation knows no x_m";
