@@ -114,7 +114,7 @@ std::string Outcomes(const VariantSummary& v) {
   const std::array<Part, 6> parts = {{{"success", v.success, "good"},
                                       {"failure", v.failure, "bad"},
                                       {"timeout", v.timeout, "warn"},
-                                      {"stopped by itself", v.aborted, "warn"},
+                                      {"stopped by itself", v.aborted, "halted"},
                                       {"error", v.errors, "broken"},
                                       {"without a plan", v.not_planned, "idle"}}};
   std::string bar, key;

@@ -61,7 +61,7 @@ svg { display: block; width: 100%; overflow: visible; }
 .outcomes span { flex-basis: 0; min-width: 2px; }
 .good { background: var(--good); } .bad { background: var(--bad); }
 .warn { background: var(--warn); } .broken { background: var(--broken); }
-.idle { background: var(--idle); }
+.idle { background: var(--idle); } .halted { background: var(--mark); }
 .key { list-style: none; margin: .5rem 0 1rem; padding: 0; display: flex; flex-wrap: wrap;
   gap: .1rem 1.2rem; font-size: .9rem; }
 .key i { display: inline-block; width: .65rem; height: .65rem; border-radius: 50%;
