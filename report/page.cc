@@ -77,7 +77,7 @@ std::string VerdictBox(const Report& report) {
   std::string tone, list;
   if (const auto& gate = report.summary.gate) {
     tone = std::string(" ") + GateVerdictName(gate->verdict);
-    for (const auto& [variant, found] : gate->variants)
+    for (const auto& [variant, found, aborted] : gate->variants)
       list += "<li>" +
               MarkupText(gate->variants.size() > 1 ? variant + ": " + found.text : found.text) +
               "</li>";

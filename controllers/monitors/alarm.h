@@ -46,6 +46,8 @@ class Alarm {
       first_s_.reset();
     }
   }
+  // Whether it is still there is to be seen afresh; until then it stands.
+  void Retry() { bad_s_ = well_s_ = 0; }
   // It is forgotten until it is seen again; that it was there is not.
   void Rearm() {
     raised_ = false;

@@ -9,6 +9,7 @@ namespace {
 class CovarianceLimit final : public Monitor {
  public:
   CovarianceLimit() : Monitor({.hold_s = 0.5}) {}
+  bool by_estimate() const override { return true; }
   MonitorKind kind() const override { return MonitorKind::kLimit; }
   std::vector<Reading> Needs() const override { return {}; }
 

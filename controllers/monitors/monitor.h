@@ -26,7 +26,8 @@ namespace floorproof {
 enum class MonitorKind { kLimit, kTrend, kSignalModel, kProcessModel, kMultivariate };
 std::string_view Name(MonitorKind kind);
 
-// What a robot can know in a control period. Nothing here is the truth, or says what is broken.
+// What a robot can know in a control period. Nothing here says what is broken, or is the truth: but
+// for the estimate of the estimator `truth`.
 struct MonitorReadings {
   double t_s = 0, dt_s = 0;
   // What was commanded in the period that has just passed: of the body, and of each driven wheel.
@@ -59,6 +60,8 @@ class Monitor : public Configurable {
   virtual MonitorKind kind() const = 0;
   // What it goes by; without it the robot does without the monitor.
   virtual std::vector<Reading> Needs() const = 0;
+  // It goes by where the robot thinks it is: nothing to a robot that is told the truth.
+  virtual bool by_estimate() const { return false; }
   // It has an alarm for each driven wheel, in RobotSpec's order; else one.
   virtual bool by_wheel() const { return false; }
 
@@ -70,6 +73,10 @@ class Monitor : public Configurable {
   virtual void Update(const MonitorReadings& now) = 0;
 
   std::span<const Alarm> alarms() const { return alarms_; }
+  // See Alarm::Retry, of all.
+  void Retry() {
+    for (Alarm& alarm : alarms_) alarm.Retry();
+  }
   // See Alarm::Rearm, of all.
   void Rearm() {
     for (Alarm& alarm : alarms_) alarm.Rearm();

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "controllers/likelihood_field.h"
-#include "controllers/monitors/monitor.h"
+#include "controllers/monitors/lean_angle.h"
 
 namespace floorproof {
 namespace {
@@ -14,15 +14,13 @@ namespace {
 class ScanFit final : public Monitor {
  public:
   ScanFit() : Monitor({.hold_s = 0.5, .clear_s = 1}) {}
+  bool by_estimate() const override { return true; }
   MonitorKind kind() const override { return MonitorKind::kTrend; }
   std::vector<Reading> Needs() const override { return {Reading::kScan}; }
 
   void Update(const MonitorReadings& now) override {
     const LidarScan& scan = now.scan;
-    const Vec3 up = now.has_imu ? now.accel_mps2.normalized() : Vec3::UnitZ();
-    const double lean = std::hypot(ahead_.Update(up.x(), now.dt_s, kSmooth_s),
-                                   aside_.Update(up.y(), now.dt_s, kSmooth_s));
-    if (lean > std::sin(most_lean_deg_ * kPi / 180)) return;
+    if (lean_.Update(now) > most_lean_deg_ * kPi / 180) return;
     if (scan.fresh) Measure(scan, now.estimate.X_WB);
     if (scans_ < kFirst) return;
     const double limit = fall_ * usual_;
@@ -32,7 +30,6 @@ class ScanFit final : public Monitor {
 
  private:
   static constexpr int kFirst = 10;  // scans, before it knows what is usual
-  static constexpr double kSmooth_s = 0.2;
 
   void VisitOwn(ParamVisitor& v) override {
     v("fall", fall_, Between(0, 1), "least share of the usual fit");
@@ -44,8 +41,7 @@ class ScanFit final : public Monitor {
     known_ = &context.known;
     field_.reset();
     scans_ = 0;
-    ahead_.Reset();
-    aside_.Reset();
+    lean_.Reset();
     usual_ = now_share_ = 0;
   }
 
@@ -69,7 +65,7 @@ class ScanFit final : public Monitor {
   }
 
   double fall_ = 0.7, fit_m_ = 0.1, most_lean_deg_ = 2;
-  LowPass ahead_, aside_;
+  LeanAngle lean_;
   const HazardMap* known_ = nullptr;
   std::optional<LikelihoodField> field_;
   int scans_ = 0;

@@ -13,6 +13,7 @@ namespace {
 class Slip final : public Monitor {
  public:
   Slip() : Monitor({.hold_s = 0.2}) {}
+  bool by_estimate() const override { return true; }
   MonitorKind kind() const override { return MonitorKind::kProcessModel; }
   std::vector<Reading> Needs() const override { return {Reading::kWheels}; }
 

@@ -13,6 +13,8 @@ void WheelShares::Start(const WheelShareParams& params, const RobotSpec& robot) 
   for (const WheelSpec& wheel : robot.wheels)
     wheels_.push_back({kTurns * robot.cruise_mps / wheel.radius_m, true, 0, {}});
   shares_.assign(wheels_.size(), {});
+  lean_.Reset();
+  level_s_ = 0;
   turning_a_.reserve(wheels_.size());
 }
 
@@ -34,8 +36,11 @@ std::span<const std::optional<double>> WheelShares::Update(const MonitorReadings
     shares_[w] = mean_a;
     turning_a_.push_back(mean_a);
   }
+  const bool leans = lean_.Update(now) > params_.most_lean_deg * kPi / 180;
+  level_s_ = leans ? 0 : level_s_ + now.dt_s;
   constexpr std::size_t kFewest = 4;
-  if (turning_a_.size() < kFewest) return {};
+  constexpr double kForgets = 3;  // means, until what it drew on an edge is out of them
+  if (turning_a_.size() < kFewest || level_s_ < kForgets * params_.mean_s) return {};
   const auto middle = turning_a_.begin() + static_cast<std::ptrdiff_t>(turning_a_.size() / 2);
   std::ranges::nth_element(turning_a_, middle);
   if (*middle < params_.least_a) return {};

@@ -7,15 +7,17 @@
 #include <span>
 #include <vector>
 
-#include "controllers/monitors/monitor.h"
+#include "controllers/monitors/lean_angle.h"
 
 namespace floorproof {
 
 struct WheelShareParams {
-  double least_a = 0.02, mean_s = 1;
+  double least_a = 0.02, mean_s = 1, most_lean_deg = 1;
   void Visit(ParamVisitor& v) {
     v("least_a", least_a, NonNegative(), "a median below this says nothing (A)");
     v("mean_s", mean_s, Positive(), "time constant of the mean (s)");
+    v("most_lean_deg", most_lean_deg, Between(0, 90),
+      "of a robot that leans more by its IMU, as on an edge, wheels do not carry alike (deg)");
   }
 };
 
@@ -24,8 +26,8 @@ class WheelShares {
   // May allocate; Update may not.
   void Start(const WheelShareParams& params, const RobotSpec& robot);
   // One period. By driven wheel; none of one that has not turned this way for long. Empty while
-  // nothing can be said: fewer than four wheels turn, all of them roll freely, or they stand on
-  // blocks that fold, which do not carry alike.
+  // nothing can be said: fewer than four wheels turn, all of them roll freely, the robot leans or
+  // has leaned just now, or its blocks fold and do not carry alike.
   std::span<const std::optional<double>> Update(const MonitorReadings& now);
 
  private:
@@ -39,6 +41,8 @@ class WheelShares {
   std::vector<Wheel> wheels_;
   std::vector<std::optional<double>> shares_;
   std::vector<double> turning_a_;
+  LeanAngle lean_;
+  double level_s_ = 0;  // since it last leaned
 };
 
 }  // namespace floorproof

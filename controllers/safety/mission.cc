@@ -2,6 +2,7 @@
 #include "controllers/safety/mission.h"
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -91,6 +92,7 @@ class MissionReader {
     Refuse(*tasks_, "tasks");
     Add(MissionNode::Kind::kMission, mission_.name, root_.mark);
     for (const ConfigNode& task : run.items) AddTask(0, task, "run");
+    CheckTheRest();
     return std::move(mission_);
   }
 
@@ -107,6 +109,35 @@ class MissionReader {
       mission_.levels.Check(*node, "levels.");
     if (const ConfigNode* node = read("decision", mission_.decision))
       mission_.decision.Check(*node, "decision.");
+    if (mission_.levels.serious >= mission_.decision.z_crit) {
+      const ConfigNode* levels = root_.Find("levels");
+      throw InputError(MarkOf(levels != nullptr ? *levels : root_, "serious"), "levels.serious",
+                       FormatDouble(mission_.levels.serious),
+                       "must be below decision.z_crit, " + FormatDouble(mission_.decision.z_crit) +
+                           ", which is where fatal begins");
+    }
+  }
+
+  // What nothing runs is held to the same: whoever writes it means to run it.
+  void CheckTheRest() {
+    const MissionNode mission = mission_.nodes[0];
+    const std::size_t run = mission_.nodes.size();
+    const auto check = [&](const ConfigNode& all, const auto& add) {
+      for (const auto& [name, node] : all.entries) {
+        if (used_.contains(name)) continue;
+        add(name, node);
+        mission_.nodes.resize(run);
+        mission_.nodes[0] = mission;
+      }
+    };
+    check(*tasks_, [&](const std::string& name, const ConfigNode& node) {
+      ConfigNode named = ConfigNode::Scalar(name);
+      named.mark = node.mark;
+      AddTask(0, named, "tasks");
+    });
+    check(*skills_, [&](const std::string& name, const ConfigNode& node) {
+      AddSkill(0, name, node, node.mark);
+    });
   }
 
   void ReadPrimitives() {
@@ -173,6 +204,10 @@ class MissionReader {
                            DidYouMeanOneOf(name, NamesOf(*tasks_)));
     if (std::ranges::find(within_, name) != within_.end())
       throw InputError(named.mark, key, name, "is part of itself: " + Cycle(name));
+    constexpr std::size_t kDeepest = 100;
+    if (within_.size() == kDeepest)
+      throw InputError(named.mark, key, name, "lies more than 100 tasks deep");
+    used_.insert(name);
     const std::string path = "tasks." + name;
     if (!task->IsList() || task->items.empty())
       throw InputError(task->mark, path, task->scalar, "must be a list of skills or tasks");
@@ -201,6 +236,7 @@ class MissionReader {
 
   void AddSkill(std::size_t parent, const std::string& name, const ConfigNode& skill,
                 const SourceMark& mark) {
+    used_.insert(name);
     const std::string path = "skills." + name;
     if (!skill.IsMap())
       throw InputError(skill.mark, path, skill.scalar,
@@ -241,6 +277,11 @@ class MissionReader {
                                          : "is no primitive of this mission") +
                            DidYouMeanOneOf(name, names));
     }
+    const PrimitiveType& type = *std::ranges::find(types_, found->type, &PrimitiveType::name);
+    if (type.ends == parallel)
+      throw InputError(item.mark, key, name,
+                       type.ends ? "comes to an end: it belongs under run"
+                                 : "goes on for ever: it belongs under with");
     const std::size_t index = Add(MissionNode::Kind::kPrimitive, name, item.mark);
     mission_.nodes[parent].children.push_back(index);
     MissionNode& node = mission_.nodes[index];
@@ -265,6 +306,7 @@ class MissionReader {
   const ConfigNode* skills_ = nullptr;
   const ConfigNode* tasks_ = nullptr;
   std::vector<std::string> within_;  // the tasks that are being read
+  std::set<std::string> used_;       // tasks and skills that were
   Mission mission_;
 };
 

@@ -18,6 +18,7 @@ namespace floorproof {
 struct PrimitiveType {
   std::string name;
   std::vector<std::string> keys;
+  bool ends = true;  // it is done some time: a skill runs it; else it goes on beside those
 };
 
 struct MissionPrimitive {

@@ -21,6 +21,7 @@ MissionRun::MissionRun(const Mission& mission, const Make& make)
     : mission_(mission),
       primitives_(mission.nodes.size()),
       status_(mission.nodes.size(), NodeStatus::kWaiting),
+      begun_s_(mission.nodes.size(), 0),
       risk_(mission.nodes.size()) {
   for (std::size_t i = 0; i < mission.nodes.size(); ++i) {
     const MissionNode& node = mission.nodes[i];
@@ -41,6 +42,7 @@ NodeStatus MissionRun::Run(std::size_t node, double t_s) {
   if (Over(status)) return status;
   const bool begins = status == NodeStatus::kWaiting;
   status = NodeStatus::kRunning;
+  if (begins) begun_s_[node] = t_s;
   switch (mission_.nodes[node].kind) {
     case MissionNode::Kind::kMission:
     case MissionNode::Kind::kTask:

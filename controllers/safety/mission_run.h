@@ -48,6 +48,8 @@ class MissionRun {
     double greatest = 0, sum = 0;
   };
   const Risk& risk(std::size_t node) const { return risk_[node]; }
+  // When it began; only of one that has.
+  double begun_s(std::size_t node) const { return begun_s_[node]; }
   // What its monitors say of a primitive that runs, or has failed.
   std::optional<Failure> failure(std::size_t node) const;
   // All skills of the tree, in order, and R_i of each.
@@ -63,6 +65,7 @@ class MissionRun {
   const Mission& mission_;
   std::vector<std::unique_ptr<Primitive>> primitives_;  // by node; of the others nullptr
   std::vector<NodeStatus> status_;
+  std::vector<double> begun_s_;
   std::vector<Risk> risk_;
   std::vector<std::size_t> skills_;
   std::vector<double> states_;

@@ -25,9 +25,9 @@ struct Board {
   const MonitorReadings* now = nullptr;
   std::span<const NamedMonitor> monitors;
   const WheelRedundancy* wheels = nullptr;
-  bool at_end = false;  // of the plan, or of the line
-  bool busy = false;    // it stands on purpose: it dwells, folds, turns, or reacts to a touch
-  bool held = false;    // it is held still, or slowed down, by its supervision
+  bool at_end = false;     // of the plan, or of the line
+  bool busy = false;       // it stands on purpose: it dwells, folds, turns, or reacts to a touch
+  double speed_share = 1;  // that its supervision lets it drive at; 0: it is held still
   // Told by them.
   MotionWish wish;
 };

@@ -23,60 +23,74 @@ class RobotPrimitive : public Primitive, public Configurable {
   struct Context {
     const RobotSpec& robot;
     const FailureRating& rating;
+    const SafetyWeights& weights;
     Board& board;
     std::vector<std::size_t> monitors;  // into Board::monitors
   };
+  void Visit(ParamVisitor& v) final;
   // Before Start; what is referred to outlives it.
   void Prepare(const Context& context);
+  // How long its skill has run.
+  void SetSkillTime(double s) { skill_s_ = s; }
 
+  // It comes to an end: it moves the robot. Else it goes on beside those that do.
+  virtual bool moves() const = 0;
   // Whether it drives the scenario's plan; or to which place it leads, whatever the plan says.
   virtual bool drives_plan() const { return false; }
-  virtual std::optional<Vec2> LeadsTo() const { return {}; }
+  virtual std::optional<AskedLine> LeadsTo() const { return {}; }
 
+  // The worst of what it may fail by, as Eq. 1 weighs it. Once its skill has taken longer than
+  // timeout_s, "there is a permanent fault in the skill": each failure is permanent, and what moves
+  // has failed, if by nothing else.
   std::optional<Failure> failure() const final;
   std::span<const std::size_t> monitors() const { return monitors_; }
 
  protected:
-  // By its own time-outs; the availability is as rated.
-  virtual std::optional<Persistence> TimedOut() const { return {}; }
+  virtual void VisitOwn(ParamVisitor& v) = 0;
+  // Whether it does not get on, or goes beyond what it may, by its own account.
+  virtual std::optional<Persistence> FailsItself() const { return {}; }
   const RobotSpec& robot() const { return *robot_; }
   const MonitorReadings& now() const { return *board_->now; }
   Board& board() { return *board_; }
   const Board& board() const { return *board_; }
 
  private:
-  std::optional<Failure> Said(const Monitor& monitor) const;
+  void Worsen(const Failure& other, std::optional<Failure>& worst) const;
 
   const RobotSpec* robot_ = nullptr;
   FailureRating rating_;
+  SafetyWeights weights_;
   Board* board_ = nullptr;
   std::vector<std::size_t> monitors_;
   mutable std::vector<char> wheels_;
+  std::optional<double> timeout_s_;
+  double skill_s_ = 0;
 };
 
 std::span<const PluginEntry<RobotPrimitive>> RobotPrimitives();
 // For ReadMission.
 std::vector<PrimitiveType> RobotPrimitiveTypes();
 
-// Whether something gets smaller, as a time-out asks ("if the distance error does not reduce in
-// less than P1 seconds", section 4), and how long all takes.
-class TimeOut {
+// P1 ("if the distance error does not reduce in less than P1 seconds, there is an intermittent
+// fault", section 4): whether what is left gets less. A robot that is let drive at a share of its
+// speed has so much longer.
+class GettingOn {
  public:
   double p1_s = 8;
-  std::optional<double> timeout_s;
   void Visit(ParamVisitor& v);
 
-  void Start(double t_s);
-  // One period: what is left, which counts as less when it is less by `step`. `excused`: it is
-  // held, or stands on purpose.
-  void Update(double t_s, double left, double step, bool excused);
+  void Start();
+  // One period: what is left, which counts as less when it is less by `step`. `excused`: it stands
+  // on purpose.
+  void Update(double dt_s, double left, double step, double speed_share, bool excused);
   // It has got on, whatever is left.
-  void GotOn(double t_s) { since_s_ = t_s; }
-  std::optional<Persistence> persistence() const { return persistence_; }
+  void GotOn() { idle_s_ = 0; }
+  std::optional<Persistence> fails() const {
+    return idle_s_ > p1_s ? std::optional(Persistence::kIntermittent) : std::nullopt;
+  }
 
  private:
-  double start_s_ = 0, since_s_ = 0, held_s_ = 0, last_s_ = 0, least_ = 0;
-  std::optional<Persistence> persistence_;
+  double idle_s_ = 0, least_ = 0;
 };
 
 }  // namespace floorproof

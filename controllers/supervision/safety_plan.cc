@@ -40,20 +40,20 @@ std::vector<std::string> MonitorsOf(const Mission& mission) {
   return names;
 }
 
-std::vector<Vec2> PlacesOf(const Mission& mission, const ConfigNode& root) {
-  std::vector<Vec2> places;
+std::vector<AskedLine> LinesOf(const Mission& mission, const ConfigNode& root) {
+  std::vector<AskedLine> lines;
   int plans = 0;
   for (const MissionNode& node : mission.nodes) {
     if (node.kind != MissionNode::Kind::kPrimitive) continue;
     const auto primitive = MakePrimitive(mission, node);
     plans += primitive->drives_plan() ? 1 : 0;
-    if (const auto place = primitive->LeadsTo()) places.push_back(*place);
+    if (const auto line = primitive->LeadsTo()) lines.push_back(*line);
   }
-  if (plans > 1 || (plans > 0) == !places.empty())
+  if (plans > 1 || (plans > 0) == !lines.empty())
     throw InputError(MarkOf(root, "run"), "run", "",
                      "must drive the plan once (follow_plan), or lead from place to place (line), "
                      "and not both");
-  return places;
+  return lines;
 }
 
 std::unique_ptr<RobotPrimitive> MakePrimitive(const Mission& mission, const MissionNode& node) {

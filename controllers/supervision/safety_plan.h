@@ -32,9 +32,9 @@ struct SafetyPlan {
 // Makes the primitive of this node. Throws InputError, with line and key, for a value that is out
 // of bounds and a monitor that there is not. Monitors that the robot does without are passed over.
 std::unique_ptr<RobotPrimitive> MakePrimitive(const Mission& mission, const MissionNode& node);
-// Where its lines lead to, in order; empty: it drives the scenario's plan. Throws InputError where
+// Its lines, in order; empty: it drives the scenario's plan. Throws InputError where
 // it does both, or neither.
-std::vector<Vec2> PlacesOf(const Mission& mission, const ConfigNode& root);
+std::vector<AskedLine> LinesOf(const Mission& mission, const ConfigNode& root);
 // The monitors that the mission's primitives name, each once.
 std::vector<std::string> MonitorsOf(const Mission& mission);
 // Those of one node.

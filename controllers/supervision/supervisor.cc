@@ -10,7 +10,11 @@
 namespace floorproof {
 namespace {
 
-constexpr double kComesToRest_s = 1.5;  // from its highest speed, by its drivers
+// From its highest speed, by its drivers.
+double ComesToRest_s(const RobotSpec& robot) {
+  constexpr double kLag_s = 0.7;  // of tracker, wheels and who watches them
+  return robot.max_accel_mps2 > 0 ? robot.max_speed_mps / robot.max_accel_mps2 + kLag_s : 2;
+}
 
 // Where a node stands in the tree, from its task on.
 std::vector<std::string> PathsOf(const Mission& mission) {
@@ -27,6 +31,8 @@ std::vector<std::string> PathsOf(const Mission& mission) {
 Supervisor::Supervisor(const SafetyPlan& plan, const RobotSpec& robot, const HazardMap& known)
     : plan_(plan),
       robot_(robot),
+      known_(known),
+      comes_to_rest_s_(ComesToRest_s(robot)),
       wheels_(robot),
       drive_(MakePlugin(Drives(), robot.drive, "drive")),
       board_{.now = nullptr, .monitors = plan.monitors, .wheels = &wheels_, .wish = {}},
@@ -39,8 +45,8 @@ Supervisor::Supervisor(const SafetyPlan& plan, const RobotSpec& robot, const Haz
                  monitors.push_back(static_cast<std::size_t>(found - plan.monitors.begin()));
              }
              auto primitive = MakePrimitive(plan.mission, node);
-             primitive->Prepare({robot, plan.mission.primitives[node.primitive].rating, board_,
-                                 std::move(monitors)});
+             primitive->Prepare({robot, plan.mission.primitives[node.primitive].rating,
+                                 plan.mission.weights, board_, std::move(monitors)});
              primitives_.resize(plan.mission.nodes.size());
              primitives_[static_cast<std::size_t>(&node - plan.mission.nodes.data())] =
                  primitive.get();
@@ -53,31 +59,49 @@ Supervisor::Supervisor(const SafetyPlan& plan, const RobotSpec& robot, const Haz
       paths_(PathsOf(plan.mission)) {
   primitives_.resize(plan.mission.nodes.size());
   drive_->Configure(robot);
-  for (const NamedMonitor& monitor : plan.monitors) {
-    monitor.monitor->Start({robot, *drive_, known});
+  StartMonitors();
+  for (const NamedMonitor& monitor : plan.monitors)
     raised_.emplace_back(monitor.monitor->alarms().size(), 0);
-  }
+  radps_.assign(robot.wheels.size(), 0);
   rows_.reserve(256);
+}
+
+void Supervisor::StartMonitors() {
+  for (const NamedMonitor& monitor : plan_.monitors) {
+    monitor.monitor->Start({robot_, *drive_, known_});
+    for (std::size_t w = 0; w < wheels_.out().size(); ++w)
+      if (wheels_.out()[w]) monitor.monitor->Ignore(w);
+  }
 }
 
 void Supervisor::Update(const MonitorReadings& now, const Motion& motion) {
   board_.now = &now;
   board_.at_end = motion.at_end;
   board_.busy = motion.busy;
-  board_.held = share_ < 1;
+  board_.speed_share = share_;
   if (stopped_.empty()) Watch(now);
   const bool over = !stopped_.empty() || asks_;
-  if (!over) run_.Update(now.t_s);
+  if (!over) Run(now.t_s);
+  LogNodes(now.t_s);
   decision_.Update(now.t_s, run_.safety_states(), std::exchange(reconfigured_, {}));
-  Log(now.t_s);
+  LogTransitions(now.t_s);
   if (!over && plan_.reaction.react) React(now.t_s);
   if (!plan_.reaction.react && decision_.state() == DecisionState::kReconfiguring)
     reconfigured_ = false;  // nothing is tried
   if (share_ != shares_.back().share) shares_.push_back({now.t_s, share_});
   if (share_ > 0) told_to_stand_s_ = now.t_s;
   if (share_ == 0) held_s_ += now.dt_s;
-  cuts_all_ |= !stopped_.empty() && now.t_s - told_to_stand_s_ > kComesToRest_s;
+  cuts_all_ |= !stopped_.empty() && now.t_s - told_to_stand_s_ > comes_to_rest_s_;
   board_.now = nullptr;
+}
+
+void Supervisor::Run(double t_s) {
+  for (const std::size_t skill : run_.skills()) {
+    if (run_.status(skill) != NodeStatus::kRunning) continue;
+    for (const std::size_t child : plan_.mission.nodes[skill].children)
+      primitives_[child]->SetSkillTime(t_s - run_.begun_s(skill));
+  }
+  run_.Update(t_s);
 }
 
 void Supervisor::Watch(const MonitorReadings& now) {
@@ -116,6 +140,10 @@ void Supervisor::React(double t_s) {
   }
   const bool fault = decision_.state() != DecisionState::kNormal;
   const SafetyLevel level = fault ? this->level() : SafetyLevel::kHigh;
+  if (level == SafetyLevel::kFatal)
+    return Stop(t_s, std::string(Name(SupervisionPrimitive::kDefinitiveStop)));
+  if (trial_since_s_ && fault) return Try(t_s);
+  if (std::exchange(trial_since_s_, {})) GoOn(t_s, "all is well again");
   if (level >= SafetyLevel::kSerious || (fault && wait_until_s_)) return Wait(t_s);
   if (std::exchange(wait_until_s_, {})) GoOn(t_s, "all is well again");
   if (level >= SafetyLevel::kMedium) Reconfigure(t_s, Availability::kRedundant);
@@ -141,16 +169,33 @@ void Supervisor::Wait(double t_s) {
     wait_until_s_ = t_s + reaction.wait_s;
     return Say(t_s, 0, fmt::format("safety waiting, {} of {}", waits_, reaction.most_waits));
   }
-  if (!Stands() && t_s - told_to_stand_s_ > kComesToRest_s)
+  if (!Stands() && t_s - told_to_stand_s_ > comes_to_rest_s_)
     return Stop(t_s, "it does not stand when it is told to");
   if (t_s < *wait_until_s_) return;
-  if (SeesItNow(t_s)) {  // to try would be no trial
+  constexpr double kNow_s = 0.5;
+  if (SeenSince(t_s - kNow_s)) {  // to try would be no trial
     if (t_s - told_to_stand_s_ >= reaction.patience_s) HandOver(t_s);
     return;
   }
   wait_until_s_.reset();
-  Rearm();
-  GoOn(t_s, "it tries again");
+  trial_since_s_ = t_s;
+  for (const NamedMonitor& monitor : plan_.monitors) monitor.monitor->Retry();
+  Say(t_s, 0, "it tries again");
+}
+
+// It drives with care, in fault mode as it is. What is seen again is waited for again; what is not
+// is forgotten.
+void Supervisor::Try(double t_s) {
+  calm_since_s_ = t_s;
+  if (SeenSince(*trial_since_s_)) {
+    trial_since_s_.reset();
+    return Wait(t_s);
+  }
+  share_ = plan_.reaction.adapt_share;
+  if (t_s - *trial_since_s_ < plan_.reaction.cautious_s) return;
+  trial_since_s_.reset();
+  for (const NamedMonitor& monitor : plan_.monitors) monitor.monitor->Rearm();
+  GoOn(t_s, "nothing was seen again");
 }
 
 void Supervisor::GoOn(double t_s, const char* why) {
@@ -192,25 +237,23 @@ bool Supervisor::Reconfigure(double t_s, Availability most) {
   return true;
 }
 
-// Whether an alarm of what it waits for is of now, and not of when it last drove.
-bool Supervisor::SeesItNow(double t_s) const {
-  constexpr double kNow_s = 0.5;
+// Whether an alarm is of this time or later, and not of when it last drove.
+bool Supervisor::SeenSince(double t_s) const {
   return std::ranges::any_of(plan_.monitors, [&](const NamedMonitor& monitor) {
     return std::ranges::any_of(monitor.monitor->alarms(), [&](const Alarm& alarm) {
-      return alarm.raised() && t_s - alarm.last_s() < kNow_s;
+      return alarm.raised() && alarm.last_s() > t_s;
     });
   });
 }
 
-// By its own odometry.
-bool Supervisor::Stands() const {
+// By its wheels and its gyro.
+bool Supervisor::Stands() {
   constexpr double kStands_mps = 0.03, kStands_radps = 0.1;
-  const BodyTwist& V = board_.now->estimate.V_WB_B;
-  return std::hypot(V.vx_mps, V.vy_mps) < kStands_mps && std::abs(V.wz_radps) < kStands_radps;
-}
-
-void Supervisor::Rearm() {
-  for (const NamedMonitor& monitor : plan_.monitors) monitor.monitor->Rearm();
+  const MonitorReadings& now = *board_.now;
+  for (std::size_t w = 0; w < radps_.size(); ++w) radps_[w] = now.wheel_rad[w] / now.dt_s;
+  const BodyTwist V = drive_->ToTwist(radps_, now.hinges);
+  return std::hypot(V.vx_mps, V.vy_mps) < kStands_mps && std::abs(V.wz_radps) < kStands_radps &&
+         std::abs(now.gyro_radps.z()) < kStands_radps;
 }
 
 void Supervisor::HandOver(double t_s) {
@@ -219,11 +262,15 @@ void Supervisor::HandOver(double t_s) {
   asks_ = true;
 }
 
-void Supervisor::Helped(double t_s) {
-  asks_ = false;
+// What it was about is over, and what its monitors remember is of elsewhere.
+void Supervisor::SetDown(double t_s) {
   waits_ = 0;
-  Rearm();
-  GoOn(t_s, "a person has set it down and told it where it is");
+  wait_until_s_.reset();
+  trial_since_s_.reset();
+  StartMonitors();
+  GoOn(t_s,
+       asks_ ? "a person has set it down and told it where it is" : "a person has set it down");
+  asks_ = false;
 }
 
 void Supervisor::Stop(double t_s, const std::string& why) {
@@ -266,8 +313,8 @@ std::string Supervisor::WhatIsWrong(std::size_t node) const {
   return text + (failure.persistence == Persistence::kPermanent ? "; permanent" : "; intermittent");
 }
 
-// A row for each node whose safety state has changed, then one for each transition.
-void Supervisor::Log(double t_s) {
+// A row for each node whose safety state has changed.
+void Supervisor::LogNodes(double t_s) {
   for (std::size_t i = logged_.size(); i-- > 0;) {
     const double state = run_.risk(i).greatest;
     if (state == logged_[i]) continue;
@@ -279,6 +326,9 @@ void Supervisor::Log(double t_s) {
       reason = "as it should be";
     Say(t_s, i, std::move(reason));
   }
+}
+
+void Supervisor::LogTransitions(double t_s) {
   const auto& transitions = decision_.transitions();
   for (; transitions_ < transitions.size(); ++transitions_) {
     const DecisionTransition& t = transitions[transitions_];

@@ -61,10 +61,11 @@ class Supervisor {
   // Motors that are cut off their power, a flag a wheel: of wheels that are out of use, and all
   // once it has stopped for good; a driver that has gone wrong does not stop when it is told to.
   std::span<const char> cut() const { return cuts_all_ ? all_wheels_ : wheels_.out(); }
-  // It stands and asks for a person, until Helped().
+  bool cuts_all() const { return cuts_all_; }
+  // It stands and asks for a person, until SetDown().
   bool asks_for_help() const { return asks_; }
-  // A person has come: where the robot is, is known again, and what was alarming is looked at anew.
-  void Helped(double t_s);
+  // A person has set it down elsewhere: what was alarming is looked at anew.
+  void SetDown(double t_s);
   bool done() const { return run_.status(0) == NodeStatus::kDone; }
 
   DecisionState machine() const { return decision_.state(); }
@@ -76,22 +77,27 @@ class Supervisor {
   double held_s() const { return held_s_; }
 
  private:
+  void StartMonitors();
+  void Run(double t_s);
   void Watch(const MonitorReadings& now);
   void React(double t_s);
   void Wait(double t_s);
+  void Try(double t_s);
   bool Reconfigure(double t_s, Availability most);
-  void Rearm();
   void GoOn(double t_s, const char* why);
   void HandOver(double t_s);
-  bool SeesItNow(double t_s) const;
-  bool Stands() const;
+  bool SeenSince(double t_s) const;
+  bool Stands();
   void Stop(double t_s, const std::string& why);
-  void Log(double t_s);
+  void LogNodes(double t_s);
+  void LogTransitions(double t_s);
   void Say(double t_s, std::size_t node, std::string reason);
   std::string WhatIsWrong(std::size_t node) const;
 
   const SafetyPlan& plan_;
   const RobotSpec& robot_;
+  const HazardMap& known_;
+  const double comes_to_rest_s_;
   WheelRedundancy wheels_;
   std::unique_ptr<Drive> drive_;  // that monitors ask
   Board board_;
@@ -101,7 +107,7 @@ class Supervisor {
   std::optional<bool> reconfigured_;
 
   double share_ = 1;
-  std::optional<double> wait_until_s_;
+  std::optional<double> wait_until_s_, trial_since_s_;
   double cautious_until_s_ = 0, calm_since_s_ = 0;
   double told_to_stand_s_ = 0;  // since then
   int waits_ = 0, reconfigurations_ = 0;
@@ -113,6 +119,7 @@ class Supervisor {
   std::vector<double> logged_;            // by node: its safety state in its last row
   std::size_t transitions_ = 0;           // that stand in the rows
   std::vector<char> wheels_raised_, all_wheels_;
+  std::vector<double> radps_;
   std::vector<std::string> paths_;  // of the nodes
   std::vector<SafetyRow> rows_;
   std::vector<RaisedAlarm> alarms_;

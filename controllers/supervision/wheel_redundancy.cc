@@ -4,8 +4,7 @@
 namespace floorproof {
 
 WheelRedundancy::WheelRedundancy(const RobotSpec& robot)
-    : robot_(robot),
-      drive_(MakePlugin(Drives(), robot.drive, "drive")),
+    : drive_(MakePlugin(Drives(), robot.drive, "drive")),
       out_(robot.wheels.size(), 0),
       tried_(robot.wheels.size(), 0) {
   drive_->Configure(robot);
@@ -13,6 +12,12 @@ WheelRedundancy::WheelRedundancy(const RobotSpec& robot)
 
 Availability WheelRedundancy::Without(std::span<const char> wheels) const {
   for (std::size_t w = 0; w < out_.size(); ++w) tried_[w] = out_[w] || wheels[w];
+  if (tried_ == asked_) return answer_;  // as in the last period: it allocates else
+  asked_ = tried_;
+  return answer_ = LeftWithoutTried();
+}
+
+Availability WheelRedundancy::LeftWithoutTried() const {
   if (!drive_->Exclude(tried_)) return Availability::kSingular;
   for (std::size_t w = 0; w < out_.size(); ++w) {
     if (tried_[w]) continue;

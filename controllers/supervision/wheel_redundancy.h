@@ -13,7 +13,6 @@ namespace floorproof {
 
 class WheelRedundancy {
  public:
-  // `robot` outlives it.
   explicit WheelRedundancy(const RobotSpec& robot);
 
   // Without these wheels, a flag each, and those that are out of use already. As the paper says of
@@ -26,10 +25,13 @@ class WheelRedundancy {
   std::span<const char> out() const { return out_; }
 
  private:
-  const RobotSpec& robot_;
+  Availability LeftWithoutTried() const;
+
   std::unique_ptr<Drive> drive_;  // asked, never driven with
   std::vector<char> out_;
   mutable std::vector<char> tried_;
+  mutable std::vector<char> asked_;  // last, and
+  mutable Availability answer_ = Availability::kRedundant;
 };
 
 }  // namespace floorproof

@@ -40,6 +40,7 @@ void Simulation::Alter(const Alterations& alterations) {
   altered_ = alterations;
   battery_.Weaken(altered_.battery_voltage);
   AlterMotors();
+  slips_ = false;
   AlterFriction();
   AlterRollerBearings();
   if (payload_changes) AlterPayload();
@@ -115,17 +116,38 @@ void Simulation::AlterFriction() {
 }
 
 // What is met rules over friction (scene.cc), but for a wheel that finds less. The softness of the
-// contact stays the floor's.
+// contact stays the floor's. (Wheels in explicit pairs have their friction there.)
 void Simulation::AlterGrip(int geom, std::optional<double> most) {
   constexpr int kOverAll = 3;
   const mjModel* built = scene_.model.get();
   const auto floor = std::ranges::find(scene_.roles, GeomRole::Kind::kFloor, &GeomRole::kind);
-  const auto like = most ? static_cast<int>(floor - scene_.roles.begin()) : geom;
-  own_->geom_priority[geom] = most ? kOverAll : built->geom_priority[geom];
+  const bool rules = most && floor != scene_.roles.end();
+  const auto like = rules ? static_cast<int>(floor - scene_.roles.begin()) : geom;
+  slips_ |= rules;
+  own_->geom_priority[geom] = rules ? kOverAll : built->geom_priority[geom];
   std::copy_n(built->geom_solref + mjNREF * like, mjNREF, own_->geom_solref + mjNREF * geom);
   std::copy_n(built->geom_solimp + mjNIMP * like, mjNIMP, own_->geom_solimp + mjNIMP * geom);
   own_->geom_friction[3 * geom] =
-      most ? std::min(*most, own_->geom_friction[3 * like]) : built->geom_friction[3 * geom];
+      rules ? std::min(*most, own_->geom_friction[3 * like]) : built->geom_friction[3 * geom];
+}
+
+// On ice a tread that grips little finds still less: the friction of what it met in the last step,
+// where that is below its own.
+void Simulation::GripWhatIsMet() {
+  const mjModel* m = model();
+  const mjData* d = data_.get();
+  for (int i = 0; i < d->ncon; ++i) {
+    const int* geoms = d->contact[i].geom;
+    for (const int side : {0, 1}) {
+      const auto wheel = std::ranges::find(wheel_bodies_, m->geom_bodyid[geoms[side]]);
+      if (wheel == wheel_bodies_.end()) continue;
+      const auto& most =
+          altered_.wheel_friction[static_cast<std::size_t>(wheel - wheel_bodies_.begin())];
+      if (most)
+        own_->geom_friction[3 * geoms[side]] =
+            std::min(*most, own_->geom_friction[3 * geoms[1 - side]]);
+    }
+  }
 }
 
 // Rollers that are bodies are braked in their bearings: by the share of what the floor can turn

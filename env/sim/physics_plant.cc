@@ -2,6 +2,7 @@
 #include "env/sim/physics_plant.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "env/core/standing.h"
@@ -29,6 +30,7 @@ void PhysicsPlant::Reset(const Pose2& X_WB, Observation& sensed) {
   UpdateFaults(0);
   simulation_.Reset(X_WB);
   begun_ = true;
+  if (const auto carried = std::exchange(from_start_, {})) Carry(*carried);  // nobody tells it
   for (const auto& [name, sensor, implied] : sensors_)
     sensor->Start({scene_, map_, robot_, control_s_, simulation_.motor_nm()}, simulation_.data(),
                   truth(), stream_of_("sensors." + name), sensed);
@@ -71,15 +73,20 @@ void PhysicsPlant::Alter(const Alterations& alterations) {
                  alterations.silent_sensors.end();
   bump_stuck_rad_ = alterations.bump_stuck_rad;
   simulation_.Alter(alterations);
-  if (alterations.carried) Carry(*alterations.carried);
+  if (!alterations.carried) return;
+  if (begun_)
+    Carry(*alterations.carried);
+  else
+    from_start_ = alterations.carried;
 }
 
-// As far as it can stand there: whoever takes it up does not set it down in a wall. Before an
-// episode it stands where it is put.
+// As far as it can stand there: whoever takes it up does not set it down in a wall.
 void PhysicsPlant::Carry(const Pose2& X_BC) {
   constexpr int kShares = 20;
+  constexpr double kNowhere = 1e-6;  // m and rad
+  if (X_BC.p().norm() < kNowhere && std::abs(X_BC.yaw_rad) < kNowhere) return;
   const Pose2 from = truth().X_WB();
-  for (int share = kShares; share > 0 && begun_; --share) {
+  for (int share = kShares; share > 0; --share) {
     const double part = static_cast<double>(share) / kShares;
     const Pose2 to = from * Pose2{part * X_BC.x_m, part * X_BC.y_m, part * X_BC.yaw_rad};
     if (!StandAt(map_, robot_, to).obstruction.empty()) continue;

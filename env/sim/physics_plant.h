@@ -54,7 +54,8 @@ class PhysicsPlant final : public Plant {
   Simulation simulation_;
   std::vector<char> silent_;  // by sensor
   std::optional<double> bump_stuck_rad_;
-  bool begun_ = false;  // the episode: it stands on the floor
+  bool begun_ = false;               // the episode: it stands on the floor
+  std::optional<Pose2> from_start_;  // where it is carried then
 };
 
 }  // namespace floorproof

@@ -65,7 +65,8 @@ Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec
 void Simulation::Place(const Pose2& X_WB) {
   mjtNum* q = data_->qpos + model()->jnt_qposadr[model()->body_jntadr[scene_.base_body]];
   const HingeState start = StartState(robot_);
-  for (std::size_t h = 0; h < hinge_qpos_.size(); ++h) data_->qpos[hinge_qpos_[h]] = start.rad[h];
+  for (std::size_t h = 0; h < hinge_qpos_.size(); ++h)
+    data_->qpos[hinge_qpos_[h]] = folded_ ? folded_->rad[h] : start.rad[h];
   ReadHinges();
   const Vec2 p_WR = X_WB * Vec2(-blocks_.p_RB);
   q[0] = p_WR.x();
@@ -98,7 +99,9 @@ void Simulation::SetDown(const Pose2& X_WB) {
 
 void Simulation::CarryTo(const Pose2& X_WB) {
   const std::vector<mjtNum> orders(data_->ctrl, data_->ctrl + model()->nu);
+  folded_ = truth_.hinges;  // whoever takes it up does not fold it
   SetDown(X_WB);
+  folded_.reset();
   std::ranges::copy(orders, data_->ctrl);
   ++truth_.carried;
 }
@@ -158,6 +161,7 @@ void Simulation::HoldStuckWheels() {
 }
 
 bool Simulation::Step() {
+  if (slips_) GripWhatIsMet();
   live_.Update(data_.get());
   StepEngine(model(), data_.get());
   ReadPose();

@@ -76,6 +76,7 @@ class Simulation {
   void AlterMotors();
   void AlterFriction();
   void AlterGrip(int geom, std::optional<double> most);
+  void GripWhatIsMet();
   void AlterRollerBearings();
   void AlterPayload();
 
@@ -89,12 +90,14 @@ class Simulation {
   Truth truth_;
   Alterations altered_;
   std::vector<char> cut_;  // by wheel
+  bool slips_ = false;     // a wheel's own friction rules (AlterGrip)
   std::vector<double> motor_nm_;
   BatteryInUse battery_;
   bool voltage_changes_ = false;             // of the motors' drivers
   std::vector<int> wheel_bodies_;            // of the driven wheels, in actuator order
   std::vector<int> wheel_qpos_;              // addresses of their angles
   std::vector<int> hinge_qpos_, hinge_dof_;  // addresses of the hinges' joints
+  std::optional<HingeState> folded_;         // as it is set down; none: in its start shape
   BlockMotions blocks_;                      // of a robot with hinges; else at rest
   Vec2 lowest_wheel_W_ = Vec2::Zero();
 };

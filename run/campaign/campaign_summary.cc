@@ -149,7 +149,7 @@ std::optional<GateSummary> SummaryOf(const std::vector<GateState>& gate,
   const GateParams& params = gate.front().params();
   GateSummary out{params.metric, params.max_rate, params.confidence, params.mode, Overall(gate)};
   for (std::size_t v = 0; v < gate.size(); ++v)
-    out.variants.push_back({variants[v].name, gate[v].Report()});
+    out.variants.push_back({variants[v].name, gate[v].Report(), 0});
   return out;
 }
 
@@ -173,6 +173,7 @@ CampaignSummary Summarise(const CampaignStore& store, const std::vector<Variant>
     });
     out.variants.push_back(SummaryOf(variant.name, tally, one, repetition.repeated()));
   }
+  out.TellGate();
   return out;
 }
 
@@ -193,9 +194,21 @@ std::string Criterion(const GateSummary& gate) {
                      PercentText(gate.confidence, 4));
 }
 
+void CampaignSummary::TellGate() {
+  if (!gate) return;
+  for (VariantGate& variant : gate->variants)
+    for (const VariantSummary& v : variants)
+      if (v.name == variant.variant) variant.aborted = v.aborted;
+}
+
 std::string GateText(const GateSummary& gate, const VariantGate& variant) {
-  return fmt::format("{} ({}): {}", GateVerdictName(variant.report.verdict), Criterion(gate),
-                     variant.report.text);
+  std::string text = fmt::format("{} ({}): {}", GateVerdictName(variant.report.verdict),
+                                 Criterion(gate), variant.report.text);
+  if (variant.aborted > 0 && gate.metric != "not_success")
+    text += fmt::format("; {} stopped by themselves, which not_success counts and {} does not",
+                        CountText(static_cast<std::size_t>(variant.aborted), "more robot"),
+                        gate.metric);
+  return text;
 }
 
 }  // namespace floorproof

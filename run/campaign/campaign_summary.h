@@ -67,6 +67,7 @@ struct VariantSummary {
 struct VariantGate {
   std::string variant{};
   GateReport report{};
+  int aborted = 0;  // of all its episodes: a robot that does not drive passes a gate on failures
 };
 struct GateSummary {
   std::string metric{};
@@ -83,6 +84,9 @@ struct CampaignSummary {
   std::vector<VariantSummary> variants{};
   std::optional<GateSummary> gate{};
   std::vector<std::pair<std::string, std::string>> versions{};
+
+  // What its variants' episodes say of its gate beyond the metric.
+  void TellGate();
 };
 
 // Adds up the rows of the campaign by variant. `gate`: what the gate says of each variant's prefix,

@@ -173,7 +173,7 @@ bool IsSequential(const GateSummary& gate) { return gate.mode == "sequential"; }
 
 Json GateJson(const GateSummary& gate) {
   Json variants = Json::object();
-  for (const auto& [name, report] : gate.variants) {
+  for (const auto& [name, report, aborted] : gate.variants) {
     Json& json = variants[name];
     json = {{"verdict", GateVerdictName(report.verdict)},
             {"n", report.n},
@@ -215,7 +215,7 @@ std::optional<GateSummary> ReadGate(const Json& json) {
       report.log_e_pass = state.at("log_e_pass");
       report.log_e_fail = state.at("log_e_fail");
     }
-    gate.variants.push_back({variant, std::move(report)});
+    gate.variants.push_back({variant, std::move(report), 0});
   }
   return gate;
 }
@@ -247,6 +247,7 @@ CampaignSummary ReadSummary(const std::filesystem::path& file) {
     for (const auto& [name, variant] : json.at("variants").items())
       summary.variants.push_back(ReadVariant(name, variant));
     summary.gate = ReadGate(json.at("gate"));
+    summary.TellGate();
     for (const auto& [name, version] : json.at("versions").items())
       summary.versions.emplace_back(name, version);
     summary.episodes = json.at("episodes");

@@ -15,6 +15,7 @@
 #include "env/failures/evidence.h"
 #include "env/sim/physics_plant.h"
 #include "run/episode/episode_stream.h"
+#include "run/episode/go_to_navigator.h"
 #include "run/episode/intervention.h"
 #include "run/episode/make_navigator.h"
 #include "run/episode/online_limit.h"
@@ -118,6 +119,7 @@ class Episode {
   Sample sample_;
   PlanProgress progress_;
   int carried_ = 0;
+  double moved_s_ = 0;  // last, or its motors were not cut
   HazardMemory met_{&HazardMemory::Holds};
 };
 
@@ -150,7 +152,8 @@ void Episode::Begin() {
   plant_.Reset(s_.start, sensed_);
   Look();
   robot_side_.Start(s_.start, EpisodeStream(s_, "estimator"));
-  const double plan_s = s_.tracker->Duration();
+  const double plan_s =
+      LeadsItself(s_) ? GoToDuration(navigator_->plan(), robot_) : s_.tracker->Duration();
   limit_s_ = s_.episode.time_limit_s.value_or(s_.online ? kOnlineLimit_s : 60 + 3 * plan_s);
   recorder_.Expect(plan_s);
   StartDetectors();
@@ -178,25 +181,24 @@ std::optional<Outcome> Episode::Control() {
     if (sample_.battery_v == 0) return Outcome::kFailure;  // cut off while it waited
     recorder_.OnIntervention(interventions_.SetDown(plant_, robot_side_), s_.detectors);
     Look();
-    if (robot_side_.supervisor() && robot_side_.supervisor()->asks_for_help())
-      robot_side_.Helped(sample_.X_WB(), EpisodeStream(s_, "estimator"), sample_.t_s);
+    robot_side_.Helped(sample_.X_WB(), EpisodeStream(s_, "estimator"), sample_.t_s);
     Act(robot_side_.actuation());
     StartDetectors();
   }
   return ended;
 }
 
-// A robot that asks for help is helped as after a failure, and told where it stands; one that has
-// stopped for good has done so once it is at rest.
+// A robot that asks for help is helped as after a failure. One that has stopped for good has done
+// so once it has been at rest for a while, its motors cut: what happens until then is judged.
 std::optional<Outcome> Episode::HandedOver(const Supervisor& supervisor) {
   if (supervisor.asks_for_help() && !interventions_.awaited() &&
       !interventions_.Call(robot_side_.path(), sample_))
     return Outcome::kAborted;
-  if (supervisor.stopped().empty()) return std::nullopt;
-  constexpr double kAtRest_mps = 0.005, kAtRest_radps = 0.01;
-  const bool at_rest =
-      sample_.v_WB_W.norm() < kAtRest_mps && std::abs(sample_.V_WB_B.wz_radps) < kAtRest_radps;
-  return at_rest ? std::optional(Outcome::kAborted) : std::nullopt;
+  constexpr double kAtRest_mps = 0.005, kAtRest_radps = 0.01, kAtRest_s = 2;
+  const bool at_rest = supervisor.cuts_all() && sample_.v_WB_W.norm() < kAtRest_mps &&
+                       std::abs(sample_.V_WB_B.wz_radps) < kAtRest_radps;
+  if (!at_rest) moved_s_ = sample_.t_s;
+  return sample_.t_s - moved_s_ >= kAtRest_s ? std::optional(Outcome::kAborted) : std::nullopt;
 }
 
 // One step of the plant, and what is to be said of it.

@@ -3,9 +3,14 @@
 #pragma once
 
 #include "controllers/navigator.h"
+#include "env/core/robot_spec.h"
 #include "planners/planner.h"
 
 namespace floorproof {
+
+// How long a robot takes for these places, its turns at each included: an estimate, for time
+// limits.
+double GoToDuration(const Path& places, const RobotSpec& robot);
 
 class GoToNavigator final : public Navigator {
  public:

@@ -36,8 +36,11 @@ void RobotSide::Start(const Pose2& start, const Stream& draws) {
 const Actuation& RobotSide::Control(const Observation& sensed) {
   Perceive(sensed);
   if (supervisor_) Supervise(sensed);
-  if (supervisor_ && supervisor_->wish().kind == MotionWish::Kind::kTurn)
+  const auto wish = supervisor_ ? supervisor_->wish().kind : MotionWish::Kind::kPlan;
+  if (wish == MotionWish::Kind::kTurn)
     Turn(supervisor_->wish().yaw_rad);
+  else if (wish == MotionWish::Kind::kStand)
+    command_.twist = {};
   else
     GoOn(sensed);
   return Actuate();
@@ -94,11 +97,12 @@ void RobotSide::GoOnFrom(std::size_t waypoint) {
 }
 
 void RobotSide::Helped(const Pose2& X_WB, const Stream& draws, double t_s) {
-  parts_.estimator.Start({known_, robot_, X_WB, draws});
-  if (supervisor_) {
+  if (!supervisor_) return;
+  if (supervisor_->asks_for_help()) {
+    parts_.estimator.Start({known_, robot_, X_WB, draws});
     parts_.estimator.Exclude(supervisor_->wheels_out());
-    supervisor_->Helped(t_s);
   }
+  supervisor_->SetDown(t_s);
 }
 
 void RobotSide::Navigate(const Observation& sensed) {

@@ -46,7 +46,7 @@ class RobotSide {
   // It was set down at this waypoint of its path: whatever it was about is over. Its estimator is
   // not told. Allocates.
   void GoOnFrom(std::size_t waypoint);
-  // And it is told where it stands.
+  // And, where its supervision asked for it, it is told where it stands.
   void Helped(const Pose2& X_WB, const Stream& draws, double t_s);
 
   const Command& command() const { return command_; }

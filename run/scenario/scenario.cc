@@ -107,12 +107,14 @@ void RefuseOtherKinds(const ConfigNode& root, const std::string& file) {
                          "`, `robot: beluga`; `floorproof init` writes one for a ROS map");
 }
 
-// What is `none`, or empty, is not there: no gate, nothing drawn, no variants.
+// What is `none`, or empty, is not there: no gate, nothing drawn, no variants. Supervision that
+// says nothing more is there.
 void RemoveNone(ConfigNode& root) {
-  for (const char* key : {"gate", "randomise", "matrix"}) {
+  for (const char* key : {"gate", "randomise", "matrix", "safety", "mission"}) {
     const ConfigNode* node = root.Find(key);
     if (node == nullptr) continue;
-    const bool none = node->IsNull() || (node->IsMap() && node->entries.empty()) ||
+    const bool supervises = std::string_view(key) == "safety";
+    const bool none = node->IsNull() || (node->IsMap() && node->entries.empty() && !supervises) ||
                       (node->IsScalar() && !node->quoted && node->scalar == "none");
     if (none) root.Remove(key);
   }

@@ -182,13 +182,16 @@ void ReadSafetyPart(const ConfigNode& root, Scenario& s) {
   const ConfigNode tree = ReadYamlFile(s.mission_file, s.files);
   s.safety = ReadSafety(safety, tree);
   s.safety->helped = s.episode.on_failure == "assist";
-  for (const Vec2& place : PlacesOf(s.safety->mission, tree)) {
-    if (!s.site.map.frame.Inside(s.site.map.frame.ToCell(place)))
+  const HazardMap& map = s.site.map;
+  for (const AskedLine& line : LinesOf(s.safety->mission, tree)) {
+    const Cell cell = map.frame.ToCell(line.to_W);
+    if (const bool off = !map.frame.Inside(cell); off || map.IsWall(cell))
       throw InputError({s.mission_file.string(), 0}, "skills",
-                       FormatDouble(place.x()) + ", " + FormatDouble(place.y()),
-                       "lies off the map");
+                       FormatDouble(line.to_W.x()) + ", " + FormatDouble(line.to_W.y()),
+                       off ? "lies off the map" : "lies in a wall");
     Waypoint waypoint;
-    waypoint.p_W = place;
+    waypoint.p_W = line.to_W;
+    waypoint.speed_mps = line.speed_mps.value_or(0);
     s.user_plan.push_back(waypoint);
   }
 }
@@ -355,7 +358,7 @@ void ReadSensors(const ConfigNode& root, Scenario& s) {
   if (!s.safety) return;
   std::vector<Reading> told;
   for (const NamedSensor& named : s.sensors) told.push_back(named.sensor->Fills());
-  KeepMonitorsOf(told, *s.safety);
+  KeepMonitorsOf(told, std::ranges::find(told, Reading::kTruth) != told.end(), *s.safety);
 }
 
 void ReadFaultsPart(const ConfigNode& root, Scenario& s) {

@@ -28,6 +28,15 @@ SafetyPlan ReadSafety(const ConfigNode* safety, const ConfigNode& root) {
   plan.mission = ReadMission(root, RobotPrimitiveTypes());
   for (const MissionNode& node : plan.mission.nodes)
     if (node.kind == MissionNode::Kind::kPrimitive) MakePrimitive(plan.mission, node);
+  for (std::size_t p = 0; p < plan.mission.primitives.size();
+       ++p) {  // those that nothing runs, too
+    MissionNode node;
+    node.name = plan.mission.primitives[p].name;
+    node.primitive = p;
+    node.params = plan.mission.primitives[p].params;
+    MakePrimitive(plan.mission, node);
+    MonitorsOf(node);
+  }
   const std::vector<std::string> named = MonitorsOf(plan.mission);
   const ConfigNode* written = nullptr;
   if (safety != nullptr) {
@@ -56,8 +65,9 @@ std::vector<Reading> NeededBy(const SafetyPlan& plan) {
   return needed;
 }
 
-void KeepMonitorsOf(std::span<const Reading> told, SafetyPlan& plan) {
+void KeepMonitorsOf(std::span<const Reading> told, bool truth, SafetyPlan& plan) {
   std::erase_if(plan.monitors, [&](const NamedMonitor& named) {
+    if (truth && named.monitor->by_estimate()) return true;
     return !AllOf(*named.monitor,
                   [&](Reading r) { return std::ranges::find(told, r) != told.end(); });
   });

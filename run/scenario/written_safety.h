@@ -23,8 +23,9 @@ std::filesystem::path BundledMission();
 SafetyPlan ReadSafety(const ConfigNode* safety, const ConfigNode& root);
 // What its monitors go by and every robot can carry: the rest is not carried for their sake.
 std::vector<Reading> NeededBy(const SafetyPlan& plan);
-// Takes away the monitors that go by what the robot is not told.
-void KeepMonitorsOf(std::span<const Reading> told, SafetyPlan& plan);
+// Takes away the monitors that go by what the robot is not told; and those that go by where it
+// thinks it is, where that is the truth.
+void KeepMonitorsOf(std::span<const Reading> told, bool truth, SafetyPlan& plan);
 
 // The key `safety` again, with every default stated.
 ConfigNode WriteSafety(const SafetyPlan& plan);

@@ -169,6 +169,13 @@ TEST_F(CampaignSummaryTest, TheGateIsSaidInWords) {
   EXPECT_EQ(Criterion(*dut.gate), "any_failure < 5 % at 95 %");
   EXPECT_THAT(GateText(*dut.gate, dut.gate->variants[0]),
               HasSubstr("undecided (any_failure < 5 % at 95 %): 2 of the first 4"));
+  GateSummary passed = *dut.gate;
+  passed.variants[0].aborted = 3;
+  EXPECT_THAT(GateText(passed, passed.variants[0]),
+              HasSubstr("; 3 more robots stopped by themselves, which not_success counts and "
+                        "any_failure does not"));
+  passed.metric = "not_success";
+  EXPECT_THAT(GateText(passed, passed.variants[0]), testing::Not(HasSubstr("stopped")));
   const std::string junit = JunitXml(dut, false, "s");
   EXPECT_THAT(junit, HasSubstr("name=\"any_failure &lt; 5 % at 95 %\""));
   EXPECT_THAT(junit, HasSubstr("<error message=\"1 episode ended in error\">episode 5: a wall<"));

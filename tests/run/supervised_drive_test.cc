@@ -198,7 +198,7 @@ TEST_F(SupervisedDrive, TheWorkedExampleIsDriven) {
     if (row.node == "there.go" && row.safety_state > 0) states.push_back(row.safety_state);
     if (machine.empty() || machine.back() != row.machine) machine.push_back(row.machine);
   }
-  EXPECT_EQ(states, (std::vector<double>{60, 60, 96}));
+  EXPECT_EQ(states, (std::vector<double>{60, 96}));
   EXPECT_THAT(dut.safety, Contains(Field(&SafetyRow::safety_state, 36))) << "Line";
   EXPECT_THAT(machine, Contains(DecisionState::kReconfiguring));
   EXPECT_EQ(machine.back(), DecisionState::kAbort);
@@ -245,8 +245,6 @@ TEST_F(SupervisedDrive, BadOnesAreOneLineThatNamesTheRule) {
               HasSubstr("safety.monitors.tilt.limit: unknown key; did you mean limit_deg?"));
   EXPECT_THAT(Refusal("safety: {monitors: {tillt: {}}}\n"), HasSubstr("did you mean tilt?"));
   EXPECT_THAT(Refusal("safety: {monitors: 3}\n"), HasSubstr("safety.monitors = 3: must be a map"));
-  EXPECT_THAT(Refusal("safety: {}\ndrive: cells\n"),
-              HasSubstr("safety: is for drives through physics"));
   EXPECT_THAT(Refusal("mission: go\n"),
               HasSubstr("mission = go: must be follow_plan, or a .yaml file"));
   EXPECT_THAT(Refusal("mission: n.yaml\n"), HasSubstr("n.yaml"));

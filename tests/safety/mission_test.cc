@@ -15,8 +15,8 @@ using ::testing::HasSubstr;
 
 const std::vector<PrimitiveType> kTypes = {{"rotation", {"yaw_deg", "p1_s"}},
                                            {"line", {"x_m", "y_m", "p1_s"}},
-                                           {"acceleration_control", {"p2_s"}},
-                                           {"stand", {}}};
+                                           {"acceleration_control", {"p2_s"}, false},
+                                           {"stand", {}, false}};
 
 // The paper's example: one skill, Rotation-Line-Rotation with AccelerationControl in parallel, and
 // what section 4 assumes of them.
@@ -207,7 +207,7 @@ TEST(MissionFile, KeepsARatingsOwnKeysForItsType) {
   const Mission mission = Read(
       "mission: 1\nprimitives: {line: {p1_s: 3, severity: 2}}\nskills: {go: {run: [line]}}\n"
       "tasks: {a: [go]}\nrun: [a]\nweights: {severity: 0.5}\nlevels: {serious: 80}\n"
-      "decision: {zz_crit: 100}\n");
+      "decision: {z_crit: 90, zz_crit: 100}\n");
   const MissionPrimitive& line = mission.primitives.front();
   EXPECT_EQ(line.type, "line");
   ASSERT_EQ(line.params.entries.size(), 1u);
@@ -274,6 +274,18 @@ TEST(MissionFile, WhatCannotBeIsRefusedWithLineAndKey) {
   EXPECT_THAT(refusal("name: hall", "weights: {severity: 11}"),
               HasSubstr("weights.severity = 11: must be in [0, 10]"));
   EXPECT_THAT(refusal("name: hall", "nmae: hall"), HasSubstr("nmae"));
+  EXPECT_THAT(refusal("name: hall", "levels: {serious: 61}"),
+              HasSubstr("levels.serious = 61: must be below decision.z_crit, 61"));
+  EXPECT_THAT(refusal("run: [line]", "run: [line, watch]"),
+              HasSubstr("skills.go.run = watch: goes on for ever: it belongs under with"));
+  EXPECT_THAT(refusal("with: [watch]", "with: [line]"),
+              HasSubstr("skills.go.with = line: comes to an end: it belongs under run"));
+  EXPECT_THAT(refusal("run: [and_back, there]", "run: [there]\ntasks2: {}"), HasSubstr("tasks2"));
+  EXPECT_THAT(refusal("and_back: [there, there]", "and_back: [there]\n  a: [b]\n  b: [a]"),
+              HasSubstr("is part of itself: a -> b -> a"))
+      << "though nothing runs them";
+  EXPECT_THAT(refusal("  go: {run", "  idle: {run: [nothing]}\n  go: {run"),
+              HasSubstr("skills.idle.run = nothing: is no primitive of this mission"));
   EXPECT_THAT(refusal("run: [line], with: [watch]", "run: [line], x: 2"),
               HasSubstr("m.yaml:9: skills.go.x: unknown key; did you mean x_m?"));
   EXPECT_THAT(refusal("severity: minor, extent: isolated", "severty: minor"),
@@ -296,6 +308,19 @@ TEST(MissionFile, ATreeThatGrowsAsAPowerIsRefused) {
     FAIL();
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), HasSubstr("more than 10,000 nodes"));
+  }
+}
+
+TEST(MissionFile, ATreeThatIsTooDeepIsRefused) {
+  std::string text =
+      "mission: 1\nprimitives: {line: {}}\nskills: {go: {run: [line]}}\ntasks:\n  t0: [go]\n";
+  for (int i = 1; i < 200; ++i)
+    text += "  t" + std::to_string(i) + ": [t" + std::to_string(i - 1) + "]\n";
+  try {
+    Read(text + "run: [t199]\n");
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("lies more than 100 tasks deep"));
   }
 }
 

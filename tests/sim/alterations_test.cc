@@ -231,6 +231,21 @@ TEST(Alterations, OneSlipperyWheelTurnsBelugaAsItSpeedsUp) {
   EXPECT_NEAR(dut.Run({.wheel_friction = {5, 5}}, {0.4, 0, 0}, 1).yaw_rad, 0, 1e-3);
 }
 
+// A plate with less friction than the tread has rules.
+TEST(Alterations, OnIceATreadThatGripsLittleGripsNoBetter) {
+  HazardMap map = Floor();
+  Hazard ice;
+  ice.id = "ice";
+  ice.material.friction = 0.02;
+  ice.solids = {{Solid::Kind::kPrism, Rectangle({-5, -5}, {5, 5}), {}, 0, 0.001}};
+  map.hazards.push_back(ice);
+  AlteredDrive dut("beluga", map);
+  const BodyTwist fast{0.4, 0, 0};
+  const double on_ice_m = dut.Run({}, fast, 1).p_WB.x();
+  EXPECT_LT(on_ice_m, 0.15);
+  EXPECT_NEAR(dut.Run({.wheel_friction = {0.7, 0.7}}, fast, 1).p_WB.x(), on_ice_m, 0.1 * on_ice_m);
+}
+
 TEST_P(AlterationsOf, MotorsThatAreCutOffGiveNothing) {
   AlteredDrive dut(GetParam());
   const std::size_t n = dut.spec().wheels.size();
@@ -278,6 +293,8 @@ TEST(PhysicsPlant, ARobotIsCarriedAsFarAsItCanStand) {
   EXPECT_EQ(dut.truth().carried, 2);
   dut.Reset({0, 0, 0}, sensed);
   EXPECT_EQ(dut.truth().carried, 0);
+  dut.Alter({.carried = Pose2{}});
+  EXPECT_EQ(dut.truth().carried, 0) << "that is nowhere";
 }
 
 TEST(Alterations, BlockedRollersKeepAMecanumRobotFromGoingSideways) {

@@ -9,7 +9,8 @@ namespace {
 
 class AccelerationControl final : public RobotPrimitive {
  public:
-  void Visit(ParamVisitor& v) override {
+  bool moves() const override { return false; }
+  void VisitOwn(ParamVisitor& v) override {
     v("max_accel_mps2", max_mps2_, Positive(), "the most that is allowed (m/s^2)");
     v("p2_s", timing_.hold_s, NonNegative(), "P2: for longer is a fault (s)");
   }
@@ -32,7 +33,7 @@ class AccelerationControl final : public RobotPrimitive {
   }
 
  private:
-  std::optional<Persistence> TimedOut() const override {
+  std::optional<Persistence> FailsItself() const override {
     return alarm_.raised() ? std::optional(alarm_.persistence()) : std::nullopt;
   }
 

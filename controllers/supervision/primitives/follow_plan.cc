@@ -10,31 +10,32 @@ constexpr double kAway_m = 0.1, kTurned_rad = 0.3;
 
 class FollowPlan final : public RobotPrimitive {
  public:
-  void Visit(ParamVisitor& v) override { time_out_.Visit(v); }
+  bool moves() const override { return true; }
+  void VisitOwn(ParamVisitor& v) override { getting_on_.Visit(v); }
 
   bool drives_plan() const override { return true; }
 
-  void Start(double t_s) override {
-    time_out_.Start(t_s);
+  void Start(double) override {
+    getting_on_.Start();
     was_ = now().estimate.X_WB;
   }
-  NodeStatus Update(double t_s) override {
+  NodeStatus Update(double) override {
     board().wish.kind = MotionWish::Kind::kPlan;
     const Pose2& X_WB = now().estimate.X_WB;
     const bool away = (X_WB.p() - was_.p()).norm() > kAway_m ||
                       std::abs(WrapAngle(X_WB.yaw_rad - was_.yaw_rad)) > kTurned_rad;
     if (away) {
       was_ = X_WB;
-      time_out_.GotOn(t_s);
+      getting_on_.GotOn();
     }
-    time_out_.Update(t_s, 0, 0, board().held || board().busy);
+    getting_on_.Update(now().dt_s, 0, 0, board().speed_share, board().busy);
     return board().at_end ? NodeStatus::kDone : NodeStatus::kRunning;
   }
 
  private:
-  std::optional<Persistence> TimedOut() const override { return time_out_.persistence(); }
+  std::optional<Persistence> FailsItself() const override { return getting_on_.fails(); }
 
-  TimeOut time_out_;
+  GettingOn getting_on_;
   Pose2 was_;
 };
 

@@ -8,22 +8,25 @@ namespace {
 
 class Line final : public RobotPrimitive {
  public:
-  void Visit(ParamVisitor& v) override {
+  bool moves() const override { return true; }
+  void VisitOwn(ParamVisitor& v) override {
     target_.Visit(v);
     v("speed_mps", speed_mps_, Positive(), "v_n: nominal speed (m/s); none: the robot's cruise");
-    time_out_.Visit(v);
+    getting_on_.Visit(v);
   }
 
-  std::optional<Vec2> LeadsTo() const override { return target_.p_W(); }
+  std::optional<AskedLine> LeadsTo() const override {
+    return AskedLine{0, target_.p_W(), speed_mps_};
+  }
 
-  void Start(double t_s) override {
-    time_out_.Start(t_s);
+  void Start(double) override {
+    getting_on_.Start();
     Begin();
   }
-  NodeStatus Update(double t_s) override {
+  NodeStatus Update(double) override {
     constexpr double kLess_m = 0.005;
     const double left_m = (target_.p_W() - now().estimate.X_WB.p()).norm();
-    time_out_.Update(t_s, left_m, kLess_m, board().held || board().busy);
+    getting_on_.Update(now().dt_s, left_m, kLess_m, board().speed_share, board().busy);
     if (left_m <= target_.tolerance_m) return NodeStatus::kDone;
     MotionWish& wish = board().wish;
     const bool begun = wish.kind == MotionWish::Kind::kLine;
@@ -38,11 +41,11 @@ class Line final : public RobotPrimitive {
     wish.line = {wish.line.number + 1, target_.p_W(), speed_mps_};
     board().at_end = false;
   }
-  std::optional<Persistence> TimedOut() const override { return time_out_.persistence(); }
+  std::optional<Persistence> FailsItself() const override { return getting_on_.fails(); }
 
   Target target_;
   std::optional<double> speed_mps_;
-  TimeOut time_out_;
+  GettingOn getting_on_;
 };
 
 }  // namespace

@@ -11,15 +11,16 @@ namespace {
 
 class Rotation final : public RobotPrimitive {
  public:
-  void Visit(ParamVisitor& v) override {
+  bool moves() const override { return true; }
+  void VisitOwn(ParamVisitor& v) override {
     target_.Visit(v);
     v("yaw_deg", yaw_deg_, Between(-360, 360), "theta: final heading (deg); none: as it came");
     v("tolerance_deg", tolerance_deg_, Between(0.1, 180), "epsilon: how near is there (deg)");
-    time_out_.Visit(v);
+    getting_on_.Visit(v);
   }
 
-  void Start(double t_s) override {
-    time_out_.Start(t_s);
+  void Start(double) override {
+    getting_on_.Start();
     const Pose2& X_WB = now().estimate.X_WB;
     const Vec2 way_W = target_.p_W() - X_WB.p();
     if (way_W.norm() > target_.tolerance_m)
@@ -27,11 +28,11 @@ class Rotation final : public RobotPrimitive {
     else
       yaw_rad_ = yaw_deg_ ? *yaw_deg_ * kPi / 180 : X_WB.yaw_rad;
   }
-  NodeStatus Update(double t_s) override {
+  NodeStatus Update(double) override {
     constexpr double kLess_rad = 0.01, kSlow_radps = 0.05;
     const Estimate& estimate = now().estimate;
     const double left_rad = std::abs(WrapAngle(yaw_rad_ - estimate.X_WB.yaw_rad));
-    time_out_.Update(t_s, left_rad, kLess_rad, board().held);
+    getting_on_.Update(now().dt_s, left_rad, kLess_rad, board().speed_share, false);
     board().wish.kind = MotionWish::Kind::kTurn;
     board().wish.yaw_rad = yaw_rad_;
     const bool there =
@@ -40,12 +41,12 @@ class Rotation final : public RobotPrimitive {
   }
 
  private:
-  std::optional<Persistence> TimedOut() const override { return time_out_.persistence(); }
+  std::optional<Persistence> FailsItself() const override { return getting_on_.fails(); }
 
   Target target_;
   std::optional<double> yaw_deg_;
   double tolerance_deg_ = 2, yaw_rad_ = 0;
-  TimeOut time_out_;
+  GettingOn getting_on_;
 };
 
 }  // namespace

@@ -8,7 +8,8 @@ namespace {
 
 class Service final : public RobotPrimitive {
  public:
-  void Visit(ParamVisitor&) override {}
+  bool moves() const override { return false; }
+  void VisitOwn(ParamVisitor&) override {}
   void Start(double) override {}
   NodeStatus Update(double) override { return NodeStatus::kRunning; }
 };
