@@ -80,6 +80,9 @@ Fan::Fan(std::span<const Recording::Senses> senses, double reach_m, FloorPaint& 
   if (all_.empty()) return;
   std::size_t most = 0;
   for (const auto& one : all_) most = std::max(most, one.ends_W.size());
+  gap_ = all_.size() > 1 ? all_[1].state - all_[0].state : 1;
+  for (std::size_t i = 1; i < all_.size(); ++i)
+    gap_ = std::min(gap_, all_[i].state - all_[i - 1].state);
   for (std::size_t i = 0; i < most; ++i)
     beams_.push_back(paint.AddStripe({0, 0}, {0, 0}, kBeamZ_m, 0.008, kBeamRgba));
   estimate_ = paint.AddStripe({0, 0}, {0, 0}, kEstimateZ_m, 0.03, kEstimateRgba);
@@ -89,9 +92,12 @@ void Fan::Show(std::size_t state) {
   while (at_ + 1 < all_.size() && all_[at_ + 1].state <= state) ++at_;
   if (all_.empty() || all_[at_].state > state) return;
   const auto& now = all_[at_];
+  // A lidar that is blind has no beams.
+  constexpr std::size_t kMissed = 3;  // turns
+  const bool old = state - now.state > kMissed * gap_;
   for (std::size_t i = 0; i < beams_.size(); ++i)
     paint_.MoveStripe(beams_[i], now.lidar_W,
-                      i < now.ends_W.size() ? now.ends_W[i].cast<double>() : now.lidar_W);
+                      i < now.ends_W.size() && !old ? now.ends_W[i].cast<double>() : now.lidar_W);
   paint_.MoveStripe(estimate_, now.estimate.p(), now.estimate * Vec2(reach_m_, 0));
 }
 

@@ -57,6 +57,7 @@ class Fan {
   double reach_m_;
   std::vector<std::size_t> beams_;
   std::size_t estimate_ = 0, at_ = 0;
+  std::size_t gap_ = 1;  // least, between two turns of the lidar, in states
 };
 
 // A thin circle around a place, which moves: the rolling window.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "base/quantity.h"
 #include "render/overlay.h"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr Rgb kPale = {232, 235, 239};
 constexpr int kWidth = 1100, kMargin = 24, kRow = 24, kGap = 10, kCurve = 150, kAxis = 44;
+constexpr int kLeast_px = 4;  // of what is short
 constexpr TextStyle kLabel{.cap_px = 9, .colour = kInk};
 
 // Black or white, whichever is read more easily on it (relative luminance, roughly).
@@ -29,6 +31,25 @@ double LongestName(const Timeline& timeline) {
   return longest;
 }
 
+// Lines broken between words where they are too long.
+std::vector<std::string> Wrapped(const std::vector<std::string>& lines, double width_px,
+                                 const TextStyle& style) {
+  std::vector<std::string> wrapped;
+  for (const std::string& line : lines) {
+    wrapped.emplace_back();
+    std::istringstream words(line);
+    for (std::string word; words >> word;) {
+      std::string& last = wrapped.back();
+      const std::string longer = last.empty() ? word : last + " " + word;
+      if (last.empty() || TextWidth(longer, style) <= width_px)
+        last = longer;
+      else
+        wrapped.push_back(word);
+    }
+  }
+  return wrapped;
+}
+
 // Where a time lies.
 struct Axis {
   double left = 0, width = 1, end_s = 1;
@@ -39,7 +60,7 @@ void DrawSpans(const TimelineRow& row, const Axis& axis, int top, int height, bo
                Image& image) {
   for (const TimelineSpan& span : row.spans) {
     const int x0 = static_cast<int>(axis.X(span.from_s));
-    const int x1 = std::max(x0 + 2, static_cast<int>(axis.X(span.to_s)));
+    const int x1 = std::max(x0 + kLeast_px, static_cast<int>(axis.X(span.to_s)));
     FillRectangle(image, x0, top, x1, top + height, span.colour, 1);
     TextStyle style = kLabel;
     style.colour = ReadableOn(span.colour);
@@ -57,6 +78,10 @@ void DrawCurve(const TimelineCurve& curve, const Axis& axis, int top, Image& ima
                 top + kCurve, kPale, 0.5);
   TextStyle grey = kLabel;
   grey.colour = kGrey;
+  TextStyle right = grey;
+  right.anchor = Anchor::kRight;
+  for (const double value : {0.0, curve.most})
+    DrawText(image, axis.left - 6, y(value) + (value == 0 ? 0 : 10), NumberText(value), right);
   for (const auto& [value, name] : curve.levels) {
     Dashes(canvas, {axis.left, y(value)}, {axis.left + axis.width, y(value)}, kGrey, 1, 4, 8);
     DrawText(image, axis.left + 6, y(value) - 3, name, grey);
@@ -82,7 +107,7 @@ void DrawAxis(const Axis& axis, int top, int bottom, Image& image) {
     Line(canvas, {x, static_cast<double>(top)}, {x, static_cast<double>(bottom)}, kPale, 1);
     DrawText(image, x, bottom + 16, NumberText(k * step), centre);
   }
-  DrawText(image, axis.left + axis.width / 2, bottom + 36, "time [s], as in the film", centre);
+  DrawText(image, axis.left + axis.width / 2, bottom + 36, "simulated time [s]", centre);
 }
 
 }  // namespace
@@ -90,15 +115,16 @@ void DrawAxis(const Axis& axis, int top, int bottom, Image& image) {
 Image DrawTimeline(const Timeline& timeline) {
   const TextStyle title{.cap_px = 14, .colour = kInk, .bold = true};
   const TextStyle note{.cap_px = 10, .colour = kGrey};
-  const int head = kMargin + 24 + 20 * static_cast<int>(timeline.notes.size());
+  const std::vector<std::string> notes = Wrapped(timeline.notes, kWidth - 2 * kMargin, note);
+  const int head = kMargin + 24 + 20 * static_cast<int>(notes.size());
   const int rows = static_cast<int>(timeline.rows.size()) * (kRow + kGap);
   const int body = rows + (timeline.curve ? kCurve + kGap : 0);
   constexpr std::size_t kKeys = 5;  // a line of the legend
   const int legend = 22 * static_cast<int>((timeline.legend.size() + kKeys - 1) / kKeys);
   Image image = GreyImage(kWidth, head + body + kAxis + legend + kMargin, 255);
   DrawText(image, kMargin, kMargin + 12, timeline.title, title);
-  for (std::size_t i = 0; i < timeline.notes.size(); ++i)
-    DrawText(image, kMargin, kMargin + 34 + 20 * static_cast<double>(i), timeline.notes[i], note);
+  for (std::size_t i = 0; i < notes.size(); ++i)
+    DrawText(image, kMargin, kMargin + 34 + 20 * static_cast<double>(i), notes[i], note);
   const double left = kMargin + LongestName(timeline) + 12;
   const Axis axis{left, kWidth - kMargin - left, std::max(timeline.end_s, 1e-9)};
   DrawAxis(axis, head, head + body, image);

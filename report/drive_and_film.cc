@@ -47,6 +47,20 @@ std::string Verdict(const Scenario& s, const EpisodeRecord& record) {
   return line + why;
 }
 
+// What a supervised robot noticed and did; empty: nothing.
+std::string SupervisionLine(const EpisodeRecord& record) {
+  if (record.alarms.empty()) return "";
+  const RaisedAlarm& first = record.alarms.front();
+  std::string line = fmt::format("supervision: {}, the first at {} s by {}{}",
+                                 CountText(record.alarms.size(), "alarm"), FixedText(first.t_s, 1),
+                                 first.monitor, first.wheel.empty() ? "" : " of " + first.wheel);
+  for (const SafetyRow& row : record.safety)
+    if (row.reason.starts_with(kDrivenWithout)) line += "; " + row.reason;
+  if (const double held_s = record.metrics.held_s.value_or(0); held_s > 0)
+    line += "; held still for " + FixedText(held_s, 1) + " s";
+  return line + "; see safety.csv";
+}
+
 // `number`: of the event, from 1; the maps name it by that.
 std::string EventLine(std::size_t number, const Event& e, const HazardMap& map) {
   return fmt::format("  {}. {} at {} s: {}; effect {}", number, FailureName(e), FixedText(e.t_s, 1),
@@ -94,7 +108,7 @@ class Witness : public EpisodeObserver {
     console_.Say(fmt::format("{}, in {:.2f} s", PlannedText(plan), plan_s));
     if (!plan.message.empty()) console_.Say(plan.message);
     // A planner keeps clear of what it knows; a file may lead anywhere.
-    if (s_.plan_file.empty()) return;
+    if (s_.plan_file.empty() && !LeadsItself(s_)) return;
     const PlanClearance clearance = CheckClearance(s_, plan);
     if (const std::string conflicts = ConflictsLine(clearance); !conflicts.empty())
       console_.Say(conflicts + ", see `floorproof plan`");
@@ -113,6 +127,7 @@ class Witness : public EpisodeObserver {
 
   void SayVerdict(const PlanResult& plan, const EpisodeRecord& record) const {
     console_.Say(Verdict(s_, record));
+    if (const std::string line = SupervisionLine(record); !line.empty()) console_.Say(line);
     if (record.audit) console_.Say(AuditText(s_, plan, *record.audit));
     for (std::size_t i = 0; i < record.events.size(); ++i)
       console_.Say(EventLine(i + 1, record.events[i], s_.site.map));

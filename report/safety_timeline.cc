@@ -49,6 +49,15 @@ std::vector<TimelineSpan> Spans(const std::vector<std::pair<double, T>>& changes
   return spans;
 }
 
+// What breaks, and of what.
+std::string NameOf(const ScheduledFault& fault) {
+  std::string name = Words(fault.id.empty() ? fault.type : fault.id);
+  if (!fault.fault || !fault.id.empty()) return name;
+  for (const ParamDoc& doc : DocumentParams(*fault.fault))
+    if (doc.name == "wheel" || doc.name == "sensor") name += ", " + doc.default_text;
+  return name;
+}
+
 // When it truly was there, whatever the robot noticed.
 std::vector<TimelineSpan> Broken(const ScheduledFault& fault, double end_s) {
   std::vector<TimelineSpan> spans;
@@ -60,6 +69,20 @@ std::vector<TimelineSpan> Broken(const ScheduledFault& fault, double end_s) {
   for (double from_s = timing.onset_s; from_s < last_s && spans.size() < kMost; from_s += period_s)
     spans.push_back({from_s, std::min(last_s, from_s + each_s), kBroken, Words(fault.type)});
   return spans;
+}
+
+// Wheels that it has done without, each from then on.
+TimelineRow Without(const EpisodeRecord& record, double end_s) {
+  TimelineRow row{"driven without", {}, true};
+  std::string wheels;
+  for (const SafetyRow& change : record.safety) {
+    const std::string_view reason = change.reason;
+    if (!reason.starts_with(kDrivenWithout)) continue;
+    if (!row.spans.empty()) row.spans.back().to_s = change.t_s;
+    wheels += (wheels.empty() ? "" : " ") + std::string(reason.substr(kDrivenWithout.size()));
+    row.spans.push_back({change.t_s, end_s, kBlue, wheels});
+  }
+  return row;
 }
 
 std::vector<TimelineSpan> Speed(const std::vector<SpeedShare>& shares, double end_s) {
@@ -88,8 +111,7 @@ Timeline SafetyTimeline(const Scenario& s, const EpisodeRecord& record) {
                                 record.message.empty() ? "" : ": " + record.message)};
   timeline.end_s = end_s;
   for (const ScheduledFault& fault : s.faults)
-    timeline.rows.push_back(
-        {"broken: " + Words(fault.id.empty() ? fault.type : fault.id), Broken(fault, end_s), true});
+    timeline.rows.push_back({"broken: " + NameOf(fault), Broken(fault, end_s), true});
   for (const RaisedAlarm& alarm : record.alarms) {
     const std::string name = "alarm: " + Words(alarm.monitor);
     auto row = std::ranges::find(timeline.rows, name, &TimelineRow::name);
@@ -112,11 +134,14 @@ Timeline SafetyTimeline(const Scenario& s, const EpisodeRecord& record) {
     curve.most = std::max(curve.most, row.safety_state);
   }
   const LevelLimits& limits = s.safety->mission.levels;
-  curve.levels = {{limits.medium, "weak above"},
+  curve.levels = {{limits.high, ""},
+                  {limits.medium, "weak above"},
                   {limits.weak, "serious above"},
                   {limits.serious, "fatal above"}};
   timeline.rows.push_back({"state machine", Spans(machine, end_s), true});
   timeline.rows.push_back({"safety level", Spans(level, end_s), true});
+  if (const TimelineRow without = Without(record, end_s); !without.spans.empty())
+    timeline.rows.push_back(without);
   timeline.rows.push_back({"speed", Speed(record.speed_shares, end_s), true});
   timeline.curve = std::move(curve);
   for (const DecisionState state :

@@ -12,6 +12,7 @@ class BatteryTrend final : public Monitor {
  public:
   BatteryTrend() : Monitor({.hold_s = 0.5}) {}
   MonitorKind kind() const override { return MonitorKind::kTrend; }
+  std::string_view unit() const override { return "V"; }
   std::vector<Reading> Needs() const override { return {Reading::kPower}; }
 
   void Update(const MonitorReadings& now) override {

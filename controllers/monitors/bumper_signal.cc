@@ -10,6 +10,7 @@ class BumperSignal final : public Monitor {
  public:
   BumperSignal() : Monitor({.hold_s = 3}) {}
   MonitorKind kind() const override { return MonitorKind::kSignalModel; }
+  std::string_view unit() const override { return "s"; }
   std::vector<Reading> Needs() const override { return {Reading::kBump}; }
 
   void Update(const MonitorReadings& now) override {

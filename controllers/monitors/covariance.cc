@@ -11,6 +11,7 @@ class CovarianceLimit final : public Monitor {
   CovarianceLimit() : Monitor({.hold_s = 0.5}) {}
   bool by_estimate() const override { return true; }
   MonitorKind kind() const override { return MonitorKind::kLimit; }
+  std::string_view unit() const override { return "m"; }
   std::vector<Reading> Needs() const override { return {}; }
 
   void Update(const MonitorReadings& now) override {

@@ -9,6 +9,7 @@ class ImuSignal final : public Monitor {
  public:
   ImuSignal() : Monitor({.hold_s = 0.2, .clear_s = 0.5, .permanent_s = 120}) {}
   MonitorKind kind() const override { return MonitorKind::kSignalModel; }
+  std::string_view unit() const override { return "s"; }
   std::vector<Reading> Needs() const override { return {Reading::kImu}; }
 
   void Update(const MonitorReadings& now) override {

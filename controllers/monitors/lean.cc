@@ -14,6 +14,7 @@ class Lean final : public Monitor {
  public:
   Lean() : Monitor({.hold_s = 2}) {}
   MonitorKind kind() const override { return MonitorKind::kTrend; }
+  std::string_view unit() const override { return "deg"; }
   std::vector<Reading> Needs() const override { return {Reading::kImu}; }
 
   void Update(const MonitorReadings& now) override {

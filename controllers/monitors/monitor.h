@@ -58,6 +58,8 @@ class Monitor : public Configurable {
     timing_.Visit(v);
   }
   virtual MonitorKind kind() const = 0;
+  // Of what its alarms compare; empty: a share or a count.
+  virtual std::string_view unit() const { return {}; }
   // What it goes by; without it the robot does without the monitor.
   virtual std::vector<Reading> Needs() const = 0;
   // It goes by where the robot thinks it is: nothing to a robot that is told the truth.

@@ -16,6 +16,7 @@ class MotorCurrent final : public Monitor {
  public:
   MotorCurrent() : Monitor({.hold_s = 0.2}) {}
   MonitorKind kind() const override { return MonitorKind::kProcessModel; }
+  std::string_view unit() const override { return "A"; }
   std::vector<Reading> Needs() const override { return {Reading::kWheels, Reading::kPower}; }
   bool by_wheel() const override { return true; }
 

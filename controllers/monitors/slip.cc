@@ -15,6 +15,7 @@ class Slip final : public Monitor {
   Slip() : Monitor({.hold_s = 0.2}) {}
   bool by_estimate() const override { return true; }
   MonitorKind kind() const override { return MonitorKind::kProcessModel; }
+  std::string_view unit() const override { return "m"; }
   std::vector<Reading> Needs() const override { return {Reading::kWheels}; }
 
   void Update(const MonitorReadings& now) override {

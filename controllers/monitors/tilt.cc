@@ -15,6 +15,7 @@ class Tilt final : public Monitor {
  public:
   Tilt() : Monitor({.hold_s = 0.1}) {}
   MonitorKind kind() const override { return MonitorKind::kLimit; }
+  std::string_view unit() const override { return "deg"; }
   std::vector<Reading> Needs() const override { return {Reading::kImu}; }
 
   void Update(const MonitorReadings& now) override {

@@ -12,6 +12,7 @@ class WheelSpeed final : public Monitor {
  public:
   WheelSpeed() : Monitor({.hold_s = 0.2}) {}
   MonitorKind kind() const override { return MonitorKind::kLimit; }
+  std::string_view unit() const override { return "rad/s"; }
   std::vector<Reading> Needs() const override { return {Reading::kWheels}; }
   bool by_wheel() const override { return true; }
 

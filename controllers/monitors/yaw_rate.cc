@@ -12,6 +12,7 @@ class YawRate final : public Monitor {
  public:
   YawRate() : Monitor({.hold_s = 0.3}) {}
   MonitorKind kind() const override { return MonitorKind::kProcessModel; }
+  std::string_view unit() const override { return "rad/s"; }
   std::vector<Reading> Needs() const override { return {Reading::kWheels, Reading::kImu}; }
 
   void Update(const MonitorReadings& now) override {

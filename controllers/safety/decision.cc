@@ -109,7 +109,7 @@ std::string Reason(const DecisionTransition& transition, const DecisionParams& p
     case Edge::kToReconfigure:
       return fmt::format("{} is to be reconfigured, at {:g}", skill, t.greatest);
     case Edge::kNoneLeft:
-      return fmt::format("W reconfigurations have failed: {}", params.w);
+      return fmt::format("as many reconfigurations have failed as W allows: {}", params.w);
     case Edge::kReconfigured:
       return fmt::format("{} was reconfigured", skill);
     case Edge::kNotReconfigured:

@@ -110,11 +110,16 @@ class MissionReader {
     if (const ConfigNode* node = read("decision", mission_.decision))
       mission_.decision.Check(*node, "decision.");
     if (mission_.levels.serious >= mission_.decision.z_crit) {
+      const ConfigNode* decision = root_.Find("decision");
       const ConfigNode* levels = root_.Find("levels");
-      throw InputError(MarkOf(levels != nullptr ? *levels : root_, "serious"), "levels.serious",
-                       FormatDouble(mission_.levels.serious),
-                       "must be below decision.z_crit, " + FormatDouble(mission_.decision.z_crit) +
-                           ", which is where fatal begins");
+      const std::string serious = FormatDouble(mission_.levels.serious),
+                        z_crit = FormatDouble(mission_.decision.z_crit);
+      if (decision != nullptr && decision->Find("z_crit") != nullptr)
+        throw InputError(MarkOf(*decision, "z_crit"), "decision.z_crit", z_crit,
+                         "must be above levels.serious, " + serious + ": it is where fatal begins");
+      throw InputError(
+          MarkOf(levels != nullptr ? *levels : root_, "serious"), "levels.serious", serious,
+          "must be below decision.z_crit, " + z_crit + ", which is where fatal begins");
     }
   }
 

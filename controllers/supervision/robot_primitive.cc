@@ -47,7 +47,7 @@ std::optional<Failure> RobotPrimitive::failure() const {
     }
   }
   if (of_wheels) Worsen({*of_wheels, board_->wheels->Without(wheels_)}, worst);
-  if (timeout_s_ && skill_s_ > *timeout_s_) {
+  if (overdue()) {
     if (worst)
       worst->persistence = Persistence::kPermanent;
     else if (moves())

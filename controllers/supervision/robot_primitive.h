@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "base/params.h"
@@ -43,9 +44,16 @@ class RobotPrimitive : public Primitive, public Configurable {
   // timeout_s, "there is a permanent fault in the skill": each failure is permanent, and what moves
   // has failed, if by nothing else.
   std::optional<Failure> failure() const final;
+  // What has failed beside its monitors, in words; empty: nothing.
+  std::string_view why() const {
+    if (overdue()) return "its skill took longer than timeout_s";
+    return FailsItself() ? failing_ : std::string_view();
+  }
   std::span<const std::size_t> monitors() const { return monitors_; }
 
  protected:
+  // `failing`: in words, what it is that FailsItself() says.
+  explicit RobotPrimitive(std::string_view failing = {}) : failing_(failing) {}
   virtual void VisitOwn(ParamVisitor& v) = 0;
   // Whether it does not get on, or goes beyond what it may, by its own account.
   virtual std::optional<Persistence> FailsItself() const { return {}; }
@@ -55,8 +63,10 @@ class RobotPrimitive : public Primitive, public Configurable {
   const Board& board() const { return *board_; }
 
  private:
+  bool overdue() const { return timeout_s_ && skill_s_ > *timeout_s_; }
   void Worsen(const Failure& other, std::optional<Failure>& worst) const;
 
+  std::string_view failing_;
   const RobotSpec* robot_ = nullptr;
   FailureRating rating_;
   SafetyWeights weights_;

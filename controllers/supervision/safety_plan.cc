@@ -40,14 +40,21 @@ std::vector<std::string> MonitorsOf(const Mission& mission) {
   return names;
 }
 
-std::vector<AskedLine> LinesOf(const Mission& mission, const ConfigNode& root) {
-  std::vector<AskedLine> lines;
+std::vector<MissionLine> LinesOf(const Mission& mission, const ConfigNode& root) {
+  std::vector<MissionLine> lines;
   int plans = 0;
+  std::string skill;
   for (const MissionNode& node : mission.nodes) {
+    if (node.kind == MissionNode::Kind::kSkill) skill = node.name;
     if (node.kind != MissionNode::Kind::kPrimitive) continue;
     const auto primitive = MakePrimitive(mission, node);
     plans += primitive->drives_plan() ? 1 : 0;
-    if (const auto line = primitive->LeadsTo()) lines.push_back(*line);
+    const SourceMark mark = MarkOf(node.params, "x_m");
+    try {
+      if (const auto line = primitive->LeadsTo()) lines.push_back({*line, mark, skill});
+    } catch (const InputError& e) {
+      throw InputError(mark, "", "", skill + "." + node.name + "." + e.what());
+    }
   }
   if (plans > 1 || (plans > 0) == !lines.empty())
     throw InputError(MarkOf(root, "run"), "run", "",

@@ -34,7 +34,12 @@ struct SafetyPlan {
 std::unique_ptr<RobotPrimitive> MakePrimitive(const Mission& mission, const MissionNode& node);
 // Its lines, in order; empty: it drives the scenario's plan. Throws InputError where
 // it does both, or neither.
-std::vector<AskedLine> LinesOf(const Mission& mission, const ConfigNode& root);
+struct MissionLine {
+  AskedLine line;
+  SourceMark mark;    // where its place is written
+  std::string skill;  // of which it is part
+};
+std::vector<MissionLine> LinesOf(const Mission& mission, const ConfigNode& root);
 // The monitors that the mission's primitives name, each once.
 std::vector<std::string> MonitorsOf(const Mission& mission);
 // Those of one node.

@@ -114,7 +114,9 @@ void Supervisor::Watch(const MonitorReadings& now) {
         alarms_.push_back({now.t_s,
                            plan_.monitors[m].name,
                            plan_.monitors[m].monitor->by_wheel() ? robot_.wheels[i].name : "",
-                           {}});
+                           {},
+                           alarms[i].value(),
+                           alarms[i].limit()});
         raised = static_cast<int>(alarms_.size());
       } else if (!alarms[i].raised() && raised > 0) {
         alarms_[static_cast<std::size_t>(raised) - 1].until_s = now.t_s;
@@ -233,7 +235,7 @@ bool Supervisor::Reconfigure(double t_s, Availability most) {
     names += (names.empty() ? "" : " ") + robot_.wheels[w].name;
     for (const NamedMonitor& monitor : plan_.monitors) monitor.monitor->Ignore(w);
   }
-  Say(t_s, 0, "reconfiguration: driven without " + names);
+  Say(t_s, 0, std::string(kDrivenWithout) + names);
   return true;
 }
 
@@ -304,11 +306,14 @@ std::string Supervisor::WhatIsWrong(std::size_t node) const {
     for (std::size_t i = 0; i < alarms.size(); ++i) {
       if (!alarms[i].raised()) continue;
       const std::string of = monitor.monitor->by_wheel() ? " of " + robot_.wheels[i].name : "";
-      add(fmt::format("{}{}: {:.3g} beyond {:.3g}", monitor.name, of, alarms[i].value(),
-                      alarms[i].limit()));
+      const std::string unit =
+          monitor.monitor->unit().empty() ? "" : " " + std::string(monitor.monitor->unit());
+      add(fmt::format("{}{}: {:.3g}{} is {} {:.3g}{}", monitor.name, of, alarms[i].value(), unit,
+                      alarms[i].value() < alarms[i].limit() ? "below" : "above", alarms[i].limit(),
+                      unit));
     }
   }
-  if (text.empty()) add("its time-out has run out");
+  if (const std::string_view why = primitives_[node]->why(); !why.empty()) add(std::string(why));
   const Failure failure = *run_.failure(node);
   return text + (failure.persistence == Persistence::kPermanent ? "; permanent" : "; intermittent");
 }

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "controllers/safety/decision.h"
@@ -28,12 +29,16 @@ struct RaisedAlarm {
   double t_s = 0;
   std::string monitor, wheel;     // wheel: empty of one that watches no wheels
   std::optional<double> until_s;  // none: to the end
+  double value = 0, limit = 0;    // compared, in the monitor's unit
 };
 
 // From this time on it was let drive at this share of its speed.
 struct SpeedShare {
   double t_s = 0, share = 1;
 };
+
+// How the row begins that tells of wheels that it does without; their names follow.
+inline constexpr std::string_view kDrivenWithout = "reconfiguration: driven without ";
 
 class Supervisor {
  public:

@@ -214,6 +214,8 @@ Json AlarmsJson(const std::vector<RaisedAlarm>& alarms) {
     json.push_back({{"t_s", alarm.t_s},
                     {"monitor", alarm.monitor},
                     {"wheel", alarm.wheel.empty() ? Json(nullptr) : Json(alarm.wheel)},
+                    {"value", alarm.value},
+                    {"limit", alarm.limit},
                     {"until_s", alarm.until_s ? Json(*alarm.until_s) : Json(nullptr)}});
   return json;
 }

@@ -183,10 +183,10 @@ void ReadSafetyPart(const ConfigNode& root, Scenario& s) {
   s.safety = ReadSafety(safety, tree);
   s.safety->helped = s.episode.on_failure == "assist";
   const HazardMap& map = s.site.map;
-  for (const AskedLine& line : LinesOf(s.safety->mission, tree)) {
+  for (const auto& [line, mark, skill] : LinesOf(s.safety->mission, tree)) {
     const Cell cell = map.frame.ToCell(line.to_W);
     if (const bool off = !map.frame.Inside(cell); off || map.IsWall(cell))
-      throw InputError({s.mission_file.string(), 0}, "skills",
+      throw InputError(mark, "skills." + skill,
                        FormatDouble(line.to_W.x()) + ", " + FormatDouble(line.to_W.y()),
                        off ? "lies off the map" : "lies in a wall");
     Waypoint waypoint;

@@ -11,10 +11,26 @@ namespace {
 // Encoders, IMU and the drivers' currents cost nothing; a lidar is more than a monitor is worth.
 constexpr Reading kCheap[] = {Reading::kWheels, Reading::kImu, Reading::kPower};
 
+bool IsNone(const ConfigNode& node) { return node.IsNull() || node.scalar == "none"; }
+
 template <class Has>
 bool AllOf(const Monitor& monitor, const Has& has) {
   const std::vector<Reading> needs = monitor.Needs();
   return std::ranges::all_of(needs, has);
+}
+
+void CheckMonitors(const ConfigNode& written, const std::vector<std::string>& named) {
+  for (const auto& [name, keys] : written.entries) {
+    const std::string path = "safety.monitors." + name;
+    const std::vector<std::string> all = PluginNames(Monitors());
+    if (std::ranges::find(named, name) == named.end())
+      throw InputError(keys.mark, path, "",
+                       std::ranges::find(all, name) != all.end()
+                           ? "no primitive of the mission names this monitor under `monitors`"
+                           : "unknown" + DidYouMean(name, named));
+    if (!keys.IsMap() && !IsNone(keys))
+      throw InputError(keys.mark, path, keys.scalar, "must be a map of its keys, or none: off");
+  }
 }
 
 }  // namespace
@@ -45,11 +61,11 @@ SafetyPlan ReadSafety(const ConfigNode* safety, const ConfigNode& root) {
     if (written != nullptr && !written->IsMap())
       throw InputError(written->mark, "safety.monitors", written->scalar,
                        "must be a map of monitors, each with its keys");
-    if (written != nullptr) RefuseUnknownKeys(*written, "safety.monitors.", named);
+    if (written != nullptr) CheckMonitors(*written, named);
   }
   for (const std::string& name : named) {
     const ConfigNode* keys = written != nullptr ? written->Find(name) : nullptr;
-    if (keys != nullptr && keys->IsScalar() && keys->scalar == "none") continue;
+    if (keys != nullptr && IsNone(*keys)) continue;
     auto monitor = MakePlugin(Monitors(), name, "monitors");
     if (keys != nullptr) ReadParams(*keys, "safety.monitors." + name + ".", *monitor);
     plan.monitors.push_back({name, std::move(monitor)});

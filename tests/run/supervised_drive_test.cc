@@ -35,7 +35,6 @@ class SupervisedDrive : public ScenarioTest {
 };
 
 constexpr const char* kDead = "[{type: weak_motor, wheel: wheel_left, onset_s: 5}]";
-constexpr const char* kHtetro = "robot: htetro\n";
 
 TEST_F(SupervisedDrive, WithoutAFaultIsAsLongAsWithoutSupervision) {
   const EpisodeRecord with = DriveWith("[]"), without = DriveWith("[]", "");
@@ -244,6 +243,8 @@ TEST_F(SupervisedDrive, BadOnesAreOneLineThatNamesTheRule) {
   EXPECT_THAT(Refusal("safety: {monitors: {tilt: {limit: 3}}}\n"),
               HasSubstr("safety.monitors.tilt.limit: unknown key; did you mean limit_deg?"));
   EXPECT_THAT(Refusal("safety: {monitors: {tillt: {}}}\n"), HasSubstr("did you mean tilt?"));
+  EXPECT_THAT(Refusal("safety: {monitors: {tilt: off}}\n"),
+              HasSubstr("safety.monitors.tilt = off: must be a map of its keys, or none: off"));
   EXPECT_THAT(Refusal("safety: {monitors: 3}\n"), HasSubstr("safety.monitors = 3: must be a map"));
   EXPECT_THAT(Refusal("mission: go\n"),
               HasSubstr("mission = go: must be follow_plan, or a .yaml file"));
@@ -253,7 +254,8 @@ TEST_F(SupervisedDrive, BadOnesAreOneLineThatNamesTheRule) {
   Save("far.yaml",
        std::string(kMission).replace(std::string(kMission).find("x_m: 5"), 6, "x_m: 50"));
   EXPECT_THAT(Refusal("mission: far.yaml\n"), HasSubstr("far.yaml"));
-  EXPECT_THAT(Refusal("mission: far.yaml\n"), HasSubstr("50, 3.5: lies off the map"));
+  EXPECT_THAT(Refusal("mission: far.yaml\n"),
+              HasSubstr("far.yaml:8: skills.go = 50, 3.5: lies off the map"));
   Save("p1.yaml",
        std::string(kMission).replace(std::string(kMission).find("timeout_s: 60"), 13, "p1_s: -1"));
   EXPECT_THAT(Refusal("mission: p1.yaml\n"),

@@ -196,7 +196,7 @@ TEST_F(SupervisorTest, AFaultThatNoMonitorSeesIsATimeOut) {
   Go(8.5, [&] { robot_->estimate.V_WB_B = {}; });
   const double r = 2 * (2 + 1 * 2);
   EXPECT_THAT(dut_->rows(), ::testing::Contains(::testing::Field(&SafetyRow::safety_state, r)));
-  EXPECT_TRUE(Said("its time-out has run out"));
+  EXPECT_TRUE(Said("it has not come away from where it is in P1"));
 }
 
 constexpr const char* kGoTo = R"(mission: 1
@@ -275,7 +275,7 @@ TEST_F(GoToTest, JoltsForLongerThanP2AreAFaultOfAccelerationControl) {
 TEST(SafetyPlan, AMissionDrivesThePlanOrFromPlaceToPlace) {
   const auto refusal = [](const std::string& run) -> std::string {
     const ConfigNode root = ParseYaml(
-        "mission: 1\nprimitives: {follow_plan: {}, line: {}, rotation: {}}\n"
+        "mission: 1\nprimitives: {follow_plan: {}, line: {x_m: 1, y_m: 1}, rotation: {}}\n"
         "skills: {a: {run: [" +
             run + "]}}\ntasks: {t: [a]}\nrun: [t]\n",
         "m.yaml");
@@ -291,6 +291,19 @@ TEST(SafetyPlan, AMissionDrivesThePlanOrFromPlaceToPlace) {
   EXPECT_THAT(refusal("rotation"), HasSubstr("m.yaml:5: run: must drive the plan once"));
   for (const char* run : {"follow_plan, line", "follow_plan, follow_plan"})
     EXPECT_THAT(refusal(run), HasSubstr("m.yaml:5: run: must drive the plan once")) << run;
+}
+
+TEST(SafetyPlan, ALineWithoutAPlaceIsRefused) {
+  const ConfigNode root = ParseYaml(
+      "mission: 1\nprimitives: {line: {x_m: 1}}\nskills: {go: {run: [line]}}\n"
+      "tasks: {t: [go]}\nrun: [t]\n",
+      "m.yaml");
+  try {
+    LinesOf(ReadMission(root, RobotPrimitiveTypes()), root);
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("m.yaml:2: go.line.x_m, y_m: are missing"));
+  }
 }
 
 TEST(SafetyPlan, NamesMonitorsThatThereAre) {

@@ -9,6 +9,7 @@ namespace {
 
 class AccelerationControl final : public RobotPrimitive {
  public:
+  AccelerationControl() : RobotPrimitive("the body was jolted for longer than P2") {}
   bool moves() const override { return false; }
   void VisitOwn(ParamVisitor& v) override {
     v("max_accel_mps2", max_mps2_, Positive(), "the most that is allowed (m/s^2)");

@@ -10,6 +10,7 @@ constexpr double kAway_m = 0.1, kTurned_rad = 0.3;
 
 class FollowPlan final : public RobotPrimitive {
  public:
+  FollowPlan() : RobotPrimitive("it has not come away from where it is in P1") {}
   bool moves() const override { return true; }
   void VisitOwn(ParamVisitor& v) override { getting_on_.Visit(v); }
 

@@ -8,6 +8,7 @@ namespace {
 
 class Line final : public RobotPrimitive {
  public:
+  Line() : RobotPrimitive("it has not come nearer in P1") {}
   bool moves() const override { return true; }
   void VisitOwn(ParamVisitor& v) override {
     target_.Visit(v);
@@ -16,7 +17,9 @@ class Line final : public RobotPrimitive {
   }
 
   std::optional<AskedLine> LeadsTo() const override {
-    return AskedLine{0, target_.p_W(), speed_mps_};
+    const auto to_W = target_.p_W();
+    if (!to_W) throw InputError({}, "x_m, y_m", "", "are missing: where the line leads to");
+    return AskedLine{0, *to_W, speed_mps_};
   }
 
   void Start(double) override {
@@ -25,7 +28,7 @@ class Line final : public RobotPrimitive {
   }
   NodeStatus Update(double) override {
     constexpr double kLess_m = 0.005;
-    const double left_m = (target_.p_W() - now().estimate.X_WB.p()).norm();
+    const double left_m = (*target_.p_W() - now().estimate.X_WB.p()).norm();
     getting_on_.Update(now().dt_s, left_m, kLess_m, board().speed_share, board().busy);
     if (left_m <= target_.tolerance_m) return NodeStatus::kDone;
     MotionWish& wish = board().wish;
@@ -38,7 +41,7 @@ class Line final : public RobotPrimitive {
   void Begin() {
     MotionWish& wish = board().wish;
     wish.kind = MotionWish::Kind::kLine;
-    wish.line = {wish.line.number + 1, target_.p_W(), speed_mps_};
+    wish.line = {wish.line.number + 1, *target_.p_W(), speed_mps_};
     board().at_end = false;
   }
   std::optional<Persistence> FailsItself() const override { return getting_on_.fails(); }

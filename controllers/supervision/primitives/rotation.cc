@@ -11,6 +11,7 @@ namespace {
 
 class Rotation final : public RobotPrimitive {
  public:
+  Rotation() : RobotPrimitive("it has not turned nearer in P1") {}
   bool moves() const override { return true; }
   void VisitOwn(ParamVisitor& v) override {
     target_.Visit(v);
@@ -22,7 +23,7 @@ class Rotation final : public RobotPrimitive {
   void Start(double) override {
     getting_on_.Start();
     const Pose2& X_WB = now().estimate.X_WB;
-    const Vec2 way_W = target_.p_W() - X_WB.p();
+    const Vec2 way_W = target_.p_W().value_or(X_WB.p()) - X_WB.p();
     if (way_W.norm() > target_.tolerance_m)
       yaw_rad_ = std::atan2(way_W.y(), way_W.x());
     else
