@@ -6,6 +6,7 @@
 
 #include <functional>
 
+#include "tests/controllers/allocation_guard.h"
 #include "tests/supervision/watched_robot.h"
 
 namespace floorproof {
@@ -63,6 +64,29 @@ TEST_F(SupervisorTest, ASoundRobotIsLetDrive) {
   EXPECT_EQ(dut_->machine(), DecisionState::kNormal);
   EXPECT_TRUE(dut_->rows().empty());
   EXPECT_TRUE(dut_->alarms().empty());
+}
+
+// Nor where an alarm stands, and all wheels are asked about in each period.
+TEST_F(SupervisorTest, AllocatesNothingWhereNothingChanges) {
+  for (const bool react : {true, false}) {
+    plan_ = {};
+    plan_.reaction.react = react;
+    Begin(EightWheels());
+    Go(5);
+    const auto period = [&](bool broken) {
+      robot_->Tell({0.25 * dut_->speed_share(), 0, 0});
+      robot_->Scan(1);
+      if (broken) robot_->wheel_rad[3] = 0;
+      dut_->Update(robot_->Readings(), {});
+      robot_->Pass();
+    };
+    for (const bool broken : {false, true}) {
+      for (int i = 0; i < 50; ++i) period(broken);
+      const std::int64_t before = AllocationCount();
+      for (int i = 0; i < 50; ++i) period(broken);
+      EXPECT_EQ(AllocationCount(), before) << react << broken;
+    }
+  }
 }
 
 // 12 x (2 + 1 x 2) = 48: serious. It waits and tries again; what is still there after ten seconds
