@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "controllers/supervision/safety_plan.h"
 #include "env/core/coverage.h"
 #include "env/failures/detector.h"
 #include "env/faults/fault.h"
@@ -29,6 +30,7 @@ std::unique_ptr<HazardType> MakeDoorSill();
 std::unique_ptr<Detector> MakeDrift();
 std::unique_ptr<Sensor> MakeSonar();
 std::unique_ptr<Fault> MakeHotMotors();
+std::unique_ptr<Monitor> MakeHotBattery();
 
 namespace {
 
@@ -104,6 +106,32 @@ TEST(AddingAHazard, ALowSillIsABoxAndAHighOneIsBevelled) {
   EXPECT_FALSE(IsObstacle(high, 0.013));
   EXPECT_TRUE(IsObstacle(high, 0.010));
   EXPECT_THROW(make("0.05"), InputError);
+}
+
+TEST(AddingAMonitor, ABatteryThatGivesTooMuchForLongIsAnAlarm) {
+  const auto dut = MakeHotBattery();
+  const RobotSpec robot = Burger().spec;
+  const HazardMap map = Room(2, 2);
+  const auto drive = MakePlugin(Drives(), robot.drive, "drive");
+  drive->Configure(robot);
+  const auto raised = [&](double current_a, double for_s) {
+    dut->Start({robot, *drive, map});
+    const std::vector<double> none(robot.wheels.size());
+    const PowerReading power{true, std::vector<double>(robot.wheels.size(), current_a), 12};
+    for (double t_s = 0; t_s < for_s; t_s += 0.02)
+      dut->Update({t_s, 0.02, {}, none, none, {}, false, {}, {}, {}, {}, power, {}});
+    return dut->alarms()[0].raised();
+  };
+  EXPECT_FALSE(raised(2, 60)) << "48 W";
+  EXPECT_FALSE(raised(4, 4)) << "96 W, not for long";
+  EXPECT_TRUE(raised(4, 10));
+}
+
+TEST(SafetyPage, ItsMissionIsOne) {
+  const ConfigNode root = ReadYamlFile(FP_DOCS_CODE "/mission.yaml", {});
+  const Mission mission = ReadMission(root, RobotPrimitiveTypes());
+  EXPECT_EQ(mission.name, "inspect the bridge");
+  EXPECT_EQ(mission.nodes.size(), 1u + 1 + 1 + 4);
 }
 
 TEST(AddingADetector, ASmallErrorThatLastsFailsAndALargeOneThatPassesDoesNot) {
