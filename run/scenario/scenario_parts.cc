@@ -348,7 +348,7 @@ std::vector<Reading> NeededReadings(const ConfigNode& root, const Scenario& s) {
   // One that came with `react` does without.
   if (Written(root, "mapper") || PlansByItsMap(s)) add(Mapper::Needs());
   if (s.recovery) add(s.recovery->Needs());
-  if (s.safety) add(NeededBy(*s.safety));
+  if (s.safety) add({std::begin(kSupervisionNeeds), std::end(kSupervisionNeeds)});
   return needed;
 }
 

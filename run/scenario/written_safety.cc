@@ -8,9 +8,6 @@
 namespace floorproof {
 namespace {
 
-// Encoders, IMU and the drivers' currents cost nothing; a lidar is more than a monitor is worth.
-constexpr Reading kCheap[] = {Reading::kWheels, Reading::kImu, Reading::kPower};
-
 bool IsNone(const ConfigNode& node) { return node.IsNull() || node.scalar == "none"; }
 
 template <class Has>
@@ -71,14 +68,6 @@ SafetyPlan ReadSafety(const ConfigNode* safety, const ConfigNode& root) {
     plan.monitors.push_back({name, std::move(monitor)});
   }
   return plan;
-}
-
-std::vector<Reading> NeededBy(const SafetyPlan& plan) {
-  std::vector<Reading> needed;
-  for (const NamedMonitor& monitor : plan.monitors)
-    for (const Reading reading : monitor.monitor->Needs())
-      if (std::ranges::find(kCheap, reading) != std::end(kCheap)) needed.push_back(reading);
-  return needed;
 }
 
 void KeepMonitorsOf(std::span<const Reading> told, bool truth, SafetyPlan& plan) {

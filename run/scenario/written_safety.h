@@ -21,8 +21,9 @@ std::filesystem::path BundledMission();
 // `safety`, the key's map; nullptr: as it is by default. `root`: the mission's file, parsed. Throws
 // InputError with file, line and key. Which monitors the robot can have is not asked yet.
 SafetyPlan ReadSafety(const ConfigNode* safety, const ConfigNode& root);
-// What its monitors go by and every robot can carry: the rest is not carried for their sake.
-std::vector<Reading> NeededBy(const SafetyPlan& plan);
+// What a supervised robot is told whichever monitors watch it: whether it stands is asked of its
+// wheels and its gyro. A lidar is more than a monitor is worth.
+inline constexpr Reading kSupervisionNeeds[] = {Reading::kWheels, Reading::kImu, Reading::kPower};
 // Takes away the monitors that go by what the robot is not told; and those that go by where it
 // thinks it is, where that is the truth.
 void KeepMonitorsOf(std::span<const Reading> told, bool truth, SafetyPlan& plan);

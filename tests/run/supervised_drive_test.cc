@@ -143,6 +143,23 @@ TEST_F(SupervisedDrive, WhoIsCarriedOffHasNotDrivenThere) {
   EXPECT_LT(dut.metrics.coverage, plain.metrics.coverage - 0.005);
 }
 
+// Whether it stands is asked of its wheels, whoever says that it must.
+TEST_F(SupervisedDrive, WhoIsWatchedByItsLidarAloneIsStillToldOfItsWheels) {
+  Save("m.yaml", R"(mission: 1
+primitives:
+  follow_plan: {}
+  lidar: {type: service, monitors: [scan_signal], severity: catastrophic, extent: external}
+skills: {drive: {run: [follow_plan], with: [lidar]}}
+tasks: {t: [drive]}
+run: [t]
+)");
+  const EpisodeRecord dut =
+      DriveWith("[{type: silent_sensor, sensor: lidar, onset_s: 6, duration_s: 4}]",
+                "mission: m.yaml\nsensors: {lidar: {}}\n");
+  EXPECT_EQ(dut.outcome, Outcome::kSuccess) << dut.message;
+  EXPECT_NEAR(dut.metrics.held_s.value(), 4, 1);
+}
+
 constexpr const char* kMission = R"(mission: 1
 name: there and back
 primitives:
