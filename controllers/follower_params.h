@@ -3,6 +3,8 @@
 // from them and from the robot.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "base/params.h"
@@ -17,6 +19,13 @@ namespace floorproof {
 inline constexpr double kPlannedShare = 0.8;
 // The wheels reach their speed this much late.
 inline constexpr double kWheelLag_s = 0.15;
+
+// The rate at which a robot may turn that has so far to go and is to come to rest there, rad/s, >=
+// 0.
+inline double TurningRate(double left_rad, double most_radps, double most_radps2) {
+  return std::min(most_radps,
+                  StoppingSpeed(std::abs(left_rad), kPlannedShare * most_radps2, kWheelLag_s));
+}
 
 inline double Radians(double deg) { return deg * kPi / 180; }
 

@@ -164,8 +164,7 @@ class HolonomicFollower final : public Tracker {
 
     GiveWay(X_WB, direction_W, dt_s);
     const double turn_rad = compliance_.YawError(off_rad);
-    const double rate =
-        StoppingSpeed(std::abs(turn_rad), kPlannedShare * yaw_accel_radps2_, kWheelLag_s);
+    const double rate = TurningRate(turn_rad, yaw_rate_radps_, yaw_accel_radps2_);
     const double wz_radps =
         std::clamp(turn_rad == 0 ? compliance_.SquaringRate() : std::copysign(rate, turn_rad),
                    -yaw_rate_radps_, yaw_rate_radps_);

@@ -3,6 +3,12 @@
 
 namespace floorproof {
 
+BodyTwist RolledTwist(const Drive& drive, std::span<const double> wheel_rad,
+                      const HingeState& hinges, double dt_s, std::span<double> radps) {
+  for (std::size_t i = 0; i < radps.size(); ++i) radps[i] = wheel_rad[i] / dt_s;
+  return drive.ToTwist(radps, hinges);
+}
+
 void Odometry::Start(const RobotSpec& robot) {
   drive_ = MakePlugin(Drives(), robot.drive, "drive");
   drive_->Configure(robot);
@@ -10,9 +16,7 @@ void Odometry::Start(const RobotSpec& robot) {
 }
 
 BodyTwist Odometry::Update(const Observation& sensed, double dt_s) {
-  for (std::size_t i = 0; i < wheel_radps_.size(); ++i)
-    wheel_radps_[i] = sensed.wheel_rad[i] / dt_s;
-  BodyTwist twist = drive_->ToTwist(wheel_radps_, sensed.hinges);
+  BodyTwist twist = RolledTwist(*drive_, sensed.wheel_rad, sensed.hinges, dt_s, wheel_radps_);
   if (sensed.has_imu) twist.wz_radps = sensed.gyro_radps.z();
   return twist;
 }

@@ -11,6 +11,10 @@
 
 namespace floorproof {
 
+// The twist that wheels rolled which turned so far in dt_s. `radps`: room for a speed a wheel.
+BodyTwist RolledTwist(const Drive& drive, std::span<const double> wheel_rad,
+                      const HingeState& hinges, double dt_s, std::span<double> radps);
+
 class Odometry {
  public:
   void Start(const RobotSpec& robot);

@@ -124,9 +124,7 @@ class RegulatedPursuit final : public Tracker {
 
   void Turn(double aside_rad, double dt_s) {
     if (std::abs(aside_rad) < kAboutFaceRad || turn_side_ == 0) turn_side_ = aside_rad < 0 ? -1 : 1;
-    const double rate =
-        StoppingSpeed(std::abs(aside_rad), kPlannedShare * yaw_accel_radps2_, kWheelLag_s);
-    Slew(0, turn_side_ * std::min(yaw_rate_radps_, rate), dt_s);
+    Slew(0, turn_side_ * TurningRate(aside_rad, yaw_rate_radps_, yaw_accel_radps2_), dt_s);
   }
 
   void Follow(const Vec2& target_B, double speed_mps, double dt_s) {

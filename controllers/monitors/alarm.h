@@ -87,7 +87,6 @@ class LowPass {
     value_ = value_ ? *value_ + (value - *value_) * dt_s / (time_s + dt_s) : value;
     return *value_;
   }
-  double value() const { return value_.value_or(0); }
   void Reset() { value_.reset(); }
 
  private:

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "controllers/monitors/monitor.h"
+#include "controllers/odometry.h"
 
 namespace floorproof {
 namespace {
@@ -19,8 +20,7 @@ class Slip final : public Monitor {
   std::vector<Reading> Needs() const override { return {Reading::kWheels}; }
 
   void Update(const MonitorReadings& now) override {
-    for (std::size_t w = 0; w < radps_.size(); ++w) radps_[w] = now.wheel_rad[w] / now.dt_s;
-    const BodyTwist twist = drive_->ToTwist(radps_, now.hinges);
+    const BodyTwist twist = RolledTwist(*drive_, now.wheel_rad, now.hinges, now.dt_s, radps_);
     rolled_W_ += now.estimate.X_WB.Rotate({twist.vx_mps, twist.vy_mps}) * now.dt_s;
     since_s_ += now.dt_s;
     if (since_s_ < window_s_ / kSlots) return;

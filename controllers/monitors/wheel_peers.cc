@@ -15,28 +15,24 @@ class WheelPeers final : public Monitor {
 
   void Update(const MonitorReadings& now) override {
     const auto shares = shares_.Update(now);
-    int odd = 0;
-    for (const auto& share : shares) odd += share && !Agrees(*share) ? 1 : 0;
+    const int odd = shares_.Odd(shares);
     for (std::size_t w = 0; w < shares.size(); ++w) {
       if (!shares[w]) continue;
       const double share = *shares[w];
       const bool bad = odd <= most_odd_ && share < least_share_;
-      alarm(w).Update(now.t_s, now.dt_s, bad, Agrees(share), share, least_share_);
+      alarm(w).Update(now.t_s, now.dt_s, bad, shares_.Agrees(share), share, least_share_);
     }
   }
 
  private:
-  bool Agrees(double share) const { return share > agree_ && share < 1 / agree_; }
-
   void VisitOwn(ParamVisitor& v) override {
     v("least_share", least_share_, Between(-1, 1), "a dead motor draws less of the median");
-    v("agree", agree_, Between(0.01, 0.99), "others draw from this share of it to its inverse");
     v("most_odd", most_odd_, Between(1, 100), "wheels that may disagree at once");
     params_.Visit(v);
   }
   void StartOwn(const MonitorContext& context) override { shares_.Start(params_, context.robot); }
 
-  double least_share_ = 0.3, agree_ = 0.45;
+  double least_share_ = 0.3;
   int most_odd_ = 2;
   WheelShareParams params_;
   WheelShares shares_;

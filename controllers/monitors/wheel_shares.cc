@@ -18,7 +18,12 @@ void WheelShares::Start(const WheelShareParams& params, const RobotSpec& robot) 
   turning_a_.reserve(wheels_.size());
 }
 
-std::span<const std::optional<double>> WheelShares::Update(const MonitorReadings& now) {
+int WheelShares::Odd(std::span<const WheelShare> shares) const {
+  return static_cast<int>(std::ranges::count_if(
+      shares, [&](const WheelShare& share) { return share && !Agrees(*share); }));
+}
+
+std::span<const WheelShare> WheelShares::Update(const MonitorReadings& now) {
   if (!now.power.heard || now.hinges.n > 0) return {};
   turning_a_.clear();
   for (std::size_t w = 0; w < wheels_.size(); ++w) {
@@ -44,7 +49,7 @@ std::span<const std::optional<double>> WheelShares::Update(const MonitorReadings
   const auto middle = turning_a_.begin() + static_cast<std::ptrdiff_t>(turning_a_.size() / 2);
   std::ranges::nth_element(turning_a_, middle);
   if (*middle < params_.least_a) return {};
-  for (std::optional<double>& share : shares_)
+  for (WheelShare& share : shares_)
     if (share) *share /= *middle;
   return shares_;
 }

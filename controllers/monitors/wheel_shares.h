@@ -12,14 +12,19 @@
 namespace floorproof {
 
 struct WheelShareParams {
-  double least_a = 0.02, mean_s = 1, most_lean_deg = 1;
+  double agree = 0.45, least_a = 0.02, mean_s = 1, most_lean_deg = 1;
   void Visit(ParamVisitor& v) {
+    v("agree", agree, Between(0.01, 0.99),
+      "wheels draw alike from this share of the median to its inverse");
     v("least_a", least_a, NonNegative(), "a median below this says nothing (A)");
     v("mean_s", mean_s, Positive(), "time constant of the mean (s)");
     v("most_lean_deg", most_lean_deg, Between(0, 90),
       "of a robot that leans more by its IMU, as on an edge, wheels do not carry alike (deg)");
   }
 };
+
+// Of the median.
+using WheelShare = std::optional<double>;
 
 class WheelShares {
  public:
@@ -28,7 +33,10 @@ class WheelShares {
   // One period. By driven wheel; none of one that has not turned this way for long. Empty while
   // nothing can be said: fewer than four wheels turn, all of them roll freely, the robot leans or
   // has leaned just now, or its blocks fold and do not carry alike.
-  std::span<const std::optional<double>> Update(const MonitorReadings& now);
+  std::span<const WheelShare> Update(const MonitorReadings& now);
+  bool Agrees(double share) const { return share > params_.agree && share < 1 / params_.agree; }
+  // How many do not, of those that Update() told of.
+  int Odd(std::span<const WheelShare> shares) const;
 
  private:
   struct Wheel {
@@ -39,7 +47,7 @@ class WheelShares {
   };
   WheelShareParams params_;
   std::vector<Wheel> wheels_;
-  std::vector<std::optional<double>> shares_;
+  std::vector<WheelShare> shares_;
   std::vector<double> turning_a_;
   LeanAngle lean_;
   double level_s_ = 0;  // since it last leaned

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "controllers/monitors/monitor.h"
+#include "controllers/odometry.h"
 
 namespace floorproof {
 namespace {
@@ -17,8 +18,8 @@ class YawRate final : public Monitor {
 
   void Update(const MonitorReadings& now) override {
     if (!now.has_imu) return;
-    for (std::size_t w = 0; w < radps_.size(); ++w) radps_[w] = now.wheel_rad[w] / now.dt_s;
-    const double by_wheels = drive_->ToTwist(radps_, now.hinges).wz_radps;
+    const double by_wheels =
+        RolledTwist(*drive_, now.wheel_rad, now.hinges, now.dt_s, radps_).wz_radps;
     const double off = std::abs(off_.Update(by_wheels - now.gyro_radps.z(), now.dt_s, smooth_s_));
     const bool bad = off > limit_radps_;
     const bool moves =

@@ -263,7 +263,8 @@ class MissionReader {
     }
     std::vector<std::string> known = {"run", "with"};
     for (const std::size_t child : mission_.nodes[node].children) {
-      const std::vector<std::string>& keys = TypeOf(mission_.nodes[child]).keys;
+      const std::vector<std::string>& keys =
+          TypeOf(mission_.primitives[mission_.nodes[child].primitive]).keys;
       known.insert(known.end(), keys.begin(), keys.end());
     }
     RefuseUnknownKeys(skill, path + ".", known);
@@ -282,7 +283,7 @@ class MissionReader {
                                          : "is no primitive of this mission") +
                            DidYouMeanOneOf(name, names));
     }
-    const PrimitiveType& type = *std::ranges::find(types_, found->type, &PrimitiveType::name);
+    const PrimitiveType& type = TypeOf(*found);
     if (type.ends == parallel)
       throw InputError(item.mark, key, name,
                        type.ends ? "comes to an end: it belongs under run"
@@ -293,7 +294,7 @@ class MissionReader {
     node.parallel = parallel;
     node.primitive = static_cast<std::size_t>(found - mission_.primitives.begin());
     node.params = found->params;
-    const std::vector<std::string>& keys = TypeOf(node).keys;
+    const std::vector<std::string>& keys = type.keys;
     for (const auto& [handed, value] : of_skill.entries) {
       if (std::ranges::find(keys, handed) == keys.end()) continue;
       node.params.Remove(handed);  // the skill's rules
@@ -301,9 +302,8 @@ class MissionReader {
     }
   }
 
-  const PrimitiveType& TypeOf(const MissionNode& primitive) const {
-    return *std::ranges::find(types_, mission_.primitives[primitive.primitive].type,
-                              &PrimitiveType::name);
+  const PrimitiveType& TypeOf(const MissionPrimitive& primitive) const {
+    return *std::ranges::find(types_, primitive.type, &PrimitiveType::name);
   }
 
   const ConfigNode& root_;

@@ -13,7 +13,6 @@ void RobotPrimitive::Visit(ParamVisitor& v) {
 }
 
 void RobotPrimitive::Prepare(const Context& context) {
-  robot_ = &context.robot;
   rating_ = context.rating;
   weights_ = context.weights;
   board_ = &context.board;

@@ -57,7 +57,6 @@ class RobotPrimitive : public Primitive, public Configurable {
   virtual void VisitOwn(ParamVisitor& v) = 0;
   // Whether it does not get on, or goes beyond what it may, by its own account.
   virtual std::optional<Persistence> FailsItself() const { return {}; }
-  const RobotSpec& robot() const { return *robot_; }
   const MonitorReadings& now() const { return *board_->now; }
   Board& board() { return *board_; }
   const Board& board() const { return *board_; }
@@ -67,7 +66,6 @@ class RobotPrimitive : public Primitive, public Configurable {
   void Worsen(const Failure& other, std::optional<Failure>& worst) const;
 
   std::string_view failing_;
-  const RobotSpec* robot_ = nullptr;
   FailureRating rating_;
   SafetyWeights weights_;
   Board* board_ = nullptr;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "controllers/odometry.h"
+
 namespace floorproof {
 namespace {
 
@@ -252,8 +254,7 @@ bool Supervisor::SeenSince(double t_s) const {
 bool Supervisor::Stands() {
   constexpr double kStands_mps = 0.03, kStands_radps = 0.1;
   const MonitorReadings& now = *board_.now;
-  for (std::size_t w = 0; w < radps_.size(); ++w) radps_[w] = now.wheel_rad[w] / now.dt_s;
-  const BodyTwist V = drive_->ToTwist(radps_, now.hinges);
+  const BodyTwist V = RolledTwist(*drive_, now.wheel_rad, now.hinges, now.dt_s, radps_);
   return std::hypot(V.vx_mps, V.vy_mps) < kStands_mps && std::abs(V.wz_radps) < kStands_radps &&
          std::abs(now.gyro_radps.z()) < kStands_radps;
 }
@@ -324,12 +325,10 @@ void Supervisor::LogNodes(double t_s) {
     const double state = run_.risk(i).greatest;
     if (state == logged_[i]) continue;
     logged_[i] = state;
-    std::string reason = "by its worst";
-    if (primitives_[i] != nullptr)
-      reason = run_.failure(i) ? WhatIsWrong(i) : "as it should be";
-    else if (state == 0)
-      reason = "as it should be";
-    Say(t_s, i, std::move(reason));
+    if (state == 0)
+      Say(t_s, i, "as it should be");
+    else
+      Say(t_s, i, primitives_[i] != nullptr ? WhatIsWrong(i) : "by its worst");
   }
 }
 

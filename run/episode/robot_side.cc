@@ -72,9 +72,7 @@ void RobotSide::GoOn(const Observation& sensed) {
 // On the spot to this heading, as fast as it may and can come to rest there.
 void RobotSide::Turn(double yaw_rad) {
   const double left_rad = WrapAngle(yaw_rad - estimate_.X_WB.yaw_rad);
-  const double rate = std::min(
-      robot_.max_yaw_rate_radps,
-      StoppingSpeed(std::abs(left_rad), kPlannedShare * robot_.max_yaw_accel_radps2, kWheelLag_s));
+  const double rate = TurningRate(left_rad, robot_.max_yaw_rate_radps, robot_.max_yaw_accel_radps2);
   const double wanted = supervisor_->speed_share() * std::copysign(rate, left_rad);
   const double most = robot_.max_yaw_accel_radps2 * control_s_;
   const double now = command_.twist.wz_radps;

@@ -83,6 +83,12 @@ bool Vary(const Scenario& s, const std::set<std::string>& keys) {
   return false;
 }
 
+// As BundledOrNamed() reads it.
+std::string NameOr(const fs::path& file, const fs::path& bundled_file, std::string_view bundled,
+                   const fs::path& folder) {
+  return file == bundled_file ? std::string(bundled) : PathFrom(folder, file).string();
+}
+
 // Its planner with all keys. Where variants have others, which need not know them, those alone that
 // are not as by default.
 ConfigNode PlannerKeys(const Scenario& s, const fs::path& folder) {
@@ -196,9 +202,8 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
                          ? PlannerKeys(s, folder)
                          : Named("file", PathFrom(folder, s.plan_file).string()));
   if (AsksForRisk(s))
-    root.Add("risk", WithParams(Named("tables", s.fmea_file == BundledTables()
-                                                    ? std::string(kBundledTables)
-                                                    : PathFrom(folder, s.fmea_file).string()),
+    root.Add("risk", WithParams(Named("tables",
+                                      NameOr(s.fmea_file, BundledTables(), kBundledTables, folder)),
                                 s.risk));
   if (stated("controller", robot_varies))
     root.Add("controller", WithPlugin(Named("name", s.tracker_name), *s.tracker));
@@ -214,10 +219,9 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
   }
   if (s.recovery) root.Add("react", WithParams(ConfigNode::Map(), *s.recovery));
   if (s.safety) {
-    root.Add("mission", ConfigNode::Scalar(s.mission_file == BundledMission()
-                                               ? std::string(kBundledMission)
-                                               : PathFrom(folder, s.mission_file).string(),
-                                           true));
+    root.Add("mission",
+             ConfigNode::Scalar(NameOr(s.mission_file, BundledMission(), kBundledMission, folder),
+                                true));
     root.Add("safety", WriteSafety(*s.safety));
   }
   if (!s.faults.empty()) root.Add("faults", WriteFaults(s.faults));

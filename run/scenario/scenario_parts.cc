@@ -161,7 +161,19 @@ void ReadPlacesPart(ConfigNode& plan, Scenario& s) {
   plan.Remove("samples");
 }
 
-// A mission is named like risk tables: the bundled one's name, or a path that ends in .yaml.
+// The file that a key names: the bundled one by its name, or by a path that ends in .yaml. No key:
+// the bundled one.
+fs::path BundledOrNamed(const ConfigNode* node, const std::string& key, std::string_view bundled,
+                        const fs::path& bundled_file, Scenario& s) {
+  if (node == nullptr) return bundled_file;
+  const std::string name = AsString(*node, key);
+  if (name == bundled) return bundled_file;
+  if (!name.ends_with(".yaml"))
+    throw InputError(node->mark, key, name,
+                     "must be " + std::string(bundled) + ", or a .yaml file");
+  return NamedFile(s.file.parent_path(), *node, key, s.files);
+}
+
 void ReadSafetyPart(const ConfigNode& root, Scenario& s) {
   const ConfigNode* safety = Written(root, "safety");
   const ConfigNode* mission = Written(root, "mission");
@@ -171,14 +183,7 @@ void ReadSafetyPart(const ConfigNode& root, Scenario& s) {
         (safety != nullptr ? safety : mission)->mark, safety != nullptr ? "safety" : "mission", "",
         "is for drives through physics; with `drive: cells` nothing is sensed that could "
         "be watched");
-  const std::string name =
-      mission != nullptr ? AsString(*mission, "mission") : std::string(kBundledMission);
-  if (name == kBundledMission)
-    s.mission_file = BundledMission();
-  else if (name.ends_with(".yaml"))
-    s.mission_file = NamedFile(s.file.parent_path(), *mission, "mission", s.files);
-  else
-    throw InputError(mission->mark, "mission", name, "must be follow_plan, or a .yaml file");
+  s.mission_file = BundledOrNamed(mission, "mission", kBundledMission, BundledMission(), s);
   const ConfigNode tree = ReadYamlFile(s.mission_file, s.files);
   s.safety = ReadSafety(safety, tree);
   s.safety->helped = s.episode.on_failure == "assist";
@@ -257,21 +262,12 @@ void CheckOnline(const ConfigNode& root, const Scenario& s) {
                          FormatDouble(kMostSteps * step_m) + " m");
 }
 
-// Tables are named like robots: a bundled one's name, or a path that ends in .yaml.
 void ReadRisk(const ConfigNode& root, Scenario& s) {
   const ConfigNode* node = Written(root, "risk");
   if (node != nullptr)
     ReadParams(*node, "risk.", [&](ParamVisitor& v) { s.risk.Visit(v); }, {"tables"});
   const ConfigNode* tables = node != nullptr ? node->Find("tables") : nullptr;
-  const std::string name =
-      tables != nullptr ? AsString(*tables, "risk.tables") : std::string(kBundledTables);
-  if (name == kBundledTables) {
-    s.fmea_file = BundledTables();
-  } else if (name.ends_with(".yaml")) {
-    s.fmea_file = NamedFile(s.file.parent_path(), *tables, "risk.tables", s.files);
-  } else {
-    throw InputError(tables->mark, "risk.tables", name, "must be htetro, or a .yaml file");
-  }
+  s.fmea_file = BundledOrNamed(tables, "risk.tables", kBundledTables, BundledTables(), s);
   s.fmea = ReadFmeaTables(s.fmea_file, s.files);
   if (!s.risk.cell_m) return;
   constexpr double kMaxCells = 4e6;
@@ -358,7 +354,7 @@ void ReadSensors(const ConfigNode& root, Scenario& s) {
   if (!s.safety) return;
   std::vector<Reading> told;
   for (const NamedSensor& named : s.sensors) told.push_back(named.sensor->Fills());
-  KeepMonitorsOf(told, std::ranges::find(told, Reading::kTruth) != told.end(), *s.safety);
+  KeepMonitorsOf(told, *s.safety);
 }
 
 void ReadFaultsPart(const ConfigNode& root, Scenario& s) {

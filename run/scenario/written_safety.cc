@@ -10,16 +10,10 @@ namespace {
 
 bool IsNone(const ConfigNode& node) { return node.IsNull() || node.scalar == "none"; }
 
-template <class Has>
-bool AllOf(const Monitor& monitor, const Has& has) {
-  const std::vector<Reading> needs = monitor.Needs();
-  return std::ranges::all_of(needs, has);
-}
-
 void CheckMonitors(const ConfigNode& written, const std::vector<std::string>& named) {
+  const std::vector<std::string> all = PluginNames(Monitors());
   for (const auto& [name, keys] : written.entries) {
     const std::string path = "safety.monitors." + name;
-    const std::vector<std::string> all = PluginNames(Monitors());
     if (std::ranges::find(named, name) == named.end())
       throw InputError(keys.mark, path, "",
                        std::ranges::find(all, name) != all.end()
@@ -41,8 +35,8 @@ SafetyPlan ReadSafety(const ConfigNode* safety, const ConfigNode& root) {
   plan.mission = ReadMission(root, RobotPrimitiveTypes());
   for (const MissionNode& node : plan.mission.nodes)
     if (node.kind == MissionNode::Kind::kPrimitive) MakePrimitive(plan.mission, node);
-  for (std::size_t p = 0; p < plan.mission.primitives.size();
-       ++p) {  // those that nothing runs, too
+  // Those that nothing runs, too.
+  for (std::size_t p = 0; p < plan.mission.primitives.size(); ++p) {
     MissionNode node;
     node.name = plan.mission.primitives[p].name;
     node.primitive = p;
@@ -70,11 +64,11 @@ SafetyPlan ReadSafety(const ConfigNode* safety, const ConfigNode& root) {
   return plan;
 }
 
-void KeepMonitorsOf(std::span<const Reading> told, bool truth, SafetyPlan& plan) {
+void KeepMonitorsOf(std::span<const Reading> told, SafetyPlan& plan) {
+  const auto hears = [&](Reading r) { return std::ranges::find(told, r) != told.end(); };
   std::erase_if(plan.monitors, [&](const NamedMonitor& named) {
-    if (truth && named.monitor->by_estimate()) return true;
-    return !AllOf(*named.monitor,
-                  [&](Reading r) { return std::ranges::find(told, r) != told.end(); });
+    return (named.monitor->by_estimate() && hears(Reading::kTruth)) ||
+           !std::ranges::all_of(named.monitor->Needs(), hears);
   });
 }
 

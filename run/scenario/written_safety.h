@@ -26,7 +26,7 @@ SafetyPlan ReadSafety(const ConfigNode* safety, const ConfigNode& root);
 inline constexpr Reading kSupervisionNeeds[] = {Reading::kWheels, Reading::kImu, Reading::kPower};
 // Takes away the monitors that go by what the robot is not told; and those that go by where it
 // thinks it is, where that is the truth.
-void KeepMonitorsOf(std::span<const Reading> told, bool truth, SafetyPlan& plan);
+void KeepMonitorsOf(std::span<const Reading> told, SafetyPlan& plan);
 
 // The key `safety` again, with every default stated.
 ConfigNode WriteSafety(const SafetyPlan& plan);
