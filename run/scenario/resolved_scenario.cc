@@ -114,9 +114,9 @@ bool IsBundled(const fs::path& file) {
   const auto is = [&](const fs::path& bundled) {
     return fs::absolute(bundled).lexically_normal() == fs::absolute(file).lexically_normal();
   };
-  return is(BundledTables()) || std::ranges::any_of(Robots(), [&](const RobotEntry& robot) {
-           return is(ModelsFolder() / robot.file);
-         });
+  return is(BundledTables()) || is(BundledMission()) ||
+         std::ranges::any_of(
+             Robots(), [&](const RobotEntry& robot) { return is(ModelsFolder() / robot.file); });
 }
 
 std::string NameFrom(const fs::path& folder, const fs::path& file, const InputFiles& files) {

@@ -303,6 +303,17 @@ TEST_F(ScenarioInputs, NothingStandsInForABundledRobot) {
               HasSubstr("the file has changed since"));
 }
 
+// A record that leads into the program's folder could not be read beside another one.
+TEST_F(ScenarioInputs, WhatComesWithTheProgramIsListedByItsName) {
+  std::ofstream(folder_ / "in/bundled.yaml")
+      << "scenario: 1\nsite: {site: 1, map: map/map.yaml, start: {x_m: 1, y_m: 1}}\n"
+         "robot: beluga\nplan: {planner: fmea_path_transform}\nmission: follow_plan\n";
+  const Scenario dut = ScenarioFile(folder_ / "in/bundled.yaml").Read();
+  EXPECT_THAT(FilesListed(ResolvedScenario(dut, folder_ / "out")),
+              ::testing::IsSupersetOf({"bundled:beluga.xml", "bundled:fmea/htetro.yaml",
+                                       "bundled:missions/follow_plan.yaml"}));
+}
+
 TEST_F(ScenarioInputs, ARecordIsReadWhereItIsMovedTo) {
   const ScenarioFile file(folder_ / "in/s.yaml");
   const std::string before = Read(file);
