@@ -2,11 +2,11 @@
 // The ladder's hazards as a site file would state them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "base/config.h"
-#include "env/hazards/hazard_type.h"
 #include "validate/ladder.h"
+#include "validate/made_hazard.h"
 
 namespace floorproof {
 namespace {
@@ -14,21 +14,13 @@ namespace {
 constexpr double kFar_m = 3.5;  // across the way and, for a level change, along it
 constexpr double kGrooveDepth_m = 0.05, kCoverTop_m = 0.05, kCoverHeight_m = 0.020;
 constexpr double kCoverFlank_deg = 30, kRoughLength_m = 0.6;
-
-Hazard Make(std::string_view type, const std::string& keys, const std::vector<Vec2>& place) {
-  const auto plugin = MakePlugin(HazardTypes(), type, "type");
-  ReadParams(ParseYaml("{" + keys + "}", "ladder"), "", *plugin);
-  Hazard hazard = plugin->Make(place);
-  hazard.type = hazard.id = type;
-  hazard.known = false;  // to detectors, which forgive going down what is known; the tracker knows
-  return hazard;
-}
+constexpr double kThresholdTop_m = 0.05, kRampLength_m = 1, kSillGap_m = 0.032, kWetLength_m = 1;
 
 double NoLength(double) { return 0; }
 
 Hazard LevelChange(double height_mm) {
-  return Make("step", fmt::format("height_m: {}", height_mm / 1000),
-              Rectangle({0, -kFar_m}, {kFar_m, kFar_m}));
+  return MakeHazard("step", fmt::format("height_m: {}", height_mm / 1000),
+                    Rectangle({0, -kFar_m}, {kFar_m, kFar_m}));
 }
 Hazard StepUp(double height_mm, double) { return LevelChange(height_mm); }
 Hazard Drop(double depth_mm, double) { return LevelChange(-depth_mm); }
@@ -38,8 +30,9 @@ std::vector<Vec2> Line(double width_m) { return {{width_m / 2, -kFar_m}, {width_
 
 double GrooveLength(double width_mm) { return width_mm / 1000; }
 Hazard Groove(double width_mm, double) {
-  return Make("groove", fmt::format("width_m: {}, depth_m: {}", width_mm / 1000, kGrooveDepth_m),
-              Line(width_mm / 1000));
+  return MakeHazard("groove",
+                    fmt::format("width_m: {}, depth_m: {}", width_mm / 1000, kGrooveDepth_m),
+                    Line(width_mm / 1000));
 }
 
 double CoverWidth(double height_m, double flank_deg) {
@@ -47,7 +40,7 @@ double CoverWidth(double height_m, double flank_deg) {
 }
 Hazard Cover(double height_m, double flank_deg) {
   const double width_m = CoverWidth(height_m, flank_deg);
-  return Make(
+  return MakeHazard(
       "cable_cover",
       fmt::format("width_m: {}, top_width_m: {}, height_m: {}", width_m, kCoverTop_m, height_m),
       Line(width_m));
@@ -63,14 +56,58 @@ Hazard Rough(double amplitude_mm, double travel_rad) {
   constexpr double kHalfWidth_m = 0.4;
   Polygon place = Rectangle({0, -kHalfWidth_m}, {kRoughLength_m, kHalfWidth_m});
   for (Vec2& corner : place) corner = Pose2{0, 0, travel_rad}.Rotate(corner);
-  return Make("rough", fmt::format("amplitude_m: {}, wavelength_m: 0.1", amplitude_mm / 1000),
-              place);
+  return MakeHazard("rough", fmt::format("amplitude_m: {}, wavelength_m: 0.1", amplitude_mm / 1000),
+                    place);
+}
+
+// As a new door's: upright up to 6.4 mm, from there bevelled 1:2, 50 mm wide on top.
+double ThresholdWidth(double height_mm) {
+  return kThresholdTop_m + 4 * std::max(0.0, height_mm / 1000 - 0.0064);
+}
+Hazard Threshold(double height_mm, double) {
+  const double width_m = ThresholdWidth(height_mm);
+  return MakeHazard("threshold",
+                    fmt::format("width_m: {}, height_m: {}", width_m, height_mm / 1000),
+                    Line(width_m));
+}
+
+// It goes on beyond: the whole robot is on it in the end.
+double RampLength(double) { return kRampLength_m; }
+Hazard RampOf(double slope_deg) {
+  Hazard ramp = MakeHazard("ramp", fmt::format("slope_deg: {}", slope_deg),
+                           Rectangle({0, -kFar_m}, {kFar_m, kFar_m}));
+  ramp.known = true;  // what leads down a known ramp has not fallen
+  return ramp;
+}
+Hazard RampUp(double slope_deg, double) { return RampOf(slope_deg); }
+Hazard RampDown(double slope_deg, double) { return RampOf(-slope_deg); }
+
+Hazard Carpet(double height_mm, double) {
+  return MakeHazard("carpet", fmt::format("height_m: {}", height_mm / 1000),
+                    Rectangle({0, -kFar_m}, {kFar_m, kFar_m}));
+}
+
+// The polygon's first edge, the door, at x = 0.
+double SillLength(double) { return kSillGap_m; }
+Hazard LiftSill(double level_mm, double) {
+  return MakeHazard("lift_sill", fmt::format("gap_m: {}, level_m: {}", kSillGap_m, level_mm / 1000),
+                    {{0, kFar_m}, {0, -kFar_m}, {kFar_m, -kFar_m}, {kFar_m, kFar_m}});
+}
+
+double WetLength(double) { return kWetLength_m; }
+Hazard Wet(double slippery_pct, double) {
+  Hazard wet = MakeHazard("wet", "", Rectangle({0, -kFar_m}, {kWetLength_m, kFar_m}));
+  wet.material.friction = 1 - slippery_pct / 100;
+  return wet;
 }
 
 // Rungs of millimetres to a tenth, of a width to one, of an angle to a fifth of a degree.
 constexpr Rungs kHeight = {.per_unit = 10, .first = 2, .spacing = 20, .last = 602};
 constexpr Rungs kWidth = {.per_unit = 1, .first = 2, .spacing = 10, .last = 502};
 constexpr Rungs kAngle = {.per_unit = 5, .first = 10, .spacing = 20, .last = 450};
+constexpr Rungs kSlope = {.per_unit = 5, .first = 10, .spacing = 20, .last = 290};
+constexpr Rungs kLevel = {.per_unit = 10, .first = 2, .spacing = 20, .last = 402};
+constexpr Rungs kShare = {.per_unit = 1, .first = 10, .spacing = 10, .last = 95};
 
 constexpr LadderHazard kHazards[] = {
     {"step", "height of a raised floor", "mm", kHeight, &NoLength, &StepUp},
@@ -80,6 +117,13 @@ constexpr LadderHazard kHazards[] = {
     {"cable_cover_height", "height of a cable cover, flanks 30 deg", "mm", kHeight, &HeightLength,
      &CoverHeight},
     {"rough", "highest bump of rough ground", "mm", kHeight, &RoughLength, &Rough},
+    {"threshold", "height of a threshold, bevelled 1:2 above 6.4 mm", "mm", kHeight,
+     &ThresholdWidth, &Threshold},
+    {"ramp", "slope up", "deg", kSlope, &RampLength, &RampUp},
+    {"ramp_down", "slope down", "deg", kSlope, &RampLength, &RampDown},
+    {"carpet", "height of a carpet", "mm", kHeight, &NoLength, &Carpet},
+    {"lift_sill", "a lift's floor behind a gap of 32 mm", "mm", kLevel, &SillLength, &LiftSill},
+    {"wet", "friction lost, of 1", "%", kShare, &WetLength, &Wet},
 };
 
 }  // namespace

@@ -50,7 +50,10 @@ void Rig::Build(RigOptions options) {
   map_.frame = {kCells, kCells, kCell_m, {-kCells * kCell_m / 2, -kCells * kCell_m / 2, 0}};
   map_.occupancy = Grid<CellState>(kCells, kCells);
   map_.hazards = std::move(options.hazards);
-  for (Hazard& hazard : map_.hazards) hazard.material.restitution *= wrong_.restitution_factor;
+  for (Hazard& hazard : map_.hazards) {
+    hazard.material.restitution *= wrong_.restitution_factor;
+    hazard.material.rolling_drag *= wrong_.drag_factor;
+  }
   map_.floor_friction = options.friction;
   scene_ = BuildScene(map_, model_, options.physics, {});
   mjModel* m = scene_.model.get();

@@ -24,6 +24,7 @@ struct WrongModel {
   double resistance_factor = 1;   // of the motors' windings
   double hotel_load_factor = 1;   // what all but the motors draws
   double restitution_factor = 1;  // of hazards'
+  double drag_factor = 1;         // of hazards' rolling drag
 
   bool operator==(const WrongModel&) const = default;
 };

@@ -20,20 +20,35 @@ enum class HazardClass { kBlindObject /*C1*/, kGlass /*C2*/, kLevelChange /*C3*/
 // A piece of matter, or of missing floor, in the world frame; z = 0 is the base floor.
 struct Solid {
   enum class Kind {
-    kPrism,  // the convex hull of `base` at z_low_m and `top` at z_high_m, both convex: a box, a
-             // prism, a frustum; a wedge, where corners of `top` coincide
-    kCut,    // the floor is missing within `base` (any simple polygon) down to z_low_m (negative)
+    kPrism,    // the convex hull of `base` at z_low_m and `top` at z_high_m, both convex: a box, a
+               // prism, a frustum; a wedge, where corners of `top` coincide
+    kCut,      // the floor is missing within `base` (any simple polygon) down to z_low_m (negative)
+    kSurface,  // no matter: what is level or slanted floor within `base` (any simple polygon) has
+               // the hazard's friction
   };
   Kind kind = Kind::kPrism;
   Polygon base;
   Polygon top;  // empty: the same as base
   double z_low_m = 0, z_high_m = 0;
+  // Of a prism whose top is a slanted plane over `base`: its rise per metre along the world's x and
+  // y. z_high_m is then the height of its highest corner, and `top` is empty.
+  Vec2 gradient = Vec2::Zero();
 };
+// Whether its top is a slanted floor.
+inline bool IsSlope(const Solid& solid) { return !solid.gradient.isZero(0); }
+// The height of the solid's top at this place, which its base holds, m; a tapered one's is
+// z_high_m.
+double TopAt(const Solid& solid, const Vec2& p_W);
+// The height of the highest place of its top over this part of its base, m.
+double HighestOn(const Solid& solid, const Polygon& part);
 
 struct Material {
   std::optional<double> friction;  // none: the floor's
-  double restitution = 0;          // 0 (dead) to 1 (elastic)
-  double reflectance = 1;          // of a lidar's light, 0 (black) to 1 (white)
+  // What holds a wheel that rolls on it back, as a share of its load, beside what the wheel's own
+  // bearings do (N / N).
+  double rolling_drag = 0;
+  double restitution = 0;  // 0 (dead) to 1 (elastic)
+  double reflectance = 1;  // of a lidar's light, 0 (black) to 1 (white)
   std::array<float, 4> rgba = {0.6f, 0.6f, 0.6f, 1.0f};
 };
 

@@ -62,6 +62,13 @@ const Hazard* LevelHazardAt(const HazardMap& map, const Vec2& p_W) {
   return nullptr;
 }
 
+const Solid* SlopeAt(const HazardMap& map, const Vec2& p_W) {
+  for (std::size_t h = map.hazards.size(); h-- > 0;)
+    for (const Solid& solid : map.hazards[h].solids)
+      if (IsSlope(solid) && Contains(solid.base, p_W)) return &solid;
+  return nullptr;
+}
+
 std::string Metres(double m) {
   std::string text = std::to_string(m);
   text.resize(text.find('.') + 4);
@@ -74,13 +81,16 @@ bool FindFloor(const HazardMap& map, const RobotSpec& robot, const Pose2& X_WB, 
   double low_m = 0;
   const Hazard *high = nullptr, *low = nullptr;
   for (const WheelSpec& wheel : robot.wheels) {
-    const Hazard* level = LevelHazardAt(map, X_WB * Vec2(wheel.p_BW.head<2>()));
+    const Vec2 p_W = X_WB * Vec2(wheel.p_BW.head<2>());
+    const Hazard* level = LevelHazardAt(map, p_W);
     const double height_m = level != nullptr ? level->height_m : 0;
+    const Solid* slope = SlopeAt(map, p_W);
+    const double ground_m = slope != nullptr ? TopAt(*slope, p_W) : height_m;
+    if (first || ground_m > out.rests_m) out.rests_m = ground_m;
     if (first || height_m > out.floor_m) out.floor_m = height_m, high = level;
     if (first || height_m < low_m) low_m = height_m, low = level;
     first = false;
   }
-  out.rests_m = out.floor_m;
   if (out.floor_m - low_m <= kSameLevel_m) return true;
   out.obstruction = (high != nullptr ? high : low)->id;
   out.why = "stands across the edge of " + out.obstruction + ": its wheels are on floors at " +
@@ -92,7 +102,7 @@ bool FindFloor(const HazardMap& map, const RobotSpec& robot, const Pose2& X_WB, 
 void MeetSolid(const RobotSpec& robot, const Pose2& X_WB, const Hazard& hazard, const Solid& solid,
                Standing& out) {
   const double rise_m = solid.z_high_m - out.floor_m;
-  if (solid.kind == Solid::Kind::kCut || rise_m <= kSameLevel_m) return;
+  if (solid.kind != Solid::Kind::kPrism || rise_m <= kSameLevel_m || IsSlope(solid)) return;
   const Polygon& top = solid.top.empty() ? solid.base : solid.top;
   const double belly_m = out.rests_m + robot.clearance_m, roof_m = out.rests_m + robot.height_m;
   if (solid.z_high_m > belly_m + kBeside_m && solid.z_low_m < roof_m &&
@@ -129,11 +139,14 @@ bool IsBridged(const HazardMap& map, const Polygon& wheel_W) {
 // A slot in which a wheel sinks deeper than the belly is high; over a narrow one it stays.
 void MeetSlot(const HazardMap& map, const RobotSpec& robot, const Pose2& X_WB, const Hazard& hazard,
               Standing& out) {
-  if (hazard.hazard_class != HazardClass::kTerrain) return;
+  const bool level = hazard.hazard_class == HazardClass::kLevelChange;
+  if (!level && hazard.hazard_class != HazardClass::kTerrain) return;
+  const double bottom_m = level ? hazard.height_m - kSameLevel_m : out.floor_m;
   double deep_m = 0;
   std::vector<Polygon> slots;
   for (const Solid& solid : hazard.solids)
-    if (solid.kind == Solid::Kind::kCut && out.floor_m - solid.z_low_m > robot.clearance_m) {
+    if (solid.kind == Solid::Kind::kCut && solid.z_low_m < bottom_m &&
+        out.floor_m - solid.z_low_m > robot.clearance_m) {
       slots.push_back(solid.base);
       deep_m = std::max(deep_m, out.floor_m - solid.z_low_m);
     }
@@ -170,6 +183,11 @@ bool TouchesWall(const HazardMap& map, Polygon polygon_W) {
 double LevelAt(const HazardMap& map, const Vec2& p_W) {
   const Hazard* level = LevelHazardAt(map, p_W);
   return level != nullptr ? level->height_m : 0;
+}
+
+double GroundAt(const HazardMap& map, const Vec2& p_W) {
+  const Solid* slope = SlopeAt(map, p_W);
+  return slope != nullptr ? TopAt(*slope, p_W) : LevelAt(map, p_W);
 }
 
 Standing StandAt(const HazardMap& map, const RobotSpec& robot, const Pose2& X_WB) {

@@ -14,7 +14,7 @@ constexpr double kSameLevel_m = 1e-6;  // floors whose heights differ by no more
 // Heights over the base floor of the map, m.
 struct Standing {
   double floor_m = 0;       // of the level that carries its wheels: the highest under one
-  double rests_m = 0;       // of the highest that a wheel rests on: the floor, or terrain on it
+  double rests_m = 0;       // of the highest that a wheel rests on: the floor, a slope, terrain
   std::string obstruction;  // the id of what it cannot stand on or in, or "wall"; empty: none
   std::string why;          // in words, then
 };
@@ -36,5 +36,7 @@ bool TouchesWall(const HazardMap& map, Polygon polygon_W);
 
 // The height of the level at this place: that of the last level change that is built there, else 0.
 double LevelAt(const HazardMap& map, const Vec2& p_W);
+// The same; on a slope, the slope's height there.
+double GroundAt(const HazardMap& map, const Vec2& p_W);
 
 }  // namespace floorproof

@@ -36,8 +36,12 @@ double FloorUnder(const HazardMap& map, const RobotSpec& robot, const Sample& sa
 }
 
 bool IsGap(const Hazard& hazard, double floor_m) {
-  const bool level = hazard.hazard_class == HazardClass::kLevelChange;
-  return level ? hazard.height_m < floor_m - kSameLevel_m : hazard.height_m < 0;
+  if (hazard.hazard_class != HazardClass::kLevelChange) return hazard.height_m < 0;
+  const double own_m = std::min(hazard.height_m, floor_m) - kSameLevel_m;
+  return hazard.height_m < floor_m - kSameLevel_m ||
+         std::ranges::any_of(hazard.solids, [&](const Solid& solid) {
+           return solid.kind == Solid::Kind::kCut && solid.z_low_m < own_m;  // a lift's gap
+         });
 }
 
 bool IsFloor(const Hazard& hazard, double floor_m) {

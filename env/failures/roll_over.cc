@@ -13,18 +13,16 @@
 // m. A robot that rocks over a bump crosses the border of its support as well. It does so from the
 // far side, coming back to level, or by less than that, until the next wheel touches. One that
 // rests on two points has no polygon, and no deviation beyond noise either. The plan's floor is
-// that on which the robot was set down, or the lowest level under the centre or a wheel that the
-// plan may drive over: known, and low enough or high enough beside that floor. The base floor is a
-// level as others are. It does not judge how hard a landing was.
+// that of plan_floor.h. It does not judge how hard a landing was.
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "env/core/levels.h"
 #include "env/failures/detector.h"
 #include "env/failures/evidence.h"
 #include "env/failures/footing.h"
+#include "env/failures/plan_floor.h"
 #include "env/failures/posture.h"
 
 namespace floorproof {
@@ -78,11 +76,7 @@ class RollOver final : public Detector {
     robot_ = &robot;
     // From the centre of mass to the nearest edge of the wheels' polygon.
     deep_m_ = std::max(kNoise_m, tipped_share_ * robot.p_BCom.z() * std::tan(robot.static_tip_rad));
-    levels_ = {Level{}};
-    for (const Hazard& hazard : context.map.hazards)
-      if (hazard.hazard_class == HazardClass::kLevelChange)
-        levels_.push_back({&hazard, hazard.height_m});
-    starts_ = true;
+    floor_ = PlanFloor(context.map, robot);
     hazards_.Start(context);
     tilted_.Clear();
     unsupported_.Clear();
@@ -94,7 +88,7 @@ class RollOver final : public Detector {
 
   bool Update(const Sample& sample) override {
     hazards_.Update(sample);
-    if (starts_) FindDrivenLevels(sample);
+    if (!floor_.IsSetDown()) floor_.SetDown(sample);
     const double tilt_margin_rad = limit_rad_ - sample.tilt_rad;
     const bool tilted = tilted_.Update(tilt_margin_rad < 0, sample.t_s, tilt_duration_s_);
 
@@ -102,8 +96,9 @@ class RollOver final : public Detector {
     const bool tipped = unsupported_.Update(off_support, sample.t_s, tipped_duration_s_);
 
     // The exact floor matters only to a wheel that is below any floor the plan can have.
-    double fall_threshold_m = highest_floor_m_ - fall_m_;
-    if (sample.wheel_floor_z_m < fall_threshold_m) fall_threshold_m = PlanFloor(sample) - fall_m_;
+    double fall_threshold_m = floor_.highest_m() - fall_m_;
+    if (sample.wheel_floor_z_m < fall_threshold_m)
+      fall_threshold_m = floor_.Under(sample) - fall_m_;
     const bool fell = sample.wheel_floor_z_m < fall_threshold_m;
 
     // In radians of tilt: each inequality's share still left, times the tilt limit. Conditions that
@@ -128,17 +123,6 @@ class RollOver final : public Detector {
   }
 
  private:
-  struct Level {
-    const Hazard* hazard = nullptr;  // none: the base floor
-    double height_m = 0;
-    bool driven = false;  // by the plan: known and near enough to the start's floor, or the start
-    bool Holds(const Vec2& p_W) const {
-      return hazard == nullptr || std::ranges::any_of(hazard->footprint, [&](const Polygon& part) {
-               return Contains(part, p_W);
-             });
-    }
-  };
-
   // Outside on the low side, and not on its way back.
   bool FallsOn(const Sample& sample) {
     const double lean_rad = LeanOf(Attitude(sample)).dot(sample.off_support_W);
@@ -167,55 +151,14 @@ class RollOver final : public Detector {
     return rest_support_m_ > 0 && sample.wheel_contacts > 0 ? ShareOfSupport(best_m) : 1;
   }
 
-  double FloorAt(const Vec2& p_W) const {
-    double floor_m = start_floor_m_;
-    for (const Level& level : levels_)  // in the map's order: later ones win
-      if (level.driven && level.Holds(p_W)) floor_m = level.height_m;
-    return floor_m;
-  }
-
-  // Whoever sets a robot down on a level means it to drive there.
-  void FindDrivenLevels(const Sample& sample) {
-    starts_ = false;
-    start_floor_m_ = FloorUnder(*map_, *robot_, sample);
-    for (Level& level : levels_)
-      level.driven = (level.hazard == nullptr || level.hazard->known) &&
-                     std::abs(level.height_m - start_floor_m_) <= robot_->step_m;
-    ForEachFoot(sample, [&](const Vec2& p_W) {
-      std::ranges::find_if(levels_.rbegin(), levels_.rend(), [&](const Level& level) {
-        return level.Holds(p_W);
-      })->driven = true;
-    });
-    highest_floor_m_ = start_floor_m_;
-    for (const Level& level : levels_)
-      if (level.driven) highest_floor_m_ = std::max(highest_floor_m_, level.height_m);
-  }
-
-  // The robot's centre, and those of its wheels.
-  template <class Look>
-  void ForEachFoot(const Sample& sample, const Look& look) const {
-    look(sample.X_WB().p());
-    const WheelCentres centres(*robot_, sample);
-    for (const WheelSpec& wheel : robot_->wheels)
-      look(Vec2(sample.X_WB() * Vec2(centres.Of(wheel).head<2>())));
-  }
-
-  double PlanFloor(const Sample& sample) const {
-    double lowest_m = std::numeric_limits<double>::infinity();
-    ForEachFoot(sample, [&](const Vec2& p_W) { lowest_m = std::min(lowest_m, FloorAt(p_W)); });
-    return lowest_m;
-  }
-
   // The id of the gap there: in the floor, or a floor below that of the start. Else "".
   std::string DropAt(const Vec2& p_W) const {
     for (std::size_t h = map_->hazards.size(); h-- > 0;) {
       const Hazard& hazard = map_->hazards[h];
       for (const Polygon& polygon : hazard.footprint)
-        if (IsGap(hazard, start_floor_m_) && Contains(polygon, p_W)) return hazard.id;
+        if (IsGap(hazard, floor_.start_m()) && Contains(polygon, p_W)) return hazard.id;
     }
-    const bool on_base = std::ranges::none_of(
-        levels_, [&](const Level& level) { return level.hazard != nullptr && level.Holds(p_W); });
-    return on_base && start_floor_m_ > 0 ? BaseFloorId(*map_) : "";
+    return floor_.IsBase(p_W) && floor_.start_m() > 0 ? BaseFloorId(*map_) : "";
   }
 
   // The gap into which the robot has gone: below what has sunk deepest, of its wheels and its
@@ -226,7 +169,7 @@ class RollOver final : public Detector {
     double deepest_m = kSunk_m;
     const auto look = [&](const Vec3& p_B, double rest_m) {
       const Vec3 p_W = sample.p_WB + R_WB * p_B;
-      const double sunk_m = start_floor_m_ + rest_m - p_W.z();
+      const double sunk_m = floor_.start_m() + rest_m - p_W.z();
       if (sunk_m <= deepest_m) return;
       std::string below = DropAt(p_W.head<2>());
       if (below.empty()) return;
@@ -274,15 +217,13 @@ class RollOver final : public Detector {
   const HazardMap* map_ = nullptr;
   const RobotSpec* robot_ = nullptr;
   double limit_rad_ = 0;
-  double start_floor_m_ = 0, highest_floor_m_ = 0;
   double deep_m_ = 0, most_lean_rad_ = 0;
-  std::vector<Level> levels_;  // the base floor and all level changes
+  PlanFloor floor_;
   HazardMemory hazards_{&HazardMemory::Tilts};
   Lasting tilted_, unsupported_;
   double rest_support_m_ = 0;  // the most seen: the support when standing well
   double window_support_m_ = 0, window_since_s_ = 0;
   bool reported_ = false;
-  bool starts_ = true;  // no sample was seen yet
 };
 
 }  // namespace

@@ -77,6 +77,8 @@ std::string SiteText(const std::string& name, const std::string& map_path, const
   const std::string box =
       "[" + at(1, -0.5) + ", " + at(1.3, -0.5) + ", " + at(1.3, 0.5) + ", " + at(1, 0.5) + "]";
   const std::string across = "[" + at(1.5, -0.6) + ", " + at(1.5, 0.6) + "]";
+  const std::string car =
+      "[" + at(1, 0.5) + ", " + at(1, -0.5) + ", " + at(2, -0.5) + ", " + at(2, 0.5) + "]";
   const std::string door = "[" + at(2, -0.5) + ", " + at(2, 0.5) + "]";
   return R"(# The floor: what stands on it, and what of that a planner is told.
 # Lengths in metres, in the map's own coordinates: x to the right, y up.
@@ -102,6 +104,18 @@ hazards:
          across + R"(, height_m: 0.02}
 #  - {type: glass, line_m: )" +
          door + R"(, height_m: 2.0}
+# What buildings hold:
+#  - {type: threshold, line_m: )" +
+         across + R"(, height_m: 0.013}     # bevelled 1:2 above 6.4 mm
+#  - {type: carpet, polygon_m: )" +
+         box + R"(, height_m: 0.006, rolling_drag: 0.012}
+#  - {type: ramp, polygon_m: )" +
+         box + R"(, slope_deg: 4.8, toward_deg: )" + Metres(start.yaw_rad * 180 / kPi) +
+         R"(}   # 1:12
+#  - {type: wet, polygon_m: )" +
+         box + R"(, friction: 0.3}
+#  - {type: lift_sill, polygon_m: )" +
+         car + R"(, gap_m: 0.03, level_m: 0.005}   # its first edge is the door
 )";
 }
 

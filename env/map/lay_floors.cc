@@ -171,8 +171,9 @@ void AddOn(Solid solid, const Ground& ground, std::vector<Solid>& out) {
   if (prism) to_part = Simplified(to_part, kThinnest_m / 2);
   for (const Polygon& part : ConvexParts(to_part)) {
     if (prism && Width(part) < kThinnest_m) continue;
+    if (IsSlope(solid) && HighestOn(solid, part) - solid.z_low_m < kThinnest_m) continue;
     if (solid.top.empty())
-      out.push_back({solid.kind, part, {}, solid.z_low_m, solid.z_high_m});
+      out.push_back({solid.kind, part, {}, solid.z_low_m, HighestOn(solid, part), solid.gradient});
     else
       AddWithin(solid, part, out);
   }

@@ -44,7 +44,10 @@ Polygon ReadPolygon(const ConfigNode& node, const std::string& key) {
     throw InputError(node.mark, key, "", "its edges cross or touch each other");
   if (std::abs(SignedArea(polygon)) < 1e-8)
     throw InputError(node.mark, key, "", "encloses no area");
-  if (SignedArea(polygon) < 0) std::reverse(polygon.begin(), polygon.end());
+  if (SignedArea(polygon) < 0) {  // counter-clockwise, the first edge still first
+    std::reverse(polygon.begin(), polygon.end());
+    std::rotate(polygon.begin(), polygon.end() - 2, polygon.end());
+  }
   return polygon;
 }
 

@@ -12,12 +12,13 @@ namespace floorproof {
 struct FloorPiece {
   Polygon outline;  // convex, world frame
   double z_top_m = 0;
-  int hazard = -1;  // the hazard whose bottom it is; -1: the base floor
+  int hazard = -1;   // the hazard whose bottom it is; -1: the base floor
+  int surface = -1;  // the hazard whose surface lies on it; -1: bare
 };
 
-// Empty when nothing is cut: then the floor is a plane. Otherwise the bottoms of the cuts, and
-// slabs that tile the map and a margin around it, with seams only along the longest edge of the
-// first cut.
+// Empty when nothing is cut and no surface lies on it: then the floor is a plane. Otherwise the
+// bottoms of the cuts, and slabs that tile the map and a margin around it, with seams only along
+// the longest edge of the first cut or surface, and along the borders of surfaces.
 std::vector<FloorPiece> FloorPieces(const HazardMap& map);
 
 }  // namespace floorproof

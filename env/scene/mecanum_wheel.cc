@@ -153,16 +153,17 @@ void InflateWheelBounds(mjModel* model) {
   }
 }
 
-void PairWheel(mjSpec* spec, const mjsGeom* wheel, const mjsGeom* other, double mu,
-               double mu_across) {
+void PairWheel(mjSpec* spec, const mjsGeom* wheel, const mjsGeom* other,
+               const WheelFriction& friction) {
   mjsPair* pair = mjs_addPair(spec, nullptr);
   mjs_setString(pair->geomname1, mjs_getString(mjs_getName(wheel->element)));
   mjs_setString(pair->geomname2, mjs_getString(mjs_getName(other->element)));
-  pair->condim = 3;
+  pair->condim = friction.rolling_m > 0 ? 6 : 3;
   // The second of an ideal wheel must be 0: at 0.005 already wheels chatter (MuJoCo raises it to
   // 1e-5).
-  const double friction[5] = {mu, mu_across, 0, 0, 0};
-  std::copy(std::begin(friction), std::end(friction), pair->friction);
+  const double five[5] = {friction.mu, friction.mu_across, 0, friction.rolling_m,
+                          friction.rolling_m};
+  std::copy(std::begin(five), std::end(five), pair->friction);
   std::copy(std::begin(other->solref), std::end(other->solref), pair->solref);
   // MuJoCo's convex contacts press harder when that lets friction stop a slip sooner. With the time
   // constant of the normal force, 16 wheels that spun against a wall made the robot hop, and a dead

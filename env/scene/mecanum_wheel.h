@@ -34,10 +34,17 @@ void InstallWheelCollider();
 // after compiling.
 void InflateWheelBounds(mjModel* model);
 
-// Makes the wheel geom touch `other` through the collider. Friction is `mu` along the rollers' axes
-// and `mu_across` across them: 0, unless the wheel is a roller that turns (roller_wheels.h). Both
-// geoms need names. The softness is that of `other`.
-void PairWheel(mjSpec* spec, const mjsGeom* wheel, const mjsGeom* other, double mu,
-               double mu_across = 0);
+// Friction of a Mecanum wheel or a roller on what it touches.
+struct WheelFriction {
+  double mu = 0;  // along the rollers' axes
+  double mu_across =
+      0;  // across them: 0, unless the wheel is a roller that turns (roller_wheels.h)
+  double rolling_m = 0;  // the torque against its turning by its load (rolling_drag.h), N m / N
+};
+
+// Makes the wheel geom touch `other` through the collider. Both geoms need names. The softness is
+// that of `other`.
+void PairWheel(mjSpec* spec, const mjsGeom* wheel, const mjsGeom* other,
+               const WheelFriction& friction);
 
 }  // namespace floorproof

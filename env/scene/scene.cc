@@ -8,7 +8,9 @@
 #include "env/scene/free_names.h"
 #include "env/scene/mecanum_wheel.h"
 #include "env/scene/restitution.h"
+#include "env/scene/rolling_drag.h"
 #include "env/scene/scene_looks.h"
+#include "env/scene/surfaces.h"
 #include "env/scene/walls.h"
 
 namespace floorproof {
@@ -18,6 +20,7 @@ namespace {
 constexpr int kFloorBit = 1, kWallBit = 2;
 constexpr int kPairsBit = 4;      // of what touches by pairs only
 constexpr double kSlab_m = 0.10;  // of floor below the lowest
+constexpr double kThinnest_m = 1e-5;
 // Contact softness that was sound at 1-5 ms (physics.md, "Settings that were sound").
 constexpr double kTimeConstant_s = 0.01;
 constexpr mjtNum kSolimp[] = {0.95, 0.99, 0.0005};
@@ -63,10 +66,15 @@ class SceneBuilder {
     for (const auto& piece : pieces) lowest_m = std::min(lowest_m, piece.z_top_m);
     for (const auto& piece : pieces) {
       const bool base = piece.hazard < 0;
-      const double friction = base ? map_.floor_friction : Friction(map_.hazards[piece.hazard]);
-      mjsGeom* geom = Extrude(piece.outline, piece.outline, lowest_m - kSlab_m, piece.z_top_m,
-                              GeomRole::Kind::kFloor, piece.hazard, friction, 0);
-      mjs_setString(geom->material, (base ? looks_.floor : looks_.pit).c_str());
+      // What lies on the base floor is what is met there; on a cut's bottom, the cut still is.
+      const int met = base ? piece.surface : piece.hazard;
+      mjsGeom* geom =
+          Extrude({Solid::Kind::kPrism, piece.outline, {}, lowest_m - kSlab_m, piece.z_top_m},
+                  GeomRole::Kind::kFloor, met, FrictionOf(piece.hazard, piece.surface), 0);
+      if (piece.surface >= 0)
+        Colour(At(piece.surface), geom);
+      else
+        mjs_setString(geom->material, (base ? looks_.floor : looks_.pit).c_str());
     }
   }
 
@@ -90,12 +98,30 @@ class SceneBuilder {
     for (std::size_t h = 0; h < map_.hazards.size(); ++h) {
       const Hazard& hazard = map_.hazards[h];
       for (const Solid& solid : hazard.solids) {
-        if (solid.kind == Solid::Kind::kCut) continue;  // the floor has its hole
-        mjsGeom* geom = Extrude(solid.base, solid.top.empty() ? solid.base : solid.top,
-                                solid.z_low_m, solid.z_high_m, GeomRole::Kind::kHazard,
-                                static_cast<int>(h), Friction(hazard), hazard.material.restitution);
-        std::copy(hazard.material.rgba.begin(), hazard.material.rgba.end(), geom->rgba);
+        if (solid.kind != Solid::Kind::kPrism) continue;  // the floor has its hole, its surface
+        if (!solid.top.empty()) {                         // tapered: too small to be wet by itself
+          AddSolid(solid, static_cast<int>(h), -1);
+          continue;
+        }
+        for (SurfacePiece& piece : SurfacesOn(map_, h + 1, solid.base, 0)) {
+          Solid part = solid;
+          part.base = std::move(piece.outline);
+          part.z_high_m = HighestOn(solid, part.base);
+          if (part.z_high_m - part.z_low_m < kThinnest_m) continue;  // at a slope's foot
+          AddSolid(part, static_cast<int>(h), piece.hazard);
+        }
       }
+    }
+  }
+
+  // Plain wheels and casters touch what drags by pairs of their own.
+  void PairFeet() {
+    std::vector<Foot> feet;
+    for (const auto& [geom, role] : added) {
+      const double drag = DragOf(role);
+      if (drag <= 0) continue;
+      if (feet.empty()) feet = NamedFeet();
+      for (const Foot& foot : feet) PairFoot(spec_, foot, geom, drag);
     }
   }
 
@@ -105,7 +131,8 @@ class SceneBuilder {
     for (mjsGeom* wheel : mecanum) {
       wheel->conaffinity = 0;
       for (const auto& [geom, role] : added)
-        if (role.kind != GeomRole::Kind::kWall) PairWheel(spec_, wheel, geom, geom->friction[0]);
+        if (role.kind != GeomRole::Kind::kWall)
+          PairWheel(spec_, wheel, geom, {geom->friction[0], 0, DragOf(role) * RadiusOf(wheel)});
     }
     // Rollers need no collider, but the same slower friction.
     for (const std::string& name : rollers_) {
@@ -113,7 +140,8 @@ class SceneBuilder {
       roller->conaffinity = kPairsBit;
       for (const auto& [geom, role] : added)
         if (role.kind != GeomRole::Kind::kWall)
-          PairWheel(spec_, roller, geom, geom->friction[0], geom->friction[0]);
+          PairWheel(spec_, roller, geom,
+                    {geom->friction[0], geom->friction[0], DragOf(role) * roller->size[0]});
     }
   }
 
@@ -122,8 +150,39 @@ class SceneBuilder {
   std::vector<mjsGeom*> mecanum;  // the robot's wheels with rollers
 
  private:
-  double Friction(const Hazard& hazard) const {
-    return hazard.material.friction.value_or(map_.floor_friction);
+  const Hazard& At(int hazard) const { return map_.hazards[static_cast<std::size_t>(hazard)]; }
+  // Of what is built by `hazard` (-1: the base floor), with the surface of another on it.
+  double FrictionOf(int hazard, int surface) const {
+    const int met = surface >= 0 ? surface : hazard;
+    if (met < 0) return map_.floor_friction;
+    return At(met).material.friction.value_or(map_.floor_friction);
+  }
+  double DragOf(const GeomRole& role) const {
+    return role.hazard >= 0 ? At(role.hazard).material.rolling_drag : 0;
+  }
+  static double RadiusOf(const mjsGeom* mecanum_wheel) {
+    return mecanum_wheel->size[0] + RollersOf(mecanum_wheel).radius_m;
+  }
+  std::vector<Foot> NamedFeet() {
+    std::vector<Foot> feet = FeetOf(spec_, robot_);
+    std::erase_if(feet, [&](const Foot& foot) {
+      return std::ranges::find(rollers_, NameOf(foot.geom)) != rollers_.end();
+    });
+    for (std::size_t i = 0; i < feet.size(); ++i)
+      if (NameOf(feet[i].geom).empty())
+        mjs_setName(feet[i].geom->element, geom_names_.For("foot/" + std::to_string(i)).c_str());
+    return feet;
+  }
+  static std::string NameOf(const mjsGeom* geom) {
+    return mjs_getString(mjs_getName(geom->element));
+  }
+  static void Colour(const Hazard& hazard, mjsGeom* geom) {
+    std::copy(hazard.material.rgba.begin(), hazard.material.rgba.end(), geom->rgba);
+  }
+  void AddSolid(const Solid& solid, int hazard, int surface) {
+    mjsGeom* geom = Extrude(solid, GeomRole::Kind::kHazard, hazard, FrictionOf(hazard, surface),
+                            At(hazard).material.restitution);
+    Colour(At(surface >= 0 ? surface : hazard), geom);
   }
   mjsGeom* Add(GeomRole::Kind kind, int hazard, double friction, double restitution) {
     mjsGeom* geom = mjs_addGeom(world_, nullptr);
@@ -155,11 +214,13 @@ class SceneBuilder {
     return (kind == GeomRole::Kind::kWall ? "wall/" : "floor/") + number;
   }
 
-  // A box where the outline is a rectangle, else a convex mesh.
-  mjsGeom* Extrude(const Polygon& base, const Polygon& top, double z_low, double z_high,
-                   GeomRole::Kind kind, int hazard, double friction, double restitution) {
+  // A box where it is one, else a convex mesh.
+  mjsGeom* Extrude(const Solid& solid, GeomRole::Kind kind, int hazard, double friction,
+                   double restitution) {
+    const Polygon &base = solid.base, &top = solid.top.empty() ? base : solid.top;
+    const double z_low = solid.z_low_m, z_high = solid.z_high_m;
     mjsGeom* geom = Add(kind, hazard, friction, restitution);
-    if (base.size() == 4 && top == base && IsRectangle(base)) {
+    if (base.size() == 4 && top == base && !IsSlope(solid) && IsRectangle(base)) {
       const Vec2 middle = (base[0] + base[2]) / 2, along = base[1] - base[0];
       geom->type = mjGEOM_BOX;
       geom->pos[0] = middle.x();
@@ -175,13 +236,12 @@ class SceneBuilder {
     Vec2 middle = Vec2::Zero();
     for (const auto& p : base) middle += p / static_cast<double>(base.size());
     std::vector<float> vertices;
-    const auto add_ring = [&](const Polygon& ring, double z) {
-      for (const auto& p : ring)
-        for (const double v : {p.x() - middle.x(), p.y() - middle.y(), z - z_low})
-          vertices.push_back(static_cast<float>(v));
+    const auto add = [&](const Vec2& p, double z) {
+      for (const double v : {p.x() - middle.x(), p.y() - middle.y(), z - z_low})
+        vertices.push_back(static_cast<float>(v));
     };
-    add_ring(base, z_low);
-    add_ring(top, z_high);
+    for (const Vec2& p : base) add(p, z_low);
+    for (const Vec2& p : top) add(p, TopAt(solid, p));
     mjsMesh* mesh = mjs_addMesh(spec_, nullptr);
     const std::string name = mesh_names_.For("mesh/" + std::to_string(added.size()));
     mjs_setName(mesh->element, name.c_str());
@@ -276,6 +336,7 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
   builder.Walls(start.p(), walls);
   builder.Hazards();
   builder.PairWheels();
+  builder.PairFeet();
   InstallWheelCollider();
   scene.model = CompileSpec(scene.spec.get(), robot.assets.get());
   InflateWheelBounds(scene.model.get());

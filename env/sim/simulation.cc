@@ -130,7 +130,7 @@ void Simulation::Settle(const Pose2& X_WB, double t_s) {
   const std::array<mjtNum, 4> settled = {q[3], q[4], q[5], q[6]};
   Place(X_WB);
   // On terrain it stands as it came to rest: level, its wheels would be in what tilts it.
-  if (stands.rests_m > stands.floor_m) Tilt(settled, X_WB.yaw_rad, q + 3);
+  if (stands.rests_m != stands.floor_m) Tilt(settled, X_WB.yaw_rad, q + 3);
   std::fill_n(d->qvel, model()->nv, 0.0);
   d->time = t_s;
   live_.Update(d);

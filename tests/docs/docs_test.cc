@@ -26,7 +26,7 @@
 namespace floorproof {
 
 std::unique_ptr<Planner> MakePlainRows();
-std::unique_ptr<HazardType> MakeDoorSill();
+std::unique_ptr<HazardType> MakeRails();
 std::unique_ptr<Detector> MakeDrift();
 std::unique_ptr<Sensor> MakeSonar();
 std::unique_ptr<Fault> MakeHotMotors();
@@ -89,23 +89,22 @@ TEST(AddingAPlanner, ItCoversARoomAlongEitherAxis) {
   EXPECT_NE(length_m[0], length_m[1]);
 }
 
-TEST(AddingAHazard, ALowSillIsABoxAndAHighOneIsBevelled) {
-  const auto dut = MakeDoorSill();
-  const auto make = [&](const char* height) {
-    ConfigNode keys = ConfigNode::Map();
-    keys.Add("height_m", ConfigNode::Scalar(height));
-    ReadParams(keys, "", *dut);
-    return dut->Make({{1, 2}, {1.9, 2}});
-  };
-  const Hazard low = make("0.005"), high = make("0.013");
-  EXPECT_EQ(low.solids.size(), 1u);
-  ASSERT_EQ(high.solids.size(), 2u);
-  EXPECT_NEAR(SignedArea(high.footprint[0]), 0.09, 1e-9);
-  // Bevels of 1:2 on both sides over the height beyond 6.4 mm.
-  EXPECT_NEAR(SignedArea(high.solids[1].top) / 0.9, 0.1 - 2 * 2 * (0.013 - 0.0064), 1e-9);
-  EXPECT_FALSE(IsObstacle(high, 0.013));
-  EXPECT_TRUE(IsObstacle(high, 0.010));
-  EXPECT_THROW(make("0.05"), InputError);
+TEST(AddingAHazard, RailsLieOnBothSidesOfTheLine) {
+  const auto dut = MakeRails();
+  ConfigNode keys = ConfigNode::Map();
+  keys.Add("height_m", ConfigNode::Scalar("0.006"));
+  ReadParams(keys, "", *dut);
+  const Hazard straight = dut->Make({{1, 2}, {1.9, 2}});
+  ASSERT_EQ(straight.solids.size(), 2u);
+  for (const Solid& rail : straight.solids) {
+    EXPECT_NEAR(SignedArea(rail.base), 0.9 * 0.03, 1e-9);
+    EXPECT_EQ(rail.z_high_m, 0.006);
+  }
+  EXPECT_TRUE(Contains(straight.footprint[0], {1.5, 2 - 0.315})) << "the right one";
+  EXPECT_TRUE(Contains(straight.footprint[1], {1.5, 2 + 0.315}));
+  EXPECT_EQ(dut->Make({{0, 0}, {2, 0}, {2, 2}}).solids.size(), 4u);
+  EXPECT_FALSE(IsObstacle(straight, 0.006));
+  EXPECT_TRUE(IsObstacle(straight, 0.005));
 }
 
 TEST(AddingAMonitor, ABatteryThatGivesTooMuchForLongIsAnAlarm) {

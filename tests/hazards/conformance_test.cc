@@ -41,8 +41,17 @@ TEST_P(HazardConformance, SolidsAreConvexAndLieInTheFootprint) {
   ASSERT_FALSE(hazard.footprint.empty());
   for (const Polygon& p : hazard.footprint) EXPECT_GT(SignedArea(p), 0);
   for (const Solid& s : hazard.solids) {
-    EXPECT_LT(s.z_low_m, s.z_high_m);
     EXPECT_GT(SignedArea(s.base), 0);
+    if (s.kind == Solid::Kind::kSurface) {
+      EXPECT_TRUE(IsSimple(s.base));
+      EXPECT_EQ(s.z_low_m, s.z_high_m);
+      continue;
+    }
+    EXPECT_LT(s.z_low_m, s.z_high_m);
+    if (IsSlope(s)) {
+      EXPECT_TRUE(s.top.empty());
+      for (const Vec2& p : s.base) EXPECT_GE(TopAt(s, p), s.z_low_m - 1e-12);
+    }
     if (s.kind == Solid::Kind::kCut) {
       EXPECT_TRUE(IsSimple(s.base));
       EXPECT_DOUBLE_EQ(s.z_high_m, 0);
@@ -61,7 +70,9 @@ TEST_P(HazardConformance, SolidsAreConvexAndLieInTheFootprint) {
 
 TEST_P(HazardConformance, NothingRisesOrFallsBeyondTheStatedHeight) {
   const Hazard hazard = dut_->Make(Place());
-  ASSERT_NE(hazard.height_m, 0);
+  const bool flat = std::ranges::all_of(
+      hazard.solids, [](const Solid& s) { return s.kind == Solid::Kind::kSurface; });
+  ASSERT_EQ(hazard.height_m == 0, flat);
   for (const Solid& s : hazard.solids) {
     EXPECT_GE(s.z_low_m, std::min(0.0, hazard.height_m));
     EXPECT_LE(s.z_high_m, std::max(0.0, hazard.height_m));

@@ -21,6 +21,14 @@ inline double Volume(const Hazard& hazard) {
   double volume = 0;
   for (const Solid& s : hazard.solids) {
     double area = SignedArea(s.base);
+    if (s.kind == Solid::Kind::kSurface) continue;
+    if (IsSlope(s)) {  // fans of triangles, each as high as its middle
+      for (std::size_t i = 1; i + 1 < s.base.size(); ++i) {
+        const Polygon part = {s.base[0], s.base[i], s.base[i + 1]};
+        volume += SignedArea(part) * (TopAt(s, (part[0] + part[1] + part[2]) / 3) - s.z_low_m);
+      }
+      continue;
+    }
     if (!s.top.empty()) {
       Polygon middle;  // halfway up, of the convex hull of both
       for (const Vec2& a : s.base)

@@ -171,8 +171,8 @@ TEST_F(InitFilesTest, TheCommentedHazardsRead) {
   int examples = 0;
   for (std::size_t at = 0; (at = text.find("\n#  - {", at)) != std::string::npos; ++examples)
     text.erase(at + 1, 1);
-  EXPECT_EQ(examples, 3);
-  EXPECT_EQ(ReadSiteFile(Save("site.yaml", text)).map.hazards.size(), 3u);
+  EXPECT_EQ(examples, 8);
+  EXPECT_EQ(ReadSiteFile(Save("site.yaml", text)).map.hazards.size(), 8u);
 }
 
 TEST_F(InitFilesTest, NamesWithQuotesAndBlanksSurvive) {

@@ -50,7 +50,7 @@ Seen Compare(const Image& with, const Image& without) {
 
 constexpr const char* kStrip = "polygon_m: [[4, 1], [4.6, 1], [4.6, 4], [4, 4]]}";
 constexpr const char* kLine = "line_m: [[4, 1], [4, 4]]}";
-const std::array<std::pair<const char*, std::string>, 7> kHazards = {{
+const std::array<std::pair<const char*, std::string>, 13> kHazards = {{
     {"glass", std::string("{type: glass, height_m: 0.6, thickness_m: 0.01, ") + kLine},
     {"step", std::string("{type: step, height_m: 0.02, ") + kStrip},
     {"drop", std::string("{type: step, height_m: -0.15, ") + kStrip},
@@ -58,6 +58,12 @@ const std::array<std::pair<const char*, std::string>, 7> kHazards = {{
     {"cable_cover", std::string("{type: cable_cover, height_m: 0.02, ") + kLine},
     {"rough", std::string("{type: rough, amplitude_m: 0.01, ") + kStrip},
     {"blind_object", std::string("{type: blind_object, height_m: 0.3, ") + kStrip},
+    {"threshold", std::string("{type: threshold, ") + kLine},
+    {"carpet", std::string("{type: carpet, ") + kStrip},
+    {"lift_sill", std::string("{type: lift_sill, level_m: 0.01, ") + kStrip},
+    {"ramp", std::string("{type: ramp, slope_deg: 8, ") + kStrip},
+    {"ramp_down", std::string("{type: ramp, slope_deg: -8, ") + kStrip},
+    {"wet", std::string("{type: wet, ") + kStrip},
 }};
 
 class EveryHazard : public HazardPictures,

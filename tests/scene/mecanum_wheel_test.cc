@@ -48,7 +48,7 @@ struct OneWheel {
     wheel->contype = wheel->conaffinity = 0;
     const double user[2] = {roller_m, angle_rad};
     mjs_setDouble(wheel->userdata, user, 2);
-    PairWheel(spec.get(), wheel, floor, 0.8);
+    PairWheel(spec.get(), wheel, floor, {.mu = 0.8});
     model = CompileSpec(spec.get());
     InflateWheelBounds(model.get());
     data = MakeData(model.get());

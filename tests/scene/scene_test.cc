@@ -104,5 +104,70 @@ TEST(SceneTest, AnEngineErrorIsAnExceptionAndNotTheEnd) {
   EXPECT_THROW(ForwardEngine(scene.model.get(), data.get()), InternalError);
 }
 
+// The geom that a ray from above meets, and how steep it is there.
+int GeomBelow(const Scene& scene, mjData* data, const Vec2& p) {
+  const mjtNum from[3] = {p.x(), p.y(), 3}, down[3] = {0, 0, -1};
+  const mjtByte groups[mjNGROUP] = {0, 0, 0, 0, 1, 1};
+  int geom = -1;
+  mj_ray(scene.model.get(), data, from, down, groups, 1, scene.base_body, &geom, nullptr);
+  return geom;
+}
+
+TEST(SceneTest, ARampIsAsHighAsItsSlopeSays) {
+  const double rise = std::tan(8 * kPi / 180);
+  HazardMap map = EmptyRoom(20, 16);
+  Hazard ramp;
+  ramp.id = "ramp";
+  ramp.hazard_class = HazardClass::kTerrain;
+  const Polygon place = {{3, 2}, {6, 2}, {5, 6}, {3, 4}};
+  ramp.solids = {{Solid::Kind::kPrism, place, {}, 0, 3 * rise, {rise, 0}}};
+  ramp.footprint = {place};
+  map.hazards = {ramp};
+  const RobotModel robot = ReadRobot(FindRobotFile("beluga", {}));
+  const Scene dut = BuildScene(map, robot, {}, {1, 1, 0});
+  const DataPtr data = MakeData(dut.model.get());
+  ForwardEngine(dut.model.get(), data.get());
+  for (const Vec2& p : {Vec2(3.1, 2.1), Vec2(4, 4), Vec2(5.5, 2.5), Vec2(4.9, 5.5)})
+    EXPECT_NEAR(SurfaceBelow(dut, data.get(), p), rise * (p.x() - 3), 1e-6);
+  EXPECT_NEAR(SurfaceBelow(dut, data.get(), {5.8, 5}), 0, 1e-6);
+}
+
+// What is wet is the floor there, whatever level or slope that is; what came later is dry.
+TEST(SceneTest, AWetPatchGivesItsFrictionToTheFloorsBelowIt) {
+  HazardMap map = EmptyRoom(20, 16);
+  map.floor_friction = 0.8;
+  Hazard step;
+  step.id = "step";
+  step.hazard_class = HazardClass::kLevelChange;
+  step.height_m = 0.04;
+  step.footprint = {Rectangle({4, 1}, {6, 7})};
+  step.solids = {{Solid::Kind::kPrism, step.footprint[0], {}, 0, 0.04}};
+  Hazard later = step;
+  later.id = "later";
+  later.footprint = {Rectangle({7, 1}, {8, 7})};
+  later.solids[0].base = later.footprint[0];
+  Hazard wet;
+  wet.id = "wet";
+  wet.hazard_class = HazardClass::kTerrain;
+  wet.material.friction = 0.3;
+  const Polygon patch = {{2, 2}, {9, 3}, {9, 5}, {2, 6}};
+  wet.footprint = {patch};
+  wet.solids = {{Solid::Kind::kSurface, patch, {}, 0, 0}};
+  map.hazards = {step, wet, later};
+  const RobotModel robot = ReadRobot(FindRobotFile("beluga", {}));
+  const Scene dut = BuildScene(map, robot, {}, {1, 1, 0});
+  const DataPtr data = MakeData(dut.model.get());
+  ForwardEngine(dut.model.get(), data.get());
+  const auto friction_at = [&](const Vec2& p) {
+    return dut.model->geom_friction[3 * GeomBelow(dut, data.get(), p)];
+  };
+  for (const Vec2& dry : {Vec2(1, 1), Vec2(3, 1.5), Vec2(5, 1.5), Vec2(7.5, 4), Vec2(8.5, 6)})
+    EXPECT_EQ(friction_at(dry), 0.8) << dry.transpose();
+  for (const Vec2& met : {Vec2(2.5, 4), Vec2(5, 4), Vec2(4.1, 2.5), Vec2(8.5, 4)})
+    EXPECT_EQ(friction_at(met), 0.3) << met.transpose();
+  EXPECT_NEAR(SurfaceBelow(dut, data.get(), {5, 4}), 0.04, 1e-6);
+  EXPECT_NEAR(SurfaceBelow(dut, data.get(), {2.5, 4}), 0, 1e-6);
+}
+
 }  // namespace
 }  // namespace floorproof

@@ -22,8 +22,8 @@
 // it falls with the time step, which is 1 ms here; 2 % of m v^2 / 2, twice the droop of the speed.
 #include <algorithm>
 
-#include "env/scene/driving_power.h"
 #include "validate/law.h"
+#include "validate/steady_drive.h"
 
 namespace floorproof {
 namespace {
@@ -32,29 +32,6 @@ constexpr double kSteadyShare = 0.01, kStepShare = 0.04, kStartShare = 0.02;
 constexpr double kFine_s = 0.001;  // time step where speeds change
 constexpr double kSpeed_mps = 0.2;
 constexpr double kSlope_rad = 5 * kPi / 180;
-
-double Weight(const RobotSpec& robot) { return robot.mass_kg * kGravity_mps2; }
-double MotorsPower(const Rig& rig) { return rig.truth().power_w - rig.robot().hotel_load_w; }
-
-// What the motors draw, and the speed they hold, driving along a slope; in closed form.
-struct Steadily {
-  double power_w = 0, speed_mps = 0;
-};
-Steadily DriveSteadily(const Rig& truth, double slope_rad) {
-  const RobotSpec& robot = truth.robot();
-  const mjModel* m = truth.scene().model.get();
-  const auto n = static_cast<double>(robot.wheels.size());
-  const double force_n = CasterDrag(m) + Weight(robot) * std::sin(slope_rad);
-  const int dof = m->jnt_dofadr[m->actuator_trnid[0]];
-  const double resistance = m->actuator_gainprm[0], constant = m->actuator_gainprm[1];
-  const double gain = m->actuator_gainprm[6], damping = m->dof_damping[dof];
-  const double radius_m = robot.wheels.front().radius_m;
-  const double load_nm = m->dof_frictionloss[dof] + force_n * radius_m / n;
-  const double speed_radps = (gain * kSpeed_mps / radius_m - load_nm) / (gain + damping);
-  const double torque_nm = load_nm + damping * speed_radps, current_a = torque_nm / constant;
-  const double power_w = torque_nm * speed_radps + resistance * current_a * current_a;
-  return {n * std::max(0.0, power_w), speed_radps * radius_m};
-}
 
 // Sums, step by step, where the energy goes. A step's work is its forces times the mean of the
 // speeds before and after it.
@@ -139,7 +116,8 @@ class Energy final : public Law {
   static void Steady(const Rig& truth, const std::string& name, double slope_rad,
                      const WrongModel& wrong, std::vector<LawRow>& rows) {
     constexpr double kSteady_s = 2, kDrive_s = 2;
-    const Steadily expected = DriveSteadily(truth, slope_rad);
+    const SteadyDrive expected =
+        DriveSteadily(truth, kSpeed_mps, Weight(truth.robot()) * std::sin(slope_rad));
     Rig rig(truth.robot().name, {.wrong = wrong});
     rig.SetGravity({-std::sin(slope_rad), 0, -std::cos(slope_rad)});
     rig.Run({kSpeed_mps, 0, 0}, kSteady_s);
