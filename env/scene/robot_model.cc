@@ -169,6 +169,14 @@ RobotModel ReadRobot(const std::filesystem::path& file, const RobotChanges& chan
   return out;
 }
 
+ModelPtr CompileAlone(const RobotModel& robot) {
+  const SpecPtr spec(mj_copySpec(robot.mjcf.get()));
+  ModelPtr model(mj_compile(spec.get(), robot.assets.get()));
+  if (!model)
+    throw InputError({robot.spec.model_file, 0}, "", mjs_getError(spec.get()), "does not compile");
+  return model;
+}
+
 void RefuseShape(const RobotSpec& robot, const SourceMark& mark, std::string_view key,
                  std::string_view shape) {
   if (robot.shapes.empty())

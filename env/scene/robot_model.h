@@ -47,6 +47,9 @@ enum class Blocks { kLocked, kHinged };
 RobotModel ReadRobot(const std::filesystem::path& file, const RobotChanges& changes = {},
                      Blocks blocks = Blocks::kLocked, const InputFiles& files = {});
 
+// The robot alone, compiled. Throws InputError when MuJoCo refuses it.
+ModelPtr CompileAlone(const RobotModel& robot);
+
 // Throws InputError that names the shapes there are.
 [[noreturn]] void RefuseShape(const RobotSpec& robot, const SourceMark& mark, std::string_view key,
                               std::string_view shape);

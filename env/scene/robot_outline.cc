@@ -13,10 +13,7 @@ bool Holds(const Polygon& outer, const Polygon& inner) {
 }
 
 std::vector<Polygon> OutlinesOfGeoms(const RobotModel& robot) {
-  const SpecPtr spec(mj_copySpec(robot.mjcf.get()));
-  const ModelPtr model(mj_compile(spec.get(), robot.assets.get()));
-  if (!model)
-    throw InputError({robot.spec.model_file, 0}, "", mjs_getError(spec.get()), "does not compile");
+  const ModelPtr model = CompileAlone(robot);
   const CompiledRobot compiled(model.get(), robot.spec.model_file);
   std::vector<Polygon> outlines;
   for (int g = 0; g < model->ngeom; ++g) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/quantity.h"
 #include "env/core/blocks.h"
 #include "env/scene/spec_parts.h"
 
@@ -38,7 +39,10 @@ double StaticTip(const CompiledRobot& compiled, const RobotSpec& robot,
     com += m->body_mass[b] / robot.mass_kg * Vec3(p_B.x(), p_B.y(), p.z());
   }
   const double d = -SignedDistance(hull, com.head<2>());
-  if (d <= 0) compiled.Refuse("base", "the centre of mass lies outside the wheels' support");
+  if (d <= 0)
+    compiled.Refuse("base", "the centre of mass lies outside the wheels' support, by " +
+                                LengthText(-d) +
+                                ": move a mass, or a wheel or caster, or add a caster");
   if (!(com.z() > 0)) compiled.Refuse("base", "the centre of mass must lie above the floor");
   return std::atan2(d, com.z());
 }

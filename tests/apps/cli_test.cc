@@ -483,6 +483,36 @@ std::string OnATerminal(const fs::path& folder, const std::vector<std::string>& 
   return seen;
 }
 
+TEST_F(Cli, ARobotIsCheckedAndDrawn) {
+  const Result dut = Run("robot beluga --json");
+  EXPECT_EQ(dut.status, 0) << dut.err;
+  EXPECT_THAT(dut.err, HasSubstr("nothing is wrong with it"));
+  const auto json = nlohmann::json::parse(dut.out);
+  EXPECT_EQ(json["drive"], "differential");
+  EXPECT_TRUE(json["ok"]);
+  const std::string picture = Slurp(folder_ / "out/robot/beluga.robot.png");
+  EXPECT_EQ(picture.substr(1, 3), "PNG");
+  EXPECT_EQ(Run("robot beluga --quiet --out mine/b.xml").status, 0);
+  EXPECT_EQ(Slurp(folder_ / "mine/b.robot.png"), picture) << "the same bytes, wherever it goes";
+}
+
+TEST_F(Cli, ARobotThatIsNotAsItShouldBeEndsWithOne) {
+  std::string mjcf = Slurp(FP_SOURCE_DIR "/models/beluga.xml");
+  const std::string speed = "name=\"max_speed_mps\" data=\"0.40\"";
+  mjcf.replace(mjcf.find(speed), speed.size(), "name=\"max_speed_mps\" data=\"0.90\"");
+  std::ofstream(folder_ / "fast.xml") << mjcf;
+  const Result dut = Run("robot fast.xml");
+  EXPECT_EQ(dut.status, 1) << dut.err;
+  EXPECT_THAT(dut.out, HasSubstr("wrong: max_speed_mps 0.9 is more than the motors reach"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/robot/fast.robot.png"));
+  EXPECT_EQ(Run("robot no.xml").status, 2);
+  EXPECT_EQ(Run("robot beluga --out b.png").status, 2);
+  std::ofstream(folder_ / "out/robot/beluga.robot.png") << "somebody's";
+  const Result foreign = Run("robot beluga");
+  EXPECT_EQ(foreign.status, 2);
+  EXPECT_EQ(Slurp(folder_ / "out/robot/beluga.robot.png"), "somebody's");
+}
+
 // The counts of "WHAT: N of M".
 std::vector<int> Counts(const std::string& seen, const std::string& what) {
   std::vector<int> counts;

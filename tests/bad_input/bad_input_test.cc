@@ -160,6 +160,7 @@ TEST_F(FullDiskTest, IsNoBadInputOfAnyCommand) {
       {"campaign", "drawn.yaml", "-n", "2", "--jobs", "1", "--set", "gate=none", "--out", "o"},
       {"scene", "drawn.yaml", "--out", "scene.xml"},
       {"init", "map.yaml", "--out", "o"},
+      {"robot", "beluga", "--out", "o/beluga.xml"},
       {"validate", "--out", "o"}};
   for (const std::vector<std::string>& command : commands)
     for (const std::size_t room : {0, 40}) {

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/robot_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "base/quantity.h"
+
+namespace floorproof {
+namespace {
+
+constexpr double kDegree = kPi / 180;
+
+// The least tip angle of the edges in each eighth of a turn, by its name.
+std::string TipText(const RobotCheck& check) {
+  static constexpr const char* kNames[] = {"ahead",  "ahead left",   "left",  "behind left",
+                                           "behind", "behind right", "right", "ahead right"};
+  std::map<int, double> least;
+  for (const SupportEdge& edge : check.stance.edges) {
+    const int eighth = (static_cast<int>(std::lround(edge.bearing_rad / (kPi / 4))) + 8) % 8;
+    const auto [at, fresh] = least.try_emplace(eighth, edge.tip_rad);
+    if (!fresh) at->second = std::min(at->second, edge.tip_rad);
+  }
+  std::string text;
+  for (const auto& [eighth, tip_rad] : least)
+    text += fmt::format("{}{} {:.1f}", text.empty() ? "" : ", ", kNames[eighth], tip_rad / kDegree);
+  return text + " deg";
+}
+
+std::string WheelsText(const RobotSpec& spec) {
+  const auto [least, most] =
+      std::ranges::minmax(spec.wheels, {}, [](const WheelSpec& wheel) { return wheel.radius_m; });
+  const std::string radius = least.radius_m == most.radius_m
+                                 ? LengthText(least.radius_m)
+                                 : LengthText(least.radius_m) + " to " + LengthText(most.radius_m);
+  return fmt::format("{} driven, radius {}", spec.wheels.size(), radius);
+}
+
+std::string CastersText(const RobotCheck& check) {
+  int number = 0;
+  for (const Carrier& carrier : check.stance.carriers) number += !carrier.driven;
+  return number == 0 ? "none" : std::to_string(number);
+}
+
+std::string Millimetres(double m) { return std::to_string(std::lround(1000 * m)); }
+
+nlohmann::ordered_json Point(const Vec2& p) { return {p.x(), p.y()}; }
+
+nlohmann::ordered_json StanceJson(const RobotStance& stance) {
+  nlohmann::ordered_json carriers = nlohmann::ordered_json::array(),
+                         edges = nlohmann::ordered_json::array();
+  for (const Carrier& carrier : stance.carriers)
+    carriers.push_back({{"name", carrier.name},
+                        {"driven", carrier.driven},
+                        {"x_m", carrier.p_B.x()},
+                        {"y_m", carrier.p_B.y()},
+                        {"gap_m", carrier.p_B.z()}});
+  for (const SupportEdge& edge : stance.edges)
+    edges.push_back({{"from_m", Point(edge.a_B)},
+                     {"to_m", Point(edge.b_B)},
+                     {"bearing_deg", edge.bearing_rad / kDegree},
+                     {"tip_deg", edge.tip_rad / kDegree}});
+  return {{"carriers", carriers}, {"support_edges", edges}};
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> RobotFigures(const RobotCheck& check) {
+  const RobotSpec& spec = check.spec;
+  const Vec3& com = spec.p_BCom;
+  return {
+      {"drive", spec.drive},
+      {"wheels", WheelsText(spec)},
+      {"track", LengthText(check.track_m)},
+      {"casters", CastersText(check)},
+      {"mass", fmt::format("{} kg, {} of it on the driven wheels", NumberText(spec.mass_kg),
+                           PercentText(check.drive.driven_share))},
+      {"centre of mass", fmt::format("x {}, y {}, z {} mm", Millimetres(com.x()),
+                                     Millimetres(com.y()), Millimetres(com.z()))},
+      {"belly clearance", LengthText(spec.clearance_m)},
+      {"height; reach", LengthText(spec.height_m) + "; " + LengthText(spec.circumscribed_radius_m)},
+      {"static tip", TipText(check)},
+      {"motors", fmt::format("{} N at stall, {} N rolling friction",
+                             NumberText(check.stall_force_n), NumberText(check.drive.rolling_n))},
+      {"top speed", fmt::format("{} m/s by the motors, {} m/s allowed, {} m/s cruise",
+                                NumberText(check.top_speed_mps), NumberText(spec.max_speed_mps),
+                                NumberText(spec.cruise_mps))},
+      {"lidar plane",
+       check.stance.lidar_z_m ? LengthText(*check.stance.lidar_z_m) + " over the floor" : "none"},
+      {"crosses", fmt::format("steps of {}, as its model says", LengthText(spec.step_m))},
+  };
+}
+
+std::vector<std::string> RobotLines(const RobotCheck& check) {
+  std::vector<std::string> lines = {check.spec.name + ": " + check.spec.model_file};
+  for (const auto& [name, value] : RobotFigures(check))
+    lines.push_back(fmt::format("  {:<16} {}", name, value));
+  lines.push_back(fmt::format("  {:<20} {:>10} {:>10} {:>10}", "ten seconds", "kinematics",
+                              "driven", "tolerance"));
+  for (const LawRow& row : check.drive.rows)
+    lines.push_back(fmt::format("  {:<20} {:>10} {:>10} {:>10} {:<4} {}", row.law,
+                                NumberText(row.expected), NumberText(row.measured),
+                                NumberText(row.tolerance, 2), row.unit, row.ok() ? "ok" : "FAILS"));
+  for (const Finding& finding : check.findings) lines.push_back(finding.Line());
+  if (check.ok()) lines.emplace_back("nothing is wrong with it");
+  return lines;
+}
+
+nlohmann::ordered_json RobotJson(const RobotCheck& check) {
+  const RobotSpec& spec = check.spec;
+  nlohmann::ordered_json wheels = nlohmann::ordered_json::array(),
+                         rows = nlohmann::ordered_json::array(),
+                         findings = nlohmann::ordered_json::array();
+  for (const WheelSpec& wheel : spec.wheels)
+    wheels.push_back({{"name", wheel.name},
+                      {"radius_m", wheel.radius_m},
+                      {"x_m", wheel.p_BW.x()},
+                      {"y_m", wheel.p_BW.y()},
+                      {"no_load_radps", wheel.max_speed_radps},
+                      {"stall_nm", wheel.max_torque_nm}});
+  for (const LawRow& row : check.drive.rows)
+    rows.push_back({{"what", row.law},
+                    {"expected", row.expected},
+                    {"measured", row.measured},
+                    {"tolerance", row.tolerance},
+                    {"unit", row.unit},
+                    {"ok", row.ok()}});
+  for (const Finding& finding : check.findings)
+    findings.push_back({{"kind", finding.kind == Finding::Kind::kWrong ? "wrong" : "note"},
+                        {"what", finding.what},
+                        {"mend", finding.mend}});
+  nlohmann::ordered_json json = {
+      {"robot", spec.name},
+      {"file", spec.model_file},
+      {"ok", check.ok()},
+      {"drive", spec.drive},
+      {"wheels", wheels},
+      {"track_m", check.track_m},
+      {"mass_kg", spec.mass_kg},
+      {"driven_share", check.drive.driven_share},
+      {"centre_of_mass_m", {spec.p_BCom.x(), spec.p_BCom.y(), spec.p_BCom.z()}},
+      {"clearance_m", spec.clearance_m},
+      {"height_m", spec.height_m},
+      {"circumscribed_radius_m", spec.circumscribed_radius_m},
+      {"static_tip_deg", spec.static_tip_rad / kDegree},
+      {"stall_force_n", check.stall_force_n},
+      {"rolling_n", check.drive.rolling_n},
+      {"top_speed_mps", check.top_speed_mps},
+      {"top_yaw_radps", check.top_yaw_radps},
+      {"max_speed_mps", spec.max_speed_mps},
+      {"cruise_mps", spec.cruise_mps},
+      {"lidar_z_m", nullptr}};
+  if (check.stance.lidar_z_m) json["lidar_z_m"] = *check.stance.lidar_z_m;
+  json.update(StanceJson(check.stance));
+  json["ten_seconds"] = rows;
+  json["findings"] = findings;
+  return json;
+}
+
+}  // namespace floorproof

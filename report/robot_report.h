@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// A robot's check as lines and as JSON.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "validate/robot_check.h"
+
+namespace floorproof {
+
+// What was understood of it: name and value.
+std::vector<std::pair<std::string, std::string>> RobotFigures(const RobotCheck& check);
+// The same as a table, then the drive beside its kinematics, then what was found.
+std::vector<std::string> RobotLines(const RobotCheck& check);
+nlohmann::ordered_json RobotJson(const RobotCheck& check);
+
+}  // namespace floorproof
