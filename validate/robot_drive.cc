@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace floorproof {
 namespace {
@@ -48,16 +47,16 @@ BodyTwist Asked(const Limits& limits, double t_s) {
   return {straight + along, 0, turn};
 }
 
-// Of the wheels' rims since the start, m, along the robot's way where all turn alike.
-double WheelWay(Rig& rig) {
+// How far each wheel has turned since the start, rad.
+std::vector<double> WheelAngles(Rig& rig) {
   const mjModel* m = rig.sim().model();
-  double way_m = 0;
+  std::vector<double> angles;
   for (const WheelSpec& wheel : rig.robot().wheels) {
     const int joint = m->actuator_trnid[2 * mj_name2id(m, mjOBJ_ACTUATOR, wheel.name.c_str())];
-    way_m += wheel.radius_m *
-             (rig.data()->qpos[m->jnt_qposadr[joint]] - m->qpos0[m->jnt_qposadr[joint]]);
+    const int q = m->jnt_qposadr[joint];
+    angles.push_back(rig.data()->qpos[q] - m->qpos0[q]);
   }
-  return way_m / static_cast<double>(rig.robot().wheels.size());
+  return angles;
 }
 
 bool IsDriven(const mjModel* m, int body) {
@@ -98,9 +97,9 @@ void WeighWheels(Rig& rig, RobotDrive& out) {
 // Where the robot is, and how far its wheels have rolled.
 struct Moment {
   Pose2 X_WB;
-  double wheel_m = 0;
   double speed_mps = 0;
-  double expected_m = 0, expected_rad = 0;  // by its kinematics, since the start
+  double rolled_m = 0, rolled_rad = 0;      // by its wheels' angles, since the start
+  double expected_m = 0, expected_rad = 0;  // by the speeds commanded
 };
 
 class TenSeconds {
@@ -129,8 +128,10 @@ class TenSeconds {
     const Truth& truth = rig_.truth();
     turned_rad_ += WrapAngle(truth.yaw_rad - last_yaw_rad_);
     last_yaw_rad_ = truth.yaw_rad;
-    return {truth.X_WB(), WheelWay(rig_), truth.v_WB_W.head<2>().norm(), expected_m_,
-            expected_rad_};
+    const BodyTwist rolled = drive_->ToTwist(WheelAngles(rig_));  // it is linear
+    return {truth.X_WB(),  truth.v_WB_W.head<2>().norm(),
+            rolled.vx_mps, rolled.wz_radps,
+            expected_m_,   expected_rad_};
   }
   // Since the start, whole turns counted; asked for often enough.
   double turned_rad() const { return turned_rad_; }
@@ -154,8 +155,9 @@ void Stand(TenSeconds& run, RobotDrive& out) {
   out.rows.push_back({"stand/tilt", 0, run.tilt_rad() / kDegree, kTilt_deg, "deg"});
 }
 
+constexpr double kLag = 0.02;  // of what was commanded: beyond it the motors are to blame
+
 std::string WayHint(double expected_m, double made_m, double rolled_m, double driven_share) {
-  constexpr double kLag = 0.02;
   if (std::abs(rolled_m - expected_m) > kLag * expected_m)
     return fmt::format(
         "its wheels rolled {:.3f} m of {:.3f} m: the motors do not hold the speed; raise the stall "
@@ -165,6 +167,18 @@ std::string WayHint(double expected_m, double made_m, double rolled_m, double dr
       "its wheels rolled {:.3f} m and it came {:.3f} m: they slip, with {:.0f} % of the weight on "
       "them; move the masses to the driven wheels, or lower the casters' friction",
       rolled_m, made_m, 100 * driven_share);
+}
+
+std::string TurnHint(double expected_deg, double turned_deg, double rolled_deg) {
+  if (std::abs(rolled_deg - expected_deg) > kLag * std::abs(expected_deg))
+    return fmt::format(
+        "its wheels rolled for {:.0f} of {:.0f} deg: scrubbing tyres or casters hold the motors "
+        "back; raise the stall torque or the driver's gain, or take narrower wheels",
+        rolled_deg, expected_deg);
+  return fmt::format(
+      "its wheels rolled for {:.0f} deg and it turned {:.0f} deg: tyres scrub or casters hold it; "
+      "take narrower wheels, or casters that slide or swivel",
+      rolled_deg, turned_deg);
 }
 
 void Straight(TenSeconds& run, RobotDrive& out) {
@@ -178,7 +192,7 @@ void Straight(TenSeconds& run, RobotDrive& out) {
   out.rows.push_back(
       {"straight/yaw", 0, WrapAngle(b.X_WB.yaw_rad - a.X_WB.yaw_rad) / kDegree, kYaw_deg, "deg"});
   if (!out.rows[out.rows.size() - 3].ok())
-    out.straight_hint = WayHint(expected_m, made_B.x(), b.wheel_m - a.wheel_m, out.driven_share);
+    out.straight_hint = WayHint(expected_m, made_B.x(), b.rolled_m - a.rolled_m, out.driven_share);
 }
 
 void Brake(TenSeconds& run, RobotDrive& out) {
@@ -214,10 +228,7 @@ void Turn(TenSeconds& run, RobotDrive& out) {
   out.rows.push_back(
       {"turn/yaw", expected_deg, turned_deg, share * std::abs(expected_deg) + kYaw_deg, "deg"});
   if (!out.rows.back().ok())
-    out.turn_hint = fmt::format(
-        "it turned {:.0f} of {:.0f} deg: wheels scrub or casters hold it; narrower wheels, wheels "
-        "nearer to the centre of mass, casters that slide or swivel",
-        turned_deg, expected_deg);
+    out.turn_hint = TurnHint(expected_deg, turned_deg, (b.rolled_rad - a.rolled_rad) / kDegree);
   if (run.limits().on_the_spot)
     out.rows.push_back({"turn/off_the_spot", 0, (b.X_WB.p() - a.X_WB.p()).norm(),
                         kOff_m + kOffShare * 2 * robot.circumscribed_radius_m, "m"});

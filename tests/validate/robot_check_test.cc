@@ -54,6 +54,15 @@ TEST(RobotDrive, NoticesAWrongModel) {
   EXPECT_THAT(slippery.straight_hint, HasSubstr("they slip"));
 }
 
+// Whether it is the motors or the grip.
+TEST(RobotDrive, SaysWhyItStaysBehind) {
+  const RobotDrive soft = DriveTenSeconds(Written({.driver_gain = 0.02}));
+  EXPECT_THAT(soft.straight_hint, HasSubstr("the motors do not hold the speed"));
+  EXPECT_THAT(soft.turn_hint, HasSubstr("hold the motors back"));
+  const RobotDrive slippery = DriveTenSeconds(Written({}), {.friction_factor = 0.005});
+  EXPECT_THAT(slippery.straight_hint, HasSubstr("they slip, with"));
+}
+
 TEST(RobotDrive, ItTakesTenSecondsAndTheSameRowsEachTime) {
   const std::string file = Written({});
   const RobotDrive one = DriveTenSeconds(file), again = DriveTenSeconds(file);

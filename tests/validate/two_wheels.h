@@ -13,7 +13,7 @@ namespace floorproof {
 struct TwoWheels {
   double wheel_z_m = 0.05;
   double caster_x_m = -0.12, caster_friction = 0.02;
-  double stall_nm = 2, no_load_radps = 10;
+  double stall_nm = 2, no_load_radps = 10, driver_gain = 2;
   double max_speed_mps = 0.4, max_accel_mps2 = 0.5, step_m = 0.005;
   std::string base_inertial = {};  // an <inertial> in place of what the geoms say
 };
@@ -21,7 +21,7 @@ struct TwoWheels {
 inline std::string Mjcf(const TwoWheels& r) {
   const auto n = [](double value) { return std::to_string(value); };
   const std::string motor = " nominal=\"12 " + n(r.stall_nm) + " " + n(r.no_load_radps) +
-                            "\" input=\"vel\" controller=\"0 0 2 0 0 12\"/>";
+                            "\" input=\"vel\" controller=\"0 0 " + n(r.driver_gain) + " 0 0 12\"/>";
   const auto wheel = [&](const char* name, const char* y) {
     return std::string("<body name=\"") + name + "\" pos=\"0 " + y + " " + n(r.wheel_z_m) +
            "\"><joint name=\"" + name +
