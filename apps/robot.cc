@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
 #include "base/file_output.h"
+#include "base/input_file.h"
 #include "base/interrupt.h"
 #include "base/result_folder.h"
+#include "controllers/drive.h"
+#include "env/urdf/urdf_mjcf.h"
+#include "env/urdf/urdf_text.h"
 #include "report/robot_picture.h"
 #include "report/robot_report.h"
 
@@ -20,12 +26,62 @@ ResultNames RobotPictures() {
   return {"robot", [](std::string_view name) { return name.ends_with(kPicture); }};
 }
 
-// Where the robot's MJCF is, or would be.
+// Where the robot's MJCF is written, or would be.
 fs::path OutFile(const std::string& out, const fs::path& file) {
   if (out.empty()) return fs::path("out/robot") / (file.stem().string() + ".xml");
   if (fs::path(out).extension() != ".xml")
     throw InputError({"--out", 0}, "", out, "must end in .xml; the picture goes beside it");
   return out;
+}
+
+// What is written begins with a line that names the rest by its hash: as long as that is true, it
+// is nobody else's.
+std::string Mark(std::string_view rest) {
+  return fmt::format("<!-- Written by floorproof robot, which may replace it unchanged: {} -->\n",
+                     Sha256(rest));
+}
+
+void RefuseToReplaceChanged(const fs::path& file) {
+  constexpr std::uintmax_t kMostBytes = 64u << 20;
+  std::error_code ignored;
+  if (!fs::exists(fs::symlink_status(file, ignored))) return;
+  if (WhyUnreadable(file, kMostBytes).empty() && !fs::is_symlink(file, ignored)) {
+    const std::string text = ReadInputFile(file, kMostBytes);
+    const std::size_t end = text.find('\n');
+    const std::string_view rest =
+        std::string_view(text).substr(end == std::string::npos ? 0 : end + 1);
+    if (text.substr(0, end == std::string::npos ? 0 : end + 1) == Mark(rest)) return;
+  }
+  throw InputError({file.string(), 0}, "", "",
+                   "is there already, changed or not written by `robot`: --out names another file");
+}
+
+UrdfAnswers Answers(const Globals& globals) {
+  ConfigNode keys = ConfigNode::Map();
+  for (const Override& o : globals.Overrides())
+    keys.SetPath(o.key_path, ParseYaml(o.value, "--set " + o.key_path));
+  UrdfAnswers answers;
+  ReadParams(keys, "", [&](ParamVisitor& v) { answers.Visit(v); });
+  return answers;
+}
+
+std::optional<DriveChoice> Choose(const RobotSpec& robot, std::string& why) {
+  const auto* drive = DriveFor(robot, why);
+  if (drive == nullptr) return std::nullopt;
+  return DriveChoice{std::string(drive->name), drive->make()->holonomic()};
+}
+
+// Writes the URDF's MJCF to `out`, and returns what was mended and guessed.
+std::vector<std::string> Convert(const fs::path& urdf, const fs::path& out,
+                                 const Globals& globals) {
+  const UrdfMjcf mjcf = MjcfOfUrdf(urdf, Answers(globals), Choose);
+  RefuseToReplaceChanged(out);
+  if (out.has_parent_path()) MakeFolder(out.parent_path());
+  WriteFileWhole(out, Mark(mjcf.text) + mjcf.text);
+  SayWhenInterrupted(out.string() + " is there");
+  for (const std::string& note : mjcf.notes) globals.Say(note);
+  globals.Say(out.string() + " written: each guess in it is marked as one");
+  return mjcf.notes;
 }
 
 }  // namespace
@@ -35,16 +91,27 @@ void AddRobot(CommandLine& line, const Globals& globals, int& status) {
     std::string file, out;
   };
   auto options = std::make_shared<Options>();
-  Subcommand command = line.Add(
-      "robot", "Check a robot: what it is, from three sides, and ten seconds of its drive");
-  command.Text("FILE", options->file, "A robot's MJCF, or a name of `floorproof list robots`",
+  Subcommand command = line.Add("robot",
+                                "Check a robot: what it is, from three sides, and ten seconds of "
+                                "its drive; make the MJCF of a URDF");
+  command.Text("FILE", options->file,
+               "A robot's URDF or MJCF, or a name of `floorproof list robots`",
                Subcommand::Need::kRequired);
   command.Text("--out", options->out,
-               "The picture goes beside this .xml (default: out/robot/NAME.xml)");
+               "Where a URDF's MJCF goes, the picture beside it (default: out/robot/NAME.xml)");
   command.OnRun([options, &globals, &status] {
-    const fs::path file = FindRobotFile(options->file, {"FILE", 0});
-    const RobotModel robot = ReadRobot(file);
+    const bool urdf = fs::path(options->file).extension() == ".urdf" || IsUrdf(options->file, {});
+    fs::path file = urdf ? fs::path(options->file) : FindRobotFile(options->file, {"FILE", 0});
     const fs::path out = OutFile(options->out, file);
+    std::vector<std::string> notes;
+    if (urdf) {
+      notes = Convert(file, out, globals);
+      file = out;
+    } else if (!globals.sets.empty()) {
+      throw InputError({"--set", 0}, "", globals.sets.front(),
+                       "answers what a URDF does not say; an MJCF states it itself");
+    }
+    const RobotModel robot = ReadRobot(file);
     const fs::path folder = out.has_parent_path() ? out.parent_path() : ".";
     ResultFolder results(folder, RobotPictures(), robot.files);
     const RobotCheck check = CheckRobot(file.string());
@@ -54,7 +121,9 @@ void AddRobot(CommandLine& line, const Globals& globals, int& status) {
     SayWhenInterrupted(picture.string() + " is there");
     for (const std::string& said : RobotLines(check)) globals.Say(said);
     globals.Say("picture: " + picture.string());
-    globals.Result(RobotJson(check));
+    nlohmann::ordered_json json = RobotJson(check);
+    if (urdf) json["of_the_urdf"] = notes;
+    globals.Result(json);
     if (!check.ok()) status = kNotSuccess;
   });
 }

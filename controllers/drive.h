@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 
 #include "base/registry.h"
 #include "env/core/motion.h"
@@ -44,6 +45,9 @@ class Drive {
 };
 
 std::span<const PluginEntry<Drive>> Drives();
+// The first of them that can be configured for the robot's wheels; none: `why` says what each
+// lacks.
+const PluginEntry<Drive>* DriveFor(const RobotSpec& robot, std::string& why);
 // Whether the robot's drive is. Throws InputError when there is no such drive.
 bool IsHolonomic(const RobotSpec& robot);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables of drives, estimators and trackers, made from their lists.
+#include <algorithm>
 #include <string>
 
 #include "controllers/drive.h"
@@ -45,6 +46,21 @@ std::span<const PluginEntry<Tracker>> Trackers() {
 #undef FP_TRACKER
   };
   return kTable;
+}
+
+const PluginEntry<Drive>* DriveFor(const RobotSpec& robot, std::string& why) {
+  const auto takes = [&](const PluginEntry<Drive>& entry) {
+    try {
+      entry.make()->Configure(robot);
+      return true;
+    } catch (const InputError& e) {
+      why += std::string("; ") + e.what();
+      return false;
+    }
+  };
+  why = "no drive takes its wheels";
+  const auto entry = std::ranges::find_if(Drives(), takes);
+  return entry == Drives().end() ? nullptr : &*entry;
 }
 
 bool IsHolonomic(const RobotSpec& robot) {

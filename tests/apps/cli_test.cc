@@ -513,6 +513,42 @@ TEST_F(Cli, ARobotThatIsNotAsItShouldBeEndsWithOne) {
   EXPECT_EQ(Slurp(folder_ / "out/robot/beluga.robot.png"), "somebody's");
 }
 
+// A URDF: its MJCF, every guess marked, which then drives a scenario.
+TEST_F(Cli, AUrdfBecomesARobot) {
+  std::ofstream(folder_ / "my.urdf") << R"(<robot name="my">
+<link name="base"><inertial><mass value="6"/><origin xyz="-0.02 0 0.08"/>
+ <inertia ixx="0.05" iyy="0.06" izz="0.08" ixy="0" ixz="0" iyz="0"/></inertial>
+ <collision><origin xyz="-0.02 0 0.08"/><geometry><box size="0.3 0.2 0.1"/></geometry></collision>
+ <collision><origin xyz="-0.14 0 0.015"/><geometry><sphere radius="0.015"/></geometry></collision></link>
+<link name="l"><collision><geometry><cylinder radius="0.05" length="0.02"/></geometry></collision></link>
+<link name="r"><collision><geometry><cylinder radius="0.05" length="0.02"/></geometry></collision></link>
+<joint name="left" type="continuous"><parent link="base"/><child link="l"/>
+ <origin xyz="0 0.12 0.05" rpy="-1.5707963267948966 0 0"/><axis xyz="0 0 1"/></joint>
+<joint name="right" type="continuous"><parent link="base"/><child link="r"/>
+ <origin xyz="0 -0.12 0.05" rpy="-1.5707963267948966 0 0"/><axis xyz="0 0 1"/></joint>
+</robot>)";
+  const Result dut = Run("robot my.urdf --out my.xml --set cruise_mps=0.3");
+  EXPECT_EQ(dut.status, 0) << dut.out << dut.err;
+  EXPECT_THAT(dut.out, HasSubstr("my.xml written: each guess in it is marked as one"));
+  const std::string mjcf = Slurp(folder_ / "my.xml");
+  EXPECT_THAT(mjcf, HasSubstr("<numeric name=\"cruise_mps\" data=\"0.3\"/>  <!-- given -->"));
+  EXPECT_THAT(mjcf, HasSubstr("<!-- guess: "));
+  EXPECT_TRUE(fs::exists(folder_ / "my.robot.png"));
+  EXPECT_EQ(Run("run s.yaml --out o --set robot=my.xml").status, 0);
+
+  EXPECT_EQ(Run("robot my.urdf --out my.xml").status, 0) << "its own is written again";
+  EXPECT_THAT(Slurp(folder_ / "my.xml"), Not(HasSubstr("<!-- given -->")));
+  std::ofstream(folder_ / "my.xml", std::ios::app) << "<!-- weighed -->";
+  const std::string changed = Slurp(folder_ / "my.xml");
+  const Result again = Run("robot my.urdf --out my.xml");
+  EXPECT_EQ(again.status, 2);
+  EXPECT_THAT(again.err, HasSubstr("my.xml: is there already, changed"));
+  EXPECT_EQ(Slurp(folder_ / "my.xml"), changed) << "what a user has put in stays";
+  EXPECT_EQ(Run("robot my.urdf --out my.urdf").status, 2);
+  EXPECT_EQ(Run("robot my.urdf --set cruise_mpss=0.3").status, 2);
+  EXPECT_EQ(Run("robot beluga --set cruise_mps=0.3").status, 2) << "an MJCF states it";
+}
+
 // The counts of "WHAT: N of M".
 std::vector<int> Counts(const std::string& seen, const std::string& what) {
   std::vector<int> counts;

@@ -174,6 +174,63 @@ std::vector<BadInput> LimitCases() {
   };
 }
 
+// A URDF of two wheels that reach no floor without their links' shapes: each case says what it
+// breaks.
+std::string Urdf(const std::string& more) {
+  std::string text =
+      "<robot name=\"r\">\n<link name=\"base\"><inertial><mass value=\"5\"/><inertia ixx=\"1\" "
+      "iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\n";
+  for (const char* side : {"0.1", "-0.1"})
+    text += std::string("<link name=\"wheel at ") + side +
+            "\"><collision><geometry><sphere radius=\"0.05\"/></geometry></collision></link>\n"
+            "<joint name=\"axle at " +
+            side + "\" type=\"continuous\"><parent link=\"base\"/><child link=\"wheel at " + side +
+            "\"/><origin xyz=\"0 " + side + " 0\"/><axis xyz=\"0 1 0\"/></joint>\n";
+  return text + more + "</robot>\n";
+}
+
+BadInput UrdfCase(const std::string& name, const std::string& text,
+                  std::vector<std::string> named) {
+  named.insert(named.begin(), "floorproof: my.urdf");
+  return {"Urdf" + name, {"robot", "my.urdf"}, {{"my.urdf", text}}, std::move(named)};
+}
+
+std::vector<BadInput> UrdfCases() {
+  const auto mesh = [](const std::string& uri) {
+    return Urdf("<link name=\"m\"><visual><geometry>\n<mesh filename=\"" + uri +
+                "\"/></geometry></visual></link><joint name=\"mj\" type=\"fixed\"><parent "
+                "link=\"base\"/><child link=\"m\"/></joint>");
+  };
+  std::string links;
+  for (int k = 0; k < 10'000; ++k) links += "<link name=\"l" + std::to_string(k) + "\"/>";
+  return {
+      UrdfCase("WithoutWheels", Replaced(Urdf(""), "<axis xyz=\"0 1 0\"/>", ""),
+               {"no drive takes its wheels"}),
+      UrdfCase("OfNoLinks", "<robot name=\"r\"/>", {"has no link"}),
+      UrdfCase("OfTwoRoots", Urdf("<link name=\"loose\"/>"),
+               {":7: link = loose", "hangs on nothing"}),
+      UrdfCase("WithALoop",
+               Urdf("<joint name=\"again\" type=\"fixed\"><parent link=\"wheel at 0.1\"/><child "
+                    "link=\"wheel at -0.1\"/></joint>"),
+               {":7: joint = again", "closes a loop"}),
+      UrdfCase("OfTenThousandLinks", Urdf(links), {"link = 10003", "at most 500"}),
+      UrdfCase("MeshClimbsOut", mesh("package://p/../../out.stl"),
+               {":8: mesh = package://p/../../out.stl", "outside the folder"}),
+      UrdfCase("MeshIsADevice", mesh("/dev/zero"), {":8: mesh = /dev/zero", "outside the folder"}),
+      UrdfCase("NeverClosed", "<robot name=\"r\"><link name=\"a\">", {"XML"}),
+      UrdfCase("NestedDeep",
+               [] {
+                 std::string text = "<robot name=\"r\">";
+                 for (int k = 0; k < 100'000; ++k) text += "<link name=\"a\">";
+                 return text;
+               }(),
+               {"XML"}),
+      UrdfCase("OfNoMass", Replaced(Urdf(""), "value=\"5\"", "value=\"0\""), {"has a mass"}),
+      UrdfCase("NotANumber", Replaced(Urdf(""), "radius=\"0.05\"", "radius=\"wide\""), {"radius"}),
+      UrdfCase("IsXacro", Urdf("<xacro:wheel/>"), {":7: xacro:wheel", "is xacro"}),
+  };
+}
+
 }  // namespace
 
 std::vector<BadInput> RobotCases() {
@@ -254,7 +311,7 @@ std::vector<BadInput> RobotCases() {
                    [](const std::filesystem::path& folder) {
                      return mkfifo((folder / "pipe.xml").c_str(), 0600) == 0;
                    }});
-  for (const auto& more : {CompilerCases(), FileCases(), LimitCases()})
+  for (const auto& more : {CompilerCases(), FileCases(), LimitCases(), UrdfCases()})
     cases.insert(cases.end(), more.begin(), more.end());
   return cases;
 }

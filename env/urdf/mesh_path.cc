@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/urdf/mesh_path.h"
+
+#include <algorithm>
+#include <cctype>
+#include <vector>
+
+#include "env/scene/engine_files.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool IsBelow(const fs::path& folder, const fs::path& file) {
+  return std::ranges::mismatch(folder, file).in1 == folder.end();
+}
+
+// Where the URI may be meant, best first; relative ones in the URDF's folder.
+std::vector<fs::path> Candidates(const std::string& uri) {
+  for (const char* scheme : {"package://", "model://"}) {
+    const std::string_view prefix = scheme;
+    if (!uri.starts_with(prefix)) continue;
+    const std::string whole = uri.substr(prefix.size());
+    const std::size_t slash = whole.find('/');
+    if (slash == std::string::npos) return {whole};
+    return {whole.substr(slash + 1), whole};
+  }
+  constexpr std::string_view kFile = "file://";
+  if (uri.starts_with(kFile)) return {uri.substr(kFile.size())};
+  return {uri};
+}
+
+std::string Extension(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+}  // namespace
+
+MeshPlace FindMesh(const std::string& uri, const fs::path& urdf, const SourceMark& mark,
+                   const InputFiles& files) {
+  std::error_code error;
+  const fs::path folder = fs::weakly_canonical(fs::absolute(urdf).parent_path(), error);
+  MeshPlace place;
+  for (const fs::path& candidate : Candidates(uri)) {
+    const fs::path file = (folder / candidate).lexically_normal();
+    if (!IsBelow(folder, file) || !IsBelow(folder, fs::weakly_canonical(file, error)))
+      throw InputError(mark, "mesh", uri, "lies outside the folder of the robot's file");
+    if (!fs::exists(file, error)) continue;
+    place.extension = Extension(file);
+    constexpr std::string_view kReadable[] = {".stl", ".obj", ".msh"};
+    if (std::ranges::find(kReadable, place.extension) == std::end(kReadable)) {
+      place.why = "is of no format that MuJoCo reads (.stl, .obj)";
+      return place;
+    }
+    if (const std::string why = files.WhyUnreadable(file, EngineFiles::kMaxBytes); !why.empty())
+      throw InputError(mark, "mesh", uri, why);
+    place.file = file;
+    return place;
+  }
+  place.why =
+      "is not there below " + folder.filename().string() +
+      "/, the folder of the robot's file (a package's URDF belongs in the package's folder)";
+  return place;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/urdf/robot_guesses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/quantity.h"
+#include "env/urdf/round_fit.h"
+
+namespace floorproof {
+namespace {
+
+constexpr double kGravity_mps2 = 9.81;
+
+// In three digits, as a guess deserves.
+double Rounded(double value) {
+  if (!(value > 0)) return value;
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2);
+  return std::round(value / unit) * unit;
+}
+
+Figure Take(const std::optional<double>& answer, double guess, const std::string& why) {
+  if (answer) return {*answer, "given"};
+  return {Rounded(guess), "guess: " + why};
+}
+
+struct Sizes {
+  double radius_m = 0, half_track_m = 0, width_m = 0, belly_m = 0;
+};
+
+Sizes SizesOf(const UrdfRobot& robot) {
+  Sizes sizes;
+  sizes.belly_m = std::numeric_limits<double>::infinity();
+  double right_m = 0, left_m = 0;
+  const auto hold = [&](double y_m) {
+    right_m = std::min(right_m, y_m);
+    left_m = std::max(left_m, y_m);
+  };
+  for (const UrdfWheel& wheel : robot.wheels) {
+    sizes.radius_m = std::max(sizes.radius_m, wheel.radius_m);
+    sizes.half_track_m = std::max(sizes.half_track_m, std::abs(wheel.p_B.y()));
+    hold(wheel.p_B.y());
+  }
+  for (const UrdfShape& shape : robot.shapes) {
+    if (!shape.collides) continue;
+    sizes.belly_m = std::min(sizes.belly_m, LowestOf(shape));
+    for (const Vec3& p : shape.Points()) hold(p.y());
+  }
+  sizes.width_m = left_m - right_m;
+  return sizes;
+}
+
+// A URDF's limits are often placeholders: what no floor robot has is not believed.
+bool IsBelievable(double value, double low, double high) { return value >= low && value <= high; }
+
+Figure NoLoad(const UrdfWheel& wheel, const UrdfAnswers& answers, double radius_m) {
+  constexpr double kUsual_mps = 0.8, kDroop = 1.1;
+  if (answers.no_load_radps) return {*answers.no_load_radps, "given"};
+  if (answers.top_speed_mps)
+    return {Rounded(kDroop * *answers.top_speed_mps / radius_m),
+            "guess: a tenth more than the top_speed_mps given"};
+  if (IsBelievable(wheel.velocity_radps * radius_m, 0.1, 4))
+    return {wheel.velocity_radps, "guess: the velocity limit that the URDF gives the joint"};
+  return {Rounded(kUsual_mps / radius_m), "guess: 0.8 m/s, as indoor robots have"};
+}
+
+Figure Stall(const UrdfWheel& wheel, const UrdfAnswers& answers, double weight_n, double radius_m,
+             double wheels) {
+  constexpr double kGrade = 0.4;  // of the weight, at the rims of all wheels
+  if (answers.stall_nm) return {*answers.stall_nm, "given"};
+  const double share = wheel.effort_nm * wheels / (weight_n * radius_m);
+  if (IsBelievable(share, 0.1, 4))
+    return {wheel.effort_nm, "guess: the effort limit that the URDF gives the joint"};
+  return {Rounded(kGrade * weight_n * radius_m / wheels),
+          "guess: stalled, all motors push with 0.4 of the weight"};
+}
+
+}  // namespace
+
+RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers) {
+  const Sizes sizes = SizesOf(robot);
+  const double wheels = static_cast<double>(robot.wheels.size());
+  const double weight_n = robot.mass_kg() * kGravity_mps2, r = sizes.radius_m;
+  const UrdfWheel& wheel = robot.wheels.front();
+  RobotGuesses out;
+  out.no_load_radps = NoLoad(wheel, answers, r);
+  out.stall_nm = Stall(wheel, answers, weight_n, r, wheels);
+  constexpr double kRolling = 0.01, kRotor = 0.2, kReach = 0.85, kCruise = 0.6;
+  out.friction_nm = Take({}, kRolling * weight_n * r / wheels, "0.01 of the weight at the rims");
+  out.armature_kgm2 = Take({}, kRotor * robot.mass_kg() * r * r / wheels,
+                           "rotor and gear, 0.2 of m r2 of its share of the mass");
+  constexpr double kStiff = 2;  // per rad/s
+  out.driver_gain =
+      Take({}, kStiff * out.stall_nm.value, "all its torque 0.5 rad/s below the speed asked for");
+  const double top_mps = kReach * out.no_load_radps.value * r;
+  out.max_speed_mps = Take(answers.max_speed_mps, top_mps, "0.85 of the speed without load");
+  constexpr double kMost_mps = 0.5, kUsual_mps2 = 0.5, kUsual_radps = 1.5, kWheelShare = 0.7;
+  out.cruise_mps = Take(answers.cruise_mps, std::min(kMost_mps, kCruise * out.max_speed_mps.value),
+                        "0.6 of max_speed_mps, at most 0.5 m/s");
+  const double push_mps2 = wheels * out.stall_nm.value / r / robot.mass_kg();
+  out.max_accel_mps2 = Take(answers.max_accel_mps2, std::min(kUsual_mps2, push_mps2 / 2),
+                            "0.5 m/s2, at most half of what the motors can");
+  const double spin_radps =
+      kWheelShare * out.max_speed_mps.value / std::max(1e-3, sizes.half_track_m);
+  out.max_yaw_rate_radps = Take(answers.max_yaw_rate_radps, std::min(kUsual_radps, spin_radps),
+                                "1.5 rad/s, at most 0.7 of what the wheels can");
+  out.max_yaw_accel_radps2 =
+      Take({}, 2 * out.max_yaw_rate_radps.value, "its yaw rate in half a second");
+  constexpr double kTool = 0.8, kStep = 0.1, kHotel_w = 10;
+  out.tool_width_m = Take(answers.tool_width_m, kTool * sizes.width_m, "0.8 of its width");
+  out.step_m = Take(answers.step_m, std::min(kStep * r, sizes.belly_m / 2),
+                    "a tenth of the wheel's radius, at most half the belly's clearance");
+  out.hotel_load_w = Take(answers.hotel_load_w, kHotel_w, "a small computer and a lidar");
+  return out;
+}
+
+}  // namespace floorproof

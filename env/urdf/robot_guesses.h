@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The figures of a robot's model that its URDF does not state: answered, told by the URDF's own
+// limits, or guessed, each with its reason.
+#pragma once
+
+#include <string>
+
+#include "env/urdf/urdf_robot.h"
+
+namespace floorproof {
+
+struct Figure {
+  double value = 0;
+  std::string why;  // "given", or what it goes by; a guess begins with "guess: "
+};
+
+struct RobotGuesses {
+  Figure no_load_radps, stall_nm;  // of each motor, at the wheel
+  Figure friction_nm;              // dry, in a wheel's bearing
+  Figure armature_kgm2, driver_gain;
+  Figure cruise_mps, max_speed_mps, max_accel_mps2, max_yaw_rate_radps, max_yaw_accel_radps2;
+  Figure tool_width_m, step_m, hotel_load_w;
+};
+
+RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers);
+
+}  // namespace floorproof

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/urdf/xml_tags.h"
+
+#include <algorithm>
+
+namespace floorproof {
+namespace {
+
+constexpr std::string_view kSpace = " \t\r\n";
+
+class TagReader {
+ public:
+  explicit TagReader(std::string_view text) : text_(text) {}
+
+  std::vector<XmlElement> Read() {
+    while ((at_ = text_.find('<', at_)) != std::string_view::npos) {
+      const std::string_view rest = text_.substr(at_);
+      if (rest.starts_with("<!--"))
+        Pass("-->");
+      else if (rest.starts_with("<![CDATA["))
+        Pass("]]>");
+      else if (rest.starts_with("<?") || rest.starts_with("<!"))
+        Pass(">");
+      else if (rest.starts_with("</"))
+        Close();
+      else
+        Open();
+    }
+    for (const int index : open_) out_[static_cast<std::size_t>(index)].end = text_.size();
+    return std::move(out_);
+  }
+
+ private:
+  void Pass(std::string_view end) {
+    const std::size_t found = text_.find(end, at_);
+    at_ = found == std::string_view::npos ? text_.size() : found + end.size();
+  }
+
+  void Close() {
+    const std::size_t begin = at_;
+    Pass(">");
+    std::string_view name = text_.substr(begin + 2, at_ - begin - 3);
+    name = name.substr(0, name.find_first_of(kSpace));
+    // What closes without having been opened is the next reader's affair.
+    const auto opened = std::find_if(open_.rbegin(), open_.rend(), [&](int index) {
+      return out_[static_cast<std::size_t>(index)].name == name;
+    });
+    if (opened == open_.rend()) return;
+    for (auto inner = open_.rbegin(); inner != std::next(opened); ++inner)
+      out_[static_cast<std::size_t>(*inner)].end = at_;
+    open_.erase(std::prev(opened.base()), open_.end());
+  }
+
+  void Open() {
+    XmlElement element;
+    element.begin = at_++;
+    line_ += static_cast<int>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(counted_),
+                                         text_.begin() + static_cast<std::ptrdiff_t>(element.begin),
+                                         '\n'));
+    counted_ = element.begin;
+    element.line = line_;
+    element.parent = open_.empty() ? -1 : open_.back();
+    element.name = Word();
+    bool closed = false;
+    while (at_ < text_.size() && text_[at_] != '>') {
+      if (text_[at_] == '/') closed = true;
+      if (text_[at_] == '/' || kSpace.find(text_[at_]) != std::string_view::npos)
+        ++at_;
+      else
+        Attribute(element);
+    }
+    at_ = std::min(at_ + 1, text_.size());
+    element.end = at_;
+    out_.push_back(std::move(element));
+    if (!closed) open_.push_back(static_cast<int>(out_.size()) - 1);
+  }
+
+  // Up to what ends a name; one letter at least.
+  std::string_view Word() {
+    const std::size_t begin = at_;
+    at_ = std::min(text_.find_first_of(" \t\r\n=/>", at_), text_.size());
+    if (at_ == begin && at_ < text_.size()) ++at_;
+    return text_.substr(begin, at_ - begin);
+  }
+
+  void Attribute(XmlElement& element) {
+    const std::string_view name = Word();
+    at_ = std::min(text_.find_first_not_of(kSpace, at_), text_.size());
+    if (at_ == text_.size() || text_[at_] != '=') return;
+    at_ = std::min(text_.find_first_not_of(kSpace, at_ + 1), text_.size());
+    if (at_ == text_.size() || (text_[at_] != '"' && text_[at_] != '\'')) return;
+    const char quote = text_[at_];
+    const std::size_t begin = at_ + 1, end = std::min(text_.find(quote, begin), text_.size());
+    element.attributes.push_back({name, text_.substr(begin, end - begin), begin});
+    at_ = std::min(end + 1, text_.size());
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0, counted_ = 0;
+  int line_ = 1;
+  std::vector<XmlElement> out_;
+  std::vector<int> open_;
+};
+
+}  // namespace
+
+std::string_view XmlElement::Value(std::string_view attribute) const {
+  for (const XmlAttribute& a : attributes)
+    if (a.name == attribute) return a.value;
+  return {};
+}
+
+std::vector<XmlElement> XmlElements(std::string_view text) { return TagReader(text).Read(); }
+
+}  // namespace floorproof
