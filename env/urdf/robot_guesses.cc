@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "base/quantity.h"
 #include "env/urdf/round_fit.h"
@@ -12,6 +13,7 @@ namespace floorproof {
 namespace {
 
 constexpr double kGravity_mps2 = 9.81;
+constexpr std::string_view kGuess = "guess: ";
 
 // In three digits, as a guess deserves.
 double Rounded(double value) {
@@ -22,7 +24,7 @@ double Rounded(double value) {
 
 Figure Take(const std::optional<double>& answer, double guess, const std::string& why) {
   if (answer) return {*answer, "given"};
-  return {Rounded(guess), "guess: " + why};
+  return {Rounded(guess), std::string(kGuess) + why};
 }
 
 struct Sizes {
@@ -113,6 +115,29 @@ RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers) {
                     "a tenth of the wheel's radius, at most half the belly's clearance");
   out.hotel_load_w = Take(answers.hotel_load_w, kHotel_w, "a small computer and a lidar");
   return out;
+}
+
+std::vector<std::string> Questions(const RobotGuesses& guesses) {
+  struct Question {
+    const char *key, *unit;
+    const Figure& figure;
+  };
+  const Question questions[] = {{"no_load_radps", "rad/s", guesses.no_load_radps},
+                                {"stall_nm", "N m", guesses.stall_nm},
+                                {"cruise_mps", "m/s", guesses.cruise_mps},
+                                {"max_speed_mps", "m/s", guesses.max_speed_mps},
+                                {"max_accel_mps2", "m/s2", guesses.max_accel_mps2},
+                                {"max_yaw_rate_radps", "rad/s", guesses.max_yaw_rate_radps},
+                                {"tool_width_m", "m", guesses.tool_width_m},
+                                {"step_m", "m", guesses.step_m},
+                                {"hotel_load_w", "W", guesses.hotel_load_w}};
+  std::vector<std::string> lines;
+  for (const Question& q : questions)
+    if (q.figure.why.starts_with(kGuess))
+      lines.push_back(std::string(kGuess) + q.key + " " + NumberText(q.figure.value) + " " +
+                      q.unit + ", " + q.figure.why.substr(kGuess.size()) + " (--set " + q.key +
+                      "=...)");
+  return lines;
 }
 
 }  // namespace floorproof

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "env/urdf/urdf_robot.h"
 
@@ -23,5 +24,8 @@ struct RobotGuesses {
 };
 
 RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers);
+
+// A line for each guess that a key answers.
+std::vector<std::string> Questions(const RobotGuesses& guesses);
 
 }  // namespace floorproof

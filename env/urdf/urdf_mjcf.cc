@@ -19,10 +19,11 @@ std::string Answer(const fs::path& file, const UrdfAnswers& answers, const Choos
                    const InputFiles& files) {
   try {
     const UrdfRobot robot = FindRobotParts(file, ReadUrdfModel(file, files), answers, choose);
+    const RobotGuesses guesses = GuessRobot(robot, answers);
     std::string answer(1, kTaken);
     for (const std::string& note : robot.notes) answer += note + kEnd;
-    return answer + kEnd +
-           WriteMjcf(robot, GuessRobot(robot, answers), answers, file.filename().string());
+    for (const std::string& question : Questions(guesses)) answer += question + kEnd;
+    return answer + kEnd + WriteMjcf(robot, guesses, answers, file.filename().string());
   } catch (const InputError& e) {
     return kRefused + std::string(e.what());
   } catch (const InternalError& e) {

@@ -66,6 +66,16 @@ TEST(UrdfMjcf, EveryGuessIsMarkedAndNoneIsWhereTheUserAnswers) {
   EXPECT_NEAR(dut.wheels[0].max_speed_radps, 14, 1e-9);
 }
 
+// Each guess that a key answers is a line; what was answered is not asked again.
+TEST(UrdfMjcf, AsksForWhatTheUrdfCannotSay) {
+  EXPECT_THAT(Converted(WithBall()).notes, Contains(HasSubstr("(--set stall_nm=...)")));
+  UrdfAnswers answers;
+  answers.stall_nm = 0.9;
+  const auto notes = Converted(WithBall(), answers).notes;
+  EXPECT_THAT(notes, Not(Contains(HasSubstr("(--set stall_nm=...)"))));
+  EXPECT_THAT(notes, Contains(HasSubstr("(--set tool_width_m=...)")));
+}
+
 TEST(UrdfMjcf, LimitsOfTheUrdfAreTakenWhereTheyCanBe) {
   const auto with = [](const std::string& limit) {
     return ReadRobot(ConvertedFile(Replaced(WithBall(), "<axis xyz=\"0 0 1\"/>",
