@@ -18,7 +18,8 @@ SteadyDrive DriveSteadily(const Rig& truth, double speed_mps, double force_n) {
   const double resistance = m->actuator_gainprm[0], constant = m->actuator_gainprm[1];
   const double gain = m->actuator_gainprm[6], damping = m->dof_damping[dof];
   const double radius_m = robot.wheels.front().radius_m;
-  const double load_nm = m->dof_frictionloss[dof] + (CasterDrag(m) + force_n) * radius_m / n;
+  const double load_nm =
+      m->dof_frictionloss[dof] + (CasterDrag(m, robot, speed_mps) + force_n) * radius_m / n;
   const double speed_radps = (gain * speed_mps / radius_m - load_nm) / (gain + damping);
   const double torque_nm = load_nm + damping * speed_radps, current_a = torque_nm / constant;
   const double power_w = torque_nm * speed_radps + resistance * current_a * current_a;

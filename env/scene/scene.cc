@@ -11,6 +11,7 @@
 #include "env/scene/rolling_drag.h"
 #include "env/scene/scene_looks.h"
 #include "env/scene/surfaces.h"
+#include "env/scene/tyre.h"
 #include "env/scene/walls.h"
 
 namespace floorproof {
@@ -45,6 +46,7 @@ class SceneBuilder {
         mesh_names_(spec, mjOBJ_MESH) {
     for (mjsElement* e = mjs_firstElement(spec, mjOBJ_GEOM); e; e = mjs_nextElement(spec, e))
       if (RollersOf(mjs_asGeom(e)).radius_m > 0) mecanum.push_back(mjs_asGeom(e));
+    tyres_ = ScrubbingTyres(spec, robot.spec);
   }
 
   void Floor() {
@@ -125,8 +127,8 @@ class SceneBuilder {
     }
   }
 
-  // Mecanum wheels touch the floor and hazards by pairs, through their collider; walls meet the
-  // body.
+  // Mecanum wheels touch the floor and hazards by pairs, through their collider, and tyres that
+  // scrub by softer ones; walls meet the body.
   void PairWheels() {
     for (mjsGeom* wheel : mecanum) {
       wheel->conaffinity = 0;
@@ -142,6 +144,15 @@ class SceneBuilder {
         if (role.kind != GeomRole::Kind::kWall)
           PairWheel(spec_, roller, geom,
                     {geom->friction[0], geom->friction[0], DragOf(role) * roller->size[0]});
+    }
+    int number = 0;
+    for (mjsGeom* tyre : tyres_) {
+      tyre->conaffinity = kPairsBit;
+      if (mjs_getString(mjs_getName(tyre->element))[0] == '\0')
+        mjs_setName(tyre->element, geom_names_.For("tyre/" + std::to_string(number)).c_str());
+      ++number;
+      for (const auto& [geom, role] : added)
+        if (role.kind != GeomRole::Kind::kWall) PairTyre(spec_, tyre, geom, DragOf(role));
     }
   }
 
@@ -166,7 +177,8 @@ class SceneBuilder {
   std::vector<Foot> NamedFeet() {
     std::vector<Foot> feet = FeetOf(spec_, robot_);
     std::erase_if(feet, [&](const Foot& foot) {
-      return std::ranges::find(rollers_, NameOf(foot.geom)) != rollers_.end();
+      return std::ranges::find(tyres_, foot.geom) != tyres_.end() ||
+             std::ranges::find(rollers_, NameOf(foot.geom)) != rollers_.end();
     });
     for (std::size_t i = 0; i < feet.size(); ++i)
       if (NameOf(feet[i].geom).empty())
@@ -263,6 +275,7 @@ class SceneBuilder {
   const Looks& looks_;
   const RobotSpec& robot_;
   const std::vector<std::string>& rollers_;
+  std::vector<mjsGeom*> tyres_;  // of plain wheels that scrub
   const mjVFS* assets_;
   mjSpec* spec_;
   mjsBody* world_;

@@ -39,7 +39,7 @@ std::vector<Carrier> Carriers() {
 }
 
 constexpr BodyTwist kAhead = {0.2, 0, 0.05};
-constexpr int kPeriods = 30;
+constexpr int kPeriods = 60;  // the rover reaches less far ahead than the circle around it
 
 // What a robot is told by this reading.
 std::vector<double> Told(const Observation& o, Reading reading) {

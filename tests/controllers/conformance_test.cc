@@ -324,6 +324,7 @@ INSTANTIATE_TEST_SUITE_P(All, TrackerConformance, testing::ValuesIn(AllTracked()
 TEST(DefaultTracker, CommandsItsDrive) {
   EXPECT_EQ(DefaultTracker("differential"), "regulated_pursuit");
   EXPECT_EQ(DefaultTracker("mecanum"), "holonomic_follower");
+  EXPECT_EQ(DefaultTracker("skid_steer"), "regulated_pursuit");
   EXPECT_THROW(DefaultTracker("legs"), InputError);
 }
 

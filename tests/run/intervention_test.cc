@@ -28,7 +28,7 @@ constexpr const char* kAssist = "on_failure: assist\n";
 
 // Across the room from wall to wall, on no map, higher than a robot climbs or deeper than it
 // survives.
-std::string Barrier(double x_m, double height_m = 0.06) {
+std::string Barrier(double x_m, double height_m = 0.12) {
   return fmt::format(
       "{{type: step, polygon_m: [[{0},0.5],[{1},0.5],[{1},4.5],[{0},4.5]], height_m: {2}, "
       "known: false}}",
@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Robots, EachRobot, ::testing::ValuesIn(RobotNames()),
                          [](const auto& robot) { return robot.param; });
 
 TEST_P(EachRobot, IsSetDownAtRestAtTheNextWaypointAndDrivesToTheEnd) {
-  for (const double height_m : {0.06, -0.15}) {
+  for (const double height_m : {0.12, -0.15}) {
     const EpisodeRecord dut = Stopped(height_m);
     EXPECT_EQ(dut.outcome, Outcome::kFailure) << "helped, it failed all the same";
     EXPECT_EQ(dut.message, "");
@@ -96,7 +96,7 @@ TEST_P(EachRobot, IsSetDownAtRestAtTheNextWaypointAndDrivesToTheEnd) {
 }
 
 TEST_P(EachRobot, StandsStillUntilThePersonComes) {
-  const EpisodeRecord dut = Stopped(0.06);
+  const EpisodeRecord dut = Stopped(0.12);
   ASSERT_THAT(dut.interventions, SizeIs(1));
   const double failed_s = dut.events[0].t_s;
   int rows = 0;
@@ -123,7 +123,7 @@ TEST_P(EachRobot, TheSameHelpTwiceIsTheSameRecord) {
   const std::string keys = std::string(kAssist) +
                            "estimator: odometry\nsensors: {encoders: {noise: 0.05}}\n"
                            "time_limit_s: 150\n";
-  const EpisodeRecord first = Stopped(0.06, keys), second = Stopped(0.06, keys);
+  const EpisodeRecord first = Stopped(0.12, keys), second = Stopped(0.12, keys);
   ASSERT_FALSE(first.interventions.empty());
   const Scenario s = Read(RoomScenario("", keys));
   EXPECT_EQ(ResultJson(s, first).dump(), ResultJson(s, second).dump());
@@ -133,7 +133,7 @@ TEST_P(EachRobot, TheSameHelpTwiceIsTheSameRecord) {
 
 // The way that it is carried is neither driven nor swept.
 TEST_P(EachRobot, IsCarriedOverWhatItDoesNotSweep) {
-  const EpisodeRecord dut = Stopped(0.06);
+  const EpisodeRecord dut = Stopped(0.12);
   ASSERT_THAT(dut.interventions, SizeIs(1));
   const Intervention& help = dut.interventions[0];
   const double carried_m = (help.to_W - help.from_W).norm();

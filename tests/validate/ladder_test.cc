@@ -81,17 +81,17 @@ TEST(LadderCells, AreEveryRobotHazardDirectionSpeedAndFrictionOnce) {
   for (const LadderCell& cell : cells) {
     const LadderRow row{cell, 0, false, ""};
     EXPECT_TRUE(seen.insert(LadderCsv({&row, 1})).second) << LadderCsv({&row, 1});
-    if (cell.robot == "beluga") {
+    if (cell.robot != "htetro") {
       EXPECT_NE(cell.direction, Direction::kSideways);
       EXPECT_EQ(cell.wheels, "ideal");
     }
     rollers += cell.wheels == "rollers";
   }
   const std::size_t kinds = LadderHazards().size();
-  EXPECT_EQ(cells.size(), kinds * (2 * 3 * 3 + 3 * 3 * 3 + 3 * 3 * 2));
+  EXPECT_EQ(cells.size(), kinds * (2 * 2 * 3 * 3 + 3 * 3 * 3 + 3 * 3 * 2));
   EXPECT_EQ(LadderCells({.rollers = false}).size(),
             cells.size() - static_cast<std::size_t>(rollers));
-  EXPECT_EQ(SweepCells().size(), kinds * (2 + 3) * 6 * 3);
+  EXPECT_EQ(SweepCells().size(), kinds * (2 + 2 + 3) * 6 * 3);
   for (const LadderCell& cell : SweepCells()) {
     EXPECT_EQ(cell.speed_mps, 0.2);
     EXPECT_EQ(cell.friction, 0.8);

@@ -110,6 +110,8 @@ class Energy final : public Law {
     };
     robot("beluga", 0.008);
     robot("htetro", 0.010);
+    // Uphill its tyres creep by as much as this compares.
+    Steady(Rig("rover"), "flat", 0, wrong, rows);
   }
 
  private:

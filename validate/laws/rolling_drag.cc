@@ -104,7 +104,8 @@ class RollingDrag final : public Law {
         force_n += (MotorTorque(m, rig.data(), a) - bearing_nm) / radius_m;
       }
     }
-    const double expected_n = drag * Weight(rig.robot()) + CasterDrag(rig.scene().model.get());
+    const double expected_n =
+        drag * Weight(rig.robot()) + CasterDrag(rig.scene().model.get(), rig.robot(), kSpeed_mps);
     rows.push_back({fmt::format("rolling_drag/{}/c{}/force", name, drag), expected_n, force_n / n,
                     share * expected_n, "N"});
   }

@@ -77,7 +77,8 @@ class Slope final : public Law {
   static double BelugaHolds(double mu) {
     const Rig truth("beluga");
     const mjModel* m = truth.scene().model.get();
-    const double rubs = CasterDrag(m) / Weight(truth.robot());  // shares of the weight
+    const double rubs =
+        CasterDrag(m, truth.robot(), 0) / Weight(truth.robot());  // shares of the weight
     const double light = rubs / m->geom_friction[3 * mj_name2id(m, mjOBJ_GEOM, "caster_front")];
     double low = 0, high = 1;
     for (int i = 0; i < 50; ++i) {
