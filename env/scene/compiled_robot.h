@@ -4,6 +4,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,12 @@
 #include "env/scene/engine.h"
 
 namespace floorproof {
+
+// How a caster swivels: a joint that no motor turns lets it trail behind an upright axis.
+struct Swivel {
+  Vec3 pivot_B;        // a point of the axis, base frame
+  double trail_m = 0;  // from the axis to the caster's centre, along the floor
+};
 
 class CompiledRobot {
  public:
@@ -46,6 +53,10 @@ class CompiledRobot {
   bool IsCarried(int geom) const { return IsBlock(m_->geom_bodyid[geom]); }
   // Points on the surface of a geom that bound it, in the base frame.
   std::vector<Vec3> SurfacePoints(int geom) const;
+  // Of a caster's geom, by the first such joint between it and what carries it.
+  std::optional<Swivel> SwivelOf(int geom) const;
+  // Points that bound the geom wherever its caster swivels; of any other geom, SurfacePoints.
+  std::vector<Vec3> SweptPoints(int geom) const;
 
  private:
   const mjModel* m_;

@@ -4,7 +4,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "env/core/battery.h"
@@ -19,39 +18,47 @@ constexpr double kGravity_mps2 = 9.81;
 // A geom that carries the robot, as it stands in its model.
 struct Carrier {
   int geom;
-  Vec2 p_W;
-  std::optional<double> load_n;  // by the spring that it slides on; none: it has no spring
+  Vec3 lever;                         // 1, x and y, m: what its load does
+  double load_n = 0;                  // by the spring that it slides on and what hangs below that
+  double stiffness_npm = kRigid_npm;  // of that spring
+
+  static constexpr double kRigid_npm = 1e9;
 };
 
-// By the spring between it and the chassis and by what hangs below that.
-std::optional<double> SprungLoad(const mjModel* m, const RobotSpec& robot, int body) {
-  for (; body > 0 && !IsChassis(m, body, robot); body = m->body_parentid[body])
-    for (int j = m->body_jntadr[body]; j >= 0 && j < m->body_jntadr[body] + m->body_jntnum[body];
-         ++j) {
+Carrier MakeCarrier(const mjModel* m, const mjData* d, const RobotSpec& robot, int geom) {
+  Carrier out{geom, {1, d->geom_xpos[3 * geom], d->geom_xpos[3 * geom + 1]}};
+  for (int body = m->geom_bodyid[geom]; body > 0 && !IsChassis(m, body, robot);
+       body = m->body_parentid[body])
+    for (int k = 0; k < m->body_jntnum[body]; ++k) {
+      const int j = m->body_jntadr[body] + k, q = m->jnt_qposadr[j];
       if (m->jnt_type[j] != mjJNT_SLIDE) continue;
-      const int q = m->jnt_qposadr[j];
-      return m->jnt_axis[3 * j + 2] * m->jnt_stiffness[j] * (m->qpos0[q] - m->qpos_spring[q]) +
-             m->body_subtreemass[body] * kGravity_mps2;
+      out.stiffness_npm = m->jnt_stiffness[j];
+      out.load_n =
+          m->jnt_axis[3 * j + 2] * m->jnt_stiffness[j] * (m->qpos0[q] - m->qpos_spring[q]) +
+          m->body_subtreemass[body] * kGravity_mps2;
+      return out;
     }
-  return {};
+  return out;
 }
 
-// Of what stands on no spring: the rest of the weight lies on a plane over their places.
-void ShareTheRest(const mjModel* m, const mjData* d, int base, std::vector<Carrier>& carriers) {
-  const double weight_n = m->body_subtreemass[base] * kGravity_mps2;
-  const mjtNum* com = d->subtree_com + 3 * base;
-  Vec3 rest = weight_n * Vec3(1, com[0], com[1]);
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+// Where the springs do not carry what stands on them the body heaves, pitches and rolls until they
+// do: loads then lie on a plane over the places, each times its spring's stiffness.
+void Balance(double weight_n, const mjtNum* com, std::vector<Carrier>& carriers) {
+  constexpr double kStands = 0.01;  // share of the weight that may be off: it stands as it is drawn
+  Vec3 off = weight_n * Vec3(1, com[0], com[1]);
+  Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
   for (const Carrier& c : carriers) {
-    const Vec3 at(1, c.p_W.x(), c.p_W.y());
-    if (c.load_n)
-      rest -= *c.load_n * at;
-    else
-      normal += at * at.transpose();
+    off -= c.load_n * c.lever;
+    stiffness += c.stiffness_npm * c.lever * c.lever.transpose();
   }
-  const Vec3 plane = normal.completeOrthogonalDecomposition().solve(rest);
+  const Vec3 sinks = stiffness.completeOrthogonalDecomposition().solve(off);
+  const auto more_n = [&](const Carrier& c) { return c.stiffness_npm * sinks.dot(c.lever); };
+  const bool stands = std::ranges::all_of(carriers, [&](const Carrier& c) {
+    return c.stiffness_npm == Carrier::kRigid_npm || std::abs(more_n(c)) <= kStands * weight_n;
+  });
   for (Carrier& c : carriers)
-    if (!c.load_n) c.load_n = std::max(0.0, plane.dot(Vec3(1, c.p_W.x(), c.p_W.y())));
+    if (!stands || c.stiffness_npm == Carrier::kRigid_npm)
+      c.load_n = std::max(0.0, c.load_n + more_n(c));
 }
 
 std::vector<Carrier> Carriers(const mjModel* m, const RobotSpec& robot) {
@@ -62,11 +69,10 @@ std::vector<Carrier> Carriers(const mjModel* m, const RobotSpec& robot) {
   for (int g = 0; g < m->ngeom; ++g) {
     const int body = m->geom_bodyid[g];
     if (m->body_rootid[body] != base || IsChassis(m, body, robot)) continue;
-    if (m->geom_contype[g] == 0 && m->geom_conaffinity[g] == 0) continue;
-    const Vec2 p_W(d->geom_xpos[3 * g], d->geom_xpos[3 * g + 1]);
-    carriers.push_back({g, p_W, SprungLoad(m, robot, body)});
+    if (m->geom_contype[g] != 0 || m->geom_conaffinity[g] != 0)
+      carriers.push_back(MakeCarrier(m, d.get(), robot, g));
   }
-  ShareTheRest(m, d.get(), base, carriers);
+  Balance(m->body_subtreemass[base] * kGravity_mps2, d->subtree_com + 3 * base, carriers);
   return carriers;
 }
 
@@ -98,7 +104,7 @@ double CasterDrag(const mjModel* m, const RobotSpec& robot, double speed_mps) {
       drag_n += (m->dof_frictionloss[dof] + m->dof_damping[dof] * std::abs(speed_mps) / radius_m) /
                 radius_m;
     } else {
-      drag_n += m->geom_friction[3 * carrier.geom] * *carrier.load_n;
+      drag_n += m->geom_friction[3 * carrier.geom] * carrier.load_n;
     }
   }
   return drag_n;

@@ -19,7 +19,7 @@ std::vector<Polygon> OutlinesOfGeoms(const RobotModel& robot) {
   for (int g = 0; g < model->ngeom; ++g) {
     if (!compiled.Collides(g)) continue;
     std::vector<Vec2> points;
-    for (const Vec3& p : compiled.SurfacePoints(g)) points.push_back(p.head<2>());
+    for (const Vec3& p : compiled.SweptPoints(g)) points.push_back(p.head<2>());
     Polygon outline = ConvexHull(std::move(points));
     if (outline.size() < 3 ||
         std::ranges::any_of(outlines, [&](const Polygon& o) { return Holds(o, outline); }))

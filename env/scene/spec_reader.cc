@@ -70,7 +70,7 @@ void ReadBody(const CompiledRobot& compiled, RobotSpec& robot) {
   std::vector<Vec2> outline;
   for (int g = 0; g < m->ngeom; ++g) {
     if (!compiled.Collides(g)) continue;
-    for (const Vec3& p : compiled.SurfacePoints(g)) {
+    for (const Vec3& p : compiled.SweptPoints(g)) {
       if (!(p.norm() <= kMaxReach_m))  // rollers are the robot's own data: MuJoCo knows no bound
         compiled.Refuse("geom " + std::to_string(g),
                         "must end within " + FormatDouble(kMaxReach_m) + " m of the robot's base");

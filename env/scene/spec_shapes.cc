@@ -3,6 +3,9 @@
 // its shape, can tip.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
 
 #include "base/quantity.h"
 #include "env/core/blocks.h"
@@ -11,9 +14,32 @@
 namespace floorproof {
 namespace {
 
+// What carries the robot, seen from above. A caster stands its trail's length from its pivot, in
+// whatever direction it was driven last.
+struct Carrier {
+  Vec2 p;
+  double trail_m = 0;
+};
+
+// The least distance from the centre of mass to the border of what carries, each caster swivelled
+// to where it carries least; in directions half a degree apart. A line square to a direction has
+// nothing beyond it that carries for sure from the farthest carrier on.
+double LeastReach(const std::vector<Carrier>& carriers, const Vec2& com) {
+  constexpr int kDirections = 720;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kDirections; ++k) {
+    const double way_rad = 2 * kPi * k / kDirections;
+    const Vec2 way(std::cos(way_rad), std::sin(way_rad));
+    double reach = -std::numeric_limits<double>::infinity();
+    for (const Carrier& c : carriers) reach = std::max(reach, way.dot(c.p - com) - c.trail_m);
+    least = std::min(least, reach);
+  }
+  return least;
+}
+
 // The smallest angle about an edge of the hull of the points that carry the robot: atan(d / h),
 // with d the distance from the edge to the centre of mass, seen from above, and h the centre's
-// height.
+// height. Casters that swivel carry at their worst; springs do not give.
 double StaticTip(const CompiledRobot& compiled, const RobotSpec& robot,
                  const std::vector<double>& hinge_rad) {
   const mjModel* m = compiled.model();
@@ -21,15 +47,26 @@ double StaticTip(const CompiledRobot& compiled, const RobotSpec& robot,
   const auto moved = [&](int body, const Vec3& p) {
     return blocks.block[static_cast<std::size_t>(compiled.BlockOf(body))].X_BK * Vec2(p.head<2>());
   };
-  std::vector<Vec2> carriers;
+  std::vector<Vec2> places;
+  std::vector<Carrier> carriers;
+  bool swivels = false;
   for (int g = 0; g < m->ngeom; ++g) {
     if (!compiled.Collides(g) || compiled.IsCarried(g)) continue;
+    if (const auto swivel = compiled.SwivelOf(g)) {
+      swivels = true;
+      places.push_back(moved(m->geom_bodyid[g], swivel->pivot_B));
+      carriers.push_back({places.back(), swivel->trail_m});
+      continue;
+    }
     const auto points = compiled.SurfacePoints(g);
     const auto lowest = std::ranges::min_element(points, {}, [](const Vec3& p) { return p.z(); });
     for (const auto& p : points)
-      if (p.z() < lowest->z() + 1e-4) carriers.push_back(moved(m->geom_bodyid[g], p));
+      if (p.z() < lowest->z() + 1e-4) {
+        places.push_back(moved(m->geom_bodyid[g], p));
+        carriers.push_back({places.back(), 0});
+      }
   }
-  const Polygon hull = ConvexHull(carriers);
+  const Polygon hull = ConvexHull(places);
   if (hull.size() < 3)
     compiled.Refuse("wheels", "wheels and casters must support the robot on three points");
   Vec3 com = Vec3::Zero();
@@ -38,11 +75,13 @@ double StaticTip(const CompiledRobot& compiled, const RobotSpec& robot,
     const Vec2 p_B = moved(b, p);
     com += m->body_mass[b] / robot.mass_kg * Vec3(p_B.x(), p_B.y(), p.z());
   }
-  const double d = -SignedDistance(hull, com.head<2>());
+  const double d =
+      swivels ? LeastReach(carriers, com.head<2>()) : -SignedDistance(hull, com.head<2>());
   if (d <= 0)
-    compiled.Refuse("base", "the centre of mass lies outside the wheels' support, by " +
-                                LengthText(-d) +
-                                ": move a mass, or a wheel or caster, or add a caster");
+    compiled.Refuse("base",
+                    "the centre of mass lies outside the wheels' support, by " + LengthText(-d) +
+                        (swivels ? ", its casters swivelled to where they carry least" : "") +
+                        ": move a mass, or a wheel or caster, or add a caster");
   if (!(com.z() > 0)) compiled.Refuse("base", "the centre of mass must lie above the floor");
   return std::atan2(d, com.z());
 }

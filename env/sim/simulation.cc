@@ -223,8 +223,8 @@ void Simulation::ReadPose() {
     // Lowest point of a cylinder whose axle is tilted: radius and half width share the drop; its
     // rollers round it.
     const WheelSpec& wheel = robot_.wheels[w];
-    const mjtNum* mat = d->xmat + 9 * wheel_bodies_[w];
-    const double axle_z = mat[7];  // the wheel's axle is its body's y
+    const mjtNum* up = d->xmat + 9 * wheel_bodies_[w] + 6;  // the world's z in the body's axes
+    const double axle_z = mju_dot3(up, m->jnt_axis + 3 * m->actuator_trnid[2 * w]);
     const double drop =
         (wheel.radius_m - wheel.roller_radius_m) * std::sqrt(std::max(0.0, 1 - axle_z * axle_z)) +
         wheel.half_width_m * std::abs(axle_z) + wheel.roller_radius_m;

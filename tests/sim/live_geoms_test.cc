@@ -177,6 +177,50 @@ TEST(LiveGeoms, AnArmMeetsTheWallsThatItSwingsTo) {
   EXPECT_GT(dut.touched_walls, 5);
 }
 
+// A caster's fork swings its wheel about the pivot, and slides on a spring, from plate to plate.
+TEST(LiveGeoms, ASwivelCasterMeetsThePlatesThatItSwingsTo) {
+  RobotModel robot = ReadRobot(FindRobotFile("rover", {}));
+  mjsBody* fork = mjs_addBody(mjs_findBody(robot.mjcf.get(), "base"), nullptr);
+  fork->pos[0] = -0.5;
+  fork->pos[2] = 0.03;
+  mjsJoint* spring = mjs_addJoint(fork, nullptr);
+  spring->type = mjJNT_SLIDE;
+  spring->stiffness[0] = 1000;
+  spring->springref = -0.01;
+  spring->damping[0] = 10;
+  mjs_addJoint(fork, nullptr)->type = mjJNT_HINGE;
+  mjsGeom* look = mjs_addGeom(fork, nullptr);
+  look->type = mjGEOM_SPHERE;
+  look->size[0] = 0.01;
+  look->mass = 0.2;
+  look->contype = look->conaffinity = 0;
+  mjsBody* caster = mjs_addBody(fork, nullptr);
+  caster->pos[0] = -0.3;
+  mjsJoint* axle = mjs_addJoint(caster, nullptr);
+  axle->type = mjJNT_HINGE;
+  axle->axis[1] = 1;
+  axle->axis[2] = 0;
+  mjsGeom* wheel = mjs_addGeom(caster, nullptr);
+  wheel->type = mjGEOM_SPHERE;
+  wheel->size[0] = 0.03;
+  wheel->mass = 0.3;
+  wheel->contype = 0;
+  wheel->conaffinity = 1;
+  Twins dut(std::move(robot), Plates(), {});
+  Stream draw(8, 0, "twists");
+  double least = 1, most = -1;
+  for (int i = 0; i < 3000; ++i) {
+    if (i % 400 == 0) dut.Command({draw.Uniform(-0.4, 0.4), 0, draw.Uniform(-0.6, 0.6)});
+    ASSERT_TRUE(dut.Step()) << "step " << i;
+    const mjModel* m = dut.whole.model.get();
+    const double swivelled = std::cos(dut.data->qpos[m->nq - 2]);
+    least = std::min(least, swivelled);
+    most = std::max(most, swivelled);
+  }
+  EXPECT_LT(least, 0);
+  EXPECT_GT(most, 0.9);
+}
+
 // Whoever writes the state, and however far the robot goes in a step: what is near is live.
 TEST_P(LiveGeomsOf, ARobotThatIsPutElsewhereMeetsWhatIsThere) {
   Twins dut(GetParam(), Pillars(), kMiddle);
