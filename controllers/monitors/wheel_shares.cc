@@ -5,6 +5,20 @@
 #include <cmath>
 
 namespace floorproof {
+namespace {
+
+// Whether all are told to turn about as fast as each other.
+bool AreToldAlike(std::span<const double> told_radps) {
+  constexpr double kAlike = 0.9;  // the slowest, of the fastest
+  double least = std::abs(told_radps.front()), most = 0;
+  for (const double told : told_radps) {
+    least = std::min(least, std::abs(told));
+    most = std::max(most, std::abs(told));
+  }
+  return least >= kAlike * most;
+}
+
+}  // namespace
 
 void WheelShares::Start(const WheelShareParams& params, const RobotSpec& robot) {
   constexpr double kTurns = 0.2;  // of its speed at cruise
@@ -12,6 +26,8 @@ void WheelShares::Start(const WheelShareParams& params, const RobotSpec& robot) 
   wheels_.clear();
   for (const WheelSpec& wheel : robot.wheels)
     wheels_.push_back({kTurns * robot.cruise_mps / wheel.radius_m, true, 0, {}});
+  scrub_ = std::ranges::none_of(robot.wheels,
+                                [](const WheelSpec& wheel) { return wheel.roller_radius_m > 0; });
   shares_.assign(wheels_.size(), {});
   lean_.Reset();
   level_s_ = 0;
@@ -26,10 +42,11 @@ int WheelShares::Odd(std::span<const WheelShare> shares) const {
 std::span<const WheelShare> WheelShares::Update(const MonitorReadings& now) {
   if (!now.power.heard || now.hinges.n > 0) return {};
   turning_a_.clear();
+  const bool shared = !scrub_ || AreToldAlike(now.commanded_radps);
   for (std::size_t w = 0; w < wheels_.size(); ++w) {
     Wheel& wheel = wheels_[w];
     const double told = now.commanded_radps[w];
-    const bool turns = std::abs(told) > wheel.least_radps;
+    const bool turns = shared && std::abs(told) > wheel.least_radps;
     wheel.turns_s = turns && (told > 0) == wheel.forward ? wheel.turns_s + now.dt_s : 0;
     wheel.forward = told > 0;
     shares_[w].reset();

@@ -32,7 +32,8 @@ class WheelShares {
   void Start(const WheelShareParams& params, const RobotSpec& robot);
   // One period. By driven wheel; none of one that has not turned this way for long. Empty while
   // nothing can be said: fewer than four wheels turn, all of them roll freely, the robot leans or
-  // has leaned just now, or its blocks fold and do not carry alike.
+  // has leaned just now, or its blocks fold and do not carry alike. Nor in a bend of a robot whose
+  // wheels are plain: those on the inside brake, and slide.
   std::span<const WheelShare> Update(const MonitorReadings& now);
   bool Agrees(double share) const { return share > params_.agree && share < 1 / params_.agree; }
   // How many do not, of those that Update() told of.
@@ -47,6 +48,7 @@ class WheelShares {
   };
   WheelShareParams params_;
   std::vector<Wheel> wheels_;
+  bool scrub_ = false;  // plain wheels
   std::vector<WheelShare> shares_;
   std::vector<double> turning_a_;
   LeanAngle lean_;

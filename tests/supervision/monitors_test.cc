@@ -154,6 +154,25 @@ TEST_F(MonitorTest, WheelPeersDoNotGuessWhereManyDisagree) {
   }
 }
 
+// In a bend a skid-steer's inner wheels brake what its outer ones drive: nothing is broken.
+// Straight ahead, and on the spot, a dead motor is found.
+TEST_F(MonitorTest, WheelPeersSayNothingInASkidSteersBend) {
+  for (const char* name : {"wheel_peers", "wheel_spread"})
+    for (const BodyTwist& twist : {kAhead, BodyTwist{0, 0, 0.8}, BodyTwist{0.2, 0, 0.15}}) {
+      SCOPED_TRACE(std::string(name) + " " + std::to_string(twist.wz_radps));
+      started_ = false;
+      Watch(name, FourWheels());
+      robot_->Tell(twist);
+      Go(3);
+      const bool bend = twist.vx_mps > 0 && twist.wz_radps > 0;
+      if (bend) robot_->power.motor_a = {-0.5, 1, -0.5, 1};
+      if (!bend) robot_->power.motor_a[2] = 0;
+      Go(5);
+      const bool peers = std::string(name) == "wheel_peers";
+      EXPECT_EQ(raised(peers ? 2 : 0), peers && !bend);
+    }
+}
+
 TEST_F(MonitorTest, YawRateNoticesATurnThatTheWheelsDidNotMake) {
   Watch("yaw_rate");
   robot_->Tell({0.2, 0, 0.5});

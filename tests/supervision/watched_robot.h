@@ -54,6 +54,16 @@ inline RobotSpec EightWheels() {
   return Limits(robot);
 }
 
+// Plain wheels, in two rows of two.
+inline RobotSpec FourWheels() {
+  RobotSpec robot;
+  robot.drive = "skid_steer";
+  for (const double x_m : {0.2, -0.2})
+    for (const double y_m : {0.2, -0.2})
+      robot.wheels.push_back(DrivenWheel(y_m > 0 ? "left" : "right", x_m, y_m));
+  return Limits(robot);
+}
+
 class WatchedRobot {
  public:
   static constexpr double kControl_s = 0.02;
