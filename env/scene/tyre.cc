@@ -39,8 +39,8 @@ std::vector<mjsGeom*> ScrubbingTyres(mjSpec* spec, const RobotSpec& robot) {
 }
 
 void PairTyre(mjSpec* spec, const mjsGeom* tyre, const mjsGeom* other, double drag) {
-  constexpr double kNormal_s = 0.02, kFriction_s = 0.2;  // time constants
-  constexpr mjtNum kSolimp[] = {0.7, 0.9, 0.0005};
+  constexpr double kNormal_s = 0.02, kFriction_s = 0.06;  // time constants
+  constexpr mjtNum kSolimp[] = {0.3, 0.9, 0.0005};
   mjsPair* pair = mjs_addPair(spec, nullptr);
   mjs_setString(pair->geomname1, mjs_getString(mjs_getName(tyre->element)));
   mjs_setString(pair->geomname2, mjs_getString(mjs_getName(other->element)));

@@ -7,9 +7,9 @@
 // normal. A contact as hard as the floor's is lost there, found again some milliseconds later, and
 // so on: the wheel hops by hundredths of a millimetre, turns faster while it is off the floor, and
 // the robot turns by up to a tenth less than its wheels say, its motors drawing current in pulses.
-// Rubber gives by more than that. So these wheels touch by pairs whose normal is softer (0.7 mm
-// under 64 N) and whose friction is slower, and they slide without a hop. The price is that of a
-// tyre: under a force along the floor it creeps, by 4 % of 0.3 m/s up a slope of 10 degrees.
+// Rubber gives by more than that. So these wheels touch by pairs whose normal is softer (0.4 mm
+// under 64 N) and whose friction is slower, and they slide without a hop up to 0.4 m/s. The price
+// is that of a tyre: under a force along the floor it creeps, by 5 mm/s up a slope of 10 degrees.
 #pragma once
 
 #include <mujoco/mujoco.h>
