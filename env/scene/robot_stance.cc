@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <set>
 
 #include "env/scene/compiled_robot.h"
@@ -33,8 +32,7 @@ Carrier CarrierOf(const CompiledRobot& compiled, int geom, bool driven) {
   carrier.name = name != nullptr ? name : "body " + std::to_string(body);
   carrier.driven = driven;
   const auto points = compiled.SurfacePoints(geom);
-  const double low =
-      std::ranges::min(points | std::views::transform([](const Vec3& p) { return p.z(); }));
+  const double low = std::ranges::min_element(points, {}, [](const Vec3& p) { return p.z(); })->z();
   for (const Vec3& p : points) {
     if (p.z() > low + kLevel_m) continue;
     carrier.footprint_B.emplace_back(p.head<2>());

@@ -18,8 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kUpright = 0.9, kLying = 0.2;  // of an axle's unit vector, along the vertical
-constexpr double kAlike = 0.05;   // radii that differ by no larger share belong to one pair
 constexpr double kCrowned = 0.5;  // of a tyre's width, what touches the floor
 
 class PartFinder {
