@@ -90,15 +90,16 @@ class Studio {
         puppet_(script),
         paint_((script.plan == nullptr ? 0 : static_cast<int>(script.plan->size())) +
                static_cast<int>(script.swept_again.size()) + 6000),
-        trail_(paint_),
-        again_(script.swept_again, paint_),
+        floor_(script.map),
+        trail_(floor_, paint_),
+        again_(script.swept_again, floor_, paint_),
         fan_(script.senses ? std::span(script.recording->senses())
                            : std::span<const Recording::Senses>(),
              2 * script.set.robot_radius_m, paint_),
         window_(script.window_m, LineWidth(), paint_),
         renderer_(script.model, options.width, options.height, paint_.max_marks(), options.quality),
         image_(renderer_.MakeImage()) {
-    if (script.plan != nullptr) PaintPlan(*script.plan, LineWidth(), paint_);
+    if (script.plan != nullptr) PaintPlan(*script.plan, LineWidth(), floor_, paint_);
     paint_.Keep();
   }
 
@@ -153,6 +154,7 @@ class Studio {
   std::unique_ptr<Camera> camera_;
   Puppet puppet_;
   FloorPaint paint_;
+  PaintedFloor floor_;
   Trail trail_;
   SweptAgain again_;
   Fan fan_;

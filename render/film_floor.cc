@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "env/core/standing.h"
 #include "render/cell_property.h"
 
 namespace floorproof {
@@ -25,9 +26,54 @@ std::array<float, 4> Rgba(const Rgb& colour) {
 // On a floor that is raised, above that.
 double Above(double floor_m, double z_m) { return floor_m > 0.01 ? floor_m + z_m : z_m; }
 
+// The plane, stated at another place.
+Lie LieAt(const Lie& lie, const Vec2& from, const Vec2& to) {
+  return {lie.z_m + lie.gradient.dot(to - from), lie.gradient};
+}
+
+// Whether what lies so at these places lies in one plane.
+bool OnePlane(const Lie& a, const Vec2& p, const Lie& b, const Vec2& q) {
+  constexpr double kApart_m = 0.005;
+  return a.gradient == b.gradient && std::abs(LieAt(a, p, q).z_m - b.z_m) <= kApart_m;
+}
+
+// A line of the plan, a stripe for each plane of the floor.
+void PaintAlong(const Vec2& a, const Vec2& b, double width_m, const PaintedFloor& floor,
+                FloorPaint& paint) {
+  constexpr double kLook_m = 0.02;
+  Vec2 from = a, last = a;
+  Lie lie = floor.At(a, kPlanZ_m);
+  const int n = floor.IsLevel() ? 0 : static_cast<int>((b - a).norm() / kLook_m);
+  for (int i = 1; i < n; ++i) {
+    const Vec2 p = a + (b - a) * i / n;
+    const Lie here = floor.At(p, kPlanZ_m);
+    if (!OnePlane(lie, from, here, p)) {
+      paint.AddStripe(from, last, lie, width_m, kPlanRgba);
+      from = p;
+      lie = here;
+    }
+    last = p;
+  }
+  paint.AddStripe(from, b, lie, width_m, kPlanRgba);
+}
+
 }  // namespace
 
-void PaintPlan(const Path& plan, double width_m, FloorPaint& paint) {
+PaintedFloor::PaintedFloor(const HazardMap* map) : map_(map) {
+  const auto shapes = [](const Hazard& hazard) {
+    return hazard.hazard_class == HazardClass::kLevelChange ||
+           std::ranges::any_of(hazard.solids, IsSlope);
+  };
+  if (map != nullptr && std::ranges::none_of(map->hazards, shapes)) map_ = nullptr;
+}
+
+Lie PaintedFloor::At(const Vec2& p_W, double over_m) const {
+  if (map_ == nullptr) return over_m;
+  const Ground ground = GroundAt(*map_, p_W);
+  return {ground.height_m + over_m, ground.gradient};
+}
+
+void PaintPlan(const Path& plan, double width_m, const PaintedFloor& floor, FloorPaint& paint) {
   std::size_t from = 0;
   for (std::size_t i = 1; i < plan.size(); ++i) {
     const Vec2 &a = plan[from].p_W, &b = plan[i].p_W;
@@ -35,43 +81,51 @@ void PaintPlan(const Path& plan, double width_m, FloorPaint& paint) {
                              DistanceToSegment(a, plan[i + 1].p_W, b) < 1e-3 &&
                              (b - a).dot(plan[i + 1].p_W - b) >= 0;
     if (straight_on || (b - a).norm() == 0) continue;
-    paint.AddStripe(a, b, kPlanZ_m, width_m, kPlanRgba);
+    PaintAlong(a, b, width_m, floor, paint);
     from = i;
   }
 }
 
+Lie Trail::LieOf(const Vec3& p) const {
+  const Lie ground = floor_.At(p.head<2>(), kTraceZ_m);
+  return ground.gradient.isZero(0) ? Lie(Above(p.z(), kTraceZ_m)) : ground;
+}
+
 void Trail::Add(const Vec3& p, double width_m) {
   constexpr double kStep_m = 0.02, kStray_m = 0.015;
-  const double z_m = Above(p.z(), kTraceZ_m);
+  const Lie lie = LieOf(p);
   const Vec2 q(p.x(), p.y());
   if (width_m != width_m_) run_.clear();
   width_m_ = width_m;
   if (width_m <= 0) return;
   if (run_.empty() || (q - run_.back()).norm() > kFilmJump_m) {
-    Begin(q, z_m);
+    Begin(q, lie);
     return;
   }
   if ((q - run_.back()).norm() < kStep_m) return;
   const bool strays = std::any_of(run_.begin() + 1, run_.end(), [&](const Vec2& between) {
     return DistanceToSegment(run_.front(), q, between) > kStray_m;
   });
-  if (strays || std::abs(z_m - z_m_) > 0.005) Begin(run_.back(), z_m);
+  if (strays || !OnePlane(lie_, run_.front(), lie, q))
+    Begin(run_.back(), LieAt(lie, q, run_.back()));
   run_.push_back(q);
   paint_.MoveStripe(stripe_, run_.front(), q);
 }
 
-void Trail::Begin(const Vec2& p, double z_m) {
+void Trail::Begin(const Vec2& p, const Lie& lie) {
   run_.assign(1, p);
-  z_m_ = z_m;
-  paint_.AddDisc(p, z_m, 0.5 * width_m_, kTraceRgba);
-  stripe_ = paint_.AddStripe(p, p, z_m, width_m_, kTraceRgba);
+  lie_ = lie;
+  paint_.AddDisc(p, lie, 0.5 * width_m_, kTraceRgba);
+  stripe_ = paint_.AddStripe(p, p, lie, width_m_, kTraceRgba);
 }
 
 void SweptAgain::Show(double t_s) {
   const auto rgba = Rgba(ColourOf(CellProperty::kTwice));
   for (; next_ < patches_.size() && patches_[next_].t_s <= t_s; ++next_) {
     const FloorPatch& patch = patches_[next_];
-    paint_.AddStripe(patch.a_W, patch.b_W, Above(patch.floor_m, kAgainZ_m), patch.width_m, rgba);
+    const Lie ground = floor_.At(patch.a_W, kAgainZ_m);
+    const Lie lie = ground.gradient.isZero(0) ? Lie(Above(patch.floor_m, kAgainZ_m)) : ground;
+    paint_.AddStripe(patch.a_W, patch.b_W, lie, patch.width_m, rgba);
   }
 }
 

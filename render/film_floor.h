@@ -13,19 +13,34 @@ namespace floorproof {
 
 inline constexpr double kFilmJump_m = 0.3;  // between two states: the robot was carried
 
-void PaintPlan(const Path& plan, double width_m, FloorPaint& paint);
+// The floor that is painted: the map's, or where there is none the base floor.
+class PaintedFloor {
+ public:
+  explicit PaintedFloor(const HazardMap* map);  // outlives it
+  // What lies so high over the floor at this place.
+  Lie At(const Vec2& p_W, double over_m) const;
+  bool IsLevel() const { return map_ == nullptr; }
+
+ private:
+  const HazardMap* map_;  // none: level all over
+};
+
+void PaintPlan(const Path& plan, double width_m, const PaintedFloor& floor, FloorPaint& paint);
 
 // Paints what was driven as few straight stripes with round corners, as a disc-shaped tool sweeps.
 class Trail {
  public:
-  explicit Trail(FloorPaint& paint) : paint_(paint) {}
+  Trail(const PaintedFloor& floor, FloorPaint& paint) : floor_(floor), paint_(paint) {}
   void Add(const Vec3& p, double width_m);
 
  private:
-  void Begin(const Vec2& p, double z_m);
+  Lie LieOf(const Vec3& p) const;
+  void Begin(const Vec2& p, const Lie& lie);
 
+  const PaintedFloor& floor_;
   FloorPaint& paint_;
-  double width_m_ = 0, z_m_ = 0;
+  double width_m_ = 0;
+  Lie lie_ = 0;
   std::vector<Vec2> run_;  // points since the last corner
   std::size_t stripe_ = 0;
 };
@@ -33,13 +48,14 @@ class Trail {
 // What is swept again, over what was swept.
 class SweptAgain {
  public:
-  // Both outlive it; the patches ascend in time.
-  SweptAgain(std::span<const FloorPatch> patches, FloorPaint& paint)
-      : patches_(patches), paint_(paint) {}
+  // All outlive it; the patches ascend in time.
+  SweptAgain(std::span<const FloorPatch> patches, const PaintedFloor& floor, FloorPaint& paint)
+      : patches_(patches), floor_(floor), paint_(paint) {}
   void Show(double t_s);
 
  private:
   std::span<const FloorPatch> patches_;
+  const PaintedFloor& floor_;
   FloorPaint& paint_;
   std::size_t next_ = 0;
 };

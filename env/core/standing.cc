@@ -84,8 +84,7 @@ bool FindFloor(const HazardMap& map, const RobotSpec& robot, const Pose2& X_WB, 
     const Vec2 p_W = X_WB * Vec2(wheel.p_BW.head<2>());
     const Hazard* level = LevelHazardAt(map, p_W);
     const double height_m = level != nullptr ? level->height_m : 0;
-    const Solid* slope = SlopeAt(map, p_W);
-    const double ground_m = slope != nullptr ? TopAt(*slope, p_W) : height_m;
+    const double ground_m = GroundAt(map, p_W).height_m;
     if (first || ground_m > out.rests_m) out.rests_m = ground_m;
     if (first || height_m > out.floor_m) out.floor_m = height_m, high = level;
     if (first || height_m < low_m) low_m = height_m, low = level;
@@ -185,9 +184,9 @@ double LevelAt(const HazardMap& map, const Vec2& p_W) {
   return level != nullptr ? level->height_m : 0;
 }
 
-double GroundAt(const HazardMap& map, const Vec2& p_W) {
-  const Solid* slope = SlopeAt(map, p_W);
-  return slope != nullptr ? TopAt(*slope, p_W) : LevelAt(map, p_W);
+Ground GroundAt(const HazardMap& map, const Vec2& p_W) {
+  if (const Solid* slope = SlopeAt(map, p_W)) return {TopAt(*slope, p_W), slope->gradient};
+  return {LevelAt(map, p_W)};
 }
 
 Standing StandAt(const HazardMap& map, const RobotSpec& robot, const Pose2& X_WB) {

@@ -36,7 +36,11 @@ bool TouchesWall(const HazardMap& map, Polygon polygon_W);
 
 // The height of the level at this place: that of the last level change that is built there, else 0.
 double LevelAt(const HazardMap& map, const Vec2& p_W);
-// The same; on a slope, the slope's height there.
-double GroundAt(const HazardMap& map, const Vec2& p_W);
+// The same; on a slope, the slope's there.
+struct Ground {
+  double height_m = 0;
+  Vec2 gradient = Vec2::Zero();  // its rise per metre along the world's x and y
+};
+Ground GroundAt(const HazardMap& map, const Vec2& p_W);
 
 }  // namespace floorproof

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -42,13 +43,14 @@ TEST(FilmFloor, WithoutAWindowThereIsNoRing) {
 
 TEST(FilmFloor, WhatIsSweptAgainLiesOverWhatWasSweptFromItsTimeOn) {
   FloorPaint paint;
-  Trail trail(paint);
+  const PaintedFloor level(nullptr);
+  Trail trail(level, paint);
   trail.Add({0, 0, 0}, 0.3);
   trail.Add({1, 0, 0}, 0.3);
   const std::size_t swept = paint.geoms().size();
   const std::vector<FloorPatch> patches = {{5, {0, 0}, {0.5, 0}, 0.2, 0},
                                            {8, {0.5, 0}, {1, 0}, 0.2, 0.05}};
-  SweptAgain dut(patches, paint);
+  SweptAgain dut(patches, level, paint);
   dut.Show(4.9);
   EXPECT_EQ(paint.geoms().size(), swept);
   dut.Show(5);
@@ -62,6 +64,48 @@ TEST(FilmFloor, WhatIsSweptAgainLiesOverWhatWasSweptFromItsTimeOn) {
   EXPECT_NEAR(top(paint.geoms()[swept + 1]) - top(paint.geoms()[swept]), 0.05, 2e-3) << "raised";
   EXPECT_FLOAT_EQ(paint.geoms()[swept].size[1], 0.1f) << "half of its width";
   EXPECT_NE(paint.geoms()[swept].rgba[2], paint.geoms()[0].rgba[2]);
+}
+
+// The height of a stripe's top at its ends.
+std::array<double, 2> Tops(const mjvGeom& stripe) {
+  const double half = static_cast<double>(stripe.size[0]) * static_cast<double>(stripe.mat[6]);
+  const double top = static_cast<double>(stripe.pos[2]) + static_cast<double>(stripe.size[2]);
+  return {top - half, top + half};
+}
+
+// From the floor up a ramp of 1 in 10 onto a platform: a plan's line, and what was driven, lie on
+// each of them, straight along the way and across it.
+TEST(FilmFloor, WhatIsPaintedLiesOnSlopesAndPlatforms) {
+  HazardMap map;
+  Hazard ramp, platform;
+  ramp.hazard_class = HazardClass::kTerrain;
+  ramp.solids = {{Solid::Kind::kPrism, Rectangle({1, -2}, {2, 2}), {}, 0, 0.1, {0.1, 0}}};
+  platform.hazard_class = HazardClass::kLevelChange;
+  platform.height_m = 0.1;
+  platform.solids = {{Solid::Kind::kPrism, Rectangle({2, -2}, {4, 2}), {}, 0, 0.1}};
+  map.hazards = {ramp, platform};
+  const PaintedFloor floor(&map);
+  FloorPaint plan;
+  Path path(2);
+  path[1].p_W = {3, 0};
+  PaintPlan(path, 0.02, floor, plan);
+  ASSERT_EQ(plan.geoms().size(), 3u) << "floor, ramp, platform";
+  FloorPaint driven;
+  Trail dut(floor, driven);
+  for (double x = 0; x <= 3; x += 0.02) dut.Add({x, 0, std::clamp(0.1 * (x - 1), 0.0, 0.1)}, 0.3);
+  EXPECT_LT(driven.geoms().size(), 12u) << "few stripes, with a disc each";
+  for (const FloorPaint* paint : {&plan, &driven})
+    for (const mjvGeom& mark : paint->geoms()) {
+      if (mark.type != mjGEOM_BOX) continue;
+      const auto ends = Ends(mark);
+      const auto tops = Tops(mark);
+      for (std::size_t i = 0; i < 2; ++i)
+        EXPECT_NEAR(tops[i], std::clamp(0.1 * (ends[i].x() - 1), 0.0, 0.1), 0.008);
+      const bool on_ramp = ends[0].x() > 0.98 && ends[1].x() < 2.02 && ends[0] != ends[1];
+      if (on_ramp) {
+        EXPECT_NEAR(mark.mat[2], -std::sin(std::atan(0.1)), 1e-3) << "tilted with it";
+      }
+    }
 }
 
 }  // namespace
