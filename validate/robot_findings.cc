@@ -46,6 +46,7 @@ class Findings {
   }
 
   void Inertias(const RobotModel& robot) {
+    constexpr double kNone = 1e-6;  // MuJoCo takes what is below 0 for 0
     const ModelPtr model = CompileAlone(robot);
     const mjModel* m = model.get();
     for (int b = 1; b < m->nbody; ++b) {
@@ -55,13 +56,18 @@ class Findings {
       for (int g = m->body_geomadr[b]; g < m->body_geomadr[b] + m->body_geomnum[b]; ++g)
         reach_m = std::max(
             reach_m, m->geom_rbound[g] + mju_dist3(m->geom_pos + 3 * g, m->body_ipos + 3 * b));
-      const mjtNum* inertia = m->body_inertia + 3 * b;
-      const double most = std::max({inertia[0], inertia[1], inertia[2]});
-      if (reach_m == 0 || most <= mass_kg * reach_m * reach_m) continue;
       const char* name = mj_id2name(m, mjOBJ_BODY, b);
+      const std::string body = name != nullptr ? name : fmt::format("body {}", b);
+      const auto [least, most] =
+          std::minmax_element(m->body_inertia + 3 * b, m->body_inertia + 3 * b + 3);
+      if (*least <= kNone * *most) {
+        Wrong(fmt::format("the inertia of {} has a principal moment of 0, which no body has", body),
+              "leave <inertial> out, so that its geoms say, or state three moments above 0");
+        continue;
+      }
+      if (reach_m == 0 || *most <= mass_kg * reach_m * reach_m) continue;
       Wrong(fmt::format("the inertia of {}, {} kg m2, is more than {} kg can have within its shape",
-                        name != nullptr ? name : fmt::format("body {}", b), NumberText(most),
-                        NumberText(mass_kg)),
+                        body, NumberText(*most), NumberText(mass_kg)),
             fmt::format("leave <inertial> out, so that its geoms say, or state at most {} kg m2",
                         NumberText(mass_kg * reach_m * reach_m)));
     }

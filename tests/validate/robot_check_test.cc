@@ -106,6 +106,7 @@ TEST(RobotCheck, AnInertiaThatNoSuchBodyCanHaveIsNoticed) {
                                     std::string(inertia) + "\"/>"});
   };
   EXPECT_THAT(with("0.01 0.02 0.025"), IsEmpty());
+  EXPECT_THAT(with("-0.01 0.02 0.02"), Contains(HasSubstr("a principal moment of 0")));
   EXPECT_THAT(with("0.5 0.5 0.5"), Contains(StartsWith("wrong: the inertia of base, 0.5 kg m2")));
 }
 
