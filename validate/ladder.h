@@ -37,8 +37,9 @@ struct LadderHazard {
 // step: height of a raised floor. drop: depth of a lowered one. groove: width of a slot 50 mm deep.
 // cable_cover: angle of the flanks of one 20 mm high with a top of 50 mm. cable_cover_height: of
 // one with flanks of 30 deg. rough: highest bump over 0.6 m at a wavelength of 0.1 m. threshold:
-// height of one as at a new door. ramp, ramp_down: slope. carpet: height. lift_sill: how much higher
-// the floor lies behind a gap of 32 mm. wet: how much less than 1 a patch of 1 m has of friction.
+// height of one as at a new door. ramp, ramp_down: slope. carpet: height. lift_sill: how much
+// higher the floor lies behind a gap of 32 mm. wet: how much less than 1 a patch of 1 m has of
+// friction.
 std::span<const LadderHazard> LadderHazards();
 const LadderHazard& FindLadderHazard(std::string_view name);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "env/hazards/rim.h"
 
-#include "base/params.h"
 #include "base/error.h"
+#include "base/params.h"
 
 namespace floorproof {
 namespace {

@@ -27,7 +27,7 @@ TEST(Energy, BalancesPartWhereTheMotorsPowerIsWrong) {
     losses += heat;
   }
   EXPECT_EQ(balances, 6);
-  EXPECT_EQ(losses, 6);
+  EXPECT_EQ(losses, 7);
 }
 
 }  // namespace

@@ -101,7 +101,7 @@ TEST(LadderCells, AreEveryRobotHazardDirectionSpeedAndFrictionOnce) {
 // At 0, 0.5, 1, 3, 5 and 10 degrees off square, and from farther away.
 TEST(LadderCells, AreMetSquareAndAslantToo) {
   const auto cells = ObliqueCells();
-  EXPECT_EQ(cells.size(), LadderHazards().size() * (2 + 3) * 7);
+  EXPECT_EQ(cells.size(), LadderHazards().size() * (2 + 3 + 2) * 7);
   std::set<std::string> seen;
   for (const LadderCell& cell : cells) {
     const LadderRow row{cell, 0, false, ""};
