@@ -132,6 +132,25 @@ TEST(SceneTest, ARampIsAsHighAsItsSlopeSays) {
   EXPECT_NEAR(SurfaceBelow(dut, data.get(), {5.8, 5}), 0, 1e-6);
 }
 
+// What stands in a puddle is not cut in two by it, and stays as it is.
+TEST(SceneTest, FurnitureInAWetPatchStaysDry) {
+  HazardMap map = EmptyRoom(20, 16);
+  Hazard box, wet;
+  box.id = "box";
+  box.hazard_class = HazardClass::kBlindObject;
+  box.footprint = {Rectangle({4, 2}, {5, 3})};
+  box.solids = {{Solid::Kind::kPrism, box.footprint[0], {}, 0, 0.5}};
+  wet.id = "wet";
+  wet.hazard_class = HazardClass::kTerrain;
+  wet.material.friction = 0.3;
+  wet.footprint = {Rectangle({4.5, 1}, {8, 5})};
+  wet.solids = {{Solid::Kind::kSurface, wet.footprint[0], {}, 0, 0}};
+  map.hazards = {box, wet};
+  const RobotModel robot = ReadRobot(FindRobotFile("beluga", {}));
+  const Scene dut = BuildScene(map, robot, {}, {1, 1, 0});
+  EXPECT_EQ(dut.num_hazard_geoms, 1);
+}
+
 // What is wet is the floor there, whatever level or slope that is; what came later is dry.
 TEST(SceneTest, AWetPatchGivesItsFrictionToTheFloorsBelowIt) {
   HazardMap map = EmptyRoom(20, 16);
