@@ -29,15 +29,24 @@ LikelihoodField::LikelihoodField(const HazardMap& known, double height_m) {
   // With a ring of cells beyond the map, which is wall: beams end there where the map ends free.
   const int width = (known.frame.width + 2) * fine, height = (known.frame.height + 2) * fine;
   X_GW_ = Pose2{known.frame.cell_m, known.frame.cell_m, 0} * known.frame.X_WG.Inverse();
+  const Pose2 X_WG = X_GW_.Inverse();
   Grid<std::uint8_t> met(width, height);
   for (int iy = 0; iy < height; ++iy)
     for (int ix = 0; ix < width; ++ix) met(ix, iy) = known.IsWall(ix / fine - 1, iy / fine - 1);
   for (const Hazard& hazard : known.hazards) {
     if (!IsMet(hazard, height_m)) continue;
-    for (Polygon polygon : hazard.footprint) {
+    const auto add = [&](Polygon polygon, const auto& is_met_at) {
       for (Vec2& p : polygon) p = (X_GW_ * p) / cell_m_;
-      Rasterise(polygon, width, height, [&](int ix, int iy) { met(ix, iy) = 1; });
-    }
+      Rasterise(polygon, width, height, [&](int ix, int iy) {
+        if (is_met_at(X_WG * Vec2(cell_m_ * Vec2(ix + 0.5, iy + 0.5)))) met(ix, iy) = 1;
+      });
+    };
+    if (std::ranges::none_of(hazard.solids, IsSlope))
+      for (const Polygon& polygon : hazard.footprint)
+        add(polygon, [](const Vec2&) { return true; });
+    for (const Solid& slope : hazard.solids)  // from where it is that high
+      if (IsSlope(slope))
+        add(slope.base, [&](const Vec2& p_W) { return TopAt(slope, p_W) > height_m; });
   }
   const Grid<float> cells_away = DistanceToCentres(met);
   // Walls that are built drawn back are met within their cells, that deep.

@@ -196,9 +196,29 @@ bool LaySolid(const Solid& solid, std::span<const Hazard> hazards, std::size_t i
   return grounds.size() > 1;
 }
 
+// Whether one of the solids is built where a slope of this hazard is.
+bool LiesOnSlopeOf(const Hazard& ramp, std::span<const Solid> solids) {
+  return std::ranges::any_of(ramp.solids, [&](const Solid& slope) {
+    return IsSlope(slope) && std::ranges::any_of(solids, [&](const Solid& solid) {
+             return solid.kind == Solid::Kind::kPrism &&
+                    Overlap(BoxAround(solid.base), BoxAround(slope.base)) &&
+                    !SplitBy({{solid.base, {}}}, {slope.base}).within.empty();
+           });
+  });
+}
+
+void WarnOfSlopes(std::span<const Hazard> hazards, std::vector<std::string>& warnings) {
+  for (std::size_t i = 0; i < hazards.size(); ++i)
+    for (std::size_t ramp = 0; ramp < i; ++ramp)
+      if (LiesOnSlopeOf(hazards[ramp], hazards[i].solids))
+        warnings.push_back(hazards[i].id + " lies on the slope of " + hazards[ramp].id +
+                           ": it is built level, from the floor below the ramp");
+}
+
 }  // namespace
 
 void LayFloors(std::vector<Hazard>& hazards, std::vector<std::string>& warnings) {
+  WarnOfSlopes(hazards, warnings);
   MadeFloors floors(hazards, MadeFloors::Levels::kBuilt);
   std::vector<std::string> across;  // from the last to the first
   for (std::size_t i = hazards.size(); i-- > 0;) {

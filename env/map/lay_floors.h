@@ -15,9 +15,10 @@ namespace floorproof {
 // edges; `warnings` names what does. It bridges a groove before it. A floor is where it is built:
 // the bases of its solids, which on a drawing are smaller than its cells. Terrain on terrain stays:
 // the higher is felt. Pieces narrower than 0.1 mm are left out: they would be no solid; along
-// curves of many corners a cut may be off by half of that. Footprints stay whole, so that a map
-// without its unknown hazards does not show where they lie. The solids must be as their types make
-// them: those that taper with a corner of `top` for each of `base`.
+// curves of many corners a cut may be off by half of that. What is built on a ramp before it is
+// built level, from the floor below the ramp; `warnings` names it. Footprints stay whole, so that a
+// map without its unknown hazards does not show where they lie. The solids must be as their types
+// make them: those that taper with a corner of `top` for each of `base`.
 void LayFloors(std::vector<Hazard>& hazards, std::vector<std::string>& warnings);
 
 }  // namespace floorproof

@@ -105,7 +105,10 @@ bool ContactReader::Understand(const mjModel* m, const mjData* d, int index, Con
 
 bool ContactReader::GoesOn(const GeomRole& slab, const Vec2& p_W) const {
   if (slab.hazard < 0) return slab.kind == GeomRole::Kind::kFloor;
-  return std::ranges::any_of(map_.hazards[static_cast<std::size_t>(slab.hazard)].footprint,
+  const Hazard& hazard = map_.hazards[static_cast<std::size_t>(slab.hazard)];
+  const auto is_surface = [](const Solid& s) { return s.kind == Solid::Kind::kSurface; };
+  if (std::ranges::any_of(hazard.solids, is_surface)) return true;  // the base floor, wet
+  return std::ranges::any_of(hazard.footprint,
                              [&](const Polygon& part) { return Contains(part, p_W); });
 }
 

@@ -225,5 +225,42 @@ TEST(LayFloors, CoversThatCrossStayBoth) {
   EXPECT_NEAR(Volume(dut[1]), Volume(other), 1e-12);
 }
 
+// A cover does not bend over a ramp; water does.
+TEST(LayFloors, WhatIsBuiltOnARampIsNamed) {
+  Hazard ramp = MakeOf("ramp", "{slope_deg: 5}", Rectangle({-1, -1}, {3, 1}));
+  ramp.id = "ramp";
+  Hazard cover = Cover(), wet = MakeOf("wet", "{}", Rectangle({0, 0}, {1, 1})), far = Cover();
+  cover.id = "cover";
+  for (Solid& solid : far.solids)
+    for (Polygon* polygon : {&solid.base, &solid.top})
+      for (Vec2& p : *polygon) p.y() += 1.045;  // touches it
+  const auto warned = [&](std::vector<Hazard> hazards) {
+    std::vector<std::string> warnings;
+    LayFloors(hazards, warnings);
+    return warnings;
+  };
+  EXPECT_EQ(warned({ramp, cover}).size(), 1u);
+  EXPECT_NE(warned({ramp, cover})[0].find("cover lies on the slope of ramp"), std::string::npos);
+  EXPECT_TRUE(warned({ramp, wet}).empty());
+  EXPECT_TRUE(warned({ramp, far}).empty());
+}
+
+// The slopes round a carpet that is not convex are wedges: a groove takes its width of them, too.
+TEST(LayFloors, AGrooveAcrossACarpetTakesItsWidthOfTheSlopesToo) {
+  const Polygon corner = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+  const double w = 0.02, h = 0.01, width_m = 0.03;
+  const Hazard carpet = MakeOf("carpet", "{height_m: 0.01, bevel: 2}", corner);
+  // Straight across the one arm, then aslant over the inner corner.
+  const Hazard straight =
+      MakeOf("groove", "{width_m: 0.03, depth_m: 0.02}", {{1.5, -0.5}, {1.5, 1.5}});
+  const double taken = width_m * h * (1 - w);  // the arm is 1 m wide, its slopes count half
+  EXPECT_NEAR(Volume(Laid({carpet, straight})[0]), Volume(carpet) - taken, 2e-7);
+  const Hazard aslant =
+      MakeOf("groove", "{width_m: 0.03, depth_m: 0.02}", {{0.5, 0.5}, {1.5, 1.5}});
+  const double left = Volume(Laid({carpet, aslant})[0]);
+  EXPECT_LT(left, Volume(carpet) - 0.03 * h * 0.6);
+  EXPECT_GT(left, Volume(carpet) - 0.03 * h * 0.8);
+}
+
 }  // namespace
 }  // namespace floorproof

@@ -169,6 +169,26 @@ TEST_P(Building, APlanCoversAPlatformWithARamp) {
   EXPECT_GT(dut.metrics.coverage, 0.9);
 }
 
+// Set down on a ramp, facing up, down or across, it stands there as it is put, leaning as the ramp
+// does.
+TEST_P(Building, SetDownOnARampItStandsThere) {
+  for (const double slope_deg : {6.0, -6.0})
+    for (const double yaw_deg : {0.0, 90.0, 200.0}) {
+      SCOPED_TRACE(fmt::format("{} {}", slope_deg, yaw_deg));
+      Save("plan.csv",
+           fmt::format("x_m,y_m\n{:.6f},{:.6f}\n", 3.2 + 0.4 * std::cos(yaw_deg * kPi / 180),
+                       2.5 + 0.4 * std::sin(yaw_deg * kPi / 180)));
+      Heights heights;
+      const EpisodeRecord dut =
+          Over(Ramp("ramp", 2.2, 4.6, slope_deg, 0),
+               {{"start", fmt::format("{{x_m: 3.2, y_m: 2.5, yaw_deg: {}}}", yaw_deg)}}, &heights);
+      EXPECT_EQ(dut.outcome, Outcome::kSuccess) << dut.message;
+      for (const Event& e : dut.events) ADD_FAILURE() << Name(e.mode) << " " << e.kind;
+      EXPECT_NEAR(heights.tilt_rad, 6 * kPi / 180, 0.06);
+      EXPECT_NEAR(heights.highest_m, Rise(slope_deg, slope_deg > 0 ? 1.4 : 0.6), 0.06);
+    }
+}
+
 // What the bundled scenario says of itself: across the lift's gap it gets on, along it a wheel, as
 // wide as the gap or less, rolls in.
 TEST_F(ScenarioTest, LanesAlongALiftsGapAreATrapAndLanesAcrossAreNot) {
