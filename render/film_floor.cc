@@ -23,8 +23,14 @@ std::array<float, 4> Rgba(const Rgb& colour) {
           static_cast<float>(colour[2]) / 255, 1};
 }
 
-// On a floor that is raised, above that.
-double Above(double floor_m, double z_m) { return floor_m > 0.01 ? floor_m + z_m : z_m; }
+// What lies so high over what a robot at this place stands on: the floor, or where it stands
+// higher, on a cover.
+Lie Under(const Vec3& p, const PaintedFloor& floor, double over_m) {
+  constexpr double kHigher_m = 0.01;
+  const Lie ground = floor.At(p.head<2>(), over_m);
+  const bool higher = ground.gradient.isZero(0) && p.z() + over_m > ground.z_m + kHigher_m;
+  return higher ? Lie(p.z() + over_m) : ground;
+}
 
 // The plane, stated at another place.
 Lie LieAt(const Lie& lie, const Vec2& from, const Vec2& to) {
@@ -33,7 +39,7 @@ Lie LieAt(const Lie& lie, const Vec2& from, const Vec2& to) {
 
 // Whether what lies so at these places lies in one plane.
 bool OnePlane(const Lie& a, const Vec2& p, const Lie& b, const Vec2& q) {
-  constexpr double kApart_m = 0.005;
+  constexpr double kApart_m = 0.0015;  // less than the trace lies over the floor
   return a.gradient == b.gradient && std::abs(LieAt(a, p, q).z_m - b.z_m) <= kApart_m;
 }
 
@@ -86,14 +92,9 @@ void PaintPlan(const Path& plan, double width_m, const PaintedFloor& floor, Floo
   }
 }
 
-Lie Trail::LieOf(const Vec3& p) const {
-  const Lie ground = floor_.At(p.head<2>(), kTraceZ_m);
-  return ground.gradient.isZero(0) ? Lie(Above(p.z(), kTraceZ_m)) : ground;
-}
-
 void Trail::Add(const Vec3& p, double width_m) {
   constexpr double kStep_m = 0.02, kStray_m = 0.015;
-  const Lie lie = LieOf(p);
+  const Lie lie = Under(p, floor_, kTraceZ_m);
   const Vec2 q(p.x(), p.y());
   if (width_m != width_m_) run_.clear();
   width_m_ = width_m;
@@ -123,9 +124,8 @@ void SweptAgain::Show(double t_s) {
   const auto rgba = Rgba(ColourOf(CellProperty::kTwice));
   for (; next_ < patches_.size() && patches_[next_].t_s <= t_s; ++next_) {
     const FloorPatch& patch = patches_[next_];
-    const Lie ground = floor_.At(patch.a_W, kAgainZ_m);
-    const Lie lie = ground.gradient.isZero(0) ? Lie(Above(patch.floor_m, kAgainZ_m)) : ground;
-    paint_.AddStripe(patch.a_W, patch.b_W, lie, patch.width_m, rgba);
+    const Vec3 at(patch.a_W.x(), patch.a_W.y(), patch.floor_m);
+    paint_.AddStripe(patch.a_W, patch.b_W, Under(at, floor_, kAgainZ_m), patch.width_m, rgba);
   }
 }
 

@@ -34,7 +34,6 @@ class Trail {
   void Add(const Vec3& p, double width_m);
 
  private:
-  Lie LieOf(const Vec3& p) const;
   void Begin(const Vec2& p, const Lie& lie);
 
   const PaintedFloor& floor_;

@@ -113,7 +113,7 @@ View Top(const RobotCheck& check, const std::vector<RobotPart>& parts) {
   const Span x = SpanOf(parts, Vec3::UnitX()), y = SpanOf(parts, Vec3::UnitY());
   view.dimensions = {
       {right.p_BW.head<2>(), left.p_BW.head<2>(), false, 1, "track " + LengthText(check.track_m)},
-      {{x.high, y.low}, {x.high, y.high}, false, 2, LengthText(y.high - y.low)},
+      {{x.high, y.low}, {x.high, y.high}, false, 3, LengthText(y.high - y.low)},
       {{x.low, y.low}, {x.high, y.low}, true, 1, LengthText(x.high - x.low)}};
   return view;
 }
