@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "env/core/slopes.h"
 #include "env/geometry/distance.h"
 #include "env/geometry/rasterise.h"
 
@@ -41,7 +42,7 @@ LikelihoodField::LikelihoodField(const HazardMap& known, double height_m) {
         if (is_met_at(X_WG * Vec2(cell_m_ * Vec2(ix + 0.5, iy + 0.5)))) met(ix, iy) = 1;
       });
     };
-    if (std::ranges::none_of(hazard.solids, IsSlope))
+    if (!IsRamp(hazard))
       for (const Polygon& polygon : hazard.footprint)
         add(polygon, [](const Vec2&) { return true; });
     for (const Solid& slope : hazard.solids)  // from where it is that high

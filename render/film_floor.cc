@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "env/core/slopes.h"
 #include "env/core/standing.h"
 #include "render/cell_property.h"
 
@@ -67,8 +68,7 @@ void PaintAlong(const Vec2& a, const Vec2& b, double width_m, const PaintedFloor
 
 PaintedFloor::PaintedFloor(const HazardMap* map) : map_(map) {
   const auto shapes = [](const Hazard& hazard) {
-    return hazard.hazard_class == HazardClass::kLevelChange ||
-           std::ranges::any_of(hazard.solids, IsSlope);
+    return hazard.hazard_class == HazardClass::kLevelChange || IsRamp(hazard);
   };
   if (map != nullptr && std::ranges::none_of(map->hazards, shapes)) map_ = nullptr;
 }
@@ -94,16 +94,16 @@ void PaintPlan(const Path& plan, double width_m, const PaintedFloor& floor, Floo
 
 void Trail::Add(const Vec3& p, double width_m) {
   constexpr double kStep_m = 0.02, kStray_m = 0.015;
-  const Lie lie = Under(p, floor_, kTraceZ_m);
   const Vec2 q(p.x(), p.y());
   if (width_m != width_m_) run_.clear();
   width_m_ = width_m;
   if (width_m <= 0) return;
   if (run_.empty() || (q - run_.back()).norm() > kFilmJump_m) {
-    Begin(q, lie);
+    Begin(q, Under(p, floor_, kTraceZ_m));
     return;
   }
   if ((q - run_.back()).norm() < kStep_m) return;
+  const Lie lie = Under(p, floor_, kTraceZ_m);
   const bool strays = std::any_of(run_.begin() + 1, run_.end(), [&](const Vec2& between) {
     return DistanceToSegment(run_.front(), q, between) > kStray_m;
   });

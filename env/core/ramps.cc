@@ -8,15 +8,14 @@
 #include <utility>
 
 #include "env/core/levels.h"
+#include "env/core/slopes.h"
 
 namespace floorproof {
 namespace {
 
-constexpr double kBeside_m = 0.02;  // a ramp that ends so near a level leads onto it
 constexpr double kSample_m = 0.02;  // from place to place along an edge
 constexpr double kLook_m = 0.005;   // inside and outside of it
 
-bool IsRamp(const Hazard& hazard) { return std::ranges::any_of(hazard.solids, IsSlope); }
 bool IsLevel(const Hazard& hazard) { return hazard.hazard_class == HazardClass::kLevelChange; }
 
 bool Holds(const Hazard& hazard, const Vec2& p_W) {
@@ -54,33 +53,18 @@ class Floors {
   double HeightAt(const Vec2& p_W) const {
     for (std::size_t h = map_.hazards.size(); h-- > 0;) {
       const Hazard& hazard = map_.hazards[h];
-      for (const Solid& solid : hazard.solids)
-        if (IsSlope(solid) && Contains(solid.base, p_W)) return TopAt(solid, p_W);
+      if (const Solid* slope = SlopeAt(hazard, p_W)) return TopAt(*slope, p_W);
       if (IsLevel(hazard) && Holds(hazard, p_W)) return hazard.height_m;
     }
     return 0;
   }
 
-  template <class At>
-  static bool AnyCorner(const Hazard& ramp, const At& at) {
-    return std::ranges::any_of(ramp.solids, [&](const Solid& solid) {
-      return IsSlope(solid) && std::ranges::any_of(solid.base, [&](const Vec2& corner_W) {
-               return at(corner_W, TopAt(solid, corner_W));
-             });
-    });
-  }
   bool Joins(const Hazard& ramp, const Hazard& level) const {
-    return AnyCorner(ramp, [&](const Vec2& p_W, double z_m) {
-      return std::abs(z_m - level.height_m) <= step_m_ &&
-             std::ranges::any_of(level.footprint, [&](const Polygon& part) {
-               return SignedDistance(part, p_W) < kBeside_m;
-             });
-    });
+    return LeadsOnto(ramp, level.height_m, &level.footprint, step_m_);
   }
   // From level 0, or from an open level.
   bool StartsFromOpen(const Hazard& ramp) const {
-    if (AnyCorner(ramp, [&](const Vec2&, double z_m) { return std::abs(z_m) <= step_m_; }))
-      return true;
+    if (LeadsOnto(ramp, 0, nullptr, step_m_)) return true;
     for (std::size_t h = 0; h < open_.size(); ++h)
       if (open_[h] && IsLevel(map_.hazards[h]) && Joins(ramp, map_.hazards[h])) return true;
     return false;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "env/core/slopes.h"
 #include "env/geometry/box.h"
 #include "env/geometry/rasterise.h"
 
@@ -62,10 +63,9 @@ const Hazard* LevelHazardAt(const HazardMap& map, const Vec2& p_W) {
   return nullptr;
 }
 
-const Solid* SlopeAt(const HazardMap& map, const Vec2& p_W) {
+const Solid* LastSlopeAt(const HazardMap& map, const Vec2& p_W) {
   for (std::size_t h = map.hazards.size(); h-- > 0;)
-    for (const Solid& solid : map.hazards[h].solids)
-      if (IsSlope(solid) && Contains(solid.base, p_W)) return &solid;
+    if (const Solid* slope = SlopeAt(map.hazards[h], p_W)) return slope;
   return nullptr;
 }
 
@@ -185,7 +185,7 @@ double LevelAt(const HazardMap& map, const Vec2& p_W) {
 }
 
 Ground GroundAt(const HazardMap& map, const Vec2& p_W) {
-  if (const Solid* slope = SlopeAt(map, p_W)) return {TopAt(*slope, p_W), slope->gradient};
+  if (const Solid* slope = LastSlopeAt(map, p_W)) return {TopAt(*slope, p_W), slope->gradient};
   return {LevelAt(map, p_W)};
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "env/core/slopes.h"
 #include "env/failures/footing.h"
 
 namespace floorproof {
@@ -12,35 +13,22 @@ bool PlanFloor::Level::IsRamp() const {
   return hazard != nullptr && hazard->hazard_class != HazardClass::kLevelChange;
 }
 
-bool PlanFloor::Level::Holds(const Vec2& p_W, double beside_m) const {
+bool PlanFloor::Level::Holds(const Vec2& p_W) const {
   return hazard == nullptr || std::ranges::any_of(hazard->footprint, [&](const Polygon& part) {
-           return beside_m > 0 ? SignedDistance(part, p_W) < beside_m : Contains(part, p_W);
+           return Contains(part, p_W);
          });
 }
 
 double PlanFloor::Level::HeightAt(const Vec2& p_W) const {
   if (!IsRamp()) return height_m;
-  for (const Solid& solid : hazard->solids)
-    if (IsSlope(solid) && Contains(solid.base, p_W)) return TopAt(solid, p_W);
-  return 0;
-}
-
-// Whether the ramp's edge ends at this level.
-bool PlanFloor::Level::IsReachedBy(const Level& ramp, double step_m) const {
-  constexpr double kBeside_m = 0.02;
-  return std::ranges::any_of(ramp.hazard->solids, [&](const Solid& solid) {
-    return IsSlope(solid) && std::ranges::any_of(solid.base, [&](const Vec2& corner_W) {
-             return std::abs(TopAt(solid, corner_W) - height_m) <= step_m &&
-                    Holds(corner_W, kBeside_m);
-           });
-  });
+  const Solid* slope = SlopeAt(*hazard, p_W);
+  return slope != nullptr ? TopAt(*slope, p_W) : 0;
 }
 
 PlanFloor::PlanFloor(const HazardMap& map, const RobotSpec& robot)
     : map_(&map), robot_(&robot), levels_{Level{}} {
   for (const Hazard& hazard : map.hazards)
-    if (hazard.hazard_class == HazardClass::kLevelChange ||
-        std::ranges::any_of(hazard.solids, IsSlope))
+    if (hazard.hazard_class == HazardClass::kLevelChange || floorproof::IsRamp(hazard))
       levels_.push_back({&hazard, hazard.height_m});
 }
 
@@ -62,7 +50,10 @@ bool PlanFloor::IsDriven(const Level& level) const {
   if (level.hazard != nullptr && !level.hazard->known) return false;
   return level.IsRamp() || std::abs(level.height_m - start_m_) <= robot_->step_m ||
          std::ranges::any_of(levels_, [&](const Level& ramp) {
-           return ramp.IsRamp() && ramp.hazard->known && level.IsReachedBy(ramp, robot_->step_m);
+           return ramp.IsRamp() && ramp.hazard->known &&
+                  LeadsOnto(*ramp.hazard, level.height_m,
+                            level.hazard != nullptr ? &level.hazard->footprint : nullptr,
+                            robot_->step_m);
          });
 }
 

@@ -38,9 +38,8 @@ class PlanFloor {
     double height_m = 0;             // of a ramp, its end's
     bool driven = false;
     bool IsRamp() const;
-    bool Holds(const Vec2& p_W, double beside_m = 0) const;
+    bool Holds(const Vec2& p_W) const;
     double HeightAt(const Vec2& p_W) const;
-    bool IsReachedBy(const Level& ramp, double step_m) const;
   };
   bool IsDriven(const Level& level) const;
   double At(const Vec2& p_W) const;

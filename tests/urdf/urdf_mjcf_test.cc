@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "tests/urdf/urdf_files.h"
-#include "validate/robot_check.h"
+#include "tests/validate/wrongs.h"
 
 namespace floorproof {
 namespace {
@@ -16,13 +16,6 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-
-std::vector<std::string> Wrongs(const RobotCheck& check) {
-  std::vector<std::string> lines;
-  for (const Finding& finding : check.findings)
-    if (finding.kind == Finding::Kind::kWrong) lines.push_back(finding.Line());
-  return lines;
-}
 
 // The figures that the URDF states come back from the MJCF.
 TEST(UrdfMjcf, TheRobotIsTheUrdfs) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "tests/validate/two_wheels.h"
+#include "tests/validate/wrongs.h"
 
 namespace floorproof {
 namespace {
@@ -17,12 +18,6 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-std::vector<std::string> Wrongs(const RobotCheck& check) {
-  std::vector<std::string> lines;
-  for (const Finding& finding : check.findings)
-    if (finding.kind == Finding::Kind::kWrong) lines.push_back(finding.Line());
-  return lines;
-}
 std::vector<std::string> Wrongs(const TwoWheels& robot) {
   return Wrongs(CheckRobot(Written(robot)));
 }
