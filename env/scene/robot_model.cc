@@ -19,6 +19,11 @@
 namespace floorproof {
 namespace {
 
+bool IsChassisName(std::string_view body, const RobotSpec& robot) {
+  return body == "base" ||
+         std::ranges::find(robot.blocks, body, &BlockSpec::name) != robot.blocks.end();
+}
+
 // Clear shape, tool, radii, wheels and all that hangs on the shape, as at the start.
 void TakeShape(RobotSpec& robot, const std::vector<ShapeSpec>& shapes, int index) {
   robot.shapes = shapes;
@@ -188,9 +193,11 @@ void RefuseShape(const RobotSpec& robot, const SourceMark& mark, std::string_vie
 
 bool IsChassis(const mjModel* model, int body, const RobotSpec& robot) {
   const char* name = mj_id2name(model, mjOBJ_BODY, body);
-  if (name == nullptr) return false;
-  return name == std::string_view("base") ||
-         std::ranges::find(robot.blocks, name, &BlockSpec::name) != robot.blocks.end();
+  return name != nullptr && IsChassisName(name, robot);
+}
+
+bool IsChassis(const mjsBody* body, const RobotSpec& robot) {
+  return IsChassisName(mjs_getString(mjs_getName(body->element)), robot);
 }
 
 }  // namespace floorproof

@@ -56,5 +56,6 @@ ModelPtr CompileAlone(const RobotModel& robot);
 
 // Whether the body belongs to the robot's chassis: the base, or a block. Wheels and casters do not.
 bool IsChassis(const mjModel* model, int body, const RobotSpec& robot);
+bool IsChassis(const mjsBody* body, const RobotSpec& robot);
 
 }  // namespace floorproof

@@ -2,16 +2,11 @@
 #include "env/scene/rolling_drag.h"
 
 #include <algorithm>
-#include <string_view>
+
+#include "env/scene/robot_model.h"
 
 namespace floorproof {
 namespace {
-
-bool IsChassis(const mjsBody* body, const RobotSpec& robot) {
-  const std::string_view name = mjs_getString(mjs_getName(body->element));
-  return name == "base" || name == "world" ||
-         std::ranges::find(robot.blocks, name, &BlockSpec::name) != robot.blocks.end();
-}
 
 bool Turns(mjsBody* body) {
   for (mjsElement* e = mjs_firstChild(body, mjOBJ_JOINT, 0); e; e = mjs_nextChild(body, e, 0))
@@ -23,10 +18,12 @@ bool Turns(mjsBody* body) {
 
 std::vector<Foot> FeetOf(mjSpec* spec, const RobotSpec& robot) {
   std::vector<Foot> feet;
+  const mjsBody* world = mjs_findBody(spec, "world");
   for (mjsElement* e = mjs_firstElement(spec, mjOBJ_GEOM); e; e = mjs_nextElement(spec, e)) {
     mjsGeom* geom = mjs_asGeom(e);
     mjsBody* body = mjs_getParent(e);
-    if ((geom->contype == 0 && geom->conaffinity == 0) || IsChassis(body, robot)) continue;
+    const bool touches = geom->contype != 0 || geom->conaffinity != 0;
+    if (!touches || body == world || IsChassis(body, robot)) continue;
     const bool round = geom->type == mjGEOM_CYLINDER || geom->type == mjGEOM_SPHERE ||
                        geom->type == mjGEOM_CAPSULE;
     feet.push_back({geom, round && Turns(body) ? geom->size[0] : 0});
