@@ -81,6 +81,10 @@ void ReadBody(const CompiledRobot& compiled, RobotSpec& robot) {
     }
   }
   if (outline.empty()) compiled.Refuse("base", "the robot has nothing that collides");
+  if (std::isinf(low))
+    compiled.Refuse("base",
+                    "nothing but wheels and casters collides: no wall would stop the robot's body; "
+                    "give it a geom of conaffinity=\"3\"");
   if (!(low > 0))
     compiled.Refuse("base", "the body must stand above the floor (z = 0 of its frame)");
   robot.clearance_m = low;

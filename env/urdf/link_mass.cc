@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "env/urdf/link_mass.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
@@ -70,6 +72,10 @@ void ReadMass(const StatedMass& stated, const Mat3& R_ML, const std::filesystem:
     if (!link.shapes.empty()) notes.push_back("link " + link.name + " has no mass: taken for 0");
     return;
   }
+  if (!stated.com.allFinite())
+    throw InputError({file.string(), 0}, "centre of mass of link " + link.name,
+                     fmt::format("{} {} {}", stated.com.x(), stated.com.y(), stated.com.z()),
+                     "must be three numbers");
   link.mass.mass_kg = stated.mass_kg;
   link.mass.com_M = link.p_M + R_ML * stated.com;
   const std::string why = WhyNoBody(stated);

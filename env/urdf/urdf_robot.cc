@@ -138,17 +138,28 @@ class PartFinder {
     Collect(0, out_.base, out_.shapes);
     if (!(out_.base.mass_kg > 0))
       Refuse("mass", "no link but its wheels has a mass: give the base an <inertial>");
-    if (std::ranges::none_of(out_.shapes, &UrdfShape::collides)) {
-      if (out_.shapes.empty()) Refuse("base", "has no shape: give it a <collision>");
-      for (UrdfShape& shape : out_.shapes) shape.collides = true;
-      out_.notes.push_back("guess: the base collides as it is seen; it states no <collision>");
-    }
+    if (out_.shapes.empty()) Refuse("base", "has no shape: give it a <collision>");
+    CollideAsSeen(-std::numeric_limits<double>::infinity());
+  }
+
+  // Where nothing of the base collides, what of it is seen above this height does.
+  void CollideAsSeen(double above_m) {
+    if (std::ranges::any_of(out_.shapes, &UrdfShape::collides)) return;
+    bool any = false;
+    for (UrdfShape& shape : out_.shapes) any |= shape.collides = LowestOf(shape) > above_m;
+    if (!any) Refuse("base", "has no shape but its casters: give it a <collision>");
+    out_.notes.push_back("guess: the base collides as it is seen; it states no <collision>");
+  }
+
+  double LargestRadius() const {
+    double radius_m = 0;
+    for (const UrdfWheel& wheel : out_.wheels) radius_m = std::max(radius_m, wheel.radius_m);
+    return radius_m;
   }
 
   // What of the body reaches the floor.
   void MakeBalls() {
-    double radius_m = 0;
-    for (const UrdfWheel& wheel : out_.wheels) radius_m = std::max(radius_m, wheel.radius_m);
+    const double radius_m = LargestRadius();
     std::vector<UrdfShape> rest;
     for (UrdfShape& shape : out_.shapes) {
       const double low_m = LowestOf(shape);
@@ -167,6 +178,7 @@ class PartFinder {
       rest.push_back(std::move(shape));
     }
     out_.shapes = std::move(rest);
+    CollideAsSeen(FloorGap(radius_m));  // casters are no body
   }
 
   void AddBall(const BallFit& fit, double low_m) {

@@ -165,6 +165,14 @@ std::string BelugaWith(const std::string& before, const std::string& more) {
   return xml.insert(at, more);
 }
 
+// Wheels and casters alone would drive through a wall.
+TEST(RobotModel, ABodyThatNothingStopsIsRefused) {
+  std::string xml = BelugaWith("<mujoco", "");
+  const std::string body = "conaffinity=\"3\"";
+  xml.replace(xml.find(body), body.size(), "conaffinity=\"0\"");
+  EXPECT_THAT(RefusalOf("ghost", xml), HasSubstr("nothing but wheels and casters collides"));
+}
+
 // Whoever judges the robot rules gravity, solver and light.
 TEST(RobotModel, ItsFileDoesNotRuleTheWorld) {
   const std::string file = ::testing::TempDir() + "/ruler.xml";

@@ -106,6 +106,26 @@ TEST(UrdfRobot, MassesOfNothingAreSaid) {
               HasSubstr("no link but its wheels has a mass"));
   EXPECT_THAT(RefusalOf(Replaced(WithBall(), "<mass value=\"5\"/>", "<mass value=\"-5\"/>")),
               HasSubstr("must be 0 or more"));
+  EXPECT_THAT(
+      RefusalOf(Replaced(WithBall(), "xyz=\"-0.02 0 0.05\"/><mass", "xyz=\"nan 0 0\"/><mass")),
+      AllOf(HasSubstr("centre of mass of link base_link"), HasSubstr("three numbers")));
+}
+
+// Of a robot whose body's mesh is missing its casters still collide; they are no body.
+TEST(UrdfRobot, ABaseOfWhichOnlyCastersCollideCollidesAsItIsSeen) {
+  const std::string seen = Replaced(
+      WithBall(),
+      "<collision><origin xyz=\"-0.02 0 0.05\"/><geometry><box size=\"0.3 0.2 0.1\"/></geometry></"
+      "collision>",
+      "<visual><origin xyz=\"-0.02 0 0.05\"/><geometry><box size=\"0.3 0.2 0.1\"/></geometry></"
+      "visual>");
+  const UrdfRobot dut = Found(seen);
+  EXPECT_EQ(dut.casters.size(), 1u);
+  EXPECT_EQ(std::ranges::count(dut.shapes, true, &UrdfShape::collides), 1);
+  EXPECT_THAT(dut.notes, Contains(HasSubstr("collides as it is seen")));
+  EXPECT_NEAR(ReadRobot(ConvertedFile(seen)).spec.clearance_m, 0.03, 1e-6);
+  EXPECT_THAT(RefusalOf(Replaced(Replaced(seen, "<visual>", "<!--"), "</visual>", "-->")),
+              HasSubstr("no shape but its casters"));
 }
 
 TEST(UrdfRobot, JointsWithoutLimitsTurnForEver) {
