@@ -83,6 +83,7 @@ class Writer {
     Number("hotel_load_w", guesses_.hotel_load_w);
     Line(1, "</custom>");
     Line(1, "<compiler angle=\"radian\" autolimits=\"true\"/>");
+    if (robot_.wheels.front().roller_radius_m > 0) Line(1, "<size nuser_geom=\"2\"/>");
   }
 
   void Defaults() {
@@ -105,9 +106,13 @@ class Writer {
     Line(3, Comment("speed without load: " + guesses_.no_load_radps.why));
     Line(3, Comment("the driver's gain: " + guesses_.driver_gain.why));
     const std::string volt = N(answers_.motor_voltage_v);
+    if (guesses_.peak_nm)
+      Line(3, Comment("saturation: given, what the driver's current limit gives"));
+    const std::string limit =
+        guesses_.peak_nm ? " saturation=\"" + N(*guesses_.peak_nm) + " 0 0\"" : "";
     Line(3,
-         fmt::format("<dcmotor nominal=\"{} {} {}\" input=\"vel\" controller=\"0 0 {} 0 0 {}\"/>",
-                     volt, N(guesses_.stall_nm.value), N(guesses_.no_load_radps.value),
+         fmt::format("<dcmotor nominal=\"{} {} {}\"{} input=\"vel\" controller=\"0 0 {} 0 0 {}\"/>",
+                     volt, N(guesses_.stall_nm.value), N(guesses_.no_load_radps.value), limit,
                      N(guesses_.driver_gain.value), volt));
     Line(2, "</default>");
     Line(2, Comment("guess: a caster's bearings give next to no friction"));
@@ -188,15 +193,35 @@ class Writer {
     return MarkupText(given);
   }
 
-  void Wheel(int depth, const UrdfWheel& wheel, const Vec3& carrier, const char* kind) {
+  static std::string Rollers(const UrdfWheel& wheel) {
+    return fmt::format(" user=\"{} {}\"", N(wheel.roller_radius_m), N(wheel.roller_angle_rad));
+  }
+
+  // Slack where the wheel is down by its travel; there its stop is, and another as far up.
+  void Spring(int depth, const WheelSpring& spring) {
+    Line(depth,
+         fmt::format("<joint type=\"slide\" axis=\"0 0 1\" range=\"{0} {1}\" stiffness=\"{2}\" "
+                     "springref=\"{0}\" damping=\"{3}\"/>  {4}",
+                     N(-spring.travel_m), N(spring.travel_m), N(spring.stiffness_npm),
+                     N(spring.damping_nspm),
+                     Comment("its travel: " + guesses_.spring_travel_m.why)));
+  }
+
+  void Wheel(int depth, const UrdfWheel& wheel, const Vec3& carrier, const char* kind,
+             const WheelSpring* spring = nullptr) {
     const std::string name = Unique(wheel.name);
     Line(depth, fmt::format("<body name=\"{}\" pos=\"{}\">", name, N(wheel.p_B - carrier)));
+    if (spring != nullptr) Spring(depth + 1, *spring);
     Line(depth + 1,
          fmt::format("<joint name=\"{}\" class=\"{}\" axis=\"{}\"/>", name, kind, N(wheel.axle_B)));
     Inertial(depth + 1, wheel.mass, wheel.p_B);
-    Line(depth + 1, fmt::format("<geom class=\"{}\" size=\"{} {}\" zaxis=\"{}\"/>  {}", kind,
-                                N(wheel.radius_m), N(wheel.half_width_m), N(wheel.axle_B),
-                                Comment("guess: a tyre touches the floor with half its width")));
+    const bool rollers = wheel.roller_radius_m > 0;
+    Line(depth + 1,
+         fmt::format("<geom class=\"{}\" size=\"{} {}\" zaxis=\"{}\"{}/>  {}", kind,
+                     N(wheel.radius_m - wheel.roller_radius_m), N(wheel.half_width_m),
+                     N(wheel.axle_B), rollers ? Rollers(wheel) : "",
+                     Comment(rollers ? "the core within the rollers; guess: half the wheel's width"
+                                     : "guess: a tyre touches the floor with half its width")));
     Looks(depth + 1, wheel.looks, wheel.p_B);
     Line(depth, "</body>");
     if (kind == std::string_view("wheel")) motors_.push_back(name);
@@ -234,7 +259,9 @@ class Writer {
     for (const UrdfShape& shape : robot_.shapes) Shape(3, shape, Vec3::Zero(), shape.collides);
     for (const auto& [name, place] : {std::pair("lidar", robot_.lidar_B), {"imu", robot_.imu_B}})
       if (place) Line(3, fmt::format("<site name=\"{}\" pos=\"{}\"/>", name, N(*place)));
-    for (const UrdfWheel& wheel : robot_.wheels) Wheel(3, wheel, Vec3::Zero(), "wheel");
+    for (std::size_t i = 0; i < robot_.wheels.size(); ++i)
+      Wheel(3, robot_.wheels[i], Vec3::Zero(), "wheel",
+            guesses_.springs.empty() ? nullptr : &guesses_.springs[i]);
     for (const UrdfCaster& caster : robot_.casters) Caster(caster);
     Line(2, "</body>");
     Line(1, "</worldbody>");

@@ -89,18 +89,21 @@ RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers) {
   out.no_load_radps = NoLoad(wheel, answers, r);
   out.stall_nm = Stall(wheel, answers, weight_n, r, wheels);
   constexpr double kRolling = 0.01, kRotor = 0.2, kReach = 0.85, kCruise = 0.6;
-  out.friction_nm = Take({}, kRolling * weight_n * r / wheels, "0.01 of the weight at the rims");
+  out.friction_nm =
+      Take(answers.friction_nm, kRolling * weight_n * r / wheels, "0.01 of the weight at the rims");
   out.armature_kgm2 = Take({}, kRotor * robot.mass_kg() * r * r / wheels,
                            "rotor and gear, 0.2 of m r2 of its share of the mass");
+  out.peak_nm = answers.peak_nm;
+  const double most_nm = std::min(out.stall_nm.value, out.peak_nm.value_or(out.stall_nm.value));
   constexpr double kStiff = 2;  // per rad/s
   out.driver_gain =
-      Take({}, kStiff * out.stall_nm.value, "all its torque 0.5 rad/s below the speed asked for");
+      Take({}, kStiff * most_nm, "all its torque 0.5 rad/s below the speed asked for");
   const double top_mps = kReach * out.no_load_radps.value * r;
   out.max_speed_mps = Take(answers.max_speed_mps, top_mps, "0.85 of the speed without load");
   constexpr double kMost_mps = 0.5, kUsual_mps2 = 0.5, kUsual_radps = 1.5, kWheelShare = 0.7;
   out.cruise_mps = Take(answers.cruise_mps, std::min(kMost_mps, kCruise * out.max_speed_mps.value),
                         "0.6 of max_speed_mps, at most 0.5 m/s");
-  const double push_mps2 = wheels * out.stall_nm.value / r / robot.mass_kg();
+  const double push_mps2 = wheels * most_nm / r / robot.mass_kg();
   out.max_accel_mps2 = Take(answers.max_accel_mps2, std::min(kUsual_mps2, push_mps2 / 2),
                             "0.5 m/s2, at most half of what the motors can");
   const double spin_radps =
@@ -114,6 +117,12 @@ RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers) {
   out.step_m = Take(answers.step_m, std::min(kStep * r, sizes.belly_m / 2),
                     "a tenth of the wheel's radius, at most half the belly's clearance");
   out.hotel_load_w = Take(answers.hotel_load_w, kHotel_w, "a small computer and a lidar");
+  constexpr double kTravel = 0.1;
+  if (answers.sprung_share > 0) {
+    out.spring_travel_m =
+        Take(answers.spring_travel_m, kTravel * r, "a tenth of the wheel's radius");
+    out.springs = WheelSprings(robot, answers.sprung_share, out.spring_travel_m.value);
+  }
   return out;
 }
 
@@ -124,13 +133,15 @@ std::vector<std::string> Questions(const RobotGuesses& guesses) {
   };
   const Question questions[] = {{"no_load_radps", "rad/s", guesses.no_load_radps},
                                 {"stall_nm", "N m", guesses.stall_nm},
+                                {"friction_nm", "N m", guesses.friction_nm},
                                 {"cruise_mps", "m/s", guesses.cruise_mps},
                                 {"max_speed_mps", "m/s", guesses.max_speed_mps},
                                 {"max_accel_mps2", "m/s2", guesses.max_accel_mps2},
                                 {"max_yaw_rate_radps", "rad/s", guesses.max_yaw_rate_radps},
                                 {"tool_width_m", "m", guesses.tool_width_m},
                                 {"step_m", "m", guesses.step_m},
-                                {"hotel_load_w", "W", guesses.hotel_load_w}};
+                                {"hotel_load_w", "W", guesses.hotel_load_w},
+                                {"spring_travel_m", "m", guesses.spring_travel_m}};
   std::vector<std::string> lines;
   for (const Question& q : questions)
     if (q.figure.why.starts_with(kGuess))

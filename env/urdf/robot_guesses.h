@@ -3,10 +3,12 @@
 // limits, or guessed, each with its reason.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "env/urdf/urdf_robot.h"
+#include "env/urdf/wheel_springs.h"
 
 namespace floorproof {
 
@@ -17,10 +19,13 @@ struct Figure {
 
 struct RobotGuesses {
   Figure no_load_radps, stall_nm;  // of each motor, at the wheel
+  std::optional<double> peak_nm;   // where its driver limits the current
   Figure friction_nm;              // dry, in a wheel's bearing
   Figure armature_kgm2, driver_gain;
   Figure cruise_mps, max_speed_mps, max_accel_mps2, max_yaw_rate_radps, max_yaw_accel_radps2;
   Figure tool_width_m, step_m, hotel_load_w;
+  std::vector<WheelSpring> springs;  // one a driven wheel, or none
+  Figure spring_travel_m;
 };
 
 RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers);

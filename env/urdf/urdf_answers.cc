@@ -4,16 +4,32 @@
 #include "env/scene/robot_limits.h"
 
 namespace floorproof {
+namespace {
+
+constexpr Bounds kFriction_nm = {0, 1000, false};
+constexpr Bounds kSpringTravel_m = {0.001, 0.2, false};
+
+}  // namespace
 
 void UrdfAnswers::Visit(ParamVisitor& v) {
   v("driven", driven, {},
     "joints of the driven wheels, commas between; empty: those that are found");
   v("wheel_radius_m", wheel_radius_m, kWheelRadius_m,
     "of driven wheels without a shape (m); none: they are no wheels");
+  v("roller_radius_m", roller_radius_m, kWheelRadius_m,
+    "of the rollers of Mecanum wheels, at 45 degrees as in docs/robot.md (m); none: plain wheels");
   v("motor_voltage_v", motor_voltage_v, Positive(), "of the motors' drivers (V)");
   v("no_load_radps", no_load_radps, kMotorSpeed_radps,
     "speed of a wheel's motor without load, at the wheel (rad/s); none: by top_speed_mps");
   v("stall_nm", stall_nm, kMotorTorque_nm, "its stall torque, at the wheel (N m); none: guessed");
+  v("peak_nm", peak_nm, kMotorTorque_nm,
+    "what its driver's current limit lets it give, at the wheel (N m); none: its stall torque");
+  v("friction_nm", friction_nm, kFriction_nm,
+    "dry friction of a driven wheel with its gear and motor, at the wheel (N m); none: guessed");
+  v("sprung_share", sprung_share, Between(0, 1),
+    "of the weight, what the driven wheels carry on springs; 0: they are held");
+  v("spring_travel_m", spring_travel_m, kSpringTravel_m,
+    "how far such a wheel goes down, and up, from where it stands (m); none: guessed");
   v("top_speed_mps", top_speed_mps, kSpeed_mps,
     "the robot's fastest, which its motors reach (m/s); none: guessed");
   v("cruise_mps", cruise_mps, kSpeed_mps, "speed along a plan (m/s); none: guessed");

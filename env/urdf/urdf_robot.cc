@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/params.h"
 #include "base/quantity.h"
 #include "env/urdf/link_groups.h"
 #include "env/urdf/link_mass.h"
@@ -117,7 +118,16 @@ class PartFinder {
   }
 
   void MakeWheels() {
-    for (const std::size_t i : found_.driven) out_.wheels.push_back(WheelOf(found_.rollers[i]));
+    for (const std::size_t i : found_.driven) {
+      UrdfWheel& wheel = out_.wheels.emplace_back(WheelOf(found_.rollers[i]));
+      if (!answers_.roller_radius_m) continue;
+      wheel.roller_radius_m = *answers_.roller_radius_m;
+      wheel.roller_angle_rad = RollerAngle(wheel.p_B);
+      if (!(wheel.roller_radius_m < wheel.radius_m))
+        throw InputError({"--set roller_radius_m", 0}, "", FormatDouble(wheel.roller_radius_m),
+                         "must be less than the radius of wheel " + wheel.name + ", " +
+                             FormatDouble(wheel.radius_m) + " m");
+    }
     for (const Roller& roller : found_.rollers) {
       if (driven_groups_.contains(roller.group)) continue;
       UrdfCaster caster;

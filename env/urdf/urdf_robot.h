@@ -23,7 +23,8 @@ struct UrdfWheel {
   std::string name;  // of its joint
   Vec3 p_B = Vec3::Zero();
   Vec3 axle_B = Vec3::UnitY();
-  double radius_m = 0, half_width_m = 0;  // the latter of what touches the floor
+  double radius_m = 0, half_width_m = 0;             // the latter of what touches the floor
+  double roller_radius_m = 0, roller_angle_rad = 0;  // Mecanum wheels', as in WheelSpec
   double effort_nm = 0, velocity_radps = 0;
   MassOf mass;
   std::vector<UrdfShape> looks;

@@ -162,6 +162,10 @@ class WheelFinder {
       wheel.p_BW = out_.R_MB.transpose() * (out_.rollers[i].fit.centre - out_.p_MB);
       wheel.radius_m = out_.rollers[i].fit.radius_m;
       wheel.half_width_m = out_.rollers[i].fit.half_width_m;
+      if (answers_.roller_radius_m) {
+        wheel.roller_radius_m = *answers_.roller_radius_m;
+        wheel.roller_angle_rad = RollerAngle(wheel.p_BW);
+      }
       wheel.max_speed_radps = wheel.max_torque_nm = 1;  // whatever they are, there are motors
     }
     const auto choice = choose_(spec, why);
@@ -187,6 +191,8 @@ FoundWheels FindWheels(const fs::path& file, const UrdfModel& model,
                        const ChooseDrive& choose, std::vector<std::string>& notes) {
   return WheelFinder(file, model, groups, answers, choose, notes).Find();
 }
+
+double RollerAngle(const Vec3& p_B) { return std::copysign(kPi / 4, p_B.x() * p_B.y()); }
 
 double FloorGap(double radius_m) { return std::max(0.003, 0.1 * radius_m); }
 

@@ -36,6 +36,10 @@ FoundWheels FindWheels(const std::filesystem::path& file, const UrdfModel& model
                        const std::vector<LinkGroup>& groups, const UrdfAnswers& answers,
                        const ChooseDrive& choose, std::vector<std::string>& notes);
 
+// From a Mecanum wheel's axle, to the left, to the axes of the rollers that touch the floor, seen
+// from above, with the wheel at p_B: those of four wheels meet in the middle, drawn on.
+double RollerAngle(const Vec3& p_B);
+
 // A gap to the floor that a draughtsman leaves under a wheel of this radius, m.
 double FloorGap(double radius_m);
 

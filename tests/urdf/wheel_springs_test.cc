@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// Springs under driven wheels, rollers on them, and motors whose current is limited: what a URDF
+// cannot say, answered.
+#include <gmock/gmock.h>
+
+#include "tests/urdf/urdf_files.h"
+#include "tests/validate/wrongs.h"
+
+namespace floorproof {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+UrdfAnswers Sprung(double share, double travel_m) {
+  UrdfAnswers answers;
+  answers.sprung_share = share;
+  answers.spring_travel_m = travel_m;
+  return answers;
+}
+
+std::string BallAt(const std::string& name, const std::string& x_m) {
+  return Replaced(Replaced(kBall, "-0.14", x_m), "ball", name);
+}
+// Casters before and behind the axle, as far: held, the driven wheels carry next to nothing.
+std::string OnTwoBalls() {
+  return std::string(kBase) + BallAt("ahead", "0.12") + BallAt("behind", "-0.16") + "</robot>\n";
+}
+std::string Wheel(const std::string& name, double x_m, double y_m) {
+  return "<link name=\"" + name +
+         "\"><inertial><mass value=\"0.3\"/><inertia ixx=\"3e-4\" iyy=\"5e-4\" izz=\"3e-4\" "
+         "ixy=\"0\" "
+         "ixz=\"0\" iyz=\"0\"/></inertial><collision><origin rpy=\"1.5707963267948966 0 "
+         "0\"/><geometry>"
+         "<cylinder radius=\"0.05\" length=\"0.02\"/></geometry></collision></link><joint name=\"" +
+         name + "_joint\" type=\"continuous\"><parent link=\"base_link\"/><child link=\"" + name +
+         "\"/><origin xyz=\"" + std::to_string(x_m) + " " + std::to_string(y_m) +
+         " 0.02\"/><axis xyz=\"0 1 0\"/></joint>\n";
+}
+// Two more wheels, 0.2 m behind: the centre of mass is not in the middle.
+std::string OnFourWheels() {
+  return std::string(kBase) + Wheel("left_rear", -0.2, 0.12) + Wheel("right_rear", -0.2, -0.12) +
+         "</robot>\n";
+}
+
+TEST(WheelSprings, CarryTheShareOfTheWeightThatIsAsked) {
+  // The casters' contacts give by some tenths of a millimetre, and so do the springs.
+  constexpr double kTravel_m = 0.01, kGives_m = 0.0005;
+  for (const double share : {0.4, 0.7}) {
+    const RobotCheck dut =
+        CheckRobot(ConvertedFile(OnTwoBalls(), Sprung(share, kTravel_m)).string());
+    EXPECT_NEAR(dut.drive.driven_share, share, share * kGives_m / kTravel_m);
+    EXPECT_THAT(Wrongs(dut), IsEmpty());
+  }
+}
+
+// It stands level and at its height, though its mass is nearer to the front wheels.
+TEST(WheelSprings, CarryARobotWithoutCastersLevel) {
+  const RobotCheck dut = CheckRobot(ConvertedFile(OnFourWheels(), Sprung(0.5, 0.006)).string());
+  EXPECT_EQ(dut.spec.drive, "skid_steer");
+  EXPECT_NEAR(dut.drive.driven_share, 1, 0.01);
+  for (const LawRow& row : dut.drive.rows) {
+    if (!row.law.starts_with("stand/")) continue;
+    EXPECT_LT(std::abs(row.measured), row.tolerance / 5) << row.law;
+  }
+}
+
+TEST(UrdfMotors, ACurrentLimitIsTheTorqueThatTheyGive) {
+  UrdfAnswers answers;
+  answers.stall_nm = 4;
+  answers.peak_nm = 1.5;
+  answers.friction_nm = 0.11;
+  const auto file = ConvertedFile(WithBall(), answers);
+  EXPECT_NEAR(ReadRobot(file).spec.wheels[0].max_torque_nm, 1.5, 1e-9);
+  EXPECT_THAT(Converted(WithBall(), answers).text, HasSubstr("frictionloss=\"0.11\""));
+  // Two wheels of 50 mm.
+  EXPECT_NEAR(CheckRobot(file.string()).drive.rolling_n, 2 * 0.11 / 0.05, 0.4);
+}
+
+TEST(UrdfRollers, MakeMecanumWheelsOfPlainOnes) {
+  UrdfAnswers answers;
+  answers.roller_radius_m = 0.01;
+  answers.sprung_share = 1;
+  const RobotCheck dut = CheckRobot(ConvertedFile(OnFourWheels(), answers).string());
+  EXPECT_EQ(dut.spec.drive, "mecanum");
+  for (const WheelSpec& wheel : dut.spec.wheels) {
+    EXPECT_NEAR(wheel.radius_m, 0.05, 1e-7);
+    EXPECT_NEAR(wheel.roller_radius_m, 0.01, 1e-7);
+    EXPECT_GT(wheel.roller_angle_rad * wheel.p_BW.x() * wheel.p_BW.y(), 0) << wheel.name;
+  }
+  EXPECT_THAT(Wrongs(dut), IsEmpty());
+}
+
+TEST(UrdfRollers, AreSmallerThanTheirWheel) {
+  UrdfAnswers answers;
+  answers.roller_radius_m = 0.05;
+  EXPECT_THAT(RefusalOf(OnFourWheels(), answers),
+              HasSubstr("--set roller_radius_m: 0.05: must be less than the radius of wheel"));
+}
+
+}  // namespace
+}  // namespace floorproof
