@@ -91,8 +91,14 @@ RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers) {
   constexpr double kRolling = 0.01, kRotor = 0.2, kReach = 0.85, kCruise = 0.6;
   out.friction_nm =
       Take(answers.friction_nm, kRolling * weight_n * r / wheels, "0.01 of the weight at the rims");
-  out.armature_kgm2 = Take({}, kRotor * robot.mass_kg() * r * r / wheels,
-                           "rotor and gear, 0.2 of m r2 of its share of the mass");
+  // A strong motor's rotor has more: alone it reaches its speed with a time constant of 5 to 50 ms.
+  constexpr double kRotor_s = 0.02;
+  out.armature_kgm2 =
+      Take({},
+           std::max(kRotor * robot.mass_kg() * r * r / wheels,
+                    kRotor_s * out.stall_nm.value / out.no_load_radps.value),
+           "rotor and gear, 0.2 of m r2 of its share of the mass, and at least 20 ms "
+           "of stall torque over speed without load");
   out.peak_nm = answers.peak_nm;
   const double most_nm = std::min(out.stall_nm.value, out.peak_nm.value_or(out.stall_nm.value));
   constexpr double kStiff = 2;  // per rad/s

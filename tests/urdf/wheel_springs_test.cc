@@ -5,6 +5,7 @@
 
 #include "tests/urdf/urdf_files.h"
 #include "tests/validate/wrongs.h"
+#include "validate/steady_drive.h"
 
 namespace floorproof {
 namespace {
@@ -75,6 +76,27 @@ TEST(UrdfMotors, ACurrentLimitIsTheTorqueThatTheyGive) {
   EXPECT_THAT(Converted(WithBall(), answers).text, HasSubstr("frictionloss=\"0.11\""));
   // Two wheels of 50 mm.
   EXPECT_NEAR(CheckRobot(file.string()).drive.rolling_n, 2 * 0.11 / 0.05, 0.4);
+}
+
+// Strong motors in a light robot, as servos are: with a rotor that weighs nothing the driver would
+// hunt, and draw many times what driving takes.
+TEST(UrdfMotors, StrongOnesDoNotHunt) {
+  UrdfAnswers answers;
+  answers.no_load_radps = 6.4;
+  answers.stall_nm = 14;  // 10 times what lifts it
+  answers.max_speed_mps = 0.25;
+  answers.hotel_load_w = 0;
+  Rig rig(ConvertedFile(WithBall(), answers).string());
+  constexpr double kSpeed_mps = 0.15;
+  rig.Run({kSpeed_mps, 0, 0}, 2);
+  double sum_w = 0;
+  int n = 0;
+  for (; rig.truth().t_s < 4; ++n) {
+    rig.Step();
+    sum_w += MotorsPower(rig);
+  }
+  EXPECT_NEAR(sum_w / n, DriveSteadily(rig, kSpeed_mps, 0).power_w,
+              0.2 * DriveSteadily(rig, kSpeed_mps, 0).power_w);
 }
 
 TEST(UrdfRollers, MakeMecanumWheelsOfPlainOnes) {
