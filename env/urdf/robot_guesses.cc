@@ -67,15 +67,28 @@ Figure NoLoad(const UrdfWheel& wheel, const UrdfAnswers& answers, double radius_
   return {Rounded(kUsual_mps / radius_m), "guess: 0.8 m/s, as indoor robots have"};
 }
 
-Figure Stall(const UrdfWheel& wheel, const UrdfAnswers& answers, double weight_n, double radius_m,
-             double wheels) {
-  constexpr double kGrade = 0.4;  // of the weight, at the rims of all wheels
+// Plain wheels on several axles slide sideways whenever the robot turns.
+bool Scrub(const UrdfRobot& robot) {
+  constexpr double kAxle_m = 0.01;
+  const auto [rear, front] =
+      std::ranges::minmax(robot.wheels, {}, [](const UrdfWheel& wheel) { return wheel.p_B.x(); });
+  return front.p_B.x() - rear.p_B.x() > kAxle_m && front.roller_radius_m == 0;
+}
+
+Figure Stall(const UrdfRobot& robot, const UrdfAnswers& answers, double weight_n, double radius_m) {
+  const UrdfWheel& wheel = robot.wheels.front();
+  const double wheels = static_cast<double>(robot.wheels.size());
+  // Of the weight, at the rims of all wheels. To turn on the spot a skid-steer's pull against the
+  // friction of as much of it.
+  const bool scrub = Scrub(robot);
+  const double push = scrub ? 1.2 : 0.4;
   if (answers.stall_nm) return {*answers.stall_nm, "given"};
   const double share = wheel.effort_nm * wheels / (weight_n * radius_m);
   if (IsBelievable(share, 0.1, 4))
     return {wheel.effort_nm, "guess: the effort limit that the URDF gives the joint"};
-  return {Rounded(kGrade * weight_n * radius_m / wheels),
-          "guess: stalled, all motors push with 0.4 of the weight"};
+  return {Rounded(push * weight_n * radius_m / wheels),
+          "guess: stalled, all motors push with " + NumberText(push) + " of the weight" +
+              (scrub ? ", as wheels that slide in turns take" : "")};
 }
 
 }  // namespace
@@ -87,7 +100,7 @@ RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers) {
   const UrdfWheel& wheel = robot.wheels.front();
   RobotGuesses out;
   out.no_load_radps = NoLoad(wheel, answers, r);
-  out.stall_nm = Stall(wheel, answers, weight_n, r, wheels);
+  out.stall_nm = Stall(robot, answers, weight_n, r);
   constexpr double kRolling = 0.01, kRotor = 0.2, kReach = 0.85, kCruise = 0.6;
   out.friction_nm =
       Take(answers.friction_nm, kRolling * weight_n * r / wheels, "0.01 of the weight at the rims");

@@ -66,6 +66,12 @@ TEST(WheelSprings, CarryARobotWithoutCastersLevel) {
   }
 }
 
+// Nothing said of the motors, the mass in the middle: it turns by sliding.
+TEST(UrdfMotors, AreGuessedStrongEnoughToTurnASkidSteer) {
+  const std::string text = Replaced(OnFourWheels(), "-0.02 0 0.05", "-0.1 0 0.05");
+  EXPECT_THAT(Wrongs(CheckRobot(ConvertedFile(text, Sprung(1, 0.006)).string())), IsEmpty());
+}
+
 TEST(UrdfMotors, ACurrentLimitIsTheTorqueThatTheyGive) {
   UrdfAnswers answers;
   answers.stall_nm = 4;
