@@ -50,9 +50,9 @@ MeasuredLimit LimitOf(const std::filesystem::path& mjcf, std::string_view name,
   return {limit->size, limit->above_all, held_by};
 }
 
-double DrivingPower(const std::filesystem::path& mjcf, double speed_mps) {
+double DrivingPower(const std::filesystem::path& mjcf, const BodyTwist& twist) {
   Rig rig(mjcf.string());
-  rig.Run({speed_mps, 0, 0}, 3);
+  rig.Run(twist, 3);
   double sum_w = 0;
   int n = 0;
   for (const double end_s = rig.truth().t_s + 2; rig.truth().t_s < end_s; ++n) {

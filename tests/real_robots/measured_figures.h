@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "env/known/estimate.h"
+
 namespace floorproof {
 
 // Creeping: no momentum to speak of. Slopes are driven at this share of the top speed.
@@ -32,7 +34,7 @@ struct MeasuredLimit {
 MeasuredLimit LimitOf(const std::filesystem::path& mjcf, std::string_view hazard,
                       const Approach& approach);
 
-// Mean electrical power of motors and hotel load, driving straight on a flat floor, W.
-double DrivingPower(const std::filesystem::path& mjcf, double speed_mps);
+// Mean electrical power of motors and hotel load at this motion on a flat floor, W.
+double DrivingPower(const std::filesystem::path& mjcf, const BodyTwist& twist);
 
 }  // namespace floorproof
