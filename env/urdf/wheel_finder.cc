@@ -90,7 +90,13 @@ class WheelFinder {
       if (!out_.rollers[i].swivels) all.push_back(i);
     if (all.empty()) Refuse("wheels", "all wheels swivel: none is driven");
     std::string why;
-    if (Takes(all, why)) return all;
+    if (Takes(all, why)) {
+      if (all.size() > 2 && !answers_.roller_radius_m)
+        notes_.push_back(
+            "guess: its " + std::to_string(all.size()) +
+            " wheels are plain (--set roller_radius_m=... where they are Mecanum wheels)");
+      return all;
+    }
     for (const auto& pair : Pairs(all)) {
       std::string ignored;
       if (!Takes(pair, ignored)) continue;

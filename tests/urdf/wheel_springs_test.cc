@@ -119,6 +119,16 @@ TEST(UrdfRollers, MakeMecanumWheelsOfPlainOnes) {
   EXPECT_THAT(Wrongs(dut), IsEmpty());
 }
 
+// A URDF's cylinders do not say; a robot of two wheels has none.
+TEST(UrdfRollers, AreAskedFor) {
+  using ::testing::Contains;
+  EXPECT_THAT(Converted(OnFourWheels()).notes, Contains(HasSubstr("--set roller_radius_m")));
+  UrdfAnswers answers;
+  answers.roller_radius_m = 0.01;
+  for (const UrdfMjcf& said : {Converted(OnFourWheels(), answers), Converted(WithBall())})
+    EXPECT_THAT(said.notes, ::testing::Not(Contains(HasSubstr("--set roller_radius_m"))));
+}
+
 TEST(UrdfRollers, AreSmallerThanTheirWheel) {
   UrdfAnswers answers;
   answers.roller_radius_m = 0.05;
