@@ -27,6 +27,17 @@ Figure Take(const std::optional<double>& answer, double guess, const std::string
   return {Rounded(guess), std::string(kGuess) + why};
 }
 
+// Plain wheels on several axles slide sideways whenever the robot turns.
+double Wheelbase(const UrdfRobot& robot) {
+  const auto [rear, front] =
+      std::ranges::minmax(robot.wheels, {}, [](const UrdfWheel& wheel) { return wheel.p_B.x(); });
+  return front.p_B.x() - rear.p_B.x();
+}
+bool Scrub(const UrdfRobot& robot) {
+  constexpr double kAxle_m = 0.01;
+  return Wheelbase(robot) > kAxle_m && robot.wheels.front().roller_radius_m == 0;
+}
+
 struct Sizes {
   double radius_m = 0, half_track_m = 0, width_m = 0, belly_m = 0;
 };
@@ -67,21 +78,13 @@ Figure NoLoad(const UrdfWheel& wheel, const UrdfAnswers& answers, double radius_
   return {Rounded(kUsual_mps / radius_m), "guess: 0.8 m/s, as indoor robots have"};
 }
 
-// Plain wheels on several axles slide sideways whenever the robot turns.
-bool Scrub(const UrdfRobot& robot) {
-  constexpr double kAxle_m = 0.01;
-  const auto [rear, front] =
-      std::ranges::minmax(robot.wheels, {}, [](const UrdfWheel& wheel) { return wheel.p_B.x(); });
-  return front.p_B.x() - rear.p_B.x() > kAxle_m && front.roller_radius_m == 0;
-}
-
 Figure Stall(const UrdfRobot& robot, const UrdfAnswers& answers, double weight_n, double radius_m) {
   const UrdfWheel& wheel = robot.wheels.front();
   const double wheels = static_cast<double>(robot.wheels.size());
-  // Of the weight, at the rims of all wheels. To turn on the spot a skid-steer's pull against the
-  // friction of as much of it.
+  // Of the weight, at the rims of all wheels. A skid-steer's slide as it turns, on friction 0.8 and
+  // at speeds where a motor gives half its stall torque, and drivers droop.
   const bool scrub = Scrub(robot);
-  const double push = scrub ? 1.2 : 0.4;
+  const double push = scrub ? 3 : 0.4;
   if (answers.stall_nm) return {*answers.stall_nm, "given"};
   const double share = wheel.effort_nm * wheels / (weight_n * radius_m);
   if (IsBelievable(share, 0.1, 4))
@@ -125,8 +128,11 @@ RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers) {
   const double push_mps2 = wheels * most_nm / r / robot.mass_kg();
   out.max_accel_mps2 = Take(answers.max_accel_mps2, std::min(kUsual_mps2, push_mps2 / 2),
                             "0.5 m/s2, at most half of what the motors can");
-  const double spin_radps =
-      kWheelShare * out.max_speed_mps.value / std::max(1e-3, sizes.half_track_m);
+  // The law `skid` (docs/validation.md).
+  const double half_track_m = std::max(1e-3, sizes.half_track_m);
+  const double half_base_m = Scrub(robot) ? Wheelbase(robot) / 2 : 0;
+  const double arm_m = half_track_m + half_base_m * half_base_m / half_track_m;
+  const double spin_radps = kWheelShare * out.max_speed_mps.value / arm_m;
   out.max_yaw_rate_radps = Take(answers.max_yaw_rate_radps, std::min(kUsual_radps, spin_radps),
                                 "1.5 rad/s, at most 0.7 of what the wheels can");
   out.max_yaw_accel_radps2 =

@@ -41,6 +41,7 @@ class PartFinder {
     MakeWheels();
     MakeBase();
     MakeBalls();
+    AskForSprings();
     Sensors();
     return std::move(out_);
   }
@@ -213,6 +214,17 @@ class PartFinder {
                          ", y " + millimetres(fit.centre.y()) + " mm, slides" +
                          (fit.guess.empty() ? "" : "; " + fit.guess));
     out_.casters.push_back(std::move(caster));
+  }
+
+  // Between casters, held wheels carry what the floor's last tenth of a millimetre says.
+  void AskForSprings() {
+    if (answers_.sprung_share > 0) return;
+    bool ahead = false, behind = false;
+    for (const UrdfCaster& caster : out_.casters)
+      (caster.wheel.p_B.x() > 0 ? ahead : behind) = true;
+    if (ahead && behind)
+      out_.notes.push_back(
+          "guess: its driven wheels, between casters, have no springs (--set sprung_share=...)");
   }
 
   void Sensors() {

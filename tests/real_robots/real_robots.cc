@@ -47,7 +47,8 @@ constexpr RealRobot kRobots[] = {
      1.0, 26, 360, false, 0},
     {"husky",
      "motor_voltage_v: 24, no_load_radps: 7.27, stall_nm: 198, peak_nm: 66, friction_nm: 0.4, "
-     "max_speed_mps: 1, cruise_mps: 0.5, hotel_load_w: 20, sprung_share: 1, "
+     "max_speed_mps: 1, max_yaw_rate_radps: 1.5, cruise_mps: 0.5, hotel_load_w: 20, sprung_share: "
+     "1, "
      "spring_travel_m: 0.005",
      1.0, 50, 480, false, 0},
     {"ridgeback",
@@ -56,6 +57,12 @@ constexpr RealRobot kRobots[] = {
      "spring_travel_m: 0.005",
      1.0, 135, 2400, false, 0.018},
 };
+
+std::string TextOf(const RealRobot& robot) {
+  std::ifstream in(std::filesystem::path(FP_SOURCE_DIR) / "models/others" /
+                   (std::string(robot.name) + ".urdf"));
+  return {std::istreambuf_iterator<char>(in), {}};
+}
 
 }  // namespace
 
@@ -70,9 +77,11 @@ UrdfAnswers AnswersOf(const RealRobot& robot, const std::string& more) {
 }
 
 std::filesystem::path MjcfFile(const RealRobot& robot, const std::string& more) {
-  std::ifstream in(std::filesystem::path(FP_SOURCE_DIR) / "models/others" /
-                   (std::string(robot.name) + ".urdf"));
-  return ConvertedFile({std::istreambuf_iterator<char>(in), {}}, AnswersOf(robot, more));
+  return ConvertedFile(TextOf(robot), AnswersOf(robot, more));
+}
+
+std::filesystem::path GuessedMjcfFile(const RealRobot& robot) {
+  return ConvertedFile(TextOf(robot));
 }
 
 }  // namespace floorproof

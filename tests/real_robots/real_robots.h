@@ -28,5 +28,7 @@ UrdfAnswers AnswersOf(const RealRobot& robot, const std::string& more = "");
 // Writes the MJCF that `floorproof robot` makes of its URDF with these answers into a folder of the
 // running test's own.
 std::filesystem::path MjcfFile(const RealRobot& robot, const std::string& more = "");
+// With none: what is made of the URDF by guesses alone.
+std::filesystem::path GuessedMjcfFile(const RealRobot& robot);
 
 }  // namespace floorproof

@@ -19,5 +19,10 @@ TEST_P(RealRobotModels, NothingIsWrongWithThem) {
   EXPECT_NEAR(dut.spec.mass_kg, GetParam().mass_kg, 0.01 * GetParam().mass_kg);
 }
 
+// Whoever answers none of the questions gets a robot that drives.
+TEST_P(RealRobotModels, NothingIsWrongByGuessesAlone) {
+  EXPECT_THAT(Wrongs(CheckRobot(GuessedMjcfFile(GetParam()).string())), ::testing::IsEmpty());
+}
+
 }  // namespace
 }  // namespace floorproof

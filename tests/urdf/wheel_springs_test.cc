@@ -44,6 +44,14 @@ std::string OnFourWheels() {
          "</robot>\n";
 }
 
+TEST(WheelSprings, AreAskedForBetweenCastersAlone) {
+  using ::testing::Contains;
+  const auto asks = Contains(HasSubstr("--set sprung_share"));
+  EXPECT_THAT(Converted(OnTwoBalls()).notes, asks);
+  EXPECT_THAT(Converted(OnTwoBalls(), Sprung(0.5, 0.006)).notes, ::testing::Not(asks));
+  EXPECT_THAT(Converted(WithBall()).notes, ::testing::Not(asks));
+}
+
 TEST(WheelSprings, CarryTheShareOfTheWeightThatIsAsked) {
   // The casters' contacts give by some tenths of a millimetre, and so do the springs.
   constexpr double kTravel_m = 0.01, kGives_m = 0.0005;
@@ -69,7 +77,8 @@ TEST(WheelSprings, CarryARobotWithoutCastersLevel) {
 // Nothing said of the motors, the mass in the middle: it turns by sliding.
 TEST(UrdfMotors, AreGuessedStrongEnoughToTurnASkidSteer) {
   const std::string text = Replaced(OnFourWheels(), "-0.02 0 0.05", "-0.1 0 0.05");
-  EXPECT_THAT(Wrongs(CheckRobot(ConvertedFile(text, Sprung(1, 0.006)).string())), IsEmpty());
+  for (const double share : {0.0, 1.0})
+    EXPECT_THAT(Wrongs(CheckRobot(ConvertedFile(text, Sprung(share, 0.006)).string())), IsEmpty());
 }
 
 TEST(UrdfMotors, ACurrentLimitIsTheTorqueThatTheyGive) {
