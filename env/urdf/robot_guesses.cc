@@ -94,17 +94,18 @@ Figure Stall(const UrdfRobot& robot, const UrdfAnswers& answers, double weight_n
               (scrub ? ", as wheels that slide in turns take" : "")};
 }
 
-}  // namespace
+double Most(const RobotGuesses& guesses) {
+  return std::min(guesses.stall_nm.value, guesses.peak_nm.value_or(guesses.stall_nm.value));
+}
 
-RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers) {
-  const Sizes sizes = SizesOf(robot);
+void GuessMotors(const UrdfRobot& robot, const UrdfAnswers& answers, const Sizes& sizes,
+                 RobotGuesses& out) {
+  constexpr double kRolling = 0.01, kRotor = 0.2;
   const double wheels = static_cast<double>(robot.wheels.size());
   const double weight_n = robot.mass_kg() * kGravity_mps2, r = sizes.radius_m;
-  const UrdfWheel& wheel = robot.wheels.front();
-  RobotGuesses out;
-  out.no_load_radps = NoLoad(wheel, answers, r);
+  out.no_load_radps = NoLoad(robot.wheels.front(), answers, r);
   out.stall_nm = Stall(robot, answers, weight_n, r);
-  constexpr double kRolling = 0.01, kRotor = 0.2, kReach = 0.85, kCruise = 0.6;
+  out.peak_nm = answers.peak_nm;
   out.friction_nm =
       Take(answers.friction_nm, kRolling * weight_n * r / wheels, "0.01 of the weight at the rims");
   // A strong motor's rotor has more: alone it reaches its speed with a time constant of 5 to 50 ms.
@@ -115,37 +116,52 @@ RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers) {
                     kRotor_s * out.stall_nm.value / out.no_load_radps.value),
            "rotor and gear, 0.2 of m r2 of its share of the mass, and at least 20 ms "
            "of stall torque over speed without load");
-  out.peak_nm = answers.peak_nm;
-  const double most_nm = std::min(out.stall_nm.value, out.peak_nm.value_or(out.stall_nm.value));
   constexpr double kStiff = 2;  // per rad/s
   out.driver_gain =
-      Take({}, kStiff * most_nm, "all its torque 0.5 rad/s below the speed asked for");
-  const double top_mps = kReach * out.no_load_radps.value * r;
-  out.max_speed_mps = Take(answers.max_speed_mps, top_mps, "0.85 of the speed without load");
-  constexpr double kMost_mps = 0.5, kUsual_mps2 = 0.5, kUsual_radps = 1.5, kWheelShare = 0.7;
-  out.cruise_mps = Take(answers.cruise_mps, std::min(kMost_mps, kCruise * out.max_speed_mps.value),
-                        "0.6 of max_speed_mps, at most 0.5 m/s");
-  const double push_mps2 = wheels * most_nm / r / robot.mass_kg();
-  out.max_accel_mps2 = Take(answers.max_accel_mps2, std::min(kUsual_mps2, push_mps2 / 2),
-                            "0.5 m/s2, at most half of what the motors can");
-  // The law `skid` (docs/validation.md).
+      Take({}, kStiff * Most(out), "all its torque 0.5 rad/s below the speed asked for");
+}
+
+// What the law `skid` (docs/validation.md) has half the track of wheels that slide grow to.
+double TurningArm(const UrdfRobot& robot, const Sizes& sizes) {
   const double half_track_m = std::max(1e-3, sizes.half_track_m);
   const double half_base_m = Scrub(robot) ? Wheelbase(robot) / 2 : 0;
-  const double arm_m = half_track_m + half_base_m * half_base_m / half_track_m;
-  const double spin_radps = kWheelShare * out.max_speed_mps.value / arm_m;
+  return half_track_m + half_base_m * half_base_m / half_track_m;
+}
+
+void GuessLimits(const UrdfRobot& robot, const UrdfAnswers& answers, const Sizes& sizes,
+                 RobotGuesses& out) {
+  constexpr double kReach = 0.85, kCruise = 0.6, kWheelShare = 0.7;
+  constexpr double kMost_mps = 0.5, kUsual_mps2 = 0.5, kUsual_radps = 1.5;
+  out.max_speed_mps = Take(answers.max_speed_mps, kReach * out.no_load_radps.value * sizes.radius_m,
+                           "0.85 of the speed without load");
+  out.cruise_mps = Take(answers.cruise_mps, std::min(kMost_mps, kCruise * out.max_speed_mps.value),
+                        "0.6 of max_speed_mps, at most 0.5 m/s");
+  const double push_n = static_cast<double>(robot.wheels.size()) * Most(out) / sizes.radius_m;
+  out.max_accel_mps2 =
+      Take(answers.max_accel_mps2, std::min(kUsual_mps2, push_n / robot.mass_kg() / 2),
+           "0.5 m/s2, at most half of what the motors can");
+  const double spin_radps = kWheelShare * out.max_speed_mps.value / TurningArm(robot, sizes);
   out.max_yaw_rate_radps = Take(answers.max_yaw_rate_radps, std::min(kUsual_radps, spin_radps),
                                 "1.5 rad/s, at most 0.7 of what the wheels can");
   out.max_yaw_accel_radps2 =
       Take({}, 2 * out.max_yaw_rate_radps.value, "its yaw rate in half a second");
-  constexpr double kTool = 0.8, kStep = 0.1, kHotel_w = 10;
+}
+
+}  // namespace
+
+RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers) {
+  const Sizes sizes = SizesOf(robot);
+  RobotGuesses out;
+  GuessMotors(robot, answers, sizes, out);
+  GuessLimits(robot, answers, sizes, out);
+  constexpr double kTool = 0.8, kStep = 0.1, kHotel_w = 10, kTravel = 0.1;
   out.tool_width_m = Take(answers.tool_width_m, kTool * sizes.width_m, "0.8 of its width");
-  out.step_m = Take(answers.step_m, std::min(kStep * r, sizes.belly_m / 2),
+  out.step_m = Take(answers.step_m, std::min(kStep * sizes.radius_m, sizes.belly_m / 2),
                     "a tenth of the wheel's radius, at most half the belly's clearance");
   out.hotel_load_w = Take(answers.hotel_load_w, kHotel_w, "a small computer and a lidar");
-  constexpr double kTravel = 0.1;
   if (answers.sprung_share > 0) {
     out.spring_travel_m =
-        Take(answers.spring_travel_m, kTravel * r, "a tenth of the wheel's radius");
+        Take(answers.spring_travel_m, kTravel * sizes.radius_m, "a tenth of the wheel's radius");
     out.springs = WheelSprings(robot, answers.sprung_share, out.spring_travel_m.value);
   }
   return out;
