@@ -121,11 +121,12 @@ void GuessMotors(const UrdfRobot& robot, const UrdfAnswers& answers, const Sizes
       Take({}, kStiff * Most(out), "all its torque 0.5 rad/s below the speed asked for");
 }
 
-// What the law `skid` (docs/validation.md) has half the track of wheels that slide grow to.
+// A wheel's rim speed over the yaw rate: half the track; with rollers at 45 degrees half the
+// wheelbase more; where wheels slide, as the law `skid` (docs/validation.md) has it.
 double TurningArm(const UrdfRobot& robot, const Sizes& sizes) {
   const double half_track_m = std::max(1e-3, sizes.half_track_m);
-  const double half_base_m = Scrub(robot) ? Wheelbase(robot) / 2 : 0;
-  return half_track_m + half_base_m * half_base_m / half_track_m;
+  const double half_base_m = Wheelbase(robot) / 2;
+  return half_track_m + (Scrub(robot) ? half_base_m * half_base_m / half_track_m : half_base_m);
 }
 
 void GuessLimits(const UrdfRobot& robot, const UrdfAnswers& answers, const Sizes& sizes,

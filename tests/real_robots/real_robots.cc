@@ -47,14 +47,13 @@ constexpr RealRobot kRobots[] = {
      1.0, 26, 360, false, 0},
     {"husky",
      "motor_voltage_v: 24, no_load_radps: 7.27, stall_nm: 198, peak_nm: 66, friction_nm: 0.4, "
-     "max_speed_mps: 1, max_yaw_rate_radps: 1.5, cruise_mps: 0.5, hotel_load_w: 20, sprung_share: "
-     "1, "
-     "spring_travel_m: 0.005",
+     "max_speed_mps: 1, max_yaw_rate_radps: 1.5, cruise_mps: 0.5, hotel_load_w: 20, "
+     "sprung_share: 1, spring_travel_m: 0.005",
      1.0, 50, 480, false, 0},
     {"ridgeback",
      "roller_radius_m: 0.014, motor_voltage_v: 24, no_load_radps: 17.4, stall_nm: 82.8, "
-     "peak_nm: 27.6, max_speed_mps: 1.1, cruise_mps: 0.55, hotel_load_w: 60, sprung_share: 1, "
-     "spring_travel_m: 0.005",
+     "peak_nm: 27.6, max_speed_mps: 1.1, max_yaw_rate_radps: 1.5, cruise_mps: 0.55, "
+     "hotel_load_w: 60, sprung_share: 1, spring_travel_m: 0.005",
      1.0, 135, 2400, false, 0.018},
 };
 

@@ -139,6 +139,7 @@ TEST(UrdfRollers, MakeMecanumWheelsOfPlainOnes) {
   UrdfAnswers answers;
   answers.roller_radius_m = 0.01;
   answers.sprung_share = 1;
+  answers.top_speed_mps = 0.3;  // slow enough that it bounds the yaw rate that is guessed
   const RobotCheck dut = CheckRobot(ConvertedFile(OnFourWheels(), answers).string());
   EXPECT_EQ(dut.spec.drive, "mecanum");
   for (const WheelSpec& wheel : dut.spec.wheels) {
