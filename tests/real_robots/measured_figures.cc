@@ -29,8 +29,8 @@ Rungs RungsOf(const LadderHazard& hazard, double radius_m) {
 
 }  // namespace
 
-MeasuredLimit LimitOf(const std::filesystem::path& mjcf, std::string_view name,
-                      const Approach& approach) {
+FoundLimit LimitOf(const std::filesystem::path& mjcf, std::string_view name,
+                   const Approach& approach) {
   const LadderHazard& hazard = FindLadderHazard(name);
   const RobotModel robot = ReadRobot(mjcf);
   LadderCell cell;

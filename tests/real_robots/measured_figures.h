@@ -22,7 +22,7 @@ struct Approach {
   double oblique_deg = 0;
 };
 
-struct MeasuredLimit {
+struct FoundLimit {
   double size = 0;
   bool above_all = false;  // no rung held it
   std::string held_by;     // what ended the crossing just above the limit (CrossingResult)
@@ -31,8 +31,8 @@ struct MeasuredLimit {
 // Of a hazard of the ladder, in its unit; rungs as far apart as a 25th of the wheel's radius (of
 // slopes 3 degrees), up to 2 radii (60 degrees), of thresholds
 // to 100 mm.
-MeasuredLimit LimitOf(const std::filesystem::path& mjcf, std::string_view hazard,
-                      const Approach& approach);
+FoundLimit LimitOf(const std::filesystem::path& mjcf, std::string_view hazard,
+                   const Approach& approach);
 
 // Mean electrical power of motors and hotel load at this motion on a flat floor, W.
 double DrivingPower(const std::filesystem::path& mjcf, const BodyTwist& twist);

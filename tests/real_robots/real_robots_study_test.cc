@@ -24,7 +24,7 @@ const std::string& Page() {
   return page;
 }
 
-std::string Text(const MeasuredLimit& limit) {
+std::string Text(const FoundLimit& limit) {
   return fmt::format("{}{}", limit.size, limit.above_all ? " or more" : "");
 }
 
@@ -44,7 +44,7 @@ TEST_P(RealRobotStudy, ThePageHasItsFigures) {
   const auto limit = [&](const char* hazard, double speed_mps) {
     return LimitOf(file, hazard, {.speed_mps = speed_mps});
   };
-  const MeasuredLimit step = limit("step", robot().top_mps);
+  const FoundLimit step = limit("step", robot().top_mps);
   const double edge_mm = 1000 * robot().leading_edge_m;
   const double predicted = edge_mm > 0 ? std::min(edge_mm, step.size) : step.size;
   const double power_w = DrivingPower(file, {cruise_mps, 0, 0});
