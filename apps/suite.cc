@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "apps/command.h"
+#include "base/interrupt.h"
+#include "base/progress_line.h"
+#include "base/quantity.h"
+#include "report/suite_films.h"
+#include "stats/demonstration.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<std::string> robots, methods, required;
+  std::optional<double> reliability, confidence;
+  std::uint64_t seed = 0;
+  int jobs = 0;
+  std::string out;
+  bool no_films = false;
+};
+
+// Names apart by commas, as they may be typed.
+std::vector<std::string> Split(const std::vector<std::string>& words) {
+  std::vector<std::string> names;
+  for (const std::string& word : words)
+    for (std::size_t from = 0; from <= word.size();) {
+      const std::size_t to = std::min(word.find(',', from), word.size());
+      names.push_back(word.substr(from, to - from));
+      from = to + 1;
+    }
+  return names;
+}
+
+std::vector<const PluginEntry<Method>*> Asked(const std::vector<std::string>& words) {
+  const std::vector<std::string> names = Split(words);
+  for (const std::string& name : names) MakePlugin(Methods(), name, "--methods");
+  std::vector<const PluginEntry<Method>*> asked;
+  for (const auto& entry : Methods())
+    if (names.empty() || std::ranges::find(names, entry.name) != names.end())
+      asked.push_back(&entry);
+  return asked;
+}
+
+std::vector<RobotSuite> NamedRobots(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 6;  // columns of the page
+  if (names.size() > kMost)
+    throw InputError({"ROBOT", 0}, "", names[kMost], "is one robot more than six");
+  std::vector<RobotSuite> robots;
+  for (const std::string& name : names) {
+    const fs::path file = FindRobotFile(name, {"ROBOT", 0});
+    RobotSuite suite;
+    suite.robot = file == name ? fs::absolute(file).string() : name;
+    suite.label = file == name ? file.stem().string() : name;
+    suite.mass_kg = ReadRobot(file).spec.mass_kg;
+    if (std::ranges::find(robots, suite.label, &RobotSuite::label) != robots.end())
+      throw InputError({"ROBOT", 0}, "", name, "another robot is named so, too");
+    robots.push_back(std::move(suite));
+  }
+  return robots;
+}
+
+fs::path Folder(const std::string& out, const std::vector<RobotSuite>& robots) {
+  if (!out.empty()) return out;
+  std::string name;
+  for (const RobotSuite& robot : robots) name += (name.empty() ? "" : "_") + robot.label;
+  return fs::path("out/suite") / name;
+}
+
+SuiteReport Request(const Options& options, const Globals& globals) {
+  SuiteReport report;
+  report.options = {.reliability = options.reliability.value_or(0.95),
+                    .confidence = options.confidence.value_or(0.95),
+                    .seed = options.seed,
+                    .jobs = options.jobs > 0 ? options.jobs : Cores(),
+                    .overrides = globals.Overrides()};
+  RunsToDemonstrate(report.options.reliability, report.options.confidence);  // refuses
+  const auto asked = Asked(options.methods);
+  report.asked = asked.size();
+  for (const std::string& text : options.required) {
+    report.required.push_back(ReadRequirement(text));
+    if (std::ranges::none_of(
+            asked, [&](const auto* entry) { return entry->name == report.required.back().method; }))
+      throw InputError({"--require", 0}, "", text, "its method is not among --methods");
+  }
+  report.robots = NamedRobots(options.robots);
+  return report;
+}
+
+// Runs a method and adds what came of it; false when interrupted.
+bool Run(const PluginEntry<Method>& entry, const SuiteReport& report, RobotSuite& robot,
+         const Globals& globals) {
+  ProgressLine line(globals);
+  auto result = RunMethod(entry, robot.robot, report.options, [&](const SuiteProgress& now) {
+    if (line.IsDue())
+      line.Show(fmt::format("  {} {}: {}", robot.label, now.method, CountText(now.driven, "run")));
+  });
+  if (!result) return false;
+  line.Clear();
+  const std::string missed = WhyMissed(*result, report.required);
+  globals.Say(fmt::format("  {:<10} {:<18} {:<18} {}", robot.label, entry.name, ResultText(*result),
+                          missed.empty() ? "" : "MISSED: " + missed));
+  robot.methods.push_back(std::move(*result));
+  return true;
+}
+
+int RunIt(const Options& options, const Globals& globals) {
+  SuiteReport report = Request(options, globals);
+  const fs::path folder = Folder(options.out, report.robots);
+  ResultFolder out(folder, SuiteResults(), {});
+  out.Begin();
+  SayWhenInterrupted("the methods that were done are in " + folder.string());
+  const HoldInterrupts hold;
+  const int n = RunsToDemonstrate(report.options.reliability, report.options.confidence);
+  globals.Say(fmt::format("{} of {}; {} each: {}", CountText(report.asked, "method"),
+                          CountText(report.robots.size(), "robot"), CountText(n, "run"),
+                          PopulationText()));
+  WriteSuiteFiles(report, folder);  // what an earlier suite left does not stand for this one
+  for (const auto* entry : Asked(options.methods))
+    for (RobotSuite& robot : report.robots) {
+      if (!Run(*entry, report, robot, globals)) throw Interruption();
+      if (!options.no_films && robot.methods.back().not_applicable.empty())
+        FilmMethod(robot, robot.methods.back(), report.options, folder);
+      WriteSuiteFiles(report, folder);
+      if (Interrupted()) throw Interruption();
+    }
+  globals.Result(SuiteJson(report));
+  globals.Say("the page is " + (folder / "report.html").string());
+  for (const RobotSuite& robot : report.robots)
+    for (const MethodResult& result : robot.methods)
+      if (!WhyMissed(result, report.required).empty()) return kNotSuccess;
+  return kDone;
+}
+
+}  // namespace
+
+void AddSuite(CommandLine& line, const Globals& globals, int& status) {
+  auto options = std::make_shared<Options>();
+  Subcommand command =
+      line.Add("suite",
+               "Test methods over and over on a robot: the largest size of each that it passes, "
+               "demonstrated; several robots side by side");
+  command.Texts("ROBOT", options->robots, "Names of `floorproof list robots`, or files (.xml)",
+                Subcommand::Need::kRequired);
+  command.Number("--reliability", options->reliability,
+                 "Share of runs that must pass (default: 0.95)", 0, 1);
+  command.Number("--confidence", options->confidence,
+                 "At which that is demonstrated (default: 0.95)", 0, 1);
+  command.Texts("--methods", options->methods, "Only these, with commas between (default: all)",
+                Subcommand::Need::kOptional, 1);
+  command.Texts("--require", options->required,
+                "METHOD=VALUE: a size that must be reached, or a figure that must not be exceeded "
+                "(repeatable)",
+                Subcommand::Need::kOptional, 1);
+  command.Integer("--seed", options->seed, "Of all draws (default: 0)", 0, 2147483647);
+  command.Integer("--jobs", options->jobs, "Threads (default: one a core)", 1, 1024);
+  command.Text("--out", options->out, "Output folder (default: out/suite/ROBOT)");
+  command.Flag("--no-films", options->no_films, "Do not film");
+  command.OnRun([options, &globals, &status] { status = RunIt(*options, globals); });
+}
+
+}  // namespace floorproof

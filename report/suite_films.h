@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// A method's film: one of its runs, driven again.
+#pragma once
+
+#include <filesystem>
+
+#include "report/suite_files.h"
+
+namespace floorproof {
+
+// Writes the run that the result shows into FilmFolder, as a scenario with its plan, and films it
+// there. Throws InternalError when it does not end as it did: a film must show what was judged.
+void FilmMethod(const RobotSuite& robot, const MethodResult& result, const SuiteOptions& options,
+                const std::filesystem::path& folder);
+
+}  // namespace floorproof

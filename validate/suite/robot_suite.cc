@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "validate/suite/robot_suite.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "base/params.h"
+#include "base/quantity.h"
+
+namespace floorproof {
+namespace {
+
+std::string SizeText(const SizeLadder& sizes, double size) {
+  return fmt::format("{} {}", NumberText(size), sizes.unit);
+}
+
+// Rounded down: what is claimed holds.
+std::string AtLeastPercent(double share) {
+  constexpr double kDigits = 1000;
+  return PercentText(std::floor(share * kDigits + 1e-9) / kDigits);
+}
+
+// What failed at the size above the one that passed.
+const SuiteRun* FailedAbove(const MethodResult& result) {
+  const SuiteRun* found = nullptr;
+  for (const SuiteRun& run : result.runs) {
+    if (run.verdict.passed) continue;
+    const bool easier =
+        found == nullptr ||
+        (result.sizes->smaller_is_harder() ? run.size > found->size : run.size < found->size);
+    if (easier) found = &run;
+  }
+  return found;
+}
+
+}  // namespace
+
+SuiteRequirement ReadRequirement(const std::string& text) {
+  const auto refuse = [&](const std::string& rule) {
+    throw InputError({"--require", 0}, "", text, rule);
+  };
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    refuse("must be METHOD=VALUE, as in --require step=10");
+  SuiteRequirement required{text.substr(0, equals), 0};
+  const std::string value = text.substr(equals + 1);
+  char* end = nullptr;
+  required.value = std::strtod(value.c_str(), &end);
+  if (value.empty() || *end != '\0' || !(required.value > 0) || required.value > 1e9)
+    refuse("the value must be a number above 0");
+  const auto method = MakePlugin(Methods(), required.method, "--require");
+  // Whether there are sizes is the same for all robots.
+  const RobotModel any = ReadRobot(FindRobotFile(std::string(Robots().front().name), {}));
+  if (!method->sizes(any) && !method->figure())
+    refuse("the method " + required.method + " has neither sizes nor a figure: it passes or fails");
+  return required;
+}
+
+std::string WhyMissed(const MethodResult& result, std::span<const SuiteRequirement> required) {
+  if (!result.not_applicable.empty()) {
+    const bool asked = std::ranges::any_of(
+        required, [&](const SuiteRequirement& r) { return r.method == result.method; });
+    return asked ? "not applicable: " + result.not_applicable : "";
+  }
+  if (!result.passed()) {
+    return fmt::format("{} of {} failed{}", result.failures, result.n,
+                       result.sizes ? " at the easiest size" : "");
+  }
+  for (const SuiteRequirement& r : required) {
+    if (r.method != result.method) continue;
+    if (result.sizes && !result.sizes->Reaches(*result.size, r.value))
+      return fmt::format("{}, {} is required", SizeText(*result.sizes, *result.size),
+                         SizeText(*result.sizes, r.value));
+    if (result.measures && !(result.figure.value_or(r.value + 1) <= r.value))
+      return fmt::format("{} {}, {} at most is required", NumberText(*result.figure),
+                         result.measures->unit, NumberText(r.value));
+  }
+  return "";
+}
+
+std::string ResultText(const MethodResult& result) {
+  if (!result.not_applicable.empty()) return "not applicable";
+  if (result.sizes) {
+    if (!result.size) return "none";
+    return SizeText(*result.sizes, *result.size) +
+           (result.above_all ? result.sizes->smaller_is_harder() ? " or less" : " or more" : "");
+  }
+  const std::string count = fmt::format("{} of {}", result.n - result.failures, result.n);
+  if (result.measures && result.figure && result.failures == 0)
+    return fmt::format("{} {} at most", NumberText(*result.figure), result.measures->unit);
+  return (result.failures == 0 ? "passed, " : "failed, ") + count;
+}
+
+std::string ResultSentence(const MethodResult& result, const SuiteOptions& options) {
+  if (!result.not_applicable.empty()) return "Not applicable: " + result.not_applicable + ".";
+  const std::string sure = PercentText(options.confidence) + " confidence";
+  const std::string at =
+      !result.sizes
+          ? ""
+          : " at " + SizeText(*result.sizes,
+                              result.size.value_or(result.sizes->Size(result.sizes->rungs.first)));
+  std::string text = fmt::format("{} of {} runs passed{}: at least {} of such runs do, at {}.",
+                                 result.n - result.failures, result.n, at,
+                                 AtLeastPercent(result.reliability_lower), sure);
+  if (result.measures && result.figure)
+    text += fmt::format(" The {} was {} {} at most: {} of such runs keep below that, at {}.",
+                        result.measures->what, NumberText(*result.figure), result.measures->unit,
+                        PercentText(options.reliability), sure);
+  if (result.sizes && result.size && !result.above_all)
+    if (const SuiteRun* failed = FailedAbove(result))
+      text += fmt::format(" At {} run {} failed: {}.", SizeText(*result.sizes, failed->size),
+                          failed->run, failed->verdict.why);
+  if (result.above_all) text += " Nothing harder was tried.";
+  return text;
+}
+
+}  // namespace floorproof

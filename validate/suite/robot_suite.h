@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the suite found of one robot, and whether that is what was asked for.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "validate/suite/suite.h"
+
+namespace floorproof {
+
+struct RobotSuite {
+  std::string robot;  // as it was named
+  std::string label;  // its name, or its file's without folder and ending
+  double mass_kg = 0;
+  std::vector<MethodResult> methods;  // those that are done, in the list's order
+};
+
+// "step=12": of a method with sizes, at least as hard a size; of one that measures, at most that.
+struct SuiteRequirement {
+  std::string method;
+  double value = 0;
+};
+
+// Reads it for this robot's ladders. Throws InputError.
+SuiteRequirement ReadRequirement(const std::string& text);
+
+// Why the method's result is not what is asked for; empty: it is. Without requirements a method
+// must pass: one with sizes at its easiest.
+std::string WhyMissed(const MethodResult& result, std::span<const SuiteRequirement> required);
+
+// "12 mm", "102 mm or more", "none", "passed, 59 of 59", "not applicable".
+std::string ResultText(const MethodResult& result);
+// What that is worth: "59 of 59 passed: 95 % of such runs pass, at 95 % confidence; ...".
+std::string ResultSentence(const MethodResult& result, const SuiteOptions& options);
+
+}  // namespace floorproof
