@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::vector<std::string> robots, methods, required;
+  std::vector<std::string> robots;
+  std::string methods, required;  // with commas between
   std::optional<double> reliability, confidence;
   std::uint64_t seed = 0;
   int jobs = 0;
@@ -26,19 +27,18 @@ struct Options {
 };
 
 // Names apart by commas, as they may be typed.
-std::vector<std::string> Split(const std::vector<std::string>& words) {
+std::vector<std::string> Split(const std::string& text) {
   std::vector<std::string> names;
-  for (const std::string& word : words)
-    for (std::size_t from = 0; from <= word.size();) {
-      const std::size_t to = std::min(word.find(',', from), word.size());
-      names.push_back(word.substr(from, to - from));
-      from = to + 1;
-    }
+  for (std::size_t from = 0; !text.empty() && from <= text.size();) {
+    const std::size_t to = std::min(text.find(',', from), text.size());
+    names.push_back(text.substr(from, to - from));
+    from = to + 1;
+  }
   return names;
 }
 
-std::vector<const PluginEntry<Method>*> Asked(const std::vector<std::string>& words) {
-  const std::vector<std::string> names = Split(words);
+std::vector<const PluginEntry<Method>*> Asked(const std::string& text) {
+  const std::vector<std::string> names = Split(text);
   for (const std::string& name : names) MakePlugin(Methods(), name, "--methods");
   std::vector<const PluginEntry<Method>*> asked;
   for (const auto& entry : Methods())
@@ -82,7 +82,7 @@ SuiteReport Request(const Options& options, const Globals& globals) {
   RunsToDemonstrate(report.options.reliability, report.options.confidence);  // refuses
   const auto asked = Asked(options.methods);
   report.asked = asked.size();
-  for (const std::string& text : options.required) {
+  for (const std::string& text : Split(options.required)) {
     report.required.push_back(ReadRequirement(text));
     if (std::ranges::none_of(
             asked, [&](const auto* entry) { return entry->name == report.required.back().method; }))
@@ -113,6 +113,8 @@ int RunIt(const Options& options, const Globals& globals) {
   SuiteReport report = Request(options, globals);
   const fs::path folder = Folder(options.out, report.robots);
   ResultFolder out(folder, SuiteResults(), {});
+  for (const auto* entry : Asked(options.methods))
+    for (const RobotSuite& robot : report.robots) CheckMethod(*entry, robot.robot, report.options);
   out.Begin();
   SayWhenInterrupted("the methods that were done are in " + folder.string());
   const HoldInterrupts hold;
@@ -124,9 +126,12 @@ int RunIt(const Options& options, const Globals& globals) {
   for (const auto* entry : Asked(options.methods))
     for (RobotSuite& robot : report.robots) {
       if (!Run(*entry, report, robot, globals)) throw Interruption();
-      if (!options.no_films && robot.methods.back().not_applicable.empty())
-        FilmMethod(robot, robot.methods.back(), report.options, folder);
       WriteSuiteFiles(report, folder);
+      if (!options.no_films && robot.methods.back().not_applicable.empty()) {
+        FilmMethod(robot, robot.methods.back(), report.options, folder);
+        robot.filmed.emplace_back(entry->name);
+        WriteSuiteFiles(report, folder);
+      }
       if (Interrupted()) throw Interruption();
     }
   globals.Result(SuiteJson(report));
@@ -151,12 +156,10 @@ void AddSuite(CommandLine& line, const Globals& globals, int& status) {
                  "Share of runs that must pass (default: 0.95)", 0, 1);
   command.Number("--confidence", options->confidence,
                  "At which that is demonstrated (default: 0.95)", 0, 1);
-  command.Texts("--methods", options->methods, "Only these, with commas between (default: all)",
-                Subcommand::Need::kOptional, 1);
-  command.Texts("--require", options->required,
-                "METHOD=VALUE: a size that must be reached, or a figure that must not be exceeded "
-                "(repeatable)",
-                Subcommand::Need::kOptional, 1);
+  command.Text("--methods", options->methods, "Only these, with commas between (default: all)");
+  command.Text("--require", options->required,
+               "METHOD=VALUE, with commas between: sizes that must be reached, figures that must "
+               "not be exceeded");
   command.Integer("--seed", options->seed, "Of all draws (default: 0)", 0, 2147483647);
   command.Integer("--jobs", options->jobs, "Threads (default: one a core)", 1, 1024);
   command.Text("--out", options->out, "Output folder (default: out/suite/ROBOT)");

@@ -21,6 +21,7 @@ constexpr std::uintmax_t kLargestFilm = 8u << 20, kAllFilms = 48u << 20;  // in 
 
 constexpr const char* kSuiteStyle = R"css(
 .films { display: grid; grid-template-columns: repeat(auto-fit, minmax(18rem, 1fr)); gap: 0 1.2rem; }
+tbody th { min-width: 10.5rem; }
 .result { min-width: 9rem; vertical-align: top; }
 .meter { height: .45rem; margin-top: .3rem; border-radius: .25rem; background: var(--line); }
 .meter i { display: block; height: 100%; border-radius: .25rem; background: var(--mark); }
@@ -88,14 +89,16 @@ std::string VerdictBox(const SuiteReport& report) {
     list += "<li>" + MarkupText(RobotVerdict(report, robot)) + "</li>";
   }
   const SuiteOptions& options = report.options;
+  list += "<li>" +
+          MarkupText(fmt::format(
+              "Each size and each pass is demonstrated by {} without a failure: {} of such runs "
+              "pass, at {} confidence.",
+              CountText(RunsToDemonstrate(options.reliability, options.confidence), "run"),
+              PercentText(options.reliability), PercentText(options.confidence))) +
+          "</li>";
   return fmt::format(
       "<div class=\"verdict {}\"><p>{}</p><ul>{}</ul></div>\n", good ? "passed" : "failed",
-      MarkupText(fmt::format(
-          "Each size and each pass is demonstrated by {} without a failure: {} of such runs pass, "
-          "at {} confidence.",
-          CountText(RunsToDemonstrate(options.reliability, options.confidence), "run"),
-          PercentText(options.reliability), PercentText(options.confidence))),
-      list);
+      good ? "Every method is as it must be." : "Not every method is as it must be.", list);
 }
 
 std::string ResultCell(const SuiteReport& report, const MethodResult* result, double most) {
@@ -144,9 +147,9 @@ class FilmShelf {
   // Empty where there is none.
   std::string Film(const RobotSuite& robot, const MethodResult& result) {
     const fs::path path = FilmFolder(robot, result.method) / "video.mp4", file = folder_ / path;
-    std::error_code missing;
-    const std::uintmax_t size = fs::file_size(file, missing);
-    if (missing || result.runs.empty()) return "";
+    // A film that an earlier suite left shows another run.
+    if (std::ranges::find(robot.filmed, result.method) == robot.filmed.end()) return "";
+    const std::uintmax_t size = fs::file_size(file);
     const SuiteRun& run = result.runs[result.shown];
     const std::string caption = fmt::format(
         "{}, run {}{}: {}", robot.label, run.run,

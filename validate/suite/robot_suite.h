@@ -15,6 +15,7 @@ struct RobotSuite {
   std::string label;  // its name, or its file's without folder and ending
   double mass_kg = 0;
   std::vector<MethodResult> methods;  // those that are done, in the list's order
+  std::vector<std::string> filmed;    // of them
 };
 
 // "step=12": of a method with sizes, at least as hard a size; of one that measures, at most that.

@@ -131,6 +131,16 @@ std::string_view VerdictWord(const MethodResult& result) {
   return result.sizes ? "limit found" : "passed";
 }
 
+void CheckMethod(const PluginEntry<Method>& entry, const std::string& robot_name,
+                 const SuiteOptions& options) {
+  const RobotModel robot = ReadRobot(FindRobotFile(robot_name, {}));
+  const auto method = entry.make();
+  if (!method->WhyNot(robot).empty()) return;
+  const SuiteDrive drive(entry, robot_name, robot, options);
+  const auto sizes = method->sizes(robot);
+  drive.Read(drive.Draw(0, sizes ? sizes->Size(sizes->rungs.first) : 0));
+}
+
 std::optional<MethodResult> RunMethod(
     const PluginEntry<Method>& entry, const std::string& robot_name, const SuiteOptions& options,
     const std::function<void(const SuiteProgress&)>& on_progress) {

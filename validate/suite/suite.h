@@ -71,6 +71,11 @@ struct SuiteProgress {
   double size = 0;
 };
 
+// Lays the method's first run out and reads it, where the method can be asked of this robot: what
+// is wrong with it costs no drive. Throws InputError.
+void CheckMethod(const PluginEntry<Method>& entry, const std::string& robot,
+                 const SuiteOptions& options);
+
 // Runs one method. Nothing when interrupted. The same result for any number of jobs. `robot`: a
 // bundled name or a file. Throws InputError where a scenario cannot be laid out (an override that
 // makes no sense), InternalError when the physics diverges.

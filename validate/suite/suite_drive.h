@@ -16,12 +16,12 @@ class SuiteDrive {
   // Drives and judges them on the suite's threads, in order up to the first that fails (`all`: to
   // the end), whatever finished first. Fewer when interrupted.
   std::vector<SuiteRun> Drive(std::vector<SuiteRun> runs, bool all) const;
+  Scenario Read(const SuiteRun& run) const;
   // The scenario's text; `with_plan`: its plan stands in a file beside it.
   std::string Text(const SuiteRun& run, const MethodDrive& drive, bool with_plan) const;
   MethodDrive LayOut(const SuiteRun& run) const;
 
  private:
-  Scenario Read(const SuiteRun& run) const;
   void Judge(Scenario& scenario, SuiteRun& run) const;
 
   std::string name_, robot_name_;
