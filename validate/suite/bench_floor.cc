@@ -72,8 +72,12 @@ bool HasLidar(const RobotModel& robot) {
   return mjs_findElement(robot.mjcf.get(), mjOBJ_SITE, "lidar") != nullptr;
 }
 
+double TimeTo(const RobotSpec& robot, double way_m, double speed_mps) {
+  return way_m / speed_mps + speed_mps / robot.max_accel_mps2;
+}
+
 SizeLadder SpeedLadder(const RobotSpec& robot) {
-  constexpr int kPerUnit = 100, kStep = 5;
+  constexpr int kPerUnit = 100, kStep = 4;
   const int most = static_cast<int>(std::floor(kPerUnit * robot.max_speed_mps + 1e-9));
   return {"speed", "m/s", {.per_unit = kPerUnit, .first = kStep, .spacing = kStep, .last = most}};
 }

@@ -42,8 +42,11 @@ double WidthOf(const RobotModel& robot);
 bool HasLidar(const RobotModel& robot);
 // What a method says that needs one.
 inline constexpr const char* kNoLidar = "the model has no lidar";
-// Speeds up to the robot's highest, in steps of 0.05 m/s.
+// Speeds up to the robot's highest, rungs 0.04 m/s apart; the first is below what bounce_back calls
+// an impact.
 SizeLadder SpeedLadder(const RobotSpec& robot);
+// When it has come so far from rest, at most, s.
+double TimeTo(const RobotSpec& robot, double way_m, double speed_mps);
 // A straight plan at one speed.
 Path StraightPlan(const Vec2& from_W, const Vec2& to_W, double speed_mps);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // An edge down, as of stairs, that is on no map. The robot sees it by the cliff sensors at its edge
 // and brakes.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "base/params.h"
@@ -10,6 +12,7 @@ namespace floorproof {
 namespace {
 
 constexpr double kDepth_m = 0.15, kAtSpeed_m = 0.3, kBehind_m = 0.2, kBeyond_m = 0.5;
+constexpr double kBack_m = 0.5, kBack_mps = 0.05, kAfter_s = 4;
 
 class DropStop final : public Method {
  public:
@@ -42,12 +45,16 @@ class DropStop final : public Method {
                    {floor.length_m(), 0},
                    {floor.length_m(), width_m},
                    {edge_m - aside_m, width_m}});
+    const double seen_s =
+        TimeTo(robot, edge_m + std::abs(aside_m) - start_m - robot.inscribed_radius_m, run.size);
     return {floor.Keys(run, {start_m, middle_m, 0}) +
-                "react: {bumper: false, cliff: true, then: go_on}\n",
+                fmt::format("react: {{bumper: false, cliff: true, back_off_m: {}, back_off_mps: "
+                            "{}}}\ntime_limit_s: {}\n",
+                            kBack_m, kBack_mps, FormatDouble(seen_s + kAfter_s)),
             StraightPlan({start_m, middle_m}, {end_m, middle_m}, run.size)};
   }
 
-  // The plan ends where it cannot go.
+  // It ends a while after the edge, on its way back: how it would go on is another question.
   MethodVerdict Judge(const MethodRun&, const EpisodeRecord& record) const override {
     if (!record.events.empty()) return {false, HowItEnded(record)};
     if (record.metrics.reactions == 0) return {false, "never saw the edge"};
