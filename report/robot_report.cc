@@ -46,7 +46,32 @@ std::string CastersText(const RobotCheck& check) {
   return number == 0 ? "none" : std::to_string(number);
 }
 
+// On the floor that crosses most.
+std::string MeasuredText(const MeasuredLimits& measured) {
+  const double friction = measured.frictions.back();
+  std::string text;
+  for (const char* kind : {"step", "drop", "threshold"})
+    if (const auto limit = LimitOn(measured, kind, friction); limit && std::isfinite(*limit))
+      text += fmt::format("{}{} of {}", text.empty() ? "" : ", ", kind,
+                          LengthText(std::round(1e4 * *limit) / 1e4));
+  return fmt::format("crosses {} every way, on friction {}; by {}", text, friction, measured.by);
+}
+
 std::string Millimetres(double m) { return std::to_string(std::lround(1000 * m)); }
+
+// null: the model states no limits. Sizes in m, rad and shares; null: all that was tried.
+nlohmann::ordered_json MeasuredJson(const MeasuredLimits& measured) {
+  if (measured.by.empty()) return nullptr;
+  nlohmann::ordered_json limits = nlohmann::ordered_json::object();
+  for (const MeasuredLimit& limit : measured.limits)
+    for (const double most : limit.most)
+      limits[limit.kind].push_back(std::isinf(most) ? nlohmann::ordered_json(nullptr)
+                                                    : nlohmann::ordered_json(most));
+  return {{"by", measured.by},
+          {"not_used", measured.why_unused},
+          {"frictions", measured.frictions},
+          {"limits", limits}};
+}
 
 nlohmann::ordered_json Point(const Vec2& p) { return {p.x(), p.y()}; }
 
@@ -72,7 +97,7 @@ nlohmann::ordered_json StanceJson(const RobotStance& stance) {
 std::vector<std::pair<std::string, std::string>> RobotFigures(const RobotCheck& check) {
   const RobotSpec& spec = check.spec;
   const Vec3& com = spec.p_BCom;
-  return {
+  std::vector<std::pair<std::string, std::string>> figures = {
       {"drive", spec.drive},
       {"wheels", WheelsText(spec)},
       {"track", LengthText(check.track_m)},
@@ -93,6 +118,8 @@ std::vector<std::pair<std::string, std::string>> RobotFigures(const RobotCheck& 
        check.stance.lidar_z_m ? LengthText(*check.stance.lidar_z_m) + " over the floor" : "none"},
       {"crosses", fmt::format("steps of {}, as its model says", LengthText(spec.step_m))},
   };
+  if (!spec.measured.limits.empty()) figures.emplace_back("measured", MeasuredText(spec.measured));
+  return figures;
 }
 
 std::vector<std::string> RobotLines(const RobotCheck& check) {
@@ -155,6 +182,7 @@ nlohmann::ordered_json RobotJson(const RobotCheck& check) {
       {"cruise_mps", spec.cruise_mps},
       {"lidar_z_m", nullptr}};
   if (check.stance.lidar_z_m) json["lidar_z_m"] = *check.stance.lidar_z_m;
+  json["measured"] = MeasuredJson(spec.measured);
   json.update(StanceJson(check.stance));
   json["ten_seconds"] = rows;
   json["findings"] = findings;

@@ -45,15 +45,21 @@ bool Meets(const std::vector<Polygon>& floor, const Path& path) {
 std::vector<std::size_t> LevelChangesOnTheWay(const HazardMap& map, const Path& path) {
   const std::vector<std::vector<Polygon>> bare = BareFloors(map);
   std::vector<std::size_t> met;
-  for (std::size_t i = 0; i < map.hazards.size(); ++i)
-    if (map.hazards[i].hazard_class == HazardClass::kLevelChange && Meets(bare[i], path))
-      met.push_back(i);
+  for (std::size_t i = 0; i < map.hazards.size(); ++i) {
+    const Hazard& hazard = map.hazards[i];
+    const bool counts = hazard.hazard_class == HazardClass::kLevelChange ||
+                        (hazard.hazard_class == HazardClass::kTerrain && hazard.crossable == false);
+    if (counts && Meets(bare[i], path)) met.push_back(i);
+  }
   return met;
 }
 
 ClearanceField ClearanceOnTheWay(HazardMap map, const std::vector<std::size_t>& on_the_way,
                                  double step_m) {
-  for (const std::size_t i : on_the_way) map.hazards[i].height_m = 0;
+  for (const std::size_t i : on_the_way) {
+    map.hazards[i].height_m = 0;
+    map.hazards[i].crossable.reset();
+  }
   return ComputeClearance(map, step_m);
 }
 

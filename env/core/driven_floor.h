@@ -11,8 +11,9 @@
 
 namespace floorproof {
 
-// Indices of the map's level changes that the path's line meets: crosses, touches or lies within,
-// where no later level covers them.
+// Indices of the map's level changes, and of the terrain that its robot does not cross
+// (JudgedFor), that the path's line meets: crosses, touches or lies within, where no later level
+// covers them.
 // Steps beside it are not among them, nor are blind objects and glass, which nobody crosses.
 std::vector<std::size_t> LevelChangesOnTheWay(const HazardMap& map, const Path& path);
 

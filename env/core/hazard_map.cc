@@ -27,7 +27,13 @@ HazardMap KnownPart(const HazardMap& map) {
   return known;
 }
 
+std::vector<std::vector<HazardSize>> LevelSizes(double height_m) {
+  const double size_m = std::abs(height_m);
+  return {{{"step", size_m}, {"drop", size_m}}};
+}
+
 bool IsObstacle(const Hazard& hazard, double step_m) {
+  if (hazard.crossable) return !*hazard.crossable;
   switch (hazard.hazard_class) {
     case HazardClass::kBlindObject:
     case HazardClass::kGlass:

@@ -52,6 +52,13 @@ struct Material {
   std::array<float, 4> rgba = {0.6f, 0.6f, 0.6f, 1.0f};
 };
 
+// How large a hazard is, of a kind of which robots' limits are measured (the ladder,
+// docs/validation.md).
+struct HazardSize {
+  std::string kind;
+  double size = 0;  // m, rad, or a share
+};
+
 // The record that a hazard's plug-in makes from its keys (env/hazards). Nobody above env/map asks a
 // plug-in.
 struct Hazard {
@@ -63,7 +70,15 @@ struct Hazard {
   double height_m = 0;             // signed: a drop is negative, a groove's depth negative
   std::vector<Solid> solids;
   Material material;
+  // Each list says by itself how large it is: who crosses all that one of them holds crosses the
+  // hazard. None: nothing of its kind is measured.
+  std::vector<std::vector<HazardSize>> sizes;
+  // Of a map as it is for one robot (JudgedFor): whether that crosses it, by its measured limits.
+  // None: they say nothing of it, and its class decides.
+  std::optional<bool> crossable = {};
 };
+// Up and down a level change so high.
+std::vector<std::vector<HazardSize>> LevelSizes(double height_m);
 
 struct HazardMap {
   std::string name;
@@ -90,8 +105,10 @@ struct HazardMap {
 // The map without hazards of `known: false`: what planners and localisation get.
 HazardMap KnownPart(const HazardMap& map);
 
-// Whether a robot that can cross steps of step_m must keep off this hazard. True for C1 and C2, and
-// for level changes higher or deeper than step_m. Terrain (C4) is driven over.
+// Whether a robot that can cross steps of step_m must keep off this hazard. True for C1 and C2.
+// Of all others the robot's measured limits decide, where the map was judged by them and they say
+// something of it (`crossable`); else it is true for level changes higher or deeper than step_m,
+// and terrain (C4) is driven over.
 bool IsObstacle(const Hazard& hazard, double step_m);
 
 }  // namespace floorproof

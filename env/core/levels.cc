@@ -86,6 +86,7 @@ Hazard BaseFloor(const HazardMap& map, MadeFloors& floors, double height_m) {
   base.type = "floor";
   base.hazard_class = HazardClass::kLevelChange;
   base.height_m = height_m;
+  base.sizes = LevelSizes(height_m);
   for (const Polygon& rectangle : FreeRectangles(map))
     AddBare(rectangle, floors, 0, false, base.footprint);
   for (const Polygon& part : base.footprint) base.solids.push_back(LevelSolid(part, height_m));
@@ -132,6 +133,7 @@ HazardMap SeenFrom(HazardMap map, const RobotSpec& robot, const Pose2& X_WB) {
       continue;
     }
     hazard.height_m -= floor_m;
+    hazard.sizes = LevelSizes(hazard.height_m);
     if (std::abs(hazard.height_m) <= kSameLevel_m || hazard.footprint.empty()) continue;
     // A pit's bases need not be convex, those of what rises over a deeper one must be.
     std::vector<Solid> built;

@@ -30,7 +30,7 @@ class Floors {
     for (bool more = true; more;) {
       more = false;
       for (std::size_t h = 0; h < map.hazards.size(); ++h)
-        if (!open_[h] && (IsRamp(map.hazards[h]) ? StartsFromOpen(map.hazards[h])
+        if (!open_[h] && (IsRamp(map.hazards[h]) ? IsDriven(map.hazards[h])
                                                  : IsLevel(map.hazards[h]) && IsReached(h))) {
           open_[h] = true;
           more = true;
@@ -61,6 +61,10 @@ class Floors {
 
   bool Joins(const Hazard& ramp, const Hazard& level) const {
     return LeadsOnto(ramp, level.height_m, &level.footprint, step_m_);
+  }
+  // Not too steep for the robot, and it leads on from where that gets to.
+  bool IsDriven(const Hazard& ramp) const {
+    return !IsObstacle(ramp, step_m_) && StartsFromOpen(ramp);
   }
   // From level 0, or from an open level.
   bool StartsFromOpen(const Hazard& ramp) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "env/core/battery.h"
+#include "env/core/measured_limits.h"
 #include "env/geometry/polygon.h"
 
 namespace floorproof {
@@ -85,6 +86,7 @@ struct RobotSpec {
   Vec3 p_BCom = Vec3::Zero();
   double clearance_m = 0;     // belly above the floor
   double step_m = 0;          // highest level change it is trusted to cross
+  MeasuredLimits measured;    // what its model's file says that the ladder measured
   double static_tip_rad = 0;  // least atan(d / h) over the edges of the wheels' support polygon
   // From the ladder's capability chart: the steepest flanks of a 20 mm cable cover that the robot
   // crosses at 0.2 m/s on friction 0.8, 3 degrees off square, forward and sideways, and the chart's

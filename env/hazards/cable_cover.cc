@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A cable cover along a line (C4 of the hTetro FMEA paper, Table 1): a trapezoid in section, low
 // and wide, mitred at bends, cut square at its ends.
+#include <cmath>
+
+#include "env/geometry/geometry.h"
 #include "env/hazards/hazard_type.h"
 #include "env/hazards/strip.h"
 
@@ -24,6 +27,7 @@ class CableCover : public HazardType {
     Hazard hazard;
     hazard.hazard_class = HazardClass::kTerrain;
     hazard.height_m = height_m_;
+    hazard.sizes = Sizes();
     hazard.footprint = StripAlong(place, width_m_, "width_m");
     const std::vector<Polygon> tops = StripAlong(place, top_width_m_, "top_width_m");
     for (std::size_t i = 0; i < tops.size(); ++i)
@@ -33,6 +37,23 @@ class CableCover : public HazardType {
   }
 
  private:
+  // By the ladder's cover of the same height or flanks; a low one is no more than an upright
+  // threshold.
+  std::vector<std::vector<HazardSize>> Sizes() const {
+    constexpr double kHeight_m = 0.020, kFlank_rad = kPi / 6, kThreshold_m = 0.0064;
+    const double flank_rad = std::atan2(2 * height_m_, width_m_ - top_width_m_);
+    std::vector<std::vector<HazardSize>> sizes;
+    if (height_m_ <= kHeight_m * kSame) sizes.push_back({{"cable_cover", flank_rad}});
+    if (flank_rad <= kFlank_rad * kSame) sizes.push_back({{"cable_cover_height", height_m_}});
+    if (height_m_ <= kThreshold_m * kSame) sizes.push_back({{"threshold", height_m_}});
+    if (sizes.empty())  // higher and steeper than either: all that is like it must be crossed
+      sizes.push_back({{"cable_cover", flank_rad},
+                       {"cable_cover_height", height_m_},
+                       {"step", height_m_},
+                       {"drop", height_m_}});
+    return sizes;
+  }
+
   // No published sizes were found: the middle of 15-30 mm high with flanks of 15-40 degrees.
   double width_m_ = 0.13;
   double top_width_m_ = 0.05;

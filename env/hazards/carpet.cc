@@ -24,6 +24,9 @@ class Carpet final : public HazardType {
     Hazard hazard;
     hazard.hazard_class = HazardClass::kLevelChange;
     hazard.height_m = height_m_;
+    // The ladder's edge is 1:1; what is steeper is a step.
+    hazard.sizes = LevelSizes(height_m_);
+    if (bevel_ >= 1) hazard.sizes = {{{"carpet", height_m_}}};
     hazard.footprint = {place};
     hazard.solids = SlabWithRim(place, height_m_, bevel_ * height_m_, "bevel", bevel_);
     hazard.material.rolling_drag = rolling_drag_;

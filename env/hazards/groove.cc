@@ -19,6 +19,7 @@ class Groove : public HazardType {
     Hazard hazard;
     hazard.hazard_class = HazardClass::kTerrain;
     hazard.height_m = -depth_m_;
+    hazard.sizes = {{{"groove", width_m_}}, {{"step", depth_m_}, {"drop", depth_m_}}};
     hazard.footprint = StripAlong(place, width_m_, "width_m");
     for (const Polygon& slot : hazard.footprint)
       hazard.solids.push_back({Solid::Kind::kCut, slot, {}, -depth_m_, 0});

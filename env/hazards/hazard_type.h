@@ -16,6 +16,9 @@ namespace floorproof {
 // Of a hazard's solids: below it the engine finds no volume.
 inline constexpr double kLeastSize_m = 1e-4;
 
+// Sizes that are the same but for rounding differ by less than this factor.
+inline constexpr double kSame = 1 + 1e-9;
+
 class HazardType : public Configurable {
  public:
   // How its place is written in a site file.

@@ -3,6 +3,7 @@
 // car's floor, its first edge the door. Along that edge lies the gap, and beyond it the floor lies
 // level_m higher or lower, since cars do not stop exactly: ADA 407.4 allows 13 mm, and a gap of
 // 32 mm.
+#include <algorithm>
 #include <cmath>
 
 #include "env/hazards/hazard_type.h"
@@ -30,6 +31,7 @@ class LiftSill final : public HazardType {
     const Polygon gap = Gap(place);
     Hazard hazard;
     hazard.footprint = {place};
+    hazard.sizes = Sizes();
     hazard.material.rgba = {0.62f, 0.64f, 0.67f, 1.0f};
     hazard.solids = {{Solid::Kind::kCut, gap, {}, -depth_m_, 0}};
     if (level_m_ == 0) {
@@ -50,6 +52,18 @@ class LiftSill final : public HazardType {
   }
 
  private:
+  // The ladder's gap is the widest that a lift may have. Out of a car that stands high the robot
+  // comes down.
+  std::vector<std::vector<HazardSize>> Sizes() const {
+    constexpr double kGap_m = 0.032;
+    const double level_m = std::max(std::abs(level_m_), kLeastSize_m);
+    if (level_m_ == 0 && gap_m_ > kGap_m * kSame) return {{{"groove", gap_m_}}};
+    std::vector<HazardSize> sizes = {{"lift_sill", level_m}};
+    if (level_m_ != 0) sizes.push_back({"drop", level_m});
+    if (gap_m_ > kGap_m * kSame) sizes.push_back({"groove", gap_m_});
+    return {sizes};
+  }
+
   // Within the polygon, as wide all along its first edge.
   Polygon Gap(const std::vector<Vec2>& place) const {
     const Vec2 along = place[1] - place[0];

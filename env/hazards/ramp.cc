@@ -39,6 +39,8 @@ class Ramp final : public HazardType {
     Hazard hazard;
     hazard.hazard_class = HazardClass::kTerrain;
     hazard.height_m = height_m;
+    const double slope_rad = std::abs(slope_deg_) * kPi / 180;
+    hazard.sizes = {{{"ramp", slope_rad}, {"ramp_down", slope_rad}}};
     hazard.footprint = {place};
     hazard.material.rgba = {0.66f, 0.64f, 0.58f, 1.0f};
     const double lowest_m = std::min(height_m, 0.0);

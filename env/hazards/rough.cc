@@ -43,6 +43,10 @@ class Rough : public HazardType {
     hazard.hazard_class = HazardClass::kTerrain;
     hazard.footprint = {place};
     hazard.height_m = amplitude_m_;
+    // Robots turn on it, too, and start from between its bumps, which takes more than the ladder's
+    // straight drive: an assumption.
+    constexpr double kStraightShare = 0.8;
+    hazard.sizes = {{{"rough", amplitude_m_ / kStraightShare}}};
     hazard.solids = Bumps(place);
     hazard.material.rgba = {0.50f, 0.48f, 0.44f, 1.0f};
     return hazard;

@@ -24,6 +24,7 @@ class Step : public HazardType {
     hazard.hazard_class = HazardClass::kLevelChange;
     hazard.footprint = {place};
     hazard.height_m = height_m_;
+    hazard.sizes = LevelSizes(height_m_);
     hazard.material.rgba = {0.72f, 0.66f, 0.50f, 1.0f};
     if (height_m_ < 0) {
       hazard.solids = {{Solid::Kind::kCut, place, {}, height_m_, 0}};

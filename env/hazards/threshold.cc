@@ -31,6 +31,12 @@ class Threshold final : public HazardType {
     Hazard hazard;
     hazard.hazard_class = HazardClass::kLevelChange;
     hazard.height_m = height_m_;
+    // The ladder's is a new door's; what is steeper is a step.
+    constexpr double kNewUpright_m = 0.0064, kNewBevel = 2;
+    const bool as_new =
+        upright_m <= kNewUpright_m * kSame && (bevel_ >= kNewBevel || bevelled_m <= 0);
+    hazard.sizes = LevelSizes(height_m_);
+    if (as_new) hazard.sizes = {{{"threshold", height_m_}}};
     hazard.footprint = StripAlong(place, width_m_, "width_m");
     hazard.material.rgba = {0.45f, 0.33f, 0.22f, 1.0f};
     const std::vector<Polygon> tops = StripAlong(place, top_m, "width_m");

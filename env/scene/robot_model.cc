@@ -2,6 +2,7 @@
 #include "env/scene/robot_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <mutex>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "env/core/blocks.h"
 #include "env/scene/lock_blocks.h"
+#include "env/scene/measured_block.h"
 #include "env/scene/mecanum_wheel.h"
 #include "env/scene/robot_limits.h"
 #include "env/scene/robot_mjcf.h"
@@ -74,8 +76,28 @@ RobotModel CopyOf(const ParsedMjcf& parsed) {
   return out;
 }
 
+bool IsSame(const RobotSpec& a, const RobotSpec& b) {
+  const auto same = [](double x, double y) { return std::abs(x - y) <= 1e-9 * std::abs(x); };
+  return same(a.mass_kg, b.mass_kg) && same(a.clearance_m, b.clearance_m) &&
+         same(a.battery.voltage_v.value_or(0), b.battery.voltage_v.value_or(0)) &&
+         std::ranges::equal(a.wheels, b.wheels, [&](const WheelSpec& x, const WheelSpec& y) {
+           return same(x.radius_m, y.radius_m) && same(x.roller_radius_m, y.roller_radius_m);
+         });
+}
+
+// Limits are of the robot that was measured: of the model that its files state, unchanged.
+void CheckMeasured(const std::vector<std::filesystem::path>& models, const InputFiles& files,
+                   bool changed, MeasuredLimits& measured) {
+  if (measured.by.empty()) return;
+  if (measured.model != ModelHash(models, files))
+    DropLimits(measured, "the model was changed since");
+  else if (changed)
+    DropLimits(measured, "the scenario changes the robot");
+}
+
 // Changes the model and reads what it then is.
-void Finish(RobotModel& out, const std::string& file, const RobotChanges& changes, Blocks blocks) {
+void Finish(RobotModel& out, const std::string& file, const RobotChanges& changes, Blocks blocks,
+            const InputFiles& files) {
   NameParts(out.mjcf.get(), file);
   const auto read = [&] {
     const ModelPtr model(mj_compile(out.mjcf.get(), out.assets.get()));
@@ -83,11 +105,15 @@ void Finish(RobotModel& out, const std::string& file, const RobotChanges& change
     return ReadSpec(model.get(), file);
   };
   out.spec = read();
+  const RobotSpec as_written = out.spec;
   if (ChangeRobot(out.mjcf.get(), out.spec, changes)) out.spec = read();
+  const bool changed = !IsSame(as_written, out.spec);
 
   const int shape = changes.shape.empty() ? 0 : FindShape(out.spec, changes.shape);
   if (shape < 0) RefuseShape(out.spec, {file, 0}, "shape", changes.shape);
+  CheckMeasured(out.files, files, changed || shape > 0, out.spec.measured);
   if (out.spec.shapes.empty()) return;
+  const MeasuredLimits measured = std::move(out.spec.measured);
   const std::vector<ShapeSpec> shapes = out.spec.shapes;
   if (blocks == Blocks::kLocked) {
     LockBlocks(out.mjcf.get(), out.spec, shapes[static_cast<std::size_t>(shape)]);
@@ -95,6 +121,7 @@ void Finish(RobotModel& out, const std::string& file, const RobotChanges& change
     out.spec = read();
     out.spec.blocks = std::move(locked);
   }
+  out.spec.measured = measured;
   TakeShape(out.spec, shapes, shape);
 }
 
@@ -119,10 +146,10 @@ void PutOnRollers(const RobotModel& robot, const std::string& file) {
 }
 
 // What becomes of a robot, once: its blocks locked and hinged, on rollers, in each shape.
-void UseOnce(const ParsedMjcf& parsed, const std::string& file) {
+void UseOnce(const ParsedMjcf& parsed, const std::string& file, const InputFiles& files) {
   const auto finish = [&](const RobotChanges& changes, Blocks blocks) {
     RobotModel robot = CopyOf(parsed);
-    Finish(robot, file, changes, blocks);
+    Finish(robot, file, changes, blocks, files);
     PutOnFloor(robot);
     return robot;
   };
@@ -167,10 +194,10 @@ RobotModel ReadRobot(const std::filesystem::path& file, const RobotChanges& chan
   RobotModel out;
   {
     const std::scoped_lock lock(mutex);
-    out = CopyOf(
-        ReadMjcf(file, files, [&](const ParsedMjcf& parsed) { UseOnce(parsed, file.string()); }));
+    out = CopyOf(ReadMjcf(
+        file, files, [&](const ParsedMjcf& parsed) { UseOnce(parsed, file.string(), files); }));
   }
-  Finish(out, file.string(), changes, blocks);
+  Finish(out, file.string(), changes, blocks, files);
   return out;
 }
 

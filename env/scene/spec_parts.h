@@ -18,4 +18,7 @@ void ReadWheels(const CompiledRobot& compiled, RobotSpec& robot);
 // has neither blocks nor shapes.
 void ReadShapes(const CompiledRobot& compiled, RobotSpec& robot);
 
+// `measured`: the limits under <custom>, where there are such.
+void ReadMeasuredLimits(const CompiledRobot& compiled, RobotSpec& robot);
+
 }  // namespace floorproof

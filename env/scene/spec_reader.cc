@@ -110,6 +110,7 @@ RobotSpec ReadSpec(const mjModel* model, const std::string& file) {
   ReadBattery(compiled, robot);
   ReadBody(compiled, robot);
   ReadShapes(compiled, robot);
+  ReadMeasuredLimits(compiled, robot);
   return robot;
 }
 

@@ -136,7 +136,9 @@ RiskGrid MakeRiskGrid(const HazardMap& map, const RobotSpec& robot, const FmeaTa
                             hazard.hazard_class == HazardClass::kLevelChange;
       Rasterise(p_G, grid.frame.width, grid.frame.height, [&](int ix, int iy) {
         if (of_floor && all_wall(ix, iy)) return;  // a strip that ends in it
-        AddHazard(hazard.hazard_class, tables, grid.contents(ix, iy));
+        RiskCell& cell = grid.contents(ix, iy);
+        AddHazard(hazard.hazard_class, tables, cell);
+        cell.solid = cell.solid || hazard.crossable == false;
       });
     }
   return grid;

@@ -45,6 +45,13 @@ std::string Line(const HazardMap& floor, const PlanConflict& c) {
   return line;
 }
 
+constexpr std::string_view kBeyondMeasured = "more than the robot was measured to cross";
+
+bool IsBeyondMeasured(const HazardMap& floor, const std::string& id) {
+  const auto hazard = std::ranges::find(floor.hazards, id, &Hazard::id);
+  return hazard != floor.hazards.end() && hazard->crossable == false;
+}
+
 std::string Reason(const HazardMap& floor, const RobotSpec& robot, const UncoveredPocket& pocket,
                    const PlanResult& plan) {
   const std::string needs = Metres(LeastPassage(plan.clear));
@@ -66,8 +73,10 @@ std::string Reason(const HazardMap& floor, const RobotSpec& robot, const Uncover
     case Why::kClosed:
       return "walls all around";
     case Why::kKeptOff:
-      return fmt::format("{}; the robot crosses {} at most", ObstaclePhrase(floor, pocket.hazard),
-                         Metres(robot.step_m));
+      return IsBeyondMeasured(floor, pocket.hazard)
+                 ? fmt::format("{}: {}", ObstaclePhrase(floor, pocket.hazard), kBeyondMeasured)
+                 : fmt::format("{}; the robot crosses {} at most",
+                               ObstaclePhrase(floor, pocket.hazard), Metres(robot.step_m));
   }
   return "";
 }
@@ -109,6 +118,7 @@ std::string Line(const HazardMap& floor, const RobotSpec& robot, const PlanCross
   std::string line = fmt::format("crosses {} at {}, {} m along", ObstaclePhrase(floor, c.hazard),
                                  At(c.p_W), FixedText(c.along_m, 1));
   if (c.times > 1) line += fmt::format(", {} times", c.times);
+  if (IsBeyondMeasured(floor, c.hazard)) return fmt::format("{}: {}", line, kBeyondMeasured);
   return line + fmt::format(": {} than the robot is trusted to cross ({})",
                             c.height_m < 0 ? "deeper" : "higher", Metres(robot.step_m));
 }

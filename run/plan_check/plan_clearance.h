@@ -24,7 +24,8 @@ struct PlanConflict {
   std::string other_side = {};  // of the gap: `obstacle` stands on the one side, this on the other
 };
 
-// A known level change that the plan leads over and that is beyond the robot's `step_m`.
+// A known level change that the plan leads over and that is beyond the robot's `step_m`, or any
+// known hazard that is beyond its measured limits.
 struct PlanCrossing {
   std::string hazard;       // its id
   double height_m = 0;      // its floor over the base floor; negative: below

@@ -259,11 +259,13 @@ class Finder {
     return id;
   }
 
-  // Floors of another level, as far as they lie within the walls.
+  // Floors that the robot does not get onto: of another level, or terrain beyond its measured
+  // limits, as far as they lie within the walls.
   void AddLevels() {
     for (const Hazard& hazard : known_.hazards) {
-      if (hazard.hazard_class != HazardClass::kLevelChange || !IsObstacle(hazard, step_m_))
-        continue;
+      const bool is_floor =
+          hazard.hazard_class == HazardClass::kLevelChange || hazard.crossable == false;
+      if (!is_floor || !IsObstacle(hazard, step_m_)) continue;
       auto [low, cells] = CellsOf(hazard, area_.frame);
       for (int iy = 0; iy < cells.height; ++iy)
         for (int ix = 0; ix < cells.width; ++ix)

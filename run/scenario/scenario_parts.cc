@@ -437,6 +437,7 @@ void ReadParts(const ConfigNode& root, Scenario& s) {
   ReadSafetyPart(root, s);
   const std::vector<int> plan_lines = ReadPlanPart(root, s);
   ReadRobotPart(root, plan_lines, s);  // whether it folds hangs on the plan
+  s.robot.spec.step_m = TrustedStep(s.robot.spec, s.site.map.floor_friction);
   s.start = ReadStart(root, s.site.map);
   s.site.map.start = s.start;  // the scenario's own wins, on pictures too
   CheckStart(root, s);

@@ -42,6 +42,20 @@ void WarnOfSpeeds(const Scenario& s, std::vector<std::string>& lines) {
     capped("react.back_off_mps", s.recovery->back_off_mps);
 }
 
+void WarnOfLimits(const Scenario& s, std::vector<std::string>& lines) {
+  const MeasuredLimits& measured = s.robot.spec.measured;
+  const double friction = s.site.map.floor_friction;
+  if (!measured.why_unused.empty())
+    lines.push_back(fmt::format("warning: {}'s measured limits are not used: {}; step_m, {}, is",
+                                s.robot_name, measured.why_unused,
+                                LengthText(s.robot.spec.step_m)));
+  else if (!measured.limits.empty() && friction < measured.frictions.front())
+    lines.push_back(
+        fmt::format("warning: {}'s limits were measured on friction {} and more, and "
+                    "the floor has {}: it crosses less than they say",
+                    s.robot_name, NumberText(measured.frictions.front()), NumberText(friction)));
+}
+
 // A drive over places is no coverage: judged by it, each one fails.
 void WarnOfCoverage(const Scenario& s, std::vector<std::string>& lines) {
   const double least = s.episode.min_coverage;
@@ -76,6 +90,7 @@ std::vector<std::string> Warnings(const Scenario& scenario) {
                       "(shorter physics.timestep_s, livelier contacts)",
                       hazard.id, asked, walk.timestep_s, most));
   }
+  WarnOfLimits(scenario, lines);
   WarnOfSpeeds(scenario, lines);
   WarnOfCoverage(scenario, lines);
   WarnOfDirt(scenario, lines);

@@ -9,8 +9,9 @@
 
 namespace floorproof {
 
-// One line each: the site's own, restitution that the time step cannot give, and which files are
-// read that lie neither in the scenario's folder nor among the bundled models.
+// One line each: the site's own, measured limits that are of another robot or floor, restitution
+// that the time step cannot give, and which files are read that lie neither in the scenario's
+// folder nor among the bundled models.
 std::vector<std::string> Warnings(const Scenario& scenario);
 
 }  // namespace floorproof

@@ -46,6 +46,20 @@ TEST(DrivenFloor, AStepOnTheWayIsNoObstacleAndOneBesideIsOne) {
   EXPECT_LT(ClearanceAt(map, beside, {2.9, 2}), 0.2);
 }
 
+// Nor is terrain that the robot was not measured to cross: who drives over it all the same does not
+// slow down before it.
+TEST(DrivenFloor, TerrainBeyondMeasuredLimitsIsMetAsStepsAre) {
+  HazardMap map = Room();
+  map.hazards = {At(HazardClass::kTerrain, 3, 5)};
+  const Path across = Line({1, 2}, {7, 2}), beside = Line({1, 2}, {2.8, 2});
+  EXPECT_THAT(LevelChangesOnTheWay(map, across), IsEmpty());
+  EXPECT_GT(ClearanceAt(map, beside, {2.9, 2}), 1.5);
+  map.hazards[0].crossable = false;
+  EXPECT_THAT(LevelChangesOnTheWay(map, across), ElementsAre(0u));
+  EXPECT_GT(ClearanceAt(map, across, {4, 2}), 1.5);
+  EXPECT_LT(ClearanceAt(map, beside, {2.9, 2}), 0.2);
+}
+
 TEST(DrivenFloor, TheWayMeetsWhatItCrossesTouchesOrLiesWithin) {
   const HazardMap map = Room();
   EXPECT_THAT(LevelChangesOnTheWay(map, Line({1, 2}, {7, 2})), ElementsAre(0u));

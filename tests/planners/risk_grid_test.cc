@@ -49,6 +49,16 @@ TEST(RiskGrid, TheLeastCellHoldsTheRobotHoweverItIsTurned) {
   EXPECT_EQ(LeastCellWidth(robot), 0.8);
 }
 
+TEST(RiskGrid, TerrainBeyondMeasuredLimitsIsSolid) {
+  HazardMap map = DrawHazards("...\n.=.\n...\n", 0.5);
+  EXPECT_TRUE(Make(map).contents(1, 1).terrain());
+  map.hazards[0].crossable = true;
+  EXPECT_TRUE(Make(map).contents(1, 1).terrain());
+  map.hazards[0].crossable = false;
+  EXPECT_FALSE(Make(map).contents(1, 1).terrain());
+  EXPECT_TRUE(Make(map).contents(1, 1).solid);
+}
+
 TEST(RiskGrid, MapCellsAsWideAsTheRobotAreTheCells) {
   const Pose2 X_WG{3, -2, 0.7};
   const std::string rows = "..#.\n.Gv=\n....\n";

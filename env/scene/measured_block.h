@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Measured limits in the text of a robot's MJCF: one block under <custom>, between two comments.
+// All else of the text stays as whoever wrote it did.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/input_files.h"
+
+namespace floorproof {
+
+// Names in the block. `measured_model` is ModelHash of the model that was measured. Each limit is a
+// number measured_KIND_DIRECTION_UNIT, as LadderRow has it: by friction, for each by speed; below
+// 0: that much or more, all that was tried was crossed.
+inline constexpr std::string_view kMeasuredPrefix = "measured_";
+inline constexpr const char* kMeasuredBy = "measured_by";
+inline constexpr const char* kMeasuredModel = "measured_model";
+inline constexpr const char* kMeasuredFrictions = "measured_frictions";
+inline constexpr const char* kMeasuredSpeeds = "measured_speeds_mps";
+
+// The text's block with both comments and its indent; empty: it has none.
+std::string MeasuredBlock(std::string_view text);
+// The text without it.
+std::string WithoutMeasured(std::string_view text);
+// The text with `elements`, one a line, as its block: in place of the one that it has, else at the
+// end of its first <custom> element, else in one of its own. Line breaks are the text's own.
+// Throws InputError naming `file` where it is no MJCF's text.
+std::string WithMeasured(std::string_view text, std::string_view elements,
+                         const std::filesystem::path& file);
+
+// SHA-256 of what the model is by these files, the MJCF first: its text without the block, without
+// comments and without spaces between words that say nothing, and the bytes of the others.
+std::string ModelHash(std::span<const std::filesystem::path> files, const InputFiles& read);
+
+}  // namespace floorproof
