@@ -12,11 +12,11 @@
 #include "validate/ladder_findings.h"
 
 namespace floorproof {
-namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<LadderRow> Climb(std::span<const LadderCell> cells, int jobs, const Globals& globals) {
+std::vector<LadderRow> ClimbWithProgress(std::span<const LadderCell> cells, int jobs,
+                                         const Globals& globals) {
   ProgressLine progress(globals);
   return ClimbLadder(cells, jobs, [&](const LadderProgress& now) {
     if (progress.IsDue())
@@ -29,13 +29,11 @@ void SayRows(std::span<const LadderRow> rows, const Globals& globals) {
   for (const LadderRow& row : rows) {
     const LadderCell& cell = row.cell;
     globals.Say(fmt::format(
-        "  {:<7} {:<7} {:<18} {:<8} {:.1f} m/s  friction {:.1f} {:>12} {:<3} {}", cell.robot,
+        "  {:<7} {:<7} {:<18} {:<8} {:.3g} m/s  friction {:.1f} {:>12} {:<3} {}", RobotName(cell),
         cell.wheels, cell.hazard, Name(cell.direction), cell.speed_mps, cell.friction,
         LimitText(row), FindLadderHazard(cell.hazard).unit, row.held_by));
   }
 }
-
-}  // namespace
 
 nlohmann::ordered_json RunLadder(const fs::path& folder, int jobs, const Globals& globals) {
   const std::vector<LadderCell> cells = LadderCells({}), oblique_cells = ObliqueCells(),
@@ -44,11 +42,11 @@ nlohmann::ordered_json RunLadder(const fs::path& folder, int jobs, const Globals
       "the ladder: {} limits at {} degrees off square, {} more at other angles, {} over "
       "clearance and mass",
       cells.size(), kChartOblique_deg, oblique_cells.size(), sweep_cells.size()));
-  const std::vector<LadderRow> rows = Climb(cells, jobs, globals);
+  const std::vector<LadderRow> rows = ClimbWithProgress(cells, jobs, globals);
   WriteFileWhole(folder / "ladder.csv", LadderCsv(rows));
-  const std::vector<LadderRow> oblique = Climb(oblique_cells, jobs, globals);
+  const std::vector<LadderRow> oblique = ClimbWithProgress(oblique_cells, jobs, globals);
   WriteFileWhole(folder / "ladder_oblique.csv", ObliqueCsv(oblique));
-  const std::vector<LadderRow> sweep = Climb(sweep_cells, jobs, globals);
+  const std::vector<LadderRow> sweep = ClimbWithProgress(sweep_cells, jobs, globals);
   WriteFileWhole(folder / "ladder_sweep.csv", SweepCsv(sweep));
   SayWhenInterrupted(
       fmt::format("{} of {} rows of the ladder, {} of {} at other angles and {} of {} of its sweep "

@@ -4,10 +4,18 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <vector>
 
 #include "apps/command.h"
+#include "validate/ladder.h"
 
 namespace floorproof {
+
+// The rows, with a line that says how far they are.
+std::vector<LadderRow> ClimbWithProgress(std::span<const LadderCell> cells, int jobs,
+                                         const Globals& globals);
+void SayRows(std::span<const LadderRow> rows, const Globals& globals);
 
 // Empties the ladder's tables in `folder` and removes its pictures: what stands there later is this
 // run's. Throws InputError when nothing can be written there, before minutes of work are lost.

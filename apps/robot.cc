@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
-#include "base/file_output.h"
-#include "base/input_file.h"
+#include "apps/robot_ladder.h"
+#include "apps/written_model.h"
 #include "base/interrupt.h"
 #include "base/result_folder.h"
 #include "controllers/drive.h"
@@ -23,7 +23,10 @@ namespace fs = std::filesystem;
 constexpr std::string_view kPicture = ".robot.png";
 
 ResultNames RobotPictures() {
-  return {"robot", [](std::string_view name) { return name.ends_with(kPicture); }};
+  return {"robot", [](std::string_view name) {
+            return name.ends_with(kPicture) || name.ends_with(kLadderTable) ||
+                   name.ends_with(kLadderChart);
+          }};
 }
 
 // Where the robot's MJCF is written, or would be.
@@ -32,28 +35,6 @@ fs::path OutFile(const std::string& out, const fs::path& file) {
   if (fs::path(out).extension() != ".xml")
     throw InputError({"--out", 0}, "", out, "must end in .xml; the picture goes beside it");
   return out;
-}
-
-// What is written begins with a line that names the rest by its hash: as long as that is true, it
-// is nobody else's.
-std::string Mark(std::string_view rest) {
-  return fmt::format("<!-- Written by floorproof robot, which may replace it unchanged: {} -->\n",
-                     Sha256(rest));
-}
-
-void RefuseToReplaceChanged(const fs::path& file) {
-  constexpr std::uintmax_t kMostBytes = 64u << 20;
-  std::error_code ignored;
-  if (!fs::exists(fs::symlink_status(file, ignored))) return;
-  if (WhyUnreadable(file, kMostBytes).empty() && !fs::is_symlink(file, ignored)) {
-    const std::string text = ReadInputFile(file, kMostBytes);
-    const std::size_t end = text.find('\n');
-    const std::string_view rest =
-        std::string_view(text).substr(end == std::string::npos ? 0 : end + 1);
-    if (text.substr(0, end == std::string::npos ? 0 : end + 1) == Mark(rest)) return;
-  }
-  throw InputError({file.string(), 0}, "", "",
-                   "is there already, changed or not written by `robot`: --out names another file");
 }
 
 UrdfAnswers Answers(const Globals& globals) {
@@ -75,9 +56,7 @@ std::optional<DriveChoice> Choose(const RobotSpec& robot, std::string& why) {
 std::vector<std::string> Convert(const fs::path& urdf, const fs::path& out,
                                  const Globals& globals) {
   const UrdfMjcf mjcf = MjcfOfUrdf(urdf, Answers(globals), Choose);
-  RefuseToReplaceChanged(out);
-  if (out.has_parent_path()) MakeFolder(out.parent_path());
-  WriteFileWhole(out, Mark(mjcf.text) + mjcf.text);
+  WriteConverted(out, mjcf.text);
   SayWhenInterrupted(out.string() + " is there");
   for (const std::string& note : mjcf.notes) globals.Say(note);
   globals.Say(out.string() + " written: each guess in it is marked as one");
@@ -89,6 +68,8 @@ std::vector<std::string> Convert(const fs::path& urdf, const fs::path& out,
 void AddRobot(CommandLine& line, const Globals& globals, int& status) {
   struct Options {
     std::string file, out;
+    bool ladder = false;
+    int jobs = Cores();
   };
   auto options = std::make_shared<Options>();
   Subcommand command = line.Add("robot",
@@ -98,7 +79,12 @@ void AddRobot(CommandLine& line, const Globals& globals, int& status) {
                "A robot's URDF or MJCF, or a name of `floorproof list robots`",
                Subcommand::Need::kRequired);
   command.Text("--out", options->out,
-               "Where a URDF's MJCF goes, the picture beside it (default: out/robot/NAME.xml)");
+               "Where a URDF's MJCF goes, or with --ladder the measured one, the pictures beside "
+               "it (default: out/robot/NAME.xml; a file of your own is measured in place)");
+  command.Flag("--ladder", options->ladder,
+               "Measure the largest hazards that it crosses, for planners: minutes; they are "
+               "written into its model");
+  command.Integer("--jobs", options->jobs, "With --ladder: threads (default: one a core)", 1, 1024);
   command.OnRun([options, &globals, &status] {
     const bool urdf = fs::path(options->file).extension() == ".urdf" || IsUrdf(options->file, {});
     fs::path file = urdf ? fs::path(options->file) : FindRobotFile(options->file, {"FILE", 0});
@@ -112,6 +98,9 @@ void AddRobot(CommandLine& line, const Globals& globals, int& status) {
                        "answers what a URDF does not say; an MJCF states it itself");
     }
     const RobotModel robot = ReadRobot(file);
+    const bool in_place = file.string() == options->file && options->out.empty();
+    const fs::path target =
+        options->ladder ? PlaceForLimits(robot.files, in_place ? fs::path() : out) : fs::path();
     const fs::path folder = out.has_parent_path() ? out.parent_path() : ".";
     ResultFolder results(folder, RobotPictures(), robot.files);
     const RobotCheck check = CheckRobot(file.string());
@@ -123,6 +112,8 @@ void AddRobot(CommandLine& line, const Globals& globals, int& status) {
     globals.Say("picture: " + picture.string());
     nlohmann::ordered_json json = RobotJson(check);
     if (urdf) json["of_the_urdf"] = notes;
+    if (options->ladder)
+      json["ladder"] = MeasureLimits(robot, target, folder / out.stem(), options->jobs, globals);
     globals.Result(json);
     if (!check.ok()) status = kNotSuccess;
   });

@@ -25,6 +25,8 @@ Rgb ColourOf(Direction direction) {
       return {213, 94, 0};
     case Direction::kDiagonal:
       return {0, 158, 115};
+    case Direction::kOblique:
+      return {204, 121, 167};
   }
   return kInk;
 }
@@ -74,7 +76,8 @@ std::vector<double> Values(std::span<const LadderRow> rows,
 
 std::vector<Direction> DirectionsIn(std::span<const LadderRow> rows) {
   std::vector<Direction> directions;
-  for (const Direction d : {Direction::kForward, Direction::kSideways, Direction::kDiagonal})
+  for (const Direction d :
+       {Direction::kForward, Direction::kSideways, Direction::kDiagonal, Direction::kOblique})
     if (std::any_of(rows.begin(), rows.end(),
                     [&](const LadderRow& row) { return row.cell.direction == d; }))
       directions.push_back(d);
@@ -133,7 +136,9 @@ std::vector<std::string> Notes(std::span<const LadderRow> rows, const std::strin
   const std::vector<Direction> directions = DirectionsIn(rows);
   const bool aside =
       std::find(directions.begin(), directions.end(), Direction::kSideways) != directions.end();
-  return {
+  const bool oblique =
+      std::find(directions.begin(), directions.end(), Direction::kOblique) != directions.end();
+  std::vector<std::string> notes = {
       fmt::format("Up to the limit every size tried is crossed, driven straight, {:g} deg off "
                   "square, by the robot's own tracker and judged by the failure detectors; 0: none "
                   "is.",
@@ -142,12 +147,17 @@ std::vector<std::string> Notes(std::span<const LadderRow> rows, const std::strin
                          "way. Series of equal values stand side by side."
                        : " Diagonal: the edge met at 45 deg. Series of equal values stand side "
                          "by side.")};
+  if (rows.front().cell.planned)
+    notes.push_back(
+        "The plan knows each hazard and leads over it." +
+        std::string(oblique ? " Oblique: forward, the edge at 45 deg to the way." : ""));
+  return notes;
 }
 
 }  // namespace
 
 void WriteCapabilityChart(std::span<const LadderRow> rows, const std::string& robot,
-                          const std::filesystem::path& folder) {
+                          const std::filesystem::path& png) {
   const std::vector<LadderRow> own = RowsOf(rows, robot);
   if (own.empty()) return;
   const RobotSpec spec = ReadRobot(FindRobotFile(robot, {})).spec;
@@ -155,10 +165,10 @@ void WriteCapabilityChart(std::span<const LadderRow> rows, const std::string& ro
       ChartOf(own, {"speed [m/s]", [](const LadderCell& cell) { return cell.speed_mps; },
                     [](const LadderCell& cell) { return cell.friction; },
                     [](double friction) { return fmt::format("friction {}", friction); }});
-  chart.title = fmt::format("{}: capability chart", robot);
+  chart.title = fmt::format("{}: capability chart", RobotName(own.front().cell));
   chart.notes = Notes(own, fmt::format("Belly clearance {:g} mm, mass {:g} kg.",
                                        1000 * spec.clearance_m, spec.mass_kg));
-  WriteChart(chart, folder / fmt::format("capability_{}.png", robot));
+  WriteChart(chart, png);
 }
 
 void WriteSweepChart(std::span<const LadderRow> rows, const std::string& robot,

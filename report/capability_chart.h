@@ -10,10 +10,10 @@
 
 namespace floorproof {
 
-// capability_ROBOT.png: limits over speed, a panel a hazard, colours by direction, strokes and
+// Of one robot: limits over speed, a panel a hazard, colours by direction, strokes and
 // shades by friction, rollers as rings.
 void WriteCapabilityChart(std::span<const LadderRow> rows, const std::string& robot,
-                          const std::filesystem::path& folder);
+                          const std::filesystem::path& png);
 // sweep_ROBOT.png: limits over belly clearance, strokes and shades by mass.
 void WriteSweepChart(std::span<const LadderRow> rows, const std::string& robot,
                      const std::filesystem::path& folder);

@@ -31,7 +31,8 @@ void ClearLadder(const fs::path& folder) {
 void WriteLadderCharts(std::span<const LadderRow> rows, std::span<const LadderRow> sweep,
                        const fs::path& folder) {
   for (const RobotEntry& robot : Robots()) {
-    WriteCapabilityChart(rows, std::string(robot.name), folder);
+    WriteCapabilityChart(rows, std::string(robot.name),
+                         folder / fmt::format("capability_{}.png", robot.name));
     WriteSweepChart(sweep, std::string(robot.name), folder);
   }
 }
@@ -40,7 +41,7 @@ nlohmann::ordered_json LadderJson(std::span<const LadderRow> rows) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const LadderRow& row : rows) {
     const LadderCell& cell = row.cell;
-    nlohmann::ordered_json object = {{"robot", cell.robot},
+    nlohmann::ordered_json object = {{"robot", RobotName(cell)},
                                      {"wheels", cell.wheels},
                                      {"hazard", cell.hazard},
                                      {"direction", Name(cell.direction)},

@@ -46,27 +46,23 @@ std::string CastersText(const RobotCheck& check) {
   return number == 0 ? "none" : std::to_string(number);
 }
 
-// On the floor that crosses most.
+// Of what robots meet most, on the floor of most friction.
 std::string MeasuredText(const MeasuredLimits& measured) {
   const double friction = measured.frictions.back();
   std::string text;
   for (const char* kind : {"step", "drop", "threshold"})
-    if (const auto limit = LimitOn(measured, kind, friction); limit && std::isfinite(*limit))
-      text += fmt::format("{}{} of {}", text.empty() ? "" : ", ", kind,
-                          LengthText(std::round(1e4 * *limit) / 1e4));
-  return fmt::format("crosses {} every way, on friction {}; by {}", text, friction, measured.by);
+    if (const auto limit = LimitOn(measured, kind, friction))
+      text += fmt::format("{} {}, ", kind, LengthText(std::round(1e4 * *limit) / 1e4));
+  return fmt::format("{}on friction {}", text, friction);
 }
 
 std::string Millimetres(double m) { return std::to_string(std::lround(1000 * m)); }
 
-// null: the model states no limits. Sizes in m, rad and shares; null: all that was tried.
+// null: the model states no limits. Sizes in m, rad and shares.
 nlohmann::ordered_json MeasuredJson(const MeasuredLimits& measured) {
   if (measured.by.empty()) return nullptr;
   nlohmann::ordered_json limits = nlohmann::ordered_json::object();
-  for (const MeasuredLimit& limit : measured.limits)
-    for (const double most : limit.most)
-      limits[limit.kind].push_back(std::isinf(most) ? nlohmann::ordered_json(nullptr)
-                                                    : nlohmann::ordered_json(most));
+  for (const MeasuredLimit& limit : measured.limits) limits[limit.kind] = limit.most;
   return {{"by", measured.by},
           {"not_used", measured.why_unused},
           {"frictions", measured.frictions},

@@ -28,6 +28,7 @@ struct LadderHazard {
   std::string_view size;  // what grows, in words
   std::string_view unit;  // mm or deg
   Rungs rungs;
+  double most = 0;  // that there can be of it; 0: of an angle or a share, whose rungs end before
   // How far it reaches along the way from where it begins, m; 0: a level change.
   double (*length_m)(double size);
   // The hazard of this size that begins at the line through the origin across the edge's normal.
@@ -45,8 +46,8 @@ const LadderHazard& FindLadderHazard(std::string_view name);
 
 // The direction of travel in the body's frame: x, y, or between the two, with the hazard's edge
 // square to it. A robot that is not holonomic meets the edge at 45 degrees instead, and has no
-// sideways.
-enum class Direction { kForward, kSideways, kDiagonal };
+// sideways. Oblique: along x, the edge met at 45 degrees, by a holonomic robot too.
+enum class Direction { kForward, kSideways, kDiagonal, kOblique };
 std::string_view Name(Direction direction);
 
 // Degrees off square at which hazards are met: what a robot can hold that knows where it is, and
@@ -63,6 +64,11 @@ struct LadderCell {
   RobotChanges changes = {};  // both or none of clearance and mass
   double oblique_deg = kChartOblique_deg;
   double run_up_m = 0.03;  // at speed, before the hazard
+  // Whether the robot drives by a plan that knows the hazard and leads over it: whoever goes down
+  // there has not fallen, and what is crossed must be crossed in all Tries.
+  bool planned = false;
+  double scale = 1;       // of the rungs that are lengths
+  bool mirrored = false;  // the way and the body turned to the other side
 };
 
 struct LadderRow {
@@ -88,6 +94,20 @@ std::vector<LadderCell> SweepCells();
 // ideal wheels, 0.2 m/s, friction 0.8.
 std::vector<LadderCell> ObliqueCells();
 
+// For plans of one robot, a bundled one's name or a file: every hazard and direction, edges met at
+// 45 degrees among them, at its cruise speed and half of that, on friction 0.4, 0.6, 0.8; ideal
+// wheels. Rungs are scaled by its largest driven wheel (RungScale).
+std::vector<LadderCell> RobotCells(const std::string& robot);
+// The power of two by which rungs are farther apart than those of wheels of 35 to 70 mm radius.
+double RungScale(double wheel_radius_m);
+// The hazard's rungs, scaled: farther apart, up to a higher one, as fine as before; or nearer and
+// finer, up to the same one. Angles and shares as they are.
+Rungs ScaledRungs(const LadderHazard& hazard, double scale);
+
+// The ways in which a size is tried: the cell's own; of a plan's also as far off square to the
+// other side, from farther away, edges at 45 degrees on the robot's other hand.
+std::vector<LadderCell> Tries(const LadderCell& cell);
+
 // The cell's limit; nothing when interrupted. Throws InternalError when the physics diverges.
 std::optional<LadderRow> FindRow(const LadderCell& cell);
 // How a robot of the cell meets its hazard.
@@ -107,6 +127,9 @@ std::vector<LadderRow> ClimbLadder(std::span<const LadderCell> cells, int jobs,
 
 // "24.5", or "30 or more".
 std::string LimitText(const LadderRow& row);
+
+// Of a row: the bundled name, or that of its file.
+std::string RobotName(const LadderCell& cell);
 
 // robot,wheels,hazard,direction,speed_mps,friction,limit,unit
 std::string LadderCsv(std::span<const LadderRow> rows);

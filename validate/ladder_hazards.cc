@@ -109,21 +109,23 @@ constexpr Rungs kSlope = {.per_unit = 5, .first = 10, .spacing = 20, .last = 290
 constexpr Rungs kLevel = {.per_unit = 10, .first = 2, .spacing = 20, .last = 402};
 constexpr Rungs kShare = {.per_unit = 1, .first = 10, .spacing = 10, .last = 95};
 
+// The most that there is of each length, mm: as its plug-in's keys allow.
 constexpr LadderHazard kHazards[] = {
-    {"step", "height of a raised floor", "mm", kHeight, &NoLength, &StepUp},
-    {"drop", "depth of a lowered floor", "mm", kHeight, &NoLength, &Drop},
-    {"groove", "width of a groove 50 mm deep", "mm", kWidth, &GrooveLength, &Groove},
-    {"cable_cover", "flanks of a 20 mm cable cover", "deg", kAngle, &FlankLength, &CoverFlank},
-    {"cable_cover_height", "height of a cable cover, flanks 30 deg", "mm", kHeight, &HeightLength,
-     &CoverHeight},
-    {"rough", "highest bump of rough ground", "mm", kHeight, &RoughLength, &Rough},
-    {"threshold", "height of a threshold, bevelled 1:2 above 6.4 mm", "mm", kHeight,
-     &ThresholdWidth, &Threshold},
-    {"ramp", "slope up", "deg", kSlope, &RampLength, &RampUp},
-    {"ramp_down", "slope down", "deg", kSlope, &RampLength, &RampDown},
-    {"carpet", "height of a carpet", "mm", kHeight, &NoLength, &Carpet},
-    {"lift_sill", "a lift's floor behind a gap of 32 mm", "mm", kLevel, &SillLength, &LiftSill},
-    {"wet", "friction lost, of 1", "%", kShare, &WetLength, &Wet},
+    {"step", "height of a raised floor", "mm", kHeight, 2000, &NoLength, &StepUp},
+    {"drop", "depth of a lowered floor", "mm", kHeight, 2000, &NoLength, &Drop},
+    {"groove", "width of a groove 50 mm deep", "mm", kWidth, 2000, &GrooveLength, &Groove},
+    {"cable_cover", "flanks of a 20 mm cable cover", "deg", kAngle, 0, &FlankLength, &CoverFlank},
+    {"cable_cover_height", "height of a cable cover, flanks 30 deg", "mm", kHeight, 500,
+     &HeightLength, &CoverHeight},
+    {"rough", "highest bump of rough ground", "mm", kHeight, 200, &RoughLength, &Rough},
+    {"threshold", "height, bevelled 1:2 above 6.4 mm", "mm", kHeight, 100, &ThresholdWidth,
+     &Threshold},
+    {"ramp", "slope up", "deg", kSlope, 0, &RampLength, &RampUp},
+    {"ramp_down", "slope down", "deg", kSlope, 0, &RampLength, &RampDown},
+    {"carpet", "height of a carpet", "mm", kHeight, 100, &NoLength, &Carpet},
+    {"lift_sill", "a lift's floor behind a gap of 32 mm", "mm", kLevel, 500, &SillLength,
+     &LiftSill},
+    {"wet", "friction lost, of 1", "%", kShare, 0, &WetLength, &Wet},
 };
 
 }  // namespace

@@ -128,6 +128,10 @@ class Findings {
       Wrong(fmt::format("step_m {} is more than the belly's clearance, {}", LengthText(spec.step_m),
                         LengthText(spec.clearance_m)),
             "it would hang on such a step; lower step_m");
+    if (!spec.measured.why_unused.empty())
+      Note(fmt::format("the limits measured by {} are not used: {}", spec.measured.by,
+                       spec.measured.why_unused),
+           "measure them again with --ladder");
     if (!check_.stance.lidar_z_m)
       Note("no site named `lidar`", "say where the scan plane is, or set sensors.lidar.z_m");
   }

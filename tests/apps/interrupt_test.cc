@@ -353,5 +353,16 @@ TEST_F(InterruptTest, ThatTheShellIgnoresIsIgnored) {
   EXPECT_EQ(dut.Wait(), 0);
 }
 
+// A robot that is being measured keeps its model as it is.
+TEST_F(InterruptTest, TheLadderOfARobot) {
+  fs::copy_file(FP_SOURCE_DIR "/models/beluga.xml", folder_ / "mine.xml");
+  const std::string model = Slurp(folder_ / "mine.xml");
+  const std::vector<std::string> dut = {"robot", "mine.xml", "--ladder", "--quiet"};
+  EXPECT_TRUE(Interrupt(dut, {"out/robot/mine.ladder.csv", 1, 0}));
+  EXPECT_TRUE(Interrupt(dut, {"out/robot/mine.ladder.csv", 1, 500, SIGTERM}));
+  EXPECT_EQ(Slurp(folder_ / "mine.xml"), model);
+  EXPECT_FALSE(fs::exists(folder_ / "out/robot/mine.ladder.png"));
+}
+
 }  // namespace
 }  // namespace floorproof

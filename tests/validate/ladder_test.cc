@@ -6,7 +6,9 @@
 
 #include <set>
 
+#include "env/core/measured_limits.h"
 #include "validate/ladder_findings.h"
+#include "validate/ladder_limits.h"
 
 namespace floorproof {
 namespace {
@@ -111,6 +113,91 @@ TEST(LadderCells, AreMetSquareAndAslantToo) {
   for (const LadderCell& cell : SweepCells()) EXPECT_EQ(cell.oblique_deg, 3);
 }
 
+// A plan's limits: each hazard as a plan meets it, edges at 45 degrees among them.
+TEST(RobotCells, AreEveryHazardAndDirectionAtTwoSpeeds) {
+  const std::size_t kinds = LadderHazards().size();
+  EXPECT_EQ(RobotCells("beluga").size(), kinds * 2 * 2 * 3);
+  EXPECT_EQ(RobotCells("htetro").size(), kinds * 4 * 2 * 3);
+  for (const LadderCell& cell : RobotCells("beluga")) {
+    EXPECT_TRUE(cell.planned);
+    EXPECT_EQ(cell.scale, 1);
+    EXPECT_TRUE(cell.speed_mps == 0.25 || cell.speed_mps == 0.125) << cell.speed_mps;
+  }
+  const RobotSpec robot = ReadRobot(FindRobotFile("htetro", {})).spec;
+  const LadderCell oblique{"htetro", "ideal", "step", Direction::kOblique, 0.2, 0.8, {}, 0};
+  const CrossingPlan plan = PlanOf(oblique, robot, 10);
+  EXPECT_NEAR(plan.travel_rad, kPi / 4, 1e-12);
+  EXPECT_NEAR(plan.yaw_rad, kPi / 4, 1e-12) << "it drives along its x";
+}
+
+// To either side of square; the other corner first.
+TEST(RobotCells, AreTriedOnBothHands) {
+  const double degree = kPi / 180;
+  for (const char* name : {"beluga", "htetro"}) {
+    const RobotSpec robot = ReadRobot(FindRobotFile(name, {})).spec;
+    for (const LadderCell& cell : RobotCells(name)) {
+      const std::vector<LadderCell> dut = Tries(cell);
+      ASSERT_EQ(dut.size(), 2u);
+      const CrossingPlan a = PlanOf(dut[0], robot, 5), b = PlanOf(dut[1], robot, 5);
+      const bool at_45 = a.travel_rad > 4 * degree;
+      EXPECT_NEAR(a.travel_rad, (at_45 ? 48 : 3) * degree, 1e-12);
+      EXPECT_NEAR(std::abs(b.travel_rad), (at_45 ? 42 : 3) * degree, 1e-12);
+      // The body stands as askew to the way, on the other hand where it is a corner.
+      const double turned = a.yaw_rad - a.travel_rad;
+      EXPECT_NEAR(b.yaw_rad - b.travel_rad, dut[1].mirrored ? -turned : turned, 1e-12);
+    }
+  }
+  for (const LadderCell& cell : ObliqueCells()) EXPECT_EQ(Tries(cell).size(), 1u);
+}
+
+// Longer steps of the search for large wheels, finer ones for small; never what cannot be made.
+TEST(ScaledRungs, AreAsLongAsTheWheelsAsk) {
+  for (const double radius_m : {0.036, 0.05, 0.07}) EXPECT_EQ(RungScale(radius_m), 1) << radius_m;
+  EXPECT_EQ(RungScale(0.165), 4);
+  EXPECT_EQ(RungScale(0.033), 0.5);
+  EXPECT_EQ(RungScale(0.016), 0.25);
+  for (const LadderHazard& hazard : LadderHazards())
+    for (const double scale : {0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 16.0}) {
+      const Rungs dut = ScaledRungs(hazard, scale);
+      SCOPED_TRACE(std::string(hazard.name) + " " + std::to_string(scale));
+      EXPECT_NO_THROW(hazard.make(static_cast<double>(dut.first) / dut.per_unit, 0));
+      const int rungs = (dut.last - dut.first) / dut.spacing;
+      EXPECT_NO_THROW(
+          hazard.make(static_cast<double>(dut.first + rungs * dut.spacing) / dut.per_unit, 0));
+      if (hazard.unit == "mm" && scale <= 2) {
+        EXPECT_NEAR(
+            static_cast<double>(dut.last) / dut.per_unit,
+            std::min(hazard.most, std::max(1.0, scale) * hazard.rungs.last / hazard.rungs.per_unit),
+            0.1);
+        EXPECT_NEAR(static_cast<double>(dut.spacing) / dut.per_unit,
+                    scale * hazard.rungs.spacing / hazard.rungs.per_unit, 1e-9);
+      }
+    }
+}
+
+// What a hazard says of its size is what the ladder calls it, or nobody would look its limit up.
+TEST(LadderHazards, StateTheSizeThatTheLadderGivesThem) {
+  for (const LadderHazard& dut : LadderHazards())
+    for (const double size : {2.2, 5.0, 10.0, 25.0}) {
+      const Hazard hazard = dut.make(size, 0);
+      const double unit = dut.unit == "mm" ? 1e-3 : dut.unit == "deg" ? kPi / 180 : 1e-2;
+      const auto crossed_up_to = [&](double limit) {
+        MeasuredLimits measured;
+        measured.frictions = {0.8};
+        measured.limits = {{std::string(dut.name), {limit}}};
+        for (const char* way_back : {"drop", "step", "ramp", "ramp_down", "cable_cover"})
+          if (dut.name != way_back) measured.limits.push_back({way_back, {1e9}});
+        if (dut.name == "cable_cover_height") measured.limits.pop_back();
+        return Crosses(measured, hazard, 0.8);
+      };
+      SCOPED_TRACE(std::string(dut.name) + " " + std::to_string(size));
+      const double more = dut.name == "rough" ? 1.25 : 1;  // it is turned on
+      EXPECT_EQ(crossed_up_to(1.001 * more * size * unit), true);
+      if (dut.name == "groove") continue;  // or it is crossed as two steps
+      EXPECT_EQ(crossed_up_to(0.999 * more * size * unit), false);
+    }
+}
+
 // The way is turned against the hazard's edge, the body with it.
 TEST(LadderCells, AslantTheyTurnTheWayAndTheBody) {
   for (const char* name : {"htetro", "beluga"})
@@ -130,6 +217,24 @@ LadderRow Row(const char* robot, const char* wheels, const char* hazard, Directi
               double limit) {
   LadderCell cell{robot, wheels, FindLadderHazard(hazard).name, direction, 0.2, 0.8, {}};
   return {cell, limit, false, ""};
+}
+
+// What is written into a model is read from it as the rows say.
+TEST(MeasuredElements, StateEachRowByFrictionAndSpeed) {
+  std::vector<LadderRow> rows;
+  for (const double speed_mps : {0.2, 0.1})
+    for (const double friction : {0.4, 0.8}) {
+      LadderRow row =
+          Row("beluga", "ideal", "wet", Direction::kDiagonal, 100 * friction * speed_mps);
+      row.cell.speed_mps = speed_mps;
+      row.cell.friction = friction;
+      row.above_all = friction == 0.8 && speed_mps == 0.2;
+      rows.push_back(row);
+    }
+  const std::string dut = MeasuredElements(rows, "a test", "abc");
+  EXPECT_THAT(dut, HasSubstr("<numeric name=\"measured_frictions\" data=\"0.4 0.8\"/>\n"));
+  EXPECT_THAT(dut, HasSubstr("<numeric name=\"measured_speeds_mps\" data=\"0.1 0.2\"/>\n"));
+  EXPECT_THAT(dut, HasSubstr("<numeric name=\"measured_wet_diagonal_pct\" data=\"4 8 8 -16\"/>"));
 }
 
 TEST(LadderCsv, HasTheColumnsThatOthersReadBy) {
