@@ -2,6 +2,7 @@
 // What planners, controllers and detectors know of a robot; read from its MJCF once (env/scene).
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,13 @@ struct HingeSpec {
   double min_rad = 0, max_rad = 0;  // its stops
   double max_rate_radps = 0;        // no-load speed of its motor, gear included
 };
+// A wheel that is steered: its fork turns about an upright axis through the wheel's centre.
+struct SteeringSpec {
+  std::string name;                 // of the fork's joint and actuator
+  std::size_t wheel = 0;            // index into RobotSpec::wheels
+  double min_rad = 0, max_rad = 0;  // its stops; 0: straight ahead, positive: to the left
+  double max_rate_radps = 0;        // no-load speed of its motor, gear included
+};
 struct ShapeSpec {
   std::string name;
   std::vector<double> hinge_rad;
@@ -70,6 +78,10 @@ struct RobotSpec {
   std::string model_file;         // the MJCF
   std::string drive;              // the name of a drive, see controllers/drives.inc
   std::vector<WheelSpec> wheels;  // the driven ones, in actuator order
+  std::vector<SteeringSpec> steering;
+  // The tightest arc that B's origin can be driven on, by the steering's stops. 0: no wheel is
+  // steered.
+  double turn_radius_m = 0;
 
   std::vector<BlockSpec> blocks;  // empty: the robot does not change its shape
   std::vector<HingeSpec> hinges;  // empty: the blocks are locked in `shape`

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planners/lines/turn_curves.h"
+
+#include <gtest/gtest.h>
+
+#include "planners/lines/dubins.h"
+#include "tests/planners/curvature.h"
+#include "tests/planners/floors.h"
+
+namespace floorproof {
+namespace {
+
+using testing::Draw;
+using testing::EmptyFloor;
+using testing::TightestTurn;
+
+constexpr double kR_m = 0.25, kBody_m = 0.3;
+
+Path PathOf(const std::vector<Vec2>& points) {
+  Path path;
+  for (const Vec2& p : points) path.emplace_back().p_W = p;
+  return path;
+}
+
+TurnedPath Turned(const HazardMap& map, const Path& path, const Pose2& start) {
+  const ClearanceField clearance = ComputeClearance(map, 0.01);
+  TurnedPath out = WithTurns(path, {clearance, kBody_m, 0, kR_m, 0, start});
+  // Whatever the plan: no turn tighter than asked for, and nowhere nearer to a wall than the body.
+  EXPECT_GE(TightestTurn(out.path), 0.99 * kR_m);
+  for (std::size_t i = 0; i + 1 < out.path.size(); ++i) {
+    const Vec2 a = out.path[i].p_W, way = out.path[i + 1].p_W - a;
+    for (double s = 0; s <= 1; s += 0.05)
+      EXPECT_GE(clearance.At(a + s * way), kBody_m - 0.01) << a.transpose();
+  }
+  if (out.path.size() > 1) {
+    const Vec2 off = out.path[1].p_W - out.path[0].p_W;
+    EXPECT_LT(std::abs(WrapAngle(std::atan2(off.y(), off.x()) - start.yaw_rad)), 0.1)
+        << "it sets out as it faces";
+  }
+  return out;
+}
+
+TEST(TurnCurves, AStraightPlanStaysAsItIs) {
+  const Path path = PathOf({{1, 2}, {2, 2}, {5, 2}});
+  const TurnedPath dut = Turned(EmptyFloor(30, 20, 0.2), path, {1, 2, 0});
+  ASSERT_EQ(dut.path.size(), 2u);
+  EXPECT_EQ(dut.path.back().p_W, path.back().p_W);
+  EXPECT_EQ(dut.left_out, 0);
+}
+
+//   |        |
+//   |   ->   (   the corner is rounded: 2 R shorter, a quarter circle longer
+// --+      --
+TEST(TurnCurves, ACornerInTheOpenIsRounded) {
+  const Path path = PathOf({{1, 1}, {3, 1}, {3, 3}});
+  const TurnedPath dut = Turned(EmptyFloor(30, 20, 0.2), path, {1, 1, 0});
+  EXPECT_EQ(dut.left_out, 0);
+  EXPECT_NEAR(Length(dut.path), 4 - 2 * kR_m + kPi / 2 * kR_m, 0.01);
+  EXPECT_EQ(dut.path.back().p_W, path.back().p_W);
+}
+
+// Rows two radii apart and more are joined by half circles.
+TEST(TurnCurves, RowsAreJoinedByUTurns) {
+  const Path path =
+      PathOf({{1, 1}, {5, 1}, {5, 1.5}, {1, 1.5}, {1, 2}, {5, 2}, {5, 2.5}, {1, 2.5}});
+  const TurnedPath dut = Turned(EmptyFloor(30, 20, 0.2), path, {1, 1, 0});
+  EXPECT_EQ(dut.path.back().p_W, path.back().p_W);
+  double swept_m = 0;  // of the rows
+  for (std::size_t i = 0; i + 1 < dut.path.size(); ++i) {
+    const Vec2 way = dut.path[i + 1].p_W - dut.path[i].p_W;
+    if (std::abs(way.y()) < 1e-9) swept_m += std::abs(way.x());
+  }
+  EXPECT_GT(swept_m, 4 * (4 - 2 * kR_m) - 1e-6) << "each keeps what its turns leave";
+}
+
+// Nobody turns in a corridor that is narrower than a turn: the row into it is left out, and the
+// rest is driven.
+TEST(TurnCurves, ADeadEndIsLeftOut) {
+  const HazardMap map = Draw(R"(
+      ############################
+      #................###########
+      #................###########
+      #................###########
+      #................###########
+      #...........................
+      #...........................
+      #...........................
+      #................###########
+      #................###########
+      #................###########
+      #................###########
+      ############################)",
+                             0.25);
+  const Path path = PathOf({{0.8, 1.6},
+                            {6.4, 1.6},
+                            {3.4, 1.6},
+                            {3.4, 2.2},
+                            {0.8, 2.2},
+                            {0.8, 1.0},
+                            {3.4, 1.0},
+                            {3.4, 1.6},
+                            {0.8, 1.6}});
+  const TurnedPath dut = Turned(map, path, {0.8, 1.6, 0});
+  EXPECT_GT(dut.left_out, 0);
+  EXPECT_GT(dut.left_out_m, 1);
+  ASSERT_FALSE(dut.path.empty());
+  EXPECT_EQ(dut.path.back().p_W, path.back().p_W);
+  for (const Waypoint& w : dut.path) EXPECT_LT(w.p_W.x(), 4);
+}
+
+TEST(TurnCurves, WhereItCannotLeaveTheStartThereIsNoPlan) {
+  const HazardMap map = Draw(R"(
+      ##########
+      #........#
+      #........#
+      #........#
+      ##########)",
+                             0.25);
+  const TurnedPath dut =
+      Turned(map, PathOf({{1.25, 0.62}, {1.25, 0.62}, {0.7, 0.62}}), {1.25, 0.62, 0});
+  EXPECT_TRUE(dut.path.empty());
+  EXPECT_EQ(dut.left_out, dut.lanes);
+}
+
+// A robot that faces away turns round first, and is then on its row.
+TEST(TurnCurves, TheFirstLegIsReachedFromTheRobotsHeading) {
+  const Path path = PathOf({{3, 2}, {5, 2}});
+  for (const double yaw_rad : {0.5, 2.0, kPi, -2.5}) {
+    const TurnedPath dut = Turned(EmptyFloor(40, 30, 0.2), path, {3, 2, yaw_rad});
+    EXPECT_EQ(dut.left_out, 0) << yaw_rad;
+    EXPECT_EQ(dut.path.back().p_W, path.back().p_W);
+  }
+}
+
+TEST(TurnCurves, DwellsTasksAndSpeedsAreKept) {
+  Path path = PathOf({{1, 1}, {3, 1}, {3, 3}, {1, 3}});
+  path[1].dwell_s = 2;
+  path[1].task = WaypointTask{.id = 4};
+  path[2].dwell_s = 1;
+  path[2].speed_mps = 0.15;
+  const TurnedPath dut = Turned(EmptyFloor(30, 30, 0.2), path, {1, 1, 0});
+  EXPECT_EQ(dut.left_out, 0);
+  std::vector<Waypoint> dwells;
+  for (const Waypoint& w : dut.path) {
+    if (w.dwell_s > 0) dwells.push_back(w);
+    if (dwells.size() == 1 && w.dwell_s == 0) {
+      EXPECT_EQ(w.speed_mps, 0.15);
+    }
+  }
+  ASSERT_EQ(dwells.size(), 2u);
+  EXPECT_EQ(dwells[0].p_W, path[1].p_W);
+  EXPECT_EQ(dwells[0].task->id, 4);
+  EXPECT_EQ(dwells[1].p_W, path[2].p_W);
+}
+
+TEST(TurnCurves, AMirroredPlanTurnsTheOtherWay) {
+  const auto rows = [](double side) {
+    return PathOf({{1, 3}, {4, 3}, {4, 3 + 0.4 * side}, {1, 3 + 0.4 * side}, {2, 3 + side}});
+  };
+  const HazardMap map = EmptyFloor(30, 30, 0.2);
+  const TurnedPath left = Turned(map, rows(1), {1, 3, 0}), right = Turned(map, rows(-1), {1, 3, 0});
+  ASSERT_EQ(left.path.size(), right.path.size());
+  for (std::size_t i = 0; i < left.path.size(); ++i) {
+    EXPECT_NEAR(left.path[i].p_W.x(), right.path[i].p_W.x(), 1e-9);
+    EXPECT_NEAR(left.path[i].p_W.y() - 3, 3 - right.path[i].p_W.y(), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace floorproof
