@@ -29,7 +29,9 @@ class Drive {
   // could. Not before Configure.
   virtual bool Exclude(std::span<const char> wheels) = 0;
   // Wheel speeds (rad/s, in RobotSpec's order) for a twist. Components that the drive cannot follow
-  // are dropped. `hinges` says how the blocks that carry the wheels stand and are to move. When a
+  // are dropped. `hinges` says how the blocks that carry the wheels stand and are to move. Of a
+  // robot that steers it says where its wheels point, and gets the rates that turn them to where
+  // they are to point; none steered: they point there already. When a
   // wheel would exceed its motor's no-load speed, all wheel speeds and the hinges' rates are scaled
   // down together, so that the curvature stays.
   virtual void ToWheels(const BodyTwist& twist, HingeState& hinges,
@@ -39,7 +41,7 @@ class Drive {
     ToWheels(twist, none, wheel_radps);
   }
   // The twist that results when the wheels roll at these speeds while the hinges turn so, in the
-  // least-squares sense.
+  // least-squares sense. Where `hinges` does not say so, wheels that are steered point ahead.
   virtual BodyTwist ToTwist(std::span<const double> wheel_radps,
                             const HingeState& hinges = {}) const = 0;
 };

@@ -48,7 +48,8 @@ void PathProgress::Update(const Vec2& p_W, double t_s) {
 
 void PathProgress::Advance(const Vec2& p_W, double t_s) {
   if (homing_) {
-    if ((Vertex(goal_).p_W - p_W).norm() <= 2 * corner_tolerance_m_) Arrive(goal_, t_s);
+    const double reach_m = std::max(2 * corner_tolerance_m_, Wide());
+    if ((Vertex(goal_).p_W - p_W).norm() <= reach_m) Arrive(goal_, t_s);
     return;
   }
   while (true) {
@@ -56,7 +57,7 @@ void PathProgress::Advance(const Vec2& p_W, double t_s) {
     const Vec2 passed = p_W - to.p_W;
     if (to.stop) {
       if (passed.dot(from.direction_W) < -corner_tolerance_m_) return;
-      if (std::abs(Cross(from.direction_W, passed)) <= kBesideCornerM) {
+      if (std::abs(Cross(from.direction_W, passed)) <= kBesideCornerM + Wide()) {
         Arrive(vertex_ + 1, t_s);
       } else {
         homing_ = true;
@@ -65,7 +66,8 @@ void PathProgress::Advance(const Vec2& p_W, double t_s) {
       return;
     }
     // A bend is passed at its bisector; far off, the plane alone would skip whole loops.
-    if (passed.dot(from.direction_W + to.direction_W) < 0 || passed.norm() > kBendGateM) return;
+    if (passed.dot(from.direction_W + to.direction_W) < 0 || passed.norm() > kBendGateM + Wide())
+      return;
     ++vertex_;
   }
 }

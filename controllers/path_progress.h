@@ -101,6 +101,9 @@ class PathProgress {
   double SeekAhead(const Vec2& p_W, double way_m);
   double SpeedFrom(const Vec2& p_W) const;
 
+  // How far off a robot is that drives around a corner on its tightest arc.
+  double Wide() const { return 2 * limits_.turn_radius_m; }
+
   ReferenceLimits limits_;
   double corner_tolerance_m_ = 0;
   ReferencePath reference_;

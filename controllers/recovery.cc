@@ -49,7 +49,8 @@ std::vector<Reading> RecoveryParams::Needs() const {
 void RecoveryParams::Visit(ParamVisitor& v) {
   v("bumper", bumper, "react when the shell is pressed");
   v("cliff", cliff, "react when a cliff sensor sees no floor");
-  v("back_off_m", back_off_m, Between(0.01, 2), "way back from what was met (m)");
+  v("back_off_m", back_off_m, Between(0.01, 2),
+    "way back from what was met (m); at least the width of the robot's tightest turn");
   v("back_off_mps", back_off_mps, Positive(), "speed of going back (m/s)");
   v("then", then, {"replan", "go_on"},
     "replan: drive around what was met to where the plan goes on behind it; go_on: straight to the "
@@ -77,7 +78,7 @@ void Recovery::Begin(const Observation& sensed, const BodyTwist& commanded) {
   met_drop_ = params_.cliff && sensed.cliffs.any();
   between_ = false;
   turn_ = 0;
-  GoBack(params_.back_off_m);
+  GoBack(std::max(params_.back_off_m, 2 * robot_->turn_radius_m));
   way_B_ = -Vec2(commanded.vx_mps, commanded.vy_mps);
   if (way_B_.norm() < kStanding_mps) {
     way_B_ = -Side(sensed, params_.bumper, params_.cliff);
@@ -93,7 +94,7 @@ void Recovery::Begin(const Observation& sensed, const BodyTwist& commanded) {
 // So far, once it stands.
 void Recovery::GoBack(double m) {
   back_m_ = m;
-  left_s_ = 2 * params_.back_off_m / params_.back_off_mps + 2;
+  left_s_ = 2 * std::max(params_.back_off_m, m) / params_.back_off_mps + 2;
   state_ = State::kBrake;
 }
 

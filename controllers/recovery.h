@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a driving robot does when its shell is pressed or there is no floor ahead: it brakes, goes
-// back the way it came, and then wants the rest of its plan joined anew (planners/lines/rejoin.h).
+// back the way it came (a robot that cannot turn on the spot by the width of its tightest turn at
+// least), and then wants the rest of its plan joined anew (planners/lines/rejoin.h).
 // Where it meets something behind it too, it goes to the middle between both.
 #pragma once
 

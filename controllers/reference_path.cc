@@ -154,7 +154,8 @@ double BendSpeed(double angle_rad, bool held_yaw, const ReferenceLimits& limits)
   const double half = 0.5 * std::abs(angle_rad);
   if (half < kNoBendRad) return limits.max_speed_mps;
   // An arc of radius R that touches both sides passes the corner at R (1 / cos(half) - 1).
-  const double radius_m = limits.cut_m * std::cos(half) / (1 - std::cos(half));
+  const double radius_m =
+      std::max(limits.cut_m * std::cos(half) / (1 - std::cos(half)), limits.turn_radius_m);
   if (held_yaw) return std::sqrt(limits.decel_mps2 * radius_m);
   // Its yaw rate has to be reached within the turn: w^2 / accel <= angle.
   const double yaw_rate =
@@ -177,7 +178,8 @@ void SetPassingSpeeds(std::vector<ReferenceVertex>& v, const ReferenceLimits& li
     high = std::max(high, i);
     while (high + 2 < n && !v[high + 1].stop && v[high + 1].s_m - v[i].s_m <= 0.5 * kBendWindowM)
       ++high;
-    const double curvature = std::abs(turned[high] - turned[low - 1]) / kBendWindowM;
+    double curvature = std::abs(turned[high] - turned[low - 1]) / kBendWindowM;
+    if (limits.turn_radius_m > 0) curvature = std::min(curvature, 1 / limits.turn_radius_m);
     const bool held = v[i].yaw_rad.has_value();
     const double curve_mps = held ? std::sqrt(limits.decel_mps2 / std::max(curvature, 1e-12))
                                   : limits.yaw_rate_radps / std::max(curvature, 1e-12);
@@ -227,7 +229,8 @@ ReferencePath MakeReference(const Path& path, const ReferenceLimits& limits) {
     if (k == 1) continue;
     const ReferenceVertex& before = vertices[k - 2];
     const double turn_rad = std::abs(TurnAngle(before.direction_W, from.direction_W));
-    if (turn_rad > (path[kept[k - 1].index].stops ? kNoBendRad : limits.corner_rad) ||
+    const double corner_rad = path[kept[k - 1].index].stops ? kNoBendRad : limits.corner_rad;
+    if ((limits.turn_radius_m == 0 && turn_rad > corner_rad) ||
         !SameYaw(before.yaw_rad, from.yaw_rad))
       from.stop = true;
   }

@@ -5,11 +5,12 @@
 // that noise and duplicates make no corners. A vertex is a stop where the plan dwells, ends, turns
 // by more than corner_rad, or bends at all at a waypoint that stops. The robot drives through the
 // other vertices, at a speed that bounds both the cut of the corner and the yaw rate. One backward
-// pass makes the speeds reachable with the deceleration. All of this happens in a tracker's Start()
-// and Extend(); following the path allocates nothing. For robots that keep the plan's yaw
-// (holonomic ones), a change of yaw is a stop, and a bend driven with held yaw is bounded by the
-// acceleration across it instead of the yaw rate. For robots that take the plan's shapes (hinged
-// blocks), a change of shape is a stop, too.
+// pass makes the speeds reachable with the deceleration. A robot that cannot turn on the spot stops
+// at no corner; it drives around a sharp one as on its tightest arc. All of this happens in a
+// tracker's Start() and Extend(); following the path allocates nothing. For robots that keep the
+// plan's yaw (holonomic ones), a change of yaw is a stop, and a bend driven with held yaw is
+// bounded by the acceleration across it instead of the yaw rate. For robots that take the plan's
+// shapes (hinged blocks), a change of shape is a stop, too.
 #pragma once
 
 #include <cstddef>
@@ -31,6 +32,9 @@ struct ReferenceLimits {
   double lag_s = 0.15;       // time constant of the last centimetres before a stop
   double cruise_mps = 0.25;  // of waypoints that state no speed
   double max_speed_mps = 0.5;
+  // The tightest arc that the robot can drive: it stops at no corner, and passes them that far off.
+  // 0: it turns on the spot.
+  double turn_radius_m = 0;
   bool holds_yaw = false;  // the plan's yaw is held; else it is ignored
   bool folds = false;      // the plan's shapes are taken; else they are ignored
   bool faces = false;      // where the plan dwells its yaw is turned to; else it is ignored there

@@ -111,10 +111,12 @@ View Top(const RobotCheck& check, const std::vector<RobotPart>& parts) {
   const auto [right, left] = std::ranges::minmax(
       check.spec.wheels, {}, [](const WheelSpec& wheel) { return wheel.p_BW.y(); });
   const Span x = SpanOf(parts, Vec3::UnitX()), y = SpanOf(parts, Vec3::UnitY());
-  view.dimensions = {
-      {right.p_BW.head<2>(), left.p_BW.head<2>(), false, 1, "track " + LengthText(check.track_m)},
-      {{x.high, y.low}, {x.high, y.high}, false, 3, LengthText(y.high - y.low)},
-      {{x.low, y.low}, {x.high, y.low}, true, 1, LengthText(x.high - x.low)}};
+  view.dimensions = {{{x.high, y.low}, {x.high, y.high}, false, 3, LengthText(y.high - y.low)},
+                     {{x.low, y.low}, {x.high, y.low}, true, 1, LengthText(x.high - x.low)}};
+  if (check.track_m > 0)
+    view.dimensions.insert(view.dimensions.begin(),
+                           {right.p_BW.head<2>(), left.p_BW.head<2>(), false, 1,
+                            "track " + LengthText(check.track_m)});
   return view;
 }
 

@@ -56,6 +56,16 @@ std::string MeasuredText(const MeasuredLimits& measured) {
   return fmt::format("{}on friction {}", text, friction);
 }
 
+// How it turns, of a robot that steers; else how far apart its wheels stand.
+std::pair<std::string, std::string> TurnFigure(const RobotCheck& check) {
+  const RobotSpec& spec = check.spec;
+  if (spec.steering.empty()) return {"track", LengthText(check.track_m)};
+  const SteeringSpec& fork = spec.steering.front();
+  return {"steering", fmt::format("{:.0f} to {:.0f} deg, {} rad/s; arcs of {} radius and more",
+                                  fork.min_rad / kDegree, fork.max_rad / kDegree,
+                                  NumberText(fork.max_rate_radps), LengthText(spec.turn_radius_m))};
+}
+
 std::string Millimetres(double m) { return std::to_string(std::lround(1000 * m)); }
 
 // null: the model states no limits. Sizes in m, rad and shares.
@@ -96,7 +106,7 @@ std::vector<std::pair<std::string, std::string>> RobotFigures(const RobotCheck& 
   std::vector<std::pair<std::string, std::string>> figures = {
       {"drive", spec.drive},
       {"wheels", WheelsText(spec)},
-      {"track", LengthText(check.track_m)},
+      TurnFigure(check),
       {"casters", CastersText(check)},
       {"mass", fmt::format("{} kg, {} of it on the driven wheels", NumberText(spec.mass_kg),
                            PercentText(check.drive.driven_share))},
@@ -177,6 +187,7 @@ nlohmann::ordered_json RobotJson(const RobotCheck& check) {
       {"max_speed_mps", spec.max_speed_mps},
       {"cruise_mps", spec.cruise_mps},
       {"lidar_z_m", nullptr}};
+  if (!spec.steering.empty()) json["turn_radius_m"] = spec.turn_radius_m;
   if (check.stance.lidar_z_m) json["lidar_z_m"] = *check.stance.lidar_z_m;
   json["measured"] = MeasuredJson(spec.measured);
   json.update(StanceJson(check.stance));

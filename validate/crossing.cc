@@ -103,6 +103,7 @@ CrossingResult Cross(const RobotModel& model, Hazard hazard, const CrossingPlan&
     if (step % steps_a_control == 0) {
       const Estimate estimate = {sample.X_WB(), sample.V_WB_B, sample.hinges};
       sample.command = tracker->Update(estimate, sample.t_s, 1.0 / kControlHz);
+      sample.command.hinges.TakeSteering(sample.hinges);
       drive->ToWheels(sample.command.twist, sample.command.hinges, wheels);
       sim.SetWheelSpeeds(wheels);
       sim.SetHingeSpeeds(sample.command.hinges);

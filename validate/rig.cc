@@ -72,12 +72,23 @@ void Rig::Build(RigOptions options) {
 }
 
 void Rig::Command(const BodyTwist& twist, HingeState hinges) {
-  drive_->ToWheels(twist, hinges, wheel_radps_);
+  twist_ = twist;
+  hinges_ = hinges;
+  steers_ = !true_robot_.steering.empty();
+  Actuate();
+}
+
+void Rig::Actuate() {
+  HingeState hinges = hinges_;
+  hinges.TakeSteering(truth().hinges);
+  for (double& rad : hinges.steer_rad) rad -= wrong_.steering_add_rad;
+  drive_->ToWheels(twist_, hinges, wheel_radps_);
   sim_->SetWheelSpeeds(wheel_radps_);
   sim_->SetHingeSpeeds(hinges);
 }
 
 void Rig::CommandWheels(double wheel_radps) {
+  steers_ = false;
   std::ranges::fill(wheel_radps_, wheel_radps);
   sim_->SetWheelSpeeds(wheel_radps_);
 }
@@ -106,6 +117,7 @@ void Rig::SetGravity(const Vec3& direction_W) {
 }
 
 void Rig::Step() {
+  if (steers_) Actuate();
   if (!sim_->Step()) throw InternalError("the physics diverged on the rig");
 }
 

@@ -25,6 +25,7 @@ struct WrongModel {
   double hotel_load_factor = 1;   // what all but the motors draws
   double restitution_factor = 1;  // of hazards'
   double drag_factor = 1;         // of hazards' rolling drag
+  double steering_add_rad = 0;    // forks point so much farther to the left than is thought
 
   bool operator==(const WrongModel&) const = default;
 };
@@ -47,7 +48,8 @@ class Rig {
   // caller's affair.
   explicit Rig(RobotModel body, RigOptions options = {});
 
-  // Wheel and hinge speeds for this motion from now on; hinges that are not mentioned hold still.
+  // Wheel and hinge speeds for this motion from now on; hinges that are not mentioned hold still. A
+  // robot that steers is told anew each step, by where its wheels point then.
   void Command(const BodyTwist& twist, HingeState hinges = {});
   // The same speed for every wheel from now on: a body of one's own.
   void CommandWheels(double wheel_radps);
@@ -71,6 +73,7 @@ class Rig {
 
  private:
   void Build(RigOptions options);
+  void Actuate();
 
   HazardMap map_;
   WrongModel wrong_;
@@ -79,6 +82,9 @@ class Rig {
   Scene scene_;
   std::unique_ptr<Drive> drive_;  // none for a body of one's own
   std::vector<double> wheel_radps_;
+  BodyTwist twist_;  // commanded, and the hinges
+  HingeState hinges_;
+  bool steers_ = false;  // by a twist, from now on
   std::unique_ptr<Simulation> sim_;
 };
 

@@ -107,7 +107,9 @@ class TenSeconds {
   TenSeconds(const std::string& robot, const WrongModel& wrong)
       : rig_(robot, {.wrong = wrong}),
         drive_(MakePlugin(Drives(), rig_.robot().drive, "drive")),
-        wheels_(rig_.robot().wheels.size()) {
+        wheels_(rig_.robot().wheels.size()),
+        angles_rad_(WheelAngles(rig_)),
+        step_rad_(wheels_.size()) {
     drive_->Configure(rig_.robot());
     limits_ = LimitsOf(rig_.robot(), *drive_);
     start_s_ = rig_.truth().t_s;
@@ -118,20 +120,20 @@ class TenSeconds {
       const double before_s = rig_.truth().t_s;
       const BodyTwist asked = Asked(limits_, before_s - start_s_);
       rig_.Command(asked);
-      drive_->ToWheels(asked, wheels_);
-      const BodyTwist rolls = drive_->ToTwist(wheels_);
+      HingeState hinges = rig_.truth().hinges;
+      drive_->ToWheels(asked, hinges, wheels_);
+      const BodyTwist rolls = drive_->ToTwist(wheels_, hinges);
       rig_.Step();
       const double dt_s = rig_.truth().t_s - before_s;
       expected_m_ += rolls.vx_mps * dt_s;
       expected_rad_ += rolls.wz_radps * dt_s;
+      AddRolled();
     }
     const Truth& truth = rig_.truth();
     turned_rad_ += WrapAngle(truth.yaw_rad - last_yaw_rad_);
     last_yaw_rad_ = truth.yaw_rad;
-    const BodyTwist rolled = drive_->ToTwist(WheelAngles(rig_));  // it is linear
-    return {truth.X_WB(),  truth.v_WB_W.head<2>().norm(),
-            rolled.vx_mps, rolled.wz_radps,
-            expected_m_,   expected_rad_};
+    return {truth.X_WB(), truth.v_WB_W.head<2>().norm(), rolled_m_, rolled_rad_, expected_m_,
+            expected_rad_};
   }
   // Since the start, whole turns counted; asked for often enough.
   double turned_rad() const { return turned_rad_; }
@@ -140,11 +142,22 @@ class TenSeconds {
   const Limits& limits() const { return limits_; }
 
  private:
+  // By how far the wheels turned in this step, and where they point.
+  void AddRolled() {
+    const std::vector<double> angles = WheelAngles(rig_);
+    for (std::size_t w = 0; w < angles.size(); ++w) step_rad_[w] = angles[w] - angles_rad_[w];
+    const BodyTwist step = drive_->ToTwist(step_rad_, rig_.truth().hinges);
+    rolled_m_ += step.vx_mps;
+    rolled_rad_ += step.wz_radps;
+    angles_rad_ = angles;
+  }
+
   Rig rig_;
   std::unique_ptr<Drive> drive_;
-  std::vector<double> wheels_;
+  std::vector<double> wheels_, angles_rad_, step_rad_;
   Limits limits_{};
   double start_s_ = 0, expected_m_ = 0, expected_rad_ = 0, turned_rad_ = 0, last_yaw_rad_ = 0;
+  double rolled_m_ = 0, rolled_rad_ = 0;
 };
 
 void Stand(TenSeconds& run, RobotDrive& out) {
@@ -208,6 +221,7 @@ void Brake(TenSeconds& run, RobotDrive& out) {
 // Of half the track: by how much the line on which wheels roll true may lie beside their middle.
 double ScrubShare(const RobotSpec& robot) {
   double share = 0;
+  if (robot.turn_radius_m > 0) return share;  // its wheels steer instead
   for (const WheelSpec& wheel : robot.wheels)
     if (wheel.roller_radius_m == 0)
       share = std::max(share, 0.5 * wheel.half_width_m / std::max(1e-3, std::abs(wheel.p_BW.y())));

@@ -52,8 +52,11 @@ HingeState AtRest(std::span<const double> hinge_rad) {
 }
 
 HingeState StartState(const RobotSpec& robot) {
-  if (robot.hinges.empty()) return {};
-  return AtRest(robot.shapes[static_cast<std::size_t>(robot.shape)].hinge_rad);
+  HingeState state;
+  if (!robot.hinges.empty())
+    state = AtRest(robot.shapes[static_cast<std::size_t>(robot.shape)].hinge_rad);
+  state.steered = static_cast<int>(robot.steering.size());
+  return state;
 }
 
 Polygon Footprint(std::span<const BlockSpec> blocks, std::span<const HingeSpec> hinges,

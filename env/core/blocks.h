@@ -35,7 +35,8 @@ BlockMotions MoveBlocks(std::span<const BlockSpec> blocks, std::span<const Hinge
 // The state at rest with these angles.
 HingeState AtRest(std::span<const double> hinge_rad);
 
-// The robot's hinges at rest in its start shape; n = 0 where its blocks are locked.
+// The robot's hinges at rest in its start shape (n = 0 where its blocks are locked), its steered
+// wheels straight ahead.
 HingeState StartState(const RobotSpec& robot);
 
 // The outline of all blocks together, in B; touching blocks become one polygon.

@@ -13,12 +13,21 @@ struct BodyTwist {
   double vx_mps = 0, vy_mps = 0, wz_radps = 0;
 };
 
-// Angles and rates of the hinges between a reconfigurable robot's blocks, in the order of
-// RobotSpec::hinges; n = 0: the robot is one rigid body.
+// Angles and rates of what motors turn about upright axes: the hinges between a reconfigurable
+// robot's blocks, in the order of RobotSpec::hinges (n = 0: the robot is one rigid body), and the
+// forks that steer wheels, in the order of RobotSpec::steering.
 struct HingeState {
-  static constexpr int kMax = 8;
+  static constexpr int kMax = 8, kMaxSteered = 4;
   int n = 0;
   std::array<double, kMax> rad{}, radps{};
+  int steered = 0;
+  std::array<double, kMaxSteered> steer_rad{}, steer_radps{};
+
+  // The forks are where they are, whatever is asked of the hinges.
+  void TakeSteering(const HingeState& now) {
+    steered = now.steered;
+    steer_rad = now.steer_rad;
+  }
 };
 
 struct Estimate {

@@ -117,35 +117,45 @@ std::vector<Vec3> CompiledRobot::SurfacePoints(int geom) const {
   return points;
 }
 
-std::optional<Swivel> CompiledRobot::SwivelOf(int geom) const {
+int CompiledRobot::UprightHinge(int geom, bool driven) const {
   constexpr double kUpright = 0.99;
   for (int body = m_->geom_bodyid[geom]; body > 0 && !IsBlock(body); body = m_->body_parentid[body])
     for (int k = 0; k < m_->body_jntnum[body]; ++k) {
       const int joint = m_->body_jntadr[body] + k;
-      const auto turns = [&](int a) {
-        return m_->actuator_trntype[a] == mjTRN_JOINT && m_->actuator_trnid[2 * a] == joint;
-      };
-      bool driven = false;
-      for (int a = 0; a < m_->nu; ++a) driven |= turns(a);
-      if (driven || m_->jnt_type[joint] != mjJNT_HINGE ||
-          std::abs(data_->xaxis[3 * joint + 2]) < kUpright)
-        continue;
-      const Vec3 pivot_B = InBase(data_->xanchor + 3 * joint);
-      const Vec3 centre_B = InBase(data_->geom_xpos + 3 * geom);
-      return Swivel{pivot_B, (centre_B - pivot_B).head<2>().norm()};
+      bool turned = false;
+      for (int a = 0; a < m_->nu; ++a)
+        turned |= m_->actuator_trntype[a] == mjTRN_JOINT && m_->actuator_trnid[2 * a] == joint;
+      if (turned == driven && m_->jnt_type[joint] == mjJNT_HINGE &&
+          std::abs(data_->xaxis[3 * joint + 2]) >= kUpright)
+        return joint;
     }
-  return {};
+  return -1;
+}
+
+std::optional<Swivel> CompiledRobot::SwivelOf(int geom) const {
+  const int joint = UprightHinge(geom, false);
+  if (joint < 0) return {};
+  const Vec3 pivot_B = InBase(data_->xanchor + 3 * joint);
+  const Vec3 centre_B = InBase(data_->geom_xpos + 3 * geom);
+  return Swivel{pivot_B, (centre_B - pivot_B).head<2>().norm()};
 }
 
 std::vector<Vec3> CompiledRobot::SweptPoints(int geom) const {
   constexpr int kAround = 24;
   const std::vector<Vec3> points = SurfacePoints(geom);
-  const auto swivel = SwivelOf(geom);
-  if (!swivel) return points;
+  double from_rad = 0, turn_rad = 2 * kPi;
+  int joint = UprightHinge(geom, false);
+  if (joint < 0) {
+    joint = UprightHinge(geom, true);
+    if (joint < 0) return points;
+    from_rad = m_->jnt_range[2 * joint];
+    turn_rad = m_->jnt_range[2 * joint + 1] - from_rad;
+  }
+  const Vec3 pivot_B = InBase(data_->xanchor + 3 * joint);
   std::vector<Vec3> swept;
-  for (int k = 0; k < kAround; ++k) {
-    const Eigen::AngleAxisd turn(2 * kPi * k / kAround, Vec3::UnitZ());
-    for (const Vec3& p : points) swept.push_back(swivel->pivot_B + turn * (p - swivel->pivot_B));
+  for (int k = 0; k <= kAround; ++k) {
+    const Eigen::AngleAxisd turn(from_rad + turn_rad * k / kAround, Vec3::UnitZ());
+    for (const Vec3& p : points) swept.push_back(pivot_B + turn * (p - pivot_B));
   }
   return swept;
 }

@@ -55,10 +55,15 @@ class CompiledRobot {
   std::vector<Vec3> SurfacePoints(int geom) const;
   // Of a caster's geom, by the first such joint between it and what carries it.
   std::optional<Swivel> SwivelOf(int geom) const;
-  // Points that bound the geom wherever its caster swivels; of any other geom, SurfacePoints.
+  // Points that bound the geom wherever its caster swivels or its fork steers; of any other geom,
+  // SurfacePoints.
   std::vector<Vec3> SweptPoints(int geom) const;
 
  private:
+  // The first upright hinge between the geom and the block that carries it, of those that a motor
+  // turns or of the others; -1: there is none.
+  int UprightHinge(int geom, bool driven) const;
+
   const mjModel* m_;
   std::string file_;
   DataPtr data_;

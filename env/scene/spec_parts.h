@@ -8,11 +8,21 @@
 
 namespace floorproof {
 
+struct Motor {
+  double no_load_radps, stall_nm;  // at the joint
+};
+// Of actuator a, called `name`.
+Motor ReadMotor(const CompiledRobot& compiled, int a, const std::string& name);
+
 // `hinges`, named under <custom>; their bodies become blocks of `compiled`.
 void ReadHinges(CompiledRobot& compiled, RobotSpec& robot);
 
-// `wheels`: all actuators but the hinges'.
+// `wheels`: all actuators but the hinges' and those that `steering` names.
 void ReadWheels(const CompiledRobot& compiled, RobotSpec& robot);
+
+// `steering`, named under <custom>, and `turn_radius_m`; the wheels are known. The wheels that do
+// not steer must roll on an axle at x = 0.
+void ReadSteering(const CompiledRobot& compiled, RobotSpec& robot);
 
 // `blocks`, `shapes` and `static_tip_rad`, the last from wheels and mass. A robot without hinges
 // has neither blocks nor shapes.

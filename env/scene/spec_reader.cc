@@ -107,6 +107,7 @@ RobotSpec ReadSpec(const mjModel* model, const std::string& file) {
   ReadCustom(compiled, robot);
   ReadHinges(compiled, robot);
   ReadWheels(compiled, robot);
+  ReadSteering(compiled, robot);
   ReadBattery(compiled, robot);
   ReadBody(compiled, robot);
   ReadShapes(compiled, robot);

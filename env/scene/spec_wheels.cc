@@ -11,16 +11,11 @@
 #include "env/scene/spec_parts.h"
 
 namespace floorproof {
-namespace {
-
-struct Motor {
-  double no_load_radps, stall_nm;
-};
 
 Motor ReadMotor(const CompiledRobot& compiled, int a, const std::string& name) {
   const mjModel* m = compiled.model();
   if (m->actuator_dyntype[a] != mjDYN_DCMOTOR && m->actuator_gaintype[a] != mjGAIN_DCMOTOR)
-    compiled.Refuse(name, "a wheel's or hinge's actuator must be a <dcmotor input=\"vel\">");
+    compiled.Refuse(name, "an actuator must be a <dcmotor input=\"vel\">");
   // A dcmotor's gain parameters: 0 resistance, 1 motor constant.
   const mjtNum* gain = m->actuator_gainprm + mjNGAIN * a;
   const double resistance = gain[0], constant = gain[1], volt = DriverVoltage(m, a);
@@ -38,6 +33,8 @@ Motor ReadMotor(const CompiledRobot& compiled, int a, const std::string& name) {
   check(motor.stall_nm, "its stall torque (N m) ", kMotorTorque_nm);
   return motor;
 }
+
+namespace {
 
 // The hinge's joint by its actuator; its body becomes a block, in its parent's frame.
 HingeSpec ReadHinge(CompiledRobot& compiled, const std::string& name) {
@@ -134,12 +131,17 @@ void ReadHinges(CompiledRobot& compiled, RobotSpec& robot) {
 
 void ReadWheels(const CompiledRobot& compiled, RobotSpec& robot) {
   const mjModel* m = compiled.model();
+  std::vector<std::string> others = compiled.Words("hinges");
+  for (std::string& name : compiled.Words("steering")) others.push_back(std::move(name));
   for (int a = 0; a < m->nu; ++a) {
     const std::string name = mj_id2name(m, mjOBJ_ACTUATOR, a);
-    if (std::ranges::find(robot.hinges, name, &HingeSpec::name) == robot.hinges.end())
+    const auto behind = a - m->nu + static_cast<std::ptrdiff_t>(others.size());
+    if (std::ranges::find(others, name) == others.end())
       robot.wheels.push_back(ReadWheel(compiled, a, name));
-    else if (a < m->nu - static_cast<int>(robot.hinges.size()))
-      compiled.Refuse(name, "the hinges' actuators must stand behind the wheels', in their order");
+    else if (behind < 0 || others[static_cast<std::size_t>(behind)] != name)
+      compiled.Refuse(name,
+                      "the actuators of hinges and of steering must stand behind the wheels', in "
+                      "the order in which they are named");
   }
   if (robot.wheels.empty()) compiled.Refuse("actuator", "a robot needs at least one driven wheel");
 }

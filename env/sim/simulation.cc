@@ -55,6 +55,11 @@ Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec
     hinge_qpos_.push_back(m->jnt_qposadr[joint]);
     hinge_dof_.push_back(m->jnt_dofadr[joint]);
   }
+  for (const SteeringSpec& fork : robot.steering) {
+    const int joint = m->actuator_trnid[2 * mj_name2id(m, mjOBJ_ACTUATOR, fork.name.c_str())];
+    fork_qpos_.push_back(m->jnt_qposadr[joint]);
+    fork_dof_.push_back(m->jnt_dofadr[joint]);
+  }
   for (int a = 0; a < static_cast<int>(robot.wheels.size()); ++a) {
     const int joint = m->actuator_trnid[2 * a];
     wheel_bodies_.push_back(m->jnt_bodyid[joint]);
@@ -67,6 +72,8 @@ void Simulation::Place(const Pose2& X_WB) {
   const HingeState start = StartState(robot_);
   for (std::size_t h = 0; h < hinge_qpos_.size(); ++h)
     data_->qpos[hinge_qpos_[h]] = folded_ ? folded_->rad[h] : start.rad[h];
+  for (std::size_t f = 0; f < fork_qpos_.size(); ++f)
+    data_->qpos[fork_qpos_[f]] = folded_ ? folded_->steer_rad[f] : start.steer_rad[f];
   ReadHinges();
   const Vec2 p_WR = X_WB * Vec2(-blocks_.p_RB);
   q[0] = p_WR.x();
@@ -172,12 +179,19 @@ bool Simulation::Step() {
 }
 
 void Simulation::SetHingeSpeeds(const HingeState& hinges) {
-  std::copy_n(hinges.radps.begin(), hinge_dof_.size(), data_->ctrl + robot_.wheels.size());
+  mjtNum* ctrl = data_->ctrl + robot_.wheels.size();
+  ctrl = std::copy_n(hinges.radps.begin(), hinge_dof_.size(), ctrl);
+  std::copy_n(hinges.steer_radps.begin(), fork_dof_.size(), ctrl);
 }
 
 void Simulation::ReadHinges() {
   constexpr double kInShape_rad = 0.05;  // play within which the hinges count as in a shape
   truth_.shape = robot_.shape;
+  truth_.hinges.steered = static_cast<int>(fork_dof_.size());
+  for (std::size_t f = 0; f < fork_dof_.size(); ++f) {
+    truth_.hinges.steer_rad[f] = data_->qpos[fork_qpos_[f]];
+    truth_.hinges.steer_radps[f] = data_->qvel[fork_dof_[f]];
+  }
   if (hinge_dof_.empty()) return;
   truth_.hinges.n = static_cast<int>(hinge_dof_.size());
   for (std::size_t h = 0; h < hinge_dof_.size(); ++h) {

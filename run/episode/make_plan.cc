@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/episode/make_plan.h"
 
+#include "planners/lines/turned_plan.h"
 #include "run/episode/episode_stream.h"
 #include "run/scenario/floors.h"
 
@@ -14,7 +15,9 @@ PlanResult MakePlan(const Scenario& s) {
   auto risk = std::make_shared<const RiskMap>(ComputeRisk(known, robot, s.fmea, s.risk));
   PlanResult plan;
   if (s.planner) {
-    plan = s.planner->Plan({known, robot, s.start, s.goal, PlanSeed(s), risk.get(), s.places});
+    const PlanRequest request{known, robot, s.start, s.goal, PlanSeed(s), risk.get(), s.places};
+    plan = s.planner->Plan(request);
+    FitTurns(request, plan);
   } else if (s.online) {
     plan.status = PlanStatus::kOnline;
     plan.message = s.planner_name + " plans while it drives, as the floor becomes known";

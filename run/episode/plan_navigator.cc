@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/episode/plan_navigator.h"
 
+#include <utility>
+
 #include "planners/lines/rejoin.h"
+#include "planners/lines/turned_plan.h"
 
 namespace floorproof {
 namespace {
@@ -25,6 +28,11 @@ PathChange PlanNavigator::Update(const NavigatorInput& input) {
   const HazardMap known = WithSeen(known_, *input.known, robot_.step_m, kSeenAway_m);
   path_ = Rejoin({known, input.known->marks, robot_, plan_.clear, path_, input.segment,
                   input.estimate.X_WB, around_});
+  if (robot_.turn_radius_m > 0) {
+    const HazardMap marked = WithMarks(known, input.known->marks);
+    Path turned = FitTurns(path_, marked, robot_, plan_.clear, input.estimate.X_WB);
+    if (!turned.empty()) path_ = std::move(turned);
+  }
   return PathChange::kAnew;
 }
 

@@ -148,6 +148,7 @@ void RobotSide::Follow() {
 const Actuation& RobotSide::Actuate() {
   actuation_.twist = command_.twist;
   actuation_.hinges = command_.hinges;
+  actuation_.hinges.TakeSteering(estimate_.hinges);
   drive_->ToWheels(actuation_.twist, actuation_.hinges, wheel_radps_);
   actuation_.wheel_radps = wheel_radps_;
   if (supervisor_) actuation_.cut = supervisor_->cut();

@@ -11,6 +11,7 @@
 
 #include "base/quantity.h"
 #include "env/core/failure_text.h"
+#include "run/plan_check/sharp_corners.h"
 #include "run/scenario/floors.h"
 
 namespace floorproof {
@@ -194,7 +195,7 @@ PlanCheck CheckPlan(Scenario& s, const PlanResult& plan) {
   const SweepArea area =
       ComputeSweepArea(KnownFloor(s), plan.clear, plan.tool, s.robot.spec.step_m, s.start.p());
   return {CheckClearance(s, plan), FindDrivenOver(s, plan), FindUncovered(s, plan, area),
-          EstimateBudget(s, plan)};
+          EstimateBudget(s, plan), CountSharpCorners(plan.path, s.robot.spec)};
 }
 
 std::string ConflictsLine(const PlanClearance& clearance) {
@@ -221,6 +222,11 @@ std::vector<std::string> PlanLines(const Scenario& s, const PlanResult& plan,
   lines.insert(lines.begin(), takes);
   const HazardMap floor = KnownFloor(s);
   AddClearance(floor, check.clearance, lines);
+  if (check.sharp_corners > 0)
+    lines.push_back(fmt::format(
+        "warning: the plan has {} too sharp for the robot, which turns on arcs of {} radius at "
+        "least: it passes beside them",
+        CountText(check.sharp_corners, "corner"), Metres(s.robot.spec.turn_radius_m)));
   AddCrossings(floor, s.robot.spec, check.clearance, lines);
   AddDrivenOver(TrueFloor(s), s.robot.spec, check.driven_over, lines);
   if (plan.samples.empty())
@@ -279,18 +285,20 @@ Json PlanCheckJson(const Scenario& s, const PlanCheck& check) {
   }
   Json least = PlaceJson(c.p_W);
   least.update({{"along_m", c.along_m}, {"obstacle", c.obstacle}, {"clearance_m", c.least_m}});
-  return {{"least_clearance", c.obstacle.empty() ? Json(nullptr) : std::move(least)},
-          {"conflicts", std::move(conflicts)},
-          {"crossings", std::move(crossings)},
-          {"driven_over", std::move(over)},
-          {"free_floor_m2", check.uncovered.floor_m2},
-          {"covered_m2", check.uncovered.covered_m2},
-          {"uncovered_edges_m2", check.uncovered.edges_m2},
-          {"uncovered_pockets", std::move(pockets)},
-          {"expected_s", check.budget.time_s},
-          {"expected_energy_j", check.budget.energy_j},
-          {"expected_battery_share",
-           check.budget.battery_share ? Json(*check.budget.battery_share) : Json(nullptr)}};
+  Json json = {{"least_clearance", c.obstacle.empty() ? Json(nullptr) : std::move(least)},
+               {"conflicts", std::move(conflicts)},
+               {"crossings", std::move(crossings)},
+               {"driven_over", std::move(over)},
+               {"free_floor_m2", check.uncovered.floor_m2},
+               {"covered_m2", check.uncovered.covered_m2},
+               {"uncovered_edges_m2", check.uncovered.edges_m2},
+               {"uncovered_pockets", std::move(pockets)},
+               {"expected_s", check.budget.time_s},
+               {"expected_energy_j", check.budget.energy_j},
+               {"expected_battery_share",
+                check.budget.battery_share ? Json(*check.budget.battery_share) : Json(nullptr)}};
+  if (s.robot.spec.turn_radius_m > 0) json["sharp_corners"] = check.sharp_corners;
+  return json;
 }
 
 }  // namespace floorproof

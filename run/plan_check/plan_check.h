@@ -19,6 +19,7 @@ struct PlanCheck {
   std::vector<DrivenOver> driven_over;
   UncoveredFloor uncovered;
   PlanBudget budget;
+  int sharp_corners = 0;  // see sharp_corners.h
 };
 
 // "planned: 71 waypoints, 120.5 m, 69 turns": of a plan that was found.

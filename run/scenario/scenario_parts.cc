@@ -243,6 +243,10 @@ void CheckOnline(const ConfigNode& root, const Scenario& s) {
     throw InputError(MarkOf(root, "drive"), "drive", "cells",
                      "is for planners of unknown floors, which `floorproof list planners` names");
   if (!s.online) return;
+  if (!cells && s.robot.spec.turn_radius_m > 0)
+    throw InputError(MarkOf(root, "plan"), "plan", s.planner_name,
+                     "plans on the way, by turns on the spot, which " + s.robot_name +
+                         " cannot make; take a planner of known floors");
   const OnlineParams& asked = s.online->params();
   const double cell_m = s.site.map.frame.cell_m;
   const double step_m = asked.step_m.value_or(cells ? cell_m : s.robot.spec.tool_width_m);

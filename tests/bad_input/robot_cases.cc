@@ -195,6 +195,32 @@ BadInput UrdfCase(const std::string& name, const std::string& text,
   return {"Urdf" + name, {"robot", "my.urdf"}, {{"my.urdf", text}}, std::move(named)};
 }
 
+// What a robot that steers must be.
+std::vector<BadInput> SteeringCases() {
+  const auto scrubber = [](const std::string& name, const std::string& from, const std::string& to,
+                           std::vector<std::string> named) {
+    std::ifstream file(FP_SOURCE_DIR "/models/scrubber.xml");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    return Robot(name, Replaced(text, from, to), std::move(named));
+  };
+  const std::string names = "<text name=\"steering\" data=\"fork\"/>";
+  return {
+      scrubber("SteeringIsNoActuator", names, "<text name=\"steering\" data=\"frok\"/>",
+               {"cylinder"}),
+      scrubber("SteeringIsNotNamed", names, "", {"fork", "cylinder"}),
+      scrubber("SteeringHasNoRange", "range=\"-1.1345 1.1345\" armature", "armature",
+               {"fork", "range"}),
+      scrubber("SteeringIsTooWide", "range=\"-1.1345 1.1345\"", "range=\"-1.1345 1.6\"",
+               {"fork", "89 degrees"}),
+      scrubber("SteeringIsAslant", "axis=\"0 0 1\" range", "axis=\"0.5 0 1\" range",
+               {"fork", "axis points up"}),
+      scrubber("SteeredWheelTrails", "<body name=\"drive\">",
+               "<body name=\"drive\" pos=\"-.05 0 0\">", {"fork", "through the wheel's centre"}),
+      scrubber("AxleOffTheOrigin", "pos=\"0 0.27 0.10\"", "pos=\"0.1 0.27 0.10\"",
+               {"rear_left", "x = 0"}),
+  };
+}
+
 std::vector<BadInput> UrdfCases() {
   const auto mesh = [](const std::string& uri) {
     return Urdf("<link name=\"m\"><visual><geometry>\n<mesh filename=\"" + uri +
@@ -311,7 +337,8 @@ std::vector<BadInput> RobotCases() {
                    [](const std::filesystem::path& folder) {
                      return mkfifo((folder / "pipe.xml").c_str(), 0600) == 0;
                    }});
-  for (const auto& more : {CompilerCases(), FileCases(), LimitCases(), UrdfCases()})
+  for (const auto& more :
+       {CompilerCases(), FileCases(), LimitCases(), SteeringCases(), UrdfCases()})
     cases.insert(cases.end(), more.begin(), more.end());
   return cases;
 }

@@ -75,7 +75,7 @@ class FaultConformance
     const auto drive = MakePlugin(Drives(), robot_.spec.drive, "drive");
     drive->Configure(robot_.spec);
     std::vector<double> wheels(robot_.spec.wheels.size());
-    drive->ToWheels({0.15, drive->holonomic() ? 0.1 : 0, 0.2}, wheels);
+    const BodyTwist askew{0.15, drive->holonomic() ? 0.1 : 0, 0.2};
     Observation sensed;
     plant.Reset({}, sensed);
     std::vector<Moment> moments;
@@ -84,7 +84,10 @@ class FaultConformance
       const Truth& t = plant.truth();
       moments.push_back({t.p_WB, t.yaw_rad, t.battery_v, t.power_w, sensed.wheel_rad,
                          sensed.has_imu, sensed.bump.pressed});
-      plant.Apply({.twist = {}, .wheel_radps = wheels, .hinges = {}});
+      HingeState forks;
+      forks.TakeSteering(plant.truth().hinges);
+      drive->ToWheels(askew, forks, wheels);
+      plant.Apply({.twist = {}, .wheel_radps = wheels, .hinges = forks});
       for (int i = 0; i < kStepsAControl; ++i) EXPECT_TRUE(plant.Step());
     }
     return moments;

@@ -79,8 +79,11 @@ class SensorRig {
   }
   // One control period at this twist.
   const Observation& Drive(const BodyTwist& twist) {
-    drive_->ToWheels(twist, wheels_);
+    HingeState forks;
+    forks.TakeSteering(sim_.truth().hinges);
+    drive_->ToWheels(twist, forks, wheels_);
     sim_.SetWheelSpeeds(wheels_);
+    sim_.SetHingeSpeeds(forks);
     for (int i = 0; i < 5; ++i) StepOn();
     return Sense();
   }

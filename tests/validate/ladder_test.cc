@@ -90,10 +90,10 @@ TEST(LadderCells, AreEveryRobotHazardDirectionSpeedAndFrictionOnce) {
     rollers += cell.wheels == "rollers";
   }
   const std::size_t kinds = LadderHazards().size();
-  EXPECT_EQ(cells.size(), kinds * (2 * 2 * 3 * 3 + 3 * 3 * 3 + 3 * 3 * 2));
+  EXPECT_EQ(cells.size(), kinds * (3 * 2 * 3 * 3 + 3 * 3 * 3 + 3 * 3 * 2));
   EXPECT_EQ(LadderCells({.rollers = false}).size(),
             cells.size() - static_cast<std::size_t>(rollers));
-  EXPECT_EQ(SweepCells().size(), kinds * (2 + 2 + 3) * 6 * 3);
+  EXPECT_EQ(SweepCells().size(), kinds * (2 + 2 + 2 + 3) * 6 * 3);
   for (const LadderCell& cell : SweepCells()) {
     EXPECT_EQ(cell.speed_mps, 0.2);
     EXPECT_EQ(cell.friction, 0.8);
@@ -103,7 +103,7 @@ TEST(LadderCells, AreEveryRobotHazardDirectionSpeedAndFrictionOnce) {
 // At 0, 0.5, 1, 3, 5 and 10 degrees off square, and from farther away.
 TEST(LadderCells, AreMetSquareAndAslantToo) {
   const auto cells = ObliqueCells();
-  EXPECT_EQ(cells.size(), LadderHazards().size() * (2 + 3 + 2) * 7);
+  EXPECT_EQ(cells.size(), LadderHazards().size() * (2 + 3 + 2 + 2) * 7);
   std::set<std::string> seen;
   for (const LadderCell& cell : cells) {
     const LadderRow row{cell, 0, false, ""};

@@ -60,22 +60,22 @@ class Bench {
     mjModel* m = rig_.sim().model();
     std::fill_n(m->dof_armature + m->body_dofadr[rig_.scene().base_body], 6, kHeld);
   }
-  double wheels() const { return static_cast<double>(rig_.robot().wheels.size()); }
+  int num_wheels() const { return static_cast<int>(rig_.robot().wheels.size()); }
+  double wheels() const { return num_wheels(); }
   double hotel_w() const { return rig_.robot().hotel_load_w; }
 
   // Asks every driver for a speed under a load until nothing changes.
   void Run(double command_radps, double load_nm) {
     constexpr int kSteps = 1000;
-    const mjModel* m = rig_.sim().model();
-    for (int a = 0; a < m->nu; ++a) rig_.data()->qfrc_applied[Dof(a)] = -load_nm;
+    for (int a = 0; a < num_wheels(); ++a) rig_.data()->qfrc_applied[Dof(a)] = -load_nm;
     rig_.CommandWheels(command_radps);
     for (int k = 0; k < kSteps; ++k) rig_.Step();
   }
   // Holds every wheel still, by its inertia.
   void Block() {
-    constexpr double kBlocked_kgm2 = 1000;
+    constexpr double kBlocked_kgm2 = 3e4;  // 40 N m turn it by 5 mrad/s in a run
     mjModel* m = rig_.sim().model();
-    for (int a = 0; a < m->nu; ++a) m->dof_armature[Dof(a)] = kBlocked_kgm2;
+    for (int a = 0; a < num_wheels(); ++a) m->dof_armature[Dof(a)] = kBlocked_kgm2;
     rig_.SetBase(Vec3::UnitZ(), Eigen::Quaterniond::Identity(), Vec3::Zero());
     for (int a = 0; a < m->nu; ++a) rig_.data()->qvel[Dof(a)] = 0;
   }
