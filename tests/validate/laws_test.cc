@@ -18,10 +18,10 @@ std::string GroupOf(const std::string& row) { return row.substr(0, row.rfind('/'
 std::string Describe(const WrongModel& wrong) {
   return fmt::format(
       "friction x {}, wheels + {} m, gravity x {}, seams of {} m, battery x {}, resistance x {}, "
-      "hotel load x {}, restitution x {}",
+      "hotel load x {}, restitution x {}, forks + {} rad",
       wrong.friction_factor, wrong.wheel_radius_add_m, wrong.gravity_factor, wrong.seam_step_m,
       wrong.battery_factor, wrong.resistance_factor, wrong.hotel_load_factor,
-      wrong.restitution_factor);
+      wrong.restitution_factor, wrong.steering_add_rad);
 }
 
 class LawTest : public ::testing::TestWithParam<std::string> {
