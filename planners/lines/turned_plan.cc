@@ -32,11 +32,12 @@ Path FitTurns(const Path& path, const HazardMap& map, const RobotSpec& robot, co
 void FitTurns(const PlanRequest& request, PlanResult& plan) {
   constexpr double kWorthSaying = 0.0005;
   const RobotSpec& robot = request.robot;
-  if (robot.turn_radius_m == 0 || plan.status != PlanStatus::kSuccess) return;
+  if (robot.turn_radius_m == 0 || plan.status != PlanStatus::kSuccess || plan.path.size() < 2)
+    return;
   const double radius_m = kTurnReserve * robot.turn_radius_m;
   TurnedPath turned =
       Turned(plan.path, request.map, robot, plan.clear, plan.tool_width_m, request.start);
-  if (turned.path.empty() && plan.path.size() > 1) {
+  if (turned.path.empty()) {
     plan.status = PlanStatus::kFailed;
     plan.message =
         "from its start and heading the robot cannot turn into any leg of the plan: it needs arcs "
@@ -50,17 +51,19 @@ void FitTurns(const PlanRequest& request, PlanResult& plan) {
   const double before = MeasureCoverage(area, plan.tool, plan.path).coverage;
   const double after = MeasureCoverage(area, plan.tool, turned.path).coverage;
   const double cost = std::max(0.0, before - after);
+  const bool ends = turned.path.back().p_W == plan.path.back().p_W;
   plan.path = std::move(turned.path);
   plan.figures.emplace_back("turn_radius_m", radius_m);
   plan.figures.emplace_back("lanes_left_out", turned.left_out);
   plan.figures.emplace_back("turns_cost_coverage", cost);
-  if (turned.left_out == 0 && turned.stops_left_out == 0 && cost < kWorthSaying) return;
+  if (turned.left_out == 0 && turned.stops_left_out == 0 && ends && cost < kWorthSaying) return;
   plan.message += (plan.message.empty() ? "" : "; ");
   plan.message += "turns of " + LengthText(radius_m) + " radius leave out " +
                   CountText(turned.left_out, "lane") + " of " + std::to_string(turned.lanes);
   if (turned.left_out > 0) plan.message += ", " + NumberText(turned.left_out_m) + " m";
   if (turned.stops_left_out > 0)
     plan.message += ", and " + CountText(turned.stops_left_out, "stop");
+  if (!ends) plan.message += ", the plan's end among them";
   plan.message += ", and cost " + PercentText(cost) + " of coverage";
 }
 

@@ -31,7 +31,7 @@ PathChange PlanNavigator::Update(const NavigatorInput& input) {
   if (robot_.turn_radius_m > 0) {
     const HazardMap marked = WithMarks(known, input.known->marks);
     Path turned = FitTurns(path_, marked, robot_, plan_.clear, input.estimate.X_WB);
-    if (!turned.empty()) path_ = std::move(turned);
+    if (!turned.empty() && turned.back().p_W == path_.back().p_W) path_ = std::move(turned);
   }
   return PathChange::kAnew;
 }

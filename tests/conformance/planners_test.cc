@@ -14,6 +14,8 @@
 
 #include "env/map/site.h"
 #include "env/scene/robot_model.h"
+#include "planners/lines/turned_plan.h"
+#include "tests/planners/curvature.h"
 #include "tests/planners/risk_floors.h"
 #include "tests/robots.h"
 
@@ -26,6 +28,7 @@ using testing::Draw;
 using testing::ExpectSound;
 using testing::MakePlanner;
 using testing::PaperTables;
+using testing::TightestTurn;
 
 // Of the free cells that can be reached over floor and terrain.
 void ExpectCellsCovered(const PlanRequest& request, const PlanResult& plan, double least) {
@@ -476,6 +479,13 @@ TEST_P(EveryPlannerOnSites, CoversARealMap) {
     const PlanResult plan = dut->Plan(request);
     ExpectSound(map, start, plan);
     ExpectCovered(*dut, request, plan);
+    // The same, made fit for a robot that cannot turn on the spot.
+    RobotSpec steered = robot;
+    steered.turn_radius_m = 0.15;
+    PlanResult turned = plan;
+    FitTurns({map, steered, start, std::nullopt, 7, &risk}, turned);
+    ExpectSound(map, start, turned);
+    EXPECT_GE(TightestTurn(turned.path), 0.99 * kTurnReserve * steered.turn_radius_m);
   }
 }
 
