@@ -6,6 +6,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "base/result_folder.h"
 #include "validate/suite/robot_suite.h"

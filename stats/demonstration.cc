@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stats/demonstration.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "base/params.h"

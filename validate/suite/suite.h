@@ -12,7 +12,10 @@
 // method the size above the one that passed was tried, and a draw failed it.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>

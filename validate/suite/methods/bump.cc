@@ -19,10 +19,8 @@ class PaneBump final : public Method {
   }
   std::string_view task() const override {
     return "Its plan leads straight into a pane of glass that is on no map. It carries a bumper "
-           "and "
-           "goes back from what it touches. Passed: it felt the pane, and no detector fired: it "
-           "was "
-           "not thrown back.";
+           "and goes back from what it touches. Passed: it felt the pane, and no detector fired: "
+           "it was not thrown back.";
   }
   std::optional<SizeLadder> sizes(const RobotModel& robot) const override {
     return SpeedLadder(robot.spec);

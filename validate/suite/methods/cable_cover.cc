@@ -18,8 +18,8 @@ class CableCover : public CrossingMethod {
     return "IEC 62849, transition; ASTM E54, crossing ramps";
   }
   std::string_view task() const override {
-    return "It drives straight over a cable cover with flanks of 30 degrees at its cruising speed. "
-           "Passed: the whole robot is beyond, and no detector fired.";
+    return "It drives straight over a cable cover with flanks of 30 degrees at its cruising "
+           "speed. Passed: the whole robot is beyond, and no detector fired.";
   }
   std::optional<SizeLadder> sizes(const RobotModel&) const override {
     return SizeLadder{"height", "mm", {.per_unit = 1, .first = 1, .spacing = 8, .last = 153}};

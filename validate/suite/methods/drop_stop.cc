@@ -21,10 +21,8 @@ class DropStop final : public Method {
   }
   std::string_view task() const override {
     return "Its plan leads straight over an edge 150 mm deep that is on no map. It carries the "
-           "eight "
-           "cliff sensors of the sensor `cliff` at its edge, brakes where one sees no floor, and "
-           "goes "
-           "back. Passed: it saw the edge, and no detector fired.";
+           "eight cliff sensors of the sensor `cliff` at its edge, brakes where one sees no "
+           "floor, and goes back. Passed: it saw the edge, and no detector fired.";
   }
   std::optional<SizeLadder> sizes(const RobotModel& robot) const override {
     return SpeedLadder(robot.spec);

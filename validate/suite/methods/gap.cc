@@ -14,8 +14,7 @@ class Gap final : public CrossingMethod {
   std::string_view shaped_after() const override { return "ASTM E54, gaps"; }
   std::string_view task() const override {
     return "It drives straight over a gap 100 mm deep at its cruising speed. Passed: the whole "
-           "robot "
-           "is beyond, and no detector fired.";
+           "robot is beyond, and no detector fired.";
   }
   std::optional<SizeLadder> sizes(const RobotModel&) const override {
     return SizeLadder{"width", "mm", {.per_unit = 1, .first = 2, .spacing = 16, .last = 402}};

@@ -15,9 +15,9 @@ class Lost final : public Method {
     return "ISO 18646-2, pose accuracy; IEC 62849, navigation";
   }
   std::string_view task() const override {
-    return "It drives a lap of a furnished room by its lidar and a map, its first guess off by so "
-           "much in a drawn direction and by up to 20 degrees. Passed: it finds itself and comes "
-           "back, and no detector fired.";
+    return "It drives a lap of a furnished room by its lidar and a map, its first guess off by "
+           "so much in a drawn direction and by up to 20 degrees. Passed: it finds itself and "
+           "comes back, and no detector fired.";
   }
   std::optional<SizeLadder> sizes(const RobotModel&) const override {
     return SizeLadder{"error", "m", {.per_unit = 10, .first = 1, .spacing = 4, .last = 21}};

@@ -17,9 +17,8 @@ class NarrowPassage final : public Method {
   }
   std::string_view task() const override {
     return "It drives through a passage a metre long at its cruising speed, by its lidar and a "
-           "map, "
-           "or without a lidar by its wheels; its first guess is off by the approach. Passed: it "
-           "comes out, touched nothing, and no detector fired.";
+           "map, or without a lidar by its wheels; its first guess is off by the approach. "
+           "Passed: it comes out, touched nothing, and no detector fired.";
   }
   std::optional<SizeLadder> sizes(const RobotModel& robot) const override {
     constexpr int kRound_mm = 10;

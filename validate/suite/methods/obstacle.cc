@@ -44,11 +44,9 @@ class Obstacle : public Method {
 
 class ObstacleBlind final : public Obstacle {
   std::string_view task() const override {
-    return "It covers a small room that it has no map of, for 180 s at most, by its lidar, mapper, "
-           "bumper "
-           "and "
-           "the planner frontier_coverage; a box of 0.3 m stands in the room. Passed: it touched "
-           "nothing, and no detector fired.";
+    return "It covers a small room that it has no map of, for 180 s at most, by its lidar, "
+           "mapper, bumper and the planner frontier_coverage; a box of 0.3 m stands in the room. "
+           "Passed: it touched nothing, and no detector fired.";
   }
   void Place(BenchFloor& floor, const Pose2& X_WH) const override {
     constexpr double kHalf_m = 0.15;

@@ -11,12 +11,10 @@ class PathDeviation final : public Method {
     return "ISO 18646-2, path deviation; ASTM F45, navigation";
   }
   std::string_view task() const override {
-    return "It drives a lap of a furnished room at its cruising speed, by its lidar and a map, or "
-           "without a lidar by its wheels; its first guess is off by the approach. Passed: it "
-           "comes "
-           "back, and no detector fired. Measured: the greatest distance of its true place from "
-           "the "
-           "path.";
+    return "It drives a lap of a furnished room at its cruising speed, by its lidar and a map, "
+           "or without a lidar by its wheels; its first guess is off by the approach. Passed: it "
+           "comes back, and no detector fired. Measured: the greatest distance of its true place "
+           "from the path.";
   }
   std::optional<MeasuredFigure> figure() const override {
     return MeasuredFigure{"greatest distance from the path", "mm"};

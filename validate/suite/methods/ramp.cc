@@ -15,8 +15,7 @@ class RampUp final : public CrossingMethod {
   }
   std::string_view task() const override {
     return "It drives straight up a ramp, a metre beyond the whole robot's length, from its "
-           "cruising "
-           "speed. Passed: it gets there, and no detector fired.";
+           "cruising speed. Passed: it gets there, and no detector fired.";
   }
   std::optional<SizeLadder> sizes(const RobotModel&) const override {
     return SizeLadder{"slope", "deg", {.per_unit = 2, .first = 2, .spacing = 10, .last = 102}};

@@ -18,8 +18,7 @@ class Sill final : public CrossingMethod {
   }
   std::string_view task() const override {
     return "It drives straight over a sill at its cruising speed. Passed: the whole robot is "
-           "beyond, "
-           "and no detector fired.";
+           "beyond, and no detector fired.";
   }
   std::optional<SizeLadder> sizes(const RobotModel&) const override {
     return SizeLadder{"height", "mm", {.per_unit = 1, .first = 1, .spacing = 4, .last = 97}};

@@ -13,8 +13,8 @@ class SingleStep final : public CrossingMethod {
     return "ASTM E54, hurdles; IEC 62849, transition";
   }
   std::string_view task() const override {
-    return "It drives straight up a step at its cruising speed. Passed: the whole robot is on it, "
-           "and no detector fired.";
+    return "It drives straight up a step at its cruising speed. Passed: the whole robot is on "
+           "it, and no detector fired.";
   }
   std::optional<SizeLadder> sizes(const RobotModel&) const override {
     return SizeLadder{"height", "mm", {.per_unit = 1, .first = 1, .spacing = 8, .last = 249}};

@@ -26,8 +26,8 @@ class StoppingDistance final : public Method {
  public:
   std::string_view shaped_after() const override { return "ISO 18646-1, stopping characteristics"; }
   std::string_view task() const override {
-    return "At its cruising speed its bumper is pressed for 0.1 s. Passed: it comes to rest within "
-           "5 s, and no detector fired. Measured: the way from there to where it stands.";
+    return "At its cruising speed its bumper is pressed for 0.1 s. Passed: it comes to rest "
+           "within 5 s, and no detector fired. Measured: the way from there to where it stands.";
   }
   std::optional<MeasuredFigure> figure() const override {
     return MeasuredFigure{"way to a stop", "mm"};
