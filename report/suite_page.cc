@@ -131,6 +131,7 @@ std::string Table(const SuiteReport& report) {
         most = std::max(most, Shown(*result).value_or(0));
         less = less || LessIsBetter(*result);
       }
+    if (report.robots.size() == 1) most = 0;  // a bar says nothing alone
     for (const RobotSuite& robot : report.robots)
       cells += ResultCell(report, Find(robot, entry->name), most);
     html += fmt::format(
