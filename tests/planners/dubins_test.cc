@@ -27,7 +27,7 @@ TEST(Dubins, LengthsInClosedForm) {
   EXPECT_NEAR(Shortest({}, {2 * kR_m, 2 * kR_m, 0}), kPi * kR_m, 1e-9) << "two quarters, an S";
 }
 
-class RandomPoses : public testing::TestWithParam<unsigned> {
+class RandomPoses : public ::testing::TestWithParam<unsigned> {
  protected:
   RandomPoses() : draws_(GetParam()) {}
   Pose2 Draw() {
@@ -79,7 +79,7 @@ TEST_P(RandomPoses, MirroredAndReversedWaysAreAsLong) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomPoses, testing::Values(1u, 2u, 3u));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomPoses, ::testing::Values(1u, 2u, 3u));
 
 }  // namespace
 }  // namespace floorproof
