@@ -10,16 +10,19 @@
 namespace floorproof {
 namespace {
 
-// All that MakePlan reads, as text. The floor's friction is not a planner's to know.
+// All that MakePlan reads, as text. The floor's friction is not a planner's to know, unless the
+// robot was measured on several: its limits hang on it. Whether they are used hangs on more than
+// its keys here say (the battery's voltage).
 std::string PlanInputs(const Scenario& s) {
+  const bool has_limits = !s.robot.spec.measured.limits.empty();
   ConfigNode site = s.site_node;
-  site.Remove("floor");
+  if (!has_limits) site.Remove("floor");
   ConfigNode others = ConfigNode::Map();
   others.Add("site", std::move(site));
   others.Add("robot", ConfigNode::Scalar(s.robot_file.string(), true));
   RobotChanges changes = s.robot_changes;
   WriteParams([&](ParamVisitor& v) { changes.Visit(v); }, others);
-  std::string text = WriteYaml(others) + s.planner_name;
+  std::string text = WriteYaml(others) + (has_limits ? "by its limits\n" : "") + s.planner_name;
   for (const double value : {s.start.x_m, s.start.y_m, s.start.yaw_rad})
     text += " " + FormatDouble(value);
   if (s.goal) text += " to " + FormatDouble(s.goal->x()) + " " + FormatDouble(s.goal->y());

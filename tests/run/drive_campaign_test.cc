@@ -5,8 +5,11 @@
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "env/scene/measured_block.h"
 #include "run/campaign/campaign_merge.h"
+#include "run/campaign/episode_maker.h"
 #include "run/campaign/summary_json.h"
 #include "tests/run/scenario_text.h"
 #include "tests/slurp.h"
@@ -172,6 +175,38 @@ TEST_F(DriveCampaignTest, MergeNamesWhatNoShardHolds) {
   fs::remove_all(folder_ / "a/inputs");  // as of a version that kept none
   EXPECT_THAT(MergeCampaigns({Folder("a"), Folder("b")}, folder_ / "again").paths_note,
               AllOf(HasSubstr("its paths hold from " + Folder("a")), HasSubstr("no such file")));
+}
+
+// A robot whose limits were measured: on a slippery floor it keeps off a step that it crosses on
+// another. What an episode plans does not hang on which came before it in the same worker.
+TEST_F(DriveCampaignTest, PlansByMeasuredLimitsHangOnTheirOwnEpisodeAlone) {
+  const fs::path robot = Save("mine.xml", Slurp(FP_SOURCE_DIR "/models/beluga.xml"));
+  const std::string limits =
+      "<text name=\"measured_by\" data=\"a test\"/>\n<text name=\"measured_model\" data=\"" +
+      ModelHash(std::vector<fs::path>{robot}, {}) +
+      "\"/>\n<numeric name=\"measured_frictions\" data=\"0.4 0.8\"/>\n"
+      "<numeric name=\"measured_speeds_mps\" data=\"0.2\"/>\n"
+      "<numeric name=\"measured_step_forward_mm\" data=\"5 20\"/>\n";
+  Save("mine.xml", WithMeasured(Slurp(robot), limits, robot));
+  const ScenarioFile file(
+      Save("s.yaml",
+           "scenario: 1\nsite:\n  site: 1\n  name: hall\n  grid:\n    cell_m: 0.5\n"
+           "    rows: |\n      ........\n      ........\n      ........\n"
+           "      ........\n  hazards:\n    - {type: step, id: s, height_m: 0.008, "
+           "polygon_m: [[2, 0], [4, 0], [4, 1], [2, 1]]}\n"
+           "start: {x_m: 0.6, y_m: 1.0}\nrobot: mine.xml\nplan: boustrophedon\n"
+           "drive: none\n"
+           "randomise: {site.floor.friction: {choice: [0.5, 0.9]}, "
+           "battery.voltage_v: {choice: [12, 11.5]}}\n"));
+  EpisodeMaker one(file);
+  std::set<std::string> plans;
+  for (std::uint64_t episode = 0; episode < 12; ++episode) {
+    EpisodeMaker fresh(file);
+    const EpisodeRow alone = fresh.Run({}, episode);
+    EXPECT_EQ(one.Run({}, episode).plan, alone.plan) << alone.drawn << alone.message;
+    plans.insert(alone.plan);
+  }
+  EXPECT_EQ(plans.size(), 2u) << "over the step, and around it";
 }
 
 }  // namespace
