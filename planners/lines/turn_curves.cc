@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "planners/lines/dubins.h"
@@ -150,18 +151,16 @@ class Turns {
       for (const double cut_m : ends) {
         const auto from = BestUntil(i, a.length_m - cut_m);
         if (!from) continue;
-        State to = states_[i][*from];
-        const double left_out_m = cut_m + skipped_m + begin_m;
-        const auto curve = Clear(a.At(a.length_m - cut_m), b.At(begin_m), least_m);
+        const State& before = states_[i][*from];
+        const Pose2 leaves = a.At(a.length_m - cut_m), enters = b.At(begin_m);
+        const double cost = before.cost + a.length_m - cut_m - before.begin_m +
+                            kLeftOut * (cut_m + skipped_m + begin_m) + stops_m;
+        // No curve is shorter than the straight.
+        if (IsKept(j, begin_m, cost + (enters.p() - leaves.p()).norm())) continue;
+        const auto curve = Clear(leaves, enters, least_m);
         if (!curve) continue;
-        const double driven_m = a.length_m - cut_m - to.begin_m + curve->Length();
-        to = {begin_m,
-              to.cost + driven_m + kLeftOut * left_out_m + stops_m,
-              i,
-              *from,
-              a.length_m - cut_m,
-              *curve};
-        any |= Keep(j, to);
+        Keep(j, {begin_m, cost + curve->Length(), i, *from, a.length_m - cut_m, *curve});
+        any = true;
       }
     return any;
   }
@@ -180,15 +179,21 @@ class Turns {
     return best;
   }
 
+  // Whether a way to have come to the leg there is kept that costs no more than this.
+  bool IsKept(std::size_t leg, double begin_m, double cost) const {
+    return std::ranges::any_of(states_[leg], [&](const State& other) {
+      return std::abs(other.begin_m - begin_m) < kSame_m && other.cost <= cost;
+    });
+  }
+
   // One a beginning: the cheapest.
-  bool Keep(std::size_t leg, const State& state) {
+  void Keep(std::size_t leg, const State& state) {
     for (State& other : states_[leg])
       if (std::abs(other.begin_m - state.begin_m) < kSame_m) {
         if (state.cost < other.cost) other = state;
-        return true;
+        return;
       }
     states_[leg].push_back(state);
-    return true;
   }
 
   std::optional<DubinsCurve> Clear(const Pose2& from, const Pose2& to, double least_m) const {
@@ -197,8 +202,14 @@ class Turns {
       const DubinsCurve& curve = found.curves[static_cast<std::size_t>(k)];
       const double length_m = curve.Length();
       bool clear = true;
-      for (double s_m = 0; clear && s_m < length_m; s_m += kStep_m)
-        clear = request_.clearance.At(curve.At(s_m).p()) >= least_m;
+      // From cell to cell clearance falls by their distance at most: what is left of it need not be
+      // looked at.
+      const double cells_m = std::numbers::sqrt2 * request_.clearance.frame.cell_m;
+      for (double s_m = 0; clear && s_m < length_m;) {
+        const double left_m = request_.clearance.At(curve.At(s_m).p()) - least_m;
+        clear = left_m >= 0;
+        s_m += std::max(kStep_m, left_m - cells_m);
+      }
       if (clear) return curve;
     }
     return {};
