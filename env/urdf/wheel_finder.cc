@@ -80,6 +80,21 @@ class WheelFinder {
     std::erase_if(out_.rollers, [&](const Roller& roller) {
       return roller.low_m > floor_m_ + FloorGap(roller.fit.radius_m);
     });
+    for (const Roller& roller : out_.rollers) RefuseSteering(Head(roller.group));
+  }
+
+  // A wheel below an upright joint with limits steers, which no URDF says more of.
+  void RefuseSteering(const UrdfLink& wheel) const {
+    for (int at = wheel.parent; at >= 0;) {
+      const UrdfLink& link = model_.links[static_cast<std::size_t>(at)];
+      if (link.joint == UrdfLink::Joint::kHinge && !link.turns_freely &&
+          std::abs(link.axis_M.z()) > kUpright)
+        Refuse("joint " + link.joint_name,
+               "steers the wheel of " + wheel.joint_name +
+                   ": write such a robot's MJCF by hand (docs/adding-a-robot.md); where the wheel "
+                   "swivels freely the joint is continuous, where it stands straight, fixed");
+      at = link.parent;
+    }
   }
 
   // Indices into out_.rollers.

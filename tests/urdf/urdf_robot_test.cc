@@ -144,6 +144,16 @@ TEST(UrdfRobot, OtherJointsAreHeld) {
   EXPECT_THAT(dut.notes, Contains("joint shoulder is held where it stands"));
 }
 
+// A tricycle's front wheel, below an upright joint with limits.
+TEST(UrdfRobot, AWheelThatSteersIsRefused) {
+  const std::string steered = Replaced(
+      WithSwivel(), "<joint name=\"fork_joint\" type=\"continuous\">",
+      "<joint name=\"fork_joint\" type=\"revolute\"><limit lower=\"-1\" upper=\"1\" effort=\"1\" "
+      "velocity=\"1\"/>");
+  EXPECT_THAT(RefusalOf(steered),
+              AllOf(HasSubstr("fork_joint"), HasSubstr("steers the wheel of caster_joint")));
+}
+
 TEST(UrdfRobot, WithoutWheelsItIsRefused) {
   EXPECT_THAT(RefusalOf(Replaced(WithBall(), "type=\"continuous\"", "type=\"fixed\"")),
               HasSubstr("no driven wheels"));
