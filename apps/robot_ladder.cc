@@ -42,7 +42,6 @@ nlohmann::ordered_json MeasureLimits(const RobotModel& robot, const fs::path& ta
   SayWhenInterrupted(fmt::format("{} of {} limits are in {}; {} is as it was", rows.size(),
                                  cells.size(), table.string(), target.string()));
   if (Interrupted()) throw Interruption();
-  WriteCapabilityChart(rows, file.string(), chart);
   if (ModelHash(robot.files, {}) != model)
     throw InputError({file.string(), 0}, "", "",
                      "was changed while it was measured: the limits, in " + table.string() +
@@ -52,6 +51,7 @@ nlohmann::ordered_json MeasureLimits(const RobotModel& robot, const fs::path& ta
       MeasuredElements(
           rows, fmt::format("Floorproof {}, MuJoCo {}", FLOORPROOF_VERSION, mj_versionString()),
           model));
+  WriteCapabilityChart(rows, file.string(), chart);
   SayRows(rows, globals);
   globals.Say(fmt::format("{} limits measured: in {}, {} and {}", rows.size(), target.string(),
                           table.string(), chart.string()));

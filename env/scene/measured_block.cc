@@ -86,6 +86,12 @@ std::string WithMeasured(std::string_view text, std::string_view elements,
                          const std::filesystem::path& file) {
   const Place old = FindBlock(text);
   std::string rest = WithoutMeasured(text);
+  for (const std::string& mark :
+       {std::string(kBegin), std::string(kEnd), '"' + std::string(kMeasuredBy) + '"'})
+    if (rest.find(mark) != rest.npos)
+      throw InputError({file.string(), 0}, std::string(kMeasuredBy), "",
+                       "stands outside of one block between its two comments: delete all lines of "
+                       "what was measured, then measure again");
   std::size_t at = old.begin;
   bool own_element = text.substr(old.begin, old.end - old.begin).find("<custom>") != kNone.npos;
   if (old.end == 0) {

@@ -55,6 +55,17 @@ TEST(MeasuredBlock, KeepsLineBreaksAndWhateverElseThereIs) {
   EXPECT_THROW(WithMeasured("<robot/>", "<one/>\n", "a.xml"), InputError);
 }
 
+// Whatever wrote the file again without its comments: a second block would repeat every name.
+TEST(MeasuredBlock, OneThatLostACommentIsRefused) {
+  const std::string dut = WithMeasured(kText, "<text name=\"measured_by\" data=\"x\"/>\n", "a.xml");
+  for (const char* lost : {"<!-- Measured by", "<!-- End of what"}) {
+    std::string text = dut;
+    const std::size_t at = text.find(lost);
+    text.erase(at, text.find("-->", at) + 3 - at);
+    EXPECT_THROW(WithMeasured(text, "<one/>\n", "a.xml"), InputError) << lost;
+  }
+}
+
 class MeasuredRobot : public TempFolder {
  protected:
   // BELUGA with limits: steps of 10 mm at 0.1 m/s and 20 mm at 0.2 m/s forward, less at 45 degrees.
