@@ -58,7 +58,9 @@ std::vector<RobotSuite> NamedRobots(const std::vector<std::string>& names) {
     RobotSuite suite;
     suite.robot = file == name ? fs::absolute(file).string() : name;
     suite.label = file == name ? file.stem().string() : name;
-    suite.mass_kg = ReadRobot(file).spec.mass_kg;
+    if (suite.label.starts_with('.') || SuiteResults().has(suite.label))
+      throw InputError({"ROBOT", 0}, "", name,
+                       "its films' folder would be named " + suite.label + ": rename the file");
     if (std::ranges::find(robots, suite.label, &RobotSuite::label) != robots.end())
       throw InputError({"ROBOT", 0}, "", name, "another robot is named so, too");
     robots.push_back(std::move(suite));
@@ -88,8 +90,12 @@ SuiteReport Request(const Options& options, const Globals& globals) {
     if (std::ranges::none_of(
             asked, [&](const auto* entry) { return entry->name == report.required.back().method; }))
       throw InputError({"--require", 0}, "", text, "its method is not among --methods");
+    if (std::ranges::count(report.required, report.required.back().method,
+                           &SuiteRequirement::method) > 1)
+      throw InputError({"--require", 0}, "", text, "is asked of this method already");
   }
   report.robots = NamedRobots(options.robots);
+  for (const RobotSuite& robot : report.robots) RefuseBeyondLadders(report.required, robot.robot);
   return report;
 }
 

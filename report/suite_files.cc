@@ -68,6 +68,13 @@ Json MethodJson(const SuiteReport& report, const MethodResult& result) {
   return json;
 }
 
+// What was set for every run, and so was not drawn.
+Json SetJson(const SuiteOptions& options) {
+  Json set = Json::object();
+  for (const Override& o : options.overrides) set[o.key_path] = o.value;
+  return set;
+}
+
 std::string JunitCase(const SuiteReport& report, const RobotSuite& robot,
                       const MethodResult& result) {
   const std::string why = MarkupText(WhyMissed(result, report.required));
@@ -115,11 +122,11 @@ std::string SuiteRunsCsv(const SuiteReport& report) {
     for (const SuiteRun& run : r.runs)
       csv += fmt::format(
           "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", CsvField(robot.label), r.method,
-          r.sizes ? FormatDouble(run.size) : "", Unit(r), run.run, FormatDouble(run.draw.friction),
-          FormatDouble(run.draw.mass_share * robot.mass_kg),
-          FormatDouble(run.draw.angle_rad / kDegree), FormatDouble(run.draw.offset_m),
-          FormatDouble(run.draw.speed_share), FormatDouble(run.draw.bearing_rad / kDegree),
-          run.verdict.passed ? 1 : 0, CsvField(run.verdict.why), OrEmpty(run.verdict.figure),
+          r.sizes ? FormatDouble(run.size) : "", Unit(r), run.run, FormatDouble(run.friction),
+          FormatDouble(run.mass_kg), FormatDouble(run.draw.angle_rad / kDegree),
+          FormatDouble(run.draw.offset_m), FormatDouble(run.draw.speed_share),
+          FormatDouble(run.draw.bearing_rad / kDegree), run.verdict.passed ? 1 : 0,
+          CsvField(run.verdict.why), OrEmpty(run.verdict.figure),
           r.measures ? std::string(r.measures->unit) : "", FormatDouble(run.duration_s));
   });
   return csv;
@@ -171,6 +178,7 @@ Json SuiteJson(const SuiteReport& report) {
           {"n", RunsToDemonstrate(options.reliability, options.confidence)},
           {"seed", options.seed},
           {"population", PopulationText()},
+          {"set", SetJson(options)},
           {"required", std::move(required)},
           {"robots", std::move(robots)},
           {"versions", VersionsJson()}};

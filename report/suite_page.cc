@@ -60,6 +60,14 @@ std::string Names(const SuiteReport& report, const char* between) {
   return names;
 }
 
+// What was set for every run, and so was not drawn; empty: nothing.
+std::string SetText(const SuiteReport& report) {
+  std::string text;
+  for (const Override& o : report.options.overrides)
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", o.key_path, o.value);
+  return text.empty() ? "" : " Set for every run instead: " + text + ".";
+}
+
 std::string RobotVerdict(const SuiteReport& report, const RobotSuite& robot) {
   std::size_t asked = 0;
   std::string missed;
@@ -89,13 +97,16 @@ std::string VerdictBox(const SuiteReport& report) {
     list += "<li>" + MarkupText(RobotVerdict(report, robot)) + "</li>";
   }
   const SuiteOptions& options = report.options;
-  list += "<li>" +
-          MarkupText(fmt::format(
+  list +=
+      "<li>" +
+      MarkupText(
+          fmt::format(
               "Each size and each pass is demonstrated by {} without a failure: {} of such runs "
               "pass, at {} confidence.",
               CountText(RunsToDemonstrate(options.reliability, options.confidence), "run"),
-              PercentText(options.reliability), PercentText(options.confidence))) +
-          "</li>";
+              PercentText(options.reliability), PercentText(options.confidence)) +
+          SetText(report)) +
+      "</li>";
   return fmt::format(
       "<div class=\"verdict {}\"><p>{}</p><ul>{}</ul></div>\n", good ? "passed" : "failed",
       good ? "Every method is as it must be." : "Not every method is as it must be.", list);
@@ -200,11 +211,12 @@ std::string MethodCard(const SuiteReport& report, const PluginEntry<Method>& ent
 
 std::string HowText(const SuiteReport& report) {
   return fmt::format(
-      "<p>Runs are drawn from one population: {}. Run i has the same draws at every size and for "
+      "<p>Runs are drawn from one population: {}.{} Run i has the same draws at every size and for "
       "every robot (seed {}). A size counts when all runs pass it; the next harder one was tried, "
-      "and a run failed it. Methods are shaped after tests of the standards that they name: they "
+      "and a run failed it, but for sizes at the ladder's end (\"or more\", \"or less\"). Methods "
+      "are shaped after tests of the standards that they name: they "
       "have their idea, not their apparatus, and nothing here conforms to a standard.</p>\n",
-      MarkupText(PopulationText()), report.options.seed);
+      MarkupText(PopulationText()), MarkupText(SetText(report)), report.options.seed);
 }
 
 }  // namespace

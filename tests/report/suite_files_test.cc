@@ -22,7 +22,12 @@ MethodResult Step(double size_mm) {
   result.n = 2;
   result.reliability_lower = 0.5;
   result.size = size_mm;
-  result.runs = {{.run = 1, .size = size_mm, .verdict = {true}, .duration_s = 8},
+  result.runs = {{.run = 1,
+                  .size = size_mm,
+                  .verdict = {true},
+                  .duration_s = 8,
+                  .friction = 0.7,
+                  .mass_kg = 9.5},
                  {.run = 0, .size = size_mm + 1, .verdict = {false, "stuck at <step>"}}};
   result.shown = 1;
   result.simulated_s = 8;
@@ -48,8 +53,8 @@ SuiteReport TwoRobots() {
   SuiteReport report;
   report.options = {.reliability = 0.5, .confidence = 0.75};
   report.required = {{"step", 11}};
-  report.robots = {{.robot = "a", .label = "a", .mass_kg = 10, .methods = {}, .filmed = {}},
-                   {.robot = "b<b>", .label = "b<b>", .mass_kg = 5, .methods = {}, .filmed = {}}};
+  report.robots = {{.robot = "a", .label = "a", .methods = {}, .filmed = {}},
+                   {.robot = "b<b>", .label = "b<b>", .methods = {}, .filmed = {}}};
   report.robots[0].methods = {Step(12), Obstacle(1), Lost()};
   report.robots[1].methods = {Step(10), Obstacle(0)};
   report.asked = 3;
@@ -70,7 +75,9 @@ TEST(SuiteFiles, ARowAMethodAndARowARun) {
   EXPECT_THAT(csv, HasSubstr("a,lost,not applicable,"));
   EXPECT_THAT(csv,
               HasSubstr("b<b>,step,limit found,10,mm,0,,,2,0,0.5,\"10 mm, 11 mm is required\"\n"));
-  EXPECT_EQ(Count(SuiteRunsCsv(TwoRobots()), "\n"), 5);
+  const std::string runs = SuiteRunsCsv(TwoRobots());
+  EXPECT_EQ(Count(runs, "\n"), 5);
+  EXPECT_THAT(runs, HasSubstr("a,step,12,mm,1,0.7,9.5,")) << "as it was driven";
 }
 
 // Who counts its failures reads what is there; markup within does not end a tag.
@@ -93,6 +100,15 @@ TEST(SuiteFiles, JsonSaysWhatWasAskedAndFound) {
   EXPECT_EQ(json["robots"][0]["whole"], true);
   EXPECT_EQ(json["robots"][1]["whole"], false);
   EXPECT_EQ(json["robots"][1]["methods"][0]["missed"], "10 mm, 11 mm is required");
+}
+
+// What is set for every run was not drawn, and whoever reads the files learns of it.
+TEST(SuiteFiles, SayWhatWasSet) {
+  SuiteReport dut = TwoRobots();
+  EXPECT_TRUE(SuiteJson(dut)["set"].empty());
+  dut.options.overrides = {{"robot.mass_kg", "30"}};
+  EXPECT_EQ(SuiteJson(dut)["set"]["robot.mass_kg"], "30");
+  EXPECT_THAT(SuitePage(dut, "."), HasSubstr("Set for every run instead: robot.mass_kg = 30."));
 }
 
 TEST(SuitePage, ShowsRobotsSideBySideAndLoadsNothing) {

@@ -70,9 +70,11 @@ TEST(Methods, SayWhatTheyAreAndClimbFromEasyToHard) {
 TEST(Methods, LayOutScenariosThatCanBeRead) {
   const std::filesystem::path folder =
       std::filesystem::path(::testing::TempDir()) / "Methods.LayOutScenarios";
-  for (const char* name : {"beluga", "htetro", "rover"}) {
+  for (const RobotEntry& listed : Robots()) {
+    const std::string name(listed.name);
     const RobotModel robot = ReadRobot(FindRobotFile(name, {}));
     for (const auto& entry : Methods()) {
+      if (!entry.make()->WhyNot(robot).empty()) continue;
       const auto sizes = entry.make()->sizes(robot);
       for (const bool hard : {false, true}) {
         SuiteRun run{.run = 3, .draw = DrawRun(0, entry.name, 3)};
@@ -87,6 +89,29 @@ TEST(Methods, LayOutScenariosThatCanBeRead) {
     }
   }
   std::filesystem::remove_all(folder);
+}
+
+// What is set for every run stands in the scenario that a film's folder has.
+TEST(Methods, ARunsScenarioHasWhatWasSet) {
+  const std::filesystem::path folder =
+      std::filesystem::path(::testing::TempDir()) / "Methods.HasWhatWasSet";
+  SuiteOptions options = Quick();
+  options.overrides = {{"site.floor.friction", "0.05"}, {"robot.mass_kg", "30"}};
+  const RobotModel robot = ReadRobot(FindRobotFile("beluga", {}));
+  const auto& entry = *std::ranges::find(Methods(), "step", &PluginEntry<Method>::name);
+  const SuiteRun run{.run = 1, .size = 3, .draw = DrawRun(0, "step", 1)};
+  WriteRun(entry, robot, "beluga", run, options, folder);
+  const Scenario dut = ReadScenario(folder / kRunFile);
+  EXPECT_EQ(dut.site.map.floor_friction, 0.05);
+  EXPECT_NEAR(dut.robot.spec.mass_kg, 30, 1e-9);
+  std::filesystem::remove_all(folder);
+}
+
+// It would touch nothing if it stood still.
+TEST(Methods, WhoDoesNotDriveHasNotPassedAnObstacle) {
+  SuiteOptions options = Quick();
+  options.overrides = {{"time_limit_s", "1"}};
+  EXPECT_GT(Tested("obstacle", options).failures, 0);
 }
 
 // Whatever finished first, the same runs in the same order; and the claim is what was driven.

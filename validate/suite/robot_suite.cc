@@ -59,6 +59,20 @@ SuiteRequirement ReadRequirement(const std::string& text) {
   return required;
 }
 
+void RefuseBeyondLadders(std::span<const SuiteRequirement> required,
+                         const std::string& robot_name) {
+  if (required.empty()) return;
+  const RobotModel robot = ReadRobot(FindRobotFile(robot_name, {}));
+  for (const SuiteRequirement& r : required) {
+    const auto sizes = MakePlugin(Methods(), r.method, "--require")->sizes(robot);
+    if (!sizes) continue;
+    const double hardest = sizes->Size(sizes->rungs.last);
+    if (!sizes->Reaches(hardest, r.value))
+      throw InputError({"--require", 0}, r.method, FormatDouble(r.value),
+                       "its sizes for " + robot.spec.name + " end at " + SizeText(*sizes, hardest));
+  }
+}
+
 std::string WhyMissed(const MethodResult& result, std::span<const SuiteRequirement> required) {
   if (!result.not_applicable.empty()) {
     const bool asked = std::ranges::any_of(
@@ -74,7 +88,7 @@ std::string WhyMissed(const MethodResult& result, std::span<const SuiteRequireme
     if (result.sizes && !result.sizes->Reaches(*result.size, r.value))
       return fmt::format("{}, {} is required", SizeText(*result.sizes, *result.size),
                          SizeText(*result.sizes, r.value));
-    if (result.measures && !(result.figure.value_or(r.value + 1) <= r.value))
+    if (result.measures && result.figure && *result.figure > r.value)
       return fmt::format("{} {}, {} at most is required", NumberText(*result.figure),
                          result.measures->unit, NumberText(r.value));
   }

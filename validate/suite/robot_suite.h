@@ -11,9 +11,8 @@
 namespace floorproof {
 
 struct RobotSuite {
-  std::string robot;  // as it was named
-  std::string label;  // its name, or its file's without folder and ending
-  double mass_kg = 0;
+  std::string robot;                  // as it was named
+  std::string label;                  // its name, or its file's without folder and ending
   std::vector<MethodResult> methods;  // those that are done, in the list's order
   std::vector<std::string> filmed;    // of them
 };
@@ -24,8 +23,10 @@ struct SuiteRequirement {
   double value = 0;
 };
 
-// Reads it for this robot's ladders. Throws InputError.
+// Throws InputError.
 SuiteRequirement ReadRequirement(const std::string& text);
+// Throws InputError naming what no run of this robot could reach.
+void RefuseBeyondLadders(std::span<const SuiteRequirement> required, const std::string& robot_name);
 
 // Why the method's result is not what is asked for; empty: it is. Without requirements a method
 // must pass: one with sizes at its easiest.

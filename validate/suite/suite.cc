@@ -171,6 +171,7 @@ std::optional<MethodResult> RunMethod(
     if (run->verdict.figure)
       result.figure = std::max(result.figure.value_or(0), *run->verdict.figure);
   }
+  if (result.failures > 0) result.figure.reset();  // a drive that failed was cut short
   result.reliability_lower =
       ClopperPearsonLower(result.n - result.failures, result.n, options.confidence);
   result.shown = ShownRun(result);

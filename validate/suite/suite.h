@@ -39,6 +39,8 @@ struct SuiteRun {
   SuiteDraw draw = {};
   MethodVerdict verdict = {};
   double duration_s = 0;  // simulated
+  // As it was driven: drawn, unless they were set for every run.
+  double friction = 0, mass_kg = 0;
 };
 
 struct MethodResult {

@@ -26,6 +26,15 @@ std::string NameAnywhere(const std::string& robot) {
   return FindRobotFile(robot, {}) == robot ? fs::absolute(robot).string() : robot;
 }
 
+// The scenario with what was set for every run; its comments are kept only where nothing was.
+std::string WithOverrides(const std::string& text, const std::vector<Override>& overrides) {
+  if (overrides.empty()) return text;
+  ConfigNode root = ParseYaml(text, "suite");
+  for (const Override& o : overrides)
+    root.SetPath(o.key_path, ParseYaml(o.value, "--set " + o.key_path));
+  return WriteYaml(root);
+}
+
 // Ends a drive when the suite is interrupted.
 class UntilInterrupted final : public EpisodeObserver {
  public:
@@ -85,6 +94,8 @@ void SuiteDrive::Judge(Scenario& scenario, SuiteRun& run) const {
   if (record.outcome == Outcome::kInterrupted) return;
   run.verdict = method_->Judge({name_, robot_, run.draw, run.size}, record);
   run.duration_s = record.metrics.duration_s;
+  run.friction = scenario.site.map.floor_friction;
+  run.mass_kg = scenario.robot_changes.mass_kg.value_or(scenario.robot.spec.mass_kg);
 }
 
 std::vector<SuiteRun> SuiteDrive::Drive(std::vector<SuiteRun> runs, bool all) const {
@@ -120,7 +131,8 @@ void WriteRun(const PluginEntry<Method>& entry, const RobotModel& robot, const s
   const SuiteDrive drive(entry, name, robot, options);
   const MethodDrive laid_out = drive.LayOut(run);
   MakeFolder(folder);
-  WriteFileWhole(folder / kRunFile, drive.Text(run, laid_out, true));
+  WriteFileWhole(folder / kRunFile,
+                 WithOverrides(drive.Text(run, laid_out, true), options.overrides));
   if (!laid_out.plan.empty()) WriteFileWhole(folder / kPlanFile, PlanCsv(laid_out.plan));
 }
 

@@ -8,6 +8,7 @@ namespace floorproof {
 namespace {
 
 constexpr double kTurnShare = 1.0 / 9;  // of the drawn bearing: within 20 degrees
+constexpr double kFound_m = 0.1;        // it knows its place to that when it is back
 
 class Lost final : public Method {
  public:
@@ -16,8 +17,8 @@ class Lost final : public Method {
   }
   std::string_view task() const override {
     return "It drives a lap of a furnished room by its lidar and a map, its first guess off by "
-           "so much in a drawn direction and by up to 20 degrees. Passed: it finds itself and "
-           "comes back, and no detector fired.";
+           "so much in a drawn direction and by up to 20 degrees. Passed: it comes back, knows "
+           "its place there to 0.1 m, and no detector fired.";
   }
   std::optional<SizeLadder> sizes(const RobotModel&) const override {
     return SizeLadder{"error", "m", {.per_unit = 10, .first = 1, .spacing = 4, .last = 21}};
@@ -35,6 +36,14 @@ class Lost final : public Method {
             EstimatorKeys(run.robot, run.size * Vec2(std::cos(bearing_rad), std::sin(bearing_rad)),
                           kTurnShare * bearing_rad),
         room.lap};
+  }
+
+  MethodVerdict Judge(const MethodRun&, const EpisodeRecord& record) const override {
+    if (record.outcome != Outcome::kSuccess) return {false, HowItEnded(record)};
+    const TraceRow& end = record.trace.back();
+    const double off_m = std::hypot(end.est_x_m - end.x_m, end.est_y_m - end.y_m);
+    if (off_m > kFound_m) return {false, "came back without knowing where it is"};
+    return {true};
   }
 };
 
