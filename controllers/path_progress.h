@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 
+#include "base/params.h"
 #include "controllers/reference_path.h"
 
 namespace floorproof {
@@ -18,6 +19,11 @@ namespace floorproof {
 // speed, within bounds.
 struct Lookahead {
   double time_s = 0.65, min_m = 0.12, max_m = 0.4;
+  void Visit(ParamVisitor& v) {
+    v("lookahead_s", time_s, Between(0.3, 5), "time ahead of the point that is pursued");
+    v("lookahead_min_m", min_m, Between(0.02, 2), "least way to the point pursued");
+    v("lookahead_max_m", max_m, Between(0.02, 5), "largest way to the point pursued");
+  }
 };
 
 class PathProgress {

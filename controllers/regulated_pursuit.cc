@@ -11,12 +11,12 @@
 // not reverse.
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "controllers/drive.h"
 #include "controllers/drive_time.h"
 #include "controllers/follower_params.h"
 #include "controllers/path_progress.h"
+#include "controllers/pursuit_twist.h"
 #include "controllers/tracker.h"
 
 namespace floorproof {
@@ -30,12 +30,7 @@ class RegulatedPursuit final : public Tracker {
     const FollowerHelp help{
         "corners sharper than this are turned on the spot",
         "when the point pursued lies farther aside than this the robot stops and turns to it", 20};
-    params_.Visit(v, help, [&] {
-      v("lookahead_s", lookahead_.time_s, Between(0.3, 5),
-        "time ahead of the point that is pursued");
-      v("lookahead_min_m", lookahead_.min_m, Between(0.02, 2), "least way to the point pursued");
-      v("lookahead_max_m", lookahead_.max_m, Between(0.02, 5), "largest way to the point pursued");
-    });
+    params_.Visit(v, help, [&] { lookahead_.Visit(v); });
   }
 
   // It would not keep the yaws that plans for holonomic robots state.
@@ -46,16 +41,12 @@ class RegulatedPursuit final : public Tracker {
   void Start(const Path& path, const RobotSpec& robot, const ClearanceField* clearance) override {
     RequireLimits(robot, "regulated_pursuit");
     gap_.Start(params_.obstacles, robot, clearance);
-    accel_mps2_ = robot.max_accel_mps2;
-    yaw_rate_radps_ = robot.max_yaw_rate_radps;
-    yaw_accel_radps2_ = robot.max_yaw_accel_radps2;
+    motion_.Start(robot);
 
     ReferenceLimits limits = params_.Limits(robot);
     limits.faces = true;
     bend_yaw_rate_radps_ = limits.yaw_rate_radps;
     progress_.Start(path, limits, params_.corner_tolerance_m);
-    twist_ = {};
-    share_ = 1;
     turn_side_ = 0;
     duration_s_ = DriveTime(progress_.reference(),
                             {limits, params_.corner_tolerance_m,
@@ -66,7 +57,7 @@ class RegulatedPursuit final : public Tracker {
 
   void Extend(const Path& path) override { progress_.Extend(path); }
 
-  void Slow(double share) override { share_ = share; }
+  void Slow(double share) override { motion_.Slow(share); }
 
   double Duration() const override { return duration_s_; }
 
@@ -80,7 +71,7 @@ class RegulatedPursuit final : public Tracker {
     else if (progress_.moving())
       Pursue(X_WB, dt_s);
     else
-      Slew(0, 0, dt_s);
+      motion_.Rest(dt_s);
 
     Command command;
     command.segment = progress_.Segment(X_WB.p());
@@ -88,7 +79,7 @@ class RegulatedPursuit final : public Tracker {
     command.tasks = progress_.tasks();
     command.turning = progress_.phase() == Phase::kTurn || progress_.phase() == Phase::kFace;
     command.done = progress_.phase() == Phase::kDone;
-    command.twist = twist_;
+    command.twist = motion_.twist();
     return command;
   }
 
@@ -97,7 +88,7 @@ class RegulatedPursuit final : public Tracker {
 
   void Pursue(const Pose2& X_WB, double dt_s) {
     const auto [target_W, speed_mps] =
-        progress_.AimFrom(X_WB.p(), std::abs(twist_.vx_mps), lookahead_);
+        progress_.AimFrom(X_WB.p(), std::abs(motion_.twist().vx_mps), lookahead_);
     const Vec2 target_B = X_WB.Inverse() * target_W;
     const double aside_rad = std::atan2(target_B.y(), target_B.x());
     if (progress_.phase() == Phase::kDrive && std::abs(aside_rad) > Radians(params_.recover_deg)) {
@@ -124,25 +115,15 @@ class RegulatedPursuit final : public Tracker {
 
   void Turn(double aside_rad, double dt_s) {
     if (std::abs(aside_rad) < kAboutFaceRad || turn_side_ == 0) turn_side_ = aside_rad < 0 ? -1 : 1;
-    Slew(0, turn_side_ * TurningRate(aside_rad, yaw_rate_radps_, yaw_accel_radps2_), dt_s);
+    motion_.TurnOnTheSpot(
+        turn_side_ * TurningRate(aside_rad, motion_.yaw_rate_radps(), motion_.yaw_accel_radps2()),
+        dt_s);
   }
 
   void Follow(const Vec2& target_B, double speed_mps, double dt_s) {
     const double curvature = 2 * target_B.y() / std::max(target_B.squaredNorm(), 1e-9);
     speed_mps = std::min(speed_mps, bend_yaw_rate_radps_ / std::max(std::abs(curvature), 1e-9));
-    Slew(speed_mps, std::nullopt, dt_s, curvature);
-  }
-
-  // Moves the command towards what is wanted as fast as the robot's accelerations allow.
-  void Slew(double vx_mps, std::optional<double> wz_radps, double dt_s, double curvature = 0) {
-    vx_mps *= share_;
-    if (wz_radps) *wz_radps *= share_;
-    const double dv = accel_mps2_ * dt_s, dw = yaw_accel_radps2_ * dt_s;
-    twist_.vx_mps = std::clamp(vx_mps, twist_.vx_mps - dv, twist_.vx_mps + dv);
-    const double wanted =
-        wz_radps ? *wz_radps
-                 : std::clamp(curvature * twist_.vx_mps, -yaw_rate_radps_, yaw_rate_radps_);
-    twist_.wz_radps = std::clamp(wanted, twist_.wz_radps - dw, twist_.wz_radps + dw);
+    motion_.Follow(speed_mps, curvature, dt_s);
   }
 
   FollowerParams params_{.corner_cut_m = 0.02,
@@ -155,9 +136,8 @@ class RegulatedPursuit final : public Tracker {
 
   ObstacleGap gap_;
   PathProgress progress_;
-  double accel_mps2_ = 0, yaw_rate_radps_ = 0, yaw_accel_radps2_ = 0, bend_yaw_rate_radps_ = 0;
-  BodyTwist twist_;  // last commanded
-  double share_ = 1;
+  PursuitTwist motion_;
+  double bend_yaw_rate_radps_ = 0;
   int turn_side_ = 0;
   double duration_s_ = 0;
 };

@@ -17,6 +17,7 @@
 #include "controllers/drive_time.h"
 #include "controllers/follower_params.h"
 #include "controllers/path_progress.h"
+#include "controllers/pursuit_twist.h"
 #include "controllers/tracker.h"
 
 namespace floorproof {
@@ -27,9 +28,7 @@ constexpr double kBehind_rad = 1.7;  // farther aside an arc to the point ahead 
 class SteeredPursuit final : public Tracker {
  public:
   void Visit(ParamVisitor& v) override {
-    v("lookahead_s", lookahead_.time_s, Between(0.3, 5), "time ahead of the point that is pursued");
-    v("lookahead_min_m", lookahead_.min_m, Between(0.02, 2), "least way to the point pursued");
-    v("lookahead_max_m", lookahead_.max_m, Between(0.02, 5), "largest way to the point pursued");
+    lookahead_.Visit(v);
     v("corner_cut_m", params_.corner_cut_m, Between(0.001, 0.5),
       "how far bends may be cut: slower is nearer");
     v("corner_tolerance_m", params_.corner_tolerance_m, Between(0.002, 0.5),
@@ -44,17 +43,13 @@ class SteeredPursuit final : public Tracker {
   void Start(const Path& path, const RobotSpec& robot, const ClearanceField* clearance) override {
     RequireLimits(robot, "steered_pursuit");
     gap_.Start(params_.obstacles, robot, clearance);
-    accel_mps2_ = robot.max_accel_mps2;
-    yaw_rate_radps_ = robot.max_yaw_rate_radps;
-    yaw_accel_radps2_ = robot.max_yaw_accel_radps2;
+    motion_.Start(robot);
     tightest_1pm_ = 1 / std::max(robot.turn_radius_m, 1e-3);
 
     ReferenceLimits limits = params_.Limits(robot);
     limits.turn_radius_m = robot.turn_radius_m;
     bend_yaw_rate_radps_ = limits.yaw_rate_radps;
     progress_.Start(path, limits, params_.corner_tolerance_m);
-    twist_ = {};
-    share_ = 1;
     side_ = 0;
     constexpr double kNever = std::numeric_limits<double>::infinity();
     duration_s_ = DriveTime(progress_.reference(),
@@ -64,7 +59,7 @@ class SteeredPursuit final : public Tracker {
 
   void Extend(const Path& path) override { progress_.Extend(path); }
 
-  void Slow(double share) override { share_ = share; }
+  void Slow(double share) override { motion_.Slow(share); }
 
   double Duration() const override { return duration_s_; }
 
@@ -75,25 +70,25 @@ class SteeredPursuit final : public Tracker {
     if (progress_.moving())
       Pursue(X_WB, dt_s);
     else
-      Slew(0, 0, dt_s);
+      motion_.Rest(dt_s);
 
     Command command;
     command.segment = progress_.Segment(X_WB.p());
     command.dwelling = progress_.phase() == PathProgress::Phase::kDwell;
     command.tasks = progress_.tasks();
     command.done = progress_.phase() == PathProgress::Phase::kDone;
-    command.twist = twist_;
+    command.twist = motion_.twist();
     return command;
   }
 
  private:
   void Pursue(const Pose2& X_WB, double dt_s) {
     const auto [target_W, allowed_mps] =
-        progress_.AimFrom(X_WB.p(), std::abs(twist_.vx_mps), lookahead_);
+        progress_.AimFrom(X_WB.p(), std::abs(motion_.twist().vx_mps), lookahead_);
     const double curvature = CurvatureTo(X_WB.Inverse() * target_W);
     const double speed_mps = gap_.Limit(allowed_mps, X_WB, target_W);
-    Slew(std::min(speed_mps, bend_yaw_rate_radps_ / std::max(std::abs(curvature), 1e-9)), curvature,
-         dt_s);
+    motion_.Follow(std::min(speed_mps, bend_yaw_rate_radps_ / std::max(std::abs(curvature), 1e-9)),
+                   curvature, dt_s);
   }
 
   // A robot that turns to a point behind it keeps its side.
@@ -107,14 +102,6 @@ class SteeredPursuit final : public Tracker {
                       tightest_1pm_);
   }
 
-  // Moves the command towards what is wanted as fast as the robot's accelerations allow.
-  void Slew(double vx_mps, double curvature, double dt_s) {
-    const double dv = accel_mps2_ * dt_s, dw = yaw_accel_radps2_ * dt_s;
-    twist_.vx_mps = std::clamp(share_ * vx_mps, twist_.vx_mps - dv, twist_.vx_mps + dv);
-    const double wanted = std::clamp(curvature * twist_.vx_mps, -yaw_rate_radps_, yaw_rate_radps_);
-    twist_.wz_radps = std::clamp(wanted, twist_.wz_radps - dw, twist_.wz_radps + dw);
-  }
-
   FollowerParams params_{.corner_cut_m = 0.02,
                          .corner_tolerance_m = 0.01,
                          .heading_tolerance_deg = 0,
@@ -123,10 +110,9 @@ class SteeredPursuit final : public Tracker {
 
   ObstacleGap gap_;
   PathProgress progress_;
-  double accel_mps2_ = 0, yaw_rate_radps_ = 0, yaw_accel_radps2_ = 0, bend_yaw_rate_radps_ = 0;
+  PursuitTwist motion_;
+  double bend_yaw_rate_radps_ = 0;
   double tightest_1pm_ = 0;
-  BodyTwist twist_;  // last commanded
-  double share_ = 1;
   int side_ = 0;  // of a turn to a point behind: 1 left, -1 right
   double duration_s_ = 0;
 };
