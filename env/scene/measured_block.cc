@@ -72,11 +72,6 @@ std::size_t PlaceForBlock(const std::string& bare, bool& own_element) {
 
 }  // namespace
 
-std::string MeasuredBlock(std::string_view text) {
-  const Place place = FindBlock(text);
-  return std::string(text.substr(place.begin, place.end - place.begin));
-}
-
 std::string WithoutMeasured(std::string_view text) {
   const Place place = FindBlock(text);
   return std::string(text.substr(0, place.begin)) + std::string(text.substr(place.end));

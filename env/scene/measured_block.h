@@ -21,9 +21,7 @@ inline constexpr const char* kMeasuredModel = "measured_model";
 inline constexpr const char* kMeasuredFrictions = "measured_frictions";
 inline constexpr const char* kMeasuredSpeeds = "measured_speeds_mps";
 
-// The text's block with both comments and its indent; empty: it has none.
-std::string MeasuredBlock(std::string_view text);
-// The text without it.
+// The text without its block, both comments and their indent; the same where it has none.
 std::string WithoutMeasured(std::string_view text);
 // The text with `elements`, one a line, as its block: in place of the one that it has, else at the
 // end of its first <custom> element, else in one of its own. Line breaks are the text's own.
