@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/apps/run_program.h"
 #include "tests/slurp.h"
 
 namespace floorproof {
@@ -24,11 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-struct Result {
-  int status = -1;
-  std::string out, err;
-};
 
 class Cli : public ::testing::Test {
  protected:
@@ -56,20 +52,7 @@ plan: {planner: boustrophedon}
   }
   ~Cli() override { fs::remove_all(folder_); }
 
-  Result Run(const std::string& arguments) const {
-    const std::string err = (folder_ / ".stderr").string();
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" FP_PROGRAM "' " + arguments + " 2>'" + err + "'";
-    Result result;
-    std::FILE* pipe = popen(command.c_str(), "r");
-    std::array<char, 4096> buffer;
-    while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
-      result.out.append(buffer.data(), n);
-    const int code = pclose(pipe);
-    result.status = WIFEXITED(code) ? WEXITSTATUS(code) : -1;
-    result.err = Slurp(err);
-    return result;
-  }
+  Result Run(const std::string& arguments) const { return RunProgram(folder_, arguments); }
 
   fs::path folder_;
 };

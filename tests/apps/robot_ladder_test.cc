@@ -3,16 +3,14 @@
 // wrote, plans go by its limits, and a changed model is told so.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/apps/run_program.h"
 #include "tests/slurp.h"
 
 namespace floorproof {
@@ -22,11 +20,6 @@ namespace fs = std::filesystem;
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-struct Result {
-  int status = -1;
-  std::string out, err;
-};
 
 class RobotLadder : public ::testing::Test {
  protected:
@@ -44,20 +37,7 @@ class RobotLadder : public ::testing::Test {
   }
   std::string Load(const std::string& name) const { return Slurp(folder_ / name); }
 
-  Result Run(const std::string& arguments) const {
-    const std::string err = (folder_ / ".stderr").string();
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" FP_PROGRAM "' " + arguments + " 2>'" + err + "'";
-    Result result;
-    std::FILE* pipe = popen(command.c_str(), "r");
-    std::array<char, 4096> buffer;
-    while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
-      result.out.append(buffer.data(), n);
-    const int code = pclose(pipe);
-    result.status = WIFEXITED(code) ? WEXITSTATUS(code) : -1;
-    result.err = Slurp(err);
-    return result;
-  }
+  Result Run(const std::string& arguments) const { return RunProgram(folder_, arguments); }
 
   // A hall with a carpet of this height across it.
   void SaveHall(double carpet_m) const {
