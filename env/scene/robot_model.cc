@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "env/core/blocks.h"
+#include "env/scene/exposed_wheels.h"
 #include "env/scene/lock_blocks.h"
 #include "env/scene/measured_block.h"
 #include "env/scene/mecanum_wheel.h"
@@ -102,7 +103,9 @@ void Finish(RobotModel& out, const std::string& file, const RobotChanges& change
   const auto read = [&] {
     const ModelPtr model(mj_compile(out.mjcf.get(), out.assets.get()));
     if (!model) throw InputError({file, 0}, "", mjs_getError(out.mjcf.get()), "does not compile");
-    return ReadSpec(model.get(), file);
+    RobotSpec robot = ReadSpec(model.get(), file);
+    LetExposedWheelsMeetWalls(out.mjcf.get(), model.get(), robot);
+    return robot;
   };
   out.spec = read();
   const RobotSpec as_written = out.spec;

@@ -11,7 +11,7 @@
 namespace floorproof {
 namespace {
 
-constexpr int kPairsBit = 4;  // of what touches by pairs only
+constexpr int kPairsBit = 4;  // of what touches floors and hazards by pairs only
 
 class WheelPairs {
  public:
@@ -28,7 +28,7 @@ class WheelPairs {
       mjsGeom* wheel = mjs_asGeom(e);
       const double roller_m = RollersOf(wheel).radius_m;
       if (roller_m <= 0) continue;
-      wheel->conaffinity = 0;
+      wheel->conaffinity &= kWallBit;
       for (const auto& [geom, role] : world_.all())
         if (role.kind != GeomRole::Kind::kWall)
           PairWheel(spec_, wheel, geom,
@@ -40,7 +40,7 @@ class WheelPairs {
   void PairRollers() {
     for (const std::string& name : rollers_) {
       mjsGeom* roller = mjs_asGeom(mjs_findElement(spec_, mjOBJ_GEOM, name.c_str()));
-      roller->conaffinity = kPairsBit;
+      roller->conaffinity = kPairsBit | (roller->conaffinity & kWallBit);
       for (const auto& [geom, role] : world_.all())
         if (role.kind != GeomRole::Kind::kWall)
           PairWheel(spec_, roller, geom,
@@ -51,7 +51,7 @@ class WheelPairs {
   void PairTyres() {
     int number = 0;
     for (mjsGeom* tyre : tyres_) {
-      tyre->conaffinity = kPairsBit;
+      tyre->conaffinity = kPairsBit | (tyre->conaffinity & kWallBit);
       if (mjs_getString(mjs_getName(tyre->element))[0] == '\0')
         mjs_setName(tyre->element, world_.FreeName("tyre/" + std::to_string(number)).c_str());
       ++number;

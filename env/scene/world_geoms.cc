@@ -9,8 +9,6 @@
 namespace floorproof {
 namespace {
 
-// Contact bits, as the robots' MJCF states them: wheels meet the floor and hazards, the body all.
-constexpr int kFloorBit = 1, kWallBit = 2;
 // Contact softness that was sound at 1-5 ms (physics.md, "Settings that were sound").
 constexpr double kTimeConstant_s = 0.01;
 constexpr mjtNum kSolimp[] = {0.95, 0.99, 0.0005};

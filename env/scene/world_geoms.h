@@ -13,6 +13,9 @@
 
 namespace floorproof {
 
+// Contact bits, as the robots' MJCF states them: wheels meet the floor and hazards, the body all.
+inline constexpr int kFloorBit = 1, kWallBit = 2;
+
 class WorldGeoms {
  public:
   struct Built {
