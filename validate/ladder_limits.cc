@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <vector>
 
 #include "base/params.h"
-#include "env/scene/measured_block.h"
+#include "env/scene/measured_names.h"
 
 namespace floorproof {
 namespace {
@@ -22,15 +23,26 @@ std::vector<double> Values(std::span<const LadderRow> rows,
   return values;
 }
 
-std::string Joined(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : " ") + FormatDouble(value);
-  return text;
-}
+// Elements, one a line, and what they say.
+class Elements {
+ public:
+  void Text(const std::string& name, const std::string& text) { Add("text", name, text); }
+  void Numeric(const std::string& name, const std::vector<double>& values) {
+    Add("numeric", name, FiguresText(values));
+  }
+  void Comment(std::string_view text) { lines_ += fmt::format("<!-- {} -->\n", text); }
+  std::string Hash() const { return FiguresHash(said_); }
+  const std::string& lines() const { return lines_; }
 
-std::string Numeric(std::string_view name, const std::vector<double>& values) {
-  return fmt::format("<numeric name=\"{}\" data=\"{}\"/>\n", name, Joined(values));
-}
+ private:
+  void Add(std::string_view element, const std::string& name, const std::string& data) {
+    lines_ += fmt::format("<{} name=\"{}\" data=\"{}\"/>\n", element, name, data);
+    said_[name] = data;
+  }
+
+  std::string lines_;
+  std::map<std::string, std::string> said_;
+};
 
 std::string_view UnitName(std::string_view unit) { return unit == "%" ? "pct" : unit; }
 
@@ -41,17 +53,16 @@ std::string MeasuredElements(std::span<const LadderRow> rows, const std::string&
   const auto friction_of = [](const LadderCell& cell) { return cell.friction; };
   const auto speed_of = [](const LadderCell& cell) { return cell.speed_mps; };
   const std::vector<double> frictions = Values(rows, friction_of), speeds = Values(rows, speed_of);
-  std::string text = fmt::format(
-      "<text name=\"{}\" data=\"{}\"/>\n<text name=\"{}\" data=\"{}\"/>\n"
-      "<text name=\"{}how\" data=\"{} deg off square to either side; diagonal, oblique: edges at "
-      "45 deg to body "
-      "or way\"/>\n",
-      kMeasuredBy, by, kMeasuredModel, model, kMeasuredPrefix,
-      FormatDouble(rows.front().cell.oblique_deg));
-  text += Numeric(kMeasuredFrictions, frictions) + Numeric(kMeasuredSpeeds, speeds);
-  text +=
-      "<!-- By friction, for each by speed. Below 0: all that was tried was crossed, up to that. "
-      "-->\n";
+  Elements out;
+  out.Text(kMeasuredBy, by);
+  out.Text(kMeasuredModel, model);
+  out.Text(kMeasuredHow, FormatDouble(rows.front().cell.oblique_deg) +
+                             " deg off square to either side; diagonal, oblique: edges at 45 deg "
+                             "to body or way");
+  out.Numeric(kMeasuredFrictions, frictions);
+  out.Numeric(kMeasuredSpeeds, speeds);
+  out.Comment(
+      "By friction, for each by speed. Below 0: all that was tried was crossed, up to that.");
   for (const LadderHazard& hazard : LadderHazards())
     for (const Direction direction :
          {Direction::kForward, Direction::kSideways, Direction::kDiagonal, Direction::kOblique}) {
@@ -66,11 +77,12 @@ std::string MeasuredElements(std::span<const LadderRow> rows, const std::string&
         any = true;
       }
       if (any)
-        text += Numeric(fmt::format("{}{}_{}_{}", kMeasuredPrefix, hazard.name, Name(direction),
-                                    UnitName(hazard.unit)),
-                        limits);
+        out.Numeric(fmt::format("{}{}_{}_{}", kMeasuredPrefix, hazard.name, Name(direction),
+                                UnitName(hazard.unit)),
+                    limits);
     }
-  return text;
+  out.Text(kMeasuredFigures, out.Hash());
+  return out.lines();
 }
 
 }  // namespace floorproof

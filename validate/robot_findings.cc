@@ -132,6 +132,11 @@ class Findings {
       Note(fmt::format("the limits measured by {} are not used: {}", spec.measured.by,
                        spec.measured.why_unused),
            "measure them again with --ladder");
+    else if (!spec.measured.limits.empty() && !spec.measured.hashed)
+      Note(fmt::format("the limits measured by {} come without measured_figures: whether they were "
+                       "edited since cannot be told",
+                       spec.measured.by),
+           "measure them again with --ladder");
     if (!check_.stance.lidar_z_m)
       Note("no site named `lidar`", "say where the scan plane is, or set sensors.lidar.z_m");
   }

@@ -25,7 +25,7 @@ std::vector<std::vector<HazardSize>> SizesOf(const Hazard& hazard) {
 
 void DropLimits(MeasuredLimits& measured, std::string_view why) {
   measured.limits.clear();
-  if (!measured.by.empty()) measured.why_unused = why;
+  if (!measured.by.empty() && measured.why_unused.empty()) measured.why_unused = why;
 }
 
 std::optional<double> LimitOn(const MeasuredLimits& measured, std::string_view kind,

@@ -26,11 +26,14 @@ struct MeasuredLimits {
   std::string model;                  // that was measured, by its SHA-256
   std::vector<double> frictions;      // of the floors that they were measured on, ascending
   std::vector<MeasuredLimit> limits;  // empty: none
-  // Why the limits that the model's file states are not here: they are of another robot than this.
+  // Whether the file states the figures' hash, so that none can have been edited unseen.
+  bool hashed = false;
+  // Why the limits that the model's file states are not here: they are of another robot than this,
+  // or were edited.
   std::string why_unused;
 };
 
-// They are not of this robot, and why.
+// They do not hold for this robot, and why. The first reason stays.
 void DropLimits(MeasuredLimits& measured, std::string_view why);
 
 // The limit of this kind on a floor of this friction: the lesser of those at the nearest frictions

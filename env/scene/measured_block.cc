@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/file_output.h"
 #include "env/scene/engine_files.h"
+#include "env/scene/measured_names.h"
 
 namespace floorproof {
 namespace {

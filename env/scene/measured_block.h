@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measured limits in the text of a robot's MJCF: one block under <custom>, between two comments.
-// All else of the text stays as whoever wrote it did.
+// All else of the text stays as whoever wrote it did. What stands in it: measured_names.h.
 #pragma once
 
 #include <filesystem>
@@ -11,15 +11,6 @@
 #include "base/input_files.h"
 
 namespace floorproof {
-
-// Names in the block. `measured_model` is ModelHash of the model that was measured. Each limit is a
-// number measured_KIND_DIRECTION_UNIT, as LadderRow has it: by friction, for each by speed; below
-// 0: that much or more, all that was tried was crossed.
-inline constexpr std::string_view kMeasuredPrefix = "measured_";
-inline constexpr const char* kMeasuredBy = "measured_by";
-inline constexpr const char* kMeasuredModel = "measured_model";
-inline constexpr const char* kMeasuredFrictions = "measured_frictions";
-inline constexpr const char* kMeasuredSpeeds = "measured_speeds_mps";
 
 // The text without its block, both comments and their indent; the same where it has none.
 std::string WithoutMeasured(std::string_view text);

@@ -49,7 +49,13 @@ void WarnOfLimits(const Scenario& s, std::vector<std::string>& lines) {
     lines.push_back(fmt::format("warning: {}'s measured limits are not used: {}; step_m, {}, is",
                                 s.robot_name, measured.why_unused,
                                 LengthText(s.robot.spec.step_m)));
-  else if (!measured.limits.empty() && friction < measured.frictions.front())
+  else if (!measured.limits.empty() && !measured.hashed)
+    lines.push_back(
+        fmt::format("warning: {}'s measured limits come without measured_figures: "
+                    "whether they were edited since cannot be told; robot --ladder "
+                    "measures them again",
+                    s.robot_name));
+  if (!measured.limits.empty() && friction < measured.frictions.front())
     lines.push_back(
         fmt::format("warning: {}'s limits were measured on friction {} and more, and "
                     "the floor has {}: it crosses less than they say",

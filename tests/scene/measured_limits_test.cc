@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 
 #include "env/scene/measured_block.h"
+#include "env/scene/measured_names.h"
 #include "env/scene/robot_model.h"
 #include "env/scene/roller_wheels.h"
 #include "tests/map/temp_folder.h"
@@ -129,10 +131,80 @@ TEST_F(MeasuredRobot, ThatIsWrittenWrongIsRefused) {
   EXPECT_THAT(refusal("<numeric name=\"measured_drop_forward_mm\" data=\"1 2 3\"/>"),
               HasSubstr("mine.xml: measured_drop_forward_mm: must have one number a friction and "
                         "speed, 4"));
-  EXPECT_THAT(refusal("<numeric name=\"measured_drop_forward_ft\" data=\"1 2 3 4\"/>"),
-              HasSubstr("measured_drop_forward_ft: must be measured_KIND_DIRECTION_UNIT"));
-  EXPECT_THAT(refusal("<numeric name=\"measured_drop_forward_mm\" data=\"1 2 inf 4\"/>"), Not(""));
-  EXPECT_THAT(refusal("<numeric name=\"measured_mm\" data=\"1 2 3 4\"/>"), HasSubstr("must be"));
+  const auto limit = [&](const std::string& name, const std::string& data = "1 2 3 4") {
+    return refusal("<numeric name=\"measured_" + name + "\" data=\"" + data + "\"/>");
+  };
+  EXPECT_EQ(limit("drop_forward_mm"), "accepted")
+      << "or nothing below is of the fault that it names";
+  EXPECT_THAT(limit("drop_forward_ft"), HasSubstr("mine.xml: measured_drop_forward_ft = ft: must "
+                                                  "be mm, the unit of drop"));
+  EXPECT_THAT(limit("drop_forward_deg"), HasSubstr("= deg: must be mm"));
+  EXPECT_THAT(limit("wet_forward_mm"), HasSubstr("= mm: must be pct"));
+  EXPECT_THAT(limit("dorp_forward_mm"),
+              HasSubstr("measured_dorp_forward_mm = dorp: unknown kind of hazard; did you mean "
+                        "drop? (known: step drop "));
+  EXPECT_THAT(limit("drop_forwards_mm"),
+              HasSubstr("= forwards: unknown direction; did you mean forward?"));
+  for (const char* name : {"mm", "forward_mm", "_forward_mm", "drop", ""})
+    EXPECT_THAT(limit(name), HasSubstr("must be measured_KIND_DIRECTION_UNIT")) << name;
+  EXPECT_THAT(limit("drop_forward_mm", "1 2 2001 4"), HasSubstr("= 2001: must be in"));
+  EXPECT_THAT(limit("ramp_forward_deg", "1 2 -91 4"), HasSubstr("= -91: must be in [-90, 90]"));
+  for (const char* number : {"inf", "nan"})
+    EXPECT_THAT(limit("drop_forward_mm", "1 2 " + std::string(number) + " 4"),
+                HasSubstr("mine.xml"))
+        << number;
+  EXPECT_THAT(limit("step_forward_mm"), HasSubstr("measured_step_forward_mm")) << "a second one";
+  EXPECT_THAT(refusal("<text name=\"measured_drop_forward_mm\" data=\"1 2 3 4\"/>"),
+              HasSubstr("measured_drop_forward_mm: unknown text of what was measured"));
+}
+
+TEST_F(MeasuredRobot, ThatLostWhoMeasuredItIsRefused) {
+  const fs::path file = Measured();
+  std::string text = Slurp(file);
+  const std::string by = "<text name=\"measured_by\" data=\"a test\"/>";
+  text.erase(text.find(by), by.size());
+  EXPECT_THAT(Refusal([&] { ReadRobot(Save("mine.xml", text)); }),
+              HasSubstr("measured_by: missing under <custom>"));
+}
+
+// The block states its figures' hash: whoever edits one is told, and the limits are not used.
+TEST_F(MeasuredRobot, AnEditedFigureIsTold) {
+  const std::map<std::string, std::string> said = {
+      {"measured_by", "a test"},
+      {"measured_model",
+       ModelHash(std::vector<fs::path>{Save("mine.xml", Slurp(FP_SOURCE_DIR "/models/beluga.xml"))},
+                 {})},
+      {"measured_frictions", "0.4 0.8"},
+      {"measured_speeds_mps", "0.1 0.2"},
+      {"measured_step_forward_mm", "5 6 10 20"},
+      {"measured_step_diagonal_mm", "6 5.5 9 8"},
+      {"measured_cable_cover_height_forward_mm", "0 5 -60.2 30"},
+      {"measured_ramp_down_forward_deg", "-45 -45 -45 -45"}};
+  const std::string hash = "<text name=\"measured_figures\" data=\"" + FiguresHash(said) + "\"/>\n";
+  const MeasuredLimits as_measured = ReadRobot(Measured(hash)).spec.measured;
+  EXPECT_EQ(as_measured.why_unused, "");
+  EXPECT_TRUE(as_measured.hashed);
+  EXPECT_FALSE(ReadRobot(Measured()).spec.measured.hashed) << "of an older version";
+  const std::string whole = Slurp(Measured(hash));
+  const auto edited = [&](const std::string& from, const std::string& to) {
+    std::string text = whole;
+    EXPECT_NE(text.find(from), text.npos) << from;
+    return ReadRobot(Save("mine.xml", text.replace(text.find(from), from.size(), to)))
+        .spec.measured;
+  };
+  EXPECT_EQ(edited("\"5 6 10 20\"", "\"5.0   6 1e1 20\"").why_unused, "") << "the same figures";
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {"\"5 6 10 20\"", "\"5 6 10 20.001\""},
+           {"-60.2", "60.2"},
+           {"step_diagonal", "step_oblique"},
+           {"\"0.4 0.8\"", "\"0.3 0.8\""},
+           {"\"0.1 0.2\"", "\"0.1 0.3\""},
+           {"a test", "another"},
+           {"<numeric name=\"measured_step_diagonal_mm\" data=\"6 5.5 9 8\"/>", ""}}) {
+    const MeasuredLimits dut = edited(from, to);
+    EXPECT_EQ(dut.why_unused, "they were edited since") << from;
+    EXPECT_TRUE(dut.limits.empty());
+  }
 }
 
 // A reconfigurable robot's limits are of the shape that was measured, and of ideal wheels.

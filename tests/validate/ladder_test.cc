@@ -7,6 +7,10 @@
 #include <set>
 
 #include "env/core/measured_limits.h"
+#include "env/scene/measured_block.h"
+#include "env/scene/measured_names.h"
+#include "tests/map/temp_folder.h"
+#include "tests/slurp.h"
 #include "validate/ladder_findings.h"
 #include "validate/ladder_limits.h"
 
@@ -219,8 +223,10 @@ LadderRow Row(const char* robot, const char* wheels, const char* hazard, Directi
   return {cell, limit, false, ""};
 }
 
+using MeasuredElementsTest = TempFolder;
+
 // What is written into a model is read from it as the rows say.
-TEST(MeasuredElements, StateEachRowByFrictionAndSpeed) {
+TEST_F(MeasuredElementsTest, StateEachRowByFrictionAndSpeed) {
   std::vector<LadderRow> rows;
   for (const double speed_mps : {0.2, 0.1})
     for (const double friction : {0.4, 0.8}) {
@@ -235,6 +241,36 @@ TEST(MeasuredElements, StateEachRowByFrictionAndSpeed) {
   EXPECT_THAT(dut, HasSubstr("<numeric name=\"measured_frictions\" data=\"0.4 0.8\"/>\n"));
   EXPECT_THAT(dut, HasSubstr("<numeric name=\"measured_speeds_mps\" data=\"0.1 0.2\"/>\n"));
   EXPECT_THAT(dut, HasSubstr("<numeric name=\"measured_wet_diagonal_pct\" data=\"4 8 8 -16\"/>"));
+
+  // With limits of many digits.
+  for (LadderRow& row : rows) row.limit /= 3;
+  const std::filesystem::path file = Save("own.xml", Slurp(FP_SOURCE_DIR "/models/beluga.xml"));
+  const std::string model = ModelHash(std::vector<std::filesystem::path>{file}, {});
+  Save("own.xml", WithMeasured(Slurp(file), MeasuredElements(rows, "a test", model), file));
+  const MeasuredLimits read = ReadRobot(file).spec.measured;
+  EXPECT_EQ(read.why_unused, "");
+  EXPECT_TRUE(read.hashed);
+  EXPECT_NEAR(*LimitOn(read, "wet", 0.8), 0.08 / 3, 1e-12) << "of both speeds the lesser";
+}
+
+// What the ladder writes is what a model is read by: names, units, no limit too large.
+TEST(MeasuredNames, AreTheLaddersHazardsAndDirections) {
+  const auto hazards = LadderHazards();
+  const auto dut = MeasuredKinds();
+  ASSERT_EQ(dut.size(), hazards.size());
+  for (std::size_t i = 0; i < dut.size(); ++i) {
+    EXPECT_EQ(dut[i].name, hazards[i].name);
+    EXPECT_EQ(dut[i].unit.name, hazards[i].unit == "%" ? "pct" : hazards[i].unit);
+    for (const double scale : {1.0, 32.0}) {
+      const Rungs rungs = ScaledRungs(hazards[i], scale);
+      EXPECT_LE(static_cast<double>(rungs.last) / rungs.per_unit, dut[i].unit.most);
+    }
+  }
+  std::vector<std::string_view> directions;
+  for (const Direction direction :
+       {Direction::kForward, Direction::kSideways, Direction::kDiagonal, Direction::kOblique})
+    directions.push_back(Name(direction));
+  EXPECT_THAT(MeasuredDirections(), ::testing::ElementsAreArray(directions));
 }
 
 TEST(LadderCsv, HasTheColumnsThatOthersReadBy) {
