@@ -55,8 +55,12 @@ std::optional<DriveChoice> Choose(const RobotSpec& robot, std::string& why) {
 // Writes the URDF's MJCF to `out`, and returns what was mended and guessed.
 std::vector<std::string> Convert(const fs::path& urdf, const fs::path& out,
                                  const Globals& globals) {
-  const UrdfMjcf mjcf = MjcfOfUrdf(urdf, Answers(globals), Choose);
-  WriteConverted(out, mjcf.text);
+  UrdfMjcf mjcf = MjcfOfUrdf(urdf, Answers(globals), Choose);
+  if (WriteConverted(out, mjcf.text))
+    mjcf.notes.push_back("the limits that " + out.string() +
+                         " held are dropped: they were measured of another model than this; "
+                         "`floorproof robot " +
+                         out.string() + " --ladder` measures them again");
   SayWhenInterrupted(out.string() + " is there");
   for (const std::string& note : mjcf.notes) globals.Say(note);
   globals.Say(out.string() + " written: each guess in it is marked as one");

@@ -57,15 +57,19 @@ void Write(const fs::path& file, const ModelText& text) {
 
 }  // namespace
 
-void WriteConverted(const fs::path& out, const std::string& mjcf) {
+bool WriteConverted(const fs::path& out, const std::string& mjcf) {
   if (IsThere(out)) {
     constexpr std::string_view kChanged = "changed or not written by `robot`";
     if (!IsReadable(out)) RefuseToReplaceIt(out, kChanged);
     const ModelText old = ReadModelText(out);
     if (!old.marked) RefuseToReplaceIt(out, kChanged);
-    if (WithoutMeasured(old.rest) == mjcf) return;
+    const std::string bare = WithoutMeasured(old.rest);
+    if (bare == mjcf) return false;
+    Write(out, {true, mjcf});
+    return bare != old.rest;
   }
   Write(out, {true, mjcf});
+  return false;
 }
 
 fs::path PlaceForLimits(const std::vector<fs::path>& robot_files, const fs::path& out) {

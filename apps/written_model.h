@@ -9,8 +9,9 @@
 namespace floorproof {
 
 // Writes the MJCF made of a URDF. What stands there must be such a file that nobody has changed, or
-// it is refused (InputError); limits measured of the same model stay in it.
-void WriteConverted(const std::filesystem::path& out, const std::string& mjcf);
+// it is refused (InputError); limits measured of the same model stay in it. Returns whether it held
+// limits of another model, which are gone.
+bool WriteConverted(const std::filesystem::path& out, const std::string& mjcf);
 
 // Where the limits of `robot_files` (ReadRobot's, the MJCF first) are written: `out`, or into the
 // MJCF itself where that is empty or the same. Throws InputError where nothing can be written

@@ -98,6 +98,19 @@ TEST_F(RobotLadder, MeasuresARobotForItsPlans) {
   EXPECT_EQ(Load("my.xml"), model);
   EXPECT_EQ(nlohmann::json::parse(Run("robot my.xml --json").out)["measured"]["not_used"], "");
 
+  // Made with other keys it is another model; an edited figure is told.
+  const Result other = Run("robot my.urdf --out my.xml --set cruise_mps=0.2");
+  EXPECT_THAT(other.out, HasSubstr("the limits that my.xml held are dropped"));
+  EXPECT_THAT(Load("my.xml"), Not(HasSubstr("measured_")));
+  EXPECT_THAT(Run("robot my.urdf --out my.xml --set cruise_mps=0.3").out,
+              Not(HasSubstr("dropped")));
+  std::string edited = model;
+  const std::string steps = "<numeric name=\"measured_step_forward_mm\" data=\"";
+  edited.insert(edited.find(steps) + steps.size(), "1");
+  Save("my.xml", edited);
+  EXPECT_THAT(Run("robot my.xml").out, HasSubstr("not used: they were edited since"));
+  Save("my.xml", model);
+
   // A carpet is crossed up to its own limit, whatever step_m is.
   double limit_mm = 1e9;
   for (const auto& row : rows)
