@@ -46,14 +46,22 @@ std::string CastersText(const RobotCheck& check) {
   return number == 0 ? "none" : std::to_string(number);
 }
 
-// Of what robots meet most, on the floor of most friction.
-std::string MeasuredText(const MeasuredLimits& measured) {
+// By what planners go: of what robots meet most, measured on the floor of most friction; where
+// nothing was measured of steps, the model's own word.
+std::string CrossesText(const RobotSpec& spec) {
+  const MeasuredLimits& measured = spec.measured;
+  const auto by_word = [&] {
+    return fmt::format("steps of {}, as its model says", LengthText(spec.step_m));
+  };
+  if (measured.limits.empty()) return by_word();
   const double friction = measured.frictions.back();
   std::string text;
   for (const char* kind : {"step", "drop", "threshold"})
     if (const auto limit = LimitOn(measured, kind, friction))
       text += fmt::format("{} {}, ", kind, LengthText(std::round(1e4 * *limit) / 1e4));
-  return fmt::format("{}on friction {}", text, friction);
+  const bool steps = LimitOn(measured, "step", friction) || LimitOn(measured, "drop", friction);
+  return fmt::format("{}as measured on friction {}{}", text, friction,
+                     steps ? "" : "; " + by_word());
 }
 
 // How it turns, of a robot that steers; else how far apart its wheels stand.
@@ -103,7 +111,7 @@ nlohmann::ordered_json StanceJson(const RobotStance& stance) {
 std::vector<std::pair<std::string, std::string>> RobotFigures(const RobotCheck& check) {
   const RobotSpec& spec = check.spec;
   const Vec3& com = spec.p_BCom;
-  std::vector<std::pair<std::string, std::string>> figures = {
+  return {
       {"drive", spec.drive},
       {"wheels", WheelsText(spec)},
       TurnFigure(check),
@@ -122,10 +130,8 @@ std::vector<std::pair<std::string, std::string>> RobotFigures(const RobotCheck& 
                                 NumberText(spec.cruise_mps))},
       {"lidar plane",
        check.stance.lidar_z_m ? LengthText(*check.stance.lidar_z_m) + " over the floor" : "none"},
-      {"crosses", fmt::format("steps of {}, as its model says", LengthText(spec.step_m))},
+      {"crosses", CrossesText(spec)},
   };
-  if (!spec.measured.limits.empty()) figures.emplace_back("measured", MeasuredText(spec.measured));
-  return figures;
 }
 
 std::vector<std::string> RobotLines(const RobotCheck& check) {

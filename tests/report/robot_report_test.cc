@@ -30,6 +30,33 @@ TEST(RobotReport, SaysWhatBelugaIs) {
   EXPECT_EQ(json["ten_seconds"].size(), beluga.drive.rows.size());
 }
 
+// One word on what it crosses: the one that planners go by.
+TEST(RobotReport, SaysWhatPlannersTakeItToCross) {
+  RobotCheck check;
+  check.drive.rows.clear();
+  check.spec.step_m = 0.010;
+  check.spec.wheels.resize(1);
+  const auto crosses = [&] {
+    std::string text;
+    for (const auto& [name, value] : RobotFigures(check)) {
+      EXPECT_NE(name, "measured");
+      if (name == "crosses") text = value;
+    }
+    return text;
+  };
+  EXPECT_EQ(crosses(), "steps of 10 mm, as its model says");
+  check.spec.measured.by = "a test";
+  check.spec.measured.frictions = {0.4, 0.8};
+  check.spec.measured.limits = {{"threshold", {0.012, 0.014}}};
+  EXPECT_EQ(crosses(),
+            "threshold 14 mm, as measured on friction 0.8; steps of 10 mm, as its model "
+            "says");
+  check.spec.measured.limits.push_back({"step", {0.007, 0.008}});
+  EXPECT_EQ(crosses(), "step 8 mm, threshold 14 mm, as measured on friction 0.8");
+  DropLimits(check.spec.measured, "it was painted");
+  EXPECT_EQ(crosses(), "steps of 10 mm, as its model says");
+}
+
 TEST(RobotReport, SaysWhatIsWrong) {
   RobotCheck check = CheckRobot("beluga");
   check.findings.push_back({Finding::Kind::kNote, "a note", "of no weight"});
