@@ -66,6 +66,12 @@ Sizes SizesOf(const UrdfRobot& robot) {
 
 // A URDF's limits are often placeholders: what no floor robot has is not believed.
 bool IsBelievable(double value, double low, double high) { return value >= low && value <= high; }
+// That it was not, to go behind a guess's reason; 0: the URDF states none.
+std::string NotBelieved(const char* limit, double value, const char* unit) {
+  if (!(value > 0)) return "";
+  return std::string("; the URDF's ") + limit + " limit, " + NumberText(value) + " " + unit +
+         ", is no floor robot's";
+}
 
 Figure NoLoad(const UrdfWheel& wheel, const UrdfAnswers& answers, double radius_m) {
   constexpr double kUsual_mps = 0.8, kDroop = 1.1;
@@ -75,7 +81,9 @@ Figure NoLoad(const UrdfWheel& wheel, const UrdfAnswers& answers, double radius_
             "guess: a tenth more than the top_speed_mps given"};
   if (IsBelievable(wheel.velocity_radps * radius_m, 0.1, 4))
     return {wheel.velocity_radps, "guess: the velocity limit that the URDF gives the joint"};
-  return {Rounded(kUsual_mps / radius_m), "guess: 0.8 m/s, as indoor robots have"};
+  return {Rounded(kUsual_mps / radius_m),
+          "guess: 0.8 m/s, as indoor robots have" +
+              NotBelieved("velocity", wheel.velocity_radps, "rad/s")};
 }
 
 Figure Stall(const UrdfRobot& robot, const UrdfAnswers& answers, double weight_n, double radius_m) {
@@ -86,12 +94,17 @@ Figure Stall(const UrdfRobot& robot, const UrdfAnswers& answers, double weight_n
   const bool scrub = Scrub(robot);
   const double push = scrub ? 3 : 0.4;
   if (answers.stall_nm) return {*answers.stall_nm, "given"};
-  const double share = wheel.effort_nm * wheels / (weight_n * radius_m);
-  if (IsBelievable(share, 0.1, 4))
+  // Geared servos on small wheels can push with far more than the weight. They give some 60 N m per
+  // kg of their own, and are no more than a quarter of a robot.
+  constexpr double kServo_nmpkg = 15;
+  const double weight_nm = weight_n * radius_m;  // pushes with it
+  if (IsBelievable(wheel.effort_nm * wheels, 0.1 * weight_nm,
+                   std::max(4 * weight_nm, kServo_nmpkg * robot.mass_kg())))
     return {wheel.effort_nm, "guess: the effort limit that the URDF gives the joint"};
   return {Rounded(push * weight_n * radius_m / wheels),
           "guess: stalled, all motors push with " + NumberText(push) + " of the weight" +
-              (scrub ? ", as wheels that slide in turns take" : "")};
+              (scrub ? ", as wheels that slide in turns take" : "") +
+              NotBelieved("effort", wheel.effort_nm, "N m")};
 }
 
 double Most(const RobotGuesses& guesses) {

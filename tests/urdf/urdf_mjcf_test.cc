@@ -83,6 +83,22 @@ TEST(UrdfMjcf, LimitsOfTheUrdfAreTakenWhereTheyCanBe) {
   EXPECT_LT(placeholder.max_torque_nm, 10);
 }
 
+// A geared servo pushes with many times the weight; what a robot so light cannot carry is said.
+TEST(UrdfMjcf, AServosEffortIsTakenAndAPlaceholdersIsSaid) {
+  const auto with = [](const std::string& limit) {
+    return Converted(Replaced(WithBall(), "<axis xyz=\"0 0 1\"/>", "<axis xyz=\"0 0 1\"/>" + limit))
+        .notes;
+  };
+  const auto servo = with("<limit effort=\"20\" velocity=\"5\"/>");  // 15 times the weight
+  EXPECT_THAT(servo, Contains(HasSubstr("guess: stall_nm 20 N m, the effort limit")));
+  const auto placeholder = with("<limit effort=\"1000\" velocity=\"1000\"/>");
+  EXPECT_THAT(placeholder, Contains(HasSubstr("the URDF's effort limit, 1,000 N m, is no floor")));
+  EXPECT_THAT(placeholder,
+              Contains(HasSubstr("the URDF's velocity limit, 1,000 rad/s, is no floor")));
+  const auto none = with("");
+  EXPECT_THAT(none, Not(Contains(HasSubstr("the URDF's"))));
+}
+
 TEST(UrdfMjcf, NamesMayBeInAnyScript) {
   std::string text = WithBall();
   text = Replaced(text, "left_joint", "\u5de6\u8f6e");
