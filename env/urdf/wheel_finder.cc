@@ -5,8 +5,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <sstream>
 
+#include "base/comma_list.h"
 #include "base/error.h"
 
 namespace floorproof {
@@ -18,12 +18,8 @@ constexpr double kUpright = 0.9, kLying = 0.2;  // of an axle's unit vector, alo
 constexpr double kAlike = 0.05;  // radii that differ by no larger share belong to one pair
 
 std::vector<std::string> Names(const std::string& text) {
-  std::vector<std::string> names;
-  std::istringstream in(text);
-  for (std::string name; std::getline(in, name, ',');) {
-    const auto first = name.find_first_not_of(' '), last = name.find_last_not_of(' ');
-    if (first != std::string::npos) names.push_back(name.substr(first, last - first + 1));
-  }
+  std::vector<std::string> names = SplitAtCommas(text);
+  std::erase(names, "");
   return names;
 }
 

@@ -7,9 +7,11 @@
 #include <cctype>
 #include <map>
 #include <sstream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "base/comma_list.h"
 #include "base/config.h"
 #include "base/params.h"
 #include "env/core/coverage.h"
@@ -24,16 +26,9 @@ constexpr std::uintmax_t kMaxBytes = 32u << 20;
 // Beyond these a drive has no end; the dwells count together.
 constexpr double kSlowest_mps = 1e-3, kLongestDwell_s = 1e5;
 
-std::vector<std::string> SplitRow(std::string line) {
-  if (!line.empty() && line.back() == '\r') line.pop_back();
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) {
-    const auto first = cell.find_first_not_of(" \t"), last = cell.find_last_not_of(" \t");
-    cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
-  }
-  if (!line.empty() && line.back() == ',') cells.emplace_back();
-  return cells;
+std::vector<std::string> SplitRow(std::string_view line) {
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return SplitAtCommas(line);
 }
 
 std::vector<std::string> ReadHeader(const std::string& line, const SourceMark& mark,
