@@ -37,7 +37,7 @@ class TricycleDrive final : public Drive {
     };
     if (robot.wheels.size() != 1)
       refuse("needs one driven wheel, not " + std::to_string(robot.wheels.size()));
-    if (robot.steering.size() != 1)
+    if (!robot.steering)
       refuse("needs a motor that steers its wheel, named under <custom> as steering");
     const WheelSpec& wheel = robot.wheels.front();
     constexpr double kMiddle_m = 1e-3, kLeastBase_m = 0.01;
@@ -48,7 +48,7 @@ class TricycleDrive final : public Drive {
       refuse("wheel " + wheel.name + " must stand on the robot's middle line, y = 0");
     if (!(std::abs(wheel.p_BW.x()) > kLeastBase_m))
       refuse("wheel " + wheel.name + " must stand before or behind the axle");
-    fork_ = robot.steering.front();
+    fork_ = *robot.steering;
     if (!(fork_.max_rate_radps > 0)) refuse("fork " + fork_.name + " has no rate");
     base_m_ = wheel.p_BW.x();
     radius_m_ = wheel.radius_m;
@@ -59,13 +59,13 @@ class TricycleDrive final : public Drive {
 
   void ToWheels(const BodyTwist& twist, HingeState& hinges,
                 std::span<double> wheel_radps) const override {
-    const bool known = hinges.steered > 0;
-    const double now_rad = known ? hinges.steer_rad[0] : 0;
+    const bool known = hinges.steered;
+    const double now_rad = known ? hinges.steer_rad : 0;
     const double wanted_rad = Heading(twist, now_rad);
     double share = 1;
     if (known) {
       const double off_rad = wanted_rad - now_rad;
-      hinges.steer_radps[0] =
+      hinges.steer_radps =
           std::clamp(kSteer_1ps * off_rad, -fork_.max_rate_radps, fork_.max_rate_radps);
       share = std::max(0.0, 1 - std::abs(off_rad) / kTooFar_rad);
     }
@@ -74,7 +74,7 @@ class TricycleDrive final : public Drive {
   }
 
   BodyTwist ToTwist(std::span<const double> wheel_radps, const HingeState& hinges) const override {
-    const double heading_rad = hinges.steered > 0 ? hinges.steer_rad[0] : 0;
+    const double heading_rad = hinges.steered ? hinges.steer_rad : 0;
     const double rim_mps = wheel_radps[0] * radius_m_;
     return {rim_mps * std::cos(heading_rad), 0, rim_mps * std::sin(heading_rad) / base_m_};
   }

@@ -67,8 +67,8 @@ std::string CrossesText(const RobotSpec& spec) {
 // How it turns, of a robot that steers; else how far apart its wheels stand.
 std::pair<std::string, std::string> TurnFigure(const RobotCheck& check) {
   const RobotSpec& spec = check.spec;
-  if (spec.steering.empty()) return {"track", LengthText(check.track_m)};
-  const SteeringSpec& fork = spec.steering.front();
+  if (!spec.steering) return {"track", LengthText(check.track_m)};
+  const SteeringSpec& fork = *spec.steering;
   return {"steering", fmt::format("{:.0f} to {:.0f} deg, {} rad/s; arcs of {} radius and more",
                                   fork.min_rad / kDegree, fork.max_rad / kDegree,
                                   NumberText(fork.max_rate_radps), LengthText(spec.turn_radius_m))};
@@ -193,7 +193,7 @@ nlohmann::ordered_json RobotJson(const RobotCheck& check) {
       {"max_speed_mps", spec.max_speed_mps},
       {"cruise_mps", spec.cruise_mps},
       {"lidar_z_m", nullptr}};
-  if (!spec.steering.empty()) json["turn_radius_m"] = spec.turn_radius_m;
+  if (spec.steering) json["turn_radius_m"] = spec.turn_radius_m;
   if (check.stance.lidar_z_m) json["lidar_z_m"] = *check.stance.lidar_z_m;
   json["measured"] = MeasuredJson(spec.measured);
   json.update(StanceJson(check.stance));

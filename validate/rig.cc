@@ -74,14 +74,14 @@ void Rig::Build(RigOptions options) {
 void Rig::Command(const BodyTwist& twist, HingeState hinges) {
   twist_ = twist;
   hinges_ = hinges;
-  steers_ = !true_robot_.steering.empty();
+  steers_ = true_robot_.steering.has_value();
   Actuate();
 }
 
 void Rig::Actuate() {
   HingeState hinges = hinges_;
   hinges.TakeSteering(truth().hinges);
-  for (double& rad : hinges.steer_rad) rad -= wrong_.steering_add_rad;
+  hinges.steer_rad -= wrong_.steering_add_rad;
   drive_->ToWheels(twist_, hinges, wheel_radps_);
   sim_->SetWheelSpeeds(wheel_radps_);
   sim_->SetHingeSpeeds(hinges);

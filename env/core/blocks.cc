@@ -55,7 +55,7 @@ HingeState StartState(const RobotSpec& robot) {
   HingeState state;
   if (!robot.hinges.empty())
     state = AtRest(robot.shapes[static_cast<std::size_t>(robot.shape)].hinge_rad);
-  state.steered = static_cast<int>(robot.steering.size());
+  state.steered = robot.steering.has_value();
   return state;
 }
 

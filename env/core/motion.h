@@ -14,7 +14,7 @@ namespace floorproof {
 // What a tracker asks for, and how far along the path it is (monotone).
 struct Command {
   BodyTwist twist;
-  HingeState hinges;  // to be held, or turned at these rates towards these angles; not its forks
+  HingeState hinges;  // to be held, or turned at these rates towards these angles; not its fork
   // The segment now tracked goes from waypoint `segment` to `segment + 1`. Until a dwell is over it
   // is the one that led there.
   std::size_t segment = 0;

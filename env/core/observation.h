@@ -84,7 +84,7 @@ struct Observation {
   // Encoders: how far each driven wheel has turned since the last period, rad, in RobotSpec's
   // order; empty: the robot has none.
   std::vector<double> wheel_rad;
-  HingeState hinges;  // as the encoders of hinges and of forks that steer say
+  HingeState hinges;  // as the encoders of hinges and of a fork that steers say
   // IMU, body axes: rate of turn, and what an accelerometer says (at rest: g, upwards).
   bool has_imu = false;
   Vec3 gyro_radps = Vec3::Zero(), accel_mps2 = Vec3::Zero();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -75,12 +76,11 @@ struct ShapeSpec {
 
 struct RobotSpec {
   std::string name;
-  std::string model_file;         // the MJCF
-  std::string drive;              // the name of a drive, see controllers/drives.inc
-  std::vector<WheelSpec> wheels;  // the driven ones, in actuator order
-  std::vector<SteeringSpec> steering;
-  // The tightest arc that B's origin can be driven on, by the steering's stops. 0: no wheel is
-  // steered.
+  std::string model_file;                // the MJCF
+  std::string drive;                     // the name of a drive, see controllers/drives.inc
+  std::vector<WheelSpec> wheels;         // the driven ones, in actuator order
+  std::optional<SteeringSpec> steering;  // none: no wheel is steered
+  // The tightest arc that B's origin can be driven on, by the steering's stops; 0 without one.
   double turn_radius_m = 0;
 
   std::vector<BlockSpec> blocks;  // empty: the robot does not change its shape

@@ -15,15 +15,15 @@ struct BodyTwist {
 
 // Angles and rates of what motors turn about upright axes: the hinges between a reconfigurable
 // robot's blocks, in the order of RobotSpec::hinges (n = 0: the robot is one rigid body), and the
-// forks that steer wheels, in the order of RobotSpec::steering.
+// fork that steers its wheel (RobotSpec::steering).
 struct HingeState {
-  static constexpr int kMax = 8, kMaxSteered = 4;
+  static constexpr int kMax = 8;
   int n = 0;
   std::array<double, kMax> rad{}, radps{};
-  int steered = 0;
-  std::array<double, kMaxSteered> steer_rad{}, steer_radps{};
+  bool steered = false;  // there is a fork
+  double steer_rad = 0, steer_radps = 0;
 
-  // The forks are where they are, whatever is asked of the hinges.
+  // The fork is where it is, whatever is asked of the hinges.
   void TakeSteering(const HingeState& now) {
     steered = now.steered;
     steer_rad = now.steer_rad;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads what steers: forks on upright hinges, and how tightly the robot turns by them.
+// Reads what steers: a fork on an upright hinge, and how tightly the robot turns by it.
 #include <algorithm>
 #include <cmath>
 
-#include "env/known/estimate.h"
 #include "env/scene/spec_parts.h"
 
 namespace floorproof {
@@ -97,19 +96,14 @@ void RequireAxle(const CompiledRobot& compiled) {
 void ReadSteering(const CompiledRobot& compiled, RobotSpec& robot) {
   const auto names = compiled.Words("steering");
   if (names.empty()) return;
-  if (names.size() > HingeState::kMaxSteered)
-    compiled.Refuse("steering",
-                    "at most " + std::to_string(HingeState::kMaxSteered) + " are possible");
+  if (names.size() > 1) compiled.Refuse("steering", "must name one motor: one wheel can steer");
   RequireAxle(compiled);
-  for (const auto& name : names) {
-    const SteeringSpec fork = ReadFork(compiled, robot, name);
-    const double ahead_m = std::abs(robot.wheels[fork.wheel].p_BW.x());
-    if (!(ahead_m > 10 * kSame_m))
-      compiled.Refuse(name, "the steered wheel must stand 10 mm or more from the axle at x = 0");
-    const double most_rad = std::min(fork.max_rad, -fork.min_rad);
-    robot.turn_radius_m = std::max(robot.turn_radius_m, ahead_m / std::tan(most_rad));
-    robot.steering.push_back(fork);
-  }
+  const SteeringSpec fork = ReadFork(compiled, robot, names.front());
+  const double ahead_m = std::abs(robot.wheels[fork.wheel].p_BW.x());
+  if (!(ahead_m > 10 * kSame_m))
+    compiled.Refuse(fork.name, "the steered wheel must stand 10 mm or more from the axle at x = 0");
+  robot.turn_radius_m = ahead_m / std::tan(std::min(fork.max_rad, -fork.min_rad));
+  robot.steering = fork;
 }
 
 }  // namespace floorproof

@@ -50,10 +50,7 @@ class Encoders final : public Sensor {
       double& rad = out.hinges.rad[static_cast<std::size_t>(h)];
       rad = tick_rad * std::round(rad / tick_rad);
     }
-    for (int f = 0; f < out.hinges.steered; ++f) {
-      double& rad = out.hinges.steer_rad[static_cast<std::size_t>(f)];
-      rad = tick_rad * std::round(rad / tick_rad);
-    }
+    out.hinges.steer_rad = tick_rad * std::round(out.hinges.steer_rad / tick_rad);
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       const double now_rad = data->qpos[joints_[i]];
       double turned_rad = (now_rad - last_rad_[i]) * (1 + bias_);
@@ -65,12 +62,12 @@ class Encoders final : public Sensor {
     }
   }
 
-  // The wheels seem to stand, hinges and forks too, where they were heard of last.
+  // The wheels seem to stand, hinges and fork too, where they were heard of last.
   void Silence(Observation& out) const override {
     std::ranges::fill(out.wheel_rad, 0.0);
     out.hinges = told_;
     out.hinges.radps = {};
-    out.hinges.steer_radps = {};
+    out.hinges.steer_radps = 0;
   }
 
  private:

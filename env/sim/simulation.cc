@@ -55,10 +55,11 @@ Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec
     hinge_qpos_.push_back(m->jnt_qposadr[joint]);
     hinge_dof_.push_back(m->jnt_dofadr[joint]);
   }
-  for (const SteeringSpec& fork : robot.steering) {
-    const int joint = m->actuator_trnid[2 * mj_name2id(m, mjOBJ_ACTUATOR, fork.name.c_str())];
-    fork_qpos_.push_back(m->jnt_qposadr[joint]);
-    fork_dof_.push_back(m->jnt_dofadr[joint]);
+  if (robot.steering) {
+    const int fork = mj_name2id(m, mjOBJ_ACTUATOR, robot.steering->name.c_str());
+    const int joint = m->actuator_trnid[2 * fork];
+    fork_qpos_ = m->jnt_qposadr[joint];
+    fork_dof_ = m->jnt_dofadr[joint];
   }
   for (int a = 0; a < static_cast<int>(robot.wheels.size()); ++a) {
     const int joint = m->actuator_trnid[2 * a];
@@ -72,8 +73,7 @@ void Simulation::Place(const Pose2& X_WB) {
   const HingeState start = StartState(robot_);
   for (std::size_t h = 0; h < hinge_qpos_.size(); ++h)
     data_->qpos[hinge_qpos_[h]] = folded_ ? folded_->rad[h] : start.rad[h];
-  for (std::size_t f = 0; f < fork_qpos_.size(); ++f)
-    data_->qpos[fork_qpos_[f]] = folded_ ? folded_->steer_rad[f] : start.steer_rad[f];
+  if (robot_.steering) data_->qpos[fork_qpos_] = folded_ ? folded_->steer_rad : start.steer_rad;
   ReadHinges();
   const Vec2 p_WR = X_WB * Vec2(-blocks_.p_RB);
   q[0] = p_WR.x();
@@ -181,16 +181,16 @@ bool Simulation::Step() {
 void Simulation::SetHingeSpeeds(const HingeState& hinges) {
   mjtNum* ctrl = data_->ctrl + robot_.wheels.size();
   ctrl = std::copy_n(hinges.radps.begin(), hinge_dof_.size(), ctrl);
-  std::copy_n(hinges.steer_radps.begin(), fork_dof_.size(), ctrl);
+  if (robot_.steering) *ctrl = hinges.steer_radps;
 }
 
 void Simulation::ReadHinges() {
   constexpr double kInShape_rad = 0.05;  // play within which the hinges count as in a shape
   truth_.shape = robot_.shape;
-  truth_.hinges.steered = static_cast<int>(fork_dof_.size());
-  for (std::size_t f = 0; f < fork_dof_.size(); ++f) {
-    truth_.hinges.steer_rad[f] = data_->qpos[fork_qpos_[f]];
-    truth_.hinges.steer_radps[f] = data_->qvel[fork_dof_[f]];
+  if (robot_.steering) {
+    truth_.hinges.steered = true;
+    truth_.hinges.steer_rad = data_->qpos[fork_qpos_];
+    truth_.hinges.steer_radps = data_->qvel[fork_dof_];
   }
   if (hinge_dof_.empty()) return;
   truth_.hinges.n = static_cast<int>(hinge_dof_.size());

@@ -40,7 +40,7 @@ class Simulation {
   // Which motors of the wheels are cut off their power from now on, a flag each, or none at all:
   // they give nothing, and turn freely.
   void CutMotors(std::span<const char> cut);
-  // The same for the motors of the hinges and of the forks that steer: the rates alone count.
+  // The same for the motors of the hinges and of the fork that steers: the rates alone count.
   void SetHingeSpeeds(const HingeState& hinges);
   // One physics step; false when the state diverged (MuJoCo warned, or a number is not finite):
   // the simulation is over then, an `error`. Allocates nothing. Throws InternalError when the
@@ -97,7 +97,7 @@ class Simulation {
   std::vector<int> wheel_bodies_;            // of the driven wheels, in actuator order
   std::vector<int> wheel_qpos_;              // addresses of their angles
   std::vector<int> hinge_qpos_, hinge_dof_;  // addresses of the hinges' joints
-  std::vector<int> fork_qpos_, fork_dof_;    // and of the forks'
+  int fork_qpos_ = 0, fork_dof_ = 0;         // and of the fork's, where the robot steers
   std::optional<HingeState> folded_;         // as it is set down; none: in its start shape
   BlockMotions blocks_;                      // of a robot with hinges; else at rest
   Vec2 lowest_wheel_W_ = Vec2::Zero();

@@ -208,6 +208,8 @@ std::vector<BadInput> SteeringCases() {
       scrubber("SteeringIsNoActuator", names, "<text name=\"steering\" data=\"frok\"/>",
                {"cylinder"}),
       scrubber("SteeringIsNotNamed", names, "", {"fork", "cylinder"}),
+      scrubber("SteeringIsTwo", names, "<text name=\"steering\" data=\"fork fork\"/>",
+               {"steering", "one wheel can steer"}),
       scrubber("SteeringHasNoRange", "range=\"-1.1345 1.1345\" armature", "armature",
                {"fork", "range"}),
       scrubber("SteeringIsTooWide", "range=\"-1.1345 1.1345\"", "range=\"-1.1345 1.6\"",

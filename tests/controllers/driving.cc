@@ -107,8 +107,8 @@ Driven DriveAlong(Tracker& dut, const Path& path, const DriveOptions& options,
   Driven driven;
   dut.Start(path, robot, clearance);
   std::vector<double> wheels(robot.wheels.size()), wanted(robot.wheels.size());
-  HingeState forks;
-  forks.steered = static_cast<int>(robot.steering.size());
+  HingeState fork;
+  fork.steered = robot.steering.has_value();
   const int substeps = std::max(1, static_cast<int>(std::lround(options.control_s / kPhysicsS)));
   const double h_s = options.control_s / substeps;
   const double keep = std::exp(-h_s / options.wheel_lag_s);
@@ -117,7 +117,7 @@ Driven DriveAlong(Tracker& dut, const Path& path, const DriveOptions& options,
     if (t_s > options.time_limit_s) return driven;
     if (options.push) options.push(t_s, X_WB);
     const Command command =
-        dut.Update({X_WB, drive->ToTwist(wheels, forks), forks}, t_s, options.control_s);
+        dut.Update({X_WB, drive->ToTwist(wheels, fork), fork}, t_s, options.control_s);
     Driven::Step step{t_s, X_WB, command.twist, command.segment, command.dwelling, command.turning,
                       0,   {}};
     for (const WaypointTask& task : command.tasks) step.tasks.push_back(task.id);
@@ -129,13 +129,12 @@ Driven DriveAlong(Tracker& dut, const Path& path, const DriveOptions& options,
     driven.max_cross_track_m = std::max(driven.max_cross_track_m, step.cross_track_m);
     driven.time_s = t_s;
     driven.done = command.done;
-    drive->ToWheels(command.twist, forks, wanted);
+    drive->ToWheels(command.twist, fork, wanted);
     for (int i = 0; i < substeps; ++i) {
-      for (std::size_t f = 0; f < robot.steering.size(); ++f)
-        forks.steer_rad[f] += forks.steer_radps[f] * h_s;
+      fork.steer_rad += fork.steer_radps * h_s;
       for (std::size_t w = 0; w < wheels.size(); ++w)
         wheels[w] = wanted[w] + (wheels[w] - wanted[w]) * keep;
-      const BodyTwist v = drive->ToTwist(wheels, forks);
+      const BodyTwist v = drive->ToTwist(wheels, fork);
       const Pose2 middle{0, 0, X_WB.yaw_rad + 0.5 * v.wz_radps * h_s};
       const Vec2 step_W = middle.Rotate({v.vx_mps * h_s, v.vy_mps * h_s});
       X_WB = {X_WB.x_m + step_W.x(), X_WB.y_m + step_W.y(),

@@ -18,7 +18,7 @@ RobotSpec Tricycle(double base_m = kBase_m) {
   robot.wheels.resize(1);
   robot.wheels[0].p_BW = {base_m, 0, kRadius_m};
   robot.wheels[0].radius_m = kRadius_m;
-  robot.steering = {{"fork", 0, -kMost_rad, kMost_rad, 2}};
+  robot.steering = {"fork", 0, -kMost_rad, kMost_rad, 2};
   robot.turn_radius_m = std::abs(base_m) / std::tan(kMost_rad);
   return robot;
 }
@@ -31,8 +31,8 @@ std::unique_ptr<Drive> Configured(const RobotSpec& robot) {
 
 HingeState Pointing(double heading_rad) {
   HingeState state;
-  state.steered = 1;
-  state.steer_rad[0] = heading_rad;
+  state.steered = true;
+  state.steer_rad = heading_rad;
   return state;
 }
 
@@ -42,7 +42,7 @@ BodyTwist Settled(const Drive& dut, const BodyTwist& asked) {
   double wheel[1];
   for (int k = 0; k < 500; ++k) {
     dut.ToWheels(asked, fork, wheel);
-    fork.steer_rad[0] += 0.02 * fork.steer_radps[0];
+    fork.steer_rad += 0.02 * fork.steer_radps;
   }
   return dut.ToTwist(wheel, fork);
 }
@@ -92,17 +92,17 @@ TEST(TricycleDrive, SteersBeforeItDrives) {
   double wheel[1], last_mps = -1;
   dut->ToWheels(asked, fork, wheel);
   EXPECT_EQ(wheel[0], 0);
-  EXPECT_GT(fork.steer_radps[0], 0);
+  EXPECT_GT(fork.steer_radps, 0);
   for (int k = 0; k < 200; ++k) {
     dut->ToWheels(asked, fork, wheel);
-    EXPECT_LE(std::abs(fork.steer_radps[0]), 2 + 1e-12) << "no faster than its motor";
+    EXPECT_LE(std::abs(fork.steer_radps), 2 + 1e-12) << "no faster than its motor";
     const double ahead_mps = dut->ToTwist(wheel, fork).vx_mps;
     EXPECT_GE(ahead_mps, last_mps - 1e-12);
     EXPECT_LE(ahead_mps, asked.vx_mps + 1e-12);
     last_mps = ahead_mps;
-    fork.steer_rad[0] += 0.02 * fork.steer_radps[0];
+    fork.steer_rad += 0.02 * fork.steer_radps;
   }
-  EXPECT_NEAR(fork.steer_rad[0], wanted_rad, 1e-6);
+  EXPECT_NEAR(fork.steer_rad, wanted_rad, 1e-6);
 }
 
 TEST(TricycleDrive, KeepsItsHeadingWhereItStands) {
@@ -111,7 +111,7 @@ TEST(TricycleDrive, KeepsItsHeadingWhereItStands) {
   double wheel[1];
   for (const double turn : {0.0, 0.5}) {
     dut->ToWheels({0, 0, turn}, fork, wheel);
-    EXPECT_EQ(fork.steer_radps[0], 0);
+    EXPECT_EQ(fork.steer_radps, 0);
     EXPECT_EQ(wheel[0], 0);
   }
 }
@@ -136,13 +136,13 @@ TEST(TricycleDrive, RefusesRobotsItCannotDrive) {
     }
   };
   refused([](RobotSpec& r) { r.wheels.push_back(r.wheels[0]); }, "needs one driven wheel, not 2");
-  refused([](RobotSpec& r) { r.steering.clear(); }, "needs a motor that steers its wheel");
+  refused([](RobotSpec& r) { r.steering.reset(); }, "needs a motor that steers its wheel");
   refused([](RobotSpec& r) { r.wheels[0].p_BW.y() = 0.1; }, "middle line");
   refused([](RobotSpec& r) { r.wheels[0].p_BW.x() = 0; }, "before or behind the axle");
   refused([](RobotSpec& r) { r.wheels[0].radius_m = 0; }, "no radius");
   refused([](RobotSpec& r) { r.wheels[0].max_speed_radps = std::nan(""); }, "no top speed");
   refused([](RobotSpec& r) { r.wheels[0].roller_angle_rad = 0.7; }, "rollers");
-  refused([](RobotSpec& r) { r.steering[0].max_rate_radps = 0; }, "no rate");
+  refused([](RobotSpec& r) { r.steering->max_rate_radps = 0; }, "no rate");
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ TEST(Scrubber, RestsOnThreeWheels) {
   EXPECT_EQ(dut.truth().belly_load_n, 0);
   EXPECT_GE(dut.truth().wheel_contacts, 3);
   EXPECT_GT(dut.truth().support_margin_m, 0.08);
-  EXPECT_NEAR(dut.truth().hinges.steer_rad[0], 0, 1e-4);
+  EXPECT_NEAR(dut.truth().hinges.steer_rad, 0, 1e-4);
 }
 
 TEST(Scrubber, RollsAsItsWheelTurns) {
@@ -39,22 +39,22 @@ TEST(Scrubber, RollsAsItsWheelTurns) {
 // From stop to stop: its motor's pace, without overshoot, and no motion of the body that stands.
 TEST(Scrubber, SteersAtItsForksPace) {
   Rig dut("scrubber");
-  const SteeringSpec& fork = dut.robot().steering.front();
+  const SteeringSpec& fork = *dut.robot().steering;
   const double start_s = dut.truth().t_s, wanted_rad = 1.0;
   const double base_m = dut.robot().wheels[0].p_BW.x();
   dut.Command({1e-4, 0, 1e-4 * std::tan(wanted_rad) / base_m});
   double reached_s = 0, most_rad = 0;
   while (dut.truth().t_s < start_s + 3) {
     dut.Step();
-    const double rad = dut.truth().hinges.steer_rad[0];
+    const double rad = dut.truth().hinges.steer_rad;
     if (reached_s == 0 && rad > 0.9 * wanted_rad) reached_s = dut.truth().t_s - start_s;
     most_rad = std::max(most_rad, rad);
-    EXPECT_LE(std::abs(dut.truth().hinges.steer_radps[0]), 1.05 * fork.max_rate_radps);
+    EXPECT_LE(std::abs(dut.truth().hinges.steer_radps), 1.05 * fork.max_rate_radps);
   }
   EXPECT_GT(reached_s, 0.9 * wanted_rad / fork.max_rate_radps);
   EXPECT_LT(reached_s, 0.9 * wanted_rad / fork.max_rate_radps + 0.4);
   EXPECT_LT(most_rad, wanted_rad + 0.01);
-  EXPECT_NEAR(dut.truth().hinges.steer_rad[0], wanted_rad, 0.02);
+  EXPECT_NEAR(dut.truth().hinges.steer_rad, wanted_rad, 0.02);
   EXPECT_LT(dut.truth().p_WB.head<2>().norm(), 0.01);
 }
 
