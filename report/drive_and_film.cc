@@ -19,6 +19,7 @@
 #include "run/episode/execute.h"
 #include "run/episode/records.h"
 #include "run/plan_check/plan_check.h"
+#include "run/plan_check/sharp_corners.h"
 #include "run/scenario/warnings.h"
 
 namespace floorproof {
@@ -112,6 +113,9 @@ class Witness : public EpisodeObserver {
     const PlanClearance clearance = CheckClearance(s_, plan);
     if (const std::string conflicts = ConflictsLine(clearance); !conflicts.empty())
       console_.Say(conflicts + ", see `floorproof plan`");
+    const int sharp = CountSharpCorners(plan.path, s_.robot.spec);
+    if (const std::string line = SharpCornersLine(s_.robot.spec, sharp); !line.empty())
+      console_.Say(line);
     for (const std::string& line : CrossingLines(s_, clearance)) console_.Say(line);
   }
 

@@ -204,6 +204,14 @@ std::string ConflictsLine(const PlanClearance& clearance) {
          CountText(clearance.conflicts.size(), "place");
 }
 
+std::string SharpCornersLine(const RobotSpec& robot, int sharp_corners) {
+  if (sharp_corners == 0) return "";
+  return fmt::format(
+      "warning: the plan has {} too sharp for the robot, which turns on arcs of {} radius at "
+      "least: it passes beside them",
+      CountText(sharp_corners, "corner"), Metres(robot.turn_radius_m));
+}
+
 std::vector<std::string> CrossingLines(const Scenario& s, const PlanClearance& clearance) {
   std::vector<std::string> lines;
   AddCrossings(KnownFloor(s), s.robot.spec, clearance, lines);
@@ -222,11 +230,8 @@ std::vector<std::string> PlanLines(const Scenario& s, const PlanResult& plan,
   lines.insert(lines.begin(), takes);
   const HazardMap floor = KnownFloor(s);
   AddClearance(floor, check.clearance, lines);
-  if (check.sharp_corners > 0)
-    lines.push_back(fmt::format(
-        "warning: the plan has {} too sharp for the robot, which turns on arcs of {} radius at "
-        "least: it passes beside them",
-        CountText(check.sharp_corners, "corner"), Metres(s.robot.spec.turn_radius_m)));
+  if (const auto sharp = SharpCornersLine(s.robot.spec, check.sharp_corners); !sharp.empty())
+    lines.push_back(sharp);
   AddCrossings(floor, s.robot.spec, check.clearance, lines);
   AddDrivenOver(TrueFloor(s), s.robot.spec, check.driven_over, lines);
   if (plan.samples.empty())

@@ -41,4 +41,7 @@ std::vector<std::string> CrossingLines(const Scenario& scenario, const PlanClear
 // One line for who drives a plan; empty where it leads the robot into nothing.
 std::string ConflictsLine(const PlanClearance& clearance);
 
+// One line, too; empty where no corner is too sharp for the robot. `sharp_corners` as of PlanCheck.
+std::string SharpCornersLine(const RobotSpec& robot, int sharp_corners);
+
 }  // namespace floorproof

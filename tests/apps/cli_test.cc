@@ -162,6 +162,19 @@ TEST_F(Cli, AnOutcomeThatIsNoSuccessIsExitStatusOne) {
   EXPECT_EQ(nlohmann::json::parse(Slurp(folder_ / "p" / "result.json"))["outcome"], "not_planned");
 }
 
+// `run` and `plan` warn alike of corners that the robot cannot turn.
+TEST_F(Cli, CornersOfAPlanThatAreTooSharpAreSaidBeforeTheDrive) {
+  std::ofstream(folder_ / "plan.csv") << "x_m,y_m\n1.1,1.1\n2,1.1\n2,1.5\n";
+  const std::string to =
+      " s.yaml --out o --set robot=scrubber --set 'plan={file: plan.csv}' "
+      "--set 'start={x_m: 1.1, y_m: 1.1}' --set time_limit_s=0.5";
+  constexpr const char* kWarning = "warning: the plan has 1 corner too sharp for the robot, which ";
+  EXPECT_THAT(Run("plan" + to).out, HasSubstr(kWarning));
+  const Result dut = Run("run" + to);
+  EXPECT_THAT(dut.out, HasSubstr(kWarning));
+  EXPECT_THAT(Run("run" + to + " --set robot=beluga").out, Not(HasSubstr("too sharp")));
+}
+
 TEST_F(Cli, AStartInAWallIsBadInput) {
   const Result dut = Run("run s.yaml --out p --set start.x_m=0.52 --set start.y_m=0.52");
   EXPECT_EQ(dut.status, 2);
