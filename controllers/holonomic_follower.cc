@@ -85,7 +85,7 @@ class HolonomicFollower final : public Tracker {
 
   Command Update(const Estimate& estimate, double t_s, double dt_s) override {
     const Pose2& X_WB = estimate.X_WB;
-    progress_.Update(X_WB.p(), t_s);
+    progress_.Update(X_WB, t_s);
     Fold(X_WB.yaw_rad);
     if (progress_.moving())
       Pursue(X_WB, dt_s);

@@ -23,6 +23,7 @@ void PathProgress::Start(const Path& path, const ReferenceLimits& limits,
   phase_ = reference_.vertices.empty() ? Phase::kDone : Phase::kDrive;
   homing_ = true;
   vertex_ = goal_ = ahead_ = waypoint_ = 0;
+  missed_ = {};
   if (!reference_.vertices.empty()) turn_W_ = Vertex(0).p_W;
   dwell_until_s_ = 0;
 }
@@ -41,28 +42,26 @@ void PathProgress::Extend(const Path& path) {
   if (gone) Depart();
 }
 
-void PathProgress::Update(const Vec2& p_W, double t_s) {
+void PathProgress::Update(const Pose2& X_WB, double t_s) {
   if (phase_ == Phase::kDwell) EndDwells(t_s);
-  if (moving()) Advance(p_W, t_s);
+  if (moving()) Advance(X_WB, t_s);
 }
 
-void PathProgress::Advance(const Vec2& p_W, double t_s) {
-  if (homing_) {
-    const double reach_m = std::max(2 * corner_tolerance_m_, Wide());
-    if ((Vertex(goal_).p_W - p_W).norm() <= reach_m) Arrive(goal_, t_s);
-    return;
-  }
+void PathProgress::Advance(const Pose2& X_WB, double t_s) {
+  if (homing_) return GoHome(X_WB, t_s);
   while (true) {
     const ReferenceVertex &from = Vertex(vertex_), &to = Vertex(vertex_ + 1);
-    const Vec2 passed = p_W - to.p_W;
+    const Vec2 passed = X_WB.p() - to.p_W;
     if (to.stop) {
-      if (passed.dot(from.direction_W) < -corner_tolerance_m_) return;
-      if (std::abs(Cross(from.direction_W, passed)) <= kBesideCornerM + Wide()) {
-        Arrive(vertex_ + 1, t_s);
-      } else {
-        homing_ = true;
-        goal_ = vertex_ + 1;
-      }
+      const double beyond_m = passed.dot(from.direction_W);
+      if (beyond_m < -corner_tolerance_m_) return;
+      // Who turns on the spot comes to rest there, or turns back.
+      const bool on_it = limits_.turn_radius_m == 0 || beyond_m <= Reach();
+      if (on_it && std::abs(Cross(from.direction_W, passed)) <= kBesideCornerM)
+        return Arrive(vertex_ + 1, t_s);
+      homing_ = true;
+      goal_ = vertex_ + 1;
+      if (HasPassed(goal_, X_WB)) Miss(goal_);
       return;
     }
     // A bend is passed at its bisector; far off, the plane alone would skip whole loops.
@@ -70,6 +69,42 @@ void PathProgress::Advance(const Vec2& p_W, double t_s) {
       return;
     ++vertex_;
   }
+}
+
+void PathProgress::GoHome(const Pose2& X_WB, double t_s) {
+  const double left_m = (Vertex(goal_).p_W - X_WB.p()).norm();
+  if (left_m <= (IsJudged(goal_) ? Reach() : std::max(Reach(), Wide())))
+    Arrive(goal_, t_s);
+  else if (HasPassed(goal_, X_WB))
+    Miss(goal_);
+}
+
+double PathProgress::Reach() const {
+  return std::max(2 * corner_tolerance_m_, limits_.turn_radius_m > 0 ? kBesideCornerM : 0);
+}
+
+// Whether something is done there.
+bool PathProgress::IsJudged(std::size_t vertex) const {
+  return vertex + 1 == reference_.vertices.size() || !Vertex(vertex).dwells.empty();
+}
+
+// Whether the robot is near a stop and yet cannot come to it but by a loop: it drives away from it,
+// or it lies inside the tightest circle on its side. From farther off it turns round.
+bool PathProgress::HasPassed(std::size_t vertex, const Pose2& X_WB) const {
+  if (limits_.turn_radius_m == 0 || !IsJudged(vertex)) return false;
+  const Vec2 stop_B = X_WB.Inverse() * Vertex(vertex).p_W;
+  if (stop_B.norm() > Wide() + Reach()) return false;
+  const Vec2 from_middle(stop_B.x(), std::abs(stop_B.y()) - limits_.turn_radius_m);
+  return stop_B.x() <= 0 || from_middle.norm() < limits_.turn_radius_m - Reach();
+}
+
+// Nothing is done there.
+void PathProgress::Miss(std::size_t vertex) {
+  vertex_ = ahead_ = vertex;
+  homing_ = false;
+  if (missed_.count++ == 0) missed_.first_W = Vertex(vertex).p_W;
+  missed_.end = vertex + 1 == reference_.vertices.size();
+  Folded();
 }
 
 void PathProgress::Arrive(std::size_t vertex, double t_s) {

@@ -3,7 +3,9 @@
 //
 // Progress is monotone. A leg is left once, at its end, and never for a nearer one, so neighbouring
 // rows cannot be mixed up. A robot that is past the end of a leg but beside it goes to the corner
-// itself. Nothing but Start() and Extend() allocates.
+// itself. A robot that cannot turn on the spot passes corners wide. Where something is to be done,
+// at a dwell and at the end, it must come as near as any other; what it passes beside is missed,
+// and it goes on. Nothing but Start() and Extend() allocates.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +13,7 @@
 #include <span>
 
 #include "base/params.h"
+#include "controllers/missed_stops.h"
 #include "controllers/reference_path.h"
 
 namespace floorproof {
@@ -43,9 +46,9 @@ class PathProgress {
   // now. Not once it is done. Allocates.
   void Extend(const Path& path);
 
-  // Takes the robot's place at this time: leaves legs whose end is passed, stops at a corner that
-  // is reached, ends dwells.
-  void Update(const Vec2& p_W, double t_s);
+  // Takes the robot's pose at this time: leaves legs whose end is passed, stops at a corner that is
+  // reached, ends dwells.
+  void Update(const Pose2& X_WB, double t_s);
 
   Phase phase() const { return phase_; }
   bool standing() const { return phase_ == Phase::kFace || phase_ == Phase::kDwell; }
@@ -61,6 +64,8 @@ class PathProgress {
   // The robot has taken the shapes of vertex(), or there are none.
   void Folded();
   const ReferencePath& reference() const { return reference_; }
+  // Since Start().
+  const MissedStops& missed() const { return missed_; }
   // The vertex at which the leg now tracked begins, and the leg itself.
   std::size_t vertex() const { return vertex_; }
   const ReferenceVertex& leg() const { return reference_.vertices[vertex_]; }
@@ -98,7 +103,11 @@ class PathProgress {
 
  private:
   const ReferenceVertex& Vertex(std::size_t i) const { return reference_.vertices[i]; }
-  void Advance(const Vec2& p_W, double t_s);
+  void Advance(const Pose2& X_WB, double t_s);
+  void GoHome(const Pose2& X_WB, double t_s);
+  bool IsJudged(std::size_t vertex) const;
+  bool HasPassed(std::size_t vertex, const Pose2& X_WB) const;
+  void Miss(std::size_t vertex);
   void Arrive(std::size_t vertex, double t_s);
   void BeginDwell(double t_s);
   void EndDwells(double t_s);
@@ -109,11 +118,14 @@ class PathProgress {
 
   // How far off a robot is that drives around a corner on its tightest arc.
   double Wide() const { return 2 * limits_.turn_radius_m; }
+  // So near a stop that was not come to along its leg counts as reached.
+  double Reach() const;
 
   ReferenceLimits limits_;
   double corner_tolerance_m_ = 0;
   ReferencePath reference_;
   Phase phase_ = Phase::kDone;
+  MissedStops missed_;
   bool homing_ = false;  // going to vertex goal_ itself instead of along the leg
   std::size_t goal_ = 0;
   std::size_t vertex_ = 0;  // the leg now tracked goes from here to the next

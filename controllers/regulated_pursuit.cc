@@ -64,7 +64,7 @@ class RegulatedPursuit final : public Tracker {
   Command Update(const Estimate& estimate, double t_s, double dt_s) override {
     const Pose2& X_WB = estimate.X_WB;
     const std::size_t vertex = progress_.vertex();
-    progress_.Update(X_WB.p(), t_s);
+    progress_.Update(X_WB, t_s);
     if (progress_.vertex() != vertex) turn_side_ = 0;
     if (progress_.phase() == Phase::kFace)
       Face(X_WB, t_s, dt_s);

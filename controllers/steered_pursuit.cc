@@ -7,7 +7,7 @@
 // with the wheel hard over. The speed is regulated as in regulated_pursuit, by the arc's curvature,
 // by the gap to known obstacles, and by the passing speeds of the bends ahead; that the wheel needs
 // time to turn is the drive's affair. Corners sharper than it can turn are passed wide. A stop that
-// it passes beside counts as reached. Assumes a plan without such corners (planners/lines/
+// it cannot come to without a loop is missed. Assumes a plan without such corners (planners/lines/
 // turn_curves.h); does not reverse.
 #include <algorithm>
 #include <cmath>
@@ -63,9 +63,11 @@ class SteeredPursuit final : public Tracker {
 
   double Duration() const override { return duration_s_; }
 
+  MissedStops Missed() const override { return progress_.missed(); }
+
   Command Update(const Estimate& estimate, double t_s, double dt_s) override {
     const Pose2& X_WB = estimate.X_WB;
-    progress_.Update(X_WB.p(), t_s);
+    progress_.Update(X_WB, t_s);
     if (progress_.phase() == PathProgress::Phase::kTurn) progress_.Drive();
     if (progress_.moving())
       Pursue(X_WB, dt_s);

@@ -11,6 +11,7 @@
 
 #include "base/params.h"
 #include "base/registry.h"
+#include "controllers/missed_stops.h"
 #include "env/core/coverage.h"
 #include "env/core/motion.h"
 #include "env/core/path.h"
@@ -37,6 +38,8 @@ class Tracker : public Configurable {
   // What the path taken takes by its own speeds, where nothing goes wrong (s): ways, stops, turns,
   // dwells, folding, and slowing down beside what is known. Time limits are made from it.
   virtual double Duration() const = 0;
+  // Of the path taken, so far: what was passed beside. Who turns on the spot misses nothing.
+  virtual MissedStops Missed() const { return {}; }
   // One control period. `t_s` is simulated time; `dt_s` the period.
   virtual Command Update(const Estimate& estimate, double t_s, double dt_s) = 0;
 };

@@ -54,6 +54,19 @@ void EpisodeRecord::RequireCoverage(double least) {
                         100 * metrics.coverage, 100 * least);
 }
 
+void EpisodeRecord::TakeMissed(const MissedStops& missed) {
+  metrics.stops_missed = missed.count;
+  if (missed.count == 0) return;
+  const std::string place = PlaceText(missed.first_W.x(), missed.first_W.y());
+  const int stops = missed.count - missed.end;
+  std::string text = stops == 0 ? "the plan's end at " + place
+                                : fmt::format("{} of the plan{} at {}", CountText(stops, "stop"),
+                                              stops > 1 ? ", the first" : "", place);
+  if (stops > 0 && missed.end) text += ", and its end";
+  message += (message.empty() ? "" : "; ") + ("passed beside " + text);
+  if (missed.end && outcome == Outcome::kSuccess) outcome = Outcome::kFailure;
+}
+
 namespace {
 
 std::string Text(const Timeout& timeout, const HazardMap& map) {
@@ -87,6 +100,7 @@ class Episode {
     if (record.message.empty() && record.outcome == Outcome::kAborted)
       record.message = robot_side_.supervisor()->stopped();
     if (record.message.empty()) record.message = interventions_.why_not();
+    record.TakeMissed(robot_side_.missed());
     return record;
   }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "controllers/missed_stops.h"
 #include "controllers/supervision/supervisor.h"
 #include "env/core/coverage.h"
 #include "env/core/drawn_map.h"
@@ -65,6 +66,8 @@ struct EpisodeRecord {
 
   // A success that covered less than it must is a failure, and says so.
   void RequireCoverage(double least);
+  // A success that missed its plan's end is a failure, too. Whatever was missed is said.
+  void TakeMissed(const MissedStops& missed);
 };
 
 // An episode as it stands at a control period.

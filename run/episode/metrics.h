@@ -26,6 +26,7 @@ struct Metrics {
   std::optional<double> cumulative_risk;
   int interventions = 0;
   int reactions = 0;
+  int stops_missed = 0;
   double max_estimate_error_m = 0, mean_estimate_error_m = 0, p95_estimate_error_m = 0;
   double mean_estimate_position_std_m = 0;
   int contacts = 0;
@@ -83,6 +84,9 @@ inline constexpr auto kMetrics = std::to_array<MetricColumn>({
      true},
     {"interventions", "", &Metrics::interventions, "times that a person set the robot down anew"},
     {"reactions", "", &Metrics::reactions, "times that it went back from what it met (`react`)"},
+    {"stops_missed", "", &Metrics::stops_missed,
+     "stops of the plan, its end among them, that a robot which cannot turn on the spot passed "
+     "beside: nothing was done there"},
     {"max_estimate_error_m", "m", &Metrics::max_estimate_error_m,
      "greatest distance of the estimated place from the true one"},
     {"mean_estimate_error_m", "m", &Metrics::mean_estimate_error_m,

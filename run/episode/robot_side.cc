@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "controllers/follower_params.h"
 #include "env/core/driven_floor.h"
@@ -66,7 +67,20 @@ void RobotSide::GoOn(const Observation& sensed) {
   const bool recovering =
       !held && recovery_ && recovery_->Update(sensed, estimate_, control_s_, command_);
   if (!recovering || recovery_->ended()) Navigate(sensed);
-  if (!recovering) command_ = parts_.tracker.Update(estimate_, sensed.t_s, control_s_);
+  if (recovering) return;
+  command_ = parts_.tracker.Update(estimate_, sensed.t_s, control_s_);
+  CountMissed();
+}
+
+// A mission that leads by lines judges itself whether it came there.
+void RobotSide::CountMissed() {
+  const bool line = supervisor_ && supervisor_->wish().kind == MotionWish::Kind::kLine;
+  const MissedStops missed = parts_.tracker.Missed();
+  const int more = missed.count - std::exchange(missed_on_path_, missed.count);
+  if (line || more == 0) return;
+  if (missed_.count == 0) missed_.first_W = missed.first_W;
+  missed_.count += more;
+  missed_.end = missed.end;
 }
 
 // On the spot to this heading, as fast as it may and can come to rest there.
@@ -132,6 +146,7 @@ void RobotSide::Perceive(const Observation& sensed) {
 // A new path: what was commanded on the last one is over.
 void RobotSide::Follow() {
   command_ = {};
+  missed_on_path_ = 0;
   ++paths_;
   if (!parts_.drives_by_map) {
     parts_.tracker.Start(navigator_.path(), robot_, nullptr);

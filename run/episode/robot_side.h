@@ -62,12 +62,15 @@ class RobotSide {
   // Of the known map, on the path that it follows.
   const ClearanceField& clearance() const { return clearance_; }
   const KnownMap* known() const { return mapper_ ? &mapper_->map() : nullptr; }
+  // Of all paths that its navigator led along; of a mission's own lines none.
+  const MissedStops& missed() const { return missed_; }
   int recoveries() const { return recovery_ ? recovery_->count() : 0; }
 
  private:
   bool at_end() const { return command_.done && navigator_.leads() != Navigator::Leads::kOn; }
   void Supervise(const Observation& sensed);
   void GoOn(const Observation& sensed);
+  void CountMissed();
   void Turn(double yaw_rad);
   void Perceive(const Observation& sensed);
   void Navigate(const Observation& sensed);
@@ -91,6 +94,8 @@ class RobotSide {
   std::vector<double> wheel_radps_;
   Actuation actuation_;
   int paths_ = 0;
+  MissedStops missed_;
+  int missed_on_path_ = 0;  // of them, on the path that it follows
 };
 
 }  // namespace floorproof

@@ -129,6 +129,7 @@ Driven DriveAlong(Tracker& dut, const Path& path, const DriveOptions& options,
     driven.max_cross_track_m = std::max(driven.max_cross_track_m, step.cross_track_m);
     driven.time_s = t_s;
     driven.done = command.done;
+    driven.missed = dut.Missed();
     drive->ToWheels(command.twist, fork, wanted);
     for (int i = 0; i < substeps; ++i) {
       fork.steer_rad += fork.steer_radps * h_s;

@@ -40,6 +40,7 @@ struct Driven {
   };
   std::vector<Step> steps;
   bool done = false;
+  MissedStops missed;
   double time_s = 0;
   double max_cross_track_m = 0;
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "tests/controllers/driving.h"
 
@@ -74,6 +75,113 @@ TEST(SteeredPursuit, TurnsRoundWhereItFacesAway) {
     farthest_m = std::max(farthest_m, DistanceToSegment({0, 0}, {4, 0}, step.X_WB.p()));
   EXPECT_LT(farthest_m, 4 * Tricycle().turn_radius_m);
   EXPECT_LT((dut.steps.back().X_WB.p() - Vec2(4, 0)).norm(), 0.03);
+}
+
+// The robot stands at the origin and faces along x. On its tightest turn it comes to every place of
+// a circle of radius R around (0, R), and to none inside it. `share` of R away from that middle, at
+// an angle of the turn.
+Vec2 BesideTheStart(double share, double angle_rad, double side) {
+  const double r_m = Tricycle().turn_radius_m;
+  return {share * r_m * std::sin(angle_rad), side * r_m * (1 - share * std::cos(angle_rad))};
+}
+
+Driven DriveToStop(const Vec2& stop_W, bool goes_on) {
+  Path path = MakePath({{0, 0}, stop_W});
+  path[1].dwell_s = 1;
+  path[1].task = WaypointTask{.id = 7};
+  if (goes_on) path.push_back(MakePath({{6, 0}})[0]);
+  DriveOptions options;
+  options.start = Pose2{};
+  options.time_limit_s = 120;
+  return Drive(path, options);
+}
+
+// How far off it was while it did what was to be done; none: it did not.
+std::optional<double> DoneOff(const Driven& driven, const Vec2& stop_W) {
+  std::optional<double> off_m;
+  for (const auto& step : driven.steps)
+    if (!step.tasks.empty()) off_m = std::max(off_m.value_or(0), (step.X_WB.p() - stop_W).norm());
+  return off_m;
+}
+
+// Farther round, its fork turns too late.
+TEST(SteeredPursuit, AStopOnItsTightestTurnOrOutsideIsDoneThere) {
+  for (const double side : {1.0, -1.0})
+    for (const double share : {1.0, 1.3})
+      for (const double angle_rad : {0.5, 1.0, 1.5}) {
+        const Vec2 stop_W = BesideTheStart(share, angle_rad, side);
+        for (const bool goes_on : {true, false}) {
+          const Driven dut = DriveToStop(stop_W, goes_on);
+          ASSERT_TRUE(dut.done) << stop_W.transpose();
+          EXPECT_EQ(dut.missed.count, 0) << stop_W.transpose();
+          EXPECT_LT(DoneOff(dut, stop_W).value_or(1), 0.05) << stop_W.transpose();
+        }
+      }
+}
+
+TEST(SteeredPursuit, AStopInsideItsTightestTurnIsMissedAndPassed) {
+  for (const double side : {1.0, -1.0})
+    for (const double share : {0.0, 0.6})
+      for (const double angle_rad : {0.5, 1.0, 2.0, 3.0}) {
+        const Vec2 stop_W = BesideTheStart(share, angle_rad, side);
+        for (const bool goes_on : {true, false}) {
+          const Driven dut = DriveToStop(stop_W, goes_on);
+          ASSERT_TRUE(dut.done) << stop_W.transpose();
+          EXPECT_EQ(dut.missed.count, 1) << stop_W.transpose();
+          EXPECT_EQ(dut.missed.end, !goes_on);
+          EXPECT_EQ(dut.missed.first_W, stop_W);
+          EXPECT_FALSE(DoneOff(dut, stop_W).has_value()) << stop_W.transpose();
+          const Vec2 end_W = goes_on ? Vec2(6, 0) : dut.steps.back().X_WB.p();
+          EXPECT_LT((dut.steps.back().X_WB.p() - end_W).norm(), 0.05);
+        }
+      }
+}
+
+// One that was run past is not turned back to: what is done, is done where it belongs.
+TEST(SteeredPursuit, AStopThatItIsPushedBeyondIsMissed) {
+  for (const double beyond_m : {0.0, 0.03, 0.08, 0.3}) {
+    Path path = MakePath({{0, 0}, {2, 0}, {6, 0}});
+    path[1].dwell_s = 1;
+    path[1].task = WaypointTask{.id = 7};
+    bool pushed = false;
+    DriveOptions options;
+    options.push = [&](double, Pose2& X_WB) {
+      if (pushed || X_WB.x_m < 1.9) return;
+      pushed = true;
+      X_WB.x_m = 2 + beyond_m;
+    };
+    const Driven dut = Drive(path, options);
+    ASSERT_TRUE(dut.done);
+    EXPECT_EQ(dut.missed.count, beyond_m > 0.05) << beyond_m;
+    EXPECT_EQ(DoneOff(dut, {2, 0}).has_value(), beyond_m < 0.05) << beyond_m;
+  }
+}
+
+// Beside it by less than its turn is wide, it goes on: it makes no loop that leads to no stop. From
+// farther off it comes back to it.
+TEST(SteeredPursuit, AStopThatItIsPushedBesideIsMissedWithoutALoop) {
+  for (const double aside_m : {0.22, -0.22, 0.6, -0.6}) {
+    Path path = MakePath({{0, 0}, {2, 0}, {6, 0}});
+    path[1].dwell_s = 1;
+    path[1].task = WaypointTask{.id = 7};
+    bool pushed = false;
+    DriveOptions options;
+    options.push = [&](double, Pose2& X_WB) {
+      if (pushed || X_WB.x_m < 1.97) return;
+      pushed = true;
+      X_WB = {1.995, aside_m, 0};
+    };
+    const Driven dut = Drive(path, options);
+    ASSERT_TRUE(dut.done);
+    const bool near = std::abs(aside_m) < 2 * Tricycle().turn_radius_m;
+    EXPECT_EQ(dut.missed.count, near) << aside_m;
+    EXPECT_EQ(DoneOff(dut, {2, 0}).has_value(), !near) << aside_m;
+    EXPECT_LT(DoneOff(dut, {2, 0}).value_or(0), 0.05) << aside_m;
+    double turned_rad = 0;
+    for (const auto& step : dut.steps)
+      turned_rad = std::max(turned_rad, std::abs(step.X_WB.yaw_rad));
+    EXPECT_EQ(turned_rad < kPi / 2, near) << aside_m;
+  }
 }
 
 TEST(SteeredPursuit, ForetellsItsTime) {

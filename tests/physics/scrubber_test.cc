@@ -138,6 +138,28 @@ TEST_F(ScrubberDrives, SharpCornersArePassedWide) {
   EXPECT_NEAR(dut.trace.back().y_m, 3.5, 0.1);
 }
 
+// Behind a sharp corner, nearer than its turn is wide: no dwell there is counted, and no end.
+TEST_F(ScrubberDrives, WhatItPassesBesideIsSaidAndNotCounted) {
+  const auto drive = [&](const std::string& rows) {
+    Save("plan.csv", "x_m,y_m,dwell_s\n1.5,1.5,0\n2.5,1.5,0\n" + rows);
+    return Drive(Read(Hall("plan: {file: plan.csv}\n")));
+  };
+  const EpisodeRecord stop = drive("2.3,1.7,1\n5,1.8,0\n");
+  EXPECT_EQ(stop.outcome, Outcome::kSuccess);
+  EXPECT_EQ(stop.metrics.stops_missed, 1);
+  EXPECT_EQ(stop.message, "passed beside 1 stop of the plan at x 2.30, y 1.70 m");
+
+  const EpisodeRecord end = drive("2.3,1.7,0\n");
+  EXPECT_EQ(end.outcome, Outcome::kFailure);
+  EXPECT_EQ(end.metrics.stops_missed, 1);
+  EXPECT_EQ(end.message, "passed beside the plan's end at x 2.30, y 1.70 m");
+
+  const EpisodeRecord both = drive("2.3,1.7,1\n4.5,1.8,0\n4.3,2,0\n");
+  EXPECT_EQ(both.outcome, Outcome::kFailure);
+  EXPECT_EQ(both.metrics.stops_missed, 2);
+  EXPECT_EQ(both.message, "passed beside 1 stop of the plan at x 2.30, y 1.70 m, and its end");
+}
+
 TEST_F(ScrubberDrives, PlannersThatTurnOnTheSpotAreRefused) {
   try {
     Read(Hall("plan: {planner: rolling_window}\n"));
