@@ -4,11 +4,8 @@
 // A plan's straight legs are kept, in their order and direction, shortened where the turn at their
 // end needs the room; what joins them is the shortest Dubins curve that stays clear (dubins.h).
 // Legs that no curve joins to the rest are left out, short ones also where the way is shorter
-// without. Which legs are kept, and how much of each, is the cheapest choice: driven length, and
-// what was to be driven and is not counts kLeftOut times. It is found by dynamic programming over
-// the legs, a few shortenings of each. A leg that ends in a dwell is kept to its end, or left out
-// at the cost of kStop_m more. The robot drives forward only. Assumed: where a leg leads is clear;
-// the clear shape is a circle.
+// without (leg_choice.h). The robot drives forward only. Assumed: where a leg leads is clear; the
+// clear shape is a circle.
 #pragma once
 
 #include "env/core/coverage.h"

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planners/lines/leg_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "planners/lines/turn_curves.h"
+
+namespace floorproof {
+namespace {
+
+constexpr double kStop_m = 10;  // what a dwell that is left out costs
+constexpr double kLeftOut = 2;  // cost of a metre that was to be driven and is not
+constexpr double kSame_m = 1e-6;
+constexpr double kStep_m = 0.02;                              // between places that are looked at
+constexpr double kShortenings[] = {0, 0.5, 1, 1.5, 2, 3, 4};  // turn radii
+constexpr std::size_t kAhead = 4;              // legs that are looked at from each, as a rule
+constexpr std::size_t kBack = 400, kMore = 8;  // see Rescue
+
+class Choice {
+ public:
+  Choice(const std::vector<Leg>& legs, const TurnRequest& request)
+      : request_(request), legs_(legs), states_(legs_.size()) {
+    for (const Leg& leg : legs_) {
+      double least_m = std::numeric_limits<double>::infinity();
+      for (double s_m = 0; s_m < leg.length_m + kStep_m; s_m += kStep_m)
+        least_m = std::min(least_m, request.clearance.At(leg.At(std::min(s_m, leg.length_m)).p()));
+      least_m_.push_back(least_m);
+      behind_m_.push_back(leg.length_m + (behind_m_.empty() ? 0 : behind_m_.back()));
+      stops_m_.push_back((leg.dwells ? kStop_m : 0) + (stops_m_.empty() ? 0 : stops_m_.back()));
+    }
+  }
+
+  std::vector<JoinedLeg> Make() {
+    states_[0].push_back({});
+    std::size_t reached = 0;
+    for (std::size_t i = 0; i < legs_.size(); ++i) {
+      if (i > reached) Rescue(i);
+      if (states_[i].empty()) continue;
+      reached = std::max(reached, i);
+      for (std::size_t j = i + 1; j < legs_.size() && j <= i + kAhead; ++j)
+        if (Join(i, j)) reached = std::max(reached, j);
+    }
+    return Collect();
+  }
+
+ private:
+  // A way to have come to a leg: from where on it is driven, and how it was come to.
+  struct State {
+    double begin_m = 0, cost = 0;
+    std::size_t leg = 0, state = 0;  // that came before, and where that ended
+    double end_m = 0;
+    DubinsCurve curve;
+  };
+
+  // Shortenings of a leg that are tried.
+  std::vector<double> Shortenings(const Leg& leg, double fillet_m) const {
+    std::vector<double> out;
+    for (const double radii : kShortenings)
+      if (radii * request_.turn_radius_m <= leg.length_m)
+        out.push_back(radii * request_.turn_radius_m);
+    // Into a dead end no farther than where there is room to turn.
+    for (const double share : {0.25, 0.5, 0.75})
+      if (share * leg.length_m > out.back()) out.push_back(share * leg.length_m);
+    if (fillet_m <= leg.length_m) out.push_back(fillet_m);
+    return out;
+  }
+
+  // Nothing led as far as to this leg: what lies before it is a dead end. It is joined to the legs
+  // from which that was entered, the nearest and some more.
+  void Rescue(std::size_t leg) {
+    std::size_t joined = 0;
+    for (std::size_t back = 1; back <= std::min(leg, kBack) && joined < kMore; ++back)
+      joined += !states_[leg - back].empty() && (Join(leg - back, leg) || joined > 0);
+  }
+
+  bool Join(std::size_t i, std::size_t j) {
+    const Leg &a = legs_[i], &b = legs_[j];
+    const double half = 0.5 * std::abs(WrapAngle(b.from.yaw_rad - a.from.yaw_rad));
+    const double fillet_m =
+        half < 1.4 ? request_.turn_radius_m * std::tan(half) : std::numeric_limits<double>::max();
+    double least_m = request_.clear_radius_m + request_.margin_m;
+    for (std::size_t k = i; k <= j; ++k) least_m = std::min(least_m, least_m_[k]);
+    const double skipped_m = behind_m_[j - 1] - behind_m_[i];
+    const double stops_m = stops_m_[j - 1] - stops_m_[i];
+    const std::vector<double> ends = a.dwells ? std::vector<double>{0} : Shortenings(a, fillet_m);
+    bool any = false;
+    for (const double begin_m : Shortenings(b, fillet_m))
+      for (const double cut_m : ends) {
+        const auto from = BestUntil(i, a.length_m - cut_m);
+        if (!from) continue;
+        const State& before = states_[i][*from];
+        const Pose2 leaves = a.At(a.length_m - cut_m), enters = b.At(begin_m);
+        const double cost = before.cost + a.length_m - cut_m - before.begin_m +
+                            kLeftOut * (cut_m + skipped_m + begin_m) + stops_m;
+        // No curve is shorter than the straight.
+        if (IsKept(j, begin_m, cost + (enters.p() - leaves.p()).norm())) continue;
+        const auto curve = Clear(leaves, enters, least_m);
+        if (!curve) continue;
+        Keep(j, {begin_m, cost + curve->Length(), i, *from, a.length_m - cut_m, *curve});
+        any = true;
+      }
+    return any;
+  }
+
+  // The cheapest way to have come to the leg that begins it by then.
+  std::optional<std::size_t> BestUntil(std::size_t leg, double until_m) const {
+    std::optional<std::size_t> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t s = 0; s < states_[leg].size(); ++s) {
+      const State& state = states_[leg][s];
+      const double cost = state.cost - state.begin_m;
+      if (state.begin_m > until_m + kSame_m || cost >= least) continue;
+      best = s;
+      least = cost;
+    }
+    return best;
+  }
+
+  // Whether a way to have come to the leg there is kept that costs no more than this.
+  bool IsKept(std::size_t leg, double begin_m, double cost) const {
+    return std::ranges::any_of(states_[leg], [&](const State& other) {
+      return std::abs(other.begin_m - begin_m) < kSame_m && other.cost <= cost;
+    });
+  }
+
+  // One a beginning: the cheapest.
+  void Keep(std::size_t leg, const State& state) {
+    for (State& other : states_[leg])
+      if (std::abs(other.begin_m - state.begin_m) < kSame_m) {
+        if (state.cost < other.cost) other = state;
+        return;
+      }
+    states_[leg].push_back(state);
+  }
+
+  std::optional<DubinsCurve> Clear(const Pose2& from, const Pose2& to, double least_m) const {
+    const DubinsCurves found = CurvesBetween(from, to, request_.turn_radius_m);
+    for (int k = 0; k < found.n; ++k) {
+      const DubinsCurve& curve = found.curves[static_cast<std::size_t>(k)];
+      const double length_m = curve.Length();
+      bool clear = true;
+      // From cell to cell clearance falls by their distance at most: what is left of it need not be
+      // looked at.
+      const double cells_m = std::numbers::sqrt2 * request_.clearance.frame.cell_m;
+      for (double s_m = 0; clear && s_m < length_m;) {
+        const double left_m = request_.clearance.At(curve.At(s_m).p()) - least_m;
+        clear = left_m >= 0;
+        s_m += std::max(kStep_m, left_m - cells_m);
+      }
+      if (clear) return curve;
+    }
+    return {};
+  }
+
+  // The cheapest way to drive, what it leaves out behind its end counted, too.
+  std::vector<JoinedLeg> Collect() const {
+    std::size_t leg = 0, state = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < legs_.size(); ++i)
+      for (std::size_t s = 0; s < states_[i].size(); ++s) {
+        const double cost = states_[i][s].cost + legs_[i].length_m - states_[i][s].begin_m +
+                            kLeftOut * (behind_m_.back() - behind_m_[i]) + stops_m_.back() -
+                            stops_m_[i];
+        if (cost >= least) continue;
+        least = cost;
+        leg = i;
+        state = s;
+      }
+    std::vector<JoinedLeg> out;
+    for (double end_m = legs_[leg].length_m; leg > 0;) {
+      const State& driven = states_[leg][state];
+      out.push_back({leg, driven.curve, driven.begin_m, end_m});
+      end_m = driven.end_m;
+      leg = driven.leg;
+      state = driven.state;
+    }
+    std::ranges::reverse(out);
+    return out;
+  }
+
+  const TurnRequest& request_;
+  const std::vector<Leg>& legs_;
+  std::vector<double> least_m_;  // clearance along each
+  // Up to the end of each leg: their length, and what their dwells cost if they are left out.
+  std::vector<double> behind_m_, stops_m_;
+  std::vector<std::vector<State>> states_;  // of each leg
+};
+
+}  // namespace
+
+std::vector<JoinedLeg> ChooseLegs(const std::vector<Leg>& legs, const TurnRequest& request) {
+  return Choice(legs, request).Make();
+}
+
+}  // namespace floorproof
