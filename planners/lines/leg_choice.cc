@@ -15,20 +15,17 @@ namespace {
 constexpr double kStop_m = 10;  // what a dwell that is left out costs
 constexpr double kLeftOut = 2;  // cost of a metre that was to be driven and is not
 constexpr double kSame_m = 1e-6;
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr double kStep_m = 0.02;                              // between places that are looked at
 constexpr double kShortenings[] = {0, 0.5, 1, 1.5, 2, 3, 4};  // turn radii
-constexpr std::size_t kAhead = 4;              // legs that are looked at from each, as a rule
-constexpr std::size_t kBack = 400, kMore = 8;  // see Rescue
+constexpr std::size_t kAhead = 4;  // legs that are looked at from each, as a rule
+constexpr std::size_t kBack = 400, kMore = 8, kTriesALeg = 4;  // see Rescue
 
 class Choice {
  public:
   Choice(const std::vector<Leg>& legs, const TurnRequest& request)
       : request_(request), legs_(legs), states_(legs_.size()) {
     for (const Leg& leg : legs_) {
-      double least_m = std::numeric_limits<double>::infinity();
-      for (double s_m = 0; s_m < leg.length_m + kStep_m; s_m += kStep_m)
-        least_m = std::min(least_m, request.clearance.At(leg.At(std::min(s_m, leg.length_m)).p()));
-      least_m_.push_back(least_m);
       behind_m_.push_back(leg.length_m + (behind_m_.empty() ? 0 : behind_m_.back()));
       stops_m_.push_back((leg.dwells ? kStop_m : 0) + (stops_m_.empty() ? 0 : stops_m_.back()));
     }
@@ -70,11 +67,17 @@ class Choice {
   }
 
   // Nothing led as far as to this leg: what lies before it is a dead end. It is joined to the legs
-  // from which that was entered, the nearest and some more.
+  // from which that was entered, the nearest and some more. Of those that a way leads to kBack are
+  // tried; kMore where that was in vain so often that there were more than kTriesALeg for each leg.
   void Rescue(std::size_t leg) {
-    std::size_t joined = 0;
-    for (std::size_t back = 1; back <= std::min(leg, kBack) && joined < kMore; ++back)
-      joined += !states_[leg - back].empty() && (Join(leg - back, leg) || joined > 0);
+    const bool far = tries_ <= kTriesALeg * leg + kBack;
+    std::size_t joined = 0, tried = 0;
+    for (std::size_t i = leg; i-- > 0 && joined < kMore && tried < (far ? kBack : kMore);) {
+      if (states_[i].empty()) continue;
+      ++tried;
+      joined += Join(i, leg) || joined > 0;
+    }
+    tries_ += tried;
   }
 
   bool Join(std::size_t i, std::size_t j) {
@@ -82,8 +85,6 @@ class Choice {
     const double half = 0.5 * std::abs(WrapAngle(b.from.yaw_rad - a.from.yaw_rad));
     const double fillet_m =
         half < 1.4 ? request_.turn_radius_m * std::tan(half) : std::numeric_limits<double>::max();
-    double least_m = request_.clear_radius_m + request_.margin_m;
-    for (std::size_t k = i; k <= j; ++k) least_m = std::min(least_m, least_m_[k]);
     const double skipped_m = behind_m_[j - 1] - behind_m_[i];
     const double stops_m = stops_m_[j - 1] - stops_m_[i];
     const std::vector<double> ends = a.dwells ? std::vector<double>{0} : Shortenings(a, fillet_m);
@@ -98,12 +99,26 @@ class Choice {
                             kLeftOut * (cut_m + skipped_m + begin_m) + stops_m;
         // No curve is shorter than the straight.
         if (IsKept(j, begin_m, cost + (enters.p() - leaves.p()).norm())) continue;
+        const double least_m =
+            std::min({request_.clear_radius_m + request_.margin_m,
+                      i > 0 ? LeastAlong(a, a.length_m - cut_m, 1) : kUnlimited,
+                      i > 0 ? LeastAlong(b, begin_m, -1) : request_.clearance.At(enters.p())});
         const auto curve = Clear(leaves, enters, least_m);
         if (!curve) continue;
         Keep(j, {begin_m, cost + curve->Length(), i, *from, a.length_m - cut_m, *curve});
         any = true;
       }
     return any;
+  }
+
+  // Clearance of a leg from there on, as far as an arc reaches ahead, or from there back.
+  double LeastAlong(const Leg& leg, double s_m, int side) const {
+    const double far_m = std::clamp(s_m + side * request_.turn_radius_m, 0.0, leg.length_m);
+    const int n = static_cast<int>(std::ceil(std::abs(far_m - s_m) / kStep_m));
+    double least_m = request_.clearance.At(leg.At(s_m).p());
+    for (int k = 1; k <= n; ++k)
+      least_m = std::min(least_m, request_.clearance.At(leg.At(s_m + (far_m - s_m) * k / n).p()));
+    return least_m;
   }
 
   // The cheapest way to have come to the leg that begins it by then.
@@ -137,19 +152,23 @@ class Choice {
     states_[leg].push_back(state);
   }
 
+  // The shortest that is as clear as `least_m`, or, until it has become so, as where it begins.
   std::optional<DubinsCurve> Clear(const Pose2& from, const Pose2& to, double least_m) const {
+    const double first_m = std::min(least_m, request_.clearance.At(from.p()));
+    // From cell to cell clearance changes by their distance at most: what is left of it need not be
+    // looked at.
+    const double cells_m = std::numbers::sqrt2 * request_.clearance.frame.cell_m;
     const DubinsCurves found = CurvesBetween(from, to, request_.turn_radius_m);
     for (int k = 0; k < found.n; ++k) {
       const DubinsCurve& curve = found.curves[static_cast<std::size_t>(k)];
       const double length_m = curve.Length();
       bool clear = true;
-      // From cell to cell clearance falls by their distance at most: what is left of it need not be
-      // looked at.
-      const double cells_m = std::numbers::sqrt2 * request_.clearance.frame.cell_m;
+      double needs_m = first_m;
       for (double s_m = 0; clear && s_m < length_m;) {
-        const double left_m = request_.clearance.At(curve.At(s_m).p()) - least_m;
-        clear = left_m >= 0;
-        s_m += std::max(kStep_m, left_m - cells_m);
+        const double here_m = request_.clearance.At(curve.At(s_m).p());
+        clear = here_m >= needs_m;
+        if (here_m >= least_m) needs_m = least_m;
+        s_m += std::max(kStep_m, std::abs(here_m - least_m) - cells_m);
       }
       if (clear) return curve;
     }
@@ -184,10 +203,10 @@ class Choice {
 
   const TurnRequest& request_;
   const std::vector<Leg>& legs_;
-  std::vector<double> least_m_;  // clearance along each
   // Up to the end of each leg: their length, and what their dwells cost if they are left out.
   std::vector<double> behind_m_, stops_m_;
   std::vector<std::vector<State>> states_;  // of each leg
+  std::size_t tries_ = 0;                   // of Rescue
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace floorproof {
 struct TurnRequest {
   const ClearanceField& clearance;
   double clear_radius_m = 0;  // of the circle around the robot's origin
-  double margin_m = 0;        // kept beyond it in turns, where the legs themselves keep as much
+  double margin_m = 0;        // kept beyond it in turns, where the two legs keep as much there
   double turn_radius_m = 0;   // least of the curves
   double lane_m = 0;          // a leg that is no longer only joins others: it is not counted
   Pose2 start;                // X_WB
@@ -29,7 +29,7 @@ struct TurnedPath {
   int stops_left_out = 0;       // ends of legs with a dwell
 };
 
-// Takes time as the number of legs; what is left out near each is bounded.
+// Takes time as the number of legs. Of what lies before each, few legs are looked at again.
 TurnedPath WithTurns(const Path& path, const TurnRequest& request);
 
 }  // namespace floorproof

@@ -3,7 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+#include <random>
+
 #include "planners/lines/dubins.h"
+#include "planners/lines/leg_choice.h"
+#include "planners/lines/legs.h"
 #include "tests/planners/curvature.h"
 #include "tests/planners/floors.h"
 
@@ -73,10 +79,7 @@ TEST(TurnCurves, RowsAreJoinedByUTurns) {
   EXPECT_GT(swept_m, 4 * (4 - 2 * kR_m) - 1e-6) << "each keeps what its turns leave";
 }
 
-// Nobody turns in a corridor that is narrower than a turn: the row into it is left out, and the
-// rest is driven.
-TEST(TurnCurves, ADeadEndIsLeftOut) {
-  const HazardMap map = Draw(R"(
+constexpr const char* kRoomWithCorridor = R"(
       ############################
       #................###########
       #................###########
@@ -89,8 +92,12 @@ TEST(TurnCurves, ADeadEndIsLeftOut) {
       #................###########
       #................###########
       #................###########
-      ############################)",
-                             0.25);
+      ############################)";
+
+// Nobody turns in a corridor that is narrower than a turn: the row into it is left out, and the
+// rest is driven.
+TEST(TurnCurves, ADeadEndIsLeftOut) {
+  const HazardMap map = Draw(kRoomWithCorridor, 0.25);
   const Path path = PathOf({{0.8, 1.6},
                             {6.4, 1.6},
                             {3.4, 1.6},
@@ -106,6 +113,85 @@ TEST(TurnCurves, ADeadEndIsLeftOut) {
   ASSERT_FALSE(dut.path.empty());
   EXPECT_EQ(dut.path.back().p_W, path.back().p_W);
   for (const Waypoint& w : dut.path) EXPECT_LT(w.p_W.x(), 4);
+}
+
+// However long the dead end is.
+TEST(TurnCurves, WhatComesAfterALongDeadEndIsDriven) {
+  const HazardMap map = Draw(kRoomWithCorridor, 0.25);
+  std::vector<Vec2> points = {{0.8, 1.6}, {4.6, 1.6}};
+  constexpr int kLegs = 450;  // across the corridor, where nobody can turn across
+  for (int k = 1; k <= kLegs; ++k)
+    points.emplace_back(4.6 + 1.5 * k / kLegs, 1.6 + (k % 2 == 0 ? 0.04 : -0.04));
+  for (const Vec2& p : {Vec2(3.4, 1.6), Vec2(3.4, 2.2), Vec2(0.8, 2.2), Vec2(0.8, 1), Vec2(3.4, 1)})
+    points.push_back(p);
+  const Path path = PathOf(points);
+  const TurnedPath dut = Turned(map, path, {0.8, 1.6, 0});
+  ASSERT_FALSE(dut.path.empty());
+  EXPECT_EQ(dut.path.back().p_W, path.back().p_W);
+  EXPECT_GE(dut.left_out, kLegs);
+}
+
+// The clearance of a leg from one place on it to another.
+double LeastAlong(const ClearanceField& clearance, const Leg& leg, double from_m, double to_m) {
+  double least_m = std::numeric_limits<double>::infinity();
+  for (double share = 0; share <= 1; share += 0.02)
+    least_m = std::min(
+        least_m,
+        clearance.At(leg.At(std::clamp(from_m + share * (to_m - from_m), 0.0, leg.length_m)).p()));
+  return least_m;
+}
+
+// Wherever else the plan comes near a wall, and wherever it starts: plans of chance in a room.
+TEST(TurnCurves, ATurnIsAsClearAsTheLegsThatItJoins) {
+  constexpr double kMargin_m = 0.2, kCells_m = 0.03;
+  const HazardMap map = EmptyFloor(16, 12, 0.25);  // 4 m x 3 m
+  const ClearanceField clearance = ComputeClearance(map, 0.01);
+  std::mt19937 random(7);
+  const auto share = [&] { return static_cast<double>(random()) / 4294967296.0; };
+  const auto place = [&] { return Vec2(0.32 + 3.36 * share(), 0.32 + 2.36 * share()); };
+  int near_walls = 0;
+  for (int plan = 0; plan < 30; ++plan) {
+    std::vector<Vec2> points;
+    for (int i = 0; i < 12; ++i) points.push_back(place());
+    const Pose2 start{points[0].x(), points[0].y(), 2 * kPi * share()};
+    const TurnRequest request{clearance, kBody_m, kMargin_m, kR_m, 0, start};
+    const std::vector<Leg> legs = LegsOf(PathOf(points), start);
+    const Leg* before = nullptr;
+    double left_m = 0;
+    for (const JoinedLeg& dut : ChooseLegs(legs, request)) {
+      const Leg& leg = legs[dut.leg];
+      const double wanted_m = kBody_m + kMargin_m;
+      const double end_m = clearance.At(leg.At(dut.begin_m).p());
+      double least_m = std::min(wanted_m, end_m), first_m = least_m;
+      if (before)
+        first_m = least_m =
+            std::min({wanted_m, LeastAlong(clearance, leg, dut.begin_m, dut.begin_m - kR_m),
+                      LeastAlong(clearance, *before, left_m, left_m + kR_m)});
+      else
+        first_m = std::min(least_m, clearance.At(start.p()));
+      bool has_left = false;
+      for (double s_m = 0; s_m < dut.curve.Length(); s_m += 0.01) {
+        const double here_m = clearance.At(dut.curve.At(s_m).p());
+        EXPECT_GE(here_m, (has_left ? least_m : first_m) - kCells_m) << plan << ", leg " << dut.leg;
+        has_left |= here_m > least_m + kCells_m;
+        near_walls += here_m < least_m + kCells_m;
+      }
+      before = &leg;
+      left_m = dut.end_m;
+    }
+  }
+  EXPECT_GT(near_walls, 100) << "it is put to the test";
+}
+
+// It stands 0.1 m too near to the wall on its right, which it must leave, and faces another: from
+// 0.5 m and a radius before that one there is room to turn.
+TEST(TurnCurves, AStartNearOneWallAllowsNoTurnNearAnother) {
+  const ClearanceField clearance = ComputeClearance(EmptyFloor(16, 12, 0.25), 0.01);
+  for (const double y_m : {0.95, 1.05}) {
+    const Pose2 start{0.4, y_m, -kPi / 2};
+    const TurnedPath dut = WithTurns(PathOf({{3, 2}}), {clearance, 0.3, 0.2, 0.5, 0, start});
+    EXPECT_EQ(dut.path.empty(), y_m < 1) << y_m;
+  }
 }
 
 TEST(TurnCurves, WhereItCannotLeaveTheStartThereIsNoPlan) {
