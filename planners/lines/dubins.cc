@@ -57,15 +57,17 @@ std::optional<std::array<double, 3>> OfArcs(const Pose2& to, const Word& word) {
                     Turned(word[2] * (to.yaw_rad - enters))};
 }
 
-Pose2 Along(const Pose2& from, int turn, double length_m, double radius_m) {
-  if (turn == 0) {
-    const Vec2 p = from * Vec2(length_m, 0);
-    return {p.x(), p.y(), from.yaw_rad};
-  }
+// The way that a piece leads, in the frame of the pose where it begins.
+Vec2 Ahead(int turn, double length_m, double radius_m) {
+  if (turn == 0) return {length_m, 0};
   const double angle = turn * length_m / radius_m;
-  const Vec2 p =
-      from * Vec2(radius_m * std::sin(std::abs(angle)), turn * radius_m * (1 - std::cos(angle)));
-  return {p.x(), p.y(), WrapAngle(from.yaw_rad + angle)};
+  return {radius_m * std::sin(std::abs(angle)), turn * radius_m * (1 - std::cos(angle))};
+}
+
+Pose2 Along(const Pose2& from, int turn, double length_m, double radius_m) {
+  const Vec2 p = from * Ahead(turn, length_m, radius_m);
+  if (turn == 0) return {p.x(), p.y(), from.yaw_rad};
+  return {p.x(), p.y(), WrapAngle(from.yaw_rad + turn * length_m / radius_m)};
 }
 
 }  // namespace
@@ -77,6 +79,24 @@ Pose2 DubinsCurve::At(double s_m) const {
     s_m -= length_m[k];
   }
   return at;
+}
+
+CurvePlaces::CurvePlaces(const DubinsCurve& curve) : curve_(curve) {
+  Pose2 at = curve.from;
+  for (std::size_t k = 0; k < pieces_.size(); ++k) {
+    pieces_[k] = {at.p(), {std::cos(at.yaw_rad), std::sin(at.yaw_rad)}};
+    if (k + 1 < pieces_.size()) at = Along(at, curve.turns[k], curve.length_m[k], curve.radius_m);
+  }
+}
+
+Vec2 CurvePlaces::At(double s_m) const {
+  std::size_t k = 0;
+  for (; k + 1 < pieces_.size() && s_m > curve_.length_m[k]; ++k) s_m -= curve_.length_m[k];
+  const auto& [p_W, along_W] = pieces_[k];
+  const double length_m = std::min(s_m, curve_.length_m[k]);
+  const Vec2 way = Ahead(curve_.turns[k], length_m, curve_.radius_m);
+  return p_W + Vec2(along_W.x() * way.x() - along_W.y() * way.y(),
+                    along_W.y() * way.x() + along_W.x() * way.y());
 }
 
 DubinsCurves CurvesBetween(const Pose2& from, const Pose2& to, double radius_m) {

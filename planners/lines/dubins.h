@@ -23,6 +23,21 @@ struct DubinsCurve {
   Pose2 At(double s_m) const;
 };
 
+// The places along a curve, for who asks for many of them.
+class CurvePlaces {
+ public:
+  explicit CurvePlaces(const DubinsCurve& curve);
+  // As DubinsCurve::At().
+  Vec2 At(double s_m) const;
+
+ private:
+  DubinsCurve curve_;
+  struct Piece {
+    Vec2 p_W, along_W;  // where it begins, and its heading there, unit
+  };
+  std::array<Piece, 3> pieces_;
+};
+
 // Of the six kinds LSL, RSR, LSR, RSL, RLR and LRL those that there are, the shortest first.
 struct DubinsCurves {
   std::array<DubinsCurve, 6> curves;

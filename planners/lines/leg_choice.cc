@@ -87,28 +87,47 @@ class Choice {
         half < 1.4 ? request_.turn_radius_m * std::tan(half) : std::numeric_limits<double>::max();
     const double skipped_m = behind_m_[j - 1] - behind_m_[i];
     const double stops_m = stops_m_[j - 1] - stops_m_[i];
-    const std::vector<double> ends = a.dwells ? std::vector<double>{0} : Shortenings(a, fillet_m);
+    const std::vector<Exit> exits = Exits(i, fillet_m);
+    const double wanted_m = request_.clear_radius_m + request_.margin_m;
     bool any = false;
-    for (const double begin_m : Shortenings(b, fillet_m))
-      for (const double cut_m : ends) {
-        const auto from = BestUntil(i, a.length_m - cut_m);
-        if (!from) continue;
-        const State& before = states_[i][*from];
-        const Pose2 leaves = a.At(a.length_m - cut_m), enters = b.At(begin_m);
-        const double cost = before.cost + a.length_m - cut_m - before.begin_m +
-                            kLeftOut * (cut_m + skipped_m + begin_m) + stops_m;
+    for (const double begin_m : Shortenings(b, fillet_m)) {
+      const Pose2 enters = b.At(begin_m);
+      const double enters_least_m = std::min(
+          wanted_m, i > 0 ? LeastAlong(b, begin_m, -1) : request_.clearance.At(enters.p()));
+      for (const Exit& exit : exits) {
+        const double cost = exit.cost + kLeftOut * (exit.cut_m + skipped_m + begin_m) + stops_m;
         // No curve is shorter than the straight.
-        if (IsKept(j, begin_m, cost + (enters.p() - leaves.p()).norm())) continue;
-        const double least_m =
-            std::min({request_.clear_radius_m + request_.margin_m,
-                      i > 0 ? LeastAlong(a, a.length_m - cut_m, 1) : kUnlimited,
-                      i > 0 ? LeastAlong(b, begin_m, -1) : request_.clearance.At(enters.p())});
-        const auto curve = Clear(leaves, enters, least_m);
+        const double most_m = KeptCost(j, begin_m) - cost;
+        if ((enters.p() - exit.leaves.p()).norm() >= most_m) continue;
+        const auto curve =
+            Clear(exit.leaves, enters, std::min(enters_least_m, exit.least_m), most_m);
         if (!curve) continue;
-        Keep(j, {begin_m, cost + curve->Length(), i, *from, a.length_m - cut_m, *curve});
+        Keep(j, {begin_m, cost + curve->Length(), i, exit.state, a.length_m - exit.cut_m, *curve});
         any = true;
       }
+    }
     return any;
+  }
+
+  // Where a leg may be left, by its cheapest state.
+  struct Exit {
+    double cut_m = 0, cost = 0;
+    std::size_t state = 0;
+    Pose2 leaves;
+    double least_m = 0;  // clearance that the leg allows there
+  };
+  std::vector<Exit> Exits(std::size_t i, double fillet_m) const {
+    const Leg& leg = legs_[i];
+    std::vector<Exit> out;
+    for (const double cut_m : leg.dwells ? std::vector<double>{0} : Shortenings(leg, fillet_m)) {
+      const double s_m = leg.length_m - cut_m;
+      const auto state = BestUntil(i, s_m);
+      if (!state) continue;
+      const State& before = states_[i][*state];
+      out.push_back({cut_m, before.cost + leg.length_m - cut_m - before.begin_m, *state,
+                     leg.At(s_m), i > 0 ? LeastAlong(leg, s_m, 1) : kUnlimited});
+    }
+    return out;
   }
 
   // Clearance of a leg from there on, as far as an arc reaches ahead, or from there back.
@@ -135,11 +154,11 @@ class Choice {
     return best;
   }
 
-  // Whether a way to have come to the leg there is kept that costs no more than this.
-  bool IsKept(std::size_t leg, double begin_m, double cost) const {
-    return std::ranges::any_of(states_[leg], [&](const State& other) {
-      return std::abs(other.begin_m - begin_m) < kSame_m && other.cost <= cost;
-    });
+  // What the way to have come to the leg there costs that is kept.
+  double KeptCost(std::size_t leg, double begin_m) const {
+    for (const State& state : states_[leg])
+      if (std::abs(state.begin_m - begin_m) < kSame_m) return state.cost;
+    return kUnlimited;
   }
 
   // One a beginning: the cheapest.
@@ -152,8 +171,10 @@ class Choice {
     states_[leg].push_back(state);
   }
 
-  // The shortest that is as clear as `least_m`, or, until it has become so, as where it begins.
-  std::optional<DubinsCurve> Clear(const Pose2& from, const Pose2& to, double least_m) const {
+  // The shortest, of less than most_m, that is as clear as `least_m`, or, until it has become so,
+  // as where it begins.
+  std::optional<DubinsCurve> Clear(const Pose2& from, const Pose2& to, double least_m,
+                                   double most_m) const {
     const double first_m = std::min(least_m, request_.clearance.At(from.p()));
     // From cell to cell clearance changes by their distance at most: what is left of it need not be
     // looked at.
@@ -162,10 +183,12 @@ class Choice {
     for (int k = 0; k < found.n; ++k) {
       const DubinsCurve& curve = found.curves[static_cast<std::size_t>(k)];
       const double length_m = curve.Length();
+      if (length_m >= most_m) break;
+      const CurvePlaces places(curve);
       bool clear = true;
       double needs_m = first_m;
       for (double s_m = 0; clear && s_m < length_m;) {
-        const double here_m = request_.clearance.At(curve.At(s_m).p());
+        const double here_m = request_.clearance.At(places.At(s_m));
         clear = here_m >= needs_m;
         if (here_m >= least_m) needs_m = least_m;
         s_m += std::max(kStep_m, std::abs(here_m - least_m) - cells_m);

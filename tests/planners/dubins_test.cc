@@ -59,6 +59,11 @@ TEST_P(RandomPoses, CurvesEndWhereTheyShallOnArcsOfTheRadius) {
         EXPECT_GE((at.p() - before.p()).norm(), 0.999 * kStep_m) << "it moves along its heading";
         before = at;
       }
+      const CurvePlaces places(curve);
+      for (int i = 0; i <= 20; ++i) {
+        const double s_m = 0.05 * i * curve.Length();
+        EXPECT_LE((places.At(s_m) - curve.At(s_m).p()).norm(), 1e-12);
+      }
       if (c > 0) {
         EXPECT_GE(curve.Length(), dut.curves[static_cast<std::size_t>(c - 1)].Length());
       }
