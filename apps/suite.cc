@@ -68,6 +68,14 @@ std::vector<RobotSuite> NamedRobots(const std::vector<std::string>& names) {
   return robots;
 }
 
+// Each is read once: what all of its methods start from.
+std::vector<RobotModel> Models(const std::vector<RobotSuite>& robots) {
+  std::vector<RobotModel> models;
+  for (const RobotSuite& robot : robots)
+    models.push_back(ReadRobot(FindRobotFile(robot.robot, {})));
+  return models;
+}
+
 fs::path Folder(const std::string& out, const std::vector<RobotSuite>& robots) {
   if (!out.empty()) return out;
   std::string name;
@@ -95,17 +103,29 @@ SuiteReport Request(const Options& options, const Globals& globals) {
       throw InputError({"--require", 0}, "", text, "is asked of this method already");
   }
   report.robots = NamedRobots(options.robots);
-  for (const RobotSuite& robot : report.robots) RefuseBeyondLadders(report.required, robot.robot);
   return report;
 }
 
+// Lays out and reads one run of each method: what is wrong with one costs no drive.
+void CheckMethods(const SuiteReport& report, const std::vector<RobotModel>& models,
+                  const std::string& methods) {
+  const auto asked = Asked(methods);
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const RobotSuite& robot = report.robots[i];
+    RefuseBeyondLadders(report.required, models[i]);
+    for (const auto* entry : asked) CheckMethod(*entry, models[i], robot.robot, report.options);
+  }
+}
+
 // Runs a method and adds what came of it; false when interrupted.
-bool Run(const PluginEntry<Method>& entry, const SuiteReport& report, RobotSuite& robot,
-         const Globals& globals) {
+bool Run(const PluginEntry<Method>& entry, const RobotModel& model, const SuiteReport& report,
+         RobotSuite& robot, const Globals& globals) {
   ProgressLine line(globals);
-  auto result = RunMethod(entry, robot.robot, report.options, [&](const SuiteProgress& now) {
+  auto result = RunMethod(entry, model, robot.robot, report.options, [&](const SuiteProgress& now) {
     if (line.IsDue())
-      line.Show(fmt::format("  {} {}: {}", robot.label, now.method, CountText(now.driven, "run")));
+      line.Show(fmt::format("  {} {}, {} of {}: {} of {} driven, {} in all", robot.label,
+                            now.method, robot.methods.size() + 1, CountText(report.asked, "method"),
+                            now.driven, CountText(now.asked, "run"), now.driven_in_all));
   });
   if (!result) return false;
   line.Clear();
@@ -118,10 +138,10 @@ bool Run(const PluginEntry<Method>& entry, const SuiteReport& report, RobotSuite
 
 int RunIt(const Options& options, const Globals& globals) {
   SuiteReport report = Request(options, globals);
+  const std::vector<RobotModel> models = Models(report.robots);
+  CheckMethods(report, models, options.methods);
   const fs::path folder = Folder(options.out, report.robots);
   ResultFolder out(folder, SuiteResults(), {});
-  for (const auto* entry : Asked(options.methods))
-    for (const RobotSuite& robot : report.robots) CheckMethod(*entry, robot.robot, report.options);
   out.Begin();
   SayWhenInterrupted("the methods that were done are in " + folder.string());
   const HoldInterrupts hold;
@@ -131,11 +151,12 @@ int RunIt(const Options& options, const Globals& globals) {
                           PopulationText()));
   WriteSuiteFiles(report, folder);  // what an earlier suite left does not stand for this one
   for (const auto* entry : Asked(options.methods))
-    for (RobotSuite& robot : report.robots) {
-      if (!Run(*entry, report, robot, globals)) throw Interruption();
+    for (std::size_t i = 0; i < models.size(); ++i) {
+      RobotSuite& robot = report.robots[i];
+      if (!Run(*entry, models[i], report, robot, globals)) throw Interruption();
       WriteSuiteFiles(report, folder);
       if (!options.no_films && robot.methods.back().not_applicable.empty()) {
-        FilmMethod(robot, robot.methods.back(), report.options, folder);
+        FilmMethod(robot, models[i], robot.methods.back(), report.options, folder);
         robot.filmed.emplace_back(entry->name);
         WriteSuiteFiles(report, folder);
       }

@@ -20,14 +20,13 @@ ResultNames RunFiles() {
 
 }  // namespace
 
-void FilmMethod(const RobotSuite& robot, const MethodResult& result, const SuiteOptions& options,
-                const fs::path& folder) {
+void FilmMethod(const RobotSuite& robot, const RobotModel& model, const MethodResult& result,
+                const SuiteOptions& options, const fs::path& folder) {
   if (result.runs.empty()) return;
   const SuiteRun& run = result.runs[result.shown];
   const fs::path into = folder / FilmFolder(robot, result.method);
   RefuseLinks(folder, into);
   const auto entry = std::ranges::find(Methods(), result.method, &PluginEntry<Method>::name);
-  const RobotModel model = ReadRobot(FindRobotFile(robot.robot, {}));
   {
     ResultFolder files(into, RunFiles(), {});
     files.Begin();

@@ -21,7 +21,7 @@ SuiteOptions Quick(std::vector<Override> overrides = {}) {
 MethodResult Tested(std::string_view method, const SuiteOptions& options,
                     const std::string& robot = "beluga") {
   const auto entry = std::ranges::find(Methods(), method, &PluginEntry<Method>::name);
-  auto result = RunMethod(*entry, robot, options, {});
+  auto result = RunMethod(*entry, ReadRobot(FindRobotFile(robot, {})), robot, options, {});
   EXPECT_TRUE(result.has_value());
   return std::move(*result);
 }
@@ -144,6 +144,17 @@ TEST(Suite, AnyNumberOfJobsGivesTheSame) {
   EXPECT_EQ(at(*one.size + 1, false), 1);
   EXPECT_FALSE(one.runs[one.shown].verdict.passed);
   EXPECT_EQ(one.runs[one.shown].size, *one.size + 1);
+}
+
+TEST(Suite, SaysAfterEachRunHowFarItIs) {
+  int told = 0;
+  const auto& entry = *std::ranges::find(Methods(), "step", &PluginEntry<Method>::name);
+  const auto dut = RunMethod(entry, Beluga(), "beluga", Quick(), [&](const SuiteProgress& now) {
+    EXPECT_EQ(now.driven_in_all, ++told);
+    EXPECT_LE(now.driven, now.asked);
+  });
+  ASSERT_TRUE(dut.has_value());
+  EXPECT_EQ(told, static_cast<int>(dut->runs.size()));
 }
 
 // What lies lower is caught by a lower belly.

@@ -59,10 +59,7 @@ SuiteRequirement ReadRequirement(const std::string& text) {
   return required;
 }
 
-void RefuseBeyondLadders(std::span<const SuiteRequirement> required,
-                         const std::string& robot_name) {
-  if (required.empty()) return;
-  const RobotModel robot = ReadRobot(FindRobotFile(robot_name, {}));
+void RefuseBeyondLadders(std::span<const SuiteRequirement> required, const RobotModel& robot) {
   for (const SuiteRequirement& r : required) {
     const auto sizes = MakePlugin(Methods(), r.method, "--require")->sizes(robot);
     if (!sizes) continue;

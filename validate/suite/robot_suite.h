@@ -26,7 +26,7 @@ struct SuiteRequirement {
 // Throws InputError.
 SuiteRequirement ReadRequirement(const std::string& text);
 // Throws InputError naming what no run of this robot could reach.
-void RefuseBeyondLadders(std::span<const SuiteRequirement> required, const std::string& robot_name);
+void RefuseBeyondLadders(std::span<const SuiteRequirement> required, const RobotModel& robot);
 
 // Why the method's result is not what is asked for; empty: it is. Without requirements a method
 // must pass: one with sizes at its easiest.

@@ -2,14 +2,10 @@
 // The suite: test methods over and over on one robot, until each has demonstrated what it can.
 //
 // n = RunsToDemonstrate(reliability, confidence) runs, each with its own draws. Of a method with
-// sizes the largest is found that all n pass. That is the least of n draws' own limits, where
-// whoever passes a size passes what is easier: so n passes at it demonstrate the reliability
-// although the size was searched for with the same draws (Wilks' one-sided tolerance limit, Ann.
-// Math. Stat. 12 (1941) 91). The same holds of the greatest of n measured figures.
-//
-// How it is searched: the draw on the slipperiest floor climbs the ladder (limit_search.h). All
-// draws are driven at its limit; one that fails goes down to its own limit, and so on. Of each
-// method the size above the one that passed was tried, and a draw failed it.
+// sizes the largest is found that all n pass (method_search.h). That is the least of n draws' own
+// limits, where whoever passes a size passes what is easier: so n passes at it demonstrate the
+// reliability although the size was searched for with the same draws (Wilks' one-sided tolerance
+// limit, Ann. Math. Stat. 12 (1941) 91). The same holds of the greatest of n measured figures.
 #pragma once
 
 #include <cstdint>
@@ -69,23 +65,24 @@ struct MethodResult {
 // "passed", "failed", "limit found" or "not applicable".
 std::string_view VerdictWord(const MethodResult& result);
 
-// How far a method is.
+// How far a method is: runs of those that are driven now, and of all so far.
 struct SuiteProgress {
   std::string_view method;
-  int driven = 0;  // runs
-  double size = 0;
+  int driven = 0, asked = 0;
+  int driven_in_all = 0;
 };
 
 // Lays the method's first run out and reads it, where the method can be asked of this robot: what
 // is wrong with it costs no drive. Throws InputError.
-void CheckMethod(const PluginEntry<Method>& entry, const std::string& robot,
+void CheckMethod(const PluginEntry<Method>& entry, const RobotModel& robot, const std::string& name,
                  const SuiteOptions& options);
 
-// Runs one method. Nothing when interrupted. The same result for any number of jobs. `robot`: a
-// bundled name or a file. Throws InputError where a scenario cannot be laid out (an override that
+// Runs one method. Nothing when interrupted. The same result for any number of jobs. `name`: the
+// robot's, a bundled one or a file. `on_progress` is called after each run, by one thread at a
+// time. Throws InputError where a scenario cannot be laid out (an override that
 // makes no sense), InternalError when the physics diverges.
-std::optional<MethodResult> RunMethod(const PluginEntry<Method>& entry, const std::string& robot,
-                                      const SuiteOptions& options,
+std::optional<MethodResult> RunMethod(const PluginEntry<Method>& entry, const RobotModel& robot,
+                                      const std::string& name, const SuiteOptions& options,
                                       const std::function<void(const SuiteProgress&)>& on_progress);
 
 // A run as a user would drive it: scenario.yaml, and line.csv where the method states a plan, in

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <mutex>
 
 #include "base/file_output.h"
 #include "base/interrupt.h"
@@ -98,11 +99,14 @@ void SuiteDrive::Judge(Scenario& scenario, SuiteRun& run) const {
   run.mass_kg = scenario.robot_changes.mass_kg.value_or(scenario.robot.spec.mass_kg);
 }
 
-std::vector<SuiteRun> SuiteDrive::Drive(std::vector<SuiteRun> runs, bool all) const {
+std::vector<SuiteRun> SuiteDrive::Drive(std::vector<SuiteRun> runs, bool all,
+                                        const std::function<void(int driven)>& on_driven) const {
   // A robot of a user's own is read in a child process, which must find no other thread at work: a
   // few scenarios are read, then driven.
   const int chunk = 4 * options_.jobs;
   const int n = static_cast<int>(runs.size());
+  std::mutex telling;
+  int driven = 0;
   for (int from = 0; from < n; from += chunk) {
     const int count = std::min(chunk, n - from);
     std::vector<Scenario> scenarios;
@@ -113,6 +117,10 @@ std::vector<SuiteRun> SuiteDrive::Drive(std::vector<SuiteRun> runs, bool all) co
       if (!all && i > first_failure) return;
       SuiteRun& run = runs[static_cast<std::size_t>(from + i)];
       Judge(scenarios[static_cast<std::size_t>(i)], run);
+      {
+        const std::lock_guard lock(telling);
+        on_driven(++driven);
+      }
       if (run.verdict.passed) return;
       for (int first = first_failure; i < first && !first_failure.compare_exchange_weak(first, i);)
         ;

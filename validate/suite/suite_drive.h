@@ -2,6 +2,11 @@
 // One run of a method, from its draws to its verdict.
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "validate/suite/suite.h"
 
 namespace floorproof {
@@ -14,8 +19,10 @@ class SuiteDrive {
 
   SuiteRun Draw(int run, double size) const;
   // Drives and judges them on the suite's threads, in order up to the first that fails (`all`: to
-  // the end), whatever finished first. Fewer when interrupted.
-  std::vector<SuiteRun> Drive(std::vector<SuiteRun> runs, bool all) const;
+  // the end), whatever finished first. None when interrupted. Tells after each run how many were
+  // driven, one thread at a time.
+  std::vector<SuiteRun> Drive(std::vector<SuiteRun> runs, bool all,
+                              const std::function<void(int driven)>& on_driven) const;
   Scenario Read(const SuiteRun& run) const;
   // The scenario's text; `with_plan`: its plan stands in a file beside it.
   std::string Text(const SuiteRun& run, const MethodDrive& drive, bool with_plan) const;
