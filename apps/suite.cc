@@ -131,7 +131,7 @@ bool Run(const PluginEntry<Method>& entry, const RobotModel& model, const SuiteR
   line.Clear();
   const std::string missed = WhyMissed(*result, report.required);
   globals.Say(fmt::format("  {:<10} {:<18} {:<18} {}", robot.label, entry.name, ResultText(*result),
-                          missed.empty() ? "" : "MISSED: " + missed));
+                          missed.empty() ? WithdrawnText(*result) : "MISSED: " + missed));
   robot.methods.push_back(std::move(*result));
   return true;
 }

@@ -51,7 +51,11 @@ Json MethodJson(const SuiteReport& report, const MethodResult& result) {
   if (result.sizes) {
     json["size"] = or_null(result.size);
     json["unit"] = result.sizes->unit;
+    json["size_is"] = result.sizes->what;
     json["or_harder"] = result.above_all;
+    json["easier_runs"] = result.easier;
+    json["fails_at"] = or_null(FailsAt(result));
+    json["withdrawn"] = or_null(result.withdrawn);
   }
   if (result.measures) {
     json["figure"] = or_null(result.figure);
@@ -102,14 +106,14 @@ ResultNames SuiteResults() {
 
 std::string SuiteCsv(const SuiteReport& report) {
   std::string csv =
-      "robot,method,verdict,size,unit,or_harder,figure,figure_unit,n,failures,reliability_lower,"
-      "missed\n";
+      "robot,method,verdict,size,unit,or_harder,fails_at,withdrawn,figure,figure_unit,n,failures,"
+      "reliability_lower,missed\n";
   ForEachMethod(report, [&](const RobotSuite& robot, const MethodResult& r) {
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", CsvField(robot.label), r.method,
-                       VerdictWord(r), OrEmpty(r.size), Unit(r), r.above_all ? 1 : 0,
-                       OrEmpty(r.figure), r.measures ? std::string(r.measures->unit) : "", r.n,
-                       r.failures, FormatDouble(r.reliability_lower),
-                       CsvField(WhyMissed(r, report.required)));
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", CsvField(robot.label),
+                       r.method, VerdictWord(r), OrEmpty(r.size), Unit(r), r.above_all ? 1 : 0,
+                       OrEmpty(FailsAt(r)), OrEmpty(r.withdrawn), OrEmpty(r.figure),
+                       r.measures ? std::string(r.measures->unit) : "", r.n, r.failures,
+                       FormatDouble(r.reliability_lower), CsvField(WhyMissed(r, report.required)));
   });
   return csv;
 }

@@ -24,7 +24,8 @@ struct SuiteReport {
 // suite.json, suite.csv, runs.csv, junit.xml and report.html.
 ResultNames SuiteResults();
 
-// robot,method,verdict,size,unit,or_harder,figure,figure_unit,n,failures,reliability_lower,missed
+// robot,method,verdict,size,unit,or_harder,fails_at,withdrawn,figure,figure_unit,n,failures,
+// reliability_lower,missed
 std::string SuiteCsv(const SuiteReport& report);
 // A row a run, in the order driven: its size, its draws and what came of it.
 std::string SuiteRunsCsv(const SuiteReport& report);

@@ -121,11 +121,13 @@ std::string ResultCell(const SuiteReport& report, const MethodResult* result, do
     bar = fmt::format(
         "<div class=\"meter\" aria-hidden=\"true\"><i style=\"width:{:.1f}%\"></i></div>",
         100 * *shown / most);
-  return fmt::format("<td class=\"result\"><span class=\"{}\">{}</span>{}</td>",
+  const std::string withdrawn = MarkupText(WithdrawnText(*result));
+  return fmt::format("<td class=\"result\"><span class=\"{}\">{}</span>{}{}</td>",
                      missed ? "missed"
                      : nil  ? "nil"
                             : "fine",
-                     MarkupText(ResultText(*result)), bar);
+                     MarkupText(ResultText(*result)), withdrawn.empty() ? "" : "<br>" + withdrawn,
+                     bar);
 }
 
 std::string Table(const SuiteReport& report) {
@@ -212,8 +214,9 @@ std::string MethodCard(const SuiteReport& report, const PluginEntry<Method>& ent
 std::string HowText(const SuiteReport& report) {
   return fmt::format(
       "<p>Runs are drawn from one population: {}.{} Run i has the same draws at every size and for "
-      "every robot (seed {}). A size counts when all runs pass it; the next harder one was tried, "
-      "and a run failed it, but for sizes at the ladder's end (\"or more\", \"or less\"). Methods "
+      "every robot (seed {}). A size counts when all runs pass it and no easier one that was tried "
+      "fails; a harder one was tried, and a run failed it, but for sizes at the ladder's end (\"or "
+      "more\", \"or less\"). Methods "
       "are shaped after tests of the standards that they name: they "
       "have their idea, not their apparatus, and nothing here conforms to a standard.</p>\n",
       MarkupText(PopulationText()), MarkupText(SetText(report)), report.options.seed);

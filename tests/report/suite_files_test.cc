@@ -70,11 +70,11 @@ int Count(const std::string& text, const std::string& part) {
 TEST(SuiteFiles, ARowAMethodAndARowARun) {
   const std::string csv = SuiteCsv(TwoRobots());
   EXPECT_EQ(Count(csv, "\n"), 6);
-  EXPECT_THAT(csv, HasSubstr("a,step,limit found,12,mm,0,,,2,0,0.5,\n"));
-  EXPECT_THAT(csv, HasSubstr("a,obstacle,failed,,,0,,,2,1,0,1 of 2 failed\n"));
+  EXPECT_THAT(csv, HasSubstr("a,step,limit found,12,mm,0,13,,,,2,0,0.5,\n"));
+  EXPECT_THAT(csv, HasSubstr("a,obstacle,failed,,,0,,,,,2,1,0,1 of 2 failed\n"));
   EXPECT_THAT(csv, HasSubstr("a,lost,not applicable,"));
-  EXPECT_THAT(csv,
-              HasSubstr("b<b>,step,limit found,10,mm,0,,,2,0,0.5,\"10 mm, 11 mm is required\"\n"));
+  EXPECT_THAT(
+      csv, HasSubstr("b<b>,step,limit found,10,mm,0,11,,,,2,0,0.5,\"10 mm, 11 mm is required\"\n"));
   const std::string runs = SuiteRunsCsv(TwoRobots());
   EXPECT_EQ(Count(runs, "\n"), 5);
   EXPECT_THAT(runs, HasSubstr("a,step,12,mm,1,0.7,9.5,")) << "as it was driven";
@@ -109,6 +109,20 @@ TEST(SuiteFiles, SayWhatWasSet) {
   dut.options.overrides = {{"robot.mass_kg", "30"}};
   EXPECT_EQ(SuiteJson(dut)["set"]["robot.mass_kg"], "30");
   EXPECT_THAT(SuitePage(dut, "."), HasSubstr("Set for every run instead: robot.mass_kg = 30."));
+}
+
+// Wherever the size is read, it is read that a harder one was taken back.
+TEST(SuiteFiles, SayWhatWasTakenBack) {
+  SuiteReport dut = TwoRobots();
+  dut.robots[0].methods[0].withdrawn = 80;
+  const char* said = "lso fails at an easier size: 13 mm; so 80 mm, which all runs pass, does not";
+  EXPECT_EQ(Count(SuitePage(dut, "."), said), 2) << "in the table and in words";
+  EXPECT_THAT(SuiteJunit(dut), HasSubstr(said));
+  const auto json = SuiteJson(dut)["robots"][0]["methods"][0];
+  EXPECT_THAT(std::string(json["text"]), HasSubstr(said));
+  EXPECT_EQ(json["withdrawn"], 80);
+  EXPECT_EQ(json["fails_at"], 13);
+  EXPECT_THAT(SuiteCsv(dut), HasSubstr("a,step,limit found,12,mm,0,13,80,"));
 }
 
 TEST(SuitePage, ShowsRobotsSideBySideAndLoadsNothing) {

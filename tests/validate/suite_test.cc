@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "stats/binomial.h"
+#include "validate/suite/bench_floor.h"
+#include "validate/suite/method_search.h"
 #include "validate/suite/robot_suite.h"
 
 namespace floorproof {
@@ -144,6 +147,99 @@ TEST(Suite, AnyNumberOfJobsGivesTheSame) {
   EXPECT_EQ(at(*one.size + 1, false), 1);
   EXPECT_FALSE(one.runs[one.shown].verdict.passed);
   EXPECT_EQ(one.runs[one.shown].size, *one.size + 1);
+}
+
+// Who passes a size need not pass an easier one: a belly may hang on a low sill between two wheels
+// that carry it over a high one. Here a verdict stands for that, behind drives of a moment.
+class WithAWindow final : public Method {
+ public:
+  std::string_view shaped_after() const override { return ""; }
+  std::string_view task() const override { return ""; }
+  // Rungs at 1, 41 and 81: the climb steps over the window.
+  std::optional<SizeLadder> sizes(const RobotModel&) const override {
+    return SizeLadder{"height", "mm", {.per_unit = 1, .first = 1, .spacing = 40, .last = 97}};
+  }
+  MethodDrive LayOut(const MethodRun& run) const override {
+    return {BenchFloor(2, 2).Keys(run, {1, 1, 0}) + "time_limit_s: 0.02\n",
+            StraightPlan({1, 1}, {1.5, 1}, 0.1)};
+  }
+  MethodVerdict Judge(const MethodRun& run, const EpisodeRecord&) const override {
+    if (run.size >= window.first && run.size <= window.second) return {false, "hangs"};
+    if (run.size > 80) return {false, "stands before it"};
+    return {true};
+  }
+  static std::pair<double, double> window;  // mm
+};
+std::pair<double, double> WithAWindow::window;
+
+MethodResult TestedWithAWindow(double from_mm, double to_mm, int jobs = 2) {
+  WithAWindow::window = {from_mm, to_mm};
+  const PluginEntry<Method> entry{
+      "window", "", [] { return std::unique_ptr<Method>(std::make_unique<WithAWindow>()); }};
+  const SuiteOptions options{.reliability = 0.8, .confidence = 0.95, .jobs = jobs};
+  return *RunMethod(entry, Beluga(), "beluga", options, {});
+}
+
+TEST(Suite, AFailureAtAnEasierSizeTakesTheClaimBack) {
+  const MethodResult dut = TestedWithAWindow(26, 40);
+  EXPECT_EQ(dut.size, 25);
+  EXPECT_EQ(dut.withdrawn, 80);
+  EXPECT_EQ(FailsAt(dut), 26);
+  EXPECT_EQ(dut.failures, 0);
+  EXPECT_EQ(dut.n, 14);
+  EXPECT_FALSE(dut.above_all);
+  EXPECT_GT(dut.easier, 0);
+  EXPECT_EQ(dut.runs[dut.shown].verdict.why, "hangs");
+  EXPECT_THAT(ResultSentence(dut, Quick()),
+              ::testing::HasSubstr("It also fails at an easier size: 26 mm; so 80 mm, which all "
+                                   "runs pass, does not count."));
+  EXPECT_THAT(WhyMissed(dut, std::vector<SuiteRequirement>{{"window", 60}}),
+              ::testing::HasSubstr("25 mm, 60 mm is required; also fails at an easier size: 26"));
+  EXPECT_EQ(WhyMissed(dut, std::vector<SuiteRequirement>{{"window", 25}}), "");
+  const MethodResult one = TestedWithAWindow(26, 40, 1);
+  ASSERT_EQ(one.runs.size(), dut.runs.size());
+  for (std::size_t i = 0; i < one.runs.size(); ++i)
+    EXPECT_EQ(std::pair(one.runs[i].run, one.runs[i].size),
+              std::pair(dut.runs[i].run, dut.runs[i].size));
+}
+
+// Down to the easiest of all, where nothing is left to claim.
+TEST(Suite, AWindowAtTheEasiestSizeLeavesNothing) {
+  const MethodResult dut = TestedWithAWindow(1, 30);
+  EXPECT_FALSE(dut.size.has_value());
+  EXPECT_EQ(dut.failures, dut.n);
+  EXPECT_FALSE(dut.passed());
+}
+
+TEST(Suite, WithoutAWindowNothingIsTakenBack) {
+  const MethodResult dut = TestedWithAWindow(0, 0);
+  EXPECT_EQ(dut.size, 80);
+  EXPECT_FALSE(dut.withdrawn.has_value());
+  EXPECT_EQ(WithdrawnText(dut), "");
+  EXPECT_EQ(FailsAt(dut), 81);
+}
+
+// No tenth of what is easier is left out, the slipperiest is among those asked, and none is asked
+// twice.
+TEST(Suite, EasierTriesAreSpreadOverWhatIsEasier) {
+  std::vector<int> order(59);
+  std::iota(order.rbegin(), order.rend(), 0);
+  for (const int rung : {2, 7, 25, 101, 402}) {
+    constexpr int kFirst = 1;
+    const std::vector<Try> dut = EasierTries(kFirst, rung, order);
+    EXPECT_EQ(dut.front().run, order.front());
+    std::set<int> rungs = {kFirst - 1, rung}, runs;
+    for (const Try& one : dut) {
+      EXPECT_GE(one.rung, kFirst);
+      EXPECT_LT(one.rung, rung);
+      EXPECT_TRUE(runs.insert(one.run).second);
+      rungs.insert(one.rung);
+    }
+    for (auto at = rungs.begin(); std::next(at) != rungs.end(); ++at)
+      EXPECT_LE(*std::next(at) - *at, std::max(1.0, 0.1 * (rung - kFirst) + 1)) << rung;
+  }
+  EXPECT_TRUE(EasierTries(3, 3, order).empty());
+  EXPECT_TRUE(EasierTries(3, 0, order).empty());
 }
 
 TEST(Suite, SaysAfterEachRunHowFarItIs) {

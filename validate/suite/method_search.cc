@@ -3,12 +3,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
 #include "base/interrupt.h"
 
 namespace floorproof {
+
+std::vector<Try> EasierTries(int first, int rung, const std::vector<int>& order) {
+  constexpr std::size_t kEvery = 2;
+  std::vector<Try> tries;
+  if (rung <= first) return tries;
+  double share = 0.5;
+  for (std::size_t i = 0; i < order.size(); i += kEvery) {
+    tries.push_back({first + static_cast<int>(share * (rung - first)), order[i]});
+    share = std::fmod(share + std::numbers::phi, 1);
+  }
+  return tries;
+}
 
 MethodSearch::MethodSearch(const SuiteDrive& drive, int n, MethodResult& result,
                            std::function<void(const SuiteProgress&)> on_progress)
@@ -84,11 +97,19 @@ bool MethodSearch::Passes(const Try& one) {
   return !driven.empty() && driven.front()->verdict.passed;
 }
 
-// The first of all n at this rung that fails.
+// The first of all n at this rung that fails. Where none does, the easiest failure below it.
 std::optional<Try> MethodSearch::WhatFails(int rung) {
-  const auto driven = Drive(AllAt(rung), false);
-  if (Interrupted() || driven.back()->verdict.passed) return {};
-  return Try{rung, driven.back()->run};
+  const auto at_it = Drive(AllAt(rung), false);
+  if (Interrupted()) return {};
+  if (!at_it.back()->verdict.passed) return Try{rung, at_it.back()->run};
+  const std::vector<Try> tries = EasierTries(result_.sizes->rungs.first, rung, order_);
+  const auto easier = Drive(tries, true);
+  if (Interrupted()) return {};
+  std::optional<Try> failed;
+  for (std::size_t i = 0; i < tries.size(); ++i)
+    if (!easier[i]->verdict.passed && (!failed || tries[i] < *failed)) failed = tries[i];
+  if (failed && !result_.withdrawn) result_.withdrawn = Size(rung);
+  return failed;
 }
 
 // The hardest rung below it that this run passes, by bisection; 0: not the first.

@@ -23,8 +23,7 @@ std::string AtLeastPercent(double share) {
   return PercentText(std::floor(share * kDigits + 1e-9) / kDigits);
 }
 
-// What failed at the size above the one that passed.
-const SuiteRun* FailedAbove(const MethodResult& result) {
+const SuiteRun* EasiestFailure(const MethodResult& result) {
   const SuiteRun* found = nullptr;
   for (const SuiteRun& run : result.runs) {
     if (run.verdict.passed) continue;
@@ -70,21 +69,35 @@ void RefuseBeyondLadders(std::span<const SuiteRequirement> required, const Robot
   }
 }
 
+std::optional<double> FailsAt(const MethodResult& result) {
+  if (!result.sizes) return {};
+  const SuiteRun* failed = EasiestFailure(result);
+  return failed == nullptr ? std::nullopt : std::optional(failed->size);
+}
+
+std::string WithdrawnText(const MethodResult& result) {
+  if (!result.withdrawn) return "";
+  return fmt::format("also fails at an easier size: {}; so {}, which all runs pass, does not count",
+                     SizeText(*result.sizes, *FailsAt(result)),
+                     SizeText(*result.sizes, *result.withdrawn));
+}
+
 std::string WhyMissed(const MethodResult& result, std::span<const SuiteRequirement> required) {
   if (!result.not_applicable.empty()) {
     const bool asked = std::ranges::any_of(
         required, [&](const SuiteRequirement& r) { return r.method == result.method; });
     return asked ? "not applicable: " + result.not_applicable : "";
   }
+  const std::string withdrawn = result.withdrawn ? "; " + WithdrawnText(result) : "";
   if (!result.passed()) {
-    return fmt::format("{} of {} failed{}", result.failures, result.n,
-                       result.sizes ? " at the easiest size" : "");
+    return fmt::format("{} of {} failed{}{}", result.failures, result.n,
+                       result.sizes ? " at the easiest size" : "", withdrawn);
   }
   for (const SuiteRequirement& r : required) {
     if (r.method != result.method) continue;
     if (result.sizes && !result.sizes->Reaches(*result.size, r.value))
-      return fmt::format("{}, {} is required", SizeText(*result.sizes, *result.size),
-                         SizeText(*result.sizes, r.value));
+      return fmt::format("{}, {} is required{}", SizeText(*result.sizes, *result.size),
+                         SizeText(*result.sizes, r.value), withdrawn);
     if (result.measures && result.figure && *result.figure > r.value)
       return fmt::format("{} {}, {} at most is required", NumberText(*result.figure),
                          result.measures->unit, NumberText(r.value));
@@ -109,10 +122,10 @@ std::string ResultSentence(const MethodResult& result, const SuiteOptions& optio
   if (!result.not_applicable.empty()) return "Not applicable: " + result.not_applicable + ".";
   const std::string sure = PercentText(options.confidence) + " confidence";
   const std::string at =
-      !result.sizes
-          ? ""
-          : " at " + SizeText(*result.sizes,
-                              result.size.value_or(result.sizes->Size(result.sizes->rungs.first)));
+      !result.sizes ? ""
+                    : fmt::format(" at {} {}", result.sizes->what,
+                                  SizeText(*result.sizes, result.size.value_or(result.sizes->Size(
+                                                              result.sizes->rungs.first))));
   std::string text = fmt::format("{} of {} runs passed{}: at least {} of such runs do, at {}.",
                                  result.n - result.failures, result.n, at,
                                  AtLeastPercent(result.reliability_lower), sure);
@@ -120,10 +133,13 @@ std::string ResultSentence(const MethodResult& result, const SuiteOptions& optio
     text += fmt::format(" The {} was {} {} at most: {} of such runs keep below that, at {}.",
                         result.measures->what, NumberText(*result.figure), result.measures->unit,
                         PercentText(options.reliability), sure);
+  if (result.easier > 0)
+    text += fmt::format(" None of {} at easier sizes failed.", CountText(result.easier, "run"));
   if (result.sizes && result.size && !result.above_all)
-    if (const SuiteRun* failed = FailedAbove(result))
+    if (const SuiteRun* failed = EasiestFailure(result))
       text += fmt::format(" At {} run {} failed: {}.", SizeText(*result.sizes, failed->size),
                           failed->run, failed->verdict.why);
+  if (result.withdrawn) text += " It " + WithdrawnText(result) + ".";
   if (result.above_all) text += " Nothing harder was tried.";
   return text;
 }

@@ -2,6 +2,7 @@
 // What the suite found of one robot, and whether that is what was asked for.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +32,12 @@ void RefuseBeyondLadders(std::span<const SuiteRequirement> required, const Robot
 // Why the method's result is not what is asked for; empty: it is. Without requirements a method
 // must pass: one with sizes at its easiest.
 std::string WhyMissed(const MethodResult& result, std::span<const SuiteRequirement> required);
+
+// The easiest size that a run failed. All that all runs pass beyond it is taken back.
+std::optional<double> FailsAt(const MethodResult& result);
+// "also fails at an easier size: 41 mm; so 80 mm, which all runs pass, does not count"; empty where
+// nothing was taken back.
+std::string WithdrawnText(const MethodResult& result);
 
 // "12 mm", "102 mm or more", "none", "passed, 59 of 59", "not applicable".
 std::string ResultText(const MethodResult& result);

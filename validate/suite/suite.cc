@@ -84,6 +84,10 @@ std::optional<MethodResult> RunMethod(
   if (result.failures > 0) result.figure.reset();  // a drive that failed was cut short
   result.reliability_lower =
       ClopperPearsonLower(result.n - result.failures, result.n, options.confidence);
+  if (result.size)
+    result.easier = static_cast<int>(std::ranges::count_if(result.runs, [&](const SuiteRun& run) {
+      return !result.sizes->Reaches(run.size, *result.size);
+    }));
   result.shown = ShownRun(result);
   return result;
 }

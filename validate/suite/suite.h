@@ -6,6 +6,9 @@
 // limits, where whoever passes a size passes what is easier: so n passes at it demonstrate the
 // reliability although the size was searched for with the same draws (Wilks' one-sided tolerance
 // limit, Ann. Math. Stat. 12 (1941) 91). The same holds of the greatest of n measured figures.
+//
+// That what is easier is passed, too, is checked on half of the draws. Of each method a size
+// above the one that is claimed was tried, and a draw failed it.
 #pragma once
 
 #include <cstdint>
@@ -50,7 +53,10 @@ struct MethodResult {
   double reliability_lower = 0;
   // Of a method with sizes: the hardest that all n pass; none: not even the easiest.
   std::optional<double> size;
-  bool above_all = false;        // it is the hardest of the ladder
+  bool above_all = false;  // it is the hardest of the ladder
+  int easier = 0;          // runs at sizes easier than it: none failed
+  // A harder size that all n pass, too, but that is not claimed: a run failed an easier one.
+  std::optional<double> withdrawn;
   std::optional<double> figure;  // the greatest of n measured
   // Every run driven, in the order in which they were asked for.
   std::vector<SuiteRun> runs;
