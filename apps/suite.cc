@@ -106,13 +106,19 @@ SuiteReport Request(const Options& options, const Globals& globals) {
   return report;
 }
 
-// Lays out and reads one run of each method: what is wrong with one costs no drive.
+// Lays out and reads one run of each method: what is wrong with one costs no drive. A robot of whom
+// nothing can be asked is refused, for a gate that asks nothing would always be green.
 void CheckMethods(const SuiteReport& report, const std::vector<RobotModel>& models,
                   const std::string& methods) {
   const auto asked = Asked(methods);
   for (std::size_t i = 0; i < models.size(); ++i) {
     const RobotSuite& robot = report.robots[i];
     RefuseBeyondLadders(report.required, models[i]);
+    if (std::ranges::none_of(
+            asked, [&](const auto* entry) { return entry->make()->WhyNot(models[i]).empty(); }))
+      throw InputError({"--methods", 0}, "", methods,
+                       fmt::format("nothing of this can be asked of {}: {}", robot.label,
+                                   asked.front()->make()->WhyNot(models[i])));
     for (const auto* entry : asked) CheckMethod(*entry, models[i], robot.robot, report.options);
   }
 }
