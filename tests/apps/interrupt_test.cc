@@ -185,7 +185,8 @@ video: {width: 160, height: 90, max_frames: 200, camera: top}
         EXPECT_GT(cv::VideoCapture(file.string()).get(cv::CAP_PROP_FRAME_COUNT), 1);
       }
       if (kind == ".xml") {
-        EXPECT_TRUE(Slurp(file).ends_with("</mujoco>\n"));
+        EXPECT_TRUE(Slurp(file).ends_with(file.filename() == "junit.xml" ? "</testsuites>\n"
+                                                                         : "</mujoco>\n"));
       }
     }
   }
@@ -362,6 +363,30 @@ TEST_F(InterruptTest, TheLadderOfARobot) {
   EXPECT_TRUE(Interrupt(dut, {"out/robot/mine.ladder.csv", 1, 500, SIGTERM}));
   EXPECT_EQ(Slurp(folder_ / "mine.xml"), model);
   EXPECT_FALSE(fs::exists(folder_ / "out/robot/mine.ladder.png"));
+}
+
+// The methods that were done are kept, and the files say that they are not all.
+TEST_F(InterruptTest, OfASuiteKeepsTheMethodsThatWereDone) {
+  const std::vector<std::string> dut = {
+      "suite",         "beluga",
+      "--methods",     "bump,drop_stop,stopping_distance,path_deviation,lost",
+      "--reliability", "0.6",
+      "--confidence",  "0.9",
+      "--jobs",        "1",
+      "--out",         "o",
+      "--no-films",    "--quiet"};
+  // Runs are there once a method is done.
+  for (const auto& [moment, least] :
+       {std::pair(Moment{"o/suite.json", 1, 0}, 0u), std::pair(Moment{"o/runs.csv", 300, 0}, 1u)}) {
+    Fresh();
+    ASSERT_TRUE(Interrupt(dut, moment));
+    const auto robot = nlohmann::json::parse(Slurp(folder_ / "o/suite.json"))["robots"][0];
+    EXPECT_EQ(robot["whole"], false);
+    EXPECT_GE(robot["methods"].size(), least);
+    EXPECT_EQ(std::ranges::count(Slurp(folder_ / "o/suite.csv"), '\n'),
+              static_cast<std::ptrdiff_t>(1 + robot["methods"].size()));
+    for (const auto& method : robot["methods"]) EXPECT_EQ(method["n"], 5) << "as a whole one has";
+  }
 }
 
 }  // namespace

@@ -161,6 +161,7 @@ TEST_F(FullDiskTest, IsNoBadInputOfAnyCommand) {
       {"scene", "drawn.yaml", "--out", "scene.xml"},
       {"init", "map.yaml", "--out", "o"},
       {"robot", "beluga", "--out", "o/beluga.xml"},
+      {"suite", "beluga", "--methods", "step", "--out", "o"},
       {"validate", "--out", "o"}};
   for (const std::vector<std::string>& command : commands)
     for (const std::size_t room : {0, 40}) {
