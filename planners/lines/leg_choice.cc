@@ -21,10 +21,34 @@ constexpr double kShortenings[] = {0, 0.5, 1, 1.5, 2, 3, 4};  // turn radii
 constexpr std::size_t kAhead = 4;  // legs that are looked at from each, as a rule
 constexpr std::size_t kBack = 400, kMore = 8, kTriesALeg = 4;  // see Rescue
 
+// Clearance between cell centres, bilinear: that of the nearest would be off by up to 0.7 cells.
+class Clearance {
+ public:
+  explicit Clearance(const ClearanceField& field)
+      : field_(field), X_GW_(field.frame.X_WG.Inverse()), turned_(X_GW_.Rotate({1, 0})) {}
+  // 0 beyond the grid.
+  double At(const Vec2& p_W) const {
+    const double x = (X_GW_.x_m + turned_.x() * p_W.x() - turned_.y() * p_W.y()) / cell_m() - 0.5;
+    const double y = (X_GW_.y_m + turned_.y() * p_W.x() + turned_.x() * p_W.y()) / cell_m() - 0.5;
+    const Grid<float>& grid = field_.distance_m;
+    if (!(x >= 0 && y >= 0 && x < grid.width - 1 && y < grid.height - 1)) return 0;
+    const int ix = static_cast<int>(x), iy = static_cast<int>(y);
+    const auto at = [&](int i, int j) { return static_cast<double>(grid(ix + i, iy + j)); };
+    const double u = x - ix, v = y - iy;
+    return (1 - v) * ((1 - u) * at(0, 0) + u * at(1, 0)) + v * ((1 - u) * at(0, 1) + u * at(1, 1));
+  }
+  double cell_m() const { return field_.frame.cell_m; }
+
+ private:
+  const ClearanceField& field_;
+  Pose2 X_GW_;
+  Vec2 turned_;  // the world's x axis in the grid's frame, unit
+};
+
 class Choice {
  public:
   Choice(const std::vector<Leg>& legs, const TurnRequest& request)
-      : request_(request), legs_(legs), states_(legs_.size()) {
+      : request_(request), clearance_(request.clearance), legs_(legs), states_(legs_.size()) {
     for (const Leg& leg : legs_) {
       behind_m_.push_back(leg.length_m + (behind_m_.empty() ? 0 : behind_m_.back()));
       stops_m_.push_back((leg.dwells ? kStop_m : 0) + (stops_m_.empty() ? 0 : stops_m_.back()));
@@ -92,8 +116,8 @@ class Choice {
     bool any = false;
     for (const double begin_m : Shortenings(b, fillet_m)) {
       const Pose2 enters = b.At(begin_m);
-      const double enters_least_m = std::min(
-          wanted_m, i > 0 ? LeastAlong(b, begin_m, -1) : request_.clearance.At(enters.p()));
+      const double enters_least_m =
+          std::min(wanted_m, i > 0 ? LeastAlong(j, begin_m, -1) : clearance_.At(enters.p()));
       for (const Exit& exit : exits) {
         const double cost = exit.cost + kLeftOut * (exit.cut_m + skipped_m + begin_m) + stops_m;
         // No curve is shorter than the straight.
@@ -125,18 +149,25 @@ class Choice {
       if (!state) continue;
       const State& before = states_[i][*state];
       out.push_back({cut_m, before.cost + leg.length_m - cut_m - before.begin_m, *state,
-                     leg.At(s_m), i > 0 ? LeastAlong(leg, s_m, 1) : kUnlimited});
+                     leg.At(s_m), i > 0 ? LeastAlong(i, s_m, 1) : kUnlimited});
     }
     return out;
   }
 
-  // Clearance of a leg from there on, as far as an arc reaches ahead, or from there back.
-  double LeastAlong(const Leg& leg, double s_m, int side) const {
-    const double far_m = std::clamp(s_m + side * request_.turn_radius_m, 0.0, leg.length_m);
-    const int n = static_cast<int>(std::ceil(std::abs(far_m - s_m) / kStep_m));
-    double least_m = request_.clearance.At(leg.At(s_m).p());
-    for (int k = 1; k <= n; ++k)
-      least_m = std::min(least_m, request_.clearance.At(leg.At(s_m + (far_m - s_m) * k / n).p()));
+  // Clearance of the plan from there on, as far as an arc reaches ahead, or (side -1) from there
+  // back: of the leg, and of those next to it where it is shorter.
+  double LeastAlong(std::size_t leg, double s_m, int side) const {
+    double least_m = clearance_.At(legs_[leg].At(s_m).p());
+    for (double left_m = request_.turn_radius_m; left_m > 0;) {
+      const double way_m = std::min(left_m, side > 0 ? legs_[leg].length_m - s_m : s_m);
+      const int n = static_cast<int>(std::ceil(way_m / kStep_m));
+      for (int k = 1; k <= n; ++k)
+        least_m = std::min(least_m, clearance_.At(legs_[leg].At(s_m + side * way_m * k / n).p()));
+      left_m -= way_m;
+      if (side > 0 ? leg + 1 == legs_.size() : leg == 1) break;
+      leg = side > 0 ? leg + 1 : leg - 1;
+      s_m = side > 0 ? 0 : legs_[leg].length_m;
+    }
     return least_m;
   }
 
@@ -175,10 +206,10 @@ class Choice {
   // as where it begins.
   std::optional<DubinsCurve> Clear(const Pose2& from, const Pose2& to, double least_m,
                                    double most_m) const {
-    const double first_m = std::min(least_m, request_.clearance.At(from.p()));
+    const double first_m = std::min(least_m, clearance_.At(from.p()));
     // From cell to cell clearance changes by their distance at most: what is left of it need not be
     // looked at.
-    const double cells_m = std::numbers::sqrt2 * request_.clearance.frame.cell_m;
+    const double cells_m = std::numbers::sqrt2 * clearance_.cell_m();
     const DubinsCurves found = CurvesBetween(from, to, request_.turn_radius_m);
     for (int k = 0; k < found.n; ++k) {
       const DubinsCurve& curve = found.curves[static_cast<std::size_t>(k)];
@@ -188,7 +219,7 @@ class Choice {
       bool clear = true;
       double needs_m = first_m;
       for (double s_m = 0; clear && s_m < length_m;) {
-        const double here_m = request_.clearance.At(places.At(s_m));
+        const double here_m = clearance_.At(places.At(s_m));
         clear = here_m >= needs_m;
         if (here_m >= least_m) needs_m = least_m;
         s_m += std::max(kStep_m, std::abs(here_m - least_m) - cells_m);
@@ -225,6 +256,7 @@ class Choice {
   }
 
   const TurnRequest& request_;
+  const Clearance clearance_;
   const std::vector<Leg>& legs_;
   // Up to the end of each leg: their length, and what their dwells cost if they are left out.
   std::vector<double> behind_m_, stops_m_;

@@ -4,8 +4,8 @@
 // It is the cheapest choice: driven length, and what was to be driven and is not counts kLeftOut
 // times. A leg that ends in a dwell is kept to its end, or left out at the cost of kStop_m more. It
 // is found by dynamic programming over the legs, a few shortenings of each; a curve is the shortest
-// of Dubins' that stays clear. It passes no nearer to a wall than wanted, or than the two legs do
-// that it joins, within a radius of where it takes their place. One from a start that is nearer to
+// of Dubins' that stays clear. It passes no nearer to a wall than wanted, or than the plan
+// does within a radius of where the curve leaves and enters it. One from a start that is nearer to
 // a wall leads away from there first.
 #pragma once
 

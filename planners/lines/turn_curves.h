@@ -16,7 +16,7 @@ namespace floorproof {
 struct TurnRequest {
   const ClearanceField& clearance;
   double clear_radius_m = 0;  // of the circle around the robot's origin
-  double margin_m = 0;        // kept beyond it in turns, where the two legs keep as much there
+  double margin_m = 0;        // kept beyond it in turns, where the plan keeps as much there
   double turn_radius_m = 0;   // least of the curves
   double lane_m = 0;          // a leg that is no longer only joins others: it is not counted
   Pose2 start;                // X_WB

@@ -131,19 +131,23 @@ TEST(TurnCurves, WhatComesAfterALongDeadEndIsDriven) {
   EXPECT_GE(dut.left_out, kLegs);
 }
 
-// The clearance of a leg from one place on it to another.
-double LeastAlong(const ClearanceField& clearance, const Leg& leg, double from_m, double to_m) {
+// The clearance of the plan within a radius of a place on it, on one side.
+double LeastAlong(const ClearanceField& clearance, const std::vector<Leg>& legs, std::size_t leg,
+                  double s_m, int side) {
   double least_m = std::numeric_limits<double>::infinity();
-  for (double share = 0; share <= 1; share += 0.02)
-    least_m = std::min(
-        least_m,
-        clearance.At(leg.At(std::clamp(from_m + share * (to_m - from_m), 0.0, leg.length_m)).p()));
+  for (double way_m = 0; way_m <= kR_m; way_m += 0.01, s_m += 0.01 * side) {
+    while (side > 0 && s_m > legs[leg].length_m && leg + 1 < legs.size())
+      s_m -= legs[leg++].length_m;
+    while (side < 0 && s_m < 0 && leg > 1) s_m += legs[--leg].length_m;
+    least_m =
+        std::min(least_m, clearance.At(legs[leg].At(std::clamp(s_m, 0.0, legs[leg].length_m)).p()));
+  }
   return least_m;
 }
 
 // Wherever else the plan comes near a wall, and wherever it starts: plans of chance in a room.
 TEST(TurnCurves, ATurnIsAsClearAsTheLegsThatItJoins) {
-  constexpr double kMargin_m = 0.2, kCells_m = 0.03;
+  constexpr double kMargin_m = 0.2, kCells_m = 0.05;
   const HazardMap map = EmptyFloor(16, 12, 0.25);  // 4 m x 3 m
   const ClearanceField clearance = ComputeClearance(map, 0.01);
   std::mt19937 random(7);
@@ -156,17 +160,17 @@ TEST(TurnCurves, ATurnIsAsClearAsTheLegsThatItJoins) {
     const Pose2 start{points[0].x(), points[0].y(), 2 * kPi * share()};
     const TurnRequest request{clearance, kBody_m, kMargin_m, kR_m, 0, start};
     const std::vector<Leg> legs = LegsOf(PathOf(points), start);
-    const Leg* before = nullptr;
+    std::size_t before = 0;
     double left_m = 0;
     for (const JoinedLeg& dut : ChooseLegs(legs, request)) {
       const Leg& leg = legs[dut.leg];
       const double wanted_m = kBody_m + kMargin_m;
       const double end_m = clearance.At(leg.At(dut.begin_m).p());
       double least_m = std::min(wanted_m, end_m), first_m = least_m;
-      if (before)
+      if (before > 0)
         first_m = least_m =
-            std::min({wanted_m, LeastAlong(clearance, leg, dut.begin_m, dut.begin_m - kR_m),
-                      LeastAlong(clearance, *before, left_m, left_m + kR_m)});
+            std::min({wanted_m, LeastAlong(clearance, legs, dut.leg, dut.begin_m, -1),
+                      LeastAlong(clearance, legs, before, left_m, 1)});
       else
         first_m = std::min(least_m, clearance.At(start.p()));
       bool has_left = false;
@@ -176,7 +180,7 @@ TEST(TurnCurves, ATurnIsAsClearAsTheLegsThatItJoins) {
         has_left |= here_m > least_m + kCells_m;
         near_walls += here_m < least_m + kCells_m;
       }
-      before = &leg;
+      before = dut.leg;
       left_m = dut.end_m;
     }
   }
