@@ -2,10 +2,13 @@
 #include "env/scene/exposed_wheels.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "env/geometry/geometry.h"
 #include "env/scene/compiled_robot.h"
+#include "env/scene/walls.h"
 #include "env/scene/world_geoms.h"
 
 namespace floorproof {
@@ -18,15 +21,63 @@ struct Cover {
   Polygon outline_B;
 };
 
-// What walls meet: each geom for itself, as it collides by its hull.
+// Of a geom that collides by its hull, in its own frame: the point that lies farthest along a unit
+// vector. Planes and height fields have none.
+Vec3 FarthestAlong(const mjModel* m, int geom, const Vec3& way) {
+  const mjtNum* size = m->geom_size + 3 * geom;
+  const auto end = [](double component, double half) { return component < 0 ? -half : half; };
+  switch (m->geom_type[geom]) {
+    case mjGEOM_SPHERE:
+      return size[0] * way;
+    case mjGEOM_CAPSULE:
+      return size[0] * way + Vec3(0, 0, end(way.z(), size[1]));
+    case mjGEOM_ELLIPSOID: {
+      const Vec3 axes(size);
+      return axes.cwiseProduct(axes.cwiseProduct(way).normalized());
+    }
+    case mjGEOM_CYLINDER: {
+      const Vec2 across = size[0] * way.head<2>().normalized();
+      return {across.x(), across.y(), end(way.z(), size[1])};
+    }
+    case mjGEOM_BOX:
+      return {end(way.x(), size[0]), end(way.y(), size[1]), end(way.z(), size[2])};
+    default: {
+      const int mesh = m->geom_dataid[geom];
+      const float* vertices = m->mesh_vert + 3 * m->mesh_vertadr[mesh];
+      Vec3 farthest = Vec3::Zero();
+      double most = -std::numeric_limits<double>::infinity();
+      for (int v = 0; v < m->mesh_vertnum[mesh]; ++v) {
+        const Vec3 p(vertices[3 * v], vertices[3 * v + 1], vertices[3 * v + 2]);
+        if (p.dot(way) > most) most = p.dot(way), farthest = p;
+      }
+      return farthest;
+    }
+  }
+}
+
+// What walls meet, each geom for itself. What lies above the walls covers nothing.
 std::vector<Cover> Covers(const CompiledRobot& compiled) {
+  constexpr int kAround = 72;
   const mjModel* m = compiled.model();
   std::vector<Cover> covers;
   for (int g = 0; g < m->ngeom; ++g) {
     if (!compiled.IsCarried(g) || (m->geom_conaffinity[g] & kWallBit) == 0) continue;
-    std::vector<Vec2> points;
-    for (const Vec3& p : compiled.SurfacePoints(g)) points.push_back(p.head<2>());
-    covers.push_back({compiled.BlockOf(m->geom_bodyid[g]), ConvexHull(points)});
+    const int type = m->geom_type[g];
+    if (type == mjGEOM_PLANE || type == mjGEOM_HFIELD || type == mjGEOM_SDF) continue;
+    Eigen::Matrix3d R_GB;  // MuJoCo has rows first, Eigen columns
+    mju_mulMatTMat(R_GB.data(), compiled.data()->xmat + 9 * compiled.base(),
+                   compiled.data()->geom_xmat + 9 * g, 3, 3, 3);
+    const Vec3 p_BG = compiled.InBase(compiled.data()->geom_xpos + 3 * g);
+    const auto farthest = [&](const Vec3& way_B) {
+      return Vec3(p_BG + R_GB.transpose() * FarthestAlong(m, g, R_GB * way_B));
+    };
+    if (farthest(-Vec3::UnitZ()).z() >= kWallHeight_m) continue;
+    std::vector<Vec2> outline;
+    for (int k = 0; k < kAround; ++k) {
+      const double way_rad = 2 * kPi * k / kAround;
+      outline.push_back(farthest({std::cos(way_rad), std::sin(way_rad), 0}).head<2>());
+    }
+    covers.push_back({compiled.BlockOf(m->geom_bodyid[g]), ConvexHull(outline)});
   }
   return covers;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "env/scene/exposed_wheels.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -117,6 +118,51 @@ TEST(ExposedWheels, RollersMeetWallsToo) {
   const Scene dut = BuildScene(Hall(), WithRollerWheels(ideal), {}, {1.3, 1, 0});
   EXPECT_EQ(NumWheelsThatMeetWalls(dut), 16 * kRollers);
   EXPECT_LT(DriveAtTheWall(dut).body_m, kWall_m - 0.005);
+}
+
+// The rover's mudguards as other shapes: corners that a box has and they do not cover nothing.
+TEST(ExposedWheels, CountWhereTheBodysOwnShapeDoesNotCoverThem) {
+  const std::string guards = R"(class="body" type="box" size="0.312 0.290 0.015" pos="0 0 0.205")";
+  const auto exposed = [&](const std::string& shape) {
+    return NumWheelsThatMeetWalls(
+        BuildScene(Hall(), Narrow("rover", guards, R"(class="body" )" + shape), {}, {1, 1, 0}));
+  };
+  const auto mesh = [&](double chamfer_m) {
+    std::string corners;
+    for (const double x : {-1, 1})
+      for (const double y : {-1, 1})
+        for (const double z : {-1, 1})
+          for (const double cut : {0.0, 1.0})
+            corners += fmt::format("{} {} {}  ", x * (0.312 - cut * chamfer_m),
+                                   y * (0.290 - (1 - cut) * chamfer_m), 0.015 * z);
+    std::ifstream in(FindRobotFile("rover", {}));
+    std::string xml((std::istreambuf_iterator<char>(in)), {});
+    xml.insert(xml.find("</asset>"), "<mesh name='guards' vertex='" + corners + "'/>");
+    const std::size_t at = xml.find(guards);
+    EXPECT_NE(at, std::string::npos);
+    xml.replace(at, guards.size(), R"(class="body" type="mesh" mesh="guards" pos="0 0 0.205")");
+    const std::string file = ::testing::TempDir() + "/exposed_mesh.xml";
+    std::ofstream(file) << xml;
+    return NumWheelsThatMeetWalls(BuildScene(Hall(), ReadRobot(file), {}, {1, 1, 0}));
+  };
+  EXPECT_EQ(exposed(R"(type="box" size="0.290 0.312 0.015" pos="0 0 0.205" euler="0 0 1.5707963")"),
+            0);
+  EXPECT_EQ(exposed(R"(type="ellipsoid" size="0.312 0.290 0.015" pos="0 0 0.205")"), 4);
+  EXPECT_EQ(exposed(R"(type="ellipsoid" size="0.600 0.500 0.015" pos="0 0 0.205")"), 0);
+  EXPECT_EQ(exposed(R"(type="capsule" size="0.290 0.022" pos="0 0 0.305" euler="0 1.5707963 0")"),
+            4);
+  EXPECT_EQ(mesh(0.01), 0);
+  EXPECT_EQ(mesh(0.08), 4);
+}
+
+// What stands over the walls hinders no wheel from passing through them.
+TEST(ExposedWheels, WhatLiesAboveTheWallsCoversNothing) {
+  const std::string low = R"(size="0.312 0.290 0.015" pos="0 0 0.205")";
+  const auto exposed = [&](const std::string& tray) {
+    return NumWheelsThatMeetWalls(BuildScene(Hall(), Narrow("rover", low, tray), {}, {1, 1, 0}));
+  };
+  EXPECT_EQ(exposed(R"(size="0.312 0.290 0.015" pos="0 0 0.455")"), 0) << "it meets their top";
+  EXPECT_EQ(exposed(R"(size="0.312 0.290 0.015" pos="0 0 0.475")"), 4);
 }
 
 // A caster that stands under the body may swing out from under it.
