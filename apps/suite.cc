@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
+#include "base/comma_list.h"
 #include "base/interrupt.h"
 #include "base/progress_line.h"
 #include "base/quantity.h"
@@ -27,19 +28,8 @@ struct Options {
   bool no_films = false;
 };
 
-// Names apart by commas, as they may be typed.
-std::vector<std::string> Split(const std::string& text) {
-  std::vector<std::string> names;
-  for (std::size_t from = 0; !text.empty() && from <= text.size();) {
-    const std::size_t to = std::min(text.find(',', from), text.size());
-    names.push_back(text.substr(from, to - from));
-    from = to + 1;
-  }
-  return names;
-}
-
 std::vector<const PluginEntry<Method>*> Asked(const std::string& text) {
-  const std::vector<std::string> names = Split(text);
+  const std::vector<std::string> names = SplitAtCommas(text);
   for (const std::string& name : names) MakePlugin(Methods(), name, "--methods");
   std::vector<const PluginEntry<Method>*> asked;
   for (const auto& entry : Methods())
@@ -93,7 +83,7 @@ SuiteReport Request(const Options& options, const Globals& globals) {
   RunsToDemonstrate(report.options.reliability, report.options.confidence);  // refuses
   const auto asked = Asked(options.methods);
   report.asked = asked.size();
-  for (const std::string& text : Split(options.required)) {
+  for (const std::string& text : SplitAtCommas(options.required)) {
     report.required.push_back(ReadRequirement(text));
     if (std::ranges::none_of(
             asked, [&](const auto* entry) { return entry->name == report.required.back().method; }))
