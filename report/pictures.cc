@@ -86,7 +86,7 @@ void WriteCoverage(const Scenario& s, const EpisodeRecord& record,
 
 }  // namespace
 
-std::string PictureTitle(const Scenario& s) { return s.robot_name + " on " + s.site.map.name; }
+std::string PictureTitle(const Scenario& s) { return s.robot.spec.name + " on " + s.site.map.name; }
 
 void WriteHeatMaps(const Scenario& s, const PlanResult& plan, const EpisodeRecord& record,
                    const std::filesystem::path& folder, const Console& console) {

@@ -243,11 +243,11 @@ std::string SuitePage(const SuiteReport& report, const fs::path& folder) {
          title + ": test methods</title>\n<style>" + kReportStyle + kSuiteStyle +
          "</style></head>\n<body><header><p class=\"over\">Floorproof suite</p><h1>" + title +
          "</h1>\n" + VerdictBox(report) +
-         "<nav><a href=\"#results\">Results</a><a href=\"#methods\">Methods and films</a><a "
+         "<nav><a href=\"#results\">Results</a><a href=\"#methods\">Methods</a><a "
          "href=\"#how\">How it was tested</a></nav></header>\n<main>\n<section "
          "id=\"results\"><h2>Results</h2>\n" +
-         Table(report) + "</section>\n<section id=\"methods\"><h2>Methods and films</h2>\n" +
-         cards + "</section>\n<section id=\"how\"><h2>How it was tested</h2>\n" + HowText(report) +
+         Table(report) + "</section>\n<section id=\"methods\"><h2>Methods</h2>\n" + cards +
+         "</section>\n<section id=\"how\"><h2>How it was tested</h2>\n" + HowText(report) +
          "</section>\n</main>\n<footer><p class=\"note\">" + MarkupText(stands) +
          "</p></footer>\n</body></html>\n";
 }

@@ -15,7 +15,8 @@ std::string WhyNothing(const PlanRequest& request, const SweepArea& area, const 
   const Vec2 p = request.start.p();
   const Cell cell = request.map.frame.ToCell(p), fine = area.frame.ToCell(p);
   std::ostringstream out;
-  out << "start (" << FormatDouble(p.x()) << ", " << FormatDouble(p.y()) << ") m, cell (" << cell.ix
+  const auto millimetres = [](double m) { return FormatDouble(std::round(1000 * m) / 1000 + 0.0); };
+  out << "start (" << millimetres(p.x()) << ", " << millimetres(p.y()) << ") m, cell (" << cell.ix
       << ", " << cell.iy << "): ";
   if (StartFits(area)) {
     out << "the tool sweeps no floor from there";
