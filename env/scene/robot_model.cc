@@ -77,23 +77,34 @@ RobotModel CopyOf(const ParsedMjcf& parsed) {
   return out;
 }
 
-bool IsSame(const RobotSpec& a, const RobotSpec& b) {
-  const auto same = [](double x, double y) { return std::abs(x - y) <= 1e-9 * std::abs(x); };
-  return same(a.mass_kg, b.mass_kg) && same(a.clearance_m, b.clearance_m) &&
-         same(a.battery.voltage_v.value_or(0), b.battery.voltage_v.value_or(0)) &&
-         std::ranges::equal(a.wheels, b.wheels, [&](const WheelSpec& x, const WheelSpec& y) {
-           return same(x.radius_m, y.radius_m) && same(x.roller_radius_m, y.roller_radius_m);
-         });
+// What a scenario changes of the robot so that limits that were measured do not hold for it; none
+// where they do. A full bin and a battery drawn low, as scenarios draw them, move a limit by no
+// more than another start does.
+std::string WhatItChanges(const RobotSpec& from, const RobotSpec& to) {
+  constexpr double kDrawn = 0.1 + 1e-9, kExact = 1e-9;
+  const auto same = [](double x, double y, double share) {
+    return std::abs(x - y) <= share * std::abs(x);
+  };
+  if (!same(from.mass_kg, to.mass_kg, kDrawn)) return "its mass by more than a tenth";
+  if (!same(from.battery.voltage_v.value_or(0), to.battery.voltage_v.value_or(0), kDrawn))
+    return "its battery's voltage by more than a tenth";
+  if (!same(from.clearance_m, to.clearance_m, kExact)) return "its clearance";
+  const auto same_wheel = [&](const WheelSpec& x, const WheelSpec& y) {
+    return same(x.radius_m, y.radius_m, kExact) &&
+           same(x.roller_radius_m, y.roller_radius_m, kExact);
+  };
+  return std::ranges::equal(from.wheels, to.wheels, same_wheel) ? "" : "its wheels";
 }
 
-// Limits are of the robot that was measured: of the model that its files state, unchanged.
+// Limits are of the robot that was measured: of the model that its files state, and of what the
+// scenario leaves as it is.
 void CheckMeasured(const std::vector<std::filesystem::path>& models, const InputFiles& files,
-                   bool changed, MeasuredLimits& measured) {
+                   const std::string& changed, MeasuredLimits& measured) {
   if (measured.by.empty()) return;
   if (measured.model != ModelHash(models, files))
     DropLimits(measured, "the model was changed since");
-  else if (changed)
-    DropLimits(measured, "the scenario changes the robot");
+  else if (!changed.empty())
+    DropLimits(measured, "the scenario changes " + changed);
 }
 
 // Changes the model and reads what it then is.
@@ -110,11 +121,11 @@ void Finish(RobotModel& out, const std::string& file, const RobotChanges& change
   out.spec = read();
   const RobotSpec as_written = out.spec;
   if (ChangeRobot(out.mjcf.get(), out.spec, changes)) out.spec = read();
-  const bool changed = !IsSame(as_written, out.spec);
+  const std::string changed = WhatItChanges(as_written, out.spec);
 
   const int shape = changes.shape.empty() ? 0 : FindShape(out.spec, changes.shape);
   if (shape < 0) RefuseShape(out.spec, {file, 0}, "shape", changes.shape);
-  CheckMeasured(out.files, files, changed || shape > 0, out.spec.measured);
+  CheckMeasured(out.files, files, shape > 0 ? "its shape" : changed, out.spec.measured);
   if (out.spec.shapes.empty()) return;
   const MeasuredLimits measured = std::move(out.spec.measured);
   const std::vector<ShapeSpec> shapes = out.spec.shapes;
