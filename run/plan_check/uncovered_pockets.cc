@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <queue>
 #include <utility>
@@ -116,6 +117,33 @@ WaysIn FindWaysIn(const SweepArea& area, const Mask& free) {
            ways.where.cells[at]);
   }
   return ways;
+}
+
+// Per cell within the walls, the first cell on the way to it that a hazard closes: on the way from
+// where the robot can be that leads through the fewest of these. Unreached cells keep `kNowhere`.
+constexpr std::uint32_t kNowhere = std::numeric_limits<std::uint32_t>::max();
+Grid<std::uint32_t> FirstClosed(const SweepArea& area, const Mask& free, const Mask& within) {
+  Grid<std::uint32_t> first(free.width, free.height, kNowhere), closed(first);
+  std::deque<Cell> open;  // by how many it leads through, ascending
+  for (int iy = 0; iy < free.height; ++iy)
+    for (int ix = 0; ix < free.width; ++ix)
+      if (area.reachable(ix, iy)) closed(ix, iy) = 0, open.push_back({ix, iy});
+  while (!open.empty()) {
+    const Cell c = open.front();
+    open.pop_front();
+    for (const Cell& d : kSides) {
+      const Cell n{c.ix + d.ix, c.iy + d.iy};
+      if (!free.Inside(n) || !within(n)) continue;
+      const std::uint32_t through = closed(c) + (free(n) ? 0 : 1);
+      if (closed(n) <= through) continue;
+      closed(n) = through;
+      first(n) = first(c) == kNowhere && !free(n)
+                     ? static_cast<std::uint32_t>(free.Index(n.ix, n.iy))
+                     : first(c);
+      free(n) ? open.push_front(n) : open.push_back(n);
+    }
+  }
+  return first;
 }
 
 struct Patch {
@@ -228,7 +256,7 @@ class Finder {
       pocket.p_W = area_.frame.Center(patch.widest);
       pocket.width_m = 2 * static_cast<double>(patch.half_width) * area_.frame.cell_m;
       if (why == Why::kNarrow) FindGap(patch, pocket);
-      if (why == Why::kBehind) pocket.hazard = NearestHazard(pocket.p_W);
+      if (why == Why::kBehind) pocket.hazard = NearestHazard(ClosedAt(patch.widest));
       out_.pockets.push_back(std::move(pocket));
     }
   }
@@ -244,6 +272,15 @@ class Finder {
     const auto width = static_cast<std::uint32_t>(free_.width);
     pocket.gap_m = 2 * narrowest_m;
     pocket.gap_W = area_.frame.Center(static_cast<int>(at % width), static_cast<int>(at / width));
+  }
+
+  // Where a hazard closes the way to the cell.
+  Vec2 ClosedAt(const Cell& cell) {
+    if (first_closed_.cells.empty()) first_closed_ = FirstClosed(area_, free_, FreeOfWalls());
+    const std::uint32_t at = first_closed_(cell);
+    if (at == kNowhere) return area_.frame.Center(cell);
+    const auto width = static_cast<std::uint32_t>(free_.width);
+    return area_.frame.Center(static_cast<int>(at % width), static_cast<int>(at / width));
   }
 
   std::string NearestHazard(const Vec2& p_W) const {
@@ -294,6 +331,7 @@ class Finder {
   double least_half_ = 1, least_cells_ = 1;
   std::int64_t rest_ = 0;
   WaysIn ways_in_;
+  Grid<std::uint32_t> first_closed_;
   UncoveredFloor out_;
 };
 

@@ -27,7 +27,7 @@ struct UncoveredPocket {
   // kNarrow: the narrowest place on the widest way in, to a cell; none: it has no wider place.
   std::optional<double> gap_m = {};
   Vec2 gap_W = Vec2::Zero();
-  std::string hazard;  // kBehind, kKeptOff: its id
+  std::string hazard;  // kBehind: the id of the first that closes the way; kKeptOff: its own
 };
 
 struct UncoveredFloor {

@@ -87,6 +87,27 @@ TEST_F(UncoveredTest, ARoomBehindAHazardNamesIt) {
   }));
 }
 
+// Not what lies next to the middle of the room: that it could drive around.
+TEST_F(UncoveredTest, WhatClosesTheWayIsNamedAndNotWhatIsNearest) {
+  for (const char* order : {"sill, post", "post, sill"}) {
+    const std::string sill =
+        "{type: step, id: sill, polygon_m: [[4.0, 0.1], [4.3, 0.1], [4.3, 3.1], [4.0, 3.1]], "
+        "height_m: 0.03}";
+    const std::string post =
+        "{type: step, id: post, polygon_m: [[6.1, 1.5], [6.3, 1.5], [6.3, 1.7], [6.1, 1.7]], "
+        "height_m: 0.05}";
+    const bool first = order[0] == 's';
+    const UncoveredFloor dut =
+        Find(Read(TwoRooms(10, first ? sill + ", " + post : post + ", " + sill)));
+    ASSERT_THAT(dut.pockets, Not(IsEmpty()));
+    EXPECT_EQ(dut.pockets[0].why, Why::kBehind);
+    EXPECT_EQ(dut.pockets[0].hazard, "sill") << order;
+    EXPECT_LT((dut.pockets[0].p_W - Vec2(6.2, 1.6)).norm(),
+              (dut.pockets[0].p_W - Vec2(4.3, 1.6)).norm())
+        << "the post is nearer";
+  }
+}
+
 // On a raised floor, or in a pit, that floor is what is free, and the base floor is another level:
 // within the walls alone.
 TEST_F(UncoveredTest, TheFloorIsThatOfTheStart) {
