@@ -55,6 +55,11 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
                                 100 * json["coverage"].get<double>(),
                                 NumberText(json["sweepable_m2"].get<double>())));
         if (!plan.message.empty()) globals.Say(plan.message);
+        if (json["coverage"].get<double>() < scenario.episode.min_coverage)
+          globals.Say(
+              fmt::format("warning: success.min_coverage asks for {:g} %: a drive of this "
+                          "plan can hardly be a success",
+                          100 * scenario.episode.min_coverage));
       } else {  // of samples out of reach the check's lines say more than the message
         globals.Say(PlannedText(plan) + ", " + CountText(plan.samples.size(), "sample"));
       }

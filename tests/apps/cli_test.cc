@@ -162,14 +162,18 @@ TEST_F(Cli, AnOutcomeThatIsNoSuccessIsExitStatusOne) {
   EXPECT_EQ(nlohmann::json::parse(Slurp(folder_ / "p" / "result.json"))["outcome"], "not_planned");
 }
 
-// `run` and `plan` warn alike of corners that the robot cannot turn.
-TEST_F(Cli, CornersOfAPlanThatAreTooSharpAreSaidBeforeTheDrive) {
+// `run` and `plan` warn alike of corners that the robot cannot turn; `plan` of a plan that is too
+// little.
+TEST_F(Cli, WhatIsWrongWithAUsersPlanIsSaidBeforeTheDrive) {
   std::ofstream(folder_ / "plan.csv") << "x_m,y_m\n1.1,1.1\n2,1.1\n2,1.5\n";
   const std::string to =
       " s.yaml --out o --set robot=scrubber --set 'plan={file: plan.csv}' "
       "--set 'start={x_m: 1.1, y_m: 1.1}' --set time_limit_s=0.5";
   constexpr const char* kWarning = "warning: the plan has 1 corner too sharp for the robot, which ";
   EXPECT_THAT(Run("plan" + to).out, HasSubstr(kWarning));
+  constexpr const char* kTooLittle = "warning: success.min_coverage asks for 90 %";
+  EXPECT_THAT(Run("plan" + to + " --set success.min_coverage=0.9").out, HasSubstr(kTooLittle));
+  EXPECT_THAT(Run("plan" + to + " --set success.min_coverage=0").out, Not(HasSubstr(kTooLittle)));
   const Result dut = Run("run" + to);
   EXPECT_THAT(dut.out, HasSubstr(kWarning));
   EXPECT_THAT(Run("run" + to + " --set robot=beluga").out, Not(HasSubstr("too sharp")));
