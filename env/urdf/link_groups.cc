@@ -10,7 +10,7 @@ std::vector<LinkGroup> GroupLinks(const UrdfModel& model, std::vector<std::strin
     const UrdfLink& link = model.links[i];
     const int above = link.parent >= 0 ? group_of[static_cast<std::size_t>(link.parent)] : -1;
     if (above < 0 || link.turns_freely) {
-      groups.push_back({static_cast<int>(i), above, {}, {}});
+      groups.push_back({static_cast<int>(i), above, {}, {}, {}});
       group_of[i] = static_cast<int>(groups.size()) - 1;
     } else {
       group_of[i] = above;
@@ -19,6 +19,7 @@ std::vector<LinkGroup> GroupLinks(const UrdfModel& model, std::vector<std::strin
     }
     LinkGroup& group = groups[static_cast<std::size_t>(group_of[i])];
     group.mass += link.mass;
+    group.links.push_back(i);
     group.shapes.insert(group.shapes.end(), link.shapes.begin(), link.shapes.end());
   }
   return groups;

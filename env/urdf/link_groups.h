@@ -15,6 +15,7 @@ struct LinkGroup {
   int parent = -1;  // index of the group that carries it
   MassOf mass;
   std::vector<UrdfShape> shapes;
+  std::vector<std::size_t> links;  // indices of the model's, the head first
 };
 
 // The root's group first; each stands behind its parent. `held` gets a note for each joint that

@@ -45,6 +45,16 @@ MassOf& MassOf::operator+=(const MassOf& other) {
   return *this;
 }
 
+double BoxVolume(const UrdfShape& shape) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const Vec3& p_M : shape.Points()) {
+    const Vec3 p = shape.R_M.transpose() * p_M;
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return (high - low).prod();
+}
+
 MassOf BoxMass(const std::vector<UrdfShape>& shapes, double mass_kg) {
   constexpr double kLeast_m = 0.01;
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;

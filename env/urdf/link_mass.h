@@ -24,6 +24,9 @@ struct StatedMass {
 void ReadMass(const StatedMass& stated, const Mat3& R_ML, const std::filesystem::path& file,
               UrdfLink& link, std::vector<std::string>& notes);
 
+// Of the box around the shape along its own axes, m3.
+double BoxVolume(const UrdfShape& shape);
+
 // Of a solid box around the shapes, with this mass.
 MassOf BoxMass(const std::vector<UrdfShape>& shapes, double mass_kg);
 

@@ -111,6 +111,31 @@ TEST(UrdfRobot, MassesOfNothingAreSaid) {
       AllOf(HasSubstr("centre of mass of link base_link"), HasSubstr("three numbers")));
 }
 
+// A caster's 0.2 kg stand for the whole base where its body's mass is 0.
+TEST(UrdfRobot, ABaseWithoutItsBodysMassIsRefused) {
+  const std::string whole =
+      Replaced(WithBall(), "<link name=\"ball\">",
+               "<link name=\"ball\"><inertial><mass value=\"0.2\"/><inertia ixx=\"1e-4\" "
+               "iyy=\"1e-4\" izz=\"1e-4\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>");
+  const auto weighing = [&](const std::string& kg, const std::string& of) {
+    return Replaced(of, "<mass value=\"5\"/>", "<mass value=\"" + kg + "\"/>");
+  };
+  EXPECT_EQ(RefusalOf(whole), "taken");
+  EXPECT_EQ(RefusalOf(weighing("0.4", whole)), "taken") << "light, and a robot";
+  EXPECT_THAT(RefusalOf(weighing("0", whole)),
+              AllOf(HasSubstr("my.urdf: mass: the base weighs 0.2 kg, its wheels 0.6 kg"),
+                    HasSubstr("box holds 6 litres"),
+                    HasSubstr("Without a mass: base_link; state it in the link's <inertial>")));
+  EXPECT_THAT(RefusalOf(weighing("0.001", WithBall())), HasSubstr("no robot's base is as light"));
+  // Its mass in a link of its own, as some vendors' files have it.
+  const std::string apart = weighing(
+      "0", WithBall("<link name=\"weight\"><inertial><mass value=\"4\"/><inertia ixx=\"0.03\" "
+                    "iyy=\"0.04\" izz=\"0.06\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>"
+                    "<joint name=\"weight_joint\" type=\"fixed\"><parent link=\"base_link\"/>"
+                    "<child link=\"weight\"/></joint>"));
+  EXPECT_EQ(RefusalOf(apart), "taken");
+}
+
 // Of a robot whose body's mesh is missing its casters still collide; they are no body.
 TEST(UrdfRobot, ABaseOfWhichOnlyCastersCollideCollidesAsItIsSeen) {
   const std::string seen = Replaced(
