@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "env/urdf/robot_guesses.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -69,8 +71,9 @@ bool IsBelievable(double value, double low, double high) { return value >= low &
 // That it was not, to go behind a guess's reason; 0: the URDF states none.
 std::string NotBelieved(const char* limit, double value, const char* unit) {
   if (!(value > 0)) return "";
-  return std::string("; the URDF's ") + limit + " limit, " + NumberText(value) + " " + unit +
-         ", is no floor robot's";
+  const std::string figure =
+      std::isfinite(value) ? fmt::format("{:g} {}", value, unit) : "which is infinite";
+  return fmt::format("; the URDF's {} limit, {}, is no floor robot's", limit, figure);
 }
 
 Figure NoLoad(const UrdfWheel& wheel, const UrdfAnswers& answers, double radius_m) {
@@ -95,11 +98,11 @@ Figure Stall(const UrdfRobot& robot, const UrdfAnswers& answers, double weight_n
   const double push = scrub ? 3 : 0.4;
   if (answers.stall_nm) return {*answers.stall_nm, "given"};
   // Geared servos on small wheels can push with far more than the weight. They give some 60 N m per
-  // kg of their own, and are no more than a quarter of a robot.
-  constexpr double kServo_nmpkg = 15;
+  // kg of their own, and are no more than a quarter of a robot; larger robots have none.
+  constexpr double kServo_nmpkg = 15, kServos_kg = 5;
   const double weight_nm = weight_n * radius_m;  // pushes with it
   if (IsBelievable(wheel.effort_nm * wheels, 0.1 * weight_nm,
-                   std::max(4 * weight_nm, kServo_nmpkg * robot.mass_kg())))
+                   std::max(4 * weight_nm, kServo_nmpkg * std::min(robot.mass_kg(), kServos_kg))))
     return {wheel.effort_nm, "guess: the effort limit that the URDF gives the joint"};
   return {Rounded(push * weight_n * radius_m / wheels),
           "guess: stalled, all motors push with " + NumberText(push) + " of the weight" +

@@ -92,11 +92,26 @@ TEST(UrdfMjcf, AServosEffortIsTakenAndAPlaceholdersIsSaid) {
   const auto servo = with("<limit effort=\"20\" velocity=\"5\"/>");  // 15 times the weight
   EXPECT_THAT(servo, Contains(HasSubstr("guess: stall_nm 20 N m, the effort limit")));
   const auto placeholder = with("<limit effort=\"1000\" velocity=\"1000\"/>");
-  EXPECT_THAT(placeholder, Contains(HasSubstr("the URDF's effort limit, 1,000 N m, is no floor")));
+  EXPECT_THAT(placeholder, Contains(HasSubstr("the URDF's effort limit, 1000 N m, is no floor")));
   EXPECT_THAT(placeholder,
-              Contains(HasSubstr("the URDF's velocity limit, 1,000 rad/s, is no floor")));
+              Contains(HasSubstr("the URDF's velocity limit, 1000 rad/s, is no floor")));
+  const auto huge = with("<limit effort=\"1e308\" velocity=\"inf\"/>");
+  EXPECT_THAT(huge, Contains(HasSubstr("effort limit, 1e+308 N m, is no floor")));
+  EXPECT_THAT(huge, Contains(HasSubstr("velocity limit, which is infinite, is no floor")));
   const auto none = with("");
   EXPECT_THAT(none, Not(Contains(HasSubstr("the URDF's"))));
+}
+
+// Of 20.6 kg on wheels of 50 mm, 80 N m are 8 times the weight: no servo is as strong.
+TEST(UrdfMjcf, AHeavyRobotHasNoServos) {
+  const auto notes = [](const std::string& effort_nm) {
+    std::string text = Replaced(WithBall(), "<mass value=\"5\"/>", "<mass value=\"20\"/>");
+    text = Replaced(text, "<axis xyz=\"0 0 1\"/>",
+                    "<axis xyz=\"0 0 1\"/><limit effort=\"" + effort_nm + "\"/>");
+    return Converted(text).notes;
+  };
+  EXPECT_THAT(notes("37"), Contains(HasSubstr("guess: stall_nm 37 N m, the effort limit")));
+  EXPECT_THAT(notes("40"), Contains(HasSubstr("effort limit, 40 N m, is no floor robot's")));
 }
 
 TEST(UrdfMjcf, NamesMayBeInAnyScript) {
