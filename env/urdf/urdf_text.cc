@@ -50,6 +50,7 @@ class Preparation {
       Refuse(1, "", "", "is no URDF: its root element is not <robot>");
     out_.robot = Plain(elements_[0].Value("name"));
     RefuseXacro();
+    RefuseHalf();
     ReadLinks();
     ReadJoints();
     RefuseNoTree();
@@ -70,10 +71,21 @@ class Preparation {
   }
 
   void RefuseXacro() const {
-    for (const XmlElement& e : elements_)
-      if (e.name.starts_with("xacro:"))
-        Refuse(e.line, "", std::string(e.name),
-               "is xacro, not yet URDF: expand it first, `xacro FILE > my_robot.urdf`");
+    const std::string rule =
+        "is xacro, not yet URDF: expand it first, `xacro FILE > my_robot.urdf`";
+    for (const XmlElement& e : elements_) {
+      if (e.name.starts_with("xacro:")) Refuse(e.line, "", std::string(e.name), rule);
+      for (const XmlAttribute& a : e.attributes)
+        if (a.value.find("${") != a.value.npos || a.value.find("$(") != a.value.npos)
+          Refuse(e.line, std::string(e.name), std::string(a.value), rule);
+    }
+  }
+
+  // Of a file that was cut short, whatever is missing would be named instead.
+  void RefuseHalf() const {
+    if (elements_[0].closed) return;
+    Refuse(1 + static_cast<int>(std::count(text_.begin(), text_.end(), '\n')), "robot", out_.robot,
+           "is XML that does not end: the text stops before </robot>");
   }
 
   std::string NameOf(const XmlElement& e) const {

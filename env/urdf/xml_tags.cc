@@ -46,6 +46,7 @@ class TagReader {
       return out_[static_cast<std::size_t>(index)].name == name;
     });
     if (opened == open_.rend()) return;
+    out_[static_cast<std::size_t>(*opened)].closed = true;
     for (auto inner = open_.rbegin(); inner != std::next(opened); ++inner)
       out_[static_cast<std::size_t>(*inner)].end = at_;
     open_.erase(std::prev(opened.base()), open_.end());
@@ -61,9 +62,8 @@ class TagReader {
     element.line = line_;
     element.parent = open_.empty() ? -1 : open_.back();
     element.name = Word();
-    bool closed = false;
     while (at_ < text_.size() && text_[at_] != '>') {
-      if (text_[at_] == '/') closed = true;
+      if (text_[at_] == '/') element.closed = true;
       if (text_[at_] == '/' || kSpace.find(text_[at_]) != std::string_view::npos)
         ++at_;
       else
@@ -71,6 +71,7 @@ class TagReader {
     }
     at_ = std::min(at_ + 1, text_.size());
     element.end = at_;
+    const bool closed = element.closed;
     out_.push_back(std::move(element));
     if (!closed) open_.push_back(static_cast<int>(out_.size()) - 1);
   }

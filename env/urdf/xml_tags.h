@@ -22,6 +22,7 @@ struct XmlElement {
   std::size_t begin = 0, end = 0;  // of the whole element, its tags included
   int parent = -1;                 // index; -1: none
   int line = 0;
+  bool closed = false;
 
   // Of the attribute; empty where there is none.
   std::string_view Value(std::string_view attribute) const;

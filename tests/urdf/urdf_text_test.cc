@@ -115,12 +115,23 @@ TEST(UrdfText, WhatIsNoUrdfSaysSo) {
   EXPECT_THAT(RefusalOf("<mujoco/>"), HasSubstr("is no URDF"));
   EXPECT_THAT(RefusalOf(""), HasSubstr("is no URDF"));
   EXPECT_THAT(RefusalOf(WithBall("<xacro:wheel side=\"left\"/>")), HasSubstr("is xacro"));
+  EXPECT_THAT(RefusalOf(Replaced(WithBall(), "<mass value=\"5\"/>", "<mass value=\"${m}\"/>")),
+              AllOf(HasSubstr("my.urdf:5: mass = ${m}: "), HasSubstr("is xacro")));
   EXPECT_THAT(RefusalOf(WithBall("<oops")), HasSubstr("XML"));
   EXPECT_THAT(RefusalOf(Replaced(WithBall(), "type=\"continuous\"", "type=\"floating\"")),
               AllOf(HasSubstr("left_joint = floating"), HasSubstr("must be revolute")));
   EXPECT_FALSE(IsUrdf(FindRobotFile("beluga", {}), {}));
   EXPECT_FALSE(IsUrdf(OwnFolder() / "none.urdf", {}));
   EXPECT_TRUE(IsUrdf(WrittenUrdf(WithBall()), {}));
+}
+
+// Whatever is missing behind the cut is not what is wrong.
+TEST(UrdfText, HalfAFileSaysSo) {
+  const std::string whole = WithBall();
+  for (const std::size_t cut : {whole.find("<link name=\"right\">"), whole.find("radius="),
+                                whole.find("</robot>"), whole.find("</robot>") + 6})
+    EXPECT_THAT(RefusalOf(whole.substr(0, cut)), HasSubstr("does not end")) << whole.substr(0, cut);
+  EXPECT_EQ(RefusalOf(whole), "taken");
 }
 
 // The importer would take compiler settings from it, and folders of meshes.
