@@ -8,6 +8,7 @@
 
 #include "base/comma_list.h"
 #include "base/error.h"
+#include "base/quantity.h"
 
 namespace floorproof {
 namespace {
@@ -74,7 +75,10 @@ class WheelFinder {
     floor_m_ = std::numeric_limits<double>::infinity();
     for (const Roller& roller : out_.rollers) floor_m_ = std::min(floor_m_, roller.low_m);
     std::erase_if(out_.rollers, [&](const Roller& roller) {
-      return roller.low_m > floor_m_ + FloorGap(roller.fit.radius_m);
+      const double gap_m = roller.low_m - floor_m_;
+      if (gap_m <= FloorGap(roller.fit.radius_m)) return false;
+      hanging_.push_back({Head(roller.group).joint_name, gap_m});
+      return true;
     });
     for (const Roller& roller : out_.rollers) RefuseSteering(Head(roller.group));
   }
@@ -115,7 +119,9 @@ class WheelFinder {
                        " are driven, the other wheels roll freely (--set driven=...)");
       return pair;
     }
-    Refuse("drive", why + " (--set driven=LEFT_JOINT,RIGHT_JOINT names the driven ones)");
+    if (!hanging_.empty()) why = HangingText() + ": mend its height; without it " + why;
+    if (all.size() > 1) why += " (--set driven=LEFT_JOINT,RIGHT_JOINT names the driven ones)";
+    Refuse("drive", why);
   }
 
   std::vector<std::size_t> NamedDriven(const std::vector<std::string>& names) {
@@ -124,6 +130,9 @@ class WheelFinder {
     for (const Roller& roller : out_.rollers) known.push_back(Head(roller.group).joint_name);
     for (const std::string& name : names) {
       const auto at = std::ranges::find(known, name);
+      if (const auto wheel = std::ranges::find(hanging_, name, &Hanging::joint);
+          wheel != hanging_.end())
+        throw InputError({"--set driven", 0}, "", name, HangsOver(*wheel));
       if (at == known.end())
         throw InputError({"--set driven", 0}, "", name,
                          "is no wheel that reaches the floor" + DidYouMeanOneOf(name, known));
@@ -132,6 +141,21 @@ class WheelFinder {
     std::string why;
     if (!Takes(driven, why)) Refuse("drive", why);
     return driven;
+  }
+
+  // A wheel that does not reach the floor.
+  struct Hanging {
+    std::string joint;
+    double gap_m;
+  };
+  std::string HangsOver(const Hanging& wheel) const {
+    return "hangs " + LengthText(wheel.gap_m) + " over the floor that " + JointOf(0) + " stands on";
+  }
+  std::string HangingText() const {
+    std::string text;
+    for (const Hanging& wheel : hanging_)
+      text += (text.empty() ? "" : ", ") + wheel.joint + " " + HangsOver(wheel);
+    return text;
   }
 
   const std::string& JointOf(std::size_t roller) const {
@@ -197,6 +221,7 @@ class WheelFinder {
   const UrdfAnswers& answers_;
   const ChooseDrive& choose_;
   std::vector<std::string>& notes_;
+  std::vector<Hanging> hanging_;
   double floor_m_ = 0;
   FoundWheels out_;
 };

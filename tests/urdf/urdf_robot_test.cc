@@ -187,6 +187,20 @@ TEST(UrdfRobot, WithoutWheelsItIsRefused) {
       << "their axles stand upright";
 }
 
+// 10 mm higher than the other one, which alone reaches the floor.
+TEST(UrdfRobot, AWheelOverTheFloorIsNamed) {
+  const std::string raised = Replaced(WithBall(), "xyz=\"0 -0.12 0.02\"", "xyz=\"0 -0.12 0.03\"");
+  EXPECT_THAT(
+      RefusalOf(raised),
+      AllOf(HasSubstr("needs two driven wheels, not 1"),
+            HasSubstr("drive: right_joint hangs 10 mm over the floor that left_joint stands on"),
+            Not(HasSubstr("--set"))));
+  UrdfAnswers answers;
+  answers.driven = "left_joint,right_joint";
+  EXPECT_THAT(RefusalOf(raised, answers),
+              HasSubstr("right_joint: hangs 10 mm over the floor that left_joint stands on"));
+}
+
 TEST(UrdfRobot, ABellyOnTheFloorIsRefused) {
   EXPECT_THAT(RefusalOf(Replaced(WithBall(), "<box size=\"0.3 0.2 0.1\"/>",
                                  "<box size=\"0.3 0.2 0.16\"/>")),
