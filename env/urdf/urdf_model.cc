@@ -148,6 +148,8 @@ std::vector<UrdfLink> LinksOf(const mjModel* m, const mjData* d, const UrdfText&
     link.name = mj_id2name(m, mjOBJ_BODY, b);
     link.parent = b > 0 ? m->body_parentid[b] : -1;
     link.p_M = Vec3(d->xpos + 3 * b);
+    link.lost_collision =
+        std::ranges::find(text.lost_collisions, link.name) != text.lost_collisions.end();
     ReadJoint(m, d, b, text, link);
     for (int g = m->body_geomadr[b]; g < m->body_geomadr[b] + m->body_geomnum[b]; ++g)
       link.shapes.push_back(ShapeOf(m, d, g, collides[static_cast<std::size_t>(g)] != 0));

@@ -52,6 +52,7 @@ struct UrdfLink {
   double effort_nm = 0, velocity_radps = 0;  // as its <limit> says; 0: none
   MassOf mass;
   std::vector<UrdfShape> shapes;
+  bool lost_collision = false;  // a <collision> is left out, since its mesh is
 };
 
 struct UrdfModel {

@@ -197,7 +197,12 @@ class PartFinder {
     bool any = false;
     for (UrdfShape& shape : out_.shapes) any |= shape.collides = LowestOf(shape) > above_m;
     if (!any) Refuse("base", "has no shape but its casters: give it a <collision>");
-    out_.notes.push_back("guess: the base collides as it is seen; it states no <collision>");
+    const auto links = LinksOfBase();
+    const bool lost =
+        std::ranges::any_of(links, [&](std::size_t i) { return model_.links[i].lost_collision; });
+    out_.notes.push_back(
+        std::string("guess: the base collides as it is seen; ") +
+        (lost ? "the mesh of its <collision> is left out" : "no <collision> is its own"));
   }
 
   double LargestRadius() const {

@@ -196,6 +196,9 @@ class Preparation {
     if (place.file.empty()) {
       out_.notes.push_back("mesh " + Printable(uri) + " " + place.why + ": left out of the " +
                            std::string(holder.name));
+      if (holder.name == "collision" && holder.parent >= 0)
+        out_.lost_collisions.push_back(
+            Plain(elements_[static_cast<std::size_t>(holder.parent)].Value("name")));
       Blank(holder);
       return;
     }

@@ -26,7 +26,8 @@ struct UrdfText {
   std::string robot;  // its name
   std::string xml;    // for the importer; lines stand where they stood
   std::vector<UrdfJoint> joints;
-  std::vector<UrdfMesh> meshes;  // that are there
+  std::vector<UrdfMesh> meshes;              // that are there
+  std::vector<std::string> lost_collisions;  // links one of whose <collision>s needs another mesh
   std::vector<std::string> notes;
 };
 

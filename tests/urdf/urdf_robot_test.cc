@@ -147,7 +147,13 @@ TEST(UrdfRobot, ABaseOfWhichOnlyCastersCollideCollidesAsItIsSeen) {
   const UrdfRobot dut = Found(seen);
   EXPECT_EQ(dut.casters.size(), 1u);
   EXPECT_EQ(std::ranges::count(dut.shapes, true, &UrdfShape::collides), 1);
-  EXPECT_THAT(dut.notes, Contains(HasSubstr("collides as it is seen")));
+  EXPECT_THAT(dut.notes, Contains(HasSubstr("collides as it is seen; no <collision> is its own")));
+  const UrdfRobot lost = Found(Replaced(
+      seen, "<link name=\"left\">",
+      "<link name=\"shell\"><collision><geometry><mesh filename=\"none.stl\"/></geometry>"
+      "</collision></link><joint name=\"shell_joint\" type=\"fixed\"><parent link=\"base_link\"/>"
+      "<child link=\"shell\"/></joint><link name=\"left\">"));
+  EXPECT_THAT(lost.notes, Contains(HasSubstr("the mesh of its <collision> is left out")));
   EXPECT_NEAR(ReadRobot(ConvertedFile(seen)).spec.clearance_m, 0.03, 1e-6);
   EXPECT_THAT(RefusalOf(Replaced(Replaced(seen, "<visual>", "<!--"), "</visual>", "-->")),
               HasSubstr("no shape but its casters"));
