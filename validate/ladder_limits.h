@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ladder's rows of one robot as its model states them (env/scene/measured_block.h).
+// The ladder's rows of one robot as its model states them (env/scene/measured_names.h).
 #pragma once
 
 #include <span>

@@ -25,7 +25,7 @@ struct WrongModel {
   double hotel_load_factor = 1;   // what all but the motors draws
   double restitution_factor = 1;  // of hazards'
   double drag_factor = 1;         // of hazards' rolling drag
-  double steering_add_rad = 0;    // forks point so much farther to the left than is thought
+  double steering_add_rad = 0;    // the fork points so much farther to the left than is thought
 
   bool operator==(const WrongModel&) const = default;
 };
