@@ -64,7 +64,7 @@ const PluginEntry<Drive>* DriveFor(const RobotSpec& robot, std::string& why) {
 }
 
 bool IsHolonomic(const RobotSpec& robot) {
-  return MakePlugin(Drives(), robot.drive, "drive")->holonomic();
+  return MakePlugin(Drives(), robot.drive, "drive", {robot.model_file, 0})->holonomic();
 }
 
 void RequireLimits(const RobotSpec& robot, std::string_view tracker) {

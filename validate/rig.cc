@@ -36,7 +36,7 @@ Rig::Rig(const std::string& robot_name, RigOptions options) {
   true_robot_ = ReadRobot(file, options.changes, options.blocks).spec;
   model_ = ReadRobot(file, WrongShape(options.changes, true_robot_, options.wrong), options.blocks);
   if (options.rollers) model_ = WithRollerWheels(model_);
-  drive_ = MakePlugin(Drives(), true_robot_.drive, "drive");
+  drive_ = MakePlugin(Drives(), true_robot_.drive, "drive", {true_robot_.model_file, 0});
   drive_->Configure(true_robot_);
   Build(std::move(options));
 }

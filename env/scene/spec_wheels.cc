@@ -91,7 +91,14 @@ WheelSpec ReadWheel(const CompiledRobot& compiled, int a, const std::string& nam
   int geom = -1;
   for (int g = m->body_geomadr[body]; g < m->body_geomadr[body] + m->body_geomnum[body]; ++g)
     if (m->geom_type[g] == mjGEOM_CYLINDER && m->geom_conaffinity[g] != 0) geom = g;
-  if (geom < 0) compiled.Refuse(name, "the wheel's body needs a cylinder that collides");
+  if (geom < 0) {
+    constexpr double kUpright = 0.9;
+    const bool upright = std::abs(compiled.data()->xaxis[3 * joint + 2]) > kUpright;
+    compiled.Refuse(name, std::string("the wheel's body needs a cylinder that collides") +
+                              (upright ? "; what turns about the vertical is no wheel: a fork is "
+                                         "named as steering, a hinge as hinges, under <custom>"
+                                       : ""));
+  }
   RefuseOffAxis(compiled, joint, geom, name);
   const Rollers rollers = RollersOf(m, geom);
   constexpr double kLeastAngle_rad = 0.1;  // along the axle rollers would be as long as it is far

@@ -283,14 +283,15 @@ void ReadRisk(const ConfigNode& root, Scenario& s) {
 }
 
 void ReadControl(const ConfigNode& root, Scenario& s) {
-  const NamedPlugin tracker =
-      ReadNamed(root, "controller", "name", DefaultTracker(s.robot.spec.drive));
+  const RobotSpec& robot = s.robot.spec;
+  const auto drive = MakePlugin(Drives(), robot.drive, "drive", {robot.model_file, 0});
+  const NamedPlugin tracker = ReadNamed(root, "controller", "name", DefaultTracker(robot.drive));
   s.tracker_name = tracker.name;
   s.tracker = MakePlugin(Trackers(), tracker.name, "controller", tracker.mark);
   ReadParams(tracker.params, "controller.", *s.tracker, {"name"});
-  if (!s.tracker->Commands(*MakePlugin(Drives(), s.robot.spec.drive, "drive")))
+  if (!s.tracker->Commands(*drive))
     throw InputError(tracker.mark, "controller", tracker.name,
-                     "cannot command the drive " + s.robot.spec.drive + " of " + s.robot_name);
+                     "cannot command the drive " + robot.drive + " of " + s.robot_name);
   const NamedPlugin estimator = ReadNamed(root, "estimator", "name", Estimators().front().name);
   s.estimator_name = estimator.name;
   s.estimator = MakePlugin(Estimators(), estimator.name, "estimator", estimator.mark);

@@ -207,7 +207,7 @@ std::vector<BadInput> SteeringCases() {
   return {
       scrubber("SteeringIsNoActuator", names, "<text name=\"steering\" data=\"frok\"/>",
                {"cylinder"}),
-      scrubber("SteeringIsNotNamed", names, "", {"fork", "cylinder"}),
+      scrubber("SteeringIsNotNamed", names, "", {"fork", "cylinder", "named as steering"}),
       scrubber("SteeringIsTwo", names, "<text name=\"steering\" data=\"fork fork\"/>",
                {"steering", "one wheel can steer"}),
       scrubber("SteeringHasNoRange", "range=\"-1.1345 1.1345\" armature", "armature",
@@ -276,6 +276,8 @@ std::vector<BadInput> RobotCases() {
       Robot("NoBody", "<mujoco/>", {"base", "a robot needs a body named base"}),
       Robot("NoFreeJoint", with_base(""), {"base", "free joint"}),
       Robot("NoDrive", with_base("<freejoint/>"), {"drive", "missing under <custom>"}),
+      Robot("DriveIsUnknown", Replaced(Beluga(), "\"differential\"", "\"diferential\""),
+            {": drive = diferential: unknown; did you mean differential?"}),
       Robot("NoWheels",
             with_base("<freejoint/>",
                       "<custom><text name=\"drive\" data=\"differential\"/>"
