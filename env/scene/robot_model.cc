@@ -197,6 +197,10 @@ std::filesystem::path FindRobotFile(const std::string& name_or_path, const Sourc
     names.emplace_back(entry.name);
   }
   if (name_or_path.ends_with(".xml")) return name_or_path;
+  if (name_or_path.ends_with(".urdf") || name_or_path.ends_with(".URDF"))
+    throw InputError(mark, "robot", name_or_path,
+                     "unknown robot; a URDF's MJCF is made by `floorproof robot " + name_or_path +
+                         "`, and named here");
   throw InputError(mark, "robot", name_or_path,
                    "unknown robot" + DidYouMean(name_or_path, names) +
                        " (a name of `list robots`, or an .xml file)");

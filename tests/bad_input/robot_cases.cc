@@ -334,6 +334,10 @@ std::vector<BadInput> RobotCases() {
                    {"plan", "scenario.yaml", "--set", "robot=map.pgm"},
                    {},
                    {"robot = map.pgm", "unknown robot", ".xml"}});
+  cases.push_back({"AUrdf",
+                   {"plan", "scenario.yaml", "--set", "robot=my.urdf"},
+                   {},
+                   {"robot = my.urdf", "`floorproof robot my.urdf`"}});
   cases.push_back({"APipe",
                    {"plan", "scenario.yaml", "--set", "robot=pipe.xml"},
                    {},
