@@ -118,18 +118,13 @@ void RefuseUnknownTexts(const CompiledRobot& compiled) {
       compiled.Refuse(name, "unknown text of what was measured" + DidYouMeanOneOf(name, known));
 }
 
-}  // namespace
-
-void ReadMeasuredLimits(const CompiledRobot& compiled, RobotSpec& robot) {
+void ReadBlock(const CompiledRobot& compiled, MeasuredLimits& measured) {
   const mjModel* m = compiled.model();
-  if (mj_name2id(m, mjOBJ_TEXT, kMeasuredBy) < 0) {
-    if (mj_name2id(m, mjOBJ_TEXT, kMeasuredModel) >= 0 ||
-        mj_name2id(m, mjOBJ_NUMERIC, kMeasuredFrictions) >= 0)
-      compiled.Refuse(kMeasuredBy, "missing under <custom>, beside measured limits");
-    return;
-  }
+  const auto said = Said(compiled);
+  if (said.empty()) return;
+  if (mj_name2id(m, mjOBJ_TEXT, kMeasuredBy) < 0)
+    compiled.Refuse(kMeasuredBy, "missing under <custom>, beside " + said.begin()->first);
   RefuseUnknownTexts(compiled);
-  MeasuredLimits& measured = robot.measured;
   measured.by = compiled.Text(kMeasuredBy);
   measured.model = compiled.Text(kMeasuredModel);
   measured.frictions = Conditions(compiled, kMeasuredFrictions);
@@ -139,9 +134,20 @@ void ReadMeasuredLimits(const CompiledRobot& compiled, RobotSpec& robot) {
         IsMeasured(name) && name != std::string_view(kMeasuredFrictions) &&
         name != std::string_view(kMeasuredSpeeds))
       ReadLimit(compiled, id, speeds, measured);
-  measured.hashed = mj_name2id(m, mjOBJ_TEXT, kMeasuredFigures) >= 0;
-  if (measured.hashed && compiled.Text(kMeasuredFigures) != FiguresHash(Said(compiled)))
+  measured.hashed = said.contains(kMeasuredFigures);
+  if (measured.hashed && compiled.Text(kMeasuredFigures) != FiguresHash(said))
     DropLimits(measured, "they were edited since");
+}
+
+}  // namespace
+
+void ReadMeasuredLimits(const CompiledRobot& compiled, RobotSpec& robot) {
+  try {
+    ReadBlock(compiled, robot.measured);
+  } catch (const InputError& e) {
+    throw InputError(e.what() + std::string("; or take out all that begins with measured_: "
+                                            "`floorproof robot FILE --ladder` writes it anew"));
+  }
 }
 
 }  // namespace floorproof

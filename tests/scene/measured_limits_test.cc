@@ -17,6 +17,7 @@
 namespace floorproof {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -159,8 +160,9 @@ TEST_F(MeasuredRobot, ThatIsWrittenWrongIsRefused) {
   EXPECT_THAT(limit("drop_forward_mm", "1 2 2001 4"), HasSubstr("= 2001: must be in"));
   EXPECT_THAT(limit("ramp_forward_deg", "1 2 -91 4"), HasSubstr("= -91: must be in [-90, 90]"));
   for (const char* number : {"inf", "nan"})
-    EXPECT_THAT(limit("drop_forward_mm", "1 2 " + std::string(number) + " 4"),
-                HasSubstr("mine.xml"))
+    EXPECT_THAT(
+        limit("drop_forward_mm", "1 2 " + std::string(number) + " 4"),
+        HasSubstr("mine.xml: measured_drop_forward_mm = " + std::string(number) + ": must be in"))
         << number;
   EXPECT_THAT(limit("step_forward_mm"), HasSubstr("measured_step_forward_mm")) << "a second one";
   EXPECT_THAT(refusal("<text name=\"measured_drop_forward_mm\" data=\"1 2 3 4\"/>"),
@@ -170,10 +172,18 @@ TEST_F(MeasuredRobot, ThatIsWrittenWrongIsRefused) {
 TEST_F(MeasuredRobot, ThatLostWhoMeasuredItIsRefused) {
   const fs::path file = Measured();
   std::string text = Slurp(file);
-  const std::string by = "<text name=\"measured_by\" data=\"a test\"/>";
-  text.erase(text.find(by), by.size());
-  EXPECT_THAT(Refusal([&] { ReadRobot(Save("mine.xml", text)); }),
-              HasSubstr("measured_by: missing under <custom>"));
+  const auto without = [&](const std::string& name) {
+    const std::size_t at = text.rfind('<', text.find("name=\"measured_" + name + '"'));
+    text.erase(at, text.find("/>", at) + 2 - at);
+    return Refusal([&] { ReadRobot(Save("mine.xml", text)); });
+  };
+  EXPECT_THAT(without("by"), AllOf(HasSubstr("mine.xml: measured_by: missing under <custom>"),
+                                   HasSubstr("--ladder` writes it anew")));
+  // Whatever of the block is left says that there was one.
+  for (const char* name : {"model", "frictions", "speeds_mps", "step_forward_mm",
+                           "step_diagonal_mm", "cable_cover_height_forward_mm"})
+    EXPECT_THAT(without(name), HasSubstr("measured_by: missing")) << name;
+  EXPECT_EQ(without("ramp_down_forward_deg"), "accepted") << "nothing is left";
 }
 
 // The block states its figures' hash: whoever edits one is told, and the limits are not used.
