@@ -34,13 +34,15 @@ nlohmann::ordered_json MeasureLimits(const RobotModel& robot, const fs::path& ta
   WriteFileWhole(table, LadderCsv({}));
   std::error_code ignored;
   fs::remove(chart, ignored);
+  const std::string kept =
+      target.string() + (fs::exists(target, ignored) ? " is as it was" : " is not written");
   globals.Say(fmt::format("the ladder: {} limits", cells.size()));
-  SayWhenInterrupted("no limit was found; " + target.string() + " is as it was");
+  SayWhenInterrupted("no limit was found; " + kept);
   const HoldInterrupts hold;
   const std::vector<LadderRow> rows = ClimbWithProgress(cells, jobs, globals);
   WriteFileWhole(table, LadderCsv(rows));
-  SayWhenInterrupted(fmt::format("{} of {} limits are in {}; {} is as it was", rows.size(),
-                                 cells.size(), table.string(), target.string()));
+  SayWhenInterrupted(fmt::format("{} of {} limits are in {}; {}", rows.size(), cells.size(),
+                                 table.string(), kept));
   if (Interrupted()) throw Interruption();
   if (ModelHash(robot.files, {}) != model)
     throw InputError({file.string(), 0}, "", "",
