@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/params.h"
 #include "base/quantity.h"
+#include "env/urdf/base_mass.h"
 #include "env/urdf/link_groups.h"
 #include "env/urdf/link_mass.h"
 #include "env/urdf/round_fit.h"
@@ -151,44 +152,17 @@ class PartFinder {
       Refuse("mass", "no link but its wheels has a mass: give the base an <inertial>");
     if (out_.shapes.empty()) Refuse("base", "has no shape: give it a <collision>");
     CollideAsSeen(-std::numeric_limits<double>::infinity());
-    RefuseEmptyBase();
+    const double base_kg = out_.base.mass_kg;
+    const std::string why = WhyTooLight(LinksOfBase(), base_kg, out_.mass_kg() - base_kg);
+    if (!why.empty()) Refuse("mass", why);
   }
 
-  // Its links' indices.
-  std::vector<std::size_t> LinksOfBase() const {
-    std::vector<std::size_t> links;
+  std::vector<const UrdfLink*> LinksOfBase() const {
+    std::vector<const UrdfLink*> links;
     for (std::size_t g = 0; g < groups_.size(); ++g)
       if (holder_[g] == 0)
-        links.insert(links.end(), groups_[g].links.begin(), groups_[g].links.end());
+        for (const std::size_t i : groups_[g].links) links.push_back(&model_.links[i]);
     return links;
-  }
-
-  // Where the body's own mass is missing, a caster's or a sensor's stands for all of the base.
-  void RefuseEmptyBase() const {
-    constexpr double kLeast_kgpm3 = 20, kLitre_m3 = 1e-3;  // robots have 50 and more
-    double largest_m3 = 0;
-    const UrdfLink* largest = nullptr;
-    std::string massless;
-    for (const std::size_t i : LinksOfBase()) {
-      const UrdfLink& link = model_.links[i];
-      for (const UrdfShape& shape : link.shapes) {
-        if (BoxVolume(shape) <= largest_m3) continue;
-        largest_m3 = BoxVolume(shape);
-        largest = &link;
-      }
-      if (link.mass.mass_kg == 0 && !link.shapes.empty())
-        massless += (massless.empty() ? "" : ", ") + link.name;
-    }
-    const double base_kg = out_.base.mass_kg, wheels_kg = out_.mass_kg() - base_kg;
-    const bool body_weighs = largest == nullptr || largest->mass.mass_kg > 0;
-    if (base_kg >= kLeast_kgpm3 * largest_m3 && (body_weighs || base_kg > wheels_kg)) return;
-    Refuse("mass",
-           "the base weighs " + NumberText(base_kg) + " kg, its wheels " + NumberText(wheels_kg) +
-               " kg, and its largest shape's box holds " + NumberText(largest_m3 / kLitre_m3) +
-               " litres: no robot's base is as light. " +
-               (massless.empty()
-                    ? "Mend its masses, or its shapes' sizes"
-                    : "Without a mass: " + massless + "; state it in the link's <inertial>"));
   }
 
   // Where nothing of the base collides, what of it is seen above this height does.
@@ -197,9 +171,7 @@ class PartFinder {
     bool any = false;
     for (UrdfShape& shape : out_.shapes) any |= shape.collides = LowestOf(shape) > above_m;
     if (!any) Refuse("base", "has no shape but its casters: give it a <collision>");
-    const auto links = LinksOfBase();
-    const bool lost =
-        std::ranges::any_of(links, [&](std::size_t i) { return model_.links[i].lost_collision; });
+    const bool lost = std::ranges::any_of(LinksOfBase(), &UrdfLink::lost_collision);
     out_.notes.push_back(
         std::string("guess: the base collides as it is seen; ") +
         (lost ? "the mesh of its <collision> is left out" : "no <collision> is its own"));
