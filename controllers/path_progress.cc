@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace floorproof {
 namespace {
@@ -22,6 +23,7 @@ void PathProgress::Start(const Path& path, const ReferenceLimits& limits,
   // The way to the first waypoint is a homing to it; mostly the robot stands there already.
   phase_ = reference_.vertices.empty() ? Phase::kDone : Phase::kDrive;
   homing_ = true;
+  leg_begins_ = false;
   vertex_ = goal_ = ahead_ = waypoint_ = 0;
   missed_ = {};
   if (!reference_.vertices.empty()) turn_W_ = Vertex(0).p_W;
@@ -48,7 +50,13 @@ void PathProgress::Update(const Pose2& X_WB, double t_s) {
 }
 
 void PathProgress::Advance(const Pose2& X_WB, double t_s) {
-  if (homing_) return GoHome(X_WB, t_s);
+  if (homing_) {
+    Settle(goal_, X_WB, t_s);
+    return;
+  }
+  if (std::exchange(leg_begins_, false) && limits_.turn_radius_m > 0 && IsJudged(vertex_ + 1) &&
+      Settle(vertex_ + 1, X_WB, t_s))
+    return;
   while (true) {
     const ReferenceVertex &from = Vertex(vertex_), &to = Vertex(vertex_ + 1);
     const Vec2 passed = X_WB.p() - to.p_W;
@@ -71,12 +79,17 @@ void PathProgress::Advance(const Pose2& X_WB, double t_s) {
   }
 }
 
-void PathProgress::GoHome(const Pose2& X_WB, double t_s) {
-  const double left_m = (Vertex(goal_).p_W - X_WB.p()).norm();
-  if (left_m <= (IsJudged(goal_) ? Reach() : std::max(Reach(), Wide())))
-    Arrive(goal_, t_s);
-  else if (HasPassed(goal_, X_WB))
-    Miss(goal_);
+// Arrives at a stop that is near, and gives up one that was passed. Whether it did either.
+bool PathProgress::Settle(std::size_t vertex, const Pose2& X_WB, double t_s) {
+  const double left_m = (Vertex(vertex).p_W - X_WB.p()).norm();
+  const bool near = left_m <= (IsJudged(vertex) ? Reach() : std::max(Reach(), Wide()));
+  if (near)
+    Arrive(vertex, t_s);
+  else if (HasPassed(vertex, X_WB))
+    Miss(vertex);
+  else
+    return false;
+  return true;
 }
 
 double PathProgress::Reach() const {
@@ -144,7 +157,8 @@ void PathProgress::Depart() {
 }
 
 void PathProgress::Folded() {
-  phase_ = vertex_ + 1 < reference_.vertices.size() ? Phase::kTurn : Phase::kDone;
+  leg_begins_ = vertex_ + 1 < reference_.vertices.size();
+  phase_ = leg_begins_ ? Phase::kTurn : Phase::kDone;
 }
 
 // The way along the legs that p_W has come, not before the leg now tracked.

@@ -5,7 +5,8 @@
 // rows cannot be mixed up. A robot that is past the end of a leg but beside it goes to the corner
 // itself. A robot that cannot turn on the spot passes corners wide. Where something is to be done,
 // at a dwell and at the end, it must come as near as any other; what it passes beside is missed,
-// and it goes on. Nothing but Start() and Extend() allocates.
+// and it goes on. Whether the next such stop is already reached, or passed, is asked where a leg
+// begins at a stop, too. Nothing but Start() and Extend() allocates.
 #pragma once
 
 #include <cstddef>
@@ -104,7 +105,7 @@ class PathProgress {
  private:
   const ReferenceVertex& Vertex(std::size_t i) const { return reference_.vertices[i]; }
   void Advance(const Pose2& X_WB, double t_s);
-  void GoHome(const Pose2& X_WB, double t_s);
+  bool Settle(std::size_t vertex, const Pose2& X_WB, double t_s);
   bool IsJudged(std::size_t vertex) const;
   bool HasPassed(std::size_t vertex, const Pose2& X_WB) const;
   void Miss(std::size_t vertex);
@@ -128,9 +129,10 @@ class PathProgress {
   MissedStops missed_;
   bool homing_ = false;  // going to vertex goal_ itself instead of along the leg
   std::size_t goal_ = 0;
-  std::size_t vertex_ = 0;  // the leg now tracked goes from here to the next
-  std::size_t ahead_ = 0;   // the leg that holds the point pursued, or whose direction is taken
-  double seen_m_ = 0;       // how far before its bend that direction was taken
+  bool leg_begins_ = false;  // at a stop: how its end lies is not asked yet
+  std::size_t vertex_ = 0;   // the leg now tracked goes from here to the next
+  std::size_t ahead_ = 0;    // the leg that holds the point pursued, or whose direction is taken
+  double seen_m_ = 0;        // how far before its bend that direction was taken
   Vec2 turn_W_ = Vec2::Zero();
   std::size_t waypoint_ = 0;  // the plan's segment now tracked
   std::size_t dwell_ = 0;     // of vertex_'s

@@ -137,6 +137,42 @@ TEST(SteeredPursuit, AStopInsideItsTightestTurnIsMissedAndPassed) {
       }
 }
 
+// From where it rests at one stop to another, `stop_W`, and on, or not.
+Driven DriveToSecondStop(const Vec2& stop_W, bool goes_on) {
+  Path path = MakePath({{0, 0}, {2, 0}, stop_W});
+  path[1].dwell_s = path[2].dwell_s = 1;
+  path[2].task = WaypointTask{.id = 7};
+  if (goes_on) path.push_back(MakePath({{5, 0}})[0]);
+  DriveOptions options;
+  options.time_limit_s = 60;
+  return Drive(path, options);
+}
+
+TEST(SteeredPursuit, AStopBesideTheOneItRestsAtIsDoneThere) {
+  for (const double angle_rad : {-2.5, -1.6, -0.8, 0.8, 1.6, 2.5, kPi})
+    for (const bool goes_on : {true, false}) {
+      const Vec2 stop_W = Vec2(2, 0) + 0.025 * Vec2(std::cos(angle_rad), std::sin(angle_rad));
+      const Driven dut = DriveToSecondStop(stop_W, goes_on);
+      ASSERT_TRUE(dut.done) << angle_rad;
+      EXPECT_EQ(dut.missed.count, 0) << angle_rad;
+      EXPECT_LT(DoneOff(dut, stop_W).value_or(1), 0.04) << angle_rad;
+    }
+}
+
+// No loop comes before that.
+TEST(SteeredPursuit, AStopBehindTheOneItRestsAtIsMissedAtOnce) {
+  for (const double behind_m : {0.08, 0.2, 0.3})
+    for (const bool goes_on : {true, false}) {
+      const Driven dut = DriveToSecondStop({2 - behind_m, 0.001}, goes_on);
+      ASSERT_TRUE(dut.done) << behind_m;
+      EXPECT_EQ(dut.missed.count, 1) << behind_m;
+      EXPECT_EQ(dut.missed.end, !goes_on);
+      for (const auto& step : dut.steps)
+        ASSERT_LT(std::abs(step.X_WB.yaw_rad), 0.1) << behind_m << " " << step.t_s;
+      EXPECT_NEAR(dut.steps.back().X_WB.x_m, goes_on ? 5 : 2, 0.05);
+    }
+}
+
 // One that was run past is not turned back to: what is done, is done where it belongs.
 TEST(SteeredPursuit, AStopThatItIsPushedBeyondIsMissed) {
   for (const double beyond_m : {0.0, 0.03, 0.08, 0.3}) {
