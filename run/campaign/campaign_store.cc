@@ -392,6 +392,7 @@ void CampaignStore::CheckTables() const {
   if (tables.empty()) refuse("table about");
   if (tables != std::vector<std::string>{"about", "episode", "extra", "timing"})
     refuse("its tables are not about, episode, extra, timing");
+  std::vector<Column> of_episode;
   for (const std::string table : {"episode", "extra"}) {
     std::vector<Column> there;
     Statement info(*this, "PRAGMA table_xinfo(" + table + ")");
@@ -414,6 +415,10 @@ void CampaignStore::CheckTables() const {
     }
     right = right && texts >= kLeastTexts;
     if (!right) refuse("table " + table + " has not the columns of one");
+    if (of_episode.empty()) of_episode = std::move(there);
+    // Rows of both are read by one statement, by the places of their columns.
+    else if (!std::ranges::equal(there, of_episode, {}, &Column::name, &Column::name))
+      refuse("tables episode and extra have not the same columns");
   }
 }
 

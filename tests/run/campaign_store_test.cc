@@ -347,6 +347,9 @@ TEST_F(CampaignStoreTest, NothingOfAForeignFileIsRun) {
   expect_refused("CREATE TABLE more(a)", "its tables are not about, episode, extra, timing");
   expect_refused("ALTER TABLE episode ADD COLUMN c TEXT", "has not the columns of one");
   expect_refused("ALTER TABLE episode ADD COLUMN c REAL AS (episode * 2)", "computes a column");
+  for (const char* change :
+       {"extra ADD COLUMN c REAL", "episode DROP COLUMN turns", "extra RENAME COLUMN turns TO c"})
+    expect_refused(std::string("ALTER TABLE ") + change, "have not the same columns");
 }
 
 TEST_F(CampaignStoreTest, EveryTextIsReadBeforeAnyIsWritten) {
