@@ -196,8 +196,10 @@ class Finder {
  public:
   Finder(const Scenario& s, const PlanResult& plan, const SweepArea& area)
       : known_(KnownFloor(s)), step_m_(s.robot.spec.step_m), area_(area), plan_(plan) {
-    free_ = ObstacleMask(known_, step_m_, area.frame);
-    for (std::uint8_t& cell : free_.cells) cell = !cell;
+    free_ = FreeOn(known_);
+    HazardMap bare = known_;
+    bare.hazards.clear();
+    within_walls_ = FreeOn(bare);
     const double cell_m = area.frame.cell_m;
     least_half_ = std::max(1.0, plan.tool_width_m / 8 / cell_m);
     least_cells_ = std::pow(plan.tool_width_m / 2 / cell_m, 2);
@@ -206,7 +208,7 @@ class Finder {
   UncoveredFloor Find() {
     const CoverageMeter meter = PassesOf(area_, plan_.tool, plan_.path);
     const Mask from_floor = Connected(free_, area_.reachable);
-    const Mask from_start = Connected(FreeOfWalls(), area_.reachable);
+    const Mask from_start = Connected(within_walls_, area_.reachable);
     Mask of[4];
     for (Mask& mask : of) mask = Mask(free_.width, free_.height);
     const double cell_m2 = area_.frame.cell_m * area_.frame.cell_m;
@@ -235,12 +237,16 @@ class Finder {
   }
 
  private:
-  Mask FreeOfWalls() const {
-    HazardMap bare = known_;
-    bare.hazards.clear();
-    Mask free = ObstacleMask(bare, step_m_, area_.frame);
+  // Cells that no obstacle of this floor takes.
+  Mask FreeOn(const HazardMap& floor) const {
+    Mask free = ObstacleMask(floor, step_m_, area_.frame);
     for (std::uint8_t& cell : free.cells) cell = !cell;
     return free;
+  }
+
+  Vec2 CentreOf(std::uint32_t index) const {
+    const auto width = static_cast<std::uint32_t>(free_.width);
+    return area_.frame.Center(static_cast<int>(index % width), static_cast<int>(index / width));
   }
 
   void AddPockets(Why why, const Mask& cells) {
@@ -269,18 +275,15 @@ class Finder {
     pocket.width_m = 2 * own_m;
     if (narrowest_m < 0 || own_m - narrowest_m < area_.frame.cell_m) return;
     const std::uint32_t at = ways_in_.where(patch.widest);
-    const auto width = static_cast<std::uint32_t>(free_.width);
     pocket.gap_m = 2 * narrowest_m;
-    pocket.gap_W = area_.frame.Center(static_cast<int>(at % width), static_cast<int>(at / width));
+    pocket.gap_W = CentreOf(at);
   }
 
   // Where a hazard closes the way to the cell.
   Vec2 ClosedAt(const Cell& cell) {
-    if (first_closed_.cells.empty()) first_closed_ = FirstClosed(area_, free_, FreeOfWalls());
+    if (first_closed_.cells.empty()) first_closed_ = FirstClosed(area_, free_, within_walls_);
     const std::uint32_t at = first_closed_(cell);
-    if (at == kNowhere) return area_.frame.Center(cell);
-    const auto width = static_cast<std::uint32_t>(free_.width);
-    return area_.frame.Center(static_cast<int>(at % width), static_cast<int>(at / width));
+    return at == kNowhere ? area_.frame.Center(cell) : CentreOf(at);
   }
 
   std::string NearestHazard(const Vec2& p_W) const {
@@ -327,7 +330,7 @@ class Finder {
   double step_m_;
   const SweepArea& area_;
   const PlanResult& plan_;
-  Mask free_;
+  Mask free_, within_walls_;
   double least_half_ = 1, least_cells_ = 1;
   std::int64_t rest_ = 0;
   WaysIn ways_in_;
