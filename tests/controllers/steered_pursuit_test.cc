@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "tests/controllers/driving.h"
@@ -85,10 +86,14 @@ Vec2 BesideTheStart(double share, double angle_rad, double side) {
   return {share * r_m * std::sin(angle_rad), side * r_m * (1 - share * std::cos(angle_rad))};
 }
 
+void MakeStop(Waypoint& waypoint) {
+  waypoint.dwell_s = 1;
+  waypoint.task = WaypointTask{.id = 7};
+}
+
 Driven DriveToStop(const Vec2& stop_W, bool goes_on) {
   Path path = MakePath({{0, 0}, stop_W});
-  path[1].dwell_s = 1;
-  path[1].task = WaypointTask{.id = 7};
+  MakeStop(path[1]);
   if (goes_on) path.push_back(MakePath({{6, 0}})[0]);
   DriveOptions options;
   options.start = Pose2{};
@@ -140,8 +145,8 @@ TEST(SteeredPursuit, AStopInsideItsTightestTurnIsMissedAndPassed) {
 // From where it rests at one stop to another, `stop_W`, and on, or not.
 Driven DriveToSecondStop(const Vec2& stop_W, bool goes_on) {
   Path path = MakePath({{0, 0}, {2, 0}, stop_W});
-  path[1].dwell_s = path[2].dwell_s = 1;
-  path[2].task = WaypointTask{.id = 7};
+  path[1].dwell_s = 1;
+  MakeStop(path[2]);
   if (goes_on) path.push_back(MakePath({{5, 0}})[0]);
   DriveOptions options;
   options.time_limit_s = 60;
@@ -173,20 +178,24 @@ TEST(SteeredPursuit, AStopBehindTheOneItRestsAtIsMissedAtOnce) {
     }
 }
 
+// To a stop at x 2 and on, pushed once, as soon as it is at `from_m`.
+Driven DrivePushed(double from_m, const std::function<void(Pose2&)>& push) {
+  Path path = MakePath({{0, 0}, {2, 0}, {6, 0}});
+  MakeStop(path[1]);
+  bool pushed = false;
+  DriveOptions options;
+  options.push = [&](double, Pose2& X_WB) {
+    if (pushed || X_WB.x_m < from_m) return;
+    pushed = true;
+    push(X_WB);
+  };
+  return Drive(path, options);
+}
+
 // One that was run past is not turned back to: what is done, is done where it belongs.
 TEST(SteeredPursuit, AStopThatItIsPushedBeyondIsMissed) {
   for (const double beyond_m : {0.0, 0.03, 0.08, 0.3}) {
-    Path path = MakePath({{0, 0}, {2, 0}, {6, 0}});
-    path[1].dwell_s = 1;
-    path[1].task = WaypointTask{.id = 7};
-    bool pushed = false;
-    DriveOptions options;
-    options.push = [&](double, Pose2& X_WB) {
-      if (pushed || X_WB.x_m < 1.9) return;
-      pushed = true;
-      X_WB.x_m = 2 + beyond_m;
-    };
-    const Driven dut = Drive(path, options);
+    const Driven dut = DrivePushed(1.9, [&](Pose2& X_WB) { X_WB.x_m = 2 + beyond_m; });
     ASSERT_TRUE(dut.done);
     EXPECT_EQ(dut.missed.count, beyond_m > 0.05) << beyond_m;
     EXPECT_EQ(DoneOff(dut, {2, 0}).has_value(), beyond_m < 0.05) << beyond_m;
@@ -197,17 +206,7 @@ TEST(SteeredPursuit, AStopThatItIsPushedBeyondIsMissed) {
 // farther off it comes back to it.
 TEST(SteeredPursuit, AStopThatItIsPushedBesideIsMissedWithoutALoop) {
   for (const double aside_m : {0.22, -0.22, 0.6, -0.6}) {
-    Path path = MakePath({{0, 0}, {2, 0}, {6, 0}});
-    path[1].dwell_s = 1;
-    path[1].task = WaypointTask{.id = 7};
-    bool pushed = false;
-    DriveOptions options;
-    options.push = [&](double, Pose2& X_WB) {
-      if (pushed || X_WB.x_m < 1.97) return;
-      pushed = true;
-      X_WB = {1.995, aside_m, 0};
-    };
-    const Driven dut = Drive(path, options);
+    const Driven dut = DrivePushed(1.97, [&](Pose2& X_WB) { X_WB = {1.995, aside_m, 0}; });
     ASSERT_TRUE(dut.done);
     const bool near = std::abs(aside_m) < 2 * Tricycle().turn_radius_m;
     EXPECT_EQ(dut.missed.count, near) << aside_m;
