@@ -107,16 +107,15 @@ void CheckMeasured(const std::vector<std::filesystem::path>& models, const Input
     DropLimits(measured, "the scenario changes " + changed);
 }
 
-// Changes the model and reads what it then is.
-void Finish(RobotModel& out, const std::string& file, const RobotChanges& changes, Blocks blocks,
-            const InputFiles& files) {
+// Changes the model and reads what it then is. Returns it as it was compiled last.
+ModelPtr ChangeAndRead(RobotModel& out, const std::string& file, const RobotChanges& changes,
+                       Blocks blocks, const InputFiles& files) {
   NameParts(out.mjcf.get(), file);
+  ModelPtr model;
   const auto read = [&] {
-    const ModelPtr model(mj_compile(out.mjcf.get(), out.assets.get()));
+    model.reset(mj_compile(out.mjcf.get(), out.assets.get()));
     if (!model) throw InputError({file, 0}, "", mjs_getError(out.mjcf.get()), "does not compile");
-    RobotSpec robot = ReadSpec(model.get(), file);
-    LetExposedWheelsMeetWalls(out.mjcf.get(), model.get(), robot);
-    return robot;
+    return ReadSpec(model.get(), file);
   };
   out.spec = read();
   const RobotSpec as_written = out.spec;
@@ -126,7 +125,7 @@ void Finish(RobotModel& out, const std::string& file, const RobotChanges& change
   const int shape = changes.shape.empty() ? 0 : FindShape(out.spec, changes.shape);
   if (shape < 0) RefuseShape(out.spec, {file, 0}, "shape", changes.shape);
   CheckMeasured(out.files, files, shape > 0 ? "its shape" : changed, out.spec.measured);
-  if (out.spec.shapes.empty()) return;
+  if (out.spec.shapes.empty()) return model;
   const MeasuredLimits measured = std::move(out.spec.measured);
   const std::vector<ShapeSpec> shapes = out.spec.shapes;
   if (blocks == Blocks::kLocked) {
@@ -137,6 +136,13 @@ void Finish(RobotModel& out, const std::string& file, const RobotChanges& change
   }
   out.spec.measured = measured;
   TakeShape(out.spec, shapes, shape);
+  return model;
+}
+
+void Finish(RobotModel& out, const std::string& file, const RobotChanges& changes, Blocks blocks,
+            const InputFiles& files) {
+  const ModelPtr model = ChangeAndRead(out, file, changes, blocks, files);
+  LetExposedWheelsMeetWalls(out.mjcf.get(), model.get(), out.spec);
 }
 
 void PutOnFloor(const RobotModel& robot) {
