@@ -29,17 +29,7 @@ Polyline MergeStraight(const Polyline& line) {
   return out;
 }
 
-double Floor::MarginAt(const Vec2& p) const {
-  const double x = p.x() - 0.5, y = p.y() - 0.5;
-  const int ix = Down(x), iy = Down(y);
-  if (ix < 0 || iy < 0 || ix + 1 >= margin.width || iy + 1 >= margin.height) return -1;
-  const float* row = &margin.cells[margin.Index(ix, iy)];
-  const float* above = row + margin.width;
-  const double u = x - ix, v = y - iy;
-  const double low = (1 - u) * static_cast<double>(row[0]) + u * static_cast<double>(row[1]);
-  const double high = (1 - u) * static_cast<double>(above[0]) + u * static_cast<double>(above[1]);
-  return (1 - v) * low + v * high;
-}
+double Floor::MarginAt(const Vec2& p) const { return Interpolate(margin, p, -1); }
 
 // Between cell centres a footprint is free exactly where it is free at the four centres around: in
 // the plane of its poses an obstacle is a rectangle larger than a cell. So the line is looked at

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "env/core/coverage.h"
+#include "env/geometry/interpolate.h"
 
 namespace floorproof {
 
@@ -35,12 +36,7 @@ struct Floor {
   double ToCells(double length_m) const { return length_m / frame.cell_m; }
   Vec2 ToCells(const Vec2& p_W) const { return frame.X_WG.Inverse() * p_W / frame.cell_m; }
   Vec2 ToWorld(const Vec2& p) const { return frame.X_WG * (p * frame.cell_m); }
-  static Cell CellAt(const Vec2& p) { return {Down(p.x()), Down(p.y())}; }
-  // As std::floor, which is a call where the processor is any x86-64.
-  static int Down(double x) {
-    const int i = static_cast<int>(x);
-    return i - (x < i);
-  }
+  static Cell CellAt(const Vec2& p) { return {RoundDown(p.x()), RoundDown(p.y())}; }
   static Vec2 CentreOf(Cell c) { return {c.ix + 0.5, c.iy + 0.5}; }
 
   // Margin between cell centres, bilinear.

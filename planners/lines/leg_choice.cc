@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "env/geometry/interpolate.h"
 #include "planners/lines/turn_curves.h"
 
 namespace floorproof {
@@ -21,21 +22,16 @@ constexpr double kShortenings[] = {0, 0.5, 1, 1.5, 2, 3, 4};  // turn radii
 constexpr std::size_t kAhead = 4;  // legs that are looked at from each, as a rule
 constexpr std::size_t kBack = 400, kMore = 8, kTriesALeg = 4;  // see Rescue
 
-// Clearance between cell centres, bilinear: that of the nearest would be off by up to 0.7 cells.
+// Clearance between cell centres, for who asks at many places.
 class Clearance {
  public:
   explicit Clearance(const ClearanceField& field)
       : field_(field), X_GW_(field.frame.X_WG.Inverse()), turned_(X_GW_.Rotate({1, 0})) {}
   // 0 beyond the grid.
   double At(const Vec2& p_W) const {
-    const double x = (X_GW_.x_m + turned_.x() * p_W.x() - turned_.y() * p_W.y()) / cell_m() - 0.5;
-    const double y = (X_GW_.y_m + turned_.y() * p_W.x() + turned_.x() * p_W.y()) / cell_m() - 0.5;
-    const Grid<float>& grid = field_.distance_m;
-    if (!(x >= 0 && y >= 0 && x < grid.width - 1 && y < grid.height - 1)) return 0;
-    const int ix = static_cast<int>(x), iy = static_cast<int>(y);
-    const auto at = [&](int i, int j) { return static_cast<double>(grid(ix + i, iy + j)); };
-    const double u = x - ix, v = y - iy;
-    return (1 - v) * ((1 - u) * at(0, 0) + u * at(1, 0)) + v * ((1 - u) * at(0, 1) + u * at(1, 1));
+    const Vec2 p_G(X_GW_.x_m + turned_.x() * p_W.x() - turned_.y() * p_W.y(),
+                   X_GW_.y_m + turned_.y() * p_W.x() + turned_.x() * p_W.y());
+    return Interpolate(field_.distance_m, p_G / cell_m(), 0);
   }
   double cell_m() const { return field_.frame.cell_m; }
 

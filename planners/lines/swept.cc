@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "env/geometry/interpolate.h"
 #include "planners/search/index.h"
 
 namespace floorproof {
@@ -54,8 +55,8 @@ class Swept::Strip {
  private:
   Cells Within(double low, double high) const {
     if (!(low <= high)) return {};
-    const Cells cells{-Floor::Down(-std::max(0.0, low - 0.5)),
-                      std::min(width_ - 1, Floor::Down(high - 0.5))};
+    const Cells cells{-RoundDown(-std::max(0.0, low - 0.5)),
+                      std::min(width_ - 1, RoundDown(high - 0.5))};
     return cells.first <= cells.last ? cells : Cells{};
   }
 
