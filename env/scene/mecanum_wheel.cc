@@ -13,7 +13,16 @@ constexpr double kSameNormal = 0.9995;  // cosine: planes within 2 degrees are o
 constexpr double kBlend_m = 1e-4;       // contacts deeper than others by this rule alone
 constexpr std::array kOthers = {mjGEOM_PLANE, mjGEOM_HFIELD, mjGEOM_BOX, mjGEOM_MESH};
 
+// Of the third of a wheel's user data, once it is paired: other programs' models in this process
+// may have user data of their own, and are to be left alone.
+constexpr double kPaired = 2718281.828;
+
 std::array<mjfCollision, kOthers.size()> g_original;
+
+// What the collider makes of a geom: none of what PairWheel did not pair.
+Rollers PairedRollersOf(const mjModel* m, int geom) {
+  return m->geom_user[m->nuser_geom * geom + 2] == kPaired ? RollersOf(m, geom) : Rollers{};
+}
 
 // The core's contacts become the rounded wheel's: nearer by the roller's radius, each at the middle
 // of the gap. `toward_wheel` is 1 when the normals point to the wheel.
@@ -87,8 +96,8 @@ void SetTangent(const mjData* d, int wheel, double angle_rad, mjPreContact* con)
 
 int CollideWheel(const mjModel* m, mjData* d, mjPreContact* con, int g1, int g2, mjtNum margin,
                  mjfCollision original) {
-  if (m->nuser_geom < 2) return original(m, d, con, g1, g2, margin);
-  const Rollers first = RollersOf(m, g1), second = RollersOf(m, g2);
+  if (m->nuser_geom < 3) return original(m, d, con, g1, g2, margin);
+  const Rollers first = PairedRollersOf(m, g1), second = PairedRollersOf(m, g2);
   const bool wheel_is_second = second.radius_m > 0;
   const Rollers rollers = wheel_is_second ? second : first;
   if (rollers.radius_m <= 0) return original(m, d, con, g1, g2, margin);
@@ -155,6 +164,11 @@ void InflateWheelBounds(mjModel* model) {
 
 void PairWheel(mjSpec* spec, const mjsGeom* wheel, const mjsGeom* other,
                const WheelFriction& friction) {
+  if (const Rollers rollers = RollersOf(wheel); rollers.radius_m > 0) {
+    const std::array user = {rollers.radius_m, rollers.angle_rad, kPaired};
+    mjs_setDouble(wheel->userdata, user.data(), static_cast<int>(user.size()));
+    spec->nuser_geom = std::max(spec->nuser_geom, static_cast<int>(user.size()));
+  }
   mjsPair* pair = mjs_addPair(spec, nullptr);
   mjs_setString(pair->geomname1, mjs_getString(mjs_getName(wheel->element)));
   mjs_setString(pair->geomname2, mjs_getString(mjs_getName(other->element)));

@@ -26,8 +26,8 @@ Rollers RollersOf(const mjModel* model, int geom);
 Rollers RollersOf(const mjsGeom* geom);
 
 // Installs the collider for all models of the process. MuJoCo's table of colliders is global: call
-// it before other threads start. Calls after the first do nothing. Geoms without rollers pass
-// through to MuJoCo's own colliders, bit for bit.
+// it before other threads start. Calls after the first do nothing. Geoms that PairWheel did not
+// pair, other programs' models among them, pass through to MuJoCo's own colliders, bit for bit.
 void InstallWheelCollider();
 
 // Lets the bounds of the cores, by which MuJoCo finds who may touch, hold the rollers too. Once,

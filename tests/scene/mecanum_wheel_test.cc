@@ -56,6 +56,24 @@ struct OneWheel {
   }
 };
 
+// Another program's model in this process, whose cylinders have user data of their own.
+TEST(WheelCollider, WhatWasNotPairedIsLeftAlone) {
+  for (const int numbers : {1, 2, 3, 5}) {
+    OneWheel stranger(0.001, 0, mjGEOM_PLANE, kPi / 4);
+    ASSERT_EQ(stranger.data->ncon, 1);
+    mjsPair* pair = mjs_asPair(mjs_firstElement(stranger.spec.get(), mjOBJ_PAIR));
+    ASSERT_NE(pair, nullptr);
+    stranger.spec->nuser_geom = numbers;
+    mjsGeom* wheel = mjs_asGeom(mjs_findElement(stranger.spec.get(), mjOBJ_GEOM, "wheel"));
+    const double user[5] = {kRoller_m, kPi / 4, 0, 0, 0};
+    mjs_setDouble(wheel->userdata, user, numbers);
+    stranger.model = CompileSpec(stranger.spec.get());
+    stranger.data = MakeData(stranger.model.get());
+    ForwardEngine(stranger.model.get(), stranger.data.get());
+    EXPECT_EQ(stranger.data->ncon, 0) << "its core ends 6 mm above the floor";
+  }
+}
+
 TEST(WheelCollider, AWheelThatStandsUprightTouchesOnceBelowItsMiddle) {
   for (const mjtGeom floor : {mjGEOM_PLANE, mjGEOM_BOX}) {
     OneWheel dut(0.001, 0, floor, kPi / 4);
