@@ -8,7 +8,8 @@
 namespace floorproof {
 
 void Console::Say(const std::string& line) const {
-  if (quiet) return;
+  if (listener) listener(Printable(line));
+  if (quiet || listener) return;
   std::FILE* out = json ? stderr : stdout;
   std::fprintf(out, "%s\n", Printable(line).c_str());
   std::fflush(out);

@@ -113,6 +113,20 @@ std::vector<fs::path> InputFiles::StoodIn() const {
   return files;
 }
 
+void InputFiles::Hold(const fs::path& file, const std::string& bytes) const {
+  Shared::Input& input = shared_->At(file);
+  if (!input.bytes) shared_->order.push_back(input.named);
+  input.bytes = bytes;
+  input.sha256 = floorproof::Sha256(bytes);
+}
+
+std::vector<std::pair<std::string, std::string>> InputFiles::Named() const {
+  std::vector<std::pair<std::string, std::string>> named;
+  for (const auto& [name, input] : shared_->spellings)
+    if (input->bytes) named.emplace_back(name, *input->bytes);
+  return named;
+}
+
 void InputFiles::MarkAbsolute(const fs::path& file) const { shared_->At(file).absolute = true; }
 
 bool InputFiles::IsAbsolute(const fs::path& file) const { return shared_->At(file).absolute; }

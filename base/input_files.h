@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace floorproof {
@@ -37,6 +38,11 @@ class InputFiles {
                const std::filesystem::path& copy) const;
   bool HasStandIn(const std::filesystem::path& file) const;
   std::vector<std::filesystem::path> StoodIn() const;  // the files that copies stand in for
+
+  // From now on `file`, which need not be there, holds these bytes.
+  void Hold(const std::filesystem::path& file, const std::string& bytes) const;
+  // What was read or held, under every name by which it was asked for: name and bytes.
+  std::vector<std::pair<std::string, std::string>> Named() const;
 
   // Another input names this file by an absolute path: it is looked for there wherever a record of
   // the work is moved to.

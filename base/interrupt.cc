@@ -19,6 +19,7 @@ namespace {
 constexpr int kEnding = -1;
 std::atomic<int> g_holds{0};
 std::atomic<bool> g_seen{false};
+std::atomic<bool (*)()> g_host{nullptr};
 std::atomic<const char*> g_line{"floorproof: interrupted: nothing was written\n"};
 static_assert(std::atomic<int>::is_always_lock_free &&
               std::atomic<const char*>::is_always_lock_free);
@@ -58,13 +59,19 @@ void CatchInterrupts() {
 }
 
 void SayWhenInterrupted(const std::string& what_is_there) {
+  if (g_host.load() != nullptr) return;  // nothing ends the process here
   // Lines live for ever: a handler may be reading the one before.
   static auto& lines = *new std::deque<std::string>;
   lines.push_back("floorproof: interrupted: " + Printable(what_is_there) + "\n");
   g_line = lines.back().c_str();
 }
 
-bool Interrupted() { return g_seen; }
+bool Interrupted() {
+  bool (*const host)() = g_host;
+  return g_seen || (host != nullptr && host());
+}
+
+void AskHostForInterrupts(bool (*asked)()) { g_host = asked; }
 
 void EndInterrupted() {
   std::fflush(stdout);

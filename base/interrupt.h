@@ -21,8 +21,13 @@ void CatchInterrupts();
 // What the one line on stderr says from now on, behind "floorproof: interrupted: ".
 void SayWhenInterrupted(const std::string& what_is_there);
 
-// True once a signal was seen; only ever while interrupts are held.
+// True once a signal was seen; only ever while interrupts are held. In a host that catches signals
+// itself, what the host answers.
 bool Interrupted();
+
+// For a program that holds this one as a library and never calls CatchInterrupts: it is asked in
+// place of a signal. It may be asked often, on the thread that calls Interrupted().
+void AskHostForInterrupts(bool (*asked)());
 
 // Thrown by who looked, once it has tidied up: `main` ends the process.
 class Interruption : public std::exception {

@@ -10,7 +10,7 @@
 namespace floorproof {
 
 ProgressLine::ProgressLine(const Console& console)
-    : quiet_(console.quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+    : quiet_(console.quiet || console.listener), terminal_(isatty(STDERR_FILENO) != 0) {}
 
 bool ProgressLine::IsDue() {
   if (quiet_) return false;

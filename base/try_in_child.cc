@@ -18,6 +18,7 @@
 #include <new>
 
 #include "base/error.h"
+#include "base/fork.h"
 #include "base/sanitizer.h"
 
 namespace floorproof {
@@ -118,7 +119,7 @@ TrialOutcome TryInChild(const std::function<std::string()>& work, const TrialLim
   if (pipe2(ends, O_CLOEXEC) != 0)
     throw InternalError(std::string("no pipe: ") + std::strerror(errno));
   const pid_t parent = getpid();
-  const pid_t child = fork();
+  const pid_t child = Fork();
   if (child < 0) {
     const int error = errno;
     close(ends[0]), close(ends[1]);

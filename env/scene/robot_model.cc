@@ -191,10 +191,21 @@ std::span<const RobotEntry> Robots() {
   return kTable;
 }
 
+namespace {
+
+std::filesystem::path& BuiltInModels() {
+  static auto& folder = *new std::filesystem::path(FLOORPROOF_MODELS_DIR);
+  return folder;
+}
+
+}  // namespace
+
 std::filesystem::path ModelsFolder() {
   if (const char* folder = std::getenv("FLOORPROOF_MODELS")) return folder;
-  return FLOORPROOF_MODELS_DIR;
+  return BuiltInModels();
 }
+
+void SetModelsFolder(const std::filesystem::path& folder) { BuiltInModels() = folder; }
 
 std::filesystem::path FindRobotFile(const std::string& name_or_path, const SourceMark& mark) {
   std::vector<std::string> names;

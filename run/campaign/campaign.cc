@@ -108,26 +108,20 @@ class CampaignDrive {
       });
     }
     PoolCallbacks callbacks;
-    callbacks.work = [this](Job job) { return Work(job); };
+    callbacks.work = [this](Job job) { return maker_.Answer(job); };
     callbacks.next = [this] { return Next(); };
     callbacks.done = [this](Job, std::string answer) { Take(FromLine(answer)); };
     callbacks.crashed = [this](Job job, const std::string& how) { TakeCrash(job, how); };
     callbacks.stop = [this] { return Stop(); };
-    RunInWorkers(options_.jobs, callbacks);
+    if (options_.pool)
+      options_.pool(callbacks);
+    else
+      RunInWorkers(options_.jobs, callbacks);
     Flush();
     return Finish();
   }
 
  private:
-  const Variant& VariantOf(Job job) const { return file_.variants()[job % tallies_.size()]; }
-
-  std::string Work(Job job) {
-    const auto start = Clock::now();
-    EpisodeRow row = maker_.Run(VariantOf(job), job / tallies_.size());
-    row.wall_s = Since(start);
-    return ToLine(row);
-  }
-
   // The next id that is not there; all variants of an episode together.
   std::optional<Job> Next() {
     if (ended_) return std::nullopt;
@@ -154,8 +148,8 @@ class CampaignDrive {
   }
 
   void TakeCrash(Job job, const std::string& how) {
-    Take(maker_.Refused(VariantOf(job), job / tallies_.size(),
-                        "crashed: its process was " + how + ", twice"));
+    const auto [variant, episode] = maker_.Of(job);
+    Take(maker_.Refused(variant, episode, "crashed: " + how));
   }
 
   // Whether this row ends the campaign, once all before it are done.

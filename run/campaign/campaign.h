@@ -16,6 +16,7 @@
 
 #include "run/campaign/campaign_gate.h"
 #include "run/campaign/campaign_store.h"
+#include "run/campaign/worker_pool.h"
 #include "run/scenario/scenario.h"
 
 namespace floorproof {
@@ -24,6 +25,7 @@ struct CampaignOptions {
   std::uint64_t begin = 0, end = 0;  // episode ids, half-open
   std::optional<CampaignGate> gate;  // none of a shard: it is judged on the whole campaign
   int jobs = 1;
+  WorkerPool pool = {};                     // none: `jobs` processes of this machine
   bool fail_fast = false;                   // ends at the first episode that fails
   std::optional<double> time_limit_s = {};  // wall time; what is in hand then is given up
 };
@@ -63,7 +65,8 @@ struct CampaignRun {
 };
 
 // Drives what `store` does not hold yet. The caller holds interrupts (base/interrupt.h); the
-// process must not have threads. Throws InputError when rows cannot be written: those before are.
+// process must not have threads, unless a pool is given. Throws InputError when rows cannot be
+// written: those before are.
 CampaignRun RunCampaign(const ScenarioFile& file, CampaignStore& store,
                         const CampaignOptions& options, CampaignObserver* observer = nullptr);
 

@@ -129,6 +129,7 @@ CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& r
   CampaignOptions options{.end = request.episodes,
                           .gate = gate,
                           .jobs = request.jobs,
+                          .pool = request.pool,
                           .fail_fast = request.fail_fast,
                           .time_limit_s = request.time_limit_s};
   if (request.shard) {

@@ -24,6 +24,7 @@ struct CampaignRequest {
   std::uint64_t episodes = 0;               // a variant, of the whole campaign
   std::optional<EpisodeRange> shard = {};   // these alone are driven, and the gate is not judged
   int jobs = 1;                             // worker processes
+  WorkerPool pool = {};                     // in place of them
   bool resume = false;                      // goes on with the campaign that the folder holds
   bool retry_errors = false;                // drives again what ended in an error
   bool fail_fast = false;                   // ends at the first episode that fails
@@ -42,10 +43,11 @@ struct CampaignOutcome {
 
 // Reads and checks all variants before there is a folder, then drives what the folder's database
 // lacks and writes scenario.resolved.yaml and the files of WriteSummaryFiles. The process must not
-// have threads. Throws InputError where the scenario, its gate or the request makes no sense, where
-// the folder holds a campaign (with `resume`: another one), where a fixed gate would be judged
-// twice, and where the folder cannot be written to; InternalError, with what is missing, where the
-// disk is full or results cannot be written. Interrupted it returns, with run.end saying so.
+// have threads, unless a pool is given. Throws InputError where the scenario, its gate or the
+// request makes no sense, where the folder holds a campaign (with `resume`: another one), where a
+// fixed gate would be judged twice, and where the folder cannot be written to; InternalError, with
+// what is missing, where the disk is full or results cannot be written. Interrupted it returns,
+// with run.end saying so.
 CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& request,
                               const std::filesystem::path& folder,
                               CampaignObserver* observer = nullptr);

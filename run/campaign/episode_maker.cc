@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/campaign/episode_maker.h"
 
+#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "run/episode/execute.h"
@@ -69,6 +70,15 @@ const EpisodeMaker::Planned& EpisodeMaker::Plan(const Variant& variant, const Sc
     last.json = json.dump();
   }
   return last;
+}
+
+std::string EpisodeMaker::Answer(Job job) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  const auto [variant, episode] = Of(job);
+  EpisodeRow row = Run(variant, episode);
+  row.wall_s = std::chrono::duration<double>(Clock::now() - start).count();
+  return ToLine(row);
 }
 
 EpisodeRow EpisodeMaker::Run(const Variant& variant, std::uint64_t episode) try {

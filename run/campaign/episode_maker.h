@@ -7,6 +7,7 @@
 #include <string>
 
 #include "run/campaign/episode_row.h"
+#include "run/campaign/worker_pool.h"
 #include "run/scenario/scenario.h"
 
 namespace floorproof {
@@ -15,6 +16,18 @@ class EpisodeMaker {
  public:
   // `file` outlives the maker.
   explicit EpisodeMaker(const ScenarioFile& file) : file_(file) {}
+
+  // Jobs number the episodes of all variants: episode 0 of each comes first, then episode 1.
+  struct Numbered {
+    const Variant& variant;
+    std::uint64_t episode;
+  };
+  Numbered Of(Job job) const {
+    const auto& variants = file_.variants();
+    return {variants[job % variants.size()], job / variants.size()};
+  }
+  // What a worker answers: the row as a line (episode_row.h), with the wall time it took.
+  std::string Answer(Job job);
 
   // Plans and, unless the scenario says `drive: none`, drives. What an episode's draws make
   // impossible (a start in a wall) is its outcome `error`, with the reason as message.

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/fork.h"
 
 namespace floorproof {
 namespace {
@@ -138,7 +139,7 @@ class Pool {
       throw InternalError(std::string("no pipe: ") + std::strerror(error));
     }
     const pid_t parent = getpid();
-    const pid_t pid = fork();
+    const pid_t pid = Fork();
     if (pid < 0) {
       const int error = errno;
       for (const int end : {jobs[0], jobs[1], answers[0], answers[1]}) close(end);
@@ -179,7 +180,7 @@ class Pool {
       if (++tries_[job] < kTries)
         again_.push_back(job);
       else
-        callbacks_.crashed(job, how);
+        callbacks_.crashed(job, "its process was " + how + ", twice");
     }
     Feed(worker);
   }

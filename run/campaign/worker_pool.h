@@ -17,12 +17,18 @@ namespace floorproof {
 using Job = std::uint64_t;
 
 struct PoolCallbacks {
-  std::function<std::string(Job)> work;           // in a worker: the answer, any bytes
-  std::function<std::optional<Job>()> next;       // in the parent: none, there is no more to do
-  std::function<void(Job, std::string)> done;     // in the parent
-  std::function<void(Job, std::string)> crashed;  // in the parent; the text says how
-  std::function<bool()> stop;                     // asked every 0.1 s or so: give up what flies
+  std::function<std::string(Job)> work;        // in a worker: the answer, any bytes
+  std::function<std::optional<Job>()> next;    // in the parent: none, there is no more to do
+  std::function<void(Job, std::string)> done;  // in the parent
+  // In the parent: given up. The text says how it ended, to go behind "crashed: ".
+  std::function<void(Job, std::string)> crashed;
+  std::function<bool()> stop;  // asked every 0.1 s or so: give up what flies
 };
+
+// Who does jobs: RunInWorkers, or workers that a caller has elsewhere. It asks `next` for jobs,
+// hands each to a worker and calls `done` or `crashed` once for each, in any order, unless `stop`
+// says to give up. All calls but `work` come from the thread that it was called on.
+using WorkerPool = std::function<void(const PoolCallbacks&)>;
 
 // Returns when all jobs are done, or when `stop` said so: workers are killed then, and what they
 // had in hand is not done. Throws InternalError when no process can be made.

@@ -161,16 +161,34 @@ ScenarioFile::ScenarioFile(const fs::path& file, const std::vector<Override>& ov
 
 ScenarioFile ScenarioFile::FromText(const std::string& text, const fs::path& file,
                                     const std::vector<Override>& overrides) {
-  return {ParseYaml(text, file.string()), file, overrides, Files::kCheck};
+  return {text, file, overrides, Files::kCheck};
+}
+
+ScenarioFile ScenarioFile::Unpack(const PackedScenario& packed) {
+  const InputFiles inputs;
+  for (const auto& [name, bytes] : packed.inputs) inputs.Hold(name, bytes);
+  return {packed.text, packed.file, packed.overrides, Files::kCheck, inputs};
+}
+
+PackedScenario ScenarioFile::Pack() const {
+  PackedScenario packed{file_, text_, {}, {}};
+  for (const auto& [key, value] : overrides_) packed.overrides.push_back({key, WriteYaml(value)});
+  const std::string bundled = (ModelsFolder() / "").string();
+  for (auto& input : files_.Named())
+    if (!input.first.starts_with(bundled)) packed.inputs.push_back(std::move(input));
+  return packed;
 }
 
 ScenarioFile ScenarioFile::Recorded(const fs::path& file) {
   return {std::nullopt, file, {}, Files::kMayBeGone};
 }
 
-ScenarioFile::ScenarioFile(std::optional<ConfigNode> root, const fs::path& file,
-                           const std::vector<Override>& overrides, Files files)
-    : file_(file), root_(root ? std::move(*root) : ReadTree(file, "a scenario", files_)) {
+ScenarioFile::ScenarioFile(std::optional<std::string> text, const fs::path& file,
+                           const std::vector<Override>& overrides, Files files, InputFiles inputs)
+    : file_(file),
+      files_(std::move(inputs)),
+      text_(std::move(text)),
+      root_(text_ ? ParseYaml(*text_, file.string()) : ReadTree(file, "a scenario", files_)) {
   RefuseOtherKinds(root_, file.string());
   for (const Override& o : overrides) {
     overrides_.emplace_back(o.key_path, ParseYaml(o.value, std::string(kSet) + o.key_path));

@@ -90,6 +90,14 @@ struct Override {
   std::string key_path, value;  // --set key.path=value; the value is YAML
 };
 
+// A scenario file with all that was read for it so far, to be read where its files are not.
+struct PackedScenario {
+  std::filesystem::path file;
+  std::optional<std::string> text;  // none: it is the file's
+  std::vector<Override> overrides;
+  std::vector<std::pair<std::string, std::string>> inputs;  // name and bytes; no bundled models
+};
+
 // A scenario file in memory, from which the episodes of a campaign are read.
 class ScenarioFile {
  public:
@@ -101,6 +109,10 @@ class ScenarioFile {
   // folder, messages name it, and it need not be there.
   static ScenarioFile FromText(const std::string& text, const std::filesystem::path& file,
                                const std::vector<Override>& overrides = {});
+  // Of a file that was packed, perhaps on another machine: it reads what was packed, and of what is
+  // not in it the files of this machine. Messages are those of the file that was packed.
+  static ScenarioFile Unpack(const PackedScenario& packed);
+  PackedScenario Pack() const;
   // One that is no more than looked into, as the files that it names may be gone: its variants, its
   // gate, whether it drives. Read() may throw.
   static ScenarioFile Recorded(const std::filesystem::path& file);
@@ -129,8 +141,8 @@ class ScenarioFile {
 
  private:
   enum class Files { kCheck, kMayBeGone };
-  ScenarioFile(std::optional<ConfigNode> root, const std::filesystem::path& file,
-               const std::vector<Override>& overrides, Files files);
+  ScenarioFile(std::optional<std::string> text, const std::filesystem::path& file,
+               const std::vector<Override>& overrides, Files files, InputFiles inputs = {});
   Scenario ReadWith(std::optional<std::uint64_t> episode, const Variant& variant,
                     const Variant& forced) const;
   void ReadSitePart(const ConfigNode& root, const Variant& changes, bool episode,
@@ -138,6 +150,7 @@ class ScenarioFile {
 
   std::filesystem::path file_;
   InputFiles files_;
+  std::optional<std::string> text_;  // none: the file's
   ConfigNode root_;
   std::vector<std::pair<std::string, ConfigNode>> overrides_;
   std::vector<RandomisedKey> randomised_;

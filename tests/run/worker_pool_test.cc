@@ -140,9 +140,9 @@ TEST_F(WorkerPoolTest, AJobThatDiesTwiceIsCrashedAndTheRestGoesOn) {
     });
     EXPECT_EQ(answers_.size(), 27u);
     ASSERT_EQ(crashed_.size(), 3u);
-    EXPECT_EQ(crashed_[3], "killed by Aborted");
-    EXPECT_EQ(crashed_[13], "killed by Killed");
-    EXPECT_EQ(crashed_[23], "killed by Aborted");
+    EXPECT_EQ(crashed_[3], "its process was killed by Aborted, twice");
+    EXPECT_EQ(crashed_[13], "its process was killed by Killed, twice");
+    EXPECT_EQ(crashed_[23], "its process was killed by Aborted, twice");
   }
 }
 
@@ -159,8 +159,8 @@ TEST_F(WorkerPoolTest, AJobThatEndsItsProcessOrThrowsIsCrashed) {
   });
   EXPECT_EQ(answers_.size(), 4u);
   ASSERT_EQ(crashed_.size(), 2u);
-  EXPECT_EQ(crashed_[1], "ended with status 7");
-  EXPECT_EQ(crashed_[4], "killed by Aborted");
+  EXPECT_EQ(crashed_[1], "its process was ended with status 7, twice");
+  EXPECT_EQ(crashed_[4], "its process was killed by Aborted, twice");
 }
 
 TEST_F(WorkerPoolTest, AJobThatDiesOnceIsTriedAgain) {
