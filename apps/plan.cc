@@ -7,7 +7,7 @@
 #include "base/interrupt.h"
 #include "base/quantity.h"
 #include "base/result_folder.h"
-#include "report/risk_pictures.h"
+#include "report/save_plan.h"
 #include "run/episode/floor_audit.h"
 #include "run/episode/make_plan.h"
 #include "run/episode/records.h"
@@ -41,13 +41,7 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     auto json = PlanJson(scenario, plan);
     const std::vector<RiskOfPlan> beside =
         PlansBeside(options->beside, globals.Overrides(), MeasurePlan(scenario, plan));
-    out.Begin();
-    RemoveEpisodeFiles(out);  // of a drive of another plan
-    SayWhenInterrupted(folder.string() + " may lack some of the plan's files");
-    WritePlanFiles(scenario, plan, folder);
-    SayWhenInterrupted(folder.string() + " holds the plan; pictures may be missing");
-    WritePlanPictures(scenario, plan, folder, beside);
-    SayWhenInterrupted(folder.string() + " holds the plan");
+    SavePlan(scenario, plan, out, beside);
     const bool found = plan.status == PlanStatus::kSuccess;
     if (found) {
       if (plan.samples.empty()) {

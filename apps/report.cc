@@ -4,33 +4,21 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
-#include "base/file_output.h"
-#include "base/result_folder.h"
-#include "report/campaign_page.h"
-#include "report/page.h"
+#include "report/campaign_report.h"
 
 namespace floorproof {
 namespace {
 
 int WriteReport(const std::string& named, const Globals& globals) {
-  const std::filesystem::path folder = named;
-  ResultFolder out(folder, PageResults(), {});
-  const Report report = GatherReport(folder, named, out, globals);
-  const std::string html = ReportHtml(report);
-  const std::filesystem::path page = folder / "report.html";
-  WriteFileWhole(page, html);
-  nlohmann::ordered_json linked = nlohmann::ordered_json::array();
-  for (const ReportFilm& film : report.films)
-    if (film.mp4.empty()) linked.push_back(film.path);
-  globals.Say(VerdictText(report));
-  globals.Say(fmt::format("report: {} ({:.1f} MB, opens from disk)", page.string(),
-                          static_cast<double>(html.size()) / 1e6));
-  for (const auto& film : linked)
-    globals.Say("linked, not in the page: " + film.get<std::string>());
-  globals.Result({{"report", page.string()},
-                  {"verdict", VerdictText(report)},
-                  {"bytes", html.size()},
-                  {"linked", std::move(linked)}});
+  const WrittenReport written = WriteCampaignReport(named, named, globals);
+  globals.Say(written.verdict);
+  globals.Say(fmt::format("report: {} ({:.1f} MB, opens from disk)", written.page.string(),
+                          static_cast<double>(written.bytes) / 1e6));
+  for (const std::string& film : written.linked) globals.Say("linked, not in the page: " + film);
+  globals.Result({{"report", written.page.string()},
+                  {"verdict", written.verdict},
+                  {"bytes", written.bytes},
+                  {"linked", written.linked}});
   return kDone;
 }
 

@@ -184,6 +184,11 @@ void Recording::AddSenses(const Pose2& estimate, const Vec2& lidar_W,
   for (const Vec2& end : ends_W) now.ends_W.push_back(end.cast<float>());
 }
 
+Image FilmPicture(const FilmScript& script, const FilmOptions& options, double t_s) {
+  Check(script, options);
+  return Studio(script, options).Draw({.t_s = t_s}, false);
+}
+
 FilmResult WriteFilm(const FilmScript& script, const FilmOptions& options,
                      const std::filesystem::path& path) {
   Check(script, options);

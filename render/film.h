@@ -91,6 +91,9 @@ struct FilmOptions : ReelOptions {
   std::vector<double> only_around_s;
 };
 
+// One picture of the film, as it looks at t_s.
+Image FilmPicture(const FilmScript& script, const FilmOptions& options, double t_s);
+
 // Writes an MP4. Throws InputError (a file that cannot be written, an unknown camera, an odd size)
 // or InternalError (no GL).
 FilmResult WriteFilm(const FilmScript& script, const FilmOptions& options,

@@ -90,6 +90,7 @@ class Witness : public EpisodeObserver {
   }
 
   void OnPlan(const PlanResult& plan) override {
+    if (options_.observer) options_.observer->OnPlan(plan);
     const double plan_s = Since(begin_);
     if (options_.write_records) {
       folder_.Begin();
@@ -120,13 +121,15 @@ class Witness : public EpisodeObserver {
   }
 
   void OnScene(const Scene& scene) override {
+    if (options_.observer) options_.observer->OnScene(scene);
     recording_.emplace(static_cast<int>(scene.model->nq));
     Begin(options_.video ? &*recording_ : nullptr);
   }
 
   bool OnControl(const EpisodeView& now) override {
     if (!progress_) Begin(nullptr);  // there is no scene
-    return progress_->OnControl(now);
+    const bool goes_on = options_.observer == nullptr || options_.observer->OnControl(now);
+    return progress_->OnControl(now) && goes_on;
   }
 
   void SayVerdict(const PlanResult& plan, const EpisodeRecord& record) const {

@@ -64,53 +64,79 @@ std::string FilmedLine(const FilmResult& film, const std::filesystem::path& mp4)
                      film.render_s, film.encode_s, mp4.string());
 }
 
-}  // namespace
+// What a film of the drive is made from; it refers to what it is made with.
+struct DriveScript {
+  DriveScript(const Scenario& s, const Scene& scene, const PlanResult& plan,
+              const EpisodeRecord& record, const Recording& recording);
+  Scene whole;  // with all walls, near and far, where `scene` has not
+  FilmScript film;
+};
 
-std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& plan,
-                       const EpisodeRecord& record, const Recording& recording,
-                       const std::vector<FailureMode>& draft_around,
-                       const std::filesystem::path& folder, const Console& console) {
+DriveScript::DriveScript(const Scenario& s, const Scene& scene, const PlanResult& plan,
+                         const EpisodeRecord& record, const Recording& recording) {
   const HazardMap& map = s.site.map;
-  // A film shows all walls, near and far.
-  Scene whole;
   if (scene.pool.num > 0)
     whole = BuildScene(s.site.map, s.robot, s.physics, s.start, WallSet::kAll);
-  FilmScript script;
-  script.model = whole.model ? whole.model.get() : scene.model.get();
-  script.base_body = scene.base_body;
-  script.recording = &recording;
-  script.events = record.events;
-  script.map = &map;
-  script.title = PictureTitle(s);
-  script.plan = &plan.path;
-  script.senses = s.video.scan;
+  film.model = whole.model ? whole.model.get() : scene.model.get();
+  film.base_body = scene.base_body;
+  film.recording = &recording;
+  film.events = record.events;
+  film.map = &map;
+  film.title = PictureTitle(s);
+  film.plan = &plan.path;
+  film.senses = s.video.scan;
   const double w = map.frame.width * map.frame.cell_m, h = map.frame.height * map.frame.cell_m;
   Vec2 low = map.frame.X_WG.p(), high = low;
   for (const Vec2& corner : {Vec2(w, 0), Vec2(0, h), Vec2(w, h)}) {
     low = low.cwiseMin(map.frame.X_WG * corner);
     high = high.cwiseMax(map.frame.X_WG * corner);
   }
-  script.set = {low, high, s.robot.spec.circumscribed_radius_m};
+  film.set = {low, high, s.robot.spec.circumscribed_radius_m};
   for (const Intervention& help : record.interventions)
-    script.notices.push_back({help.t_s,
+    film.notices.push_back({help.t_s,
                               {Banner::Tone::kWarning, "HELPED   set down by a person",
                                fmt::format("at the waypoint x {:.2f} m, y {:.2f} m;  t {:.1f} s",
                                            help.to_W.x(), help.to_W.y(), help.t_s)}});
   if (record.events.empty() || !record.interventions.empty())
-    script.closing = ClosingBanner(record);
-  if (s.safety) script.timeline = SafetyTimeline(s, record);
+    film.closing = ClosingBanner(record);
+  if (s.safety) film.timeline = SafetyTimeline(s, record);
   if (s.online) {
-    script.window_m = s.online->params().radius_m;
-    script.swept_again = SweptAgainPatches(record, s.robot.spec);
+    film.window_m = s.online->params().radius_m;
+    film.swept_again = SweptAgainPatches(record, s.robot.spec);
   }
+}
+
+FilmOptions OptionsOf(const Scenario& s, const std::filesystem::path& stills) {
   FilmOptions options;
-  static_cast<ReelOptions&>(options) = AsWritten(s.video, folder);
+  static_cast<ReelOptions&>(options) = AsWritten(s.video, stills);
   options.camera = s.video.camera;
+  return options;
+}
+
+}  // namespace
+
+std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& plan,
+                       const EpisodeRecord& record, const Recording& recording,
+                       const std::vector<FailureMode>& draft_around,
+                       const std::filesystem::path& folder, const Console& console) {
+  const DriveScript script(s, scene, plan, record, recording);
+  FilmOptions options = OptionsOf(s, folder);
   if (!draft_around.empty()) MakeDraft(record, draft_around, options);
   DrawingProgress progress(console, "filming, frames");
   options.on_frame = [&](int done, int all) { progress.Show(done, all); };
   const std::filesystem::path mp4 = folder / "video.mp4";
-  return FilmedLine(WriteFilm(script, options, mp4), mp4);
+  return FilmedLine(WriteFilm(script.film, options, mp4), mp4);
+}
+
+Image DrivePicture(const Scenario& s, const Scene& scene, const PlanResult& plan,
+                   const EpisodeRecord& record, const Recording& recording, double t_s, int width,
+                   int height, const std::string& camera) {
+  const DriveScript script(s, scene, plan, record, recording);
+  FilmOptions options = OptionsOf(s, {});
+  options.width = width;
+  options.height = height;
+  options.camera = camera;
+  return FilmPicture(script.film, options, t_s);
 }
 
 std::string WriteCellVideo(const Scenario& s, const EpisodeRecord& record,

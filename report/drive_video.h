@@ -19,6 +19,11 @@ std::string WriteVideo(const Scenario& scenario, const Scene& scene, const PlanR
                        const EpisodeRecord& record, const Recording& recording,
                        const std::vector<FailureMode>& draft_around,
                        const std::filesystem::path& folder, const Console& console);
+// One picture of that film, as it looks at t_s, of another size and by another camera. Throws
+// InputError, InternalError.
+Image DrivePicture(const Scenario& scenario, const Scene& scene, const PlanResult& plan,
+                   const EpisodeRecord& record, const Recording& recording, double t_s, int width,
+                   int height, const std::string& camera);
 // The same of `drive: cells`: from above, without physics or GL. Nothing fails there.
 std::string WriteCellVideo(const Scenario& scenario, const EpisodeRecord& record,
                            const std::filesystem::path& folder, const Console& console);

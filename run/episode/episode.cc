@@ -75,21 +75,52 @@ std::string Text(const Timeout& timeout, const HazardMap& map) {
                      timeout.hazard.empty() ? "" : ", at " + ObstaclePhrase(map, timeout.hazard));
 }
 
+template <class T>
+const T* OrNull(const std::optional<T>& value) {
+  return value ? &*value : nullptr;
+}
+
+}  // namespace
+
 // The two sides of an episode, and who looks on: the plant, the robot's side, the person who helps,
 // the detectors, the recorder. They meet in the sample, which is written here alone.
-class Episode {
+class EpisodeLoop {
  public:
-  Episode(Scenario& s, Plant& plant, Simulation* simulation, const PlanResult& plan,
-          EpisodeObserver* observer);
+  // `navigator`: none: the scenario's own.
+  EpisodeLoop(Scenario& s, Plant& plant, Simulation* simulation, const PlanResult& plan,
+              EpisodeObserver* observer, std::unique_ptr<Navigator> navigator = nullptr);
 
   EpisodeRecord Run() {
     Begin();
     std::optional<Outcome> ended;
-    for (std::int64_t step = 0; !ended; ++step) {
-      if (step % steps_a_control_ == 0) ended = Control();
-      if (!ended) ended = Step();
-    }
-    EpisodeRecord record = recorder_.Finish(*ended, sample_, robot_side_, s_.detectors,
+    while (!ended) ended = Advance();
+    return Finish(*ended);
+  }
+
+  void Begin();
+
+  // One control period: what was sensed is answered, the plant driven, and what came of it sensed.
+  std::optional<Outcome> Advance() {
+    std::optional<Outcome> ended = Control();
+    for (std::int64_t step = 0; step < steps_a_control_ && !ended; ++step) ended = Step();
+    if (!ended) plant_.Sense(sensed_);
+    return ended;
+  }
+
+  EpisodeView View() {
+    return {sample_,
+            sensed_,
+            robot_side_.estimate(),
+            simulation_,
+            recorder_.coverage(),
+            recorder_.driven_m() / plan_m_};
+  }
+  const Recorder& recorder() const { return recorder_; }
+  const SweepArea& area() const { return area_; }
+  const RobotSide& robot() const { return robot_side_; }
+
+  EpisodeRecord Finish(Outcome ended) {
+    EpisodeRecord record = recorder_.Finish(ended, sample_, robot_side_, s_.detectors,
                                             s_.episode.min_coverage, plant_.battery_left());
     if (s_.online && !navigator_->plan().empty()) record.figures = s_.online->figures();
     if (record.message.empty()) record.message = navigator_->why();
@@ -105,7 +136,6 @@ class Episode {
   }
 
  private:
-  void Begin();
   std::optional<Outcome> Control();
   std::optional<Outcome> Step();
 
@@ -137,13 +167,8 @@ class Episode {
   HazardMemory met_{&HazardMemory::Holds};
 };
 
-template <class T>
-const T* OrNull(const std::optional<T>& value) {
-  return value ? &*value : nullptr;
-}
-
-Episode::Episode(Scenario& s, Plant& plant, Simulation* simulation, const PlanResult& plan,
-                 EpisodeObserver* observer)
+EpisodeLoop::EpisodeLoop(Scenario& s, Plant& plant, Simulation* simulation, const PlanResult& plan,
+                         EpisodeObserver* observer, std::unique_ptr<Navigator> navigator)
     : s_(s),
       plant_(plant),
       simulation_(simulation),
@@ -156,13 +181,13 @@ Episode::Episode(Scenario& s, Plant& plant, Simulation* simulation, const PlanRe
       steps_a_control_(std::lround(1.0 / (s.episode.control_hz * s.physics.timestep_s))),
       recorder_(s, area_, plan),
       interventions_(s),
-      navigator_(MakeNavigator(s, plan, known_)),
+      navigator_(navigator ? std::move(navigator) : MakeNavigator(s, plan, known_)),
       robot_side_(robot_, known_, *navigator_,
                   {*s.tracker, *s.estimator, OrNull(s.mapper), OrNull(s.recovery), OrNull(s.safety),
                    !s.online},
                   1.0 / s.episode.control_hz) {}
 
-void Episode::Begin() {
+void EpisodeLoop::Begin() {
   plant_.Reset(s_.start, sensed_);
   Look();
   robot_side_.Start(s_.start, EpisodeStream(s_, "estimator"));
@@ -171,11 +196,11 @@ void Episode::Begin() {
   limit_s_ = s_.episode.time_limit_s.value_or(s_.online ? kOnlineLimit_s : 60 + 3 * plan_s);
   recorder_.Expect(plan_s);
   StartDetectors();
+  plant_.Sense(sensed_);
 }
 
-// What happens once a control period: sense and command, keep a record, look on, help.
-std::optional<Outcome> Episode::Control() {
-  plant_.Sense(sensed_);
+// What happens once a control period: command by what was sensed, keep a record, look on, help.
+std::optional<Outcome> EpisodeLoop::Control() {
   Act(interventions_.awaited() ? robot_side_.Stand(sensed_) : robot_side_.Control(sensed_));
   recorder_.OnControl(sample_, robot_side_.estimate());
 
@@ -187,9 +212,7 @@ std::optional<Outcome> Episode::Control() {
   if (const Supervisor* supervisor = robot_side_.supervisor())
     if (const auto over = HandedOver(*supervisor)) ended = over;
   if (sample_.t_s >= limit_s_ + interventions_.extra_s()) ended = Outcome::kTimeout;
-  if (observer_ && !observer_->OnControl({sample_, sensed_, robot_side_.estimate(), simulation_,
-                                          recorder_.coverage(), recorder_.driven_m() / plan_m_}))
-    ended = Outcome::kInterrupted;
+  if (observer_ && !observer_->OnControl(View())) ended = Outcome::kInterrupted;
 
   if (!ended && interventions_.HasCome(sample_.t_s)) {     // after sensing: a bump was where it lay
     if (sample_.battery_v == 0) return Outcome::kFailure;  // cut off while it waited
@@ -204,7 +227,7 @@ std::optional<Outcome> Episode::Control() {
 
 // A robot that asks for help is helped as after a failure. One that has stopped for good has done
 // so once it has been at rest for a while, its motors cut: what happens until then is judged.
-std::optional<Outcome> Episode::HandedOver(const Supervisor& supervisor) {
+std::optional<Outcome> EpisodeLoop::HandedOver(const Supervisor& supervisor) {
   if (supervisor.asks_for_help() && !interventions_.awaited() &&
       !interventions_.Call(robot_side_.path(), sample_))
     return Outcome::kAborted;
@@ -216,7 +239,7 @@ std::optional<Outcome> Episode::HandedOver(const Supervisor& supervisor) {
 }
 
 // One step of the plant, and what is to be said of it.
-std::optional<Outcome> Episode::Step() {
+std::optional<Outcome> EpisodeLoop::Step() {
   const bool good = plant_.Step();
   Look();
   if (!good) return Outcome::kError;
@@ -239,7 +262,7 @@ std::optional<Outcome> Episode::Step() {
   return std::nullopt;
 }
 
-void Episode::Act(const Actuation& actuation) {
+void EpisodeLoop::Act(const Actuation& actuation) {
   plant_.Apply(actuation);
   sample_.command = robot_side_.command();
   sample_.command.hinges = actuation.hinges;
@@ -247,20 +270,20 @@ void Episode::Act(const Actuation& actuation) {
                                                sample_.command.segment, sample_.p_WB.head<2>());
 }
 
-void Episode::StartDetectors() {
+void EpisodeLoop::StartDetectors() {
   const EpisodeContext context{s_.site.map, robot_, s_.physics.timestep_s};
   met_.Start(context);
   for (auto& [name, detector] : s_.detectors) detector->Start(context);
 }
 
 // Where the time ran out, and what held the robot last.
-Timeout Episode::Unfinished() const {
+Timeout EpisodeLoop::Unfinished() const {
   constexpr double kRecall_s = 10;  // what was met longer ago does not keep it
   return {sample_.t_s, sample_.X_WB(), met_.Recall(sample_.t_s - kRecall_s)};
 }
 
 // True when one of them fired; all see every sample.
-bool Episode::Detect() {
+bool EpisodeLoop::Detect() {
   bool failed = false;
   for (auto& [name, detector] : s_.detectors) {
     if (!detector->Update(sample_)) continue;
@@ -270,19 +293,50 @@ bool Episode::Detect() {
   return failed;
 }
 
+namespace {
+
+PhysicsPlant MakePlant(Scenario& s, const Scene& scene) {
+  return PhysicsPlant(scene, s.site.map, s.robot.spec, s.sensors, s.faults,
+                      1.0 / s.episode.control_hz,
+                      [&s](const std::string& name) { return EpisodeStream(s, name); });
+}
+
 }  // namespace
+
+struct SteppedEpisode::Parts {
+  Parts(Scenario& s, const Scene& scene, const PlanResult& plan,
+        std::unique_ptr<Navigator> navigator)
+      : plant(MakePlant(s, scene)),
+        episode(s, plant, &plant.simulation(), plan, nullptr, std::move(navigator)) {
+    episode.Begin();
+  }
+  PhysicsPlant plant;
+  EpisodeLoop episode;
+};
+
+SteppedEpisode::SteppedEpisode(Scenario& scenario, const Scene& scene, const PlanResult& plan,
+                               std::unique_ptr<Navigator> navigator)
+    : parts_(std::make_unique<Parts>(scenario, scene, plan, std::move(navigator))) {}
+SteppedEpisode::~SteppedEpisode() = default;
+std::optional<Outcome> SteppedEpisode::Advance() { return parts_->episode.Advance(); }
+EpisodeView SteppedEpisode::view() { return parts_->episode.View(); }
+const std::vector<Event>& SteppedEpisode::events() const {
+  return parts_->episode.recorder().events();
+}
+const CoverageMeter& SteppedEpisode::swept() const { return parts_->episode.recorder().swept(); }
+const SweepArea& SteppedEpisode::area() const { return parts_->episode.area(); }
+const RobotSide& SteppedEpisode::robot() const { return parts_->episode.robot(); }
+EpisodeRecord SteppedEpisode::Finish(Outcome outcome) { return parts_->episode.Finish(outcome); }
 
 EpisodeRecord RunEpisode(Scenario& s, const Scene& scene, const PlanResult& plan,
                          EpisodeObserver* observer) {
-  PhysicsPlant plant(scene, s.site.map, s.robot.spec, s.sensors, s.faults,
-                     1.0 / s.episode.control_hz,
-                     [&s](const std::string& name) { return EpisodeStream(s, name); });
+  PhysicsPlant plant = MakePlant(s, scene);
   return RunEpisode(s, plant, &plant.simulation(), plan, observer);
 }
 
 EpisodeRecord RunEpisode(Scenario& s, Plant& plant, Simulation* simulation, const PlanResult& plan,
                          EpisodeObserver* observer) {
-  return Episode(s, plant, simulation, plan, observer).Run();
+  return EpisodeLoop(s, plant, simulation, plan, observer).Run();
 }
 
 }  // namespace floorproof

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "controllers/missed_stops.h"
+#include "controllers/navigator.h"
 #include "controllers/supervision/supervisor.h"
 #include "env/core/coverage.h"
 #include "env/core/drawn_map.h"
@@ -25,6 +27,8 @@
 #include "run/scenario/scenario.h"
 
 namespace floorproof {
+
+class RobotSide;
 
 // Aborted: the robot has stopped for good, by its own decision (controllers/supervision).
 enum class Outcome { kSuccess, kFailure, kTimeout, kAborted, kNotPlanned, kError, kInterrupted };
@@ -89,6 +93,32 @@ class EpisodeObserver {
   // Once a control period.
   // Returns false to end the episode here (outcome kInterrupted).
   virtual bool OnControl(const EpisodeView& now) = 0;
+};
+
+// An episode a control period at a time, for who commands the robot from outside. All that it is
+// given outlives it; the scenario's plug-ins are started afresh.
+class SteppedEpisode {
+ public:
+  // `navigator`: none: the scenario's own. Throws InputError.
+  SteppedEpisode(Scenario& scenario, const Scene& scene, const PlanResult& plan,
+                 std::unique_ptr<Navigator> navigator = nullptr);
+  ~SteppedEpisode();
+
+  // Commands, drives one period and senses what came of it; the outcome where that ended the
+  // episode. Not after it has ended.
+  std::optional<Outcome> Advance();
+  // As it stands now: what was sensed last is of this moment.
+  EpisodeView view();
+  const std::vector<Event>& events() const;
+  const CoverageMeter& swept() const;
+  const SweepArea& area() const;
+  const RobotSide& robot() const;
+  // Once it has ended, or to end it.
+  EpisodeRecord Finish(Outcome outcome);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
 };
 
 // Drives the plan. The scenario's plug-ins are started afresh, so the same call gives the same

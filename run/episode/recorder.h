@@ -109,6 +109,8 @@ class Recorder {
     way_.Lift();
   }
 
+  const std::vector<Event>& events() const { return record_.events; }
+  const CoverageMeter& swept() const { return meter_.swept(); }
   double coverage() const { return meter_.swept().coverage(); }
   double driven_m() const { return record_.metrics.path_length_m; }
 

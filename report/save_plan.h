@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// A plan's files and pictures.
+#pragma once
+
+#include <span>
+
+#include "base/result_folder.h"
+#include "planners/planner.h"
+#include "report/risk_pictures.h"
+#include "run/scenario/scenario.h"
+
+namespace floorproof {
+
+// Writes scenario.resolved.yaml, plan.csv, plan.json and, where risk is asked for, risk.csv, and the
+// pictures of WritePlanPictures. What the folder, of EpisodeResults, holds of a drive of another plan
+// goes. Throws InputError, InternalError.
+void SavePlan(const Scenario& scenario, const PlanResult& plan, ResultFolder& out,
+              std::span<const RiskOfPlan> beside = {});
+
+}  // namespace floorproof
