@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// Campaigns: in worker processes of this machine, or wherever a Python pool has its workers.
+
+#include <nlohmann/json.hpp>
+
+#include "python/bindings/host.h"
+#include "python/bindings/modules.h"
+#include "report/failing_episodes.h"
+#include "run/campaign/campaign_merge.h"
+#include "run/campaign/drive_campaign.h"
+#include "run/campaign/episode_maker.h"
+#include "run/campaign/summary_json.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace nb::literals;
+
+class Observer final : public CampaignObserver {
+ public:
+  Observer(nb::object warn, nb::object progress)
+      : warn_(std::move(warn)), progress_(std::move(progress)) {}
+  void OnWarning(const std::string& line) override {
+    if (!warn_.is_none()) InPython("the warning callback", [&] { warn_(line); });
+  }
+  void OnProgress(const CampaignProgress& p) override {
+    if (progress_.is_none()) return;
+    InPython("the progress callback", [&] { progress_(p.done, p.total); });
+  }
+
+ private:
+  nb::object warn_, progress_;
+};
+
+// What a Python pool is called with: its run(calls) asks for jobs and hands in answers.
+struct Calls {
+  const PoolCallbacks* callbacks;
+};
+
+nb::object Next(const Calls& calls) {
+  const std::optional<Job> job = calls.callbacks->next();
+  return job ? nb::object(nb::int_(*job)) : nb::object(nb::none());
+}
+
+std::string Text(const nb::bytes& bytes) { return {bytes.c_str(), bytes.size()}; }
+
+// Summary (JSON), why it ended, its exit status' parts.
+nb::dict Ended(const CampaignOutcome& outcome, const fs::path& folder) {
+  const Console quiet{.quiet = true};
+  ListFailingEpisodes(outcome.store, outcome.variants, folder, quiet);
+  nb::dict out;
+  out["summary"] = SummaryJson(outcome.summary).dump();
+  out["end"] = std::string(WhyEnded(outcome.run.end));
+  return out;
+}
+
+nb::dict RunCampaignInto(const ScenarioFile& file, std::uint64_t n,
+                         std::optional<std::pair<std::uint64_t, std::uint64_t>> shard, int jobs,
+                         bool resume, bool retry_errors, bool fail_fast,
+                         std::optional<double> time_limit_s, const fs::path& folder,
+                         nb::object pool, nb::object warn, nb::object progress) {
+  CampaignRequest request{.episodes = n,
+                          .jobs = jobs,
+                          .resume = resume,
+                          .retry_errors = retry_errors,
+                          .fail_fast = fail_fast,
+                          .time_limit_s = time_limit_s};
+  if (shard) request.shard = EpisodeRange{shard->first, shard->second};
+  if (!pool.is_none())
+    request.pool = [&pool](const PoolCallbacks& callbacks) {
+      InPython("the pool", [&] { pool.attr("run")(nb::cast(Calls{&callbacks})); });
+    };
+  Observer observer(std::move(warn), std::move(progress));
+  std::optional<CampaignOutcome> outcome;
+  WithoutGil([&] {
+    outcome.emplace(DriveCampaign(file, request, folder, &observer));
+    return 0;
+  });
+  return Ended(*outcome, folder);
+}
+
+nb::dict MergeInto(const std::vector<std::string>& shards, const fs::path& out) {
+  std::optional<MergeOutcome> outcome;
+  WithoutGil([&] {
+    outcome.emplace(MergeCampaigns(shards, out));
+    return 0;
+  });
+  return Ended(*outcome, out);
+}
+
+// Drives episodes where they are sent: the scenario as it was packed, and what follows from it.
+class Worker {
+ public:
+  explicit Worker(std::shared_ptr<ScenarioFile> file) : file_(std::move(file)), maker_(*file_) {}
+  nb::bytes Answer(Job job) {
+    const std::string line = WithoutGil([&] { return maker_.Answer(job); });
+    return nb::bytes(line.data(), line.size());
+  }
+
+ private:
+  std::shared_ptr<ScenarioFile> file_;
+  EpisodeMaker maker_;
+};
+
+}  // namespace
+
+void BindCampaign(nb::module_& m) {
+  nb::class_<Calls>(m, "PoolCalls")
+      .def("next", &Next)
+      .def(
+          "done",
+          [](const Calls& c, Job job, const nb::bytes& answer) {
+            c.callbacks->done(job, Text(answer));
+          },
+          "job"_a, "answer"_a)
+      .def(
+          "crashed",
+          [](const Calls& c, Job job, const std::string& how) { c.callbacks->crashed(job, how); },
+          "job"_a, "how"_a)
+      .def("stop", [](const Calls& c) { return c.callbacks->stop(); });
+  m.def("drive_campaign", &RunCampaignInto, "file"_a, "n"_a, "shard"_a.none(), "jobs"_a, "resume"_a,
+        "retry_errors"_a, "fail_fast"_a, "time_limit_s"_a.none(), "folder"_a, "pool"_a.none(),
+        "warn"_a.none(), "progress"_a.none());
+  m.def("merge", &MergeInto, "shards"_a, "out"_a);
+  nb::class_<Worker>(m, "Worker")
+      .def(nb::init<std::shared_ptr<ScenarioFile>>(), "file"_a)
+      .def("answer", &Worker::Answer, "job"_a);
+}
+
+}  // namespace floorproof

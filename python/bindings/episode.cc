@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// Episodes: driven, looked on, recorded.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "base/interrupt.h"
+#include "python/bindings/arrays.h"
+#include "python/bindings/describe.h"
+#include "python/bindings/host.h"
+#include "python/bindings/modules.h"
+#include "report/drive_and_film.h"
+#include "report/progress.h"
+#include "run/episode/execute.h"
+#include "run/episode/records.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace nb::literals;
+
+const Console kQuiet{.quiet = true};
+
+// What one control period looks like from Python.
+struct View {
+  const EpisodeView* now = nullptr;
+};
+
+// Looks on for Python: asks for Ctrl-C, tells how far it is, keeps states for pictures.
+class Observer final : public EpisodeObserver {
+ public:
+  // `progress`: called with the share of the plan that is driven, the simulated time and the
+  // coverage, ten times a second at most. `each`: called in every `every`-th control period.
+  Observer(const Scenario& scenario, nb::object progress, nb::object each, int every, bool record)
+      : scenario_(scenario),
+        progress_(std::move(progress)),
+        each_(std::move(each)),
+        every_(every),
+        record_(record) {}
+
+  void OnScene(const Scene& scene) override {
+    if (!record_) return;
+    recording_.emplace(static_cast<int>(scene.model->nq));
+    recorder_.emplace(kQuiet, scenario_.robot.spec, scenario_.episode.control_hz, &*recording_);
+  }
+
+  bool OnControl(const EpisodeView& now) override {
+    if (recorder_) recorder_->OnControl(now);
+    if (!each_.is_none() && count_++ % every_ == 0)
+      InPython("the observer", [&] { each_(nb::cast(View{&now})); });
+    constexpr auto kOften = std::chrono::milliseconds(100);
+    const auto wall = std::chrono::steady_clock::now();
+    if (!progress_.is_none() && wall - told_ >= kOften) {
+      told_ = wall;
+      InPython("the progress callback",
+               [&] { progress_(std::min(now.plan_fraction, 1.0), now.sample.t_s, now.coverage); });
+    }
+    return !Interrupted();
+  }
+
+  std::optional<Recording>& recording() { return recording_; }
+
+ private:
+  const Scenario& scenario_;
+  nb::object progress_, each_;
+  int every_;
+  bool record_;
+  long count_ = 0;
+  std::chrono::steady_clock::time_point told_{};
+  std::optional<Recording> recording_;
+  std::optional<ProgressObserver> recorder_;
+};
+
+// With `planned`, that plan is driven; else one is made.
+std::shared_ptr<Driven> Run(const std::shared_ptr<Scenario>& scenario,
+                            const std::shared_ptr<Planned>& planned, nb::object progress,
+                            nb::object each, int every, bool record) {
+  Observer observer(*scenario, std::move(progress), std::move(each), std::max(1, every), record);
+  auto driven = WithoutGil([&] {
+    auto out = std::make_shared<Driven>();
+    out->scenario = scenario;
+    out->plan = planned ? planned->plan : MakePlan(*scenario);
+    out->record = ExecutePlan(*scenario, out->plan, out->scene, &observer);
+    if (out->record.outcome == Outcome::kInterrupted) throw Interruption();
+    return out;
+  });
+  driven->recording = std::move(observer.recording());
+  return driven;
+}
+
+// As `floorproof run` does it: the same files, the same bytes. `say` takes its lines.
+std::shared_ptr<Driven> RunInto(const std::shared_ptr<Scenario>& scenario, const fs::path& folder,
+                                bool video, nb::object say, nb::object progress) {
+  Observer observer(*scenario, std::move(progress), nb::none(), 1, false);
+  Console console{.quiet = true};
+  console.listener = [&say](const std::string& line) {
+    if (!say.is_none()) InPython("say", [&] { say(line); });
+  };
+  return WithoutGil([&] {
+    DriveResult result =
+        DriveAndFilm(*scenario, folder, {.video = video, .observer = &observer}, console);
+    if (result.not_written) std::rethrow_exception(result.not_written);
+    auto out = std::make_shared<Driven>();
+    out->scenario = scenario;
+    out->plan = std::move(result.plan);
+    out->record = std::move(result.record);
+    return out;
+  });
+}
+
+// --- records
+// --------------------------------------------------------------------------------------
+
+nb::object Column(const Driven& d, const TraceColumn& column) {
+  const std::vector<TraceRow>& trace = d.record.trace;
+  if (const auto* text = std::get_if<TraceColumn::Text>(&column.member)) {
+    nb::list out;
+    for (const TraceRow& row : trace) {
+      const std::string_view word = (*text)(row, d.scenario->robot.spec);
+      out.append(nb::str(word.data(), word.size()));
+    }
+    return out;
+  }
+  std::vector<double> values;
+  values.reserve(trace.size());
+  for (const TraceRow& row : trace)
+    values.push_back(std::visit(
+        [&](const auto& member) -> double {
+          using Member = std::decay_t<decltype(member)>;
+          if constexpr (std::is_same_v<Member, TraceColumn::Text>)
+            return 0;
+          else if constexpr (std::is_same_v<Member, float TraceRow::*>)
+            return static_cast<double>(row.*member);
+          else
+            return row.*(member.value);
+        },
+        column.member));
+  return nb::cast(ArrayOf(std::move(values), {trace.size()}));
+}
+
+nb::dict Trace(const Driven& d) {
+  nb::dict out;
+  for (const TraceColumn& column : kTraceColumns)
+    out[nb::str(column.name.data(), column.name.size())] = Column(d, column);
+  return out;
+}
+
+nb::dict Maps(const Driven& d) {
+  nb::dict out;
+  const EpisodeRecord& record = d.record;
+  if (record.passes.width > 0) {
+    out["frame"] = FrameDict(record.passes_frame);
+    out["passes"] = GridArray<std::uint8_t>(record.passes);
+    out["sweepable"] = MaskArray(record.sweepable);
+  }
+  if (record.known) {
+    const KnownMap& known = *record.known;
+    Grid<std::uint8_t> states(known.frame.width, known.frame.height);
+    for (int iy = 0; iy < states.height; ++iy)
+      for (int ix = 0; ix < states.width; ++ix)
+        states(ix, iy) = static_cast<std::uint8_t>(known.At(ix, iy));
+    out["known_frame"] = FrameDict(known.frame);
+    out["known"] = GridArray<std::uint8_t>(states);
+  }
+  return out;
+}
+
+nb::object Qpos(const Driven& d) {
+  if (!d.recording) return nb::none();
+  const Recording& r = *d.recording;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < r.size(); ++i)
+    values.insert(values.end(), r.qpos(i), r.qpos(i) + r.nq());
+  return nb::cast(ArrayOf(std::move(values), {r.size(), static_cast<std::size_t>(r.nq())}));
+}
+
+// --- a control period
+// -----------------------------------------------------------------------------
+
+nb::object Scan(const View& v) {
+  const LidarScan& scan = v.now->sensed.scan;
+  if (scan.angle_rad.empty()) return nb::none();
+  nb::dict out;
+  out["t_s"] = scan.t_s;
+  out["fresh"] = scan.fresh;
+  out["least_m"] = scan.least_m;
+  out["most_m"] = scan.most_m;
+  out["mount"] = nb::make_tuple(scan.X_BL.x_m, scan.X_BL.y_m, scan.X_BL.yaw_rad, scan.height_m);
+  out["angle_rad"] = ArrayOf(scan.angle_rad, {scan.angle_rad.size()});
+  out["range_m"] = ArrayOf(scan.range_m, {scan.range_m.size()});
+  return out;
+}
+
+}  // namespace
+
+void BindEpisode(nb::module_& m) {
+  m.def("run", &Run, "scenario"_a, "plan"_a.none(), "progress"_a.none(), "each"_a.none(), "every"_a,
+        "record"_a);
+  m.def("run_into", &RunInto, "scenario"_a, "folder"_a, "video"_a, "say"_a.none(),
+        "progress"_a.none());
+  m.def("trace_columns", [] {
+    std::vector<std::pair<std::string, std::string>> columns;
+    for (const TraceColumn& column : kTraceColumns) columns.emplace_back(column.name, column.unit);
+    return columns;
+  });
+
+  nb::class_<View>(m, "View")
+      .def_prop_ro("t_s", [](const View& v) { return v.now->sample.t_s; })
+      .def_prop_ro("pose", [](const View& v) { return PoseTuple(v.now->sample.X_WB()); })
+      .def_prop_ro("estimate", [](const View& v) { return PoseTuple(v.now->estimate.X_WB); })
+      .def_prop_ro("attitude",
+                   [](const View& v) {
+                     const Sample& s = v.now->sample;
+                     return nb::make_tuple(s.p_WB.z(), s.roll_rad, s.pitch_rad);
+                   })
+      .def_prop_ro("coverage", [](const View& v) { return v.now->coverage; })
+      .def_prop_ro("scan", &Scan);
+
+  nb::class_<Driven>(m, "Episode")
+      .def_prop_ro("scenario", [](const Driven& d) { return d.scenario; })
+      .def_prop_ro("plan",
+                   [](const Driven& d) {
+                     return std::make_shared<Planned>(Planned{d.scenario, d.plan});
+                   })
+      .def_prop_ro("outcome", [](const Driven& d) { return Name(d.record.outcome); })
+      .def_prop_ro("message", [](const Driven& d) { return d.record.message; })
+      .def_prop_ro("result",
+                   [](const Driven& d) { return JsonText(ResultJson(*d.scenario, d.record)); })
+      .def_prop_ro("trace", &Trace)
+      .def_prop_ro("maps", &Maps)
+      .def_prop_ro("qpos", &Qpos);
+}
+
+}  // namespace floorproof

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// What it takes to run inside a Python interpreter: the GIL, Ctrl-C, forks, exceptions.
+#pragma once
+
+#include <nanobind/nanobind.h>
+// All conversions in all files: where one lacks one, it would have another meaning of the same
+// name.
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
+
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+
+namespace floorproof {
+
+namespace nb = nanobind;
+
+// Exceptions, Ctrl-C and forks. Once, when the module is loaded.
+void BindHost(nb::module_& m);
+
+// A call into this module: Ctrl-C that is noticed during it, on its thread, is raised at its end.
+class Call {
+ public:
+  Call();
+  ~Call();
+  // Throws Interruption if there was one.
+  void End() const;
+};
+
+// Does `work` while other Python threads run.
+template <class Work>
+auto WithoutGil(const Work& work) {
+  const Call call;
+  const nb::gil_scoped_release released;
+  auto result = work();
+  call.End();
+  return result;
+}
+
+// Calls back into Python, from wherever: `call` runs with the GIL, and what Python raises ends the
+// work. `who` is named by the error that comes of it: `plan.planner zigzag`, say.
+template <class Call>
+auto InPython(const std::string& who, const Call& call);
+
+// What Python raised, as an InternalError that names `who` and says what and where; the exception
+// itself becomes its cause. KeyboardInterrupt becomes an Interruption.
+[[noreturn]] void ThrowRaised(const std::string& who, nb::python_error& raised);
+
+template <class Call>
+auto InPython(const std::string& who, const Call& call) {
+  const nb::gil_scoped_acquire held;
+  try {
+    return call();
+  } catch (nb::python_error& raised) {
+    ThrowRaised(who, raised);
+  } catch (const nb::cast_error&) {
+    throw InternalError(who + " returned what has another type than it should");
+  }
+}
+
+}  // namespace floorproof

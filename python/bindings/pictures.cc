@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of scenes, plans and drives; pages of campaigns.
+#include "report/pictures.h"
+
+#include <mutex>
+
+#include "base/console.h"
+#include "python/bindings/arrays.h"
+#include "python/bindings/host.h"
+#include "python/bindings/modules.h"
+#include "report/campaign_report.h"
+#include "report/drive_video.h"
+#include "report/risk_pictures.h"
+#include "report/save_plan.h"
+#include "run/episode/records.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace nb::literals;
+
+const Console kQuiet{.quiet = true};
+
+// GL and the codecs are of the process: one picture at a time.
+std::mutex g_drawing;
+
+template <class Draw>
+auto DrawAlone(const Draw& draw) {
+  return WithoutGil([&] {
+    const std::lock_guard alone(g_drawing);
+    return draw();
+  });
+}
+
+// [height, width, 3].
+nb::ndarray<nb::numpy, std::uint8_t> ImageArray(Image image) {
+  const auto height = static_cast<std::size_t>(image.height),
+             width = static_cast<std::size_t>(image.width),
+             channels = static_cast<std::size_t>(image.channels);
+  return ArrayOf(std::move(image.data), {height, width, channels});
+}
+
+nb::ndarray<nb::numpy, std::uint8_t> Frame(const Driven& d, double t_s, int width, int height,
+                                           const std::string& camera) {
+  if (!d.scene || !d.recording || d.recording->size() == 0)
+    throw InputError(
+        "there are no states to draw: the episode was not driven through physics, or "
+        "not recorded");
+  return ImageArray(DrawAlone([&] {
+    return DrivePicture(*d.scenario, *d.scene, d.plan, d.record, *d.recording, t_s, width, height,
+                        camera);
+  }));
+}
+
+// The robot at its start, nothing driven yet.
+nb::ndarray<nb::numpy, std::uint8_t> StartFrame(const Scenario& s, int width, int height,
+                                                const std::string& camera) {
+  return ImageArray(DrawAlone([&] {
+    const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start, WallSet::kAll);
+    Recording recording(static_cast<int>(scene.model->nq));
+    recording.Add(0, scene.model->qpos0, {s.start.x_m, s.start.y_m, 0}, 0, -1);
+    return DrivePicture(s, scene, {}, {}, recording, 0, width, height, camera);
+  }));
+}
+
+bool SavePlanFiles(const Planned& p, const fs::path& folder) {
+  return DrawAlone([&] {
+    ResultFolder out(folder, EpisodeResults(), InputsOf(*p.scenario));
+    SavePlan(*p.scenario, p.plan, out);
+    return true;
+  });
+}
+
+bool SaveMaps(const Driven& d, const fs::path& folder) {
+  return DrawAlone([&] {
+    WriteHeatMaps(*d.scenario, d.plan, d.record, folder, kQuiet);
+    return true;
+  });
+}
+
+fs::path WritePage(const fs::path& folder) {
+  return DrawAlone([&] { return WriteCampaignReport(folder, folder.string(), kQuiet).page; });
+}
+
+}  // namespace
+
+void BindPictures(nb::module_& m) {
+  m.def("frame", &Frame, "episode"_a, "t_s"_a, "width"_a, "height"_a, "camera"_a);
+  m.def("start_frame", &StartFrame, "scenario"_a, "width"_a, "height"_a, "camera"_a);
+  m.def("save_plan", &SavePlanFiles, "plan"_a, "folder"_a);
+  m.def("save_maps", &SaveMaps, "episode"_a, "folder"_a);
+  m.def("write_report", &WritePage, "folder"_a);
+}
+
+}  // namespace floorproof

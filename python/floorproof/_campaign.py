@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Campaigns: many episodes, failure rates with intervals, a gate."""
+from __future__ import annotations
+
+import json
+import os
+import sqlite3
+import warnings
+from pathlib import Path
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+
+from . import _core
+from ._core import InputError
+from ._progress import Progress, shown
+from ._results import PathLike
+from ._scenario import Scenario, load
+
+
+class Campaign:
+    """What a campaign left in its folder."""
+
+    def __init__(self, folder: PathLike, end: str = "") -> None:
+        self.folder = Path(folder)
+        self.end = end
+        """Why it ended, in words."""
+        file = self.folder / "summary.json"
+        try:
+            self.summary: Dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+        except (OSError, ValueError) as error:
+            raise InputError(f"{file}: is not what `floorproof campaign` writes: {error}") from error
+
+    @property
+    def variants(self) -> Dict[str, Any]:
+        """By name: n, failures (each with rate, lower, upper), coverage, ..."""
+        return self.summary["variants"]
+
+    @property
+    def gate(self) -> Optional[Mapping[str, Any]]:
+        """What the gate says; None: there is none, or this is a shard."""
+        return self.summary.get("gate")
+
+    def to_pandas(self) -> Any:
+        """The table of episodes, a row each, as a data frame."""
+        from .exports import episodes_frame
+        return episodes_frame(self.folder)
+
+    def to_parquet(self, file: PathLike) -> Path:
+        """The same as a Parquet file."""
+        from .exports import episodes_parquet
+        return episodes_parquet(self.folder, file)
+
+    def report(self) -> Path:
+        """Writes the page; returns report.html."""
+        return report(self.folder)
+
+    def _repr_html_(self) -> str:
+        from ._notebook import campaign_html
+        return campaign_html(self)
+
+    def __repr__(self) -> str:
+        n = sum(v["n"] for v in self.variants.values())
+        return f"<Campaign {self.folder}: {n} episodes>"
+
+
+def campaign(scenario: Union[Scenario, PathLike, Mapping[str, Any]], n: int, *, out: PathLike,
+             engine: str = "local", jobs: Optional[int] = None,
+             episodes: Optional[Tuple[int, int]] = None, resume: bool = False,
+             retry_errors: bool = False, fail_fast: bool = False,
+             time_limit_s: Optional[float] = None, progress: Progress = None,
+             **engine_options: Any) -> Campaign:
+    """Drives n episodes of each variant and judges the gate; the folder `out` gets what `floorproof
+    campaign --no-films` writes there, the same bytes whatever drives them.
+
+    engine: `local`: worker processes of this machine, `jobs` of them (default: one a core); `ray`:
+    the workers of a Ray cluster (docs/cluster.md; options go to floorproof.cluster.RayPool).
+    episodes: (a, b), half-open: a shard for `merge`; its gate is judged there.
+    """
+    if not isinstance(scenario, Scenario):
+        scenario = load(scenario)
+    if engine not in ("local", "ray"):
+        raise InputError(f"engine = {engine}: unknown (known: local, ray)")
+    if engine == "local" and engine_options:
+        raise InputError(f"{next(iter(engine_options))}: is no option of engine local")
+    if n < 1:
+        raise InputError(f"n = {n}: must be at least 1")
+    pool = None
+    if engine == "ray":
+        from .cluster import RayPool
+        pool = RayPool(scenario, **engine_options)
+    total = n if episodes is None else episodes[1] - episodes[0]
+    with shown(progress, total * len(scenario.variants), "episode", scenario.name) as show:
+        tell = None if show is None else lambda done, all_: show(done)
+        ended = _core.drive_campaign(
+            scenario._file, n, episodes, jobs or len(os.sched_getaffinity(0)), resume,
+            retry_errors, fail_fast, time_limit_s, Path(out), pool,
+            lambda line: warnings.warn(line, stacklevel=2), tell)
+    return Campaign(out, ended["end"])
+
+
+def merge(shards: Sequence[PathLike], out: PathLike) -> Campaign:
+    """Joins shards of one campaign, driven anywhere, into `out`, and judges the gate."""
+    return Campaign(out, _core.merge([os.fspath(s) for s in shards], Path(out))["end"])
+
+
+def report(folder: PathLike) -> Path:
+    """Writes a campaign's page from its recorded results alone; returns report.html."""
+    return _core.write_report(Path(folder))

@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Planners and trackers of one's own, named in scenarios as the built-in ones are.
+
+    @floorproof.planner("rows")
+    def rows(request, spacing_m: float = 0.4):
+        ...
+        return path                     # [n, 2] to [n, 5], see Plan.path
+
+    floorproof.load({..., "plan": {"planner": "rows", "spacing_m": 0.3}})
+
+Parameters with defaults are keys of the scenario: checked, documented and recorded as all are.
+"""
+from __future__ import annotations
+
+import inspect
+from types import SimpleNamespace
+from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple
+
+import numpy as np
+
+from . import _core
+from ._results import frame_of, Hazard
+from ._watchdog import limited
+
+_KINDS = (bool, int, float, str)
+
+# What was registered here, by kind and name: what workers elsewhere must be given, too.
+registered: Dict[Tuple[str, str], Tuple[Any, Mapping[str, Any]]] = {}
+
+
+def _row(name: str, default: Any, help_: str = "") -> Tuple[str, Any, str]:
+    if not isinstance(default, _KINDS):
+        raise TypeError(f"parameter {name} = {default!r}: its default must be a bool, int, float or "
+                        "str")
+    return (name, default, help_)
+
+
+class _Wrapped:
+    """What the C++ side calls: parameters, promises, and the user's own object."""
+
+    def __init__(self, made: Any, params: Dict[str, Any], promises: Mapping[str, Any],
+                 timeout_s: float) -> None:
+        self._made, self._params, self._promises = made, dict(params), promises
+        self._params["timeout_s"] = timeout_s
+
+    def params(self) -> List[Tuple[str, Any, str]]:
+        rows = [_row(n, v) for n, v in self._params.items() if n != "timeout_s"]
+        rows.append(("timeout_s", float(self._params["timeout_s"]),
+                     "wall time that a call may take (s)"))
+        return rows
+
+    def set(self, name: str, value: Any) -> None:
+        self._params[name] = value
+        if name != "timeout_s" and not inspect.isfunction(self._made):
+            setattr(self._made, name, value)
+
+    def promises(self) -> Mapping[str, Any]:
+        return self._promises
+
+    def _call(self, what: Callable[..., Any], *args: Any, **named: Any) -> Any:
+        return limited(self._params["timeout_s"], what, *args, **named)
+
+    def _own(self) -> Dict[str, Any]:
+        return {n: v for n, v in self._params.items() if n != "timeout_s"}
+
+
+class Request(SimpleNamespace):
+    """What a planner gets: the floor as far as it is known, and the robot.
+
+    frame, walls: the map's cells; obstacle_frame, obstacles: finer cells (0.05 m at most) that the
+    robot must keep off, hazards included; risk_frame, risk: the risk factor of each cell; hazards;
+    robot: a dict as Scenario.robot; start: a pose; goal: a point or None; seed."""
+
+
+def _request(about: Mapping[str, Any]) -> Request:
+    named = dict(about)
+    for name in ("frame", "obstacle_frame", "risk_frame"):
+        if name in named:
+            named[name] = frame_of(named[name])
+    named["hazards"] = [Hazard(**h) for h in named["hazards"]]
+    return Request(**named)
+
+
+class _Planner(_Wrapped):
+    def plan(self, about: Mapping[str, Any]) -> Tuple[Optional[np.ndarray], str]:
+        request = _request(about)
+        if inspect.isfunction(self._made):
+            answer = self._call(self._made, request, **self._own())
+        else:
+            answer = self._call(self._made.plan, request)
+        if answer is None:
+            return None, "the planner found no plan"
+        if isinstance(answer, str):
+            return None, answer
+        rows = np.ascontiguousarray(answer, dtype=float)
+        if rows.ndim != 2:
+            raise ValueError(f"a path of shape {rows.shape}: must be [n, 2] to [n, 5]: x_m, y_m, "
+                             "yaw_rad, speed_mps, dwell_s")
+        return rows, ""
+
+
+class Task(SimpleNamespace):
+    """What a planner of unknown floors is told before the drive: frame (of the map that the robot
+    draws), start, clear_half_m, tool_half_m, body_half_m (half sizes), tool_width_m, radius_m,
+    step_m, seed."""
+
+
+class _OnlinePlanner(_Wrapped):
+    def start(self, about: Mapping[str, Any]) -> None:
+        named = dict(about)
+        named["frame"] = frame_of(named["frame"])
+        if hasattr(self._made, "start"):
+            self._call(self._made.start, Task(**named))
+
+    def next(self, known: Any) -> Tuple[Optional[Tuple[float, float]], str, bool]:
+        answer = self._call(self._made.next, known)
+        if answer is None:
+            return None, "all is covered that it knows of and can reach", True
+        if isinstance(answer, str):
+            return None, answer, False
+        x_m, y_m = answer
+        return (float(x_m), float(y_m)), "", False
+
+
+class Situation(SimpleNamespace):
+    """What a tracker decides by, once a control period: t_s, pose and twist (as the robot believes),
+    segment (of the path), target (a point ahead on it), speed_mps (that the way ahead allows)."""
+
+
+class _Tracker(_Wrapped):
+    def start(self, path: np.ndarray, robot: Mapping[str, Any]) -> None:
+        if hasattr(self._made, "start"):
+            self._call(self._made.start, path, robot)
+
+    def update(self, t_s: float, pose: Any, twist: Any, segment: int, target: Any,
+               speed_mps: float) -> Tuple[float, float, float]:
+        now = Situation(t_s=t_s, pose=pose, twist=twist, segment=segment, target=target,
+                        speed_mps=speed_mps)
+        if inspect.isfunction(self._made):
+            answer = self._call(self._made, now, **self._own())
+        else:
+            answer = self._call(self._made.update, now)
+        vx_mps, vy_mps, wz_radps = answer
+        return float(vx_mps), float(vy_mps), float(wz_radps)
+
+
+def _defaults(made: Any, skip: int) -> Dict[str, Any]:
+    if inspect.isclass(made):
+        annotated: Dict[str, Any] = {}
+        for base in reversed(made.__mro__):
+            for name in base.__dict__.get("__annotations__", {}):
+                if not name.startswith("_") and hasattr(made, name):
+                    annotated[name] = getattr(made, name)
+        return annotated
+    params = list(inspect.signature(made).parameters.values())[skip:]
+    missing = [p.name for p in params if p.default is p.empty]
+    if missing:
+        raise TypeError(f"parameter {missing[0]}: needs a default, which is the key's")
+    return {p.name: p.default for p in params}
+
+
+_REGISTER = {"planner": (_Planner, _core.register_planner),
+             "online_planner": (_OnlinePlanner, _core.register_online_planner),
+             "tracker": (_Tracker, _core.register_tracker)}
+
+
+def register(kind: str, name: str, made: Any, promises: Mapping[str, Any]) -> None:
+    """Makes `made`, a function or a class, the plug-in `name`."""
+    wrapper, tell = _REGISTER[kind]
+    params = _defaults(made, 1)
+    for param, default in params.items():
+        _row(param, default)
+    timeout_s = promises["timeout_s"]
+
+    def make() -> Any:
+        return wrapper(made() if inspect.isclass(made) else made, params, promises, timeout_s)
+
+    tell(name, make)
+    registered[kind, name] = (made, dict(promises))
+
+
+def planner(name: str, *, needs_risk: bool = False, needs_goal: bool = False,
+            uses_seed: bool = False, timeout_s: float = 60) -> Callable[[Any], Any]:
+    """Registers a planner of known floors: a function of a Request (and parameters with defaults),
+    or a class whose plan(request) is called. It returns a path ([n, 2] to [n, 5], see Plan.path), or
+    None or a sentence that says why there is none. `uses_seed`: its plan depends on request.seed, so
+    that each episode of a campaign is planned anew."""
+    def decorate(made: Any) -> Any:
+        register("planner", name, made, {"needs_risk": needs_risk, "needs_goal": needs_goal,
+                                         "uses_seed": uses_seed, "timeout_s": timeout_s})
+        return made
+    return decorate
+
+
+def online_planner(name: str, *, uses_seed: bool = False, covers_all: bool = True,
+                   timeout_s: float = 60) -> Callable[[Any], Any]:
+    """Registers a planner of unknown floors: a class with next(known), which says where to go from
+    here: a point (x_m, y_m), None when all is done, or a sentence that says why there is nowhere to
+    go. start(task), if it has one, comes first. `known`: pose, cells (0 free, 1 occupied, 2 unknown)
+    on frame, bumped, dropped, missed, stopped."""
+    def decorate(made: Any) -> Any:
+        register("online_planner", name, made,
+                 {"uses_seed": uses_seed, "covers_all": covers_all, "timeout_s": timeout_s})
+        return made
+    return decorate
+
+
+def tracker(name: str, *, timeout_s: float = 10) -> Callable[[Any], Any]:
+    """Registers a path tracker: a function of a Situation (and parameters with defaults), or a class
+    with update(situation), that returns the body's twist (vx_mps, vy_mps, wz_radps), asked for
+    within the robot's speeds and accelerations. start(path, robot), if the class has one, comes
+    first. How far along the path the robot is, stops and dwells are kept for it."""
+    def decorate(made: Any) -> Any:
+        register("tracker", name, made, {"timeout_s": timeout_s})
+        return made
+    return decorate

@@ -1,0 +1,264 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Plans and episodes: what came of a scenario."""
+from __future__ import annotations
+
+import csv
+import json
+import os
+import tempfile
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
+
+import numpy as np
+
+from . import _core
+from ._core import InputError
+
+PathLike = Union[str, "os.PathLike[str]"]
+Pose = Tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Where the cells of a map lie: `width` x `height` of them, `cell_m` wide. `origin` is the pose
+    of the outer lower-left corner of cell (0, 0) in the world."""
+
+    width: int
+    height: int
+    cell_m: float
+    origin: Pose
+
+    def cell(self, x_m: float, y_m: float) -> Tuple[int, int]:
+        """(row, column) of the cell that holds the point; it may lie outside the map."""
+        x, y, yaw = self.origin
+        c, s = np.cos(yaw), np.sin(yaw)
+        dx, dy = x_m - x, y_m - y
+        return (int(np.floor((-s * dx + c * dy) / self.cell_m)),
+                int(np.floor((c * dx + s * dy) / self.cell_m)))
+
+    def centre(self, row: int, column: int) -> Tuple[float, float]:
+        """The centre of a cell, in the world."""
+        x, y, yaw = self.origin
+        c, s = np.cos(yaw), np.sin(yaw)
+        gx, gy = (column + 0.5) * self.cell_m, (row + 0.5) * self.cell_m
+        return (x + c * gx - s * gy, y + s * gx + c * gy)
+
+
+@dataclass(frozen=True)
+class Hazard:
+    """A hazard of a site. `hazard_class`: C1 (blind object) to C4 (terrain); `height_m` is signed;
+    `footprint`: polygons in the world frame; `known`: planners are told of it."""
+
+    id: str
+    type: str
+    hazard_class: str
+    known: bool
+    height_m: float
+    footprint: List[List[Tuple[float, float]]]
+
+
+@dataclass(frozen=True)
+class Event:
+    """A failure: `mode` is veer_off, stuck, roll_over or bounce_back. `evidence` holds the event as
+    result.json has it."""
+
+    mode: str
+    kind: str
+    t_s: float
+    x_m: float
+    y_m: float
+    yaw_rad: float
+    hazard: str
+    evidence: Mapping[str, Any] = field(repr=False)
+
+
+def event_of(json_event: Mapping[str, Any]) -> Event:
+    return Event(json_event["mode"], json_event.get("kind") or "", json_event["t_s"],
+                 json_event["x_m"], json_event["y_m"], json_event["yaw_rad"],
+                 json_event.get("hazard") or "", json_event)
+
+
+def frame_of(about: Mapping[str, Any]) -> Frame:
+    return Frame(about["width"], about["height"], about["cell_m"], tuple(about["origin"]))
+
+
+class Plan:
+    """A plan of a scenario: `Scenario.plan()` makes it."""
+
+    def __init__(self, core: _core.Plan) -> None:
+        self._core = core
+
+    @property
+    def status(self) -> str:
+        """success, or why there is none: start_blocked, no_floor, goal_unreachable, ... `online`:
+        it is made on the way."""
+        return self._core.status
+
+    @property
+    def message(self) -> str:
+        """Why, in words; on success what was left out, or empty."""
+        return self._core.message
+
+    @cached_property
+    def path(self) -> np.ndarray:
+        """[n, 5]: x_m, y_m, yaw_rad (nan: along the way), speed_mps (0: the robot's cruise),
+        dwell_s."""
+        return self._core.path
+
+    @property
+    def shapes(self) -> List[str]:
+        """The shape taken at each waypoint, of a robot that has several; empty: as it is."""
+        return self._core.shapes
+
+    @cached_property
+    def info(self) -> Dict[str, Any]:
+        """What plan.json holds: length_m, turns, coverage, the planner's own figures."""
+        return json.loads(self._core.json)
+
+    @cached_property
+    def risk(self) -> np.ndarray:
+        """The risk factor (RF) of each cell of `risk_frame`."""
+        return self._core.risk
+
+    @property
+    def risk_frame(self) -> Frame:
+        return frame_of(self._core.risk_frame)
+
+    def check(self) -> Dict[str, Any]:
+        """What `floorproof plan` says of it: clearance, hazards driven over, floor left out, time
+        and energy."""
+        if self.status != "success":
+            raise InputError(f"there is no plan to check: {self.message}")
+        return json.loads(self._core.check())
+
+    def save(self, folder: PathLike) -> Path:
+        """Writes what `floorproof plan` writes: plan.csv, plan.json, pictures."""
+        _core.save_plan(self._core, Path(folder))
+        return Path(folder)
+
+    def _repr_png_(self) -> Optional[bytes]:
+        if self.status != "success":
+            return None
+        with tempfile.TemporaryDirectory() as folder:
+            _core.save_plan(self._core, Path(folder) / "plan")
+            picture = Path(folder) / "plan" / "heatmap_plan.png"
+            return picture.read_bytes() if picture.exists() else None
+
+    def _repr_html_(self) -> str:
+        from ._notebook import plan_html
+        return plan_html(self)
+
+    def __repr__(self) -> str:
+        if self.status != "success":
+            return f"<Plan {self.status}: {self.message}>"
+        return f"<Plan of {len(self.path)} waypoints, {self.info['length_m']:.1f} m>"
+
+
+class Episode:
+    """A plan driven once: `Scenario.run()` makes it, `read(folder)` takes it from a folder."""
+
+    def __init__(self, result: Mapping[str, Any], trace: Mapping[str, Any],
+                 plan: Optional[Plan] = None, core: Optional[_core.Episode] = None,
+                 folder: Optional[Path] = None) -> None:
+        self.result: Dict[str, Any] = dict(result)
+        self.plan = plan
+        self.folder = folder
+        self._core = core
+        self._trace = trace
+
+    @property
+    def outcome(self) -> str:
+        """success, failure, timeout, aborted, not_planned or error."""
+        return self.result["outcome"]
+
+    @property
+    def message(self) -> str:
+        return self.result.get("message") or ""
+
+    @cached_property
+    def events(self) -> List[Event]:
+        """The failures, in order; the first names the episode's."""
+        return [event_of(e) for e in self.result["events"]]
+
+    @property
+    def metrics(self) -> Dict[str, Optional[float]]:
+        """By name, as docs/results.md lists them; None: not measured."""
+        return self.result["metrics"]
+
+    @property
+    def margins(self) -> Dict[str, float]:
+        """By detector: the least distance from failing; positive is safe."""
+        return self.result.get("margins", {})
+
+    @property
+    def drawn(self) -> Dict[str, Any]:
+        """What `randomise` drew for it."""
+        return self.result.get("drawn", {})
+
+    @property
+    def trace(self) -> Mapping[str, Any]:
+        """Column by column, as trace.csv has them; arrays of one length, `shape` a list of words."""
+        return self._trace
+
+    @cached_property
+    def maps(self) -> Dict[str, Any]:
+        """`passes` (of the tool, per cell) and `sweepable` on `frame`; `known` (0 free, 1 occupied,
+        2 unknown) on `known_frame`, of a robot that draws a map. Empty of an episode that was read
+        from a folder: pictures hold them there."""
+        if self._core is None:
+            return {}
+        maps = dict(self._core.maps)
+        for name in ("frame", "known_frame"):
+            if name in maps:
+                maps[name] = frame_of(maps[name])
+        return maps
+
+    def frame(self, t_s: Optional[float] = None, width: int = 960, height: int = 540,
+              camera: str = "auto") -> np.ndarray:
+        """A picture [height, width, 3] of the drive at a time (none: its end), as the film has it."""
+        if self._core is None:
+            raise InputError("an episode that was read from a folder has no states to draw; run its "
+                             "scenario.resolved.yaml again")
+        last = self.trace["t_s"][-1] if len(self.trace["t_s"]) else 0.0
+        return _core.frame(self._core, float(last if t_s is None else t_s), width, height, camera)
+
+    def to_pandas(self) -> Any:
+        """The trace as a data frame."""
+        from .exports import trace_frame
+        return trace_frame(self)
+
+    def _repr_html_(self) -> str:
+        from ._notebook import episode_html
+        return episode_html(self)
+
+    def __repr__(self) -> str:
+        coverage = self.metrics.get("coverage")
+        covered = "" if coverage is None else f", covered {100 * coverage:.1f} %"
+        return f"<Episode {self.outcome}{covered}>"
+
+
+def episode_of(core: _core.Episode, folder: Optional[Path] = None) -> Episode:
+    return Episode(json.loads(core.result), core.trace, Plan(core.plan), core, folder)
+
+
+def read(folder: PathLike) -> Episode:
+    """The episode that `floorproof run` left in a folder: result.json and trace.csv."""
+    folder = Path(folder)
+    try:
+        result = json.loads((folder / "result.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise InputError(f"{folder / 'result.json'}: is not what `floorproof run` writes: "
+                         f"{error}") from error
+    trace: Dict[str, Any] = {}
+    file = folder / "trace.csv"
+    if file.exists():
+        with file.open(newline="", encoding="utf-8") as lines:
+            rows = list(csv.reader(lines))
+        for i, name in enumerate(rows[0]):
+            words = [row[i] for row in rows[1:]]
+            trace[name] = words if name == "shape" else np.array(words, dtype=float)
+    else:
+        trace = {name: np.empty(0) for name, _ in _core.trace_columns()}
+    return Episode(result, trace, folder=folder)

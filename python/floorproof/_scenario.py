@@ -1,0 +1,267 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scenarios and sites, from files or dicts."""
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+import threading
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, Union
+
+import numpy as np
+
+from . import _core
+from ._core import InputError
+from ._progress import Progress, shown
+from ._results import Episode, Frame, Hazard, PathLike, Plan, Pose, episode_of, frame_of
+
+_PACKAGED = Path(__file__).resolve().parent / "models"
+if _PACKAGED.is_dir():
+    _core.set_models_folder(_PACKAGED)
+
+
+def models_folder() -> Path:
+    """Where the bundled models lie: robots, sites, scenarios, FMEA tables."""
+    return _core.models_folder()
+
+
+_NO_WORDS = ("null", "true", "false")  # of YAML 1.2
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    raise InputError(f"{type(value).__name__} {value!r}: is nothing that YAML has")
+
+
+def _text(value: Any) -> str:
+    """As YAML: JSON is a part of it. A word alone stands as one would type it: `none` is none."""
+    if isinstance(value, str) and re.fullmatch(r"[a-z_]+", value) and value not in _NO_WORDS:
+        return value
+    return json.dumps(value, default=_plain)
+
+
+class Site:
+    """A floor with its hazards."""
+
+    def __init__(self, about: Mapping[str, Any]) -> None:
+        self.name: str = about["name"]
+        self.frame: Frame = frame_of(about["frame"])
+        self.occupancy: np.ndarray = about["occupancy"]
+        """0 free, 1 occupied, 2 unknown."""
+        self.hazards: List[Hazard] = [Hazard(**h) for h in about["hazards"]]
+        self.floor_friction: float = about["floor_friction"]
+        self.start: Optional[Pose] = about["start"]
+        self.goal: Optional[Tuple[float, float]] = about["goal"]
+
+    def _repr_html_(self) -> str:
+        from ._notebook import site_html
+        return site_html(self)
+
+    def __repr__(self) -> str:
+        f = self.frame
+        return (f"<Site {self.name}: {f.width * f.cell_m:.1f} m x {f.height * f.cell_m:.1f} m, "
+                f"{len(self.hazards)} hazards>")
+
+
+def load_site(source: Union[PathLike, Mapping[str, Any]], folder: Optional[PathLike] = None) -> Site:
+    """Reads and checks a site: its file, or what would stand there as a dict, whose paths are
+    relative to `folder` (default: the working directory)."""
+    if isinstance(source, Mapping):
+        return Site(_core.read_site(Path(folder or "") / "site", _text(source)))
+    return Site(_core.read_site(Path(source), None))
+
+
+class Scenario:
+    """A scenario, read and checked. It pickles with all the files that it read."""
+
+    def __init__(self, packed: Any) -> None:
+        self._file = _core.ScenarioFile.unpack(packed)
+        self._alone = threading.Lock()  # of what reads files
+        self._which: Tuple[int, Optional[str]] = (self._file.episode, None)
+        self._read = self._file.read(*self._which)
+
+    # --- what it is
+
+    @property
+    def name(self) -> str:
+        return self._file.name
+
+    @property
+    def file(self) -> Path:
+        """Where it was read from; of a dict a name that stands for it."""
+        return self._file.file
+
+    @property
+    def seed(self) -> int:
+        return self._file.seed
+
+    @property
+    def variants(self) -> List[str]:
+        """The variants of its matrix; `default` where it has none."""
+        return self._file.variants
+
+    @cached_property
+    def site(self) -> Site:
+        return Site(self._read.site)
+
+    @property
+    def robot(self) -> Dict[str, Any]:
+        """Name, drive, clear shape and tool, speeds."""
+        return self._read.robot
+
+    @property
+    def planner(self) -> str:
+        return self._read.planner
+
+    @property
+    def tracker(self) -> str:
+        return self._read.tracker
+
+    @property
+    def sensors(self) -> List[str]:
+        return self._read.sensors
+
+    @property
+    def start(self) -> Pose:
+        return self._read.start
+
+    @property
+    def control_hz(self) -> int:
+        return self._read.control_hz
+
+    def warnings(self) -> List[str]:
+        """What is read as written but may not be meant; a line each."""
+        with self._alone:
+            return self._read.warnings()
+
+    def resolved(self, folder: PathLike = ".") -> str:
+        """The scenario with every default stated (YAML), paths valid from `folder`."""
+        with self._alone:
+            return self._read.resolved(Path(folder))
+
+    # --- what becomes of it
+
+    def with_(self, changes: Optional[Mapping[str, Any]] = None, **top: Any) -> "Scenario":
+        """The same with keys set, as --set does: with_({"robot.clearance_m": 0.02}, seed=3)."""
+        file, text, overrides, inputs = self._packed()
+        more = [(key, _text(value)) for key, value in {**(changes or {}), **top}.items()]
+        return Scenario((file, text, overrides + more, inputs))
+
+    def with_plan(self, path: Any) -> "Scenario":
+        """The same with a plan of one's own: [n, 2] to [n, 5], columns as `Plan.path`."""
+        rows = np.asarray(path, dtype=float)
+        if rows.ndim != 2 or not 2 <= rows.shape[1] <= 5 or len(rows) == 0:
+            raise InputError(f"path: an array of shape {rows.shape}: must be [n, 2] to [n, 5]: x_m, "
+                             "y_m, yaw_rad, speed_mps, dwell_s")
+        bad = np.argwhere(~np.isfinite(rows) & (np.arange(rows.shape[1]) != 2) | np.isinf(rows))
+        names = ("x_m", "y_m", "yaw_rad", "speed_mps", "dwell_s")
+        if len(bad):
+            i, c = bad[0]
+            raise InputError(f"path[{i}].{names[c]} = {rows[i, c]}: must be finite")
+        lines = [",".join(names[:rows.shape[1]])]
+        lines += [",".join("" if np.isnan(v) else repr(float(v)) for v in row) for row in rows]
+        csv = "\n".join(lines) + "\n"
+        name = f"plan-{hashlib.sha256(csv.encode()).hexdigest()[:12]}.csv"
+        file, text, overrides, inputs = self._packed()
+        inputs = inputs + [(str(Path(file).parent / name), csv.encode())]
+        return Scenario((file, text, overrides + [("plan.file", _text(name))], inputs))
+
+    def episode(self, episode: int, variant: Optional[str] = None) -> "Scenario":
+        """The scenario as one episode of a campaign has it, its draws made."""
+        made = Scenario.__new__(Scenario)
+        made._file, made._alone, made._which = self._file, self._alone, (episode, variant)
+        made._read = made._fresh()
+        return made
+
+    def plan(self) -> Plan:
+        """Plans. That there is no plan is no exception: its `status` says so."""
+        return Plan(self._fresh().make_plan())
+
+    def run(self, plan: Union[None, Plan, Any] = None, *, out: Optional[PathLike] = None,
+            video: bool = False, progress: Progress = None,
+            observer: Optional[Callable[[Any], None]] = None, observe_hz: Optional[float] = None,
+            say: Optional[Callable[[str], None]] = None) -> Episode:
+        """Plans (or takes `plan`: a Plan of this scenario, or an array as with_plan takes it),
+        drives it through physics and judges it.
+
+        out: a folder that gets what `floorproof run` writes there, the same bytes; `video`: the film
+        as well. progress: True, tqdm, or what is shaped as it. observer: called with a view of the
+        drive (t_s, pose, estimate, coverage, scan) in each control period, or `observe_hz` times a
+        second. say: takes the lines that the command line would print.
+        """
+        if plan is not None and not isinstance(plan, Plan):
+            return self.with_plan(plan).run(out=out, video=video, progress=progress,
+                                            observer=observer, observe_hz=observe_hz, say=say)
+        if video and out is None:
+            raise InputError("video: needs `out`, the folder that gets the film")
+        if out is not None and (plan is not None or observer is not None):
+            raise InputError("out: the folder records a plan that is made anew; leave `plan` and "
+                             "`observer` out, or pass an array as plan")
+        with shown(progress, 100, "%", self.name) as show:
+            tell = None if show is None else lambda share, t_s, coverage: show(round(100 * share))
+            if out is not None:
+                fresh = self._fresh()
+                with self._alone:
+                    return episode_of(_core.run_into(fresh, Path(out), video, say, tell), Path(out))
+            every = 1
+            if observe_hz is not None:
+                if not observe_hz > 0:
+                    raise InputError(f"observe_hz = {observe_hz}: must be > 0")
+                every = max(1, round(self.control_hz / observe_hz))
+            return episode_of(_core.run(self._fresh(), None if plan is None else plan._core, tell,
+                                        observer, every, True))
+
+    def frame(self, width: int = 960, height: int = 540, camera: str = "auto") -> np.ndarray:
+        """A picture [height, width, 3] of the robot at its start. camera: auto, chase, top, side."""
+        return _core.start_frame(self._read, width, height, camera)
+
+    # --- inside
+
+    def _fresh(self) -> Any:
+        """As read, for one drive: several may go on in several threads."""
+        with self._alone:
+            return self._file.read(*self._which)
+
+    def _packed(self) -> Any:
+        with self._alone:
+            file, text, overrides, inputs = self._file.pack()
+        return file, text, list(overrides), list(inputs)
+
+    def __reduce__(self) -> Any:
+        return _unpickled, (self._packed(), self._which)
+
+    def _repr_html_(self) -> str:
+        from ._notebook import scenario_html
+        return scenario_html(self)
+
+    def __repr__(self) -> str:
+        return (f"<Scenario {self.name}: {self.robot['name']} on {self.site.name}, "
+                f"{self.planner}>")
+
+
+def _unpickled(packed: Any, which: Tuple[int, Optional[str]]) -> Scenario:
+    scenario = Scenario(packed)
+    return scenario if which == scenario._which else scenario.episode(*which)
+
+
+def load(source: Union[PathLike, Mapping[str, Any]], changes: Optional[Mapping[str, Any]] = None, *,
+         folder: Optional[PathLike] = None, **top: Any) -> Scenario:
+    """Reads and checks a scenario: its file, or what would stand there as a dict, whose paths are
+    relative to `folder` (default: the working directory). Keys are set as --set does:
+
+        load("scenario.yaml", {"site.floor.friction": 0.6}, seed=3)
+    """
+    overrides = [(key, _text(value)) for key, value in {**(changes or {}), **top}.items()]
+    if isinstance(source, Mapping):
+        return Scenario((Path(folder or "") / "scenario", _text(source), overrides, []))
+    if folder is not None:
+        raise InputError("folder: is for dicts; paths in a file are relative to that file")
+    return Scenario((Path(source), None, overrides, []))
