@@ -3,9 +3,17 @@
 # ./floorproof made from the pinned mujoco-core wheel), else an installed one.
 set(FLOORPROOF_MUJOCO_DIR "${PROJECT_SOURCE_DIR}/build/deps/mujoco" CACHE PATH
     "Folder with include/mujoco/mujoco.h and libmujoco.so.4.0.1 (in it or in its lib/)")
-find_path(MUJOCO_INCLUDE_DIR mujoco/mujoco.h HINTS ${FLOORPROOF_MUJOCO_DIR}/include)
+set(_mujoco_hints ${FLOORPROOF_MUJOCO_DIR})
+if(SKBUILD AND NOT EXISTS ${FLOORPROOF_MUJOCO_DIR})  # pip brings the wheel along
+  find_package(Python REQUIRED COMPONENTS Interpreter)
+  execute_process(
+    COMMAND ${Python_EXECUTABLE} -c
+            "import importlib.util as u; print(*u.find_spec('mujoco').submodule_search_locations)"
+    OUTPUT_VARIABLE _mujoco_hints OUTPUT_STRIP_TRAILING_WHITESPACE)
+endif()
+find_path(MUJOCO_INCLUDE_DIR mujoco/mujoco.h HINTS ${_mujoco_hints}/include)
 find_library(MUJOCO_LIBRARY NAMES libmujoco.so.4.0.1 mujoco
-             HINTS ${FLOORPROOF_MUJOCO_DIR} ${FLOORPROOF_MUJOCO_DIR}/lib)
+             HINTS ${_mujoco_hints} ${_mujoco_hints}/lib)
 if(NOT MUJOCO_INCLUDE_DIR OR NOT MUJOCO_LIBRARY)
   message(FATAL_ERROR "MuJoCo was not found. Run ./floorproof (it fetches the pinned wheel), or give "
           "-DFLOORPROOF_MUJOCO_DIR=DIR of an unpacked official 4.0.1 release.")
