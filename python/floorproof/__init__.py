@@ -13,6 +13,8 @@ Errors are exceptions with the command line's text: `InputError` for what a user
 seconds; poses are (x_m, y_m, yaw_rad) in the world frame, x right, y up. Maps are arrays
 [height, width] whose row 0 is the lowest.
 """
+from typing import Any
+
 from ._core import InputError, InternalError, __version__
 from ._campaign import Campaign, campaign, merge, report
 from ._plugins import online_planner, planner, tracker
@@ -26,7 +28,7 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str):
+def __getattr__(name: str) -> Any:
     # What needs a package of its own is imported when it is asked for.
     if name == "to_mcap":
         from .exports import to_mcap

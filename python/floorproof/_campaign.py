@@ -2,17 +2,15 @@
 """Campaigns: many episodes, failure rates with intervals, a gate."""
 from __future__ import annotations
 
-import json
 import os
-import sqlite3
 import warnings
 from pathlib import Path
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _core
 from ._core import InputError
 from ._progress import Progress, shown
-from ._results import PathLike
+from ._results import PathLike, json_map
 from ._scenario import Scenario, load
 
 
@@ -25,14 +23,15 @@ class Campaign:
         """Why it ended, in words."""
         file = self.folder / "summary.json"
         try:
-            self.summary: Dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+            self.summary: Dict[str, Any] = json_map(file.read_text(encoding="utf-8"))
         except (OSError, ValueError) as error:
             raise InputError(f"{file}: is not what `floorproof campaign` writes: {error}") from error
 
     @property
     def variants(self) -> Dict[str, Any]:
         """By name: n, failures (each with rate, lower, upper), coverage, ..."""
-        return self.summary["variants"]
+        variants: Dict[str, Any] = self.summary["variants"]
+        return variants
 
     @property
     def gate(self) -> Optional[Mapping[str, Any]]:

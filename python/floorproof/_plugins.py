@@ -19,7 +19,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple
 import numpy as np
 
 from . import _core
-from ._results import frame_of, Hazard
+from ._results import Frame, Hazard, Pose, frame_of
 from ._watchdog import limited
 
 _KINDS = (bool, int, float, str)
@@ -105,6 +105,28 @@ class Task(SimpleNamespace):
     step_m, seed."""
 
 
+class Known:
+    """What a planner of unknown floors goes by; of this call alone."""
+
+    def __init__(self, core: Any) -> None:
+        self._core = core
+        self.pose: Pose = core.pose
+        """As the robot believes; shortly before a target is reached, that target."""
+        self.bumped: bool = core.bumped
+        self.dropped: bool = core.dropped
+        self.missed: bool = core.missed
+        self.stopped: bool = core.stopped
+
+    @property
+    def cells(self) -> np.ndarray:
+        """The map that the robot has drawn: 0 free, 1 occupied, 2 unknown."""
+        return self._core.cells
+
+    @property
+    def frame(self) -> Frame:
+        return frame_of(self._core.frame)
+
+
 class _OnlinePlanner(_Wrapped):
     def start(self, about: Mapping[str, Any]) -> None:
         named = dict(about)
@@ -113,7 +135,7 @@ class _OnlinePlanner(_Wrapped):
             self._call(self._made.start, Task(**named))
 
     def next(self, known: Any) -> Tuple[Optional[Tuple[float, float]], str, bool]:
-        answer = self._call(self._made.next, known)
+        answer = self._call(self._made.next, Known(known))
         if answer is None:
             return None, "all is covered that it knows of and can reach", True
         if isinstance(answer, str):

@@ -84,6 +84,11 @@ def frame_of(about: Mapping[str, Any]) -> Frame:
     return Frame(about["width"], about["height"], about["cell_m"], tuple(about["origin"]))
 
 
+def json_map(text: str) -> Dict[str, Any]:
+    made: Dict[str, Any] = json.loads(text)
+    return made
+
+
 class Plan:
     """A plan of a scenario: `Scenario.plan()` makes it."""
 
@@ -115,7 +120,7 @@ class Plan:
     @cached_property
     def info(self) -> Dict[str, Any]:
         """What plan.json holds: length_m, turns, coverage, the planner's own figures."""
-        return json.loads(self._core.json)
+        return json_map(self._core.json)
 
     @cached_property
     def risk(self) -> np.ndarray:
@@ -131,7 +136,7 @@ class Plan:
         and energy."""
         if self.status != "success":
             raise InputError(f"there is no plan to check: {self.message}")
-        return json.loads(self._core.check())
+        return json_map(self._core.check())
 
     def save(self, folder: PathLike) -> Path:
         """Writes what `floorproof plan` writes: plan.csv, plan.json, pictures."""
@@ -171,7 +176,7 @@ class Episode:
     @property
     def outcome(self) -> str:
         """success, failure, timeout, aborted, not_planned or error."""
-        return self.result["outcome"]
+        return str(self.result["outcome"])
 
     @property
     def message(self) -> str:
@@ -185,17 +190,20 @@ class Episode:
     @property
     def metrics(self) -> Dict[str, Optional[float]]:
         """By name, as docs/results.md lists them; None: not measured."""
-        return self.result["metrics"]
+        metrics: Dict[str, Optional[float]] = self.result["metrics"]
+        return metrics
 
     @property
     def margins(self) -> Dict[str, float]:
         """By detector: the least distance from failing; positive is safe."""
-        return self.result.get("margins", {})
+        margins: Dict[str, float] = self.result.get("margins", {})
+        return margins
 
     @property
     def drawn(self) -> Dict[str, Any]:
         """What `randomise` drew for it."""
-        return self.result.get("drawn", {})
+        drawn: Dict[str, Any] = self.result.get("drawn", {})
+        return drawn
 
     @property
     def trace(self) -> Mapping[str, Any]:
@@ -240,14 +248,14 @@ class Episode:
 
 
 def episode_of(core: _core.Episode, folder: Optional[Path] = None) -> Episode:
-    return Episode(json.loads(core.result), core.trace, Plan(core.plan), core, folder)
+    return Episode(json_map(core.result), core.trace, Plan(core.plan), core, folder)
 
 
 def read(folder: PathLike) -> Episode:
     """The episode that `floorproof run` left in a folder: result.json and trace.csv."""
     folder = Path(folder)
     try:
-        result = json.loads((folder / "result.json").read_text(encoding="utf-8"))
+        result = json_map((folder / "result.json").read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
         raise InputError(f"{folder / 'result.json'}: is not what `floorproof run` writes: "
                          f"{error}") from error

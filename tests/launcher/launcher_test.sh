@@ -82,6 +82,17 @@ STUB
 stub python3 <<'STUB'
 #!/usr/bin/env bash
 echo "python3 $*" >>"$WORK/calls"
+if [[ $1 == -c ]]; then  # whether it has all that a package needs
+  [[ -z ${PYTHON_IS_BARE:-} || -f $WORK/installed ]]
+  exit
+fi
+if [[ $1 == -m && $2 == venv ]]; then
+  mkdir -p "$3/bin"
+  printf '#!/bin/bash\necho "venv python $*" >>"$WORK/calls"\n[[ $2 != pytest ]] || exit "${PYTEST_STATUS:-0}"\n' \
+    >"$3/bin/python"
+  chmod +x "$3/bin/python"
+  exit
+fi
 [[ $1 != - ]] || { mkdir -p "$3/include/mujoco"; touch "$3/include/mujoco/mujoco.h" "$3/libmujoco.so.4.0.1"; }
 STUB
 
@@ -101,6 +112,31 @@ starts_at_once() {
   expect "the caller's folder and arguments arrive unchanged" test "$(<"$work/out")" = $'/\n[run][a b][][--x]'
   expect "a second start says nothing" test ! -s "$work/err"
   expect "a second start calls nothing" test ! -s "$work/calls"
+}
+
+tests_the_python_package() {
+  echo 'test = ["pytest"]' >"$tree/pyproject.toml"
+  run test --python -k some
+  expect "its tests decide" test "$status" = 0
+  expect "the program is built first" test "$(calls 'cmake --build')" = 2
+  expect "the extension is linked from what is compiled" grep -q -- "cmake -S.*FLOORPROOF_PYTHON=ON" "$work/calls"
+  expect "the wheel is made of it" grep -q "venv python.*pip install.*FLOORPROOF_BUILT_IN=$tree/build/release" "$work/calls"
+  expect "pytest gets the arguments" grep -qx "venv python -m pytest -k some" "$work/calls"
+  : >"$work/calls"
+  PYTEST_STATUS=1 run test --python
+  expect "a test that fails is status 1" test "$status" = 1
+  expect "the environment stays" test "$(grep -c "python3 -m venv" "$work/calls")" = 0
+  PYTEST_STATUS=5 run test --python
+  expect "no test at all is status 1" test "$status" = 1
+  echo '# changed' >>"$tree/pyproject.toml"
+  : >"$work/calls"
+  PYTHON_IS_BARE=1 run test --python
+  if ((EUID == 0)); then
+    expect "what Python lacks is installed" grep -q "apt-get.*install.*python3-venv python3-dev" "$work/calls"
+    expect "other wants are another environment" test "$(grep -c "python3 -m venv" "$work/calls")" = 1
+  else
+    expect "what Python lacks is asked for" says err "python3-venv python3-dev"
+  fi
 }
 
 installs_a_link() {

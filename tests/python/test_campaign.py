@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Campaigns from Python are the command line's."""
+from __future__ import annotations
+
+import subprocess
+
+import pytest
+
+import floorproof
+
+
+def test_the_same_bytes_as_the_command_line(drawing, command_line, tmp_path, monkeypatch):
+    for where in ("python", "shell"):  # files name the campaign's folder as it was named
+        (tmp_path / where).mkdir()
+    monkeypatch.chdir(tmp_path / "python")
+    campaign = floorproof.campaign(drawing, 12, out="c", jobs=2)
+    assert campaign.end == "all episodes are done"
+    assert campaign.variants["default"]["n"] == 12
+    subprocess.run([command_line, "campaign", drawing.file, "-n", "12", "--jobs", "1", "--no-films",
+                    "--out", "c"], cwd=tmp_path / "shell", check=True, capture_output=True)
+    for name in ("summary.json", "episodes.csv", "junit.xml", "failing_episodes.csv"):
+        there = tmp_path / "shell" / "c" / name
+        assert (tmp_path / "python" / "c" / name).read_bytes() == there.read_bytes(), name
+    assert 0 < campaign.variants["default"]["failures"]["any_failure"]["k"] < 12
+
+
+def test_shards_are_merged(drawing, tmp_path):
+    whole = floorproof.campaign(drawing, 4, out=tmp_path / "whole")
+    for a, b in ((0, 2), (2, 4)):
+        floorproof.campaign(drawing, 4, episodes=(a, b), out=tmp_path / f"{a}")
+    merged = floorproof.merge([tmp_path / "0", tmp_path / "2"], tmp_path / "merged")
+    assert merged.summary == whole.summary
+    assert ((tmp_path / "merged" / "episodes.csv").read_bytes()
+            == (tmp_path / "whole" / "episodes.csv").read_bytes())
+
+
+def test_a_campaign_goes_on(drawing, tmp_path):
+    floorproof.campaign(drawing, 2, out=tmp_path / "c")
+    with pytest.raises(floorproof.InputError, match="holds a campaign"):
+        floorproof.campaign(drawing, 3, out=tmp_path / "c")
+    assert floorproof.campaign(drawing, 3, out=tmp_path / "c",
+                               resume=True).variants["default"]["n"] == 3
+    page = floorproof.report(tmp_path / "c")
+    assert "<html" in page.read_text(encoding="utf-8")[:2000]
+
+
+def test_a_planner_in_python_drives_in_workers(drawing, tmp_path):
+    @floorproof.planner("campaigned", uses_seed=True)
+    def campaigned(request):
+        if request.seed % 2:
+            raise RuntimeError("odd")
+        x, y, _ = request.start
+        return [[x, y], [x + 0.3, y]]
+
+    campaign = floorproof.campaign(drawing.with_(plan="campaigned"), 6, out=tmp_path / "c", jobs=2)
+    default = campaign.variants["default"]
+    assert default["n"] + default["n_error"] == 6 and default["n_error"] > 0 < default["n"]
+    rows = (tmp_path / "c" / "episodes.csv").read_text(encoding="utf-8")
+    assert "planner campaigned raised RuntimeError: odd (test_campaign.py:" in rows
+
+
+@pytest.mark.parametrize("options, says", [
+    ({"n": 0}, "n = 0: must be at least 1"),
+    ({"n": 2, "engine": "slurm"}, "engine = slurm: unknown"),
+    ({"n": 2, "episodes": (2, 1)}, "holds no episode"),
+    ({"n": 2, "episodes": (0, 9)}, "must lie within -n"),
+    ({"n": 2, "address": "auto"}, "address: is no option of engine local"),
+])
+def test_what_is_no_campaign(drawing, tmp_path, options, says):
+    with pytest.raises(floorproof.InputError, match=says):
+        floorproof.campaign(drawing, out=tmp_path / "c", **options)
+
+
+def test_a_folder_without_a_campaign(tmp_path):
+    with pytest.raises(floorproof.InputError, match="summary.json"):
+        floorproof.Campaign(tmp_path)
+    with pytest.raises(floorproof.InputError):
+        floorproof.report(tmp_path)
