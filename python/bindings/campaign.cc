@@ -35,11 +35,11 @@ class Observer final : public CampaignObserver {
 
 // What a Python pool is called with: its run(calls) asks for jobs and hands in answers.
 struct Calls {
-  const PoolCallbacks* callbacks;
+  Lent<const PoolCallbacks> lent;
 };
 
 nb::object Next(const Calls& calls) {
-  const std::optional<Job> job = calls.callbacks->next();
+  const std::optional<Job> job = calls.lent->next();
   return job ? nb::object(nb::int_(*job)) : nb::object(nb::none());
 }
 
@@ -69,7 +69,9 @@ nb::dict RunCampaignInto(const ScenarioFile& file, std::uint64_t n,
   if (shard) request.shard = EpisodeRange{shard->first, shard->second};
   if (!pool.is_none())
     request.pool = [&pool](const PoolCallbacks& callbacks) {
-      InPython("the pool", [&] { pool.attr("run")(nb::cast(Calls{&callbacks})); });
+      InPython("the pool", [&] {
+        Lend<Calls>(callbacks, [&](const nb::object& calls) { pool.attr("run")(calls); });
+      });
     };
   Observer observer(std::move(warn), std::move(progress));
   std::optional<CampaignOutcome> outcome;
@@ -110,15 +112,13 @@ void BindCampaign(nb::module_& m) {
       .def("next", &Next)
       .def(
           "done",
-          [](const Calls& c, Job job, const nb::bytes& answer) {
-            c.callbacks->done(job, Text(answer));
-          },
+          [](const Calls& c, Job job, const nb::bytes& answer) { c.lent->done(job, Text(answer)); },
           "job"_a, "answer"_a)
       .def(
           "crashed",
-          [](const Calls& c, Job job, const std::string& how) { c.callbacks->crashed(job, how); },
+          [](const Calls& c, Job job, const std::string& how) { c.lent->crashed(job, how); },
           "job"_a, "how"_a)
-      .def("stop", [](const Calls& c) { return c.callbacks->stop(); });
+      .def("stop", [](const Calls& c) { return c.lent->stop(); });
   m.def("drive_campaign", &RunCampaignInto, "file"_a, "n"_a, "shard"_a.none(), "jobs"_a, "resume"_a,
         "retry_errors"_a, "fail_fast"_a, "time_limit_s"_a.none(), "folder"_a, "pool"_a.none(),
         "warn"_a.none(), "progress"_a.none());

@@ -27,7 +27,7 @@ const Console kQuiet{.quiet = true};
 
 // What one control period looks like from Python.
 struct View {
-  const EpisodeView* now = nullptr;
+  Lent<const EpisodeView> lent;
 };
 
 // Looks on for Python: asks for Ctrl-C, tells how far it is, keeps states for pictures.
@@ -51,7 +51,8 @@ class Observer final : public EpisodeObserver {
   bool OnControl(const EpisodeView& now) override {
     if (recorder_) recorder_->OnControl(now);
     if (!each_.is_none() && count_++ % every_ == 0)
-      InPython("the observer", [&] { each_(nb::cast(View{&now})); });
+      InPython("the observer",
+               [&] { Lend<View>(now, [&](const nb::object& view) { each_(view); }); });
     constexpr auto kOften = std::chrono::milliseconds(100);
     const auto wall = std::chrono::steady_clock::now();
     if (!progress_.is_none() && wall - told_ >= kOften) {
@@ -182,7 +183,7 @@ nb::object Qpos(const Driven& d) {
 // -----------------------------------------------------------------------------
 
 nb::object Scan(const View& v) {
-  const LidarScan& scan = v.now->sensed.scan;
+  const LidarScan& scan = v.lent->sensed.scan;
   if (scan.angle_rad.empty()) return nb::none();
   nb::dict out;
   out["t_s"] = scan.t_s;
@@ -209,15 +210,15 @@ void BindEpisode(nb::module_& m) {
   });
 
   nb::class_<View>(m, "View")
-      .def_prop_ro("t_s", [](const View& v) { return v.now->sample.t_s; })
-      .def_prop_ro("pose", [](const View& v) { return PoseTuple(v.now->sample.X_WB()); })
-      .def_prop_ro("estimate", [](const View& v) { return PoseTuple(v.now->estimate.X_WB); })
+      .def_prop_ro("t_s", [](const View& v) { return v.lent->sample.t_s; })
+      .def_prop_ro("pose", [](const View& v) { return PoseTuple(v.lent->sample.X_WB()); })
+      .def_prop_ro("estimate", [](const View& v) { return PoseTuple(v.lent->estimate.X_WB); })
       .def_prop_ro("attitude",
                    [](const View& v) {
-                     const Sample& s = v.now->sample;
+                     const Sample& s = v.lent->sample;
                      return nb::make_tuple(s.p_WB.z(), s.roll_rad, s.pitch_rad);
                    })
-      .def_prop_ro("coverage", [](const View& v) { return v.now->coverage; })
+      .def_prop_ro("coverage", [](const View& v) { return v.lent->coverage; })
       .def_prop_ro("scan", &Scan);
 
   nb::class_<Driven>(m, "Episode")

@@ -52,6 +52,34 @@ auto WithoutGil(const Work& work) {
 template <class Call>
 auto InPython(const std::string& who, const Call& call);
 
+// What Python may look at during one call alone: whoever keeps it and asks later is told so.
+template <class T>
+class Lent {
+ public:
+  explicit Lent(T* lent) : lent_(lent) {}
+  T& operator*() const {
+    if (lent_ == nullptr)
+      throw InputError("is of its own call alone: keep copies of what it holds");
+    return *lent_;
+  }
+  T* operator->() const { return &**this; }
+  void TakeBack() { lent_ = nullptr; }
+
+ private:
+  T* lent_;
+};
+
+// call(object), with an `As` that is taken back behind it. With the GIL.
+template <class As, class T, class Call>
+auto Lend(T& what, const Call& call) {
+  struct Back {
+    nb::object object;
+    ~Back() { nb::cast<As&>(object).lent.TakeBack(); }
+  };
+  const Back back{nb::cast(As{Lent<const T>(&what)})};
+  return call(back.object);
+}
+
 // What Python raised, as an InternalError that names `who` and says what and where; the exception
 // itself becomes its cause. KeyboardInterrupt becomes an Interruption.
 [[noreturn]] void ThrowRaised(const std::string& who, nb::python_error& raised);

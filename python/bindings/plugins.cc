@@ -165,11 +165,11 @@ class PythonPlanner final : public Planner {
 
 // What Next() may look at; of this call alone.
 struct Known {
-  const OnlineInput* input = nullptr;
+  Lent<const OnlineInput> lent;
 };
 
 nb::ndarray<nb::numpy, std::uint8_t> KnownCells(const Known& k) {
-  const KnownMap& known = k.input->known;
+  const KnownMap& known = k.lent->known;
   Grid<std::uint8_t> states(known.frame.width, known.frame.height);
   for (int iy = 0; iy < states.height; ++iy)
     for (int ix = 0; ix < states.width; ++ix)
@@ -211,7 +211,8 @@ class PythonOnlinePlanner final : public OnlinePlanner {
 
   OnlineStep Next(const OnlineInput& input) override {
     return InPython(params_.who(), [&] {
-      const auto answer = nb::cast<nb::tuple>(params_.attr("next")(nb::cast(Known{&input})));
+      const auto answer = nb::cast<nb::tuple>(
+          Lend<Known>(input, [&](const nb::object& known) { return params_.attr("next")(known); }));
       OnlineStep step;
       if (const nb::object place = answer[0]; !place.is_none()) {
         const auto target = nb::cast<nb::tuple>(place);
@@ -324,13 +325,13 @@ void BindPlugins(nb::module_& m) {
   m.def("online_planners", [] { return Listed(OnlinePlanners()); });
   m.def("trackers", [] { return Listed(Trackers()); });
   nb::class_<Known>(m, "Known")
-      .def_prop_ro("pose", [](const Known& k) { return PoseTuple(k.input->estimate.X_WB); })
+      .def_prop_ro("pose", [](const Known& k) { return PoseTuple(k.lent->estimate.X_WB); })
       .def_prop_ro("cells", &KnownCells, nb::rv_policy::automatic)
-      .def_prop_ro("frame", [](const Known& k) { return FrameDict(k.input->known.frame); })
-      .def_prop_ro("bumped", [](const Known& k) { return k.input->bumped; })
-      .def_prop_ro("dropped", [](const Known& k) { return k.input->dropped; })
-      .def_prop_ro("missed", [](const Known& k) { return k.input->missed; })
-      .def_prop_ro("stopped", [](const Known& k) { return k.input->stopped; });
+      .def_prop_ro("frame", [](const Known& k) { return FrameDict(k.lent->known.frame); })
+      .def_prop_ro("bumped", [](const Known& k) { return k.lent->bumped; })
+      .def_prop_ro("dropped", [](const Known& k) { return k.lent->dropped; })
+      .def_prop_ro("missed", [](const Known& k) { return k.lent->missed; })
+      .def_prop_ro("stopped", [](const Known& k) { return k.lent->stopped; });
 }
 
 }  // namespace floorproof

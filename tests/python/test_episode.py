@@ -7,6 +7,8 @@ import signal
 import subprocess
 import sys
 import textwrap
+import threading
+import time
 
 import numpy as np
 import pytest
@@ -220,3 +222,25 @@ def test_a_foreign_model_in_the_same_process_is_left_alone():
     states = [subprocess.run([sys.executable, "-c", code, which], capture_output=True, text=True,
                              check=True).stdout for which in ("with", "without")]
     assert states[0] == states[1]
+
+
+def test_other_threads_run_while_physics_does(room):
+    """The GIL is released: a thread of Python goes on while the robot drives."""
+    counted, stop = [0], threading.Event()
+
+    def count():
+        while not stop.is_set():
+            counted[0] += 1
+            time.sleep(0)
+
+    thread = threading.Thread(target=count)
+    scenario = floorproof.load(room)
+    plan = scenario.plan()
+    thread.start()
+    try:
+        before = counted[0]
+        scenario.run(plan)
+        assert counted[0] - before > 100
+    finally:
+        stop.set()
+        thread.join()

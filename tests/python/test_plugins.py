@@ -201,3 +201,30 @@ def test_a_tracker_that_is_wrong(room, answer, says):
     floorproof.tracker("test_odd")(lambda now: answer)
     with pytest.raises(floorproof.InternalError, match=says):
         floorproof.load({**room, "controller": "test_odd"}).run()
+
+
+# --- what is lent for one call
+
+def test_what_was_lent_is_taken_back(room):
+    kept = []
+
+    class Keeps:
+        def next(self, known):
+            kept.append(known)
+            return None
+    floorproof.online_planner("test_keeps")(Keeps)
+    floorproof.load({**room, "plan": "test_keeps"}).run()
+    with pytest.raises(floorproof.InputError, match="is of its own call alone"):
+        kept[0].cells
+    views = []
+    floorproof.load(room).run([[1.0, 1.0], [1.1, 1.0]], observer=views.append)
+    with pytest.raises(floorproof.InputError, match="is of its own call alone"):
+        views[0].pose
+
+
+def test_a_planner_may_plan_itself(room):
+    @floorproof.planner("test_of_planners")
+    def of_planners(request):
+        return floorproof.load({**room, "plan": "spiral"}).plan().path
+    plan = floorproof.load({**room, "plan": "test_of_planners"}).plan()
+    assert plan.info["coverage"] > 0.9
