@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/run_program.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <system_error>
+
+#include "base/error.h"
+#include "base/file_output.h"
+#include "base/params.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr int kPoll_ms = 50;
+constexpr std::size_t kKeptWords = 4096;  // bytes
+
+// What came of the program: written once, by the program itself if it could not be started.
+struct Report {
+  bool started = false;
+  int value = 0;  // a wait status, or an errno
+};
+
+struct Pipe {
+  int read = -1, write = -1;
+  Pipe() {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0)
+      throw InternalError(std::string("no pipe: ") + std::strerror(errno));
+    read = ends[0], write = ends[1];
+  }
+  ~Pipe() { CloseRead(), CloseWrite(); }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  void CloseRead() { Close(read); }
+  void CloseWrite() { Close(write); }
+  static void Close(int& end) {
+    if (end >= 0) close(end);
+    end = -1;
+  }
+};
+
+// Of what lies beyond stderr: the locks and pipes of whoever called must not live on here.
+void CloseAllBut(std::array<int, 3> kept) {
+  std::ranges::sort(kept);
+  unsigned from = 3;
+  for (const int fd : kept) {
+    const auto end = static_cast<unsigned>(fd);
+    if (from < end) close_range(from, end - 1, 0);
+    from = std::max(from, end + 1);
+  }
+  close_range(from, ~0u, 0);
+}
+
+// In the program's process, up to where it begins.
+[[noreturn]] void Become(const ProgramCall& call, int reports, int errors, pid_t guard) noexcept {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != guard) _exit(127);  // it died before
+  setpgid(0, 0);
+  for (const int number : {SIGINT, SIGHUP, SIGTERM, SIGPIPE, SIGCHLD}) signal(number, SIG_DFL);
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+  const int null = open("/dev/null", O_RDWR | O_CLOEXEC);
+  if (null >= 0) dup2(null, STDIN_FILENO), dup2(null, STDOUT_FILENO);
+  dup2(errors, STDERR_FILENO);
+  std::vector<char*> words;
+  for (const std::string& word : call.words) words.push_back(const_cast<char*>(word.c_str()));
+  words.push_back(nullptr);
+  if (call.folder.empty() || chdir(call.folder.c_str()) == 0) execvp(words[0], words.data());
+  const Report report{false, errno};
+  static_cast<void>(!write(reports, &report, sizeof report));
+  _exit(127);
+}
+
+// Kills the program's group, then whatever else has become the guard's child since its parents
+// died. Returns the program's wait status: until it is reaped, nobody else has its number.
+int EndAll(pid_t program) {
+  kill(-program, SIGKILL);
+  int status = 0;
+  while (waitpid(program, &status, 0) < 0 && errno == EINTR) {
+  }
+  const std::string list = "/proc/self/task/" + std::to_string(getpid()) + "/children";
+  for (;;) {
+    pid_t reaped = 0;
+    while ((reaped = waitpid(-1, nullptr, WNOHANG)) > 0) {
+    }
+    std::FILE* children = reaped < 0 ? nullptr : std::fopen(list.c_str(), "re");
+    if (children == nullptr) return status;
+    for (int child = 0; std::fscanf(children, "%d", &child) == 1;) kill(child, SIGKILL);
+    std::fclose(children);
+    usleep(1000);
+  }
+}
+
+bool HasEnded(pid_t program) {
+  siginfo_t info{};
+  return waitid(P_PID, static_cast<id_t>(program), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         info.si_pid == program;
+}
+
+// In the guard: starts the program and says how it ended; tidies up when `control` is closed.
+[[noreturn]] void Guard(const ProgramCall& call, const fs::path& folder, int control, int reports,
+                        int errors) noexcept {
+  for (const int number : {SIGINT, SIGHUP, SIGTERM, SIGPIPE}) signal(number, SIG_IGN);
+  signal(SIGCHLD, SIG_DFL);
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  CloseAllBut({control, reports, errors});
+  const pid_t guard = getpid();
+  const pid_t program = fork();
+  if (program == 0) Become(call, reports, errors, guard);
+  Report report{program > 0, program > 0 ? 0 : errno};
+  if (program > 0) setpgid(program, program);  // whoever of the two is first
+  close(errors);
+  bool over = program < 0;
+  for (int wait_ms = 1;; wait_ms = std::min(2 * wait_ms, 16)) {
+    if (!over && HasEnded(program)) {
+      over = true;
+      report.value = EndAll(program);
+    }
+    if (over && reports >= 0) {
+      static_cast<void>(!write(reports, &report, sizeof report));
+      Pipe::Close(reports);
+    }
+    pollfd told{control, POLLIN, 0};
+    if (poll(&told, 1, over ? -1 : wait_ms) > 0) break;
+  }
+  if (!over) EndAll(program);
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+  _exit(0);
+}
+
+std::string HowItEnded(const Report& report) {
+  if (!report.started) return std::string("cannot be started: ") + std::strerror(report.value);
+  if (WIFSIGNALED(report.value))
+    return std::string("was killed (") + strsignal(WTERMSIG(report.value)) + ")";
+  if (WEXITSTATUS(report.value) == 0) return "";
+  return "ended with status " + std::to_string(WEXITSTATUS(report.value));
+}
+
+// Takes what is there; false at the end of the pipe.
+bool TakeWords(int errors, std::string& words) {
+  char buffer[1 << 14];
+  const ssize_t n = read(errors, buffer, sizeof buffer);
+  if (n < 0) return errno == EINTR || errno == EAGAIN;
+  words.append(buffer, static_cast<std::size_t>(n));
+  if (words.size() > kKeptWords) words.erase(0, words.size() - kKeptWords);
+  return n > 0;
+}
+
+}  // namespace
+
+std::string WhyNoProgram(const std::string& program, const fs::path& folder) {
+  const auto why_not = [](const fs::path& file) -> std::string {
+    std::error_code error;
+    if (!fs::exists(file, error)) return "no such program";
+    if (fs::is_directory(file, error)) return "is a folder, not a program";
+    if (!fs::is_regular_file(file, error)) return "is a pipe or a device, not a program";
+    return access(file.c_str(), X_OK) == 0 ? "" : "is not executable (chmod +x makes it so)";
+  };
+  if (program.find('/') != std::string::npos) return why_not(folder / program);
+  const char* path = std::getenv("PATH");
+  std::string left = path != nullptr ? path : "/bin:/usr/bin";
+  for (left += ':'; !left.empty(); left.erase(0, left.find(':') + 1))
+    if (why_not(folder / left.substr(0, left.find(':')) / program).empty()) return "";
+  return "no such program in PATH; one of the scenario's folder is named ./" + program;
+}
+
+ExchangeFolder::ExchangeFolder() {
+  std::error_code error;
+  const fs::path in = fs::temp_directory_path(error);
+  std::string name = (fs::absolute(error ? "/tmp" : in) / "floorproof-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr)
+    RefuseToWrite(name, {errno, std::generic_category()}, std::strerror(errno));
+  path_ = name;
+}
+
+ExchangeFolder::~ExchangeFolder() {
+  EndGuard();
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+void ExchangeFolder::EndGuard() {
+  Pipe::Close(control_);
+  while (guard_ > 0 && waitpid(guard_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  guard_ = -1;
+}
+
+ProgramOutcome ExchangeFolder::Run(const ProgramCall& call) {
+  Pipe control, reports, errors;
+  const auto end = Clock::now() + std::chrono::duration<double>(call.wall_s);
+  guard_ = fork();
+  if (guard_ < 0) throw InternalError(std::string("no guard process: ") + std::strerror(errno));
+  if (guard_ == 0) Guard(call, path_, control.read, reports.write, errors.write);
+  std::swap(control_, control.write);
+  control.CloseRead(), reports.CloseWrite(), errors.CloseWrite();
+  fcntl(errors.read, F_SETFL, O_NONBLOCK);
+
+  ProgramOutcome outcome;
+  std::optional<Report> report;
+  while (!report) {
+    const double left_ms = std::chrono::duration<double, std::milli>(end - Clock::now()).count();
+    if (left_ms <= 0) {
+      outcome.in_time = false;
+      outcome.failure = "took more than " + FormatDouble(call.wall_s) + " s";
+      break;
+    }
+    if (Interrupted()) throw Interruption();
+    pollfd fds[] = {{reports.read, POLLIN, 0}, {errors.read, POLLIN, 0}};
+    if (poll(fds, 2, static_cast<int>(std::min<double>(kPoll_ms, left_ms + 1))) <= 0) continue;
+    if (fds[1].revents != 0 && !TakeWords(errors.read, outcome.last_words)) errors.CloseRead();
+    if (fds[0].revents == 0) continue;
+    report.emplace();
+    if (read(reports.read, &*report, sizeof *report) != sizeof *report)
+      throw InternalError("the process that watches " + call.words.front() + " is gone");
+  }
+  if (!outcome.in_time) EndGuard();  // what was said until then can be read
+  for (bool more = errors.read >= 0; more;) {
+    pollfd said{errors.read, POLLIN, 0};
+    more = poll(&said, 1, 0) > 0 && TakeWords(errors.read, outcome.last_words);
+  }
+  if (report) outcome.failure = HowItEnded(*report);
+  return outcome;
+}
+
+}  // namespace floorproof
