@@ -31,6 +31,7 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
   command.OnRun([options, &globals, &status] {
     Scenario scenario = ReadScenario(options->scenario, globals.Overrides());
     for (const std::string& warning : Warnings(scenario)) globals.Say(warning);
+    if (const PlanCommand* program = ProgramToAsk(scenario)) globals.Say(ProgramLine(*program));
     SayDrawn(scenario, globals);
     const std::filesystem::path folder = OutputFolder(options->out, scenario.file, scenario.name);
     ResultFolder out(folder, EpisodeResults(), InputsOf(scenario));
@@ -40,7 +41,7 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
       CleanerPlan(scenario, *plan.risk);  // else its drive would be the first to try
     auto json = PlanJson(scenario, plan);
     const std::vector<RiskOfPlan> beside =
-        PlansBeside(options->beside, globals.Overrides(), MeasurePlan(scenario, plan));
+        PlansBeside(options->beside, globals.Overrides(), MeasurePlan(scenario, plan), globals);
     SavePlan(scenario, plan, out, beside);
     const bool found = plan.status == PlanStatus::kSuccess;
     if (found) {

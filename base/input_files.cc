@@ -137,9 +137,12 @@ fs::path KeptCopy(const fs::path& folder, const std::string& sha256) {
   return folder / "inputs" / sha256;
 }
 
-void KeepCopy(const InputFiles& files, const fs::path& file, const fs::path& folder) {
-  const std::string& hash = files.Sha256(file);
-  const fs::path copy = KeptCopy(folder, hash);
+namespace {
+
+// Writes what `bytes` gives into the copy of that hash, where it is not there yet.
+template <class Bytes>
+fs::path Keep(const std::string& hash, const Bytes& bytes, const fs::path& folder) {
+  fs::path copy = KeptCopy(folder, hash);
   RefuseLinks(folder, copy.parent_path());
   std::error_code ignored;
   const fs::file_status there = fs::symlink_status(copy, ignored);
@@ -148,10 +151,26 @@ void KeepCopy(const InputFiles& files, const fs::path& file, const fs::path& fol
       throw InputError({copy.string(), 0}, "", "",
                        "is not what its name says; --out names another "
                        "folder");
-    return;
+    return copy;
   }
   MakeFolder(copy.parent_path());
-  WriteFileWhole(copy, files.Read(file, kAnySize));
+  WriteFileWhole(copy, bytes());
+  return copy;
+}
+
+}  // namespace
+
+void KeepCopy(const InputFiles& files, const fs::path& file, const fs::path& folder) {
+  const std::string hash = files.Sha256(file);
+  Keep(
+      hash, [&] { return std::string_view(files.Read(file, kAnySize)); }, folder);
+}
+
+fs::path KeepText(const InputFiles& files, const std::string& text, const fs::path& folder) {
+  fs::path copy = Keep(
+      Sha256(text), [&] { return std::string_view(text); }, folder);
+  files.Read(copy, kAnySize);
+  return copy;
 }
 
 }  // namespace floorproof

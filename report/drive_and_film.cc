@@ -109,8 +109,8 @@ class Witness : public EpisodeObserver {
     }
     console_.Say(fmt::format("{}, in {:.2f} s", PlannedText(plan), plan_s));
     if (!plan.message.empty()) console_.Say(plan.message);
-    // A planner keeps clear of what it knows; a file may lead anywhere.
-    if (s_.plan_file.empty() && !LeadsItself(s_)) return;
+    // A planner keeps clear of what it knows; a file or a program may lead anywhere.
+    if (PlannerOf(s_) != nullptr) return;
     const PlanClearance clearance = CheckClearance(s_, plan);
     if (const std::string conflicts = ConflictsLine(clearance); !conflicts.empty())
       console_.Say(conflicts + ", see `floorproof plan`");
@@ -175,6 +175,7 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
   Witness witness(s, out, options, console);
   witness.There(" is as before");
   for (const std::string& line : Warnings(s)) console.Say(line);
+  if (const PlanCommand* program = ProgramToAsk(s)) console.Say(ProgramLine(*program));
   DriveResult result;
   Execution execution = witness.Watch();
   result.plan = std::move(execution.plan);

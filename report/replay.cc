@@ -48,6 +48,10 @@ nlohmann::ordered_json ReadResult(const fs::path& file) {
 nlohmann::ordered_json ReplayRun(const fs::path& folder, const std::vector<Override>& overrides,
                                  bool video, const Console& console) {
   Scenario scenario = ReadScenario(folder / "scenario.resolved.yaml", overrides);
+  // Who drives again what somebody sent must not come to run that somebody's program.
+  if (const PlanCommand* program = ProgramToAsk(scenario))
+    throw InputError(program->mark, "plan.command", program->words.front(),
+                     "made no plan: there is nothing to drive again, and a replay runs no program");
   const fs::path result_file = folder / "result.json";
   std::optional<nlohmann::ordered_json> recorded;  // none: another drive than this one's
   if (overrides.empty()) recorded = ReadResult(result_file);

@@ -14,7 +14,8 @@
 namespace floorproof {
 
 // Drives the run that `folder` holds again, its records kept; returns the result as result.json
-// has it. Throws InputError where the records cannot be read, and InternalError when, without
+// has it. No program is run (docs/external-planner.md). Throws InputError where the records cannot
+// be read, or there is no plan but a program's, and InternalError when, without
 // overrides, outcome, events or metrics are not the recorded ones: a film must show what was
 // judged.
 nlohmann::ordered_json ReplayRun(const std::filesystem::path& folder,

@@ -135,11 +135,12 @@ RiskOfPlan MeasurePlan(const Scenario& s, const PlanResult& plan) {
 }
 
 std::vector<RiskOfPlan> PlansBeside(const std::vector<std::string>& files,
-                                    const std::vector<Override>& overrides,
-                                    const RiskOfPlan& first) {
+                                    const std::vector<Override>& overrides, const RiskOfPlan& first,
+                                    const Console& console) {
   std::vector<RiskOfPlan> plans;
   for (const std::string& file : files) {
     const Scenario scenario = ReadScenario(file, overrides);
+    if (const PlanCommand* program = ProgramToAsk(scenario)) console.Say(ProgramLine(*program));
     const PlanResult plan = MakePlan(scenario);
     if (plan.status != PlanStatus::kSuccess)
       throw InputError({file, 0}, "", "", "has no plan: " + plan.message);

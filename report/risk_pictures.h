@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/console.h"
 #include "planners/risk/risk_meter.h"
 #include "run/episode/episode.h"
 
@@ -21,8 +22,8 @@ RiskOfPlan MeasurePlan(const Scenario& scenario, const PlanResult& plan);
 // Plans these scenarios, to stand beside `first`. Throws InputError naming the one that cannot be
 // read, has no plan, or has another floor, robot or risk.
 std::vector<RiskOfPlan> PlansBeside(const std::vector<std::string>& files,
-                                    const std::vector<Override>& overrides,
-                                    const RiskOfPlan& first);
+                                    const std::vector<Override>& overrides, const RiskOfPlan& first,
+                                    const Console& console);
 
 // heatmap_plan.png: the planned path over the map; where risk is asked for, over its cells, those
 // with hazards coloured by their class. Of an audit, heatmap_samples.png, and plot_convergence.png

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "base/file_output.h"
 #include "base/quantity.h"
@@ -71,6 +72,19 @@ void CheckChance(const ScenarioFile& file, const ConfigNode& gate, CampaignObser
   }
 }
 
+// Which programs its variants have plan for them. Throws InputError where one is not there.
+void SayPrograms(const ScenarioFile& file, CampaignObserver* observer) {
+  std::set<std::string> said;
+  for (const Variant& variant : file.variants()) {
+    const Scenario s = file.Read(std::nullopt, variant);
+    const PlanCommand* program = ProgramToAsk(s);
+    if (program == nullptr) continue;
+    CheckProgram(*program, s.files);
+    const std::string line = ProgramLine(*program);
+    if (said.insert(line).second && observer) observer->OnWarning(line);
+  }
+}
+
 // What is asked for is right, yet its results do not reach the disk: the tool has failed, and says
 // what is not there.
 template <class Error, class Write>
@@ -108,6 +122,7 @@ CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& r
   // Refused before there is a folder.
   if (request.episodes > 1) CheckChance(file, base.gate, observer);  // no number would mend that
   const auto gate = CampaignGate::Read(base.gate, request.episodes, file.drives());
+  SayPrograms(file, observer);
 
   auto hold = std::make_unique<HoldInterrupts>();
   HoldsCampaign(folder, request.resume);

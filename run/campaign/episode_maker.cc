@@ -4,12 +4,22 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "run/episode/ask_program.h"
 #include "run/episode/execute.h"
+#include "run/episode/plan_request_files.h"
 #include "run/episode/records.h"
 #include "run/scenario/plan_file.h"
 
 namespace floorproof {
 namespace {
+
+// What a program is told beside the floor and its risk. Its robot's speeds hang on more than the
+// robot's keys: the battery's voltage.
+std::string ProgramInputs(const Scenario& s, const PlanCommand& program) {
+  std::string text = RobotJson(s.robot.spec).dump() + std::to_string(ProgramSeed(s, program));
+  for (const std::string& word : program.words) text += "\n" + word;
+  return text;
+}
 
 // All that MakePlan reads, as text. The floor's friction is not a planner's to know, unless the
 // robot was measured on several: its limits hang on it. Whether they are used hangs on more than
@@ -30,6 +40,8 @@ std::string PlanInputs(const Scenario& s) {
   ConfigNode params = ConfigNode::Map();
   if (Configurable* planner = PlannerOf(s))
     WriteParams(*planner, params);
+  else if (const PlanCommand* program = ProgramToAsk(s))
+    text += "\n" + ProgramInputs(s, *program);
   else
     text += "\n" + PlanCsv(s.user_plan);
   for (const Vec2& p : s.places) text += "\n" + FormatDouble(p.x()) + " " + FormatDouble(p.y());

@@ -9,7 +9,8 @@
 
 namespace floorproof {
 
-// The plan of the scenario: its planner's, or the user's file. The planner gets what is known.
+// The plan of the scenario: its planner's, the user's file's, or that of a program, which is run
+// for it. Who plans gets what is known. Throws InputError where there is no such program.
 PlanResult MakePlan(const Scenario& scenario);
 
 // What the draws of an episode's planner begin with.

@@ -349,6 +349,17 @@ std::string RiskCsv(const RiskMap& risk) {
   return fmt::to_string(out);
 }
 
+namespace {
+
+// Where the plan is that a program has made, for the settings; empty: none has.
+std::filesystem::path KeepMadePlan(const Scenario& s, const PlanResult& plan,
+                                   const std::filesystem::path& folder) {
+  if (ProgramToAsk(s) == nullptr || plan.status != PlanStatus::kSuccess) return {};
+  return KeepText(s.files, PlanCsv(plan.path), folder);
+}
+
+}  // namespace
+
 ResultNames EpisodeResults() {
   return {"episode", [](std::string_view name) {
             return IsPlanFile(name) || IsFilm(name) || name == "result.json" ||
@@ -362,7 +373,11 @@ ResultNames FilmResults() { return {"episode", IsFilm, false}; }
 
 void WritePlanFiles(const Scenario& s, const PlanResult& plan,
                     const std::filesystem::path& folder) {
-  WriteResolvedScenario(s, folder);
+  const std::filesystem::path made = KeepMadePlan(s, plan, folder);
+  if (made.empty())
+    WriteResolvedScenario(s, folder);
+  else
+    WriteResolvedScenario(s, folder, {made}, made);
   if (plan.status == PlanStatus::kOnline)
     Remove(folder / "plan.csv");
   else

@@ -10,6 +10,7 @@ bool EpisodesCanDiffer(const ScenarioFile& file, const Scenario& s) {
   const ConfigNode* generate = s.site_node.Find("generate");
   if (generate != nullptr && generate->Find("seed") == nullptr) return true;
   if (s.planner && s.planner->promises().uses_seed) return true;
+  if (const PlanCommand* program = ProgramToAsk(s); program && program->uses_seed) return true;
   if (s.episode.drive != "none" && s.online && s.online->uses_seed()) return true;
   if (s.episode.drive != "physics") return false;
   return s.estimator->draws() ||

@@ -109,6 +109,14 @@ ConfigNode PlannerKeys(const Scenario& s, const fs::path& folder) {
   return node;
 }
 
+// Who makes its plan, with all keys.
+ConfigNode Plan(const Scenario& s, const fs::path& folder, const fs::path& made) {
+  if (PlannerOf(s) != nullptr) return PlannerKeys(s, folder);
+  if (s.plan_command)
+    return WritePlanCommand(*s.plan_command, folder, made.empty() ? s.plan_file : made);
+  return Named("file", PathFrom(folder, s.plan_file).string());
+}
+
 // Whether a scenario names it by a word: it comes with the program.
 bool IsBundled(const fs::path& file) {
   const auto is = [&](const fs::path& bundled) {
@@ -177,7 +185,7 @@ ConfigNode WithoutGenerate(ConfigNode node) {
 }  // namespace
 
 std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
-                             const std::vector<fs::path>& more) {
+                             const std::vector<fs::path>& more, const fs::path& made) {
   ConfigNode root = ConfigNode::Map();
   root.Add("scenario", ConfigNode::Scalar("1"));
   root.Add("name", ConfigNode::Scalar(s.name, true));
@@ -197,10 +205,7 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
   if (s.goal &&
       stated("goal", site_varies || Vary(s, {"site.goal", "site.goal.x_m", "site.goal.y_m"})))
     root.Add("goal", Goal(*s.goal));
-  if (!LeadsItself(s))
-    root.Add("plan", PlannerOf(s) != nullptr
-                         ? PlannerKeys(s, folder)
-                         : Named("file", PathFrom(folder, s.plan_file).string()));
+  if (!LeadsItself(s)) root.Add("plan", Plan(s, folder, made));
   if (AsksForRisk(s))
     root.Add("risk", WithParams(Named("tables",
                                       NameOr(s.fmea_file, BundledTables(), kBundledTables, folder)),
@@ -248,11 +253,11 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
 }
 
 void WriteResolvedScenario(const Scenario& s, const fs::path& folder,
-                           const std::vector<fs::path>& more) {
+                           const std::vector<fs::path>& more, const fs::path& made) {
   // First, so that whoever finds the settings finds what they name.
   for (const fs::path& file : ListedFiles(s, more))
     if (!IsBundled(file)) KeepCopy(s.files, file, folder);
-  WriteFileWhole(folder / "scenario.resolved.yaml", ResolvedScenario(s, folder, more));
+  WriteFileWhole(folder / "scenario.resolved.yaml", ResolvedScenario(s, folder, more, made));
 }
 
 }  // namespace floorproof

@@ -31,13 +31,14 @@ void MakeMap(ConfigNode& root, const std::string& key_path) {
   }
 }
 
-// A plan is made by a planner or read from a file: who sets the one on the command line takes the
-// other away, with its keys.
+// A plan is made by a planner, read from a file or asked of a program: who sets one of them on the
+// command line takes the other away, with its keys.
 void ChooseWhosePlan(const std::string& key_path, ConfigNode& root) {
   const ConfigNode* plan = root.Find("plan");
   if (plan == nullptr) return;
-  const bool from_file = plan->Find("file") != nullptr;
-  if ((key_path == "plan.file" && !from_file) || (key_path == "plan.planner" && from_file))
+  const bool from_file = plan->Find("file") != nullptr, asked = plan->Find("command") != nullptr;
+  if ((key_path == "plan.file" && !from_file) || (key_path == "plan.command" && !asked) ||
+      (key_path == "plan.planner" && (from_file || asked)))
     root.Remove("plan");
 }
 
@@ -123,7 +124,7 @@ void RemoveNone(ConfigNode& root) {
 // Whether setting `whole` replaces `key`.
 bool Replaces(const std::string& whole, const std::string& key) {
   return key == whole || key.starts_with(whole + ".") ||
-         (whole == "plan.file" && key.starts_with("plan."));
+         ((whole == "plan.file" || whole == "plan.command") && key.starts_with("plan."));
 }
 
 bool IsSha256(const std::string& text) {
@@ -353,7 +354,13 @@ Configurable* PlannerOf(const Scenario& s) {
   return s.online.get();
 }
 
-bool LeadsItself(const Scenario& s) { return !s.planner && !s.online && s.plan_file.empty(); }
+const PlanCommand* ProgramToAsk(const Scenario& s) {
+  return s.plan_command && s.plan_file.empty() ? &*s.plan_command : nullptr;
+}
+
+bool LeadsItself(const Scenario& s) {
+  return !s.planner && !s.online && !s.plan_command && s.plan_file.empty();
+}
 
 bool AsksForRisk(const Scenario& s) {
   return s.written.contains("risk") || (s.planner && s.planner->promises().needs_risk);
@@ -366,6 +373,8 @@ std::vector<fs::path> FilesRead(const Scenario& s) {
   if (!s.robot.files.empty())
     files.insert(files.end(), s.robot.files.begin() + 1, s.robot.files.end());
   files.push_back(s.fmea_file);
+  if (s.plan_command)
+    files.insert(files.end(), s.plan_command->files.begin(), s.plan_command->files.end());
   if (!s.plan_file.empty()) files.push_back(s.plan_file);
   if (!s.places_file.empty()) files.push_back(s.places_file);
   if (!s.mission_file.empty()) files.push_back(s.mission_file);

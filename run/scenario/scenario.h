@@ -31,6 +31,7 @@
 #include "run/scenario/draws.h"
 #include "run/scenario/floor_dirt.h"
 #include "run/scenario/matrix.h"
+#include "run/scenario/plan_command.h"
 #include "run/scenario/scenario_params.h"
 
 namespace floorproof {
@@ -56,10 +57,12 @@ struct Scenario {
   Pose2 start;
   std::optional<Vec2> goal;
 
-  // One of three makes the plan; or the mission says where to drive.
+  // One of four makes the plan; or the mission says where to drive.
   std::string planner_name;  // empty: plan_file
   std::unique_ptr<Planner> planner;
   std::unique_ptr<OnlinePlanner> online;  // on the way, as the floor becomes known
+  std::optional<PlanCommand>
+      plan_command;  // a program's; plan_file is what it made once, if it has
   std::filesystem::path plan_file;
   Path user_plan;                     // what it holds, or the mission's places
   std::filesystem::path places_file;  // that the planner is to visit; empty: it finds its own
@@ -163,6 +166,9 @@ class ScenarioFile {
 // Its planner's parameters, whichever kind it is; nullptr: a user's plan.
 Configurable* PlannerOf(const Scenario& scenario);
 
+// The program that is yet to be asked for its plan; nullptr: none is run.
+const PlanCommand* ProgramToAsk(const Scenario& scenario);
+
 // Whether its mission says where to drive, and there is no plan but its places.
 bool LeadsItself(const Scenario& scenario);
 
@@ -182,14 +188,17 @@ std::vector<std::filesystem::path> InputsOf(const Scenario& scenario);
 
 // The scenario with every default stated, the site in it, paths valid from `folder` and the SHA-256
 // of each file read and of each of `more`. Reading it gives the same scenario; resolving it again
-// gives the same text.
+// gives the same text. `made`: the plan that its program has made, so that whoever reads it gets
+// that plan and runs nothing.
 std::string ResolvedScenario(const Scenario& scenario, const std::filesystem::path& folder,
-                             const std::vector<std::filesystem::path>& more = {});
+                             const std::vector<std::filesystem::path>& more = {},
+                             const std::filesystem::path& made = {});
 
 // Writes scenario.resolved.yaml into the folder, and beside it copies of the files that it names,
 // so that the folder may be moved: reading takes the copies (base/input_files.h). Throws
 // InputError.
 void WriteResolvedScenario(const Scenario& scenario, const std::filesystem::path& folder,
-                           const std::vector<std::filesystem::path>& more = {});
+                           const std::vector<std::filesystem::path>& more = {},
+                           const std::filesystem::path& made = {});
 
 }  // namespace floorproof

@@ -214,6 +214,15 @@ std::vector<int> ReadPlanPart(const ConfigNode& root, Scenario& s) {
     return lines;
   }
   const ConfigNode* node = root.Find("plan");
+  if (node && node->IsMap() && node->Find("command") != nullptr) {
+    s.plan_command = ReadPlanCommand(*node, s.file.parent_path(), s.files);
+    s.planner_name = s.plan_command->name;
+    if (const ConfigNode* made = node->Find("made")) {
+      s.plan_file = NamedFile(s.file.parent_path(), *made, "plan.made", s.files);
+      s.user_plan = ReadPlan(s.plan_file, s.site.map.frame, &lines, s.files);
+    }
+    return lines;
+  }
   if (const ConfigNode* file = node && node->IsMap() ? node->Find("file") : nullptr) {
     if (const ConfigNode* planner = node->Find("planner"))
       throw InputError(planner->mark, "plan.planner", planner->scalar,
@@ -411,7 +420,8 @@ const std::vector<std::string>& ScenarioKeys() {
 bool NamesFile(const std::string& key_path, const std::string& value) {
   if (key_path == "robot" || key_path == "robot.name") return value.ends_with(".xml");
   return key_path == "site" || key_path == "site.map" || key_path == "plan.file" ||
-         key_path == "plan.samples.file" || (key_path == "mission" && value.ends_with(".yaml")) ||
+         key_path == "plan.made" || key_path == "plan.samples.file" ||
+         (key_path == "mission" && value.ends_with(".yaml")) ||
          (key_path == "risk.tables" && value.ends_with(".yaml"));
 }
 

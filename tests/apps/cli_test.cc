@@ -57,6 +57,32 @@ plan: {planner: boustrophedon}
   fs::path folder_;
 };
 
+// Neither is a program run that came in somebody's folder.
+TEST_F(Cli, AProgramThatPlansIsNamedBeforeItIsRunAndNeverRunByReplay) {
+  std::ofstream(folder_ / "p.sh") << "#!/bin/sh\necho asked >> log; cp there \"$1\"/plan.csv\n";
+  fs::permissions(folder_ / "p.sh", fs::perms::owner_all);
+  const std::string set = "s.yaml --set 'plan.command=[./p.sh]' --out o";
+  const std::string line = "runs a program that --set plan.command names: ./p.sh\n";
+  const Result none = Run("run " + set);
+  EXPECT_EQ(none.status, 1);
+  const std::size_t said = none.out.find(line), failed = none.out.find("no plan (failed): p.sh ");
+  EXPECT_NE(said, std::string::npos) << none.out;
+  EXPECT_NE(failed, std::string::npos) << none.out;
+  EXPECT_LT(said, failed);
+  const Result nothing = Run("replay o");
+  EXPECT_EQ(nothing.status, 2);
+  EXPECT_THAT(nothing.err, HasSubstr("made no plan"));
+  EXPECT_EQ(Slurp(folder_ / "log"), "asked\n");
+
+  std::ofstream(folder_ / "there") << "x_m,y_m\n1.5,1\n";
+  EXPECT_THAT(Run("plan " + set).out, HasSubstr(line));
+  EXPECT_EQ(Run("run " + set).status, 0);
+  const Result again = Run("replay o");
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_THAT(again.out, Not(HasSubstr("runs a program")));
+  EXPECT_EQ(Slurp(folder_ / "log"), "asked\nasked\nasked\n");
+}
+
 TEST_F(Cli, RunLeavesWhatTheContractNames) {
   const Result dut = Run("run s.yaml --out o");
   EXPECT_EQ(dut.status, 0) << dut.err << dut.out;

@@ -19,6 +19,16 @@ BadInput File(const std::string& name, const std::string& file, std::vector<std:
           std::move(prepare)};
 }
 
+BadInput Command(const std::string& name, const std::string& keys, std::vector<std::string> named) {
+  named.insert(named.begin(), "scenario.yaml:5");
+  return {name,
+          {"run", "scenario.yaml", "--out", "o"},
+          {{"scenario.yaml",
+            Replaced(GoodFiles().at("scenario.yaml"), "file: plan.csv", "command: " + keys)},
+           {"no.sh", "#!/bin/sh\n"}},
+          std::move(named)};
+}
+
 }  // namespace
 
 std::vector<BadInput> PlanCases() {
@@ -59,6 +69,26 @@ std::vector<BadInput> PlanCases() {
            }),
       File("ClimbsOut", "x/../../plan.csv",
            {"scenario.yaml:5: plan.file = x/../../plan.csv", "leaves its folder"}),
+      Command("ACommandThatIsNoList", "./cover.py", {"plan.command = ./cover.py", "list of words"}),
+      Command("ACommandOfMaps", "[{a: b}]", {"plan.command", "must be text"}),
+      Command("AnEmptyCommand", "[]", {"plan.command", "the program first"}),
+      Command("ACommandWithoutAProgram", "[\"\", a]", {"plan.command", "begin with a program"}),
+      Command("ACommandBesideAPlanner", "[sh], planner: spiral",
+              {"plan.planner = spiral", "stands beside plan.command"}),
+      Command("ACommandBesideAFile", "[sh], file: plan.csv",
+              {"plan.file = plan.csv", "stands beside plan.command"}),
+      Command("ACommandWithoutTime", "[sh], timeout_s: 0", {"plan.timeout_s = 0", "must be"}),
+      Command("ACommandOfAnotherKey", "[sh], timeout: 5",
+              {"plan.timeout", "did you mean timeout_s?"}),
+      Command("ACommandInNoFolder", "[sh], folder: elsewhere",
+              {"plan.folder = ", "elsewhere", "no such folder"}),
+      Command("NoSuchProgram", "[./cover.py]", {"plan.command = ./cover.py", "no such program"}),
+      Command("NoSuchProgramInPath", "[no.such.program]",
+              {"plan.command = no.such.program", "named ./no.such.program"}),
+      Command("AProgramThatIsAFolder", "[./]", {"plan.command = ./", "is a folder"}),
+      Command("AProgramThatCannotBeRun", "[./no.sh]", {"plan.command = ./no.sh", "chmod +x"}),
+      Command("ACommandWhosePlanIsGone", "[sh], made: inputs/0",
+              {"plan.made = inputs/0", "no such file"}),
       File("IsAMap", "map.pgm", {"map.pgm:1: P5", "unknown column"}),
   };
 }

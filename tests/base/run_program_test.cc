@@ -101,7 +101,7 @@ TEST(RunProgram, LeavesNobodyBehind) {
   const std::string note = "echo $! > \"$0\"/child; ";
   for (const auto& [script, wall_s] :
        {std::pair("sleep 1000 & " + note + "exit 0", 20.0),            // forks and leaves
-        {"sleep 1000 & " + note + "wait", 0.3},                        // waits too long
+        {"sleep 1000 & " + note + "wait", 1.0},                        // waits too long
         {"setsid sh -c 'echo $$ > \"'\"$0\"'\"/child; sleep 1000' & "  // in a session of its own
          "while [ ! -s \"$0\"/child ]; do sleep 0.01; done; exit 0",
          20.0}}) {
