@@ -166,10 +166,18 @@ void KeepCopy(const InputFiles& files, const fs::path& file, const fs::path& fol
       hash, [&] { return std::string_view(files.Read(file, kAnySize)); }, folder);
 }
 
-fs::path KeepText(const InputFiles& files, const std::string& text, const fs::path& folder) {
-  fs::path copy = Keep(
+fs::path KeepText(const std::string& text, const fs::path& folder) {
+  return Keep(
       Sha256(text), [&] { return std::string_view(text); }, folder);
-  files.Read(copy, kAnySize);
+}
+
+fs::path FindCopy(const fs::path& folder, const std::string& sha256) {
+  const bool is_hash =
+      sha256.size() == 64 && sha256.find_first_not_of("0123456789abcdef") == std::string::npos;
+  if (!is_hash) throw InputError({folder.string(), 0}, "", sha256, "is no SHA-256");
+  fs::path copy = KeptCopy(folder, sha256);
+  if (Sha256OfFile(copy) != sha256)
+    throw InputError({copy.string(), 0}, "", "", "is not what its name says");
   return copy;
 }
 

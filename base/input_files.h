@@ -67,9 +67,9 @@ std::filesystem::path KeptCopy(const std::filesystem::path& folder, const std::s
 void KeepCopy(const InputFiles& files, const std::filesystem::path& file,
               const std::filesystem::path& folder);
 
-// Keeps a text as if it were the copy of a file that was read; returns the copy, which counts as
-// read. Throws as KeepCopy.
-std::filesystem::path KeepText(const InputFiles& files, const std::string& text,
-                               const std::filesystem::path& folder);
+// Keeps a text as if it were the copy of a file that was read; returns where. Throws as KeepCopy.
+std::filesystem::path KeepText(const std::string& text, const std::filesystem::path& folder);
+// The copy of this SHA-256. Throws InputError where it is none, not there, or another file.
+std::filesystem::path FindCopy(const std::filesystem::path& folder, const std::string& sha256);
 
 }  // namespace floorproof

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/input_file.h"
+#include "base/input_files.h"
 #include "base/result_folder.h"
 #include "run/campaign/episode_maker.h"
 #include "run/episode/records.h"
@@ -22,6 +23,20 @@ namespace fs = std::filesystem;
       fmt::format("{}: the replay differs from the record in '{}' (recorded with "
                   "another version or on another machine type?)",
                   where.string(), what));
+}
+
+// Who drives again what somebody sent must not come to run that somebody's program.
+[[noreturn]] void RefuseProgram(const PlanCommand& program) {
+  throw InputError(program.mark, "plan.command", program.words.front(),
+                   "made no plan: there is nothing to drive again, and a replay runs no program");
+}
+
+// With the plan that a program made for this episode.
+Variant AsPlanned(Variant variant, const EpisodeRow& row, const fs::path& campaign) {
+  if (const std::string made = MadePlan(row); !made.empty())
+    variant.overrides.emplace_back(
+        "plan.made", ConfigNode::Scalar(fs::absolute(FindCopy(campaign, made)).string(), true));
+  return variant;
 }
 
 // As this version names them.
@@ -48,10 +63,7 @@ nlohmann::ordered_json ReadResult(const fs::path& file) {
 nlohmann::ordered_json ReplayRun(const fs::path& folder, const std::vector<Override>& overrides,
                                  bool video, const Console& console) {
   Scenario scenario = ReadScenario(folder / "scenario.resolved.yaml", overrides);
-  // Who drives again what somebody sent must not come to run that somebody's program.
-  if (const PlanCommand* program = ProgramToAsk(scenario))
-    throw InputError(program->mark, "plan.command", program->words.front(),
-                     "made no plan: there is nothing to drive again, and a replay runs no program");
+  if (const PlanCommand* program = ProgramToAsk(scenario)) RefuseProgram(*program);
   const fs::path result_file = folder / "result.json";
   std::optional<nlohmann::ordered_json> recorded;  // none: another drive than this one's
   if (overrides.empty()) recorded = ReadResult(result_file);
@@ -72,7 +84,8 @@ fs::path EpisodeFolder(const fs::path& campaign, const Variant& variant, std::ui
 DriveResult ReplayEpisode(const ScenarioFile& file, const Variant& variant, const EpisodeRow& row,
                           const fs::path& folder, const DriveOptions& options,
                           const Console& console) {
-  Scenario scenario = file.Read(row.episode, variant);
+  Scenario scenario = file.Read(row.episode, AsPlanned(variant, row, folder));
+  if (const PlanCommand* program = ProgramToAsk(scenario)) RefuseProgram(*program);
   const fs::path into = EpisodeFolder(folder, variant, row.episode);
   RefuseLinks(folder, into);
   if (row.outcome == "error") console.Say("recorded as an error: " + row.message);

@@ -27,7 +27,8 @@ std::filesystem::path EpisodeFolder(const std::filesystem::path& campaign, const
                                     std::uint64_t episode);
 
 // Drives the recorded episode again into <folder>/episodes/<variant>/<id>, whole as `run` would.
-// Throws InternalError when outcome, events or metrics are not the recorded ones.
+// No program is run. Throws InputError where there is no plan but a program's, and InternalError
+// when outcome, events or metrics are not the recorded ones.
 DriveResult ReplayEpisode(const ScenarioFile& file, const Variant& variant, const EpisodeRow& row,
                           const std::filesystem::path& folder, const DriveOptions& options,
                           const Console& console);

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "base/file_output.h"
 #include "base/input_file.h"
+#include "base/input_files.h"
 #include "run/campaign/campaign_about.h"
 #include "run/campaign/campaign_files.h"
 
@@ -62,18 +64,23 @@ void CheckOverlaps(std::span<const CampaignStore> shards, std::span<const std::s
   }
 }
 
-// Copies each episode once; returns the number behind the last one.
-std::uint64_t MergeRows(std::span<const CampaignStore> shards, std::span<const Variant> variants,
-                        CampaignStore& into) {
+// Copies each episode once, with the plan that a program made for it; returns the number behind the
+// last one. `names`, as `shards`: their folders.
+std::uint64_t MergeRows(std::span<const CampaignStore> shards, std::span<const std::string> names,
+                        std::span<const Variant> variants, CampaignStore& into) {
   std::uint64_t end = 0;
   for (const Variant& variant : variants)
-    for (const CampaignStore& shard : shards) {
+    for (std::size_t i = 0; i < shards.size(); ++i) {
+      const CampaignStore& shard = shards[i];
+      std::set<std::string> taken;
       const std::vector<std::uint64_t> there = into.Episodes(variant.name);
       std::vector<EpisodeRow> batch;
       const auto copy = [&](const EpisodeRow& row) {
         end = std::max(end, row.episode + 1);
         if (std::ranges::binary_search(there, row.episode)) return;
         batch.push_back(row);
+        if (const std::string made = MadePlan(row); !made.empty() && taken.insert(made).second)
+          batch.back().made = ReadInputFile(FindCopy(names[i], made), kMaxResultBytes);
         if (batch.size() < kBatch) return;
         into.Add(batch);
         batch.clear();
@@ -152,7 +159,7 @@ MergeOutcome MergeCampaigns(const std::vector<std::string>& shards, const fs::pa
   results->Begin();
   RefuseCampaign(out);  // another may have begun it since
   CampaignStore store = CampaignStore::Create(file, from.front().about());
-  std::uint64_t end = MergeRows(from, variants, store);
+  std::uint64_t end = MergeRows(from, shards, variants, store);
   for (const CampaignStore& shard : from) end = std::max(end, shard.asked());
   store.SetAsked(end);
   std::string paths_note = WriteSettings(scenario.file(), out);

@@ -10,6 +10,7 @@
 #include "base/config.h"
 #include "base/error.h"
 #include "base/file_output.h"
+#include "base/input_files.h"
 #include "base/printable.h"
 #include "run/campaign/campaign_about.h"
 
@@ -188,7 +189,8 @@ CampaignStore::CampaignStore(CampaignStore&& other) noexcept
       db_(std::exchange(other.db_, nullptr)),
       about_(std::move(other.about_)),
       asked_(other.asked_),
-      sound_(other.sound_) {}
+      sound_(other.sound_),
+      kept_(std::move(other.kept_)) {}
 
 CampaignStore::~CampaignStore() { sqlite3_close(db_); }
 
@@ -478,6 +480,9 @@ void CampaignStore::RequireColumns() const {
 
 void CampaignStore::Add(std::span<const EpisodeRow> rows) {
   if (rows.empty()) return;
+  for (const EpisodeRow& row : rows)  // before it is named
+    if (!row.made.empty() && kept_.insert(Sha256(row.made)).second)
+      KeepText(row.made, file_.parent_path());
   Run("BEGIN");
   try {
     Statement insert(*this, "INSERT INTO episode VALUES (" + Placeholders() + ")");

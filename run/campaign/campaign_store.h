@@ -3,13 +3,15 @@
 //
 // Table `episode` has the key (campaign, variant, episode) and no other order, so that the same
 // episodes give the same `.dump` whatever order they ended in. Episodes driven beyond an early stop
-// stand in `extra`, wall times in `timing`, what the campaign is in `about`.
+// stand in `extra`, wall times in `timing`, what the campaign is in `about`. Plans that programs
+// made are kept beside the file, in `inputs`, by their SHA-256 (base/input_files.h).
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -86,7 +88,8 @@ class CampaignStore {
   sqlite3* db_ = nullptr;
   CampaignAbout about_;
   std::uint64_t asked_ = 0;
-  bool sound_ = false;  // looked through
+  bool sound_ = false;          // looked through
+  std::set<std::string> kept_;  // SHA-256 of the plans that are
 };
 
 }  // namespace floorproof

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "base/file_output.h"
 #include "run/episode/ask_program.h"
 #include "run/episode/execute.h"
 #include "run/episode/plan_request_files.h"
@@ -79,6 +80,11 @@ const EpisodeMaker::Planned& EpisodeMaker::Plan(const Variant& variant, const Sc
     auto json = PlanJson(s, last.plan);
     for (const char* list : {"visits_by_risk", "sample_places", "convergence_m"})
       json.erase(list);  // a row holds numbers
+    last.made.clear();
+    if (ProgramToAsk(s) != nullptr && last.plan.status == PlanStatus::kSuccess) {
+      last.made = PlanCsv(last.plan.path);
+      json["made"] = Sha256(last.made);
+    }
     last.json = json.dump();
   }
   return last;
@@ -98,7 +104,9 @@ EpisodeRow EpisodeMaker::Run(const Variant& variant, std::uint64_t episode) try 
   const Planned& planned = Plan(variant, s);
   std::optional<Scene> scene;
   const EpisodeRecord record = ExecutePlan(s, planned.plan, scene);
-  return MakeRow(variant.name, s, WithFigures(planned.json, record), record);
+  EpisodeRow row = MakeRow(variant.name, s, WithFigures(planned.json, record), record);
+  row.made = planned.made;
+  return row;
 } catch (const InputError& e) {
   return Refused(variant, episode, e.what());
 } catch (const InternalError& e) {

@@ -40,6 +40,7 @@ class EpisodeMaker {
     std::string inputs;  // that the plan follows from
     PlanResult plan;
     std::string json;
+    std::string made;  // by a program: the plan's text
   };
   const Planned& Plan(const Variant& variant, const Scenario& scenario);
 

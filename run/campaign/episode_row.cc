@@ -76,11 +76,20 @@ std::optional<Timeout> TimeoutOf(const EpisodeRow& row) {
   }
 }
 
+std::string MadePlan(const EpisodeRow& row) {
+  try {
+    return Json::parse(row.plan).value("made", "");
+  } catch (const Json::exception& e) {
+    throw InternalError(e.what());
+  }
+}
+
 std::string WhyUnreadableRow(const EpisodeRow& row) {
   for (const std::string* text : {&row.drawn, &row.plan}) {
     const Json json = Json::parse(*text, nullptr, false);
     if (json.is_discarded()) return "is no JSON";
     if (!json.is_object()) return "is no JSON object";
+    if (json.contains("made") && !json["made"].is_string()) return "holds a `made` that is no text";
   }
   const Json events = Json::parse(row.events, nullptr, false);
   if (events.is_discarded()) return "is no JSON";
@@ -107,7 +116,7 @@ std::string ToLine(const EpisodeRow& row) {
   Json metrics = Json::array();
   for (const auto& value : row.metrics) metrics.push_back(value ? Json(*value) : Json(nullptr));
   return Json({row.variant, row.episode, row.outcome, row.message, row.events_of, metrics,
-               row.drawn, row.plan, row.events, row.timeout, row.wall_s})
+               row.drawn, row.plan, row.events, row.timeout, row.wall_s, row.made})
       .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -128,6 +137,7 @@ EpisodeRow FromLine(std::string_view line) {
     row.events = json.at(8).get<std::string>();
     row.timeout = json.at(9).get<std::string>();
     row.wall_s = json.at(10).get<double>();
+    row.made = json.at(11).get<std::string>();
     return row;
   } catch (const Json::exception& e) {
     throw InternalError(std::string("a worker's answer cannot be read: ") + e.what());

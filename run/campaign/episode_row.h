@@ -26,7 +26,10 @@ struct EpisodeRow {
   std::array<std::optional<double>, kMetrics.size()> metrics{};  // as kMetrics; none: not driven
   std::string drawn = "{}", plan = "{}", events = "[]";          // JSON, as in result.json
   std::string timeout = "null";                                  // the same
-  double wall_s = 0;                                             // told apart: not a result
+  // What a program made as its plan (plan.csv); `plan` has its SHA-256 as `made`. Not in the table:
+  // the store keeps it beside itself, and rows from there lack it.
+  std::string made;
+  double wall_s = 0;  // told apart: not a result
 
   // Counts in rates: its outcome is the robot's.
   bool counts() const { return outcome != "error" && outcome != "not_planned"; }
@@ -49,6 +52,10 @@ std::vector<Event> EventsOf(const EpisodeRow& row);
 
 // Where its time ran out, if that is its outcome. Throws InternalError where the text is damaged.
 std::optional<Timeout> TimeoutOf(const EpisodeRow& row);
+
+// The SHA-256 of the plan that a program made for it, as its `plan` says; empty: none did. Throws
+// InternalError where the text is damaged.
+std::string MadePlan(const EpisodeRow& row);
 
 // Why what stands in the row cannot be used: its texts are no JSON of their kinds, its outcome is
 // none. Empty when it can.

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file_output.h"
+#include "base/input_file.h"
 #include "base/printable.h"
 #include "env/core/failure_text.h"
 #include "planners/risk/risk_meter.h"
@@ -355,7 +356,9 @@ namespace {
 std::filesystem::path KeepMadePlan(const Scenario& s, const PlanResult& plan,
                                    const std::filesystem::path& folder) {
   if (ProgramToAsk(s) == nullptr || plan.status != PlanStatus::kSuccess) return {};
-  return KeepText(s.files, PlanCsv(plan.path), folder);
+  std::filesystem::path copy = KeepText(PlanCsv(plan.path), folder);
+  s.files.Read(copy, kMaxResultBytes);
+  return copy;
 }
 
 }  // namespace

@@ -70,10 +70,12 @@ PlanCommand ReadPlanCommand(const ConfigNode& plan, const fs::path& folder,
   ReadParams(plan, "plan.", [&](ParamVisitor& v) { VisitKeys(v, command); },
              {"command", "folder", "made"});
   for (const std::string& word : command.words) {
-    if (word.empty() || fs::path(word).is_absolute()) continue;
-    const bool in_path = &word == &command.words.front() && word.find('/') == std::string::npos;
+    const bool absolute = fs::path(word).is_absolute(), program = &word == &command.words.front();
+    // Interpreters are not the scenario's.
+    if (word.empty() || (program && (absolute || word.find('/') == std::string::npos))) continue;
     const fs::path file = command.folder / word;
-    if (in_path || !files.WhyUnreadable(file, kMaxProgramBytes).empty()) continue;
+    if (!files.WhyUnreadable(file, kMaxProgramBytes).empty()) continue;
+    if (absolute) files.MarkAbsolute(file);
     files.Read(file, kMaxProgramBytes);  // as it is now
     command.files.push_back(file);
     if (command.name.empty()) command.name = Printable(file.filename().string());

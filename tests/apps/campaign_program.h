@@ -152,6 +152,15 @@ randomise:
 )" + drawn + more;
   }
 
+  // The plan is this shell script's.
+  void PlanBy(const std::string& script) const {
+    std::ofstream(folder_ / "p.sh") << "#!/bin/sh\n" + script;
+    std::filesystem::permissions(folder_ / "p.sh", std::filesystem::perms::owner_all);
+    std::string text = Slurp(folder_ / "s.yaml");
+    text.replace(text.find("file: p.csv"), 11, "command: [./p.sh]");
+    std::ofstream(folder_ / "s.yaml") << text;
+  }
+
   Ended Run(const std::string& arguments) const {
     Program program(arguments, folder_);
     const int status = program.Wait();

@@ -454,5 +454,29 @@ TEST_F(CampaignTest, CtrlCIsOneLineAndStatus130) {
   ExpectSameResults("whole", "o");
 }
 
+TEST_F(CampaignTest, CtrlCEndsTheProgramsThatPlanAndTakesTheirFoldersAway) {
+  PlanBy("echo $$ > note.$$; echo \"$1\" >> note.$$; mv note.$$ at.$$; sleep 1000\n");
+  Program dut("campaign s.yaml --no-films -n 4 --jobs 2 --out o", folder_);
+  std::vector<std::filesystem::path> notes;
+  while (notes.size() < 2 && !dut.HasEnded()) {
+    usleep(1000);
+    notes.clear();
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+      if (entry.path().stem() == "at") notes.push_back(entry.path());
+  }
+  ASSERT_EQ(notes.size(), 2u) << dut.Said();
+  dut.Send(SIGINT);
+  EXPECT_EQ(dut.Wait(), 130);
+  for (const auto& note : notes) {
+    pid_t program = 0;
+    std::string exchange;
+    std::ifstream(note) >> program >> exchange;
+    ASSERT_GT(program, 0);
+    const auto there = [&] { return kill(program, 0) == 0 || std::filesystem::exists(exchange); };
+    for (int i = 0; i < 2000 && there(); ++i) usleep(1000);  // their guards tidy up
+    EXPECT_FALSE(there()) << exchange;
+  }
+}
+
 }  // namespace
 }  // namespace floorproof

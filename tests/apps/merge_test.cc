@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `floorproof merge`: shards give what the whole campaign would have given, or say why not.
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tests/apps/campaign_program.h"
 
@@ -47,6 +48,51 @@ TEST_F(MergeTest, ShardsMayHaveBeenMoved) {
   const Ended merged = Run("merge far/away/a far/b --out joined");
   EXPECT_EQ(merged.status, 0) << merged.said;
   ExpectSameResults("whole", "joined");
+}
+
+// Each time it is asked it plans another way; what was driven can be driven again, and without it.
+TEST_F(MergeTest, PlansThatAProgramMadeAreKeptWithTheirEpisodes) {
+  Write("drive: none\n");
+  PlanBy("printf 'x_m,y_m\\n1.0,1.0\\n1.6,1.0%s\\n' \"$(date +%N)\" > \"$1\"/plan.csv\n");
+  const Ended first = Campaign("-n 4 --episodes 0:2 --jobs 2 --out a");
+  ASSERT_EQ(first.status, 0) << first.said;
+  EXPECT_THAT(first.out, HasSubstr("runs a program that s.yaml:15 names: ./p.sh\n"));
+  Shards(4, {{"2:4", "b"}});
+  ASSERT_EQ(Run("merge a b --out joined").status, 0);
+  fs::remove(folder_ / "p.sh");
+  fs::remove_all(folder_ / "a");
+  fs::rename(folder_ / "joined", folder_ / "moved");
+  std::set<std::string> plans;
+  for (const char* episode : {"0", "3"}) {
+    const Ended again = Run(std::string("replay moved --episode ") + episode);
+    EXPECT_EQ(again.status, 0) << again.said;
+    EXPECT_THAT(again.out, Not(HasSubstr("runs a program")));
+    plans.insert(Slurp(folder_ / "moved/episodes/default" / episode / "plan.csv"));
+  }
+  EXPECT_EQ(plans.size(), 2u) << "they differ";
+}
+
+TEST_F(MergeTest, AReplayRunsNoProgramWhereThereIsNoPlan) {
+  Write("drive: none\n");
+  PlanBy("echo asked >> log; exit 1\n");
+  ASSERT_EQ(Campaign("-n 1 --out a").status, 0);
+  EXPECT_EQ(Slurp(folder_ / "log"), "asked\n");
+  const Ended again = Run("replay a --episode 0");
+  EXPECT_EQ(again.status, 2);
+  EXPECT_THAT(again.said, HasSubstr("made no plan"));
+  EXPECT_EQ(Slurp(folder_ / "log"), "asked\n");
+}
+
+TEST_F(MergeTest, AnotherProgramIsAnotherCampaign) {
+  Write("drive: none\n");
+  const std::string script = "cp p.csv \"$1\"/plan.csv\n";
+  PlanBy(script);
+  ASSERT_EQ(Campaign("-n 1 --out a").status, 0);
+  EXPECT_EQ(Campaign("-n 2 --resume --out a").status, 0);
+  std::ofstream(folder_ / "p.sh") << "#!/bin/sh\nsleep 0; " + script;
+  const Ended other = Campaign("-n 3 --resume --out a");
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.said, HasSubstr("holds another campaign: files.p.sh was "));
 }
 
 TEST_F(MergeTest, ALostShardIsNamedAndDoesNotPass) {
