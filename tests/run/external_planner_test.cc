@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "media/media.h"
@@ -115,6 +116,33 @@ TEST_F(ExternalPlanner, IsToldWhatAPlannerMayKnow) {
 
   EXPECT_EQ(Slurp(folder_ / "risk.csv"), RiskCsv(*plan.risk));
   EXPECT_EQ(dut["risk"]["cell_m"], plan.risk->grid.frame.cell_m);
+}
+
+// The page's example, on a ROS map that lies askew in the world.
+TEST_F(ExternalPlanner, TheExampleCoversAFloorWhateverItsFrame) {
+  constexpr int kWide = 60, kHigh = 40, kWall = 4;
+  std::string pixels;
+  for (int row = 0; row < kHigh; ++row)
+    for (int column = 0; column < kWide; ++column) {
+      const bool inside = row >= kWall && column >= kWall && row < kHigh - kWall &&
+                          column < kWide - kWall && (row > 20 || column < 25 || column > 34);
+      pixels += static_cast<char>(inside ? 254 : 0);
+    }
+  Save("map.pgm", "P5\n60 40\n255\n" + pixels);
+  for (const char* origin : {"[0, 0, 0]", "[-3, 2, 0.6]", "[5, -1, -2.2]"}) {
+    Save("map.yaml", std::string("image: map.pgm\nresolution: 0.05\norigin: ") + origin +
+                         "\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
+    std::string text = "scenario: 1\nsite: {site: 1, map: map.yaml}\nrobot: beluga\ndrive: none\n";
+    text += "plan: {command: [python3, " FP_SOURCE_DIR "/docs/examples/rows.py]}\n";
+    double x_m = 0, y_m = 0, yaw_rad = 0;
+    ASSERT_EQ(std::sscanf(origin, "[%lf, %lf, %lf]", &x_m, &y_m, &yaw_rad), 3);
+    const Vec2 start = Pose2{x_m, y_m, yaw_rad} * Vec2(0.5, 0.5);
+    text += "start: {x_m: " + FormatDouble(start.x()) + ", y_m: " + FormatDouble(start.y()) + "}\n";
+    const Scenario scenario = Read(text);
+    const PlanResult dut = MakePlan(scenario);
+    ASSERT_EQ(dut.status, PlanStatus::kSuccess) << dut.message;
+    EXPECT_GT(PlanJson(scenario, dut)["coverage"].get<double>(), 0.9) << origin;
+  }
 }
 
 TEST_F(ExternalPlanner, WhateverItDoesIsAnAnswer) {
