@@ -189,8 +189,11 @@ ExchangeFolder::ExchangeFolder() {
   std::error_code error;
   const fs::path in = fs::temp_directory_path(error);
   std::string name = (fs::absolute(error ? "/tmp" : in) / "floorproof-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr)
-    RefuseToWrite(name, {errno, std::generic_category()}, std::strerror(errno));
+  if (mkdtemp(name.data()) == nullptr) {
+    const std::error_code reason(errno, std::generic_category());
+    RefuseToWrite(fs::path(name).parent_path(), reason,
+                  "cannot make a folder for temporary files (TMPDIR): " + reason.message());
+  }
   path_ = name;
 }
 

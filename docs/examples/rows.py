@@ -70,6 +70,7 @@ def heading(a, b):
 
 corners = [b for a, b, c in zip(path, path[1:], path[2:]) if heading(a, b) != heading(b, c)]
 with open(folder / "plan.csv", "w") as plan:
-    plan.write("x_m,y_m\n")
+    plan.write("x_m,y_m,yaw_rad\n")
+    yaw = turn if request["robot"]["holonomic"] else ""  # held at the map's own
     for cell in [path[0], *corners, path[-1]]:
-        plan.write("%.4f,%.4f\n" % to_world(cell))
+        plan.write("%.4f,%.4f,%s\n" % (*to_world(cell), yaw))
