@@ -68,4 +68,12 @@ nb::list HazardList(const HazardMap& map) {
   return out;
 }
 
+void WarnOfProgram(const Scenario& scenario) {
+  const PlanCommand* program = ProgramToAsk(scenario);
+  if (program == nullptr) return;
+  InPython("warnings.warn", [line = ProgramLine(*program)] {
+    if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 1) != 0) throw nb::python_error();
+  });
+}
+
 }  // namespace floorproof

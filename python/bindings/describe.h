@@ -8,6 +8,7 @@
 #include "env/core/robot_spec.h"
 #include "env/geometry/grid.h"
 #include "python/bindings/host.h"
+#include "run/scenario/scenario.h"
 
 namespace floorproof {
 
@@ -18,5 +19,9 @@ nb::dict FrameDict(const GridFrame& frame);
 nb::dict ShapeDict(const Shape2& shape);  // radius_m, or polygon
 nb::dict RobotDict(const RobotSpec& robot);
 nb::list HazardList(const HazardMap& map);
+
+// Says, as a Python warning, which program is about to be asked for the plan, if one is: before it
+// runs. With or without the GIL. A warning that is an error ends the work.
+void WarnOfProgram(const Scenario& scenario);
 
 }  // namespace floorproof

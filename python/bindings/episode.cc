@@ -84,6 +84,7 @@ std::shared_ptr<Driven> Run(const std::shared_ptr<Scenario>& scenario,
   auto driven = WithoutGil([&] {
     auto out = std::make_shared<Driven>();
     out->scenario = scenario;
+    if (!planned) WarnOfProgram(*scenario);
     out->plan = planned ? planned->plan : MakePlan(*scenario);
     out->record = ExecutePlan(*scenario, out->plan, out->scene, &observer);
     if (out->record.outcome == Outcome::kInterrupted) throw Interruption();
@@ -102,6 +103,7 @@ std::shared_ptr<Driven> RunInto(const std::shared_ptr<Scenario>& scenario, const
     if (!say.is_none()) InPython("say", [&] { say(line); });
   };
   return WithoutGil([&] {
+    if (say.is_none()) WarnOfProgram(*scenario);  // else it is among the lines
     DriveResult result =
         DriveAndFilm(*scenario, folder, {.video = video, .observer = &observer}, console);
     if (result.not_written) std::rethrow_exception(result.not_written);

@@ -89,6 +89,7 @@ std::vector<std::string> SensorsOf(const Scenario& s) { return SensorNames(s.sen
 
 std::shared_ptr<Planned> PlanOf(const std::shared_ptr<Scenario>& scenario) {
   return WithoutGil([&] {
+    WarnOfProgram(*scenario);
     return std::make_shared<Planned>(Planned{scenario, MakePlan(*scenario)});
   });
 }

@@ -154,6 +154,7 @@ class Stepped {
     plan_ = std::make_unique<PlanResult>();
     std::unique_ptr<Navigator> navigator;
     if (follows) {
+      WarnOfProgram(s);
       *plan_ = MakePlan(s);
       if (plan_->status != PlanStatus::kSuccess)
         throw InputError({s.file.string(), 0}, "plan", s.planner_name,
