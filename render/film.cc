@@ -103,10 +103,14 @@ class Studio {
     paint_.Keep();
   }
 
+  // The next picture's camera follows from none before.
+  void Cut() { cut_ = true; }
+
   const Image& Draw(const FilmFrame& frame, bool last) {
     mjData* data = puppet_.Pose(frame.t_s);
     const std::size_t state = puppet_.StateAt(frame.t_s);
-    if (trodden_ == 0) camera_->Reset(set_, puppet_.X_WB());
+    if (cut_) camera_->Reset(set_, puppet_.X_WB());
+    cut_ = false;
     for (; trodden_ <= state; ++trodden_)
       trail_.Add(script_.recording->p_WB(trodden_), script_.recording->tool_width_m(trodden_));
     again_.Show(script_.recording->t_s(state));
@@ -162,6 +166,7 @@ class Studio {
   OffscreenRenderer renderer_;
   Image image_;
   std::size_t trodden_ = 0, sensed_ = 0;
+  bool cut_ = true;
 };
 
 }  // namespace
@@ -184,9 +189,16 @@ void Recording::AddSenses(const Pose2& estimate, const Vec2& lidar_W,
   for (const Vec2& end : ends_W) now.ends_W.push_back(end.cast<float>());
 }
 
-Image FilmPicture(const FilmScript& script, const FilmOptions& options, double t_s) {
+std::vector<Image> FilmPictures(const FilmScript& script, const FilmOptions& options,
+                                std::span<const double> t_s) {
   Check(script, options);
-  return Studio(script, options).Draw({.t_s = t_s}, false);
+  Studio studio(script, options);
+  std::vector<Image> pictures;
+  for (const double at_s : t_s) {
+    studio.Cut();
+    pictures.push_back(studio.Draw({.t_s = at_s}, false));
+  }
+  return pictures;
 }
 
 FilmResult WriteFilm(const FilmScript& script, const FilmOptions& options,

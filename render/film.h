@@ -91,8 +91,9 @@ struct FilmOptions : ReelOptions {
   std::vector<double> only_around_s;
 };
 
-// One picture of the film, as it looks at t_s.
-Image FilmPicture(const FilmScript& script, const FilmOptions& options, double t_s);
+// Pictures of the film, as it looks at these times, ascending; each as if it were alone.
+std::vector<Image> FilmPictures(const FilmScript& script, const FilmOptions& options,
+                                std::span<const double> t_s);
 
 // Writes an MP4. Throws InputError (a file that cannot be written, an unknown camera, an odd size)
 // or InternalError (no GL).

@@ -94,11 +94,10 @@ DriveScript::DriveScript(const Scenario& s, const Scene& scene, const PlanResult
   film.set = {low, high, s.robot.spec.circumscribed_radius_m};
   for (const Intervention& help : record.interventions)
     film.notices.push_back({help.t_s,
-                              {Banner::Tone::kWarning, "HELPED   set down by a person",
-                               fmt::format("at the waypoint x {:.2f} m, y {:.2f} m;  t {:.1f} s",
-                                           help.to_W.x(), help.to_W.y(), help.t_s)}});
-  if (record.events.empty() || !record.interventions.empty())
-    film.closing = ClosingBanner(record);
+                            {Banner::Tone::kWarning, "HELPED   set down by a person",
+                             fmt::format("at the waypoint x {:.2f} m, y {:.2f} m;  t {:.1f} s",
+                                         help.to_W.x(), help.to_W.y(), help.t_s)}});
+  if (record.events.empty() || !record.interventions.empty()) film.closing = ClosingBanner(record);
   if (s.safety) film.timeline = SafetyTimeline(s, record);
   if (s.online) {
     film.window_m = s.online->params().radius_m;
@@ -128,15 +127,16 @@ std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& 
   return FilmedLine(WriteFilm(script.film, options, mp4), mp4);
 }
 
-Image DrivePicture(const Scenario& s, const Scene& scene, const PlanResult& plan,
-                   const EpisodeRecord& record, const Recording& recording, double t_s, int width,
-                   int height, const std::string& camera) {
+std::vector<Image> DrivePictures(const Scenario& s, const Scene& scene, const PlanResult& plan,
+                                 const EpisodeRecord& record, const Recording& recording,
+                                 std::span<const double> t_s, int width, int height,
+                                 const std::string& camera) {
   const DriveScript script(s, scene, plan, record, recording);
   FilmOptions options = OptionsOf(s, {});
   options.width = width;
   options.height = height;
   options.camera = camera;
-  return FilmPicture(script.film, options, t_s);
+  return FilmPictures(script.film, options, t_s);
 }
 
 std::string WriteCellVideo(const Scenario& s, const EpisodeRecord& record,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,12 @@ std::string WriteVideo(const Scenario& scenario, const Scene& scene, const PlanR
                        const EpisodeRecord& record, const Recording& recording,
                        const std::vector<FailureMode>& draft_around,
                        const std::filesystem::path& folder, const Console& console);
-// One picture of that film, as it looks at t_s, of another size and by another camera. Throws
-// InputError, InternalError.
-Image DrivePicture(const Scenario& scenario, const Scene& scene, const PlanResult& plan,
-                   const EpisodeRecord& record, const Recording& recording, double t_s, int width,
-                   int height, const std::string& camera);
+// Pictures of that film, as it looks at these times (ascending), of another size and by another
+// camera. Throws InputError, InternalError.
+std::vector<Image> DrivePictures(const Scenario& scenario, const Scene& scene,
+                                 const PlanResult& plan, const EpisodeRecord& record,
+                                 const Recording& recording, std::span<const double> t_s, int width,
+                                 int height, const std::string& camera);
 // The same of `drive: cells`: from above, without physics or GL. Nothing fails there.
 std::string WriteCellVideo(const Scenario& scenario, const EpisodeRecord& record,
                            const std::filesystem::path& folder, const Console& console);

@@ -2,6 +2,7 @@
 // Pictures of scenes, plans and drives; pages of campaigns.
 #include "report/pictures.h"
 
+#include <array>
 #include <mutex>
 
 #include "base/console.h"
@@ -41,16 +42,20 @@ nb::ndarray<nb::numpy, std::uint8_t> ImageArray(Image image) {
   return ArrayOf(std::move(image.data), {height, width, channels});
 }
 
-nb::ndarray<nb::numpy, std::uint8_t> Frame(const Driven& d, double t_s, int width, int height,
-                                           const std::string& camera) {
+// At times that ascend.
+nb::list Frames(const Driven& d, const std::vector<double>& t_s, int width, int height,
+                const std::string& camera) {
   if (!d.scene || !d.recording || d.recording->size() == 0)
     throw InputError(
         "there are no states to draw: the episode was not driven through physics, or "
         "not recorded");
-  return ImageArray(DrawAlone([&] {
-    return DrivePicture(*d.scenario, *d.scene, d.plan, d.record, *d.recording, t_s, width, height,
-                        camera);
-  }));
+  nb::list out;
+  for (Image& image : DrawAlone([&] {
+         return DrivePictures(*d.scenario, *d.scene, d.plan, d.record, *d.recording, t_s, width,
+                              height, camera);
+       }))
+    out.append(ImageArray(std::move(image)));
+  return out;
 }
 
 // The robot at its start, nothing driven yet.
@@ -60,7 +65,8 @@ nb::ndarray<nb::numpy, std::uint8_t> StartFrame(const Scenario& s, int width, in
     const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start, WallSet::kAll);
     Recording recording(static_cast<int>(scene.model->nq));
     recording.Add(0, scene.model->qpos0, {s.start.x_m, s.start.y_m, 0}, 0, -1);
-    return DrivePicture(s, scene, {}, {}, recording, 0, width, height, camera);
+    const std::array at_s = {0.0};
+    return DrivePictures(s, scene, {}, {}, recording, at_s, width, height, camera).front();
   }));
 }
 
@@ -86,7 +92,7 @@ fs::path WritePage(const fs::path& folder) {
 }  // namespace
 
 void BindPictures(nb::module_& m) {
-  m.def("frame", &Frame, "episode"_a, "t_s"_a, "width"_a, "height"_a, "camera"_a);
+  m.def("frames", &Frames, "episode"_a, "t_s"_a, "width"_a, "height"_a, "camera"_a);
   m.def("start_frame", &StartFrame, "scenario"_a, "width"_a, "height"_a, "camera"_a);
   m.def("save_plan", &SavePlanFiles, "plan"_a, "folder"_a);
   m.def("save_maps", &SaveMaps, "episode"_a, "folder"_a);

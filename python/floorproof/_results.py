@@ -230,7 +230,8 @@ class Episode:
             raise InputError("an episode that was read from a folder has no states to draw; run its "
                              "scenario.resolved.yaml again")
         last = self.trace["t_s"][-1] if len(self.trace["t_s"]) else 0.0
-        return _core.frame(self._core, float(last if t_s is None else t_s), width, height, camera)
+        at_s = float(last if t_s is None else t_s)
+        return _core.frames(self._core, [at_s], width, height, camera)[0]
 
     def to_pandas(self) -> Any:
         """The trace as a data frame."""
