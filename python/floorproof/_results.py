@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import json
 import os
-import tempfile
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -143,13 +142,13 @@ class Plan:
         _core.save_plan(self._core, Path(folder))
         return Path(folder)
 
+    @cached_property
+    def _png(self) -> Optional[bytes]:
+        from ._notebook import plan_png
+        return plan_png(self)
+
     def _repr_png_(self) -> Optional[bytes]:
-        if self.status != "success":
-            return None
-        with tempfile.TemporaryDirectory() as folder:
-            _core.save_plan(self._core, Path(folder) / "plan")
-            picture = Path(folder) / "plan" / "heatmap_plan.png"
-            return picture.read_bytes() if picture.exists() else None
+        return self._png
 
     def _repr_html_(self) -> str:
         from ._notebook import plan_html
@@ -237,6 +236,14 @@ class Episode:
         """The trace as a data frame."""
         from .exports import trace_frame
         return trace_frame(self)
+
+    @cached_property
+    def _png(self) -> Optional[bytes]:
+        from ._notebook import episode_png
+        return episode_png(self)
+
+    def _repr_png_(self) -> Optional[bytes]:
+        return self._png
 
     def _repr_html_(self) -> str:
         from ._notebook import episode_html

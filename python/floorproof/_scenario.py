@@ -61,6 +61,14 @@ class Site:
         self.start: Optional[Pose] = about["start"]
         self.goal: Optional[Tuple[float, float]] = about["goal"]
 
+    @cached_property
+    def _png(self) -> Optional[bytes]:
+        from ._notebook import site_png
+        return site_png(self, self.start)
+
+    def _repr_png_(self) -> Optional[bytes]:
+        return self._png
+
     def _repr_html_(self) -> str:
         from ._notebook import site_html
         return site_html(self)
@@ -237,6 +245,14 @@ class Scenario:
 
     def __reduce__(self) -> Any:
         return _unpickled, (self._packed(), self._which)
+
+    @cached_property
+    def _png(self) -> Optional[bytes]:
+        from ._notebook import site_png
+        return site_png(self.site, self.start)
+
+    def _repr_png_(self) -> Optional[bytes]:
+        return self._png
 
     def _repr_html_(self) -> str:
         from ._notebook import scenario_html
