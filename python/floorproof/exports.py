@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Results for other tools: data frames, Parquet (docs/exports.md).
+"""Results for other tools: data frames, Parquet, MCAP (docs/exports.md).
 
-What a function needs beside numpy is imported when it is called: pip install floorproof[tables].
+What a function needs beside numpy is imported when it is called: pip install floorproof[tables] for
+pandas and Parquet, floorproof[mcap] for logs.
 """
 from __future__ import annotations
 
@@ -13,13 +14,14 @@ from . import _core
 from ._core import InputError
 from ._episode_table import EpisodeTable
 from ._files import written_whole
+from ._mcap import to_mcap
 from ._results import Episode, PathLike
 
 if TYPE_CHECKING:
     import pandas
     import pyarrow
 
-__all__ = ["episodes_frame", "episodes_parquet", "rates_frame", "trace_frame"]
+__all__ = ["episodes_frame", "episodes_parquet", "rates_frame", "to_mcap", "trace_frame"]
 
 _BATCH = 4096  # episodes that are in memory at once while Parquet is written
 
