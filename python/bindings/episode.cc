@@ -53,14 +53,22 @@ class Observer final : public EpisodeObserver {
     if (!each_.is_none() && count_++ % every_ == 0)
       InPython("the observer",
                [&] { Lend<View>(now, [&](const nb::object& view) { each_(view); }); });
+    fraction_ = std::min(now.plan_fraction, 1.0);
+    t_s_ = now.sample.t_s;
+    coverage_ = now.coverage;
     constexpr auto kOften = std::chrono::milliseconds(100);
     const auto wall = std::chrono::steady_clock::now();
-    if (!progress_.is_none() && wall - told_ >= kOften) {
+    if (wall - told_ >= kOften) {
       told_ = wall;
-      InPython("the progress callback",
-               [&] { progress_(std::min(now.plan_fraction, 1.0), now.sample.t_s, now.coverage); });
+      Tell();
     }
     return !Interrupted();
+  }
+
+  // How far it is.
+  void Tell() {
+    if (progress_.is_none()) return;
+    InPython("the progress callback", [&] { progress_(fraction_, t_s_, coverage_); });
   }
 
   std::optional<Recording>& recording() { return recording_; }
@@ -71,6 +79,7 @@ class Observer final : public EpisodeObserver {
   int every_;
   bool record_;
   long count_ = 0;
+  double fraction_ = 0, t_s_ = 0, coverage_ = 0;
   std::chrono::steady_clock::time_point told_{};
   std::optional<Recording> recording_;
   std::optional<ProgressObserver> recorder_;
@@ -90,6 +99,7 @@ std::shared_ptr<Driven> Run(const std::shared_ptr<Scenario>& scenario,
     if (out->record.outcome == Outcome::kInterrupted) throw Interruption();
     return out;
   });
+  observer.Tell();
   driven->recording = std::move(observer.recording());
   return driven;
 }
@@ -102,7 +112,7 @@ std::shared_ptr<Driven> RunInto(const std::shared_ptr<Scenario>& scenario, const
   console.listener = [&say](const std::string& line) {
     if (!say.is_none()) InPython("say", [&] { say(line); });
   };
-  return WithoutGil([&] {
+  auto made = WithoutGil([&] {
     if (say.is_none()) WarnOfProgram(*scenario);  // else it is among the lines
     DriveResult result =
         DriveAndFilm(*scenario, folder, {.video = video, .observer = &observer}, console);
@@ -113,10 +123,11 @@ std::shared_ptr<Driven> RunInto(const std::shared_ptr<Scenario>& scenario, const
     out->record = std::move(result.record);
     return out;
   });
+  observer.Tell();
+  return made;
 }
 
-// --- records
-// --------------------------------------------------------------------------------------
+// --- records ---
 
 nb::object Column(const Driven& d, const TraceColumn& column) {
   const std::vector<TraceRow>& trace = d.record.trace;
@@ -181,8 +192,7 @@ nb::object Qpos(const Driven& d) {
   return nb::cast(ArrayOf(std::move(values), {r.size(), static_cast<std::size_t>(r.nq())}));
 }
 
-// --- a control period
-// -----------------------------------------------------------------------------
+// --- a control period ---
 
 nb::object Scan(const View& v) {
   const LidarScan& scan = v.lent->sensed.scan;

@@ -18,8 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// --- exceptions
-// -----------------------------------------------------------------------------------
+// --- exceptions ---
 
 // They live as long as the interpreter.
 PyObject* g_input_error = nullptr;
@@ -77,8 +76,7 @@ std::string Said(const nb::python_error& raised) {
   return text + place;
 }
 
-// --- Ctrl-C
-// ---------------------------------------------------------------------------------------
+// --- Ctrl-C ---
 
 thread_local Clock::time_point t_asked;
 thread_local int t_calls = 0;  // a plug-in may call into this module again
@@ -99,8 +97,7 @@ bool PythonInterrupted() {
   return t_interrupted;
 }
 
-// --- forks
-// ----------------------------------------------------------------------------------------
+// --- forks ---
 
 // CPython's own precautions, as os.fork() takes them.
 thread_local std::optional<PyGILState_STATE> g_held;

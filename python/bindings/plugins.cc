@@ -89,8 +89,7 @@ class PythonParams {
   std::deque<Param> params_;
 };
 
-// --- planners
-// -------------------------------------------------------------------------------------
+// --- planners ---
 
 nb::dict RequestDict(const PlanRequest& request) {
   const RobotSpec& robot = request.robot;
@@ -160,8 +159,7 @@ class PythonPlanner final : public Planner {
   PythonParams params_;
 };
 
-// --- planners of unknown floors
-// -------------------------------------------------------------------
+// --- planners of unknown floors ---
 
 // What Next() may look at; of this call alone.
 struct Known {
@@ -247,8 +245,7 @@ class PythonOnlinePlanner final : public OnlinePlanner {
   std::string why_;
 };
 
-// --- trackers
-// -------------------------------------------------------------------------------------
+// --- trackers ---
 
 class PythonTracker final : public TwistTracker {
  public:

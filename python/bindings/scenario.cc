@@ -58,8 +58,7 @@ const Variant& VariantNamed(const ScenarioFile& file, const std::optional<std::s
                    "unknown" + DidYouMeanOneOf(*name, names));
 }
 
-// --- sites
-// ----------------------------------------------------------------------------------------
+// --- sites ---
 
 nb::dict SiteDict(const HazardMap& map) {
   nb::dict out;
@@ -84,8 +83,7 @@ nb::dict ReadSiteAlone(const fs::path& file, const std::optional<std::string>& t
 
 std::vector<std::string> SensorsOf(const Scenario& s) { return SensorNames(s.sensors); }
 
-// --- plans
-// ----------------------------------------------------------------------------------------
+// --- plans ---
 
 std::shared_ptr<Planned> PlanOf(const std::shared_ptr<Scenario>& scenario) {
   return WithoutGil([&] {
