@@ -75,7 +75,7 @@ const EpisodeMaker::Planned& EpisodeMaker::Plan(const Variant& variant, const Sc
   const std::string inputs = PlanInputs(s);
   Planned& last = plans_[variant.name];
   if (last.json.empty() || inputs != last.inputs) {
-    last.inputs = inputs;
+    last.inputs.clear();  // a planner that throws leaves no plan behind
     last.plan = MakePlan(s);
     auto json = PlanJson(s, last.plan);
     for (const char* list : {"visits_by_risk", "sample_places", "convergence_m"})
@@ -86,6 +86,7 @@ const EpisodeMaker::Planned& EpisodeMaker::Plan(const Variant& variant, const Sc
       json["made"] = Sha256(last.made);
     }
     last.json = json.dump();
+    last.inputs = inputs;
   }
   return last;
 }
