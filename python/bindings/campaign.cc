@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/interrupt.h"
 #include "python/bindings/host.h"
 #include "python/bindings/modules.h"
 #include "report/failing_episodes.h"
@@ -69,9 +70,13 @@ nb::dict RunCampaignInto(const ScenarioFile& file, std::uint64_t n,
   if (shard) request.shard = EpisodeRange{shard->first, shard->second};
   if (!pool.is_none())
     request.pool = [&pool](const PoolCallbacks& callbacks) {
-      InPython("the pool", [&] {
-        Lend<Calls>(callbacks, [&](const nb::object& calls) { pool.attr("run")(calls); });
-      });
+      try {
+        InPython("the pool", [&] {
+          Lend<Calls>(callbacks, [&](const nb::object& calls) { pool.attr("run")(calls); });
+        });
+      } catch (const Interruption&) {
+        // The campaign asks, too, and ends in good order; then it is raised.
+      }
     };
   Observer observer(std::move(warn), std::move(progress));
   std::optional<CampaignOutcome> outcome;

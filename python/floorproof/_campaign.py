@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any, Dict, Mapping, Optional, Sequence, Tuple, Union
 
@@ -80,19 +81,24 @@ def campaign(scenario: Union[Scenario, PathLike, Mapping[str, Any]], n: int, *, 
         raise InputError(f"engine = {engine}: unknown (known: local, ray)")
     if engine == "local" and engine_options:
         raise InputError(f"{next(iter(engine_options))}: is no option of engine local")
+    if engine == "ray" and jobs is not None:
+        raise InputError(f"jobs = {jobs}: is for engine local; a Ray cluster has the workers it has")
     if n < 1:
         raise InputError(f"n = {n}: must be at least 1")
-    pool = None
+    pool: Any = None
     if engine == "ray":
         from .cluster import RayPool
         pool = RayPool(scenario, **engine_options)
     total = n if episodes is None else episodes[1] - episodes[0]
-    with shown(progress, total * len(scenario.variants), "episode", scenario.name) as show:
+    with pool or nullcontext(), shown(progress, total * len(scenario.variants), "episode",
+                                      scenario.name) as show:
         tell = None if show is None else lambda done, all_: show(done)
         ended = _core.drive_campaign(
             scenario._file, n, episodes, jobs or len(os.sched_getaffinity(0)), resume,
             retry_errors, fail_fast, time_limit_s, Path(out), pool,
             lambda line: warnings.warn(line, stacklevel=2), tell)
+    if pool is not None and pool.refused is not None:
+        raise pool.refused
     return Campaign(out, ended["end"])
 
 
