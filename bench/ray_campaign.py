@@ -62,6 +62,7 @@ def compare(kind: str, repeats: int, workers: int, folder: Path) -> None:
     scenario = floorproof.load({**BASE, **changes})
     walls: List[Tuple[float, float]] = []
     cpus: List[Tuple[float, float]] = []
+    own: List[float] = []  # CPU time of the driver
     pools: List[cluster.RayPool] = []
     made = cluster.RayPool
 
@@ -76,8 +77,10 @@ def compare(kind: str, repeats: int, workers: int, folder: Path) -> None:
         for _ in range(repeats):
             here = timed(lambda f: floorproof.campaign(scenario, n, out=f, jobs=workers) and None,
                          folder / "local")
+            driver_s = time.process_time()
             there = timed(lambda f: floorproof.campaign(scenario, n, out=f, engine="ray",
                                                         **options) and None, folder / "ray")
+            own.append(time.process_time() - driver_s)
             for name in ("summary.json", "episodes.csv"):
                 assert ((folder / "local" / name).read_bytes()
                         == (folder / "ray" / name).read_bytes()), name
@@ -96,8 +99,9 @@ def compare(kind: str, repeats: int, workers: int, folder: Path) -> None:
     print(f"{kind}: Ray's workers were at it for {statistics.median(busy):.3f} of the campaign's wall "
           "time (median)")
     print(f"{kind}: {n} episodes of {1000 * min(a for a, _ in cpus) / n:.2f} ms of CPU in "
-          f"{pool.tasks} tasks; CPU beyond the local campaign's: median {statistics.median(each):.2f}"
-          f" ms a task; {pool.bytes_back / n:.0f} bytes a row")
+          f"{pool.tasks} tasks; CPU beyond the local campaign's: median {statistics.median(each):.2f} "
+          f"ms a task, the driver's all in all {1000 * min(own) / pool.tasks:.2f} ms a task; "
+          f"{pool.bytes_back / n:.0f} bytes a row")
 
 
 def driver(folder: Path, n: int = 100_000) -> None:
