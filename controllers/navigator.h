@@ -52,6 +52,8 @@ class Navigator {
   // One control period. Allocates only where the path changes.
   virtual PathChange Update(const NavigatorInput& input) = 0;
   virtual Leads leads() const = 0;
+  // Whether nobody is led at all: path() is no way to be on, or to get on along.
+  virtual bool free() const { return false; }
   // In words, where the drive ended for another reason than that a plan was driven.
   virtual std::string_view why() const { return {}; }
   // The plan; or what was gone along so far, where there was none beforehand.

@@ -53,17 +53,19 @@ Command TwistTracker::Update(const Estimate& estimate, double t_s, double dt_s) 
   command.segment = progress_.Segment(p_W);
   command.dwelling = progress_.phase() == PathProgress::Phase::kDwell;
   command.tasks = progress_.tasks();
-  command.done = progress_.phase() == PathProgress::Phase::kDone;
+  command.done = !free_ && progress_.phase() == PathProgress::Phase::kDone;
   BodyTwist wanted;
   if (progress_.moving()) {
     const auto [target_W, speed_mps] =
         progress_.AimFrom(p_W, std::hypot(twist_.vx_mps, twist_.vy_mps), kLookahead);
     wanted = Twist({estimate, t_s, dt_s, command.segment, target_W, speed_mps});
+  } else if (free_) {
+    wanted = Twist({estimate, t_s, dt_s, 0, p_W, robot_->cruise_mps});
   }
   MoveTowards(wanted, dt_s);
   command.twist = twist_;
   // Turning without driving is progress, as it is of every tracker that turns on the spot.
-  command.turning = progress_.moving() && wanted.vx_mps == 0 && wanted.vy_mps == 0;
+  command.turning = (free_ || progress_.moving()) && wanted.vx_mps == 0 && wanted.vy_mps == 0;
   return command;
 }
 

@@ -20,6 +20,9 @@ class TwistTracker : public Tracker {
     double speed_mps = 0;          // that the way ahead allows
   };
 
+  // `free`: the path is nobody's way; twists are asked for whatever it is, and it has no end.
+  explicit TwistTracker(bool free = false) : free_(free) {}
+
   bool Commands(const Drive&) const override { return true; }
   // Throws InputError where the plan changes the robot's shape. The plan's yaws are not held.
   void Start(const Path& path, const RobotSpec& robot, const ClearanceField* clearance) override;
@@ -39,6 +42,7 @@ class TwistTracker : public Tracker {
  private:
   void MoveTowards(const BodyTwist& wanted, double dt_s);
 
+  bool free_;
   PathProgress progress_;
   const RobotSpec* robot_ = nullptr;
   BodyTwist twist_;  // last commanded

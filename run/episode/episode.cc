@@ -103,7 +103,7 @@ class EpisodeLoop {
   std::optional<Outcome> Advance() {
     std::optional<Outcome> ended = Control();
     for (std::int64_t step = 0; step < steps_a_control_ && !ended; ++step) ended = Step();
-    if (!ended) plant_.Sense(sensed_);
+    if (!ended) Perceive();
     return ended;
   }
 
@@ -139,6 +139,10 @@ class EpisodeLoop {
   std::optional<Outcome> Control();
   std::optional<Outcome> Step();
 
+  void Perceive() {
+    plant_.Sense(sensed_);
+    robot_side_.Perceive(sensed_);
+  }
   void Look() { static_cast<Truth&>(sample_) = plant_.truth(); }
   void Act(const Actuation& actuation);
   void StartDetectors();
@@ -196,12 +200,12 @@ void EpisodeLoop::Begin() {
   limit_s_ = s_.episode.time_limit_s.value_or(s_.online ? kOnlineLimit_s : 60 + 3 * plan_s);
   recorder_.Expect(plan_s);
   StartDetectors();
-  plant_.Sense(sensed_);
+  Perceive();
 }
 
 // What happens once a control period: command by what was sensed, keep a record, look on, help.
 std::optional<Outcome> EpisodeLoop::Control() {
-  Act(interventions_.awaited() ? robot_side_.Stand(sensed_) : robot_side_.Control(sensed_));
+  Act(interventions_.awaited() ? robot_side_.Stand() : robot_side_.Control(sensed_));
   recorder_.OnControl(sample_, robot_side_.estimate());
 
   std::optional<Outcome> ended;
@@ -247,11 +251,15 @@ std::optional<Outcome> EpisodeLoop::Step() {
     recorder_.OnCarried(s_.detectors);
     StartDetectors();  // nothing that it did brought it there
   }
-  sample_.off_track_W =
-      OffTrack(robot_side_.path(), sample_.command.segment, sample_.p_WB.head<2>());
-  sample_.cross_track_m = sample_.off_track_W.norm();
-  sample_.progress_m = progress_.Update(robot_side_.path(), robot_side_.paths(),
-                                        sample_.command.segment, sample_.p_WB.head<2>());
+  if (navigator_->free()) {
+    sample_.progress_m = recorder_.driven_m();  // wherever it went
+  } else {
+    sample_.off_track_W =
+        OffTrack(robot_side_.path(), sample_.command.segment, sample_.p_WB.head<2>());
+    sample_.cross_track_m = sample_.off_track_W.norm();
+    sample_.progress_m = progress_.Update(robot_side_.path(), robot_side_.paths(),
+                                          sample_.command.segment, sample_.p_WB.head<2>());
+  }
   met_.Update(sample_);
   recorder_.OnStep(sample_);
 

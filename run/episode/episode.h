@@ -107,7 +107,7 @@ class SteppedEpisode {
   // Commands, drives one period and senses what came of it; the outcome where that ended the
   // episode. Not after it has ended.
   std::optional<Outcome> Advance();
-  // As it stands now: what was sensed last is of this moment.
+  // As it stands now: what was sensed last, and what the robot thinks of it, is of this moment.
   EpisodeView view();
   const std::vector<Event>& events() const;
   const CoverageMeter& swept() const;

@@ -6,7 +6,7 @@
 
 namespace floorproof {
 
-// Its path is the place where the robot is, so that nothing is off it; it never ends.
+// Its path is the place where the robot is; it never ends.
 class FreeNavigator final : public Navigator {
  public:
   explicit FreeNavigator(const Pose2& start) : path_(1) { path_.front().p_W = start.p(); }
@@ -17,6 +17,7 @@ class FreeNavigator final : public Navigator {
     return PathChange::kNone;
   }
   Leads leads() const override { return Leads::kOn; }
+  bool free() const override { return true; }
   const Path& plan() const override { return path_; }
   void GoOnFrom(std::size_t) override {}
 

@@ -35,7 +35,6 @@ void RobotSide::Start(const Pose2& start, const Stream& draws) {
 }
 
 const Actuation& RobotSide::Control(const Observation& sensed) {
-  Perceive(sensed);
   if (supervisor_) Supervise(sensed);
   const auto wish = supervisor_ ? supervisor_->wish().kind : MotionWish::Kind::kPlan;
   if (wish == MotionWish::Kind::kTurn)
@@ -95,8 +94,7 @@ void RobotSide::Turn(double yaw_rad) {
   command_.dwelling = command_.done = false;
 }
 
-const Actuation& RobotSide::Stand(const Observation& sensed) {
-  Perceive(sensed);
+const Actuation& RobotSide::Stand() {
   command_.twist = {};
   return Actuate();
 }

@@ -38,11 +38,13 @@ class RobotSide {
   // Before the first period. `start`: where it stands, which its estimator may know badly; `draws`:
   // the estimator's.
   void Start(const Pose2& start, const Stream& draws);
-  // One control period: estimate, map, navigate, track or recover. What is returned holds until the
-  // next call. Allocates only where the path changes.
+  // Once a control period, before it acts: estimate, map.
+  void Perceive(const Observation& sensed);
+  // One control period, of what was perceived: navigate, track or recover. What is returned holds
+  // until the next call. Allocates only where the path changes.
   const Actuation& Control(const Observation& sensed);
-  // The same of a robot that waits for help: its senses go on, its motors hold still.
-  const Actuation& Stand(const Observation& sensed);
+  // The same of a robot that waits for help: its motors hold still.
+  const Actuation& Stand();
   // It was set down at this waypoint of its path: whatever it was about is over. Its estimator is
   // not told. Allocates.
   void GoOnFrom(std::size_t waypoint);
@@ -72,7 +74,6 @@ class RobotSide {
   void GoOn(const Observation& sensed);
   void CountMissed();
   void Turn(double yaw_rad);
-  void Perceive(const Observation& sensed);
   void Navigate(const Observation& sensed);
   void Follow();
   const Actuation& Actuate();
