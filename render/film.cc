@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "render/film_floor.h"
@@ -93,8 +94,7 @@ class Studio {
         floor_(script.map),
         trail_(floor_, paint_),
         again_(script.swept_again, floor_, paint_),
-        fan_(script.senses ? std::span(script.recording->senses())
-                           : std::span<const Recording::Senses>(),
+        fan_(script.senses ? &script.recording->senses() : nullptr, script.beams,
              2 * script.set.robot_radius_m, paint_),
         window_(script.window_m, LineWidth(), paint_),
         renderer_(script.model, options.width, options.height, paint_.max_marks(), options.quality),
@@ -105,7 +105,8 @@ class Studio {
 
   // The next picture's camera follows from none before.
   void Cut() { cut_ = true; }
-
+  // The next frame is so much of film after the last one.
+  void Pace(double frame_s) { frame_s_ = frame_s; }
   const Image& Draw(const FilmFrame& frame, bool last) {
     mjData* data = puppet_.Pose(frame.t_s);
     const std::size_t state = puppet_.StateAt(frame.t_s);
@@ -199,6 +200,16 @@ std::vector<Image> FilmPictures(const FilmScript& script, const FilmOptions& opt
     pictures.push_back(studio.Draw({.t_s = at_s}, false));
   }
   return pictures;
+}
+
+LiveFilm::LiveFilm(const FilmScript& script, const FilmOptions& options) {
+  Check(script, options);
+  auto studio = std::make_shared<Studio>(script, options);
+  draw_ = [studio, &recording = *script.recording, drawn_s = 0.0]() mutable -> const Image& {
+    const double now_s = recording.t_s(recording.size() - 1);
+    studio->Pace(now_s - std::exchange(drawn_s, now_s));
+    return studio->Draw({.t_s = now_s}, true);
+  };
 }
 
 FilmResult WriteFilm(const FilmScript& script, const FilmOptions& options,

@@ -5,6 +5,7 @@
 #include <mujoco/mujoco.h>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -80,7 +81,8 @@ struct FilmScript {
   FilmSet set;                            // `aspect` is taken from the options
   const Path* plan = nullptr;             // drawn on the floor
   bool senses = true;                     // what the recording holds of them, too
-  std::vector<FloorPatch> swept_again;    // ascending in time
+  int beams = 0;                        // of a recording that grows: the most that a scan may have
+  std::vector<FloorPatch> swept_again;  // ascending in time
   double window_m = 0;  // radius of a circle around the place that the robot thinks it has; 0: none
 };
 
@@ -94,6 +96,19 @@ struct FilmOptions : ReelOptions {
 // Pictures of the film, as it looks at these times, ascending; each as if it were alone.
 std::vector<Image> FilmPictures(const FilmScript& script, const FilmOptions& options,
                                 std::span<const double> t_s);
+
+// Pictures of a drive that goes on: of the last state each, with one renderer for all.
+class LiveFilm {
+ public:
+  // The script outlives it; its recording, of a state at least, and its events may grow. The pace
+  // is the drive's own.
+  LiveFilm(const FilmScript& script, const FilmOptions& options);
+  // Stands until the next call.
+  const Image& Draw() { return draw_(); }
+
+ private:
+  std::function<const Image&()> draw_;
+};
 
 // Writes an MP4. Throws InputError (a file that cannot be written, an unknown camera, an odd size)
 // or InternalError (no GL).

@@ -129,23 +129,26 @@ void SweptAgain::Show(double t_s) {
   }
 }
 
-Fan::Fan(std::span<const Recording::Senses> senses, double reach_m, FloorPaint& paint)
+Fan::Fan(const std::vector<Recording::Senses>* senses, int beams, double reach_m, FloorPaint& paint)
     : all_(senses), paint_(paint), reach_m_(reach_m) {
-  if (all_.empty()) return;
-  std::size_t most = 0;
-  for (const auto& one : all_) most = std::max(most, one.ends_W.size());
-  gap_ = all_.size() > 1 ? all_[1].state - all_[0].state : 1;
-  for (std::size_t i = 1; i < all_.size(); ++i)
-    gap_ = std::min(gap_, all_[i].state - all_[i - 1].state);
+  auto most = static_cast<std::size_t>(beams);
+  if (all_ == nullptr || (all_->empty() && most == 0)) return;
+  const std::vector<Recording::Senses>& all = *all_;
+  for (const auto& one : all) most = std::max(most, one.ends_W.size());
+  gap_ = all.size() > 1 ? all[1].state - all[0].state : 1;
+  for (std::size_t i = 1; i < all.size(); ++i)
+    gap_ = std::min(gap_, all[i].state - all[i - 1].state);
   for (std::size_t i = 0; i < most; ++i)
     beams_.push_back(paint.AddStripe({0, 0}, {0, 0}, kBeamZ_m, 0.008, kBeamRgba));
   estimate_ = paint.AddStripe({0, 0}, {0, 0}, kEstimateZ_m, 0.03, kEstimateRgba);
 }
 
 void Fan::Show(std::size_t state) {
-  while (at_ + 1 < all_.size() && all_[at_ + 1].state <= state) ++at_;
-  if (all_.empty() || all_[at_].state > state) return;
-  const auto& now = all_[at_];
+  if (all_ == nullptr || all_->empty()) return;
+  const std::vector<Recording::Senses>& all = *all_;
+  while (at_ + 1 < all.size() && all[at_ + 1].state <= state) ++at_;
+  if (all[at_].state > state) return;
+  const auto& now = all[at_];
   // A lidar that is blind has no beams.
   constexpr std::size_t kMissed = 3;  // turns
   const bool old = state - now.state > kMissed * gap_;

@@ -63,11 +63,12 @@ class SweptAgain {
 // is. These stripes move.
 class Fan {
  public:
-  Fan(std::span<const Recording::Senses> senses, double reach_m, FloorPaint& paint);
+  // `senses` may grow; nullptr: nothing is shown. `beams`: so many there may be then.
+  Fan(const std::vector<Recording::Senses>* senses, int beams, double reach_m, FloorPaint& paint);
   void Show(std::size_t state);
 
  private:
-  std::span<const Recording::Senses> all_;
+  const std::vector<Recording::Senses>* all_;
   FloorPaint& paint_;
   double reach_m_;
   std::vector<std::size_t> beams_;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "base/quantity.h"
 #include "render/cell_film.h"
@@ -137,6 +138,25 @@ std::vector<Image> DrivePictures(const Scenario& s, const Scene& scene, const Pl
   options.height = height;
   options.camera = camera;
   return FilmPictures(script.film, options, t_s);
+}
+
+LivePicture::LivePicture(const Scenario& s, const Scene& scene, const PlanResult& plan,
+                         const Recording& recording, int beams, int width, int height,
+                         const std::string& camera, RenderQuality quality) {
+  auto script = std::make_shared<DriveScript>(s, scene, plan, EpisodeRecord{}, recording);
+  script->film.beams = beams;
+  script->film.closing.reset();  // it has not ended
+  script->film.timeline.reset();
+  FilmOptions options = OptionsOf(s, {});
+  options.width = width;
+  options.height = height;
+  options.camera = camera;
+  options.quality = quality;
+  draw_ = [script, film = std::make_shared<LiveFilm>(script->film, options)](
+              std::span<const Event> events) -> const Image& {
+    script->film.events = events;
+    return film->Draw();
+  };
 }
 
 std::string WriteCellVideo(const Scenario& s, const EpisodeRecord& record,

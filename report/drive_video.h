@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,6 +27,19 @@ std::vector<Image> DrivePictures(const Scenario& scenario, const Scene& scene,
                                  const PlanResult& plan, const EpisodeRecord& record,
                                  const Recording& recording, std::span<const double> t_s, int width,
                                  int height, const std::string& camera);
+// Pictures of a drive that goes on, as it stands.
+class LivePicture {
+ public:
+  // All outlive it; the recording, of a state at least, may grow. `beams`: of the robot's lidar.
+  LivePicture(const Scenario& scenario, const Scene& scene, const PlanResult& plan,
+              const Recording& recording, int beams, int width, int height,
+              const std::string& camera, RenderQuality quality);
+  // `events`: those so far. Stands until the next call.
+  const Image& Draw(std::span<const Event> events) { return draw_(events); }
+
+ private:
+  std::function<const Image&(std::span<const Event>)> draw_;
+};
 // The same of `drive: cells`: from above, without physics or GL. Nothing fails there.
 std::string WriteCellVideo(const Scenario& scenario, const EpisodeRecord& record,
                            const std::filesystem::path& folder, const Console& console);
