@@ -3,10 +3,9 @@
 #include "report/pictures.h"
 
 #include <array>
-#include <mutex>
 
 #include "base/console.h"
-#include "python/bindings/arrays.h"
+#include "python/bindings/drawing.h"
 #include "python/bindings/host.h"
 #include "python/bindings/modules.h"
 #include "report/campaign_report.h"
@@ -22,25 +21,6 @@ namespace fs = std::filesystem;
 using namespace nb::literals;
 
 const Console kQuiet{.quiet = true};
-
-// GL and the codecs are of the process: one picture at a time.
-std::mutex g_drawing;
-
-template <class Draw>
-auto DrawAlone(const Draw& draw) {
-  return WithoutGil([&] {
-    const std::lock_guard alone(g_drawing);
-    return draw();
-  });
-}
-
-// [height, width, 3].
-nb::ndarray<nb::numpy, std::uint8_t> ImageArray(Image image) {
-  const auto height = static_cast<std::size_t>(image.height),
-             width = static_cast<std::size_t>(image.width),
-             channels = static_cast<std::size_t>(image.channels);
-  return ArrayOf(std::move(image.data), {height, width, channels});
-}
 
 // At times that ascend.
 nb::list Frames(const Driven& d, const std::vector<double>& t_s, int width, int height,

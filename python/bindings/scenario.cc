@@ -12,6 +12,7 @@
 #include "python/bindings/describe.h"
 #include "python/bindings/host.h"
 #include "python/bindings/modules.h"
+#include "run/campaign/episode_maker.h"
 #include "run/episode/make_plan.h"
 #include "run/episode/records.h"
 #include "run/plan_check/plan_check.h"
@@ -145,6 +146,7 @@ void BindScenario(nb::module_& m) {
           "resolved",
           [](const Scenario& s, const fs::path& folder) { return ResolvedScenario(s, folder); },
           "folder"_a)
+      .def_prop_ro("plan_inputs", &PlanInputs)
       .def("make_plan", [](const std::shared_ptr<Scenario>& s) { return PlanOf(s); });
 
   nb::class_<Planned>(m, "Plan")

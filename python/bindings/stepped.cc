@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // An episode that is commanded from Python, a control period at a time.
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "controllers/twist_tracker.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/describe.h"
+#include "python/bindings/drawing.h"
 #include "python/bindings/host.h"
 #include "python/bindings/modules.h"
+#include "python/bindings/observed.h"
+#include "report/drive_video.h"
 #include "report/progress.h"
 #include "run/episode/free_navigator.h"
 #include "run/episode/make_plan.h"
@@ -25,204 +26,248 @@ using namespace nb::literals;
 // Asks for whatever twist it was given.
 class Commanded final : public TwistTracker {
  public:
+  explicit Commanded(bool free) : TwistTracker(free) {}
   void Command(const BodyTwist& twist) { twist_ = twist; }
+  // Where a tracker would head for; none before the first period.
+  const std::optional<Vec2>& target_W() const { return target_W_; }
 
  private:
-  BodyTwist Twist(const Situation&) override { return twist_; }
+  BodyTwist Twist(const Situation& now) override {
+    target_W_ = now.target_W;
+    return twist_;
+  }
   BodyTwist twist_;
+  std::optional<Vec2> target_W_;
 };
 
-// What the robot knows around it, seen from its own pose: cells[channel][row][column], its x to the
-// right, its y up, the robot in the middle. Channels: obstacles (255; 127: not known), floor that
-// was swept, floor that is to be swept (255).
-class LocalMap {
- public:
-  LocalMap(const Scenario& s, int cells, double cell_m)
-      : cells_(cells),
-        cell_m_(cell_m),
-        fine_(FineFrame(s.site.map.frame)),
-        obstacles_(ObstacleMask(KnownFloor(s), s.robot.spec.step_m, fine_)),
-        values_(3 * static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells)) {}
-
-  void Look(const Pose2& X_WB, const SteppedEpisode& episode) {
-    const SweepArea& area = episode.area();
-    const Grid<std::uint8_t>& passes = episode.swept().passes();
-    const KnownMap* drawn = episode.robot().known();
-    const std::size_t plane = values_.size() / 3;
-    std::size_t at = 0;
-    for (int row = cells_ - 1; row >= 0; --row)
-      for (int column = 0; column < cells_; ++column, ++at) {
-        const Vec2 p_W =
-            X_WB * (cell_m_ * Vec2(column + 0.5 - cells_ / 2.0, row + 0.5 - cells_ / 2.0));
-        values_[at] = drawn != nullptr ? Drawn(*drawn, p_W) : Given(p_W);
-        const Cell cell = area.frame.ToCell(p_W);
-        const bool inside = passes.Inside(cell);
-        values_[plane + at] = inside && passes(cell) > 0 ? 255 : 0;
-        values_[2 * plane + at] = inside && area.sweepable(cell) && passes(cell) == 0 ? 255 : 0;
-      }
-  }
-
-  std::vector<std::uint8_t>& values() { return values_; }
-  int cells() const { return cells_; }
-
- private:
-  std::uint8_t Given(const Vec2& p_W) const {
-    const Cell cell = fine_.ToCell(p_W);
-    return !fine_.Inside(cell) || obstacles_(cell) ? 255 : 0;
-  }
-  static std::uint8_t Drawn(const KnownMap& map, const Vec2& p_W) {
-    const Cell cell = map.frame.ToCell(p_W);
-    if (!map.frame.Inside(cell)) return 255;
-    const CellState state = map.At(cell);
-    return state == CellState::kOccupied ? 255 : state == CellState::kUnknown ? 127 : 0;
-  }
-
-  int cells_;
-  double cell_m_;
-  GridFrame fine_;
-  Grid<std::uint8_t> obstacles_;
-  std::vector<std::uint8_t> values_;
-};
+// The plan where nothing is planned: it stands.
+PlanResult NoPlan(const Scenario& s) {
+  PlanResult plan;
+  Waypoint start;
+  start.p_W = s.start.p();
+  plan.path = {start};
+  plan.status = PlanStatus::kSuccess;
+  plan.clear = s.robot.spec.clear;
+  plan.tool = s.robot.spec.tool;
+  plan.tool_width_m = s.robot.spec.tool_width_m;
+  plan.risk =
+      std::make_shared<const RiskMap>(ComputeRisk(KnownFloor(s), s.robot.spec, s.fmea, s.risk));
+  return plan;
+}
 
 class Stepped {
  public:
-  // `follows`: the scenario's plan is what it is judged by; else it goes where it likes. `record`:
-  // states are kept for pictures.
-  Stepped(std::shared_ptr<Scenario> scenario, bool follows, int local_cells, double local_cell_m,
-          bool record)
-      : scenario_(std::move(scenario)), local_(*scenario_, local_cells, local_cell_m) {
+  // `planned`: the plan to follow, by which it is judged; nullptr: it goes where it likes.
+  // `record`: states are kept for pictures.
+  Stepped(std::shared_ptr<Scenario> scenario, const std::shared_ptr<Planned>& planned,
+          int local_cells, double local_cell_m, int plan_points, double plan_step_m, bool record)
+      : driven_(std::make_shared<Driven>()) {
+    driven_->scenario = std::move(scenario);
     WithoutGil([&] {
-      Begin(follows, record);
+      Begin(planned ? &planned->plan : nullptr,
+            {local_cells, local_cell_m, plan_points, plan_step_m}, record);
       return 0;
     });
   }
 
-  // One control period; the outcome where it ended the episode. Not after that.
-  std::optional<std::string> Step(double vx_mps, double vy_mps, double wz_radps) {
+  ~Stepped() {
+    const std::lock_guard alone(Drawing());
+    picture_.reset();
+  }
+
+  // So many control periods; the outcome where one of them ended the episode. Not after that.
+  std::optional<std::string> Step(double vx_mps, double vy_mps, double wz_radps, int periods) {
+    const Busy busy(*this);
     if (!episode_ || ended_) throw InputError("the episode has ended: reset() begins another");
     tracker_->Command({vx_mps, vy_mps, wz_radps});
     WithoutGil([&] {
-      ended_ = episode_->Advance();
-      Look();
+      for (int i = 0; i < periods && !ended_; ++i) {
+        ended_ = episode_->Advance();
+        Note();
+      }
+      told_->Look(*episode_, tracker_->target_W());
       return 0;
     });
     if (!ended_) return std::nullopt;
     return std::string(Name(*ended_));
   }
 
-  // Ends it, where it has not ended; once. Until then pictures and figures are of a drive that goes
-  // on.
-  std::shared_ptr<Driven> Finish(bool timeout) {
-    if (!episode_) throw InputError("the episode is finished: reset() begins another");
-    const Outcome outcome = ended_.value_or(timeout ? Outcome::kTimeout : Outcome::kInterrupted);
-    auto driven = std::make_shared<Driven>();
-    driven->scenario = scenario_;
-    driven->record = WithoutGil([&] { return episode_->Finish(outcome); });
-    episode_.reset();
+  // Its record; where it has not ended, that of one that was interrupted. Once.
+  std::shared_ptr<Driven> Finish() {
+    const Busy busy(*this);
+    Running();
+    driven_->record =
+        WithoutGil([&] { return episode_->Finish(ended_.value_or(Outcome::kInterrupted)); });
+    events_ = driven_->record.events;
     recorder_.reset();
-    driven->plan = std::move(*plan_);
-    driven->scene = std::move(*scene_);
-    driven->recording = std::move(recording_);
-    return driven;
+    episode_.reset();
+    return driven_;
   }
 
-  EpisodeView Now() const {
-    if (!episode_) throw InputError("the episode is finished: reset() begins another");
-    return episode_->view();
+  // As it stands now, or stood when it was finished.
+  nb::ndarray<nb::numpy, std::uint8_t> Render(int width, int height, const std::string& camera,
+                                              bool draft) {
+    const Busy busy(*this);
+    if (!driven_->recording) throw InputError("nothing is recorded that could be drawn");
+    return ImageArray(DrawAlone([&] {
+      if (recorder_) recorder_->Keep(episode_->view());
+      if (!picture_)
+        picture_ = std::make_unique<LivePicture>(
+            *driven_->scenario, *driven_->scene, driven_->plan, *driven_->recording,
+            static_cast<int>(told_->lidar.size()), width, height, camera,
+            draft ? RenderQuality::kDraft : RenderQuality::kFull);
+      return picture_->Draw(episode_ ? std::span(episode_->events()) : std::span(events_));
+    }));
   }
+
   std::string Events() const {
-    if (!episode_) throw InputError("the episode is finished: reset() begins another");
-    return EventsJson(episode_->events()).dump();
+    const Busy busy(*this);
+    return EventsJson(episode_ ? episode_->events() : events_).dump();
+  }
+  std::size_t events() const { return episode_ ? episode_->events().size() : events_.size(); }
+  // The array lies in this object, which lives as long as it.
+  template <class T>
+  nb::object View(const T* values, std::initializer_list<std::size_t> shape) {
+    return nb::cast(nb::ndarray<nb::numpy, const T>(values, shape, nb::find(this)));
   }
   nb::object local_map() {
-    const auto n = static_cast<std::size_t>(local_.cells());
-    return nb::cast(nb::ndarray<nb::numpy, const std::uint8_t>(local_.values().data(), {3, n, n},
-                                                               nb::find(this)));
+    const auto n = static_cast<std::size_t>(told_->local.cells());
+    return View(told_->local.values().data(), {3, n, n});
   }
-  nb::object lidar() {
-    return nb::cast(
-        nb::ndarray<nb::numpy, const float>(lidar_.data(), {lidar_.size()}, nb::find(this)));
+  nb::object lidar() { return View(told_->lidar.data(), {told_->lidar.size()}); }
+  nb::object state() { return View(told_->state.data(), {told_->state.size()}); }
+  nb::object pose() { return View(told_->pose.data(), {told_->pose.size()}); }
+  nb::object twist() { return View(told_->twist.data(), {told_->twist.size()}); }
+  nb::object coverage() { return View(&told_->coverage, {1}); }
+  nb::object plan_ahead() { return View(told_->ahead.data(), {told_->ahead.size()}); }
+
+  // Between which numbers what is told lies.
+  nb::dict Bounds() const {
+    const auto &low = told_->low, &high = told_->high;
+    const auto& fastest = told_->fastest;
+    nb::dict out;
+    out["pose"] = nb::make_tuple(low[0], low[1], high[0], high[1]);
+    out["twist"] = nb::make_tuple(fastest[0], fastest[1], fastest[2]);
+    out["lidar_m"] = told_->scan_most_m;
+    out["plan_m"] = told_->far_m;
+    out["holonomic"] = told_->holonomic;
+    return out;
   }
-  const Scenario& scenario() const { return *scenario_; }
+  nb::object LidarAngles() const {
+    const Busy busy(*this);
+    Running();
+    std::vector<double> angles = episode_->view().sensed.scan.angle_rad;
+    const std::size_t n = angles.size();
+    return nb::cast(ArrayOf(std::move(angles), {n}));
+  }
 
  private:
-  void Begin(bool follows, bool record) {
-    Scenario& s = *scenario_;
-    auto tracker = std::make_unique<Commanded>();
-    tracker_ = tracker.get();
-    s.tracker = std::move(tracker);
-    plan_ = std::make_unique<PlanResult>();
-    std::unique_ptr<Navigator> navigator;
-    if (follows) {
-      WarnOfProgram(s);
-      *plan_ = MakePlan(s);
-      if (plan_->status != PlanStatus::kSuccess)
-        throw InputError({s.file.string(), 0}, "plan", s.planner_name,
-                         "gives no plan to follow: " + plan_->message);
-    } else {
-      s.online.reset();
-      Waypoint start;
-      start.p_W = s.start.p();
-      plan_->path = {start};
-      plan_->status = PlanStatus::kSuccess;
-      plan_->clear = s.robot.spec.clear;
-      plan_->tool = s.robot.spec.tool;
-      plan_->tool_width_m = s.robot.spec.tool_width_m;
-      plan_->risk =
-          std::make_shared<const RiskMap>(ComputeRisk(KnownFloor(s), s.robot.spec, s.fmea, s.risk));
-      navigator = std::make_unique<FreeNavigator>(s.start);
+  // Python's threads take turns, but for the time in which physics runs.
+  class Busy {
+   public:
+    explicit Busy(const Stepped& of) : of_(of) {
+      if (std::exchange(of_.busy_, true)) {
+        throw InputError("another thread is using this episode: each thread needs its own");
+      }
     }
-    scene_ = std::make_unique<Scene>(BuildScene(s.site.map, s.robot, s.physics, s.start));
-    if (record) {
-      recording_.emplace(static_cast<int>(scene_->model->nq));
-      recorder_.emplace(Console{.quiet = true}, s.robot.spec, s.episode.control_hz, &*recording_);
-    }
-    episode_ = std::make_unique<SteppedEpisode>(s, *scene_, *plan_, std::move(navigator));
-    Look();
+    ~Busy() { of_.busy_ = false; }
+    Busy(const Busy&) = delete;
+    Busy& operator=(const Busy&) = delete;
+
+   private:
+    const Stepped& of_;
+  };
+
+  void Running() const {
+    if (!episode_) throw InputError("the episode is finished: reset() begins another");
   }
 
-  void Look() {
+  void Begin(const PlanResult* plan, const Outlook& outlook, bool record) {
+    Scenario& s = *driven_->scenario;
+    if (s.episode.drive != "physics")
+      throw InputError({s.file.string(), 0}, "drive", s.episode.drive,
+                       "must be physics where the robot is commanded step by step");
+    told_.emplace(s, outlook);
+    auto tracker = std::make_unique<Commanded>(plan == nullptr);
+    tracker_ = tracker.get();
+    s.tracker = std::move(tracker);
+    std::unique_ptr<Navigator> navigator;
+    if (plan != nullptr) {
+      driven_->plan = *plan;
+      if (plan->status != PlanStatus::kSuccess)
+        throw InputError({s.file.string(), 0}, "plan", s.planner_name,
+                         "gives no plan to follow: " + plan->message);
+    } else {
+      GoFreely(s);
+      driven_->plan = NoPlan(s);
+      navigator = std::make_unique<FreeNavigator>(s.start);
+    }
+    driven_->scene.emplace(BuildScene(s.site.map, s.robot, s.physics, s.start));
+    if (record) {
+      driven_->recording.emplace(static_cast<int>(driven_->scene->model->nq));
+      recorder_.emplace(s.robot.spec, s.episode.control_hz, *driven_->recording);
+    }
+    episode_ =
+        std::make_unique<SteppedEpisode>(s, *driven_->scene, driven_->plan, std::move(navigator));
+    told_->Begin(s, *episode_, plan != nullptr);
+    Note();
+    told_->Look(*episode_, tracker_->target_W());
+  }
+
+  // Where nothing is planned, enough coverage is the end, and the time is what three sweeps of the
+  // floor take, and a minute, unless the scenario says otherwise.
+  void GoFreely(Scenario& s) const {
+    const RobotSpec& robot = s.robot.spec;
+    s.online.reset();
+    if (!s.episode.stop_at_coverage)
+      s.episode.stop_at_coverage = s.episode.min_coverage > 0 ? s.episode.min_coverage : 1;
+    if (!s.episode.time_limit_s)
+      s.episode.time_limit_s =
+          60 + 3 * told_->local.sweepable_m2() / (robot.tool_width_m * robot.cruise_mps);
+  }
+
+  // Of each control period.
+  void Note() {
     const EpisodeView now = episode_->view();
-    const LidarScan& scan = now.sensed.scan;
-    lidar_.resize(scan.range_m.size());  // the same after the first time
-    for (std::size_t i = 0; i < lidar_.size(); ++i)
-      lidar_[i] = static_cast<float>(std::min(scan.range_m[i], scan.most_m));
-    local_.Look(now.estimate.X_WB, *episode_);
+    told_->Note(now.estimate);
     if (recorder_) recorder_->OnControl(now);
   }
 
-  std::shared_ptr<Scenario> scenario_;
-  LocalMap local_;
+  // Scenario, plan, scene and states live here from the start: what is driven refers to them, and
+  // the record is given away with them.
+  std::shared_ptr<Driven> driven_;
+  std::optional<Observed> told_;
   Commanded* tracker_ = nullptr;
-  std::unique_ptr<PlanResult> plan_;
-  std::unique_ptr<Scene> scene_;
-  std::optional<Recording> recording_;
-  std::optional<ProgressObserver> recorder_;
+  std::optional<StateRecorder> recorder_;
   std::unique_ptr<SteppedEpisode> episode_;
+  std::unique_ptr<LivePicture> picture_;
   std::optional<Outcome> ended_;
-  std::vector<float> lidar_;
+  std::vector<Event> events_;  // of the finished one
+  mutable bool busy_ = false;  // guarded by the GIL
 };
 
 }  // namespace
 
 void BindStepped(nb::module_& m) {
   nb::class_<Stepped>(m, "Stepped")
-      .def(nb::init<std::shared_ptr<Scenario>, bool, int, double, bool>(), "scenario"_a,
-           "follows"_a, "local_cells"_a, "local_cell_m"_a, "record"_a)
-      .def("step", &Stepped::Step, "vx_mps"_a, "vy_mps"_a, "wz_radps"_a)
-      .def("finish", &Stepped::Finish, "timeout"_a)
-      .def_prop_ro("local_map", &Stepped::local_map)
+      .def(nb::init<std::shared_ptr<Scenario>, const std::shared_ptr<Planned>&, int, double, int,
+                    double, bool>(),
+           "scenario"_a, "plan"_a.none(), "local_cells"_a, "local_cell_m"_a, "plan_points"_a,
+           "plan_step_m"_a, "record"_a)
+      .def("step", &Stepped::Step, "vx_mps"_a, "vy_mps"_a, "wz_radps"_a, "periods"_a)
+      .def("finish", &Stepped::Finish)
+      .def("render", &Stepped::Render, "width"_a, "height"_a, "camera"_a, "draft"_a)
       .def_prop_ro("lidar", &Stepped::lidar)
-      .def_prop_ro("events", &Stepped::Events)
-      .def_prop_ro("t_s", [](const Stepped& s) { return s.Now().sample.t_s; })
-      .def_prop_ro("coverage", [](const Stepped& s) { return s.Now().coverage; })
-      .def_prop_ro("plan_fraction", [](const Stepped& s) { return s.Now().plan_fraction; })
-      .def_prop_ro("estimate", [](const Stepped& s) { return PoseTuple(s.Now().estimate.X_WB); })
-      .def_prop_ro("pose", [](const Stepped& s) { return PoseTuple(s.Now().sample.X_WB()); })
-      .def_prop_ro("twist", [](const Stepped& s) {
-        const BodyTwist& V = s.Now().estimate.V_WB_B;
-        return nb::make_tuple(V.vx_mps, V.vy_mps, V.wz_radps);
-      });
+      .def_prop_ro("local_map", &Stepped::local_map)
+      .def_prop_ro("state", &Stepped::state)
+      .def_prop_ro("pose", &Stepped::pose)
+      .def_prop_ro("twist", &Stepped::twist)
+      .def_prop_ro("coverage", &Stepped::coverage)
+      .def_prop_ro("plan_ahead", &Stepped::plan_ahead)
+      .def_prop_ro("bounds", &Stepped::Bounds)
+      .def_prop_ro("lidar_angles", &Stepped::LidarAngles)
+      .def_prop_ro("num_events", [](const Stepped& s) { return s.events(); })
+      .def_prop_ro("events", [](const Stepped& s) { return s.Events(); });
 }
 
 }  // namespace floorproof

@@ -22,9 +22,8 @@ std::string ProgramInputs(const Scenario& s, const PlanCommand& program) {
   return text;
 }
 
-// All that MakePlan reads, as text. The floor's friction is not a planner's to know, unless the
-// robot was measured on several: its limits hang on it. Whether they are used hangs on more than
-// its keys here say (the battery's voltage).
+}  // namespace
+
 std::string PlanInputs(const Scenario& s) {
   const bool has_limits = !s.robot.spec.measured.limits.empty();
   ConfigNode site = s.site_node;
@@ -53,6 +52,8 @@ std::string PlanInputs(const Scenario& s) {
   if (s.planner && s.planner->promises().uses_seed) text += std::to_string(s.episode_id);
   return text;
 }
+
+namespace {
 
 // The plan's JSON with what an online planner has to say after the drive.
 std::string WithFigures(const std::string& plan, const EpisodeRecord& record) {

@@ -1,0 +1,314 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The Gymnasium environment `Floorproof-v0`: an episode that a policy drives (docs/gym.md).
+
+    import gymnasium
+    env = gymnasium.make("floorproof.gym:Floorproof-v0", scenario="scenario.yaml")
+
+Actions are body twists, observations what the robot senses and believes, the reward is floor
+covered; the scenario's detectors judge the drive as they judge every other.
+"""
+from __future__ import annotations
+
+import json
+import warnings
+from math import isfinite
+from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+
+from . import _core
+from ._core import InputError
+from ._results import Episode, Event, PathLike, episode_of, event_of
+from ._scenario import Scenario, load
+
+__all__ = ["ID", "FloorproofEnv"]
+
+ID = "Floorproof-v0"
+if ID not in gymnasium.registry:
+    # It checks its actions, and the order of calls, itself, and says what is wrong with them.
+    gymnasium.register(ID, entry_point="floorproof.gym:FloorproofEnv", disable_env_checker=True,
+                       order_enforce=False)
+
+Observation = Dict[str, np.ndarray]
+Info = Dict[str, Any]
+
+_MOST_EPISODE = 10**8  # that a scenario's key `episode` takes
+# Ends that are none of the task's: the time is over, or the physics diverged.
+_TRUNCATED = ("timeout", "error")
+
+
+class FloorproofEnv(gymnasium.Env[Observation, np.ndarray]):
+    """One robot on one scenario's floor.
+
+    scenario: its file, a dict, or a Scenario. One without a lidar gets `sensors.lidar` with its
+    defaults, and a warning that says so.
+    reference: `plan`: the scenario's plan is made; leaving it is veer_off, its end ends the episode,
+    and its next points are observed. None: the robot goes where the policy likes, and nothing is
+    off it; the episode ends when success.min_coverage is reached (all, where that is 0).
+    variant: of the scenario's matrix.
+    max_time_s: simulated time (s); None: the scenario's time_limit_s.
+    action_repeat: control periods (1 / control_hz) that an action holds for.
+    coverage_reward: reward for the whole floor; a step earns the share that it covered.
+    failure_penalty: taken off the reward of a step for each failure in it; 0 or more.
+    local_map_cells, local_map_cell_m: rows and columns of the local map, and their width.
+    plan_points, plan_step_m: points of the plan that are observed, beside the one that a tracker
+    would head for, and the way between two.
+    render_mode: None or rgb_array, width x height pixels (even), by camera auto, chase, top or side;
+    quality: draft (no shadows) or full.
+
+    Raises InputError, at the latest when it is reset.
+    """
+
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 50}
+
+    def __init__(self, scenario: Union[Scenario, PathLike, Mapping[str, Any]], *,
+                 reference: Optional[str] = "plan", variant: Optional[str] = None,
+                 max_time_s: Optional[float] = None, action_repeat: int = 1,
+                 coverage_reward: float = 100.0, failure_penalty: float = 0.0,
+                 local_map_cells: int = 40, local_map_cell_m: float = 0.1, plan_points: int = 6,
+                 plan_step_m: float = 0.25, render_mode: Optional[str] = None, width: int = 480,
+                 height: int = 270, camera: str = "auto", quality: str = "draft") -> None:
+        self._core: Optional[_core.Stepped] = None
+        self._views: List[Tuple[str, np.ndarray]] = []  # of what lies in it
+        self._events: List[Event] = []
+        self._closed = False
+        _among("reference", reference, ("plan", None))
+        _among("render_mode", render_mode, (None, *self.metadata["render_modes"]))
+        _among("camera", camera, ("auto", "chase", "top", "side"))
+        _among("quality", quality, ("draft", "full"))
+        self._follows = reference == "plan"
+        self._variant = variant
+        self._repeat = _whole("action_repeat", action_repeat, 1, 100000)
+        self._reward = _number("coverage_reward", coverage_reward)
+        self._penalty = _number("failure_penalty", failure_penalty, least=0)
+        self._outlook = (_whole("local_map_cells", local_map_cells, 1),
+                         _number("local_map_cell_m", local_map_cell_m),
+                         _whole("plan_points", plan_points, 1, 1000),
+                         _number("plan_step_m", plan_step_m, least=0.01))
+        self.render_mode = render_mode
+        self._picture = (_whole("width", width, 64), _whole("height", height, 64), camera,
+                         quality == "draft")
+        for name, pixels in (("width", width), ("height", height)):
+            if pixels % 2:
+                raise InputError(f"{name} = {pixels}: must be even")
+
+        self.scenario = _with_what_it_needs(scenario, max_time_s)
+        self.metadata = {**self.metadata,
+                         "render_fps": max(1, round(self.scenario.control_hz / self._repeat))}
+        self.episode: Optional[Episode] = None
+        """The last episode, once it has ended: trace, events, metrics, maps."""
+        self._plan: Tuple[str, Any] = ("", None)  # what it follows from, and the plan
+        self._begin(self.scenario._file.episode, variant)
+        self._make_spaces()
+        self._ended = "reset() comes first"
+
+    # --- Gymnasium's calls
+
+    def reset(self, *, seed: Optional[int] = None,
+              options: Optional[Mapping[str, Any]] = None) -> Tuple[Observation, Info]:
+        """Begins an episode. seed: the episode of this number (modulo 1e8 + 1), with its draws as
+        a campaign has them: the same number, the same bytes. Without one, the next of a sequence
+        that the last seed began. options: `episode` and `variant` name what is driven."""
+        self._open()
+        super().reset(seed=seed)
+        asked = dict(options or {})
+        episode, variant = asked.pop("episode", None), asked.pop("variant", self._variant)
+        if asked:
+            raise InputError(f"options.{next(iter(asked))}: unknown (known: episode, variant)")
+        if episode is not None:
+            episode = _whole("options.episode", episode, 0, _MOST_EPISODE)
+        elif seed is not None:
+            episode = seed % (_MOST_EPISODE + 1)
+        else:
+            episode = int(self.np_random.integers(_MOST_EPISODE + 1))
+        self._begin(episode, variant)
+        info = self._info()
+        info["episode_id"] = episode
+        info["variant"] = variant or ""
+        return self._observe(), info
+
+    def step(self, action: Any) -> Tuple[Observation, float, bool, bool, Info]:
+        """Asks for a twist for `action_repeat` control periods."""
+        core = self._running()
+        vx_mps, vy_mps, wz_radps = self._twist(action)
+        before, failures = self._share, self._num_events
+        outcome = core.step(vx_mps, vy_mps, wz_radps, self._repeat)
+        observation = self._observe()
+        info = self._info()
+        reward = (self._reward * (self._share - before)
+                  - self._penalty * (self._num_events - failures))
+        if outcome is None:
+            return observation, reward, False, False, info
+        self._end(info)
+        truncated = outcome in _TRUNCATED
+        return observation, reward, not truncated, truncated, info
+
+    def render(self) -> Optional[np.ndarray]:
+        """The drive as it stands, [height, width, 3]; without a render_mode None."""
+        self._open()
+        if self.render_mode is None:
+            gymnasium.logger.warn("render() without a render_mode draws nothing; give make() "
+                                  'render_mode="rgb_array"')
+            return None
+        if self._core is None:
+            raise InputError("render(): reset() comes first")
+        picture: np.ndarray = self._core.render(*self._picture)
+        return picture
+
+    def close(self) -> None:
+        """Frees physics and pictures; another call than close() is refused from then on."""
+        self._closed = True
+        self._core = None
+        self._views = []
+
+    # --- of this environment alone
+
+    @property
+    def lidar_angles(self) -> np.ndarray:
+        """Of the beams (rad), from straight ahead, counterclockwise."""
+        return self._angles
+
+    # --- inside
+
+    def _begin(self, episode: int, variant: Optional[str]) -> None:
+        self._core, self._views = None, []  # what is over is freed before what comes
+        self.episode = None
+        self._ended = "reset() failed: it comes first again"
+        made = self.scenario._file.read(episode, variant)
+        plan = None
+        if self._follows:
+            inputs = made.plan_inputs
+            if self._plan[0] != inputs:
+                self._plan = (inputs, made.make_plan())
+            plan = self._plan[1]
+        core = _core.Stepped(made, plan, *self._outlook, self.render_mode is not None)
+        self._angles = np.asarray(core.lidar_angles)
+        names = ["lidar", "local_map", "pose", "twist", "coverage"]
+        if self._follows:
+            names.append("plan_ahead")
+        self._views = [(name, getattr(core, name)) for name in names]
+        self._state: np.ndarray = np.asarray(core.state)
+        self._core = core
+        self._share = float(self._state[1])
+        self._num_events, self._events = 0, []
+        self._ended = ""
+
+    def _make_spaces(self) -> None:
+        core = self._core
+        assert core is not None
+        robot, bounds = self.scenario.robot, core.bounds
+        v, w = robot["max_speed_mps"], robot["max_yaw_rate_radps"]
+        self._names = (("vx_mps", "vy_mps", "wz_radps") if bounds["holonomic"]
+                       else ("vx_mps", "wz_radps"))
+        most = np.array([v] * (len(self._names) - 1) + [w], dtype=np.float32)
+        self.action_space = spaces.Box(-most, most, dtype=np.float32)
+        x0, y0, x1, y1 = bounds["pose"]
+        fast = np.array(bounds["twist"], dtype=np.float32)
+        beams, cells = len(self._angles), self._outlook[0]
+        of: Dict[str, spaces.Space[Any]] = {
+            "lidar": spaces.Box(0, bounds["lidar_m"], (beams,), np.float32),
+            "local_map": spaces.Box(0, 255, (3, cells, cells), np.uint8),
+            "pose": spaces.Box(np.array([x0, y0, -1, -1], np.float32),
+                               np.array([x1, y1, 1, 1], np.float32), dtype=np.float32),
+            "twist": spaces.Box(-fast, fast, dtype=np.float32),
+            "coverage": spaces.Box(0, 1, (1,), np.float32),
+        }
+        if self._follows:
+            far = bounds["plan_m"]
+            of["plan_ahead"] = spaces.Box(-far, far, (2 + 2 * self._outlook[2],),
+                                             np.float32)
+        self.observation_space = spaces.Dict(of)  # type: ignore[assignment]
+
+    def _open(self) -> None:
+        if self._closed:
+            raise InputError("the environment is closed: make another")
+
+    def _running(self) -> _core.Stepped:
+        self._open()
+        if self._ended or self._core is None:
+            raise InputError(f"step(): {self._ended}")
+        return self._core
+
+    def _twist(self, action: Any) -> Tuple[float, float, float]:
+        names = self._names
+        try:
+            values = (action if isinstance(action, np.ndarray) and action.dtype.kind == "f"
+                      else np.asarray(action, dtype=np.float64))
+        except (TypeError, ValueError) as error:
+            raise InputError(f"action = {action!r}: must be {len(names)} numbers: "
+                             f"{', '.join(names)}") from error
+        if values.shape != (len(names),):
+            raise InputError(f"action: an array of shape {values.shape}: must be [{len(names)}]: "
+                             f"{', '.join(names)}")
+        numbers: List[float] = values.tolist()
+        for name, value in zip(names, numbers):
+            if not isfinite(value):
+                raise InputError(f"action.{name} = {value}: must be finite")
+        if len(numbers) == 2:
+            return numbers[0], 0.0, numbers[1]
+        return numbers[0], numbers[1], numbers[2]
+
+    def _observe(self) -> Observation:
+        # Copies: the next step changes what is looked at here.
+        return {name: view.copy() for name, view in self._views}
+
+    def _info(self) -> Info:
+        core = self._core
+        assert core is not None
+        if core.num_events != self._num_events:
+            self._events = [event_of(e) for e in json.loads(core.events)]
+            self._num_events = core.num_events
+        state = self._state.copy()  # time, coverage, true pose
+        self._share = float(state[1])
+        return {"t_s": float(state[0]), "coverage": self._share, "truth": state[2:],
+                "events": self._events}
+
+    def _end(self, info: Info) -> None:
+        core = self._core
+        assert core is not None
+        self._ended = "the episode has ended: reset() begins another"
+        self.episode = episode_of(core.finish())
+        info["outcome"] = self.episode.outcome
+        info["message"] = self.episode.message
+        info["failure"] = dict(self._events[-1].evidence) if self._events else {}
+        info["metrics"] = self.episode.metrics
+
+
+def _with_what_it_needs(source: Union[Scenario, PathLike, Mapping[str, Any]],
+                        max_time_s: Optional[float]) -> Scenario:
+    scenario = source if isinstance(source, Scenario) else load(source)
+    changes: Dict[str, Any] = {}
+    if max_time_s is not None:
+        changes["time_limit_s"] = _number("max_time_s", max_time_s)
+    if "lidar" not in scenario.sensors:
+        changes["sensors.lidar"] = {}
+        warnings.warn(f"{scenario.name} has no lidar, which is observed: sensors.lidar is added "
+                      "with its defaults", stacklevel=4)
+    return scenario.with_(changes) if changes else scenario
+
+
+def _among(name: str, value: Any, known: Tuple[Any, ...]) -> None:
+    if value not in known:
+        raise InputError(f"{name} = {value}: unknown (known: {', '.join(map(str, known))})")
+
+
+def _whole(name: str, value: Any, least: int, most: Optional[int] = None) -> int:
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+        raise InputError(f"{name} = {value!r}: must be a whole number")
+    if value < least or (most is not None and value > most):
+        raise InputError(f"{name} = {value}: must be at least {least}"
+                         + ("" if most is None else f" and at most {most}"))
+    return int(value)
+
+
+def _number(name: str, value: Any, least: Optional[float] = None) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} = {value!r}: must be a number") from None
+    if not isfinite(number) or (least is not None and number < least):
+        raise InputError(f"{name} = {number}: must be finite"
+                         + ("" if least is None else f" and at least {least}"))
+    return number
