@@ -2,6 +2,7 @@
 #include "base/input_files.h"
 
 #include <map>
+#include <mutex>
 #include <optional>
 
 #include "base/error.h"
@@ -27,6 +28,7 @@ struct InputFiles::Shared {
     bool absolute = false;
   };
 
+  std::recursive_mutex mutex;               // of all that follows
   std::map<fs::path, Input> inputs;         // by canonical path
   std::map<std::string, Input*> spellings;  // asking again costs no look at the disk
   std::vector<fs::path> order;
@@ -65,29 +67,34 @@ struct InputFiles::Shared {
 InputFiles::InputFiles() : shared_(std::make_shared<Shared>()) {}
 
 const std::string& InputFiles::Read(const fs::path& file, std::uintmax_t most_bytes) const {
+  const std::lock_guard alone(shared_->mutex);
   return shared_->Bytes(file, most_bytes);
 }
 
 std::string InputFiles::ReadStart(const fs::path& file, std::size_t count,
                                   std::uintmax_t most_bytes) const {
+  const std::lock_guard alone(shared_->mutex);
   const Shared::Input& input = shared_->At(file);
   if (input.bytes) return input.bytes->substr(0, count);
   return ReadStartOfFile(input.copy.empty() ? file : input.copy, count, most_bytes);
 }
 
 std::string InputFiles::WhyUnreadable(const fs::path& file, std::uintmax_t most_bytes) const {
+  const std::lock_guard alone(shared_->mutex);
   const Shared::Input& input = shared_->At(file);
   if (input.bytes && input.bytes->size() <= most_bytes) return "";
   return floorproof::WhyUnreadable(input.copy.empty() ? file : input.copy, most_bytes);
 }
 
 const std::string& InputFiles::Sha256(const fs::path& file) const {
+  const std::lock_guard alone(shared_->mutex);
   const Shared::Input& input = shared_->At(file);
   if (input.sha256.empty()) shared_->Bytes(file, kAnySize);
   return input.sha256;
 }
 
 std::uintmax_t InputFiles::Size(const fs::path& file) const {
+  const std::lock_guard alone(shared_->mutex);
   const Shared::Input& input = shared_->At(file);
   if (input.bytes) return input.bytes->size();
   const fs::path& read = input.copy.empty() ? file : input.copy;
@@ -99,14 +106,19 @@ std::uintmax_t InputFiles::Size(const fs::path& file) const {
 
 void InputFiles::StandIn(const fs::path& file, const std::string& sha256,
                          const fs::path& copy) const {
+  const std::lock_guard alone(shared_->mutex);
   Shared::Input& input = shared_->At(file);
   input.sha256 = sha256;
   input.copy = copy;
 }
 
-bool InputFiles::HasStandIn(const fs::path& file) const { return !shared_->At(file).copy.empty(); }
+bool InputFiles::HasStandIn(const fs::path& file) const {
+  const std::lock_guard alone(shared_->mutex);
+  return !shared_->At(file).copy.empty();
+}
 
 std::vector<fs::path> InputFiles::StoodIn() const {
+  const std::lock_guard alone(shared_->mutex);
   std::vector<fs::path> files;
   for (const auto& [path, input] : shared_->inputs)
     if (!input.copy.empty()) files.push_back(path);
@@ -114,6 +126,7 @@ std::vector<fs::path> InputFiles::StoodIn() const {
 }
 
 void InputFiles::Hold(const fs::path& file, const std::string& bytes) const {
+  const std::lock_guard alone(shared_->mutex);
   Shared::Input& input = shared_->At(file);
   if (!input.bytes) shared_->order.push_back(input.named);
   input.bytes = bytes;
@@ -121,17 +134,27 @@ void InputFiles::Hold(const fs::path& file, const std::string& bytes) const {
 }
 
 std::vector<std::pair<std::string, std::string>> InputFiles::Named() const {
+  const std::lock_guard alone(shared_->mutex);
   std::vector<std::pair<std::string, std::string>> named;
   for (const auto& [name, input] : shared_->spellings)
     if (input->bytes) named.emplace_back(name, *input->bytes);
   return named;
 }
 
-void InputFiles::MarkAbsolute(const fs::path& file) const { shared_->At(file).absolute = true; }
+void InputFiles::MarkAbsolute(const fs::path& file) const {
+  const std::lock_guard alone(shared_->mutex);
+  shared_->At(file).absolute = true;
+}
 
-bool InputFiles::IsAbsolute(const fs::path& file) const { return shared_->At(file).absolute; }
+bool InputFiles::IsAbsolute(const fs::path& file) const {
+  const std::lock_guard alone(shared_->mutex);
+  return shared_->At(file).absolute;
+}
 
-std::vector<fs::path> InputFiles::All() const { return shared_->order; }
+std::vector<fs::path> InputFiles::All() const {
+  const std::lock_guard alone(shared_->mutex);
+  return shared_->order;
+}
 
 fs::path KeptCopy(const fs::path& folder, const std::string& sha256) {
   return folder / "inputs" / sha256;

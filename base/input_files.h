@@ -3,7 +3,7 @@
 // whatever has become of the file. So the hundredth episode is of the inputs of the first, and what
 // was read can be named by its SHA-256 and kept.
 //
-// Values are handles: copies share what was read. Not for several threads at a time.
+// Values are handles: copies share what was read, from several threads too.
 #pragma once
 
 #include <cstdint>

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,39 +24,59 @@ struct PluginEntry {
   std::unique_ptr<T> (*make)();
 };
 
-// A plug-in of the program that holds this one as a library.
+// Plug-ins of the program that holds this one as a library, in the order in which they came.
+// Several threads may ask and add at a time.
 template <class T>
-struct GuestPlugin {
-  std::string name;
-  std::function<std::unique_ptr<T>()> make;
+class GuestPlugins {
+ public:
+  using Make = std::function<std::unique_ptr<T>()>;
+
+  // Adds one, in place of one that has its name. Throws InputError where `table` has that name.
+  static void Add(std::span<const PluginEntry<T>> table, const std::string& name, Make make) {
+    for (const auto& entry : table)
+      if (entry.name == name)
+        throw InputError({}, "name", name, "is built in; a plug-in needs a name of its own");
+    auto added = std::make_shared<const Make>(std::move(make));
+    Kept& kept = Get();
+    const std::lock_guard alone(kept.mutex);
+    const auto there = std::ranges::find(kept.guests, name, &Guest::first);
+    if (there == kept.guests.end())
+      kept.guests.emplace_back(name, std::move(added));
+    else
+      std::swap(there->second, added);  // the former goes behind the lock, if nobody makes one now
+  }
+  // nullptr: there is none. It may be replaced while it is called.
+  static std::shared_ptr<const Make> Find(std::string_view name) {
+    Kept& kept = Get();
+    const std::lock_guard alone(kept.mutex);
+    const auto there = std::ranges::find(kept.guests, name, &Guest::first);
+    return there == kept.guests.end() ? nullptr : there->second;
+  }
+  static std::vector<std::string> Names() {
+    Kept& kept = Get();
+    const std::lock_guard alone(kept.mutex);
+    std::vector<std::string> names;
+    for (const Guest& guest : kept.guests) names.push_back(guest.first);
+    return names;
+  }
+
+ private:
+  using Guest = std::pair<std::string, std::shared_ptr<const Make>>;
+  struct Kept {
+    std::mutex mutex;
+    std::vector<Guest> guests;
+  };
+  static Kept& Get() {
+    static auto& kept = *new Kept;  // what they hold may be gone at the end
+    return kept;
+  }
 };
-
-// In the order in which they came. Not for several threads at a time.
-template <class T>
-std::vector<GuestPlugin<T>>& GuestPlugins() {
-  static auto& guests = *new std::vector<GuestPlugin<T>>;  // what they hold may be gone at the end
-  return guests;
-}
-
-// Adds a guest, in place of one that has its name. Throws InputError where `table` has that name.
-template <class T>
-void AddGuestPlugin(std::span<const PluginEntry<T>> table, GuestPlugin<T> guest) {
-  for (const auto& entry : table)
-    if (entry.name == guest.name)
-      throw InputError({}, "name", guest.name, "is built in; a plug-in needs a name of its own");
-  auto& guests = GuestPlugins<T>();
-  const auto there = std::ranges::find(guests, guest.name, &GuestPlugin<T>::name);
-  if (there == guests.end())
-    guests.push_back(std::move(guest));
-  else
-    *there = std::move(guest);
-}
 
 template <class T>
 std::vector<std::string> PluginNames(std::span<const PluginEntry<T>> table) {
   std::vector<std::string> names;
   for (const auto& entry : table) names.emplace_back(entry.name);
-  for (const auto& guest : GuestPlugins<T>()) names.push_back(guest.name);
+  for (std::string& guest : GuestPlugins<T>::Names()) names.push_back(std::move(guest));
   return names;
 }
 
@@ -67,8 +88,7 @@ std::unique_ptr<T> MakePlugin(std::span<const PluginEntry<T>> table, std::string
                               const std::vector<std::string>& others = {}) {
   for (const auto& entry : table)
     if (entry.name == name) return entry.make();
-  for (const auto& guest : GuestPlugins<T>())
-    if (guest.name == name) return guest.make();
+  if (const auto guest = GuestPlugins<T>::Find(name)) return (*guest)();
   auto names = PluginNames(table);
   names.insert(names.end(), others.begin(), others.end());
   throw InputError(mark, key, name, "unknown" + DidYouMeanOneOf(name, names));

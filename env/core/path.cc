@@ -3,6 +3,15 @@
 
 namespace floorproof {
 
+Path FromStart(Path path, const Vec2& start_W) {
+  if ((path.front().p_W - start_W).norm() > 1e-6) {
+    Waypoint first;
+    first.p_W = start_W;
+    path.insert(path.begin(), first);
+  }
+  return path;
+}
+
 double Length(const Path& path) {
   double length_m = 0;
   for (std::size_t i = 1; i < path.size(); ++i) length_m += (path[i].p_W - path[i - 1].p_W).norm();

@@ -32,6 +32,9 @@ struct Waypoint {
 
 using Path = std::vector<Waypoint>;
 
+// A plan that need not begin where the robot stands: the way there first, from this place, p_W.
+Path FromStart(Path path, const Vec2& start_W);
+
 double Length(const Path& path);  // m
 // Corners sharper than 10 degrees, zero-length segments passed over.
 int CountTurns(const Path& path);

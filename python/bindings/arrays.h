@@ -11,6 +11,7 @@
 
 #include "env/core/path.h"
 #include "env/geometry/grid.h"
+#include "env/known/known_map.h"
 #include "python/bindings/host.h"
 
 namespace floorproof {
@@ -41,6 +42,9 @@ inline nb::ndarray<nb::numpy, bool> MaskArray(const Grid<std::uint8_t>& mask) {
   return nb::ndarray<nb::numpy, bool>(
       kept, {static_cast<std::size_t>(mask.height), static_cast<std::size_t>(mask.width)}, owner);
 }
+
+// Of a map that a robot has drawn: 0 free, 1 occupied, 2 unknown.
+nb::ndarray<nb::numpy, std::uint8_t> KnownArray(const KnownMap& known);
 
 using Rows = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 

@@ -11,9 +11,10 @@
 
 namespace floorproof {
 
-// GL and the codecs are of the process: one picture at a time.
-inline std::mutex& Drawing() {
-  static std::mutex drawing;
+// GL and the codecs are of the process: one picture at a time. (A plug-in may draw within a drive
+// that leaves pictures.)
+inline std::recursive_mutex& Drawing() {
+  static std::recursive_mutex drawing;
   return drawing;
 }
 

@@ -10,6 +10,7 @@
 #include "base/interrupt.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/describe.h"
+#include "python/bindings/drawing.h"
 #include "python/bindings/host.h"
 #include "python/bindings/modules.h"
 #include "report/drive_and_film.h"
@@ -85,10 +86,30 @@ class Observer final : public EpisodeObserver {
   std::optional<ProgressObserver> recorder_;
 };
 
+// A plan can be driven where it was made, or where all that it rests on is the same.
+void RequireOwn(const Scenario& s, const Planned& planned) {
+  const Scenario& of = *planned.scenario;
+  const auto refuse = [&](const std::string& what) {
+    throw InputError({s.file.string(), 0}, "plan", "", "is of another scenario: its " + what);
+  };
+  const GridFrame &a = s.site.map.frame, &b = of.site.map.frame;
+  if (a.width != b.width || a.height != b.height || a.cell_m != b.cell_m ||
+      a.X_WG.x_m != b.X_WG.x_m || a.X_WG.y_m != b.X_WG.y_m || a.X_WG.yaw_rad != b.X_WG.yaw_rad)
+    refuse("map lies elsewhere");
+  if (s.robot_file != of.robot_file) refuse("robot is " + of.robot_name + ", not " + s.robot_name);
+  if (s.episode.drive != of.episode.drive)
+    refuse("drive is " + of.episode.drive + ", not " + s.episode.drive);
+  if (planned.plan.status == PlanStatus::kOnline && s.planner_name != of.planner_name)
+    refuse("planner, " + of.planner_name + ", plans on the way");
+  if (s.online && planned.plan.status != PlanStatus::kOnline)
+    refuse("plan was made beforehand, and " + s.planner_name + " plans on the way");
+}
+
 // With `planned`, that plan is driven; else one is made.
 std::shared_ptr<Driven> Run(const std::shared_ptr<Scenario>& scenario,
                             const std::shared_ptr<Planned>& planned, nb::object progress,
                             nb::object each, int every, bool record) {
+  if (planned) RequireOwn(*scenario, *planned);
   Observer observer(*scenario, std::move(progress), std::move(each), std::max(1, every), record);
   auto driven = WithoutGil([&] {
     auto out = std::make_shared<Driven>();
@@ -114,6 +135,7 @@ std::shared_ptr<Driven> RunInto(const std::shared_ptr<Scenario>& scenario, const
   };
   auto made = WithoutGil([&] {
     if (say.is_none()) WarnOfProgram(*scenario);  // else it is among the lines
+    const std::lock_guard alone(Drawing());       // it ends with pictures
     DriveResult result =
         DriveAndFilm(*scenario, folder, {.video = video, .observer = &observer}, console);
     if (result.not_written) std::rethrow_exception(result.not_written);
@@ -172,13 +194,8 @@ nb::dict Maps(const Driven& d) {
     out["sweepable"] = MaskArray(record.sweepable);
   }
   if (record.known) {
-    const KnownMap& known = *record.known;
-    Grid<std::uint8_t> states(known.frame.width, known.frame.height);
-    for (int iy = 0; iy < states.height; ++iy)
-      for (int ix = 0; ix < states.width; ++ix)
-        states(ix, iy) = static_cast<std::uint8_t>(known.At(ix, iy));
-    out["known_frame"] = FrameDict(known.frame);
-    out["known"] = GridArray<std::uint8_t>(states);
+    out["known_frame"] = FrameDict(record.known->frame);
+    out["known"] = KnownArray(*record.known);
   }
   return out;
 }

@@ -3,9 +3,12 @@
 
 #include <floorproof/version.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "base/file_output.h"
@@ -23,30 +26,67 @@ using Clock = std::chrono::steady_clock;
 // They live as long as the interpreter.
 PyObject* g_input_error = nullptr;
 PyObject* g_internal_error = nullptr;
-// What Python raised below the error that is on its way, or nullptr. Guarded by the GIL.
-PyObject* g_cause = nullptr;
 
-// Raises `type` with the text and, as its cause, what Python raised below.
-void Raise(PyObject* type, const char* text) {
-  PyErr_SetString(type, Printable(text).c_str());
-  if (g_cause == nullptr) return;
-  PyObject *kind = nullptr, *value = nullptr, *trace = nullptr;
-  PyErr_Fetch(&kind, &value, &trace);
-  PyErr_NormalizeException(&kind, &value, &trace);
-  PyException_SetCause(value, std::exchange(g_cause, nullptr));  // takes the reference
-  PyErr_Restore(kind, value, trace);
+// What Python raised, kept by whoever carries it through C++; it may be dropped without the GIL.
+class Raised {
+ public:
+  explicit Raised(PyObject* exception) : exception_(exception) {}  // takes the reference
+  ~Raised() {
+    if (!Py_IsInitialized()) return;
+    const nb::gil_scoped_acquire held;
+    Py_DECREF(exception_);
+  }
+  Raised(const Raised&) = delete;
+  Raised& operator=(const Raised&) = delete;
+  PyObject* New() const { return Py_NewRef(exception_); }
+
+ private:
+  PyObject* exception_;
+};
+
+// An InternalError with what Python raised below it as its cause.
+class RaisedError : public InternalError {
+ public:
+  RaisedError(const std::string& text, std::shared_ptr<Raised> cause)
+      : InternalError(text), cause_(std::move(cause)) {}
+  const Raised& cause() const { return *cause_; }
+
+ private:
+  std::shared_ptr<Raised> cause_;
+};
+
+// What ended this thread's call: KeyboardInterrupt, or what else a signal's handler raised.
+thread_local std::shared_ptr<Raised> t_interruption;
+
+void Raise(PyObject* type, const char* text, const RaisedError* from = nullptr) {
+  const std::string said = Printable(text);
+  PyObject* words =
+      PyUnicode_DecodeUTF8(said.data(), static_cast<Py_ssize_t>(said.size()), "backslashreplace");
+  PyObject* error = words == nullptr ? nullptr : PyObject_CallOneArg(type, words);
+  Py_XDECREF(words);
+  if (error == nullptr) return;  // that is raised
+  if (from != nullptr) PyException_SetCause(error, from->cause().New());
+  PyErr_SetObject(type, error);
+  Py_DECREF(error);
 }
 
 void Translate(const std::exception_ptr& thrown, void*) {
   try {
     std::rethrow_exception(thrown);
   } catch (const Interruption&) {
-    Py_CLEAR(g_cause);
-    PyErr_SetNone(PyExc_KeyboardInterrupt);
+    if (const auto raised = std::exchange(t_interruption, nullptr)) {
+      PyObject* error = raised->New();
+      PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(error)), error);
+      Py_DECREF(error);
+    } else {
+      PyErr_SetNone(PyExc_KeyboardInterrupt);
+    }
   } catch (const InputError& e) {
     Raise(g_input_error, e.what());
   } catch (const std::filesystem::filesystem_error& e) {
     Raise(IsOfTheDisk(e.code()) ? g_internal_error : g_input_error, e.what());
+  } catch (const RaisedError& e) {
+    Raise(g_internal_error, e.what(), &e);
   } catch (const InternalError& e) {
     Raise(g_internal_error, e.what());
   }
@@ -59,21 +99,44 @@ PyObject* NewException(nb::module_& m, const char* name, const char* doc, PyObje
   return made;
 }
 
-// "ZeroDivisionError: division by zero (zigzag.py:12)": the innermost line that is the user's.
-std::string Said(const nb::python_error& raised) {
-  std::string text = nb::cast<std::string>(raised.type().attr("__name__"));
-  if (const auto what = nb::cast<std::string>(nb::str(raised.value())); !what.empty())
-    text += ": " + what;
+// As UTF-8, whatever it holds.
+std::string Utf8(PyObject* text) {
+  const auto bytes = nb::steal(PyUnicode_AsEncodedString(text, "utf-8", "backslashreplace"));
+  if (!bytes.is_valid()) throw nb::python_error();
+  return std::string(PyBytes_AsString(bytes.ptr()));
+}
+
+// What `say` makes; "" where that raises in its turn.
+template <class Say>
+std::string Try(const Say& say) {
+  try {
+    return say();
+  } catch (nb::python_error&) {
+    return "";
+  } catch (const nb::cast_error&) {
+    return "";
+  }
+}
+
+// " (zigzag.py:12)": the innermost line that is the user's.
+std::string Place(nb::object at) {
   std::string place;
-  for (nb::object at = raised.traceback(); at.is_valid() && !at.is_none();
-       at = at.attr("tb_next")) {
+  for (; at.is_valid() && !at.is_none(); at = at.attr("tb_next")) {
     const nb::object code = at.attr("tb_frame").attr("f_code");
-    const std::filesystem::path file(nb::cast<std::string>(code.attr("co_filename")));
+    const std::filesystem::path file(Utf8(nb::object(code.attr("co_filename")).ptr()));
     if (file.parent_path().filename() == "floorproof") continue;
     place = " (" + file.filename().string() + ":" +
             std::to_string(nb::cast<int>(at.attr("tb_lineno"))) + ")";
   }
-  return text + place;
+  return place;
+}
+
+// "ZeroDivisionError: division by zero (zigzag.py:12)".
+std::string Said(const nb::python_error& raised) {
+  std::string what = Try([&] { return Utf8(nb::str(raised.value()).ptr()); });
+  std::ranges::replace(what, '\n', ' ');
+  return Try([&] { return Utf8(nb::object(raised.type().attr("__name__")).ptr()); }) +
+         (what.empty() ? "" : ": " + what) + Try([&] { return Place(raised.traceback()); });
 }
 
 // --- Ctrl-C ---
@@ -82,8 +145,8 @@ thread_local Clock::time_point t_asked;
 thread_local int t_calls = 0;  // a plug-in may call into this module again
 thread_local bool t_interrupted = false;
 
-// Python's own handler has noted the signal; asking runs it, on the main thread. What it raises
-// (KeyboardInterrupt, mostly) is raised anew where the call ends.
+// Python's own handler has noted the signal; asking runs it, on the main thread. What it raises,
+// KeyboardInterrupt mostly, is raised anew where the call ends.
 bool PythonInterrupted() {
   constexpr auto kOften = std::chrono::milliseconds(20);
   const auto now = Clock::now();
@@ -91,7 +154,8 @@ bool PythonInterrupted() {
   t_asked = now;
   const nb::gil_scoped_acquire held;
   if (PyErr_CheckSignals() != 0) {
-    PyErr_Clear();
+    const nb::python_error raised;
+    t_interruption = std::make_shared<Raised>(Py_NewRef(raised.value().ptr()));
     t_interrupted = true;
   }
   return t_interrupted;
@@ -120,17 +184,19 @@ void InChild() {
 }  // namespace
 
 void ThrowRaised(const std::string& who, nb::python_error& raised) {
-  if (raised.matches(PyExc_KeyboardInterrupt)) {
+  auto exception = std::make_shared<Raised>(Py_NewRef(raised.value().ptr()));
+  if (raised.matches(PyExc_KeyboardInterrupt) || raised.matches(PyExc_SystemExit)) {
+    t_interruption = std::move(exception);
     t_interrupted = true;
     throw Interruption();
   }
-  const std::string said = Said(raised);
-  Py_XDECREF(std::exchange(g_cause, raised.value().inc_ref().ptr()));
-  throw InternalError(who + " raised " + said);
+  throw RaisedError(who + " raised " + Said(raised), std::move(exception));
 }
 
 Call::Call() {
-  if (t_calls++ == 0) t_interrupted = false;
+  if (t_calls++ > 0) return;
+  t_interrupted = false;
+  t_interruption.reset();
 }
 
 Call::~Call() { --t_calls; }

@@ -12,7 +12,9 @@ NB_MODULE(_core, m) {
   BindScenario(m);
   BindEpisode(m);
   BindPictures(m);
-  BindPlugins(m);
+  BindPlannerPlugins(m);
+  BindOnlinePlugins(m);
+  BindTrackerPlugins(m);
   BindCampaign(m);
   BindStepped(m);
 }

@@ -32,7 +32,9 @@ struct Planned {
 void BindScenario(nb::module_& m);
 void BindEpisode(nb::module_& m);
 void BindPictures(nb::module_& m);
-void BindPlugins(nb::module_& m);
+void BindPlannerPlugins(nb::module_& m);
+void BindOnlinePlugins(nb::module_& m);
+void BindTrackerPlugins(nb::module_& m);
 void BindCampaign(nb::module_& m);
 void BindStepped(nb::module_& m);
 

@@ -96,10 +96,15 @@ auto Keep(const char* missing, const Write& write) {
   }
 }
 
+constexpr int kMostJobs = 1024;
+
 void CheckRequest(const CampaignRequest& request) {
   if (request.episodes == 0) throw InputError({"-n", 0}, "", "0", "must be at least 1");
-  if (request.jobs < 1)
-    throw InputError({"--jobs", 0}, "", std::to_string(request.jobs), "must be at least 1");
+  if (request.jobs < 1 || request.jobs > kMostJobs)
+    throw InputError({"--jobs", 0}, "", std::to_string(request.jobs),
+                     fmt::format("must be in [1, {}]", kMostJobs));
+  if (request.time_limit_s && !(*request.time_limit_s > 0))
+    throw InputError({"--time-limit", 0}, "", FormatDouble(*request.time_limit_s), "must be > 0");
   if (!request.shard) return;
   const auto [begin, end] = *request.shard;
   const auto refuse = [begin = begin, end = end](const char* rule) {

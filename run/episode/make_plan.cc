@@ -14,17 +14,6 @@ std::uint64_t PlanSeed(const Scenario& s) { return EpisodeStream(s, "plan").Next
 
 namespace {
 
-// A plan that is not ours need not begin where the robot stands: it drives there first, and is
-// judged on the way as on any other.
-Path FromStart(Path path, const Pose2& start) {
-  if ((path.front().p_W - start.p()).norm() > 1e-6) {
-    Waypoint first;
-    first.p_W = start.p();
-    path.insert(path.begin(), first);
-  }
-  return path;
-}
-
 PlanResult NotOurs(const Scenario& s, const PlanRequest& request) {
   PlanResult plan;
   Path path = s.user_plan;
@@ -34,7 +23,7 @@ PlanResult NotOurs(const Scenario& s, const PlanRequest& request) {
     plan.message = std::move(answer.failure);
   }
   if (path.empty()) return plan;
-  plan.path = FromStart(std::move(path), s.start);
+  plan.path = FromStart(std::move(path), s.start.p());
   plan.status = PlanStatus::kSuccess;
   return plan;
 }

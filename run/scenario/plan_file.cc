@@ -75,11 +75,8 @@ Waypoint ReadRow(const std::vector<std::string>& header, const std::vector<std::
     if (name == "x_m") w.p_W.x() = AsDouble(node, name);
     if (name == "y_m") w.p_W.y() = AsDouble(node, name);
     if (name == "yaw_rad") w.yaw_rad = AsDouble(node, name);
-    if (name == "speed_mps") w.speed_mps = AsDouble(node, name, NonNegative());
-    if (w.speed_mps > 0 && w.speed_mps < kSlowest_mps)
-      throw InputError(mark, name, cells[i],
-                       "must be at least " + FormatDouble(kSlowest_mps) + " (empty: cruise speed)");
-    if (name == "dwell_s") w.dwell_s = AsDouble(node, name, Between(0, kLongestDwell_s));
+    if (name == "speed_mps") w.speed_mps = AsDouble(node, name);
+    if (name == "dwell_s") w.dwell_s = AsDouble(node, name);
   }
   return w;
 }
@@ -108,14 +105,7 @@ Path ReadRows(const std::filesystem::path& file, const GridFrame& map,
                        "has " + std::to_string(cells.size()) + " columns, the first row " +
                            std::to_string(header.size()));
     const Waypoint w = ReadRow(header, cells, mark);
-    if (!map.Inside(map.ToCell(w.p_W)))
-      throw InputError(mark, "x_m, y_m", FormatDouble(w.p_W.x()) + ", " + FormatDouble(w.p_W.y()),
-                       "lies off the map");
-    dwell_s += w.dwell_s;
-    if (dwell_s > kLongestDwell_s)
-      throw InputError(
-          mark, "dwell_s", FormatDouble(w.dwell_s),
-          fmt::format("makes more than {:.0f} s together with those above", kLongestDwell_s));
+    CheckWaypoint(w, map, mark, dwell_s);
     path.push_back(w);
     if (lines) lines->push_back(number);
   }
@@ -125,6 +115,29 @@ Path ReadRows(const std::filesystem::path& file, const GridFrame& map,
 }
 
 }  // namespace
+
+void CheckWaypoint(const Waypoint& w, const GridFrame& map, const SourceMark& mark,
+                   double& dwell_s) {
+  const auto require = [&](const char* name, double value, const Bounds& rule = {}) {
+    if (!rule.Allows(value)) throw InputError(mark, name, FormatDouble(value), rule.Text());
+  };
+  require("x_m", w.p_W.x());
+  require("y_m", w.p_W.y());
+  if (w.yaw_rad) require("yaw_rad", *w.yaw_rad);
+  require("speed_mps", w.speed_mps, NonNegative());
+  if (w.speed_mps > 0 && w.speed_mps < kSlowest_mps)
+    throw InputError(mark, "speed_mps", FormatDouble(w.speed_mps),
+                     "must be at least " + FormatDouble(kSlowest_mps) + " (none: cruise speed)");
+  require("dwell_s", w.dwell_s, Between(0, kLongestDwell_s));
+  if (!map.Inside(map.ToCell(w.p_W)))
+    throw InputError(mark, "x_m, y_m", FormatDouble(w.p_W.x()) + ", " + FormatDouble(w.p_W.y()),
+                     "lies off the map");
+  dwell_s += w.dwell_s;
+  if (dwell_s > kLongestDwell_s)
+    throw InputError(
+        mark, "dwell_s", FormatDouble(w.dwell_s),
+        fmt::format("makes more than {:.0f} s together with those above", kLongestDwell_s));
+}
 
 Path ReadPlan(const std::filesystem::path& file, const GridFrame& map, std::vector<int>* lines,
               const InputFiles& files) {

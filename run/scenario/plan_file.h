@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "base/input_files.h"
 #include "env/core/hazard_map.h"
 #include "env/core/path.h"
@@ -19,6 +20,11 @@ namespace floorproof {
 // the line of each waypoint.
 Path ReadPlan(const std::filesystem::path& file, const GridFrame& map,
               std::vector<int>* lines = nullptr, const InputFiles& files = {});
+// What ReadPlan asks of each waypoint, for who takes a plan in another form: finite numbers, on the
+// map, no speed or dwell with which a drive has no end. `dwell_s`: of those before; this one's is
+// added. Throws InputError at `mark`.
+void CheckWaypoint(const Waypoint& waypoint, const GridFrame& map, const SourceMark& mark,
+                   double& dwell_s);
 std::string PlanCsv(const Path& path);
 
 // Columns x_m, y_m alone. Throws InputError as ReadPlan does, and for two places in one of the
