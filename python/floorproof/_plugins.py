@@ -13,12 +13,14 @@ Parameters with defaults are keys of the scenario: checked, documented and recor
 from __future__ import annotations
 
 import inspect
+import math
 from types import SimpleNamespace
 from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple
 
 import numpy as np
 
 from . import _core
+from ._core import InputError
 from ._results import Frame, Hazard, Pose, frame_of
 from ._watchdog import limited
 
@@ -35,33 +37,52 @@ def _row(name: str, default: Any, help_: str = "") -> Tuple[str, Any, str]:
     return (name, default, help_)
 
 
-class _Wrapped:
-    """What the C++ side calls: parameters, promises, and the user's own object."""
+def _checked_timeout_s(value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 < value < math.inf:
+        raise InputError(f"timeout_s = {value}: must be > 0 and finite (s)")
+    return float(value)
 
-    def __init__(self, made: Any, params: Dict[str, Any], promises: Mapping[str, Any],
-                 timeout_s: float) -> None:
-        self._made, self._params, self._promises = made, dict(params), promises
-        self._params["timeout_s"] = timeout_s
+
+class _Wrapped:
+    """What the C++ side calls: parameters, promises, and the user's own object or function."""
+
+    def __init__(self, made: Any, is_object: bool, params: Mapping[str, Any],
+                 promises: Mapping[str, Any]) -> None:
+        self._made, self._is_object, self._promises = made, is_object, promises
+        self._params: Dict[str, Any] = {}
+        self._timeout_s = _checked_timeout_s(promises["timeout_s"])
+        # The defaults too, as they are what is recorded: a constructor may have set others.
+        for name, value in params.items():
+            self._give(name, value)
 
     def params(self) -> List[Tuple[str, Any, str]]:
-        rows = [_row(n, v) for n, v in self._params.items() if n != "timeout_s"]
-        rows.append(("timeout_s", float(self._params["timeout_s"]),
-                     "wall time that a call may take (s)"))
+        rows = [_row(n, v) for n, v in self._params.items()]
+        rows.append(("timeout_s", self._timeout_s, "wall time that a call may take (s)"))
         return rows
 
     def set(self, name: str, value: Any) -> None:
-        self._params[name] = value
-        if name != "timeout_s" and not inspect.isfunction(self._made):
-            setattr(self._made, name, value)
+        if name == "timeout_s":
+            self._timeout_s = _checked_timeout_s(value)
+        else:
+            self._give(name, value)
 
     def promises(self) -> Mapping[str, Any]:
         return self._promises
 
-    def _call(self, what: Callable[..., Any], *args: Any, **named: Any) -> Any:
-        return limited(self._params["timeout_s"], what, *args, **named)
+    def _give(self, name: str, value: Any) -> None:
+        self._params[name] = value
+        if self._is_object:
+            setattr(self._made, name, value)
 
-    def _own(self) -> Dict[str, Any]:
-        return {n: v for n, v in self._params.items() if n != "timeout_s"}
+    def _ask(self, method: str, *args: Any) -> Any:
+        """Calls the object's method, or the function with its parameters."""
+        if self._is_object:
+            return limited(self._timeout_s, getattr(self._made, method), *args)
+        return limited(self._timeout_s, self._made, *args, **self._params)
+
+    def _tell_start(self, *args: Any) -> None:
+        if self._is_object and hasattr(self._made, "start"):
+            self._ask("start", *args)
 
 
 class Request(SimpleNamespace):
@@ -83,11 +104,7 @@ def _request(about: Mapping[str, Any]) -> Request:
 
 class _Planner(_Wrapped):
     def plan(self, about: Mapping[str, Any]) -> Tuple[Optional[np.ndarray], str]:
-        request = _request(about)
-        if inspect.isfunction(self._made):
-            answer = self._call(self._made, request, **self._own())
-        else:
-            answer = self._call(self._made.plan, request)
+        answer = self._ask("plan", _request(about))
         if answer is None:
             return None, "the planner found no plan"
         if isinstance(answer, str):
@@ -131,11 +148,10 @@ class _OnlinePlanner(_Wrapped):
     def start(self, about: Mapping[str, Any]) -> None:
         named = dict(about)
         named["frame"] = frame_of(named["frame"])
-        if hasattr(self._made, "start"):
-            self._call(self._made.start, Task(**named))
+        self._tell_start(Task(**named))
 
     def next(self, known: Any) -> Tuple[Optional[Tuple[float, float]], str, bool]:
-        answer = self._call(self._made.next, Known(known))
+        answer = self._ask("next", Known(known))
         if answer is None:
             return None, "all is covered that it knows of and can reach", True
         if isinstance(answer, str):
@@ -151,18 +167,12 @@ class Situation(SimpleNamespace):
 
 class _Tracker(_Wrapped):
     def start(self, path: np.ndarray, robot: Mapping[str, Any]) -> None:
-        if hasattr(self._made, "start"):
-            self._call(self._made.start, path, robot)
+        self._tell_start(path, robot)
 
     def update(self, t_s: float, pose: Any, twist: Any, segment: int, target: Any,
                speed_mps: float) -> Tuple[float, float, float]:
-        now = Situation(t_s=t_s, pose=pose, twist=twist, segment=segment, target=target,
-                        speed_mps=speed_mps)
-        if inspect.isfunction(self._made):
-            answer = self._call(self._made, now, **self._own())
-        else:
-            answer = self._call(self._made.update, now)
-        vx_mps, vy_mps, wz_radps = answer
+        vx_mps, vy_mps, wz_radps = self._ask("update", Situation(
+            t_s=t_s, pose=pose, twist=twist, segment=segment, target=target, speed_mps=speed_mps))
         return float(vx_mps), float(vy_mps), float(wz_radps)
 
 
@@ -192,10 +202,14 @@ def register(kind: str, name: str, made: Any, promises: Mapping[str, Any]) -> No
     params = _defaults(made, 1)
     for param, default in params.items():
         _row(param, default)
-    timeout_s = promises["timeout_s"]
+    if "timeout_s" in params:
+        raise TypeError("parameter timeout_s: every plug-in has that key already, its wall time; "
+                        "give yours another name")
+    _checked_timeout_s(promises["timeout_s"])
+    is_object = inspect.isclass(made)
 
     def make() -> Any:
-        return wrapper(made() if inspect.isclass(made) else made, params, promises, timeout_s)
+        return wrapper(made() if is_object else made, is_object, params, promises)
 
     tell(name, make)
     registered[kind, name] = (made, dict(promises))

@@ -109,6 +109,37 @@ def test_a_planner_that_hangs_is_ended(room):
         floorproof.load({**room, "plan": {"planner": "test_hangs", "timeout_s": 0.1}}).plan()
 
 
+def test_what_is_recorded_is_what_is_used(room):
+    @floorproof.planner("test_own_init")
+    class OwnInit:
+        way_m: float = 0.5
+
+        def __init__(self):
+            self.way_m = 1.5  # no key: the key's default is the class's
+
+        def plan(self, request):
+            return [request.start[:2], (request.start[0] + self.way_m, request.start[1])]
+
+    for plan, way_m in (({}, 0.5), ({"way_m": 0.5}, 0.5), ({"way_m": 0.75}, 0.75)):
+        scenario = floorproof.load({**room, "plan": {"planner": "test_own_init", **plan}})
+        assert scenario.plan().path[-1, 0] == 1 + way_m
+        assert f"way_m: {way_m}" in scenario.resolved()
+
+
+@pytest.mark.parametrize("timeout_s", [0, -1, math.nan, math.inf, "long", True])
+def test_a_limit_of_time_is_one(room, timeout_s):
+    with pytest.raises(floorproof.InputError, match="timeout_s = .*: must be > 0 and finite"):
+        floorproof.planner("test_limit", timeout_s=timeout_s)(lambda request: None)
+
+
+def test_a_scenarios_limit_of_time_is_one(room):
+    floorproof.planner("test_limit")(lambda request: None)
+    # What Python raises within the core is told by the core.
+    with pytest.raises((floorproof.InputError, floorproof.InternalError),
+                       match="timeout_s = -1.0: must be > 0 and finite"):
+        floorproof.load({**room, "plan": {"planner": "test_limit", "timeout_s": -1}})
+
+
 def test_names_and_parameters(room):
     with pytest.raises(floorproof.InputError, match="is built in"):
         floorproof.planner("spiral")(lambda request: None)
@@ -116,6 +147,8 @@ def test_names_and_parameters(room):
         floorproof.planner("test_x")(lambda request, gain: None)
     with pytest.raises(TypeError, match="must be a bool, int, float or str"):
         floorproof.planner("test_x")(lambda request, gain=None: None)
+    with pytest.raises(TypeError, match="parameter timeout_s: every plug-in has that key already"):
+        floorproof.planner("test_x")(lambda request, timeout_s=5.0: None)
 
 
 def test_a_planner_registered_again_is_the_new_one(room):
