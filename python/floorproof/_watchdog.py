@@ -10,7 +10,7 @@ import ctypes
 import os
 import threading
 import time
-from typing import Any, Callable, Dict
+from typing import Any, Callable, Dict, Optional
 
 _POLL_S = 0.05
 
@@ -19,9 +19,26 @@ class PluginTimeout(BaseException):
     """Of no Exception class: a plug-in that catches all errors must not catch it."""
 
 
-_deadlines: Dict[int, float] = {}  # by thread
-_watcher: Any = None
+class _Limit:
+    """Until when a call may go on; no longer than the one that it is made within."""
+
+    def __init__(self, limit_s: float, outer: Optional["_Limit"]) -> None:
+        self.until, self.limit_s = time.monotonic() + limit_s, limit_s
+        if outer is not None and outer.until < self.until:
+            self.until, self.limit_s = outer.until, outer.limit_s
+        self.outer = outer
+        self.sent = False  # its PluginTimeout is on its way, or has come
+
+
+_limits: Dict[int, _Limit] = {}  # the innermost one of each thread
+_watcher: Optional[threading.Thread] = None
 _lock = threading.Lock()
+
+
+def _send(thread: int, what: Optional[type]) -> None:
+    """None takes back what is on its way."""
+    raised = None if what is None else ctypes.py_object(what)
+    ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), raised)
 
 
 def _watch() -> None:
@@ -29,42 +46,55 @@ def _watch() -> None:
         time.sleep(_POLL_S)
         now = time.monotonic()
         with _lock:
-            late = [thread for thread, until in _deadlines.items() if now > until]
-            for thread in late:
-                del _deadlines[thread]
-                ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread),
-                                                           ctypes.py_object(PluginTimeout))
-
-
-def _start() -> None:
-    global _watcher
-    _watcher = threading.Thread(target=_watch, name="floorproof-watchdog", daemon=True)
-    _watcher.start()
+            for thread, limit in _limits.items():
+                if now > limit.until and not limit.sent:
+                    limit.sent = True
+                    _send(thread, PluginTimeout)
 
 
 def _after_fork() -> None:
     global _watcher, _lock
     _watcher, _lock = None, threading.Lock()
-    _deadlines.clear()
+    _limits.clear()
 
 
 os.register_at_fork(after_in_child=_after_fork)
 
 
-def limited(limit_s: float, call: Callable[..., Any], *args: Any, **named: Any) -> Any:
-    """call(...), ended with a TimeoutError when it takes longer than limit_s."""
-    thread = threading.get_ident()
-    outer = _deadlines.get(thread)
+def _enter(thread: int, limit: _Limit) -> None:
+    global _watcher
     with _lock:
         if _watcher is None:
-            _start()
-        _deadlines[thread] = time.monotonic() + limit_s
+            _watcher = threading.Thread(target=_watch, name="floorproof-watchdog", daemon=True)
+            _watcher.start()
+        _limits[thread] = limit
+
+
+def _leave(thread: int, limit: _Limit) -> None:
+    """May be cut short by PluginTimeout, and called again."""
+    with _lock:
+        if _limits.get(thread) is limit and limit.sent:
+            _send(thread, None)
+        if limit.outer is None:
+            _limits.pop(thread, None)
+        else:
+            _limits[thread] = limit.outer
+
+
+def limited(limit_s: float, call: Callable[..., Any], *args: Any, **named: Any) -> Any:
+    """call(...), ended with a TimeoutError when it takes longer than limit_s. Within a limited call
+    the outer limit holds, too."""
+    thread = threading.get_ident()
+    limit = _Limit(limit_s, _limits.get(thread))
     try:
-        return call(*args, **named)
+        try:
+            _enter(thread, limit)
+            return call(*args, **named)
+        finally:
+            _leave(thread, limit)
     except PluginTimeout:
-        raise TimeoutError(f"took more than {limit_s:g} s (timeout_s)") from None
-    finally:
-        with _lock:
-            _deadlines.pop(thread, None)
-            if outer is not None:
-                _deadlines[thread] = outer
+        # It comes once, between any two steps: maybe of the line above, which it cut short.
+        _leave(thread, limit)
+        if limit.outer is not None and limit.outer.sent:
+            raise  # the outer one's, which came when this call had ended
+        raise TimeoutError(f"took more than {limit.limit_s:g} s (timeout_s)") from None
