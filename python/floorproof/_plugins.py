@@ -25,6 +25,7 @@ from ._results import Frame, Hazard, Pose, frame_of
 from ._watchdog import limited
 
 _KINDS = (bool, int, float, str)
+_INT32 = range(-(1 << 31), 1 << 31)
 
 # What was registered here, by kind and name: what workers elsewhere must be given, too.
 registered: Dict[Tuple[str, str], Tuple[Any, Mapping[str, Any]]] = {}
@@ -34,6 +35,9 @@ def _row(name: str, default: Any, help_: str = "") -> Tuple[str, Any, str]:
     if not isinstance(default, _KINDS):
         raise TypeError(f"parameter {name} = {default!r}: its default must be a bool, int, float or "
                         "str")
+    if isinstance(default, int) and default not in _INT32:
+        raise TypeError(f"parameter {name} = {default}: a whole number must lie within 32 bits; "
+                        "make it a float or a str")
     return (name, default, help_)
 
 
@@ -176,37 +180,60 @@ class _Tracker(_Wrapped):
         return float(vx_mps), float(vy_mps), float(wz_radps)
 
 
-def _defaults(made: Any, skip: int) -> Dict[str, Any]:
-    if inspect.isclass(made):
-        annotated: Dict[str, Any] = {}
-        for base in reversed(made.__mro__):
-            for name in base.__dict__.get("__annotations__", {}):
-                if not name.startswith("_") and hasattr(made, name):
-                    annotated[name] = getattr(made, name)
-        return annotated
-    params = list(inspect.signature(made).parameters.values())[skip:]
-    missing = [p.name for p in params if p.default is p.empty]
-    if missing:
-        raise TypeError(f"parameter {missing[0]}: needs a default, which is the key's")
-    return {p.name: p.default for p in params}
+def _of_class(kind: str, made: Any, method: str) -> Dict[str, Any]:
+    """The parameters of a class: its annotated attributes."""
+    if not callable(getattr(made, method, None)):
+        raise TypeError(f"{made.__name__}: has no {method}(...), which the kind {kind} needs")
+    try:
+        inspect.signature(made).bind()
+    except ValueError:
+        pass  # not written in Python; it may well be made without arguments
+    except TypeError as error:
+        raise TypeError(f"{made.__name__}: must be made without arguments: {error}") from error
+    return {name: getattr(made, name) for base in reversed(made.__mro__)
+            for name in base.__dict__.get("__annotations__", {})
+            if not name.startswith("_") and hasattr(made, name)}
 
 
-_REGISTER = {"planner": (_Planner, _core.register_planner),
-             "online_planner": (_OnlinePlanner, _core.register_online_planner),
-             "tracker": (_Tracker, _core.register_tracker)}
+def _of_function(made: Any) -> Dict[str, Any]:
+    """The parameters of what is called as a function is: what follows its first."""
+    if not callable(made):
+        raise TypeError(f"{made!r}: must be a function or a class")
+    try:
+        first, *rest = inspect.signature(made).parameters.values()
+    except ValueError as error:  # what is written in C says nothing; one without any has no first
+        raise TypeError(f"{made!r}: must be a function of one argument (and parameters with "
+                        "defaults); wrap it in one") from error
+    if first.kind in (first.KEYWORD_ONLY, first.VAR_KEYWORD):
+        raise TypeError(f"{made!r}: must take its first argument by position")
+    for p in rest:
+        if p.kind not in (p.POSITIONAL_OR_KEYWORD, p.KEYWORD_ONLY):
+            raise TypeError(f"parameter {p}: must be one that is given by its name, the key's")
+        if p.default is p.empty:
+            raise TypeError(f"parameter {p.name}: needs a default, which is the key's")
+    return {p.name: p.default for p in rest}
+
+
+# By kind: the wrapper, the method of a class, and who is told.
+_REGISTER = {"planner": (_Planner, "plan", _core.register_planner),
+             "online_planner": (_OnlinePlanner, "next", _core.register_online_planner),
+             "tracker": (_Tracker, "update", _core.register_tracker)}
 
 
 def register(kind: str, name: str, made: Any, promises: Mapping[str, Any]) -> None:
-    """Makes `made`, a function or a class, the plug-in `name`."""
-    wrapper, tell = _REGISTER[kind]
-    params = _defaults(made, 1)
+    """Makes `made`, a class or what is called as a function is, the plug-in `name`. Throws TypeError
+    where it cannot be one."""
+    wrapper, method, tell = _REGISTER[kind]
+    is_object = inspect.isclass(made)
+    if not is_object and kind == "online_planner":
+        raise TypeError(f"{made!r}: must be a class with {method}(...)")
+    params = _of_class(kind, made, method) if is_object else _of_function(made)
     for param, default in params.items():
         _row(param, default)
     if "timeout_s" in params:
         raise TypeError("parameter timeout_s: every plug-in has that key already, its wall time; "
                         "give yours another name")
     _checked_timeout_s(promises["timeout_s"])
-    is_object = inspect.isclass(made)
 
     def make() -> Any:
         return wrapper(made() if is_object else made, is_object, params, promises)
@@ -217,10 +244,11 @@ def register(kind: str, name: str, made: Any, promises: Mapping[str, Any]) -> No
 
 def planner(name: str, *, needs_risk: bool = False, needs_goal: bool = False,
             uses_seed: bool = False, timeout_s: float = 60) -> Callable[[Any], Any]:
-    """Registers a planner of known floors: a function of a Request (and parameters with defaults),
-    or a class whose plan(request) is called. It returns a path ([n, 2] to [n, 5], see Plan.path), or
-    None or a sentence that says why there is none. `uses_seed`: its plan depends on request.seed, so
-    that each episode of a campaign is planned anew."""
+    """Registers a planner of known floors: a function of a Request (and parameters with defaults; a
+    partial or another callable will do), or a class whose plan(request) is called. It returns a path
+    ([n, 2] to [n, 5], see Plan.path), or None or a sentence that says why there is none.
+    `uses_seed`: its plan depends on request.seed, so that each episode of a campaign is planned
+    anew."""
     def decorate(made: Any) -> Any:
         register("planner", name, made, {"needs_risk": needs_risk, "needs_goal": needs_goal,
                                          "uses_seed": uses_seed, "timeout_s": timeout_s})

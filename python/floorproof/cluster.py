@@ -8,6 +8,7 @@ that is whole. So the files are those of a campaign on one machine, byte for byt
 """
 from __future__ import annotations
 
+import functools
 import hashlib
 import math
 import os
@@ -84,6 +85,8 @@ def _pickled_plugins(packed: Any) -> bytes:
             if any(at[1].encode() in word for word in words)}
     modules = []
     for made, _ in used.values():
+        while isinstance(made, functools.partial):
+            made = made.func
         module = sys.modules.get(made.__module__)
         where = getattr(module, "__file__", None) or ""
         if module is not None and module.__name__ != "__main__" and "site-packages" not in where:

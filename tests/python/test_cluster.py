@@ -2,6 +2,7 @@
 """Campaigns on a Ray cluster of several raylets: the bytes of one machine, whoever dies meanwhile."""
 from __future__ import annotations
 
+import functools
 import os
 import shutil
 import signal
@@ -248,6 +249,23 @@ def test_a_planner_that_raised_leaves_no_plan_behind(place: Path) -> None:
     bad = [scenario.episode(i).start[1] > 1 for i in range(12)]
     for episode in (bad.index(False), bad.index(True), bad.index(True)):
         assert ("not from here" in str(worker.answer(episode))) == bad[episode]
+
+
+def ahead(way_m: float, request: Any) -> Any:
+    return [request.start[:2], (request.start[0] + way_m, request.start[1])]
+
+
+def test_a_partial_travels_with_the_module_of_its_function(tmp_path: Path) -> None:
+    from floorproof import cluster
+    floorproof.planner("ahead_by")(functools.partial(ahead, 0.25))
+    scenario = floorproof.load(written(tmp_path / "there"), plan="ahead_by")
+    (tmp_path / "plugins").write_bytes(cluster._pickled_plugins(scenario._packed()))
+    # Elsewhere this module is not there to be imported.
+    code = ("import pickle, sys, types; (made, _), = pickle.load(open(sys.argv[1], 'rb')).values(); "
+            "print(made(types.SimpleNamespace(start=(1, 2, 0))))")
+    run = subprocess.run([sys.executable, "-c", code, tmp_path / "plugins"], cwd=tmp_path,
+                         capture_output=True, text=True, check=False)
+    assert run.stdout == "[(1, 2), (1.25, 2)]\n", run.stderr
 
 
 @pytest.mark.parametrize("option, text", [

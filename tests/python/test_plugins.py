@@ -2,6 +2,7 @@
 """Planners and trackers of one's own."""
 from __future__ import annotations
 
+import functools
 import math
 import time
 
@@ -149,6 +150,54 @@ def test_names_and_parameters(room):
         floorproof.planner("test_x")(lambda request, gain=None: None)
     with pytest.raises(TypeError, match="parameter timeout_s: every plug-in has that key already"):
         floorproof.planner("test_x")(lambda request, timeout_s=5.0: None)
+
+
+class Callable:
+    """Neither function nor class, but called as a function is."""
+
+    def __call__(self, request, way_m: float = 0.5):
+        x, y, _ = request.start
+        return [(x, y), (x + way_m, y)]
+
+
+@pytest.mark.parametrize("made", [
+    Callable(), Callable().__call__, functools.partial(Callable()),
+    functools.partial(lambda half, request, way_m=0.5: Callable()(request, half * way_m), 1),
+    lambda request, *, way_m=0.5: Callable()(request, way_m),
+    functools.partial(Callable(), way_m=0.5),
+])
+def test_what_is_called_as_a_function_is_one(room, made):
+    floorproof.planner("test_callable")(made)
+    for way_m in (0.5, 0.75):
+        plan = floorproof.load({**room, "plan": {"planner": "test_callable", "way_m": way_m}}).plan()
+        assert plan.path[-1, 0] == 1 + way_m
+
+
+class NeedsOne:
+    def __init__(self, one):
+        self.one = one
+
+    def plan(self, request):
+        return None
+
+
+@pytest.mark.parametrize("kind, made, says", [
+    ("planner", 7, "7: must be a function or a class"),
+    ("planner", NeedsOne(1), "must be a function or a class"),
+    ("planner", NeedsOne, "NeedsOne: must be made without arguments"),
+    ("planner", Callable, "Callable: has no plan"),
+    ("tracker", NeedsOne, "NeedsOne: has no update"),
+    ("online_planner", lambda known: None, "must be a class with next"),
+    ("planner", max, "must be a function of one argument"),
+    ("planner", lambda: None, "must be a function of one argument"),
+    ("planner", lambda *, request: None, "must take its first argument by position"),
+    ("planner", lambda request, *more: None, r"parameter \*more: must be one that is given by its n"),
+    ("planner", lambda request, **more: None, r"parameter \*\*more: must be one"),
+    ("planner", lambda request, n=3_000_000_000: None, "n = 3000000000: .* within 32 bits"),
+])
+def test_what_cannot_be_a_plug_in(kind, made, says):
+    with pytest.raises(TypeError, match=says):
+        getattr(floorproof, kind)("test_x")(made)
 
 
 def test_a_planner_registered_again_is_the_new_one(room):
