@@ -41,11 +41,32 @@ def _plain(value: Any) -> Any:
     raise InputError(f"{type(value).__name__} {value!r}: is nothing that YAML has")
 
 
+def _whole(text: str) -> str:
+    """The text, if all that it holds are characters: half a pair, say of a file's name, is none."""
+    try:
+        text.encode()
+    except UnicodeEncodeError as error:
+        around = text[max(0, error.start - 30):error.end + 10]
+        raise InputError(f"{ascii(around)}: a lone surrogate is no character of YAML") from error
+    return text
+
+
 def _text(value: Any) -> str:
-    """As YAML: JSON is a part of it. A word alone stands as one would type it: `none` is none."""
+    """As YAML: JSON is a part of it, but for surrogate pairs, so that characters stand as they are.
+    A word alone stands as one would type it: `none` is none."""
     if isinstance(value, str) and re.fullmatch(r"[a-z_]+", value) and value not in _NO_WORDS:
         return value
-    return json.dumps(value, default=_plain)
+    try:
+        return _whole(json.dumps(value, default=_plain, ensure_ascii=False))
+    except InputError:
+        raise
+    except (TypeError, ValueError, RecursionError) as error:  # odd keys, a dict within itself
+        raise InputError(f"{type(value).__name__}: is nothing that YAML has: {error}") from error
+
+
+def _overrides(changes: Optional[Mapping[str, Any]], top: Mapping[str, Any]) -> List[Tuple[str, str]]:
+    """Keys and their values, as --set takes them."""
+    return [(_whole(key), _text(value)) for key, value in {**(changes or {}), **top}.items()]
 
 
 class Site:
@@ -160,8 +181,7 @@ class Scenario:
     def with_(self, changes: Optional[Mapping[str, Any]] = None, **top: Any) -> "Scenario":
         """The same with keys set, as --set does: with_({"robot.clearance_m": 0.02}, seed=3)."""
         file, text, overrides, inputs = self._packed()
-        more = [(key, _text(value)) for key, value in {**(changes or {}), **top}.items()]
-        return Scenario((file, text, overrides + more, inputs))
+        return Scenario((file, text, overrides + _overrides(changes, top), inputs))
 
     def with_plan(self, path: Any) -> "Scenario":
         """The same with a plan of one's own: [n, 2] to [n, 5], columns as `Plan.path`."""
@@ -275,7 +295,7 @@ def load(source: Union[PathLike, Mapping[str, Any]], changes: Optional[Mapping[s
 
         load("scenario.yaml", {"site.floor.friction": 0.6}, seed=3)
     """
-    overrides = [(key, _text(value)) for key, value in {**(changes or {}), **top}.items()]
+    overrides = _overrides(changes, top)
     if isinstance(source, Mapping):
         return Scenario((Path(folder or "") / "scenario", _text(source), overrides, []))
     if folder is not None:

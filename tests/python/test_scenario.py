@@ -74,8 +74,43 @@ def test_errors_are_the_command_lines(command_line, tmp_path):
 def test_what_yaml_has_not_is_refused(room):
     with pytest.raises(floorproof.InputError, match="is nothing that YAML has"):
         floorproof.load({**room, "goal": object()})
+    endless = {}
+    endless["name"] = endless
+    for odd in ({(1, 2): 3}, endless, {"name": {1, 2}}):
+        with pytest.raises(floorproof.InputError, match="is nothing that YAML has"):
+            floorproof.load({**room, **odd})
     with pytest.raises(floorproof.InputError, match="for dicts"):
         floorproof.load("scenario.yaml", folder="elsewhere")
+
+
+# Of one, two, three and four bytes; what no one sees; what YAML's own words begin with.
+WORDS = ["caf\u00e9 \u4e2d", "\U0001f916 \U0010ffff", "\u00a0\ufeff|",
+         "tab\tand \\ud83e \"quoted\"\nline", ": - # {a: 1} & *b", " spaces "]
+
+
+@pytest.mark.filterwarnings("ignore:runs a program")
+@pytest.mark.parametrize("word", WORDS)
+def test_any_character_may_stand_in_a_text(room, tmp_path, word):
+    assert floorproof.load({**room, "name": word}).name == word
+    assert floorproof.load(room, name=word).name == word
+    assert floorproof.load(room).with_(name=word).name == word
+    assert floorproof.load_site({**room["site"], "name": word}).name == word
+    command = ["sh", "-c", 'printf %s "$1" > "$2"; exit 1', "sh", word, tmp_path / word.strip()]
+    assert floorproof.load({**room, "plan": {"command": command}}).plan().status == "failed"
+    assert (tmp_path / word.strip()).read_text(encoding="utf-8") == word
+
+
+@pytest.mark.parametrize("use", [
+    lambda room, half: floorproof.load({**room, "name": half}),
+    lambda room, half: floorproof.load({**room, half: 1}),
+    lambda room, half: floorproof.load({**room, "plan": {"command": ["echo", half]}}),
+    lambda room, half: floorproof.load(room, {f"plan.{half}": 1}),
+    lambda room, half: floorproof.load(room).with_(name=half),
+    lambda room, half: floorproof.load_site({**room["site"], "name": half}),
+])
+def test_half_a_character_is_none(room, use):
+    with pytest.raises(floorproof.InputError, match=r"\\udcff.*: a lone surrogate is no character"):
+        use(room, "half \udcff")
 
 
 def test_keys_are_set_as_on_the_command_line(room):
