@@ -11,7 +11,8 @@ from typing import Any, Dict, Mapping, Optional, Sequence, Tuple, Union
 from . import _core
 from ._core import InputError
 from ._progress import Progress, shown
-from ._results import PathLike, json_map
+from ._recorded import checked, json_object
+from ._results import PathLike
 from ._scenario import Scenario, load
 
 
@@ -23,10 +24,9 @@ class Campaign:
         self.end = end
         """Why it ended, in words."""
         file = self.folder / "summary.json"
-        try:
-            self.summary: Dict[str, Any] = json_map(file.read_text(encoding="utf-8"))
-        except (OSError, ValueError) as error:
-            raise InputError(f"{file}: is not what `floorproof campaign` writes: {error}") from error
+        self.summary: Dict[str, Any] = json_object(file, "floorproof campaign", {"variants": dict})
+        for name, variant in self.variants.items():
+            checked(f"{file}: variants.{name}", variant, {"n": int, "failures": dict})
 
     @property
     def variants(self) -> Dict[str, Any]:

@@ -2,7 +2,6 @@
 """Plans and episodes: what came of a scenario."""
 from __future__ import annotations
 
-import csv
 import json
 import os
 from dataclasses import dataclass, field
@@ -14,6 +13,7 @@ import numpy as np
 
 from . import _core
 from ._core import InputError
+from ._recorded import json_object, trace_columns
 
 PathLike = Union[str, "os.PathLike[str]"]
 Pose = Tuple[float, float, float]
@@ -259,22 +259,23 @@ def episode_of(core: _core.Episode, folder: Optional[Path] = None) -> Episode:
     return Episode(json_map(core.result), core.trace, Plan(core.plan), core, folder)
 
 
+_RESULT = {"scenario": str, "robot": str, "site": str, "outcome": str, "events": list,
+           "metrics": dict}
+
+
 def read(folder: PathLike) -> Episode:
-    """The episode that `floorproof run` left in a folder: result.json and trace.csv."""
+    """The episode that `floorproof run` left in a folder: result.json and trace.csv. Throws InputError
+    where they are damaged."""
     folder = Path(folder)
-    try:
-        result = json_map((folder / "result.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise InputError(f"{folder / 'result.json'}: is not what `floorproof run` writes: "
-                         f"{error}") from error
-    trace: Dict[str, Any] = {}
-    file = folder / "trace.csv"
-    if file.exists():
-        with file.open(newline="", encoding="utf-8") as lines:
-            rows = list(csv.reader(lines))
-        for i, name in enumerate(rows[0]):
-            words = [row[i] for row in rows[1:]]
-            trace[name] = words if name == "shape" else np.array(words, dtype=float)
+    file = folder / "result.json"
+    result = json_object(file, "floorproof run", _RESULT)
+    for i, event in enumerate(result["events"]):
+        try:
+            event_of(event)
+        except (KeyError, TypeError, AttributeError) as error:
+            raise InputError(f"{file}: events[{i}]: is no event: {error}") from error
+    if (folder / "trace.csv").exists():
+        trace = trace_columns(folder / "trace.csv")
     else:
         trace = {name: np.empty(0) for name, _ in _core.trace_columns()}
     return Episode(result, trace, folder=folder)

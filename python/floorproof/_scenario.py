@@ -64,7 +64,8 @@ def _text(value: Any) -> str:
         raise InputError(f"{type(value).__name__}: is nothing that YAML has: {error}") from error
 
 
-def _overrides(changes: Optional[Mapping[str, Any]], top: Mapping[str, Any]) -> List[Tuple[str, str]]:
+def _overrides(changes: Optional[Mapping[str, Any]],
+               top: Mapping[str, Any]) -> List[Tuple[str, str]]:
     """Keys and their values, as --set takes them."""
     return [(_whole(key), _text(value)) for key, value in {**(changes or {}), **top}.items()]
 
@@ -185,17 +186,19 @@ class Scenario:
 
     def with_plan(self, path: Any) -> "Scenario":
         """The same with a plan of one's own: [n, 2] to [n, 5], columns as `Plan.path`."""
-        rows = np.asarray(path, dtype=float)
-        if rows.ndim != 2 or not 2 <= rows.shape[1] <= 5 or len(rows) == 0:
-            raise InputError(f"path: an array of shape {rows.shape}: must be [n, 2] to [n, 5]: x_m, "
-                             "y_m, yaw_rad, speed_mps, dwell_s")
-        bad = np.argwhere(~np.isfinite(rows) & (np.arange(rows.shape[1]) != 2) | np.isinf(rows))
         names = ("x_m", "y_m", "yaw_rad", "speed_mps", "dwell_s")
-        if len(bad):
-            i, c = bad[0]
-            raise InputError(f"path[{i}].{names[c]} = {rows[i, c]}: must be finite")
+        rule = "must be [n, 2] to [n, 5]: " + ", ".join(names)
+        try:
+            rows = np.asarray(path, dtype=float)
+        except (TypeError, ValueError) as error:
+            raise InputError(f"path = {' '.join(repr(path).split())[:60]}: is no array of numbers: "
+                             f"{rule}; planners and files are set as keys (plan, plan.file)") \
+                from error
+        if rows.ndim != 2 or not 2 <= rows.shape[1] <= 5 or len(rows) == 0:
+            raise InputError(f"path: an array of shape {rows.shape}: {rule}")
         lines = [",".join(names[:rows.shape[1]])]
-        lines += [",".join("" if np.isnan(v) else repr(float(v)) for v in row) for row in rows]
+        lines += [",".join("" if c == 2 and np.isnan(v) else repr(float(v))
+                           for c, v in enumerate(row)) for row in rows]
         csv = "\n".join(lines) + "\n"
         name = f"plan-{hashlib.sha256(csv.encode()).hexdigest()[:12]}.csv"
         file, text, overrides, inputs = self._packed()

@@ -15,6 +15,7 @@ from ._core import InputError
 from ._episode_table import EpisodeTable
 from ._files import written_whole
 from ._mcap import to_mcap
+from ._recorded import json_object
 from ._results import Episode, PathLike
 
 if TYPE_CHECKING:
@@ -99,12 +100,12 @@ def rates_frame(folder: PathLike) -> "pandas.DataFrame":
     mode), with k of n episodes, the rate and its interval [lower, upper] at `confidence`."""
     pandas = _needed("pandas")
     file = Path(folder) / "summary.json"
+    variants = json_object(file, "floorproof campaign", {"variants": dict})["variants"]
     try:
-        variants = json.loads(file.read_text(encoding="utf-8"))["variants"]
         rows = [{"variant": variant, "failure": failure,
                  **{key: rate[key] for key in ("k", "n", "rate", "lower", "upper", "confidence")}}
                 for variant, about in variants.items()
                 for failure, rate in about["failures"].items()]
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+    except (KeyError, TypeError, AttributeError) as error:
         raise InputError(f"{file}: is not what `floorproof campaign` writes: {error}") from error
     return pandas.DataFrame(rows).astype({"rate": "float64"})

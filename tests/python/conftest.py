@@ -65,6 +65,14 @@ def drawing(tmp_path_factory: pytest.TempPathFactory) -> floorproof.Scenario:
 
 
 @pytest.fixture(scope="session")
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a short drive in which nothing fails."""
+    folder = tmp_path_factory.mktemp("recorded") / "run"
+    floorproof.load(ROOM).run([[1.0, 1.0], [1.1, 1.0]], out=folder)
+    return folder
+
+
+@pytest.fixture(scope="session")
 def command_line() -> Path:
     """The program that the wheel's objects were built with."""
     program = Path(__file__).resolve().parents[2] / "build" / "release" / "bin" / "floorproof"

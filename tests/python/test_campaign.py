@@ -76,3 +76,17 @@ def test_a_folder_without_a_campaign(tmp_path):
         floorproof.Campaign(tmp_path)
     with pytest.raises(floorproof.InputError):
         floorproof.report(tmp_path)
+
+
+@pytest.mark.parametrize("text, says", [
+    ("{}", "summary.json: is not what `floorproof campaign` writes: variants: is missing"),
+    ("[]", "must be an object"),
+    ('{"variants": []}', "variants = .*: must be an object"),
+    ('{"variants": {"wet": 3}}', "variants.wet: must be an object"),
+    ('{"variants": {"wet": {"n": "3", "failures": {}}}}', "variants.wet: n = 3: must be a whole n"),
+    ("{\n\n", "summary.json:3: "),
+])
+def test_a_damaged_summary_says_so(tmp_path, text, says):
+    (tmp_path / "summary.json").write_text(text, encoding="utf-8")
+    with pytest.raises(floorproof.InputError, match=says):
+        floorproof.Campaign(tmp_path)

@@ -96,6 +96,35 @@ def test_a_folder_is_read_back(drawing, tmp_path):
         floorproof.read(tmp_path)
 
 
+@pytest.mark.parametrize("name, damaged, says", [
+    ("result.json", lambda text: "", "result.json:1: is not what `floorproof run` writes: Expecting"),
+    ("result.json", lambda text: text[:-20], r"result.json:\d+: is not what .* writes: "),
+    ("result.json", lambda text: "[" * 100000, "result.json: is not what .* recursion"),
+    ("result.json", lambda text: "[]", "result.json: is not what .* writes: must be an object"),
+    ("result.json", lambda text: "{}", "result.json: is not what .* writes: scenario: is missing"),
+    ("result.json", lambda text: text.replace('"events": []', '"events": 3'),
+     "events = 3: must be a list"),
+    ("result.json", lambda text: text.replace('"events": []', '"events": [{"mode": "stuck"}]'),
+     r"events\[0\]: is no event: 't_s'"),
+    ("trace.csv", lambda text: "", "trace.csv:1: must name the columns"),
+    ("trace.csv", lambda text: text.replace("x_m", "t_s", 1), "trace.csv:1: must name the columns"),
+    ("trace.csv", lambda text: text + "1,2\n", r"trace.csv:\d+: holds 2 values: must be 22"),
+    ("trace.csv", lambda text: text.replace("\n0.000,", "\nzero,", 1),
+     "trace.csv:2: t_s = zero: must be a number"),
+    ("trace.csv", lambda text: text.replace("\n0.000,", "\n,", 1), "t_s = : must be a number"),
+    ("trace.csv", lambda text: text + "\udcff", "trace.csv: is no text in UTF-8"),
+    ("trace.csv", lambda text: text + "9" * 200000, "trace.csv: cannot be read: field larger"),
+])
+def test_a_damaged_folder_says_where(recorded, tmp_path, name, damaged, says):
+    for file in ("result.json", "trace.csv"):
+        text = (recorded / file).read_text(encoding="utf-8")
+        text = damaged(text) if file == name else text
+        (tmp_path / file).write_bytes(text.encode(errors="surrogateescape"))
+    with pytest.raises(floorproof.InputError, match=says) as wrong:
+        floorproof.read(tmp_path)
+    assert str(wrong.value).startswith(str(tmp_path)) and "\n" not in str(wrong.value)
+
+
 def test_a_plan_of_ones_own(room):
     scenario = floorproof.load(room)
     path = np.array([[1.0, 1.0], [2.0, 1.0], [2.5, 1.4]])
@@ -110,8 +139,13 @@ def test_a_plan_of_ones_own(room):
     ([1, 2, 3], "must be .n, 2. to .n, 5."),
     ([[1, 2, 3, 4, 5, 6]], "must be .n, 2. to .n, 5."),
     (np.empty((0, 2)), "must be .n, 2."),
-    ([[1, float("nan")]], r"path\[0\].y_m = nan: must be finite"),
-    ([[1, float("inf")]], r"path\[0\].y_m = inf: must be finite"),
+    ("spiral", "path = 'spiral': is no array of numbers: must be .n, 2. to .n, 5."),
+    ([[1, 1], [1]], "is no array of numbers"),
+    ([["a", "b"]], "is no array of numbers"),
+    ([[1j, 1]], "is no array of numbers"),
+    ([[1, float("nan")]], "plan-.*csv:2: y_m = nan: must be a finite number"),
+    ([[1, 1], [1, float("inf")]], "plan-.*csv:3: y_m = inf: must be a finite number"),
+    ([[1, 1, float("nan"), float("nan")]], "speed_mps = nan: must be a finite number"),
     ([[1, 1], [99, 1]], "lies off the map"),
     ([[1, 1, 0, -1]], "speed_mps"),
 ])

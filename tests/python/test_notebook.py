@@ -192,7 +192,8 @@ def test_nothing_raises_in_a_notebook(failed: Path, scenario: floorproof.Scenari
     assert episode._repr_html_() == f"<pre>&lt;Episode failure, covered {covered}&gt;</pre>"
     episode.result["metrics"] = None  # now its repr raises, too
     assert episode._repr_html_() == "<pre>Episode</pre>"
-    (tmp_path / "summary.json").write_text(json.dumps({"variants": {"a": {}}}), encoding="utf-8")
+    summary = {"variants": {"a": {"n": 0, "failures": {}}}}
+    (tmp_path / "summary.json").write_text(json.dumps(summary), encoding="utf-8")
     assert floorproof.Campaign(tmp_path)._repr_html_().startswith("<pre>")
 
     def no_disk(*_: Any) -> None:
