@@ -2,6 +2,8 @@
 """Campaigns: many episodes, failure rates with intervals, a gate."""
 from __future__ import annotations
 
+import numbers
+import operator
 import os
 import warnings
 from contextlib import nullcontext
@@ -62,6 +64,29 @@ class Campaign:
         return f"<Campaign {self.folder}: {n} episodes>"
 
 
+def _whole(name: str, value: Any, most: int = (1 << 63) - 1) -> int:
+    """Of what counts as a whole number; which ones will do is said by who takes it."""
+    try:
+        whole = operator.index(value)
+    except TypeError:
+        whole = None
+    if whole is None or isinstance(value, bool) or abs(whole) > most:
+        raise InputError(f"{name} = {value!r}: must be a whole number, at most {most}")
+    return whole
+
+
+def _range(episodes: Any) -> Tuple[int, int]:
+    try:
+        begin, end = episodes
+    except (TypeError, ValueError):
+        raise InputError(f"episodes = {episodes!r}: must be (a, b): the first id and the one behind "
+                         "the last") from None
+    begin, end = _whole("episodes[0]", begin), _whole("episodes[1]", end)
+    if min(begin, end) < 0:
+        raise InputError(f"episodes = ({begin}, {end}): must be at least 0")
+    return begin, end
+
+
 def campaign(scenario: Union[Scenario, PathLike, Mapping[str, Any]], n: int, *, out: PathLike,
              engine: str = "local", jobs: Optional[int] = None,
              episodes: Optional[Tuple[int, int]] = None, resume: bool = False,
@@ -83,19 +108,24 @@ def campaign(scenario: Union[Scenario, PathLike, Mapping[str, Any]], n: int, *, 
         raise InputError(f"{next(iter(engine_options))}: is no option of engine local")
     if engine == "ray" and jobs is not None:
         raise InputError(f"jobs = {jobs}: is for engine local; a Ray cluster has the workers it has")
+    n = _whole("n", n)
     if n < 1:
         raise InputError(f"n = {n}: must be at least 1")
+    shard = None if episodes is None else _range(episodes)
+    workers = _whole("jobs", len(os.sched_getaffinity(0)) if jobs is None else jobs, (1 << 31) - 1)
+    if not (time_limit_s is None or isinstance(time_limit_s, numbers.Real)):
+        raise InputError(f"time_limit_s = {time_limit_s!r}: must be a number (s)")
     pool: Any = None
     if engine == "ray":
         from .cluster import RayPool
         pool = RayPool(scenario, **engine_options)
-    total = n if episodes is None else episodes[1] - episodes[0]
+    total = n if shard is None else shard[1] - shard[0]
     with pool or nullcontext(), shown(progress, total * len(scenario.variants), "episode",
                                       scenario.name) as show:
         tell = None if show is None else lambda done, all_: show(done)
         ended = _core.drive_campaign(
-            scenario._file, n, episodes, jobs or len(os.sched_getaffinity(0)), resume,
-            retry_errors, fail_fast, time_limit_s, Path(out), pool,
+            scenario._file, n, shard, workers, resume, retry_errors, fail_fast, time_limit_s,
+            Path(out), pool,
             lambda line: warnings.warn(line, stacklevel=2), tell)
     if pool is not None and pool.refused is not None:
         raise pool.refused
