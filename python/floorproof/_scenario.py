@@ -238,23 +238,31 @@ class Scenario:
                              "`observer` out, or pass an array as plan")
         with shown(progress, 100, "%", self.name) as show:
             tell = None if show is None else lambda share, t_s, coverage: show(round(100 * share))
-            if out is not None:
-                fresh = self._fresh()
-                with self._alone:
-                    return episode_of(_core.run_into(fresh, Path(out), video, say, tell), Path(out))
-            every = 1
-            if observe_hz is not None:
-                if not observe_hz > 0:
-                    raise InputError(f"observe_hz = {observe_hz}: must be > 0")
-                every = max(1, round(self.control_hz / observe_hz))
-            return episode_of(_core.run(self._fresh(), None if plan is None else plan._core, tell,
-                                        observer, every, True))
+            episode = self._driven(plan, out, video, say, tell, observer, observe_hz)
+            if show is not None and episode.outcome == "success":
+                show(100)  # a plan's end is reached where it is near enough
+            return episode
 
     def frame(self, width: int = 960, height: int = 540, camera: str = "auto") -> np.ndarray:
         """A picture [height, width, 3] of the robot at its start. camera: auto, chase, top, side."""
         return _core.start_frame(self._read, width, height, camera)
 
     # --- inside
+
+    def _driven(self, plan: Optional[Plan], out: Optional[PathLike], video: bool,
+                say: Optional[Callable[[str], None]], tell: Optional[Callable[..., None]],
+                observer: Optional[Callable[[Any], None]], observe_hz: Optional[float]) -> Episode:
+        if out is not None:
+            fresh = self._fresh()
+            with self._alone:
+                return episode_of(_core.run_into(fresh, Path(out), video, say, tell), Path(out))
+        every = 1
+        if observe_hz is not None:
+            if not observe_hz > 0:
+                raise InputError(f"observe_hz = {observe_hz}: must be > 0")
+            every = max(1, round(self.control_hz / observe_hz))
+        return episode_of(_core.run(self._fresh(), None if plan is None else plan._core, tell,
+                                    observer, every, True))
 
     def _fresh(self) -> Any:
         """As read, for one drive: several may go on in several threads."""

@@ -182,10 +182,16 @@ class Bar:
         self.closed = True
 
 
-def test_progress_is_shown_as_tqdm_does(drawing):
-    drawing.run(progress=Bar)
+def test_progress_is_shown_as_tqdm_does(room):
+    episode = floorproof.load(room).run([[1.0, 1.0], [1.4, 1.0]], progress=Bar)
     assert (Bar.last.total, Bar.last.unit, Bar.last.closed) == (100, "%", True)
-    assert 0 < Bar.last.n <= 100
+    assert episode.outcome == "success" and Bar.last.n == 100
+
+
+def test_progress_ends_where_the_drive_does(room):
+    episode = floorproof.load({**room, "time_limit_s": 6}).run(progress=Bar)
+    assert episode.outcome == "timeout"
+    assert 0 < Bar.last.n < 100 and Bar.last.closed
 
 
 def test_an_observer_looks_on(room):
