@@ -141,7 +141,8 @@ class Known:
     @property
     def cells(self) -> np.ndarray:
         """The map that the robot has drawn: 0 free, 1 occupied, 2 unknown."""
-        return self._core.cells
+        cells: np.ndarray = self._core.cells
+        return cells
 
     @property
     def frame(self) -> Frame:

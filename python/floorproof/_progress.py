@@ -12,7 +12,7 @@ Progress = Union[None, bool, Callable[..., Any]]
 def _bar(progress: Progress, **about: Any) -> Any:
     if progress is True:
         try:
-            from tqdm.auto import tqdm
+            from tqdm.auto import tqdm  # type: ignore[import-untyped,unused-ignore]
         except ImportError as error:
             raise ImportError("progress=True needs the package tqdm; or pass something with "
                               "update(n) and close()") from error
@@ -28,7 +28,7 @@ def shown(progress: Progress, total: float, unit: str,
         yield None
         return
     bar = _bar(progress, total=total, unit=unit, desc=desc)
-    done = 0
+    done = 0.0
 
     def show(now: float) -> None:
         nonlocal done

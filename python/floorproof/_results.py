@@ -230,7 +230,8 @@ class Episode:
                              "scenario.resolved.yaml again")
         last = self.trace["t_s"][-1] if len(self.trace["t_s"]) else 0.0
         at_s = float(last if t_s is None else t_s)
-        return _core.frames(self._core, [at_s], width, height, camera)[0]
+        picture: np.ndarray = _core.frames(self._core, [at_s], width, height, camera)[0]
+        return picture
 
     def to_pandas(self) -> Any:
         """The trace as a data frame."""

@@ -260,7 +260,7 @@ class Scenario:
         if observe_hz is not None:
             if not observe_hz > 0:
                 raise InputError(f"observe_hz = {observe_hz}: must be > 0")
-            every = max(1, round(self.control_hz / observe_hz))
+            every = round(min(max(1.0, self.control_hz / observe_hz), 1e9))
         return episode_of(_core.run(self._fresh(), None if plan is None else plan._core, tell,
                                     observer, every, True))
 

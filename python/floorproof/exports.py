@@ -19,8 +19,7 @@ from ._recorded import json_object
 from ._results import Episode, PathLike
 
 if TYPE_CHECKING:
-    import pandas
-    import pyarrow
+    from pandas import DataFrame
 
 __all__ = ["episodes_frame", "episodes_parquet", "rates_frame", "to_mcap", "trace_frame"]
 
@@ -34,16 +33,17 @@ def _needed(package: str) -> Any:
         raise ImportError(f"{package} is missing: pip install floorproof[tables]") from error
 
 
-def trace_frame(episode: Episode) -> "pandas.DataFrame":
+def trace_frame(episode: Episode) -> "DataFrame":
     """The trace, a row each, columns and units as docs/results.md lists them; `shape` is a
     category. Without rows where nothing was driven."""
     pandas = _needed("pandas")
-    return pandas.DataFrame({
+    frame: DataFrame = pandas.DataFrame({
         name: pandas.Categorical(list(column)) if name == "shape" else column
         for name, column in episode.trace.items()})
+    return frame
 
 
-def episodes_frame(folder: PathLike) -> "pandas.DataFrame":
+def episodes_frame(folder: PathLike) -> "DataFrame":
     """A campaign's episodes, a row each: the rows, order and columns of episodes.csv, and `events`.
 
     What was drawn stands in `drawn.KEY`, the plan's figures in `plan.KEY`, where the time ran out
@@ -69,7 +69,8 @@ def episodes_frame(folder: PathLike) -> "pandas.DataFrame":
             columns[name] = pandas.Series(values, dtype={"bool": "bool", "int": "int64"}[kind])
         else:
             columns[name] = pandas.Series(values, dtype=types[kind])
-    return pandas.DataFrame(columns)
+    frame: DataFrame = pandas.DataFrame(columns)
+    return frame
 
 
 def episodes_parquet(folder: PathLike, file: PathLike, *, overwrite: bool = False) -> Path:
@@ -78,7 +79,7 @@ def episodes_parquet(folder: PathLike, file: PathLike, *, overwrite: bool = Fals
     floorproof.campaign (the campaign's id), floorproof.scenario (its settings, resolved),
     floorproof.versions (of what drove it, JSON)."""
     pyarrow = _needed("pyarrow")
-    from pyarrow import parquet
+    from pyarrow import parquet  # type: ignore[import-untyped,unused-ignore]
     types = {"bool": pyarrow.bool_(), "int": pyarrow.int64(), "float": pyarrow.float64(),
              "text": pyarrow.string(), "json": pyarrow.string(),
              "category": pyarrow.dictionary(pyarrow.int32(), pyarrow.string())}
@@ -95,7 +96,7 @@ def episodes_parquet(folder: PathLike, file: PathLike, *, overwrite: bool = Fals
     return file
 
 
-def rates_frame(folder: PathLike) -> "pandas.DataFrame":
+def rates_frame(folder: PathLike) -> "DataFrame":
     """What summary.json says of failures: a row a variant and failure (`any_failure`, then each
     mode), with k of n episodes, the rate and its interval [lower, upper] at `confidence`."""
     pandas = _needed("pandas")
@@ -108,4 +109,5 @@ def rates_frame(folder: PathLike) -> "pandas.DataFrame":
                 for failure, rate in about["failures"].items()]
     except (KeyError, TypeError, AttributeError) as error:
         raise InputError(f"{file}: is not what `floorproof campaign` writes: {error}") from error
-    return pandas.DataFrame(rows).astype({"rate": "float64"})
+    frame: DataFrame = pandas.DataFrame(rows).astype({"rate": "float64"})
+    return frame

@@ -201,6 +201,9 @@ def test_an_observer_looks_on(room):
                            observer=lambda view: seen.append((view.t_s, view.pose, view.scan)))
     times = [t for t, _, _ in seen]
     assert np.diff(times) == pytest.approx(0.1, abs=1e-6)
+    once = []
+    scenario.run([[1.0, 1.0], [1.1, 1.0]], observe_hz=5e-324, observer=once.append)
+    assert len(once) == 1
     t, pose, scan = seen[5]
     at = np.searchsorted(episode.trace["t_s"], t - 1e-9)
     assert pose[0] == pytest.approx(episode.trace["x_m"][at], abs=1e-5)

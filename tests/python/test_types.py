@@ -44,3 +44,17 @@ def test_a_type_checker_knows_the_package(tmp_path):
     errors = [line for line in said if line.startswith("error")]
     assert len(errors) == 2, run.stdout
     assert "Unexpected keyword argument" in errors[0] and "incompatible type" in errors[1]
+
+
+@pytest.mark.slow  # it reads pandas and Ray, too
+def test_the_package_is_typed_itself(tmp_path):
+    pytest.importorskip("mypy")
+    package = Path(floorproof.__file__).parent
+    if not (package / "_core.pyi").exists():
+        pytest.skip("the package is not installed with its stubs")
+    run = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", tmp_path, package],
+                         capture_output=True, text=True, check=False)
+    assert "checked" in run.stdout or "no issues" in run.stdout, run.stdout + run.stderr
+    # The stubs are generated, and name dict and tuple without what they hold.
+    assert [line for line in run.stdout.splitlines()
+            if "error:" in line and "_core.pyi:" not in line] == []
