@@ -35,6 +35,8 @@ def _row(name: str, default: Any, help_: str = "") -> Tuple[str, Any, str]:
     if not isinstance(default, _KINDS):
         raise TypeError(f"parameter {name} = {default!r}: its default must be a bool, int, float or "
                         "str")
+    if isinstance(default, float) and not math.isfinite(default):
+        raise TypeError(f"parameter {name} = {default}: its default must be finite, as values are")
     if isinstance(default, int) and default not in _INT32:
         raise TypeError(f"parameter {name} = {default}: a whole number must lie within 32 bits; "
                         "make it a float or a str")
@@ -215,6 +217,11 @@ def _of_function(made: Any) -> Dict[str, Any]:
     return {p.name: p.default for p in rest}
 
 
+# Keys that stand beside a plug-in's own, by kind.
+_PLAN_KEYS = ("planner", "command", "file", "timeout_s")
+_TAKEN = {"planner": _PLAN_KEYS, "online_planner": (*_PLAN_KEYS, "radius_m", "step_m", "speed_mps"),
+          "tracker": ("name", "timeout_s")}
+
 # By kind: the wrapper, the method of a class, and who is told.
 _REGISTER = {"planner": (_Planner, "plan", _core.register_planner),
              "online_planner": (_OnlinePlanner, "next", _core.register_online_planner),
@@ -231,9 +238,9 @@ def register(kind: str, name: str, made: Any, promises: Mapping[str, Any]) -> No
     params = _of_class(kind, made, method) if is_object else _of_function(made)
     for param, default in params.items():
         _row(param, default)
-    if "timeout_s" in params:
-        raise TypeError("parameter timeout_s: every plug-in has that key already, its wall time; "
-                        "give yours another name")
+        if param in _TAKEN[kind]:
+            raise TypeError(f"parameter {param}: is another key's name already, beside this plug-in's "
+                            "own; give it another one")
     _checked_timeout_s(promises["timeout_s"])
 
     def make() -> Any:

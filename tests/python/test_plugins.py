@@ -148,8 +148,21 @@ def test_names_and_parameters(room):
         floorproof.planner("test_x")(lambda request, gain: None)
     with pytest.raises(TypeError, match="must be a bool, int, float or str"):
         floorproof.planner("test_x")(lambda request, gain=None: None)
-    with pytest.raises(TypeError, match="parameter timeout_s: every plug-in has that key already"):
-        floorproof.planner("test_x")(lambda request, timeout_s=5.0: None)
+    with pytest.raises(TypeError, match="inf: its default must be finite"):
+        floorproof.planner("test_x")(lambda request, gain=math.inf: None)
+    for made in (lambda request, timeout_s=5.0: None, lambda request, planner="x": None,
+                 lambda request, command="x": None, lambda request, file="x": None):
+        with pytest.raises(TypeError, match="parameter .*: is another key's name already"):
+            floorproof.planner("test_x")(made)
+    with pytest.raises(TypeError, match="parameter radius_m: is another key's name already"):
+        @floorproof.online_planner("test_x")
+        class Near:
+            radius_m: float = 0.3  # every planner of unknown floors has one; the task says it
+
+            def next(self, known):
+                return None
+    with pytest.raises(TypeError, match="parameter name: is another key's name already"):
+        floorproof.tracker("test_x")(lambda now, name="x": None)
 
 
 class Callable:
