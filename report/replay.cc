@@ -25,12 +25,6 @@ namespace fs = std::filesystem;
                   where.string(), what));
 }
 
-// Who drives again what somebody sent must not come to run that somebody's program.
-[[noreturn]] void RefuseProgram(const PlanCommand& program) {
-  throw InputError(program.mark, "plan.command", program.words.front(),
-                   "made no plan: there is nothing to drive again, and a replay runs no program");
-}
-
 // With the plan that a program made for this episode.
 Variant AsPlanned(Variant variant, const EpisodeRow& row, const fs::path& campaign) {
   if (const std::string made = MadePlan(row); !made.empty())
@@ -63,7 +57,7 @@ nlohmann::ordered_json ReadResult(const fs::path& file) {
 nlohmann::ordered_json ReplayRun(const fs::path& folder, const std::vector<Override>& overrides,
                                  bool video, const Console& console) {
   Scenario scenario = ReadScenario(folder / "scenario.resolved.yaml", overrides);
-  if (const PlanCommand* program = ProgramToAsk(scenario)) RefuseProgram(*program);
+  RefuseProgram(scenario);
   const fs::path result_file = folder / "result.json";
   std::optional<nlohmann::ordered_json> recorded;  // none: another drive than this one's
   if (overrides.empty()) recorded = ReadResult(result_file);
@@ -85,7 +79,7 @@ DriveResult ReplayEpisode(const ScenarioFile& file, const Variant& variant, cons
                           const fs::path& folder, const DriveOptions& options,
                           const Console& console) {
   Scenario scenario = file.Read(row.episode, AsPlanned(variant, row, folder));
-  if (const PlanCommand* program = ProgramToAsk(scenario)) RefuseProgram(*program);
+  RefuseProgram(scenario);
   const fs::path into = EpisodeFolder(folder, variant, row.episode);
   RefuseLinks(folder, into);
   if (row.outcome == "error") console.Say("recorded as an error: " + row.message);

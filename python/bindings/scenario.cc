@@ -147,6 +147,7 @@ void BindScenario(nb::module_& m) {
           [](const Scenario& s, const fs::path& folder) { return ResolvedScenario(s, folder); },
           "folder"_a)
       .def_prop_ro("plan_inputs", &PlanInputs)
+      .def("refuse_program", [](const Scenario& s) { RefuseProgram(s); })
       .def("make_plan", [](const std::shared_ptr<Scenario>& s) { return PlanOf(s); });
 
   nb::class_<Planned>(m, "Plan")

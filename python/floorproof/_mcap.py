@@ -47,7 +47,8 @@ def to_mcap(folder: PathLike, file: Optional[PathLike] = None, *, hz: float = 10
     (auto, chase, top, side); none of an episode without physics. Times are simulated seconds from
     0.
 
-    Throws InputError where the folder holds no episode, where its scenario, driven again, comes out
+    No program is run (docs/external-planner.md). Throws InputError where the folder holds no
+    episode, where there is no plan but a program's, where its scenario, driven again, comes out
     otherwise (another version drove it, or a file was changed), and where `file` is there already,
     unless `overwrite`.
     """
@@ -59,6 +60,7 @@ def to_mcap(folder: PathLike, file: Optional[PathLike] = None, *, hz: float = 10
     file = folder / "episode.mcap" if file is None else Path(file)
     episode = read(folder)
     scenario = load(folder / "scenario.resolved.yaml")
+    scenario._read.refuse_program()
     with written_whole(file, overwrite) as part:
         again, scans = _driven_again(scenario, episode, folder)
         told = [*topics.floor(ros, scenario), *topics.planned(ros, folder),

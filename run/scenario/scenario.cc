@@ -358,6 +358,12 @@ const PlanCommand* ProgramToAsk(const Scenario& s) {
   return s.plan_command && s.plan_file.empty() ? &*s.plan_command : nullptr;
 }
 
+void RefuseProgram(const Scenario& s) {
+  if (const PlanCommand* program = ProgramToAsk(s))
+    throw InputError(program->mark, "plan.command", program->words.front(),
+                     "made no plan: there is nothing to drive again, and a replay runs no program");
+}
+
 bool LeadsItself(const Scenario& s) {
   return !s.planner && !s.online && !s.plan_command && s.plan_file.empty();
 }

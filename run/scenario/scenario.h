@@ -169,6 +169,10 @@ Configurable* PlannerOf(const Scenario& scenario);
 // The program that is yet to be asked for its plan; nullptr: none is run.
 const PlanCommand* ProgramToAsk(const Scenario& scenario);
 
+// Of whoever drives again what somebody sent, and must not come to run that somebody's program.
+// Throws InputError where one is yet to be asked.
+void RefuseProgram(const Scenario& scenario);
+
 // Whether its mission says where to drive, and there is no plan but its places.
 bool LeadsItself(const Scenario& scenario);
 

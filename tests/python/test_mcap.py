@@ -401,6 +401,27 @@ def test_what_comes_out_otherwise_is_refused(folder: Path, tmp_path: Path) -> No
     assert not [f for f in changed.iterdir() if f.suffix in (".mcap", ".part")]
 
 
+def test_no_program_is_run_that_came_in_a_folder(tmp_path: Path) -> None:
+    program = tmp_path / "plan.sh"
+    program.write_text("#!/bin/sh\necho asked >> asked\n[ -e can ] || exit 1\n"
+                       "printf 'x_m,y_m\\n1,1\\n1.4,1\\n' > \"$1\"/plan.csv\n", encoding="utf-8")
+    program.chmod(0o755)
+    asked = tmp_path / "asked"
+    scenario = floorproof.load({**ROOM, "plan": {"command": ["./plan.sh"]}}, folder=tmp_path)
+    with pytest.warns(UserWarning, match="runs a program"):
+        assert scenario.run(out=tmp_path / "without").outcome == "not_planned"
+        (tmp_path / "can").touch()
+        scenario.run(out=tmp_path / "with")
+    assert asked.exists()
+    asked.unlink()
+    with pytest.raises(floorproof.InputError, match=r"resolved.yaml:\d+: plan.command .*no plan"):
+        floorproof.to_mcap(tmp_path / "without", frames=False)
+    assert not (tmp_path / "without" / "episode.mcap").exists()
+    log = Log(floorproof.to_mcap(tmp_path / "with", frames=False))
+    assert len(log.only("/plan").poses) > 1
+    assert not asked.exists()
+
+
 def test_bad_calls_are_refused_before_anything_is_driven(folder: Path, tmp_path: Path,
                                                          monkeypatch: pytest.MonkeyPatch) -> None:
     before = (folder / "episode.mcap").read_bytes()
