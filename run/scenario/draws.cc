@@ -20,6 +20,26 @@ const std::vector<std::string> kFixed = {"scenario",  "name",   "seed",    "epis
                                          "randomise", "matrix", "gate",    "files",
                                          "drive",     "video",  "trace_hz"};
 
+// Keys of `plan` that say which program is run.
+const std::vector<std::string> kOfProgram = {"command", "folder", "made"};
+
+// A campaign says before it begins which programs it will run.
+void RefuseDrawnProgram(const RandomisedKey& drawn) {
+  const auto refuse = [](const SourceMark& mark, const std::string& key) {
+    throw InputError(mark, key, "",
+                     "which program plans cannot be drawn: a campaign says it before it begins "
+                     "(`matrix` may name several)");
+  };
+  for (const std::string& key : kOfProgram) {
+    const std::string path = "plan." + key;
+    if (drawn.key_path == path || drawn.key_path.starts_with(path + "."))
+      refuse(drawn.mark, "randomise." + drawn.key_path);
+    if (drawn.key_path != "plan") continue;
+    for (const ConfigNode& choice : drawn.distribution.choices)
+      if (const ConfigNode* named = choice.Find(key)) refuse(named->mark, "randomise." + path);
+  }
+}
+
 double Cumulative(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
 // How likely a draw keeps its bounds.
@@ -117,6 +137,7 @@ std::vector<RandomisedKey> ReadRandomise(const ConfigNode* node) {
         throw InputError(value.mark, "randomise." + key, "",
                          "this key cannot differ between episodes");
     keys.push_back({key, ReadDistribution(value, "randomise." + key), value.mark});
+    RefuseDrawnProgram(keys.back());
   }
   return keys;
 }

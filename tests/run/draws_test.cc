@@ -184,6 +184,12 @@ TEST(Draws, BadInputNamesLineKeyAndRule) {
       {"a: {normal: [0, 1], min: 1, max: 0}", "randomise.a", "fewer than one draw in a hundred"},
       {"a: {normal: [0, 0], min: 1}", "randomise.a", "fewer than one draw in a hundred"},
       {"seed: {uniform: [0, 9]}", "randomise.seed", "cannot differ between episodes"},
+      {"plan.command: {choice: [[./a], [./b]]}", "s.yaml:1: randomise.plan.command",
+       "cannot be drawn"},
+      {"plan.command.0: {choice: [./a, ./b]}", "randomise.plan.command.0", "cannot be drawn"},
+      {"plan.folder: {choice: [a, b]}", "randomise.plan.folder", "cannot be drawn"},
+      {"plan.made: {choice: [null, a]}", "randomise.plan.made", "cannot be drawn"},
+      {"plan: {choice: [spiral, {command: [./a]}]}", "randomise.plan.command", "cannot be drawn"},
       {"gate.max_rate: {uniform: [0, 1]}", "randomise.gate.max_rate", "cannot differ"},
   };
   for (const auto& [yaml, where, rule] : cases) {
