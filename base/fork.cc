@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 
 namespace floorproof {
@@ -22,6 +23,18 @@ pid_t Fork() {
   if (after) after();
   errno = error;
   return child;
+}
+
+void CloseAllBut(std::initializer_list<int> kept) {
+  constexpr unsigned kEnd = ~0u;
+  for (unsigned from = 3;;) {
+    unsigned next = kEnd;  // that is kept
+    for (const int fd : kept)
+      if (const auto end = static_cast<unsigned>(fd); end >= from) next = std::min(next, end);
+    if (from < next) close_range(from, next - 1, 0);
+    if (next == kEnd) return;
+    from = next + 1;
+  }
 }
 
 }  // namespace floorproof

@@ -5,6 +5,8 @@
 
 #include <sys/types.h>
 
+#include <initializer_list>
+
 namespace floorproof {
 
 // Called around each Fork(): before it, then behind it in the parent, or in the child.
@@ -17,5 +19,9 @@ void SetForkHooks(const ForkHooks& hooks);
 
 // As fork(2): 0 in the child, the child in the parent, or -1 and errno.
 pid_t Fork();
+
+// In a child, of what lies beyond stderr: the locks and pipes of whoever forked must not live on in
+// it.
+void CloseAllBut(std::initializer_list<int> kept);
 
 }  // namespace floorproof

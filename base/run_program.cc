@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -21,6 +20,7 @@
 
 #include "base/error.h"
 #include "base/file_output.h"
+#include "base/fork.h"
 #include "base/params.h"
 
 namespace floorproof {
@@ -56,18 +56,6 @@ struct Pipe {
     end = -1;
   }
 };
-
-// Of what lies beyond stderr: the locks and pipes of whoever called must not live on here.
-void CloseAllBut(std::array<int, 3> kept) {
-  std::ranges::sort(kept);
-  unsigned from = 3;
-  for (const int fd : kept) {
-    const auto end = static_cast<unsigned>(fd);
-    if (from < end) close_range(from, end - 1, 0);
-    from = std::max(from, end + 1);
-  }
-  close_range(from, ~0u, 0);
-}
 
 // In the program's process, up to where it begins.
 [[noreturn]] void Become(const ProgramCall& call, int reports, int errors, pid_t guard) noexcept {

@@ -7,7 +7,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <deque>
@@ -46,17 +45,6 @@ bool ReadAll(int fd, void* data, std::size_t size) {
     size -= static_cast<std::size_t>(n);
   }
   return true;
-}
-
-// Of what lies beyond stderr.
-void CloseAllBut(int a, int b) {
-  const auto [low, high] = std::minmax({static_cast<unsigned>(a), static_cast<unsigned>(b)});
-  const auto close_from = [](unsigned first, unsigned last) {
-    if (first <= last) close_range(first, last, 0);
-  };
-  close_from(3, low - 1);
-  close_from(low + 1, high - 1);
-  close_from(high + 1, ~0u);
 }
 
 std::string HowItEnded(int status) {
@@ -154,7 +142,7 @@ class Pool {
       signal(SIGPIPE, SIG_DFL);
       // The other workers' ends, or a worker would outlive the pipe's closing; the lock on the
       // campaign's folder, or it would outlive the parent's.
-      CloseAllBut(jobs[0], answers[1]);
+      CloseAllBut({jobs[0], answers[1]});
       Serve(jobs[0], answers[1], callbacks_.work);
     }
     close(jobs[0]);
