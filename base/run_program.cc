@@ -30,12 +30,16 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kPoll_ms = 50;
+// For what was killed to be gone. One that became another user's cannot be killed, one that waits
+// for a disk may be late.
+constexpr std::chrono::seconds kDying(2);
 constexpr std::size_t kKeptWords = 4096;  // bytes
 
 // What came of the program: written once, by the program itself if it could not be started.
 struct Report {
   bool started = false;
-  int value = 0;  // a wait status, or an errno
+  int value = 0;   // a wait status, or an errno
+  pid_t left = 0;  // one of its processes that would not die
 };
 
 struct Pipe {
@@ -72,28 +76,32 @@ struct Pipe {
   for (const std::string& word : call.words) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
   if (call.folder.empty() || chdir(call.folder.c_str()) == 0) execvp(words[0], words.data());
-  const Report report{false, errno};
+  const Report report{false, errno, 0};
   static_cast<void>(!write(reports, &report, sizeof report));
   _exit(127);
 }
 
-// Kills the program's group, then whatever else has become the guard's child since its parents
-// died. Returns the program's wait status: until it is reaped, nobody else has its number.
-int EndAll(pid_t program) {
-  kill(-program, SIGKILL);
-  int status = 0;
-  while (waitpid(program, &status, 0) < 0 && errno == EINTR) {
-  }
+// Kills the program's group, then the guard's children: the program, which may have left its group,
+// and whatever else has become one since its parents died.
+Report EndAll(pid_t program) {
+  Report report{true, 0, program};
+  kill(-program, SIGKILL);  // until it is reaped, nobody else has its number
+  kill(program, SIGKILL);
   const std::string list = "/proc/self/task/" + std::to_string(getpid()) + "/children";
-  for (;;) {
+  for (const auto end = Clock::now() + kDying;; usleep(1000)) {
+    int status = 0;
     pid_t reaped = 0;
-    while ((reaped = waitpid(-1, nullptr, WNOHANG)) > 0) {
+    while ((reaped = waitpid(-1, &status, WNOHANG)) > 0) {
+      if (reaped == program) report.value = status;
+      if (reaped == report.left) report.left = 0;
     }
-    std::FILE* children = reaped < 0 ? nullptr : std::fopen(list.c_str(), "re");
-    if (children == nullptr) return status;
-    for (int child = 0; std::fscanf(children, "%d", &child) == 1;) kill(child, SIGKILL);
-    std::fclose(children);
-    usleep(1000);
+    if (reaped < 0) return report;
+    if (std::FILE* children = std::fopen(list.c_str(), "re"); children != nullptr) {
+      for (int child = 0; std::fscanf(children, "%d", &child) == 1; report.left = child)
+        kill(child, SIGKILL);
+      std::fclose(children);
+    }
+    if (report.left == 0 || Clock::now() >= end) return report;
   }
 }
 
@@ -103,7 +111,12 @@ bool HasEnded(pid_t program) {
          info.si_pid == program;
 }
 
-// In the guard: starts the program and says how it ended; tidies up when `control` is closed.
+void Tell(int& reports, const Report& report) {
+  static_cast<void>(!write(reports, &report, sizeof report));
+  Pipe::Close(reports);
+}
+
+// In the guard: starts the program and says how it ended; tidies up when `control` is shut.
 [[noreturn]] void Guard(const ProgramCall& call, const fs::path& folder, int control, int reports,
                         int errors) noexcept {
   for (const int number : {SIGINT, SIGHUP, SIGTERM, SIGPIPE}) signal(number, SIG_IGN);
@@ -113,7 +126,7 @@ bool HasEnded(pid_t program) {
   const pid_t guard = getpid();
   const pid_t program = fork();
   if (program == 0) Become(call, reports, errors, guard);
-  Report report{program > 0, program > 0 ? 0 : errno};
+  Report report{program > 0, program > 0 ? 0 : errno, 0};
   if (program > 0) setpgid(program, program);  // whoever of the two is first
   close(errors);
   bool over = program < 0;
@@ -122,19 +135,24 @@ bool HasEnded(pid_t program) {
     wait_ms = std::clamp(waited_ms / 10, 1, 50);
     if (!over && HasEnded(program)) {
       over = true;
-      report.value = EndAll(program);
+      report = EndAll(program);
     }
-    if (over && reports >= 0) {
-      static_cast<void>(!write(reports, &report, sizeof report));
-      Pipe::Close(reports);
-    }
+    if (over && reports >= 0) Tell(reports, report);
     pollfd told{control, POLLIN, 0};
-    if (poll(&told, 1, over ? -1 : wait_ms) > 0) break;
+    if (poll(&told, 1, wait_ms) > 0) break;
   }
-  if (!over) EndAll(program);
+  if (!over) Tell(reports, EndAll(program));
   std::error_code ignored;
   fs::remove_all(folder, ignored);
   _exit(0);
+}
+
+// None: its writer is gone, or has not written.
+std::optional<Report> ReadReport(int reports) {
+  Report report;
+  pollfd told{reports, POLLIN, 0};
+  if (poll(&told, 1, 0) <= 0 || read(reports, &report, sizeof report) != sizeof report) return {};
+  return report;
 }
 
 std::string HowItEnded(const Report& report) {
@@ -143,6 +161,12 @@ std::string HowItEnded(const Report& report) {
     return std::string("was killed (") + strsignal(WTERMSIG(report.value)) + ")";
   if (WEXITSTATUS(report.value) == 0) return "";
   return "ended with status " + std::to_string(WEXITSTATUS(report.value));
+}
+
+void AddWhoIsLeft(const Report& report, std::string& failure) {
+  if (report.left == 0) return;
+  failure += (failure.empty() ? "left process " : ", and left process ") +
+             std::to_string(report.left) + ", which cannot be ended";
 }
 
 // Takes what is there; false at the end of the pipe.
@@ -193,7 +217,16 @@ ExchangeFolder::~ExchangeFolder() {
 
 void ExchangeFolder::EndGuard() {
   Pipe::Close(control_);
-  while (guard_ > 0 && waitpid(guard_, nullptr, 0) < 0 && errno == EINTR) {
+  // A guard that the program has stopped, say, is killed, and the program with it.
+  for (const auto patience : {kDying * 2, kDying}) {
+    for (const auto end = Clock::now() + patience; guard_ > 0 && Clock::now() < end;) {
+      const pid_t reaped = waitpid(guard_, nullptr, WNOHANG);
+      if (reaped == 0)
+        usleep(500);
+      else if (reaped > 0 || errno != EINTR)
+        guard_ = -1;
+    }
+    if (guard_ > 0) kill(guard_, SIGKILL);
   }
   guard_ = -1;
 }
@@ -222,16 +255,21 @@ ProgramOutcome ExchangeFolder::Run(const ProgramCall& call) {
     if (poll(fds, 2, static_cast<int>(std::min<double>(kPoll_ms, left_ms + 1))) <= 0) continue;
     if (fds[1].revents != 0 && !TakeWords(errors.read, outcome.last_words)) errors.CloseRead();
     if (fds[0].revents == 0) continue;
-    report.emplace();
-    if (read(reports.read, &*report, sizeof *report) != sizeof *report)
-      throw InternalError("the process that watches " + call.words.front() + " is gone");
+    report = ReadReport(reports.read);
+    if (!report) throw InternalError("the process that watches " + call.words.front() + " is gone");
   }
-  if (!outcome.in_time) EndGuard();  // what was said until then can be read
+  if (!outcome.in_time) {
+    EndGuard();  // what was said until then can be read
+    if (const auto late = ReadReport(reports.read)) AddWhoIsLeft(*late, outcome.failure);
+  }
   for (bool more = errors.read >= 0; more;) {
     pollfd said{errors.read, POLLIN, 0};
     more = poll(&said, 1, 0) > 0 && TakeWords(errors.read, outcome.last_words);
   }
-  if (report) outcome.failure = HowItEnded(*report);
+  if (report) {
+    outcome.failure = HowItEnded(*report);
+    AddWhoIsLeft(*report, outcome.failure);
+  }
   return outcome;
 }
 

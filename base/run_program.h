@@ -27,7 +27,8 @@ struct ProgramCall {
 struct ProgramOutcome {
   bool in_time = true;
   // How it failed: "ended with status 3", "was killed (Segmentation fault)", "cannot be started:
-  // Permission denied", "took more than 0.3 s". Empty: it ended with status 0.
+  // Permission denied", "took more than 0.3 s". Empty: it ended with status 0. A process of its
+  // that cannot be ended, another user's, is a failure, and named.
   std::string failure;
   std::string last_words;  // the end of what it wrote to stderr
 };

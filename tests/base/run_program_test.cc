@@ -95,6 +95,17 @@ TEST(RunProgram, EndsWhatTakesTooLongWhateverItDoes) {
        {"sleep 1000",
         "trap '' TERM INT HUP; sleep 1000 & while :; do echo endless; echo endless >&2; done"})
     EXPECT_EQ(FailureOf(script, 0.3), "took more than 0.3 s") << script;
+  // It leaves its group for ours. Where it is waited for, it comes to its end.
+  const fs::path ended = fs::path(::testing::TempDir()) / "ended";
+  fs::remove(ended);
+  ExchangeFolder dut;
+  const std::string script =
+      "import os, sys, time; os.setpgid(0, os.getpgid(os.getppid())); "
+      "time.sleep(4); open(sys.argv[1], 'w')";
+  const ProgramOutcome outcome =
+      dut.Run({{"python3", "-ISc", script, ended.string()}, ::testing::TempDir(), 0.8});
+  EXPECT_EQ(outcome.failure, "took more than 0.8 s");
+  EXPECT_FALSE(fs::exists(ended));
 }
 
 TEST(RunProgram, LeavesNobodyBehind) {
