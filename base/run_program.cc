@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -44,9 +45,11 @@ struct Report {
 
 struct Pipe {
   int read = -1, write = -1;
-  Pipe() {
+  // `shut`: both ways, and shutdown(2) ends it whoever has inherited an end.
+  explicit Pipe(bool shut = false) {
     int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0)
+    if ((shut ? socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends)
+              : pipe2(ends, O_CLOEXEC)) != 0)
       throw InternalError(std::string("no pipe: ") + std::strerror(errno));
     read = ends[0], write = ends[1];
   }
@@ -116,9 +119,10 @@ void Tell(int& reports, const Report& report) {
   Pipe::Close(reports);
 }
 
-// In the guard: starts the program and says how it ended; tidies up when `control` is shut.
-[[noreturn]] void Guard(const ProgramCall& call, const fs::path& folder, int control, int reports,
-                        int errors) noexcept {
+// In the guard: starts the program and says how it ended; tidies up when `control` is shut, or its
+// host is gone: then somebody may have inherited the other end, and holds it open.
+[[noreturn]] void Guard(const ProgramCall& call, const fs::path& folder, pid_t host, int control,
+                        int reports, int errors) noexcept {
   for (const int number : {SIGINT, SIGHUP, SIGTERM, SIGPIPE}) signal(number, SIG_IGN);
   signal(SIGCHLD, SIG_DFL);
   prctl(PR_SET_CHILD_SUBREAPER, 1);
@@ -139,7 +143,7 @@ void Tell(int& reports, const Report& report) {
     }
     if (over && reports >= 0) Tell(reports, report);
     pollfd told{control, POLLIN, 0};
-    if (poll(&told, 1, wait_ms) > 0) break;
+    if (poll(&told, 1, wait_ms) > 0 || getppid() != host) break;
   }
   if (!over) Tell(reports, EndAll(program));
   std::error_code ignored;
@@ -216,6 +220,7 @@ ExchangeFolder::~ExchangeFolder() {
 }
 
 void ExchangeFolder::EndGuard() {
+  if (control_ >= 0) shutdown(control_, SHUT_RDWR);
   Pipe::Close(control_);
   // A guard that the program has stopped, say, is killed, and the program with it.
   for (const auto patience : {kDying * 2, kDying}) {
@@ -232,11 +237,12 @@ void ExchangeFolder::EndGuard() {
 }
 
 ProgramOutcome ExchangeFolder::Run(const ProgramCall& call) {
-  Pipe control, reports, errors;
+  Pipe control(true), reports, errors;
+  const pid_t host = getpid();
   const auto end = Clock::now() + std::chrono::duration<double>(call.wall_s);
   guard_ = fork();
   if (guard_ < 0) throw InternalError(std::string("no guard process: ") + std::strerror(errno));
-  if (guard_ == 0) Guard(call, path_, control.read, reports.write, errors.write);
+  if (guard_ == 0) Guard(call, path_, host, control.read, reports.write, errors.write);
   std::swap(control_, control.write);
   control.CloseRead(), reports.CloseWrite(), errors.CloseWrite();
   fcntl(errors.read, F_SETFL, O_NONBLOCK);

@@ -27,8 +27,9 @@ struct ProgramCall {
 struct ProgramOutcome {
   bool in_time = true;
   // How it failed: "ended with status 3", "was killed (Segmentation fault)", "cannot be started:
-  // Permission denied", "took more than 0.3 s". Empty: it ended with status 0. A process of its
-  // that cannot be ended, another user's, is a failure, and named.
+  // Permission denied", "took more than 0.3 s". Empty: it ended with status 0. One of its
+  // processes that cannot be ended, since it is another user's now, is a failure; its number is
+  // said.
   std::string failure;
   std::string last_words;  // the end of what it wrote to stderr
 };
@@ -59,7 +60,7 @@ class ExchangeFolder {
   HoldInterrupts hold_;
   std::filesystem::path path_;
   pid_t guard_ = -1;
-  int control_ = -1;  // the guard waits for this pipe to be closed
+  int control_ = -1;  // the guard waits for this to be shut
 };
 
 }  // namespace floorproof

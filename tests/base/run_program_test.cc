@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <memory>
 
 #include "base/error.h"
 
@@ -103,8 +104,8 @@ TEST(RunProgram, EndsWhatTakesTooLongWhateverItDoes) {
       "import os, sys, time; os.setpgid(0, os.getpgid(os.getppid())); "
       "time.sleep(4); open(sys.argv[1], 'w')";
   const ProgramOutcome outcome =
-      dut.Run({{"python3", "-ISc", script, ended.string()}, ::testing::TempDir(), 0.8});
-  EXPECT_EQ(outcome.failure, "took more than 0.8 s");
+      dut.Run({{"python3", "-ISc", script, ended.string()}, ::testing::TempDir(), 0.5});
+  EXPECT_EQ(outcome.failure, "took more than 0.5 s");
   EXPECT_FALSE(fs::exists(ended));
 }
 
@@ -159,6 +160,40 @@ TEST(RunProgram, IsEndedAndTidiedUpWhenItsCallerIsKilled) {
   EXPECT_TRUE(IsGone(program));
   for (int i = 0; i < 2000 && fs::exists(folder); ++i) usleep(1000);
   EXPECT_FALSE(fs::exists(folder));
+}
+
+// As a host does whose other threads fork.
+TEST(RunProgram, IsEndedThoughSomebodyHasInheritedWhatItsCallerHolds) {
+  auto dut = std::make_unique<ExchangeFolder>();
+  dut->Run(Sh("exit 0", *dut));
+  const pid_t heir = fork();
+  if (heir == 0) sleep(3), _exit(0);
+  dut.reset();
+  EXPECT_EQ(waitpid(heir, nullptr, WNOHANG), 0) << "it was waited for";
+  kill(heir, SIGKILL);
+  waitpid(heir, nullptr, 0);
+}
+
+TEST(RunProgram, IsTidiedUpWhenItsCallerIsKilledAndHasAnHeir) {
+  const fs::path note = fs::path(::testing::TempDir()) / "heir";
+  const pid_t caller = fork();
+  if (caller == 0) {
+    ExchangeFolder dut;
+    dut.Run(Sh("exit 0", dut));
+    const pid_t heir = fork();
+    if (heir == 0) sleep(5), _exit(0);
+    std::ofstream(note) << heir << " " << dut.path().string();
+    raise(SIGKILL);
+  }
+  waitpid(caller, nullptr, 0);
+  pid_t heir = 0;
+  std::string folder;
+  std::ifstream(note) >> heir >> folder;
+  fs::remove(note);
+  ASSERT_GT(heir, 0);
+  for (int i = 0; i < 2000 && fs::exists(folder); ++i) usleep(1000);
+  EXPECT_FALSE(fs::exists(folder));
+  kill(heir, SIGKILL);
 }
 
 TEST(RunProgram, IsEndedByAnInterrupt) {
