@@ -72,7 +72,7 @@ void WarnOfProgram(const Scenario& scenario) {
   const PlanCommand* program = ProgramToAsk(scenario);
   if (program == nullptr) return;
   InPython("warnings.warn", [line = ProgramLine(*program)] {
-    if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 1) != 0) throw nb::python_error();
+    nb::module_::import_("floorproof._warn").attr("warn")(line);
   });
 }
 

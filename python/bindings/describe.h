@@ -20,7 +20,7 @@ nb::dict ShapeDict(const Shape2& shape);  // radius_m, or polygon
 nb::dict RobotDict(const RobotSpec& robot);
 nb::list HazardList(const HazardMap& map);
 
-// Says, as a Python warning, which program is about to be asked for the plan, if one is: before it
+// Says, as a Python warning of the caller's line, which program is about to be asked for the plan, if one is: before it
 // runs. With or without the GIL. A warning that is an error ends the work.
 void WarnOfProgram(const Scenario& scenario);
 

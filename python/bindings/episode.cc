@@ -134,8 +134,8 @@ std::shared_ptr<Driven> RunInto(const std::shared_ptr<Scenario>& scenario, const
     if (!say.is_none()) InPython("say", [&] { say(line); });
   };
   auto made = WithoutGil([&] {
-    if (say.is_none()) WarnOfProgram(*scenario);  // else it is among the lines
-    const std::lock_guard alone(Drawing());       // it ends with pictures
+    WarnOfProgram(*scenario);
+    const std::lock_guard alone(Drawing());  // it ends with pictures
     DriveResult result =
         DriveAndFilm(*scenario, folder, {.video = video, .observer = &observer}, console);
     if (result.not_written) std::rethrow_exception(result.not_written);

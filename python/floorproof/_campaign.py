@@ -5,7 +5,6 @@ from __future__ import annotations
 import numbers
 import operator
 import os
-import warnings
 from contextlib import nullcontext
 from pathlib import Path
 from typing import Any, Dict, Mapping, Optional, Sequence, Tuple, Union
@@ -16,6 +15,7 @@ from ._progress import Progress, shown
 from ._recorded import checked, json_object
 from ._results import PathLike
 from ._scenario import Scenario, load
+from ._warn import warn
 
 
 class Campaign:
@@ -125,8 +125,7 @@ def campaign(scenario: Union[Scenario, PathLike, Mapping[str, Any]], n: int, *, 
         tell = None if show is None else lambda done, all_: show(done)
         ended = _core.drive_campaign(
             scenario._file, n, shard, workers, resume, retry_errors, fail_fast, time_limit_s,
-            Path(out), pool,
-            lambda line: warnings.warn(line, stacklevel=2), tell)
+            Path(out), pool, warn, tell)
     if pool is not None and pool.refused is not None:
         raise pool.refused
     return Campaign(out, ended["end"])
