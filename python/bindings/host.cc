@@ -190,6 +190,8 @@ void ThrowRaised(const std::string& who, nb::python_error& raised) {
     t_interrupted = true;
     throw Interruption();
   }
+  if (raised.matches(g_input_error))  // that says it all
+    throw InputError(Try([&] { return Utf8(nb::str(raised.value()).ptr()); }));
   throw RaisedError(who + " raised " + Said(raised), std::move(exception));
 }
 

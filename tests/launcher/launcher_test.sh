@@ -82,6 +82,8 @@ STUB
 stub python3 <<'STUB'
 #!/usr/bin/env bash
 echo "python3 $*" >>"$WORK/calls"
+if [[ $1 == -c && $2 == *version_info* ]]; then exit "${PYTHON_IS_OLD:-0}"; fi
+if [[ $1 == --version ]]; then echo "Python 3.10.1"; exit; fi
 if [[ $1 == -c ]]; then  # whether it has all that a package needs
   [[ -z ${PYTHON_IS_BARE:-} || -f $WORK/installed ]]
   exit
@@ -137,6 +139,9 @@ tests_the_python_package() {
   else
     expect "what Python lacks is asked for" says err "python3-venv python3-dev"
   fi
+  PYTHON_IS_OLD=1 run test --python
+  expect "a Python that is too old is named" test "$status" = 2
+  expect "with its version" says err "3.11 or later, as MuJoCo's wheel does; python3 is Python 3.10.1"
 }
 
 installs_a_link() {

@@ -80,7 +80,7 @@ TEST_F(DriveCampaignTest, RequestsThatMakeNoSenseAreRefusedBeforeThereIsAFolder)
     return WhyRefused([&] { DriveCampaign(File(), request, Folder("o")); });
   };
   EXPECT_EQ(why({.episodes = 0}), "-n: 0: must be at least 1");
-  EXPECT_EQ(why({.episodes = 3, .jobs = 0}), "--jobs: 0: must be at least 1");
+  EXPECT_EQ(why({.episodes = 3, .jobs = 0}), "--jobs: 0: must be in [1, 1024]");
   EXPECT_EQ(why({.episodes = 9, .shard = EpisodeRange{5, 3}}), "--episodes: 5:3: holds no episode");
   EXPECT_EQ(why({.episodes = 9, .shard = EpisodeRange{5, 10}}),
             "--episodes: 5:10: must lie within -n");
