@@ -11,9 +11,9 @@
 
 namespace floorproof {
 
-// Writes scenario.resolved.yaml, plan.csv, plan.json and, where risk is asked for, risk.csv, and the
-// pictures of WritePlanPictures. What the folder, of EpisodeResults, holds of a drive of another plan
-// goes. Throws InputError, InternalError.
+// Writes scenario.resolved.yaml, plan.csv, plan.json and, where risk is asked for, risk.csv, and
+// the pictures of WritePlanPictures. What the folder, of EpisodeResults, holds of a drive of
+// another plan goes. Throws InputError, InternalError.
 void SavePlan(const Scenario& scenario, const PlanResult& plan, ResultFolder& out,
               std::span<const RiskOfPlan> beside = {});
 

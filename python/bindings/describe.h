@@ -20,8 +20,8 @@ nb::dict ShapeDict(const Shape2& shape);  // radius_m, or polygon
 nb::dict RobotDict(const RobotSpec& robot);
 nb::list HazardList(const HazardMap& map);
 
-// Says, as a Python warning of the caller's line, which program is about to be asked for the plan, if one is: before it
-// runs. With or without the GIL. A warning that is an error ends the work.
+// Says, as a Python warning of the caller's line, which program is about to be asked for the plan,
+// if one is: before it runs. With or without the GIL. A warning that is an error ends the work.
 void WarnOfProgram(const Scenario& scenario);
 
 }  // namespace floorproof
