@@ -25,7 +25,7 @@ void TwistTracker::Start(const Path& path, const RobotSpec& robot, const Clearan
     if (!waypoint.shape.empty() && !robot.hinges.empty())
       throw InputError({}, "shape", waypoint.shape,
                        "a plug-in tracker cannot change the robot's shape");
-  robot_ = &robot;
+  robot_ = robot;
   ReferenceLimits limits = kParams.Limits(robot);
   limits.turn_radius_m = robot.turn_radius_m;
   progress_.Start(path, limits, kParams.corner_tolerance_m);
@@ -40,7 +40,7 @@ void TwistTracker::Start(const Path& path, const RobotSpec& robot, const Clearan
 
 void TwistTracker::Extend(const Path& path) {
   progress_.Extend(path);
-  OnPath(path, *robot_);
+  OnPath(path, robot_);
 }
 
 Command TwistTracker::Update(const Estimate& estimate, double t_s, double dt_s) {
@@ -60,7 +60,7 @@ Command TwistTracker::Update(const Estimate& estimate, double t_s, double dt_s) 
         progress_.AimFrom(p_W, std::hypot(twist_.vx_mps, twist_.vy_mps), kLookahead);
     wanted = Twist({estimate, t_s, dt_s, command.segment, target_W, speed_mps});
   } else if (free_) {
-    wanted = Twist({estimate, t_s, dt_s, 0, p_W, robot_->cruise_mps});
+    wanted = Twist({estimate, t_s, dt_s, 0, p_W, robot_.cruise_mps});
   }
   MoveTowards(wanted, dt_s);
   command.twist = twist_;
@@ -72,12 +72,12 @@ Command TwistTracker::Update(const Estimate& estimate, double t_s, double dt_s) 
 void TwistTracker::MoveTowards(const BodyTwist& wanted, double dt_s) {
   const Vec2 last(twist_.vx_mps, twist_.vy_mps);
   Vec2 v_B(wanted.vx_mps, wanted.vy_mps);
-  v_B *= share_ * std::min(1.0, robot_->max_speed_mps / std::max(v_B.norm(), 1e-12));
+  v_B *= share_ * std::min(1.0, robot_.max_speed_mps / std::max(v_B.norm(), 1e-12));
   Vec2 change = v_B - last;
-  change *= std::min(1.0, robot_->max_accel_mps2 * dt_s / std::max(change.norm(), 1e-12));
+  change *= std::min(1.0, robot_.max_accel_mps2 * dt_s / std::max(change.norm(), 1e-12));
   twist_.vx_mps = last.x() + change.x();
   twist_.vy_mps = last.y() + change.y();
-  const double most = robot_->max_yaw_rate_radps, dw = robot_->max_yaw_accel_radps2 * dt_s;
+  const double most = robot_.max_yaw_rate_radps, dw = robot_.max_yaw_accel_radps2 * dt_s;
   twist_.wz_radps = std::clamp(share_ * std::clamp(wanted.wz_radps, -most, most),
                                twist_.wz_radps - dw, twist_.wz_radps + dw);
 }

@@ -44,7 +44,7 @@ class TwistTracker : public Tracker {
 
   bool free_;
   PathProgress progress_;
-  const RobotSpec* robot_ = nullptr;
+  RobotSpec robot_;
   BodyTwist twist_;  // last commanded
   double share_ = 1, duration_s_ = 0;
 };
