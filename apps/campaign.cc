@@ -119,7 +119,7 @@ void AddCampaign(CommandLine& line, const Globals& globals, int& status) {
   command.Integer("-n", options->n, "Episodes a variant", 1, 100'000'000,
                   Subcommand::Need::kRequired);
   command.NonNegative("--seed", options->seed, "Overrides the scenario's seed");
-  command.Integer("--jobs", options->jobs, "Worker processes (default: one a core)", 1, 1024);
+  command.Integer("--jobs", options->jobs, "Worker processes (default: one a core)", 1, kMostJobs);
   command.Text("--episodes", options->episodes,
                "A:B, ids from A to before B only: a shard for `merge`; its gate is judged there");
   command.Text("--out", options->out, kOutputHelp);

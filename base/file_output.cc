@@ -103,6 +103,10 @@ std::string Sha256(std::string_view text) {
   return hex;
 }
 
+bool IsSha256(std::string_view text) {
+  return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
 std::string Sha256OfFile(const std::filesystem::path& path) {
   char hex[SHA256_DIGEST_STRING_LENGTH];
   if (SHA256File(path.c_str(), hex) == nullptr)

@@ -36,6 +36,8 @@ std::filesystem::path MakePartFile(const std::filesystem::path& path);
 void WriteFileWhole(const std::filesystem::path& path, std::string_view text);
 // The text's SHA-256 in hexadecimal.
 std::string Sha256(std::string_view text);
+// Whether a text is one, as Sha256 writes it.
+bool IsSha256(std::string_view text);
 // The file's SHA-256 in hexadecimal. Throws InputError when it cannot be read.
 std::string Sha256OfFile(const std::filesystem::path& path);
 

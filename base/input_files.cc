@@ -195,9 +195,7 @@ fs::path KeepText(const std::string& text, const fs::path& folder) {
 }
 
 fs::path FindCopy(const fs::path& folder, const std::string& sha256) {
-  const bool is_hash =
-      sha256.size() == 64 && sha256.find_first_not_of("0123456789abcdef") == std::string::npos;
-  if (!is_hash) throw InputError({folder.string(), 0}, "", sha256, "is no SHA-256");
+  if (!IsSha256(sha256)) throw InputError({folder.string(), 0}, "", sha256, "is no SHA-256");
   fs::path copy = KeptCopy(folder, sha256);
   if (Sha256OfFile(copy) != sha256)
     throw InputError({copy.string(), 0}, "", "", "is not what its name says");

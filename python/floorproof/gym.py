@@ -10,7 +10,6 @@ covered; the scenario's detectors judge the drive as they judge every other.
 from __future__ import annotations
 
 import json
-import warnings
 from math import isfinite
 from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 
@@ -22,6 +21,7 @@ from . import _core
 from ._core import InputError
 from ._results import Episode, Event, PathLike, episode_of, event_of
 from ._scenario import Scenario, load
+from ._warn import warn
 
 __all__ = ["ID", "FloorproofEnv"]
 
@@ -284,8 +284,8 @@ def _with_what_it_needs(source: Union[Scenario, PathLike, Mapping[str, Any]],
         changes["time_limit_s"] = _number("max_time_s", max_time_s)
     if "lidar" not in scenario.sensors:
         changes["sensors.lidar"] = {}
-        warnings.warn(f"{scenario.name} has no lidar, which is observed: sensors.lidar is added "
-                      "with its defaults", stacklevel=4)
+        warn(f"{scenario.name} has no lidar, which is observed: sensors.lidar is added with its "
+             "defaults")
     return scenario.with_(changes) if changes else scenario
 
 

@@ -96,8 +96,6 @@ auto Keep(const char* missing, const Write& write) {
   }
 }
 
-constexpr int kMostJobs = 1024;
-
 void CheckRequest(const CampaignRequest& request) {
   if (request.episodes == 0) throw InputError({"-n", 0}, "", "0", "must be at least 1");
   if (request.jobs < 1 || request.jobs > kMostJobs)

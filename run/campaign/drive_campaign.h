@@ -20,6 +20,8 @@ struct EpisodeRange {
   std::uint64_t begin = 0, end = 0;  // ids, half-open
 };
 
+inline constexpr int kMostJobs = 1024;
+
 struct CampaignRequest {
   std::uint64_t episodes = 0;               // a variant, of the whole campaign
   std::optional<EpisodeRange> shard = {};   // these alone are driven, and the gate is not judged

@@ -127,10 +127,6 @@ bool Replaces(const std::string& whole, const std::string& key) {
          ((whole == "plan.file" || whole == "plan.command") && key.starts_with("plan."));
 }
 
-bool IsSha256(const std::string& text) {
-  return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
-}
-
 // The files that a resolved scenario was resolved from: a copy that is kept beside it stands in for
 // each; where there is none, one that is no longer the same is refused.
 void TakeListedFiles(const ConfigNode& root, const fs::path& folder, bool check,
