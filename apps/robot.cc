@@ -114,7 +114,7 @@ void AddRobot(CommandLine& line, const Globals& globals, int& status) {
     SayWhenInterrupted(picture.string() + " is there");
     for (const std::string& said : RobotLines(check)) globals.Say(said);
     globals.Say("picture: " + picture.string());
-    nlohmann::ordered_json json = RobotJson(check);
+    nlohmann::ordered_json json = RobotCheckJson(check);
     if (urdf) json["of_the_urdf"] = notes;
     if (options->ladder)
       json["ladder"] = MeasureLimits(robot, target, folder / out.stem(), options->jobs, globals);

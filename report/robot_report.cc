@@ -149,7 +149,7 @@ std::vector<std::string> RobotLines(const RobotCheck& check) {
   return lines;
 }
 
-nlohmann::ordered_json RobotJson(const RobotCheck& check) {
+nlohmann::ordered_json RobotCheckJson(const RobotCheck& check) {
   const RobotSpec& spec = check.spec;
   nlohmann::ordered_json wheels = nlohmann::ordered_json::array(),
                          rows = nlohmann::ordered_json::array(),

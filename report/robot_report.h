@@ -15,6 +15,6 @@ namespace floorproof {
 std::vector<std::pair<std::string, std::string>> RobotFigures(const RobotCheck& check);
 // The same as a table, then the drive beside its kinematics, then what was found.
 std::vector<std::string> RobotLines(const RobotCheck& check);
-nlohmann::ordered_json RobotJson(const RobotCheck& check);
+nlohmann::ordered_json RobotCheckJson(const RobotCheck& check);
 
 }  // namespace floorproof

@@ -25,7 +25,7 @@ nb::dict RequestDict(const PlanRequest& request) {
     out["risk"] = GridArray<double>(request.risk->rf);
     out["risk_frame"] = FrameDict(request.risk->grid.frame);
   }
-  out["hazards"] = HazardList(request.map);
+  out["hazards"] = HazardList(request.map, robot.step_m);
   out["robot"] = RobotDict(robot);
   out["start"] = PoseTuple(request.start);
   out["goal"] = request.goal ? nb::object(nb::make_tuple(request.goal->x(), request.goal->y()))

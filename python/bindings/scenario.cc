@@ -61,12 +61,13 @@ const Variant& VariantNamed(const ScenarioFile& file, const std::optional<std::s
 
 // --- sites ---
 
-nb::dict SiteDict(const HazardMap& map) {
+// With the step of a robot that is to drive there, if there is one.
+nb::dict SiteDict(const HazardMap& map, std::optional<double> step_m = {}) {
   nb::dict out;
   out["name"] = map.name;
   out["frame"] = FrameDict(map.frame);
   out["occupancy"] = GridArray<std::uint8_t>(map.occupancy);
-  out["hazards"] = HazardList(map);
+  out["hazards"] = HazardList(map, step_m);
   out["floor_friction"] = map.floor_friction;
   out["start"] = map.start ? nb::object(PoseTuple(*map.start)) : nb::object(nb::none());
   out["goal"] =
@@ -137,7 +138,8 @@ void BindScenario(nb::module_& m) {
       .def_prop_ro("control_hz", [](const Scenario& s) { return s.episode.control_hz; })
       .def_prop_ro("seed", [](const Scenario& s) { return s.episode.seed; })
       .def_prop_ro("min_coverage", [](const Scenario& s) { return s.episode.min_coverage; })
-      .def_prop_ro("site", [](const Scenario& s) { return SiteDict(s.site.map); })
+      .def_prop_ro("site",
+                   [](const Scenario& s) { return SiteDict(s.site.map, s.robot.spec.step_m); })
       .def_prop_ro("robot", [](const Scenario& s) { return RobotDict(s.robot.spec); })
       .def_prop_ro("sensors", &SensorsOf)
       .def_prop_ro("drawn", [](const Scenario& s) { return DrawnJson(s.drawn).dump(); })

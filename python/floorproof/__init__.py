@@ -19,7 +19,9 @@ from ._core import InputError, InternalError, __version__
 from ._campaign import Campaign, campaign, merge, report
 from ._plugins import online_planner, planner, tracker
 from ._results import Episode, Event, Frame, Hazard, Plan, read
-from ._scenario import Scenario, Site, load, load_site, models_folder
+from ._models import models_folder
+from ._scenario import Scenario, load
+from ._site import Site, load_site
 
 __all__ = [
     "Campaign", "Episode", "Event", "Frame", "Hazard", "InputError", "InternalError", "Plan",

@@ -21,7 +21,7 @@ import numpy as np
 
 from . import _core
 from ._core import InputError
-from ._results import Frame, Hazard, Pose, frame_of
+from ._results import Frame, Pose, frame_of, hazards_of
 from ._watchdog import limited
 
 _KINDS = (bool, int, float, str)
@@ -104,7 +104,7 @@ def _request(about: Mapping[str, Any]) -> Request:
     for name in ("frame", "obstacle_frame", "risk_frame"):
         if name in named:
             named[name] = frame_of(named[name])
-    named["hazards"] = [Hazard(**h) for h in named["hazards"]]
+    named["hazards"] = hazards_of(named["hazards"])
     return Request(**named)
 
 

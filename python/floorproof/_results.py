@@ -7,7 +7,7 @@ import os
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -47,15 +47,17 @@ class Frame:
 
 @dataclass(frozen=True)
 class Hazard:
-    """A hazard of a site. `hazard_class`: C1 (blind object) to C4 (terrain); `height_m` is signed;
-    `footprint`: polygons in the world frame; `known`: planners are told of it."""
+    """A hazard of a site. `hazard_class`: blind_object, glass, level_change or terrain; `height_m` is
+    signed; `known`: planners are told of it; `polygons_m`: its footprint, each polygon a list of
+    [x, y] in the world frame; `keep_off`: the robot must, None where there is no robot."""
 
     id: str
     type: str
     hazard_class: str
-    known: bool
     height_m: float
-    footprint: List[List[Tuple[float, float]]]
+    known: bool
+    polygons_m: List[List[Sequence[float]]]
+    keep_off: Optional[bool] = None
 
 
 @dataclass(frozen=True)
@@ -81,6 +83,11 @@ def event_of(json_event: Mapping[str, Any]) -> Event:
 
 def frame_of(about: Mapping[str, Any]) -> Frame:
     return Frame(about["width"], about["height"], about["cell_m"], tuple(about["origin"]))
+
+
+def hazards_of(about: Sequence[Mapping[str, Any]]) -> List[Hazard]:
+    return [Hazard(hazard_class=h["class"], **{key: h[key] for key in h if key != "class"})
+            for h in about]
 
 
 def json_map(text: str) -> Dict[str, Any]:

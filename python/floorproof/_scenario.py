@@ -1,11 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Scenarios and sites, from files or dicts."""
+"""Scenarios, from files or dicts: what they are, and what becomes of them."""
 from __future__ import annotations
 
 import hashlib
-import json
-import os
-import re
 import threading
 from functools import cached_property
 from pathlib import Path
@@ -16,97 +13,9 @@ import numpy as np
 from . import _core
 from ._core import InputError
 from ._progress import Progress, shown
-from ._results import Episode, Frame, Hazard, PathLike, Plan, Pose, episode_of, frame_of
-
-_PACKAGED = Path(__file__).resolve().parent / "models"
-if _PACKAGED.is_dir():
-    _core.set_models_folder(_PACKAGED)
-
-
-def models_folder() -> Path:
-    """Where the bundled models lie: robots, sites, scenarios, FMEA tables."""
-    return _core.models_folder()
-
-
-_NO_WORDS = ("null", "true", "false")  # of YAML 1.2
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, np.generic):
-        return value.item()
-    if isinstance(value, np.ndarray):
-        return value.tolist()
-    if isinstance(value, os.PathLike):
-        return os.fspath(value)
-    raise InputError(f"{type(value).__name__} {value!r}: is nothing that YAML has")
-
-
-def _whole(text: str) -> str:
-    """The text, if all that it holds are characters: half a pair, say of a file's name, is none."""
-    try:
-        text.encode()
-    except UnicodeEncodeError as error:
-        around = text[max(0, error.start - 30):error.end + 10]
-        raise InputError(f"{ascii(around)}: a lone surrogate is no character of YAML") from error
-    return text
-
-
-def _text(value: Any) -> str:
-    """As YAML: JSON is a part of it, but for surrogate pairs, so that characters stand as they are.
-    A word alone stands as one would type it: `none` is none."""
-    if isinstance(value, str) and re.fullmatch(r"[a-z_]+", value) and value not in _NO_WORDS:
-        return value
-    try:
-        return _whole(json.dumps(value, default=_plain, ensure_ascii=False))
-    except InputError:
-        raise
-    except (TypeError, ValueError, RecursionError) as error:  # odd keys, a dict within itself
-        raise InputError(f"{type(value).__name__}: is nothing that YAML has: {error}") from error
-
-
-def _overrides(changes: Optional[Mapping[str, Any]],
-               top: Mapping[str, Any]) -> List[Tuple[str, str]]:
-    """Keys and their values, as --set takes them."""
-    return [(_whole(key), _text(value)) for key, value in {**(changes or {}), **top}.items()]
-
-
-class Site:
-    """A floor with its hazards."""
-
-    def __init__(self, about: Mapping[str, Any]) -> None:
-        self.name: str = about["name"]
-        self.frame: Frame = frame_of(about["frame"])
-        self.occupancy: np.ndarray = about["occupancy"]
-        """0 free, 1 occupied, 2 unknown."""
-        self.hazards: List[Hazard] = [Hazard(**h) for h in about["hazards"]]
-        self.floor_friction: float = about["floor_friction"]
-        self.start: Optional[Pose] = about["start"]
-        self.goal: Optional[Tuple[float, float]] = about["goal"]
-
-    @cached_property
-    def _png(self) -> Optional[bytes]:
-        from ._notebook import site_png
-        return site_png(self, self.start)
-
-    def _repr_png_(self) -> Optional[bytes]:
-        return self._png
-
-    def _repr_html_(self) -> str:
-        from ._notebook import site_html
-        return site_html(self)
-
-    def __repr__(self) -> str:
-        f = self.frame
-        return (f"<Site {self.name}: {f.width * f.cell_m:.1f} m x {f.height * f.cell_m:.1f} m, "
-                f"{len(self.hazards)} hazards>")
-
-
-def load_site(source: Union[PathLike, Mapping[str, Any]], folder: Optional[PathLike] = None) -> Site:
-    """Reads and checks a site: its file, or what would stand there as a dict, whose paths are
-    relative to `folder` (default: the working directory)."""
-    if isinstance(source, Mapping):
-        return Site(_core.read_site(Path(folder or "") / "site", _text(source)))
-    return Site(_core.read_site(Path(source), None))
+from ._results import Episode, PathLike, Plan, Pose, episode_of
+from ._site import Site
+from ._yaml import overrides_of, yaml_text
 
 
 class Scenario:
@@ -182,7 +91,7 @@ class Scenario:
     def with_(self, changes: Optional[Mapping[str, Any]] = None, **top: Any) -> "Scenario":
         """The same with keys set, as --set does: with_({"robot.clearance_m": 0.02}, seed=3)."""
         file, text, overrides, inputs = self._packed()
-        return Scenario((file, text, overrides + _overrides(changes, top), inputs))
+        return Scenario((file, text, overrides + overrides_of(changes, top), inputs))
 
     def with_plan(self, path: Any) -> "Scenario":
         """The same with a plan of one's own: [n, 2] to [n, 5], columns as `Plan.path`."""
@@ -203,12 +112,14 @@ class Scenario:
         name = f"plan-{hashlib.sha256(csv.encode()).hexdigest()[:12]}.csv"
         file, text, overrides, inputs = self._packed()
         inputs = inputs + [(str(Path(file).parent / name), csv.encode())]
-        return Scenario((file, text, overrides + [("plan.file", _text(name))], inputs))
+        return Scenario((file, text, overrides + [("plan.file", yaml_text(name))], inputs))
 
     def episode(self, episode: int, variant: Optional[str] = None) -> "Scenario":
-        """The scenario as one episode of a campaign has it, its draws made."""
+        """The scenario as one episode of a campaign has it, its draws made. Episodes count from 0."""
+        if not (isinstance(episode, (int, np.integer)) and 0 <= episode < 2**64):
+            raise InputError(f"episode = {episode!r}: must be a whole number from 0")
         made = Scenario.__new__(Scenario)
-        made._file, made._alone, made._which = self._file, self._alone, (episode, variant)
+        made._file, made._alone, made._which = self._file, self._alone, (int(episode), variant)
         made._read = made._fresh()
         return made
 
@@ -306,9 +217,9 @@ def load(source: Union[PathLike, Mapping[str, Any]], changes: Optional[Mapping[s
 
         load("scenario.yaml", {"site.floor.friction": 0.6}, seed=3)
     """
-    overrides = _overrides(changes, top)
+    overrides = overrides_of(changes, top)
     if isinstance(source, Mapping):
-        return Scenario((Path(folder or "") / "scenario", _text(source), overrides, []))
+        return Scenario((Path(folder or "") / "scenario", yaml_text(source), overrides, []))
     if folder is not None:
         raise InputError("folder: is for dicts; paths in a file are relative to that file")
     return Scenario((Path(source), None, overrides, []))

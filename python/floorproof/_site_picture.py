@@ -9,7 +9,7 @@ import numpy as np
 
 from ._png import png_bytes
 from ._results import Frame, Pose
-from ._scenario import Site
+from ._site import Site
 
 Colour = Tuple[int, int, int]
 Points = np.ndarray  # [n, 2]
@@ -87,7 +87,7 @@ def drawn(site: Site, start: Optional[Pose] = None) -> bytes:
     blue, others orange; the start is a green disc with its heading."""
     canvas = _Canvas(site.frame, site.occupancy)
     for hazard in site.hazards:
-        for polygon in hazard.footprint:
+        for polygon in hazard.polygons_m:
             canvas.area(canvas.points(polygon), _KNOWN if hazard.known else _UNKNOWN)
     if start is not None:
         x_m, y_m, yaw = start

@@ -46,10 +46,10 @@ def floor(ros: Ros, scenario: Scenario) -> Iterator[Topic]:
     for hazard in site.hazards:
         colour = _KNOWN if hazard.known else _UNKNOWN
         z_m = max(hazard.height_m, 0.0) + 0.01
-        for polygon in hazard.footprint:
+        for polygon in hazard.polygons_m:
             marks.append(ros.outline(0, "hazards", len(marks), polygon, z_m, colour))
-        if hazard.footprint:
-            x_m, y_m = np.mean(hazard.footprint[0], axis=0)
+        if hazard.polygons_m:
+            x_m, y_m = np.mean(hazard.polygons_m[0], axis=0)
             text = f"{hazard.id} ({hazard.type}, {1000 * hazard.height_m:.0f} mm)"
             marks.append(ros.marker(0, "hazards", len(marks), "TEXT_VIEW_FACING", colour=colour,
                                     at=(x_m, y_m, 0), z_m=z_m + 0.1, size_m=(0, 0, 0.12),
@@ -63,9 +63,9 @@ def floor(ros: Ros, scenario: Scenario) -> Iterator[Topic]:
 
 
 def _corners(shape: Mapping[str, Any]) -> List[Sequence[float]]:
-    if "polygon" in shape:
-        return list(shape["polygon"])
-    r, turns = shape["radius_m"], np.linspace(0, 2 * math.pi, 36, endpoint=False)
+    if "polygon_m" in shape:
+        return list(shape["polygon_m"])
+    r, turns = shape["circle_radius_m"], np.linspace(0, 2 * math.pi, 36, endpoint=False)
     return [(r * math.cos(a), r * math.sin(a)) for a in turns]
 
 

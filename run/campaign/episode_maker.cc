@@ -6,8 +6,8 @@
 
 #include "base/file_output.h"
 #include "run/episode/ask_program.h"
+#include "run/episode/descriptions.h"
 #include "run/episode/execute.h"
-#include "run/episode/plan_request_files.h"
 #include "run/episode/records.h"
 #include "run/scenario/plan_file.h"
 
@@ -17,7 +17,7 @@ namespace {
 // What a program is told beside the floor and its risk. Its robot's speeds hang on more than the
 // robot's keys: the battery's voltage.
 std::string ProgramInputs(const Scenario& s, const PlanCommand& program) {
-  std::string text = RobotJson(s.robot.spec).dump() + std::to_string(ProgramSeed(s, program));
+  std::string text = DescribeRobot(s.robot.spec).dump() + std::to_string(ProgramSeed(s, program));
   for (const std::string& word : program.words) text += "\n" + word;
   return text;
 }

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 
 #include "planners/planner.h"
 #include "planners/risk/risk_map.h"
@@ -13,9 +12,6 @@ namespace floorproof {
 
 // The version of request.json and of what stands beside it.
 inline constexpr int kPlanRequestVersion = 1;
-
-// Its part on the robot.
-nlohmann::ordered_json RobotJson(const RobotSpec& robot);
 
 // Writes request.json, map.pgm and map.png, reach.pgm and reach.png, and risk.csv. `seed` stands in
 // place of the request's own: many languages read numbers of 32 bits exactly, few those of 64. The

@@ -281,9 +281,9 @@ def test_events_are_the_results(log: Log, folder: Path) -> None:
 def test_hazards_are_outlined(log: Log, scenario: floorproof.Scenario) -> None:
     marks = log.only("/hazards").markers
     outlines = [m for m in marks if m.type == 4]
-    assert len(outlines) == sum(len(h.footprint) for h in scenario.site.hazards)
+    assert len(outlines) == sum(len(h.polygons_m) for h in scenario.site.hazards)
     pane = scenario.site.hazards[0]
-    assert [(p.x, p.y) for p in outlines[0].points] == [*pane.footprint[0], pane.footprint[0][0]]
+    assert [[p.x, p.y] for p in outlines[0].points] == [*pane.polygons_m[0], pane.polygons_m[0][0]]
     assert [m.text for m in marks if m.type == 9] == [
         "pane (glass, 1000 mm), not on the map", "sill (step, 4 mm)"]
     body = log.only("/robot").markers

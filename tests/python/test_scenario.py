@@ -38,9 +38,16 @@ def test_a_site_has_its_cells_and_hazards():
     assert site.frame == floorproof.Frame(4, 3, 0.5, (0.0, 0.0, 0.0))
     sill, = site.hazards
     assert (sill.id, sill.type, sill.hazard_class, sill.known, sill.height_m) == (
-        "sill", "step", "C3", False, 0.01)
+        "sill", "step", "level_change", False, 0.01)
+    assert sill.keep_off is None  # no robot is to drive there
     assert site.frame.cell(0.7, 0.7) == (1, 1)
     assert site.frame.centre(1, 2) == (1.25, 0.75)
+
+
+@pytest.mark.parametrize("episode", [-1, 2**64, 1.5, "2", None])
+def test_episodes_count_from_nought(room, episode):
+    with pytest.raises(floorproof.InputError, match="episode = .*: must be a whole number from 0"):
+        floorproof.load(room).episode(episode)
 
 
 @pytest.mark.parametrize("change, says", [

@@ -22,7 +22,7 @@ TEST(RobotReport, SaysWhatBelugaIs) {
        {"differential", "2 driven, radius 50 mm", "270 mm", "335 mm over the floor",
         "0.25 m/s cruise", "ahead left 48", "straight/way", "nothing is wrong with it"})
     EXPECT_THAT(lines, Contains(HasSubstr(said)));
-  const auto json = RobotJson(beluga);
+  const auto json = RobotCheckJson(beluga);
   EXPECT_EQ(json["ok"], true);
   EXPECT_NEAR(json["clearance_m"].get<double>(), 0.025, 1e-6);
   EXPECT_EQ(json["carriers"].size(), 4u);
@@ -63,8 +63,8 @@ TEST(RobotReport, SaysWhatIsWrong) {
   EXPECT_TRUE(check.ok());
   check.findings.push_back({Finding::Kind::kWrong, "it squeaks", "oil it"});
   EXPECT_THAT(RobotLines(check), Contains("wrong: it squeaks: oil it"));
-  EXPECT_EQ(RobotJson(check)["ok"], false);
-  EXPECT_EQ(RobotJson(check)["findings"].back()["mend"], "oil it");
+  EXPECT_EQ(RobotCheckJson(check)["ok"], false);
+  EXPECT_EQ(RobotCheckJson(check)["findings"].back()["mend"], "oil it");
 }
 
 TEST(RobotPicture, IsTheSameEachTimeAndShowsWhatIsWrong) {
