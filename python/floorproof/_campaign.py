@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import numbers
-import operator
 import os
 from contextlib import nullcontext
 from pathlib import Path
 from typing import Any, Dict, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _core
+from ._checks import among, whole
 from ._core import InputError
 from ._progress import Progress, shown
 from ._recorded import checked, json_object
@@ -64,27 +64,13 @@ class Campaign:
         return f"<Campaign {self.folder}: {n} episodes>"
 
 
-def _whole(name: str, value: Any, most: int = (1 << 63) - 1) -> int:
-    """Of what counts as a whole number; which ones will do is said by who takes it."""
-    try:
-        whole = operator.index(value)
-    except TypeError:
-        whole = None
-    if whole is None or isinstance(value, bool) or abs(whole) > most:
-        raise InputError(f"{name} = {value!r}: must be a whole number, at most {most}")
-    return whole
-
-
 def _range(episodes: Any) -> Tuple[int, int]:
     try:
         begin, end = episodes
     except (TypeError, ValueError):
         raise InputError(f"episodes = {episodes!r}: must be (a, b): the first id and the one behind "
                          "the last") from None
-    begin, end = _whole("episodes[0]", begin), _whole("episodes[1]", end)
-    if min(begin, end) < 0:
-        raise InputError(f"episodes = ({begin}, {end}): must be at least 0")
-    return begin, end
+    return whole("episodes[0]", begin, 0), whole("episodes[1]", end, 0)
 
 
 def campaign(scenario: Union[Scenario, PathLike, Mapping[str, Any]], n: int, *, out: PathLike,
@@ -102,17 +88,14 @@ def campaign(scenario: Union[Scenario, PathLike, Mapping[str, Any]], n: int, *, 
     """
     if not isinstance(scenario, Scenario):
         scenario = load(scenario)
-    if engine not in ("local", "ray"):
-        raise InputError(f"engine = {engine}: unknown (known: local, ray)")
+    among("engine", engine, ("local", "ray"))
     if engine == "local" and engine_options:
         raise InputError(f"{next(iter(engine_options))}: is no option of engine local")
     if engine == "ray" and jobs is not None:
         raise InputError(f"jobs = {jobs}: is for engine local; a Ray cluster has the workers it has")
-    n = _whole("n", n)
-    if n < 1:
-        raise InputError(f"n = {n}: must be at least 1")
+    n = whole("n", n, 1)
     shard = None if episodes is None else _range(episodes)
-    workers = _whole("jobs", len(os.sched_getaffinity(0)) if jobs is None else jobs, (1 << 31) - 1)
+    workers = whole("jobs", len(os.sched_getaffinity(0)) if jobs is None else jobs, most=(1 << 31) - 1)
     if not (time_limit_s is None or isinstance(time_limit_s, numbers.Real)):
         raise InputError(f"time_limit_s = {time_limit_s!r}: must be a number (s)")
     pool: Any = None

@@ -11,6 +11,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, Union
 import numpy as np
 
 from . import _core
+from ._checks import MOST_EPISODE, whole
 from ._core import InputError
 from ._progress import Progress, shown
 from ._results import Episode, PathLike, Plan, Pose, episode_of
@@ -116,10 +117,9 @@ class Scenario:
 
     def episode(self, episode: int, variant: Optional[str] = None) -> "Scenario":
         """The scenario as one episode of a campaign has it, its draws made. Episodes count from 0."""
-        if not (isinstance(episode, (int, np.integer)) and 0 <= episode < 2**64):
-            raise InputError(f"episode = {episode!r}: must be a whole number from 0")
+        episode = whole("episode", episode, 0, MOST_EPISODE)
         made = Scenario.__new__(Scenario)
-        made._file, made._alone, made._which = self._file, self._alone, (int(episode), variant)
+        made._file, made._alone, made._which = self._file, self._alone, (episode, variant)
         made._read = made._fresh()
         return made
 

@@ -18,6 +18,7 @@ import numpy as np
 from gymnasium import spaces
 
 from . import _core
+from ._checks import MOST_EPISODE, among, number, whole
 from ._core import InputError
 from ._results import Episode, Event, PathLike, episode_of, event_of
 from ._scenario import Scenario, load
@@ -34,7 +35,6 @@ if ID not in gymnasium.registry:
 Observation = Dict[str, np.ndarray]
 Info = Dict[str, Any]
 
-_MOST_EPISODE = 10**8  # that a scenario's key `episode` takes
 # Ends that are none of the task's: the time is over, or the physics diverged.
 _TRUNCATED = ("timeout", "error")
 
@@ -74,21 +74,21 @@ class FloorproofEnv(gymnasium.Env[Observation, np.ndarray]):
         self._views: List[Tuple[str, np.ndarray]] = []  # of what lies in it
         self._events: List[Event] = []
         self._closed = False
-        _among("reference", reference, ("plan", None))
-        _among("render_mode", render_mode, (None, *self.metadata["render_modes"]))
-        _among("camera", camera, ("auto", "chase", "top", "side"))
-        _among("quality", quality, ("draft", "full"))
+        among("reference", reference, ("plan", None))
+        among("render_mode", render_mode, (None, *self.metadata["render_modes"]))
+        among("camera", camera, ("auto", "chase", "top", "side"))
+        among("quality", quality, ("draft", "full"))
         self._follows = reference == "plan"
         self._variant = variant
-        self._repeat = _whole("action_repeat", action_repeat, 1, 100000)
-        self._reward = _number("coverage_reward", coverage_reward)
-        self._penalty = _number("failure_penalty", failure_penalty, least=0)
-        self._outlook = (_whole("local_map_cells", local_map_cells, 1),
-                         _number("local_map_cell_m", local_map_cell_m),
-                         _whole("plan_points", plan_points, 1, 1000),
-                         _number("plan_step_m", plan_step_m, least=0.01))
+        self._repeat = whole("action_repeat", action_repeat, 1, 100000)
+        self._reward = number("coverage_reward", coverage_reward)
+        self._penalty = number("failure_penalty", failure_penalty, least=0)
+        self._outlook = (whole("local_map_cells", local_map_cells, 1),
+                         number("local_map_cell_m", local_map_cell_m),
+                         whole("plan_points", plan_points, 1, 1000),
+                         number("plan_step_m", plan_step_m, least=0.01))
         self.render_mode = render_mode
-        self._picture = (_whole("width", width, 64), _whole("height", height, 64), camera,
+        self._picture = (whole("width", width, 64), whole("height", height, 64), camera,
                          quality == "draft")
         for name, pixels in (("width", width), ("height", height)):
             if pixels % 2:
@@ -118,11 +118,11 @@ class FloorproofEnv(gymnasium.Env[Observation, np.ndarray]):
         if asked:
             raise InputError(f"options.{next(iter(asked))}: unknown (known: episode, variant)")
         if episode is not None:
-            episode = _whole("options.episode", episode, 0, _MOST_EPISODE)
+            episode = whole("options.episode", episode, 0, MOST_EPISODE)
         elif seed is not None:
-            episode = seed % (_MOST_EPISODE + 1)
+            episode = seed % (MOST_EPISODE + 1)
         else:
-            episode = int(self.np_random.integers(_MOST_EPISODE + 1))
+            episode = int(self.np_random.integers(MOST_EPISODE + 1))
         self._begin(episode, variant)
         info = self._info()
         info["episode_id"] = episode
@@ -281,34 +281,9 @@ def _with_what_it_needs(source: Union[Scenario, PathLike, Mapping[str, Any]],
     scenario = source if isinstance(source, Scenario) else load(source)
     changes: Dict[str, Any] = {}
     if max_time_s is not None:
-        changes["time_limit_s"] = _number("max_time_s", max_time_s)
+        changes["time_limit_s"] = number("max_time_s", max_time_s)
     if "lidar" not in scenario.sensors:
         changes["sensors.lidar"] = {}
         warn(f"{scenario.name} has no lidar, which is observed: sensors.lidar is added with its "
              "defaults")
     return scenario.with_(changes) if changes else scenario
-
-
-def _among(name: str, value: Any, known: Tuple[Any, ...]) -> None:
-    if value not in known:
-        raise InputError(f"{name} = {value}: unknown (known: {', '.join(map(str, known))})")
-
-
-def _whole(name: str, value: Any, least: int, most: Optional[int] = None) -> int:
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
-        raise InputError(f"{name} = {value!r}: must be a whole number")
-    if value < least or (most is not None and value > most):
-        raise InputError(f"{name} = {value}: must be at least {least}"
-                         + ("" if most is None else f" and at most {most}"))
-    return int(value)
-
-
-def _number(name: str, value: Any, least: Optional[float] = None) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise InputError(f"{name} = {value!r}: must be a number") from None
-    if not isfinite(number) or (least is not None and number < least):
-        raise InputError(f"{name} = {number}: must be finite"
-                         + ("" if least is None else f" and at least {least}"))
-    return number

@@ -68,7 +68,7 @@ def test_a_planner_in_python_drives_in_workers(drawing, tmp_path):
     ({"n": 2, "jobs": "all"}, "jobs = 'all': must be a whole number"),
     ({"n": 10**20}, "n = 1000.*: must be a whole number, at most 92"),
     ({"n": 2, "jobs": 10**10}, "jobs = 10000000000: must be a whole number, at most 2147483647"),
-    ({"n": 2, "episodes": (-1, 2)}, r"episodes = \(-1, 2\): must be at least 0"),
+    ({"n": 2, "episodes": (-1, 2)}, r"episodes\[0\] = -1: must be at least 0"),
     ({"n": 2, "jobs": True}, "jobs = True: must be a whole number"),
     ({"n": 2, "jobs": 0}, "jobs: 0: must be"),
     ({"n": 2, "time_limit_s": "5"}, "time_limit_s = '5': must be a number"),

@@ -44,9 +44,9 @@ def test_a_site_has_its_cells_and_hazards():
     assert site.frame.centre(1, 2) == (1.25, 0.75)
 
 
-@pytest.mark.parametrize("episode", [-1, 2**64, 1.5, "2", None])
+@pytest.mark.parametrize("episode", [-1, 10**8 + 1, 1.5, "2", None])
 def test_episodes_count_from_nought(room, episode):
-    with pytest.raises(floorproof.InputError, match="episode = .*: must be a whole number from 0"):
+    with pytest.raises(floorproof.InputError, match="episode = .*: must be (a whole number|at least 0)"):
         floorproof.load(room).episode(episode)
 
 
