@@ -89,6 +89,13 @@ def test_spaces_are_those_of_robot_and_lidar(env: Any) -> None:
     assert len(env.unwrapped.lidar_angles) == 36
 
 
+def test_a_plan_that_folds_the_robot_is_for_its_own_tracker() -> None:
+    gap = floorproof.models_folder() / "scenarios" / "htetro_narrow_gap.yaml"
+    with pytest.raises(InputError, match=r"htetro_narrow_gap.yaml: plan.*: folds the robot"):
+        make(floorproof.load(gap, {"sensors.lidar": {}})).reset()
+    make(floorproof.load(gap, {"sensors.lidar": {}}), reference=None).reset()
+
+
 def test_a_holonomic_robot_takes_three_numbers() -> None:
     env = make(room(robot="htetro"), reference=None)
     assert env.action_space.shape == (3,)
