@@ -3,13 +3,14 @@
 
 #include <algorithm>
 
-#include "apps/campaign_results.h"
 #include "apps/command.h"
 #include "base/interrupt.h"
 #include "base/progress_line.h"
 #include "base/quantity.h"
 #include "report/campaign_films.h"
+#include "report/campaign_words.h"
 #include "run/campaign/drive_campaign.h"
+#include "run/campaign/summary_json.h"
 #include "stats/binomial.h"
 
 namespace floorproof {
@@ -96,7 +97,8 @@ int RunIt(const Options& options, const Globals& globals) {
   progress.Clear();
   const char* missing = "failing_episodes.csv and the films";
   try {
-    SayResults(outcome, folder, globals);
+    globals.Result(SummaryJson(outcome.summary));
+    SayCampaign(outcome, folder, globals);
     if (request.shard && !file.gate().IsNull())
       globals.Say("a shard: `merge` judges the gate of all");
     if (outcome.run.end == CampaignEnd::kInterrupted) throw Interruption();
@@ -106,7 +108,7 @@ int RunIt(const Options& options, const Globals& globals) {
   } catch (const std::runtime_error& e) {
     throw InternalError(std::string(e.what()) + "; missing: " + missing);
   }
-  return ExitStatus(outcome);
+  return CampaignExitStatus(outcome);
 }
 
 }  // namespace

@@ -72,18 +72,18 @@ int Cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurre
 int ExitStatus(Outcome outcome) {
   switch (outcome) {
     case Outcome::kSuccess:
-      return kDone;
+      return kExitDone;
     case Outcome::kFailure:
     case Outcome::kTimeout:
     case Outcome::kAborted:
     case Outcome::kNotPlanned:
-      return kNotSuccess;
+      return kExitNotSuccess;
     case Outcome::kError:
-      return kBroken;
+      return kExitBroken;
     case Outcome::kInterrupted:
       return kInterruptedExit;
   }
-  return kBroken;
+  return kExitBroken;
 }
 
 }  // namespace floorproof

@@ -11,14 +11,10 @@
 
 #include "apps/command_line.h"
 #include "base/console.h"
+#include "base/exit_status.h"
 #include "run/episode/episode.h"
 
 namespace floorproof {
-
-// Exit statuses (design: the contract).
-inline constexpr int kDone = 0, kNotSuccess = 1, kBadInput = 2, kBroken = 3,
-                     kGateUndecided = 4;  // and
-// kInterruptedExit (base/interrupt.h)
 
 struct Globals : Console {
   std::vector<std::string> sets;  // --set key.path=value

@@ -129,7 +129,7 @@ void AddCompare(CommandLine& line, const Globals& globals, int& status) {
     const bool driven = !comparison.metrics.empty();
     if (driven) SayDrives(comparison, globals);
     SayPlans(comparison, globals);
-    status = kDone;
+    status = kExitDone;
   });
 }
 

@@ -62,7 +62,7 @@ void AddDemo(CommandLine& line, const Globals& globals, int& status) {
     }
     globals.Say(fmt::format("\nfilms, heat maps and records are in {}", root.string()));
     globals.Result(all);
-    status = good ? kDone : kBroken;
+    status = good ? kExitDone : kExitBroken;
   });
 }
 

@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
       "`floorproof run scenario.yaml --video`.",
       "floorproof"};
   Globals globals;
-  int status = kDone;
+  int status = kExitDone;
   app.set_version_flag("--version", FLOORPROOF_VERSION);
   app.add_flag("--json", globals.json, "The result as JSON on stdout; all else goes to stderr");
   app.add_flag("--quiet", globals.quiet, "Say nothing but errors");
@@ -97,25 +97,25 @@ int main(int argc, char** argv) {
   };
   try {
     app.parse(argc, argv);
-    return StdoutIsWritten() ? status : kBroken;
+    return StdoutIsWritten() ? status : kExitBroken;
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) {  // --help, --version
       const int code = app.exit(e);
-      return StdoutIsWritten() ? code : kBroken;
+      return StdoutIsWritten() ? code : kExitBroken;
     }
     std::fprintf(stderr, "floorproof: %s (floorproof --help)\n", Reason(app, e).c_str());
-    return kBadInput;
+    return kExitBadInput;
   } catch (const Interruption&) {
     EndInterrupted();
   } catch (const InputError& e) {
     std::fprintf(stderr, "floorproof: %s\n", e.what());
-    return said(kBadInput);
+    return said(kExitBadInput);
   } catch (const std::filesystem::filesystem_error& e) {
     std::fprintf(stderr, "floorproof: %s\n",
                  InputError({e.path1().string(), 0}, "", "", e.code().message()).what());
-    return said(IsOfTheDisk(e.code()) ? kBroken : kBadInput);
+    return said(IsOfTheDisk(e.code()) ? kExitBroken : kExitBadInput);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "floorproof: %s\n", Printable(e.what()).c_str());
-    return said(kBroken);
+    return said(kExitBroken);
   }
 }

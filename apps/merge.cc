@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "apps/campaign_results.h"
 #include "apps/command.h"
+#include "report/campaign_words.h"
 #include "run/campaign/campaign_merge.h"
+#include "run/campaign/summary_json.h"
 
 namespace floorproof {
 namespace {
@@ -25,8 +26,9 @@ int Merge(const std::vector<std::string>& shards, const std::filesystem::path& o
         fmt::format("{}: no shard holds the episodes {}; those behind the first of them are "
                     "kept and not counted",
                     gap.variant, Text(gap.missing)));
-  SayResults(outcome, out, globals);
-  return ExitStatus(outcome);
+  globals.Result(SummaryJson(outcome.summary));
+  SayCampaign(outcome, out, globals);
+  return CampaignExitStatus(outcome);
 }
 
 }  // namespace

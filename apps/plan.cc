@@ -66,7 +66,7 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     }
     globals.Say("results are in " + folder.string());
     globals.Result(json);
-    status = found ? kDone : kNotSuccess;
+    status = found ? kExitDone : kExitNotSuccess;
   });
 }
 

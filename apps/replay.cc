@@ -17,7 +17,7 @@ int ReplayOfRun(const std::filesystem::path& folder, bool video, const Globals& 
       throw InputError({(folder / needed).string(), 0}, "", "",
                        why + ": not a folder of a finished `run`, nor of a `campaign`");
   globals.Result(ReplayRun(folder, globals.Overrides(), video, globals));
-  return kDone;
+  return kExitDone;
 }
 
 int ReplayOfCampaign(const std::filesystem::path& folder, std::optional<std::uint64_t> episode,
@@ -45,7 +45,7 @@ int ReplayOfCampaign(const std::filesystem::path& folder, std::optional<std::uin
   const DriveResult result = ReplayEpisode(file, *variant, *row, folder, {.video = video}, globals);
   globals.Say("results are in " + EpisodeFolder(folder, *variant, *episode).string());
   globals.Result(ResultJson(file.Read(*episode, *variant), result.record));
-  return kDone;
+  return kExitDone;
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ int WriteReport(const std::string& named, const Globals& globals) {
                   {"verdict", written.verdict},
                   {"bytes", written.bytes},
                   {"linked", written.linked}});
-  return kDone;
+  return kExitDone;
 }
 
 }  // namespace

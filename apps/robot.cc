@@ -119,7 +119,7 @@ void AddRobot(CommandLine& line, const Globals& globals, int& status) {
     if (options->ladder)
       json["ladder"] = MeasureLimits(robot, target, folder / out.stem(), options->jobs, globals);
     globals.Result(json);
-    if (!check.ok()) status = kNotSuccess;
+    if (!check.ok()) status = kExitNotSuccess;
   });
 }
 

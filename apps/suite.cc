@@ -162,8 +162,8 @@ int RunIt(const Options& options, const Globals& globals) {
   globals.Say("the page is " + (folder / "report.html").string());
   for (const RobotSuite& robot : report.robots)
     for (const MethodResult& result : robot.methods)
-      if (!WhyMissed(result, report.required).empty()) return kNotSuccess;
-  return kDone;
+      if (!WhyMissed(result, report.required).empty()) return kExitNotSuccess;
+  return kExitDone;
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ void AddValidate(CommandLine& line, const Globals& globals, int& status) {
     }
     globals.Result(result);
     globals.Say("results are in " + folder.string());
-    if (failed > 0) status = kNotSuccess;
+    if (failed > 0) status = kExitNotSuccess;
   });
 }
 

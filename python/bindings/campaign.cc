@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Campaigns: in worker processes of this machine, or wherever a Python pool has its workers.
 
-#include <nlohmann/json.hpp>
-
 #include "base/interrupt.h"
 #include "python/bindings/host.h"
 #include "python/bindings/modules.h"
-#include "report/failing_episodes.h"
+#include "report/campaign_words.h"
 #include "run/campaign/campaign_merge.h"
 #include "run/campaign/drive_campaign.h"
 #include "run/campaign/episode_maker.h"
-#include "run/campaign/summary_json.h"
 
 namespace floorproof {
 namespace {
@@ -46,13 +43,15 @@ nb::object Next(const Calls& calls) {
 
 std::string Text(const nb::bytes& bytes) { return {bytes.c_str(), bytes.size()}; }
 
-// Summary (JSON), why it ended, its exit status' parts.
+// Why it ended; what the command line would say of it, and its exit status.
 nb::dict Ended(const CampaignOutcome& outcome, const fs::path& folder) {
-  const Console quiet{.quiet = true};
-  ListFailingEpisodes(outcome.store, outcome.variants, folder, quiet);
+  std::vector<std::string> lines;
+  SayCampaign(outcome, folder,
+              {.listener = [&](const std::string& line) { lines.push_back(line); }});
   nb::dict out;
-  out["summary"] = SummaryJson(outcome.summary).dump();
   out["end"] = std::string(WhyEnded(outcome.run.end));
+  out["lines"] = lines;
+  out["status"] = CampaignExitStatus(outcome);
   return out;
 }
 

@@ -13,7 +13,8 @@ Errors are exceptions with the command line's text: `InputError` for what a user
 seconds; poses are (x_m, y_m, yaw_rad) in the world frame, x right, y up. Maps are arrays
 [height, width] whose row 0 is the lowest.
 """
-from typing import Any
+import importlib
+from typing import TYPE_CHECKING, Any
 
 from ._core import InputError, InternalError, __version__
 from ._campaign import Campaign, campaign, merge, report
@@ -23,10 +24,14 @@ from ._models import models_folder
 from ._scenario import Scenario, load
 from ._site import Site, load_site
 
+if TYPE_CHECKING:
+    from . import cluster, exports, gym
+    from ._mcap import to_mcap
+
 __all__ = [
     "Campaign", "Episode", "Event", "Frame", "Hazard", "InputError", "InternalError", "Plan",
     "Scenario", "Site", "__version__", "campaign", "load", "load_site", "merge", "models_folder",
-    "online_planner", "planner", "read", "report", "tracker",
+    "online_planner", "planner", "read", "report", "to_mcap", "tracker",
 ]
 
 
@@ -35,4 +40,6 @@ def __getattr__(name: str) -> Any:
     if name == "to_mcap":
         from .exports import to_mcap
         return to_mcap
+    if name in ("cluster", "exports", "gym"):
+        return importlib.import_module("." + name, __name__)
     raise AttributeError(f"module 'floorproof' has no attribute {name!r}")

@@ -6,7 +6,7 @@ import numbers
 import os
 from contextlib import nullcontext
 from pathlib import Path
-from typing import Any, Dict, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _core
 from ._checks import among, whole
@@ -21,10 +21,13 @@ from ._warn import warn
 class Campaign:
     """What a campaign left in its folder."""
 
-    def __init__(self, folder: PathLike, end: str = "") -> None:
+    def __init__(self, folder: PathLike, ended: Optional[Mapping[str, Any]] = None) -> None:
         self.folder = Path(folder)
-        self.end = end
-        """Why it ended, in words."""
+        ended = ended or {"end": "", "lines": [], "status": None}
+        self.end: str = ended["end"]
+        """Why it ended, in words; empty where it was only read."""
+        self._lines: List[str] = ended["lines"]  # as the command line says them
+        self._status: Optional[int] = ended["status"]  # and its exit status
         file = self.folder / "summary.json"
         self.summary: Dict[str, Any] = json_object(file, "floorproof campaign", {"variants": dict})
         for name, variant in self.variants.items():
@@ -111,12 +114,12 @@ def campaign(scenario: Union[Scenario, PathLike, Mapping[str, Any]], n: int, *, 
             Path(out), pool, warn, tell)
     if pool is not None and pool.refused is not None:
         raise pool.refused
-    return Campaign(out, ended["end"])
+    return Campaign(out, ended)
 
 
 def merge(shards: Sequence[PathLike], out: PathLike) -> Campaign:
     """Joins shards of one campaign, driven anywhere, into `out`, and judges the gate."""
-    return Campaign(out, _core.merge([os.fspath(s) for s in shards], Path(out))["end"])
+    return Campaign(out, _core.merge([os.fspath(s) for s in shards], Path(out)))
 
 
 def report(folder: PathLike) -> Path:

@@ -8,14 +8,14 @@ import sys
 import time
 import warnings
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Dict, Optional, Sequence, Tuple
 
 from . import _core
 from ._campaign import Campaign, campaign
 from ._scenario import Scenario
 
 # As the command line's (apps/command.h).
-_DONE, _NOT_SUCCESS, _BAD_INPUT, _BROKEN, _UNDECIDED, _INTERRUPTED = 0, 1, 2, 3, 4, 130
+_BAD_INPUT, _BROKEN, _INTERRUPTED = 2, 3, 130
 _SAY_S = 10.0
 
 
@@ -97,33 +97,6 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _rates(made: Campaign) -> List[str]:
-    lines = []
-    for name, v in made.variants.items():
-        lines.append(f"{name}: {v['n']} episodes, {v['n_error']} errors, "
-                     f"{v['n_not_planned']} without a plan")
-        for mode, rate in v["failures"].items():
-            if not rate["n"]:
-                continue
-            at_most = f"{100 * rate['upper']:.2f} %"
-            seen = f"{rate['k']} = {100 * (rate['rate'] or 0):.2f} %"
-            lines.append(f"  {mode:<12} " + (
-                f"none; at most {at_most}" if rate["k"] == 0 else
-                f"{seen} ({100 * rate['lower']:.2f} to {at_most})"))
-    return lines
-
-
-def status_of(made: Campaign, shard: bool, failed_fast: bool) -> int:
-    """As `floorproof campaign` ends: errors first, then an early end at a failure, then a gate."""
-    if any(v["n_error"] for v in made.variants.values()):
-        return _BROKEN
-    if failed_fast:
-        return _NOT_SUCCESS
-    if shard or not made.gate:
-        return _DONE
-    return {"passed": _DONE, "failed": _NOT_SUCCESS}.get(made.gate["verdict"], _UNDECIDED)
-
-
 def _run(options: argparse.Namespace) -> int:
     overrides = list(options.set)
     if options.seed is not None:
@@ -138,12 +111,11 @@ def _run(options: argparse.Namespace) -> int:
     if options.json:
         print(json.dumps(made.summary))
     elif not options.quiet:
-        print("\n".join([f"{made.end}; results are in {made.folder}", *_rates(made)]))
-        if made.gate:
-            print(f"gate: {made.gate['verdict']}")
+        print("\n".join(made._lines))
         if options.episodes is not None:
             print("a shard: `floorproof merge` judges the gate of all")
-    return status_of(made, options.episodes is not None, "fail-fast" in made.end)
+    assert made._status is not None  # it was driven
+    return made._status
 
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:

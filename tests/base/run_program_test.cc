@@ -74,6 +74,7 @@ TEST(RunProgram, SaysHowItEnded) {
   EXPECT_EQ(FailureOf("exit 3"), "ended with status 3");
   EXPECT_EQ(FailureOf("kill -SEGV $$"), "was killed (Segmentation fault)");
   EXPECT_EQ(FailureOf("kill -KILL $$"), "was killed (Killed)");
+  EXPECT_EQ(FailureOf("kill -KILL $PPID; sleep 1000"), "ended the process that watches it");
   ExchangeFolder dut;
   const ProgramCall none{{"/no/such/program"}, ::testing::TempDir(), 20};
   EXPECT_EQ(dut.Run(none).failure, "cannot be started: No such file or directory");

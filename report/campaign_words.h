@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `campaign` and `merge` say, and their exit status.
+// What is said of a campaign that ended, and the exit status of who drove or merged it.
 #pragma once
 
 #include <filesystem>
 
-#include "apps/command.h"
+#include "base/console.h"
 #include "run/campaign/drive_campaign.h"
 
 namespace floorproof {
 
 // Says the rates, the failing episodes (all of them into failing_episodes.csv) and what the gate
 // says.
-void SayResults(const CampaignOutcome& outcome, const std::filesystem::path& folder,
-                const Globals& globals);
+void SayCampaign(const CampaignOutcome& outcome, const std::filesystem::path& folder,
+                 const Console& console);
 
 // Errors first, then an early end at a failure, then the gate.
-int ExitStatus(const CampaignOutcome& outcome);
+int CampaignExitStatus(const CampaignOutcome& outcome);
 
 }  // namespace floorproof
