@@ -9,6 +9,7 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdint>
@@ -71,6 +72,19 @@ class Library {
 
 using ProcAddress = void (*)();
 
+// The process that draws, once there is one. A context is its alone.
+pid_t g_drawing = 0;
+
+bool IsForked() { return g_drawing != 0 && g_drawing != getpid(); }
+
+void RefuseInFork() {
+  if (IsForked())
+    throw InputError(
+        "drawing: this process was forked from one that had drawn, and the drawing library's "
+        "threads "
+        "are not in it: start it by spawn or forkserver, or draw nothing before");
+}
+
 // The values of GL/gl.h, GL/osmesa.h and EGL/egl.h that are used here, so that building needs none.
 constexpr unsigned kGlRgba = 0x1908, kGlUnsignedByte = 0x1401;
 constexpr unsigned kGlMaxRenderbufferSize = 0x84E8;
@@ -91,9 +105,12 @@ class OsmesaContext : public GlContext {
     context_ = create(kGlRgba, 24, 8, 0, nullptr);
     if (context_ == nullptr) throw Unavailable("OSMesaCreateContextExt failed");
   }
-  ~OsmesaContext() override { destroy_(context_); }
+  ~OsmesaContext() override {
+    if (!inherited()) destroy_(context_);
+  }
 
   void MakeCurrent() override {
+    RefuseInFork();
     if (!make_current_(context_, window_.data(), kGlUnsignedByte, kSide, kSide)) {
       throw InternalError("OSMesaMakeCurrent failed");
     }
@@ -152,11 +169,13 @@ class EglContext : public GlContext {
     check(context_ != nullptr, "eglCreateContext");
   }
   ~EglContext() override {
+    if (inherited()) return;
     make_current_(display_, nullptr, nullptr, nullptr);
     destroy_(display_, context_);
   }
 
   void MakeCurrent() override {
+    RefuseInFork();
     if (!make_current_(display_, nullptr, nullptr, context_)) {
       throw InternalError("eglMakeCurrent failed");
     }
@@ -220,6 +239,7 @@ constexpr std::array kBackends = {Backend{OsmesaContext::kName, Make<OsmesaConte
                                   Backend{EglContext::kName, Make<EglContext>}};
 
 Made MakeFirst(GlReport& report) {
+  RefuseInFork();
   static const char* bound = nullptr;  // the backend whose functions MuJoCo has
   const char* wanted = std::getenv("FLOORPROOF_GL");
   if (wanted != nullptr && *wanted == '\0') wanted = nullptr;
@@ -234,6 +254,7 @@ Made MakeFirst(GlReport& report) {
     try {
       Made made = backend.make();
       bound = backend.name;
+      g_drawing = getpid();
       report.backend = backend.name;
       report.renderer = made.renderer;
       report.version = made.version;
@@ -249,6 +270,8 @@ Made MakeFirst(GlReport& report) {
 }
 
 }  // namespace
+
+bool GlContext::inherited() const { return IsForked(); }
 
 std::unique_ptr<GlContext> MakeGlContext() {
   GlReport report;

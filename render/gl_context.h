@@ -12,8 +12,11 @@ namespace floorproof {
 class GlContext {
  public:
   virtual ~GlContext() = default;
-  // Makes this context current on the calling thread. Throws InternalError.
+  // Makes this context current on the calling thread. Throws InternalError; InputError in a process
+  // that was forked from the one that made it.
   virtual void MakeCurrent() = 0;
+  // Whether it is here by a fork: then nothing of it may be used, nor freed.
+  bool inherited() const;
   int max_side_px() const { return max_side_px_; }  // of a picture drawn off screen
 
  protected:
@@ -24,7 +27,9 @@ class GlContext {
 // machine), then EGL on Mesa's surfaceless platform; the environment variable FLOORPROOF_GL=osmesa
 // or =egl allows only that one. The first success binds the process: MuJoCo resolves its GL
 // functions once, so later contexts come from the same backend. Not for concurrent calls.
-// Throws InternalError that says, for each backend, why not.
+// Throws InternalError that says, for each backend, why not; InputError in a process that was
+// forked from one that had drawn: the library's threads are not in it, and drawing would wait for
+// them.
 std::unique_ptr<GlContext> MakeGlContext();
 
 // What `doctor` shows.

@@ -146,8 +146,10 @@ struct OffscreenRenderer::Gl {
     if (draw.currentBuffer != mjFB_OFFSCREEN) throw InternalError("no off-screen frame buffer");
   }
   ~Gl() {
-    context->MakeCurrent();
-    mjr_freeContext(&draw);
+    if (!context->inherited()) {
+      context->MakeCurrent();
+      mjr_freeContext(&draw);
+    }
     mjv_freeScene(&scene);
   }
 

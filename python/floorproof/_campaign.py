@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _core
-from ._checks import among, whole
+from ._checks import among, path_of, whole
 from ._core import InputError
 from ._progress import Progress, shown
 from ._recorded import checked, json_object
@@ -64,7 +64,8 @@ class Campaign:
 
     def __repr__(self) -> str:
         n = sum(v["n"] for v in self.variants.values())
-        return f"<Campaign {self.folder}: {n} episodes>"
+        errors = sum(v["n_error"] for v in self.variants.values())
+        return f"<Campaign {self.folder}: {n} episodes" + (f", {errors} errors>" if errors else ">")
 
 
 def _range(episodes: Any) -> Tuple[int, int]:
@@ -111,7 +112,7 @@ def campaign(scenario: Union[Scenario, PathLike, Mapping[str, Any]], n: int, *, 
         tell = None if show is None else lambda done, all_: show(done)
         ended = _core.drive_campaign(
             scenario._file, n, shard, workers, resume, retry_errors, fail_fast, time_limit_s,
-            Path(out), pool, warn, tell)
+            path_of("out", out), pool, warn, tell)
     if pool is not None and pool.refused is not None:
         raise pool.refused
     return Campaign(out, ended)

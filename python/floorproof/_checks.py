@@ -3,12 +3,24 @@
 from __future__ import annotations
 
 import operator
+import os
 from math import isfinite
+from pathlib import Path
 from typing import Any, Optional, Tuple
 
 from ._core import InputError
 
 MOST_EPISODE = 10**8  # that a scenario's key `episode` takes
+
+
+def path_of(name: str, value: Any) -> Path:
+    """What names a file or a folder. "" would be the working directory without a word."""
+    if not isinstance(value, (str, os.PathLike)):
+        raise InputError(f"{name} = {value!r}: must be a path")
+    text = os.fspath(value)
+    if not isinstance(text, str) or not text or "\0" in text:
+        raise InputError(f"{name} = {text!r}: is no path")
+    return Path(value)
 
 
 def among(name: str, value: Any, known: Tuple[Any, ...]) -> None:
@@ -38,3 +50,7 @@ def number(name: str, value: Any, least: Optional[float] = None) -> float:
         raise InputError(f"{name} = {made}: must be finite"
                          + ("" if least is None else f" and at least {least}"))
     return made
+
+
+def picture_size(width: Any, height: Any) -> Tuple[int, int]:
+    return whole("width", width, 1, 1 << 20), whole("height", height, 1, 1 << 20)

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import inspect
 import math
+import re
 from types import SimpleNamespace
 from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple
 
@@ -232,6 +233,8 @@ def register(kind: str, name: str, made: Any, promises: Mapping[str, Any]) -> No
     """Makes `made`, a class or what is called as a function is, the plug-in `name`. Throws TypeError
     where it cannot be one."""
     wrapper, method, tell = _REGISTER[kind]
+    if not isinstance(name, str) or not re.fullmatch(r"\w[\w.-]{0,99}", name):
+        raise InputError(f"{kind} {name!r}: a name has letters, digits, _, - and ., 100 at most")
     is_object = inspect.isclass(made)
     if not is_object and kind == "online_planner":
         raise TypeError(f"{made!r}: must be a class with {method}(...)")

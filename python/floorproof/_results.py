@@ -12,6 +12,7 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _core
+from ._checks import number, path_of, picture_size
 from ._core import InputError
 from ._recorded import json_object, trace_columns
 
@@ -112,11 +113,17 @@ class Plan:
         """Why, in words; on success what was left out, or empty."""
         return self._core.message
 
-    @cached_property
+    @property
     def path(self) -> np.ndarray:
         """[n, 5]: x_m, y_m, yaw_rad (nan: along the way), speed_mps (0: the robot's cruise),
-        dwell_s."""
-        return self._core.path
+        dwell_s. To be read: a copy of it, changed, is a plan of your own, which `run` takes."""
+        return self._path
+
+    @cached_property
+    def _path(self) -> np.ndarray:
+        path: np.ndarray = self._core.path
+        path.flags.writeable = False
+        return path
 
     @property
     def shapes(self) -> List[str]:
@@ -146,7 +153,7 @@ class Plan:
 
     def save(self, folder: PathLike) -> Path:
         """Writes what `floorproof plan` writes: plan.csv, plan.json, pictures."""
-        _core.save_plan(self._core, Path(folder))
+        _core.save_plan(self._core, path_of("folder", folder))
         return Path(folder)
 
     @cached_property
@@ -235,9 +242,12 @@ class Episode:
         if self._core is None:
             raise InputError("an episode that was read from a folder has no states to draw; run its "
                              "scenario.resolved.yaml again")
-        last = self.trace["t_s"][-1] if len(self.trace["t_s"]) else 0.0
-        at_s = float(last if t_s is None else t_s)
-        picture: np.ndarray = _core.frames(self._core, [at_s], width, height, camera)[0]
+        last = float(self.trace["t_s"][-1] if len(self.trace["t_s"]) else 0.0)
+        at_s = last if t_s is None else number("t_s", t_s)
+        if not 0 <= at_s <= last:
+            raise InputError(f"t_s = {at_s}: must lie within the drive: 0 to {last}")
+        picture: np.ndarray = _core.frames(
+            self._core, [at_s], *picture_size(width, height), camera)[0]
         return picture
 
     def to_pandas(self) -> Any:

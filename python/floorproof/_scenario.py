@@ -11,7 +11,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, Union
 import numpy as np
 
 from . import _core
-from ._checks import MOST_EPISODE, whole
+from ._checks import MOST_EPISODE, path_of, picture_size, whole
 from ._core import InputError
 from ._progress import Progress, shown
 from ._results import Episode, PathLike, Plan, Pose, episode_of
@@ -156,7 +156,7 @@ class Scenario:
 
     def frame(self, width: int = 960, height: int = 540, camera: str = "auto") -> np.ndarray:
         """A picture [height, width, 3] of the robot at its start. camera: auto, chase, top, side."""
-        return _core.start_frame(self._read, width, height, camera)
+        return _core.start_frame(self._read, *picture_size(width, height), camera)
 
     # --- inside
 
@@ -166,7 +166,7 @@ class Scenario:
         if out is not None:
             fresh = self._fresh()
             with self._alone:
-                return episode_of(_core.run_into(fresh, Path(out), video, say, tell), Path(out))
+                return episode_of(_core.run_into(fresh, path_of("out", out), video, say, tell), Path(out))
         every = 1
         if observe_hz is not None:
             if not observe_hz > 0:
@@ -222,4 +222,4 @@ def load(source: Union[PathLike, Mapping[str, Any]], changes: Optional[Mapping[s
         return Scenario((Path(folder or "") / "scenario", yaml_text(source), overrides, []))
     if folder is not None:
         raise InputError("folder: is for dicts; paths in a file are relative to that file")
-    return Scenario((Path(source), None, overrides, []))
+    return Scenario((path_of("scenario", source), None, overrides, []))

@@ -9,6 +9,7 @@ from typing import Any, List, Mapping, Optional, Tuple, Union
 import numpy as np
 
 from . import _core
+from ._checks import path_of
 from ._results import Frame, Hazard, PathLike, Pose, frame_of, hazards_of
 from ._yaml import yaml_text
 
@@ -49,4 +50,4 @@ def load_site(source: Union[PathLike, Mapping[str, Any]], folder: Optional[PathL
     relative to `folder` (default: the working directory)."""
     if isinstance(source, Mapping):
         return Site(_core.read_site(Path(folder or "") / "site", yaml_text(source)))
-    return Site(_core.read_site(Path(source), None))
+    return Site(_core.read_site(path_of("site", source), None))

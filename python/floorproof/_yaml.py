@@ -50,4 +50,8 @@ def yaml_text(value: Any) -> str:
 def overrides_of(changes: Optional[Mapping[str, Any]],
                  top: Mapping[str, Any]) -> List[Tuple[str, str]]:
     """Keys and their values, as --set takes them."""
-    return [(_whole(key), yaml_text(value)) for key, value in {**(changes or {}), **top}.items()]
+    keys = {**(changes or {}), **top}
+    for key in keys:
+        if not isinstance(key, str):
+            raise InputError(f"{key!r}: is no key; keys are words such as robot.clearance_m")
+    return [(_whole(key), yaml_text(value)) for key, value in keys.items()]

@@ -34,7 +34,7 @@ def _ray() -> Any:
         import ray
         import ray.exceptions
     except ImportError as error:
-        raise InputError("engine = ray: needs the package ray: pip install 'floorproof[ray]'") \
+        raise InputError("engine = ray: needs the package ray: pip install ray") \
             from error
     return ray
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Results for other tools: data frames, Parquet, MCAP (docs/exports.md).
 
-What a function needs beside numpy is imported when it is called: pip install floorproof[tables] for
-pandas and Parquet, floorproof[mcap] for logs.
+What a function needs beside numpy is imported when it is called: pip install '.[tables]' for
+pandas and Parquet, '.[mcap]' for logs.
 """
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def _needed(package: str) -> Any:
     try:
         return __import__(package)
     except ImportError as error:
-        raise ImportError(f"{package} is missing: pip install floorproof[tables]") from error
+        raise ImportError(f"{package} is missing: pip install '.[tables]' in Floorproof's folder") from error
 
 
 def trace_frame(episode: Episode) -> "DataFrame":

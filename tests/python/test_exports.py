@@ -13,8 +13,8 @@ import pytest
 
 import floorproof
 
-pandas = pytest.importorskip("pandas", reason="pip install floorproof[tables]")
-parquet = pytest.importorskip("pyarrow.parquet", reason="pip install floorproof[tables]")
+pandas = pytest.importorskip("pandas", reason="pip install '.[tables]'")
+parquet = pytest.importorskip("pyarrow.parquet", reason="pip install '.[tables]'")
 
 from floorproof import exports  # noqa: E402
 
@@ -187,5 +187,5 @@ def test_a_trace_is_a_frame(tmp_path: Path) -> None:
 def test_a_missing_package_is_named(campaign: floorproof.Campaign,
                                     monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pandas", None)
-    with pytest.raises(ImportError, match=r"pip install floorproof\[tables\]"):
+    with pytest.raises(ImportError, match=r"pip install '\.\[tables\]'"):
         campaign.to_pandas()

@@ -19,8 +19,8 @@ import pytest
 
 import floorproof
 
-pytest.importorskip("mcap", reason="pip install floorproof[mcap]")
-typesys = pytest.importorskip("rosbags.typesys", reason="pip install floorproof[mcap]")
+pytest.importorskip("mcap", reason="pip install '.[mcap]'")
+typesys = pytest.importorskip("rosbags.typesys", reason="pip install '.[mcap]'")
 reader = pytest.importorskip("mcap_ros2.reader", reason="pip install mcap-ros2-support")
 
 HZ = 10
@@ -441,5 +441,5 @@ def test_bad_calls_are_refused_before_anything_is_driven(folder: Path, tmp_path:
     with pytest.raises(floorproof.InputError, match="is no plain file"):
         floorproof.to_mcap(folder, tmp_path / "link.mcap", overwrite=True)
     monkeypatch.setitem(sys.modules, "rosbags", None)
-    with pytest.raises(ImportError, match=r"pip install floorproof\[mcap\]"):
+    with pytest.raises(ImportError, match=r"pip install '\.\[mcap\]'"):
         floorproof.to_mcap(folder, tmp_path / "x.mcap")

@@ -2,6 +2,8 @@
 // Each backend alone, in a process of its own, because MuJoCo loads its GL functions once per
 // process.
 #include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
 
@@ -42,6 +44,38 @@ TEST_P(GlBackend, DrawsOrIsNotThere) {
                (WEXITSTATUS(status) == kDrawn || WEXITSTATUS(status) == kNoBackend);
       },
       "");
+}
+
+// The library's threads are not in the child: it would wait for them for ever.
+[[noreturn]] void DrawAfterFork() {
+  Room room;
+  OffscreenRenderer before(room.model(), 64, 48);
+  Image image = before.MakeImage();
+  before.Render(room.data(), CameraView{}, nullptr, image);
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(20);
+    int refused = 0;
+    try {
+      before.Render(room.data(), CameraView{}, nullptr, image);
+    } catch (const InputError&) {
+      ++refused;
+    }
+    try {
+      OffscreenRenderer(room.model(), 64, 48);
+    } catch (const InputError&) {
+      ++refused;
+    }
+    std::_Exit(refused == 2 ? kDrawn : kBlack);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  std::_Exit(WIFEXITED(status) ? WEXITSTATUS(status) : kNoBackend);
+}
+
+TEST(GlContextTest, AForkOfWhatHasDrawnIsTold) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(DrawAfterFork(), ::testing::ExitedWithCode(kDrawn), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, GlBackend, ::testing::Values("osmesa", "egl"));
