@@ -118,7 +118,7 @@ void AddCampaign(CommandLine& line, const Globals& globals, int& status) {
   Subcommand command = line.Add(
       "campaign", "Drive many episodes on all cores: failure rates with intervals, a gate for CI");
   command.Text("SCENARIO", options->scenario, "Scenario file (YAML)", Subcommand::Need::kRequired);
-  command.Integer("-n", options->n, "Episodes a variant", 1, 100'000'000,
+  command.Integer("-n", options->n, "Episodes a variant", 1, kMostEpisodes,
                   Subcommand::Need::kRequired);
   command.NonNegative("--seed", options->seed, "Overrides the scenario's seed");
   command.Integer("--jobs", options->jobs, "Worker processes (default: one a core)", 1, kMostJobs);

@@ -120,6 +120,8 @@ def campaign(scenario: Union[Scenario, PathLike, Mapping[str, Any]], n: int, *, 
 
 def merge(shards: Sequence[PathLike], out: PathLike) -> Campaign:
     """Joins shards of one campaign, driven anywhere, into `out`, and judges the gate."""
+    if isinstance(shards, (str, bytes, os.PathLike)):
+        raise InputError(f"shards = {shards!r}: must be a list of folders")
     return Campaign(out, _core.merge([os.fspath(s) for s in shards], Path(out)))
 
 

@@ -135,6 +135,7 @@ void RefuseCampaign(const fs::path& folder) {
 }  // namespace
 
 MergeOutcome MergeCampaigns(const std::vector<std::string>& shards, const fs::path& out) {
+  if (shards.empty()) throw InputError({}, "shards", "", "there are none to merge");
   const fs::path file = out / "campaign.sqlite";
   RefuseCampaign(out);
   SayWhenInterrupted(out.string() + " is as before, or holds part of the shards");

@@ -97,7 +97,9 @@ auto Keep(const char* missing, const Write& write) {
 }
 
 void CheckRequest(const CampaignRequest& request) {
-  if (request.episodes == 0) throw InputError({"-n", 0}, "", "0", "must be at least 1");
+  if (request.episodes < 1 || request.episodes > kMostEpisodes)
+    throw InputError({"-n", 0}, "", std::to_string(request.episodes),
+                     fmt::format("must be in [1, {}]", kMostEpisodes));
   if (request.jobs < 1 || request.jobs > kMostJobs)
     throw InputError({"--jobs", 0}, "", std::to_string(request.jobs),
                      fmt::format("must be in [1, {}]", kMostJobs));

@@ -21,9 +21,10 @@ struct EpisodeRange {
 };
 
 inline constexpr int kMostJobs = 1024;
+inline constexpr int kMostEpisodes = 100'000'000;  // as the key `episode`
 
 struct CampaignRequest {
-  std::uint64_t episodes = 0;               // a variant, of the whole campaign
+  std::uint64_t episodes = 0;  // a variant, of the whole campaign; kMostEpisodes at most
   std::optional<EpisodeRange> shard = {};   // these alone are driven, and the gate is not judged
   int jobs = 1;                             // worker processes
   WorkerPool pool = {};                     // in place of them

@@ -158,6 +158,7 @@ def test_an_interpreter_ends_with_plug_ins_and_episodes_alive():
 
 
 @pytest.mark.parametrize("options, says", [
+    ({"n": 10**8 + 1}, "-n: 100000001: must be in"),
     ({"jobs": 10**6}, "--jobs: 1000000: must be in"),
     ({"jobs": -1}, "--jobs: -1: must be in"),
     ({"time_limit_s": -5.0}, "--time-limit: -5: must be > 0"),
@@ -165,7 +166,14 @@ def test_an_interpreter_ends_with_plug_ins_and_episodes_alive():
 ])
 def test_what_a_campaign_cannot_be_asked(drawing, tmp_path, options, says):
     with pytest.raises(floorproof.InputError, match=says):
-        floorproof.campaign(drawing, 2, out=tmp_path / "c", **options)
+        floorproof.campaign(drawing, **{"n": 2, **options}, out=tmp_path / "c")
+
+
+@pytest.mark.parametrize("shards, says", [([], "shards: there are none to merge"),
+                                          ("folder", "shards = 'folder': must be a list")])
+def test_what_cannot_be_merged(tmp_path, shards, says):
+    with pytest.raises(floorproof.InputError, match=says):
+        floorproof.merge(shards, tmp_path / "merged")
 
 
 def test_a_plan_without_an_end_is_refused(room):

@@ -79,7 +79,8 @@ TEST_F(DriveCampaignTest, RequestsThatMakeNoSenseAreRefusedBeforeThereIsAFolder)
   const auto why = [&](const CampaignRequest& request) {
     return WhyRefused([&] { DriveCampaign(File(), request, Folder("o")); });
   };
-  EXPECT_EQ(why({.episodes = 0}), "-n: 0: must be at least 1");
+  EXPECT_EQ(why({.episodes = 0}), "-n: 0: must be in [1, 100000000]");
+  EXPECT_EQ(why({.episodes = 100000001}), "-n: 100000001: must be in [1, 100000000]");
   EXPECT_EQ(why({.episodes = 3, .jobs = 0}), "--jobs: 0: must be in [1, 1024]");
   EXPECT_EQ(why({.episodes = 9, .shard = EpisodeRange{5, 3}}), "--episodes: 5:3: holds no episode");
   EXPECT_EQ(why({.episodes = 9, .shard = EpisodeRange{5, 10}}),
@@ -153,6 +154,12 @@ TEST_F(DriveCampaignTest, ShardsMergeIntoTheWhole) {
   EXPECT_THAT(dut.gaps, IsEmpty());
   EXPECT_EQ(dut.paths_note, "");
   EXPECT_EQ(SummaryText(dut), SummaryText(DriveCampaign(file, {.episodes = 6}, Folder("whole"))));
+}
+
+TEST_F(DriveCampaignTest, MergeOfNoShardsIsRefused) {
+  EXPECT_EQ(WhyRefused([&] { MergeCampaigns({}, folder_ / "joined"); }),
+            "shards: there are none to merge");
+  EXPECT_FALSE(fs::exists(folder_ / "joined"));
 }
 
 TEST_F(DriveCampaignTest, MergeNamesWhatNoShardHolds) {
