@@ -2,6 +2,8 @@
 #include "run/scenario/scenario.h"
 
 #include <algorithm>
+#include <map>
+#include <mutex>
 
 #include "base/file_output.h"
 #include "base/input_file.h"
@@ -153,6 +155,11 @@ void TakeListedFiles(const ConfigNode& root, const fs::path& folder, bool check,
 
 }  // namespace
 
+struct ScenarioFile::SiteFiles {
+  std::mutex mutex;
+  std::map<fs::path, ConfigNode> trees;  // read once each
+};
+
 ScenarioFile::ScenarioFile(const fs::path& file, const std::vector<Override>& overrides)
     : ScenarioFile(std::nullopt, file, overrides, Files::kCheck) {}
 
@@ -185,7 +192,8 @@ ScenarioFile::ScenarioFile(std::optional<std::string> text, const fs::path& file
     : file_(file),
       files_(std::move(inputs)),
       text_(std::move(text)),
-      root_(text_ ? ParseYaml(*text_, file.string()) : ReadTree(file, "a scenario", files_)) {
+      root_(text_ ? ParseYaml(*text_, file.string()) : ReadTree(file, "a scenario", files_)),
+      site_files_(std::make_shared<SiteFiles>()) {
   RefuseOtherKinds(root_, file.string());
   for (const Override& o : overrides) {
     overrides_.emplace_back(o.key_path, ParseYaml(o.value, std::string(kSet) + o.key_path));
@@ -238,6 +246,14 @@ ScenarioFile::ScenarioFile(std::optional<std::string> text, const fs::path& file
   }
 }
 
+const ConfigNode& ScenarioFile::SiteTree(const fs::path& file) const {
+  const std::lock_guard alone(site_files_->mutex);
+  auto known = site_files_->trees.find(file);
+  if (known == site_files_->trees.end())
+    known = site_files_->trees.emplace(file, ReadTree(file, "a site", files_)).first;
+  return known->second;
+}
+
 void ScenarioFile::ReadSitePart(const ConfigNode& root, const Variant& changes, bool episode,
                                 Scenario& s) const {
   const ConfigNode* node = root.Find("site");
@@ -248,10 +264,7 @@ void ScenarioFile::ReadSitePart(const ConfigNode& root, const Variant& changes, 
     s.site_folder = folder;
   } else {
     s.site_file = NamedFile(folder, *node, "site", files_);
-    auto known = site_files_.find(s.site_file);
-    if (known == site_files_.end())
-      known = site_files_.emplace(s.site_file, ReadTree(s.site_file, "a site", files_)).first;
-    s.site_node = known->second;
+    s.site_node = SiteTree(s.site_file);
     s.site_folder = s.site_file.parent_path();
   }
   ApplyToSite({"", overrides_}, folder, s.site_node);

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -101,7 +100,8 @@ struct PackedScenario {
   std::vector<std::pair<std::string, std::string>> inputs;  // name and bytes; no bundled models
 };
 
-// A scenario file in memory, from which the episodes of a campaign are read.
+// A scenario file in memory, from which the episodes of a campaign are read. Several threads may
+// read at a time; copies share what was read.
 class ScenarioFile {
  public:
   // Reads the file and applies the overrides (keys below `site.` reach into the site file); what is
@@ -148,6 +148,7 @@ class ScenarioFile {
                const std::vector<Override>& overrides, Files files, InputFiles inputs = {});
   Scenario ReadWith(std::optional<std::uint64_t> episode, const Variant& variant,
                     const Variant& forced) const;
+  const ConfigNode& SiteTree(const std::filesystem::path& file) const;
   void ReadSitePart(const ConfigNode& root, const Variant& changes, bool episode,
                     Scenario& s) const;
 
@@ -160,7 +161,8 @@ class ScenarioFile {
   std::vector<Variant> variants_;
   int seed_ = 0;
   std::uint64_t episode_ = 0;
-  mutable std::map<std::filesystem::path, ConfigNode> site_files_;  // read once each
+  struct SiteFiles;
+  std::shared_ptr<SiteFiles> site_files_;
 };
 
 // Its planner's parameters, whichever kind it is; nullptr: a user's plan.
