@@ -20,11 +20,11 @@ class Observer final : public CampaignObserver {
   Observer(nb::object warn, nb::object progress)
       : warn_(std::move(warn)), progress_(std::move(progress)) {}
   void OnWarning(const std::string& line) override {
-    if (!warn_.is_none()) InPython("the warning callback", [&] { warn_(line); });
+    if (!warn_.is_none()) InPython("the warning callback", [&] { Ask(warn_, line); });
   }
   void OnProgress(const CampaignProgress& p) override {
     if (progress_.is_none()) return;
-    InPython("the progress callback", [&] { progress_(p.done, p.total); });
+    InPython("the progress callback", [&] { Ask(progress_, p.done, p.total); });
   }
 
  private:
@@ -71,7 +71,7 @@ nb::dict RunCampaignInto(const ScenarioFile& file, std::uint64_t n,
     request.pool = [&pool](const PoolCallbacks& callbacks) {
       try {
         InPython("the pool", [&] {
-          Lend<Calls>(callbacks, [&](const nb::object& calls) { pool.attr("run")(calls); });
+          Lend<Calls>(callbacks, [&](const nb::object& calls) { Ask(pool.attr("run"), calls); });
         });
       } catch (const Interruption&) {
         // The campaign asks, too, and ends in good order; then it is raised.

@@ -9,7 +9,7 @@ namespace floorproof {
 namespace {
 
 nb::object FromJson(const nlohmann::ordered_json& json) {
-  return nb::module_::import_("json").attr("loads")(json.dump());
+  return Ask(nb::module_::import_("json").attr("loads"), json.dump());
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ void WarnOfProgram(const Scenario& scenario) {
   const PlanCommand* program = ProgramToAsk(scenario);
   if (program == nullptr) return;
   InPython("warnings.warn", [line = ProgramLine(*program)] {
-    nb::module_::import_("floorproof._warn").attr("warn")(line);
+    Ask(nb::module_::import_("floorproof._warn").attr("warn"), line);
   });
 }
 

@@ -53,7 +53,7 @@ class Observer final : public EpisodeObserver {
     if (recorder_) recorder_->OnControl(now);
     if (!each_.is_none() && count_++ % every_ == 0)
       InPython("the observer",
-               [&] { Lend<View>(now, [&](const nb::object& view) { each_(view); }); });
+               [&] { Lend<View>(now, [&](const nb::object& view) { Ask(each_, view); }); });
     fraction_ = std::min(now.plan_fraction, 1.0);
     t_s_ = now.sample.t_s;
     coverage_ = now.coverage;
@@ -69,7 +69,7 @@ class Observer final : public EpisodeObserver {
   // How far it is.
   void Tell() {
     if (progress_.is_none()) return;
-    InPython("the progress callback", [&] { progress_(fraction_, t_s_, coverage_); });
+    InPython("the progress callback", [&] { Ask(progress_, fraction_, t_s_, coverage_); });
   }
 
   std::optional<Recording>& recording() { return recording_; }
@@ -131,7 +131,7 @@ std::shared_ptr<Driven> RunInto(const std::shared_ptr<Scenario>& scenario, const
   Observer observer(*scenario, std::move(progress), nb::none(), 1, false);
   Console console{.quiet = true};
   console.listener = [&say](const std::string& line) {
-    if (!say.is_none()) InPython("say", [&] { say(line); });
+    if (!say.is_none()) InPython("say", [&] { Ask(say, line); });
   };
   auto made = WithoutGil([&] {
     WarnOfProgram(*scenario);

@@ -33,7 +33,7 @@ class Raised {
   explicit Raised(PyObject* exception) : exception_(exception) {}  // takes the reference
   ~Raised() {
     if (!Py_IsInitialized()) return;
-    const nb::gil_scoped_acquire held;
+    const Gil held;
     Py_DECREF(exception_);
   }
   Raised(const Raised&) = delete;
@@ -79,7 +79,7 @@ void Translate(const std::exception_ptr& thrown, void*) {
       PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(error)), error);
       Py_DECREF(error);
     } else {
-      PyErr_SetNone(PyExc_KeyboardInterrupt);
+      PyErr_SetNone(Ending() ? PyExc_SystemExit : PyExc_KeyboardInterrupt);
     }
   } catch (const InputError& e) {
     Raise(g_input_error, e.what());
@@ -148,37 +148,39 @@ thread_local bool t_interrupted = false;
 // Python's own handler has noted the signal; asking runs it, on the main thread. What it raises,
 // KeyboardInterrupt mostly, is raised anew where the call ends.
 bool PythonInterrupted() {
+  if (Ending()) return true;
   constexpr auto kOften = std::chrono::milliseconds(20);
   const auto now = Clock::now();
   if (t_interrupted || now - t_asked < kOften) return t_interrupted;
   t_asked = now;
-  const nb::gil_scoped_acquire held;
-  if (PyErr_CheckSignals() != 0) {
+  const Gil held;
+  OrAwaitEnd([] {
+    if (PyErr_CheckSignals() == 0) return;
     const nb::python_error raised;
     t_interruption = std::make_shared<Raised>(Py_NewRef(raised.value().ptr()));
     t_interrupted = true;
-  }
+  });
   return t_interrupted;
 }
 
 // --- forks ---
 
 // CPython's own precautions, as os.fork() takes them.
-thread_local std::optional<PyGILState_STATE> g_held;
+thread_local std::optional<Gil> t_held;
 
 void BeforeFork() {
-  g_held = PyGILState_Ensure();
-  PyOS_BeforeFork();
+  t_held.emplace();
+  OrAwaitEnd([] { PyOS_BeforeFork(); });
 }
 
 void InParent() {
-  PyOS_AfterFork_Parent();
-  PyGILState_Release(*g_held);
+  OrAwaitEnd([] { PyOS_AfterFork_Parent(); });
+  t_held.reset();
 }
 
 void InChild() {
   PyOS_AfterFork_Child();
-  PyGILState_Release(*g_held);
+  t_held.reset();
 }
 
 }  // namespace
@@ -204,7 +206,7 @@ Call::Call() {
 Call::~Call() { --t_calls; }
 
 void Call::End() const {
-  if (t_interrupted) throw Interruption();
+  if (t_interrupted || Ending()) throw Interruption();
 }
 
 void BindHost(nb::module_& m) {
@@ -218,6 +220,7 @@ void BindHost(nb::module_& m) {
       "raised is the cause.",
       PyExc_RuntimeError);
   nb::register_exception_translator(&Translate);
+  WatchForTheEnd();
   AskHostForInterrupts(&PythonInterrupted);
   SetForkHooks({&BeforeFork, &InParent, &InChild});
   m.attr("__version__") = FLOORPROOF_VERSION;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What it takes to run inside a Python interpreter: the GIL, Ctrl-C, forks, exceptions.
+// What it takes to run inside a Python interpreter: calls both ways, Ctrl-C, forks, exceptions.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -20,15 +20,16 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/interrupt.h"
+#include "python/bindings/gil.h"
 
 namespace floorproof {
-
-namespace nb = nanobind;
 
 // Exceptions, Ctrl-C and forks. Once, when the module is loaded.
 void BindHost(nb::module_& m);
 
-// A call into this module: Ctrl-C that is noticed during it, on its thread, is raised at its end.
+// A call into this module: Ctrl-C that is noticed during it, on its thread, is raised at its end;
+// in a program that ends, SystemExit, which ends a thread without a word.
 class Call {
  public:
   Call();
@@ -41,14 +42,15 @@ class Call {
 template <class Work>
 auto WithoutGil(const Work& work) {
   const Call call;
-  const nb::gil_scoped_release released;
+  const NoGil released;
   auto result = work();
   call.End();
   return result;
 }
 
 // Calls back into Python, from wherever: `call` runs with the GIL, and what Python raises ends the
-// work. `who` is named by the error that comes of it: `plan.planner zigzag`, say.
+// work, as the program's end does. `who` is named by the error that comes of it: `plan.planner
+// zigzag`, say. What is written in Python is called by Ask().
 template <class Call>
 auto InPython(const std::string& who, const Call& call);
 
@@ -86,14 +88,17 @@ auto Lend(T& what, const Call& call) {
 
 template <class Call>
 auto InPython(const std::string& who, const Call& call) {
-  const nb::gil_scoped_acquire held;
-  try {
-    return call();
-  } catch (nb::python_error& raised) {
-    ThrowRaised(who, raised);
-  } catch (const nb::cast_error&) {
-    throw InternalError(who + " returned what has another type than it should");
-  }
+  if (Ending()) throw Interruption();
+  const Gil held;
+  return OrAwaitEnd([&] {
+    try {
+      return call();
+    } catch (nb::python_error& raised) {
+      ThrowRaised(who, raised);
+    } catch (const nb::cast_error&) {
+      throw InternalError(who + " returned what has another type than it should");
+    }
+  });
 }
 
 }  // namespace floorproof

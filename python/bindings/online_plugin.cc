@@ -43,7 +43,7 @@ class PythonOnlinePlanner final : public OnlinePlanner {
       about["step_m"] =
           shared_.step_m ? nb::object(nb::float_(*shared_.step_m)) : nb::object(nb::none());
       about["seed"] = task.seed;
-      params_.attr("start")(about);
+      Ask(params_.attr("start"), about);
       return 0;
     });
     ground_ = task.ground;
@@ -51,8 +51,8 @@ class PythonOnlinePlanner final : public OnlinePlanner {
 
   OnlineStep Next(const OnlineInput& input) override {
     return InPython(params_.who(), [&] {
-      const auto answer = nb::cast<nb::tuple>(
-          Lend<Known>(input, [&](const nb::object& known) { return params_.attr("next")(known); }));
+      const auto answer = nb::cast<nb::tuple>(Lend<Known>(
+          input, [&](const nb::object& known) { return Ask(params_.attr("next"), known); }));
       OnlineStep step;
       if (const nb::object place = answer[0]; !place.is_none()) {
         const auto target = nb::cast<nb::tuple>(place);
@@ -77,7 +77,7 @@ class PythonOnlinePlanner final : public OnlinePlanner {
  private:
   bool Says(const char* what) const {
     return InPython(params_.who(), [&] {
-      return nb::cast<bool>(nb::cast<nb::dict>(params_.attr("promises")())[what]);
+      return nb::cast<bool>(nb::cast<nb::dict>(Ask(params_.attr("promises")))[what]);
     });
   }
 

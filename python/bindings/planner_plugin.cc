@@ -43,7 +43,7 @@ class PythonPlanner final : public Planner {
 
   PlannerPromises promises() const override {
     return InPython(params_.who(), [&] {
-      const auto said = nb::cast<nb::dict>(params_.attr("promises")());
+      const auto said = nb::cast<nb::dict>(Ask(params_.attr("promises")));
       PlannerPromises promises;
       promises.needs_risk = nb::cast<bool>(said["needs_risk"]);
       promises.needs_goal = nb::cast<bool>(said["needs_goal"]);
@@ -58,7 +58,7 @@ class PythonPlanner final : public Planner {
       result.clear = request.robot.clear;
       result.tool = request.robot.tool;
       result.tool_width_m = request.robot.tool_width_m;
-      const auto answer = nb::cast<nb::tuple>(params_.attr("plan")(RequestDict(request)));
+      const auto answer = nb::cast<nb::tuple>(Ask(params_.attr("plan"), RequestDict(request)));
       result.message = nb::cast<std::string>(answer[1]);
       const nb::object rows = answer[0];
       if (rows.is_none()) return result;  // failed, and says why

@@ -28,7 +28,7 @@ class Held {
   explicit Held(nb::object object) : object_(new nb::object(std::move(object))) {}
   ~Held() {
     if (!Py_IsInitialized()) return;  // the interpreter has ended: there is nothing to give back
-    const nb::gil_scoped_acquire held;
+    const Gil held;
     delete object_;
   }
   Held(const Held&) = delete;
@@ -44,7 +44,7 @@ class PythonParams {
  public:
   PythonParams(std::string who, nb::object plugin)
       : who_(std::move(who)), plugin_(std::move(plugin)) {
-    for (const nb::handle one : (*plugin_).attr("params")()) {
+    for (const nb::handle one : Ask(attr("params"))) {
       const auto row = nb::cast<nb::tuple>(one);
       Param& p = params_.emplace_back();
       p.name = nb::cast<std::string>(row[0]);
@@ -64,7 +64,7 @@ class PythonParams {
         v(p.name.c_str(), *real, Any(), p.help.c_str());
       else
         v(p.name.c_str(), std::get<std::string>(p.value), {}, p.help.c_str());
-      if (p.value != before) InPython(who_, [&] { (*plugin_).attr("set")(p.name, p.value); });
+      if (p.value != before) InPython(who_, [&] { Ask(attr("set"), p.name, p.value); });
     }
   }
 
@@ -94,7 +94,7 @@ void Register(std::span<const PluginEntry<Interface>> table, const std::string& 
               nb::object make) {
   GuestPlugins<Interface>::Add(table, name, [name, held = std::make_shared<Held>(std::move(make))] {
     return InPython(name, [&] {
-      return std::unique_ptr<Interface>(std::make_unique<Plugin>(name, (**held)()));
+      return std::unique_ptr<Interface>(std::make_unique<Plugin>(name, Ask(**held)));
     });
   });
 }

@@ -21,7 +21,7 @@ class PythonTracker final : public TwistTracker {
  protected:
   void OnPath(const Path& path, const RobotSpec& robot) override {
     InPython(params_.who(), [&] {
-      params_.attr("start")(PathArray(path), RobotDict(robot));
+      Ask(params_.attr("start"), PathArray(path), RobotDict(robot));
       return 0;
     });
   }
@@ -30,9 +30,10 @@ class PythonTracker final : public TwistTracker {
     return InPython(params_.who(), [&] {
       const Pose2& X_WB = now.estimate.X_WB;
       const BodyTwist& V = now.estimate.V_WB_B;
-      const auto answer = nb::cast<nb::tuple>(params_.attr("update")(
-          now.t_s, PoseTuple(X_WB), nb::make_tuple(V.vx_mps, V.vy_mps, V.wz_radps), now.segment,
-          nb::make_tuple(now.target_W.x(), now.target_W.y()), now.speed_mps));
+      const auto answer = nb::cast<nb::tuple>(
+          Ask(params_.attr("update"), now.t_s, PoseTuple(X_WB),
+              nb::make_tuple(V.vx_mps, V.vy_mps, V.wz_radps), now.segment,
+              nb::make_tuple(now.target_W.x(), now.target_W.y()), now.speed_mps));
       const BodyTwist twist{nb::cast<double>(answer[0]), nb::cast<double>(answer[1]),
                             nb::cast<double>(answer[2])};
       constexpr const char* kParts[] = {"vx_mps", "vy_mps", "wz_radps"};
