@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "base/quantity.h"
 #include "base/result_folder.h"
 #include "env/core/failure_text.h"
+#include "media/drawing_lock.h"
 #include "report/dirt_pictures.h"
 #include "report/drive_video.h"
 #include "report/pictures.h"
@@ -183,8 +185,10 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
   if (result.record.outcome == Outcome::kNotPlanned && options.write_records)
     WriteEpisodeFiles(s, result.plan, result.record, folder);
   if (!execution.scene && result.record.steps == 0) {  // nothing was driven
-    if (result.record.outcome == Outcome::kSuccess && options.write_records)
+    if (result.record.outcome == Outcome::kSuccess && options.write_records) {
+      const std::lock_guard alone(Drawing());
       WritePlanPictures(s, result.plan, folder);
+    }
     return result;
   }
   if (result.record.outcome == Outcome::kInterrupted) {
@@ -205,6 +209,7 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
     missing = "pictures";
     say_verdict();  // what is said is on the disk
     witness.LetGo();
+    const std::lock_guard alone(Drawing());
     if (options.write_records) WriteHeatMaps(s, result.plan, result.record, folder, console);
     witness.There(options.video ? " holds all but, perhaps, the film" : " is whole");
     missing = "the film";
@@ -221,6 +226,7 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
   } catch (...) {
     result.not_written = std::current_exception();
   }
+  result.scene = std::move(execution.scene);
   return result;
 }
 

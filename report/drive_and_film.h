@@ -4,10 +4,12 @@
 
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/console.h"
+#include "env/scene/scene.h"
 #include "run/episode/episode.h"
 
 namespace floorproof {
@@ -24,6 +26,7 @@ struct DriveOptions {
 struct DriveResult {
   PlanResult plan;
   EpisodeRecord record;
+  std::optional<Scene> scene;  // that was driven in; none: nothing was, or no physics
   // Records, pictures or film could not be written (a full disk, no GL): the verdict stands all the
   // same. Rethrown by the command, once it has said the verdict.
   std::exception_ptr not_written;
@@ -31,7 +34,8 @@ struct DriveResult {
 
 // Plans and, unless the scenario says `drive: none`, drives; writes everything into `folder` and
 // says a line at each stage. Interrupted, it writes what was driven, says what is there, and throws
-// Interruption.
+// Interruption. Pictures wait for the drawing of other threads (media/drawing_lock.h), the drive
+// does not.
 DriveResult DriveAndFilm(Scenario& scenario, const std::filesystem::path& folder,
                          const DriveOptions& options, const Console& console);
 

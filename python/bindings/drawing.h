@@ -5,18 +5,12 @@
 #include <mutex>
 #include <utility>
 
+#include "media/drawing_lock.h"
 #include "media/media.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/host.h"
 
 namespace floorproof {
-
-// GL and the codecs are of the process: one picture at a time. (A plug-in may draw within a drive
-// that leaves pictures.)
-inline std::recursive_mutex& Drawing() {
-  static std::recursive_mutex drawing;
-  return drawing;
-}
 
 template <class Draw>
 auto DrawAlone(const Draw& draw) {

@@ -128,14 +128,13 @@ std::shared_ptr<Driven> Run(const std::shared_ptr<Scenario>& scenario,
 // As `floorproof run` does it: the same files, the same bytes. `say` takes its lines.
 std::shared_ptr<Driven> RunInto(const std::shared_ptr<Scenario>& scenario, const fs::path& folder,
                                 bool video, nb::object say, nb::object progress) {
-  Observer observer(*scenario, std::move(progress), nb::none(), 1, false);
+  Observer observer(*scenario, std::move(progress), nb::none(), 1, true);
   Console console{.quiet = true};
   console.listener = [&say](const std::string& line) {
     if (!say.is_none()) InPython("say", [&] { Ask(say, line); });
   };
   auto made = WithoutGil([&] {
     WarnOfProgram(*scenario);
-    const std::lock_guard alone(Drawing());  // it ends with pictures
     DriveResult result =
         DriveAndFilm(*scenario, folder, {.video = video, .observer = &observer}, console);
     if (result.not_written) std::rethrow_exception(result.not_written);
@@ -143,9 +142,11 @@ std::shared_ptr<Driven> RunInto(const std::shared_ptr<Scenario>& scenario, const
     out->scenario = scenario;
     out->plan = std::move(result.plan);
     out->record = std::move(result.record);
+    out->scene = std::move(result.scene);
     return out;
   });
   observer.Tell();
+  made->recording = std::move(observer.recording());
   return made;
 }
 

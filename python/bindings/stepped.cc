@@ -72,6 +72,12 @@ class Stepped {
   }
 
   ~Stepped() {
+    if (!picture_) return;
+    if (!Py_IsInitialized()) {  // at its end, whoever draws may never let another
+      static_cast<void>(picture_.release());
+      return;
+    }
+    const NoGil released;  // who draws may ask for it
     const std::lock_guard alone(Drawing());
     picture_.reset();
   }
@@ -125,7 +131,10 @@ class Stepped {
     const Busy busy(*this);
     return EventsJson(episode_ ? episode_->events() : events_).dump();
   }
-  std::size_t events() const { return episode_ ? episode_->events().size() : events_.size(); }
+  std::size_t events() const {
+    const Busy busy(*this);
+    return episode_ ? episode_->events().size() : events_.size();
+  }
   // The array lies in this object, which lives as long as it.
   template <class T>
   nb::object View(const T* values, std::initializer_list<std::size_t> shape) {

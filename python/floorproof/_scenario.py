@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import threading
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, Union
@@ -24,7 +23,6 @@ class Scenario:
 
     def __init__(self, packed: Any) -> None:
         self._file = _core.ScenarioFile.unpack(packed)
-        self._alone = threading.Lock()  # of what reads files
         self._which: Tuple[int, Optional[str]] = (self._file.episode, None)
         self._read = self._file.read(*self._which)
 
@@ -79,13 +77,11 @@ class Scenario:
 
     def warnings(self) -> List[str]:
         """What is read as written but may not be meant; a line each."""
-        with self._alone:
-            return self._read.warnings()
+        return self._read.warnings()
 
     def resolved(self, folder: PathLike = ".") -> str:
         """The scenario with every default stated (YAML), paths valid from `folder`."""
-        with self._alone:
-            return self._read.resolved(Path(folder))
+        return self._read.resolved(Path(folder))
 
     # --- what becomes of it
 
@@ -119,7 +115,7 @@ class Scenario:
         """The scenario as one episode of a campaign has it, its draws made. Episodes count from 0."""
         episode = whole("episode", episode, 0, MOST_EPISODE)
         made = Scenario.__new__(Scenario)
-        made._file, made._alone, made._which = self._file, self._alone, (episode, variant)
+        made._file, made._which = self._file, (episode, variant)
         made._read = made._fresh()
         return made
 
@@ -164,9 +160,8 @@ class Scenario:
                 say: Optional[Callable[[str], None]], tell: Optional[Callable[..., None]],
                 observer: Optional[Callable[[Any], None]], observe_hz: Optional[float]) -> Episode:
         if out is not None:
-            fresh = self._fresh()
-            with self._alone:
-                return episode_of(_core.run_into(fresh, path_of("out", out), video, say, tell), Path(out))
+            folder = path_of("out", out)
+            return episode_of(_core.run_into(self._fresh(), folder, video, say, tell), folder)
         every = 1
         if observe_hz is not None:
             if not observe_hz > 0:
@@ -177,12 +172,10 @@ class Scenario:
 
     def _fresh(self) -> Any:
         """As read, for one drive: several may go on in several threads."""
-        with self._alone:
-            return self._file.read(*self._which)
+        return self._file.read(*self._which)
 
     def _packed(self) -> Any:
-        with self._alone:
-            file, text, overrides, inputs = self._file.pack()
+        file, text, overrides, inputs = self._file.pack()
         return file, text, list(overrides), list(inputs)
 
     def __reduce__(self) -> Any:

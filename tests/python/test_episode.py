@@ -88,6 +88,7 @@ def test_a_folder_is_read_back(drawing, tmp_path):
     driven = drawing.run(out=tmp_path / "run")
     read = floorproof.read(tmp_path / "run")
     assert read.result == driven.result
+    assert driven.frame(0.0, 320, 180).std() > 10, "it keeps its states"
     assert list(read.trace) == list(driven.trace)
     np.testing.assert_allclose(read.trace["x_m"], driven.trace["x_m"], atol=6e-6)
     with pytest.raises(floorproof.InputError, match="no states to draw"):

@@ -19,7 +19,7 @@ def of(columns, rows, **more):
     return {"scenario": 1, "robot": "beluga", "start": {"x_m": 1, "y_m": 1},
             "site": {"site": 1, "grid": {"cell_m": 0.5, "rows": grid}}, **more}
 
-ROOM, HALL = of(8, 5), of(60, 60)  # seconds to drive, and minutes
+ROOM, HALL = of(8, 5), of(30, 30)  # a second to drive, and many
 room, hall = floorproof.load(ROOM), floorproof.load(HALL)
 
 def out():
@@ -32,6 +32,11 @@ def forever(work):
     thread = threading.Thread(target=loop, daemon=True)
     thread.start()
     return thread
+
+def drive_into_a_folder():
+    begun = threading.Event()
+    forever(lambda: hall.run(out=out(), say=lambda line: begun.set()))
+    assert begun.wait(30)
 """
 
 
@@ -40,6 +45,57 @@ def ends(code, *arguments):
     done = subprocess.run([sys.executable, "-c", PROGRAM + textwrap.dedent(code), *arguments],
                           capture_output=True, text=True, timeout=60, check=False)
     return done.returncode, done.stdout, done.stderr
+
+
+def test_environments_go_while_another_thread_drives_into_a_folder():
+    pytest.importorskip("gymnasium", reason="gymnasium is not installed")
+    assert ends("""
+    import gymnasium, floorproof.gym
+    drive_into_a_folder()
+    for seed in range(3):
+        env = gymnasium.make("Floorproof-v0", scenario={**ROOM, "sensors": {"lidar": {"beams": 9}}},
+                             reference=None)
+        env.reset(seed=seed)
+        del env
+    print("gone")
+    """) == (0, "gone\n", "")
+
+
+def test_a_picture_does_not_wait_for_another_threads_drive():
+    assert ends("""
+    drive_into_a_folder()
+    print(room.frame(64, 64).shape, hall.warnings())
+    """) == (0, "(64, 64, 3) []\n", "")
+
+
+def test_callbacks_may_ask_the_scenario():
+    assert ends("""
+    asked = []
+    room.run([[1, 1], [1.2, 1]], out=out(), say=lambda line: asked.append(room.resolved()))
+    @floorproof.planner("asks")
+    class Asks:
+        def __init__(self):
+            asked.append(len(askers[-1].warnings() if askers else []))
+        def plan(self, request):
+            return [[1, 1], [1.2, 1]]
+    askers = []
+    askers.append(floorproof.load({**ROOM, "plan": "asks"}))
+    print(askers[0].run().outcome, asked[-1])
+    """) == (0, "success 0\n", "")
+
+
+def test_an_episode_that_another_thread_drives_is_not_looked_at():
+    assert ends("""
+    env = floorproof._core.Stepped(hall._file.read(0, None), None, 20, 0.1, 1, 0.1, False)
+    forever(lambda: env.step(0.1, 0, 0, 100))
+    for look in (lambda: env.num_events, lambda: env.events):
+        while True:
+            try:
+                look()
+            except floorproof.InputError as refused:
+                print(refused)
+                break
+    """) == (0, 2 * "another thread is using this episode: each thread needs its own\n", "")
 
 
 WORK = {
