@@ -22,9 +22,11 @@ from typing import Any, Deque, Dict, List, Mapping, Optional, Sequence, Tuple
 from . import _core, _plugins, _remote
 from ._core import InputError
 from ._scenario import Scenario
+from ._warn import warn
 
 _ASK_S = 0.1  # at most, between two looks at what the campaign says
 _SIZE_S = 2.0  # between two looks at how large the cluster is
+_PATIENCE_S = 10.0  # until it is said that no node is large enough
 _GROWTH = 4  # of a batch, from one to the next: the first episodes may be the short ones
 _PIECES = 16  # answers are fetched when a sixteenth of what flies is there, or after _ASK_S
 
@@ -50,7 +52,8 @@ def _knock(address: str) -> None:
         raise InputError(f"address = {address}: no Ray cluster answers there: {error}") from error
 
 
-def _connect(ray: Any, address: Optional[str], runtime_env: Optional[Mapping[str, Any]]) -> bool:
+def _connect(ray: Any, address: Optional[str], runtime_env: Optional[Mapping[str, Any]],
+             task_cpus: float) -> bool:
     """True where a connection was made here, which is closed here."""
     if ray.is_initialized():
         if address is not None or runtime_env is not None:
@@ -61,8 +64,10 @@ def _connect(ray: Any, address: Optional[str], runtime_env: Optional[Mapping[str
     # A cluster of one's own, on this machine, serves this campaign alone.
     if own:
         os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
-    alone: Dict[str, Any] = {"include_dashboard": False,
-                             "num_cpus": len(os.sched_getaffinity(0))} if own else {}
+    here = len(os.sched_getaffinity(0))
+    if own and task_cpus > here:
+        raise InputError(f"num_cpus = {task_cpus:g}: no node has as many; this machine has {here}")
+    alone: Dict[str, Any] = {"include_dashboard": False, "num_cpus": here} if own else {}
     try:
         ray.init(address=address, runtime_env=dict(runtime_env) if runtime_env else None,
                  logging_level="warning", log_to_driver=False, **alone)
@@ -167,6 +172,7 @@ class RayPool:
         self._again: Deque[int] = deque()
         self._deaths: Dict[int, int] = {}  # of jobs that are to be tried again
         self._workers, self._asked = 1, -math.inf
+        self._fits, self._warned = 0.0, False  # when a node last had enough CPUs; that none has
         self._connected = False
         self.refused: Optional[InputError] = None
         """What ended the campaign: a node that cannot take part."""
@@ -175,7 +181,7 @@ class RayPool:
 
     def __enter__(self) -> "RayPool":
         """Connects, unless ray.init() was called already."""
-        self._connected = _connect(self._ray, *self._connection)
+        self._connected = _connect(self._ray, *self._connection, self._cpus)
         return self
 
     def __exit__(self, *_: Any) -> None:
@@ -208,9 +214,10 @@ class RayPool:
 
     def _submit(self, calls: Any, remote: Any, scenario: List[Any]) -> None:
         if time.monotonic() - self._asked > _SIZE_S:  # nodes come and go
-            cpus = self._ray.cluster_resources().get("CPU", 0)
-            self._workers = max(1, int(cpus / self._cpus))
+            cpus = [node["Resources"].get("CPU", 0) for node in self._ray.nodes() if node["Alive"]]
+            self._workers = max(1, sum(int(here / self._cpus) for here in cpus))
             self._asked = time.monotonic()
+            self._mind(max(cpus, default=0))
         while len(self._flight) < 2 * self._workers:
             jobs = ([self._again.popleft()] if self._again
                     else self._batches.take(calls, self._workers))
@@ -219,6 +226,15 @@ class RayPool:
             ref = remote.remote(self._versions, self._key, scenario, jobs)
             self._flight[ref] = jobs
             self.tasks += 1
+
+    def _mind(self, largest: float) -> None:
+        """Says it where tasks wait for a node larger than any; one may be on its way."""
+        if largest >= self._cpus or not self._fits:
+            self._fits = time.monotonic()
+        elif not self._warned and time.monotonic() - self._fits > _PATIENCE_S:
+            self._warned = True
+            warn(f"warning: num_cpus = {self._cpus:g}: no node has as many; the largest has "
+                 f"{largest:g}, so nothing is driven until a larger one comes")
 
     def _take(self, calls: Any, ref: Any) -> None:
         errors = self._ray.exceptions

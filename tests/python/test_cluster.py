@@ -279,6 +279,29 @@ def test_options_are_checked(place: Path, local: Dict[str, Path], option: Dict[s
     assert not (place / "none").exists()
 
 
+def test_more_cpus_than_this_machine_has(local: Dict[str, Path], place: Path,
+                                         monkeypatch: pytest.MonkeyPatch) -> None:
+    import ray
+    monkeypatch.delenv("RAY_ADDRESS", raising=False)
+    monkeypatch.setattr(ray, "is_initialized", lambda: False)
+    monkeypatch.setattr(ray, "init", lambda **_: pytest.fail("no cluster can drive this"))
+    with pytest.raises(floorproof.InputError, match=r"num_cpus = 100000: no node has as many; this ma"):
+        floorproof.campaign(place / "local_all" / "scenario.yaml", 1, out=place / "large", engine="ray",
+                            num_cpus=100_000)
+    assert not (place / "large").exists()
+
+
+def test_more_cpus_than_any_node_has(cluster: Any, local: Dict[str, Path], place: Path,
+                                     monkeypatch: pytest.MonkeyPatch) -> None:
+    from floorproof import cluster as engine
+    monkeypatch.setattr(engine, "_SIZE_S", 0.05)
+    monkeypatch.setattr(engine, "_PATIENCE_S", 0.2)
+    with pytest.warns(UserWarning, match="num_cpus = 2: no node has as many; the largest has 1") as w:
+        made = floorproof.campaign(place / "local_all" / "scenario.yaml", 1, out=place / "waits",
+                                   engine="ray", num_cpus=2, time_limit_s=1)
+    assert len(w) == 1 and "time limit" in made.end
+
+
 @pytest.mark.slow
 def test_a_killed_raylet_costs_nothing(cluster: Any, local: Dict[str, Path], place: Path) -> None:
     node = cluster.add_node(**cluster.about)
