@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/file_output.h"
+#include "base/fork.h"
 #include "base/input_file.h"
 #include "base/interrupt.h"
 
@@ -47,7 +48,7 @@ ResultFolder::ResultFolder(fs::path folder, ResultNames results, std::span<const
 
 ResultFolder::~ResultFolder() {
   List();
-  if (lock_ >= 0) close(lock_);
+  if (lock_ >= 0) CloseOwn(lock_);
 }
 
 void ResultFolder::List() {
@@ -67,9 +68,10 @@ void ResultFolder::Lock() {
   if (lock_ >= 0) return;
   MakeFolder(folder_);
   lock_ = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ >= 0) Own(lock_);
   // A file system without locks is no reason not to write.
   if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    close(lock_);
+    CloseOwn(lock_);
     lock_ = -1;
     throw InputError({folder_.string(), 0}, "", "", "is in use: another run is writing there");
   }

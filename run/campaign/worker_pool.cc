@@ -120,17 +120,17 @@ class Pool {
 
   void Start(Worker& worker) {
     int jobs[2], answers[2];
-    if (pipe(jobs) != 0) throw InternalError(std::string("no pipe: ") + std::strerror(errno));
-    if (pipe(answers) != 0) {
+    if (!OwnPipe(jobs)) throw InternalError(std::string("no pipe: ") + std::strerror(errno));
+    if (!OwnPipe(answers)) {
       const int error = errno;
-      close(jobs[0]), close(jobs[1]);
+      CloseOwn(jobs[0]), CloseOwn(jobs[1]);
       throw InternalError(std::string("no pipe: ") + std::strerror(error));
     }
     const pid_t parent = getpid();
     const pid_t pid = Fork();
     if (pid < 0) {
       const int error = errno;
-      for (const int end : {jobs[0], jobs[1], answers[0], answers[1]}) close(end);
+      for (const int end : {jobs[0], jobs[1], answers[0], answers[1]}) CloseOwn(end);
       throw InternalError(std::string("no worker process: ") + std::strerror(error));
     }
     if (pid == 0) {
@@ -142,11 +142,11 @@ class Pool {
       signal(SIGPIPE, SIG_DFL);
       // The other workers' ends, or a worker would outlive the pipe's closing; the lock on the
       // campaign's folder, or it would outlive the parent's.
-      CloseAllBut({jobs[0], answers[1]});
+      CloseAllOwnBut({jobs[0], answers[1]});
       Serve(jobs[0], answers[1], callbacks_.work);
     }
-    close(jobs[0]);
-    close(answers[1]);
+    CloseOwn(jobs[0]);
+    CloseOwn(answers[1]);
     worker = {pid, jobs[1], answers[0], false, 0};
   }
 
@@ -176,8 +176,8 @@ class Pool {
   // Reaps the worker, killing it where it lives; how it ended.
   std::string End(Worker& worker, int signal_number) {
     if (worker.pid < 0) return "";
-    close(worker.jobs);
-    close(worker.answers);
+    CloseOwn(worker.jobs);
+    CloseOwn(worker.answers);
     int status = 0;
     // One that died by itself is a zombie by now, or about to be: its answers' end was closed.
     bool reaped = false;

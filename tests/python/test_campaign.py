@@ -59,6 +59,22 @@ def test_a_planner_in_python_drives_in_workers(drawing, tmp_path):
     assert "planner campaigned raised RuntimeError: odd (test_campaign.py:" in rows
 
 
+def test_what_a_planner_has_open_stays_open_in_workers(drawing, tmp_path):
+    log = open(tmp_path / "log", "a", encoding="utf-8")
+
+    @floorproof.planner("logging", uses_seed=True)
+    def logging(request):
+        log.write("asked\n")
+        log.flush()
+        return "is only asked"
+
+    with log:
+        floorproof.campaign(drawing.with_({"drive": "none", "success": None}, plan="logging"), 4,
+                            out=tmp_path / "c", jobs=2)
+    assert (tmp_path / "log").read_text(encoding="utf-8") == 4 * "asked\n"
+    assert "Bad file descriptor" not in (tmp_path / "c" / "episodes.csv").read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize("options, says", [
     ({"n": 0}, "n = 0: must be at least 1"),
     ({"n": 2, "engine": "slurm"}, "engine = slurm: unknown"),

@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -219,6 +220,35 @@ TEST_F(WorkerPoolTest, WhatTheParentThrowsEndsTheWorkers) {
   callbacks.done = [](Job, const std::string&) { throw std::runtime_error("disk full"); };
   callbacks.stop = [] { return false; };
   EXPECT_THROW(RunInWorkers(3, callbacks), std::runtime_error);
+}
+
+// A plug-in may hold a log file that it opened beforehand.
+TEST_F(WorkerPoolTest, WhatTheCallerHasOpenStaysOpen) {
+  const int log = open((folder_ / "log").c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+  Run(2, 4, [&](Job) { return std::to_string(write(log, "asked\n", 6)); });
+  for (const auto& [job, wrote] : answers_) EXPECT_EQ(wrote, "6");
+  EXPECT_EQ(fs::file_size(folder_ / "log"), 24u);
+  close(log);
+}
+
+// Else a worker that dies would not be noticed as long as another one holds its pipe.
+TEST_F(WorkerPoolTest, OneWorkerHoldsNoPipeOfAnother) {
+  const auto pipes = [] {
+    std::string found;
+    for (const auto& fd : fs::directory_iterator("/proc/self/fd")) {
+      std::error_code ignored;
+      const std::string what = fs::read_symlink(fd.path(), ignored).string();
+      if (what.starts_with("pipe:")) found += what + ' ';
+    }
+    return found;
+  };
+  const std::string inherited = pipes();
+  const auto many = [](const std::string& list) { return std::ranges::count(list, ' '); };
+  Run(3, 9, [&](Job) {
+    usleep(10'000);
+    return pipes();
+  });
+  for (const auto& [job, held] : answers_) EXPECT_EQ(many(held), many(inherited) + 2) << held;
 }
 
 // Ctrl-C at a terminal reaches the whole group: it is the parent's to act on.
