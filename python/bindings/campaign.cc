@@ -2,6 +2,7 @@
 // Campaigns: in worker processes of this machine, or wherever a Python pool has its workers.
 
 #include "base/interrupt.h"
+#include "base/watched_call.h"
 #include "python/bindings/host.h"
 #include "python/bindings/modules.h"
 #include "report/campaign_words.h"
@@ -122,10 +123,16 @@ void BindCampaign(nb::module_& m) {
           "crashed",
           [](const Calls& c, Job job, const std::string& how) { c.lent->crashed(job, how); },
           "job"_a, "how"_a)
+      .def(
+          "hung", [](const Calls& c, Job job, const std::string& why) { c.lent->hung(job, why); },
+          "job"_a, "why"_a)
       .def("stop", [](const Calls& c) { return c.lent->stop(); });
   m.def("drive_campaign", &RunCampaignInto, "file"_a, "n"_a, "shard"_a.none(), "jobs"_a, "resume"_a,
         "retry_errors"_a, "fail_fast"_a, "time_limit_s"_a.none(), "folder"_a, "pool"_a.none(),
         "warn"_a.none(), "progress"_a.none());
+  m.def("begin_call", &BeginCall, "until_s"_a, "why"_a);
+  m.def("end_call", &EndCall);
+  m.def("end_where_overdue", &EndWhereOverdue);
   m.def("merge", &MergeInto, "shards"_a, "out"_a);
   nb::class_<Worker>(m, "Worker")
       .def(nb::init<std::shared_ptr<ScenarioFile>>(), "file"_a)

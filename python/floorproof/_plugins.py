@@ -53,8 +53,9 @@ def _checked_timeout_s(value: Any) -> float:
 class _Wrapped:
     """What the C++ side calls: parameters, promises, and the user's own object or function."""
 
-    def __init__(self, made: Any, is_object: bool, params: Mapping[str, Any],
+    def __init__(self, who: str, made: Any, is_object: bool, params: Mapping[str, Any],
                  promises: Mapping[str, Any]) -> None:
+        self._who = who
         self._made, self._is_object, self._promises = made, is_object, promises
         self._params: Dict[str, Any] = {}
         self._timeout_s = _checked_timeout_s(promises["timeout_s"])
@@ -84,8 +85,8 @@ class _Wrapped:
     def _ask(self, method: str, *args: Any) -> Any:
         """Calls the object's method, or the function with its parameters."""
         if self._is_object:
-            return limited(self._timeout_s, getattr(self._made, method), *args)
-        return limited(self._timeout_s, self._made, *args, **self._params)
+            return limited(self._who, self._timeout_s, getattr(self._made, method), *args)
+        return limited(self._who, self._timeout_s, self._made, *args, **self._params)
 
     def _tell_start(self, *args: Any) -> None:
         if self._is_object and hasattr(self._made, "start"):
@@ -223,16 +224,16 @@ _PLAN_KEYS = ("planner", "command", "file", "timeout_s")
 _TAKEN = {"planner": _PLAN_KEYS, "online_planner": (*_PLAN_KEYS, "radius_m", "step_m", "speed_mps"),
           "tracker": ("name", "timeout_s")}
 
-# By kind: the wrapper, the method of a class, and who is told.
-_REGISTER = {"planner": (_Planner, "plan", _core.register_planner),
-             "online_planner": (_OnlinePlanner, "next", _core.register_online_planner),
-             "tracker": (_Tracker, "update", _core.register_tracker)}
+# By kind: the wrapper, the method of a class, what errors call it, and who is told.
+_REGISTER = {"planner": (_Planner, "plan", "planner", _core.register_planner),
+             "online_planner": (_OnlinePlanner, "next", "planner", _core.register_online_planner),
+             "tracker": (_Tracker, "update", "controller", _core.register_tracker)}
 
 
 def register(kind: str, name: str, made: Any, promises: Mapping[str, Any]) -> None:
     """Makes `made`, a class or what is called as a function is, the plug-in `name`. Throws TypeError
     where it cannot be one."""
-    wrapper, method, tell = _REGISTER[kind]
+    wrapper, method, called, tell = _REGISTER[kind]
     if not isinstance(name, str) or not re.fullmatch(r"\w[\w.-]{0,99}", name):
         raise InputError(f"{kind} {name!r}: a name has letters, digits, _, - and ., 100 at most")
     is_object = inspect.isclass(made)
@@ -247,7 +248,7 @@ def register(kind: str, name: str, made: Any, promises: Mapping[str, Any]) -> No
     _checked_timeout_s(promises["timeout_s"])
 
     def make() -> Any:
-        return wrapper(made() if is_object else made, is_object, params, promises)
+        return wrapper(f"{called} {name}", made() if is_object else made, is_object, params, promises)
 
     tell(name, make)
     registered[kind, name] = (made, dict(promises))

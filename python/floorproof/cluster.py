@@ -16,6 +16,7 @@ import pickle
 import socket
 import sys
 import time
+import uuid
 from collections import deque
 from typing import Any, Deque, Dict, List, Mapping, Optional, Sequence, Tuple
 
@@ -168,7 +169,8 @@ class RayPool:
         self._retries, self._cpus = retries, num_cpus
         self._batches = _Batches(batch_s)
         self._ray = ray
-        self._flight: Dict[Any, List[int]] = {}
+        self._name = uuid.uuid4().hex
+        self._flight: Dict[Any, Tuple[List[int], bytes]] = {}  # jobs, and where they leave word
         self._again: Deque[int] = deque()
         self._deaths: Dict[int, int] = {}  # of jobs that are to be tried again
         self._workers, self._asked = 1, -math.inf
@@ -223,8 +225,9 @@ class RayPool:
                     else self._batches.take(calls, self._workers))
             if not jobs:
                 return
-            ref = remote.remote(self._versions, self._key, scenario, jobs)
-            self._flight[ref] = jobs
+            note = f"{self._name}.{self.tasks}".encode()
+            ref = remote.remote(self._versions, self._key, scenario, jobs, note)
+            self._flight[ref] = (jobs, note)
             self.tasks += 1
 
     def _mind(self, largest: float) -> None:
@@ -238,7 +241,7 @@ class RayPool:
 
     def _take(self, calls: Any, ref: Any) -> None:
         errors = self._ray.exceptions
-        jobs = self._flight.pop(ref)
+        jobs, note = self._flight.pop(ref)
         try:
             answer = self._ray.get(ref)
         except (errors.RayTaskError, errors.RuntimeEnvSetupError) as error:
@@ -250,6 +253,13 @@ class RayPool:
         except errors.NodeDiedError:
             answer = [(job, None, "died with its node") for job in jobs], 0
         except errors.RayError:
+            word = _remote.hung(note)
+            if word is not None:  # it would hang again; those beside it are not to blame
+                hung, why = word
+                self._deaths.pop(hung, None)
+                calls.hung(hung, why)
+                self._again.extend(job for job in jobs if job != hung)
+                return
             answer = [(job, None, "died") for job in jobs], 0
         if isinstance(answer, str):
             self.refused = InputError(answer)

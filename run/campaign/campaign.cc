@@ -111,7 +111,8 @@ class CampaignDrive {
     callbacks.work = [this](Job job) { return maker_.Answer(job); };
     callbacks.next = [this] { return Next(); };
     callbacks.done = [this](Job, std::string answer) { Take(FromLine(answer)); };
-    callbacks.crashed = [this](Job job, const std::string& how) { TakeCrash(job, how); };
+    callbacks.crashed = [this](Job job, const std::string& how) { Refuse(job, "crashed: " + how); };
+    callbacks.hung = [this](Job job, const std::string& why) { Refuse(job, why); };
     callbacks.stop = [this] { return Stop(); };
     if (options_.pool)
       options_.pool(callbacks);
@@ -147,9 +148,9 @@ class CampaignDrive {
     if (batch_.size() >= kBatch) Flush();
   }
 
-  void TakeCrash(Job job, const std::string& how) {
+  void Refuse(Job job, const std::string& why) {
     const auto [variant, episode] = maker_.Of(job);
-    Take(maker_.Refused(variant, episode, "crashed: " + how));
+    Take(maker_.Refused(variant, episode, why));
   }
 
   // Whether this row ends the campaign, once all before it are done.

@@ -3,18 +3,22 @@
 
 #include <poll.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <deque>
 #include <map>
+#include <new>
 #include <vector>
 
 #include "base/error.h"
 #include "base/fork.h"
+#include "base/watched_call.h"
 
 namespace floorproof {
 namespace {
@@ -65,24 +69,51 @@ std::string HowItEnded(int status) {
   _exit(0);
 }
 
+// A call for each worker, in memory that this process and its children share.
+class SharedCalls {
+ public:
+  explicit SharedCalls(std::size_t n) : size_(std::max<std::size_t>(n, 1) * sizeof(WatchedCall)) {
+    memory_ = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (memory_ == MAP_FAILED)
+      throw InternalError(std::string("no shared memory: ") + std::strerror(errno));
+    for (std::size_t i = 0; i < n; ++i) new (&(*this)[i]) WatchedCall;
+  }
+  ~SharedCalls() { munmap(memory_, size_); }
+  SharedCalls(const SharedCalls&) = delete;
+  SharedCalls& operator=(const SharedCalls&) = delete;
+  WatchedCall& operator[](std::size_t i) { return static_cast<WatchedCall*>(memory_)[i]; }
+
+ private:
+  std::size_t size_;
+  void* memory_;
+};
+
 class Pool {
  public:
-  explicit Pool(const PoolCallbacks& callbacks) : callbacks_(callbacks) {}
+  Pool(int workers, const PoolCallbacks& callbacks)
+      : callbacks_(callbacks),
+        workers_(static_cast<std::size_t>(workers)),
+        calls_(workers_.size()) {
+    for (std::size_t i = 0; i < workers_.size(); ++i) workers_[i].call = &calls_[i];
+  }
   ~Pool() {
     for (Worker& worker : workers_) End(worker, SIGKILL);
   }
 
-  void Run(int workers) {
-    workers_.resize(static_cast<std::size_t>(workers));
+  void Run() {
     for (Worker& worker : workers_)
       if (!Feed(worker)) break;
     while (in_flight() > 0 && !callbacks_.stop()) {
       std::vector<pollfd> fds;
       for (const Worker& worker : workers_)
         fds.push_back({worker.busy ? worker.answers : -1, POLLIN, 0});
-      if (poll(fds.data(), fds.size(), kPoll_ms) <= 0) continue;
-      for (std::size_t i = 0; i < fds.size(); ++i)
-        if (fds[i].revents != 0) Answer(workers_[i]);
+      const bool answered = poll(fds.data(), fds.size(), kPoll_ms) > 0;
+      for (std::size_t i = 0; i < fds.size(); ++i) {
+        if (answered && fds[i].revents != 0)
+          Answer(workers_[i]);
+        else if (workers_[i].busy)
+          EndWhereOverdue(workers_[i]);
+      }
     }
   }
 
@@ -92,6 +123,7 @@ class Pool {
     int jobs = -1, answers = -1;  // the parent's ends
     bool busy = false;
     Job job = 0;
+    WatchedCall* call = nullptr;  // that it is in
   };
 
   int in_flight() const {
@@ -127,6 +159,7 @@ class Pool {
       throw InternalError(std::string("no pipe: ") + std::strerror(error));
     }
     const pid_t parent = getpid();
+    worker.call->until_ns = 0;  // of the one before, which is gone
     const pid_t pid = Fork();
     if (pid < 0) {
       const int error = errno;
@@ -143,11 +176,12 @@ class Pool {
       // The other workers' ends, or a worker would outlive the pipe's closing; the lock on the
       // campaign's folder, or it would outlive the parent's.
       CloseAllOwnBut({jobs[0], answers[1]});
+      TellCallsTo(worker.call);
       Serve(jobs[0], answers[1], callbacks_.work);
     }
     CloseOwn(jobs[0]);
     CloseOwn(answers[1]);
-    worker = {pid, jobs[1], answers[0], false, 0};
+    worker = {pid, jobs[1], answers[0], false, 0, worker.call};
   }
 
   void Answer(Worker& worker) {
@@ -170,6 +204,16 @@ class Pool {
       else
         callbacks_.crashed(job, "its process was " + how + ", twice");
     }
+    Feed(worker);
+  }
+
+  void EndWhereOverdue(Worker& worker) {
+    const auto why = Overdue(*worker.call);
+    if (!why) return;
+    End(worker, SIGKILL);
+    worker.busy = false;
+    tries_.erase(worker.job);
+    callbacks_.hung(worker.job, *why);
     Feed(worker);
   }
 
@@ -196,6 +240,7 @@ class Pool {
 
   const PoolCallbacks& callbacks_;
   std::vector<Worker> workers_;
+  SharedCalls calls_;
   std::deque<Job> again_;
   std::map<Job, int> tries_;
 };
@@ -209,7 +254,7 @@ void RunInWorkers(int workers, const PoolCallbacks& callbacks) {
   ignore.sa_handler = SIG_IGN;
   sigaction(SIGPIPE, &ignore, &before);
   try {
-    Pool(callbacks).Run(workers);
+    Pool(workers, callbacks).Run();
   } catch (...) {
     sigaction(SIGPIPE, &before, nullptr);
     throw;

@@ -2,7 +2,9 @@
 """Campaigns from Python are the command line's."""
 from __future__ import annotations
 
+import csv
 import subprocess
+import sys
 
 import pytest
 
@@ -73,6 +75,49 @@ def test_what_a_planner_has_open_stays_open_in_workers(drawing, tmp_path):
                             out=tmp_path / "c", jobs=2)
     assert (tmp_path / "log").read_text(encoding="utf-8") == 4 * "asked\n"
     assert "Bad file descriptor" not in (tmp_path / "c" / "episodes.csv").read_text(encoding="utf-8")
+
+
+HANGS = """
+import itertools, sys, time
+import floorproof
+from floorproof import _watchdog
+
+_watchdog._MARGIN_S = 0.1
+
+def deaf():
+    while True:
+        try:
+            time.sleep(1)
+        except BaseException:
+            pass
+
+HOW = {"sleep": lambda: time.sleep(1000), "deaf": deaf, "in C": lambda: sum(itertools.repeat(0))}
+how, file, out = sys.argv[1:]
+
+@floorproof.planner("hangs", uses_seed=True, timeout_s=0.2)
+def hangs(request):
+    if request.seed % 2:
+        HOW[how]()
+    return "is only asked"
+
+scenario = floorproof.load(file, {"drive": "none", "success": None}, plan="hangs")
+floorproof.campaign(scenario, 6, out=out, jobs=2)
+"""
+
+
+def test_a_planner_that_hangs_is_an_error_and_the_rest_goes_on(drawing, tmp_path):
+    # Whether it could be ended in Python, or with its worker alone, the files are the same.
+    tables = {}
+    for how in ("sleep", "deaf", "in C"):
+        out = tmp_path / how
+        subprocess.run([sys.executable, "-c", HANGS, how, drawing.file, out], check=True, timeout=30)
+        tables[how] = (out / "episodes.csv").read_bytes()
+    with open(tmp_path / "sleep" / "episodes.csv", encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    hung = [row["message"] for row in rows if row["outcome"] == "error"]
+    assert len(rows) == 6 and 0 < len(hung) < 6
+    assert set(hung) == {"planner hangs raised TimeoutError: took more than 0.2 s (timeout_s)"}
+    assert tables["sleep"] == tables["deaf"] == tables["in C"]
 
 
 @pytest.mark.parametrize("options, says", [

@@ -199,6 +199,33 @@ def test_an_episode_that_kills_its_process_is_one_error(cluster: Any, place: Pat
     assert errors == [(bad, "crashed: its process died, 4 times")]
 
 
+def test_an_episode_that_hangs_is_one_error(cluster: Any, place: Path) -> None:
+    @floorproof.planner("deaf", uses_seed=True, timeout_s=0.2)
+    def deaf(request: Any, bad_y_m: float = 9.0) -> Any:
+        x_m, y_m, _ = request.start
+        while y_m > bad_y_m:
+            try:
+                time.sleep(1)
+            except BaseException:
+                pass
+        return [(x_m, y_m), (x_m + 1, y_m)]
+
+    file = written(place / "deaf", SCENARIO.replace("{file: ahead.csv}", "{planner: deaf}"))
+    drawn = [floorproof.load(file).episode(i).start[1] for i in range(12)]
+    bad = max(range(12), key=lambda i: drawn[i])
+    bound = (sorted(drawn)[-1] + sorted(drawn)[-2]) / 2
+    scenario = floorproof.load(file, {"plan.bad_y_m": bound, "matrix": None})
+    made = floorproof.campaign(scenario, 12, out=place / "hung", engine="ray", batch_s=5, retries=0,
+                               time_limit_s=60)
+    summary = made.variants["default"]
+    assert summary["n_error"] == 1 and summary["n"] == 11
+    base = sqlite3.connect(place / "hung" / "campaign.sqlite")
+    errors = base.execute("select episode, message from episode where outcome = 'error'").fetchall()
+    base.close()
+    assert errors == [
+        (bad, "planner deaf raised TimeoutError: took more than 0.2 s (timeout_s)")]
+
+
 def test_shards_by_command_and_merged(cluster: Any, local: Dict[str, Path], place: Path,
                                       capsys: pytest.CaptureFixture[str]) -> None:
     from floorproof._cluster_command import main

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -20,6 +21,8 @@
 #include <sstream>
 #include <stdexcept>
 #include <vector>
+
+#include "base/watched_call.h"
 
 namespace floorproof {
 namespace {
@@ -86,13 +89,16 @@ class WorkerPoolTest : public ::testing::Test {
     callbacks.crashed = [&](Job crashed, const std::string& how) {
       EXPECT_TRUE(crashed_.emplace(crashed, how).second) << crashed << " crashed twice";
     };
+    callbacks.hung = [&](Job hung, const std::string& why) {
+      EXPECT_TRUE(hung_.emplace(hung, why).second) << hung << " hung twice";
+    };
     callbacks.stop = [&] { return stop_ && stop_(); };
     RunInWorkers(workers, callbacks);
   }
 
   fs::path folder_;
   std::set<pid_t> before_;
-  std::map<Job, std::string> answers_, crashed_;
+  std::map<Job, std::string> answers_, crashed_, hung_;
   std::function<bool()> stop_;
 };
 
@@ -220,6 +226,40 @@ TEST_F(WorkerPoolTest, WhatTheParentThrowsEndsTheWorkers) {
   callbacks.done = [](Job, const std::string&) { throw std::runtime_error("disk full"); };
   callbacks.stop = [] { return false; };
   EXPECT_THROW(RunInWorkers(3, callbacks), std::runtime_error);
+}
+
+// It is tried once, and what it was in the middle of is what is said of it.
+TEST_F(WorkerPoolTest, AJobWhoseCallIsOverdueIsGivenUpAndTheRestGoesOn) {
+  const double now_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  Run(2, 30, [&](Job job) {
+    BeginCall(now_s, "took more than " + std::to_string(job));
+    if (job % 10 == 3) sleep(200);
+    EndCall();
+    if (job == 4) usleep(300'000);  // in no call, or in one that may go on
+    BeginCall(now_s + 1000, "");
+    if (job == 5) usleep(300'000);
+    return std::string();
+  });
+  EXPECT_EQ(answers_.size(), 27u);
+  EXPECT_TRUE(crashed_.empty());
+  EXPECT_THAT(hung_, ::testing::ElementsAre(std::pair(Job{3}, "took more than 3"),
+                                            std::pair(Job{13}, "took more than 13"),
+                                            std::pair(Job{23}, "took more than 23")));
+}
+
+TEST_F(WorkerPoolTest, WhatIsSaidOfACallIsCutBetweenLetters) {
+  const std::string letter = "\u00e4";  // two bytes
+  std::string name;
+  for (int i = 0; i < 600; ++i) name += letter;
+  Run(1, 1, [&](Job) {
+    BeginCall(1, name);
+    sleep(200);
+    return std::string();
+  });
+  ASSERT_EQ(hung_.size(), 1u);
+  EXPECT_EQ(hung_[0].size(), 1022u);
+  EXPECT_TRUE(name.starts_with(hung_[0]));
 }
 
 // A plug-in may hold a log file that it opened beforehand.
