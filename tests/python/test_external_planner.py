@@ -2,6 +2,7 @@
 """A planner that is any program is named, as a warning, before it is run."""
 from __future__ import annotations
 
+import sys
 import warnings
 from pathlib import Path
 from typing import Any, Callable, Dict
@@ -9,6 +10,8 @@ from typing import Any, Callable, Dict
 import pytest
 
 import floorproof
+
+MOWER = Path(__file__).resolve().parents[2] / "docs" / "examples" / "mower.py"
 
 Call = Callable[[floorproof.Scenario, Path], Any]
 
@@ -84,3 +87,28 @@ def test_a_plan_that_is_there_asks_nobody(scenario: floorproof.Scenario, asked: 
 def test_which_program_is_not_drawn(scenario: floorproof.Scenario) -> None:
     with pytest.raises(floorproof.InputError, match=r"randomise.plan.command.*cannot be drawn"):
         scenario.with_({"randomise": {"plan.command": {"choice": [["./plan.sh"], ["./other"]]}}})
+
+
+@pytest.mark.parametrize("pattern", ["lines", "squares", "rings"])
+@pytest.mark.filterwarnings("ignore:runs a program")
+def test_the_example_asks_a_planner_that_others_wrote(room: Dict[str, Any], pattern: str) -> None:
+    pytest.importorskip("coverage_path_planner",
+                        reason="the package coverage-path-planner is not installed")
+    # A pillar in the middle: the garden has a hole.
+    rows = ["#" * 14] + ["#" + "." * 12 + "#"] * 8 + ["#" * 14]
+    rows[5] = "#......#.....#"
+    room["site"]["grid"]["rows"] = "\n".join(rows)
+    plan = floorproof.load({**room, "plan": {"command": [sys.executable, str(MOWER), pattern]}}).plan()
+    assert plan.status == "success", plan.message
+    assert 0.8 < plan.info["coverage"] < 1
+
+
+@pytest.mark.filterwarnings("ignore:runs a program")
+def test_the_example_says_where_it_has_no_room(room: Dict[str, Any]) -> None:
+    pytest.importorskip("coverage_path_planner",
+                        reason="the package coverage-path-planner is not installed")
+    room["site"]["grid"] = {"cell_m": 0.4, "rows": "#####\n#...#\n#####"}
+    room["start"] = {"x_m": 1, "y_m": 0.6}
+    plan = floorproof.load({**room, "plan": {"command": [sys.executable, str(MOWER), "lines"]}}).plan()
+    assert plan.status == "failed"
+    assert plan.message.endswith("there is no room for a garden")
