@@ -71,7 +71,8 @@ class FloorproofEnv(gymnasium.Env[Observation, np.ndarray]):
                  plan_step_m: float = 0.25, render_mode: Optional[str] = None, width: int = 480,
                  height: int = 270, camera: str = "auto", quality: str = "draft") -> None:
         self._core: Optional[_core.Stepped] = None
-        self._views: List[Tuple[str, np.ndarray]] = []  # of what lies in it
+        self._views: List[Tuple[str, np.ndarray]] = []  # of what lies in it, which lives as long
+        self._state: np.ndarray = np.zeros(5)  # another: time, coverage, true pose
         self._events: List[Event] = []
         self._closed = False
         among("reference", reference, ("plan", None))
@@ -160,8 +161,8 @@ class FloorproofEnv(gymnasium.Env[Observation, np.ndarray]):
     def close(self) -> None:
         """Frees physics and pictures; another call than close() is refused from then on."""
         self._closed = True
-        self._core = None
-        self._views = []
+        self._free()
+        self._plan = ("", None)
 
     # --- of this environment alone
 
@@ -172,8 +173,11 @@ class FloorproofEnv(gymnasium.Env[Observation, np.ndarray]):
 
     # --- inside
 
+    def _free(self) -> None:
+        self._core, self._views, self._state = None, [], np.zeros(5)
+
     def _begin(self, episode: int, variant: Optional[str]) -> None:
-        self._core, self._views = None, []  # what is over is freed before what comes
+        self._free()  # what is over, before what comes
         self.episode = None
         self._ended = "reset() failed: it comes first again"
         made = self.scenario._file.read(episode, variant)
@@ -189,7 +193,7 @@ class FloorproofEnv(gymnasium.Env[Observation, np.ndarray]):
         if self._follows:
             names.append("plan_ahead")
         self._views = [(name, getattr(core, name)) for name in names]
-        self._state: np.ndarray = np.asarray(core.state)
+        self._state = np.asarray(core.state)
         self._core = core
         self._share = float(self._state[1])
         self._num_events, self._events = 0, []
@@ -260,7 +264,7 @@ class FloorproofEnv(gymnasium.Env[Observation, np.ndarray]):
         if core.num_events != self._num_events:
             self._events = [event_of(e) for e in json.loads(core.events)]
             self._num_events = core.num_events
-        state = self._state.copy()  # time, coverage, true pose
+        state = self._state.copy()
         self._share = float(state[1])
         return {"t_s": float(state[0]), "coverage": self._share, "truth": state[2:],
                 "events": self._events}

@@ -291,6 +291,29 @@ def test_observations_are_the_callers_own(env: Any) -> None:
         np.testing.assert_array_equal(first[name], value)
 
 
+def test_an_episode_is_freed_before_the_next_begins_and_by_close(
+        env: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    make_core, made, others = floorproof._core.Stepped, [env.unwrapped._core], []
+
+    def count_holders() -> None:  # of the last episode, beside this test
+        others.append(sys.getrefcount(made[-1]) - alone)
+
+    def stepped(*args: Any) -> Any:
+        count_holders()
+        made.append(make_core(*args))
+        return made[-1]
+
+    lone = [object()]
+    alone = sys.getrefcount(lone[-1])
+    monkeypatch.setattr(floorproof._core, "Stepped", stepped)
+    env.reset(seed=0)
+    env.reset(seed=1)
+    env.step([0, 0])
+    env.close()
+    count_holders()
+    assert others == [0, 0, 0]
+
+
 # --- misuse
 
 @pytest.mark.parametrize("action,said", [
