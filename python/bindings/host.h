@@ -5,6 +5,7 @@
 #include <nanobind/nanobind.h>
 // All conversions in all files: where one lacks one, it would have another meaning of the same
 // name.
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "controllers/drive.h"
 #include "run/episode/robot_side.h"
 
 namespace floorproof {
@@ -20,29 +19,17 @@ float Within(double value, float low, float high) {
 Observed::Observed(const Scenario& s, const Outlook& outlook)
     : local(s, outlook.local_cells, outlook.local_cell_m), outlook_(outlook) {}
 
-void Observed::Begin(const Scenario& s, SteppedEpisode& episode, bool follows) {
-  const GridFrame& frame = s.site.map.frame;
-  const double w_m = frame.width * frame.cell_m, h_m = frame.height * frame.cell_m;
-  Vec2 low_W = frame.X_WG.p(), high_W = low_W;
-  for (const Vec2& corner : {Vec2(w_m, 0), Vec2(0, h_m), Vec2(w_m, h_m)}) {
-    low_W = low_W.cwiseMin(frame.X_WG * corner);
-    high_W = high_W.cwiseMax(frame.X_WG * corner);
+void Observed::Begin(const Scenario& s, SteppedEpisode& episode, bool follows,
+                     const SpaceBounds* spaces) {
+  const LidarScan& scan = episode.view().sensed.scan;
+  const SpaceBounds own = SpaceBoundsOf(s, scan);
+  if (spaces != nullptr) {
+    RequireSameShape(s, own, *spaces);
+    lacks = spaces->Lacks(own);
   }
-  constexpr double kBeyond_m = 1;
-  for (int i = 0; i < 2; ++i) {
-    low[static_cast<std::size_t>(i)] = static_cast<float>(low_W[i] - kBeyond_m);
-    high[static_cast<std::size_t>(i)] = static_cast<float>(high_W[i] + kBeyond_m);
-  }
-  const std::unique_ptr<Drive> drive = MakePlugin(Drives(), s.robot.spec.drive, "drive");
-  drive->Configure(s.robot.spec);
-  holonomic = drive->holonomic();
-  // A robot that is pushed, or falls, is faster than it can drive.
-  constexpr double kPushed = 2;
-  const auto speed = static_cast<float>(kPushed * s.robot.spec.max_speed_mps);
-  fastest = {speed, speed, static_cast<float>(kPushed * s.robot.spec.max_yaw_rate_radps)};
-  scan_most_m = static_cast<float>(episode.view().sensed.scan.most_m);
-  far_m = static_cast<float>(std::hypot(w_m, h_m) + 2 * kBeyond_m);
-  lidar.resize(episode.view().sensed.scan.range_m.size());
+  bounds = spaces != nullptr ? *spaces : own;
+  scan_most_m_ = std::min(own.lidar_m, bounds.lidar_m);
+  lidar.resize(scan.range_m.size());
   ahead.resize(follows ? 2 * (1 + static_cast<std::size_t>(outlook_.plan_points)) : 0);
 }
 
@@ -51,9 +38,12 @@ void Observed::Look(SteppedEpisode& episode, const std::optional<Vec2>& target_W
   const Pose2& X_WB = now.estimate.X_WB;
   const BodyTwist& V = now.estimate.V_WB_B;
   const LidarScan& scan = now.sensed.scan;
-  for (std::size_t i = 0; i < lidar.size(); ++i) lidar[i] = Within(scan.range_m[i], 0, scan_most_m);
+  for (std::size_t i = 0; i < lidar.size(); ++i)
+    lidar[i] = Within(scan.range_m[i], 0, scan_most_m_);
+  const auto &low = bounds.low, &high = bounds.high;
   pose = {Within(X_WB.x_m, low[0], high[0]), Within(X_WB.y_m, low[1], high[1]),
           Within(std::cos(X_WB.yaw_rad), -1, 1), Within(std::sin(X_WB.yaw_rad), -1, 1)};
+  const std::array<float, 3>& fastest = bounds.fastest;
   twist = {Within(V.vx_mps, -fastest[0], fastest[0]), Within(V.vy_mps, -fastest[1], fastest[1]),
            Within(V.wz_radps, -fastest[2], fastest[2])};
   coverage = static_cast<float>(now.coverage);
@@ -72,6 +62,7 @@ void Observed::LookAhead(const RobotSide& robot, const Pose2& X_WB,
   const Vec2 &a = path[i].p_W, &b = path[std::min(i + 1, path.size() - 1)].p_W;
   Vec2 at_W = a + NearestFraction(a, b, X_WB.p()) * (b - a);
   const Pose2 X_BW = X_WB.Inverse();
+  const float far_m = bounds.plan_m;
   const auto tell = [&](std::size_t k, const Vec2& p_W) {
     const Vec2 p_B = X_BW * p_W;
     ahead[2 * k] = Within(p_B.x(), -far_m, far_m);

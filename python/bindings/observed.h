@@ -4,9 +4,11 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "python/bindings/local_map.h"
+#include "python/bindings/space_bounds.h"
 #include "run/episode/episode.h"
 
 namespace floorproof {
@@ -24,8 +26,10 @@ class Observed {
   // Throws InputError.
   Observed(const Scenario& scenario, const Outlook& outlook);
 
-  // Before the drive; `follows`: the plan ahead is told, too.
-  void Begin(const Scenario& scenario, SteppedEpisode& episode, bool follows);
+  // Before the drive; `follows`: the plan ahead is told, too. `spaces`: that all is told in, cut to
+  // their ends; nullptr: the episode's own. Throws InputError.
+  void Begin(const Scenario& scenario, SteppedEpisode& episode, bool follows,
+             const SpaceBounds* spaces);
   // Once a control period.
   void Note(const Estimate& estimate) { local.Sweep(estimate.X_WB); }
   // Fills the arrays. `target_W`: where a tracker would head for; none before the first period.
@@ -40,16 +44,14 @@ class Observed {
   float coverage = 0;
   std::array<double, 5> state{};  // time, coverage, and the true pose
 
-  // Between these all numbers lie.
-  std::array<float, 2> low{}, high{};  // of the place
-  std::array<float, 3> fastest{};      // either way
-  float scan_most_m = 0, far_m = 0;
-  bool holonomic = false;
+  SpaceBounds bounds;  // between which all numbers lie
+  std::string lacks;   // what of this episode is cut to them, in words
 
  private:
   void LookAhead(const RobotSide& robot, const Pose2& X_WB, const std::optional<Vec2>& target_W);
 
   Outlook outlook_;
+  float scan_most_m_ = 0;  // what does not come back is told as this
 };
 
 }  // namespace floorproof

@@ -59,14 +59,15 @@ PlanResult NoPlan(const Scenario& s) {
 class Stepped {
  public:
   // `planned`: the plan to follow, by which it is judged; nullptr: it goes where it likes.
-  // `record`: states are kept for pictures.
+  // `record`: states are kept for pictures. `spaces`: in which it is told; nullptr: its own.
   Stepped(std::shared_ptr<Scenario> scenario, const std::shared_ptr<Planned>& planned,
-          int local_cells, double local_cell_m, int plan_points, double plan_step_m, bool record)
+          int local_cells, double local_cell_m, int plan_points, double plan_step_m, bool record,
+          const SpaceBounds* spaces)
       : driven_(std::make_shared<Driven>()) {
     driven_->scenario = std::move(scenario);
     WithoutGil([&] {
       Begin(planned ? &planned->plan : nullptr,
-            {local_cells, local_cell_m, plan_points, plan_step_m}, record);
+            {local_cells, local_cell_m, plan_points, plan_step_m}, record, spaces);
       return 0;
     });
   }
@@ -151,18 +152,8 @@ class Stepped {
   nb::object coverage() { return View(&told_->coverage, {1}); }
   nb::object plan_ahead() { return View(told_->ahead.data(), {told_->ahead.size()}); }
 
-  // Between which numbers what is told lies.
-  nb::dict Bounds() const {
-    const auto &low = told_->low, &high = told_->high;
-    const auto& fastest = told_->fastest;
-    nb::dict out;
-    out["pose"] = nb::make_tuple(low[0], low[1], high[0], high[1]);
-    out["twist"] = nb::make_tuple(fastest[0], fastest[1], fastest[2]);
-    out["lidar_m"] = told_->scan_most_m;
-    out["plan_m"] = told_->far_m;
-    out["holonomic"] = told_->holonomic;
-    return out;
-  }
+  const SpaceBounds& bounds() const { return told_->bounds; }
+  const std::string& lacks() const { return told_->lacks; }
   nb::object LidarAngles() const {
     const Busy busy(*this);
     Running();
@@ -192,7 +183,8 @@ class Stepped {
     if (!episode_) throw InputError("the episode is finished: reset() begins another");
   }
 
-  void Begin(const PlanResult* plan, const Outlook& outlook, bool record) {
+  void Begin(const PlanResult* plan, const Outlook& outlook, bool record,
+             const SpaceBounds* spaces) {
     Scenario& s = *driven_->scenario;
     if (s.episode.drive != "physics")
       throw InputError({s.file.string(), 0}, "drive", s.episode.drive,
@@ -222,7 +214,7 @@ class Stepped {
     }
     episode_ =
         std::make_unique<SteppedEpisode>(s, *driven_->scene, driven_->plan, std::move(navigator));
-    told_->Begin(s, *episode_, plan != nullptr);
+    told_->Begin(s, *episode_, plan != nullptr, spaces);
     Note();
     told_->Look(*episode_, tracker_->target_W());
   }
@@ -267,11 +259,22 @@ class Stepped {
 }  // namespace
 
 void BindStepped(nb::module_& m) {
+  nb::class_<SpaceBounds>(m, "SpaceBounds")
+      .def_ro("holonomic", &SpaceBounds::holonomic)
+      .def_ro("max_speed_mps", &SpaceBounds::max_speed_mps)
+      .def_ro("max_yaw_rate_radps", &SpaceBounds::max_yaw_rate_radps)
+      .def_ro("beams", &SpaceBounds::beams)
+      .def_ro("lidar_m", &SpaceBounds::lidar_m)
+      .def_ro("low", &SpaceBounds::low)
+      .def_ro("high", &SpaceBounds::high)
+      .def_ro("fastest", &SpaceBounds::fastest)
+      .def_ro("plan_m", &SpaceBounds::plan_m);
+
   nb::class_<Stepped>(m, "Stepped")
       .def(nb::init<std::shared_ptr<Scenario>, const std::shared_ptr<Planned>&, int, double, int,
-                    double, bool>(),
+                    double, bool, const SpaceBounds*>(),
            "scenario"_a, "plan"_a.none(), "local_cells"_a, "local_cell_m"_a, "plan_points"_a,
-           "plan_step_m"_a, "record"_a)
+           "plan_step_m"_a, "record"_a, "spaces"_a.none())
       .def("step", &Stepped::Step, "vx_mps"_a, "vy_mps"_a, "wz_radps"_a, "periods"_a)
       .def("finish", &Stepped::Finish)
       .def("render", &Stepped::Render, "width"_a, "height"_a, "camera"_a, "draft"_a)
@@ -282,7 +285,8 @@ void BindStepped(nb::module_& m) {
       .def_prop_ro("twist", &Stepped::twist)
       .def_prop_ro("coverage", &Stepped::coverage)
       .def_prop_ro("plan_ahead", &Stepped::plan_ahead)
-      .def_prop_ro("bounds", &Stepped::Bounds)
+      .def_prop_ro("bounds", &Stepped::bounds, nb::rv_policy::copy)
+      .def_prop_ro("lacks", &Stepped::lacks)
       .def_prop_ro("lidar_angles", &Stepped::LidarAngles)
       .def_prop_ro("num_events", [](const Stepped& s) { return s.events(); })
       .def_prop_ro("events", [](const Stepped& s) { return s.Events(); });

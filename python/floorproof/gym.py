@@ -15,13 +15,13 @@ from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 
 import gymnasium
 import numpy as np
-from gymnasium import spaces
 
 from . import _core
 from ._checks import MOST_EPISODE, among, number, whole
 from ._core import InputError
 from ._results import Episode, Event, PathLike, episode_of, event_of
 from ._scenario import Scenario, load
+from ._spaces import action_names, action_space, observation_space
 from ._warn import warn
 
 __all__ = ["ID", "FloorproofEnv"]
@@ -47,7 +47,9 @@ class FloorproofEnv(gymnasium.Env[Observation, np.ndarray]):
     reference: `plan`: the scenario's plan is made; leaving it is veer_off, its end ends the episode,
     and its next points are observed. None: the robot goes where the policy likes, and nothing is
     off it; the episode ends when success.min_coverage is reached (all, where that is 0).
-    variant: of the scenario's matrix.
+    variant: of the scenario's matrix. The spaces are those of its episode (the scenario's key
+    `episode`), and hold for all: where another does not fit in, its numbers are cut, with a warning;
+    one with another number of beams, or with another drive, is refused.
     max_time_s: simulated time (s); None: the scenario's time_limit_s.
     action_repeat: control periods (1 / control_hz) that an action holds for.
     coverage_reward: reward for the whole floor; a step earns the share that it covered.
@@ -95,14 +97,21 @@ class FloorproofEnv(gymnasium.Env[Observation, np.ndarray]):
             if pixels % 2:
                 raise InputError(f"{name} = {pixels}: must be even")
 
-        self.scenario = _with_what_it_needs(scenario, max_time_s)
+        self.scenario = _with_what_it_needs(scenario, variant, max_time_s)
         self.metadata = {**self.metadata,
                          "render_fps": max(1, round(self.scenario.control_hz / self._repeat))}
         self.episode: Optional[Episode] = None
         """The last episode, once it has ended: trace, events, metrics, maps."""
+        self._cuts = False  # whether it was said that the spaces do not hold all
         self._plan: Tuple[str, Any] = ("", None)  # what it follows from, and the plan
+        self._spaces: Optional[_core.SpaceBounds] = None  # of the first episode
         self._begin(self.scenario._file.episode, variant)
-        self._make_spaces()
+        assert self._core is not None
+        self._spaces = self._core.bounds
+        self._names = action_names(self._spaces)
+        self.action_space = action_space(self._spaces)
+        self.observation_space = observation_space(  # type: ignore[assignment]
+            self._spaces, self._outlook[0], self._outlook[2] if self._follows else None)
         self._ended = "reset() comes first"
 
     # --- Gymnasium's calls
@@ -187,7 +196,13 @@ class FloorproofEnv(gymnasium.Env[Observation, np.ndarray]):
             if self._plan[0] != inputs:
                 self._plan = (inputs, made.make_plan())
             plan = self._plan[1]
-        core = _core.Stepped(made, plan, *self._outlook, self.render_mode is not None)
+        core = _core.Stepped(made, plan, *self._outlook, self.render_mode is not None,
+                             self._spaces)
+        if core.lacks and not self._cuts:
+            self._cuts = True
+            warn(f"{self.scenario.name}, episode {episode}: the observation space is too small for "
+                 f"{core.lacks}, which is cut to its ends; it is that of the episode and variant "
+                 "with which the environment was made")
         self._angles = np.asarray(core.lidar_angles)
         names = ["lidar", "local_map", "pose", "twist", "coverage"]
         if self._follows:
@@ -198,32 +213,6 @@ class FloorproofEnv(gymnasium.Env[Observation, np.ndarray]):
         self._share = float(self._state[1])
         self._num_events, self._events = 0, []
         self._ended = ""
-
-    def _make_spaces(self) -> None:
-        core = self._core
-        assert core is not None
-        robot, bounds = self.scenario.robot, core.bounds
-        v, w = robot["max_speed_mps"], robot["max_yaw_rate_radps"]
-        self._names = (("vx_mps", "vy_mps", "wz_radps") if bounds["holonomic"]
-                       else ("vx_mps", "wz_radps"))
-        most = np.array([v] * (len(self._names) - 1) + [w], dtype=np.float32)
-        self.action_space = spaces.Box(-most, most, dtype=np.float32)
-        x0, y0, x1, y1 = bounds["pose"]
-        fast = np.array(bounds["twist"], dtype=np.float32)
-        beams, cells = len(self._angles), self._outlook[0]
-        of: Dict[str, spaces.Space[Any]] = {
-            "lidar": spaces.Box(0, bounds["lidar_m"], (beams,), np.float32),
-            "local_map": spaces.Box(0, 255, (3, cells, cells), np.uint8),
-            "pose": spaces.Box(np.array([x0, y0, -1, -1], np.float32),
-                               np.array([x1, y1, 1, 1], np.float32), dtype=np.float32),
-            "twist": spaces.Box(-fast, fast, dtype=np.float32),
-            "coverage": spaces.Box(0, 1, (1,), np.float32),
-        }
-        if self._follows:
-            far = bounds["plan_m"]
-            of["plan_ahead"] = spaces.Box(-far, far, (2 + 2 * self._outlook[2],),
-                                             np.float32)
-        self.observation_space = spaces.Dict(of)  # type: ignore[assignment]
 
     def _open(self) -> None:
         if self._closed:
@@ -281,12 +270,13 @@ class FloorproofEnv(gymnasium.Env[Observation, np.ndarray]):
 
 
 def _with_what_it_needs(source: Union[Scenario, PathLike, Mapping[str, Any]],
-                        max_time_s: Optional[float]) -> Scenario:
+                        variant: Optional[str], max_time_s: Optional[float]) -> Scenario:
     scenario = source if isinstance(source, Scenario) else load(source)
+    driven = scenario if variant is None else scenario.episode(scenario._file.episode, variant)
     changes: Dict[str, Any] = {}
     if max_time_s is not None:
         changes["time_limit_s"] = number("max_time_s", max_time_s)
-    if "lidar" not in scenario.sensors:
+    if "lidar" not in driven.sensors:
         changes["sensors.lidar"] = {}
         warn(f"{scenario.name} has no lidar, which is observed: sensors.lidar is added with its "
              "defaults")
