@@ -49,6 +49,16 @@ void PathProgress::Update(const Pose2& X_WB, double t_s) {
   if (moving()) Advance(X_WB, t_s);
 }
 
+bool PathProgress::WouldBeDone(const Pose2& X_WB, double t_s) const {
+  if (phase_ == Phase::kDone) return true;
+  const bool on_last_leg = vertex_ + 2 >= reference_.vertices.size();
+  const Vec2& end_W = reference_.vertices.back().p_W;
+  if (!on_last_leg || (end_W - X_WB.p()).norm() > kBendGateM + Wide()) return false;
+  PathProgress then = *this;
+  then.Update(X_WB, t_s);
+  return then.phase_ == Phase::kDone;
+}
+
 void PathProgress::Advance(const Pose2& X_WB, double t_s) {
   if (homing_) {
     Settle(goal_, X_WB, t_s);

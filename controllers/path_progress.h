@@ -51,6 +51,9 @@ class PathProgress {
   // reached, ends dwells.
   void Update(const Pose2& X_WB, double t_s);
 
+  // Whether Update() would find the last waypoint reached. Where it is near this allocates.
+  bool WouldBeDone(const Pose2& X_WB, double t_s) const;
+
   Phase phase() const { return phase_; }
   bool standing() const { return phase_ == Phase::kFace || phase_ == Phase::kDwell; }
   bool moving() const { return phase_ == Phase::kTurn || phase_ == Phase::kDrive; }

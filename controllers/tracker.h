@@ -40,6 +40,8 @@ class Tracker : public Configurable {
   virtual double Duration() const = 0;
   // Of the path taken, so far: what was passed beside. Who turns on the spot misses nothing.
   virtual MissedStops Missed() const { return {}; }
+  // Whether Update() would find the end reached. Who cannot say it beforehand says no.
+  virtual bool WouldBeDone(const Estimate&, double /*t_s*/) const { return false; }
   // One control period. `t_s` is simulated time; `dt_s` the period.
   virtual Command Update(const Estimate& estimate, double t_s, double dt_s) = 0;
 };

@@ -30,6 +30,9 @@ class TwistTracker : public Tracker {
   void Slow(double share) override { share_ = share; }
   double Duration() const override { return duration_s_; }
   MissedStops Missed() const override { return progress_.missed(); }
+  bool WouldBeDone(const Estimate& estimate, double t_s) const override {
+    return !free_ && progress_.WouldBeDone(estimate.X_WB, t_s);
+  }
   // The twist that is asked for, within the robot's speeds and accelerations; at dwells and at the
   // end none.
   Command Update(const Estimate& estimate, double t_s, double dt_s) override;

@@ -91,24 +91,21 @@ class Stepped {
     WithoutGil([&] {
       for (int i = 0; i < periods && !ended_; ++i) {
         ended_ = episode_->Advance();
+        if (ended_) driven_->record = episode_->Finish(*ended_);
         Note();
       }
       told_->Look(*episode_, tracker_->target_W());
       return 0;
     });
     if (!ended_) return std::nullopt;
+    Close();
     return std::string(Name(*ended_));
   }
 
-  // Its record; where it has not ended, that of one that was interrupted. Once.
-  std::shared_ptr<Driven> Finish() {
+  // Once it has ended: its record, and all that pictures of it need.
+  std::shared_ptr<Driven> finished() const {
     const Busy busy(*this);
-    Running();
-    driven_->record =
-        WithoutGil([&] { return episode_->Finish(ended_.value_or(Outcome::kInterrupted)); });
-    events_ = driven_->record.events;
-    recorder_.reset();
-    episode_.reset();
+    if (!ended_) throw InputError("the episode has not ended");
     return driven_;
   }
 
@@ -156,7 +153,7 @@ class Stepped {
   const std::string& lacks() const { return told_->lacks; }
   nb::object LidarAngles() const {
     const Busy busy(*this);
-    Running();
+    if (!episode_) throw InputError("the episode has ended: reset() begins another");
     std::vector<double> angles = episode_->view().sensed.scan.angle_rad;
     const std::size_t n = angles.size();
     return nb::cast(ArrayOf(std::move(angles), {n}));
@@ -179,8 +176,10 @@ class Stepped {
     const Stepped& of_;
   };
 
-  void Running() const {
-    if (!episode_) throw InputError("the episode is finished: reset() begins another");
+  void Close() {
+    events_ = driven_->record.events;
+    recorder_.reset();
+    episode_.reset();
   }
 
   void Begin(const PlanResult* plan, const Outlook& outlook, bool record,
@@ -276,7 +275,7 @@ void BindStepped(nb::module_& m) {
            "scenario"_a, "plan"_a.none(), "local_cells"_a, "local_cell_m"_a, "plan_points"_a,
            "plan_step_m"_a, "record"_a, "spaces"_a.none())
       .def("step", &Stepped::Step, "vx_mps"_a, "vy_mps"_a, "wz_radps"_a, "periods"_a)
-      .def("finish", &Stepped::Finish)
+      .def_prop_ro("finished", &Stepped::finished)
       .def("render", &Stepped::Render, "width"_a, "height"_a, "camera"_a, "draft"_a)
       .def_prop_ro("lidar", &Stepped::lidar)
       .def_prop_ro("local_map", &Stepped::local_map)

@@ -262,7 +262,7 @@ class FloorproofEnv(gymnasium.Env[Observation, np.ndarray]):
         core = self._core
         assert core is not None
         self._ended = "the episode has ended: reset() begins another"
-        self.episode = episode_of(core.finish())
+        self.episode = episode_of(core.finished)
         info["outcome"] = self.episode.outcome
         info["message"] = self.episode.message
         info["failure"] = dict(self._events[-1].evidence) if self._events else {}

@@ -103,8 +103,19 @@ class EpisodeLoop {
   std::optional<Outcome> Advance() {
     std::optional<Outcome> ended = Control();
     for (std::int64_t step = 0; step < steps_a_control_ && !ended; ++step) ended = Step();
-    if (!ended) Perceive();
+    if (!ended) Perceive(1.0 / s_.episode.control_hz);
     return ended;
+  }
+  // The same; and where the next one would end it without driving, it is at its end now.
+  std::optional<Outcome> AdvanceToEnd() {
+    std::optional<Outcome> ended = AdvanceAndSweep();
+    if (!ended && IsOver()) ended = AdvanceAndSweep();
+    return ended;
+  }
+  // What came of a period that the end broke off. Not part of the record, which is made before.
+  void PerceiveEnd() {
+    const double dt_s = sample_.t_s - sensed_.t_s;
+    if (dt_s > 0.5 * s_.physics.timestep_s) Perceive(dt_s);
   }
 
   EpisodeView View() {
@@ -139,9 +150,25 @@ class EpisodeLoop {
   std::optional<Outcome> Control();
   std::optional<Outcome> Step();
 
-  void Perceive() {
+  std::optional<Outcome> AdvanceAndSweep() {
+    const std::optional<Outcome> ended = Advance();
+    if (!ended) recorder_.Sweep(sample_);
+    return ended;
+  }
+  bool IsLate() const { return sample_.t_s >= limit_s_ + interventions_.extra_s(); }
+  bool IsEnoughCovered() const {
+    const std::optional<double>& enough = s_.episode.stop_at_coverage;
+    return enough && recorder_.coverage() >= *enough;
+  }
+  bool IsAtRest(const Supervisor& supervisor) const;
+  bool HasRested() const {
+    constexpr double kAtRest_s = 2;
+    return sample_.t_s - moved_s_ >= kAtRest_s;
+  }
+  bool IsOver() const;
+  void Perceive(double dt_s) {
     plant_.Sense(sensed_);
-    robot_side_.Perceive(sensed_);
+    robot_side_.Perceive(sensed_, dt_s);
   }
   void Look() { static_cast<Truth&>(sample_) = plant_.truth(); }
   void Act(const Actuation& actuation);
@@ -200,7 +227,7 @@ void EpisodeLoop::Begin() {
   limit_s_ = s_.episode.time_limit_s.value_or(s_.online ? kOnlineLimit_s : 60 + 3 * plan_s);
   recorder_.Expect(plan_s);
   StartDetectors();
-  Perceive();
+  Perceive(1.0 / s_.episode.control_hz);
 }
 
 // What happens once a control period: command by what was sensed, keep a record, look on, help.
@@ -209,13 +236,12 @@ std::optional<Outcome> EpisodeLoop::Control() {
   recorder_.OnControl(sample_, robot_side_.estimate());
 
   std::optional<Outcome> ended;
-  const std::optional<double>& enough = s_.episode.stop_at_coverage;
-  if (robot_side_.done() || (enough && recorder_.coverage() >= *enough))
+  if (robot_side_.done() || IsEnoughCovered())
     ended = navigator_->leads() == Navigator::Leads::kNowhere ? Outcome::kNotPlanned
                                                               : Outcome::kSuccess;
   if (const Supervisor* supervisor = robot_side_.supervisor())
     if (const auto over = HandedOver(*supervisor)) ended = over;
-  if (sample_.t_s >= limit_s_ + interventions_.extra_s()) ended = Outcome::kTimeout;
+  if (IsLate()) ended = Outcome::kTimeout;
   if (observer_ && !observer_->OnControl(View())) ended = Outcome::kInterrupted;
 
   if (!ended && interventions_.HasCome(sample_.t_s)) {     // after sensing: a bump was where it lay
@@ -235,11 +261,23 @@ std::optional<Outcome> EpisodeLoop::HandedOver(const Supervisor& supervisor) {
   if (supervisor.asks_for_help() && !interventions_.awaited() &&
       !interventions_.Call(robot_side_.path(), sample_))
     return Outcome::kAborted;
-  constexpr double kAtRest_mps = 0.005, kAtRest_radps = 0.01, kAtRest_s = 2;
-  const bool at_rest = supervisor.cuts_all() && sample_.v_WB_W.norm() < kAtRest_mps &&
-                       std::abs(sample_.V_WB_B.wz_radps) < kAtRest_radps;
-  if (!at_rest) moved_s_ = sample_.t_s;
-  return sample_.t_s - moved_s_ >= kAtRest_s ? std::optional(Outcome::kAborted) : std::nullopt;
+  if (!IsAtRest(supervisor)) moved_s_ = sample_.t_s;
+  return HasRested() ? std::optional(Outcome::kAborted) : std::nullopt;
+}
+
+bool EpisodeLoop::IsAtRest(const Supervisor& supervisor) const {
+  constexpr double kAtRest_mps = 0.005, kAtRest_radps = 0.01;
+  return supervisor.cuts_all() && sample_.v_WB_W.norm() < kAtRest_mps &&
+         std::abs(sample_.V_WB_B.wz_radps) < kAtRest_radps;
+}
+
+// Whether the next Control() would end it, as far as it can be said before who commands the robot
+// says what is next.
+bool EpisodeLoop::IsOver() const {
+  if (IsLate() || IsEnoughCovered()) return true;
+  if (const Supervisor* supervisor = robot_side_.supervisor())
+    return IsAtRest(*supervisor) && HasRested();
+  return !interventions_.awaited() && robot_side_.WouldBeDone(sample_.t_s);
 }
 
 // One step of the plant, and what is to be said of it.
@@ -326,7 +364,7 @@ SteppedEpisode::SteppedEpisode(Scenario& scenario, const Scene& scene, const Pla
                                std::unique_ptr<Navigator> navigator)
     : parts_(std::make_unique<Parts>(scenario, scene, plan, std::move(navigator))) {}
 SteppedEpisode::~SteppedEpisode() = default;
-std::optional<Outcome> SteppedEpisode::Advance() { return parts_->episode.Advance(); }
+std::optional<Outcome> SteppedEpisode::Advance() { return parts_->episode.AdvanceToEnd(); }
 EpisodeView SteppedEpisode::view() { return parts_->episode.View(); }
 const std::vector<Event>& SteppedEpisode::events() const {
   return parts_->episode.recorder().events();
@@ -334,7 +372,11 @@ const std::vector<Event>& SteppedEpisode::events() const {
 const CoverageMeter& SteppedEpisode::swept() const { return parts_->episode.recorder().swept(); }
 const SweepArea& SteppedEpisode::area() const { return parts_->episode.area(); }
 const RobotSide& SteppedEpisode::robot() const { return parts_->episode.robot(); }
-EpisodeRecord SteppedEpisode::Finish(Outcome outcome) { return parts_->episode.Finish(outcome); }
+EpisodeRecord SteppedEpisode::Finish(Outcome outcome) {
+  EpisodeRecord record = parts_->episode.Finish(outcome);
+  if (outcome != Outcome::kError) parts_->episode.PerceiveEnd();
+  return record;
+}
 
 EpisodeRecord RunEpisode(Scenario& s, const Scene& scene, const PlanResult& plan,
                          EpisodeObserver* observer) {

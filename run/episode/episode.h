@@ -105,9 +105,11 @@ class SteppedEpisode {
   ~SteppedEpisode();
 
   // Commands, drives one period and senses what came of it; the outcome where that ended the
-  // episode. Not after it has ended.
+  // episode. The time limit, enough coverage and the end of a path whose tracker can tell it end
+  // the period that reaches them, the tracker being asked once more. Not after it has ended.
   std::optional<Outcome> Advance();
-  // As it stands now: what was sensed last, and what the robot thinks of it, is of this moment.
+  // As it stands now: what was sensed last, and what the robot thinks of it, is of this moment;
+  // where a failure broke a period off, once Finish() has been called.
   EpisodeView view();
   const std::vector<Event>& events() const;
   const CoverageMeter& swept() const;

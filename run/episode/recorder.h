@@ -42,9 +42,16 @@ class Recorder {
     record_.trace.reserve(static_cast<std::size_t>(std::min(2e6, (duration_s + 60) * trace_hz_)));
   }
 
-  void OnControl(const Sample& sample, const Estimate& estimate) {
+  // What the tool swept until now; the next OnControl, of the same moment, finds it done.
+  void Sweep(const Sample& sample) {
     meter_.Take(sample.shape);
     meter_.Add(sample.X_WB());
+    is_swept_ = true;
+  }
+
+  void OnControl(const Sample& sample, const Estimate& estimate) {
+    if (!is_swept_) Sweep(sample);
+    is_swept_ = false;
     risk_.Add(sample.p_WB.head<2>());
     samples_.OnControl(sample);
     AddEstimateError((estimate.X_WB.p() - sample.p_WB.head<2>()).norm());
@@ -230,6 +237,7 @@ class Recorder {
   EpisodeRecord record_;
   const SweepArea& area_;
   ToolMeter meter_;
+  bool is_swept_ = false;  // up to the present moment
   RiskMeter risk_;
   SampleLog samples_;
   bool asks_for_risk_;

@@ -136,8 +136,8 @@ void RobotSide::Navigate(const Observation& sensed) {
   if (mapper_) mapper_->ForgetChanges();
 }
 
-void RobotSide::Perceive(const Observation& sensed) {
-  estimate_ = parts_.estimator.Update(sensed, control_s_);
+void RobotSide::Perceive(const Observation& sensed, double dt_s) {
+  estimate_ = parts_.estimator.Update(sensed, dt_s);
   if (mapper_) mapper_->Update(sensed, estimate_);
 }
 

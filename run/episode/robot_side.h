@@ -38,8 +38,8 @@ class RobotSide {
   // Before the first period. `start`: where it stands, which its estimator may know badly; `draws`:
   // the estimator's.
   void Start(const Pose2& start, const Stream& draws);
-  // Once a control period, before it acts: estimate, map.
-  void Perceive(const Observation& sensed);
+  // Once a control period, before it acts: estimate, map. `dt_s`: since the last time.
+  void Perceive(const Observation& sensed, double dt_s);
   // One control period, of what was perceived: navigate, track or recover. What is returned holds
   // until the next call. Allocates only where the path changes.
   const Actuation& Control(const Observation& sensed);
@@ -58,6 +58,11 @@ class RobotSide {
   const Estimate& estimate() const { return estimate_; }
   // Whether it has driven all that its navigator leads along, or done its mission.
   bool done() const { return supervisor_ ? supervisor_->done() : at_end(); }
+  // Whether the next Control() would find that, as far as it can be said before.
+  bool WouldBeDone(double t_s) const {
+    return !supervisor_ && !command_.reacting && navigator_.leads() != Navigator::Leads::kOn &&
+           parts_.tracker.WouldBeDone(estimate_, t_s);
+  }
   // nullptr: nobody watches it.
   const Supervisor* supervisor() const { return supervisor_.get(); }
   const Navigator& navigator() const { return navigator_; }

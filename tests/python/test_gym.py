@@ -226,6 +226,47 @@ def test_failures_end_it_with_their_evidence(reference: Any, twist: List[float],
     assert total == pytest.approx(100 * (info["coverage"] - begun) - 7)
 
 
+@pytest.mark.parametrize("repeat,steps", [(1, 5), (3, 2), (5, 1)])
+def test_the_step_that_reaches_the_time_limit_is_the_last(repeat: int, steps: int) -> None:
+    env = make(reference=None, max_time_s=0.1, action_repeat=repeat)
+    _, info = env.reset(seed=0)
+    times = [info["t_s"]]
+    for _ in range(steps):
+        *_, truncated, info = env.step([0.2, 0])
+        times.append(info["t_s"])
+    assert truncated and times[-1] == pytest.approx(0.1)
+    assert (np.diff(times) > 0.019).all()
+
+
+@pytest.mark.parametrize("estimator", ["truth", "odometry"])
+@pytest.mark.parametrize("options,changes,action,outcome", [
+    ({"reference": None}, {"success": {"min_coverage": 0.12}}, [0.25, 0.0], "success"),
+    ({"reference": None}, {}, [0.3, 0.0], "failure"),
+    ({"reference": "plan"}, {}, [0.2, 0.5], "failure"),
+    ({"reference": "plan"}, {}, follow, "success"),
+], ids=["covered", "stuck", "veer_off", "plan"])
+def test_the_last_step_drives_and_its_observation_is_of_the_end(
+        options: Any, changes: Any, action: Any, outcome: str, estimator: str) -> None:
+    scenario = floorproof.load(room(estimator=estimator, **changes))
+    env = make(scenario.with_plan([[1, 1], [1.8, 1], [1.8, 1.4]]), **options)
+    observation, info = env.reset(seed=0)
+    over = False
+    while not over:
+        before, t_s = observation, info["t_s"]
+        observation, reward, terminated, truncated, info = env.step(
+            action(observation) if callable(action) else action)
+        over = terminated or truncated
+    assert info["outcome"] == outcome, info["message"]
+    assert 0 < info["t_s"] - t_s < 0.0201
+    # What the metrics count is observed, and earned, when it is over.
+    assert observation["coverage"][0] == pytest.approx(info["metrics"]["coverage"], abs=1e-6)
+    off_m = np.abs(observation["pose"][:2] - info["truth"][:2]).max()
+    if estimator == "truth":
+        assert off_m < 1e-5
+    if "plan" in options.values() and outcome == "failure":
+        assert (observation["pose"] != before["pose"]).any()
+
+
 # --- the same bytes
 
 TWISTS = [(0.2 + 0.05 * (i % 3), 0.0, 0.25 * ((i // 50) % 2) - 0.125) for i in range(400)]
@@ -239,8 +280,8 @@ def test_twists_give_what_a_tracker_with_the_same_twists_gives() -> None:
             self.given = 0
 
         def update(self, now: Any) -> Tuple[float, float, float]:
-            self.given += 1
-            return EXACT[self.given - 1]
+            self.given += 1  # at the end it is asked once more, and nothing comes of it
+            return EXACT[min(self.given, 350) - 1]
 
     lasting = room(time_limit_s=7, sensors={"lidar": {"beams": 36, "noise_m": 0.01}})
     other = floorproof.load(lasting, {"controller": "listed_twists"}).run()

@@ -9,6 +9,7 @@
 #include "run/episode/free_navigator.h"
 #include "run/episode/make_plan.h"
 #include "run/episode/records.h"
+#include "run/episode/robot_side.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {
@@ -84,6 +85,44 @@ TEST_F(SteppedEpisodeTest, AFreeDriveEndsWhereEnoughIsCovered) {
   const EpisodeRecord dut = GoFreely(s, {0.25, 0, 0}, 60);
   EXPECT_EQ(dut.outcome, Outcome::kSuccess);
   EXPECT_NEAR(dut.metrics.coverage, 0.03, 0.002);
+}
+
+// Whoever commands each period sees no period in which nothing is driven.
+TEST_F(SteppedEpisodeTest, TheTimeLimitEndsThePeriodThatReachesIt) {
+  Scenario s = Read(RoomScenario("", "time_limit_s: 0.5\n"));
+  s.tracker = std::make_unique<Constant>(BodyTwist{0.2, 0, 0});
+  const PlanResult plan = MakePlan(s);
+  const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
+  SteppedEpisode dut(s, scene, plan, std::make_unique<FreeNavigator>(s.start));
+  std::optional<Outcome> ended;
+  int periods = 0;
+  for (double before_s = 0; !ended; before_s = dut.view().sample.t_s, ++periods) {
+    ended = dut.Advance();
+    EXPECT_GT(dut.view().sample.t_s, before_s + 0.019);
+  }
+  EXPECT_EQ(*ended, Outcome::kTimeout);
+  EXPECT_EQ(periods, 25);
+}
+
+// A failure breaks a period off; the record is the same whether or not somebody looks once more.
+TEST_F(SteppedEpisodeTest, AfterItsEndWhatIsSensedIsOfTheEnd) {
+  Scenario s = Read(RoomScenario("", "sensors: {lidar: {rate_hz: 100}}\nmapper: {}\n"));
+  s.tracker = std::make_unique<Constant>(BodyTwist{0.25, 0, 0.6});
+  const PlanResult plan = MakePlan(s);
+  const Scene scene = BuildScene(s.site.map, s.robot, s.physics, s.start);
+  SteppedEpisode dut(s, scene, plan);  // which it leaves
+  std::optional<Outcome> ended;
+  while (!ended) ended = dut.Advance();
+  ASSERT_EQ(*ended, Outcome::kFailure);
+  const double sensed_s = dut.view().sensed.t_s;
+  const KnownMap before = *dut.robot().known();
+  const EpisodeRecord record = dut.Finish(*ended);
+  EXPECT_LT(sensed_s, dut.view().sample.t_s);
+  EXPECT_EQ(dut.view().sensed.t_s, dut.view().sample.t_s);
+  EXPECT_EQ(dut.view().estimate.X_WB.p(), dut.view().sample.X_WB().p());  // `truth`
+  EXPECT_EQ(dut.view().coverage, record.metrics.coverage);
+  EXPECT_EQ(record.known->log_odds.cells, before.log_odds.cells);
+  EXPECT_NE(dut.robot().known()->log_odds.cells, before.log_odds.cells);
 }
 
 }  // namespace
