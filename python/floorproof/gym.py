@@ -48,8 +48,8 @@ class FloorproofEnv(gymnasium.Env[Observation, np.ndarray]):
     and its next points are observed. None: the robot goes where the policy likes, and nothing is
     off it; the episode ends when success.min_coverage is reached (all, where that is 0).
     variant: of the scenario's matrix. The spaces are those of its episode (the scenario's key
-    `episode`), and hold for all: where another does not fit in, its numbers are cut, with a warning;
-    one with another number of beams, or with another drive, is refused.
+    `episode`), and hold for all: where another does not fit in, its numbers are cut, with a
+    warning; one with another number of beams, or of the action's numbers, is refused.
     max_time_s: simulated time (s); None: the scenario's time_limit_s.
     action_repeat: control periods (1 / control_hz) that an action holds for.
     coverage_reward: reward for the whole floor; a step earns the share that it covered.
@@ -77,6 +77,7 @@ class FloorproofEnv(gymnasium.Env[Observation, np.ndarray]):
         self._state: np.ndarray = np.zeros(5)  # another: time, coverage, true pose
         self._events: List[Event] = []
         self._closed = False
+        self._ended = ""  # why nothing can be stepped; empty: it can
         among("reference", reference, ("plan", None))
         among("render_mode", render_mode, (None, *self.metadata["render_modes"]))
         among("camera", camera, ("auto", "chase", "top", "side"))
@@ -108,9 +109,9 @@ class FloorproofEnv(gymnasium.Env[Observation, np.ndarray]):
         self._begin(self.scenario._file.episode, variant)
         assert self._core is not None
         self._spaces = self._core.bounds
-        self._names = action_names(self._spaces)
+        self._names: Tuple[str, ...] = action_names(self._spaces)
         self.action_space = action_space(self._spaces)
-        self.observation_space = observation_space(  # type: ignore[assignment]
+        self.observation_space = observation_space(
             self._spaces, self._outlook[0], self._outlook[2] if self._follows else None)
         self._ended = "reset() comes first"
 
