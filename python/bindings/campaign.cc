@@ -99,7 +99,9 @@ nb::dict MergeInto(const std::vector<std::string>& shards, const fs::path& out) 
 // Drives episodes where they are sent: the scenario as it was packed, and what follows from it.
 class Worker {
  public:
-  explicit Worker(std::shared_ptr<ScenarioFile> file) : file_(std::move(file)), maker_(*file_) {}
+  explicit Worker(std::shared_ptr<ScenarioFile> file) : file_(std::move(file)), maker_(*file_) {
+    DriveForOthers();
+  }
   nb::bytes Answer(Job job) {
     const std::string line = WithoutGil([&] { return maker_.Answer(job); });
     return nb::bytes(line.data(), line.size());

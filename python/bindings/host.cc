@@ -178,7 +178,11 @@ void InParent() {
   t_held.reset();
 }
 
+bool g_forked = false;  // a campaign's worker: nobody above it takes an end that a plug-in asks for
+bool g_worker = false;  // or one of somebody's pool
+
 void InChild() {
+  g_forked = true;
   PyOS_AfterFork_Child();
   t_held.reset();
 }
@@ -187,7 +191,9 @@ void InChild() {
 
 void ThrowRaised(const std::string& who, nb::python_error& raised) {
   auto exception = std::make_shared<Raised>(Py_NewRef(raised.value().ptr()));
-  if (raised.matches(PyExc_KeyboardInterrupt) || raised.matches(PyExc_SystemExit)) {
+  const bool ends =
+      (raised.matches(PyExc_SystemExit) && !g_worker) || raised.matches(PyExc_KeyboardInterrupt);
+  if (ends && !g_forked) {
     t_interruption = std::move(exception);
     t_interrupted = true;
     throw Interruption();
@@ -196,6 +202,8 @@ void ThrowRaised(const std::string& who, nb::python_error& raised) {
     throw InputError(Try([&] { return Utf8(nb::str(raised.value()).ptr()); }));
   throw RaisedError(who + " raised " + Said(raised), std::move(exception));
 }
+
+void DriveForOthers() { g_worker = true; }
 
 Call::Call() {
   if (t_calls++ > 0) return;

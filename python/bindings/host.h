@@ -29,6 +29,10 @@ namespace floorproof {
 // Exceptions, Ctrl-C and forks. Once, when the module is loaded.
 void BindHost(nb::module_& m);
 
+// From here on this process drives episodes that others record: a plug-in that ends the program,
+// sys.exit, is an error of its episode.
+void DriveForOthers();
+
 // A call into this module: Ctrl-C that is noticed during it, on its thread, is raised at its end;
 // in a program that ends, SystemExit, which ends a thread without a word.
 class Call {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, Union
+from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, Union, cast
 
 import numpy as np
 
@@ -53,7 +53,7 @@ class Scenario:
     @property
     def robot(self) -> Dict[str, Any]:
         """Name, drive, clear shape and tool, speeds."""
-        return self._read.robot
+        return cast(Dict[str, Any], self._read.robot)
 
     @property
     def planner(self) -> str:

@@ -61,6 +61,17 @@ def test_a_planner_in_python_drives_in_workers(drawing, tmp_path):
     assert "planner campaigned raised RuntimeError: odd (test_campaign.py:" in rows
 
 
+@pytest.mark.parametrize("end", [SystemExit(3), KeyboardInterrupt()], ids=["exit", "interrupt"])
+def test_a_planner_that_ends_its_worker_is_an_error(drawing, tmp_path, end):
+    @floorproof.planner("ending")
+    def ending(_):
+        raise end
+
+    floorproof.campaign(drawing.with_(plan="ending"), 2, out=tmp_path / "c", jobs=1)
+    rows = (tmp_path / "c" / "episodes.csv").read_text(encoding="utf-8")
+    assert rows.count(f"planner ending raised {type(end).__name__}") == 2
+
+
 def test_what_a_planner_has_open_stays_open_in_workers(drawing, tmp_path):
     log = open(tmp_path / "log", "a", encoding="utf-8")
 

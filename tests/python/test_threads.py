@@ -86,7 +86,7 @@ def test_callbacks_may_ask_the_scenario():
 
 def test_an_episode_that_another_thread_drives_is_not_looked_at():
     assert ends("""
-    env = floorproof._core.Stepped(hall._file.read(0, None), None, 20, 0.1, 1, 0.1, False)
+    env = floorproof._core.Stepped(hall._file.read(0, None), None, 20, 0.1, 1, 0.1, False, None)
     forever(lambda: env.step(0.1, 0, 0, 100))
     for look in (lambda: env.num_events, lambda: env.events):
         while True:
@@ -137,7 +137,7 @@ WORK = {
         forever(lambda: floorproof.campaign(wet, 50, out=out(), jobs=2, progress=progress))
         """,
     "environments": """
-        env = floorproof._core.Stepped(hall._file.read(0, None), None, 20, 0.1, 1, 0.1, True)
+        env = floorproof._core.Stepped(hall._file.read(0, None), None, 20, 0.1, 1, 0.1, True, None)
         env.render(64, 64, "top", True)
         forever(lambda: env.step(0.1, 0, 0, 5))
         forever(lambda: hall.frame(64, 64))
