@@ -2,12 +2,16 @@
 """Files that are written whole or not at all."""
 from __future__ import annotations
 
+import errno
 import os
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Iterator
 
-from ._core import InputError
+from ._core import InputError, InternalError
+
+
+_OF_THE_DISK = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 
 @contextmanager
@@ -26,5 +30,9 @@ def written_whole(file: Path, overwrite: bool) -> Iterator[Path]:
             raise InputError(f"{file}: cannot be written: {error.strerror}") from error
         yield part
         os.replace(part, file)
+    except OSError as error:
+        if error.errno not in _OF_THE_DISK:
+            raise
+        raise InternalError(f"{file}: cannot be written: {error.strerror}") from error
     finally:
         part.unlink(missing_ok=True)

@@ -157,5 +157,5 @@ class Ros:
                          np.zeros(0, np.float32))
 
     def picture(self, t_s: float, kind: str, data: bytes) -> Any:
-        return self.make("sensor_msgs/CompressedImage", self.header(t_s, "camera"), kind,
+        return self.make("sensor_msgs/CompressedImage", self.header(t_s), kind,
                          np.frombuffer(data, np.uint8))

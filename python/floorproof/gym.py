@@ -124,6 +124,8 @@ class FloorproofEnv(gymnasium.Env[Observation, np.ndarray]):
         that the last seed began. options: `episode` and `variant` name what is driven."""
         self._open()
         super().reset(seed=seed)
+        if not isinstance(options, (Mapping, type(None))):
+            raise InputError(f"options = {options!r}: must be a dict with episode or variant")
         asked = dict(options or {})
         episode, variant = asked.pop("episode", None), asked.pop("variant", self._variant)
         if asked:

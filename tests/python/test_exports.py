@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import errno
 import json
 import sqlite3
 import sys
@@ -17,6 +18,7 @@ pandas = pytest.importorskip("pandas", reason="pip install '.[tables]'")
 parquet = pytest.importorskip("pyarrow.parquet", reason="pip install '.[tables]'")
 
 from floorproof import exports  # noqa: E402
+from floorproof._files import written_whole  # noqa: E402
 
 FLOORS: Dict[str, Any] = {
     "scenario": 1, "name": "floors", "robot": "beluga", "plan": "rolling_window", "drive": "cells",
@@ -189,3 +191,10 @@ def test_a_missing_package_is_named(campaign: floorproof.Campaign,
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(ImportError, match=r"pip install '\.\[tables\]'"):
         campaign.to_pandas()
+
+
+def test_a_full_disk_is_said_with_the_files_name(tmp_path):
+    with pytest.raises(floorproof.InternalError, match="log.mcap: cannot be written: No space left"):
+        with written_whole(tmp_path / "log.mcap", overwrite=False):
+            raise OSError(errno.ENOSPC, "No space left on device")
+    assert not list(tmp_path.iterdir())

@@ -413,6 +413,8 @@ def test_what_cannot_be_is_refused_in_a_line(changes: Any, options: Any, said: s
 def test_options_of_reset_are_checked(env: Any) -> None:
     with pytest.raises(InputError, match="options.episodes: unknown"):
         env.reset(options={"episodes": 3})
+    with pytest.raises(InputError, match=r"options = \[1\]: must be a dict"):
+        env.reset(options=[1])
     with pytest.raises(InputError, match="options.episode = -1"):
         env.reset(options={"episode": -1})
     env.reset(seed=1)  # and it is whole after that
