@@ -21,7 +21,7 @@ def of(columns, rows, **more):
 
 ROOM, HALL = of(8, 5), of(30, 30)  # a second to drive, and many
 room, hall = floorproof.load(ROOM), floorproof.load(HALL)
-seeing = hall.with_({"sensors.lidar": {"beams": 9}})
+seeing = hall.with_({"sensors.lidar": {"beams": 9}, "time_limit_s": 100000})  # it circles
 
 def out():
     return tempfile.mkdtemp() + "/out"
@@ -88,7 +88,7 @@ def test_callbacks_may_ask_the_scenario():
 def test_an_episode_that_another_thread_drives_is_not_looked_at():
     assert ends("""
     env = floorproof._core.Stepped(seeing._file.read(0, None), None, 20, 0.1, 1, 0.1, False, None)
-    forever(lambda: env.step(0.1, 0, 0, 100))
+    forever(lambda: env.step(0.1, 0, 1, 100))
     for look in (lambda: env.num_events, lambda: env.events):
         while True:
             try:
@@ -140,7 +140,7 @@ WORK = {
     "environments": """
         env = floorproof._core.Stepped(seeing._file.read(0, None), None, 20, 0.1, 1, 0.1, True, None)
         env.render(64, 64, "top", True)
-        forever(lambda: env.step(0.1, 0, 0, 5))
+        forever(lambda: env.step(0.1, 0, 1, 5))
         forever(lambda: hall.frame(64, 64))
         """,
 }
