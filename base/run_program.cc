@@ -262,8 +262,7 @@ ProgramOutcome ExchangeFolder::Run(const ProgramCall& call) {
     if (fds[1].revents != 0 && !TakeWords(errors.read, outcome.last_words)) errors.CloseRead();
     if (fds[0].revents == 0) continue;
     report = ReadReport(reports.read);
-    if (!report) {  // the guard was killed, by the program as likely as not, and the program with
-                    // it
+    if (!report) {  // the guard was killed, by the program most likely, and the program with it
       outcome.failure = "ended the process that watches it";
       break;
     }

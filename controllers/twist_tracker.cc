@@ -19,12 +19,16 @@ constexpr Lookahead kLookahead;
 
 }  // namespace
 
+const Waypoint* FirstFold(const Path& path, const RobotSpec& robot) {
+  if (robot.hinges.empty()) return nullptr;
+  const auto fold = std::ranges::find_if_not(path, &std::string::empty, &Waypoint::shape);
+  return fold == path.end() ? nullptr : &*fold;
+}
+
 void TwistTracker::Start(const Path& path, const RobotSpec& robot, const ClearanceField*) {
   RequireLimits(robot, "plug-in");
-  for (const Waypoint& waypoint : path)
-    if (!waypoint.shape.empty() && !robot.hinges.empty())
-      throw InputError({}, "shape", waypoint.shape,
-                       "a plug-in tracker cannot change the robot's shape");
+  if (const Waypoint* fold = FirstFold(path, robot))
+    throw InputError({}, "shape", fold->shape, "a plug-in tracker cannot change the robot's shape");
   robot_ = robot;
   ReferenceLimits limits = kParams.Limits(robot);
   limits.turn_radius_m = robot.turn_radius_m;

@@ -9,6 +9,9 @@
 
 namespace floorproof {
 
+// Where a plan first changes the robot's shape, which twists cannot; nullptr: nowhere.
+const Waypoint* FirstFold(const Path& path, const RobotSpec& robot);
+
 class TwistTracker : public Tracker {
  public:
   // What the twist of a period may be made from: at stops nobody is asked.

@@ -81,8 +81,7 @@ void RefuseInFork() {
   if (IsForked())
     throw InputError(
         "drawing: this process was forked from one that had drawn, and the drawing library's "
-        "threads "
-        "are not in it: start it by spawn or forkserver, or draw nothing before");
+        "threads are not in it: start it by spawn or forkserver, or draw nothing before");
 }
 
 // The values of GL/gl.h, GL/osmesa.h and EGL/egl.h that are used here, so that building needs none.

@@ -132,6 +132,7 @@ void BindCampaign(nb::module_& m) {
   m.def("drive_campaign", &RunCampaignInto, "file"_a, "n"_a, "shard"_a.none(), "jobs"_a, "resume"_a,
         "retry_errors"_a, "fail_fast"_a, "time_limit_s"_a.none(), "folder"_a, "pool"_a.none(),
         "warn"_a.none(), "progress"_a.none());
+  m.attr("MOST_EPISODES") = kMostEpisodes;
   m.def("begin_call", &BeginCall, "until_s"_a, "why"_a);
   m.def("end_call", &EndCall);
   m.def("end_where_overdue", &EndWhereOverdue);

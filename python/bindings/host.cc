@@ -231,6 +231,10 @@ void BindHost(nb::module_& m) {
   WatchForTheEnd();
   AskHostForInterrupts(&PythonInterrupted);
   SetForkHooks({&BeforeFork, &InParent, &InChild});
+  m.def(
+      "is_of_the_disk",
+      [](int error) { return IsOfTheDisk(std::error_code(error, std::generic_category())); },
+      nb::arg("error"));
   m.attr("__version__") = FLOORPROOF_VERSION;
 }
 

@@ -23,7 +23,7 @@ struct SpaceBounds {
   std::array<float, 3> fastest{};      // vx, vy (m/s), wz (rad/s), either way
   float plan_m = 0;                    // the plan ahead, either way
 
-  // What of an episode's `own` these do not hold, in words: "pose and lidar"; empty: all is held.
+  // What of an episode's `own` these do not hold, in words: "lidar, pose"; empty: all is held.
   std::string Lacks(const SpaceBounds& own) const;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // An episode that is commanded from Python, a control period at a time.
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "controllers/twist_tracker.h"
@@ -198,7 +197,7 @@ class Stepped {
       if (plan->status != PlanStatus::kSuccess)
         throw InputError({s.file.string(), 0}, "plan", s.planner_name,
                          "gives no plan to follow: " + plan->message);
-      if (FoldsRobot(*plan, s))
+      if (FirstFold(plan->path, s.robot.spec) != nullptr)
         throw InputError({s.file.string(), 0}, "plan", s.planner_name,
                          "folds the robot, which a twist cannot: reference=None drives without it");
     } else {
@@ -216,11 +215,6 @@ class Stepped {
     told_->Begin(s, *episode_, plan != nullptr, spaces);
     Note();
     told_->Look(*episode_, tracker_->target_W());
-  }
-
-  static bool FoldsRobot(const PlanResult& plan, const Scenario& s) {
-    const auto folds = [](const Waypoint& waypoint) { return !waypoint.shape.empty(); };
-    return !s.robot.spec.hinges.empty() && std::ranges::any_of(plan.path, folds);
   }
 
   // Where nothing is planned, enough coverage is the end, and the time is what three sweeps of the

@@ -10,8 +10,6 @@ from typing import Any, Optional, Tuple
 
 from ._core import InputError
 
-MOST_EPISODE = 10**8  # that a scenario's key `episode` takes
-
 
 def path_of(name: str, value: Any) -> Path:
     """What names a file or a folder. "" would be the working directory without a word."""

@@ -14,7 +14,7 @@ from . import _core
 from ._campaign import Campaign, campaign
 from ._scenario import Scenario
 
-# As the command line's (apps/command.h).
+# As the command line's (base/exit_status.h).
 _BAD_INPUT, _BROKEN, _INTERRUPTED = 2, 3, 130
 _SAY_S = 10.0
 

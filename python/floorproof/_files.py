@@ -2,16 +2,13 @@
 """Files that are written whole or not at all."""
 from __future__ import annotations
 
-import errno
 import os
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Iterator
 
+from . import _core
 from ._core import InputError, InternalError
-
-
-_OF_THE_DISK = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 
 @contextmanager
@@ -31,7 +28,7 @@ def written_whole(file: Path, overwrite: bool) -> Iterator[Path]:
         yield part
         os.replace(part, file)
     except OSError as error:
-        if error.errno not in _OF_THE_DISK:
+        if not _core.is_of_the_disk(error.errno or 0):
             raise
         raise InternalError(f"{file}: cannot be written: {error.strerror}") from error
     finally:

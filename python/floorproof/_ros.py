@@ -22,7 +22,8 @@ def _packages() -> Any:
         import mcap.writer  # noqa: F401
         from rosbags import typesys
     except ImportError as error:
-        raise ImportError(f"{error.name} is missing: pip install '.[mcap]' in Floorproof's folder") from error
+        raise ImportError(f"{error.name} is missing: pip install '.[mcap]' in Floorproof's "
+                          "folder") from error
     return typesys
 
 

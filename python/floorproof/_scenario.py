@@ -10,7 +10,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, Union, c
 import numpy as np
 
 from . import _core
-from ._checks import MOST_EPISODE, path_of, picture_size, whole
+from ._checks import path_of, picture_size, whole
 from ._core import InputError
 from ._progress import Progress, shown
 from ._results import Episode, PathLike, Plan, Pose, episode_of
@@ -113,7 +113,7 @@ class Scenario:
 
     def episode(self, episode: int, variant: Optional[str] = None) -> "Scenario":
         """The scenario as one episode of a campaign has it, its draws made. Episodes count from 0."""
-        episode = whole("episode", episode, 0, MOST_EPISODE)
+        episode = whole("episode", episode, 0, _core.MOST_EPISODES)
         made = Scenario.__new__(Scenario)
         made._file, made._which = self._file, (episode, variant)
         made._read = made._fresh()

@@ -30,7 +30,8 @@ def _needed(package: str) -> Any:
     try:
         return __import__(package)
     except ImportError as error:
-        raise ImportError(f"{package} is missing: pip install '.[tables]' in Floorproof's folder") from error
+        raise ImportError(f"{package} is missing: pip install '.[tables]' in Floorproof's "
+                          "folder") from error
 
 
 def trace_frame(episode: Episode) -> "DataFrame":

@@ -17,7 +17,7 @@ import gymnasium
 import numpy as np
 
 from . import _core
-from ._checks import MOST_EPISODE, among, number, whole
+from ._checks import among, number, whole
 from ._core import InputError
 from ._results import Episode, Event, PathLike, episode_of, event_of
 from ._scenario import Scenario, load
@@ -131,11 +131,11 @@ class FloorproofEnv(gymnasium.Env[Observation, np.ndarray]):
         if asked:
             raise InputError(f"options.{next(iter(asked))}: unknown (known: episode, variant)")
         if episode is not None:
-            episode = whole("options.episode", episode, 0, MOST_EPISODE)
+            episode = whole("options.episode", episode, 0, _core.MOST_EPISODES)
         elif seed is not None:
-            episode = seed % (MOST_EPISODE + 1)
+            episode = seed % (_core.MOST_EPISODES + 1)
         else:
-            episode = int(self.np_random.integers(MOST_EPISODE + 1))
+            episode = int(self.np_random.integers(_core.MOST_EPISODES + 1))
         self._begin(episode, variant)
         info = self._info()
         info["episode_id"] = episode
