@@ -134,6 +134,33 @@ class Writer : public ParamVisitor {
   ConfigNode& node_;
 };
 
+class Numbers : public ParamVisitor {
+ public:
+  using Found = std::vector<std::pair<std::string, double>>;
+  Numbers(Found& found, std::string path) : found_(found), path_(std::move(path)) {}
+
+  void operator()(const char* name, double& value, const Bounds&, const char*) override {
+    found_.emplace_back(path_ + name, value);
+  }
+  void operator()(const char*, int&, const Bounds&, const char*) override {}
+  void operator()(const char*, bool&, const char*) override {}
+  void operator()(const char*, std::string&, const std::vector<std::string>&,
+                  const char*) override {}
+  void operator()(const char* name, std::optional<double>& value, const Bounds&,
+                  const char*) override {
+    if (value) found_.emplace_back(path_ + name, *value);
+  }
+  void Group(const char* name, const std::function<void(ParamVisitor&)>& visit,
+             const char*) override {
+    Numbers inner(found_, path_ + name + ".");
+    visit(inner);
+  }
+
+ private:
+  Found& found_;
+  std::string path_;
+};
+
 class Documenter : public ParamVisitor {
  public:
   Documenter(std::vector<ParamDoc>& docs, std::string path) : docs_(docs), path_(std::move(path)) {}
@@ -212,6 +239,13 @@ void WriteParams(const std::function<void(ParamVisitor&)>& visit, ConfigNode& no
 
 void WriteParams(Configurable& source, ConfigNode& node) {
   WriteParams([&](ParamVisitor& v) { source.Visit(v); }, node);
+}
+
+std::vector<std::pair<std::string, double>> NumericParams(Configurable& source) {
+  Numbers::Found found;
+  Numbers numbers(found, "");
+  source.Visit(numbers);
+  return found;
 }
 
 std::vector<ParamDoc> DocumentParams(Configurable& source) {

@@ -14,6 +14,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/config.h"
@@ -77,6 +78,10 @@ ConfigNode WithParams(ConfigNode node, Params params) {
   WriteParams([&](ParamVisitor& v) { params.Visit(v); }, node);
   return node;
 }
+
+// The parameters that are numbers with a fraction, by name, in order; in groups: "group.name". One
+// that is none is left out.
+std::vector<std::pair<std::string, double>> NumericParams(Configurable& source);
 
 struct ParamDoc {
   std::string name, default_text, rule, help;

@@ -10,6 +10,7 @@ Hazard MakeHazard(std::string_view type, const std::string& keys, const std::vec
   const auto plugin = MakePlugin(HazardTypes(), type, "type");
   ReadParams(ParseYaml("{" + keys + "}", "validate"), "", *plugin);
   Hazard hazard = plugin->Make(place);
+  hazard.keys = NumericParams(*plugin);
   hazard.type = hazard.id = type;
   hazard.known = false;
   return hazard;

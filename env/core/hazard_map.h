@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "env/geometry/grid.h"
@@ -70,6 +71,9 @@ struct Hazard {
   double height_m = 0;             // signed: a drop is negative, a groove's depth negative
   std::vector<Solid> solids;
   Material material;
+  // Its plug-in's keys that are numbers, as a site file states them ("height_m", 0.015), its
+  // restitution, and its friction where that is not the floor's.
+  std::vector<std::pair<std::string, double>> keys;
   // Each list says by itself how large it is: who crosses all that one of them holds crosses the
   // hazard. None: nothing of its kind is measured.
   std::vector<std::vector<HazardSize>> sizes;

@@ -116,7 +116,7 @@ class Maker {
     if (type_->placement() == HazardType::Placement::kLine) return {{0, 0}, {1, 0}};
     return Rectangle({0, 0}, {0.1, 0.1});
   }
-  void Append(Hazard& hazard, const HazardType& type, const HazardType& built_type,
+  void Append(Hazard& hazard, HazardType& type, HazardType& built_type,
               const std::vector<Vec2>& place, const std::vector<Vec2>& built) const {
     Hazard whole = MakeHazard(type, place, node_, path_);
     const Hazard drawn_back = MakeHazard(built_type, built, node_, path_);

@@ -95,6 +95,8 @@ void CommonHazardKeys::Apply(Hazard& hazard) const {
   hazard.material.reflectance = reflectance;
   if (restitution) hazard.material.restitution = *restitution;
   if (friction) hazard.material.friction = *friction;
+  hazard.keys.emplace_back("restitution", hazard.material.restitution);
+  if (hazard.material.friction) hazard.keys.emplace_back("friction", *hazard.material.friction);
 }
 
 void WriteCommonHazardKeys(const Hazard& hazard, ConfigNode& node) {
@@ -105,10 +107,12 @@ void WriteCommonHazardKeys(const Hazard& hazard, ConfigNode& node) {
   node.Add("friction", ConfigNode::Scalar(m.friction ? FormatDouble(*m.friction) : "none"));
 }
 
-Hazard MakeHazard(const HazardType& type, const std::vector<Vec2>& place, const ConfigNode& node,
+Hazard MakeHazard(HazardType& type, const std::vector<Vec2>& place, const ConfigNode& node,
                   const std::string& path) {
   try {
-    return type.Make(place);
+    Hazard hazard = type.Make(place);
+    hazard.keys = NumericParams(type);
+    return hazard;
   } catch (const InputError& e) {
     throw InputError(node.mark, "", "", path + e.what());
   }

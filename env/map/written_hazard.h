@@ -29,9 +29,9 @@ struct CommonHazardKeys {
 // Adds the shared keys with the values that `hazard` has.
 void WriteCommonHazardKeys(const Hazard& hazard, ConfigNode& node);
 
-// Makes a hazard of this type with the keys of `node`; what the type itself refuses is said with
-// the node's file and line, and with `path` before the key.
-Hazard MakeHazard(const HazardType& type, const std::vector<Vec2>& place, const ConfigNode& node,
+// Makes a hazard of this type, whose keys were read from `node`; what the type itself refuses is
+// said with the node's file and line, and with `path` before the key.
+Hazard MakeHazard(HazardType& type, const std::vector<Vec2>& place, const ConfigNode& node,
                   const std::string& path);
 
 // One entry of a site's `hazards`.

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// A meeting of a robot with a hazard, from when its footprint comes within reach until it has left:
+// the unit in which risk is measured. What it was met with, and what came of it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "env/core/event.h"
+
+namespace floorproof {
+
+// What the plan wanted: over the hazard, or past it.
+enum class Passage { kOver, kBeside };
+constexpr std::string_view Name(Passage passage) {
+  return passage == Passage::kOver ? "over" : "beside";
+}
+
+// How a hazard is met: by a plan that is to come, or by a robot as it enters.
+struct Approach {
+  double heading_rad = 0;  // of the travel, from the inward normal of the edge that is met first: 0
+                           // is square on, positive counter-clockwise, pi/2 along it
+  double lead_rad = 0;     // of the travel, in the body's frame: 0 forward, pi/2 to the left
+  double speed_mps = 0;
+  double gap_m = 0;        // from the footprint to the hazard where the plan comes nearest; 0: over
+  double width_share = 0;  // of the footprint, across the way, what the plan leads over it
+  double turn_rad = 0;     // that the plan turns the body by while it is over or within reach
+  double over_m = 0;       // way of the plan over it, or within reach where it leads past it
+  double wall_m = 0;       // from the footprint to the nearest wall; kFarWall_m: as far or farther
+  double friction = 0;     // of floor and wheels there
+  double mass_kg = 0, clearance_m = 0;  // the robot's
+  double estimate_error_m = 0;          // how far off the robot thinks it is
+};
+// Walls farther away than this are not looked for.
+inline constexpr double kFarWall_m = 1;
+
+// One of the numbers of an Approach, by its name in tables and models.
+struct ApproachColumn {
+  std::string_view name;
+  double Approach::*member;
+};
+inline constexpr std::array<ApproachColumn, 12> kApproach = {{
+    {"heading_rad", &Approach::heading_rad},
+    {"lead_rad", &Approach::lead_rad},
+    {"speed_mps", &Approach::speed_mps},
+    {"gap_m", &Approach::gap_m},
+    {"width_share", &Approach::width_share},
+    {"turn_rad", &Approach::turn_rad},
+    {"over_m", &Approach::over_m},
+    {"wall_m", &Approach::wall_m},
+    {"friction", &Approach::friction},
+    {"mass_kg", &Approach::mass_kg},
+    {"clearance_m", &Approach::clearance_m},
+    {"estimate_error_m", &Approach::estimate_error_m},
+}};
+
+struct Encounter {
+  // Of the hazard; of exposures, which belong to none, `type` is kWallBeside or kFreeFloor, and
+  // way_m says how much there was.
+  std::string hazard, type;
+  Passage passage = Passage::kOver;
+  std::vector<std::pair<std::string, double>> size;     // the hazard's keys (Hazard::keys)
+  Approach at;                                          // as it entered
+  double t_s = 0, x_m = 0, y_m = 0;                     // then
+  double time_s = 0, way_m = 0;                         // in it
+  enum class Outcome { kCleared, kFailed, kCensored };  // censored: the episode ended otherwise
+  Outcome outcome = Outcome::kCensored;
+  FailureMode mode = FailureMode::kVeerOff;  // of kFailed
+};
+inline constexpr std::string_view kWallBeside = "wall_beside", kFreeFloor = "free_floor";
+
+// cleared, censored, or the failure's mode.
+constexpr std::string_view OutcomeText(const Encounter& encounter) {
+  if (encounter.outcome == Encounter::Outcome::kCleared) return "cleared";
+  if (encounter.outcome == Encounter::Outcome::kCensored) return "censored";
+  return Name(encounter.mode);
+}
+
+}  // namespace floorproof
