@@ -79,6 +79,7 @@ std::uint64_t MergeRows(std::span<const CampaignStore> shards, std::span<const s
         end = std::max(end, row.episode + 1);
         if (std::ranges::binary_search(there, row.episode)) return;
         batch.push_back(row);
+        batch.back().encounters = shard.EncountersOf(variant.name, row.episode);
         if (const std::string made = MadePlan(row); !made.empty() && taken.insert(made).second)
           batch.back().made = ReadInputFile(FindCopy(names[i], made), kMaxResultBytes);
         if (batch.size() < kBatch) return;

@@ -13,6 +13,7 @@
 #include "base/input_files.h"
 #include "base/printable.h"
 #include "run/campaign/campaign_about.h"
+#include "run/episode/encounter_table.h"
 
 namespace floorproof {
 namespace {
@@ -73,16 +74,35 @@ std::vector<Column> Columns() {
   return columns;
 }
 
+// Of table `encounter`, in order.
+std::vector<Column> ColumnsOfEncounters() {
+  std::vector<Column> columns = {{"campaign", "TEXT NOT NULL"},
+                                 {"variant", "TEXT NOT NULL"},
+                                 {"episode", "INTEGER NOT NULL"},
+                                 {"number", "INTEGER NOT NULL"}};
+  for (const EncounterColumn& column : EncounterColumns())
+    columns.push_back(
+        {std::string(column.name), column.is_text ? "TEXT NOT NULL" : "REAL NOT NULL"});
+  return columns;
+}
+constexpr int kFirstOfEncounter = 4;  // column that is the encounter's own
+
 // As this version calls it.
 std::string NameNow(const std::string& column) {
   const MetricColumn* metric = FindMetric(column);
   return metric == nullptr ? column : std::string(metric->name);
 }
 
-std::string Placeholders() {
+std::string Placeholders(std::size_t columns) {
   std::string marks = "?";
-  for (std::size_t i = 1; i < Columns().size(); ++i) marks += ",?";
+  for (std::size_t i = 1; i < columns; ++i) marks += ",?";
   return marks;
+}
+
+std::string Declared(const std::vector<Column>& columns) {
+  std::string text;
+  for (const Column& column : columns) text += column.name + " " + column.type + ", ";
+  return text;
 }
 
 // A database whose log is empty is read as it is: no index file is made beside it, and it may lie
@@ -178,6 +198,20 @@ struct CampaignStore::Statement {
     return row;
   }
 
+  // Of a SELECT of the columns of table `encounter` from kFirstOfEncounter on, which begin at this
+  // one.
+  Encounter EncounterAt(int column) const {
+    std::vector<EncounterValue> values;
+    for (const EncounterColumn& of : EncounterColumns()) {
+      if (of.is_text)
+        values.emplace_back(Text(column));
+      else
+        values.emplace_back(sqlite3_column_double(handle, column));
+      ++column;
+    }
+    return EncounterOf(values);
+  }
+
   const CampaignStore& store;
   sqlite3_stmt* handle = nullptr;
 };
@@ -190,6 +224,7 @@ CampaignStore::CampaignStore(CampaignStore&& other) noexcept
       about_(std::move(other.about_)),
       asked_(other.asked_),
       sound_(other.sound_),
+      has_encounters_(other.has_encounters_),
       kept_(std::move(other.kept_)) {}
 
 CampaignStore::~CampaignStore() { sqlite3_close(db_); }
@@ -267,11 +302,11 @@ void CampaignStore::Fill(const fs::path& file, const fs::path& part, const Campa
   store.sound_ = true;  // its own
   store.Run("BEGIN");
   store.Run("CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID");
-  std::string columns;
-  for (const Column& column : Columns()) columns += column.name + " " + column.type + ", ";
   for (const char* table : {"episode", "extra"})
-    store.Run("CREATE TABLE " + std::string(table) + " (" + columns +
+    store.Run("CREATE TABLE " + std::string(table) + " (" + Declared(Columns()) +
               "PRIMARY KEY (campaign, variant, episode)) WITHOUT ROWID");
+  store.Run("CREATE TABLE encounter (" + Declared(ColumnsOfEncounters()) +
+            "PRIMARY KEY (campaign, variant, episode, number)) WITHOUT ROWID");
   store.Run(
       "CREATE TABLE timing (variant TEXT NOT NULL, episode INTEGER NOT NULL, wall_s REAL NOT NULL, "
       "PRIMARY KEY (variant, episode)) WITHOUT ROWID");
@@ -328,6 +363,7 @@ void CampaignStore::Check() {
   }
   ReadAbout();
   CheckRows();
+  CheckEncounters();
   sound_ = true;
 }
 
@@ -378,7 +414,7 @@ void CampaignStore::Distrust() const {
 }
 
 // No views, triggers or indexes, and no table but a campaign's own with the columns of one.
-void CampaignStore::CheckTables() const {
+void CampaignStore::CheckTables() {
   const auto refuse = [&](const std::string& what) {
     throw InputError({file_.string(), 0}, "", "", "is not a campaign's database (" + what + ")");
   };
@@ -392,8 +428,9 @@ void CampaignStore::CheckTables() const {
   }
   std::ranges::sort(tables);
   if (tables.empty()) refuse("table about");
+  has_encounters_ = std::erase(tables, "encounter") > 0;
   if (tables != std::vector<std::string>{"about", "episode", "extra", "timing"})
-    refuse("its tables are not about, episode, extra, timing");
+    refuse("its tables are not about, encounter, episode, extra, timing");
   std::vector<Column> of_episode;
   for (const std::string table : {"episode", "extra"}) {
     std::vector<Column> there;
@@ -422,6 +459,17 @@ void CampaignStore::CheckTables() const {
     else if (!std::ranges::equal(there, of_episode, {}, &Column::name, &Column::name))
       refuse("tables episode and extra have not the same columns");
   }
+  if (!has_encounters_) return;
+  std::vector<Column> there;
+  Statement info(*this, "PRAGMA table_xinfo(encounter)");
+  while (info.Step()) {
+    if (info.Text(6) != "0") refuse("table encounter computes a column");
+    there.push_back({info.Text(1), info.Text(2)});
+  }
+  if (!std::ranges::equal(there, ColumnsOfEncounters(), [](const Column& a, const Column& b) {
+        return a.name == b.name && b.type == a.type + " NOT NULL";
+      }))
+    refuse("table encounter has not the columns of one");
 }
 
 // What lies in a row's further pages no check of the database looks at; and a text may be JSON of
@@ -454,8 +502,41 @@ void CampaignStore::CheckRows() const {
   }
 }
 
+void CampaignStore::CheckEncounters() const {
+  if (!has_encounters_) return;
+  Statement select(*this, "SELECT * FROM encounter");
+  const std::vector<Column> columns = ColumnsOfEncounters();
+  while (select.Step()) {
+    std::string why;
+    for (int i = 0; i < static_cast<int>(columns.size()) && why.empty(); ++i) {
+      const std::string& declared = columns[static_cast<std::size_t>(i)].type;
+      const int type = sqlite3_column_type(select.handle, i);
+      const bool is_text = declared.starts_with("TEXT");
+      if (is_text                           ? type != SQLITE_TEXT
+          : declared.starts_with("INTEGER") ? type != SQLITE_INTEGER
+                                            : type != SQLITE_FLOAT && type != SQLITE_INTEGER)
+        why = "is of another type";
+      else if (is_text && !IsUtf8Text(select.Text(i)))
+        why = "is no UTF-8";
+    }
+    try {
+      if (why.empty()) select.EncounterAt(kFirstOfEncounter);
+    } catch (const InternalError&) {
+      why = "is none of an encounter";
+    }
+    if (!why.empty())
+      throw InputError(
+          {file_.string(), 0}, "", "",
+          "is damaged (a value of a row of table encounter " + why + "); it was left as it is");
+  }
+}
+
 // A row is written by the places of its columns.
 void CampaignStore::RequireColumns() const {
+  if (!has_encounters_)
+    throw InputError({file_.string(), 0}, "", "",
+                     "is another version's: it has no table encounter; it can be read, not gone on "
+                     "with: start anew in another folder");
   std::vector<std::string> wanted;
   for (const Column& column : Columns()) wanted.push_back(column.name);
   for (const std::string table : {"episode", "extra"}) {
@@ -485,7 +566,7 @@ void CampaignStore::Add(std::span<const EpisodeRow> rows) {
       KeepText(row.made, file_.parent_path());
   Run("BEGIN");
   try {
-    Statement insert(*this, "INSERT INTO episode VALUES (" + Placeholders() + ")");
+    Statement insert(*this, "INSERT INTO episode VALUES (" + Placeholders(Columns().size()) + ")");
     Statement timing(*this, "INSERT OR REPLACE INTO timing VALUES (?, ?, ?)");
     for (const EpisodeRow& row : rows) {
       int at = 0;
@@ -505,11 +586,62 @@ void CampaignStore::Add(std::span<const EpisodeRow> rows) {
       timing.Step();
       timing.Again();
     }
+    AddEncounters(rows);
     Run("COMMIT");
   } catch (...) {
     sqlite3_exec(db_, "ROLLBACK", nullptr, nullptr, nullptr);
     throw;
   }
+}
+
+void CampaignStore::AddEncounters(std::span<const EpisodeRow> rows) {
+  Statement insert(
+      *this, "INSERT INTO encounter VALUES (" + Placeholders(ColumnsOfEncounters().size()) + ")");
+  for (const EpisodeRow& row : rows)
+    for (std::size_t number = 0; number < row.encounters.size(); ++number) {
+      int at = 0;
+      insert.Bind(++at, about_.id);
+      insert.Bind(++at, row.variant);
+      insert.Bind(++at, static_cast<std::int64_t>(row.episode));
+      insert.Bind(++at, static_cast<std::int64_t>(number));
+      for (const EncounterValue& value : EncounterValues(row.encounters[number])) {
+        if (const auto* text = std::get_if<std::string>(&value))
+          insert.Bind(++at, *text);
+        else
+          insert.Bind(++at, std::optional(std::get<double>(value)));
+      }
+      insert.Step();
+      insert.Again();
+    }
+}
+
+std::vector<Encounter> CampaignStore::EncountersOf(const std::string& variant,
+                                                   std::uint64_t episode) const {
+  std::vector<Encounter> encounters;
+  if (!has_encounters_) return encounters;
+  Statement select(*this,
+                   "SELECT * FROM encounter WHERE campaign = ? AND variant = ? AND episode = ? "
+                   "ORDER BY number");
+  select.Bind(1, about_.id);
+  select.Bind(2, variant);
+  select.Bind(3, static_cast<std::int64_t>(episode));
+  while (select.Step()) encounters.push_back(select.EncounterAt(kFirstOfEncounter));
+  return encounters;
+}
+
+void CampaignStore::ForEachEncounter(
+    const std::string& variant,
+    const std::function<void(std::uint64_t, const Encounter&)>& visit) const {
+  if (!has_encounters_) return;
+  Statement select(*this,
+                   "SELECT * FROM encounter WHERE campaign = ?1 AND variant = ?2 AND episode IN "
+                   "(SELECT episode FROM episode WHERE campaign = ?1 AND variant = ?2) ORDER BY "
+                   "episode, number");
+  select.Bind(1, about_.id);
+  select.Bind(2, variant);
+  while (select.Step())
+    visit(static_cast<std::uint64_t>(sqlite3_column_int64(select.handle, 2)),
+          select.EncounterAt(kFirstOfEncounter));
 }
 
 std::vector<std::string> CampaignStore::Variants() const {
@@ -565,8 +697,13 @@ void CampaignStore::SetAsked(std::uint64_t episodes) {
 }
 
 void CampaignStore::DropErrors() {
-  Run("BEGIN; DELETE FROM episode WHERE outcome = 'error'; DELETE FROM extra WHERE outcome = "
-      "'error'; COMMIT");
+  Run("BEGIN");
+  for (const std::string table : {"episode", "extra"}) {
+    Run("DELETE FROM encounter WHERE (variant, episode) IN (SELECT variant, episode FROM " + table +
+        " WHERE outcome = 'error')");
+    Run("DELETE FROM " + table + " WHERE outcome = 'error'");
+  }
+  Run("COMMIT");
 }
 
 void CampaignStore::Settle() { Run("PRAGMA wal_checkpoint(TRUNCATE)"); }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // campaign.sqlite: a row an episode, added in batches that a kill or a full disk leaves whole.
 //
+// Table `encounter` has the hazards that each episode met, kept or `extra`: the key is (campaign,
+// variant, episode, number).
 // Table `episode` has the key (campaign, variant, episode) and no other order, so that the same
 // episodes give the same `.dump` whatever order they ended in. Episodes driven beyond an early stop
 // stand in `extra`, wall times in `timing`, what the campaign is in `about`. Plans that programs
@@ -57,6 +59,12 @@ class CampaignStore {
                bool extra = false) const;
   // One row of either table.
   std::optional<EpisodeRow> Find(const std::string& variant, std::uint64_t episode) const;
+  // The hazards that an episode of either table met, in the order of their numbers.
+  std::vector<Encounter> EncountersOf(const std::string& variant, std::uint64_t episode) const;
+  // Of all of a variant's episodes in table `episode`, in the order of their numbers.
+  void ForEachEncounter(
+      const std::string& variant,
+      const std::function<void(std::uint64_t episode, const Encounter&)>& visit) const;
   // How many episodes a variant were asked for, last; 0: nobody said.
   std::uint64_t asked() const { return asked_; }
   void SetAsked(std::uint64_t episodes);
@@ -80,8 +88,10 @@ class CampaignStore {
   void Check();
   void ReadAbout();
   void Distrust() const;
-  void CheckTables() const;
+  void CheckTables();
   void CheckRows() const;
+  void CheckEncounters() const;
+  void AddEncounters(std::span<const EpisodeRow> rows);
   void RequireColumns() const;
 
   std::filesystem::path file_;
@@ -89,6 +99,7 @@ class CampaignStore {
   CampaignAbout about_;
   std::uint64_t asked_ = 0;
   bool sound_ = false;          // looked through
+  bool has_encounters_ = true;  // files of earlier versions have no such table
   std::set<std::string> kept_;  // SHA-256 of the plans that are
 };
 

@@ -7,7 +7,8 @@
 #include "base/error.h"
 #include "base/file_output.h"
 #include "base/params.h"
-#include "run/episode/episode.h"
+#include "run/episode/encounter_table.h"
+#include "run/episode/episode_record.h"
 #include "run/episode/records.h"
 
 namespace floorproof {
@@ -41,6 +42,7 @@ EpisodeRow MakeRow(const std::string& variant, const Scenario& s, const std::str
   row.plan = plan;
   row.events = EventsJson(record.events).dump();
   row.timeout = TimeoutJson(record.timeout).dump();
+  row.encounters = record.encounters;
   return row;
 }
 
@@ -115,8 +117,15 @@ std::string WhyUnreadableRow(const EpisodeRow& row) {
 std::string ToLine(const EpisodeRow& row) {
   Json metrics = Json::array();
   for (const auto& value : row.metrics) metrics.push_back(value ? Json(*value) : Json(nullptr));
+  Json encounters = Json::array();
+  for (const Encounter& encounter : row.encounters) {
+    Json values = Json::array();
+    for (const EncounterValue& value : EncounterValues(encounter))
+      std::visit([&](const auto& v) { values.push_back(v); }, value);
+    encounters.push_back(std::move(values));
+  }
   return Json({row.variant, row.episode, row.outcome, row.message, row.events_of, metrics,
-               row.drawn, row.plan, row.events, row.timeout, row.wall_s, row.made})
+               row.drawn, row.plan, row.events, row.timeout, row.wall_s, row.made, encounters})
       .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -138,6 +147,15 @@ EpisodeRow FromLine(std::string_view line) {
     row.timeout = json.at(9).get<std::string>();
     row.wall_s = json.at(10).get<double>();
     row.made = json.at(11).get<std::string>();
+    for (const Json& encounter : json.at(12)) {
+      std::vector<EncounterValue> values;
+      for (const Json& value : encounter)
+        if (value.is_string())
+          values.emplace_back(value.get<std::string>());
+        else
+          values.emplace_back(value.get<double>());
+      row.encounters.push_back(EncounterOf(values));
+    }
     return row;
   } catch (const Json::exception& e) {
     throw InternalError(std::string("a worker's answer cannot be read: ") + e.what());

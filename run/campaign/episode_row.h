@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "env/core/encounter.h"
 #include "env/core/event.h"
 #include "run/episode/metrics.h"
 #include "run/episode/timeout.h"
@@ -29,6 +30,9 @@ struct EpisodeRow {
   // What a program made as its plan (plan.csv); `plan` has its SHA-256 as `made`. Not in the table:
   // the store keeps it beside itself, and rows from there lack it.
   std::string made;
+  // The hazards that it met. They have a table of their own: rows from the store lack them
+  // (CampaignStore::EncountersOf).
+  std::vector<Encounter> encounters;
   double wall_s = 0;  // told apart: not a result
 
   // Counts in rates: its outcome is the robot's.

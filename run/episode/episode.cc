@@ -11,9 +11,11 @@
 #include <utility>
 
 #include "base/quantity.h"
+#include "controllers/drive.h"
 #include "env/core/failure_text.h"
 #include "env/failures/evidence.h"
 #include "env/sim/physics_plant.h"
+#include "run/episode/encounter_meter.h"
 #include "run/episode/episode_stream.h"
 #include "run/episode/go_to_navigator.h"
 #include "run/episode/intervention.h"
@@ -26,46 +28,6 @@
 #include "run/scenario/floors.h"
 
 namespace floorproof {
-
-std::string_view Name(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kSuccess:
-      return "success";
-    case Outcome::kFailure:
-      return "failure";
-    case Outcome::kTimeout:
-      return "timeout";
-    case Outcome::kAborted:
-      return "aborted";
-    case Outcome::kNotPlanned:
-      return "not_planned";
-    case Outcome::kError:
-      return "error";
-    case Outcome::kInterrupted:
-      return "interrupted";
-  }
-  return "?";
-}
-
-void EpisodeRecord::RequireCoverage(double least) {
-  if (outcome != Outcome::kSuccess || metrics.coverage >= least) return;
-  outcome = Outcome::kFailure;
-  message = fmt::format("coverage {:.2f} % is below success.min_coverage, {:.2f} %",
-                        100 * metrics.coverage, 100 * least);
-}
-
-void EpisodeRecord::TakeMissed(const MissedStops& missed) {
-  metrics.stops_missed = missed.count;
-  if (missed.count == 0) return;
-  const std::string place = PlaceText(missed.first_W.x(), missed.first_W.y());
-  const int stops = missed.count - missed.end;
-  std::string text = stops == 0 ? "the plan's end at " + place
-                                : fmt::format("{} of the plan{} at {}", CountText(stops, "stop"),
-                                              stops > 1 ? ", the first" : "", place);
-  if (stops > 0 && missed.end) text += ", and its end";
-  message += (message.empty() ? "" : "; ") + ("passed beside " + text);
-  if (missed.end && outcome == Outcome::kSuccess) outcome = Outcome::kFailure;
-}
 
 namespace {
 
@@ -143,6 +105,7 @@ class EpisodeLoop {
       record.message = robot_side_.supervisor()->stopped();
     if (record.message.empty()) record.message = interventions_.why_not();
     record.TakeMissed(robot_side_.missed());
+    record.encounters = encounters_.Finish();
     return record;
   }
 
@@ -182,11 +145,12 @@ class EpisodeLoop {
   Simulation* simulation_;
   EpisodeObserver* observer_;
   const RobotSpec& robot_;
-  HazardMap known_;
+  HazardMap known_, true_;
   SweepArea area_;
   double plan_m_, limit_s_ = 0;
   std::int64_t steps_a_control_;
   Recorder recorder_;
+  EncounterMeter encounters_;
   Interventions interventions_;
   std::unique_ptr<Navigator> navigator_;
   RobotSide robot_side_;
@@ -206,11 +170,13 @@ EpisodeLoop::EpisodeLoop(Scenario& s, Plant& plant, Simulation* simulation, cons
       observer_(observer),
       robot_(s.robot.spec),
       known_(KnownFloor(s)),
-      area_(ComputeSweepArea(TrueFloor(s), robot_.clear, robot_.tool, robot_.step_m, s.start.p())),
+      true_(TrueFloor(s)),
+      area_(ComputeSweepArea(true_, robot_.clear, robot_.tool, robot_.step_m, s.start.p())),
       plan_m_(s.online ? std::numeric_limits<double>::infinity()
                        : std::max(Length(plan.path), 1e-9)),
       steps_a_control_(std::lround(1.0 / (s.episode.control_hz * s.physics.timestep_s))),
       recorder_(s, area_, plan),
+      encounters_(true_, robot_, IsHolonomic(robot_)),
       interventions_(s),
       navigator_(navigator ? std::move(navigator) : MakeNavigator(s, plan, known_)),
       robot_side_(robot_, known_, *navigator_,
@@ -234,6 +200,8 @@ void EpisodeLoop::Begin() {
 std::optional<Outcome> EpisodeLoop::Control() {
   Act(interventions_.awaited() ? robot_side_.Stand() : robot_side_.Control(sensed_));
   recorder_.OnControl(sample_, robot_side_.estimate());
+  encounters_.OnControl(sample_, robot_side_.estimate(),
+                        navigator_->free() ? nullptr : &robot_side_.path());
 
   std::optional<Outcome> ended;
   if (robot_side_.done() || IsEnoughCovered())
@@ -247,6 +215,7 @@ std::optional<Outcome> EpisodeLoop::Control() {
   if (!ended && interventions_.HasCome(sample_.t_s)) {     // after sensing: a bump was where it lay
     if (sample_.battery_v == 0) return Outcome::kFailure;  // cut off while it waited
     recorder_.OnIntervention(interventions_.SetDown(plant_, robot_side_), s_.detectors);
+    encounters_.Lift();
     Look();
     robot_side_.Helped(sample_.X_WB(), EpisodeStream(s_, "estimator"), sample_.t_s);
     Act(robot_side_.actuation());
@@ -287,6 +256,7 @@ std::optional<Outcome> EpisodeLoop::Step() {
   if (!good) return Outcome::kError;
   if (std::exchange(carried_, sample_.carried) != sample_.carried) {
     recorder_.OnCarried(s_.detectors);
+    encounters_.Lift();
     StartDetectors();  // nothing that it did brought it there
   }
   if (navigator_->free()) {
@@ -334,6 +304,7 @@ bool EpisodeLoop::Detect() {
   for (auto& [name, detector] : s_.detectors) {
     if (!detector->Update(sample_)) continue;
     recorder_.OnEvent(detector->event());
+    encounters_.OnEvent(detector->event());
     failed = true;
   }
   return failed;

@@ -15,6 +15,7 @@
 #include "base/printable.h"
 #include "env/core/failure_text.h"
 #include "planners/risk/risk_meter.h"
+#include "run/episode/encounter_table.h"
 #include "run/scenario/floors.h"
 #include "run/scenario/plan_file.h"
 
@@ -366,7 +367,7 @@ std::filesystem::path KeepMadePlan(const Scenario& s, const PlanResult& plan,
 ResultNames EpisodeResults() {
   return {"episode", [](std::string_view name) {
             return IsPlanFile(name) || IsFilm(name) || name == "result.json" ||
-                   name == "trace.csv" || name == "safety.csv" ||
+                   name == "trace.csv" || name == "encounters.csv" || name == "safety.csv" ||
                    (name.ends_with(".png") &&
                     (name.starts_with("heatmap_") || name.starts_with("plot_")));
           }};
@@ -404,6 +405,8 @@ void RemoveEpisodeFiles(const ResultFolder& folder) {
 void WriteEpisodeFiles(const Scenario& s, const PlanResult& plan, const EpisodeRecord& record,
                        const std::filesystem::path& folder) {
   WriteFileWhole(folder / "trace.csv", TraceCsv(record, s.robot.spec));
+  if (s.episode.drive == "physics")
+    WriteFileWhole(folder / "encounters.csv", EncountersCsv(record.encounters));
   if (s.safety) WriteFileWhole(folder / "safety.csv", SafetyCsv(record));
   if (!plan.samples.empty() && record.steps > 0)
     WriteFileWhole(folder / "plan.json", JsonText(PlanJson(s, plan, &record)) + "\n");

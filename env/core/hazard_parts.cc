@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/core/hazard_parts.h"
+
+#include <utility>
+
+#include "env/core/levels.h"
+
+namespace floorproof {
+
+HazardParts::HazardParts(const HazardMap& map) {
+  const std::vector<std::vector<Polygon>> floors = BareFloors(map);
+  std::vector<Box2> boxes;
+  for (std::size_t i = 0; i < floors.size(); ++i)
+    for (const Polygon& bare : floors[i])
+      for (Polygon& part : ConvexParts({{bare, {}}})) {
+        boxes.push_back(BoxAround(part));
+        parts_.push_back({std::move(part), static_cast<int>(i)});
+      }
+  if (!boxes.empty()) boxes_ = BoxGrid(std::move(boxes));
+}
+
+}  // namespace floorproof
