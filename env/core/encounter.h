@@ -22,9 +22,10 @@ constexpr std::string_view Name(Passage passage) {
 
 // How a hazard is met: by a plan that is to come, or by a robot as it enters.
 struct Approach {
-  double heading_rad = 0;  // of the travel, from the inward normal of the edge that is met first: 0
-                           // is square on, positive counter-clockwise, pi/2 along it
-  double lead_rad = 0;     // of the travel, in the body's frame: 0 forward, pi/2 to the left
+  double heading_rad = 0;  // of the travel, from the inward normal of the edge that is entered by,
+                           // or of the nearest that is passed: 0 is square on, positive
+                           // counter-clockwise, pi/2 along it
+  double lead_rad = 0;  // of the travel, in the body's frame: 0 forward, pi/2 to the left
   double speed_mps = 0;
   double gap_m = 0;        // from the footprint to the hazard where the plan comes nearest; 0: over
   double width_share = 0;  // of the footprint, across the way, what the plan leads over it

@@ -202,7 +202,10 @@ void PassageWatch::Follow(double along_m, double turned_rad, bool moves) {
                .low_m = std::numeric_limits<double>::infinity(),
                .high_m = -std::numeric_limits<double>::infinity()};
     }
-    if (!under && !meeting.over) track.outward_W = seen.outward_W;
+    if (!under && !meeting.over && seen.gap_m <= meeting.gap_m) {  // by the edge that is nearest
+      track.outward_W = seen.outward_W;
+      track.has_heading &= seen.gap_m > meeting.gap_m - 1e-9;
+    }
     meeting.inside = under || (!meeting.over && seen.gap_m <= kReach_m);
     meeting.gap_m = std::max(0.0, std::min(meeting.gap_m, seen.gap_m));
     if (moves && !track.has_heading) TakeHeading(meeting, track);

@@ -79,7 +79,9 @@ Encounter EncounterOf(std::span<const EncounterValue> values) {
     const auto& passage = std::get<std::string>(values[2]);
     encounter.passage = passage == Name(Passage::kOver) ? Passage::kOver : Passage::kBeside;
     if (passage != Name(encounter.passage)) throw InternalError("no passage: " + passage);
-    for (const auto& [name, value] : Json::parse(std::get<std::string>(values[kSize])).items())
+    const Json size = Json::parse(std::get<std::string>(values[kSize]));
+    if (!size.is_object()) throw InternalError("a size that is no map");
+    for (const auto& [name, value] : size.items())
       encounter.size.emplace_back(name, value.get<double>());
     std::size_t at = kNumbers;
     for (const ApproachColumn& column : kApproach)

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "run/campaign/campaign_about.h"
+#include "run/episode/encounter_table.h"
 #include "tests/slurp.h"
 
 namespace floorproof {
@@ -117,6 +118,77 @@ TEST_F(CampaignStoreTest, RowsComeBackAsPut) {
     store.ForEach("robot=b", [&](const EpisodeRow& row) { EXPECT_TRUE(Same(row, bare)); });
   }
   EXPECT_EQ(Bytes(folder_).size(), 1u) << "closed, it is one file";
+}
+
+Encounter Met(const std::string& hazard, double speed_mps) {
+  Encounter encounter;
+  encounter.hazard = hazard;
+  encounter.type = "step";
+  encounter.size = {{"height_m", 0.1 + 0.2}};
+  encounter.at.speed_mps = speed_mps;
+  encounter.outcome = Encounter::Outcome::kFailed;
+  encounter.mode = FailureMode::kRollOver;
+  return encounter;
+}
+
+// They have a table of their own, go with their episode, and are forgotten with one that is driven
+// again.
+TEST_F(CampaignStoreTest, EncountersStandBesideTheirEpisodes) {
+  EpisodeRow first = Row(0), second = Row(1), broken = Row(2);
+  first.encounters = {Met("kerb", 0.1), Met("it's", 0.3)};
+  second.encounters = {Met("sill", 0.2)};
+  broken.outcome = "error";
+  broken.encounters = {Met("none", 0)};
+  CampaignStore store = CampaignStore::Create(file_, about_);
+  store.Add(std::vector{FromLine(ToLine(first)), second, broken});
+  const auto met = [&] {
+    std::vector<std::string> all;
+    store.ForEachEncounter("default", [&](std::uint64_t episode, const Encounter& e) {
+      all.push_back(std::to_string(episode) + " " + e.hazard);
+    });
+    return all;
+  };
+  EXPECT_THAT(met(), ElementsAre("0 kerb", "0 it's", "1 sill", "2 none"));
+  ASSERT_EQ(store.EncountersOf("default", 0).size(), 2u);
+  EXPECT_EQ(EncounterValues(store.EncountersOf("default", 0)[1]),
+            EncounterValues(Met("it's", 0.3)));
+  store.DropErrors();
+  EXPECT_THAT(met(), ElementsAre("0 kerb", "0 it's", "1 sill"));
+  store.SetExtraFrom("default", 1);
+  EXPECT_THAT(met(), ElementsAre("0 kerb", "0 it's")) << "what is kept and not counted is left out";
+  EXPECT_EQ(store.EncountersOf("default", 1).size(), 1u) << "but it is there";
+  store.SetExtraFrom("default", 2);
+  EXPECT_THAT(met(), ElementsAre("0 kerb", "0 it's", "1 sill"));
+}
+
+TEST_F(CampaignStoreTest, AFileWithoutEncountersIsReadAndNotGoneOnWith) {
+  Make(3);
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(file_.c_str(), &db), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(db, "DROP TABLE encounter", nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(db);
+  EXPECT_THAT(WhyRefused(true), HasSubstr("has no table encounter"));
+  const CampaignStore dut = CampaignStore::Open(file_, false);
+  EXPECT_THAT(InTable(dut), ElementsAre(0, 1, 2));
+  EXPECT_THAT(dut.EncountersOf("default", 1), IsEmpty());
+}
+
+TEST_F(CampaignStoreTest, DamagedEncountersAreRefused) {
+  for (const char* sql :
+       {"UPDATE encounter SET outcome = 'fine'", "UPDATE encounter SET size = '{'",
+        "UPDATE encounter SET speed_mps = 'fast'", "UPDATE encounter SET passage = 'under'",
+        "ALTER TABLE encounter ADD COLUMN more REAL"}) {
+    fs::remove(file_);
+    EpisodeRow row = Row(0);
+    row.encounters = {Met("kerb", 0.1)};
+    CampaignStore::Create(file_, about_).Add(std::vector{row});
+    EXPECT_EQ(WhyRefused(false), "");
+    sqlite3* db = nullptr;
+    ASSERT_EQ(sqlite3_open(file_.c_str(), &db), SQLITE_OK);
+    ASSERT_EQ(sqlite3_exec(db, sql, nullptr, nullptr, nullptr), SQLITE_OK);
+    sqlite3_close(db);
+    EXPECT_THAT(WhyRefused(false), HasSubstr("encounter")) << sql;
+  }
 }
 
 // mean_estimate_position_std_m was mean_estimate_spread_m.
@@ -344,7 +416,7 @@ TEST_F(CampaignStoreTest, NothingOfAForeignFileIsRun) {
   expect_refused("CREATE TRIGGER t AFTER INSERT ON episode BEGIN DELETE FROM episode; END",
                  "holds a trigger");
   expect_refused("CREATE INDEX i ON episode(message)", "holds a index");
-  expect_refused("CREATE TABLE more(a)", "its tables are not about, episode, extra, timing");
+  expect_refused("CREATE TABLE more(a)", "its tables are not about, encounter, episode, extra, timing");
   expect_refused("ALTER TABLE episode ADD COLUMN c TEXT", "has not the columns of one");
   expect_refused("ALTER TABLE episode ADD COLUMN c REAL AS (episode * 2)", "computes a column");
   for (const char* change :
