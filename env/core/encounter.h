@@ -25,7 +25,7 @@ struct Approach {
   double heading_rad = 0;  // of the travel, from the inward normal of the edge that is entered by,
                            // or of the nearest that is passed: 0 is square on, positive
                            // counter-clockwise, pi/2 along it
-  double lead_rad = 0;  // of the travel, in the body's frame: 0 forward, pi/2 to the left
+  double lead_rad = 0;     // of the travel, in the body's frame: 0 forward, pi/2 to the left
   double speed_mps = 0;
   double gap_m = 0;        // from the footprint to the hazard where the plan comes nearest; 0: over
   double width_share = 0;  // of the footprint, across the way, what the plan leads over it
@@ -43,20 +43,30 @@ inline constexpr double kFarWall_m = 1;
 struct ApproachColumn {
   std::string_view name;
   double Approach::*member;
+  std::string_view unit, help;  // a line of docs/results.md
 };
 inline constexpr std::array<ApproachColumn, 12> kApproach = {{
-    {"heading_rad", &Approach::heading_rad},
-    {"lead_rad", &Approach::lead_rad},
-    {"speed_mps", &Approach::speed_mps},
-    {"gap_m", &Approach::gap_m},
-    {"width_share", &Approach::width_share},
-    {"turn_rad", &Approach::turn_rad},
-    {"over_m", &Approach::over_m},
-    {"wall_m", &Approach::wall_m},
-    {"friction", &Approach::friction},
-    {"mass_kg", &Approach::mass_kg},
-    {"clearance_m", &Approach::clearance_m},
-    {"estimate_error_m", &Approach::estimate_error_m},
+    {"heading_rad", &Approach::heading_rad, "rad",
+     "of the travel, from the inward normal of the edge that is entered by, or of the nearest that "
+     "is passed: 0 is square on, positive counter-clockwise"},
+    {"lead_rad", &Approach::lead_rad, "rad",
+     "of the travel, in the body's frame: 0 forward, 1.57 to the left"},
+    {"speed_mps", &Approach::speed_mps, "m/s", "speed over the floor"},
+    {"gap_m", &Approach::gap_m, "m",
+     "from the footprint to the hazard where the plan comes nearest; 0: over it"},
+    {"width_share", &Approach::width_share, "",
+     "of the footprint, across the way, what the plan leads over the hazard"},
+    {"turn_rad", &Approach::turn_rad, "rad",
+     "that the plan turns the body by while it is over the hazard, or within reach"},
+    {"over_m", &Approach::over_m, "m",
+     "way of the plan over the hazard, or within reach where it leads past"},
+    {"wall_m", &Approach::wall_m, "m",
+     "from the footprint to the nearest wall, 1 where none is so near"},
+    {"friction", &Approach::friction, "", "of floor and wheels"},
+    {"mass_kg", &Approach::mass_kg, "kg", "the robot's mass"},
+    {"clearance_m", &Approach::clearance_m, "m", "from the floor to the robot's belly"},
+    {"estimate_error_m", &Approach::estimate_error_m, "m",
+     "from where the robot thinks it is to where it is"},
 }};
 
 struct Encounter {

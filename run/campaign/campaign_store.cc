@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/campaign/campaign_store.h"
 
-#include <sqlite3.h>
 #include <sys/statvfs.h>
 
 #include <algorithm>
@@ -12,86 +11,14 @@
 #include "base/file_output.h"
 #include "base/input_files.h"
 #include "base/printable.h"
-#include "run/campaign/campaign_about.h"
-#include "run/episode/encounter_table.h"
+#include "run/campaign/campaign_tables.h"
 
 namespace floorproof {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFormat = 1;
-constexpr std::size_t kFirst = 5 + kNumFailureModes;  // columns before the metrics
-constexpr int kMaxText_bytes = 16 << 20;              // of any value
-
-// Ends a statement that takes more steps of SQLite's machine than the file's size explains.
-class StepLimit {
- public:
-  StepLimit(sqlite3* db, const fs::path& file) : db_(db) {
-    std::error_code error;
-    const std::uintmax_t bytes = fs::file_size(file, error);
-    left_ = 100'000 + (error ? 0 : static_cast<std::int64_t>(bytes / 100));
-    sqlite3_progress_handler(
-        db, 1000, [](void* self) { return --static_cast<StepLimit*>(self)->left_ < 0 ? 1 : 0; },
-        this);
-  }
-  ~StepLimit() { sqlite3_progress_handler(db_, 0, nullptr, nullptr); }
-  StepLimit(const StepLimit&) = delete;
-  StepLimit& operator=(const StepLimit&) = delete;
-
- private:
-  sqlite3* db_;
-  std::int64_t left_;  // thousands of steps
-};
-
-// The last columns of the tables of episodes: JSON.
-struct RowText {
-  std::string_view name;
-  std::string EpisodeRow::*text;
-};
-constexpr std::array<RowText, 4> kTexts = {{{"drawn", &EpisodeRow::drawn},
-                                            {"plan", &EpisodeRow::plan},
-                                            {"events", &EpisodeRow::events},
-                                            {"timeout", &EpisodeRow::timeout}}};
-constexpr std::size_t kLeastTexts = 3;  // files of earlier versions have no `timeout`
-
-struct Column {
-  std::string name, type;
-};
-
-// Of the tables of episodes, in order.
-std::vector<Column> Columns() {
-  const std::string text = "TEXT NOT NULL", count = "INTEGER NOT NULL";
-  std::vector<Column> columns = {{"campaign", text},
-                                 {"variant", text},
-                                 {"episode", count},
-                                 {"outcome", text},
-                                 {"message", text}};
-  for (int mode = 0; mode < kNumFailureModes; ++mode)
-    columns.push_back({std::string(Name(static_cast<FailureMode>(mode))), count});
-  for (const MetricColumn& metric : kMetrics) columns.push_back({std::string(metric.name), "REAL"});
-  for (const RowText& t : kTexts) columns.push_back({std::string(t.name), text});
-  return columns;
-}
-
-// Of table `encounter`, in order.
-std::vector<Column> ColumnsOfEncounters() {
-  std::vector<Column> columns = {{"campaign", "TEXT NOT NULL"},
-                                 {"variant", "TEXT NOT NULL"},
-                                 {"episode", "INTEGER NOT NULL"},
-                                 {"number", "INTEGER NOT NULL"}};
-  for (const EncounterColumn& column : EncounterColumns())
-    columns.push_back(
-        {std::string(column.name), column.is_text ? "TEXT NOT NULL" : "REAL NOT NULL"});
-  return columns;
-}
-constexpr int kFirstOfEncounter = 4;  // column that is the encounter's own
-
-// As this version calls it.
-std::string NameNow(const std::string& column) {
-  const MetricColumn* metric = FindMetric(column);
-  return metric == nullptr ? column : std::string(metric->name);
-}
+constexpr int kMaxText_bytes = 16 << 20;  // of any value
 
 std::string Placeholders(std::size_t columns) {
   std::string marks = "?";
@@ -127,94 +54,6 @@ bool HasRoomForAFile(const fs::path& file) {
 }
 
 }  // namespace
-
-// A prepared statement; its calls throw as the store's do.
-struct CampaignStore::Statement {
-  Statement(const CampaignStore& of, const std::string& sql) : store(of) {
-    Check(sqlite3_prepare_v2(of.db_, sql.c_str(), -1, &handle, nullptr));
-  }
-  ~Statement() { sqlite3_finalize(handle); }
-  Statement(const Statement&) = delete;
-  Statement& operator=(const Statement&) = delete;
-
-  void Check(int code) const {
-    if (code != SQLITE_OK) store.Refuse(code);
-  }
-  void Bind(int at, const std::string& text) {
-    Check(sqlite3_bind_text(handle, at, text.data(), static_cast<int>(text.size()),
-                            SQLITE_TRANSIENT));
-  }
-  void Bind(int at, std::int64_t number) { Check(sqlite3_bind_int64(handle, at, number)); }
-  void Bind(int at, std::optional<double> number) {
-    Check(number ? sqlite3_bind_double(handle, at, *number) : sqlite3_bind_null(handle, at));
-  }
-  bool Step() {
-    const int code = sqlite3_step(handle);
-    if (code != SQLITE_ROW && code != SQLITE_DONE) store.Refuse(code);
-    return code == SQLITE_ROW;
-  }
-  void Again() { Check(sqlite3_reset(handle)); }
-  std::string Text(int column) const {
-    const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(handle, column));
-    return text == nullptr
-               ? ""
-               : std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(handle, column)));
-  }
-
-  // Where a SELECT * from a table of episodes has its metrics and texts; -1: it has not.
-  struct Places {
-    std::array<int, kMetrics.size()> metrics;
-    std::array<int, kTexts.size()> texts;
-  };
-  Places PlacesOfColumns() const {
-    Places places;
-    places.metrics.fill(-1);
-    places.texts.fill(-1);
-    for (int i = 0; i < sqlite3_column_count(handle); ++i) {
-      const std::string_view name = sqlite3_column_name(handle, i);
-      if (const MetricColumn* metric = FindMetric(name))
-        places.metrics[static_cast<std::size_t>(metric - kMetrics.data())] = i;
-      if (const auto text = std::ranges::find(kTexts, name, &RowText::name); text != kTexts.end())
-        places.texts[static_cast<std::size_t>(text - kTexts.begin())] = i;
-    }
-    return places;
-  }
-
-  // Of such a SELECT.
-  EpisodeRow Row(const Places& places) const {
-    EpisodeRow row;
-    row.variant = Text(1);
-    row.episode = static_cast<std::uint64_t>(sqlite3_column_int64(handle, 2));
-    row.outcome = Text(3);
-    row.message = Text(4);
-    int at = 5;
-    for (int& n : row.events_of) n = sqlite3_column_int(handle, at++);
-    for (std::size_t i = 0; i < row.metrics.size(); ++i)
-      if (const int column = places.metrics[i];
-          column >= 0 && sqlite3_column_type(handle, column) != SQLITE_NULL)
-        row.metrics[i] = sqlite3_column_double(handle, column);
-    for (std::size_t i = 0; i < kTexts.size(); ++i)
-      if (places.texts[i] >= 0) row.*kTexts[i].text = Text(places.texts[i]);
-    return row;
-  }
-
-  // Of a SELECT of the columns of table `encounter` from kFirstOfEncounter on, which begin at this
-  // one.
-  Encounter EncounterAt(int column) const {
-    std::vector<EncounterValue> values;
-    for (const EncounterColumn& of : EncounterColumns()) {
-      if (of.is_text)
-        values.emplace_back(Text(column));
-      else
-        values.emplace_back(sqlite3_column_double(handle, column));
-      ++column;
-    }
-    return EncounterOf(values);
-  }
-
-  const CampaignStore& store;
-  sqlite3_stmt* handle = nullptr;
-};
 
 CampaignStore::CampaignStore(const fs::path& file, sqlite3* db) : file_(file), db_(db) {}
 
@@ -352,21 +191,6 @@ CampaignStore CampaignStore::Open(const fs::path& file, bool write) {
   return store;
 }
 
-void CampaignStore::Check() {
-  const StepLimit limit(db_, file_);
-  CheckTables();
-  {
-    Statement check(*this, "PRAGMA quick_check(1)");
-    if (check.Step() && check.Text(0) != "ok")
-      throw InputError({file_.string(), 0}, "", "",
-                       "is damaged (" + check.Text(0) + "); it was left as it is");
-  }
-  ReadAbout();
-  CheckRows();
-  CheckEncounters();
-  sound_ = true;
-}
-
 void CampaignStore::MakeWritable() {
   RequireColumns();
   CampaignStore writable = Connect(file_, SQLITE_OPEN_READWRITE);
@@ -375,30 +199,6 @@ void CampaignStore::MakeWritable() {
   Run("PRAGMA journal_mode=WAL; SELECT count(*) FROM about");
   Run("PRAGMA locking_mode=EXCLUSIVE; PRAGMA synchronous=NORMAL");
   Run("BEGIN IMMEDIATE; COMMIT");  // takes the lock now, or says who has it
-}
-
-void CampaignStore::ReadAbout() {
-  try {
-    Statement select(*this, "SELECT key, value FROM about");
-    std::string format;
-    while (select.Step()) {
-      const std::string key = select.Text(0), value = select.Text(1);
-      if (key == "format") format = value;
-      if (key == "campaign") about_.id = value;
-      if (key == "scenario") about_.scenario = value;
-      if (key == "versions") about_.versions = value;
-      if (key == "asked") asked_ = std::strtoull(value.c_str(), nullptr, 10);
-    }
-    if (format == std::to_string(kFormat) && IsUtf8Text(about_.id)) {
-      ParseYaml(about_.scenario, file_.string() + ", scenario");
-      VersionsOf(about_);
-      return;
-    }
-  } catch (const DiskError&) {
-    throw;
-  } catch (const InternalError&) {
-  }
-  throw InputError({file_.string(), 0}, "", "", "is not a campaign's database (table about)");
 }
 
 // SQLite's own advice for files from elsewhere (sqlite.org/security.html): nothing of the file's is
@@ -411,152 +211,6 @@ void CampaignStore::Distrust() const {
     sqlite3_db_config(db_, option, value, nullptr);
   sqlite3_limit(db_, SQLITE_LIMIT_LENGTH, kMaxText_bytes);
   sqlite3_exec(db_, "PRAGMA cell_size_check=ON; PRAGMA mmap_size=0", nullptr, nullptr, nullptr);
-}
-
-// No views, triggers or indexes, and no table but a campaign's own with the columns of one.
-void CampaignStore::CheckTables() {
-  const auto refuse = [&](const std::string& what) {
-    throw InputError({file_.string(), 0}, "", "", "is not a campaign's database (" + what + ")");
-  };
-  Statement schema(*this, "SELECT type, name, sql FROM sqlite_master");
-  std::vector<std::string> tables;
-  while (schema.Step()) {
-    const std::string type = schema.Text(0), name = schema.Text(1);
-    if (type != "table" || !schema.Text(2).starts_with("CREATE TABLE "))
-      refuse("it holds a " + (type == "table" ? "virtual table" : type) + " " + name);
-    tables.push_back(name);
-  }
-  std::ranges::sort(tables);
-  if (tables.empty()) refuse("table about");
-  has_encounters_ = std::erase(tables, "encounter") > 0;
-  if (tables != std::vector<std::string>{"about", "episode", "extra", "timing"})
-    refuse("its tables are not about, encounter, episode, extra, timing");
-  std::vector<Column> of_episode;
-  for (const std::string table : {"episode", "extra"}) {
-    std::vector<Column> there;
-    Statement info(*this, "PRAGMA table_xinfo(" + table + ")");
-    while (info.Step()) {
-      if (info.Text(6) != "0") refuse("table " + table + " computes a column");
-      there.push_back({info.Text(1), info.Text(2)});
-    }
-    // Behind the first columns stand the metrics of whatever version, and the texts.
-    const std::vector<Column> wanted = Columns();
-    const auto same = [](const Column& a, const Column& b) {
-      return a.name == b.name && !a.type.empty() && b.type.starts_with(a.type);
-    };
-    bool right = there.size() >= kFirst + kLeastTexts &&
-                 std::equal(there.begin(), there.begin() + kFirst, wanted.begin(), same);
-    std::size_t texts = 0;
-    for (std::size_t i = kFirst; right && i < there.size(); ++i) {
-      const bool is_text = std::ranges::find(kTexts, there[i].name, &RowText::name) != kTexts.end();
-      texts += is_text;
-      right = there[i].type == (is_text ? "TEXT" : "REAL");
-    }
-    right = right && texts >= kLeastTexts;
-    if (!right) refuse("table " + table + " has not the columns of one");
-    if (of_episode.empty()) of_episode = std::move(there);
-    // Rows of both are read by one statement, by the places of their columns.
-    else if (!std::ranges::equal(there, of_episode, {}, &Column::name, &Column::name))
-      refuse("tables episode and extra have not the same columns");
-  }
-  if (!has_encounters_) return;
-  std::vector<Column> there;
-  Statement info(*this, "PRAGMA table_xinfo(encounter)");
-  while (info.Step()) {
-    if (info.Text(6) != "0") refuse("table encounter computes a column");
-    there.push_back({info.Text(1), info.Text(2)});
-  }
-  if (!std::ranges::equal(there, ColumnsOfEncounters(), [](const Column& a, const Column& b) {
-        return a.name == b.name && b.type == a.type + " NOT NULL";
-      }))
-    refuse("table encounter has not the columns of one");
-}
-
-// What lies in a row's further pages no check of the database looks at; and a text may be JSON of
-// another kind than is asked for later, when rows have been added.
-void CampaignStore::CheckRows() const {
-  for (const std::string table : {"episode", "extra"}) {
-    Statement select(*this, "SELECT * FROM " + table);
-    const auto places = select.PlacesOfColumns();
-    const int columns = sqlite3_column_count(select.handle);
-    while (select.Step()) {
-      std::string why;
-      for (int i = 0; i < columns && why.empty(); ++i) {
-        const int type = sqlite3_column_type(select.handle, i);
-        const bool is_json = std::ranges::find(places.texts, i) != places.texts.end();
-        const bool is_text = is_json || i < 2 || i == 3 || i == 4;
-        const bool is_count = !is_text && i < static_cast<int>(kFirst);
-        if (is_text    ? type != SQLITE_TEXT
-            : is_count ? type != SQLITE_INTEGER || sqlite3_column_int64(select.handle, i) < 0
-                       : type != SQLITE_NULL && type != SQLITE_FLOAT && type != SQLITE_INTEGER)
-          why = "is of another type";
-        else if (is_text && !IsUtf8Text(select.Text(i)))
-          why = "is no UTF-8";
-      }
-      if (why.empty()) why = WhyUnreadableRow(select.Row(places));
-      if (!why.empty())
-        throw InputError({file_.string(), 0}, "", "",
-                         "is damaged (a text of a row of table " + table + " " + why +
-                             "); it was left as it is");
-    }
-  }
-}
-
-void CampaignStore::CheckEncounters() const {
-  if (!has_encounters_) return;
-  Statement select(*this, "SELECT * FROM encounter");
-  const std::vector<Column> columns = ColumnsOfEncounters();
-  while (select.Step()) {
-    std::string why;
-    for (int i = 0; i < static_cast<int>(columns.size()) && why.empty(); ++i) {
-      const std::string& declared = columns[static_cast<std::size_t>(i)].type;
-      const int type = sqlite3_column_type(select.handle, i);
-      const bool is_text = declared.starts_with("TEXT");
-      if (is_text                           ? type != SQLITE_TEXT
-          : declared.starts_with("INTEGER") ? type != SQLITE_INTEGER
-                                            : type != SQLITE_FLOAT && type != SQLITE_INTEGER)
-        why = "is of another type";
-      else if (is_text && !IsUtf8Text(select.Text(i)))
-        why = "is no UTF-8";
-    }
-    try {
-      if (why.empty()) select.EncounterAt(kFirstOfEncounter);
-    } catch (const InternalError&) {
-      why = "is none of an encounter";
-    }
-    if (!why.empty())
-      throw InputError(
-          {file_.string(), 0}, "", "",
-          "is damaged (a value of a row of table encounter " + why + "); it was left as it is");
-  }
-}
-
-// A row is written by the places of its columns.
-void CampaignStore::RequireColumns() const {
-  if (!has_encounters_)
-    throw InputError({file_.string(), 0}, "", "",
-                     "is another version's: it has no table encounter; it can be read, not gone on "
-                     "with: start anew in another folder");
-  std::vector<std::string> wanted;
-  for (const Column& column : Columns()) wanted.push_back(column.name);
-  for (const std::string table : {"episode", "extra"}) {
-    std::vector<std::string> there;
-    Statement info(*this, "PRAGMA table_info(" + table + ")");
-    while (info.Step()) there.push_back(NameNow(info.Text(1)));
-    if (there == wanted) continue;
-    const auto lacked = [](const auto& from, const auto& in) {
-      return std::ranges::find_if(
-          from, [&](const auto& name) { return std::ranges::find(in, name) == in.end(); });
-    };
-    std::string what = "has its columns in another order";
-    if (const auto missing = lacked(wanted, there); missing != wanted.end())
-      what = "has no column " + *missing;
-    else if (const auto unknown = lacked(there, wanted); unknown != there.end())
-      what = "has a column " + *unknown + " that is not known";
-    throw InputError({file_.string(), 0}, "", "",
-                     "is another version's: its table " + table + " " + what +
-                         "; it can be read, not gone on with: start anew in another folder");
-  }
 }
 
 void CampaignStore::Add(std::span<const EpisodeRow> rows) {

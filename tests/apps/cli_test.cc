@@ -86,9 +86,9 @@ TEST_F(Cli, AProgramThatPlansIsNamedBeforeItIsRunAndNeverRunByReplay) {
 TEST_F(Cli, RunLeavesWhatTheContractNames) {
   const Result dut = Run("run s.yaml --out o");
   EXPECT_EQ(dut.status, 0) << dut.err << dut.out;
-  for (const char* file :
-       {"scenario.resolved.yaml", "plan.csv", "plan.json", "trace.csv", "result.json",
-        "heatmap_plan.png", "heatmap_visits.png", "heatmap_coverage.png", "heatmap_failures.png"})
+  for (const char* file : {"scenario.resolved.yaml", "plan.csv", "plan.json", "trace.csv",
+                           "encounters.csv", "result.json", "heatmap_plan.png",
+                           "heatmap_visits.png", "heatmap_coverage.png", "heatmap_failures.png"})
     EXPECT_TRUE(fs::exists(folder_ / "o" / file)) << file;
   for (const char* file :
        {"risk.csv", "heatmap_risk.png", "heatmap_plan_visits.png", "plot_risk.png"})

@@ -12,6 +12,7 @@
 
 #include "controllers/supervision/safety_plan.h"
 #include "env/core/coverage.h"
+#include "env/core/encounter.h"
 #include "env/failures/detector.h"
 #include "env/faults/fault.h"
 #include "env/hazards/hazard_type.h"
@@ -259,6 +260,16 @@ TEST(Results, ThePageListsEveryTraceColumn) {
   for (const TraceColumn& column : kTraceColumns)
     table += Line(column.name, column.unit, kTypes[column.member.index()], column.help);
   ExpectSameLines(TableOf(Page("results.md"), "trace.csv"), table);
+}
+
+TEST(Results, ThePageListsWhatHazardsAreMetWith) {
+  std::string table = "| name | unit | meaning |\n|---|---|---|\n";
+  for (const ApproachColumn& column : kApproach) {
+    const std::string unit = column.unit.empty() ? "" : std::string(column.unit) + " ";
+    table +=
+        "| `" + std::string(column.name) + "` | " + unit + "| " + std::string(column.help) + " |\n";
+  }
+  ExpectSameLines(TableOf(Page("results.md"), "encounters.csv"), table);
 }
 
 }  // namespace
