@@ -16,7 +16,10 @@ HazardParts::HazardParts(const HazardMap& map) {
         boxes.push_back(BoxAround(part));
         parts_.push_back({std::move(part), static_cast<int>(i)});
       }
-  if (!boxes.empty()) boxes_ = BoxGrid(std::move(boxes));
+  if (boxes.empty()) return;
+  boxes_ = BoxGrid(std::move(boxes));
+  constexpr double kSquare_m = 1.5;  // half of one that holds any robot and its reach
+  found_.reserve(static_cast<std::size_t>(boxes_.MostNear(kSquare_m)));
 }
 
 }  // namespace floorproof

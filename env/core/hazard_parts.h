@@ -20,7 +20,7 @@ class HazardParts {
   explicit HazardParts(const HazardMap& map);
 
   // The parts whose bounding boxes meet the rectangle [low, high], by hazard ascending. Allocates
-  // only what its own memory of the last call lacks.
+  // nothing where the rectangle is at most 3 m long and wide.
   template <class Visit>
   void Near(const Vec2& low_W, const Vec2& high_W, const Visit& visit) {
     if (parts_.empty()) return;

@@ -68,6 +68,9 @@ PassageWatch::PassageWatch(HazardParts& parts, std::size_t hazards, const RobotS
   std::size_t most = 0;
   for (const auto& shape : shapes_B_) most = std::max(most, shape.size());
   footprint_W_.reserve(most);
+  constexpr std::size_t kMeetings = 32, kClip = 128;  // at a time; corners
+  near_.reserve(kMeetings), open_.reserve(kMeetings), ended_.reserve(kMeetings);
+  tracks_.reserve(kMeetings), clip_.reserve(kClip), clipped_.reserve(kClip);
   shape_ = robot.clear.kind == Shape2::Kind::kCircle || robot.shapes.empty() ? 0 : robot.shape;
 }
 

@@ -17,8 +17,9 @@ constexpr std::size_t kAtWall = 0, kOnFloor = 1;
 
 // A hazard's sizes as a model can use them: of a slope not which way in the world it rises, but how
 // much along the robot's way and across it.
-std::vector<std::pair<std::string, double>> SizeOf(const Hazard& hazard, const Vec2& travel_W) {
-  std::vector<std::pair<std::string, double>> size;
+void TakeSize(const Hazard& hazard, const Vec2& travel_W,
+              std::vector<std::pair<std::string, double>>& size) {
+  size.clear();
   for (const auto& [key, value] : hazard.keys)
     if (key != "toward_deg") size.emplace_back(key, value);
   for (const Solid& solid : hazard.solids) {
@@ -27,7 +28,6 @@ std::vector<std::pair<std::string, double>> SizeOf(const Hazard& hazard, const V
     size.emplace_back("rise_across", Cross(travel_W, solid.gradient));
     break;
   }
-  return size;
 }
 
 }  // namespace
@@ -37,7 +37,10 @@ EncounterMeter::EncounterMeter(const HazardMap& map, const RobotSpec& robot, boo
       robot_(robot),
       holds_yaw_(holds_yaw),
       parts_(map),
-      watch_(parts_, map.hazards.size(), robot) {}
+      watch_(parts_, map.hazards.size(), robot) {
+  constexpr std::size_t kLive = 32;
+  live_.reserve(kLive);
+}
 
 void EncounterMeter::OnControl(const Sample& sample, const Estimate& estimate, const Path* path) {
   const Pose2 X_WB = sample.X_WB();
@@ -105,7 +108,7 @@ void EncounterMeter::TakeEntry(const Meeting& meeting, const Sample& sample, Enc
   const Vec2 v_W = sample.v_WB_W.head<2>();
   const double speed_mps = v_W.norm();
   const Vec2 heading(std::cos(sample.yaw_rad), std::sin(sample.yaw_rad));
-  row.size = SizeOf(hazard, speed_mps > 0 ? Vec2(v_W / speed_mps) : heading);
+  TakeSize(hazard, speed_mps > 0 ? Vec2(v_W / speed_mps) : heading, row.size);
   row.t_s = sample.t_s;
   row.x_m = sample.p_WB.x();
   row.y_m = sample.p_WB.y();
