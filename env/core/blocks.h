@@ -49,6 +49,7 @@ double ToolWidth(const RobotSpec& robot, int shape);
 
 // The shape of that name, -1 when there is none.
 int FindShape(const RobotSpec& robot, std::string_view name);
+inline constexpr double kInShape_rad = 0.05;  // play within which hinges count as in a shape
 // The shape in which the hinges stand, each to within `tolerance_rad`; -1: between two.
 int ShapeOf(const RobotSpec& robot, const HingeState& state, double tolerance_rad);
 

@@ -185,7 +185,6 @@ void Simulation::SetHingeSpeeds(const HingeState& hinges) {
 }
 
 void Simulation::ReadHinges() {
-  constexpr double kInShape_rad = 0.05;  // play within which the hinges count as in a shape
   truth_.shape = robot_.shape;
   if (robot_.steering) {
     truth_.hinges.steered = true;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "controllers/ideal_robot.h"
 #include "tests/robots.h"
 
 namespace floorproof {
@@ -94,8 +95,6 @@ bool Driven::SegmentsNeverDecrease() const {
 
 Driven DriveAlong(Tracker& dut, const Path& path, const DriveOptions& options,
                   const ClearanceField* clearance, const RobotSpec& robot) {
-  const auto drive = MakePlugin(Drives(), robot.drive, "drive");
-  drive->Configure(robot);
   Pose2 X_WB;
   if (options.start) {
     X_WB = *options.start;
@@ -106,18 +105,17 @@ Driven DriveAlong(Tracker& dut, const Path& path, const DriveOptions& options,
 
   Driven driven;
   dut.Start(path, robot, clearance);
-  std::vector<double> wheels(robot.wheels.size()), wanted(robot.wheels.size());
-  HingeState fork;
-  fork.steered = robot.steering.has_value();
+  IdealRobot ideal(robot, X_WB, options.wheel_lag_s);
   const int substeps = std::max(1, static_cast<int>(std::lround(options.control_s / kPhysicsS)));
-  const double h_s = options.control_s / substeps;
-  const double keep = std::exp(-h_s / options.wheel_lag_s);
   for (int period = 0; !driven.done; ++period) {
     const double t_s = period * options.control_s;
     if (t_s > options.time_limit_s) return driven;
-    if (options.push) options.push(t_s, X_WB);
-    const Command command =
-        dut.Update({X_WB, drive->ToTwist(wheels, fork), fork}, t_s, options.control_s);
+    X_WB = ideal.state().X_WB;
+    if (options.push) {
+      options.push(t_s, X_WB);
+      ideal.MoveTo(X_WB);
+    }
+    const Command command = dut.Update(ideal.state(), t_s, options.control_s);
     Driven::Step step{t_s, X_WB, command.twist, command.segment, command.dwelling, command.turning,
                       0,   {}};
     for (const WaypointTask& task : command.tasks) step.tasks.push_back(task.id);
@@ -130,17 +128,7 @@ Driven DriveAlong(Tracker& dut, const Path& path, const DriveOptions& options,
     driven.time_s = t_s;
     driven.done = command.done;
     driven.missed = dut.Missed();
-    drive->ToWheels(command.twist, fork, wanted);
-    for (int i = 0; i < substeps; ++i) {
-      fork.steer_rad += fork.steer_radps * h_s;
-      for (std::size_t w = 0; w < wheels.size(); ++w)
-        wheels[w] = wanted[w] + (wheels[w] - wanted[w]) * keep;
-      const BodyTwist v = drive->ToTwist(wheels, fork);
-      const Pose2 middle{0, 0, X_WB.yaw_rad + 0.5 * v.wz_radps * h_s};
-      const Vec2 step_W = middle.Rotate({v.vx_mps * h_s, v.vy_mps * h_s});
-      X_WB = {X_WB.x_m + step_W.x(), X_WB.y_m + step_W.y(),
-              WrapAngle(X_WB.yaw_rad + v.wz_radps * h_s)};
-    }
+    ideal.Drive(command, options.control_s, substeps);
   }
   return driven;
 }

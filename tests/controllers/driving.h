@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A robot that rolls without slip and whose wheels reach their speed 0.1 s late: enough of a robot
-// to judge a tracker by.
+// Trackers judged on an IdealRobot.
 #pragma once
 
 #include <functional>
 #include <optional>
 #include <vector>
 
-#include "controllers/drive.h"
+#include "controllers/ideal_robot.h"
 #include "controllers/tracker.h"
 
 namespace floorproof {
@@ -22,7 +21,7 @@ const std::vector<RobotSpec>& TestRobots();
 struct DriveOptions {
   std::optional<Pose2> start;  // none: on the first waypoint, facing along the path
   double control_s = 0.02;
-  double wheel_lag_s = 0.1;
+  double wheel_lag_s = IdealRobot::kWheelLag_s;
   double time_limit_s = 3600;
   // Moves the robot behind its back; called at every control period.
   std::function<void(double t_s, Pose2& X_WB)> push;

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/plan_check/expected_encounters.h"
+
+#include "controllers/drive.h"
+#include "controllers/ideal_robot.h"
+#include "env/core/blocks.h"
+#include "env/core/driven_floor.h"
+#include "run/episode/encounter_meter.h"
+#include "run/scenario/floors.h"
+
+namespace floorproof {
+
+std::vector<Encounter> ExpectedEncounters(Scenario& s, const PlanResult& plan) {
+  if (plan.path.empty()) return {};
+  const RobotSpec& robot = s.robot.spec;
+  const HazardMap known = KnownFloor(s), floor = TrueFloor(s);
+  const ClearanceField clearance =
+      ClearanceOnTheWay(known, LevelChangesOnTheWay(known, plan.path), robot.step_m);
+  s.tracker->Start(plan.path, robot, &clearance);  // it is started anew before it drives
+  EncounterMeter meter(floor, robot, IsHolonomic(robot));
+  IdealRobot ideal(robot, s.start);
+  const double period_s = 1.0 / s.episode.control_hz;
+  const double limit_s = 60 + 3 * s.tracker->Duration();  // as an episode's
+  Sample sample;
+  for (std::int64_t period = 0; !sample.command.done; ++period) {
+    sample.t_s = static_cast<double>(period) * period_s;
+    if (sample.t_s > limit_s) break;
+    const Estimate& state = ideal.state();
+    sample.command = s.tracker->Update(state, sample.t_s, period_s);
+    sample.p_WB = {state.X_WB.x_m, state.X_WB.y_m, 0};
+    sample.yaw_rad = state.X_WB.yaw_rad;
+    sample.shape = robot.hinges.empty() ? 0 : ShapeOf(robot, state.hinges, kInShape_rad);
+    const Vec2 v_W = state.X_WB.Rotate({state.V_WB_B.vx_mps, state.V_WB_B.vy_mps});
+    sample.v_WB_W = {v_W.x(), v_W.y(), 0};
+    meter.OnControl(sample, state, &plan.path);
+    ideal.Drive(sample.command, period_s);
+  }
+  return meter.Finish();
+}
+
+}  // namespace floorproof
