@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planners/risk/rate_evaluator.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace floorproof {
+namespace {
+
+// Sixteen numbers of mean 0 and variance 1, as of a normal distribution: its quantiles in the
+// middle of sixteen equal shares.
+constexpr std::array<double, kRateMembers> kScores = {
+    -1.9382, -1.3714, -1.0509, -0.8079, -0.6026, -0.4185, -0.2468, -0.0816,
+    0.0816,  0.2468,  0.4185,  0.6026,  0.8079,  1.0509,  1.3714,  1.9382};
+// Of this member for this axis: the axes' are shuffled against each other.
+double Score(std::size_t member, std::size_t axis) {
+  return kScores[(member * 5 + axis * 3) % kRateMembers];
+}
+
+// Farther beyond than this nothing more is said.
+constexpr double kMostBeyond = 10;
+
+std::vector<RateBlock> AllBlocks(const KindRates& kind) {
+  std::vector<RateBlock> all;
+  for (const ModeRates& mode : kind.modes)
+    for (const RateBlock& block : mode.blocks) {
+      const auto same = std::find_if(all.begin(), all.end(), [&](const RateBlock& other) {
+        return other.axis == block.axis && other.other_axis == block.other_axis;
+      });
+      if (same == all.end())
+        all.push_back(block);
+      else
+        same->functions = std::max(same->functions, block.functions);
+    }
+  return all;
+}
+
+double Nearest(const RateAxis& axis, double x) {
+  if (axis.period == 0) return std::clamp(x, axis.lower, axis.upper);
+  x = std::fmod(x - axis.lower, axis.period);
+  if (x < 0) x += axis.period;
+  const double range = axis.upper - axis.lower;
+  if (x <= range) return axis.lower + x;
+  return x - range <= axis.period - x ? axis.upper : axis.lower;
+}
+
+Eigen::MatrixXd ByKnot(const RateAxis& axis) {
+  Eigen::MatrixXd values(axis.knots.size(), axis.functions.size());
+  for (std::size_t k = 0; k < axis.functions.size(); ++k)
+    for (std::size_t j = 0; j < axis.knots.size(); ++j) values(j, k) = axis.functions[k][j];
+  return values;
+}
+
+}  // namespace
+
+RateFeatures::RateFeatures(const std::vector<RateAxis>& axes, std::vector<RateBlock> blocks)
+    : axes_(axes), blocks_(std::move(blocks)) {
+  for (const RateAxis& axis : axes_) {
+    axis_begins_.push_back(axis_functions_);
+    axis_functions_ += axis.functions.size();
+    curves_.emplace_back();
+    if (!axis.functions.empty())
+      curves_.back().emplace(axis.knots, ByKnot(axis), axis.period == axis.upper - axis.lower);
+  }
+  for (const RateBlock& block : blocks_) {
+    begins_.push_back(size_);
+    size_ += block.size();
+  }
+}
+
+void RateFeatures::At(std::span<const double> x, std::span<double> out) const {
+  thread_local std::vector<double> values;
+  values.resize(axis_functions_);
+  for (std::size_t a = 0; a < axes_.size(); ++a)
+    if (curves_[a])
+      curves_[a]->At(Nearest(axes_[a], x[a]),
+                     {values.data() + axis_begins_[a], axes_[a].functions.size()});
+  out[0] = 1;
+  double* next = out.data() + 1;
+  for (const RateBlock& block : blocks_) {
+    const double* first = values.data() + axis_begins_[block.axis];
+    if (!block.other_axis) {
+      next = std::copy_n(first, block.functions, next);
+      continue;
+    }
+    const double* second = values.data() + axis_begins_[*block.other_axis];
+    for (std::size_t k = 0; k < block.functions; ++k)
+      for (std::size_t l = 0; l < block.others; ++l) *next++ = first[k] * second[l];
+  }
+}
+
+RateEvaluator::RateEvaluator(const KindRates& kind)
+    : kind_(kind), features_(kind.axes, AllBlocks(kind)) {
+  constexpr Eigen::Index kModes = kNumFailureModes;
+  best_.setZero(features_.size(), kModes);
+  members_ = Rows::Zero(features_.size(), kModes * kRateMembers);
+  change_ = Rows::Ones(kind.axes.size(), kModes);
+  for (Eigen::Index m = 0; m < kModes; ++m) {
+    const ModeRates& mode = kind.modes[m];
+    const auto place = [&](const std::vector<double>& from, auto& to, Eigen::Index column) {
+      to(0, column) = from[0];
+      std::size_t next = 1;
+      for (const RateBlock& block : mode.blocks)
+        for (std::size_t b = 0; b < features_.blocks().size(); ++b)
+          if (features_.blocks()[b].axis == block.axis &&
+              features_.blocks()[b].other_axis == block.other_axis) {
+            for (std::size_t k = 0; k < block.size(); ++k)
+              to(features_.begin(b) + k, column) = from[next + k];
+            next += block.size();
+          }
+    };
+    place(mode.coefficients, best_, m);
+    for (std::size_t r = 0; r < kRateMembers; ++r) place(mode.members[r], members_, r * kModes + m);
+    std::size_t next = 1;
+    for (const RateBlock& block : mode.blocks) {
+      const RateAxis& axis = kind.axes[block.axis];
+      if (!block.other_axis) {
+        Eigen::VectorXd eta = Eigen::VectorXd::Zero(axis.knots.size());
+        for (std::size_t k = 0; k < block.functions; ++k)
+          eta += mode.coefficients[next + k] *
+                 Eigen::Map<const Eigen::VectorXd>(axis.functions[k].data(), eta.size());
+        change_(block.axis, m) += eta.maxCoeff() - eta.minCoeff();
+      }
+      next += block.size();
+    }
+  }
+}
+
+double RateEvaluator::Beyond(std::span<const double> x) const {
+  double most = 0;
+  for (std::size_t a = 0; a < x.size(); ++a)
+    most = std::max(most, floorproof::Beyond(kind_.axes[a], x[a]));
+  return most;
+}
+
+ModeNumbers RateEvaluator::At(std::span<const double> x) const {
+  thread_local std::vector<double> features;
+  features.resize(features_.size());
+  features_.At(x, features);
+  Eigen::Array<double, 1, kNumFailureModes> eta = Eigen::Array<double, 1, kNumFailureModes>::Zero();
+  for (std::size_t f = 0; f < features.size(); ++f)
+    eta += features[f] * best_.row(static_cast<Eigen::Index>(f)).array();
+  ModeNumbers rates;
+  for (int m = 0; m < kNumFailureModes; ++m) rates[m] = RateOf(eta[m]);
+  return rates;
+}
+
+std::array<ModeNumbers, kRateMembers> RateEvaluator::MembersAt(std::span<const double> x) const {
+  std::vector<double> features(features_.size());
+  features_.At(x, features);
+  const Eigen::Map<const Eigen::RowVectorXd> row(features.data(), features.size());
+  Eigen::RowVectorXd eta = row * members_;
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    const double beyond = std::min(floorproof::Beyond(kind_.axes[a], x[a]), kMostBeyond);
+    if (beyond == 0) continue;
+    for (std::size_t r = 0; r < kRateMembers; ++r)
+      for (int m = 0; m < kNumFailureModes; ++m)
+        eta[r * kNumFailureModes + m] += Score(r, a) * beyond * change_(a, m);
+  }
+  std::array<ModeNumbers, kRateMembers> rates;
+  for (std::size_t r = 0; r < kRateMembers; ++r)
+    for (int m = 0; m < kNumFailureModes; ++m) rates[r][m] = RateOf(eta[r * kNumFailureModes + m]);
+  return rates;
+}
+
+}  // namespace floorproof

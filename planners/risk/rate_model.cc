@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planners/risk/rate_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace floorproof {
+namespace {
+
+// One of a pair of mirror images: the travel comes from the right of the normal, or along it.
+Approach Unmirrored(Approach at) {
+  if (at.heading_rad >= 0) return at;
+  at.heading_rad = -at.heading_rad;
+  at.lead_rad = -at.lead_rad;
+  at.turn_rad = -at.turn_rad;
+  return at;
+}
+
+}  // namespace
+
+const KindRates* FindKind(const RiskModel& model, std::string_view type, Passage passage) {
+  for (const KindRates& kind : model.kinds)
+    if (kind.type == type && kind.passage == passage) return &kind;
+  return nullptr;
+}
+
+Covariates::Covariates(const std::vector<RateAxis>& axes, bool mirrored,
+                       const std::vector<std::pair<std::string, double>>& size)
+    : mirrored_(mirrored), x_(axes.size()) {
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    const auto stated = std::find_if(size.begin(), size.end(), [&](const auto& key) {
+      return axes[a].of_hazard && key.first == axes[a].name;
+    });
+    const auto column = std::find_if(kApproach.begin(), kApproach.end(), [&](const auto& each) {
+      return !axes[a].of_hazard && each.name == axes[a].name;
+    });
+    if (stated != size.end())
+      x_[a] = stated->second;
+    else if (column != kApproach.end())
+      of_approach_.emplace_back(a, column->member);
+    else
+      throw InputError("the risk model's rates depend on " + axes[a].name +
+                       ", which the hazard does not state");
+  }
+}
+
+std::span<const double> Covariates::Of(const Approach& at) {
+  const Approach met = mirrored_ ? Unmirrored(at) : at;
+  for (const auto& [axis, member] : of_approach_) x_[axis] = met.*member;
+  return x_;
+}
+
+double Beyond(const RateAxis& axis, double x) {
+  if (axis.period > 0) {
+    x = axis.lower + std::fmod(x - axis.lower, axis.period);
+    if (x < axis.lower) x += axis.period;
+  }
+  const double range = axis.upper - axis.lower;
+  const double out = std::max({0.0, axis.lower - x, x - axis.upper});
+  if (out == 0) return 0;
+  // Within a gap of a period the nearer end counts.
+  const double near = axis.period > 0 ? std::min(out, axis.lower + axis.period - x) : out;
+  if (range > 0) return near / range;
+  return near / (axis.lower != 0 ? std::abs(axis.lower) : 1);
+}
+
+double RateOf(double eta) { return eta > 30 ? eta : std::log1p(std::exp(eta)); }
+double EtaOf(double rate) { return rate > 30 ? rate : std::log(std::expm1(rate)); }
+
+double Total(const ModeNumbers& rates) {
+  double sum = 0;
+  for (const double rate : rates) sum += rate;
+  return sum;
+}
+
+ModeNumbers FirstFailures(const ModeNumbers& rates) {
+  const double total = Total(rates);
+  const double share = total > 0 ? -std::expm1(-total) / total : 0;
+  ModeNumbers first = rates;
+  for (double& p : first) p *= share;
+  return first;
+}
+
+}  // namespace floorproof

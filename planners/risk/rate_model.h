@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// How often each failure happens to one robot, a meeting with a hazard or a metre of floor, as was
+// measured: the risk model. Plain numbers; docs/risk-model.md has the formulas and the file.
+//
+// Competing risks: in a meeting with covariates x each failure mode m has its own rate lambda_m(x).
+// The meeting is cleared with probability exp(-Lambda), Lambda the sum over modes; mode m comes
+// first with lambda_m / Lambda (1 - exp(-Lambda)) (Prentice et al., Biometrics 34 (1978) 541).
+//   lambda_m = log(1 + exp(eta_m)), eta_m = intercept + sum of smooth functions of one covariate
+//            + sum of products of such functions of two
+// For rates well below 1 eta is log lambda; above it grows linearly. With one mode alone this is
+// logistic regression, so one lucky robot far beyond a limit does not bend the whole model.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "env/core/encounter.h"
+
+namespace floorproof {
+
+inline constexpr int kRiskModelVersion = 1;
+// Vectors drawn from the posterior of the coefficients, beside the best one.
+inline constexpr std::size_t kRateMembers = 16;
+
+using ModeNumbers = std::array<double, kNumFailureModes>;
+
+// A covariate, and the functions of it that rates are made of: natural cubic splines through their
+// values at the knots; where all of a period was measured, periodic ones.
+struct RateAxis {
+  std::string name;
+  bool of_hazard = false;       // one of its keys; else a column of Approach
+  double lower = 0, upper = 0;  // what was measured; as long as a period: all of it
+  double period = 0;            // of an angle; 0: none
+  std::vector<double> knots;    // ascending from lower to upper; none: it was always the same
+  std::vector<std::vector<double>> functions;  // by function, by knot
+};
+
+// Functions of one axis, or products of the first few of two: product k, l stands at
+// k * others + l.
+struct RateBlock {
+  std::size_t axis = 0, functions = 0;
+  std::optional<std::size_t> other_axis;
+  std::size_t others = 1;
+  std::size_t size() const { return functions * others; }
+};
+
+struct ModeRates {
+  int events = 0;  // how often it was measured
+  std::vector<RateBlock> blocks;
+  std::vector<double> coefficients;          // the intercept, then the blocks' in order
+  std::vector<std::vector<double>> members;  // as many again, kRateMembers times
+};
+
+// The rates of meetings of one kind.
+struct KindRates {
+  std::string type;  // of hazard, or kWallBeside, kFreeFloor
+  Passage passage = Passage::kOver;
+  bool per_metre = false;  // rates are a metre of way, not a meeting: exposures
+  int encounters = 0, cleared = 0, censored = 0;  // measured; the rest failed
+  double way_m = 0;                               // in all of them
+  std::vector<RateAxis> axes;
+  std::array<ModeRates, kNumFailureModes> modes;
+};
+
+// A kind that was met too rarely to say anything.
+struct UnmeasuredKind {
+  std::string type;
+  Passage passage = Passage::kOver;
+  std::string why;
+};
+
+struct MeasuredRobot {
+  std::string name, drive;
+  double mass_kg = 0, clearance_m = 0;  // its own; what was driven is an axis
+  std::string model;                    // SHA-256 of its model (env/scene/measured_block.h)
+};
+
+struct RiskModel {
+  MeasuredRobot robot;
+  // The robot is its own mirror image, so a meeting and its mirror image have the same rates.
+  bool mirrored = false;
+  int encounters = 0;  // all of them
+  std::vector<KindRates> kinds;
+  std::vector<UnmeasuredKind> unmeasured;
+};
+
+// None: nothing was measured of it.
+const KindRates* FindKind(const RiskModel& model, std::string_view type, Passage passage);
+
+// Of a meeting, the numbers that the axes are about.
+class Covariates {
+ public:
+  // The hazard's keys. Throws InputError naming an axis that they do not state.
+  Covariates(const std::vector<RateAxis>& axes, bool mirrored,
+             const std::vector<std::pair<std::string, double>>& size);
+  // By axis. The span returned stays valid until the next call.
+  std::span<const double> Of(const Approach& at);
+
+ private:
+  bool mirrored_;
+  std::vector<double> x_;
+  std::vector<std::pair<std::size_t, double Approach::*>> of_approach_;
+};
+
+// At least 0; beyond what was measured, by how much, as a share of what was (of an axis that was
+// always the same: of its value).
+double Beyond(const RateAxis& axis, double x);
+
+double RateOf(double eta);  // log(1 + exp(eta))
+double EtaOf(double rate);  // its inverse; rate > 0
+double Total(const ModeNumbers& rates);
+// By mode, the probability that it is what ends the meeting.
+ModeNumbers FirstFailures(const ModeNumbers& rates);
+
+}  // namespace floorproof

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Intervals are made of z = asin(sqrt(p)), whose spread depends little on p. The members of the
+// model's posterior are asked about some of the conditions only: what they differ by from the best
+// rates varies little from condition to condition.
+#include "planners/risk/survival.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace floorproof {
+namespace {
+
+constexpr std::size_t kConditionsForMembers = 16;
+constexpr double kStudent = 2.131;  // 97.5 % of Student's t, kRateMembers - 1 degrees of freedom
+
+// What is predicted of one condition: no failure, then each mode first.
+using Outcome = std::array<double, 1 + kNumFailureModes>;
+
+void Meet(const ModeNumbers& rates, double way_m, Outcome& outcome) {
+  ModeNumbers over = rates;
+  for (double& rate : over) rate *= way_m;
+  const ModeNumbers first = FirstFailures(over);
+  for (int m = 0; m < kNumFailureModes; ++m) outcome[1 + m] += outcome[0] * first[m];
+  outcome[0] *= std::exp(-Total(over));
+}
+
+double Z(double p) { return std::asin(std::sqrt(std::clamp(p, 0.0, 1.0))); }
+double P(double z) {
+  const double s = std::sin(std::clamp(z, 0.0, std::asin(1.0)));
+  return s * s;
+}
+
+// The mean over conditions, and the variance of Z of it that comes of their number.
+struct Sampled {
+  double mean = 0, variance = 0;
+};
+Sampled Over(const std::vector<Outcome>& outcomes, std::size_t which) {
+  const double n = static_cast<double>(outcomes.size());
+  double sum = 0, squares = 0;
+  for (const Outcome& outcome : outcomes) {
+    sum += outcome[which];
+    squares += outcome[which] * outcome[which];
+  }
+  const double mean = sum / n, spread = std::max(0.0, squares / n - mean * mean);
+  const double slope = 4 * mean * (1 - mean);  // of p by z, squared
+  return {mean, n > 1 && slope > 0 ? spread / (n - 1) / slope : 0};
+}
+
+}  // namespace
+
+Survival PredictSurvival(std::span<const PlannedMeeting> meetings,
+                         std::span<const std::vector<Approach>> conditions, bool mirrored) {
+  std::vector<Covariates> covariates;
+  for (const PlannedMeeting& meeting : meetings)
+    covariates.emplace_back(meeting.rates->kind().axes, mirrored, meeting.size);
+
+  Survival survival;
+  survival.by_meeting.assign(meetings.size(), 0);
+  Outcome certain = {};
+  certain[0] = 1;
+  std::vector<Outcome> outcomes(conditions.size(), certain), chosen;
+  std::array<std::vector<Outcome>, kRateMembers> by_member;
+  const std::size_t step = (conditions.size() + kConditionsForMembers - 1) / kConditionsForMembers;
+  for (std::size_t c = 0; c < conditions.size(); ++c) {
+    const bool for_members = c % step == 0;
+    if (for_members)
+      for (auto& member : by_member) member.push_back(certain);
+    for (std::size_t i = 0; i < meetings.size(); ++i) {
+      const RateEvaluator& rates = *meetings[i].rates;
+      const std::span<const double> x = covariates[i].Of(conditions[c][i]);
+      const double before = outcomes[c][0];
+      Meet(rates.At(x), meetings[i].way_m, outcomes[c]);
+      survival.by_meeting[i] += (before - outcomes[c][0]) / static_cast<double>(conditions.size());
+      survival.beyond = std::max(survival.beyond, rates.Beyond(x));
+      if (!for_members) continue;
+      const auto members = rates.MembersAt(x);
+      for (std::size_t r = 0; r < kRateMembers; ++r)
+        Meet(members[r], meetings[i].way_m, by_member[r].back());
+    }
+    if (for_members) chosen.push_back(outcomes[c]);
+  }
+
+  for (std::size_t which = 0; which < certain.size(); ++which) {
+    const Sampled all = Over(outcomes, which);
+    double mean = 0, squares = 0;
+    for (const std::vector<Outcome>& member : by_member) {
+      const double z = Z(Over(member, which).mean);
+      mean += z / kRateMembers;
+      squares += z * z / kRateMembers;
+    }
+    const double of_members =
+        std::max(0.0, squares - mean * mean) * kRateMembers / (kRateMembers - 1);
+    const double middle = Z(all.mean);
+    // The members' mean differs from the best where rates are skewed, as of what never happened.
+    const double skew = mean - Z(Over(chosen, which).mean);
+    const double reach = kStudent * std::sqrt(of_members + all.variance);
+    Probability& p = which == 0 ? survival.no_failure : survival.first[which - 1];
+    p = {all.mean, P(middle + std::min(skew, 0.0) - reach),
+         P(middle + std::max(skew, 0.0) + reach)};
+  }
+  return survival;
+}
+
+}  // namespace floorproof

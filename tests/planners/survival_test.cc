@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planners/risk/survival.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "base/streams.h"
+#include "env/geometry/geometry.h"
+
+namespace floorproof {
+namespace {
+
+using ::testing::Each;
+
+constexpr std::size_t kStuck = static_cast<std::size_t>(FailureMode::kStuck);
+constexpr std::size_t kVeerOff = static_cast<std::size_t>(FailureMode::kVeerOff);
+
+// A kind whose rates are the same everywhere, and whose posterior is a point.
+KindRates Constant(const ModeNumbers& rates) {
+  KindRates kind;
+  kind.type = "step";
+  for (int m = 0; m < kNumFailureModes; ++m) {
+    kind.modes[m].coefficients = {rates[m] > 0 ? EtaOf(rates[m]) : -100};
+    kind.modes[m].members.assign(kRateMembers, kind.modes[m].coefficients);
+  }
+  return kind;
+}
+
+// Of `stuck`, eta falls from `high` to `low` in a straight line over frictions from 0.4 to 0.8.
+KindRates StuckByFriction(double high, double low) {
+  KindRates kind = Constant({});
+  RateAxis axis;
+  axis.name = "friction";
+  axis.lower = 0.4;
+  axis.upper = 0.8;
+  axis.knots = {0.4, 0.6, 0.8};
+  axis.functions = {{-1, 0, 1}};
+  kind.axes = {axis};
+  ModeRates& stuck = kind.modes[kStuck];
+  stuck.blocks = {{0, 1, std::nullopt, 1}};
+  stuck.coefficients = {(high + low) / 2, (low - high) / 2};
+  stuck.members.assign(kRateMembers, stuck.coefficients);
+  return kind;
+}
+
+std::vector<std::vector<Approach>> Same(std::size_t conditions, std::size_t meetings,
+                                        const Approach& at = {}) {
+  return std::vector(conditions, std::vector(meetings, at));
+}
+
+TEST(Rates, CompeteForWhoComesFirst) {
+  const ModeNumbers first = FirstFailures({0.3, 0.1, 0, 0});
+  EXPECT_NEAR(first[0] + first[1], 1 - std::exp(-0.4), 1e-12);
+  EXPECT_NEAR(first[0], 3 * first[1], 1e-12);
+  EXPECT_EQ(first[2], 0);
+  EXPECT_THAT(FirstFailures({}), Each(0.0));
+  for (const double rate : {1e-6, 0.1, 3.0, 50.0}) EXPECT_NEAR(RateOf(EtaOf(rate)) / rate, 1, 1e-9);
+}
+
+TEST(Survival, OfIndependentMeetingsIsTheProductOfTheirs) {
+  const KindRates kind = Constant({0.02, 0.05, 0, 0});
+  const RateEvaluator rates(kind);
+  const std::vector<PlannedMeeting> meetings(10, {&rates, {}, 1});
+  const Survival dut = PredictSurvival(meetings, Same(4, 10), false);
+  EXPECT_NEAR(dut.no_failure.value, std::exp(-0.7), 1e-12);
+  EXPECT_NEAR(dut.no_failure.lower, dut.no_failure.upper, 1e-7);  // nothing is unknown
+  double sum = dut.no_failure.value;
+  for (const Probability& p : dut.first) sum += p.value;
+  EXPECT_NEAR(sum, 1, 1e-12);
+  EXPECT_NEAR(dut.first[kStuck].value, 2.5 * dut.first[kVeerOff].value, 1e-12);
+  sum = 0;
+  for (std::size_t i = 0; i < 10; ++i) {
+    EXPECT_NEAR(dut.by_meeting[i], std::exp(-0.07 * static_cast<double>(i)) * -std::expm1(-0.07),
+                1e-12);
+    sum += dut.by_meeting[i];
+  }
+  EXPECT_NEAR(sum, 1 - dut.no_failure.value, 1e-12);
+}
+
+TEST(Survival, OfExposuresGoesByTheirWay) {
+  const KindRates kind = Constant({0.001, 0, 0, 0});
+  const RateEvaluator rates(kind);
+  const std::vector<PlannedMeeting> meetings = {{&rates, {}, 400}, {&rates, {}, 100}};
+  EXPECT_NEAR(PredictSurvival(meetings, Same(1, 2), false).no_failure.value, std::exp(-0.5), 1e-12);
+}
+
+// One friction in ten holds the robot at every crossing, the others at none. Ten crossings with the
+// same friction fail together; with a friction of its own each, hardly any drive gets through.
+TEST(Survival, CrossingsThatOneFrictionDecidesFailTogether) {
+  const KindRates kind = StuckByFriction(300, -2700);
+  const RateEvaluator rates(kind);
+  const std::vector<PlannedMeeting> meetings(10, {&rates, {}, 1});
+  std::vector<std::vector<Approach>> together, apart;
+  Stream random(1, 0, "survival_test");
+  for (int c = 0; c < 1000; ++c) {
+    together.emplace_back();
+    apart.emplace_back();
+    for (int i = 0; i < 10; ++i) {
+      Approach at;
+      at.friction = 0.4 + 0.4 * (c + 0.5) / 1000;
+      together.back().push_back(at);
+      at.friction = random.Uniform(0.4, 0.8);
+      apart.back().push_back(at);
+    }
+  }
+  EXPECT_NEAR(1 - PredictSurvival(meetings, together, false).no_failure.value, 0.10, 0.005);
+  EXPECT_NEAR(1 - PredictSurvival(meetings, apart, false).no_failure.value, 1 - std::pow(0.9, 10),
+              0.05);
+}
+
+TEST(Survival, BeyondWhatWasMeasuredIsSaidAndLessCertain) {
+  const KindRates kind = StuckByFriction(1, -5);
+  const RateEvaluator rates(kind);
+  const std::vector<PlannedMeeting> meetings(1, {&rates, {}, 1});
+  const auto at = [&](double friction) {
+    Approach approach;
+    approach.friction = friction;
+    return PredictSurvival(meetings, Same(2, 1, approach), false);
+  };
+  const Survival edge = at(0.8), beyond = at(0.9), far = at(1.2);
+  EXPECT_EQ(edge.beyond, 0);
+  EXPECT_NEAR(beyond.beyond, 0.25, 1e-12);
+  EXPECT_NEAR(far.beyond, 1, 1e-12);
+  EXPECT_NEAR(beyond.no_failure.value, edge.no_failure.value, 1e-12);  // the nearest measured one
+  EXPECT_LT(beyond.no_failure.lower, edge.no_failure.lower - 0.005);
+  EXPECT_LT(far.no_failure.lower, beyond.no_failure.lower - 0.1);
+}
+
+TEST(Survival, IntervalsGrowWithWhatTheModelDoesNotKnow) {
+  KindRates kind = Constant({0.1, 0, 0, 0});
+  const auto width = [&](double spread) {
+    for (std::size_t r = 0; r < kRateMembers; ++r)
+      kind.modes[kVeerOff].members[r][0] =
+          kind.modes[kVeerOff].coefficients[0] + (r % 2 == 0 ? spread : -spread);
+    const RateEvaluator rates(kind);
+    const std::vector<PlannedMeeting> meetings(3, {&rates, {}, 1});
+    const Probability p = PredictSurvival(meetings, Same(1, 3), false).no_failure;
+    EXPECT_LT(p.lower, p.value);
+    EXPECT_LT(p.value, p.upper);
+    return p.upper - p.lower;
+  };
+  EXPECT_GT(width(0.4), 1.8 * width(0.2));
+}
+
+TEST(Covariates, OfAMirrorImageAreTheSame) {
+  std::vector<RateAxis> axes(3);
+  axes[0].name = "heading_rad";
+  axes[1].name = "lead_rad";
+  axes[2].name = "height_m";
+  axes[2].of_hazard = true;
+  Approach at;
+  at.heading_rad = -0.3;
+  at.lead_rad = 0.7;
+  Approach mirrored = at;
+  mirrored.heading_rad = 0.3;
+  mirrored.lead_rad = -0.7;
+  Covariates dut(axes, true, {{"height_m", 0.01}});
+  const std::span<const double> x = dut.Of(at);
+  const std::vector<double> first(x.begin(), x.end());
+  EXPECT_THAT(dut.Of(mirrored), ::testing::ElementsAreArray(first));
+  EXPECT_THAT(first, ::testing::ElementsAre(0.3, -0.7, 0.01));
+  EXPECT_THROW(Covariates(axes, true, {{"width_m", 0.01}}), InputError);
+}
+
+TEST(Beyond, OfAnAngleGoesRoundTheCircle) {
+  RateAxis axis;
+  axis.period = 2 * kPi;
+  axis.lower = -0.5;
+  axis.upper = 0.5;
+  EXPECT_EQ(Beyond(axis, 2 * kPi + 0.2), 0);
+  EXPECT_NEAR(Beyond(axis, 0.7), 0.2, 1e-9);
+  EXPECT_NEAR(Beyond(axis, -0.7), 0.2, 1e-9);
+  axis.period = 0;
+  EXPECT_NEAR(Beyond(axis, -1.5), 1, 1e-12);
+}
+
+TEST(CubicFunctions, AreSmoothAndGoThroughTheirKnots) {
+  const std::vector<double> knots = {0, 1, 1.5, 3};
+  Eigen::MatrixXd values(4, 2);
+  values << 0, 1, 1, -1, 0, 2, 2, 1;  // the second is periodic
+  for (const bool periodic : {false, true}) {
+    Eigen::MatrixXd of = periodic ? Eigen::MatrixXd(values.col(1)) : Eigen::MatrixXd(values);
+    const CubicFunctions dut(knots, of, periodic);
+    std::vector<double> at(of.cols()), left(of.cols()), right(of.cols());
+    for (std::size_t j = 0; j < knots.size(); ++j) {
+      dut.At(knots[j], at);
+      for (Eigen::Index k = 0; k < of.cols(); ++k)
+        EXPECT_NEAR(at[k], of(static_cast<Eigen::Index>(j), k), 1e-12);
+    }
+    const auto slope = [&](double x, double side) {  // of the last function
+      constexpr double kStep = 1e-5;
+      dut.At(x, at);
+      dut.At(x + side * kStep, right);
+      return side * (right.back() - at.back()) / kStep;
+    };
+    EXPECT_NEAR(slope(1, -1), slope(1, 1), 1e-3);
+    EXPECT_NEAR(slope(1.5, -1), slope(1.5, 1), 1e-3);
+    if (periodic) {
+      EXPECT_NEAR(slope(3, -1), slope(0, 1), 1e-3);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace floorproof
