@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/fit_rates.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/round.h"
+#include "measure/judge_rates.h"
+#include "measure/rate_axes.h"
+#include "planners/risk/rate_evaluator.h"
+#include "tests/measure/known_truth.h"
+#include "tests/measure/planted_rates.h"
+
+namespace floorproof {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+std::vector<Encounter> Steps(int count, std::uint64_t seed = 1) {
+  Stream random(seed, 0, "fit_rates_test");
+  return DrawEncounters(count, StepRates, DrawStep, random);
+}
+
+ModeNumbers At(const RiskModel& model, const Encounter& e) {
+  const KindRates* kind = FindKind(model, e.type, e.passage);
+  Covariates covariates(kind->axes, model.mirrored, e.size);
+  return RateEvaluator(*kind).At(covariates.Of(e.at));
+}
+
+TEST(FitRates, FindsPlantedRatesAgain) {
+  const RiskModel dut = FitRates(Steps(4000), {}, {});
+  ASSERT_THAT(dut.kinds, SizeIs(1));
+  Stream random(2, 0, "fit_rates_test");
+  double error = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Encounter e = DrawStep(random);
+    error += std::abs(std::exp(-Total(At(dut, e))) - std::exp(-Total(StepRates(e)))) / 200;
+  }
+  EXPECT_LT(error, 0.02);
+}
+
+TEST(FitRates, GivesTheSameNumbersAgainRoundedAsTheyAreWritten) {
+  const RiskModel dut = FitRates(Steps(600), {}, {}), again = FitRates(Steps(600), {}, {});
+  for (int m = 0; m < kNumFailureModes; ++m) {
+    const ModeRates &mode = dut.kinds[0].modes[m], &other = again.kinds[0].modes[m];
+    EXPECT_EQ(mode.coefficients, other.coefficients);
+    EXPECT_EQ(mode.members, other.members);
+    EXPECT_THAT(mode.members, SizeIs(kRateMembers));
+    for (const std::vector<double>& member : mode.members)
+      for (const double value : member) EXPECT_EQ(value, RoundedTo6(value));
+  }
+}
+
+// Held at middling speeds alone: rates are not taken to rise or fall.
+TEST(FitRates, FindsALimitThatSpeedPassesTwice) {
+  const auto rates = [](const Encounter& e) {
+    ModeNumbers of = {};
+    of[kHeld] = 0.02 + 2 * std::exp(-std::pow((e.at.speed_mps - 0.2) / 0.03, 2));
+    return of;
+  };
+  Stream random(4, 0, "fit_rates_test");
+  const RiskModel dut = FitRates(DrawEncounters(2000, rates, DrawStep, random), {}, {});
+  Encounter e = DrawStep(random);
+  const auto held = [&](double speed) {
+    e.at.speed_mps = speed;
+    return At(dut, e)[kHeld];
+  };
+  EXPECT_GT(held(0.2), 10 * held(0.11));
+  EXPECT_GT(held(0.2), 10 * held(0.29));
+}
+
+// Friction matters on high steps alone: no sum of one function each says that.
+TEST(FitRates, FindsWhereTwoThingsMatterTogether) {
+  const auto rates = [](const Encounter& e) {
+    ModeNumbers of = {};
+    const double high = (e.size[0].second - 0.011) / 0.007,
+                 slippery = (0.65 - e.at.friction) / 0.25;
+    of[kHeld] = RateOf(-1 + 3 * high * slippery);
+    return of;
+  };
+  Stream random(5, 0, "fit_rates_test");
+  const RiskModel dut = FitRates(DrawEncounters(1500, rates, DrawStep, random), {}, {});
+  Encounter e = DrawStep(random);
+  const auto held = [&](double height, double friction) {
+    e.size[0].second = height;
+    e.at.friction = friction;
+    return At(dut, e)[kHeld];
+  };
+  EXPECT_GT(held(0.017, 0.42), 5 * held(0.017, 0.88));
+  EXPECT_GT(held(0.005, 0.88), 5 * held(0.005, 0.42));
+}
+
+TEST(FitRates, WhatNeverHappenedHasABoundOfThreeOverTheEncounters) {
+  const RiskModel dut = FitRates(Steps(1000), {}, {});
+  const ModeRates& thrown = dut.kinds[0].modes[kThrown];
+  EXPECT_EQ(thrown.events, 0);
+  EXPECT_THAT(thrown.blocks, SizeIs(0));
+  const double rate = RateOf(thrown.coefficients[0]);
+  EXPECT_GT(rate, 0);
+  EXPECT_LT(rate, 1.0 / 1000);
+  std::vector<double> members;
+  for (const std::vector<double>& member : thrown.members) members.push_back(RateOf(member[0]));
+  std::sort(members.begin(), members.end());
+  EXPECT_NEAR(members.back() * 1000, -std::log(0.5 / kRateMembers), 0.1);  // beyond 3 only 1 in 16
+  EXPECT_LT(members[kRateMembers - 2], 3.0 / 1000);
+}
+
+TEST(FitRates, TooFewEncountersAreSaid) {
+  std::vector<Encounter> met = Steps(60);
+  for (int i = 0; i < 20; ++i) met.push_back(met[i]);
+  for (std::size_t i = 60; i < met.size(); ++i) met[i].type = "groove";
+  const RiskModel dut = FitRates(met, {}, {});
+  EXPECT_THAT(dut.kinds, SizeIs(1));
+  ASSERT_THAT(dut.unmeasured, SizeIs(1));
+  EXPECT_EQ(dut.unmeasured[0].type, "groove");
+  EXPECT_EQ(dut.unmeasured[0].why, "20 encounters with an outcome; at least 50 are needed");
+  EXPECT_EQ(FindKind(dut, "groove", Passage::kOver), nullptr);
+}
+
+TEST(FitRates, CensoredMeetingsAreCountedAndSayNothing) {
+  std::vector<Encounter> met = Steps(300);
+  const RiskModel without = FitRates(met, {}, {});
+  Stream random(9, 0, "fit_rates_test");
+  for (int i = 0; i < 100; ++i) {
+    met.push_back(DrawStep(random));
+    met.back().outcome = Encounter::Outcome::kCensored;
+  }
+  const RiskModel dut = FitRates(met, {}, {});
+  EXPECT_EQ(dut.kinds[0].censored, 100);
+  EXPECT_EQ(dut.kinds[0].modes[kHeld].coefficients, without.kinds[0].modes[kHeld].coefficients);
+}
+
+TEST(FitRates, AMeetingCountsForItsMirrorImage) {
+  const auto rates = [](const Encounter& e) {
+    ModeNumbers of = {};
+    of[kVeer] = RateOf(-1 + 2 * std::sin(e.at.heading_rad) * std::sin(e.at.lead_rad));
+    return of;
+  };
+  Stream random(6, 0, "fit_rates_test");
+  const std::vector<Encounter> met = DrawEncounters(1500, rates, DrawCover, random);
+  RateFitOptions options;
+  options.mirrored = true;
+  const RiskModel dut = FitRates(met, {}, options);
+  Encounter e = met[0];
+  e.at.heading_rad = -0.9;
+  e.at.lead_rad = -1.4;
+  Encounter image = e;
+  image.at.heading_rad = 0.9;
+  image.at.lead_rad = 1.4;
+  EXPECT_EQ(At(dut, e), At(dut, image));
+  Encounter other = e;
+  other.at.heading_rad = 0.9;
+  EXPECT_GT(At(dut, e)[kVeer], 3 * At(dut, other)[kVeer]);
+}
+
+TEST(FitRates, OfExposuresAreAMetre) {
+  Stream random(7, 0, "fit_rates_test");
+  std::vector<Encounter> met;
+  for (int i = 0; i < 3000; ++i) {
+    Encounter e;
+    e.type = std::string(kWallBeside);
+    e.passage = Passage::kBeside;
+    e.at.wall_m = random.Uniform(0, 0.5);
+    const double rate = 0.05 * std::exp(-6 * e.at.wall_m);  // a metre
+    const double until = -std::log(1 - random.Uniform()) / rate, end = random.Uniform(1, 10);
+    e.way_m = std::min(until, end);
+    e.outcome = until < end ? Encounter::Outcome::kFailed : Encounter::Outcome::kCensored;
+    e.mode = FailureMode::kBounceBack;
+    met.push_back(e);
+  }
+  const RiskModel dut = FitRates(met, {}, {});
+  ASSERT_TRUE(dut.kinds[0].per_metre);
+  Encounter e = met[0];
+  for (const double wall : {0.05, 0.2}) {  // farther away it happened some ten times
+    e.at.wall_m = wall;
+    EXPECT_NEAR(At(dut, e)[kThrown] / (0.05 * std::exp(-6 * wall)), 1, 0.3) << wall;
+  }
+}
+
+// The slow tests have the full statement, with 500 repeats.
+TEST(KnownTruth, IsCoveredByIntervals) { EXPECT_GE(Coverage(30, 300, 64), 0.8); }
+
+TEST(Judge, TellsRightPredictionsFromBoldOnes) {
+  Stream random(8, 0, "fit_rates_test");
+  std::vector<JudgedEncounter> right, bold;
+  for (int i = 0; i < 20000; ++i) {
+    const double eta = random.Uniform(-4, 2), rate = RateOf(eta);
+    JudgedEncounter each;
+    each.first[kHeld] = -std::expm1(-rate);
+    each.mode = random.Uniform() < each.first[kHeld] ? static_cast<int>(kHeld) : -1;
+    right.push_back(each);
+    each.first[kHeld] = -std::expm1(-RateOf(2 * eta));  // twice the log odds
+    bold.push_back(each);
+  }
+  const RateJudgement dut = Judge(right), of_bold = Judge(bold);
+  EXPECT_NEAR(dut.slope, 1, 0.05);
+  EXPECT_NEAR(dut.intercept, 0, 0.1);
+  EXPECT_LT(dut.calibration_error, 2.5 * dut.calibration_error_by_chance);
+  EXPECT_NEAR(of_bold.slope, 0.5, 0.03);
+  EXPECT_GT(of_bold.calibration_error, 5 * of_bold.calibration_error_by_chance);
+  EXPECT_LT(dut.log_loss, of_bold.log_loss);
+  EXPECT_LT(dut.log_loss, dut.log_loss_of_constant);
+}
+
+TEST(HoldOut, JudgesEncountersByOthers) {
+  const HoldOut dut = JudgeByHoldOut(Steps(1200), {}, 3);
+  EXPECT_EQ(dut.of_all.encounters, 1200);
+  ASSERT_THAT(dut.kinds, SizeIs(1));
+  EXPECT_EQ(dut.kinds[0].of.log_loss, dut.of_all.log_loss);
+  EXPECT_NEAR(dut.of_all.slope, 1, 0.2);
+  EXPECT_LT(dut.of_all.log_loss, 0.9 * dut.of_all.log_loss_of_constant);
+}
+
+TEST(RateAxis, HasFunctionsOfMeanZeroTheFirstOneStraight) {
+  std::vector<double> values;
+  for (int i = 0; i < 500; ++i) values.push_back(std::pow(i / 499.0, 2));
+  const RateAxis dut = MakeRateAxis("speed_mps", false, values, 0);
+  ASSERT_THAT(dut.knots, SizeIs(8));
+  EXPECT_EQ(dut.lower, 0);
+  EXPECT_EQ(dut.upper, 1);
+  ASSERT_THAT(dut.functions, SizeIs(7));
+  const auto& straight = dut.functions[0];
+  for (std::size_t j = 1; j + 1 < dut.knots.size(); ++j)
+    EXPECT_NEAR((straight[j] - straight[0]) / (straight[7] - straight[0]), dut.knots[j], 1e-4);
+  std::vector<RateAxis> axes = {dut};
+  const RateFeatures features(axes, {{0, 7, std::nullopt, 1}});
+  std::vector<double> at(8), mean(8);
+  for (const double x : values) {
+    features.At(std::vector<double>{x}, at);
+    for (std::size_t k = 0; k < 8; ++k) mean[k] += at[k] / 500;
+  }
+  for (std::size_t k = 1; k < 8; ++k) EXPECT_NEAR(mean[k], 0, 1e-4);
+}
+
+TEST(RateAxis, OfAnAngleIsPeriodicUnlessAGapIsLeft) {
+  std::vector<double> round, half;
+  for (int i = 0; i < 360; ++i) round.push_back(i * kPi / 180 - kPi);
+  for (int i = 0; i < 180; ++i) half.push_back(i * kPi / 180 - kPi / 2);
+  const RateAxis dut = MakeRateAxis("lead_rad", false, round, 2 * kPi);
+  EXPECT_EQ(dut.upper - dut.lower, dut.period);
+  for (const auto& f : dut.functions) EXPECT_EQ(f.front(), f.back());
+  const RateAxis front = MakeRateAxis("lead_rad", false, half, 2 * kPi);
+  EXPECT_NEAR(front.lower, 1.5 * kPi, 1e-4);
+  EXPECT_NEAR(front.upper - front.lower, kPi, 0.03);
+  EXPECT_EQ(Beyond(front, 0.3), 0);
+  EXPECT_GT(Beyond(front, kPi), 0.4);
+}
+
+TEST(RateAxis, OfWhatNeverVariedHasNoFunctions) {
+  const RateAxis dut = MakeRateAxis("mass_kg", false, {3.5, 3.5, 3.5}, 0);
+  EXPECT_THAT(dut.functions, SizeIs(0));
+  EXPECT_EQ(dut.lower, 3.5);
+  EXPECT_NEAR(Beyond(dut, 7), 1, 1e-12);
+}
+
+}  // namespace
+}  // namespace floorproof

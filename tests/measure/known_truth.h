@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// A plan with ten crossings whose probability of failure is known, predicted from encounters drawn
+// with the same rates.
+#pragma once
+
+#include "measure/fit_rates.h"
+#include "planners/risk/survival.h"
+#include "tests/measure/planted_rates.h"
+
+namespace floorproof {
+
+// A robot held by steps, the more the higher and the more slippery; at most one in five hundred
+// overturns.
+inline ModeNumbers StepRates(const Encounter& e) {
+  ModeNumbers rates = {};
+  rates[kHeld] = RateOf(-1.4 + 240 * (e.size[0].second - 0.01) - 8 * (e.at.friction - 0.6));
+  rates[kVeer] = RateOf(-3.5 + 15 * (e.at.speed_mps - 0.2));
+  rates[kOverturned] = 0.002;
+  return rates;
+}
+
+// Crossing i of the plan, on a floor of this friction.
+inline Encounter PlannedStep(int i, double friction) {
+  Encounter e;
+  e.type = "step";
+  e.size = {{"height_m", 0.005 + 0.0008 * i}};
+  e.at.speed_mps = 0.12 + 0.016 * i;
+  e.at.friction = friction;
+  return e;
+}
+inline constexpr int kPlannedSteps = 10;
+inline constexpr double kLeastFriction = 0.45, kMostFriction = 0.85;  // an episode's
+
+inline double TrueSurvival() {
+  constexpr int kFrictions = 2000;
+  double mean = 0;
+  for (int k = 0; k < kFrictions; ++k) {
+    const double friction =
+        kLeastFriction + (kMostFriction - kLeastFriction) * (k + 0.5) / kFrictions;
+    double sum = 0;
+    for (int i = 0; i < kPlannedSteps; ++i) sum += Total(StepRates(PlannedStep(i, friction)));
+    mean += std::exp(-sum) / kFrictions;
+  }
+  return mean;
+}
+
+// Encounters are drawn and fitted, conditions drawn, the plan predicted. All by this stream.
+inline Survival PredictedSurvival(int encounters, int conditions, Stream& random) {
+  const RiskModel model = FitRates(DrawEncounters(encounters, StepRates, DrawStep, random), {}, {});
+  const RateEvaluator rates(model.kinds.at(0));
+  std::vector<PlannedMeeting> meetings;
+  for (int i = 0; i < kPlannedSteps; ++i) meetings.push_back({&rates, PlannedStep(i, 0).size, 1});
+  std::vector<std::vector<Approach>> drawn(conditions);
+  for (std::vector<Approach>& condition : drawn) {
+    const double friction = random.Uniform(kLeastFriction, kMostFriction);
+    for (int i = 0; i < kPlannedSteps; ++i) condition.push_back(PlannedStep(i, friction).at);
+  }
+  return PredictSurvival(meetings, drawn, model.mirrored);
+}
+
+// The share of repeats whose interval holds the truth.
+inline double Coverage(int repeats, int encounters, int conditions) {
+  const double truth = TrueSurvival();
+  int covers = 0;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    Stream random(2, repeat, "known_truth");
+    const Probability p = PredictedSurvival(encounters, conditions, random).no_failure;
+    covers += p.lower <= truth && truth <= p.upper;
+  }
+  return static_cast<double>(covers) / repeats;
+}
+
+}  // namespace floorproof

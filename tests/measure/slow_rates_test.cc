@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Minutes: how well rates are found again, over many repeats.
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "measure/judge_rates.h"
+#include "tests/measure/known_truth.h"
+#include "tests/measure/planted_rates.h"
+
+namespace floorproof {
+namespace {
+
+TEST(KnownTruth, IntervalsCoverInNineteenOfTwentyRepeats) {
+  for (const int encounters : {500, 2000}) {
+    const double coverage = Coverage(500, encounters, 256);
+    std::cout << encounters << " encounters: " << coverage << "\n";
+    EXPECT_GE(coverage, 0.93);
+    EXPECT_LE(coverage, 0.97);
+  }
+}
+
+struct Truth {
+  const char* name;
+  PlantedRates rates;
+};
+
+class Calibration : public ::testing::TestWithParam<Truth> {};
+
+// Fitted to 2500 encounters of a kind, judged on 20,000 fresh ones; means over repeats.
+TEST_P(Calibration, OfFreshEncountersIsRight) {
+  constexpr int kRepeats = 8;
+  double slope = 0, error = 0, excess = 0, of_truth = 0;
+  for (int repeat = 0; repeat < kRepeats; ++repeat) {
+    Stream random(3, repeat, GetParam().name);
+    RateFitOptions options;
+    options.mirrored = true;
+    const RiskModel model =
+        FitRates(DrawEncounters(2500, GetParam().rates, DrawCover, random), {}, options);
+    const std::vector<Encounter> fresh = DrawEncounters(20000, GetParam().rates, DrawCover, random);
+    const RateJudgement dut = Judge(Predicted(model, fresh));
+    std::vector<JudgedEncounter> truly;
+    for (const Encounter& e : fresh)
+      truly.push_back({FirstFailures(GetParam().rates(e)),
+                       e.outcome == Encounter::Outcome::kFailed ? static_cast<int>(e.mode) : -1});
+    slope += dut.slope / kRepeats;
+    error += dut.calibration_error / kRepeats;
+    const double least = Judge(truly).log_loss;
+    of_truth += least / kRepeats;
+    excess += (dut.log_loss - least) / kRepeats;
+    EXPECT_LT(dut.log_loss, dut.log_loss_of_constant);
+  }
+  std::cout << GetParam().name << ": slope " << slope << ", calibration error " << error
+            << ", log loss " << of_truth << " + " << excess << "\n";
+  EXPECT_GE(slope, 0.9);
+  EXPECT_LE(slope, 1.1);
+  EXPECT_LE(error, 0.02);
+  EXPECT_LE(excess, 0.03);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Calibration,
+                         ::testing::Values(Truth{"sharp", SharpCover},
+                                           Truth{"gradual", GradualCover},
+                                           Truth{"safe", SafeCover}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace floorproof
