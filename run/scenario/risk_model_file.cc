@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/scenario/risk_model_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/params.h"
+
+namespace floorproof {
+namespace {
+
+// Coefficients are of functions of about 1, and e to this power is no rate of anything.
+const Bounds kCoefficient = Between(-1e4, 1e4);
+constexpr int kMost = 1000 * 1000 * 1000;
+
+// A map, and where it stands in the file.
+class Keys {
+ public:
+  Keys(const ConfigNode& node, std::string path, const std::vector<std::string>& known)
+      : node_(node), path_(std::move(path)) {
+    if (!node.IsMap()) throw InputError(node.mark, path_, "", "must be a map of keys");
+    RefuseUnknownKeys(node, path_.empty() ? "" : path_ + ".", known);
+  }
+  std::string Path(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+  bool Has(const std::string& key) const { return node_.Find(key) != nullptr; }
+  const ConfigNode& At(const std::string& key) const {
+    const ConfigNode* found = node_.Find(key);
+    if (found == nullptr) throw InputError(node_.mark, Path(key), "", "the key is missing");
+    return *found;
+  }
+  double Number(const std::string& key, const Bounds& rule) const {
+    return AsDouble(At(key), Path(key), rule);
+  }
+  int Count(const std::string& key) const {
+    return static_cast<int>(AsInt(At(key), Path(key), Between(0, kMost)));
+  }
+  std::string Text(const std::string& key) const { return AsString(At(key), Path(key)); }
+  bool Flag(const std::string& key) const { return AsBool(At(key), Path(key)); }
+  const std::vector<ConfigNode>& List(const std::string& key) const {
+    const ConfigNode& list = At(key);
+    if (!list.IsList()) throw InputError(list.mark, Path(key), "", "must be a list");
+    return list.items;
+  }
+  template <class Value>
+  Value OneOf(const std::string& key,
+              std::initializer_list<std::pair<const char*, Value>> choices) const {
+    const std::string text = Text(key);
+    std::vector<std::string> names;
+    for (const auto& [name, value] : choices) {
+      if (text == name) return value;
+      names.emplace_back(name);
+    }
+    throw InputError(At(key).mark, Path(key), text, "must be one of " + Joined(names));
+  }
+
+ private:
+  static std::string Joined(const std::vector<std::string>& names) {
+    return fmt::format("{}", fmt::join(names, ", "));
+  }
+  const ConfigNode& node_;
+  std::string path_;
+};
+
+std::vector<double> Numbers(const ConfigNode& node, const std::string& path, const Bounds& rule,
+                            std::size_t count) {
+  if (!node.IsList() || node.items.size() != count)
+    throw InputError(node.mark, path, "", fmt::format("must be a list of {} numbers", count));
+  std::vector<double> numbers;
+  for (const ConfigNode& item : node.items) numbers.push_back(AsDouble(item, path, rule));
+  return numbers;
+}
+
+RateAxis ReadAxis(const ConfigNode& node, const std::string& path) {
+  const Keys keys(node, path, {"name", "of", "lower", "upper", "period", "knots", "functions"});
+  RateAxis axis;
+  axis.name = keys.Text("name");
+  axis.of_hazard = keys.OneOf<bool>("of", {{"hazard", true}, {"approach", false}});
+  if (!axis.of_hazard &&
+      std::none_of(kApproach.begin(), kApproach.end(),
+                   [&](const ApproachColumn& column) { return column.name == axis.name; }))
+    throw InputError(keys.At("name").mark, keys.Path("name"), axis.name,
+                     "is no column of an approach");
+  axis.lower = keys.Number("lower", Any());
+  axis.upper = keys.Number("upper", AtLeast(axis.lower));
+  if (keys.Has("period")) axis.period = keys.Number("period", Positive());
+  const ConfigNode& knots = keys.At("knots");
+  axis.knots =
+      Numbers(knots, keys.Path("knots"), Between(axis.lower, axis.upper), knots.items.size());
+  const std::vector<ConfigNode>& functions = keys.List("functions");
+  if (axis.knots.empty() && functions.empty()) return axis;
+  if (axis.knots.size() < 2 || axis.knots.front() != axis.lower ||
+      axis.knots.back() != axis.upper ||
+      std::adjacent_find(axis.knots.begin(), axis.knots.end(), std::greater_equal<>()) !=
+          axis.knots.end())
+    throw InputError(knots.mark, keys.Path("knots"), "", "must ascend from lower to upper");
+  for (const ConfigNode& function : functions)
+    axis.functions.push_back(
+        Numbers(function, keys.Path("functions"), kCoefficient, axis.knots.size()));
+  return axis;
+}
+
+// [axis, functions] or [axis, functions, other axis, its functions].
+RateBlock ReadBlock(const ConfigNode& node, const std::string& path,
+                    const std::vector<RateAxis>& axes) {
+  if (!node.IsList() || (node.items.size() != 2 && node.items.size() != 4))
+    throw InputError(node.mark, path, "",
+                     "must be [axis, functions], or two such pairs in one list");
+  const auto axis_at = [&](std::size_t i) {
+    return static_cast<std::size_t>(
+        AsInt(node.items[i], path, Between(0, static_cast<double>(axes.size()) - 1)));
+  };
+  const auto functions_at = [&](std::size_t i, std::size_t axis) {
+    return static_cast<std::size_t>(
+        AsInt(node.items[i], path, Between(1, static_cast<double>(axes[axis].functions.size()))));
+  };
+  RateBlock block;
+  block.axis = axis_at(0);
+  block.functions = functions_at(1, block.axis);
+  if (node.items.size() == 4) {
+    block.other_axis = axis_at(2);
+    block.others = functions_at(3, *block.other_axis);
+  }
+  return block;
+}
+
+ModeRates ReadMode(const ConfigNode& node, const std::string& path,
+                   const std::vector<RateAxis>& axes) {
+  const Keys keys(node, path, {"events", "blocks", "coefficients", "members"});
+  ModeRates mode;
+  mode.events = keys.Count("events");
+  std::size_t size = 1;
+  for (const ConfigNode& block : keys.List("blocks")) {
+    mode.blocks.push_back(ReadBlock(block, keys.Path("blocks"), axes));
+    size += mode.blocks.back().size();
+  }
+  mode.coefficients =
+      Numbers(keys.At("coefficients"), keys.Path("coefficients"), kCoefficient, size);
+  const std::vector<ConfigNode>& members = keys.List("members");
+  if (members.size() != kRateMembers)
+    throw InputError(keys.At("members").mark, keys.Path("members"), "",
+                     fmt::format("must be {} lists", kRateMembers));
+  for (const ConfigNode& member : members)
+    mode.members.push_back(Numbers(member, keys.Path("members"), kCoefficient, size));
+  return mode;
+}
+
+Passage ReadPassage(const Keys& keys) {
+  return keys.OneOf<Passage>("passage", {{"over", Passage::kOver}, {"beside", Passage::kBeside}});
+}
+
+KindRates ReadKind(const ConfigNode& node, const std::string& path) {
+  const Keys keys(
+      node, path,
+      {"type", "passage", "per", "encounters", "cleared", "censored", "way_m", "axes", "modes"});
+  KindRates kind;
+  kind.type = keys.Text("type");
+  kind.passage = ReadPassage(keys);
+  kind.per_metre = keys.OneOf<bool>("per", {{"metre", true}, {"encounter", false}});
+  kind.encounters = keys.Count("encounters");
+  kind.cleared = keys.Count("cleared");
+  kind.censored = keys.Count("censored");
+  kind.way_m = keys.Number("way_m", NonNegative());
+  std::size_t number = 0;
+  for (const ConfigNode& axis : keys.List("axes"))
+    kind.axes.push_back(ReadAxis(axis, fmt::format("{}.{}", keys.Path("axes"), number++)));
+  std::vector<std::string> names;
+  for (int m = 0; m < kNumFailureModes; ++m) names.emplace_back(Name(FailureMode(m)));
+  const Keys modes(keys.At("modes"), keys.Path("modes"), names);
+  std::int64_t outcomes = static_cast<std::int64_t>(kind.cleared) + kind.censored;
+  for (int m = 0; m < kNumFailureModes; ++m) {
+    kind.modes[m] = ReadMode(modes.At(names[m]), modes.Path(names[m]), kind.axes);
+    outcomes += kind.modes[m].events;
+  }
+  if (outcomes != kind.encounters)
+    throw InputError(
+        keys.At("encounters").mark, keys.Path("encounters"), std::to_string(kind.encounters),
+        fmt::format("must be cleared, censored and the modes' events together, {}", outcomes));
+  return kind;
+}
+
+MeasuredRobot ReadRobot(const ConfigNode& node) {
+  const Keys keys(node, "robot", {"name", "drive", "mass_kg", "clearance_m", "model"});
+  MeasuredRobot robot;
+  robot.name = keys.Text("name");
+  robot.drive = keys.Text("drive");
+  robot.mass_kg = keys.Number("mass_kg", NonNegative());
+  robot.clearance_m = keys.Number("clearance_m", NonNegative());
+  robot.model = keys.Text("model");
+  return robot;
+}
+
+}  // namespace
+
+RiskModel ReadRiskModel(const std::filesystem::path& file, const InputFiles& files) {
+  const ConfigNode root = ReadYamlFile(file, files);
+  if (!root.IsMap()) throw InputError({file.string(), 1}, "", "", "must be a map of keys");
+  if (root.Find("risk_model") == nullptr)
+    throw InputError(root.mark, "risk_model", "",
+                     fmt::format("the key is missing (risk_model: {}): this is no risk model",
+                                 kRiskModelVersion));
+  AsInt(*root.Find("risk_model"), "risk_model", Between(kRiskModelVersion, kRiskModelVersion));
+  const Keys keys(root, "",
+                  {"risk_model", "robot", "mirrored", "encounters", "kinds", "unmeasured"});
+  RiskModel model;
+  model.robot = ReadRobot(keys.At("robot"));
+  model.mirrored = keys.Flag("mirrored");
+  model.encounters = keys.Count("encounters");
+  std::size_t number = 0;
+  for (const ConfigNode& node : keys.List("kinds")) {
+    const std::string path = fmt::format("kinds.{}", number++);
+    KindRates kind = ReadKind(node, path);
+    if (FindKind(model, kind.type, kind.passage) != nullptr)
+      throw InputError(node.mark, path, kind.type + " " + std::string(Name(kind.passage)),
+                       "must stand there once");
+    model.kinds.push_back(std::move(kind));
+  }
+  if (model.kinds.empty())
+    throw InputError(keys.At("kinds").mark, "kinds", "", "must not be empty: nothing was measured");
+  number = 0;
+  for (const ConfigNode& node : keys.List("unmeasured")) {
+    const Keys unmeasured(node, fmt::format("unmeasured.{}", number++), {"type", "passage", "why"});
+    model.unmeasured.push_back(
+        {unmeasured.Text("type"), ReadPassage(unmeasured), unmeasured.Text("why")});
+  }
+  return model;
+}
+
+}  // namespace floorproof
