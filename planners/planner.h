@@ -19,7 +19,8 @@
 
 namespace floorproof {
 
-struct RiskMap;  // planners/risk/risk_map.h
+struct RiskMap;    // planners/risk/risk_map.h
+struct RiskModel;  // planners/risk/rate_model.h
 
 struct PlanRequest {
   const HazardMap& map;  // what is known of the floor, heights from that of the start (SeenFrom)
@@ -29,6 +30,7 @@ struct PlanRequest {
   std::uint64_t seed = 0;
   const RiskMap* risk = nullptr;      // of this map and robot
   std::span<const Vec2> places = {};  // p_W, to be visited; none: the planner finds its own
+  const RiskModel* model = nullptr;   // this robot's measured rates of failure; nullptr: none
 };
 
 enum class PlanStatus {
@@ -74,6 +76,7 @@ struct PlannerPromises {
   Covers covers = Covers::kNothing;
   double least_coverage = 0;  // share of what it covers, on floors that are no worse than usual
   bool needs_risk = false;    // refuses a request without the floor's risk; else it takes no notice
+  bool needs_model = false;   // refuses a request without measured rates; else it takes no notice
   bool needs_goal = false;    // refuses a request without a goal
   bool ends_at_goal = false;  // if the request has one; else it takes no notice
   bool uses_seed = false;     // else the same floor has the same plan, whatever the seed

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace floorproof {
 namespace {
@@ -46,36 +47,52 @@ Sampled Over(const std::vector<Outcome>& outcomes, std::size_t which) {
   return {mean, n > 1 && slope > 0 ? spread / (n - 1) / slope : 0};
 }
 
+// Of a meeting: most conditions leave its hazard as it is.
+class LastCovariates {
+ public:
+  Covariates& Of(const PlannedMeeting& meeting, bool mirrored) {
+    if (!covariates_ || rates_ != meeting.rates || size_ != meeting.size) {
+      rates_ = meeting.rates;
+      size_ = meeting.size;
+      covariates_.emplace(rates_->kind().axes, mirrored, size_);
+    }
+    return *covariates_;
+  }
+
+ private:
+  const RateEvaluator* rates_ = nullptr;
+  std::vector<std::pair<std::string, double>> size_;
+  std::optional<Covariates> covariates_;
+};
+
 }  // namespace
 
-Survival PredictSurvival(std::span<const PlannedMeeting> meetings,
-                         std::span<const std::vector<Approach>> conditions, bool mirrored) {
-  std::vector<Covariates> covariates;
-  for (const PlannedMeeting& meeting : meetings)
-    covariates.emplace_back(meeting.rates->kind().axes, mirrored, meeting.size);
-
+Survival PredictSurvival(std::span<const std::vector<PlannedMeeting>> conditions,
+                         std::size_t numbers, bool mirrored) {
   Survival survival;
-  survival.by_meeting.assign(meetings.size(), 0);
+  survival.by_meeting.assign(numbers, 0);
   Outcome certain = {};
   certain[0] = 1;
   std::vector<Outcome> outcomes(conditions.size(), certain), chosen;
+  std::vector<LastCovariates> known(numbers);
   std::array<std::vector<Outcome>, kRateMembers> by_member;
   const std::size_t step = (conditions.size() + kConditionsForMembers - 1) / kConditionsForMembers;
   for (std::size_t c = 0; c < conditions.size(); ++c) {
     const bool for_members = c % step == 0;
     if (for_members)
       for (auto& member : by_member) member.push_back(certain);
-    for (std::size_t i = 0; i < meetings.size(); ++i) {
-      const RateEvaluator& rates = *meetings[i].rates;
-      const std::span<const double> x = covariates[i].Of(conditions[c][i]);
+    for (const PlannedMeeting& meeting : conditions[c]) {
+      const RateEvaluator& rates = *meeting.rates;
+      const std::span<const double> x = known[meeting.number].Of(meeting, mirrored).Of(meeting.at);
       const double before = outcomes[c][0];
-      Meet(rates.At(x), meetings[i].way_m, outcomes[c]);
-      survival.by_meeting[i] += (before - outcomes[c][0]) / static_cast<double>(conditions.size());
+      Meet(rates.At(x), meeting.way_m, outcomes[c]);
+      survival.by_meeting[meeting.number] +=
+          (before - outcomes[c][0]) / static_cast<double>(conditions.size());
       survival.beyond = std::max(survival.beyond, rates.Beyond(x));
       if (!for_members) continue;
       const auto members = rates.MembersAt(x);
       for (std::size_t r = 0; r < kRateMembers; ++r)
-        Meet(members[r], meetings[i].way_m, by_member[r].back());
+        Meet(members[r], meeting.way_m, by_member[r].back());
     }
     if (for_members) chosen.push_back(outcomes[c]);
   }

@@ -11,11 +11,13 @@
 
 namespace floorproof {
 
-// A meeting of a plan, in the order in which it is driven.
+// A meeting of a plan as it is in one condition.
 struct PlannedMeeting {
-  const RateEvaluator* rates = nullptr;  // of its kind
-  std::vector<std::pair<std::string, double>> size;
-  double way_m = 1;  // of an exposure
+  const RateEvaluator* rates = nullptr;              // of its kind
+  std::vector<std::pair<std::string, double>> size;  // the hazard's keys
+  Approach at;
+  double way_m = 1;        // of an exposure
+  std::size_t number = 0;  // which of the plan's meetings it is, whatever the condition
 };
 
 // With its 95 % interval.
@@ -26,17 +28,17 @@ struct Probability {
 struct Survival {
   Probability no_failure;
   std::array<Probability, kNumFailureModes> first;  // by mode: that it is what ends the drive
-  std::vector<double> by_meeting;                   // that this meeting is what ends it
+  std::vector<double> by_meeting;                   // by number: that it is what ends the drive
   double beyond = 0;  // the farthest that a meeting lies beyond what was measured
 };
 
-// `conditions`: by drawn condition, how each meeting is met. What one episode draws holds for all
-// of its meetings, so that they may all fail together:
+// `conditions`: by drawn condition, the meetings in the order in which they are driven; `numbers`:
+// how many there are. What one episode draws holds for all of its meetings, so that they may all
+// fail together:
 //   P(no failure) = mean over conditions of exp(-sum over meetings of Lambda).
-// Expects at least one condition, and one Approach a meeting in each. The intervals hold what the
-// model does not know (its members) and that conditions are a sample. `mirrored` is the model's.
-// Throws InputError as Covariates does.
-Survival PredictSurvival(std::span<const PlannedMeeting> meetings,
-                         std::span<const std::vector<Approach>> conditions, bool mirrored);
+// Expects at least one condition. The intervals hold what the model does not know (its members) and
+// that conditions are a sample. `mirrored` is the model's. Throws InputError as Covariates does.
+Survival PredictSurvival(std::span<const std::vector<PlannedMeeting>> conditions,
+                         std::size_t numbers, bool mirrored);
 
 }  // namespace floorproof

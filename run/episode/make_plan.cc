@@ -34,7 +34,7 @@ PlanResult MakePlan(const Scenario& s) {
   const RobotSpec& robot = s.robot.spec;
   const HazardMap known = KnownFloor(s);
   auto risk = std::make_shared<const RiskMap>(ComputeRisk(known, robot, s.fmea, s.risk));
-  const PlanRequest request{known, robot, s.start, s.goal, PlanSeed(s), risk.get(), s.places};
+  const PlanRequest request{known, robot, s.start, s.goal, PlanSeed(s), risk.get(), s.places, s.risk_model.get()};
   PlanResult plan;
   if (s.planner) {
     plan = s.planner->Plan(request);

@@ -206,10 +206,14 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
       stated("goal", site_varies || Vary(s, {"site.goal", "site.goal.x_m", "site.goal.y_m"})))
     root.Add("goal", Goal(*s.goal));
   if (!LeadsItself(s)) root.Add("plan", Plan(s, folder, made));
-  if (AsksForRisk(s))
-    root.Add("risk", WithParams(Named("tables",
-                                      NameOr(s.fmea_file, BundledTables(), kBundledTables, folder)),
-                                s.risk));
+  if (AsksForRisk(s)) {
+    ConfigNode risk = Named("tables", NameOr(s.fmea_file, BundledTables(), kBundledTables, folder));
+    risk.Add("model",
+             ConfigNode::Scalar(
+                 s.risk_model_file.empty() ? "none" : PathFrom(folder, s.risk_model_file).string(),
+                 true));
+    root.Add("risk", WithParams(std::move(risk), s.risk));
+  }
   if (stated("controller", robot_varies))
     root.Add("controller", WithPlugin(Named("name", s.tracker_name), *s.tracker));
   root.Add("estimator", WithPlugin(Named("name", s.estimator_name), *s.estimator));

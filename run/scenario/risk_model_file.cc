@@ -4,8 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <mutex>
 
+#include "base/file_output.h"
 #include "base/params.h"
+#include "run/scenario/scenario_parts.h"
 
 namespace floorproof {
 namespace {
@@ -192,7 +196,9 @@ MeasuredRobot ReadRobot(const ConfigNode& node) {
 
 }  // namespace
 
-RiskModel ReadRiskModel(const std::filesystem::path& file, const InputFiles& files) {
+namespace {
+
+RiskModel Parse(const std::filesystem::path& file, const InputFiles& files) {
   const ConfigNode root = ReadYamlFile(file, files);
   if (!root.IsMap()) throw InputError({file.string(), 1}, "", "", "must be a map of keys");
   if (root.Find("risk_model") == nullptr)
@@ -224,6 +230,30 @@ RiskModel ReadRiskModel(const std::filesystem::path& file, const InputFiles& fil
         {unmeasured.Text("type"), ReadPassage(unmeasured), unmeasured.Text("why")});
   }
   return model;
+}
+
+// Models by their bytes. A campaign's every episode reads its model.
+class ReadModels {
+ public:
+  std::shared_ptr<const RiskModel> Get(const std::filesystem::path& file, const InputFiles& files) {
+    const std::string hash = Sha256(files.Read(file, kMaxNamedBytes));
+    const std::lock_guard lock(mutex_);
+    std::shared_ptr<const RiskModel>& model = models_[hash];
+    if (!model) model = std::make_shared<const RiskModel>(Parse(file, files));
+    return model;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<const RiskModel>> models_;
+};
+
+}  // namespace
+
+std::shared_ptr<const RiskModel> ReadRiskModel(const std::filesystem::path& file,
+                                               const InputFiles& files) {
+  static ReadModels models;
+  return models.Get(file, files);
 }
 
 }  // namespace floorproof

@@ -388,6 +388,7 @@ std::vector<fs::path> FilesRead(const Scenario& s) {
   if (!s.robot.files.empty())
     files.insert(files.end(), s.robot.files.begin() + 1, s.robot.files.end());
   files.push_back(s.fmea_file);
+  if (!s.risk_model_file.empty()) files.push_back(s.risk_model_file);
   if (s.plan_command)
     files.insert(files.end(), s.plan_command->files.begin(), s.plan_command->files.end());
   if (!s.plan_file.empty()) files.push_back(s.plan_file);

@@ -26,6 +26,7 @@
 #include "env/sensors/sensor.h"
 #include "planners/online/online_planner.h"
 #include "planners/planner.h"
+#include "planners/risk/rate_model.h"
 #include "planners/risk/risk_map.h"
 #include "run/scenario/draws.h"
 #include "run/scenario/floor_dirt.h"
@@ -70,6 +71,8 @@ struct Scenario {
   std::filesystem::path fmea_file;
   FmeaTables fmea;
   RiskParams risk;
+  std::filesystem::path risk_model_file;  // empty: none
+  std::shared_ptr<const RiskModel> risk_model;
 
   std::string tracker_name, estimator_name;
   std::unique_ptr<Tracker> tracker;

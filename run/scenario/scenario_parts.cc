@@ -7,12 +7,14 @@
 #include "controllers/drive.h"
 #include "env/core/blocks.h"
 #include "env/core/standing.h"
+#include "env/scene/measured_block.h"
 #include "env/scene/roller_wheels.h"
 #include "run/scenario/carried_sensors.h"
 #include "run/scenario/floor_dirt.h"
 #include "run/scenario/fmea_file.h"
 #include "run/scenario/named_plugin.h"
 #include "run/scenario/plan_file.h"
+#include "run/scenario/risk_model_file.h"
 #include "run/scenario/start_check.h"
 #include "run/scenario/written_faults.h"
 #include "run/scenario/written_safety.h"
@@ -275,13 +277,32 @@ void CheckOnline(const ConfigNode& root, const Scenario& s) {
                          FormatDouble(kMostSteps * step_m) + " m");
 }
 
+// Whose rates they are is said by its model's hash; robots of an earlier version, whose model is
+// measured anew, are others.
+void RequireModelOf(const RiskModel& model, const Scenario& s, const ConfigNode& named) {
+  const RobotSpec& robot = s.robot.spec;
+  if (model.robot.name == robot.name && model.robot.model == ModelHash(s.robot.files, s.files))
+    return;
+  throw InputError(named.mark, "risk.model", named.scalar,
+                   model.robot.name == robot.name
+                       ? "was measured of another model of " + robot.name +
+                             ": measure it anew (floorproof measure)"
+                       : "was measured of " + model.robot.name + ", and this is " + robot.name);
+}
+
 void ReadRisk(const ConfigNode& root, Scenario& s) {
   const ConfigNode* node = Written(root, "risk");
   if (node != nullptr)
-    ReadParams(*node, "risk.", [&](ParamVisitor& v) { s.risk.Visit(v); }, {"tables"});
+    ReadParams(*node, "risk.", [&](ParamVisitor& v) { s.risk.Visit(v); }, {"tables", "model"});
   const ConfigNode* tables = node != nullptr ? node->Find("tables") : nullptr;
   s.fmea_file = BundledOrNamed(tables, "risk.tables", kBundledTables, BundledTables(), s);
   s.fmea = ReadFmeaTables(s.fmea_file, s.files);
+  if (const ConfigNode* model = node != nullptr ? node->Find("model") : nullptr;
+      model != nullptr && AsString(*model, "risk.model") != "none") {
+    s.risk_model_file = NamedFile(s.file.parent_path(), *model, "risk.model", s.files);
+    s.risk_model = ReadRiskModel(s.risk_model_file, s.files);
+    RequireModelOf(*s.risk_model, s, *model);
+  }
   if (!s.risk.cell_m) return;
   constexpr double kMaxCells = 4e6;
   const GridFrame& frame = s.site.map.frame;
@@ -422,7 +443,8 @@ bool NamesFile(const std::string& key_path, const std::string& value) {
   return key_path == "site" || key_path == "site.map" || key_path == "plan.file" ||
          key_path == "plan.made" || key_path == "plan.samples.file" ||
          (key_path == "mission" && value.ends_with(".yaml")) ||
-         (key_path == "risk.tables" && value.ends_with(".yaml"));
+         (key_path == "risk.tables" && value.ends_with(".yaml")) ||
+         (key_path == "risk.model" && value != "none");
 }
 
 fs::path NamedFile(const fs::path& folder, const ConfigNode& node, const std::string& key,

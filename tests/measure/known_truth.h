@@ -48,14 +48,15 @@ inline double TrueSurvival() {
 inline Survival PredictedSurvival(int encounters, int conditions, Stream& random) {
   const RiskModel model = FitRates(DrawEncounters(encounters, StepRates, DrawStep, random), {}, {});
   const RateEvaluator rates(model.kinds.at(0));
-  std::vector<PlannedMeeting> meetings;
-  for (int i = 0; i < kPlannedSteps; ++i) meetings.push_back({&rates, PlannedStep(i, 0).size, 1});
-  std::vector<std::vector<Approach>> drawn(conditions);
-  for (std::vector<Approach>& condition : drawn) {
+  std::vector<std::vector<PlannedMeeting>> drawn(conditions);
+  for (std::vector<PlannedMeeting>& condition : drawn) {
     const double friction = random.Uniform(kLeastFriction, kMostFriction);
-    for (int i = 0; i < kPlannedSteps; ++i) condition.push_back(PlannedStep(i, friction).at);
+    for (int i = 0; i < kPlannedSteps; ++i) {
+      const Encounter step = PlannedStep(i, friction);
+      condition.push_back({&rates, step.size, step.at, 1, static_cast<std::size_t>(i)});
+    }
   }
-  return PredictSurvival(meetings, drawn, model.mirrored);
+  return PredictSurvival(drawn, kPlannedSteps, model.mirrored);
 }
 
 // The share of repeats whose interval holds the truth.

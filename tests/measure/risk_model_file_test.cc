@@ -33,7 +33,7 @@ RiskModel Measured(int covers) {
 RiskModel Read(const std::string& text) {
   InputFiles files;
   files.Hold("risk_model.json", text);
-  return ReadRiskModel("risk_model.json", files);
+  return *ReadRiskModel("risk_model.json", files);
 }
 
 std::string WhyRefused(const std::string& text) {

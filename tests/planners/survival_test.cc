@@ -46,6 +46,16 @@ KindRates StuckByFriction(double high, double low) {
   return kind;
 }
 
+// The same meetings in each condition, met as that says.
+Survival Predict(const std::vector<PlannedMeeting>& meetings,
+                 const std::vector<std::vector<Approach>>& conditions) {
+  std::vector<std::vector<PlannedMeeting>> drawn(conditions.size(), meetings);
+  for (std::size_t c = 0; c < drawn.size(); ++c)
+    for (std::size_t i = 0; i < meetings.size(); ++i)
+      drawn[c][i].at = conditions[c][i], drawn[c][i].number = i;
+  return PredictSurvival(drawn, meetings.size(), false);
+}
+
 std::vector<std::vector<Approach>> Same(std::size_t conditions, std::size_t meetings,
                                         const Approach& at = {}) {
   return std::vector(conditions, std::vector(meetings, at));
@@ -63,8 +73,8 @@ TEST(Rates, CompeteForWhoComesFirst) {
 TEST(Survival, OfIndependentMeetingsIsTheProductOfTheirs) {
   const KindRates kind = Constant({0.02, 0.05, 0, 0});
   const RateEvaluator rates(kind);
-  const std::vector<PlannedMeeting> meetings(10, {&rates, {}, 1});
-  const Survival dut = PredictSurvival(meetings, Same(4, 10), false);
+  const std::vector<PlannedMeeting> meetings(10, {&rates, {}, {}, 1});
+  const Survival dut = Predict(meetings, Same(4, 10));
   EXPECT_NEAR(dut.no_failure.value, std::exp(-0.7), 1e-12);
   EXPECT_NEAR(dut.no_failure.lower, dut.no_failure.upper, 1e-7);  // nothing is unknown
   double sum = dut.no_failure.value;
@@ -83,8 +93,8 @@ TEST(Survival, OfIndependentMeetingsIsTheProductOfTheirs) {
 TEST(Survival, OfExposuresGoesByTheirWay) {
   const KindRates kind = Constant({0.001, 0, 0, 0});
   const RateEvaluator rates(kind);
-  const std::vector<PlannedMeeting> meetings = {{&rates, {}, 400}, {&rates, {}, 100}};
-  EXPECT_NEAR(PredictSurvival(meetings, Same(1, 2), false).no_failure.value, std::exp(-0.5), 1e-12);
+  const std::vector<PlannedMeeting> meetings = {{&rates, {}, {}, 400}, {&rates, {}, {}, 100}};
+  EXPECT_NEAR(Predict(meetings, Same(1, 2)).no_failure.value, std::exp(-0.5), 1e-12);
 }
 
 // One friction in ten holds the robot at every crossing, the others at none. Ten crossings with the
@@ -92,7 +102,7 @@ TEST(Survival, OfExposuresGoesByTheirWay) {
 TEST(Survival, CrossingsThatOneFrictionDecidesFailTogether) {
   const KindRates kind = StuckByFriction(300, -2700);
   const RateEvaluator rates(kind);
-  const std::vector<PlannedMeeting> meetings(10, {&rates, {}, 1});
+  const std::vector<PlannedMeeting> meetings(10, {&rates, {}, {}, 1});
   std::vector<std::vector<Approach>> together, apart;
   Stream random(1, 0, "survival_test");
   for (int c = 0; c < 1000; ++c) {
@@ -106,19 +116,18 @@ TEST(Survival, CrossingsThatOneFrictionDecidesFailTogether) {
       apart.back().push_back(at);
     }
   }
-  EXPECT_NEAR(1 - PredictSurvival(meetings, together, false).no_failure.value, 0.10, 0.005);
-  EXPECT_NEAR(1 - PredictSurvival(meetings, apart, false).no_failure.value, 1 - std::pow(0.9, 10),
-              0.05);
+  EXPECT_NEAR(1 - Predict(meetings, together).no_failure.value, 0.10, 0.005);
+  EXPECT_NEAR(1 - Predict(meetings, apart).no_failure.value, 1 - std::pow(0.9, 10), 0.05);
 }
 
 TEST(Survival, BeyondWhatWasMeasuredIsSaidAndLessCertain) {
   const KindRates kind = StuckByFriction(1, -5);
   const RateEvaluator rates(kind);
-  const std::vector<PlannedMeeting> meetings(1, {&rates, {}, 1});
+  const std::vector<PlannedMeeting> meetings(1, {&rates, {}, {}, 1});
   const auto at = [&](double friction) {
     Approach approach;
     approach.friction = friction;
-    return PredictSurvival(meetings, Same(2, 1, approach), false);
+    return Predict(meetings, Same(2, 1, approach));
   };
   const Survival edge = at(0.8), beyond = at(0.9), far = at(1.2);
   EXPECT_EQ(edge.beyond, 0);
@@ -136,8 +145,8 @@ TEST(Survival, IntervalsGrowWithWhatTheModelDoesNotKnow) {
       kind.modes[kVeerOff].members[r][0] =
           kind.modes[kVeerOff].coefficients[0] + (r % 2 == 0 ? spread : -spread);
     const RateEvaluator rates(kind);
-    const std::vector<PlannedMeeting> meetings(3, {&rates, {}, 1});
-    const Probability p = PredictSurvival(meetings, Same(1, 3), false).no_failure;
+    const std::vector<PlannedMeeting> meetings(3, {&rates, {}, {}, 1});
+    const Probability p = Predict(meetings, Same(1, 3)).no_failure;
     EXPECT_LT(p.lower, p.value);
     EXPECT_LT(p.value, p.upper);
     return p.upper - p.lower;

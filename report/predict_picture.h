@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which meeting of a plan costs how much, over the map.
+#pragma once
+
+#include <filesystem>
+
+#include "run/plan_check/prediction.h"
+
+namespace floorproof {
+
+// The likeliest places to fail are numbered and listed; the floor around each meeting is coloured
+// by the probability that the drive ends there.
+void WritePredictPicture(const Scenario& scenario, const Prediction& prediction,
+                         const std::filesystem::path& png);
+
+}  // namespace floorproof

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// How probable it is that a plan fails, before it is driven: by mode, by hazard and by place.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "planners/planner.h"
+#include "planners/risk/survival.h"
+#include "run/scenario/scenario.h"
+
+namespace floorproof {
+
+// A meeting of the plan, as it is expected in the first condition; or its way along walls, or on
+// free floor.
+struct PredictedMeeting {
+  Encounter expected;
+  double probability = 0;  // that it is what ends the drive
+};
+
+struct Prediction {
+  PlanResult plan;  // of the first condition
+  int conditions = 0;
+  Survival survival;
+  std::vector<PredictedMeeting> meetings;
+  // Kinds that the plan meets and of which nothing was measured: a meeting of them counts as one
+  // that cannot fail.
+  struct Unmeasured {
+    std::string type;
+    Passage passage = Passage::kOver;
+    int meetings = 0;
+    std::string why;
+  };
+  std::vector<Unmeasured> unmeasured;
+
+  // Where meetings lie beyond what was measured: the farthest, as a share of the measured range.
+  struct Beyond {
+    std::string type, axis;
+    double share = 0;
+  };
+  std::vector<Beyond> beyond;
+
+  // Else the plan fails at least as often as it says.
+  bool complete() const { return unmeasured.empty(); }
+};
+
+// Of the scenario's plan in the conditions that its first `draws` episodes draw; one condition
+// where it draws nothing. Where draws change more than friction, mass and clearance each is planned
+// anew. `progress`: told after each condition. Throws InputError where the scenario names no risk
+// model, plans on the way, or has no plan.
+Prediction Predict(const ScenarioFile& file, const Variant& variant, int draws,
+                   const std::function<void(int done)>& progress = {});
+
+// A line each, with units; what needs a look begins with "warning: ".
+std::vector<std::string> PredictionLines(const Prediction& prediction);
+// predict.json's content.
+nlohmann::ordered_json PredictionJson(const Scenario& scenario, const Prediction& prediction);
+
+}  // namespace floorproof

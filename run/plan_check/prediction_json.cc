@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// A prediction in words, and as predict.json.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "base/file_output.h"
+#include "base/quantity.h"
+#include "run/plan_check/prediction.h"
+
+namespace floorproof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string WithInterval(const Probability& p) {
+  return fmt::format("{} ({} to {})", PercentText(p.value), PercentText(p.lower),
+                     PercentText(p.upper));
+}
+
+Probability AnyFailure(const Prediction& prediction) {
+  const Probability& none = prediction.survival.no_failure;
+  return {1 - none.value, 1 - none.upper, 1 - none.lower};
+}
+
+// By probability, the likeliest first.
+std::vector<const PredictedMeeting*> Ranked(const Prediction& prediction) {
+  std::vector<const PredictedMeeting*> ranked;
+  for (const PredictedMeeting& meeting : prediction.meetings) ranked.push_back(&meeting);
+  std::ranges::stable_sort(ranked, std::ranges::greater(),
+                           [](const PredictedMeeting* m) { return m->probability; });
+  return ranked;
+}
+
+std::string Where(const Encounter& met) {
+  if (met.type == kWallBeside) return fmt::format("walls beside, {}", LengthText(met.way_m));
+  if (met.type == kFreeFloor) return fmt::format("free floor, {}", LengthText(met.way_m));
+  return fmt::format("{} ({}, {}) at ({:.2f}, {:.2f})", met.hazard, met.type, Name(met.passage),
+                     met.x_m, met.y_m);
+}
+
+Json ProbabilityJson(const Probability& p) {
+  return {{"probability", p.value}, {"lower", p.lower}, {"upper", p.upper}};
+}
+
+Json MeetingJson(const PredictedMeeting& meeting) {
+  const Encounter& met = meeting.expected;
+  Json json = {{"hazard", met.hazard}, {"type", met.type}, {"passage", Name(met.passage)}};
+  json["probability"] = meeting.probability;
+  json["t_s"] = met.t_s;
+  json["x_m"] = met.x_m;
+  json["y_m"] = met.y_m;
+  json["way_m"] = met.way_m;
+  for (const auto& [key, value] : met.size) json["size"][key] = value;
+  for (const ApproachColumn& column : kApproach)
+    json["met"][std::string(column.name)] = met.at.*column.member;
+  return json;
+}
+
+}  // namespace
+
+std::vector<std::string> PredictionLines(const Prediction& prediction) {
+  std::vector<std::string> lines;
+  lines.push_back(
+      fmt::format("predicted: {}{} of drives fail, 95 % interval {} to {}; {} of conditions",
+                  prediction.complete() ? "" : "at least ", PercentText(AnyFailure(prediction).value),
+                  PercentText(AnyFailure(prediction).lower), PercentText(AnyFailure(prediction).upper),
+                  CountText(prediction.conditions, "draw")));
+  for (int m = 0; m < kNumFailureModes; ++m) {
+    const Probability& p = prediction.survival.first[static_cast<std::size_t>(m)];
+    constexpr double kWorthALine = 5e-4;
+    if (p.upper >= kWorthALine)
+      lines.push_back(fmt::format("  {}: {}", Name(static_cast<FailureMode>(m)), WithInterval(p)));
+  }
+  constexpr std::size_t kListed = 5;
+  for (const PredictedMeeting* meeting : Ranked(prediction)) {
+    if (meeting->probability < 1e-4 || lines.size() > kListed + kNumFailureModes) break;
+    lines.push_back(
+        fmt::format("  {}: {}", Where(meeting->expected), PercentText(meeting->probability)));
+  }
+  for (const Prediction::Unmeasured& kind : prediction.unmeasured)
+    lines.push_back(fmt::format("warning: nothing is known of {} {}, met {}: {}", kind.type,
+                                Name(kind.passage), CountText(kind.meetings, "time"), kind.why));
+  for (const Prediction::Beyond& beyond : prediction.beyond)
+    lines.push_back(fmt::format(
+        "warning: {} of {} lies beyond what was measured, by {} of that range: extrapolated, the "
+        "interval is wider for it",
+        beyond.axis, beyond.type, PercentText(beyond.share, 2)));
+  return lines;
+}
+
+Json PredictionJson(const Scenario& s, const Prediction& prediction) {
+  Json json = {{"predict", 1},
+               {"scenario", s.name},
+               {"robot", s.robot_name},
+               {"planner", s.planner_name},
+               {"model", Sha256(s.files.Read(s.risk_model_file, 256u << 20))},
+               {"length_m", Length(prediction.plan.path)},
+               {"conditions", prediction.conditions},
+               {"complete", prediction.complete()},
+               {"no_failure", ProbabilityJson(prediction.survival.no_failure)},
+               {"any_failure", ProbabilityJson(AnyFailure(prediction))}};
+  for (int m = 0; m < kNumFailureModes; ++m)
+    json["modes"][std::string(Name(static_cast<FailureMode>(m)))] =
+        ProbabilityJson(prediction.survival.first[static_cast<std::size_t>(m)]);
+  std::map<std::string, double> hazards;
+  for (const PredictedMeeting& meeting : prediction.meetings)
+    hazards[meeting.expected.hazard.empty() ? meeting.expected.type : meeting.expected.hazard] +=
+        meeting.probability;
+  json["hazards"] = Json::object();
+  for (const auto& [hazard, probability] : hazards) json["hazards"][hazard] = probability;
+  json["meetings"] = Json::array();
+  for (const PredictedMeeting& meeting : prediction.meetings)
+    json["meetings"].push_back(MeetingJson(meeting));
+  json["unmeasured"] = Json::array();
+  for (const Prediction::Unmeasured& kind : prediction.unmeasured)
+    json["unmeasured"].push_back({{"type", kind.type},
+                                  {"passage", Name(kind.passage)},
+                                  {"meetings", kind.meetings},
+                                  {"why", kind.why}});
+  json["extrapolated"] = Json::array();
+  for (const Prediction::Beyond& beyond : prediction.beyond)
+    json["extrapolated"].push_back(
+        {{"type", beyond.type}, {"of", beyond.axis}, {"beyond", beyond.share}});
+  return json;
+}
+
+}  // namespace floorproof
