@@ -2,23 +2,27 @@
 #include "run/scenario/draws.h"
 
 #include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "base/params.h"
 #include "base/printable.h"
 #include "base/quantity.h"
+#include "run/scenario/low_discrepancy.h"
 
 namespace floorproof {
 namespace {
 
+constexpr const char* kDimension = "dimension";
 constexpr double kLeastMass = 0.01;  // of a bounded normal: else redrawing would go on for ever
 constexpr int kMaxRedraws = 10'000;  // 0.99^10000 = 2e-44 that none of them keeps the bounds
 
 // Keys that say what is done with an episode rather than what happens in it.
-const std::vector<std::string> kFixed = {"scenario",  "name",   "seed",    "episode",
-                                         "randomise", "matrix", "gate",    "files",
-                                         "drive",     "video",  "trace_hz"};
+const std::vector<std::string> kFixed = {"scenario",  "name",     "seed",   "episode",
+                                         "randomise", "sampling", "matrix", "gate",
+                                         "files",     "drive",    "video",  "trace_hz"};
 
 // Keys of `plan` that say which program is run.
 const std::vector<std::string> kOfProgram = {"command", "folder", "made"};
@@ -41,14 +45,25 @@ void RefuseDrawnProgram(const RandomisedKey& drawn) {
 }
 
 double Cumulative(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
+double InverseCumulative(double p) { return -std::sqrt(2.0) * boost::math::erfc_inv(2 * p); }
+
+// How likely a draw of a normal or lognormal distribution lies below x, its bounds aside.
+double Below(const Distribution& d, double x) {
+  if (d.kind == Distribution::Kind::kNormal) return Cumulative((x - d.a) / d.b);
+  return x <= 0 ? 0.0 : Cumulative(std::log(x / d.a) / d.b);
+}
 
 // How likely a draw keeps its bounds.
-double Mass(const Distribution& d) {
-  const auto at = [&](double x) {
-    if (d.kind == Distribution::Kind::kNormal) return Cumulative((x - d.a) / d.b);
-    return x <= 0 ? 0.0 : Cumulative(std::log(x / d.a) / d.b);
-  };
-  return at(d.max) - at(d.min);
+double Mass(const Distribution& d) { return Below(d, d.max) - Below(d, d.min); }
+
+// Of a normal or lognormal distribution that is cut off at its bounds.
+double BoundedQuantile(const Distribution& d, double probability) {
+  if (d.b == 0) return d.a;
+  constexpr double kLeast = std::numeric_limits<double>::min(), kMost = 1 - 0x1p-53;
+  const double low = Below(d, d.min), high = Below(d, d.max);
+  const double z = InverseCumulative(std::clamp(low + probability * (high - low), kLeast, kMost));
+  const double x = d.kind == Distribution::Kind::kNormal ? d.a + d.b * z : d.a * std::exp(d.b * z);
+  return std::clamp(x, d.min, d.max);
 }
 
 Distribution ReadDistribution(const ConfigNode& node, const std::string& path) {
@@ -58,7 +73,7 @@ Distribution ReadDistribution(const ConfigNode& node, const std::string& path) {
                      "must be {uniform: [low, high]}, {normal: [mean, deviation]}, {lognormal: "
                      "[median, deviation of the logarithm]} or {choice: [a, b, ..]}");
   std::vector<std::string> known = kinds;
-  known.insert(known.end(), {"min", "max"});
+  known.insert(known.end(), {"min", "max", kDimension});
   RefuseUnknownKeys(node, path + ".", known);
   Distribution d;
   const ConfigNode* values = nullptr;
@@ -105,6 +120,30 @@ Distribution ReadDistribution(const ConfigNode& node, const std::string& path) {
   return d;
 }
 
+// The coordinate of the last of the keys, where it is written.
+void ReadDimension(const ConfigNode& node, Sampling sampling, std::vector<RandomisedKey>& keys) {
+  RandomisedKey& last = keys.back();
+  const std::string path = "randomise." + last.key_path;
+  const ConfigNode* written = node.Find(kDimension);
+  if (written != nullptr) {
+    if (sampling == Sampling::kIndependent)
+      throw InputError(written->mark, path + "." + kDimension, written->scalar,
+                       "is for sampling: low_discrepancy");
+    last.dimension = static_cast<std::size_t>(
+        AsInt(*written, path + "." + kDimension, Between(1, double{kMostDimensions})) - 1);
+  }
+  if (sampling == Sampling::kIndependent) return;
+  if (last.dimension >= kMostDimensions)
+    throw InputError(last.mark, path, "",
+                     "sampling: low_discrepancy has " + std::to_string(kMostDimensions) +
+                         " dimensions, one a key");
+  for (const RandomisedKey& other : keys)
+    if (&other != &last && other.dimension == last.dimension)
+      throw InputError(written != nullptr ? written->mark : last.mark, path + "." + kDimension,
+                       std::to_string(last.dimension + 1),
+                       "is that of " + other.key_path + " too, by its place or as written");
+}
+
 }  // namespace
 
 ConfigNode Distribution::Draw(Stream& stream) const {
@@ -119,6 +158,16 @@ ConfigNode Distribution::Draw(Stream& stream) const {
   return ConfigNode::Scalar(FormatDouble(value));
 }
 
+ConfigNode Distribution::Quantile(double probability) const {
+  if (kind == Kind::kChoice) {
+    const auto n = static_cast<double>(choices.size());
+    return choices[std::min(choices.size() - 1, static_cast<std::size_t>(probability * n))];
+  }
+  const double value =
+      kind == Kind::kUniform ? a + probability * (b - a) : BoundedQuantile(*this, probability);
+  return ConfigNode::Scalar(FormatDouble(value));
+}
+
 bool Distribution::varies() const {
   if (kind == Kind::kUniform) return a < b;
   if (kind != Kind::kChoice) return b > 0 && min < max;
@@ -126,7 +175,15 @@ bool Distribution::varies() const {
       choices, [&](const ConfigNode& c) { return WriteYaml(c) != WriteYaml(choices.front()); });
 }
 
-std::vector<RandomisedKey> ReadRandomise(const ConfigNode* node) {
+Sampling ReadSampling(const ConfigNode* node) {
+  if (node == nullptr) return Sampling::kIndependent;
+  const std::string text = AsString(*node, "sampling");
+  if (text == "independent") return Sampling::kIndependent;
+  if (text == "low_discrepancy") return Sampling::kLowDiscrepancy;
+  throw InputError(node->mark, "sampling", text, "must be independent or low_discrepancy");
+}
+
+std::vector<RandomisedKey> ReadRandomise(const ConfigNode* node, Sampling sampling) {
   std::vector<RandomisedKey> keys;
   if (node == nullptr || node->IsNull()) return keys;
   if (!node->IsMap())
@@ -136,17 +193,36 @@ std::vector<RandomisedKey> ReadRandomise(const ConfigNode* node) {
       if (key == fixed || key.starts_with(fixed + "."))
         throw InputError(value.mark, "randomise." + key, "",
                          "this key cannot differ between episodes");
-    keys.push_back({key, ReadDistribution(value, "randomise." + key), value.mark});
+    keys.push_back({key, ReadDistribution(value, "randomise." + key), keys.size(), value.mark});
     RefuseDrawnProgram(keys.back());
+    ReadDimension(value, sampling, keys);
   }
   return keys;
 }
 
-Drawn Draw(const std::vector<RandomisedKey>& keys, std::uint64_t seed, std::uint64_t episode) {
+void StateDimensions(const std::vector<RandomisedKey>& keys, ConfigNode& randomise) {
+  for (const RandomisedKey& key : keys)
+    if (ConfigNode* written = randomise.Find(key.key_path); !written->Find(kDimension))
+      written->Add(kDimension, ConfigNode::Scalar(std::to_string(key.dimension + 1)));
+}
+
+Drawn Draw(const std::vector<RandomisedKey>& keys, std::uint64_t seed, std::uint64_t episode,
+           Sampling sampling) {
   Drawn drawn;
+  std::vector<std::uint64_t> point;
+  if (sampling == Sampling::kLowDiscrepancy && !keys.empty())
+    point =
+        SobolPoint(episode, 1 + std::ranges::max(keys, {}, &RandomisedKey::dimension).dimension);
   for (const RandomisedKey& key : keys) {
-    Stream stream(seed, episode, "randomise." + key.key_path);
-    drawn.emplace_back(key.key_path, key.distribution.Draw(stream));
+    const std::string name = "randomise." + key.key_path;
+    if (sampling == Sampling::kIndependent) {
+      Stream stream(seed, episode, name);
+      drawn.emplace_back(key.key_path, key.distribution.Draw(stream));
+    } else {
+      const std::uint64_t shift = Stream(seed, 0, "sampling of " + name).Next();
+      drawn.emplace_back(key.key_path,
+                         key.distribution.Quantile(Shifted(point[key.dimension], shift)));
+    }
     drawn.back().second.mark = key.mark;
   }
   return drawn;

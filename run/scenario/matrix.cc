@@ -14,8 +14,8 @@ constexpr std::size_t kMaxVariants = 10'000;
 constexpr std::size_t kLongestName = 200;  // films and pictures carry it in their files' names
 
 // What all variants share, their draws above all, and what is read before they are made.
-const std::vector<std::string> kShared = {"scenario",  "name",   "seed", "episode",
-                                          "randomise", "matrix", "gate", "files"};
+const std::vector<std::string> kShared = {"scenario", "name",   "seed", "episode", "randomise",
+                                          "sampling", "matrix", "gate", "files"};
 
 [[noreturn]] void RefuseMany(const SourceMark& mark, const std::string& key) {
   throw InputError(mark, key, "", "more than " + std::to_string(kMaxVariants) + " variants");

@@ -248,6 +248,8 @@ std::string ResolvedScenario(const Scenario& s, const fs::path& folder,
                                      {"matrix", &s.matrix},
                                      {"gate", &s.gate}})
     if (!written->IsNull()) root.Add(key, Rebased(*written, s.file.parent_path(), folder));
+  if (s.sampling == Sampling::kLowDiscrepancy)
+    root.Add("sampling", ConfigNode::Scalar("low_discrepancy"));
   root.Add("files", Files(s, folder, more));
   const char* except = Vary(s, {"plan.planner"})
                            ? "; of `plan`, whose planner varies, what is not as by default"

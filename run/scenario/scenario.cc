@@ -214,7 +214,10 @@ ScenarioFile::ScenarioFile(std::optional<std::string> text, const fs::path& file
   seed_ = params.seed;
   episode_ = static_cast<std::uint64_t>(params.episode);
 
-  randomised_ = ReadRandomise(root_.Find("randomise"));
+  sampling_ = ReadSampling(root_.Find("sampling"));
+  randomised_ = ReadRandomise(root_.Find("randomise"), sampling_);
+  if (sampling_ == Sampling::kLowDiscrepancy && !randomised_.empty())
+    StateDimensions(randomised_, *root_.Find("randomise"));
   // What is set is not drawn, nor in the record.
   const auto is_set = [&](const std::string& key) {
     return std::ranges::any_of(overrides_, [&](const auto& o) {
@@ -287,7 +290,7 @@ bool ScenarioFile::draws_differ() const {
 }
 
 Drawn ScenarioFile::DrawnOf(std::uint64_t episode) const {
-  return Draw(randomised_, static_cast<std::uint64_t>(seed_), episode);
+  return Draw(randomised_, static_cast<std::uint64_t>(seed_), episode, sampling_);
 }
 
 ConfigNode ScenarioFile::gate() const {
@@ -342,6 +345,7 @@ Scenario ScenarioFile::ReadWith(std::optional<std::uint64_t> episode, const Vari
   Apply(changes, root);
   RefuseUnknownKeys(root, "", ScenarioKeys());  // a variant's too
   s.name = name();
+  s.sampling = sampling_;
   for (auto [key, node] :
        {std::pair("randomise", &s.randomise), {"matrix", &s.matrix}, {"gate", &s.gate}})
     if (const ConfigNode* written = root.Find(key)) *node = *written;

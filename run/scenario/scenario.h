@@ -43,7 +43,8 @@ struct Scenario {
   Drawn drawn;                         // what `randomise` drew for it
   std::set<std::string> written;       // the keys at its top
   ConfigNode randomise, matrix, gate;  // as written; null: not there
-  std::string name;                    // the key `name`, else the file's stem
+  Sampling sampling = Sampling::kIndependent;
+  std::string name;  // the key `name`, else the file's stem
   Site site;
   std::filesystem::path site_file;    // empty: the site stands in the scenario
   ConfigNode site_node;               // the site's tree, overrides applied
@@ -161,6 +162,7 @@ class ScenarioFile {
   ConfigNode root_;
   std::vector<std::pair<std::string, ConfigNode>> overrides_;
   std::vector<RandomisedKey> randomised_;
+  Sampling sampling_ = Sampling::kIndependent;  // how they are drawn
   std::vector<Variant> variants_;
   int seed_ = 0;
   std::uint64_t episode_ = 0;

@@ -434,7 +434,7 @@ const std::vector<std::string>& ScenarioKeys() {
       "risk",    "controller", "estimator", "sensors",  "mapper",     "react",   "physics",
       "battery", "control_hz", "trace_hz",  "failures", "on_failure", "success", "time_limit_s",
       "seed",    "episode",    "drive",     "wheels",   "video",      "files",   "randomise",
-      "matrix",  "gate",       "faults",    "dirt",     "safety",     "mission"};
+      "matrix",  "gate",       "faults",    "dirt",     "safety",     "mission", "sampling"};
   return keys;
 }
 
