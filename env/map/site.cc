@@ -11,8 +11,8 @@
 #include "base/params.h"
 #include "env/geometry/box.h"
 #include "env/map/char_grid.h"
+#include "env/map/generate.h"
 #include "env/map/lay_floors.h"
-#include "env/map/site_generator.h"
 #include "env/map/written_hazard.h"
 
 namespace floorproof {
@@ -133,7 +133,7 @@ Written ReadWritten(const ConfigNode& node, const fs::path& folder) {
   else if (const ConfigNode* grid = node.Find("grid"))
     site.grid = ReadCharGrid(*grid);
   else
-    site.generate = WriteGenerate(ReadGenerate(*node.Find("generate")));
+    site.generate = ResolvedGenerate(*node.Find("generate"));
   ReadFloor(node, site);
   ReadHazards(node, site);
   ReadPlaces(node, site);
@@ -172,7 +172,7 @@ void WarnOfFarHazards(Site& site, const std::string& file) {
 ConfigNode FixedSite(const ConfigNode& node) {
   CheckOneFloor(node);
   const ConfigNode& generate = *node.Find("generate");
-  if (generate.Find("seed") == nullptr)
+  if (DrawnAtRandom(generate))
     throw InputError(generate.mark, "generate.seed", "",
                      "missing: without it each episode of a scenario draws a site of its own; "
                      "write seed: N for one fixed site");
@@ -186,10 +186,7 @@ ConfigNode GeneratedSite(const ConfigNode& node, std::uint64_t campaign_seed,
   const ConfigNode* generate = node.Find("generate");
   if (generate == nullptr) return node;
   CheckOneFloor(node);
-  const GenerateParams params = ReadGenerate(*generate);
-  Stream stream = params.seed ? Stream(static_cast<std::uint64_t>(*params.seed), 0, "site")
-                              : Stream(campaign_seed, episode, "site");
-  ConfigNode drawn = DrawSite(params, *generate, stream);
+  ConfigNode drawn = Generated(*generate, campaign_seed, episode);
   ConfigNode site = node;
   site.Remove("generate");
   for (auto& [key, value] : drawn.entries)

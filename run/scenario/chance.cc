@@ -3,12 +3,14 @@
 
 #include <algorithm>
 
+#include "env/map/generate.h"
+
 namespace floorproof {
 
 bool EpisodesCanDiffer(const ScenarioFile& file, const Scenario& s) {
   if (file.draws_differ()) return true;
   const ConfigNode* generate = s.site_node.Find("generate");
-  if (generate != nullptr && generate->Find("seed") == nullptr) return true;
+  if (generate != nullptr && DrawnAtRandom(*generate)) return true;
   if (s.planner && s.planner->promises().uses_seed) return true;
   if (const PlanCommand* program = ProgramToAsk(s); program && program->uses_seed) return true;
   if (s.episode.drive != "none" && s.online && s.online->uses_seed()) return true;
