@@ -28,6 +28,9 @@ class HazardType : public Configurable {
   // the place: a polygon's corners (counter-clockwise) or a polyline's points, world frame, metres.
   // Throws InputError (without mark; the caller adds it) when the place does not suit.
   virtual Hazard Make(const std::vector<Vec2>& place) const = 0;
+  // Turns the directions among its keys counter-clockwise, as its place is turned. Whether there
+  // are any: then it is not at its far edge as at its near one.
+  virtual bool Turn(double /*by_rad*/) { return false; }
 };
 
 std::span<const PluginEntry<HazardType>> HazardTypes();

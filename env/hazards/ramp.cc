@@ -20,6 +20,10 @@ class Ramp final : public HazardType {
       "direction in which it rises or falls, from the map's x towards y");
   }
   Placement placement() const override { return Placement::kPolygon; }
+  bool Turn(double by_rad) override {
+    toward_deg_ = CanonicalDegrees(toward_deg_ + by_rad * 180 / kPi);
+    return true;
+  }
 
   Hazard Make(const std::vector<Vec2>& place) const override {
     const double toward_rad = toward_deg_ * kPi / 180;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "env/map/crossing_site.h"
 #include "env/map/site_generator.h"
 
 namespace floorproof {
@@ -29,11 +30,20 @@ ConfigNode Drawing(const ConfigNode& generate, std::uint64_t campaign_seed, std:
   return DrawSite(params, generate, stream);
 }
 
+ConfigNode ResolvedCrossing(const ConfigNode& generate) {
+  return WriteCrossing(ReadCrossing(generate));
+}
+
+ConfigNode Crossing(const ConfigNode& generate, std::uint64_t, std::uint64_t) {
+  return LayCrossing(ReadCrossing(generate), generate);
+}
+
 const std::vector<Kind>& Kinds() {
   static const std::vector<Kind> kKinds = [] {
     std::vector<Kind> kinds;
     for (const SiteKind& drawing : SiteKinds())
       kinds.push_back({drawing.name, true, ResolvedDrawing, Drawing});
+    kinds.push_back({"crossing", false, ResolvedCrossing, Crossing});
     return kinds;
   }();
   return kKinds;

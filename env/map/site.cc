@@ -5,6 +5,7 @@
 #include "env/map/site.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
 #include "base/input_file.h"
@@ -189,8 +190,14 @@ ConfigNode GeneratedSite(const ConfigNode& node, std::uint64_t campaign_seed,
   ConfigNode drawn = Generated(*generate, campaign_seed, episode);
   ConfigNode site = node;
   site.Remove("generate");
-  for (auto& [key, value] : drawn.entries)
-    if (site.Find(key) == nullptr) site.Add(key, std::move(value));
+  for (auto& [key, value] : drawn.entries) {
+    ConfigNode* written = site.Find(key);
+    if (written == nullptr || written->IsNull()) {
+      site.Add(key, std::move(value));
+    } else if (key == "hazards" && written->IsList()) {  // behind those whose index may be known
+      std::ranges::move(value.items, std::back_inserter(written->items));
+    }
+  }
   return site;
 }
 

@@ -20,9 +20,10 @@ struct Site {
   std::vector<std::string> warnings;  // what is read as written but may not be meant; one line each
 };
 
-// The site's tree, with `generate` replaced by the grid, start and goal that the stream "site" of
-// this campaign and episode draws. With generate.seed it is the stream of that seed's episode 0. A
-// written start or goal stays, and so does a site without `generate`. Throws InputError.
+// The site's tree, with `generate` replaced by the grid, hazards, start and goal that it stands
+// for. What is drawn at random is drawn by the stream "site" of this campaign and episode; with
+// generate.seed by that of that seed's episode 0. A written start or goal stays, written hazards
+// come first, and a site without `generate` is as it was. Throws InputError.
 ConfigNode GeneratedSite(const ConfigNode& node, std::uint64_t campaign_seed,
                          std::uint64_t episode);
 

@@ -37,6 +37,21 @@ std::vector<Vec2> ReadPoints(const ConfigNode& node, const std::string& key, std
   return points;
 }
 
+std::vector<Vec2> ReadPlace(const ConfigNode& node, const std::string& path,
+                            const std::string& type, HazardType::Placement placement) {
+  const bool polygon = placement == HazardType::Placement::kPolygon;
+  const std::string key = polygon ? "polygon_m" : "line_m";
+  const std::string other = polygon ? "line_m" : "polygon_m";
+  if (const ConfigNode* wrong = node.Find(other))
+    throw InputError(wrong->mark, path + other, "", "a " + type + " is placed by " + key);
+  const ConfigNode* place = node.Find(key);
+  if (place == nullptr)
+    throw InputError(node.mark, path + key, "", "missing; it says where the " + type + " lies");
+  return polygon ? ReadPolygon(*place, path + key) : ReadPoints(*place, path + key, 2);
+}
+
+}  // namespace
+
 Polygon ReadPolygon(const ConfigNode& node, const std::string& key) {
   Polygon polygon = ReadPoints(node, key, 3);
   if ((polygon.front() - polygon.back()).norm() < 1e-6) polygon.pop_back();  // closed by hand
@@ -51,19 +66,6 @@ Polygon ReadPolygon(const ConfigNode& node, const std::string& key) {
   return polygon;
 }
 
-std::vector<Vec2> ReadPlace(const ConfigNode& node, const std::string& path,
-                            const std::string& type, HazardType::Placement placement) {
-  const bool polygon = placement == HazardType::Placement::kPolygon;
-  const std::string key = polygon ? "polygon_m" : "line_m";
-  const std::string other = polygon ? "line_m" : "polygon_m";
-  if (const ConfigNode* wrong = node.Find(other))
-    throw InputError(wrong->mark, path + other, "", "a " + type + " is placed by " + key);
-  const ConfigNode* place = node.Find(key);
-  if (place == nullptr)
-    throw InputError(node.mark, path + key, "", "missing; it says where the " + type + " lies");
-  return polygon ? ReadPolygon(*place, path + key) : ReadPoints(*place, path + key, 2);
-}
-
 ConfigNode WritePoints(const std::vector<Vec2>& points) {
   ConfigNode list = ConfigNode::List();
   for (const Vec2& p : points)
@@ -71,8 +73,6 @@ ConfigNode WritePoints(const std::vector<Vec2>& points) {
         {ConfigNode::Scalar(FormatDouble(p.x())), ConfigNode::Scalar(FormatDouble(p.y()))}));
   return list;
 }
-
-}  // namespace
 
 std::vector<std::string> CommonHazardKeys::Names() {
   return {"known", "restitution", "friction", "reflectance"};

@@ -14,6 +14,11 @@
 
 namespace floorproof {
 
+// A list of points [x, y], made counter-clockwise with the first edge still first. Throws
+// InputError where it is no simple polygon.
+Polygon ReadPolygon(const ConfigNode& node, const std::string& key);
+ConfigNode WritePoints(const std::vector<Vec2>& points);
+
 // What every type takes besides its own keys.
 struct CommonHazardKeys {
   bool known = true;
