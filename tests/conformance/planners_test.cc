@@ -70,6 +70,11 @@ void ExpectSamePath(const Path& a, const Path& b) {
   }
 }
 
+// A planner that needs a goal is sent there; others choose for themselves.
+std::optional<Vec2> GoalFor(const Planner& planner, const Vec2& there) {
+  return planner.promises().needs_goal ? std::optional(there) : std::nullopt;
+}
+
 struct Drawing {
   const char* name;
   const char* rows;
@@ -201,6 +206,7 @@ TEST_P(EveryPlanner, CoversTheFloorOrSaysWhy) {
 }
 
 TEST_P(EveryPlanner, KeepsItsClearShapeOffEveryWall) {
+  goal_ = GoalFor(*dut_, start_ * Vec2(0.06, 0.02));  // in the smallest floor's one cell
   const PlanResult plan = Plan();
   if (plan.status == PlanStatus::kTooFewSamples) GTEST_SKIP() << plan.message;
   ExpectSound(map_, start_, plan);
@@ -436,8 +442,8 @@ hazards:
   const RobotSpec robot = DiscRobot(0.2, 0.3);
   const Pose2 start{0.75, 0.75, 0};
   const RiskMap risk = ComputeRisk(site.map, robot, PaperTables());
-  const PlanRequest request{site.map, robot, start, std::nullopt, 7, &risk};
   const auto dut = MakePlanner(GetParam());
+  const PlanRequest request{site.map, robot, start, GoalFor(*dut, {0.75, 2.75}), 7, &risk};
   const PlanResult plan = dut->Plan(request);
   ExpectSound(site.map, start, plan);
   ExpectCovered(*dut, request, plan);
@@ -474,8 +480,8 @@ TEST_P(EveryPlannerOnSites, CoversARealMap) {
   for (const bool wide : {false, true}) {
     const RobotSpec robot = wide ? DiscRobot(0.35, 0.5) : DiscRobot(0.18, 0.3);
     const RiskMap risk = ComputeRisk(map, robot, PaperTables());
-    const PlanRequest request{map, robot, start, std::nullopt, 7, &risk};
     const auto dut = MakePlanner(GetParam());
+    const PlanRequest request{map, robot, start, GoalFor(*dut, p + Vec2(0.2, 0.1)), 7, &risk};
     const PlanResult plan = dut->Plan(request);
     ExpectSound(map, start, plan);
     ExpectCovered(*dut, request, plan);
