@@ -66,6 +66,41 @@ double BoundedQuantile(const Distribution& d, double probability) {
   return std::clamp(x, d.min, d.max);
 }
 
+// [low, high], or a list of these.
+std::vector<std::pair<double, double>> ReadSpans(const ConfigNode& values, const std::string& key) {
+  const bool several = !values.items.empty() && values.items.front().IsList();
+  std::vector<std::pair<double, double>> spans;
+  const std::vector<ConfigNode> written = several ? values.items : std::vector<ConfigNode>{values};
+  for (const ConfigNode& span : written) {
+    if (!span.IsList() || span.items.size() != 2)
+      throw InputError(span.mark, key, "",
+                       several ? "must be a list of [low, high]" : "must be a list of two numbers");
+    const double low = AsDouble(span.items[0], key), high = AsDouble(span.items[1], key);
+    if (low > high)
+      throw InputError(span.mark, key, FormatDouble(high),
+                       "the upper bound must not be below the lower");
+    if (several && low == high)
+      throw InputError(span.mark, key, FormatDouble(low), "of several ranges none may be empty");
+    if (!spans.empty() && low < spans.back().second)
+      throw InputError(span.mark, key, FormatDouble(low),
+                       "several ranges must not overlap, the lowest first");
+    spans.emplace_back(low, high);
+  }
+  return spans;
+}
+
+// The place below which this share of the ranges lies.
+double At(const std::vector<std::pair<double, double>>& spans, double share) {
+  double whole = 0;
+  for (const auto& [low, high] : spans) whole += high - low;
+  double left = whole * share;
+  for (const auto& [low, high] : spans) {
+    if (left < high - low) return low + left;
+    left -= high - low;
+  }
+  return spans.back().second;
+}
+
 Distribution ReadDistribution(const ConfigNode& node, const std::string& path) {
   const std::vector<std::string> kinds = {"uniform", "normal", "lognormal", "choice"};
   if (!node.IsMap())
@@ -95,15 +130,14 @@ Distribution ReadDistribution(const ConfigNode& node, const std::string& path) {
   if (d.kind == Distribution::Kind::kChoice) {
     if (values->items.empty()) throw InputError(values->mark, key, "", "must hold a value or more");
     d.choices = values->items;
+  } else if (d.kind == Distribution::Kind::kUniform) {
+    d.spans = ReadSpans(*values, key);
   } else {
     if (values->items.size() != 2)
       throw InputError(values->mark, key, "", "must be a list of two numbers");
     d.a = AsDouble(values->items[0], key);
     d.b = AsDouble(values->items[1], key);
-    if (d.kind == Distribution::Kind::kUniform && !(d.a <= d.b))
-      throw InputError(values->mark, key, FormatDouble(d.b),
-                       "the upper bound must not be below the lower");
-    if (d.kind != Distribution::Kind::kUniform && !(d.b >= 0))
+    if (!(d.b >= 0))
       throw InputError(values->mark, key, FormatDouble(d.b), "a deviation must be >= 0");
     if (d.kind == Distribution::Kind::kLognormal && !(d.a > 0))
       throw InputError(values->mark, key, FormatDouble(d.a), "a median must be > 0");
@@ -150,7 +184,7 @@ ConfigNode Distribution::Draw(Stream& stream) const {
   if (kind == Kind::kChoice) return choices[stream.Below(choices.size())];
   double value = 0;
   for (int i = 0; i < kMaxRedraws; ++i) {
-    if (kind == Kind::kUniform) value = stream.Uniform(a, b);
+    if (kind == Kind::kUniform) value = At(spans, stream.Uniform());
     if (kind == Kind::kNormal) value = a + b * stream.Normal();
     if (kind == Kind::kLognormal) value = a * std::exp(b * stream.Normal());
     if (value >= min && value <= max) break;
@@ -164,12 +198,12 @@ ConfigNode Distribution::Quantile(double probability) const {
     return choices[std::min(choices.size() - 1, static_cast<std::size_t>(probability * n))];
   }
   const double value =
-      kind == Kind::kUniform ? a + probability * (b - a) : BoundedQuantile(*this, probability);
+      kind == Kind::kUniform ? At(spans, probability) : BoundedQuantile(*this, probability);
   return ConfigNode::Scalar(FormatDouble(value));
 }
 
 bool Distribution::varies() const {
-  if (kind == Kind::kUniform) return a < b;
+  if (kind == Kind::kUniform) return spans.front().first < spans.back().second;
   if (kind != Kind::kChoice) return b > 0 && min < max;
   return std::ranges::any_of(
       choices, [&](const ConfigNode& c) { return WriteYaml(c) != WriteYaml(choices.front()); });

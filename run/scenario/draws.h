@@ -22,9 +22,10 @@ namespace floorproof {
 struct Distribution {
   enum class Kind { kUniform, kNormal, kLognormal, kChoice };
   Kind kind = Kind::kUniform;
-  double a = 0, b = 0;               // [a, b); mean, deviation; median, deviation of the logarithm
+  double a = 0, b = 0;               // mean, deviation; median, deviation of the logarithm
   double min = -1e308, max = 1e308;  // draws outside are drawn again
-  std::vector<ConfigNode> choices;   // each as likely
+  std::vector<std::pair<double, double>> spans;  // [low, high), ascending; each place as likely
+  std::vector<ConfigNode> choices;               // each as likely
 
   ConfigNode Draw(Stream& stream) const;
   // The value below which a draw lies with this probability, in (0, 1): of choices, each as wide,

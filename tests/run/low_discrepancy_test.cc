@@ -43,6 +43,22 @@ TEST(Quantile, IsWhatTablesSay) {
   EXPECT_EQ(QuantileOf("{choice: [4, 5, 6, 7]}", 0.5), 6);
 }
 
+// Of several ranges, each place is as likely: 3 of 4 parts lie in the second.
+TEST(Quantile, OfSeveralRangesPassesOverTheGaps) {
+  const std::string dut = "{uniform: [[-2, -1], [1, 4]]}";
+  EXPECT_DOUBLE_EQ(QuantileOf(dut, 0.125), -1.5);
+  EXPECT_DOUBLE_EQ(QuantileOf(dut, 0.25), 1);
+  EXPECT_DOUBLE_EQ(QuantileOf(dut, 0.5), 2);
+  const auto keys = Read("k: " + dut + "\n", Sampling::kIndependent);
+  int low = 0;
+  for (std::uint64_t e = 0; e < 1000; ++e) {
+    const double x = AsDouble(Draw(keys, 1, e).front().second, "k");
+    EXPECT_TRUE((x >= -2 && x < -1) || (x >= 1 && x < 4)) << x;
+    low += x < 0;
+  }
+  EXPECT_NEAR(low, 250, 5 * std::sqrt(1000 * 0.25 * 0.75));
+}
+
 // What lies within the bounds keeps its proportions: half of the mass between 0 and infinity of a
 // normal distribution lies below 0.6744897501960817, its upper quartile.
 TEST(Quantile, OfWhatIsCutOffKeepsProportionsAndBounds) {
@@ -163,6 +179,10 @@ TEST(LowDiscrepancy, BadInputNamesLineKeyAndRule) {
   const std::tuple<const char*, const char*, const char*> cases[] = {
       {"a: {uniform: [0, 1], dimension: 0}", "randomise.a.dimension = 0", "[1, 1000]"},
       {"a: {uniform: [0, 1], dimension: 1001}", "randomise.a.dimension = 1001", "[1, 1000]"},
+      {"a: {uniform: [[0, 1], [0.5, 2]]}", "randomise.a.uniform = 0.5", "must not overlap"},
+      {"a: {uniform: [[0, 1], [2, 1]]}", "randomise.a.uniform = 1", "must not be below"},
+      {"a: {uniform: [[0, 1], 3]}", "randomise.a.uniform", "a list of [low, high]"},
+      {"a: {uniform: [[0, 1], [2, 2]]}", "randomise.a.uniform = 2", "none may be empty"},
       {"a: {uniform: [0, 1], dimension: 2}\nb: {uniform: [0, 1]}", "s.yaml:2: randomise.b",
        "is that of a too"},
   };
