@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "env/core/passages.h"
 #include "env/geometry/box.h"
 #include "env/map/written_hazard.h"
 
@@ -200,10 +201,10 @@ class Layout {
   }
 
   void FindEnds() {
-    // What is passed is brought near, to say when the robot's whole box is abreast of its end.
+    // What is passed is brought near, to say where the robot's whole box is within reach of it.
     const Box2 box = BoxAround(robot_);
     const Polygon moving = over() ? robot_ : Rectangle(box.low, box.high);
-    const double nearer_m = over() ? 0 : p_.gap_m + kLeastSize_m;
+    const double nearer_m = over() ? 0 : std::max(kReach_m, p_.gap_m + kLeastSize_m);
     double first = std::numeric_limits<double>::infinity(), last = -first;
     for (const Polygon& part : footprint_) {
       const auto [from, to] = Touching(moving, Moved(part, {0, -nearer_m, 0}));
@@ -211,7 +212,7 @@ class Layout {
       last = std::max(last, to);
     }
     start_m_ = first - p_.run_up_m;
-    goal_m_ = last + p_.run_up_m;
+    goal_m_ = last + p_.run_out_m;
   }
 
   static std::string Rows(int width, int height) {
@@ -252,7 +253,8 @@ void CrossingParams::Visit(ParamVisitor& v) {
   v("share", share, Between(0.01, 2), "of the robot's width that passes over it; 1 or more: all");
   v("gap_m", gap_m, Between(0, 5), "from the robot to it, where it is passed");
   v("length_m", length_m, Between(0.01, 10), "along the way, of what is placed by a polygon");
-  v("run_up_m", run_up_m, Between(0.01, 20), "before it, and behind it");
+  v("run_up_m", run_up_m, Between(0.01, 20), "before the robot touches it, or comes within reach");
+  v("run_out_m", run_out_m, Between(0.01, 20), "of the way, behind the last such place");
   v("wall_m", wall_m, Between(0, 20), "from the robot to a wall beside its way; none: far away");
   v("radius_m", radius_m, Between(0.01, 5), "of the robot, that it keeps clear");
 }

@@ -31,7 +31,7 @@ struct CrossingParams {
   double share = 1;
   double gap_m = 0.1;
   double length_m = 0.5;  // a person's step; a mat
-  double run_up_m = 0.5;
+  double run_up_m = 0.5, run_out_m = 0.5;
   std::optional<double> wall_m;
   double radius_m = 0.2;  // of the robot
   Polygon outline_m;      // of the robot, in its own frame; empty: a circle of radius_m

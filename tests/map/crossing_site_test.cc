@@ -70,12 +70,13 @@ TEST(CrossingSite, RunUpAndRunOutAreAsAsked) {
   for (const char* how : {"", "angle_deg: 50", "angle_deg: -35, lead_deg: 70, share: 0.4",
                           "angle_deg: 20, lead_deg: -130, share: 0.7, side: right"}) {
     SCOPED_TRACE(how);
-    const HazardMap dut = Lay(std::string(how) + (*how ? ", " : "") + "run_up_m: 0.3, " + kOutline);
+    const HazardMap dut =
+        Lay(std::string(how) + (*how ? ", " : "") + "run_up_m: 0.3, run_out_m: 0.4, " + kOutline);
     ASSERT_TRUE(dut.start && dut.goal);
     EXPECT_EQ(dut.start->y_m, dut.goal->y()) << "the way runs along +x";
     const auto [first, last] = TouchesFromTo(dut);
     EXPECT_NEAR(first, 0.3, 0.002);
-    EXPECT_NEAR((*dut.goal - dut.start->p()).norm() - last, 0.3, 0.002);
+    EXPECT_NEAR((*dut.goal - dut.start->p()).norm() - last, 0.4, 0.002);
   }
 }
 
