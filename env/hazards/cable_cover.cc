@@ -5,6 +5,7 @@
 
 #include "env/geometry/geometry.h"
 #include "env/hazards/hazard_type.h"
+#include "env/hazards/robot_scale.h"
 #include "env/hazards/strip.h"
 
 namespace floorproof {
@@ -19,6 +20,13 @@ class CableCover : public HazardType {
     v("height_m", height_m_, Between(kLeastSize_m, 0.5), "height over the base floor");
   }
   Placement placement() const override { return Placement::kLine; }
+
+  std::vector<KeyRange> Ranges(const RobotSpec& robot) const override {
+    const double most_m = 1.5 * EdgeScale(robot, "step");  // its flanks slope
+    return {{"height_m", {{most_m / 20, most_m}}},
+            {"width_m", {{0.08, 0.24}}},
+            {"top_width_m", {{0.02, 0.06}}}};
+  }
 
   Hazard Make(const std::vector<Vec2>& place) const override {
     if (top_width_m_ > width_m_)

@@ -6,6 +6,7 @@
 // modelled, nor that it gives more under a narrow wheel.
 #include "env/hazards/hazard_type.h"
 #include "env/hazards/rim.h"
+#include "env/hazards/robot_scale.h"
 
 namespace floorproof {
 namespace {
@@ -19,6 +20,13 @@ class Carpet final : public HazardType {
       "what holds a rolling wheel back, as a share of its load, beside its own bearings");
   }
   Placement placement() const override { return Placement::kPolygon; }
+
+  std::vector<KeyRange> Ranges(const RobotSpec& robot) const override {
+    const double most_m = EdgeScale(robot, "carpet");
+    return {{"height_m", {{most_m / 20, most_m}}},
+            {"bevel", {{0, 1.5}}},
+            {"rolling_drag", {{0, 0.15}}}};
+  }
 
   Hazard Make(const std::vector<Vec2>& place) const override {
     Hazard hazard;

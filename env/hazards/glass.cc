@@ -16,6 +16,10 @@ class Glass : public HazardType {
   }
   Placement placement() const override { return Placement::kLine; }
 
+  std::vector<KeyRange> Ranges(const RobotSpec&) const override {
+    return {{"restitution", {{0, 0.4}}}};  // from a dead blow to more than a shell gives back
+  }
+
   Hazard Make(const std::vector<Vec2>& place) const override {
     Hazard hazard;
     hazard.hazard_class = HazardClass::kGlass;

@@ -2,6 +2,7 @@
 // A slot in the floor along a line (C4 of the hTetro FMEA paper, Table 1), with vertical sides and
 // a flat bottom.
 #include "env/hazards/hazard_type.h"
+#include "env/hazards/robot_scale.h"
 #include "env/hazards/strip.h"
 
 namespace floorproof {
@@ -14,6 +15,11 @@ class Groove : public HazardType {
     v("depth_m", depth_m_, Between(kLeastSize_m, 2), "depth below the base floor");
   }
   Placement placement() const override { return Placement::kLine; }
+
+  std::vector<KeyRange> Ranges(const RobotSpec& robot) const override {
+    const double wheel_m = WheelScale(robot);
+    return {{"width_m", {{0.1 * wheel_m, 3 * wheel_m}}}, {"depth_m", {{0.1 * wheel_m, wheel_m}}}};
+  }
 
   Hazard Make(const std::vector<Vec2>& place) const override {
     Hazard hazard;

@@ -5,11 +5,14 @@
 
 #include <memory>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "base/params.h"
 #include "base/registry.h"
 #include "env/core/hazard_map.h"
+#include "env/core/robot_spec.h"
 
 namespace floorproof {
 
@@ -18,6 +21,13 @@ inline constexpr double kLeastSize_m = 1e-4;
 
 // Sizes that are the same but for rounding differ by less than this factor.
 inline constexpr double kSame = 1 + 1e-9;
+
+// Values of one key, its own or one that all types share, over which a robot's chance to fail goes
+// from hardly any to nearly all.
+struct KeyRange {
+  std::string key;
+  std::vector<std::pair<double, double>> spans;  // [low, high], ascending
+};
 
 class HazardType : public Configurable {
  public:
@@ -31,6 +41,10 @@ class HazardType : public Configurable {
   // Turns the directions among its keys counter-clockwise, as its place is turned. Whether there
   // are any: then it is not at its far edge as at its near one.
   virtual bool Turn(double /*by_rad*/) { return false; }
+  // What of it to vary to measure how often this robot fails there. Any values from these ranges,
+  // together, make a hazard, on a strip that is longer than three of the robot's wheels are high.
+  // None: it is measured as it is by default.
+  virtual std::vector<KeyRange> Ranges(const RobotSpec& /*robot*/) const { return {}; }
 };
 
 std::span<const PluginEntry<HazardType>> HazardTypes();

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "env/hazards/hazard_type.h"
+#include "env/hazards/robot_scale.h"
 
 namespace floorproof {
 namespace {
@@ -20,6 +21,13 @@ class LiftSill final : public HazardType {
       "the car's floor over the base floor; minus: below; 0: level");
   }
   Placement placement() const override { return Placement::kPolygon; }
+
+  std::vector<KeyRange> Ranges(const RobotSpec& robot) const override {
+    const double wheel_m = WheelScale(robot), most_m = EdgeScale(robot, "lift_sill");
+    return {{"gap_m", {{0.1 * wheel_m, 2 * wheel_m}}},
+            {"depth_m", {{1.1 * most_m, 1.1 * most_m + wheel_m}}},
+            {"level_m", {{-most_m, -most_m / 20}, {most_m / 20, most_m}}}};
+  }
 
   Hazard Make(const std::vector<Vec2>& place) const override {
     if (level_m_ != 0 && std::abs(level_m_) < kLeastSize_m)

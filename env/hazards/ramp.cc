@@ -25,6 +25,10 @@ class Ramp final : public HazardType {
     return true;
   }
 
+  std::vector<KeyRange> Ranges(const RobotSpec&) const override {
+    return {{"slope_deg", {{-30, -1}, {1, 30}}}};  // wheels slip before that, on most floors
+  }
+
   Hazard Make(const std::vector<Vec2>& place) const override {
     const double toward_rad = toward_deg_ * kPi / 180;
     const Vec2 along(std::cos(toward_rad), std::sin(toward_rad));

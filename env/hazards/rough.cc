@@ -13,6 +13,7 @@
 
 #include "env/geometry/box.h"
 #include "env/hazards/hazard_type.h"
+#include "env/hazards/robot_scale.h"
 
 namespace floorproof {
 namespace {
@@ -37,6 +38,11 @@ class Rough : public HazardType {
     v("wavelength_m", wavelength_m_, {0.01, 2, false}, "distance from bump to bump");
   }
   Placement placement() const override { return Placement::kPolygon; }
+
+  std::vector<KeyRange> Ranges(const RobotSpec& robot) const override {
+    const double most_m = 1.5 * EdgeScale(robot, "rough");  // its bumps are ramps
+    return {{"amplitude_m", {{most_m / 20, most_m}}}, {"wavelength_m", {{0.06, 0.2}}}};
+  }
 
   Hazard Make(const std::vector<Vec2>& place) const override {
     Hazard hazard;

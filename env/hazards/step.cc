@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "env/hazards/hazard_type.h"
+#include "env/hazards/robot_scale.h"
 
 namespace floorproof {
 namespace {
@@ -15,6 +16,11 @@ class Step : public HazardType {
       "floor's height within the polygon over the base floor; minus: a drop; not 0");
   }
   Placement placement() const override { return Placement::kPolygon; }
+
+  std::vector<KeyRange> Ranges(const RobotSpec& robot) const override {
+    const double most_m = EdgeScale(robot, "step"), least_m = most_m / 20;
+    return {{"height_m", {{-most_m, -least_m}, {least_m, most_m}}}};
+  }
 
   Hazard Make(const std::vector<Vec2>& place) const override {
     if (std::abs(height_m_) < 1e-4)

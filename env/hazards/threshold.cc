@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "env/hazards/hazard_type.h"
+#include "env/hazards/robot_scale.h"
 #include "env/hazards/strip.h"
 
 namespace floorproof {
@@ -19,6 +20,15 @@ class Threshold final : public HazardType {
     v("bevel", bevel_, Between(0, 20), "run of the slope above that, per rise; 0: all is upright");
   }
   Placement placement() const override { return Placement::kLine; }
+
+  std::vector<KeyRange> Ranges(const RobotSpec& robot) const override {
+    constexpr double kMostBevel = 2;
+    const double most_m = EdgeScale(robot, "threshold"), slopes_m = 2 * kMostBevel * most_m;
+    return {{"height_m", {{most_m / 20, most_m}}},
+            {"vertical_m", {{0, most_m}}},
+            {"bevel", {{0, kMostBevel}}},
+            {"width_m", {{slopes_m + 0.01, slopes_m + 0.15}}}};
+  }
 
   Hazard Make(const std::vector<Vec2>& place) const override {
     const double upright_m = bevel_ > 0 ? std::min(height_m_, vertical_m_) : height_m_;

@@ -12,6 +12,10 @@ class Wet final : public HazardType {
   void Visit(ParamVisitor&) override {}  // its friction is a key of all hazards
   Placement placement() const override { return Placement::kPolygon; }
 
+  std::vector<KeyRange> Ranges(const RobotSpec&) const override {
+    return {{"friction", {{0.02, 0.6}}}};
+  }
+
   Hazard Make(const std::vector<Vec2>& place) const override {
     Hazard hazard;
     hazard.hazard_class = HazardClass::kTerrain;
