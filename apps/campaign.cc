@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "apps/command.h"
+#include "apps/campaign_line.h"
 #include "base/interrupt.h"
-#include "base/progress_line.h"
-#include "base/quantity.h"
 #include "report/campaign_films.h"
 #include "report/campaign_words.h"
 #include "run/campaign/drive_campaign.h"
 #include "run/campaign/summary_json.h"
-#include "stats/binomial.h"
 
 namespace floorproof {
 namespace {
@@ -26,60 +21,6 @@ struct Options {
   bool resume = false, retry_errors = false, fail_fast = false, no_films = false;
 };
 
-// A:B, half-open; none: all of them.
-std::optional<EpisodeRange> ReadEpisodes(const std::string& text) {
-  if (text.empty()) return {};
-  unsigned long long a = 0, b = 0;
-  int used = 0;
-  if (std::sscanf(text.c_str(), "%llu:%llu%n", &a, &b, &used) != 2 ||
-      static_cast<std::size_t>(used) != text.size())
-    throw InputError({"--episodes", 0}, "", text,
-                     "must be A:B, the first id and the one behind the last");
-  return EpisodeRange{a, b};
-}
-
-// Warnings, then how it goes: what is done, the rates so far, time to go.
-class Progress final : public CampaignObserver {
- public:
-  Progress(const Globals& globals, const std::vector<Variant>& variants)
-      : globals_(globals), line_(globals), variants_(variants) {}
-  void OnWarning(const std::string& line) override { globals_.Say(line); }
-  void OnProgress(const CampaignProgress& progress) override {
-    if (line_.IsDue()) line_.Show(Text(progress));
-  }
-  void Clear() { line_.Clear(); }
-
- private:
-  std::string Text(const CampaignProgress& p) const {
-    std::string text = fmt::format("  {} of {}", p.done, CountText(p.total, "episode"));
-    if (p.done_now > 0) {
-      const double rate = static_cast<double>(p.done_now) / p.elapsed_s;
-      text += fmt::format(", {:.1f} a second, {:.0f} s to go at most", rate,
-                          static_cast<double>(p.total - p.done) / rate);
-    }
-    constexpr std::size_t kShown = 3;
-    for (std::size_t v = 0; v < std::min(kShown, p.variants.size()); ++v) {
-      const VariantProgress& at = p.variants[v];
-      if (at.n == 0) continue;
-      text +=
-          fmt::format("; {}{} of {} fail", p.variants.size() > 1 ? variants_[v].name + ": " : "",
-                      at.any_failure, at.n);
-      text += at.repetition.repeated()
-                  ? " (one episode, repeated)"
-                  : fmt::format(" (at most {})",
-                                PercentText(ClopperPearsonUpper(static_cast<int>(at.any_failure),
-                                                                static_cast<int>(at.n),
-                                                                kReportedConfidence),
-                                            2));
-    }
-    return text;
-  }
-
-  const Globals& globals_;
-  ProgressLine line_;
-  const std::vector<Variant>& variants_;
-};
-
 int RunIt(const Options& options, const Globals& globals) {
   auto overrides = globals.Overrides();
   if (options.seed >= 0) overrides.push_back({"seed", std::to_string(options.seed)});
@@ -92,7 +33,7 @@ int RunIt(const Options& options, const Globals& globals) {
                                 .time_limit_s = options.time_limit_s};
   const ScenarioFile file(options.scenario, overrides);
   const fs::path folder = CampaignFolder(options.out, file.file(), file.name());
-  Progress progress(globals, file.variants());
+  CampaignLine progress(globals, file.variants());
   const CampaignOutcome outcome = DriveCampaign(file, request, folder, &progress);
   progress.Clear();
   const char* missing = "failing_episodes.csv and the films";

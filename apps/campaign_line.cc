@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/campaign_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "base/quantity.h"
+#include "stats/binomial.h"
+
+namespace floorproof {
+namespace {
+
+std::string Text(const CampaignProgress& p, const std::vector<Variant>& variants) {
+  std::string text = fmt::format("  {} of {}", p.done, CountText(p.total, "episode"));
+  if (p.done_now > 0) {
+    const double rate = static_cast<double>(p.done_now) / p.elapsed_s;
+    text += fmt::format(", {:.1f} a second, {:.0f} s to go at most", rate,
+                        static_cast<double>(p.total - p.done) / rate);
+  }
+  constexpr std::size_t kShown = 3;
+  for (std::size_t v = 0; v < std::min(kShown, p.variants.size()); ++v) {
+    const VariantProgress& at = p.variants[v];
+    if (at.n == 0) continue;
+    text += fmt::format("; {}{} of {} fail", p.variants.size() > 1 ? variants[v].name + ": " : "",
+                        at.any_failure, at.n);
+    text += at.repetition.repeated()
+                ? " (one episode, repeated)"
+                : fmt::format(
+                      " (at most {})",
+                      PercentText(ClopperPearsonUpper(static_cast<int>(at.any_failure),
+                                                      static_cast<int>(at.n), kReportedConfidence),
+                                  2));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::optional<EpisodeRange> ReadEpisodes(const std::string& text) {
+  if (text.empty()) return {};
+  unsigned long long a = 0, b = 0;
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%llu:%llu%n", &a, &b, &used) != 2 ||
+      static_cast<std::size_t>(used) != text.size())
+    throw InputError({"--episodes", 0}, "", text,
+                     "must be A:B, the first id and the one behind the last");
+  return EpisodeRange{a, b};
+}
+
+void CampaignLine::OnProgress(const CampaignProgress& progress) {
+  if (line_.IsDue()) line_.Show(Text(progress, variants_));
+}
+
+}  // namespace floorproof

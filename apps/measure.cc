@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/campaign_line.h"
+#include "base/interrupt.h"
+#include "measure/drive_encounters.h"
+#include "report/campaign_words.h"
+#include "run/campaign/summary_json.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string robot, out, episodes;
+  std::uint64_t n = 1000;
+  int seed = -1, jobs = 0;
+  bool resume = false;
+};
+
+int RunIt(const Options& options, const Globals& globals) {
+  auto overrides = globals.Overrides();
+  if (options.seed >= 0) overrides.push_back({"seed", std::to_string(options.seed)});
+  const CampaignRequest request{.episodes = options.n,
+                                .shard = ReadEpisodes(options.episodes),
+                                .jobs = options.jobs > 0 ? options.jobs : Cores(),
+                                .resume = options.resume};
+  const EncounterCampaign campaign = EncountersOf(options.robot, overrides);
+  const fs::path folder =
+      options.out.empty() ? fs::path("out") / "measure" / campaign.label : fs::path(options.out);
+  CampaignLine progress(globals, campaign.file.variants());
+  const CampaignOutcome outcome = DriveEncounters(campaign, request, folder, &progress);
+  progress.Clear();
+  globals.Result(SummaryJson(outcome.summary));
+  globals.Say(EncounterTable(outcome.summary));
+  globals.Say("results are in " + folder.string());
+  if (outcome.run.end == CampaignEnd::kInterrupted) throw Interruption();
+  return CampaignExitStatus(outcome);
+}
+
+}  // namespace
+
+void AddMeasure(CommandLine& line, const Globals& globals, int& status) {
+  auto options = std::make_shared<Options>();
+  Subcommand command = line.Add(
+      "measure", "Drive a robot's single encounters with hazards of every type, as a campaign");
+  command.Text("ROBOT", options->robot, "A robot's name (floorproof list robots), or its MJCF file",
+               Subcommand::Need::kRequired);
+  command.Integer("-n", options->n,
+                  "Encounters with each type, over it and beside it (default: 1000)", 1,
+                  kMostEpisodes);
+  command.NonNegative("--seed", options->seed, "Of all draws (default: 0)");
+  command.Integer("--jobs", options->jobs, "Worker processes (default: one a core)", 1, kMostJobs);
+  command.Text("--episodes", options->episodes, "A:B, ids from A to before B only: a shard");
+  command.Text("--out", options->out, "Output folder (default: out/measure/ROBOT)");
+  command.Flag("--resume", options->resume, "Go on with what the folder holds");
+  command.OnRun([options, &globals, &status] { status = RunIt(*options, globals); });
+}
+
+}  // namespace floorproof

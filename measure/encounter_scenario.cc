@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/encounter_scenario.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "controllers/drive.h"
+#include "env/core/passages.h"
+#include "env/hazards/hazard_type.h"
+
+namespace floorproof {
+namespace {
+
+constexpr double kSteepest_deg = 70;
+
+// A key and the values it takes, as a line of `randomise`.
+std::string Line(const std::string& key, const std::string& distribution) {
+  return fmt::format("  {}: {{{}}}\n", key, distribution);
+}
+// To four digits: nobody reads more, and what is laid out follows from what is written.
+std::string Range(double low, double high) { return fmt::format("[{:.4g}, {:.4g}]", low, high); }
+std::string Uniform(double low, double high) { return "uniform: " + Range(low, high); }
+
+std::string Uniform(const std::vector<std::pair<double, double>>& spans) {
+  if (spans.size() == 1) return Uniform(spans[0].first, spans[0].second);
+  std::string text;
+  for (const auto& [low, high] : spans) text += (text.empty() ? "" : ", ") + Range(low, high);
+  return "uniform: [" + text + "]";
+}
+
+// What stands in the way and is never driven over.
+bool IsObstacleType(const HazardType& type) {
+  const bool line = type.placement() == HazardType::Placement::kLine;
+  const HazardClass is =
+      type.Make(line ? std::vector<Vec2>{{0, 0}, {0, 1}} : Rectangle({0, 0}, {1, 1})).hazard_class;
+  return is == HazardClass::kBlindObject || is == HazardClass::kGlass;
+}
+
+std::string Meetings() {
+  std::string lines;
+  const auto add = [&](std::string_view type, const char* passage, const char* estimator) {
+    lines += fmt::format(
+        "    - {{label: {} {}, site.generate.hazard: {}, site.generate.passage: {}, "
+        "estimator.name: {}}}\n",
+        type, passage, type, passage, estimator);
+  };
+  // What is passed at a gap is met only by a robot that is wrong about its place. Over a hazard
+  // such a robot would take wheels that spin for way, and end before its failure shows.
+  for (const auto& entry : HazardTypes()) {
+    if (!IsObstacleType(*entry.make())) add(entry.name, "over", "truth");
+    add(entry.name, "beside", "odometry");
+  }
+  return lines;
+}
+
+std::string Outline(const RobotSpec& robot) {
+  if (robot.clear.kind == Shape2::Kind::kCircle)
+    return fmt::format("radius_m: {:.4g}", robot.clear.radius_m);
+  std::string points;
+  for (const Vec2& p : ConvexHull(robot.clear.footprint_B))
+    points += fmt::format("{}[{:.4g}, {:.4g}]", points.empty() ? "" : ", ", p.x(), p.y());
+  return "outline_m: [" + points + "]";
+}
+
+// How the hazard is met, then by what robot, on what floor. The first coordinates of a Sobol
+// sequence are its most even ones.
+std::string MetBy(const RobotSpec& robot) {
+  constexpr double kSlowest = 0.3;  // of its top speed: an encounter is to end in some 10 s
+  // As a robot that has driven a while without looking where it is.
+  constexpr double kAside_m = 0.1, kAstray_deg = 5;
+  constexpr double kWheels = 3, kShortest_m = 0.3, kLonger_m = 0.6;
+  // Measured across the edge at the steepest angle it is still longer than its types ask for.
+  const double wheel_m = std::ranges::max(robot.wheels, {}, &WheelSpec::radius_m).radius_m;
+  const double length_m =
+      std::max(kShortest_m, kWheels * wheel_m / std::cos(kSteepest_deg * kPi / 180));
+  std::string lines = Line("site.generate.angle_deg", Uniform(-kSteepest_deg, kSteepest_deg));
+  lines += Line("plan.speed_mps", Uniform(kSlowest * robot.max_speed_mps, robot.max_speed_mps));
+  lines += Line("site.floor.friction", Uniform(0.3, 1));
+  if (IsHolonomic(robot)) lines += Line("site.generate.lead_deg", Uniform(-180, 180));
+  lines += Line("site.generate.share", Uniform(0.2, 1.8));     // all of the width in half of them
+  lines += Line("site.generate.gap_m", Uniform(0, kReach_m));  // what is farther is not met
+  lines += Line("site.generate.length_m", Uniform(length_m, length_m + kLonger_m));
+  lines += Line("site.generate.wall_m", Uniform(0.03, 1.5));  // beyond 1 m it counts as far
+  lines += Line("site.generate.side", "choice: [left, right]");
+  lines += Line("estimator.start_error_y_m", Uniform(-kAside_m, kAside_m));
+  lines += Line("estimator.start_error_yaw_deg", Uniform(-kAstray_deg, kAstray_deg));
+  lines += Line("robot.clearance_m", Uniform(0.7 * robot.clearance_m, 1.2 * robot.clearance_m));
+  lines += Line("robot.mass_kg", Uniform(0.8 * robot.mass_kg, 1.3 * robot.mass_kg));
+  return lines;
+}
+
+std::string Sizes(const RobotSpec& robot) {
+  std::string lines;
+  for (const auto& entry : HazardTypes())
+    for (const KeyRange& range : entry.make()->Ranges(robot))
+      lines += Line(fmt::format("site.generate.sizes.{}.{}", entry.name, range.key),
+                    Uniform(range.spans));
+  return lines;
+}
+
+// Until it drives at its top speed: its wheels reach it some 0.1 s late.
+double RunUp(const RobotSpec& robot) {
+  constexpr double kLag_s = 0.15, kAtSpeed_m = 0.05;
+  const double v = robot.max_speed_mps;
+  return v * v / (2 * robot.max_accel_mps2) + kLag_s * v + kAtSpeed_m;
+}
+
+}  // namespace
+
+std::string EncounterScenario(const std::string& robot, const RobotSpec& spec) {
+  constexpr double kRunOut_m = 0.4;    // it has left the hazard, though it ends a little aside
+  constexpr double kTimeLimit_s = 60;  // nothing moves so slowly: it is held, and not quite still
+  return fmt::format(
+      "# Single encounters with hazards, drawn evenly: what `floorproof measure` drives.\n"
+      "scenario: 1\n"
+      "name: encounters of {}\n"
+      "robot: {{name: \"{}\"}}\n"
+      "site:\n"
+      "  site: 1\n"
+      "  name: crossing\n"
+      "  generate: {{kind: crossing, run_up_m: {:.4g}, run_out_m: {:.4g}, {}}}\n"
+      "plan: {{planner: straight, cross_obstacles: true}}\n"
+      "time_limit_s: {}\n"
+      "sampling: low_discrepancy\n"
+      "randomise:\n{}{}"
+      "matrix:\n"
+      "  meeting:\n{}",
+      spec.name, robot, RunUp(spec), kRunOut_m, Outline(spec), kTimeLimit_s, MetBy(spec),
+      Sizes(spec), Meetings());
+}
+
+}  // namespace floorproof

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// The encounters that a robot's risk is measured by: for every robot and hazard they can be laid
+// out and driven, and their ranges follow from the robot.
+#include "measure/encounter_scenario.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <set>
+
+#include "controllers/drive.h"
+#include "env/hazards/hazard_type.h"
+#include "env/map/crossing_site.h"
+#include "env/map/site.h"
+#include "measure/drive_encounters.h"
+#include "run/episode/make_plan.h"
+#include "tests/robots.h"
+
+namespace floorproof {
+namespace {
+
+using ::testing::HasSubstr;
+
+class EveryRobotsEncounters : public ::testing::TestWithParam<std::string> {
+ protected:
+  RobotSpec robot_ = ReadRobot(FindRobotFile(GetParam(), {})).spec;
+};
+INSTANTIATE_TEST_SUITE_P(Robots, EveryRobotsEncounters, ::testing::ValuesIn(RobotNames()),
+                         [](const auto& robot) { return robot.param; });
+
+// Each in its own variant, over it and beside it; what stands in the way is not driven over.
+TEST_P(EveryRobotsEncounters, AreWithEveryTypeThatThereIs) {
+  const ScenarioFile file = EncountersOf(GetParam(), {}).file;
+  std::set<std::string> dut;
+  for (const Variant& variant : file.variants()) dut.insert(variant.name);
+  for (const std::string& type : PluginNames(HazardTypes())) {
+    EXPECT_TRUE(dut.contains("meeting=" + type + " beside")) << type;
+    const Site site = ReadSite(
+        ParseYaml("site: 1\ngenerate: {kind: crossing, hazard: " + type + "}", "s.yaml"), ".");
+    const HazardClass is = site.map.hazards[0].hazard_class;
+    EXPECT_EQ(dut.contains("meeting=" + type + " over"),
+              is == HazardClass::kLevelChange || is == HazardClass::kTerrain)
+        << type;
+  }
+}
+
+TEST_P(EveryRobotsEncounters, CanBePlanned) {
+  const ScenarioFile file = EncountersOf(GetParam(), {}).file;
+  std::uint64_t episode = 0;
+  for (const Variant& variant : file.variants()) {
+    const Scenario s = file.Read(episode++, variant);
+    const PlanResult plan = MakePlan(s);
+    ASSERT_EQ(plan.status, PlanStatus::kSuccess) << variant.name << ": " << plan.message;
+    EXPECT_LE(plan.path.back().speed_mps, robot_.max_speed_mps);
+    EXPECT_GT(plan.path.back().speed_mps, 0);
+  }
+}
+
+// All ends of all ranges, on the shortest strip and at the steepest angle.
+TEST_P(EveryRobotsEncounters, EveryCornerOfTheRangesIsAHazard) {
+  const ConfigNode scenario = ParseYaml(EncounterScenario(GetParam(), robot_), "s.yaml");
+  const std::string length =
+      scenario.Find("randomise")->Find("site.generate.length_m")->Find("uniform")->items[0].scalar;
+  for (const auto& entry : HazardTypes()) {
+    const std::vector<KeyRange> ranges = entry.make()->Ranges(robot_);
+    std::vector<std::string> corners = {""};
+    for (const KeyRange& range : ranges) {
+      std::vector<std::string> more;
+      for (const std::string& corner : corners)
+        for (const auto& [low, high] : range.spans)
+          for (const double value : {low, high})
+            more.push_back(corner + range.key + ": " + FormatDouble(value) + ", ");
+      corners = more;
+    }
+    for (const std::string& corner : corners)
+      EXPECT_NO_THROW(ReadSite(
+          ParseYaml("site: 1\ngenerate: {kind: crossing, hazard: " + std::string(entry.name) +
+                        ", angle_deg: 70, length_m: " + length + ", sizes: {" +
+                        std::string(entry.name) + ": {" + corner + "}}}",
+                    "s.yaml"),
+          "."))
+          << entry.name << " " << corner;
+  }
+}
+
+// A robot that cannot drive sideways is not asked to.
+TEST_P(EveryRobotsEncounters, LeadByWhateverSideTheRobotCan) {
+  const std::string dut = EncounterScenario(GetParam(), robot_);
+  EXPECT_EQ(dut.find("lead_deg") != std::string::npos, IsHolonomic(robot_));
+}
+
+// By its figures, not by its name.
+TEST(Encounters, GrowWithTheRobot) {
+  RobotSpec robot = ReadRobot(FindRobotFile("beluga", {})).spec;
+  const std::string as_it_is = EncounterScenario("beluga", robot);
+  EXPECT_THAT(as_it_is, HasSubstr("step.height_m: {uniform: [[-0.02, -0.001], [0.001, 0.02]]}"))
+      << "four fifths of a belly at 25 mm";
+  robot.clearance_m = 0.05;
+  EXPECT_THAT(EncounterScenario("beluga", robot),
+              HasSubstr("step.height_m: {uniform: [[-0.04, -0.002], [0.002, 0.04]]}"));
+  robot.measured.frictions = {0.5, 1};
+  robot.measured.limits = {{"step", {0.01, 0.02}}};
+  EXPECT_THAT(EncounterScenario("beluga", robot),
+              HasSubstr("step.height_m: {uniform: [[-0.05, -0.0025], [0.0025, 0.05]]}"))
+      << "2.5 times the step that it was measured to cross";
+}
+
+TEST(Encounters, AreToldInATable) {
+  CampaignSummary summary;
+  VariantSummary& over = summary.variants.emplace_back();
+  over.name = "meeting=step over";
+  over.n = 200;
+  over.success = 150;
+  over.failures = {{.name = "stuck", .k = 40, .n = 200}, {.name = "veer_off", .k = 10, .n = 200}};
+  over.errors = 2;
+  const std::string dut = EncounterTable(summary);
+  EXPECT_THAT(dut, HasSubstr("step over"));
+  EXPECT_THAT(dut, HasSubstr("200      75 %          5 %         20 %          0 %          0 %"));
+  EXPECT_THAT(dut, HasSubstr("2 errors"));
+}
+
+}  // namespace
+}  // namespace floorproof
