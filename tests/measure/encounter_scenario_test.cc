@@ -56,30 +56,36 @@ TEST_P(EveryRobotsEncounters, CanBePlanned) {
   }
 }
 
-// All ends of all ranges, on the shortest strip and at the steepest angle.
+// All ends of all ranges, on the shortest strip and the longest, at the steepest angle.
 TEST_P(EveryRobotsEncounters, EveryCornerOfTheRangesIsAHazard) {
   const ConfigNode scenario = ParseYaml(EncounterScenario(GetParam(), robot_), "s.yaml");
-  const std::string length =
-      scenario.Find("randomise")->Find("site.generate.length_m")->Find("uniform")->items[0].scalar;
+  const ConfigNode* lengths =
+      scenario.Find("randomise")->Find("site.generate.length_m")->Find("uniform");
   for (const auto& entry : HazardTypes()) {
-    const std::vector<KeyRange> ranges = entry.make()->Ranges(robot_);
-    std::vector<std::string> corners = {""};
-    for (const KeyRange& range : ranges) {
-      std::vector<std::string> more;
-      for (const std::string& corner : corners)
-        for (const auto& [low, high] : range.spans)
-          for (const double value : {low, high})
-            more.push_back(corner + range.key + ": " + FormatDouble(value) + ", ");
-      corners = more;
+    std::vector<ConfigNode> corners = {ConfigNode::Map()};
+    const auto add = [&](const std::string& key, const std::vector<std::string>& values) {
+      std::vector<ConfigNode> more;
+      for (const ConfigNode& corner : corners)
+        for (const std::string& value : values)
+          more.emplace_back(corner).SetPath(key, ConfigNode::Scalar(value));
+      corners = std::move(more);
+    };
+    add("generate.length_m", {lengths->items[0].scalar, lengths->items[1].scalar});
+    for (const KeyRange& range : entry.make()->Ranges(robot_)) {
+      std::vector<std::string> ends;
+      for (const auto& [low, high] : range.spans)
+        for (const double value : {low, high}) ends.push_back(FormatDouble(value));
+      add("generate.sizes." + std::string(entry.name) + "." + range.key, ends);
     }
-    for (const std::string& corner : corners)
-      EXPECT_NO_THROW(ReadSite(
-          ParseYaml("site: 1\ngenerate: {kind: crossing, hazard: " + std::string(entry.name) +
-                        ", angle_deg: 70, length_m: " + length + ", sizes: {" +
-                        std::string(entry.name) + ": {" + corner + "}}}",
-                    "s.yaml"),
-          "."))
-          << entry.name << " " << corner;
+    for (ConfigNode& corner : corners) {
+      corner.SetPath("site", ConfigNode::Scalar("1"));
+      ConfigNode& generate = *corner.Find("generate");
+      for (const auto& [key, value] : scenario.Find("site")->Find("generate")->entries)
+        generate.Add(key, value);
+      generate.Add("hazard", ConfigNode::Scalar(std::string(entry.name)));
+      generate.Add("angle_deg", ConfigNode::Scalar("70"));
+      EXPECT_NO_THROW(ReadSite(corner, ".")) << WriteYaml(corner);
+    }
   }
 }
 
