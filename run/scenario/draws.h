@@ -15,25 +15,9 @@
 #include <vector>
 
 #include "base/config.h"
-#include "base/streams.h"
+#include "run/scenario/distribution.h"
 
 namespace floorproof {
-
-struct Distribution {
-  enum class Kind { kUniform, kNormal, kLognormal, kChoice };
-  Kind kind = Kind::kUniform;
-  double a = 0, b = 0;               // mean, deviation; median, deviation of the logarithm
-  double min = -1e308, max = 1e308;  // draws outside are drawn again
-  std::vector<std::pair<double, double>> spans;  // [low, high), ascending; each place as likely
-  std::vector<ConfigNode> choices;               // each as likely
-
-  ConfigNode Draw(Stream& stream) const;
-  // The value below which a draw lies with this probability, in (0, 1): of choices, each as wide,
-  // in the order written. Bounds hold.
-  ConfigNode Quantile(double probability) const;
-  // Whether two draws can differ.
-  bool varies() const;
-};
 
 enum class Sampling { kIndependent, kLowDiscrepancy };
 // Reads the scenario's key `sampling`; `node` may be nullptr. Throws InputError.
