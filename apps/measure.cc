@@ -2,6 +2,7 @@
 #include "apps/campaign_line.h"
 #include "base/interrupt.h"
 #include "measure/drive_encounters.h"
+#include "measure/risk_files.h"
 #include "report/campaign_words.h"
 #include "run/campaign/summary_json.h"
 
@@ -32,6 +33,13 @@ int RunIt(const Options& options, const Globals& globals) {
   progress.Clear();
   globals.Result(SummaryJson(outcome.summary));
   globals.Say(EncounterTable(outcome.summary));
+  if (outcome.run.end == CampaignEnd::kComplete) {
+    if (const auto model =
+            WriteRiskFiles(outcome.store, ReadRobot(FindRobotFile(options.robot, {})), folder))
+      globals.Say(RiskModelText(*model));
+    else
+      globals.Say("warning: no kind of hazard was met often enough: no rates are fitted");
+  }
   globals.Say("results are in " + folder.string());
   if (outcome.run.end == CampaignEnd::kInterrupted) throw Interruption();
   return CampaignExitStatus(outcome);

@@ -16,8 +16,10 @@ class HazardParts {
     int hazard = 0;     // index into HazardMap::hazards
   };
 
-  // Of each hazard what of it is still there (BareFloors, env/core/levels.h).
-  explicit HazardParts(const HazardMap& map);
+  // Of each hazard that `counts` what of it is still there (BareFloors, env/core/levels.h).
+  using Counts = bool (*)(const Hazard& hazard);
+  explicit HazardParts(
+      const HazardMap& map, Counts counts = [](const Hazard&) { return true; });
 
   // The parts whose bounding boxes meet the rectangle [low, high], by hazard ascending. Allocates
   // nothing where the rectangle is at most 3 m long and wide.

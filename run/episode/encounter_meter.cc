@@ -15,6 +15,10 @@ constexpr double kMoved_m = 0.005, kTurned_rad = 0.02;  // less is not looked at
 constexpr double kLater_s = 15;
 constexpr std::size_t kAtWall = 0, kOnFloor = 1;
 
+// The edges of ramps, and the base floor seen from another, are hazards of a robot's view alone.
+// They have no keys.
+bool IsOfTheSite(const Hazard& hazard) { return !hazard.keys.empty(); }
+
 // A hazard's sizes as a model can use them: of a slope not which way in the world it rises, but how
 // much along the robot's way and across it.
 void TakeSize(const Hazard& hazard, const Vec2& travel_W,
@@ -36,7 +40,7 @@ EncounterMeter::EncounterMeter(const HazardMap& map, const RobotSpec& robot, boo
     : map_(map),
       robot_(robot),
       holds_yaw_(holds_yaw),
-      parts_(map),
+      parts_(map, IsOfTheSite),
       watch_(parts_, map.hazards.size(), robot) {
   constexpr std::size_t kLive = 32;
   live_.reserve(kLive);

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/risk_files.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "base/file_output.h"
+#include "base/quantity.h"
+#include "env/geometry/polygon.h"
+#include "env/hazards/hazard_type.h"
+#include "env/scene/measured_block.h"
+#include "measure/fit_rates.h"
+#include "measure/measured_fmea.h"
+#include "measure/measured_fmea_yaml.h"
+#include "measure/mirror_image.h"
+#include "measure/risk_model_json.h"
+#include "run/scenario/fmea_file.h"
+#include "run/scenario/scenario_parts.h"
+
+namespace floorproof {
+namespace {
+
+// Of each type of hazard, its class; they do not hang on a hazard's place.
+std::map<std::string, HazardClass> ClassOfType() {
+  std::map<std::string, HazardClass> classes;
+  for (const auto& entry : HazardTypes()) {
+    const auto type = entry.make();
+    const bool line = type->placement() == HazardType::Placement::kLine;
+    const std::vector<Vec2> place =
+        line ? std::vector<Vec2>{{0, 0}, {1, 0}} : Rectangle({0, 0}, {1, 1});
+    classes[std::string(entry.name)] = type->Make(place).hazard_class;
+  }
+  return classes;
+}
+
+std::vector<Encounter> AllEncounters(const CampaignStore& store) {
+  std::vector<Encounter> all;
+  for (const std::string& variant : store.Variants())
+    store.ForEachEncounter(
+        variant, [&](std::uint64_t, const Encounter& encounter) { all.push_back(encounter); });
+  return all;
+}
+
+}  // namespace
+
+std::optional<RiskModel> WriteRiskFiles(const CampaignStore& store, const RobotModel& robot,
+                                        const std::filesystem::path& folder) {
+  const RobotSpec& spec = robot.spec;
+  const std::vector<Encounter> encounters = AllEncounters(store);
+  RateFitOptions options;
+  options.mirrored = IsMirrorImage(spec);
+  RiskModel model = FitRates(
+      encounters,
+      {spec.name, spec.drive, spec.mass_kg, spec.clearance_m, ModelHash(robot.files, {})}, options);
+  if (model.kinds.empty()) return std::nullopt;
+  WriteFileWhole(folder / "risk_model.json", RiskModelJson(model));
+  const MeasuredFmea fmea =
+      MeasureFmea(encounters, ClassOfType(), spec.cruise_mps, ReadFmeaTables(BundledTables()));
+  WriteFileWhole(folder / "fmea_measured.yaml", MeasuredFmeaYaml(fmea, spec.name));
+  return model;
+}
+
+std::string RiskModelText(const RiskModel& model) {
+  std::string text =
+      fmt::format("risk_model.json: rates of {} from {}", CountText(model.kinds.size(), "kind"),
+                  CountText(model.encounters, "encounter"));
+  for (const UnmeasuredKind& kind : model.unmeasured)
+    text += fmt::format("\n  {} {}: {}", kind.type, Name(kind.passage), kind.why);
+  return text;
+}
+
+}  // namespace floorproof

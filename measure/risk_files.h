@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a robot's measured encounters say: risk_model.json and fmea_measured.yaml.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "env/scene/robot_model.h"
+#include "planners/risk/rate_model.h"
+#include "run/campaign/campaign_store.h"
+
+namespace floorproof {
+
+// Fits the rates to all encounters of the campaign's counted episodes and writes both files.
+// Returns none, and writes nothing, where no kind was met often enough. Throws InputError where a
+// file cannot be written.
+std::optional<RiskModel> WriteRiskFiles(const CampaignStore& store, const RobotModel& robot,
+                                        const std::filesystem::path& folder);
+// For people: how many kinds were fitted, and which were not.
+std::string RiskModelText(const RiskModel& model);
+
+}  // namespace floorproof
