@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/plan_check/prediction.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "env/scene/measured_block.h"
+#include "measure/risk_model_json.h"
+#include "tests/run/scenario_text.h"
+
+namespace floorproof {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+constexpr std::size_t kStuck = static_cast<std::size_t>(FailureMode::kStuck);
+
+// Rates of getting stuck alone, which fall in a straight line of eta with friction.
+KindRates Planted(const char* type, Passage passage, double rate_at_04, double rate_at_08) {
+  KindRates kind;
+  kind.type = type;
+  kind.passage = passage;
+  kind.encounters = 1000;
+  RateAxis friction;
+  friction.name = "friction";
+  friction.lower = 0.4, friction.upper = 0.8;
+  friction.knots = {0.4, 0.6, 0.8};
+  friction.functions = {{-1, 0, 1}};
+  kind.axes = {friction};
+  for (ModeRates& mode : kind.modes) {
+    mode.coefficients = {-50};
+    mode.members.assign(kRateMembers, mode.coefficients);
+  }
+  const double low = EtaOf(rate_at_04), high = EtaOf(rate_at_08);
+  ModeRates& stuck = kind.modes[kStuck];
+  stuck.blocks = {{0, 1, std::nullopt, 1}};
+  stuck.coefficients = {(low + high) / 2, (high - low) / 2};
+  stuck.members.assign(kRateMembers, stuck.coefficients);
+  return kind;
+}
+
+constexpr const char* kCovers =
+    "{type: cable_cover, id: first, line_m: [[3, 0.5], [3, 4.5]], height_m: 0.01}, "
+    "{type: cable_cover, id: second, line_m: [[5, 0.5], [5, 4.5]], height_m: 0.01}";
+
+class PredictionTest : public ScenarioTest {
+ protected:
+  PredictionTest() { Save("plan.csv", "x_m,y_m\n1.5,2.5\n7,2.5\n"); }
+
+  // The plan crosses two covers; each is `rate` at either friction, and nothing else fails.
+  void SaveModel(double rate_at_04, double rate_at_08, const char* robot = "beluga") {
+    const RobotModel model = ReadRobot(FindRobotFile(robot, {}));
+    RiskModel risk;
+    risk.robot = {model.spec.name, model.spec.drive, model.spec.mass_kg, model.spec.clearance_m,
+                  ModelHash(model.files, {})};
+    KindRates floor = Planted("free_floor", Passage::kBeside, 1e-12, 1e-12);
+    floor.per_metre = true;
+    risk.kinds = {Planted("cable_cover", Passage::kOver, rate_at_04, rate_at_08), floor};
+    Save("model.json", RiskModelJson(risk));
+  }
+  ScenarioFile File(const std::string& hazards, const std::string& more = "") const {
+    return ScenarioFile(
+        Save("scenario.yaml", RoomScenario(hazards, "risk: {model: model.json}\n" + more)));
+  }
+  std::string WhyRefused(const std::string& more = "") const {
+    try {
+      Predict(File(kCovers, more), {}, 8);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(PredictionTest, EachMeetingHasItsShare) {
+  SaveModel(0.2, 0.2);
+  const Prediction dut = Predict(File(kCovers), {}, 100);
+  EXPECT_EQ(dut.conditions, 1) << "nothing is drawn";
+  EXPECT_NEAR(dut.survival.no_failure.value, std::exp(-0.4), 1e-5);
+  ASSERT_THAT(dut.meetings, SizeIs(3)) << "and the floor between";
+  EXPECT_EQ(dut.meetings[0].expected.hazard, "first");
+  EXPECT_NEAR(dut.meetings[0].probability, 1 - std::exp(-0.2), 1e-5);
+  EXPECT_NEAR(dut.meetings[1].probability, std::exp(-0.2) * (1 - std::exp(-0.2)), 1e-5);
+  EXPECT_NEAR(dut.meetings[1].expected.x_m, 5 - 0.065 - 0.18, 0.06);
+  EXPECT_TRUE(dut.complete());
+  EXPECT_THAT(dut.beyond, IsEmpty());
+}
+
+// Ten crossings that one friction decides fail together: as often as one.
+TEST_F(PredictionTest, WhatIsDrawnOnceIsSharedByAllMeetings) {
+  SaveModel(40, 1e-9);
+  std::string way = "x_m,y_m\n1.5,2.5\n";
+  for (int i = 0; i < 5; ++i) way += "7,2.5\n1.5,2.5\n";
+  Save("plan.csv", way);
+  const std::string one = "{type: cable_cover, id: first, line_m: [[3, 0.5], [3, 4.5]]}";
+  const Prediction dut =
+      Predict(File(one, "randomise: {site.floor.friction: {uniform: [0.4, 0.8]}}\n"), {}, 400);
+  EXPECT_EQ(dut.conditions, 400);
+  ASSERT_THAT(dut.meetings, SizeIs(11));
+  const double together = 1 - dut.survival.no_failure.value;
+  const double once = dut.meetings[0].probability;
+  EXPECT_GT(once, 0.3);
+  EXPECT_LT(together, once + 0.1) << "independent ones would make " << 1 - std::pow(1 - once, 10);
+}
+
+// A draw that moves a hazard off the way takes its meeting away.
+TEST_F(PredictionTest, WhatDrawsMoveIsFoundAnew) {
+  SaveModel(0.2, 0.2);
+  Save("plan.csv", "x_m,y_m\n1.5,2.5\n4,2.5\n");
+  const Prediction dut = Predict(
+      File(kCovers, "randomise: {\"site.hazards[0].shift_x_m\": {choice: [0, 3]}}\n"), {}, 60);
+  const double moved = 1 - dut.meetings[0].probability / (1 - std::exp(-0.2));
+  EXPECT_GT(moved, 0.2);
+  EXPECT_LT(moved, 0.8);
+  EXPECT_NEAR(dut.survival.no_failure.value, moved + (1 - moved) * std::exp(-0.2), 1e-5);
+}
+
+TEST_F(PredictionTest, WhatWasNotMeasuredIsSaid) {
+  SaveModel(0.2, 0.2);
+  const Prediction dut =
+      Predict(File(std::string(kCovers) + ", {type: groove, line_m: [[6, 0.5], [6, 4.5]]}"), {}, 1);
+  EXPECT_FALSE(dut.complete());
+  ASSERT_THAT(dut.unmeasured, SizeIs(1));
+  EXPECT_EQ(dut.unmeasured[0].type, "groove");
+  EXPECT_EQ(dut.unmeasured[0].meetings, 1);
+  const std::vector<std::string> lines = PredictionLines(dut);
+  EXPECT_THAT(lines, Contains(HasSubstr("at least 33 %")));
+  EXPECT_THAT(lines, Contains(HasSubstr("warning: nothing is known of groove over, met 1 time")));
+}
+
+TEST_F(PredictionTest, WhatLiesBeyondWhatWasMeasuredIsSaid) {
+  SaveModel(0.2, 0.2);
+  const Prediction within = Predict(File(kCovers), {}, 1);
+  const std::string slippery = RoomScenario(kCovers, "risk: {model: model.json}\n");
+  const Prediction dut = Predict(
+      ScenarioFile(Save("scenario.yaml", slippery), {{"site.floor.friction", "0.2"}}), {}, 1);
+  ASSERT_THAT(dut.beyond, SizeIs(2)) << "of covers and of floor";
+  EXPECT_EQ(dut.beyond[0].axis, "friction");
+  EXPECT_NEAR(dut.beyond[0].share, 0.5, 1e-9);
+  const auto width = [](const Prediction& p) {
+    return p.survival.no_failure.upper - p.survival.no_failure.lower;
+  };
+  EXPECT_GT(width(dut), width(within) + 0.1);
+  EXPECT_THAT(PredictionLines(dut), Contains(HasSubstr("by 50 % of that range")));
+}
+
+TEST_F(PredictionTest, TheFileSaysAllOfIt) {
+  SaveModel(0.2, 0.2);
+  const ScenarioFile file = File(kCovers);
+  const Prediction prediction = Predict(file, {}, 1);
+  const auto dut = PredictionJson(file.Read(), prediction);
+  EXPECT_NEAR(dut["no_failure"]["probability"], std::exp(-0.4), 1e-5);
+  EXPECT_NEAR(dut["modes"]["stuck"]["probability"], 1 - std::exp(-0.4), 1e-5);
+  EXPECT_NEAR(dut["hazards"]["second"], prediction.meetings[1].probability, 1e-12);
+  EXPECT_EQ(dut["meetings"][0]["type"], "cable_cover");
+  EXPECT_EQ(dut["meetings"][0]["size"]["height_m"], 0.01);
+  EXPECT_NEAR(dut["meetings"][0]["met"]["speed_mps"], 0.25, 0.01);
+}
+
+TEST_F(PredictionTest, WhatCannotBePredictedIsRefusedInALine) {
+  SaveModel(0.2, 0.2, "rover");
+  EXPECT_THAT(WhyRefused(), HasSubstr("risk.model = model.json: was measured of rover, and this is "
+                                      "beluga"));
+  SaveModel(0.2, 0.2);
+  EXPECT_THAT(WhyRefused("plan: {planner: frontier_coverage}\n"), HasSubstr("plan"));
+  std::filesystem::remove(folder_ / "model.json");
+  EXPECT_THAT(WhyRefused(), HasSubstr("model.json"));
+  EXPECT_THAT(WhyRefused(), Not(HasSubstr("\n")));
+}
+
+}  // namespace
+}  // namespace floorproof
