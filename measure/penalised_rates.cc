@@ -33,7 +33,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kLeastPenalty = 1e-3, kMostPenalty = 1e4;  // of functions of variance 1
+constexpr double kLeastPenalty = 1e-5, kMostPenalty = 1e4;  // of functions of variance 1
 constexpr double kInterceptPenalty = 1e-4;
 constexpr int kEventsForProducts = 40;
 // Standard deviations of a product's score statistic above its expectation. Some sixty products of

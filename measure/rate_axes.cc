@@ -51,6 +51,10 @@ void SetRange(RateAxis& axis, std::vector<double>& values) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   axis.lower = RoundedTo6(*least);
   axis.upper = RoundedTo6(*most);
+  // What a drive computes is never quite the same.
+  constexpr double kSame = 1e-6;  // m, rad, kg; and of the value
+  if (axis.upper - axis.lower <= kSame * std::max(1.0, std::abs(axis.lower)))
+    axis.lower = axis.upper = std::abs(axis.lower) <= kSame ? 0 : axis.lower;
 }
 
 std::vector<double> KnotsOf(const RateAxis& axis, std::vector<double> values) {

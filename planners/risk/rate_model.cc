@@ -9,6 +9,9 @@
 namespace floorproof {
 namespace {
 
+// Ends are rounded to 6 digits.
+constexpr double kRounding = 1e-5;
+
 // One of a pair of mirror images: the travel comes from the right of the normal, or along it.
 Approach Unmirrored(Approach at) {
   if (at.heading_rad >= 0) return at;
@@ -59,9 +62,10 @@ double Beyond(const RateAxis& axis, double x) {
   }
   const double range = axis.upper - axis.lower;
   const double out = std::max({0.0, axis.lower - x, x - axis.upper});
-  if (out == 0) return 0;
+  if (out <= kRounding * std::max(1.0, std::abs(axis.lower))) return 0;
   // Within a gap of a period the nearer end counts.
   const double near = axis.period > 0 ? std::min(out, axis.lower + axis.period - x) : out;
+  if (near <= kRounding) return 0;
   if (range > 0) return near / range;
   return near / (axis.lower != 0 ? std::abs(axis.lower) : 1);
 }

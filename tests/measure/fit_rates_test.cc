@@ -254,6 +254,16 @@ TEST(RateAxis, OfWhatNeverVariedHasNoFunctions) {
   EXPECT_THAT(dut.functions, SizeIs(0));
   EXPECT_EQ(dut.lower, 3.5);
   EXPECT_NEAR(Beyond(dut, 7), 1, 1e-12);
+  // Nor has what differs by rounding, as headings that were all to be square on do.
+  const RateAxis square = MakeRateAxis("heading_rad", false, {2e-12, -1e-10, 3e-11}, 0);
+  EXPECT_THAT(square.functions, SizeIs(0));
+  EXPECT_EQ(square.lower, 0);
+  EXPECT_EQ(Beyond(square, -2e-10), 0);
+  EXPECT_NEAR(Beyond(square, 0.3), 0.3, 1e-12);
+  const RateAxis ahead = MakeRateAxis("lead_rad", false, {1e-10, -1e-10}, 2 * kPi);
+  EXPECT_THAT(ahead.functions, SizeIs(0));
+  EXPECT_EQ(Beyond(ahead, 1e-9), 0);
+  EXPECT_EQ(Beyond(ahead, -1e-9), 0);
 }
 
 }  // namespace
