@@ -16,6 +16,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -40,6 +41,9 @@ constexpr int kEventsForProducts = 40;
 // twelve axes are tried.
 constexpr double kLeastExcess = 4;
 constexpr int kMostProducts = 8, kProductRounds = 2;  // of one mode, in each round
+// Functions of one axis that matter: their standard deviation over the data, and how many.
+constexpr double kLeastSpread = 0.2;
+constexpr std::size_t kMostWholes = 5;
 // Added to each group's effective number of coefficients. The evidence picks the winners among many
 // groups and so overrates them; this takes the calibration's slope from 0.75 to 0.9-1.1 on the
 // synthetic truths of tests/measure.
@@ -82,6 +86,7 @@ class Fit {
   void MovePenalties(ModeFit& fit) const;
   void DropEmptyProducts(ModeFit& fit) const;
   void AddProducts(int mode, std::size_t most);
+  void AddProductsOfWholes(int mode);
   VectorXd PenaltyOf(const ModeFit& fit) const;
   MatrixXd InverseCovariance() const;
   MatrixXd FailureSlopes() const;
@@ -111,7 +116,7 @@ void Fit::AddBlock(ModeFit& fit, const RateBlock& block) {
   fit.coefficients.conservativeResize(before + added.cols());
   fit.coefficients.tail(added.cols()).setZero();
   fit.blocks.push_back(block);
-  const bool straight = !block.other_axis && kind_.axes[block.axis].period == 0;
+  const bool straight = !block.IsProduct() && kind_.axes[block.factors[0].axis].period == 0;
   if (straight) fit.groups.push_back({before, 1, 1});
   if (added.cols() > straight)
     fit.groups.push_back({before + straight, added.cols() - straight, 1});
@@ -127,7 +132,7 @@ void Fit::Begin() {
     fit.coefficients = VectorXd::Constant(1, EtaOf(rate));
     for (std::size_t a = 0; a < kind_.axes.size(); ++a)
       if (!kind_.axes[a].functions.empty())
-        AddBlock(fit, {a, kind_.axes[a].functions.size(), std::nullopt, 1});
+        AddBlock(fit, {{{a, 0, kind_.axes[a].functions.size()}}});
     fit.eta = fit.features * fit.coefficients;
     likelihood_.SetRate(m, fit.eta.unaryExpr(&RateOf));
   }
@@ -182,7 +187,7 @@ void Fit::DropEmptyProducts(ModeFit& fit) const {
   Index end = 1;  // of the block
   for (const RateBlock& block : fit.blocks) {
     end += static_cast<Index>(block.size());
-    const bool stays = !block.other_axis || fit.groups[g].penalty < kMostPenalty;
+    const bool stays = !block.IsProduct() || fit.groups[g].penalty < kMostPenalty;
     for (; g < fit.groups.size() && fit.groups[g].begin < end; ++g) {
       if (!stays) continue;
       Group group = fit.groups[g];
@@ -247,12 +252,9 @@ void Fit::AddProducts(int mode, std::size_t most) {
   for (std::size_t a = 0; a < kind_.axes.size(); ++a)
     for (std::size_t b = a + 1; b < kind_.axes.size(); ++b) {
       if (kind_.axes[a].functions.empty() || kind_.axes[b].functions.empty()) continue;
-      if (std::any_of(fit.blocks.begin(), fit.blocks.end(), [&](const RateBlock& block) {
-            return block.axis == a && block.other_axis == b;
-          }))
-        continue;
-      const RateBlock block = {a, FunctionsOfProducts(kind_.axes[a]), b,
-                               FunctionsOfProducts(kind_.axes[b])};
+      const RateBlock block = {
+          {{a, 0, FunctionsOfProducts(kind_.axes[a])}, {b, 0, FunctionsOfProducts(kind_.axes[b])}}};
+      if (std::find(fit.blocks.begin(), fit.blocks.end(), block) != fit.blocks.end()) continue;
       const MatrixXd added = FeaturesOf(block);
       const MatrixXd across = weighed.transpose() * added;
       MatrixXd inner = added.transpose() * (information.asDiagonal() * added) -
@@ -272,6 +274,51 @@ void Fit::AddProducts(int mode, std::size_t most) {
   for (const Candidate& candidate : found) AddBlock(fit, candidate.block);
 }
 
+// What bends where several things come together, as a limit of height that is the product of what
+// friction, speed and direction do to it. Of the axes that matter most, what the mode's eta is as a
+// function of each becomes one more function of that axis, and the products of these, of two to
+// four axes, one coefficient each, are added.
+void Fit::AddProductsOfWholes(int mode) {
+  ModeFit& fit = *fits_[mode];
+  struct Whole {
+    double spread;
+    std::size_t axis;
+    VectorXd coefficients;
+  };
+  std::vector<Whole> wholes;
+  Index column = 1;
+  for (const RateBlock& block : fit.blocks) {
+    const Index size = static_cast<Index>(block.size());
+    const VectorXd of = fit.coefficients.segment(column, size);
+    const double spread =
+        (fit.features.middleCols(column, size) * of).norm() / std::sqrt(static_cast<double>(n()));
+    column += size;
+    if (!block.IsProduct() && spread > kLeastSpread)
+      wholes.push_back({spread, block.factors[0].axis, of / spread});
+  }
+  std::stable_sort(wholes.begin(), wholes.end(),
+                   [](const Whole& a, const Whole& b) { return a.spread > b.spread; });
+  if (wholes.size() > kMostWholes) wholes.resize(kMostWholes);
+  std::vector<RateFactor> factors;
+  for (const Whole& whole : wholes) {
+    RateAxis& axis = kind_.axes[whole.axis];
+    factors.push_back({whole.axis, axis.functions.size(), 1});
+    std::vector<double> at_knots(axis.knots.size(), 0);
+    for (Index k = 0; k < whole.coefficients.size(); ++k)
+      for (std::size_t j = 0; j < at_knots.size(); ++j)
+        at_knots[j] += whole.coefficients[k] * axis.functions[k][j];
+    for (double& value : at_knots) value = RoundedTo6(value);
+    axis.functions.push_back(std::move(at_knots));
+  }
+  for (unsigned chosen = 1; chosen < 1u << factors.size(); ++chosen) {
+    if (std::popcount(chosen) < 2 || std::popcount(chosen) > 4) continue;
+    RateBlock block;
+    for (std::size_t w = 0; w < factors.size(); ++w)
+      if (chosen >> w & 1) block.factors.push_back(factors[w]);
+    AddBlock(fit, block);
+  }
+}
+
 void Fit::Run() {
   Begin();
   const auto turns = [&](int count, bool move_penalties) {
@@ -288,6 +335,9 @@ void Fit::Run() {
       if (fits_[m] && kind_.modes[m].events >= kEventsForProducts) AddProducts(m, kMostProducts);
     turns(10, true);
   }
+  for (int m = 0; m < kNumFailureModes; ++m)
+    if (fits_[m] && kind_.modes[m].events >= kEventsForProducts) AddProductsOfWholes(m);
+  turns(15, true);
   turns(6, false);
 }
 

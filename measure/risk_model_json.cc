@@ -25,10 +25,13 @@ Json JsonOf(const ModeRates& mode) {
   Json json;
   json["events"] = mode.events;
   json["blocks"] = Json::array();
-  for (const RateBlock& block : mode.blocks)
-    json["blocks"].push_back(block.other_axis ? Json::array({block.axis, block.functions,
-                                                             *block.other_axis, block.others})
-                                              : Json::array({block.axis, block.functions}));
+  for (const RateBlock& block : mode.blocks) {
+    Json numbers = Json::array();
+    for (const RateFactor& factor : block.factors)
+      for (const std::size_t number : {factor.axis, factor.first, factor.count})
+        numbers.push_back(number);
+    json["blocks"].push_back(std::move(numbers));
+  }
   json["coefficients"] = mode.coefficients;
   json["members"] = mode.members;
   return json;

@@ -23,15 +23,8 @@ constexpr double kMostBeyond = 10;
 std::vector<RateBlock> AllBlocks(const KindRates& kind) {
   std::vector<RateBlock> all;
   for (const ModeRates& mode : kind.modes)
-    for (const RateBlock& block : mode.blocks) {
-      const auto same = std::find_if(all.begin(), all.end(), [&](const RateBlock& other) {
-        return other.axis == block.axis && other.other_axis == block.other_axis;
-      });
-      if (same == all.end())
-        all.push_back(block);
-      else
-        same->functions = std::max(same->functions, block.functions);
-    }
+    for (const RateBlock& block : mode.blocks)
+      if (std::find(all.begin(), all.end(), block) == all.end()) all.push_back(block);
   return all;
 }
 
@@ -76,16 +69,18 @@ void RateFeatures::At(std::span<const double> x, std::span<double> out) const {
       curves_[a]->At(Nearest(axes_[a], x[a]),
                      {values.data() + axis_begins_[a], axes_[a].functions.size()});
   out[0] = 1;
-  double* next = out.data() + 1;
+  double* products = out.data() + 1;
   for (const RateBlock& block : blocks_) {
-    const double* first = values.data() + axis_begins_[block.axis];
-    if (!block.other_axis) {
-      next = std::copy_n(first, block.functions, next);
-      continue;
+    std::size_t size = 1;
+    products[0] = 1;
+    for (const RateFactor& factor : block.factors) {
+      const double* of = values.data() + axis_begins_[factor.axis] + factor.first;
+      for (std::size_t i = size; i-- > 0;)  // from behind: each is read before it is written over
+        for (std::size_t k = factor.count; k-- > 0;)
+          products[i * factor.count + k] = products[i] * of[k];
+      size *= factor.count;
     }
-    const double* second = values.data() + axis_begins_[*block.other_axis];
-    for (std::size_t k = 0; k < block.functions; ++k)
-      for (std::size_t l = 0; l < block.others; ++l) *next++ = first[k] * second[l];
+    products += size;
   }
 }
 
@@ -102,8 +97,7 @@ RateEvaluator::RateEvaluator(const KindRates& kind)
       std::size_t next = 1;
       for (const RateBlock& block : mode.blocks)
         for (std::size_t b = 0; b < features_.blocks().size(); ++b)
-          if (features_.blocks()[b].axis == block.axis &&
-              features_.blocks()[b].other_axis == block.other_axis) {
+          if (features_.blocks()[b] == block) {
             for (std::size_t k = 0; k < block.size(); ++k)
               to(features_.begin(b) + k, column) = from[next + k];
             next += block.size();
@@ -113,13 +107,15 @@ RateEvaluator::RateEvaluator(const KindRates& kind)
     for (std::size_t r = 0; r < kRateMembers; ++r) place(mode.members[r], members_, r * kModes + m);
     std::size_t next = 1;
     for (const RateBlock& block : mode.blocks) {
-      const RateAxis& axis = kind.axes[block.axis];
-      if (!block.other_axis) {
+      if (!block.IsProduct()) {
+        const RateFactor& factor = block.factors[0];
+        const RateAxis& axis = kind.axes[factor.axis];
         Eigen::VectorXd eta = Eigen::VectorXd::Zero(axis.knots.size());
-        for (std::size_t k = 0; k < block.functions; ++k)
+        for (std::size_t k = 0; k < factor.count; ++k)
           eta += mode.coefficients[next + k] *
-                 Eigen::Map<const Eigen::VectorXd>(axis.functions[k].data(), eta.size());
-        change_(block.axis, m) += eta.maxCoeff() - eta.minCoeff();
+                 Eigen::Map<const Eigen::VectorXd>(axis.functions[factor.first + k].data(),
+                                                   eta.size());
+        change_(factor.axis, m) += eta.maxCoeff() - eta.minCoeff();
       }
       next += block.size();
     }

@@ -6,7 +6,7 @@
 // The meeting is cleared with probability exp(-Lambda), Lambda the sum over modes; mode m comes
 // first with lambda_m / Lambda (1 - exp(-Lambda)) (Prentice et al., Biometrics 34 (1978) 541).
 //   lambda_m = log(1 + exp(eta_m)), eta_m = intercept + sum of smooth functions of one covariate
-//            + sum of products of such functions of two
+//            + sum of products of such functions of several
 // For rates well below 1 eta is log lambda; above it grows linearly. With one mode alone this is
 // logistic regression, so one lucky robot far beyond a limit does not bend the whole model.
 #pragma once
@@ -40,13 +40,22 @@ struct RateAxis {
   std::vector<std::vector<double>> functions;  // by function, by knot
 };
 
-// Functions of one axis, or products of the first few of two: product k, l stands at
-// k * others + l.
+// Some functions of one axis: `count` of them, from `first` on.
+struct RateFactor {
+  std::size_t axis = 0, first = 0, count = 0;
+  bool operator==(const RateFactor&) const = default;
+};
+// One factor: these functions. Several: all products of one function of each, the last factor's
+// function changing first.
 struct RateBlock {
-  std::size_t axis = 0, functions = 0;
-  std::optional<std::size_t> other_axis;
-  std::size_t others = 1;
-  std::size_t size() const { return functions * others; }
+  std::vector<RateFactor> factors;
+  bool operator==(const RateBlock&) const = default;
+  bool IsProduct() const { return factors.size() > 1; }
+  std::size_t size() const {
+    std::size_t size = 1;
+    for (const RateFactor& factor : factors) size *= factor.count;
+    return size;
+  }
 };
 
 struct ModeRates {

@@ -104,26 +104,28 @@ RateAxis ReadAxis(const ConfigNode& node, const std::string& path) {
   return axis;
 }
 
-// [axis, functions] or [axis, functions, other axis, its functions].
+// Three numbers a factor: axis, first function, how many.
 RateBlock ReadBlock(const ConfigNode& node, const std::string& path,
                     const std::vector<RateAxis>& axes) {
-  if (!node.IsList() || (node.items.size() != 2 && node.items.size() != 4))
+  constexpr std::size_t kMostFactors = 8, kMostProducts = 4096;
+  if (!node.IsList() || node.items.empty() || node.items.size() % 3 != 0 ||
+      node.items.size() > 3 * kMostFactors)
     throw InputError(node.mark, path, "",
-                     "must be [axis, functions], or two such pairs in one list");
-  const auto axis_at = [&](std::size_t i) {
-    return static_cast<std::size_t>(
-        AsInt(node.items[i], path, Between(0, static_cast<double>(axes.size()) - 1)));
-  };
-  const auto functions_at = [&](std::size_t i, std::size_t axis) {
-    return static_cast<std::size_t>(
-        AsInt(node.items[i], path, Between(1, static_cast<double>(axes[axis].functions.size()))));
+                     "must be a list of three numbers a factor: axis, first function, how many");
+  const auto number = [&](std::size_t i, double least, double most) {
+    return static_cast<std::size_t>(AsInt(node.items[i], path, Between(least, most)));
   };
   RateBlock block;
-  block.axis = axis_at(0);
-  block.functions = functions_at(1, block.axis);
-  if (node.items.size() == 4) {
-    block.other_axis = axis_at(2);
-    block.others = functions_at(3, *block.other_axis);
+  for (std::size_t i = 0; i < node.items.size(); i += 3) {
+    RateFactor factor;
+    factor.axis = number(i, 0, static_cast<double>(axes.size()) - 1);
+    const auto functions = static_cast<double>(axes[factor.axis].functions.size());
+    factor.first = number(i + 1, 0, functions - 1);
+    factor.count = number(i + 2, 1, functions - static_cast<double>(factor.first));
+    block.factors.push_back(factor);
+    if (block.size() > kMostProducts)
+      throw InputError(node.mark, path, "",
+                       fmt::format("must be at most {} products", kMostProducts));
   }
   return block;
 }

@@ -226,7 +226,7 @@ TEST(RateAxis, HasFunctionsOfMeanZeroTheFirstOneStraight) {
   for (std::size_t j = 1; j + 1 < dut.knots.size(); ++j)
     EXPECT_NEAR((straight[j] - straight[0]) / (straight[7] - straight[0]), dut.knots[j], 1e-4);
   std::vector<RateAxis> axes = {dut};
-  const RateFeatures features(axes, {{0, 7, std::nullopt, 1}});
+  const RateFeatures features(axes, {{{{0, 0, 7}}}});
   std::vector<double> at(8), mean(8);
   for (const double x : values) {
     features.At(std::vector<double>{x}, at);

@@ -95,7 +95,7 @@ TEST(RiskModelFile, SaysWhatIsWrongAndWhere) {
                 "= pace: is no column of an approach"},
            Case{"\"coefficients\": [", "\"coefficients\": [1, ", "must be a list of"},
            Case{"\"way_m\": 0.0", "\"way_m\": -2.0", "kinds.0.way_m = -2.0: must be >= 0"},
-           Case{"\"blocks\": []", "\"blocks\": [[99, 1]]", "blocks = 99: must be in [0,"},
+           Case{"\"blocks\": []", "\"blocks\": [[99, 0, 1]]", "blocks = 99: must be in [0,"},
            Case{"\"members\": [", "\"members\": [[1], ", "must be 16 lists"},
            Case{"\"mass_kg\": 12.3", "\"mass_kg\": -1", "robot.mass_kg = -1: must be >= 0"},
            Case{"\"mass_kg\": 12.3", "\"mass_kg\": \"heavy\"", "robot.mass_kg"},

@@ -40,7 +40,7 @@ KindRates StuckByFriction(double high, double low) {
   axis.functions = {{-1, 0, 1}};
   kind.axes = {axis};
   ModeRates& stuck = kind.modes[kStuck];
-  stuck.blocks = {{0, 1, std::nullopt, 1}};
+  stuck.blocks = {{{{0, 0, 1}}}};
   stuck.coefficients = {(high + low) / 2, (low - high) / 2};
   stuck.members.assign(kRateMembers, stuck.coefficients);
   return kind;
