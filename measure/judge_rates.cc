@@ -76,9 +76,12 @@ RateJudgement Judge(std::span<const JudgedEncounter> judged) {
     of.calibration_error += std::abs(bin.predicted - bin.failed) / n;
     of.calibration_error_by_chance += std::sqrt(2 / std::acos(-1.0) * bin.variance) / n;
   }
-  const Line line = LogisticLine(log_odds, failed);
-  of.slope = line.slope;
-  of.intercept = line.intercept;
+  constexpr int kLeastOfEach = 10;
+  if (std::min(of.failures, of.encounters - of.failures) >= kLeastOfEach) {
+    const Line line = LogisticLine(log_odds, failed);
+    of.slope = line.slope;
+    of.intercept = line.intercept;
+  }
   return of;
 }
 
@@ -88,14 +91,12 @@ std::vector<JudgedEncounter> Predicted(const RiskModel& model,
   std::vector<JudgedEncounter> judged;
   for (const Encounter& e : encounters) {
     const KindRates* kind = FindKind(model, e.type, e.passage);
-    if (kind == nullptr || e.outcome == Encounter::Outcome::kCensored) continue;
+    if (kind == nullptr || kind->per_metre || e.outcome == Encounter::Outcome::kCensored) continue;
     const RateEvaluator& rates = evaluators.try_emplace(kind, *kind).first->second;
     Covariates covariates(kind->axes, model.mirrored, e.size);
-    ModeNumbers at = rates.At(covariates.Of(e.at));
-    if (kind->per_metre)
-      for (double& rate : at) rate *= e.way_m;
     const bool failed = e.outcome == Encounter::Outcome::kFailed;
-    judged.push_back({FirstFailures(at), failed ? static_cast<int>(e.mode) : -1});
+    judged.push_back(
+        {FirstFailures(rates.At(covariates.Of(e.at))), failed ? static_cast<int>(e.mode) : -1});
   }
   return judged;
 }
@@ -121,8 +122,7 @@ HoldOut JudgeByHoldOut(const std::vector<Encounter>& encounters, const RateFitOp
       const std::vector<JudgedEncounter> judged = Predicted(model, met);
       std::vector<JudgedEncounter>& of_kind = by_kind[name];
       of_kind.insert(of_kind.end(), judged.begin(), judged.end());
-      const KindRates* kind = FindKind(model, name.first, name.second);
-      if (kind != nullptr && !kind->per_metre) all.insert(all.end(), judged.begin(), judged.end());
+      all.insert(all.end(), judged.begin(), judged.end());
     }
   }
   HoldOut hold_out;

@@ -2,6 +2,7 @@
 // How well a risk model predicts encounters that it was not fitted to.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,15 +25,16 @@ struct RateJudgement {
   // the shares that these very encounters had, whatever they were met with.
   double log_loss = 0, log_loss_of_constant = 0;
   // Of the logistic regression of failures on the predictions' log odds. 1 and 0 are right; a slope
-  // below 1 says that predictions are too bold.
-  double slope = 0, intercept = 0;
+  // below 1 says that predictions are too bold. None: too few failed, or too few did not, to say.
+  std::optional<double> slope, intercept;
   // Expected calibration error: in ten equally wide bins of predicted P(failure), the mean distance
   // of predictions from outcomes. `by_chance`: what predictions that are right would show here.
   double calibration_error = 0, calibration_error_by_chance = 0;
 };
 RateJudgement Judge(std::span<const JudgedEncounter> judged);
 
-// Of the encounters with an outcome, of kinds that the model has; in the same order.
+// Of the encounters with an outcome, of kinds that the model has; in the same order. Exposures are
+// left out: of one that failed nobody knows how long it would have been.
 std::vector<JudgedEncounter> Predicted(const RiskModel& model,
                                        const std::vector<Encounter>& encounters);
 
@@ -42,8 +44,8 @@ struct JudgedKind {
   RateJudgement of;
 };
 struct HoldOut {
-  RateJudgement of_all;           // hazards: exposures are not in it
-  std::vector<JudgedKind> kinds;  // exposures too, each predicted over its own way
+  RateJudgement of_all;
+  std::vector<JudgedKind> kinds;
 };
 // The encounters are cut at random into so many parts (at least 2), each predicted by the model of
 // the others. The same encounters give the same figures.

@@ -196,21 +196,32 @@ TEST(Judge, TellsRightPredictionsFromBoldOnes) {
     bold.push_back(each);
   }
   const RateJudgement dut = Judge(right), of_bold = Judge(bold);
-  EXPECT_NEAR(dut.slope, 1, 0.05);
-  EXPECT_NEAR(dut.intercept, 0, 0.1);
+  EXPECT_NEAR(dut.slope.value(), 1, 0.05);
+  EXPECT_NEAR(dut.intercept.value(), 0, 0.1);
   EXPECT_LT(dut.calibration_error, 2.5 * dut.calibration_error_by_chance);
-  EXPECT_NEAR(of_bold.slope, 0.5, 0.03);
+  EXPECT_NEAR(of_bold.slope.value(), 0.5, 0.03);
   EXPECT_GT(of_bold.calibration_error, 5 * of_bold.calibration_error_by_chance);
   EXPECT_LT(dut.log_loss, of_bold.log_loss);
   EXPECT_LT(dut.log_loss, dut.log_loss_of_constant);
+  // Nine failures say nothing of a slope.
+  std::vector<JudgedEncounter> few;
+  for (int i = 0; i < 100; ++i)
+    few.push_back({right[i].first, i < 9 ? static_cast<int>(kHeld) : -1});
+  EXPECT_FALSE(Judge(few).slope.has_value());
 }
 
 TEST(HoldOut, JudgesEncountersByOthers) {
-  const HoldOut dut = JudgeByHoldOut(Steps(1200), {}, 3);
+  std::vector<Encounter> met = Steps(1200);
+  for (int i = 0; i < 100; ++i) {  // exposures are not judged
+    met.push_back(met[i]);
+    met.back().type = std::string(kFreeFloor);
+    met.back().way_m = 1;
+  }
+  const HoldOut dut = JudgeByHoldOut(met, {}, 3);
   EXPECT_EQ(dut.of_all.encounters, 1200);
   ASSERT_THAT(dut.kinds, SizeIs(1));
   EXPECT_EQ(dut.kinds[0].of.log_loss, dut.of_all.log_loss);
-  EXPECT_NEAR(dut.of_all.slope, 1, 0.2);
+  EXPECT_NEAR(dut.of_all.slope.value(), 1, 0.2);
   EXPECT_LT(dut.of_all.log_loss, 0.9 * dut.of_all.log_loss_of_constant);
 }
 

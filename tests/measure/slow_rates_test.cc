@@ -43,7 +43,7 @@ TEST_P(Calibration, OfFreshEncountersIsRight) {
     for (const Encounter& e : fresh)
       truly.push_back({FirstFailures(GetParam().rates(e)),
                        e.outcome == Encounter::Outcome::kFailed ? static_cast<int>(e.mode) : -1});
-    slope += dut.slope / kRepeats;
+    slope += dut.slope.value() / kRepeats;
     error += dut.calibration_error / kRepeats;
     const double least = Judge(truly).log_loss;
     of_truth += least / kRepeats;
