@@ -7,9 +7,9 @@
 
 namespace floorproof {
 
-// From the edge of the shape at this pose, along the line from its centre, to the nearest area of a
-// wall's cell (m; 0 where they overlap); `most_m` where none is so near. Takes time as the cells
-// within reach.
+// From the shape at this pose to the nearest area of a wall's cell (m; 0 where they overlap);
+// `most_m` where none is so near. Takes time as the cells within reach. A footprint's corners
+// beyond the 64th are not looked at.
 double WallGap(const HazardMap& map, const Shape2& shape, const Pose2& X_WB, double most_m);
 
 }  // namespace floorproof

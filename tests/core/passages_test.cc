@@ -182,6 +182,11 @@ TEST(WallGap, IsFromTheRobotsEdgeToTheWallsCell) {
   EXPECT_NEAR(WallGap(map, SquareRobot().clear, {-0.4, 0.2, kPi / 4}, 1),
               0.4 - kHalf_m * std::sqrt(2), 1e-9)
       << "its corner is nearer";
+  map.occupancy(20, 20) = CellState::kFree;
+  map.occupancy(20, 22) = CellState::kOccupied;  // from (0, 1): ahead of it, to its left
+  const Vec2 apart = Vec2(0, 1) - Vec2(-0.3 + kHalf_m, 0.6 + kHalf_m);
+  EXPECT_NEAR(WallGap(map, SquareRobot().clear, {-0.3, 0.6, 0}, 1), apart.norm(), 1e-9)
+      << "from corner to corner";
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ KindRates Planted(const char* type, Passage passage, double rate_at_04, double r
   KindRates kind;
   kind.type = type;
   kind.passage = passage;
-  kind.encounters = 1000;
+  kind.encounters = kind.cleared = 1000;
   RateAxis friction;
   friction.name = "friction";
   friction.lower = 0.4, friction.upper = 0.8;
@@ -114,7 +114,7 @@ TEST_F(PredictionTest, WhatDrawsMoveIsFoundAnew) {
   SaveModel(0.2, 0.2);
   Save("plan.csv", "x_m,y_m\n1.5,2.5\n4,2.5\n");
   const Prediction dut = Predict(
-      File(kCovers, "randomise: {\"site.hazards[0].shift_x_m\": {choice: [0, 3]}}\n"), {}, 60);
+      File(kCovers, "randomise: {site.hazards.first.shift_x_m: {choice: [0, 3]}}\n"), {}, 60);
   const double moved = 1 - dut.meetings[0].probability / (1 - std::exp(-0.2));
   EXPECT_GT(moved, 0.2);
   EXPECT_LT(moved, 0.8);
