@@ -39,7 +39,7 @@ KindRates Planted(const char* type, Passage passage, double rate_at_04, double r
   }
   const double low = EtaOf(rate_at_04), high = EtaOf(rate_at_08);
   ModeRates& stuck = kind.modes[kStuck];
-  stuck.blocks = {{0, 1, std::nullopt, 1}};
+  stuck.blocks = {{{{0, 0, 1}}}};
   stuck.coefficients = {(low + high) / 2, (high - low) / 2};
   stuck.members.assign(kRateMembers, stuck.coefficients);
   return kind;
@@ -115,7 +115,10 @@ TEST_F(PredictionTest, WhatDrawsMoveIsFoundAnew) {
   Save("plan.csv", "x_m,y_m\n1.5,2.5\n4,2.5\n");
   const Prediction dut = Predict(
       File(kCovers, "randomise: {site.hazards.first.shift_x_m: {choice: [0, 3]}}\n"), {}, 60);
-  const double moved = 1 - dut.meetings[0].probability / (1 - std::exp(-0.2));
+  double met = 0;
+  for (const PredictedMeeting& meeting : dut.meetings)
+    if (meeting.expected.hazard == "first") met += meeting.probability;
+  const double moved = 1 - met / (1 - std::exp(-0.2));
   EXPECT_GT(moved, 0.2);
   EXPECT_LT(moved, 0.8);
   EXPECT_NEAR(dut.survival.no_failure.value, moved + (1 - moved) * std::exp(-0.2), 1e-5);
