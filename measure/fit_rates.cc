@@ -26,6 +26,14 @@ std::vector<double> CovariatesOf(const std::vector<RateAxis>& axes, bool mirrore
   return {x.begin(), x.end()};
 }
 
+// All others are about a hazard, or how far the way along it is.
+bool IsOfExposures(const ApproachColumn& column) {
+  constexpr double Approach::*kOfExposures[] = {&Approach::speed_mps, &Approach::wall_m,
+                                                &Approach::friction, &Approach::mass_kg,
+                                                &Approach::clearance_m};
+  return std::ranges::find(kOfExposures, column.member) != std::end(kOfExposures);
+}
+
 std::vector<RateAxis> AxesOf(const Meetings& met, bool mirrored) {
   std::vector<RateAxis> axes;
   for (const auto& first : met.front()->size) {
@@ -39,7 +47,9 @@ std::vector<RateAxis> AxesOf(const Meetings& met, bool mirrored) {
     axes.back().name = key;
     axes.back().of_hazard = true;
   }
+  const bool exposed = IsExposure(met.front()->type);
   for (const ApproachColumn& column : kApproach) {
+    if (exposed && !IsOfExposures(column)) continue;
     axes.emplace_back();
     axes.back().name = column.name;
   }
