@@ -25,7 +25,7 @@ struct RateJudgement {
   // the shares that these very encounters had, whatever they were met with.
   double log_loss = 0, log_loss_of_constant = 0;
   // Of the logistic regression of failures on the predictions' log odds. 1 and 0 are right; a slope
-  // below 1 says that predictions are too bold. None: too few failed, or too few did not, to say.
+  // below 1 says that predictions are too bold. None: nothing can be said (CalibrationLine).
   std::optional<double> slope, intercept;
   // Expected calibration error: in ten equally wide bins of predicted P(failure), the mean distance
   // of predictions from outcomes. `by_chance`: what predictions that are right would show here.
