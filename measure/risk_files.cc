@@ -19,9 +19,7 @@
 #include "run/scenario/scenario_parts.h"
 
 namespace floorproof {
-namespace {
 
-// Of each type of hazard, its class; they do not hang on a hazard's place.
 std::map<std::string, HazardClass> ClassOfType() {
   std::map<std::string, HazardClass> classes;
   for (const auto& entry : HazardTypes()) {
@@ -41,8 +39,6 @@ std::vector<Encounter> AllEncounters(const CampaignStore& store) {
         variant, [&](std::uint64_t, const Encounter& encounter) { all.push_back(encounter); });
   return all;
 }
-
-}  // namespace
 
 std::optional<RiskModel> WriteRiskFiles(const CampaignStore& store, const RobotModel& robot,
                                         const std::filesystem::path& folder) {

@@ -3,14 +3,23 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "env/core/hazard_map.h"
 #include "env/scene/robot_model.h"
 #include "planners/risk/rate_model.h"
 #include "run/campaign/campaign_store.h"
 
 namespace floorproof {
+
+// Of each type of hazard, its class; it does not hang on the hazard's place or size.
+std::map<std::string, HazardClass> ClassOfType();
+
+// Of the campaign's counted episodes, variant after variant.
+std::vector<Encounter> AllEncounters(const CampaignStore& store);
 
 // Fits the rates to all encounters of the campaign's counted episodes and writes both files.
 // Returns none, and writes nothing, where no kind was met often enough. Throws InputError where a
