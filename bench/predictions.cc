@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+// Does it hold? Plans of sites that nobody has driven: how often each will fail is predicted by a
+// robot's measured rates, and by predictors that know none; then all are driven, and the
+// predictions judged (docs/measured-risk.md).
+//   bench_predictions KEY=VALUE ...      the keys: struct Study; `robot`, `measured` must be given
+// Predictions are written, with their SHA-256, before the drives that they are judged by. Called
+// again with the same `out` it goes on where it was.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "base/file_output.h"
+#include "base/interrupt.h"
+#include "base/params.h"
+#include "bench/study_figures.h"
+#include "bench/study_sites.h"
+#include "measure/expert_predictors.h"
+#include "measure/risk_files.h"
+#include "planners/risk/risk_meter.h"
+#include "run/campaign/drive_campaign.h"
+#include "run/episode/records.h"
+#include "run/plan_check/prediction.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct Study : Configurable {
+  std::string robot = "beluga", measured, out = "out/predictions", drives;
+  int training = 20, sites = 100, episodes = 50, jobs = 1;
+  double minutes = 1e6;
+  void Visit(ParamVisitor& v) override {
+    v("robot", robot, {}, "its name, or its MJCF file");
+    v("measured", measured, {}, "folder of `floorproof measure`: model, and training encounters");
+    v("out", out, {}, "folder of predictions and figures");
+    v("drives", drives, {}, "folder of the drives; empty: in `out`");
+    v("training", training, AtLeast(1), "sites that predictors are fitted to");
+    v("sites", sites, AtLeast(1), "sites that they are judged by");
+    v("episodes", episodes, AtLeast(1), "drives of each plan");
+    v("jobs", jobs, AtLeast(1), "worker processes");
+    v("minutes", minutes, Positive(), "ends then, to be gone on with");
+  }
+};
+
+std::string KindOf(const Encounter& e) {
+  return e.hazard.empty() ? e.type : fmt::format("{} {}", e.type, Name(e.passage));
+}
+
+std::string LabelOf(const Json& plan) {
+  return fmt::format("{}-{:03}-{}", plan["set"].get<std::string>(), plan["site"].get<int>(),
+                     plan["planner"].get<std::string>());
+}
+
+fs::path HashOf(const fs::path& file) { return file.string() + ".sha256"; }
+
+class Runner {
+ public:
+  explicit Runner(const Study& study)
+      : study_(study),
+        out_(study.out),
+        drives_(study.drives.empty() ? out_ / "drives" : fs::path(study.drives)),
+        model_(fs::absolute(fs::path(study.measured) / "risk_model.json")),
+        spec_(ReadRobot(FindRobotFile(study.robot, {"robot", 0})).spec) {
+    fs::create_directories(out_);
+    fs::create_directories(drives_);
+  }
+
+  int Run() {
+    const Json training = Plans(StudySet::kTraining, study_.training, "training.json", nullptr);
+    if (!DriveAll(training)) return NotYet();
+    const Fitted fitted = Fit(training);
+    const Json test = Plans(StudySet::kTest, study_.sites, "predictions.json", &fitted);
+    if (!DriveAll(test)) return NotYet();
+    const std::string text = StudyFigures(SeenOf(test));
+    WriteFileWhole(out_ / "figures.md", text);
+    WriteReliabilityDiagram(SeenOf(test), out_ / "reliability.png");
+    fmt::print("{}", text);
+    return 0;
+  }
+
+ private:
+  // What is fitted to training data, the model apart.
+  struct Fitted {
+    double constant = 0;
+    std::vector<double> of_crf, of_classes;  // rates
+    ClassNumbers occurrence = {};
+  };
+
+  static int NotYet() {
+    fmt::print("not all was driven: call it again to go on\n");
+    return 0;
+  }
+
+  double Elapsed() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+
+  ScenarioFile FileOf(const Json& plan, const std::vector<Override>& overrides = {}) const {
+    const StudySet set =
+        plan["set"] == Name(StudySet::kTest) ? StudySet::kTest : StudySet::kTraining;
+    return ScenarioFile::FromText(
+        StudyScenario(study_.robot, spec_, set, plan["site"], plan["planner"], model_.string()),
+        fs::absolute(drives_) / "study.yaml", overrides);
+  }
+
+  fs::path FolderOf(const Json& plan) const { return drives_ / LabelOf(plan); }
+
+  // What is known of a plan before it is driven. None: there is no plan.
+  std::optional<Json> Described(StudySet set, int site, const std::string& planner,
+                                const Fitted* fitted) {
+    Json plan = {{"set", Name(set)}, {"site", site}, {"planner", planner}};
+    // Not the draws of the drives themselves: these are not known beforehand.
+    const ScenarioFile file = FileOf(plan, {{"seed", "1"}});
+    const Scenario scenario = file.Read();
+    Prediction prediction;
+    try {
+      prediction = Predict(file, {}, kDraws);
+    } catch (const InputError& error) {
+      fmt::print("{} is left out: {}\n", LabelOf(plan), error.what());
+      return std::nullopt;
+    }
+    std::vector<Encounter> expected;
+    std::map<std::string, double> kinds;
+    for (const PredictedMeeting& meeting : prediction.meetings) {
+      expected.push_back(meeting.expected);
+      kinds[KindOf(meeting.expected)] += meeting.probability;
+    }
+    const RiskMap risk =
+        ComputeRisk(scenario.site.map, scenario.robot.spec, scenario.fmea, scenario.risk);
+    plan["crf"] = MeasureRisk(risk, prediction.plan.path).cumulative_risk;
+    plan["meetings"] = MeetingsOfClasses(expected, classes_);
+    plan["complete"] = prediction.complete();
+    const Probability& none = prediction.survival.no_failure;
+    plan["lower"] = 1 - none.upper;
+    plan["upper"] = 1 - none.lower;
+    for (int m = 0; m < kNumFailureModes; ++m)
+      plan["modes"][std::string(Name(static_cast<FailureMode>(m)))] =
+          prediction.survival.first[static_cast<std::size_t>(m)].value;
+    plan["kinds"] = kinds;
+    plan["predicted"][kModelPredictor] = 1 - none.value;
+    if (fitted != nullptr) AddBaselines(*fitted, scenario.fmea, plan);
+    return plan;
+  }
+
+  static void AddBaselines(const Fitted& fitted, const FmeaTables& tables, Json& plan) {
+    const std::vector<double> crf = {plan["crf"]};
+    const ClassNumbers meetings = plan["meetings"];
+    Json& predicted = plan["predicted"];
+    predicted["a constant"] = fitted.constant;
+    predicted["1 - exp(-a CRF)"] = FailureOfExposures(fitted.of_crf, crf);
+    predicted["hazards counted"] = FailureOfExposures(fitted.of_classes, meetings);
+    predicted["Table 3, occurrence fitted"] =
+        Total(ExpertFailures(tables, fitted.occurrence, meetings));
+  }
+
+  // Those that stand in the file, if its hash is right; else made, and written before any drive.
+  Json Plans(StudySet set, int sites, const char* name, const Fitted* fitted) {
+    const fs::path file = out_ / name;
+    const std::string model = Sha256OfFile(model_);
+    if (fs::exists(file)) {
+      const std::string text = InputFiles().Read(file, kMostBytes);
+      if (InputFiles().Read(HashOf(file), kMostBytes) != Sha256(text) + "\n")
+        throw InputError({file.string(), 0}, "", "", "was changed since it was written");
+      Json json = Json::parse(text);
+      if (json["model"] != model || json["sites"] != sites)
+        throw InputError({file.string(), 0}, "", "",
+                         "is of another model, or of another number of sites");
+      return json;
+    }
+    Json json = {{"model", model}, {"sites", sites}, {"driven_before", 0}};
+    json["plans"] = Json::array();
+    int driven = 0;
+    for (int site = 0; site < sites; ++site)
+      for (const std::string& planner : kStudyPlanners)
+        if (auto plan = Described(set, site, planner, fitted)) {
+          driven += Driven(*plan);
+          json["plans"].push_back(std::move(*plan));
+        }
+    json["driven_before"] = driven;
+    const std::string text = JsonText(json) + "\n";
+    WriteFileWhole(HashOf(file), Sha256(text) + "\n");
+    WriteFileWhole(file, text);
+    fmt::print("{}: {} plans, {} drives of them before it was written, SHA-256 {}\n", file.string(),
+               json["plans"].size(), driven, Sha256(text));
+    return json;
+  }
+
+  int Driven(const Json& plan) const {
+    const fs::path file = FolderOf(plan) / "campaign.sqlite";
+    if (!fs::exists(file)) return 0;
+    const CampaignStore store = CampaignStore::Open(file, false);
+    int driven = 0;
+    for (const std::string& variant : store.Variants())
+      driven += static_cast<int>(store.Episodes(variant).size());
+    return driven;
+  }
+
+  // Whether all were driven.
+  bool DriveAll(const Json& plans) {
+    for (const Json& plan : plans["plans"]) {
+      const int driven = Driven(plan);
+      if (driven >= study_.episodes) continue;
+      const double left_s = 60 * study_.minutes - Elapsed();
+      if (left_s <= 0) return false;
+      const CampaignRequest request{.episodes = static_cast<std::uint64_t>(study_.episodes),
+                                    .jobs = study_.jobs,
+                                    .resume = driven > 0,
+                                    .time_limit_s = left_s};
+      const CampaignOutcome outcome = DriveCampaign(FileOf(plan), request, FolderOf(plan));
+      if (outcome.run.end != CampaignEnd::kComplete) return false;
+      const VariantSummary& of = outcome.summary.variants.front();
+      fmt::print("{}: predicted {:.3f}, {} of {} failed\n", LabelOf(plan),
+                 plan["predicted"][kModelPredictor].get<double>(), of.failures.front().k, of.n);
+      std::fflush(stdout);
+    }
+    return true;
+  }
+
+  // What its drives showed.
+  DrivenPlan Seen(const Json& plan) const {
+    DrivenPlan seen;
+    seen.site = plan["site"];
+    seen.planner = plan["planner"];
+    seen.predicted = plan["predicted"].get<std::map<std::string, double>>();
+    seen.predicted_modes = plan["modes"].get<std::map<std::string, double>>();
+    seen.predicted_kinds = plan["kinds"].get<std::map<std::string, double>>();
+    const CampaignStore store = CampaignStore::Open(FolderOf(plan) / "campaign.sqlite", false);
+    for (const std::string& variant : store.Variants()) {
+      store.ForEach(variant, [&](const EpisodeRow& row) {
+        if (!row.counts()) return;
+        ++seen.n;
+        const std::vector<Event> events = EventsOf(row);
+        if (events.empty()) return;
+        ++seen.k;
+        ++seen.modes[std::string(Name(events.front().mode))];
+      });
+      store.ForEachEncounter(variant, [&](std::uint64_t, const Encounter& e) {
+        if (e.outcome == Encounter::Outcome::kFailed) ++seen.kinds[KindOf(e)];
+      });
+    }
+    return seen;
+  }
+
+  std::vector<DrivenPlan> SeenOf(const Json& plans) const {
+    std::vector<DrivenPlan> seen;
+    for (const Json& plan : plans["plans"]) seen.push_back(Seen(plan));
+    return seen;
+  }
+
+  Fitted Fit(const Json& training) const {
+    std::vector<TrainingPlan> by_crf, by_classes;
+    for (const Json& plan : training["plans"]) {
+      const DrivenPlan seen = Seen(plan);
+      by_crf.push_back({{plan["crf"].get<double>()}, seen.k, seen.n});
+      by_classes.push_back({plan["meetings"].get<std::vector<double>>(), seen.k, seen.n});
+    }
+    const CampaignStore measured =
+        CampaignStore::Open(fs::path(study_.measured) / "campaign.sqlite", false);
+    return {FitConstant(by_crf), FitRatesOfExposures(by_crf), FitRatesOfExposures(by_classes),
+            OccurrenceOfClasses(AllEncounters(measured), classes_)};
+  }
+
+  static constexpr int kDraws = 256;
+  static constexpr std::uintmax_t kMostBytes = 256u << 20;
+
+  Study study_;
+  fs::path out_, drives_, model_;
+  RobotSpec spec_;
+  std::map<std::string, HazardClass> classes_ = ClassOfType();
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+int Main(int argc, char** argv) {
+  std::string text;
+  for (int i = 1; i < argc; ++i) {
+    std::string line = argv[i];
+    if (const auto at = line.find('='); at != std::string::npos) line.replace(at, 1, ": ");
+    text += line + "\n";
+  }
+  Study study;
+  ReadParams(ParseYaml(text, "command line"), "", study);
+  return Runner(study).Run();
+}
+
+}  // namespace
+}  // namespace floorproof
+
+int main(int argc, char** argv) {
+  floorproof::CatchInterrupts();
+  try {
+    return floorproof::Main(argc, argv);
+  } catch (const floorproof::InputError& error) {
+    fmt::print(stderr, "bench_predictions: {}\n", error.what());
+    return 2;
+  }
+}
