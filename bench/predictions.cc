@@ -15,13 +15,11 @@
 #include "base/interrupt.h"
 #include "base/params.h"
 #include "bench/study_figures.h"
+#include "bench/study_predictors.h"
 #include "bench/study_sites.h"
-#include "measure/expert_predictors.h"
 #include "measure/risk_files.h"
-#include "planners/risk/risk_meter.h"
 #include "run/campaign/drive_campaign.h"
 #include "run/episode/records.h"
-#include "run/plan_check/prediction.h"
 
 namespace floorproof {
 namespace {
@@ -30,8 +28,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 struct Study : Configurable {
-  std::string robot = "beluga", measured, out = "out/predictions", drives;
-  int training = 20, sites = 100, episodes = 50, jobs = 1;
+  std::string robot = "beluga", measured, out = "out/predictions", drives, maps;
+  int training = 20, sites = 100, map_sites = 8, episodes = 50, jobs = 1;
   double minutes = 1e6;
   void Visit(ParamVisitor& v) override {
     v("robot", robot, {}, "its name, or its MJCF file");
@@ -40,15 +38,13 @@ struct Study : Configurable {
     v("drives", drives, {}, "folder of the drives; empty: in `out`");
     v("training", training, AtLeast(1), "sites that predictors are fitted to");
     v("sites", sites, AtLeast(1), "sites that they are judged by");
+    v("maps", maps, {}, "folder of real maps, for sites of its own; empty: none");
+    v("map_sites", map_sites, AtLeast(1), "sites on these maps");
     v("episodes", episodes, AtLeast(1), "drives of each plan");
     v("jobs", jobs, AtLeast(1), "worker processes");
     v("minutes", minutes, Positive(), "ends then, to be gone on with");
   }
 };
-
-std::string KindOf(const Encounter& e) {
-  return e.hazard.empty() ? e.type : fmt::format("{} {}", e.type, Name(e.passage));
-}
 
 std::string LabelOf(const Json& plan) {
   return fmt::format("{}-{:03}-{}", plan["set"].get<std::string>(), plan["site"].get<int>(),
@@ -64,7 +60,9 @@ class Runner {
         out_(study.out),
         drives_(study.drives.empty() ? out_ / "drives" : fs::path(study.drives)),
         model_(fs::absolute(fs::path(study.measured) / "risk_model.json")),
-        spec_(ReadRobot(FindRobotFile(study.robot, {"robot", 0})).spec) {
+        inputs_{study.robot, model_.string(),
+                ReadRobot(FindRobotFile(study.robot, {"robot", 0})).spec,
+                study.maps.empty() ? fs::path() : fs::absolute(study.maps)} {
     fs::create_directories(out_);
     fs::create_directories(drives_);
   }
@@ -72,23 +70,34 @@ class Runner {
   int Run() {
     const Json training = Plans(StudySet::kTraining, study_.training, "training.json", nullptr);
     if (!DriveAll(training)) return NotYet();
-    const Fitted fitted = Fit(training);
-    const Json test = Plans(StudySet::kTest, study_.sites, "predictions.json", &fitted);
-    if (!DriveAll(test)) return NotYet();
-    const std::string text = StudyFigures(SeenOf(test));
-    WriteFileWhole(out_ / "figures.md", text);
-    WriteReliabilityDiagram(SeenOf(test), out_ / "reliability.png");
-    fmt::print("{}", text);
+    const FittedPredictors fitted = Fit(training);
+    if (!Ask(StudySet::kTest, study_.sites, "", fitted)) return NotYet();
+    if (study_.maps.empty())
+      fmt::print("no maps were given: their set is left out\n");
+    else if (!Ask(StudySet::kMaps, study_.map_sites, "_maps", fitted))
+      return NotYet();
     return 0;
   }
 
  private:
-  // What is fitted to training data, the model apart.
-  struct Fitted {
-    double constant = 0;
-    std::vector<double> of_crf, of_classes;  // rates
-    ClassNumbers occurrence = {};
-  };
+  // Predicts, drives and judges what is driven so far. Whether that is all. `which`: in the files'
+  // names.
+  bool Ask(StudySet set, int sites, const std::string& which, const FittedPredictors& fitted) {
+    const Json plans = Plans(set, sites, "predictions" + which + ".json", &fitted);
+    const bool all = DriveAll(plans);
+    std::vector<DrivenPlan> seen;
+    for (const Json& plan : plans["plans"])
+      if (Driven(plan) >= study_.episodes) seen.push_back(Seen(plan));
+    const std::string text = fmt::format(
+                                 "# Predictions of plans against their drives\n\n{} of {} plans "
+                                 "are driven, {} drives each.\n",
+                                 seen.size(), plans["plans"].size(), study_.episodes) +
+                             StudyFigures(seen);
+    WriteFileWhole(out_ / ("figures" + which + ".md"), text);
+    WriteReliabilityDiagram(seen, out_ / ("reliability" + which + ".png"));
+    fmt::print("{}", text);
+    return all;
+  }
 
   static int NotYet() {
     fmt::print("not all was driven: call it again to go on\n");
@@ -100,65 +109,32 @@ class Runner {
   }
 
   ScenarioFile FileOf(const Json& plan, const std::vector<Override>& overrides = {}) const {
-    const StudySet set =
-        plan["set"] == Name(StudySet::kTest) ? StudySet::kTest : StudySet::kTraining;
-    return ScenarioFile::FromText(
-        StudyScenario(study_.robot, spec_, set, plan["site"], plan["planner"], model_.string()),
-        fs::absolute(drives_) / "study.yaml", overrides);
+    StudySet set = StudySet::kTraining;
+    for (const StudySet known : {StudySet::kTest, StudySet::kMaps})
+      if (plan["set"] == Name(known)) set = known;
+    return ScenarioFile::FromText(StudyScenario(inputs_, set, plan["site"], plan["planner"]),
+                                  fs::absolute(drives_) / "study.yaml", overrides);
   }
 
   fs::path FolderOf(const Json& plan) const { return drives_ / LabelOf(plan); }
 
-  // What is known of a plan before it is driven. None: there is no plan.
+  // None: there is no plan.
   std::optional<Json> Described(StudySet set, int site, const std::string& planner,
-                                const Fitted* fitted) {
+                                const FittedPredictors* fitted) const {
     Json plan = {{"set", Name(set)}, {"site", site}, {"planner", planner}};
     // Not the draws of the drives themselves: these are not known beforehand.
     const ScenarioFile file = FileOf(plan, {{"seed", "1"}});
-    const Scenario scenario = file.Read();
-    Prediction prediction;
     try {
-      prediction = Predict(file, {}, kDraws);
+      DescribePlan(file, classes_, fitted, plan);
     } catch (const InputError& error) {
       fmt::print("{} is left out: {}\n", LabelOf(plan), error.what());
       return std::nullopt;
     }
-    std::vector<Encounter> expected;
-    std::map<std::string, double> kinds;
-    for (const PredictedMeeting& meeting : prediction.meetings) {
-      expected.push_back(meeting.expected);
-      kinds[KindOf(meeting.expected)] += meeting.probability;
-    }
-    const RiskMap risk =
-        ComputeRisk(scenario.site.map, scenario.robot.spec, scenario.fmea, scenario.risk);
-    plan["crf"] = MeasureRisk(risk, prediction.plan.path).cumulative_risk;
-    plan["meetings"] = MeetingsOfClasses(expected, classes_);
-    plan["complete"] = prediction.complete();
-    const Probability& none = prediction.survival.no_failure;
-    plan["lower"] = 1 - none.upper;
-    plan["upper"] = 1 - none.lower;
-    for (int m = 0; m < kNumFailureModes; ++m)
-      plan["modes"][std::string(Name(static_cast<FailureMode>(m)))] =
-          prediction.survival.first[static_cast<std::size_t>(m)].value;
-    plan["kinds"] = kinds;
-    plan["predicted"][kModelPredictor] = 1 - none.value;
-    if (fitted != nullptr) AddBaselines(*fitted, scenario.fmea, plan);
     return plan;
   }
 
-  static void AddBaselines(const Fitted& fitted, const FmeaTables& tables, Json& plan) {
-    const std::vector<double> crf = {plan["crf"]};
-    const ClassNumbers meetings = plan["meetings"];
-    Json& predicted = plan["predicted"];
-    predicted["a constant"] = fitted.constant;
-    predicted["1 - exp(-a CRF)"] = FailureOfExposures(fitted.of_crf, crf);
-    predicted["hazards counted"] = FailureOfExposures(fitted.of_classes, meetings);
-    predicted["Table 3, occurrence fitted"] =
-        Total(ExpertFailures(tables, fitted.occurrence, meetings));
-  }
-
   // Those that stand in the file, if its hash is right; else made, and written before any drive.
-  Json Plans(StudySet set, int sites, const char* name, const Fitted* fitted) {
+  Json Plans(StudySet set, int sites, const std::string& name, const FittedPredictors* fitted) {
     const fs::path file = out_ / name;
     const std::string model = Sha256OfFile(model_);
     if (fs::exists(file)) {
@@ -208,7 +184,7 @@ class Runner {
       if (left_s <= 0) return false;
       const CampaignRequest request{.episodes = static_cast<std::uint64_t>(study_.episodes),
                                     .jobs = study_.jobs,
-                                    .resume = driven > 0,
+                                    .resume = fs::exists(FolderOf(plan) / "campaign.sqlite"),
                                     .time_limit_s = left_s};
       const CampaignOutcome outcome = DriveCampaign(FileOf(plan), request, FolderOf(plan));
       if (outcome.run.end != CampaignEnd::kComplete) return false;
@@ -245,13 +221,7 @@ class Runner {
     return seen;
   }
 
-  std::vector<DrivenPlan> SeenOf(const Json& plans) const {
-    std::vector<DrivenPlan> seen;
-    for (const Json& plan : plans["plans"]) seen.push_back(Seen(plan));
-    return seen;
-  }
-
-  Fitted Fit(const Json& training) const {
+  FittedPredictors Fit(const Json& training) const {
     std::vector<TrainingPlan> by_crf, by_classes;
     for (const Json& plan : training["plans"]) {
       const DrivenPlan seen = Seen(plan);
@@ -264,12 +234,11 @@ class Runner {
             OccurrenceOfClasses(AllEncounters(measured), classes_)};
   }
 
-  static constexpr int kDraws = 256;
   static constexpr std::uintmax_t kMostBytes = 256u << 20;
 
   Study study_;
   fs::path out_, drives_, model_;
-  RobotSpec spec_;
+  StudyInputs inputs_;
   std::map<std::string, HazardClass> classes_ = ClassOfType();
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };

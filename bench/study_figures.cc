@@ -77,7 +77,7 @@ std::string EndedTable(const char* by, const std::map<std::string, Ended>& rows)
 }  // namespace
 
 std::string StudyFigures(std::span<const DrivenPlan> plans) {
-  std::string text = "# Predictions of plans against their drives\n";
+  std::string text;
   for (const std::string& predictor : Predictors(plans)) text += FigureTable(plans, predictor);
   text += WonTable(plans);
   std::map<std::string, Ended> modes, kinds, planners;

@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include "base/streams.h"
+#include "env/geometry/distance.h"
 #include "env/hazards/hazard_type.h"
+#include "env/map/init_files.h"
+#include "env/map/site.h"
 
 namespace floorproof {
 namespace {
@@ -39,42 +42,110 @@ double Easy(Stream& random, std::pair<double, double> span) {
                         : span.first + share * (span.second - span.first);
 }
 
-std::string Sizes(const RobotSpec& spec, Stream& random) {
-  std::string text;
+std::string Keys(const Drawn& drawn, const RobotSpec& spec, Stream& random) {
+  std::string keys;
+  for (const auto& entry : HazardTypes()) {
+    if (entry.name != drawn.type) continue;
+    for (const KeyRange& range : entry.make()->Ranges(spec))
+      keys += fmt::format("{}{}: {:.4g}", keys.empty() ? "" : ", ", range.key,
+                          Easy(random, range.spans.at(range.spans.size() > 1 ? drawn.span : 0)));
+  }
+  return keys;
+}
+
+std::string Generated(const RobotSpec& spec, const char* mix, int seed, Stream& random) {
+  std::string sizes;
   for (const Drawn& drawn : kDrawn)
-    for (const auto& entry : HazardTypes()) {
-      if (entry.name != drawn.type) continue;
-      std::string keys;
-      for (const KeyRange& range : entry.make()->Ranges(spec))
-        keys += fmt::format("{}{}: {:.4g}", keys.empty() ? "" : ", ", range.key,
-                            Easy(random, range.spans.at(range.spans.size() > 1 ? drawn.span : 0)));
-      text += fmt::format("{}{}: {{{}}}", text.empty() ? "" : ", ", drawn.character, keys);
+    sizes += fmt::format("{}{}: {{{}}}", sizes.empty() ? "" : ", ", drawn.character,
+                         Keys(drawn, spec, random));
+  return fmt::format(
+      "  generate: {{kind: fmea, cells: [9, 8], seed: {}, hazards: {{{}}}, sizes: {{{}}}}}\n", seed,
+      mix, sizes);
+}
+
+// Places on open floor, away from walls, from the start and from each other.
+std::vector<Vec2> OpenPlaces(const HazardMap& map, const Vec2& start_W, int most, Stream& random) {
+  constexpr double kFromWalls_m = 0.7, kApart_m = 1.4;
+  Grid<std::uint8_t> walls(map.frame.width, map.frame.height, 0);
+  std::vector<Vec2> open;
+  for (int iy = 0; iy < map.frame.height; ++iy)
+    for (int ix = 0; ix < map.frame.width; ++ix) walls(ix, iy) = map.IsWall(ix, iy);
+  const Grid<float> distance = DistanceToSet(walls, true);
+  for (int iy = 0; iy < map.frame.height; ++iy)
+    for (int ix = 0; ix < map.frame.width; ++ix)
+      if (distance(ix, iy) * map.frame.cell_m >= kFromWalls_m)
+        open.push_back(map.frame.Center(ix, iy));
+  std::vector<Vec2> places;
+  constexpr int kTries = 1000;
+  for (int i = 0; i < kTries && !open.empty() && static_cast<int>(places.size()) < most; ++i) {
+    const Vec2 place = open[random.Below(open.size())];
+    bool apart = (place - start_W).norm() >= kApart_m;
+    for (const Vec2& other : places) apart = apart && (place - other).norm() >= kApart_m;
+    if (apart) places.push_back(place);
+  }
+  return places;
+}
+
+// A map with hazards laid on its open floor, each at an angle of its own, and where to start.
+std::string Laid(const StudyInputs& inputs, int number, Stream& random, std::string& start) {
+  constexpr int kMost = 4;
+  constexpr double kHalf_m = 0.3;  // of a square's side, and of a line
+  const std::string name = kStudyMaps[static_cast<std::size_t>(number) % kStudyMaps.size()];
+  const std::string map = (inputs.maps / name / "map.yaml").string();
+  const Site site = ReadSite(
+      ParseYaml(fmt::format("site: 1\nname: {}\nmap: \"{}\"\nunknown: wall\n", name, map), map),
+      inputs.maps);
+  const Pose2 from = ChooseStart(site.map, inputs.spec);
+  start = fmt::format("start: {{x_m: {:.6g}, y_m: {:.6g}, yaw_deg: {:.6g}}}\n", from.x_m, from.y_m,
+                      from.yaw_rad * 180 / kPi);
+  std::string text = fmt::format("  map: \"{}\"\n  unknown: wall\n  hazards:\n", map);
+  for (const Vec2& place : OpenPlaces(site.map, from.p(), kMost, random)) {
+    const Drawn& drawn = kDrawn[random.Below(std::size(kDrawn))];
+    const bool line =
+        drawn.type == std::string("cable_cover") || drawn.type == std::string("groove");
+    const Pose2 X_WH{place.x(), place.y(), random.Uniform(0, 2 * kPi)};
+    std::string points;
+    const std::vector<Vec2> corners = line ? std::vector<Vec2>{{-kHalf_m, 0}, {kHalf_m, 0}}
+                                           : Rectangle({-kHalf_m, -kHalf_m}, {kHalf_m, kHalf_m});
+    for (const Vec2& corner : corners) {
+      const Vec2 p = X_WH * corner;
+      points += fmt::format("{}[{:.4f}, {:.4f}]", points.empty() ? "" : ", ", p.x(), p.y());
     }
+    text += fmt::format("    - {{type: {}, {}: [{}], {}}}\n", drawn.type,
+                        line ? "line_m" : "polygon_m", points, Keys(drawn, inputs.spec, random));
+  }
   return text;
 }
 
 }  // namespace
 
-std::string StudyScenario(const std::string& robot, const RobotSpec& spec, StudySet set, int number,
-                          const std::string& planner, const std::string& model) {
-  const bool training = set == StudySet::kTraining;
-  const int seed = number + (training ? 500'000 : 700'000);  // of the site
+std::string StudyScenario(const StudyInputs& inputs, StudySet set, int number,
+                          const std::string& planner) {
+  const int seed = number + 100'000 * (5 + 2 * static_cast<int>(set));  // of the site
   Stream random(0, static_cast<std::uint64_t>(seed), "study_sites");
+  std::string start;
+  const std::string floor =
+      set == StudySet::kMaps
+          ? Laid(inputs, number, random, start)
+          : Generated(inputs.spec, set == StudySet::kTraining ? kTrainingMix : kTestMix, seed,
+                      random);
   return fmt::format(
       "scenario: 1\n"
+      "seed: {}\n"  // of the drives: sites that shared their draws would be off together
       "site:\n"
       "  site: 1\n"
       "  name: {}_{}\n"
-      "  generate: {{kind: fmea, cells: [9, 8], seed: {}, hazards: {{{}}}, sizes: {{{}}}}}\n"
+      "{}"
       "  floor: {{friction: 0.6}}\n"
       "robot: \"{}\"\n"
+      "{}"
       "risk: {{model: \"{}\"}}\n"
       "plan: {{planner: {}}}\n"
       "randomise:\n"
       "  site.floor.friction: {{uniform: [0.35, 0.9]}}\n"
       "  robot.mass_kg: {{uniform: [{:.4g}, {:.4g}]}}\n",
-      Name(set), number, seed, training ? kTrainingMix : kTestMix, Sizes(spec, random), robot,
-      model, planner, 0.9 * spec.mass_kg, 1.1 * spec.mass_kg);
+      seed, Name(set), number, floor, inputs.robot, start, inputs.model, planner,
+      0.9 * inputs.spec.mass_kg, 1.1 * inputs.spec.mass_kg);
 }
 
 }  // namespace floorproof

@@ -2,6 +2,7 @@
 // The sites of the study of predictions, as texts of scenarios.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -9,17 +10,27 @@
 
 namespace floorproof {
 
-// Sites that predictors may be fitted to, and sites that they are judged by: other seeds, another
-// mix of hazards.
-enum class StudySet { kTraining, kTest };
-inline const char* Name(StudySet set) { return set == StudySet::kTraining ? "training" : "test"; }
+// Sites that predictors may be fitted to, and sites that they are judged by: other seeds and
+// another mix of hazards; or real maps with hazards laid on them.
+enum class StudySet { kTraining, kTest, kMaps };
+inline const char* Name(StudySet set) {
+  return set == StudySet::kTraining ? "training" : set == StudySet::kTest ? "test" : "maps";
+}
 
 inline const std::vector<std::string> kStudyPlanners = {"boustrophedon", "spiral", "risk_coverage",
                                                         "fmea_path_transform"};
 
-// A small floor with hazards of sizes drawn from what this robot crosses surely to what it hardly
-// does; friction and mass are drawn for each drive. `model`: risk_model.json, absolute.
-std::string StudyScenario(const std::string& robot, const RobotSpec& spec, StudySet set, int number,
-                          const std::string& planner, const std::string& model);
+inline const std::vector<std::string> kStudyMaps = {"lab_small", "small_house"};
+
+struct StudyInputs {
+  std::string robot, model;  // risk_model.json, absolute
+  RobotSpec spec;
+  std::filesystem::path maps;  // absolute: a folder a map, with map.yaml
+};
+// A small floor, or one of the maps in turn, with hazards of sizes drawn from what this robot
+// crosses surely to what it hardly does; friction and mass are drawn for each drive. Throws
+// InputError where a map cannot be read.
+std::string StudyScenario(const StudyInputs& inputs, StudySet set, int number,
+                          const std::string& planner);
 
 }  // namespace floorproof
