@@ -8,7 +8,6 @@
 
 #include "planners/risk/cell_anchors.h"
 #include "planners/risk/cell_path.h"
-#include "planners/risk/terrain_yaw.h"
 
 namespace floorproof {
 namespace {
@@ -21,7 +20,8 @@ Cell FarthestFree(const Grid<std::int32_t>& steps, const RiskGrid& grid, Cell st
   return farthest;
 }
 
-CellMotion MotionOf(const PlanRequest& request, const std::vector<Cell>& tour, bool with_care) {
+CellMotion MotionOf(const PlanRequest& request, const std::vector<Cell>& tour, bool with_care,
+                    TerrainLead lead) {
   const RiskGrid& grid = request.risk->grid;
   CellMotion motion;
   if (with_care) motion.speed_mps = SpeedsOverTerrain(grid, tour, request.robot);
@@ -30,14 +30,18 @@ CellMotion MotionOf(const PlanRequest& request, const std::vector<Cell>& tour, b
   const double map_yaw = request.map.frame.X_WG.yaw_rad, quarter = kPi / 2;
   const int first =
       static_cast<int>(std::lround(WrapAngle(request.start.yaw_rad - map_yaw) / quarter)) & 3;
-  std::vector<int> quarters(tour.size(), first);
-  if (with_care && request.robot.cover_forward_rad > request.robot.cover_sideways_rad)
-    quarters = QuartersForwardOverTerrain(grid, tour, first);
-  for (const int q : quarters) motion.yaw_rad.push_back(WrapAngle(map_yaw + q * quarter));
+  for (const int q : QuartersOverTerrain(grid, tour, first, lead))
+    motion.yaw_rad.push_back(WrapAngle(map_yaw + q * quarter));
   return motion;
 }
 
 }  // namespace
+
+TerrainLead CellPlanner::terrain_lead(const RobotSpec& robot) const {
+  return crosses_with_care() && robot.cover_forward_rad > robot.cover_sideways_rad
+             ? TerrainLead::kForward
+             : TerrainLead::kAny;
+}
 
 void CellPlanner::Visit(ParamVisitor& visit) {
   visit("unreachable_share", unreachable_share_, Between(0, 1),
@@ -121,7 +125,8 @@ PlanResult CellPlanner::Plan(const PlanRequest& request) const {
   result.figures.push_back({"cell_m", grid.frame.cell_m});
   result.figures.push_back({"dead_ends", tour.dead_ends});
   result.figures.push_back({"unreachable_cells", static_cast<double>(lost)});
-  const CellMotion motion = MotionOf(request, tour.cells, crosses_with_care());
+  const CellMotion motion =
+      MotionOf(request, tour.cells, crosses_with_care(), terrain_lead(request.robot));
   result.path = ToPath(tour, motion, grid.frame, request.start,
                        request.goal.value_or(grid.frame.Center(task.end)));
   result.status = PlanStatus::kSuccess;

@@ -9,6 +9,7 @@
 
 #include "planners/planner.h"
 #include "planners/risk/risk_map.h"
+#include "planners/risk/terrain_yaw.h"
 #include "planners/walk/transform_tour.h"
 
 namespace floorproof {
@@ -42,8 +43,9 @@ class CellPlanner : public Planner {
   // Whether it crosses terrain in the way that suits the robot best, as far as the model states
   // that (RobotSpec's cover limits): fast, and forward if the robot is holonomic (terrain_yaw.h).
   virtual bool crosses_with_care() const { return false; }
+  // What a holonomic robot crosses terrain with.
+  virtual TerrainLead terrain_lead(const RobotSpec& robot) const;
 
- private:
   double unreachable_share_ = 0.05;
 };
 

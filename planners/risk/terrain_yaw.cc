@@ -7,8 +7,10 @@
 
 namespace floorproof {
 
-std::vector<int> QuartersForwardOverTerrain(const RiskGrid& grid, const std::vector<Cell>& tour,
-                                            int first) {
+std::vector<int> QuartersOverTerrain(const RiskGrid& grid, const std::vector<Cell>& tour, int first,
+                                     TerrainLead lead) {
+  if (lead == TerrainLead::kAny) return std::vector<int>(tour.size(), first);
+  const bool sideways = lead == TerrainLead::kSideways;
   std::vector<int> turns(tour.size(), 0);  // quarters turned on the way to each cell
   const auto along_y = [&](std::size_t i) { return tour[i].ix == tour[i - 1].ix; };
   const auto roomy = [&](std::size_t i) {
@@ -22,7 +24,7 @@ std::vector<int> QuartersForwardOverTerrain(const RiskGrid& grid, const std::vec
   for (std::size_t i = 1; i < tour.size(); ++i) {
     const bool on = grid.contents(tour[i]).terrain(), from = grid.contents(tour[i - 1]).terrain();
     if (from && !on) behind = i;
-    if (!on || from || along_y(i) == (quarter % 2 == 1)) continue;
+    if (!on || from || along_y(i) == ((quarter % 2 == 1) != sideways)) continue;
     // The turn is made in a cell, so on the way to the next one.
     std::size_t turn = 0;
     bool bends = false;

@@ -149,8 +149,10 @@ TEST(TerrainYaw, TurnsWhereTheWayBendsBehindTheTerrainBefore) {
       .....)");
   // Along the second row from below, then up over the strip.
   const std::vector<Cell> tour = {{0, 1}, {1, 1}, {2, 1}, {2, 2}, {2, 3}};
-  EXPECT_EQ(QuartersForwardOverTerrain(grid, tour, 0), (std::vector<int>{0, 0, 0, 1, 1}));
-  EXPECT_EQ(QuartersForwardOverTerrain(grid, tour, 1), (std::vector<int>{1, 1, 1, 1, 1}));
+  EXPECT_EQ(QuartersOverTerrain(grid, tour, 0, TerrainLead::kForward),
+            (std::vector<int>{0, 0, 0, 1, 1}));
+  EXPECT_EQ(QuartersOverTerrain(grid, tour, 1, TerrainLead::kForward),
+            (std::vector<int>{1, 1, 1, 1, 1}));
 }
 
 TEST(TerrainYaw, CrossesAsItIsWhereThereIsNoRoomToTurn) {
@@ -160,7 +162,8 @@ TEST(TerrainYaw, CrossesAsItIsWhereThereIsNoRoomToTurn) {
       #.#
       #.#)");
   const std::vector<Cell> tour = {{1, 0}, {1, 1}, {1, 2}, {1, 3}};
-  EXPECT_EQ(QuartersForwardOverTerrain(grid, tour, 0), (std::vector<int>{0, 0, 0, 0}));
+  EXPECT_EQ(QuartersOverTerrain(grid, tour, 0, TerrainLead::kForward),
+            (std::vector<int>{0, 0, 0, 0}));
 }
 
 TEST(TerrainYaw, TurnsBackForTerrainThatLiesTheOtherWay) {
@@ -172,7 +175,7 @@ TEST(TerrainYaw, TurnsBackForTerrainThatLiesTheOtherWay) {
       .....=.)");
   const std::vector<Cell> tour = {{1, 1}, {1, 2}, {1, 3}, {1, 4}, {2, 4}, {3, 4},
                                   {3, 3}, {3, 2}, {3, 1}, {4, 1}, {5, 1}, {6, 1}};
-  const std::vector<int> dut = QuartersForwardOverTerrain(grid, tour, 0);
+  const std::vector<int> dut = QuartersOverTerrain(grid, tour, 0, TerrainLead::kForward);
   EXPECT_EQ(dut[3], 1);
   EXPECT_EQ(dut[10] % 2, 0);
 }
