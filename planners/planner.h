@@ -22,6 +22,12 @@ namespace floorproof {
 struct RiskMap;    // planners/risk/risk_map.h
 struct RiskModel;  // planners/risk/rate_model.h
 
+// What of a drive nobody knows before it, and what then holds from its start to its end.
+struct DriveConditions {
+  double friction = 0;                  // of floor and wheels
+  double mass_kg = 0, clearance_m = 0;  // the robot's; clearance: from the floor to its belly
+};
+
 struct PlanRequest {
   const HazardMap& map;  // what is known of the floor, heights from that of the start (SeenFrom)
   const RobotSpec& robot;
@@ -31,6 +37,8 @@ struct PlanRequest {
   const RiskMap* risk = nullptr;      // of this map and robot
   std::span<const Vec2> places = {};  // p_W, to be visited; none: the planner finds its own
   const RiskModel* model = nullptr;   // this robot's measured rates of failure; nullptr: none
+  // As they may be, each as likely; none: the map's friction, and the robot as it is.
+  std::span<const DriveConditions> conditions = {};
 };
 
 enum class PlanStatus {

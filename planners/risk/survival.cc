@@ -25,8 +25,8 @@ void Meet(const ModeNumbers& rates, double way_m, Outcome& outcome) {
   outcome[0] *= std::exp(-Total(over));
 }
 
-double Z(double p) { return std::asin(std::sqrt(std::clamp(p, 0.0, 1.0))); }
-double P(double z) {
+double ZOf(double p) { return std::asin(std::sqrt(std::clamp(p, 0.0, 1.0))); }
+double POf(double z) {
   const double s = std::sin(std::clamp(z, 0.0, std::asin(1.0)));
   return s * s;
 }
@@ -101,19 +101,19 @@ Survival PredictSurvival(std::span<const std::vector<PlannedMeeting>> conditions
     const Sampled all = Over(outcomes, which);
     double mean = 0, squares = 0;
     for (const std::vector<Outcome>& member : by_member) {
-      const double z = Z(Over(member, which).mean);
+      const double z = ZOf(Over(member, which).mean);
       mean += z / kRateMembers;
       squares += z * z / kRateMembers;
     }
     const double of_members =
         std::max(0.0, squares - mean * mean) * kRateMembers / (kRateMembers - 1);
-    const double middle = Z(all.mean);
+    const double middle = ZOf(all.mean);
     // The members' mean differs from the best where rates are skewed, as of what never happened.
-    const double skew = mean - Z(Over(chosen, which).mean);
+    const double skew = mean - ZOf(Over(chosen, which).mean);
     const double reach = kStudent * std::sqrt(of_members + all.variance);
     Probability& p = which == 0 ? survival.no_failure : survival.first[which - 1];
-    p = {all.mean, P(middle + std::min(skew, 0.0) - reach),
-         P(middle + std::max(skew, 0.0) + reach)};
+    p = {all.mean, POf(middle + std::min(skew, 0.0) - reach),
+         POf(middle + std::max(skew, 0.0) + reach)};
   }
   return survival;
 }

@@ -6,6 +6,7 @@
 #include "planners/lines/turned_plan.h"
 #include "run/episode/ask_program.h"
 #include "run/episode/episode_stream.h"
+#include "run/episode/plain_draws.h"
 #include "run/scenario/floors.h"
 
 namespace floorproof {
@@ -34,7 +35,12 @@ PlanResult MakePlan(const Scenario& s) {
   const RobotSpec& robot = s.robot.spec;
   const HazardMap known = KnownFloor(s);
   auto risk = std::make_shared<const RiskMap>(ComputeRisk(known, robot, s.fmea, s.risk));
-  const PlanRequest request{known, robot, s.start, s.goal, PlanSeed(s), risk.get(), s.places, s.risk_model.get()};
+  const std::vector<DriveConditions> conditions = s.planner && s.planner->promises().needs_model
+                                                      ? ConditionsOf(s)
+                                                      : std::vector<DriveConditions>();
+  const PlanRequest request{known,       robot,      s.start,  s.goal,
+                            PlanSeed(s), risk.get(), s.places, s.risk_model.get(),
+                            conditions};
   PlanResult plan;
   if (s.planner) {
     plan = s.planner->Plan(request);

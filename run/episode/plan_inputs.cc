@@ -5,6 +5,7 @@
 
 #include "run/episode/ask_program.h"
 #include "run/episode/descriptions.h"
+#include "run/episode/plain_draws.h"
 #include "run/scenario/plan_file.h"
 
 namespace floorproof {
@@ -46,6 +47,10 @@ std::string PlanInputs(const Scenario& s) {
   params.Add("tables", ConfigNode::Scalar(s.fmea_file.string(), true));
   params.Add("model", ConfigNode::Scalar(s.risk_model_file.string(), true));
   text += "\n" + WriteYaml(params);
+  if (s.planner && s.planner->promises().needs_model)
+    for (const DriveConditions& c : ConditionsOf(s))
+      for (const double value : {c.friction, c.mass_kg, c.clearance_m})
+        text += " " + FormatDouble(value);
   if (s.planner && s.planner->promises().uses_seed) text += std::to_string(s.episode_id);
   return text;
 }

@@ -12,26 +12,12 @@
 
 #include "base/params.h"
 #include "run/episode/make_plan.h"
+#include "run/episode/plain_draws.h"
 #include "run/episode/plan_inputs.h"
 #include "run/plan_check/expected_encounters.h"
 
 namespace floorproof {
 namespace {
-
-// What draws may change of a meeting without moving it.
-struct PlainDraw {
-  const char* key;
-  double Approach::*member;
-};
-constexpr PlainDraw kPlain[] = {{"site.floor.friction", &Approach::friction},
-                                {"robot.mass_kg", &Approach::mass_kg},
-                                {"robot.clearance_m", &Approach::clearance_m}};
-
-const PlainDraw* FindPlain(const std::string& key) {
-  const auto* found =
-      std::ranges::find_if(kPlain, [&](const PlainDraw& p) { return key == p.key; });
-  return found == std::end(kPlain) ? nullptr : found;
-}
 
 class Predictor {
  public:
@@ -62,8 +48,9 @@ class Predictor {
   // The meetings as this episode has them, which draws nothing that moves them.
   void Redraw(std::uint64_t episode) {
     for (const auto& [key, value] : file_.DrawnOf(episode))
-      if (const PlainDraw* plain = FindPlain(key))
-        for (Encounter& encounter : expected_) encounter.at.*plain->member = AsDouble(value, key);
+      if (const PlainDraw* plain = FindPlainDraw(key))
+        for (Encounter& encounter : expected_)
+          encounter.at.*plain->of_meeting = AsDouble(value, key);
   }
 
   void AddCondition() {
@@ -164,7 +151,8 @@ Prediction Predict(const ScenarioFile& file, const Variant& variant, int draws,
   const std::uint64_t begin = file.episode();
   const auto conditions = static_cast<std::uint64_t>(file.draws_differ() ? draws : 1);
   bool plain = true;
-  for (const auto& [key, value] : file.DrawnOf(begin)) plain = plain && FindPlain(key) != nullptr;
+  for (const auto& [key, value] : file.DrawnOf(begin))
+    plain = plain && FindPlainDraw(key) != nullptr;
   Predictor predictor(file, variant);
   std::optional<PlanResult> first;
   for (std::uint64_t i = 0; i < conditions; ++i) {
