@@ -16,6 +16,7 @@
 #include "env/scene/robot_model.h"
 #include "planners/lines/turned_plan.h"
 #include "tests/planners/curvature.h"
+#include "tests/planners/planted_rates.h"
 #include "tests/planners/risk_floors.h"
 #include "tests/robots.h"
 
@@ -73,6 +74,18 @@ void ExpectSamePath(const Path& a, const Path& b) {
 // A planner that needs a goal is sent there; others choose for themselves.
 std::optional<Vec2> GoalFor(const Planner& planner, const Vec2& there) {
   return planner.promises().needs_goal ? std::optional(there) : std::nullopt;
+}
+
+// What was measured of covers and of free floor, for planners that ask for it.
+const RiskModel& Measured() {
+  static const RiskModel kModel = [] {
+    RiskModel model;
+    KindRates floor = testing::PlantedKind(std::string(kFreeFloor), Passage::kBeside, 1e-4);
+    floor.per_metre = true;
+    model.kinds = {floor, testing::PlantedBy("speed_mps", false, 0.05, 0.5, 0.2, 0.01)};
+    return model;
+  }();
+  return kModel;
 }
 
 struct Drawing {
@@ -189,7 +202,9 @@ class EveryPlanner : public ::testing::TestWithParam<Case> {
     risk_ = ComputeRisk(map_, robot_, PaperTables());
     return dut_->Plan(Request());
   }
-  PlanRequest Request() const { return {map_, robot_, start_, goal_, seed_, &risk_}; }
+  PlanRequest Request() const {
+    return {map_, robot_, start_, goal_, seed_, &risk_, {}, &Measured()};
+  }
   std::optional<Vec2> goal_;
   std::uint64_t seed_ = 7;
   RiskMap risk_;
@@ -231,19 +246,27 @@ TEST_P(EveryPlanner, AnotherSeedGivesAnotherPathOnlyWhereItSaysSo) {
   ExpectSamePath(Plan().path, path);
 }
 
-TEST_P(EveryPlanner, AsksForTheRiskOrTakesNoNotice) {
+// Of the floor's risk, and of the robot's measured rates.
+TEST_P(EveryPlanner, AsksForWhatItNeedsOrTakesNoNotice) {
+  const PlannerPromises promises = dut_->promises();
   const PlanResult with = Plan();
+  const auto expect = [&](const PlanRequest& request, bool refused) {
+    const PlanResult without = dut_->Plan(request);
+    if (refused) {
+      EXPECT_EQ(without.status, PlanStatus::kFailed);
+      EXPECT_FALSE(without.message.empty());
+      EXPECT_TRUE(without.path.empty());
+    } else {
+      EXPECT_EQ(without.status, with.status);
+      ExpectSamePath(without.path, with.path);
+    }
+  };
   PlanRequest request = Request();
+  request.model = nullptr;
+  if (promises.needs_risk) expect(request, promises.needs_model);
+  if (promises.needs_model) request.model = &Measured();
   request.risk = nullptr;
-  const PlanResult without = dut_->Plan(request);
-  if (dut_->promises().needs_risk) {
-    EXPECT_EQ(without.status, PlanStatus::kFailed);
-    EXPECT_FALSE(without.message.empty());
-    EXPECT_TRUE(without.path.empty());
-  } else {
-    EXPECT_EQ(without.status, with.status);
-    ExpectSamePath(without.path, with.path);
-  }
+  expect(request, promises.needs_risk);
 }
 
 TEST_P(EveryPlanner, EndsAtTheGoalOrTakesNoNotice) {
@@ -399,7 +422,8 @@ TEST_P(EveryPlannerAndRobot, CoversAFloorAndKeepsOffItsWalls) {
     SCOPED_TRACE(::testing::Message() << "start's yaw " << yaw_rad);
     const Vec2 p = map.frame.Center({1, 1});
     const Pose2 start{p.x(), p.y(), yaw_rad};
-    const PlanRequest request{map, robot, start, map.frame.Center({7, 1}), 7, &risk};
+    const PlanRequest request{map, robot, start, map.frame.Center({7, 1}),
+                              7,   &risk, {},    &Measured()};
     const PlanResult plan = dut->Plan(request);
     ASSERT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
     EXPECT_LT((plan.path.front().p_W - start.p()).norm(), 1e-6);
@@ -443,7 +467,8 @@ hazards:
   const Pose2 start{0.75, 0.75, 0};
   const RiskMap risk = ComputeRisk(site.map, robot, PaperTables());
   const auto dut = MakePlanner(GetParam());
-  const PlanRequest request{site.map, robot, start, GoalFor(*dut, {0.75, 2.75}), 7, &risk};
+  const PlanRequest request{site.map, robot, start, GoalFor(*dut, {0.75, 2.75}),
+                            7,        &risk, {},    &Measured()};
   const PlanResult plan = dut->Plan(request);
   ExpectSound(site.map, start, plan);
   ExpectCovered(*dut, request, plan);
@@ -481,7 +506,8 @@ TEST_P(EveryPlannerOnSites, CoversARealMap) {
     const RobotSpec robot = wide ? DiscRobot(0.35, 0.5) : DiscRobot(0.18, 0.3);
     const RiskMap risk = ComputeRisk(map, robot, PaperTables());
     const auto dut = MakePlanner(GetParam());
-    const PlanRequest request{map, robot, start, GoalFor(*dut, p + Vec2(0.2, 0.1)), 7, &risk};
+    const PlanRequest request{map, robot, start, GoalFor(*dut, p + Vec2(0.2, 0.1)),
+                              7,   &risk, {},    &Measured()};
     const PlanResult plan = dut->Plan(request);
     ExpectSound(map, start, plan);
     ExpectCovered(*dut, request, plan);

@@ -8,6 +8,9 @@
 
 #include "env/scene/measured_block.h"
 #include "measure/risk_model_json.h"
+#include "run/episode/make_plan.h"
+#include "run/episode/plain_draws.h"
+#include "run/episode/plan_inputs.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {
@@ -122,6 +125,35 @@ TEST_F(PredictionTest, WhatDrawsMoveIsFoundAnew) {
   EXPECT_GT(moved, 0.2);
   EXPECT_LT(moved, 0.8);
   EXPECT_NEAR(dut.survival.no_failure.value, moved + (1 - moved) * std::exp(-0.2), 1e-5);
+}
+
+// Every episode's plan is made for all that may be drawn.
+TEST_F(PredictionTest, APlannerKnowsWhatMayBeDrawnAndNotWhatIs) {
+  SaveModel(0.5, 1e-9);
+  const std::string scenario = RoomScenario(
+      "{type: cable_cover, id: first, line_m: [[3, 0.5], [3, 4.5]]}",
+      "risk: {model: model.json}\nrandomise: {site.floor.friction: {uniform: [0.4, 0.8]}}\n");
+  const ScenarioFile file(Save("scenario.yaml", scenario),
+                          {{"plan", "{planner: survival_coverage}"}});
+  Scenario a = file.Read(0), b = file.Read(1);
+  ASSERT_NE(a.site.map.floor_friction, b.site.map.floor_friction);
+  const std::vector<DriveConditions> of_a = ConditionsOf(a), of_b = ConditionsOf(b);
+  ASSERT_THAT(of_a, SizeIs(64));
+  double sum = 0;
+  for (std::size_t i = 0; i < of_a.size(); ++i) {
+    EXPECT_EQ(of_a[i].friction, of_b[i].friction);
+    EXPECT_GE(of_a[i].friction, 0.4);
+    EXPECT_LE(of_a[i].friction, 0.8);
+    EXPECT_EQ(of_a[i].mass_kg, a.robot.spec.mass_kg);
+    sum += of_a[i].friction / 64;
+  }
+  EXPECT_NEAR(sum, 0.6, 0.005) << "spread evenly";
+  EXPECT_EQ(PlanInputs(a), PlanInputs(b));
+  const Scenario other = ScenarioFile(file.file(), {{"plan", "{planner: survival_coverage}"},
+                                                    {"site.floor.friction", "0.5"}})
+                             .Read(0);
+  EXPECT_THAT(ConditionsOf(other), SizeIs(1)) << "what is set is not drawn";
+  EXPECT_NE(PlanInputs(other), PlanInputs(a));
 }
 
 TEST_F(PredictionTest, WhatWasNotMeasuredIsSaid) {

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planners/risk/path_rates.h"
+
+#include <algorithm>
+
+#include "planners/risk/rate_model.h"
+
+namespace floorproof {
+namespace {
+
+constexpr double kSpeedShares[] = {0.25, 0.4, 0.6, 0.8, 1};  // of the robot's top speed
+
+Approach In(const DriveConditions& conditions, Approach at) {
+  at.friction = conditions.friction;
+  at.mass_kg = conditions.mass_kg;
+  at.clearance_m = conditions.clearance_m;
+  return at;
+}
+
+}  // namespace
+
+PathRates::PathRates(const PlanRequest& request)
+    : request_(request), conditions_(request.conditions.begin(), request.conditions.end()) {
+  const RobotSpec& robot = request.robot;
+  if (conditions_.empty())
+    conditions_ = {{request.map.floor_friction, robot.mass_kg, robot.clearance_m}};
+  for (const KindRates& kind : request.model->kinds) evaluators_.emplace_back(kind);
+}
+
+const RateEvaluator* PathRates::RatesOf(std::string_view type, Passage passage) const {
+  const auto found = std::ranges::find_if(evaluators_, [&](const RateEvaluator& rates) {
+    return rates.kind().type == type && rates.kind().passage == passage;
+  });
+  return found == evaluators_.end() ? nullptr : &*found;
+}
+
+std::optional<double> PathRates::Expected(const Hazard& hazard, Passage passage,
+                                          Approach at) const {
+  const RateEvaluator* rates = RatesOf(hazard.type, passage);
+  if (rates == nullptr) return std::nullopt;
+  Covariates covariates(rates->kind().axes, request_.model->mirrored, hazard.keys);
+  double sum = 0;
+  for (const DriveConditions& conditions : conditions_)
+    sum += Total(rates->At(covariates.Of(In(conditions, at))));
+  return sum / static_cast<double>(conditions_.size());
+}
+
+std::vector<double> PathRates::Speeds(const Hazard& hazard, Passage passage) const {
+  std::vector<double> speeds;
+  const RateEvaluator* rates = RatesOf(hazard.type, passage);
+  if (rates == nullptr) return speeds;
+  const auto axis = std::ranges::find(rates->kind().axes, "speed_mps", &RateAxis::name);
+  if (axis == rates->kind().axes.end()) return speeds;
+  for (const double share : kSpeedShares) {
+    const double speed_mps = share * request_.robot.max_speed_mps;
+    if (speed_mps >= axis->lower && speed_mps <= axis->upper) speeds.push_back(speed_mps);
+  }
+  return speeds;
+}
+
+std::vector<PlannedPassage> PathRates::Passages(const Path& path) const {
+  const bool holds_yaw = request_.robot.clear.kind == Shape2::Kind::kFootprint;
+  return FindPassages(request_.map, request_.robot, request_.start, path, holds_yaw);
+}
+
+PathSurvival PathRates::Of(const Path& path) const {
+  PathSurvival out;
+  out.passages = Passages(path);
+  std::vector<PlannedMeeting> meetings;
+  for (std::size_t i = 0; i < out.passages.size(); ++i) {
+    const PlannedPassage& passage = out.passages[i];
+    const Hazard& hazard = request_.map.hazards[static_cast<std::size_t>(passage.hazard)];
+    const RateEvaluator* rates = RatesOf(hazard.type, passage.passage);
+    const bool over = passage.passage == Passage::kOver;
+    out.crossings += over;
+    out.unmeasured += over && rates == nullptr;
+    if (rates != nullptr) meetings.push_back({rates, hazard.keys, passage.at, 1, i});
+  }
+  if (const RateEvaluator* floor = RatesOf(kFreeFloor, Passage::kBeside)) {
+    Approach at;
+    at.speed_mps = request_.robot.cruise_mps;
+    at.wall_m = kFarWall_m;
+    meetings.push_back({floor, {}, at, Length(path), out.passages.size()});
+  }
+  std::vector<std::vector<PlannedMeeting>> by_condition(conditions_.size(), meetings);
+  for (std::size_t c = 0; c < conditions_.size(); ++c)
+    for (PlannedMeeting& meeting : by_condition[c]) meeting.at = In(conditions_[c], meeting.at);
+  out.survival = PredictSurvival(by_condition, out.passages.size() + 1, request_.model->mirrored);
+  return out;
+}
+
+}  // namespace floorproof
