@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+
 #include "apps/campaign_line.h"
 #include "base/interrupt.h"
 #include "measure/drive_encounters.h"

@@ -64,7 +64,7 @@ void KeepLeft(const Polygon& polygon, const Vec2& a, const Vec2& b, Polygon& out
 
 PassageWatch::PassageWatch(HazardParts& parts, std::size_t hazards, const RobotSpec& robot,
                            int hazard)
-    : parts_(parts), robot_(robot), only_(hazard), shapes_B_(ShapesOf(robot)), seen_(hazards) {
+    : parts_(parts), only_(hazard), shapes_B_(ShapesOf(robot)), seen_(hazards) {
   std::size_t most = 0;
   for (const auto& shape : shapes_B_) most = std::max(most, shape.size());
   footprint_W_.reserve(most);

@@ -71,7 +71,6 @@ class PassageWatch {
   std::pair<double, double> Extent(const Polygon& polygon_W) const;
 
   HazardParts& parts_;
-  const RobotSpec& robot_;
   int only_;
   std::vector<std::vector<Polygon>> shapes_B_;  // each as convex parts
   std::vector<Polygon> footprint_W_;

@@ -5,6 +5,7 @@
 
 #include "base/config.h"
 #include "base/error.h"
+#include "base/file_output.h"
 #include "base/printable.h"
 #include "run/campaign/campaign_about.h"
 #include "run/campaign/campaign_tables.h"

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include <numeric>
+#include <algorithm>
 
 #include "run/episode/encounter_table.h"
 #include "run/scenario/floors.h"
@@ -38,10 +38,10 @@ TEST_F(EncounterDrive, WhatIsMetIsWhatWasPlanned) {
     const auto planned = FindPassages(TrueFloor(scenario), scenario.robot.spec, scenario.start,
                                       dut.plan.path, robot == std::string("htetro"));
     std::vector<Encounter> met = dut.record.encounters;
-    const auto exposures =
-        std::ranges::stable_partition(met, [](const Encounter& e) { return !e.hazard.empty(); });
+    const auto exposures = std::stable_partition(
+        met.begin(), met.end(), [](const Encounter& e) { return !e.hazard.empty(); });
     ASSERT_THAT(planned, SizeIs(2)) << robot;
-    ASSERT_EQ(std::distance(met.begin(), exposures.begin()), 2) << robot;
+    ASSERT_EQ(std::distance(met.begin(), exposures), 2) << robot;
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_EQ(OutcomeText(met[i]), "cleared");
       EXPECT_EQ(met[i].passage, planned[i].passage);
