@@ -8,6 +8,7 @@
 #include "env/core/hazard_parts.h"
 #include "env/geometry/convex.h"
 #include "planners/risk/risk_map.h"
+#include "planners/search/index.h"
 
 namespace floorproof {
 namespace {

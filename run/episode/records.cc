@@ -367,7 +367,8 @@ std::filesystem::path KeepMadePlan(const Scenario& s, const PlanResult& plan,
 ResultNames EpisodeResults() {
   return {"episode", [](std::string_view name) {
             return IsPlanFile(name) || IsFilm(name) || name == "result.json" ||
-                   name == "predict.json" || name == "trace.csv" || name == "encounters.csv" || name == "safety.csv" ||
+                   name == "predict.json" || name == "trace.csv" || name == "encounters.csv" ||
+                   name == "safety.csv" ||
                    (name.ends_with(".png") &&
                     (name.starts_with("heatmap_") || name.starts_with("plot_")));
           }};

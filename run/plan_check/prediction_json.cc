@@ -63,11 +63,11 @@ Json MeetingJson(const PredictedMeeting& meeting) {
 
 std::vector<std::string> PredictionLines(const Prediction& prediction) {
   std::vector<std::string> lines;
-  lines.push_back(
-      fmt::format("predicted: {}{} of drives fail, 95 % interval {} to {}; {} of conditions",
-                  prediction.complete() ? "" : "at least ", PercentText(AnyFailure(prediction).value),
-                  PercentText(AnyFailure(prediction).lower), PercentText(AnyFailure(prediction).upper),
-                  CountText(prediction.conditions, "draw")));
+  lines.push_back(fmt::format(
+      "predicted: {}{} of drives fail, 95 % interval {} to {}; {} of conditions",
+      prediction.complete() ? "" : "at least ", PercentText(AnyFailure(prediction).value),
+      PercentText(AnyFailure(prediction).lower), PercentText(AnyFailure(prediction).upper),
+      CountText(prediction.conditions, "draw")));
   for (int m = 0; m < kNumFailureModes; ++m) {
     const Probability& p = prediction.survival.first[static_cast<std::size_t>(m)];
     constexpr double kWorthALine = 5e-4;

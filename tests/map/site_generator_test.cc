@@ -291,7 +291,8 @@ TEST_F(BrokenGenerateTest, IsRefusedInALine) {
   };
   const std::vector<Broken> table = {
       {"kind: romm, seed: 1",
-       "site.yaml:2: generate.kind = romm: must be one of room, rooms, fmea, crossing; did you mean room?"},
+       "site.yaml:2: generate.kind = romm: must be one of room, rooms, fmea, crossing; did you "
+       "mean room?"},
       {"kind: room", "site.yaml:2: generate.seed: missing"},
       {"seed: -1", "generate.seed = -1: must be in [0, 2147483647]"},
       {"seed: 1.5", "generate.seed = 1.5: must be a whole number"},

@@ -416,7 +416,8 @@ TEST_F(CampaignStoreTest, NothingOfAForeignFileIsRun) {
   expect_refused("CREATE TRIGGER t AFTER INSERT ON episode BEGIN DELETE FROM episode; END",
                  "holds a trigger");
   expect_refused("CREATE INDEX i ON episode(message)", "holds a index");
-  expect_refused("CREATE TABLE more(a)", "its tables are not about, encounter, episode, extra, timing");
+  expect_refused("CREATE TABLE more(a)",
+                 "its tables are not about, encounter, episode, extra, timing");
   expect_refused("ALTER TABLE episode ADD COLUMN c TEXT", "has not the columns of one");
   expect_refused("ALTER TABLE episode ADD COLUMN c REAL AS (episode * 2)", "computes a column");
   for (const char* change :
