@@ -13,25 +13,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
-  std::string scenario, out, episodes;
-  std::uint64_t n = 0;
-  int seed = -1, jobs = 0;
+struct Options : CampaignArguments {
+  std::string scenario;
   std::optional<double> time_limit_s;
-  bool resume = false, retry_errors = false, fail_fast = false, no_films = false;
+  bool retry_errors = false, fail_fast = false, no_films = false;
 };
 
 int RunIt(const Options& options, const Globals& globals) {
-  auto overrides = globals.Overrides();
-  if (options.seed >= 0) overrides.push_back({"seed", std::to_string(options.seed)});
-  const CampaignRequest request{.episodes = options.n,
-                                .shard = ReadEpisodes(options.episodes),
-                                .jobs = options.jobs > 0 ? options.jobs : Cores(),
-                                .resume = options.resume,
-                                .retry_errors = options.retry_errors,
-                                .fail_fast = options.fail_fast,
-                                .time_limit_s = options.time_limit_s};
-  const ScenarioFile file(options.scenario, overrides);
+  CampaignRequest request = RequestOf(options);
+  request.retry_errors = options.retry_errors;
+  request.fail_fast = options.fail_fast;
+  request.time_limit_s = options.time_limit_s;
+  const ScenarioFile file(options.scenario, OverridesOf(globals, options));
   const fs::path folder = CampaignFolder(options.out, file.file(), file.name());
   CampaignLine progress(globals, file.variants());
   const CampaignOutcome outcome = DriveCampaign(file, request, folder, &progress);

@@ -12,6 +12,17 @@
 namespace floorproof {
 namespace {
 
+std::optional<EpisodeRange> ReadEpisodes(const std::string& text) {
+  if (text.empty()) return {};
+  unsigned long long a = 0, b = 0;
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%llu:%llu%n", &a, &b, &used) != 2 ||
+      static_cast<std::size_t>(used) != text.size())
+    throw InputError({"--episodes", 0}, "", text,
+                     "must be A:B, the first id and the one behind the last");
+  return EpisodeRange{a, b};
+}
+
 std::string Text(const CampaignProgress& p, const std::vector<Variant>& variants) {
   std::string text = fmt::format("  {} of {}", p.done, CountText(p.total, "episode"));
   if (p.done_now > 0) {
@@ -38,15 +49,17 @@ std::string Text(const CampaignProgress& p, const std::vector<Variant>& variants
 
 }  // namespace
 
-std::optional<EpisodeRange> ReadEpisodes(const std::string& text) {
-  if (text.empty()) return {};
-  unsigned long long a = 0, b = 0;
-  int used = 0;
-  if (std::sscanf(text.c_str(), "%llu:%llu%n", &a, &b, &used) != 2 ||
-      static_cast<std::size_t>(used) != text.size())
-    throw InputError({"--episodes", 0}, "", text,
-                     "must be A:B, the first id and the one behind the last");
-  return EpisodeRange{a, b};
+CampaignRequest RequestOf(const CampaignArguments& arguments) {
+  return {.episodes = arguments.n,
+          .shard = ReadEpisodes(arguments.episodes),
+          .jobs = arguments.jobs > 0 ? arguments.jobs : Cores(),
+          .resume = arguments.resume};
+}
+
+std::vector<Override> OverridesOf(const Globals& globals, const CampaignArguments& arguments) {
+  std::vector<Override> overrides = globals.Overrides();
+  if (arguments.seed >= 0) overrides.push_back({"seed", std::to_string(arguments.seed)});
+  return overrides;
 }
 
 void CampaignLine::OnProgress(const CampaignProgress& progress) {

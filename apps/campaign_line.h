@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What commands that drive campaigns share: the option --episodes, and the line that says how it
-// goes.
+// What commands that drive campaigns share: their options, and the line that says how it goes.
 #pragma once
 
-#include <optional>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,8 +12,17 @@
 
 namespace floorproof {
 
-// A:B, half-open; none: all of them. Throws InputError.
-std::optional<EpisodeRange> ReadEpisodes(const std::string& text);
+struct CampaignArguments {
+  std::string out, episodes;  // A:B, half-open; empty: all of them
+  std::uint64_t n = 0;
+  int seed = -1;  // -1: the scenario's
+  int jobs = 0;   // 0: one a core
+  bool resume = false;
+};
+// Throws InputError where `episodes` is no range.
+CampaignRequest RequestOf(const CampaignArguments& arguments);
+// The globals' and the seed.
+std::vector<Override> OverridesOf(const Globals& globals, const CampaignArguments& arguments);
 
 // Warnings, then how it goes: what is done, the rates so far, time to go.
 class CampaignLine final : public CampaignObserver {

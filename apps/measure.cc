@@ -13,21 +13,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
-  std::string robot, out, episodes;
-  std::uint64_t n = 1000;
-  int seed = -1, jobs = 0;
-  bool resume = false;
+struct Options : CampaignArguments {
+  std::string robot;
 };
 
 int RunIt(const Options& options, const Globals& globals) {
-  auto overrides = globals.Overrides();
-  if (options.seed >= 0) overrides.push_back({"seed", std::to_string(options.seed)});
-  const CampaignRequest request{.episodes = options.n,
-                                .shard = ReadEpisodes(options.episodes),
-                                .jobs = options.jobs > 0 ? options.jobs : Cores(),
-                                .resume = options.resume};
-  const EncounterCampaign campaign = EncountersOf(options.robot, overrides);
+  const CampaignRequest request = RequestOf(options);
+  const EncounterCampaign campaign = EncountersOf(options.robot, OverridesOf(globals, options));
   const fs::path folder =
       options.out.empty() ? fs::path("out") / "measure" / campaign.label : fs::path(options.out);
   CampaignLine progress(globals, campaign.file.variants());
@@ -35,7 +27,7 @@ int RunIt(const Options& options, const Globals& globals) {
   progress.Clear();
   globals.Result(SummaryJson(outcome.summary));
   globals.Say(EncounterTable(outcome.summary));
-  if (outcome.run.end == CampaignEnd::kComplete) {
+  if (!request.shard && outcome.run.end == CampaignEnd::kComplete) {
     if (const auto model =
             WriteRiskFiles(outcome.store, ReadRobot(FindRobotFile(options.robot, {})), folder))
       globals.Say(RiskModelText(*model));
@@ -51,6 +43,7 @@ int RunIt(const Options& options, const Globals& globals) {
 
 void AddMeasure(CommandLine& line, const Globals& globals, int& status) {
   auto options = std::make_shared<Options>();
+  options->n = 1000;
   Subcommand command = line.Add(
       "measure", "Drive a robot's single encounters with hazards of every type, as a campaign");
   command.Text("ROBOT", options->robot, "A robot's name (floorproof list robots), or its MJCF file",

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"

@@ -9,6 +9,7 @@
 #include "controllers/drive.h"
 #include "env/core/passages.h"
 #include "env/hazards/hazard_type.h"
+#include "measure/hazard_classes.h"
 
 namespace floorproof {
 namespace {
@@ -30,15 +31,8 @@ std::string Uniform(const std::vector<std::pair<double, double>>& spans) {
   return "uniform: [" + text + "]";
 }
 
-// What stands in the way and is never driven over.
-bool IsObstacleType(const HazardType& type) {
-  const bool line = type.placement() == HazardType::Placement::kLine;
-  const HazardClass is =
-      type.Make(line ? std::vector<Vec2>{{0, 0}, {0, 1}} : Rectangle({0, 0}, {1, 1})).hazard_class;
-  return is == HazardClass::kBlindObject || is == HazardClass::kGlass;
-}
-
 std::string Meetings() {
+  const std::map<std::string, HazardClass> classes = ClassOfType();
   std::string lines;
   const auto add = [&](std::string_view type, const char* passage, const char* estimator) {
     lines += fmt::format(
@@ -49,7 +43,10 @@ std::string Meetings() {
   // What is passed at a gap is met only by a robot that is wrong about its place. Over a hazard
   // such a robot would take wheels that spin for way, and end before its failure shows.
   for (const auto& entry : HazardTypes()) {
-    if (!IsObstacleType(*entry.make())) add(entry.name, "over", "truth");
+    const HazardClass is = classes.at(std::string(entry.name));
+    // What stands in the way is never driven over.
+    if (is != HazardClass::kBlindObject && is != HazardClass::kGlass)
+      add(entry.name, "over", "truth");
     add(entry.name, "beside", "odometry");
   }
   return lines;

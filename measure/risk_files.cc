@@ -7,8 +7,6 @@
 
 #include "base/file_output.h"
 #include "base/quantity.h"
-#include "env/geometry/polygon.h"
-#include "env/hazards/hazard_type.h"
 #include "env/scene/measured_block.h"
 #include "measure/fit_rates.h"
 #include "measure/measured_fmea.h"
@@ -19,18 +17,6 @@
 #include "run/scenario/scenario_parts.h"
 
 namespace floorproof {
-
-std::map<std::string, HazardClass> ClassOfType() {
-  std::map<std::string, HazardClass> classes;
-  for (const auto& entry : HazardTypes()) {
-    const auto type = entry.make();
-    const bool line = type->placement() == HazardType::Placement::kLine;
-    const std::vector<Vec2> place =
-        line ? std::vector<Vec2>{{0, 0}, {1, 0}} : Rectangle({0, 0}, {1, 1});
-    classes[std::string(entry.name)] = type->Make(place).hazard_class;
-  }
-  return classes;
-}
 
 std::vector<Encounter> AllEncounters(const CampaignStore& store) {
   std::vector<Encounter> all;

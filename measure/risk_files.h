@@ -3,20 +3,16 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "env/core/hazard_map.h"
 #include "env/scene/robot_model.h"
+#include "measure/hazard_classes.h"
 #include "planners/risk/rate_model.h"
 #include "run/campaign/campaign_store.h"
 
 namespace floorproof {
-
-// Of each type of hazard, its class; it does not hang on the hazard's place or size.
-std::map<std::string, HazardClass> ClassOfType();
 
 // Of the campaign's counted episodes, variant after variant.
 std::vector<Encounter> AllEncounters(const CampaignStore& store);

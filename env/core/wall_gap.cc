@@ -2,15 +2,11 @@
 #include "env/core/wall_gap.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <span>
 
 namespace floorproof {
 namespace {
-
-constexpr std::size_t kMostCorners = 64;
 
 double Reach(const Shape2& shape) {
   if (shape.kind == Shape2::Kind::kCircle) return shape.radius_m;
@@ -19,28 +15,17 @@ double Reach(const Shape2& shape) {
   return reach_m;
 }
 
-bool Inside(std::span<const Vec2> polygon, const Vec2& p) {
-  bool inside = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Vec2 &a = polygon[i], &b = polygon[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) &&
-        p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
-      inside = !inside;
-  }
-  return inside;
-}
-
-// Between a simple polygon and the square [low, high]; 0 where they overlap.
-double Distance(std::span<const Vec2> polygon, const Vec2& low, const Vec2& high) {
+// Between the footprint and the square [low, high] of the map's frame; 0 where they overlap.
+double Distance(const Polygon& footprint_B, const Pose2& X_GB, const Pose2& X_BG, const Vec2& low,
+                const Vec2& high) {
   double distance_m = std::numeric_limits<double>::infinity();
-  for (const Vec2& p : polygon)
-    distance_m = std::min(distance_m, (p.cwiseMax(low).cwiseMin(high) - p).norm());
-  for (const Vec2& corner : {low, high, Vec2(low.x(), high.y()), Vec2(high.x(), low.y())}) {
-    if (Inside(polygon, corner)) return 0;
-    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++)
-      distance_m = std::min(distance_m, DistanceToSegment(polygon[j], polygon[i], corner));
+  for (const Vec2& p_B : footprint_B) {
+    const Vec2 p_G = X_GB * p_B;
+    distance_m = std::min(distance_m, (p_G.cwiseMax(low).cwiseMin(high) - p_G).norm());
   }
-  return distance_m;
+  for (const Vec2& corner_G : {low, high, Vec2(low.x(), high.y()), Vec2(high.x(), low.y())})
+    distance_m = std::min(distance_m, SignedDistance(footprint_B, X_BG * corner_G));
+  return std::max(distance_m, 0.0);
 }
 
 }  // namespace
@@ -49,10 +34,7 @@ double WallGap(const HazardMap& map, const Shape2& shape, const Pose2& X_WB, dou
   const GridFrame& frame = map.frame;
   const Pose2 X_GB = frame.X_WG.Inverse() * X_WB;
   const double reach_m = Reach(shape), far_m = reach_m + most_m, cell_m = frame.cell_m;
-  std::array<Vec2, kMostCorners> corners_G;
-  const std::size_t corners = std::min(shape.footprint_B.size(), kMostCorners);
-  for (std::size_t i = 0; i < corners; ++i) corners_G[i] = X_GB * shape.footprint_B[i];
-  const std::span<const Vec2> footprint_G(corners_G.data(), corners);
+  const Pose2 X_BG = X_GB.Inverse();
 
   const auto cell = [&](double at_m) { return static_cast<int>(std::floor(at_m / cell_m)); };
   double gap_m = most_m;
@@ -66,9 +48,9 @@ double WallGap(const HazardMap& map, const Shape2& shape, const Pose2& X_WB, dou
       const Vec2 low = cell_m * Vec2(ix, iy), high = low + Vec2(cell_m, cell_m);
       const double centre_m = (X_GB.p().cwiseMax(low).cwiseMin(high) - X_GB.p()).norm();
       if (centre_m - reach_m >= gap_m) continue;
-      gap_m =
-          std::min(gap_m, shape.kind == Shape2::Kind::kCircle ? centre_m - reach_m
-                                                              : Distance(footprint_G, low, high));
+      gap_m = std::min(gap_m, shape.kind == Shape2::Kind::kCircle
+                                  ? centre_m - reach_m
+                                  : Distance(shape.footprint_B, X_GB, X_BG, low, high));
     }
   return std::max(gap_m, 0.0);
 }

@@ -8,8 +8,7 @@
 namespace floorproof {
 
 // From the shape at this pose to the nearest area of a wall's cell (m; 0 where they overlap);
-// `most_m` where none is so near. Takes time as the cells within reach. A footprint's corners
-// beyond the 64th are not looked at.
+// `most_m` where none is so near. Takes time as the cells within reach.
 double WallGap(const HazardMap& map, const Shape2& shape, const Pose2& X_WB, double most_m);
 
 }  // namespace floorproof
