@@ -61,6 +61,9 @@ def test_every_planner_plans_from_python(room, name):
     # Big enough for audits and cells of the robot's width.
     room["site"]["grid"]["rows"] = "\n".join(["#" * 14] + ["#" + "." * 12 + "#"] * 8 + ["#" * 14])
     plan = floorproof.load({**room, "plan": name, "goal": {"x_m": 5, "y_m": 3}}).plan()
+    if name == "survival_coverage":  # plans by measured rates, of which this scenario has none
+        assert (plan.status, "risk.model" in plan.message) == ("failed", True), plan.message
+        return
     assert plan.status == "success", plan.message
 
 
