@@ -13,13 +13,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Of each variant.
+std::uint64_t EnoughEpisodes(std::size_t variants) {
+  constexpr std::size_t kEncounters = 20'000;
+  return (kEncounters + variants - 1) / variants;
+}
+
 struct Options : CampaignArguments {
   std::string robot;
 };
 
 int RunIt(const Options& options, const Globals& globals) {
-  const CampaignRequest request = RequestOf(options);
   const EncounterCampaign campaign = EncountersOf(options.robot, OverridesOf(globals, options));
+  CampaignRequest request = RequestOf(options);
+  if (options.n == 0) request.episodes = EnoughEpisodes(campaign.file.variants().size());
   const fs::path folder =
       options.out.empty() ? fs::path("out") / "measure" / campaign.label : fs::path(options.out);
   CampaignLine progress(globals, campaign.file.variants());
@@ -43,13 +50,13 @@ int RunIt(const Options& options, const Globals& globals) {
 
 void AddMeasure(CommandLine& line, const Globals& globals, int& status) {
   auto options = std::make_shared<Options>();
-  options->n = 1000;
+  options->n = 0;
   Subcommand command = line.Add(
       "measure", "Drive a robot's single encounters with hazards of every type, as a campaign");
   command.Text("ROBOT", options->robot, "A robot's name (floorproof list robots), or its MJCF file",
                Subcommand::Need::kRequired);
   command.Integer("-n", options->n,
-                  "Encounters with each type, over it and beside it (default: 1000)", 1,
+                  "Encounters of each kind (default: so many that there are 20,000)", 1,
                   kMostEpisodes);
   command.NonNegative("--seed", options->seed, "Of all draws (default: 0)");
   command.Integer("--jobs", options->jobs, "Worker processes (default: one a core)", 1, kMostJobs);

@@ -9,12 +9,13 @@
 #include "controllers/drive.h"
 #include "env/core/passages.h"
 #include "env/hazards/hazard_type.h"
+#include "env/map/crossing_site.h"
 #include "measure/hazard_classes.h"
 
 namespace floorproof {
 namespace {
 
-constexpr double kSteepest_deg = 70;
+constexpr double kSteepest_deg = 90;  // of the edge against the way: along it
 
 // A key and the values it takes, as a line of `randomise`.
 std::string Line(const std::string& key, const std::string& distribution) {
@@ -23,6 +24,7 @@ std::string Line(const std::string& key, const std::string& distribution) {
 // To four digits: nobody reads more, and what is laid out follows from what is written.
 std::string Range(double low, double high) { return fmt::format("[{:.4g}, {:.4g}]", low, high); }
 std::string Uniform(double low, double high) { return "uniform: " + Range(low, high); }
+std::string Normal(double deviation) { return "normal: " + Range(0, deviation); }
 
 std::string Uniform(const std::vector<std::pair<double, double>>& spans) {
   if (spans.size() == 1) return Uniform(spans[0].first, spans[0].second);
@@ -65,13 +67,12 @@ std::string Outline(const RobotSpec& robot) {
 // sequence are its most even ones.
 std::string MetBy(const RobotSpec& robot) {
   constexpr double kSlowest = 0.3;  // of its top speed: an encounter is to end in some 10 s
-  // As a robot that has driven a while without looking where it is.
-  constexpr double kAside_m = 0.1, kAstray_deg = 5;
-  constexpr double kWheels = 3, kShortest_m = 0.3, kLonger_m = 0.6;
-  // Measured across the edge at the steepest angle it is still longer than its types ask for.
+  // As a robot that has driven a while without looking where it is; the most of them little.
+  constexpr double kAside_m = 0.04, kAstray_deg = 2;
+  constexpr double kWheels = 3, kShortest_m = 0.3, kLonger_m = 1;
+  // Measured across the edge, however it lies, it is still longer than its types ask for.
   const double wheel_m = std::ranges::max(robot.wheels, {}, &WheelSpec::radius_m).radius_m;
-  const double length_m =
-      std::max(kShortest_m, kWheels * wheel_m / std::cos(kSteepest_deg * kPi / 180));
+  const double length_m = std::max(kShortest_m, kWheels * wheel_m / kCrossingLeastCos);
   std::string lines = Line("site.generate.angle_deg", Uniform(-kSteepest_deg, kSteepest_deg));
   lines += Line("plan.speed_mps", Uniform(kSlowest * robot.max_speed_mps, robot.max_speed_mps));
   lines += Line("site.floor.friction", Uniform(0.3, 1));
@@ -81,8 +82,17 @@ std::string MetBy(const RobotSpec& robot) {
   lines += Line("site.generate.length_m", Uniform(length_m, length_m + kLonger_m));
   lines += Line("site.generate.wall_m", Uniform(0.03, 1.5));  // beyond 1 m it counts as far
   lines += Line("site.generate.side", "choice: [left, right]");
-  lines += Line("estimator.start_error_y_m", Uniform(-kAside_m, kAside_m));
-  lines += Line("estimator.start_error_yaw_deg", Uniform(-kAstray_deg, kAstray_deg));
+  lines += Line("estimator.start_error_y_m", Normal(kAside_m));
+  lines += Line("estimator.start_error_yaw_deg", Normal(kAstray_deg));
+  if (robot.turn_radius_m == 0) {  // a corner is no arc
+    lines += Line("plan.lanes", "choice: [one, one, one, aside, back, thrice]");
+    // From before the hazard to behind it; from half a turn in two unlike halves to two right
+    // angles; as far aside as lanes are apart, and farther.
+    const double width_m = 2 * robot.circumscribed_radius_m;
+    lines += Line("plan.turn_at", Uniform(0.25, 0.95));
+    lines += Line("plan.turn_deg", Uniform(20, 110));
+    lines += Line("plan.aside_m", Uniform(0.1 * width_m, std::min(0.6, 1.5 * width_m)));
+  }
   lines += Line("robot.clearance_m", Uniform(0.7 * robot.clearance_m, 1.2 * robot.clearance_m));
   lines += Line("robot.mass_kg", Uniform(0.8 * robot.mass_kg, 1.3 * robot.mass_kg));
   return lines;
@@ -107,8 +117,8 @@ double RunUp(const RobotSpec& robot) {
 }  // namespace
 
 std::string EncounterScenario(const std::string& robot, const RobotSpec& spec) {
-  constexpr double kRunOut_m = 0.4;    // it has left the hazard, though it ends a little aside
-  constexpr double kTimeLimit_s = 60;  // nothing moves so slowly: it is held, and not quite still
+  constexpr double kRunOut_m = 0.4;     // it has left the hazard, though it ends a little aside
+  constexpr double kTimeLimit_s = 180;  // nothing moves so slowly: it is held, and not quite still
   return fmt::format(
       "# Single encounters with hazards, drawn evenly: what `floorproof measure` drives.\n"
       "scenario: 1\n"

@@ -2,12 +2,12 @@
 // The campaign that a robot's risk is measured by: single encounters with hazards of every type.
 //
 // A variant is a type, met over it or beside it; obstacles (C1, C2) beside them alone. Each episode
-// lays one crossing (env/map/crossing_site.h) and drives its straight way. What it is met with is
-// drawn evenly (low discrepancy): the hazard's sizes, the edge's angle, the side that leads, speed,
-// share of the width, gap, wall, friction, clearance, mass, and, where it passes by, how wrong it
-// is about where it is. Ranges are made from the robot, so that each goes from what it surely
-// crosses to what it surely does not (HazardType::Ranges). Not varied: faults, battery, other
-// estimators' errors, turns on a hazard.
+// lays one crossing (env/map/crossing_site.h) and drives its way, in one line or with turns on it
+// (planner `straight`). What it is met with is drawn evenly (low discrepancy): the hazard's sizes,
+// the edge's angle, the side that leads, speed, lanes, share of the width, gap, wall, friction,
+// clearance, mass, and, where it passes by, how wrong it is about where it is. Ranges are made from
+// the robot, so that each goes from what it surely crosses to what it surely does not
+// (HazardType::Ranges). Not varied: faults, battery, other estimators' errors.
 #pragma once
 
 #include <string>

@@ -35,6 +35,7 @@ struct Approach {
   double friction = 0;     // of floor and wheels there
   double mass_kg = 0, clearance_m = 0;  // the robot's
   double estimate_error_m = 0;          // how far off the robot thinks it is
+  double estimate_error_rad = 0;        // how far astray, either way
 };
 // Walls farther away than this are not looked for.
 inline constexpr double kFarWall_m = 1;
@@ -45,7 +46,7 @@ struct ApproachColumn {
   double Approach::*member;
   std::string_view unit, help;  // a line of docs/results.md
 };
-inline constexpr std::array<ApproachColumn, 12> kApproach = {{
+inline constexpr std::array<ApproachColumn, 13> kApproach = {{
     {"heading_rad", &Approach::heading_rad, "rad",
      "of the travel, from the inward normal of the edge that is entered by, or of the nearest that "
      "is passed: 0 is square on, positive counter-clockwise"},

@@ -141,7 +141,8 @@ class Layout {
   bool over() const { return p_.passage == "over"; }
 
   void Lay(SizedType sized) {
-    double depth_m = p_.length_m * std::cos(angle_rad_);
+    const double across = std::max(std::cos(angle_rad_), kCrossingLeastCos);
+    double depth_m = p_.length_m * across;
     if (sized.type->placement() == HazardType::Placement::kLine)
       depth_m = BoxAround(Make(sized, {{0, -1}, {0, 1}}).footprint.front()).Size().x();
     const bool whole = over() && p_.share >= 1;
@@ -150,7 +151,7 @@ class Layout {
     double across_m = kBeyond_m + std::max(0.0, high_m_ - lowest_m);
     if (whole)
       across_m = kBeyond_m + std::max(high_m_, -low_m_) + depth_m * std::abs(std::sin(angle_rad_));
-    const double left_m = across_m / std::cos(angle_rad_), right_m = whole ? -left_m : 0;
+    const double left_m = across_m / across, right_m = whole ? -left_m : 0;
 
     SizedType second = ReadSizes(p_.hazard, &sized.node, sized.node.mark);
     // Turned as the edge is on the floor, whether mirrored or not.
@@ -246,8 +247,8 @@ void CrossingParams::Visit(ParamVisitor& v) {
   v("hazard", hazard, PluginNames(HazardTypes()), "its type");
   v("passage", passage, {"over", "beside"}, "whether the way leads over it or past it");
   v("side", side, {"left", "right"}, "of the way, where it lies that is passed, or met in part");
-  v("angle_deg", angle_deg, Between(-80, 80),
-    "of the way from the inward normal of its edge, counter-clockwise: 0 square on");
+  v("angle_deg", angle_deg, Between(-90, 90),
+    "of the way from the inward normal of its edge, counter-clockwise: 0 square on, 90 along it");
   v("lead_deg", lead_deg, Between(-180, 180),
     "of the way in the robot's own frame: 0 forward, 90 to its left");
   v("share", share, Between(0.01, 2), "of the robot's width that passes over it; 1 or more: all");

@@ -21,6 +21,10 @@
 
 namespace floorproof {
 
+// Of the edge's angle: nearer to along the way the hazard is as long, and as wide, as at 70
+// degrees.
+inline constexpr double kCrossingLeastCos = 0.34;
+
 struct CrossingParams {
   std::string kind = "crossing";
   std::string hazard = "step";

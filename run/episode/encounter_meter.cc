@@ -54,6 +54,7 @@ void EncounterMeter::OnControl(const Sample& sample, const Estimate& estimate, c
   if (!moved) return;
   way_m_ += way_m;
   estimate_error_m_ = (estimate.X_WB.p() - X_WB.p()).norm();
+  estimate_error_rad_ = std::abs(WrapAngle(estimate.X_WB.yaw_rad - X_WB.yaw_rad));
   const Vec2 travel_W = way_m >= kMoved_m ? Vec2((X_WB.p() - last_.p()) / way_m) : Vec2(0, 0);
   if (!parts_.empty()) {
     watch_.Update(X_WB, travel_W, way_m_, sample.shape);
@@ -122,6 +123,7 @@ void EncounterMeter::TakeEntry(const Meeting& meeting, const Sample& sample, Enc
   row.at.mass_kg = robot_.mass_kg;
   row.at.clearance_m = robot_.clearance_m;
   row.at.estimate_error_m = estimate_error_m_;
+  row.at.estimate_error_rad = estimate_error_rad_;
 }
 
 void EncounterMeter::TakePlanned(const PlannedPassage& planned, Encounter& row) const {

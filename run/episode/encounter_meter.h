@@ -67,7 +67,7 @@ class EncounterMeter {
   std::array<Exposure, 2> exposed_;  // to walls, to free floor
   bool has_last_ = false, at_wall_ = false;
   Pose2 last_;
-  double last_s_ = 0, way_m_ = 0, estimate_error_m_ = 0;
+  double last_s_ = 0, way_m_ = 0, estimate_error_m_ = 0, estimate_error_rad_ = 0;
 };
 
 }  // namespace floorproof

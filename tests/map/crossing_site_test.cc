@@ -225,7 +225,7 @@ TEST(CrossingSite, HazardsOfTheSiteAreThereToo) {
 TEST(CrossingSite, BadInputNamesLineKeyAndRule) {
   const std::tuple<const char*, const char*, const char*> cases[] = {
       {"hazard: stairs", "generate.hazard = stairs", "must be one of"},
-      {"angle_deg: 81", "generate.angle_deg = 81", "[-80, 80]"},
+      {"angle_deg: 91", "generate.angle_deg = 91", "[-90, 90]"},
       {"share: 0", "generate.share = 0", "[0.01, 2]"},
       {"gap_m: -1", "generate.gap_m = -1", "[0, 5]"},
       {"passage: under", "generate.passage = under", "over"},

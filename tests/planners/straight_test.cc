@@ -79,6 +79,69 @@ TEST_F(StraightPlan, TheYawThatIsHeldDecidesWhereItFits) {
   EXPECT_EQ(Plan().status, PlanStatus::kGoalUnreachable);
 }
 
+std::vector<Vec2> Places(const PlanResult& plan) {
+  std::vector<Vec2> places;
+  for (const Waypoint& waypoint : plan.path) places.push_back(waypoint.p_W);
+  return places;
+}
+
+MATCHER_P(AreNear, places, "") {
+  if (arg.size() != places.size()) return false;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if ((arg[i] - places[i]).norm() > 1e-9) return false;
+  return true;
+}
+
+class LanesOfStraight : public StraightPlan {
+ protected:
+  LanesOfStraight() {
+    start_ = {0.75, 1.25, 0};
+    goal_ = Vec2(2.75, 1.25);
+  }
+  std::vector<Vec2> Lanes(const std::string& keys) { return Places(Plan("{" + keys + "}")); }
+};
+
+TEST_F(LanesOfStraight, LeadThereAndBackOrAside) {
+  const std::string keys = "turn_at: 0.5, turn_deg: 90, aside_m: 0.3";
+  const std::vector<Vec2> back = {
+      {0.75, 1.25}, {1.75, 1.25}, {1.75, 1.55}, {0.75, 1.55}, {0.75, 1.25}};
+  EXPECT_THAT(Lanes("lanes: back, " + keys), AreNear(back));
+  const std::vector<Vec2> thrice = {{0.75, 1.25}, {1.75, 1.25}, {1.75, 1.55}, {1.25, 1.55},
+                                    {1.25, 1.85}, {2.75, 1.85}, {2.75, 1.25}};
+  EXPECT_THAT(Lanes("lanes: thrice, " + keys), AreNear(thrice));
+  const std::vector<Vec2> aside = {
+      {0.75, 1.25}, {1.75, 1.25}, {1.75, 1.55}, {2.75, 1.55}, {2.75, 1.25}};
+  EXPECT_THAT(Lanes("lanes: aside, " + keys), AreNear(aside));
+  const std::vector<Vec2> slanting = {{0.75, 1.25},
+                                      {1.75, 1.25},
+                                      {1.9, 1.25 + 0.15 * std::sqrt(3)},
+                                      {2.75, 1.25 + 0.15 * std::sqrt(3)},
+                                      {2.75, 1.25}};
+  EXPECT_THAT(Lanes("lanes: aside, turn_at: 0.5, turn_deg: 60, aside_m: 0.3"), AreNear(slanting));
+}
+
+// To the right where a wall stands on the left; where both sides are closed, none is changed.
+TEST_F(LanesOfStraight, AreChangedWhereThereIsRoom) {
+  const std::string keys = "lanes: aside, turn_at: 0.5, turn_deg: 90, aside_m: 0.5";
+  EXPECT_GT(Lanes(keys)[2].y(), 1.25);
+  map_.occupancy(3, 3) = CellState::kOccupied;
+  EXPECT_LT(Lanes(keys)[2].y(), 1.25);
+  map_.occupancy(3, 1) = CellState::kOccupied;
+  EXPECT_THAT(Lanes(keys), ::testing::SizeIs(2));
+}
+
+// Even for who crosses obstacles; a step takes none.
+TEST_F(LanesOfStraight, WhatStandsInTheWayTakesRoom) {
+  const std::string keys = "cross_obstacles: true, lanes: aside, turn_deg: 90, aside_m: 0.5";
+  Hazard& hazard = map_.hazards.emplace_back();
+  hazard.hazard_class = HazardClass::kLevelChange;
+  hazard.height_m = 0.1;
+  hazard.footprint = {Rectangle({1.5, 1.7}, {2, 2.2})};
+  EXPECT_GT(Lanes(keys)[2].y(), 1.25);
+  hazard.hazard_class = HazardClass::kGlass;
+  EXPECT_LT(Lanes(keys)[2].y(), 1.25);
+}
+
 TEST_F(StraightPlan, SaysWhyItHasNoWay) {
   goal_ = start_.p();
   EXPECT_THAT(Plan().message, HasSubstr("where the robot starts"));
