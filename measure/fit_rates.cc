@@ -11,6 +11,7 @@
 #include "measure/constant_rate.h"
 #include "measure/penalised_rates.h"
 #include "measure/rate_axes.h"
+#include "measure/shared_frailty.h"
 
 namespace floorproof {
 namespace {
@@ -137,8 +138,10 @@ RiskModel FitRates(const std::vector<Encounter>& encounters, MeasuredRobot robot
   model.robot.clearance_m = RoundedTo6(model.robot.clearance_m);
   model.mirrored = options.mirrored;
   model.encounters = static_cast<int>(encounters.size());
+  // Only who got over a hazard meets it again: these say nothing of all that come.
   std::map<std::pair<std::string, Passage>, Meetings> by_kind;
-  for (const Encounter& e : encounters) by_kind[{e.type, e.passage}].push_back(&e);
+  for (const std::vector<const Encounter*>& met : MeetingsOfDrives(encounters))
+    by_kind[{met.front()->type, met.front()->passage}].push_back(met.front());
   for (const auto& [name, met] : by_kind) {
     UnmeasuredKind unmeasured;
     if (std::optional<KindRates> kind = FitKind(met, options, unmeasured))
@@ -147,6 +150,7 @@ RiskModel FitRates(const std::vector<Encounter>& encounters, MeasuredRobot robot
       model.unmeasured.push_back(std::move(unmeasured));
   }
   SetUnseen(model.kinds);
+  model.theta = SharedFrailty(model, encounters);
   return model;
 }
 

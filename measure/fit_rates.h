@@ -16,16 +16,17 @@ struct RateFitOptions {
   int least_encounters = 50;
 };
 
-// One set of rates for each hazard type, passed over and passed beside, and for each exposure, in
-// the order of their names. All encounters are of `robot`. The covariates of a kind are the keys
-// that all its hazards state, and the columns of Approach; those that never vary are kept as axes
-// without functions. Meetings that were censored are counted and left out: a rate of a meeting does
-// not say when in it the failure comes, so half a meeting says neither yes nor no. Exposures that
-// were censored count with the way that was driven.
-// Modes that never happened in a kind: each is predicted at the mean rate that such modes have
-// (Good's estimate, from the modes that happened once; Biometrika 40 (1953) 237), and its upper
-// bound is 3 / exposure. All numbers are rounded to 6 significant digits.
-// The same encounters give the same bytes.
+// Rates are those of the first meeting of a drive with a hazard; what came of later ones says how
+// alike they end (measure/shared_frailty.h). One set of rates for each hazard type, passed over and
+// passed beside, and for each exposure, in the order of their names. All encounters are of `robot`.
+// The covariates of a kind are the keys that all its hazards state, and the columns of Approach;
+// those that never vary are kept as axes without functions. Meetings that were censored are counted
+// and left out: a rate of a meeting does not say when in it the failure comes, so half a meeting
+// says neither yes nor no. Exposures that were censored count with the way that was driven. Modes
+// that never happened in a kind: each is predicted at the mean rate that such modes have (Good's
+// estimate, from the modes that happened once; Biometrika 40 (1953) 237), and its upper bound is 3
+// / exposure. All numbers are rounded to 6 significant digits. The same encounters give the same
+// bytes.
 RiskModel FitRates(const std::vector<Encounter>& encounters, MeasuredRobot robot,
                    const RateFitOptions& options);
 

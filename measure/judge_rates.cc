@@ -8,6 +8,7 @@
 
 #include "base/streams.h"
 #include "measure/calibration.h"
+#include "measure/shared_frailty.h"
 #include "planners/risk/rate_evaluator.h"
 
 namespace floorproof {
@@ -63,8 +64,11 @@ std::vector<JudgedEncounter> Predicted(const RiskModel& model,
   return judged;
 }
 
-HoldOut JudgeByHoldOut(const std::vector<Encounter>& encounters, const RateFitOptions& options,
+HoldOut JudgeByHoldOut(const std::vector<Encounter>& all_met, const RateFitOptions& options,
                        int parts) {
+  std::vector<Encounter> encounters;
+  for (const std::vector<const Encounter*>& met : MeetingsOfDrives(all_met))
+    encounters.push_back(*met.front());
   Stream random(0, 0, "hold_out");
   std::vector<int> part_of;
   for (std::size_t i = 0; i < encounters.size(); ++i)

@@ -47,8 +47,9 @@ struct HoldOut {
   RateJudgement of_all;
   std::vector<JudgedKind> kinds;
 };
-// The encounters are cut at random into so many parts (at least 2), each predicted by the model of
-// the others. The same encounters give the same figures.
+// Of a drive's meetings with one hazard the first counts. They are cut at random into so many parts
+// (at least 2), each predicted by the model of the others. The same encounters give the same
+// figures.
 HoldOut JudgeByHoldOut(const std::vector<Encounter>& encounters, const RateFitOptions& options,
                        int parts = 5);
 

@@ -20,9 +20,16 @@ namespace floorproof {
 
 std::vector<Encounter> AllEncounters(const CampaignStore& store) {
   std::vector<Encounter> all;
-  for (const std::string& variant : store.Variants())
-    store.ForEachEncounter(
-        variant, [&](std::uint64_t, const Encounter& encounter) { all.push_back(encounter); });
+  int drive = -1;
+  for (const std::string& variant : store.Variants()) {
+    std::optional<std::uint64_t> last;
+    store.ForEachEncounter(variant, [&](std::uint64_t episode, const Encounter& encounter) {
+      drive += last != episode;
+      last = episode;
+      all.push_back(encounter);
+      all.back().drive = drive;
+    });
+  }
   return all;
 }
 

@@ -86,6 +86,7 @@ std::string RiskModelJson(const RiskModel& model) {
   robot["model"] = model.robot.model;
   json["mirrored"] = model.mirrored;
   json["encounters"] = model.encounters;
+  json["theta"] = model.theta;
   json["kinds"] = Json::array();
   for (const KindRates& kind : model.kinds) json["kinds"].push_back(JsonOf(kind));
   json["unmeasured"] = Json::array();

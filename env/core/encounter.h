@@ -68,6 +68,8 @@ inline constexpr std::array<ApproachColumn, 13> kApproach = {{
     {"clearance_m", &Approach::clearance_m, "m", "from the floor to the robot's belly"},
     {"estimate_error_m", &Approach::estimate_error_m, "m",
      "from where the robot thinks it is to where it is"},
+    {"estimate_error_rad", &Approach::estimate_error_rad, "rad",
+     "from the heading that the robot thinks it has to its own, either way"},
 }};
 
 struct Encounter {
@@ -82,6 +84,7 @@ struct Encounter {
   enum class Outcome { kCleared, kFailed, kCensored };  // censored: the episode ended otherwise
   Outcome outcome = Outcome::kCensored;
   FailureMode mode = FailureMode::kVeerOff;  // of kFailed
+  int drive = -1;  // among encounters of several drives, which it belongs to; -1: to none known
 };
 inline constexpr std::string_view kWallBeside = "wall_beside", kFreeFloor = "free_floor";
 

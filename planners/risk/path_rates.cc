@@ -74,18 +74,22 @@ PathSurvival PathRates::Of(const Path& path) const {
     const bool over = passage.passage == Passage::kOver;
     out.crossings += over;
     out.unmeasured += over && rates == nullptr;
-    if (rates != nullptr) meetings.push_back({rates, hazard.keys, passage.at, 1, i});
+    std::size_t first = 0;
+    while (out.passages[first].hazard != passage.hazard ||
+           out.passages[first].passage != passage.passage)
+      ++first;
+    if (rates != nullptr) meetings.push_back({rates, hazard.keys, passage.at, 1, i, first});
   }
   if (const RateEvaluator* floor = RatesOf(kFreeFloor, Passage::kBeside)) {
     Approach at;
     at.speed_mps = request_.robot.cruise_mps;
     at.wall_m = kFarWall_m;
-    meetings.push_back({floor, {}, at, Length(path), out.passages.size()});
+    meetings.push_back({floor, {}, at, Length(path), out.passages.size(), out.passages.size()});
   }
   std::vector<std::vector<PlannedMeeting>> by_condition(conditions_.size(), meetings);
   for (std::size_t c = 0; c < conditions_.size(); ++c)
     for (PlannedMeeting& meeting : by_condition[c]) meeting.at = In(conditions_[c], meeting.at);
-  out.survival = PredictSurvival(by_condition, out.passages.size() + 1, request_.model->mirrored);
+  out.survival = PredictSurvival(by_condition, out.passages.size() + 1, *request_.model);
   return out;
 }
 

@@ -94,6 +94,11 @@ struct RiskModel {
   // The robot is its own mirror image, so a meeting and its mirror image have the same rates.
   bool mirrored = false;
   int encounters = 0;  // all of them
+  // 1 to 100. How alike meetings with one hazard in one drive end, beyond what covariates say: a
+  // frailty, of a positive stable distribution, that they share (Hougaard, Biometrika 73 (1986)
+  // 387). Their rates come to (sum of Lambda^theta)^(1/theta): 1, each by itself; many, as the
+  // worst of them alone.
+  double theta = 1;
   std::vector<KindRates> kinds;
   std::vector<UnmeasuredKind> unmeasured;
 };

@@ -17,9 +17,29 @@ constexpr double kStudent = 2.131;  // 97.5 % of Student's t, kRateMembers - 1 d
 // What is predicted of one condition: no failure, then each mode first.
 using Outcome = std::array<double, 1 + kNumFailureModes>;
 
-void Meet(const ModeNumbers& rates, double way_m, Outcome& outcome) {
+// Of the meetings with one hazard so far: sum of Lambda^theta.
+class Shared {
+ public:
+  explicit Shared(double theta) : theta_(theta) {}
+  // By how much less than by itself this meeting adds to what there is: Lambda times the share is
+  // added.
+  double ShareOf(double total, double& sum) const {
+    if (theta_ == 1 || total <= 0) return 1;
+    const double before = sum > 0 ? std::pow(sum, 1 / theta_) : 0;
+    sum += std::pow(total, theta_);
+    return before > 0 ? (std::pow(sum, 1 / theta_) - before) / total : 1;
+  }
+
+ private:
+  double theta_;
+};
+
+void Meet(const ModeNumbers& rates, double way_m, const Shared& shared, double& sum,
+          Outcome& outcome) {
   ModeNumbers over = rates;
   for (double& rate : over) rate *= way_m;
+  const double share = shared.ShareOf(Total(over), sum);
+  for (double& rate : over) rate *= share;
   const ModeNumbers first = FirstFailures(over);
   for (int m = 0; m < kNumFailureModes; ++m) outcome[1 + m] += outcome[0] * first[m];
   outcome[0] *= std::exp(-Total(over));
@@ -68,7 +88,10 @@ class LastCovariates {
 }  // namespace
 
 Survival PredictSurvival(std::span<const std::vector<PlannedMeeting>> conditions,
-                         std::size_t numbers, bool mirrored) {
+                         std::size_t numbers, const RiskModel& model) {
+  const Shared shared(model.theta);
+  std::vector<double> sums(numbers);  // by PlannedMeeting::first
+  std::vector<std::array<double, kRateMembers>> member_sums(numbers);
   Survival survival;
   survival.by_meeting.assign(numbers, 0);
   Outcome certain = {};
@@ -79,20 +102,24 @@ Survival PredictSurvival(std::span<const std::vector<PlannedMeeting>> conditions
   const std::size_t step = (conditions.size() + kConditionsForMembers - 1) / kConditionsForMembers;
   for (std::size_t c = 0; c < conditions.size(); ++c) {
     const bool for_members = c % step == 0;
-    if (for_members)
+    std::ranges::fill(sums, 0);
+    if (for_members) {
+      std::ranges::fill(member_sums, std::array<double, kRateMembers>{});
       for (auto& member : by_member) member.push_back(certain);
+    }
     for (const PlannedMeeting& meeting : conditions[c]) {
       const RateEvaluator& rates = *meeting.rates;
-      const std::span<const double> x = known[meeting.number].Of(meeting, mirrored).Of(meeting.at);
+      const std::span<const double> x =
+          known[meeting.number].Of(meeting, model.mirrored).Of(meeting.at);
       const double before = outcomes[c][0];
-      Meet(rates.At(x), meeting.way_m, outcomes[c]);
+      Meet(rates.At(x), meeting.way_m, shared, sums[meeting.first], outcomes[c]);
       survival.by_meeting[meeting.number] +=
           (before - outcomes[c][0]) / static_cast<double>(conditions.size());
       survival.beyond = std::max(survival.beyond, rates.Beyond(x));
       if (!for_members) continue;
       const auto members = rates.MembersAt(x);
       for (std::size_t r = 0; r < kRateMembers; ++r)
-        Meet(members[r], meeting.way_m, by_member[r].back());
+        Meet(members[r], meeting.way_m, shared, member_sums[meeting.first][r], by_member[r].back());
     }
     if (for_members) chosen.push_back(outcomes[c]);
   }

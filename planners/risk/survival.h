@@ -18,6 +18,9 @@ struct PlannedMeeting {
   Approach at;
   double way_m = 1;        // of an exposure
   std::size_t number = 0;  // which of the plan's meetings it is, whatever the condition
+  // The number of the plan's first meeting with this hazard that is of this kind; its own: the
+  // only one.
+  std::size_t first = 0;
 };
 
 // With its 95 % interval.
@@ -34,11 +37,13 @@ struct Survival {
 
 // `conditions`: by drawn condition, the meetings in the order in which they are driven; `numbers`:
 // how many there are. What one episode draws holds for all of its meetings, so that they may all
-// fail together:
-//   P(no failure) = mean over conditions of exp(-sum over meetings of Lambda).
+// fail together, and so does what no covariate says of a hazard (RiskModel::theta):
+//   P(no failure) = mean over conditions of exp(-sum over hazards of (sum of
+//   Lambda^theta)^(1/theta)).
 // Expects at least one condition. The intervals hold what the model does not know (its members) and
-// that conditions are a sample. `mirrored` is the model's. Throws InputError as Covariates does.
+// that conditions are a sample. `model` is that of the meetings' rates. Throws InputError as
+// Covariates does.
 Survival PredictSurvival(std::span<const std::vector<PlannedMeeting>> conditions,
-                         std::size_t numbers, bool mirrored);
+                         std::size_t numbers, const RiskModel& model);
 
 }  // namespace floorproof

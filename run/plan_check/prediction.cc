@@ -54,15 +54,19 @@ class Predictor {
   }
 
   void AddCondition() {
-    std::map<std::string, int> times;  // a hazard is met
+    std::map<std::string, int> times;          // a hazard is met
+    std::map<std::string, std::size_t> first;  // of its meetings of a kind
     std::vector<PlannedMeeting> condition;
     for (const Encounter& encounter : expected_) {
       const std::string of = encounter.type + " " + encounter.hazard;
       const std::size_t number = NumberOf(encounter, of + " " + std::to_string(times[of]++));
       const RateEvaluator* rates = RatesOf(encounter);
       if (rates == nullptr) continue;
+      const std::string like = of + " " + std::string(Name(encounter.passage));
+      const std::size_t alike =
+          rates->kind().per_metre ? number : first.emplace(like, number).first->second;
       condition.push_back({rates, encounter.size, encounter.at,
-                           rates->kind().per_metre ? encounter.way_m : 1, number});
+                           rates->kind().per_metre ? encounter.way_m : 1, number, alike});
       if (conditions_.size() % kLookBeyondEvery == 0) LookBeyond(rates->kind(), encounter);
     }
     conditions_.push_back(std::move(condition));
@@ -73,7 +77,7 @@ class Predictor {
     Prediction out;
     out.plan = std::move(plan);
     out.conditions = static_cast<int>(conditions_.size());
-    out.survival = PredictSurvival(conditions_, meetings_.size(), model_->mirrored);
+    out.survival = PredictSurvival(conditions_, meetings_.size(), *model_);
     out.meetings = std::move(meetings_);
     for (std::size_t i = 0; i < out.meetings.size(); ++i)
       out.meetings[i].probability = out.survival.by_meeting[i];

@@ -208,12 +208,13 @@ RiskModel Parse(const std::filesystem::path& file, const InputFiles& files) {
                      fmt::format("the key is missing (risk_model: {}): this is no risk model",
                                  kRiskModelVersion));
   AsInt(*root.Find("risk_model"), "risk_model", Between(kRiskModelVersion, kRiskModelVersion));
-  const Keys keys(root, "",
-                  {"risk_model", "robot", "mirrored", "encounters", "kinds", "unmeasured"});
+  const Keys keys(
+      root, "", {"risk_model", "robot", "mirrored", "encounters", "theta", "kinds", "unmeasured"});
   RiskModel model;
   model.robot = ReadRobot(keys.At("robot"));
   model.mirrored = keys.Flag("mirrored");
   model.encounters = keys.Count("encounters");
+  model.theta = keys.Number("theta", Between(1, 100));  // powers stay numbers
   std::size_t number = 0;
   for (const ConfigNode& node : keys.List("kinds")) {
     const std::string path = fmt::format("kinds.{}", number++);

@@ -56,7 +56,7 @@ inline Survival PredictedSurvival(int encounters, int conditions, Stream& random
       condition.push_back({&rates, step.size, step.at, 1, static_cast<std::size_t>(i)});
     }
   }
-  return PredictSurvival(drawn, kPlannedSteps, model.mirrored);
+  return PredictSurvival(drawn, kPlannedSteps, model);
 }
 
 // The share of repeats whose interval holds the truth.

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/shared_frailty.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "base/round.h"
+#include "planners/risk/rate_evaluator.h"
+
+namespace floorproof {
+namespace {
+
+// The rates of all failures in the meetings with one hazard, and whether the last one failed.
+struct Repeated {
+  std::vector<double> totals;
+  bool failed = false;
+};
+
+std::vector<Repeated> RepeatedOf(const RiskModel& model, const std::vector<Encounter>& encounters) {
+  std::map<std::pair<std::string, Passage>, RateEvaluator> rates;
+  for (const KindRates& kind : model.kinds) rates.try_emplace({kind.type, kind.passage}, kind);
+  std::vector<Repeated> repeated;
+  for (const std::vector<const Encounter*>& met : MeetingsOfDrives(encounters)) {
+    if (met.size() < 2) continue;
+    const auto of = rates.find({met.front()->type, met.front()->passage});
+    if (of == rates.end()) continue;
+    Repeated each;
+    for (const Encounter* e : met) {
+      if (e->outcome == Encounter::Outcome::kCensored || each.failed) break;
+      Covariates covariates(of->second.kind().axes, model.mirrored, e->size);
+      each.totals.push_back(Total(of->second.At(covariates.Of(e->at))));
+      each.failed = e->outcome == Encounter::Outcome::kFailed;
+    }
+    if (each.totals.size() > 1) repeated.push_back(std::move(each));
+  }
+  return repeated;
+}
+
+double LogLikelihood(const std::vector<Repeated>& repeated, double theta) {
+  constexpr double kLeast = 1e-12;  // of a probability: no single drive decides
+  double sum = 0;
+  for (const Repeated& each : repeated) {
+    double powers = 0, before = 0, after = 0;
+    for (const double total : each.totals) {
+      before = after;
+      powers += std::pow(total, theta);
+      after = std::pow(powers, 1 / theta);
+    }
+    sum += each.failed ? std::log(std::max(kLeast, std::exp(-before) - std::exp(-after))) : -after;
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<std::vector<const Encounter*>> MeetingsOfDrives(
+    const std::vector<Encounter>& encounters) {
+  std::vector<std::vector<const Encounter*>> all;
+  std::map<std::tuple<int, std::string, std::string, Passage>, std::size_t> known;
+  for (const Encounter& e : encounters) {
+    std::size_t at = all.size();
+    if (e.drive >= 0 && !e.hazard.empty())
+      at = known.try_emplace({e.drive, e.hazard, e.type, e.passage}, at).first->second;
+    if (at == all.size()) all.emplace_back();
+    all[at].push_back(&e);
+  }
+  return all;
+}
+
+double SharedFrailty(const RiskModel& model, const std::vector<Encounter>& encounters) {
+  constexpr std::size_t kFewest = 20;  // hazards that were met again
+  constexpr double kMostTheta = 32;
+  constexpr int kSteps = 64, kHalvings = 30;
+  const std::vector<Repeated> repeated = RepeatedOf(model, encounters);
+  if (repeated.size() < kFewest) return 1;
+  const auto value = [&](double log_theta) { return LogLikelihood(repeated, std::exp(log_theta)); };
+  // The best of a grid, then between its neighbours.
+  const double step = std::log(kMostTheta) / kSteps;
+  double best = 0, most = value(0);
+  for (int i = 1; i <= kSteps; ++i)
+    if (const double here = value(i * step); here > most) best = i * step, most = here;
+  double low = std::max(0.0, best - step), high = std::min(std::log(kMostTheta), best + step);
+  for (int i = 0; i < kHalvings; ++i) {
+    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+    (value(a) < value(b) ? low : high) = value(a) < value(b) ? a : b;
+  }
+  return RoundedTo6(std::exp((low + high) / 2));
+}
+
+}  // namespace floorproof

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// How alike several meetings with one hazard in one drive end, beyond what covariates say of them.
+#pragma once
+
+#include <vector>
+
+#include "env/core/encounter.h"
+#include "planners/risk/rate_model.h"
+
+namespace floorproof {
+
+// The meetings with one hazard in one drive that are of one kind, in the order in which they came;
+// exposures, and encounters of no drive (Encounter::drive), are by themselves. In the order in
+// which they began.
+std::vector<std::vector<const Encounter*>> MeetingsOfDrives(
+    const std::vector<Encounter>& encounters);
+
+// RiskModel::theta by maximum likelihood, given the model's rates; 1 where too few hazards were met
+// again to say. A robot that failed at a hazard does not meet it again, so what counts is how often
+// who got over it once gets over it again: of meetings 1 to k that were cleared the likelihood is
+// exp(-(sum of Lambda^theta)^(1/theta)), of one that failed behind them what that falls by.
+double SharedFrailty(const RiskModel& model, const std::vector<Encounter>& encounters);
+
+}  // namespace floorproof
