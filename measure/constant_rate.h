@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One rate whatever a meeting is like: of a mode that hardly ever happened.
+// Etas that are the same whatever a meeting is like: of what hardly ever happened, or hardly ever
+// did not.
 #pragma once
 
 #include <string_view>
@@ -8,9 +9,16 @@
 
 namespace floorproof {
 
-// Of a mode that happened `mode.events` times in so much exposure; `rate` is what is to be
+// The rate of what happened `of.events` times in so much exposure; `rate` is what is to be
 // predicted, above 0. Members: quantiles of Gamma(events + 1, exposure), whose upper 95 % bound is
 // 3 / exposure where nothing happened; `name` is of the stream that shuffles them.
-void SetConstantRate(double exposure, double rate, std::string_view name, ModeRates& mode);
+void SetConstantRate(double exposure, double rate, std::string_view name, LinearPredictor& of);
+
+// The share of what happened `of.events` times in n: (k + 1/2) / (n + 1) (Krichevsky & Trofimov,
+// IEEE Trans. Inf. Theory 27 (1981) 199). Members: quantiles of Beta(k + 1, n - k + 1).
+void SetConstantShare(int n, std::string_view name, LinearPredictor& of);
+
+// A share that is taken, not measured.
+void SetShare(double share, LinearPredictor& of);
 
 }  // namespace floorproof

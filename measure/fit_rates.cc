@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "base/round.h"
 #include "env/geometry/geometry.h"
@@ -69,6 +70,48 @@ std::string StreamName(const KindRates& kind) {
   return fmt::format("risk_model.{}.{}", kind.type, Name(kind.passage));
 }
 
+// Meetings, or way. Of a meeting that failed half.
+double ExposureOf(const KindRates& kind) {
+  return kind.per_metre ? kind.way_m : kind.encounters - kind.censored - kind.any.events / 2.0;
+}
+
+// Where nothing failed it stays empty: SetUnseen sets it.
+void SetAny(const std::vector<RateRow>& rows, KindRates& kind) {
+  const std::string name = StreamName(kind) + ".any";
+  const int n = static_cast<int>(rows.size());
+  kind.any.events = static_cast<int>(std::ranges::count(rows, true, &RateRow::happened));
+  if (kind.any.events == 0) return;
+  if (kind.any.events < kLeastEvents)
+    SetConstantRate(ExposureOf(kind), kind.any.events / ExposureOf(kind), name, kind.any);
+  else if (!kind.per_metre && n - kind.any.events < kLeastEvents)
+    SetConstantShare(n, name, kind.any);  // whose odds are eta, of meetings
+  else
+    kind.any = FitPredictor(rows, kind.per_metre, name, kind.axes);
+}
+
+// `failures` has the modes as numbers beside it.
+void SetSplits(std::vector<RateRow> failures, std::vector<int> modes, KindRates& kind) {
+  std::vector<int> order(kNumFailureModes);
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, std::greater<>(),
+                           [&](int mode) { return std::ranges::count(modes, mode); });
+  for (std::size_t k = 0; k < kind.splits.size(); ++k) {
+    const int mode = order[k], n = static_cast<int>(failures.size());
+    const std::string name = StreamName(kind) + "." + std::string(Name(FailureMode(mode)));
+    kind.splits[k].mode = FailureMode(mode);
+    LinearPredictor& of = kind.splits[k].of;
+    for (int i = 0; i < n; ++i) of.events += failures[i].happened = modes[i] == mode;
+    if (n == 0)
+      SetShare(1.0 / static_cast<double>(kNumFailureModes - k), of);
+    else if (std::min(of.events, n - of.events) < kLeastEvents)
+      SetConstantShare(n, name, of);
+    else
+      of = FitPredictor(failures, false, name, kind.axes);
+    std::erase_if(failures, [](const RateRow& row) { return row.happened; });
+    std::erase(modes, mode);
+  }
+}
+
 // Of a kind that was measured; none where it was met too rarely.
 std::optional<KindRates> FitKind(const Meetings& all, const RateFitOptions& options,
                                  UnmeasuredKind& unmeasured) {
@@ -92,40 +135,36 @@ std::optional<KindRates> FitKind(const Meetings& all, const RateFitOptions& opti
     return std::nullopt;
   }
   kind.axes = AxesOf(met, options.mirrored);
-  std::vector<RateRow> rows;
+  std::vector<RateRow> rows, failures;
+  std::vector<int> modes;
   for (const Encounter* e : met) {
     RateRow& row = rows.emplace_back();
     row.x = CovariatesOf(kind.axes, options.mirrored, *e);
     if (kind.per_metre) row.way_m = e->way_m;
-    if (e->outcome != Encounter::Outcome::kFailed) continue;
-    row.mode = static_cast<int>(e->mode);
-    ++kind.modes[row.mode].events;
+    row.happened = e->outcome == Encounter::Outcome::kFailed;
+    if (!row.happened) continue;
+    failures.push_back({row.x, 1, false});
+    modes.push_back(static_cast<int>(e->mode));
   }
   kind.way_m = RoundedTo6(kind.way_m);
-  FitKindRates(rows, StreamName(kind), kind);
+  SetAny(rows, kind);
+  SetSplits(std::move(failures), std::move(modes), kind);
   return kind;
 }
 
-double ExposureOf(const KindRates& kind) {
-  return kind.per_metre ? kind.way_m : kind.encounters - kind.censored;
-}
-
-// All modes that never happened have together about as many failures to come, over as much
-// exposure again, as there were modes that happened once.
+// All kinds that never failed have together about as many failures to come, over as much exposure
+// again, as there were kinds that failed once.
 void SetUnseen(std::vector<KindRates>& kinds) {
-  double once = 0, never = 0;
-  for (const KindRates& kind : kinds)
-    for (const ModeRates& mode : kind.modes) {
-      once += mode.events == 1;
-      never += mode.events == 0;
-    }
-  constexpr double kMostEvents = 1.0 / 3;  // of one mode, however many happened once
-  const double events = std::min(kMostEvents, (once + 0.5) / std::max(never, 1.0));
+  const auto times = [&](int events) {
+    return static_cast<double>(
+        std::ranges::count(kinds, events, [](const KindRates& kind) { return kind.any.events; }));
+  };
+  constexpr double kMostEvents = 0.5;  // of one kind, however many failed once
+  const double events = std::min(kMostEvents, (times(1) + 0.5) / std::max(times(0), 1.0));
   for (KindRates& kind : kinds)
-    for (int m = 0; m < kNumFailureModes; ++m)
-      if (kind.modes[m].events == 0)
-        SetConstantRate(ExposureOf(kind), events / ExposureOf(kind),
-                        StreamName(kind) + "." + std::string(Name(FailureMode(m))), kind.modes[m]);
+    if (kind.any.events == 0)
+      SetConstantRate(ExposureOf(kind), events / ExposureOf(kind), StreamName(kind) + ".any",
+                      kind.any);
 }
 
 }  // namespace

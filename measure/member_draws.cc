@@ -9,8 +9,10 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "base/streams.h"
 #include "planners/risk/rate_model.h"
@@ -64,10 +66,16 @@ MatrixXd MemberDeviations(const MatrixXd& inverse_covariance, const MatrixXd& sl
     directions.middleCols(exact, across) =
         eigen.eigenvectors().leftCols(others) * orthogonal * longer;
   }
+  // The first directions of other posteriors have the same patterns: so members are shuffled.
+  Stream shuffle(0, 1, name);
+  std::array<Index, kRateMembers> place;
+  std::iota(place.begin(), place.end(), 0);
+  for (std::size_t r = kRateMembers - 1; r > 0; --r)
+    std::swap(place[r], place[shuffle.Below(r + 1)]);
   MatrixXd patterns(directions.cols(), kRateMembers);
   for (Index d = 0; d < patterns.rows(); ++d)
     for (Index r = 0; r < patterns.cols(); ++r)
-      patterns(d, r) = Sign(d, r) / std::sqrt(kRateMembers);
+      patterns(d, r) = Sign(d, place[r]) / std::sqrt(kRateMembers);
   return root.matrixU().solve(directions * patterns);
 }
 

@@ -1,28 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is maximised, over the coefficients b of all modes (rate_model.h has the rates):
-//   sum over meetings of  -Lambda                                         if cleared,
-//                         log lambda_m - log Lambda + log(1 - exp(-Lambda)) if m ended it,
-//   (of exposures:        -Lambda way,  log lambda_m - Lambda way)
-//   less 1/2 sum over groups g of a_g |b_g|^2.
-// A group is the straight part of a smooth function, its bent part, or a product. The modes take
-// turns: Fisher scoring on one mode's coefficients, the others held. After each turn every a_g
-// moves to where the evidence (Laplace's approximation) is greatest:
+// What is maximised, over the coefficients b:
+//   the log likelihood (rate_likelihood.h) less 1/2 sum over groups g of a_g |b_g|^2.
+// A group is the straight part of a smooth function, its bent part, or a product. Steps are of
+// Fisher scoring. After each step every a_g moves to where the evidence (Laplace's approximation)
+// is greatest:
 //   a_g = (number of coefficients - a_g trace(V_gg)) / |b_g|^2, V the posterior's covariance
 // (MacKay, Neural Computation 4 (1992) 415; Wood & Fasiolo, Biometrics 73 (2017) 1071), and a
 // little beyond. Products are added where a score test asks for them, and dropped when they shrink
-// to nothing. Members are drawn from the normal posterior of all modes together.
+// to nothing. Members are drawn from the normal posterior.
 #include "measure/penalised_rates.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <optional>
 #include <string>
 
 #include "base/round.h"
-#include "measure/constant_rate.h"
 #include "measure/member_draws.h"
 #include "measure/rate_axes.h"
 #include "planners/risk/rate_evaluator.h"
@@ -36,11 +30,11 @@ using Eigen::VectorXd;
 
 constexpr double kLeastPenalty = 1e-5, kMostPenalty = 1e4;  // of functions of variance 1
 constexpr double kInterceptPenalty = 1e-4;
-constexpr int kEventsForProducts = 40;
+constexpr Index kEventsForProducts = 40;
 // Standard deviations of a product's score statistic above its expectation. Some sixty products of
 // twelve axes are tried.
 constexpr double kLeastExcess = 4;
-constexpr int kMostProducts = 8, kProductRounds = 2;  // of one mode, in each round
+constexpr int kMostProducts = 8, kProductRounds = 2;  // in each round
 // Functions of one axis that matter: their standard deviation over the data, and how many.
 constexpr double kLeastSpread = 0.2;
 constexpr std::size_t kMostWholes = 5;
@@ -51,105 +45,106 @@ constexpr double kLessBending = 0.7;
 // What a group's coefficients may be, for the posterior's covariance: at least so much as the data
 // would know of them by themselves. The evidence cannot tell a small effect from none, and none
 // would have no uncertainty.
-constexpr double kStiffest = 8;
+constexpr double kStiffest = 12;
 
 struct Group {
   Index begin = 0, size = 0;  // columns
   double penalty = 1;
 };
 
-// One mode's part of the fit.
-struct ModeFit {
-  std::vector<RateBlock> blocks;
-  MatrixXd features;  // by row of the data; the first column is 1
-  std::vector<Group> groups;
-  VectorXd coefficients;
-  VectorXd eta;
-  Eigen::LLT<MatrixXd> posterior;  // of the inverse covariance
-};
-
 class Fit {
  public:
-  Fit(const std::vector<RateRow>& rows, KindRates& kind)
-      : rows_(rows), kind_(kind), likelihood_(rows, kind.per_metre) {}
+  Fit(const std::vector<RateRow>& rows, bool per_metre, std::vector<RateAxis>& axes);
 
   void Run();
-  void Write(std::string_view name);
+  LinearPredictor Result(std::string_view name) const;
 
  private:
   Index n() const { return static_cast<Index>(rows_.size()); }
-  void Begin();
-  void AddBlock(ModeFit& fit, const RateBlock& block);
+  void AddBlock(const RateBlock& block);
   MatrixXd FeaturesOf(const RateBlock& block) const;
-  void Turn(int mode, bool move_penalties);
-  void SetConstants();
-  void MovePenalties(ModeFit& fit) const;
-  void DropEmptyProducts(ModeFit& fit) const;
-  void AddProducts(int mode, std::size_t most);
-  void AddProductsOfWholes(int mode);
-  VectorXd PenaltyOf(const ModeFit& fit) const;
+  void Turn(bool move_penalties);
+  void MovePenalties();
+  void DropEmptyProducts();
+  void AddProducts(std::size_t most);
+  void AddProductsOfWholes();
+  VectorXd Penalty() const;
   MatrixXd InverseCovariance() const;
-  MatrixXd FailureSlopes() const;
 
   const std::vector<RateRow>& rows_;
-  KindRates& kind_;
-  std::array<std::optional<ModeFit>, kNumFailureModes> fits_;
+  std::vector<RateAxis>& axes_;
   RateLikelihood likelihood_;
+  Index events_ = 0, others_ = 0;  // rows where it happened, and did not
+  std::vector<MatrixXd> values_;   // by axis: of its functions, by row of the data
+  std::vector<RateBlock> blocks_;
+  MatrixXd features_;  // by row of the data; the first column is 1
+  std::vector<Group> groups_;
+  VectorXd coefficients_, eta_;
+  Eigen::LLT<MatrixXd> posterior_;  // of the inverse covariance
 };
 
-MatrixXd Fit::FeaturesOf(const RateBlock& block) const {
-  const RateFeatures features(kind_.axes, {block});
-  MatrixXd values(n(), static_cast<Index>(features.size()) - 1);
-  std::vector<double> row(features.size());
+Fit::Fit(const std::vector<RateRow>& rows, bool per_metre, std::vector<RateAxis>& axes)
+    : rows_(rows), axes_(axes), likelihood_(rows, per_metre) {
+  double way = 0;
+  for (const RateRow& row : rows_) {
+    ++(row.happened ? events_ : others_);
+    way += row.way_m;
+  }
+  const double share = static_cast<double>(events_) / way;
+  const double eta = EtaOf(per_metre ? share : -std::log1p(-share));
+  features_ = MatrixXd::Ones(n(), 1);
+  coefficients_ = VectorXd::Constant(1, eta);
+  std::vector<RateBlock> all;
+  for (std::size_t a = 0; a < axes_.size(); ++a)
+    if (!axes_[a].functions.empty()) all.push_back({{{a, 0, axes_[a].functions.size()}}});
+  const RateFeatures functions(axes_, all);
+  values_.resize(axes_.size());
+  for (const RateBlock& block : all)
+    values_[block.factors[0].axis].resize(n(), static_cast<Index>(block.size()));
+  std::vector<double> row(functions.size());
   for (Index i = 0; i < n(); ++i) {
-    features.At(rows_[i].x, row);
-    for (Index k = 0; k < values.cols(); ++k) values(i, k) = row[k + 1];
+    functions.At(rows_[i].x, row);
+    const double* next = row.data() + 1;
+    for (const RateBlock& block : all)
+      for (std::size_t k = 0; k < block.size(); ++k)
+        values_[block.factors[0].axis](i, static_cast<Index>(k)) = *next++;
   }
-  return values;
+  for (std::size_t a = 0; a < axes_.size(); ++a)
+    if (!axes_[a].functions.empty()) AddBlock({{{a, 0, SmoothFunctions(axes_[a])}}});
+  eta_ = features_ * coefficients_;
 }
 
-void Fit::AddBlock(ModeFit& fit, const RateBlock& block) {
+MatrixXd Fit::FeaturesOf(const RateBlock& block) const {
+  MatrixXd products = MatrixXd::Ones(n(), 1);
+  for (const RateFactor& factor : block.factors) {
+    const Index count = static_cast<Index>(factor.count);
+    MatrixXd next(n(), products.cols() * count);
+    for (Index i = 0; i < products.cols(); ++i)
+      for (Index k = 0; k < count; ++k)
+        next.col(i * count + k) = products.col(i).cwiseProduct(
+            values_[factor.axis].col(static_cast<Index>(factor.first) + k));
+    products = std::move(next);
+  }
+  return products;
+}
+
+void Fit::AddBlock(const RateBlock& block) {
   const MatrixXd added = FeaturesOf(block);
-  const Index before = fit.features.cols();
-  fit.features.conservativeResize(Eigen::NoChange, before + added.cols());
-  fit.features.rightCols(added.cols()) = added;
-  fit.coefficients.conservativeResize(before + added.cols());
-  fit.coefficients.tail(added.cols()).setZero();
-  fit.blocks.push_back(block);
-  const bool straight = !block.IsProduct() && kind_.axes[block.factors[0].axis].period == 0;
-  if (straight) fit.groups.push_back({before, 1, 1});
-  if (added.cols() > straight)
-    fit.groups.push_back({before + straight, added.cols() - straight, 1});
+  const Index before = features_.cols();
+  features_.conservativeResize(Eigen::NoChange, before + added.cols());
+  features_.rightCols(added.cols()) = added;
+  coefficients_.conservativeResize(before + added.cols());
+  coefficients_.tail(added.cols()).setZero();
+  blocks_.push_back(block);
+  const bool straight = !block.IsProduct() && axes_[block.factors[0].axis].period == 0;
+  if (straight) groups_.push_back({before, 1, 1});
+  if (added.cols() > straight) groups_.push_back({before + straight, added.cols() - straight, 1});
 }
 
-void Fit::Begin() {
-  for (int m = 0; m < kNumFailureModes; ++m) {
-    ModeRates& mode = kind_.modes[m];
-    if (mode.events < kLeastEvents) continue;
-    ModeFit& fit = fits_[m].emplace();
-    fit.features = MatrixXd::Ones(n(), 1);
-    const double rate = std::min(mode.events / likelihood_.Exposure(), 3.0);
-    fit.coefficients = VectorXd::Constant(1, EtaOf(rate));
-    for (std::size_t a = 0; a < kind_.axes.size(); ++a)
-      if (!kind_.axes[a].functions.empty())
-        AddBlock(fit, {{{a, 0, kind_.axes[a].functions.size()}}});
-    fit.eta = fit.features * fit.coefficients;
-    likelihood_.SetRate(m, fit.eta.unaryExpr(&RateOf));
-  }
-  SetConstants();
-}
-
-void Fit::SetConstants() {
-  for (int m = 0; m < kNumFailureModes; ++m)
-    if (!fits_[m])
-      likelihood_.SetRate(m,
-                          VectorXd::Constant(n(), kind_.modes[m].events / likelihood_.Exposure()));
-}
-
-VectorXd Fit::PenaltyOf(const ModeFit& fit) const {
-  VectorXd penalty = VectorXd::Zero(fit.features.cols());
+VectorXd Fit::Penalty() const {
+  VectorXd penalty = VectorXd::Zero(features_.cols());
   penalty[0] = kInterceptPenalty;
-  for (const Group& group : fit.groups)
+  for (const Group& group : groups_)
     penalty.segment(group.begin, group.size).setConstant(group.penalty);
   return penalty;
 }
@@ -167,98 +162,95 @@ MatrixXd Weighed(const MatrixXd& features, const VectorXd& weight) {
   return product.selfadjointView<Eigen::Lower>();
 }
 
-void Fit::MovePenalties(ModeFit& fit) const {
+void Fit::MovePenalties() {
   const MatrixXd covariance =
-      fit.posterior.solve(MatrixXd::Identity(fit.features.cols(), fit.features.cols()));
-  for (Group& group : fit.groups) {
+      posterior_.solve(MatrixXd::Identity(features_.cols(), features_.cols()));
+  for (Group& group : groups_) {
     const double trace = covariance.diagonal().segment(group.begin, group.size).sum();
     const double used = std::max(1e-6, static_cast<double>(group.size) - group.penalty * trace);
-    const double square = fit.coefficients.segment(group.begin, group.size).squaredNorm();
+    const double square = coefficients_.segment(group.begin, group.size).squaredNorm();
     group.penalty =
         std::clamp((used + kLessBending) / std::max(square, 1e-12), kLeastPenalty, kMostPenalty);
   }
 }
 
-void Fit::DropEmptyProducts(ModeFit& fit) const {
+void Fit::DropEmptyProducts() {
   std::vector<Index> kept = {0};  // columns; the first is the constant
   std::vector<RateBlock> blocks;
   std::vector<Group> groups;
   std::size_t g = 0;
   Index end = 1;  // of the block
-  for (const RateBlock& block : fit.blocks) {
+  for (const RateBlock& block : blocks_) {
     end += static_cast<Index>(block.size());
-    const bool stays = !block.IsProduct() || fit.groups[g].penalty < kMostPenalty;
-    for (; g < fit.groups.size() && fit.groups[g].begin < end; ++g) {
+    const bool stays = !block.IsProduct() || groups_[g].penalty < kMostPenalty;
+    for (; g < groups_.size() && groups_[g].begin < end; ++g) {
       if (!stays) continue;
-      Group group = fit.groups[g];
+      Group group = groups_[g];
       group.begin = static_cast<Index>(kept.size());
-      for (Index k = 0; k < group.size; ++k) kept.push_back(fit.groups[g].begin + k);
+      for (Index k = 0; k < group.size; ++k) kept.push_back(groups_[g].begin + k);
       groups.push_back(group);
     }
     if (stays) blocks.push_back(block);
   }
-  if (blocks.size() == fit.blocks.size()) return;
+  if (blocks.size() == blocks_.size()) return;
   MatrixXd features(n(), kept.size());
   VectorXd coefficients(kept.size());
   for (std::size_t c = 0; c < kept.size(); ++c) {
-    features.col(c) = fit.features.col(kept[c]);
-    coefficients[c] = fit.coefficients[kept[c]];
+    features.col(c) = features_.col(kept[c]);
+    coefficients[c] = coefficients_[kept[c]];
   }
-  fit.features = std::move(features);
-  fit.coefficients = std::move(coefficients);
-  fit.blocks = std::move(blocks);
-  fit.groups = std::move(groups);
+  features_ = std::move(features);
+  coefficients_ = std::move(coefficients);
+  blocks_ = std::move(blocks);
+  groups_ = std::move(groups);
 }
 
-void Fit::Turn(int mode, bool move_penalties) {
-  ModeFit& fit = *fits_[mode];
-  if (move_penalties) DropEmptyProducts(fit);
-  const VectorXd penalty = PenaltyOf(fit);
-  fit.eta = fit.features * fit.coefficients;
+void Fit::Turn(bool move_penalties) {
+  if (move_penalties) DropEmptyProducts();
+  const VectorXd penalty = Penalty();
+  eta_ = features_ * coefficients_;
   VectorXd score, information;
-  likelihood_.ScoreAndInformation(mode, score, information);
-  MatrixXd inverse = Weighed(fit.features, information);
+  likelihood_.ScoreAndInformation(eta_, score, information);
+  MatrixXd inverse = Weighed(features_, information);
   inverse.diagonal() += penalty;
-  fit.posterior.compute(inverse);
-  const VectorXd step = fit.posterior.solve(fit.features.transpose() * score -
-                                            penalty.cwiseProduct(fit.coefficients));
-  const VectorXd along = fit.features * step;
+  posterior_.compute(inverse);
+  const VectorXd step =
+      posterior_.solve(features_.transpose() * score - penalty.cwiseProduct(coefficients_));
+  const VectorXd along = features_ * step;
   const auto value = [&](double t) {
-    const VectorXd at = fit.coefficients + t * step;
-    return likelihood_.LogLikelihood(mode, fit.eta + t * along) - at.cwiseAbs2().dot(penalty) / 2;
+    const VectorXd at = coefficients_ + t * step;
+    return likelihood_.Log(eta_ + t * along) - at.cwiseAbs2().dot(penalty) / 2;
   };
   const double before = value(0);
   double t = 1;
   while (t > 1e-3 && !(value(t) >= before)) t /= 2;
   if (t > 1e-3) {
-    fit.coefficients += t * step;
-    fit.eta += t * along;
-    likelihood_.SetRate(mode, fit.eta.unaryExpr(&RateOf));
+    coefficients_ += t * step;
+    eta_ += t * along;
   }
-  if (move_penalties) MovePenalties(fit);
+  if (move_penalties) MovePenalties();
 }
 
 // Rao's score test of each product of two axes that the fit does not have yet.
-void Fit::AddProducts(int mode, std::size_t most) {
-  ModeFit& fit = *fits_[mode];
+void Fit::AddProducts(std::size_t most) {
   VectorXd score, information;
-  likelihood_.ScoreAndInformation(mode, score, information);
-  const MatrixXd weighed = information.asDiagonal() * fit.features;
+  likelihood_.ScoreAndInformation(eta_, score, information);
+  const MatrixXd weighed = information.asDiagonal() * features_;
   struct Candidate {
     double excess;
     RateBlock block;
   };
   std::vector<Candidate> found;
-  for (std::size_t a = 0; a < kind_.axes.size(); ++a)
-    for (std::size_t b = a + 1; b < kind_.axes.size(); ++b) {
-      if (kind_.axes[a].functions.empty() || kind_.axes[b].functions.empty()) continue;
+  for (std::size_t a = 0; a < axes_.size(); ++a)
+    for (std::size_t b = a + 1; b < axes_.size(); ++b) {
+      if (axes_[a].functions.empty() || axes_[b].functions.empty()) continue;
       const RateBlock block = {
-          {{a, 0, FunctionsOfProducts(kind_.axes[a])}, {b, 0, FunctionsOfProducts(kind_.axes[b])}}};
-      if (std::find(fit.blocks.begin(), fit.blocks.end(), block) != fit.blocks.end()) continue;
+          {{a, 0, FunctionsOfProducts(axes_[a])}, {b, 0, FunctionsOfProducts(axes_[b])}}};
+      if (std::find(blocks_.begin(), blocks_.end(), block) != blocks_.end()) continue;
       const MatrixXd added = FeaturesOf(block);
       const MatrixXd across = weighed.transpose() * added;
       MatrixXd inner = added.transpose() * (information.asDiagonal() * added) -
-                       across.transpose() * fit.posterior.solve(across);
+                       across.transpose() * posterior_.solve(across);
       const double scale = inner.diagonal().maxCoeff();
       if (!(scale > 0)) continue;
       inner.diagonal().array() += 1e-6 * scale;
@@ -271,15 +263,14 @@ void Fit::AddProducts(int mode, std::size_t most) {
   std::stable_sort(found.begin(), found.end(),
                    [](const Candidate& p, const Candidate& q) { return p.excess > q.excess; });
   if (found.size() > most) found.resize(most);
-  for (const Candidate& candidate : found) AddBlock(fit, candidate.block);
+  for (const Candidate& candidate : found) AddBlock(candidate.block);
 }
 
 // What bends where several things come together, as a limit of height that is the product of what
-// friction, speed and direction do to it. Of the axes that matter most, what the mode's eta is as a
-// function of each becomes one more function of that axis, and the products of these, of two to
-// four axes, one coefficient each, are added.
-void Fit::AddProductsOfWholes(int mode) {
-  ModeFit& fit = *fits_[mode];
+// friction, speed and direction do to it. Of the axes that matter most, what eta is as a function
+// of each becomes one more function of that axis, and the products of these, of two to four axes,
+// one coefficient each, are added.
+void Fit::AddProductsOfWholes() {
   struct Whole {
     double spread;
     std::size_t axis;
@@ -287,11 +278,11 @@ void Fit::AddProductsOfWholes(int mode) {
   };
   std::vector<Whole> wholes;
   Index column = 1;
-  for (const RateBlock& block : fit.blocks) {
+  for (const RateBlock& block : blocks_) {
     const Index size = static_cast<Index>(block.size());
-    const VectorXd of = fit.coefficients.segment(column, size);
+    const VectorXd of = coefficients_.segment(column, size);
     const double spread =
-        (fit.features.middleCols(column, size) * of).norm() / std::sqrt(static_cast<double>(n()));
+        (features_.middleCols(column, size) * of).norm() / std::sqrt(static_cast<double>(n()));
     column += size;
     if (!block.IsProduct() && spread > kLeastSpread)
       wholes.push_back({spread, block.factors[0].axis, of / spread});
@@ -301,7 +292,7 @@ void Fit::AddProductsOfWholes(int mode) {
   if (wholes.size() > kMostWholes) wholes.resize(kMostWholes);
   std::vector<RateFactor> factors;
   for (const Whole& whole : wholes) {
-    RateAxis& axis = kind_.axes[whole.axis];
+    RateAxis& axis = axes_[whole.axis];
     factors.push_back({whole.axis, axis.functions.size(), 1});
     std::vector<double> at_knots(axis.knots.size(), 0);
     for (Index k = 0; k < whole.coefficients.size(); ++k)
@@ -309,89 +300,48 @@ void Fit::AddProductsOfWholes(int mode) {
         at_knots[j] += whole.coefficients[k] * axis.functions[k][j];
     for (double& value : at_knots) value = RoundedTo6(value);
     axis.functions.push_back(std::move(at_knots));
+    MatrixXd& values = values_[whole.axis];
+    values.conservativeResize(Eigen::NoChange, values.cols() + 1);
+    values.rightCols(1) = values.leftCols(whole.coefficients.size()) * whole.coefficients;
   }
   for (unsigned chosen = 1; chosen < 1u << factors.size(); ++chosen) {
     if (std::popcount(chosen) < 2 || std::popcount(chosen) > 4) continue;
     RateBlock block;
     for (std::size_t w = 0; w < factors.size(); ++w)
       if (chosen >> w & 1) block.factors.push_back(factors[w]);
-    AddBlock(fit, block);
+    AddBlock(block);
   }
 }
 
 void Fit::Run() {
-  Begin();
   const auto turns = [&](int count, bool move_penalties) {
-    for (int t = 0; t < count; ++t) {
-      for (int m = 0; m < kNumFailureModes; ++m)
-        if (fits_[m]) Turn(m, move_penalties);
-      SetConstants();
-    }
+    for (int t = 0; t < count; ++t) Turn(move_penalties);
   };
   turns(3, false);
   turns(10, true);
-  for (int round = 0; round < kProductRounds; ++round) {
-    for (int m = 0; m < kNumFailureModes; ++m)
-      if (fits_[m] && kind_.modes[m].events >= kEventsForProducts) AddProducts(m, kMostProducts);
-    turns(10, true);
+  if (std::min(events_, others_) >= kEventsForProducts) {
+    for (int round = 0; round < kProductRounds; ++round) {
+      AddProducts(kMostProducts);
+      turns(10, true);
+    }
+    AddProductsOfWholes();
+    turns(15, true);
   }
-  for (int m = 0; m < kNumFailureModes; ++m)
-    if (fits_[m] && kind_.modes[m].events >= kEventsForProducts) AddProductsOfWholes(m);
-  turns(15, true);
   turns(6, false);
 }
 
-// The inverse covariance of the coefficients of all fitted modes, one mode's behind the other's.
 MatrixXd Fit::InverseCovariance() const {
-  Index size = 0;
-  for (const auto& fit : fits_)
-    if (fit) size += fit->coefficients.size();
-  MatrixXd inverse = MatrixXd::Zero(size, size);
-  Index row = 0;
-  for (int m = 0; m < kNumFailureModes; ++m) {
-    if (!fits_[m]) continue;
-    const ModeFit& fit = *fits_[m];
-    const Index p = fit.coefficients.size();
-    VectorXd score, information;
-    likelihood_.ScoreAndInformation(m, score, information);
-    const MatrixXd of_data = Weighed(fit.features, information);
-    VectorXd penalty = PenaltyOf(fit);
-    for (const Group& group : fit.groups) {
-      const double known = of_data.diagonal().segment(group.begin, group.size).mean();
-      penalty.segment(group.begin, group.size)
-          .setConstant(std::min(group.penalty, kStiffest * known));
-    }
-    inverse.block(row, row, p, p) = of_data;
-    inverse.block(row, row, p, p).diagonal() += penalty;
-    Index column = 0;
-    for (int k = 0; k < m; ++k) {
-      if (!fits_[k]) continue;
-      const MatrixXd& others = fits_[k]->features;
-      inverse.block(row, column, p, others.cols()) =
-          fit.features.transpose() * (likelihood_.SharedInformation(m, k).asDiagonal() * others);
-      column += others.cols();
-    }
-    row += p;
+  VectorXd score, information;
+  likelihood_.ScoreAndInformation(eta_, score, information);
+  MatrixXd inverse = Weighed(features_, information);
+  VectorXd penalty = Penalty();
+  for (const Group& group : groups_) {
+    const double known = inverse.diagonal().segment(group.begin, group.size).mean();
+    penalty.segment(group.begin, group.size)
+        .setConstant(std::min(group.penalty, kStiffest * known));
   }
-  return inverse.selfadjointView<Eigen::Lower>();
-}
-
-// Of the probability that a meeting fails by the coefficients, by row.
-MatrixXd Fit::FailureSlopes() const {
-  Index size = 0;
-  for (const auto& fit : fits_)
-    if (fit) size += fit->coefficients.size();
-  MatrixXd slopes(n(), size);
-  Index column = 0;
-  for (int m = 0; m < kNumFailureModes; ++m) {
-    if (!fits_[m]) continue;
-    const VectorXd by_eta =
-        (-likelihood_.total()).array().exp() * (1 - (-likelihood_.rates().col(m)).array().exp());
-    const Index p = fits_[m]->coefficients.size();
-    slopes.middleCols(column, p) = by_eta.asDiagonal() * fits_[m]->features;
-    column += p;
-  }
-  return slopes;
+  inverse.diagonal() += penalty;
+  return inverse;
 }
 
 std::vector<double> Rounded(const VectorXd& from) {
@@ -400,34 +350,30 @@ std::vector<double> Rounded(const VectorXd& from) {
   return to;
 }
 
-void Fit::Write(std::string_view name) {
-  const MatrixXd deviations = MemberDeviations(InverseCovariance(), FailureSlopes(), name);
-
-  Index row = 0;
-  for (int m = 0; m < kNumFailureModes; ++m) {
-    ModeRates& mode = kind_.modes[m];
-    if (!fits_[m]) {
-      if (mode.events > 0)
-        SetConstantRate(likelihood_.Exposure(), mode.events / likelihood_.Exposure(),
-                        std::string(name) + "." + std::string(Name(FailureMode(m))), mode);
-      continue;
-    }
-    const ModeFit& fit = *fits_[m];
-    const Index p = fit.coefficients.size();
-    mode.blocks = fit.blocks;
-    mode.coefficients = Rounded(fit.coefficients);
-    for (Index r = 0; r < deviations.cols(); ++r)
-      mode.members.push_back(Rounded(fit.coefficients + deviations.col(r).segment(row, p)));
-    row += p;
-  }
+LinearPredictor Fit::Result(std::string_view name) const {
+  // Of the probability that it happens (in a metre) by the coefficients.
+  const VectorXd by_eta = eta_.unaryExpr([](double eta) {
+    const double p = 1 / (1 + std::exp(-eta));
+    return p * (1 - p);
+  });
+  const MatrixXd deviations =
+      MemberDeviations(InverseCovariance(), by_eta.asDiagonal() * features_, name);
+  LinearPredictor of;
+  of.events = static_cast<int>(events_);
+  of.blocks = blocks_;
+  of.coefficients = Rounded(coefficients_);
+  for (Index r = 0; r < deviations.cols(); ++r)
+    of.members.push_back(Rounded(coefficients_ + deviations.col(r)));
+  return of;
 }
 
 }  // namespace
 
-void FitKindRates(const std::vector<RateRow>& rows, std::string_view name, KindRates& kind) {
-  Fit fit(rows, kind);
+LinearPredictor FitPredictor(const std::vector<RateRow>& rows, bool per_metre,
+                             std::string_view name, std::vector<RateAxis>& axes) {
+  Fit fit(rows, per_metre, axes);
   fit.Run();
-  fit.Write(name);
+  return fit.Result(name);
 }
 
 }  // namespace floorproof

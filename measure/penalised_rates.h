@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rates of one kind of meeting, fitted: penalised maximum likelihood, how smooth chosen by the
-// evidence of the data.
+// One eta of the rates of a kind of meeting, fitted: penalised maximum likelihood, how smooth
+// chosen by the evidence of the data.
 #pragma once
 
 #include <string_view>
@@ -11,11 +11,12 @@
 
 namespace floorproof {
 
-// Sets kind.modes from rows that are all of this kind; kind.axes and kind.per_metre are set. Modes
-// that happened fewer than kLeastEvents times get one rate everywhere; of one that never did the
-// coefficients are left empty (fit_rates.h says what becomes of it). `name` is of the random stream
-// that the posterior's members are drawn from.
+// Fewer events, or fewer rows without one, say too little for an eta that depends on anything.
 inline constexpr int kLeastEvents = 10;
-void FitKindRates(const std::vector<RateRow>& rows, std::string_view name, KindRates& kind);
+
+// From rows of which at least one has an event and one has none. Functions that it is made of may
+// be added to the axes. `name` is of the random stream that the posterior's members are drawn from.
+LinearPredictor FitPredictor(const std::vector<RateRow>& rows, bool per_metre,
+                             std::string_view name, std::vector<RateAxis>& axes);
 
 }  // namespace floorproof

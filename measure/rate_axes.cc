@@ -152,9 +152,14 @@ RateAxis MakeRateAxis(std::string name, bool of_hazard, std::vector<double> valu
   return axis;
 }
 
+std::size_t SmoothFunctions(const RateAxis& axis) {
+  if (axis.functions.empty()) return 0;
+  return axis.knots.size() - (IsPeriodic(axis) ? 2 : 1);
+}
+
 std::size_t FunctionsOfProducts(const RateAxis& axis) {
   constexpr std::size_t kFew = 3, kPeriodicFew = 8;  // four waves a turn: a Mecanum robot's
-  return std::min(axis.functions.size(), IsPeriodic(axis) ? kPeriodicFew : kFew);
+  return std::min(SmoothFunctions(axis), IsPeriodic(axis) ? kPeriodicFew : kFew);
 }
 
 }  // namespace floorproof

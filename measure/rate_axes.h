@@ -19,7 +19,9 @@ namespace floorproof {
 // to before it; else as periodic, with 12 knots.
 RateAxis MakeRateAxis(std::string name, bool of_hazard, std::vector<double> values, double period);
 
-// How many of its functions products are made of.
+// How many functions MakeRateAxis gave it: the first ones. Fits add others.
+std::size_t SmoothFunctions(const RateAxis& axis);
+// How many of these products are made of.
 std::size_t FunctionsOfProducts(const RateAxis& axis);
 
 }  // namespace floorproof

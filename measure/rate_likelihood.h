@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The likelihood of measured meetings under rates that compete, and its derivatives.
+// The likelihood of what happened or did not, under one eta, and its derivatives.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,36 +9,28 @@
 
 namespace floorproof {
 
-// A meeting as a fit sees it.
+// A meeting, or a failure, as the fit of one eta sees it.
 struct RateRow {
   std::vector<double> x;  // by axis
-  double way_m = 1;       // of an exposure; 1 where rates are a meeting's
-  int mode = -1;          // that ended it; -1: cleared
+  double way_m = 1;       // of an exposure; 1 where it is a meeting's
+  bool happened = false;
 };
 
-// At given rates of all rows and modes: a meeting's, or (per_metre) a metre's.
+// Per metre: a Poisson process with rate log(1 + exp(eta)), which ends where it happened. Else it
+// happens with probability 1 / (1 + exp(-eta)) = 1 - exp(-log(1 + exp(eta))). Etas are by row.
 class RateLikelihood {
  public:
-  RateLikelihood(const std::vector<RateRow>& rows, bool per_metre);  // the rows outlive it
+  RateLikelihood(const std::vector<RateRow>& rows, bool per_metre)  // the rows outlive it
+      : rows_(rows), per_metre_(per_metre) {}
 
-  void SetRate(int mode, const Eigen::VectorXd& by_row);
-  const Eigen::MatrixXd& rates() const { return rates_; }  // by row, by mode
-  const Eigen::VectorXd& total() const { return total_; }  // by row: Lambda
-
-  // With the mode's rates by these etas (rate_model.h) in place of those that were set.
-  double LogLikelihood(int mode, const Eigen::VectorXd& eta) const;
-  // By the mode's eta, by row: first derivative, and expectation of minus the second.
-  void ScoreAndInformation(int mode, Eigen::VectorXd& score, Eigen::VectorXd& information) const;
-  // By the etas of two modes, by row: expectation of minus the mixed second derivative.
-  Eigen::VectorXd SharedInformation(int one, int other) const;
-  // Meetings, or way, each counted up to where it ended: events of a mode by this are its rate.
-  double Exposure() const;
+  double Log(const Eigen::VectorXd& eta) const;
+  // By eta, by row: first derivative, and expectation of minus the second.
+  void ScoreAndInformation(const Eigen::VectorXd& eta, Eigen::VectorXd& score,
+                           Eigen::VectorXd& information) const;
 
  private:
   const std::vector<RateRow>& rows_;
   bool per_metre_;
-  Eigen::MatrixXd rates_;
-  Eigen::VectorXd total_;
 };
 
 }  // namespace floorproof

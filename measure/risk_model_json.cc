@@ -21,20 +21,18 @@ Json JsonOf(const RateAxis& axis) {
   return json;
 }
 
-Json JsonOf(const ModeRates& mode) {
-  Json json;
-  json["events"] = mode.events;
+void Add(const LinearPredictor& of, Json& json) {
+  json["events"] = of.events;
   json["blocks"] = Json::array();
-  for (const RateBlock& block : mode.blocks) {
+  for (const RateBlock& block : of.blocks) {
     Json numbers = Json::array();
     for (const RateFactor& factor : block.factors)
       for (const std::size_t number : {factor.axis, factor.first, factor.count})
         numbers.push_back(number);
     json["blocks"].push_back(std::move(numbers));
   }
-  json["coefficients"] = mode.coefficients;
-  json["members"] = mode.members;
-  return json;
+  json["coefficients"] = of.coefficients;
+  json["members"] = of.members;
 }
 
 Json JsonOf(const KindRates& kind) {
@@ -48,8 +46,14 @@ Json JsonOf(const KindRates& kind) {
   json["way_m"] = kind.way_m;
   json["axes"] = Json::array();
   for (const RateAxis& axis : kind.axes) json["axes"].push_back(JsonOf(axis));
-  for (int m = 0; m < kNumFailureModes; ++m)
-    json["modes"][std::string(Name(FailureMode(m)))] = JsonOf(kind.modes[m]);
+  Add(kind.any, json["any"]);
+  json["splits"] = Json::array();
+  for (const ModeSplit& split : kind.splits) {
+    Json each;
+    each["mode"] = Name(split.mode);
+    Add(split.of, each);
+    json["splits"].push_back(std::move(each));
+  }
   return json;
 }
 

@@ -22,9 +22,12 @@ constexpr double kMostBeyond = 10;
 
 std::vector<RateBlock> AllBlocks(const KindRates& kind) {
   std::vector<RateBlock> all;
-  for (const ModeRates& mode : kind.modes)
-    for (const RateBlock& block : mode.blocks)
+  const auto add = [&](const LinearPredictor& predictor) {
+    for (const RateBlock& block : predictor.blocks)
       if (std::find(all.begin(), all.end(), block) == all.end()) all.push_back(block);
+  };
+  add(kind.any);
+  for (const ModeSplit& split : kind.splits) add(split.of);
   return all;
 }
 
@@ -85,17 +88,16 @@ void RateFeatures::At(std::span<const double> x, std::span<double> out) const {
 }
 
 RateEvaluator::RateEvaluator(const KindRates& kind)
-    : kind_(kind), features_(kind.axes, AllBlocks(kind)) {
-  constexpr Eigen::Index kModes = kNumFailureModes;
-  best_.setZero(features_.size(), kModes);
-  members_ = Rows::Zero(features_.size(), kModes * kRateMembers);
-  change_ = Rows::Ones(kind.axes.size(), kModes);
-  for (Eigen::Index m = 0; m < kModes; ++m) {
-    const ModeRates& mode = kind.modes[m];
+    : kind_(kind), last_(LastMode(kind)), features_(kind.axes, AllBlocks(kind)) {
+  best_.setZero(features_.size(), kEtas);
+  members_ = Rows::Zero(features_.size(), kEtas * kRateMembers);
+  change_ = Rows::Ones(kind.axes.size(), kEtas);
+  for (Eigen::Index e = 0; e < kEtas; ++e) {
+    const LinearPredictor& of = predictor(e);
     const auto place = [&](const std::vector<double>& from, auto& to, Eigen::Index column) {
       to(0, column) = from[0];
       std::size_t next = 1;
-      for (const RateBlock& block : mode.blocks)
+      for (const RateBlock& block : of.blocks)
         for (std::size_t b = 0; b < features_.blocks().size(); ++b)
           if (features_.blocks()[b] == block) {
             for (std::size_t k = 0; k < block.size(); ++k)
@@ -103,19 +105,19 @@ RateEvaluator::RateEvaluator(const KindRates& kind)
             next += block.size();
           }
     };
-    place(mode.coefficients, best_, m);
-    for (std::size_t r = 0; r < kRateMembers; ++r) place(mode.members[r], members_, r * kModes + m);
+    place(of.coefficients, best_, e);
+    for (std::size_t r = 0; r < kRateMembers; ++r) place(of.members[r], members_, r * kEtas + e);
     std::size_t next = 1;
-    for (const RateBlock& block : mode.blocks) {
+    for (const RateBlock& block : of.blocks) {
       if (!block.IsProduct()) {
         const RateFactor& factor = block.factors[0];
         const RateAxis& axis = kind.axes[factor.axis];
         Eigen::VectorXd eta = Eigen::VectorXd::Zero(axis.knots.size());
         for (std::size_t k = 0; k < factor.count; ++k)
-          eta += mode.coefficients[next + k] *
-                 Eigen::Map<const Eigen::VectorXd>(axis.functions[factor.first + k].data(),
-                                                   eta.size());
-        change_(factor.axis, m) += eta.maxCoeff() - eta.minCoeff();
+          eta +=
+              of.coefficients[next + k] * Eigen::Map<const Eigen::VectorXd>(
+                                              axis.functions[factor.first + k].data(), eta.size());
+        change_(factor.axis, e) += eta.maxCoeff() - eta.minCoeff();
       }
       next += block.size();
     }
@@ -129,33 +131,43 @@ double RateEvaluator::Beyond(std::span<const double> x) const {
   return most;
 }
 
+ModeNumbers RateEvaluator::RatesOf(const Etas& etas) const {
+  ModeNumbers rates;
+  double left = RateOf(etas[0]);
+  for (std::size_t k = 0; k < kind_.splits.size(); ++k) {
+    const double odds = std::exp(-etas[static_cast<Eigen::Index>(k) + 1]);  // of those left
+    const double taken = left / (1 + odds);
+    rates[static_cast<std::size_t>(kind_.splits[k].mode)] = taken;
+    left = std::max(0.0, left - taken);
+  }
+  rates[static_cast<std::size_t>(last_)] = left;
+  return rates;
+}
+
 ModeNumbers RateEvaluator::At(std::span<const double> x) const {
   thread_local std::vector<double> features;
   features.resize(features_.size());
   features_.At(x, features);
-  Eigen::Array<double, 1, kNumFailureModes> eta = Eigen::Array<double, 1, kNumFailureModes>::Zero();
+  Etas etas = Etas::Zero();
   for (std::size_t f = 0; f < features.size(); ++f)
-    eta += features[f] * best_.row(static_cast<Eigen::Index>(f)).array();
-  ModeNumbers rates;
-  for (int m = 0; m < kNumFailureModes; ++m) rates[m] = RateOf(eta[m]);
-  return rates;
+    etas += features[f] * best_.row(static_cast<Eigen::Index>(f)).array();
+  return RatesOf(etas);
 }
 
 std::array<ModeNumbers, kRateMembers> RateEvaluator::MembersAt(std::span<const double> x) const {
   std::vector<double> features(features_.size());
   features_.At(x, features);
   const Eigen::Map<const Eigen::RowVectorXd> row(features.data(), features.size());
-  Eigen::RowVectorXd eta = row * members_;
+  Eigen::RowVectorXd etas = row * members_;
   for (std::size_t a = 0; a < x.size(); ++a) {
     const double beyond = std::min(floorproof::Beyond(kind_.axes[a], x[a]), kMostBeyond);
     if (beyond == 0) continue;
     for (std::size_t r = 0; r < kRateMembers; ++r)
-      for (int m = 0; m < kNumFailureModes; ++m)
-        eta[r * kNumFailureModes + m] += Score(r, a) * beyond * change_(a, m);
+      etas.segment<kEtas>(r * kEtas) += Score(r, a) * beyond * change_.row(a);
   }
   std::array<ModeNumbers, kRateMembers> rates;
   for (std::size_t r = 0; r < kRateMembers; ++r)
-    for (int m = 0; m < kNumFailureModes; ++m) rates[r][m] = RateOf(eta[r * kNumFailureModes + m]);
+    rates[r] = RatesOf(etas.segment<kEtas>(r * kEtas).array());
   return rates;
 }
 

@@ -12,7 +12,7 @@
 
 namespace floorproof {
 
-// All functions and products of functions that some mode's rates are made of, at one x.
+// All functions and products of functions that some eta is made of, at one x.
 class RateFeatures {
  public:
   // The axes outlive it.
@@ -43,16 +43,26 @@ class RateEvaluator {
   // By the best coefficients. A meeting's, or a metre's.
   ModeNumbers At(std::span<const double> x) const;
   // By each member of the posterior. Beyond what was measured they part: by a whole range beyond,
-  // eta is as uncertain (one standard deviation) as all that it changes over that range, and 1.
+  // each eta is as uncertain (one standard deviation) as all that it changes over that range,
+  // and 1.
   std::array<ModeNumbers, kRateMembers> MembersAt(std::span<const double> x) const;
 
  private:
+  // Of any failure, then the splits'.
+  static constexpr Eigen::Index kEtas = kNumFailureModes;
+  using Etas = Eigen::Array<double, 1, kEtas>;
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const LinearPredictor& predictor(Eigen::Index eta) const {
+    return eta == 0 ? kind_.any : kind_.splits[eta - 1].of;
+  }
+  ModeNumbers RatesOf(const Etas& etas) const;
+
   const KindRates& kind_;
+  FailureMode last_;
   RateFeatures features_;
-  Eigen::Matrix<double, Eigen::Dynamic, kNumFailureModes, Eigen::RowMajor> best_;  // by feature
-  Rows members_;  // by feature, by member and mode
-  Rows change_;   // by axis, by mode: what eta may change by over the axis's range
+  Eigen::Matrix<double, Eigen::Dynamic, kEtas, Eigen::RowMajor> best_;  // by feature
+  Rows members_;  // by feature, by member and eta
+  Rows change_;   // by axis, by eta: what it may change by over the axis's range
 };
 
 }  // namespace floorproof

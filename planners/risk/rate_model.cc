@@ -23,6 +23,12 @@ Approach Unmirrored(Approach at) {
 
 }  // namespace
 
+FailureMode LastMode(const KindRates& kind) {
+  int last = kNumFailureModes * (kNumFailureModes - 1) / 2;  // all modes' numbers together
+  for (const ModeSplit& split : kind.splits) last -= static_cast<int>(split.mode);
+  return FailureMode(last);
+}
+
 const KindRates* FindKind(const RiskModel& model, std::string_view type, Passage passage) {
   for (const KindRates& kind : model.kinds)
     if (kind.type == type && kind.passage == passage) return &kind;

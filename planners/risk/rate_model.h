@@ -2,13 +2,18 @@
 // How often each failure happens to one robot, a meeting with a hazard or a metre of floor, as was
 // measured: the risk model. Plain numbers; docs/risk-model.md has the formulas and the file.
 //
-// Competing risks: in a meeting with covariates x each failure mode m has its own rate lambda_m(x).
-// The meeting is cleared with probability exp(-Lambda), Lambda the sum over modes; mode m comes
-// first with lambda_m / Lambda (1 - exp(-Lambda)) (Prentice et al., Biometrics 34 (1978) 541).
-//   lambda_m = log(1 + exp(eta_m)), eta_m = intercept + sum of smooth functions of one covariate
-//            + sum of products of such functions of several
-// For rates well below 1 eta is log lambda; above it grows linearly. With one mode alone this is
-// logistic regression, so one lucky robot far beyond a limit does not bend the whole model.
+// Competing risks (Prentice et al., Biometrics 34 (1978) 541): a meeting with covariates x fails
+// with rate Lambda(x), is cleared with probability exp(-Lambda), and fails first in mode m with
+// lambda_m / Lambda (1 - exp(-Lambda)). Lambda is of all failures together; each mode has a share:
+//   Lambda = log(1 + exp(eta_0)): logistic regression of whether a meeting fails
+//   lambda_m = Lambda times m's share. Modes are split off one after the other (continuation
+//   ratios;
+//     Fienberg, The Analysis of Cross-Classified Categorical Data (1980), section 6.6): of what is
+//     left, the k-th takes 1 / (1 + exp(-eta_k)), and the last mode all.
+//   eta = intercept + sum of smooth functions of one covariate
+//       + sum of products of such functions of several
+// So a mode that is hardly ever seen is as rare on mild meetings as failures are there. Above 1
+// Lambda grows linearly: one lucky robot far beyond a limit does not bend the whole model.
 #pragma once
 
 #include <array>
@@ -23,7 +28,7 @@
 
 namespace floorproof {
 
-inline constexpr int kRiskModelVersion = 1;
+inline constexpr int kRiskModelVersion = 2;
 // Vectors drawn from the posterior of the coefficients, beside the best one.
 inline constexpr std::size_t kRateMembers = 16;
 
@@ -58,11 +63,18 @@ struct RateBlock {
   }
 };
 
-struct ModeRates {
-  int events = 0;  // how often it was measured
+// One eta (GLM's linear predictor).
+struct LinearPredictor {
+  int events = 0;  // how often what it is the odds of was measured
   std::vector<RateBlock> blocks;
   std::vector<double> coefficients;          // the intercept, then the blocks' in order
   std::vector<std::vector<double>> members;  // as many again, kRateMembers times
+};
+
+// A mode that is split off the failures which are left.
+struct ModeSplit {
+  FailureMode mode = FailureMode::kVeerOff;
+  LinearPredictor of;
 };
 
 // The rates of meetings of one kind.
@@ -73,7 +85,9 @@ struct KindRates {
   int encounters = 0, cleared = 0, censored = 0;  // measured; the rest failed
   double way_m = 0;                               // in all of them
   std::vector<RateAxis> axes;
-  std::array<ModeRates, kNumFailureModes> modes;
+  LinearPredictor any;  // failure
+  // In the order in which they are split off. The mode that stands in none takes what is left.
+  std::array<ModeSplit, kNumFailureModes - 1> splits;
 };
 
 // A kind that was met too rarely to say anything.
@@ -103,6 +117,8 @@ struct RiskModel {
   std::vector<UnmeasuredKind> unmeasured;
 };
 
+// The mode that takes what the splits leave.
+FailureMode LastMode(const KindRates& kind);
 // None: nothing was measured of it.
 const KindRates* FindKind(const RiskModel& model, std::string_view type, Passage passage);
 

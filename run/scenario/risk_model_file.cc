@@ -130,25 +130,56 @@ RateBlock ReadBlock(const ConfigNode& node, const std::string& path,
   return block;
 }
 
-ModeRates ReadMode(const ConfigNode& node, const std::string& path,
-                   const std::vector<RateAxis>& axes) {
-  const Keys keys(node, path, {"events", "blocks", "coefficients", "members"});
-  ModeRates mode;
-  mode.events = keys.Count("events");
+LinearPredictor ReadPredictor(const Keys& keys, const std::vector<RateAxis>& axes) {
+  LinearPredictor of;
+  of.events = keys.Count("events");
   std::size_t size = 1;
   for (const ConfigNode& block : keys.List("blocks")) {
-    mode.blocks.push_back(ReadBlock(block, keys.Path("blocks"), axes));
-    size += mode.blocks.back().size();
+    of.blocks.push_back(ReadBlock(block, keys.Path("blocks"), axes));
+    size += of.blocks.back().size();
   }
-  mode.coefficients =
-      Numbers(keys.At("coefficients"), keys.Path("coefficients"), kCoefficient, size);
+  of.coefficients = Numbers(keys.At("coefficients"), keys.Path("coefficients"), kCoefficient, size);
   const std::vector<ConfigNode>& members = keys.List("members");
   if (members.size() != kRateMembers)
     throw InputError(keys.At("members").mark, keys.Path("members"), "",
                      fmt::format("must be {} lists", kRateMembers));
   for (const ConfigNode& member : members)
-    mode.members.push_back(Numbers(member, keys.Path("members"), kCoefficient, size));
-  return mode;
+    of.members.push_back(Numbers(member, keys.Path("members"), kCoefficient, size));
+  return of;
+}
+
+FailureMode ReadMode(const Keys& keys) {
+  const std::string text = keys.Text("mode");
+  std::vector<std::string> names;
+  for (int m = 0; m < kNumFailureModes; ++m) {
+    names.emplace_back(Name(FailureMode(m)));
+    if (text == names.back()) return FailureMode(m);
+  }
+  throw InputError(keys.At("mode").mark, keys.Path("mode"), text,
+                   fmt::format("must be one of {}", fmt::join(names, ", ")));
+}
+
+void ReadSplits(const Keys& of_kind, KindRates& kind) {
+  const std::vector<ConfigNode>& nodes = of_kind.List("splits");
+  if (nodes.size() != kind.splits.size())
+    throw InputError(of_kind.At("splits").mark, of_kind.Path("splits"), "",
+                     fmt::format("must be {} maps", kind.splits.size()));
+  int left = kind.any.events;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const Keys keys(nodes[k], fmt::format("{}.{}", of_kind.Path("splits"), k),
+                    {"mode", "events", "blocks", "coefficients", "members"});
+    ModeSplit& split = kind.splits[k];
+    split.mode = ReadMode(keys);
+    for (std::size_t before = 0; before < k; ++before)
+      if (kind.splits[before].mode == split.mode)
+        throw InputError(keys.At("mode").mark, keys.Path("mode"), std::string(Name(split.mode)),
+                         "must be split off once");
+    split.of = ReadPredictor(keys, kind.axes);
+    if (split.of.events > left)
+      throw InputError(keys.At("events").mark, keys.Path("events"), std::to_string(split.of.events),
+                       fmt::format("must be at most the failures left, {}", left));
+    left -= split.of.events;
+  }
 }
 
 Passage ReadPassage(const Keys& keys) {
@@ -156,9 +187,9 @@ Passage ReadPassage(const Keys& keys) {
 }
 
 KindRates ReadKind(const ConfigNode& node, const std::string& path) {
-  const Keys keys(
-      node, path,
-      {"type", "passage", "per", "encounters", "cleared", "censored", "way_m", "axes", "modes"});
+  const Keys keys(node, path,
+                  {"type", "passage", "per", "encounters", "cleared", "censored", "way_m", "axes",
+                   "any", "splits"});
   KindRates kind;
   kind.type = keys.Text("type");
   kind.passage = ReadPassage(keys);
@@ -170,18 +201,16 @@ KindRates ReadKind(const ConfigNode& node, const std::string& path) {
   std::size_t number = 0;
   for (const ConfigNode& axis : keys.List("axes"))
     kind.axes.push_back(ReadAxis(axis, fmt::format("{}.{}", keys.Path("axes"), number++)));
-  std::vector<std::string> names;
-  for (int m = 0; m < kNumFailureModes; ++m) names.emplace_back(Name(FailureMode(m)));
-  const Keys modes(keys.At("modes"), keys.Path("modes"), names);
-  std::int64_t outcomes = static_cast<std::int64_t>(kind.cleared) + kind.censored;
-  for (int m = 0; m < kNumFailureModes; ++m) {
-    kind.modes[m] = ReadMode(modes.At(names[m]), modes.Path(names[m]), kind.axes);
-    outcomes += kind.modes[m].events;
-  }
+  kind.any = ReadPredictor(
+      {keys.At("any"), keys.Path("any"), {"events", "blocks", "coefficients", "members"}},
+      kind.axes);
+  ReadSplits(keys, kind);
+  const std::int64_t outcomes =
+      static_cast<std::int64_t>(kind.cleared) + kind.censored + kind.any.events;
   if (outcomes != kind.encounters)
     throw InputError(
         keys.At("encounters").mark, keys.Path("encounters"), std::to_string(kind.encounters),
-        fmt::format("must be cleared, censored and the modes' events together, {}", outcomes));
+        fmt::format("must be cleared, censored and the failures together, {}", outcomes));
   return kind;
 }
 

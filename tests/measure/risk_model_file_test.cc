@@ -82,9 +82,9 @@ TEST(RiskModelFile, SaysWhatIsWrongAndWhere) {
     const char *old, *now, *says;
   };
   for (const Case& c : {
-           Case{"\"risk_model\": 1", "\"risk_model\": 2",
-                "risk_model.json:2: risk_model = 2: must be in [1, 1]"},
-           Case{"\"risk_model\": 1", "\"fmea\": 1", "risk_model: the key is missing"},
+           Case{"\"risk_model\": 2", "\"risk_model\": 1",
+                "risk_model.json:2: risk_model = 1: must be in [2, 2]"},
+           Case{"\"risk_model\": 2", "\"fmea\": 2", "risk_model: the key is missing"},
            Case{"\"mirrored\": true,\n", "", "mirrored: the key is missing"},
            Case{"\"mirrored\"", "\"mirored\"", "mirored: unknown key; did you mean mirrored?"},
            Case{"\"passage\": \"over\"", "\"passage\": \"under\"",
@@ -97,6 +97,13 @@ TEST(RiskModelFile, SaysWhatIsWrongAndWhere) {
            Case{"\"way_m\": 0.0", "\"way_m\": -2.0", "kinds.0.way_m = -2.0: must be >= 0"},
            Case{"\"blocks\": []", "\"blocks\": [[99, 0, 1]]", "blocks = 99: must be in [0,"},
            Case{"\"members\": [", "\"members\": [[1], ", "must be 16 lists"},
+           Case{"\"mode\": \"stuck\"", "\"mode\": \"lost\"",
+                "mode = lost: must be one of veer_off, stuck, roll_over, bounce_back"},
+           Case{"\"mode\": \"stuck\"", "\"mode\": \"veer_off\"",
+                "mode = veer_off: must be split off once"},
+           Case{"\"mode\": \"stuck\",\n     \"events\": ",
+                "\"mode\": \"stuck\",\n     \"events\": 9", "must be at most the failures left"},
+           Case{"\"splits\": [", "\"splits\": [{}, ", "kinds.0.splits: must be 3 maps"},
            Case{"\"mass_kg\": 12.3", "\"mass_kg\": -1", "robot.mass_kg = -1: must be >= 0"},
            Case{"\"mass_kg\": 12.3", "\"mass_kg\": \"heavy\"", "robot.mass_kg"},
            Case{"\"type\": \"step\",\n   \"passage\": \"beside\"",

@@ -11,6 +11,7 @@
 #include "run/episode/make_plan.h"
 #include "run/episode/plain_draws.h"
 #include "run/episode/plan_inputs.h"
+#include "tests/planners/planted_modes.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {
@@ -36,15 +37,10 @@ KindRates Planted(const char* type, Passage passage, double rate_at_04, double r
   friction.knots = {0.4, 0.6, 0.8};
   friction.functions = {{-1, 0, 1}};
   kind.axes = {friction};
-  for (ModeRates& mode : kind.modes) {
-    mode.coefficients = {-50};
-    mode.members.assign(kRateMembers, mode.coefficients);
-  }
+  testing::PlantShares({0, 1, 0, 0}, kind);
   const double low = EtaOf(rate_at_04), high = EtaOf(rate_at_08);
-  ModeRates& stuck = kind.modes[kStuck];
-  stuck.blocks = {{{{0, 0, 1}}}};
-  stuck.coefficients = {(low + high) / 2, (high - low) / 2};
-  stuck.members.assign(kRateMembers, stuck.coefficients);
+  kind.any = testing::Point({(low + high) / 2, (high - low) / 2});
+  kind.any.blocks = {{{{0, 0, 1}}}};
   return kind;
 }
 

@@ -6,6 +6,7 @@
 
 #include "env/geometry/geometry.h"
 #include "planners/risk/rate_model.h"
+#include "tests/planners/planted_modes.h"
 
 namespace floorproof::testing {
 
@@ -15,13 +16,7 @@ inline KindRates PlantedKind(const std::string& type, Passage passage, double ra
   kind.type = type;
   kind.passage = passage;
   kind.encounters = kind.cleared = 1000;
-  for (ModeRates& mode : kind.modes) {
-    mode.coefficients = {-50};
-    mode.members.assign(kRateMembers, mode.coefficients);
-  }
-  ModeRates& stuck = kind.modes[static_cast<std::size_t>(FailureMode::kStuck)];
-  stuck.coefficients = {EtaOf(rate)};
-  stuck.members.assign(kRateMembers, stuck.coefficients);
+  PlantRates({0, rate, 0, 0}, kind);
   return kind;
 }
 
@@ -38,10 +33,8 @@ inline KindRates PlantedBy(const std::string& axis_name, bool of_hazard, double 
   axis.knots = {lower, (lower + upper) / 2, upper};
   axis.functions = {{-1, 0, 1}};
   kind.axes = {axis};
-  ModeRates& stuck = kind.modes[static_cast<std::size_t>(FailureMode::kStuck)];
-  stuck.blocks = {{{{0, 0, 1}}}};
-  stuck.coefficients = {(low + high) / 2, (high - low) / 2};
-  stuck.members.assign(kRateMembers, stuck.coefficients);
+  kind.any = Point({(low + high) / 2, (high - low) / 2});
+  kind.any.blocks = {{{{0, 0, 1}}}};
   return kind;
 }
 

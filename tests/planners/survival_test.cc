@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/streams.h"
 #include "env/geometry/geometry.h"
+#include "tests/planners/planted_modes.h"
 
 namespace floorproof {
 namespace {
@@ -22,16 +23,13 @@ constexpr std::size_t kVeerOff = static_cast<std::size_t>(FailureMode::kVeerOff)
 KindRates Constant(const ModeNumbers& rates) {
   KindRates kind;
   kind.type = "step";
-  for (int m = 0; m < kNumFailureModes; ++m) {
-    kind.modes[m].coefficients = {rates[m] > 0 ? EtaOf(rates[m]) : -100};
-    kind.modes[m].members.assign(kRateMembers, kind.modes[m].coefficients);
-  }
+  testing::PlantRates(rates, kind);
   return kind;
 }
 
 // Of `stuck`, eta falls from `high` to `low` in a straight line over frictions from 0.4 to 0.8.
 KindRates StuckByFriction(double high, double low) {
-  KindRates kind = Constant({});
+  KindRates kind = Constant({0, 1, 0, 0});
   RateAxis axis;
   axis.name = "friction";
   axis.lower = 0.4;
@@ -39,10 +37,8 @@ KindRates StuckByFriction(double high, double low) {
   axis.knots = {0.4, 0.6, 0.8};
   axis.functions = {{-1, 0, 1}};
   kind.axes = {axis};
-  ModeRates& stuck = kind.modes[kStuck];
-  stuck.blocks = {{{{0, 0, 1}}}};
-  stuck.coefficients = {(high + low) / 2, (low - high) / 2};
-  stuck.members.assign(kRateMembers, stuck.coefficients);
+  kind.any = testing::Point({(high + low) / 2, (low - high) / 2});
+  kind.any.blocks = {{{{0, 0, 1}}}};
   return kind;
 }
 
@@ -162,8 +158,7 @@ TEST(Survival, IntervalsGrowWithWhatTheModelDoesNotKnow) {
   KindRates kind = Constant({0.1, 0, 0, 0});
   const auto width = [&](double spread) {
     for (std::size_t r = 0; r < kRateMembers; ++r)
-      kind.modes[kVeerOff].members[r][0] =
-          kind.modes[kVeerOff].coefficients[0] + (r % 2 == 0 ? spread : -spread);
+      kind.any.members[r][0] = kind.any.coefficients[0] + (r % 2 == 0 ? spread : -spread);
     const RateEvaluator rates(kind);
     const std::vector<PlannedMeeting> meetings(3, {&rates, {}, {}, 1});
     const Probability p = Predict(meetings, Same(1, 3)).no_failure;
