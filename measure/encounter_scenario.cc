@@ -85,7 +85,7 @@ std::string MetBy(const RobotSpec& robot) {
   lines += Line("estimator.start_error_y_m", Normal(kAside_m));
   lines += Line("estimator.start_error_yaw_deg", Normal(kAstray_deg));
   if (robot.turn_radius_m == 0) {  // a corner is no arc
-    lines += Line("plan.lanes", "choice: [one, one, one, aside, back, thrice]");
+    lines += Line("plan.lanes", "choice: [one, aside, back, thrice, thrice]");
     // From before the hazard to behind it; from half a turn in two unlike halves to two right
     // angles; as far aside as lanes are apart, and farther.
     const double width_m = 2 * robot.circumscribed_radius_m;
