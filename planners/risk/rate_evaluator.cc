@@ -17,8 +17,38 @@ double Score(std::size_t member, std::size_t axis) {
   return kScores[(member * 5 + axis * 3) % kRateMembers];
 }
 
-// Farther beyond than this nothing more is said.
-constexpr double kMostBeyond = 10;
+// Farther beyond than this, in ranges, it counts as this.
+constexpr double kMostBeyond = 3;
+// What eta may change by over the range of an axis that shows no effect, or never varied.
+constexpr double kLeastChange = 0.25;
+
+// Of a function of the axis, over its range.
+double Change(const RateAxis& axis, const Eigen::VectorXd& of_functions, std::size_t first) {
+  Eigen::VectorXd eta = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(axis.knots.size()));
+  for (Eigen::Index k = 0; k < of_functions.size(); ++k)
+    eta += of_functions[k] *
+           Eigen::Map<const Eigen::VectorXd>(
+               axis.functions[first + static_cast<std::size_t>(k)].data(), eta.size());
+  return eta.maxCoeff() - eta.minCoeff();
+}
+
+// What a block changes by over the range of one of its axes, where the others' functions, whose
+// mean square is 1 or less, are as usual.
+double Change(const std::vector<RateAxis>& axes, const RateBlock& block,
+              std::span<const double> coefficients, std::size_t which) {
+  std::size_t behind = 1;  // products for each function of the factor
+  for (std::size_t f = which + 1; f < block.factors.size(); ++f) behind *= block.factors[f].count;
+  const RateFactor& factor = block.factors[which];
+  double squares = 0;
+  Eigen::VectorXd of_functions(static_cast<Eigen::Index>(factor.count));
+  for (std::size_t i = 0; i < block.size() / factor.count; ++i) {
+    const std::size_t begin = i / behind * behind * factor.count + i % behind;
+    for (std::size_t k = 0; k < factor.count; ++k)
+      of_functions[static_cast<Eigen::Index>(k)] = coefficients[begin + k * behind];
+    squares += std::pow(Change(axes[factor.axis], of_functions, factor.first), 2);
+  }
+  return std::sqrt(squares);
+}
 
 std::vector<RateBlock> AllBlocks(const KindRates& kind) {
   std::vector<RateBlock> all;
@@ -91,7 +121,7 @@ RateEvaluator::RateEvaluator(const KindRates& kind)
     : kind_(kind), last_(LastMode(kind)), features_(kind.axes, AllBlocks(kind)) {
   best_.setZero(features_.size(), kEtas);
   members_ = Rows::Zero(features_.size(), kEtas * kRateMembers);
-  change_ = Rows::Ones(kind.axes.size(), kEtas);
+  change_ = Rows::Zero(kind.axes.size(), kEtas);
   for (Eigen::Index e = 0; e < kEtas; ++e) {
     const LinearPredictor& of = predictor(e);
     const auto place = [&](const std::vector<double>& from, auto& to, Eigen::Index column) {
@@ -109,19 +139,14 @@ RateEvaluator::RateEvaluator(const KindRates& kind)
     for (std::size_t r = 0; r < kRateMembers; ++r) place(of.members[r], members_, r * kEtas + e);
     std::size_t next = 1;
     for (const RateBlock& block : of.blocks) {
-      if (!block.IsProduct()) {
-        const RateFactor& factor = block.factors[0];
-        const RateAxis& axis = kind.axes[factor.axis];
-        Eigen::VectorXd eta = Eigen::VectorXd::Zero(axis.knots.size());
-        for (std::size_t k = 0; k < factor.count; ++k)
-          eta +=
-              of.coefficients[next + k] * Eigen::Map<const Eigen::VectorXd>(
-                                              axis.functions[factor.first + k].data(), eta.size());
-        change_(factor.axis, e) += eta.maxCoeff() - eta.minCoeff();
-      }
+      const std::span<const double> coefficients(of.coefficients.data() + next, block.size());
+      for (std::size_t f = 0; f < block.factors.size(); ++f)
+        change_(block.factors[f].axis, e) = std::hypot(change_(block.factors[f].axis, e),
+                                                       Change(kind.axes, block, coefficients, f));
       next += block.size();
     }
   }
+  change_ = change_.cwiseMax(kLeastChange);
 }
 
 double RateEvaluator::Beyond(std::span<const double> x) const {

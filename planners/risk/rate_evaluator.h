@@ -43,8 +43,8 @@ class RateEvaluator {
   // By the best coefficients. A meeting's, or a metre's.
   ModeNumbers At(std::span<const double> x) const;
   // By each member of the posterior. Beyond what was measured they part: by a whole range beyond,
-  // each eta is as uncertain (one standard deviation) as all that it changes over that range,
-  // and 1.
+  // each eta is as uncertain (one standard deviation) as all that it changes over that range, at
+  // least by a quarter; from three ranges on no more.
   std::array<ModeNumbers, kRateMembers> MembersAt(std::span<const double> x) const;
 
  private:

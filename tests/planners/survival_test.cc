@@ -154,6 +154,52 @@ TEST(Survival, BeyondWhatWasMeasuredIsSaidAndLessCertain) {
   EXPECT_LT(far.no_failure.lower, beyond.no_failure.lower - 0.1);
 }
 
+// Of one crossing at this place beyond what was measured.
+Probability FailureAt(const KindRates& kind, const Approach& at) {
+  const RateEvaluator rates(kind);
+  const std::vector<PlannedMeeting> meetings(1, {&rates, {}, {}, 1});
+  const Probability p = Predict(meetings, Same(1, 1, at)).no_failure;
+  return {1 - p.value, 1 - p.upper, 1 - p.lower};
+}
+
+TEST(Survival, BeyondWhatNeverMatteredIsALittleLessCertain) {
+  KindRates kind = Constant({0.01, 0, 0, 0});
+  kind.axes.resize(1);
+  kind.axes[0].name = "mass_kg";
+  kind.axes[0].lower = kind.axes[0].upper = 10;
+  Approach at;
+  at.mass_kg = 10;
+  EXPECT_NEAR(FailureAt(kind, at).upper, 0.01, 1e-4);
+  at.mass_kg = 20;
+  EXPECT_GT(FailureAt(kind, at).upper, 0.013);
+  EXPECT_LT(FailureAt(kind, at).upper, 0.03);
+  at.mass_kg = 300;  // counts as 40
+  EXPECT_LT(FailureAt(kind, at).upper, 0.1);
+}
+
+// Friction matters at high speeds one way, at low ones the other: no function of it alone.
+TEST(Survival, BeyondWhatMattersTogetherWithOthersIsLessCertain) {
+  KindRates kind = Constant({0.01, 0, 0, 0});
+  kind.axes.resize(2);
+  kind.axes[0].name = "friction";
+  kind.axes[0].lower = 0.4, kind.axes[0].upper = 0.8;
+  kind.axes[1].name = "speed_mps";
+  kind.axes[1].lower = 0.1, kind.axes[1].upper = 0.3;
+  for (RateAxis& axis : kind.axes) {
+    axis.knots = {axis.lower, axis.upper};
+    axis.functions = {{-1, 1}};
+  }
+  Approach at;
+  at.friction = 1.2;
+  at.speed_mps = 0.2;
+  const Probability without = FailureAt(kind, at);
+  kind.any = testing::Point({kind.any.coefficients[0], 1});
+  kind.any.blocks = {{{{0, 0, 1}, {1, 0, 1}}}};
+  const Probability with = FailureAt(kind, at);
+  EXPECT_NEAR(with.value, without.value, 1e-12);
+  EXPECT_GT(with.upper, 3 * without.upper);
+}
+
 TEST(Survival, IntervalsGrowWithWhatTheModelDoesNotKnow) {
   KindRates kind = Constant({0.1, 0, 0, 0});
   const auto width = [&](double spread) {
