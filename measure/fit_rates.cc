@@ -36,7 +36,9 @@ bool IsOfExposures(const ApproachColumn& column) {
   return std::ranges::find(kOfExposures, column.member) != std::end(kOfExposures);
 }
 
-std::vector<RateAxis> AxesOf(const Meetings& met, bool mirrored) {
+constexpr std::string_view kLead = "lead_rad";
+
+std::vector<RateAxis> AxesOf(const Meetings& met, const RateFitOptions& options) {
   std::vector<RateAxis> axes;
   for (const auto& first : met.front()->size) {
     const std::string& key = first.first;
@@ -52,15 +54,16 @@ std::vector<RateAxis> AxesOf(const Meetings& met, bool mirrored) {
   const bool exposed = IsExposure(met.front()->type);
   for (const ApproachColumn& column : kApproach) {
     if (exposed && !IsOfExposures(column)) continue;
+    if (!options.holonomic && column.name == kLead) continue;
     axes.emplace_back();
     axes.back().name = column.name;
   }
   std::vector<std::vector<double>> x;
-  for (const Encounter* e : met) x.push_back(CovariatesOf(axes, mirrored, *e));
+  for (const Encounter* e : met) x.push_back(CovariatesOf(axes, options.mirrored, *e));
   for (std::size_t a = 0; a < axes.size(); ++a) {
     std::vector<double> values;
     for (const std::vector<double>& row : x) values.push_back(row[a]);
-    const bool turns = !axes[a].of_hazard && axes[a].name == "lead_rad";
+    const bool turns = !axes[a].of_hazard && axes[a].name == kLead;
     axes[a] = MakeRateAxis(axes[a].name, axes[a].of_hazard, std::move(values), turns ? 2 * kPi : 0);
   }
   return axes;
@@ -134,7 +137,7 @@ std::optional<KindRates> FitKind(const Meetings& all, const RateFitOptions& opti
                               options.least_encounters)};
     return std::nullopt;
   }
-  kind.axes = AxesOf(met, options.mirrored);
+  kind.axes = AxesOf(met, options);
   std::vector<RateRow> rows, failures;
   std::vector<int> modes;
   for (const Encounter* e : met) {

@@ -12,6 +12,8 @@ namespace floorproof {
 struct RateFitOptions {
   // The robot is its own mirror image: a meeting counts for its mirror image too.
   bool mirrored = false;
+  // The robot can go sideways; else the side that leads is no covariate.
+  bool holonomic = true;
   // Fewer meetings of a kind than this say too little for rates that depend on anything.
   int least_encounters = 50;
 };

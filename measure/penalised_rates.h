@@ -12,7 +12,7 @@
 namespace floorproof {
 
 // Fewer events, or fewer rows without one, say too little for an eta that depends on anything.
-inline constexpr int kLeastEvents = 10;
+inline constexpr int kLeastEvents = 5;
 
 // From rows of which at least one has an event and one has none. Functions that it is made of may
 // be added to the axes. `name` is of the random stream that the posterior's members are drawn from.

@@ -7,6 +7,7 @@
 
 #include "base/file_output.h"
 #include "base/quantity.h"
+#include "controllers/drive.h"
 #include "env/scene/measured_block.h"
 #include "measure/fit_rates.h"
 #include "measure/measured_fmea.h"
@@ -39,6 +40,7 @@ std::optional<RiskModel> WriteRiskFiles(const CampaignStore& store, const RobotM
   const std::vector<Encounter> encounters = AllEncounters(store);
   RateFitOptions options;
   options.mirrored = IsMirrorImage(spec);
+  options.holonomic = IsHolonomic(spec);
   RiskModel model = FitRates(
       encounters,
       {spec.name, spec.drive, spec.mass_kg, spec.clearance_m, ModelHash(robot.files, {})}, options);
