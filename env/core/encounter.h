@@ -85,6 +85,17 @@ struct Encounter {
   Outcome outcome = Outcome::kCensored;
   FailureMode mode = FailureMode::kVeerOff;  // of kFailed
   int drive = -1;  // among encounters of several drives, which it belongs to; -1: to none known
+  // The hardest fall or blow, J (run/episode/blow_meter.h): while the robot was in it; of a
+  // failure, to the end of the drive.
+  double energy_j = 0;
+  // What became of the robot after a failure. Unseen: nothing failed, or the drive did not go on by
+  // itself.
+  enum class After { kUnseen, kRecovered, kNeedsHelp };
+  After after = After::kUnseen;
+  // Whether its sensors told of the hazard while it could still have stopped before it. Unseen: it
+  // has no sensors that could.
+  enum class Sensed { kUnseen, kInTime, kNotInTime };
+  Sensed sensed = Sensed::kUnseen;
 };
 inline constexpr std::string_view kWallBeside = "wall_beside", kFreeFloor = "free_floor";
 
@@ -94,5 +105,8 @@ constexpr std::string_view OutcomeText(const Encounter& encounter) {
   if (encounter.outcome == Encounter::Outcome::kCensored) return "censored";
   return Name(encounter.mode);
 }
+// Their values' names in tables, in order.
+inline constexpr std::array<std::string_view, 3> kAfterNames = {"", "recovered", "needs_help"};
+inline constexpr std::array<std::string_view, 3> kSensedNames = {"", "in_time", "not_in_time"};
 
 }  // namespace floorproof

@@ -135,7 +135,10 @@ void CampaignStore::CheckTables() {
     if (info.Text(6) != "0") refuse("table encounter computes a column");
     there.push_back({info.Text(1), info.Text(2)});
   }
-  if (!std::ranges::equal(there, ColumnsOfEncounters(), [](const Column& a, const Column& b) {
+  std::vector<Column> wanted = ColumnsOfEncounters();
+  knows_effects_ = there.size() == wanted.size();
+  if (!knows_effects_) wanted.resize(wanted.size() - kNewEncounterColumns);
+  if (!std::ranges::equal(there, wanted, [](const Column& a, const Column& b) {
         return a.name == b.name && b.type == a.type + " NOT NULL";
       }))
     refuse("table encounter has not the columns of one");
@@ -177,7 +180,7 @@ void CampaignStore::CheckEncounters() const {
   const std::vector<Column> columns = ColumnsOfEncounters();
   while (select.Step()) {
     std::string why;
-    for (int i = 0; i < static_cast<int>(columns.size()) && why.empty(); ++i) {
+    for (int i = 0; i < sqlite3_column_count(select.handle) && why.empty(); ++i) {
       const std::string& declared = columns[static_cast<std::size_t>(i)].type;
       const int type = sqlite3_column_type(select.handle, i);
       const bool is_text = declared.starts_with("TEXT");
@@ -206,6 +209,10 @@ void CampaignStore::RequireColumns() const {
     throw InputError({file_.string(), 0}, "", "",
                      "is another version's: it has no table encounter; it can be read, not gone on "
                      "with: start anew in another folder");
+  if (!knows_effects_)
+    throw InputError({file_.string(), 0}, "", "",
+                     "is another version's: its table encounter has no column energy_j; it can be "
+                     "read, not gone on with: start anew in another folder");
   std::vector<std::string> wanted;
   for (const Column& column : Columns()) wanted.push_back(column.name);
   for (const std::string table : {"episode", "extra"}) {

@@ -132,10 +132,12 @@ struct CampaignStore::Statement {
   }
 
   // Of a SELECT of the columns of table `encounter` from kFirstOfEncounter on, which begin at this
-  // one.
+  // one and stand last.
   Encounter EncounterAt(int column) const {
+    const int end = sqlite3_column_count(handle);
     std::vector<EncounterValue> values;
     for (const EncounterColumn& of : EncounterColumns()) {
+      if (column == end) break;
       if (of.is_text)
         values.emplace_back(Text(column));
       else

@@ -36,10 +36,12 @@ void TakeSize(const Hazard& hazard, const Vec2& travel_W,
 
 }  // namespace
 
-EncounterMeter::EncounterMeter(const HazardMap& map, const RobotSpec& robot, bool holds_yaw)
+EncounterMeter::EncounterMeter(const HazardMap& map, const RobotSpec& robot, bool holds_yaw,
+                               const HazardSight* sight)
     : map_(map),
       robot_(robot),
       holds_yaw_(holds_yaw),
+      sight_(sight),
       parts_(map, IsOfTheSite),
       watch_(parts_, map.hazards.size(), robot) {
   constexpr std::size_t kLive = 32;
@@ -58,9 +60,9 @@ void EncounterMeter::OnControl(const Sample& sample, const Estimate& estimate, c
   const Vec2 travel_W = way_m >= kMoved_m ? Vec2((X_WB.p() - last_.p()) / way_m) : Vec2(0, 0);
   if (!parts_.empty()) {
     watch_.Update(X_WB, travel_W, way_m_, sample.shape);
-    Follow(sample, path);
+    if (!watched_) Follow(sample, path);
   }
-  AddExposure(sample, way_m, has_last_ ? sample.t_s - last_s_ : 0);
+  if (!watched_) AddExposure(sample, way_m, has_last_ ? sample.t_s - last_s_ : 0);
   last_ = X_WB;
   last_s_ = sample.t_s;
   has_last_ = true;
@@ -70,12 +72,15 @@ void EncounterMeter::Follow(const Sample& sample, const Path* path) {
   for (const Meeting& meeting : watch_.ended()) End(meeting);
   for (const Meeting& meeting : watch_.open()) {
     const auto at = std::ranges::find(live_, meeting.id, &Live::meeting);
-    Live& live = at == live_.end() ? Begin(meeting, sample, path) : *at;
+    const bool begins = at == live_.end();
+    Live& live = begins ? Begin(meeting, sample, path) : *at;
     Encounter& row = rows_[live.row];
-    if (live.from_m != meeting.from_m) {
+    const bool enters = begins || live.from_m != meeting.from_m;
+    if (enters && !begins) {
       live.from_m = meeting.from_m;
       TakeEntry(meeting, sample, row);
     }
+    TakeSensed(sample, enters, live);
     row.at.heading_rad = meeting.heading_rad;
     row.at.lead_rad = meeting.lead_rad;
     if (meeting.inside) row.time_s = sample.t_s - row.t_s;
@@ -89,6 +94,16 @@ void EncounterMeter::Follow(const Sample& sample, const Path* path) {
   }
 }
 
+// As it enters; and anew when it is upon it, up to which it could have stopped as well.
+void EncounterMeter::TakeSensed(const Sample& sample, bool enters, Live& live) {
+  if (live.seen_as < 0) return;
+  const bool comes_upon = !live.upon && sight_->IsUpon(live.seen_as, sample);
+  live.upon = live.upon || comes_upon;
+  if (comes_upon || (enters && !live.upon))
+    rows_[live.row].sensed =
+        sight_->InTime(live.seen_as) ? Encounter::Sensed::kInTime : Encounter::Sensed::kNotInTime;
+}
+
 EncounterMeter::Live& EncounterMeter::Begin(const Meeting& meeting, const Sample& sample,
                                             const Path* path) {
   const Hazard& hazard = map_.hazards[static_cast<std::size_t>(meeting.hazard)];
@@ -96,7 +111,8 @@ EncounterMeter::Live& EncounterMeter::Begin(const Meeting& meeting, const Sample
   row.hazard = hazard.id;
   row.type = hazard.type;
   TakeEntry(meeting, sample, row);
-  Live live{meeting.id, rows_.size(), meeting.from_m, false};
+  Live live{meeting.id, rows_.size(), meeting.from_m};
+  if (sight_ != nullptr) live.seen_as = sight_->IndexOf(hazard.id);
   if (path != nullptr && !path->empty())
     if (const auto planned = NextPassage(parts_, map_, robot_, sample.X_WB(), *path,
                                          sample.command.segment, holds_yaw_, meeting.hazard)) {
@@ -164,10 +180,35 @@ void EncounterMeter::OnEvent(const Event& event) {
     if (row->outcome == Encounter::Outcome::kFailed) return;  // the first is what it is counted by
     row->outcome = Encounter::Outcome::kFailed;
     row->mode = event.mode;
+    if (!failed_) failed_ = {false, static_cast<std::size_t>(row - rows_.data())};
     return;
   }
   const bool wall = event.hazard == "wall" || at_wall_;
   CloseExposure(wall ? kWallBeside : kFreeFloor, Encounter::Outcome::kFailed, event.mode);
+  if (!failed_) failed_ = {true, exposures_.size() - 1};
+}
+
+Encounter* EncounterMeter::Failed() {
+  if (!failed_) return nullptr;
+  return &(failed_->is_exposure ? exposures_ : rows_)[failed_->row];
+}
+
+void EncounterMeter::OnBlow(double energy_j) {
+  const auto take = [energy_j](Encounter& row) { row.energy_j = std::max(row.energy_j, energy_j); };
+  if (Encounter* failed = Failed(); failed != nullptr && watched_) return take(*failed);
+  for (const Live& live : live_) take(rows_[live.row]);
+}
+
+bool EncounterMeter::HasLeftFailure() const {
+  if (!failed_ || failed_->is_exposure) return true;
+  return std::ranges::none_of(watch_.open(), [&](const Meeting& meeting) {
+    return meeting.inside &&
+           map_.hazards[static_cast<std::size_t>(meeting.hazard)].id == rows_[failed_->row].hazard;
+  });
+}
+
+void EncounterMeter::TakeAfter(Encounter::After after) {
+  if (Encounter* failed = Failed()) failed->after = after;
 }
 
 void EncounterMeter::Lift() {

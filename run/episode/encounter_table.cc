@@ -46,6 +46,18 @@ void TakeOutcome(const std::string& text, Encounter& encounter) {
   throw InternalError("no outcome of an encounter: " + text);
 }
 
+// The place of the text among these names, as the enumerator's value.
+template <class Enum>
+Enum NamedBy(const std::array<std::string_view, 3>& names, const std::string& text) {
+  const auto at = std::ranges::find(names, text);
+  if (at == names.end()) throw InternalError("none of an encounter's words: " + text);
+  return static_cast<Enum>(at - names.begin());
+}
+template <class Enum>
+std::string NameOf(const std::array<std::string_view, 3>& names, Enum value) {
+  return std::string(names[static_cast<std::size_t>(value)]);
+}
+
 }  // namespace
 
 const std::vector<EncounterColumn>& EncounterColumns() {
@@ -55,6 +67,9 @@ const std::vector<EncounterColumn>& EncounterColumns() {
     for (const ApproachColumn& column : kApproach) columns.push_back({column.name});
     for (const PlaceColumn& column : kPlace) columns.push_back({column.name});
     columns.push_back({"outcome", true});
+    columns.push_back({"energy_j"});
+    columns.push_back({"after", true});
+    columns.push_back({"sensed", true});
     return columns;
   }();
   return kColumns;
@@ -66,11 +81,15 @@ std::vector<EncounterValue> EncounterValues(const Encounter& encounter) {
   for (const ApproachColumn& column : kApproach) values.emplace_back(encounter.at.*column.member);
   for (const PlaceColumn& column : kPlace) values.emplace_back(encounter.*column.member);
   values.emplace_back(std::string(OutcomeText(encounter)));
+  values.emplace_back(encounter.energy_j);
+  values.emplace_back(NameOf(kAfterNames, encounter.after));
+  values.emplace_back(NameOf(kSensedNames, encounter.sensed));
   return values;
 }
 
 Encounter EncounterOf(std::span<const EncounterValue> values) {
-  if (values.size() != EncounterColumns().size())
+  const std::size_t all = EncounterColumns().size();
+  if (values.size() != all && values.size() != all - kNewEncounterColumns)
     throw InternalError("a row of encounters has another number of columns");
   try {
     Encounter encounter;
@@ -88,7 +107,11 @@ Encounter EncounterOf(std::span<const EncounterValue> values) {
       encounter.at.*column.member = std::get<double>(values[at++]);
     for (const PlaceColumn& column : kPlace)
       encounter.*column.member = std::get<double>(values[at++]);
-    TakeOutcome(std::get<std::string>(values[at]), encounter);
+    TakeOutcome(std::get<std::string>(values[at++]), encounter);
+    if (at == values.size()) return encounter;
+    encounter.energy_j = std::get<double>(values[at++]);
+    encounter.after = NamedBy<Encounter::After>(kAfterNames, std::get<std::string>(values[at++]));
+    encounter.sensed = NamedBy<Encounter::Sensed>(kSensedNames, std::get<std::string>(values[at]));
     return encounter;
   } catch (const std::bad_variant_access&) {
     throw InternalError("a row of encounters has values of other types");

@@ -15,6 +15,8 @@
 #include "env/core/failure_text.h"
 #include "env/failures/evidence.h"
 #include "env/sim/physics_plant.h"
+#include "run/episode/aftermath.h"
+#include "run/episode/blow_meter.h"
 #include "run/episode/encounter_meter.h"
 #include "run/episode/episode_stream.h"
 #include "run/episode/go_to_navigator.h"
@@ -40,6 +42,13 @@ std::string Text(const Timeout& timeout, const HazardMap& map) {
 template <class T>
 const T* OrNull(const std::optional<T>& value) {
   return value ? &*value : nullptr;
+}
+
+std::optional<HazardSight> SightOf(const Scenario& s) {
+  std::vector<Reading> readings;
+  for (const NamedSensor& each : s.sensors) readings.push_back(each.sensor->Fills());
+  if (!HazardSight::Sees(readings)) return std::nullopt;
+  return HazardSight(s.site.map, s.robot.spec, 1.0 / s.episode.control_hz);
 }
 
 }  // namespace
@@ -105,6 +114,8 @@ class EpisodeLoop {
       record.message = robot_side_.supervisor()->stopped();
     if (record.message.empty()) record.message = interventions_.why_not();
     record.TakeMissed(robot_side_.missed());
+    encounters_.OnBlow(blows_.Take());
+    if (aftermath_.watched()) encounters_.TakeAfter(After(ended));
     record.encounters = encounters_.Finish();
     return record;
   }
@@ -112,6 +123,7 @@ class EpisodeLoop {
  private:
   std::optional<Outcome> Control();
   std::optional<Outcome> Step();
+  std::optional<Outcome> Failed();
 
   std::optional<Outcome> AdvanceAndSweep() {
     const std::optional<Outcome> ended = Advance();
@@ -139,6 +151,7 @@ class EpisodeLoop {
   bool Detect();
   std::optional<Outcome> HandedOver(const Supervisor& supervisor);
   Timeout Unfinished() const;
+  Encounter::After After(Outcome ended) const;
 
   Scenario& s_;
   Plant& plant_;
@@ -150,7 +163,10 @@ class EpisodeLoop {
   double plan_m_, limit_s_ = 0;
   std::int64_t steps_a_control_;
   Recorder recorder_;
+  BlowMeter blows_;
+  std::optional<HazardSight> sight_;  // none: it has no sensors that could tell of hazards
   EncounterMeter encounters_;
+  Aftermath aftermath_;
   Interventions interventions_;
   std::unique_ptr<Navigator> navigator_;
   RobotSide robot_side_;
@@ -176,7 +192,9 @@ EpisodeLoop::EpisodeLoop(Scenario& s, Plant& plant, Simulation* simulation, cons
                        : std::max(Length(plan.path), 1e-9)),
       steps_a_control_(std::lround(1.0 / (s.episode.control_hz * s.physics.timestep_s))),
       recorder_(s, area_, plan),
-      encounters_(true_, robot_, IsHolonomic(robot_)),
+      blows_(robot_, s.physics.timestep_s),
+      sight_(SightOf(s)),
+      encounters_(true_, robot_, IsHolonomic(robot_), OrNull(sight_)),
       interventions_(s),
       navigator_(navigator ? std::move(navigator) : MakeNavigator(s, plan, known_)),
       robot_side_(robot_, known_, *navigator_,
@@ -200,6 +218,8 @@ void EpisodeLoop::Begin() {
 std::optional<Outcome> EpisodeLoop::Control() {
   Act(interventions_.awaited() ? robot_side_.Stand() : robot_side_.Control(sensed_));
   recorder_.OnControl(sample_, robot_side_.estimate());
+  if (sight_) sight_->OnControl(sensed_, sample_);
+  encounters_.OnBlow(blows_.Take());
   encounters_.OnControl(sample_, robot_side_.estimate(),
                         navigator_->free() ? nullptr : &robot_side_.path());
 
@@ -216,6 +236,7 @@ std::optional<Outcome> EpisodeLoop::Control() {
     if (sample_.battery_v == 0) return Outcome::kFailure;  // cut off while it waited
     recorder_.OnIntervention(interventions_.SetDown(plant_, robot_side_), s_.detectors);
     encounters_.Lift();
+    blows_.Lift();
     Look();
     robot_side_.Helped(sample_.X_WB(), EpisodeStream(s_, "estimator"), sample_.t_s);
     Act(robot_side_.actuation());
@@ -257,6 +278,7 @@ std::optional<Outcome> EpisodeLoop::Step() {
   if (std::exchange(carried_, sample_.carried) != sample_.carried) {
     recorder_.OnCarried(s_.detectors);
     encounters_.Lift();
+    blows_.Lift();
     StartDetectors();  // nothing that it did brought it there
   }
   if (navigator_->free()) {
@@ -270,12 +292,37 @@ std::optional<Outcome> EpisodeLoop::Step() {
   }
   met_.Update(sample_);
   recorder_.OnStep(sample_);
+  blows_.OnStep(sample_);
+  aftermath_.OnStep(sample_.t_s, sample_.progress_m);
 
   if (interventions_.awaited()) return std::nullopt;  // that it does not get on is known
-  if (Detect() && s_.episode.on_failure != "ignore" &&
-      !interventions_.Call(robot_side_.path(), sample_))
-    return Outcome::kFailure;
-  return std::nullopt;
+  if (aftermath_.watched())                           // it has failed: nothing more is judged
+    return aftermath_.HasEnded(sample_.t_s) ? std::optional(Outcome::kFailure) : std::nullopt;
+  return Detect() ? Failed() : std::nullopt;
+}
+
+// Something did, just now.
+std::optional<Outcome> EpisodeLoop::Failed() {
+  if (s_.episode.on_failure == "ignore") return std::nullopt;
+  if (s_.episode.on_failure == "watch") {
+    aftermath_.OnFailure(sample_.t_s);
+    encounters_.OnBlow(blows_.Take());
+    encounters_.Watch();
+    return std::nullopt;
+  }
+  if (interventions_.Call(robot_side_.path(), sample_)) return std::nullopt;
+  return Outcome::kFailure;
+}
+
+// What became of a robot that failed, by what ended its drive: the watch, or its plan's end. Where
+// the time limit or somebody else did, nobody knows.
+Encounter::After EpisodeLoop::After(Outcome ended) const {
+  constexpr double kUpright_rad = 45 * kPi / 180;
+  if (ended != Outcome::kFailure && ended != Outcome::kSuccess) return Encounter::After::kUnseen;
+  // One that goes by its wheels' turns may take itself to be at its end.
+  const bool recovered = (ended == Outcome::kSuccess || aftermath_.Gains(sample_.t_s)) &&
+                         sample_.tilt_rad < kUpright_rad && encounters_.HasLeftFailure();
+  return recovered ? Encounter::After::kRecovered : Encounter::After::kNeedsHelp;
 }
 
 void EpisodeLoop::Act(const Actuation& actuation) {

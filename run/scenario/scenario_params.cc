@@ -18,9 +18,10 @@ void VideoParams::Visit(ParamVisitor& v) {
 void EpisodeParams::Visit(ParamVisitor& v) {
   v("control_hz", control_hz, Between(1, 2000), "control periods a second");
   v("trace_hz", trace_hz, Between(1, 2000), "rows of trace.csv a second");
-  v("on_failure", on_failure, {"stop", "assist", "ignore"},
+  v("on_failure", on_failure, {"stop", "assist", "ignore", "watch"},
     "stop: the first failure ends the episode; assist: after each, a person sets the robot down "
-    "farther along its path; ignore: it is logged and the drive goes on");
+    "farther along its path; ignore: it is logged and the drive goes on; watch: the first is all "
+    "that is judged, and the drive goes on while the robot gains way");
   v.Group(
       "success",
       [this](ParamVisitor& g) {
