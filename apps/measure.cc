@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "apps/campaign_line.h"
+#include "base/error.h"
 #include "base/interrupt.h"
+#include "base/params.h"
 #include "measure/drive_encounters.h"
 #include "measure/risk_files.h"
 #include "report/campaign_words.h"
@@ -21,9 +24,22 @@ std::uint64_t EnoughEpisodes(std::size_t variants) {
 
 struct Options : CampaignArguments {
   std::string robot;
+  std::optional<double> recoverable_mm, lasting_mm;
 };
 
+DamageLimits LimitsOf(const Options& options) {
+  DamageLimits limits;
+  if (options.recoverable_mm) limits.recoverable_drop_m = *options.recoverable_mm / 1000;
+  if (options.lasting_mm) limits.lasting_drop_m = *options.lasting_mm / 1000;
+  if (limits.recoverable_drop_m > limits.lasting_drop_m)
+    throw InputError(
+        {"--recoverable-drop", 0}, "", FormatDouble(1000 * limits.recoverable_drop_m),
+        "must not be more than --lasting-drop, " + FormatDouble(1000 * limits.lasting_drop_m));
+  return limits;
+}
+
 int RunIt(const Options& options, const Globals& globals) {
+  const DamageLimits limits = LimitsOf(options);
   const EncounterCampaign campaign = EncountersOf(options.robot, OverridesOf(globals, options));
   CampaignRequest request = RequestOf(options);
   if (options.n == 0) request.episodes = EnoughEpisodes(campaign.file.variants().size());
@@ -35,8 +51,8 @@ int RunIt(const Options& options, const Globals& globals) {
   globals.Result(SummaryJson(outcome.summary));
   globals.Say(EncounterTable(outcome.summary));
   if (!request.shard && outcome.run.end == CampaignEnd::kComplete) {
-    if (const auto model =
-            WriteRiskFiles(outcome.store, ReadRobot(FindRobotFile(options.robot, {})), folder))
+    if (const auto model = WriteRiskFiles(
+            outcome.store, ReadRobot(FindRobotFile(options.robot, {})), limits, folder))
       globals.Say(RiskModelText(*model));
     else
       globals.Say("warning: no kind of hazard was met often enough: no rates are fitted");
@@ -62,6 +78,12 @@ void AddMeasure(CommandLine& line, const Globals& globals, int& status) {
   command.Integer("--jobs", options->jobs, "Worker processes (default: one a core)", 1, kMostJobs);
   command.Text("--episodes", options->episodes, "A:B, ids from A to before B only: a shard");
   command.Text("--out", options->out, "Output folder (default: out/measure/ROBOT)");
+  command.Number("--recoverable-drop", options->recoverable_mm,
+                 "Damage that can be put right: by a fall or blow as hard as when one edge of the "
+                 "robot drops from so high (mm; default: 25)",
+                 0, 1e4);
+  command.Number("--lasting-drop", options->lasting_mm,
+                 "Lasting damage, likewise (mm; default: 100)", 0, 1e4);
   command.Flag("--resume", options->resume, "Go on with what the folder holds");
   command.OnRun([options, &globals, &status] { status = RunIt(*options, globals); });
 }

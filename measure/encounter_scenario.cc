@@ -116,7 +116,7 @@ double RunUp(const RobotSpec& robot) {
 
 }  // namespace
 
-std::string EncounterScenario(const std::string& robot, const RobotSpec& spec) {
+std::string EncounterScenario(const std::string& robot, const RobotSpec& spec, bool has_lidar) {
   constexpr double kRunOut_m = 0.4;     // it has left the hazard, though it ends a little aside
   constexpr double kTimeLimit_s = 180;  // nothing moves so slowly: it is held, and not quite still
   return fmt::format(
@@ -129,13 +129,15 @@ std::string EncounterScenario(const std::string& robot, const RobotSpec& spec) {
       "  name: crossing\n"
       "  generate: {{kind: crossing, run_up_m: {:.4g}, run_out_m: {:.4g}, {}}}\n"
       "plan: {{planner: straight, cross_obstacles: true}}\n"
+      "sensors: {{{}cliff: {{}}}}\n"
+      "on_failure: watch\n"
       "time_limit_s: {}\n"
       "sampling: low_discrepancy\n"
       "randomise:\n{}{}"
       "matrix:\n"
       "  meeting:\n{}",
-      spec.name, robot, RunUp(spec), kRunOut_m, Outline(spec), kTimeLimit_s, MetBy(spec),
-      Sizes(spec), Meetings());
+      spec.name, robot, RunUp(spec), kRunOut_m, Outline(spec), has_lidar ? "lidar: {}, " : "",
+      kTimeLimit_s, MetBy(spec), Sizes(spec), Meetings());
 }
 
 }  // namespace floorproof

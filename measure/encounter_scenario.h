@@ -7,7 +7,9 @@
 // the edge's angle, the side that leads, speed, lanes, share of the width, gap, wall, friction,
 // clearance, mass, and, where it passes by, how wrong it is about where it is. Ranges are made from
 // the robot, so that each goes from what it surely crosses to what it surely does not
-// (HazardType::Ranges). Not varied: faults, battery, other estimators' errors.
+// (HazardType::Ranges). After a failure the drive goes on (`on_failure: watch`), so that its
+// effect is seen; sensors are carried and steer nothing, so that it is seen what they tell. Not
+// varied: faults, battery, other estimators' errors.
 #pragma once
 
 #include <string>
@@ -17,6 +19,7 @@
 namespace floorproof {
 
 // The scenario file. `robot` is what it says under the key robot: a name, or a file's path.
-std::string EncounterScenario(const std::string& robot, const RobotSpec& spec);
+// `has_lidar`: its model says where one is mounted.
+std::string EncounterScenario(const std::string& robot, const RobotSpec& spec, bool has_lidar);
 
 }  // namespace floorproof

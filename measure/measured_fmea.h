@@ -5,6 +5,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,27 +54,30 @@ struct MeasuredClass {
   // state of a class; their table has no "no failure".
   std::array<ComparedShare, kNumFailureModes> given_failure;
   // Table 1's ranking is no share, so the two are not compared: the share of hazards that were not
-  // sensed by the time the robot could still have stopped.
+  // sensed by the time the robot could still have stopped. Of what can be driven over, those that
+  // the plan led over.
   CountedShare not_sensed;
 };
 
+// What a fall or blow does to a robot, by the drop that has as much energy a kilogram: one edge of
+// the robot let fall from that height while the other rests on the floor, m g h / 2. So it is said
+// of any robot, and as handling tests of equipment say it (drop and topple, IEC 60068-2-31).
+// Nothing in physics says where damage begins: these are assumptions, and whoever knows the robot
+// sets them. The first is just beyond the thresholds that makers of floor robots allow, 10 to 22
+// mm, from which they come down again every day, an edge at a time; the second is four times that.
+struct DamageLimits {
+  double recoverable_drop_m = 0.025, lasting_drop_m = 0.1;
+};
+// Of a failure, 0 to 4 for E1 to E5 (docs/results.md); none: what became of the robot was not seen.
+std::optional<std::size_t> EffectOf(const Encounter& failed, const DamageLimits& limits);
+
 struct MeasuredFmea {
   double slow_below_mps = 0;
+  DamageLimits limits;
   std::array<MeasuredClass, kNumHazardClasses> classes;
   // Table 3, lower half.
   std::array<std::array<ComparedShare, kNumEffects>, kNumFailureModes> effect_of_mode;
   FmeaTables experts;
-};
-
-// What physics showed of one failure: its effect, 0 to 4 for E1 to E5, by what the robot could do
-// afterwards and by the energy of its fall or blow.
-struct ObservedEffect {
-  FailureMode mode = FailureMode::kVeerOff;
-  std::size_t effect = 0;
-};
-struct ObservedDetection {
-  HazardClass hazard_class = HazardClass::kBlindObject;
-  bool in_time = false;  // sensed while the robot could still have stopped
 };
 
 // Encounters passed over and passed beside count alike; exposures, whose failures are a metre and
@@ -82,7 +86,6 @@ struct ObservedDetection {
 MeasuredFmea MeasureFmea(const std::vector<Encounter>& encounters,
                          const std::map<std::string, HazardClass>& class_of_type,
                          double slow_below_mps, const FmeaTables& experts,
-                         const std::vector<ObservedEffect>& effects = {},
-                         const std::vector<ObservedDetection>& detections = {});
+                         const DamageLimits& limits = {});
 
 }  // namespace floorproof

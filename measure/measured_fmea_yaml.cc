@@ -77,7 +77,9 @@ void WriteMissing(const MeasuredFmea& fmea, std::string& text) {
     missing += "\n  - \"effects: what became of the robot after a failure was not recorded\"";
   if (detections == 0)
     missing +=
-        "\n  - \"detectability: whether hazards were sensed in time to stop was not recorded\"";
+        "\n  - \"detectability: the robot carries no sensors that tell of hazards, or what they "
+        "told "
+        "was not recorded\"";
   text += "missing:" + (missing.empty() ? " []" : missing) + "\n";
 }
 
@@ -92,8 +94,15 @@ std::string MeasuredFmeaYaml(const MeasuredFmea& fmea, const std::string& robot)
       "# counted. The shares are of the sizes, ways and floors that were driven, and of no "
       "others.\n";
   text +=
-      fmt::format("fmea_measured: 1\nrobot: {}\nslow_below_mps: {}\nclasses:\n",
+      fmt::format("fmea_measured: 1\nrobot: {}\nslow_below_mps: {}\n",
                   WriteYaml(ConfigNode::Scalar(robot, true)), FormatDouble(fmea.slow_below_mps));
+  text += fmt::format(
+      "# Of effects: damage by the drop of one edge that has as much energy a kilogram. Assumed, "
+      "not "
+      "measured.\n"
+      "damage: {{recoverable_drop_mm: {}, lasting_drop_mm: {}}}\nclasses:\n",
+      FormatDouble(RoundedTo6(1000 * fmea.limits.recoverable_drop_m)),
+      FormatDouble(RoundedTo6(1000 * fmea.limits.lasting_drop_m)));
   for (std::size_t c = 0; c < kNumHazardClasses; ++c) WriteClass(fmea, c, text);
   text += "modes:\n";
   for (std::size_t m = 0; m < kNumFailureModes; ++m) {

@@ -10,7 +10,6 @@
 #include "controllers/drive.h"
 #include "env/scene/measured_block.h"
 #include "measure/fit_rates.h"
-#include "measure/measured_fmea.h"
 #include "measure/measured_fmea_yaml.h"
 #include "measure/mirror_image.h"
 #include "measure/risk_model_json.h"
@@ -35,6 +34,7 @@ std::vector<Encounter> AllEncounters(const CampaignStore& store) {
 }
 
 std::optional<RiskModel> WriteRiskFiles(const CampaignStore& store, const RobotModel& robot,
+                                        const DamageLimits& limits,
                                         const std::filesystem::path& folder) {
   const RobotSpec& spec = robot.spec;
   const std::vector<Encounter> encounters = AllEncounters(store);
@@ -46,8 +46,8 @@ std::optional<RiskModel> WriteRiskFiles(const CampaignStore& store, const RobotM
       {spec.name, spec.drive, spec.mass_kg, spec.clearance_m, ModelHash(robot.files, {})}, options);
   if (model.kinds.empty()) return std::nullopt;
   WriteFileWhole(folder / "risk_model.json", RiskModelJson(model));
-  const MeasuredFmea fmea =
-      MeasureFmea(encounters, ClassOfType(), spec.cruise_mps, ReadFmeaTables(BundledTables()));
+  const MeasuredFmea fmea = MeasureFmea(encounters, ClassOfType(), spec.cruise_mps,
+                                        ReadFmeaTables(BundledTables()), limits);
   WriteFileWhole(folder / "fmea_measured.yaml", MeasuredFmeaYaml(fmea, spec.name));
   return model;
 }

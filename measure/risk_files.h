@@ -9,6 +9,7 @@
 
 #include "env/scene/robot_model.h"
 #include "measure/hazard_classes.h"
+#include "measure/measured_fmea.h"
 #include "planners/risk/rate_model.h"
 #include "run/campaign/campaign_store.h"
 
@@ -21,6 +22,7 @@ std::vector<Encounter> AllEncounters(const CampaignStore& store);
 // Returns none, and writes nothing, where no kind was met often enough. Throws InputError where a
 // file cannot be written.
 std::optional<RiskModel> WriteRiskFiles(const CampaignStore& store, const RobotModel& robot,
+                                        const DamageLimits& limits,
                                         const std::filesystem::path& folder);
 // For people: how many kinds were fitted, and which were not.
 std::string RiskModelText(const RiskModel& model);

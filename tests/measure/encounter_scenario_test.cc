@@ -58,7 +58,7 @@ TEST_P(EveryRobotsEncounters, CanBePlanned) {
 
 // All ends of all ranges, on the shortest strip and the longest, at the steepest angle.
 TEST_P(EveryRobotsEncounters, EveryCornerOfTheRangesIsAHazard) {
-  const ConfigNode scenario = ParseYaml(EncounterScenario(GetParam(), robot_), "s.yaml");
+  const ConfigNode scenario = ParseYaml(EncounterScenario(GetParam(), robot_, true), "s.yaml");
   const ConfigNode* lengths =
       scenario.Find("randomise")->Find("site.generate.length_m")->Find("uniform");
   for (const auto& entry : HazardTypes()) {
@@ -91,22 +91,22 @@ TEST_P(EveryRobotsEncounters, EveryCornerOfTheRangesIsAHazard) {
 
 // A robot that cannot drive sideways is not asked to.
 TEST_P(EveryRobotsEncounters, LeadByWhateverSideTheRobotCan) {
-  const std::string dut = EncounterScenario(GetParam(), robot_);
+  const std::string dut = EncounterScenario(GetParam(), robot_, true);
   EXPECT_EQ(dut.find("lead_deg") != std::string::npos, IsHolonomic(robot_));
 }
 
 // By its figures, not by its name.
 TEST(Encounters, GrowWithTheRobot) {
   RobotSpec robot = ReadRobot(FindRobotFile("beluga", {})).spec;
-  const std::string as_it_is = EncounterScenario("beluga", robot);
+  const std::string as_it_is = EncounterScenario("beluga", robot, true);
   EXPECT_THAT(as_it_is, HasSubstr("step.height_m: {uniform: [[-0.02, -0.001], [0.001, 0.02]]}"))
       << "four fifths of a belly at 25 mm";
   robot.clearance_m = 0.05;
-  EXPECT_THAT(EncounterScenario("beluga", robot),
+  EXPECT_THAT(EncounterScenario("beluga", robot, true),
               HasSubstr("step.height_m: {uniform: [[-0.04, -0.002], [0.002, 0.04]]}"));
   robot.measured.frictions = {0.5, 1};
   robot.measured.limits = {{"step", {0.01, 0.02}}};
-  EXPECT_THAT(EncounterScenario("beluga", robot),
+  EXPECT_THAT(EncounterScenario("beluga", robot, true),
               HasSubstr("step.height_m: {uniform: [[-0.05, -0.0025], [0.0025, 0.05]]}"))
       << "2.5 times the step that it was measured to cross";
 }
