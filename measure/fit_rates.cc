@@ -128,7 +128,8 @@ std::optional<KindRates> FitKind(const Meetings& all, const RateFitOptions& opti
     kind.censored += e->outcome == Encounter::Outcome::kCensored;
     kind.cleared += e->outcome == Encounter::Outcome::kCleared;
     kind.way_m += e->way_m;
-    if (kind.per_metre ? e->way_m > 0 : e->outcome != Encounter::Outcome::kCensored)
+    const bool failed = e->outcome == Encounter::Outcome::kFailed;
+    if (failed || (kind.per_metre ? e->way_m > 0 : e->outcome == Encounter::Outcome::kCleared))
       met.push_back(e);
   }
   if (static_cast<int>(met.size()) < options.least_encounters) {

@@ -65,6 +65,7 @@ void EncounterMeter::OnControl(const Sample& sample, const Estimate& estimate, c
   if (!watched_) AddExposure(sample, way_m, has_last_ ? sample.t_s - last_s_ : 0);
   last_ = X_WB;
   last_s_ = sample.t_s;
+  speed_mps_ = sample.v_WB_W.head<2>().norm();
   has_last_ = true;
 }
 
@@ -242,7 +243,7 @@ void EncounterMeter::CloseExposure(std::string_view type, Encounter::Outcome out
   row.y_m = exposure.p_W.y();
   row.time_s = exposure.time_s;
   row.way_m = exposure.way_m;
-  row.at.speed_mps = exposure.time_s > 0 ? exposure.way_m / exposure.time_s : 0;
+  row.at.speed_mps = exposure.time_s > 0 ? exposure.way_m / exposure.time_s : speed_mps_;
   row.at.wall_m = type == kFreeFloor   ? kFarWall_m
                   : exposure.way_m > 0 ? exposure.wall_sum_m2 / exposure.way_m
                                        : 0;

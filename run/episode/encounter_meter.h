@@ -92,6 +92,7 @@ class EncounterMeter {
   bool watched_ = false;
   Pose2 last_;
   double last_s_ = 0, way_m_ = 0, estimate_error_m_ = 0, estimate_error_rad_ = 0;
+  double speed_mps_ = 0;
 };
 
 }  // namespace floorproof
