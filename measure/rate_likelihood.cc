@@ -14,13 +14,24 @@ constexpr double kNoRate = 1e-300;  // what underflows
 
 }  // namespace
 
+RateLikelihood::RateLikelihood(const std::vector<RateRow>& rows, bool per_metre)
+    : per_metre_(per_metre), events_(Index(rows.size())), way_(Index(rows.size())) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    events_[Index(i)] = rows[i].happened;
+    way_[Index(i)] = rows[i].way_m;
+  }
+  constexpr double kMore = 0.5;
+  if (per_metre_)
+    events_ += kMore * way_ / way_.sum();
+  else
+    events_ += kMore / static_cast<double>(rows.size()) * (1 - 2 * events_);
+}
+
 double RateLikelihood::Log(const VectorXd& eta) const {
   double sum = 0;
   for (Index i = 0; i < eta.size(); ++i) {
-    const RateRow& row = rows_[i];
     const double rate = RateOf(eta[i]);
-    const double of_event = per_metre_ ? std::log(std::max(rate, kNoRate)) : eta[i];
-    sum += (row.happened ? of_event : 0) - rate * row.way_m;
+    sum += events_[i] * (per_metre_ ? std::log(std::max(rate, kNoRate)) : eta[i]) - rate * way_[i];
   }
   return sum;
 }
@@ -30,14 +41,13 @@ void RateLikelihood::ScoreAndInformation(const VectorXd& eta, VectorXd& score,
   score.resize(eta.size());
   information.resize(eta.size());
   for (Index i = 0; i < eta.size(); ++i) {
-    const RateRow& row = rows_[i];
     const double p = 1 / (1 + std::exp(-eta[i]));  // also the slope of the rate by eta
     if (per_metre_) {
       const double rate = std::max(RateOf(eta[i]), kNoRate);
-      score[i] = p * (row.happened / rate - row.way_m);
-      information[i] = p * p * row.way_m / rate;
+      score[i] = p * (events_[i] / rate - way_[i]);
+      information[i] = p * p * way_[i] / rate;
     } else {
-      score[i] = row.happened - p;
+      score[i] = events_[i] - p;
       information[i] = p * (1 - p);
     }
   }

@@ -18,10 +18,12 @@ struct RateRow {
 
 // Per metre: a Poisson process with rate log(1 + exp(eta)), which ends where it happened. Else it
 // happens with probability 1 / (1 + exp(-eta)) = 1 - exp(-log(1 + exp(eta))). Etas are by row.
+// Half an event more is spread evenly over all rows (of a metre's rate: over all way), and half an
+// event less over those that are events, so that the odds of all rows are as constant shares have
+// them (constant_rate.h). Else nothing would hold eta where nothing ever happened.
 class RateLikelihood {
  public:
-  RateLikelihood(const std::vector<RateRow>& rows, bool per_metre)  // the rows outlive it
-      : rows_(rows), per_metre_(per_metre) {}
+  RateLikelihood(const std::vector<RateRow>& rows, bool per_metre);
 
   double Log(const Eigen::VectorXd& eta) const;
   // By eta, by row: first derivative, and expectation of minus the second.
@@ -29,8 +31,8 @@ class RateLikelihood {
                            Eigen::VectorXd& information) const;
 
  private:
-  const std::vector<RateRow>& rows_;
   bool per_metre_;
+  Eigen::ArrayXd events_, way_;  // by row
 };
 
 }  // namespace floorproof

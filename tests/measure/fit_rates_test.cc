@@ -108,12 +108,14 @@ TEST(FitRates, RareModesAreAsRareAsFailuresOnMildMeetings) {
   const std::vector<Encounter> met = DrawEncounters(1000, rates, DrawStep, random);
   const RiskModel dut = FitRates(met, {}, {});
   EXPECT_LT(dut.kinds[0].any.events - dut.kinds[0].splits[0].of.events, kLeastEvents);
+  double mild = 0;
   for (Encounter e : met) {
-    e.size[0].second = 0.007;
-    EXPECT_LT(Total(At(dut, e)), 0.003);
+    e.size[0].second = 0.005;
+    mild += Total(At(dut, e)) / static_cast<double>(met.size());
     e.size[0].second = 0.017;
     EXPECT_GT(At(dut, e)[kThrown], 0.002);
   }
+  EXPECT_LT(mild, 0.002);
 }
 
 // Of two modes that matter in different places: the one at high speeds, the other at low ones.
