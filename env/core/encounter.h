@@ -93,7 +93,7 @@ struct Encounter {
   enum class After { kUnseen, kRecovered, kNeedsHelp };
   After after = After::kUnseen;
   // Whether its sensors told of the hazard while it could still have stopped before it. Unseen: it
-  // has no sensors that could.
+  // has no sensors that could, or met it before.
   enum class Sensed { kUnseen, kInTime, kNotInTime };
   Sensed sensed = Sensed::kUnseen;
 };

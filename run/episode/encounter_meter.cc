@@ -113,7 +113,9 @@ EncounterMeter::Live& EncounterMeter::Begin(const Meeting& meeting, const Sample
   row.type = hazard.type;
   TakeEntry(meeting, sample, row);
   Live live{meeting.id, rows_.size(), meeting.from_m};
-  if (sight_ != nullptr) live.seen_as = sight_->IndexOf(hazard.id);
+  // Who meets it again has had it under its sensors.
+  if (sight_ != nullptr && std::ranges::find(rows_, hazard.id, &Encounter::hazard) == rows_.end())
+    live.seen_as = sight_->IndexOf(hazard.id);
   if (path != nullptr && !path->empty())
     if (const auto planned = NextPassage(parts_, map_, robot_, sample.X_WB(), *path,
                                          sample.command.segment, holds_yaw_, meeting.hazard)) {

@@ -52,7 +52,7 @@ class EncounterMeter {
     std::size_t row = 0;
     double from_m = 0;
     bool planned = false;  // its path says how it is to be passed
-    int seen_as = -1;      // of its sight
+    int seen_as = -1;      // of its sight; -1: it is not asked
     bool upon = false;
   };
   // Of walls beside, or of free floor.

@@ -67,5 +67,16 @@ TEST_F(SightDrive, OfARobotWithoutSensorsNothingIsSaid) {
   EXPECT_EQ(Meet(Across("step", "height_m: -0.1"), ""), Encounter::Sensed::kUnseen);
 }
 
+// Once it was over it, its sensors were as well: coming back says nothing of them.
+TEST_F(SightDrive, TheFirstMeetingCounts) {
+  Save("plan.csv", "x_m,y_m\n1.5,2.5\n3,2.5\n2,2.5\n");
+  const EpisodeRecord record = Drive(Read(RoomScenario(
+      "{type: cable_cover, id: it, line_m: [[2.5, 0.5], [2.5, 4.5]], height_m: 0.005}", kAll)));
+  ASSERT_GE(record.encounters.size(), 2u);
+  ASSERT_EQ(record.encounters[1].hazard, "it");
+  EXPECT_EQ(record.encounters[0].sensed, Encounter::Sensed::kNotInTime);
+  EXPECT_EQ(record.encounters[1].sensed, Encounter::Sensed::kUnseen);
+}
+
 }  // namespace
 }  // namespace floorproof
