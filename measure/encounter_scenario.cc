@@ -24,7 +24,6 @@ std::string Line(const std::string& key, const std::string& distribution) {
 // To four digits: nobody reads more, and what is laid out follows from what is written.
 std::string Range(double low, double high) { return fmt::format("[{:.4g}, {:.4g}]", low, high); }
 std::string Uniform(double low, double high) { return "uniform: " + Range(low, high); }
-std::string Normal(double deviation) { return "normal: " + Range(0, deviation); }
 
 std::string Uniform(const std::vector<std::pair<double, double>>& spans) {
   if (spans.size() == 1) return Uniform(spans[0].first, spans[0].second);
@@ -67,8 +66,10 @@ std::string Outline(const RobotSpec& robot) {
 // sequence are its most even ones.
 std::string MetBy(const RobotSpec& robot) {
   constexpr double kSlowest = 0.3;  // of its top speed: an encounter is to end in some 10 s
-  // As a robot that has driven a while without looking where it is; the most of them little.
-  constexpr double kAside_m = 0.04, kAstray_deg = 2;
+  // A third each know their place, and their heading; the others are as one that has driven a while
+  // without looking where it is.
+  const std::string aside = "choice: [0, -0.09, -0.02, 0, 0.02, 0.09, -0.05, 0, 0.05]";
+  const std::string astray = "choice: [-4, 0, 4, -2, 0, 2, -1, 0, 1]";
   constexpr double kWheels = 3, kShortest_m = 0.3, kLonger_m = 1;
   // Measured across the edge, however it lies, it is still longer than its types ask for.
   const double wheel_m = std::ranges::max(robot.wheels, {}, &WheelSpec::radius_m).radius_m;
@@ -82,8 +83,8 @@ std::string MetBy(const RobotSpec& robot) {
   lines += Line("site.generate.length_m", Uniform(length_m, length_m + kLonger_m));
   lines += Line("site.generate.wall_m", Uniform(0.03, 1.5));  // beyond 1 m it counts as far
   lines += Line("site.generate.side", "choice: [left, right]");
-  lines += Line("estimator.start_error_y_m", Normal(kAside_m));
-  lines += Line("estimator.start_error_yaw_deg", Normal(kAstray_deg));
+  lines += Line("estimator.start_error_y_m", aside);
+  lines += Line("estimator.start_error_yaw_deg", astray);
   if (robot.turn_radius_m == 0) {  // a corner is no arc
     lines += Line("plan.lanes", "choice: [one, aside, back, thrice, thrice]");
     // From before the hazard to behind it; from half a turn in two unlike halves to two right

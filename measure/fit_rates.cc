@@ -30,9 +30,10 @@ std::vector<double> CovariatesOf(const std::vector<RateAxis>& axes, bool mirrore
 
 // All others are about a hazard, or how far the way along it is.
 bool IsOfExposures(const ApproachColumn& column) {
-  constexpr double Approach::*kOfExposures[] = {&Approach::speed_mps, &Approach::wall_m,
-                                                &Approach::friction, &Approach::mass_kg,
-                                                &Approach::clearance_m};
+  constexpr double Approach::*kOfExposures[] = {
+      &Approach::speed_mps,         &Approach::wall_m,      &Approach::friction,
+      &Approach::mass_kg,           &Approach::clearance_m, &Approach::estimate_error_m,
+      &Approach::estimate_error_rad};
   return std::ranges::find(kOfExposures, column.member) != std::end(kOfExposures);
 }
 

@@ -229,7 +229,9 @@ void EncounterMeter::AddExposure(const Sample& sample, double way_m, double time
   if (exposure.way_m == 0) exposure.t_s = sample.t_s, exposure.p_W = sample.p_WB.head<2>();
   exposure.way_m += way_m;
   exposure.time_s += time_s;
-  exposure.wall_sum_m2 += way_m * gap_m;
+  exposure.wall_m2 += way_m * gap_m;
+  exposure.error_m2 += way_m * estimate_error_m_;
+  exposure.error_rad_m += way_m * estimate_error_rad_;
 }
 
 void EncounterMeter::CloseExposure(std::string_view type, Encounter::Outcome outcome,
@@ -246,9 +248,12 @@ void EncounterMeter::CloseExposure(std::string_view type, Encounter::Outcome out
   row.time_s = exposure.time_s;
   row.way_m = exposure.way_m;
   row.at.speed_mps = exposure.time_s > 0 ? exposure.way_m / exposure.time_s : speed_mps_;
-  row.at.wall_m = type == kFreeFloor   ? kFarWall_m
-                  : exposure.way_m > 0 ? exposure.wall_sum_m2 / exposure.way_m
-                                       : 0;
+  const auto mean = [&](double sum, double without) {
+    return exposure.way_m > 0 ? sum / exposure.way_m : without;
+  };
+  row.at.wall_m = type == kFreeFloor ? kFarWall_m : mean(exposure.wall_m2, 0);
+  row.at.estimate_error_m = mean(exposure.error_m2, estimate_error_m_);
+  row.at.estimate_error_rad = mean(exposure.error_rad_m, estimate_error_rad_);
   row.at.over_m = exposure.way_m;
   row.at.friction = map_.floor_friction;
   row.at.mass_kg = robot_.mass_kg;

@@ -57,7 +57,8 @@ class EncounterMeter {
   };
   // Of walls beside, or of free floor.
   struct Exposure {
-    double way_m = 0, time_s = 0, wall_sum_m2 = 0;
+    double way_m = 0, time_s = 0;
+    double wall_m2 = 0, error_m2 = 0, error_rad_m = 0;  // sums over the way
     double t_s = 0;
     Vec2 p_W = Vec2::Zero();
   };
