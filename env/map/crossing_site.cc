@@ -89,6 +89,14 @@ std::pair<double, double> Touching(const Polygon& moving, const Polygon& standin
   return {first, last};
 }
 
+// A convex polygon and all that is so near to it.
+Polygon Grown(const Polygon& polygon, double by_m) {
+  std::vector<Vec2> points;
+  for (const Vec2& corner : polygon)
+    for (const Vec2& p : RegularPolygon(corner, by_m, kCorners)) points.push_back(p);
+  return ConvexHull(std::move(points));
+}
+
 // The robot as it passes, its centre at the origin: convex, counter-clockwise.
 Polygon RobotOf(const CrossingParams& p) {
   if (p.outline_m.empty()) return RegularPolygon(Vec2::Zero(), p.radius_m, kCorners);
@@ -202,13 +210,11 @@ class Layout {
   }
 
   void FindEnds() {
-    // What is passed is brought near, to say where the robot's whole box is within reach of it.
-    const Box2 box = BoxAround(robot_);
-    const Polygon moving = over() ? robot_ : Rectangle(box.low, box.high);
-    const double nearer_m = over() ? 0 : std::max(kReach_m, p_.gap_m + kLeastSize_m);
+    const double reach_m = over() ? kReach_m : std::max(kReach_m, p_.gap_m + kLeastSize_m);
+    const Polygon moving = Grown(robot_, reach_m);
     double first = std::numeric_limits<double>::infinity(), last = -first;
     for (const Polygon& part : footprint_) {
-      const auto [from, to] = Touching(moving, Moved(part, {0, -nearer_m, 0}));
+      const auto [from, to] = Touching(moving, part);
       first = std::min(first, from);
       last = std::max(last, to);
     }
@@ -254,8 +260,9 @@ void CrossingParams::Visit(ParamVisitor& v) {
   v("share", share, Between(0.01, 2), "of the robot's width that passes over it; 1 or more: all");
   v("gap_m", gap_m, Between(0, 5), "from the robot to it, where it is passed");
   v("length_m", length_m, Between(0.01, 10), "along the way, of what is placed by a polygon");
-  v("run_up_m", run_up_m, Between(0.01, 20), "before the robot touches it, or comes within reach");
-  v("run_out_m", run_out_m, Between(0.01, 20), "of the way, behind the last such place");
+  v("run_up_m", run_up_m, Between(0.01, 20), "before the robot comes within 0.1 m of it");
+  v("run_out_m", run_out_m, Between(0.01, 20),
+    "of the way, behind the last place within 0.1 m of it");
   v("wall_m", wall_m, Between(0, 20), "from the robot to a wall beside its way; none: far away");
   v("radius_m", radius_m, Between(0.01, 5), "of the robot, that it keeps clear");
 }

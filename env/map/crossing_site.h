@@ -6,11 +6,11 @@
 // keys say; of one placed by a polygon, `length_m` along the way. Its edge is turned against the
 // way by `angle_deg`. Over it: it reaches beyond the robot on both sides, or ends where `share` of
 // the robot's width passes over it. Beside it: it ends `gap_m` from where the robot passes. Start
-// and goal lie `run_up_m` before the first and behind the last place where the robot touches it, or
-// is abreast of it. Walls are far away, but for one that `wall_m` brings near, on the side where
-// the hazard is not. Where a part of it ends, the end may be met before the edge is. A type with a
-// direction (a ramp) ends as it began: a second one, turned about, follows it. Not done: several
-// hazards, ways that bend.
+// and goal lie `run_up_m` before the first and `run_out_m` behind the last place where the robot is
+// within reach of it (kReach_m): there no meeting with it has begun, and none goes on. Walls are
+// far away, but for one that `wall_m` brings near, on the side where the hazard is not. Where a
+// part of it ends, the end may be met before the edge is. A type with a direction (a ramp) ends as
+// it began: a second one, turned about, follows it. Not done: several hazards, ways that bend.
 #pragma once
 
 #include <optional>

@@ -9,7 +9,9 @@
 #include <cmath>
 #include <limits>
 
+#include "env/core/passages.h"
 #include "env/geometry/box.h"
+#include "env/geometry/convex.h"
 #include "env/hazards/hazard_type.h"
 #include "env/map/site.h"
 
@@ -43,14 +45,17 @@ double AreaOn(const HazardMap& map, const Polygon& outline) {
   return area;
 }
 
-// How far from where it starts the robot first touches the hazard, and last.
-std::pair<double, double> TouchesFromTo(const HazardMap& map) {
+// How far from where it starts the robot first comes within reach of the hazard, and was last.
+std::pair<double, double> WithinReachFromTo(const HazardMap& map) {
   const double way_m = (*map.goal - map.start->p()).norm();
   double first = -1, last = -1;
   for (double s = 0; s <= way_m; s += 0.001) {
     Pose2 at = *map.start;
     at.x_m += s;
-    if (AreaOn(map, OutlineAt(at)) == 0) continue;
+    const auto is_near = [&](const Polygon& part) {
+      return Separate(OutlineAt(at), part).distance_m <= kReach_m;
+    };
+    if (std::ranges::none_of(map.hazards[0].footprint, is_near)) continue;
     if (first < 0) first = s;
     last = s;
   }
@@ -74,7 +79,7 @@ TEST(CrossingSite, RunUpAndRunOutAreAsAsked) {
         Lay(std::string(how) + (*how ? ", " : "") + "run_up_m: 0.3, run_out_m: 0.4, " + kOutline);
     ASSERT_TRUE(dut.start && dut.goal);
     EXPECT_EQ(dut.start->y_m, dut.goal->y()) << "the way runs along +x";
-    const auto [first, last] = TouchesFromTo(dut);
+    const auto [first, last] = WithinReachFromTo(dut);
     EXPECT_NEAR(first, 0.3, 0.002);
     EXPECT_NEAR((*dut.goal - dut.start->p()).norm() - last, 0.4, 0.002);
   }
