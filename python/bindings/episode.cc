@@ -15,6 +15,7 @@
 #include "python/bindings/modules.h"
 #include "report/drive_and_film.h"
 #include "report/progress.h"
+#include "run/episode/encounter_table.h"
 #include "run/episode/execute.h"
 #include "run/episode/records.h"
 
@@ -186,6 +187,21 @@ nb::dict Trace(const Driven& d) {
   return out;
 }
 
+// Rows of the table `encounter`: `size` is JSON.
+nb::list Encounters(const Driven& d) {
+  nb::list rows;
+  for (const Encounter& encounter : d.record.encounters) {
+    nb::dict row;
+    const std::vector<EncounterValue> values = EncounterValues(encounter);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::string_view name = EncounterColumns()[i].name;
+      row[nb::str(name.data(), name.size())] = nb::cast(values[i]);
+    }
+    rows.append(row);
+  }
+  return rows;
+}
+
 nb::dict Maps(const Driven& d) {
   nb::dict out;
   const EpisodeRecord& record = d.record;
@@ -238,6 +254,12 @@ void BindEpisode(nb::module_& m) {
     for (const TraceColumn& column : kTraceColumns) columns.emplace_back(column.name, column.unit);
     return columns;
   });
+  m.def("encounter_columns", [] {
+    std::vector<std::pair<std::string, bool>> columns;
+    for (const EncounterColumn& column : EncounterColumns())
+      columns.emplace_back(column.name, column.is_text);
+    return columns;
+  });
 
   nb::class_<View>(m, "View")
       .def_prop_ro("t_s", [](const View& v) { return v.lent->sample.t_s; })
@@ -262,6 +284,7 @@ void BindEpisode(nb::module_& m) {
       .def_prop_ro("result",
                    [](const Driven& d) { return JsonText(ResultJson(*d.scenario, d.record)); })
       .def_prop_ro("trace", &Trace)
+      .def_prop_ro("encounters", &Encounters)
       .def_prop_ro("maps", &Maps)
       .def_prop_ro("qpos", &Qpos);
 }

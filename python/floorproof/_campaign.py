@@ -17,6 +17,8 @@ from ._results import PathLike
 from ._scenario import Scenario, load
 from ._warn import warn
 
+_TABLES = ("episode", "encounter")
+
 
 class Campaign:
     """What a campaign left in its folder."""
@@ -44,15 +46,20 @@ class Campaign:
         """What the gate says; None: there is none, or this is a shard."""
         return self.summary.get("gate")
 
-    def to_pandas(self) -> Any:
-        """The table of episodes, a row each, as a data frame."""
-        from .exports import episodes_frame
-        return episodes_frame(self.folder)
+    def to_pandas(self, table: str = "episode") -> Any:
+        """A table of campaign.sqlite as a data frame: `episode`, a row an episode, or `encounter`,
+        a row a hazard that one of them met (docs/exports.md)."""
+        from . import exports
+        among("table", table, _TABLES)
+        return exports.episodes_frame(self.folder) if table == "episode" else \
+            exports.encounters_frame(self.folder)
 
-    def to_parquet(self, file: PathLike) -> Path:
+    def to_parquet(self, file: PathLike, table: str = "episode") -> Path:
         """The same as a Parquet file."""
-        from .exports import episodes_parquet
-        return episodes_parquet(self.folder, file)
+        from . import exports
+        among("table", table, _TABLES)
+        return exports.episodes_parquet(self.folder, file) if table == "episode" else \
+            exports.encounters_parquet(self.folder, file)
 
     def report(self) -> Path:
         """Writes the page; returns report.html."""

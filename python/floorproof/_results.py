@@ -14,7 +14,7 @@ import numpy as np
 from . import _core
 from ._checks import number, path_of, picture_size
 from ._core import InputError
-from ._recorded import json_object, trace_columns
+from ._recorded import encounters_of, json_object, recorded_encounters, trace_columns
 
 PathLike = Union[str, "os.PathLike[str]"]
 Pose = Tuple[float, float, float]
@@ -179,12 +179,14 @@ class Episode:
 
     def __init__(self, result: Mapping[str, Any], trace: Mapping[str, Any],
                  plan: Optional[Plan] = None, core: Optional[_core.Episode] = None,
-                 folder: Optional[Path] = None) -> None:
+                 folder: Optional[Path] = None,
+                 encounters: Optional[List[Dict[str, Any]]] = None) -> None:
         self.result: Dict[str, Any] = dict(result)
         self.plan = plan
         self.folder = folder
         self._core = core
         self._trace = trace
+        self._recorded = encounters
 
     @property
     def outcome(self) -> str:
@@ -222,6 +224,19 @@ class Episode:
     def trace(self) -> Mapping[str, Any]:
         """Column by column, as trace.csv has them; arrays of one length, `shape` a list of words."""
         return self._trace
+
+    @cached_property
+    def encounters(self) -> List[Dict[str, Any]]:
+        """The hazards that it met, in order, each a dict with the columns of encounters.csv
+        (docs/results.md lists them with their units); `size` is a dict by key. Last what it drove
+        along walls and over free floor. Empty of `drive: cells`. Throws InputError of a folder in
+        which an earlier version recorded none."""
+        if self._core is not None:
+            return encounters_of(self._core.encounters)
+        if self._recorded is None:
+            raise InputError(f"{self.folder}: holds no encounters.csv; earlier versions wrote none: "
+                             "run its scenario.resolved.yaml again")
+        return self._recorded
 
     @cached_property
     def maps(self) -> Dict[str, Any]:
@@ -282,8 +297,8 @@ _RESULT = {"scenario": str, "robot": str, "site": str, "outcome": str, "events":
 
 
 def read(folder: PathLike) -> Episode:
-    """The episode that `floorproof run` left in a folder: result.json and trace.csv. Throws InputError
-    where they are damaged."""
+    """The episode that `floorproof run` left in a folder: result.json, trace.csv and
+    encounters.csv. Throws InputError where they are damaged."""
     folder = Path(folder)
     file = folder / "result.json"
     result = json_object(file, "floorproof run", _RESULT)
@@ -296,4 +311,4 @@ def read(folder: PathLike) -> Episode:
         trace = trace_columns(folder / "trace.csv")
     else:
         trace = {name: np.empty(0) for name, _ in _core.trace_columns()}
-    return Episode(result, trace, folder=folder)
+    return Episode(result, trace, folder=folder, encounters=recorded_encounters(folder))

@@ -11,7 +11,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Dict
 
 from . import _core
+from ._campaign_file import CampaignFile
 from ._core import InputError
+from ._encounter_table import EncounterTable
 from ._episode_table import EpisodeTable
 from ._files import written_whole
 from ._mcap import to_mcap
@@ -21,9 +23,10 @@ from ._results import Episode, PathLike
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-__all__ = ["episodes_frame", "episodes_parquet", "rates_frame", "to_mcap", "trace_frame"]
+__all__ = ["encounters_frame", "encounters_parquet", "episodes_frame", "episodes_parquet",
+           "rates_frame", "to_mcap", "trace_frame"]
 
-_BATCH = 4096  # episodes that are in memory at once while Parquet is written
+_BATCH = 4096  # rows that are in memory at once while Parquet is written
 
 
 def _needed(package: str) -> Any:
@@ -52,13 +55,31 @@ def episodes_frame(folder: PathLike) -> "DataFrame":
     are int64, or Int64 where some episodes have none; lists and such are JSON.
     Throws InputError where the folder holds no campaign, or a damaged one.
     """
+    with EpisodeTable(folder) as table:
+        return _frame(table)
+
+
+def encounters_frame(folder: PathLike) -> "DataFrame":
+    """The hazards that a campaign's episodes met, a row a meeting: table `encounter` of
+    campaign.sqlite, columns and units as docs/results.md lists them for encounters.csv, with
+    `variant`, `episode` and `number`. A row of episodes_frame has the same variant and episode.
+
+    A size stands in `size.KEY`, float64, NaN where the hazard has no such key. Words are
+    categories; missing where nothing is said: the `hazard` of walls and free floor, what became of
+    a robot (`after`) and whether it was `sensed` where nobody saw. Throws InputError where the
+    folder holds no campaign, a damaged one, or one of a version that recorded no encounters.
+    """
+    with EncounterTable(folder) as table:
+        return _frame(table)
+
+
+def _frame(table: CampaignFile) -> "DataFrame":
     pandas = _needed("pandas")
     types = {"bool": "boolean", "int": "Int64", "float": "float64", "text": "str",
              "json": "str"}
     columns: Dict[str, Any] = {}
-    with EpisodeTable(folder) as table:
-        kinds = table.kinds
-        rows = table.columns(table.rows())
+    kinds = table.kinds
+    rows = table.columns(table.rows())
     for name, values in rows.items():
         kind = kinds[name]
         if kind == "category":
@@ -79,21 +100,30 @@ def episodes_parquet(folder: PathLike, file: PathLike, *, overwrite: bool = Fals
     schema's metadata names what was driven: floorproof.version (of whoever exports),
     floorproof.campaign (the campaign's id), floorproof.scenario (its settings, resolved),
     floorproof.versions (of what drove it, JSON)."""
+    with EpisodeTable(folder) as table:
+        return _parquet(table, Path(file), overwrite)
+
+
+def encounters_parquet(folder: PathLike, file: PathLike, *, overwrite: bool = False) -> Path:
+    """encounters_frame as a Parquet file, with the same metadata as that of episodes."""
+    with EncounterTable(folder) as table:
+        return _parquet(table, Path(file), overwrite)
+
+
+def _parquet(table: CampaignFile, file: Path, overwrite: bool) -> Path:
     pyarrow = _needed("pyarrow")
     from pyarrow import parquet  # type: ignore[import-untyped,unused-ignore]
     types = {"bool": pyarrow.bool_(), "int": pyarrow.int64(), "float": pyarrow.float64(),
              "text": pyarrow.string(), "json": pyarrow.string(),
              "category": pyarrow.dictionary(pyarrow.int32(), pyarrow.string())}
-    file = Path(file)
-    with EpisodeTable(folder) as table:
-        about = {"floorproof.version": _core.__version__,
-                 **{f"floorproof.{key}": table.about[key]
-                    for key in ("campaign", "scenario", "versions")}}
-        schema = pyarrow.schema([(name, types[kind]) for name, kind in table.kinds.items()],
-                                metadata=about)
-        with written_whole(file, overwrite) as part, parquet.ParquetWriter(part, schema) as writer:
-            for batch in table.batches(_BATCH):
-                writer.write_table(pyarrow.table(table.columns(batch), schema=schema))
+    about = {"floorproof.version": _core.__version__,
+             **{f"floorproof.{key}": table.about[key]
+                for key in ("campaign", "scenario", "versions")}}
+    schema = pyarrow.schema([(name, types[kind]) for name, kind in table.kinds.items()],
+                            metadata=about)
+    with written_whole(file, overwrite) as part, parquet.ParquetWriter(part, schema) as writer:
+        for batch in table.batches(_BATCH):
+            writer.write_table(pyarrow.table(table.columns(batch), schema=schema))
     return file
 
 
