@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file_output.h"
+#include "base/interrupt.h"
 #include "env/map/site.h"
 #include "env/scene/robot_model.h"
 #include "python/bindings/arrays.h"
@@ -16,6 +17,7 @@
 #include "run/episode/plan_inputs.h"
 #include "run/episode/records.h"
 #include "run/plan_check/plan_check.h"
+#include "run/plan_check/prediction.h"
 #include "run/scenario/warnings.h"
 
 namespace floorproof {
@@ -99,6 +101,19 @@ std::string CheckText(const Planned& p) {
       [&] { return JsonText(PlanCheckJson(*p.scenario, CheckPlan(*p.scenario, p.plan))); });
 }
 
+// predict.json's content.
+std::string PredictionText(const ScenarioFile& file, const std::optional<std::string>& variant,
+                           int draws) {
+  const Variant& of = VariantNamed(file, variant);
+  return WithoutGil([&] {
+    const auto ask = [](int) {
+      if (Interrupted()) throw Interruption();
+    };
+    const Prediction prediction = Predict(file, of, draws, ask);
+    return JsonText(PredictionJson(file.Read(file.episode(), of), prediction));
+  });
+}
+
 }  // namespace
 
 void BindScenario(nb::module_& m) {
@@ -127,7 +142,8 @@ void BindScenario(nb::module_& m) {
              const std::optional<std::string>& variant) {
             return std::make_shared<Scenario>(f.Read(episode, VariantNamed(f, variant)));
           },
-          "episode"_a.none(), "variant"_a.none());
+          "episode"_a.none(), "variant"_a.none())
+      .def("predict", &PredictionText, "variant"_a.none(), "draws"_a);
 
   nb::class_<Scenario>(m, "Scenario")
       .def_ro("name", &Scenario::name)

@@ -13,7 +13,7 @@ from . import _core
 from ._checks import path_of, picture_size, whole
 from ._core import InputError
 from ._progress import Progress, shown
-from ._results import Episode, PathLike, Plan, Pose, episode_of
+from ._results import Episode, PathLike, Plan, Pose, episode_of, json_map
 from ._site import Site
 from ._yaml import overrides_of, yaml_text
 
@@ -122,6 +122,20 @@ class Scenario:
     def plan(self) -> Plan:
         """Plans. That there is no plan is no exception: its `status` says so."""
         return Plan(self._fresh().make_plan())
+
+    def predict(self, draws: int = 256) -> Dict[str, Any]:
+        """How often its plan will fail, from the robot's measured rates and before any drive: what
+        predict.json holds (docs/measured-risk.md), among it `no_failure`, `any_failure` and `modes`
+        (each with probability, lower, upper), `hazards` and `meetings`. The key `risk.model` names
+        the rates. Conditions are what `draws` episodes draw, the first ones, of episode(k) those
+        from k on; one condition where nothing is drawn.
+
+        Throws InputError where no rates are named, where there is no plan, or where it is made on
+        the way."""
+        draws = whole("draws", draws, 1, 100_000)
+        episode, variant = self._which
+        file = self._file if episode == self._file.episode else self.with_(episode=episode)._file
+        return json_map(file.predict(variant, draws))
 
     def run(self, plan: Union[None, Plan, Any] = None, *, out: Optional[PathLike] = None,
             video: bool = False, progress: Progress = None,
