@@ -18,6 +18,7 @@
 #include "bench/study_predictors.h"
 #include "bench/study_sites.h"
 #include "measure/risk_files.h"
+#include "measure/shared_frailty.h"
 #include "run/campaign/drive_campaign.h"
 #include "run/episode/records.h"
 
@@ -63,6 +64,7 @@ class Runner {
         inputs_{study.robot, model_.string(),
                 ReadRobot(FindRobotFile(study.robot, {"robot", 0})).spec,
                 study.maps.empty() ? fs::path() : fs::absolute(study.maps)} {
+    ReadRiskModel(model_);  // or it is said at once, not of each plan
     fs::create_directories(out_);
     fs::create_directories(drives_);
   }
@@ -88,11 +90,12 @@ class Runner {
     std::vector<DrivenPlan> seen;
     for (const Json& plan : plans["plans"])
       if (Driven(plan) >= study_.episodes) seen.push_back(Seen(plan));
-    const std::string text = fmt::format(
-                                 "# Predictions of plans against their drives\n\n{} of {} plans "
-                                 "are driven, {} drives each.\n",
-                                 seen.size(), plans["plans"].size(), study_.episodes) +
-                             StudyFigures(seen);
+    const std::string text =
+        fmt::format(
+            "# Predictions of plans against their drives\n\n{} of {} plans "
+            "are driven, {} drives each; of {} nothing could be predicted.\n",
+            seen.size(), plans["plans"].size(), study_.episodes, plans["left_out"].size()) +
+        StudyFigures(seen);
     WriteFileWhole(out_ / ("figures" + which + ".md"), text);
     WriteReliabilityDiagram(seen, out_ / ("reliability" + which + ".png"));
     fmt::print("{}", text);
@@ -118,9 +121,9 @@ class Runner {
 
   fs::path FolderOf(const Json& plan) const { return drives_ / LabelOf(plan); }
 
-  // None: there is no plan.
+  // None: there is no plan, or nothing can be said of it; `left_out` says why.
   std::optional<Json> Described(StudySet set, int site, const std::string& planner,
-                                const FittedPredictors* fitted) const {
+                                const FittedPredictors* fitted, Json& left_out) const {
     Json plan = {{"set", Name(set)}, {"site", site}, {"planner", planner}};
     // Not the draws of the drives themselves: these are not known beforehand.
     const ScenarioFile file = FileOf(plan, {{"seed", "1"}});
@@ -128,6 +131,7 @@ class Runner {
       DescribePlan(file, classes_, fitted, plan);
     } catch (const InputError& error) {
       fmt::print("{} is left out: {}\n", LabelOf(plan), error.what());
+      left_out.push_back({{"plan", LabelOf(plan)}, {"why", error.what()}});
       return std::nullopt;
     }
     return plan;
@@ -149,13 +153,16 @@ class Runner {
     }
     Json json = {{"model", model}, {"sites", sites}, {"driven_before", 0}};
     json["plans"] = Json::array();
+    json["left_out"] = Json::array();
     int driven = 0;
     for (int site = 0; site < sites; ++site)
       for (const std::string& planner : kStudyPlanners)
-        if (auto plan = Described(set, site, planner, fitted)) {
+        if (auto plan = Described(set, site, planner, fitted, json["left_out"])) {
           driven += Driven(*plan);
           json["plans"].push_back(std::move(*plan));
         }
+    if (json["plans"].empty())
+      throw InputError({model_.string(), 0}, "", "", "predicts none of the plans");
     json["driven_before"] = driven;
     const std::string text = JsonText(json) + "\n";
     WriteFileWhole(HashOf(file), Sha256(text) + "\n");
@@ -231,7 +238,7 @@ class Runner {
     const CampaignStore measured =
         CampaignStore::Open(fs::path(study_.measured) / "campaign.sqlite", false);
     return {FitConstant(by_crf), FitRatesOfExposures(by_crf), FitRatesOfExposures(by_classes),
-            OccurrenceOfClasses(AllEncounters(measured), classes_)};
+            OccurrenceOfClasses(FirstMeetings(AllEncounters(measured)), classes_)};
   }
 
   static constexpr std::uintmax_t kMostBytes = 256u << 20;

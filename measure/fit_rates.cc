@@ -70,6 +70,10 @@ std::vector<RateAxis> AxesOf(const Meetings& met, const RateFitOptions& options)
   return axes;
 }
 
+// Of a meeting, what one that was censored had of it. Where another hazard's failure ends it, to
+// leave it out would leave out what was being cleared.
+constexpr double kCensored = 0.5;
+
 std::string StreamName(const KindRates& kind) {
   return fmt::format("risk_model.{}.{}", kind.type, Name(kind.passage));
 }
@@ -129,13 +133,13 @@ std::optional<KindRates> FitKind(const Meetings& all, const RateFitOptions& opti
     kind.censored += e->outcome == Encounter::Outcome::kCensored;
     kind.cleared += e->outcome == Encounter::Outcome::kCleared;
     kind.way_m += e->way_m;
-    const bool failed = e->outcome == Encounter::Outcome::kFailed;
-    if (failed || (kind.per_metre ? e->way_m > 0 : e->outcome == Encounter::Outcome::kCleared))
+    if (!kind.per_metre || e->way_m > 0 || e->outcome == Encounter::Outcome::kFailed)
       met.push_back(e);
   }
-  if (static_cast<int>(met.size()) < options.least_encounters) {
+  const int known = static_cast<int>(met.size()) - (kind.per_metre ? 0 : kind.censored);
+  if (known < options.least_encounters) {
     unmeasured = {kind.type, kind.passage,
-                  fmt::format("{} encounters with an outcome; at least {} are needed", met.size(),
+                  fmt::format("{} encounters with an outcome; at least {} are needed", known,
                               options.least_encounters)};
     return std::nullopt;
   }
@@ -145,7 +149,10 @@ std::optional<KindRates> FitKind(const Meetings& all, const RateFitOptions& opti
   for (const Encounter* e : met) {
     RateRow& row = rows.emplace_back();
     row.x = CovariatesOf(kind.axes, options.mirrored, *e);
-    if (kind.per_metre) row.way_m = e->way_m;
+    if (kind.per_metre)
+      row.way_m = e->way_m;
+    else if (e->outcome == Encounter::Outcome::kCensored)
+      row.way_m = kCensored;
     row.happened = e->outcome == Encounter::Outcome::kFailed;
     if (!row.happened) continue;
     failures.push_back({row.x, 1, false});

@@ -66,9 +66,7 @@ std::vector<JudgedEncounter> Predicted(const RiskModel& model,
 
 HoldOut JudgeByHoldOut(const std::vector<Encounter>& all_met, const RateFitOptions& options,
                        int parts) {
-  std::vector<Encounter> encounters;
-  for (const std::vector<const Encounter*>& met : MeetingsOfDrives(all_met))
-    encounters.push_back(*met.front());
+  const std::vector<Encounter> encounters = FirstMeetings(all_met);
   Stream random(0, 0, "hold_out");
   std::vector<int> part_of;
   for (std::size_t i = 0; i < encounters.size(); ++i)

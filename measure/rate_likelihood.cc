@@ -24,7 +24,7 @@ RateLikelihood::RateLikelihood(const std::vector<RateRow>& rows, bool per_metre)
   if (per_metre_)
     events_ += kMore * way_ / way_.sum();
   else
-    events_ += kMore / static_cast<double>(rows.size()) * (1 - 2 * events_);
+    events_ += kMore / way_.sum() * (way_ - 2 * events_);
 }
 
 double RateLikelihood::Log(const VectorXd& eta) const {
@@ -47,8 +47,8 @@ void RateLikelihood::ScoreAndInformation(const VectorXd& eta, VectorXd& score,
       score[i] = p * (events_[i] / rate - way_[i]);
       information[i] = p * p * way_[i] / rate;
     } else {
-      score[i] = events_[i] - p;
-      information[i] = p * (1 - p);
+      score[i] = events_[i] - way_[i] * p;
+      information[i] = way_[i] * p * (1 - p);
     }
   }
 }

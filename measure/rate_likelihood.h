@@ -12,7 +12,7 @@ namespace floorproof {
 // A meeting, or a failure, as the fit of one eta sees it.
 struct RateRow {
   std::vector<double> x;  // by axis
-  double way_m = 1;       // of an exposure; 1 where it is a meeting's
+  double way_m = 1;       // of an exposure; of a meeting, how much of it there was: 1, all
   bool happened = false;
 };
 

@@ -13,6 +13,7 @@
 #include "measure/measured_fmea_yaml.h"
 #include "measure/mirror_image.h"
 #include "measure/risk_model_json.h"
+#include "measure/shared_frailty.h"
 #include "run/scenario/fmea_file.h"
 #include "run/scenario/scenario_parts.h"
 
@@ -46,7 +47,7 @@ std::optional<RiskModel> WriteRiskFiles(const CampaignStore& store, const RobotM
       {spec.name, spec.drive, spec.mass_kg, spec.clearance_m, ModelHash(robot.files, {})}, options);
   if (model.kinds.empty()) return std::nullopt;
   WriteFileWhole(folder / "risk_model.json", RiskModelJson(model));
-  const MeasuredFmea fmea = MeasureFmea(encounters, ClassOfType(), spec.cruise_mps,
+  const MeasuredFmea fmea = MeasureFmea(FirstMeetings(encounters), ClassOfType(), spec.cruise_mps,
                                         ReadFmeaTables(BundledTables()), limits);
   WriteFileWhole(folder / "fmea_measured.yaml", MeasuredFmeaYaml(fmea, spec.name));
   return model;

@@ -70,13 +70,23 @@ std::vector<std::vector<const Encounter*>> MeetingsOfDrives(
   return all;
 }
 
+std::vector<Encounter> FirstMeetings(const std::vector<Encounter>& encounters) {
+  std::vector<Encounter> first;
+  for (const std::vector<const Encounter*>& met : MeetingsOfDrives(encounters))
+    first.push_back(*met.front());
+  return first;
+}
+
 double SharedFrailty(const RiskModel& model, const std::vector<Encounter>& encounters) {
   constexpr std::size_t kFewest = 20;  // hazards that were met again
   constexpr double kMostTheta = 32;
+  constexpr double kGain = 1.92;  // of log likelihood: 95 % of chi square with one degree, halved
   constexpr int kSteps = 64, kHalvings = 30;
   const std::vector<Repeated> repeated = RepeatedOf(model, encounters);
   if (repeated.size() < kFewest) return 1;
-  const auto value = [&](double log_theta) { return LogLikelihood(repeated, std::exp(log_theta)); };
+  const auto value = [&](double log_theta) {
+    return LogLikelihood(repeated, std::exp(log_theta)) - log_theta;
+  };
   // The best of a grid, then between its neighbours.
   const double step = std::log(kMostTheta) / kSteps;
   double best = 0, most = value(0);
@@ -87,7 +97,8 @@ double SharedFrailty(const RiskModel& model, const std::vector<Encounter>& encou
     const double a = low + (high - low) / 3, b = high - (high - low) / 3;
     (value(a) < value(b) ? low : high) = value(a) < value(b) ? a : b;
   }
-  return RoundedTo6(std::exp((low + high) / 2));
+  const double found = (low + high) / 2;
+  return value(found) - value(0) > kGain ? RoundedTo6(std::exp(found)) : 1;
 }
 
 }  // namespace floorproof

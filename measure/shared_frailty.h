@@ -14,11 +14,17 @@ namespace floorproof {
 // which they began.
 std::vector<std::vector<const Encounter*>> MeetingsOfDrives(
     const std::vector<Encounter>& encounters);
+// The first of each: who failed at a hazard does not meet it again, so later ones are of those who
+// got over it.
+std::vector<Encounter> FirstMeetings(const std::vector<Encounter>& encounters);
 
-// RiskModel::theta by maximum likelihood, given the model's rates; 1 where too few hazards were met
-// again to say. A robot that failed at a hazard does not meet it again, so what counts is how often
-// who got over it once gets over it again: of meetings 1 to k that were cleared the likelihood is
-// exp(-(sum of Lambda^theta)^(1/theta)), of one that failed behind them what that falls by.
+// RiskModel::theta, given the model's rates: the greatest likelihood / theta, as twice as large is
+// half as likely beforehand. 1 where too few hazards were met again, or where 1 says it nearly as
+// well (likelihood ratio, 95 %): many crossings would count as one otherwise, from next to no
+// failures. A robot that failed at a hazard does not meet it again,
+// so what counts is how often who got over it once gets over it again: of meetings 1 to k that were
+// cleared the likelihood is exp(-(sum of Lambda^theta)^(1/theta)), of one that failed behind them
+// what that falls by.
 double SharedFrailty(const RiskModel& model, const std::vector<Encounter>& encounters);
 
 }  // namespace floorproof

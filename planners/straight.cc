@@ -127,6 +127,7 @@ class Straight final : public Planner {
       for (const double left : {-1.0, 1.0})
         if (std::vector<Vec2> there = Corners(start_W, goal_W, left); IsFree(room, there))
           corners = std::move(there);
+      if (corners.size() == 2) result.message = "there is no room beside the way: it is one lane";
     }
     for (const Vec2& p_W : corners) {
       Waypoint& waypoint = result.path.emplace_back();

@@ -317,4 +317,17 @@ std::optional<PlannedPassage> NextPassage(HazardParts& parts, const HazardMap& m
   return Planned(watch.open().front(), map, robot, speeds.Of(watch.open().front()));
 }
 
+std::vector<std::pair<std::string, double>> SizeAsMet(const Hazard& hazard, const Vec2& travel_W) {
+  std::vector<std::pair<std::string, double>> size;
+  for (const auto& [key, value] : hazard.keys)
+    if (key != "toward_deg") size.emplace_back(key, value);
+  for (const Solid& solid : hazard.solids) {
+    if (!IsSlope(solid)) continue;
+    size.emplace_back("rise_along", solid.gradient.dot(travel_W));
+    size.emplace_back("rise_across", Cross(travel_W, solid.gradient));
+    break;
+  }
+  return size;
+}
+
 }  // namespace floorproof

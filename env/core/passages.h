@@ -3,9 +3,11 @@
 // look at a plan before the drive (FindPassages) and at a robot on its way (run/episode).
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -95,6 +97,16 @@ struct PlannedPassage {
   double from_m = 0, to_m = 0;  // way of the plan there and where it has left
   Approach at;
 };
+
+// A hazard's keys as a model can use them, met in this direction (unit): of a slope not which way
+// in the world it rises, but how much along the robot's way (rise_along) and across it, to its left
+// (rise_across).
+std::vector<std::pair<std::string, double>> SizeAsMet(const Hazard& hazard, const Vec2& travel_W);
+// The direction in which a passage enters.
+inline Vec2 TravelOf(const PlannedPassage& passage) {
+  const double yaw_rad = passage.X_WB.yaw_rad + passage.at.lead_rad;
+  return {std::cos(yaw_rad), std::sin(yaw_rad)};
+}
 
 // In the order in which they are entered. `map`: with the hazards that are to be found;
 // `holds_yaw`: see PathWalk. Takes time as the path's length and what lies near it.

@@ -30,6 +30,18 @@ double Thickness(const Hazard& hazard) {
   return std::max(0.0, least);
 }
 
+// Directions that a slope may be met in; all else is the same for all.
+std::vector<Vec2> Travels(const Hazard& hazard) {
+  if (std::ranges::none_of(hazard.solids, IsSlope)) return {Vec2(1, 0)};
+  std::vector<Vec2> travels;
+  constexpr int kDirections = 8;
+  for (int d = 0; d < kDirections; ++d) {
+    const double yaw_rad = 2 * kPi * d / kDirections;
+    travels.emplace_back(std::cos(yaw_rad), std::sin(yaw_rad));
+  }
+  return travels;
+}
+
 // Rates of a hazard, whatever place of it is met.
 struct HazardRates {
   double over = 0, beside = 0;  // a cell of the way
@@ -38,6 +50,7 @@ struct HazardRates {
 HazardRates RatesOf(const Hazard& hazard, const PlanRequest& request, const PathRates& rates) {
   const RobotSpec& robot = request.robot;
   const double cell_m = request.risk->grid.frame.cell_m, thick_m = Thickness(hazard);
+  if (hazard.keys.empty()) return {};  // the edge of a ramp, seen from below
   std::vector<double> leads = {0};
   if (robot.clear.kind == Shape2::Kind::kFootprint) leads = {0, kPi / 2, kPi, -kPi / 2};
   const auto least = [&](Passage passage, Approach at) {
@@ -48,7 +61,9 @@ HazardRates RatesOf(const Hazard& hazard, const PlanRequest& request, const Path
       for (const double lead_rad : leads) {
         at.speed_mps = speed_mps;
         at.lead_rad = lead_rad;
-        if (const auto rate = rates.Expected(hazard, passage, at)) best = std::min(best, *rate);
+        for (const Vec2& travel_W : Travels(hazard))
+          if (const auto rate = rates.Expected(hazard, passage, at, travel_W))
+            best = std::min(best, *rate);
       }
     return best;
   };

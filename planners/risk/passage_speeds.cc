@@ -48,7 +48,7 @@ double BestSpeed(const Stretch& stretch, const PlanRequest& request, const PathR
     for (const PlannedPassage* passage : stretch.met) {
       Approach at = passage->at;
       if (speed_mps > 0) at.speed_mps = speed_mps;
-      rate += rates.Expected(hazard(passage), passage->passage, at).value_or(0);
+      rate += rates.Expected(hazard(passage), passage->passage, at, TravelOf(*passage)).value_or(0);
     }
     return rate;
   };

@@ -34,11 +34,11 @@ const RateEvaluator* PathRates::RatesOf(std::string_view type, Passage passage) 
   return found == evaluators_.end() ? nullptr : &*found;
 }
 
-std::optional<double> PathRates::Expected(const Hazard& hazard, Passage passage,
-                                          Approach at) const {
+std::optional<double> PathRates::Expected(const Hazard& hazard, Passage passage, Approach at,
+                                          const Vec2& travel_W) const {
   const RateEvaluator* rates = RatesOf(hazard.type, passage);
   if (rates == nullptr) return std::nullopt;
-  Covariates covariates(rates->kind().axes, request_.model->mirrored, hazard.keys);
+  Covariates covariates(rates->kind().axes, request_.model->mirrored, SizeAsMet(hazard, travel_W));
   double sum = 0;
   for (const DriveConditions& conditions : conditions_)
     sum += Total(rates->At(covariates.Of(In(conditions, at))));
@@ -60,7 +60,13 @@ std::vector<double> PathRates::Speeds(const Hazard& hazard, Passage passage) con
 
 std::vector<PlannedPassage> PathRates::Passages(const Path& path) const {
   const bool holds_yaw = request_.robot.clear.kind == Shape2::Kind::kFootprint;
-  return FindPassages(request_.map, request_.robot, request_.start, path, holds_yaw);
+  std::vector<PlannedPassage> passages =
+      FindPassages(request_.map, request_.robot, request_.start, path, holds_yaw);
+  // The edges of ramps are hazards of the planner's view alone. They have no keys.
+  std::erase_if(passages, [&](const PlannedPassage& passage) {
+    return request_.map.hazards[static_cast<std::size_t>(passage.hazard)].keys.empty();
+  });
+  return passages;
 }
 
 PathSurvival PathRates::Of(const Path& path) const {
@@ -78,13 +84,17 @@ PathSurvival PathRates::Of(const Path& path) const {
     while (out.passages[first].hazard != passage.hazard ||
            out.passages[first].passage != passage.passage)
       ++first;
-    if (rates != nullptr) meetings.push_back({rates, hazard.keys, passage.at, 1, i, first});
+    if (rates != nullptr)
+      meetings.push_back({rates, SizeAsMet(hazard, TravelOf(passage)), passage.at, 1, i, first});
   }
   if (const RateEvaluator* floor = RatesOf(kFreeFloor, Passage::kBeside)) {
     Approach at;
     at.speed_mps = request_.robot.cruise_mps;
     at.wall_m = kFarWall_m;
-    meetings.push_back({floor, {}, at, Length(path), out.passages.size(), out.passages.size()});
+    double free_m = Length(path);
+    for (const PlannedPassage& passage : out.passages) free_m -= passage.to_m - passage.from_m;
+    meetings.push_back(
+        {floor, {}, at, std::max(0.0, free_m), out.passages.size(), out.passages.size()});
   }
   std::vector<std::vector<PlannedMeeting>> by_condition(conditions_.size(), meetings);
   for (std::size_t c = 0; c < conditions_.size(); ++c)

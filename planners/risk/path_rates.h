@@ -30,8 +30,10 @@ class PathRates {
   // friction and the robot's own mass and clearance.
   explicit PathRates(const PlanRequest& request);
 
-  // Mean over the conditions of the rate of all failures of one meeting; none: not measured.
-  std::optional<double> Expected(const Hazard& hazard, Passage passage, Approach at) const;
+  // Mean over the conditions of the rate of all failures of one meeting, in this direction (unit);
+  // none: not measured.
+  std::optional<double> Expected(const Hazard& hazard, Passage passage, Approach at,
+                                 const Vec2& travel_W) const;
   // The speeds that are worth trying for this robot where it meets a hazard, ascending, m/s: within
   // what was measured of that kind.
   std::vector<double> Speeds(const Hazard& hazard, Passage passage) const;

@@ -12,12 +12,12 @@ namespace {
 // Ends are rounded to 6 digits.
 constexpr double kRounding = 1e-5;
 
-// One of a pair of mirror images: the travel comes from the right of the normal, or along it.
+// One of a pair of mirror images: the travel comes from the right of the normal, or along it. What
+// turns are, both ways added up, they have in common.
 Approach Unmirrored(Approach at) {
   if (at.heading_rad >= 0) return at;
   at.heading_rad = -at.heading_rad;
   at.lead_rad = -at.lead_rad;
-  at.turn_rad = -at.turn_rad;
   return at;
 }
 
@@ -45,9 +45,10 @@ Covariates::Covariates(const std::vector<RateAxis>& axes, bool mirrored,
     const auto column = std::find_if(kApproach.begin(), kApproach.end(), [&](const auto& each) {
       return !axes[a].of_hazard && each.name == axes[a].name;
     });
-    if (stated != size.end())
+    if (stated != size.end()) {
       x_[a] = stated->second;
-    else if (column != kApproach.end())
+      if (mirrored_ && axes[a].name == "rise_across") across_ = {a, stated->second};
+    } else if (column != kApproach.end())
       of_approach_.emplace_back(a, column->member);
     else
       throw InputError("the risk model's rates depend on " + axes[a].name +
@@ -58,6 +59,7 @@ Covariates::Covariates(const std::vector<RateAxis>& axes, bool mirrored,
 std::span<const double> Covariates::Of(const Approach& at) {
   const Approach met = mirrored_ ? Unmirrored(at) : at;
   for (const auto& [axis, member] : of_approach_) x_[axis] = met.*member;
+  if (across_) x_[across_->first] = at.heading_rad < 0 ? -across_->second : across_->second;
   return x_;
 }
 

@@ -135,6 +135,8 @@ class Covariates {
   bool mirrored_;
   std::vector<double> x_;
   std::vector<std::pair<std::size_t, double Approach::*>> of_approach_;
+  std::optional<std::pair<std::size_t, double>>
+      across_;  // the axis rise_across of what is mirrored
 };
 
 // At least 0; beyond what was measured, by how much, as a share of what was (of an axis that was

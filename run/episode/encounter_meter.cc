@@ -19,21 +19,6 @@ constexpr std::size_t kAtWall = 0, kOnFloor = 1;
 // They have no keys.
 bool IsOfTheSite(const Hazard& hazard) { return !hazard.keys.empty(); }
 
-// A hazard's sizes as a model can use them: of a slope not which way in the world it rises, but how
-// much along the robot's way and across it.
-void TakeSize(const Hazard& hazard, const Vec2& travel_W,
-              std::vector<std::pair<std::string, double>>& size) {
-  size.clear();
-  for (const auto& [key, value] : hazard.keys)
-    if (key != "toward_deg") size.emplace_back(key, value);
-  for (const Solid& solid : hazard.solids) {
-    if (!IsSlope(solid)) continue;
-    size.emplace_back("rise_along", solid.gradient.dot(travel_W));
-    size.emplace_back("rise_across", Cross(travel_W, solid.gradient));
-    break;
-  }
-}
-
 }  // namespace
 
 EncounterMeter::EncounterMeter(const HazardMap& map, const RobotSpec& robot, bool holds_yaw,
@@ -132,7 +117,7 @@ void EncounterMeter::TakeEntry(const Meeting& meeting, const Sample& sample, Enc
   const Vec2 v_W = sample.v_WB_W.head<2>();
   const double speed_mps = v_W.norm();
   const Vec2 heading(std::cos(sample.yaw_rad), std::sin(sample.yaw_rad));
-  TakeSize(hazard, speed_mps > 0 ? Vec2(v_W / speed_mps) : heading, row.size);
+  row.size = SizeAsMet(hazard, speed_mps > 0 ? Vec2(v_W / speed_mps) : heading);
   row.t_s = sample.t_s;
   row.x_m = sample.p_WB.x();
   row.y_m = sample.p_WB.y();
@@ -169,8 +154,8 @@ Encounter* EncounterMeter::Blamed(const Event& event) {
     if (rows_[i].hazard == event.hazard &&
         (is_open(i) || rows_[i].t_s + rows_[i].time_s >= event.t_s - kLater_s))
       return &rows_[i];
-  if (event.hazard == "wall") return nullptr;
-  for (const Meeting& meeting : watch_.open())  // what it is in, entered last
+  // What it is in, entered last; at a wall, too: way within a hazard is no way beside the wall.
+  for (const Meeting& meeting : watch_.open())
     if (meeting.inside) {
       const auto live = std::ranges::find(live_, meeting.id, &Live::meeting);
       if (live != live_.end()) return &rows_[live->row];

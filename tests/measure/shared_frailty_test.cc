@@ -69,6 +69,25 @@ TEST(SharedFrailty, LeavesTheRatesOfOneMeetingAsTheyAre) {
   EXPECT_EQ(dut.encounters, static_cast<int>(met.size()));
 }
 
+// Hardly anything fails, again or for the first time: any theta would do, and the largest would
+// make one crossing of many.
+TEST(SharedFrailty, IsOneWhereNothingSpeaksForMore) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Stream random(seed, 0, "shared_frailty_test");
+    std::vector<Encounter> met;
+    for (int drive = 0; drive < 100; ++drive)
+      for (int i = 0; i < 2; ++i) {
+        Encounter e = DrawStep(random);
+        e.hazard = "edge";
+        e.drive = drive;
+        DrawOutcome({0, 0.02, 0, 0}, random, e);
+        met.push_back(e);
+        if (e.outcome == Encounter::Outcome::kFailed) break;
+      }
+    EXPECT_LT(FitRates(met, {}, {}).theta, 4) << seed;
+  }
+}
+
 TEST(SharedFrailty, IsNotGuessedFromAFew) {
   EXPECT_EQ(FitRates(Drives(15, 6), {}, {.least_encounters = 10}).theta, 1);
   std::vector<Encounter> of_no_drive = Drives(500, 6);

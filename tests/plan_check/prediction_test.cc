@@ -23,8 +23,6 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr std::size_t kStuck = static_cast<std::size_t>(FailureMode::kStuck);
-
 // Rates of getting stuck alone, which fall in a straight line of eta with friction.
 KindRates Planted(const char* type, Passage passage, double rate_at_04, double rate_at_08) {
   KindRates kind;

@@ -128,6 +128,7 @@ TEST_F(LanesOfStraight, AreChangedWhereThereIsRoom) {
   EXPECT_LT(Lanes(keys)[2].y(), 1.25);
   map_.occupancy(3, 1) = CellState::kOccupied;
   EXPECT_THAT(Lanes(keys), ::testing::SizeIs(2));
+  EXPECT_THAT(Plan("{" + keys + "}").message, HasSubstr("no room"));
 }
 
 // Even for who crosses obstacles; a step takes none.

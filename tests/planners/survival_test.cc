@@ -215,23 +215,30 @@ TEST(Survival, IntervalsGrowWithWhatTheModelDoesNotKnow) {
   EXPECT_GT(width(0.4), 1.8 * width(0.2));
 }
 
+// A slope that rises to the robot's left rises to its right in the mirror; how much it turns, both
+// ways added up, stays.
 TEST(Covariates, OfAMirrorImageAreTheSame) {
-  std::vector<RateAxis> axes(3);
+  std::vector<RateAxis> axes(5);
   axes[0].name = "heading_rad";
   axes[1].name = "lead_rad";
-  axes[2].name = "height_m";
-  axes[2].of_hazard = true;
+  axes[2].name = "turn_rad";
+  axes[3].name = "height_m";
+  axes[4].name = "rise_across";
+  axes[3].of_hazard = axes[4].of_hazard = true;
   Approach at;
   at.heading_rad = -0.3;
   at.lead_rad = 0.7;
+  at.turn_rad = 1.5;
   Approach mirrored = at;
   mirrored.heading_rad = 0.3;
   mirrored.lead_rad = -0.7;
-  Covariates dut(axes, true, {{"height_m", 0.01}});
+  Covariates dut(axes, true, {{"height_m", 0.01}, {"rise_across", -0.2}});
+  Covariates image(axes, true, {{"height_m", 0.01}, {"rise_across", 0.2}});
   const std::span<const double> x = dut.Of(at);
   const std::vector<double> first(x.begin(), x.end());
-  EXPECT_THAT(dut.Of(mirrored), ::testing::ElementsAreArray(first));
-  EXPECT_THAT(first, ::testing::ElementsAre(0.3, -0.7, 0.01));
+  EXPECT_THAT(image.Of(mirrored), ::testing::ElementsAreArray(first));
+  EXPECT_THAT(first, ::testing::ElementsAre(0.3, -0.7, 1.5, 0.01, 0.2));
+  EXPECT_THAT(dut.Of(mirrored), ::testing::ElementsAre(0.3, -0.7, 1.5, 0.01, -0.2));
   EXPECT_THROW(Covariates(axes, true, {{"width_m", 0.01}}), InputError);
 }
 
