@@ -21,6 +21,7 @@
 #include "measure/shared_frailty.h"
 #include "run/campaign/drive_campaign.h"
 #include "run/episode/records.h"
+#include "run/scenario/risk_model_file.h"
 
 namespace floorproof {
 namespace {
