@@ -59,11 +59,16 @@ std::vector<JudgedPlan> SitesAgain(const std::map<int, std::vector<JudgedPlan>>&
   return drawn;
 }
 
+// Plans of one site share their drives' conditions, and are taken to fail together.
 std::vector<JudgedPlan> DrivenAsPredicted(std::span<const JudgedPlan> plans, Stream& random) {
   std::vector<JudgedPlan> drawn(plans.begin(), plans.end());
+  std::map<int, std::vector<double>> conditions;  // by site, by drive
   for (JudgedPlan& plan : drawn) {
     plan.failure.k = 0;
-    for (int i = 0; i < plan.failure.n; ++i) plan.failure.k += random.Uniform() < plan.failure.p;
+    std::vector<double>& of_site = conditions[plan.site];
+    while (static_cast<int>(of_site.size()) < plan.failure.n) of_site.push_back(random.Uniform());
+    for (int i = 0; i < plan.failure.n; ++i)
+      plan.failure.k += of_site[static_cast<std::size_t>(i)] < plan.failure.p;
   }
   return drawn;
 }

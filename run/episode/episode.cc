@@ -318,6 +318,7 @@ std::optional<Outcome> EpisodeLoop::Failed() {
 // the time limit or somebody else did, nobody knows.
 Encounter::After EpisodeLoop::After(Outcome ended) const {
   constexpr double kUpright_rad = 45 * kPi / 180;
+  if (ended == Outcome::kAborted) return Encounter::After::kNeedsHelp;  // it gave up
   if (ended != Outcome::kFailure && ended != Outcome::kSuccess) return Encounter::After::kUnseen;
   // One that goes by its wheels' turns may take itself to be at its end.
   const bool recovered = (ended == Outcome::kSuccess || aftermath_.Gains(sample_.t_s)) &&
