@@ -76,7 +76,16 @@ std::vector<double> KnotsOf(const RateAxis& axis, std::vector<double> values) {
   knots = Distinct(knots);
   knots.front() = axis.lower;
   knots.back() = axis.upper;
-  return knots;
+  // Values that are the same but for what a drive computes would make a function of nothing.
+  constexpr double kApart = 0.01;  // of the range
+  std::vector<double> apart = {knots.front()};
+  for (const double knot : knots)
+    if (knot - apart.back() >= kApart * (axis.upper - axis.lower)) apart.push_back(knot);
+  if (apart.size() == 1)
+    apart.push_back(axis.upper);
+  else
+    apart.back() = axis.upper;
+  return apart;
 }
 
 // The integral of the squared second derivative, as a quadratic form of the values at knots.

@@ -177,6 +177,20 @@ TEST(FitRates, ModesThatNeverHappenedShareWhatIsLeft) {
   EXPECT_NEAR(most * kind.any.events, -std::log(0.5 / kRateMembers), 0.1);
 }
 
+// A third meet the edge square on, to what a drive computes: knots at quantiles would all but
+// coincide there.
+TEST(FitRates, ValuesThatAreAlmostTheSameShareAKnot) {
+  std::vector<Encounter> met = Steps(900);
+  Stream random(12, 0, "fit_rates_test");
+  for (std::size_t i = 0; i < met.size(); ++i)
+    met[i].at.heading_rad = i % 3 == 0 ? 1e-17 * random.Normal() : random.Uniform(-1.5, 1.5);
+  const RiskModel dut = FitRates(met, {}, {});
+  for (const RateAxis& axis : dut.kinds.at(0).axes)
+    for (std::size_t j = 1; j < axis.knots.size(); ++j)
+      EXPECT_GE(axis.knots[j] - axis.knots[j - 1], 0.0099 * (axis.upper - axis.lower)) << axis.name;
+  for (const double value : dut.kinds[0].any.coefficients) EXPECT_TRUE(std::isfinite(value));
+}
+
 TEST(FitRates, TooFewEncountersAreSaid) {
   std::vector<Encounter> met = Steps(60);
   for (int i = 0; i < 20; ++i) met.push_back(met[i]);
