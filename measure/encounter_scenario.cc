@@ -15,8 +15,6 @@
 namespace floorproof {
 namespace {
 
-constexpr double kSteepest_deg = 90;  // of the edge against the way: along it
-
 // A key and the values it takes, as a line of `randomise`.
 std::string Line(const std::string& key, const std::string& distribution) {
   return fmt::format("  {}: {{{}}}\n", key, distribution);
@@ -25,11 +23,22 @@ std::string Line(const std::string& key, const std::string& distribution) {
 std::string Range(double low, double high) { return fmt::format("[{:.4g}, {:.4g}]", low, high); }
 std::string Uniform(double low, double high) { return "uniform: " + Range(low, high); }
 
+// About what the robot is, with a share of it as deviation.
+std::string Normal(double mean, double share) { return "normal: " + Range(mean, share * mean); }
+
 std::string Uniform(const std::vector<std::pair<double, double>>& spans) {
   if (spans.size() == 1) return Uniform(spans[0].first, spans[0].second);
   std::string text;
   for (const auto& [low, high] : spans) text += (text.empty() ? "" : ", ") + Range(low, high);
   return "uniform: [" + text + "]";
+}
+
+// Of the edge against the way, from along it to along it; half are square on, as ways along
+// walls meet what lies across them. What is most often met is to be known best.
+std::string Angles() {
+  std::string values;
+  for (int deg = -90; deg <= 90; deg += 10) values += fmt::format("{}, 0, ", deg);
+  return "choice: [" + values.substr(0, values.size() - 2) + "]";
 }
 
 std::string Meetings() {
@@ -74,7 +83,7 @@ std::string MetBy(const RobotSpec& robot) {
   // Measured across the edge, however it lies, it is still longer than its types ask for.
   const double wheel_m = std::ranges::max(robot.wheels, {}, &WheelSpec::radius_m).radius_m;
   const double length_m = std::max(kShortest_m, kWheels * wheel_m / kCrossingLeastCos);
-  std::string lines = Line("site.generate.angle_deg", Uniform(-kSteepest_deg, kSteepest_deg));
+  std::string lines = Line("site.generate.angle_deg", Angles());
   lines += Line("plan.speed_mps", Uniform(kSlowest * robot.max_speed_mps, robot.max_speed_mps));
   lines += Line("site.floor.friction", Uniform(0.3, 1));
   if (IsHolonomic(robot)) lines += Line("site.generate.lead_deg", Uniform(-180, 180));
@@ -94,8 +103,8 @@ std::string MetBy(const RobotSpec& robot) {
     lines += Line("plan.turn_deg", Uniform(20, 110));
     lines += Line("plan.aside_m", Uniform(0.1 * width_m, std::min(0.6, 1.5 * width_m)));
   }
-  lines += Line("robot.clearance_m", Uniform(0.7 * robot.clearance_m, 1.2 * robot.clearance_m));
-  lines += Line("robot.mass_kg", Uniform(0.8 * robot.mass_kg, 1.3 * robot.mass_kg));
+  lines += Line("robot.clearance_m", Normal(robot.clearance_m, 0.08));
+  lines += Line("robot.mass_kg", Normal(robot.mass_kg, 0.1));
   return lines;
 }
 
