@@ -98,6 +98,10 @@ struct PlannedPassage {
   Approach at;
 };
 
+// Not of a robot's view alone, as the edges of ramps are, and the base floor seen from another:
+// these have no keys.
+inline bool IsOfTheSite(const Hazard& hazard) { return !hazard.keys.empty(); }
+
 // A hazard's keys as a model can use them, met in this direction (unit): of a slope not which way
 // in the world it rises, but how much along the robot's way (rise_along) and across it, to its left
 // (rise_across).

@@ -48,9 +48,10 @@ struct HazardRates {
 };
 
 HazardRates RatesOf(const Hazard& hazard, const PlanRequest& request, const PathRates& rates) {
+  if (!IsOfTheSite(hazard)) return {};
   const RobotSpec& robot = request.robot;
   const double cell_m = request.risk->grid.frame.cell_m, thick_m = Thickness(hazard);
-  if (hazard.keys.empty()) return {};  // the edge of a ramp, seen from below
+  const std::vector<Vec2> travels = Travels(hazard);
   std::vector<double> leads = {0};
   if (robot.clear.kind == Shape2::Kind::kFootprint) leads = {0, kPi / 2, kPi, -kPi / 2};
   const auto least = [&](Passage passage, Approach at) {
@@ -61,7 +62,7 @@ HazardRates RatesOf(const Hazard& hazard, const PlanRequest& request, const Path
       for (const double lead_rad : leads) {
         at.speed_mps = speed_mps;
         at.lead_rad = lead_rad;
-        for (const Vec2& travel_W : Travels(hazard))
+        for (const Vec2& travel_W : travels)
           if (const auto rate = rates.Expected(hazard, passage, at, travel_W))
             best = std::min(best, *rate);
       }

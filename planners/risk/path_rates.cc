@@ -62,9 +62,8 @@ std::vector<PlannedPassage> PathRates::Passages(const Path& path) const {
   const bool holds_yaw = request_.robot.clear.kind == Shape2::Kind::kFootprint;
   std::vector<PlannedPassage> passages =
       FindPassages(request_.map, request_.robot, request_.start, path, holds_yaw);
-  // The edges of ramps are hazards of the planner's view alone. They have no keys.
   std::erase_if(passages, [&](const PlannedPassage& passage) {
-    return request_.map.hazards[static_cast<std::size_t>(passage.hazard)].keys.empty();
+    return !IsOfTheSite(request_.map.hazards[static_cast<std::size_t>(passage.hazard)]);
   });
   return passages;
 }

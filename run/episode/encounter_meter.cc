@@ -15,10 +15,6 @@ constexpr double kMoved_m = 0.005, kTurned_rad = 0.02;  // less is not looked at
 constexpr double kLater_s = 15;
 constexpr std::size_t kAtWall = 0, kOnFloor = 1;
 
-// The edges of ramps, and the base floor seen from another, are hazards of a robot's view alone.
-// They have no keys.
-bool IsOfTheSite(const Hazard& hazard) { return !hazard.keys.empty(); }
-
 }  // namespace
 
 EncounterMeter::EncounterMeter(const HazardMap& map, const RobotSpec& robot, bool holds_yaw,

@@ -24,6 +24,7 @@ HazardSight::HazardSight(const HazardMap& map, const RobotSpec& robot, double co
       if (solid.kind == Solid::Kind::kPrism && !solid.base.empty())
         parts_.push_back({static_cast<int>(i), solid.base, BoxAround(solid.base), solid.z_low_m,
                           solid.z_high_m});
+  in_plane_.reserve(parts_.size());
 }
 
 bool HazardSight::Sees(std::span<const Reading> readings) {
@@ -52,20 +53,23 @@ void HazardSight::OnControl(const Observation& sensed, const Sample& sample) {
 void HazardSight::SeeScan(const LidarScan& scan, const Sample& sample) {
   const Pose2 X_WL = sample.X_WB() * scan.X_BL;
   const double plane_m = sample.p_WB.z() + scan.height_m;
+  in_plane_.clear();
+  for (const Part& part : parts_)
+    if (plane_m <= part.high_m - kPlane_m && plane_m >= part.low_m) in_plane_.push_back(&part);
+  if (in_plane_.empty()) return;
   scan.ForEachEnd([&](const Vec2& p_L) {
     const Vec2 p_W = X_WL * p_L;
     double near_m = kNear_m + kNearShare * p_L.norm();
     const double reach_m = near_m;
     int nearest = -1;
-    for (const Part& part : parts_) {
-      if (plane_m > part.high_m - kPlane_m || plane_m < part.low_m) continue;
-      if ((p_W.array() < part.box.low.array() - near_m).any() ||
-          (p_W.array() > part.box.high.array() + near_m).any())
+    for (const Part* part : in_plane_) {
+      if ((p_W.array() < part->box.low.array() - near_m).any() ||
+          (p_W.array() > part->box.high.array() + near_m).any())
         continue;
-      const double distance_m = SignedDistance(part.base_W, p_W);
+      const double distance_m = SignedDistance(part->base_W, p_W);
       if (distance_m > near_m) continue;
       near_m = std::max(distance_m, 0.0);
-      nearest = part.hazard;
+      nearest = part->hazard;
     }
     if (nearest >= 0 && !IsAtWall(p_W, reach_m)) See(nearest);
   });

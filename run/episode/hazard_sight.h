@@ -61,7 +61,8 @@ class HazardSight {
   const HazardMap& map_;
   const RobotSpec& robot_;
   double control_s_;
-  std::vector<Part> parts_;  // solids that a beam can meet
+  std::vector<Part> parts_;            // solids that a beam can meet
+  std::vector<const Part*> in_plane_;  // those that this scan's beams can
   std::vector<std::optional<Seen>> seen_;
   double way_m_ = 0, speed_mps_ = 0;
   std::optional<Vec2> last_W_;  // where the way was last added up
