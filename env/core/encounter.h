@@ -29,10 +29,13 @@ struct Approach {
   double speed_mps = 0;
   double gap_m = 0;        // from the footprint to the hazard where the plan comes nearest; 0: over
   double width_share = 0;  // of the footprint, across the way, what the plan leads over it
-  double turn_rad = 0;     // that the plan turns the body by while it is over or within reach
-  double over_m = 0;       // way of the plan over it, or within reach where it leads past it
-  double wall_m = 0;       // from the footprint to the nearest wall; kFarWall_m: as far or farther
-  double friction = 0;     // of floor and wheels there
+  double turn_rad = 0;    // that the plan turns the body by while it is over, or passes, the hazard
+  double turn_gap_m = 0;  // from the body's centre to the hazard's edge where the plan turns it,
+                          // mean over all that it turns, at most the robot's radius; below 0: the
+                          // centre is over the hazard
+  double over_m = 0;      // way of the plan over it, or within reach where it leads past it
+  double wall_m = 0;      // from the footprint to the nearest wall; kFarWall_m: as far or farther
+  double friction = 0;    // of floor and wheels there
   double mass_kg = 0, clearance_m = 0;  // the robot's
   double estimate_error_m = 0;          // how far off the robot thinks it is
   double estimate_error_rad = 0;        // how far astray, either way
@@ -46,7 +49,7 @@ struct ApproachColumn {
   double Approach::*member;
   std::string_view unit, help;  // a line of docs/results.md
 };
-inline constexpr std::array<ApproachColumn, 13> kApproach = {{
+inline constexpr std::array<ApproachColumn, 14> kApproach = {{
     {"heading_rad", &Approach::heading_rad, "rad",
      "of the travel, from the inward normal of the edge that is entered by, or of the nearest that "
      "is passed: 0 is square on, positive counter-clockwise"},
@@ -58,7 +61,11 @@ inline constexpr std::array<ApproachColumn, 13> kApproach = {{
     {"width_share", &Approach::width_share, "",
      "of the footprint, across the way, what the plan leads over the hazard"},
     {"turn_rad", &Approach::turn_rad, "rad",
-     "that the plan turns the body by while it is over the hazard, or within reach"},
+     "that the plan turns the body by while it is over the hazard, or, where it is passed, within "
+     "reach"},
+    {"turn_gap_m", &Approach::turn_gap_m, "m",
+     "from the body's centre to the hazard's edge where the plan turns it, mean over all that it "
+     "turns, at most the robot's radius; below 0: its centre is over the hazard"},
     {"over_m", &Approach::over_m, "m",
      "way of the plan over the hazard, or within reach where it leads past"},
     {"wall_m", &Approach::wall_m, "m",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "env/core/passages.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,8 +13,10 @@
 namespace floorproof {
 namespace {
 
-constexpr double kTouch_m = 0.001;   // what overlaps by less only touches
+constexpr double kTouch_m = 0.001;              // what overlaps by less only touches
+constexpr double kDeepEnough_m = 2 * kTouch_m;  // how deep it lies over it beyond that is not asked
 constexpr double kLeave_m = 0.02;    // it is out of reach once it is farther than that beyond it
+constexpr double kClear_m = 0.005;   // it has left what it was over once it is that far from it
 constexpr double kOnEdge_m = 0.002;  // the nearest place lies on these edges
 constexpr int kCorners = 36;         // of a round footprint
 
@@ -64,13 +67,18 @@ void KeepLeft(const Polygon& polygon, const Vec2& a, const Vec2& b, Polygon& out
 
 PassageWatch::PassageWatch(HazardParts& parts, std::size_t hazards, const RobotSpec& robot,
                            int hazard)
-    : parts_(parts), only_(hazard), shapes_B_(ShapesOf(robot)), seen_(hazards) {
+    : parts_(parts),
+      only_(hazard),
+      radius_m_(robot.circumscribed_radius_m),
+      shapes_B_(ShapesOf(robot)),
+      seen_(hazards) {
   std::size_t most = 0;
   for (const auto& shape : shapes_B_) most = std::max(most, shape.size());
   footprint_W_.reserve(most);
   constexpr std::size_t kMeetings = 32, kClip = 128;  // at a time; corners
   near_.reserve(kMeetings), open_.reserve(kMeetings), ended_.reserve(kMeetings);
-  tracks_.reserve(kMeetings), clip_.reserve(kClip), clipped_.reserve(kClip);
+  near_parts_.reserve(kMeetings), tracks_.reserve(kMeetings), clip_.reserve(kClip),
+      clipped_.reserve(kClip);
   shape_ = robot.clear.kind == Shape2::Kind::kCircle || robot.shapes.empty() ? 0 : robot.shape;
 }
 
@@ -95,9 +103,11 @@ void PassageWatch::Stand(const Pose2& X_WB, int shape) {
   if (shape >= 0 && static_cast<std::size_t>(shape) < shapes_B_.size()) shape_ = shape;
   const std::vector<Polygon>& parts_B = shapes_B_[static_cast<std::size_t>(shape_)];
   footprint_W_.resize(parts_B.size());
+  const Eigen::Matrix2d R_WB = Eigen::Rotation2Dd(X_WB.yaw_rad).toRotationMatrix();
   for (std::size_t i = 0; i < parts_B.size(); ++i) {
     footprint_W_[i].resize(parts_B[i].size());
-    for (std::size_t k = 0; k < parts_B[i].size(); ++k) footprint_W_[i][k] = X_WB * parts_B[i][k];
+    for (std::size_t k = 0; k < parts_B[i].size(); ++k)
+      footprint_W_[i][k] = R_WB * parts_B[i][k] + X_WB.p();
   }
   X_WB_ = X_WB;
   has_pose_ = true;
@@ -105,6 +115,7 @@ void PassageWatch::Stand(const Pose2& X_WB, int shape) {
 
 void PassageWatch::Look() {
   near_.clear();
+  near_parts_.clear();
   Box2 box = BoxAround(footprint_W_.front());
   for (const Polygon& part : footprint_W_) {
     const Box2 own = BoxAround(part);
@@ -119,13 +130,15 @@ void PassageWatch::Look() {
 
 void PassageWatch::LookAt(const HazardParts::Part& part) {
   Seen& seen = seen_[static_cast<std::size_t>(part.hazard)];
+  bool is_near = false;
   for (const Polygon& own : footprint_W_) {
-    const Separation apart = Separate(own, part.polygon_W);
+    const Separation apart = Separate(own, part.polygon_W, kDeepEnough_m);
     if (apart.distance_m > kReach_m + kLeave_m) continue;
+    is_near = true;
     if (near_.empty() || near_.back() != part.hazard) {
       near_.push_back(part.hazard);
-      seen = {std::numeric_limits<double>::infinity(), Vec2::Zero(),
-              std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+      constexpr double kNone = std::numeric_limits<double>::infinity();
+      seen = {.gap_m = kNone, .low_m = kNone, .high_m = -kNone};
     }
     if (apart.distance_m < seen.gap_m) {
       seen.gap_m = apart.distance_m;
@@ -143,6 +156,30 @@ void PassageWatch::LookAt(const HazardParts::Part& part) {
     seen.low_m = std::min(seen.low_m, low_m);
     seen.high_m = std::max(seen.high_m, high_m);
   }
+  if (is_near) near_parts_.push_back(&part);
+}
+
+double PassageWatch::CentreGap(int hazard) const {
+  constexpr double kInner_m = 1e-6;
+  double edge_m = radius_m_;
+  bool is_over = false;
+  for (const HazardParts::Part* part : near_parts_) {
+    if (part->hazard != hazard) continue;
+    const Polygon& polygon = part->polygon_W;
+    is_over = is_over || SignedDistance(polygon, X_WB_.p()) < 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      const Vec2 at = a + NearestFraction(a, b, X_WB_.p()) * (b - a);
+      const double here_m = (at - X_WB_.p()).norm();
+      // Where two parts of it meet it does not end.
+      if (here_m < edge_m && std::ranges::none_of(near_parts_, [&](const HazardParts::Part* other) {
+            return other != part && other->hazard == hazard &&
+                   SignedDistance(other->polygon_W, at) < kInner_m;
+          }))
+        edge_m = here_m;
+    }
+  }
+  return is_over ? -edge_m : edge_m;
 }
 
 // Across the way, from the robot's centre to the left.
@@ -164,43 +201,63 @@ void PassageWatch::TakeHeading(Meeting& meeting, Track& track) const {
   track.has_heading = true;
 }
 
+Meeting PassageWatch::Begun(int hazard, double gap_m, double along_m) {
+  return {.id = next_id_++,
+          .hazard = hazard,
+          .gap_m = gap_m,
+          .X_WB = X_WB_,
+          .from_m = along_m,
+          .to_m = along_m};
+}
+
 void PassageWatch::Follow(double along_m, double turned_rad, bool moves) {
-  // What is open and no longer within reach has ended.
+  // What is open and no longer within reach has ended; so has what it was over, left, and comes
+  // over again.
   std::size_t kept = 0;
   for (std::size_t i = 0; i < open_.size(); ++i) {
-    if (std::ranges::binary_search(near_, open_[i].hazard)) {
-      open_[kept] = open_[i], tracks_[kept] = tracks_[i];
-      ++kept;
-    } else {
+    const int hazard = open_[i].hazard;
+    if (!std::ranges::binary_search(near_, hazard)) {
       ended_.push_back(open_[i]);
+      continue;
     }
+    open_[kept] = open_[i], tracks_[kept] = tracks_[i];
+    const Seen& seen = seen_[static_cast<std::size_t>(hazard)];
+    if (tracks_[kept].has_left && seen.gap_m < -kTouch_m) {
+      ended_.push_back(open_[kept]);
+      open_[kept] = Begun(hazard, seen.gap_m, along_m);
+      tracks_[kept] = {.outward_W = tracks_[kept].outward_W};
+    }
+    ++kept;
   }
   open_.resize(kept), tracks_.resize(kept);
 
   for (const int hazard : near_) {
     const Seen& seen = seen_[static_cast<std::size_t>(hazard)];
     auto at = std::ranges::find(open_, hazard, &Meeting::hazard);
-    if (at == open_.end()) {
+    const bool begins = at == open_.end();
+    if (begins) {
       if (seen.gap_m > kReach_m) continue;
-      open_.push_back({.id = next_id_++,
-                       .hazard = hazard,
-                       .gap_m = seen.gap_m,
-                       .X_WB = X_WB_,
-                       .from_m = along_m,
-                       .to_m = along_m});
+      open_.push_back(Begun(hazard, seen.gap_m, along_m));
       tracks_.push_back({.outward_W = seen.outward_W});
       at = std::prev(open_.end());
-    } else {
-      at->turn_rad += turned_rad;
     }
     Meeting& meeting = *at;
     Track& track = tracks_[static_cast<std::size_t>(at - open_.begin())];
     const bool under = seen.gap_m < -kTouch_m;
+    if (!begins && turned_rad > 0 && (!meeting.over || under || meeting.inside)) {
+      meeting.turn_rad += turned_rad;
+      meeting.turn_gap_m +=
+          turned_rad / meeting.turn_rad * (CentreGap(hazard) - meeting.turn_gap_m);
+    }
+    if (meeting.over && !under) {
+      track.has_left = track.has_left || seen.gap_m > kClear_m;
+      track.outward_W = seen.outward_W;
+    }
     if (under && !meeting.over) {  // it enters, by the edge that it saw last from outside
       meeting.over = true;
       meeting.X_WB = X_WB_;
       meeting.from_m = along_m;
-      meeting.turn_rad = 0;
+      meeting.turn_rad = meeting.turn_gap_m = 0;
       track = {.outward_W = track.outward_W,
                .low_m = std::numeric_limits<double>::infinity(),
                .high_m = -std::numeric_limits<double>::infinity()};
@@ -243,6 +300,7 @@ PlannedPassage Planned(const Meeting& meeting, const HazardMap& map, const Robot
                 .gap_m = meeting.gap_m,
                 .width_share = meeting.width_share,
                 .turn_rad = meeting.turn_rad,
+                .turn_gap_m = meeting.turn_gap_m,
                 .over_m = meeting.to_m - meeting.from_m,
                 .wall_m = WallGap(map, robot.clear, meeting.X_WB, kFarWall_m),
                 .friction = map.floor_friction,
@@ -276,6 +334,22 @@ class EntrySpeeds {
 
 }  // namespace
 
+namespace {
+
+// By what it is astray now no plan turns.
+Pose2 OnCourse(Pose2 X_WB, const Path& path, const RobotSpec& robot, bool holds_yaw,
+               std::size_t segment) {
+  constexpr double kAstray_rad = 0.3;
+  PathWalk walk(path, robot, holds_yaw, X_WB, segment);
+  while (walk.pose().travel_W.isZero(0) && walk.Next()) {
+  }
+  const double yaw_rad = walk.pose().X_WB.yaw_rad;
+  if (std::abs(WrapAngle(yaw_rad - X_WB.yaw_rad)) < kAstray_rad) X_WB.yaw_rad = yaw_rad;
+  return X_WB;
+}
+
+}  // namespace
+
 std::vector<PlannedPassage> FindPassages(const HazardMap& map, const RobotSpec& robot,
                                          const Pose2& start, const Path& path, bool holds_yaw) {
   std::vector<PlannedPassage> found;
@@ -304,7 +378,7 @@ std::optional<PlannedPassage> NextPassage(HazardParts& parts, const HazardMap& m
   constexpr double kAhead_m = 2;
   PassageWatch watch(parts, map.hazards.size(), robot, hazard);
   EntrySpeeds speeds;
-  PathWalk walk(path, robot, holds_yaw, X_WB, segment);
+  PathWalk walk(path, robot, holds_yaw, OnCourse(X_WB, path, robot, holds_yaw, segment), segment);
   do {
     const PathPose& pose = walk.pose();
     watch.Update(pose.X_WB, pose.travel_W, pose.along_m, pose.shape);

@@ -21,6 +21,8 @@ namespace floorproof {
 // What comes nearer to the robot's footprint is within reach.
 inline constexpr double kReach_m = 0.1;
 
+// Once a robot has left what it was over, nothing more is counted, though the meeting is open until
+// the hazard is out of reach or the robot comes over it again, which is another meeting.
 struct Meeting {
   int id = 0;           // counts the watch's meetings
   int hazard = 0;       // index into HazardMap::hazards
@@ -32,7 +34,8 @@ struct Meeting {
   double heading_rad = 0, lead_rad = 0;  // see Approach
   double from_m = 0, to_m = 0;           // the way that was gone there, and where it last was in it
   double width_share = 0;                // see Approach
-  double turn_rad = 0;                   // the body turned, both ways added up, from there on
+  double turn_rad = 0;                   // the body turned, both ways added up, in it
+  double turn_gap_m = 0;                 // see Approach
 };
 
 class PassageWatch {
@@ -63,25 +66,32 @@ class PassageWatch {
     Vec2 outward_W = Vec2::Zero();  // the last edge seen from outside
     double low_m = 0, high_m = 0, width_m = 0;
     bool has_heading = false;
+    bool has_left = false;  // what it had been over
   };
 
   void Stand(const Pose2& X_WB, int shape);
   void Look();
   void LookAt(const HazardParts::Part& part);
+  // From the robot's centre to where the hazard, which is near, ends; below 0: it is over it. At
+  // most the robot's radius.
+  double CentreGap(int hazard) const;
+  Meeting Begun(int hazard, double gap_m, double along_m);
   void Follow(double along_m, double turned_rad, bool moves);
   void TakeHeading(Meeting& meeting, Track& track) const;
   std::pair<double, double> Extent(const Polygon& polygon_W) const;
 
   HazardParts& parts_;
   int only_;
+  double radius_m_;
   std::vector<std::vector<Polygon>> shapes_B_;  // each as convex parts
   std::vector<Polygon> footprint_W_;
   int shape_ = 0;
   Pose2 X_WB_;
   bool has_pose_ = false;
-  Vec2 travel_W_ = Vec2(1, 0);  // the last that was not zero
-  std::vector<Seen> seen_;      // by hazard
-  std::vector<int> near_;       // hazards that are seen now, ascending
+  Vec2 travel_W_ = Vec2(1, 0);                        // the last that was not zero
+  std::vector<Seen> seen_;                            // by hazard
+  std::vector<int> near_;                             // hazards that are seen now, ascending
+  std::vector<const HazardParts::Part*> near_parts_;  // theirs, within reach
   std::vector<Meeting> open_, ended_;
   std::vector<Track> tracks_;  // of open_
   Polygon clip_, clipped_;

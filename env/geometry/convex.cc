@@ -5,6 +5,7 @@
 #include "env/geometry/convex.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace floorproof {
@@ -70,13 +71,17 @@ Separation Apart(const Polygon& a, const Polygon& b) {
 
 }  // namespace
 
-Separation Separate(const Polygon& a, const Polygon& b) {
+Separation Separate(const Polygon& a, const Polygon& b, double deepest_m) {
   if (PartedByAnEdge(a, b) || PartedByAnEdge(b, a)) return Apart(a, b);
+  if (std::isfinite(deepest_m))
+    if (const Polygon deepest = CutBy(a, deepest_m, b); !deepest.empty())
+      return {-deepest_m, Mean(deepest)};
   Polygon left = CutBy(a, 0, b);
   if (left.empty()) return {0, b.front()};  // they touch, to within rounding
   constexpr double kFine_m = 1e-5;
   double low_m = 0, high_m = 0;
   for (const Vec2& p : a) high_m = std::max(high_m, (p - a.front()).norm());
+  high_m = std::min(high_m, deepest_m);
   while (high_m - low_m > kFine_m) {
     const double middle_m = (low_m + high_m) / 2;
     Polygon deeper = CutBy(a, middle_m, b);

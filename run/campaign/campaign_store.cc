@@ -64,7 +64,6 @@ CampaignStore::CampaignStore(CampaignStore&& other) noexcept
       asked_(other.asked_),
       sound_(other.sound_),
       has_encounters_(other.has_encounters_),
-      knows_effects_(other.knows_effects_),
       kept_(std::move(other.kept_)) {}
 
 CampaignStore::~CampaignStore() { sqlite3_close(db_); }

@@ -99,8 +99,7 @@ class CampaignStore {
   CampaignAbout about_;
   std::uint64_t asked_ = 0;
   bool sound_ = false;          // looked through
-  bool has_encounters_ = true;  // files of earlier versions have no such table,
-  bool knows_effects_ = true;   // or without its last columns
+  bool has_encounters_ = true;  // files of earlier versions have no such table
   std::set<std::string> kept_;  // SHA-256 of the plans that are
 };
 

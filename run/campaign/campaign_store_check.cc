@@ -135,13 +135,10 @@ void CampaignStore::CheckTables() {
     if (info.Text(6) != "0") refuse("table encounter computes a column");
     there.push_back({info.Text(1), info.Text(2)});
   }
-  std::vector<Column> wanted = ColumnsOfEncounters();
-  knows_effects_ = there.size() == wanted.size();
-  if (!knows_effects_) wanted.resize(wanted.size() - kNewEncounterColumns);
-  if (!std::ranges::equal(there, wanted, [](const Column& a, const Column& b) {
+  if (!std::ranges::equal(there, ColumnsOfEncounters(), [](const Column& a, const Column& b) {
         return a.name == b.name && b.type == a.type + " NOT NULL";
       }))
-    refuse("table encounter has not the columns of one");
+    refuse("table encounter has not the columns of one, or another version's");
 }
 
 // What lies in a row's further pages no check of the database looks at; and a text may be JSON of
@@ -209,10 +206,6 @@ void CampaignStore::RequireColumns() const {
     throw InputError({file_.string(), 0}, "", "",
                      "is another version's: it has no table encounter; it can be read, not gone on "
                      "with: start anew in another folder");
-  if (!knows_effects_)
-    throw InputError({file_.string(), 0}, "", "",
-                     "is another version's: its table encounter has no column energy_j; it can be "
-                     "read, not gone on with: start anew in another folder");
   std::vector<std::string> wanted;
   for (const Column& column : Columns()) wanted.push_back(column.name);
   for (const std::string table : {"episode", "extra"}) {

@@ -66,12 +66,13 @@ void EncounterMeter::Follow(const Sample& sample, const Path* path) {
     row.at.heading_rad = meeting.heading_rad;
     row.at.lead_rad = meeting.lead_rad;
     if (meeting.inside) row.time_s = sample.t_s - row.t_s;
-    row.way_m = meeting.to_m - meeting.from_m;
+    row.way_m = live.before_m + meeting.to_m - meeting.from_m;
     if (live.planned) continue;
     row.passage = meeting.over ? Passage::kOver : Passage::kBeside;
     row.at.gap_m = meeting.gap_m;
     row.at.width_share = meeting.width_share;
     row.at.turn_rad = meeting.turn_rad;
+    row.at.turn_gap_m = meeting.turn_gap_m;
     row.at.over_m = row.way_m;
   }
 }
@@ -131,15 +132,31 @@ void EncounterMeter::TakePlanned(const PlannedPassage& planned, Encounter& row) 
   row.at.gap_m = planned.at.gap_m;
   row.at.width_share = planned.at.width_share;
   row.at.turn_rad = planned.at.turn_rad;
+  row.at.turn_gap_m = planned.at.turn_gap_m;
   row.at.over_m = planned.at.over_m;
 }
 
 void EncounterMeter::End(const Meeting& meeting) {
   const auto at = std::ranges::find(live_, meeting.id, &Live::meeting);
-  if (at == live_.end()) return;
+  if (at == live_.end() || GoesOn(meeting, *at)) return;
   Encounter& row = rows_[at->row];
   if (row.outcome == Encounter::Outcome::kCensored) row.outcome = Encounter::Outcome::kCleared;
   live_.erase(at);
+}
+
+// A robot that falls back from what its plan leads over and tries again is still in the same
+// encounter.
+bool EncounterMeter::GoesOn(const Meeting& meeting, Live& live) {
+  constexpr double kDone = 0.5;  // of the way over it that was planned
+  const Encounter& row = rows_[live.row];
+  const auto again = std::ranges::find(watch_.open(), meeting.hazard, &Meeting::hazard);
+  if (again == watch_.open().end() || !live.planned || row.passage != Passage::kOver ||
+      row.way_m >= kDone * row.at.over_m)
+    return false;
+  live.meeting = again->id;
+  live.from_m = again->from_m;
+  live.before_m = row.way_m;
+  return true;
 }
 
 Encounter* EncounterMeter::Blamed(const Event& event) {

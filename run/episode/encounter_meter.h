@@ -51,6 +51,7 @@ class EncounterMeter {
     int meeting = 0;  // its id
     std::size_t row = 0;
     double from_m = 0;
+    double before_m = 0;   // way in it before it fell back
     bool planned = false;  // its path says how it is to be passed
     int seen_as = -1;      // of its sight; -1: it is not asked
     bool upon = false;
@@ -69,6 +70,7 @@ class EncounterMeter {
   void TakeEntry(const Meeting& meeting, const Sample& sample, Encounter& row) const;
   void TakePlanned(const PlannedPassage& planned, Encounter& row) const;
   void End(const Meeting& meeting);
+  bool GoesOn(const Meeting& meeting, Live& live);
   Encounter* Blamed(const Event& event);
   Encounter* Failed();
   void AddExposure(const Sample& sample, double way_m, double time_s);

@@ -88,8 +88,7 @@ std::vector<EncounterValue> EncounterValues(const Encounter& encounter) {
 }
 
 Encounter EncounterOf(std::span<const EncounterValue> values) {
-  const std::size_t all = EncounterColumns().size();
-  if (values.size() != all && values.size() != all - kNewEncounterColumns)
+  if (values.size() != EncounterColumns().size())
     throw InternalError("a row of encounters has another number of columns");
   try {
     Encounter encounter;
@@ -108,7 +107,6 @@ Encounter EncounterOf(std::span<const EncounterValue> values) {
     for (const PlaceColumn& column : kPlace)
       encounter.*column.member = std::get<double>(values[at++]);
     TakeOutcome(std::get<std::string>(values[at++]), encounter);
-    if (at == values.size()) return encounter;
     encounter.energy_j = std::get<double>(values[at++]);
     encounter.after = NamedBy<Encounter::After>(kAfterNames, std::get<std::string>(values[at++]));
     encounter.sensed = NamedBy<Encounter::Sensed>(kSensedNames, std::get<std::string>(values[at]));

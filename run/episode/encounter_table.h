@@ -22,11 +22,8 @@ using EncounterValue = std::variant<std::string, double>;
 // hazard, type, passage, size (JSON: a map of names to numbers), the columns of kApproach, t_s,
 // x_m, y_m, time_s, way_m, outcome, energy_j, after, sensed.
 const std::vector<EncounterColumn>& EncounterColumns();
-// The last ones, which files of earlier versions do not have.
-inline constexpr std::size_t kNewEncounterColumns = 3;
 std::vector<EncounterValue> EncounterValues(const Encounter& encounter);
-// The encounter again; without the new columns' values it has none of these. Throws InternalError
-// where the values are none's.
+// The encounter again. Throws InternalError where the values are none's.
 Encounter EncounterOf(std::span<const EncounterValue> values);
 
 // A column for each name of a size, `size.NAME`, in the order first met.

@@ -27,6 +27,7 @@ RobotSpec SquareRobot() {
 RobotSpec RoundRobot() {
   RobotSpec robot = SquareRobot();
   robot.clear = {Shape2::Kind::kCircle, kHalf_m, {}};
+  robot.circumscribed_radius_m = kHalf_m;
   return robot;
 }
 
@@ -125,6 +126,46 @@ TEST(Passages, ATurnOnTheHazardIsCountedAndOneBeforeItIsNot) {
   const auto dut = Find(map, RoundRobot(), Through({{-3, 0}, {1, 0}, {1, 3}}), kPi);
   ASSERT_THAT(dut, SizeIs(1));
   EXPECT_NEAR(dut[0].at.turn_rad, kPi / 2, 1e-6) << "it had turned by a half before";
+}
+
+// Though it stays within reach: a lane that goes over a strip, turns beside it and comes back.
+TEST(Passages, ComingOverItAgainIsAnotherPassage) {
+  const HazardMap map = Floor({Rectangle({0, -9}, {0.2, 9})});
+  for (const double clear_m : {0.01, 0.05}) {
+    const double turn_m = 0.2 + kHalf_m + clear_m;
+    const auto dut =
+        Find(map, RoundRobot(), Through({{-2, 0}, {turn_m, 0}, {turn_m, 0.3}, {-2, 0.5}}));
+    ASSERT_THAT(dut, SizeIs(2)) << clear_m;
+    for (const PlannedPassage& passage : dut) {
+      EXPECT_EQ(passage.passage, Passage::kOver);
+      EXPECT_EQ(passage.at.turn_rad, 0) << "it turns beside it";
+      EXPECT_NEAR(passage.at.over_m, 0.2 + 2 * kHalf_m, 0.03);
+    }
+    EXPECT_NEAR(dut[0].at.heading_rad, 0, 1e-9);
+    EXPECT_NEAR(std::abs(dut[1].at.heading_rad), std::atan2(0.2, 2 + turn_m), 1e-6)
+        << "by the other edge";
+  }
+  const auto dut = Find(map, RoundRobot(), Through({{-2, 0}, {0.4, 0}, {0.4, 0.3}, {-2, 0.3}}));
+  ASSERT_THAT(dut, SizeIs(1)) << "with its rear still on it";
+  EXPECT_NEAR(dut[0].at.turn_rad, kPi, 1e-6);
+}
+
+TEST(Passages, WhereItTurnsIsMeasuredFromTheHazardsEdge) {
+  const Polygon angle = {{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 4}, {0, 4}};
+  const HazardMap square = Floor({Rectangle({0, -1}, {2, 1})}), bent = Floor({angle});
+  const auto gap = [](const HazardMap& map, std::initializer_list<Vec2> way) {
+    const auto dut = Find(map, RoundRobot(), Through(way));
+    return dut.empty() ? std::nan("") : dut[0].at.turn_gap_m;
+  };
+  EXPECT_NEAR(gap(square, {{-3, 0}, {0.15, 0}, {0.15, 3}}), -0.15, kStep_m) << "on it";
+  EXPECT_NEAR(gap(square, {{-3, 0}, {1, 0}, {1, 3}}), -kHalf_m, kStep_m) << "its edge is far away";
+  EXPECT_NEAR(gap(square, {{-3, 0}, {-0.2, 0}, {-0.2, 3}}), 0.2, kStep_m) << "with its front on it";
+  EXPECT_NEAR(gap(bent, {{-3, 0.9}, {0.5, 0.9}, {0.5, 6}}), -kHalf_m, kStep_m)
+      << "of all its parts";
+  EXPECT_NEAR(gap(square, {{-3, 0}, {-0.2, 0}, {-0.2, 0.1}, {0.8, 0.1}, {0.8, 3}}),
+              (0.2 + 0.2 - kHalf_m) / 3, kStep_m)
+      << "mean over three right angles";
+  EXPECT_EQ(gap(square, {{-3, 0}, {5, 0}}), 0) << "it does not turn";
 }
 
 TEST(Passages, ComingBackIsAnotherPassage) {

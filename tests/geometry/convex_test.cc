@@ -26,6 +26,14 @@ TEST(Convex, AnOverlapIsAsDeepAsTheSideIsClipped) {
   EXPECT_NEAR(Separate(a, Rectangle({0.9, 0.15}, {1.1, 0.2})).distance_m, -0.2, 2e-5);
 }
 
+TEST(Convex, HowDeepIsSaidAsFarAsItIsAsked) {
+  const Polygon a = Rectangle({0, 0}, {2, 1}), b = Rectangle({-5, 0.98}, {5, 3});
+  EXPECT_EQ(Separate(a, b, 0.01).distance_m, -0.01);
+  EXPECT_NEAR(Separate(a, b, 0.03).distance_m, -0.02, 2e-5);
+  EXPECT_EQ(Separate(a, b, 3).distance_m, Separate(a, b).distance_m);
+  EXPECT_EQ(Separate(a, Rectangle({2.5, 0}, {3, 1}), 0.01).distance_m, 0.5);
+}
+
 TEST(Convex, TouchingIsNeitherApartNorOverlapping) {
   const Polygon a = Rectangle({0, 0}, {2, 1});
   EXPECT_NEAR(Separate(a, Rectangle({2, 0.2}, {3, 0.4})).distance_m, 0, 2e-5);

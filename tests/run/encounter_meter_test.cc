@@ -110,7 +110,7 @@ class Moved : public ScenarioTest {
       sample.t_s = t_s_;
       sample.p_WB = {from_m + i * step_m, y_m, 0};
       sample.v_WB_W = {std::copysign(0.5, step_m), 0, 0};
-      dut_.OnControl(sample, {}, nullptr);
+      dut_.OnControl(sample, {}, path_.empty() ? nullptr : &path_);
     }
   }
   void Fail(FailureMode mode, const std::string& hazard) {
@@ -125,6 +125,7 @@ class Moved : public ScenarioTest {
   HazardMap floor_ = TrueFloor(scenario_);
   EncounterMeter dut_{floor_, scenario_.robot.spec, false};
   double t_s_ = 0;
+  Path path_;
 };
 
 TEST_F(Moved, AFailureSoonAfterwardsIsStillTheHazards) {
@@ -157,6 +158,30 @@ TEST_F(Moved, WhatTheWallDidIsTheWalls) {
   EXPECT_THAT(Outcomes(dut), ElementsAre("wall_beside bounce_back", "free_floor cleared"));
   EXPECT_NEAR(dut[0].way_m, 2, 0.03);
   EXPECT_NEAR(dut[0].at.speed_mps, 0.5, 0.01);
+}
+
+// Who is thrown back from it and gets over it in the end was in it once; a plan that leads over it,
+// beside it and back was twice.
+TEST_F(Moved, WhoFallsBackAndTriesAgainIsInTheSameEncounter) {
+  path_.resize(2);
+  path_[0].p_W = {1, 2.5}, path_[1].p_W = {8, 2.5};
+  const double enters_m =
+      BoxAround(floor_.hazards[0].footprint[0]).low.x() - scenario_.robot.spec.clear.radius_m;
+  Move(2, enters_m + 0.03);
+  Move(enters_m + 0.03, enters_m - 0.05);
+  Move(enters_m - 0.05, 6);
+  const std::vector<Encounter> dut = dut_.Finish();
+  EXPECT_THAT(Outcomes(dut), ElementsAre("cover cleared", "free_floor cleared"));
+  EXPECT_NEAR(dut[0].way_m, dut[0].at.over_m, 0.12);
+}
+
+TEST_F(Moved, ComingOverItAgainIsAnotherEncounterThoughItStaysWithinReach) {
+  const double leaves_m =
+      BoxAround(floor_.hazards[0].footprint[0]).high.x() + scenario_.robot.spec.clear.radius_m;
+  Move(2, leaves_m + 0.05);
+  Move(leaves_m + 0.05, 2);
+  EXPECT_THAT(Outcomes(dut_.Finish()),
+              ElementsAre("cover cleared", "cover cleared", "free_floor cleared"));
 }
 
 TEST_F(Moved, WhatIsOpenWhenItIsCarriedOrEndsIsCensored) {
