@@ -39,7 +39,7 @@ bool IsOfExposures(const ApproachColumn& column) {
 
 constexpr std::string_view kLead = "lead_rad";
 
-std::vector<RateAxis> AxesOf(const Meetings& met, const RateFitOptions& options) {
+std::vector<RateAxis> AxesOf(const Meetings& met, Manner manner, const RateFitOptions& options) {
   std::vector<RateAxis> axes;
   for (const auto& first : met.front()->size) {
     const std::string& key = first.first;
@@ -56,6 +56,8 @@ std::vector<RateAxis> AxesOf(const Meetings& met, const RateFitOptions& options)
   for (const ApproachColumn& column : kApproach) {
     if (exposed && !IsOfExposures(column)) continue;
     if (!options.holonomic && column.name == kLead) continue;
+    if (manner == Manner::kStraight && column.member == &Approach::turn_rad) continue;
+    if (manner != Manner::kTurning && column.member == &Approach::turn_gap_m) continue;
     axes.emplace_back();
     axes.back().name = column.name;
   }
@@ -75,7 +77,7 @@ std::vector<RateAxis> AxesOf(const Meetings& met, const RateFitOptions& options)
 constexpr double kCensored = 0.5;
 
 std::string StreamName(const KindRates& kind) {
-  return fmt::format("risk_model.{}.{}", kind.type, Name(kind.passage));
+  return fmt::format("risk_model.{}.{}.{}", kind.type, Name(kind.passage), Name(kind.manner));
 }
 
 // Meetings, or way. Of a meeting that failed half.
@@ -121,11 +123,12 @@ void SetSplits(std::vector<RateRow> failures, std::vector<int> modes, KindRates&
 }
 
 // Of a kind that was measured; none where it was met too rarely.
-std::optional<KindRates> FitKind(const Meetings& all, const RateFitOptions& options,
+std::optional<KindRates> FitKind(const Meetings& all, Manner manner, const RateFitOptions& options,
                                  UnmeasuredKind& unmeasured) {
   KindRates kind;
   kind.type = all.front()->type;
   kind.passage = all.front()->passage;
+  kind.manner = manner;
   kind.per_metre = IsExposure(kind.type);
   kind.encounters = static_cast<int>(all.size());
   Meetings met;
@@ -143,7 +146,7 @@ std::optional<KindRates> FitKind(const Meetings& all, const RateFitOptions& opti
                               options.least_encounters)};
     return std::nullopt;
   }
-  kind.axes = AxesOf(met, options);
+  kind.axes = AxesOf(met, manner, options);
   std::vector<RateRow> rows, failures;
   std::vector<int> modes;
   for (const Encounter* e : met) {
@@ -162,6 +165,24 @@ std::optional<KindRates> FitKind(const Meetings& all, const RateFitOptions& opti
   SetAny(rows, kind);
   SetSplits(std::move(failures), std::move(modes), kind);
   return kind;
+}
+
+// Straight ones and turns each by themselves, where of both enough is known.
+std::vector<std::pair<Manner, Meetings>> ByManner(const Meetings& met) {
+  constexpr std::ptrdiff_t kEnough = 200;  // with an outcome
+  std::vector<std::pair<Manner, Meetings>> parts;
+  for (const Manner manner : {Manner::kStraight, Manner::kTurning}) {
+    Meetings& of = parts.emplace_back(manner, Meetings()).second;
+    for (const Encounter* e : met)
+      if (MannerOf(e->at) == manner) of.push_back(e);
+    const auto with = [&of](Encounter::Outcome outcome) {
+      return std::ranges::count(of, outcome, [](const Encounter* e) { return e->outcome; });
+    };
+    const auto failed = with(Encounter::Outcome::kFailed);
+    if (failed < kLeastEvents || failed + with(Encounter::Outcome::kCleared) < kEnough)
+      return {{Manner::kAny, met}};
+  }
+  return parts;
 }
 
 // All kinds that never failed have together about as many failures to come, over as much exposure
@@ -193,15 +214,16 @@ RiskModel FitRates(const std::vector<Encounter>& encounters, MeasuredRobot robot
   std::map<std::pair<std::string, Passage>, Meetings> by_kind;
   for (const std::vector<const Encounter*>& met : MeetingsOfDrives(encounters))
     by_kind[{met.front()->type, met.front()->passage}].push_back(met.front());
-  for (const auto& [name, met] : by_kind) {
-    UnmeasuredKind unmeasured;
-    if (std::optional<KindRates> kind = FitKind(met, options, unmeasured))
-      model.kinds.push_back(std::move(*kind));
-    else
-      model.unmeasured.push_back(std::move(unmeasured));
-  }
+  for (const auto& [name, met] : by_kind)
+    for (const auto& [manner, part] : ByManner(met)) {
+      UnmeasuredKind unmeasured;
+      if (std::optional<KindRates> kind = FitKind(part, manner, options, unmeasured))
+        model.kinds.push_back(std::move(*kind));
+      else
+        model.unmeasured.push_back(std::move(unmeasured));
+    }
   SetUnseen(model.kinds);
-  model.theta = SharedFrailty(model, encounters);
+  SetSharedFrailty(encounters, model);
   return model;
 }
 

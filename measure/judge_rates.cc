@@ -53,7 +53,7 @@ std::vector<JudgedEncounter> Predicted(const RiskModel& model,
   std::map<const KindRates*, RateEvaluator> evaluators;
   std::vector<JudgedEncounter> judged;
   for (const Encounter& e : encounters) {
-    const KindRates* kind = FindKind(model, e.type, e.passage);
+    const KindRates* kind = FindKind(model, e.type, e.passage, e.at);
     if (kind == nullptr || kind->per_metre || e.outcome == Encounter::Outcome::kCensored) continue;
     const RateEvaluator& rates = evaluators.try_emplace(kind, *kind).first->second;
     Covariates covariates(kind->axes, model.mirrored, e.size);

@@ -39,11 +39,13 @@ Json JsonOf(const KindRates& kind) {
   Json json;
   json["type"] = kind.type;
   json["passage"] = Name(kind.passage);
+  json["manner"] = Name(kind.manner);
   json["per"] = kind.per_metre ? "metre" : "encounter";
   json["encounters"] = kind.encounters;
   json["cleared"] = kind.cleared;
   json["censored"] = kind.censored;
   json["way_m"] = kind.way_m;
+  json["theta"] = kind.theta;
   json["axes"] = Json::array();
   for (const RateAxis& axis : kind.axes) json["axes"].push_back(JsonOf(axis));
   Add(kind.any, json["any"]);
@@ -90,7 +92,6 @@ std::string RiskModelJson(const RiskModel& model) {
   robot["model"] = model.robot.model;
   json["mirrored"] = model.mirrored;
   json["encounters"] = model.encounters;
-  json["theta"] = model.theta;
   json["kinds"] = Json::array();
   for (const KindRates& kind : model.kinds) json["kinds"].push_back(JsonOf(kind));
   json["unmeasured"] = Json::array();

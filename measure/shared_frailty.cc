@@ -13,24 +13,30 @@
 namespace floorproof {
 namespace {
 
-// The rates of all failures in the meetings with one hazard, and whether the last one failed.
+// The rates of all failures in the meetings with one hazard that are of one kind, and whether the
+// last one failed.
 struct Repeated {
   std::vector<double> totals;
   bool failed = false;
 };
 
-std::vector<Repeated> RepeatedOf(const RiskModel& model, const std::vector<Encounter>& encounters) {
-  std::map<std::pair<std::string, Passage>, RateEvaluator> rates;
-  for (const KindRates& kind : model.kinds) rates.try_emplace({kind.type, kind.passage}, kind);
+// What of other kinds came between only says how long these went on: of each kind by itself the
+// likelihood is as if there were no other.
+std::vector<Repeated> RepeatedOf(const RiskModel& model, Manner manner,
+                                 const std::vector<Encounter>& encounters) {
+  std::map<const KindRates*, RateEvaluator> rates;
+  for (const KindRates& kind : model.kinds)
+    if (kind.manner == manner) rates.try_emplace(&kind, kind);
   std::vector<Repeated> repeated;
   for (const std::vector<const Encounter*>& met : MeetingsOfDrives(encounters)) {
     if (met.size() < 2) continue;
-    const auto of = rates.find({met.front()->type, met.front()->passage});
-    if (of == rates.end()) continue;
     Repeated each;
     for (const Encounter* e : met) {
       if (e->outcome == Encounter::Outcome::kCensored || each.failed) break;
-      Covariates covariates(of->second.kind().axes, model.mirrored, e->size);
+      const KindRates* kind = FindKind(model, e->type, e->passage, e->at);
+      const auto of = rates.find(kind);
+      if (of == rates.end()) continue;
+      Covariates covariates(kind->axes, model.mirrored, e->size);
       each.totals.push_back(Total(of->second.At(covariates.Of(e->at))));
       each.failed = e->outcome == Encounter::Outcome::kFailed;
     }
@@ -52,6 +58,29 @@ double LogLikelihood(const std::vector<Repeated>& repeated, double theta) {
     sum += each.failed ? std::log(std::max(kLeast, std::exp(-before) - std::exp(-after))) : -after;
   }
   return sum;
+}
+
+double Likeliest(const std::vector<Repeated>& repeated) {
+  constexpr std::size_t kFewest = 20;  // hazards that were met again
+  constexpr double kMostTheta = 32;
+  constexpr double kGain = 1.92;  // of log likelihood: 95 % of chi square with one degree, halved
+  constexpr int kSteps = 64, kHalvings = 30;
+  if (repeated.size() < kFewest) return 1;
+  const auto value = [&](double log_theta) {
+    return LogLikelihood(repeated, std::exp(log_theta)) - log_theta;
+  };
+  // The best of a grid, then between its neighbours.
+  const double step = std::log(kMostTheta) / kSteps;
+  double best = 0, most = value(0);
+  for (int i = 1; i <= kSteps; ++i)
+    if (const double here = value(i * step); here > most) best = i * step, most = here;
+  double low = std::max(0.0, best - step), high = std::min(std::log(kMostTheta), best + step);
+  for (int i = 0; i < kHalvings; ++i) {
+    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+    (value(a) < value(b) ? low : high) = value(a) < value(b) ? a : b;
+  }
+  const double found = (low + high) / 2;
+  return value(found) - value(0) > kGain ? RoundedTo6(std::exp(found)) : 1;
 }
 
 }  // namespace
@@ -77,28 +106,12 @@ std::vector<Encounter> FirstMeetings(const std::vector<Encounter>& encounters) {
   return first;
 }
 
-double SharedFrailty(const RiskModel& model, const std::vector<Encounter>& encounters) {
-  constexpr std::size_t kFewest = 20;  // hazards that were met again
-  constexpr double kMostTheta = 32;
-  constexpr double kGain = 1.92;  // of log likelihood: 95 % of chi square with one degree, halved
-  constexpr int kSteps = 64, kHalvings = 30;
-  const std::vector<Repeated> repeated = RepeatedOf(model, encounters);
-  if (repeated.size() < kFewest) return 1;
-  const auto value = [&](double log_theta) {
-    return LogLikelihood(repeated, std::exp(log_theta)) - log_theta;
-  };
-  // The best of a grid, then between its neighbours.
-  const double step = std::log(kMostTheta) / kSteps;
-  double best = 0, most = value(0);
-  for (int i = 1; i <= kSteps; ++i)
-    if (const double here = value(i * step); here > most) best = i * step, most = here;
-  double low = std::max(0.0, best - step), high = std::min(std::log(kMostTheta), best + step);
-  for (int i = 0; i < kHalvings; ++i) {
-    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-    (value(a) < value(b) ? low : high) = value(a) < value(b) ? a : b;
+void SetSharedFrailty(const std::vector<Encounter>& encounters, RiskModel& model) {
+  for (const Manner manner : {Manner::kAny, Manner::kStraight, Manner::kTurning}) {
+    const double theta = Likeliest(RepeatedOf(model, manner, encounters));
+    for (KindRates& kind : model.kinds)
+      if (kind.manner == manner && !kind.per_metre) kind.theta = theta;
   }
-  const double found = (low + high) / 2;
-  return value(found) - value(0) > kGain ? RoundedTo6(std::exp(found)) : 1;
 }
 
 }  // namespace floorproof

@@ -2,6 +2,7 @@
 #include "planners/risk/path_rates.h"
 
 #include <algorithm>
+#include <map>
 
 #include "planners/risk/rate_model.h"
 
@@ -27,16 +28,17 @@ PathRates::PathRates(const PlanRequest& request)
   for (const KindRates& kind : request.model->kinds) evaluators_.emplace_back(kind);
 }
 
-const RateEvaluator* PathRates::RatesOf(std::string_view type, Passage passage) const {
+const RateEvaluator* PathRates::RatesOf(std::string_view type, Passage passage,
+                                        const Approach& at) const {
   const auto found = std::ranges::find_if(evaluators_, [&](const RateEvaluator& rates) {
-    return rates.kind().type == type && rates.kind().passage == passage;
+    return IsAbout(rates.kind(), type, passage, at);
   });
   return found == evaluators_.end() ? nullptr : &*found;
 }
 
 std::optional<double> PathRates::Expected(const Hazard& hazard, Passage passage, Approach at,
                                           const Vec2& travel_W) const {
-  const RateEvaluator* rates = RatesOf(hazard.type, passage);
+  const RateEvaluator* rates = RatesOf(hazard.type, passage, at);
   if (rates == nullptr) return std::nullopt;
   Covariates covariates(rates->kind().axes, request_.model->mirrored, SizeAsMet(hazard, travel_W));
   double sum = 0;
@@ -47,7 +49,7 @@ std::optional<double> PathRates::Expected(const Hazard& hazard, Passage passage,
 
 std::vector<double> PathRates::Speeds(const Hazard& hazard, Passage passage) const {
   std::vector<double> speeds;
-  const RateEvaluator* rates = RatesOf(hazard.type, passage);
+  const RateEvaluator* rates = RatesOf(hazard.type, passage, {});
   if (rates == nullptr) return speeds;
   const auto axis = std::ranges::find(rates->kind().axes, "speed_mps", &RateAxis::name);
   if (axis == rates->kind().axes.end()) return speeds;
@@ -72,21 +74,19 @@ PathSurvival PathRates::Of(const Path& path) const {
   PathSurvival out;
   out.passages = Passages(path);
   std::vector<PlannedMeeting> meetings;
+  std::map<std::pair<int, const RateEvaluator*>, std::size_t> firsts;  // meetings
   for (std::size_t i = 0; i < out.passages.size(); ++i) {
     const PlannedPassage& passage = out.passages[i];
     const Hazard& hazard = request_.map.hazards[static_cast<std::size_t>(passage.hazard)];
-    const RateEvaluator* rates = RatesOf(hazard.type, passage.passage);
+    const RateEvaluator* rates = RatesOf(hazard.type, passage.passage, passage.at);
     const bool over = passage.passage == Passage::kOver;
     out.crossings += over;
     out.unmeasured += over && rates == nullptr;
-    std::size_t first = 0;
-    while (out.passages[first].hazard != passage.hazard ||
-           out.passages[first].passage != passage.passage)
-      ++first;
-    if (rates != nullptr)
-      meetings.push_back({rates, SizeAsMet(hazard, TravelOf(passage)), passage.at, 1, i, first});
+    if (rates == nullptr) continue;
+    const auto first = firsts.try_emplace({passage.hazard, rates}, i).first->second;
+    meetings.push_back({rates, SizeAsMet(hazard, TravelOf(passage)), passage.at, 1, i, first});
   }
-  if (const RateEvaluator* floor = RatesOf(kFreeFloor, Passage::kBeside)) {
+  if (const RateEvaluator* floor = RatesOf(kFreeFloor, Passage::kBeside, {})) {
     Approach at;
     at.speed_mps = request_.robot.cruise_mps;
     at.wall_m = kFarWall_m;

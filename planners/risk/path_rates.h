@@ -43,7 +43,7 @@ class PathRates {
   PathSurvival Of(const Path& path) const;
 
  private:
-  const RateEvaluator* RatesOf(std::string_view type, Passage passage) const;
+  const RateEvaluator* RatesOf(std::string_view type, Passage passage, const Approach& at) const;
 
   const PlanRequest& request_;
   std::vector<DriveConditions> conditions_;

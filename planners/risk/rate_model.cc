@@ -29,10 +29,22 @@ FailureMode LastMode(const KindRates& kind) {
   return FailureMode(last);
 }
 
-const KindRates* FindKind(const RiskModel& model, std::string_view type, Passage passage) {
+bool IsAbout(const KindRates& kind, std::string_view type, Passage passage, const Approach& at) {
+  return kind.type == type && kind.passage == passage &&
+         (kind.manner == Manner::kAny || kind.manner == MannerOf(at));
+}
+
+const KindRates* FindKind(const RiskModel& model, std::string_view type, Passage passage,
+                          const Approach& at) {
   for (const KindRates& kind : model.kinds)
-    if (kind.type == type && kind.passage == passage) return &kind;
+    if (IsAbout(kind, type, passage, at)) return &kind;
   return nullptr;
+}
+
+std::string TextOf(const KindRates& kind) {
+  std::string text = kind.type + " " + std::string(Name(kind.passage));
+  if (kind.manner != Manner::kAny) text += " " + std::string(Name(kind.manner));
+  return text;
 }
 
 Covariates::Covariates(const std::vector<RateAxis>& axes, bool mirrored,

@@ -28,7 +28,7 @@
 
 namespace floorproof {
 
-inline constexpr int kRiskModelVersion = 2;
+inline constexpr int kRiskModelVersion = 3;
 // Vectors drawn from the posterior of the coefficients, beside the best one.
 inline constexpr std::size_t kRateMembers = 16;
 
@@ -77,13 +77,31 @@ struct ModeSplit {
   LinearPredictor of;
 };
 
+// Whether the plan turns the robot on its way over or past a hazard. A wheel that turns on an edge
+// is another matter than one that rolls over it.
+enum class Manner { kAny, kStraight, kTurning };
+inline constexpr std::array<std::string_view, 3> kMannerNames = {"any", "straight", "turning"};
+constexpr std::string_view Name(Manner manner) {
+  return kMannerNames[static_cast<std::size_t>(manner)];
+}
+inline constexpr double kTurning_rad = 0.15;  // what turns by less goes straight
+inline Manner MannerOf(const Approach& at) {
+  return at.turn_rad < kTurning_rad ? Manner::kStraight : Manner::kTurning;
+}
+
 // The rates of meetings of one kind.
 struct KindRates {
   std::string type;  // of hazard, or kWallBeside, kFreeFloor
   Passage passage = Passage::kOver;
+  Manner manner = Manner::kAny;
   bool per_metre = false;  // rates are a metre of way, not a meeting: exposures
   int encounters = 0, cleared = 0, censored = 0;  // measured; the rest failed
   double way_m = 0;                               // in all of them
+  // 1 to 100. How alike its meetings with one hazard in one drive end, beyond what covariates say:
+  // a frailty, of a positive stable distribution, that they share (Hougaard, Biometrika 73 (1986)
+  // 387). Their rates come to (sum of Lambda^theta)^(1/theta): 1, each by itself; many, as the
+  // worst of them alone.
+  double theta = 1;
   std::vector<RateAxis> axes;
   LinearPredictor any;  // failure
   // In the order in which they are split off. The mode that stands in none takes what is left.
@@ -108,19 +126,19 @@ struct RiskModel {
   // The robot is its own mirror image, so a meeting and its mirror image have the same rates.
   bool mirrored = false;
   int encounters = 0;  // all of them
-  // 1 to 100. How alike meetings with one hazard in one drive end, beyond what covariates say: a
-  // frailty, of a positive stable distribution, that they share (Hougaard, Biometrika 73 (1986)
-  // 387). Their rates come to (sum of Lambda^theta)^(1/theta): 1, each by itself; many, as the
-  // worst of them alone.
-  double theta = 1;
   std::vector<KindRates> kinds;
   std::vector<UnmeasuredKind> unmeasured;
 };
 
 // The mode that takes what the splits leave.
 FailureMode LastMode(const KindRates& kind);
+// Whether it is about such a meeting.
+bool IsAbout(const KindRates& kind, std::string_view type, Passage passage, const Approach& at);
 // None: nothing was measured of it.
-const KindRates* FindKind(const RiskModel& model, std::string_view type, Passage passage);
+const KindRates* FindKind(const RiskModel& model, std::string_view type, Passage passage,
+                          const Approach& at);
+// "groove over", and its manner where that is not any.
+std::string TextOf(const KindRates& kind);
 
 // Of a meeting, the numbers that the axes are about.
 class Covariates {

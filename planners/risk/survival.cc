@@ -17,28 +17,19 @@ constexpr double kStudent = 2.131;  // 97.5 % of Student's t, kRateMembers - 1 d
 // What is predicted of one condition: no failure, then each mode first.
 using Outcome = std::array<double, 1 + kNumFailureModes>;
 
-// Of the meetings with one hazard so far: sum of Lambda^theta.
-class Shared {
- public:
-  explicit Shared(double theta) : theta_(theta) {}
-  // By how much less than by itself this meeting adds to what there is: Lambda times the share is
-  // added.
-  double ShareOf(double total, double& sum) const {
-    if (theta_ == 1 || total <= 0) return 1;
-    const double before = sum > 0 ? std::pow(sum, 1 / theta_) : 0;
-    sum += std::pow(total, theta_);
-    return before > 0 ? (std::pow(sum, 1 / theta_) - before) / total : 1;
-  }
+// By how much less than by itself a meeting adds to those with its hazard so far, whose
+// Lambda^theta come to `sum`: Lambda times the share is added.
+double ShareOf(double total, double theta, double& sum) {
+  if (theta == 1 || total <= 0) return 1;
+  const double before = sum > 0 ? std::pow(sum, 1 / theta) : 0;
+  sum += std::pow(total, theta);
+  return before > 0 ? (std::pow(sum, 1 / theta) - before) / total : 1;
+}
 
- private:
-  double theta_;
-};
-
-void Meet(const ModeNumbers& rates, double way_m, const Shared& shared, double& sum,
-          Outcome& outcome) {
+void Meet(const ModeNumbers& rates, double way_m, double theta, double& sum, Outcome& outcome) {
   ModeNumbers over = rates;
   for (double& rate : over) rate *= way_m;
-  const double share = shared.ShareOf(Total(over), sum);
+  const double share = ShareOf(Total(over), theta, sum);
   for (double& rate : over) rate *= share;
   const ModeNumbers first = FirstFailures(over);
   for (int m = 0; m < kNumFailureModes; ++m) outcome[1 + m] += outcome[0] * first[m];
@@ -89,7 +80,6 @@ class LastCovariates {
 
 Survival PredictSurvival(std::span<const std::vector<PlannedMeeting>> conditions,
                          std::size_t numbers, const RiskModel& model) {
-  const Shared shared(model.theta);
   std::vector<double> sums(numbers);  // by PlannedMeeting::first
   std::vector<std::array<double, kRateMembers>> member_sums(numbers);
   Survival survival;
@@ -112,14 +102,15 @@ Survival PredictSurvival(std::span<const std::vector<PlannedMeeting>> conditions
       const std::span<const double> x =
           known[meeting.number].Of(meeting, model.mirrored).Of(meeting.at);
       const double before = outcomes[c][0];
-      Meet(rates.At(x), meeting.way_m, shared, sums[meeting.first], outcomes[c]);
+      const double theta = rates.kind().theta;
+      Meet(rates.At(x), meeting.way_m, theta, sums[meeting.first], outcomes[c]);
       survival.by_meeting[meeting.number] +=
           (before - outcomes[c][0]) / static_cast<double>(conditions.size());
       survival.beyond = std::max(survival.beyond, rates.Beyond(x));
       if (!for_members) continue;
       const auto members = rates.MembersAt(x);
       for (std::size_t r = 0; r < kRateMembers; ++r)
-        Meet(members[r], meeting.way_m, shared, member_sums[meeting.first][r], by_member[r].back());
+        Meet(members[r], meeting.way_m, theta, member_sums[meeting.first][r], by_member[r].back());
     }
     if (for_members) chosen.push_back(outcomes[c]);
   }

@@ -37,7 +37,7 @@ struct Survival {
 
 // `conditions`: by drawn condition, the meetings in the order in which they are driven; `numbers`:
 // how many there are. What one episode draws holds for all of its meetings, so that they may all
-// fail together, and so does what no covariate says of a hazard (RiskModel::theta):
+// fail together, and so does what no covariate says of a hazard (KindRates::theta):
 //   P(no failure) = mean over conditions of exp(-sum over hazards of (sum of
 //   Lambda^theta)^(1/theta)).
 // Expects at least one condition. The intervals hold what the model does not know (its members) and

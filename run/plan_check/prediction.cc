@@ -62,7 +62,7 @@ class Predictor {
       const std::size_t number = NumberOf(encounter, of + " " + std::to_string(times[of]++));
       const RateEvaluator* rates = RatesOf(encounter);
       if (rates == nullptr) continue;
-      const std::string like = of + " " + std::string(Name(encounter.passage));
+      const std::string like = of + " " + TextOf(rates->kind());
       const std::size_t alike =
           rates->kind().per_metre ? number : first.emplace(like, number).first->second;
       condition.push_back({rates, encounter.size, encounter.at,
@@ -118,8 +118,7 @@ class Predictor {
 
   const RateEvaluator* RatesOf(const Encounter& encounter) {
     for (const RateEvaluator& rates : evaluators_)
-      if (rates.kind().type == encounter.type && rates.kind().passage == encounter.passage)
-        return &rates;
+      if (IsAbout(rates.kind(), encounter.type, encounter.passage, encounter.at)) return &rates;
     Prediction::Unmeasured& kind = unmeasured_[{encounter.type, encounter.passage}];
     if (kind.type.empty()) {
       kind = {encounter.type, encounter.passage, 0, "it was not driven"};

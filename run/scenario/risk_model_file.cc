@@ -188,16 +188,20 @@ Passage ReadPassage(const Keys& keys) {
 
 KindRates ReadKind(const ConfigNode& node, const std::string& path) {
   const Keys keys(node, path,
-                  {"type", "passage", "per", "encounters", "cleared", "censored", "way_m", "axes",
-                   "any", "splits"});
+                  {"type", "passage", "manner", "per", "encounters", "cleared", "censored", "way_m",
+                   "theta", "axes", "any", "splits"});
   KindRates kind;
   kind.type = keys.Text("type");
   kind.passage = ReadPassage(keys);
+  kind.manner = keys.OneOf<Manner>(
+      "manner",
+      {{"any", Manner::kAny}, {"straight", Manner::kStraight}, {"turning", Manner::kTurning}});
   kind.per_metre = keys.OneOf<bool>("per", {{"metre", true}, {"encounter", false}});
   kind.encounters = keys.Count("encounters");
   kind.cleared = keys.Count("cleared");
   kind.censored = keys.Count("censored");
   kind.way_m = keys.Number("way_m", NonNegative());
+  kind.theta = keys.Number("theta", Between(1, 100));  // powers stay numbers
   std::size_t number = 0;
   for (const ConfigNode& axis : keys.List("axes"))
     kind.axes.push_back(ReadAxis(axis, fmt::format("{}.{}", keys.Path("axes"), number++)));
@@ -237,20 +241,21 @@ RiskModel Parse(const std::filesystem::path& file, const InputFiles& files) {
                      fmt::format("the key is missing (risk_model: {}): this is no risk model",
                                  kRiskModelVersion));
   AsInt(*root.Find("risk_model"), "risk_model", Between(kRiskModelVersion, kRiskModelVersion));
-  const Keys keys(
-      root, "", {"risk_model", "robot", "mirrored", "encounters", "theta", "kinds", "unmeasured"});
+  const Keys keys(root, "",
+                  {"risk_model", "robot", "mirrored", "encounters", "kinds", "unmeasured"});
   RiskModel model;
   model.robot = ReadRobot(keys.At("robot"));
   model.mirrored = keys.Flag("mirrored");
   model.encounters = keys.Count("encounters");
-  model.theta = keys.Number("theta", Between(1, 100));  // powers stay numbers
   std::size_t number = 0;
   for (const ConfigNode& node : keys.List("kinds")) {
     const std::string path = fmt::format("kinds.{}", number++);
     KindRates kind = ReadKind(node, path);
-    if (FindKind(model, kind.type, kind.passage) != nullptr)
-      throw InputError(node.mark, path, kind.type + " " + std::string(Name(kind.passage)),
-                       "must stand there once");
+    for (const KindRates& other : model.kinds)
+      if (other.type == kind.type && other.passage == kind.passage &&
+          (other.manner == kind.manner || other.manner == Manner::kAny ||
+           kind.manner == Manner::kAny))
+        throw InputError(node.mark, path, TextOf(kind), "must stand there once");
     model.kinds.push_back(std::move(kind));
   }
   if (model.kinds.empty())

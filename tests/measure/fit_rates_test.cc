@@ -27,7 +27,7 @@ std::vector<Encounter> Steps(int count, std::uint64_t seed = 1) {
 }
 
 ModeNumbers At(const RiskModel& model, const Encounter& e) {
-  const KindRates* kind = FindKind(model, e.type, e.passage);
+  const KindRates* kind = FindKind(model, e.type, e.passage, e.at);
   Covariates covariates(kind->axes, model.mirrored, e.size);
   return RateEvaluator(*kind).At(covariates.Of(e.at));
 }
@@ -200,7 +200,37 @@ TEST(FitRates, TooFewEncountersAreSaid) {
   ASSERT_THAT(dut.unmeasured, SizeIs(1));
   EXPECT_EQ(dut.unmeasured[0].type, "groove");
   EXPECT_EQ(dut.unmeasured[0].why, "20 encounters with an outcome; at least 50 are needed");
-  EXPECT_EQ(FindKind(dut, "groove", Passage::kOver), nullptr);
+  EXPECT_EQ(FindKind(dut, "groove", Passage::kOver, {}), nullptr);
+}
+
+// What turns on a step fails at half the height. One smooth function of both would bend between
+// them; a kind for each manner does not.
+TEST(FitRates, TurnsHaveRatesOfTheirOwnWhereThereAreEnough) {
+  Stream random(13, 0, "fit_rates_test");
+  const auto rates = [](const Encounter& e) {
+    const double limit_m = e.at.turn_rad > 0 ? 0.008 : 0.014;
+    return ModeNumbers{0, 8 * Step((e.size[0].second - limit_m) / 0.001), 0, 0};
+  };
+  const auto draw = [](Stream& from) {
+    Encounter e = DrawStep(from);
+    e.at.turn_rad = from.Uniform() < 0.5 ? 0 : from.Uniform(0.2, 3);
+    return e;
+  };
+  const std::vector<Encounter> met = DrawEncounters(2000, rates, draw, random);
+  const RiskModel dut = FitRates(met, {}, {});
+  ASSERT_THAT(dut.kinds, SizeIs(2));
+  EXPECT_EQ(dut.kinds[0].manner, Manner::kStraight);
+  EXPECT_EQ(dut.kinds[1].manner, Manner::kTurning);
+  EXPECT_EQ(dut.kinds[0].encounters + dut.kinds[1].encounters, 2000);
+  for (const RateAxis& axis : dut.kinds[0].axes) EXPECT_NE(axis.name, "turn_rad");
+  Encounter between = met[0];
+  between.size[0].second = 0.011;
+  between.at.turn_rad = 0;
+  EXPECT_LT(Total(At(dut, between)), 0.8) << "0.38 is true";
+  between.at.turn_rad = 1;
+  EXPECT_GT(Total(At(dut, between)), 3) << "7.6 is true";
+  EXPECT_THAT(FitRates({met.begin(), met.begin() + 300}, {}, {}).kinds, SizeIs(1))
+      << "of few, both are pooled";
 }
 
 // Every other meeting is cut short somewhere, as by a failure at the hazard beside. Left out, those

@@ -82,13 +82,15 @@ TEST(RiskModelFile, SaysWhatIsWrongAndWhere) {
     const char *old, *now, *says;
   };
   for (const Case& c : {
-           Case{"\"risk_model\": 2", "\"risk_model\": 1",
-                "risk_model.json:2: risk_model = 1: must be in [2, 2]"},
-           Case{"\"risk_model\": 2", "\"fmea\": 2", "risk_model: the key is missing"},
+           Case{"\"risk_model\": 3", "\"risk_model\": 2",
+                "risk_model.json:2: risk_model = 2: must be in [3, 3]"},
+           Case{"\"risk_model\": 3", "\"fmea\": 3", "risk_model: the key is missing"},
            Case{"\"mirrored\": true,\n", "", "mirrored: the key is missing"},
            Case{"\"mirrored\"", "\"mirored\"", "mirored: unknown key; did you mean mirrored?"},
            Case{"\"passage\": \"over\"", "\"passage\": \"under\"",
                 "kinds.0.passage = under: must be one of over, beside"},
+           Case{"\"manner\": \"any\"", "\"manner\": \"rolling\"",
+                "kinds.0.manner = rolling: must be one of any, straight, turning"},
            Case{"\"censored\": 0", "\"censored\": -1", "kinds.0.censored = -1: must be in [0,"},
            Case{"\"censored\": 0", "\"censored\": 3", "kinds.0.encounters = 90: must be cleared"},
            Case{"\"name\": \"speed_mps\"", "\"name\": \"pace\"",

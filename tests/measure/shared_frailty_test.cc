@@ -50,7 +50,7 @@ std::vector<Encounter> Drives(int count, double theta) {
 TEST(SharedFrailty, IsFoundAgain) {
   for (const double theta : {1.0, 2.0, 6.0}) {
     const RiskModel dut = FitRates(Drives(3000, theta), {}, {});
-    EXPECT_NEAR(dut.theta / theta, 1, 0.2) << theta;
+    EXPECT_NEAR(dut.kinds.at(0).theta / theta, 1, 0.2) << theta;
   }
 }
 
@@ -84,15 +84,15 @@ TEST(SharedFrailty, IsOneWhereNothingSpeaksForMore) {
         met.push_back(e);
         if (e.outcome == Encounter::Outcome::kFailed) break;
       }
-    EXPECT_LT(FitRates(met, {}, {}).theta, 4) << seed;
+    EXPECT_LT(FitRates(met, {}, {}).kinds.at(0).theta, 4) << seed;
   }
 }
 
 TEST(SharedFrailty, IsNotGuessedFromAFew) {
-  EXPECT_EQ(FitRates(Drives(15, 6), {}, {.least_encounters = 10}).theta, 1);
+  EXPECT_EQ(FitRates(Drives(15, 6), {}, {.least_encounters = 10}).kinds.at(0).theta, 1);
   std::vector<Encounter> of_no_drive = Drives(500, 6);
   for (Encounter& e : of_no_drive) e.drive = -1;
-  EXPECT_EQ(FitRates(of_no_drive, {}, {}).theta, 1);
+  EXPECT_EQ(FitRates(of_no_drive, {}, {}).kinds.at(0).theta, 1);
 }
 
 }  // namespace

@@ -106,6 +106,27 @@ TEST_F(SurvivalCoverageTest, TakesTheDoorThatIsMeasuredToBeSafe) {
   }
 }
 
+// One ramp falls along the way, the other rises.
+TEST_F(SurvivalCoverageTest, TakesTheRampInTheDirectionThatIsMeasuredToBeSafe) {
+  Draw(kTwoDoors);
+  model_.kinds = {PlantedBy("rise_along", true, -0.2, 0.2, 0.01, 3, "ramp")};
+  for (const int rises : {0, 1}) {
+    for (int i = 0; i < 2; ++i) {
+      Hazard& hazard = map_.hazards[static_cast<std::size_t>(i)];
+      hazard.type = "ramp";
+      Solid slope;
+      slope.base = hazard.footprint[0];
+      slope.z_high_m = 0.1;
+      slope.gradient = Vec2(i == rises ? 0.2 : -0.2, 0);
+      hazard.solids = {slope};
+    }
+    const PlanResult plan = Plan({0, 0}, Cell{8, 4});
+    ASSERT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
+    EXPECT_THAT(Crossed(plan), ElementsAre(1 - rises));
+    EXPECT_NEAR(Figure(plan, "p_failure"), 1 - std::exp(-0.01), 1e-4);
+  }
+}
+
 TEST_F(SurvivalCoverageTest, CrossesAtTheSpeedThatIsMeasuredToBeSafe) {
   Draw(kStrip);
   for (const bool slow : {true, false}) {

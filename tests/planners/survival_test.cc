@@ -44,14 +44,12 @@ KindRates StuckByFriction(double high, double low) {
 
 // The same meetings in each condition, met as that says.
 Survival Predict(const std::vector<PlannedMeeting>& meetings,
-                 const std::vector<std::vector<Approach>>& conditions, double theta = 1) {
+                 const std::vector<std::vector<Approach>>& conditions) {
   std::vector<std::vector<PlannedMeeting>> drawn(conditions.size(), meetings);
   for (std::size_t c = 0; c < drawn.size(); ++c)
     for (std::size_t i = 0; i < meetings.size(); ++i)
       drawn[c][i].at = conditions[c][i], drawn[c][i].number = i;
-  RiskModel model;
-  model.theta = theta;
-  return PredictSurvival(drawn, meetings.size(), model);
+  return PredictSurvival(drawn, meetings.size(), RiskModel());
 }
 
 std::vector<std::vector<Approach>> Same(std::size_t conditions, std::size_t meetings,
@@ -98,19 +96,21 @@ TEST(Survival, OfExposuresGoesByTheirWay) {
 // What no covariate says of a hazard holds for all meetings with it. They end the more alike the
 // larger theta is; a meeting with another hazard does not.
 TEST(Survival, MeetingsWithOneHazardEndAlike) {
-  const KindRates kind = Constant({0.02, 0.05, 0, 0});
+  KindRates kind = Constant({0.02, 0.05, 0, 0});
   const RateEvaluator rates(kind);
   std::vector<PlannedMeeting> meetings(8, {&rates, {}, {}, 1});
-  EXPECT_NEAR(Predict(meetings, Same(2, 8), 3).no_failure.value, std::exp(-0.07 * std::cbrt(8)),
+  kind.theta = 3;
+  EXPECT_NEAR(Predict(meetings, Same(2, 8)).no_failure.value, std::exp(-0.07 * std::cbrt(8)),
               1e-12);
-  const Survival dut = Predict(meetings, Same(2, 8), 50);
+  kind.theta = 50;
+  const Survival dut = Predict(meetings, Same(2, 8));
   EXPECT_NEAR(dut.no_failure.value, std::exp(-0.07), 0.004) << "all or none of them";
   EXPECT_NEAR(dut.no_failure.lower, dut.no_failure.upper, 1e-6)
       << "the members' rates are the same";
   EXPECT_NEAR(dut.by_meeting[0], 1 - dut.no_failure.value, 0.004) << "who gets over it once";
   EXPECT_NEAR(dut.first[kStuck].value, 2.5 * dut.first[kVeerOff].value, 1e-12);
   for (std::size_t i = 4; i < 8; ++i) meetings[i].first = 4;
-  EXPECT_NEAR(Predict(meetings, Same(2, 8), 50).no_failure.value, std::exp(-0.14), 0.004);
+  EXPECT_NEAR(Predict(meetings, Same(2, 8)).no_failure.value, std::exp(-0.14), 0.004);
 }
 
 // One friction in ten holds the robot at every crossing, the others at none. Ten crossings with the

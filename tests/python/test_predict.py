@@ -26,8 +26,9 @@ def constant(eta: float) -> Dict[str, Any]:
 def kind(type_: str, passage: str, rate: float, per: str = "encounter") -> Dict[str, Any]:
     """Of one rate at any meeting, all of it of getting stuck."""
     shares = {"veer_off": -100, "stuck": 100, "roll_over": -100}
-    return {"type": type_, "passage": passage, "per": per, "encounters": 1000, "cleared": 1000,
-            "censored": 0, "way_m": 1000, "axes": [], "any": constant(math.log(math.expm1(rate))),
+    return {"type": type_, "passage": passage, "manner": "any", "per": per,
+            "encounters": 1000, "cleared": 1000,
+            "censored": 0, "way_m": 1000, "theta": 1, "axes": [], "any": constant(math.log(math.expm1(rate))),
             "splits": [{"mode": mode, **constant(eta)} for mode, eta in shares.items()]}
 
 
@@ -46,7 +47,7 @@ def rates(tmp_path_factory: pytest.TempPathFactory) -> Path:
     kinds = [kind("cable_cover", "over", STUCK_AT_A_COVER),
              kind("free_floor", "beside", NEVER, "metre"),
              kind("wall_beside", "beside", NEVER, "metre")]
-    file.write_text(json.dumps({"risk_model": 2, "robot": robot, "mirrored": True, "theta": 1,
+    file.write_text(json.dumps({"risk_model": 3, "robot": robot, "mirrored": True,
                                 "encounters": 3000, "kinds": kinds, "unmeasured": []}),
                     encoding="utf-8")
     return file
