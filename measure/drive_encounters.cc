@@ -7,7 +7,6 @@
 
 #include "base/file_output.h"
 #include "base/quantity.h"
-#include "env/scene/robot_stance.h"
 #include "measure/encounter_scenario.h"
 
 namespace floorproof {
@@ -30,8 +29,7 @@ EncounterCampaign EncountersOf(const std::string& robot, const std::vector<Overr
   const std::string named = is_file ? fs::absolute(model).lexically_normal().string() : robot;
   const std::string label = is_file ? model.stem().string() : robot;
   const RobotModel read = ReadRobot(model);
-  const bool has_lidar = StanceOf(read).lidar_z_m.has_value();
-  const std::string text = EncounterScenario(named, read.spec, has_lidar);
+  const std::string text = EncounterScenario(named, read.spec, EncounterSensors(read));
   const fs::path beside = is_file ? fs::path(named).parent_path() : fs::path(".");
   return {label, text,
           ScenarioFile::FromText(text, beside / ("encounters_of_" + label + ".yaml"), overrides)};

@@ -10,6 +10,7 @@
 #include "env/core/passages.h"
 #include "env/hazards/hazard_type.h"
 #include "env/map/crossing_site.h"
+#include "env/scene/robot_stance.h"
 #include "measure/hazard_classes.h"
 
 namespace floorproof {
@@ -95,7 +96,8 @@ std::string MetBy(const RobotSpec& robot) {
   lines += Line("estimator.start_error_y_m", aside);
   lines += Line("estimator.start_error_yaw_deg", astray);
   if (robot.turn_radius_m == 0) {  // a corner is no arc
-    lines += Line("plan.lanes", "choice: [one, aside, back, thrice, thrice]");
+    // Most plans cross straight on: so do half of the drives, with those that turn elsewhere.
+    lines += Line("plan.lanes", "choice: [one, one, one, aside, back, thrice, thrice]");
     // From before the hazard to behind it; from half a turn in two unlike halves to two right
     // angles; as far aside as lanes are apart, and farther.
     const double width_m = 2 * robot.circumscribed_radius_m;
@@ -126,7 +128,13 @@ double RunUp(const RobotSpec& robot) {
 
 }  // namespace
 
-std::string EncounterScenario(const std::string& robot, const RobotSpec& spec, bool has_lidar) {
+std::vector<std::string> EncounterSensors(const RobotModel& robot) {
+  if (StanceOf(robot).lidar_z_m.has_value()) return {"lidar", "cliff"};
+  return {"cliff"};
+}
+
+std::string EncounterScenario(const std::string& robot, const RobotSpec& spec,
+                              const std::vector<std::string>& sensors) {
   constexpr double kRunOut_m = 0.4;     // it has left the hazard, though it ends a little aside
   constexpr double kTimeLimit_s = 180;  // nothing moves so slowly: it is held, and not quite still
   return fmt::format(
@@ -139,15 +147,16 @@ std::string EncounterScenario(const std::string& robot, const RobotSpec& spec, b
       "  name: crossing\n"
       "  generate: {{kind: crossing, run_up_m: {:.4g}, run_out_m: {:.4g}, {}}}\n"
       "plan: {{planner: straight, cross_obstacles: true}}\n"
-      "sensors: {{{}cliff: {{}}}}\n"
+      "sensors: {{{}: {{}}}}\n"
       "on_failure: watch\n"
       "time_limit_s: {}\n"
       "sampling: low_discrepancy\n"
       "randomise:\n{}{}"
       "matrix:\n"
       "  meeting:\n{}",
-      spec.name, robot, RunUp(spec), kRunOut_m, Outline(spec), has_lidar ? "lidar: {}, " : "",
-      kTimeLimit_s, MetBy(spec), Sizes(spec), Meetings());
+      spec.name, robot, RunUp(spec), kRunOut_m, Outline(spec),
+      fmt::format("{}", fmt::join(sensors, ": {}, ")), kTimeLimit_s, MetBy(spec), Sizes(spec),
+      Meetings());
 }
 
 }  // namespace floorproof

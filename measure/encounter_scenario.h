@@ -13,13 +13,17 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "env/core/robot_spec.h"
+#include "env/scene/robot_model.h"
 
 namespace floorproof {
 
 // The scenario file. `robot` is what it says under the key robot: a name, or a file's path.
-// `has_lidar`: its model says where one is mounted.
-std::string EncounterScenario(const std::string& robot, const RobotSpec& spec, bool has_lidar);
+std::string EncounterScenario(const std::string& robot, const RobotSpec& spec,
+                              const std::vector<std::string>& sensors);
+// What it carries: a lidar where its model says where one is mounted, and cliff sensors.
+std::vector<std::string> EncounterSensors(const RobotModel& robot);
 
 }  // namespace floorproof

@@ -85,7 +85,8 @@ void WriteMissing(const MeasuredFmea& fmea, std::string& text) {
 
 }  // namespace
 
-std::string MeasuredFmeaYaml(const MeasuredFmea& fmea, const std::string& robot) {
+std::string MeasuredFmeaYaml(const MeasuredFmea& fmea, const std::string& robot,
+                             const std::vector<std::string>& sensors) {
   std::string text =
       "# What an encounter with a hazard of each class comes to, counted in physics; the figures "
       "of\n"
@@ -93,9 +94,9 @@ std::string MeasuredFmeaYaml(const MeasuredFmea& fmea, const std::string& robot)
       "was\n"
       "# counted. The shares are of the sizes, ways and floors that were driven, and of no "
       "others.\n";
-  text +=
-      fmt::format("fmea_measured: 1\nrobot: {}\nslow_below_mps: {}\n",
-                  WriteYaml(ConfigNode::Scalar(robot, true)), FormatDouble(fmea.slow_below_mps));
+  text += fmt::format("fmea_measured: 1\nrobot: {}sensors: [{}]\nslow_below_mps: {}\n",
+                      WriteYaml(ConfigNode::Scalar(robot, true)), fmt::join(sensors, ", "),
+                      FormatDouble(fmea.slow_below_mps));
   text += fmt::format(
       "# Of effects: damage by the drop of one edge that has as much energy a kilogram. Assumed, "
       "not "

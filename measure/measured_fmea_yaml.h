@@ -8,6 +8,7 @@
 
 namespace floorproof {
 
-std::string MeasuredFmeaYaml(const MeasuredFmea& fmea, const std::string& robot);
+std::string MeasuredFmeaYaml(const MeasuredFmea& fmea, const std::string& robot,
+                             const std::vector<std::string>& sensors);
 
 }  // namespace floorproof

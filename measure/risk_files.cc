@@ -9,6 +9,7 @@
 #include "base/quantity.h"
 #include "controllers/drive.h"
 #include "env/scene/measured_block.h"
+#include "measure/encounter_scenario.h"
 #include "measure/fit_rates.h"
 #include "measure/measured_fmea_yaml.h"
 #include "measure/mirror_image.h"
@@ -49,7 +50,8 @@ std::optional<RiskModel> WriteRiskFiles(const CampaignStore& store, const RobotM
   WriteFileWhole(folder / "risk_model.json", RiskModelJson(model));
   const MeasuredFmea fmea = MeasureFmea(FirstMeetings(encounters), ClassOfType(), spec.cruise_mps,
                                         ReadFmeaTables(BundledTables()), limits);
-  WriteFileWhole(folder / "fmea_measured.yaml", MeasuredFmeaYaml(fmea, spec.name));
+  WriteFileWhole(folder / "fmea_measured.yaml",
+                 MeasuredFmeaYaml(fmea, spec.name, EncounterSensors(robot)));
   return model;
 }
 

@@ -21,6 +21,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
+const std::vector<std::string> kSensors = {"lidar", "cliff"};
+
 class EveryRobotsEncounters : public ::testing::TestWithParam<std::string> {
  protected:
   RobotSpec robot_ = ReadRobot(FindRobotFile(GetParam(), {})).spec;
@@ -58,7 +60,7 @@ TEST_P(EveryRobotsEncounters, CanBePlanned) {
 
 // All ends of all ranges, on the shortest strip and the longest, at the steepest angle.
 TEST_P(EveryRobotsEncounters, EveryCornerOfTheRangesIsAHazard) {
-  const ConfigNode scenario = ParseYaml(EncounterScenario(GetParam(), robot_, true), "s.yaml");
+  const ConfigNode scenario = ParseYaml(EncounterScenario(GetParam(), robot_, kSensors), "s.yaml");
   const ConfigNode* lengths =
       scenario.Find("randomise")->Find("site.generate.length_m")->Find("uniform");
   for (const auto& entry : HazardTypes()) {
@@ -91,22 +93,22 @@ TEST_P(EveryRobotsEncounters, EveryCornerOfTheRangesIsAHazard) {
 
 // A robot that cannot drive sideways is not asked to.
 TEST_P(EveryRobotsEncounters, LeadByWhateverSideTheRobotCan) {
-  const std::string dut = EncounterScenario(GetParam(), robot_, true);
+  const std::string dut = EncounterScenario(GetParam(), robot_, kSensors);
   EXPECT_EQ(dut.find("lead_deg") != std::string::npos, IsHolonomic(robot_));
 }
 
 // By its figures, not by its name.
 TEST(Encounters, GrowWithTheRobot) {
   RobotSpec robot = ReadRobot(FindRobotFile("beluga", {})).spec;
-  const std::string as_it_is = EncounterScenario("beluga", robot, true);
+  const std::string as_it_is = EncounterScenario("beluga", robot, kSensors);
   EXPECT_THAT(as_it_is, HasSubstr("step.height_m: {uniform: [[-0.02, -0.001], [0.001, 0.02]]}"))
       << "four fifths of a belly at 25 mm";
   robot.clearance_m = 0.05;
-  EXPECT_THAT(EncounterScenario("beluga", robot, true),
+  EXPECT_THAT(EncounterScenario("beluga", robot, kSensors),
               HasSubstr("step.height_m: {uniform: [[-0.04, -0.002], [0.002, 0.04]]}"));
   robot.measured.frictions = {0.5, 1};
   robot.measured.limits = {{"step", {0.01, 0.02}}};
-  EXPECT_THAT(EncounterScenario("beluga", robot, true),
+  EXPECT_THAT(EncounterScenario("beluga", robot, kSensors),
               HasSubstr("step.height_m: {uniform: [[-0.05, -0.0025], [0.0025, 0.05]]}"))
       << "2.5 times the step that it was measured to cross";
 }

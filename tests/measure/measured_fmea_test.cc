@@ -92,7 +92,7 @@ TEST(MeasuredFmea, OfNothingMeasuredNothingIsSaid) {
   const MeasuredFmea dut = MeasureFmea({}, kClasses, 0.2, Experts());
   for (const MeasuredClass& of : dut.classes)
     for (const ComparedShare& share : of.given_failure) EXPECT_FALSE(share.excluded());
-  EXPECT_THAT(MeasuredFmeaYaml(dut, "cart"), HasSubstr("excluded: []"));
+  EXPECT_THAT(MeasuredFmeaYaml(dut, "cart", {"cliff"}), HasSubstr("excluded: []"));
 }
 
 // By damage, and by whether the robot got on alone; of any mass.
@@ -159,18 +159,21 @@ TEST(MeasuredFmea, CountsEffectsAndWhatWasSensedInTime) {
       MeasureFmea(met, kClasses, 0.2, Experts(), {0.1, 0.2}).effect_of_mode[2][2].measured.events,
       30)
       << "whoever knows that a drop of 0.15 m does no lasting damage says so";
-  EXPECT_THAT(MeasuredFmeaYaml(dut, "cart"), HasSubstr("missing: []"));
-  EXPECT_THAT(MeasuredFmeaYaml(dut, "cart"), HasSubstr("P(F3 -> E5): experts 0.7, measured 1 ["));
+  EXPECT_THAT(MeasuredFmeaYaml(dut, "cart", {"cliff"}), HasSubstr("missing: []"));
+  EXPECT_THAT(MeasuredFmeaYaml(dut, "cart", {"cliff"}),
+              HasSubstr("P(F3 -> E5): experts 0.7, measured 1 ["));
 }
 
 TEST(MeasuredFmea, IsAFileThatReadsBack) {
   std::vector<Encounter> met = Covers();
   for (int i = 0; i < 50; ++i) met.push_back(Met("step", 0, 0.1, FailureMode::kStuck));
   met.push_back(Met("unheard_of", 0, 0.1));
-  const ConfigNode dut =
-      ParseYaml(MeasuredFmeaYaml(MeasureFmea(met, kClasses, 0.2, Experts()), "hTetro"), "f.yaml");
+  const ConfigNode dut = ParseYaml(
+      MeasuredFmeaYaml(MeasureFmea(met, kClasses, 0.2, Experts()), "hTetro", {"lidar", "cliff"}),
+      "f.yaml");
   EXPECT_EQ(dut.Find("fmea_measured")->scalar, "1");
   EXPECT_EQ(dut.Find("robot")->scalar, "hTetro");
+  EXPECT_THAT(dut.Find("sensors")->items, ::testing::SizeIs(2));
   const ConfigNode& terrain = *dut.Find("classes")->Find("C4");
   EXPECT_EQ(terrain.Find("all")->Find("none")->Find("k")->scalar, "27");
   EXPECT_EQ(terrain.Find("sideways_slow")->Find("F2")->Find("p")->scalar, "1");
