@@ -154,9 +154,8 @@ std::string EncounterScenario(const std::string& robot, const RobotSpec& spec,
       "randomise:\n{}{}"
       "matrix:\n"
       "  meeting:\n{}",
-      spec.name, robot, RunUp(spec), kRunOut_m, Outline(spec),
-      fmt::format("{}", fmt::join(sensors, ": {}, ")), kTimeLimit_s, MetBy(spec), Sizes(spec),
-      Meetings());
+      spec.name, robot, RunUp(spec), kRunOut_m, Outline(spec), fmt::join(sensors, ": {}, "),
+      kTimeLimit_s, MetBy(spec), Sizes(spec), Meetings());
 }
 
 }  // namespace floorproof

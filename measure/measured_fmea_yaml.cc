@@ -94,6 +94,7 @@ std::string MeasuredFmeaYaml(const MeasuredFmea& fmea, const std::string& robot,
       "was\n"
       "# counted. The shares are of the sizes, ways and floors that were driven, and of no "
       "others.\n";
+  // WriteYaml ends the line.
   text += fmt::format("fmea_measured: 1\nrobot: {}sensors: [{}]\nslow_below_mps: {}\n",
                       WriteYaml(ConfigNode::Scalar(robot, true)), fmt::join(sensors, ", "),
                       FormatDouble(fmea.slow_below_mps));

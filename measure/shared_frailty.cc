@@ -23,12 +23,12 @@ struct Repeated {
 // What of other kinds came between only says how long these went on: of each kind by itself the
 // likelihood is as if there were no other.
 std::vector<Repeated> RepeatedOf(const RiskModel& model, Manner manner,
-                                 const std::vector<Encounter>& encounters) {
+                                 const std::vector<std::vector<const Encounter*>>& meetings) {
   std::map<const KindRates*, RateEvaluator> rates;
   for (const KindRates& kind : model.kinds)
     if (kind.manner == manner) rates.try_emplace(&kind, kind);
   std::vector<Repeated> repeated;
-  for (const std::vector<const Encounter*>& met : MeetingsOfDrives(encounters)) {
+  for (const std::vector<const Encounter*>& met : meetings) {
     if (met.size() < 2) continue;
     Repeated each;
     for (const Encounter* e : met) {
@@ -107,8 +107,9 @@ std::vector<Encounter> FirstMeetings(const std::vector<Encounter>& encounters) {
 }
 
 void SetSharedFrailty(const std::vector<Encounter>& encounters, RiskModel& model) {
+  const std::vector<std::vector<const Encounter*>> meetings = MeetingsOfDrives(encounters);
   for (const Manner manner : {Manner::kAny, Manner::kStraight, Manner::kTurning}) {
-    const double theta = Likeliest(RepeatedOf(model, manner, encounters));
+    const double theta = Likeliest(RepeatedOf(model, manner, meetings));
     for (KindRates& kind : model.kinds)
       if (kind.manner == manner && !kind.per_metre) kind.theta = theta;
   }
