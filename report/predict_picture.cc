@@ -43,7 +43,7 @@ void WritePredictPicture(const Scenario& s, const Prediction& prediction,
                          const std::filesystem::path& png) {
   HeatMapOptions options;
   const double fails = 1 - prediction.survival.no_failure.value;
-  options.title = fmt::format("{}: {}{} of drives fail", PictureTitle(s),
+  options.title = fmt::format("{}: {}{} of drives are predicted to fail", PictureTitle(s),
                               prediction.complete() ? "" : "at least ", PercentText(fails));
   options.quantity = "drives that end here";
   options.unit = "%";

@@ -11,7 +11,7 @@
 #include "planners/online/robot_cells.h"
 #include "run/episode/cell_world.h"
 #include "run/episode/make_plan.h"
-#include "run/episode/online_limit.h"
+#include "run/episode/time_limit.h"
 #include "run/scenario/floors.h"
 
 namespace floorproof {
@@ -27,7 +27,7 @@ class CellDrive {
         observer_(observer),
         world_(s.site.map.frame, std::move(blocked), start, s.online->params().radius_m),
         known_(s.site.map.frame),
-        limit_s_(s.episode.time_limit_s.value_or(kOnlineLimit_s)) {
+        limit_s_(OnlineLimit_s(s.episode)) {
     known_.changed.emplace();
     sample_.yaw_rad = s.start.yaw_rad;
     Look();

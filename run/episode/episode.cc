@@ -22,11 +22,11 @@
 #include "run/episode/go_to_navigator.h"
 #include "run/episode/intervention.h"
 #include "run/episode/make_navigator.h"
-#include "run/episode/online_limit.h"
 #include "run/episode/path_error.h"
 #include "run/episode/plan_progress.h"
 #include "run/episode/recorder.h"
 #include "run/episode/robot_side.h"
+#include "run/episode/time_limit.h"
 #include "run/scenario/floors.h"
 
 namespace floorproof {
@@ -208,7 +208,7 @@ void EpisodeLoop::Begin() {
   robot_side_.Start(s_.start, EpisodeStream(s_, "estimator"));
   const double plan_s =
       LeadsItself(s_) ? GoToDuration(navigator_->plan(), robot_) : s_.tracker->Duration();
-  limit_s_ = s_.episode.time_limit_s.value_or(s_.online ? kOnlineLimit_s : 60 + 3 * plan_s);
+  limit_s_ = s_.online ? OnlineLimit_s(s_.episode) : PlanLimit_s(s_.episode, plan_s);
   recorder_.Expect(plan_s);
   StartDetectors();
   Perceive(1.0 / s_.episode.control_hz);

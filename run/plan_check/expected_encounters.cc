@@ -1,14 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/plan_check/expected_encounters.h"
 
+#include <optional>
+
 #include "controllers/drive.h"
 #include "controllers/ideal_robot.h"
 #include "env/core/blocks.h"
 #include "env/core/driven_floor.h"
 #include "run/episode/encounter_meter.h"
+#include "run/episode/time_limit.h"
+#include "run/episode/tool_meter.h"
 #include "run/scenario/floors.h"
 
 namespace floorproof {
+namespace {
+
+// Whether so much is covered that the drive ends (success.stop_at_coverage). Nothing is kept where
+// the scenario names no such share.
+class EnoughCovered {
+ public:
+  EnoughCovered(const Scenario& s, const HazardMap& floor) : enough_(s.episode.stop_at_coverage) {
+    if (!enough_) return;
+    const RobotSpec& robot = s.robot.spec;
+    area_ = ComputeSweepArea(floor, robot.clear, robot.tool, robot.step_m, s.start.p());
+    tool_.emplace(area_, robot);
+  }
+  void Sweep(int shape, const Pose2& X_WB) {
+    if (!tool_) return;
+    tool_->Take(shape);
+    tool_->Add(X_WB);
+  }
+  bool reached() const { return tool_ && tool_->swept().coverage() >= *enough_; }
+
+ private:
+  std::optional<double> enough_;
+  SweepArea area_;
+  std::optional<ToolMeter> tool_;
+};
+
+}  // namespace
 
 std::vector<Encounter> ExpectedEncounters(Scenario& s, const PlanResult& plan) {
   if (plan.path.empty()) return {};
@@ -20,11 +50,12 @@ std::vector<Encounter> ExpectedEncounters(Scenario& s, const PlanResult& plan) {
   EncounterMeter meter(floor, robot, IsHolonomic(robot));
   IdealRobot ideal(robot, s.start);
   const double period_s = 1.0 / s.episode.control_hz;
-  const double limit_s = 60 + 3 * s.tracker->Duration();  // as an episode's
+  const double limit_s = PlanLimit_s(s.episode, s.tracker->Duration());
+  EnoughCovered enough(s, floor);
   Sample sample;
-  for (std::int64_t period = 0; !sample.command.done; ++period) {
+  for (std::int64_t period = 0; !sample.command.done && !enough.reached(); ++period) {
     sample.t_s = static_cast<double>(period) * period_s;
-    if (sample.t_s > limit_s) break;
+    if (sample.t_s >= limit_s) break;
     const Estimate& state = ideal.state();
     sample.command = s.tracker->Update(state, sample.t_s, period_s);
     sample.p_WB = {state.X_WB.x_m, state.X_WB.y_m, 0};
@@ -33,6 +64,7 @@ std::vector<Encounter> ExpectedEncounters(Scenario& s, const PlanResult& plan) {
     const Vec2 v_W = state.X_WB.Rotate({state.V_WB_B.vx_mps, state.V_WB_B.vy_mps});
     sample.v_WB_W = {v_W.x(), v_W.y(), 0};
     meter.OnControl(sample, state, &plan.path);
+    enough.Sweep(sample.shape, state.X_WB);
     ideal.Drive(sample.command, period_s);
   }
   return meter.Finish();

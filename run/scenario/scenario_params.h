@@ -27,7 +27,7 @@ struct EpisodeParams {
   std::string on_failure = "stop";
   double min_coverage = 0;
   std::optional<double> stop_at_coverage;  // none: the planner, or the plan's end, says when
-  // none: three times the plan's own time, and a minute; of an online planner kOnlineLimit_s
+  // none: three times the plan's own time, and a minute; of an online planner hours (time_limit.h)
   std::optional<double> time_limit_s;
   std::string drive = "physics";  // cells: an ideal robot on cells; none: the plan only
   int seed = 0;

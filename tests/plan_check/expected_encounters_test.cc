@@ -52,6 +52,33 @@ TEST_P(ExpectedEncountersTest, AreThoseOfACleanDrive) {
     EXPECT_NEAR(dut[i].t_s, want[i].t_s, 1 + 0.02 * want[i].t_s);
   }
 }
+
+// What ends a drive before its plan does ends what is expected of it.
+TEST_P(ExpectedEncountersTest, EndWhereTheDriveEnds) {
+  Save("plan.csv", kPlan);
+  const auto met = [&](const std::vector<Encounter>& encounters) {
+    std::vector<std::string> hazards;
+    for (const Encounter& e : encounters)
+      if (!e.hazard.empty()) hazards.push_back(e.hazard);
+    return hazards;
+  };
+  std::size_t whole = 0;
+  for (const Override& end : {Override{"success.min_coverage", "0"},
+                              {"time_limit_s", "25"},
+                              {"success.stop_at_coverage", "0.08"}}) {
+    SCOPED_TRACE(end.key_path);
+    Scenario scenario = Read(RoomScenario(kHazards), {{"robot", GetParam()}, end});
+    const Execution driven = Execute(scenario);
+    ASSERT_THAT(driven.record.events, IsEmpty());
+    const std::vector<std::string> want = met(driven.record.encounters);
+    EXPECT_EQ(met(ExpectedEncounters(scenario, driven.plan)), want);
+    if (whole == 0)
+      whole = want.size();
+    else
+      EXPECT_LT(want.size(), whole);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Robots, ExpectedEncountersTest,
                          ::testing::Values("beluga", "htetro", "rover"),
                          [](const auto& of) { return std::string(of.param); });
