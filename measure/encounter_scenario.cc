@@ -34,12 +34,35 @@ std::string Uniform(const std::vector<std::pair<double, double>>& spans) {
   return "uniform: [" + text + "]";
 }
 
-// Of the edge against the way, from along it to along it; half are square on, as ways along
+// Of the edge against the way, from along it to along it; two thirds are square on, as ways along
 // walls meet what lies across them. What is most often met is to be known best.
 std::string Angles() {
   std::string values;
-  for (int deg = -90; deg <= 90; deg += 10) values += fmt::format("{}, 0, ", deg);
+  for (int deg = -90; deg <= 90; deg += 10) values += fmt::format("{}, 0, 0, ", deg);
   return "choice: [" + values.substr(0, values.size() - 2) + "]";
+}
+
+// Of the first of two corners between lanes. Two in three are as plans have them: two right angles,
+// or about turns where they stand. The others make two unlike halves.
+std::string Corners() {
+  std::string values;
+  for (const int deg : {20, 40, 60, 70, 80, 100, 110}) values += fmt::format("90, {}, ", deg);
+  return "choice: [" + values + "180, 90, 180, 90, 180, 90, 90]";
+}
+
+// From one lane to the next: half as far as lanes of the tool's width are apart.
+std::string Asides(const RobotSpec& robot) {
+  constexpr int kOthers = 8;
+  constexpr double kMost_m = 0.6;  // else the crossing grows
+  const double width_m = 2 * robot.circumscribed_radius_m;
+  const double least_m = 0.1 * width_m, most_m = std::min(kMost_m, 1.5 * width_m);
+  const double lane_m = std::clamp(robot.tool_width_m, least_m, most_m);
+  std::string values;
+  for (int i = 0; i < kOthers; ++i) {
+    const double other_m = least_m + (most_m - least_m) * i / (kOthers - 1);
+    values += fmt::format("{}{:.4g}, {:.4g}", i == 0 ? "" : ", ", lane_m, other_m);
+  }
+  return "choice: [" + values + "]";
 }
 
 std::string Meetings() {
@@ -76,10 +99,11 @@ std::string Outline(const RobotSpec& robot) {
 // sequence are its most even ones.
 std::string MetBy(const RobotSpec& robot) {
   constexpr double kSlowest = 0.3;  // of its top speed: an encounter is to end in some 10 s
-  // A third each know their place, and their heading; the others are as one that has driven a while
-  // without looking where it is.
-  const std::string aside = "choice: [0, -0.09, -0.02, 0, 0.02, 0.09, -0.05, 0, 0.05]";
-  const std::string astray = "choice: [-4, 0, 4, -2, 0, 2, -1, 0, 1]";
+  // Two thirds each know their place, and their heading, as plans take it that robots do; the
+  // others are as one that has driven a while without looking where it is.
+  const std::string aside =
+      "choice: [0, 0, -0.09, -0.02, 0, 0, 0, 0, 0.02, 0.09, 0, 0, -0.05, 0, 0, 0, 0, 0.05]";
+  const std::string astray = "choice: [0, -4, 0, 0, 4, 0, 0, -2, 0, 0, 2, 0, 0, -1, 0, 0, 1, 0]";
   constexpr double kWheels = 3, kShortest_m = 0.3, kLonger_m = 1;
   // Measured across the edge, however it lies, it is still longer than its types ask for.
   const double wheel_m = std::ranges::max(robot.wheels, {}, &WheelSpec::radius_m).radius_m;
@@ -91,23 +115,37 @@ std::string MetBy(const RobotSpec& robot) {
   lines += Line("site.generate.share", Uniform(0.2, 1.8));     // all of the width in half of them
   lines += Line("site.generate.gap_m", Uniform(0, kReach_m));  // what is farther is not met
   lines += Line("site.generate.length_m", Uniform(length_m, length_m + kLonger_m));
-  lines += Line("site.generate.wall_m", Uniform(0.03, 1.5));  // beyond 1 m it counts as far
+  lines += Line("site.generate.wall_m", Uniform(0.01, 1.1));  // beyond 1 m it counts as far
   lines += Line("site.generate.side", "choice: [left, right]");
   lines += Line("estimator.start_error_y_m", aside);
   lines += Line("estimator.start_error_yaw_deg", astray);
   if (robot.turn_radius_m == 0) {  // a corner is no arc
     // Most plans cross straight on: so do half of the drives, with those that turn elsewhere.
     lines += Line("plan.lanes", "choice: [one, one, one, aside, back, thrice, thrice]");
-    // From before the hazard to behind it; from half a turn in two unlike halves to two right
-    // angles; as far aside as lanes are apart, and farther.
-    const double width_m = 2 * robot.circumscribed_radius_m;
-    lines += Line("plan.turn_at", Uniform(0.25, 0.95));
-    lines += Line("plan.turn_deg", Uniform(20, 110));
-    lines += Line("plan.aside_m", Uniform(0.1 * width_m, std::min(0.6, 1.5 * width_m)));
+    lines += Line("plan.turn_at", Uniform(0.25, 0.95));  // from before the hazard to behind it
+    lines += Line("plan.turn_deg", Corners());
+    lines += Line("plan.aside_m", Asides(robot));
   }
   lines += Line("robot.clearance_m", Normal(robot.clearance_m, 0.08));
   lines += Line("robot.mass_kg", Normal(robot.mass_kg, 0.1));
   return lines;
+}
+
+// What grows is drawn more densely where it is small: plans are led over what a robot hardly ever
+// fails at, many times, and how rarely is hard to learn from what stops it. Half of it lies in the
+// mildest three tenths.
+std::string Grown(const std::vector<std::pair<double, double>>& spans) {
+  constexpr int kSizes = 24;
+  constexpr double kPower = 1.8;
+  std::string values;
+  for (const auto& [low, high] : spans)
+    for (int i = 0; i < kSizes; ++i) {
+      // From the mildest end of the span to the other; of a span below 0 that is its upper end.
+      const double share = std::pow(i / (kSizes - 1.0), kPower);
+      const double from = low < 0 ? high : low, to = low < 0 ? low : high;
+      values += fmt::format("{}{:.4g}", values.empty() ? "" : ", ", from + share * (to - from));
+    }
+  return "choice: [" + values + "]";
 }
 
 std::string Sizes(const RobotSpec& robot) {
@@ -115,7 +153,7 @@ std::string Sizes(const RobotSpec& robot) {
   for (const auto& entry : HazardTypes())
     for (const KeyRange& range : entry.make()->Ranges(robot))
       lines += Line(fmt::format("site.generate.sizes.{}.{}", entry.name, range.key),
-                    Uniform(range.spans));
+                    range.grows ? Grown(range.spans) : Uniform(range.spans));
   return lines;
 }
 

@@ -23,7 +23,7 @@ class CableCover : public HazardType {
 
   std::vector<KeyRange> Ranges(const RobotSpec& robot) const override {
     const double most_m = 1.5 * EdgeScale(robot, "step");  // its flanks slope
-    return {{"height_m", {{most_m / 20, most_m}}},
+    return {{"height_m", {{most_m / 20, most_m}}, true},
             {"width_m", {{0.08, 0.24}}},
             {"top_width_m", {{0.02, 0.06}}}};
   }

@@ -23,7 +23,7 @@ class Carpet final : public HazardType {
 
   std::vector<KeyRange> Ranges(const RobotSpec& robot) const override {
     const double most_m = EdgeScale(robot, "carpet");
-    return {{"height_m", {{most_m / 20, most_m}}},
+    return {{"height_m", {{most_m / 20, most_m}}, true},
             {"bevel", {{0, 1.5}}},
             {"rolling_drag", {{0, 0.15}}}};
   }

@@ -18,7 +18,8 @@ class Groove : public HazardType {
 
   std::vector<KeyRange> Ranges(const RobotSpec& robot) const override {
     const double wheel_m = WheelScale(robot);
-    return {{"width_m", {{0.1 * wheel_m, 3 * wheel_m}}}, {"depth_m", {{0.1 * wheel_m, wheel_m}}}};
+    return {{"width_m", {{0.1 * wheel_m, 3 * wheel_m}}, true},
+            {"depth_m", {{0.1 * wheel_m, wheel_m}}, true}};
   }
 
   Hazard Make(const std::vector<Vec2>& place) const override {

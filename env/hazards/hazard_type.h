@@ -27,6 +27,7 @@ inline constexpr double kSame = 1 + 1e-9;
 struct KeyRange {
   std::string key;
   std::vector<std::pair<double, double>> spans;  // [low, high], ascending
+  bool grows = false;                            // from 0, where the hazard is none, either way
 };
 
 class HazardType : public Configurable {

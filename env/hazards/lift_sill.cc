@@ -24,9 +24,9 @@ class LiftSill final : public HazardType {
 
   std::vector<KeyRange> Ranges(const RobotSpec& robot) const override {
     const double wheel_m = WheelScale(robot), most_m = EdgeScale(robot, "lift_sill");
-    return {{"gap_m", {{0.1 * wheel_m, 2 * wheel_m}}},
+    return {{"gap_m", {{0.1 * wheel_m, 2 * wheel_m}}, true},
             {"depth_m", {{1.1 * most_m, 1.1 * most_m + wheel_m}}},
-            {"level_m", {{-most_m, -most_m / 20}, {most_m / 20, most_m}}}};
+            {"level_m", {{-most_m, -most_m / 20}, {most_m / 20, most_m}}, true}};
   }
 
   Hazard Make(const std::vector<Vec2>& place) const override {

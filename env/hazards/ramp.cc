@@ -26,7 +26,7 @@ class Ramp final : public HazardType {
   }
 
   std::vector<KeyRange> Ranges(const RobotSpec&) const override {
-    return {{"slope_deg", {{-30, -1}, {1, 30}}}};  // wheels slip before that, on most floors
+    return {{"slope_deg", {{-30, -1}, {1, 30}}, true}};  // wheels slip before that, on most floors
   }
 
   Hazard Make(const std::vector<Vec2>& place) const override {

@@ -41,7 +41,7 @@ class Rough : public HazardType {
 
   std::vector<KeyRange> Ranges(const RobotSpec& robot) const override {
     const double most_m = 1.5 * EdgeScale(robot, "rough");  // its bumps are ramps
-    return {{"amplitude_m", {{most_m / 20, most_m}}}, {"wavelength_m", {{0.06, 0.2}}}};
+    return {{"amplitude_m", {{most_m / 20, most_m}}, true}, {"wavelength_m", {{0.06, 0.2}}}};
   }
 
   Hazard Make(const std::vector<Vec2>& place) const override {

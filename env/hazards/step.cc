@@ -19,7 +19,7 @@ class Step : public HazardType {
 
   std::vector<KeyRange> Ranges(const RobotSpec& robot) const override {
     const double most_m = EdgeScale(robot, "step"), least_m = most_m / 20;
-    return {{"height_m", {{-most_m, -least_m}, {least_m, most_m}}}};
+    return {{"height_m", {{-most_m, -least_m}, {least_m, most_m}}, true}};
   }
 
   Hazard Make(const std::vector<Vec2>& place) const override {

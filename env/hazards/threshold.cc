@@ -24,7 +24,7 @@ class Threshold final : public HazardType {
   std::vector<KeyRange> Ranges(const RobotSpec& robot) const override {
     constexpr double kMostBevel = 2;
     const double most_m = EdgeScale(robot, "threshold"), slopes_m = 2 * kMostBevel * most_m;
-    return {{"height_m", {{most_m / 20, most_m}}},
+    return {{"height_m", {{most_m / 20, most_m}}, true},
             {"vertical_m", {{0, most_m}}},
             {"bevel", {{0, kMostBevel}}},
             {"width_m", {{slopes_m + 0.01, slopes_m + 0.15}}}};
