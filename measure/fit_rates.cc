@@ -4,77 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <numeric>
+#include <optional>
 
 #include "base/round.h"
-#include "env/geometry/geometry.h"
 #include "measure/constant_rate.h"
+#include "measure/like_kinds.h"
 #include "measure/penalised_rates.h"
-#include "measure/rate_axes.h"
+#include "measure/rate_rows.h"
 #include "measure/shared_frailty.h"
 
 namespace floorproof {
 namespace {
-
-using Meetings = std::vector<const Encounter*>;
-
-bool IsExposure(std::string_view type) { return type == kWallBeside || type == kFreeFloor; }
-
-std::vector<double> CovariatesOf(const std::vector<RateAxis>& axes, bool mirrored,
-                                 const Encounter& e) {
-  Covariates covariates(axes, mirrored, e.size);
-  const std::span<const double> x = covariates.Of(e.at);
-  return {x.begin(), x.end()};
-}
-
-// All others are about a hazard, or how far the way along it is.
-bool IsOfExposures(const ApproachColumn& column) {
-  constexpr double Approach::*kOfExposures[] = {
-      &Approach::speed_mps,         &Approach::wall_m,      &Approach::friction,
-      &Approach::mass_kg,           &Approach::clearance_m, &Approach::estimate_error_m,
-      &Approach::estimate_error_rad};
-  return std::ranges::find(kOfExposures, column.member) != std::end(kOfExposures);
-}
-
-constexpr std::string_view kLead = "lead_rad";
-
-std::vector<RateAxis> AxesOf(const Meetings& met, Manner manner, const RateFitOptions& options) {
-  std::vector<RateAxis> axes;
-  for (const auto& first : met.front()->size) {
-    const std::string& key = first.first;
-    const bool stated = std::all_of(met.begin(), met.end(), [&](const Encounter* e) {
-      return std::any_of(e->size.begin(), e->size.end(),
-                         [&](const auto& entry) { return entry.first == key; });
-    });
-    if (!stated) continue;
-    axes.emplace_back();
-    axes.back().name = key;
-    axes.back().of_hazard = true;
-  }
-  const bool exposed = IsExposure(met.front()->type);
-  for (const ApproachColumn& column : kApproach) {
-    if (exposed && !IsOfExposures(column)) continue;
-    if (!options.holonomic && column.name == kLead) continue;
-    if (manner == Manner::kStraight && column.member == &Approach::turn_rad) continue;
-    if (manner != Manner::kTurning && column.member == &Approach::turn_gap_m) continue;
-    axes.emplace_back();
-    axes.back().name = column.name;
-  }
-  std::vector<std::vector<double>> x;
-  for (const Encounter* e : met) x.push_back(CovariatesOf(axes, options.mirrored, *e));
-  for (std::size_t a = 0; a < axes.size(); ++a) {
-    std::vector<double> values;
-    for (const std::vector<double>& row : x) values.push_back(row[a]);
-    const bool turns = !axes[a].of_hazard && axes[a].name == kLead;
-    axes[a] = MakeRateAxis(axes[a].name, axes[a].of_hazard, std::move(values), turns ? 2 * kPi : 0);
-  }
-  return axes;
-}
-
-// Of a meeting, what one that was censored had of it. Where another hazard's failure ends it, to
-// leave it out would leave out what was being cleared.
-constexpr double kCensored = 0.5;
 
 std::string StreamName(const KindRates& kind) {
   return fmt::format("risk_model.{}.{}.{}", kind.type, Name(kind.passage), Name(kind.manner));
@@ -122,9 +63,10 @@ void SetSplits(std::vector<RateRow> failures, std::vector<int> modes, KindRates&
   }
 }
 
-// Of a kind that was measured; none where it was met too rarely.
-std::optional<KindRates> FitKind(const Meetings& all, Manner manner, const RateFitOptions& options,
-                                 UnmeasuredKind& unmeasured) {
+// Of a kind that was measured; none where it was met too rarely. `like`: kinds that it is like;
+// null: it has rates of its own.
+std::optional<KindRates> FitKind(const Meetings& all, Manner manner, const LikeKinds* like,
+                                 const RateFitOptions& options, UnmeasuredKind& unmeasured) {
   KindRates kind;
   kind.type = all.front()->type;
   kind.passage = all.front()->passage;
@@ -146,41 +88,39 @@ std::optional<KindRates> FitKind(const Meetings& all, Manner manner, const RateF
                               options.least_encounters)};
     return std::nullopt;
   }
-  kind.axes = AxesOf(met, manner, options);
-  std::vector<RateRow> rows, failures;
+  kind.axes = like != nullptr ? like->axes : AxesOf(met, manner, options);
+  const std::vector<RateRow> rows = RowsOf(met, kind.axes, options.mirrored);
+  std::vector<RateRow> failures;
   std::vector<int> modes;
-  for (const Encounter* e : met) {
-    RateRow& row = rows.emplace_back();
-    row.x = CovariatesOf(kind.axes, options.mirrored, *e);
-    if (kind.per_metre)
-      row.way_m = e->way_m;
-    else if (e->outcome == Encounter::Outcome::kCensored)
-      row.way_m = kCensored;
-    row.happened = e->outcome == Encounter::Outcome::kFailed;
-    if (!row.happened) continue;
-    failures.push_back({row.x, 1, false});
-    modes.push_back(static_cast<int>(e->mode));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!rows[i].happened) continue;
+    failures.push_back({rows[i].x, 1, false});
+    modes.push_back(static_cast<int>(met[i]->mode));
   }
   kind.way_m = RoundedTo6(kind.way_m);
-  SetAny(rows, kind);
+  if (like != nullptr)
+    SetLike(rows, *like, StreamName(kind) + ".any", kind.any);
+  else
+    SetAny(rows, kind);
   SetSplits(std::move(failures), std::move(modes), kind);
   return kind;
 }
 
+using Parts = std::vector<std::pair<Manner, Meetings>>;
+Parts OfAnyManner(const Meetings& met) { return {{Manner::kAny, met}}; }
+
 // Straight ones and turns each by themselves, where of both enough is known.
-std::vector<std::pair<Manner, Meetings>> ByManner(const Meetings& met) {
+Parts ByManner(const Meetings& met) {
   constexpr std::ptrdiff_t kEnough = 200;  // with an outcome
-  std::vector<std::pair<Manner, Meetings>> parts;
+  Parts parts;
   for (const Manner manner : {Manner::kStraight, Manner::kTurning}) {
     Meetings& of = parts.emplace_back(manner, Meetings()).second;
     for (const Encounter* e : met)
       if (MannerOf(e->at) == manner) of.push_back(e);
-    const auto with = [&of](Encounter::Outcome outcome) {
-      return std::ranges::count(of, outcome, [](const Encounter* e) { return e->outcome; });
-    };
-    const auto failed = with(Encounter::Outcome::kFailed);
-    if (failed < kLeastEvents || failed + with(Encounter::Outcome::kCleared) < kEnough)
-      return {{Manner::kAny, met}};
+    const auto cleared = std::ranges::count(of, Encounter::Outcome::kCleared,
+                                            [](const Encounter* e) { return e->outcome; });
+    const int failed = FailuresOf(of);
+    if (failed < kLeastEvents || failed + cleared < kEnough) return OfAnyManner(met);
   }
   return parts;
 }
@@ -188,14 +128,14 @@ std::vector<std::pair<Manner, Meetings>> ByManner(const Meetings& met) {
 // All kinds that never failed have together about as many failures to come, over as much exposure
 // again, as there were kinds that failed once.
 void SetUnseen(std::vector<KindRates>& kinds) {
-  const auto times = [&](int events) {
-    return static_cast<double>(
-        std::ranges::count(kinds, events, [](const KindRates& kind) { return kind.any.events; }));
-  };
+  const auto is_unseen = [](const KindRates& kind) { return kind.any.coefficients.empty(); };
+  const auto once = static_cast<double>(
+      std::ranges::count(kinds, 1, [](const KindRates& kind) { return kind.any.events; }));
+  const auto never = static_cast<double>(std::ranges::count_if(kinds, is_unseen));
   constexpr double kMostEvents = 0.5;  // of one kind, however many failed once
-  const double events = std::min(kMostEvents, (times(1) + 0.5) / std::max(times(0), 1.0));
+  const double events = std::min(kMostEvents, (once + 0.5) / std::max(never, 1.0));
   for (KindRates& kind : kinds)
-    if (kind.any.events == 0)
+    if (is_unseen(kind))
       SetConstantRate(ExposureOf(kind), events / ExposureOf(kind), StreamName(kind) + ".any",
                       kind.any);
 }
@@ -211,17 +151,21 @@ RiskModel FitRates(const std::vector<Encounter>& encounters, MeasuredRobot robot
   model.mirrored = options.mirrored;
   model.encounters = static_cast<int>(encounters.size());
   // Only who got over a hazard meets it again: these say nothing of all that come.
-  std::map<std::pair<std::string, Passage>, Meetings> by_kind;
+  ByKind by_kind;
   for (const std::vector<const Encounter*>& met : MeetingsOfDrives(encounters))
     by_kind[{met.front()->type, met.front()->passage}].push_back(met.front());
-  for (const auto& [name, met] : by_kind)
-    for (const auto& [manner, part] : ByManner(met)) {
+  const auto like_kinds = FitLikeKinds(by_kind, options);
+  for (const auto& [name, met] : by_kind) {
+    const auto found = like_kinds.find(name);
+    const LikeKinds* like = found == like_kinds.end() ? nullptr : found->second.get();
+    for (const auto& [manner, part] : like ? OfAnyManner(met) : ByManner(met)) {
       UnmeasuredKind unmeasured;
-      if (std::optional<KindRates> kind = FitKind(part, manner, options, unmeasured))
+      if (std::optional<KindRates> kind = FitKind(part, manner, like, options, unmeasured))
         model.kinds.push_back(std::move(*kind));
       else
         model.unmeasured.push_back(std::move(unmeasured));
     }
+  }
   SetUnseen(model.kinds);
   SetSharedFrailty(encounters, model);
   return model;

@@ -9,7 +9,6 @@
 #include "base/streams.h"
 #include "measure/calibration.h"
 #include "measure/shared_frailty.h"
-#include "planners/risk/rate_evaluator.h"
 
 namespace floorproof {
 namespace {
@@ -48,18 +47,17 @@ RateJudgement Judge(std::span<const JudgedEncounter> judged) {
   return of;
 }
 
-std::vector<JudgedEncounter> Predicted(const RiskModel& model,
+std::vector<JudgedEncounter> Predicted(const ModelRates& model,
                                        const std::vector<Encounter>& encounters) {
-  std::map<const KindRates*, RateEvaluator> evaluators;
   std::vector<JudgedEncounter> judged;
   for (const Encounter& e : encounters) {
-    const KindRates* kind = FindKind(model, e.type, e.passage, e.at);
-    if (kind == nullptr || kind->per_metre || e.outcome == Encounter::Outcome::kCensored) continue;
-    const RateEvaluator& rates = evaluators.try_emplace(kind, *kind).first->second;
-    Covariates covariates(kind->axes, model.mirrored, e.size);
+    const RateEvaluator* rates = model.Find(e.type, e.passage, e.at);
+    if (rates == nullptr || rates->kind().per_metre || e.outcome == Encounter::Outcome::kCensored)
+      continue;
+    Covariates covariates(rates->kind().axes, model.model().mirrored, e.size);
     const bool failed = e.outcome == Encounter::Outcome::kFailed;
     judged.push_back(
-        {FirstFailures(rates.At(covariates.Of(e.at))), failed ? static_cast<int>(e.mode) : -1});
+        {FirstFailures(rates->At(covariates.Of(e.at))), failed ? static_cast<int>(e.mode) : -1});
   }
   return judged;
 }
@@ -82,8 +80,9 @@ HoldOut JudgeByHoldOut(const std::vector<Encounter>& all_met, const RateFitOptio
       else
         fitted.push_back(encounters[i]);
     const RiskModel model = FitRates(fitted, {}, options);
+    const ModelRates rates(model);
     for (const auto& [name, met] : fresh) {
-      const std::vector<JudgedEncounter> judged = Predicted(model, met);
+      const std::vector<JudgedEncounter> judged = Predicted(rates, met);
       std::vector<JudgedEncounter>& of_kind = by_kind[name];
       of_kind.insert(of_kind.end(), judged.begin(), judged.end());
       all.insert(all.end(), judged.begin(), judged.end());

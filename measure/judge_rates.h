@@ -9,7 +9,7 @@
 
 #include "env/core/encounter.h"
 #include "measure/fit_rates.h"
-#include "planners/risk/rate_model.h"
+#include "planners/risk/model_rates.h"
 
 namespace floorproof {
 
@@ -35,7 +35,7 @@ RateJudgement Judge(std::span<const JudgedEncounter> judged);
 
 // Of the encounters with an outcome, of kinds that the model has; in the same order. Exposures are
 // left out: of one that failed nobody knows how long it would have been.
-std::vector<JudgedEncounter> Predicted(const RiskModel& model,
+std::vector<JudgedEncounter> Predicted(const ModelRates& model,
                                        const std::vector<Encounter>& encounters);
 
 struct JudgedKind {

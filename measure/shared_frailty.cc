@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "base/round.h"
-#include "planners/risk/rate_evaluator.h"
+#include "planners/risk/model_rates.h"
 
 namespace floorproof {
 namespace {
@@ -22,22 +22,18 @@ struct Repeated {
 
 // What of other kinds came between only says how long these went on: of each kind by itself the
 // likelihood is as if there were no other.
-std::vector<Repeated> RepeatedOf(const RiskModel& model, Manner manner,
+std::vector<Repeated> RepeatedOf(const ModelRates& model, Manner manner,
                                  const std::vector<std::vector<const Encounter*>>& meetings) {
-  std::map<const KindRates*, RateEvaluator> rates;
-  for (const KindRates& kind : model.kinds)
-    if (kind.manner == manner) rates.try_emplace(&kind, kind);
   std::vector<Repeated> repeated;
   for (const std::vector<const Encounter*>& met : meetings) {
     if (met.size() < 2) continue;
     Repeated each;
     for (const Encounter* e : met) {
       if (e->outcome == Encounter::Outcome::kCensored || each.failed) break;
-      const KindRates* kind = FindKind(model, e->type, e->passage, e->at);
-      const auto of = rates.find(kind);
-      if (of == rates.end()) continue;
-      Covariates covariates(kind->axes, model.mirrored, e->size);
-      each.totals.push_back(Total(of->second.At(covariates.Of(e->at))));
+      const RateEvaluator* rates = model.Find(e->type, e->passage, e->at);
+      if (rates == nullptr || rates->kind().manner != manner) continue;
+      Covariates covariates(rates->kind().axes, model.model().mirrored, e->size);
+      each.totals.push_back(Total(rates->At(covariates.Of(e->at))));
       each.failed = e->outcome == Encounter::Outcome::kFailed;
     }
     if (each.totals.size() > 1) repeated.push_back(std::move(each));
@@ -108,8 +104,9 @@ std::vector<Encounter> FirstMeetings(const std::vector<Encounter>& encounters) {
 
 void SetSharedFrailty(const std::vector<Encounter>& encounters, RiskModel& model) {
   const std::vector<std::vector<const Encounter*>> meetings = MeetingsOfDrives(encounters);
+  const ModelRates rates(model);
   for (const Manner manner : {Manner::kAny, Manner::kStraight, Manner::kTurning}) {
-    const double theta = Likeliest(RepeatedOf(model, manner, meetings));
+    const double theta = Likeliest(RepeatedOf(rates, manner, meetings));
     for (KindRates& kind : model.kinds)
       if (kind.manner == manner && !kind.per_metre) kind.theta = theta;
   }

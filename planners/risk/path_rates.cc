@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <map>
 
-#include "planners/risk/rate_model.h"
-
 namespace floorproof {
 namespace {
 
@@ -21,26 +19,19 @@ Approach In(const DriveConditions& conditions, Approach at) {
 }  // namespace
 
 PathRates::PathRates(const PlanRequest& request)
-    : request_(request), conditions_(request.conditions.begin(), request.conditions.end()) {
+    : request_(request),
+      conditions_(request.conditions.begin(), request.conditions.end()),
+      rates_(*request.model) {
   const RobotSpec& robot = request.robot;
   if (conditions_.empty())
     conditions_ = {{request.map.floor_friction, robot.mass_kg, robot.clearance_m}};
-  for (const KindRates& kind : request.model->kinds) evaluators_.emplace_back(kind);
-}
-
-const RateEvaluator* PathRates::RatesOf(std::string_view type, Passage passage,
-                                        const Approach& at) const {
-  const auto found = std::ranges::find_if(evaluators_, [&](const RateEvaluator& rates) {
-    return IsAbout(rates.kind(), type, passage, at);
-  });
-  return found == evaluators_.end() ? nullptr : &*found;
 }
 
 std::optional<double> PathRates::Expected(const Hazard& hazard, Passage passage, Approach at,
                                           const Vec2& travel_W) const {
-  const RateEvaluator* rates = RatesOf(hazard.type, passage, at);
+  const RateEvaluator* rates = rates_.Find(hazard.type, passage, at);
   if (rates == nullptr) return std::nullopt;
-  Covariates covariates(rates->kind().axes, request_.model->mirrored, SizeAsMet(hazard, travel_W));
+  Covariates covariates(rates->kind().axes, rates_.model().mirrored, SizeAsMet(hazard, travel_W));
   double sum = 0;
   for (const DriveConditions& conditions : conditions_)
     sum += Total(rates->At(covariates.Of(In(conditions, at))));
@@ -49,7 +40,7 @@ std::optional<double> PathRates::Expected(const Hazard& hazard, Passage passage,
 
 std::vector<double> PathRates::Speeds(const Hazard& hazard, Passage passage) const {
   std::vector<double> speeds;
-  const RateEvaluator* rates = RatesOf(hazard.type, passage, {});
+  const RateEvaluator* rates = rates_.Find(hazard.type, passage, {});
   if (rates == nullptr) return speeds;
   const auto axis = std::ranges::find(rates->kind().axes, "speed_mps", &RateAxis::name);
   if (axis == rates->kind().axes.end()) return speeds;
@@ -78,7 +69,7 @@ PathSurvival PathRates::Of(const Path& path) const {
   for (std::size_t i = 0; i < out.passages.size(); ++i) {
     const PlannedPassage& passage = out.passages[i];
     const Hazard& hazard = request_.map.hazards[static_cast<std::size_t>(passage.hazard)];
-    const RateEvaluator* rates = RatesOf(hazard.type, passage.passage, passage.at);
+    const RateEvaluator* rates = rates_.Find(hazard.type, passage.passage, passage.at);
     const bool over = passage.passage == Passage::kOver;
     out.crossings += over;
     out.unmeasured += over && rates == nullptr;
@@ -86,7 +77,7 @@ PathSurvival PathRates::Of(const Path& path) const {
     const auto first = firsts.try_emplace({passage.hazard, rates}, i).first->second;
     meetings.push_back({rates, SizeAsMet(hazard, TravelOf(passage)), passage.at, 1, i, first});
   }
-  if (const RateEvaluator* floor = RatesOf(kFreeFloor, Passage::kBeside, {})) {
+  if (const RateEvaluator* floor = rates_.Find(kFreeFloor, Passage::kBeside, {})) {
     Approach at;
     at.speed_mps = request_.robot.cruise_mps;
     at.wall_m = kFarWall_m;
@@ -98,7 +89,7 @@ PathSurvival PathRates::Of(const Path& path) const {
   std::vector<std::vector<PlannedMeeting>> by_condition(conditions_.size(), meetings);
   for (std::size_t c = 0; c < conditions_.size(); ++c)
     for (PlannedMeeting& meeting : by_condition[c]) meeting.at = In(conditions_[c], meeting.at);
-  out.survival = PredictSurvival(by_condition, out.passages.size() + 1, *request_.model);
+  out.survival = PredictSurvival(by_condition, out.passages.size() + 1, rates_.model());
   return out;
 }
 

@@ -3,13 +3,13 @@
 // expected rates, and how probable it is that all of it is driven without a failure.
 #pragma once
 
-#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "env/core/passages.h"
 #include "planners/planner.h"
+#include "planners/risk/model_rates.h"
 #include "planners/risk/survival.h"
 
 namespace floorproof {
@@ -43,11 +43,9 @@ class PathRates {
   PathSurvival Of(const Path& path) const;
 
  private:
-  const RateEvaluator* RatesOf(std::string_view type, Passage passage, const Approach& at) const;
-
   const PlanRequest& request_;
   std::vector<DriveConditions> conditions_;
-  std::deque<RateEvaluator> evaluators_;  // by kind of the model
+  ModelRates rates_;
 };
 
 }  // namespace floorproof

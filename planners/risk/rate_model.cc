@@ -34,13 +34,6 @@ bool IsAbout(const KindRates& kind, std::string_view type, Passage passage, cons
          (kind.manner == Manner::kAny || kind.manner == MannerOf(at));
 }
 
-const KindRates* FindKind(const RiskModel& model, std::string_view type, Passage passage,
-                          const Approach& at) {
-  for (const KindRates& kind : model.kinds)
-    if (IsAbout(kind, type, passage, at)) return &kind;
-  return nullptr;
-}
-
 std::string TextOf(const KindRates& kind) {
   std::string text = kind.type + " " + std::string(Name(kind.passage));
   if (kind.manner != Manner::kAny) text += " " + std::string(Name(kind.manner));
@@ -60,7 +53,9 @@ Covariates::Covariates(const std::vector<RateAxis>& axes, bool mirrored,
     if (stated != size.end()) {
       x_[a] = stated->second;
       if (mirrored_ && axes[a].name == "rise_across") across_ = {a, stated->second};
-    } else if (column != kApproach.end())
+    } else if (!axes[a].of_hazard && axes[a].name == kSureGap)
+      sure_gap_ = a;
+    else if (column != kApproach.end())
       of_approach_.emplace_back(a, column->member);
     else
       throw InputError("the risk model's rates depend on " + axes[a].name +
@@ -71,6 +66,7 @@ Covariates::Covariates(const std::vector<RateAxis>& axes, bool mirrored,
 std::span<const double> Covariates::Of(const Approach& at) {
   const Approach met = mirrored_ ? Unmirrored(at) : at;
   for (const auto& [axis, member] : of_approach_) x_[axis] = met.*member;
+  if (sure_gap_) x_[*sure_gap_] = met.gap_m - met.estimate_error_m;
   if (across_) x_[across_->first] = at.heading_rad < 0 ? -across_->second : across_->second;
   return x_;
 }

@@ -38,12 +38,16 @@ using ModeNumbers = std::array<double, kNumFailureModes>;
 // values at the knots; where all of a period was measured, periodic ones.
 struct RateAxis {
   std::string name;
-  bool of_hazard = false;       // one of its keys; else a column of Approach
+  bool of_hazard = false;       // one of its keys; else a column of Approach, or kSureGap
   double lower = 0, upper = 0;  // what was measured; as long as a period: all of it
   double period = 0;            // of an angle; 0: none
   std::vector<double> knots;    // ascending from lower to upper; none: it was always the same
   std::vector<std::vector<double>> functions;  // by function, by knot
 };
+
+// An axis of what is passed, made of two columns of Approach: the gap, less what the robot is wrong
+// about its place. Below 0 it may touch what it thinks that it passes.
+inline constexpr std::string_view kSureGap = "sure_gap_m";
 
 // Some functions of one axis: `count` of them, from `first` on.
 struct RateFactor {
@@ -134,9 +138,6 @@ struct RiskModel {
 FailureMode LastMode(const KindRates& kind);
 // Whether it is about such a meeting.
 bool IsAbout(const KindRates& kind, std::string_view type, Passage passage, const Approach& at);
-// None: nothing was measured of it.
-const KindRates* FindKind(const RiskModel& model, std::string_view type, Passage passage,
-                          const Approach& at);
 // "groove over", and its manner where that is not any.
 std::string TextOf(const KindRates& kind);
 
@@ -153,6 +154,7 @@ class Covariates {
   bool mirrored_;
   std::vector<double> x_;
   std::vector<std::pair<std::size_t, double Approach::*>> of_approach_;
+  std::optional<std::size_t> sure_gap_;
   std::optional<std::pair<std::size_t, double>>
       across_;  // the axis rise_across of what is mirrored
 };

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "base/params.h"
+#include "planners/risk/model_rates.h"
 #include "run/episode/make_plan.h"
 #include "run/episode/plain_draws.h"
 #include "run/episode/plan_inputs.h"
@@ -34,7 +35,10 @@ class Predictor {
       throw InputError({s.file.string(), 0}, "plan", s.planner_name,
                        "is made on the way: nothing can be predicted of a plan that is not there");
     RefuseProgram(s);
-    TakeModel(*s.risk_model);
+    if (!rates_) {
+      model_ = s.risk_model;
+      rates_.emplace(*model_);
+    }
     if (std::string inputs = PlanInputs(s); inputs != inputs_) {
       plan_ = MakePlan(s);
       inputs_ = std::move(inputs);
@@ -103,13 +107,6 @@ class Predictor {
     }
   }
 
-  void TakeModel(const RiskModel& model) {
-    if (model_ != nullptr) return;
-    kept_ = scenario_->risk_model;
-    model_ = &model;
-    for (const KindRates& kind : model.kinds) evaluators_.emplace_back(kind);
-  }
-
   std::size_t NumberOf(const Encounter& encounter, const std::string& name) {
     const auto [at, is_new] = numbers_.emplace(name, meetings_.size());
     if (is_new) meetings_.push_back({encounter, 0});
@@ -117,8 +114,8 @@ class Predictor {
   }
 
   const RateEvaluator* RatesOf(const Encounter& encounter) {
-    for (const RateEvaluator& rates : evaluators_)
-      if (IsAbout(rates.kind(), encounter.type, encounter.passage, encounter.at)) return &rates;
+    if (const RateEvaluator* rates = rates_->Find(encounter.type, encounter.passage, encounter.at))
+      return rates;
     Prediction::Unmeasured& kind = unmeasured_[{encounter.type, encounter.passage}];
     if (kind.type.empty()) {
       kind = {encounter.type, encounter.passage, 0, "it was not driven"};
@@ -133,9 +130,8 @@ class Predictor {
   const ScenarioFile& file_;
   const Variant& variant_;
   std::optional<Scenario> scenario_;
-  std::shared_ptr<const RiskModel> kept_;
-  const RiskModel* model_ = nullptr;
-  std::vector<RateEvaluator> evaluators_;
+  std::shared_ptr<const RiskModel> model_;
+  std::optional<ModelRates> rates_;
   std::string inputs_;
   PlanResult plan_;
   std::vector<Encounter> expected_;

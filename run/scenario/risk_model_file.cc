@@ -80,7 +80,7 @@ RateAxis ReadAxis(const ConfigNode& node, const std::string& path) {
   RateAxis axis;
   axis.name = keys.Text("name");
   axis.of_hazard = keys.OneOf<bool>("of", {{"hazard", true}, {"approach", false}});
-  if (!axis.of_hazard &&
+  if (!axis.of_hazard && axis.name != kSureGap &&
       std::none_of(kApproach.begin(), kApproach.end(),
                    [&](const ApproachColumn& column) { return column.name == axis.name; }))
     throw InputError(keys.At("name").mark, keys.Path("name"), axis.name,

@@ -11,7 +11,7 @@
 #include "measure/judge_rates.h"
 #include "measure/penalised_rates.h"
 #include "measure/rate_axes.h"
-#include "planners/risk/rate_evaluator.h"
+#include "planners/risk/model_rates.h"
 #include "tests/measure/known_truth.h"
 #include "tests/measure/planted_rates.h"
 
@@ -27,9 +27,10 @@ std::vector<Encounter> Steps(int count, std::uint64_t seed = 1) {
 }
 
 ModeNumbers At(const RiskModel& model, const Encounter& e) {
-  const KindRates* kind = FindKind(model, e.type, e.passage, e.at);
-  Covariates covariates(kind->axes, model.mirrored, e.size);
-  return RateEvaluator(*kind).At(covariates.Of(e.at));
+  const ModelRates rates(model);
+  const RateEvaluator* of = rates.Find(e.type, e.passage, e.at);
+  Covariates covariates(of->kind().axes, model.mirrored, e.size);
+  return of->At(covariates.Of(e.at));
 }
 
 TEST(FitRates, FindsPlantedRatesAgain) {
@@ -200,7 +201,60 @@ TEST(FitRates, TooFewEncountersAreSaid) {
   ASSERT_THAT(dut.unmeasured, SizeIs(1));
   EXPECT_EQ(dut.unmeasured[0].type, "groove");
   EXPECT_EQ(dut.unmeasured[0].why, "20 encounters with an outcome; at least 50 are needed");
-  EXPECT_EQ(FindKind(dut, "groove", Passage::kOver, {}), nullptr);
+  EXPECT_EQ(ModelRates(dut).Find("groove", Passage::kOver, {}), nullptr);
+}
+
+// A hazard that is passed: who is farther wrong about its place than there is room touches it, and
+// then fails `share` of the times.
+Encounter DrawPassed(const std::string& type, double share, Stream& random) {
+  Encounter e;
+  e.type = type;
+  e.passage = Passage::kBeside;
+  e.size = {{"restitution", 0}};
+  e.at.gap_m = random.Uniform(0, 0.1);
+  e.at.estimate_error_m = random.Uniform() < 0.5 ? 0 : random.Uniform(0, 0.08);
+  e.at.speed_mps = random.Uniform(0.1, 0.3);
+  ModeNumbers rates = {};
+  if (e.at.estimate_error_m > e.at.gap_m) rates[kHeld] = -std::log1p(-share);
+  DrawOutcome(rates, random, e);
+  return e;
+}
+
+// Too seldom by themselves to say at what they fail, passed hazards say it together; how often,
+// each says for itself.
+TEST(FitRates, PassedHazardsFailAtTheSame) {
+  Stream random(21, 0, "fit_rates_test");
+  std::vector<Encounter> met;
+  for (int i = 0; i < 1500; ++i) {
+    met.push_back(DrawPassed("step", 0.4, random));
+    met.push_back(DrawPassed("groove", 0.04, random));
+    met.push_back(DrawPassed("glass", 0.04, random));  // alone of what stands there
+  }
+  const auto failed = [&](const std::string& type) {
+    return std::ranges::count_if(met, [&](const Encounter& e) {
+      return e.type == type && e.outcome == Encounter::Outcome::kFailed;
+    });
+  };
+  ASSERT_GT(failed("step"), 100) << "it stands by itself, and counts for the groove";
+  ASSERT_LT(failed("groove"), 25);
+  const RiskModel dut = FitRates(met, {}, {});
+  Encounter safe = met.front(), touching = met.front();
+  safe.at.gap_m = 0.08;
+  safe.at.estimate_error_m = 0;
+  touching.at.gap_m = 0.01;
+  touching.at.estimate_error_m = 0.07;
+  const auto total = [&](Encounter e, const std::string& type) {
+    e.type = type;
+    return Total(At(dut, e));
+  };
+  EXPECT_LT(total(safe, "groove"), 5e-4);
+  EXPECT_NEAR(total(touching, "groove"), 0.04, 0.04);
+  EXPECT_NEAR(total(touching, "step"), 0.51, 0.25);
+  double expected = 0;
+  for (const Encounter& e : met)
+    if (e.type == "groove") expected += -std::expm1(-Total(At(dut, e)));
+  EXPECT_NEAR(expected, static_cast<double>(failed("groove")), 2);
+  EXPECT_GT(total(safe, "glass"), total(safe, "groove")) << "it has no other to learn from";
 }
 
 // What turns on a step fails at half the height. One smooth function of both would bend between

@@ -48,7 +48,7 @@ TEST_P(Calibration, OfFreshEncountersIsRight) {
     const RiskModel model =
         FitRates(DrawEncounters(2500, GetParam().rates, DrawCover, random), {}, options);
     const std::vector<Encounter> fresh = DrawEncounters(20000, GetParam().rates, DrawCover, random);
-    const std::vector<JudgedEncounter> judged = Predicted(model, fresh);
+    const std::vector<JudgedEncounter> judged = Predicted(ModelRates(model), fresh);
     const RateJudgement dut = Judge(judged);
     std::vector<JudgedEncounter> truly;
     for (const Encounter& e : fresh)

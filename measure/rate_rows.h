@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Meetings as the fit of rates sees them: what their rates may depend on, a row of numbers each.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "env/core/encounter.h"
+#include "measure/fit_rates.h"
+#include "measure/rate_likelihood.h"
+
+namespace floorproof {
+
+// At least one.
+using Meetings = std::vector<const Encounter*>;
+using ByKind = std::map<std::pair<std::string, Passage>, Meetings>;  // by type of hazard
+
+inline bool IsExposure(std::string_view type) { return type == kWallBeside || type == kFreeFloor; }
+int FailuresOf(const Meetings& met);
+
+// Of meetings that are all exposures, or none of them: the keys that all hazards state, and the
+// columns of an approach that matter there.
+std::vector<RateAxis> AxesOf(const Meetings& met, Manner manner, const RateFitOptions& options);
+// In their order.
+std::vector<RateRow> RowsOf(const Meetings& met, const std::vector<RateAxis>& axes, bool mirrored);
+
+}  // namespace floorproof
