@@ -49,13 +49,14 @@ void SetConstantRate(double exposure, double rate, std::string_view name, Linear
   Set(EtaOf(rate), name, quantile, of);
 }
 
-void SetRaised(const LinearPredictor& like, const std::function<double(double)>& expected,
-               std::string_view name, LinearPredictor& of) {
+void SetShifted(const LinearPredictor& like, const std::function<double(double)>& expected,
+                std::string_view name, LinearPredictor& of) {
   constexpr int kSeenBefore = 2, kHalvings = 40;
-  constexpr double kMost = 16;
+  constexpr double kMost = 16, kMostOfAll = 0.999;  // of all that could happen
   const double as_alike = expected(0);
   const auto shift_of = [&](double seen) {
-    const double want = as_alike * seen / (as_alike + kSeenBefore);
+    const double want =
+        std::min(as_alike * seen / (as_alike + kSeenBefore), kMostOfAll * expected(kMost));
     double low = -kMost, high = kMost;
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = (low + high) / 2;
@@ -66,14 +67,14 @@ void SetRaised(const LinearPredictor& like, const std::function<double(double)>&
   of.blocks = like.blocks;
   of.coefficients = like.coefficients;
   of.members = like.members;
-  const auto raise = [](double by, std::vector<double>& coefficients) {
+  const auto shift = [](double by, std::vector<double>& coefficients) {
     coefficients.front() = RoundedTo6(coefficients.front() + by);
   };
-  raise(shift_of(of.events + kSeenBefore), of.coefficients);
+  shift(shift_of(of.events + kSeenBefore), of.coefficients);
   const std::vector<double> shifts = MembersOf(name, [&](double share) {
     return shift_of(GammaQuantile(of.events + kSeenBefore, 1, share));
   });
-  for (std::size_t r = 0; r < kRateMembers; ++r) raise(shifts[r], of.members[r]);
+  for (std::size_t r = 0; r < kRateMembers; ++r) shift(shifts[r], of.members[r]);
 }
 
 void SetConstantShare(int n, std::string_view name, LinearPredictor& of) {

@@ -16,11 +16,11 @@ namespace floorproof {
 void SetConstantRate(double exposure, double rate, std::string_view name, LinearPredictor& of);
 
 // After `like`, of like kinds together. `expected(shift)` is how often it should have happened by
-// these, were their eta `shift` higher, N at 0. The eta is raised so that N (events + 2) / (N + 2)
+// these, were their eta `shift` higher, N at 0. The eta is shifted so that N (events + 2) / (N + 2)
 // are expected: as if what is alike had already been seen twice. Members: those of `like`, raised
 // by quantiles of Gamma(events + 2) in the place of events + 2.
-void SetRaised(const LinearPredictor& like, const std::function<double(double shift)>& expected,
-               std::string_view name, LinearPredictor& of);
+void SetShifted(const LinearPredictor& like, const std::function<double(double shift)>& expected,
+                std::string_view name, LinearPredictor& of);
 
 // The share of what happened `of.events` times in n: (k + 1/2) / (n + 1) (Krichevsky & Trofimov,
 // IEEE Trans. Inf. Theory 27 (1981) 199). Members: quantiles of Beta(k + 1, n - k + 1).

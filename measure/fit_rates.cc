@@ -88,7 +88,7 @@ std::optional<KindRates> FitKind(const Meetings& all, Manner manner, const LikeK
                               options.least_encounters)};
     return std::nullopt;
   }
-  kind.axes = like != nullptr ? like->axes : AxesOf(met, manner, options);
+  kind.axes = like != nullptr ? like->axes : AxesOf(met, StatedByAll(met), manner, options);
   const std::vector<RateRow> rows = RowsOf(met, kind.axes, options.mirrored);
   std::vector<RateRow> failures;
   std::vector<int> modes;
@@ -125,12 +125,10 @@ Parts ByManner(const Meetings& met) {
   return parts;
 }
 
-// All kinds that never failed have together about as many failures to come, over as much exposure
-// again, as there were kinds that failed once.
-void SetUnseen(std::vector<KindRates>& kinds) {
+// All kinds that never failed and are like no other have together about as many failures to come,
+// over as much exposure again, as there were such kinds that failed once.
+void SetUnseen(std::vector<KindRates>& kinds, int once) {
   const auto is_unseen = [](const KindRates& kind) { return kind.any.coefficients.empty(); };
-  const auto once = static_cast<double>(
-      std::ranges::count(kinds, 1, [](const KindRates& kind) { return kind.any.events; }));
   const auto never = static_cast<double>(std::ranges::count_if(kinds, is_unseen));
   constexpr double kMostEvents = 0.5;  // of one kind, however many failed once
   const double events = std::min(kMostEvents, (once + 0.5) / std::max(never, 1.0));
@@ -155,18 +153,20 @@ RiskModel FitRates(const std::vector<Encounter>& encounters, MeasuredRobot robot
   for (const std::vector<const Encounter*>& met : MeetingsOfDrives(encounters))
     by_kind[{met.front()->type, met.front()->passage}].push_back(met.front());
   const auto like_kinds = FitLikeKinds(by_kind, options);
+  int once = 0;  // kinds that are like no other, and failed once
   for (const auto& [name, met] : by_kind) {
     const auto found = like_kinds.find(name);
     const LikeKinds* like = found == like_kinds.end() ? nullptr : found->second.get();
     for (const auto& [manner, part] : like ? OfAnyManner(met) : ByManner(met)) {
       UnmeasuredKind unmeasured;
-      if (std::optional<KindRates> kind = FitKind(part, manner, like, options, unmeasured))
+      if (std::optional<KindRates> kind = FitKind(part, manner, like, options, unmeasured)) {
+        once += like == nullptr && kind->any.events == 1;
         model.kinds.push_back(std::move(*kind));
-      else
+      } else
         model.unmeasured.push_back(std::move(unmeasured));
     }
   }
-  SetUnseen(model.kinds);
+  SetUnseen(model.kinds, once);
   SetSharedFrailty(encounters, model);
   return model;
 }

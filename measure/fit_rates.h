@@ -20,16 +20,16 @@ struct RateFitOptions {
 
 // Rates are those of the first meeting of a drive with a hazard; what came of later ones says how
 // alike they end (measure/shared_frailty.h). One set of rates for each hazard type, passed over and
-// passed beside, and for each exposure, in the order of their names. All encounters are of `robot`.
-// The covariates of a kind are the keys that all its hazards state, and the columns of Approach;
-// those that never vary are kept as axes without functions. Meetings that were censored are counted
-// and left out: a rate of a meeting does not say when in it the failure comes, so half a meeting
-// says neither yes nor no. Exposures that were censored count with the way that was driven.
+// passed beside, there by manner where enough is known, and for each exposure, in the order of
+// their names. All encounters are of `robot`. The covariates of a kind are the keys that all its
+// hazards state, and the columns of Approach; what is passed and seldom failed is fitted with like
+// kinds (measure/like_kinds.h). Those that never vary are kept as axes without functions. Meetings
+// that were censored count half. Exposures that were censored count with the way that was driven.
 // Modes are split off in the order of how often they happened; those that never did share what is
-// left in equal parts. A kind that never failed is predicted at the mean rate that such kinds have
-// (Good's estimate, from the kinds that failed once; Biometrika 40 (1953) 237), and its upper bound
-// is 3 / exposure. All numbers are rounded to 6 significant digits. The same encounters give the
-// same bytes.
+// left in equal parts. A kind like no other that never failed is predicted at the mean rate that
+// such kinds have (Good's estimate, from the kinds that failed once; Biometrika 40 (1953) 237), and
+// its upper bound is 3 / exposure. All numbers are rounded to 6 significant digits. The same
+// encounters give the same bytes.
 RiskModel FitRates(const std::vector<Encounter>& encounters, MeasuredRobot robot,
                    const RateFitOptions& options);
 

@@ -26,11 +26,12 @@ Eigen::VectorXd EtasOf(const std::vector<RateRow>& rows, const LikeKinds& like) 
 }
 
 // Whether a kind is of what stands where it is passed, or of what could be driven over; none: it is
-// like no other.
+// like no other, as a ramp, which rises all along.
 std::optional<bool> StandsBeside(const ByKind::key_type& kind,
                                  const std::map<std::string, HazardClass>& classes) {
   const auto of = classes.find(kind.first);
-  if (kind.second != Passage::kBeside || of == classes.end()) return std::nullopt;
+  if (kind.second != Passage::kBeside || of == classes.end() || kind.first == "ramp")
+    return std::nullopt;
   return of->second == HazardClass::kBlindObject || of->second == HazardClass::kGlass;
 }
 
@@ -51,9 +52,13 @@ std::map<ByKind::key_type, std::shared_ptr<const LikeKinds>> FitLikeKinds(
       met.insert(met.end(), of.begin(), of.end());
       if (FailuresOf(of) < kOften) kinds.push_back(kind);
     }
-    if (kinds.empty() || all < 2 || FailuresOf(met) < kLeastFailures) continue;
+    const auto failures = FailuresOf(met);
+    if (kinds.empty() || all < 2 || failures < kLeastFailures ||
+        static_cast<int>(met.size()) - failures < kLeastEvents)
+      continue;
     auto of = std::make_shared<LikeKinds>();
-    of->axes = AxesOf(met, Manner::kAny, options);
+    const std::vector<std::string> sizes = {std::string(kRise)};
+    of->axes = AxesOf(met, stands ? std::vector<std::string>() : sizes, Manner::kAny, options);
     of->any =
         FitPredictor(RowsOf(met, of->axes, options.mirrored), false,
                      stands ? "risk_model.standing beside" : "risk_model.lying beside", of->axes);
@@ -72,7 +77,7 @@ void SetLike(const std::vector<RateRow>& rows, const LikeKinds& like, const std:
       sum += -std::expm1(-rows[i].way_m * RateOf(etas[static_cast<Eigen::Index>(i)] + shift));
     return sum;
   };
-  SetRaised(like.any, expected, name, any);
+  SetShifted(like.any, expected, name, any);
 }
 
 }  // namespace floorproof

@@ -34,15 +34,23 @@ int FailuresOf(const Meetings& met) {
                                              [](const Encounter* e) { return e->outcome; }));
 }
 
-std::vector<RateAxis> AxesOf(const Meetings& met, Manner manner, const RateFitOptions& options) {
-  std::vector<RateAxis> axes;
+std::vector<std::string> StatedByAll(const Meetings& met) {
+  std::vector<std::string> keys;
   for (const auto& first : met.front()->size) {
     const std::string& key = first.first;
     const bool stated = std::all_of(met.begin(), met.end(), [&](const Encounter* e) {
       return std::any_of(e->size.begin(), e->size.end(),
                          [&](const auto& entry) { return entry.first == key; });
     });
-    if (!stated) continue;
+    if (stated) keys.push_back(key);
+  }
+  return keys;
+}
+
+std::vector<RateAxis> AxesOf(const Meetings& met, const std::vector<std::string>& sizes,
+                             Manner manner, const RateFitOptions& options) {
+  std::vector<RateAxis> axes;
+  for (const std::string& key : sizes) {
     axes.emplace_back();
     axes.back().name = key;
     axes.back().of_hazard = true;

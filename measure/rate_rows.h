@@ -14,16 +14,18 @@
 
 namespace floorproof {
 
-// At least one.
 using Meetings = std::vector<const Encounter*>;
 using ByKind = std::map<std::pair<std::string, Passage>, Meetings>;  // by type of hazard
 
 inline bool IsExposure(std::string_view type) { return type == kWallBeside || type == kFreeFloor; }
 int FailuresOf(const Meetings& met);
 
-// Of meetings that are all exposures, or none of them: the keys that all hazards state, and the
-// columns of an approach that matter there.
-std::vector<RateAxis> AxesOf(const Meetings& met, Manner manner, const RateFitOptions& options);
+// Of at least one meeting: the hazard's keys that all of them state.
+std::vector<std::string> StatedByAll(const Meetings& met);
+// Of meetings that are all exposures, or none of them, at least one: these sizes, and the columns
+// of an approach that matter there.
+std::vector<RateAxis> AxesOf(const Meetings& met, const std::vector<std::string>& sizes,
+                             Manner manner, const RateFitOptions& options);
 // In their order.
 std::vector<RateRow> RowsOf(const Meetings& met, const std::vector<RateAxis>& axes, bool mirrored);
 

@@ -21,6 +21,15 @@ Approach Unmirrored(Approach at) {
   return at;
 }
 
+double RiseOf(const std::vector<std::pair<std::string, double>>& size) {
+  constexpr std::string_view kKeys[] = {"height_m", "depth_m", "amplitude_m", "level_m"};
+  double rise_m = 0;
+  for (const auto& [key, value] : size)
+    if (std::ranges::find(kKeys, key) != std::end(kKeys))
+      rise_m = std::max(rise_m, std::abs(value));
+  return rise_m;
+}
+
 }  // namespace
 
 FailureMode LastMode(const KindRates& kind) {
@@ -53,7 +62,9 @@ Covariates::Covariates(const std::vector<RateAxis>& axes, bool mirrored,
     if (stated != size.end()) {
       x_[a] = stated->second;
       if (mirrored_ && axes[a].name == "rise_across") across_ = {a, stated->second};
-    } else if (!axes[a].of_hazard && axes[a].name == kSureGap)
+    } else if (axes[a].of_hazard && axes[a].name == kRise)
+      x_[a] = RiseOf(size);
+    else if (!axes[a].of_hazard && axes[a].name == kSureGap)
       sure_gap_ = a;
     else if (column != kApproach.end())
       of_approach_.emplace_back(a, column->member);

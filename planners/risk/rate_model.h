@@ -38,7 +38,7 @@ using ModeNumbers = std::array<double, kNumFailureModes>;
 // values at the knots; where all of a period was measured, periodic ones.
 struct RateAxis {
   std::string name;
-  bool of_hazard = false;       // one of its keys; else a column of Approach, or kSureGap
+  bool of_hazard = false;       // one of its keys, or kRise; else a column of Approach, or kSureGap
   double lower = 0, upper = 0;  // what was measured; as long as a period: all of it
   double period = 0;            // of an angle; 0: none
   std::vector<double> knots;    // ascending from lower to upper; none: it was always the same
@@ -48,6 +48,10 @@ struct RateAxis {
 // An axis of what is passed, made of two columns of Approach: the gap, less what the robot is wrong
 // about its place. Below 0 it may touch what it thinks that it passes.
 inline constexpr std::string_view kSureGap = "sure_gap_m";
+
+// A size that kinds of hazard share which are passed: how far it rises over the floor or falls
+// below it, whatever its key is called. 0: it lies flat.
+inline constexpr std::string_view kRise = "rise_m";
 
 // Some functions of one axis: `count` of them, from `first` on.
 struct RateFactor {

@@ -204,18 +204,19 @@ TEST(FitRates, TooFewEncountersAreSaid) {
   EXPECT_EQ(ModelRates(dut).Find("groove", Passage::kOver, {}), nullptr);
 }
 
-// A hazard that is passed: who is farther wrong about its place than there is room touches it, and
-// then fails `share` of the times.
+// A hazard that is passed: who is farther wrong about its place than there is room touches it.
+// Where it is high, or deep, that stops `share` of them.
 Encounter DrawPassed(const std::string& type, double share, Stream& random) {
   Encounter e;
   e.type = type;
   e.passage = Passage::kBeside;
-  e.size = {{"restitution", 0}};
+  const double rise_m = random.Uniform(0.002, 0.02);
+  e.size = {{type == "groove" ? "depth_m" : "height_m", rise_m}};
   e.at.gap_m = random.Uniform(0, 0.1);
   e.at.estimate_error_m = random.Uniform() < 0.5 ? 0 : random.Uniform(0, 0.08);
   e.at.speed_mps = random.Uniform(0.1, 0.3);
   ModeNumbers rates = {};
-  if (e.at.estimate_error_m > e.at.gap_m) rates[kHeld] = -std::log1p(-share);
+  if (e.at.estimate_error_m > e.at.gap_m && rise_m > 0.011) rates[kHeld] = -std::log1p(-share);
   DrawOutcome(rates, random, e);
   return e;
 }
@@ -226,9 +227,9 @@ TEST(FitRates, PassedHazardsFailAtTheSame) {
   Stream random(21, 0, "fit_rates_test");
   std::vector<Encounter> met;
   for (int i = 0; i < 1500; ++i) {
-    met.push_back(DrawPassed("step", 0.4, random));
-    met.push_back(DrawPassed("groove", 0.04, random));
-    met.push_back(DrawPassed("glass", 0.04, random));  // alone of what stands there
+    met.push_back(DrawPassed("step", 0.8, random));
+    met.push_back(DrawPassed("groove", 0.08, random));
+    met.push_back(DrawPassed("glass", 0.08, random));  // alone of what stands there
   }
   const auto failed = [&](const std::string& type) {
     return std::ranges::count_if(met, [&](const Encounter& e) {
@@ -238,23 +239,27 @@ TEST(FitRates, PassedHazardsFailAtTheSame) {
   ASSERT_GT(failed("step"), 100) << "it stands by itself, and counts for the groove";
   ASSERT_LT(failed("groove"), 25);
   const RiskModel dut = FitRates(met, {}, {});
-  Encounter safe = met.front(), touching = met.front();
-  safe.at.gap_m = 0.08;
-  safe.at.estimate_error_m = 0;
-  touching.at.gap_m = 0.01;
-  touching.at.estimate_error_m = 0.07;
-  const auto total = [&](Encounter e, const std::string& type) {
+  const auto total = [&](const std::string& type, double gap_m, double error_m, double rise_m) {
+    Encounter e;
     e.type = type;
+    e.passage = Passage::kBeside;
+    e.size = {{type == "groove" ? "depth_m" : "height_m", rise_m}};
+    e.at.gap_m = gap_m;
+    e.at.estimate_error_m = error_m;
+    e.at.speed_mps = 0.2;
     return Total(At(dut, e));
   };
-  EXPECT_LT(total(safe, "groove"), 5e-4);
-  EXPECT_NEAR(total(touching, "groove"), 0.04, 0.04);
-  EXPECT_NEAR(total(touching, "step"), 0.51, 0.25);
+  EXPECT_LT(total("groove", 0.08, 0, 0.018), 1e-3);
+  EXPECT_GT(total("groove", 0.01, 0.07, 0.018), 0.04);
+  EXPECT_LT(total("groove", 0.01, 0.07, 0.018), 0.25);
+  EXPECT_LT(total("groove", 0.01, 0.07, 0.004), 0.02) << "shallow";
+  EXPECT_GT(total("step", 0.01, 0.07, 0.018), 0.8);
   double expected = 0;
   for (const Encounter& e : met)
     if (e.type == "groove") expected += -std::expm1(-Total(At(dut, e)));
   EXPECT_NEAR(expected, static_cast<double>(failed("groove")), 2);
-  EXPECT_GT(total(safe, "glass"), total(safe, "groove")) << "it has no other to learn from";
+  EXPECT_GT(total("glass", 0.08, 0, 0.018), total("groove", 0.08, 0, 0.018))
+      << "it has no other to learn from";
 }
 
 // What turns on a step fails at half the height. One smooth function of both would bend between
