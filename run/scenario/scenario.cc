@@ -316,8 +316,27 @@ void ScenarioFile::CheckDraws() const {
       }
     throw *first;
   };
+  // One reading can hold a choice of each key: as many readings as the longest list is long.
+  const auto read_together = [&](const Variant& variant) {
+    std::size_t most = 0;
+    for (const RandomisedKey& key : randomised_)
+      most = std::max(most, key.distribution.choices.size());
+    for (std::size_t i = 0; i < most; ++i) {
+      Variant forced;
+      for (const RandomisedKey& key : randomised_)
+        if (i < key.distribution.choices.size())
+          forced.overrides.emplace_back(key.key_path, key.distribution.choices[i]);
+      try {
+        ReadWith(0, variant, forced);
+      } catch (const InputError&) {
+        return false;  // who is to blame is found one by one
+      }
+    }
+    return true;
+  };
   for (std::size_t v = 0; v < std::min(kMaxVariants, variants_.size()); ++v) {
     if (!randomised_.empty()) check(variants_[v], {});
+    if (read_together(variants_[v])) continue;
     for (const RandomisedKey& key : randomised_)
       for (const ConfigNode& choice : key.distribution.choices)
         check(variants_[v], {"", {{key.key_path, choice}}});
