@@ -17,7 +17,7 @@ void SetConstantRate(double exposure, double rate, std::string_view name, Linear
 
 // After `like`, of like kinds together. `expected(shift)` is how often it should have happened by
 // these, were their eta `shift` higher, N at 0. The eta is shifted so that N (events + 2) / (N + 2)
-// are expected: as if what is alike had already been seen twice. Members: those of `like`, raised
+// are expected: as if what is alike had already been seen twice. Members: those of `like`, shifted
 // by quantiles of Gamma(events + 2) in the place of events + 2.
 void SetShifted(const LinearPredictor& like, const std::function<double(double shift)>& expected,
                 std::string_view name, LinearPredictor& of);

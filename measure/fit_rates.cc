@@ -26,11 +26,10 @@ double ExposureOf(const KindRates& kind) {
   return kind.per_metre ? kind.way_m : kind.encounters - kind.censored - kind.any.events / 2.0;
 }
 
-// Where nothing failed it stays empty: SetUnseen sets it.
+// `kind.any.events` is known. Where nothing failed the rest stays empty: SetUnseen sets it.
 void SetAny(const std::vector<RateRow>& rows, KindRates& kind) {
   const std::string name = StreamName(kind) + ".any";
   const int n = static_cast<int>(rows.size());
-  kind.any.events = static_cast<int>(std::ranges::count(rows, true, &RateRow::happened));
   if (kind.any.events == 0) return;
   if (kind.any.events < kLeastEvents)
     SetConstantRate(ExposureOf(kind), kind.any.events / ExposureOf(kind), name, kind.any);
@@ -98,6 +97,7 @@ std::optional<KindRates> FitKind(const Meetings& all, Manner manner, const LikeK
     modes.push_back(static_cast<int>(met[i]->mode));
   }
   kind.way_m = RoundedTo6(kind.way_m);
+  kind.any.events = static_cast<int>(failures.size());
   if (like != nullptr)
     SetLike(rows, *like, StreamName(kind) + ".any", kind.any);
   else

@@ -69,7 +69,6 @@ std::map<ByKind::key_type, std::shared_ptr<const LikeKinds>> FitLikeKinds(
 
 void SetLike(const std::vector<RateRow>& rows, const LikeKinds& like, const std::string& name,
              LinearPredictor& any) {
-  any.events = static_cast<int>(std::ranges::count(rows, true, &RateRow::happened));
   const Eigen::VectorXd etas = EtasOf(rows, like);
   const auto expected = [&](double shift) {
     double sum = 0;

@@ -80,17 +80,11 @@ std::vector<RateAxis> AxesOf(const Meetings& met, const std::vector<std::string>
 }
 
 std::vector<RateRow> RowsOf(const Meetings& met, const std::vector<RateAxis>& axes, bool mirrored) {
-  // Of a meeting, what one that was censored had of it. Where another hazard's failure ends it, to
-  // leave it out would leave out what was being cleared.
-  constexpr double kCensored = 0.5;
   std::vector<RateRow> rows;
   for (const Encounter* e : met) {
     RateRow& row = rows.emplace_back();
     row.x = CovariatesOf(axes, mirrored, *e);
-    if (IsExposure(e->type))
-      row.way_m = e->way_m;
-    else if (e->outcome == Encounter::Outcome::kCensored)
-      row.way_m = kCensored;
+    row.way_m = AmountOf(*e);
     row.happened = e->outcome == Encounter::Outcome::kFailed;
   }
   return rows;

@@ -4,7 +4,6 @@
 
 #include <map>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -17,7 +16,6 @@ namespace floorproof {
 using Meetings = std::vector<const Encounter*>;
 using ByKind = std::map<std::pair<std::string, Passage>, Meetings>;  // by type of hazard
 
-inline bool IsExposure(std::string_view type) { return type == kWallBeside || type == kFreeFloor; }
 int FailuresOf(const Meetings& met);
 
 // Of at least one meeting: the hazard's keys that all of them state.

@@ -32,6 +32,12 @@ double RiseOf(const std::vector<std::pair<std::string, double>>& size) {
 
 }  // namespace
 
+double AmountOf(const Encounter& encounter) {
+  constexpr double kCutShort = 0.5;
+  if (IsExposure(encounter.type)) return encounter.way_m;
+  return encounter.outcome == Encounter::Outcome::kCensored ? kCutShort : 1;
+}
+
 FailureMode LastMode(const KindRates& kind) {
   int last = kNumFailureModes * (kNumFailureModes - 1) / 2;  // all modes' numbers together
   for (const ModeSplit& split : kind.splits) last -= static_cast<int>(split.mode);

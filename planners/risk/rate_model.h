@@ -138,6 +138,12 @@ struct RiskModel {
   std::vector<UnmeasuredKind> unmeasured;
 };
 
+// Whether rates are a metre of it, not a meeting.
+inline bool IsExposure(std::string_view type) { return type == kWallBeside || type == kFreeFloor; }
+// What rates are multiplied by: of an exposure its metres; of a meeting 1, of one that was cut
+// short half. Where another hazard's failure ends it, to leave it out would leave out what was
+// being cleared.
+double AmountOf(const Encounter& encounter);
 // The mode that takes what the splits leave.
 FailureMode LastMode(const KindRates& kind);
 // Whether it is about such a meeting.

@@ -69,12 +69,8 @@ class Predictor {
       const std::string like = of + " " + TextOf(rates->kind());
       const std::size_t alike =
           rates->kind().per_metre ? number : first.emplace(like, number).first->second;
-      const bool cut_short = encounter.outcome == Encounter::Outcome::kCensored;
-      condition.push_back({rates, encounter.size, encounter.at,
-                           rates->kind().per_metre ? encounter.way_m
-                           : cut_short             ? kCutShort
-                                                   : 1,
-                           number, alike});
+      condition.push_back(
+          {rates, encounter.size, encounter.at, AmountOf(encounter), number, alike});
       if (conditions_.size() % kLookBeyondEvery == 0) LookBeyond(rates->kind(), encounter);
     }
     conditions_.push_back(std::move(condition));
@@ -97,8 +93,6 @@ class Predictor {
   const PlanResult& plan() const { return plan_; }
 
  private:
-  // Of a meeting that the drive's end cuts short, as the rates were fitted (measure/rate_rows.cc).
-  static constexpr double kCutShort = 0.5;
   static constexpr std::size_t kLookBeyondEvery = 16;  // conditions: it takes longer than rates do
 
   void LookBeyond(const KindRates& kind, const Encounter& encounter) {
