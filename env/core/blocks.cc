@@ -74,7 +74,13 @@ Polygon Footprint(std::span<const BlockSpec> blocks, std::span<const HingeSpec> 
     }
     outlines.push_back(std::move(outline_B));
   }
-  const std::vector<Region> regions = Union(outlines);
+  // Blocks that a hinge holds a little apart are one robot: what lies between them is its own.
+  constexpr double kFarthestApart_m = 0.25;
+  const std::vector<Region> apart = Union(outlines);
+  std::vector<Region> regions = apart;
+  for (double gap_m = 1e-3; regions.size() > 1 && gap_m <= kFarthestApart_m; gap_m *= 1.25)
+    regions = Closed(apart, gap_m / 2);
+  if (regions.size() != 1) return {};
   // Corners on a straight, where two blocks meet, are none.
   const Polygon& outer = regions.front().outer;
   Polygon whole;

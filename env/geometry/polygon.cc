@@ -63,20 +63,7 @@ class WholeNumbers {
   std::map<std::pair<ClipperLib::cInt, ClipperLib::cInt>, Vec2> corners_;
 };
 
-std::vector<Region> Combine(ClipperLib::ClipType operation, const std::vector<Region>& a,
-                            const std::vector<Polygon>& b) {
-  WholeNumbers numbers;
-  ClipperLib::Clipper clipper;
-  for (const Region& region : a) {
-    clipper.AddPath(numbers.From(region.outer, true), ClipperLib::ptSubject, true);
-    for (const Polygon& hole : region.holes)
-      clipper.AddPath(numbers.From(hole, false), ClipperLib::ptSubject, true);
-  }
-  for (const Polygon& polygon : b)
-    clipper.AddPath(numbers.From(polygon, true), ClipperLib::ptClip, true);
-  ClipperLib::PolyTree tree;
-  clipper.Execute(operation, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
-
+std::vector<Region> RegionsOf(const ClipperLib::PolyTree& tree, const WholeNumbers& numbers) {
   const auto is_sliver = [](const ClipperLib::PolyNode& node) {
     return std::abs(ClipperLib::Area(node.Contour)) < kSliver_m2 * kPerMetre * kPerMetre;
   };
@@ -91,6 +78,22 @@ std::vector<Region> Combine(ClipperLib::ClipType operation, const std::vector<Re
     out.push_back(std::move(region));
   }
   return out;
+}
+
+std::vector<Region> Combine(ClipperLib::ClipType operation, const std::vector<Region>& a,
+                            const std::vector<Polygon>& b) {
+  WholeNumbers numbers;
+  ClipperLib::Clipper clipper;
+  for (const Region& region : a) {
+    clipper.AddPath(numbers.From(region.outer, true), ClipperLib::ptSubject, true);
+    for (const Polygon& hole : region.holes)
+      clipper.AddPath(numbers.From(hole, false), ClipperLib::ptSubject, true);
+  }
+  for (const Polygon& polygon : b)
+    clipper.AddPath(numbers.From(polygon, true), ClipperLib::ptClip, true);
+  ClipperLib::PolyTree tree;
+  clipper.Execute(operation, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+  return RegionsOf(tree, numbers);
 }
 
 struct Edge {
@@ -272,6 +275,23 @@ std::vector<Region> Difference(const std::vector<Region>& a, const std::vector<P
 
 std::vector<Region> Intersection(const std::vector<Region>& a, const std::vector<Polygon>& b) {
   return Combine(ClipperLib::ctIntersection, a, b);
+}
+
+std::vector<Region> Closed(const std::vector<Region>& regions, double by_m) {
+  constexpr double kSharpest = 10;  // corners stay where they are, but for needles
+  WholeNumbers numbers;
+  ClipperLib::ClipperOffset out(kSharpest), back(kSharpest);
+  for (const Region& region : regions) {
+    out.AddPath(numbers.From(region.outer, true), ClipperLib::jtMiter, ClipperLib::etClosedPolygon);
+    for (const Polygon& hole : region.holes)
+      out.AddPath(numbers.From(hole, false), ClipperLib::jtMiter, ClipperLib::etClosedPolygon);
+  }
+  ClipperLib::Paths grown;
+  out.Execute(grown, by_m * kPerMetre);
+  back.AddPaths(grown, ClipperLib::jtMiter, ClipperLib::etClosedPolygon);
+  ClipperLib::PolyTree tree;
+  back.Execute(tree, -by_m * kPerMetre);
+  return RegionsOf(tree, numbers);
 }
 
 std::vector<Region> Simplified(const std::vector<Region>& regions, double by_m) {

@@ -37,6 +37,10 @@ std::vector<Region> Union(const std::vector<Polygon>& polygons);
 std::vector<Region> Difference(const std::vector<Region>& a, const std::vector<Polygon>& b);
 std::vector<Region> Intersection(const std::vector<Region>& a, const std::vector<Polygon>& b);
 
+// The regions with what is narrower than 2 `by_m` between them filled, so that those that lie so
+// near one another become one.
+std::vector<Region> Closed(const std::vector<Region>& regions, double by_m);
+
 // The regions with fewer corners (Douglas & Peucker 1973): none that is left out was farther than
 // by_m from the new border. What is no wider may vanish.
 std::vector<Region> Simplified(const std::vector<Region>& regions, double by_m);

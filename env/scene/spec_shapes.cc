@@ -121,6 +121,10 @@ ShapeSpec ReadShape(const CompiledRobot& compiled, const RobotSpec& robot,
       compiled.Refuse(key, "lies beyond the range of " + hinge.name);
   }
   shape.footprint_B = Footprint(robot.blocks, robot.hinges, shape.hinge_rad);
+  if (shape.footprint_B.empty())
+    compiled.Refuse(key,
+                    "seen from above, the blocks' geoms that collide have no one outline: they "
+                    "must cover some floor and stand within 0.25 m of one another");
   shape.static_tip_rad = StaticTip(compiled, robot, shape.hinge_rad);
   return shape;
 }

@@ -273,6 +273,32 @@ TEST(RobotModel, AWheelTurnsAboutItsOwnAxis) {
   EXPECT_THAT(with_joint("askew", " axis=\"0 1 0.05\""), HasSubstr(rule));
 }
 
+// hTetro with its four shells and bellies this half as wide. Of blocks that stand apart all are
+// planned for, not one.
+TEST(RobotModel, BlocksALittleApartAreOneRobot) {
+  const auto with_blocks = [](double half) {
+    std::stringstream text;
+    text << std::ifstream(FindRobotFile("htetro", {})).rdbuf();
+    const std::string half_m = std::to_string(half);
+    std::string xml = std::regex_replace(text.str(), std::regex("size=\"0.125 0.125"),
+                                         "size=\"" + half_m + " " + half_m);
+    xml = std::regex_replace(xml, std::regex("size=\"0.060 0.120"), "size=\"0.060 " + half_m);
+    const std::string file = ::testing::TempDir() + "/apart.xml";
+    std::ofstream(file) << xml;
+    return ReadRobot(file, {}, Blocks::kHinged).spec;
+  };
+  for (const double half_m : {0.116, 0.119, 0.126}) {
+    const RobotSpec dut = with_blocks(half_m);
+    ASSERT_EQ(dut.shapes.size(), 7u);
+    const Polygon &square = dut.shapes[0].footprint_B, &corner = dut.shapes[2].footprint_B;
+    EXPECT_EQ(square.size(), 4u) << half_m;
+    EXPECT_NEAR(SignedArea(square), std::pow(0.25 + 2 * half_m, 2), 1e-4) << half_m;
+    EXPECT_EQ(corner.size(), 6u) << half_m;
+    EXPECT_NEAR(SignedArea(corner), 2 * half_m * (0.75 + 2 * half_m), 1e-4) << half_m;
+  }
+  EXPECT_THROW(with_blocks(1e-8), InputError);
+}
+
 TEST(RobotModel, AnUnknownRobotNamesTheNearest) {
   try {
     FindRobotFile("belugo", {"a.yaml", 3});
