@@ -15,6 +15,7 @@
 #include "base/interrupt.h"
 #include "base/params.h"
 #include "bench/study_figures.h"
+#include "bench/study_keys.h"
 #include "bench/study_predictors.h"
 #include "bench/study_sites.h"
 #include "measure/risk_files.h"
@@ -252,14 +253,8 @@ class Runner {
 };
 
 int Main(int argc, char** argv) {
-  std::string text;
-  for (int i = 1; i < argc; ++i) {
-    std::string line = argv[i];
-    if (const auto at = line.find('='); at != std::string::npos) line.replace(at, 1, ": ");
-    text += line + "\n";
-  }
   Study study;
-  ReadParams(ParseYaml(text, "command line"), "", study);
+  ReadParams(KeysOfArguments(argc, argv), "", study);
   return Runner(study).Run();
 }
 

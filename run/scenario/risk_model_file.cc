@@ -203,8 +203,14 @@ KindRates ReadKind(const ConfigNode& node, const std::string& path) {
   kind.way_m = keys.Number("way_m", NonNegative());
   kind.theta = keys.Number("theta", Between(1, 100));  // powers stay numbers
   std::size_t number = 0;
-  for (const ConfigNode& axis : keys.List("axes"))
-    kind.axes.push_back(ReadAxis(axis, fmt::format("{}.{}", keys.Path("axes"), number++)));
+  for (const ConfigNode& axis : keys.List("axes")) {
+    const std::string at = fmt::format("{}.{}", keys.Path("axes"), number++);
+    RateAxis read = ReadAxis(axis, at);
+    for (const RateAxis& before : kind.axes)
+      if (before.name == read.name && before.of_hazard == read.of_hazard)
+        throw InputError(axis.mark, at + ".name", read.name, "must stand there once");
+    kind.axes.push_back(std::move(read));
+  }
   kind.any = ReadPredictor(
       {keys.At("any"), keys.Path("any"), {"events", "blocks", "coefficients", "members"}},
       kind.axes);

@@ -95,6 +95,8 @@ TEST(RiskModelFile, SaysWhatIsWrongAndWhere) {
            Case{"\"censored\": 0", "\"censored\": 3", "kinds.0.encounters = 90: must be cleared"},
            Case{"\"name\": \"speed_mps\"", "\"name\": \"pace\"",
                 "= pace: is no column of an approach"},
+           Case{"\"name\": \"friction\"", "\"name\": \"speed_mps\"",
+                ".name = speed_mps: must stand there once"},
            Case{"\"coefficients\": [", "\"coefficients\": [1, ", "must be a list of"},
            Case{"\"way_m\": 0.0", "\"way_m\": -2.0", "kinds.0.way_m = -2.0: must be >= 0"},
            Case{"\"blocks\": []", "\"blocks\": [[99, 0, 1]]", "blocks = 99: must be in [0,"},
