@@ -7,6 +7,7 @@
 #include "base/interrupt.h"
 #include "base/params.h"
 #include "measure/drive_encounters.h"
+#include "measure/drive_plans.h"
 #include "measure/risk_files.h"
 #include "report/campaign_words.h"
 #include "run/campaign/summary_json.h"
@@ -24,6 +25,7 @@ std::uint64_t EnoughEpisodes(std::size_t variants) {
 
 struct Options : CampaignArguments {
   std::string robot;
+  int floors = 20;
   std::optional<double> recoverable_mm, lasting_mm;
 };
 
@@ -38,24 +40,47 @@ DamageLimits LimitsOf(const Options& options) {
   return limits;
 }
 
+// Drives plans over small floors, and adds to the model in the folder what they say of it.
+void AddPlans(const Options& options, const Globals& globals, const fs::path& folder,
+              RiskModel& model) {
+  constexpr std::uint64_t kDrives = 4;  // of a plan: they mostly end alike
+  if (options.floors == 0) return;
+  const RobotCampaign campaign =
+      PlansOf(options.robot, options.floors, OverridesOf(globals, options));
+  const fs::path plans = folder / "plans";
+  CampaignLine progress(globals, campaign.file.variants());
+  const CampaignOutcome outcome =
+      DriveRobotCampaign(campaign,
+                         {.episodes = kDrives,
+                          .jobs = RequestOf(options).jobs,
+                          .resume = fs::exists(plans / "campaign.sqlite")},
+                         plans, &progress);
+  progress.Clear();
+  if (outcome.run.end == CampaignEnd::kInterrupted) throw Interruption();
+  model.carry_over = LearnCarryOver(campaign, outcome.store, folder / "risk_model.json");
+  WriteRiskModel(model, folder);
+}
+
 int RunIt(const Options& options, const Globals& globals) {
   const DamageLimits limits = LimitsOf(options);
-  const EncounterCampaign campaign = EncountersOf(options.robot, OverridesOf(globals, options));
+  const RobotCampaign campaign = EncountersOf(options.robot, OverridesOf(globals, options));
   CampaignRequest request = RequestOf(options);
   if (options.n == 0) request.episodes = EnoughEpisodes(campaign.file.variants().size());
   const fs::path folder =
       options.out.empty() ? fs::path("out") / "measure" / campaign.label : fs::path(options.out);
   CampaignLine progress(globals, campaign.file.variants());
-  const CampaignOutcome outcome = DriveEncounters(campaign, request, folder, &progress);
+  const CampaignOutcome outcome = DriveRobotCampaign(campaign, request, folder, &progress);
   progress.Clear();
   globals.Result(SummaryJson(outcome.summary));
   globals.Say(EncounterTable(outcome.summary));
   if (!request.shard && outcome.run.end == CampaignEnd::kComplete) {
-    if (const auto model = WriteRiskFiles(
-            outcome.store, ReadRobot(FindRobotFile(options.robot, {})), limits, folder))
+    if (auto model = WriteRiskFiles(outcome.store, ReadRobot(FindRobotFile(options.robot, {})),
+                                    limits, folder)) {
+      AddPlans(options, globals, folder, *model);
       globals.Say(RiskModelText(*model));
-    else
+    } else {
       globals.Say("warning: no kind of hazard was met often enough: no rates are fitted");
+    }
   }
   globals.Say("results are in " + folder.string());
   if (outcome.run.end == CampaignEnd::kInterrupted) throw Interruption();
@@ -76,6 +101,10 @@ void AddMeasure(CommandLine& line, const Globals& globals, int& status) {
                   kMostEpisodes);
   command.NonNegative("--seed", options->seed, "Of all draws (default: 0)");
   command.Integer("--jobs", options->jobs, "Worker processes (default: one a core)", 1, kMostJobs);
+  command.Integer("--floors", options->floors,
+                  "Small floors that plans are driven over, to see what rates come to in whole "
+                  "plans (default: 20; 0: none)",
+                  0, 1000);
   command.Text("--episodes", options->episodes, "A:B, ids from A to before B only: a shard");
   command.Text("--out", options->out, "Output folder (default: out/measure/ROBOT)");
   command.Number("--recoverable-drop", options->recoverable_mm,

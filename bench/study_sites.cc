@@ -5,25 +5,12 @@
 
 #include "base/streams.h"
 #include "env/geometry/distance.h"
-#include "env/hazards/hazard_type.h"
 #include "env/map/init_files.h"
 #include "env/map/site.h"
+#include "measure/plan_floors.h"
 
 namespace floorproof {
 namespace {
-
-// A character of drawn floors, what it is, and which of its type's spans its first key is drawn
-// from: a step's are down and up.
-struct Drawn {
-  const char* character;
-  const char* type;
-  std::size_t span;
-};
-constexpr Drawn kDrawn[] = {{"cable_cover", "cable_cover", 0},
-                            {"groove", "groove", 0},
-                            {"rough", "rough", 0},
-                            {"raised", "step", 1},
-                            {"drop", "step", 0}};
 
 constexpr const char* kTrainingMix =
     "cable_cover: [1, 2], groove: [0, 1], rough: [0, 2], drop: [0, 1], raised: [0, 1], glass: [0, "
@@ -34,33 +21,10 @@ constexpr const char* kTestMix =
     "2], "
     "mixed: 0";
 
-// Nearer to what is easy: a plan meets a hazard many times.
-double Easy(Stream& random, std::pair<double, double> span) {
-  constexpr double kHardest = 0.6;
-  const double share = kHardest * random.Uniform();
-  return span.first < 0 ? span.second + share * (span.first - span.second)
-                        : span.first + share * (span.second - span.first);
-}
-
-std::string Keys(const Drawn& drawn, const RobotSpec& spec, Stream& random) {
-  std::string keys;
-  for (const auto& entry : HazardTypes()) {
-    if (entry.name != drawn.type) continue;
-    for (const KeyRange& range : entry.make()->Ranges(spec))
-      keys += fmt::format("{}{}: {:.4g}", keys.empty() ? "" : ", ", range.key,
-                          Easy(random, range.spans.at(range.spans.size() > 1 ? drawn.span : 0)));
-  }
-  return keys;
-}
-
 std::string Generated(const RobotSpec& spec, const char* mix, int seed, Stream& random) {
-  std::string sizes;
-  for (const Drawn& drawn : kDrawn)
-    sizes += fmt::format("{}{}: {{{}}}", sizes.empty() ? "" : ", ", drawn.character,
-                         Keys(drawn, spec, random));
   return fmt::format(
       "  generate: {{kind: fmea, cells: [9, 8], seed: {}, hazards: {{{}}}, sizes: {{{}}}}}\n", seed,
-      mix, sizes);
+      mix, DrawnSizes(spec, random));
 }
 
 // Places on open floor, away from walls, from the start and from each other.
@@ -100,7 +64,7 @@ std::string Laid(const StudyInputs& inputs, int number, Stream& random, std::str
                       from.yaw_rad * 180 / kPi);
   std::string text = fmt::format("  map: \"{}\"\n  unknown: wall\n  hazards:\n", map);
   for (const Vec2& place : OpenPlaces(site.map, from.p(), kMost, random)) {
-    const Drawn& drawn = kDrawn[random.Below(std::size(kDrawn))];
+    const DrawnHazard& drawn = DrawnHazards()[random.Below(DrawnHazards().size())];
     const bool line =
         drawn.type == std::string("cable_cover") || drawn.type == std::string("groove");
     const Pose2 X_WH{place.x(), place.y(), random.Uniform(0, 2 * kPi)};
@@ -111,8 +75,9 @@ std::string Laid(const StudyInputs& inputs, int number, Stream& random, std::str
       const Vec2 p = X_WH * corner;
       points += fmt::format("{}[{:.4f}, {:.4f}]", points.empty() ? "" : ", ", p.x(), p.y());
     }
-    text += fmt::format("    - {{type: {}, {}: [{}], {}}}\n", drawn.type,
-                        line ? "line_m" : "polygon_m", points, Keys(drawn, inputs.spec, random));
+    text +=
+        fmt::format("    - {{type: {}, {}: [{}], {}}}\n", drawn.type, line ? "line_m" : "polygon_m",
+                    points, DrawnKeys(drawn, inputs.spec, random));
   }
   return text;
 }

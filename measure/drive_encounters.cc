@@ -5,13 +5,10 @@
 
 #include <algorithm>
 
-#include "base/file_output.h"
 #include "base/quantity.h"
 #include "measure/encounter_scenario.h"
 
 namespace floorproof {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -23,23 +20,13 @@ std::vector<FailureMode> Modes() {
 
 }  // namespace
 
-EncounterCampaign EncountersOf(const std::string& robot, const std::vector<Override>& overrides) {
-  const fs::path model = FindRobotFile(robot, {"ROBOT", 0});
-  const bool is_file = model == robot;
-  const std::string named = is_file ? fs::absolute(model).lexically_normal().string() : robot;
-  const std::string label = is_file ? model.stem().string() : robot;
-  const RobotModel read = ReadRobot(model);
-  const std::string text = EncounterScenario(named, read.spec, EncounterSensors(read));
-  const fs::path beside = is_file ? fs::path(named).parent_path() : fs::path(".");
-  return {label, text,
-          ScenarioFile::FromText(text, beside / ("encounters_of_" + label + ".yaml"), overrides)};
-}
-
-CampaignOutcome DriveEncounters(const EncounterCampaign& campaign, const CampaignRequest& request,
-                                const fs::path& folder, CampaignObserver* observer) {
-  CampaignOutcome outcome = DriveCampaign(campaign.file, request, folder, observer);
-  WriteFileWhole(folder / "scenario.yaml", campaign.text);
-  return outcome;
+RobotCampaign EncountersOf(const std::string& robot, const std::vector<Override>& overrides) {
+  return CampaignOf(
+      robot, "encounters",
+      [](const std::string& named, const RobotModel& model) {
+        return EncounterScenario(named, model.spec, EncounterSensors(model));
+      },
+      overrides);
 }
 
 std::string EncounterTable(const CampaignSummary& summary) {

@@ -47,12 +47,16 @@ std::optional<RiskModel> WriteRiskFiles(const CampaignStore& store, const RobotM
       encounters,
       {spec.name, spec.drive, spec.mass_kg, spec.clearance_m, ModelHash(robot.files, {})}, options);
   if (model.kinds.empty()) return std::nullopt;
-  WriteFileWhole(folder / "risk_model.json", RiskModelJson(model));
+  WriteRiskModel(model, folder);
   const MeasuredFmea fmea = MeasureFmea(FirstMeetings(encounters), ClassOfType(), spec.cruise_mps,
                                         ReadFmeaTables(BundledTables()), limits);
   WriteFileWhole(folder / "fmea_measured.yaml",
                  MeasuredFmeaYaml(fmea, spec.name, EncounterSensors(robot)));
   return model;
+}
+
+void WriteRiskModel(const RiskModel& model, const std::filesystem::path& folder) {
+  WriteFileWhole(folder / "risk_model.json", RiskModelJson(model));
 }
 
 std::string RiskModelText(const RiskModel& model) {
@@ -61,6 +65,13 @@ std::string RiskModelText(const RiskModel& model) {
                   CountText(model.encounters, "encounter"));
   for (const UnmeasuredKind& kind : model.unmeasured)
     text += fmt::format("\n  {} {}: {}", kind.type, Name(kind.passage), kind.why);
+  if (const CarryOver& carried = model.carry_over; carried.plans > 0)
+    text += fmt::format(
+        "\n  of {} plans' {} drives {:.0f} were to fail by these rates and {} did: where rates "
+        "come to "
+        "10 %, 30 %, 60 %, plans fail in {}, {}, {}",
+        carried.plans, carried.drives, carried.expected, carried.failed,
+        PercentText(carried.Of(0.1)), PercentText(carried.Of(0.3)), PercentText(carried.Of(0.6)));
   return text;
 }
 

@@ -24,7 +24,10 @@ std::vector<Encounter> AllEncounters(const CampaignStore& store);
 std::optional<RiskModel> WriteRiskFiles(const CampaignStore& store, const RobotModel& robot,
                                         const DamageLimits& limits,
                                         const std::filesystem::path& folder);
-// For people: how many kinds were fitted, and which were not.
+// The first of the files again, of a model to which something was added.
+void WriteRiskModel(const RiskModel& model, const std::filesystem::path& folder);
+// For people: how many kinds were fitted, and which were not; what was learned from
+// plans.
 std::string RiskModelText(const RiskModel& model);
 
 }  // namespace floorproof

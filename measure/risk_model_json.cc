@@ -92,6 +92,11 @@ std::string RiskModelJson(const RiskModel& model) {
   robot["model"] = model.robot.model;
   json["mirrored"] = model.mirrored;
   json["encounters"] = model.encounters;
+  const CarryOver& carried = model.carry_over;
+  if (carried.plans > 0)
+    json["plans"] = {{"intercept", carried.intercept}, {"slope", carried.slope},
+                     {"plans", carried.plans},         {"drives", carried.drives},
+                     {"expected", carried.expected},   {"failed", carried.failed}};
   json["kinds"] = Json::array();
   for (const KindRates& kind : model.kinds) json["kinds"].push_back(JsonOf(kind));
   json["unmeasured"] = Json::array();

@@ -40,8 +40,8 @@ HingeState AtRest(std::span<const double> hinge_rad);
 HingeState StartState(const RobotSpec& robot);
 
 // The outline of all blocks together, in B: touching blocks become one polygon, with what lies
-// between blocks that stand up to 0.25 m apart. Empty where there is no one such outline: blocks are
-// farther apart, or thinner than a micrometre.
+// between blocks that stand up to 0.25 m apart. Empty where there is no one such outline: blocks
+// are farther apart, or thinner than a micrometre.
 Polygon Footprint(std::span<const BlockSpec> blocks, std::span<const HingeSpec> hinges,
                   std::span<const double> hinge_rad);
 

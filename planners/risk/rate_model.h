@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "env/core/encounter.h"
+#include "planners/risk/carry_over.h"
 
 namespace floorproof {
 
@@ -136,6 +137,7 @@ struct RiskModel {
   int encounters = 0;  // all of them
   std::vector<KindRates> kinds;
   std::vector<UnmeasuredKind> unmeasured;
+  CarryOver carry_over;  // to whole plans
 };
 
 // Whether rates are a metre of it, not a meeting.

@@ -76,6 +76,17 @@ class LastCovariates {
   std::optional<Covariates> covariates_;
 };
 
+// Which mode and which meeting ends a drive, of those that end, stays as it was.
+void CarryOverTo(const CarryOver& carry_over, Survival& survival) {
+  Probability& none = survival.no_failure;
+  const double before = 1 - none.value, after = carry_over.Of(before);
+  const double share = before > 0 ? after / before : 1;
+  none = {1 - after, 1 - carry_over.Of(1 - none.lower), 1 - carry_over.Of(1 - none.upper)};
+  for (Probability& first : survival.first)
+    for (double* of : {&first.value, &first.lower, &first.upper}) *of = std::min(1.0, share * *of);
+  for (double& ends : survival.by_meeting) ends *= share;
+}
+
 }  // namespace
 
 Survival PredictSurvival(std::span<const std::vector<PlannedMeeting>> conditions,
@@ -133,6 +144,7 @@ Survival PredictSurvival(std::span<const std::vector<PlannedMeeting>> conditions
     p = {all.mean, POf(middle + std::min(skew, 0.0) - reach),
          POf(middle + std::max(skew, 0.0) + reach)};
   }
+  CarryOverTo(model.carry_over, survival);
   return survival;
 }
 

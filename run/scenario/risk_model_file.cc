@@ -224,6 +224,21 @@ KindRates ReadKind(const ConfigNode& node, const std::string& path) {
   return kind;
 }
 
+CarryOver ReadCarryOver(const ConfigNode& node) {
+  const Keys keys(node, "plans", {"intercept", "slope", "plans", "drives", "expected", "failed"});
+  CarryOver of;
+  of.intercept = keys.Number("intercept", Between(-100, 100));
+  of.slope = keys.Number("slope", Positive());  // what fails more often is predicted to
+  of.plans = keys.Count("plans");
+  of.drives = keys.Count("drives");
+  of.expected = keys.Number("expected", NonNegative());
+  of.failed = keys.Count("failed");
+  if (of.failed > of.drives)
+    throw InputError(keys.At("failed").mark, keys.Path("failed"), std::to_string(of.failed),
+                     fmt::format("must be at most the drives, {}", of.drives));
+  return of;
+}
+
 MeasuredRobot ReadRobot(const ConfigNode& node) {
   const Keys keys(node, "robot", {"name", "drive", "mass_kg", "clearance_m", "model"});
   MeasuredRobot robot;
@@ -247,12 +262,13 @@ RiskModel Parse(const std::filesystem::path& file, const InputFiles& files) {
                      fmt::format("the key is missing (risk_model: {}): this is no risk model",
                                  kRiskModelVersion));
   AsInt(*root.Find("risk_model"), "risk_model", Between(kRiskModelVersion, kRiskModelVersion));
-  const Keys keys(root, "",
-                  {"risk_model", "robot", "mirrored", "encounters", "kinds", "unmeasured"});
+  const Keys keys(
+      root, "", {"risk_model", "robot", "mirrored", "encounters", "plans", "kinds", "unmeasured"});
   RiskModel model;
   model.robot = ReadRobot(keys.At("robot"));
   model.mirrored = keys.Flag("mirrored");
   model.encounters = keys.Count("encounters");
+  if (keys.Has("plans")) model.carry_over = ReadCarryOver(keys.At("plans"));
   std::size_t number = 0;
   for (const ConfigNode& node : keys.List("kinds")) {
     const std::string path = fmt::format("kinds.{}", number++);

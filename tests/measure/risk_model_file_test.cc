@@ -76,6 +76,22 @@ TEST(RiskModelFile, ReadsBackWhatWasWritten) {
   }
 }
 
+TEST(RiskModelFile, HoldsWhatPlansSaid) {
+  RiskModel model = Measured(90);
+  EXPECT_THAT(RiskModelJson(model), Not(HasSubstr("\"plans\""))) << "nothing was learned";
+  EXPECT_EQ(Read(RiskModelJson(model)).carry_over.Of(0.3), 0.3);
+  model.carry_over = {-0.5, 1.25, 80, 320, 40, 52.5};
+  const std::string text = RiskModelJson(model);
+  const RiskModel dut = Read(text);
+  EXPECT_EQ(RiskModelJson(dut), text);
+  EXPECT_EQ(dut.carry_over.Of(0.3), model.carry_over.Of(0.3));
+  EXPECT_LT(dut.carry_over.Of(0.3), 0.2);
+  EXPECT_THAT(WhyRefused(With(text, "\"slope\": 1.25", "\"slope\": -1")),
+              HasSubstr("plans.slope = -1: must be > 0"));
+  EXPECT_THAT(WhyRefused(With(text, "\"failed\": 40", "\"failed\": 400")),
+              HasSubstr("plans.failed = 400: must be at most the drives, 320"));
+}
+
 TEST(RiskModelFile, SaysWhatIsWrongAndWhere) {
   const std::string text = RiskModelJson(Measured(90));
   struct Case {

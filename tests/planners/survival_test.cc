@@ -113,6 +113,31 @@ TEST(Survival, MeetingsWithOneHazardEndAlike) {
   EXPECT_NEAR(Predict(meetings, Same(2, 8)).no_failure.value, std::exp(-0.14), 0.004);
 }
 
+// Plans fail less often than their rates say: which mode and which meeting ends a drive stays.
+TEST(Survival, OfAPlanIsAsPlansWere) {
+  const KindRates kind = Constant({0.02, 0.05, 0, 0});
+  const RateEvaluator rates(kind);
+  const std::vector<PlannedMeeting> meetings = {{&rates, {}, {}, 1, 0, 0},
+                                                {&rates, {}, {}, 1, 1, 1}};
+  RiskModel model;
+  const Survival before = PredictSurvival(std::vector{meetings}, 2, model);
+  model.carry_over = {-1, 1.2, 80, 320, 40, 52.5};
+  const Survival dut = PredictSurvival(std::vector{meetings}, 2, model);
+  EXPECT_NEAR(1 - dut.no_failure.value, model.carry_over.Of(1 - before.no_failure.value), 1e-12);
+  EXPECT_LE(dut.no_failure.lower, dut.no_failure.value);
+  EXPECT_GE(dut.no_failure.upper, dut.no_failure.value);
+  double modes = 0;
+  for (int m = 0; m < kNumFailureModes; ++m) {
+    modes += dut.first[m].value;
+    EXPECT_NEAR(dut.first[m].value * before.first[0].value,
+                before.first[m].value * dut.first[0].value, 1e-12);
+  }
+  EXPECT_NEAR(modes, 1 - dut.no_failure.value, 1e-9);
+  EXPECT_NEAR(dut.by_meeting[0] + dut.by_meeting[1], modes, 1e-9);
+  EXPECT_NEAR(dut.by_meeting[0] / dut.by_meeting[1], before.by_meeting[0] / before.by_meeting[1],
+              1e-9);
+}
+
 // One friction in ten holds the robot at every crossing, the others at none. Ten crossings with the
 // same friction fail together; with a friction of its own each, hardly any drive gets through.
 TEST(Survival, CrossingsThatOneFrictionDecidesFailTogether) {

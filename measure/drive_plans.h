@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// `measure`: a robot's plans over small floors, as a campaign, and what their drives say of its
+// rates.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "measure/robot_campaign.h"
+#include "planners/risk/carry_over.h"
+
+namespace floorproof {
+
+// Of so many floors. Of the overrides those count that are about the robot, and the seed. Throws
+// InputError as CampaignOf.
+RobotCampaign PlansOf(const std::string& robot, int floors, const std::vector<Override>& overrides);
+
+// From the plans of the campaign that were driven, and `model`, a file of the robot's rates that
+// holds nothing learned from plans yet. `progress`: told after each plan. Plans that meet what was
+// not measured are left out. Throws InputError where the model cannot be read.
+CarryOver LearnCarryOver(const RobotCampaign& campaign, const CampaignStore& store,
+                         const std::filesystem::path& model,
+                         const std::function<void(int done)>& progress = {});
+
+}  // namespace floorproof

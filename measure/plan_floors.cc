@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/plan_floors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "env/hazards/hazard_type.h"
+
+namespace floorproof {
+namespace {
+
+constexpr DrawnHazard kDrawn[] = {{"cable_cover", "cable_cover", 0},
+                                  {"groove", "groove", 0},
+                                  {"rough", "rough", 0},
+                                  {"raised", "step", 1},
+                                  {"drop", "step", 0}};
+
+double Easy(Stream& random, std::pair<double, double> span) {
+  constexpr double kHardest = 0.6;
+  const double share = kHardest * random.Uniform();
+  return span.first < 0 ? span.second + share * (span.first - span.second)
+                        : span.first + share * (span.second - span.first);
+}
+
+}  // namespace
+
+std::span<const DrawnHazard> DrawnHazards() { return kDrawn; }
+
+std::string DrawnKeys(const DrawnHazard& drawn, const RobotSpec& spec, Stream& random) {
+  std::string keys;
+  for (const auto& entry : HazardTypes()) {
+    if (entry.name != drawn.type) continue;
+    for (const KeyRange& range : entry.make()->Ranges(spec))
+      keys += fmt::format("{}{}: {:.4g}", keys.empty() ? "" : ", ", range.key,
+                          Easy(random, range.spans.at(range.spans.size() > 1 ? drawn.span : 0)));
+  }
+  return keys;
+}
+
+std::string DrawnSizes(const RobotSpec& spec, Stream& random) {
+  std::string sizes;
+  for (const DrawnHazard& drawn : kDrawn)
+    sizes += fmt::format("{}{}: {{{}}}", sizes.empty() ? "" : ", ", drawn.character,
+                         DrawnKeys(drawn, spec, random));
+  return sizes;
+}
+
+std::string PlanFloorsScenario(const std::string& robot, const RobotSpec& spec, int floors) {
+  constexpr double kCell_m = 0.5;
+  constexpr int kFirstSeed = 300'000;  // no floor of a study
+  std::string rows;
+  for (int floor = 0; floor < floors; ++floor) {
+    const int seed = kFirstSeed + floor;
+    Stream random(0, static_cast<std::uint64_t>(seed), "plan_floors");
+    rows += fmt::format(
+        "    - {{label: \"{}\", site.generate.seed: {}, site.generate.sizes: {{{}}}}}\n", floor,
+        seed, DrawnSizes(spec, random));
+  }
+  return fmt::format(
+      "# Plans over small floors: what single encounters come to in whole plans (`floorproof "
+      "measure`).\n"
+      "scenario: 1\n"
+      "name: plans of {}\n"
+      "robot: {{name: \"{}\"}}\n"
+      "site:\n"
+      "  site: 1\n"
+      "  name: floors\n"
+      "  generate: {{kind: fmea, cells: [9, 8], cell_m: {:.4g}, hazards: {{cable_cover: [0, 1], "
+      "groove: [0, 1], rough: [0, 2], drop: [0, 1], raised: [0, 1], glass: [0, 1], mixed: 0}}}}\n"
+      "  floor: {{friction: 0.6}}\n"
+      "sampling: low_discrepancy\n"
+      "randomise:\n"
+      "  site.floor.friction: {{uniform: [0.35, 0.9]}}\n"
+      "  robot.mass_kg: {{uniform: [{:.4g}, {:.4g}]}}\n"
+      "matrix:\n"
+      "  floor:\n{}"
+      "  plan.planner: [boustrophedon, spiral, risk_coverage, fmea_path_transform]\n",
+      spec.name, robot, std::max(kCell_m, 2 * spec.inscribed_radius_m), 0.9 * spec.mass_kg,
+      1.1 * spec.mass_kg, rows);
+}
+
+}  // namespace floorproof

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small floors with hazards of sizes drawn for a robot, over which its plans are driven: what
+// single encounters come to in whole plans.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "base/streams.h"
+#include "env/core/robot_spec.h"
+
+namespace floorproof {
+
+// A character of drawn floors, what it is, and which of its type's spans its first key is drawn
+// from: a step's are down and up.
+struct DrawnHazard {
+  const char* character;
+  const char* type;
+  std::size_t span;
+};
+std::span<const DrawnHazard> DrawnHazards();
+
+// "height_m: 0.01, width_m: 0.12": from what this robot crosses surely to what it hardly does,
+// nearer to the former, as a plan meets a hazard many times.
+std::string DrawnKeys(const DrawnHazard& drawn, const RobotSpec& spec, Stream& random);
+// "cable_cover: {...}, groove: {...}": of each character.
+std::string DrawnSizes(const RobotSpec& spec, Stream& random);
+
+// The scenario file: so many floors, each planned by four planners, friction and mass drawn for
+// each episode. `robot` is what it says under the key robot: a name, or a file's path.
+std::string PlanFloorsScenario(const std::string& robot, const RobotSpec& spec, int floors);
+
+}  // namespace floorproof

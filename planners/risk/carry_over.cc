@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planners/risk/carry_over.h"
+
+#include <cmath>
+
+namespace floorproof {
+
+double CarryOver::Of(double p) const {
+  if (plans == 0 || p <= 0 || p >= 1) return p;
+  return 1 / (1 + std::exp(-intercept - slope * (std::log(p) - std::log1p(-p))));
+}
+
+}  // namespace floorproof
