@@ -119,10 +119,11 @@ TEST(Survival, OfAPlanIsAsPlansWere) {
   const RateEvaluator rates(kind);
   const std::vector<PlannedMeeting> meetings = {{&rates, {}, {}, 1, 0, 0},
                                                 {&rates, {}, {}, 1, 1, 1}};
+  const std::vector<std::vector<PlannedMeeting>> conditions(1, meetings);
   RiskModel model;
-  const Survival before = PredictSurvival(std::vector{meetings}, 2, model);
+  const Survival before = PredictSurvival(conditions, 2, model);
   model.carry_over = {-1, 1.2, 80, 320, 40, 52.5};
-  const Survival dut = PredictSurvival(std::vector{meetings}, 2, model);
+  const Survival dut = PredictSurvival(conditions, 2, model);
   EXPECT_NEAR(1 - dut.no_failure.value, model.carry_over.Of(1 - before.no_failure.value), 1e-12);
   EXPECT_LE(dut.no_failure.lower, dut.no_failure.value);
   EXPECT_GE(dut.no_failure.upper, dut.no_failure.value);
