@@ -57,7 +57,7 @@ void AddPlans(const Options& options, const Globals& globals, const fs::path& fo
                          plans, &progress);
   progress.Clear();
   if (outcome.run.end == CampaignEnd::kInterrupted) throw Interruption();
-  model.carry_over = LearnCarryOver(campaign, outcome.store, folder / "risk_model.json");
+  model.carry_over = LearnCarryOver(campaign, outcome.summary, folder);
   WriteRiskModel(model, folder);
 }
 

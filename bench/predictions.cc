@@ -12,10 +12,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file_output.h"
-#include "base/interrupt.h"
 #include "base/params.h"
 #include "bench/study_figures.h"
-#include "bench/study_keys.h"
+#include "bench/study_main.h"
 #include "bench/study_predictors.h"
 #include "bench/study_sites.h"
 #include "measure/risk_files.h"
@@ -252,21 +251,12 @@ class Runner {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-int Main(int argc, char** argv) {
-  Study study;
-  ReadParams(KeysOfArguments(argc, argv), "", study);
-  return Runner(study).Run();
-}
-
 }  // namespace
 }  // namespace floorproof
 
 int main(int argc, char** argv) {
-  floorproof::CatchInterrupts();
-  try {
-    return floorproof::Main(argc, argv);
-  } catch (const floorproof::InputError& error) {
-    fmt::print(stderr, "bench_predictions: {}\n", error.what());
-    return 2;
-  }
+  using floorproof::Study;
+  return floorproof::StudyMain<Study>("bench_predictions", argc, argv, [](const Study& study) {
+    return floorproof::Runner(study).Run();
+  });
 }

@@ -11,9 +11,8 @@
 #include <map>
 
 #include "base/file_output.h"
-#include "base/interrupt.h"
 #include "base/params.h"
-#include "bench/study_keys.h"
+#include "bench/study_main.h"
 #include "bench/study_sites.h"
 #include "run/campaign/campaign_comparison.h"
 #include "run/campaign/drive_campaign.h"
@@ -78,7 +77,7 @@ std::string Figures(const std::vector<ComparedSite>& sites) {
   std::string text =
       "| site | drives | risk_coverage failed | survival_coverage failed | p "
       "|\n|---|---|---|---|---|\n";
-  int before = 0, after = 0, n = 0, often = 0, often_before = 0, often_after = 0, more = 0;
+  int before = 0, after = 0, n = 0, often = 0, often_before = 0, often_after = 0;
   std::vector<double> worse;  // p where it failed more often
   double lost = 0;
   std::size_t covered = 0;
@@ -95,10 +94,7 @@ std::string Figures(const std::vector<ComparedSite>& sites) {
       often_before += of.before();
       often_after += of.after();
     }
-    if (of.after() > of.before()) {
-      ++more;
-      worse.push_back(of.any.p);
-    }
+    if (of.after() > of.before()) worse.push_back(of.any.p);
     for (const double difference : of.coverage) lost += difference;
     covered += of.coverage.size();
   }
@@ -110,13 +106,14 @@ std::string Figures(const std::vector<ComparedSite>& sites) {
       "{} sites where risk_coverage failed in {:.0f} % or more: {} and {}.\n"
       "{} sites where survival_coverage failed more often, {} of them beyond chance.\n"
       "Coverage where neither failed: {:+.4f} on average over {} pairs of drives.\n",
-      n, before, after, often, 100 * kFailsOften, often_before, often_after, more, beyond,
+      n, before, after, often, 100 * kFailsOften, often_before, often_after, worse.size(), beyond,
       covered == 0 ? 0.0 : lost / static_cast<double>(covered), covered);
   return text;
 }
 
 int Run(const Study& study) {
   const fs::path out = study.out;
+  fs::create_directories(out);
   const StudyInputs inputs{study.robot,
                            fs::absolute(fs::path(study.measured) / "risk_model.json").string(),
                            ReadRobot(FindRobotFile(study.robot, {"robot", 0})).spec,
@@ -153,22 +150,9 @@ int Run(const Study& study) {
   return 0;
 }
 
-int Main(int argc, char** argv) {
-  Study study;
-  ReadParams(KeysOfArguments(argc, argv), "", study);
-  fs::create_directories(study.out);
-  return Run(study);
-}
-
 }  // namespace
 }  // namespace floorproof
 
 int main(int argc, char** argv) {
-  floorproof::CatchInterrupts();
-  try {
-    return floorproof::Main(argc, argv);
-  } catch (const floorproof::InputError& error) {
-    fmt::print(stderr, "bench_safer_plans: {}\n", error.what());
-    return 2;
-  }
+  return floorproof::StudyMain<floorproof::Study>("bench_safer_plans", argc, argv, floorproof::Run);
 }

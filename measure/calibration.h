@@ -23,6 +23,10 @@ struct LogisticLine {
 // fewer than ten did not, or all predictions are alike: nothing can be said.
 std::optional<LogisticLine> CalibrationLine(std::span<const Forecast> forecasts);
 
+// The same, of forecasts that count as one case each, however often they were tried (n 0: as none),
+// penalised as if intercept and slope were known to be 0 and 1, to within this deviation.
+LogisticLine PenalisedCalibrationLine(std::span<const Forecast> forecasts, double deviation);
+
 // Cases whose predictions lie in one tenth of [0, 1].
 struct CalibrationBin {
   double predicted = 0;  // sum over cases of p

@@ -11,8 +11,6 @@
 namespace floorproof {
 namespace {
 
-double LogOdds(double p) { return std::log(p) - std::log1p(-p); }
-
 // In the middle of equal shares of what may be, shuffled.
 template <class EtaAt>
 std::vector<double> MembersOf(std::string_view name, const EtaAt& eta_at) {

@@ -6,21 +6,6 @@
 #include "run/plan_check/prediction.h"
 
 namespace floorproof {
-namespace {
-
-// How often the variant's drives failed; of n only those that count.
-Forecast DrivenOf(const CampaignStore& store, const std::string& variant) {
-  Forecast driven{0, 0, 0};
-  store.ForEach(variant, [&](const EpisodeRow& row) {
-    if (!row.counts()) return;
-    ++driven.n;
-    driven.k += row.any_failure();
-  });
-  return driven;
-}
-
-}  // namespace
-
 RobotCampaign PlansOf(const std::string& robot, int floors,
                       const std::vector<Override>& overrides) {
   std::vector<Override> kept;
@@ -34,23 +19,19 @@ RobotCampaign PlansOf(const std::string& robot, int floors,
       kept);
 }
 
-CarryOver LearnCarryOver(const RobotCampaign& campaign, const CampaignStore& store,
-                         const std::filesystem::path& model,
-                         const std::function<void(int done)>& progress) {
+CarryOver LearnCarryOver(const RobotCampaign& campaign, const CampaignSummary& driven,
+                         const std::filesystem::path& folder) {
   constexpr int kDraws = 64;  // of friction and mass
-  const ScenarioFile predicted = ScenarioFile::FromText(
-      campaign.text + "risk: {model: \"" + std::filesystem::absolute(model).string() + "\"}\n",
-      std::filesystem::absolute(model).parent_path() / "plans.yaml", campaign.overrides);
+  const ScenarioFile predicted =
+      ScenarioFile::FromText(campaign.text + "risk: {model: risk_model.json}\n",
+                             std::filesystem::absolute(folder) / "plans.yaml", campaign.overrides);
   std::vector<Forecast> plans;
-  int done = 0;
-  for (const Variant& variant : predicted.variants()) {
-    Forecast plan = DrivenOf(store, variant.name);
-    if (plan.n > 0) {
-      const Prediction prediction = Predict(predicted, variant, kDraws);
-      plan.p = 1 - prediction.survival.no_failure.value;
-      if (prediction.complete()) plans.push_back(plan);
-    }
-    if (progress) progress(++done);
+  for (std::size_t v = 0; v < predicted.variants().size(); ++v) {
+    const VariantSummary& plan = driven.variants[v];
+    if (plan.n == 0) continue;
+    const Prediction prediction = Predict(predicted, predicted.variants()[v], kDraws);
+    if (prediction.complete())
+      plans.push_back({1 - prediction.survival.no_failure.value, plan.failures.front().k, plan.n});
   }
   return FitCarryOver(plans);
 }

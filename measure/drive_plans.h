@@ -4,7 +4,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,11 +16,10 @@ namespace floorproof {
 // InputError as CampaignOf.
 RobotCampaign PlansOf(const std::string& robot, int floors, const std::vector<Override>& overrides);
 
-// From the plans of the campaign that were driven, and `model`, a file of the robot's rates that
-// holds nothing learned from plans yet. `progress`: told after each plan. Plans that meet what was
-// not measured are left out. Throws InputError where the model cannot be read.
-CarryOver LearnCarryOver(const RobotCampaign& campaign, const CampaignStore& store,
-                         const std::filesystem::path& model,
-                         const std::function<void(int done)>& progress = {});
+// From the plans of the campaign, `driven`, and the rates in the folder's risk_model.json, which
+// holds nothing learned from plans yet. Plans that meet what was not measured are left out. Throws
+// InputError where the model cannot be read.
+CarryOver LearnCarryOver(const RobotCampaign& campaign, const CampaignSummary& driven,
+                         const std::filesystem::path& folder);
 
 }  // namespace floorproof

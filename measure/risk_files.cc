@@ -68,8 +68,7 @@ std::string RiskModelText(const RiskModel& model) {
   if (const CarryOver& carried = model.carry_over; carried.plans > 0)
     text += fmt::format(
         "\n  of {} plans' {} drives {:.0f} were to fail by these rates and {} did: where rates "
-        "come to "
-        "10 %, 30 %, 60 %, plans fail in {}, {}, {}",
+        "come to 10 %, 30 %, 60 %, plans fail in {}, {}, {}",
         carried.plans, carried.drives, carried.expected, carried.failed,
         PercentText(carried.Of(0.1)), PercentText(carried.Of(0.3)), PercentText(carried.Of(0.6)));
   return text;

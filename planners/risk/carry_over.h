@@ -4,6 +4,8 @@
 
 namespace floorproof {
 
+double LogOdds(double p);  // log(p / (1 - p)); 0 < p < 1
+
 // Rates are means over all ways to meet a hazard of these covariates; a plan takes one of them, and
 // mild ones more often than single encounters do. What that comes to was learned from plans that
 // were driven: a line in the log odds, log(p / (1 - p)), of failure (Cox, Biometrika 45 (1958)
