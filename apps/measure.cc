@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/params.h"
+#include "base/quantity.h"
 #include "measure/drive_encounters.h"
 #include "measure/drive_plans.h"
 #include "measure/risk_files.h"
@@ -25,7 +26,7 @@ std::uint64_t EnoughEpisodes(std::size_t variants) {
 
 struct Options : CampaignArguments {
   std::string robot;
-  int floors = 20;
+  int floors = 80;
   std::optional<double> recoverable_mm, lasting_mm;
 };
 
@@ -40,11 +41,12 @@ DamageLimits LimitsOf(const Options& options) {
   return limits;
 }
 
-// Drives plans over small floors, and adds to the model in the folder what they say of it.
-void AddPlans(const Options& options, const Globals& globals, const fs::path& folder,
-              RiskModel& model) {
-  constexpr std::uint64_t kDrives = 4;  // of a plan: they mostly end alike
-  if (options.floors == 0) return;
+// Drives plans over small floors, and adds to the model in the folder what they say of it. Gives
+// the exit status.
+int AddPlans(const Options& options, const Globals& globals, const fs::path& folder,
+             RiskModel& model) {
+  constexpr std::uint64_t kDrives = 1;  // of a plan: they mostly end alike
+  if (options.floors == 0) return kExitDone;
   const RobotCampaign campaign =
       PlansOf(options.robot, options.floors, OverridesOf(globals, options));
   const fs::path plans = folder / "plans";
@@ -59,6 +61,15 @@ void AddPlans(const Options& options, const Globals& globals, const fs::path& fo
   if (outcome.run.end == CampaignEnd::kInterrupted) throw Interruption();
   model.carry_over = LearnCarryOver(campaign, outcome.summary, folder);
   WriteRiskModel(model, folder);
+  for (const VariantSummary& plan : outcome.summary.variants)
+    if (plan.errors > 0)
+      globals.Say("warning: plans, " + plan.name + ": " + CountText(plan.errors, "error") +
+                  ", the first: " + plan.first_error);
+  if (model.carry_over.plans == 0)
+    globals.Say(
+        "warning: no plan over these floors could be driven and predicted: the rates are held "
+        "against none");
+  return CampaignExitStatus(outcome);
 }
 
 int RunIt(const Options& options, const Globals& globals) {
@@ -73,10 +84,11 @@ int RunIt(const Options& options, const Globals& globals) {
   progress.Clear();
   globals.Result(SummaryJson(outcome.summary));
   globals.Say(EncounterTable(outcome.summary));
+  int plans_status = kExitDone;
   if (!request.shard && outcome.run.end == CampaignEnd::kComplete) {
     if (auto model = WriteRiskFiles(outcome.store, ReadRobot(FindRobotFile(options.robot, {})),
                                     limits, folder)) {
-      AddPlans(options, globals, folder, *model);
+      plans_status = AddPlans(options, globals, folder, *model);
       globals.Say(RiskModelText(*model));
     } else {
       globals.Say("warning: no kind of hazard was met often enough: no rates are fitted");
@@ -84,7 +96,8 @@ int RunIt(const Options& options, const Globals& globals) {
   }
   globals.Say("results are in " + folder.string());
   if (outcome.run.end == CampaignEnd::kInterrupted) throw Interruption();
-  return CampaignExitStatus(outcome);
+  const int status = CampaignExitStatus(outcome);
+  return status != kExitDone ? status : plans_status;
 }
 
 }  // namespace
@@ -97,13 +110,13 @@ void AddMeasure(CommandLine& line, const Globals& globals, int& status) {
   command.Text("ROBOT", options->robot, "A robot's name (floorproof list robots), or its MJCF file",
                Subcommand::Need::kRequired);
   command.Integer("-n", options->n,
-                  "Encounters of each kind (default: so many that there are 20,000)", 1,
+                  "Drives of each meeting (default: so many that there are 20,000 in all)", 1,
                   kMostEpisodes);
   command.NonNegative("--seed", options->seed, "Of all draws (default: 0)");
   command.Integer("--jobs", options->jobs, "Worker processes (default: one a core)", 1, kMostJobs);
   command.Integer("--floors", options->floors,
                   "Small floors that plans are driven over, to see what rates come to in whole "
-                  "plans (default: 20; 0: none)",
+                  "plans (default: 80; 0: none)",
                   0, 1000);
   command.Text("--episodes", options->episodes, "A:B, ids from A to before B only: a shard");
   command.Text("--out", options->out, "Output folder (default: out/measure/ROBOT)");

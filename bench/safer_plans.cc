@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is planning by measured rates worth? The test sites of the study of predictions
-// (bench/study_sites.h), planned by `risk_coverage` and by `survival_coverage`, each driven with
-// the same draws, and compared in pairs (docs/risk.md).
+// What is planning by measured rates worth? The test sites of the study of predictions, or harder
+// ones (bench/study_sites.h), planned by `risk_coverage` and by `survival_coverage`, each driven
+// with the same draws, and compared in pairs (docs/risk.md).
 //   bench_safer_plans KEY=VALUE ...      the keys: struct Study; `robot`, `measured` must be given
 // Called again with the same `out` it goes on where it was.
 #include <fmt/format.h>
@@ -14,9 +14,9 @@
 #include "base/params.h"
 #include "bench/study_main.h"
 #include "bench/study_sites.h"
-#include "run/campaign/campaign_comparison.h"
 #include "run/campaign/drive_campaign.h"
 #include "run/scenario/risk_model_file.h"
+#include "stats/paired.h"
 
 namespace floorproof {
 namespace {
@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 struct Study : Configurable {
   std::string robot = "htetro", measured, out = "out/safer_plans";
   int sites = 50, episodes = 20, jobs = 1;
+  bool hard = false;
   double minutes = 1e6;
   void Visit(ParamVisitor& v) override {
     v("robot", robot, {}, "its name, or its MJCF file");
@@ -33,6 +34,7 @@ struct Study : Configurable {
     v("out", out, {}, "folder of drives and figures");
     v("sites", sites, AtLeast(1), "sites");
     v("episodes", episodes, AtLeast(1), "drives of each plan");
+    v("hard", hard, "sites with strips across the floor that may be too much for the robot");
     v("jobs", jobs, AtLeast(1), "worker processes");
     v("minutes", minutes, Positive(), "ends then, to be gone on with");
   }
@@ -41,34 +43,55 @@ struct Study : Configurable {
 const std::string kBefore = "planner=risk_coverage", kAfter = "planner=survival_coverage";
 
 struct ComparedSite {
-  int site;
-  ComparedFailure any;
-  std::vector<double> coverage;  // difference of the pairs in which neither failed
-  int n() const { return any.both + any.only_a + any.only_b + any.neither; }
-  int before() const { return any.both + any.only_a; }
-  int after() const { return any.both + any.only_b; }
+  int site = 0, n = 0;
+  int before = 0, after = 0;  // drives that failed
+  // Sites are picked by the first half of the drives and judged by the second: who is picked by how
+  // often it failed would else be less unlucky the next time, whoever plans.
+  int picked_by = 0, picked_before = 0, later_before = 0, later_after = 0;
+  double p = 1;        // exact McNemar test
+  double covered = 0;  // sum of the differences of coverage, of pairs in which neither failed
+  int pairs = 0;
 };
 
-ComparedSite Compared(int site, const fs::path& folder) {
+std::map<std::uint64_t, EpisodeRow> Rows(const CampaignStore& store, const std::string& variant) {
+  std::map<std::uint64_t, EpisodeRow> rows;
+  store.ForEach(variant, [&](const EpisodeRow& row) {
+    if (row.counts()) rows[row.episode] = row;
+  });
+  return rows;
+}
+
+ComparedSite Compared(int site, int episodes, const fs::path& folder) {
+  constexpr auto kCoverage =
+      std::ranges::find(kMetrics, "coverage", &MetricColumn::name) - kMetrics.begin();
   const CampaignStore store = CampaignStore::Open(folder / "campaign.sqlite", false);
-  const Comparison comparison = CompareVariants(store, kBefore, store, kAfter);
-  ComparedSite of{site, {}, {}};
-  for (const ComparedFailure& failure : comparison.failures)
-    if (failure.mode == "any_failure") of.any = failure;
-  const auto covered = [&](const std::string& planner) {
-    constexpr auto kCoverage =
-        std::ranges::find(kMetrics, "coverage", &MetricColumn::name) - kMetrics.begin();
-    std::map<std::uint64_t, double> coverages;
-    store.ForEach(planner, [&](const EpisodeRow& row) {
-      const std::optional<double> coverage = row.metrics[kCoverage];
-      if (row.counts() && !row.any_failure() && coverage) coverages[row.episode] = *coverage;
-    });
-    return coverages;
-  };
-  const std::map<std::uint64_t, double> before = covered(kBefore), after = covered(kAfter);
-  for (const auto& [episode, coverage] : before)
-    if (const auto found = after.find(episode); found != after.end())
-      of.coverage.push_back(found->second - coverage);
+  const std::map<std::uint64_t, EpisodeRow> before = Rows(store, kBefore),
+                                            after = Rows(store, kAfter);
+  ComparedSite of{.site = site};
+  int only_before = 0, only_after = 0;
+  for (const auto& [episode, a] : before) {
+    const auto found = after.find(episode);
+    if (found == after.end()) continue;
+    const EpisodeRow& b = found->second;
+    ++of.n;
+    of.before += a.any_failure();
+    of.after += b.any_failure();
+    only_before += a.any_failure() && !b.any_failure();
+    only_after += b.any_failure() && !a.any_failure();
+    if (2 * episode < static_cast<std::uint64_t>(episodes)) {
+      ++of.picked_by;
+      of.picked_before += a.any_failure();
+    } else {
+      of.later_before += a.any_failure();
+      of.later_after += b.any_failure();
+    }
+    const auto &x = a.metrics[kCoverage], &y = b.metrics[kCoverage];
+    if (!a.any_failure() && !b.any_failure() && x && y) {
+      of.covered += *y - *x;
+      ++of.pairs;
+    }
+  }
+  of.p = McNemarExact(only_before, only_after);
   return of;
 }
 
@@ -77,37 +100,36 @@ std::string Figures(const std::vector<ComparedSite>& sites) {
   std::string text =
       "| site | drives | risk_coverage failed | survival_coverage failed | p "
       "|\n|---|---|---|---|---|\n";
-  int before = 0, after = 0, n = 0, often = 0, often_before = 0, often_after = 0;
-  std::vector<double> worse;  // p where it failed more often
-  double lost = 0;
-  std::size_t covered = 0;
-  for (const ComparedSite& of : sites) {
-    if (of.n() == 0) continue;
-    if (of.before() + of.after() > 0)
-      text += fmt::format("| {} | {} | {} | {} | {:.2g} |\n", of.site, of.n(), of.before(),
-                          of.after(), of.any.p);
-    n += of.n();
-    before += of.before();
-    after += of.after();
-    if (of.before() >= kFailsOften * of.n()) {
-      ++often;
-      often_before += of.before();
-      often_after += of.after();
-    }
-    if (of.after() > of.before()) worse.push_back(of.any.p);
-    for (const double difference : of.coverage) lost += difference;
-    covered += of.coverage.size();
-  }
+  ComparedSite all, often;
+  int picked = 0, worse = 0, beyond = 0;
   // Of so many sites one comes out so by chance: each is held against its share (Bonferroni).
   const double limit = kByChance / std::max<double>(1, static_cast<double>(sites.size()));
-  const auto beyond = std::ranges::count_if(worse, [&](double p) { return p <= limit; });
+  for (const ComparedSite& of : sites) {
+    if (of.before + of.after > 0)
+      text +=
+          fmt::format("| {} | {} | {} | {} | {:.2g} |\n", of.site, of.n, of.before, of.after, of.p);
+    all.n += of.n;
+    all.before += of.before;
+    all.after += of.after;
+    all.covered += of.covered;
+    all.pairs += of.pairs;
+    if (of.picked_before > 0 && of.picked_before >= kFailsOften * of.picked_by) {
+      ++picked;
+      often.n += of.n - of.picked_by;
+      often.before += of.later_before;
+      often.after += of.later_after;
+    }
+    worse += of.after > of.before;
+    beyond += of.after > of.before && of.p <= limit;
+  }
   text += fmt::format(
       "\n{} drives each: {} failed by risk_coverage, {} by survival_coverage.\n"
-      "{} sites where risk_coverage failed in {:.0f} % or more: {} and {}.\n"
+      "{} sites where risk_coverage failed in {:.0f} % or more of the first half of its drives; of "
+      "the second half, {} drives each, {} and {} failed.\n"
       "{} sites where survival_coverage failed more often, {} of them beyond chance.\n"
       "Coverage where neither failed: {:+.4f} on average over {} pairs of drives.\n",
-      n, before, after, often, 100 * kFailsOften, often_before, often_after, worse.size(), beyond,
-      covered == 0 ? 0.0 : lost / static_cast<double>(covered), covered);
+      all.n, all.before, all.after, picked, 100 * kFailsOften, often.n, often.before, often.after,
+      worse, beyond, all.pairs == 0 ? 0.0 : all.covered / all.pairs, all.pairs);
   return text;
 }
 
@@ -123,7 +145,8 @@ int Run(const Study& study) {
   std::vector<ComparedSite> sites;
   bool all = true;
   for (int site = 0; site < study.sites && all; ++site) {
-    const std::string text = StudyScenario(inputs, StudySet::kTest, site, "risk_coverage") +
+    const std::string text = StudyScenario(inputs, study.hard ? StudySet::kHard : StudySet::kTest,
+                                           site, "risk_coverage") +
                              "matrix: {plan.planner: [risk_coverage, survival_coverage]}\n";
     const fs::path folder = out / fmt::format("site-{:03}", site);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
@@ -137,9 +160,9 @@ int Run(const Study& study) {
                         folder)
                   .run.end == CampaignEnd::kComplete;
     if (!all) break;
-    sites.push_back(Compared(site, folder));
-    fmt::print("site {}: {} and {} of {} failed\n", site, sites.back().before(),
-               sites.back().after(), sites.back().n());
+    sites.push_back(Compared(site, study.episodes, folder));
+    fmt::print("site {}: {} and {} of {} failed\n", site, sites.back().before, sites.back().after,
+               sites.back().n);
     std::fflush(stdout);
   }
   const std::string figures = fmt::format("{} of {} sites, {} drives of each plan\n\n",

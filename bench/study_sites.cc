@@ -8,6 +8,7 @@
 #include "env/map/init_files.h"
 #include "env/map/site.h"
 #include "measure/plan_floors.h"
+#include "measure/robot_campaign.h"
 
 namespace floorproof {
 namespace {
@@ -21,10 +22,16 @@ constexpr const char* kTestMix =
     "2], "
     "mixed: 0";
 
-std::string Generated(const RobotSpec& spec, const char* mix, int seed, Stream& random) {
+constexpr const char* kHardMix =
+    "cable_cover: [1, 2], groove: [1, 2], rough: [0, 2], drop: [0, 1], raised: [0, 1], glass: [0, "
+    "1], "
+    "mixed: 0";
+
+std::string Generated(const RobotSpec& spec, const char* mix, int seed, Stream& random,
+                      double hardest = kUsuallyHardest) {
   return fmt::format(
       "  generate: {{kind: fmea, cells: [9, 8], seed: {}, hazards: {{{}}}, sizes: {{{}}}}}\n", seed,
-      mix, DrawnSizes(spec, random));
+      mix, DrawnSizes(spec, random, hardest));
 }
 
 // Places on open floor, away from walls, from the start and from each other.
@@ -57,12 +64,13 @@ std::string Laid(const StudyInputs& inputs, int number, Stream& random, std::str
   const std::string name = kStudyMaps[static_cast<std::size_t>(number) % kStudyMaps.size()];
   const std::string map = (inputs.maps / name / "map.yaml").string();
   const Site site = ReadSite(
-      ParseYaml(fmt::format("site: 1\nname: {}\nmap: \"{}\"\nunknown: wall\n", name, map), map),
+      ParseYaml(fmt::format("site: 1\nname: {}\nmap: {}\nunknown: wall\n", name, QuotedYaml(map)),
+                map),
       inputs.maps);
   const Pose2 from = ChooseStart(site.map, inputs.spec);
   start = fmt::format("start: {{x_m: {:.6g}, y_m: {:.6g}, yaw_deg: {:.6g}}}\n", from.x_m, from.y_m,
                       from.yaw_rad * 180 / kPi);
-  std::string text = fmt::format("  map: \"{}\"\n  unknown: wall\n  hazards:\n", map);
+  std::string text = fmt::format("  map: {}\n  unknown: wall\n  hazards:\n", QuotedYaml(map));
   for (const Vec2& place : OpenPlaces(site.map, from.p(), kMost, random)) {
     const DrawnHazard& drawn = DrawnHazards()[random.Below(DrawnHazards().size())];
     const bool line =
@@ -89,11 +97,22 @@ std::string StudyScenario(const StudyInputs& inputs, StudySet set, int number,
   const int seed = number + 100'000 * (5 + 2 * static_cast<int>(set));  // of the site
   Stream random(0, static_cast<std::uint64_t>(seed), "study_sites");
   std::string start;
-  const std::string floor =
-      set == StudySet::kMaps
-          ? Laid(inputs, number, random, start)
-          : Generated(inputs.spec, set == StudySet::kTraining ? kTrainingMix : kTestMix, seed,
-                      random);
+  constexpr double kHarder = 0.8;
+  std::string floor;
+  switch (set) {
+    case StudySet::kTraining:
+      floor = Generated(inputs.spec, kTrainingMix, seed, random);
+      break;
+    case StudySet::kTest:
+      floor = Generated(inputs.spec, kTestMix, seed, random);
+      break;
+    case StudySet::kMaps:
+      floor = Laid(inputs, number, random, start);
+      break;
+    case StudySet::kHard:
+      floor = Generated(inputs.spec, kHardMix, seed, random, kHarder);
+      break;
+  }
   return fmt::format(
       "scenario: 1\n"
       "seed: {}\n"  // of the drives: sites that shared their draws would be off together
@@ -102,15 +121,15 @@ std::string StudyScenario(const StudyInputs& inputs, StudySet set, int number,
       "  name: {}_{}\n"
       "{}"
       "  floor: {{friction: 0.6}}\n"
-      "robot: \"{}\"\n"
+      "robot: {}\n"
       "{}"
-      "risk: {{model: \"{}\"}}\n"
+      "risk: {{model: {}}}\n"
       "plan: {{planner: {}}}\n"
       "randomise:\n"
       "  site.floor.friction: {{uniform: [0.35, 0.9]}}\n"
       "  robot.mass_kg: {{uniform: [{:.4g}, {:.4g}]}}\n",
-      seed, Name(set), number, floor, inputs.robot, start, inputs.model, planner,
-      0.9 * inputs.spec.mass_kg, 1.1 * inputs.spec.mass_kg);
+      seed, Name(set), number, floor, QuotedYaml(inputs.robot), start, QuotedYaml(inputs.model),
+      planner, 0.9 * inputs.spec.mass_kg, 1.1 * inputs.spec.mass_kg);
 }
 
 }  // namespace floorproof

@@ -11,10 +11,12 @@
 namespace floorproof {
 
 // Sites that predictors may be fitted to, and sites that they are judged by: other seeds and
-// another mix of hazards; or real maps with hazards laid on them.
-enum class StudySet { kTraining, kTest, kMaps };
+// another mix of hazards; or real maps with hazards laid on them. Hard ones have more strips across
+// the floor, and harder sizes, short of what no robot crosses however it drives.
+enum class StudySet { kTraining, kTest, kMaps, kHard };
 inline const char* Name(StudySet set) {
-  return set == StudySet::kTraining ? "training" : set == StudySet::kTest ? "test" : "maps";
+  constexpr const char* kNames[] = {"training", "test", "maps", "hard"};
+  return kNames[static_cast<int>(set)];
 }
 
 inline const std::vector<std::string> kStudyPlanners = {"boustrophedon", "spiral", "risk_coverage",

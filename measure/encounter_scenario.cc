@@ -12,6 +12,7 @@
 #include "env/map/crossing_site.h"
 #include "env/scene/robot_stance.h"
 #include "measure/hazard_classes.h"
+#include "measure/robot_campaign.h"
 
 namespace floorproof {
 namespace {
@@ -178,8 +179,8 @@ std::string EncounterScenario(const std::string& robot, const RobotSpec& spec,
   return fmt::format(
       "# Single encounters with hazards, drawn evenly: what `floorproof measure` drives.\n"
       "scenario: 1\n"
-      "name: encounters of {}\n"
-      "robot: {{name: \"{}\"}}\n"
+      "name: {}\n"
+      "robot: {{name: {}}}\n"
       "site:\n"
       "  site: 1\n"
       "  name: crossing\n"
@@ -192,8 +193,9 @@ std::string EncounterScenario(const std::string& robot, const RobotSpec& spec,
       "randomise:\n{}{}"
       "matrix:\n"
       "  meeting:\n{}",
-      spec.name, robot, RunUp(spec), kRunOut_m, Outline(spec), fmt::join(sensors, ": {}, "),
-      kTimeLimit_s, MetBy(spec), Sizes(spec), Meetings());
+      QuotedYaml("encounters of " + spec.name), QuotedYaml(robot), RunUp(spec), kRunOut_m,
+      Outline(spec), fmt::join(sensors, ": {}, "), kTimeLimit_s, MetBy(spec), Sizes(spec),
+      Meetings());
 }
 
 }  // namespace floorproof

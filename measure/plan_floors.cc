@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "env/hazards/hazard_type.h"
+#include "measure/robot_campaign.h"
 
 namespace floorproof {
 namespace {
@@ -16,9 +17,8 @@ constexpr DrawnHazard kDrawn[] = {{"cable_cover", "cable_cover", 0},
                                   {"raised", "step", 1},
                                   {"drop", "step", 0}};
 
-double Easy(Stream& random, std::pair<double, double> span) {
-  constexpr double kHardest = 0.6;
-  const double share = kHardest * random.Uniform();
+double Sized(Stream& random, std::pair<double, double> span, double hardest) {
+  const double share = hardest * random.Uniform();
   return span.first < 0 ? span.second + share * (span.first - span.second)
                         : span.first + share * (span.second - span.first);
 }
@@ -27,22 +27,24 @@ double Easy(Stream& random, std::pair<double, double> span) {
 
 std::span<const DrawnHazard> DrawnHazards() { return kDrawn; }
 
-std::string DrawnKeys(const DrawnHazard& drawn, const RobotSpec& spec, Stream& random) {
+std::string DrawnKeys(const DrawnHazard& drawn, const RobotSpec& spec, Stream& random,
+                      double hardest) {
   std::string keys;
   for (const auto& entry : HazardTypes()) {
     if (entry.name != drawn.type) continue;
     for (const KeyRange& range : entry.make()->Ranges(spec))
-      keys += fmt::format("{}{}: {:.4g}", keys.empty() ? "" : ", ", range.key,
-                          Easy(random, range.spans.at(range.spans.size() > 1 ? drawn.span : 0)));
+      keys += fmt::format(
+          "{}{}: {:.4g}", keys.empty() ? "" : ", ", range.key,
+          Sized(random, range.spans.at(range.spans.size() > 1 ? drawn.span : 0), hardest));
   }
   return keys;
 }
 
-std::string DrawnSizes(const RobotSpec& spec, Stream& random) {
+std::string DrawnSizes(const RobotSpec& spec, Stream& random, double hardest) {
   std::string sizes;
   for (const DrawnHazard& drawn : kDrawn)
     sizes += fmt::format("{}{}: {{{}}}", sizes.empty() ? "" : ", ", drawn.character,
-                         DrawnKeys(drawn, spec, random));
+                         DrawnKeys(drawn, spec, random, hardest));
   return sizes;
 }
 
@@ -61,8 +63,8 @@ std::string PlanFloorsScenario(const std::string& robot, const RobotSpec& spec, 
       "# Plans over small floors: what single encounters come to in whole plans (`floorproof "
       "measure`).\n"
       "scenario: 1\n"
-      "name: plans of {}\n"
-      "robot: {{name: \"{}\"}}\n"
+      "name: {}\n"
+      "robot: {{name: {}}}\n"
       "site:\n"
       "  site: 1\n"
       "  name: floors\n"
@@ -76,8 +78,8 @@ std::string PlanFloorsScenario(const std::string& robot, const RobotSpec& spec, 
       "matrix:\n"
       "  floor:\n{}"
       "  plan.planner: [boustrophedon, spiral, risk_coverage, fmea_path_transform]\n",
-      spec.name, robot, std::max(kCell_m, 2 * spec.inscribed_radius_m), 0.9 * spec.mass_kg,
-      1.1 * spec.mass_kg, rows);
+      QuotedYaml("plans of " + spec.name), QuotedYaml(robot),
+      std::max(kCell_m, 2 * spec.inscribed_radius_m), 0.9 * spec.mass_kg, 1.1 * spec.mass_kg, rows);
 }
 
 }  // namespace floorproof

@@ -20,11 +20,14 @@ struct DrawnHazard {
 };
 std::span<const DrawnHazard> DrawnHazards();
 
-// "height_m: 0.01, width_m: 0.12": from what this robot crosses surely to what it hardly does,
-// nearer to the former, as a plan meets a hazard many times.
-std::string DrawnKeys(const DrawnHazard& drawn, const RobotSpec& spec, Stream& random);
+// How far sizes go from what a robot surely crosses, 0, to what it surely does not, 1: nearer to
+// the former, as a plan meets a hazard many times.
+inline constexpr double kUsuallyHardest = 0.6;
+// "height_m: 0.01, width_m: 0.12".
+std::string DrawnKeys(const DrawnHazard& drawn, const RobotSpec& spec, Stream& random,
+                      double hardest = kUsuallyHardest);
 // "cable_cover: {...}, groove: {...}": of each character.
-std::string DrawnSizes(const RobotSpec& spec, Stream& random);
+std::string DrawnSizes(const RobotSpec& spec, Stream& random, double hardest = kUsuallyHardest);
 
 // The scenario file: so many floors, each planned by four planners, friction and mass drawn for
 // each episode. `robot` is what it says under the key robot: a name, or a file's path.

@@ -13,6 +13,7 @@
 #include "env/map/crossing_site.h"
 #include "env/map/site.h"
 #include "measure/drive_encounters.h"
+#include "measure/plan_floors.h"
 #include "run/episode/make_plan.h"
 #include "tests/robots.h"
 
@@ -132,6 +133,19 @@ TEST(Encounters, AreMildMoreOftenThanNot) {
   EXPECT_GE(std::ranges::count_if(both, [](double x) { return std::abs(x) < 0.008; }),
             std::ssize(both) / 2);
   EXPECT_LE(std::abs(both[both.size() / 2]), 0.001) << "down to next to nothing";
+}
+
+// A robot's file may lie anywhere, and its model may be called anything.
+TEST(Encounters, TakeARobotOfAnyName) {
+  const std::string file = "/my \"big\" robots/#1: a\\b.xml";
+  RobotSpec robot = ReadRobot(FindRobotFile("beluga", {})).spec;
+  robot.name = "mine: \"new\" #2";
+  for (const std::string& text :
+       {EncounterScenario(file, robot, kSensors), PlanFloorsScenario(file, robot, 1)}) {
+    const ConfigNode dut = ParseYaml(text, "s.yaml");
+    EXPECT_EQ(dut.Find("robot")->Find("name")->scalar, file);
+    EXPECT_THAT(dut.Find("name")->scalar, HasSubstr(robot.name));
+  }
 }
 
 TEST(Encounters, AreToldInATable) {
