@@ -47,8 +47,8 @@ int AddPlans(const Options& options, const Globals& globals, const fs::path& fol
              RiskModel& model) {
   constexpr std::uint64_t kDrives = 1;  // of a plan: they mostly end alike
   if (options.floors == 0) return kExitDone;
-  const RobotCampaign campaign =
-      PlansOf(options.robot, options.floors, OverridesOf(globals, options));
+  const std::vector<Override> overrides = OverridesOf(globals, options);
+  const RobotCampaign campaign = PlansOf(options.robot, options.floors, overrides);
   const fs::path plans = folder / "plans";
   CampaignLine progress(globals, campaign.file.variants());
   const CampaignOutcome outcome =
@@ -59,7 +59,8 @@ int AddPlans(const Options& options, const Globals& globals, const fs::path& fol
                          plans, &progress);
   progress.Clear();
   if (outcome.run.end == CampaignEnd::kInterrupted) throw Interruption();
-  model.carry_over = LearnCarryOver(campaign, outcome.summary, folder);
+  model.carry_over =
+      LearnCarryOver(options.robot, options.floors, overrides, outcome.summary, folder);
   WriteRiskModel(model, folder);
   for (const VariantSummary& plan : outcome.summary.variants)
     if (plan.errors > 0)

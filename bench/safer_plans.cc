@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "base/file_output.h"
 #include "base/params.h"
@@ -48,8 +49,9 @@ struct ComparedSite {
   // Sites are picked by the first half of the drives and judged by the second: who is picked by how
   // often it failed would else be less unlucky the next time, whoever plans.
   int picked_by = 0, picked_before = 0, later_before = 0, later_after = 0;
-  double p = 1;        // exact McNemar test
-  double covered = 0;  // sum of the differences of coverage, of pairs in which neither failed
+  double p = 1;          // exact McNemar test
+  double predicted = 0;  // by survival_coverage, before any drive: that its plan fails
+  double covered = 0;    // sum of the differences of coverage, of pairs in which neither failed
   int pairs = 0;
 };
 
@@ -76,6 +78,7 @@ ComparedSite Compared(int site, int episodes, const fs::path& folder) {
     ++of.n;
     of.before += a.any_failure();
     of.after += b.any_failure();
+    of.predicted += nlohmann::json::parse(b.plan).value("p_failure", 0.0);
     only_before += a.any_failure() && !b.any_failure();
     only_after += b.any_failure() && !a.any_failure();
     if (2 * episode < static_cast<std::uint64_t>(episodes)) {
@@ -91,30 +94,35 @@ ComparedSite Compared(int site, int episodes, const fs::path& folder) {
       ++of.pairs;
     }
   }
+  if (of.n > 0) of.predicted /= of.n;
   of.p = McNemarExact(only_before, only_after);
   return of;
 }
 
 std::string Figures(const std::vector<ComparedSite>& sites) {
-  constexpr double kFailsOften = 0.1, kByChance = 0.05;
+  constexpr double kFailsOften = 0.1, kByChance = 0.05, kHopeless = 0.5;
   std::string text =
-      "| site | drives | risk_coverage failed | survival_coverage failed | p "
-      "|\n|---|---|---|---|---|\n";
-  ComparedSite all, often;
-  int picked = 0, worse = 0, beyond = 0;
+      "| site | drives | risk_coverage failed | survival_coverage failed, predicted | seen | p "
+      "|\n|---|---|---|---|---|---|\n";
+  ComparedSite all;
+  struct Often {
+    int sites = 0, n = 0, before = 0, after = 0;
+  } can, cannot;  // be covered, as survival_coverage sees it
+  int worse = 0, beyond = 0;
   // Of so many sites one comes out so by chance: each is held against its share (Bonferroni).
   const double limit = kByChance / std::max<double>(1, static_cast<double>(sites.size()));
   for (const ComparedSite& of : sites) {
     if (of.before + of.after > 0)
-      text +=
-          fmt::format("| {} | {} | {} | {} | {:.2g} |\n", of.site, of.n, of.before, of.after, of.p);
+      text += fmt::format("| {} | {} | {} | {:.1f} | {} | {:.2g} |\n", of.site, of.n, of.before,
+                          of.predicted * of.n, of.after, of.p);
     all.n += of.n;
     all.before += of.before;
     all.after += of.after;
     all.covered += of.covered;
     all.pairs += of.pairs;
     if (of.picked_before > 0 && of.picked_before >= kFailsOften * of.picked_by) {
-      ++picked;
+      Often& often = of.predicted > kHopeless ? cannot : can;
+      ++often.sites;
       often.n += of.n - of.picked_by;
       often.before += of.later_before;
       often.after += of.later_after;
@@ -122,13 +130,18 @@ std::string Figures(const std::vector<ComparedSite>& sites) {
     worse += of.after > of.before;
     beyond += of.after > of.before && of.p <= limit;
   }
+  text += fmt::format("\n{} drives each: {} failed by risk_coverage, {} by survival_coverage.\n",
+                      all.n, all.before, all.after);
+  for (const auto& [often, sees] :
+       {std::pair(can, "likely to be covered"), {cannot, "likely not to be covered by any plan"}})
+    text += fmt::format(
+        "{} sites where risk_coverage failed in {:.0f} % or more of the first half of its drives, "
+        "and which survival_coverage saw as {}: of the second half, {} drives each, {} and {} "
+        "failed.\n",
+        often.sites, 100 * kFailsOften, sees, often.n, often.before, often.after);
   text += fmt::format(
-      "\n{} drives each: {} failed by risk_coverage, {} by survival_coverage.\n"
-      "{} sites where risk_coverage failed in {:.0f} % or more of the first half of its drives; of "
-      "the second half, {} drives each, {} and {} failed.\n"
       "{} sites where survival_coverage failed more often, {} of them beyond chance.\n"
       "Coverage where neither failed: {:+.4f} on average over {} pairs of drives.\n",
-      all.n, all.before, all.after, picked, 100 * kFailsOften, often.n, often.before, often.after,
       worse, beyond, all.pairs == 0 ? 0.0 : all.covered / all.pairs, all.pairs);
   return text;
 }

@@ -1,27 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/drive_plans.h"
 
+#include <algorithm>
+
 #include "measure/fit_carry_over.h"
 #include "measure/plan_floors.h"
 #include "run/plan_check/prediction.h"
 
 namespace floorproof {
-RobotCampaign PlansOf(const std::string& robot, int floors,
-                      const std::vector<Override>& overrides) {
+namespace {
+
+RobotCampaign Plans(const std::string& robot, int floors, const std::vector<Override>& overrides,
+                    FloorConditions conditions) {
   std::vector<Override> kept;
   for (const Override& each : overrides)
     if (each.key_path == "seed" || each.key_path.starts_with("robot.")) kept.push_back(each);
   return CampaignOf(
       robot, "plans",
-      [floors](const std::string& named, const RobotModel& model) {
-        return PlanFloorsScenario(named, model.spec, floors);
+      [&](const std::string& named, const RobotModel& model) {
+        return PlanFloorsScenario(named, model.spec, floors, conditions);
       },
       kept);
 }
 
-CarryOver LearnCarryOver(const RobotCampaign& campaign, const CampaignSummary& driven,
+}  // namespace
+
+RobotCampaign PlansOf(const std::string& robot, int floors,
+                      const std::vector<Override>& overrides) {
+  const bool mass_is_set = std::ranges::any_of(
+      overrides, [](const Override& each) { return each.key_path == "robot.mass_kg"; });
+  return Plans(robot, floors, overrides,
+               mass_is_set ? FloorConditions::kKnownFriction : FloorConditions::kKnown);
+}
+
+CarryOver LearnCarryOver(const std::string& robot, int floors,
+                         const std::vector<Override>& overrides, const CampaignSummary& driven,
                          const std::filesystem::path& folder) {
   constexpr int kDraws = 64;  // of friction and mass
+  const RobotCampaign campaign = Plans(robot, floors, overrides, FloorConditions::kDrawn);
   const ScenarioFile predicted =
       ScenarioFile::FromText(campaign.text + "risk: {model: risk_model.json}\n",
                              std::filesystem::absolute(folder) / "plans.yaml", campaign.overrides);

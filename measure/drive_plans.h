@@ -12,14 +12,16 @@
 
 namespace floorproof {
 
-// Of so many floors. Of the overrides those count that are about the robot, and the seed. Throws
-// InputError as CampaignOf.
+// Of so many floors, each with a friction and a mass of its own. Of the overrides those count that
+// are about the robot, and the seed. Throws InputError as CampaignOf.
 RobotCampaign PlansOf(const std::string& robot, int floors, const std::vector<Override>& overrides);
 
-// From the plans of the campaign, `driven`, and the rates in the folder's risk_model.json, which
-// holds nothing learned from plans yet. Plans that meet what was not measured are left out. Throws
-// InputError where the model cannot be read.
-CarryOver LearnCarryOver(const RobotCampaign& campaign, const CampaignSummary& driven,
+// From the plans of such a campaign, `driven`, and what the rates in the folder's risk_model.json,
+// which holds nothing learned from plans yet, say of them without knowing each floor's friction and
+// mass. Plans that meet what was not measured are left out. Throws InputError where the model
+// cannot be read.
+CarryOver LearnCarryOver(const std::string& robot, int floors,
+                         const std::vector<Override>& overrides, const CampaignSummary& driven,
                          const std::filesystem::path& folder);
 
 }  // namespace floorproof

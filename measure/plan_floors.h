@@ -29,8 +29,13 @@ std::string DrawnKeys(const DrawnHazard& drawn, const RobotSpec& spec, Stream& r
 // "cable_cover: {...}, groove: {...}": of each character.
 std::string DrawnSizes(const RobotSpec& spec, Stream& random, double hardest = kUsuallyHardest);
 
-// The scenario file: so many floors, each planned by four planners, friction and mass drawn for
-// each episode. `robot` is what it says under the key robot: a name, or a file's path.
-std::string PlanFloorsScenario(const std::string& robot, const RobotSpec& spec, int floors);
+// What friction and mass are: known, drawn for each floor, or its friction alone; or drawn for each
+// episode.
+enum class FloorConditions { kKnown, kKnownFriction, kDrawn };
+// The scenario file: so many floors, each planned by four planners. Those whose conditions are
+// drawn are the same floors, as someone predicts them who does not know their conditions. `robot`
+// is what it says under the key robot: a name, or a file's path.
+std::string PlanFloorsScenario(const std::string& robot, const RobotSpec& spec, int floors,
+                               FloorConditions conditions);
 
 }  // namespace floorproof

@@ -13,6 +13,7 @@
 #include "env/map/crossing_site.h"
 #include "env/map/site.h"
 #include "measure/drive_encounters.h"
+#include "measure/drive_plans.h"
 #include "measure/plan_floors.h"
 #include "run/episode/make_plan.h"
 #include "tests/robots.h"
@@ -140,12 +141,34 @@ TEST(Encounters, TakeARobotOfAnyName) {
   const std::string file = "/my \"big\" robots/#1: a\\b.xml";
   RobotSpec robot = ReadRobot(FindRobotFile("beluga", {})).spec;
   robot.name = "mine: \"new\" #2";
-  for (const std::string& text :
-       {EncounterScenario(file, robot, kSensors), PlanFloorsScenario(file, robot, 1)}) {
+  for (const std::string& text : {EncounterScenario(file, robot, kSensors),
+                                  PlanFloorsScenario(file, robot, 1, FloorConditions::kKnown)}) {
     const ConfigNode dut = ParseYaml(text, "s.yaml");
     EXPECT_EQ(dut.Find("robot")->Find("name")->scalar, file);
     EXPECT_THAT(dut.Find("name")->scalar, HasSubstr(robot.name));
   }
+}
+
+// Each of the plans' floors has a friction and a mass of its own; a mass that the user sets stays,
+// and whoever predicts the plans knows neither.
+TEST(PlansOverFloors, EachFloorHasItsConditions) {
+  constexpr int kFloors = 3, kPlanners = 4;
+  std::set<double> frictions, masses;
+  const ScenarioFile dut = PlansOf("beluga", kFloors, {}).file;
+  ASSERT_EQ(std::ssize(dut.variants()), kFloors * kPlanners);
+  for (const Variant& variant : dut.variants()) {
+    const Scenario s = dut.Read(0, variant);
+    frictions.insert(s.site.map.floor_friction);
+    masses.insert(s.robot.spec.mass_kg);
+  }
+  EXPECT_EQ(std::ssize(frictions), kFloors);
+  EXPECT_EQ(std::ssize(masses), kFloors);
+  const ScenarioFile heavy = PlansOf("beluga", 1, {{"robot.mass_kg", "13"}}).file;
+  EXPECT_NEAR(heavy.Read(0, heavy.variants()[0]).robot.spec.mass_kg, 13, 1e-9);
+  const RobotSpec robot = ReadRobot(FindRobotFile("beluga", {})).spec;
+  const ConfigNode predicted =
+      ParseYaml(PlanFloorsScenario("beluga", robot, kFloors, FloorConditions::kDrawn), "s.yaml");
+  EXPECT_EQ(predicted.Find("randomise")->entries.size(), 2u);
 }
 
 TEST(Encounters, AreToldInATable) {
