@@ -134,8 +134,9 @@ TEST_F(SurvivalCoverageTest, CrossesAtTheSpeedThatIsMeasuredToBeSafe) {
     const PlanResult plan = Plan({0, 0}, Cell{10, 3});
     ASSERT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
     ASSERT_FALSE(Crossings(plan).empty());
+    // The least and the most that `measure` drives: 0.3 of the top speed, and all of it.
     for (const PlannedPassage& crossing : Crossings(plan))
-      EXPECT_NEAR(crossing.at.speed_mps, slow ? 0.1 : 0.4, 1e-9);
+      EXPECT_NEAR(crossing.at.speed_mps, slow ? 0.12 : 0.4, 1e-9);
     double at_pace_m = 0;
     for (std::size_t i = 1; i < plan.path.size(); ++i)
       if (plan.path[i].speed_mps == 0)
