@@ -62,10 +62,15 @@ int AddPlans(const Options& options, const Globals& globals, const fs::path& fol
   model.carry_over =
       LearnCarryOver(options.robot, options.floors, overrides, outcome.summary, folder);
   WriteRiskModel(model, folder);
-  for (const VariantSummary& plan : outcome.summary.variants)
-    if (plan.errors > 0)
-      globals.Say("warning: plans, " + plan.name + ": " + CountText(plan.errors, "error") +
-                  ", the first: " + plan.first_error);
+  int errors = 0;
+  std::string first;
+  for (const VariantSummary& plan : outcome.summary.variants) {
+    if (plan.errors > 0 && errors == 0) first = plan.name + ": " + plan.first_error;
+    errors += plan.errors;
+  }
+  if (errors > 0)
+    globals.Say("warning: of the plans' drives " + CountText(errors, "error") + ", the first, " +
+                first);
   if (model.carry_over.plans == 0)
     globals.Say(
         "warning: no plan over these floors could be driven and predicted: the rates are held "

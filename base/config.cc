@@ -344,4 +344,10 @@ std::string WriteYaml(const ConfigNode& node) {
   return std::string(out.c_str()) + "\n";
 }
 
+std::string QuotedYaml(const std::string& text) {
+  YAML::Emitter out;
+  out << YAML::DoubleQuoted << text;
+  return out.c_str();
+}
+
 }  // namespace floorproof

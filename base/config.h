@@ -47,6 +47,8 @@ ConfigNode ParseYaml(const std::string& text, const std::string& file);
 ConfigNode ReadYamlFile(const std::filesystem::path& path);
 // Block style, short lists of scalars in one line; ParseYaml(WriteYaml(n)) gives n's values again.
 std::string WriteYaml(const ConfigNode& node);
+// Any text as a quoted scalar in one line, to stand in YAML that is put together.
+std::string QuotedYaml(const std::string& text);
 
 // Where the key is written; the node's own mark where it is not.
 inline const SourceMark& MarkOf(const ConfigNode& node, std::string_view key) {

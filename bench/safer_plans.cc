@@ -15,9 +15,9 @@
 #include "base/params.h"
 #include "bench/study_main.h"
 #include "bench/study_sites.h"
+#include "run/campaign/campaign_comparison.h"
 #include "run/campaign/drive_campaign.h"
 #include "run/scenario/risk_model_file.h"
-#include "stats/paired.h"
 
 namespace floorproof {
 namespace {
@@ -44,15 +44,18 @@ struct Study : Configurable {
 const std::string kBefore = "planner=risk_coverage", kAfter = "planner=survival_coverage";
 
 struct ComparedSite {
-  int site = 0, n = 0;
-  int before = 0, after = 0;  // drives that failed
+  int site;
+  ComparedFailure any;
   // Sites are picked by the first half of the drives and judged by the second: who is picked by how
   // often it failed would else be less unlucky the next time, whoever plans.
-  int picked_by = 0, picked_before = 0, later_before = 0, later_after = 0;
-  double p = 1;          // exact McNemar test
+  int picked_by = 0, picked_before = 0;
+  int later = 0, later_before = 0, later_after = 0;
   double predicted = 0;  // by survival_coverage, before any drive: that its plan fails
   double covered = 0;    // sum of the differences of coverage, of pairs in which neither failed
   int pairs = 0;
+  int n() const { return any.both + any.only_a + any.only_b + any.neither; }
+  int before() const { return any.both + any.only_a; }
+  int after() const { return any.both + any.only_b; }
 };
 
 std::map<std::uint64_t, EpisodeRow> Rows(const CampaignStore& store, const std::string& variant) {
@@ -67,24 +70,22 @@ ComparedSite Compared(int site, int episodes, const fs::path& folder) {
   constexpr auto kCoverage =
       std::ranges::find(kMetrics, "coverage", &MetricColumn::name) - kMetrics.begin();
   const CampaignStore store = CampaignStore::Open(folder / "campaign.sqlite", false);
+  const Comparison comparison = CompareVariants(store, kBefore, store, kAfter);
+  ComparedSite of{.site = site, .any = {}};
+  for (const ComparedFailure& failure : comparison.failures)
+    if (failure.mode == "any_failure") of.any = failure;
   const std::map<std::uint64_t, EpisodeRow> before = Rows(store, kBefore),
                                             after = Rows(store, kAfter);
-  ComparedSite of{.site = site};
-  int only_before = 0, only_after = 0;
   for (const auto& [episode, a] : before) {
     const auto found = after.find(episode);
     if (found == after.end()) continue;
     const EpisodeRow& b = found->second;
-    ++of.n;
-    of.before += a.any_failure();
-    of.after += b.any_failure();
     of.predicted += nlohmann::json::parse(b.plan).value("p_failure", 0.0);
-    only_before += a.any_failure() && !b.any_failure();
-    only_after += b.any_failure() && !a.any_failure();
     if (2 * episode < static_cast<std::uint64_t>(episodes)) {
       ++of.picked_by;
       of.picked_before += a.any_failure();
     } else {
+      ++of.later;
       of.later_before += a.any_failure();
       of.later_after += b.any_failure();
     }
@@ -94,8 +95,7 @@ ComparedSite Compared(int site, int episodes, const fs::path& folder) {
       ++of.pairs;
     }
   }
-  if (of.n > 0) of.predicted /= of.n;
-  of.p = McNemarExact(only_before, only_after);
+  of.predicted /= std::max(1, of.picked_by + of.later);
   return of;
 }
 
@@ -104,7 +104,8 @@ std::string Figures(const std::vector<ComparedSite>& sites) {
   std::string text =
       "| site | drives | risk_coverage failed | survival_coverage failed, predicted | seen | p "
       "|\n|---|---|---|---|---|---|\n";
-  ComparedSite all;
+  int n = 0, before = 0, after = 0, pairs = 0;
+  double covered = 0;
   struct Often {
     int sites = 0, n = 0, before = 0, after = 0;
   } can, cannot;  // be covered, as survival_coverage sees it
@@ -112,26 +113,26 @@ std::string Figures(const std::vector<ComparedSite>& sites) {
   // Of so many sites one comes out so by chance: each is held against its share (Bonferroni).
   const double limit = kByChance / std::max<double>(1, static_cast<double>(sites.size()));
   for (const ComparedSite& of : sites) {
-    if (of.before + of.after > 0)
-      text += fmt::format("| {} | {} | {} | {:.1f} | {} | {:.2g} |\n", of.site, of.n, of.before,
-                          of.predicted * of.n, of.after, of.p);
-    all.n += of.n;
-    all.before += of.before;
-    all.after += of.after;
-    all.covered += of.covered;
-    all.pairs += of.pairs;
+    if (of.before() + of.after() > 0)
+      text += fmt::format("| {} | {} | {} | {:.1f} | {} | {:.2g} |\n", of.site, of.n(), of.before(),
+                          of.predicted * of.n(), of.after(), of.any.p);
+    n += of.n();
+    before += of.before();
+    after += of.after();
+    covered += of.covered;
+    pairs += of.pairs;
     if (of.picked_before > 0 && of.picked_before >= kFailsOften * of.picked_by) {
       Often& often = of.predicted > kHopeless ? cannot : can;
       ++often.sites;
-      often.n += of.n - of.picked_by;
+      often.n += of.later;
       often.before += of.later_before;
       often.after += of.later_after;
     }
-    worse += of.after > of.before;
-    beyond += of.after > of.before && of.p <= limit;
+    worse += of.after() > of.before();
+    beyond += of.after() > of.before() && of.any.p <= limit;
   }
-  text += fmt::format("\n{} drives each: {} failed by risk_coverage, {} by survival_coverage.\n",
-                      all.n, all.before, all.after);
+  text += fmt::format("\n{} drives each: {} failed by risk_coverage, {} by survival_coverage.\n", n,
+                      before, after);
   for (const auto& [often, sees] :
        {std::pair(can, "likely to be covered"), {cannot, "likely not to be covered by any plan"}})
     text += fmt::format(
@@ -142,7 +143,7 @@ std::string Figures(const std::vector<ComparedSite>& sites) {
   text += fmt::format(
       "{} sites where survival_coverage failed more often, {} of them beyond chance.\n"
       "Coverage where neither failed: {:+.4f} on average over {} pairs of drives.\n",
-      worse, beyond, all.pairs == 0 ? 0.0 : all.covered / all.pairs, all.pairs);
+      worse, beyond, pairs == 0 ? 0.0 : covered / pairs, pairs);
   return text;
 }
 
@@ -174,8 +175,8 @@ int Run(const Study& study) {
                   .run.end == CampaignEnd::kComplete;
     if (!all) break;
     sites.push_back(Compared(site, study.episodes, folder));
-    fmt::print("site {}: {} and {} of {} failed\n", site, sites.back().before, sites.back().after,
-               sites.back().n);
+    fmt::print("site {}: {} and {} of {} failed\n", site, sites.back().before(),
+               sites.back().after(), sites.back().n());
     std::fflush(stdout);
   }
   const std::string figures = fmt::format("{} of {} sites, {} drives of each plan\n\n",

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
+#include "base/config.h"
 #include "base/streams.h"
 #include "env/geometry/distance.h"
 #include "env/map/init_files.h"
 #include "env/map/site.h"
 #include "measure/plan_floors.h"
-#include "measure/robot_campaign.h"
 
 namespace floorproof {
 namespace {

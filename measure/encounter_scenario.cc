@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/config.h"
 #include "controllers/drive.h"
 #include "env/core/passages.h"
 #include "env/hazards/hazard_type.h"
 #include "env/map/crossing_site.h"
 #include "env/scene/robot_stance.h"
 #include "measure/hazard_classes.h"
-#include "measure/robot_campaign.h"
+#include "planners/risk/path_rates.h"
 
 namespace floorproof {
 namespace {
@@ -99,7 +100,6 @@ std::string Outline(const RobotSpec& robot) {
 // How the hazard is met, then by what robot, on what floor. The first coordinates of a Sobol
 // sequence are its most even ones.
 std::string MetBy(const RobotSpec& robot) {
-  constexpr double kSlowest = 0.3;  // of its top speed: an encounter is to end in some 10 s
   // Two thirds each know their place, and their heading, as plans take it that robots do; the
   // others are as one that has driven a while without looking where it is.
   const std::string aside =
@@ -110,7 +110,8 @@ std::string MetBy(const RobotSpec& robot) {
   const double wheel_m = std::ranges::max(robot.wheels, {}, &WheelSpec::radius_m).radius_m;
   const double length_m = std::max(kShortest_m, kWheels * wheel_m / kCrossingLeastCos);
   std::string lines = Line("site.generate.angle_deg", Angles());
-  lines += Line("plan.speed_mps", Uniform(kSlowest * robot.max_speed_mps, robot.max_speed_mps));
+  lines += Line("plan.speed_mps",
+                Uniform(kLeastMeasuredSpeed * robot.max_speed_mps, robot.max_speed_mps));
   lines += Line("site.floor.friction", Uniform(0.3, 1));
   if (IsHolonomic(robot)) lines += Line("site.generate.lead_deg", Uniform(-180, 180));
   lines += Line("site.generate.share", Uniform(0.2, 1.8));     // all of the width in half of them

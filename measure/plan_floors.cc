@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "base/config.h"
 #include "env/hazards/hazard_type.h"
-#include "measure/robot_campaign.h"
 
 namespace floorproof {
 namespace {

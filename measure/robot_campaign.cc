@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/robot_campaign.h"
 
-#include "base/config.h"
 #include "base/file_output.h"
 
 namespace floorproof {
@@ -20,12 +19,6 @@ RobotCampaign CampaignOf(
   const fs::path beside = is_file ? fs::path(named).parent_path() : fs::path(".");
   return {label, text, overrides,
           ScenarioFile::FromText(text, beside / (name + "_of_" + label + ".yaml"), overrides)};
-}
-
-std::string QuotedYaml(const std::string& text) {
-  std::string line = WriteYaml(ConfigNode::Scalar(text, true));
-  line.pop_back();  // its end
-  return line;
 }
 
 CampaignOutcome DriveRobotCampaign(const RobotCampaign& campaign, const CampaignRequest& request,

@@ -27,9 +27,6 @@ RobotCampaign CampaignOf(
     const std::function<std::string(const std::string& robot, const RobotModel& model)>& scenario,
     const std::vector<Override>& overrides);
 
-// Any text as a quoted scalar of YAML, in one line.
-std::string QuotedYaml(const std::string& text);
-
 // As DriveCampaign, with the same errors; leaves scenario.yaml in the folder.
 CampaignOutcome DriveRobotCampaign(const RobotCampaign& campaign, const CampaignRequest& request,
                                    const std::filesystem::path& folder, CampaignObserver* observer);

@@ -7,9 +7,7 @@
 namespace floorproof {
 namespace {
 
-// Of the robot's top speed. From the least that `measure` drives on: slower entries are in the
-// data, but of robots that were held, or came out of a turn.
-constexpr double kSpeedShares[] = {0.3, 0.4, 0.6, 0.8, 1};
+constexpr double kSpeedShares[] = {kLeastMeasuredSpeed, 0.4, 0.6, 0.8, 1};  // of the top speed
 
 Approach In(const DriveConditions& conditions, Approach at) {
   at.friction = conditions.friction;

@@ -14,6 +14,10 @@
 
 namespace floorproof {
 
+// Of a robot's top speed: the least that its meetings are driven at where rates are measured.
+// Slower entries are in the data, but of robots that were held, or came out of a turn.
+inline constexpr double kLeastMeasuredSpeed = 0.3;
+
 // How a path fares. Walls beside it are left out: they are the same for plans of one floor, but for
 // how long they are.
 struct PathSurvival {
