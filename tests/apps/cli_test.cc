@@ -587,7 +587,17 @@ std::vector<int> Counts(const std::string& seen, const std::string& what) {
 
 TEST_F(Cli, ATerminalIsToldHowFarDrawingIs) {
   const auto run = [](const std::string& frames) -> std::vector<std::string> {
-    return {"run", "s.yaml", "--video", "--out", "o", "--set", "video.max_frames=" + frames};
+    return {"run",
+            "s.yaml",
+            "--video",
+            "--out",
+            "o",
+            "--set",
+            "video.max_frames=" + frames,
+            "--set",
+            "video.width=480",
+            "--set",
+            "video.height=270"};
   };
   const std::string seen = OnATerminal(folder_, run("40"));
   if (seen.find("filmed: ") == std::string::npos) GTEST_SKIP() << "nothing can be filmed: " << seen;

@@ -126,14 +126,14 @@ site:
   grid:
     cell_m: 0.5
     rows: |
-      ########
-      #......#
-      #......#
-      ########
+      #####
+      #...#
+      #...#
+      #####
   start: {x_m: 0.9, y_m: 0.9, yaw_deg: 0}
 robot: beluga
 plan: {planner: boustrophedon}
-video: {width: 160, height: 90, max_frames: 200, camera: top}
+video: {width: 160, height: 90, max_frames: 80, camera: top}
 )";
   }
 
@@ -305,13 +305,13 @@ TEST_F(InterruptTest, OfTheOtherCommands) {
                                          "--out",
                                          "o",
                                          "--set",
-                                         "video.max_frames=30",
+                                         "video.max_frames=20",
                                          "--set",
                                          "video.width=320",
                                          "--set",
                                          "video.height=180",
                                          "--set",
-                                         "time_limit_s=30"};
+                                         "time_limit_s=8"};
   const std::pair<std::vector<std::string>, Moment> cases[] = {
       {init, {"", 0, 0}},
       {init, {"", 0, 30, SIGTERM}},
