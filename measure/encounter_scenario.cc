@@ -44,6 +44,16 @@ std::string Angles() {
   return "choice: [" + values.substr(0, values.size() - 2) + "]";
 }
 
+// The side that leads, of robots that drive every way. Plans lead with one of four sides, and a
+// robot's wheels hold otherwise askew: two thirds are along its axes.
+std::string Leads() {
+  std::string values;
+  for (int deg = -165; deg < 180; deg += 15)
+    if (deg % 90 != 0)
+      values += fmt::format("{}, {}, {}, ", deg, deg < 0 ? -90 : 0, deg < 0 ? 180 : 90);
+  return "choice: [" + values.substr(0, values.size() - 2) + "]";
+}
+
 // Of the first of two corners between lanes. Two in three are as plans have them: two right angles,
 // or about turns where they stand. The others make two unlike halves.
 std::string Corners() {
@@ -113,7 +123,7 @@ std::string MetBy(const RobotSpec& robot) {
   lines += Line("plan.speed_mps",
                 Uniform(kLeastMeasuredSpeed * robot.max_speed_mps, robot.max_speed_mps));
   lines += Line("site.floor.friction", Uniform(0.3, 1));
-  if (IsHolonomic(robot)) lines += Line("site.generate.lead_deg", Uniform(-180, 180));
+  if (IsHolonomic(robot)) lines += Line("site.generate.lead_deg", Leads());
   lines += Line("site.generate.share", Uniform(0.2, 1.8));     // all of the width in half of them
   lines += Line("site.generate.gap_m", Uniform(0, kReach_m));  // what is farther is not met
   lines += Line("site.generate.length_m", Uniform(length_m, length_m + kLonger_m));

@@ -109,6 +109,20 @@ std::vector<double> Drawn(const RobotSpec& robot, const std::string& key) {
   return values;
 }
 
+// As plans lead, with each of its four sides alike; and all round.
+TEST(Encounters, LeadMostlyAlongTheRobotsAxes) {
+  const RobotSpec robot = ReadRobot(FindRobotFile("htetro", {})).spec;
+  const std::vector<double> leads = Drawn(robot, "site.generate.lead_deg");
+  for (const double side : {-90., 0., 90., 180.})
+    EXPECT_EQ(std::ranges::count(leads, side) * 6, std::ssize(leads)) << side;
+  double last = leads.front();
+  for (const double lead : leads) {
+    EXPECT_LE(lead - last, 15) << lead;
+    last = lead;
+  }
+  EXPECT_EQ(leads.front() + 360 - leads.back(), 15);
+}
+
 // By its figures, not by its name.
 TEST(Encounters, GrowWithTheRobot) {
   RobotSpec robot = ReadRobot(FindRobotFile("beluga", {})).spec;
