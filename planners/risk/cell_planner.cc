@@ -25,7 +25,7 @@ CellMotion MotionOf(const PlanRequest& request, const std::vector<Cell>& tour, b
   const RiskGrid& grid = request.risk->grid;
   CellMotion motion;
   if (with_care) motion.speed_mps = SpeedsOverTerrain(grid, tour, request.robot);
-  if (request.robot.clear.kind != Shape2::Kind::kFootprint) return motion;
+  if (!HoldsYaw(request.robot)) return motion;
   // The start's yaw, to the next of the map's quarters.
   const double map_yaw = request.map.frame.X_WG.yaw_rad, quarter = kPi / 2;
   const int first =

@@ -8,6 +8,7 @@
 #include "env/core/hazard_parts.h"
 #include "env/geometry/convex.h"
 #include "planners/risk/risk_map.h"
+#include "planners/risk/terrain_yaw.h"
 #include "planners/search/index.h"
 
 namespace floorproof {
@@ -53,7 +54,7 @@ HazardRates RatesOf(const Hazard& hazard, const PlanRequest& request, const Path
   const double cell_m = request.risk->grid.frame.cell_m, thick_m = Thickness(hazard);
   const std::vector<Vec2> travels = Travels(hazard);
   std::vector<double> leads = {0};
-  if (robot.clear.kind == Shape2::Kind::kFootprint) leads = {0, kPi / 2, kPi, -kPi / 2};
+  if (HoldsYaw(robot)) leads = {0, kPi / 2, kPi, -kPi / 2};
   const auto least = [&](Passage passage, Approach at) {
     double best = std::numeric_limits<double>::infinity();
     std::vector<double> speeds = rates.Speeds(hazard, passage);

@@ -7,6 +7,12 @@
 
 namespace floorproof {
 
+bool HoldsYaw(const RobotSpec& robot) {
+  return robot.clear.kind == Shape2::Kind::kFootprint &&
+         std::ranges::any_of(robot.wheels,
+                             [](const WheelSpec& wheel) { return wheel.roller_angle_rad != 0; });
+}
+
 std::vector<int> QuartersOverTerrain(const RiskGrid& grid, const std::vector<Cell>& tour, int first,
                                      TerrainLead lead) {
   if (lead == TerrainLead::kAny) return std::vector<int>(tour.size(), first);

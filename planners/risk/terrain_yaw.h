@@ -11,6 +11,10 @@ namespace floorproof {
 // Which of its sides leads over terrain: any, front or back, left or right.
 enum class TerrainLead { kAny, kForward, kSideways };
 
+// Whether plans say which way its body points: its wheels have rollers, and its footprint is what
+// is kept clear.
+bool HoldsYaw(const RobotSpec& robot);
+
 // By cell of a tour, whose cells are neighbours: the quarter turn (0 to 3, from the grid's x) that
 // the robot holds on its way there. It begins at `first` and turns as little as it must.
 //

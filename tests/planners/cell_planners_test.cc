@@ -205,6 +205,15 @@ TEST_P(CellPlanners, ARobotThatMovesEveryWayHoldsAQuarterTurnOfTheMap) {
   }
 }
 
+// A footprint to keep clear makes no robot drive sideways.
+TEST_P(CellPlanners, ARobotThatCannotGoSidewaysHoldsNoHeading) {
+  Site site("......\n......\n......\n");
+  site.robot.wheels.back().roller_angle_rad = 0;
+  const PlanResult plan = site.Plan(GetParam(), Cell{0, 0});
+  ASSERT_EQ(plan.status, PlanStatus::kSuccess) << plan.message;
+  for (const Waypoint& w : plan.path) EXPECT_FALSE(w.yaw_rad.has_value());
+}
+
 TEST_P(CellPlanners, StartsFromWhereverItFitsOnAFineMap) {
   // Rooms of 0.05 m cells with specks; the start is anywhere that the robot fits, off the lattice.
   Stream random(1, 0, GetParam());

@@ -69,6 +69,8 @@ inline RobotSpec SquareRobot(double side_m) {
   RobotSpec robot = DiscRobot(side_m / 2, side_m);
   robot.name = "square";
   robot.clear.kind = robot.tool.kind = Shape2::Kind::kFootprint;
+  robot.wheels.emplace_back();
+  robot.wheels.back().roller_angle_rad = kPi / 4;  // it drives every way
   robot.clear.footprint_B = robot.tool.footprint_B =
       Rectangle(Vec2(-side_m / 2, -side_m / 2), Vec2(side_m / 2, side_m / 2));
   robot.circumscribed_radius_m = side_m / std::sqrt(2.0);
