@@ -60,7 +60,14 @@ void Subcommand::NonNegative(const std::string& name, std::int64_t& into, const 
 
 void Subcommand::Number(const std::string& name, std::optional<double>& into,
                         const std::string& help, double least, double most) {
-  app_.add_option(name, into, help)->check(CLI::Range(least, most));
+  app_.add_option(name, into, help)
+      ->check(CLI::Range(least, most))
+      ->check([](const std::string& text) {  // it passes for one within any range
+        return text.find("nan") == std::string::npos && text.find("NAN") == std::string::npos &&
+                       text.find("NaN") == std::string::npos
+                   ? std::string()
+                   : text + " is no number";
+      });
 }
 
 void Subcommand::Flag(const std::string& name, bool& into, const std::string& help) {

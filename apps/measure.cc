@@ -41,6 +41,19 @@ DamageLimits LimitsOf(const Options& options) {
   return limits;
 }
 
+// Rates are kept for the robot as its model's file has it; mass and clearance are drawn, or set.
+void RefuseOtherRobots(const std::vector<Override>& overrides) {
+  for (const Override& each : overrides) {
+    const bool is_robot = each.key_path == "robot" || each.key_path.starts_with("robot.") ||
+                          each.key_path.starts_with("battery");
+    if (!is_robot || each.key_path == "robot.mass_kg" || each.key_path == "robot.clearance_m")
+      continue;
+    throw InputError({"--set", 0}, each.key_path, each.value,
+                     "is another robot than its model's file, for which rates are kept: measure a "
+                     "model of its own");
+  }
+}
+
 // Drives plans over small floors, and adds to the model in the folder what they say of it. Gives
 // the exit status.
 int AddPlans(const Options& options, const Globals& globals, const fs::path& folder,
@@ -51,17 +64,26 @@ int AddPlans(const Options& options, const Globals& globals, const fs::path& fol
   const RobotCampaign campaign = PlansOf(options.robot, options.floors, overrides);
   const fs::path plans = folder / "plans";
   CampaignLine progress(globals, campaign.file.variants());
-  const CampaignOutcome outcome =
-      DriveRobotCampaign(campaign,
-                         {.episodes = kDrives,
-                          .jobs = RequestOf(options).jobs,
-                          .resume = fs::exists(plans / "campaign.sqlite")},
-                         plans, &progress);
+  const bool there = fs::exists(plans / "campaign.sqlite");
+  const CampaignOutcome outcome = [&] {
+    try {
+      return DriveRobotCampaign(
+          campaign, {.episodes = kDrives, .jobs = RequestOf(options).jobs, .resume = there}, plans,
+          &progress);
+    } catch (const InputError& e) {
+      if (!there || std::string_view(e.what()).find("matrix.floor") == std::string_view::npos)
+        throw;
+      throw InputError({"--floors", 0}, "", std::to_string(options.floors),
+                       plans.string() +
+                           " holds plans over other floors, or as many others: name "
+                           "as many as before, or remove it");
+    }
+  }();
   progress.Clear();
   if (outcome.run.end == CampaignEnd::kInterrupted) throw Interruption();
+  WriteRiskModel(model, plans);  // rates alone, by which the plans are predicted
   model.carry_over =
-      LearnCarryOver(options.robot, options.floors, overrides, outcome.summary, folder);
-  WriteRiskModel(model, folder);
+      LearnCarryOver(options.robot, options.floors, overrides, outcome.summary, plans);
   int errors = 0;
   std::string first;
   for (const VariantSummary& plan : outcome.summary.variants) {
@@ -71,6 +93,11 @@ int AddPlans(const Options& options, const Globals& globals, const fs::path& fol
   if (errors > 0)
     globals.Say("warning: of the plans' drives " + CountText(errors, "error") + ", the first, " +
                 first);
+  const auto plans_driven = static_cast<int>(outcome.summary.variants.size());
+  if (model.carry_over.plans > 0 && model.carry_over.plans < plans_driven)
+    globals.Say("warning: of " + CountText(plans_driven, "plan") + " " +
+                std::to_string(plans_driven - model.carry_over.plans) +
+                " were not driven, or meet what no rate is known of, and say nothing of the rates");
   if (model.carry_over.plans == 0)
     globals.Say(
         "warning: no plan over these floors could be driven and predicted: the rates are held "
@@ -80,6 +107,7 @@ int AddPlans(const Options& options, const Globals& globals, const fs::path& fol
 
 int RunIt(const Options& options, const Globals& globals) {
   const DamageLimits limits = LimitsOf(options);
+  RefuseOtherRobots(OverridesOf(globals, options));
   const RobotCampaign campaign = EncountersOf(options.robot, OverridesOf(globals, options));
   CampaignRequest request = RequestOf(options);
   if (options.n == 0) request.episodes = EnoughEpisodes(campaign.file.variants().size());
@@ -92,9 +120,12 @@ int RunIt(const Options& options, const Globals& globals) {
   globals.Say(EncounterTable(outcome.summary));
   int plans_status = kExitDone;
   if (!request.shard && outcome.run.end == CampaignEnd::kComplete) {
-    if (auto model = WriteRiskFiles(outcome.store, ReadRobot(FindRobotFile(options.robot, {})),
-                                    limits, folder)) {
+    if (auto model = FitRiskModel(outcome.store, ReadRobot(FindRobotFile(options.robot, {})),
+                                  limits, folder)) {
+      // What is there may be held against plans already; that is kept until this one is, too.
+      if (!fs::exists(folder / "risk_model.json")) WriteRiskModel(*model, folder);
       plans_status = AddPlans(options, globals, folder, *model);
+      WriteRiskModel(*model, folder);
       globals.Say(RiskModelText(*model));
     } else {
       globals.Say("warning: no kind of hazard was met often enough: no rates are fitted");
@@ -118,7 +149,7 @@ void AddMeasure(CommandLine& line, const Globals& globals, int& status) {
   command.Integer("-n", options->n,
                   "Drives of each meeting (default: so many that there are 20,000 in all)", 1,
                   kMostEpisodes);
-  command.NonNegative("--seed", options->seed, "Of all draws (default: 0)");
+  command.NonNegative("--seed", options->seed, "Of the encounters' draws (default: 0)");
   command.Integer("--jobs", options->jobs, "Worker processes (default: one a core)", 1, kMostJobs);
   command.Integer("--floors", options->floors,
                   "Small floors that plans are driven over, to see what rates come to in whole "

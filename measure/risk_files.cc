@@ -35,9 +35,9 @@ std::vector<Encounter> AllEncounters(const CampaignStore& store) {
   return all;
 }
 
-std::optional<RiskModel> WriteRiskFiles(const CampaignStore& store, const RobotModel& robot,
-                                        const DamageLimits& limits,
-                                        const std::filesystem::path& folder) {
+std::optional<RiskModel> FitRiskModel(const CampaignStore& store, const RobotModel& robot,
+                                      const DamageLimits& limits,
+                                      const std::filesystem::path& folder) {
   const RobotSpec& spec = robot.spec;
   const std::vector<Encounter> encounters = AllEncounters(store);
   RateFitOptions options;
@@ -47,7 +47,6 @@ std::optional<RiskModel> WriteRiskFiles(const CampaignStore& store, const RobotM
       encounters,
       {spec.name, spec.drive, spec.mass_kg, spec.clearance_m, ModelHash(robot.files, {})}, options);
   if (model.kinds.empty()) return std::nullopt;
-  WriteRiskModel(model, folder);
   const MeasuredFmea fmea = MeasureFmea(FirstMeetings(encounters), ClassOfType(), spec.cruise_mps,
                                         ReadFmeaTables(BundledTables()), limits);
   WriteFileWhole(folder / "fmea_measured.yaml",

@@ -18,13 +18,13 @@ namespace floorproof {
 // Of the campaign's counted episodes, variant after variant.
 std::vector<Encounter> AllEncounters(const CampaignStore& store);
 
-// Fits the rates to all encounters of the campaign's counted episodes and writes both files.
-// Returns none, and writes nothing, where no kind was met often enough. Throws InputError where a
-// file cannot be written.
-std::optional<RiskModel> WriteRiskFiles(const CampaignStore& store, const RobotModel& robot,
-                                        const DamageLimits& limits,
-                                        const std::filesystem::path& folder);
-// The first of the files again, of a model to which something was added.
+// Fits the rates to all encounters of the campaign's counted episodes and writes
+// fmea_measured.yaml. Returns none, and writes nothing, where no kind was met often enough. Throws
+// InputError where the file cannot be written.
+std::optional<RiskModel> FitRiskModel(const CampaignStore& store, const RobotModel& robot,
+                                      const DamageLimits& limits,
+                                      const std::filesystem::path& folder);
+// Writes risk_model.json.
 void WriteRiskModel(const RiskModel& model, const std::filesystem::path& folder);
 // For people: how many kinds were fitted, and which were not; what was learned from
 // plans.
