@@ -46,9 +46,7 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     const bool found = plan.status == PlanStatus::kSuccess;
     if (found) {
       if (plan.samples.empty()) {
-        globals.Say(fmt::format("{}, covers {:.1f} % of {} m2 in reach", PlannedText(plan),
-                                100 * json["coverage"].get<double>(),
-                                NumberText(json["sweepable_m2"].get<double>())));
+        globals.Say(SweptText(plan, json));
         if (!plan.message.empty()) globals.Say(plan.message);
         if (json["coverage"].get<double>() < scenario.episode.min_coverage)
           globals.Say(

@@ -4,6 +4,8 @@
 #include "apps/command.h"
 #include "base/file_output.h"
 #include "base/interrupt.h"
+#include "base/progress_line.h"
+#include "base/quantity.h"
 #include "base/result_folder.h"
 #include "report/predict_picture.h"
 #include "report/save_plan.h"
@@ -34,14 +36,26 @@ void AddPredict(CommandLine& line, const Globals& globals, int& status) {
     const ScenarioFile file(options->scenario, overrides);
     const Scenario scenario = file.Read(file.episode());
     for (const std::string& warning : Warnings(scenario)) globals.Say(warning);
+    if (!scenario.matrix.IsNull())
+      globals.Say(
+          "warning: `matrix` is passed over: this is the scenario itself (--set names what a "
+          "variant changes)");
     const std::filesystem::path folder = OutputFolder(options->out, scenario.file, scenario.name);
     ResultFolder out(folder, EpisodeResults(), InputsOf(scenario));
-    const Prediction prediction = Predict(file, {}, options->draws);
+    ProgressLine progress(globals);
+    const Prediction prediction = Predict(file, {}, options->draws, [&](int done) {
+      if (progress.IsDue())
+        progress.Show("  " + std::to_string(done) + " of " +
+                      CountText(options->draws, "condition"));
+    });
+    progress.Clear();
     SavePlan(scenario, prediction.plan, out, {});
-    const nlohmann::ordered_json json = PredictionJson(scenario, prediction);
+    const nlohmann::ordered_json plan = PlanJson(scenario, prediction.plan);
+    nlohmann::ordered_json json = PredictionJson(scenario, prediction);
+    json["coverage"] = plan["coverage"];
     WriteFileWhole(folder / "predict.json", JsonText(json) + "\n");
     WritePredictPicture(scenario, prediction, folder / "heatmap_predict.png");
-    globals.Say(PlannedText(prediction.plan));
+    globals.Say(SweptText(prediction.plan, plan));
     for (const std::string& said : PredictionLines(prediction)) globals.Say(said);
     globals.Say("results are in " + folder.string());
     globals.Result(json);

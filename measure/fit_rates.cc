@@ -17,6 +17,10 @@
 namespace floorproof {
 namespace {
 
+// Walls and free floor are failed at by robots that are lost, too seldom for rates to follow how
+// lost they are, and whose way is of no plan that is predicted: these know their place.
+constexpr double kKnowsItsPlace_m = 0.01;
+
 std::string StreamName(const KindRates& kind) {
   return fmt::format("risk_model.{}.{}.{}", kind.type, Name(kind.passage), Name(kind.manner));
 }
@@ -150,8 +154,11 @@ RiskModel FitRates(const std::vector<Encounter>& encounters, MeasuredRobot robot
   model.encounters = static_cast<int>(encounters.size());
   // Only who got over a hazard meets it again: these say nothing of all that come.
   ByKind by_kind;
-  for (const std::vector<const Encounter*>& met : MeetingsOfDrives(encounters))
-    by_kind[{met.front()->type, met.front()->passage}].push_back(met.front());
+  for (const std::vector<const Encounter*>& met : MeetingsOfDrives(encounters)) {
+    const Encounter& front = *met.front();
+    if (IsExposure(front.type) && front.at.estimate_error_m > kKnowsItsPlace_m) continue;
+    by_kind[{front.type, front.passage}].push_back(&front);
+  }
   const auto like_kinds = FitLikeKinds(by_kind, options);
   int once = 0;  // kinds that are like no other, and failed once
   for (const auto& [name, met] : by_kind) {

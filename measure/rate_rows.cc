@@ -64,9 +64,12 @@ std::vector<RateAxis> AxesOf(const Meetings& met, const std::vector<std::string>
     axes.emplace_back();
     axes.back().name = column.name;
   }
-  if (!exposed && met.front()->passage == Passage::kBeside) {
-    axes.emplace_back();
-    axes.back().name = kSureGap;
+  if (!exposed) {
+    const bool beside = met.front()->passage == Passage::kBeside;
+    if (beside || options.holonomic) {
+      axes.emplace_back();
+      axes.back().name = beside ? kSureGap : kAskew;
+    }
   }
   std::vector<std::vector<double>> x;
   for (const Encounter* e : met) x.push_back(CovariatesOf(axes, options.mirrored, *e));

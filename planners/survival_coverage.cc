@@ -215,7 +215,7 @@ class SurvivalCoverage final : public Planner {
            {TerrainLead::kAny, TerrainLead::kForward, TerrainLead::kSideways}) {
         options.fewest_crossings = fewest;
         options.lead = lead;
-        const bool turns = request.robot.clear.kind == Shape2::Kind::kFootprint;
+        const bool turns = HoldsYaw(request.robot);
         if ((fewest && lead == TerrainLead::kAny) || (!turns && lead != TerrainLead::kAny))
           continue;
         search.Consider(search.Walk(options));
@@ -246,14 +246,15 @@ class SurvivalCoverage final : public Planner {
                         " of " + std::to_string(free) + " free cells";
     const Probability& none = best.survival.survival.no_failure;
     result.figures = of_cells;
-    result.figures.insert(result.figures.end(), {{"p_failure", 1 - none.value},
-                                                 {"p_failure_lower", 1 - none.upper},
-                                                 {"p_failure_upper", 1 - none.lower},
-                                                 {"cell_coverage", best.coverage},
-                                                 {"crossings", best.survival.crossings},
-                                                 {"unmeasured_crossings", best.survival.unmeasured},
-                                                 {"beyond_measured", best.survival.survival.beyond},
-                                                 {"candidates", static_cast<double>(candidates)}});
+    result.figures.insert(result.figures.end(),
+                          {{"p_failure", 1 - none.value},
+                           {"p_failure_lower", 1 - none.upper},
+                           {"p_failure_upper", 1 - none.lower},
+                           {"cell_coverage", best.coverage},
+                           {"crossings", best.survival.crossings},
+                           {"unmeasured_crossings", best.survival.unmeasured},
+                           {"beyond_measured", best.survival.survival.farthest_beyond()},
+                           {"candidates", static_cast<double>(candidates)}});
     return result;
   }
 

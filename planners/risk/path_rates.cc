@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
+
+#include "planners/risk/terrain_yaw.h"
 
 namespace floorproof {
 namespace {
@@ -14,6 +17,19 @@ Approach In(const DriveConditions& conditions, Approach at) {
   at.mass_kg = conditions.mass_kg;
   at.clearance_m = conditions.clearance_m;
   return at;
+}
+
+// Way in one passage or in several at a time.
+double Covered(const std::vector<PlannedPassage>& passages) {
+  std::vector<std::pair<double, double>> spans;
+  for (const PlannedPassage& passage : passages) spans.emplace_back(passage.from_m, passage.to_m);
+  std::ranges::sort(spans);
+  double covered_m = 0, to_m = 0;
+  for (const auto& [from_m, end_m] : spans) {
+    covered_m += std::max(0.0, end_m - std::max(from_m, to_m));
+    to_m = std::max(to_m, end_m);
+  }
+  return covered_m;
 }
 
 }  // namespace
@@ -52,7 +68,7 @@ std::vector<double> PathRates::Speeds(const Hazard& hazard, Passage passage) con
 }
 
 std::vector<PlannedPassage> PathRates::Passages(const Path& path) const {
-  const bool holds_yaw = request_.robot.clear.kind == Shape2::Kind::kFootprint;
+  const bool holds_yaw = HoldsYaw(request_.robot);
   std::vector<PlannedPassage> passages =
       FindPassages(request_.map, request_.robot, request_.start, path, holds_yaw);
   std::erase_if(passages, [&](const PlannedPassage& passage) {
@@ -75,16 +91,19 @@ PathSurvival PathRates::Of(const Path& path) const {
     out.unmeasured += over && rates == nullptr;
     if (rates == nullptr) continue;
     const auto first = firsts.try_emplace({passage.hazard, rates}, i).first->second;
-    meetings.push_back({rates, SizeAsMet(hazard, TravelOf(passage)), passage.at, 1, i, first});
+    meetings.push_back({rates, SizeAsMet(hazard, TravelOf(passage)), passage.at,
+                        TimesMeasured(rates->kind(), passage.at), i, first});
   }
   if (const RateEvaluator* floor = rates_.Find(kFreeFloor, Passage::kBeside, {})) {
     Approach at;
     at.speed_mps = request_.robot.cruise_mps;
     at.wall_m = kFarWall_m;
-    double free_m = Length(path);
-    for (const PlannedPassage& passage : out.passages) free_m -= passage.to_m - passage.from_m;
-    meetings.push_back(
-        {floor, {}, at, std::max(0.0, free_m), out.passages.size(), out.passages.size()});
+    meetings.push_back({floor,
+                        {},
+                        at,
+                        Length(path) - Covered(out.passages),
+                        out.passages.size(),
+                        out.passages.size()});
   }
   std::vector<std::vector<PlannedMeeting>> by_condition(conditions_.size(), meetings);
   for (std::size_t c = 0; c < conditions_.size(); ++c)

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "env/geometry/geometry.h"
 
 namespace floorproof {
 namespace {
@@ -44,6 +45,14 @@ FailureMode LastMode(const KindRates& kind) {
   return FailureMode(last);
 }
 
+double TimesMeasured(const KindRates& kind, const Approach& at) {
+  if (kind.per_metre) return 1;
+  for (const RateAxis& axis : kind.axes)
+    if (!axis.of_hazard && axis.name == "over_m" && axis.upper > 0)
+      return std::max(1.0, at.over_m / axis.upper);
+  return 1;
+}
+
 bool IsAbout(const KindRates& kind, std::string_view type, Passage passage, const Approach& at) {
   return kind.type == type && kind.passage == passage &&
          (kind.manner == Manner::kAny || kind.manner == MannerOf(at));
@@ -65,13 +74,16 @@ Covariates::Covariates(const std::vector<RateAxis>& axes, bool mirrored,
     const auto column = std::find_if(kApproach.begin(), kApproach.end(), [&](const auto& each) {
       return !axes[a].of_hazard && each.name == axes[a].name;
     });
+    const auto derived = std::find_if(kDerived.begin(), kDerived.end(), [&](const auto& each) {
+      return !axes[a].of_hazard && each.name == axes[a].name;
+    });
     if (stated != size.end()) {
       x_[a] = stated->second;
       if (mirrored_ && axes[a].name == "rise_across") across_ = {a, stated->second};
     } else if (axes[a].of_hazard && axes[a].name == kRise)
       x_[a] = RiseOf(size);
-    else if (!axes[a].of_hazard && axes[a].name == kSureGap)
-      sure_gap_ = a;
+    else if (derived != kDerived.end())
+      derived_.emplace_back(a, derived->of);
     else if (column != kApproach.end())
       of_approach_.emplace_back(a, column->member);
     else
@@ -83,9 +95,13 @@ Covariates::Covariates(const std::vector<RateAxis>& axes, bool mirrored,
 std::span<const double> Covariates::Of(const Approach& at) {
   const Approach met = mirrored_ ? Unmirrored(at) : at;
   for (const auto& [axis, member] : of_approach_) x_[axis] = met.*member;
-  if (sure_gap_) x_[*sure_gap_] = met.gap_m - met.estimate_error_m;
+  for (const auto& [axis, of] : derived_) x_[axis] = of(met);
   if (across_) x_[across_->first] = at.heading_rad < 0 ? -across_->second : across_->second;
   return x_;
+}
+
+double AskewOf(const Approach& at) {
+  return std::abs(std::remainder(at.heading_rad - at.lead_rad, kPi / 2));
 }
 
 double Beyond(const RateAxis& axis, double x) {

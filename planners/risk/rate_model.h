@@ -39,16 +39,30 @@ using ModeNumbers = std::array<double, kNumFailureModes>;
 // values at the knots; where all of a period was measured, periodic ones.
 struct RateAxis {
   std::string name;
-  bool of_hazard = false;       // one of its keys, or kRise; else a column of Approach, or kSureGap
+  bool of_hazard = false;  // one of its keys, or kRise; else of Approach: a column, or kDerived
   double lower = 0, upper = 0;  // what was measured; as long as a period: all of it
   double period = 0;            // of an angle; 0: none
   std::vector<double> knots;    // ascending from lower to upper; none: it was always the same
   std::vector<std::vector<double>> functions;  // by function, by knot
 };
 
-// An axis of what is passed, made of two columns of Approach: the gap, less what the robot is wrong
-// about its place. Below 0 it may touch what it thinks that it passes.
+// Axes that are made of two columns of Approach.
+struct DerivedAxis {
+  std::string_view name;
+  double (*of)(const Approach&);
+};
+// Of what is passed: the gap, less what the robot is wrong about its place. Below 0 it may touch
+// what it thinks that it passes.
 inline constexpr std::string_view kSureGap = "sure_gap_m";
+// Of a robot that drives every way: how far its body is turned from square on to the edge,
+// whichever of its four sides is the nearest: 0, its wheels come to the edge together, to pi/4. Who
+// crosses aslant with the body square on is another matter than who is turned.
+inline constexpr std::string_view kAskew = "askew_rad";
+double AskewOf(const Approach& at);
+inline constexpr std::array<DerivedAxis, 2> kDerived = {{
+    {kSureGap, [](const Approach& at) { return at.gap_m - at.estimate_error_m; }},
+    {kAskew, AskewOf},
+}};
 
 // A size that kinds of hazard share which are passed: how far it rises over the floor or falls
 // below it, whatever its key is called. 0: it lies flat.
@@ -148,6 +162,8 @@ inline bool IsExposure(std::string_view type) { return type == kWallBeside || ty
 double AmountOf(const Encounter& encounter);
 // The mode that takes what the splits leave.
 FailureMode LastMode(const KindRates& kind);
+// As how many of the longest that were measured a meeting counts that is longer: at least 1.
+double TimesMeasured(const KindRates& kind, const Approach& at);
 // Whether it is about such a meeting.
 bool IsAbout(const KindRates& kind, std::string_view type, Passage passage, const Approach& at);
 // "groove over", and its manner where that is not any.
@@ -166,7 +182,7 @@ class Covariates {
   bool mirrored_;
   std::vector<double> x_;
   std::vector<std::pair<std::size_t, double Approach::*>> of_approach_;
-  std::optional<std::size_t> sure_gap_;
+  std::vector<std::pair<std::size_t, double (*)(const Approach&)>> derived_;
   std::optional<std::pair<std::size_t, double>>
       across_;  // the axis rise_across of what is mirrored
 };

@@ -32,7 +32,14 @@ struct Survival {
   Probability no_failure;
   std::array<Probability, kNumFailureModes> first;  // by mode: that it is what ends the drive
   std::vector<double> by_meeting;                   // by number: that it is what ends the drive
-  double beyond = 0;  // the farthest that a meeting lies beyond what was measured
+  // By number: how far the meeting lies beyond what was measured where it does so most, and the
+  // condition in which it does.
+  struct Beyond {
+    double share = 0;
+    std::size_t condition = 0;
+  };
+  std::vector<Beyond> beyond;
+  double farthest_beyond() const;  // its largest share
 };
 
 // `conditions`: by drawn condition, the meetings in the order in which they are driven; `numbers`:

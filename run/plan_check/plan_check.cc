@@ -191,6 +191,12 @@ std::string PlannedText(const PlanResult& plan) {
                      FixedText(Length(plan.path), 1), CountText(CountTurns(plan.path), "turn"));
 }
 
+std::string SweptText(const PlanResult& plan, const Json& json) {
+  return fmt::format("{}, covers {:.1f} % of {} m2 in reach", PlannedText(plan),
+                     100 * json["coverage"].get<double>(),
+                     NumberText(json["sweepable_m2"].get<double>()));
+}
+
 PlanCheck CheckPlan(Scenario& s, const PlanResult& plan) {
   const SweepArea area =
       ComputeSweepArea(KnownFloor(s), plan.clear, plan.tool, s.robot.spec.step_m, s.start.p());

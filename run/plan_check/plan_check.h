@@ -24,6 +24,8 @@ struct PlanCheck {
 
 // "planned: 71 waypoints, 120.5 m, 69 turns": of a plan that was found.
 std::string PlannedText(const PlanResult& plan);
+// The same, and how much of the floor it covers. `json`: its PlanJson.
+std::string SweptText(const PlanResult& plan, const nlohmann::ordered_json& json);
 
 // Of a plan that was found.
 PlanCheck CheckPlan(Scenario& scenario, const PlanResult& plan);

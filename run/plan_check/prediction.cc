@@ -29,8 +29,9 @@ class Predictor {
     Scenario& s = *scenario_;
     if (!s.risk_model)
       throw InputError({s.file.string(), 0}, "risk.model", "",
-                       "is missing: measured rates are needed to predict by (floorproof measure, "
-                       "then risk: {model: risk_model.json})");
+                       "is missing: rates that were measured of " + s.robot_name +
+                           " are needed to predict by (floorproof measure, an hour, then --model "
+                           "risk_model.json)");
     if (s.online || LeadsItself(s))
       throw InputError({s.file.string(), 0}, "plan", s.planner_name,
                        "is made on the way: nothing can be predicted of a plan that is not there");
@@ -47,6 +48,7 @@ class Predictor {
       throw InputError({s.file.string(), 0}, "plan", "",
                        "there is none (" + std::string(Name(plan_.status)) + "): " + plan_.message);
     expected_ = ExpectedEncounters(s, plan_);
+    if (first_) left_out_ = LeftOut(s);
   }
 
   // The meetings as this episode has them, which draws nothing that moves them.
@@ -61,18 +63,23 @@ class Predictor {
     std::map<std::string, int> times;          // a hazard is met
     std::map<std::string, std::size_t> first;  // of its meetings of a kind
     std::vector<PlannedMeeting> condition;
+    std::map<std::pair<std::string, Passage>, int> unmeasured;
     for (const Encounter& encounter : expected_) {
       const std::string of = encounter.type + " " + encounter.hazard;
       const std::size_t number = NumberOf(encounter, of + " " + std::to_string(times[of]++));
-      const RateEvaluator* rates = RatesOf(encounter);
-      if (rates == nullptr) continue;
+      const RateEvaluator* rates = rates_->Find(encounter.type, encounter.passage, encounter.at);
+      if (rates == nullptr) {
+        ++unmeasured[{encounter.type, encounter.passage}];
+        continue;
+      }
       const std::string like = of + " " + TextOf(rates->kind());
       const std::size_t alike =
           rates->kind().per_metre ? number : first.emplace(like, number).first->second;
-      condition.push_back(
-          {rates, encounter.size, encounter.at, AmountOf(encounter), number, alike});
-      if (conditions_.size() % kLookBeyondEvery == 0) LookBeyond(rates->kind(), encounter);
+      condition.push_back({rates, encounter.size, encounter.at,
+                           AmountOf(encounter) * TimesMeasured(rates->kind(), encounter.at), number,
+                           alike});
     }
+    for (const auto& [kind, meetings] : unmeasured) AddUnmeasured(kind, meetings);
     conditions_.push_back(std::move(condition));
     first_ = false;
   }
@@ -83,9 +90,14 @@ class Predictor {
     out.conditions = static_cast<int>(conditions_.size());
     out.survival = PredictSurvival(conditions_, meetings_.size(), *model_);
     out.meetings = std::move(meetings_);
-    for (std::size_t i = 0; i < out.meetings.size(); ++i)
+    for (std::size_t i = 0; i < out.meetings.size(); ++i) {
       out.meetings[i].probability = out.survival.by_meeting[i];
-    for (const auto& [at, share] : beyond_) out.beyond.push_back({at.first, at.second, share});
+      out.meetings[i].beyond = out.survival.beyond[i].share;
+      if (out.meetings[i].beyond > kNear) LookBeyond(i, out.survival.beyond[i].condition);
+    }
+    for (auto& [at, beyond] : beyond_) out.beyond.push_back(std::move(beyond));
+    out.left_out = std::move(left_out_);
+    out.held_against_plans = model_->carry_over.plans > 0;
     for (auto& [kind, unmeasured] : unmeasured_) out.unmeasured.push_back(std::move(unmeasured));
     return out;
   }
@@ -93,17 +105,31 @@ class Predictor {
   const PlanResult& plan() const { return plan_; }
 
  private:
-  static constexpr std::size_t kLookBeyondEvery = 16;  // conditions: it takes longer than rates do
+  static constexpr double kNear = 0.02;  // of the measured range: as good as within
 
-  void LookBeyond(const KindRates& kind, const Encounter& encounter) {
-    Covariates covariates(kind.axes, model_->mirrored, encounter.size);
-    const std::span<const double> x = covariates.Of(encounter.at);
-    for (std::size_t a = 0; a < x.size(); ++a) {
-      constexpr double kNear = 0.02;  // of the range: as good as within
-      const double share = floorproof::Beyond(kind.axes[a], x[a]);
-      if (share <= kNear) continue;
-      double& most = beyond_[{kind.type, kind.axes[a].name}];
-      most = std::max(most, share);
+  static std::vector<std::string> LeftOut(const Scenario& s) {
+    std::vector<std::string> left_out;
+    if (s.estimator_name != "truth")
+      left_out.push_back("how wrong " + s.estimator_name +
+                         " is about the robot's place: it is taken to know it");
+    if (!s.faults.empty()) left_out.push_back("what breaks (`faults`)");
+    if (s.safety) left_out.push_back("what its supervision does (`safety`)");
+    return left_out;
+  }
+
+  // What of a meeting lies beyond, where it does so most.
+  void LookBeyond(std::size_t number, std::size_t condition) {
+    for (const PlannedMeeting& meeting : conditions_[condition]) {
+      if (meeting.number != number) continue;
+      const KindRates& kind = meeting.rates->kind();
+      Covariates covariates(kind.axes, model_->mirrored, meeting.size);
+      const std::span<const double> x = covariates.Of(meeting.at);
+      for (std::size_t a = 0; a < x.size(); ++a) {
+        const double share = floorproof::Beyond(kind.axes[a], x[a]);
+        if (share <= kNear) continue;
+        Prediction::Beyond& most = beyond_[{kind.type, kind.axes[a].name}];
+        if (share > most.share) most = {kind.type, kind.axes[a].name, share, number};
+      }
     }
   }
 
@@ -113,18 +139,15 @@ class Predictor {
     return at->second;
   }
 
-  const RateEvaluator* RatesOf(const Encounter& encounter) {
-    if (const RateEvaluator* rates = rates_->Find(encounter.type, encounter.passage, encounter.at))
-      return rates;
-    Prediction::Unmeasured& kind = unmeasured_[{encounter.type, encounter.passage}];
+  // Of a condition; said is the most.
+  void AddUnmeasured(const std::pair<std::string, Passage>& what, int meetings) {
+    Prediction::Unmeasured& kind = unmeasured_[what];
     if (kind.type.empty()) {
-      kind = {encounter.type, encounter.passage, 0, "it was not driven"};
+      kind = {what.first, what.second, 0, "it was not driven"};
       for (const UnmeasuredKind& known : model_->unmeasured)
-        if (known.type == encounter.type && known.passage == encounter.passage)
-          kind.why = known.why;
+        if (known.type == what.first && known.passage == what.second) kind.why = known.why;
     }
-    if (first_) ++kind.meetings;
-    return nullptr;
+    kind.meetings = std::max(kind.meetings, meetings);
   }
 
   const ScenarioFile& file_;
@@ -135,11 +158,12 @@ class Predictor {
   std::string inputs_;
   PlanResult plan_;
   std::vector<Encounter> expected_;
+  std::vector<std::string> left_out_;
   bool first_ = true;
   std::vector<std::vector<PlannedMeeting>> conditions_;
   std::vector<PredictedMeeting> meetings_;
   std::map<std::string, std::size_t> numbers_;
-  std::map<std::pair<std::string, std::string>, double> beyond_;  // by type and axis
+  std::map<std::pair<std::string, std::string>, Prediction::Beyond> beyond_;  // by type and axis
   std::map<std::pair<std::string, Passage>, Prediction::Unmeasured> unmeasured_;
 };
 

@@ -19,6 +19,7 @@ namespace floorproof {
 struct PredictedMeeting {
   Encounter expected;
   double probability = 0;  // that it is what ends the drive
+  double beyond = 0;       // how far it lies beyond what was measured, a share of that range
 };
 
 struct Prediction {
@@ -40,11 +41,16 @@ struct Prediction {
   struct Beyond {
     std::string type, axis;
     double share = 0;
+    std::size_t meeting = 0;
   };
   std::vector<Beyond> beyond;
 
+  // What the scenario has that rates know nothing of, in words.
+  std::vector<std::string> left_out;
+  bool held_against_plans = false;  // the rates
+
   // Else the plan fails at least as often as it says.
-  bool complete() const { return unmeasured.empty(); }
+  bool complete() const { return unmeasured.empty() && left_out.empty(); }
 };
 
 // Of the scenario's plan in the conditions that its first `draws` episodes draw; one condition

@@ -49,6 +49,7 @@ Json MeetingJson(const PredictedMeeting& meeting) {
   const Encounter& met = meeting.expected;
   Json json = {{"hazard", met.hazard}, {"type", met.type}, {"passage", Name(met.passage)}};
   json["probability"] = meeting.probability;
+  json["beyond"] = meeting.beyond;
   json["t_s"] = met.t_s;
   json["x_m"] = met.x_m;
   json["y_m"] = met.y_m;
@@ -75,19 +76,37 @@ std::vector<std::string> PredictionLines(const Prediction& prediction) {
       lines.push_back(fmt::format("  {}: {}", Name(static_cast<FailureMode>(m)), WithInterval(p)));
   }
   constexpr std::size_t kListed = 5;
+  constexpr double kWorthAPlace = 1e-4;
+  std::size_t listed = 0, more = 0;
+  double of_more = 0;
   for (const PredictedMeeting* meeting : Ranked(prediction)) {
-    if (meeting->probability < 1e-4 || lines.size() > kListed + kNumFailureModes) break;
-    lines.push_back(
-        fmt::format("  {}: {}", Where(meeting->expected), PercentText(meeting->probability)));
+    if (meeting->probability < kWorthAPlace) break;
+    if (listed < kListed) {
+      lines.push_back(
+          fmt::format("  {}: {}", Where(meeting->expected), PercentText(meeting->probability)));
+      ++listed;
+    } else {
+      ++more;
+      of_more += meeting->probability;
+    }
   }
+  if (more > 0)
+    lines.push_back(
+        fmt::format("  {} more: {} together", CountText(more, "place"), PercentText(of_more)));
   for (const Prediction::Unmeasured& kind : prediction.unmeasured)
     lines.push_back(fmt::format("warning: nothing is known of {} {}, met {}: {}", kind.type,
                                 Name(kind.passage), CountText(kind.meetings, "time"), kind.why));
+  for (const std::string& left_out : prediction.left_out)
+    lines.push_back("warning: not in it: " + left_out);
   for (const Prediction::Beyond& beyond : prediction.beyond)
     lines.push_back(fmt::format(
-        "warning: {} of {} lies beyond what was measured, by {} of that range: extrapolated, the "
-        "interval is wider for it",
-        beyond.axis, beyond.type, PercentText(beyond.share, 2)));
+        "warning: {} lies beyond what was measured of {}, by {} of that range, most at {}: there "
+        "the probability is a guess",
+        beyond.axis, beyond.type, PercentText(beyond.share, 2),
+        Where(prediction.meetings[beyond.meeting].expected)));
+  if (!prediction.held_against_plans)
+    lines.push_back(
+        "warning: these rates were never held against plans that were driven (measure --floors)");
   return lines;
 }
 
@@ -122,8 +141,12 @@ Json PredictionJson(const Scenario& s, const Prediction& prediction) {
                                   {"why", kind.why}});
   json["extrapolated"] = Json::array();
   for (const Prediction::Beyond& beyond : prediction.beyond)
-    json["extrapolated"].push_back(
-        {{"type", beyond.type}, {"of", beyond.axis}, {"beyond", beyond.share}});
+    json["extrapolated"].push_back({{"type", beyond.type},
+                                    {"of", beyond.axis},
+                                    {"beyond", beyond.share},
+                                    {"meeting", beyond.meeting}});
+  json["left_out"] = prediction.left_out;
+  json["held_against_plans"] = prediction.held_against_plans;
   return json;
 }
 

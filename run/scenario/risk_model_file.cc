@@ -80,9 +80,9 @@ RateAxis ReadAxis(const ConfigNode& node, const std::string& path) {
   RateAxis axis;
   axis.name = keys.Text("name");
   axis.of_hazard = keys.OneOf<bool>("of", {{"hazard", true}, {"approach", false}});
-  if (!axis.of_hazard && axis.name != kSureGap &&
-      std::none_of(kApproach.begin(), kApproach.end(),
-                   [&](const ApproachColumn& column) { return column.name == axis.name; }))
+  const auto is_named = [&](const auto& column) { return column.name == axis.name; };
+  if (!axis.of_hazard && std::ranges::none_of(kApproach, is_named) &&
+      std::ranges::none_of(kDerived, is_named))
     throw InputError(keys.At("name").mark, keys.Path("name"), axis.name,
                      "is no column of an approach");
   axis.lower = keys.Number("lower", Any());
@@ -197,6 +197,9 @@ KindRates ReadKind(const ConfigNode& node, const std::string& path) {
       "manner",
       {{"any", Manner::kAny}, {"straight", Manner::kStraight}, {"turning", Manner::kTurning}});
   kind.per_metre = keys.OneOf<bool>("per", {{"metre", true}, {"encounter", false}});
+  if (kind.per_metre != IsExposure(kind.type))
+    throw InputError(keys.At("per").mark, keys.Path("per"), keys.Text("per"),
+                     "must be metre of free floor and of walls, encounter of any other type");
   kind.encounters = keys.Count("encounters");
   kind.cleared = keys.Count("cleared");
   kind.censored = keys.Count("censored");
@@ -227,10 +230,13 @@ KindRates ReadKind(const ConfigNode& node, const std::string& path) {
 CarryOver ReadCarryOver(const ConfigNode& node) {
   const Keys keys(node, "plans", {"intercept", "slope", "plans", "drives", "expected", "failed"});
   CarryOver of;
-  of.intercept = keys.Number("intercept", Between(-100, 100));
+  of.intercept = keys.Number("intercept", Between(-10, 10));  // odds of 1 to 20,000
   of.slope = keys.Number("slope", Positive());  // what fails more often is predicted to
   of.plans = keys.Count("plans");
   of.drives = keys.Count("drives");
+  if (of.drives < of.plans)
+    throw InputError(keys.At("drives").mark, keys.Path("drives"), std::to_string(of.drives),
+                     fmt::format("must be at least one a plan, {}", of.plans));
   of.expected = keys.Number("expected", NonNegative());
   of.failed = keys.Count("failed");
   if (of.failed > of.drives)
@@ -261,7 +267,12 @@ RiskModel Parse(const std::filesystem::path& file, const InputFiles& files) {
     throw InputError(root.mark, "risk_model", "",
                      fmt::format("the key is missing (risk_model: {}): this is no risk model",
                                  kRiskModelVersion));
-  AsInt(*root.Find("risk_model"), "risk_model", Between(kRiskModelVersion, kRiskModelVersion));
+  const ConfigNode& version = *root.Find("risk_model");
+  if (AsInt(version, "risk_model", Between(0, 1e6)) != kRiskModelVersion)
+    throw InputError(version.mark, "risk_model", version.scalar,
+                     fmt::format("must be {}: another version of floorproof wrote it; measure the "
+                                 "robot anew (floorproof measure)",
+                                 kRiskModelVersion));
   const Keys keys(
       root, "", {"risk_model", "robot", "mirrored", "encounters", "plans", "kinds", "unmeasured"});
   RiskModel model;

@@ -277,12 +277,33 @@ void CheckOnline(const ConfigNode& root, const Scenario& s) {
                          FormatDouble(kMostSteps * step_m) + " m");
 }
 
+// What the scenario changes of the robot that rates do not depend on; empty: nothing. They know of
+// mass and clearance.
+std::string ChangedBeyondRates(const Scenario& s) {
+  const RobotChanges& changes = s.robot_changes;
+  if (changes.roller_radius_m) return "robot.roller_radius_m";
+  if (!changes.wheel_radius_m && changes.shape.empty() && !changes.battery_v) return "";
+  const RobotSpec& changed = s.robot.spec;
+  const RobotSpec own = ReadRobot(s.robot_file, {}, Blocks::kLocked, s.files).spec;
+  for (std::size_t i = 0; i < own.wheels.size(); ++i)
+    if (own.wheels[i].radius_m != changed.wheels[i].radius_m) return "robot.wheel_radius_m";
+  if (own.shape != changed.shape) return "robot.shape";
+  if (own.battery.voltage_v != changed.battery.voltage_v) return "battery.voltage_v";
+  return "";
+}
+
 // Whose rates they are is said by its model's hash; robots of an earlier version, whose model is
 // measured anew, are others.
 void RequireModelOf(const RiskModel& model, const Scenario& s, const ConfigNode& named) {
   const RobotSpec& robot = s.robot.spec;
-  if (model.robot.name == robot.name && model.robot.model == ModelHash(s.robot.files, s.files))
+  if (model.robot.name == robot.name && model.robot.model == ModelHash(s.robot.files, s.files)) {
+    if (const std::string changed = ChangedBeyondRates(s); !changed.empty())
+      throw InputError(named.mark, "risk.model", named.scalar,
+                       "was measured of " + robot.name +
+                           " as its model is, and the scenario sets " + changed +
+                           ": measure a model of its own");
     return;
+  }
   throw InputError(named.mark, "risk.model", named.scalar,
                    model.robot.name == robot.name
                        ? "was measured of another model of " + robot.name +

@@ -381,6 +381,63 @@ TEST(FitRates, OfExposuresAreAMetre) {
   }
 }
 
+// A robot that knows its place does not drive into walls because lost ones do.
+TEST(FitRates, LostRobotsSayNothingOfWalls) {
+  std::vector<Encounter> met;
+  for (int i = 0; i < 400; ++i) {
+    Encounter e;
+    e.type = std::string(kWallBeside);
+    e.passage = Passage::kBeside;
+    e.drive = i;
+    e.way_m = 5;
+    e.at.estimate_error_m = i % 4 == 0 ? 0.09 : 0.002;
+    const bool fails = i % 40 == 0;
+    e.outcome = fails ? Encounter::Outcome::kFailed : Encounter::Outcome::kCleared;
+    met.push_back(e);
+  }
+  const RiskModel dut = FitRates(met, {}, {});
+  ASSERT_THAT(dut.kinds, SizeIs(1));
+  EXPECT_EQ(dut.kinds[0].any.events, 0);
+  EXPECT_EQ(dut.kinds[0].way_m, 300 * 5);
+  EXPECT_LT(Total(At(dut, met[1])), 1e-3) << "a metre; of all drives ten failed on 2,000 m";
+}
+
+// Square on with any of its sides, whichever way it travels, or turned: by what a robot that drives
+// every way fails at here, the way of travel says nothing.
+TEST(FitRates, HowABodyStandsToTheEdgeCounts) {
+  Stream random(9, 0, "fit_rates_test");
+  std::vector<Encounter> met;
+  for (int i = 0; i < 4000; ++i) {
+    Encounter e;
+    e.type = "step";
+    e.size = {{"height_m", 0.01}};
+    e.drive = i;
+    e.at.lead_rad = random.Uniform(-kPi, kPi);
+    e.at.heading_rad = random.Uniform(-1.4, 1.4);
+    if (random.Uniform() < 0.5)
+      e.at.heading_rad = std::remainder(e.at.lead_rad, kPi / 2) + random.Uniform(-1e-3, 1e-3);
+    const bool fails = random.Uniform() < (AskewOf(e.at) < 0.1 ? 0.05 : 0.5);
+    e.outcome = fails ? Encounter::Outcome::kFailed : Encounter::Outcome::kCleared;
+    e.mode = FailureMode::kStuck;
+    met.push_back(e);
+  }
+  const RiskModel dut = FitRates(met, {}, {});
+  Encounter e = met[0];
+  const auto fails = [&](double heading_rad, double lead_rad) {
+    e.at.heading_rad = heading_rad;
+    e.at.lead_rad = lead_rad;
+    return 1 - std::exp(-Total(At(dut, e)));
+  };
+  EXPECT_NEAR(fails(0, 0), 0.05, 0.03);
+  EXPECT_NEAR(fails(0.5, 0.5 - kPi / 2), 0.05, 0.03) << "aslant, square on with its side";
+  EXPECT_NEAR(fails(0, 0.5), 0.5, 0.1) << "straight across, turned";
+  EXPECT_NEAR(fails(-0.4, 0.3), 0.5, 0.1);
+  RateFitOptions options;
+  options.holonomic = false;
+  for (const RateAxis& axis : FitRates(met, {}, options).kinds[0].axes)
+    EXPECT_NE(axis.name, kAskew) << "its heading says it";
+}
+
 // The slow tests have the full statement, with 500 repeats.
 TEST(KnownTruth, IsCoveredByIntervals) { EXPECT_GE(Coverage(30, 300, 64), 0.8); }
 

@@ -99,7 +99,7 @@ TEST(RiskModelFile, SaysWhatIsWrongAndWhere) {
   };
   for (const Case& c : {
            Case{"\"risk_model\": 3", "\"risk_model\": 2",
-                "risk_model.json:2: risk_model = 2: must be in [3, 3]"},
+                "risk_model.json:2: risk_model = 2: must be 3: another version of floorproof"},
            Case{"\"risk_model\": 3", "\"fmea\": 3", "risk_model: the key is missing"},
            Case{"\"mirrored\": true,\n", "", "mirrored: the key is missing"},
            Case{"\"mirrored\"", "\"mirored\"", "mirored: unknown key; did you mean mirrored?"},

@@ -179,6 +179,30 @@ TEST_F(PredictionTest, WhatLiesBeyondWhatWasMeasuredIsSaid) {
   EXPECT_THAT(PredictionLines(dut), Contains(HasSubstr("by 50 % of that range")));
 }
 
+// A robot that is wrong about its place, what breaks and who watches it: rates know nothing of it.
+TEST_F(PredictionTest, WhatIsNotInItIsSaid) {
+  SaveModel(0.2, 0.2);
+  const Prediction dut = Predict(File(kCovers, "estimator: odometry\n"), {}, 1);
+  EXPECT_FALSE(dut.complete());
+  EXPECT_THAT(PredictionLines(dut), Contains(HasSubstr("warning: not in it: how wrong odometry")));
+  EXPECT_THAT(Predict(File(kCovers), {}, 1).left_out, IsEmpty());
+}
+
+// Longer than any that was measured, it counts as so many of the longest.
+TEST_F(PredictionTest, ALongerMeetingCountsMoreOften) {
+  KindRates kind;
+  kind.axes.resize(1);
+  kind.axes[0].name = "over_m";
+  kind.axes[0].upper = 2;
+  Approach at;
+  at.over_m = 1;
+  EXPECT_EQ(TimesMeasured(kind, at), 1);
+  at.over_m = 5;
+  EXPECT_EQ(TimesMeasured(kind, at), 2.5);
+  kind.per_metre = true;
+  EXPECT_EQ(TimesMeasured(kind, at), 1) << "its metres count already";
+}
+
 TEST_F(PredictionTest, TheFileSaysAllOfIt) {
   SaveModel(0.2, 0.2);
   const ScenarioFile file = File(kCovers);
@@ -197,6 +221,18 @@ TEST_F(PredictionTest, WhatCannotBePredictedIsRefusedInALine) {
   EXPECT_THAT(WhyRefused(), HasSubstr("risk.model = model.json: was measured of rover, and this is "
                                       "beluga"));
   SaveModel(0.2, 0.2);
+  const std::string room = RoomScenario(kCovers, "risk: {model: model.json}\n");
+  for (const auto& [key, value] :
+       {std::pair("robot.wheel_radius_m", "0.03"), {"battery.voltage_v", "9"}}) {
+    try {
+      Predict(ScenarioFile(Save("scenario.yaml", room), {{key, value}}), {}, 1);
+      ADD_FAILURE() << key;
+    } catch (const InputError& e) {
+      EXPECT_THAT(e.what(), HasSubstr(std::string("the scenario sets ") + key));
+    }
+  }
+  EXPECT_NO_THROW(
+      Predict(ScenarioFile(Save("scenario.yaml", room), {{"robot.clearance_m", "0.024"}}), {}, 1));
   EXPECT_THAT(WhyRefused("plan: {planner: frontier_coverage}\n"), HasSubstr("plan"));
   std::filesystem::remove(folder_ / "model.json");
   EXPECT_THAT(WhyRefused(), HasSubstr("model.json"));

@@ -139,6 +139,47 @@ TEST(Survival, OfAPlanIsAsPlansWere) {
               1e-9);
 }
 
+// Whatever the line does to odds, no mode is likelier than any failure.
+TEST(Survival, AModesIntervalLiesWithinThatOfAnyFailure) {
+  const KindRates kind = StuckByFriction(1, -5);
+  const RateEvaluator rates(kind);
+  Approach at;
+  at.friction = 1.2;  // beyond: the members part
+  const std::vector<std::vector<PlannedMeeting>> conditions(1, {{&rates, {}, at, 1, 0, 0}});
+  for (const CarryOver& line : {CarryOver{0.5, 0.3}, CarryOver{-1, 1.5}, CarryOver{}}) {
+    RiskModel model;
+    model.carry_over = line;
+    const Survival dut = PredictSurvival(conditions, 1, model);
+    for (const Probability& mode : dut.first) {
+      EXPECT_LE(mode.upper, std::max(mode.value, 1 - dut.no_failure.lower) + 1e-12);
+      EXPECT_LE(mode.lower, mode.value);
+      EXPECT_GE(mode.upper, mode.value);
+    }
+  }
+}
+
+// One condition in twenty lies beyond what was measured: it is seen wherever it stands among them,
+// and the interval is wider for it.
+TEST(Survival, WhatLiesBeyondNowAndThenIsSeen) {
+  const KindRates kind = StuckByFriction(1, -5);
+  const RateEvaluator rates(kind);
+  const std::vector<PlannedMeeting> meetings(1, {&rates, {}, {}, 1});
+  const auto width = [&](std::size_t odd) {
+    std::vector<std::vector<Approach>> conditions(60, std::vector<Approach>(1));
+    for (std::size_t c = 0; c < conditions.size(); ++c)
+      conditions[c][0].friction = c % 20 == odd ? 1.6 : 0.6;
+    const Survival dut = Predict(meetings, conditions);
+    EXPECT_EQ(dut.beyond[0].condition % 20, odd);
+    EXPECT_GT(dut.beyond[0].share, 1);
+    return dut.no_failure.upper - dut.no_failure.lower;
+  };
+  std::vector<std::vector<Approach>> within(60, std::vector<Approach>(1));
+  for (auto& condition : within) condition[0].friction = 0.6;
+  const Survival known = Predict(meetings, within);
+  for (const std::size_t odd : {0u, 7u, 19u})
+    EXPECT_GT(width(odd), 1.2 * (known.no_failure.upper - known.no_failure.lower)) << odd;
+}
+
 // One friction in ten holds the robot at every crossing, the others at none. Ten crossings with the
 // same friction fail together; with a friction of its own each, hardly any drive gets through.
 TEST(Survival, CrossingsThatOneFrictionDecidesFailTogether) {
@@ -172,9 +213,9 @@ TEST(Survival, BeyondWhatWasMeasuredIsSaidAndLessCertain) {
     return Predict(meetings, Same(2, 1, approach));
   };
   const Survival edge = at(0.8), beyond = at(0.9), far = at(1.2);
-  EXPECT_EQ(edge.beyond, 0);
-  EXPECT_NEAR(beyond.beyond, 0.25, 1e-12);
-  EXPECT_NEAR(far.beyond, 1, 1e-12);
+  EXPECT_EQ(edge.beyond[0].share, 0);
+  EXPECT_NEAR(beyond.beyond[0].share, 0.25, 1e-12);
+  EXPECT_NEAR(far.beyond[0].share, 1, 1e-12);
   EXPECT_NEAR(beyond.no_failure.value, edge.no_failure.value, 1e-12);  // the nearest measured one
   EXPECT_LT(beyond.no_failure.lower, edge.no_failure.lower - 0.005);
   EXPECT_LT(far.no_failure.lower, beyond.no_failure.lower - 0.1);
