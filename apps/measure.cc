@@ -111,6 +111,11 @@ int RunIt(const Options& options, const Globals& globals) {
   const RobotCampaign campaign = EncountersOf(options.robot, OverridesOf(globals, options));
   CampaignRequest request = RequestOf(options);
   if (options.n == 0) request.episodes = EnoughEpisodes(campaign.file.variants().size());
+  constexpr std::uint64_t kFewOfEach = 80;  // of which 50 and more have an outcome
+  if (request.episodes < kFewOfEach && !request.shard)
+    globals.Say("warning: fewer than " + std::to_string(kFewOfEach) +
+                " drives of each meeting: of some kinds too few will have an outcome for rates; "
+                "--resume with a larger -n goes on");
   const fs::path folder =
       options.out.empty() ? fs::path("out") / "measure" / campaign.label : fs::path(options.out);
   CampaignLine progress(globals, campaign.file.variants());

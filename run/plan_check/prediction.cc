@@ -97,7 +97,7 @@ class Predictor {
     }
     for (auto& [at, beyond] : beyond_) out.beyond.push_back(std::move(beyond));
     out.left_out = std::move(left_out_);
-    out.held_against_plans = model_->carry_over.plans > 0;
+    out.held_against_plans = model_->carry_over.plans;
     for (auto& [kind, unmeasured] : unmeasured_) out.unmeasured.push_back(std::move(unmeasured));
     return out;
   }

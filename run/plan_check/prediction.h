@@ -47,7 +47,7 @@ struct Prediction {
 
   // What the scenario has that rates know nothing of, in words.
   std::vector<std::string> left_out;
-  bool held_against_plans = false;  // the rates
+  int held_against_plans = 0;  // that were driven: the rates
 
   // Else the plan fails at least as often as it says.
   bool complete() const { return unmeasured.empty() && left_out.empty(); }

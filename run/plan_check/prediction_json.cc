@@ -104,9 +104,13 @@ std::vector<std::string> PredictionLines(const Prediction& prediction) {
         "the probability is a guess",
         beyond.axis, beyond.type, PercentText(beyond.share, 2),
         Where(prediction.meetings[beyond.meeting].expected)));
-  if (!prediction.held_against_plans)
+  constexpr int kFewPlans = 40;
+  if (prediction.held_against_plans < kFewPlans)
     lines.push_back(
-        "warning: these rates were never held against plans that were driven (measure --floors)");
+        fmt::format("warning: these rates were held against {} that were driven (measure --floors)",
+                    prediction.held_against_plans == 0
+                        ? "no plans"
+                        : "no more than " + CountText(prediction.held_against_plans, "plan")));
   return lines;
 }
 
