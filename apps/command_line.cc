@@ -2,6 +2,8 @@
 #include "apps/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
 
 namespace floorproof {
 namespace {
@@ -63,10 +65,7 @@ void Subcommand::Number(const std::string& name, std::optional<double>& into,
   app_.add_option(name, into, help)
       ->check(CLI::Range(least, most))
       ->check([](const std::string& text) {  // it passes for one within any range
-        return text.find("nan") == std::string::npos && text.find("NAN") == std::string::npos &&
-                       text.find("NaN") == std::string::npos
-                   ? std::string()
-                   : text + " is no number";
+        return std::isnan(std::strtod(text.c_str(), nullptr)) ? text + " is no number" : "";
       });
 }
 

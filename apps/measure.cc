@@ -64,21 +64,12 @@ int AddPlans(const Options& options, const Globals& globals, const fs::path& fol
   const RobotCampaign campaign = PlansOf(options.robot, options.floors, overrides);
   const fs::path plans = folder / "plans";
   CampaignLine progress(globals, campaign.file.variants());
-  const bool there = fs::exists(plans / "campaign.sqlite");
-  const CampaignOutcome outcome = [&] {
-    try {
-      return DriveRobotCampaign(
-          campaign, {.episodes = kDrives, .jobs = RequestOf(options).jobs, .resume = there}, plans,
-          &progress);
-    } catch (const InputError& e) {
-      if (!there || std::string_view(e.what()).find("matrix.floor") == std::string_view::npos)
-        throw;
-      throw InputError({"--floors", 0}, "", std::to_string(options.floors),
-                       plans.string() +
-                           " holds plans over other floors, or as many others: name "
-                           "as many as before, or remove it");
-    }
-  }();
+  const CampaignOutcome outcome =
+      DriveRobotCampaign(campaign,
+                         {.episodes = kDrives,
+                          .jobs = RequestOf(options).jobs,
+                          .resume = fs::exists(plans / "campaign.sqlite")},
+                         plans, &progress);
   progress.Clear();
   if (outcome.run.end == CampaignEnd::kInterrupted) throw Interruption();
   WriteRiskModel(model, plans);  // rates alone, by which the plans are predicted

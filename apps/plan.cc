@@ -39,10 +39,9 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     if (scenario.dirt && scenario.dirt->cleaning.rounds > 0 && !plan.samples.empty() &&
         plan.status == PlanStatus::kSuccess)
       CleanerPlan(scenario, *plan.risk);  // else its drive would be the first to try
-    auto json = PlanJson(scenario, plan);
     const std::vector<RiskOfPlan> beside =
         PlansBeside(options->beside, globals.Overrides(), MeasurePlan(scenario, plan), globals);
-    SavePlan(scenario, plan, out, beside);
+    nlohmann::ordered_json json = SavePlan(scenario, plan, out, beside);
     const bool found = plan.status == PlanStatus::kSuccess;
     if (found) {
       if (plan.samples.empty()) {

@@ -49,10 +49,8 @@ void AddPredict(CommandLine& line, const Globals& globals, int& status) {
                       CountText(options->draws, "condition"));
     });
     progress.Clear();
-    SavePlan(scenario, prediction.plan, out, {});
-    const nlohmann::ordered_json plan = PlanJson(scenario, prediction.plan);
-    nlohmann::ordered_json json = PredictionJson(scenario, prediction);
-    json["coverage"] = plan["coverage"];
+    const nlohmann::ordered_json plan = SavePlan(scenario, prediction.plan, out, {});
+    const nlohmann::ordered_json json = PredictionJson(scenario, prediction, plan);
     WriteFileWhole(folder / "predict.json", JsonText(json) + "\n");
     WritePredictPicture(scenario, prediction, folder / "heatmap_predict.png");
     globals.Say(SweptText(prediction.plan, plan));

@@ -2,6 +2,7 @@
 // A plan's files and pictures.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 
 #include "base/result_folder.h"
@@ -13,8 +14,8 @@ namespace floorproof {
 
 // Writes scenario.resolved.yaml, plan.csv, plan.json and, where risk is asked for, risk.csv, and
 // the pictures of WritePlanPictures. What the folder, of EpisodeResults, holds of a drive of
-// another plan goes. Throws InputError, InternalError.
-void SavePlan(const Scenario& scenario, const PlanResult& plan, ResultFolder& out,
-              std::span<const RiskOfPlan> beside = {});
+// another plan goes. Returns plan.json's content. Throws InputError, InternalError.
+nlohmann::ordered_json SavePlan(const Scenario& scenario, const PlanResult& plan, ResultFolder& out,
+                                std::span<const RiskOfPlan> beside = {});
 
 }  // namespace floorproof

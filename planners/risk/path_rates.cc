@@ -91,8 +91,7 @@ PathSurvival PathRates::Of(const Path& path) const {
     out.unmeasured += over && rates == nullptr;
     if (rates == nullptr) continue;
     const auto first = firsts.try_emplace({passage.hazard, rates}, i).first->second;
-    meetings.push_back({rates, SizeAsMet(hazard, TravelOf(passage)), passage.at,
-                        TimesMeasured(rates->kind(), passage.at), i, first});
+    meetings.push_back({rates, SizeAsMet(hazard, TravelOf(passage)), passage.at, 1, i, first});
   }
   if (const RateEvaluator* floor = rates_.Find(kFreeFloor, Passage::kBeside, {})) {
     Approach at;

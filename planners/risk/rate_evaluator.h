@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -38,6 +40,8 @@ class RateEvaluator {
   explicit RateEvaluator(const KindRates& kind);  // outlives it
   const KindRates& kind() const { return kind_; }
 
+  // As how many of the longest that were measured a meeting counts that is longer: at least 1.
+  double TimesMeasured(const Approach& at) const { return std::max(1.0, at.over_m / longest_m_); }
   // Largest over the axes (rate_model.h).
   double Beyond(std::span<const double> x) const;
   // By the best coefficients. A meeting's, or a metre's.
@@ -59,6 +63,8 @@ class RateEvaluator {
 
   const KindRates& kind_;
   FailureMode last_;
+  double longest_m_ =
+      std::numeric_limits<double>::infinity();  // measured; of any length: not known
   RateFeatures features_;
   Eigen::Matrix<double, Eigen::Dynamic, kEtas, Eigen::RowMajor> best_;  // by feature
   Rows members_;  // by feature, by member and eta

@@ -45,14 +45,6 @@ FailureMode LastMode(const KindRates& kind) {
   return FailureMode(last);
 }
 
-double TimesMeasured(const KindRates& kind, const Approach& at) {
-  if (kind.per_metre) return 1;
-  for (const RateAxis& axis : kind.axes)
-    if (!axis.of_hazard && axis.name == "over_m" && axis.upper > 0)
-      return std::max(1.0, at.over_m / axis.upper);
-  return 1;
-}
-
 bool IsAbout(const KindRates& kind, std::string_view type, Passage passage, const Approach& at) {
   return kind.type == type && kind.passage == passage &&
          (kind.manner == Manner::kAny || kind.manner == MannerOf(at));

@@ -162,8 +162,6 @@ inline bool IsExposure(std::string_view type) { return type == kWallBeside || ty
 double AmountOf(const Encounter& encounter);
 // The mode that takes what the splits leave.
 FailureMode LastMode(const KindRates& kind);
-// As how many of the longest that were measured a meeting counts that is longer: at least 1.
-double TimesMeasured(const KindRates& kind, const Approach& at);
 // Whether it is about such a meeting.
 bool IsAbout(const KindRates& kind, std::string_view type, Passage passage, const Approach& at);
 // "groove over", and its manner where that is not any.

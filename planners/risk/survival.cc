@@ -37,6 +37,11 @@ void Meet(const ModeNumbers& rates, double way_m, double theta, double& sum, Out
   outcome[0] *= std::exp(-Total(over));
 }
 
+// What its rates are multiplied by.
+double AmountOf(const PlannedMeeting& meeting) {
+  return meeting.way_m * meeting.rates->TimesMeasured(meeting.at);
+}
+
 double ZOf(double p) { return std::asin(std::sqrt(std::clamp(p, 0.0, 1.0))); }
 double POf(double z) {
   const double s = std::sin(std::clamp(z, 0.0, std::asin(1.0)));
@@ -57,7 +62,7 @@ struct Chosen {
 
   // So many of these, evenly, which are so many of all.
   void Add(const std::vector<std::size_t>& of, std::size_t most, std::size_t all) {
-    const std::size_t step = (of.size() + most - 1) / std::max<std::size_t>(most, 1);
+    const std::size_t step = (of.size() + most - 1) / most;
     const std::size_t before = conditions.size();
     for (std::size_t i = 0; i < of.size(); i += step) conditions.push_back(of[i]);
     const auto added = static_cast<double>(conditions.size() - before);
@@ -147,7 +152,7 @@ Survival PredictSurvival(std::span<const std::vector<PlannedMeeting>> conditions
       const std::span<const double> x =
           known[meeting.number].Of(meeting, model.mirrored).Of(meeting.at);
       const double before = outcomes[c][0];
-      Meet(rates.At(x), meeting.way_m, rates.kind().theta, sums[meeting.first], outcomes[c]);
+      Meet(rates.At(x), AmountOf(meeting), rates.kind().theta, sums[meeting.first], outcomes[c]);
       survival.by_meeting[meeting.number] +=
           (before - outcomes[c][0]) / static_cast<double>(conditions.size());
       const double share = rates.Beyond(x);
@@ -167,10 +172,11 @@ Survival PredictSurvival(std::span<const std::vector<PlannedMeeting>> conditions
     for (auto& member : by_member) member.push_back(certain);
     for (const PlannedMeeting& meeting : conditions[c]) {
       const RateEvaluator& rates = *meeting.rates;
+      const double amount = AmountOf(meeting);
       const auto members =
           rates.MembersAt(known[meeting.number].Of(meeting, model.mirrored).Of(meeting.at));
       for (std::size_t r = 0; r < kRateMembers; ++r)
-        Meet(members[r], meeting.way_m, rates.kind().theta, member_sums[meeting.first][r],
+        Meet(members[r], amount, rates.kind().theta, member_sums[meeting.first][r],
              by_member[r].back());
     }
     chosen.push_back(outcomes[c]);

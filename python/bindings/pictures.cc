@@ -3,6 +3,7 @@
 #include "report/pictures.h"
 
 #include <array>
+#include <nlohmann/json.hpp>
 
 #include "base/console.h"
 #include "python/bindings/drawing.h"

@@ -110,7 +110,8 @@ std::string PredictionText(const ScenarioFile& file, const std::optional<std::st
       if (Interrupted()) throw Interruption();
     };
     const Prediction prediction = Predict(file, of, draws, ask);
-    return JsonText(PredictionJson(file.Read(file.episode(), of), prediction));
+    const Scenario s = file.Read(file.episode(), of);
+    return JsonText(PredictionJson(s, prediction, PlanJson(s, prediction.plan)));
   });
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file_output.h"
+#include "base/quantity.h"
 #include "run/episode/records.h"
 
 namespace floorproof {
@@ -16,6 +17,7 @@ namespace fs = std::filesystem;
 std::string Difference(const ConfigNode& a, const ConfigNode& b, const std::string& path) {
   const auto shown = [](const ConfigNode* node) {
     if (node == nullptr) return std::string("nothing");
+    if (node->IsList()) return CountText(node->items.size(), "value");
     return node->IsScalar() ? node->scalar
                             : std::string(node->IsNull() ? "nothing" : "other parts");
   };

@@ -376,7 +376,7 @@ ResultNames EpisodeResults() {
 
 ResultNames FilmResults() { return {"episode", IsFilm, false}; }
 
-void WritePlanFiles(const Scenario& s, const PlanResult& plan,
+Json WritePlanFiles(const Scenario& s, const PlanResult& plan,
                     const std::filesystem::path& folder) {
   const std::filesystem::path made = KeepMadePlan(s, plan, folder);
   if (made.empty())
@@ -387,7 +387,8 @@ void WritePlanFiles(const Scenario& s, const PlanResult& plan,
     Remove(folder / "plan.csv");
   else
     WriteFileWhole(folder / "plan.csv", PlanCsv(plan.path));
-  WriteFileWhole(folder / "plan.json", JsonText(PlanJson(s, plan)) + "\n");
+  Json json = PlanJson(s, plan);
+  WriteFileWhole(folder / "plan.json", JsonText(json) + "\n");
   if (AsksForRisk(s)) {
     WriteFileWhole(folder / "risk.csv", RiskCsv(*plan.risk));
   } else {
@@ -395,6 +396,7 @@ void WritePlanFiles(const Scenario& s, const PlanResult& plan,
          {"risk.csv", "heatmap_risk.png", "heatmap_plan_visits.png", "plot_risk.png"})
       Remove(folder / name);
   }
+  return json;
 }
 
 void RemoveEpisodeFiles(const ResultFolder& folder) {

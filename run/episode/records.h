@@ -41,9 +41,10 @@ ResultNames EpisodeResults();
 ResultNames FilmResults();
 
 // scenario.resolved.yaml, plan.csv, plan.json and risk.csv. A plan that a program made is kept in
-// `inputs` and named by the settings: who reads them drives it, and runs no program.
-void WritePlanFiles(const Scenario& scenario, const PlanResult& plan,
-                    const std::filesystem::path& folder);
+// `inputs` and named by the settings: who reads them drives it, and runs no program. Returns
+// plan.json's content.
+nlohmann::ordered_json WritePlanFiles(const Scenario& scenario, const PlanResult& plan,
+                                      const std::filesystem::path& folder);
 // Removes what an earlier episode left beside its plan: result.json first, which says that the rest
 // is whole.
 void RemoveEpisodeFiles(const ResultFolder& folder);

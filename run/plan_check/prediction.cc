@@ -48,7 +48,7 @@ class Predictor {
       throw InputError({s.file.string(), 0}, "plan", "",
                        "there is none (" + std::string(Name(plan_.status)) + "): " + plan_.message);
     expected_ = ExpectedEncounters(s, plan_);
-    if (first_) left_out_ = LeftOut(s);
+    if (conditions_.empty()) left_out_ = LeftOut(s);
   }
 
   // The meetings as this episode has them, which draws nothing that moves them.
@@ -75,13 +75,11 @@ class Predictor {
       const std::string like = of + " " + TextOf(rates->kind());
       const std::size_t alike =
           rates->kind().per_metre ? number : first.emplace(like, number).first->second;
-      condition.push_back({rates, encounter.size, encounter.at,
-                           AmountOf(encounter) * TimesMeasured(rates->kind(), encounter.at), number,
-                           alike});
+      condition.push_back(
+          {rates, encounter.size, encounter.at, AmountOf(encounter), number, alike});
     }
     for (const auto& [kind, meetings] : unmeasured) AddUnmeasured(kind, meetings);
     conditions_.push_back(std::move(condition));
-    first_ = false;
   }
 
   Prediction Finish(PlanResult plan) {
@@ -159,7 +157,6 @@ class Predictor {
   PlanResult plan_;
   std::vector<Encounter> expected_;
   std::vector<std::string> left_out_;
-  bool first_ = true;
   std::vector<std::vector<PlannedMeeting>> conditions_;
   std::vector<PredictedMeeting> meetings_;
   std::map<std::string, std::size_t> numbers_;

@@ -62,7 +62,8 @@ Prediction Predict(const ScenarioFile& file, const Variant& variant, int draws,
 
 // A line each, with units; what needs a look begins with "warning: ".
 std::vector<std::string> PredictionLines(const Prediction& prediction);
-// predict.json's content.
-nlohmann::ordered_json PredictionJson(const Scenario& scenario, const Prediction& prediction);
+// predict.json's content. `plan`: its plan's PlanJson.
+nlohmann::ordered_json PredictionJson(const Scenario& scenario, const Prediction& prediction,
+                                      const nlohmann::ordered_json& plan);
 
 }  // namespace floorproof

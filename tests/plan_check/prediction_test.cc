@@ -11,6 +11,7 @@
 #include "run/episode/make_plan.h"
 #include "run/episode/plain_draws.h"
 #include "run/episode/plan_inputs.h"
+#include "run/episode/records.h"
 #include "tests/planners/planted_modes.h"
 #include "tests/run/scenario_text.h"
 
@@ -190,24 +191,27 @@ TEST_F(PredictionTest, WhatIsNotInItIsSaid) {
 
 // Longer than any that was measured, it counts as so many of the longest.
 TEST_F(PredictionTest, ALongerMeetingCountsMoreOften) {
-  KindRates kind;
-  kind.axes.resize(1);
-  kind.axes[0].name = "over_m";
-  kind.axes[0].upper = 2;
+  KindRates kind = Planted("cable_cover", Passage::kOver, 0.2, 0.2);
+  kind.axes.resize(kind.axes.size() + 1);
+  kind.axes.back().name = "over_m";
+  kind.axes.back().upper = 2;
   Approach at;
   at.over_m = 1;
-  EXPECT_EQ(TimesMeasured(kind, at), 1);
+  EXPECT_EQ(RateEvaluator(kind).TimesMeasured(at), 1);
   at.over_m = 5;
-  EXPECT_EQ(TimesMeasured(kind, at), 2.5);
+  EXPECT_EQ(RateEvaluator(kind).TimesMeasured(at), 2.5);
   kind.per_metre = true;
-  EXPECT_EQ(TimesMeasured(kind, at), 1) << "its metres count already";
+  EXPECT_EQ(RateEvaluator(kind).TimesMeasured(at), 1) << "its metres count already";
 }
 
 TEST_F(PredictionTest, TheFileSaysAllOfIt) {
   SaveModel(0.2, 0.2);
   const ScenarioFile file = File(kCovers);
   const Prediction prediction = Predict(file, {}, 1);
-  const auto dut = PredictionJson(file.Read(), prediction);
+  const Scenario s = file.Read();
+  const auto plan = PlanJson(s, prediction.plan);
+  const auto dut = PredictionJson(s, prediction, plan);
+  EXPECT_EQ(dut["coverage"], plan["coverage"]);
   EXPECT_NEAR(dut["no_failure"]["probability"], std::exp(-0.4), 1e-5);
   EXPECT_NEAR(dut["modes"]["stuck"]["probability"], 1 - std::exp(-0.4), 1e-5);
   EXPECT_NEAR(dut["hazards"]["second"], prediction.meetings[1].probability, 1e-12);
