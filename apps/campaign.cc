@@ -13,13 +13,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options : CampaignArguments {
+struct CampaignCommand : CampaignArguments {
   std::string scenario;
   std::optional<double> time_limit_s;
   bool retry_errors = false, fail_fast = false, no_films = false;
 };
 
-int RunIt(const Options& options, const Globals& globals) {
+int RunTheCampaign(const CampaignCommand& options, const Globals& globals) {
   CampaignRequest request = RequestOf(options);
   request.retry_errors = options.retry_errors;
   request.fail_fast = options.fail_fast;
@@ -48,7 +48,7 @@ int RunIt(const Options& options, const Globals& globals) {
 }  // namespace
 
 void AddCampaign(CommandLine& line, const Globals& globals, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CampaignCommand>();
   Subcommand command = line.Add(
       "campaign", "Drive many episodes on all cores: failure rates with intervals, a gate for CI");
   command.Text("SCENARIO", options->scenario, "Scenario file (YAML)", Subcommand::Need::kRequired);
@@ -66,7 +66,7 @@ void AddCampaign(CommandLine& line, const Globals& globals, int& status) {
   command.Number("--time-limit", options->time_limit_s,
                  "Seconds of wall time; nothing is filmed then", 0.001, 1e9);
   command.Flag("--no-films", options->no_films, "Do not film the first failure of each mode");
-  command.OnRun([options, &globals, &status] { status = RunIt(*options, globals); });
+  command.OnRun([options, &globals, &status] { status = RunTheCampaign(*options, globals); });
 }
 
 }  // namespace floorproof

@@ -11,11 +11,12 @@ namespace floorproof {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::uintmax_t kMaxRobotBytes = 64u << 20, kMaxTextBytes = 3u << 20;
 
 // Canonical, since ../ in a path through a symbolic link would lead elsewhere.
-std::string PathFrom(const std::filesystem::path& folder, const std::filesystem::path& file) {
-  namespace fs = std::filesystem;
+std::string PathFrom(const fs::path& folder, const fs::path& file) {
   return fs::weakly_canonical(fs::absolute(file))
       .lexically_relative(fs::weakly_canonical(fs::absolute(folder)))
       .string();
@@ -23,9 +24,9 @@ std::string PathFrom(const std::filesystem::path& folder, const std::filesystem:
 
 // What a user has changed, or made of another map, stays; to drive it in this map's name would
 // mislead.
-void RefuseOther(const std::filesystem::path& file, const std::string& text) {
+void RefuseOther(const fs::path& file, const std::string& text) {
   std::error_code ignored;
-  if (!std::filesystem::exists(std::filesystem::symlink_status(file, ignored))) return;
+  if (!fs::exists(fs::symlink_status(file, ignored))) return;
   if (!WhyUnreadable(file, kMaxTextBytes).empty() || ReadInputFile(file, kMaxTextBytes) != text)
     throw InputError({file.string(), 0}, "", "",
                      "is there already, changed or of another map or robot: --out names another "
@@ -52,13 +53,13 @@ void AddInit(CommandLine& line, const Globals& globals, int&) {
     const auto robot_file = FindRobotFile(options->robot, {"--robot", 0});
     if (const std::string why = WhyUnreadable(robot_file, kMaxRobotBytes); !why.empty())
       throw InputError({"--robot", 0}, "", options->robot,
-                       why + ": " + std::filesystem::absolute(robot_file).string());
+                       why + ": " + fs::absolute(robot_file).string());
     const RobotModel robot = ReadRobot(robot_file);
-    const std::filesystem::path folder = options->out;
+    const fs::path folder = options->out;
     const bool bundled = robot_file != options->robot;
     const InitFiles files = MakeInitFiles(options->map, robot.spec, folder,
                                           bundled ? options->robot : PathFrom(folder, robot_file));
-    const std::pair<std::filesystem::path, const std::string*> written[] = {
+    const std::pair<fs::path, const std::string*> written[] = {
         {folder / "site.yaml", &files.site_yaml}, {folder / "scenario.yaml", &files.scenario_yaml}};
     for (const auto& [file, text] : written) RefuseOther(file, *text);
     for (const auto& warning : files.warnings) globals.Say("warning: " + warning);

@@ -21,7 +21,7 @@ namespace floorproof {
 namespace {
 
 // What is wrong with a command line, with the nearest known word; in one line.
-std::string Reason(const CLI::App& app, const CLI::ParseError& error) {
+std::string ParseErrorText(const CLI::App& app, const CLI::ParseError& error) {
   const auto commands = app.get_subcommands();
   const CLI::App& at = commands.empty() ? app : *commands.front();
   std::vector<std::string> known;
@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
       const int code = app.exit(e);
       return StdoutIsWritten() ? code : kExitBroken;
     }
-    std::fprintf(stderr, "floorproof: %s (floorproof --help)\n", Reason(app, e).c_str());
+    std::fprintf(stderr, "floorproof: %s (floorproof --help)\n", ParseErrorText(app, e).c_str());
     return kExitBadInput;
   } catch (const Interruption&) {
     EndInterrupted();

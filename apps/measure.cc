@@ -24,13 +24,13 @@ std::uint64_t EnoughEpisodes(std::size_t variants) {
   return (kEncounters + variants - 1) / variants;
 }
 
-struct Options : CampaignArguments {
+struct MeasureCommand : CampaignArguments {
   std::string robot;
   int floors = 80;
   std::optional<double> recoverable_mm, lasting_mm;
 };
 
-DamageLimits LimitsOf(const Options& options) {
+DamageLimits LimitsOf(const MeasureCommand& options) {
   DamageLimits limits;
   if (options.recoverable_mm) limits.recoverable_drop_m = *options.recoverable_mm / 1000;
   if (options.lasting_mm) limits.lasting_drop_m = *options.lasting_mm / 1000;
@@ -56,7 +56,7 @@ void RefuseOtherRobots(const std::vector<Override>& overrides) {
 
 // Drives plans over small floors, and adds to the model in the folder what they say of it. Gives
 // the exit status.
-int AddPlans(const Options& options, const Globals& globals, const fs::path& folder,
+int AddPlans(const MeasureCommand& options, const Globals& globals, const fs::path& folder,
              RiskModel& model) {
   constexpr std::uint64_t kDrives = 1;  // of a plan: they mostly end alike
   if (options.floors == 0) return kExitDone;
@@ -96,7 +96,7 @@ int AddPlans(const Options& options, const Globals& globals, const fs::path& fol
   return CampaignExitStatus(outcome);
 }
 
-int RunIt(const Options& options, const Globals& globals) {
+int RunMeasure(const MeasureCommand& options, const Globals& globals) {
   const DamageLimits limits = LimitsOf(options);
   RefuseOtherRobots(OverridesOf(globals, options));
   const RobotCampaign campaign = EncountersOf(options.robot, OverridesOf(globals, options));
@@ -136,7 +136,7 @@ int RunIt(const Options& options, const Globals& globals) {
 }  // namespace
 
 void AddMeasure(CommandLine& line, const Globals& globals, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MeasureCommand>();
   options->n = 0;
   Subcommand command = line.Add(
       "measure", "Drive a robot's single encounters with hazards of every type, as a campaign");
@@ -160,7 +160,7 @@ void AddMeasure(CommandLine& line, const Globals& globals, int& status) {
   command.Number("--lasting-drop", options->lasting_mm,
                  "Lasting damage, likewise (mm; default: 100)", 0, 1e4);
   command.Flag("--resume", options->resume, "Go on with what the folder holds");
-  command.OnRun([options, &globals, &status] { status = RunIt(*options, globals); });
+  command.OnRun([options, &globals, &status] { status = RunMeasure(*options, globals); });
 }
 
 }  // namespace floorproof

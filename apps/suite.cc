@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct SuiteCommand {
   std::vector<std::string> robots;
   std::string methods, required;  // with commas between
   std::optional<double> reliability, confidence;
@@ -73,7 +73,7 @@ fs::path Folder(const std::string& out, const std::vector<RobotSuite>& robots) {
   return fs::path("out/suite") / name;
 }
 
-SuiteReport Request(const Options& options, const Globals& globals) {
+SuiteReport Request(const SuiteCommand& options, const Globals& globals) {
   SuiteReport report;
   report.options = {.reliability = options.reliability.value_or(0.95),
                     .confidence = options.confidence.value_or(0.95),
@@ -132,7 +132,7 @@ bool Run(const PluginEntry<Method>& entry, const RobotModel& model, const SuiteR
   return true;
 }
 
-int RunIt(const Options& options, const Globals& globals) {
+int RunSuiteMethods(const SuiteCommand& options, const Globals& globals) {
   SuiteReport report = Request(options, globals);
   const std::vector<RobotModel> models = Models(report.robots);
   CheckMethods(report, models, options.methods);
@@ -169,7 +169,7 @@ int RunIt(const Options& options, const Globals& globals) {
 }  // namespace
 
 void AddSuite(CommandLine& line, const Globals& globals, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SuiteCommand>();
   Subcommand command =
       line.Add("suite",
                "Test methods over and over on a robot: the largest size of each that it passes, "
@@ -188,7 +188,7 @@ void AddSuite(CommandLine& line, const Globals& globals, int& status) {
   command.Integer("--jobs", options->jobs, "Threads (default: one a core)", 1, 1024);
   command.Text("--out", options->out, "Output folder (default: out/suite/ROBOT)");
   command.Flag("--no-films", options->no_films, "Do not film");
-  command.OnRun([options, &globals, &status] { status = RunIt(*options, globals); });
+  command.OnRun([options, &globals, &status] { status = RunSuiteMethods(*options, globals); });
 }
 
 }  // namespace floorproof

@@ -24,6 +24,7 @@ TYPE = re.compile(r'^(?:struct|class|enum class|enum|union) (\w+)')
 ALIAS = re.compile(r'^(?:using|namespace) (\w+) = ')
 BORROWED = re.compile(r'^using [\w:]*::(\w+);')
 CONSTANT = re.compile(r'\b(k[A-Z]\w*)\s*[={\[(;]')
+LISTED = re.compile(r'\b(k[A-Z]\w*),')
 FUNCTION = re.compile(r'\b(\w+)\(')
 VARIABLE = re.compile(r'\b(\w+)(?: =|;|\{)')
 MACRO = re.compile(r'[A-Z][A-Z0-9_]*$')
@@ -48,11 +49,14 @@ def declared(text):
         elif kind := TYPE.match(line):
             names[kind[1]] = None
         else:
-            found = CONSTANT.findall(line)
+            constant = CONSTANT.search(line)
             function = FUNCTION.search(line)
-            if not found and function:
+            if function and (not constant or function.start() < constant.start()):
                 found = [function[1]]
-            elif not found:
+                statement = ''  # its parameters may go on, and its body declares nothing of the file
+            elif constant:
+                found = CONSTANT.findall(line)
+            else:
                 found = VARIABLE.findall(line)[:1]
             names.update((name, None) for name in found if not MACRO.match(name))
     return names
@@ -64,11 +68,13 @@ class File:
         with open(path, encoding='utf-8') as stream:
             text = stream.read()
         code = COMMENT_OR_TEXT.sub(' ', text)
-        self.words = set(re.findall(r'\w+', code))
+        # What stands behind a dot, an arrow or :: is looked up elsewhere.
+        self.words = set(re.findall(r'(?<![.>:\w])\w+', code))
         self.own = {}
         for unnamed in UNNAMED.findall(text):
             self.own.update(declared(unnamed))
-        self.declared = set(declared(text))
+        # Members too, where they are named as constants are: a constant of that name would hide them.
+        self.declared = set(declared(text)) | set(CONSTANT.findall(code)) | set(LISTED.findall(code))
         self.includes = [included for name in INCLUDE.findall(text)
                          if os.path.exists(included := os.path.join(root, name))]
 

@@ -20,7 +20,7 @@ HeatPanel Over(const Rgb& colour, const HazardMap& map, const PanelFrame& frame)
   return DrawPanel(map, &values, options, frame, MapAxes(frame));
 }
 
-std::uint8_t Between(std::uint8_t black, std::uint8_t white, std::uint8_t share) {
+std::uint8_t ShadeBetween(std::uint8_t black, std::uint8_t white, std::uint8_t share) {
   return static_cast<std::uint8_t>(black + (white - black) * share / 255);
 }
 
@@ -93,7 +93,7 @@ void CellFloor::Paint(Cell cell) {
       const std::size_t at = 3 * (static_cast<std::size_t>(y) * frame_.width + x);
       Rgb mixed;
       for (std::size_t k = 0; k < 3; ++k)
-        mixed[k] = Between(black_.data[at + k], white_.data[at + k], colour[k]);
+        mixed[k] = ShadeBetween(black_.data[at + k], white_.data[at + k], colour[k]);
       if (!seen) mixed = Veiled(mixed, x, y);
       std::ranges::copy(mixed, image_.data.begin() + static_cast<std::ptrdiff_t>(at));
     }

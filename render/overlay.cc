@@ -13,13 +13,13 @@
 namespace floorproof {
 namespace {
 
-constexpr Rgb kInk = {18, 24, 32}, kPaper = {245, 247, 250}, kDim = {168, 180, 194};
+constexpr Rgb kBannerInk = {18, 24, 32}, kPaper = {245, 247, 250}, kDim = {168, 180, 194};
 constexpr Rgb kDone = {64, 200, 172};
 
 // The measure of all others, px.
 double Unit(const Image& image) { return std::max(18.0, image.height / 22.0); }
 
-Rgb Colour(Banner::Tone tone) {
+Rgb ToneColour(Banner::Tone tone) {
   switch (tone) {
     case Banner::Tone::kFailure:
       return {178, 32, 40};
@@ -28,7 +28,7 @@ Rgb Colour(Banner::Tone tone) {
     case Banner::Tone::kSuccess:
       return {22, 118, 84};
   }
-  return kInk;
+  return kBannerInk;
 }
 
 std::string Clock(double t_s) {
@@ -54,7 +54,7 @@ std::string Fit(const std::string& text, double width_px, const TextStyle& style
 void DrawStatus(const Overlay& overlay, Image& image, double unit) {
   const int top = RowsOf(image).bottom;
   const double base = image.height - 0.40 * unit, margin = 0.55 * unit, w = image.width;
-  FillRectangle(image, 0, top, image.width, image.height, kInk, 0.72);
+  FillRectangle(image, 0, top, image.width, image.height, kBannerInk, 0.72);
   const TextStyle big{.cap_px = 0.42 * unit, .colour = kPaper, .bold = true};
   const TextStyle small{.cap_px = 0.34 * unit, .colour = kDim};
   TextStyle right = small;
@@ -90,7 +90,7 @@ void DrawStatus(const Overlay& overlay, Image& image, double unit) {
 void DrawBanner(const Banner& banner, Image& image, double unit) {
   const int bottom = RowsOf(image).top;
   const double margin = 0.55 * unit, room = image.width - 2 * margin;
-  FillRectangle(image, 0, 0, image.width, bottom, Colour(banner.tone), 0.86);
+  FillRectangle(image, 0, 0, image.width, bottom, ToneColour(banner.tone), 0.86);
   const TextStyle head{.cap_px = 0.52 * unit, .colour = kPaper, .bold = true};
   const TextStyle body{.cap_px = 0.36 * unit, .colour = kPaper};
   const bool two = !banner.detail.empty();

@@ -59,7 +59,7 @@ std::string Spoken(std::string_view name) {
 }
 
 // What a chart is drawn over (x) and what its strokes tell apart (level).
-struct Reading {
+struct AxisReading {
   std::string x_label;
   std::function<double(const LadderCell&)> x, level;
   std::function<std::string(double)> level_name;
@@ -85,7 +85,7 @@ std::vector<Direction> DirectionsIn(std::span<const LadderRow> rows) {
 }
 
 ChartPanel PanelOf(const LadderHazard& hazard, std::span<const LadderRow> rows,
-                   const Reading& reading) {
+                   const AxisReading& reading) {
   ChartPanel panel;
   panel.title = Spoken(hazard.name);
   panel.subtitle = fmt::format("{} [{}]", hazard.size, hazard.unit);
@@ -107,7 +107,7 @@ ChartPanel PanelOf(const LadderHazard& hazard, std::span<const LadderRow> rows,
   return panel;
 }
 
-Chart ChartOf(std::span<const LadderRow> rows, const Reading& reading) {
+Chart ChartOf(std::span<const LadderRow> rows, const AxisReading& reading) {
   Chart chart;
   for (const LadderHazard& hazard : LadderHazards())
     chart.panels.push_back(PanelOf(hazard, rows, reading));

@@ -13,7 +13,7 @@ constexpr Shown kShown[] = {{"coverage", "coverage [% points]", 100},
                             {"duration_s", "time [s]", 1},
                             {"energy_j", "energy [kJ]", 1e-3}};
 
-ReportDifference Difference(const ComparedMetric& metric, const Shown& shown) {
+ReportDifference DifferenceIn(const ComparedMetric& metric, const Shown& shown) {
   ReportDifference d{.name = shown.name,
                      .pairs = metric.successes_only ? "where both succeed" : "episodes",
                      .n = metric.mean.n};
@@ -43,7 +43,7 @@ ReportPair ShownPair(const Comparison& comparison) {
   pair.p = any.p;
   for (const Shown& shown : kShown)
     for (const ComparedMetric& metric : comparison.metrics)
-      if (metric.metric == shown.metric) pair.metrics.push_back(Difference(metric, shown));
+      if (metric.metric == shown.metric) pair.metrics.push_back(DifferenceIn(metric, shown));
   return pair;
 }
 

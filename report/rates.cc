@@ -20,7 +20,7 @@ std::string Words(std::string name) {
   return name;
 }
 
-std::string Between(const std::string& lower, const std::string& upper) {
+std::string IntervalText(const std::string& lower, const std::string& upper) {
   return lower + " to " + upper;
 }
 
@@ -99,7 +99,7 @@ std::string RatesTable(const Report& report, const std::string& heading,
   return html + "</tbody></table>\n";
 }
 
-std::vector<std::string> Names(const std::vector<FailureRate>& rates, bool as_words) {
+std::vector<std::string> RowNames(const std::vector<FailureRate>& rates, bool as_words) {
   std::vector<std::string> names;
   for (const FailureRate& rate : rates) names.push_back(as_words ? Words(rate.name) : rate.name);
   return names;
@@ -146,8 +146,8 @@ std::string PerTable(const VariantSummary& v) {
         "<tr{}><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td><td "
         "class=\"num\">{}</td><td class=\"num\">{}</td><td class=\"num\">{}</td></tr>\n",
         i == 0 ? " class=\"total\"" : "", MarkupText(Words(km.name)), km.k, NumberText(km.rate),
-        Between(NumberText(km.lower), NumberText(km.upper)), NumberText(hours.rate),
-        Between(NumberText(hours.lower), NumberText(hours.upper)));
+        IntervalText(NumberText(km.lower), NumberText(km.upper)), NumberText(hours.rate),
+        IntervalText(NumberText(hours.lower), NumberText(hours.upper)));
   }
   return html + "</tbody></table></div>\n";
 }
@@ -183,7 +183,7 @@ std::string Signed(double value, bool percent) {
 
 std::string SignedBetween(double lower, double upper, bool percent) {
   if (std::isfinite(lower) && std::isfinite(upper))
-    return Between(Signed(lower, percent), Signed(upper, percent));
+    return IntervalText(Signed(lower, percent), Signed(upper, percent));
   return "too few pairs";
 }
 
@@ -248,13 +248,13 @@ std::string VariantsTable(const Report& report) {
 std::string VariantRates(const Report& report, const VariantSummary& v) {
   std::string html = Outcomes(v);
   if (v.repeated) html += "<p class=\"note\">" + MarkupText(RepetitionText(v)) + ".</p>\n";
-  html += RatesTable(report, "Failure", Names(v.failures, true), v.failures, true);
+  html += RatesTable(report, "Failure", RowNames(v.failures, true), v.failures, true);
   html += PerTable(v);
   if (!v.kinds.empty())
-    html += "<h4>By kind</h4>\n" + RatesTable(report, "Kind", Names(v.kinds, true), v.kinds);
+    html += "<h4>By kind</h4>\n" + RatesTable(report, "Kind", RowNames(v.kinds, true), v.kinds);
   if (!v.hazards.empty())
     html += "<h4>By hazard met</h4>\n" +
-            RatesTable(report, "Hazard", Names(v.hazards, false), v.hazards);
+            RatesTable(report, "Hazard", RowNames(v.hazards, false), v.hazards);
   return html + MetricsTable(v);
 }
 

@@ -66,7 +66,7 @@ std::vector<ViewMark> MarksOf(const RobotCheck& check, const Looking& looking) {
   return marks;
 }
 
-std::vector<Vec2> Closed(Polygon polygon) {
+std::vector<Vec2> ClosedLine(Polygon polygon) {
   if (!polygon.empty()) polygon.push_back(polygon.front());
   return polygon;
 }
@@ -95,13 +95,13 @@ View Top(const RobotCheck& check, const std::vector<RobotPart>& parts) {
   View view;
   view.title = "from above; forward is to the right";
   view.shapes = ShapesOf(parts, kFromAbove);
-  view.lines.push_back({Closed(ClearOutline(check.spec)), kClear, true, ""});
+  view.lines.push_back({ClosedLine(ClearOutline(check.spec)), kClear, true, ""});
   std::vector<Vec2> support;
   for (const SupportEdge& edge : check.stance.edges) {
     support.push_back(edge.a_B);
     support.push_back(edge.b_B);
   }
-  view.lines.push_back({Closed(ConvexHull(support)), kSupport, false, ""});
+  view.lines.push_back({ClosedLine(ConvexHull(support)), kSupport, false, ""});
   view.marks = MarksOf(check, kFromAbove);
   constexpr double kLong_m = 0.03;  // a shorter edge has no room for its angle
   for (const SupportEdge& edge : check.stance.edges)

@@ -53,7 +53,7 @@ std::vector<const PluginEntry<Method>*> Done(const SuiteReport& report) {
   return done;
 }
 
-std::string Names(const SuiteReport& report, const char* between) {
+std::string RobotNames(const SuiteReport& report, const char* between) {
   std::string names;
   for (const RobotSuite& robot : report.robots)
     names += (names.empty() ? "" : between) + robot.label;
@@ -228,7 +228,7 @@ std::string SuitePage(const SuiteReport& report, const fs::path& folder) {
   FilmShelf films(folder);
   std::string cards;
   for (const auto* entry : Done(report)) cards += MethodCard(report, *entry, films);
-  const std::string title = MarkupText(Names(report, " and "));
+  const std::string title = MarkupText(RobotNames(report, " and "));
   const std::string stands =
       films.linked().empty()
           ? "This page is complete in itself: everything it shows stands in this one file."

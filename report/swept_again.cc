@@ -19,7 +19,7 @@ struct Block {
 };
 
 // Rows of neighbours, joined where the row below is as wide.
-std::vector<Block> Blocks(std::vector<Cell>& cells) {
+std::vector<Block> BlocksOf(std::vector<Cell>& cells) {
   std::ranges::sort(cells, {}, [](const Cell& c) { return std::tuple(c.iy, c.ix); });
   std::vector<Block> blocks;
   for (std::size_t begin = 0, end = 0; begin < cells.size(); begin = end) {
@@ -59,7 +59,7 @@ class Patches {
   }
   void Paint(const TraceRow& row) {
     const GridFrame& frame = area_.frame;
-    for (const Block& b : Blocks(cells_)) {
+    for (const Block& b : BlocksOf(cells_)) {
       const auto at = [&](int x) -> Vec2 {
         return frame.X_WG * Vec2(x * frame.cell_m, 0.5 * (b.y0 + b.y1) * frame.cell_m);
       };

@@ -30,7 +30,7 @@ HazardMap Bench(Hazard hazard, double friction) {
   return map;
 }
 
-Path StraightPlan(const CrossingPlan& plan, double from_m) {
+Path PathOver(const CrossingPlan& plan, double from_m) {
   const Vec2 along(std::cos(plan.travel_rad), std::sin(plan.travel_rad));
   Path path(2);
   path[0].p_W = -from_m * along;
@@ -74,7 +74,7 @@ CrossingResult Cross(const RobotModel& model, Hazard hazard, const CrossingPlan&
                           plan.speed_mps * plan.speed_mps / (2 * robot.max_accel_mps2);
   // An edge met at an angle comes nearer to the circle that the robot fits in.
   const double from_m = robot.circumscribed_radius_m / std::cos(plan.travel_rad) + run_up_m;
-  const Path path = StraightPlan(plan, from_m);
+  const Path path = PathOver(plan, from_m);
   const Pose2 start{path[0].p_W.x(), path[0].p_W.y(), plan.yaw_rad};
   const Vec2 along = (path[1].p_W - path[0].p_W).normalized();
 

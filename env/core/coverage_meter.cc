@@ -11,7 +11,7 @@
 namespace floorproof {
 namespace {
 
-double Extent(const Shape2& tool) {
+double ToolExtent(const Shape2& tool) {
   if (tool.kind == Shape2::Kind::kCircle) return 2 * tool.radius_m;
   return BoxAround(tool.footprint_B).Size().maxCoeff();
 }
@@ -52,7 +52,7 @@ CoverageMeter::CoverageMeter(const SweepArea& area, const Shape2& tool)
 void CoverageMeter::SetTool(const Shape2& tool) {
   Lift();
   tool_ = tool;
-  gap_m_ = 2 * Extent(tool);
+  gap_m_ = 2 * ToolExtent(tool);
   reach_m_ = Reach(tool);
   // Rows of a plan often put a footprint's edge exactly on cell centres. A tenth of a millimetre
   // must not decide whether these cells count as swept.

@@ -13,7 +13,7 @@ namespace {
 using Word = std::array<int, 3>;
 
 // An arc forward takes 0 to a whole turn; what rounding makes of no turn is none.
-double Turned(double angle_rad) {
+double WithinATurn(double angle_rad) {
   constexpr double kNone = 1e-9;
   double turned = std::fmod(angle_rad, 2 * kPi);
   if (turned < 0) turned += 2 * kPi;
@@ -35,7 +35,8 @@ std::optional<std::array<double, 3>> WithStraight(const Pose2& to, const Word& w
     straight = std::sqrt(squared);
     heading += word[0] * std::atan2(2, straight);
   }
-  return std::array{Turned(word[0] * heading), straight, Turned(word[2] * (to.yaw_rad - heading))};
+  return std::array{WithinATurn(word[0] * heading), straight,
+                    WithinATurn(word[2] * (to.yaw_rad - heading))};
 }
 
 // Three arcs: the middle circle touches both others, on the far side, so that its arc is more than
@@ -53,8 +54,8 @@ std::optional<std::array<double, 3>> OfArcs(const Pose2& to, const Word& word) {
   // Headings where the arcs meet, square to the line of the centres.
   const double leaves = to_middle + word[0] * kPi / 2;
   const double enters = std::atan2(on.y(), on.x()) + word[1] * kPi / 2;
-  return std::array{Turned(word[0] * leaves), Turned(word[1] * (enters - leaves)),
-                    Turned(word[2] * (to.yaw_rad - enters))};
+  return std::array{WithinATurn(word[0] * leaves), WithinATurn(word[1] * (enters - leaves)),
+                    WithinATurn(word[2] * (to.yaw_rad - enters))};
 }
 
 // The way that a piece leads, in the frame of the pose where it begins.

@@ -9,8 +9,8 @@
 namespace floorproof {
 namespace {
 
-TurnedPath Turned(const Path& path, const HazardMap& map, const RobotSpec& robot,
-                  const Shape2& clear, double lane_m, const Pose2& X_WB) {
+TurnedPath TurnedPathOf(const Path& path, const HazardMap& map, const RobotSpec& robot,
+                        const Shape2& clear, double lane_m, const Pose2& X_WB) {
   constexpr double kMargin_m = 0.03;  // as plans keep for round robots' trackers
   const bool circle = clear.kind == Shape2::Kind::kCircle;
   const ClearanceField clearance = ComputeClearance(map, robot.step_m);
@@ -26,7 +26,7 @@ TurnedPath Turned(const Path& path, const HazardMap& map, const RobotSpec& robot
 
 Path FitTurns(const Path& path, const HazardMap& map, const RobotSpec& robot, const Shape2& clear,
               const Pose2& X_WB) {
-  return Turned(path, map, robot, clear, 0, X_WB).path;
+  return TurnedPathOf(path, map, robot, clear, 0, X_WB).path;
 }
 
 void FitTurns(const PlanRequest& request, PlanResult& plan) {
@@ -36,7 +36,7 @@ void FitTurns(const PlanRequest& request, PlanResult& plan) {
     return;
   const double radius_m = kTurnReserve * robot.turn_radius_m;
   TurnedPath turned =
-      Turned(plan.path, request.map, robot, plan.clear, plan.tool_width_m, request.start);
+      TurnedPathOf(plan.path, request.map, robot, plan.clear, plan.tool_width_m, request.start);
   if (turned.path.empty()) {
     plan.status = PlanStatus::kFailed;
     plan.message =

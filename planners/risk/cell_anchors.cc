@@ -10,7 +10,7 @@
 namespace floorproof {
 namespace {
 
-std::string_view Name(HazardClass c) {
+std::string_view ClassName(HazardClass c) {
   constexpr std::string_view kNames[] = {"a blind object (C1)", "glass (C2)", "a level change (C3)",
                                          "terrain (C4)"};
   return kNames[static_cast<std::size_t>(c)];
@@ -40,7 +40,7 @@ std::optional<Cell> CellAnchors::At(const Vec2& p_W, std::string& why) {
   for (const Hazard& hazard : request_.map.hazards)
     for (const Polygon& polygon : hazard.footprint)
       if (Contains(polygon, p_W)) {
-        why = "lies on a hazard, " + std::string(Name(hazard.hazard_class));
+        why = "lies on a hazard, " + std::string(ClassName(hazard.hazard_class));
         return std::nullopt;
       }
   if (grid_.contents(cell).terrain()) {
@@ -51,7 +51,8 @@ std::optional<Cell> CellAnchors::At(const Vec2& p_W, std::string& why) {
   if (!Fits(p_W)) {
     const auto& hazard = grid_.contents(cell).hazard;
     why = "the robot does not fit";
-    if (hazard) why += ": its " + Width() + " cell holds a hazard, " + std::string(Name(*hazard));
+    if (hazard)
+      why += ": its " + Width() + " cell holds a hazard, " + std::string(ClassName(*hazard));
     return std::nullopt;
   }
   std::optional<Cell> best;

@@ -61,7 +61,7 @@ std::vector<RateBlock> AllBlocks(const KindRates& kind) {
   return all;
 }
 
-double Nearest(const RateAxis& axis, double x) {
+double OnAxis(const RateAxis& axis, double x) {
   if (axis.period == 0) return std::clamp(x, axis.lower, axis.upper);
   x = std::fmod(x - axis.lower, axis.period);
   if (x < 0) x += axis.period;
@@ -99,7 +99,7 @@ void RateFeatures::At(std::span<const double> x, std::span<double> out) const {
   values.resize(axis_functions_);
   for (std::size_t a = 0; a < axes_.size(); ++a)
     if (curves_[a])
-      curves_[a]->At(Nearest(axes_[a], x[a]),
+      curves_[a]->At(OnAxis(axes_[a], x[a]),
                      {values.data() + axis_begins_[a], axes_[a].functions.size()});
   out[0] = 1;
   double* products = out.data() + 1;

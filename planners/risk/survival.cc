@@ -38,7 +38,7 @@ void Meet(const ModeNumbers& rates, double way_m, double theta, double& sum, Out
 }
 
 // What its rates are multiplied by.
-double AmountOf(const PlannedMeeting& meeting) {
+double MeetingAmount(const PlannedMeeting& meeting) {
   return meeting.way_m * meeting.rates->TimesMeasured(meeting.at);
 }
 
@@ -152,7 +152,8 @@ Survival PredictSurvival(std::span<const std::vector<PlannedMeeting>> conditions
       const std::span<const double> x =
           known[meeting.number].Of(meeting, model.mirrored).Of(meeting.at);
       const double before = outcomes[c][0];
-      Meet(rates.At(x), AmountOf(meeting), rates.kind().theta, sums[meeting.first], outcomes[c]);
+      Meet(rates.At(x), MeetingAmount(meeting), rates.kind().theta, sums[meeting.first],
+           outcomes[c]);
       survival.by_meeting[meeting.number] +=
           (before - outcomes[c][0]) / static_cast<double>(conditions.size());
       const double share = rates.Beyond(x);
@@ -172,7 +173,7 @@ Survival PredictSurvival(std::span<const std::vector<PlannedMeeting>> conditions
     for (auto& member : by_member) member.push_back(certain);
     for (const PlannedMeeting& meeting : conditions[c]) {
       const RateEvaluator& rates = *meeting.rates;
-      const double amount = AmountOf(meeting);
+      const double amount = MeetingAmount(meeting);
       const auto members =
           rates.MembersAt(known[meeting.number].Of(meeting, model.mirrored).Of(meeting.at));
       for (std::size_t r = 0; r < kRateMembers; ++r)

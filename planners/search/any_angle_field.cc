@@ -32,10 +32,10 @@ constexpr double kAhead = 64;  // cells; fewer: more cones wait, more: places ar
 // Slopes that differ at all do so by more, on floors of up to 30,000 rows.
 constexpr double kSame = 1e-9;
 
-double Length(double dx, double dy) { return std::sqrt(dx * dx + dy * dy); }
+double Hypotenuse(double dx, double dy) { return std::sqrt(dx * dx + dy * dy); }
 
 // The least distance from a root to a row, within a cone.
-double Nearest(double left, double right, int rows) {
+double LeastWay(double left, double right, int rows) {
   const double slope = std::clamp(0.0, left, right);
   return std::isinf(slope) ? rows : rows * std::sqrt(1 + slope * slope);
 }
@@ -88,7 +88,7 @@ std::size_t AnyAngleField::bytes() const {
 
 double AnyAngleField::Through(int root, Cell c) const {
   const Root& from = roots_[Z(root)];
-  return from.distance + Length(c.ix - from.at.ix, c.iy - from.at.iy);
+  return from.distance + Hypotenuse(c.ix - from.at.ix, c.iy - from.at.iy);
 }
 
 void AnyAngleField::From(Cell source) {
@@ -219,7 +219,7 @@ void AnyAngleField::Scan(const Cone& cone) {
     const Cone next = stack_.back();
     stack_.pop_back();
     const double distance =
-        roots_[Z(next.root)].distance + Nearest(next.left, next.right, next.rows + 1);
+        roots_[Z(next.root)].distance + LeastWay(next.left, next.right, next.rows + 1);
     if (distance <= limit_)
       ScanBand(next);
     else
@@ -304,7 +304,8 @@ void AnyAngleField::Prefetch(int iy, int x1, int x2) const {
 // cell away: others come along the row from x.
 bool AnyAngleField::MayBeBetter(const Cone& cone, double slope, int x) const {
   const Root& root = roots_[Z(cone.root)];
-  const double dx = x - root.at.ix, length = Length(dx, cone.rows), width = dx - slope * cone.rows;
+  const double dx = x - root.at.ix, length = Hypotenuse(dx, cone.rows),
+               width = dx - slope * cone.rows;
   const int iy = root.at.iy + cone.up * cone.rows;
   const double behind = root.distance + length - static_cast<double>(ReachOf(PlaceOf({x, iy})));
   return behind < std::abs(width) + width * dx / length - 1e-6 * (root.distance + length);

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The first key whose values differ, with both; empty: none.
-std::string Difference(const ConfigNode& a, const ConfigNode& b, const std::string& path) {
+std::string WhatDiffers(const ConfigNode& a, const ConfigNode& b, const std::string& path) {
   const auto shown = [](const ConfigNode* node) {
     if (node == nullptr) return std::string("nothing");
     if (node->IsList()) return CountText(node->items.size(), "value");
@@ -26,7 +26,7 @@ std::string Difference(const ConfigNode& a, const ConfigNode& b, const std::stri
     for (const auto& [key, value] : a.entries) {
       const ConfigNode* other = b.Find(key);
       if (other == nullptr) return below(key) + " was " + shown(&value) + ", is not there now";
-      if (std::string text = Difference(value, *other, below(key)); !text.empty()) return text;
+      if (std::string text = WhatDiffers(value, *other, below(key)); !text.empty()) return text;
     }
     for (const auto& [key, value] : b.entries)
       if (a.Find(key) == nullptr) return below(key) + " was not there, is " + shown(&value);
@@ -34,7 +34,7 @@ std::string Difference(const ConfigNode& a, const ConfigNode& b, const std::stri
   }
   if (a.IsList() && b.IsList() && a.items.size() == b.items.size()) {
     for (std::size_t i = 0; i < a.items.size(); ++i)
-      if (std::string text = Difference(a.items[i], b.items[i], below(std::to_string(i)));
+      if (std::string text = WhatDiffers(a.items[i], b.items[i], below(std::to_string(i)));
           !text.empty())
         return text;
     return "";
@@ -78,8 +78,8 @@ void RequireSame(const CampaignAbout& there, const CampaignAbout& now,
                  const std::filesystem::path& where) {
   if (there.id == now.id) return;
   const auto parse = [](const std::string& text) { return ParseYaml(text, "campaign"); };
-  std::string difference = Difference(parse(there.versions), parse(now.versions), "version");
-  if (difference.empty()) difference = Difference(parse(there.scenario), parse(now.scenario), "");
+  std::string difference = WhatDiffers(parse(there.versions), parse(now.versions), "version");
+  if (difference.empty()) difference = WhatDiffers(parse(there.scenario), parse(now.scenario), "");
   if (difference.empty()) difference = "its keys stand in another order";
   throw InputError({where.string(), 0}, "", "", "holds another campaign: " + difference);
 }

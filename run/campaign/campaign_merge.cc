@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kBatch = 1000;
 
 // The first column in which the rows of one episode differ; empty: none. Wall times are no result.
-std::string Difference(const EpisodeRow& a, const EpisodeRow& b) {
+std::string DifferenceOfRows(const EpisodeRow& a, const EpisodeRow& b) {
   if (a.outcome != b.outcome) return "outcome, " + a.outcome + " and " + b.outcome;
   if (a.events_of != b.events_of || a.events != b.events) return "events";
   for (std::size_t i = 0; i < a.metrics.size(); ++i)
@@ -53,7 +53,7 @@ void CheckOverlaps(std::span<const CampaignStore> shards, std::span<const std::s
         const auto check = [&](const EpisodeRow& row) {
           const auto found = rows.find(row.episode);
           if (found == rows.end()) return;
-          if (const std::string what = Difference(found->second, row); !what.empty())
+          if (const std::string what = DifferenceOfRows(found->second, row); !what.empty())
             throw InputError({names[b], 0}, "", "",
                              "episode " + std::to_string(row.episode) + " of " + variant.name +
                                  " is not that of " + names[a] + ": they differ in " + what);

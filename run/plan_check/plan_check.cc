@@ -53,8 +53,8 @@ bool IsBeyondMeasured(const HazardMap& floor, const std::string& id) {
   return hazard != floor.hazards.end() && hazard->crossable == false;
 }
 
-std::string Reason(const HazardMap& floor, const RobotSpec& robot, const UncoveredPocket& pocket,
-                   const PlanResult& plan) {
+std::string WhyUncovered(const HazardMap& floor, const RobotSpec& robot,
+                         const UncoveredPocket& pocket, const PlanResult& plan) {
   const std::string needs = Metres(LeastPassage(plan.clear));
   switch (pocket.why) {
     case Why::kNotVisited:
@@ -148,7 +148,7 @@ void AddUncovered(const HazardMap& floor, const RobotSpec& robot, const PlanResu
       more_m2 += pocket.area_m2;
     else
       lines.push_back(fmt::format("  {} m2 around {}: {}", NumberText(pocket.area_m2),
-                                  At(pocket.p_W), Reason(floor, robot, pocket, plan)));
+                                  At(pocket.p_W), WhyUncovered(floor, robot, pocket, plan)));
   }
   if (u.pockets.size() > kListed)
     lines.push_back(

@@ -245,7 +245,7 @@ CarryOver ReadCarryOver(const ConfigNode& node) {
   return of;
 }
 
-MeasuredRobot ReadRobot(const ConfigNode& node) {
+MeasuredRobot ReadMeasuredRobot(const ConfigNode& node) {
   const Keys keys(node, "robot", {"name", "drive", "mass_kg", "clearance_m", "model"});
   MeasuredRobot robot;
   robot.name = keys.Text("name");
@@ -276,7 +276,7 @@ RiskModel Parse(const std::filesystem::path& file, const InputFiles& files) {
   const Keys keys(
       root, "", {"risk_model", "robot", "mirrored", "encounters", "plans", "kinds", "unmeasured"});
   RiskModel model;
-  model.robot = ReadRobot(keys.At("robot"));
+  model.robot = ReadMeasuredRobot(keys.At("robot"));
   model.mirrored = keys.Flag("mirrored");
   model.encounters = keys.Count("encounters");
   if (keys.Has("plans")) model.carry_over = ReadCarryOver(keys.At("plans"));

@@ -26,7 +26,7 @@ const std::vector<PhysicsParams>& Others() {
       {.timestep_s = 0.004, .integrator = "implicitfast"}};
   return others;
 }
-std::string Name(const PhysicsParams& physics) {
+std::string StepName(const PhysicsParams& physics) {
   return fmt::format("{}{}ms", physics.integrator, std::lround(physics.timestep_s * 1000));
 }
 
@@ -71,7 +71,7 @@ class Timestep final : public Law {
       const auto row = [&](const PhysicsParams& physics) {
         rows.push_back(
             {fmt::format("timestep/{}/{}/{}%/{}", robot, sideways ? "sideways" : "forward",
-                         std::lround(100 * share), Name(physics)),
+                         std::lround(100 * share), StepName(physics)),
              share < 1 ? 1.0 : 0.0, crosses(physics, share) ? 1.0 : 0.0, 0, "crosses"});
       };
       row(kReference);
@@ -88,7 +88,7 @@ class Timestep final : public Law {
     const Pose2 fine = drive(kReference, {});
     for (const auto& physics : Others()) {
       const Pose2 pose = drive(physics, wrong);
-      const std::string law = fmt::format("timestep/{}/pose/{}", robot.name, Name(physics));
+      const std::string law = fmt::format("timestep/{}/pose/{}", robot.name, StepName(physics));
       rows.push_back({law + "/x", fine.x_m, pose.x_m, robot.position_m, "m"});
       rows.push_back({law + "/y", fine.y_m, pose.y_m, robot.position_m, "m"});
       rows.push_back({law + "/yaw", fine.yaw_rad, pose.yaw_rad, robot.yaw_rad, "rad"});
