@@ -494,7 +494,7 @@ TEST_F(CampaignStoreTest, AnotherCampaignIsToldByWhatDiffers) {
   now.scenario = "seed: 1\nsite:\n  name: b\n";
   EXPECT_THAT(WhyOther(about_, now), HasSubstr("site.name was a, is b"));
   now.scenario = "seed: 1\nsite:\n  name: a\n  start: [1, 2]\n";
-  EXPECT_THAT(WhyOther(about_, now), HasSubstr("site.start was not there, is other parts"));
+  EXPECT_THAT(WhyOther(about_, now), HasSubstr("site.start was not there, is 2 values"));
   now.scenario = "seed: 1\n";
   EXPECT_THAT(WhyOther(about_, now), HasSubstr("site was other parts, is not there now"));
   now.scenario = "site:\n  name: a\nseed: 1\n";
