@@ -344,6 +344,14 @@ std::string WriteYaml(const ConfigNode& node) {
   return std::string(out.c_str()) + "\n";
 }
 
+std::string WriteYamlLine(const ConfigNode& node) {
+  YAML::Emitter out;
+  out.SetSeqFormat(YAML::Flow);
+  out.SetMapFormat(YAML::Flow);
+  Emit(node, out);
+  return out.c_str();
+}
+
 std::string QuotedYaml(const std::string& text) {
   YAML::Emitter out;
   out << YAML::DoubleQuoted << text;

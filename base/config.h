@@ -47,6 +47,8 @@ ConfigNode ParseYaml(const std::string& text, const std::string& file);
 ConfigNode ReadYamlFile(const std::filesystem::path& path);
 // Block style, short lists of scalars in one line; ParseYaml(WriteYaml(n)) gives n's values again.
 std::string WriteYaml(const ConfigNode& node);
+// The same in one line.
+std::string WriteYamlLine(const ConfigNode& node);
 // Any text as a quoted scalar in one line, to stand in YAML that is put together.
 std::string QuotedYaml(const std::string& text);
 

@@ -71,7 +71,7 @@ class BounceBack final : public Detector {
     active_ = 0;
     armed_ = true;
     last_contact_s_ = -std::numeric_limits<double>::infinity();
-    margin_ = rebound_mps_;
+    StartMargin(rebound_mps_);
   }
 
   bool Update(const Sample& sample) override {

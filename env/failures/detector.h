@@ -38,10 +38,19 @@ class Detector : public Configurable {
   // How far from failing, in the threshold's unit; positive is safe. It is the smallest value since
   // Start().
   double margin() const { return margin_; }
+  // The same as a share of the threshold: 1, it never came nearer; below 0, it was beyond it. It
+  // does not say whether it failed: beyond for too short a time is no failure.
+  double margin_share() const { return margin_ / threshold_; }
 
  protected:
+  // In Start: nothing has come nearer yet than the whole threshold, which is > 0.
+  void StartMargin(double threshold) { margin_ = threshold_ = threshold; }
+
   Event event_;
   double margin_ = 0;
+
+ private:
+  double threshold_ = 1;
 };
 
 struct NamedDetector {

@@ -83,7 +83,7 @@ class RollOver final : public Detector {
     reported_ = false;
     rest_support_m_ = window_support_m_ = most_lean_rad_ = 0;
     window_since_s_ = 0;
-    margin_ = limit_rad_;
+    StartMargin(limit_rad_);
   }
 
   bool Update(const Sample& sample) override {

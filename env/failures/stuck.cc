@@ -77,7 +77,7 @@ class Stuck final : public Detector {
     started_ = reported_ = false;
     hazards_.Start(context);
     belly_hazard_ = -1;
-    margin_ = displacement_m_;
+    StartMargin(displacement_m_);
   }
 
   bool Update(const Sample& sample) override {

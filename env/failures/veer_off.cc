@@ -32,7 +32,7 @@ class VeerOff final : public Detector {
   void Start(const EpisodeContext& context) override {
     hazards_.Start(context);
     off_ = reported_ = false;
-    margin_ = max_cross_track_m_;
+    StartMargin(max_cross_track_m_);
   }
 
   bool Update(const Sample& sample) override {

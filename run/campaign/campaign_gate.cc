@@ -17,8 +17,9 @@ void GateParams::Visit(ParamVisitor& v) {
     "and episodes without a plan too)");
   v("max_rate", max_rate, Between(0, 1), "the rate that must be proved to be below this");
   v("confidence", confidence, Between(0.5, 1), "of either verdict, one-sided");
-  v("mode", mode, {"fixed", "sequential"},
-    "fixed: judged once, at the last episode; sequential: as soon as the evidence is enough");
+  v("mode", mode, {"fixed", "sequential", "rare"},
+    "fixed: judged once, at the last episode; sequential: as soon as the evidence is enough; rare: "
+    "by floorproof rare, whose verdict rests on its sampler");
   v("min_n", min_n, Between(1, 1e8), "sequential: fewest episodes that a verdict stands on");
   v("max_n", max_n, Between(1, 1e8), "most episodes judged; none: the campaign's -n");
 }
@@ -60,6 +61,10 @@ std::optional<CampaignGate> CampaignGate::Read(const ConfigNode& node, std::uint
   if (!driven && p.metric != "not_success")
     throw InputError(node.mark, "gate.metric", p.metric,
                      "must be not_success: without physics (drive: none) nothing can fail");
+  if (p.mode == "rare")
+    throw InputError(node.mark, "gate.mode", p.mode,
+                     "is judged by floorproof rare; a campaign's is fixed or sequential (--set "
+                     "gate.mode=fixed, or gate=none)");
   if (p.max_n && *p.max_n != std::floor(*p.max_n))
     throw InputError(node.mark, "gate.max_n", FormatDouble(*p.max_n), "must be a whole number");
   const double most = std::min(p.max_n.value_or(1e8), static_cast<double>(n));

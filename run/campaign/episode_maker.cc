@@ -60,28 +60,52 @@ std::string EpisodeMaker::Answer(Job job) {
   return ToLine(row);
 }
 
-EpisodeRow EpisodeMaker::Run(const Variant& variant, std::uint64_t episode) try {
-  Scenario s = file_.Read(episode, variant);
+EpisodeRow EpisodeMaker::Drive(const Variant& variant, Scenario& s) {
   const Planned& planned = Plan(variant, s);
   std::optional<Scene> scene;
   const EpisodeRecord record = ExecutePlan(s, planned.plan, scene);
   EpisodeRow row = MakeRow(variant.name, s, WithFigures(planned.json, record), record);
   row.made = planned.made;
   return row;
+}
+
+EpisodeRow EpisodeMaker::Run(const Variant& variant, std::uint64_t episode) try {
+  Scenario s = file_.Read(episode, variant);
+  return Drive(variant, s);
 } catch (const InputError& e) {
   return Refused(variant, episode, e.what());
 } catch (const InternalError& e) {
   return Refused(variant, episode, e.what());
 }
 
+EpisodeRow EpisodeMaker::RunDrawn(const Variant& variant, std::uint64_t episode,
+                                  const Drawn& drawn) try {
+  Scenario s = file_.ReadDrawn(episode, drawn);
+  return Drive(variant, s);
+} catch (const InputError& e) {
+  return Refused(variant, episode, drawn, e.what());
+} catch (const InternalError& e) {
+  return Refused(variant, episode, drawn, e.what());
+}
+
+const PlanResult& EpisodeMaker::PlanDrawn(const Variant& variant, std::uint64_t episode,
+                                          const Drawn& drawn) {
+  return Plan(variant, file_.ReadDrawn(episode, drawn)).plan;
+}
+
 EpisodeRow EpisodeMaker::Refused(const Variant& variant, std::uint64_t episode,
+                                 const std::string& why) const {
+  return Refused(variant, episode, file_.DrawnOf(episode), why);
+}
+
+EpisodeRow EpisodeMaker::Refused(const Variant& variant, std::uint64_t episode, const Drawn& drawn,
                                  const std::string& why) const {
   EpisodeRow row;
   row.variant = variant.name;
   row.episode = episode;
   row.outcome = Name(Outcome::kError);
   row.message = FromFolder(why, file_.file().parent_path());
-  row.drawn = DrawnJson(file_.DrawnOf(episode)).dump();
+  row.drawn = DrawnJson(drawn).dump();
   return row;
 }
 

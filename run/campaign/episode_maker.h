@@ -32,8 +32,15 @@ class EpisodeMaker {
   // Plans and, unless the scenario says `drive: none`, drives. What an episode's draws make
   // impossible (a start in a wall) is its outcome `error`, with the reason as message.
   EpisodeRow Run(const Variant& variant, std::uint64_t episode);
+  // The same of an episode whose draws are given; the row's number is the episode's own.
+  EpisodeRow RunDrawn(const Variant& variant, std::uint64_t episode, const Drawn& drawn);
+  // Plans for it now, so that whoever runs it later, in processes forked from this one too, finds
+  // it planned. Throws as planning does.
+  const PlanResult& PlanDrawn(const Variant& variant, std::uint64_t episode, const Drawn& drawn);
   // The row of an episode that could not be run.
   EpisodeRow Refused(const Variant& variant, std::uint64_t episode, const std::string& why) const;
+  EpisodeRow Refused(const Variant& variant, std::uint64_t episode, const Drawn& drawn,
+                     const std::string& why) const;
 
  private:
   struct Planned {
@@ -42,6 +49,7 @@ class EpisodeMaker {
     std::string json;
     std::string made;  // by a program: the plan's text
   };
+  EpisodeRow Drive(const Variant& variant, Scenario& scenario);
   const Planned& Plan(const Variant& variant, const Scenario& scenario);
 
   const ScenarioFile& file_;

@@ -28,7 +28,9 @@ std::string_view Name(Outcome outcome);
 
 struct Margin {
   std::string detector;
+  FailureMode mode = FailureMode::kVeerOff;
   double value = 0;  // least distance from failing, in the threshold's unit; positive is safe
+  double share = 0;  // the same as a share of the threshold
 };
 
 // A person's help: the robot taken up where it had failed, and set down upright at a waypoint.

@@ -10,12 +10,14 @@
 #include <string_view>
 #include <variant>
 
+#include "env/core/event.h"
+
 namespace floorproof {
 
 // What each means stands in kMetrics.
 struct Metrics {
   double coverage = 0, overlap = 0, revisited = 0, extra_visits = 0;
-  double path_length_m = 0;
+  double path_length_m = 0, way_lost_m = 0;
   double duration_s = 0;
   double energy_j = 0;
   double charge_ah = 0;
@@ -34,6 +36,7 @@ struct Metrics {
   double max_impulse_ns = 0;
   std::optional<double> alarms, false_alarms, detection_s, held_s;
   std::optional<double> samples_taken, max_sample_off_m, dirt_gathering, audit_score;
+  std::optional<double> veer_off_margin, stuck_margin, roll_over_margin, bounce_back_margin;
 };
 
 struct MetricColumn {
@@ -66,6 +69,8 @@ inline constexpr auto kMetrics = std::to_array<MetricColumn>({
      "passes beyond the first, over the floor that the tool can reach: 1 is a second pass over all "
      "of it"},
     {"path_length_m", "m", &Metrics::path_length_m, "way driven", true},
+    {"way_lost_m", "m", &Metrics::way_lost_m,
+     "way that was commanded and not driven: slip, and being held", true},
     {"duration_s", "s", &Metrics::duration_s, "simulated time", true},
     {"energy_j", "J", &Metrics::energy_j, "energy at the battery's terminals", true},
     {"charge_ah", "Ah", &Metrics::charge_ah, "charge drawn from the battery", true},
@@ -122,7 +127,28 @@ inline constexpr auto kMetrics = std::to_array<MetricColumn>({
      "share of the samples that are dirty; none without `dirt`"},
     {"audit_score", "", &Metrics::audit_score,
      "how clean the region is by its samples, 1 as if nothing lay there; none without `dirt`"},
+    {"veer_off_margin", "", &Metrics::veer_off_margin,
+     "how far it stayed from veering off, as a share of the detector's threshold: 1 nowhere nearer, "
+     "0 or less at or beyond it, which is a failure only where it lasts; none without the detector"},
+    {"stuck_margin", "", &Metrics::stuck_margin, "the same of getting stuck"},
+    {"roll_over_margin", "", &Metrics::roll_over_margin, "the same of rolling over"},
+    {"bounce_back_margin", "", &Metrics::bounce_back_margin, "the same of bouncing back"},
 });
+
+// The member that says how near a drive came to that failure.
+constexpr std::optional<double> Metrics::*MarginOf(FailureMode mode) {
+  switch (mode) {
+    case FailureMode::kStuck:
+      return &Metrics::stuck_margin;
+    case FailureMode::kRollOver:
+      return &Metrics::roll_over_margin;
+    case FailureMode::kBounceBack:
+      return &Metrics::bounce_back_margin;
+    case FailureMode::kVeerOff:
+      break;
+  }
+  return &Metrics::veer_off_margin;
+}
 
 // By its name, of this version or an earlier one; nullptr: there is none.
 constexpr const MetricColumn* FindMetric(std::string_view name) {

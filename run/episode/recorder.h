@@ -88,6 +88,7 @@ class Recorder {
     ++record_.steps;
     way_.Add(sample.p_WB.head<2>());
     m.path_length_m = way_.length_m();
+    m.way_lost_m += LostSpeed(sample) * dt_s_;
     m.energy_j += sample.power_w * dt_s_;
     m.charge_ah += sample.battery_a * dt_s_ / 3600;
     m.least_battery_v =
@@ -145,6 +146,10 @@ class Recorder {
     if (const Supervisor* supervisor = side.supervisor()) MeasureSafety(*supervisor);
     if (side.known() != nullptr) record_.known = *side.known();
     KeepMargins(detectors);
+    for (const Margin& margin : record_.margins) {
+      std::optional<double>& least = m.*MarginOf(margin.mode);
+      least = std::min(least.value_or(margin.share), margin.share);
+    }
     record_.sample_stops = samples_.stops();
     record_.passes = swept.passes();
     record_.passes_frame = area_.frame;
@@ -222,15 +227,26 @@ class Recorder {
       m.p95_estimate_error_m = std::min(m.max_estimate_error_m, static_cast<double>(mm + 1) / 1000);
   }
 
+  // Of the speed that is commanded, what is missing in its direction.
+  static double LostSpeed(const Sample& sample) {
+    const BodyTwist &cmd = sample.command.twist, &v = sample.V_WB_B;
+    const double speed_mps = std::hypot(cmd.vx_mps, cmd.vy_mps);
+    if (speed_mps == 0) return 0;
+    return speed_mps - (v.vx_mps * cmd.vx_mps + v.vy_mps * cmd.vy_mps) / speed_mps;
+  }
+
   // The least of all that the detectors said since each of their starts.
   void KeepMargins(const std::vector<NamedDetector>& detectors) {
     std::vector<Margin>& kept = record_.margins;
     for (std::size_t i = 0; i < detectors.size(); ++i) {
-      const double margin = detectors[i].detector->margin();
-      if (i == kept.size())
-        kept.push_back({detectors[i].name, margin});
-      else
-        kept[i].value = std::min(kept[i].value, margin);
+      const Detector& detector = *detectors[i].detector;
+      if (i == kept.size()) {
+        kept.push_back(
+            {detectors[i].name, detector.mode(), detector.margin(), detector.margin_share()});
+      } else {
+        kept[i].value = std::min(kept[i].value, detector.margin());
+        kept[i].share = std::min(kept[i].share, detector.margin_share());
+      }
     }
   }
 

@@ -8,7 +8,10 @@
 namespace floorproof {
 
 bool EpisodesCanDiffer(const ScenarioFile& file, const Scenario& s) {
-  if (file.draws_differ()) return true;
+  return file.draws_differ() || NoiseCanDiffer(s);
+}
+
+bool NoiseCanDiffer(const Scenario& s) {
   const ConfigNode* generate = s.site_node.Find("generate");
   if (generate != nullptr && DrawnAtRandom(*generate)) return true;
   if (s.planner && s.planner->promises().uses_seed) return true;

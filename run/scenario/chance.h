@@ -12,6 +12,9 @@ namespace floorproof {
 // differs may have no effect.
 bool EpisodesCanDiffer(const ScenarioFile& file, const Scenario& scenario);
 
+// Whether they can where all that `randomise` draws is the same.
+bool NoiseCanDiffer(const Scenario& scenario);
+
 // What to write so that they do, in a clause.
 inline constexpr const char* kHowToDiffer =
     "draw what nobody knows exactly, as in `randomise: {site.floor.friction: {uniform: [0.6, "

@@ -309,7 +309,8 @@ void ScenarioFile::CheckDraws() const {
   const auto check = [&](const Variant& variant, const Variant& forced) {
     std::optional<InputError> first;
     for (std::uint64_t episode = 0; episode < kTries; ++episode) try {
-        ReadWith(episode, variant, forced);
+        const Drawn drawn = DrawnOf(episode);
+        ReadWith(episode, &drawn, variant, forced);
         return;
       } catch (const InputError& e) {
         if (!first) first = e;
@@ -327,7 +328,8 @@ void ScenarioFile::CheckDraws() const {
         if (i < key.distribution.choices.size())
           forced.overrides.emplace_back(key.key_path, key.distribution.choices[i]);
       try {
-        ReadWith(0, variant, forced);
+        const Drawn drawn = DrawnOf(0);
+        ReadWith(0, &drawn, variant, forced);
       } catch (const InputError&) {
         return false;  // who is to blame is found one by one
       }
@@ -344,18 +346,24 @@ void ScenarioFile::CheckDraws() const {
 }
 
 Scenario ScenarioFile::Read(std::optional<std::uint64_t> episode, const Variant& variant) const {
-  return ReadWith(episode, variant, {});
+  if (!episode) return ReadWith(episode, nullptr, variant, {});
+  const Drawn drawn = DrawnOf(*episode);
+  return ReadWith(episode, &drawn, variant, {});
 }
 
-Scenario ScenarioFile::ReadWith(std::optional<std::uint64_t> episode, const Variant& variant,
-                                const Variant& forced) const {
+Scenario ScenarioFile::ReadDrawn(std::uint64_t episode, const Drawn& drawn) const {
+  return ReadWith(episode, &drawn, {}, {});
+}
+
+Scenario ScenarioFile::ReadWith(std::optional<std::uint64_t> episode, const Drawn* drawn,
+                                const Variant& variant, const Variant& forced) const {
   Scenario s;
   s.file = file_;
   s.files = files_;
   s.episode_id = episode.value_or(0);
   Variant changes = variant;
-  if (episode) {
-    s.drawn = DrawnOf(*episode);
+  if (drawn != nullptr) {
+    s.drawn = *drawn;
     changes.overrides.insert(changes.overrides.end(), s.drawn.begin(), s.drawn.end());
   }
   changes.overrides.insert(changes.overrides.end(), forced.overrides.begin(),

@@ -128,6 +128,11 @@ class ScenarioFile {
   // InputError.
   Scenario Read(std::optional<std::uint64_t> episode = 0, const Variant& variant = {}) const;
 
+  // Episode `episode` as if `randomise` had drawn this for it. Throws InputError.
+  Scenario ReadDrawn(std::uint64_t episode, const Drawn& drawn) const;
+
+  // What `randomise` draws, as written but for what is set.
+  const std::vector<RandomisedKey>& randomised() const { return randomised_; }
   // Whether what `randomise` draws can differ between episodes.
   bool draws_differ() const;
   // What `randomise` draws for an episode.
@@ -150,8 +155,9 @@ class ScenarioFile {
   enum class Files { kCheck, kMayBeGone };
   ScenarioFile(std::optional<std::string> text, const std::filesystem::path& file,
                const std::vector<Override>& overrides, Files files, InputFiles inputs = {});
-  Scenario ReadWith(std::optional<std::uint64_t> episode, const Variant& variant,
-                    const Variant& forced) const;
+  // `drawn`: of the episode; null: there is none, and nothing is drawn.
+  Scenario ReadWith(std::optional<std::uint64_t> episode, const Drawn* drawn,
+                    const Variant& variant, const Variant& forced) const;
   const ConfigNode& SiteTree(const std::filesystem::path& file) const;
   void ReadSitePart(const ConfigNode& root, const Variant& changes, bool episode,
                     Scenario& s) const;

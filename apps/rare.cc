@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/command.h"
+#include "base/interrupt.h"
+#include "base/progress_line.h"
+#include "base/quantity.h"
+#include "report/rare_films.h"
+#include "run/campaign/drive_campaign.h"
+#include "run/rare/rare_json.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RareCommand {
+  std::string scenario, out, mode = "any_failure";
+  std::optional<double> target_cov = RareSettings{}.target_cov;
+  std::uint64_t max_n = RareSettings{}.max_trials;
+  int seed = -1, jobs = 0;  // the scenario's; one a core
+  bool resume = false, no_films = false;
+};
+
+class RareLine final : public RareObserver {
+ public:
+  RareLine(const Globals& globals, std::uint64_t most)
+      : globals_(globals), line_(globals), most_(most) {}
+  void OnWarning(const std::string& line) override { globals_.Say(line); }
+  void OnProgress(const std::string& stage, const RareProgress& p) override {
+    if (!line_.IsDue()) return;
+    const double rate = static_cast<double>(p.driven) / std::max(line_.wall_s(), 1e-3);
+    line_.Show(fmt::format("  {} of at most {}, {:.1f} a second; {}; {} so far", p.done,
+                           CountText(most_, "drive"), rate, stage,
+                           CountText(p.failures, "failure")));
+  }
+  void Clear() { line_.Clear(); }
+
+ private:
+  const Globals& globals_;
+  ProgressLine line_;
+  std::uint64_t most_;
+};
+
+int ExitStatusOf(const RareOutcome& outcome) {
+  if (outcome.verdict && outcome.verdict->verdict == GateVerdict::kFailed) return kExitNotSuccess;
+  if (outcome.verdict && outcome.verdict->verdict == GateVerdict::kPassed) return kExitDone;
+  if (outcome.verdict) return kExitUndecided;
+  return outcome.estimate.answer == RareAnswer::kNoEstimate ? kExitUndecided : kExitDone;
+}
+
+int RunRare(const RareCommand& options, const Globals& globals) {
+  std::vector<Override> overrides = globals.Overrides();
+  if (options.seed >= 0) overrides.push_back({"seed", std::to_string(options.seed)});
+  const ScenarioFile file(options.scenario, overrides);
+  const fs::path folder = options.out.empty()
+                              ? fs::path("out") / "rare" / file.file().stem()
+                              : fs::path(options.out);
+  RareRequest request{.mode = options.mode,
+                      .settings = {.target_cov = *options.target_cov, .max_trials = options.max_n},
+                      .jobs = options.jobs > 0 ? options.jobs : Cores(),
+                      .resume = options.resume};
+  RareLine progress(globals, options.max_n);
+  const RareOutcome outcome = SearchRare(file, request, folder, &progress);
+  progress.Clear();
+  globals.Result(RareJson(outcome));
+  for (const std::string& line : RareLines(outcome, folder)) globals.Say(line);
+  globals.Say("results are in " + folder.string());
+  if (!options.no_films) FilmLikelyFailures(file, outcome, folder, globals);
+  return ExitStatusOf(outcome);
+}
+
+}  // namespace
+
+void AddRare(CommandLine& line, const Globals& globals, int& status) {
+  auto options = std::make_shared<RareCommand>();
+  Subcommand command = line.Add(
+      "rare", "How likely rare failures are, by a search that drives towards them; the likeliest filmed");
+  command.Text("SCENARIO", options->scenario, "Scenario file (YAML)", Subcommand::Need::kRequired);
+  command.Text("--mode", options->mode,
+               "What counts: veer_off, stuck, roll_over, bounce_back or any_failure (default)");
+  command.Number("--target-cov", options->target_cov,
+                 "Coefficient of variation that the estimate should have (default: 0.1)", 0.01, 1);
+  command.Integer("--max-n", options->max_n, "Most drives (default: 15,000)", 1, 10'000'000);
+  command.NonNegative("--seed", options->seed, "Overrides the scenario's seed");
+  command.Integer("--jobs", options->jobs, "Worker processes (default: one a core)", 1, kMostJobs);
+  command.Text("--out", options->out, "Output folder (default: out/rare/NAME)");
+  command.Flag("--resume", options->resume, "Go on with the search that the folder holds");
+  command.Flag("--no-films", options->no_films, "Do not film the likeliest failures");
+  command.OnRun([options, &globals, &status] { status = RunRare(*options, globals); });
+}
+
+}  // namespace floorproof

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scenario's gate of `mode: rare`: judged on an estimate of rare failures.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "run/campaign/campaign_gate.h"
+#include "stats/rare/rare_estimate.h"
+
+namespace floorproof {
+
+struct RareVerdict {
+  GateVerdict verdict = GateVerdict::kUndecided;
+  bool rests_on_sampler = false;  // it knows the ways to fail that were found
+  std::string text;               // one sentence
+};
+
+class RareGate {
+ public:
+  // `node`: the scenario's key `gate`. None where that is null or of another mode. Throws InputError
+  // where it is about another failure than `mode` (--mode), or makes no sense.
+  static std::optional<RareGate> Read(const ConfigNode& node, const std::string& mode);
+
+  // Passed (failed) where the one-sided bound of the estimate lies below (above) the limit. Where
+  // nothing failed, by nominal draws alone. Where there is no estimate: undecided, unless bounds
+  // that rest on no sampler decide.
+  RareVerdict Judge(const RareEstimate& estimate) const;
+
+ private:
+  GateParams params_;
+};
+
+}  // namespace floorproof

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/rare/rare_trials.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "base/interrupt.h"
+#include "run/campaign/worker_pool.h"
+#include "run/episode/records.h"
+
+namespace floorproof {
+
+const Variant& RareTrials::TrialVariant() {
+  static const Variant kTrial{"trial", {}};
+  return kTrial;
+}
+
+RareTrials::RareTrials(const ScenarioFile& file, const RareCoordinates& coordinates,
+                       const RareScore& score, CampaignStore& store, int jobs,
+                       std::function<void(const RareProgress&)> progress)
+    : coordinates_(coordinates),
+      score_(score),
+      store_(store),
+      jobs_(jobs),
+      progress_(std::move(progress)),
+      maker_(file) {
+  store_.ForEach(TrialVariant().name, [&](const EpisodeRow& row) {
+    if (row.episode >= known_.size()) known_.resize(row.episode + 1);
+    known_[row.episode] = Brief(row);
+  });
+}
+
+RareTrials::Known RareTrials::Brief(const EpisodeRow& row) const {
+  return {score_.Of(row), row.drawn, !row.counts(), row.message};
+}
+
+EpisodeRow RareTrials::Again(const Trial& trial) {
+  return maker_.RunDrawn(TrialVariant(), trial.noise, coordinates_.DrawnAt(trial.u));
+}
+
+void RareTrials::Keep() {
+  try {
+    store_.Add(batch_);
+  } catch (const std::runtime_error& e) {
+    throw InternalError(std::string(e.what()) +
+                        "; missing: rare.json, and drives that are not in trials.sqlite; --resume "
+                        "goes on");
+  }
+  batch_.clear();
+}
+
+// In processes that are forked for this batch alone: they know its trials, and the plan that this
+// process has made.
+void RareTrials::Drive(std::span<const Trial> trials, const std::vector<std::size_t>& missing) {
+  using Clock = std::chrono::steady_clock;
+  constexpr double kBatch_s = 0.5;
+  auto kept = Clock::now();
+  std::size_t next = 0;
+  const auto drawn_of = [&](Job job) { return DrawnJson(coordinates_.AsSet(trials[job])).dump(); };
+  const auto take = [&](Job job, EpisodeRow row) {
+    row.variant = TrialVariant().name;
+    row.episode = next_ + job;
+    row.drawn = drawn_of(job);
+    known_[row.episode] = Brief(row);
+    ++shown_.done;
+    ++shown_.driven;
+    batch_.push_back(std::move(row));
+  };
+  const auto refuse = [&](Job job, const std::string& why) {
+    take(job, maker_.Refused(TrialVariant(), 0, coordinates_.DrawnAt(trials[job].u), why));
+  };
+  PoolCallbacks callbacks;
+  callbacks.work = [&](Job job) { return ToLine(Again(trials[job])); };
+  callbacks.next = [&]() -> std::optional<Job> {
+    if (next == missing.size()) return std::nullopt;
+    return missing[next++];
+  };
+  callbacks.done = [&](Job job, const std::string& answer) { take(job, FromLine(answer)); };
+  callbacks.crashed = [&](Job job, const std::string& how) { refuse(job, "crashed: " + how); };
+  callbacks.hung = refuse;
+  callbacks.stop = [&] {
+    if (std::chrono::duration<double>(Clock::now() - kept).count() > kBatch_s) {
+      Keep();
+      kept = Clock::now();
+      progress_(shown_);
+    }
+    return Interrupted();
+  };
+  RunInWorkers(std::min(jobs_, static_cast<int>(missing.size())), callbacks);
+  Keep();
+  if (Interrupted()) {
+    store_.Settle();
+    throw Interruption();
+  }
+}
+
+std::vector<TrialResult> RareTrials::Evaluate(std::span<const Trial> trials) {
+  if (known_.size() < next_ + trials.size()) known_.resize(next_ + trials.size());
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 0; i < trials.size(); ++i)
+    if (!known_[next_ + i]) missing.push_back(i);
+  shown_.done = next_ + trials.size() - missing.size();
+  if (!missing.empty()) Drive(trials, missing);
+  std::vector<TrialResult> results;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const Known& known = *known_[next_ + i];
+    if (known.drawn != DrawnJson(coordinates_.AsSet(trials[i])).dump())
+      throw InternalError(
+          fmt::format("trial {} was driven with other draws than its seed gives here: it was begun "
+                      "on another type of machine",
+                      next_ + i));
+    results.push_back(known.result);
+    shown_.failures += known.result.failed;
+    if (known.error && errors_++ == 0) first_error_ = known.message;
+  }
+  next_ += trials.size();
+  return results;
+}
+
+}  // namespace floorproof

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// The trials of a search for rare failures: episodes of given draws, driven in worker processes and
+// kept in trials.sqlite, a row each under its number.
+//
+// What a search asks for follows from its seed and the results so far. So one that was broken off
+// asks for the same again, and what is kept is not driven twice.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "run/campaign/campaign_store.h"
+#include "run/campaign/episode_maker.h"
+#include "run/rare/rare_coordinates.h"
+#include "run/rare/rare_score.h"
+
+namespace floorproof {
+
+struct RareProgress {
+  std::uint64_t done = 0, driven = 0;  // of earlier runs too; in this one
+  std::uint64_t failures = 0;          // among those of whole batches
+};
+
+class RareTrials {
+ public:
+  // All outlive it. `progress` is called now and then.
+  RareTrials(const ScenarioFile& file, const RareCoordinates& coordinates, const RareScore& score,
+             CampaignStore& store, int jobs, std::function<void(const RareProgress&)> progress);
+
+  // The next trials, numbered on from those before. Throws Interruption once what was driven is
+  // kept, and InternalError where it cannot be kept.
+  std::vector<TrialResult> Evaluate(std::span<const Trial> trials);
+  // Drives one trial, which is not numbered.
+  EpisodeRow Again(const Trial& trial);
+
+  std::uint64_t errors() const { return errors_; }
+  const std::string& first_error() const { return first_error_; }
+
+  static const Variant& TrialVariant();
+
+ private:
+  struct Known {
+    TrialResult result;
+    std::string drawn;
+    bool error = false;
+    std::string message;
+  };
+  Known Brief(const EpisodeRow& row) const;
+  void Drive(std::span<const Trial> trials, const std::vector<std::size_t>& missing);
+  void Keep();
+
+  const RareCoordinates& coordinates_;
+  const RareScore& score_;
+  CampaignStore& store_;
+  int jobs_;
+  std::function<void(const RareProgress&)> progress_;
+  EpisodeMaker maker_;
+  std::vector<std::optional<Known>> known_;  // by number
+  std::uint64_t next_ = 0;
+  std::vector<EpisodeRow> batch_;  // to be kept
+  RareProgress shown_;
+  std::uint64_t errors_ = 0;
+  std::string first_error_;
+};
+
+}  // namespace floorproof
