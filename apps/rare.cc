@@ -4,10 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
+#include "base/file_output.h"
 #include "base/interrupt.h"
 #include "base/progress_line.h"
 #include "base/quantity.h"
 #include "report/rare_films.h"
+#include "report/rare_page.h"
 #include "run/campaign/drive_campaign.h"
 #include "run/rare/rare_json.h"
 
@@ -55,9 +57,8 @@ int RunRare(const RareCommand& options, const Globals& globals) {
   std::vector<Override> overrides = globals.Overrides();
   if (options.seed >= 0) overrides.push_back({"seed", std::to_string(options.seed)});
   const ScenarioFile file(options.scenario, overrides);
-  const fs::path folder = options.out.empty()
-                              ? fs::path("out") / "rare" / file.file().stem()
-                              : fs::path(options.out);
+  const fs::path folder =
+      options.out.empty() ? fs::path("out") / "rare" / file.file().stem() : fs::path(options.out);
   RareRequest request{.mode = options.mode,
                       .settings = {.target_cov = *options.target_cov, .max_trials = options.max_n},
                       .jobs = options.jobs > 0 ? options.jobs : Cores(),
@@ -69,6 +70,8 @@ int RunRare(const RareCommand& options, const Globals& globals) {
   for (const std::string& line : RareLines(outcome, folder)) globals.Say(line);
   globals.Say("results are in " + folder.string());
   if (!options.no_films) FilmLikelyFailures(file, outcome, folder, globals);
+  WriteFileWhole(folder / "rare.html", MakeRarePage(folder).html);
+  globals.Say("page: " + (folder / "rare.html").string());
   return ExitStatusOf(outcome);
 }
 
@@ -77,7 +80,8 @@ int RunRare(const RareCommand& options, const Globals& globals) {
 void AddRare(CommandLine& line, const Globals& globals, int& status) {
   auto options = std::make_shared<RareCommand>();
   Subcommand command = line.Add(
-      "rare", "How likely rare failures are, by a search that drives towards them; the likeliest filmed");
+      "rare",
+      "How likely rare failures are, by a search that drives towards them; the likeliest filmed");
   command.Text("SCENARIO", options->scenario, "Scenario file (YAML)", Subcommand::Need::kRequired);
   command.Text("--mode", options->mode,
                "What counts: veer_off, stuck, roll_over, bounce_back or any_failure (default)");

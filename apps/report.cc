@@ -4,12 +4,27 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
+#include "base/file_output.h"
 #include "report/campaign_report.h"
+#include "report/rare_page.h"
 
 namespace floorproof {
 namespace {
 
+int WriteRareReport(const std::string& named, const Globals& globals) {
+  const std::filesystem::path page = std::filesystem::path(named) / "rare.html";
+  const RarePage made = MakeRarePage(named);
+  WriteFileWhole(page, made.html);
+  globals.Say(made.verdict);
+  globals.Say(fmt::format("report: {} ({:.1f} MB, opens from disk)", page.string(),
+                          static_cast<double>(made.html.size()) / 1e6));
+  globals.Result(
+      {{"report", page.string()}, {"verdict", made.verdict}, {"bytes", made.html.size()}});
+  return kExitDone;
+}
+
 int WriteReport(const std::string& named, const Globals& globals) {
+  if (HoldsRareSearch(named)) return WriteRareReport(named, globals);
   const WrittenReport written = WriteCampaignReport(named, named, globals);
   globals.Say(written.verdict);
   globals.Say(fmt::format("report: {} ({:.1f} MB, opens from disk)", written.page.string(),
@@ -26,9 +41,11 @@ int WriteReport(const std::string& named, const Globals& globals) {
 
 void AddReport(CommandLine& line, const Globals& globals, int& status) {
   auto folder = std::make_shared<std::string>();
-  Subcommand command =
-      line.Add("report", "Write a campaign's page, report.html, from its recorded results alone");
-  command.Text("DIR", *folder, "A folder that `campaign` wrote", Subcommand::Need::kRequired);
+  Subcommand command = line.Add("report",
+                                "Write the page of a campaign, report.html, or of rare failures, "
+                                "rare.html, from its recorded results alone");
+  command.Text("DIR", *folder, "A folder that `campaign` or `rare` wrote",
+               Subcommand::Need::kRequired);
   command.OnRun([folder, &globals, &status] { status = WriteReport(*folder, globals); });
 }
 

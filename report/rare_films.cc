@@ -13,8 +13,8 @@ fs::path LikelyFailureFolder(const fs::path& search, std::size_t number) {
   return search / "likeliest" / std::to_string(number);
 }
 
-void FilmLikelyFailures(const ScenarioFile& file, const RareOutcome& outcome, const fs::path& folder,
-                        const Console& console) {
+void FilmLikelyFailures(const ScenarioFile& file, const RareOutcome& outcome,
+                        const fs::path& folder, const Console& console) {
   for (std::size_t i = 0; i < outcome.failures.size(); ++i) {
     const LikelyFailure& failure = outcome.failures[i];
     const fs::path into = LikelyFailureFolder(folder, i + 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a search for rare failures moves in: each key that `randomise` draws is a coordinate, brought
-// to the standard normal distribution through its own.
+// What a search for rare failures moves in: each key that `randomise` draws is a coordinate,
+// brought to the standard normal distribution through its own.
 #pragma once
 
 #include <Eigen/Core>

@@ -30,11 +30,11 @@ RareVerdict RareGate::Judge(const RareEstimate& e) const {
   // Whatever the sampler did.
   const double most = ClopperPearsonUpper(e.nominal_failures, e.nominal_draws, params_.confidence);
   const auto say = [&](GateVerdict verdict, bool sampler, double bound, const char* side) {
-    return RareVerdict{verdict, sampler,
-                       fmt::format("{}: {} {} at {} {}{}, the limit is {}",
-                                   GateVerdictName(verdict), params_.metric, side,
-                                   PercentText(bound), PercentText(params_.confidence),
-                                   sampler ? ", resting on the sampler" : "", PercentText(limit))};
+    return RareVerdict{
+        verdict, sampler,
+        fmt::format("{}: {} {} at {} {}{}, the limit is {}", GateVerdictName(verdict),
+                    params_.metric, side, PercentText(bound), PercentText(params_.confidence),
+                    sampler ? ", resting on the sampler" : "", PercentText(limit))};
   };
   if (most < limit) return say(GateVerdict::kPassed, false, most, "is at most");
   if (e.answer == RareAnswer::kEstimate) {

@@ -18,8 +18,8 @@ struct RareVerdict {
 
 class RareGate {
  public:
-  // `node`: the scenario's key `gate`. None where that is null or of another mode. Throws InputError
-  // where it is about another failure than `mode` (--mode), or makes no sense.
+  // `node`: the scenario's key `gate`. None where that is null or of another mode. Throws
+  // InputError where it is about another failure than `mode` (--mode), or makes no sense.
   static std::optional<RareGate> Read(const ConfigNode& node, const std::string& mode);
 
   // Passed (failed) where the one-sided bound of the estimate lies below (above) the limit. Where

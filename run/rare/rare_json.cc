@@ -48,7 +48,8 @@ std::string Quoted(const std::string& word) {
 Json FailureJson(const LikelyFailure& failure) {
   return {{"outcome", failure.row.outcome},
           {"events", Json::parse(failure.row.events)},
-          {"set", Sets(failure.set)}};
+          {"set", Sets(failure.set)},
+          {"command", RunCommand(failure, "")}};
 }
 
 Json RegionJson(const FailureRegion& region) {
@@ -83,9 +84,10 @@ std::vector<std::string> EstimateLines(const RareOutcome& outcome) {
                       outcome.mode, OneIn(e.probability), PercentText(e.probability),
                       PercentText(e.interval.lower), PercentText(e.interval.upper),
                       NumberText(e.cov, 2),
-                      e.reached_target ? "" : fmt::format(", more than the {} asked for: a larger "
-                                                          "--max-n would lower it",
-                                                          NumberText(outcome.settings.target_cov))),
+                      e.reached_target ? ""
+                                       : fmt::format(", more than the {} asked for: a larger "
+                                                     "--max-n would lower it",
+                                                     NumberText(outcome.settings.target_cov))),
           "  that rests on the sampler: it counts the ways to fail that it found"};
 }
 
@@ -96,6 +98,7 @@ Json RareJson(const RareOutcome& outcome) {
   const bool estimated = e.answer == RareAnswer::kEstimate;
   const auto where_estimated = [&](double value) { return estimated ? Json(value) : Json(); };
   Json json = {{"rare", 1},
+               {"name", outcome.name},
                {"mode", outcome.mode},
                {"answer", Name(e.answer)},
                {"why", e.why},
@@ -114,8 +117,8 @@ Json RareJson(const RareOutcome& outcome) {
                              {"upper", e.upper_bound},
                              {"nominal_draws", e.nominal_draws},
                              {"nominal_failures", e.nominal_failures}};
-  json["clean_drives_needed"] = where_estimated(
-      estimated ? CleanDrawsNeeded(e.probability, outcome.settings.confidence) : 0);
+  json["clean_drives_needed"] =
+      where_estimated(estimated ? CleanDrawsNeeded(e.probability, outcome.settings.confidence) : 0);
   json["diagnostics"] = {{"fresh_draws", e.fresh_draws},
                          {"fresh_failures", e.fresh_failures},
                          {"effective_failures", e.effective_failures},
@@ -150,14 +153,15 @@ std::vector<std::string> RareLines(const RareOutcome& outcome,
   const RareEstimate& e = outcome.estimate;
   std::vector<std::string> lines;
   if (outcome.errors > 0)
-    lines.push_back(fmt::format("warning: {} of {} are errors or have no plan, and count as no "
-                                "failure; the first: {}",
-                                outcome.errors, CountText(e.trials, "drive"), outcome.first_error));
+    lines.push_back(
+        fmt::format("warning: {} of {} are errors or have no plan, and count as no "
+                    "failure; the first: {}",
+                    outcome.errors, CountText(e.trials, "drive"), outcome.first_error));
   if (e.answer == RareAnswer::kEstimate)
     std::ranges::move(EstimateLines(outcome), std::back_inserter(lines));
   else if (e.answer == RareAnswer::kNothingFound)
-    lines.push_back(fmt::format("{}: none of {} failed", outcome.mode,
-                                CountText(e.trials, "drive")));
+    lines.push_back(
+        fmt::format("{}: none of {} failed", outcome.mode, CountText(e.trials, "drive")));
   else
     lines.push_back(fmt::format("{}: no estimate: {}", outcome.mode, e.why));
   if (e.answer == RareAnswer::kNoEstimate) {
@@ -167,17 +171,18 @@ std::vector<std::string> RareLines(const RareOutcome& outcome,
                 (pilot.probability > 0 ? PercentText(pilot.probability) : std::string("none"));
     lines.push_back("  its pilots said: " + spread);
   }
-  lines.push_back(fmt::format(
-      "  whatever the sampler did: at least {}, and, by {} as they come of which {} failed, at most "
-      "{}",
-      PercentText(e.lower_bound), CountText(e.nominal_draws, "drive"), e.nominal_failures,
-      PercentText(e.upper_bound)));
+  lines.push_back(
+      fmt::format("  whatever the sampler did: at least {}, and, by {} as they come of which {} "
+                  "failed, at most "
+                  "{}",
+                  PercentText(e.lower_bound), CountText(e.nominal_draws, "drive"),
+                  e.nominal_failures, PercentText(e.upper_bound)));
   if (e.answer == RareAnswer::kEstimate)
     lines.push_back(fmt::format(
         "  to show without a sampler that it is no likelier takes {} without a failure",
-        CountText(static_cast<std::int64_t>(
-                      CleanDrawsNeeded(e.probability, outcome.settings.confidence)),
-                  "drive")));
+        CountText(
+            static_cast<std::int64_t>(CleanDrawsNeeded(e.probability, outcome.settings.confidence)),
+            "drive")));
   for (std::size_t i = 0; i < e.regions.size(); ++i) {
     const FailureRegion& region = e.regions[i];
     const bool driven = i < outcome.failures.size();

@@ -24,8 +24,8 @@ class RareScore {
   // several. Many drives share one: 1, where nothing came nearer, and 0, where what was beyond did
   // not last. So there is a second score: stuck, the way lost; bounced back, the force of contact,
   // then the way off the plan; veered off and rolled over, which seldom tie, the same as stuck; of
-  // any failure the sum of all margins, too. It must not follow what is drawn by itself: time would,
-  // by the speed, and would lead away from failures.
+  // any failure the sum of all margins, too. It must not follow what is drawn by itself: time
+  // would, by the speed, and would lead away from failures.
   TrialResult Of(const EpisodeRow& row) const;
   const std::string& mode() const { return name_; }
 

@@ -36,10 +36,10 @@ CampaignAbout Describe(const ScenarioFile& file, const RareRequest& request) {
 void CheckRequest(const RareRequest& request) {
   const std::uint64_t fewest = FewestTrials(request.settings.target_cov);
   if (request.settings.max_trials < fewest)
-    throw InputError({"--max-n", 0}, "", std::to_string(request.settings.max_trials),
-                     fmt::format("--target-cov {} takes {} or more",
-                                 FormatDouble(request.settings.target_cov),
-                                 CountText(fewest, "drive")));
+    throw InputError(
+        {"--max-n", 0}, "", std::to_string(request.settings.max_trials),
+        fmt::format("--target-cov {} takes {} or more", FormatDouble(request.settings.target_cov),
+                    CountText(fewest, "drive")));
   CheckRareSettings(request.settings);
 }
 
@@ -69,15 +69,15 @@ void RefuseErrors(const RareTrials& trials, std::size_t driven) {
   constexpr double kMost = 0.2;
   if (static_cast<double>(trials.errors()) <= kMost * static_cast<double>(driven)) return;
   throw InputError({}, "", "",
-                   fmt::format("{} of the first {} are errors or have no plan: {}",
-                               trials.errors(), CountText(driven, "drive"), trials.first_error()));
+                   fmt::format("{} of the first {} are errors or have no plan: {}", trials.errors(),
+                               CountText(driven, "drive"), trials.first_error()));
 }
 
 }  // namespace
 
 ResultNames RareResults() {
   return {"rare", [](std::string_view name) {
-            return name == "rare.json" || name == "scenario.resolved.yaml";
+            return name == "rare.json" || name == "rare.html" || name == "scenario.resolved.yaml";
           }};
 }
 
@@ -91,10 +91,12 @@ RareOutcome SearchRare(const ScenarioFile& file, const RareRequest& request, con
   };
   for (const std::string& warning : Warnings(base)) warn(warning);
   if (!base.matrix.IsNull())
-    warn("warning: `matrix` is passed over: this is the scenario itself (--set names what a variant "
-         "changes)");
+    warn(
+        "warning: `matrix` is passed over: this is the scenario itself (--set names what a variant "
+        "changes)");
   if (base.episode.drive == "none")
-    throw InputError({file.file().string(), 0}, "drive", "none", "nothing that is not driven fails");
+    throw InputError({file.file().string(), 0}, "drive", "none",
+                     "nothing that is not driven fails");
   const RareScore score(request.mode, base);
   const RareCoordinates coordinates(file, base);
   const std::optional<RareGate> gate = RareGate::Read(base.gate, request.mode);
@@ -103,9 +105,8 @@ RareOutcome SearchRare(const ScenarioFile& file, const RareRequest& request, con
     CheckProgram(*program, base.files);
     warn(ProgramLine(*program));
   } else {
-    const PlanResult& plan =
-        EpisodeMaker(file).PlanDrawn({}, 0, coordinates.DrawnAt(
-                                                Eigen::VectorXd::Zero(coordinates.size())));
+    const PlanResult& plan = EpisodeMaker(file).PlanDrawn(
+        {}, 0, coordinates.DrawnAt(Eigen::VectorXd::Zero(coordinates.size())));
     if (plan.status != PlanStatus::kSuccess)
       throw InputError({file.file().string(), 0}, "plan", "",
                        "there is none of the scenario's middle: " + plan.message);
@@ -115,6 +116,7 @@ RareOutcome SearchRare(const ScenarioFile& file, const RareRequest& request, con
   out.hold = std::make_unique<HoldInterrupts>();
   HoldsSearch(folder, request.resume);
   out.folder = std::make_unique<ResultFolder>(folder, RareResults(), file.files().All());
+  out.name = file.name();
   out.mode = request.mode;
   out.settings = request.settings;
   out.settings.seed = static_cast<std::uint64_t>(file.seed());

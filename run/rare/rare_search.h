@@ -20,8 +20,8 @@ namespace floorproof {
 struct RareRequest {
   std::string mode = "any_failure";
   RareSettings settings = {};  // its seed is not read: it is the scenario's
-  int jobs = 1;           // worker processes
-  bool resume = false;    // goes on with the search that the folder holds
+  int jobs = 1;                // worker processes
+  bool resume = false;         // goes on with the search that the folder holds
 };
 
 // A region's likeliest failure, as it was driven.
@@ -35,7 +35,7 @@ struct RareOutcome {
   // As long as it lives Ctrl-C is only remembered, so that what is made of the outcome is whole.
   std::unique_ptr<HoldInterrupts> hold;
   std::unique_ptr<ResultFolder> folder;
-  std::string mode;
+  std::string name, mode;  // the scenario's
   RareSettings settings;
   std::vector<std::string> coordinates;
   bool noisy = false;

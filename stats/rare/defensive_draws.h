@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The density that fresh draws come from: a tenth nominal, a tenth widened, the rest where failures
-// were found. The nominal tenth bounds every importance weight by 10 (a defensive mixture, Hesterberg
-// 1995), so that an estimate is unbiased, and its variance finite, wherever failures are.
+// were found. The nominal tenth bounds every importance weight by 10 (a defensive mixture,
+// Hesterberg 1995), so that an estimate is unbiased, and its variance finite, wherever failures
+// are.
 #pragma once
 
 #include <Eigen/Core>

@@ -177,10 +177,9 @@ void FailureMixture::FindRegions() {
       const MatrixXd mean_covariance = 0.5 * (parts_[a].Covariance() + parts_[b].Covariance());
       const Eigen::SelfAdjointEigenSolver<MatrixXd> axes(mean_covariance);
       const VectorXd apart = axes.eigenvectors().transpose() * (parts_[a].mean - parts_[b].mean);
-      const double distance =
-          0.125 * apart.cwiseAbs2().cwiseQuotient(axes.eigenvalues()).sum() +
-          0.5 * (axes.eigenvalues().array().log().sum() - parts_[a].LogVolume() -
-                 parts_[b].LogVolume());
+      const double distance = 0.125 * apart.cwiseAbs2().cwiseQuotient(axes.eigenvalues()).sum() +
+                              0.5 * (axes.eigenvalues().array().log().sum() -
+                                     parts_[a].LogVolume() - parts_[b].LogVolume());
       if (std::exp(-distance) < kOverlap) continue;
       const std::size_t from = leader[a], to = leader[b];
       std::ranges::replace(leader, std::max(from, to), std::min(from, to));
@@ -206,7 +205,8 @@ Eigen::VectorXd FailureMixture::Draw(Stream& stream) const {
   // Chi squared of four degrees: the sum of two exponentials.
   const double chi = -2 * (std::log1p(-stream.Uniform()) + std::log1p(-stream.Uniform()));
   const VectorXd z = NormalVector(stream, parts_[k].mean.size());
-  return parts_[k].mean + parts_[k].axes * parts_[k].deviation.cwiseProduct(z) * std::sqrt(kTailDegrees / chi);
+  return parts_[k].mean +
+         parts_[k].axes * parts_[k].deviation.cwiseProduct(z) * std::sqrt(kTailDegrees / chi);
 }
 
 int FailureMixture::RegionOf(const VectorXd& u) const {

@@ -2,8 +2,8 @@
 // Where failures are: a mixture of heavy-tailed densities, fitted to failures that were found.
 //
 // Gaussians by expectation maximisation, as many as the Bayesian information criterion allows. What
-// the failures leave as it is stays nominal: along directions in which their spread differs from the
-// standard normal one by no more than that of as many draws would (the edges of Marchenko and
+// the failures leave as it is stays nominal: along directions in which their spread differs from
+// the standard normal one by no more than that of as many draws would (the edges of Marchenko and
 // Pastur 1967) it is set to 1. Each is then widened to Student's t of 4 degrees of freedom, so that
 // no failure beside those that were seen gets a huge importance weight.
 #pragma once
@@ -22,10 +22,10 @@ struct WeightedPoints {
 
 class FailureMixture {
  public:
-  // Of at least one point. `noisy`: what fails at a point may not fail there again. Then half of the
-  // density lies halfway to the nominal one, as the geometric mean of the two: where a failure takes
-  // unlikely noise, few draws fail, and the best density, which goes with the root of how many do,
-  // lies nearer to the origin than failures.
+  // Of at least one point. `noisy`: what fails at a point may not fail there again. Then half of
+  // the density lies halfway to the nominal one, as the geometric mean of the two: where a failure
+  // takes unlikely noise, few draws fail, and the best density, which goes with the root of how
+  // many do, lies nearer to the origin than failures.
   FailureMixture(const WeightedPoints& points, bool noisy, Stream& stream);
 
   double LogDensity(const Eigen::VectorXd& u) const;

@@ -19,9 +19,9 @@
 namespace floorproof {
 namespace {
 
-constexpr int kRefitDraws = 1000;     // that only show where failures are
-constexpr int kFirstDraws = 2000;     // of the estimate; they say how many more it takes
-constexpr double kPilotsShare = 0.6;  // of all trials, at most
+constexpr int kRefitDraws = 1000;        // that only show where failures are
+constexpr int kFirstDraws = 2000;        // of the estimate; they say how many more it takes
+constexpr double kPilotsShare = 0.6;     // of all trials, at most
 constexpr std::size_t kMostRegions = 5;  // that are polished: the largest
 
 constexpr std::uint64_t kPolish = kMostRegions * kPolishRounds * kPolishTrials;
@@ -41,7 +41,10 @@ struct Found {
 class Search {
  public:
   Search(const RareProblem& problem, const RareSettings& settings, const RareStage& stage)
-      : problem_(problem), settings_(settings), stage_(stage), stream_(settings.seed, 0, "rare.draws") {}
+      : problem_(problem),
+        settings_(settings),
+        stage_(stage),
+        stream_(settings.seed, 0, "rare.draws") {}
 
   RareEstimate Run() {
     RunPilots();
@@ -77,8 +80,8 @@ class Search {
     std::vector<std::unique_ptr<SubsetPilot>> pilots;
     for (int i = 0; i < kPilots; ++i)
       pilots.push_back(std::make_unique<SubsetPilot>(problem_, settings_.seed, i));
-    const auto most = static_cast<std::uint64_t>(
-        kPilotsShare * static_cast<double>(settings_.max_trials));
+    const auto most =
+        static_cast<std::uint64_t>(kPilotsShare * static_cast<double>(settings_.max_trials));
     while (true) {
       std::vector<Trial> batch;
       std::vector<std::pair<SubsetPilot*, std::size_t>> of;  // where each one's begin
@@ -190,8 +193,8 @@ class Search {
                             ? kFirstDraws * (std::pow(out_.cov / settings_.target_cov, 2) * 1.1 - 1)
                             : std::numeric_limits<double>::infinity();
     const std::uint64_t reserve = std::min(left(), kPolish);
-    const auto n = static_cast<std::uint64_t>(
-        std::clamp(more, 0.0, static_cast<double>(left() - reserve)));
+    const auto n =
+        static_cast<std::uint64_t>(std::clamp(more, 0.0, static_cast<double>(left() - reserve)));
     if (n == 0) return;
     std::vector<Found> further = DrawFrom(density, n);
     fresh_.insert(fresh_.end(), std::make_move_iterator(further.begin()),
@@ -251,9 +254,7 @@ class Search {
     out_.interval = IntervalOf(out_, settings_.confidence);
   }
 
-  static std::string Percent(double share) {
-    return FormatDouble(std::round(100 * share)) + " %";
-  }
+  static std::string Percent(double share) { return FormatDouble(std::round(100 * share)) + " %"; }
 
   void FindRegions() {
     const auto n = static_cast<std::size_t>(mixture_->regions());
@@ -293,8 +294,8 @@ class Search {
 
   void Polish() {
     constexpr std::uint64_t kOfOne = kPolishRounds * kPolishTrials;
-    const std::size_t n = std::min({out_.regions.size(), kMostRegions,
-                                    static_cast<std::size_t>(left() / kOfOne)});
+    const std::size_t n =
+        std::min({out_.regions.size(), kMostRegions, static_cast<std::size_t>(left() / kOfOne)});
     if (n == 0) return;
     Say("the likeliest failures");
     std::vector<Trial> begin;
@@ -346,8 +347,10 @@ void CheckRareSettings(const RareSettings& settings) {
   const std::uint64_t fewest = FewestTrials(settings.target_cov);
   if (settings.max_trials < fewest || settings.max_trials > 10'000'000)
     throw InputError({}, "max_trials", std::to_string(settings.max_trials),
-                     "must be in [" + std::to_string(fewest) + ", 10000000]: a coefficient of "
-                     "variation of " + FormatDouble(settings.target_cov) + " takes as many");
+                     "must be in [" + std::to_string(fewest) +
+                         ", 10000000]: a coefficient of "
+                         "variation of " +
+                         FormatDouble(settings.target_cov) + " takes as many");
 }
 
 RareEstimate EstimateRare(const RareProblem& problem, const RareSettings& settings,
@@ -362,9 +365,8 @@ RareEstimate EstimateRare(const RareProblem& problem, const RareSettings& settin
 Interval IntervalOf(const RareEstimate& estimate, double confidence) {
   if (estimate.answer != RareAnswer::kEstimate)
     throw InputError({}, "estimate", estimate.why, "is none");
-  const Interval log =
-      StudentInterval(std::log(estimate.probability), estimate.cov,
-                      std::max(1.0, estimate.effective_failures - 1), confidence);
+  const Interval log = StudentInterval(std::log(estimate.probability), estimate.cov,
+                                       std::max(1.0, estimate.effective_failures - 1), confidence);
   return {std::exp(log.lower), std::min(1.0, std::exp(log.upper))};
 }
 

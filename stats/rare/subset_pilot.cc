@@ -93,9 +93,8 @@ void SubsetPilot::EndLevel() {
     end_ = End::kFoundFailures;
     return;
   }
-  std::ranges::stable_sort(states_, [](const State& a, const State& b) {
-    return Nearness(a.result, b.result) < 0;
-  });
+  std::ranges::stable_sort(
+      states_, [](const State& a, const State& b) { return Nearness(a.result, b.result) < 0; });
   // Those that are as near as the last belong to the level, too: else it would not be one.
   const auto as_near_as = [&](const State& last) {
     threshold_ = last.result;

@@ -16,8 +16,9 @@ class RareScenarioTest : public ScenarioTest {
 
   RareScenarioTest() {
     Save("plan.csv", "x_m,y_m\n1.2,1.25\n1.9,1.25\n");
-    SaveScenario("{estimator.start_error_y_m: {normal: [0, 0.02]}, site.floor.friction: {uniform: "
-                 "[0.6, 0.9]}}");
+    SaveScenario(
+        "{estimator.start_error_y_m: {normal: [0, 0.02]}, site.floor.friction: {uniform: "
+        "[0.6, 0.9]}}");
   }
   void SaveScenario(const std::string& randomise, const std::string& hazards = "[]") const {
     Save("s.yaml", R"(scenario: 1
@@ -34,7 +35,8 @@ site:
       #.......#
       #########
   start: {x_m: 1.2, y_m: 1.25, yaw_deg: 0}
-  hazards: )" + hazards + R"(
+  hazards: )" + hazards +
+                       R"(
 robot: beluga
 plan: {file: plan.csv}
 failures:
@@ -46,7 +48,8 @@ sensors:
 physics: {timestep_s: 0.005}
 control_hz: 20
 trace_hz: 10
-randomise: )" + randomise + "\n");
+randomise: )" + randomise +
+                       "\n");
   }
 
   ScenarioFile File(const std::vector<Override>& overrides = {}) const {

@@ -35,8 +35,9 @@ class RareTest : public RareScenarioTest {
 TEST_F(RareTest, EachDistributionIsACoordinate) {
   const Scenario base = File().Read(std::nullopt);
   // What is drawn need not be a key of the scenario: only the draws are looked at.
-  SaveScenario("{a.x: {uniform: [2, 4]}, b: {normal: [1, 0.5]}, c: {lognormal: [3, 0.1]}, d: "
-               "{choice: [p, q, r]}, e: {uniform: [7, 7]}}");
+  SaveScenario(
+      "{a.x: {uniform: [2, 4]}, b: {normal: [1, 0.5]}, c: {lognormal: [3, 0.1]}, d: "
+      "{choice: [p, q, r]}, e: {uniform: [7, 7]}}");
   const ScenarioFile file = File();
   const RareCoordinates dut(file, base);
   EXPECT_THAT(dut.keys(), ElementsAre("a.x", "b", "c", "d"));
@@ -161,8 +162,7 @@ class RareTrialsTest : public RareTest {
           base(file.Read(std::nullopt)),
           coordinates(file, base),
           score("veer_off", base),
-          store(fs::exists(db) ? Reopened(db)
-                               : CampaignStore::Create(db, DescribeCampaign(file))),
+          store(fs::exists(db) ? Reopened(db) : CampaignStore::Create(db, DescribeCampaign(file))),
           trials(file, coordinates, score, store, jobs,
                  [this](const RareProgress& p) { shown = p; }) {}
     static CampaignStore Reopened(const fs::path& db) {
@@ -179,8 +179,7 @@ class RareTrialsTest : public RareTest {
   };
   static std::vector<Trial> Batch(double from) {
     std::vector<Trial> batch;
-    for (int i = 0; i < 6; ++i)
-      batch.push_back({Eigen::Vector2d(from + 0.5 * i, 0.1 * i), 0});
+    for (int i = 0; i < 6; ++i) batch.push_back({Eigen::Vector2d(from + 0.5 * i, 0.1 * i), 0});
     return batch;
   }
 };
@@ -215,10 +214,10 @@ TEST_F(RareTrialsTest, TrialsAreDrivenOnceWhateverTheWorkers) {
 
 // An episode that draws make impossible is no failure, and is counted.
 TEST_F(RareTrialsTest, ErrorsAreFarFromFailing) {
-  SaveScenario("{start.y_m: {uniform: [-9, 1.6]}, site.floor.friction: {uniform: [1, 2]}}");
+  SaveScenario("{start.y_m: {uniform: [-1, 1.6]}, site.floor.friction: {uniform: [1, 2]}}");
   const ScenarioFile file = File();
   Drives dut(file, folder_ / "t.sqlite", 1);
-  const auto results = dut.trials.Evaluate(std::vector<Trial>{{Eigen::Vector2d(-1, 0), 0}});
+  const auto results = dut.trials.Evaluate(std::vector<Trial>{{Eigen::Vector2d(-1.5, 0), 0}});
   EXPECT_FALSE(results[0].failed);
   EXPECT_EQ(dut.trials.errors(), 1u);
   EXPECT_NE(dut.trials.first_error(), "");
@@ -272,8 +271,7 @@ TEST_F(RareTest, TheAnswerIsSaidInWords) {
   outcome.estimate.regions = {{.share = 0.8, .draws = 300, .pilots = 5, .distance = 4.1}};
   EpisodeRow row;
   row.outcome = "failure";
-  row.events =
-      R"([{"kind":"","hazard":"sill","t_s":1,"x_m":2,"y_m":3,"mode":"stuck"}])";
+  row.events = R"([{"kind":"","hazard":"sill","t_s":1,"x_m":2,"y_m":3,"mode":"stuck"}])";
   outcome.failures = {{outcome.estimate.regions[0],
                        {{"episode", ConfigNode::Scalar("9")},
                         {"site.floor.friction", ConfigNode::Scalar("0.31")},
@@ -288,11 +286,14 @@ TEST_F(RareTest, TheAnswerIsSaidInWords) {
   said("at least 0.0009 %, and, by 1,500 drives as they come of which 0 failed, at most 0.2 %");
   said("takes 239,658 drives without a failure");
   said("stuck at sill with episode 9, site.floor.friction 0.31");
-  said("floorproof run 'out/my floor/scenario.resolved.yaml' --video --set episode=9 --set "
-       "site.floor.friction=0.31 --set 'what={a: [1, 2], b: it'\\''s}'");
+  said(
+      "floorproof run 'out/my floor/scenario.resolved.yaml' --video --set episode=9 --set "
+      "site.floor.friction=0.31 --set 'what={a: [1, 2], b: it'\\''s}'");
   const auto json = RareJson(outcome);
   EXPECT_EQ(json["answer"], "estimate");
   EXPECT_EQ(json["regions"][0]["likeliest"]["set"][1], "site.floor.friction=0.31");
+  EXPECT_THAT(json["regions"][0]["likeliest"]["command"].get<std::string>(),
+              testing::StartsWith("floorproof run scenario.resolved.yaml --video --set episode=9"));
   EXPECT_EQ(json["without_sampler"]["nominal_draws"], 1500);
 
   outcome.estimate.answer = RareAnswer::kNoEstimate;

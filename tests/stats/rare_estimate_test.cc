@@ -79,8 +79,11 @@ TEST(RareEstimate, FollowsFromTheSeed) {
 
 // Nothing fails: every trial is spent, and says how often it can be at most.
 TEST(RareEstimate, NothingFoundIsSaidWithItsUpperBound) {
-  const RareEstimate got = EstimateRare(
-      TrialsOf(3, [](const Trial& t) { return TrialResult{false, 9 - t.u[0]}; }), {});
+  const RareEstimate got = EstimateRare(TrialsOf(3,
+                                                 [](const Trial& t) {
+                                                   return TrialResult{false, 9 - t.u[0]};
+                                                 }),
+                                        {});
   EXPECT_EQ(got.answer, RareAnswer::kNothingFound);
   EXPECT_EQ(got.trials, 15'000u);
   EXPECT_GT(got.nominal_draws, 7000);
@@ -107,13 +110,13 @@ TEST(RareEstimate, TiesAreSplitByTheSecondScore) {
 
 // A choice (an atom of draws) that fails by itself, however far the margin of all others is.
 TEST(RareEstimate, AnAtomThatFailsIsFound) {
-  const RareEstimate got = EstimateRare(TrialsOf(2,
-                                                 [](const Trial& t) {
-                                                   const bool fails = t.u[1] < -2.5;
-                                                   return TrialResult{fails, fails ? 0.0 : 1.0,
-                                                                      std::abs(t.u[0] - 1)};
-                                                 }),
-                                        {.seed = 4});
+  const RareEstimate got =
+      EstimateRare(TrialsOf(2,
+                            [](const Trial& t) {
+                              const bool fails = t.u[1] < -2.5;
+                              return TrialResult{fails, fails ? 0.0 : 1.0, std::abs(t.u[0] - 1)};
+                            }),
+                   {.seed = 4});
   const double truth = reliability::Normal(-2.5);
   if (got.answer == RareAnswer::kEstimate) {
     EXPECT_NEAR(got.probability / truth, 1, 4.5 * got.cov);

@@ -63,7 +63,8 @@ inline double Quadrature(const std::function<double(const Point&)>& g) {
 }
 
 // P(|x y| >= c) of two standard normal numbers: their product has the density K0(|z|) / pi, and
-// K0(z) is the integral of exp(-z cosh t), so that P = 2 / pi * integral of exp(-c cosh t) / cosh t.
+// K0(z) is the integral of exp(-z cosh t), so that P = 2 / pi * integral of exp(-c cosh t) / cosh
+// t.
 inline double ProductBeyond(double c) {
   constexpr double kStep = 1e-4;
   double sum = 0;
@@ -90,9 +91,7 @@ inline std::vector<Problem> Problems() {
          return std::max(u[0] * u[0] - 8 * u[1] + 16, -16 * u[0] + u[1] + 32);
        }},
       {"RP28", 2,
-       [](const Point& u) {
-         return (78064 + 11710 * u[0]) * (0.0104 + 0.00156 * u[1]) - 146.14;
-       }},
+       [](const Point& u) { return (78064 + 11710 * u[0]) * (0.0104 + 0.00156 * u[1]) - 146.14; }},
       {"RP31", 2, [](const Point& u) { return 2 - u[1] + 256 * std::pow(u[0], 4); }},
       {"RP53", 2,
        [](const Point& u) {
@@ -107,9 +106,7 @@ inline std::vector<Problem> Problems() {
        }},
       {"RP75", 2, [](const Point& u) { return 3 - u[0] * u[1]; }, ProductBeyond(3) / 2},
       {"RP89", 2,
-       [](const Point& u) {
-         return std::min(-u[0] * u[0] - u[1] + 8, -u[0] / 5 - u[1] + 6);
-       }},
+       [](const Point& u) { return std::min(-u[0] * u[0] - u[1] + 8, -u[0] / 5 - u[1] + 6); }},
       {"RP107", 10, [](const Point& u) { return 5 * std::sqrt(10.0) - u.sum(); }, Normal(-5)},
       {"RP111", 2, [](const Point& u) { return 12.5 - std::abs(u[0] * u[1]); },
        ProductBeyond(12.5)}};

@@ -21,8 +21,7 @@ TEST_P(SlowRareEstimate, IsUnbiasedNarrowAndCovered) {
   int estimates = 0, covered = 0, lower = 0;
   double sum = 0, squares = 0, most = 0;
   for (int i = 0; i < kRepeats; ++i) {
-    const RareEstimate got =
-        EstimateRare(trials, {.seed = static_cast<std::uint64_t>(50'000 + i)});
+    const RareEstimate got = EstimateRare(trials, {.seed = static_cast<std::uint64_t>(50'000 + i)});
     lower += got.lower_bound <= truth;
     most = std::max(most, static_cast<double>(got.trials));
     if (got.answer != RareAnswer::kEstimate) continue;
@@ -33,10 +32,11 @@ TEST_P(SlowRareEstimate, IsUnbiasedNarrowAndCovered) {
     covered += got.interval.Contains(truth);
   }
   const double mean = sum / estimates, cov = std::sqrt(squares / estimates - mean * mean);
-  std::printf("%-14s %.3e: %d estimates, mean %.3f of it, coefficient of variation %.3f, interval "
-              "holds it in %.1f %%, lower bound below it in %.1f %%, %.0f trials at most\n",
-              problem.name.c_str(), truth, estimates, mean, cov, 100.0 * covered / estimates,
-              100.0 * lower / kRepeats, most);
+  std::printf(
+      "%-14s %.3e: %d estimates, mean %.3f of it, coefficient of variation %.3f, interval "
+      "holds it in %.1f %%, lower bound below it in %.1f %%, %.0f trials at most\n",
+      problem.name.c_str(), truth, estimates, mean, cov, 100.0 * covered / estimates,
+      100.0 * lower / kRepeats, most);
   EXPECT_GE(estimates, 0.9 * kRepeats);
   EXPECT_NEAR(mean, 1, 4 * cov / std::sqrt(estimates) + 0.01);
   EXPECT_LE(cov, 0.1);

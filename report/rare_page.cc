@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/rare_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "base/error.h"
+#include "base/input_file.h"
+#include "report/html.h"
+#include "report/rare_films.h"
+#include "report/style.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::uintmax_t kLargestFilm = 8u << 20;  // in the page, bytes
+
+constexpr const char* kRareStyle = R"css(
+.scale { width: 100%; height: auto; } .scale text { font-size: 11px; fill: var(--ink); }
+.scale .grid { stroke: var(--line); } .scale .soft { fill: var(--soft); }
+.scale .sure { fill: var(--line); } .scale .estimate { fill: var(--mark); }
+.scale .point { stroke: var(--ink); stroke-width: 2; }
+code { overflow-wrap: anywhere; }
+)css";
+
+std::string OneIn(double probability) { return "1 in " + NumberText(1 / probability); }
+
+// The bounds and the estimate on one logarithmic line.
+std::string Scale(const Json& rare) {
+  const bool estimated = !rare["probability"].is_null();
+  const double most = rare["without_sampler"]["upper"], least = rare["without_sampler"]["lower"];
+  double low = estimated ? rare["lower"].get<double>() : most / 100;
+  if (least > 0) low = std::min(low, least);
+  const double from = std::floor(std::log10(std::max(low, 1e-14))),
+               to = std::ceil(std::log10(most));
+  constexpr double kLeft = 150, kWidth = 540;
+  const auto x = [&](double p) {
+    return kLeft +
+           kWidth * std::clamp((std::log10(std::max(p, 1e-15)) - from) / (to - from), 0., 1.);
+  };
+  std::string svg =
+      "<svg class=\"scale\" viewBox=\"0 0 720 130\" role=\"img\" aria-label=\"The estimate and the "
+      "bounds on a logarithmic scale; the table below has the numbers\">\n";
+  const int step = std::max(1, static_cast<int>(std::ceil((to - from) / 6)));
+  for (int e = static_cast<int>(from); e <= static_cast<int>(to); e += step)
+    svg += fmt::format(
+        "<line class=\"grid\" x1=\"{0:.1f}\" y1=\"10\" x2=\"{0:.1f}\" y2=\"98\"/><text "
+        "x=\"{0:.1f}\" "
+        "y=\"118\" text-anchor=\"middle\" class=\"soft\">{1}</text>\n",
+        x(std::pow(10, e)), e == 0 ? "always" : OneIn(std::pow(10, e)));
+  const auto bar = [&](double y, const char* name, const char* kind, double a, double b) {
+    svg += fmt::format(
+        "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text><rect class=\"{}\" x=\"{:.1f}\" "
+        "y=\"{}\" width=\"{:.1f}\" height=\"16\" rx=\"3\"/>\n",
+        kLeft - 8, y + 12, name, kind, x(a), y, std::max(2.0, x(b) - x(a)));
+  };
+  bar(20, "without the sampler", "sure", least, most);
+  if (estimated) {
+    bar(60, "estimate", "estimate", rare["lower"], rare["upper"]);
+    svg +=
+        fmt::format("<line class=\"point\" x1=\"{0:.1f}\" y1=\"56\" x2=\"{0:.1f}\" y2=\"80\"/>\n",
+                    x(rare["probability"]));
+  }
+  return svg + "</svg>\n";
+}
+
+std::string Row(const std::string& name, const std::string& value, const std::string& what) {
+  return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>\n", name, value,
+                     what);
+}
+
+std::string Numbers(const Json& rare) {
+  const Json& sure = rare["without_sampler"];
+  std::string html =
+      "<div class=\"card scroll\">" + Scale(rare) +
+      "<table><thead><tr><th scope=\"col\"></th><th scope=\"col\">Failures a drive</th><th "
+      "scope=\"col\">What it rests on</th></tr></thead><tbody>\n";
+  if (!rare["probability"].is_null())
+    html += Row("Estimate",
+                fmt::format("{}: {} ({} to {} at 95 %)", OneIn(rare["probability"]),
+                            PercentText(rare["probability"].get<double>()),
+                            PercentText(rare["lower"].get<double>()),
+                            PercentText(rare["upper"].get<double>())),
+                "the sampler: it counts the ways to fail that it found");
+  html += Row("At least", PercentText(sure["lower"].get<double>()),
+              "the failures that were drawn, whatever the distribution of their weights (95 %)");
+  html +=
+      Row("At most", PercentText(sure["upper"].get<double>()),
+          fmt::format("{} as they come, of which {} failed, and nothing else (95 %). No sampler "
+                      "gives a better bound for ways to fail that it has not found",
+                      CountText(sure["nominal_draws"].get<std::int64_t>(), "drive"),
+                      sure["nominal_failures"].get<int>()));
+  if (!rare["clean_drives_needed"].is_null())
+    html += Row("To show the estimate without a sampler",
+                CountText(rare["clean_drives_needed"].get<std::int64_t>(), "drive"),
+                "as they come, and none may fail");
+  return html + "</tbody></table></div>\n";
+}
+
+std::string Happening(const Json& likeliest) {
+  std::string text;
+  for (const Json& event : likeliest["events"]) {
+    const std::string hazard = event["hazard"];
+    text +=
+        fmt::format("{}{}{} after {} s", text.empty() ? "" : ", ", event["mode"].get<std::string>(),
+                    hazard.empty() ? "" : " at " + hazard, FixedText(event["t_s"], 1));
+  }
+  return text.empty() ? likeliest["outcome"].get<std::string>() : text;
+}
+
+std::string Film(const fs::path& folder, std::size_t number) {
+  const fs::path file = LikelyFailureFolder(folder, number) / "video.mp4";
+  std::error_code none;
+  const std::uintmax_t size = fs::file_size(file, none);
+  if (none || !fs::is_regular_file(file, none)) return "";
+  const std::string path = fs::path(file).lexically_relative(folder).generic_string();
+  if (size > kLargestFilm)
+    return fmt::format("<p><a href=\"{}\">{}</a></p>\n", UrlPath(path), MarkupText(path));
+  return fmt::format("<figure><video controls preload=\"metadata\" src=\"{}\"></video></figure>\n",
+                     DataUri("video/mp4", ReadInputFile(file, kLargestFilm)));
+}
+
+std::string Regions(const Json& rare, const fs::path& folder) {
+  std::string html;
+  std::size_t number = 0;
+  for (const Json& region : rare["regions"]) {
+    ++number;
+    html += fmt::format(
+        "<article class=\"card\"><h3>{}. {} of the failures</h3>\n<p>{} among the draws; {} of {} "
+        "pilots came upon it.</p>\n",
+        number, PercentText(region["share"].get<double>(), 2),
+        CountText(region["draws"].get<std::int64_t>(), "failure"), region["pilots"].get<int>(),
+        rare["pilots"].size());
+    const Json& likeliest = region["likeliest"];
+    if (!likeliest.is_null()) {
+      html += fmt::format("<p>The likeliest, {} standard deviations from the middle: {}.</p>\n",
+                          FixedText(region["distance"], 2), MarkupText(Happening(likeliest)));
+      html += Film(folder, number);
+      html += "<table><tbody>\n";
+      for (const Json& json : likeliest["set"]) {
+        const std::string set = json;
+        const std::size_t at = set.find('=');
+        html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n",
+                            MarkupText(set.substr(0, at)),
+                            MarkupText(at == std::string::npos ? "" : set.substr(at + 1)));
+      }
+      html +=
+          "</tbody></table>\n<details><summary>The command that drives it again, in this "
+          "folder</summary><p><code>" +
+          MarkupText(likeliest["command"].get<std::string>()) + "</code></p></details>\n";
+    }
+    html += "</article>\n";
+  }
+  return html.empty() ? "<p>None was found.</p>\n" : html;
+}
+
+std::string Search(const Json& rare) {
+  std::string coordinates;
+  for (const Json& key : rare["coordinates"])
+    coordinates += (coordinates.empty() ? "" : ", ") + key.get<std::string>();
+  if (rare["noise"].get<bool>()) coordinates += ", and the noise of sensors";
+  std::string html = fmt::format(
+      "<p>{} in all, over what the scenario draws: {}. Five pilots went towards failures, a "
+      "density "
+      "was fitted to what they found, and {} from it gave the estimate.</p>\n",
+      CountText(rare["trials"].get<std::int64_t>(), "drive"), MarkupText(coordinates),
+      CountText(rare["diagnostics"]["fresh_draws"].get<std::int64_t>(), "weighted draw"));
+  html +=
+      "<div class=\"scroll\"><table><thead><tr><th scope=\"col\">Pilot</th><th scope=\"col\">How "
+      "it "
+      "ended</th><th scope=\"col\">Levels</th><th scope=\"col\">Failures met</th><th "
+      "scope=\"col\">Its own estimate</th></tr></thead><tbody>\n";
+  int number = 0;
+  for (const Json& pilot : rare["pilots"]) {
+    const double p = pilot["probability"];
+    html +=
+        fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", ++number,
+                    MarkupText(pilot["end"].get<std::string>()), pilot["levels"].get<int>(),
+                    pilot["failures"].get<int>(), p > 0 ? OneIn(p) : "none");
+  }
+  html += "</tbody></table></div>\n";
+  const Json& d = rare["diagnostics"];
+  html += fmt::format(
+      "<p>Of the draws {} failed, worth {} of equal weight; the heaviest makes {} of the estimate. "
+      "There is none where that is more than 25 %, where failures are worth fewer than 20, where "
+      "30 "
+      "% lies where one pilot alone was, or where draws and pilots differ by a factor of 4.</p>\n",
+      FixedText(d["fresh_failures"], 0), NumberText(d["effective_failures"].get<double>()),
+      PercentText(d["largest_share"].get<double>(), 2));
+  if (const auto errors = rare["errors"].get<std::int64_t>(); errors > 0)
+    html += fmt::format("<p>{} ended in an error or had no plan, and count as no failure.</p>\n",
+                        CountText(errors, "drive"));
+  return html;
+}
+
+std::string Verdict(const Json& rare) {
+  const std::string mode = rare["mode"], answer = rare["answer"];
+  const Json& sure = rare["without_sampler"];
+  const std::string trials = CountText(rare["trials"].get<std::int64_t>(), "drive");
+  if (answer == "estimate")
+    return fmt::format("{}: {} drives ({} to {} at 95 %), found with {}", mode,
+                       OneIn(rare["probability"]), OneIn(rare["upper"]),
+                       NumberText(1 / rare["lower"].get<double>()), trials);
+  if (answer == "nothing_found")
+    return fmt::format("{}: none of {} failed; at most {} of drives do, at 95 %", mode, trials,
+                       PercentText(sure["upper"].get<double>()));
+  return fmt::format("{}: no estimate from {}: {}", mode, trials, rare["why"].get<std::string>());
+}
+
+RarePage Page(const Json& rare, const fs::path& folder) {
+  RarePage page;
+  page.verdict = Verdict(rare);
+  const std::string title = MarkupText(rare["name"].get<std::string>());
+  std::string gate, kind = "none";
+  if (!rare["gate"].is_null()) {
+    gate = "<ul><li>Gate: " + MarkupText(rare["gate"]["text"].get<std::string>()) + "</li></ul>";
+    kind = rare["gate"]["verdict"];
+  }
+  page.html =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta "
+      "http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; media-src data:; "
+      "style-src 'unsafe-inline'\">\n<meta name=\"viewport\" content=\"width=device-width, "
+      "initial-scale=1\">\n<title>" +
+      title + ": rare failures</title>\n<style>" + kReportStyle + kRareStyle +
+      "</style></head>\n<body><header><p class=\"over\">Floorproof, rare failures</p><h1>" + title +
+      "</h1>\n<div class=\"verdict " + MarkupText(kind) + "\"><p>" + MarkupText(page.verdict) +
+      "</p>" + gate +
+      "</div>\n<nav><a href=\"#numbers\">How rare</a><a href=\"#failures\">The likeliest "
+      "failures</a><a href=\"#search\">How it was found</a></nav></header>\n<main>\n<section "
+      "id=\"numbers\"><h2>How rare</h2>\n" +
+      Numbers(rare) + "</section>\n<section id=\"failures\"><h2>The likeliest failures</h2>\n" +
+      Regions(rare, folder) + "</section>\n<section id=\"search\"><h2>How it was found</h2>\n" +
+      Search(rare) + "</section>\n</main>\n</body></html>\n";
+  return page;
+}
+
+}  // namespace
+
+bool HoldsRareSearch(const fs::path& folder) {
+  std::error_code none;
+  return fs::exists(folder / "rare.json", none) && !fs::exists(folder / "campaign.sqlite", none);
+}
+
+RarePage MakeRarePage(const fs::path& folder) {
+  constexpr std::size_t kMost = 16u << 20;
+  const fs::path file = folder / "rare.json";
+  try {
+    const Json rare = Json::parse(ReadInputFile(file, kMost));
+    if (!rare.is_object() || rare.value("rare", 0) != 1)
+      throw InputError({file.string(), 0}, "", "", "is no answer of floorproof rare");
+    return Page(rare, folder);
+  } catch (const Json::exception&) {
+    throw InputError({file.string(), 0}, "", "", "is damaged, or of another version");
+  }
+}
+
+}  // namespace floorproof
