@@ -46,7 +46,9 @@ class RareLine final : public RareObserver {
   std::uint64_t most_;
 };
 
+// A drive that was none counts as no failure: no gate passes on that.
 int ExitStatusOf(const RareOutcome& outcome) {
+  if (outcome.errors > 0) return kExitBroken;
   if (outcome.verdict && outcome.verdict->verdict == GateVerdict::kFailed) return kExitNotSuccess;
   if (outcome.verdict && outcome.verdict->verdict == GateVerdict::kPassed) return kExitDone;
   if (outcome.verdict) return kExitUndecided;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/input_files.h"
 #include "report/drive_and_film.h"
 
 namespace floorproof {
@@ -25,6 +26,9 @@ void FilmLikelyFailures(const ScenarioFile& file, const RareOutcome& outcome,
                             outcome.failures.size()));
     Drawn drawn = failure.set;
     std::erase_if(drawn, [](const auto& entry) { return entry.first == "episode"; });
+    if (const std::string made = MadePlan(failure.row); !made.empty())
+      drawn.emplace_back("plan.made",
+                         ConfigNode::Scalar(fs::absolute(FindCopy(folder, made)).string(), true));
     Scenario scenario = file.ReadDrawn(failure.region.likeliest.noise, drawn);
     RefuseProgram(scenario);
     std::vector<FailureMode> modes;

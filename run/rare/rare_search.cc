@@ -100,13 +100,17 @@ RareOutcome SearchRare(const ScenarioFile& file, const RareRequest& request, con
   const RareScore score(request.mode, base);
   const RareCoordinates coordinates(file, base);
   const std::optional<RareGate> gate = RareGate::Read(base.gate, request.mode);
+  if (!base.gate.IsNull() && !gate)
+    warn("warning: the scenario's gate is a campaign's (`mode` is not rare), and is not judged here");
+  EpisodeMaker maker(file);
   const CampaignAbout about = Describe(file, request);
   if (const PlanCommand* program = ProgramToAsk(base)) {
     CheckProgram(*program, base.files);
     warn(ProgramLine(*program));
   } else {
-    const PlanResult& plan = EpisodeMaker(file).PlanDrawn(
-        {}, 0, coordinates.DrawnAt(Eigen::VectorXd::Zero(coordinates.size())));
+    const PlanResult& plan = maker.PlanDrawn(
+        RareTrials::TrialVariant(), 0,
+        coordinates.DrawnAt(Eigen::VectorXd::Zero(coordinates.size())));
     if (plan.status != PlanStatus::kSuccess)
       throw InputError({file.file().string(), 0}, "plan", "",
                        "there is none of the scenario's middle: " + plan.message);
@@ -130,7 +134,7 @@ RareOutcome SearchRare(const ScenarioFile& file, const RareRequest& request, con
     WriteResolvedScenario(base, folder, file.files().All());
 
     std::string stage;
-    RareTrials trials(file, coordinates, score, store, request.jobs,
+    RareTrials trials(maker, coordinates, score, store, request.jobs,
                       [&](const RareProgress& progress) {
                         if (observer) observer->OnProgress(stage, progress);
                       });

@@ -17,15 +17,15 @@ const Variant& RareTrials::TrialVariant() {
   return kTrial;
 }
 
-RareTrials::RareTrials(const ScenarioFile& file, const RareCoordinates& coordinates,
+RareTrials::RareTrials(EpisodeMaker& maker, const RareCoordinates& coordinates,
                        const RareScore& score, CampaignStore& store, int jobs,
                        std::function<void(const RareProgress&)> progress)
-    : coordinates_(coordinates),
+    : maker_(maker),
+      coordinates_(coordinates),
       score_(score),
       store_(store),
       jobs_(jobs),
-      progress_(std::move(progress)),
-      maker_(file) {
+      progress_(std::move(progress)) {
   store_.ForEach(TrialVariant().name, [&](const EpisodeRow& row) {
     if (row.episode >= known_.size()) known_.resize(row.episode + 1);
     known_[row.episode] = Brief(row);

@@ -24,8 +24,9 @@ struct RareProgress {
 
 class RareTrials {
  public:
-  // All outlive it. `progress` is called now and then.
-  RareTrials(const ScenarioFile& file, const RareCoordinates& coordinates, const RareScore& score,
+  // All outlive it. What `maker` has planned under TrialVariant() is planned for all trials of the
+  // same inputs. `progress` is called now and then.
+  RareTrials(EpisodeMaker& maker, const RareCoordinates& coordinates, const RareScore& score,
              CampaignStore& store, int jobs, std::function<void(const RareProgress&)> progress);
 
   // The next trials, numbered on from those before. Throws Interruption once what was driven is
@@ -50,12 +51,12 @@ class RareTrials {
   void Drive(std::span<const Trial> trials, const std::vector<std::size_t>& missing);
   void Keep();
 
+  EpisodeMaker& maker_;
   const RareCoordinates& coordinates_;
   const RareScore& score_;
   CampaignStore& store_;
   int jobs_;
   std::function<void(const RareProgress&)> progress_;
-  EpisodeMaker maker_;
   std::vector<std::optional<Known>> known_;  // by number
   std::uint64_t next_ = 0;
   std::vector<EpisodeRow> batch_;  // to be kept

@@ -11,7 +11,7 @@
 #include "stats/betting.h"
 #include "stats/binomial.h"
 #include "stats/checks.h"
-#include "stats/rare/defensive_draws.h"
+#include "stats/rare/defensive_density.h"
 #include "stats/rare/failure_mixture.h"
 #include "stats/rare/likeliest_failures.h"
 #include "stats/student.h"
@@ -80,8 +80,10 @@ class Search {
     std::vector<std::unique_ptr<SubsetPilot>> pilots;
     for (int i = 0; i < kPilots; ++i)
       pilots.push_back(std::make_unique<SubsetPilot>(problem_, settings_.seed, i));
-    const auto most =
-        static_cast<std::uint64_t>(kPilotsShare * static_cast<double>(settings_.max_trials));
+    // What comes after them must fit as well.
+    const std::uint64_t most = std::min(
+        static_cast<std::uint64_t>(kPilotsShare * static_cast<double>(settings_.max_trials)),
+        settings_.max_trials - kRefitDraws - kFirstDraws);
     while (true) {
       std::vector<Trial> batch;
       std::vector<std::pair<SubsetPilot*, std::size_t>> of;  // where each one's begin

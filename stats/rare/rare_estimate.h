@@ -4,7 +4,7 @@
 // Five independent pilots (subset_pilot.h) look for failures. A density is fitted to what they
 // found (failure_mixture.h), and fitted again after draws from it that serve nothing else. Then the
 // density stays as it is, and fresh draws from it, weighted by how much likelier they are nominally
-// (defensive_draws.h), give the estimate: it is unbiased whatever the pilots did. What they did not
+// (defensive_density.h), give the estimate: it is unbiased whatever the pilots did. What they did not
 // find it may still miss, together with its interval; so the answer holds bounds that rest on no
 // sampler, and where the draws or the pilots do not agree there is no estimate at all.
 //

@@ -162,8 +162,9 @@ class RareTrialsTest : public RareTest {
           base(file.Read(std::nullopt)),
           coordinates(file, base),
           score("veer_off", base),
+          maker(file),
           store(fs::exists(db) ? Reopened(db) : CampaignStore::Create(db, DescribeCampaign(file))),
-          trials(file, coordinates, score, store, jobs,
+          trials(maker, coordinates, score, store, jobs,
                  [this](const RareProgress& p) { shown = p; }) {}
     static CampaignStore Reopened(const fs::path& db) {
       CampaignStore opened = CampaignStore::Open(db, true);
@@ -173,6 +174,7 @@ class RareTrialsTest : public RareTest {
     Scenario base;
     RareCoordinates coordinates;
     RareScore score;
+    EpisodeMaker maker;
     CampaignStore store;
     RareProgress shown;
     RareTrials trials;

@@ -69,6 +69,15 @@ TEST(RareEstimate, RegionsHaveTheirShareAndTheirLikeliestFailure) {
   EXPECT_NEAR(shares, 1, 1e-12);
 }
 
+TEST(RareEstimate, NoMoreTrialsThanAllowed) {
+  for (const Problem& problem : reliability::Problems()) {
+    const std::uint64_t fewest = FewestTrials(0.1);
+    const RareEstimate got =
+        EstimateRare(reliability::AsTrials(problem), {.max_trials = fewest, .seed = 1});
+    EXPECT_LE(got.trials, fewest) << problem.name;
+  }
+}
+
 TEST(RareEstimate, FollowsFromTheSeed) {
   const RareProblem trials = reliability::AsTrials(reliability::Problems()[0]);
   const RareEstimate a = EstimateRare(trials, {.seed = 1}), b = EstimateRare(trials, {.seed = 1}),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stats/rare/defensive_draws.h"
+#include "stats/rare/defensive_density.h"
 
 #include <algorithm>
 #include <cmath>
