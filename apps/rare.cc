@@ -71,9 +71,17 @@ int RunRare(const RareCommand& options, const Globals& globals) {
   globals.Result(RareJson(outcome));
   for (const std::string& line : RareLines(outcome, folder)) globals.Say(line);
   globals.Say("results are in " + folder.string());
-  if (!options.no_films) FilmLikelyFailures(file, outcome, folder, globals);
-  WriteFileWhole(folder / "rare.html", MakeRarePage(folder).html);
-  globals.Say("page: " + (folder / "rare.html").string());
+  const auto write_page = [&] {
+    WriteFileWhole(folder / "rare.html", MakeRarePage(folder).html);
+    globals.Say("page: " + (folder / "rare.html").string());
+  };
+  try {
+    if (!options.no_films) FilmLikelyFailures(file, outcome, folder, globals);
+  } catch (const std::runtime_error& e) {  // the answer stands without them
+    write_page();
+    throw InternalError(std::string(e.what()) + "; missing: films of the likeliest failures");
+  }
+  write_page();
   return ExitStatusOf(outcome);
 }
 

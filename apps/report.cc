@@ -7,6 +7,7 @@
 #include "base/file_output.h"
 #include "report/campaign_report.h"
 #include "report/rare_page.h"
+#include "run/rare/rare_search.h"
 
 namespace floorproof {
 namespace {
@@ -14,6 +15,8 @@ namespace {
 int WriteRareReport(const std::string& named, const Globals& globals) {
   const std::filesystem::path page = std::filesystem::path(named) / "rare.html";
   const RarePage made = MakeRarePage(named);
+  ResultFolder folder(named, RareResults(), {});
+  folder.Begin();
   WriteFileWhole(page, made.html);
   globals.Say(made.verdict);
   globals.Say(fmt::format("report: {} ({:.1f} MB, opens from disk)", page.string(),

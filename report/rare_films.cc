@@ -3,25 +3,54 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/input_file.h"
 #include "base/input_files.h"
+#include "base/interrupt.h"
 #include "report/drive_and_film.h"
+#include "run/episode/records.h"
+#include "run/rare/rare_json.h"
 
 namespace floorproof {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 fs::path LikelyFailureFolder(const fs::path& search, std::size_t number) {
   return search / "likeliest" / std::to_string(number);
 }
 
+fs::path FilmOf(const fs::path& search, std::size_t number, const std::vector<std::string>& sets) {
+  const fs::path into = LikelyFailureFolder(search, number), film = into / "video.mp4";
+  RefuseLinks(search, into);
+  std::error_code none;
+  if (!fs::is_regular_file(fs::symlink_status(film, none)) ||
+      !fs::is_regular_file(fs::symlink_status(into / "result.json", none)))
+    return "";
+  const Json result =
+      Json::parse(ReadInputFile(into / "result.json", kMaxResultBytes), nullptr, false);
+  if (!result.is_object() || !result.contains("drawn")) return "";
+  const Json& drawn = result.at("drawn");
+  const bool same = std::ranges::all_of(sets, [&](const std::string& set) {
+    const std::size_t at = set.find('=');
+    const std::string key = set.substr(0, at);
+    if (key == "episode") return true;  // the record does not say it; draws do not come twice
+    const ConfigNode value = ParseYaml(at == std::string::npos ? "" : set.substr(at + 1), "set");
+    return drawn.is_object() && drawn.contains(key) &&
+           drawn.at(key) == DrawnJson({{key, value}}).at(key);
+  });
+  return same ? film : "";
+}
+
 void FilmLikelyFailures(const ScenarioFile& file, const RareOutcome& outcome,
                         const fs::path& folder, const Console& console) {
   for (std::size_t i = 0; i < outcome.failures.size(); ++i) {
+    if (Interrupted()) throw Interruption();
     const LikelyFailure& failure = outcome.failures[i];
-    const fs::path into = LikelyFailureFolder(folder, i + 1);
-    std::error_code ignored;
-    if (fs::exists(into / "video.mp4", ignored)) continue;
-    RefuseLinks(folder, into);
+    if (!FilmOf(folder, failure.region + 1, Sets(failure.set)).empty()) continue;
+    const fs::path into = LikelyFailureFolder(folder, failure.region + 1);
     console.Say(fmt::format("film {} of {}: the likeliest failure of its kind", i + 1,
                             outcome.failures.size()));
     Drawn drawn = failure.set;
@@ -29,7 +58,8 @@ void FilmLikelyFailures(const ScenarioFile& file, const RareOutcome& outcome,
     if (const std::string made = MadePlan(failure.row); !made.empty())
       drawn.emplace_back("plan.made",
                          ConfigNode::Scalar(fs::absolute(FindCopy(folder, made)).string(), true));
-    Scenario scenario = file.ReadDrawn(failure.region.likeliest.noise, drawn);
+    Scenario scenario =
+        file.ReadDrawn(outcome.estimate.regions[failure.region].likeliest.noise, drawn);
     RefuseProgram(scenario);
     std::vector<FailureMode> modes;
     for (const Event& event : EventsOf(failure.row)) modes.push_back(event.mode);

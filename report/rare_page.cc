@@ -34,12 +34,13 @@ std::string OneIn(double probability) { return "1 in " + NumberText(1 / probabil
 
 // The bounds and the estimate on one logarithmic line.
 std::string Scale(const Json& rare) {
-  const bool estimated = !rare["probability"].is_null();
-  const double most = rare["without_sampler"]["upper"], least = rare["without_sampler"]["lower"];
-  double low = estimated ? rare["lower"].get<double>() : most / 100;
+  const bool estimated = !rare.at("probability").is_null();
+  const double most = rare.at("without_sampler").at("upper"),
+               least = rare.at("without_sampler").at("lower");
+  double low = estimated ? rare.at("lower").get<double>() : most / 100;
   if (least > 0) low = std::min(low, least);
   const double from = std::floor(std::log10(std::max(low, 1e-14))),
-               to = std::ceil(std::log10(most));
+               to = std::max(from + 1, std::ceil(std::log10(most)));
   constexpr double kLeft = 150, kWidth = 540;
   const auto x = [&](double p) {
     return kLeft +
@@ -63,10 +64,10 @@ std::string Scale(const Json& rare) {
   };
   bar(20, "without the sampler", "sure", least, most);
   if (estimated) {
-    bar(60, "estimate", "estimate", rare["lower"], rare["upper"]);
+    bar(60, "estimate", "estimate", rare.at("lower"), rare.at("upper"));
     svg +=
         fmt::format("<line class=\"point\" x1=\"{0:.1f}\" y1=\"56\" x2=\"{0:.1f}\" y2=\"80\"/>\n",
-                    x(rare["probability"]));
+                    x(rare.at("probability")));
   }
   return svg + "</svg>\n";
 }
@@ -77,51 +78,49 @@ std::string Row(const std::string& name, const std::string& value, const std::st
 }
 
 std::string Numbers(const Json& rare) {
-  const Json& sure = rare["without_sampler"];
+  const Json& sure = rare.at("without_sampler");
   std::string html =
       "<div class=\"card scroll\">" + Scale(rare) +
       "<table><thead><tr><th scope=\"col\"></th><th scope=\"col\">Failures a drive</th><th "
       "scope=\"col\">What it rests on</th></tr></thead><tbody>\n";
-  if (!rare["probability"].is_null())
+  if (!rare.at("probability").is_null())
     html += Row("Estimate",
-                fmt::format("{}: {} ({} to {} at 95 %)", OneIn(rare["probability"]),
-                            PercentText(rare["probability"].get<double>()),
-                            PercentText(rare["lower"].get<double>()),
-                            PercentText(rare["upper"].get<double>())),
+                fmt::format("{}: {} ({} to {} at 95 %)", OneIn(rare.at("probability")),
+                            PercentText(rare.at("probability").get<double>()),
+                            PercentText(rare.at("lower").get<double>()),
+                            PercentText(rare.at("upper").get<double>())),
                 "the sampler: it counts the ways to fail that it found");
-  html += Row("At least", PercentText(sure["lower"].get<double>()),
+  html += Row("At least", PercentText(sure.at("lower").get<double>()),
               "the failures that were drawn, whatever the distribution of their weights (95 %)");
   html +=
-      Row("At most", PercentText(sure["upper"].get<double>()),
+      Row("At most", PercentText(sure.at("upper").get<double>()),
           fmt::format("{} as they come, of which {} failed, and nothing else (95 %). No sampler "
                       "gives a better bound for ways to fail that it has not found",
-                      CountText(sure["nominal_draws"].get<std::int64_t>(), "drive"),
-                      sure["nominal_failures"].get<int>()));
-  if (!rare["clean_drives_needed"].is_null())
+                      CountText(sure.at("nominal_draws").get<std::int64_t>(), "drive"),
+                      sure.at("nominal_failures").get<int>()));
+  if (!rare.at("clean_drives_needed").is_null())
     html += Row("To show the estimate without a sampler",
-                CountText(rare["clean_drives_needed"].get<std::int64_t>(), "drive"),
+                CountText(rare.at("clean_drives_needed").get<std::int64_t>(), "drive"),
                 "as they come, and none may fail");
   return html + "</tbody></table></div>\n";
 }
 
 std::string Happening(const Json& likeliest) {
   std::string text;
-  for (const Json& event : likeliest["events"]) {
-    const std::string hazard = event["hazard"];
-    text +=
-        fmt::format("{}{}{} after {} s", text.empty() ? "" : ", ", event["mode"].get<std::string>(),
-                    hazard.empty() ? "" : " at " + hazard, FixedText(event["t_s"], 1));
+  for (const Json& event : likeliest.at("events")) {
+    const std::string hazard = event.at("hazard");
+    text += fmt::format("{}{}{} after {} s", text.empty() ? "" : ", ",
+                        event.at("mode").get<std::string>(), hazard.empty() ? "" : " at " + hazard,
+                        FixedText(event.at("t_s"), 1));
   }
-  return text.empty() ? likeliest["outcome"].get<std::string>() : text;
+  return text.empty() ? likeliest.at("outcome").get<std::string>() : text;
 }
 
-std::string Film(const fs::path& folder, std::size_t number) {
-  const fs::path file = LikelyFailureFolder(folder, number) / "video.mp4";
-  std::error_code none;
-  const std::uintmax_t size = fs::file_size(file, none);
-  if (none || !fs::is_regular_file(file, none)) return "";
+std::string Film(const fs::path& folder, std::size_t number, const Json& likeliest) {
+  const fs::path file = FilmOf(folder, number, likeliest.at("set"));
+  if (file.empty()) return "";
   const std::string path = fs::path(file).lexically_relative(folder).generic_string();
-  if (size > kLargestFilm)
+  if (fs::file_size(file) > kLargestFilm)
     return fmt::format("<p><a href=\"{}\">{}</a></p>\n", UrlPath(path), MarkupText(path));
   return fmt::format("<figure><video controls preload=\"metadata\" src=\"{}\"></video></figure>\n",
                      DataUri("video/mp4", ReadInputFile(file, kLargestFilm)));
@@ -130,21 +129,21 @@ std::string Film(const fs::path& folder, std::size_t number) {
 std::string Regions(const Json& rare, const fs::path& folder) {
   std::string html;
   std::size_t number = 0;
-  for (const Json& region : rare["regions"]) {
+  for (const Json& region : rare.at("regions")) {
     ++number;
     html += fmt::format(
         "<article class=\"card\"><h3>{}. {} of the failures</h3>\n<p>{} among the draws; {} of {} "
         "pilots came upon it.</p>\n",
-        number, PercentText(region["share"].get<double>(), 2),
-        CountText(region["draws"].get<std::int64_t>(), "failure"), region["pilots"].get<int>(),
-        rare["pilots"].size());
-    const Json& likeliest = region["likeliest"];
+        number, PercentText(region.at("share").get<double>(), 2),
+        CountText(region.at("draws").get<std::int64_t>(), "failure"),
+        region.at("pilots").get<int>(), rare.at("pilots").size());
+    const Json& likeliest = region.at("likeliest");
     if (!likeliest.is_null()) {
       html += fmt::format("<p>The likeliest, {} standard deviations from the middle: {}.</p>\n",
-                          FixedText(region["distance"], 2), MarkupText(Happening(likeliest)));
-      html += Film(folder, number);
+                          FixedText(region.at("distance"), 2), MarkupText(Happening(likeliest)));
+      html += Film(folder, number, likeliest);
       html += "<table><tbody>\n";
-      for (const Json& json : likeliest["set"]) {
+      for (const Json& json : likeliest.at("set")) {
         const std::string set = json;
         const std::size_t at = set.find('=');
         html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n",
@@ -154,7 +153,7 @@ std::string Regions(const Json& rare, const fs::path& folder) {
       html +=
           "</tbody></table>\n<details><summary>The command that drives it again, in this "
           "folder</summary><p><code>" +
-          MarkupText(likeliest["command"].get<std::string>()) + "</code></p></details>\n";
+          MarkupText(likeliest.at("command").get<std::string>()) + "</code></p></details>\n";
     }
     html += "</article>\n";
   }
@@ -163,65 +162,67 @@ std::string Regions(const Json& rare, const fs::path& folder) {
 
 std::string Search(const Json& rare) {
   std::string coordinates;
-  for (const Json& key : rare["coordinates"])
+  for (const Json& key : rare.at("coordinates"))
     coordinates += (coordinates.empty() ? "" : ", ") + key.get<std::string>();
-  if (rare["noise"].get<bool>()) coordinates += ", and the noise of sensors";
+  if (rare.at("noise").get<bool>()) coordinates += ", and the noise of sensors";
   std::string html = fmt::format(
       "<p>{} in all, over what the scenario draws: {}. Five pilots went towards failures, a "
       "density "
       "was fitted to what they found, and {} from it gave the estimate.</p>\n",
-      CountText(rare["trials"].get<std::int64_t>(), "drive"), MarkupText(coordinates),
-      CountText(rare["diagnostics"]["fresh_draws"].get<std::int64_t>(), "weighted draw"));
+      CountText(rare.at("trials").get<std::int64_t>(), "drive"), MarkupText(coordinates),
+      CountText(rare.at("diagnostics").at("fresh_draws").get<std::int64_t>(), "weighted draw"));
   html +=
       "<div class=\"scroll\"><table><thead><tr><th scope=\"col\">Pilot</th><th scope=\"col\">How "
       "it "
       "ended</th><th scope=\"col\">Levels</th><th scope=\"col\">Failures met</th><th "
       "scope=\"col\">Its own estimate</th></tr></thead><tbody>\n";
   int number = 0;
-  for (const Json& pilot : rare["pilots"]) {
-    const double p = pilot["probability"];
+  for (const Json& pilot : rare.at("pilots")) {
+    const double p = pilot.at("probability");
     html +=
         fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", ++number,
-                    MarkupText(pilot["end"].get<std::string>()), pilot["levels"].get<int>(),
-                    pilot["failures"].get<int>(), p > 0 ? OneIn(p) : "none");
+                    MarkupText(pilot.at("end").get<std::string>()), pilot.at("levels").get<int>(),
+                    pilot.at("failures").get<int>(), p > 0 ? OneIn(p) : "none");
   }
   html += "</tbody></table></div>\n";
-  const Json& d = rare["diagnostics"];
+  const Json& d = rare.at("diagnostics");
   html += fmt::format(
       "<p>Of the draws {} failed, worth {} of equal weight; the heaviest makes {} of the estimate. "
       "There is none where that is more than 25 %, where failures are worth fewer than 20, where "
       "30 "
       "% lies where one pilot alone was, or where draws and pilots differ by a factor of 4.</p>\n",
-      FixedText(d["fresh_failures"], 0), NumberText(d["effective_failures"].get<double>()),
-      PercentText(d["largest_share"].get<double>(), 2));
-  if (const auto errors = rare["errors"].get<std::int64_t>(); errors > 0)
+      FixedText(d.at("fresh_failures"), 0), NumberText(d.at("effective_failures").get<double>()),
+      PercentText(d.at("largest_share").get<double>(), 2));
+  if (const auto errors = rare.at("errors").get<std::int64_t>(); errors > 0)
     html += fmt::format("<p>{} ended in an error or had no plan, and count as no failure.</p>\n",
                         CountText(errors, "drive"));
   return html;
 }
 
 std::string Verdict(const Json& rare) {
-  const std::string mode = rare["mode"], answer = rare["answer"];
-  const Json& sure = rare["without_sampler"];
-  const std::string trials = CountText(rare["trials"].get<std::int64_t>(), "drive");
+  const std::string mode = rare.at("mode"), answer = rare.at("answer");
+  const Json& sure = rare.at("without_sampler");
+  const std::string trials = CountText(rare.at("trials").get<std::int64_t>(), "drive");
   if (answer == "estimate")
     return fmt::format("{}: {} drives ({} to {} at 95 %), found with {}", mode,
-                       OneIn(rare["probability"]), OneIn(rare["upper"]),
-                       NumberText(1 / rare["lower"].get<double>()), trials);
+                       OneIn(rare.at("probability")), OneIn(rare.at("upper")),
+                       NumberText(1 / rare.at("lower").get<double>()), trials);
   if (answer == "nothing_found")
     return fmt::format("{}: none of {} failed; at most {} of drives do, at 95 %", mode, trials,
-                       PercentText(sure["upper"].get<double>()));
-  return fmt::format("{}: no estimate from {}: {}", mode, trials, rare["why"].get<std::string>());
+                       PercentText(sure.at("upper").get<double>()));
+  return fmt::format("{}: no estimate from {}: {}", mode, trials,
+                     rare.at("why").get<std::string>());
 }
 
 RarePage Page(const Json& rare, const fs::path& folder) {
   RarePage page;
   page.verdict = Verdict(rare);
-  const std::string title = MarkupText(rare["name"].get<std::string>());
+  const std::string title = MarkupText(rare.at("name").get<std::string>());
   std::string gate, kind = "none";
-  if (!rare["gate"].is_null()) {
-    gate = "<ul><li>Gate: " + MarkupText(rare["gate"]["text"].get<std::string>()) + "</li></ul>";
-    kind = rare["gate"]["verdict"];
+  if (!rare.at("gate").is_null()) {
+    gate =
+        "<ul><li>Gate: " + MarkupText(rare.at("gate").at("text").get<std::string>()) + "</li></ul>";
+    kind = rare.at("gate").at("verdict");
   }
   page.html =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta "
@@ -255,6 +256,10 @@ RarePage MakeRarePage(const fs::path& folder) {
     const Json rare = Json::parse(ReadInputFile(file, kMost));
     if (!rare.is_object() || rare.value("rare", 0) != 1)
       throw InputError({file.string(), 0}, "", "", "is no answer of floorproof rare");
+    for (const Json& p : {rare.at("probability"), rare.at("lower"), rare.at("upper"),
+                          rare.at("without_sampler").at("upper")})
+      if (!p.is_null() && !(p.get<double>() > 0 && p.get<double>() <= 1))
+        throw InputError({file.string(), 0}, "", p.dump(), "is no probability");
     return Page(rare, folder);
   } catch (const Json::exception&) {
     throw InputError({file.string(), 0}, "", "", "is damaged, or of another version");

@@ -18,7 +18,8 @@ double Share(double u) {
 }  // namespace
 
 RareCoordinates::RareCoordinates(const ScenarioFile& file, const Scenario& scenario)
-    : keys_(file.randomised()), noisy_(NoiseCanDiffer(scenario)) {
+    : keys_(file.randomised()) {
+  noisy_ = NoiseCanDiffer(scenario);
   for (std::size_t i = 0; i < keys_.size(); ++i)
     if (keys_[i].distribution.varies()) varying_.push_back(i);
   if (varying_.empty())
@@ -29,6 +30,23 @@ RareCoordinates::RareCoordinates(const ScenarioFile& file, const Scenario& scena
     throw InputError({file.file().string(), 0}, "randomise", std::to_string(size()),
                      "draws more than " + std::to_string(kMostCoordinates) +
                          " keys, too many to search: --set holds some of them");
+  // What is drawn may bring noise: each choice by itself, each other key at both of its ends.
+  const auto look = [&](const Drawn& drawn) {
+    try {
+      noisy_ = noisy_ || NoiseCanDiffer(file.ReadDrawn(0, drawn));
+    } catch (const InputError&) {  // no episode
+    }
+  };
+  const Eigen::VectorXd middle = Eigen::VectorXd::Zero(size());
+  for (std::size_t i = 0; i < varying_.size() && !noisy_; ++i) {
+    Drawn drawn = DrawnAt(middle);
+    for (const ConfigNode& choice : keys_[varying_[i]].distribution.choices) {
+      drawn[varying_[i]].second = choice;
+      look(drawn);
+    }
+    for (const double end : {-3.0, 3.0})
+      look(DrawnAt(end * Eigen::VectorXd::Unit(size(), static_cast<Eigen::Index>(i))));
+  }
 }
 
 std::vector<std::string> RareCoordinates::keys() const {

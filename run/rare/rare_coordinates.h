@@ -33,7 +33,7 @@ class RareCoordinates {
  private:
   const std::vector<RandomisedKey>& keys_;
   std::vector<std::size_t> varying_;  // of these
-  bool noisy_;
+  bool noisy_ = false;
 };
 
 }  // namespace floorproof

@@ -22,10 +22,10 @@ class RareGate {
   // InputError where it is about another failure than `mode` (--mode), or makes no sense.
   static std::optional<RareGate> Read(const ConfigNode& node, const std::string& mode);
 
-  // Passed (failed) where the one-sided bound of the estimate lies below (above) the limit. Where
-  // nothing failed, by nominal draws alone. Where there is no estimate: undecided, unless bounds
-  // that rest on no sampler decide.
-  RareVerdict Judge(const RareEstimate& estimate) const;
+  // Passed (failed) where a bound of the estimate, or one that rests on no sampler, lies below
+  // (above) the limit; undecided where neither does, where they contradict each other, and where
+  // drives had no outcome (`errors`).
+  RareVerdict Judge(const RareEstimate& estimate, std::uint64_t errors = 0) const;
 
  private:
   GateParams params_;

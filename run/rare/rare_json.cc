@@ -28,13 +28,6 @@ std::string_view Name(RareAnswer answer) {
   return "no_estimate";
 }
 
-// key=value of each: what stands behind --set.
-std::vector<std::string> Sets(const Drawn& set) {
-  std::vector<std::string> sets;
-  for (const auto& [key, value] : set) sets.push_back(key + "=" + WriteYamlLine(value));
-  return sets;
-}
-
 std::string Quoted(const std::string& word) {
   const bool plain = std::ranges::all_of(word, [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("._-/=+", c) != nullptr;
@@ -93,6 +86,12 @@ std::vector<std::string> EstimateLines(const RareOutcome& outcome) {
 
 }  // namespace
 
+std::vector<std::string> Sets(const Drawn& set) {
+  std::vector<std::string> sets;
+  for (const auto& [key, value] : set) sets.push_back(key + "=" + WriteYamlLine(value));
+  return sets;
+}
+
 Json RareJson(const RareOutcome& outcome) {
   const RareEstimate& e = outcome.estimate;
   const bool estimated = e.answer == RareAnswer::kEstimate;
@@ -128,8 +127,8 @@ Json RareJson(const RareOutcome& outcome) {
   json["regions"] = Json::array();
   for (std::size_t i = 0; i < e.regions.size(); ++i) {
     Json region = RegionJson(e.regions[i]);
-    region["likeliest"] =
-        i < outcome.failures.size() ? FailureJson(outcome.failures[i]) : Json(nullptr);
+    const LikelyFailure* failure = FailureOf(outcome, i);
+    region["likeliest"] = failure == nullptr ? Json(nullptr) : FailureJson(*failure);
     json["regions"].push_back(std::move(region));
   }
   json["gate"] = nullptr;
@@ -185,15 +184,15 @@ std::vector<std::string> RareLines(const RareOutcome& outcome,
             "drive")));
   for (std::size_t i = 0; i < e.regions.size(); ++i) {
     const FailureRegion& region = e.regions[i];
-    const bool driven = i < outcome.failures.size();
+    const LikelyFailure* failure = FailureOf(outcome, i);
     lines.push_back(fmt::format(
         "  {}. {} of it ({} among the draws, seen by {} of {} pilots); the likeliest, {} standard "
         "deviations out: {}",
         i + 1, PercentText(region.share, 2), CountText(region.draws, "failure"), region.pilots,
         kPilots, FixedText(region.distance, 2),
-        driven ? Happening(outcome.failures[i]) + " with " + DrawnText(outcome.failures[i].set)
-               : "not looked for"));
-    if (driven) lines.push_back("     " + RunCommand(outcome.failures[i], folder));
+        failure == nullptr ? std::string("not looked for, or it did not come again")
+                           : Happening(*failure) + " with " + DrawnText(failure->set)));
+    if (failure != nullptr) lines.push_back("     " + RunCommand(*failure, folder));
   }
   if (outcome.verdict) lines.push_back("gate: " + outcome.verdict->text);
   return lines;

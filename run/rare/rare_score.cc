@@ -29,7 +29,7 @@ RareScore::RareScore(const std::string& mode, const Scenario& scenario) : name_(
 }
 
 TrialResult RareScore::Of(const EpisodeRow& row) const {
-  if (!row.counts()) return {false, std::numeric_limits<double>::infinity(), 0};
+  if (!row.counts()) return {false, std::numeric_limits<double>::infinity(), 0, false};
   double least = std::numeric_limits<double>::infinity(), sum = 0;
   for (int m = 0; m < kNumFailureModes; ++m) {
     const auto mode = static_cast<FailureMode>(m);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/file_output.h"
@@ -75,6 +76,11 @@ void RefuseErrors(const RareTrials& trials, std::size_t driven) {
 
 }  // namespace
 
+const LikelyFailure* FailureOf(const RareOutcome& outcome, std::size_t region) {
+  const auto found = std::ranges::find(outcome.failures, region, &LikelyFailure::region);
+  return found == outcome.failures.end() ? nullptr : &*found;
+}
+
 ResultNames RareResults() {
   return {"rare", [](std::string_view name) {
             return name == "rare.json" || name == "rare.html" || name == "scenario.resolved.yaml";
@@ -101,16 +107,18 @@ RareOutcome SearchRare(const ScenarioFile& file, const RareRequest& request, con
   const RareCoordinates coordinates(file, base);
   const std::optional<RareGate> gate = RareGate::Read(base.gate, request.mode);
   if (!base.gate.IsNull() && !gate)
-    warn("warning: the scenario's gate is a campaign's (`mode` is not rare), and is not judged here");
+    warn(
+        "warning: the scenario's gate is a campaign's (`mode` is not rare), and is not judged "
+        "here");
   EpisodeMaker maker(file);
   const CampaignAbout about = Describe(file, request);
   if (const PlanCommand* program = ProgramToAsk(base)) {
     CheckProgram(*program, base.files);
     warn(ProgramLine(*program));
   } else {
-    const PlanResult& plan = maker.PlanDrawn(
-        RareTrials::TrialVariant(), 0,
-        coordinates.DrawnAt(Eigen::VectorXd::Zero(coordinates.size())));
+    const PlanResult& plan =
+        maker.PlanDrawn(RareTrials::TrialVariant(), 0,
+                        coordinates.DrawnAt(Eigen::VectorXd::Zero(coordinates.size())));
     if (plan.status != PlanStatus::kSuccess)
       throw InputError({file.file().string(), 0}, "plan", "",
                        "there is none of the scenario's middle: " + plan.message);
@@ -149,12 +157,14 @@ RareOutcome SearchRare(const ScenarioFile& file, const RareRequest& request, con
         EstimateRare(problem, out.settings, [&](const std::string& next) { stage = next; });
     out.errors = trials.errors();
     out.first_error = trials.first_error();
-    for (const FailureRegion& region : out.estimate.regions) {
+    for (std::size_t r = 0; r < out.estimate.regions.size(); ++r) {
+      const FailureRegion& region = out.estimate.regions[r];
       if (!region.searched) continue;
       EpisodeRow row = trials.Again(region.likeliest);
-      out.failures.push_back({region, coordinates.AsSet(region.likeliest), std::move(row)});
+      if (score.Of(row).failed)
+        out.failures.push_back({r, coordinates.AsSet(region.likeliest), std::move(row)});
     }
-    if (gate) out.verdict = gate->Judge(out.estimate);
+    if (gate) out.verdict = gate->Judge(out.estimate, out.errors);
     store.Settle();
     WriteFileWhole(folder / "rare.json", JsonText(RareJson(out)) + "\n");
   } catch (const DiskError& e) {

@@ -26,8 +26,8 @@ struct RareRequest {
 
 // A region's likeliest failure, as it was driven.
 struct LikelyFailure {
-  FailureRegion region;
-  Drawn set;  // what makes it, key by key (RareCoordinates::AsSet)
+  std::size_t region = 0;  // of the estimate's
+  Drawn set;               // what makes it, key by key (RareCoordinates::AsSet)
   EpisodeRow row;
 };
 
@@ -40,11 +40,14 @@ struct RareOutcome {
   std::vector<std::string> coordinates;
   bool noisy = false;
   RareEstimate estimate;
-  std::vector<LikelyFailure> failures;  // of the regions that were searched, as they are ordered
+  std::vector<LikelyFailure> failures;  // of the regions that were searched, in their order
   std::uint64_t errors = 0;             // trials that are no episode; they count as no failure
   std::string first_error;
   std::optional<RareVerdict> verdict;  // none: the scenario has no gate of mode rare
 };
+
+// Of a region; nullptr: none was looked for, or it did not come again (a plan made at random).
+const LikelyFailure* FailureOf(const RareOutcome& outcome, std::size_t region);
 
 class RareObserver {
  public:

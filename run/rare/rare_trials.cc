@@ -26,10 +26,8 @@ RareTrials::RareTrials(EpisodeMaker& maker, const RareCoordinates& coordinates,
       store_(store),
       jobs_(jobs),
       progress_(std::move(progress)) {
-  store_.ForEach(TrialVariant().name, [&](const EpisodeRow& row) {
-    if (row.episode >= known_.size()) known_.resize(row.episode + 1);
-    known_[row.episode] = Brief(row);
-  });
+  store_.ForEach(TrialVariant().name,
+                 [&](const EpisodeRow& row) { known_[row.episode] = Brief(row); });
 }
 
 RareTrials::Known RareTrials::Brief(const EpisodeRow& row) const {
@@ -97,19 +95,18 @@ void RareTrials::Drive(std::span<const Trial> trials, const std::vector<std::siz
 }
 
 std::vector<TrialResult> RareTrials::Evaluate(std::span<const Trial> trials) {
-  if (known_.size() < next_ + trials.size()) known_.resize(next_ + trials.size());
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < trials.size(); ++i)
-    if (!known_[next_ + i]) missing.push_back(i);
+    if (!known_.contains(next_ + i)) missing.push_back(i);
   shown_.done = next_ + trials.size() - missing.size();
   if (!missing.empty()) Drive(trials, missing);
   std::vector<TrialResult> results;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    const Known& known = *known_[next_ + i];
+    const Known& known = known_.at(next_ + i);
     if (known.drawn != DrawnJson(coordinates_.AsSet(trials[i])).dump())
       throw InternalError(
           fmt::format("trial {} was driven with other draws than its seed gives here: it was begun "
-                      "on another type of machine",
+                      "on another type of machine, or the file was changed",
                       next_ + i));
     results.push_back(known.result);
     shown_.failures += known.result.failed;

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "run/campaign/campaign_store.h"
@@ -57,7 +58,7 @@ class RareTrials {
   CampaignStore& store_;
   int jobs_;
   std::function<void(const RareProgress&)> progress_;
-  std::vector<std::optional<Known>> known_;  // by number
+  std::unordered_map<std::uint64_t, Known> known_;  // by number
   std::uint64_t next_ = 0;
   std::vector<EpisodeRow> batch_;  // to be kept
   RareProgress shown_;

@@ -24,7 +24,6 @@ constexpr int kFirstDraws = 2000;        // of the estimate; they say how many m
 constexpr double kPilotsShare = 0.6;     // of all trials, at most
 constexpr std::size_t kMostRegions = 5;  // that are polished: the largest
 
-constexpr std::uint64_t kPolish = kMostRegions * kPolishRounds * kPolishTrials;
 constexpr int kPilotDraws = kPilots * SubsetPilot::kDraws;
 
 // When there is no estimate.
@@ -49,7 +48,7 @@ class Search {
   RareEstimate Run() {
     RunPilots();
     if (failures_.empty()) {
-      CountNominal();
+      DrawNominal();
     } else {
       Fit();
       Refit();
@@ -109,8 +108,9 @@ class Search {
     }
     for (const auto& pilot : pilots) {
       out_.pilots.push_back({pilot->end(), pilot->levels(),
-                             static_cast<int>(pilot->failures().size()), pilot->probability()});
-      out_.nominal_draws += SubsetPilot::kDraws;
+                             static_cast<int>(pilot->failures().size()), pilot->probability(),
+                             pilot->reached()});
+      out_.nominal_draws += pilot->nominal_draws();
       out_.nominal_failures += pilot->nominal_failures();
       for (const PilotFailure& failure : pilot->failures()) {
         failures_.push_back({failure.trial, failure.weight});
@@ -120,21 +120,31 @@ class Search {
   }
 
   // There is nowhere to look: draws as they come say at least how often it can be.
-  void CountNominal() {
-    out_.answer = RareAnswer::kNothingFound;
-    out_.why = "no trial failed";
+  void DrawNominal() {
     Say("no pilot came upon a failure: draws as they come");
     while (left() > 0) {
       constexpr std::uint64_t kBatch = 500;
       std::vector<Trial> batch;
       for (std::uint64_t i = 0; i < std::min(kBatch, left()); ++i)
         batch.push_back({NormalVector(stream_, problem_.dimensions), Noise(i)});
-      for (const TrialResult& result : Evaluate(batch)) out_.nominal_failures += result.failed;
-      out_.nominal_draws += static_cast<int>(batch.size());
+      for (const TrialResult& result : Evaluate(batch)) CountNominal(result);
     }
-    if (out_.nominal_failures == 0) return;
-    out_.answer = RareAnswer::kNoEstimate;
-    out_.why = "no pilot came upon a failure, and nominal draws did";
+    // On their way to a failure, or far enough to say that there hardly is one.
+    constexpr double kFarEnough = 1e-5;
+    const bool cut_off = std::ranges::any_of(out_.pilots, [](const PilotReport& pilot) {
+      return pilot.end == SubsetPilot::End::kCutOff && pilot.reached > 1.01 * kFarEnough;
+    });
+    if (out_.nominal_failures > 0)
+      out_.why = "no pilot came upon a failure, and draws as they come did";
+    else if (cut_off)
+      out_.why = "pilots used up their trials before they came to a failure";
+    else
+      out_.answer = RareAnswer::kNothingFound;
+  }
+
+  void CountNominal(const TrialResult& result) {
+    out_.nominal_draws += result.counts;
+    out_.nominal_failures += result.failed;
   }
 
   WeightedPoints Points(std::span<const Found> found) const {
@@ -155,7 +165,7 @@ class Search {
   void Refit() {
     const DefensiveDensity density(*mixture_, problem_.dimensions);
     Say("draws that show where failures are");
-    std::vector<Found> found = DrawFrom(density, kRefitDraws);
+    std::vector<Found> found = DrawFrom(density, kRefitDraws, true);
     std::erase_if(found, [](const Found& f) { return f.weight == 0; });
     double sum = 0, squares = 0;
     for (const Found& f : found) sum += f.weight, squares += f.weight * f.weight;
@@ -166,22 +176,31 @@ class Search {
     mixture_.emplace(Points(found), problem_.noisy, stream_);
   }
 
-  // Every draw's failure with its weight; 0: it did not fail.
-  std::vector<Found> DrawFrom(const DefensiveDensity& density, std::uint64_t n) {
-    std::vector<Trial> batch;
-    std::vector<bool> nominal;
-    for (std::uint64_t i = 0; i < n; ++i) {
-      DefensiveDensity::Draw draw = density.DrawFrom(stream_);
-      batch.push_back({std::move(draw.u), Noise(i)});
-      nominal.push_back(draw.nominal);
-    }
-    const std::vector<TrialResult> results = Evaluate(batch);
+  // Every draw's failure with its weight; 0: it did not fail. `nominal_count`: draws of the nominal
+  // tenth are counted. Where how many there are hangs on failures before, they are not: a bound for
+  // a number set beforehand would not hold.
+  std::vector<Found> DrawFrom(const DefensiveDensity& density, std::uint64_t n,
+                              bool nominal_count) {
+    constexpr std::uint64_t kBatch = 5000;
     std::vector<Found> found;
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      out_.nominal_draws += nominal[i];
-      out_.nominal_failures += nominal[i] && results[i].failed;
-      const double weight = results[i].failed ? density.Weight(batch[i].u) : 0;
-      found.push_back({std::move(batch[i]), weight});
+    for (std::uint64_t done = 0; done < n; done += kBatch) {
+      std::vector<Trial> batch;
+      std::vector<bool> nominal;
+      for (std::uint64_t i = 0; i < std::min(kBatch, n - done); ++i) {
+        DefensiveDensity::Draw draw = density.DrawFrom(stream_);
+        batch.push_back({std::move(draw.u), Noise(i)});
+        nominal.push_back(draw.nominal);
+      }
+      const std::vector<TrialResult> results = Evaluate(batch);
+      for (std::size_t i = 0; i < batch.size(); ++i) {
+        if (nominal_count && nominal[i]) CountNominal(results[i]);
+        if (results[i].failed) {
+          const double weight = density.Weight(batch[i].u);
+          found.push_back({std::move(batch[i]), weight});
+        } else {
+          found.push_back({});
+        }
+      }
     }
     return found;
   }
@@ -189,16 +208,18 @@ class Search {
   void DrawFresh() {
     const DefensiveDensity density(*mixture_, problem_.dimensions);
     Say("draws that the estimate is made of");
-    fresh_ = DrawFrom(density, kFirstDraws);
+    fresh_ = DrawFrom(density, kFirstDraws, true);
     SumUp();
     const double more = out_.probability > 0
                             ? kFirstDraws * (std::pow(out_.cov / settings_.target_cov, 2) * 1.1 - 1)
                             : std::numeric_limits<double>::infinity();
-    const std::uint64_t reserve = std::min(left(), kPolish);
-    const auto n =
-        static_cast<std::uint64_t>(std::clamp(more, 0.0, static_cast<double>(left() - reserve)));
+    const std::uint64_t polish =
+        std::min<std::uint64_t>(kMostRegions, static_cast<std::uint64_t>(mixture_->regions())) *
+        kPolishRounds * kPolishTrials;
+    const auto n = static_cast<std::uint64_t>(
+        std::clamp(more, 0.0, static_cast<double>(left() - std::min(left(), polish))));
     if (n == 0) return;
-    std::vector<Found> further = DrawFrom(density, n);
+    std::vector<Found> further = DrawFrom(density, n, false);
     fresh_.insert(fresh_.end(), std::make_move_iterator(further.begin()),
                   std::make_move_iterator(further.end()));
     SumUp();
@@ -216,7 +237,7 @@ class Search {
     const auto n = static_cast<double>(fresh_.size());
     out_.fresh_draws = static_cast<int>(fresh_.size());
     if (sum == 0) return;
-    out_.probability = sum / n;
+    out_.probability = std::min(1.0, sum / n);
     out_.cov = std::sqrt(std::max(0.0, squares / (sum * sum) - 1 / n) * n / (n - 1));
     out_.largest_share = most / sum;
     out_.effective_failures = sum * sum / squares;
@@ -246,6 +267,8 @@ class Search {
     else if (of_one > kMostOfOnePilot)
       out_.why = "the pilots disagree on where failures are: " + Percent(of_one) +
                  " of it lies where no two of them were";
+    else if (found == 0)
+      out_.why = "no pilot came far enough to say how likely failures are";
     else if (disagree > std::log(kMostDisagreement))
       out_.why = "fresh draws and pilots differ by a factor of " +
                  FormatDouble(std::round(std::exp(disagree)));
@@ -313,11 +336,13 @@ class Search {
   }
 
   void Bounds() {
+    const int n = out_.nominal_draws, k = out_.nominal_failures;
+    out_.confidence = settings_.confidence;
     std::vector<double> weights;
     for (const Found& f : fresh_) weights.push_back(f.weight);
-    if (!weights.empty()) out_.lower_bound = BettingLowerBound(weights, settings_.confidence);
-    out_.upper_bound =
-        ClopperPearsonUpper(out_.nominal_failures, out_.nominal_draws, settings_.confidence);
+    out_.lower_bound = weights.empty() ? ClopperPearsonLower(k, n, settings_.confidence)
+                                       : BettingLowerBound(weights, settings_.confidence);
+    out_.upper_bound = ClopperPearsonUpper(k, n, settings_.confidence);
   }
 
   const RareProblem& problem_;
@@ -369,10 +394,11 @@ Interval IntervalOf(const RareEstimate& estimate, double confidence) {
     throw InputError({}, "estimate", estimate.why, "is none");
   const Interval log = StudentInterval(std::log(estimate.probability), estimate.cov,
                                        std::max(1.0, estimate.effective_failures - 1), confidence);
-  return {std::exp(log.lower), std::min(1.0, std::exp(log.upper))};
+  return {std::min(1.0, std::exp(log.lower)), std::min(1.0, std::exp(log.upper))};
 }
 
 double CleanDrawsNeeded(double probability, double confidence) {
+  if (probability >= 1) return 1;
   return std::ceil(std::log(1 - confidence) / std::log1p(-probability));
 }
 

@@ -4,7 +4,9 @@
 // Five independent pilots (subset_pilot.h) look for failures. A density is fitted to what they
 // found (failure_mixture.h), and fitted again after draws from it that serve nothing else. Then the
 // density stays as it is, and fresh draws from it, weighted by how much likelier they are nominally
-// (defensive_density.h), give the estimate: it is unbiased whatever the pilots did. What they did not
+// (defensive_density.h), give the estimate: it is unbiased whatever the pilots did, but for what
+// comes of looking at the first 2,000 draws to say how many more there are (about the square of the
+// target: a hundredth of it at 0.1). What they did not
 // find it may still miss, together with its interval; so the answer holds bounds that rest on no
 // sampler, and where the draws or the pilots do not agree there is no estimate at all.
 //
@@ -41,6 +43,7 @@ struct PilotReport {
   SubsetPilot::End end = SubsetPilot::End::kGoesOn;
   int levels = 0, failures = 0;
   double probability = 0;
+  double reached = 1;  // how likely a draw is in the level that it came to
 };
 
 // Failures that look alike.
@@ -64,6 +67,7 @@ struct RareEstimate {
   // One-sided, at the confidence. The lower one holds for any distribution of the weights, the
   // upper one is that of nominal draws alone, which need no sampler.
   double lower_bound = 0, upper_bound = 1;
+  double confidence = kReportedConfidence;  // theirs, and the interval's
   int nominal_draws = 0, nominal_failures = 0;
   int fresh_draws = 0, fresh_failures = 0;
   double largest_share = 0;       // of the estimate, that one draw makes

@@ -22,6 +22,8 @@ struct TrialResult {
   // Least first: how far from failing, then a second measure that splits ties of the first. Neither
   // says whether it failed.
   double score = 0, second = 0;
+  // It was a trial: else it says nothing, and is no failure.
+  bool counts = true;
 };
 
 struct RareProblem {

@@ -58,8 +58,17 @@ void SubsetPilot::Propose(std::uint64_t first, std::vector<Trial>& trials) {
   trials.insert(trials.end(), proposed_.begin(), proposed_.end());
 }
 
+void SubsetPilot::CutOff() {
+  end_ = End::kCutOff;
+  const auto failed =
+      std::ranges::count_if(states_, [](const State& s) { return s.result.failed; });
+  if (failed > 0)
+    probability_ = above_ * static_cast<double>(failed) / static_cast<double>(states_.size());
+}
+
 void SubsetPilot::Keep(const State& state) {
   states_.push_back(state);
+  nominal_draws_ += level_ == 0 && state.result.counts;
   if (!state.result.failed) return;
   failures_.push_back({state.trial, level_ == 0 ? 1 : kWeightInChain});
   nominal_failures_ += level_ == 0;

@@ -35,16 +35,21 @@ class SubsetPilot {
   // `first`. Each call is followed by Take, with their results.
   void Propose(std::uint64_t first, std::vector<Trial>& trials);
   void Take(std::span<const TrialResult> results);
-  void CutOff() { end_ = End::kCutOff; }
+  // It gets no more trials. What failed in the level that it is in is its estimate.
+  void CutOff();
 
   End end() const { return end_; }
   bool goes_on() const { return end_ == End::kGoesOn; }
   int levels() const { return level_ + 1; }
+  // How likely a draw is in the level that it came to.
+  double reached() const { return above_; }
   // Its estimate; 0 where it found no failure.
   double probability() const { return probability_; }
   // All that it met: each is a draw from the nominal density among failures, whatever its level.
   const std::vector<PilotFailure>& failures() const { return failures_; }
-  int nominal_failures() const { return nominal_failures_; }  // among its first kDraws
+  // Among its first kDraws: failures, and trials that count.
+  int nominal_failures() const { return nominal_failures_; }
+  int nominal_draws() const { return nominal_draws_; }
 
  private:
   struct State {
@@ -64,7 +69,7 @@ class SubsetPilot {
   std::vector<State> states_, chains_;
   std::vector<Trial> proposed_;
   std::vector<PilotFailure> failures_;
-  int nominal_failures_ = 0;
+  int nominal_failures_ = 0, nominal_draws_ = 0;
   double probability_ = 0;
 };
 

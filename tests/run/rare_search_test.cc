@@ -68,6 +68,19 @@ TEST_F(RareTest, NoiseIsAnEpisode) {
   EXPECT_EQ(file.ReadDrawn(77, dut.DrawnAt(Eigen::VectorXd::Zero(dut.size()))).episode_id, 77u);
 }
 
+// Without noise as written, but what is drawn brings it.
+TEST_F(RareTest, NoiseMayBeDrawn) {
+  for (const char* drawn : {"{estimator: {choice: [truth, mcl]}}",
+                            "{sensors.imu.gyro_noise_radps: {uniform: [0, 0.1]}}"}) {
+    SaveScenario(drawn);
+    const ScenarioFile file = File();
+    EXPECT_TRUE(RareCoordinates(file, file.Read(std::nullopt)).noisy()) << drawn;
+  }
+  SaveScenario("{site.floor.friction: {uniform: [0.5, 0.6]}}");
+  const ScenarioFile file = File();
+  EXPECT_FALSE(RareCoordinates(file, file.Read(std::nullopt)).noisy());
+}
+
 TEST_F(RareTest, WhatCannotBeSearchedIsRefusedBeforeAnythingIsDriven) {
   EXPECT_THAT(Refusal({{"randomise", "null"}}), HasSubstr("randomise: draws nothing"));
   EXPECT_THAT(Refusal({{"randomise", "null"}, {"estimator", "mcl"}}),
@@ -259,6 +272,18 @@ TEST_F(RareTest, TheGateSaysWhatItsVerdictRestsOn) {
   EXPECT_EQ(judge(nothing, "0.0001").verdict, GateVerdict::kUndecided);
   RareEstimate none;
   none.nominal_draws = 1000;
+  none.lower_bound = 0.001;  // whatever the sampler did
+  EXPECT_EQ(judge(none, "0.0001").verdict, GateVerdict::kFailed);
+  none.lower_bound = 0;
+  // Drives as they come that show less than the failures that were drawn show at least.
+  RareEstimate contradiction = Estimated(2.2e-3, 0.03);
+  contradiction.lower_bound = 2.1e-3;
+  contradiction.nominal_draws = 2000;
+  EXPECT_EQ(judge(contradiction, "0.002").verdict, GateVerdict::kUndecided);
+  EXPECT_EQ(RareGate::Read(ParseYaml("{mode: rare, max_rate: 0.01}", "g"), "any_failure")
+                ->Judge(Estimated(1e-5, 0.1), 1)
+                .verdict,
+            GateVerdict::kUndecided);
   EXPECT_EQ(judge(none, "0.0001").verdict, GateVerdict::kUndecided);
   EXPECT_FALSE(RareGate::Read(ParseYaml("{max_rate: 0.1}", "g"), "any_failure"));
 }
@@ -274,7 +299,7 @@ TEST_F(RareTest, TheAnswerIsSaidInWords) {
   EpisodeRow row;
   row.outcome = "failure";
   row.events = R"([{"kind":"","hazard":"sill","t_s":1,"x_m":2,"y_m":3,"mode":"stuck"}])";
-  outcome.failures = {{outcome.estimate.regions[0],
+  outcome.failures = {{0,
                        {{"episode", ConfigNode::Scalar("9")},
                         {"site.floor.friction", ConfigNode::Scalar("0.31")},
                         {"what", ParseYaml("{a: [1, 2], b: it's}", "t")}},

@@ -69,6 +69,33 @@ TEST(RareEstimate, RegionsHaveTheirShareAndTheirLikeliestFailure) {
   EXPECT_NEAR(shares, 1, 1e-12);
 }
 
+// A scenario that always fails: no more than certain.
+TEST(RareEstimate, WhatAlwaysFailsIsCertain) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    const RareEstimate got = EstimateRare(TrialsOf(2,
+                                                   [](const Trial&) {
+                                                     return TrialResult{true, 0};
+                                                   }),
+                                          {.seed = seed});
+    ASSERT_EQ(got.answer, RareAnswer::kEstimate) << got.why;
+    EXPECT_NEAR(got.probability, 1, 0.05);
+    EXPECT_LE(got.probability, 1);
+    EXPECT_LE(got.interval.lower, got.interval.upper);
+    EXPECT_GE(CleanDrawsNeeded(got.probability, 0.95), 1);
+  }
+}
+
+// Pilots that are still on their way have not found that nothing fails.
+TEST(RareEstimate, PilotsThatRunOutOfTrialsFoundNothingOut) {
+  const RareEstimate got = EstimateRare(TrialsOf(1,
+                                                 [](const Trial& t) {
+                                                   return TrialResult{t.u[0] > 6, 6 - t.u[0]};
+                                                 }),
+                                        {.max_trials = 5'500});
+  EXPECT_EQ(got.answer, RareAnswer::kNoEstimate);
+  EXPECT_THAT(got.why, HasSubstr("used up their trials"));
+}
+
 TEST(RareEstimate, NoMoreTrialsThanAllowed) {
   for (const Problem& problem : reliability::Problems()) {
     const std::uint64_t fewest = FewestTrials(0.1);
@@ -127,11 +154,8 @@ TEST(RareEstimate, AnAtomThatFailsIsFound) {
                             }),
                    {.seed = 4});
   const double truth = reliability::Normal(-2.5);
-  if (got.answer == RareAnswer::kEstimate) {
-    EXPECT_NEAR(got.probability / truth, 1, 4.5 * got.cov);
-  }
-  EXPECT_GE(got.upper_bound, truth);
-  EXPECT_LE(got.lower_bound, truth);
+  ASSERT_EQ(got.answer, RareAnswer::kEstimate) << got.why;
+  EXPECT_NEAR(got.probability / truth, 1, 4.5 * got.cov);
 }
 
 // A second way to fail that only shows to who is near it already: half of all pilots miss it.
