@@ -63,7 +63,8 @@ TEST_F(SlowRareSearch, TellsHowRareItIsThroughPhysics) {
     ASSERT_EQ(dut.failures.size(), 2u) << "to the left and to the right";
     for (const LikelyFailure& failure : dut.failures) {
       EXPECT_EQ(failure.row.outcome, "failure");
-      EXPECT_NEAR(failure.region.distance * deviation, nearest, 0.15 * nearest);
+      EXPECT_NEAR(dut.estimate.regions[failure.region].distance * deviation, nearest,
+                  0.15 * nearest);
     }
   }
 }
