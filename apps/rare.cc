@@ -3,14 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/command.h"
+#include "apps/campaign_line.h"
 #include "base/file_output.h"
-#include "base/interrupt.h"
-#include "base/progress_line.h"
 #include "base/quantity.h"
 #include "report/rare_films.h"
 #include "report/rare_page.h"
-#include "run/campaign/drive_campaign.h"
 #include "run/rare/rare_json.h"
 
 namespace floorproof {
@@ -18,12 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct RareCommand {
-  std::string scenario, out, mode = "any_failure";
+struct RareCommand : CampaignArguments {
+  std::string scenario, mode = "any_failure";
   std::optional<double> target_cov = RareSettings{}.target_cov;
-  std::uint64_t max_n = RareSettings{}.max_trials;
-  int seed = -1, jobs = 0;  // the scenario's; one a core
-  bool resume = false, no_films = false;
+  bool no_films = false;
 };
 
 class RareLine final : public RareObserver {
@@ -56,16 +51,15 @@ int ExitStatusOf(const RareOutcome& outcome) {
 }
 
 int RunRare(const RareCommand& options, const Globals& globals) {
-  std::vector<Override> overrides = globals.Overrides();
-  if (options.seed >= 0) overrides.push_back({"seed", std::to_string(options.seed)});
-  const ScenarioFile file(options.scenario, overrides);
+  const ScenarioFile file(options.scenario, OverridesOf(globals, options));
   const fs::path folder =
       options.out.empty() ? fs::path("out") / "rare" / file.file().stem() : fs::path(options.out);
-  RareRequest request{.mode = options.mode,
-                      .settings = {.target_cov = *options.target_cov, .max_trials = options.max_n},
-                      .jobs = options.jobs > 0 ? options.jobs : Cores(),
-                      .resume = options.resume};
-  RareLine progress(globals, options.max_n);
+  const RareRequest request{
+      .mode = options.mode,
+      .settings = {.target_cov = *options.target_cov, .max_trials = options.n},
+      .jobs = RequestOf(options).jobs,
+      .resume = options.resume};
+  RareLine progress(globals, options.n);
   const RareOutcome outcome = SearchRare(file, request, folder, &progress);
   progress.Clear();
   globals.Result(RareJson(outcome));
@@ -89,6 +83,7 @@ int RunRare(const RareCommand& options, const Globals& globals) {
 
 void AddRare(CommandLine& line, const Globals& globals, int& status) {
   auto options = std::make_shared<RareCommand>();
+  options->n = RareSettings{}.max_trials;
   Subcommand command = line.Add(
       "rare",
       "How likely rare failures are, by a search that drives towards them; the likeliest filmed");
@@ -97,7 +92,7 @@ void AddRare(CommandLine& line, const Globals& globals, int& status) {
                "What counts: veer_off, stuck, roll_over, bounce_back or any_failure (default)");
   command.Number("--target-cov", options->target_cov,
                  "Coefficient of variation that the estimate should have (default: 0.1)", 0.01, 1);
-  command.Integer("--max-n", options->max_n, "Most drives (default: 15,000)", 1, 10'000'000);
+  command.Integer("--max-n", options->n, "Most drives (default: 15,000)", 1, 10'000'000);
   command.NonNegative("--seed", options->seed, "Overrides the scenario's seed");
   command.Integer("--jobs", options->jobs, "Worker processes (default: one a core)", 1, kMostJobs);
   command.Text("--out", options->out, "Output folder (default: out/rare/NAME)");

@@ -12,23 +12,18 @@
 namespace floorproof {
 namespace {
 
-int WriteRareReport(const std::string& named, const Globals& globals) {
-  const std::filesystem::path page = std::filesystem::path(named) / "rare.html";
-  const RarePage made = MakeRarePage(named);
-  ResultFolder folder(named, RareResults(), {});
-  folder.Begin();
+WrittenReport WriteRareReport(const std::filesystem::path& folder) {
+  const RarePage made = MakeRarePage(folder);
+  ResultFolder results(folder, RareResults(), {});
+  results.Begin();
+  const std::filesystem::path page = folder / "rare.html";
   WriteFileWhole(page, made.html);
-  globals.Say(made.verdict);
-  globals.Say(fmt::format("report: {} ({:.1f} MB, opens from disk)", page.string(),
-                          static_cast<double>(made.html.size()) / 1e6));
-  globals.Result(
-      {{"report", page.string()}, {"verdict", made.verdict}, {"bytes", made.html.size()}});
-  return kExitDone;
+  return {page, made.verdict, made.html.size(), {}};
 }
 
 int WriteReport(const std::string& named, const Globals& globals) {
-  if (HoldsRareSearch(named)) return WriteRareReport(named, globals);
-  const WrittenReport written = WriteCampaignReport(named, named, globals);
+  const WrittenReport written =
+      HoldsRareSearch(named) ? WriteRareReport(named) : WriteCampaignReport(named, named, globals);
   globals.Say(written.verdict);
   globals.Say(fmt::format("report: {} ({:.1f} MB, opens from disk)", written.page.string(),
                           static_cast<double>(written.bytes) / 1e6));

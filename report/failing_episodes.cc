@@ -4,26 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
 
 #include "base/file_output.h"
 #include "base/printable.h"
 #include "base/quantity.h"
+#include "base/shell_word.h"
 #include "report/drive_marks.h"
 #include "run/campaign/episodes_csv.h"
 
 namespace floorproof {
 namespace {
-
-// As a shell takes it.
-std::string ShellWord(const std::string& text) {
-  static constexpr std::string_view kPlain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_=+:,./@%";
-  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 std::string Words(std::string name) {
   std::ranges::replace(name, '_', ' ');

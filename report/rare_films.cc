@@ -7,9 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/input_file.h"
-#include "base/input_files.h"
 #include "base/interrupt.h"
-#include "report/drive_and_film.h"
+#include "report/replay.h"
 #include "run/episode/records.h"
 #include "run/rare/rare_json.h"
 
@@ -55,19 +54,11 @@ void FilmLikelyFailures(const ScenarioFile& file, const RareOutcome& outcome,
                             outcome.failures.size()));
     Drawn drawn = failure.set;
     std::erase_if(drawn, [](const auto& entry) { return entry.first == "episode"; });
-    if (const std::string made = MadePlan(failure.row); !made.empty())
-      drawn.emplace_back("plan.made",
-                         ConfigNode::Scalar(fs::absolute(FindCopy(folder, made)).string(), true));
-    Scenario scenario =
-        file.ReadDrawn(outcome.estimate.regions[failure.region].likeliest.noise, drawn);
-    RefuseProgram(scenario);
+    AddMadePlan(failure.row, folder, drawn);
     std::vector<FailureMode> modes;
     for (const Event& event : EventsOf(failure.row)) modes.push_back(event.mode);
-    const DriveResult result =
-        DriveAndFilm(scenario, into, {.video = true, .draft_around = modes}, console);
-    if (result.not_written) std::rethrow_exception(result.not_written);
-    if (Name(result.record.outcome) != failure.row.outcome)
-      throw InternalError(into.string() + ": it came out other than it was found");
+    ReplayRow(file.ReadDrawn(outcome.estimate.regions[failure.region].likeliest.noise, drawn),
+              failure.row, into, {.video = true, .draft_around = modes}, console);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "report/html.h"
 #include "report/rare_films.h"
 #include "report/style.h"
+#include "run/rare/rare_json.h"
 
 namespace floorproof {
 namespace {
@@ -29,8 +30,6 @@ constexpr const char* kRareStyle = R"css(
 .scale .point { stroke: var(--ink); stroke-width: 2; }
 code { overflow-wrap: anywhere; }
 )css";
-
-std::string OneIn(double probability) { return "1 in " + NumberText(1 / probability); }
 
 // The bounds and the estimate on one logarithmic line.
 std::string Scale(const Json& rare) {

@@ -25,14 +25,6 @@ namespace fs = std::filesystem;
                   where.string(), what));
 }
 
-// With the plan that a program made for this episode.
-Variant AsPlanned(Variant variant, const EpisodeRow& row, const fs::path& campaign) {
-  if (const std::string made = MadePlan(row); !made.empty())
-    variant.overrides.emplace_back(
-        "plan.made", ConfigNode::Scalar(fs::absolute(FindCopy(campaign, made)).string(), true));
-  return variant;
-}
-
 // As this version names them.
 nlohmann::ordered_json Renamed(const nlohmann::ordered_json& metrics) {
   if (!metrics.is_object()) return metrics;
@@ -75,17 +67,29 @@ fs::path EpisodeFolder(const fs::path& campaign, const Variant& variant, std::ui
   return campaign / "episodes" / variant.name / std::to_string(episode);
 }
 
+void AddMadePlan(const EpisodeRow& row, const fs::path& folder, Drawn& set) {
+  if (const std::string made = MadePlan(row); !made.empty())
+    set.emplace_back("plan.made",
+                     ConfigNode::Scalar(fs::absolute(FindCopy(folder, made)).string(), true));
+}
+
 DriveResult ReplayEpisode(const ScenarioFile& file, const Variant& variant, const EpisodeRow& row,
                           const fs::path& folder, const DriveOptions& options,
                           const Console& console) {
-  Scenario scenario = file.Read(row.episode, AsPlanned(variant, row, folder));
-  RefuseProgram(scenario);
+  Variant planned = variant;
+  AddMadePlan(row, folder, planned.overrides);
   const fs::path into = EpisodeFolder(folder, variant, row.episode);
   RefuseLinks(folder, into);
+  return ReplayRow(file.Read(row.episode, planned), row, into, options, console);
+}
+
+DriveResult ReplayRow(Scenario scenario, const EpisodeRow& row, const fs::path& into,
+                      const DriveOptions& options, const Console& console) {
+  RefuseProgram(scenario);
   if (row.outcome == "error") console.Say("recorded as an error: " + row.message);
   DriveResult result = DriveAndFilm(scenario, into, options, console);
   if (result.not_written) std::rethrow_exception(result.not_written);
-  const EpisodeRow now = MakeRow(variant.name, scenario, row.plan, result.record);
+  const EpisodeRow now = MakeRow(row.variant, scenario, row.plan, result.record);
   if (row.outcome == "error" && now.outcome != "error")
     throw InternalError(
         fmt::format("{}: recorded as an error ({}), which did not come again; `campaign --resume "

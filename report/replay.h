@@ -26,6 +26,15 @@ nlohmann::ordered_json ReplayRun(const std::filesystem::path& folder,
 std::filesystem::path EpisodeFolder(const std::filesystem::path& campaign, const Variant& variant,
                                     std::uint64_t episode);
 
+// Drives a recorded row again into `into`, whole as `run` would; `scenario` is what it was driven
+// by, with the plan that a program made for it (AddMadePlan). No program is run. Throws as
+// ReplayEpisode.
+DriveResult ReplayRow(Scenario scenario, const EpisodeRow& row, const std::filesystem::path& into,
+                      const DriveOptions& options, const Console& console);
+// Adds to what is set for a row's drive the plan that a program made for it, if one did, kept in
+// `folder`.
+void AddMadePlan(const EpisodeRow& row, const std::filesystem::path& folder, Drawn& set);
+
 // Drives the recorded episode again into <folder>/episodes/<variant>/<id>, whole as `run` would.
 // No program is run. Throws InputError where there is no plan but a program's, and InternalError
 // when outcome, events or metrics are not the recorded ones.

@@ -84,4 +84,25 @@ void RequireSame(const CampaignAbout& there, const CampaignAbout& now,
   throw InputError({where.string(), 0}, "", "", "holds another campaign: " + difference);
 }
 
+bool HoldsDatabase(const fs::path& folder, const char* name, const char* what, bool resume) {
+  std::error_code ignored;
+  if (!fs::exists(folder / name, ignored)) return false;
+  if (!resume)
+    throw InputError(
+        {folder.string(), 0}, "", "",
+        std::string("holds ") + what + ": --resume goes on with it, --out names another folder");
+  return true;
+}
+
+CampaignStore OpenOrCreate(const fs::path& file, const CampaignAbout& about, bool there) {
+  if (!there) {
+    MakeFolder(file.parent_path());
+    return CampaignStore::Create(file, about);
+  }
+  CampaignStore store = CampaignStore::Open(file, false);
+  RequireSame(store.about(), about, file);
+  store.MakeWritable();
+  return store;
+}
+
 }  // namespace floorproof

@@ -19,6 +19,15 @@ CampaignAbout DescribeCampaign(const ScenarioFile& file);
 // Its versions, by name. Throws InternalError where they are damaged.
 std::vector<std::pair<std::string, std::string>> VersionsOf(const CampaignAbout& about);
 
+// Whether the folder holds that database. Throws InputError where it does and nobody asks to go on
+// with it; `what` it is: "a campaign".
+bool HoldsDatabase(const std::filesystem::path& folder, const char* name, const char* what,
+                   bool resume);
+// The database of what `about` says, made where it is not `there`. Throws as RequireSame and
+// CampaignStore do; another's is not so much as opened to be written.
+CampaignStore OpenOrCreate(const std::filesystem::path& file, const CampaignAbout& about,
+                           bool there);
+
 // Throws InputError naming `where` and the first thing that differs.
 void RequireSame(const CampaignAbout& there, const CampaignAbout& now,
                  const std::filesystem::path& where);

@@ -18,25 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool HoldsCampaign(const fs::path& folder, bool resume) {
-  std::error_code ignored;
-  if (!fs::exists(folder / "campaign.sqlite", ignored)) return false;
-  if (!resume)
-    throw InputError({folder.string(), 0}, "", "",
-                     "holds a campaign: --resume goes on with it, --out names another folder");
-  return true;
-}
+constexpr const char* kDatabase = "campaign.sqlite";
 
-CampaignStore OpenStore(const fs::path& folder, const CampaignAbout& about, bool there) {
-  const fs::path file = folder / "campaign.sqlite";
-  if (!there) {
-    MakeFolder(folder);
-    return CampaignStore::Create(file, about);
-  }
-  CampaignStore store = CampaignStore::Open(file, false);
-  RequireSame(store.about(), about, file);
-  store.MakeWritable();  // another campaign's is not so much as opened to be written
-  return store;
+bool HoldsCampaign(const fs::path& folder, bool resume) {
+  return HoldsDatabase(folder, kDatabase, "a campaign", resume);
 }
 
 // A fixed gate is judged once, at an n set beforehand: going on because it did not pass would pass
@@ -136,7 +121,7 @@ CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& r
   CampaignStore store = Keep<DiskError>("every episode that is not in campaign.sqlite", [&] {
     out->Lock();
     const bool there = HoldsCampaign(folder, request.resume);  // another may have begun it since
-    CampaignStore opened = OpenStore(folder, about, there);
+    CampaignStore opened = OpenOrCreate(folder / kDatabase, about, there);
     RefuseSecondLook(opened, file, request.episodes);
     opened.SetAsked(request.episodes);
     if (request.retry_errors) opened.DropErrors();

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "base/quantity.h"
+#include "base/shell_word.h"
 #include "run/episode/records.h"
 
 namespace floorproof {
@@ -26,16 +26,6 @@ std::string_view Name(RareAnswer answer) {
       break;
   }
   return "no_estimate";
-}
-
-std::string Quoted(const std::string& word) {
-  const bool plain = std::ranges::all_of(word, [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("._-/=+", c) != nullptr;
-  });
-  if (plain) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
 }
 
 Json FailureJson(const LikelyFailure& failure) {
@@ -58,9 +48,6 @@ Json PilotJson(const PilotReport& pilot) {
           {"failures", pilot.failures},
           {"probability", pilot.probability}};
 }
-
-// "1 in 81,300"
-std::string OneIn(double probability) { return "1 in " + NumberText(1 / probability); }
 
 std::string Happening(const LikelyFailure& failure) {
   std::string text;
@@ -85,6 +72,8 @@ std::vector<std::string> EstimateLines(const RareOutcome& outcome) {
 }
 
 }  // namespace
+
+std::string OneIn(double probability) { return "1 in " + NumberText(1 / probability); }
 
 std::vector<std::string> Sets(const Drawn& set) {
   std::vector<std::string> sets;
@@ -142,8 +131,8 @@ Json RareJson(const RareOutcome& outcome) {
 
 std::string RunCommand(const LikelyFailure& failure, const std::filesystem::path& folder) {
   std::string command =
-      "floorproof run " + Quoted((folder / "scenario.resolved.yaml").string()) + " --video";
-  for (const std::string& set : Sets(failure.set)) command += " --set " + Quoted(set);
+      "floorproof run " + ShellWord((folder / "scenario.resolved.yaml").string()) + " --video";
+  for (const std::string& set : Sets(failure.set)) command += " --set " + ShellWord(set);
   return command;
 }
 

@@ -17,6 +17,9 @@ nlohmann::ordered_json RareJson(const RareOutcome& outcome);
 // What is said at the end, a line each. `folder`: where the search's files are.
 std::vector<std::string> RareLines(const RareOutcome& outcome, const std::filesystem::path& folder);
 
+// "1 in 81,300"
+std::string OneIn(double probability);
+
 // key=value of each: what stands behind --set.
 std::vector<std::string> Sets(const Drawn& set);
 

@@ -13,7 +13,7 @@ constexpr const char* kAny = "any_failure";
 
 }  // namespace
 
-RareScore::RareScore(const std::string& mode, const Scenario& scenario) : name_(mode) {
+RareScore::RareScore(const std::string& mode, const Scenario& scenario) {
   std::string known = kAny;
   for (int m = 0; m < kNumFailureModes; ++m) {
     known += std::string(", ") + std::string(Name(static_cast<FailureMode>(m)));

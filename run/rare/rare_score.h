@@ -27,10 +27,8 @@ class RareScore {
   // any failure the sum of all margins, too. It must not follow what is drawn by itself: time
   // would, by the speed, and would lead away from failures.
   TrialResult Of(const EpisodeRow& row) const;
-  const std::string& mode() const { return name_; }
 
  private:
-  std::string name_;
   std::optional<FailureMode> mode_;  // none: any
 };
 

@@ -45,24 +45,7 @@ void CheckRequest(const RareRequest& request) {
 }
 
 bool HoldsSearch(const fs::path& folder, bool resume) {
-  std::error_code ignored;
-  if (!fs::exists(folder / kTrials, ignored)) return false;
-  if (!resume)
-    throw InputError({folder.string(), 0}, "", "",
-                     "holds a search: --resume goes on with it, --out names another folder");
-  return true;
-}
-
-CampaignStore OpenTrials(const fs::path& folder, const CampaignAbout& about, bool there) {
-  const fs::path file = folder / kTrials;
-  if (!there) {
-    MakeFolder(folder);
-    return CampaignStore::Create(file, about);
-  }
-  CampaignStore store = CampaignStore::Open(file, false);
-  RequireSame(store.about(), about, file);
-  store.MakeWritable();
-  return store;
+  return HoldsDatabase(folder, kTrials, "a search", resume);
 }
 
 // A scenario that most draws make impossible has no failure rate.
@@ -136,7 +119,8 @@ RareOutcome SearchRare(const ScenarioFile& file, const RareRequest& request, con
   out.noisy = coordinates.noisy();
   try {
     out.folder->Lock();
-    CampaignStore store = OpenTrials(folder, about, HoldsSearch(folder, request.resume));
+    CampaignStore store =
+        OpenOrCreate(folder / kTrials, about, HoldsSearch(folder, request.resume));
     out.folder->Begin();
     SayWhenInterrupted(folder.string() + " holds every drive saved so far; --resume goes on");
     WriteResolvedScenario(base, folder, file.files().All());

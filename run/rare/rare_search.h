@@ -53,7 +53,7 @@ class RareObserver {
  public:
   virtual ~RareObserver() = default;
   virtual void OnWarning(const std::string&) {}
-  virtual void OnProgress(const std::string& stage, const RareProgress&) { (void)stage; }
+  virtual void OnProgress(const std::string& /*stage*/, const RareProgress&) {}
 };
 
 // Files that it leaves: rare.json and scenario.resolved.yaml, beside trials.sqlite.

@@ -51,16 +51,16 @@ void RareTrials::Keep() {
 
 // In processes that are forked for this batch alone: they know its trials, and the plan that this
 // process has made.
-void RareTrials::Drive(std::span<const Trial> trials, const std::vector<std::size_t>& missing) {
+void RareTrials::Drive(std::span<const Trial> trials, std::span<const std::string> drawn,
+                       const std::vector<std::size_t>& missing) {
   using Clock = std::chrono::steady_clock;
   constexpr double kBatch_s = 0.5;
   auto kept = Clock::now();
   std::size_t next = 0;
-  const auto drawn_of = [&](Job job) { return DrawnJson(coordinates_.AsSet(trials[job])).dump(); };
   const auto take = [&](Job job, EpisodeRow row) {
     row.variant = TrialVariant().name;
     row.episode = next_ + job;
-    row.drawn = drawn_of(job);
+    row.drawn = drawn[job];
     known_[row.episode] = Brief(row);
     ++shown_.done;
     ++shown_.driven;
@@ -95,15 +95,18 @@ void RareTrials::Drive(std::span<const Trial> trials, const std::vector<std::siz
 }
 
 std::vector<TrialResult> RareTrials::Evaluate(std::span<const Trial> trials) {
+  std::vector<std::string> drawn;
   std::vector<std::size_t> missing;
-  for (std::size_t i = 0; i < trials.size(); ++i)
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    drawn.push_back(DrawnJson(coordinates_.AsSet(trials[i])).dump());
     if (!known_.contains(next_ + i)) missing.push_back(i);
+  }
   shown_.done = next_ + trials.size() - missing.size();
-  if (!missing.empty()) Drive(trials, missing);
+  if (!missing.empty()) Drive(trials, drawn, missing);
   std::vector<TrialResult> results;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const Known& known = known_.at(next_ + i);
-    if (known.drawn != DrawnJson(coordinates_.AsSet(trials[i])).dump())
+    if (known.drawn != drawn[i])
       throw InternalError(
           fmt::format("trial {} was driven with other draws than its seed gives here: it was begun "
                       "on another type of machine, or the file was changed",

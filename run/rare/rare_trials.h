@@ -49,7 +49,9 @@ class RareTrials {
     std::string message;
   };
   Known Brief(const EpisodeRow& row) const;
-  void Drive(std::span<const Trial> trials, const std::vector<std::size_t>& missing);
+  // `drawn`: of each trial, as rows have it.
+  void Drive(std::span<const Trial> trials, std::span<const std::string> drawn,
+             const std::vector<std::size_t>& missing);
   void Keep();
 
   EpisodeMaker& maker_;

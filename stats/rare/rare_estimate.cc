@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/params.h"
+#include "base/quantity.h"
 #include "stats/betting.h"
 #include "stats/binomial.h"
 #include "stats/checks.h"
@@ -260,12 +261,12 @@ class Search {
       if (pilot.probability > 0) logs += std::log(pilot.probability), ++found;
     const double disagree = found == 0 ? 0 : std::abs(std::log(p) - logs / found);
     if (out_.largest_share > kMostShare)
-      out_.why = "one draw makes " + Percent(out_.largest_share) + " of it";
+      out_.why = "one draw makes " + PercentText(out_.largest_share, 2) + " of it";
     else if (out_.effective_failures < kFewestEffective)
       out_.why = "its failures are worth " + FormatDouble(std::round(out_.effective_failures)) +
                  " of equal weight, fewer than " + FormatDouble(kFewestEffective);
     else if (of_one > kMostOfOnePilot)
-      out_.why = "the pilots disagree on where failures are: " + Percent(of_one) +
+      out_.why = "the pilots disagree on where failures are: " + PercentText(of_one, 2) +
                  " of it lies where no two of them were";
     else if (found == 0)
       out_.why = "no pilot came far enough to say how likely failures are";
@@ -278,8 +279,6 @@ class Search {
     out_.reached_target = out_.cov <= settings_.target_cov;
     out_.interval = IntervalOf(out_, settings_.confidence);
   }
-
-  static std::string Percent(double share) { return FormatDouble(std::round(100 * share)) + " %"; }
 
   void FindRegions() {
     const auto n = static_cast<std::size_t>(mixture_->regions());

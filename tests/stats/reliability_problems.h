@@ -39,9 +39,9 @@ inline double Quadrature(const std::function<double(const Point&)>& g) {
   };
   for (double x = -kFar + kStep / 2; x < kFar; x += kStep) {
     u[0] = x;
-    double inside = 0, last = at(-kFar);
+    double inside = 0;
     double from = -std::numeric_limits<double>::infinity();  // of a stretch that fails
-    bool fails = last <= 0;
+    bool fails = at(-kFar) <= 0;
     for (double y = -kFar + kGrid; y < kFar; y += kGrid) {
       const double now = at(y);
       if ((now <= 0) != fails) {
@@ -54,7 +54,6 @@ inline double Quadrature(const std::function<double(const Point&)>& g) {
         from = low;
         fails = !fails;
       }
-      last = now;
     }
     if (fails) inside += 1 - Normal(from);
     sum += inside * std::exp(-x * x / 2);
