@@ -19,7 +19,11 @@ using testing::Not;
 
 class RarePageTest : public testing::Test {
  protected:
-  RarePageTest() : folder_(fs::path(testing::TempDir()) / "RarePageTest") {
+  // A folder of its own for each test: they run side by side.
+  RarePageTest()
+      : folder_(fs::path(testing::TempDir()) /
+                (std::string("RarePageTest.") +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     outcome_.name = "hall <script>";
