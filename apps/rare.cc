@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 struct RareCommand : CampaignArguments {
   std::string scenario, mode = "any_failure";
   std::optional<double> target_cov = RareSettings{}.target_cov;
-  bool no_films = false;
+  bool retry_errors = false, no_films = false;
 };
 
 class RareLine final : public RareObserver {
@@ -58,7 +58,8 @@ int RunRare(const RareCommand& options, const Globals& globals) {
       .mode = options.mode,
       .settings = {.target_cov = *options.target_cov, .max_trials = options.n},
       .jobs = RequestOf(options).jobs,
-      .resume = options.resume};
+      .resume = options.resume,
+      .retry_errors = options.retry_errors};
   RareLine progress(globals, options.n);
   const RareOutcome outcome = SearchRare(file, request, folder, &progress);
   progress.Clear();
@@ -97,6 +98,8 @@ void AddRare(CommandLine& line, const Globals& globals, int& status) {
   command.Integer("--jobs", options->jobs, "Worker processes (default: one a core)", 1, kMostJobs);
   command.Text("--out", options->out, "Output folder (default: out/rare/NAME)");
   command.Flag("--resume", options->resume, "Go on with the search that the folder holds");
+  command.Flag("--retry-errors", options->retry_errors,
+               "With --resume: drive again what ended in an error, and all that came after it");
   command.Flag("--no-films", options->no_films, "Do not film the likeliest failures");
   command.OnRun([options, &globals, &status] { status = RunRare(*options, globals); });
 }

@@ -360,6 +360,18 @@ void CampaignStore::DropErrors() {
   Run("COMMIT");
 }
 
+void CampaignStore::DropFromFirstError(const std::string& variant) {
+  Run("BEGIN");
+  for (const char* table : {"encounter", "episode"}) {  // the one that says which, last
+    Statement drop(*this, "DELETE FROM " + std::string(table) +
+                              " WHERE variant = ?1 AND episode >= (SELECT MIN(episode) FROM episode"
+                              " WHERE variant = ?1 AND outcome = 'error')");
+    drop.Bind(1, variant);
+    drop.Step();
+  }
+  Run("COMMIT");
+}
+
 void CampaignStore::Settle() { Run("PRAGMA wal_checkpoint(TRUNCATE)"); }
 
 void CampaignStore::SetExtraFrom(const std::string& variant, std::uint64_t episode) {

@@ -70,6 +70,8 @@ class CampaignStore {
   void SetAsked(std::uint64_t episodes);
   // Rows of outcome `error` are dropped, so that they are driven again.
   void DropErrors();
+  // The first of the variant's, and all rows after it.
+  void DropFromFirstError(const std::string& variant);
   // The log's rows go into the file itself, so that it is whole alone.
   void Settle();
   // Moves rows of this number and beyond from `episode` to `extra`; those before it back.

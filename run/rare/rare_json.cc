@@ -179,7 +179,7 @@ std::vector<std::string> RareLines(const RareOutcome& outcome,
         "deviations out: {}",
         i + 1, PercentText(region.share, 2), CountText(region.draws, "failure"), region.pilots,
         kPilots, FixedText(region.distance, 2),
-        failure == nullptr ? std::string("not looked for, or it did not come again")
+        failure == nullptr ? std::string("not looked for")
                            : Happening(*failure) + " with " + DrawnText(failure->set)));
     if (failure != nullptr) lines.push_back("     " + RunCommand(*failure, folder));
   }

@@ -121,6 +121,7 @@ RareOutcome SearchRare(const ScenarioFile& file, const RareRequest& request, con
     out.folder->Lock();
     CampaignStore store =
         OpenOrCreate(folder / kTrials, about, HoldsSearch(folder, request.resume));
+    if (request.retry_errors) store.DropFromFirstError(RareTrials::TrialVariant().name);
     out.folder->Begin();
     SayWhenInterrupted(folder.string() + " holds every drive saved so far; --resume goes on");
     WriteResolvedScenario(base, folder, file.files().All());
@@ -144,9 +145,8 @@ RareOutcome SearchRare(const ScenarioFile& file, const RareRequest& request, con
     for (std::size_t r = 0; r < out.estimate.regions.size(); ++r) {
       const FailureRegion& region = out.estimate.regions[r];
       if (!region.searched) continue;
-      EpisodeRow row = trials.Again(region.likeliest);
-      if (score.Of(row).failed)
-        out.failures.push_back({r, coordinates.AsSet(region.likeliest), std::move(row)});
+      out.failures.push_back(
+          {r, coordinates.AsSet(region.likeliest), trials.RowOf(region.likeliest)});
     }
     if (gate) out.verdict = gate->Judge(out.estimate, out.errors);
     store.Settle();

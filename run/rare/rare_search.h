@@ -22,6 +22,9 @@ struct RareRequest {
   RareSettings settings = {};  // its seed is not read: it is the scenario's
   int jobs = 1;                // worker processes
   bool resume = false;         // goes on with the search that the folder holds
+  // Drives again what ended in an error, and all that was driven after it: where a search goes
+  // hangs on each result before.
+  bool retry_errors = false;
 };
 
 // A region's likeliest failure, as it was driven.
@@ -46,7 +49,7 @@ struct RareOutcome {
   std::optional<RareVerdict> verdict;  // none: the scenario has no gate of mode rare
 };
 
-// Of a region; nullptr: none was looked for, or it did not come again (a plan made at random).
+// Of a region; nullptr: none was looked for.
 const LikelyFailure* FailureOf(const RareOutcome& outcome, std::size_t region);
 
 class RareObserver {

@@ -34,8 +34,16 @@ RareTrials::Known RareTrials::Brief(const EpisodeRow& row) const {
   return {score_.Of(row), row.drawn, !row.counts(), row.message};
 }
 
-EpisodeRow RareTrials::Again(const Trial& trial) {
-  return maker_.RunDrawn(TrialVariant(), trial.noise, coordinates_.DrawnAt(trial.u));
+std::string RareTrials::DrawnText(const Trial& trial) const {
+  return DrawnJson(coordinates_.AsSet(trial)).dump();
+}
+
+EpisodeRow RareTrials::RowOf(const Trial& trial) const {
+  const std::string drawn = DrawnText(trial);
+  for (const auto& [number, known] : known_)
+    if (known.drawn == drawn && number < next_)
+      if (auto row = store_.Find(TrialVariant().name, number)) return *std::move(row);
+  throw InternalError("a trial that was driven has no row: " + drawn);
 }
 
 void RareTrials::Keep() {
@@ -70,7 +78,10 @@ void RareTrials::Drive(std::span<const Trial> trials, std::span<const std::strin
     take(job, maker_.Refused(TrialVariant(), 0, coordinates_.DrawnAt(trials[job].u), why));
   };
   PoolCallbacks callbacks;
-  callbacks.work = [&](Job job) { return ToLine(Again(trials[job])); };
+  callbacks.work = [&](Job job) {
+    const Trial& trial = trials[job];
+    return ToLine(maker_.RunDrawn(TrialVariant(), trial.noise, coordinates_.DrawnAt(trial.u)));
+  };
   callbacks.next = [&]() -> std::optional<Job> {
     if (next == missing.size()) return std::nullopt;
     return missing[next++];
@@ -88,6 +99,7 @@ void RareTrials::Drive(std::span<const Trial> trials, std::span<const std::strin
   };
   RunInWorkers(std::min(jobs_, static_cast<int>(missing.size())), callbacks);
   Keep();
+  progress_(shown_);
   if (Interrupted()) {
     store_.Settle();
     throw Interruption();
@@ -98,7 +110,7 @@ std::vector<TrialResult> RareTrials::Evaluate(std::span<const Trial> trials) {
   std::vector<std::string> drawn;
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    drawn.push_back(DrawnJson(coordinates_.AsSet(trials[i])).dump());
+    drawn.push_back(DrawnText(trials[i]));
     if (!known_.contains(next_ + i)) missing.push_back(i);
   }
   shown_.done = next_ + trials.size() - missing.size();

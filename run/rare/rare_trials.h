@@ -33,8 +33,8 @@ class RareTrials {
   // The next trials, numbered on from those before. Throws Interruption once what was driven is
   // kept, and InternalError where it cannot be kept.
   std::vector<TrialResult> Evaluate(std::span<const Trial> trials);
-  // Drives one trial, which is not numbered.
-  EpisodeRow Again(const Trial& trial);
+  // The row of a trial that was driven.
+  EpisodeRow RowOf(const Trial& trial) const;
 
   std::uint64_t errors() const { return errors_; }
   const std::string& first_error() const { return first_error_; }
@@ -49,6 +49,7 @@ class RareTrials {
     std::string message;
   };
   Known Brief(const EpisodeRow& row) const;
+  std::string DrawnText(const Trial& trial) const;  // as rows have it
   // `drawn`: of each trial, as rows have it.
   void Drive(std::span<const Trial> trials, std::span<const std::string> drawn,
              const std::vector<std::size_t>& missing);

@@ -17,8 +17,12 @@ class DefensiveDensity {
   static constexpr double kNominal = 0.1, kWidened = 0.1;
   static constexpr double kMostWeight = 1 / kNominal;
 
-  // `failures` outlives it.
-  DefensiveDensity(const FailureMixture& failures, Eigen::Index dimensions);
+  static constexpr double kMirrored = 0.25;
+
+  // `failures` outlives it. `mirrored`: a quarter of what it draws by the failures lies where one
+  // coordinate, or all, has the other sign. A robot that fails to the left often fails to the
+  // right, and pilots may have lost one of the two.
+  DefensiveDensity(const FailureMixture& failures, Eigen::Index dimensions, bool mirrored = false);
 
   struct Draw {
     Eigen::VectorXd u;
@@ -29,8 +33,11 @@ class DefensiveDensity {
   double Weight(const Eigen::VectorXd& u) const;
 
  private:
+  double LogOfFailures(const Eigen::VectorXd& u) const;
+
   const FailureMixture& failures_;
   Eigen::Index dimensions_;
+  bool mirrored_;
   double width_;  // of the widened tenth
 };
 

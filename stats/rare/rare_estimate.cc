@@ -162,9 +162,9 @@ class Search {
   void Fit() { mixture_.emplace(Points(failures_), problem_.noisy, stream_); }
 
   // Draws from what the pilots found say how much of the probability each region has, which chains
-  // know badly.
+  // know badly, and look on its other side, which chains may have lost.
   void Refit() {
-    const DefensiveDensity density(*mixture_, problem_.dimensions);
+    const DefensiveDensity density(*mixture_, problem_.dimensions, true);
     Say("draws that show where failures are");
     std::vector<Found> found = DrawFrom(density, kRefitDraws, true);
     std::erase_if(found, [](const Found& f) { return f.weight == 0; });
@@ -227,11 +227,12 @@ class Search {
   }
 
   void SumUp() {
-    double sum = 0, squares = 0, most = 0;
+    double sum = 0, squares = 0, fourths = 0, most = 0;
     out_.fresh_failures = 0;
     for (const Found& f : fresh_) {
       sum += f.weight;
       squares += f.weight * f.weight;
+      fourths += std::pow(f.weight, 4);
       most = std::max(most, f.weight);
       out_.fresh_failures += f.weight > 0;
     }
@@ -242,6 +243,7 @@ class Search {
     out_.cov = std::sqrt(std::max(0.0, squares / (sum * sum) - 1 / n) * n / (n - 1));
     out_.largest_share = most / sum;
     out_.effective_failures = sum * sum / squares;
+    out_.freedom = std::max(1.0, 2 * squares * squares / fourths);
   }
 
   void Judge() {
@@ -391,8 +393,8 @@ RareEstimate EstimateRare(const RareProblem& problem, const RareSettings& settin
 Interval IntervalOf(const RareEstimate& estimate, double confidence) {
   if (estimate.answer != RareAnswer::kEstimate)
     throw InputError({}, "estimate", estimate.why, "is none");
-  const Interval log = StudentInterval(std::log(estimate.probability), estimate.cov,
-                                       std::max(1.0, estimate.effective_failures - 1), confidence);
+  const Interval log =
+      StudentInterval(std::log(estimate.probability), estimate.cov, estimate.freedom, confidence);
   return {std::min(1.0, std::exp(log.lower)), std::min(1.0, std::exp(log.upper))};
 }
 

@@ -72,6 +72,7 @@ struct RareEstimate {
   int fresh_draws = 0, fresh_failures = 0;
   double largest_share = 0;       // of the estimate, that one draw makes
   double effective_failures = 0;  // as many of equal weight would be as sure
+  double freedom = 1;             // degrees of, with which `cov` is known
   std::vector<PilotReport> pilots;
   std::vector<FailureRegion> regions;  // the largest share first
   std::uint64_t trials = 0;
@@ -85,8 +86,9 @@ RareEstimate EstimateRare(const RareProblem& problem, const RareSettings& settin
                           const RareStage& stage = {});
 
 // The interval of an estimate: Student's, of its logarithm, as a probability is positive and its
-// error is proportional to it; it has as many degrees of freedom as failures of equal weight, less
-// one. Throws InputError unless 0 < confidence < 1, and `estimate` is one.
+// error is proportional to it. Its degrees of freedom are those with which the weights' own squares
+// say how far they spread, 2 (sum w^2)^2 / sum w^4 (Satterthwaite 1946): few large weights know it
+// badly. Throws InputError unless 0 < confidence < 1, and `estimate` is one.
 Interval IntervalOf(const RareEstimate& estimate, double confidence);
 
 // Nominal draws without a failure that show that it is rarer than `probability`.

@@ -208,6 +208,7 @@ TEST_F(RareTrialsTest, TrialsAreDrivenOnceWhateverTheWorkers) {
       for (const TrialResult& result : dut.trials.Evaluate(Batch(from)))
         scores[jobs - 1].push_back(result.score + 100 * result.failed);
     EXPECT_THAT(dut.store.Episodes("trial"), SizeIs(12));
+    EXPECT_EQ(dut.shown.driven, 12u);
   }
   EXPECT_EQ(scores[0], scores[1]);
   EXPECT_GT(std::ranges::max(scores[0]), 50) << "none failed";
@@ -238,12 +239,42 @@ TEST_F(RareTrialsTest, ErrorsAreFarFromFailing) {
   EXPECT_NE(dut.trials.first_error(), "");
 }
 
+// What the machine was to blame for is driven again, with all that came after it; what came before
+// stays.
+TEST_F(RareTrialsTest, ErrorsAreDrivenAgain) {
+  const ScenarioFile file = File();
+  const fs::path db = folder_ / "t.sqlite";
+  Drives(file, db, 1).trials.Evaluate(Batch(2));
+  CampaignStore store = CampaignStore::Open(db, true);
+  store.DropFromFirstError("trial");
+  EXPECT_THAT(store.Episodes("trial"), SizeIs(6)) << "there is none";
+  std::vector<EpisodeRow> rows;
+  store.ForEach("trial", [&](const EpisodeRow& row) { rows.push_back(row); });
+  const fs::path broken = folder_ / "broken.sqlite";
+  {
+    CampaignStore other = CampaignStore::Create(broken, DescribeCampaign(file));
+    rows[3].outcome = "error";
+    rows[5].outcome = "error";
+    other.Add(rows);
+    other.DropFromFirstError("trial");
+    EXPECT_THAT(other.Episodes("trial"), ElementsAre(0, 1, 2));
+  }
+  Drives dut(file, broken, 1);
+  dut.trials.Evaluate(Batch(2));
+  EXPECT_EQ(dut.shown.driven, 3u);
+  EXPECT_EQ(dut.trials.errors(), 0u);
+  const Trial last = Batch(2).back();
+  EXPECT_EQ(dut.trials.RowOf(last).episode, 5u);
+  EXPECT_EQ(dut.trials.RowOf(last).drawn, rows[5].drawn);
+}
+
 RareEstimate Estimated(double probability, double cov) {
   RareEstimate e;
   e.answer = RareAnswer::kEstimate;
   e.probability = probability;
   e.cov = cov;
   e.effective_failures = 400;
+  e.freedom = 399;
   e.nominal_draws = 1500;
   e.upper_bound = 0.002;
   e.interval = IntervalOf(e, 0.95);

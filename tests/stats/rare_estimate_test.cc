@@ -158,7 +158,8 @@ TEST(RareEstimate, AnAtomThatFailsIsFound) {
   EXPECT_NEAR(got.probability / truth, 1, 4.5 * got.cov);
 }
 
-// A second way to fail that only shows to who is near it already: half of all pilots miss it.
+// A second way to fail that only shows to who is near it already: half of all pilots miss it. Where
+// one of five came upon it, or none, there is no estimate: of 150 seeds 59 % give one.
 TEST(RareEstimate, AModeThatOnePilotMissesIsFoundByFive) {
   const RareProblem two = TrialsOf(2, [](const Trial& t) {
     const double seen = 3.5 - t.u[0], hidden = t.u[1] < -3.2 ? 3.5 + t.u[1] : 9;
@@ -176,12 +177,27 @@ TEST(RareEstimate, AModeThatOnePilotMissesIsFoundByFive) {
     missed += std::ranges::none_of(pilot.failures(),
                                    [](const PilotFailure& f) { return f.trial.u[1] < -3.2; });
     const RareEstimate got = EstimateRare(two, {.seed = seed});
-    if (got.answer != RareAnswer::kEstimate) continue;
+    if (got.answer != RareAnswer::kEstimate) {
+      EXPECT_THAT(got.why, HasSubstr("pilots disagree")) << seed;
+      continue;
+    }
     EXPECT_NEAR(got.probability / truth, 1, 5 * got.cov) << seed;
     ++right;
   }
   EXPECT_GE(missed, 2);
-  EXPECT_GE(right, 9);
+  EXPECT_GE(right, 6);
+}
+
+// Four arms that bend outwards: with these seeds no pilot of the five keeps one of them. It is
+// found again on the other side of another.
+TEST(RareEstimate, ASideThatPilotsLostIsFoundOnTheOtherSideOfAnother) {
+  const Problem arms = reliability::Problems().back();
+  ASSERT_EQ(arms.name, "RP111");
+  for (const std::uint64_t seed : {50'049, 50'113, 50'210}) {
+    const RareEstimate got = EstimateRare(reliability::AsTrials(arms), {.seed = seed});
+    ASSERT_EQ(got.answer, RareAnswer::kEstimate) << got.why;
+    EXPECT_NEAR(got.probability / reliability::Truth(arms), 1, 0.15) << seed;
+  }
 }
 
 // Forty corners that show only to who is near: each pilot finds a few of them, and no two the same.
