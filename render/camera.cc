@@ -61,9 +61,9 @@ class Chase : public Camera {
     follower_.Reset(X_WB.p());
     panner_.Reset(X_WB.yaw_rad);
   }
-  CameraView Next(const Pose2& X_WB, double dt_s, double /*speed_up*/) override {
-    const Vec2 p = follower_.Next(X_WB.p(), dt_s, 0.25, 0.15 * distance_m_);
-    const double yaw = panner_.Next(X_WB.yaw_rad, dt_s);
+  CameraView Next(const Pose2& X_WB, const CameraCue& cue) override {
+    const Vec2 p = follower_.Next(X_WB.p(), cue.dt_s, 0.25, 0.15 * distance_m_);
+    const double yaw = panner_.Next(X_WB.yaw_rad, cue.dt_s);
     const Vec2 ahead(std::cos(yaw), std::sin(yaw));
     constexpr double kElevation = 38 * kDegree;
     CameraView view;
@@ -92,8 +92,8 @@ class Top : public Camera {
     height_m_ = std::min(whole_m, 60 * set.robot_radius_m);
     follower_.Reset(X_WB.p());
   }
-  CameraView Next(const Pose2& X_WB, double dt_s, double /*speed_up*/) override {
-    const Vec2 p = follower_.Next(X_WB.p(), dt_s, 0.5, 0.25 * height_m_);
+  CameraView Next(const Pose2& X_WB, const CameraCue& cue) override {
+    const Vec2 p = follower_.Next(X_WB.p(), cue.dt_s, 0.5, 0.25 * height_m_);
     const Vec2 half = 0.5 * height_m_ * Vec2(set_.aspect, 1);
     const Vec2 centre = 0.5 * (set_.low_W + set_.high_W);
     Vec2 q;
@@ -125,9 +125,9 @@ class Side : public Camera {
     follower_.Reset(X_WB.p());
     panner_.Reset(X_WB.yaw_rad);
   }
-  CameraView Next(const Pose2& X_WB, double dt_s, double /*speed_up*/) override {
-    const Vec2 p = follower_.Next(X_WB.p(), dt_s, 0.2, 0.1 * distance_m_);
-    const double yaw = panner_.Next(X_WB.yaw_rad, dt_s) - 80 * kDegree;
+  CameraView Next(const Pose2& X_WB, const CameraCue& cue) override {
+    const Vec2 p = follower_.Next(X_WB.p(), cue.dt_s, 0.2, 0.1 * distance_m_);
+    const double yaw = panner_.Next(X_WB.yaw_rad, cue.dt_s) - 80 * kDegree;
     constexpr double kElevation = 13 * kDegree;
     CameraView view;
     view.target_W = Lift(p, target_z_m_);
@@ -144,27 +144,65 @@ class Side : public Camera {
   Panner panner_;
 };
 
-// From above while time flies, from behind when it runs slowly enough to watch.
+// From low beside what holds the robot, as near as its wheels and the floor fill the picture. It
+// does not turn: what moves in the picture is the robot.
+class Contact {
+ public:
+  void Reset(const FilmSet& set, const Pose2& X_WB, double came_rad) {
+    distance_m_ = 0.35 + 3.4 * set.robot_radius_m;
+    target_z_m_ = 0.02 + 0.3 * set.robot_radius_m;
+    follower_.Reset(X_WB.p());
+    // From the side where there is more floor: fewer walls stand between.
+    const Vec2 left(-std::sin(came_rad), std::cos(came_rad));
+    const bool floor_is_left = left.dot(0.5 * (set.low_W + set.high_W) - X_WB.p()) > 0;
+    yaw_rad_ = came_rad + (floor_is_left ? 1 : -1) * 75 * kDegree;
+  }
+  CameraView Next(const Pose2& X_WB, const CameraCue& cue) {
+    const Vec2 p = follower_.Next(X_WB.p(), cue.dt_s, 0.4, 0.1 * distance_m_);
+    constexpr double kElevation = 15 * kDegree;
+    CameraView view;
+    view.target_W = Lift(p, target_z_m_);
+    view.eye_W = view.target_W + distance_m_ * Lift(std::cos(kElevation) * Vec2(std::cos(yaw_rad_),
+                                                                                std::sin(yaw_rad_)),
+                                                    std::sin(kElevation));
+    view.fovy_rad = 34 * kDegree;
+    return view;
+  }
+
+ private:
+  double distance_m_ = 1.2, target_z_m_ = 0.1, yaw_rad_ = 0;
+  Follower follower_;
+};
+
+// From above while time flies, from behind when it runs slowly enough to watch, and from the side
+// where there is something to see at the wheels.
 class Auto : public Camera {
  public:
   void Reset(const FilmSet& set, const Pose2& X_WB) override {
     set_ = set;
     top_.Reset(set, X_WB);
-    above_ = true;
+    by_ = By::kNone;
   }
-  CameraView Next(const Pose2& X_WB, double dt_s, double speed_up) override {
+  CameraView Next(const Pose2& X_WB, const CameraCue& cue) override {
     constexpr double kRacing = 4;
-    const CameraView from_above = top_.Next(X_WB, dt_s, speed_up);
-    if (above_ && speed_up < kRacing) chase_.Reset(set_, X_WB);
-    above_ = speed_up >= kRacing;
-    return above_ ? from_above : chase_.Next(X_WB, dt_s, speed_up);
+    const CameraView from_above = top_.Next(X_WB, cue);
+    const By before = by_;
+    by_ = cue.contact_rad ? By::kContact : cue.speed_up < kRacing ? By::kChase : By::kTop;
+    if (by_ == By::kTop) return from_above;
+    if (by_ == By::kChase) {
+      if (before != by_) chase_.Reset(set_, X_WB);
+      return chase_.Next(X_WB, cue);
+    }
+    if (before != by_) contact_.Reset(set_, X_WB, *cue.contact_rad);
+    return contact_.Next(X_WB, cue);
   }
 
  private:
   FilmSet set_;
   Top top_;
   Chase chase_;
-  bool above_ = true;
+  Contact contact_;
+  enum class By { kNone, kTop, kChase, kContact } by_ = By::kNone;
 };
 
 template <class T>
@@ -173,7 +211,10 @@ std::unique_ptr<Camera> Make() {
 }
 
 constexpr std::array kCameras = {
-    PluginEntry<Camera>{"auto", "top in a time lapse, chase where time runs slowly", Make<Auto>},
+    PluginEntry<Camera>{
+        "auto",
+        "top in a time lapse, chase where time runs slowly, from the side at what holds the robot",
+        Make<Auto>},
     PluginEntry<Camera>{"chase", "behind the robot and above it", Make<Chase>},
     PluginEntry<Camera>{"top", "from above: the whole site, or what is around the robot",
                         Make<Top>},

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -28,14 +29,22 @@ struct FilmSet {
   double aspect = 16.0 / 9.0;  // width / height of the picture
 };
 
+// How a picture follows the one before.
+struct CameraCue {
+  double dt_s = 0;      // of film
+  double speed_up = 1;  // the robot moved for speed_up * dt_s
+  // Where something holds, tips or meets the robot, so that wheels and floor are to be seen: the
+  // direction in which it came there (world frame, rad).
+  std::optional<double> contact_rad = {};
+};
+
 // Follows the robot smoothly. Time is the film's, not the robot's: what must not jerk is the
 // picture.
 class Camera {
  public:
   virtual ~Camera() = default;
   virtual void Reset(const FilmSet& set, const Pose2& X_WB) = 0;
-  // The view `dt_s` of film after the last one, in which the robot moved for speed_up * dt_s.
-  virtual CameraView Next(const Pose2& X_WB, double dt_s, double speed_up) = 0;
+  virtual CameraView Next(const Pose2& X_WB, const CameraCue& cue) = 0;
 };
 
 std::span<const PluginEntry<Camera>> Cameras();

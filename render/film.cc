@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "env/core/event_evidence.h"
 #include "render/film_floor.h"
 
 namespace floorproof {
@@ -98,7 +99,8 @@ class Studio {
              2 * script.set.robot_radius_m, paint_),
         window_(script.window_m, LineWidth(), paint_),
         renderer_(script.model, options.width, options.height, paint_.max_marks(), options.quality),
-        image_(renderer_.MakeImage()) {
+        image_(renderer_.MakeImage()),
+        pace_(options.pace) {
     if (script.plan != nullptr) PaintPlan(*script.plan, LineWidth(), floor_, paint_);
     paint_.Keep();
   }
@@ -117,8 +119,14 @@ class Studio {
     again_.Show(script_.recording->t_s(state));
     fan_.Show(state);
     window_.Show(ThoughtPlace(state));
-    renderer_.Render(data, camera_->Next(puppet_.X_WB(), frame_s_, frame.speed_up), &paint_,
-                     image_);
+    const Event* contact = ContactAt(frame.t_s);
+    CameraCue cue{frame_s_, frame.speed_up, {}};
+    if (contact) cue.contact_rad = CameInto(*contact);
+    const CameraView view = camera_->Next(puppet_.X_WB(), cue);
+    const bool thin = contact != nullptr && IsLow(view);
+    if (thin != shell_thin_) renderer_.SeeThrough(thin ? script_.shell : std::vector<int>{});
+    shell_thin_ = thin;
+    renderer_.Render(data, view, &paint_, image_);
 
     std::optional<Banner> banner = last ? script_.closing : std::nullopt;
     if (!banner) banner = BannerAt(frame.t_s + 1e-9, last);
@@ -137,6 +145,33 @@ class Studio {
     const std::vector<Recording::Senses>& all = script_.recording->senses();
     while (sensed_ < all.size() && all[sensed_].state <= state) ++sensed_;
     return sensed_ == 0 ? puppet_.X_WB().p() : all[sensed_ - 1].estimate.p();
+  }
+  // What happens at the wheels or the shell now, from before it began; null: nothing.
+  const Event* ContactAt(double t_s) const {
+    const auto found = std::ranges::find_if(script_.events, [&](const Event& event) {
+      return event.mode != FailureMode::kVeerOff && t_s >= BeganAt(event) - pace_.before_s - 1e-9 &&
+             t_s <= event.t_s + pace_.after_s + 1e-9;
+    });
+    return found == script_.events.end() ? nullptr : &*found;
+  }
+  // The direction in which the robot drove there, over its last decimetres; its heading where it
+  // had driven none. A robot on Mecanum wheels may come sideways.
+  double CameInto(const Event& event) const {
+    constexpr double kWay_m = 0.15;
+    const Recording& recording = *script_.recording;
+    std::size_t at = 0;
+    while (at + 1 < recording.size() && recording.t_s(at + 1) <= BeganAt(event)) ++at;
+    for (std::size_t i = at; i-- > 0;) {
+      const Vec2 way = (recording.p_WB(at) - recording.p_WB(i)).head<2>();
+      if (way.norm() > kWay_m) return std::atan2(way.y(), way.x());
+    }
+    return event.yaw_rad;
+  }
+  // Where the shell stands between camera and wheels.
+  static bool IsLow(const CameraView& view) {
+    constexpr double kLow = 0.4;  // sine of the elevation
+    const Vec3 sight = view.target_W - view.eye_W;
+    return -sight.z() < kLow * sight.norm();
   }
   // Of the last event or notice.
   std::optional<Banner> BannerAt(double t_s, bool last) const {
@@ -167,7 +202,8 @@ class Studio {
   OffscreenRenderer renderer_;
   Image image_;
   std::size_t trodden_ = 0, sensed_ = 0;
-  bool cut_ = true;
+  FilmPace pace_;
+  bool cut_ = true, shell_thin_ = false;
 };
 
 }  // namespace
@@ -217,14 +253,16 @@ FilmResult WriteFilm(const FilmScript& script, const FilmOptions& options,
   Check(script, options);
   const Recording& recording = *script.recording;
   const double begin_s = recording.t_s(0), end_s = recording.t_s(recording.size() - 1);
-  std::vector<double> events_s;
-  for (const Event& event : script.events) events_s.push_back(event.t_s);
   const bool whole = options.only_around_s.empty();
+  std::vector<double> shown_s = options.only_around_s, slow_s = shown_s;
+  for (const Event& event : script.events) {
+    if (whole) shown_s.push_back(event.t_s);
+    if (std::ranges::find(shown_s, event.t_s) != shown_s.end()) slow_s.push_back(BeganAt(event));
+  }
+  std::ranges::sort(slow_s);
   const auto frames =
-      whole ? ScheduleFilm(begin_s, end_s, events_s, options.pace)
-            : SchedulePassages(PassagesAround(begin_s, end_s, options.only_around_s, options.pace),
-                               options.pace);
-  const std::vector<double>& shown_s = whole ? events_s : options.only_around_s;
+      whole ? ScheduleFilm(begin_s, end_s, slow_s, options.pace)
+            : SchedulePassages(PassagesAround(begin_s, end_s, slow_s, options.pace), options.pace);
   Studio studio(script, options);
   FilmMoments moments{.frames = frames, .end_s = end_s, .failure_s = {}};
   if (!shown_s.empty()) moments.failure_s = shown_s.front();

@@ -73,6 +73,7 @@ struct FilmScript {
   int base_body = -1;  // the robot's; stands on a free joint, its origin at the floor
   const Recording* recording = nullptr;
   std::span<const Event> events;   // ascending in time; each is shown by a banner from its time on
+  std::vector<int> shell;          // geoms of the robot that would hide where its wheels stand
   const HazardMap* map = nullptr;  // whose hazards the events name; none: by their ids alone
   std::vector<Notice> notices;     // ascending in time
   std::optional<Banner> closing;   // over the last picture
@@ -88,7 +89,7 @@ struct FilmScript {
 
 struct FilmOptions : ReelOptions {
   std::string camera = "auto";  // a name of Cameras()
-  RenderQuality quality = RenderQuality::kFull;
+  RenderQuality quality = RenderQuality::kGood;
   // Not empty: only the seconds around these events, as the pace has them; ascending.
   std::vector<double> only_around_s;
 };

@@ -14,6 +14,7 @@ namespace floorproof {
 namespace {
 
 constexpr float kOpaque = 0.995f;  // MuJoCo's own limit
+constexpr float kShellAlpha = 0.35f;
 
 Eigen::Vector3f F(const Vec3& v) { return v.cast<float>(); }
 Eigen::Map<Eigen::Vector3f> Pos(mjvGeom& geom) { return Eigen::Map<Eigen::Vector3f>(geom.pos); }
@@ -137,8 +138,9 @@ struct OffscreenRenderer::Gl {
     sized.vis.global.offwidth = width;
     sized.vis.global.offheight = height;
     if (quality == RenderQuality::kDraft) {
-      sized.vis.quality.offsamples = 0;
       sized.vis.quality.shadowsize = 0;
+      sized.vis.quality.numslices = 14;  // of what is round: a Mecanum robot has 144 rollers
+      sized.vis.quality.numstacks = 8;
       scene.flags[mjRND_SHADOW] = scene.flags[mjRND_REFLECTION] = 0;
     }
     mjr_makeContext(&sized, &draw, mjFONTSCALE_50);
@@ -170,6 +172,11 @@ OffscreenRenderer::OffscreenRenderer(const mjModel* model, int width, int height
 
 OffscreenRenderer::~OffscreenRenderer() = default;
 
+void OffscreenRenderer::SeeThrough(std::vector<int> geoms) {
+  see_through_.assign(geoms.empty() ? 0 : static_cast<std::size_t>(model_->ngeom), false);
+  for (const int geom : geoms) see_through_[static_cast<std::size_t>(geom)] = true;
+}
+
 Image OffscreenRenderer::MakeImage() const { return GreyImage(width_, height_, 0); }
 
 void OffscreenRenderer::Compose(mjData* data, const CameraView& view, const FloorPaint* paint) {
@@ -192,6 +199,9 @@ void OffscreenRenderer::Compose(mjData* data, const CameraView& view, const Floo
     if (!endless && !sight.Touches(Pos(geom), geom.modelrbound + kShadowReach_m)) continue;
     const float top = TopOf(model_, geom);
     ThinOut(geom, top, eye, target);
+    if (geom.objtype == mjOBJ_GEOM && !see_through_.empty() &&
+        see_through_[static_cast<std::size_t>(geom.objid)])
+      geom.rgba[3] = std::min(geom.rgba[3], kShellAlpha);
     // Decorative geoms cast no shadow. Neither should glass, or what is made transparent. The
     // floor's own shadow, which nothing shows, would cost a whole map to draw, and speckles at its
     // border.

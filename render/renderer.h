@@ -5,6 +5,7 @@
 #include <mujoco/mujoco.h>
 
 #include <memory>
+#include <vector>
 
 #include "media/media.h"
 #include "render/camera.h"
@@ -12,8 +13,9 @@
 
 namespace floorproof {
 
-// Of a picture: as the model states it; or quick: no shadows, one sample a pixel.
-enum class RenderQuality { kFull, kDraft };
+// Of a picture: as the model states it; or quick, in half of the time: no shadows, and what is
+// round has fewer sides. Lines stay smooth: without several samples a pixel the plan's would tear.
+enum class RenderQuality { kGood, kDraft };
 
 // Draws with the lights, materials and quality that the model states (mjModel.vis), at a size of
 // its own. Geoms that cannot be seen are left out; world geoms between the camera and its target
@@ -23,7 +25,7 @@ class OffscreenRenderer {
   // Throws InternalError when there is no GL to draw with or the picture is too large for it.
   // The model must outlive the renderer.
   OffscreenRenderer(const mjModel* model, int width, int height, int max_marks = 4000,
-                    RenderQuality quality = RenderQuality::kFull);
+                    RenderQuality quality = RenderQuality::kGood);
   ~OffscreenRenderer();
   OffscreenRenderer(const OffscreenRenderer&) = delete;
   OffscreenRenderer& operator=(const OffscreenRenderer&) = delete;
@@ -32,6 +34,8 @@ class OffscreenRenderer {
   int height() const { return height_; }
   Image MakeImage() const;  // black, of the right size
 
+  // These geoms of the model are drawn as if of thin glass from now on; none: as they are.
+  void SeeThrough(std::vector<int> geoms);
   // `data` needs current kinematics and lights (PoseForPicture); `out` comes from MakeImage().
   void Render(mjData* data, const CameraView& view, const FloorPaint* paint, Image& out);
 
@@ -41,6 +45,7 @@ class OffscreenRenderer {
 
   const mjModel* model_;
   int width_, height_;
+  std::vector<bool> see_through_;  // by geom; empty: none
   std::unique_ptr<Gl> gl_;
 };
 

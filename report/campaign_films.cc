@@ -62,7 +62,7 @@ void FilmFirstFailures(const ScenarioFile& file, const CampaignStore& store, con
       names += (names.empty() ? "" : ", ") + std::string(Name(mode));
     console.Say(fmt::format("film {} of {}: the first {}, episode {} of {}", i + 1, filmings.size(),
                             names, row.episode, variant->name));
-    ReplayEpisode(file, *variant, row, folder, {.video = true, .draft_around = modes}, console);
+    ReplayEpisode(file, *variant, row, folder, {.video = true, .only_around = modes}, console);
   }
 }
 

@@ -216,7 +216,7 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
     if (options.video)
       console.Say(execution.scene
                       ? WriteVideo(s, *execution.scene, result.plan, result.record,
-                                   witness.recording(), options.draft_around, folder, console)
+                                   witness.recording(), options.only_around, folder, console)
                       : WriteCellVideo(s, result.record, folder, console));
     witness.There(" is whole");
   } catch (const std::runtime_error& e) {

@@ -16,19 +16,18 @@
 namespace floorproof {
 namespace {
 
-// A quick film of a failure: what led to it, and what came of it.
-void MakeDraft(const EpisodeRecord& record, const std::vector<FailureMode>& modes,
-               FilmOptions& options) {
+// A film of a failure alone: what led to it, and what came of it.
+void KeepToFailures(const EpisodeRecord& record, const std::vector<FailureMode>& modes,
+                    FilmOptions& options) {
   constexpr int kWidth = 640;
   constexpr double kFps = 15;
-  if (options.width > kWidth) {
+  if (options.quality == RenderQuality::kDraft && options.width > kWidth) {
     options.height = std::max(64, options.height * kWidth / options.width) & ~1;
     options.width = kWidth;
   }
-  options.pace.fps = std::min(options.pace.fps, kFps);
-  options.pace.before_s = 6;
+  if (options.quality == RenderQuality::kDraft) options.pace.fps = std::min(options.pace.fps, kFps);
+  options.pace.before_s = 5;
   options.pace.after_s = 2;
-  options.quality = RenderQuality::kDraft;
   for (const FailureMode mode : modes) {
     const auto first = std::ranges::find(record.events, mode, &Event::mode);
     if (first != record.events.end()) options.only_around_s.push_back(first->t_s);
@@ -65,6 +64,30 @@ std::string FilmedLine(const FilmResult& film, const std::filesystem::path& mp4)
                      film.render_s, film.encode_s, mp4.string());
 }
 
+// Geoms of the robot that are no part of a wheel or caster, nor turn with one.
+std::vector<int> ShellOf(const Scene& scene) {
+  const mjModel* m = scene.model.get();
+  const auto is_wheel = [&](int geom) {
+    return scene.roles[static_cast<std::size_t>(geom)].kind == GeomRole::Kind::kWheel;
+  };
+  std::vector<bool> turns(static_cast<std::size_t>(m->nbody));
+  for (int body = 1; body < m->nbody; ++body) {  // parents come first
+    if (body == scene.base_body) continue;
+    bool wheel = turns[static_cast<std::size_t>(m->body_parentid[body])];
+    for (int g = 0; g < m->body_geomnum[body]; ++g)
+      wheel = wheel || is_wheel(m->body_geomadr[body] + g);
+    turns[static_cast<std::size_t>(body)] = wheel;
+  }
+  std::vector<int> shell;
+  for (int geom = 0; geom < m->ngeom; ++geom) {
+    const int body = m->geom_bodyid[geom];
+    if (m->body_rootid[body] == m->body_rootid[scene.base_body] && !is_wheel(geom) &&
+        !turns[static_cast<std::size_t>(body)])
+      shell.push_back(geom);
+  }
+  return shell;
+}
+
 // What a film of the drive is made from; it refers to what it is made with.
 struct DriveScript {
   DriveScript(const Scenario& s, const Scene& scene, const PlanResult& plan,
@@ -84,6 +107,7 @@ DriveScript::DriveScript(const Scenario& s, const Scene& scene, const PlanResult
   film.events = record.events;
   film.map = &map;
   film.title = PictureTitle(s);
+  film.shell = ShellOf(whole.model ? whole : scene);
   film.plan = &plan.path;
   film.senses = s.video.scan;
   const double w = map.frame.width * map.frame.cell_m, h = map.frame.height * map.frame.cell_m;
@@ -110,6 +134,7 @@ FilmOptions OptionsOf(const Scenario& s, const std::filesystem::path& stills) {
   FilmOptions options;
   static_cast<ReelOptions&>(options) = AsWritten(s.video, stills);
   options.camera = s.video.camera;
+  if (s.video.quality == "draft") options.quality = RenderQuality::kDraft;
   return options;
 }
 
@@ -117,11 +142,14 @@ FilmOptions OptionsOf(const Scenario& s, const std::filesystem::path& stills) {
 
 std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& plan,
                        const EpisodeRecord& record, const Recording& recording,
-                       const std::vector<FailureMode>& draft_around,
+                       const std::vector<FailureMode>& only_around,
                        const std::filesystem::path& folder, const Console& console) {
   const DriveScript script(s, scene, plan, record, recording);
   FilmOptions options = OptionsOf(s, folder);
-  if (!draft_around.empty()) MakeDraft(record, draft_around, options);
+  if (!only_around.empty()) {
+    if (s.video.quality == "auto") options.quality = RenderQuality::kDraft;
+    KeepToFailures(record, only_around, options);
+  }
   DrawingProgress progress(console, "filming, frames");
   options.on_frame = [&](int done, int all) { progress.Show(done, all); };
   const std::filesystem::path mp4 = folder / "video.mp4";

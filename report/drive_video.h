@@ -15,11 +15,11 @@
 namespace floorproof {
 
 // video.mp4 and frame_*.png; returns a line that says how it went. In the scenario's own size and
-// pace; `draft_around` not empty: a small, quick film of the seconds around the first event of each
-// of these modes.
+// pace and quality; `only_around` not empty: of the seconds around the first event of each of these
+// modes, and small and quick unless the scenario says how good.
 std::string WriteVideo(const Scenario& scenario, const Scene& scene, const PlanResult& plan,
                        const EpisodeRecord& record, const Recording& recording,
-                       const std::vector<FailureMode>& draft_around,
+                       const std::vector<FailureMode>& only_around,
                        const std::filesystem::path& folder, const Console& console);
 // Pictures of that film, as it looks at these times (ascending), of another size and by another
 // camera. Throws InputError, InternalError.

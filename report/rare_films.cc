@@ -58,7 +58,7 @@ void FilmLikelyFailures(const ScenarioFile& file, const RareOutcome& outcome,
     std::vector<FailureMode> modes;
     for (const Event& event : EventsOf(failure.row)) modes.push_back(event.mode);
     ReplayRow(file.ReadDrawn(outcome.estimate.regions[failure.region].likeliest.noise, drawn),
-              failure.row, into, {.video = true, .draft_around = modes}, console);
+              failure.row, into, {.video = true, .only_around = modes}, console);
   }
 }
 

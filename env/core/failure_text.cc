@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/quantity.h"
+#include "env/core/event_evidence.h"
 #include "env/core/levels.h"
 #include "env/geometry/geometry.h"
 
@@ -21,12 +22,6 @@ std::string Words(std::string name) {
 const Hazard* Find(const HazardMap& map, const std::string& id) {
   const auto hazard = std::ranges::find(map.hazards, id, &Hazard::id);
   return hazard == map.hazards.end() ? nullptr : &*hazard;
-}
-
-std::optional<double> Evidence(const Event& event, std::string_view name) {
-  for (const auto& [key, value] : event.evidence)
-    if (key == name) return value;
-  return {};
 }
 
 double Lasted(const Event& event) {

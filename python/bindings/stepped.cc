@@ -119,7 +119,7 @@ class Stepped {
         picture_ = std::make_unique<LivePicture>(
             *driven_->scenario, *driven_->scene, driven_->plan, *driven_->recording,
             static_cast<int>(told_->lidar.size()), width, height, camera,
-            draft ? RenderQuality::kDraft : RenderQuality::kFull);
+            draft ? RenderQuality::kDraft : RenderQuality::kGood);
       return picture_->Draw(episode_ ? std::span(episode_->events()) : std::span(events_));
     }));
   }

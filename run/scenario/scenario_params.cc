@@ -6,6 +6,9 @@ namespace floorproof {
 void VideoParams::Visit(ParamVisitor& v) {
   v("camera", camera, {"auto", "chase", "top", "side"},
     "where the film is taken from; auto: from above in a time lapse, else from behind");
+  v("quality", quality, {"auto", "good", "draft"},
+    "good: with shadows; draft: without, in half of the time; auto: good, and of what a campaign "
+    "films draft");
   v("fps", fps, Between(1, 120), "frames a second of film");
   v("speed_up", speed_up, Positive(),
     "simulated seconds a second of film; none: such that it keeps to max_frames");

@@ -11,6 +11,7 @@ namespace floorproof {
 
 struct VideoParams {
   std::string camera = "auto";
+  std::string quality = "auto";  // draft of what a campaign films, else good
   int fps = 30;
   std::optional<double> speed_up;  // none: such that the film keeps to max_frames
   int max_frames = 600;

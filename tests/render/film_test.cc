@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdio>
 
+#include "env/core/event_evidence.h"
 #include "tests/render/room.h"
 
 namespace floorproof {
@@ -314,7 +315,25 @@ TEST_F(FilmTest, OnlyTheSecondsAroundAnEventAreShown) {
   EXPECT_NE(filmed(2)[1], both[1]);
 }
 
-// The same scene without shadows and smooth edges.
+// A robot that stands is found to be stuck seconds later: the film shows how it came to stand.
+TEST_F(FilmTest, WhatHeldTheRobotIsShownNotOnlyThatItStands) {
+  FP_NEED_GL();
+  Open();
+  event_.mode = FailureMode::kStuck;
+  event_.t_s = 6;
+  event_.evidence = {{"still_s", 3}};
+  EXPECT_EQ(BeganAt(event_), 3);
+  script_.events = {&event_, 1};
+  options_.pace.fps = 5;
+  options_.pace.before_s = 2;
+  options_.pace.after_s = 1;
+  options_.pace.max_frames = 100;
+  options_.only_around_s = {6};
+  const FilmResult result = WriteFilm(script_, options_, folder_ / "video.mp4");
+  EXPECT_NEAR(result.frames, 5 * (7 - 1 + options_.pace.hold_s), 2) << "from 1 s to 7 s";
+}
+
+// The same scene without shadows.
 TEST_F(FilmTest, ADraftShowsTheSameForLess) {
   FP_NEED_GL();
   Open();
@@ -324,7 +343,7 @@ TEST_F(FilmTest, ADraftShowsTheSameForLess) {
     WriteFilm(script_, options_, folder_ / "video.mp4");
     return ReadImage(folder_ / "frame_start.png");
   };
-  const Image full = start(RenderQuality::kFull), draft = start(RenderQuality::kDraft);
+  const Image full = start(RenderQuality::kGood), draft = start(RenderQuality::kDraft);
   ASSERT_EQ(full.data.size(), draft.data.size());
   double apart = 0, darker = 0;
   for (int y = 0; y < full.height; ++y)

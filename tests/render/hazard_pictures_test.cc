@@ -28,7 +28,7 @@ class HazardPictures : public ScenarioTest {
   static CameraView View(const char* camera) {
     const auto made = MakePlugin(Cameras(), camera, "camera");
     made->Reset({{0.5, 0.5}, {8.5, 4.5}, 0.18, double{kWidth} / kHeight}, kRobot);
-    return made->Next(kRobot, 1.0 / 30, 1);
+    return made->Next(kRobot, {1.0 / 30, 1});
   }
   static constexpr Pose2 kRobot{3.25, 2.5, 0};
 };

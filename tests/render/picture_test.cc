@@ -32,7 +32,7 @@ Image Picture(Room& room, const CameraView& view, const FloorPaint* paint = null
 CameraView First(const char* camera, const Room& room, const Pose2& X_WB) {
   const auto made = MakePlugin(Cameras(), camera, "camera");
   made->Reset(room.Set(), X_WB);
-  return made->Next(X_WB, 1.0 / 30, 1);
+  return made->Next(X_WB, {1.0 / 30, 1});
 }
 
 class EveryCamera : public ::testing::TestWithParam<const char*> {};
@@ -85,6 +85,31 @@ TEST_P(EveryCamera, HasTheRobotNearTheMiddle) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cameras, EveryCamera, ::testing::Values("auto", "chase", "top", "side"));
+
+// The wheel behind the shell is seen through it, and the shell still is; then as before.
+TEST(PictureTest, TheShellIsSeenThrough) {
+  FP_NEED_GL();
+  Room room;
+  room.Put({0, 0, 0});
+  const mjModel* m = room.model();
+  const int base = mj_name2id(m, mjOBJ_BODY, "base");
+  std::vector<int> shell;
+  for (int g = 0; g < m->body_geomnum[base]; ++g) shell.push_back(m->body_geomadr[base] + g);
+  OffscreenRenderer dut(m, kWidth, kHeight);
+  const auto picture = [&](std::vector<int> geoms) {
+    dut.SeeThrough(std::move(geoms));
+    Image image = dut.MakeImage();
+    dut.Render(room.data(), Above(), nullptr, image);
+    return image;
+  };
+  const Image whole = picture({}), thin = picture(shell), again = picture({});
+  EXPECT_EQ(again.data, whole.data);
+  const int x = Column(0), y = Row(0);  // the shell's middle
+  EXPECT_GT(Difference(whole, thin, x, y), 8);
+  room.Put({0, 0, 0}, /*z_m=*/-5);
+  const Image floor = picture({});
+  EXPECT_GT(Difference(floor, thin, x, y), 3) << "it is glass, not gone";
+}
 
 // What changes when the robot moves lies where it was and where it is.
 TEST(PictureTest, RobotsPixelsMoveAndNothingElseDoes) {
