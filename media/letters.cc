@@ -5,6 +5,7 @@
 
 #include <fontconfig/fontconfig.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -85,9 +86,12 @@ std::unique_ptr<DrawnLetters> DrawLetters(const std::string& utf8, double cap_px
   static std::map<std::pair<std::string, bool>, Font> known;
   static std::map<Font, cv::Ptr<cv::freetype::FreeType2>> loaded;
   const std::scoped_lock lock(mutex);
-  auto found = known.find({utf8, bold});
-  if (found == known.end())
-    found = known.emplace(std::pair(utf8, bold), FindFont(utf8, bold)).first;
+  // One font for all ASCII: numbers change from picture to picture, and to look for it takes longer
+  // than to draw with it.
+  const bool ascii = std::ranges::all_of(utf8, [](char c) { return c >= ' ' && c <= '~'; });
+  const std::pair letters(ascii ? std::string("Az09%") : utf8, bold);
+  auto found = known.find(letters);
+  if (found == known.end()) found = known.emplace(letters, FindFont(letters.first, bold)).first;
   if (found->second.file.empty()) return nullptr;
   cv::Ptr<cv::freetype::FreeType2>& font = loaded[found->second];
   if (!font) {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kLeastColumn_px = 250, kTop_px = 76, kTitle_y = 36, kMargin_px = 24,
               kLeastHeight_px = 420;
-constexpr int kNorth_px = 36;  // the arrow's reach, its letter included
+constexpr int kArrow_px = 36;  // the arrow's reach, its letter included
 
 constexpr TextStyle kTitle = {.cap_px = 17, .colour = kInk, .bold = true},
                     kName = {.cap_px = 11, .colour = kInk, .bold = true},
@@ -62,8 +62,8 @@ int ColumnWidth(const HeatPanel& panel, const HeatMapOptions& options) {
   return std::max(std::max(name, LegendWidth(panel.legend)) + kMargin_px, kLeastColumn_px);
 }
 
-// Towards the world's +y.
-void DrawNorth(Image& image, int x, int y, double map_yaw_rad) {
+// Towards the world's +y. Which way is north no map states.
+void DrawUp(Image& image, int x, int y, double map_yaw_rad) {
   const double s = std::sin(map_yaw_rad), c = std::cos(map_yaw_rad);
   const Vec2 along(s, -c), across(c, s);  // in pixels, y down
   const Vec2 middle(x, y);
@@ -80,7 +80,7 @@ void DrawNorth(Image& image, int x, int y, double map_yaw_rad) {
   const std::array<cv::Point, 3> left = {head[0], head[3], head[2]};
   cv::fillConvexPoly(canvas, left.data(), 3, Colour(kInk), cv::LINE_AA, 4);
   const Vec2 letter = middle + 26 * along;
-  DrawText(image, letter.x(), letter.y() + 5, "N",
+  DrawText(image, letter.x(), letter.y() + 5, "y",
            {.cap_px = 10, .colour = kInk, .anchor = Anchor::kCentre, .bold = true});
 }
 
@@ -105,7 +105,7 @@ Image DrawHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapO
   const int column = place.br().x + kMargin_px;
   const int title_px = static_cast<int>(std::ceil(TextWidth(options.title, kTitle)));
   const int width = std::max(column + ColumnWidth(panel, options),
-                             kMargin_px + title_px + kMargin_px + 2 * kNorth_px);
+                             kMargin_px + title_px + kMargin_px + 2 * kArrow_px);
   const int height =
       std::max(kTop_px + inner + MapAxes::kBelow_px + kMargin_px / 2, legend_y + lines);
   Image image = GreyImage(width, height, 255);
@@ -116,7 +116,8 @@ Image DrawHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapO
   axes.Draw(image, place);
 
   DrawText(image, kMargin_px, kTitle_y, options.title, kTitle);
-  DrawNorth(image, image.width - kNorth_px, kNorth_px, map.frame.X_WG.yaw_rad);
+  const double yaw_rad = map.frame.X_WG.yaw_rad;
+  if (std::abs(yaw_rad) > 1e-9) DrawUp(image, image.width - kArrow_px, kArrow_px, yaw_rad);
   if (bar)
     DrawColourBar(image, column, name_y, bar_px, panel, options);
   else

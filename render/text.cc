@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ASCII is OpenCV's stroke font, drawn three times too large and averaged down. So strokes as thin
-// as a pixel come out even, which OpenCV's own anti-aliasing does not achieve; and they are the
-// same on every machine. Runs of other letters are drawn in a font of the system, with the blanks
-// between their words.
+// Letters are drawn in a font of the system: ASCII by itself, runs of other letters with the blanks
+// between their words. Where no font is installed ASCII is OpenCV's stroke font, drawn three times
+// too large and averaged down, so that strokes as thin as a pixel come out even.
 #include "render/text.h"
 
 #include <algorithm>
@@ -150,11 +149,6 @@ void Paint(Image& image, int left, int top, const Image& mask, const Rgb& colour
 template <class Visit>
 double ForEachRun(std::string_view text, const TextStyle& style, const Visit& visit) {
   double width_px = 0;
-  const auto stroke = [&](std::string ascii) {
-    const Strokes strokes = LayOut(std::move(ascii), style);
-    visit(width_px, strokes, Lettering{});
-    width_px += static_cast<double>(strokes.size.width) / kOver;
-  };
   const auto letter = [&](const std::string& words) {
     const std::optional<Lettering> letters = DrawLettering(words, style.cap_px, style.bold);
     if (!letters) return false;
@@ -162,15 +156,21 @@ double ForEachRun(std::string_view text, const TextStyle& style, const Visit& vi
     width_px += letters->advance_px;
     return true;
   };
+  const auto plain = [&](std::string ascii) {
+    if (letter(ascii)) return;
+    const Strokes strokes = LayOut(std::move(ascii), style);
+    visit(width_px, strokes, Lettering{});
+    width_px += static_cast<double>(strokes.size.width) / kOver;
+  };
   for (const Run& run : Runs(text)) {
     if (run.ascii) {
-      stroke(run.text);
+      plain(run.text);
     } else if (!letter(run.text)) {
       for (std::size_t from = 0; from < run.text.size();) {
         const std::size_t blank = std::min(run.text.find(' ', from), run.text.size());
         const std::string word = run.text.substr(from, blank - from);
-        if (!word.empty() && !letter(word)) stroke(Escaped(word));
-        if (blank < run.text.size()) stroke(" ");
+        if (!word.empty() && !letter(word)) plain(Escaped(word));
+        if (blank < run.text.size()) plain(" ");
         from = blank + 1;
       }
     }

@@ -26,10 +26,9 @@ struct TextStyle {
 std::string_view WithoutLastLetter(std::string_view text);
 double TextWidth(std::string_view text, const TextStyle& style);  // px
 // Writes onto an RGB picture with the base line at y_px; the text begins, is centred or ends at
-// x_px. What lies beyond the picture is cut off. Letters beyond ASCII are drawn in an installed
-// font that has them, each word in its own direction of writing; where none has them, they are
-// escaped
-// (\u4e2d). Control characters and bytes that are no UTF-8 become '?'.
+// x_px. What lies beyond the picture is cut off. Letters are drawn in an installed font that has
+// them, each word in its own direction of writing; where none has them, they are escaped (\u4e2d),
+// and ASCII is drawn in strokes. Control characters and bytes that are no UTF-8 become '?'.
 void DrawText(Image& image, double x_px, double y_px, std::string_view text,
               const TextStyle& style);
 // Mixes `colour` over the rectangle [x0, x1) x [y0, y1); alpha 0 leaves it, 1 covers it.
