@@ -5,7 +5,8 @@ namespace floorproof {
 
 void VideoParams::Visit(ParamVisitor& v) {
   v("camera", camera, {"auto", "chase", "top", "side"},
-    "where the film is taken from; auto: from above in a time lapse, else from behind");
+    "where the film is taken from; auto: from above in a time lapse, from the side at what holds "
+    "the robot, else from behind");
   v("quality", quality, {"auto", "good", "draft"},
     "good: with shadows; draft: without, in half of the time; auto: good, and of what a campaign "
     "films draft");
