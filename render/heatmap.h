@@ -84,10 +84,11 @@ struct HeatMapOptions {
 // shade of the colour in which its hazards are outlined.
 HeatCategory CellsOf(HazardClass hazard_class);
 
-// Drawn in the map's own frame (of one that lies askew an arrow shows the world's +y) and cropped to
-// what is known; the axes are the world's, in metres. What was driven lies over the plan, narrower.
-// The longer side has 800 to 1600 pixels, or more where the lettering needs it. A pixel over many
-// cells is wall if one of them is, and shows the mean of their values. `values` may be null.
+// Drawn in the map's own frame (of one that lies askew an arrow shows the world's +y) and cropped
+// to what is known; the axes are the world's, in metres. What was driven lies over the plan,
+// narrower. The longer side has 800 to 1600 pixels, or more where the lettering needs it. A pixel
+// over many cells is wall if one of them is, and shows the mean of their values. `values` may be
+// null.
 Image DrawHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options);
 // The same into a PNG; throws as WriteFileWhole does.
 void WriteHeatMap(const HazardMap& map, const HeatValues* values, const HeatMapOptions& options,
