@@ -16,13 +16,14 @@ namespace fs = std::filesystem;
 struct CampaignCommand : CampaignArguments {
   std::string scenario;
   std::optional<double> time_limit_s;
-  bool retry_errors = false, fail_fast = false, no_films = false;
+  bool retry_errors = false, fail_fast = false, no_films = false, no_replays = false;
 };
 
 int RunTheCampaign(const CampaignCommand& options, const Globals& globals) {
   CampaignRequest request = RequestOf(options);
   request.retry_errors = options.retry_errors;
   request.fail_fast = options.fail_fast;
+  request.replays = !options.no_replays;
   request.time_limit_s = options.time_limit_s;
   const ScenarioFile file(options.scenario, OverridesOf(globals, options));
   const fs::path folder = CampaignFolder(options.out, file.file(), file.name());
@@ -66,6 +67,8 @@ void AddCampaign(CommandLine& line, const Globals& globals, int& status) {
   command.Number("--time-limit", options->time_limit_s,
                  "Seconds of wall time; nothing is filmed then", 0.001, 1e9);
   command.Flag("--no-films", options->no_films, "Do not film the first failure of each mode");
+  command.Flag("--no-replays", options->no_replays,
+               "Do not keep the replays of failing episodes for the page (100 a variant)");
   command.OnRun([options, &globals, &status] { status = RunTheCampaign(*options, globals); });
 }
 

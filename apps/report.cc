@@ -7,10 +7,21 @@
 #include "base/file_output.h"
 #include "report/campaign_report.h"
 #include "report/rare_page.h"
+#include "report/run_page.h"
+#include "run/episode/records.h"
 #include "run/rare/rare_search.h"
 
 namespace floorproof {
 namespace {
+
+WrittenReport WriteRunReport(const std::filesystem::path& folder, const std::string& named) {
+  const RunPage made = MakeRunPage(folder, named);
+  ResultFolder results(folder, EpisodeResults(), {});
+  results.Begin();
+  const std::filesystem::path page = folder / "report.html";
+  WriteFileWhole(page, made.html);
+  return {page, made.verdict, made.html.size(), {}};
+}
 
 WrittenReport WriteRareReport(const std::filesystem::path& folder) {
   const RarePage made = MakeRarePage(folder);
@@ -22,8 +33,9 @@ WrittenReport WriteRareReport(const std::filesystem::path& folder) {
 }
 
 int WriteReport(const std::string& named, const Globals& globals) {
-  const WrittenReport written =
-      HoldsRareSearch(named) ? WriteRareReport(named) : WriteCampaignReport(named, named, globals);
+  const WrittenReport written = HoldsRareSearch(named) ? WriteRareReport(named)
+                                : HoldsRun(named)      ? WriteRunReport(named, named)
+                                                       : WriteCampaignReport(named, named, globals);
   globals.Say(written.verdict);
   globals.Say(fmt::format("report: {} ({:.1f} MB, opens from disk)", written.page.string(),
                           static_cast<double>(written.bytes) / 1e6));
@@ -40,9 +52,9 @@ int WriteReport(const std::string& named, const Globals& globals) {
 void AddReport(CommandLine& line, const Globals& globals, int& status) {
   auto folder = std::make_shared<std::string>();
   Subcommand command = line.Add("report",
-                                "Write the page of a campaign, report.html, or of rare failures, "
-                                "rare.html, from its recorded results alone");
-  command.Text("DIR", *folder, "A folder that `campaign` or `rare` wrote",
+                                "Write the page of a drive or a campaign, report.html, or of rare "
+                                "failures, rare.html, from its recorded results alone");
+  command.Text("DIR", *folder, "A folder that `run`, `campaign` or `rare` wrote",
                Subcommand::Need::kRequired);
   command.OnRun([folder, &globals, &status] { status = WriteReport(*folder, globals); });
 }

@@ -59,6 +59,8 @@ FilmResult WriteReel(const FilmMoments& moments, const ReelOptions& options, con
   still("frame_end.png", *image);
   video->Close();
   result.frames = static_cast<int>(frames.size());
+  result.fps = options.pace.fps;
+  for (const FilmFrame& frame : frames) result.t_s.push_back(frame.t_s);
   return result;
 }
 

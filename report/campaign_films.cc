@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "report/replay.h"
+#include "run/campaign/replay_shelf.h"
 
 namespace floorproof {
 
@@ -53,7 +54,7 @@ void FilmFirstFailures(const ScenarioFile& file, const CampaignStore& store, con
   }
   std::erase_if(filmings, [&](const Filming& f) {
     std::error_code ignored;
-    return fs::exists(EpisodeFolder(folder, *f.variant, f.row.episode) / "video.mp4", ignored);
+    return fs::exists(EpisodeFolder(folder, f.variant->name, f.row.episode) / "video.mp4", ignored);
   });
   for (std::size_t i = 0; i < filmings.size(); ++i) {
     const auto& [variant, row, modes] = filmings[i];

@@ -18,6 +18,7 @@
 #include "report/pairs.h"
 #include "report/pictures.h"
 #include "run/campaign/campaign_store.h"
+#include "run/campaign/replay_shelf.h"
 #include "run/campaign/summary_json.h"
 
 namespace floorproof {

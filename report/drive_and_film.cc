@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/file_output.h"
 #include "base/interrupt.h"
 #include "base/quantity.h"
 #include "base/result_folder.h"
@@ -20,6 +21,7 @@
 #include "report/risk_pictures.h"
 #include "run/episode/execute.h"
 #include "run/episode/records.h"
+#include "run/episode/replay_track.h"
 #include "run/plan_check/plan_check.h"
 #include "run/plan_check/sharp_corners.h"
 #include "run/scenario/warnings.h"
@@ -75,7 +77,11 @@ std::string EventLine(std::size_t number, const Event& e, const HazardMap& map) 
 class Witness : public EpisodeObserver {
  public:
   Witness(Scenario& s, ResultFolder& folder, const DriveOptions& options, const Console& console)
-      : s_(s), folder_(folder), options_(options), console_(console) {}
+      : s_(s),
+        folder_(folder),
+        options_(options),
+        console_(console),
+        replay_(s.episode.control_hz, this) {}
 
   // What an interruption's line says from now on.
   void There(const std::string& what) const {
@@ -85,7 +91,7 @@ class Witness : public EpisodeObserver {
   }
 
   Execution Watch() {
-    Execution out = Execute(s_, this);
+    Execution out = Execute(s_, &replay_);
     if (progress_) progress_->EndLine();
     drive_s_ = Since(begin_);
     return out;
@@ -151,6 +157,7 @@ class Witness : public EpisodeObserver {
   // The records are written: interrupts end the process again.
   void LetGo() { progress_.reset(); }
   const Recording& recording() const { return *recording_; }
+  const ReplayObserver& replay() const { return replay_; }
 
  private:
   void Begin(Recording* recording) {
@@ -164,6 +171,7 @@ class Witness : public EpisodeObserver {
   const Console& console_;
   Clock::time_point begin_ = Clock::now();
   double drive_s_ = 0;
+  ReplayObserver replay_;
   std::optional<Recording> recording_;
   std::optional<ProgressObserver> progress_;  // holds interrupts until the records are written
 };
@@ -204,6 +212,9 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
   try {
     if (options.write_records) {
       WriteEpisodeFiles(s, result.plan, result.record, folder);
+      if (const std::string replay = witness.replay().Bytes(execution.scene, result.record);
+          !replay.empty())
+        WriteFileWhole(folder / "replay.bin", replay);
       witness.There(" holds plan, trace and result; pictures may be missing");
     }
     missing = "pictures";

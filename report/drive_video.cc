@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 
+#include "base/file_output.h"
 #include "base/quantity.h"
 #include "render/cell_film.h"
 #include "report/drawing_progress.h"
@@ -59,7 +62,13 @@ ReelOptions AsWritten(const VideoParams& video, const std::filesystem::path& sti
   return options;
 }
 
-std::string FilmedLine(const FilmResult& film, const std::filesystem::path& mp4) {
+// video.json, by which the page shows a moment in the film and finds it there; and what is said.
+std::string Filmed(const FilmResult& film, const std::filesystem::path& mp4) {
+  nlohmann::ordered_json times = nlohmann::ordered_json::array();
+  for (const double t_s : film.t_s) times.push_back(std::round(1e3 * t_s) / 1e3);
+  WriteFileWhole(
+      std::filesystem::path(mp4).replace_extension(".json"),
+      nlohmann::ordered_json({{"fps", film.fps}, {"t_s", std::move(times)}}).dump() + "\n");
   return fmt::format("filmed: {} frames ({:.1f} s to draw, {:.1f} s to encode): {}", film.frames,
                      film.render_s, film.encode_s, mp4.string());
 }
@@ -153,7 +162,7 @@ std::string WriteVideo(const Scenario& s, const Scene& scene, const PlanResult& 
   DrawingProgress progress(console, "filming, frames");
   options.on_frame = [&](int done, int all) { progress.Show(done, all); };
   const std::filesystem::path mp4 = folder / "video.mp4";
-  return FilmedLine(WriteFilm(script.film, options, mp4), mp4);
+  return Filmed(WriteFilm(script.film, options, mp4), mp4);
 }
 
 std::vector<Image> DrivePictures(const Scenario& s, const Scene& scene, const PlanResult& plan,
@@ -206,7 +215,7 @@ std::string WriteCellVideo(const Scenario& s, const EpisodeRecord& record,
   DrawingProgress progress(console, "filming, frames");
   options.on_frame = [&](int done, int all) { progress.Show(done, all); };
   const std::filesystem::path mp4 = folder / "video.mp4";
-  return FilmedLine(WriteCellFilm(script, options, mp4), mp4);
+  return Filmed(WriteCellFilm(script, options, mp4), mp4);
 }
 
 }  // namespace floorproof

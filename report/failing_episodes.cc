@@ -11,6 +11,7 @@
 #include "base/shell_word.h"
 #include "report/drive_marks.h"
 #include "run/campaign/episodes_csv.h"
+#include "run/campaign/replay_shelf.h"
 
 namespace floorproof {
 namespace {
@@ -21,8 +22,6 @@ std::string Words(std::string name) {
 }
 
 }  // namespace
-
-bool IsListed(const EpisodeRow& row) { return row.outcome != "success" || row.any_failure(); }
 
 std::string WhatFailed(const EpisodeRow& row, const std::vector<Event>& events) {
   if (events.empty()) return Words(row.outcome);

@@ -15,7 +15,6 @@
 
 namespace floorproof {
 
-bool IsListed(const EpisodeRow& row);
 // The first event's mode and kind; the outcome where there is none.
 std::string WhatFailed(const EpisodeRow& row, const std::vector<Event>& events);
 // `named`: the campaign's folder as the command names it; `variants`: there are several.

@@ -12,9 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxFilms = 24;              // on the page
-constexpr std::uintmax_t kLargestFilm = 8u << 20;  // in the page, bytes; a larger one is linked
-constexpr std::uintmax_t kAllFilms = 48u << 20;    // in the page, together
+constexpr std::size_t kMaxFilms = 24;            // on the page
+constexpr std::uintmax_t kAllFilms = 48u << 20;  // in the page, together
 constexpr std::uintmax_t kLargestPicture = 8u << 20;
 
 // Episodes whose folder holds a film, ascending.
@@ -41,8 +40,9 @@ std::string Caption(const std::string& stem) {
   return caption;
 }
 
-// The pictures of that prefix; one that shows what another did is left out.
-std::vector<ReportPicture> Pictures(const fs::path& folder, const std::string& prefix) {
+}  // namespace
+
+std::vector<ReportPicture> PicturesIn(const fs::path& folder, const std::string& prefix) {
   std::vector<fs::path> files;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored))
@@ -65,8 +65,6 @@ std::vector<ReportPicture> Pictures(const fs::path& folder, const std::string& p
   return pictures;
 }
 
-}  // namespace
-
 void AddFilms(const fs::path& folder,
               const std::function<std::string(const std::string&, std::uint64_t)>& what,
               Report& report) {
@@ -88,8 +86,8 @@ void AddFilms(const fs::path& folder,
         film.mp4 = ReadInputFile(file, kLargestFilm);
         embedded += size;
       }
-      film.frames = Pictures(folder / from, "frame_");
-      film.maps = Pictures(folder / from, "heatmap_");
+      film.frames = PicturesIn(folder / from, "frame_");
+      film.maps = PicturesIn(folder / from, "heatmap_");
       report.films.push_back(std::move(film));
     }
 }

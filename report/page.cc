@@ -8,7 +8,6 @@
 #include "base/quantity.h"
 #include "report/html.h"
 #include "report/rates.h"
-#include "report/style.h"
 
 namespace floorproof {
 namespace {
@@ -100,15 +99,6 @@ std::string VerdictBox(const Report& report) {
                      MarkupText(VerdictText(report)), list.empty() ? "" : "<ul>" + list + "</ul>");
 }
 
-std::string Section(const std::string& id, const std::string& heading, const std::string& content) {
-  return fmt::format("<section id=\"{}\"><h2>{}</h2>\n{}</section>\n", id, heading, content);
-}
-
-std::string Picture(const std::string& png, const std::string& caption) {
-  return fmt::format("<figure><img src=\"{0}\" alt=\"{1}\"><figcaption>{1}</figcaption></figure>\n",
-                     DataUri("image/png", png), MarkupText(caption));
-}
-
 std::string Rates(const Report& report) {
   std::string html;
   if (report.summary.variants.size() > 1)
@@ -134,9 +124,10 @@ std::string Places(const Report& report) {
     html += "<div class=\"card places\">";
     if (variants.size() > 1) html += "<h3>" + MarkupText(variants[i].name) + "</h3>\n";
     if (!map.png.empty())
-      html += Picture(map.png, "Where " + (variants.size() > 1 ? variants[i].name : "the robot") +
-                                   " failed; numbers are episodes" +
-                                   (map.note.empty() ? "" : "; " + map.note));
+      html += PictureHtml({"Where " + (variants.size() > 1 ? variants[i].name : "the robot") +
+                               " failed; numbers are episodes" +
+                               (map.note.empty() ? "" : "; " + map.note),
+                           map.png});
     else
       html += "<p class=\"note\">" + MarkupText(map.note) + "</p>\n";
     html += PlaceRates(report, variants[i]) + "</div>\n";
@@ -155,17 +146,10 @@ std::string Film(const Report& report, const ReportFilm& film) {
   else
     html += fmt::format("<p>Film, {:.1f} MB, beside this page: <a href=\"{}\">{}</a></p>\n",
                         film.megabytes, UrlPath(film.path), MarkupText(film.path));
-  const auto pictures = [&](const std::vector<ReportPicture>& all) {
-    html += "<div class=\"frames\">";
-    for (const ReportPicture& picture : all) html += Picture(picture.png, picture.caption);
-    html += "</div>";
-  };
-  if (!film.frames.empty()) pictures(film.frames);
-  if (!film.maps.empty()) {
-    html += "<details><summary>Maps of this episode</summary>";
-    pictures(film.maps);
-    html += "</details>";
-  }
+  html += PicturesHtml(film.frames);
+  if (!film.maps.empty())
+    html +=
+        "<details><summary>Maps of this episode</summary>" + PicturesHtml(film.maps) + "</details>";
   return html + "</article>\n";
 }
 
@@ -222,13 +206,13 @@ std::string Footer(const Report& report) {
   std::string linked;
   for (const ReportFilm& film : report.films)
     if (film.mp4.empty()) linked += (linked.empty() ? "" : ", ") + MarkupText(film.path);
-  return "<footer><p class=\"note\">" +
+  return "<p class=\"note\">" +
          (linked.empty() ? std::string("This page is complete in itself: everything it shows "
                                        "stands in this one file.")
                          : "Everything this page shows stands in this one file, except films too "
                            "large for it, which lie beside it: " +
                                linked + ".") +
-         "</p></footer>\n";
+         "</p>";
 }
 
 }  // namespace
@@ -239,37 +223,25 @@ std::string VerdictText(const Report& report) {
 }
 
 std::string ReportHtml(const Report& report) {
-  struct Part {
-    const char *id, *heading;
-    std::string content;
-  };
-  std::vector<Part> parts = {{"rates", "Failure rates", Rates(report)}};
+  HtmlPage page;
+  page.over = "Floorproof campaign";
+  page.title = report.title;
+  page.about = "failure rates";
+  page.verdict = VerdictBox(report);
+  page.sections.push_back({"rates", "Failure rates", Rates(report)});
   if (!report.pairs.empty())
-    parts.push_back({"pairs", "Paired comparison",
-                     "<div class=\"card\">" + PairedTables(report) +
-                         "<p class=\"note\">The same episode number has the same draws in both. "
-                         "Differences are the variant less the first. Rates: Tango's score "
-                         "interval; means: Student's t; medians: sign test.</p></div>\n"});
-  parts.push_back({"places", "Where failures happened", Places(report)});
-  if (!report.films.empty()) parts.push_back({"films", "Films", Films(report)});
-  parts.push_back({"episodes", "Failing episodes", Episodes(report)});
-  parts.push_back({"settings", "Settings and versions", Settings(report)});
-
-  std::string links, sections;
-  for (const Part& part : parts) {
-    links += fmt::format("<a href=\"#{}\">{}</a>", part.id, part.heading);
-    sections += Section(part.id, part.heading, part.content);
-  }
-  const std::string title = MarkupText(report.title);
-  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src "
-         "data:; "
-         "media-src data:; style-src 'unsafe-inline'\">\n"
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-         title + ": failure rates</title>\n<style>" + kReportStyle +
-         "</style></head>\n<body><header><p class=\"over\">Floorproof campaign</p><h1>" + title +
-         "</h1>\n" + VerdictBox(report) + "<nav>" + links + "</nav></header>\n<main>\n" + sections +
-         "</main>\n" + Footer(report) + "</body></html>\n";
+    page.sections.push_back(
+        {"pairs", "Paired comparison",
+         "<div class=\"card\">" + PairedTables(report) +
+             "<p class=\"note\">The same episode number has the same draws in both. "
+             "Differences are the variant less the first. Rates: Tango's score "
+             "interval; means: Student's t; medians: sign test.</p></div>\n"});
+  page.sections.push_back({"places", "Where failures happened", Places(report)});
+  if (!report.films.empty()) page.sections.push_back({"films", "Films", Films(report)});
+  page.sections.push_back({"episodes", "Failing episodes", Episodes(report)});
+  page.sections.push_back({"settings", "Settings and versions", Settings(report)});
+  page.footer = Footer(report);
+  return page.Html();
 }
 
 }  // namespace floorproof

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "report/html_page.h"
 #include "run/campaign/campaign_summary.h"
 
 namespace floorproof {
@@ -36,10 +37,6 @@ struct ReportPair {
   double difference = 0, lower = 0, upper = 0, p = 1;  // of the failure rates, b - a
   std::vector<ReportDifference> metrics{};
   int n() const { return both + only_a + only_b + neither; }
-};
-
-struct ReportPicture {
-  std::string caption{}, png{};
 };
 
 struct ReportFilm {

@@ -10,9 +10,10 @@
 
 #include "base/error.h"
 #include "base/input_file.h"
+#include "report/films.h"
 #include "report/html.h"
+#include "report/html_page.h"
 #include "report/rare_films.h"
-#include "report/style.h"
 #include "run/rare/rare_json.h"
 
 namespace floorproof {
@@ -20,8 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr std::uintmax_t kLargestFilm = 8u << 20;  // in the page, bytes
 
 constexpr const char* kRareStyle = R"css(
 .scale { width: 100%; height: auto; } .scale text { font-size: 11px; fill: var(--ink); }
@@ -216,28 +215,23 @@ std::string Verdict(const Json& rare) {
 RarePage Page(const Json& rare, const fs::path& folder) {
   RarePage page;
   page.verdict = Verdict(rare);
-  const std::string title = MarkupText(rare.at("name").get<std::string>());
   std::string gate, kind = "none";
   if (!rare.at("gate").is_null()) {
     gate =
         "<ul><li>Gate: " + MarkupText(rare.at("gate").at("text").get<std::string>()) + "</li></ul>";
     kind = rare.at("gate").at("verdict");
   }
-  page.html =
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta "
-      "http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; media-src data:; "
-      "style-src 'unsafe-inline'\">\n<meta name=\"viewport\" content=\"width=device-width, "
-      "initial-scale=1\">\n<title>" +
-      title + ": rare failures</title>\n<style>" + kReportStyle + kRareStyle +
-      "</style></head>\n<body><header><p class=\"over\">Floorproof, rare failures</p><h1>" + title +
-      "</h1>\n<div class=\"verdict " + MarkupText(kind) + "\"><p>" + MarkupText(page.verdict) +
-      "</p>" + gate +
-      "</div>\n<nav><a href=\"#numbers\">How rare</a><a href=\"#failures\">The likeliest "
-      "failures</a><a href=\"#search\">How it was found</a></nav></header>\n<main>\n<section "
-      "id=\"numbers\"><h2>How rare</h2>\n" +
-      Numbers(rare) + "</section>\n<section id=\"failures\"><h2>The likeliest failures</h2>\n" +
-      Regions(rare, folder) + "</section>\n<section id=\"search\"><h2>How it was found</h2>\n" +
-      Search(rare) + "</section>\n</main>\n</body></html>\n";
+  HtmlPage html;
+  html.over = "Floorproof, rare failures";
+  html.title = rare.at("name").get<std::string>();
+  html.about = "rare failures";
+  html.extra_style = kRareStyle;
+  html.verdict = "<div class=\"verdict " + MarkupText(kind) + "\"><p>" + MarkupText(page.verdict) +
+                 "</p>" + gate + "</div>\n";
+  html.sections = {{"numbers", "How rare", Numbers(rare)},
+                   {"failures", "The likeliest failures", Regions(rare, folder)},
+                   {"search", "How it was found", Search(rare)}};
+  page.html = html.Html();
   return page;
 }
 

@@ -10,6 +10,7 @@
 #include "base/input_files.h"
 #include "base/result_folder.h"
 #include "run/campaign/episode_maker.h"
+#include "run/campaign/replay_shelf.h"
 #include "run/episode/records.h"
 
 namespace floorproof {
@@ -63,10 +64,6 @@ nlohmann::ordered_json ReplayRun(const fs::path& folder, const std::vector<Overr
   return json;
 }
 
-fs::path EpisodeFolder(const fs::path& campaign, const Variant& variant, std::uint64_t episode) {
-  return campaign / "episodes" / variant.name / std::to_string(episode);
-}
-
 void AddMadePlan(const EpisodeRow& row, const fs::path& folder, Drawn& set) {
   if (const std::string made = MadePlan(row); !made.empty())
     set.emplace_back("plan.made",
@@ -78,7 +75,7 @@ DriveResult ReplayEpisode(const ScenarioFile& file, const Variant& variant, cons
                           const Console& console) {
   Variant planned = variant;
   AddMadePlan(row, folder, planned.overrides);
-  const fs::path into = EpisodeFolder(folder, variant, row.episode);
+  const fs::path into = EpisodeFolder(folder, variant.name, row.episode);
   RefuseLinks(folder, into);
   return ReplayRow(file.Read(row.episode, planned), row, into, options, console);
 }

@@ -22,10 +22,6 @@ nlohmann::ordered_json ReplayRun(const std::filesystem::path& folder,
                                  const std::vector<Override>& overrides, bool video,
                                  const Console& console);
 
-// Where a campaign's episode is written when it is driven again.
-std::filesystem::path EpisodeFolder(const std::filesystem::path& campaign, const Variant& variant,
-                                    std::uint64_t episode);
-
 // Drives a recorded row again into `into`, whole as `run` would; `scenario` is what it was driven
 // by, with the plan that a program made for it (AddMadePlan). No program is run. Throws as
 // ReplayEpisode.

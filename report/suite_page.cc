@@ -9,7 +9,7 @@
 #include "base/params.h"
 #include "base/quantity.h"
 #include "report/html.h"
-#include "report/style.h"
+#include "report/html_page.h"
 #include "stats/demonstration.h"
 
 namespace floorproof {
@@ -228,28 +228,23 @@ std::string SuitePage(const SuiteReport& report, const fs::path& folder) {
   FilmShelf films(folder);
   std::string cards;
   for (const auto* entry : Done(report)) cards += MethodCard(report, *entry, films);
-  const std::string title = MarkupText(RobotNames(report, " and "));
   const std::string stands =
       films.linked().empty()
           ? "This page is complete in itself: everything it shows stands in this one file."
           : "Everything this page shows stands in this one file, except films too large for it, "
             "which lie beside it: " +
                 films.linked() + ".";
-  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src "
-         "data:; "
-         "media-src data:; style-src 'unsafe-inline'\">\n<meta name=\"viewport\" "
-         "content=\"width=device-width, initial-scale=1\">\n<title>" +
-         title + ": test methods</title>\n<style>" + kReportStyle + kSuiteStyle +
-         "</style></head>\n<body><header><p class=\"over\">Floorproof suite</p><h1>" + title +
-         "</h1>\n" + VerdictBox(report) +
-         "<nav><a href=\"#results\">Results</a><a href=\"#methods\">Methods</a><a "
-         "href=\"#how\">How it was tested</a></nav></header>\n<main>\n<section "
-         "id=\"results\"><h2>Results</h2>\n" +
-         Table(report) + "</section>\n<section id=\"methods\"><h2>Methods</h2>\n" + cards +
-         "</section>\n<section id=\"how\"><h2>How it was tested</h2>\n" + HowText(report) +
-         "</section>\n</main>\n<footer><p class=\"note\">" + MarkupText(stands) +
-         "</p></footer>\n</body></html>\n";
+  HtmlPage page;
+  page.over = "Floorproof suite";
+  page.title = RobotNames(report, " and ");
+  page.about = "test methods";
+  page.extra_style = kSuiteStyle;
+  page.verdict = VerdictBox(report);
+  page.sections = {{"results", "Results", Table(report)},
+                   {"methods", "Methods", cards},
+                   {"how", "How it was tested", HowText(report)}};
+  page.footer = "<p class=\"note\">" + MarkupText(stands) + "</p>";
+  return page.Html();
 }
 
 }  // namespace floorproof

@@ -87,7 +87,11 @@ class CampaignDrive {
  public:
   CampaignDrive(const ScenarioFile& file, CampaignStore& store, const CampaignOptions& options,
                 CampaignObserver* observer)
-      : file_(file), store_(store), options_(options), observer_(observer), maker_(file) {
+      : file_(file),
+        store_(store),
+        options_(options),
+        observer_(observer),
+        maker_(file, options.replays != nullptr) {
     const auto& variants = file.variants();
     total_ = variants.size() * (options.end - options.begin);
     for (const Variant& variant : variants) {
@@ -110,7 +114,12 @@ class CampaignDrive {
     PoolCallbacks callbacks;
     callbacks.work = [this](Job job) { return maker_.Answer(job); };
     callbacks.next = [this] { return Next(); };
-    callbacks.done = [this](Job, std::string answer) { Take(FromLine(answer)); };
+    callbacks.done = [this](Job, std::string answer) {
+      EpisodeRow row = FromLine(answer);
+      if (options_.replays) options_.replays->Take(row);
+      row.replay.clear();
+      Take(row);
+    };
     callbacks.crashed = [this](Job job, const std::string& how) { Refuse(job, "crashed: " + how); };
     callbacks.hung = [this](Job job, const std::string& why) { Refuse(job, why); };
     callbacks.stop = [this] { return Stop(); };

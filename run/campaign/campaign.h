@@ -16,6 +16,7 @@
 
 #include "run/campaign/campaign_gate.h"
 #include "run/campaign/campaign_store.h"
+#include "run/campaign/replay_shelf.h"
 #include "run/campaign/worker_pool.h"
 #include "run/scenario/scenario.h"
 
@@ -26,6 +27,7 @@ struct CampaignOptions {
   std::optional<CampaignGate> gate;  // none of a shard: it is judged on the whole campaign
   int jobs = 1;
   WorkerPool pool = {};                     // none: `jobs` processes of this machine
+  ReplayShelf* replays = nullptr;           // where replays of failing episodes go; none: nowhere
   bool fail_fast = false;                   // ends at the first episode that fails
   std::optional<double> time_limit_s = {};  // wall time; what is in hand then is given up
 };

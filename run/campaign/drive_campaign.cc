@@ -131,10 +131,12 @@ CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& r
   SayWhenInterrupted(folder.string() + " holds every episode saved so far; --resume goes on");
   Keep<std::runtime_error>("scenario.resolved.yaml and every episode; --resume goes on",
                            [&] { WriteResolvedScenario(base, folder, file.files().All()); });
+  ReplayShelf shelf(folder);
   CampaignOptions options{.end = request.episodes,
                           .gate = gate,
                           .jobs = request.jobs,
                           .pool = request.pool,
+                          .replays = request.replays ? &shelf : nullptr,
                           .fail_fast = request.fail_fast,
                           .time_limit_s = request.time_limit_s};
   if (request.shard) {

@@ -28,6 +28,7 @@ struct CampaignRequest {
   std::optional<EpisodeRange> shard = {};   // these alone are driven, and the gate is not judged
   int jobs = 1;                             // worker processes
   WorkerPool pool = {};                     // in place of them
+  bool replays = false;                     // keeps those of failing episodes (replay_shelf.h)
   bool resume = false;                      // goes on with the campaign that the folder holds
   bool retry_errors = false;                // drives again what ended in an error
   bool fail_fast = false;                   // ends at the first episode that fails

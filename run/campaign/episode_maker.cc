@@ -5,10 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file_output.h"
+#include "run/campaign/replay_shelf.h"
 #include "run/episode/ask_program.h"
 #include "run/episode/execute.h"
 #include "run/episode/plan_inputs.h"
 #include "run/episode/records.h"
+#include "run/episode/replay_track.h"
 #include "run/scenario/plan_file.h"
 
 namespace floorproof {
@@ -63,9 +65,11 @@ std::string EpisodeMaker::Answer(Job job) {
 EpisodeRow EpisodeMaker::Drive(const Variant& variant, Scenario& s) {
   const Planned& planned = Plan(variant, s);
   std::optional<Scene> scene;
-  const EpisodeRecord record = ExecutePlan(s, planned.plan, scene);
+  ReplayObserver replay(s.episode.control_hz, nullptr);
+  const EpisodeRecord record = ExecutePlan(s, planned.plan, scene, replays_ ? &replay : nullptr);
   EpisodeRow row = MakeRow(variant.name, s, WithFigures(planned.json, record), record);
   row.made = planned.made;
+  if (replays_ && IsListed(row)) row.replay = replay.Bytes(scene, record);
   return row;
 }
 

@@ -14,8 +14,9 @@ namespace floorproof {
 
 class EpisodeMaker {
  public:
-  // `file` outlives the maker.
-  explicit EpisodeMaker(const ScenarioFile& file) : file_(file) {}
+  // `file` outlives the maker. `replays`: rows of drives that did not succeed have their replay.
+  explicit EpisodeMaker(const ScenarioFile& file, bool replays = false)
+      : file_(file), replays_(replays) {}
 
   // Jobs number the episodes of all variants: episode 0 of each comes first, then episode 1.
   struct Numbered {
@@ -53,6 +54,7 @@ class EpisodeMaker {
   const Planned& Plan(const Variant& variant, const Scenario& scenario);
 
   const ScenarioFile& file_;
+  bool replays_;
   std::map<std::string, Planned> plans_;  // by variant
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/base64.h"
 #include "base/error.h"
 #include "base/file_output.h"
 #include "base/params.h"
@@ -125,7 +126,8 @@ std::string ToLine(const EpisodeRow& row) {
     encounters.push_back(std::move(values));
   }
   return Json({row.variant, row.episode, row.outcome, row.message, row.events_of, metrics,
-               row.drawn, row.plan, row.events, row.timeout, row.wall_s, row.made, encounters})
+               row.drawn, row.plan, row.events, row.timeout, row.wall_s, row.made, encounters,
+               Base64(row.replay)})
       .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -156,6 +158,7 @@ EpisodeRow FromLine(std::string_view line) {
           values.emplace_back(value.get<double>());
       row.encounters.push_back(EncounterOf(values));
     }
+    row.replay = FromBase64(json.at(13).get<std::string>());
     return row;
   } catch (const Json::exception& e) {
     throw InternalError(std::string("a worker's answer cannot be read: ") + e.what());

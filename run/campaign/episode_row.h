@@ -33,6 +33,9 @@ struct EpisodeRow {
   // The hazards that it met. They have a table of their own: rows from the store lack them
   // (CampaignStore::EncountersOf).
   std::vector<Encounter> encounters;
+  // Of a drive that did not succeed, where replays were asked for: the bytes of its replay.bin. Not
+  // in the table (replay_shelf.h).
+  std::string replay;
   double wall_s = 0;  // told apart: not a result
 
   // Counts in rates: its outcome is the robot's.

@@ -178,7 +178,7 @@ bool IsPlanFile(std::string_view name) {
 }
 
 bool IsFilm(std::string_view name) {
-  return name == "video.mp4" || (name.starts_with("frame_") && name.ends_with(".png"));
+  return name == "video.mp4" || name == "video.json" || (name.starts_with("frame_") && name.ends_with(".png"));
 }
 
 void Remove(const std::filesystem::path& file) {
@@ -368,7 +368,7 @@ ResultNames EpisodeResults() {
   return {"episode", [](std::string_view name) {
             return IsPlanFile(name) || IsFilm(name) || name == "result.json" ||
                    name == "predict.json" || name == "trace.csv" || name == "encounters.csv" ||
-                   name == "safety.csv" ||
+                   name == "safety.csv" || name == "replay.bin" || name == "report.html" ||
                    (name.ends_with(".png") &&
                     (name.starts_with("heatmap_") || name.starts_with("plot_")));
           }};

@@ -34,7 +34,7 @@ stub() {  # stub NAME: a command from stdin
 }
 
 # A tree whose "build" is a copied script.
-mkdir -p "$tree"/{apps,base,cmake,controllers,env,media,planners,render,report,run,stats,validate,tests} "$work/bin"
+mkdir -p "$tree"/{apps,base,cmake,controllers,env,media,planners,render,report,run,stats,validate,web,tests} "$work/bin"
 cp "$here/../../floorproof" "$dut"
 touch "$tree/CMakeLists.txt" "$tree/apps/main.cc" "$work/calls"
 export WORK=$work PATH="$work/bin:$PATH"
@@ -95,7 +95,8 @@ if [[ $1 == -m && $2 == venv ]]; then
   chmod +x "$3/bin/python"
   exit
 fi
-[[ $1 != - ]] || { mkdir -p "$3/include/mujoco"; touch "$3/include/mujoco/mujoco.h" "$3/libmujoco.so.4.0.1"; }
+[[ $1 != - || $3 != */web ]] || mkdir -p "$3"
+[[ $1 != - || $3 != */mujoco ]] || { mkdir -p "$3/include/mujoco"; touch "$3/include/mujoco/mujoco.h" "$3/libmujoco.so.4.0.1"; }
 STUB
 
 # --- cases ---------------------------------------------------------------------------------------
@@ -103,6 +104,7 @@ STUB
 starts_at_once() {
   run demo
   expect "the first start announces the wheel" says err "10 MB from PyPI"
+  expect "and the libraries of pages" says err "three.js, ECharts and AG Grid, checked by hash"
   expect "the wheel is pinned" grep -q -- "pip download.*--require-hashes.*cp311" "$work/calls"
   : >"$work/calls"
   if ((EUID == 0)); then  # another user than the one who built it
@@ -260,7 +262,7 @@ leaves_nothing_half_done() {
   wait $!
   expect "interrupted: 130" test $? = 130
   expect "no stamp" test ! -e "$tree/build/release/.built-floorproof"
-  expect "no temporary files" test -z "$(find "$tree/build" -name .began -o -name 'mujoco.??????')"
+  expect "no temporary files" test -z "$(find "$tree/build" -name .began -o -name 'mujoco.??????' -o -name 'web.??????')"
   run demo
   expect "the next start finishes the work" test "$status" = 4
 }
@@ -270,6 +272,7 @@ uses_a_given_mujoco() {
   FLOORPROOF_MUJOCO_DIR=$work/mj run demo
   expect "a folder without MuJoCo is bad usage" test "$status" = 2
   touch "$work/mj/include/mujoco/mujoco.h"
+  export FLOORPROOF_WEB=0
   cd "$work" && FLOORPROOF_MUJOCO_DIR=mj run demo
   expect "it is configured, as an absolute path" grep -q -- "MUJOCO_DIR=$work/mj$" "$work/calls"
   : >"$work/calls"

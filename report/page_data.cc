@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/page_data.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "base/quantity.h"
+#include "env/core/failure_text.h"
+#include "report/drive_marks.h"
+
+namespace floorproof {
+namespace {
+
+double Rounded(double value, double per) { return std::round(value * per) / per + 0.0; }
+double Millimetres(double m) { return Rounded(m, 1e3); }
+
+PageJson PointsData(const std::vector<Vec2>& points) {
+  PageJson list = PageJson::array();
+  for (const Vec2& p : points) list.push_back({Millimetres(p.x()), Millimetres(p.y())});
+  return list;
+}
+
+// Runs of [kind, count], the top row first; `every` cells a side are one.
+PageJson CellsData(const HazardMap& map) {
+  constexpr int kMostCells = 900;  // a side: no screen shows more of them
+  const int every =
+      std::max(1, (std::max(map.frame.width, map.frame.height) + kMostCells - 1) / kMostCells);
+  const int width = (map.frame.width + every - 1) / every;
+  const int height = (map.frame.height + every - 1) / every;
+  PageJson runs = PageJson::array();
+  int last = -1;
+  long count = 0;
+  const auto kind_of = [&](int column, int row) {
+    bool unknown = false;
+    for (int iy = row * every; iy < std::min((row + 1) * every, map.frame.height); ++iy)
+      for (int ix = column * every; ix < std::min((column + 1) * every, map.frame.width); ++ix) {
+        if (map.occupancy(ix, iy) == CellState::kOccupied) return 1;
+        unknown = unknown || map.occupancy(ix, iy) == CellState::kUnknown;
+      }
+    return unknown ? 2 : 0;
+  };
+  for (int row = height - 1; row >= 0; --row)
+    for (int column = 0; column < width; ++column) {
+      const int kind = kind_of(column, row);
+      if (kind == last) {
+        ++count;
+        continue;
+      }
+      if (count > 0) {
+        runs.push_back(last);
+        runs.push_back(count);
+      }
+      last = kind;
+      count = 1;
+    }
+  runs.push_back(std::max(last, 0));
+  runs.push_back(count);
+  return {{"width", width},
+          {"height", height},
+          {"cell_m", every * map.frame.cell_m},
+          {"runs", std::move(runs)}};
+}
+
+std::vector<std::string_view> Fields(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (std::size_t at = 0; at <= line.size();) {
+    const std::size_t end = std::min(line.find(',', at), line.size());
+    fields.push_back(line.substr(at, end - at));
+    at = end + 1;
+  }
+  return fields;
+}
+
+double NumberOf(std::string_view text) {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+}  // namespace
+
+PageJson MapData(const HazardMap& map) {
+  const PageJson cells = CellsData(map);
+  PageJson hazards = PageJson::array();
+  for (const Hazard& hazard : map.hazards) {
+    PageJson polygons = PageJson::array();
+    for (const Polygon& polygon : hazard.footprint) polygons.push_back(PointsData(polygon));
+    if (polygons.empty()) continue;
+    hazards.push_back({{"id", hazard.id},
+                       {"class", "C" + std::to_string(static_cast<int>(hazard.hazard_class) + 1)},
+                       {"known", hazard.known},
+                       {"text", HazardPhrase(hazard) + (hazard.known ? "" : ", on no map")},
+                       {"polygons", std::move(polygons)}});
+  }
+  const double cell_m = cells.at("cell_m");
+  return {{"name", map.name},
+          {"frame",
+           {{"x", map.frame.X_WG.x_m},
+            {"y", map.frame.X_WG.y_m},
+            {"yaw", map.frame.X_WG.yaw_rad},
+            {"width_m", cells.at("width").get<int>() * cell_m},
+            {"height_m", cells.at("height").get<int>() * cell_m}}},
+          {"cells", cells},
+          {"hazards", std::move(hazards)}};
+}
+
+PageJson WayData(const Path& plan) {
+  std::vector<Vec2> way;
+  for (const Waypoint& waypoint : plan) way.push_back(waypoint.p_W);
+  return PointsData(way);
+}
+
+PageJson FailureData(const Event& event, const std::string& label, const std::string& text) {
+  return {{"t_s", Rounded(event.t_s, 1e3)}, {"x", Millimetres(event.x_m)},
+          {"y", Millimetres(event.y_m)},    {"label", label},
+          {"what", FailureName(event)},     {"text", text}};
+}
+
+TraceData ReadTraceData(std::string_view csv) {
+  constexpr std::size_t kMostRows = 1500;
+  const auto line_at = [&](std::size_t& at) {
+    const std::size_t end = std::min(csv.find('\n', at), csv.size());
+    const std::string_view line = csv.substr(at, end - at);
+    at = end + 1;
+    return line;
+  };
+  std::size_t at = 0;
+  const std::vector<std::string_view> names = Fields(line_at(at));
+  const auto column_of = [&](std::string_view name) {
+    return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+  };
+  const std::size_t t = column_of("t_s"), x = column_of("x_m"), y = column_of("y_m");
+  if (std::max({t, x, y}) >= names.size()) return {nullptr, nullptr};
+  const std::size_t rows = static_cast<std::size_t>(std::ranges::count(csv, '\n'));
+  const std::size_t every = std::max<std::size_t>(1, rows / kMostRows);
+  struct Curve {
+    const char* name;
+    double (*of)(std::span<const double> values);
+    std::vector<std::size_t> columns;
+    double per;
+  };
+  const Curve curves[] = {
+      {"speed_mps",
+       [](auto v) { return std::hypot(v[0], v[1]); },
+       {column_of("vx_mps"), column_of("vy_mps")},
+       1e3},
+      {"tilt_deg",
+       [](auto v) { return std::acos(std::cos(v[0]) * std::cos(v[1])) * 180 / kPi; },
+       {column_of("roll_rad"), column_of("pitch_rad")},
+       1e3},
+      {"cross_track_mm", [](auto v) { return 1e3 * v[0]; }, {column_of("cross_track_m")}, 1e2},
+      {"power_w", [](auto v) { return v[0]; }, {column_of("power_w")}, 1e2},
+      {"coverage_percent", [](auto v) { return 100 * v[0]; }, {column_of("coverage")}, 1e2}};
+  PageJson columns = {{"t_s", PageJson::array()}};
+  std::vector<TraceRow> places;
+  for (std::size_t row = 0; at < csv.size(); ++row) {
+    const std::string_view line = line_at(at);
+    if (row % every != 0 && at < csv.size()) continue;
+    const std::vector<std::string_view> fields = Fields(line);
+    if (fields.size() != names.size()) return {nullptr, nullptr};
+    columns["t_s"].push_back(Rounded(NumberOf(fields[t]), 1e3));
+    TraceRow& place = places.emplace_back();
+    place.t_s = NumberOf(fields[t]);
+    place.x_m = NumberOf(fields[x]);
+    place.y_m = NumberOf(fields[y]);
+    if (!std::isfinite(place.t_s + place.x_m + place.y_m)) return {nullptr, nullptr};
+    for (const Curve& curve : curves) {
+      if (std::ranges::any_of(curve.columns, [&](std::size_t c) { return c >= names.size(); }))
+        continue;
+      double values[2] = {};
+      for (std::size_t k = 0; k < curve.columns.size(); ++k)
+        values[k] = NumberOf(fields[curve.columns[k]]);
+      const double value = curve.of(std::span<const double>(values));
+      columns[curve.name].push_back(std::isfinite(value) ? PageJson(Rounded(value, curve.per))
+                                                         : PageJson(nullptr));
+    }
+  }
+  if (places.empty()) return {nullptr, nullptr};
+  PageJson way = PageJson::array();
+  for (const std::vector<Vec2>& stretch : WayDriven(places)) {
+    if (!way.empty()) way.push_back({nullptr, nullptr});
+    for (PageJson& p : PointsData(stretch)) way.push_back(std::move(p));
+  }
+  return {std::move(columns), std::move(way)};
+}
+
+}  // namespace floorproof

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a page's scripts draw, as JSON; web/*.js say what they read.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "env/core/event.h"
+#include "env/core/hazard_map.h"
+#include "env/core/path.h"
+
+namespace floorproof {
+
+using PageJson = nlohmann::ordered_json;
+
+// The floor: its frame, its cells in runs (a large map in coarser ones: a wall wherever one is),
+// its hazards.
+PageJson MapData(const HazardMap& map);
+// [[x, y], ..], m.
+PageJson WayData(const Path& plan);
+// A failure: {t_s, x, y, label, what, text}. `label`: on the map.
+PageJson FailureData(const Event& event, const std::string& label, const std::string& text);
+// trace.csv as columns: t_s, speed_mps, tilt_deg, cross_track_mm, power_w, coverage_percent, of at
+// most 1,500 rows; and the way, [[x, y], .., [null, null], ..] where the robot was carried. Both
+// null where the text is no trace.
+struct TraceData {
+  PageJson columns, way;
+};
+TraceData ReadTraceData(std::string_view csv);
+
+}  // namespace floorproof

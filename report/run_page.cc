@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/run_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/error.h"
+#include "base/input_file.h"
+#include "base/shell_word.h"
+#include "report/films.h"
+#include "report/html.h"
+#include "report/html_page.h"
+#include "report/page_data.h"
+#include "run/episode/metrics.h"
+#include "run/scenario/plan_file.h"
+#include "run/scenario/scenario.h"
+
+namespace floorproof {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::uintmax_t kLargestTrace = 512u << 20;
+constexpr std::uintmax_t kLargestReplay = 16u << 20;
+
+std::string Words(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+// A file of the folder that is there and no link; empty: it is not.
+std::string ReadIfThere(const fs::path& file, std::uintmax_t most) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(fs::symlink_status(file, ignored)) || !WhyUnreadable(file, most).empty())
+    return "";
+  return ReadInputFile(file, most);
+}
+
+// result.json and what stands beside it.
+class Run {
+ public:
+  Run(const fs::path& folder, const std::string& named)
+      : folder_(folder), named_(named), file_(folder / "result.json") {
+    result_ = Json::parse(ReadInputFile(file_, kMaxResultBytes), nullptr, false);
+    if (!result_.is_object() || !result_.contains("outcome"))
+      throw InputError({file_.string(), 0}, "", "", "is not a result (a JSON object)");
+  }
+
+  RunPage Make() try {
+    ReadSettings();
+    RunPage page;
+    page.verdict = Verdict();
+    page.html = Page(page.verdict).Html();
+    return page;
+  } catch (const Json::exception&) {
+    throw InputError({file_.string(), 0}, "", "", "is damaged, or of another version");
+  }
+
+ private:
+  // The site and the plan, where they can still be read.
+  void ReadSettings() {
+    const fs::path settings = folder_ / "scenario.resolved.yaml";
+    settings_ = ReadIfThere(settings, kMaxResultBytes);
+    try {
+      const Scenario scenario = ReadScenario(settings, {});
+      map_ = scenario.site.map;
+    } catch (const InputError& e) {
+      why_no_map_ = e.what();
+    }
+  }
+
+  std::string Text(const char* key) const { return result_.value(key, ""); }
+  std::optional<double> Metric(const char* name) const {
+    const Json& metrics = result_.at("metrics");
+    if (!metrics.is_object() || !metrics.contains(name) || !metrics.at(name).is_number())
+      return std::nullopt;
+    return metrics.at(name).get<double>();
+  }
+  const Json& Events() const { return result_.at("events"); }
+
+  // "stuck at 198.8 s: stood still for 7.6 s before 'plank' (step, 40 mm), at ..."
+  static std::string EventText(const Json& event) {
+    std::string name = Words(event.at("mode"));
+    if (const std::string kind = event.value("kind", ""); !kind.empty()) name += " (" + kind + ")";
+    return fmt::format("{} at {} s: {}", name, FixedText(event.at("t_s"), 1),
+                       event.value("text", ""));
+  }
+
+  std::string Verdict() const {
+    std::string text = Words(Text("outcome"));
+    if (!Events().empty()) {
+      text += ": " + EventText(Events().front());
+      if (Events().size() > 1)
+        text += fmt::format("; {}", CountText(Events().size() - 1, "further event"));
+    } else if (const std::string why = Text("message"); !why.empty()) {
+      text += ": " + why;
+    } else if (const auto coverage = Metric("coverage")) {
+      text += ": covered " + PercentText(*coverage);
+    }
+    return text;
+  }
+
+  std::string VerdictBox(const std::string& verdict) const {
+    const std::string outcome = Text("outcome");
+    const char* tone = outcome == "success"   ? "passed"
+                       : outcome == "failure" ? "failed"
+                                              : "undecided";
+    std::string facts;
+    const auto add = [&](const std::string& text) { facts += "<li>" + MarkupText(text) + "</li>"; };
+    if (const auto coverage = Metric("coverage"); coverage && !Events().empty())
+      add("Covered " + PercentText(*coverage) + " of the floor that the tool can reach.");
+    if (const auto t_s = Metric("duration_s"))
+      add(fmt::format("Drove {} in {}, with {}.", LengthText(Metric("path_length_m").value_or(0)),
+                      TimeText(*t_s), EnergyText(Metric("energy_j").value_or(0))));
+    return fmt::format("<div class=\"verdict {}\"><p>{}</p><ul>{}</ul></div>\n", tone,
+                       MarkupText(verdict), facts);
+  }
+
+  Json Failures() const {
+    Json failures = Json::array();
+    for (const Json& event : Events()) {
+      std::string what = Words(event.at("mode"));
+      if (const std::string kind = event.value("kind", ""); !kind.empty())
+        what += " (" + kind + ")";
+      failures.push_back({{"t_s", event.at("t_s")},
+                          {"x", event.at("x_m")},
+                          {"y", event.at("y_m")},
+                          {"label", std::to_string(failures.size() + 1)},
+                          {"what", what},
+                          {"text", event.value("text", "")},
+                          {"drive", 0}});
+    }
+    return failures;
+  }
+
+  // The data for the scripts, and what of it there is.
+  void AddData(HtmlPage& page) const {
+    Json ways = Json::array(), plan = Json::array();
+    if (const fs::path file = folder_ / "plan.csv";
+        map_ && !ReadIfThere(file, kMaxResultBytes).empty()) {
+      try {
+        plan = WayData(ReadPlan(file, map_->frame));
+      } catch (const InputError&) {  // a damaged plan is not drawn; its own command says so
+      }
+    }
+    const TraceData trace = ReadTraceData(ReadIfThere(folder_ / "trace.csv", kLargestTrace));
+    if (!plan.empty())
+      ways.push_back({{"name", "plan"},
+                      {"points", plan},
+                      {"colour", "mark"},
+                      {"width", 1.4},
+                      {"dash", "dashed"}});
+    if (trace.way.is_array())
+      ways.push_back(
+          {{"name", "driven"}, {"points", trace.way}, {"colour", "driven"}, {"width", 1.8}});
+    Json drive = {{"name", Text("robot") + " on " + Text("site")},
+                  {"events", Failures()},
+                  {"plan", plan},
+                  {"end_s", Metric("duration_s").value_or(0)},
+                  {"command", "floorproof replay " + ShellWord(named_) + " --video"}};
+    if (trace.columns.is_object()) drive["trace"] = trace.columns;
+    if (std::string replay = ReadIfThere(folder_ / "replay.bin", kLargestReplay); !replay.empty()) {
+      page.blobs.emplace_back("replay-0", std::move(replay));
+      drive["replay"] = "replay-0";
+      page.shows_replay = true;
+    }
+    if (!film_.empty()) {
+      drive["film"] = "film-0";
+      const Json times =
+          Json::parse(ReadIfThere(folder_ / "video.json", kMaxResultBytes), nullptr, false);
+      if (times.is_object() && times.contains("t_s") && times.contains("fps")) {
+        drive["film_t_s"] = times.at("t_s");
+        drive["film_fps"] = times.at("fps");
+      }
+    }
+    Json data = {{"drives", Json::array({std::move(drive)})},
+                 {"ways", std::move(ways)},
+                 {"failures", Failures()}};
+    if (map_) data["map"] = MapData(*map_);
+    page.data = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+    page.shows_plots = true;
+  }
+
+  std::string Theater() const {
+    std::string still;
+    if (const std::string png = ReadIfThere(folder_ / "heatmap_failures.png", kMaxResultBytes);
+        !png.empty())
+      still = PictureHtml({"The plan, what was driven, and where it failed", png});
+    if (!why_no_map_.empty())
+      still +=
+          "<p class=\"note\">The map cannot be read any more: " + MarkupText(why_no_map_) + "</p>";
+    return "<div class=\"card theater\" id=\"theater\"><div><div id=\"map-view\" class=\"map\" "
+           "hidden></div><div class=\"replaced-by-map\">" +
+           still +
+           "</div></div><div id=\"drive-view\"></div><div id=\"drive-curves\" "
+           "class=\"across\"></div></div>\n";
+  }
+
+  std::string MetricsTable() const {
+    std::string rows;
+    for (const MetricColumn& column : kMetrics) {
+      const auto value = Metric(std::string(column.name).c_str());
+      if (!value || column.name.ends_with("_margin")) continue;  // those stand above
+      std::string name(column.name);                             // its unit stands behind the value
+      if (const auto cut = name.rfind('_');
+          !column.unit.empty() && cut != name.npos && name.size() - cut <= 4)
+        name.resize(cut);
+      const bool share = column.unit.empty() && column.help.find("share") != column.help.npos;
+      const std::string text = share                ? PercentText(*value)
+                               : column.unit == "J" ? EnergyText(*value)
+                               : column.unit == "m" ? LengthText(*value)
+                               : column.unit == "s" ? TimeText(*value)
+                               : column.unit.empty()
+                                   ? NumberText(*value)
+                                   : NumberText(*value) + " " + std::string(column.unit);
+      rows +=
+          fmt::format("<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td>{}</td></tr>\n",
+                      MarkupText(Words(name)), MarkupText(text), MarkupText(column.help));
+    }
+    return "<div class=\"card scroll\"><table><thead><tr><th scope=\"col\">Metric</th><th "
+           "scope=\"col\" class=\"num\">Value</th><th scope=\"col\">What it is</th></tr></thead>"
+           "<tbody>\n" +
+           rows + "</tbody></table></div>\n";
+  }
+
+  // Each detector's least distance from failing, as a share of its limit.
+  std::string Margins() const {
+    if (!result_.contains("margins") || !result_.at("margins").is_object()) return "";
+    std::string rows;
+    for (const auto& [name, ignored] : result_.at("margins").items()) {
+      const auto share = Metric((name + "_margin").c_str());
+      if (!share) continue;
+      const double width = 100 * std::clamp(*share, 0.0, 1.0);
+      rows += fmt::format(
+          "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"plotted\"><div "
+          "class=\"share\"><span style=\"width:{:.1f}%\" class=\"{}\"></span></div></td></tr>\n",
+          MarkupText(Words(name)), PercentText(*share), width,
+          *share < 0.1   ? "bad"
+          : *share < 0.3 ? "warn"
+                         : "good");
+    }
+    return "<div class=\"card\"><p class=\"note\">The least distance from failing, as a share of "
+           "the limit: 100 % is as far as can be, 0 is at the limit, below 0 is beyond it.</p>"
+           "<table><thead><tr><th scope=\"col\">Failure</th><th scope=\"col\" "
+           "class=\"num\">Left</th><th scope=\"col\" "
+           "class=\"plotted\"></th></tr></thead><tbody>\n" +
+           rows + "</tbody></table></div>\n";
+  }
+
+  std::string Film() {
+    film_ = ReadIfThere(folder_ / "video.mp4", kLargestFilm);
+    std::string html;
+    if (!film_.empty())
+      html += fmt::format(
+          "<div><video id=\"film-0\" controls preload=\"metadata\" src=\"{}\" "
+          "aria-label=\"Film of the drive\"></video></div>\n",
+          DataUri("video/mp4", film_));
+    else if (std::error_code none; fs::exists(folder_ / "video.mp4", none))
+      html += "<p>The film is too large for the page: <a href=\"video.mp4\">video.mp4</a></p>\n";
+    const std::vector<ReportPicture> frames = PicturesIn(folder_, "frame_");
+    html += PicturesHtml(frames);
+    return html.empty() ? "" : "<div class=\"card\">" + html + "</div>\n";
+  }
+
+  std::string Settings() const {
+    std::string html = "<dl>";
+    const Json versions = result_.value("versions", Json::object());
+    for (const auto& [name, version] : versions.items())
+      if (version.is_string())
+        html += "<dt>" + MarkupText(name) + "</dt><dd>" + MarkupText(version.get<std::string>()) +
+                "</dd>";
+    html += fmt::format("<dt>seed</dt><dd>{}</dd></dl>\n",
+                        MarkupText(result_.value("seed", Json(0)).dump()));
+    if (const Json drawn = result_.value("drawn", Json::object()); !drawn.empty())
+      html += "<details><summary>What was drawn</summary><pre>" + MarkupText(drawn.dump(2)) +
+              "</pre></details>\n";
+    return html + "<details><summary>The scenario, with every default stated</summary>\n<pre>" +
+           MarkupText(settings_) + "</pre></details>\n";
+  }
+
+  HtmlPage Page(const std::string& verdict) {
+    HtmlPage page;
+    page.over = "Floorproof run";
+    page.title = Text("robot") + " on " + Text("site");
+    page.about = Words(Text("outcome"));
+    page.verdict = VerdictBox(verdict);
+    const std::string film = Film();
+    AddData(page);
+    page.sections.push_back({"drive", "The drive", Theater()});
+    if (const std::string margins = Margins(); !margins.empty())
+      page.sections.push_back({"margins", "How near it was to failing", margins});
+    page.sections.push_back({"metrics", "What was measured", MetricsTable()});
+    if (!film.empty()) page.sections.push_back({"film", "Film", film});
+    std::vector<ReportPicture> maps = PicturesIn(folder_, "heatmap_");
+    for (ReportPicture& plot : PicturesIn(folder_, "plot_")) maps.push_back(std::move(plot));
+    if (!maps.empty())
+      page.sections.push_back(
+          {"maps", "Maps and plots", "<div class=\"card\">" + PicturesHtml(maps) + "</div>\n"});
+    page.sections.push_back({"settings", "Settings and versions", Settings()});
+    page.footer =
+        "<p class=\"note\">This page is complete in itself. Rows of trace.csv beyond 1,500 are "
+        "left "
+        "out of its curves.</p>";
+    return page;
+  }
+
+  const fs::path& folder_;
+  const std::string& named_;
+  fs::path file_;
+  Json result_;
+  std::string settings_, why_no_map_, film_;
+  std::optional<HazardMap> map_;
+};
+
+}  // namespace
+
+bool HoldsRun(const fs::path& folder) {
+  std::error_code none;
+  return fs::exists(folder / "result.json", none) && !fs::exists(folder / "campaign.sqlite", none);
+}
+
+RunPage MakeRunPage(const fs::path& folder, const std::string& named) {
+  return Run(folder, named).Make();
+}
+
+}  // namespace floorproof

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Brings the page to life: what stands in it as data becomes plots, map, replay and table. Without
+// scripts the page is whole, too: pictures, tables, films.
+
+function main() {
+  const text = document.getElementById('page-data');
+  if (!text) return;
+  const data = JSON.parse(text.textContent);
+  const theater = document.getElementById('theater');
+  let map = null, view = null;
+
+  const show = index => {
+    const drive = data.drives[index];
+    view.show(drive);
+    const select = document.getElementById('which-drive');
+    if (select) select.value = String(index);
+  };
+  if (theater && data.drives.length > 0) {
+    theater.hidden = false;
+    const room = document.getElementById('drive-view');
+    view = new DriveView(room, document.getElementById('drive-curves'), place => { if (map) map.showAt(place); });
+    if (data.drives.length > 1) {
+      const select = make('select', {id: 'which-drive'},
+                          ...data.drives.map(({name}, i) => make('option', {value: i}, name)));
+      select.addEventListener('change', () => show(Number(select.value)));
+      room.before(make('p', {class: 'which'}, make('label', {for: 'which-drive'}, 'Drive '), select));
+    }
+  }
+  const mapRoom = document.getElementById('map-view');
+  if (mapRoom && data.map && typeof echarts !== 'undefined') {
+    mapRoom.hidden = false;
+    for (const still of document.querySelectorAll('.replaced-by-map')) still.hidden = true;
+    map = addMapView(mapRoom, data.map, data.ways, data.failures, failure => {
+      if (failure.drive === null || failure.drive === undefined) return;
+      show(failure.drive);
+      if (failure.t_s !== undefined && view) view.toEvent(failure);
+      theater.scrollIntoView({block: 'nearest', behavior: 'smooth'});
+    });
+  }
+  if (view) show(data.first || 0);
+
+  const tableRoom = document.getElementById('episode-table');
+  if (tableRoom && data.table && typeof agGrid !== 'undefined') {
+    for (const still of document.querySelectorAll('.replaced-by-table')) still.hidden = true;
+    const grid = make('div', {class: `ag-theme-quartz${isDark() ? '-dark' : ''} grid`});
+    tableRoom.append(make('div', {class: 'row'}, csvButton('failing_episodes.csv', () => {
+      const {columns, rows} = data.table;
+      return [[...columns.map(({name}) => name), 'command'],
+              ...rows.map(row => [...columns.map(({key}) => row[key]), row.command])];
+    })), grid);
+    if (data.table.rows.length > 12) grid.classList.add('tall');
+    addEpisodeTable(grid, data.table.columns, data.table.rows, row => {
+      show(row.drive);
+      theater.scrollIntoView({block: 'start', behavior: 'smooth'});
+    });
+  }
+  document.documentElement.classList.add('alive');
+}
+
+main();
