@@ -11,10 +11,12 @@
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/quantity.h"
+#include "report/campaign_data.h"
 #include "report/drawing_progress.h"
 #include "report/drive_marks.h"
 #include "report/failing_episodes.h"
 #include "report/films.h"
+#include "report/page_data.h"
 #include "report/pairs.h"
 #include "report/pictures.h"
 #include "run/campaign/campaign_store.h"
@@ -194,6 +196,8 @@ void AddMaps(const fs::path& folder, const Rows& rows, const Console& console, R
       WriteFailurePlaces(scenario.site.map, name + " on " + scenario.site.map.name,
                          std::move(options), rates ? &*rates : nullptr, png);
       map.png = ReadInputFile(png, kMaxResultBytes);
+      map.data =
+          MapData(scenario.site.map).dump(-1, ' ', false, PageJson::error_handler_t::replace);
       if (!scenario.randomise.IsNull())
         map.note = "the map is the site as written, before an episode's draws";
     } catch (const InputError& e) {
@@ -234,6 +238,7 @@ Report GatherReport(const fs::path& folder, const std::string& named, ResultFold
   AddMaps(folder, rows, console, report);
   AddFilms(
       folder, [&](const std::string& v, std::uint64_t id) { return rows.WhatOf(v, id); }, report);
+  AddCampaignData(store, folder, named, report);
   report.settings = ReadInputFile(folder / "scenario.resolved.yaml", kMaxResultBytes);
   return report;
 }

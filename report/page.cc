@@ -72,8 +72,20 @@ std::string GateSentence(const GateSummary& gate, std::size_t variants) {
   return "";
 }
 
+// Without a gate: whether anything failed at all.
+std::string PlainTone(const Report& report) {
+  int driven = 0, failed = 0;
+  for (const VariantSummary& v : report.summary.variants)
+    if (!v.failures.empty()) {
+      driven += v.failures.front().n;
+      failed += v.failures.front().k;
+    }
+  return driven == 0 ? "" : failed == 0 ? " passed" : " failed";
+}
+
 std::string VerdictBox(const Report& report) {
   std::string tone, list;
+  if (!report.summary.gate) tone = PlainTone(report);
   if (const auto& gate = report.summary.gate) {
     tone = std::string(" ") + GateVerdictName(gate->verdict);
     for (const auto& [variant, found, aborted] : gate->variants)
@@ -104,10 +116,11 @@ std::string Rates(const Report& report) {
   if (report.summary.variants.size() > 1)
     html += "<div class=\"card\">" + VariantsTable(report) + "</div>\n";
   for (const VariantSummary& v : report.summary.variants)
-    html += fmt::format(
-        "<article class=\"card\">{}{}</article>\n",
-        report.summary.variants.size() > 1 ? "<h3>" + MarkupText(v.name) + "</h3>\n" : "",
-        VariantRates(report, v));
+    html +=
+        fmt::format("<article class=\"card\">{}{}</article>\n",
+                    report.summary.variants.size() > 1 ? "<h3>" + MarkupText(v.name) + "</h3>\n"
+                                                       : "<h3 class=\"off\">All episodes</h3>\n",
+                    VariantRates(report, v));
   return html + fmt::format(
                     "<p class=\"note\">Rates are of episodes that ended in success, failure or "
                     "timeout; a failure counts once an episode. Bars: two-sided {} Clopper-Pearson "
@@ -117,17 +130,22 @@ std::string Rates(const Report& report) {
 }
 
 std::string Places(const Report& report) {
-  std::string html;
+  std::string html =
+      "<div class=\"card theater\" id=\"theater\" hidden><div id=\"map-view\" class=\"map\" "
+      "hidden></div><div id=\"drive-view\"></div><div id=\"drive-curves\" "
+      "class=\"across\"></div></div>\n";
   const auto& variants = report.summary.variants;
   for (std::size_t i = 0; i < variants.size(); ++i) {
     const ReportMap& map = report.maps.at(i);
     html += "<div class=\"card places\">";
     if (variants.size() > 1) html += "<h3>" + MarkupText(variants[i].name) + "</h3>\n";
     if (!map.png.empty())
-      html += PictureHtml({"Where " + (variants.size() > 1 ? variants[i].name : "the robot") +
+      html += "<div class=\"replaced-by-map\">" +
+              PictureHtml({"Where " + (variants.size() > 1 ? variants[i].name : "the robot") +
                                " failed; numbers are episodes" +
                                (map.note.empty() ? "" : "; " + map.note),
-                           map.png});
+                           map.png}) +
+              "</div>";
     else
       html += "<p class=\"note\">" + MarkupText(map.note) + "</p>\n";
     html += PlaceRates(report, variants[i]) + "</div>\n";
@@ -135,14 +153,17 @@ std::string Places(const Report& report) {
   return html;
 }
 
-std::string Film(const Report& report, const ReportFilm& film) {
+// `number`: of the film, by which the scripts find it.
+std::string Film(const Report& report, const ReportFilm& film, std::size_t number) {
   std::string name = fmt::format("Episode {}", film.episode);
   if (report.summary.variants.size() > 1) name += " of " + film.variant;
   if (!film.what.empty()) name += ": " + film.what;
   std::string html = "<article class=\"card\"><h3>" + MarkupText(name) + "</h3>\n";
   if (!film.mp4.empty())
-    html += fmt::format("<video controls preload=\"metadata\" src=\"{}\"></video>\n",
-                        DataUri("video/mp4", film.mp4));
+    html += fmt::format(
+        "<div><video id=\"film-{}\" controls preload=\"metadata\" src=\"{}\" "
+        "aria-label=\"{}\"></video></div>\n",
+        number, DataUri("video/mp4", film.mp4), MarkupText("Film. " + name));
   else
     html += fmt::format("<p>Film, {:.1f} MB, beside this page: <a href=\"{}\">{}</a></p>\n",
                         film.megabytes, UrlPath(film.path), MarkupText(film.path));
@@ -155,7 +176,7 @@ std::string Film(const Report& report, const ReportFilm& film) {
 
 std::string Films(const Report& report) {
   std::string html;
-  for (const ReportFilm& film : report.films) html += Film(report, film);
+  for (std::size_t i = 0; i < report.films.size(); ++i) html += Film(report, report.films[i], i);
   if (report.films_left_out > 0)
     html +=
         fmt::format("<p class=\"note\">{} more filmed in the folder <code>episodes</code>.</p>\n",
@@ -179,7 +200,8 @@ std::string Episodes(const Report& report) {
   if (report.episodes.empty()) return "<p>No episode failed.</p>\n";
   std::string html =
       "<p class=\"note\">Each command drives the recorded episode again, exactly, and films "
-      "it.</p>\n<div class=\"card\"><table class=\"list\"><thead><tr><th scope=\"col\">Episode</th>"
+      "it.</p>\n<div id=\"episode-table\"></div><div class=\"card replaced-by-table\"><table "
+      "class=\"list\"><thead><tr><th scope=\"col\">Episode</th>"
       "<th scope=\"col\">Failure</th><th scope=\"col\">Hazard, or reason</th><th scope=\"col\" "
       "class=\"num\">Time</th><th scope=\"col\" class=\"num\">Place</th><th scope=\"col\">Film it"
       "</th></tr></thead><tbody>\n";
@@ -228,6 +250,7 @@ std::string ReportHtml(const Report& report) {
   page.title = report.title;
   page.about = "failure rates";
   page.verdict = VerdictBox(report);
+  page.sections.push_back({"places", "Where failures happened", Places(report)});
   page.sections.push_back({"rates", "Failure rates", Rates(report)});
   if (!report.pairs.empty())
     page.sections.push_back(
@@ -236,11 +259,15 @@ std::string ReportHtml(const Report& report) {
              "<p class=\"note\">The same episode number has the same draws in both. "
              "Differences are the variant less the first. Rates: Tango's score "
              "interval; means: Student's t; medians: sign test.</p></div>\n"});
-  page.sections.push_back({"places", "Where failures happened", Places(report)});
   if (!report.films.empty()) page.sections.push_back({"films", "Films", Films(report)});
   page.sections.push_back({"episodes", "Failing episodes", Episodes(report)});
   page.sections.push_back({"settings", "Settings and versions", Settings(report)});
   page.footer = Footer(report);
+  page.data = report.data;
+  page.blobs = report.replays;
+  page.shows_replay = !report.replays.empty();
+  page.shows_plots = true;
+  page.shows_table = !report.episodes.empty();
   return page.Html();
 }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "report/html_page.h"
@@ -18,6 +19,7 @@ namespace floorproof {
 // Where a variant's episodes failed.
 struct ReportMap {
   std::string png{};   // empty: `note` says why
+  std::string data{};  // MapData of the floor; empty: there is none
   std::string note{};  // also said below a picture
 };
 
@@ -67,7 +69,9 @@ struct Report {
   int films_left_out = 0;
   std::vector<ReportEpisode> episodes{};  // failing ones; as many as the page should show
   std::uint64_t episodes_left_out = 0;
-  std::string settings{};  // the scenario, resolved
+  std::string settings{};                                      // the scenario, resolved
+  std::string data{};                                          // for the page's scripts, as JSON
+  std::vector<std::pair<std::string, std::string>> replays{};  // id and bytes
 };
 
 // The verdict in a sentence.

@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "base/quantity.h"
+#include "base/input_file.h"
 #include "env/core/failure_text.h"
 #include "report/drive_marks.h"
 
@@ -117,6 +117,15 @@ PageJson FailureData(const Event& event, const std::string& label, const std::st
   return {{"t_s", Rounded(event.t_s, 1e3)}, {"x", Millimetres(event.x_m)},
           {"y", Millimetres(event.y_m)},    {"label", label},
           {"what", FailureName(event)},     {"text", text}};
+}
+
+void AddFilmTimes(const std::filesystem::path& folder, PageJson& drive) {
+  const std::filesystem::path file = folder / "video.json";
+  if (!WhyUnreadable(file, kMaxResultBytes).empty()) return;
+  const PageJson times = PageJson::parse(ReadInputFile(file, kMaxResultBytes), nullptr, false);
+  if (!times.is_object() || !times.contains("t_s") || !times.contains("fps")) return;
+  drive["film_t_s"] = times.at("t_s");
+  drive["film_fps"] = times.at("fps");
 }
 
 TraceData ReadTraceData(std::string_view csv) {

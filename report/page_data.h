@@ -2,6 +2,7 @@
 // What a page's scripts draw, as JSON; web/*.js say what they read.
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -21,6 +22,8 @@ PageJson MapData(const HazardMap& map);
 PageJson WayData(const Path& plan);
 // A failure: {t_s, x, y, label, what, text}. `label`: on the map.
 PageJson FailureData(const Event& event, const std::string& label, const std::string& text);
+// What video.json of this folder says of its film, where it is there: `film_fps`, `film_t_s`.
+void AddFilmTimes(const std::filesystem::path& folder, PageJson& drive);
 // trace.csv as columns: t_s, speed_mps, tilt_deg, cross_track_mm, power_w, coverage_percent, of at
 // most 1,500 rows; and the way, [[x, y], .., [null, null], ..] where the robot was carried. Both
 // null where the text is no trace.

@@ -85,7 +85,8 @@ std::string RatesTable(const Report& report, const std::string& heading,
       "<table class=\"rates\"><thead><tr><th scope=\"col\">{}</th><th scope=\"col\" "
       "class=\"num\">Episodes</th><th scope=\"col\" class=\"num\">Rate</th><th scope=\"col\" "
       "class=\"num\">{} interval</th><th scope=\"col\" "
-      "class=\"plotted\">{}</th></tr></thead><tbody>\n",
+      "class=\"plotted\"><span class=\"off\">Rate and interval, drawn</span>{}</th></tr></thead>"
+      "<tbody>\n",
       heading, PercentText(kReportedConfidence), plot.Axis());
   for (std::size_t i = 0; i < rates.size(); ++i) {
     const FailureRate& rate = rates[i];
@@ -129,25 +130,50 @@ std::string Outcomes(const VariantSummary& v) {
       "<div class=\"outcomes\" aria-hidden=\"true\">{}</div><ul class=\"key\">{}</ul>\n", bar, key);
 }
 
+// Rates by distance and time, each where so much was driven that it says something: of half an hour
+// a rate per 1,000 h would be a guess two thousand times as long as what was seen.
 std::string PerTable(const VariantSummary& v) {
+  constexpr double kLeast_km = 1, kLeast_1000_h = 0.01;  // ten hours
   if (v.per_km.empty() || v.per_1000_h.empty()) return "";
+  struct Column {
+    const char* heading;
+    const std::vector<FailureRatePer>& rates;
+  };
+  std::vector<Column> columns;
+  std::string left_out;
+  if (v.per_km.front().exposure >= kLeast_km)
+    columns.push_back({"Per km", v.per_km});
+  else
+    left_out += " Too little way for rates per km: they need 1 km.";
+  if (v.per_1000_h.front().exposure >= kLeast_1000_h)
+    columns.push_back({"Per 1,000 h", v.per_1000_h});
+  else
+    left_out += " Too little time for rates per 1,000 h: they need 10 h.";
   std::string html = fmt::format(
-      "<h4>Events by distance and time</h4>\n<p class=\"note\">Driven: {} km in {} h. {} intervals "
-      "(Garwood).</p>\n<div class=\"scroll\"><table><thead><tr><th scope=\"col\">Failure</th><th "
-      "scope=\"col\" class=\"num\">Events</th><th scope=\"col\" class=\"num\">Per km</th><th "
-      "scope=\"col\" class=\"num\">Interval</th><th scope=\"col\" class=\"num\">Per 1,000 "
-      "h</th><th "
-      "scope=\"col\" class=\"num\">Interval</th></tr></thead><tbody>\n",
+      "<h4>Events by distance and time</h4>\n<p class=\"note\">Driven: {} km in {} h.{}{}</p>\n",
       NumberText(v.per_km.front().exposure), NumberText(1000 * v.per_1000_h.front().exposure),
-      PercentText(kReportedConfidence));
-  for (std::size_t i = 0; i < std::min(v.per_km.size(), v.per_1000_h.size()); ++i) {
-    const FailureRatePer &km = v.per_km[i], &hours = v.per_1000_h[i];
+      columns.empty() ? "" : " " + PercentText(kReportedConfidence) + " intervals (Garwood).",
+      left_out);
+  if (columns.empty()) return html;
+  html +=
+      "<div class=\"scroll\"><table><thead><tr><th scope=\"col\">Failure</th><th scope=\"col\" "
+      "class=\"num\">Events</th>";
+  for (const Column& column : columns)
     html += fmt::format(
-        "<tr{}><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td><td "
-        "class=\"num\">{}</td><td class=\"num\">{}</td><td class=\"num\">{}</td></tr>\n",
-        i == 0 ? " class=\"total\"" : "", MarkupText(Words(km.name)), km.k, NumberText(km.rate),
-        IntervalText(NumberText(km.lower), NumberText(km.upper)), NumberText(hours.rate),
-        IntervalText(NumberText(hours.lower), NumberText(hours.upper)));
+        "<th scope=\"col\" class=\"num\">{}</th><th scope=\"col\" class=\"num\">Interval</th>",
+        column.heading);
+  html += "</tr></thead><tbody>\n";
+  for (std::size_t i = 0; i < std::min(v.per_km.size(), v.per_1000_h.size()); ++i) {
+    html += fmt::format("<tr{}><th scope=\"row\">{}</th><td class=\"num\">{}</td>",
+                        i == 0 ? " class=\"total\"" : "", MarkupText(Words(v.per_km[i].name)),
+                        v.per_km[i].k);
+    for (const Column& column : columns) {
+      const FailureRatePer& rate = column.rates[i];
+      html +=
+          fmt::format("<td class=\"num\">{}</td><td class=\"num\">{}</td>", NumberText(rate.rate),
+                      IntervalText(NumberText(rate.lower), NumberText(rate.upper)));
+    }
+    html += "</tr>\n";
   }
   return html + "</tbody></table></div>\n";
 }

@@ -170,17 +170,14 @@ class Run {
     }
     if (!film_.empty()) {
       drive["film"] = "film-0";
-      const Json times =
-          Json::parse(ReadIfThere(folder_ / "video.json", kMaxResultBytes), nullptr, false);
-      if (times.is_object() && times.contains("t_s") && times.contains("fps")) {
-        drive["film_t_s"] = times.at("t_s");
-        drive["film_fps"] = times.at("fps");
-      }
+      AddFilmTimes(folder_, drive);
     }
-    Json data = {{"drives", Json::array({std::move(drive)})},
-                 {"ways", std::move(ways)},
-                 {"failures", Failures()}};
-    if (map_) data["map"] = MapData(*map_);
+    Json data = {{"drives", Json::array({std::move(drive)})}, {"maps", Json::array()}};
+    if (map_)
+      data["maps"].push_back({{"name", map_->name},
+                              {"map", MapData(*map_)},
+                              {"ways", std::move(ways)},
+                              {"failures", Failures()}});
     page.data = data.dump(-1, ' ', false, Json::error_handler_t::replace);
     page.shows_plots = true;
   }
@@ -247,7 +244,7 @@ class Run {
            "the limit: 100 % is as far as can be, 0 is at the limit, below 0 is beyond it.</p>"
            "<table><thead><tr><th scope=\"col\">Failure</th><th scope=\"col\" "
            "class=\"num\">Left</th><th scope=\"col\" "
-           "class=\"plotted\"></th></tr></thead><tbody>\n" +
+           "class=\"plotted\"><span class=\"off\">As a bar</span></th></tr></thead><tbody>\n" +
            rows + "</tbody></table></div>\n";
   }
 

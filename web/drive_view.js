@@ -32,6 +32,7 @@ class DriveView {
     this.clock.onTime(t_s => this.tell(t_s));
     const first = drive.events.length > 0 ? Math.max(0, drive.events[0].t_s - 0.02) : 0;
     this.clock.set(first);
+    if (this.view) this.view.look(drive.events.length > 0 ? 1.6 : 2.8);
   }
 
   build() {

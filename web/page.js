@@ -27,16 +27,30 @@ function main() {
     }
   }
   const mapRoom = document.getElementById('map-view');
-  if (mapRoom && data.map && typeof echarts !== 'undefined') {
+  if (mapRoom && data.maps.length > 0 && typeof echarts !== 'undefined') {
+    theater.hidden = false;
     mapRoom.hidden = false;
     for (const still of document.querySelectorAll('.replaced-by-map')) still.hidden = true;
-    map = addMapView(mapRoom, data.map, data.ways, data.failures, failure => {
-      if (failure.drive === null || failure.drive === undefined) return;
-      show(failure.drive);
-      if (failure.t_s !== undefined && view) view.toEvent(failure);
-      theater.scrollIntoView({block: 'nearest', behavior: 'smooth'});
-    });
+    const showMap = ({map: floor, ways, failures}) => {
+      mapRoom.replaceChildren();
+      const room = make('div', {role: 'img', 'aria-label': `Map of ${floor.name}, in metres, with `
+          + `${failures.length} places of failures; ctrl and wheel to zoom`});
+      mapRoom.append(room);
+      map = addMapView(room, floor, ways, failures, failure => {
+        if (failure.drive === null || failure.drive === undefined) return;
+        if (!view || view.drive !== data.drives[failure.drive]) show(failure.drive);
+        view.toEvent(failure);
+      });
+    };
+    showMap(data.maps[0]);
+    if (data.maps.length > 1) {
+      const select = make('select', {id: 'which-map'},
+                          ...data.maps.map(({name}, i) => make('option', {value: i}, name)));
+      select.addEventListener('change', () => showMap(data.maps[Number(select.value)]));
+      mapRoom.before(make('p', {class: 'which'}, make('label', {for: 'which-map'}, 'Variant '), select));
+    }
   }
+  if (theater) theater.classList.toggle('alone', !map);
   if (view) show(data.first || 0);
 
   const tableRoom = document.getElementById('episode-table');

@@ -22,7 +22,7 @@ function addTimePlots(element, columns, curves, events, clock) {
       grid: rows.map((row, i) => ({left: 50, right: 14, top: kTop_px + i * kRow_px, height: kRow_px - 34})),
       xAxis: rows.map((row, i) => ({
         type: 'value', gridIndex: i, min: 0, max: clock.end_s, ...style,
-        axisLabel: {...style.axisLabel, show: i + 1 === rows.length, formatter: v => `${v} s`},
+        axisLabel: {...style.axisLabel, show: i + 1 === rows.length, showMaxLabel: false, formatter: v => `${v} s`},
         splitLine: {show: false},
       })),
       yAxis: rows.map((row, i) => ({type: 'value', gridIndex: i, splitNumber: 2, scale: false, ...style})),

@@ -1,0 +1,227 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Pages as people use them: in Chromium, without a screen and from disk.
+
+    page_test.py FLOORPROOF TREE
+
+Needs Chromium and Playwright (axe-core too, where its package is); without them it says so and exits
+with 77, which ctest takes for skipped. It drives a run and a small campaign with FLOORPROOF, opens
+their pages at three sizes, in light and dark, and fails where a page logs an error, asks any network,
+is wider than its window, or does not do what its buttons say.
+"""
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SKIPPED = 77
+try:
+    from playwright.sync_api import sync_playwright
+except ImportError:
+    print("skipped: no Playwright (pip install playwright axe-playwright-python)")
+    sys.exit(SKIPPED)
+try:
+    from axe_playwright_python.sync_playwright import Axe
+except ImportError:
+    Axe = None
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+if CHROMIUM is None:
+    print("skipped: no Chromium (apt package chromium)")
+    sys.exit(SKIPPED)
+
+PROGRAM, TREE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+WIDTHS = (390, 820, 1440)  # a phone, a tablet, a desk
+# Its name must do nothing. A sill about as high as the robot climbs, between start and goal.
+SCENARIO = """
+scenario: 1
+name: '<script>document.title="taken"</script> =1+1'
+seed: 1
+site:
+  site: 1
+  name: '=corridor <b>'
+  grid:
+    cell_m: 0.5
+    rows: |
+      ########
+      #......#
+      #......#
+      ########
+  start: {x_m: 1.0, y_m: 1.0, yaw_deg: 0}
+  goal: {x_m: 3.0, y_m: 1.0}
+  hazards:
+    - {type: step, id: '=sill <i>', polygon_m: [[1.8, 0.5], [2.2, 0.5], [2.2, 1.5], [1.8, 1.5]], height_m: 0.017, known: false}
+robot: beluga
+plan: {planner: straight, speed_mps: 0.3}
+success: {min_coverage: 0}
+randomise:
+  site.hazards.0.height_m: {uniform: [0.008, 0.026]}
+  site.floor.friction: {normal: [0.7, 0.08], min: 0.2}
+  plan.speed_mps: {uniform: [0.2, 0.3]}
+"""
+
+
+def floorproof(*arguments, statuses=(0, 1)):
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
+    assert done.returncode in statuses, done.stderr
+
+
+class Pages(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="floorproof_pages_"))
+        cls.run_folder, cls.campaign_folder = cls.folder / "run", cls.folder / "campaign"
+        floorproof("run", TREE / "models/scenarios/demo_unseen_step.yaml", "--out", cls.run_folder)
+        floorproof("report", cls.run_folder)
+        scenario = cls.folder / "scenario.yaml"
+        scenario.write_text(SCENARIO, encoding="utf-8")
+        floorproof("campaign", scenario, "-n", 40, "--no-films", "--out", cls.campaign_folder)
+        floorproof("report", cls.campaign_folder)
+        cls.playwright = sync_playwright().start()
+        cls.browser = cls.playwright.chromium.launch(
+            executable_path=CHROMIUM,
+            args=["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
+                  "--enable-unsafe-swiftshader"])
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        cls.playwright.stop()
+        shutil.rmtree(cls.folder)
+
+    def open(self, folder, width=1440, **options):
+        """The page, which fails the test for whatever it logs or asks for."""
+        page = self.browser.new_page(viewport={"width": width, "height": 900}, **options)
+        self.addCleanup(page.close)
+        page.on("console", lambda m: self.faults.append(m.text) if m.type == "error" else None)
+        page.on("pageerror", lambda e: self.faults.append(str(e)))
+        page.on("request", lambda r: None if r.url.startswith(("file:", "data:", "blob:"))
+                else self.faults.append(r.url))
+        page.goto((folder / "report.html").as_uri(), wait_until="load")
+        page.wait_for_selector("html.alive", state="attached", timeout=20000)
+        return page
+
+    def setUp(self):
+        self.faults = []
+
+    def tearDown(self):
+        self.assertEqual(self.faults, [])
+
+    def test_pages_open_at_every_size_in_light_and_dark(self):
+        for folder in (self.run_folder, self.campaign_folder):
+            for width in WIDTHS:
+                for scheme in ("light", "dark"):
+                    with self.subTest(folder=folder.name, width=width, scheme=scheme):
+                        page = self.open(folder, width, color_scheme=scheme)
+                        self.assertTrue(page.locator(".verdict p").first.is_visible())
+                        self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), width)
+                        page.close()
+
+    def test_the_verdict_says_what_failed(self):
+        page = self.open(self.run_folder)
+        text = page.locator(".verdict").inner_text()
+        self.assertIn("stuck", text)
+        self.assertIn("'plank' (step, 40 mm)", text)
+        self.assertIn("failed", page.locator(".verdict").get_attribute("class"))
+
+    def time_of(self, page):
+        return float(page.locator(".time").inner_text().split(" s")[0])
+
+    def test_the_replay_is_scrubbed_and_plays(self):
+        page = self.open(self.run_folder)
+        picture = lambda: page.evaluate("document.querySelector('canvas').toDataURL()")  # noqa: E731
+        at_failure = picture()
+        slider = page.locator(".slider input")
+        slider.fill("20")
+        self.assertAlmostEqual(self.time_of(page), 20, delta=0.1)
+        self.assertNotEqual(picture(), at_failure, "another time is another picture")
+        page.locator(".play").click()
+        page.wait_for_timeout(1200)
+        page.locator(".play").click()
+        self.assertGreater(self.time_of(page), 20.3)
+        page.locator("canvas").first.focus()
+        before = self.time_of(page)
+        page.keyboard.press("ArrowLeft")
+        self.assertAlmostEqual(self.time_of(page), before - 1, delta=0.2)
+
+    def test_an_event_leads_to_the_moments_before_it(self):
+        page = self.open(self.run_folder)
+        page.locator(".slider input").fill("10")
+        page.locator(".events button").first.click()
+        self.assertGreater(self.time_of(page), 190)
+
+    def test_a_click_into_the_curves_goes_to_that_time(self):
+        page = self.open(self.run_folder)
+        page.locator(".curves").scroll_into_view_if_needed()
+        box = page.locator(".curves").bounding_box()
+        page.mouse.click(box["x"] + box["width"] / 2, box["y"] + 50)
+        self.assertAlmostEqual(self.time_of(page), 99, delta=15)
+
+    def test_a_marker_on_the_map_leads_to_its_drive(self):
+        page = self.open(self.campaign_folder)
+        data = json.loads(page.locator("#page-data").text_content())
+        self.assertGreater(len(data["maps"][0]["failures"]), 5)
+        page.locator("#which-drive").select_option("1")
+        pins = page.locator("#map-view svg path[fill='#b83a2f']")
+        self.assertGreater(pins.count(), 0)
+        pins.first.click(force=True)
+        shown = int(page.locator("#which-drive").input_value())
+        self.assertIn(shown, [failure["drive"] for failure in data["maps"][0]["failures"]])
+
+    def test_the_table_sorts_filters_and_shows(self):
+        page = self.open(self.campaign_folder)
+        first = lambda key: page.locator(f".ag-row[row-index='0'] [col-id='{key}']").inner_text()  # noqa: E731
+        self.assertNotIn("<", first("what"))
+        page.locator(".ag-header-cell[col-id='episode'] .ag-header-cell-label").click()
+        lowest = int(first("episode"))
+        page.locator(".ag-header-cell[col-id='episode'] .ag-header-cell-label").click()
+        self.assertGreater(int(first("episode")), lowest)
+        page.locator(".ag-floating-filter input").first.fill(str(lowest))
+        page.wait_for_timeout(900)
+        self.assertEqual(int(first("episode")), lowest)
+        page.locator(".ag-row[row-index='0'] .actions button", has_text="show").click()
+        label = page.locator("#which-drive option:checked").inner_text()
+        self.assertIn(str(lowest), label)
+
+    def test_a_download_is_harmless_in_a_spreadsheet(self):
+        page = self.open(self.campaign_folder)
+        with page.expect_download() as download:
+            page.locator("#episode-table button", has_text="CSV").click()
+        rows = pathlib.Path(download.value.path()).read_text(encoding="utf-8").splitlines()
+        self.assertGreater(len(rows), 5)
+        for row in rows[1:]:
+            self.assertFalse(any(cell.startswith(("=", "@")) for cell in row.split(",")), row)
+
+    def test_a_name_that_is_a_script_does_nothing(self):
+        page = self.open(self.campaign_folder)
+        self.assertNotEqual(page.title(), "taken")
+        self.assertIn("<script>", page.locator("h1").inner_text())
+
+    def test_without_scripts_the_page_is_whole(self):
+        context = self.browser.new_context(java_script_enabled=False)
+        self.addCleanup(context.close)
+        page = context.new_page()
+        page.goto((self.campaign_folder / "report.html").as_uri())
+        self.assertTrue(page.locator("table.list tbody tr").first.is_visible())
+        self.assertTrue(page.locator(".replaced-by-map img").first.is_visible())
+
+    def test_it_prints(self):
+        page = self.open(self.run_folder)
+        pdf = page.pdf(format="A4")
+        self.assertGreater(len(pdf), 20000)
+
+    @unittest.skipIf(Axe is None, "no axe-core (pip install axe-playwright-python)")
+    def test_whoever_cannot_see_or_point_can_use_it(self):
+        for folder in (self.run_folder, self.campaign_folder):
+            for scheme in ("light", "dark"):
+                with self.subTest(folder=folder.name, scheme=scheme):
+                    page = self.open(folder, color_scheme=scheme)
+                    found = Axe().run(page).response["violations"]
+                    self.assertEqual([(v["id"], v["nodes"][0]["html"][:200]) for v in found], [])
+                    page.close()
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
