@@ -11,11 +11,18 @@ namespace floorproof {
 namespace {
 
 constexpr int kIndent = 2, kGap = 2;
-constexpr int kLeastWrapped = 24;  // a column of text that is narrower is hard to read
+constexpr int kLeastText = 24;    // a narrower column of text is hard to read
+constexpr int kLeastFigure = 12;  // of a column under a heading
 constexpr int kLeastWindow = 20;
 constexpr int kFactName = 18;  // "Nearest to failing"
 
 std::string Spaces(int n) { return std::string(static_cast<std::size_t>(std::max(n, 0)), ' '); }
+
+int WidestWord(const std::string& text) {
+  int widest = 0;
+  for (const std::string& word : WrapText(text, 1)) widest = std::max(widest, DisplayWidth(word));
+  return widest;
+}
 
 // On one line, of what can be shown.
 std::string Clean(std::string_view text) {
@@ -48,17 +55,25 @@ bool TextTable::HasHeadings() const {
 }
 
 std::vector<int> TextTable::Fit(int width) const {
-  std::vector<int> widths;
+  const bool headings = HasHeadings();
+  std::vector<int> widths, least;  // least: what a column that wraps may shrink to
   int over = kIndent - kGap - width;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    int most = std::max(columns_[i].least, DisplayWidth(columns_[i].heading));
-    for (const Row& row : rows_) most = std::max(most, DisplayWidth(row[i].text));
+    const TextColumn& column = columns_[i];
+    int most = std::max(column.least, DisplayWidth(column.heading));
+    int few = headings ? std::max(kLeastFigure, WidestWord(column.heading)) : kLeastText;
+    for (const Row& row : rows_) {
+      most = std::max(most, DisplayWidth(row[i].text));
+      if (headings) few = std::max(few, WidestWord(row[i].text));
+    }
+    // Without headings all tables of a window look alike, whatever they hold.
+    if (column.wraps && !headings) most = std::max(most, few);
     widths.push_back(most);
+    least.push_back(column.wraps ? few : most);
     over += most + kGap;
   }
-  for (std::size_t i = 0; i < columns_.size() && over > 0; ++i) {
-    if (!columns_[i].wraps) continue;
-    const int given = std::clamp(widths[i] - kLeastWrapped, 0, over);
+  for (std::size_t i = 0; i < widths.size() && over > 0; ++i) {
+    const int given = std::clamp(widths[i] - least[i], 0, over);
     widths[i] -= given;
     over -= given;
   }

@@ -62,6 +62,24 @@ TEST(TextTable, TurnsIntoLinesWhereEvenThatIsTooWide) {
                                                  "    Timeout: 1"));              //
 }
 
+TEST(TextTable, NoColumnIsNarrowerThanItsWords) {
+  TextTable table({{.heading = "Variant", .wraps = true},
+                   {.heading = "Interval", .wraps = true},
+                   {.heading = "n", .right = true}});
+  table.Add({"planner=boustrophedon", "+0.0091 (+0.0023 to +0.0158)", "20"});
+  EXPECT_THAT(table.Lines(50, false),
+              ElementsAre("  Variant                Interval                n",
+                          "  planner=boustrophedon  +0.0091 (+0.0023 to    20",
+                          "                         +0.0158)"));
+}
+
+TEST(TextTable, AllFactsOfAWindowLookAlike) {
+  FactTable table;
+  table.Add({"Results", "o"});
+  EXPECT_THAT(table.Lines(80, false), ElementsAre("  Results             o"));
+  EXPECT_THAT(table.Lines(40, false), ElementsAre("  Results: o"));
+}
+
 TEST(TextTable, KeepsWithinTheWindow) {
   for (int width = 20; width <= 200; ++width)
     for (const std::string& line : Facts().Lines(width, false))
