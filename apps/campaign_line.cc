@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "base/quantity.h"
@@ -24,18 +25,19 @@ std::optional<EpisodeRange> ReadEpisodes(const std::string& text) {
 }
 
 std::string Text(const CampaignProgress& p, const std::vector<Variant>& variants) {
-  std::string text = fmt::format("  {} of {}", p.done, CountText(p.total, "episode"));
+  const auto number = [](auto n) { return FixedText(static_cast<double>(n), 0); };
+  std::string text = "  " + number(p.done) + " of " + CountText(p.total, "episode");
   if (p.done_now > 0) {
     const double rate = static_cast<double>(p.done_now) / p.elapsed_s;
-    text += fmt::format(", {:.1f} a second, {:.0f} s to go at most", rate,
-                        static_cast<double>(p.total - p.done) / rate);
+    text += fmt::format(", {} a second, {} to go at most", FixedText(rate, 1),
+                        TimeText(std::ceil(static_cast<double>(p.total - p.done) / rate)));
   }
   constexpr std::size_t kShown = 3;
   for (std::size_t v = 0; v < std::min(kShown, p.variants.size()); ++v) {
     const VariantProgress& at = p.variants[v];
     if (at.n == 0) continue;
     text += fmt::format("; {}{} of {} fail", p.variants.size() > 1 ? variants[v].name + ": " : "",
-                        at.any_failure, at.n);
+                        number(at.any_failure), number(at.n));
     text += at.repetition.repeated()
                 ? " (one episode, repeated)"
                 : fmt::format(

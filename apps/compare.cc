@@ -8,6 +8,7 @@
 
 #include "apps/command.h"
 #include "base/quantity.h"
+#include "base/words.h"
 #include "run/campaign/campaign_comparison.h"
 #include "run/scenario/chance.h"
 
@@ -41,12 +42,20 @@ Side OpenSide(const std::string& text) {
 }
 
 std::string Signed(double value, double scale = 1) {
-  return std::isfinite(value) ? (scale * value < 0 ? "" : "+") + NumberText(scale * value, 4) : "-";
+  return std::isfinite(value) ? (scale * value < 0 ? "" : "+") + NumberText(scale * value, 4) : "–";
 }
 
 std::string Significance(double p) {
   constexpr double kLeastShown = 1e-4;
   return p < kLeastShown ? "p < " + NumberText(kLeastShown) : "p = " + NumberText(p);
+}
+
+std::string Number(int n) { return FixedText(n, 0); }
+
+// "+1.2 (-0.3 to +2.7)"
+std::string WithInterval(double estimate, const Interval& interval, double scale = 1) {
+  return fmt::format("{} ({} to {})", Signed(estimate, scale), Signed(interval.lower, scale),
+                     Signed(interval.upper, scale));
 }
 
 // Of the figures that differ anywhere, and of those that a reader asks for.
@@ -55,23 +64,24 @@ void SayPlans(const Comparison& c, const Globals& globals) {
     return fmt::format("{} [{}, {}]", NumberText(q.median, 4), NumberText(q.lower, 4),
                        NumberText(q.upper, 4));
   };
-  bool first = true;
+  const auto percent = [](const Quartiles& q) {
+    return fmt::format("{:+.1f} % [{:+.1f}, {:+.1f}]", 100 * q.median, 100 * q.lower,
+                       100 * q.upper);
+  };
+  TextTable table({{.heading = "Plans", .wraps = true},
+                   {.heading = "Pairs", .right = true},
+                   {.heading = "a: median [quartiles]", .wraps = true},
+                   {.heading = "b", .wraps = true},
+                   {.heading = "Change", .wraps = true},
+                   {.heading = "b lower, same, higher", .wraps = true}});
   for (const ComparedPlanFigure& f : c.plans) {
     constexpr std::array<std::string_view, 4> kAlways = {
         "length_m", "cumulative_risk", "hazard_free_coverage", "terrain_crossings"};
     if (f.lower + f.higher == 0 && std::ranges::find(kAlways, f.figure) == kAlways.end()) continue;
-    if (first)
-      globals.Say(fmt::format("  {:<22} {:>6}  {:<26} {:<26} {:<24} {}", "plans", "n",
-                              "a: median [quartiles]", "b", "change (%)", "b lower, same, higher"));
-    first = false;
-    const auto percent = [](const Quartiles& q) {
-      return fmt::format("{:+.1f} [{:+.1f}, {:+.1f}]", 100 * q.median, 100 * q.lower,
-                         100 * q.upper);
-    };
-    globals.Say(fmt::format("  {:<22} {:>6}  {:<26} {:<26} {:<24} {}, {}, {}", f.figure, f.n,
-                            spread(f.a), spread(f.b), f.change ? percent(*f.change) : "-", f.lower,
-                            f.same, f.higher));
+    table.Add({f.figure, Number(f.n), spread(f.a), spread(f.b), f.change ? percent(*f.change) : "–",
+               fmt::format("{}, {}, {}", f.lower, f.same, f.higher)});
   }
+  if (!table.empty()) globals.Say(table);
   const ComparedPlans& both = c.risk_and_length;
   if (both.n > 0)
     globals.Say(fmt::format(
@@ -82,22 +92,36 @@ void SayPlans(const Comparison& c, const Globals& globals) {
 }
 
 void SayDrives(const Comparison& c, const Globals& globals) {
-  globals.Say(fmt::format("  {:<14} {:>6} {:>6} {:>7} {:>7}  {}", "failures", "a", "b", "only a",
-                          "only b", "rate b - a (95 %); exact McNemar p"));
+  TextTable failures({{.heading = "Failures"},
+                      {.heading = "a", .right = true},
+                      {.heading = "b", .right = true},
+                      {.heading = "Only a", .right = true},
+                      {.heading = "Only b", .right = true},
+                      {.heading = "b - a, 95 % interval, % of pairs", .wraps = true},
+                      {.heading = "McNemar"}});
   for (const ComparedFailure& f : c.failures)
-    globals.Say(fmt::format("  {:<14} {:>6} {:>6} {:>7} {:>7}  {} % ({} to {}); {}", f.mode,
-                            f.both + f.only_a, f.both + f.only_b, f.only_a, f.only_b,
-                            Signed(f.difference, 100), Signed(f.interval.lower, 100),
-                            Signed(f.interval.upper, 100), Significance(f.p)));
-  globals.Say(fmt::format("  {:<28} {:>6}  {}", "metrics", "n", "mean b - a (95 %); median"));
+    failures.Add({Words(f.mode), Number(f.both + f.only_a), Number(f.both + f.only_b),
+                  Number(f.only_a), Number(f.only_b), WithInterval(f.difference, f.interval, 100),
+                  Significance(f.p)});
+  globals.Say(failures);
+  TextTable metrics({{.heading = "Metrics", .wraps = true},
+                     {.heading = "Pairs", .right = true},
+                     {.heading = "Mean b - a, 95 % interval", .wraps = true},
+                     {.heading = "Median", .right = true}});
   bool starred = false;
+  std::string same;
   for (const ComparedMetric& m : c.metrics) {
+    const Interval& interval = m.mean.interval;
+    if (m.mean.estimate == 0 && interval.lower == 0 && interval.upper == 0) {
+      same += (same.empty() ? "" : ", ") + m.metric;
+      continue;
+    }
     starred |= m.successes_only;
-    globals.Say(fmt::format("  {:<28} {:>6}  {} ({} to {}); {}",
-                            m.metric + (m.successes_only ? " *" : ""), m.mean.n,
-                            Signed(m.mean.estimate), Signed(m.mean.interval.lower),
-                            Signed(m.mean.interval.upper), Signed(m.median.estimate)));
+    metrics.Add({m.metric + (m.successes_only ? " *" : ""), Number(m.mean.n),
+                 WithInterval(m.mean.estimate, m.mean.interval), Signed(m.median.estimate)});
   }
+  if (!metrics.empty()) globals.Say(metrics);
+  if (!same.empty()) globals.SayFact("The same in all", same);
   if (starred) globals.Say("  * where both succeed: a failure ends an episode early");
 }
 

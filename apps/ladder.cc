@@ -8,6 +8,7 @@
 #include "base/file_output.h"
 #include "base/interrupt.h"
 #include "base/progress_line.h"
+#include "base/quantity.h"
 #include "report/ladder_files.h"
 #include "validate/ladder_findings.h"
 
@@ -26,13 +27,22 @@ std::vector<LadderRow> ClimbWithProgress(std::span<const LadderCell> cells, int 
 }
 
 void SayRows(std::span<const LadderRow> rows, const Globals& globals) {
+  TextTable table({{.heading = "Robot"},
+                   {.heading = "Wheels"},
+                   {.heading = "Hazard"},
+                   {.heading = "Way"},
+                   {.heading = "Speed", .right = true},
+                   {.heading = "Friction", .right = true},
+                   {.heading = "Limit", .right = true},
+                   {.heading = "Held by"}});
   for (const LadderRow& row : rows) {
     const LadderCell& cell = row.cell;
-    globals.Say(fmt::format(
-        "  {:<7} {:<7} {:<18} {:<8} {:.3g} m/s  friction {:.1f} {:>12} {:<3} {}", RobotName(cell),
-        cell.wheels, cell.hazard, Name(cell.direction), cell.speed_mps, cell.friction,
-        LimitText(row), FindLadderHazard(cell.hazard).unit, row.held_by));
+    table.Add(
+        {RobotName(cell), cell.wheels, std::string(cell.hazard), std::string(Name(cell.direction)),
+         NumberText(cell.speed_mps) + " m/s", FixedText(cell.friction, 1),
+         fmt::format("{} {}", LimitText(row), FindLadderHazard(cell.hazard).unit), row.held_by});
   }
+  globals.Say(table);
 }
 
 nlohmann::ordered_json RunLadder(const fs::path& folder, int jobs, const Globals& globals) {

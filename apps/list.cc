@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
@@ -67,6 +65,30 @@ Json Entries(const std::string& kind) {
   return out;
 }
 
+std::string Text(const Json& of, const char* key) { return of[key].get<std::string>(); }
+
+void SayNames(const Json& entries, const Globals& globals) {
+  FactTable table;
+  for (const Json& entry : entries) table.Add({Text(entry, "name"), Text(entry, "help")});
+  globals.Say(table);
+}
+
+// Each with the keys that it takes, and what they are unless written.
+void SayKeys(const Json& entries, const Globals& globals) {
+  for (const Json& entry : entries) {
+    TextTable table({{.least = 26}, {.least = 10}, {.wraps = true}});
+    table.SetTitle(Text(entry, "name") + ": " + Text(entry, "help"));
+    if (entry.contains("place"))
+      table.Add({Text(entry, "place"), "",
+                 entry["place"] == "line_m" ? "where it lies: the points of a line"
+                                            : "where it lies: a polygon's corners"});
+    for (const Json& p : entry["params"])
+      table.Add(
+          {Text(p, "name"), Text(p, "default"), Text(p, "help") + " (" + Text(p, "rule") + ")"});
+    globals.Say(table);
+  }
+}
+
 }  // namespace
 
 void AddList(CommandLine& line, const Globals& globals, int&) {
@@ -84,20 +106,7 @@ void AddList(CommandLine& line, const Globals& globals, int&) {
       all[k] = Entries(k);
       if (globals.json) continue;
       globals.Say(k + (all[k].empty() ? ": none in this version" : ""));
-      for (const auto& entry : all[k]) {
-        globals.Say(fmt::format("  {:<20} {}", entry["name"].get<std::string>(),
-                                entry["help"].get<std::string>()));
-        if (kind->empty()) continue;
-        if (entry.contains("place"))
-          globals.Say(fmt::format("      {:<26} {:<10} {}", entry["place"].get<std::string>(), "",
-                                  entry["place"] == "line_m"
-                                      ? "where it lies: the points of a line"
-                                      : "where it lies: a polygon's corners"));
-        for (const auto& p : entry["params"])
-          globals.Say(fmt::format("      {:<26} {:<10} {} ({})", p["name"].get<std::string>(),
-                                  p["default"].get<std::string>(), p["help"].get<std::string>(),
-                                  p["rule"].get<std::string>()));
-      }
+      kind->empty() ? SayNames(all[k], globals) : SayKeys(all[k], globals);
     }
     globals.Result(all);
   });

@@ -127,7 +127,7 @@ int RunMeasure(const MeasureCommand& options, const Globals& globals) {
       globals.Say("warning: no kind of hazard was met often enough: no rates are fitted");
     }
   }
-  globals.Say("results are in " + folder.string());
+  globals.SayFact("Results", folder.string());
   if (outcome.run.end == CampaignEnd::kInterrupted) throw Interruption();
   const int status = CampaignExitStatus(outcome);
   return status != kExitDone ? status : plans_status;

@@ -61,7 +61,7 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     } else {
       globals.Say(fmt::format("no plan ({}): {}", Name(plan.status), plan.message));
     }
-    globals.Say("results are in " + folder.string());
+    globals.SayFact("Results", folder.string());
     globals.Result(json);
     status = found ? kExitDone : kExitNotSuccess;
   });

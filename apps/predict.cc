@@ -55,7 +55,7 @@ void AddPredict(CommandLine& line, const Globals& globals, int& status) {
     WritePredictPicture(scenario, prediction, folder / "heatmap_predict.png");
     globals.Say(SweptText(prediction.plan, plan));
     for (const std::string& said : PredictionLines(prediction)) globals.Say(said);
-    globals.Say("results are in " + folder.string());
+    globals.SayFact("Results", folder.string());
     globals.Result(json);
     status = kExitDone;
   });

@@ -29,9 +29,9 @@ class RareLine final : public RareObserver {
   void OnProgress(const std::string& stage, const RareProgress& p) override {
     if (!line_.IsDue()) return;
     const double rate = static_cast<double>(p.driven) / std::max(line_.wall_s(), 1e-3);
-    line_.Show(fmt::format("  {} of at most {}, {:.1f} a second; {}; {} so far", p.done,
-                           CountText(most_, "drive"), rate, stage,
-                           CountText(p.failures, "failure")));
+    line_.Show(fmt::format("  {} of at most {}, {} a second; {}; {} so far",
+                           FixedText(static_cast<double>(p.done), 0), CountText(most_, "drive"),
+                           FixedText(rate, 1), stage, CountText(p.failures, "failure")));
   }
   void Clear() { line_.Clear(); }
 
@@ -65,10 +65,10 @@ int RunRare(const RareCommand& options, const Globals& globals) {
   progress.Clear();
   globals.Result(RareJson(outcome));
   for (const std::string& line : RareLines(outcome, folder)) globals.Say(line);
-  globals.Say("results are in " + folder.string());
+  globals.SayFact("Results", folder.string());
   const auto write_page = [&] {
     WriteFileWhole(folder / "rare.html", MakeRarePage(folder).html);
-    globals.Say("page: " + (folder / "rare.html").string());
+    globals.SayFact("Page", (folder / "rare.html").string());
   };
   try {
     if (!options.no_films) FilmLikelyFailures(file, outcome, folder, globals);

@@ -44,7 +44,7 @@ int ReplayOfCampaign(const std::filesystem::path& folder, std::optional<std::uin
     throw InputError({"--episode", 0}, "", std::to_string(*episode),
                      "is not among those of " + variant->name);
   const DriveResult result = ReplayEpisode(file, *variant, *row, folder, {.video = video}, globals);
-  globals.Say("results are in " + EpisodeFolder(folder, variant->name, *episode).string());
+  globals.SayFact("Results", EpisodeFolder(folder, variant->name, *episode).string());
   globals.Result(ResultJson(file.Read(*episode, *variant), result.record));
   return kExitDone;
 }

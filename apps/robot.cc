@@ -112,7 +112,7 @@ void AddRobot(CommandLine& line, const Globals& globals, int& status) {
     results.Begin();
     WritePng(picture, DrawRobot(check, PartsOf(robot)));
     SayWhenInterrupted(picture.string() + " is there");
-    for (const std::string& said : RobotLines(check)) globals.Say(said);
+    SayRobot(check, globals);
     globals.Say("picture: " + picture.string());
     nlohmann::ordered_json json = RobotCheckJson(check);
     if (urdf) json["of_the_urdf"] = notes;

@@ -31,7 +31,7 @@ void AddRun(CommandLine& line, const Globals& globals, int& status) {
     const DriveResult result = DriveAndFilm(scenario, folder, {.video = options->video}, globals);
     globals.Result(ResultJson(scenario, result.record));
     if (result.not_written) std::rethrow_exception(result.not_written);
-    globals.Say("results are in " + folder.string());
+    globals.SayFact("Results", folder.string());
     status = ExitStatus(result.record.outcome);
   });
 }

@@ -126,8 +126,12 @@ bool Run(const PluginEntry<Method>& entry, const RobotModel& model, const SuiteR
   if (!result) return false;
   line.Clear();
   const std::string missed = WhyMissed(*result, report.required);
-  globals.Say(fmt::format("  {:<10} {:<18} {:<18} {}", robot.label, entry.name, ResultText(*result),
-                          missed.empty() ? WithdrawnText(*result) : "MISSED: " + missed));
+  // Said as they come, so their columns are wide enough for most.
+  TextTable row({{.least = 10}, {.least = 18}, {.least = 18}, {.wraps = true}});
+  row.Add({robot.label, std::string(entry.name), ResultText(*result),
+           missed.empty() ? TextCell(WithdrawnText(*result))
+                          : TextCell("MISSED: " + missed, Tone::kBad)});
+  globals.Say(row);
   robot.methods.push_back(std::move(*result));
   return true;
 }

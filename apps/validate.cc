@@ -19,11 +19,18 @@ namespace {
 namespace fs = std::filesystem;
 
 void SayLaw(const LawResult& result, const Globals& globals) {
-  globals.Say(fmt::format("{}: {}", result.name, result.statement));
+  TextTable table({{.heading = "Law", .least = 44},
+                   {.heading = "Expected", .right = true, .least = 12},
+                   {.heading = "Measured", .right = true, .least = 12},
+                   {.heading = "Tolerance", .right = true},
+                   {.heading = "Unit", .least = 6},
+                   {.heading = "Holds"}});
+  table.SetTitle(result.name + ": " + result.statement);
   for (const LawRow& row : result.rows)
-    globals.Say(fmt::format("  {:<44} {:>12} {:>12} {:>10} {:<6} {}", row.law,
-                            NumberText(row.expected, 5), NumberText(row.measured, 5),
-                            NumberText(row.tolerance, 2), row.unit, row.ok() ? "ok" : "FAILS"));
+    table.Add({row.law, NumberText(row.expected, 5), NumberText(row.measured, 5),
+               NumberText(row.tolerance, 2), row.unit,
+               row.ok() ? TextCell("ok") : TextCell("FAILS", Tone::kBad)});
+  globals.Say(table);
 }
 
 // The ladder's files among them.
@@ -36,8 +43,6 @@ ResultNames LawResults() {
 // Returns how many comparisons failed; `json_result` gets the rows.
 int CheckAllLaws(const fs::path& folder, const Globals& globals,
                  nlohmann::ordered_json& json_result) {
-  globals.Say(fmt::format("  {:<44} {:>12} {:>12} {:>10} {}", "law", "expected", "measured",
-                          "tolerance", "unit"));
   const auto results =
       CheckLaws(Cores(), [&](const LawResult& result) { SayLaw(result, globals); });
   WriteFileWhole(folder / "validate.csv", ValidateCsv(results));
@@ -98,7 +103,7 @@ void AddValidate(CommandLine& line, const Globals& globals, int& status) {
       if (Interrupted()) throw Interruption();
     }
     globals.Result(result);
-    globals.Say("results are in " + folder.string());
+    globals.SayFact("Results", folder.string());
     if (failed > 0) status = kExitNotSuccess;
   });
 }

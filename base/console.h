@@ -2,8 +2,11 @@
 // Lines for people.
 #pragma once
 
+#include <cstdio>
 #include <functional>
 #include <string>
+
+#include "base/text_table.h"
 
 namespace floorproof {
 
@@ -14,6 +17,15 @@ struct Console {
   std::function<void(const std::string&)> listener = {};
 
   void Say(const std::string& line) const;
+  // Fitted to the terminal, and in colours where it shows them; to who listens 80 columns wide and
+  // without.
+  void Say(const TextTable& table) const;
+  // A row of a FactTable.
+  void SayFact(const std::string& name, const std::string& text) const;
+
+ private:
+  std::FILE* Out() const { return json ? stderr : stdout; }
+  void SayPrintable(const std::string& line) const;
 };
 
 }  // namespace floorproof

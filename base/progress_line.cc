@@ -6,11 +6,13 @@
 #include <cstdio>
 
 #include "base/printable.h"
+#include "base/terminal.h"
+#include "base/text_width.h"
 
 namespace floorproof {
 
 ProgressLine::ProgressLine(const Console& console)
-    : quiet_(console.quiet || console.listener), terminal_(isatty(STDERR_FILENO) != 0) {}
+    : quiet_(console.quiet || console.listener), terminal_(IsTerminal(STDERR_FILENO)) {}
 
 bool ProgressLine::IsDue() {
   if (quiet_) return false;
@@ -21,7 +23,12 @@ bool ProgressLine::IsDue() {
 }
 
 void ProgressLine::Show(const std::string& line) {
-  std::fprintf(stderr, terminal_ ? "\r\033[K%s" : "%s\n", Printable(line).c_str());
+  const std::string text = Printable(line);
+  // One that went on below its row would not be rewritten, but repeated.
+  if (terminal_)
+    std::fprintf(stderr, "\r\033[K%s", CutText(text, TerminalWidth(STDERR_FILENO) - 1).c_str());
+  else
+    std::fprintf(stderr, "%s\n", text.c_str());
   std::fflush(stderr);
   shown_ = true;
 }

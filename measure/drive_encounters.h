@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/text_table.h"
 #include "measure/robot_campaign.h"
 
 namespace floorproof {
@@ -13,6 +14,6 @@ namespace floorproof {
 RobotCampaign EncountersOf(const std::string& robot, const std::vector<Override>& overrides);
 
 // For people, a row a meeting: how many episodes, and the share of them that failed in each mode.
-std::string EncounterTable(const CampaignSummary& summary);
+TextTable EncounterTable(const CampaignSummary& summary);
 
 }  // namespace floorproof

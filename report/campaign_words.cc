@@ -1,37 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/campaign_words.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "base/exit_status.h"
 #include "base/quantity.h"
+#include "base/shell_word.h"
+#include "report/campaign_tables.h"
 #include "report/failing_episodes.h"
-#include "stats/outward.h"
 
 namespace floorproof {
 namespace {
 
-void SayRates(const CampaignSummary& summary, const Console& console) {
-  for (const VariantSummary& v : summary.variants) {
-    console.Say(
-        fmt::format("{}: {}, {} success, {} failure, {} timeout{}; {}, {} without "
-                    "a plan",
-                    v.name, CountText(v.n, "episode"), v.success, v.failure, v.timeout,
-                    AbortedText(v), CountText(v.errors, "error"), v.not_planned));
-    if (v.repeated) console.Say("  " + RepetitionText(v));
-    if (!v.first_error.empty()) console.Say("  the first error: " + v.first_error);
-    for (const FailureRate& rate : v.failures) {
-      if (rate.n == 0) continue;
-      const Interval percent = RoundedOutward({100 * rate.lower, 100 * rate.upper});
-      const std::string text =
-          rate.k == 0 ? "none; at most " + PercentText(percent.upper / 100)
-                      : fmt::format("{} = {} ({} to {})", rate.k, PercentText(rate.rate),
-                                    NumberText(percent.lower), PercentText(percent.upper / 100));
-      console.Say(fmt::format("  {:<12} {}", rate.name, text));
-    }
+Tone ToneOf(GateVerdict verdict) {
+  switch (verdict) {
+    case GateVerdict::kPassed:
+      return Tone::kGood;
+    case GateVerdict::kFailed:
+      return Tone::kBad;
+    case GateVerdict::kUndecided:
+      break;
   }
+  return Tone::kPlain;
 }
 
 }  // namespace
@@ -39,16 +29,31 @@ void SayRates(const CampaignSummary& summary, const Console& console) {
 void SayCampaign(const CampaignOutcome& outcome, const std::filesystem::path& folder,
                  const Console& console) {
   const CampaignSummary& summary = outcome.summary;
-  console.Say(std::string(WhyEnded(outcome.run.end)) + "; results are in " + folder.string());
-  SayRates(summary, console);
-  if (ListFailingEpisodes(outcome.store, outcome.variants, folder, console) > 0 ||
-      outcome.variants.size() > 1)
-    console.Say(fmt::format("`floorproof report {}` shows them on a page", folder.string()));
-  if (!summary.gate) return;
-  for (const VariantGate& variant : summary.gate->variants)
-    console.Say(fmt::format("gate{}: {}",
-                            summary.gate->variants.size() > 1 ? " " + variant.variant : "",
-                            GateText(*summary.gate, variant)));
+  const bool several = summary.variants.size() > 1;
+  console.Say(std::string(WhyEnded(outcome.run.end)));
+  console.Say(OutcomesTable(summary));
+  if (const TextTable modes = ModesTable(summary); !modes.empty()) console.Say(modes);
+  for (const VariantSummary& v : summary.variants) {
+    const std::string of = several ? v.name + ": " : "";
+    if (v.repeated) console.Say(of + RepetitionText(v));
+    if (!v.first_error.empty()) console.Say(of + "the first error: " + v.first_error);
+  }
+  FactTable facts;
+  const std::uint64_t failing =
+      ListFailingEpisodes(outcome.store, outcome.variants, folder, console);
+  if (failing > 0)
+    facts.Add({"Failing episodes", FixedText(static_cast<double>(failing), 0) +
+                                       ", with the command that films each: " +
+                                       (folder / "failing_episodes.csv").string()});
+  if (summary.gate)
+    for (const VariantGate& variant : summary.gate->variants)
+      facts.Add({"Gate",
+                 {(several ? variant.variant + ": " : "") + GateText(*summary.gate, variant),
+                  ToneOf(variant.report.verdict)}});
+  if (failing > 0 || several)
+    facts.Add({"Page", "`floorproof report " + ShellWord(folder.string()) + "` makes one"});
+  facts.Add({"Results", folder.string()});
+  console.Say(facts);
 }
 
 int CampaignExitStatus(const CampaignOutcome& outcome) {

@@ -9,8 +9,8 @@
 
 namespace floorproof {
 
-// Says the rates, the failing episodes (all of them into failing_episodes.csv) and what the gate
-// says.
+// Says the outcomes and rates, some of the failing episodes (all of them are written into
+// failing_episodes.csv), what the gate says, and where the files are.
 void SayCampaign(const CampaignOutcome& outcome, const std::filesystem::path& folder,
                  const Console& console);
 

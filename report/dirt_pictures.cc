@@ -99,7 +99,7 @@ std::string ScoreText(const RegionScore& region) {
 
 std::string AuditText(const Scenario& s, const PlanResult& plan, const FloorAudit& audit) {
   std::string text =
-      fmt::format("audit: {} of {} taken, {} dirty (more than {} particles); score {}",
+      fmt::format("{} of {} taken, {} dirty (more than {} particles); score {}",
                   audit.samples.size(), CountText(plan.samples.size(), "sample"),
                   audit.gathering.dirty, s.dirt->params.dirty_above, ScoreText(audit.region));
   constexpr double kWhole = 0.995;

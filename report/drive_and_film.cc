@@ -10,11 +10,9 @@
 
 #include "base/file_output.h"
 #include "base/interrupt.h"
-#include "base/quantity.h"
 #include "base/result_folder.h"
-#include "env/core/failure_text.h"
 #include "media/drawing_lock.h"
-#include "report/dirt_pictures.h"
+#include "report/drive_table.h"
 #include "report/drive_video.h"
 #include "report/pictures.h"
 #include "report/progress.h"
@@ -33,43 +31,6 @@ using Clock = std::chrono::steady_clock;
 
 double Since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-std::string Verdict(const Scenario& s, const EpisodeRecord& record) {
-  const Metrics& m = record.metrics;
-  const std::string why = record.message.empty() ? "" : " (" + record.message + ")";
-  if (s.episode.drive == "cells")
-    return fmt::format("{}: covered {:.1f} % of the cells, {:.1f} % twice or more, over {} m{}",
-                       Name(record.outcome), 100 * m.coverage, 100 * m.revisited,
-                       FixedText(m.path_length_m, 1), why);
-  std::string line =
-      fmt::format("{}: covered {:.1f} % in {} s over {} m, off the path by {} mm at most, {}",
-                  Name(record.outcome), 100 * m.coverage, FixedText(m.duration_s, 0),
-                  FixedText(m.path_length_m, 1), FixedText(1000 * m.max_cross_track_m, 0),
-                  EnergyText(m.energy_j));
-  if (const std::size_t times = record.interventions.size(); times > 0)
-    line += fmt::format(", helped {}", CountText(times, "time"));
-  return line + why;
-}
-
-// What a supervised robot noticed and did; empty: nothing.
-std::string SupervisionLine(const EpisodeRecord& record) {
-  if (record.alarms.empty()) return "";
-  const RaisedAlarm& first = record.alarms.front();
-  std::string line = fmt::format("supervision: {}, the first at {} s by {}{}",
-                                 CountText(record.alarms.size(), "alarm"), FixedText(first.t_s, 1),
-                                 first.monitor, first.wheel.empty() ? "" : " of " + first.wheel);
-  for (const SafetyRow& row : record.safety)
-    if (row.reason.starts_with(kDrivenWithout)) line += "; " + row.reason;
-  if (const double held_s = record.metrics.held_s.value_or(0); held_s > 0)
-    line += "; held still for " + FixedText(held_s, 1) + " s";
-  return line + "; see safety.csv";
-}
-
-// `number`: of the event, from 1; the maps name it by that.
-std::string EventLine(std::size_t number, const Event& e, const HazardMap& map) {
-  return fmt::format("  {}. {} at {} s: {}; effect {}", number, FailureName(e), FixedText(e.t_s, 1),
-                     FailureSentence(e, map), e.effect);
 }
 
 // Says how far a drive is, writes the plan's files when there is a plan, and records what a film
@@ -107,6 +68,7 @@ class Witness : public EpisodeObserver {
       WritePlanFiles(s_, plan, folder_.path());
       There(" holds the plan; nothing was driven");
     }
+    if (!options_.only_around.empty()) return;
     if (plan.status == PlanStatus::kOnline) {
       console_.Say(plan.message);
       return;
@@ -141,17 +103,7 @@ class Witness : public EpisodeObserver {
   }
 
   void SayVerdict(const PlanResult& plan, const EpisodeRecord& record) const {
-    console_.Say(Verdict(s_, record));
-    if (const std::string line = SupervisionLine(record); !line.empty()) console_.Say(line);
-    if (record.audit) console_.Say(AuditText(s_, plan, *record.audit));
-    for (std::size_t i = 0; i < record.events.size(); ++i)
-      console_.Say(EventLine(i + 1, record.events[i], s_.site.map));
-    if (s_.episode.drive == "cells")
-      console_.Say(
-          fmt::format("drove {} in {:.2f} s", CountText(record.steps - 1, "move"), drive_s_));
-    else
-      console_.Say(fmt::format("drove {:.0f}x faster than real time ({:.1f} s)",
-                               record.metrics.duration_s / drive_s_, drive_s_));
+    if (options_.only_around.empty()) console_.Say(DriveTable(s_, plan, record, drive_s_));
   }
 
   // The records are written: interrupts end the process again.
@@ -184,7 +136,8 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
   if (!options.write_records) out.Begin();
   Witness witness(s, out, options, console);
   witness.There(" is as before");
-  for (const std::string& line : Warnings(s)) console.Say(line);
+  if (options.only_around.empty())
+    for (const std::string& line : Warnings(s)) console.Say(line);
   if (const PlanCommand* program = ProgramToAsk(s)) console.Say(ProgramLine(*program));
   DriveResult result;
   Execution execution = witness.Watch();
@@ -225,10 +178,10 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
     witness.There(options.video ? " holds all but, perhaps, the film" : " is whole");
     missing = "the film";
     if (options.video)
-      console.Say(execution.scene
-                      ? WriteVideo(s, *execution.scene, result.plan, result.record,
-                                   witness.recording(), options.only_around, folder, console)
-                      : WriteCellVideo(s, result.record, folder, console));
+      console.SayFact("Film", execution.scene ? WriteVideo(s, *execution.scene, result.plan,
+                                                           result.record, witness.recording(),
+                                                           options.only_around, folder, console)
+                                              : WriteCellVideo(s, result.record, folder, console));
     witness.There(" is whole");
   } catch (const std::runtime_error& e) {
     say_verdict();

@@ -17,6 +17,7 @@ namespace floorproof {
 struct DriveOptions {
   bool video = false;
   // Of the film: not empty: a draft of the seconds around the first failure of each of these modes.
+  // The drive was told of before: only the film is spoken of.
   std::vector<FailureMode> only_around = {};
   bool write_records = true;            // replay keeps what was recorded
   EpisodeObserver* observer = nullptr;  // looks on as well

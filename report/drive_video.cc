@@ -69,8 +69,9 @@ std::string Filmed(const FilmResult& film, const std::filesystem::path& mp4) {
   WriteFileWhole(
       std::filesystem::path(mp4).replace_extension(".json"),
       nlohmann::ordered_json({{"fps", film.fps}, {"t_s", std::move(times)}}).dump() + "\n");
-  return fmt::format("filmed: {} frames ({:.1f} s to draw, {:.1f} s to encode): {}", film.frames,
-                     film.render_s, film.encode_s, mp4.string());
+  return fmt::format("{}, {}, drawn in {}, encoded in {}", mp4.string(),
+                     CountText(film.frames, "frame"), TimeText(film.render_s),
+                     TimeText(film.encode_s));
 }
 
 // Geoms of the robot that are no part of a wheel or caster, nor turn with one.

@@ -14,9 +14,9 @@
 
 namespace floorproof {
 
-// video.mp4 and frame_*.png; returns a line that says how it went. In the scenario's own size and
-// pace and quality; `only_around` not empty: of the seconds around the first event of each of these
-// modes, and small and quick unless the scenario says how good.
+// video.mp4 and frame_*.png; returns which file that is and how it went, in words. In the
+// scenario's own size and pace and quality; `only_around` not empty: of the seconds around the
+// first event of each of these modes, and small and quick unless the scenario says how good.
 std::string WriteVideo(const Scenario& scenario, const Scene& scene, const PlanResult& plan,
                        const EpisodeRecord& record, const Recording& recording,
                        const std::vector<FailureMode>& only_around,

@@ -3,25 +3,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "base/file_output.h"
 #include "base/printable.h"
 #include "base/quantity.h"
 #include "base/shell_word.h"
+#include "base/words.h"
 #include "report/drive_marks.h"
 #include "run/campaign/episodes_csv.h"
 #include "run/campaign/replay_shelf.h"
 
 namespace floorproof {
-namespace {
-
-std::string Words(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  return name;
-}
-
-}  // namespace
 
 std::string WhatFailed(const EpisodeRow& row, const std::vector<Event>& events) {
   if (events.empty()) return Words(row.outcome);
@@ -70,14 +61,10 @@ std::uint64_t ListFailingEpisodes(const CampaignStore& store, const std::vector<
       if (listed++ >= kShown || shown >= 4 * kShown) return;
       ++shown;
       console.Say(fmt::format("  {}{}{}: {}", e.what, e.detail.empty() ? "" : ", " + e.detail,
-                              e.t_s ? fmt::format(" at {:.1f} s", *e.t_s) : "", e.command));
+                              e.t_s ? " at " + FixedText(*e.t_s, 1) + " s" : "", e.command));
     });
   }
-  const std::filesystem::path file = folder / "failing_episodes.csv";
-  WriteFileWhole(file, csv);
-  if (all > 0)
-    console.Say(fmt::format("{}, with the command that films each: {}",
-                            CountText(all, "failing episode"), file.string()));
+  WriteFileWhole(folder / "failing_episodes.csv", csv);
   return all;
 }
 

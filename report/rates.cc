@@ -9,16 +9,12 @@
 #include <functional>
 
 #include "base/quantity.h"
+#include "base/words.h"
 #include "report/html.h"
 #include "run/episode/metrics.h"
 
 namespace floorproof {
 namespace {
-
-std::string Words(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  return name;
-}
 
 std::string IntervalText(const std::string& lower, const std::string& upper) {
   return lower + " to " + upper;

@@ -134,19 +134,24 @@ std::vector<std::pair<std::string, std::string>> RobotFigures(const RobotCheck& 
   };
 }
 
-std::vector<std::string> RobotLines(const RobotCheck& check) {
-  std::vector<std::string> lines = {check.spec.name + ": " + check.spec.model_file};
-  for (const auto& [name, value] : RobotFigures(check))
-    lines.push_back(fmt::format("  {:<16} {}", name, value));
-  lines.push_back(fmt::format("  {:<20} {:>10} {:>10} {:>10}", "ten seconds", "kinematics",
-                              "driven", "tolerance"));
+void SayRobot(const RobotCheck& check, const Console& console) {
+  FactTable figures;
+  figures.SetTitle(check.spec.name + ": " + check.spec.model_file);
+  for (const auto& [name, value] : RobotFigures(check)) figures.Add({name, value});
+  console.Say(figures);
+  TextTable drive({{.heading = "Ten seconds", .least = 18},
+                   {.heading = "Kinematics", .right = true},
+                   {.heading = "Driven", .right = true},
+                   {.heading = "Tolerance", .right = true},
+                   {.heading = "Unit"},
+                   {.heading = "Holds"}});
   for (const LawRow& row : check.drive.rows)
-    lines.push_back(fmt::format("  {:<20} {:>10} {:>10} {:>10} {:<4} {}", row.law,
-                                NumberText(row.expected), NumberText(row.measured),
-                                NumberText(row.tolerance, 2), row.unit, row.ok() ? "ok" : "FAILS"));
-  for (const Finding& finding : check.findings) lines.push_back(finding.Line());
-  if (check.ok()) lines.emplace_back("nothing is wrong with it");
-  return lines;
+    drive.Add({row.law, NumberText(row.expected), NumberText(row.measured),
+               NumberText(row.tolerance, 2), row.unit,
+               row.ok() ? TextCell("ok") : TextCell("FAILS", Tone::kBad)});
+  if (!drive.empty()) console.Say(drive);
+  for (const Finding& finding : check.findings) console.Say(finding.Line());
+  if (check.ok()) console.Say("nothing is wrong with it");
 }
 
 nlohmann::ordered_json RobotCheckJson(const RobotCheck& check) {

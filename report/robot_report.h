@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A robot's check as lines and as JSON.
+// A robot's check in words and as JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/console.h"
 #include "validate/robot_check.h"
 
 namespace floorproof {
@@ -14,7 +15,7 @@ namespace floorproof {
 // What was understood of it: name and value.
 std::vector<std::pair<std::string, std::string>> RobotFigures(const RobotCheck& check);
 // The same as a table, then the drive beside its kinematics, then what was found.
-std::vector<std::string> RobotLines(const RobotCheck& check);
+void SayRobot(const RobotCheck& check, const Console& console);
 nlohmann::ordered_json RobotCheckJson(const RobotCheck& check);
 
 }  // namespace floorproof

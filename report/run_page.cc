@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/shell_word.h"
+#include "base/words.h"
 #include "report/films.h"
 #include "report/html.h"
 #include "report/html_page.h"
@@ -26,11 +27,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::uintmax_t kLargestTrace = 512u << 20;
 constexpr std::uintmax_t kLargestReplay = 16u << 20;
-
-std::string Words(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  return name;
-}
 
 // A file of the folder that is there and no link; empty: it is not.
 std::string ReadIfThere(const fs::path& file, std::uintmax_t most) {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/quantity.h"
+#include "base/words.h"
 #include "report/pictures.h"
 
 namespace floorproof {
@@ -25,12 +26,6 @@ Rgb ColourOf(DecisionState state) {
 Rgb ColourOf(SafetyLevel level) {
   constexpr Rgb kColours[] = {kGreen, kSky, kYellow, kOrange, kRed};
   return kColours[static_cast<int>(level)];
-}
-
-std::string Words(std::string_view name) {
-  std::string words(name);
-  std::ranges::replace(words, '_', ' ');
-  return words;
 }
 
 // A value from each change on, as spans; the last of those at one time counts.

@@ -7,17 +7,13 @@
 #include <string_view>
 
 #include "base/quantity.h"
+#include "base/words.h"
 #include "env/core/event_evidence.h"
 #include "env/core/levels.h"
 #include "env/geometry/geometry.h"
 
 namespace floorproof {
 namespace {
-
-std::string Words(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  return name;
-}
 
 const Hazard* Find(const HazardMap& map, const std::string& id) {
   const auto hazard = std::ranges::find(map.hazards, id, &Hazard::id);
@@ -148,7 +144,7 @@ std::string FailureSentence(const Event& event, const HazardMap& map) {
 }
 
 std::string FailureName(const Event& event) {
-  const std::string name = Words(std::string(Name(event.mode)));
+  const std::string name = Words(Name(event.mode));
   return event.kind.empty() ? name : name + " (" + Words(event.kind) + ")";
 }
 

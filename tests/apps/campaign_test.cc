@@ -257,7 +257,7 @@ TEST_F(CampaignTest, ExitStatuses) {
   Write("gate: none\n");
   const Ended without = Campaign("-n 2 --out without");
   EXPECT_EQ(without.status, 0);
-  EXPECT_THAT(without.out, Not(HasSubstr("gate")));
+  EXPECT_THAT(without.out, Not(HasSubstr("Gate")));
   Write("gate: {metric: roll_over, max_rate: 0.6, confidence: 0.9}\n");
   EXPECT_EQ(Campaign("-n 5 --out passed").status, 0);
   Write("", "  start.x_m: {uniform: [0.1, 0.7]}\n");

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pty.h>
+#include <sys/ioctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,9 +14,11 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "base/text_width.h"
 #include "tests/apps/run_program.h"
 #include "tests/slurp.h"
 
@@ -280,7 +283,7 @@ TEST_F(Cli, RunsAndCampaignsKeepApart) {
   for (const auto& [command, out] : cases) {
     const Result dut = Run(command);
     EXPECT_EQ(dut.status, 0) << command << dut.err;
-    EXPECT_THAT(dut.out, HasSubstr("results are in " + out + "\n")) << command;
+    EXPECT_THAT(dut.out, HasSubstr("  Results             " + out + "\n")) << command;
     EXPECT_TRUE(fs::exists(folder_ / out / "scenario.resolved.yaml")) << command;
   }
   const std::string settings = Slurp(folder_ / "out/wet/scenario.resolved.yaml");
@@ -487,11 +490,18 @@ TEST_F(Cli, InitWritesARunnableScenarioAndLeavesExistingFiles) {
               HasSubstr("no such file: /none.xml\n"));
 }
 
-// Of a program whose stderr is a terminal. What it writes there, carriage returns and all.
-std::string OnATerminal(const fs::path& folder, const std::vector<std::string>& arguments) {
+// Of a program on a terminal. What it writes there, carriage returns and all.
+std::string OnATerminal(const fs::path& folder, const std::vector<std::string>& arguments,
+                        int columns = 80, const char* no_color = nullptr) {
+  winsize window{};
+  window.ws_row = 24;
+  window.ws_col = static_cast<unsigned short>(columns);
   int terminal = -1;
-  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, &window);
   if (child == 0) {
+    setenv("TERM", "xterm", 1);
+    unsetenv("NO_COLOR");
+    if (no_color != nullptr) setenv("NO_COLOR", no_color, 1);
     std::vector<char*> argv = {const_cast<char*>(FP_PROGRAM)};
     for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
     argv.push_back(nullptr);
@@ -575,6 +585,58 @@ TEST_F(Cli, AUrdfBecomesARobot) {
   EXPECT_EQ(Run("robot beluga --set cruise_mps=0.3").status, 2) << "an MJCF states it";
 }
 
+// What is left to be seen of a terminal's text: without colours, and of a line that was rewritten
+// in place the last.
+std::string Seen(std::string text) {
+  for (const char* sequence : {"\033[1;36m", "\033[1m", "\033[0m"})
+    for (std::size_t at; (at = text.find(sequence)) != std::string::npos;)
+      text.erase(at, std::string_view(sequence).size());
+  std::string seen;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    line.erase(line.find_last_not_of('\r') + 1);
+    const std::string anew = "\r\033[K";
+    const std::size_t last = line.rfind(anew);
+    seen += (last == std::string::npos ? line : line.substr(last + anew.size())) + "\n";
+  }
+  return seen;
+}
+
+// A drive ends with a table that fits the window, and says the same in each.
+TEST_F(Cli, RunEndsWithATableThatFitsTheWindow) {
+  std::string text = Slurp(folder_ / "s.yaml");
+  const std::string site = "  site: 1\n";
+  text.insert(text.find(site) + site.size(), "  name: 階段のあるとても長い名前のホール\n");
+  std::ofstream(folder_ / "s.yaml") << text;
+  const auto words = [](const std::string& table) {
+    std::string joined;
+    for (const char c : table)
+      if (std::string_view(" \n:").find(c) == std::string_view::npos) joined += c;
+    return joined.substr(0, joined.find("simulatedin"));  // a wall time, which differs
+  };
+  std::string first;
+  for (const auto& [columns, no_color] :
+       {std::pair<int, const char*>(40, nullptr), {80, "1"}, {200, ""}}) {
+    const std::string all =
+        OnATerminal(folder_, {"run", "s.yaml", "--out", "o"}, columns, no_color);
+    const bool coloured = all.find("\033[1;36m") != std::string::npos;
+    EXPECT_EQ(coloured, no_color == nullptr || *no_color == '\0') << all;
+    if (!coloured) EXPECT_THAT(all, Not(HasSubstr("\033[1m")));
+    const std::string seen = Seen(all);
+    const std::size_t begin = seen.find("beluga on ");
+    ASSERT_NE(begin, std::string::npos) << seen;
+    const std::string table = seen.substr(begin);
+    std::istringstream lines(table);
+    for (std::string line; std::getline(lines, line);)
+      EXPECT_LE(DisplayWidth(line), columns) << line;
+    const std::string gap = columns == 40 ? ": " : "             ";
+    EXPECT_THAT(table, HasSubstr("\n  Verdict" + gap + "success\n"));
+    EXPECT_THAT(table, HasSubstr("\n  Results" + gap + "o\n"));
+    if (first.empty()) first = words(table);
+    EXPECT_EQ(words(table), first);
+  }
+}
+
 // The counts of "WHAT: N of M".
 std::vector<int> Counts(const std::string& seen, const std::string& what) {
   std::vector<int> counts;
@@ -600,7 +662,8 @@ TEST_F(Cli, ATerminalIsToldHowFarDrawingIs) {
             "video.height=270"};
   };
   const std::string seen = OnATerminal(folder_, run("40"));
-  if (seen.find("filmed: ") == std::string::npos) GTEST_SKIP() << "nothing can be filmed: " << seen;
+  if (seen.find("video.mp4") == std::string::npos)
+    GTEST_SKIP() << "nothing can be filmed: " << seen;
   const std::vector<int> frames = Counts(seen, "filming, frames");
   ASSERT_GE(frames.size(), 1u) << seen;
   EXPECT_TRUE(std::ranges::is_sorted(frames));

@@ -14,6 +14,12 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
+std::vector<std::string> RobotLines(const RobotCheck& check) {
+  std::vector<std::string> lines;
+  SayRobot(check, {.listener = [&](const std::string& line) { lines.push_back(line); }});
+  return lines;
+}
+
 // All that its file and docs say of BELUGA.
 TEST(RobotReport, SaysWhatBelugaIs) {
   const RobotCheck beluga = CheckRobot("beluga");
