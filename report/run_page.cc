@@ -80,7 +80,7 @@ class Run {
 
   // "stuck at 198.8 s: stood still for 7.6 s before 'plank' (step, 40 mm), at ..."
   static std::string EventText(const Json& event) {
-    std::string name = Words(event.at("mode"));
+    std::string name = Words(event.at("mode").get<std::string>());
     if (const std::string kind = event.value("kind", ""); !kind.empty()) name += " (" + kind + ")";
     return fmt::format("{} at {} s: {}", name, FixedText(event.at("t_s"), 1),
                        event.value("text", ""));
@@ -119,7 +119,7 @@ class Run {
   Json Failures() const {
     Json failures = Json::array();
     for (const Json& event : Events()) {
-      std::string what = Words(event.at("mode"));
+      std::string what = Words(event.at("mode").get<std::string>());
       if (const std::string kind = event.value("kind", ""); !kind.empty())
         what += " (" + kind + ")";
       failures.push_back({{"t_s", event.at("t_s")},

@@ -127,7 +127,7 @@ class ReplayOf : public ::testing::TestWithParam<const char*> {};
 // Every shape of the robot stands where MuJoCo has it, wheels turned and blocks folded.
 TEST_P(ReplayOf, TheRobotStandsAsItStood) {
   const HazardMap map = Room(6, 4);
-  const Scene scene = BuildScene(map, ReadRobot(GetParam()), {}, {2, 2, 0.3});
+  const Scene scene = BuildScene(map, ReadRobot(FindRobotFile(GetParam(), {})), {}, {2, 2, 0.3});
   const mjModel* m = scene.model.get();
   const DataPtr data = MakeData(m);
   ReplayTrack dut(m);
@@ -168,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(Robots, ReplayOf,
 
 TEST(ReplayTrack, TenMinutesOfHtetroAreLessThanAMegabyte) {
   const HazardMap map = Room(6, 4);
-  const Scene scene = BuildScene(map, ReadRobot("htetro"), {}, {2, 2, 0});
+  const Scene scene = BuildScene(map, ReadRobot(FindRobotFile("htetro", {})), {}, {2, 2, 0});
   const mjModel* m = scene.model.get();
   std::vector<double> q(m->qpos0, m->qpos0 + m->nq);
   ReplayTrack dut(m);
@@ -187,7 +187,7 @@ TEST(ReplayTrack, TenMinutesOfHtetroAreLessThanAMegabyte) {
 
 TEST(ReplayTrack, OfALongDriveTheSecondsAroundAFailureAreKept) {
   const HazardMap map = Room(6, 4);
-  const Scene scene = BuildScene(map, ReadRobot("beluga"), {}, {2, 2, 0});
+  const Scene scene = BuildScene(map, ReadRobot(FindRobotFile("beluga", {})), {}, {2, 2, 0});
   const mjModel* m = scene.model.get();
   ReplayTrack dut(m);
   for (int i = 0; i < 3600 * 25; ++i) dut.Add(0.04 * i, m->qpos0);
@@ -204,7 +204,7 @@ TEST(ReplayTrack, OfALongDriveTheSecondsAroundAFailureAreKept) {
 
 TEST(ReplayTrack, ATimeThatDoesNotAscendIsLeftOut) {
   const HazardMap map = Room(6, 4);
-  const Scene scene = BuildScene(map, ReadRobot("beluga"), {}, {2, 2, 0});
+  const Scene scene = BuildScene(map, ReadRobot(FindRobotFile("beluga", {})), {}, {2, 2, 0});
   ReplayTrack dut(scene.model.get());
   for (const double t_s : {0.0, 0.04, 0.04, 0.02, 0.08}) dut.Add(t_s, scene.model->qpos0);
   EXPECT_EQ(ReplayFile(dut.Bytes(scene, {})).t_s, (std::vector<double>{0, 0.04, 0.08}));
@@ -214,7 +214,7 @@ TEST(ReplayTrack, OfALargeFloorWhatLiesNearTheWayIsKept) {
   HazardMap map = Room(60, 40);
   for (int ix = 4; ix < 120; ix += 4)
     for (int iy = 4; iy < 80; iy += 4) map.occupancy(ix, iy) = CellState::kOccupied;
-  const Scene scene = BuildScene(map, ReadRobot("beluga"), {}, {3, 3, 0});
+  const Scene scene = BuildScene(map, ReadRobot(FindRobotFile("beluga", {})), {}, {3, 3, 0});
   ReplayTrack dut(scene.model.get());
   dut.Add(0, scene.model->qpos0);
   const std::string bytes = dut.Bytes(scene, {});
