@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Every command of the program that README.md, CONTRIBUTING.md or a page of docs/ shows is one that
-the program takes.
+"""Every command of the program that README.md, CONTRIBUTING.md, a page of docs/ or a workflow there
+shows is one that the program takes.
 
     commands_test.py PROGRAM TREE
 
@@ -29,7 +29,7 @@ import tempfile
 
 # What pages leave to the reader. Files lie in every page's folder; words stand for an argument.
 SCENARIO = """scenario: 1
-site: models/sites/small_room.yaml
+site: TREE/models/sites/small_room.yaml
 robot: beluga
 plan: {planner: boustrophedon}
 physics: {timestep_s: 0.005}
@@ -40,10 +40,18 @@ VARIANTS = """matrix:
   plan.planner: [boustrophedon, spiral]
   floors: [{label: dry, site.floor.friction: 0.8}, {label: wet, site.floor.friction: 0.4}]
 """
+TWO_PLANNERS = """matrix:
+  planner:
+    - {label: ours, plan: {planner: boustrophedon}}
+    - {label: mine, plan: {command: [./rows.py]}}
+"""
+PLAN = "x_m,y_m\n0.5,0.5\n2.5,0.5\n"
 MAP = "image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n"
-SCENARIOS = ("scenario.yaml", "my_scenario.yaml", "hall.yaml", "A.yaml", "B.yaml", "C.yaml", "S")
+SCENARIOS = ("scenario.yaml", "my_scenario.yaml", "hall.yaml", "A.yaml", "B.yaml", "C.yaml", "S",
+             "floor/scenario.yaml")
 MAPS = ("MY_MAP.yaml", "MAP.yaml", "../shared/maps/lab_small/map.yaml")
 ROBOTS = ("my_robot.xml", "burger.xml", "FILE")
+MAKE_A_ROBOT = ("docs/robot.md", "docs/tutorial-your-robot.md")  # by their first command
 WORDS = {"ROBOT": "beluga", "N": "2"}
 VARIABLES = {"N": "2", "a": "0", "b": "1"}  # of a job script that a page shows in parts
 # Commands that need what is not made by a command line of their page.
@@ -61,8 +69,9 @@ UNKNOWN = "--no-such-option"
 
 
 def page_names(tree):
-    return ["README.md", "CONTRIBUTING.md"] + sorted(
-        str(path.relative_to(tree)) for path in (tree / "docs").glob("*.md"))
+    return ["README.md", "CONTRIBUTING.md"] + [
+        str(path.relative_to(tree)) for kind in ("*.md", "examples/*.yml")
+        for path in sorted((tree / "docs").glob(kind))]
 
 
 def command_lines(text):
@@ -101,25 +110,30 @@ class Page:
 
     def __init__(self, program, tree, name, folder):
         self.program, self.tree, self.name, self.folder = program, tree, name, folder
-        self.made = set()
         folder.mkdir()
         for link in ("models", "docs"):
             (folder / link).symlink_to(tree / link)
-        for scenario in SCENARIOS:
-            variants = VARIANTS if name == "docs/campaigns.md" else ""
-            (folder / scenario).write_text(SCENARIO + variants, encoding="utf-8")
-        for robot in ROBOTS if name != "docs/robot.md" else ():  # its first command makes it
+        scenario = SCENARIO.replace("TREE", str(tree))
+        for file in SCENARIOS:
+            self.write(file, scenario + (VARIANTS if name == "docs/campaigns.md" else ""))
+        self.write("my/two.yaml", scenario + TWO_PLANNERS)
+        (folder / "my/rows.py").symlink_to(tree / "docs/examples/rows.py")
+        self.write("plan.csv", PLAN)
+        for robot in ROBOTS if name not in MAKE_A_ROBOT else ():
             (folder / robot).symlink_to(tree / "models/beluga.xml")
         (folder / "my_robot.urdf").symlink_to(tree / "models/others/kobuki.urdf")
         width, height = 60, 40  # a room of 3 m x 2 m
         rows = [bytes([0 if x in (0, width - 1) or y in (0, height - 1) else 254
                        for x in range(width)]) for y in range(height)]
         for map_file in MAPS:
-            path = folder / map_file
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(MAP, encoding="utf-8")
-            (path.parent / "map.pgm").write_bytes(
+            self.write(map_file, MAP)
+            ((folder / map_file).parent / "map.pgm").write_bytes(
                 f"P5 {width} {height} 255\n".encode() + b"".join(rows))
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
 
     def run(self, arguments):
         """The exit status, and what was said on stderr."""
@@ -151,6 +165,9 @@ class Page:
             yield f"{self.name}:{number}: {line}\n    {found}"
 
     def unknown_name(self, arguments):
+        if not arguments or arguments[0].startswith("-"):  # --version
+            status, said = self.run(arguments)
+            return None if status == 0 else said
         status, said = self.run([*arguments, UNKNOWN])
         if status != 2 or UNKNOWN not in said:
             return said or f"status {status}"
