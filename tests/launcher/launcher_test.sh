@@ -83,6 +83,8 @@ stub python3 <<'STUB'
 #!/usr/bin/env bash
 echo "python3 $*" >>"$WORK/calls"
 if [[ $1 == -c && $2 == *version_info* ]]; then exit "${PYTHON_IS_OLD:-0}"; fi
+if [[ $1 == -c && $2 == "import markdown_it" ]]; then [[ -f $WORK/installed ]]; exit; fi
+[[ $1 != *build.py ]] || exit "${LINKS_ARE_BROKEN:-0}"
 if [[ $1 == --version ]]; then echo "Python 3.10.1"; exit; fi
 if [[ $1 == -c ]]; then  # whether it has all that a package needs
   [[ -z ${PYTHON_IS_BARE:-} || -f $WORK/installed ]]
@@ -144,6 +146,37 @@ tests_the_python_package() {
   PYTHON_IS_OLD=1 run test --python
   expect "a Python that is too old is named" test "$status" = 2
   expect "with its version" says err "3.11 or later, as MuJoCo's wheel does; python3 is Python 3.10.1"
+}
+
+builds_the_pages() {
+  # The machine's commands but for its Pythons, of which any may be able to read Markdown.
+  mkdir "$work/commands"
+  ln -s /bin/* /usr/bin/* "$work/commands" 2>/dev/null
+  rm -f "$work"/commands/python3*
+  export PATH="$work/bin:$work/commands"
+  FLOORPROOF_APT=0 run docs
+  expect "without apt what is missing is named" says err "docs needs Python's markdown-it-py"
+  expect "as bad usage" test "$status" = 2
+  run docs
+  if ((EUID == 0)); then
+    expect "the package is installed, and no other" \
+      grep -qx -- "apt-get.* install .*--no-install-recommends python3-markdown-it" "$work/calls"
+  else
+    expect "the package is asked for" says err "--no-install-recommends python3-markdown-it"
+    touch "$work/installed"
+    run docs
+  fi
+  expect "the pages are made" grep -qx "python3 $tree/docs/site/build.py $tree $tree/build/docs" "$work/calls"
+  expect "nothing is fetched, configured or built" test "$(grep -cE 'pip|cmake' "$work/calls")" = 0
+  : >"$work/calls"
+  cd / && run docs --out "some where"
+  expect "--out is the caller's" grep -qx "python3 $tree/docs/site/build.py $tree some where" "$work/calls"
+  expect "what is there is not installed again" test "$(calls apt-get)" = 0
+  LINKS_ARE_BROKEN=1 run docs
+  expect "a link that leads nowhere is status 1" test "$status" = 1
+  run docs --uot x
+  expect "anything else is bad usage" test "$status" = 2
+  expect "in a line" says err "docs takes --out DIR and nothing else"
 }
 
 installs_a_link() {
