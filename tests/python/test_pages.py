@@ -1,39 +1,31 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Pages as people use them: in Chromium, without a screen and from disk.
 
-    page_test.py FLOORPROOF TREE
-
-Needs Chromium and Playwright (axe-core too, where its package is); without them it says so and exits
-with 77, which ctest takes for skipped. It drives a run and a small campaign with FLOORPROOF, opens
-their pages at three sizes, in light and dark, and fails where a page logs an error, asks any network,
-is wider than its window, or does not do what its buttons say.
+A run and a small campaign are driven, and their pages opened at three sizes, in light and dark. A
+page fails where it logs an error, asks any network, is wider than its window, or does not do what its
+buttons say. Skipped where there is no Chromium; the packages are in pyproject.toml's `test`.
 """
 import json
 import pathlib
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 
-SKIPPED = 77
-try:
-    from playwright.sync_api import sync_playwright
-except ImportError:
-    print("skipped: no Playwright (pip install playwright axe-playwright-python)")
-    sys.exit(SKIPPED)
-try:
-    from axe_playwright_python.sync_playwright import Axe
-except ImportError:
-    Axe = None
+import pytest
+
+sync_api = pytest.importorskip("playwright.sync_api")
+axe = pytest.importorskip("axe_playwright_python.sync_playwright")
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 if CHROMIUM is None:
-    print("skipped: no Chromium (apt package chromium)")
-    sys.exit(SKIPPED)
+    pytest.skip("no browser: install chromium", allow_module_level=True)
 
-PROGRAM, TREE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
-WIDTHS = (390, 820, 1440)  # a phone, a tablet, a desk
+TREE = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = TREE / "build/release/bin/floorproof"
+if not PROGRAM.exists():
+    pytest.skip("no build/release/bin/floorproof: ./floorproof builds it", allow_module_level=True)
+
+SIZES = ((390, "dark"), (820, "light"), (1440, "dark"))  # a phone, a tablet, a desk
 # Its name must do nothing. A sill about as high as the robot climbs, between start and goal.
 SCENARIO = """
 scenario: 1
@@ -79,7 +71,7 @@ class Pages(unittest.TestCase):
         scenario.write_text(SCENARIO, encoding="utf-8")
         floorproof("campaign", scenario, "-n", 40, "--no-films", "--out", cls.campaign_folder)
         floorproof("report", cls.campaign_folder)
-        cls.playwright = sync_playwright().start()
+        cls.playwright = sync_api.sync_playwright().start()
         cls.browser = cls.playwright.chromium.launch(
             executable_path=CHROMIUM,
             args=["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
@@ -111,13 +103,12 @@ class Pages(unittest.TestCase):
 
     def test_pages_open_at_every_size_in_light_and_dark(self):
         for folder in (self.run_folder, self.campaign_folder):
-            for width in WIDTHS:
-                for scheme in ("light", "dark"):
-                    with self.subTest(folder=folder.name, width=width, scheme=scheme):
-                        page = self.open(folder, width, color_scheme=scheme)
-                        self.assertTrue(page.locator(".verdict p").first.is_visible())
-                        self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), width)
-                        page.close()
+            for width, scheme in SIZES:
+                with self.subTest(folder=folder.name, width=width, scheme=scheme):
+                    page = self.open(folder, width, color_scheme=scheme)
+                    self.assertTrue(page.locator(".verdict p").first.is_visible())
+                    self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), width)
+                    page.close()
 
     def test_the_verdict_says_what_failed(self):
         page = self.open(self.run_folder)
@@ -212,16 +203,11 @@ class Pages(unittest.TestCase):
         pdf = page.pdf(format="A4")
         self.assertGreater(len(pdf), 20000)
 
-    @unittest.skipIf(Axe is None, "no axe-core (pip install axe-playwright-python)")
     def test_whoever_cannot_see_or_point_can_use_it(self):
         for folder in (self.run_folder, self.campaign_folder):
             for scheme in ("light", "dark"):
                 with self.subTest(folder=folder.name, scheme=scheme):
                     page = self.open(folder, color_scheme=scheme)
-                    found = Axe().run(page).response["violations"]
+                    found = axe.Axe().run(page).response["violations"]
                     self.assertEqual([(v["id"], v["nodes"][0]["html"][:200]) for v in found], [])
                     page.close()
-
-
-if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
