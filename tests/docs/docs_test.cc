@@ -19,6 +19,7 @@
 #include "env/scene/scene.h"
 #include "env/sensors/sensor.h"
 #include "env/sim/simulation.h"
+#include "planners/online/online_planner.h"
 #include "planners/planner.h"
 #include "run/episode/metrics.h"
 #include "run/episode/trace.h"
@@ -190,6 +191,20 @@ TEST(AddingAFault, HotWindingsResistMore) {
 std::string Page(const std::string& name) {
   std::ifstream file(std::string(FP_SOURCE_DIR "/docs/") + name);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Readme, ItsTablesHoldEveryPlannerHazardAndRobot) {
+  const std::string readme = Page("../README.md");
+  const std::size_t begin = readme.find("\n## Planners, hazards, robots\n");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string tables = readme.substr(begin, readme.find("\n## ", begin + 1) - begin);
+  std::vector<std::string> names = PluginNames(Planners());
+  for (const auto& more : {PluginNames(OnlinePlanners()), PluginNames(HazardTypes())})
+    names.insert(names.end(), more.begin(), more.end());
+  for (const RobotEntry& robot : Robots()) names.emplace_back(robot.name);
+  ASSERT_GT(names.size(), 20u);
+  for (const std::string& name : names)
+    EXPECT_NE(tables.find("`" + name + "`"), std::string::npos) << name << " is in no table";
 }
 
 TEST(Validation, ThePageListsEveryLaw) {
