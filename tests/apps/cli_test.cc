@@ -621,7 +621,9 @@ TEST_F(Cli, RunEndsWithATableThatFitsTheWindow) {
         OnATerminal(folder_, {"run", "s.yaml", "--out", "o"}, columns, no_color);
     const bool coloured = all.find("\033[1;36m") != std::string::npos;
     EXPECT_EQ(coloured, no_color == nullptr || *no_color == '\0') << all;
-    if (!coloured) EXPECT_THAT(all, Not(HasSubstr("\033[1m")));
+    if (!coloured) {
+      EXPECT_THAT(all, Not(HasSubstr("\033[1m")));
+    }
     const std::string seen = Seen(all);
     const std::size_t begin = seen.find("beluga on ");
     ASSERT_NE(begin, std::string::npos) << seen;

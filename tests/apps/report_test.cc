@@ -93,7 +93,13 @@ class ReportCommand : public ::testing::Test {
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-  std::string Page() const { return Slurp(folder_ / "out/report.html"); }
+  // Without its scripts, which stand at its end.
+  std::string Page() const {
+    std::string page = Slurp(folder_ / "out/report.html");
+    const auto begin = page.find("<script type=\"application/json\""), end = page.rfind("</body>");
+    EXPECT_LT(begin, end);
+    return page.erase(begin, end - begin);
+  }
   std::string Said() const { return Slurp(folder_ / "said"); }
 
   fs::path folder_;
