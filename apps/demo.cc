@@ -5,6 +5,7 @@
 
 #include "apps/command.h"
 #include "report/drive_and_film.h"
+#include "report/run_page.h"
 #include "run/episode/records.h"
 
 namespace floorproof {
@@ -52,6 +53,8 @@ void AddDemo(CommandLine& line, const Globals& globals, int& status) {
       const DriveResult result = DriveAndFilm(scenario, root / drive.scenario,
                                               {.video = true, .finished = finished}, globals);
       if (result.not_written) std::rethrow_exception(result.not_written);
+      const std::filesystem::path folder = root / drive.scenario;
+      globals.SayFact("Page", WriteRunReport(folder, folder.string()).page.string());
       finished += (finished.empty() ? "" : ", ") + (root / drive.scenario).string();
       const bool as_expected = AsExpected(drive, result.record);
       good = good && as_expected;
@@ -60,7 +63,7 @@ void AddDemo(CommandLine& line, const Globals& globals, int& status) {
                               *drive.mode ? ", " : "", drive.mode));
       all[drive.scenario] = ResultJson(scenario, result.record);
     }
-    globals.Say(fmt::format("\nfilms, heat maps and records are in {}", root.string()));
+    globals.Say(fmt::format("\npages, films, heat maps and records are in {}", root.string()));
     globals.Result(all);
     status = good ? kExitDone : kExitBroken;
   });

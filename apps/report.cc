@@ -8,20 +8,10 @@
 #include "report/campaign_report.h"
 #include "report/rare_page.h"
 #include "report/run_page.h"
-#include "run/episode/records.h"
 #include "run/rare/rare_search.h"
 
 namespace floorproof {
 namespace {
-
-WrittenReport WriteRunReport(const std::filesystem::path& folder, const std::string& named) {
-  const RunPage made = MakeRunPage(folder, named);
-  ResultFolder results(folder, EpisodeResults(), {});
-  results.Begin();
-  const std::filesystem::path page = folder / "report.html";
-  WriteFileWhole(page, made.html);
-  return {page, made.verdict, made.html.size(), {}};
-}
 
 WrittenReport WriteRareReport(const std::filesystem::path& folder) {
   const RarePage made = MakeRarePage(folder);

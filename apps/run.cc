@@ -3,6 +3,7 @@
 
 #include "apps/command.h"
 #include "report/drive_and_film.h"
+#include "report/run_page.h"
 #include "run/episode/records.h"
 
 namespace floorproof {
@@ -31,6 +32,8 @@ void AddRun(CommandLine& line, const Globals& globals, int& status) {
     const DriveResult result = DriveAndFilm(scenario, folder, {.video = options->video}, globals);
     globals.Result(ResultJson(scenario, result.record));
     if (result.not_written) std::rethrow_exception(result.not_written);
+    if (result.record.steps > 0)
+      globals.SayFact("Page", WriteRunReport(folder, folder.string()).page.string());
     globals.SayFact("Results", folder.string());
     status = ExitStatus(result.record.outcome);
   });

@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/file_output.h"
 #include "base/input_file.h"
+#include "base/result_folder.h"
 #include "base/shell_word.h"
 #include "base/words.h"
 #include "report/films.h"
@@ -16,6 +18,7 @@
 #include "report/html_page.h"
 #include "report/page_data.h"
 #include "run/episode/metrics.h"
+#include "run/episode/records.h"
 #include "run/scenario/plan_file.h"
 #include "run/scenario/scenario.h"
 
@@ -318,6 +321,15 @@ bool HoldsRun(const fs::path& folder) {
 
 RunPage MakeRunPage(const fs::path& folder, const std::string& named) {
   return Run(folder, named).Make();
+}
+
+WrittenReport WriteRunReport(const fs::path& folder, const std::string& named) {
+  const RunPage made = MakeRunPage(folder, named);
+  ResultFolder results(folder, EpisodeResults(), {});
+  results.Begin();
+  const fs::path page = folder / "report.html";
+  WriteFileWhole(page, made.html);
+  return {page, made.verdict, made.html.size(), {}};
 }
 
 }  // namespace floorproof

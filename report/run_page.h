@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include "report/written_report.h"
+
 namespace floorproof {
 
 struct RunPage {
@@ -17,5 +19,8 @@ bool HoldsRun(const std::filesystem::path& folder);
 // The page of the drive that `folder` holds, which commands name `named`. Throws InputError where
 // result.json cannot be read or is damaged. What else is missing is left out, and said.
 RunPage MakeRunPage(const std::filesystem::path& folder, const std::string& named);
+
+// Writes it as the folder's report.html. Throws as MakeRunPage and WriteFileWhole do.
+WrittenReport WriteRunReport(const std::filesystem::path& folder, const std::string& named);
 
 }  // namespace floorproof
