@@ -6,15 +6,19 @@
 #include <algorithm>
 
 #include "base/exit_status.h"
+#include "base/file_output.h"
 #include "base/quantity.h"
 #include "report/failing_episodes.h"
+#include "run/campaign/dependence_text.h"
 #include "stats/outward.h"
 
 namespace floorproof {
 namespace {
 
-void SayRates(const CampaignSummary& summary, const Console& console) {
-  for (const VariantSummary& v : summary.variants) {
+void SayRates(const CampaignSummary& summary, const std::vector<VariantDependence>& dependence,
+              const Console& console) {
+  for (std::size_t i = 0; i < summary.variants.size(); ++i) {
+    const VariantSummary& v = summary.variants[i];
     console.Say(
         fmt::format("{}: {}, {} success, {} failure, {} timeout{}; {}, {} without "
                     "a plan",
@@ -31,6 +35,7 @@ void SayRates(const CampaignSummary& summary, const Console& console) {
                                     NumberText(percent.lower), PercentText(percent.upper / 100));
       console.Say(fmt::format("  {:<12} {}", rate.name, text));
     }
+    for (const std::string& line : DependenceText(dependence[i])) console.Say("  " + line);
   }
 }
 
@@ -40,7 +45,9 @@ void SayCampaign(const CampaignOutcome& outcome, const std::filesystem::path& fo
                  const Console& console) {
   const CampaignSummary& summary = outcome.summary;
   console.Say(std::string(WhyEnded(outcome.run.end)) + "; results are in " + folder.string());
-  SayRates(summary, console);
+  const std::vector<VariantDependence> dependence = DependenceOf(outcome.store, summary);
+  WriteFileWhole(folder / "dependence.csv", DependenceCsv(dependence));
+  SayRates(summary, dependence, console);
   if (ListFailingEpisodes(outcome.store, outcome.variants, folder, console) > 0 ||
       outcome.variants.size() > 1)
     console.Say(fmt::format("`floorproof report {}` shows them on a page", folder.string()));

@@ -9,8 +9,8 @@
 
 namespace floorproof {
 
-// Says the rates, the failing episodes (all of them into failing_episodes.csv) and what the gate
-// says.
+// Says the rates and what they depend on (all of it into dependence.csv), the failing episodes (all
+// of them into failing_episodes.csv) and what the gate says.
 void SayCampaign(const CampaignOutcome& outcome, const std::filesystem::path& folder,
                  const Console& console);
 

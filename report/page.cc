@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/quantity.h"
+#include "report/dependence_tables.h"
 #include "report/html.h"
 #include "report/rates.h"
 #include "report/style.h"
@@ -244,6 +245,8 @@ std::string ReportHtml(const Report& report) {
     std::string content;
   };
   std::vector<Part> parts = {{"rates", "Failure rates", Rates(report)}};
+  if (const std::string tables = DependenceTables(report); !tables.empty())
+    parts.push_back({"dependence", "What it depends on", tables});
   if (!report.pairs.empty())
     parts.push_back({"pairs", "Paired comparison",
                      "<div class=\"card\">" + PairedTables(report) +

@@ -48,6 +48,11 @@ tbody th { overflow-wrap: anywhere; min-width: 7rem; }
 .total th, .total td { font-weight: 650; }
 .num { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .plotted { width: 38%; padding-left: 1.2rem; vertical-align: middle; }
+.grid td, .grid th { text-align: center; padding: .3rem .4rem; }
+.grid tbody th, .grid thead th:first-child { text-align: left; }
+.grid td { background: color-mix(in srgb, var(--bad) calc(.6 * var(--share, 0%)), var(--card));
+  font-variant-numeric: tabular-nums; }
+.grid small { display: block; color: var(--soft); white-space: nowrap; }
 svg { display: block; width: 100%; overflow: visible; }
 .axis { height: 16px; } .axis text { fill: var(--soft); font-size: 11px; }
 .plot { height: 20px; }
