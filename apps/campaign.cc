@@ -30,7 +30,7 @@ int RunTheCampaign(const CampaignCommand& options, const Globals& globals) {
   CampaignLine progress(globals, file.variants());
   const CampaignOutcome outcome = DriveCampaign(file, request, folder, &progress);
   progress.Clear();
-  const char* missing = "failing_episodes.csv and the films";
+  const char* missing = "dependence.csv, failing_episodes.csv and the films";
   try {
     globals.Result(SummaryJson(outcome.summary));
     SayCampaign(outcome, folder, globals);

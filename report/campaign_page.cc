@@ -231,6 +231,7 @@ Report GatherReport(const fs::path& folder, const std::string& named, ResultFold
   out.Begin();
   Rows rows(report, named);
   for (const VariantSummary& variant : summary.variants) rows.Read(store, variant, folder);
+  report.dependence = DependenceOf(store, summary);
   for (std::size_t v = 1; v < summary.variants.size(); ++v)
     report.pairs.push_back(ShownPair(
         CompareVariants(store, summary.variants[0].name, store, summary.variants[v].name)));

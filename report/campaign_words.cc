@@ -4,10 +4,12 @@
 #include <algorithm>
 
 #include "base/exit_status.h"
+#include "base/file_output.h"
 #include "base/quantity.h"
 #include "base/shell_word.h"
 #include "report/campaign_tables.h"
 #include "report/failing_episodes.h"
+#include "run/campaign/dependence_text.h"
 
 namespace floorproof {
 namespace {
@@ -38,6 +40,11 @@ void SayCampaign(const CampaignOutcome& outcome, const std::filesystem::path& fo
     if (v.repeated) console.Say(of + RepetitionText(v));
     if (!v.first_error.empty()) console.Say(of + "the first error: " + v.first_error);
   }
+  const std::vector<VariantDependence> dependence = DependenceOf(outcome.store, summary);
+  WriteFileWhole(folder / "dependence.csv", DependenceCsv(dependence));
+  for (std::size_t v = 0; v < dependence.size(); ++v)
+    for (const std::string& line : DependenceText(dependence[v]))
+      console.Say((several ? summary.variants[v].name + ": " : "") + line);
   FactTable facts;
   const std::uint64_t failing =
       ListFailingEpisodes(outcome.store, outcome.variants, folder, console);

@@ -9,8 +9,9 @@
 
 namespace floorproof {
 
-// Says the outcomes and rates, some of the failing episodes (all of them are written into
-// failing_episodes.csv), what the gate says, and where the files are.
+// Says the outcomes and rates, what they depend on (all of it into dependence.csv), some of the
+// failing episodes (all of them into failing_episodes.csv), what the gate says, and where the files
+// are.
 void SayCampaign(const CampaignOutcome& outcome, const std::filesystem::path& folder,
                  const Console& console);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/quantity.h"
+#include "report/dependence_tables.h"
 #include "report/html.h"
 #include "report/rates.h"
 
@@ -252,6 +253,8 @@ std::string ReportHtml(const Report& report) {
   page.verdict = VerdictBox(report);
   page.sections.push_back({"places", "Where failures happened", Places(report)});
   page.sections.push_back({"rates", "Failure rates", Rates(report)});
+  if (const std::string tables = DependenceTables(report); !tables.empty())
+    page.sections.push_back({"dependence", "What it depends on", tables});
   if (!report.pairs.empty())
     page.sections.push_back(
         {"pairs", "Paired comparison",

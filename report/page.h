@@ -13,6 +13,7 @@
 
 #include "report/html_page.h"
 #include "run/campaign/campaign_summary.h"
+#include "run/campaign/dependence.h"
 
 namespace floorproof {
 
@@ -63,8 +64,9 @@ struct ReportEpisode {
 struct Report {
   std::string title{};
   CampaignSummary summary{};
-  std::vector<ReportMap> maps{};    // one a variant of the summary
-  std::vector<ReportPair> pairs{};  // each with the first variant
+  std::vector<VariantDependence> dependence{};  // one a variant of the summary
+  std::vector<ReportMap> maps{};                // the same
+  std::vector<ReportPair> pairs{};              // each with the first variant
   std::vector<ReportFilm> films{};
   int films_left_out = 0;
   std::vector<ReportEpisode> episodes{};  // failing ones; as many as the page should show

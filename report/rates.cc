@@ -11,6 +11,7 @@
 #include "base/quantity.h"
 #include "base/words.h"
 #include "report/html.h"
+#include "report/rates_table.h"
 #include "run/episode/metrics.h"
 
 namespace floorproof {
@@ -20,80 +21,18 @@ std::string IntervalText(const std::string& lower, const std::string& upper) {
   return lower + " to " + upper;
 }
 
-// The right end of the axis that all plots of a page share, so that they compare.
-double AxisEnd(const Report& report) {
+// The axis that all plots of a page share, so that they compare.
+double ReachOf(const Report& report) {
   double most = report.summary.gate ? report.summary.gate->max_rate : 0;
   for (const VariantSummary& variant : report.summary.variants)
     for (const auto* rates : {&variant.failures, &variant.kinds, &variant.hazards})
       for (const FailureRate& rate : *rates) most = std::max(most, rate.upper);
-  for (double decade = 1e-9; decade < 1; decade *= 10)
-    for (const double step : {1.0, 2.0, 5.0})
-      if (most <= step * decade * (1 + 1e-9)) return step * decade;
-  return 1;
+  return AxisEnd(most);
 }
 
-struct Plot {
-  double reach = 1;  // the right end
-  const GateSummary* gate = nullptr;
-
-  double At(double rate) const { return std::clamp(100 * rate / reach, 0.0, 100.0); }
-
-  std::string Axis() const {
-    std::string svg = "<svg class=\"axis\" aria-hidden=\"true\">";
-    for (const auto& [share, anchor] :
-         {std::pair(0.0, "start"), std::pair(0.5, "middle"), std::pair(1.0, "end")})
-      svg += fmt::format("<text x=\"{:.0f}%\" y=\"12\" text-anchor=\"{}\">{}</text>", 100 * share,
-                         anchor, PercentText(share * reach));
-    return svg + "</svg>";
-  }
-
-  std::string Row(const FailureRate& rate) const {
-    std::string svg = fmt::format("<svg class=\"plot\" role=\"img\" aria-label=\"{}\">",
-                                  PercentText(Interval{rate.lower, rate.upper}));
-    for (const int x : {0, 50, 100})
-      svg += fmt::format("<line class=\"grid\" x1=\"{0}%\" x2=\"{0}%\" y1=\"0\" y2=\"100%\"/>", x);
-    if (gate != nullptr && gate->metric == rate.name)
-      svg += fmt::format(
-          "<line class=\"limit\" x1=\"{0:.2f}%\" x2=\"{0:.2f}%\" y1=\"0\" y2=\"100%\"/>",
-          At(gate->max_rate));
-    svg += fmt::format("<line class=\"bar\" x1=\"{:.2f}%\" x2=\"{:.2f}%\" y1=\"50%\" y2=\"50%\"/>",
-                       At(rate.lower), At(rate.upper));
-    for (const double end : {rate.lower, rate.upper})
-      svg += fmt::format(
-          "<line class=\"bar\" x1=\"{0:.2f}%\" x2=\"{0:.2f}%\" y1=\"30%\" y2=\"70%\"/>", At(end));
-    if (rate.n > 0)
-      svg += fmt::format("<circle class=\"{}\" cx=\"{:.2f}%\" cy=\"50%\" r=\"4\"/>",
-                         rate.k > 0 ? "point" : "none", At(rate.rate));
-    return svg + "</svg>";
-  }
-};
-
-Plot PlotOf(const Report& report) {
-  return {AxisEnd(report), report.summary.gate ? &*report.summary.gate : nullptr};
-}
-
-// `names`: what stands in the first column, a row each; `total`: the first row is all of it.
-std::string RatesTable(const Report& report, const std::string& heading,
-                       const std::vector<std::string>& names, const std::vector<FailureRate>& rates,
-                       bool total = false) {
-  const Plot plot = PlotOf(report);
-  std::string html = fmt::format(
-      "<table class=\"rates\"><thead><tr><th scope=\"col\">{}</th><th scope=\"col\" "
-      "class=\"num\">Episodes</th><th scope=\"col\" class=\"num\">Rate</th><th scope=\"col\" "
-      "class=\"num\">{} interval</th><th scope=\"col\" "
-      "class=\"plotted\"><span class=\"off\">Rate and interval, drawn</span>{}</th></tr></thead>"
-      "<tbody>\n",
-      heading, PercentText(kReportedConfidence), plot.Axis());
-  for (std::size_t i = 0; i < rates.size(); ++i) {
-    const FailureRate& rate = rates[i];
-    html += fmt::format(
-        "<tr{}><th scope=\"row\">{}</th><td class=\"num\">{} of {}</td><td class=\"num\">{}</td>"
-        "<td class=\"num\">{}</td><td class=\"plotted\">{}</td></tr>\n",
-        total && i == 0 ? " class=\"total\"" : "", MarkupText(names[i]), rate.k, rate.n,
-        rate.n > 0 ? PercentText(rate.rate) : "–", PercentText(Interval{rate.lower, rate.upper}),
-        plot.Row(rate));
-  }
-  return html + "</tbody></table>\n";
+RatesPlot PlotOf(const Report& report) {
+  if (!report.summary.gate) return {ReachOf(report)};
+  return {ReachOf(report), report.summary.gate->max_rate, report.summary.gate->metric};
 }
 
 std::vector<std::string> RowNames(const std::vector<FailureRate>& rates, bool as_words) {
@@ -264,19 +203,20 @@ std::string VariantsTable(const Report& report) {
     names.push_back(variant.name);
     rates.push_back(variant.failures.front());
   }
-  return RatesTable(report, "Any failure, by variant", names, rates);
+  return RatesTable(PlotOf(report), "Any failure, by variant", names, rates);
 }
 
 std::string VariantRates(const Report& report, const VariantSummary& v) {
   std::string html = Outcomes(v);
   if (v.repeated) html += "<p class=\"note\">" + MarkupText(RepetitionText(v)) + ".</p>\n";
-  html += RatesTable(report, "Failure", RowNames(v.failures, true), v.failures, true);
+  html += RatesTable(PlotOf(report), "Failure", RowNames(v.failures, true), v.failures, true);
   html += PerTable(v);
   if (!v.kinds.empty())
-    html += "<h4>By kind</h4>\n" + RatesTable(report, "Kind", RowNames(v.kinds, true), v.kinds);
+    html +=
+        "<h4>By kind</h4>\n" + RatesTable(PlotOf(report), "Kind", RowNames(v.kinds, true), v.kinds);
   if (!v.hazards.empty())
     html += "<h4>By hazard met</h4>\n" +
-            RatesTable(report, "Hazard", RowNames(v.hazards, false), v.hazards);
+            RatesTable(PlotOf(report), "Hazard", RowNames(v.hazards, false), v.hazards);
   return html + MetricsTable(v);
 }
 
@@ -294,8 +234,8 @@ std::string PlaceRates(const Report& report, const VariantSummary& v) {
     rates.push_back(place.rate);
   }
   if (rates.empty()) return "";
-  std::string html =
-      RatesTable(report, fmt::format("Square of {} m around", NumberText(v.place_m)), names, rates);
+  std::string html = RatesTable(
+      PlotOf(report), fmt::format("Square of {} m around", NumberText(v.place_m)), names, rates);
   if (v.places.size() > kShown)
     html +=
         fmt::format("<p class=\"note\">{} more squares stand in <code>summary.json</code>.</p>\n",

@@ -56,7 +56,7 @@ function main() {
   const tableRoom = document.getElementById('episode-table');
   if (tableRoom && data.table && typeof agGrid !== 'undefined') {
     for (const still of document.querySelectorAll('.replaced-by-table')) still.hidden = true;
-    const grid = make('div', {class: `ag-theme-quartz${isDark() ? '-dark' : ''} grid`});
+    const grid = make('div', {class: `ag-theme-quartz${isDark() ? '-dark' : ''} sheet`});
     tableRoom.append(make('div', {class: 'row'}, csvButton('failing_episodes.csv', () => {
       const {columns, rows} = data.table;
       return [[...columns.map(({name}) => name), 'command'],

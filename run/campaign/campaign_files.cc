@@ -31,7 +31,8 @@ std::string Unfinished(const CampaignRun& run, std::uint64_t asked) {
 ResultNames CampaignResults() {
   return {"campaign", [](std::string_view name) {
             return name == "scenario.resolved.yaml" || name == "episodes.csv" ||
-                   name == "junit.xml" || name == "summary.json" || name == "failing_episodes.csv";
+                   name == "junit.xml" || name == "summary.json" ||
+                   name == "failing_episodes.csv" || name == "dependence.csv";
           }};
 }
 

@@ -205,7 +205,7 @@ randomise:
   }
 
   void ExpectSameResults(const std::string& a, const std::string& b) const {
-    for (const char* file : {"summary.json", "episodes.csv", "junit.xml"}) {
+    for (const char* file : {"summary.json", "episodes.csv", "dependence.csv", "junit.xml"}) {
       EXPECT_NE(Slurp(folder_ / a / file), "") << a << "/" << file;
       EXPECT_EQ(Slurp(folder_ / a / file), Slurp(folder_ / b / file)) << b << "/" << file;
     }

@@ -389,6 +389,8 @@ TEST_F(CampaignTest, FailingEpisodesAreListedWithTheirCommands) {
       EXPECT_THAT(line, HasSubstr("floorproof replay a --episode "));
     }
   EXPECT_EQ(lines, Count("a", "SELECT count(*) FROM episode WHERE outcome != 'success'"));
+  EXPECT_THAT(Slurp(folder_ / "a/dependence.csv"),
+              ::testing::StartsWith("variant,value,low,high,n,k,rate"));
 }
 
 // Errors may be the machine's: memory ran out, someone killed it.

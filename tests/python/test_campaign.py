@@ -20,7 +20,8 @@ def test_the_same_bytes_as_the_command_line(drawing, command_line, tmp_path, mon
     assert campaign.variants["default"]["n"] == 12
     subprocess.run([command_line, "campaign", drawing.file, "-n", "12", "--jobs", "1", "--no-films",
                     "--out", "c"], cwd=tmp_path / "shell", check=True, capture_output=True)
-    for name in ("summary.json", "episodes.csv", "junit.xml", "failing_episodes.csv"):
+    for name in ("summary.json", "episodes.csv", "junit.xml", "failing_episodes.csv",
+                 "dependence.csv"):
         there = tmp_path / "shell" / "c" / name
         assert (tmp_path / "python" / "c" / name).read_bytes() == there.read_bytes(), name
     assert 0 < campaign.variants["default"]["failures"]["any_failure"]["k"] < 12

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "report/html.h"
@@ -25,6 +26,32 @@ VariantSummary Variant(const std::string& name, int k, int n) {
   return v;
 }
 
+// A number that tells, a choice that does not, and a pair of the number with itself.
+VariantDependence Dependence(const std::string& variant, const std::string& text) {
+  const std::vector<ValueBin> bins = {{0.1, 0.5, {"", 8, 10, 0.8, 0.4, 0.97}},
+                                      {0.6, 0.9, {"", 0, 90, 0, 0, 0.04}}};
+  ValueDependence number{.key = text, .n = 100, .k = 8, .bins = bins, .p = 0.001, .p_holm = 0.002};
+  number.shape = InfluenceShape::kLower;
+  number.safe = SafeRange{.answer = SafeAnswer::kPart, .needed = 59, .whole = {0.9, 100, 8}};
+  number.safe->from = Stretch{0.6, 90, 0};
+  const ValueDependence choice{.key = text,
+                               .is_number = false,
+                               .n = 100,
+                               .k = 8,
+                               .bins = {{NAN, NAN, {text, 4, 50, 0.08, 0.02, 0.19}},
+                                        {NAN, NAN, {text, 4, 50, 0.08, 0.02, 0.19}}},
+                               .choice = text};
+  PairDependence pair{text, text, bins, bins, {}};
+  for (std::size_t c = 0; c < 4; ++c) pair.cells.push_back({c % 2, c / 2, bins[c % 2].rate});
+  pair.cells[2].rate = {"", 0, 0, NAN, 0, 1};
+  return {.variant = variant,
+          .n = 100,
+          .k = 8,
+          .looked_at = 2,
+          .values = {number, choice},
+          .pairs = {pair}};
+}
+
 Report Full(const std::string& text) {
   Report r{.title = text};
   r.summary.campaign = text;
@@ -38,6 +65,8 @@ Report Full(const std::string& text) {
     r.summary.variants.push_back(v);
     r.maps.push_back({"png", text});
   }
+  for (const VariantSummary& v : r.summary.variants)
+    r.dependence.push_back(Dependence(v.name, text));
   r.pairs = {{.a = text, .b = text, .both = 1, .only_a = 2, .only_b = 3, .neither = 4}};
   r.pairs[0].metrics = {{.name = text, .pairs = text, .n = 10}};
   r.films = {{.variant = text,
@@ -135,6 +164,51 @@ TEST(Report, IntervalsAreDrawnOnOneAxisForAllVariants) {
   EXPECT_THAT(page, HasSubstr("x1=\"0.00%\" x2=\"25.00%\""));
   EXPECT_THAT(page, HasSubstr("cx=\"50.00%\""));
   EXPECT_THAT(page, HasSubstr("cx=\"5.00%\""));
+}
+
+TEST(Report, ShowsWhatFailuresDependOn) {
+  Report r;
+  r.summary.variants = {Variant("a", 8, 100)};
+  r.maps.push_back({"", "no map"});
+  r.dependence = {Dependence("a", "friction")};
+  std::string page = ReportHtml(r);
+  EXPECT_EQ(WhyUnbalanced(page), "");
+  EXPECT_THAT(page,
+              HasSubstr("<h4>friction</h4>\n<p>Failures at lower values (p = 0.002 after Holm "
+                        "for 2 values).</p>\n<p>Safe on average (below 5 % at 95 %) from 0.6 "
+                        "on (0 of 90 failed).</p>"));
+  EXPECT_THAT(page, HasSubstr("<th scope=\"row\">0.1 to 0.5</th><td class=\"num\">8 of 10</td>"));
+  EXPECT_THAT(page, HasSubstr("<details><summary>friction: no influence shown (p = 1"));
+  EXPECT_THAT(page, HasSubstr("<th scope=\"row\">0.6 to 0.9</th><td>–</td>"))
+      << "the highest on top; no episode there";
+  EXPECT_THAT(page, HasSubstr("title=\"40 to 97 %\">80 %<small>8 of 10</small>"));
+
+  r.dependence[0].values.clear();
+  EXPECT_THAT(ReportHtml(r), Not(HasSubstr("id=\"dependence\""))) << "nothing was drawn";
+}
+
+TEST(Report, SaysWhatIsSafeWhereNothingFailed) {
+  Report r;
+  r.summary.variants = {Variant("a", 0, 60)};
+  r.maps.push_back({"", "no map"});
+  r.dependence = {{.variant = "a", .n = 60, .note = "no episode failed"}};
+  r.dependence[0].values = {{.key = "friction", .n = 60}};
+  r.dependence[0].values[0].safe =
+      SafeRange{.answer = SafeAnswer::kWhole, .needed = 59, .whole = {0.9, 60, 0}};
+  EXPECT_THAT(
+      ReportHtml(r),
+      HasSubstr("<p>No episode failed.</p>\n<ul><li><b>friction</b>: safe on average (below "
+                "5 % at 95 %) over the whole range drawn (0 of 60 failed)"));
+}
+
+TEST(Report, AValueThatNeverDiffersIsNotLookedAt) {
+  Report r;
+  r.summary.variants = {Variant("a", 8, 100)};
+  r.maps.push_back({"", "no map"});
+  r.dependence = {{.variant = "a", .n = 100, .k = 8}};
+  r.dependence[0].values = {{.key = "friction", .n = 100, .k = 8}};
+  r.dependence[0].values[0].bins = {{0.5, 0.5, {"", 8, 100, 0.08, 0.04, 0.2}}};
+  EXPECT_THAT(ReportHtml(r), HasSubstr("<b>friction</b> has one value in all episodes."));
 }
 
 TEST(Report, NumbersForPeople) {

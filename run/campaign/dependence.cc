@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/campaign/dependence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "base/params.h"
+#include "base/quantity.h"
+#include "stats/binomial.h"
+#include "stats/equal_bins.h"
+#include "stats/holm.h"
+
+namespace floorproof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr int kMostBins = 8, kFewestOfBin = 10;   // shown; more only where there are episodes
+constexpr int kMostGrid = 6, kFewestOfCell = 10;  // a side of a pair's grid
+constexpr int kTestGroups = 32;         // of the test, which sees more than eight bins show
+constexpr std::size_t kMostPaired = 3;  // numbers of which pairs are made
+
+FailureRate RateOf(const std::string& name, int k, int n) {
+  const Interval interval = ClopperPearson(k, n, kReportedConfidence);
+  return {name, k, n, n > 0 ? static_cast<double>(k) / n : kNone, interval.lower, interval.upper};
+}
+
+// What a key drew in each counted episode.
+struct Column {
+  std::string key;
+  std::vector<double> numbers;  // NaN: no number, or not drawn
+  std::vector<int> texts;       // -1: no text; else which of `labels`
+  std::map<std::string, int> labels;
+
+  void Resize(std::size_t episodes) {
+    numbers.resize(episodes, kNone);
+    texts.resize(episodes, -1);
+  }
+  void Add(const Json& value) {
+    if (value.is_number()) {
+      numbers.back() = value.get<double>();
+      return;
+    }
+    const std::string label = value.is_string() ? value.get<std::string>() : value.dump();
+    texts.back() = labels.emplace(label, static_cast<int>(labels.size())).first->second;
+  }
+  // Whoever draws numbers and texts draws choices.
+  bool is_number() const { return labels.empty(); }
+};
+
+// A variant's counted episodes, column by column.
+struct Table {
+  std::vector<Column> columns;  // in the order first met
+  std::vector<bool> failed;
+
+  void Add(const EpisodeRow& row) {
+    failed.push_back(row.any_failure());
+    for (Column& column : columns) column.Resize(failed.size());
+    const Json drawn = Json::parse(row.drawn);
+    std::size_t at = 0;  // episodes draw the same keys in the same order, as a rule
+    for (const auto& [key, value] : drawn.items()) {
+      if (at >= columns.size() || columns[at].key != key)
+        at = static_cast<std::size_t>(std::ranges::find(columns, key, &Column::key) -
+                                      columns.begin());
+      if (at == columns.size()) {
+        columns.push_back({key, {}, {}, {}});
+        columns.back().Resize(failed.size());
+      }
+      columns[at++].Add(value);
+    }
+  }
+  int failures() const { return static_cast<int>(std::ranges::count(failed, true)); }
+};
+
+std::vector<DrawnOutcome> Ascending(const Column& column, const std::vector<bool>& failed) {
+  std::vector<DrawnOutcome> outcomes;
+  for (std::size_t i = 0; i < failed.size(); ++i)
+    if (std::isfinite(column.numbers[i])) outcomes.push_back({column.numbers[i], failed[i]});
+  std::ranges::sort(outcomes, {}, &DrawnOutcome::value);
+  return outcomes;
+}
+
+std::vector<double> ValuesOf(const std::vector<DrawnOutcome>& outcomes) {
+  std::vector<double> values;
+  values.reserve(outcomes.size());
+  for (const DrawnOutcome& outcome : outcomes) values.push_back(outcome.value);
+  return values;
+}
+
+// The outcomes in at most so many bins of equal counts.
+std::vector<ValueBin> Bins(const std::vector<DrawnOutcome>& ascending, int most) {
+  std::vector<ValueBin> bins;
+  std::size_t begin = 0;
+  for (const std::size_t end : EqualBins(ValuesOf(ascending), most)) {
+    const std::span<const DrawnOutcome> within(&ascending[begin], end - begin);
+    const auto k = static_cast<int>(std::ranges::count(within, true, &DrawnOutcome::failed));
+    bins.push_back({within.front().value, within.back().value,
+                    RateOf("", k, static_cast<int>(within.size()))});
+    begin = end;
+  }
+  return bins;
+}
+
+int BinsOf(std::size_t episodes) {
+  return std::clamp(static_cast<int>(episodes) / kFewestOfBin, 2, kMostBins);
+}
+
+std::vector<GroupCounts> Counts(const std::vector<ValueBin>& bins) {
+  std::vector<GroupCounts> counts;
+  for (const ValueBin& bin : bins) counts.push_back({bin.rate.n, bin.rate.k});
+  return counts;
+}
+
+// How much a value tells: its p, and what orders those whose p is the same.
+struct Evidence {
+  double z = 0;
+  std::size_t column = 0;  // of the table
+};
+
+void DependOnNumber(const Column& column, const std::vector<bool>& failed,
+                    const SafeRangeSettings& limit, ValueDependence& out, Evidence& evidence) {
+  const std::vector<DrawnOutcome> outcomes = Ascending(column, failed);
+  out.bins = Bins(outcomes, BinsOf(outcomes.size()));
+  const OrderedInfluence found = TestOrdered(Counts(Bins(outcomes, kTestGroups)));
+  out.p = found.p;
+  out.shape = found.shape;
+  evidence.z = std::abs(found.z);
+  out.safe = FindSafeRange(outcomes, limit);
+}
+
+void DependOnChoice(const Column& column, const std::vector<bool>& failed, ValueDependence& out,
+                    Evidence& evidence) {
+  std::vector<std::string> names(column.labels.size());
+  for (const auto& [label, at] : column.labels) names[static_cast<std::size_t>(at)] = label;
+  std::map<std::string, GroupCounts> counts;
+  for (std::size_t i = 0; i < failed.size(); ++i) {
+    const bool is_text = column.texts[i] >= 0;
+    if (!is_text && !std::isfinite(column.numbers[i])) continue;
+    GroupCounts& group = counts[is_text ? names[static_cast<std::size_t>(column.texts[i])]
+                                        : FormatDouble(column.numbers[i])];
+    ++group.n;
+    group.k += failed[i];
+  }
+  for (const auto& [name, group] : counts)
+    out.bins.push_back({kNone, kNone, RateOf(name, group.k, group.n)});
+  const ChoiceInfluence found = TestChoices(Counts(out.bins));
+  out.p = found.p;
+  out.choice = out.bins.empty() ? "" : out.bins[found.choice].rate.name;
+  out.choice_fails_more = found.z > 0;
+  evidence.z = std::abs(found.z);
+}
+
+PairDependence Pair(const Column& x, const Column& y, const std::vector<bool>& failed) {
+  PairDependence out{x.key, y.key, {}, {}, {}};
+  std::vector<DrawnOutcome> of_x, of_y;  // of episodes that drew both
+  for (std::size_t i = 0; i < failed.size(); ++i)
+    if (std::isfinite(x.numbers[i]) && std::isfinite(y.numbers[i])) {
+      of_x.push_back({x.numbers[i], failed[i]});
+      of_y.push_back({y.numbers[i], failed[i]});
+    }
+  const int side = std::clamp(
+      static_cast<int>(std::sqrt(static_cast<double>(of_x.size()) / kFewestOfCell)), 2, kMostGrid);
+  const auto bins = [side](std::vector<DrawnOutcome> outcomes) {
+    std::ranges::sort(outcomes, {}, &DrawnOutcome::value);
+    return Bins(outcomes, side);
+  };
+  out.x_bins = bins(of_x);
+  out.y_bins = bins(of_y);
+  const std::size_t width = out.x_bins.size();
+  std::vector<GroupCounts> counts(width * out.y_bins.size());
+  const auto bin_of = [](const std::vector<ValueBin>& of, double value) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(of, value, {}, &ValueBin::high) -
+                                    of.begin());
+  };
+  for (std::size_t i = 0; i < of_x.size(); ++i) {
+    GroupCounts& cell =
+        counts[bin_of(out.y_bins, of_y[i].value) * width + bin_of(out.x_bins, of_x[i].value)];
+    ++cell.n;
+    cell.k += of_x[i].failed;
+  }
+  for (std::size_t c = 0; c < counts.size(); ++c)
+    out.cells.push_back({c % width, c / width, RateOf("", counts[c].k, counts[c].n)});
+  return out;
+}
+
+// The two most telling numbers; a third where it is telling.
+void AddPairs(const Table& table, const std::vector<Evidence>& evidence, VariantDependence& out) {
+  std::vector<const Column*> paired;
+  for (std::size_t i = 0; i < out.values.size() && paired.size() < kMostPaired; ++i) {
+    const ValueDependence& value = out.values[i];
+    if (value.is_number && value.bins.size() > 1 && (paired.size() < 2 || value.telling()))
+      paired.push_back(&table.columns[evidence[i].column]);
+  }
+  for (std::size_t y = 1; y < paired.size(); ++y)
+    for (std::size_t x = 0; x < y; ++x)
+      out.pairs.push_back(Pair(*paired[x], *paired[y], table.failed));
+}
+
+// The most telling first; what differs in no episode was not looked at, and comes last.
+void OrderAndCorrect(VariantDependence& out, std::vector<Evidence>& evidence) {
+  std::vector<std::size_t> order(out.values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto differs = [&](std::size_t i) { return out.values[i].bins.size() > 1; };
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+    if (differs(a) != differs(b)) return differs(a);
+    if (out.values[a].p != out.values[b].p) return out.values[a].p < out.values[b].p;
+    return evidence[a].z > evidence[b].z;
+  });
+  std::vector<ValueDependence> values;
+  std::vector<Evidence> ordered;
+  std::vector<double> p;
+  for (const std::size_t i : order) {
+    if (differs(i)) p.push_back(out.values[i].p);
+    values.push_back(std::move(out.values[i]));
+    ordered.push_back(evidence[i]);
+  }
+  out.looked_at = static_cast<int>(p.size());
+  const std::vector<double> adjusted = HolmAdjusted(p);
+  for (std::size_t i = 0; i < adjusted.size(); ++i) values[i].p_holm = adjusted[i];
+  out.values = std::move(values);
+  evidence = std::move(ordered);
+}
+
+std::string WhyNoBins(const VariantDependence& v, bool repeated) {
+  if (repeated) return "all episodes came out the same: nothing can be told apart";
+  if (v.n < kFewestToDepend)
+    return fmt::format("{}: from {} on the rates are told apart by what was drawn",
+                       CountText(v.n, "episode"), kFewestToDepend);
+  if (v.k == 0) return "no episode failed: there is nothing that failures depend on";
+  if (v.k == v.n) return "every episode failed, whatever was drawn";
+  return "";
+}
+
+VariantDependence Depend(const Table& table, const VariantSummary& variant,
+                         const SafeRangeSettings& limit) {
+  VariantDependence out{.variant = variant.name,
+                        .n = static_cast<int>(table.failed.size()),
+                        .k = table.failures(),
+                        .limit = limit};
+  out.note = WhyNoBins(out, variant.repeated);
+  std::vector<Evidence> evidence;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const Column& column = table.columns[c];
+    ValueDependence value{.key = column.key, .is_number = column.is_number()};
+    evidence.push_back({0, c});
+    if (value.is_number)
+      DependOnNumber(column, table.failed, limit, value, evidence.back());
+    else
+      DependOnChoice(column, table.failed, value, evidence.back());
+    for (const ValueBin& bin : value.bins) value.n += bin.rate.n, value.k += bin.rate.k;
+    out.values.push_back(std::move(value));
+  }
+  OrderAndCorrect(out, evidence);
+  if (out.note.empty()) {
+    AddPairs(table, evidence, out);
+    return out;
+  }
+  out.looked_at = 0;
+  for (ValueDependence& value : out.values)
+    value = {.key = value.key,
+             .is_number = value.is_number,
+             .n = value.n,
+             .k = value.k,
+             .safe = variant.repeated ? std::nullopt : value.safe};
+  return out;
+}
+
+}  // namespace
+
+std::vector<VariantDependence> DependenceOf(const CampaignStore& store,
+                                            const CampaignSummary& summary) {
+  SafeRangeSettings limit;
+  if (summary.gate)
+    limit = {summary.gate->max_rate, summary.gate->confidence, summary.gate->mode == "sequential"};
+  std::vector<VariantDependence> out;
+  for (const VariantSummary& variant : summary.variants) {
+    Table table;
+    store.ForEach(variant.name, [&](const EpisodeRow& row) {
+      if (row.counts() && row.driven()) table.Add(row);
+    });
+    out.push_back(Depend(table, variant, limit));
+  }
+  return out;
+}
+
+}  // namespace floorproof
