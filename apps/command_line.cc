@@ -32,8 +32,8 @@ void Subcommand::TextWithDefault(const std::string& name, std::string& into,
 }
 
 void Subcommand::OneOf(const std::string& name, std::string& into, const std::string& help,
-                       const std::vector<std::string>& known) {
-  app_.add_option(name, into, help)->check(CLI::IsMember(known));
+                       const std::vector<std::string>& known, Need need) {
+  Require(app_.add_option(name, into, help), need)->check(CLI::IsMember(known));
 }
 
 void Subcommand::Texts(const std::string& name, std::vector<std::string>& into,

@@ -27,7 +27,7 @@ class Subcommand {
   // Its help states the value that `into` has now.
   void TextWithDefault(const std::string& name, std::string& into, const std::string& help);
   void OneOf(const std::string& name, std::string& into, const std::string& help,
-             const std::vector<std::string>& known);
+             const std::vector<std::string>& known, Need need = Need::kOptional);
   // `count`: how many are asked for; none: one or more.
   void Texts(const std::string& name, std::vector<std::string>& into, const std::string& help,
              Need need = Need::kOptional, std::optional<int> count = {});

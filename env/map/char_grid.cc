@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/json_schema.h"
 #include "base/params.h"
 #include "env/map/cell_shapes.h"
 #include "env/map/ros_map.h"
@@ -14,6 +15,12 @@ namespace {
 
 constexpr std::size_t kMaxHazards = 10'000;
 constexpr std::string_view kCharacters = ".#G?v^=gr";
+
+void VisitGrid(ParamVisitor& v, double& cell_m, double& inset_m) {
+  v("cell_m", cell_m, Between(0.01, 100), "width of a cell");
+  v("inset_m", inset_m, NonNegative(), "solids drawn back towards free cells");
+}
+constexpr double kCell_m = 0.5;  // hTetro's own width
 
 // A character that stands for a hazard, and what it measures unless grid.sizes says otherwise.
 struct Kind {
@@ -285,12 +292,8 @@ CellState StateOf(char c) {
 CharGrid ReadCharGrid(const ConfigNode& node, const std::string& key) {
   if (!node.IsMap()) throw InputError(node.mark, key, "", "must be a map of keys");
   CharGrid grid;
-  double cell_m = 0.5;  // hTetro's own width
-  ReadParams(node, key + ".",
-             [&](ParamVisitor& v) {
-               v("cell_m", cell_m, Between(0.01, 100), "width of a cell");
-               v("inset_m", grid.inset_m, NonNegative(), "solids drawn back towards free cells");
-             },
+  double cell_m = kCell_m;
+  ReadParams(node, key + ".", [&](ParamVisitor& v) { VisitGrid(v, cell_m, grid.inset_m); },
              {"rows", "sizes"});
   if (grid.inset_m >= cell_m / 2)
     throw InputError(node.Find("inset_m") ? node.Find("inset_m")->mark : node.mark,
@@ -326,6 +329,44 @@ CharGrid ReadCharGrid(const ConfigNode& node, const std::string& key) {
   }
   grid.hazards = std::move(hazards).InReadingOrder();
   return grid;
+}
+
+ConfigNode CharSizesSchema() {
+  MapSchema sizes;
+  for (const Kind& kind : kKinds) {
+    const auto type = MakePlugin(HazardTypes(), kind.type, "type");
+    ConfigNode usual = ConfigNode::Map();
+    if (kind.height_m != 0) usual.Add("height_m", ConfigNode::Scalar(FormatDouble(kind.height_m)));
+    ReadParams(usual, "", *type);
+    MapSchema keys;
+    keys.Params(*type);
+    CommonHazardKeys::AddTo(keys);
+    if (kind.height_m != 0)
+      keys.At("height_m")
+          .Add(kind.height_m < 0 ? "exclusiveMaximum" : "exclusiveMinimum",
+               ConfigNode::Scalar("0"));
+    if (kind.shape == Kind::Shape::kPane) {
+      ConfigNode number = keys.At("thickness_m");
+      for (const char* own : {"default", "description"}) number.Remove(own);
+      keys.Key("thickness_m", AnyOf({std::move(number), ChoiceSchema({"cell"})}),
+               "of its panes (m); cell: as thick as their cells (default cell)");
+    }
+    sizes.Key(kind.key, OrNull(keys.Node()), std::string(1, kind.character) + " in the drawing");
+  }
+  return sizes.Node();
+}
+
+ConfigNode CharGridSchema() {
+  MapSchema map;
+  CharGrid grid;
+  double cell_m = kCell_m;
+  map.Params([&](ParamVisitor& v) { VisitGrid(v, cell_m, grid.inset_m); })
+      .Key("rows", TextSchema("^[" + std::string(kCharacters) + " \\t\\r\\n]*$"),
+           "the drawing, a line a row, top row first: . free, # wall, G glass, v drop, ^ raised, = "
+           "cable cover, g groove, r rough, ? unknown")
+      .Require("rows")
+      .Key("sizes", CharSizesSchema(), "what a character's hazard measures");
+  return map.Node();
 }
 
 }  // namespace floorproof

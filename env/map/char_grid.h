@@ -31,5 +31,8 @@ struct CharGrid {
 // `node` is the site's key `grid`, or another that holds the same, whose name refusals then say.
 // Throws InputError.
 CharGrid ReadCharGrid(const ConfigNode& node, const std::string& key = "grid");
+ConfigNode CharGridSchema();
+// Of its key `sizes`.
+ConfigNode CharSizesSchema();
 
 }  // namespace floorproof

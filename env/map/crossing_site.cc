@@ -293,6 +293,18 @@ CrossingParams ReadCrossing(const ConfigNode& node) {
   return p;
 }
 
+NamedSchema CrossingSchema() {
+  CrossingParams p;
+  std::vector<NamedSchema> types = PluginSchemas(HazardTypes());
+  for (NamedSchema& type : types) CommonHazardKeys::AddTo(type.keys);
+  MapSchema keys;
+  keys.Params([&](ParamVisitor& v) { p.Visit(v); })
+      .Key("outline_m", OrNull(PolygonSchema()),
+           "of the robot, in place of radius_m: its corners [x, y] in its own frame (m)")
+      .Key("sizes", PluginMapSchema(types), "what each type measures, for as many as you like");
+  return {p.kind, "one hazard on the robot's way", std::move(keys)};
+}
+
 ConfigNode WriteCrossing(const CrossingParams& params) {
   ConfigNode node = WithParams(ConfigNode::Map(), params);
   if (!params.outline_m.empty()) node.Add("outline_m", WritePoints(params.outline_m));

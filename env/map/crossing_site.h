@@ -16,6 +16,7 @@
 #include <optional>
 #include <string>
 
+#include "base/json_schema.h"
 #include "base/params.h"
 #include "env/geometry/polygon.h"
 
@@ -45,6 +46,8 @@ struct CrossingParams {
 
 // Reads a site's `generate` of this kind. Throws InputError.
 CrossingParams ReadCrossing(const ConfigNode& node);
+// Without its key `kind`.
+NamedSchema CrossingSchema();
 // `generate` with every default stated; reading it gives the same parameters.
 ConfigNode WriteCrossing(const CrossingParams& params);
 // The keys `grid`, `hazards`, `start` and `goal` of the site. `node` is what the parameters were

@@ -70,6 +70,12 @@ ConfigNode ResolvedGenerate(const ConfigNode& generate) {
   return KindOf(generate).resolved(generate);
 }
 
+ConfigNode GenerateSchema() {
+  std::vector<NamedSchema> kinds = GenerateSchemas();
+  kinds.push_back(CrossingSchema());
+  return NamedMapSchema("kind", "what is drawn", kinds, Unnamed::kFirst);
+}
+
 ConfigNode Generated(const ConfigNode& generate, std::uint64_t campaign_seed,
                      std::uint64_t episode) {
   return KindOf(generate).drawn(generate, campaign_seed, episode);

@@ -12,6 +12,7 @@ namespace floorproof {
 bool DrawnAtRandom(const ConfigNode& generate);
 // `generate` with every default stated; it gives the same sites. Throws InputError.
 ConfigNode ResolvedGenerate(const ConfigNode& generate);
+ConfigNode GenerateSchema();
 // The site's keys (`grid`, `start`, `goal`, perhaps `hazards`) for this campaign and episode.
 // Throws InputError.
 ConfigNode Generated(const ConfigNode& generate, std::uint64_t campaign_seed,

@@ -14,6 +14,7 @@
 #include "env/map/char_grid.h"
 #include "env/map/generate.h"
 #include "env/map/lay_floors.h"
+#include "env/map/site_keys.h"
 #include "env/map/written_hazard.h"
 
 namespace floorproof {
@@ -30,8 +31,7 @@ struct Written {
   CharGrid grid;
   ConfigNode generate;  // resolved; none: a map or a drawing
   bool unknown_is_wall = true;
-  double floor_friction =
-      0.8;  // dry rubber on a hard floor: the middle of ISO 18646-2's 0.6 to 1.0
+  double floor_friction = kFloorFriction;
   std::vector<WrittenHazard> hazards;
   std::optional<Pose2> start;
   std::optional<Vec2> goal;
@@ -39,28 +39,21 @@ struct Written {
 };
 
 void ReadPlaces(const ConfigNode& node, Written& site) {
-  const Bounds place = Between(-1e6, 1e6);
   const auto need = [](const ConfigNode& at, const std::string& path) {
     for (const char* key : {"x_m", "y_m"})
       if (at.Find(key) == nullptr) throw InputError(at.mark, path + key, "", "missing");
   };
   if (const ConfigNode* start = node.Find("start")) {
     Pose2 pose;
-    ReadParams(*start, "start.", [&](ParamVisitor& v) {
-      v("x_m", pose.x_m, place, "");
-      v("y_m", pose.y_m, place, "");
-      v("yaw_deg", site.start_yaw_deg, Between(-360, 360), "");
-    });
+    ReadParams(*start, "start.",
+               [&](ParamVisitor& v) { VisitSiteStart(v, pose, site.start_yaw_deg); });
     need(*start, "start.");
     pose.yaw_rad = WrapAngle(site.start_yaw_deg * kPi / 180);
     site.start = pose;
   }
   if (const ConfigNode* goal = node.Find("goal")) {
     Vec2 p = Vec2::Zero();
-    ReadParams(*goal, "goal.", [&](ParamVisitor& v) {
-      v("x_m", p.x(), place, "");
-      v("y_m", p.y(), place, "");
-    });
+    ReadParams(*goal, "goal.", [&](ParamVisitor& v) { VisitSiteGoal(v, p); });
     need(*goal, "goal.");
     site.goal = p;
   }
@@ -74,18 +67,16 @@ void ReadFloor(const ConfigNode& node, Written& site) {
     site.unknown_is_wall = text == "wall";
   }
   if (const ConfigNode* floor = node.Find("floor"))
-    ReadParams(*floor, "floor.", [&](ParamVisitor& v) {
-      v("friction", site.floor_friction, {0, 5, true}, "coefficient between floor and wheels");
-    });
+    ReadParams(*floor, "floor.", [&](ParamVisitor& v) { VisitSiteFloor(v, site.floor_friction); });
 }
 
 void ReadHazards(const ConfigNode& node, Written& site) {
-  constexpr std::size_t kMax = 10'000;
   const ConfigNode* list = node.Find("hazards");
   if (list != nullptr && !list->IsNull()) {
-    if (!list->IsList() || list->items.size() > kMax)
-      throw InputError(list->mark, "hazards", "",
-                       "must be a list of at most " + std::to_string(kMax) + " hazards");
+    if (!list->IsList() || list->items.size() > kMostSiteHazards)
+      throw InputError(
+          list->mark, "hazards", "",
+          "must be a list of at most " + std::to_string(kMostSiteHazards) + " hazards");
     for (std::size_t i = 0; i < list->items.size(); ++i)
       site.hazards.push_back(ReadHazard(list->items[i], "hazards[" + std::to_string(i) + "]"));
   }

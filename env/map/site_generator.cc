@@ -15,6 +15,8 @@ constexpr int kLeastCells = 3, kMaxCells = 4000;
 constexpr int kMaxCellsInAll = 4'000'000;  // so that the drawing fits in a file that can be read
 constexpr int kMaxOfAKind = 1000;          // all seven stay below a drawing's 10,000 hazards
 constexpr int kMaxClusterCells = 10'000;
+const Bounds kCountOfAKind = Between(0, kMaxOfAKind), kSeed = Between(0, 2147483647.0),
+             kClusterCells = Between(1, kMaxClusterCells);
 constexpr int kShareForMore = 3;  // what need not be there, while hazards take a third of the floor
 
 // How many drawings are tried before a site is refused as too full. A large site gets fewer,
@@ -67,6 +69,10 @@ IntRange ReadRange(const ConfigNode& node, const std::string& key, const Bounds&
   return range;
 }
 
+ConfigNode RangeSchema(const Bounds& rule) {
+  return AnyOf({WholeSchema(rule), ListSchema(WholeSchema(rule), 2, 2)});
+}
+
 ConfigNode Pair(int a, int b) {
   return ConfigNode::List(
       {ConfigNode::Scalar(std::to_string(a)), ConfigNode::Scalar(std::to_string(b))});
@@ -109,7 +115,7 @@ void ReadMix(const ConfigNode& node, HazardMix& mix) {
   for (const MixKey& key : kMix)
     if (const ConfigNode* count = node.Find(key.name))
       mix.*key.count =
-          ReadRange(*count, std::string("generate.hazards.") + key.name, Between(0, kMaxOfAKind));
+          ReadRange(*count, std::string("generate.hazards.") + key.name, kCountOfAKind);
 }
 
 // The grid that is drawn, still without its rows. What `generate` says is taken with its lines.
@@ -206,16 +212,40 @@ GenerateParams ReadGenerate(const ConfigNode& node) {
   read();
   if (const ConfigNode* cells = node.Find("cells")) ReadCells(*cells, p);
   if (const ConfigNode* cells = node.Find("cluster_cells"))
-    p.cluster_cells = ReadRange(*cells, "generate.cluster_cells", Between(1, kMaxClusterCells));
+    p.cluster_cells = ReadRange(*cells, "generate.cluster_cells", kClusterCells);
   if (const ConfigNode* mix = node.Find("hazards")) ReadMix(*mix, p.hazards);
   if (const ConfigNode* seed = node.Find("seed"))
-    p.seed = static_cast<int>(AsInt(*seed, "generate.seed", Between(0, 2147483647.0)));
+    p.seed = static_cast<int>(AsInt(*seed, "generate.seed", kSeed));
   CheckFloorSize({p.width, p.height, p.cell_m, {}}, Written(node, "cells").mark, "generate.cells");
   // What the drawing's reader would refuse is refused here, in the words that were written.
   ConfigNode sample = GridOf(p, node);
   sample.Add("rows", ConfigNode::Scalar("."));
   p.sizes = *ReadCharGrid(sample, "generate").resolved.Find("sizes");
   return p;
+}
+
+std::vector<NamedSchema> GenerateSchemas() {
+  MapSchema mix;
+  for (const MixKey& key : kMix)
+    mix.Key(key.name, RangeSchema(kCountOfAKind),
+            key.strip ? "strips from wall to wall: how many, or [least, most]"
+                      : "clusters: how many, or [least, most]");
+  std::vector<NamedSchema> kinds;
+  for (const SiteKind& kind : SiteKinds()) {
+    GenerateParams p;
+    kind.defaults(p);
+    MapSchema keys;
+    keys.Params([&](ParamVisitor& v) { p.Visit(v); })
+        .Key("cells", RangeSchema(Between(kLeastCells, kMaxCells)),
+             "[width, height] in cells, outer wall included, or one number for a square")
+        .Key("cluster_cells", RangeSchema(kClusterCells),
+             "about the size of a cluster, or of a piece of furniture, in cells")
+        .Key("hazards", mix.Node(), "how many of each type")
+        .Key("sizes", CharSizesSchema(), "what a character's hazard measures")
+        .Key("seed", WholeSchema(kSeed), "makes it one fixed site");
+    kinds.push_back({kind.name, kind.help, std::move(keys)});
+  }
+  return kinds;
 }
 
 ConfigNode WriteGenerate(const GenerateParams& params) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/config.h"
+#include "base/json_schema.h"
 #include "base/params.h"
 #include "env/map/floor_drawing.h"
 
@@ -54,6 +55,8 @@ const std::vector<SiteKind>& SiteKinds();
 
 // Reads a site's `generate`. Throws InputError.
 GenerateParams ReadGenerate(const ConfigNode& node);
+// Of each kind, without its key `kind`.
+std::vector<NamedSchema> GenerateSchemas();
 // `generate` with every default stated; reading it gives the same parameters.
 ConfigNode WriteGenerate(const GenerateParams& params);
 // The keys `grid`, `start` and `goal` of a site. `node` is what the parameters were read from:

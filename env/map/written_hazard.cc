@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "base/json_schema.h"
 #include "base/params.h"
 
 namespace floorproof {
@@ -50,6 +51,11 @@ std::vector<Vec2> ReadPlace(const ConfigNode& node, const std::string& path,
   return polygon ? ReadPolygon(*place, path + key) : ReadPoints(*place, path + key, 2);
 }
 
+ConfigNode PointsSchema(std::size_t least) {
+  return ListSchema(ListSchema(NumberSchema(Between(-kFarthest_m, kFarthest_m)), 2, 2), least,
+                    kMaxPoints);
+}
+
 }  // namespace
 
 Polygon ReadPolygon(const ConfigNode& node, const std::string& key) {
@@ -74,8 +80,23 @@ ConfigNode WritePoints(const std::vector<Vec2>& points) {
   return list;
 }
 
-std::vector<std::string> CommonHazardKeys::Names() {
-  return {"known", "restitution", "friction", "reflectance"};
+ConfigNode PolygonSchema() { return PointsSchema(3); }
+
+void CommonHazardKeys::AddTo(MapSchema& map) {
+  map.Key("known", BoolSchema(), "false: it is there, but not on the map that planners get")
+      .Key("restitution", NumberSchema(kRestitution), "from 0, dead, to 1 (default: the type's)")
+      .Key("friction", AnyOf({NumberSchema(kFriction), ChoiceSchema({"none"})}),
+           "coefficient (default: the type's; none: the floor's)")
+      .Key("reflectance", NumberSchema(kReflectance), "of a lidar's beam (default 1)");
+}
+
+const std::vector<std::string>& CommonHazardKeys::Names() {
+  static const std::vector<std::string> kNames = [] {
+    MapSchema map;
+    AddTo(map);
+    return map.Names();
+  }();
+  return kNames;
 }
 
 void CommonHazardKeys::Read(const ConfigNode& node, const std::string& path) {
@@ -153,6 +174,28 @@ WrittenHazard ReadHazard(const ConfigNode& node, const std::string& path) {
                        "must be 1 to 64 characters without comma, quote or tab, and not wall");
   }
   return written;
+}
+
+ConfigNode HazardSchema() {
+  std::vector<NamedSchema> types = PluginSchemas(HazardTypes());
+  for (NamedSchema& type : types) {
+    MapSchema& keys = type.keys;
+    const auto made = MakePlugin(HazardTypes(), type.name, "type");
+    const bool polygon = made->placement() == HazardType::Placement::kPolygon;
+    const char* place = polygon ? "polygon_m" : "line_m";
+    keys.Key("id", TextSchema(R"re(^(?!wall$)[^,"\n\r\t]{1,64}$)re"),
+             "by which events, draws and --set name it (default: its type and a number)")
+        .Key(place, PointsSchema(polygon ? 3 : 2),
+             polygon ? "where it lies: a polygon's corners [x, y] (m)"
+                     : "where it lies: the points [x, y] of a line (m)")
+        .Require(place)
+        .Key("shift_x_m", NumberSchema(Between(-kFarthest_m, kFarthest_m)),
+             "moves it as a whole (default 0)")
+        .Key("shift_y_m", NumberSchema(Between(-kFarthest_m, kFarthest_m)),
+             "moves it as a whole (default 0)");
+    CommonHazardKeys::AddTo(keys);
+  }
+  return NamedMapSchema("type", "what stands or lies there", types, Unnamed::kRefused);
 }
 
 ConfigNode WriteHazard(WrittenHazard& written) {

@@ -14,10 +14,13 @@
 
 namespace floorproof {
 
+class MapSchema;
+
 // A list of points [x, y], made counter-clockwise with the first edge still first. Throws
 // InputError where it is no simple polygon.
 Polygon ReadPolygon(const ConfigNode& node, const std::string& key);
 ConfigNode WritePoints(const std::vector<Vec2>& points);
+ConfigNode PolygonSchema();
 
 // What every type takes besides its own keys.
 struct CommonHazardKeys {
@@ -26,7 +29,8 @@ struct CommonHazardKeys {
   double reflectance = 1;
   std::optional<std::optional<double>> friction;  // not written: the type's own; none: the floor's
 
-  static std::vector<std::string> Names();
+  static const std::vector<std::string>& Names();
+  static void AddTo(MapSchema& map);
   void Read(const ConfigNode& node, const std::string& path);
   void Apply(Hazard& hazard) const;
 };
@@ -47,6 +51,7 @@ struct WrittenHazard {
   Vec2 shift_m = Vec2::Zero();  // by which the whole place is moved
 };
 WrittenHazard ReadHazard(const ConfigNode& node, const std::string& path);
+ConfigNode HazardSchema();
 // The entry with every default stated.
 ConfigNode WriteHazard(WrittenHazard& written);
 

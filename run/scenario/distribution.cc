@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/json_schema.h"
 #include "base/params.h"
 
 namespace floorproof {
@@ -100,6 +101,23 @@ bool Distribution::varies() const {
   if (kind != Kind::kChoice) return b > 0 && min < max;
   return std::ranges::any_of(
       choices, [&](const ConfigNode& c) { return WriteYaml(c) != WriteYaml(choices.front()); });
+}
+
+ConfigNode DistributionSchema(const MapSchema& others) {
+  const ConfigNode number = NumberSchema(Any()), pair = ListSchema(number, 2, 2);
+  const auto add = [&](const char* name, ConfigNode values, const char* help) -> MapSchema {
+    return MapSchema(others).Key(name, std::move(values), help).Require(name);
+  };
+  const auto bounded = [&](MapSchema map) {
+    return map.Key("min", number, "the least that is drawn")
+        .Key("max", number, "the most that is drawn")
+        .Node();
+  };
+  return AnyOf(
+      {add("uniform", AnyOf({pair, ListSchema(pair, 1)}), "[low, high], or a list of these").Node(),
+       bounded(add("normal", pair, "[mean, standard deviation]")),
+       bounded(add("lognormal", pair, "[median, standard deviation of the logarithm]")),
+       add("choice", ListSchema(AnythingSchema(), 1), "one of these values").Node()});
 }
 
 Distribution ReadDistribution(const ConfigNode& node, const std::string& path,

@@ -12,6 +12,8 @@
 
 namespace floorproof {
 
+class MapSchema;
+
 struct Distribution {
   enum class Kind { kUniform, kNormal, kLognormal, kChoice };
   Kind kind = Kind::kUniform;
@@ -32,5 +34,7 @@ struct Distribution {
 // names it in messages. Throws InputError.
 Distribution ReadDistribution(const ConfigNode& node, const std::string& path,
                               const std::vector<std::string>& also_allowed = {});
+// `others`: the keys that belong to somebody else.
+ConfigNode DistributionSchema(const MapSchema& others);
 
 }  // namespace floorproof

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "base/json_schema.h"
 #include "base/params.h"
 #include "base/printable.h"
 #include "base/quantity.h"
@@ -13,6 +14,7 @@ namespace floorproof {
 namespace {
 
 constexpr const char* kDimension = "dimension";
+const Bounds kDimensions = Between(1, double{kMostDimensions});
 
 // Keys that say what is done with an episode rather than what happens in it.
 const std::vector<std::string> kFixed = {"scenario",  "name",     "seed",   "episode",
@@ -48,8 +50,8 @@ void ReadDimension(const ConfigNode& node, Sampling sampling, std::vector<Random
     if (sampling == Sampling::kIndependent)
       throw InputError(written->mark, path + "." + kDimension, written->scalar,
                        "is for sampling: low_discrepancy");
-    last.dimension = static_cast<std::size_t>(
-        AsInt(*written, path + "." + kDimension, Between(1, double{kMostDimensions})) - 1);
+    last.dimension =
+        static_cast<std::size_t>(AsInt(*written, path + "." + kDimension, kDimensions) - 1);
   }
   if (sampling == Sampling::kIndependent) return;
   if (last.dimension >= kMostDimensions)
@@ -64,6 +66,21 @@ void ReadDimension(const ConfigNode& node, Sampling sampling, std::vector<Random
 }
 
 }  // namespace
+
+ConfigNode SamplingSchema() {
+  ConfigNode schema = ChoiceSchema({"independent", "low_discrepancy"});
+  schema.Add("default", ConfigNode::Scalar("independent", true));
+  return schema;
+}
+
+ConfigNode RandomiseSchema() {
+  std::vector<std::string> never = kFixed;
+  for (const std::string& key : kOfProgram) never.push_back("plan." + key);
+  const MapSchema dimension =
+      MapSchema().Key(kDimension, WholeSchema(kDimensions),
+                      "with sampling: low_discrepancy, which coordinate of the points");
+  return AnyOf({AnyKeysSchema(DistributionSchema(dimension), never), NoneSchema()});
+}
 
 Sampling ReadSampling(const ConfigNode* node) {
   if (node == nullptr) return Sampling::kIndependent;

@@ -22,6 +22,7 @@ namespace floorproof {
 enum class Sampling { kIndependent, kLowDiscrepancy };
 // Reads the scenario's key `sampling`; `node` may be nullptr. Throws InputError.
 Sampling ReadSampling(const ConfigNode* node);
+ConfigNode SamplingSchema();
 
 struct RandomisedKey {
   std::string key_path;
@@ -34,6 +35,7 @@ struct RandomisedKey {
 // may be nullptr. Throws InputError.
 std::vector<RandomisedKey> ReadRandomise(const ConfigNode* node,
                                          Sampling sampling = Sampling::kIndependent);
+ConfigNode RandomiseSchema();
 // `randomise` with each key's `dimension` written, so that a key taken out moves no other's points.
 void StateDimensions(const std::vector<RandomisedKey>& keys, ConfigNode& randomise);
 

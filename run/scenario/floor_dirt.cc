@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <utility>
 
+#include "base/json_schema.h"
 #include "planners/online/online_planner.h"
 #include "run/scenario/named_plugin.h"
 
@@ -15,6 +17,16 @@ namespace {
 const std::string kPath = "dirt.", kCleaningPath = "dirt.cleaning.";
 constexpr const char* kTooMany = "more than 100 million particles are not laid";
 
+bool Cleans(const PluginEntry<Planner>& entry) {
+  return entry.make()->promises().covers != PlannerPromises::Covers::kNothing;
+}
+
+std::vector<PluginEntry<Planner>> Cleaners() {
+  std::vector<PluginEntry<Planner>> cleaners;
+  std::ranges::copy_if(Planners(), std::back_inserter(cleaners), Cleans);
+  return cleaners;
+}
+
 std::unique_ptr<Planner> MakeCleaner(const NamedPlugin& named) {
   const std::string key = kCleaningPath + "plan.planner";
   for (const auto& entry : OnlinePlanners())
@@ -22,13 +34,10 @@ std::unique_ptr<Planner> MakeCleaner(const NamedPlugin& named) {
       throw InputError(named.mark, key, named.name,
                        "plans on the way over an unknown floor: rounds of cleaning follow a plan "
                        "that is known before");
-  std::vector<PluginEntry<Planner>> cleaners;
-  for (const auto& entry : Planners()) {
-    if (entry.make()->promises().covers != PlannerPromises::Covers::kNothing)
-      cleaners.push_back(entry);
-    else if (entry.name == named.name)
+  const std::vector<PluginEntry<Planner>> cleaners = Cleaners();
+  for (const auto& entry : Planners())
+    if (entry.name == named.name && !Cleans(entry))
       throw InputError(named.mark, key, named.name, "goes to places and cleans no floor");
-  }
   return MakePlugin(std::span<const PluginEntry<Planner>>(cleaners), named.name, key, named.mark);
 }
 
@@ -115,6 +124,23 @@ FloorDirt ReadDirt(const ConfigNode& node, const HazardMap& map) {
     cleaning = *written;
   ReadCleaning(cleaning, dirt);
   return dirt;
+}
+
+ConfigNode DirtSchema() {
+  FloorDirt usual;
+  const std::vector<PluginEntry<Planner>> cleaners = Cleaners();
+  const std::vector<NamedSchema> plans =
+      PluginSchemas(std::span<const PluginEntry<Planner>>(cleaners));
+  const ConfigNode cleaning =
+      MapSchema()
+          .Params([&](ParamVisitor& v) { usual.cleaning.Visit(v); })
+          .Key("plan", NamedPluginSchema("planner", "its name", plans, Unnamed::kFirst),
+               "by which the floor was cleaned")
+          .Node();
+  return OrNull(MapSchema()
+                    .Params([&](ParamVisitor& v) { usual.params.Visit(v); })
+                    .Key("cleaning", OrNull(cleaning), "who cleaned it before")
+                    .Node());
 }
 
 ConfigNode WriteDirt(const FloorDirt& dirt) {

@@ -42,6 +42,7 @@ struct FloorDirt {
 
 // Throws InputError, also where more lies on this floor than the field holds.
 FloorDirt ReadDirt(const ConfigNode& node, const HazardMap& map);
+ConfigNode DirtSchema();
 // The node that reads back as the same.
 ConfigNode WriteDirt(const FloorDirt& dirt);
 

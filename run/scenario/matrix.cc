@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "base/json_schema.h"
 #include "base/params.h"
 
 namespace floorproof {
@@ -69,6 +70,15 @@ std::vector<Variant> Axis(const std::string& key, const ConfigNode& list) {
 }
 
 }  // namespace
+
+ConfigNode MatrixSchema() {
+  ConfigNode labelled = AnyKeysSchema(AnythingSchema(), kShared);
+  labelled.Add("properties", ConfigNode::Map()).Add("label", TextSchema());
+  labelled.Add("required", ConfigNode::List({ConfigNode::Scalar("label", true)}));
+  return AnyOf(
+      {AnyKeysSchema(ListSchema(AnyOf({TextSchema(), std::move(labelled)}), 1, kMaxVariants)),
+       NoneSchema()});
+}
 
 std::vector<Variant> ReadMatrix(const ConfigNode* node) {
   if (node == nullptr || node->IsNull()) return {{"default", {}}};

@@ -19,5 +19,6 @@ struct Variant {
 // {label, key path: value, ..} that change together; `node` may be nullptr. All combinations, the
 // last key fastest. Throws InputError.
 std::vector<Variant> ReadMatrix(const ConfigNode* node);
+ConfigNode MatrixSchema();
 
 }  // namespace floorproof

@@ -21,4 +21,9 @@ NamedPlugin ReadNamed(const ConfigNode& root, const std::string& key, const char
           name ? name->mark : node->mark};
 }
 
+ConfigNode NamedPluginSchema(const std::string& name_key, const std::string& help,
+                             const std::vector<NamedSchema>& plugins, Unnamed unnamed) {
+  return OrNull(AnyOf({NamesSchema(plugins), NamedMapSchema(name_key, help, plugins, unnamed)}));
+}
+
 }  // namespace floorproof

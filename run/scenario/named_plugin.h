@@ -4,8 +4,10 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/config.h"
+#include "base/json_schema.h"
 
 namespace floorproof {
 
@@ -20,5 +22,8 @@ struct NamedPlugin {
 // Throws InputError.
 NamedPlugin ReadNamed(const ConfigNode& root, const std::string& key, const char* name_key,
                       std::string_view default_name, const std::string& path = "");
+// `unnamed`: what a map without a name means.
+ConfigNode NamedPluginSchema(const std::string& name_key, const std::string& help,
+                             const std::vector<NamedSchema>& plugins, Unnamed unnamed);
 
 }  // namespace floorproof

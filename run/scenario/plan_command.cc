@@ -8,6 +8,7 @@
 
 #include "base/file_output.h"
 #include "base/input_file.h"
+#include "base/json_schema.h"
 #include "base/params.h"
 #include "base/printable.h"
 #include "base/run_program.h"
@@ -83,6 +84,17 @@ PlanCommand ReadPlanCommand(const ConfigNode& plan, const fs::path& folder,
   if (command.name.empty())
     command.name = Printable(fs::path(command.words.front()).filename().string());
   return command;
+}
+
+ConfigNode PlanCommandSchema() {
+  PlanCommand usual;
+  return MapSchema()
+      .Key("command", ListSchema(TextSchema(), 1), "the program, and its arguments")
+      .Require("command")
+      .Key("folder", TextSchema("."), "that it works in (default: this file's)")
+      .Params([&](ParamVisitor& v) { VisitKeys(v, usual); })
+      .Key("made", TextSchema("."), "the plan.csv that it made once: no program is run")
+      .Node();
 }
 
 ConfigNode WritePlanCommand(const PlanCommand& command, const fs::path& folder,

@@ -31,6 +31,7 @@ struct PlanCommand {
 // is the caller's: with it nothing is run.
 PlanCommand ReadPlanCommand(const ConfigNode& plan, const std::filesystem::path& folder,
                             const InputFiles& files);
+ConfigNode PlanCommandSchema();
 // The key again, with every default stated and its paths from `folder`; `made` in place of its own.
 ConfigNode WritePlanCommand(const PlanCommand& command, const std::filesystem::path& folder,
                             const std::filesystem::path& made);

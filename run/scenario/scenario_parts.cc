@@ -108,11 +108,7 @@ Pose2 ReadStart(const ConfigNode& root, const HazardMap& map) {
     return start;
   }
   double yaw_deg = start.yaw_rad * 180 / kPi;
-  ReadParams(*node, "start.", [&](ParamVisitor& v) {
-    v("x_m", start.x_m, Any(), "x of the robot's centre (m)");
-    v("y_m", start.y_m, Any(), "y of the robot's centre (m)");
-    v("yaw_deg", yaw_deg, Any(), "heading (deg, from x to y)");
-  });
+  ReadParams(*node, "start.", [&](ParamVisitor& v) { VisitStart(v, start, yaw_deg); });
   start.yaw_rad = CanonicalDegrees(yaw_deg) * kPi / 180;
   return start;
 }
@@ -138,10 +134,7 @@ std::optional<Vec2> ReadGoal(const ConfigNode& root, const Scenario& s) {
   const ConfigNode* node = root.Find("goal");
   if (node == nullptr) return map.goal;
   Vec2 goal = map.goal.value_or(Vec2::Zero());
-  ReadParams(*node, "goal.", [&](ParamVisitor& v) {
-    v("x_m", goal.x(), Any(), "m");
-    v("y_m", goal.y(), Any(), "m");
-  });
+  ReadParams(*node, "goal.", [&](ParamVisitor& v) { VisitGoal(v, goal); });
   if (!map.frame.Inside(map.frame.ToCell(goal)))
     throw InputError(MarkOfPlace(root, "goal", s), "goal",
                      FormatDouble(goal.x()) + ", " + FormatDouble(goal.y()), "lies off the map");
@@ -474,6 +467,17 @@ fs::path NamedFile(const fs::path& folder, const ConfigNode& node, const std::st
   if (const std::string why = files.WhyUnreadable(file, kMaxNamedBytes); !why.empty())
     throw InputError(node.mark, key, node.scalar, why + ": " + Tried(file, node));
   return file;
+}
+
+void VisitStart(ParamVisitor& v, Pose2& start, double& yaw_deg) {
+  v("x_m", start.x_m, Any(), "x of the robot's centre (m)");
+  v("y_m", start.y_m, Any(), "y of the robot's centre (m)");
+  v("yaw_deg", yaw_deg, Any(), "heading (deg, from x to y)");
+}
+
+void VisitGoal(ParamVisitor& v, Vec2& goal) {
+  v("x_m", goal.x(), Any(), "m");
+  v("y_m", goal.y(), Any(), "m");
 }
 
 void ReadTopKeys(const ConfigNode& root, Scenario& s) {

@@ -32,6 +32,9 @@ const std::vector<std::string>& ScenarioKeys();
 // A file that the scenario names and that can be read; throws InputError.
 std::filesystem::path NamedFile(const std::filesystem::path& folder, const ConfigNode& node,
                                 const std::string& key, const InputFiles& files);
+// The keys of `start` and `goal`.
+void VisitStart(ParamVisitor& v, Pose2& start, double& yaw_deg);
+void VisitGoal(ParamVisitor& v, Vec2& goal);
 // Parameters of the episode, of the physics and of the film. Throws InputError.
 void ReadTopKeys(const ConfigNode& root, Scenario& s);
 // Plan, robot, start, goal, plug-ins; the site is there. Throws InputError.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/json_schema.h"
+
 namespace floorproof {
 namespace {
 
@@ -73,6 +75,17 @@ std::vector<ScheduledFault> ReadFaults(const ConfigNode& node, const FaultContex
                        "two faults have this id");
   }
   return faults;
+}
+
+ConfigNode FaultsSchema() {
+  std::vector<NamedSchema> types = PluginSchemas(Faults());
+  FaultTiming timing;
+  for (NamedSchema& type : types)
+    type.keys.Params([&](ParamVisitor& v) { timing.Visit(v); })
+        .Key("id", TextSchema("^(?=.*[^0-9])[^.]{1,64}$"),
+             "by which draws and --set name it (default: its place in the list)");
+  return OrNull(
+      ListSchema(NamedMapSchema("type", "what breaks", types, Unnamed::kRefused), 0, kMaxFaults));
 }
 
 ConfigNode WriteFaults(std::span<const ScheduledFault> faults) {

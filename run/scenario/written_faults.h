@@ -15,6 +15,7 @@ namespace floorproof {
 // or goes faster than the physics steps. `node`: the list.
 std::vector<ScheduledFault> ReadFaults(const ConfigNode& node, const FaultContext& context,
                                        double step_s);
+ConfigNode FaultsSchema();
 
 // The list again, with every default stated.
 ConfigNode WriteFaults(std::span<const ScheduledFault> faults);

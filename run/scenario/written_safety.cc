@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/json_schema.h"
 #include "env/scene/robot_model.h"
 
 namespace floorproof {
@@ -62,6 +63,18 @@ SafetyPlan ReadSafety(const ConfigNode* safety, const ConfigNode& root) {
     plan.monitors.push_back({name, std::move(monitor)});
   }
   return plan;
+}
+
+ConfigNode SafetySchema() {
+  ReactionParams reaction;
+  MapSchema monitors;
+  for (const NamedSchema& one : PluginSchemas(Monitors()))
+    monitors.Key(one.name, AnyOf({one.keys.Node(), NoneSchema()}), one.help);
+  return AnyOf({MapSchema()
+                    .Params([&](ParamVisitor& v) { reaction.Visit(v); })
+                    .Key("monitors", monitors.Node(), "each with its keys, or none: off")
+                    .Node(),
+                NoneSchema()});
 }
 
 void KeepMonitorsOf(std::span<const Reading> told, SafetyPlan& plan) {

@@ -21,6 +21,7 @@ std::filesystem::path BundledMission();
 // `safety`, the key's map; nullptr: as it is by default. `root`: the mission's file, parsed. Throws
 // InputError with file, line and key. Which monitors the robot can have is not asked yet.
 SafetyPlan ReadSafety(const ConfigNode* safety, const ConfigNode& root);
+ConfigNode SafetySchema();
 // What a supervised robot is told whichever monitors watch it: whether it stands is asked of its
 // wheels and its gyro. A lidar is more than a monitor is worth.
 inline constexpr Reading kSupervisionNeeds[] = {Reading::kWheels, Reading::kImu, Reading::kPower};

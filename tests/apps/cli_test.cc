@@ -394,8 +394,21 @@ TEST_F(Cli, ListNamesThePlugInsAndTheirKeys) {
   EXPECT_THAT(json.out, HasSubstr("\"place\": \"line_m\""));
 }
 
+TEST_F(Cli, SchemasArePrintedAsJson) {
+  for (const std::string kind : {"site", "scenario"}) {
+    const Result dut = Run("schema " + kind);
+    EXPECT_EQ(dut.status, 0);
+    const auto schema = nlohmann::json::parse(dut.out);
+    EXPECT_EQ(schema["$schema"], "http://json-schema.org/draft-07/schema#");
+    EXPECT_EQ(schema["properties"][kind]["const"], 1);
+    EXPECT_EQ(schema["additionalProperties"], false);
+    EXPECT_EQ(Run("--json --quiet schema " + kind).out, dut.out);
+  }
+}
+
 TEST_F(Cli, EachCommandExplainsItself) {
-  for (const char* command : {"demo", "init", "plan", "run", "replay", "scene", "list", "doctor"}) {
+  for (const char* command :
+       {"demo", "init", "plan", "run", "replay", "scene", "list", "schema", "doctor"}) {
     const Result dut = Run(std::string(command) + " --help");
     EXPECT_EQ(dut.status, 0);
     EXPECT_THAT(dut.out, HasSubstr(command));

@@ -50,6 +50,7 @@ std::vector<BadInput> CommandCases() {
       Words("SetOfTheSite", {run, s, "--set", "site.floor.friction=9"},
             {"--set site.floor.friction:1: floor.friction = 9", "(0, 5]"}),
       Words("ListOfNothing", {"list", "planers"}, {"planers"}),
+      Words("SchemaOfNothing", {"schema", "robot"}, {"KIND", "robot"}),
       Words("MissingScenario", {run, "no.yaml"}, {"no.yaml: no such file"}),
       Words("ScenarioIsAFolder", {run, "."}, {"a folder"}),
       Words("ScenarioIsADevice", {run, "/dev/zero"}, {"/dev/zero: is a pipe or a device"}),
