@@ -25,7 +25,7 @@ struct ReelOptions {
 struct FilmResult {
   int frames = 0;
   double fps = 0;
-  std::vector<double> t_s{};  // which moment each frame shows
+  std::vector<double> t_s{};          // which moment each frame shows
   double render_s = 0, encode_s = 0;  // wall time: picture and overlay; writing the film
 };
 

@@ -178,7 +178,8 @@ bool IsPlanFile(std::string_view name) {
 }
 
 bool IsFilm(std::string_view name) {
-  return name == "video.mp4" || name == "video.json" || (name.starts_with("frame_") && name.ends_with(".png"));
+  return name == "video.mp4" || name == "video.json" ||
+         (name.starts_with("frame_") && name.ends_with(".png"));
 }
 
 void Remove(const std::filesystem::path& file) {

@@ -94,7 +94,9 @@ def inline_commands(text):
 
 
 def arguments_of(line, folder):
-    """The arguments as bash expands them; without brackets around what may be left out, and `...`."""
+    """The arguments as bash expands them; without brackets around what may be left out, and `...`.
+    Where the output goes is no argument."""
+    line = re.sub(r"\s>\s*\S+$", "", line)
     script = 'floorproof() { printf "%s\\0" "$@"; }\n' + re.sub(r"^(time )?(\./)?", "", line)
     done = subprocess.run(["bash", "-c", script], cwd=folder, env={**os.environ, **VARIABLES},
                           capture_output=True, text=True, timeout=SECONDS)
