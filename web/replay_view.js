@@ -86,22 +86,26 @@ class ReplayView {
     this.scene.add(ring);
   }
 
-  // From so many metres off, from above, on the first side from which no wall hides the robot.
+  // From so many metres off, from above, on the first side from which no wall hides the robot; if
+  // there is one, from over floor.
   look(distance) {
     const place = new THREE.Vector3().setFromMatrixPosition(this.poser.base());
-    let eye = null;
+    let eye = null, best = -1;
     for (let eighth = 0; eighth < 8; ++eighth) {
       const turn = (5 + [0, 1, -1, 2, -2, 3, -3, 4][eighth]) * Math.PI / 4;
       const from = place.clone().add(new THREE.Vector3(
           0.82 * Math.cos(turn), 0.82 * Math.sin(turn), 0.57).multiplyScalar(distance));
-      eye = eye || from;
-      if (this.isHidden(from, place)) continue;
-      eye = from;
-      break;
+      const worth = this.isHidden(from, place) ? 0 : this.isOverWall(from) ? 1 : 2;
+      if (worth > best) [eye, best] = [from, worth];
     }
     this.controls.target.copy(place);
     this.camera.position.copy(eye);
     this.controls.update();
+  }
+  isOverWall(eye) {
+    this.ray.set(eye, new THREE.Vector3(0, 0, -1));
+    this.ray.far = 100;
+    return this.ray.intersectObjects(this.walls).length > 0;
   }
   isHidden(eye, place) {
     const way = place.clone().setZ(place.z + 0.1).sub(eye);
