@@ -87,7 +87,7 @@ class ReplayView {
   }
 
   // From so many metres off, from above, on the first side from which no wall hides the robot; if
-  // there is one, from over floor.
+  // there is one, on a side where no wall stands between.
   look(distance) {
     const place = new THREE.Vector3().setFromMatrixPosition(this.poser.base());
     let eye = null, best = -1;
@@ -95,16 +95,18 @@ class ReplayView {
       const turn = (5 + [0, 1, -1, 2, -2, 3, -3, 4][eighth]) * Math.PI / 4;
       const from = place.clone().add(new THREE.Vector3(
           0.82 * Math.cos(turn), 0.82 * Math.sin(turn), 0.57).multiplyScalar(distance));
-      const worth = this.isHidden(from, place) ? 0 : this.isOverWall(from) ? 1 : 2;
+      const worth = this.isHidden(from, place) ? 0 : this.isBehindWall(from, place) ? 1 : 2;
       if (worth > best) [eye, best] = [from, worth];
     }
     this.controls.target.copy(place);
     this.camera.position.copy(eye);
     this.controls.update();
   }
-  isOverWall(eye) {
-    this.ray.set(eye, new THREE.Vector3(0, 0, -1));
-    this.ray.far = 100;
+  // Whether it looks over a wall.
+  isBehindWall(eye, place) {
+    const way = eye.clone().sub(place).setZ(0);
+    this.ray.set(place.clone().setZ(place.z + 0.1), way.clone().normalize());
+    this.ray.far = way.length();
     return this.ray.intersectObjects(this.walls).length > 0;
   }
   isHidden(eye, place) {
