@@ -8,6 +8,7 @@
 #include "base/json_schema.h"
 #include "env/map/site_keys.h"
 #include "run/campaign/campaign_gate.h"
+#include "run/episode/records.h"
 #include "run/scenario/scenario_schema.h"
 
 namespace floorproof {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/input_file.h"
+#include "base/quantity.h"
 #include "report/drive_marks.h"
 #include "report/failing_episodes.h"
 #include "report/page_data.h"

@@ -86,7 +86,8 @@ TextTable OutcomesTable(const CampaignSummary& summary) {
                                      {.heading = "Success", .right = true},
                                      {.heading = "Failure", .right = true}};
   for (const auto& [heading, count] : rare) {
-    if (std::ranges::none_of(summary.variants, [&](const auto& v) { return v.*count > 0; }))
+    if (std::ranges::none_of(summary.variants,
+                             [counted = count](const auto& v) { return v.*counted > 0; }))
       continue;
     columns.push_back({.heading = heading, .right = true});
     counts.push_back(count);
