@@ -15,6 +15,7 @@
 #include "python/bindings/modules.h"
 #include "report/drive_and_film.h"
 #include "report/progress.h"
+#include "report/run_page.h"
 #include "run/episode/encounter_table.h"
 #include "run/episode/execute.h"
 #include "run/episode/records.h"
@@ -139,6 +140,7 @@ std::shared_ptr<Driven> RunInto(const std::shared_ptr<Scenario>& scenario, const
     DriveResult result =
         DriveAndFilm(*scenario, folder, {.video = video, .observer = &observer}, console);
     if (result.not_written) std::rethrow_exception(result.not_written);
+    if (result.record.steps > 0) WriteRunReport(folder, folder.string());
     auto out = std::make_shared<Driven>();
     out->scenario = scenario;
     out->plan = std::move(result.plan);
