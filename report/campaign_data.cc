@@ -59,6 +59,7 @@ class Gatherer {
     EpisodeRow row;
     std::vector<Event> events;
     PageJson drawn;
+    ReportEpisode said;
   };
 
   bool several() const { return report_.summary.variants.size() > 1; }
@@ -68,8 +69,10 @@ class Gatherer {
     for (const VariantSummary& variant : report_.summary.variants) {
       std::size_t listed = 0;
       store_.ForEach(variant.name, [&](const EpisodeRow& row) {
-        if (IsListed(row) && listed++ < share)
-          failing_.push_back({row, EventsOf(row), PageJson::parse(row.drawn)});
+        if (!IsListed(row) || listed++ >= share) return;
+        std::vector<Event> events = EventsOf(row);
+        ReportEpisode said = FailingEpisode(row, events, named_, several());
+        failing_.push_back({row, std::move(events), PageJson::parse(row.drawn), std::move(said)});
       });
     }
   }
@@ -107,7 +110,7 @@ class Gatherer {
       PageJson drive = {{"name", fmt::format("{}{}: {}", several() ? key.first + " " : "episode ",
                                              key.second, WhatFailed(failing.row, failing.events))},
                         {"events", std::move(events)},
-                        {"command", Command(failing)}};
+                        {"command", failing.said.command}};
       if (chosen.contains(key)) {
         const std::string id = fmt::format("replay-{}", report_.replays.size());
         report_.replays.emplace_back(
@@ -129,10 +132,6 @@ class Gatherer {
                                       : fmt::format("{}.{}", failing.row.episode, i + 1);
     const Event& event = failing.events[i];
     return FailureData(event, number, event.hazard.empty() ? "" : "at " + event.hazard);
-  }
-
-  std::string Command(const Failing& failing) const {
-    return FailingEpisode(failing.row, failing.events, named_, several()).command;
   }
 
   PageJson DriveOf(const Key& key) const {
@@ -181,7 +180,7 @@ class Gatherer {
       add(fmt::format("drawn_{}", number++), name, is_number);
     PageJson rows = PageJson::array();
     for (const Failing& failing : failing_) {
-      const ReportEpisode e = FailingEpisode(failing.row, failing.events, named_, several());
+      const ReportEpisode& e = failing.said;
       PageJson row = {{"episode", e.episode},
                       {"variant", e.variant},
                       {"what", e.what},

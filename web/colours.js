@@ -9,12 +9,11 @@ const isDark = () => matchMedia('(prefers-color-scheme: dark)').matches && !matc
 
 // Plots that are drawn anew when the colours change or their room does.
 const plots = [];
-function addPlot(element, optionOf, {onClick = null, onReady = null} = {}) {
+function addPlot(element, optionOf, {onClick = null} = {}) {
   const plot = echarts.init(element, null, {renderer: 'svg'});
   const draw = () => plot.setOption(optionOf(plot), true);
   draw();
   if (onClick) plot.on('click', onClick);
-  if (onReady) onReady(plot);
   let width = element.clientWidth;
   new ResizeObserver(() => {
     if (element.clientWidth === 0 || element.clientWidth === width) return;

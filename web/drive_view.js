@@ -119,7 +119,6 @@ class DriveView {
       {key: 'speed_mps', name: 'speed', unit: 'm/s'}, {key: 'tilt_deg', name: 'tilt', unit: '°'},
       {key: 'cross_track_mm', name: 'off the path', unit: 'mm'}, {key: 'power_w', name: 'power', unit: 'W'},
       {key: 'coverage_percent', name: 'covered', unit: '%'},
-      {key: 'safety_level', name: 'safety level', unit: '0 safe to 3 stop'},
     ], this.drive.events, this.clock);
   }
 
@@ -224,7 +223,7 @@ class DriveView {
   tell(t_s) {
     const {replay, drive} = this;
     if (replay) {
-      const joint = replay.links[replay.base].joints.find(({type}) => type === 'free');
+      const joint = baseJointOf(replay);
       const [index] = stateAt(replay.t_s, t_s);
       if (joint) this.onTime([0, 1].map(k => replay.states[index * replay.width + joint.first + k]), drive);
     }

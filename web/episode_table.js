@@ -23,6 +23,6 @@ function addEpisodeTable(element, columns, rows, onShow) {
     defaultColDef: {sortable: true, resizable: true, filter: true, floatingFilter: rows.length > 6,
                     suppressHeaderMenuButton: true, wrapHeaderText: true, autoHeaderHeight: true},
     ensureDomOrder: true, enableCellTextSelection: true, suppressColumnVirtualisation: true,
-    suppressRowHoverHighlight: false, animateRows: false,
+    animateRows: false,
   });
 }

@@ -51,7 +51,7 @@ function main() {
     }
   }
   if (theater) theater.classList.toggle('alone', !map);
-  if (view) show(data.first || 0);
+  if (view) show(0);
 
   const tableRoom = document.getElementById('episode-table');
   if (tableRoom && data.table && typeof agGrid !== 'undefined') {

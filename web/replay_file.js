@@ -52,6 +52,9 @@ function readReplay(bytes) {
   return {links: head.links, base: head.base, shapes, meshes, t_s, width, states};
 }
 
+// The joint on which the robot's base is free to move; undefined: there is none.
+function baseJointOf({links, base}) { return links[base].joints.find(({type}) => type === 'free'); }
+
 // The state at or before a time, and how far the next is begun: [index, fraction].
 function stateAt(t_s, time_s) {
   let low = 0, high = t_s.length - 1;

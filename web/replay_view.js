@@ -67,8 +67,8 @@ class ReplayView {
 
   // Where the robot has been, up to the time that is shown.
   addTrail() {
-    const {t_s, states, width, links, base} = this.replay;
-    const joint = links[base].joints.find(({type}) => type === 'free');
+    const {t_s, states, width} = this.replay;
+    const joint = baseJointOf(this.replay);
     if (!joint) return;
     const points = new Float32Array(3 * t_s.length);
     for (let i = 0; i < t_s.length; ++i)

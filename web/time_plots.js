@@ -6,6 +6,11 @@ function addTimePlots(element, columns, curves, events, clock) {
   const rows = curves.filter(({key}) => columns[key]);
   const kRow_px = 96, kTop_px = 26;
   element.style.height = `${rows.length * kRow_px + kTop_px + 24}px`;
+  // The failures, and the cursor.
+  const linesAt = now_s => [
+    ...events.map(({t_s}) => ({xAxis: t_s, lineStyle: {color: colour('bad'), type: 'dashed'}})),
+    {xAxis: now_s, lineStyle: {color: '#c2410c', type: 'solid', width: 1.5}},
+  ];
   const optionOf = () => {
     const style = axisStyle();
     return {
@@ -32,8 +37,7 @@ function addTimePlots(element, columns, curves, events, clock) {
         itemStyle: {color: colour('mark')},
         markLine: {
           symbol: 'none', silent: true, animation: false, label: {show: false},
-          data: [...events.map(({t_s}) => ({xAxis: t_s, lineStyle: {color: colour('bad'), type: 'dashed'}})),
-                 {xAxis: clock.time_s, lineStyle: {color: '#c2410c', type: 'solid', width: 1.5}}],
+          data: linesAt(clock.time_s),
         },
       })),
     };
@@ -49,8 +53,7 @@ function addTimePlots(element, columns, curves, events, clock) {
     // A few times a second are enough while it plays.
     if (clock.playing && Math.abs(t_s - shown_s) < 0.12 * clock.speed) return;
     shown_s = t_s;
-    const lines = [...events.map(({t_s: at}) => ({xAxis: at, lineStyle: {color: colour('bad'), type: 'dashed'}})),
-                   {xAxis: t_s, lineStyle: {color: '#c2410c', type: 'solid', width: 1.5}}];
+    const lines = linesAt(t_s);
     plot.setOption({series: rows.map(({key}) => ({id: key, markLine: {data: lines}}))}, {lazyUpdate: true});
   });
   return plot;
@@ -58,8 +61,8 @@ function addTimePlots(element, columns, curves, events, clock) {
 
 // What a replay alone says: where the robot's base was.
 function columnsOfReplay(replay) {
-  const {t_s, states, width, links, base} = replay;
-  const joint = links[base].joints.find(({type}) => type === 'free');
+  const {t_s, states, width} = replay;
+  const joint = baseJointOf(replay);
   const columns = {t_s: [], speed_mps: [], tilt_deg: []};
   if (!joint) return columns;
   const every = Math.max(1, Math.ceil(t_s.length / 1500));

@@ -43,25 +43,25 @@ ReplayTrack::ReplayTrack(const mjModel* m) {
   first_of_.assign(static_cast<std::size_t>(m->njnt), -1);
   for (int j = 0; j < m->njnt; ++j) {
     if (IsRoller(m, m->jnt_bodyid[j])) continue;
-    Joint joint{.from = m->jnt_qposadr[j], .first = width_};
+    first_of_[static_cast<std::size_t>(j)] = static_cast<int>(from_.size());
+    const auto add = [&](int values, double per) {
+      per_.insert(per_.end(), static_cast<std::size_t>(values), per);
+    };
     switch (m->jnt_type[j]) {
       case mjJNT_FREE:
-        joint.values = 7;
-        joint.moves = 3;
+        add(3, kPerMetre);
+        add(4, kPerQuaternion);
         break;
       case mjJNT_BALL:
-        joint.values = 4;
+        add(4, kPerQuaternion);
         break;
       case mjJNT_SLIDE:
-        joint.values = joint.moves = 1;
+        add(1, kPerMetre);
         break;
       default:
-        joint.values = 1;
-        joint.turns = true;
+        add(1, kPerRadian);
     }
-    first_of_[static_cast<std::size_t>(j)] = width_;
-    width_ += joint.values;
-    joints_.push_back(joint);
+    for (int from = m->jnt_qposadr[j]; from_.size() < per_.size(); ++from) from_.push_back(from);
   }
 }
 
@@ -69,17 +69,15 @@ void ReplayTrack::Add(double t_s, const double* qpos) {
   const auto t_ms = static_cast<std::int64_t>(std::llround(1000 * t_s));
   if (!t_ms_.empty() && t_ms <= t_ms_.back()) return;
   t_ms_.push_back(t_ms);
-  for (const Joint& joint : joints_)
-    for (int i = 0; i < joint.values; ++i) {
-      const double per = i < joint.moves ? kPerMetre : joint.turns ? kPerRadian : kPerQuaternion;
-      // A wheel that turns for hours stays in range.
-      const double value = std::clamp(per * qpos[joint.from + i], -2e9, 2e9);
-      rounded_.push_back(std::isfinite(value) ? static_cast<std::int32_t>(std::lround(value)) : 0);
-    }
+  for (std::size_t k = 0; k < from_.size(); ++k) {
+    // A wheel that turns for hours stays in range.
+    const double value = std::clamp(per_[k] * qpos[from_[k]], -2e9, 2e9);
+    rounded_.push_back(std::isfinite(value) ? static_cast<std::int32_t>(std::lround(value)) : 0);
+  }
 }
 
 std::string ReplayTrack::Bytes(const Scene& scene, std::span<const double> keep_s) const {
-  const auto width = static_cast<std::size_t>(width_);
+  const std::size_t width = from_.size();
   std::vector<std::size_t> kept;
   const std::size_t every =
       (t_ms_.size() + kMostStates - 1) / std::max<std::size_t>(1, kMostStates);
@@ -107,16 +105,12 @@ std::string ReplayTrack::Bytes(const Scene& scene, std::span<const double> keep_
   nlohmann::ordered_json meshes = nlohmann::ordered_json::array();
   for (const ReplayScene::Mesh& mesh : shapes.meshes)
     meshes.push_back({{"vertices", mesh.vertices.size() / 3}, {"faces", mesh.faces.size() / 3}});
-  nlohmann::ordered_json per = nlohmann::ordered_json::array();
-  for (const Joint& joint : joints_)
-    for (int i = 0; i < joint.values; ++i)
-      per.push_back(i < joint.moves ? kPerMetre : joint.turns ? kPerRadian : kPerQuaternion);
   std::string head = nlohmann::ordered_json({{"links", *shapes.links},
                                              {"base", shapes.base_link},
                                              {"shapes", shapes.shapes.size() / kShapeFloats},
                                              {"meshes", std::move(meshes)},
                                              {"states", kept.size()},
-                                             {"per", std::move(per)}})
+                                             {"per", per_}})
                          .dump();
   head.append((4 - head.size() % 4) % 4, ' ');  // what follows is aligned
 

@@ -30,17 +30,11 @@ class ReplayTrack {
   std::string Bytes(const Scene& scene, std::span<const double> keep_s) const;
 
  private:
-  struct Joint {
-    int from = 0, first = 0, values = 0;  // in qpos, in a state; how many
-    int moves = 0;                        // of these, those that are lengths come first
-    bool turns = false;                   // an angle
-  };
-
-  std::vector<Joint> joints_;
-  std::vector<int> first_of_;  // by the model's joints; -1: left out
-  int width_ = 0;              // positions a state
+  std::vector<int> first_of_;  // by the model's joints: where its positions begin; -1: left out
+  std::vector<int> from_;      // of each position of a state, where it stands in qpos ...
+  std::vector<double> per_;    // ... and by what it is multiplied before it is rounded
   std::vector<std::int64_t> t_ms_;
-  std::vector<std::int32_t> rounded_;  // width_ a state
+  std::vector<std::int32_t> rounded_;  // as many as from_ a state
 };
 
 // Keeps the track of an episode, and hands everything on.
