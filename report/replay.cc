@@ -37,6 +37,8 @@ nlohmann::ordered_json Renamed(const nlohmann::ordered_json& metrics) {
   return renamed;
 }
 
+}  // namespace
+
 nlohmann::ordered_json ReadResult(const fs::path& file) {
   auto result = nlohmann::ordered_json::parse(ReadInputFile(file, kMaxResultBytes), nullptr, false);
   if (!result.is_object())
@@ -44,8 +46,6 @@ nlohmann::ordered_json ReadResult(const fs::path& file) {
   if (result.contains("metrics")) result["metrics"] = Renamed(result["metrics"]);
   return result;
 }
-
-}  // namespace
 
 nlohmann::ordered_json ReplayRun(const fs::path& folder, const std::vector<Override>& overrides,
                                  bool video, const Console& console) {

@@ -13,6 +13,9 @@
 
 namespace floorproof {
 
+// result.json, its metrics as this version names them. Throws InputError where it is none.
+nlohmann::ordered_json ReadResult(const std::filesystem::path& file);
+
 // Drives the run that `folder` holds again, its records kept; returns the result as result.json
 // has it. No program is run (docs/external-planner.md). Throws InputError where the records cannot
 // be read, or there is no plan but a program's, and InternalError when, without

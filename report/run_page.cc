@@ -17,6 +17,7 @@
 #include "report/html.h"
 #include "report/html_page.h"
 #include "report/page_data.h"
+#include "report/replay.h"
 #include "run/episode/metrics.h"
 #include "run/episode/records.h"
 #include "run/scenario/plan_file.h"
@@ -44,8 +45,8 @@ class Run {
  public:
   Run(const fs::path& folder, const std::string& named)
       : folder_(folder), named_(named), file_(folder / "result.json") {
-    result_ = Json::parse(ReadInputFile(file_, kMaxResultBytes), nullptr, false);
-    if (!result_.is_object() || !result_.contains("outcome"))
+    result_ = ReadResult(file_);
+    if (!result_.contains("outcome"))
       throw InputError({file_.string(), 0}, "", "", "is not a result (a JSON object)");
   }
 
@@ -83,10 +84,13 @@ class Run {
 
   // "stuck at 198.8 s: stood still for 7.6 s before 'plank' (step, 40 mm), at ..."
   static std::string EventText(const Json& event) {
-    std::string name = Words(event.at("mode").get<std::string>());
-    if (const std::string kind = event.value("kind", ""); !kind.empty()) name += " (" + kind + ")";
-    return fmt::format("{} at {} s: {}", name, FixedText(event.at("t_s"), 1),
+    return fmt::format("{} at {} s: {}", WhatOf(event), FixedText(event.at("t_s"), 1),
                        event.value("text", ""));
+  }
+  // "roll over (tipped)"
+  static std::string WhatOf(const Json& event) {
+    const std::string kind = event.value("kind", "");
+    return Words(event.at("mode").get<std::string>()) + (kind.empty() ? "" : " (" + kind + ")");
   }
 
   std::string Verdict() const {
@@ -121,18 +125,14 @@ class Run {
 
   Json Failures() const {
     Json failures = Json::array();
-    for (const Json& event : Events()) {
-      std::string what = Words(event.at("mode").get<std::string>());
-      if (const std::string kind = event.value("kind", ""); !kind.empty())
-        what += " (" + kind + ")";
+    for (const Json& event : Events())
       failures.push_back({{"t_s", event.at("t_s")},
                           {"x", event.at("x_m")},
                           {"y", event.at("y_m")},
                           {"label", std::to_string(failures.size() + 1)},
-                          {"what", what},
+                          {"what", WhatOf(event)},
                           {"text", event.value("text", "")},
                           {"drive", 0}});
-    }
     return failures;
   }
 
