@@ -41,11 +41,12 @@ class Gatherer {
     ChooseDrives();
     PageJson maps = PageJson::array();
     for (std::size_t v = 0; v < report_.summary.variants.size(); ++v) {
-      const std::string& text = report_.maps.at(v).data;
-      if (text.empty()) continue;
+      PageJson& map = report_.maps.at(v).data;
+      if (map.is_null()) continue;
       maps.push_back({{"name", report_.summary.variants[v].name},
-                      {"map", PageJson::parse(text)},
+                      {"map", std::move(map)},
                       {"ways", PageJson::array()},
+                      {"rates", RatesData(report_.summary.variants[v])},
                       {"failures", Places(report_.summary.variants[v].name)}});
     }
     report_.data =

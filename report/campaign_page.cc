@@ -19,6 +19,7 @@
 #include "report/page_data.h"
 #include "report/pairs.h"
 #include "report/pictures.h"
+#include "report/verdict.h"
 #include "run/campaign/campaign_store.h"
 #include "run/campaign/replay_shelf.h"
 #include "run/campaign/summary_json.h"
@@ -161,7 +162,9 @@ void AddMaps(const fs::path& folder, const Rows& rows, const Console& console, R
   std::string why;
   try {
     file.emplace(folder / "scenario.resolved.yaml");
-    report.title = file->Read(std::nullopt).name;
+    const Scenario scenario = file->Read(std::nullopt);
+    report.title = scenario.name;
+    report.subject = SubjectOf(scenario, file->variants());
   } catch (const InputError& e) {
     why = fmt::format("The map cannot be read any more: {}", e.what());
   }
@@ -196,8 +199,7 @@ void AddMaps(const fs::path& folder, const Rows& rows, const Console& console, R
       WriteFailurePlaces(scenario.site.map, name + " on " + scenario.site.map.name,
                          std::move(options), rates ? &*rates : nullptr, png);
       map.png = ReadInputFile(png, kMaxResultBytes);
-      map.data =
-          MapData(scenario.site.map).dump(-1, ' ', false, PageJson::error_handler_t::replace);
+      map.data = MapData(scenario.site.map);
       if (!scenario.randomise.IsNull())
         map.note = "the map is the site as written, before an episode's draws";
     } catch (const InputError& e) {

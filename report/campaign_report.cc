@@ -5,6 +5,7 @@
 #include "base/result_folder.h"
 #include "report/campaign_page.h"
 #include "report/page.h"
+#include "report/verdict.h"
 
 namespace floorproof {
 

@@ -9,108 +9,10 @@
 #include "report/dependence_tables.h"
 #include "report/html.h"
 #include "report/rates.h"
+#include "report/verdict.h"
 
 namespace floorproof {
 namespace {
-
-// Of a variant in words, beginning with its name where there are several.
-std::string RateSentence(const VariantSummary& v) {
-  if (v.failures.empty() || v.failures.front().n == 0) return "drove in no episode that counts";
-  const FailureRate& rate = v.failures.front();
-  if (v.repeated)
-    return fmt::format("{} in its one episode, which was driven {} times",
-                       rate.k == 0 ? "did not fail" : "failed", v.n);
-  const std::string times = rate.k == 0
-                                ? "in none of " + CountText(rate.n, "episode")
-                                : fmt::format("in {} of {} ({})", rate.k,
-                                              CountText(rate.n, "episode"), PercentText(rate.rate));
-  return fmt::format("failed {}, {} interval {}", times, PercentText(kReportedConfidence),
-                     PercentText(Interval{rate.lower, rate.upper}));
-}
-
-std::string RatesVerdict(const Report& report) {
-  const auto& variants = report.summary.variants;
-  if (variants.empty()) return "No variant was driven.";
-  if (variants.size() == 1) return "The robot " + RateSentence(variants.front()) + ".";
-  const auto rate = [](const VariantSummary& v) {
-    const bool driven = !v.failures.empty() && v.failures.front().n > 0;
-    return driven ? v.failures.front().rate : 2.0;
-  };
-  const auto by_rate = [&](const auto& a, const auto& b) { return rate(a) < rate(b); };
-  const auto least = std::ranges::min_element(variants, by_rate);
-  if (rate(*least) > 1) return "No robot drove: the episodes are plans only, or none counts.";
-  auto most = least;
-  for (auto v = variants.begin(); v != variants.end(); ++v)
-    if (rate(*v) <= 1 && rate(*v) > rate(*most)) most = v;
-  if (rate(*most) == rate(*least))
-    return fmt::format(
-        "{} failed equally often: {} {}.",
-        variants.size() == 2 ? "Both variants" : fmt::format("All {} variants", variants.size()),
-        least->name, RateSentence(*least));
-  return fmt::format(
-      "{} {}; {} {}.", variants.size() > 2 ? "Least often: " + least->name : least->name,
-      RateSentence(*least), variants.size() > 2 ? "most often: " + most->name : most->name,
-      RateSentence(*most));
-}
-
-std::string GateSentence(const GateSummary& gate, std::size_t variants) {
-  std::string metric = gate.metric;
-  std::ranges::replace(metric, '_', ' ');
-  const std::string claim =
-      fmt::format("the rate of {} is below {}", metric, PercentText(gate.max_rate));
-  const std::string sure = PercentText(gate.confidence) + " confidence";
-  const std::string where = variants > 1 ? " in each variant" : "";
-  switch (gate.verdict) {
-    case GateVerdict::kPassed:
-      return fmt::format("The gate passed: {}{}, at {}.", claim, where, sure);
-    case GateVerdict::kFailed:
-      return fmt::format("The gate failed: the rate of {} is not below {}{}, at {}.", metric,
-                         PercentText(gate.max_rate), where, sure);
-    case GateVerdict::kUndecided:
-      return fmt::format("The gate is undecided: the episodes do not show, at {}, whether {}{}.",
-                         sure, claim, where);
-  }
-  return "";
-}
-
-// Without a gate: whether anything failed at all.
-std::string PlainTone(const Report& report) {
-  int driven = 0, failed = 0;
-  for (const VariantSummary& v : report.summary.variants)
-    if (!v.failures.empty()) {
-      driven += v.failures.front().n;
-      failed += v.failures.front().k;
-    }
-  return driven == 0 ? "" : failed == 0 ? " passed" : " failed";
-}
-
-std::string VerdictBox(const Report& report) {
-  std::string tone, list;
-  if (!report.summary.gate) tone = PlainTone(report);
-  if (const auto& gate = report.summary.gate) {
-    tone = std::string(" ") + GateVerdictName(gate->verdict);
-    for (const auto& [variant, found, aborted] : gate->variants)
-      list += "<li>" +
-              MarkupText(gate->variants.size() > 1 ? variant + ": " + found.text : found.text) +
-              "</li>";
-    list += "<li>" + MarkupText(RatesVerdict(report)) + "</li>";
-  }
-  if (!report.summary.unfinished.empty())
-    list += "<li>The campaign is not whole: " + MarkupText(report.summary.unfinished) + ".</li>";
-  int errors = 0, not_planned = 0;
-  for (const VariantSummary& v : report.summary.variants) {
-    errors += v.errors;
-    not_planned += v.not_planned;
-  }
-  if (not_planned > 0)
-    list += fmt::format("<li>For {} there was no plan; no robot drove.</li>",
-                        CountText(not_planned, "episode"));
-  if (errors > 0)
-    list += fmt::format("<li>{} ended in an error and {} not count.</li>",
-                        CountText(errors, "episode"), errors == 1 ? "does" : "do");
-  return fmt::format("<div class=\"verdict{}\"><p>{}</p>{}</div>\n", tone,
-                     MarkupText(VerdictText(report)), list.empty() ? "" : "<ul>" + list + "</ul>");
-}
 
 std::string Rates(const Report& report) {
   std::string html;
@@ -239,11 +141,6 @@ std::string Footer(const Report& report) {
 }
 
 }  // namespace
-
-std::string VerdictText(const Report& report) {
-  return report.summary.gate ? GateSentence(*report.summary.gate, report.summary.variants.size())
-                             : RatesVerdict(report);
-}
 
 std::string ReportHtml(const Report& report) {
   HtmlPage page;

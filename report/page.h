@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A campaign's page: what was found, as one HTML text that needs nothing beside it.
 //
-// Pictures and small films stand in the page as data; there is no script and no address of any
-// network, and a policy in its head lets the browser load none. All texts given here are escaped.
+// All texts given here are escaped.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "report/html_page.h"
+#include "report/page_data.h"
 #include "run/campaign/campaign_summary.h"
 #include "run/campaign/dependence.h"
 
@@ -20,7 +20,7 @@ namespace floorproof {
 // Where a variant's episodes failed.
 struct ReportMap {
   std::string png{};   // empty: `note` says why
-  std::string data{};  // MapData of the floor; empty: there is none
+  PageJson data{};     // MapData of the floor; null: there is none
   std::string note{};  // also said below a picture
 };
 
@@ -63,6 +63,7 @@ struct ReportEpisode {
 
 struct Report {
   std::string title{};
+  std::string subject{};  // SubjectOf; empty: it is not known
   CampaignSummary summary{};
   std::vector<VariantDependence> dependence{};  // one a variant of the summary
   std::vector<ReportMap> maps{};                // the same
@@ -75,9 +76,6 @@ struct Report {
   std::string data{};                                          // for the page's scripts, as JSON
   std::vector<std::pair<std::string, std::string>> replays{};  // id and bytes
 };
-
-// The verdict in a sentence.
-std::string VerdictText(const Report& report);
 
 std::string ReportHtml(const Report& report);
 

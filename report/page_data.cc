@@ -8,6 +8,7 @@
 #include <span>
 
 #include "base/input_file.h"
+#include "base/printable.h"
 #include "env/core/failure_text.h"
 #include "report/drive_marks.h"
 
@@ -23,45 +24,53 @@ PageJson PointsData(const std::vector<Vec2>& points) {
   return list;
 }
 
-// Runs of [kind, count], the top row first; `every` cells a side are one.
-PageJson CellsData(const HazardMap& map) {
+// The grid as the page has it, the top row first: {frame, cells: {width, height, cell_m, runs}},
+// where runs are [value, count, ..]. `value_of(ix, iy, every)` of `every` cells a side, which are
+// one of the page's.
+template <class ValueOf>
+PageJson GridData(const GridFrame& frame, const ValueOf& value_of) {
   constexpr int kMostCells = 900;  // a side: no screen shows more of them
   const int every =
-      std::max(1, (std::max(map.frame.width, map.frame.height) + kMostCells - 1) / kMostCells);
-  const int width = (map.frame.width + every - 1) / every;
-  const int height = (map.frame.height + every - 1) / every;
+      std::max(1, (std::max(frame.width, frame.height) + kMostCells - 1) / kMostCells);
+  const int width = (frame.width + every - 1) / every;
+  const int height = (frame.height + every - 1) / every;
   PageJson runs = PageJson::array();
-  int last = -1;
+  int last = 0;
   long count = 0;
-  const auto kind_of = [&](int column, int row) {
-    bool unknown = false;
-    for (int iy = row * every; iy < std::min((row + 1) * every, map.frame.height); ++iy)
-      for (int ix = column * every; ix < std::min((column + 1) * every, map.frame.width); ++ix) {
-        if (map.occupancy(ix, iy) == CellState::kOccupied) return 1;
-        unknown = unknown || map.occupancy(ix, iy) == CellState::kUnknown;
-      }
-    return unknown ? 2 : 0;
+  const auto end_run = [&] {
+    if (count == 0) return;
+    runs.push_back(last);
+    runs.push_back(count);
+    count = 0;
   };
   for (int row = height - 1; row >= 0; --row)
     for (int column = 0; column < width; ++column) {
-      const int kind = kind_of(column, row);
-      if (kind == last) {
-        ++count;
-        continue;
-      }
-      if (count > 0) {
-        runs.push_back(last);
-        runs.push_back(count);
-      }
-      last = kind;
-      count = 1;
+      const int value = value_of(column * every, row * every, every);
+      if (value != last) end_run();
+      last = value;
+      ++count;
     }
-  runs.push_back(std::max(last, 0));
-  runs.push_back(count);
-  return {{"width", width},
-          {"height", height},
-          {"cell_m", every * map.frame.cell_m},
-          {"runs", std::move(runs)}};
+  end_run();
+  const double cell_m = every * frame.cell_m;
+  return {{"frame",
+           {{"x", frame.X_WG.x_m},
+            {"y", frame.X_WG.y_m},
+            {"yaw", frame.X_WG.yaw_rad},
+            {"width_m", width * cell_m},
+            {"height_m", height * cell_m}}},
+          {"cells",
+           {{"width", width}, {"height", height}, {"cell_m", cell_m}, {"runs", std::move(runs)}}}};
+}
+
+// A wall wherever one is.
+int KindOf(const HazardMap& map, int from_x, int from_y, int every) {
+  bool unknown = false;
+  for (int iy = from_y; iy < std::min(from_y + every, map.frame.height); ++iy)
+    for (int ix = from_x; ix < std::min(from_x + every, map.frame.width); ++ix) {
+      if (map.occupancy(ix, iy) == CellState::kOccupied) return 1;
+      unknown = unknown || map.occupancy(ix, iy) == CellState::kUnknown;
+    }
+  return unknown ? 2 : 0;
 }
 
 std::vector<std::string_view> Fields(std::string_view line) {
@@ -83,7 +92,6 @@ double NumberOf(std::string_view text) {
 }  // namespace
 
 PageJson MapData(const HazardMap& map) {
-  const PageJson cells = CellsData(map);
   PageJson hazards = PageJson::array();
   for (const Hazard& hazard : map.hazards) {
     PageJson polygons = PageJson::array();
@@ -95,16 +103,29 @@ PageJson MapData(const HazardMap& map) {
                        {"text", HazardPhrase(hazard) + (hazard.known ? "" : ", on no map")},
                        {"polygons", std::move(polygons)}});
   }
-  const double cell_m = cells.at("cell_m");
-  return {{"name", map.name},
-          {"frame",
-           {{"x", map.frame.X_WG.x_m},
-            {"y", map.frame.X_WG.y_m},
-            {"yaw", map.frame.X_WG.yaw_rad},
-            {"width_m", cells.at("width").get<int>() * cell_m},
-            {"height_m", cells.at("height").get<int>() * cell_m}}},
-          {"cells", cells},
-          {"hazards", std::move(hazards)}};
+  PageJson data =
+      GridData(map.frame, [&](int ix, int iy, int every) { return KindOf(map, ix, iy, every); });
+  data["name"] = map.name;
+  data["hazards"] = std::move(hazards);
+  return data;
+}
+
+PageJson VisitsData(const Visits& visits) {
+  return GridData(visits.frame, [&](int ix, int iy, int every) {
+    const std::uint8_t passes = visits.passes(std::min(ix + every / 2, visits.frame.width - 1),
+                                              std::min(iy + every / 2, visits.frame.height - 1));
+    return passes == Visits::kOutOfReach ? -1 : static_cast<int>(passes);
+  });
+}
+
+PageJson RatesData(const VariantSummary& variant) {
+  if (variant.places.empty()) return nullptr;
+  PageJson places = PageJson::array();
+  for (const FailurePlace& place : variant.places)
+    places.push_back({Millimetres(place.p_W.x()), Millimetres(place.p_W.y()), place.rate.k,
+                      place.rate.n, Rounded(place.rate.lower, 1e6),
+                      Rounded(place.rate.upper, 1e6)});
+  return {{"cell_m", variant.place_m}, {"places", std::move(places)}};
 }
 
 PageJson WayData(const Path& plan) {
@@ -194,6 +215,30 @@ TraceData ReadTraceData(std::string_view csv) {
     for (PageJson& p : PointsData(stretch)) way.push_back(std::move(p));
   }
   return {std::move(columns), std::move(way)};
+}
+
+PageJson SafetyData(std::string_view csv, const std::string& mission) {
+  constexpr std::string_view kHead = "t_s,node,safety_state,level,machine_state,reason";
+  std::size_t at = csv.find('\n');
+  if (at == csv.npos || csv.substr(0, at) != kHead) return nullptr;
+  PageJson times = {0}, states = {0}, levels = {"high"};
+  const std::string whole = CsvField(mission.empty() ? "mission" : mission) + ",";
+  for (++at; at < csv.size();) {
+    const std::size_t end = std::min(csv.find('\n', at), csv.size());
+    std::string_view line = csv.substr(at, end - at);
+    at = end + 1;
+    const double t_s = NumberOf(line);
+    line.remove_prefix(std::min(line.size(), line.find(',')));
+    if (line.empty() || !std::isfinite(t_s)) return nullptr;
+    line.remove_prefix(1);
+    if (!line.starts_with(whole)) continue;
+    const std::vector<std::string_view> fields = Fields(line.substr(whole.size()));
+    if (fields.size() < 4 || !std::isfinite(NumberOf(fields[0]))) return nullptr;
+    times.push_back(t_s);
+    states.push_back(NumberOf(fields[0]));
+    levels.push_back(std::string(fields[1]));
+  }
+  return {{"t_s", std::move(times)}, {"state", std::move(states)}, {"level", std::move(levels)}};
 }
 
 }  // namespace floorproof

@@ -10,6 +10,8 @@
 #include "env/core/event.h"
 #include "env/core/hazard_map.h"
 #include "env/core/path.h"
+#include "run/campaign/campaign_summary.h"
+#include "run/episode/visits_file.h"
 
 namespace floorproof {
 
@@ -18,6 +20,11 @@ using PageJson = nlohmann::ordered_json;
 // The floor: its frame, its cells in runs (a large map in coarser ones: a wall wherever one is),
 // its hazards.
 PageJson MapData(const HazardMap& map);
+// The same frame and runs of how often the tool passed; -1: out of its reach.
+PageJson VisitsData(const Visits& visits);
+// Squares of the floor with the share of episodes that failed there, and its interval:
+// {cell_m, places: [[x, y, failed, n, lower, upper], ..]}; null where none failed.
+PageJson RatesData(const VariantSummary& variant);
 // [[x, y], ..], m.
 PageJson WayData(const Path& plan);
 // A failure: {t_s, x, y, label, what, text}. `label`: on the map.
@@ -31,5 +38,8 @@ struct TraceData {
   PageJson columns, way;
 };
 TraceData ReadTraceData(std::string_view csv);
+// safety.csv's changes of the mission (empty: it has no name) as a whole: {t_s: [], state: [],
+// level: []}; null where the text is none.
+PageJson SafetyData(std::string_view csv, const std::string& mission);
 
 }  // namespace floorproof

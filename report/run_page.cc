@@ -18,6 +18,7 @@
 #include "report/html_page.h"
 #include "report/page_data.h"
 #include "report/replay.h"
+#include "report/verdict.h"
 #include "run/episode/metrics.h"
 #include "run/episode/records.h"
 #include "run/scenario/plan_file.h"
@@ -68,6 +69,8 @@ class Run {
     try {
       const Scenario scenario = ReadScenario(settings, {});
       map_ = scenario.site.map;
+      subject_ = SubjectOf(scenario, {});
+      if (scenario.safety) mission_ = scenario.safety->mission.nodes[0].name;
     } catch (const InputError& e) {
       why_no_map_ = e.what();
     }
@@ -94,15 +97,16 @@ class Run {
   }
 
   std::string Verdict() const {
-    std::string text = Words(Text("outcome"));
+    std::string text =
+        (subject_.empty() ? "" : subject_ + ": ") + Words(Text("outcome"));
     if (!Events().empty()) {
-      text += ": " + EventText(Events().front());
+      text += ", " + EventText(Events().front());
       if (Events().size() > 1)
         text += fmt::format("; {}", CountText(Events().size() - 1, "further event"));
     } else if (const std::string why = Text("message"); !why.empty()) {
       text += ": " + why;
     } else if (const auto coverage = Metric("coverage")) {
-      text += ": covered " + PercentText(*coverage);
+      text += ", covered " + PercentText(*coverage);
     }
     return text;
   }
@@ -162,6 +166,8 @@ class Run {
                   {"end_s", Metric("duration_s").value_or(0)},
                   {"command", "floorproof replay " + ShellWord(named_) + " --video"}};
     if (trace.columns.is_object()) drive["trace"] = trace.columns;
+    if (mission_)
+      drive["safety"] = SafetyData(ReadIfThere(folder_ / "safety.csv", kLargestTrace), *mission_);
     if (std::string replay = ReadIfThere(folder_ / "replay.bin", kLargestReplay); !replay.empty()) {
       page.blobs.emplace_back("replay-0", std::move(replay));
       drive["replay"] = "replay-0";
@@ -172,11 +178,15 @@ class Run {
       AddFilmTimes(folder_, drive);
     }
     Json data = {{"drives", Json::array({std::move(drive)})}, {"maps", Json::array()}};
-    if (map_)
-      data["maps"].push_back({{"name", map_->name},
-                              {"map", MapData(*map_)},
-                              {"ways", std::move(ways)},
-                              {"failures", Failures()}});
+    if (map_) {
+      PageJson map = {{"name", map_->name},
+                      {"map", MapData(*map_)},
+                      {"ways", std::move(ways)},
+                      {"failures", Failures()}};
+      if (const auto visits = ReadVisits(ReadIfThere(folder_ / "visits.pgm", kLargestTrace)))
+        map["visits"] = VisitsData(*visits);
+      data["maps"].push_back(std::move(map));
+    }
     page.data = data.dump(-1, ' ', false, Json::error_handler_t::replace);
     page.shows_plots = true;
   }
@@ -308,8 +318,9 @@ class Run {
   const std::string& named_;
   fs::path file_;
   Json result_;
-  std::string settings_, why_no_map_, film_;
+  std::string settings_, subject_, why_no_map_, film_;
   std::optional<HazardMap> map_;
+  std::optional<std::string> mission_;  // of a supervised drive; it may have no name
 };
 
 }  // namespace

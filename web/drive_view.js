@@ -118,8 +118,17 @@ class DriveView {
     addTimePlots(room, columns, [
       {key: 'speed_mps', name: 'speed', unit: 'm/s'}, {key: 'tilt_deg', name: 'tilt', unit: '°'},
       {key: 'cross_track_mm', name: 'off the path', unit: 'mm'}, {key: 'power_w', name: 'power', unit: 'W'},
-      {key: 'coverage_percent', name: 'covered', unit: '%'},
+      {key: 'coverage_percent', name: 'covered', unit: '%'}, ...this.safetyCurve(),
     ], this.drive.events, this.clock);
+  }
+
+  // Of a supervised drive: the mission's safety state, and the level that it means.
+  safetyCurve() {
+    const {safety} = this.drive;
+    if (!safety) return [];
+    const points = safety.t_s.map((t, i) => [t, safety.state[i], safety.level[i]]);
+    points.push([this.clock.end_s, ...points[points.length - 1].slice(1)]);
+    return [{key: 'safety', name: 'safety state R (0 is safest)', points, says: ([, , level]) => `, level ${level}`}];
   }
 
   viewButtons() {

@@ -1,37 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The floor as a plot in metres: walls, hazards, plan, way driven, and numbered failures to click.
 
-// The cells as an image: runs of [cell, count] from the top row on; 0 free, 1 wall, 2 unknown.
-function wallsImage({width, height, runs}) {
-  const canvas = document.createElement('canvas');
-  canvas.width = width;
-  canvas.height = height;
-  const pen = canvas.getContext('2d');
-  const pixels = pen.createImageData(width, height);
-  const paints = isDark() ? [[32, 37, 42], [120, 132, 146], [52, 58, 64]]
-                          : [[255, 255, 255], [92, 102, 114], [226, 229, 232]];
-  let at = 0;
-  for (let i = 0; i < runs.length; i += 2)
-    for (let n = 0; n < runs[i + 1]; ++n, at += 4) {
-      const [r, g, b] = paints[runs[i]];
-      pixels.data.set([r, g, b, 255], at);
-    }
-  pen.putImageData(pixels, 0, 0);
-  // So large that cells keep their edges when the image is stretched.
-  const times = Math.max(1, Math.ceil(1400 / width));
-  const large = document.createElement('canvas');
-  large.width = width * times;
-  large.height = height * times;
-  const wide = large.getContext('2d');
-  wide.imageSmoothingEnabled = false;
-  wide.drawImage(canvas, 0, 0, large.width, large.height);
-  return large;
-}
-
 const kHazardColours = {C1: '#7a3f8f', C2: '#2a8f9e', C3: '#b47a12', C4: '#5f7d2e'};
 
+// What a map's cells are painted in: free, wall, unknown.
+const floorPaints = () => (isDark() ? ['#20252a', '#788492', '#343a40'] : ['#ffffff', '#5c6672', '#e2e5e8']);
+
 // `map`: {frame: {x, y, yaw, width_m, height_m}, cells, hazards}, `ways`: [{name, points, colour}],
-// `failures`: [{x, y, label, text, ...}]. `onFailure(failure)` at a click. Returns {plot, showAt}.
+// `failures`: [{x, y, label, text, ...}]. `onFailure(failure)` at a click. Returns {plot, showAt,
+// showLayer}.
 function addMapView(element, map, ways, failures, onFailure) {
   const {frame} = map;
   const cos = Math.cos(frame.yaw), sin = Math.sin(frame.yaw);
@@ -41,7 +18,7 @@ function addMapView(element, map, ways, failures, onFailure) {
   const low = [0, 1].map(k => Math.min(...corners.map(c => c[k])));
   const high = [0, 1].map(k => Math.max(...corners.map(c => c[k])));
   const margin = {left: 46, right: 14, top: 34, bottom: 40};
-  let at = null;
+  let at = null, layer = null;
 
   // As many pixels a metre along x as along y.
   const fit = () => {
@@ -60,7 +37,8 @@ function addMapView(element, map, ways, failures, onFailure) {
   const optionOf = plot => {
     const {x, y} = fit();
     plot.resize();
-    const walls = wallsImage(map.cells);
+    const paints = floorPaints();
+    const walls = cellsImage(map.cells, kind => paints[kind]);
     const style = axisStyle();
     const axis = (range, name) => ({
       type: 'value', ...range, name, nameLocation: 'middle', nameGap: 26, ...style,
@@ -77,20 +55,10 @@ function addMapView(element, map, ways, failures, onFailure) {
                 lineWidth: 1.5, lineDash: hazard.known ? null : [4, 3]},
       })),
     });
-    const series = [{
-      type: 'custom', name: 'walls', silent: true, data: [[frame.x, frame.y]], z: 0,
-      renderItem: (params, api) => {
-        const [left, bottom] = api.coord([frame.x, frame.y]);
-        const scale = api.size([1, 1])[0];
-        return {
-          type: 'image', x: left, y: bottom, rotation: frame.yaw,
-          style: {image: walls, x: 0, y: -frame.height_m * scale, width: frame.width_m * scale,
-                  height: frame.height_m * scale},
-        };
-      },
-    }];
+    const series = [imageSeries('walls', map, walls)];
+    if (layer) series.push(layer.series());
     for (const hazard of map.hazards)
-      series.push({type: 'custom', name: 'hazards', data: [hazard.polygons[0][0]], z: 1,
+      series.push({type: 'custom', name: 'hazards', data: [hazard.polygons[0][0]], z: 2,
                    renderItem: polygonItem(hazard), tooltip: {formatter: () => escaped(hazard.text)},
                    itemStyle: {color: '#b47a12'}});
     for (const way of ways)
@@ -127,6 +95,11 @@ function addMapView(element, map, ways, failures, onFailure) {
   });
   return {
     plot,
+    // One of layersOf; null: none.
+    showLayer: one => {
+      layer = one;
+      plot.setOption(optionOf(plot), true);
+    },
     showAt: p => {
       at = p;
       plot.setOption({series: [{id: 'robot', data: [p]}]}, {lazyUpdate: true});

@@ -2,6 +2,21 @@
 // Brings the page to life: what stands in it as data becomes plots, map, replay and table. Without
 // scripts the page is whole, too: pictures, tables, films.
 
+// Buttons for what lies over the floor, and the legend of what does; nothing where there is no layer.
+function layerChoice(layers, show) {
+  if (layers.length === 0) return [];
+  const legend = make('div', {class: 'layer-legend', 'aria-live': 'polite'});
+  const buttons = [null, ...layers].map(layer => make('button', {
+    type: 'button', class: 'small', 'aria-pressed': String(layer === null),
+    onclick: event => {
+      for (const button of buttons) button.setAttribute('aria-pressed', String(button === event.currentTarget));
+      legend.replaceChildren(...(layer ? [layer.legend()] : []));
+      show(layer);
+    },
+  }, layer ? layer.name : 'floor'));
+  return [make('div', {class: 'layers', role: 'group', 'aria-label': 'What the map shows'}, ...buttons), legend];
+}
+
 function main() {
   const text = document.getElementById('page-data');
   if (!text) return;
@@ -31,7 +46,8 @@ function main() {
     theater.hidden = false;
     mapRoom.hidden = false;
     for (const still of document.querySelectorAll('.replaced-by-map')) still.hidden = true;
-    const showMap = ({map: floor, ways, failures}) => {
+    const showMap = shown => {
+      const {map: floor, ways, failures} = shown;
       mapRoom.replaceChildren();
       const room = make('div', {role: 'img', 'aria-label': `Map of ${floor.name}, in metres, with `
           + `${failures.length} places of failures; ctrl and wheel to zoom`});
@@ -41,6 +57,7 @@ function main() {
         if (!view || view.drive !== data.drives[failure.drive]) show(failure.drive);
         view.toEvent(failure);
       });
+      mapRoom.append(...layerChoice(layersOf(shown), map.showLayer));
     };
     showMap(data.maps[0]);
     if (data.maps.length > 1) {

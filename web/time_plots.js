@@ -2,8 +2,10 @@
 // Curves over the time of a drive, one above the other, with the cursor at the clock's time.
 
 // `columns`: {t_s: [], and one list each}, `curves`: [{key, name, unit}], `events`: [{t_s, label}].
+// A curve with `points` ([[t_s, value], ..]) has times of its own, and holds each value to the next;
+// `says(value)`: what the tooltip adds.
 function addTimePlots(element, columns, curves, events, clock) {
-  const rows = curves.filter(({key}) => columns[key]);
+  const rows = curves.filter(({key, points}) => columns[key] || points);
   const kRow_px = 96, kTop_px = 26;
   element.style.height = `${rows.length * kRow_px + kTop_px + 24}px`;
   // The failures, and the cursor.
@@ -17,11 +19,13 @@ function addTimePlots(element, columns, curves, events, clock) {
       animation: false, textStyle: textStyle(),
       axisPointer: {link: [{xAxisIndex: 'all'}]},
       tooltip: {...tooltipStyle(), trigger: 'axis',
-                formatter: items => `<b>${items[0].value[0].toFixed(1)} s</b><br>` + items.map(
-                    ({seriesName, value}) => `${escaped(seriesName)}: ${Number(value[1].toPrecision(4))}`)
-                    .join('<br>')},
+                formatter: items => `<b>${items[0].axisValue.toFixed(1)} s</b><br>` + items.map(
+                    ({seriesName, seriesId, value}) => {
+                      const {says} = rows.find(({key}) => key === seriesId);
+                      return `${escaped(seriesName)}: ${Number(value[1].toPrecision(4))}${says ? escaped(says(value)) : ''}`;
+                    }).join('<br>')},
       title: rows.map(({name, unit}, i) => ({
-        text: `${name} (${unit})`, left: 46, top: kTop_px + i * kRow_px - 20,
+        text: unit ? `${name} (${unit})` : name, left: 46, top: kTop_px + i * kRow_px - 20,
         textStyle: {color: colour('soft'), fontSize: 12, fontWeight: 400},
       })),
       grid: rows.map((row, i) => ({left: 50, right: 14, top: kTop_px + i * kRow_px, height: kRow_px - 34})),
@@ -31,9 +35,9 @@ function addTimePlots(element, columns, curves, events, clock) {
         splitLine: {show: false},
       })),
       yAxis: rows.map((row, i) => ({type: 'value', gridIndex: i, splitNumber: 2, scale: false, ...style})),
-      series: rows.map(({key, name, unit}, i) => ({
-        type: 'line', id: key, name: `${name} (${unit})`, xAxisIndex: i, yAxisIndex: i, showSymbol: false,
-        data: columns.t_s.map((t, k) => [t, columns[key][k]]), lineStyle: {width: 1.3, color: colour('mark')},
+      series: rows.map(({key, name, unit, points}, i) => ({
+        type: 'line', id: key, name: unit ? `${name} (${unit})` : name, step: points ? 'end' : false, xAxisIndex: i, yAxisIndex: i, showSymbol: false,
+        data: points || columns.t_s.map((t, k) => [t, columns[key][k]]), lineStyle: {width: 1.3, color: colour('mark')},
         itemStyle: {color: colour('mark')},
         markLine: {
           symbol: 'none', silent: true, animation: false, label: {show: false},

@@ -16,6 +16,7 @@
 #include "env/core/failure_text.h"
 #include "planners/risk/risk_meter.h"
 #include "run/episode/encounter_table.h"
+#include "run/episode/visits_file.h"
 #include "run/scenario/floors.h"
 #include "run/scenario/plan_file.h"
 
@@ -369,7 +370,7 @@ ResultNames EpisodeResults() {
   return {"episode", [](std::string_view name) {
             return IsPlanFile(name) || IsFilm(name) || name == "result.json" ||
                    name == "predict.json" || name == "trace.csv" || name == "encounters.csv" ||
-                   name == "safety.csv" || name == "replay.bin" || name == "report.html" ||
+                   name == "safety.csv" || name == "visits.pgm" || name == "replay.bin" || name == "report.html" ||
                    (name.ends_with(".png") &&
                     (name.starts_with("heatmap_") || name.starts_with("plot_")));
           }};
@@ -409,6 +410,7 @@ void RemoveEpisodeFiles(const ResultFolder& folder) {
 void WriteEpisodeFiles(const Scenario& s, const PlanResult& plan, const EpisodeRecord& record,
                        const std::filesystem::path& folder) {
   WriteFileWhole(folder / "trace.csv", TraceCsv(record, s.robot.spec));
+  WriteFileWhole(folder / "visits.pgm", VisitsPgm(record));
   if (s.episode.drive == "physics")
     WriteFileWhole(folder / "encounters.csv", EncountersCsv(record.encounters));
   if (s.safety) WriteFileWhole(folder / "safety.csv", SafetyCsv(record));

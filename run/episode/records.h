@@ -30,10 +30,9 @@ nlohmann::ordered_json DrawnJson(const Drawn& drawn);
 nlohmann::ordered_json VersionsJson();
 std::string TraceCsv(const EpisodeRecord& record, const RobotSpec& robot);
 
-// RF per cell, the top row first.
 // safety.csv: a row at each change.
 std::string SafetyCsv(const EpisodeRecord& record);
-
+// RF per cell, the top row first.
 std::string RiskCsv(const RiskMap& risk);
 
 // What a plan and an episode leave, pictures and film included; and the film with its stills alone.
@@ -48,7 +47,7 @@ nlohmann::ordered_json WritePlanFiles(const Scenario& scenario, const PlanResult
 // Removes what an earlier episode left beside its plan: result.json first, which says that the rest
 // is whole.
 void RemoveEpisodeFiles(const ResultFolder& folder);
-// trace.csv, encounters.csv, of an audit plan.json anew, and, unless the episode was interrupted,
+// trace.csv, visits.pgm, encounters.csv, of an audit plan.json anew, and, unless the episode was interrupted,
 // result.json (last: it says the rest is whole).
 void WriteEpisodeFiles(const Scenario& scenario, const PlanResult& plan,
                        const EpisodeRecord& record, const std::filesystem::path& folder);

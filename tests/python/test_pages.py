@@ -53,6 +53,18 @@ randomise:
   site.floor.friction: {normal: [0.7, 0.08], min: 0.2}
   plan.speed_mps: {uniform: [0.2, 0.3]}
 """
+# A motor with a loose contact, which is noticed.
+SUPERVISED = """
+scenario: 1
+site: TREE/models/sites/small_room.yaml
+robot: beluga
+plan: {planner: boustrophedon}
+estimator: mcl
+on_failure: ignore
+time_limit_s: 40
+faults: [{type: weak_motor, wheel: wheel_left, onset_s: 10, period_s: 20, duty: 0.2}]
+safety: {react: true}
+"""
 
 
 def floorproof(*arguments, statuses=(0, 1)):
@@ -67,6 +79,10 @@ class Pages(unittest.TestCase):
         cls.run_folder, cls.campaign_folder = cls.folder / "run", cls.folder / "campaign"
         floorproof("run", TREE / "models/scenarios/demo_unseen_step.yaml", "--out", cls.run_folder)
         floorproof("report", cls.run_folder)
+        cls.supervised_folder = cls.folder / "supervised"
+        supervised = cls.folder / "supervised.yaml"
+        supervised.write_text(SUPERVISED.replace("TREE", str(TREE)), encoding="utf-8")
+        floorproof("run", supervised, "--out", cls.supervised_folder)
         scenario = cls.folder / "scenario.yaml"
         scenario.write_text(SCENARIO, encoding="utf-8")
         floorproof("campaign", scenario, "-n", 40, "--no-films", "--out", cls.campaign_folder)
@@ -115,6 +131,7 @@ class Pages(unittest.TestCase):
         text = page.locator(".verdict").inner_text()
         self.assertIn("stuck", text)
         self.assertIn("'plank' (step, 40 mm)", text)
+        self.assertIn("beluga, boustrophedon plan,", text)
         self.assertIn("failed", page.locator(".verdict").get_attribute("class"))
 
     def time_of(self, page):
@@ -149,6 +166,27 @@ class Pages(unittest.TestCase):
         box = page.locator(".curves").bounding_box()
         page.mouse.click(box["x"] + box["width"] / 2, box["y"] + 50)
         self.assertAlmostEqual(self.time_of(page), 99, delta=15)
+
+    def test_visits_coverage_and_rates_lie_over_the_floor_with_a_legend(self):
+        for folder, layers in ((self.run_folder, ("visits", "coverage")), (self.campaign_folder, ("failure rate",))):
+            page = self.open(folder)
+            drawn = lambda: page.locator("#map-view svg").first.inner_html()  # noqa: E731
+            bare = drawn()
+            seen = {bare}
+            for layer in layers:
+                page.locator(".layers button", has_text=layer).click()
+                page.wait_for_timeout(200)
+                self.assertTrue(page.locator(".layer-legend > *").is_visible())
+                seen.add(drawn())
+            self.assertEqual(len(seen), len(layers) + 1, "each is another picture")
+            page.locator(".layers button", has_text="floor").click()
+            page.wait_for_timeout(200)
+            self.assertEqual(page.locator(".layer-legend > *").count(), 0)
+
+    def test_a_supervised_drive_has_the_curve_of_its_safety(self):
+        page = self.open(self.supervised_folder)
+        self.assertIn("safety state", page.locator(".curves").inner_text())
+        self.assertNotIn("safety state", self.open(self.run_folder).locator(".curves").inner_text())
 
     def test_a_marker_on_the_map_leads_to_its_drive(self):
         page = self.open(self.campaign_folder)

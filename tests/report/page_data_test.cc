@@ -55,6 +55,40 @@ TEST(MapData, HazardsSayWhetherTheyAreKnown) {
   EXPECT_EQ(hazard.at("polygons").dump(), "[[[0.0,0.0],[1.0,0.0],[1.0,1.0]]]");
 }
 
+TEST(VisitsData, HasTheFloorsFormAndMarksWhatIsOutOfReach) {
+  Visits visits;
+  visits.frame = {3, 2, 0.1, {1, 2, 0.5}};
+  visits.passes = Grid<std::uint8_t>(3, 2, 1);
+  visits.passes(0, 1) = Visits::kOutOfReach;
+  visits.passes(2, 0) = 0;
+  const PageJson data = VisitsData(visits);
+  EXPECT_EQ(data.at("cells").at("runs").dump(), "[-1,1,1,4,0,1]");
+  EXPECT_EQ(data.at("frame"), MapData(Floor(3, 2)).at("frame"));
+}
+
+TEST(RatesData, SaysOfHowManyAndHowSure) {
+  VariantSummary variant;
+  EXPECT_TRUE(RatesData(variant).is_null());
+  variant.place_m = 0.25;
+  variant.places = {{{1, 2}, {"", 3, 40, 0.075, 0.0157, 0.2039}}};
+  EXPECT_EQ(RatesData(variant).dump(),
+            R"({"cell_m":0.25,"places":[[1.0,2.0,3,40,0.0157,0.2039]]})");
+}
+
+TEST(SafetyData, IsOfTheMissionAsAWhole) {
+  const std::string csv =
+      "t_s,node,safety_state,level,machine_state,reason\n"
+      "2.5,cover.drive,48,serious,normal,by its worst\n"
+      "2.5,\"clean, twice\",48,serious,normal,by its worst\n"
+      "9,\"clean, twice\",0,high,normal,\"over, and done\"\n";
+  EXPECT_EQ(SafetyData(csv, "clean, twice").dump(),
+            R"({"t_s":[0,2.5,9.0],"state":[0,48.0,0.0],"level":["high","serious","high"]})");
+  EXPECT_EQ(SafetyData(csv, "").at("t_s").size(), 1u) << "a mission without a name is `mission`";
+  EXPECT_TRUE(SafetyData("", "clean").is_null());
+  EXPECT_TRUE(SafetyData(csv + "x,2\n", "clean, twice").is_null()) << "damaged";
+  EXPECT_TRUE(SafetyData(csv.substr(0, csv.find("0,high")), "clean, twice").is_null()) << "cut";
+}
+
 std::string Trace(int rows) {
   std::string csv = "t_s,x_m,y_m,roll_rad,pitch_rad,vx_mps,vy_mps,cross_track_m,power_w,coverage\n";
   for (int i = 0; i < rows; ++i)

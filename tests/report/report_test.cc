@@ -125,32 +125,6 @@ TEST(Report, SmallFilmsStandInThePageLargeOnesAreLinkedAndNamed) {
   EXPECT_THAT(ReportHtml(r), HasSubstr("complete in itself"));
 }
 
-TEST(Report, VerdictIsOneSentence) {
-  Report r;
-  r.summary.variants = {Variant("a", 0, 20)};
-  r.summary.variants[0].failures[0].upper = 0.168;
-  EXPECT_EQ(VerdictText(r), "The robot failed in none of 20 episodes, 95 % interval 0 to 16.8 %.");
-  r.summary.variants = {Variant("a", 0, 1)};
-  EXPECT_THAT(VerdictText(r), ::testing::StartsWith("The robot failed in none of 1 episode, "));
-  r.summary.variants = {Variant("a", 5, 20), Variant("b", 2, 20)};
-  EXPECT_THAT(VerdictText(r), ::testing::StartsWith("b failed in 2 of 20 episodes (10 %)"));
-  r.summary.variants = {Variant("a", 2, 20), Variant("b", 2, 20)};
-  EXPECT_THAT(VerdictText(r),
-              ::testing::StartsWith("Both variants failed equally often: a failed"));
-  r.summary.variants.push_back(Variant("c", 2, 20));
-  EXPECT_THAT(VerdictText(r), ::testing::StartsWith("All 3 variants failed equally often: a"));
-  r.summary.variants = {Variant("a", 0, 0), Variant("b", 0, 0)};
-  EXPECT_EQ(VerdictText(r), "No robot drove: the episodes are plans only, or none counts.");
-  r.summary.gate = GateSummary{.metric = "stuck", .max_rate = 0.05, .confidence = 0.95};
-  const auto verdict = [&](GateVerdict v) {
-    r.summary.gate->verdict = v;
-    return VerdictText(r);
-  };
-  EXPECT_THAT(verdict(GateVerdict::kPassed), HasSubstr("passed: the rate of stuck is below"));
-  EXPECT_THAT(verdict(GateVerdict::kFailed), HasSubstr("failed"));
-  EXPECT_THAT(verdict(GateVerdict::kUndecided), HasSubstr("undecided"));
-}
-
 TEST(Report, IntervalsAreDrawnOnOneAxisForAllVariants) {
   Report r;
   r.summary.variants = {Variant("a", 10, 100), Variant("b", 1, 100)};

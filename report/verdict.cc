@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <string_view>
+
+#include "base/quantity.h"
+#include "base/words.h"
+#include "report/html.h"
+#include "report/rates.h"
+
+namespace floorproof {
+namespace {
+
+// Whether a variant sets one of these keys.
+bool Differ(const std::vector<Variant>& variants, std::initializer_list<std::string_view> keys) {
+  for (const Variant& variant : variants)
+    for (const auto& [key, value] : variant.overrides)
+      if (std::ranges::find(keys, key) != keys.end()) return true;
+  return false;
+}
+
+std::string PlanOf(const Scenario& s) {
+  if (!s.planner_name.empty()) return s.planner_name + " plan";
+  if (!s.mission_file.empty()) return "mission " + s.mission_file.filename().string();
+  if (s.plan_command) return "plan by a program";
+  return "plan " + s.plan_file.filename().string();
+}
+
+// The rate that is judged: the gate's, else of any failure. None: no episode counts.
+const FailureRate* JudgedRate(const VariantSummary& v, const std::optional<GateSummary>& gate) {
+  const std::string_view metric = gate ? std::string_view(gate->metric) : "any_failure";
+  auto found = std::ranges::find(v.failures, metric, &FailureRate::name);
+  if (found == v.failures.end()) found = v.failures.begin();
+  return found == v.failures.end() || found->n == 0 ? nullptr : &*found;
+}
+
+// "3 failures in 1,000 drives (0.3 %), 0.06 % to 0.87 % at 95 %"
+std::string RateText(const VariantSummary& v, const std::optional<GateSummary>& gate) {
+  const FailureRate* rate = JudgedRate(v, gate);
+  if (rate == nullptr) return "no drive that counts";
+  const bool any = rate->name == "any_failure";
+  if (v.repeated)
+    return fmt::format("{}{} in its one drive, repeated {} times",
+                       rate->k == 0 ? "no " : "", any ? "failure" : Words(rate->name), v.n);
+  std::string text =
+      any ? fmt::format("{} in {}",
+                        rate->k == 0 ? "no failure"
+                                     : CountText(static_cast<std::size_t>(rate->k), "failure"),
+                        CountText(static_cast<std::size_t>(rate->n), "drive"))
+          : fmt::format("{} in {} of {}", Words(rate->name), FixedText(rate->k, 0),
+                        CountText(static_cast<std::size_t>(rate->n), "drive"));
+  if (rate->k > 0) text += " (" + PercentText(rate->rate) + ")";
+  return text + fmt::format(", {} at {}", PercentText(Interval{rate->lower, rate->upper}),
+                            PercentText(kReportedConfidence));
+}
+
+// The least and the most often failing of several variants.
+std::string Extremes(const Report& report) {
+  const auto& variants = report.summary.variants;
+  const auto rate = [&](const VariantSummary& v) {
+    const FailureRate* judged = JudgedRate(v, report.summary.gate);
+    return judged == nullptr ? 2.0 : judged->rate;
+  };
+  const auto text = [&](const VariantSummary& v) { return RateText(v, report.summary.gate); };
+  const auto least = std::ranges::min_element(
+      variants, [&](const auto& a, const auto& b) { return rate(a) < rate(b); });
+  if (rate(*least) > 1) return "no robot drove: the episodes are plans only, or none counts";
+  auto most = least;
+  for (auto v = variants.begin(); v != variants.end(); ++v)
+    if (rate(*v) <= 1 && rate(*v) > rate(*most)) most = v;
+  if (rate(*most) == rate(*least))
+    return fmt::format(
+        "{} failed equally often, {}: {}",
+        variants.size() == 2 ? "both variants" : fmt::format("all {} variants", variants.size()),
+        least->name, text(*least));
+  if (variants.size() == 2)
+    return fmt::format("{}: {}; {}: {}", least->name, text(*least), most->name, text(*most));
+  return fmt::format("least often {}: {}; most often {}: {}", least->name, text(*least),
+                     most->name, text(*most));
+}
+
+// "gate < 1 %: passed"
+std::string GateWords(const GateSummary& gate, std::size_t variants) {
+  const bool any = gate.metric == "any_failure";
+  return fmt::format("gate{} < {}{}: {}", any ? "" : " on " + Words(gate.metric),
+                     PercentText(gate.max_rate, 4), variants > 1 ? " in each variant" : "",
+                     GateVerdictName(gate.verdict));
+}
+
+// Without a gate: whether anything failed at all.
+std::string PlainTone(const Report& report) {
+  int driven = 0, failed = 0;
+  for (const VariantSummary& v : report.summary.variants)
+    if (!v.failures.empty()) {
+      driven += v.failures.front().n;
+      failed += v.failures.front().k;
+    }
+  return driven == 0 ? "" : failed == 0 ? "passed" : "failed";
+}
+
+}  // namespace
+
+std::string SubjectOf(const Scenario& scenario, const std::vector<Variant>& variants) {
+  std::string subject;
+  const auto add = [&](const std::string& part) {
+    if (!part.empty()) subject += (subject.empty() ? "" : ", ") + part;
+  };
+  if (!Differ(variants, {"robot", "robot.model"})) add(scenario.robot.spec.name);
+  if (!Differ(variants, {"plan", "plan.planner", "plan.file", "plan.command", "mission"}))
+    add(PlanOf(scenario));
+  if (!Differ(variants, {"site"})) add(scenario.site.map.name);
+  return subject;
+}
+
+std::string VerdictText(const Report& report) {
+  const auto& variants = report.summary.variants;
+  const auto& gate = report.summary.gate;
+  if (variants.empty()) return "No variant was driven.";
+  const std::string rates =
+      variants.size() == 1 ? RateText(variants.front(), gate) : Extremes(report);
+  std::string text = report.subject.empty() ? "" : report.subject + ": ";
+  // Of several variants the gate's word on all of them comes first.
+  if (gate && variants.size() > 1)
+    text += GateWords(*gate, variants.size()) + "; " + rates;
+  else
+    text += gate ? rates + "; " + GateWords(*gate, 1) : rates;
+  return text + ".";
+}
+
+std::string VerdictBox(const Report& report) {
+  const auto& gate = report.summary.gate;
+  std::string list;
+  if (gate)
+    for (const auto& [variant, found, aborted] : gate->variants)
+      list += "<li>" +
+              MarkupText(gate->variants.size() > 1 ? variant + ": " + found.text : found.text) +
+              "</li>";
+  if (!report.summary.unfinished.empty())
+    list += "<li>The campaign is not whole: " + MarkupText(report.summary.unfinished) + ".</li>";
+  int errors = 0, not_planned = 0;
+  for (const VariantSummary& v : report.summary.variants) {
+    errors += v.errors;
+    not_planned += v.not_planned;
+  }
+  if (not_planned > 0)
+    list += fmt::format("<li>For {} there was no plan; no robot drove.</li>",
+                        CountText(static_cast<std::size_t>(not_planned), "episode"));
+  if (errors > 0)
+    list +=
+        fmt::format("<li>{} ended in an error and {} not count.</li>",
+                    CountText(static_cast<std::size_t>(errors), "episode"), errors == 1 ? "does" : "do");
+  return fmt::format("<div class=\"verdict {}\"><p>{}</p>{}</div>\n",
+                     gate ? GateVerdictName(gate->verdict) : PlainTone(report),
+                     MarkupText(VerdictText(report)), list.empty() ? "" : "<ul>" + list + "</ul>");
+}
+
+}  // namespace floorproof
