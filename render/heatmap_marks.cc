@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/quantity.h"
+#include "render/hazard_looks.h"
 #include "render/strokes.h"
 
 namespace floorproof {
@@ -17,9 +18,6 @@ constexpr Rgb kUnknown = {214, 217, 221}, kHatch = {190, 194, 200};
 // Paths in blue and orange, which every eye tells apart from each other and from walls.
 constexpr Rgb kPath = {0, 114, 178}, kDriven = {240, 136, 0}, kStart = {20, 150, 90},
               kEnd = {190, 20, 120};
-// By class; chosen to stand out from viridis, inferno and cividis, inside a white casing.
-constexpr std::array<Rgb, 4> kHazards = {
-    {{112, 60, 170}, {70, 180, 230}, {200, 20, 70}, {150, 104, 10}}};
 constexpr double kThick_px = 12, kCased_px = 20;  // apart: there is room for such lines
 constexpr std::array<Rgb, 7> kSeries = {{{200, 20, 40},
                                          {120, 40, 180},
@@ -31,20 +29,6 @@ constexpr std::array<Rgb, 7> kSeries = {{{200, 20, 40},
 constexpr std::array<int, kSeries.size()> kMarks = {
     cv::MARKER_TILTED_CROSS, cv::MARKER_TRIANGLE_UP,   cv::MARKER_DIAMOND, cv::MARKER_SQUARE,
     cv::MARKER_STAR,         cv::MARKER_TRIANGLE_DOWN, cv::MARKER_CROSS};
-
-Rgb Mix(const Rgb& from, const Rgb& to, double share) {
-  Rgb mixed;
-  for (std::size_t k = 0; k < 3; ++k)
-    mixed[k] = static_cast<std::uint8_t>(std::lround(from[k] + share * (to[k] - from[k])));
-  return mixed;
-}
-
-// The first type of a class has its colour, the next are darker and paler.
-Rgb Shade(const Rgb& colour, std::size_t type) {
-  return type % 3 == 0   ? colour
-         : type % 3 == 1 ? Mix(colour, {0, 0, 0}, 0.45)
-                         : Mix(colour, kWhite, 0.45);
-}
 
 // A name's number by order of appearance.
 std::size_t NumberOf(std::vector<std::string>& seen, const std::string& name) {
@@ -146,8 +130,8 @@ void RingMark(cv::Mat& image, const cv::Point2d& middle, double radius_px, doubl
 HeatCategory CellsOf(HazardClass hazard_class) {
   constexpr std::array<const char*, 4> kNames = {"C1 blind object", "C2 glass", "C3 level change",
                                                  "C4 terrain"};
-  const auto i = static_cast<std::size_t>(hazard_class);
-  return {kNames[i], Mix(kHazards[i], kWhite, 0.6)};
+  return {kNames[static_cast<std::size_t>(hazard_class)],
+          MixColours(HazardClassColour(hazard_class), kWhite, 0.6)};
 }
 
 void DrawPaths(const HazardMap& map, const HeatMapOptions& options, const PanelFrame& frame,
@@ -179,11 +163,11 @@ void DrawPaths(const HazardMap& map, const HeatMapOptions& options, const PanelF
 
 void DrawHazards(const HazardMap& map, const PanelFrame& frame, HeatPanel& panel) {
   cv::Mat canvas = Canvas(panel.image);
-  std::array<std::vector<std::string>, kHazards.size()> types;
+  const std::vector<HazardLook> looks = HazardLooks(map);
   std::vector<LegendLine> legend;
-  for (const Hazard& hazard : map.hazards) {
-    const auto in_class = static_cast<std::size_t>(hazard.hazard_class);
-    const Rgb colour = Shade(kHazards[in_class], NumberOf(types[in_class], hazard.type));
+  for (std::size_t h = 0; h < looks.size(); ++h) {
+    const Hazard& hazard = map.hazards[h];
+    const auto& [colour, label] = looks[h];
     for (const Polygon& polygon : hazard.footprint) {
       for (const bool casing : {true, false}) {
         for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -199,10 +183,6 @@ void DrawHazards(const HazardMap& map, const PanelFrame& frame, HeatPanel& panel
         }
       }
     }
-    std::string label = hazard.type;
-    std::replace(label.begin(), label.end(), '_', ' ');
-    label = fmt::format("C{} {}{}", static_cast<int>(in_class) + 1, label,
-                        hazard.known ? "" : " (not on the map)");
     AddOnce(legend,
             {hazard.known ? LegendLine::Kind::kOutline : LegendLine::Kind::kDashed, label, colour});
   }

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
 #include <vector>
 
 #include "base/input_file.h"
+#include "base/key_name.h"
 #include "base/quantity.h"
 #include "report/drive_marks.h"
 #include "report/failing_episodes.h"
@@ -30,6 +32,17 @@ std::string Dump(const PageJson& json) {
   return json.dump(-1, ' ', false, PageJson::error_handler_t::replace);
 }
 
+// Milliseconds and millimetres.
+PageJson Rounded(const std::optional<double>& value) {
+  return value ? PageJson(std::round(1000 * *value) / 1000) : PageJson(nullptr);
+}
+
+// "step height (m)"
+std::string Heading(const std::string& key) {
+  const KeyName name = NameOfKey(key);
+  return name.unit.empty() ? name.name : name.name + " (" + name.unit + ")";
+}
+
 class Gatherer {
  public:
   Gatherer(const CampaignStore& store, const fs::path& folder, const std::string& named,
@@ -38,6 +51,9 @@ class Gatherer {
 
   void Gather() {
     ReadRows();
+    std::size_t mapped = 0;
+    for (std::size_t v = 0; v < report_.summary.variants.size(); ++v)
+      if (!report_.maps.at(v).data.is_null()) map_of_[report_.summary.variants[v].name] = mapped++;
     ChooseDrives();
     PageJson maps = PageJson::array();
     for (std::size_t v = 0; v < report_.summary.variants.size(); ++v) {
@@ -47,6 +63,7 @@ class Gatherer {
                       {"map", std::move(map)},
                       {"ways", PageJson::array()},
                       {"rates", RatesData(report_.summary.variants[v])},
+                      {"note", report_.maps.at(v).note},
                       {"failures", Places(report_.summary.variants[v].name)}});
     }
     report_.data =
@@ -61,6 +78,7 @@ class Gatherer {
     std::vector<Event> events;
     PageJson drawn;
     ReportEpisode said;
+    std::size_t number = 0;  // in the table
   };
 
   bool several() const { return report_.summary.variants.size() > 1; }
@@ -73,7 +91,8 @@ class Gatherer {
         if (!IsListed(row) || listed++ >= share) return;
         std::vector<Event> events = EventsOf(row);
         ReportEpisode said = FailingEpisode(row, events, named_, several());
-        failing_.push_back({row, std::move(events), PageJson::parse(row.drawn), std::move(said)});
+        failing_.push_back(
+            {row, std::move(events), PageJson::parse(row.drawn), std::move(said), failing_.size()});
       });
     }
   }
@@ -111,7 +130,10 @@ class Gatherer {
       PageJson drive = {{"name", fmt::format("{}{}: {}", several() ? key.first + " " : "episode ",
                                              key.second, WhatFailed(failing.row, failing.events))},
                         {"events", std::move(events)},
+                        {"end_s", failing.row.metric(&Metrics::duration_s).value_or(0)},
                         {"command", failing.said.command}};
+      if (const auto map = map_of_.find(key.first); map != map_of_.end())
+        drive["map"] = map->second;
       if (chosen.contains(key)) {
         const std::string id = fmt::format("replay-{}", report_.replays.size());
         report_.replays.emplace_back(
@@ -151,6 +173,7 @@ class Gatherer {
                         FailureText(failing.events[i]), FixedText(failing.events[i].t_s, 1),
                         failing.events[i].hazard.empty() ? "" : ", " + failing.events[i].hazard);
         place["drive"] = DriveOf({variant, failing.row.episode});
+        place["row"] = failing.number;
         places.push_back(std::move(place));
       }
     }
@@ -166,8 +189,10 @@ class Gatherer {
         entry->second = entry->second && value.is_number();
       }
     PageJson columns = PageJson::array();
-    const auto add = [&](const std::string& key, const std::string& name, bool number) {
-      columns.push_back({{"key", key}, {"name", name}, {"number", number}});
+    const auto add = [&](const std::string& key, const std::string& name, bool number,
+                         const std::string& said = "") {
+      columns.push_back(
+          {{"key", key}, {"name", said.empty() ? name : said}, {"number", number}, {"path", name}});
     };
     add("episode", "Episode", true);
     if (several()) add("variant", "Variant", false);
@@ -178,7 +203,7 @@ class Gatherer {
     add("y_m", "y (m)", true);
     std::size_t number = 0;
     for (const auto& [name, is_number] : drawn)
-      add(fmt::format("drawn_{}", number++), name, is_number);
+      add(fmt::format("drawn_{}", number++), name, is_number, Heading(name));
     PageJson rows = PageJson::array();
     for (const Failing& failing : failing_) {
       const ReportEpisode& e = failing.said;
@@ -186,9 +211,9 @@ class Gatherer {
                       {"variant", e.variant},
                       {"what", e.what},
                       {"detail", e.detail},
-                      {"t_s", e.t_s ? PageJson(*e.t_s) : PageJson(nullptr)},
-                      {"x_m", e.x_m ? PageJson(*e.x_m) : PageJson(nullptr)},
-                      {"y_m", e.y_m ? PageJson(*e.y_m) : PageJson(nullptr)},
+                      {"t_s", Rounded(e.t_s)},
+                      {"x_m", Rounded(e.x_m)},
+                      {"y_m", Rounded(e.y_m)},
                       {"command", e.command},
                       {"drive", DriveOf({e.variant, e.episode})}};
       number = 0;
@@ -210,6 +235,7 @@ class Gatherer {
   std::vector<Failing> failing_;
   PageJson drives_ = PageJson::array();
   std::map<Key, std::size_t> drive_of_;
+  std::map<std::string, std::size_t> map_of_;  // by variant; those that have one
 };
 
 }  // namespace

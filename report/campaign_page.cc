@@ -242,7 +242,9 @@ Report GatherReport(const fs::path& folder, const std::string& named, ResultFold
   AddFilms(
       folder, [&](const std::string& v, std::uint64_t id) { return rows.WhatOf(v, id); }, report);
   AddCampaignData(store, folder, named, report);
-  report.settings = ReadInputFile(folder / "scenario.resolved.yaml", kMaxResultBytes);
+  if (const fs::path settings = folder / "scenario.resolved.yaml";
+      WhyUnreadable(settings, kMaxResultBytes).empty())
+    report.settings = ReadInputFile(settings, kMaxResultBytes);
   return report;
 }
 

@@ -53,7 +53,9 @@ TextTable ModesOfOne(const VariantSummary& variant) {
                    {.heading = "Rate", .right = true},
                    {.heading = IntervalHeading()}});
   const FailureRate* any = Find(variant, "any_failure");
-  if (any == nullptr || any->k == 0) return table;
+  const FailureRate* not_success = Find(variant, "not_success");
+  if (any == nullptr || (any->k == 0 && (not_success == nullptr || not_success->k == 0)))
+    return table;
   std::string none;  // they have the same bound
   const FailureRate* first_none = nullptr;
   for (const FailureRate& rate : variant.failures) {

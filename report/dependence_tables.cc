@@ -35,8 +35,9 @@ std::string ValueTable(const RatesPlot& plot, const VariantDependence& variant,
                        const ValueDependence& value) {
   std::vector<std::string> names;
   std::vector<FailureRate> rates;
+  const KeyScale scale = BinScale(value.key, value.bins);
   for (const ValueBin& bin : value.bins) {
-    names.push_back(BinText(bin));
+    names.push_back(BinText(bin, scale));
     rates.push_back(bin.rate);
   }
   return Sentence(SafeText(value, variant.limit)) +
@@ -44,12 +45,19 @@ std::string ValueTable(const RatesPlot& plot, const VariantDependence& variant,
                     names, rates);
 }
 
+// "step height", and the key that it is.
+std::string KeyHtml(const std::string& key) {
+  const std::string name = NameOfKey(key).name;
+  if (name == key) return MarkupText(key);
+  return fmt::format("{} <code>{}</code>", MarkupText(name), MarkupText(key));
+}
+
 // Telling values stand open; the others fold away.
 std::string Value(const RatesPlot& plot, const VariantDependence& variant,
                   const ValueDependence& value) {
-  const std::string key = MarkupText(value.key), table = ValueTable(plot, variant, value);
+  const std::string key = KeyHtml(value.key), table = ValueTable(plot, variant, value);
   if (value.bins.size() < 2)
-    return fmt::format("<p class=\"note\"><b>{}</b> has one value in all episodes.</p>\n", key);
+    return fmt::format("<p class=\"note\">{} has one value in all episodes.</p>\n", key);
   const std::string influence = InfluenceText(value, variant.looked_at);
   if (value.telling()) return "<h4>" + key + "</h4>\n" + Sentence(influence) + table;
   return fmt::format("<details><summary>{}: {}</summary>\n{}</details>\n", key,
@@ -58,23 +66,26 @@ std::string Value(const RatesPlot& plot, const VariantDependence& variant,
 
 std::string Cell(const FailureRate& rate) {
   if (rate.n == 0) return "<td>–</td>";
-  return fmt::format("<td style=\"--share:{:.0f}%\" title=\"{}\">{}<small>{} of {}</small></td>",
-                     100 * rate.rate, PercentText(Interval{rate.lower, rate.upper}),
-                     PercentText(rate.rate, 2), rate.k, rate.n);
+  return fmt::format(
+      "<td style=\"--share:{:.0f}%\">{}<small>{} of {}</small><small>{}</small></td>",
+      100 * rate.rate, PercentText(rate.rate, 2), rate.k, rate.n,
+      PercentText(Interval{rate.lower, rate.upper}));
 }
 
 // x to the right, y upwards.
 std::string Pair(const PairDependence& pair) {
+  const KeyScale x_scale = BinScale(pair.x_key, pair.x_bins),
+                 y_scale = BinScale(pair.y_key, pair.y_bins);
   std::string html = fmt::format(
       "<h4>{0} and {1}</h4>\n<div class=\"scroll\"><table class=\"grid\"><thead><tr><th "
       "scope=\"col\">{1} ↑ {0} →</th>",
-      MarkupText(pair.x_key), MarkupText(pair.y_key));
+      MarkupText(NameOfKey(pair.x_key).name), MarkupText(NameOfKey(pair.y_key).name));
   for (const ValueBin& bin : pair.x_bins)
-    html += "<th scope=\"col\">" + MarkupText(BinText(bin)) + "</th>";
+    html += "<th scope=\"col\">" + MarkupText(BinText(bin, x_scale)) + "</th>";
   html += "</tr></thead><tbody>\n";
   const std::size_t width = pair.x_bins.size();
   for (std::size_t y = pair.y_bins.size(); y-- > 0;) {
-    html += "<tr><th scope=\"row\">" + MarkupText(BinText(pair.y_bins[y])) + "</th>";
+    html += "<tr><th scope=\"row\">" + MarkupText(BinText(pair.y_bins[y], y_scale)) + "</th>";
     for (std::size_t x = 0; x < width; ++x) html += Cell(pair.cells[y * width + x].rate);
     html += "</tr>\n";
   }
@@ -86,7 +97,7 @@ std::string Ranges(const VariantDependence& variant) {
   std::string list;
   for (const ValueDependence& value : variant.values)
     if (const std::string safe = SafeText(value, variant.limit); !safe.empty())
-      list += "<li><b>" + MarkupText(value.key) + "</b>: " + MarkupText(safe) + "</li>";
+      list += "<li>" + KeyHtml(value.key) + ": " + MarkupText(safe) + "</li>";
   return list.empty() ? "" : "<ul>" + list + "</ul>\n";
 }
 
@@ -118,14 +129,16 @@ std::string DependenceTables(const Report& report) {
          fmt::format(
              "<p class=\"note\">Any failure, by what was drawn, the most telling first; groups of "
              "values hold nearly as many episodes each. Bars: two-sided {} Clopper-Pearson "
-             "intervals, each by itself, on one axis in this part; dashed: the limit. p: tests for "
+             "intervals, each by itself, on one axis in this part; dashed: {}. p: tests for "
              "a trend and for failures at both ends or in the middle; of choices, Fisher's. What "
              "is "
              "called safe is the mean over the values driven there, all else as drawn, not the "
              "rate "
              "at its edge; each answer by itself. The numbers stand in "
              "<code>dependence.csv</code>.</p>\n",
-             PercentText(kReportedConfidence));
+             PercentText(kReportedConfidence),
+             report.summary.gate ? "the gate's limit"
+                                 : "5 %, the limit where a scenario states no gate");
 }
 
 }  // namespace floorproof

@@ -40,7 +40,11 @@ std::string Places(const Report& report) {
   const auto& variants = report.summary.variants;
   for (std::size_t i = 0; i < variants.size(); ++i) {
     const ReportMap& map = report.maps.at(i);
-    html += "<div class=\"card places\">";
+    const std::string rates = PlaceRates(report, variants[i]);
+    // Where the map to click takes the picture's place, nothing is left of a card without rates.
+    html += fmt::format(
+        "<div class=\"card places{}\">",
+        !map.png.empty() && !map.data.is_null() && rates.empty() ? " replaced-by-map" : "");
     if (variants.size() > 1) html += "<h3>" + MarkupText(variants[i].name) + "</h3>\n";
     if (!map.png.empty())
       html += "<div class=\"replaced-by-map\">" +
@@ -51,7 +55,7 @@ std::string Places(const Report& report) {
               "</div>";
     else
       html += "<p class=\"note\">" + MarkupText(map.note) + "</p>\n";
-    html += PlaceRates(report, variants[i]) + "</div>\n";
+    html += rates + "</div>\n";
   }
   return html;
 }
@@ -110,10 +114,11 @@ std::string Episodes(const Report& report) {
       "</th></tr></thead><tbody>\n";
   for (const ReportEpisode& e : report.episodes)
     html += EpisodeRowHtml(e, report.summary.variants.size() > 1);
-  html += "</tbody></table></div>\n";
+  html += "</tbody></table>";
   if (report.episodes_left_out > 0)
     html += fmt::format("<p>{} more stand in <code>episodes.csv</code>.</p>\n",
                         report.episodes_left_out);
+  html += "</div>\n";
   return html;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/page_data.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -10,6 +12,7 @@
 #include "base/input_file.h"
 #include "base/printable.h"
 #include "env/core/failure_text.h"
+#include "render/hazard_looks.h"
 #include "report/drive_marks.h"
 
 namespace floorproof {
@@ -73,6 +76,28 @@ int KindOf(const HazardMap& map, int from_x, int from_y, int every) {
   return unknown ? 2 : 0;
 }
 
+// The part of the floor that is known, with a little around it, in the grid's frame, m: a map from
+// a robot is mostly of what nobody knows.
+PageJson SeenRectangle(const HazardMap& map) {
+  int low_x = map.frame.width, low_y = map.frame.height, high_x = -1, high_y = -1;
+  for (int iy = 0; iy < map.frame.height; ++iy)
+    for (int ix = 0; ix < map.frame.width; ++ix) {
+      if (map.occupancy(ix, iy) == CellState::kUnknown) continue;
+      low_x = std::min(low_x, ix);
+      high_x = std::max(high_x, ix);
+      low_y = std::min(low_y, iy);
+      high_y = std::max(high_y, iy);
+    }
+  if (high_x < 0) return nullptr;
+  constexpr int kAround = 3;  // cells
+  const auto metres = [&](int cell, int most) {
+    return std::clamp(cell, 0, most) * map.frame.cell_m;
+  };
+  return {metres(low_x - kAround, map.frame.width), metres(low_y - kAround, map.frame.height),
+          metres(high_x + 1 + kAround, map.frame.width),
+          metres(high_y + 1 + kAround, map.frame.height)};
+}
+
 std::vector<std::string_view> Fields(std::string_view line) {
   std::vector<std::string_view> fields;
   for (std::size_t at = 0; at <= line.size();) {
@@ -93,19 +118,25 @@ double NumberOf(std::string_view text) {
 
 PageJson MapData(const HazardMap& map) {
   PageJson hazards = PageJson::array();
-  for (const Hazard& hazard : map.hazards) {
+  const std::vector<HazardLook> looks = HazardLooks(map);
+  for (std::size_t h = 0; h < looks.size(); ++h) {
+    const Hazard& hazard = map.hazards[h];
+    const auto& [colour, label] = looks[h];
     PageJson polygons = PageJson::array();
     for (const Polygon& polygon : hazard.footprint) polygons.push_back(PointsData(polygon));
     if (polygons.empty()) continue;
-    hazards.push_back({{"id", hazard.id},
-                       {"class", "C" + std::to_string(static_cast<int>(hazard.hazard_class) + 1)},
-                       {"known", hazard.known},
-                       {"text", HazardPhrase(hazard) + (hazard.known ? "" : ", on no map")},
-                       {"polygons", std::move(polygons)}});
+    hazards.push_back(
+        {{"id", hazard.id},
+         {"label", label},
+         {"colour", fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2])},
+         {"known", hazard.known},
+         {"text", HazardPhrase(hazard) + (hazard.known ? "" : ", on no map")},
+         {"polygons", std::move(polygons)}});
   }
   PageJson data =
       GridData(map.frame, [&](int ix, int iy, int every) { return KindOf(map, ix, iy, every); });
   data["name"] = map.name;
+  data["seen"] = SeenRectangle(map);
   data["hazards"] = std::move(hazards);
   return data;
 }

@@ -18,7 +18,7 @@ namespace floorproof {
 using PageJson = nlohmann::ordered_json;
 
 // The floor: its frame, its cells in runs (a large map in coarser ones: a wall wherever one is),
-// its hazards.
+// the part that is known ([x, y, x, y] in the grid's frame; null: none), its hazards.
 PageJson MapData(const HazardMap& map);
 // The same frame and runs of how often the tool passed; -1: out of its reach.
 PageJson VisitsData(const Visits& visits);

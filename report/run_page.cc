@@ -70,6 +70,7 @@ class Run {
       const Scenario scenario = ReadScenario(settings, {});
       map_ = scenario.site.map;
       subject_ = SubjectOf(scenario, {});
+      estimates_ = scenario.estimator_name != "truth";
       if (scenario.safety) mission_ = scenario.safety->mission.nodes[0].name;
     } catch (const InputError& e) {
       why_no_map_ = e.what();
@@ -97,8 +98,7 @@ class Run {
   }
 
   std::string Verdict() const {
-    std::string text =
-        (subject_.empty() ? "" : subject_ + ": ") + Words(Text("outcome"));
+    std::string text = (subject_.empty() ? "" : subject_ + ": ") + Words(Text("outcome"));
     if (!Events().empty()) {
       text += ", " + EventText(Events().front());
       if (Events().size() > 1)
@@ -141,7 +141,7 @@ class Run {
   }
 
   // The data for the scripts, and what of it there is.
-  void AddData(HtmlPage& page) const {
+  void AddData(HtmlPage& page) {
     Json ways = Json::array(), plan = Json::array();
     if (const fs::path file = folder_ / "plan.csv";
         map_ && !ReadIfThere(file, kMaxResultBytes).empty()) {
@@ -150,7 +150,10 @@ class Run {
       } catch (const InputError&) {  // a damaged plan is not drawn; its own command says so
       }
     }
-    const TraceData trace = ReadTraceData(ReadIfThere(folder_ / "trace.csv", kLargestTrace));
+    const std::string rows = ReadIfThere(folder_ / "trace.csv", kLargestTrace);
+    const TraceData trace = ReadTraceData(rows);
+    if (!rows.empty() && !trace.columns.is_object())
+      notes_ += "<p class=\"note\">trace.csv is damaged: what was driven is not shown.</p>";
     if (!plan.empty())
       ways.push_back({{"name", "plan"},
                       {"points", plan},
@@ -164,6 +167,7 @@ class Run {
                   {"events", Failures()},
                   {"plan", plan},
                   {"end_s", Metric("duration_s").value_or(0)},
+                  {"map", 0},
                   {"command", "floorproof replay " + ShellWord(named_) + " --video"}};
     if (trace.columns.is_object()) drive["trace"] = trace.columns;
     if (mission_)
@@ -199,6 +203,7 @@ class Run {
     if (!why_no_map_.empty())
       still +=
           "<p class=\"note\">The map cannot be read any more: " + MarkupText(why_no_map_) + "</p>";
+    still += notes_;
     return "<div class=\"card theater\" id=\"theater\"><div><div id=\"map-view\" class=\"map\" "
            "hidden></div><div class=\"replaced-by-map\">" +
            still +
@@ -206,15 +211,26 @@ class Run {
            "class=\"across\"></div></div>\n";
   }
 
+  // Without its unit, which stands behind the value, unless that tells it from another.
+  static std::string NameWithin(const MetricColumn& column) {
+    const auto bare = [](const MetricColumn& of) {
+      const auto cut = of.name.rfind('_');
+      const bool has_unit = !of.unit.empty() && cut != of.name.npos && of.name.size() - cut <= 4;
+      return std::string(has_unit ? of.name.substr(0, cut) : of.name);
+    };
+    const std::string name = bare(column);
+    const bool twice =
+        std::ranges::count_if(kMetrics, [&](const auto& other) { return bare(other) == name; }) > 1;
+    return twice ? fmt::format("{} ({})", name, column.unit) : name;
+  }
+
   std::string MetricsTable() const {
     std::string rows;
     for (const MetricColumn& column : kMetrics) {
       const auto value = Metric(std::string(column.name).c_str());
       if (!value || column.name.ends_with("_margin")) continue;  // those stand above
-      std::string name(column.name);                             // its unit stands behind the value
-      if (const auto cut = name.rfind('_');
-          !column.unit.empty() && cut != name.npos && name.size() - cut <= 4)
-        name.resize(cut);
+      if (!estimates_ && column.name.find("estimate") != column.name.npos) continue;
+      const std::string name = NameWithin(column);
       const bool share = column.unit.empty() && column.help.find("share") != column.help.npos;
       const std::string text = share                ? PercentText(*value)
                                : column.unit == "J" ? EnergyText(*value)
@@ -318,7 +334,8 @@ class Run {
   const std::string& named_;
   fs::path file_;
   Json result_;
-  std::string settings_, subject_, why_no_map_, film_;
+  std::string settings_, subject_, why_no_map_, notes_, film_;
+  bool estimates_ = true;  // the robot does not simply know where it is
   std::optional<HazardMap> map_;
   std::optional<std::string> mission_;  // of a supervised drive; it may have no name
 };
@@ -336,7 +353,8 @@ RunPage MakeRunPage(const fs::path& folder, const std::string& named) {
 
 WrittenReport WriteRunReport(const fs::path& folder, const std::string& named) {
   const RunPage made = MakeRunPage(folder, named);
-  ResultFolder results(folder, EpisodeResults(), {});
+  ResultFolder results(folder,
+                       {"page", [](std::string_view name) { return name == "report.html"; }}, {});
   results.Begin();
   const fs::path page = folder / "report.html";
   WriteFileWhole(page, made.html);

@@ -11,6 +11,7 @@
 #include "base/words.h"
 #include "report/html.h"
 #include "report/rates.h"
+#include "stats/outward.h"
 
 namespace floorproof {
 namespace {
@@ -38,14 +39,22 @@ const FailureRate* JudgedRate(const VariantSummary& v, const std::optional<GateS
   return found == v.failures.end() || found->n == 0 ? nullptr : &*found;
 }
 
+// What is no failure and no success either.
+std::string OtherEnds(const VariantSummary& v) {
+  std::string text;
+  if (v.timeout > 0) text += fmt::format(", {} ran out of time", FixedText(v.timeout, 0));
+  if (v.aborted > 0) text += fmt::format(", {} stopped by themselves", FixedText(v.aborted, 0));
+  return text;
+}
+
 // "3 failures in 1,000 drives (0.3 %), 0.06 % to 0.87 % at 95 %"
 std::string RateText(const VariantSummary& v, const std::optional<GateSummary>& gate) {
   const FailureRate* rate = JudgedRate(v, gate);
   if (rate == nullptr) return "no drive that counts";
   const bool any = rate->name == "any_failure";
   if (v.repeated)
-    return fmt::format("{}{} in its one drive, repeated {} times",
-                       rate->k == 0 ? "no " : "", any ? "failure" : Words(rate->name), v.n);
+    return fmt::format("{}{} in its one drive, repeated {} times", rate->k == 0 ? "no " : "",
+                       any ? "failure" : Words(rate->name), v.n);
   std::string text =
       any ? fmt::format("{} in {}",
                         rate->k == 0 ? "no failure"
@@ -54,8 +63,9 @@ std::string RateText(const VariantSummary& v, const std::optional<GateSummary>& 
           : fmt::format("{} in {} of {}", Words(rate->name), FixedText(rate->k, 0),
                         CountText(static_cast<std::size_t>(rate->n), "drive"));
   if (rate->k > 0) text += " (" + PercentText(rate->rate) + ")";
-  return text + fmt::format(", {} at {}", PercentText(Interval{rate->lower, rate->upper}),
-                            PercentText(kReportedConfidence));
+  text += fmt::format(", {} at {}", PercentText(Interval{rate->lower, rate->upper}),
+                      PercentText(kReportedConfidence));
+  return rate->name == "not_success" ? text : text + OtherEnds(v);
 }
 
 // The least and the most often failing of several variants.
@@ -79,27 +89,34 @@ std::string Extremes(const Report& report) {
         least->name, text(*least));
   if (variants.size() == 2)
     return fmt::format("{}: {}; {}: {}", least->name, text(*least), most->name, text(*most));
-  return fmt::format("least often {}: {}; most often {}: {}", least->name, text(*least),
-                     most->name, text(*most));
+  return fmt::format("least often {}: {}; most often {}: {}", least->name, text(*least), most->name,
+                     text(*most));
 }
 
-// "gate < 1 %: passed"
+// "gate < 1 %: passed, at most 0.87 %". A gate asks for a bound on one side only: it may pass where
+// the interval, which has two, reaches beyond the limit.
 std::string GateWords(const GateSummary& gate, std::size_t variants) {
   const bool any = gate.metric == "any_failure";
-  return fmt::format("gate{} < {}{}: {}", any ? "" : " on " + Words(gate.metric),
-                     PercentText(gate.max_rate, 4), variants > 1 ? " in each variant" : "",
-                     GateVerdictName(gate.verdict));
+  std::string text = fmt::format(
+      "gate{} < {}{}: {}", any ? "" : " on " + Words(gate.metric), PercentText(gate.max_rate, 4),
+      variants > 1 ? " in each variant" : "", GateVerdictName(gate.verdict));
+  if (variants == 1 && gate.verdict == GateVerdict::kPassed && gate.variants.size() == 1)
+    text += fmt::format(", at most {} with {} confidence",
+                        PercentText(RoundedOutward(gate.variants[0].report.rate).upper),
+                        PercentText(gate.confidence, 4));
+  return text;
 }
 
-// Without a gate: whether anything failed at all.
+// Without a gate: good is that every drive succeeded, bad that one failed.
 std::string PlainTone(const Report& report) {
-  int driven = 0, failed = 0;
+  int driven = 0, failed = 0, other = 0;
   for (const VariantSummary& v : report.summary.variants)
     if (!v.failures.empty()) {
       driven += v.failures.front().n;
       failed += v.failures.front().k;
+      other += v.timeout + v.aborted;
     }
-  return driven == 0 ? "" : failed == 0 ? "passed" : "failed";
+  return driven == 0 ? "" : failed > 0 ? "failed" : other > 0 ? "undecided" : "passed";
 }
 
 }  // namespace
@@ -150,9 +167,9 @@ std::string VerdictBox(const Report& report) {
     list += fmt::format("<li>For {} there was no plan; no robot drove.</li>",
                         CountText(static_cast<std::size_t>(not_planned), "episode"));
   if (errors > 0)
-    list +=
-        fmt::format("<li>{} ended in an error and {} not count.</li>",
-                    CountText(static_cast<std::size_t>(errors), "episode"), errors == 1 ? "does" : "do");
+    list += fmt::format("<li>{} ended in an error and {} not count.</li>",
+                        CountText(static_cast<std::size_t>(errors), "episode"),
+                        errors == 1 ? "does" : "do");
   return fmt::format("<div class=\"verdict {}\"><p>{}</p>{}</div>\n",
                      gate ? GateVerdictName(gate->verdict) : PlainTone(report),
                      MarkupText(VerdictText(report)), list.empty() ? "" : "<ul>" + list + "</ul>");

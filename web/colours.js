@@ -5,26 +5,46 @@
 function colour(name) {
   return getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
 }
-const isDark = () => matchMedia('(prefers-color-scheme: dark)').matches && !matchMedia('print').matches;
+// While the page is printed colours are the light ones.
+const isDark = () => matchMedia('(prefers-color-scheme: dark)').matches
+    && !document.documentElement.classList.contains('printing');
 
-// Plots that are drawn anew when the colours change or their room does.
-const plots = [];
+// What is drawn anew when the colours change: {element, draw, end}. What has left the page is ended.
+let drawn = [];
+function redraw() {
+  for (const {element, end} of drawn) if (!element.isConnected && end) end();
+  drawn = drawn.filter(({element}) => element.isConnected);
+  for (const {draw} of drawn) draw();
+}
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
+for (const [event, prints] of [['beforeprint', true], ['afterprint', false]])
+  addEventListener(event, () => {
+    document.documentElement.classList.toggle('printing', prints);
+    redraw();
+  });
+
+// A plot that is drawn anew when the colours or its room change.
 function addPlot(element, optionOf, {onClick = null} = {}) {
   const plot = echarts.init(element, null, {renderer: 'svg'});
   const draw = () => plot.setOption(optionOf(plot), true);
   draw();
   if (onClick) plot.on('click', onClick);
   let width = element.clientWidth;
-  new ResizeObserver(() => {
+  const observer = new ResizeObserver(() => {
     if (element.clientWidth === 0 || element.clientWidth === width) return;
     width = element.clientWidth;
     plot.resize();
     draw();
-  }).observe(element);
-  plots.push(draw);
+  });
+  observer.observe(element);
+  const end = () => {
+    observer.disconnect();
+    plot.dispose();
+  };
+  for (const old of drawn) if (!old.element.isConnected && old.end) old.end();
+  drawn = [...drawn.filter(old => old.element.isConnected), {element, draw, end}];
   return plot;
 }
-matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => plots.forEach(draw => draw()));
 
 const axisStyle = () => ({
   axisLine: {lineStyle: {color: colour('line')}},

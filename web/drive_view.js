@@ -16,16 +16,20 @@ class DriveView {
 
   show(drive) {
     if (this.clock) this.clock.pause();
-    if (this.film) this.filmHome.append(this.film);  // back where it came from
-    this.film = drive.film ? document.getElementById(drive.film) : null;
-    if (this.film) this.filmHome = this.film.parentElement;
-    if (this.view) this.view.renderer.dispose();
-    this.view = null;
+    if (this.film) this.film.leave();
+    if (this.view) this.view.dispose();
+    this.film = this.view = this.replay = null;
     this.drive = drive;
-    this.replay = drive.replay ? readReplay(bytesOf(document.getElementById(drive.replay).textContent)) : null;
+    this.damage = '';
+    try {
+      if (drive.replay) this.replay = readReplay(bytesOf(document.getElementById(drive.replay).textContent));
+    } catch (error) {
+      this.damage = `The replay of this drive is damaged and is not shown: ${error.message}.`;
+    }
     const ends = [drive.end_s || 0];
     if (this.replay) ends.push(this.replay.t_s[this.replay.t_s.length - 1]);
     this.clock = new DriveClock(Math.max(...ends));
+    if (drive.film) this.film = new FilmPlayer(document.getElementById(drive.film), drive, this.clock);
     this.element.replaceChildren();
     this.curves.replaceChildren();
     this.build();
@@ -33,6 +37,15 @@ class DriveView {
     const first = drive.events.length > 0 ? Math.max(0, drive.events[0].t_s - 0.02) : 0;
     this.clock.set(first);
     if (this.view) this.view.look(drive.events.length > 0 ? 1.6 : 2.8);
+  }
+
+  // What was planned and driven, for the map.
+  ways() {
+    const {replay, drive} = this;
+    if (!replay) return [];
+    const plan = drive.plan || replay.plan;
+    return [...(plan.length > 1 ? [{name: 'plan', points: plan, colour: 'mark', width: 1.4, dash: 'dashed'}] : []),
+            {name: 'driven', points: wayOf(replay), colour: 'driven', width: 1.8}];
   }
 
   build() {
@@ -46,11 +59,15 @@ class DriveView {
       panel.setAttribute('role', 'tabpanel');
       panel.setAttribute('aria-labelledby', tab.id);
       const index = panels.length;
-      const select = at => panels.forEach((p, i) => {
-        p.panel.hidden = i !== at;
-        p.tab.setAttribute('aria-selected', String(i === at));
-        p.tab.tabIndex = i === at ? 0 : -1;
-      });
+      const select = at => {
+        panels.forEach((p, i) => {
+          p.panel.hidden = i !== at;
+          p.tab.setAttribute('aria-selected', String(i === at));
+          p.tab.tabIndex = i === at ? 0 : -1;
+        });
+        clock.pause();
+        if (this.film) this.film.lead(panels[at].tab.id === 'tab-film');
+      };
       tab.addEventListener('click', () => {
         select(index);
         if (this.view) this.view.resize();
@@ -79,14 +96,14 @@ class DriveView {
       canvas.addEventListener('keydown', event => this.onKey(event));
     }
     if (this.film) {
-      const select = addPanel('film', make('div', {class: 'film'}, this.film));
+      const select = addPanel('film', this.film.panel());
       first = first || select;
-      this.followFilm();
     }
+    if (this.damage) stage.append(make('p', {class: 'note'}, this.damage));
     if (panels.length === 0) {
       stage.append(make('p', {class: 'note'}, this.replay
           ? 'This browser draws no WebGL, and the drive was not filmed.'
-          : 'No replay or film of this drive is in the page.'));
+          : 'No replay or film of this drive can be shown here; the command below films it.'));
     } else {
       first();
       if (panels.length > 1) stage.prepend(tabs);
@@ -99,7 +116,7 @@ class DriveView {
                                copyButton(drive.command, 'copy')));
     const canvas = stage.querySelector('canvas');
     if (canvas) {
-      this.view = new ReplayView(canvas, this.replay, drive.plan || [], drive.events);
+      this.view = new ReplayView(canvas, this.replay, drive.plan || this.replay.plan, drive.events);
       clock.onTime(t_s => this.view.show(t_s));
     }
     this.addPlots();
@@ -163,8 +180,9 @@ class DriveView {
     const time = make('output', {class: 'time'});
     const speed = make('select', {'aria-label': 'Speed'},
                        ...kSpeeds.map(s => make('option', {value: s, selected: s === 1}, `× ${s}`)));
-    speed.addEventListener('change', () => { clock.speed = Number(speed.value); });
+    speed.addEventListener('change', () => clock.setSpeed(Number(speed.value)));
     clock.onTime(t_s => {
+      speed.value = String(clock.speed);
       slider.value = t_s;
       slider.setAttribute('aria-valuetext', clockText(t_s));
       time.textContent = `${clockText(t_s)} of ${clockText(clock.end_s)}`;
@@ -196,7 +214,7 @@ class DriveView {
     } else {
       this.clock.set(event.t_s - 3);
     }
-    this.clock.speed = 1;
+    this.clock.setSpeed(1);
     this.clock.play();
   }
 
@@ -207,26 +225,6 @@ class DriveView {
     else return;
     event.preventDefault();
     event.stopPropagation();
-  }
-
-  // The film's pictures say which moment each shows.
-  followFilm() {
-    const {film, clock, drive} = this;
-    if (!drive.film_t_s) return;
-    let told = false;
-    const onFilm = () => {
-      if (film.parentElement === this.filmHome) return;
-      const frame = Math.min(drive.film_t_s.length - 1, Math.floor(film.currentTime * drive.film_fps + 0.5));
-      told = true;
-      clock.set(drive.film_t_s[frame]);
-      told = false;
-    };
-    film.ontimeupdate = () => { if (!film.paused || film.seeking) onFilm(); };
-    clock.onTime(t_s => {
-      if (told || clock.playing) return;
-      const [frame] = stateAt(drive.film_t_s, t_s);
-      film.currentTime = frame / drive.film_fps;
-    });
   }
 
   tell(t_s) {

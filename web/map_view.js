@@ -1,24 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 // The floor as a plot in metres: walls, hazards, plan, way driven, and numbered failures to click.
 
-const kHazardColours = {C1: '#7a3f8f', C2: '#2a8f9e', C3: '#b47a12', C4: '#5f7d2e'};
-
 // What a map's cells are painted in: free, wall, unknown.
 const floorPaints = () => (isDark() ? ['#20252a', '#788492', '#343a40'] : ['#ffffff', '#5c6672', '#e2e5e8']);
 
-// `map`: {frame: {x, y, yaw, width_m, height_m}, cells, hazards}, `ways`: [{name, points, colour}],
-// `failures`: [{x, y, label, text, ...}]. `onFailure(failure)` at a click. Returns {plot, showAt,
-// showLayer}.
-function addMapView(element, map, ways, failures, onFailure) {
+// Marks that would hide one another are one, with the first's label and a +: [{x, y, of: [failure, ..]}].
+// `pixels(failure)`: where it is on the screen.
+function pilesOf(failures, pixels, apart_px) {
+  const piles = [];
+  for (const failure of failures) {
+    const [x, y] = pixels(failure);
+    const pile = piles.find(({at}) => Math.hypot(at[0] - x, at[1] - y) < apart_px);
+    if (pile) pile.of.push(failure); else piles.push({x: failure.x, y: failure.y, at: [x, y], of: [failure]});
+  }
+  return piles;
+}
+
+// `map`: {frame: {x, y, yaw, width_m, height_m}, seen: [x, y, x, y] (what is shown, in the grid's frame), cells, hazards: [{colour, label, ..}]}, `ways`: [{name,
+// points, colour}], `failures`: [{x, y, label, text, ...}]. `onFailures([failure, ..])` at a click.
+// Returns {plot, showAt, showLayer, showWays}.
+function addMapView(element, map, ways, failures, onFailures) {
   const {frame} = map;
   const cos = Math.cos(frame.yaw), sin = Math.sin(frame.yaw);
   const toWorld = (x, y) => [frame.x + cos * x - sin * y, frame.y + sin * x + cos * y];
-  const corners = [[0, 0], [frame.width_m, 0], [frame.width_m, frame.height_m], [0, frame.height_m]]
+  const [left, bottom, right, top] = map.seen || [0, 0, frame.width_m, frame.height_m];
+  const corners = [[left, bottom], [right, bottom], [right, top], [left, top]]
       .map(([x, y]) => toWorld(x, y));
   const low = [0, 1].map(k => Math.min(...corners.map(c => c[k])));
   const high = [0, 1].map(k => Math.max(...corners.map(c => c[k])));
   const margin = {left: 46, right: 14, top: 34, bottom: 40};
-  let at = null, layer = null;
+  const kPin_px = 34;
+  let at = null, layer = null, metres_per_px = 0.01;
 
   // As many pixels a metre along x as along y.
   const fit = () => {
@@ -31,6 +43,7 @@ function addMapView(element, map, ways, failures, onFailure) {
       const middle = (low[k] + high[k]) / 2;
       return {min: middle - metres * pixels / 2, max: middle + metres * pixels / 2};
     };
+    metres_per_px = metres;
     return {x: range(0, width), y: range(1, height)};
   };
 
@@ -51,27 +64,29 @@ function addMapView(element, map, ways, failures, onFailure) {
       children: hazard.polygons.map(polygon => ({
         type: 'polygon',
         shape: {points: polygon.map(p => api.coord(p))},
-        style: {fill: kHazardColours[hazard.class], opacity: 0.45, stroke: kHazardColours[hazard.class],
+        style: {fill: hazard.colour, opacity: 0.45, stroke: hazard.colour,
                 lineWidth: 1.5, lineDash: hazard.known ? null : [4, 3]},
       })),
     });
     const series = [imageSeries('walls', map, walls)];
     if (layer) series.push(layer.series());
     for (const hazard of map.hazards)
-      series.push({type: 'custom', name: 'hazards', data: [hazard.polygons[0][0]], z: 2,
+      series.push({type: 'custom', name: hazard.label, data: [hazard.polygons[0][0]], z: 2,
                    renderItem: polygonItem(hazard), tooltip: {formatter: () => escaped(hazard.text)},
-                   itemStyle: {color: '#b47a12'}});
+                   itemStyle: {color: hazard.colour}});
     for (const way of ways)
       series.push({type: 'line', name: way.name, data: way.points, symbol: 'none', silent: true,
                    z: 2, lineStyle: {color: colour(way.colour), width: way.width, type: way.dash || 'solid'},
                    itemStyle: {color: colour(way.colour)}, animation: false});
+    const piles = pilesOf(failures, ({x: fx, y: fy}) => [fx, fy].map(p => p / metres_per_px), kPin_px * 0.6);
     series.push({
-      type: 'scatter', name: 'failures', z: 6, symbol: 'pin', symbolSize: failures.length > 40 ? 22 : 34,
-      data: failures.map(failure => ({value: [failure.x, failure.y], failure})),
+      type: 'scatter', name: 'failures', z: 6, symbol: 'pin', symbolSize: kPin_px,
+      data: piles.map(pile => ({value: [pile.x, pile.y], pile})),
       itemStyle: {color: colour('bad')}, cursor: 'pointer',
-      label: {show: failures.length <= 150, formatter: ({data}) => data.failure.label, color: '#fff',
-              fontSize: 11, fontWeight: 600},
-      tooltip: {formatter: ({data}) => escaped(data.failure.text)},
+      label: {show: true, color: colour('card'), fontSize: 11, fontWeight: 600,
+              formatter: ({data}) => data.pile.of[0].label + (data.pile.of.length > 1 ? '+' : '')},
+      tooltip: {formatter: ({data: {pile: {of}}}) => escaped(of[0].text)
+          + (of.length > 1 ? `<br>and ${of.length - 1} more here: click` : '')},
     });
     series.push({type: 'scatter', name: 'robot', id: 'robot', z: 7, silent: true, symbolSize: 13,
                  data: at ? [at] : [], itemStyle: {color: '#c2410c', borderColor: '#fff', borderWidth: 2},
@@ -80,9 +95,9 @@ function addMapView(element, map, ways, failures, onFailure) {
       animation: false, textStyle: textStyle(),
       grid: {...margin, show: true, borderColor: colour('line'), backgroundColor: colour('card')},
       legend: {top: 0, left: 0, itemWidth: 16, itemHeight: 9, textStyle: {color: colour('soft')},
-               data: ['hazards', ...ways.map(way => way.name), 'failures'].filter(
-                   name => name !== 'hazards' || map.hazards.length > 0)
-                   .filter(name => name !== 'failures' || failures.length > 0)},
+               type: 'scroll', right: 0,
+               data: [...ways.map(({name}) => name), ...(failures.length > 0 ? ['failures'] : []),
+                      ...new Set(map.hazards.map(({label}) => label))]},
       tooltip: {...tooltipStyle(), trigger: 'item'},
       xAxis: axis(x, 'x (m)'), yAxis: axis(y, 'y (m)'),
       dataZoom: [{type: 'inside', xAxisIndex: 0, filterMode: 'none', zoomOnMouseWheel: 'ctrl'},
@@ -91,7 +106,7 @@ function addMapView(element, map, ways, failures, onFailure) {
     };
   };
   const plot = addPlot(element, optionOf, {
-    onClick: ({data}) => { if (data && data.failure) onFailure(data.failure); },
+    onClick: ({data}) => { if (data && data.pile) onFailures(data.pile.of); },
   });
   return {
     plot,
@@ -100,9 +115,14 @@ function addMapView(element, map, ways, failures, onFailure) {
       layer = one;
       plot.setOption(optionOf(plot), true);
     },
+    showWays: those => {
+      ways = those;
+      plot.setOption(optionOf(plot), true);
+    },
+    // Where the robot is; null: on another map.
     showAt: p => {
       at = p;
-      plot.setOption({series: [{id: 'robot', data: [p]}]}, {lazyUpdate: true});
+      plot.setOption({series: [{id: 'robot', data: p ? [p] : []}]}, {lazyUpdate: true});
     },
   };
 }

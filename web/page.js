@@ -17,75 +17,146 @@ function layerChoice(layers, show) {
   return [make('div', {class: 'layers', role: 'group', 'aria-label': 'What the map shows'}, ...buttons), legend];
 }
 
-function main() {
-  const text = document.getElementById('page-data');
-  if (!text) return;
-  const data = JSON.parse(text.textContent);
-  const theater = document.getElementById('theater');
-  let map = null, view = null;
-
-  const show = index => {
-    const drive = data.drives[index];
-    view.show(drive);
-    const select = document.getElementById('which-drive');
-    if (select) select.value = String(index);
-  };
-  if (theater && data.drives.length > 0) {
-    theater.hidden = false;
-    const room = document.getElementById('drive-view');
-    view = new DriveView(room, document.getElementById('drive-curves'), place => { if (map) map.showAt(place); });
-    if (data.drives.length > 1) {
-      const select = make('select', {id: 'which-drive'},
-                          ...data.drives.map(({name}, i) => make('option', {value: i}, name)));
-      select.addEventListener('change', () => show(Number(select.value)));
-      room.before(make('p', {class: 'which'}, make('label', {for: 'which-drive'}, 'Drive '), select));
-    }
-  }
-  const mapRoom = document.getElementById('map-view');
-  if (mapRoom && data.maps.length > 0 && typeof echarts !== 'undefined') {
-    theater.hidden = false;
-    mapRoom.hidden = false;
-    for (const still of document.querySelectorAll('.replaced-by-map')) still.hidden = true;
-    const showMap = shown => {
-      const {map: floor, ways, failures} = shown;
-      mapRoom.replaceChildren();
-      const room = make('div', {role: 'img', 'aria-label': `Map of ${floor.name}, in metres, with `
-          + `${failures.length} places of failures; ctrl and wheel to zoom`});
-      mapRoom.append(room);
-      map = addMapView(room, floor, ways, failures, failure => {
-        if (failure.drive === null || failure.drive === undefined) return;
-        if (!view || view.drive !== data.drives[failure.drive]) show(failure.drive);
-        view.toEvent(failure);
-      });
-      mapRoom.append(...layerChoice(layersOf(shown), map.showLayer));
-    };
-    showMap(data.maps[0]);
-    if (data.maps.length > 1) {
-      const select = make('select', {id: 'which-map'},
-                          ...data.maps.map(({name}, i) => make('option', {value: i}, name)));
-      select.addEventListener('change', () => showMap(data.maps[Number(select.value)]));
-      mapRoom.before(make('p', {class: 'which'}, make('label', {for: 'which-map'}, 'Variant '), select));
-    }
-  }
-  if (theater) theater.classList.toggle('alone', !map);
-  if (view) show(0);
-
-  const tableRoom = document.getElementById('episode-table');
-  if (tableRoom && data.table && typeof agGrid !== 'undefined') {
-    for (const still of document.querySelectorAll('.replaced-by-table')) still.hidden = true;
-    const grid = make('div', {class: `ag-theme-quartz${isDark() ? '-dark' : ''} sheet`});
-    tableRoom.append(make('div', {class: 'row'}, csvButton('failing_episodes.csv', () => {
-      const {columns, rows} = data.table;
-      return [[...columns.map(({name}) => name), 'command'],
-              ...rows.map(row => [...columns.map(({key}) => row[key]), row.command])];
-    })), grid);
-    if (data.table.rows.length > 12) grid.classList.add('tall');
-    addEpisodeTable(grid, data.table.columns, data.table.rows, row => {
-      show(row.drive);
-      theater.scrollIntoView({block: 'start', behavior: 'smooth'});
-    });
-  }
-  document.documentElement.classList.add('alive');
+// A choice above a view; nothing where there is none.
+function choice(id, label, names, onChange) {
+  if (names.length < 2) return [];
+  const select = make('select', {id}, ...names.map((name, i) => make('option', {value: i}, name)));
+  select.addEventListener('change', () => onChange(Number(select.value)));
+  return [make('p', {class: 'which'}, make('label', {for: id}, label), ' ', select)];
 }
 
-main();
+// Map, drive and table, which lead to one another.
+class Page {
+  constructor(data) {
+    this.data = data;
+    this.theater = document.getElementById('theater');
+    this.mapRoom = document.getElementById('map-view');
+    this.map = this.view = this.table = null;
+    this.mapShown = -1;
+    if (this.theater && data.drives.length > 0) this.openDrives();
+    if (this.mapRoom && data.maps.length > 0 && typeof echarts !== 'undefined') this.openMaps();
+    if (this.theater) this.theater.classList.toggle('alone', !this.map);
+    if (this.view) this.showDrive(0);
+    this.openTable();
+  }
+
+  openDrives() {
+    this.theater.hidden = false;
+    const room = document.getElementById('drive-view');
+    const stage = make('div');
+    room.append(...choice('which-drive', 'Drive', this.data.drives.map(({name}) => name), i => this.showDrive(i)),
+                stage);
+    this.view = new DriveView(stage, document.getElementById('drive-curves'), (place, drive) => {
+      if (this.map) this.map.showAt(drive.map === this.mapShown ? place : null);
+    });
+  }
+  showDrive(index) {
+    const drive = this.data.drives[index];
+    if (this.map && drive.map !== undefined && drive.map !== this.mapShown) this.showMap(drive.map);
+    this.view.show(drive);
+    const select = document.getElementById('which-drive');
+    if (select) select.value = String(index);
+    this.showWays();
+  }
+  // A campaign's map shows the way of the drive that is looked at.
+  showWays() {
+    const {ways} = this.data.maps[this.mapShown] || {};
+    if (!this.map || ways.length > 0 || !this.view) return;
+    this.map.showWays(this.view.drive && this.view.drive.map === this.mapShown ? this.view.ways() : []);
+  }
+
+  openMaps() {
+    this.theater.hidden = this.mapRoom.hidden = false;
+    for (const still of document.querySelectorAll('.replaced-by-map')) still.hidden = true;
+    this.mapStage = make('div');
+    this.mapRoom.append(...choice('which-map', 'Variant', this.data.maps.map(({name}) => name), i => {
+      this.showMap(i);
+      this.showWays();
+    }), this.mapStage);
+    this.showMap(0);
+  }
+  showMap(index) {
+    const shown = this.data.maps[index];
+    const {map: floor, ways, failures, note} = shown;
+    this.mapShown = index;
+    const room = make('div', {role: 'img', 'aria-label': `Map of ${floor.name}, in metres, with `
+        + `${failures.length} places of failures; ctrl and wheel to zoom`});
+    this.pile = make('div', {class: 'pile', 'aria-live': 'polite'});
+    this.mapStage.replaceChildren(room);
+    this.map = addMapView(room, floor, ways, failures, those => this.chooseFailures(those));
+    this.mapStage.append(...layerChoice(layersOf(shown), this.map.showLayer), this.pile);
+    if (note) this.mapStage.append(make('p', {class: 'note'}, note));
+    const select = document.getElementById('which-map');
+    if (select) select.value = String(index);
+  }
+  // Of several on one spot there is a list to choose from.
+  chooseFailures(failures) {
+    this.pile.replaceChildren();
+    if (failures.length === 1) {
+      this.showFailure(failures[0]);
+      return;
+    }
+    this.pile.append(make('p', {class: 'note'}, `${failures.length} failures here:`),
+        make('ul', {}, ...failures.map(failure => make('li', {}, make('button', {
+          type: 'button', class: 'link', onclick: () => this.showFailure(failure),
+        }, failure.text)))));
+    this.pile.scrollIntoView({block: 'nearest'});
+  }
+  // Its moment, if it was recorded; and its row.
+  showFailure(failure) {
+    if (this.table && failure.row !== undefined) this.table.reveal(failure.row);
+    if (this.view && Number.isInteger(failure.drive)) {
+      if (this.view.drive !== this.data.drives[failure.drive]) this.showDrive(failure.drive);
+      this.view.toEvent(failure);
+      return;
+    }
+    const {command} = (this.data.table && this.data.table.rows[failure.row]) || {};
+    this.pile.append(make('p', {class: 'note'}, `${failure.text}: its replay is not in the page. `),
+                     ...(command ? [make('p', {class: 'command'}, make('code', {}, command), ' ',
+                                         copyButton(command, 'copy'))] : []));
+  }
+
+  openTable() {
+    const room = document.getElementById('episode-table'), {table} = this.data;
+    if (!room || !table || typeof agGrid === 'undefined') return;
+    for (const still of document.querySelectorAll('.replaced-by-table')) still.hidden = true;
+    const grid = make('div', {class: 'sheet'});
+    const dress = () => {
+      grid.classList.toggle('ag-theme-quartz', !isDark());
+      grid.classList.toggle('ag-theme-quartz-dark', isDark());
+    };
+    dress();
+    drawn.push({element: grid, draw: dress});
+    const shown = table.rows.filter(({drive}) => Number.isInteger(drive)).length;
+    room.append(make('div', {class: 'row'},
+        make('p', {class: 'note'}, shown < table.rows.length
+            ? `${shown} of ${table.rows.length} have a replay or film in this page.` : ''),
+        csvButton('failing_episodes.csv', () => {
+          const {columns, rows} = table;
+          return [[...columns.map(({path}) => path), 'command'],
+                  ...rows.map(row => [...columns.map(({key}) => row[key]), row.command])];
+        })), grid);
+    if (table.rows.length > 12) grid.classList.add('tall');
+    this.table = addEpisodeTable(grid, table.columns, table.rows, row => {
+      this.showDrive(row.drive);
+      this.theater.scrollIntoView({block: 'start', behavior: 'smooth'});
+    });
+  }
+}
+
+// Pictures that stand side by side are small; each can be seen as wide as the page.
+for (const figure of document.querySelectorAll('.frames figure')) {
+  const button = make('button', {type: 'button', class: 'small only-screen', 'aria-pressed': 'false'}, 'enlarge');
+  button.addEventListener('click', () => {
+    const large = figure.classList.toggle('large');
+    button.textContent = large ? 'smaller' : 'enlarge';
+    button.setAttribute('aria-pressed', String(large));
+  });
+  figure.append(button);
+}
+
+const text = document.getElementById('page-data');
+if (text) {
+  new Page(JSON.parse(text.textContent));
+  document.documentElement.classList.add('alive');
+}

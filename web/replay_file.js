@@ -10,7 +10,7 @@ function bytesOf(base64) {
 }
 
 // {links, base, shapes: Float32Array, meshes, t_s: Float64Array, width, states: Float32Array}.
-// Throws where the bytes are no replay.
+// Throws where the bytes are no replay, or not a whole one.
 function readReplay(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const magic = String.fromCharCode(...bytes.subarray(0, 8));
@@ -30,6 +30,7 @@ function readReplay(bytes) {
   const varint = () => {
     let value = 0, scale = 1, byte;
     do {
+      if (at >= bytes.length) throw new Error('the replay is cut off');
       byte = bytes[at++];
       value += (byte & 0x7f) * scale;
       scale *= 128;
@@ -49,7 +50,21 @@ function readReplay(bytes) {
       states[i * width + k] = last[k] / head.per[k];
     }
   }
-  return {links: head.links, base: head.base, shapes, meshes, t_s, width, states};
+  if (at !== bytes.length) throw new Error('the replay has bytes beyond its end');
+  return {links: head.links, base: head.base, plan: head.plan || [], shapes, meshes, t_s, width, states};
+}
+
+// The way of the robot's base, to a few centimetres: [[x, y], ..].
+function wayOf(replay) {
+  const joint = baseJointOf(replay);
+  const way = [];
+  if (!joint) return way;
+  for (let i = 0; i < replay.t_s.length; ++i) {
+    const [x, y] = [0, 1].map(k => replay.states[i * replay.width + joint.first + k]);
+    const last = way[way.length - 1];
+    if (!last || Math.hypot(x - last[0], y - last[1]) > 0.03 || i + 1 === replay.t_s.length) way.push([x, y]);
+  }
+  return way;
 }
 
 // The joint on which the robot's base is free to move; undefined: there is none.

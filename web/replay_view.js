@@ -11,6 +11,8 @@ function hasWebGl() {
   }
 }
 
+const kHalfWidth_m = 0.2;  // of a robot, about
+
 class ReplayView {
   // `marks`: places of events, {x, y, tone}. `plan`: [[x, y], ..]. Throws where there is no WebGL.
   constructor(canvas, replay, plan, marks) {
@@ -43,8 +45,17 @@ class ReplayView {
     this.follow = true;
     this.poser.pose(0, 0);
     this.look(2.4);
-    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+    this.observer = new ResizeObserver(() => this.resize());
+    this.observer.observe(canvas.parentElement);
     this.resize();
+  }
+
+  // A browser has room for some sixteen of these.
+  dispose() {
+    this.observer.disconnect();
+    this.controls.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
   }
 
   // A thin ribbon on the floor.
@@ -109,11 +120,15 @@ class ReplayView {
     this.ray.far = way.length();
     return this.ray.intersectObjects(this.walls).length > 0;
   }
+  // Whether a wall hides its middle, or one of its sides.
   isHidden(eye, place) {
-    const way = place.clone().setZ(place.z + 0.1).sub(eye);
-    this.ray.set(eye, way.clone().normalize());
-    this.ray.far = way.length();
-    return this.ray.intersectObjects(this.walls).length > 0;
+    const across = new THREE.Vector3(-(place.y - eye.y), place.x - eye.x, 0).setLength(kHalfWidth_m);
+    return [-1, 0, 1].some(side => {
+      const way = place.clone().setZ(place.z + 0.1).addScaledVector(across, side).sub(eye);
+      this.ray.set(eye, way.clone().normalize());
+      this.ray.far = way.length();
+      return this.ray.intersectObjects(this.walls).length > 0;
+    });
   }
   // The whole way from straight above.
   lookFromAbove() {

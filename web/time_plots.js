@@ -22,7 +22,8 @@ function addTimePlots(element, columns, curves, events, clock) {
                 formatter: items => `<b>${items[0].axisValue.toFixed(1)} s</b><br>` + items.map(
                     ({seriesName, seriesId, value}) => {
                       const {says} = rows.find(({key}) => key === seriesId);
-                      return `${escaped(seriesName)}: ${Number(value[1].toPrecision(4))}${says ? escaped(says(value)) : ''}`;
+                      const said = value[1] === null ? 'not known' : plainNumber(value[1]);
+                      return `${escaped(seriesName)}: ${said}${says ? escaped(says(value)) : ''}`;
                     }).join('<br>')},
       title: rows.map(({name, unit}, i) => ({
         text: unit ? `${name} (${unit})` : name, left: 46, top: kTop_px + i * kRow_px - 20,

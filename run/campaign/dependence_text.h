@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// What failures depend on, in words, as JSON and as a table.
+// What failures depend on, in words, and as a table.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "base/key_name.h"
 #include "run/campaign/dependence.h"
 
 namespace floorproof {
 
-// "0.5 to 0.562"; a choice by its name.
-std::string BinText(const ValueBin& bin);
+// The unit in which a key's bins are told, one for all of them.
+KeyScale BinScale(const std::string& key, const std::vector<ValueBin>& bins);
+// "0.5 to 0.562", "5 to 15.6 mm"; a choice by its name.
+std::string BinText(const ValueBin& bin, const KeyScale& scale);
 // "failures at lower values (p = 0.0012 after Holm for 6 values)", or that no influence is shown.
 std::string InfluenceText(const ValueDependence& value, int looked_at);
 // Up to which value a number is safe, in a clause; empty of choices and where nothing can be said.
@@ -20,10 +22,6 @@ std::string SafeText(const ValueDependence& value, const SafeRangeSettings& limi
 // A variant in lines, each beginning with the key it speaks of: the telling values (at most
 // `most`), or that none is. None where nothing was drawn, or no failure and no range is to be told.
 std::vector<std::string> DependenceText(const VariantDependence& variant, std::size_t most = 3);
-
-// What has no rate, no bound or no answer is null. Variants in their order, values the most telling
-// first.
-nlohmann::ordered_json DependenceJson(const std::vector<VariantDependence>& variants);
 
 // dependence.csv: variant,value,low,high,n,k,rate,lower,upper; a row a bin. Of a choice `low` and
 // `high` are its name.

@@ -76,7 +76,8 @@ void ReplayTrack::Add(double t_s, const double* qpos) {
   }
 }
 
-std::string ReplayTrack::Bytes(const Scene& scene, std::span<const double> keep_s) const {
+std::string ReplayTrack::Bytes(const Scene& scene, std::span<const double> keep_s,
+                               std::span<const Waypoint> plan) const {
   const std::size_t width = from_.size();
   std::vector<std::size_t> kept;
   const std::size_t every =
@@ -105,12 +106,17 @@ std::string ReplayTrack::Bytes(const Scene& scene, std::span<const double> keep_
   nlohmann::ordered_json meshes = nlohmann::ordered_json::array();
   for (const ReplayScene::Mesh& mesh : shapes.meshes)
     meshes.push_back({{"vertices", mesh.vertices.size() / 3}, {"faces", mesh.faces.size() / 3}});
+  nlohmann::ordered_json way_planned = nlohmann::ordered_json::array();
+  const auto millimetres = [](double m) { return std::round(1000 * m) / 1000; };
+  for (const Waypoint& waypoint : plan)
+    way_planned.push_back({millimetres(waypoint.p_W.x()), millimetres(waypoint.p_W.y())});
   std::string head = nlohmann::ordered_json({{"links", *shapes.links},
                                              {"base", shapes.base_link},
                                              {"shapes", shapes.shapes.size() / kShapeFloats},
                                              {"meshes", std::move(meshes)},
                                              {"states", kept.size()},
-                                             {"per", per_}})
+                                             {"per", per_},
+                                             {"plan", std::move(way_planned)}})
                          .dump();
   head.append((4 - head.size() % 4) % 4, ' ');  // what follows is aligned
 
@@ -143,6 +149,7 @@ ReplayObserver::ReplayObserver(int control_hz, EpisodeObserver* next)
     : next_(next), every_(std::max(1, control_hz / kRecordHz)) {}
 
 void ReplayObserver::OnPlan(const PlanResult& plan) {
+  plan_ = plan.path;
   if (next_) next_->OnPlan(plan);
 }
 
@@ -162,7 +169,7 @@ std::string ReplayObserver::Bytes(const std::optional<Scene>& scene,
   if (!track_ || track_->empty() || !scene) return "";
   std::vector<double> keep_s;
   for (const Event& event : record.events) keep_s.push_back(event.t_s);
-  return track_->Bytes(*scene, keep_s);
+  return track_->Bytes(*scene, keep_s, plan_);
 }
 
 }  // namespace floorproof

@@ -26,8 +26,10 @@ class ReplayTrack {
 
   // The file. `scene`: whose model this track is of; of the world's shapes those near the way that
   // the robot went are kept. Of a drive longer than ten minutes states are left out evenly, but for
-  // the seconds around each of the times `keep_s`.
-  std::string Bytes(const Scene& scene, std::span<const double> keep_s) const;
+  // the seconds around each of the times `keep_s`. `plan`: what was to be driven, if it was
+  // planned.
+  std::string Bytes(const Scene& scene, std::span<const double> keep_s,
+                    std::span<const Waypoint> plan = {}) const;
 
  private:
   std::vector<int> first_of_;  // by the model's joints: where its positions begin; -1: left out
@@ -52,6 +54,7 @@ class ReplayObserver : public EpisodeObserver {
   EpisodeObserver* next_;
   int every_;
   long count_ = 0;
+  Path plan_;
   std::optional<ReplayTrack> track_;
 };
 

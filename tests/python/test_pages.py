@@ -87,6 +87,8 @@ class Pages(unittest.TestCase):
         scenario.write_text(SCENARIO, encoding="utf-8")
         floorproof("campaign", scenario, "-n", 40, "--no-films", "--out", cls.campaign_folder)
         floorproof("report", cls.campaign_folder)
+        cls.film_folder = cls.folder / "film"
+        floorproof("run", scenario, "--set", "site.hazards.0.height_m=0.03", "--video", "--out", cls.film_folder)
         cls.playwright = sync_api.sync_playwright().start()
         cls.browser = cls.playwright.chromium.launch(
             executable_path=CHROMIUM,
@@ -99,9 +101,9 @@ class Pages(unittest.TestCase):
         cls.playwright.stop()
         shutil.rmtree(cls.folder)
 
-    def open(self, folder, width=1440, **options):
+    def open(self, folder, width=1440, browser=None, **options):
         """The page, which fails the test for whatever it logs or asks for."""
-        page = self.browser.new_page(viewport={"width": width, "height": 900}, **options)
+        page = (browser or self.browser).new_page(viewport={"width": width, "height": 900}, **options)
         self.addCleanup(page.close)
         page.on("console", lambda m: self.faults.append(m.text) if m.type == "error" else None)
         page.on("pageerror", lambda e: self.faults.append(str(e)))
@@ -154,6 +156,64 @@ class Pages(unittest.TestCase):
         page.keyboard.press("ArrowLeft")
         self.assertAlmostEqual(self.time_of(page), before - 1, delta=0.2)
 
+    def test_it_plays_at_its_speed_however_often_it_is_started(self):
+        page = self.open(self.run_folder)
+        page.locator(".slider input").fill("20")
+        for _ in range(7):
+            page.locator(".play").click()
+        before, clock = self.time_of(page), page.evaluate("performance.now()")
+        page.wait_for_timeout(2000)
+        went = self.time_of(page) - before
+        passed = (page.evaluate("performance.now()") - clock) / 1000
+        self.assertLess(went, 1.3 * passed)
+        self.assertGreater(went, 0.3)
+
+    def test_a_damaged_replay_is_said_and_the_rest_is_there(self):
+        whole = (self.run_folder / "replay.bin").read_bytes()
+        for name, damaged in (("cut", whole[:len(whole) * 2 // 3]), ("garbage", b"x" * 500),
+                              ("longer", whole + b"x")):
+            with self.subTest(name):
+                folder = self.folder / name
+                shutil.copytree(self.run_folder, folder)
+                (folder / "replay.bin").write_bytes(damaged)
+                floorproof("report", folder)
+                page = self.open(folder)
+                self.assertIn("damaged", page.locator(".stage").inner_text())
+                self.assertEqual(page.locator("canvas").count(), 0)
+                self.assertTrue(page.locator(".curves").is_visible())
+                page.locator(".events button").first.click()
+                self.assertGreater(self.time_of(page), 190)
+                page.close()
+
+    def test_a_film_keeps_the_time_and_its_own_button_does_too(self):
+        browser = self.playwright.chromium.launch(executable_path=CHROMIUM,
+                                                  args=["--no-sandbox", "--disable-3d-apis"])
+        self.addCleanup(browser.close)
+        for gl in (True, False):
+            with self.subTest(webgl=gl):
+                page = self.open(self.film_folder, browser=None if gl else browser)
+                self.assertEqual(page.locator("canvas").count(), 1 if gl else 0)
+                if gl:
+                    page.locator("#tab-film").click()
+                film = "document.querySelector('video')"
+                page.locator(".slider input").fill("3")
+                before = page.evaluate(f"{film}.currentTime")
+                page.evaluate(f"{film}.play()")  # as its own button does
+                page.wait_for_timeout(1500)
+                page.evaluate(f"{film}.pause()")
+                page.wait_for_timeout(200)
+                self.assertGreater(page.evaluate(f"{film}.currentTime"), before + 0.3)
+                self.assertGreater(self.time_of(page), 3.3)
+                self.assertEqual(page.locator(".play").inner_text(), "Play")
+                page.locator(".play").click()
+                page.wait_for_timeout(700)
+                self.assertFalse(page.evaluate(f"{film}.paused"))
+                page.locator(".events button").first.click()
+                page.wait_for_timeout(300)
+                self.assertGreater(self.time_of(page), 5)
+                self.assertGreater(page.evaluate(f"{film}.currentTime"), before + 1)
+                page.close()
+
     def test_an_event_leads_to_the_moments_before_it(self):
         page = self.open(self.run_folder)
         page.locator(".slider input").fill("10")
@@ -188,16 +248,20 @@ class Pages(unittest.TestCase):
         self.assertIn("safety state", page.locator(".curves").inner_text())
         self.assertNotIn("safety state", self.open(self.run_folder).locator(".curves").inner_text())
 
-    def test_a_marker_on_the_map_leads_to_its_drive(self):
+    def test_a_marker_on_the_map_leads_to_its_drive_and_its_row(self):
         page = self.open(self.campaign_folder)
         data = json.loads(page.locator("#page-data").text_content())
-        self.assertGreater(len(data["maps"][0]["failures"]), 5)
-        page.locator("#which-drive").select_option("1")
-        pins = page.locator("#map-view svg path[fill='#b83a2f']")
-        self.assertGreater(pins.count(), 0)
-        pins.first.click(force=True)
-        shown = int(page.locator("#which-drive").input_value())
-        self.assertIn(shown, [failure["drive"] for failure in data["maps"][0]["failures"]])
+        failures = data["maps"][0]["failures"]
+        self.assertGreater(len(failures), 5)
+        page.locator("#map-view svg path[fill='#b83a2f']").last.click(force=True)  # the first is the legend's
+        # All of them are on one spot: a list says so.
+        names = page.locator(".pile button")
+        self.assertGreater(names.count(), 5)
+        names.nth(3).click()
+        chosen = page.locator("#which-drive option:checked").inner_text()
+        self.assertIn(names.nth(3).inner_text().split(":")[0], chosen)
+        selected = page.locator(".ag-row-selected [col-id='episode']").first.inner_text()
+        self.assertIn(f"episode {selected}:", chosen)
 
     def test_the_table_sorts_filters_and_shows(self):
         page = self.open(self.campaign_folder)
@@ -236,10 +300,17 @@ class Pages(unittest.TestCase):
         self.assertTrue(page.locator("table.list tbody tr").first.is_visible())
         self.assertTrue(page.locator(".replaced-by-map img").first.is_visible())
 
-    def test_it_prints(self):
-        page = self.open(self.run_folder)
+    def test_it_prints_in_light_and_says_what_failed(self):
+        page = self.open(self.run_folder, color_scheme="dark")
         pdf = page.pdf(format="A4")
         self.assertGreater(len(pdf), 20000)
+        page.evaluate("dispatchEvent(new Event('beforeprint'))")
+        page.emulate_media(media="print", color_scheme="dark")
+        self.assertIn("stuck at", page.locator(".events").inner_text())
+        self.assertFalse(page.locator("#map-view").is_visible(), "the picture is printed instead")
+        self.assertEqual(page.evaluate("getComputedStyle(document.body).backgroundColor"), "rgb(255, 255, 255)")
+        self.assertEqual(page.evaluate("getComputedStyle(document.documentElement).getPropertyValue('--ink')").strip(),
+                         "#000")
 
     def test_whoever_cannot_see_or_point_can_use_it(self):
         for folder in (self.run_folder, self.campaign_folder):

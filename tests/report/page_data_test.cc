@@ -50,7 +50,8 @@ TEST(MapData, HazardsSayWhetherTheyAreKnown) {
   plank.footprint = {{{0, 0}, {1, 0}, {1, 1}}};
   plank.height_m = 0.04;
   const PageJson hazard = MapData(map).at("hazards").at(0);
-  EXPECT_EQ(hazard.at("class"), "C3");
+  EXPECT_EQ(hazard.at("label"), "C3 step (not on the map)");
+  EXPECT_EQ(hazard.at("colour"), "#c81446") << "as on the pictures";
   EXPECT_EQ(hazard.at("text"), "'plank' (step, 40 mm), on no map");
   EXPECT_EQ(hazard.at("polygons").dump(), "[[[0.0,0.0],[1.0,0.0],[1.0,1.0]]]");
 }

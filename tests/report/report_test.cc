@@ -155,7 +155,8 @@ TEST(Report, ShowsWhatFailuresDependOn) {
   EXPECT_THAT(page, HasSubstr("<details><summary>friction: no influence shown (p = 1"));
   EXPECT_THAT(page, HasSubstr("<th scope=\"row\">0.6 to 0.9</th><td>–</td>"))
       << "the highest on top; no episode there";
-  EXPECT_THAT(page, HasSubstr("title=\"40 to 97 %\">80 %<small>8 of 10</small>"));
+  EXPECT_THAT(page, HasSubstr(">80 %<small>8 of 10</small><small>40 to 97 %</small>"))
+      << "to be read on paper and by touch";
 
   r.dependence[0].values.clear();
   EXPECT_THAT(ReportHtml(r), Not(HasSubstr("id=\"dependence\""))) << "nothing was drawn";
@@ -169,10 +170,9 @@ TEST(Report, SaysWhatIsSafeWhereNothingFailed) {
   r.dependence[0].values = {{.key = "friction", .n = 60}};
   r.dependence[0].values[0].safe =
       SafeRange{.answer = SafeAnswer::kWhole, .needed = 59, .whole = {0.9, 60, 0}};
-  EXPECT_THAT(
-      ReportHtml(r),
-      HasSubstr("<p>No episode failed.</p>\n<ul><li><b>friction</b>: safe on average (below "
-                "5 % at 95 %) over the whole range drawn (0 of 60 failed)"));
+  EXPECT_THAT(ReportHtml(r),
+              HasSubstr("<p>No episode failed.</p>\n<ul><li>friction: safe on average (below "
+                        "5 % at 95 %) over the whole range drawn (0 of 60 failed)"));
 }
 
 TEST(Report, AValueThatNeverDiffersIsNotLookedAt) {
@@ -182,7 +182,7 @@ TEST(Report, AValueThatNeverDiffersIsNotLookedAt) {
   r.dependence = {{.variant = "a", .n = 100, .k = 8}};
   r.dependence[0].values = {{.key = "friction", .n = 100, .k = 8}};
   r.dependence[0].values[0].bins = {{0.5, 0.5, {"", 8, 100, 0.08, 0.04, 0.2}}};
-  EXPECT_THAT(ReportHtml(r), HasSubstr("<b>friction</b> has one value in all episodes."));
+  EXPECT_THAT(ReportHtml(r), HasSubstr("friction has one value in all episodes."));
 }
 
 TEST(Report, NumbersForPeople) {

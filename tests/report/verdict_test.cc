@@ -85,6 +85,31 @@ TEST(Verdict, WithoutAGateIsColouredByWhetherAnythingFailed) {
   EXPECT_THAT(VerdictBox(Of({Summary("a", 0, 0)})), StartsWith("<div class=\"verdict \">"));
 }
 
+// No failure is no success: a robot that runs out of time has not done its work.
+TEST(Verdict, WhatIsNoSuccessIsSaidAndIsNotGreen) {
+  VariantSummary variant = Summary("a", 0, 12);
+  variant.success = 0;
+  variant.timeout = 11;
+  variant.aborted = 1;
+  const Report report = Of({variant});
+  EXPECT_THAT(VerdictText(report),
+              testing::EndsWith(" at 95 %, 11 ran out of time, 1 stopped by themselves."));
+  EXPECT_THAT(VerdictBox(report), StartsWith("<div class=\"verdict undecided\">"));
+}
+
+// A gate looks at one side: beside an interval of two its bound is said, too.
+TEST(Verdict, APassedGateSaysItsBound) {
+  Report report = Of({Summary("a", 0, 59, 0.0607)});
+  report.summary.gate = GateOf("any_failure", GateVerdict::kPassed);
+  report.summary.gate->max_rate = 0.05;
+  GateReport found;
+  found.rate = {0, 0.04951};
+  report.summary.gate->variants = {{"a", found}};
+  EXPECT_EQ(VerdictText(report),
+            "no failure in 59 drives, 0 to 6.07 % at 95 %; gate < 5 %: passed, at most 4.96 % with "
+            "95 % confidence.");
+}
+
 // What the variants differ in is no subject of all of them.
 TEST(Verdict, SubjectIsWhatTheVariantsShare) {
   Scenario scenario;
