@@ -15,7 +15,9 @@ namespace floorproof {
 // The rows, with a line that says how far they are.
 std::vector<LadderRow> ClimbWithProgress(std::span<const LadderCell> cells, int jobs,
                                          const Globals& globals);
-void SayRows(std::span<const LadderRow> rows, const Globals& globals);
+// A line a hazard, of each robot and kind of wheels: the least of its limits, and how it was met
+// then. The tables hold all.
+void SayLeastLimits(std::span<const LadderRow> rows, const Globals& globals);
 
 // Empties the ladder's tables in `folder` and removes its pictures: what stands there later is this
 // run's. Throws InputError when nothing can be written there, before minutes of work are lost.

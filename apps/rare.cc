@@ -29,9 +29,12 @@ class RareLine final : public RareObserver {
   void OnProgress(const std::string& stage, const RareProgress& p) override {
     if (!line_.IsDue()) return;
     const double rate = static_cast<double>(p.driven) / std::max(line_.wall_s(), 1e-3);
-    line_.Show(fmt::format("  {} of at most {}, {} a second; {}; {} so far",
-                           FixedText(static_cast<double>(p.done), 0), CountText(most_, "drive"),
-                           FixedText(rate, 1), stage, CountText(p.failures, "failure")));
+    std::string text = fmt::format(
+        "  {} of at most {}, {} a second; {}; {} so far", FixedText(static_cast<double>(p.done), 0),
+        CountText(most_, "drive"), FixedText(rate, 1), stage, CountText(p.failures, "failure"));
+    if (rate > 0 && p.done < most_)
+      text += "; at most " + TimeText(static_cast<double>(most_ - p.done) / rate) + " to go";
+    line_.Show(text);
   }
   void Clear() { line_.Clear(); }
 

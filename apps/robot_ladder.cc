@@ -54,7 +54,7 @@ nlohmann::ordered_json MeasureLimits(const RobotModel& robot, const fs::path& ta
           rows, fmt::format("Floorproof {}, MuJoCo {}", FLOORPROOF_VERSION, mj_versionString()),
           model));
   WriteCapabilityChart(rows, file.string(), chart);
-  SayRows(rows, globals);
+  SayLeastLimits(rows, globals);
   globals.Say(fmt::format("{} limits measured: in {}, {} and {}", rows.size(), target.string(),
                           table.string(), chart.string()));
   return LadderJson(rows);

@@ -307,6 +307,20 @@ void ConfigNode::SetPath(std::string_view key_path, ConfigNode value) {
   child->SetPath(key_path.substr(dot + 1), std::move(value));
 }
 
+namespace {
+
+// The parser does not say that a tab is what it cannot read. `line` from 0 on.
+std::string TabHint(const std::string& text, int line) {
+  std::istringstream in(text);
+  std::string found;
+  for (int i = 0; i <= line; ++i)
+    if (!std::getline(in, found)) return "";
+  const std::string indent = found.substr(0, found.find_first_not_of(" \t"));
+  return indent.find('\t') == indent.npos ? "" : " (a tab stands before it: must be spaces)";
+}
+
+}  // namespace
+
 ConfigNode ParseYaml(const std::string& text, const std::string& file) {
   try {
     // yaml-cpp takes a quote that is never closed at the end of a file; at a document's it does
@@ -322,7 +336,8 @@ ConfigNode ParseYaml(const std::string& text, const std::string& file) {
       throw InputError({file, 0}, "", "", "holds more than one YAML document");
     return root;
   } catch (const YAML::Exception& e) {
-    throw InputError({file, e.mark.line + 1}, "", "", "bad YAML: " + e.msg);
+    throw InputError({file, e.mark.line + 1}, "", "",
+                     "bad YAML: " + e.msg + TabHint(text, e.mark.line));
   }
 }
 

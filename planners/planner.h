@@ -55,8 +55,9 @@ std::string_view Name(PlanStatus status);
 
 struct PlanResult {
   PlanStatus status = PlanStatus::kFailed;
-  std::string message;  // why, naming the place; on success what was left out, or empty
-  Path path;            // from the start pose on
+  std::string message;   // why, naming the place; on success what was left out, or empty
+  Path path;             // from the start pose on
+  double lead_in_m = 0;  // its first leg, where nobody planned it: from the start to a given plan
   // The clear shape and tool that the planner planned with (the robot's, or a plan's override).
   Shape2 clear, tool;
   double tool_width_m = 0;

@@ -130,8 +130,9 @@ class Studio {
 
     std::optional<Banner> banner = last ? script_.closing : std::nullopt;
     if (!banner) banner = BannerAt(frame.t_s + 1e-9, last);
-    DrawOverlay({script_.title, frame.t_s, script_.recording->coverage(state), frame.speed_up,
-                 banner ? &*banner : nullptr},
+    // The last picture stands.
+    DrawOverlay({script_.title, frame.t_s, script_.recording->coverage(state),
+                 last ? 0 : frame.speed_up, banner ? &*banner : nullptr},
                 image_);
     if (script_.timeline) DrawTimelineStrip(*script_.timeline, frame.t_s, image_);
     return image_;

@@ -37,6 +37,7 @@ std::string Clock(double t_s) {
 }
 
 std::string Pace(double speed_up) {
+  if (speed_up == 0) return "";
   if (std::abs(speed_up - 1) < 1e-9) return "real time";
   if (speed_up < 1) return "slow motion x" + NumberText(speed_up, 2);
   return speed_up < 9.95 ? "time lapse x" + NumberText(speed_up, 2)

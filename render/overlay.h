@@ -21,7 +21,7 @@ struct Overlay {
   std::string title;    // robot and site; cut short if the bar is too narrow
   double t_s = 0;       // simulated time
   double coverage = 0;  // 0 to 1; negative: not shown
-  double speed_up = 1;  // seconds simulated a second of film
+  double speed_up = 1;  // seconds simulated a second of film; 0: time stands
   const Banner* banner = nullptr;
 };
 

@@ -239,12 +239,17 @@ RarePage Page(const Json& rare, const fs::path& folder) {
 
 bool HoldsRareSearch(const fs::path& folder) {
   std::error_code none;
-  return fs::exists(folder / "rare.json", none) && !fs::exists(folder / "campaign.sqlite", none);
+  return (fs::exists(folder / "rare.json", none) || fs::exists(folder / "trials.sqlite", none)) &&
+         !fs::exists(folder / "campaign.sqlite", none);
 }
 
 RarePage MakeRarePage(const fs::path& folder) {
   constexpr std::size_t kMost = 16u << 20;
   const fs::path file = folder / "rare.json";
+  if (std::error_code none; !fs::exists(file, none))
+    throw InputError({file.string(), 0}, "", "",
+                     "no such file: the search has no answer yet; the same `rare` with --resume "
+                     "goes on");
   try {
     const Json rare = Json::parse(ReadInputFile(file, kMost));
     if (!rare.is_object() || rare.value("rare", 0) != 1)

@@ -16,6 +16,7 @@
 #include "env/map/lay_floors.h"
 #include "env/map/site_keys.h"
 #include "env/map/written_hazard.h"
+#include "media/media.h"
 
 namespace floorproof {
 namespace {
@@ -208,6 +209,8 @@ Site ReadSite(const ConfigNode& node, const fs::path& folder, const InputFiles& 
     map.inset_m = written.grid.inset_m;
     map.hazards = std::move(written.grid.hazards);
   } else {
+    if (const std::string why = files.WhyUnreadable(written.ros_map, kMaxImageBytes); !why.empty())
+      throw InputError(node.Find("map")->mark, "map", node.Find("map")->scalar, why);
     RosMap ros = ReadRosMap(written.ros_map, files);
     map.frame = ros.frame;
     map.occupancy = std::move(ros.occupancy);

@@ -24,6 +24,7 @@ PlanResult NotOurs(const Scenario& s, const PlanRequest& request) {
     plan.message = std::move(answer.failure);
   }
   if (path.empty()) return plan;
+  plan.lead_in_m = (path.front().p_W - s.start.p()).norm();
   plan.path = FromStart(std::move(path), s.start.p());
   plan.status = PlanStatus::kSuccess;
   return plan;

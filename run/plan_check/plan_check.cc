@@ -234,6 +234,11 @@ std::vector<std::string> PlanLines(const Scenario& s, const PlanResult& plan,
     if (*check.budget.battery_share > 1) lines.push_back("warning: the battery does not last");
   }
   lines.insert(lines.begin(), takes);
+  if (constexpr double kWorthSaying_m = 0.5; plan.lead_in_m > kWorthSaying_m)
+    lines.push_back(fmt::format(
+        "the plan begins {} from the start at {}: the robot is led there straight, by a first leg "
+        "that is not in it (start.x_m, start.y_m)",
+        LengthText(plan.lead_in_m), At(s.start.p())));
   const HazardMap floor = KnownFloor(s);
   AddClearance(floor, check.clearance, lines);
   if (const auto sharp = SharpCornersLine(s.robot.spec, check.sharp_corners); !sharp.empty())

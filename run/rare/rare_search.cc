@@ -123,7 +123,8 @@ RareOutcome SearchRare(const ScenarioFile& file, const RareRequest& request, con
         OpenOrCreate(folder / kTrials, about, HoldsSearch(folder, request.resume));
     if (request.retry_errors) store.DropFromFirstError(RareTrials::TrialVariant().name);
     out.folder->Begin();
-    SayWhenInterrupted(folder.string() + " holds every drive saved so far; --resume goes on");
+    SayWhenInterrupted("every drive so far is kept in " + folder.string() +
+                       "; the same command with --resume goes on");
     WriteResolvedScenario(base, folder, file.files().All());
 
     std::string stage;

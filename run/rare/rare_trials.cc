@@ -69,9 +69,10 @@ void RareTrials::Drive(std::span<const Trial> trials, std::span<const std::strin
     row.variant = TrialVariant().name;
     row.episode = next_ + job;
     row.drawn = drawn[job];
-    known_[row.episode] = Brief(row);
+    const Known& known = known_[row.episode] = Brief(row);
     ++shown_.done;
     ++shown_.driven;
+    shown_.failures += known.result.failed;
     batch_.push_back(std::move(row));
   };
   const auto refuse = [&](Job job, const std::string& why) {
@@ -111,7 +112,10 @@ std::vector<TrialResult> RareTrials::Evaluate(std::span<const Trial> trials) {
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     drawn.push_back(DrawnText(trials[i]));
-    if (!known_.contains(next_ + i)) missing.push_back(i);
+    if (const auto known = known_.find(next_ + i); known == known_.end())
+      missing.push_back(i);
+    else
+      shown_.failures += known->second.result.failed;
   }
   shown_.done = next_ + trials.size() - missing.size();
   if (!missing.empty()) Drive(trials, drawn, missing);
@@ -124,7 +128,6 @@ std::vector<TrialResult> RareTrials::Evaluate(std::span<const Trial> trials) {
                       "on another type of machine, or the file was changed",
                       next_ + i));
     results.push_back(known.result);
-    shown_.failures += known.result.failed;
     if (known.error && errors_++ == 0) first_error_ = known.message;
   }
   next_ += trials.size();

@@ -20,7 +20,7 @@ namespace floorproof {
 
 struct RareProgress {
   std::uint64_t done = 0, driven = 0;  // of earlier runs too; in this one
-  std::uint64_t failures = 0;          // among those of whole batches
+  std::uint64_t failures = 0;          // among all of them
 };
 
 class RareTrials {

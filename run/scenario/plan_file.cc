@@ -31,8 +31,15 @@ std::vector<std::string> SplitRow(std::string_view line) {
   return SplitAtCommas(line);
 }
 
+// Nothing in such a file holds one.
+void RefuseSemicolons(const std::string& line, const SourceMark& mark) {
+  if (line.find(';') != line.npos)
+    throw InputError(mark, "", "", "is divided by semicolons: must be by commas");
+}
+
 std::vector<std::string> ReadHeader(const std::string& line, const SourceMark& mark,
                                     const std::vector<std::string>& columns) {
+  RefuseSemicolons(line, mark);
   const auto header = SplitRow(line);
   for (const auto& name : header) {
     if (std::ranges::find(columns, name) == columns.end()) {
@@ -99,6 +106,7 @@ Path ReadRows(const std::filesystem::path& file, const GridFrame& map,
       header = ReadHeader(line, mark, columns);
       continue;
     }
+    RefuseSemicolons(line, mark);
     const auto cells = SplitRow(line);
     if (cells.size() != header.size())
       throw InputError(mark, "", "",

@@ -403,6 +403,22 @@ TEST_F(PlanClearanceTest, OneIsNotSeveral) {
   EXPECT_THAT(ConflictsLine(clearance), ::testing::EndsWith("at 2 places"));
 }
 
+// The way from the start to a given plan is nobody's plan: who reads a warning of it should know.
+TEST_F(PlanClearanceTest, ALegBeforeTheGivenPlanIsSaid) {
+  const auto said = [&](const std::string& rows) {
+    Save("plan.csv", "x_m,y_m\n" + rows);
+    Scenario scenario = Read(RoomScenario("", ""));
+    const PlanResult plan = MakePlan(scenario);
+    std::string text;
+    for (const std::string& line : PlanLines(scenario, plan, CheckPlan(scenario, plan)))
+      text += line + "\n";
+    return text;
+  };
+  EXPECT_THAT(said("4.5,2.5\n7.8,2.5\n"),
+              HasSubstr("the plan begins 3 m from the start at x 1.50, y 2.50 m"));
+  EXPECT_THAT(said("1.6,2.5\n7.8,2.5\n"), ::testing::Not(HasSubstr("the plan begins")));
+}
+
 TEST_F(PlanClearanceTest, LinesNameThePlacesAndCountTheRest) {
   std::string posts, rows;
   for (int i = 0; i < 7; ++i) {

@@ -55,6 +55,17 @@ class RarePageTest : public testing::Test {
   RareOutcome outcome_;
 };
 
+TEST_F(RarePageTest, AnUnfinishedSearchSaysHowToGoOn) {
+  std::ofstream(folder_ / "trials.sqlite") << "";
+  EXPECT_TRUE(HoldsRareSearch(folder_));
+  try {
+    MakeRarePage(folder_);
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("--resume goes on"));
+  }
+}
+
 TEST_F(RarePageTest, SaysWhatTheSearchSaid) {
   EXPECT_FALSE(HoldsRareSearch(folder_));
   Save(RareJson(outcome_).dump());
