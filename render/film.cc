@@ -3,11 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <thread>
 #include <utility>
 
 #include "base/error.h"
 #include "env/core/event_evidence.h"
 #include "render/film_floor.h"
+#include "render/gl_context.h"
+#include "render/picture_processes.h"
 
 namespace floorproof {
 namespace {
@@ -36,7 +41,8 @@ class Puppet {
     while (at_ + 1 < recording_.size() && recording_.t_s(at_ + 1) <= t_s) ++at_;
     return at_;
   }
-  mjData* Pose(double t_s) {
+  mjData* data() { return data_.get(); }
+  void Pose(double t_s) {
     const std::size_t i = StateAt(t_s);
     mju_copy(data_->qpos, recording_.qpos(i), static_cast<int>(model_->nq));
     p_WB_ = recording_.p_WB(i);
@@ -49,7 +55,6 @@ class Puppet {
       p_WB_ += share * way;
     }
     PoseForPicture(model_, data_.get());
-    return data_.get();
   }
   Pose2 X_WB() const {
     const double* q = data_->qpos + root_;
@@ -81,6 +86,43 @@ FilmSet WithAspect(FilmSet set, const FilmOptions& options) {
   return set;
 }
 
+// Draws what lies over a film's pictures.
+class Captions {
+ public:
+  explicit Captions(const FilmScript& script) : script_(script) {}
+
+  void Draw(const FilmFrame& frame, bool last, Image& image) {
+    const Recording& recording = *script_.recording;
+    while (state_ + 1 < recording.size() && recording.t_s(state_ + 1) <= frame.t_s) ++state_;
+    std::optional<Banner> banner = last ? script_.closing : std::nullopt;
+    if (!banner) banner = BannerAt(frame.t_s + 1e-9, last);
+    // The last picture stands.
+    DrawOverlay({script_.title, frame.t_s, recording.coverage(state_), last ? 0 : frame.speed_up,
+                 banner ? &*banner : nullptr},
+                image);
+    if (script_.timeline) DrawTimelineStrip(*script_.timeline, frame.t_s, image);
+  }
+
+ private:
+  // Of the last event or notice.
+  std::optional<Banner> BannerAt(double t_s, bool last) const {
+    std::optional<Banner> banner;
+    double since_s = -1;
+    for (const Event& event : script_.events) {
+      // The event that ended the episode may lie a step behind the last recorded state.
+      if (!last && event.t_s > t_s) break;
+      banner = FailureBanner(event, script_.map ? *script_.map : HazardMap{});
+      since_s = event.t_s;
+    }
+    for (const Notice& notice : script_.notices)
+      if (notice.t_s >= since_s && notice.t_s <= t_s) banner = notice.banner;
+    return banner;
+  }
+
+  const FilmScript& script_;
+  std::size_t state_ = 0;
+};
+
 // Draws the frames of a film in order.
 class Studio {
  public:
@@ -109,36 +151,33 @@ class Studio {
   void Cut() { cut_ = true; }
   // The next frame is so much of film after the last one.
   void Pace(double frame_s) { frame_s_ = frame_s; }
-  const Image& Draw(const FilmFrame& frame, bool last) {
-    mjData* data = puppet_.Pose(frame.t_s);
+  // Without what lies over it. Stands until the next call.
+  Image& Draw(const FilmFrame& frame) {
+    const CameraView view = Look(frame);
     const std::size_t state = puppet_.StateAt(frame.t_s);
-    if (cut_) camera_->Reset(set_, puppet_.X_WB());
-    cut_ = false;
     for (; trodden_ <= state; ++trodden_)
       trail_.Add(script_.recording->p_WB(trodden_), script_.recording->tool_width_m(trodden_));
     again_.Show(script_.recording->t_s(state));
     fan_.Show(state);
     window_.Show(ThoughtPlace(state));
-    const Event* contact = ContactAt(frame.t_s);
-    CameraCue cue{frame_s_, frame.speed_up, {}};
-    if (contact) cue.contact_rad = CameInto(*contact);
-    const CameraView view = camera_->Next(puppet_.X_WB(), cue);
-    const bool thin = contact != nullptr && IsLow(view);
+    const bool thin = ContactAt(frame.t_s) != nullptr && IsLow(view);
     if (thin != shell_thin_) renderer_.SeeThrough(thin ? script_.shell : std::vector<int>{});
     shell_thin_ = thin;
-    renderer_.Render(data, view, &paint_, image_);
-
-    std::optional<Banner> banner = last ? script_.closing : std::nullopt;
-    if (!banner) banner = BannerAt(frame.t_s + 1e-9, last);
-    // The last picture stands.
-    DrawOverlay({script_.title, frame.t_s, script_.recording->coverage(state),
-                 last ? 0 : frame.speed_up, banner ? &*banner : nullptr},
-                image_);
-    if (script_.timeline) DrawTimelineStrip(*script_.timeline, frame.t_s, image_);
+    renderer_.Render(puppet_.data(), view, &paint_, image_);
     return image_;
   }
+  // A frame that another draws: the camera follows the robot through all of them.
+  void Pass(const FilmFrame& frame) { Look(frame); }
 
  private:
+  CameraView Look(const FilmFrame& frame) {
+    puppet_.Pose(frame.t_s);
+    if (cut_) camera_->Reset(set_, puppet_.X_WB());
+    cut_ = false;
+    CameraCue cue{frame_s_, frame.speed_up, {}};
+    if (const Event* contact = ContactAt(frame.t_s)) cue.contact_rad = CameInto(*contact);
+    return camera_->Next(puppet_.X_WB(), cue);
+  }
   // Of lines on the floor: they are to be seen from above.
   double LineWidth() const { return 0.012 + 0.0012 * (set_.high_W - set_.low_W).maxCoeff(); }
   // Where the robot thinks it is; without a scan so far, where it is. States only ascend.
@@ -174,20 +213,6 @@ class Studio {
     const Vec3 sight = view.target_W - view.eye_W;
     return -sight.z() < kLow * sight.norm();
   }
-  // Of the last event or notice.
-  std::optional<Banner> BannerAt(double t_s, bool last) const {
-    std::optional<Banner> banner;
-    double since_s = -1;
-    for (const Event& event : script_.events) {
-      // The event that ended the episode may lie a step behind the last recorded state.
-      if (!last && event.t_s > t_s) break;
-      banner = FailureBanner(event, script_.map ? *script_.map : HazardMap{});
-      since_s = event.t_s;
-    }
-    for (const Notice& notice : script_.notices)
-      if (notice.t_s >= since_s && notice.t_s <= t_s) banner = notice.banner;
-    return banner;
-  }
 
   const FilmScript& script_;
   FilmSet set_;
@@ -206,6 +231,30 @@ class Studio {
   FilmPace pace_;
   bool cut_ = true, shell_thin_ = false;
 };
+
+// Each costs a context, so that few frames are drawn by few of them. One that has drawn before, in
+// this process, goes on alone: its context cannot be shared.
+int ProcessesFor(std::size_t frames, const FilmOptions& options) {
+  constexpr std::size_t kFramesEach = 24;
+  constexpr int kMost = 8;
+  if (DrawsAlready()) return 1;
+  if (options.processes > 0) return std::min(options.processes, static_cast<int>(frames));
+  const int cores = std::min(kMost, static_cast<int>(std::thread::hardware_concurrency()));
+  return std::min(cores, static_cast<int>(frames / kFramesEach));
+}
+
+// In a process of its own, which draws some of the frames.
+PictureProcesses::Draw DrawerOf(const FilmScript& script, const FilmOptions& options,
+                                const std::vector<FilmFrame>& frames) {
+  setenv("LP_NUM_THREADS", "0", /*overwrite=*/0);  // there is a process for each core
+  auto studio = std::make_shared<Studio>(script, options);
+  return [studio, &frames, passed = std::size_t{0}](std::size_t i, std::uint8_t* pixels) mutable {
+    for (; passed < i; ++passed) studio->Pass(frames[passed]);
+    const Image& image = studio->Draw(frames[i]);
+    passed = i + 1;
+    std::memcpy(pixels, image.data.data(), image.data.size());
+  };
+}
 
 }  // namespace
 
@@ -231,10 +280,12 @@ std::vector<Image> FilmPictures(const FilmScript& script, const FilmOptions& opt
                                 std::span<const double> t_s) {
   Check(script, options);
   Studio studio(script, options);
+  Captions captions(script);
   std::vector<Image> pictures;
   for (const double at_s : t_s) {
     studio.Cut();
-    pictures.push_back(studio.Draw({.t_s = at_s}, false));
+    pictures.push_back(studio.Draw({.t_s = at_s}));
+    captions.Draw({.t_s = at_s}, false, pictures.back());
   }
   return pictures;
 }
@@ -242,10 +293,13 @@ std::vector<Image> FilmPictures(const FilmScript& script, const FilmOptions& opt
 LiveFilm::LiveFilm(const FilmScript& script, const FilmOptions& options) {
   Check(script, options);
   auto studio = std::make_shared<Studio>(script, options);
-  draw_ = [studio, &recording = *script.recording, drawn_s = 0.0]() mutable -> const Image& {
+  draw_ = [studio, captions = Captions(script), &recording = *script.recording,
+           drawn_s = 0.0]() mutable -> const Image& {
     const double now_s = recording.t_s(recording.size() - 1);
     studio->Pace(now_s - std::exchange(drawn_s, now_s));
-    return studio->Draw({.t_s = now_s}, true);
+    Image& image = studio->Draw({.t_s = now_s});
+    captions.Draw({.t_s = now_s}, true, image);
+    return image;
   };
 }
 
@@ -264,12 +318,33 @@ FilmResult WriteFilm(const FilmScript& script, const FilmOptions& options,
   const auto frames =
       whole ? ScheduleFilm(begin_s, end_s, slow_s, options.pace)
             : SchedulePassages(PassagesAround(begin_s, end_s, slow_s, options.pace), options.pace);
-  Studio studio(script, options);
   FilmMoments moments{.frames = frames, .end_s = end_s, .failure_s = {}};
   if (!shown_s.empty()) moments.failure_s = shown_s.front();
+  Captions captions(script);
+  const std::vector<FilmFrame> drawn = moments.Drawn();
+  const int processes = ProcessesFor(drawn.size(), options);
+  if (processes < 2) {
+    Studio studio(script, options);
+    return WriteReel(
+        moments, options,
+        [&](const FilmFrame& frame, bool last) -> const Image& {
+          Image& image = studio.Draw(frame);
+          captions.Draw(frame, last, image);
+          return image;
+        },
+        path);
+  }
+  Image image{options.width, options.height, 3, {}, false};
+  image.data.resize(static_cast<std::size_t>(options.width) * options.height * 3);
+  PictureProcesses pictures(drawn.size(), image.data.size(), processes,
+                            [&] { return DrawerOf(script, options, drawn); });
   return WriteReel(
       moments, options,
-      [&](const FilmFrame& frame, bool last) -> const Image& { return studio.Draw(frame, last); },
+      [&](const FilmFrame& frame, bool last) -> const Image& {
+        std::memcpy(image.data.data(), pictures.Next(), image.data.size());
+        captions.Draw(frame, last, image);
+        return image;
+      },
       path);
 }
 

@@ -90,6 +90,7 @@ struct FilmScript {
 struct FilmOptions : ReelOptions {
   std::string camera = "auto";  // a name of Cameras()
   RenderQuality quality = RenderQuality::kGood;
+  int processes = 0;  // that draw at once; 0: one a core, as far as they are worth it
   // Not empty: only the seconds around these events, as the pace has them; ascending.
   std::vector<double> only_around_s;
 };

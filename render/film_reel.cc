@@ -25,6 +25,17 @@ void CheckReel(const ReelOptions& options) {
   }
 }
 
+bool FilmMoments::Stands(std::size_t i) const {
+  return i > 0 && frames[i].t_s == frames.back().t_s && frames[i - 1].t_s == frames[i].t_s;
+}
+
+std::vector<FilmFrame> FilmMoments::Drawn() const {
+  std::vector<FilmFrame> drawn;
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    if (!Stands(i)) drawn.push_back(frames[i]);
+  return drawn;
+}
+
 FilmResult WriteReel(const FilmMoments& moments, const ReelOptions& options, const DrawFrame& draw,
                      const std::filesystem::path& path) {
   const std::vector<FilmFrame>& frames = moments.frames;
@@ -40,9 +51,8 @@ FilmResult WriteReel(const FilmMoments& moments, const ReelOptions& options, con
     if (Interrupted()) return result;  // the unfinished film goes with `video`
     const FilmFrame& frame = frames[i];
     const bool ends = frame.t_s == frames.back().t_s, last = ends && frame.t_s == moments.end_s;
-    const bool stands = ends && i > 0 && frames[i - 1].t_s == frame.t_s;
     const auto begin = std::chrono::steady_clock::now();
-    if (!stands) image = &draw(frame, last);
+    if (!moments.Stands(i)) image = &draw(frame, last);
     result.render_s += Seconds(begin);
 
     if (i == 0) still("frame_start.png", *image);

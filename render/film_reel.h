@@ -39,6 +39,10 @@ struct FilmMoments {
   std::vector<FilmFrame> frames;    // at least one
   double end_s = 0;                 // of what was recorded
   std::optional<double> failure_s;  // of frame_failure.png
+
+  // Whether the frame's picture is the one before it, at the film's end.
+  bool Stands(std::size_t i) const;
+  std::vector<FilmFrame> Drawn() const;  // those that do not stand
 };
 
 // Writes an MP4; a picture that stands is drawn once. Throws InputError (a file that cannot be

@@ -272,6 +272,8 @@ Made MakeFirst(GlReport& report) {
 
 bool GlContext::inherited() const { return IsForked(); }
 
+bool DrawsAlready() { return g_drawing != 0; }
+
 std::unique_ptr<GlContext> MakeGlContext() {
   GlReport report;
   Made made = MakeFirst(report);

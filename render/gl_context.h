@@ -32,6 +32,9 @@ class GlContext {
 // them.
 std::unique_ptr<GlContext> MakeGlContext();
 
+// Whether this process has made a context.
+bool DrawsAlready();
+
 // What `doctor` shows.
 struct GlReport {
   std::string backend;                // "osmesa" or "egl"; empty: there is none

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/film.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <array>
 #include <cstdio>
 
+#include "base/input_file.h"
 #include "env/core/event_evidence.h"
 #include "tests/render/room.h"
 
@@ -187,6 +189,24 @@ TEST_F(FilmTest, PlaysInABrowser) {
   EXPECT_EQ(probe.width, 320);
   EXPECT_EQ(probe.height, 180);
   EXPECT_EQ(probe.frames, result.frames);
+}
+
+// Of a camera that follows with a lag, stripes that grow and a shell that turns to glass: who draws
+// only some of the frames must still know all.
+TEST_F(FilmTest, AnyNumberOfProcessesDrawsTheSameFilm) {
+  FP_NEED_GL();
+  Open();
+  script_.window_m = 0.8;
+  script_.swept_again = {{6, {-1.2, 1}, {0.2, 1}, 0.5, 0}};
+  std::string first;
+  for (const int processes : {3, 2, 1}) {  // alone the last: then this process draws
+    options_.processes = processes;
+    const auto file = folder_.path() / fmt::format("{}.mp4", processes);
+    WriteFilm(script_, options_, file);
+    const std::string film = ReadInputFile(file, 1 << 24);
+    if (first.empty()) first = film;
+    EXPECT_TRUE(film == first) << processes;
+  }
 }
 
 TEST_F(FilmTest, StillsShowStartFailureAndEnd) {
