@@ -80,8 +80,9 @@ class Chase : public Camera {
   Panner panner_;
 };
 
-// From straight above, north up: the whole site if the robot stays visible, else a part of it that
-// follows the robot without looking beyond the site.
+// From straight above, north up: the whole site if the robot stays visible, else a part of it. That
+// stands still, for a time lapse would make a camera that follows swim; where the robot comes near
+// its edge, it is another part, around the robot.
 class Top : public Camera {
  public:
   void Reset(const FilmSet& set, const Pose2& X_WB) override {
@@ -90,30 +91,38 @@ class Top : public Camera {
     // The overlay's bars take a tenth of the height.
     const double whole_m = std::max(1.26 * size.y(), 1.06 * size.x() / set.aspect);
     height_m_ = std::min(whole_m, 60 * set.robot_radius_m);
-    follower_.Reset(X_WB.p());
+    LookAt(X_WB.p());
   }
-  CameraView Next(const Pose2& X_WB, const CameraCue& cue) override {
-    const Vec2 p = follower_.Next(X_WB.p(), cue.dt_s, 0.5, 0.25 * height_m_);
-    const Vec2 half = 0.5 * height_m_ * Vec2(set_.aspect, 1);
-    const Vec2 centre = 0.5 * (set_.low_W + set_.high_W);
-    Vec2 q;
-    for (int i = 0; i < 2; ++i) {
-      const double slack = std::max(0.0, 0.6 * (set_.high_W - set_.low_W)[i] - half[i]);
-      q[i] = std::clamp(p[i], centre[i] - slack, centre[i] + slack);
-    }
+  CameraView Next(const Pose2& X_WB, const CameraCue&) override {
+    constexpr double kInner = 0.75;  // of the half picture; beyond lies its edge
+    const Vec2 off = (X_WB.p() - middle_).cwiseAbs(), half = Half();
+    const Vec2 before = middle_;
+    if ((off.array() > kInner * half.array()).any()) LookAt(X_WB.p());
+    // Along the site's own edge there may be nowhere else to look.
+    if ((middle_ - before).norm() < 0.1 * height_m_) middle_ = before;
     CameraView view;
     constexpr double kFovy = 24 * kDegree;  // nearly parallel: walls hide little floor
     view.fovy_rad = kFovy;
-    view.target_W = Lift(q, 0);
-    view.eye_W = Lift(q, 0.5 * height_m_ / std::tan(0.5 * kFovy));
+    view.target_W = Lift(middle_, 0);
+    view.eye_W = Lift(middle_, 0.5 * height_m_ / std::tan(0.5 * kFovy));
     view.up_W = Vec3::UnitY();
     return view;
   }
 
  private:
+  Vec2 Half() const { return 0.5 * height_m_ * Vec2(set_.aspect, 1); }
+  // Without looking far beyond the site.
+  void LookAt(const Vec2& p) {
+    const Vec2 centre = 0.5 * (set_.low_W + set_.high_W), half = Half();
+    for (int i = 0; i < 2; ++i) {
+      const double slack = std::max(0.0, 0.6 * (set_.high_W - set_.low_W)[i] - half[i]);
+      middle_[i] = std::clamp(p[i], centre[i] - slack, centre[i] + slack);
+    }
+  }
+
   FilmSet set_;
   double height_m_ = 5;
-  Follower follower_;
+  Vec2 middle_ = Vec2::Zero();
 };
 
 // Low beside the robot, to watch its wheels meet the floor.
