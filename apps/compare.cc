@@ -7,9 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
+#include "base/file_output.h"
 #include "base/quantity.h"
 #include "base/words.h"
-#include "run/campaign/campaign_comparison.h"
+#include "report/compare_page.h"
 #include "run/scenario/chance.h"
 
 namespace floorproof {
@@ -129,11 +130,16 @@ void SayDrives(const Comparison& c, const Globals& globals) {
 
 void AddCompare(CommandLine& line, const Globals& globals, int& status) {
   auto sides = std::make_shared<std::vector<std::string>>();
+  auto page = std::make_shared<std::string>();
   Subcommand command = line.Add(
       "compare", "The same episodes under two variants, or in two campaigns of one seed: paired");
   command.Texts("DIR[:VARIANT]", *sides, "Two campaigns, or variants of one",
                 Subcommand::Need::kRequired, 2);
-  command.OnRun([sides, &globals, &status] {
+  command.Text("--page", *page, "Also write the comparison as a page: this .html file");
+  command.OnRun([sides, page, &globals, &status] {
+    const std::string ending = fs::path(*page).extension().string();
+    if (!page->empty() && ending != ".html")
+      throw InputError({"--page", 0}, "", *page, "must end in .html");
     const Side a = OpenSide(sides->at(0)), b = OpenSide(sides->at(1));
     const Comparison comparison = CompareVariants(a.store, a.variant, b.store, b.variant);
     auto json = ComparisonJson(comparison);
@@ -153,6 +159,11 @@ void AddCompare(CommandLine& line, const Globals& globals, int& status) {
     const bool driven = !comparison.metrics.empty();
     if (driven) SayDrives(comparison, globals);
     SayPlans(comparison, globals);
+    if (!page->empty()) {
+      WriteFileWhole(*page, ComparePage({a.folder, a.variant, a.name()},
+                                        {b.folder, b.variant, b.name()}, comparison));
+      globals.SayFact("Page", *page);
+    }
     status = kExitDone;
   });
 }
