@@ -5,17 +5,18 @@
 
 #include "apps/command.h"
 #include "base/file_output.h"
+#include "base/result_folder.h"
 #include "report/campaign_report.h"
 #include "report/rare_page.h"
 #include "report/run_page.h"
-#include "run/rare/rare_search.h"
 
 namespace floorproof {
 namespace {
 
 WrittenReport WriteRareReport(const std::filesystem::path& folder) {
   const RarePage made = MakeRarePage(folder);
-  ResultFolder results(folder, RareResults(), {});
+  ResultFolder results(folder, {"page", [](std::string_view name) { return name == "rare.html"; }},
+                       {});
   results.Begin();
   const std::filesystem::path page = folder / "rare.html";
   WriteFileWhole(page, made.html);

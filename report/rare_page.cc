@@ -10,10 +10,13 @@
 
 #include "base/error.h"
 #include "base/input_file.h"
+#include "base/words.h"
 #include "report/films.h"
 #include "report/html.h"
 #include "report/html_page.h"
 #include "report/rare_films.h"
+#include "report/run_record.h"
+#include "report/verdict.h"
 #include "run/rare/rare_json.h"
 
 namespace floorproof {
@@ -79,7 +82,7 @@ std::string Numbers(const Json& rare) {
   const Json& sure = rare.at("without_sampler");
   std::string html =
       "<div class=\"card scroll\">" + Scale(rare) +
-      "<table><thead><tr><th scope=\"col\"></th><th scope=\"col\">Failures a drive</th><th "
+      "<table><thead><tr><th scope=\"col\">Figure</th><th scope=\"col\">Failures a drive</th><th "
       "scope=\"col\">What it rests on</th></tr></thead><tbody>\n";
   if (!rare.at("probability").is_null())
     html += Row("Estimate",
@@ -108,24 +111,27 @@ std::string Happening(const Json& likeliest) {
   for (const Json& event : likeliest.at("events")) {
     const std::string hazard = event.at("hazard");
     text += fmt::format("{}{}{} after {} s", text.empty() ? "" : ", ",
-                        event.at("mode").get<std::string>(), hazard.empty() ? "" : " at " + hazard,
-                        FixedText(event.at("t_s"), 1));
+                        Words(event.at("mode").get<std::string>()),
+                        hazard.empty() ? "" : " at " + hazard, FixedText(event.at("t_s"), 1));
   }
   return text.empty() ? likeliest.at("outcome").get<std::string>() : text;
 }
 
-std::string Film(const fs::path& folder, std::size_t number, const Json& likeliest) {
-  const fs::path file = FilmOf(folder, number, likeliest.at("set"));
-  if (file.empty()) return "";
+// `number`: of the drive on the page.
+std::string Film(const fs::path& folder, const fs::path& file, std::size_t number) {
   const std::string path = fs::path(file).lexically_relative(folder).generic_string();
   if (fs::file_size(file) > kLargestFilm)
     return fmt::format("<p><a href=\"{}\">{}</a></p>\n", UrlPath(path), MarkupText(path));
-  return fmt::format("<figure><video controls preload=\"metadata\" src=\"{}\"></video></figure>\n",
-                     DataUri("video/mp4", ReadInputFile(file, kLargestFilm)));
+  return fmt::format(
+      "<figure><video id=\"film-{}\" controls preload=\"metadata\" src=\"{}\" aria-label=\"Film of "
+      "the failure\"></video></figure>\n",
+      number, DataUri("video/mp4", ReadInputFile(file, kLargestFilm)));
 }
 
-std::string Regions(const Json& rare, const fs::path& folder) {
+// The regions; their likeliest failures, where they were driven again, also as drives of the page.
+std::string Regions(const Json& rare, const fs::path& folder, HtmlPage& page) {
   std::string html;
+  Json drives = Json::array(), maps = Json::array();
   std::size_t number = 0;
   for (const Json& region : rare.at("regions")) {
     ++number;
@@ -139,7 +145,16 @@ std::string Regions(const Json& rare, const fs::path& folder) {
     if (!likeliest.is_null()) {
       html += fmt::format("<p>The likeliest, {} standard deviations from the middle: {}.</p>\n",
                           FixedText(region.at("distance"), 2), MarkupText(Happening(likeliest)));
-      html += Film(folder, number, likeliest);
+      if (const fs::path film = FilmOf(folder, number, likeliest.at("set")); !film.empty()) {
+        html += Film(folder, film, drives.size());
+        const RunRecord record(film.parent_path());
+        RunRecord::Shown shown = record.Show(drives.size(), likeliest.at("command"),
+                                             fs::file_size(film) <= kLargestFilm, page);
+        shown.drive["name"] = fmt::format("{}. {}", number, Happening(likeliest));
+        drives.push_back(std::move(shown.drive));
+        shown.map["name"] = fmt::format("{}. of the likeliest failures", number);
+        if (shown.map.contains("map")) maps.push_back(std::move(shown.map));
+      }
       html += "<table><tbody>\n";
       for (const Json& json : likeliest.at("set")) {
         const std::string set = json;
@@ -155,7 +170,12 @@ std::string Regions(const Json& rare, const fs::path& folder) {
     }
     html += "</article>\n";
   }
-  return html.empty() ? "<p>None was found.</p>\n" : html;
+  if (drives.empty()) return html.empty() ? "<p>None was found.</p>\n" : html;
+  if (maps.size() != drives.size()) maps = Json::array();  // a map is a drive's of its number
+  page.data = Json({{"drives", std::move(drives)}, {"maps", std::move(maps)}})
+                  .dump(-1, ' ', false, Json::error_handler_t::replace);
+  page.shows_plots = true;
+  return TheaterHtml("", "") + html;
 }
 
 std::string Search(const Json& rare) {
@@ -197,8 +217,18 @@ std::string Search(const Json& rare) {
   return html;
 }
 
-std::string Verdict(const Json& rare) {
-  const std::string mode = rare.at("mode"), answer = rare.at("answer");
+// What drove, by which plan, where; empty: that cannot be read any more.
+std::string Subject(const fs::path& folder) {
+  try {
+    return SubjectOf(ScenarioFile(folder / "scenario.resolved.yaml").Read(std::nullopt), {}) + ": ";
+  } catch (const InputError&) {
+    return "";
+  }
+}
+
+std::string Verdict(const Json& rare, const std::string& subject) {
+  const std::string mode = subject + Words(rare.at("mode").get<std::string>()),
+                    answer = rare.at("answer");
   const Json& sure = rare.at("without_sampler");
   const std::string trials = CountText(rare.at("trials").get<std::int64_t>(), "drive");
   if (answer == "estimate")
@@ -214,7 +244,7 @@ std::string Verdict(const Json& rare) {
 
 RarePage Page(const Json& rare, const fs::path& folder) {
   RarePage page;
-  page.verdict = Verdict(rare);
+  page.verdict = Verdict(rare, Subject(folder));
   std::string gate, kind = "none";
   if (!rare.at("gate").is_null()) {
     gate =
@@ -229,7 +259,7 @@ RarePage Page(const Json& rare, const fs::path& folder) {
   html.verdict = "<div class=\"verdict " + MarkupText(kind) + "\"><p>" + MarkupText(page.verdict) +
                  "</p>" + gate + "</div>\n";
   html.sections = {{"numbers", "How rare", Numbers(rare)},
-                   {"failures", "The likeliest failures", Regions(rare, folder)},
+                   {"failures", "The likeliest failures", Regions(rare, folder, html)},
                    {"search", "How it was found", Search(rare)}};
   page.html = html.Html();
   return page;

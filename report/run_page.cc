@@ -16,13 +16,9 @@
 #include "report/films.h"
 #include "report/html.h"
 #include "report/html_page.h"
-#include "report/page_data.h"
-#include "report/replay.h"
-#include "report/verdict.h"
+#include "report/run_record.h"
 #include "run/episode/metrics.h"
 #include "run/episode/records.h"
-#include "run/scenario/plan_file.h"
-#include "run/scenario/scenario.h"
 
 namespace floorproof {
 namespace {
@@ -30,75 +26,36 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::uintmax_t kLargestTrace = 512u << 20;
-constexpr std::uintmax_t kLargestReplay = 16u << 20;
-
-// A file of the folder that is there and no link; empty: it is not.
-std::string ReadIfThere(const fs::path& file, std::uintmax_t most) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(fs::symlink_status(file, ignored)) || !WhyUnreadable(file, most).empty())
-    return "";
-  return ReadInputFile(file, most);
-}
-
 // result.json and what stands beside it.
 class Run {
  public:
   Run(const fs::path& folder, const std::string& named)
-      : folder_(folder), named_(named), file_(folder / "result.json") {
-    result_ = ReadResult(file_);
-    if (!result_.contains("outcome"))
-      throw InputError({file_.string(), 0}, "", "", "is not a result (a JSON object)");
-  }
+      : folder_(folder), named_(named), record_(folder) {}
 
   RunPage Make() try {
-    ReadSettings();
     RunPage page;
     page.verdict = Verdict();
     page.html = Page(page.verdict).Html();
     return page;
   } catch (const Json::exception&) {
-    throw InputError({file_.string(), 0}, "", "", "is damaged, or of another version");
+    throw InputError({(folder_ / "result.json").string(), 0}, "", "",
+                     "is damaged, or of another version");
   }
 
  private:
-  // The site and the plan, where they can still be read.
-  void ReadSettings() {
-    const fs::path settings = folder_ / "scenario.resolved.yaml";
-    settings_ = ReadIfThere(settings, kMaxResultBytes);
-    try {
-      const Scenario scenario = ReadScenario(settings, {});
-      map_ = scenario.site.map;
-      subject_ = SubjectOf(scenario, {});
-      estimates_ = scenario.estimator_name != "truth";
-      if (scenario.safety) mission_ = scenario.safety->mission.nodes[0].name;
-    } catch (const InputError& e) {
-      why_no_map_ = e.what();
-    }
-  }
-
-  std::string Text(const char* key) const { return result_.value(key, ""); }
-  std::optional<double> Metric(const char* name) const {
-    const Json& metrics = result_.at("metrics");
-    if (!metrics.is_object() || !metrics.contains(name) || !metrics.at(name).is_number())
-      return std::nullopt;
-    return metrics.at(name).get<double>();
-  }
-  const Json& Events() const { return result_.at("events"); }
+  std::string Text(const char* key) const { return record_.Text(key); }
+  std::optional<double> Metric(const char* name) const { return record_.Metric(name); }
+  const Json& Events() const { return record_.Events(); }
 
   // "stuck at 198.8 s: stood still for 7.6 s before 'plank' (step, 40 mm), at ..."
   static std::string EventText(const Json& event) {
-    return fmt::format("{} at {} s: {}", WhatOf(event), FixedText(event.at("t_s"), 1),
+    return fmt::format("{} at {} s: {}", RunRecord::WhatOf(event), FixedText(event.at("t_s"), 1),
                        event.value("text", ""));
-  }
-  // "roll over (tipped)"
-  static std::string WhatOf(const Json& event) {
-    const std::string kind = event.value("kind", "");
-    return Words(event.at("mode").get<std::string>()) + (kind.empty() ? "" : " (" + kind + ")");
   }
 
   std::string Verdict() const {
-    std::string text = (subject_.empty() ? "" : subject_ + ": ") + Words(Text("outcome"));
+    std::string text =
+        (record_.subject().empty() ? "" : record_.subject() + ": ") + Words(Text("outcome"));
     if (!Events().empty()) {
       text += ", " + EventText(Events().front());
       if (Events().size() > 1)
@@ -127,88 +84,24 @@ class Run {
                        MarkupText(verdict), facts);
   }
 
-  Json Failures() const {
-    Json failures = Json::array();
-    for (const Json& event : Events())
-      failures.push_back({{"t_s", event.at("t_s")},
-                          {"x", event.at("x_m")},
-                          {"y", event.at("y_m")},
-                          {"label", std::to_string(failures.size() + 1)},
-                          {"what", WhatOf(event)},
-                          {"text", event.value("text", "")},
-                          {"drive", 0}});
-    return failures;
-  }
-
-  // The data for the scripts, and what of it there is.
-  void AddData(HtmlPage& page) {
-    Json ways = Json::array(), plan = Json::array();
-    if (const fs::path file = folder_ / "plan.csv";
-        map_ && !ReadIfThere(file, kMaxResultBytes).empty()) {
-      try {
-        plan = WayData(ReadPlan(file, map_->frame));
-      } catch (const InputError&) {  // a damaged plan is not drawn; its own command says so
-      }
-    }
-    const std::string rows = ReadIfThere(folder_ / "trace.csv", kLargestTrace);
-    const TraceData trace = ReadTraceData(rows);
-    if (!rows.empty() && !trace.columns.is_object())
-      notes_ += "<p class=\"note\">trace.csv is damaged: what was driven is not shown.</p>";
-    if (!plan.empty())
-      ways.push_back({{"name", "plan"},
-                      {"points", plan},
-                      {"colour", "mark"},
-                      {"width", 1.4},
-                      {"dash", "dashed"}});
-    if (trace.way.is_array())
-      ways.push_back(
-          {{"name", "driven"}, {"points", trace.way}, {"colour", "driven"}, {"width", 1.8}});
-    Json drive = {{"name", Text("robot") + " on " + Text("site")},
-                  {"events", Failures()},
-                  {"plan", plan},
-                  {"end_s", Metric("duration_s").value_or(0)},
-                  {"map", 0},
-                  {"command", "floorproof replay " + ShellWord(named_) + " --video"}};
-    if (trace.columns.is_object()) drive["trace"] = trace.columns;
-    if (mission_)
-      drive["safety"] = SafetyData(ReadIfThere(folder_ / "safety.csv", kLargestTrace), *mission_);
-    if (std::string replay = ReadIfThere(folder_ / "replay.bin", kLargestReplay); !replay.empty()) {
-      page.blobs.emplace_back("replay-0", std::move(replay));
-      drive["replay"] = "replay-0";
-      page.shows_replay = true;
-    }
-    if (!film_.empty()) {
-      drive["film"] = "film-0";
-      AddFilmTimes(folder_, drive);
-    }
-    Json data = {{"drives", Json::array({std::move(drive)})}, {"maps", Json::array()}};
-    if (map_) {
-      PageJson map = {{"name", map_->name},
-                      {"map", MapData(*map_)},
-                      {"ways", std::move(ways)},
-                      {"failures", Failures()}};
-      if (const auto visits = ReadVisits(ReadIfThere(folder_ / "visits.pgm", kLargestTrace)))
-        map["visits"] = VisitsData(*visits);
-      data["maps"].push_back(std::move(map));
-    }
+  // The data for the scripts; returns where they show it.
+  std::string Theater(HtmlPage& page) const {
+    RunRecord::Shown shown = record_.Show(0, "floorproof replay " + ShellWord(named_) + " --video",
+                                          !film_.empty(), page);
+    Json data = {{"drives", Json::array({std::move(shown.drive)})}, {"maps", Json::array()}};
+    if (!shown.map.is_null()) data["maps"].push_back(std::move(shown.map));
     page.data = data.dump(-1, ' ', false, Json::error_handler_t::replace);
     page.shows_plots = true;
-  }
-
-  std::string Theater() const {
-    std::string still;
+    std::string still, note;
     if (const std::string png = ReadIfThere(folder_ / "heatmap_failures.png", kMaxResultBytes);
         !png.empty())
       still = PictureHtml({"The plan, what was driven, and where it failed", png});
-    if (!why_no_map_.empty())
-      still +=
-          "<p class=\"note\">The map cannot be read any more: " + MarkupText(why_no_map_) + "</p>";
-    still += notes_;
-    return "<div class=\"card theater\" id=\"theater\"><div><div id=\"map-view\" class=\"map\" "
-           "hidden></div><div class=\"replaced-by-map\">" +
-           still +
-           "</div></div><div id=\"drive-view\"></div><div id=\"drive-curves\" "
-           "class=\"across\"></div></div>\n";
+    if (!record_.why_no_map().empty())
+      note =
+          "<p class=\"note\">The map cannot be read any more: " + MarkupText(record_.why_no_map()) +
+          "</p>";
+    if (!shown.note.empty()) note += "<p class=\"note\">" + MarkupText(shown.note) + "</p>";
+    return TheaterHtml(still, note);
   }
 
   // Without its unit, which stands behind the value, unless that tells it from another.
@@ -229,7 +122,7 @@ class Run {
     for (const MetricColumn& column : kMetrics) {
       const auto value = Metric(std::string(column.name).c_str());
       if (!value || column.name.ends_with("_margin")) continue;  // those stand above
-      if (!estimates_ && column.name.find("estimate") != column.name.npos) continue;
+      if (!record_.estimates() && column.name.find("estimate") != column.name.npos) continue;
       const std::string name = NameWithin(column);
       const bool share = column.unit.empty() && column.help.find("share") != column.help.npos;
       const std::string text = share                ? PercentText(*value)
@@ -251,9 +144,10 @@ class Run {
 
   // Each detector's least distance from failing, as a share of its limit.
   std::string Margins() const {
-    if (!result_.contains("margins") || !result_.at("margins").is_object()) return "";
+    if (!record_.result().contains("margins") || !record_.result().at("margins").is_object())
+      return "";
     std::string rows;
-    for (const auto& [name, ignored] : result_.at("margins").items()) {
+    for (const auto& [name, ignored] : record_.result().at("margins").items()) {
       const auto share = Metric((name + "_margin").c_str());
       if (!share) continue;
       const double width = 100 * std::clamp(*share, 0.0, 1.0);
@@ -290,18 +184,18 @@ class Run {
 
   std::string Settings() const {
     std::string html = "<dl>";
-    const Json versions = result_.value("versions", Json::object());
+    const Json versions = record_.result().value("versions", Json::object());
     for (const auto& [name, version] : versions.items())
       if (version.is_string())
         html += "<dt>" + MarkupText(name) + "</dt><dd>" + MarkupText(version.get<std::string>()) +
                 "</dd>";
     html += fmt::format("<dt>seed</dt><dd>{}</dd></dl>\n",
-                        MarkupText(result_.value("seed", Json(0)).dump()));
-    if (const Json drawn = result_.value("drawn", Json::object()); !drawn.empty())
+                        MarkupText(record_.result().value("seed", Json(0)).dump()));
+    if (const Json drawn = record_.result().value("drawn", Json::object()); !drawn.empty())
       html += "<details><summary>What was drawn</summary><pre>" + MarkupText(drawn.dump(2)) +
               "</pre></details>\n";
     return html + "<details><summary>The scenario, with every default stated</summary>\n<pre>" +
-           MarkupText(settings_) + "</pre></details>\n";
+           MarkupText(record_.settings()) + "</pre></details>\n";
   }
 
   HtmlPage Page(const std::string& verdict) {
@@ -311,8 +205,7 @@ class Run {
     page.about = Words(Text("outcome"));
     page.verdict = VerdictBox(verdict);
     const std::string film = Film();
-    AddData(page);
-    page.sections.push_back({"drive", "The drive", Theater()});
+    page.sections.push_back({"drive", "The drive", Theater(page)});
     if (const std::string margins = Margins(); !margins.empty())
       page.sections.push_back({"margins", "How near it was to failing", margins});
     page.sections.push_back({"metrics", "What was measured", MetricsTable()});
@@ -332,12 +225,8 @@ class Run {
 
   const fs::path& folder_;
   const std::string& named_;
-  fs::path file_;
-  Json result_;
-  std::string settings_, subject_, why_no_map_, notes_, film_;
-  bool estimates_ = true;  // the robot does not simply know where it is
-  std::optional<HazardMap> map_;
-  std::optional<std::string> mission_;  // of a supervised drive; it may have no name
+  RunRecord record_;
+  std::string film_;
 };
 
 }  // namespace

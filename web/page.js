@@ -69,7 +69,7 @@ class Page {
     this.theater.hidden = this.mapRoom.hidden = false;
     for (const still of document.querySelectorAll('.replaced-by-map')) still.hidden = true;
     this.mapStage = make('div');
-    this.mapRoom.append(...choice('which-map', 'Variant', this.data.maps.map(({name}) => name), i => {
+    this.mapRoom.append(...choice('which-map', this.data.table ? 'Variant' : 'Map', this.data.maps.map(({name}) => name), i => {
       this.showMap(i);
       this.showWays();
     }), this.mapStage);

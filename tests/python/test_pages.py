@@ -65,6 +65,18 @@ time_limit_s: 40
 faults: [{type: weak_motor, wheel: wheel_left, onset_s: 10, period_s: 20, duty: 0.2}]
 safety: {react: true}
 """
+# What a search for rare failures says, whose likeliest failure was driven and filmed.
+RARE = {
+    "rare": 1, "name": "sill", "mode": "stuck", "answer": "estimate", "why": "",
+    "probability": 1e-4, "lower": 9e-5, "upper": 1.1e-4, "trials": 9000, "clean_drives_needed": 29956,
+    "without_sampler": {"lower": 8e-5, "upper": 2e-3, "nominal_draws": 1500, "nominal_failures": 0},
+    "coordinates": ["site.floor.friction"], "noise": False, "errors": 0, "gate": None,
+    "diagnostics": {"fresh_draws": 2000, "fresh_failures": 300, "effective_failures": 200, "largest_share": 0.02},
+    "pilots": [{"end": "failures", "levels": 4, "failures": 100, "probability": 1e-4}],
+    "regions": [{"share": 1.0, "draws": 300, "pilots": 1, "distance": 3.7, "likeliest": {
+        "set": [], "command": "floorproof run s.yaml", "outcome": "failure",
+        "events": [{"mode": "stuck", "hazard": "=sill <i>", "t_s": 10.8}]}}],
+}
 
 
 def floorproof(*arguments, statuses=(0, 1)):
@@ -101,7 +113,7 @@ class Pages(unittest.TestCase):
         cls.playwright.stop()
         shutil.rmtree(cls.folder)
 
-    def open(self, folder, width=1440, browser=None, **options):
+    def open(self, folder, width=1440, browser=None, name="report.html", **options):
         """The page, which fails the test for whatever it logs or asks for."""
         page = (browser or self.browser).new_page(viewport={"width": width, "height": 900}, **options)
         self.addCleanup(page.close)
@@ -109,7 +121,7 @@ class Pages(unittest.TestCase):
         page.on("pageerror", lambda e: self.faults.append(str(e)))
         page.on("request", lambda r: None if r.url.startswith(("file:", "data:", "blob:"))
                 else self.faults.append(r.url))
-        page.goto((folder / "report.html").as_uri(), wait_until="load")
+        page.goto((folder / name).as_uri(), wait_until="load")
         page.wait_for_selector("html.alive", state="attached", timeout=20000)
         return page
 
@@ -213,6 +225,37 @@ class Pages(unittest.TestCase):
                 self.assertGreater(self.time_of(page), 5)
                 self.assertGreater(page.evaluate(f"{film}.currentTime"), before + 1)
                 page.close()
+
+    def test_a_rare_failure_is_replayed(self):
+        folder = self.folder / "rare"
+        shutil.copytree(self.film_folder, folder / "likeliest/1")
+        (folder / "rare.json").write_text(json.dumps(RARE), encoding="utf-8")
+        floorproof("report", folder)
+        page = self.open(folder, name="rare.html")
+        self.assertIn("1 in 10,000 drives", page.locator(".verdict").inner_text())
+        self.assertEqual(page.locator("canvas").count(), 1)
+        page.locator("#tab-film").click()
+        self.assertTrue(page.locator("video").is_visible())
+        self.assertTrue(page.locator("#map-view svg").first.is_visible())
+        found = axe.Axe().run(page).response["violations"]
+        self.assertEqual([(v["id"], v["nodes"][0]["html"][:200]) for v in found], [])
+
+    def test_two_variants_are_compared_on_a_page(self):
+        scenario = self.folder / "two.yaml"
+        scenario.write_text(SCENARIO.replace("  plan.speed_mps: {uniform: [0.2, 0.3]}\n", "")
+                            + "matrix: {plan.speed_mps: [0.2, 0.3]}\n", encoding="utf-8")
+        folder = self.folder / "two"
+        floorproof("campaign", scenario, "-n", 12, "--no-films", "--out", folder)
+        floorproof("compare", f"{folder}:speed_mps=0.2", f"{folder}:speed_mps=0.3", "--page",
+                   folder / "report.html")
+        page = self.browser.new_page()  # no scripts
+        self.addCleanup(page.close)
+        page.goto((folder / "report.html").as_uri())
+        self.assertIn("speed_mps=0.3", page.locator("h1").inner_text())
+        self.assertIn("12 drives", page.locator(".verdict").inner_text())
+        self.assertTrue(page.locator("#pairs table").is_visible())
+        floorproof("compare", f"{folder}:speed_mps=0.2", f"{folder}:speed_mps=0.3", "--page",
+                   folder / "report.txt", statuses=(2,))
 
     def test_an_event_leads_to_the_moments_before_it(self):
         page = self.open(self.run_folder)
