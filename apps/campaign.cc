@@ -4,6 +4,7 @@
 #include "apps/campaign_line.h"
 #include "base/interrupt.h"
 #include "report/campaign_films.h"
+#include "report/campaign_report.h"
 #include "report/campaign_words.h"
 #include "run/campaign/drive_campaign.h"
 #include "run/campaign/summary_json.h"
@@ -30,16 +31,20 @@ int RunTheCampaign(const CampaignCommand& options, const Globals& globals) {
   CampaignLine progress(globals, file.variants());
   const CampaignOutcome outcome = DriveCampaign(file, request, folder, &progress);
   progress.Clear();
-  const char* missing = "dependence.csv, failing_episodes.csv and the films";
+  const bool draws = !options.no_films && outcome.run.end != CampaignEnd::kInterrupted &&
+                     outcome.run.end != CampaignEnd::kTimeLimit;
+  const char* missing = "dependence.csv, failing_episodes.csv, films and page";
   try {
     globals.Result(SummaryJson(outcome.summary));
-    SayCampaign(outcome, folder, globals);
+    SayCampaign(outcome, folder, globals, draws && !request.shard);
     if (request.shard && !file.gate().IsNull())
       globals.Say("a shard: `merge` judges the gate of all");
     if (outcome.run.end == CampaignEnd::kInterrupted) throw Interruption();
-    missing = "films of the first failures";
-    if (!options.no_films && outcome.run.end != CampaignEnd::kTimeLimit)
-      FilmFirstFailures(file, outcome.store, folder, globals);
+    missing = "films of the first failures, and the page";
+    if (draws) FilmFirstFailures(file, outcome.store, folder, globals);
+    missing = "the page";
+    if (draws && !request.shard)
+      globals.SayFact("Page", WriteCampaignReport(folder, folder.string(), globals).page.string());
   } catch (const std::runtime_error& e) {
     throw InternalError(std::string(e.what()) + "; missing: " + missing);
   }
@@ -65,8 +70,9 @@ void AddCampaign(CommandLine& line, const Globals& globals, int& status) {
                "With --resume: drive again what ended in an error");
   command.Flag("--fail-fast", options->fail_fast, "End at the first episode that fails (status 1)");
   command.Number("--time-limit", options->time_limit_s,
-                 "Seconds of wall time; nothing is filmed then", 0.001, 1e9);
-  command.Flag("--no-films", options->no_films, "Do not film the first failure of each mode");
+                 "Seconds of wall time; nothing is drawn then", 0.001, 1e9);
+  command.Flag("--no-films", options->no_films,
+               "Draw nothing: no film of each mode's first failure, no page");
   command.Flag("--no-replays", options->no_replays,
                "Do not keep the replays of failing episodes for the page (100 a variant)");
   command.OnRun([options, &globals, &status] { status = RunTheCampaign(*options, globals); });

@@ -29,7 +29,7 @@ Tone ToneOf(GateVerdict verdict) {
 }  // namespace
 
 void SayCampaign(const CampaignOutcome& outcome, const std::filesystem::path& folder,
-                 const Console& console) {
+                 const Console& console, bool page_follows) {
   const CampaignSummary& summary = outcome.summary;
   const bool several = summary.variants.size() > 1;
   console.Say(std::string(WhyEnded(outcome.run.end)));
@@ -57,7 +57,7 @@ void SayCampaign(const CampaignOutcome& outcome, const std::filesystem::path& fo
       facts.Add({"Gate",
                  {(several ? variant.variant + ": " : "") + GateText(*summary.gate, variant),
                   ToneOf(variant.report.verdict)}});
-  if (failing > 0 || several)
+  if (!page_follows && (failing > 0 || several))
     facts.Add({"Page", "`floorproof report " + ShellWord(folder.string()) + "` makes one"});
   facts.Add({"Results", folder.string()});
   console.Say(facts);

@@ -11,9 +11,9 @@ namespace floorproof {
 
 // Says the outcomes and rates, what they depend on (all of it into dependence.csv), some of the
 // failing episodes (all of them into failing_episodes.csv), what the gate says, and where the files
-// are.
+// are. `page_follows`: the page is written next, and nobody needs to be told how.
 void SayCampaign(const CampaignOutcome& outcome, const std::filesystem::path& folder,
-                 const Console& console);
+                 const Console& console, bool page_follows = false);
 
 // Errors first, then an early end at a failure, then the gate.
 int CampaignExitStatus(const CampaignOutcome& outcome);
