@@ -29,7 +29,7 @@ int RunTheCampaign(const CampaignCommand& options, const Globals& globals) {
   const ScenarioFile file(options.scenario, OverridesOf(globals, options));
   const fs::path folder = CampaignFolder(options.out, file.file(), file.name());
   CampaignLine progress(globals, file.variants());
-  const CampaignOutcome outcome = DriveCampaign(file, request, folder, &progress);
+  CampaignOutcome outcome = DriveCampaign(file, request, folder, &progress);
   progress.Clear();
   const bool draws = !options.no_films && outcome.run.end != CampaignEnd::kInterrupted &&
                      outcome.run.end != CampaignEnd::kTimeLimit;
@@ -43,8 +43,12 @@ int RunTheCampaign(const CampaignCommand& options, const Globals& globals) {
     missing = "films of the first failures, and the page";
     if (draws) FilmFirstFailures(file, outcome.store, folder, globals);
     missing = "the page";
-    if (draws && !request.shard)
+    if (draws && !request.shard) {
+      // The page is made from what is recorded alone, which is let go of for it.
+      outcome.folder.reset();
+      { const CampaignStore whole = std::move(outcome.store); }
       globals.SayFact("Page", WriteCampaignReport(folder, folder.string(), globals).page.string());
+    }
   } catch (const std::runtime_error& e) {
     throw InternalError(std::string(e.what()) + "; missing: " + missing);
   }

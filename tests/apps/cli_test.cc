@@ -285,6 +285,10 @@ TEST_F(Cli, RunsAndCampaignsKeepApart) {
     EXPECT_EQ(dut.status, 0) << command << dut.err;
     EXPECT_THAT(dut.out, HasSubstr("  Results             " + out + "\n")) << command;
     EXPECT_TRUE(fs::exists(folder_ / out / "scenario.resolved.yaml")) << command;
+    if (command.starts_with("campaign")) {
+      EXPECT_THAT(dut.out, HasSubstr("  Page                " + out + "/report.html\n"));
+      EXPECT_THAT(Slurp(folder_ / out / "files.sha256"), HasSubstr("  report.html\n"));
+    }
   }
   const std::string settings = Slurp(folder_ / "out/wet/scenario.resolved.yaml");
   for (const std::string command : {"run", "plan"}) {
