@@ -64,7 +64,7 @@ fs::path CampaignFolder(const std::string& out, const fs::path& scenario, const 
 
 void SayDrawn(const Scenario& scenario, const Globals& globals) {
   if (!scenario.drawn.empty())
-    globals.Say("drawn by `randomise`, whatever else is written: " + DrawnText(scenario.drawn));
+    globals.SayFact("Drawn", DrawnText(scenario.drawn) + "; whatever else the file says");
 }
 
 int Cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }

@@ -13,7 +13,7 @@
 #include "base/input_file.h"
 #include "base/key_name.h"
 #include "base/quantity.h"
-#include "report/drive_marks.h"
+#include "env/core/failure_text.h"
 #include "report/failing_episodes.h"
 #include "report/page_data.h"
 #include "run/campaign/replay_shelf.h"
@@ -170,7 +170,7 @@ class Gatherer {
         PageJson place = EventOf(failing, i);
         place["text"] =
             fmt::format("episode {}: {} at {} s{}", failing.row.episode,
-                        FailureText(failing.events[i]), FixedText(failing.events[i].t_s, 1),
+                        FailureName(failing.events[i]), FixedText(failing.events[i].t_s, 1),
                         failing.events[i].hazard.empty() ? "" : ", " + failing.events[i].hazard);
         place["drive"] = DriveOf({variant, failing.row.episode});
         place["row"] = failing.number;

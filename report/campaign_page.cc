@@ -11,9 +11,9 @@
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/quantity.h"
+#include "env/core/failure_text.h"
 #include "report/campaign_data.h"
 #include "report/drawing_progress.h"
-#include "report/drive_marks.h"
 #include "report/failing_episodes.h"
 #include "report/films.h"
 #include "report/page_data.h"
@@ -90,7 +90,7 @@ class Rows {
     for (std::size_t i = 0; i < events.size(); ++i)
       places.push_back({{events[i].x_m, events[i].y_m},
                         i == 0 ? fmt::format("{}", episode) : fmt::format("{}.{}", episode, i + 1),
-                        FailureText(events[i])});
+                        FailureName(events[i])});
   }
 
   Report& report_;

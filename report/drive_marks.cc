@@ -5,21 +5,16 @@
 
 #include <algorithm>
 
-namespace floorproof {
+#include "env/core/failure_text.h"
 
-std::string FailureText(const Event& event) {
-  std::string text = std::string(Name(event.mode));
-  if (!event.kind.empty()) text += " (" + event.kind + ")";
-  std::ranges::replace(text, '_', ' ');
-  return text;
-}
+namespace floorproof {
 
 std::vector<HeatFailure> ListedFailures(const std::vector<Event>& events) {
   std::vector<HeatFailure> failures;
   for (const Event& event : events)
     failures.push_back({{event.x_m, event.y_m},
                         std::to_string(failures.size() + 1),
-                        fmt::format("{}, {:.1f} s", FailureText(event), event.t_s)});
+                        fmt::format("{}, {:.1f} s", FailureName(event), event.t_s)});
   return failures;
 }
 

@@ -10,8 +10,6 @@
 
 namespace floorproof {
 
-// A failure in words: the mode, and its kind.
-std::string FailureText(const Event& event);
 // The place of event i, counted from 1, of result.json's list and the terminal's.
 std::vector<HeatFailure> ListedFailures(const std::vector<Event>& events);
 // What was driven, in as few points as show it to 5 mm; a new stretch where the robot was carried.

@@ -8,7 +8,7 @@
 #include "base/quantity.h"
 #include "base/shell_word.h"
 #include "base/words.h"
-#include "report/drive_marks.h"
+#include "env/core/failure_text.h"
 #include "run/campaign/episodes_csv.h"
 #include "run/campaign/replay_shelf.h"
 
@@ -16,7 +16,7 @@ namespace floorproof {
 
 std::string WhatFailed(const EpisodeRow& row, const std::vector<Event>& events) {
   if (events.empty()) return Words(row.outcome);
-  return FailureText(events.front());
+  return FailureName(events.front());
 }
 
 ReportEpisode FailingEpisode(const EpisodeRow& row, const std::vector<Event>& events,

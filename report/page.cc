@@ -107,7 +107,8 @@ std::string Episodes(const Report& report) {
   if (report.episodes.empty()) return "<p>No episode failed.</p>\n";
   std::string html =
       "<p class=\"note\">Each command drives the recorded episode again, exactly, and films "
-      "it.</p>\n<div id=\"episode-table\"></div><div class=\"card replaced-by-table\"><table "
+      "it; it names folders as they were named when this page was made, from the folder where that "
+      "was.</p>\n<div id=\"episode-table\"></div><div class=\"card replaced-by-table\"><table "
       "class=\"list\"><thead><tr><th scope=\"col\">Episode</th>"
       "<th scope=\"col\">Failure</th><th scope=\"col\">Hazard, or reason</th><th scope=\"col\" "
       "class=\"num\">Time</th><th scope=\"col\" class=\"num\">Place</th><th scope=\"col\">Film it"

@@ -58,7 +58,8 @@ std::optional<double> RunRecord::Metric(const char* name) const {
 
 std::string RunRecord::WhatOf(const Json& event) {
   const std::string kind = event.value("kind", "");
-  return Words(event.at("mode").get<std::string>()) + (kind.empty() ? "" : " (" + kind + ")");
+  return Words(event.at("mode").get<std::string>()) +
+         (kind.empty() ? "" : " (" + Words(kind) + ")");
 }
 
 PageJson RunRecord::Failures(std::size_t number) const {

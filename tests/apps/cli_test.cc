@@ -449,10 +449,9 @@ TEST_F(Cli, InitWritesARunnableScenarioAndLeavesExistingFiles) {
   for (const std::string command : {"run", "plan"}) {
     const std::string set = command + " mine3/scenario.yaml --out d --set drive=none";
     ASSERT_EQ(Run("init map.yaml --out mine3").status, 0);
-    EXPECT_THAT(Run(set).out, HasSubstr("drawn by `randomise`, whatever else is written: "
-                                        "site.floor.friction 0."));
+    EXPECT_THAT(Run(set).out, HasSubstr("  Drawn               site.floor.friction 0."));
     EXPECT_THAT(Run(set + " --set site.floor.friction=0.7").out,
-                ::testing::AllOf(HasSubstr("drawn by"), Not(HasSubstr("site.floor.friction"))));
+                ::testing::AllOf(HasSubstr("  Drawn  "), Not(HasSubstr("site.floor.friction"))));
   }
 
   // A map is found from the current folder, and without draws nothing is said of any.
