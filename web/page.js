@@ -155,6 +155,20 @@ for (const figure of document.querySelectorAll('.frames figure')) {
   figure.append(button);
 }
 
+// What a table says, row by row; drawn bars say nothing more.
+function textOf(table) {
+  return [...table.rows].map(row => [...row.cells].filter(cell => !cell.classList.contains('plotted'))
+      .map(cell => cell.innerText.trim().replace(/\s*\n\s*/g, '; ')));
+}
+for (const table of document.querySelectorAll('section table:not(.list)')) {
+  const section = table.closest('section');
+  const all = [...section.querySelectorAll('table')];
+  const name = all.length > 1 ? `${section.id}_${all.indexOf(table) + 1}.csv` : `${section.id}.csv`;
+  const button = csvButton(name, () => textOf(table), 'CSV');
+  button.setAttribute('aria-label', `CSV of this table: ${name}`);
+  table.after(make('p', {class: 'only-screen saves'}, button));
+}
+
 const text = document.getElementById('page-data');
 if (text) {
   new Page(JSON.parse(text.textContent));

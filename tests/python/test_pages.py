@@ -330,6 +330,15 @@ class Pages(unittest.TestCase):
         for row in rows[1:]:
             self.assertFalse(any(cell.startswith(("=", "@")) for cell in row.split(",")), row)
 
+    def test_each_table_is_saved_as_it_is_read(self):
+        page = self.open(self.campaign_folder)
+        with page.expect_download() as download:
+            page.locator("#rates .saves button").first.click()
+        rows = pathlib.Path(download.value.path()).read_text(encoding="utf-8").splitlines()
+        self.assertEqual(rows[0], "Failure,Episodes,Rate,95 % interval")
+        shown = page.locator("#rates table").first.locator("tbody tr").first.locator("td").first.inner_text()
+        self.assertEqual(rows[1].split(",")[:2], ["any failure", shown])
+
     def test_a_name_that_is_a_script_does_nothing(self):
         page = self.open(self.campaign_folder)
         self.assertNotEqual(page.title(), "taken")
