@@ -410,7 +410,7 @@ void RemoveEpisodeFiles(const ResultFolder& folder) {
 void WriteEpisodeFiles(const Scenario& s, const PlanResult& plan, const EpisodeRecord& record,
                        const std::filesystem::path& folder) {
   WriteFileWhole(folder / "trace.csv", TraceCsv(record, s.robot.spec));
-  WriteFileWhole(folder / "visits.pgm", VisitsPgm(record));
+  if (!record.passes.cells.empty()) WriteFileWhole(folder / "visits.pgm", VisitsPgm(record));
   if (s.episode.drive == "physics")
     WriteFileWhole(folder / "encounters.csv", EncountersCsv(record.encounters));
   if (s.safety) WriteFileWhole(folder / "safety.csv", SafetyCsv(record));
