@@ -34,8 +34,7 @@ void FilmMethod(const RobotSuite& robot, const RobotModel& model, const MethodRe
   }
   Scenario scenario = ReadScenario(into / kRunFile, options.overrides);
   const Console silent{.quiet = true};
-  const DriveResult drive =
-      DriveAndFilm(scenario, into, {.video = true, .write_records = false}, silent);
+  const DriveResult drive = DriveAndFilm(scenario, into, {.video = true}, silent);
   if (drive.not_written) std::rethrow_exception(drive.not_written);
   const MethodVerdict now =
       entry->make()->Judge({result.method, model, run.draw, run.size}, drive.record);

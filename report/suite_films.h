@@ -8,8 +8,9 @@
 
 namespace floorproof {
 
-// Writes the run that the result shows into FilmFolder, as a scenario with its plan, and films it
-// there. Throws InternalError when it does not end as it did: a film must show what was judged.
+// Writes the run that the result shows into FilmFolder, as a scenario with its plan, drives it
+// there as `run` would, and films it. Throws InternalError when it does not end as it did: a film
+// must show what was judged.
 void FilmMethod(const RobotSuite& robot, const RobotModel& model, const MethodResult& result,
                 const SuiteOptions& options, const std::filesystem::path& folder);
 

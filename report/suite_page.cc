@@ -5,11 +5,14 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "base/input_file.h"
 #include "base/params.h"
 #include "base/quantity.h"
+#include "base/shell_word.h"
 #include "report/html.h"
 #include "report/html_page.h"
+#include "report/run_record.h"
 #include "stats/demonstration.h"
 
 namespace floorproof {
@@ -109,7 +112,10 @@ std::string VerdictBox(const SuiteReport& report) {
       "</li>";
   return fmt::format(
       "<div class=\"verdict {}\"><p>{}</p><ul>{}</ul></div>\n", good ? "passed" : "failed",
-      good ? "Every method is as it must be." : "Not every method is as it must be.", list);
+      !good                     ? "Not every method is as it must be."
+      : report.required.empty() ? "Every method has its result; no size was required."
+                                : "Every method is as it must be.",
+      list);
 }
 
 std::string ResultCell(const SuiteReport& report, const MethodResult* result, double most) {
@@ -154,9 +160,10 @@ std::string Table(const SuiteReport& report) {
   return html + "</tbody></table></div>\n";
 }
 
+// The runs that were filmed: their films among the methods, and each as a drive of the page.
 class FilmShelf {
  public:
-  explicit FilmShelf(fs::path folder) : folder_(std::move(folder)) {}
+  FilmShelf(fs::path folder, HtmlPage& page) : folder_(std::move(folder)), page_(page) {}
 
   // Empty where there is none.
   std::string Film(const RobotSuite& robot, const MethodResult& result) {
@@ -170,22 +177,60 @@ class FilmShelf {
         result.sizes ? fmt::format(" at {} {}", NumberText(run.size), result.sizes->unit) : "",
         run.verdict.passed ? "passed" : run.verdict.why);
     std::string film;
-    if (size <= kLargestFilm && embedded_ + size <= kAllFilms) {
+    const bool embedded = size <= kLargestFilm && embedded_ + size <= kAllFilms;
+    const std::size_t number = drives_.size();
+    AddDrive(file.parent_path(), path.parent_path(), caption, embedded);
+    if (embedded) {
       embedded_ += size;
-      film = fmt::format("<video controls preload=\"metadata\" src=\"{}\"></video>",
-                         DataUri("video/mp4", ReadInputFile(file, kLargestFilm)));
+      film = fmt::format(
+          "<video id=\"film-{}\" controls preload=\"metadata\" src=\"{}\" "
+          "aria-label=\"{}\"></video>",
+          number, DataUri("video/mp4", ReadInputFile(file, kLargestFilm)),
+          MarkupText("Film. " + caption));
     } else {
       linked_ += (linked_.empty() ? "" : ", ") + path.generic_string();
       film = fmt::format("<a href=\"{}\">{}</a>", UrlPath(path.generic_string()),
                          MarkupText(path.generic_string()));
     }
-    return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", film,
+    return fmt::format("<figure><div>{}</div><figcaption>{}</figcaption></figure>\n", film,
                        MarkupText(caption));
   }
   const std::string& linked() const { return linked_; }
 
+  // For the page's scripts, once all films are in it. Returns where they show them.
+  std::string Theater() {
+    if (drives_.empty()) return "";
+    page_.data = PageJson({{"drives", std::move(drives_)}, {"maps", std::move(maps_)}})
+                     .dump(-1, ' ', false, PageJson::error_handler_t::replace);
+    page_.shows_plots = true;
+    return TheaterHtml("", "");
+  }
+
  private:
+  void AddDrive(const fs::path& folder, const fs::path& named, const std::string& caption,
+                bool filmed) {
+    try {
+      RunRecord::Shown shown = RunRecord(folder).Show(
+          drives_.size(),
+          "floorproof run " + ShellWord((named / kRunFile).generic_string()) + " --video", filmed,
+          page_);
+      shown.drive["name"] = caption;
+      if (shown.map.is_null())
+        shown.drive.erase("map");
+      else
+        shown.drive["map"] = maps_.size(), shown.map["name"] = caption,
+        maps_.push_back(std::move(shown.map));
+      drives_.push_back(std::move(shown.drive));
+    } catch (const InputError&) {
+      // Without its record there is its film alone.
+      drives_.push_back({{"name", caption}, {"events", PageJson::array()}});
+      if (filmed) drives_.back()["film"] = fmt::format("film-{}", drives_.size() - 1);
+    }
+  }
+
   fs::path folder_;
+  HtmlPage& page_;
+  PageJson drives_ = PageJson::array(), maps_ = PageJson::array();
   std::uintmax_t embedded_ = 0;
   std::string linked_;
 };
@@ -225,7 +270,8 @@ std::string HowText(const SuiteReport& report) {
 }  // namespace
 
 std::string SuitePage(const SuiteReport& report, const fs::path& folder) {
-  FilmShelf films(folder);
+  HtmlPage page;
+  FilmShelf films(folder, page);
   std::string cards;
   for (const auto* entry : Done(report)) cards += MethodCard(report, *entry, films);
   const std::string stands =
@@ -234,13 +280,13 @@ std::string SuitePage(const SuiteReport& report, const fs::path& folder) {
           : "Everything this page shows stands in this one file, except films too large for it, "
             "which lie beside it: " +
                 films.linked() + ".";
-  HtmlPage page;
+  const std::string theater = films.Theater();
   page.over = "Floorproof suite";
   page.title = RobotNames(report, " and ");
   page.about = "test methods";
   page.extra_style = kSuiteStyle;
   page.verdict = VerdictBox(report);
-  page.sections = {{"results", "Results", Table(report)},
+  page.sections = {{"results", "Results", Table(report) + theater},
                    {"methods", "Methods", cards},
                    {"how", "How it was tested", HowText(report)}};
   page.footer = "<p class=\"note\">" + MarkupText(stands) + "</p>";

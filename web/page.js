@@ -69,7 +69,9 @@ class Page {
     this.theater.hidden = this.mapRoom.hidden = false;
     for (const still of document.querySelectorAll('.replaced-by-map')) still.hidden = true;
     this.mapStage = make('div');
-    this.mapRoom.append(...choice('which-map', this.data.table ? 'Variant' : 'Map', this.data.maps.map(({name}) => name), i => {
+    // Elsewhere each drive has a map of its own, which comes with it.
+    const variants = this.data.table ? this.data.maps.map(({name}) => name) : [];
+    this.mapRoom.append(...choice('which-map', 'Variant', variants, i => {
       this.showMap(i);
       this.showWays();
     }), this.mapStage);
