@@ -12,6 +12,7 @@
 #include "base/input_files.h"
 #include "run/campaign/campaign_about.h"
 #include "run/campaign/campaign_files.h"
+#include "run/campaign/replay_shelf.h"
 
 namespace floorproof {
 namespace {
@@ -135,6 +136,30 @@ void RefuseCampaign(const fs::path& folder) {
 
 }  // namespace
 
+namespace {
+
+// Replays go with their episodes: as many as one campaign would have kept.
+void CarryReplays(const std::vector<CampaignStore>& from, const std::vector<std::string>& shards,
+                  const std::vector<Variant>& variants, const fs::path& out) {
+  constexpr std::uintmax_t kLargest = 16u << 20;
+  ReplayShelf shelf(out);
+  for (std::size_t i = 0; i < from.size(); ++i)
+    for (const Variant& variant : variants)
+      from[i].ForEach(variant.name, [&](const EpisodeRow& row) {
+        if (!IsListed(row)) return;
+        const fs::path file = EpisodeFolder(shards[i], row.variant, row.episode) / "replay.bin";
+        std::error_code ignored;
+        if (!fs::is_regular_file(fs::symlink_status(file, ignored)) ||
+            !WhyUnreadable(file, kLargest).empty())
+          return;
+        EpisodeRow carried = row;
+        carried.replay = ReadInputFile(file, kLargest);
+        shelf.Take(carried);
+      });
+}
+
+}  // namespace
+
 MergeOutcome MergeCampaigns(const std::vector<std::string>& shards, const fs::path& out) {
   if (shards.empty()) throw InputError({}, "shards", "", "there are none to merge");
   const fs::path file = out / "campaign.sqlite";
@@ -163,6 +188,7 @@ MergeOutcome MergeCampaigns(const std::vector<std::string>& shards, const fs::pa
   CampaignStore store = CampaignStore::Create(file, from.front().about());
   std::uint64_t end = MergeRows(from, shards, variants, store);
   for (const CampaignStore& shard : from) end = std::max(end, shard.asked());
+  CarryReplays(from, shards, variants, out);
   store.SetAsked(end);
   std::string paths_note = WriteSettings(scenario.file(), out);
   CampaignOptions options;

@@ -38,6 +38,24 @@ TEST_F(MergeTest, ShardsGiveTheWholeCampaign) {
   ExpectSameResults("whole", "joined");
 }
 
+TEST_F(MergeTest, ReplaysOfFailingEpisodesComeAlong) {
+  Write("success: {min_coverage: 1}\n");  // which none reaches
+  Shards(5, {{"0:3", "a"}, {"3:5", "b"}});
+  ASSERT_EQ(Campaign("-n 5 --out whole").status, 0);
+  fs::remove(folder_ / "a/episodes/default/1/replay.bin");
+  std::ofstream(folder_ / "secret") << "mine";
+  fs::remove(folder_ / "b/episodes/default/4/replay.bin");
+  fs::create_symlink(folder_ / "secret", folder_ / "b/episodes/default/4/replay.bin");
+  ASSERT_EQ(Run("merge b a --out joined").status, 0);
+  for (const char* episode : {"0", "2", "3"}) {
+    const std::string file = std::string("episodes/default/") + episode + "/replay.bin";
+    EXPECT_GT(fs::file_size(folder_ / "joined" / file), 100u);
+    EXPECT_TRUE(Slurp(folder_ / "joined" / file) == Slurp(folder_ / "whole" / file)) << episode;
+  }
+  for (const char* episode : {"1", "4"})  // lost, and not the shard's own
+    EXPECT_FALSE(fs::exists(folder_ / "joined/episodes/default" / episode / "replay.bin"));
+}
+
 TEST_F(MergeTest, ShardsMayHaveBeenMoved) {
   Shards(6, {{"0:3", "a"}, {"3:6", "b"}});
   ASSERT_EQ(Campaign("-n 6 --out whole").status, 0);
