@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "apps/campaign_line.h"
 #include "base/interrupt.h"
 #include "report/campaign_films.h"

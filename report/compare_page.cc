@@ -54,8 +54,9 @@ std::string ComparePage(const ComparedSide& a, const ComparedSide& b,
     rates += "<article class=\"card\"><h3>" + MarkupText(variant.name) + "</h3>\n" +
              VariantRates(report, variant) + "</article>\n";
   page.sections.push_back({"rates", "Failure rates", rates});
-  page.footer = "<p class=\"note\">Rates are of all episodes of each, pairs of those that both "
-                "have. The campaigns' own pages show where and how they failed.</p>";
+  page.footer =
+      "<p class=\"note\">Rates are of all episodes of each, pairs of those that both "
+      "have. The campaigns' own pages show where and how they failed.</p>";
   return page.Html();
 }
 

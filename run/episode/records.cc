@@ -370,7 +370,8 @@ ResultNames EpisodeResults() {
   return {"episode", [](std::string_view name) {
             return IsPlanFile(name) || IsFilm(name) || name == "result.json" ||
                    name == "predict.json" || name == "trace.csv" || name == "encounters.csv" ||
-                   name == "safety.csv" || name == "visits.pgm" || name == "replay.bin" || name == "report.html" ||
+                   name == "safety.csv" || name == "visits.pgm" || name == "replay.bin" ||
+                   name == "report.html" ||
                    (name.ends_with(".png") &&
                     (name.starts_with("heatmap_") || name.starts_with("plot_")));
           }};

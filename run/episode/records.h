@@ -47,8 +47,8 @@ nlohmann::ordered_json WritePlanFiles(const Scenario& scenario, const PlanResult
 // Removes what an earlier episode left beside its plan: result.json first, which says that the rest
 // is whole.
 void RemoveEpisodeFiles(const ResultFolder& folder);
-// trace.csv, visits.pgm, encounters.csv, of an audit plan.json anew, and, unless the episode was interrupted,
-// result.json (last: it says the rest is whole).
+// trace.csv, visits.pgm, encounters.csv, of an audit plan.json anew, and, unless the episode was
+// interrupted, result.json (last: it says the rest is whole).
 void WriteEpisodeFiles(const Scenario& scenario, const PlanResult& plan,
                        const EpisodeRecord& record, const std::filesystem::path& folder);
 

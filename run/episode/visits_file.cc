@@ -20,14 +20,14 @@ std::string VisitsPgm(const EpisodeRecord& record) {
   const Grid<std::uint8_t>& passes = record.passes;
   std::string pgm(kHead);
   pgm += fmt::format("cell_m {:.17g} x_m {:.17g} y_m {:.17g} yaw_rad {:.17g}\n{} {}\n255\n",
-                     frame.cell_m, frame.X_WG.x_m, frame.X_WG.y_m, frame.X_WG.yaw_rad,
-                     passes.width, passes.height);
+                     frame.cell_m, frame.X_WG.x_m, frame.X_WG.y_m, frame.X_WG.yaw_rad, passes.width,
+                     passes.height);
   pgm.reserve(pgm.size() + passes.cells.size());
   for (int iy = passes.height - 1; iy >= 0; --iy)
     for (int ix = 0; ix < passes.width; ++ix)
-      pgm += static_cast<char>(record.sweepable(ix, iy)
-                                   ? std::min<std::uint8_t>(passes(ix, iy), 254)
-                                   : Visits::kOutOfReach);
+      pgm +=
+          static_cast<char>(record.sweepable(ix, iy) ? std::min<std::uint8_t>(passes(ix, iy), 254)
+                                                     : Visits::kOutOfReach);
   return pgm;
 }
 
@@ -42,12 +42,13 @@ std::optional<Visits> ReadVisits(std::string_view bytes) {
                   &read) != 6 ||
       read == 0)
     return std::nullopt;
-  const std::string_view cells = bytes.substr(
-      std::min(bytes.size(), kHead.size() + static_cast<std::size_t>(read) + 1));
+  const std::string_view cells =
+      bytes.substr(std::min(bytes.size(), kHead.size() + static_cast<std::size_t>(read) + 1));
   constexpr int kMost = 1 << 20;
   if (width < 1 || height < 1 || width > kMost || height > kMost ||
       cells.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height) ||
-      !(visits.frame.cell_m > 0) || !std::isfinite(visits.frame.cell_m + X_WG.x_m + X_WG.y_m + X_WG.yaw_rad))
+      !(visits.frame.cell_m > 0) ||
+      !std::isfinite(visits.frame.cell_m + X_WG.x_m + X_WG.y_m + X_WG.yaw_rad))
     return std::nullopt;
   visits.frame.width = width;
   visits.frame.height = height;
