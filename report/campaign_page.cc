@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "base/error.h"
@@ -30,6 +32,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxEpisodes = 300;  // listed on the page, of all variants
+// A campaign may have hundreds of variants: plans, say, each on a floor of its own. Nobody looks at
+// so many maps, nor at how each differs from the first.
+constexpr std::size_t kMaxMaps = 24, kMaxPairs = 24;
 
 // What `read` returns, of a row. Throws InputError naming the database where its texts are damaged.
 template <class Read>
@@ -157,6 +162,18 @@ std::optional<HeatValues> RatesOnFloor(const VariantSummary& variant) {
   return heat;
 }
 
+// Which variants' maps are shown: those that failed most.
+std::vector<bool> WithMap(const std::vector<VariantSummary>& variants) {
+  std::vector<std::size_t> order(variants.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater(), [&](std::size_t v) {
+    return variants[v].failures.empty() ? 0 : variants[v].failures.front().k;
+  });
+  std::vector<bool> with(variants.size());
+  for (std::size_t i = 0; i < std::min(kMaxMaps, order.size()); ++i) with[order[i]] = true;
+  return with;
+}
+
 void AddMaps(const fs::path& folder, const Rows& rows, const Console& console, Report& report) {
   std::optional<ScenarioFile> file;
   std::string why;
@@ -170,12 +187,17 @@ void AddMaps(const fs::path& folder, const Rows& rows, const Console& console, R
   }
   const auto& variants = report.summary.variants;
   report.maps.resize(variants.size());
+  const std::vector<bool> with_map = WithMap(variants);
   DrawingProgress progress(console, "drawing maps");
   for (std::size_t v = 0; v < variants.size(); ++v) {
     progress.Show(static_cast<int>(v), static_cast<int>(variants.size()));
     const std::string& name = variants[v].name;
     ReportMap& map = report.maps[v];
     const fs::path png = folder / PictureFile(name, v + 1);
+    if (!with_map[v]) {
+      map.left_out = true;
+      continue;
+    }
     // What was drawn while the site could be read still shows where.
     const auto keep = [&](const std::string& note) {
       map.note = note;
@@ -234,7 +256,8 @@ Report GatherReport(const fs::path& folder, const std::string& named, ResultFold
   Rows rows(report, named);
   for (const VariantSummary& variant : summary.variants) rows.Read(store, variant, folder);
   report.dependence = DependenceOf(store, summary);
-  for (std::size_t v = 1; v < summary.variants.size(); ++v)
+  for (std::size_t v = 1; v < summary.variants.size() && summary.variants.size() <= kMaxPairs + 1;
+       ++v)
     report.pairs.push_back(ShownPair(
         CompareVariants(store, summary.variants[0].name, store, summary.variants[v].name)));
   report.title = "campaign " + summary.campaign;

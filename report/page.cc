@@ -38,8 +38,13 @@ std::string Places(const Report& report) {
       "hidden></div><div id=\"drive-view\"></div><div id=\"drive-curves\" "
       "class=\"across\"></div></div>\n";
   const auto& variants = report.summary.variants;
+  std::size_t left_out = 0;
   for (std::size_t i = 0; i < variants.size(); ++i) {
     const ReportMap& map = report.maps.at(i);
+    if (map.left_out) {
+      ++left_out;
+      continue;
+    }
     const std::string rates = PlaceRates(report, variants[i]);
     // Where the map to click takes the picture's place, nothing is left of a card without rates.
     html += fmt::format(
@@ -57,6 +62,10 @@ std::string Places(const Report& report) {
       html += "<p class=\"note\">" + MarkupText(map.note) + "</p>\n";
     html += rates + "</div>\n";
   }
+  if (left_out > 0)
+    html += fmt::format(
+        "<p class=\"note\">Of {} the maps are left out: shown are those that failed most.</p>\n",
+        CountText(left_out, "variant"));
   return html;
 }
 
@@ -158,6 +167,10 @@ std::string ReportHtml(const Report& report) {
   page.sections.push_back({"rates", "Failure rates", Rates(report)});
   if (const std::string tables = DependenceTables(report); !tables.empty())
     page.sections.push_back({"dependence", "What it depends on", tables});
+  if (report.pairs.empty() && report.summary.variants.size() > 1)
+    page.sections.push_back({"pairs", "Paired comparison",
+                             "<p class=\"note\">Left out of so many variants: <code>floorproof "
+                             "compare</code> compares two of them.</p>\n"});
   if (!report.pairs.empty())
     page.sections.push_back(
         {"pairs", "Paired comparison",

@@ -19,9 +19,10 @@ namespace floorproof {
 
 // Where a variant's episodes failed.
 struct ReportMap {
-  std::string png{};   // empty: `note` says why
-  PageJson data{};     // MapData of the floor; null: there is none
-  std::string note{};  // also said below a picture
+  std::string png{};      // empty: `note` says why
+  PageJson data{};        // MapData of the floor; null: there is none
+  std::string note{};     // also said below a picture
+  bool left_out = false;  // of so many variants not all have one
 };
 
 // A difference of a metric, b - a, over so many pairs; ends may be infinite or NaN.

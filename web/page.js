@@ -162,13 +162,14 @@ function textOf(table) {
   return [...table.rows].map(row => [...row.cells].filter(cell => !cell.classList.contains('plotted'))
       .map(cell => cell.innerText.trim().replace(/\s*\n\s*/g, '; ')));
 }
-for (const table of document.querySelectorAll('section table:not(.list)')) {
-  const section = table.closest('section');
-  const all = [...section.querySelectorAll('table')];
-  const name = all.length > 1 ? `${section.id}_${all.indexOf(table) + 1}.csv` : `${section.id}.csv`;
-  const button = csvButton(name, () => textOf(table), 'CSV');
-  button.setAttribute('aria-label', `CSV of this table: ${name}`);
-  table.after(make('p', {class: 'only-screen saves'}, button));
+for (const section of document.querySelectorAll('section')) {
+  const tables = [...section.querySelectorAll('table:not(.list)')];
+  tables.forEach((table, i) => {
+    const name = tables.length > 1 ? `${section.id}_${i + 1}.csv` : `${section.id}.csv`;
+    const button = csvButton(name, () => textOf(table), 'CSV');
+    button.setAttribute('aria-label', `CSV of this table: ${name}`);
+    table.after(make('p', {class: 'only-screen saves'}, button));
+  });
 }
 
 const text = document.getElementById('page-data');

@@ -125,6 +125,17 @@ TEST(Report, SmallFilmsStandInThePageLargeOnesAreLinkedAndNamed) {
   EXPECT_THAT(ReportHtml(r), HasSubstr("complete in itself"));
 }
 
+// Of hundreds of variants a page with all maps would be hundreds of megabytes.
+TEST(Report, MapsThatAreLeftOutAreCounted) {
+  Report r;
+  r.summary.variants = {Variant("a", 1, 20), Variant("b", 0, 20), Variant("c", 0, 20)};
+  r.maps = {{.png = "png"}, {.left_out = true}, {.left_out = true}};
+  const std::string page = ReportHtml(r);
+  EXPECT_EQ(WhyUnbalanced(page), "");
+  EXPECT_THAT(page, HasSubstr("Of 2 variants the maps are left out"));
+  EXPECT_THAT(page, HasSubstr("Left out of so many variants: <code>floorproof compare</code>"));
+}
+
 TEST(Report, IntervalsAreDrawnOnOneAxisForAllVariants) {
   Report r;
   r.summary.variants = {Variant("a", 10, 100), Variant("b", 1, 100)};
