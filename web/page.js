@@ -86,7 +86,12 @@ class Page {
     this.pile = make('div', {class: 'pile', 'aria-live': 'polite'});
     this.mapStage.replaceChildren(room);
     this.map = addMapView(room, floor, ways, failures, those => this.chooseFailures(those));
-    this.mapStage.append(...layerChoice(layersOf(shown), this.map.showLayer), this.pile);
+    // The marks again, for who has no pointer.
+    const list = failures.length > 1
+        ? [make('p', {class: 'only-screen'}, make('button', {
+            type: 'button', class: 'small', onclick: () => this.listFailures(failures, ''),
+          }, `list the ${failures.length} failures`))] : [];
+    this.mapStage.append(...layerChoice(layersOf(shown), this.map.showLayer), ...list, this.pile);
     if (note) this.mapStage.append(make('p', {class: 'note'}, note));
     const select = document.getElementById('which-map');
     if (select) select.value = String(index);
@@ -98,11 +103,14 @@ class Page {
       this.showFailure(failures[0]);
       return;
     }
-    this.pile.append(make('p', {class: 'note'}, `${failures.length} failures here:`),
-        make('ul', {}, ...failures.map(failure => make('li', {}, make('button', {
+    this.listFailures(failures, `${failures.length} failures here:`);
+    this.pile.scrollIntoView({block: 'nearest'});
+  }
+  listFailures(failures, heading) {
+    this.pile.replaceChildren(...(heading ? [make('p', {class: 'note'}, heading)] : []),
+        make('ul', {tabindex: 0, 'aria-label': 'Failures'}, ...failures.map(failure => make('li', {}, make('button', {
           type: 'button', class: 'link', onclick: () => this.showFailure(failure),
         }, failure.text)))));
-    this.pile.scrollIntoView({block: 'nearest'});
   }
   // Its moment, if it was recorded; and its row.
   showFailure(failure) {

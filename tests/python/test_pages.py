@@ -305,6 +305,14 @@ class Pages(unittest.TestCase):
         self.assertIn(names.nth(3).inner_text().split(":")[0], chosen)
         selected = page.locator(".ag-row-selected [col-id='episode']").first.inner_text()
         self.assertIn(f"episode {selected}:", chosen)
+        # The same by keys alone.
+        page.locator("#map-view button", has_text="list the").focus()
+        page.keyboard.press("Enter")
+        self.assertEqual(page.locator(".pile button").count(), len(failures))
+        page.locator(".pile button").nth(1).focus()
+        page.keyboard.press("Enter")
+        self.assertIn(page.locator(".pile button").nth(1).inner_text().split(":")[0],
+                      page.locator("#which-drive option:checked").inner_text())
 
     def test_the_table_sorts_filters_and_shows(self):
         page = self.open(self.campaign_folder)
