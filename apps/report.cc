@@ -4,8 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
-#include "base/file_output.h"
-#include "base/result_folder.h"
 #include "report/campaign_report.h"
 #include "report/rare_page.h"
 #include "report/run_page.h"
@@ -15,12 +13,9 @@ namespace {
 
 WrittenReport WriteRareReport(const std::filesystem::path& folder) {
   const RarePage made = MakeRarePage(folder);
-  ResultFolder results(folder, {"page", [](std::string_view name) { return name == "rare.html"; }},
-                       {});
-  results.Begin();
-  const std::filesystem::path page = folder / "rare.html";
-  WriteFileWhole(page, made.html);
-  return {page, made.verdict, made.html.size(), {}};
+  return WritePage(folder / "rare.html",
+                   {"page", [](std::string_view name) { return name == "rare.html"; }},
+                   made.verdict, made.html);
 }
 
 int WriteReport(const std::string& named, const Globals& globals) {

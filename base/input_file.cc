@@ -77,6 +77,16 @@ std::string ReadInputFile(const fs::path& file, std::uintmax_t most_bytes) {
   return Read(file, std::numeric_limits<std::uintmax_t>::max(), most_bytes);
 }
 
+bool IsPlainFile(const fs::path& file) {
+  std::error_code ignored;
+  return fs::symlink_status(file, ignored).type() == fs::file_type::regular;
+}
+
+std::string ReadPlainFile(const fs::path& file, std::uintmax_t most_bytes) {
+  if (!IsPlainFile(file) || !WhyUnreadable(file, most_bytes).empty()) return "";
+  return ReadInputFile(file, most_bytes);
+}
+
 std::string ReadStartOfFile(const fs::path& file, std::size_t count, std::uintmax_t most_bytes) {
   return Read(file, count, most_bytes);
 }

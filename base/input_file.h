@@ -15,11 +15,17 @@ struct ConfigNode;
 // permitted, a loop of links. Empty when it can. Never throws for what the path holds.
 std::string WhyUnreadable(const std::filesystem::path& file, std::uintmax_t most_bytes);
 
+// Whether it is a plain file and no link, which could lead to a file that is nobody's to show.
+bool IsPlainFile(const std::filesystem::path& file);
+
 // Of a file that the program wrote and reads again.
 inline constexpr std::uintmax_t kMaxResultBytes = 64u << 20;
 
 // The whole file. Throws InputError naming it.
 std::string ReadInputFile(const std::filesystem::path& file, std::uintmax_t most_bytes);
+
+// The same of a plain file. Empty: it is none, or cannot be read, or is larger.
+std::string ReadPlainFile(const std::filesystem::path& file, std::uintmax_t most_bytes);
 
 // Its first `count` bytes, or all where it has fewer, to look at before the rest is read. Throws as
 // ReadInputFile.

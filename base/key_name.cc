@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "base/words.h"
 
@@ -22,28 +21,30 @@ bool IsNumber(std::string_view text) {
 }  // namespace
 
 KeyName NameOfKey(std::string_view path) {
-  std::vector<std::string> parts;
-  for (std::size_t at = 0; at <= path.size();) {
-    const std::size_t end = std::min(path.find('.', at), path.size());
-    parts.emplace_back(path.substr(at, end - at));
-    at = end + 1;
-  }
+  // The part behind the last dot, which the path then lacks.
+  const auto take = [&path] {
+    const std::size_t dot = path.rfind('.');
+    const std::string_view part = path.substr(dot + 1);  // all of it, where there is none
+    path = path.substr(0, dot == path.npos ? 0 : dot);
+    return part;
+  };
+  const bool alone = path.find('.') == path.npos;
+  std::string_view last = take();
   KeyName key;
-  std::string last = parts.back();
   for (const auto& [suffix, unit] : kUnits)
     if (last.size() > suffix.size() && last.ends_with(suffix)) {
-      last.resize(last.size() - suffix.size());
+      last.remove_suffix(suffix.size());
       key.unit = unit;
       break;
     }
   key.name = Words(last);
-  if (parts.size() < 2) return key;
-  const std::string& before = parts[parts.size() - 2];
+  if (alone) return key;
+  const std::string_view before = take();
   std::string of = Words(before);
-  if (IsNumber(before) && parts.size() > 2) {  // of a list: "fault 0"
-    std::string list = Words(parts[parts.size() - 3]);
+  if (IsNumber(before) && !path.empty()) {  // of a list: "fault 0"
+    std::string list = Words(take());
     if (list.ends_with('s')) list.pop_back();
-    of = list + " " + before;
+    of = list + " " + of;
   }
   key.name = of + " " + key.name;
   return key;

@@ -20,6 +20,11 @@ KeyName NameOfKey(std::string_view path);
 struct KeyScale {
   double per = 1;      // the value times this is shown ...
   std::string unit{};  // ... in this unit; empty: none
+
+  // "15.9 mm", of a number that is shown.
+  std::string Of(const std::string& shown) const {
+    return unit.empty() ? shown : shown + " " + unit;
+  }
 };
 // For values up to `most`, of whatever sign.
 KeyScale ScaleOf(const KeyName& key, double most);

@@ -31,11 +31,6 @@ constexpr std::uintmax_t kMaxListBytes = 16u << 20;
                    why + "; name another folder, or move the file away");
 }
 
-bool IsPlainFile(const fs::path& file) {
-  std::error_code ignored;
-  return fs::symlink_status(file, ignored).type() == fs::file_type::regular;
-}
-
 }  // namespace
 
 ResultFolder::ResultFolder(fs::path folder, ResultNames results, std::span<const fs::path> inputs)

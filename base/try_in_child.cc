@@ -20,6 +20,7 @@
 #include "base/error.h"
 #include "base/fork.h"
 #include "base/sanitizer.h"
+#include "base/whole_io.h"
 
 namespace floorproof {
 namespace {
@@ -69,14 +70,7 @@ void LimitData([[maybe_unused]] std::size_t more_bytes) {
   } catch (...) {
     _exit(kThrew);
   }
-  const char* from = answer.data();
-  for (std::size_t left = answer.size(); left > 0;) {
-    const ssize_t n = write(answers, from, left);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) _exit(kGaveUp);
-    from += n, left -= static_cast<std::size_t>(n);
-  }
-  _exit(0);
+  _exit(WriteAll(answers, answer.data(), answer.size()) ? 0 : kGaveUp);
 }
 
 // To the end of the pipe, or until the time is over: false.

@@ -37,10 +37,7 @@ class Puppet {
   }
 
   // The last state at or before t_s; times only ascend.
-  std::size_t StateAt(double t_s) {
-    while (at_ + 1 < recording_.size() && recording_.t_s(at_ + 1) <= t_s) ++at_;
-    return at_;
-  }
+  std::size_t StateAt(double t_s) { return at_ = recording_.StateAt(t_s, at_); }
   mjData* data() { return data_.get(); }
   void Pose(double t_s) {
     const std::size_t i = StateAt(t_s);
@@ -93,7 +90,7 @@ class Captions {
 
   void Draw(const FilmFrame& frame, bool last, Image& image) {
     const Recording& recording = *script_.recording;
-    while (state_ + 1 < recording.size() && recording.t_s(state_ + 1) <= frame.t_s) ++state_;
+    state_ = recording.StateAt(frame.t_s, state_);
     std::optional<Banner> banner = last ? script_.closing : std::nullopt;
     if (!banner) banner = BannerAt(frame.t_s + 1e-9, last);
     // The last picture stands.
@@ -199,8 +196,7 @@ class Studio {
   double CameInto(const Event& event) const {
     constexpr double kWay_m = 0.15;
     const Recording& recording = *script_.recording;
-    std::size_t at = 0;
-    while (at + 1 < recording.size() && recording.t_s(at + 1) <= BeganAt(event)) ++at;
+    const std::size_t at = recording.StateAt(BeganAt(event), 0);
     for (std::size_t i = at; i-- > 0;) {
       const Vec2 way = (recording.p_WB(at) - recording.p_WB(i)).head<2>();
       if (way.norm() > kWay_m) return std::atan2(way.y(), way.x());

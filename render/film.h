@@ -33,6 +33,11 @@ class Recording {
   // (world frame), and the pose that it thinks it has.
   void AddSenses(const Pose2& estimate, const Vec2& lidar_W, const std::vector<Vec2>& ends_W);
   std::size_t size() const { return t_s_.size(); }
+  // The last state at or before t_s, looked for from the `from`-th on.
+  std::size_t StateAt(double t_s, std::size_t from) const {
+    while (from + 1 < size() && t_s_[from + 1] <= t_s) ++from;
+    return from;
+  }
   int nq() const { return nq_; }
   double t_s(std::size_t i) const { return t_s_[i]; }
   double coverage(std::size_t i) const { return coverage_[i]; }

@@ -16,36 +16,22 @@
 
 #include "base/error.h"
 #include "base/fork.h"
+#include "base/whole_io.h"
 
 namespace floorproof {
 namespace {
 
 constexpr char kDrawn = 'd', kFailed = 'f';
 
-// False: the other end is gone.
-bool Send(int line, const char* from, std::size_t left) {
-  while (left > 0) {
-    const ssize_t n = send(line, from, left, MSG_NOSIGNAL);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    from += n, left -= static_cast<std::size_t>(n);
-  }
-  return true;
-}
-
 // One byte; 0: the other end is gone.
-char ReadByte(int fd) {
+char ReadByte(int line) {
   char byte = 0;
-  for (;;) {
-    const ssize_t n = read(fd, &byte, 1);
-    if (n < 0 && errno == EINTR) continue;
-    return n == 1 ? byte : '\0';
-  }
+  return ReadAll(line, &byte, 1) ? byte : '\0';
 }
 
-std::string ReadRest(int fd) {
+std::string ReadRest(int line) {
   std::string text;
-  while (const char byte = ReadByte(fd)) text += byte;
+  while (const char byte = ReadByte(line)) text += byte;
   return text;
 }
 
@@ -115,7 +101,7 @@ void PictureProcesses::Work(std::size_t number, int line,
     for (std::size_t i = number; i < pictures_; i += processes_) {
       if (i / processes_ >= kSlots && ReadByte(line) == '\0') _exit(0);
       draw(i, Slot(i));
-      if (!Send(line, &kDrawn, 1)) _exit(0);
+      if (!WriteAll(line, &kDrawn, 1)) _exit(0);
     }
     // The libraries' own clearing up is nobody's gain.
     _exit(0);
@@ -125,7 +111,7 @@ void PictureProcesses::Work(std::size_t number, int line,
     why = "it failed";
   }
   why.insert(why.begin(), kFailed);
-  Send(line, why.data(), why.size());
+  WriteAll(line, why.data(), why.size());
   _exit(1);
 }
 
@@ -133,7 +119,7 @@ const std::uint8_t* PictureProcesses::Next() {
   if (next_ >= pictures_) throw InternalError("there is no further picture");
   if (next_ > 0) {  // the last one's slot is free
     const char byte = 'r';
-    Send(children_[(next_ - 1) % processes_].line, &byte, 1);
+    send(children_[(next_ - 1) % processes_].line, &byte, 1, MSG_NOSIGNAL);  // it may be done
   }
   const Child& child = children_[next_ % processes_];
   const char said = ReadByte(child.line);

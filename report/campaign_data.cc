@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
@@ -27,14 +26,8 @@ constexpr std::size_t kMostRows = 10'000;   // of the table, of all variants
 constexpr std::size_t kMostPlaces = 2'000;  // on the map, of a variant
 constexpr std::uintmax_t kLargestReplay = 2u << 20, kAllReplays = 6u << 20;  // bytes in the page
 
-// A text that files gave, within JSON that is dumped whole.
-std::string Dump(const PageJson& json) {
-  return json.dump(-1, ' ', false, PageJson::error_handler_t::replace);
-}
-
-// Milliseconds and millimetres.
 PageJson Rounded(const std::optional<double>& value) {
-  return value ? PageJson(std::round(1000 * *value) / 1000) : PageJson(nullptr);
+  return value ? PageJson(Thousandths(*value)) : PageJson(nullptr);
 }
 
 // "step height (m)"
@@ -67,7 +60,7 @@ class Gatherer {
                       {"failures", Places(report_.summary.variants[v].name)}});
     }
     report_.data =
-        Dump({{"drives", std::move(drives_)}, {"maps", std::move(maps)}, {"table", Table()}});
+        PageText({{"drives", std::move(drives_)}, {"maps", std::move(maps)}, {"table", Table()}});
   }
 
  private:
@@ -106,8 +99,8 @@ class Gatherer {
       const Key key{failing.row.variant, failing.row.episode};
       if (chosen.contains(key)) return;
       const fs::path file = EpisodeFolder(folder_, key.first, key.second) / "replay.bin";
+      if (!IsPlainFile(file)) return;
       std::error_code ignored;
-      if (!fs::is_regular_file(fs::symlink_status(file, ignored))) return;
       const std::uintmax_t size = fs::file_size(file, ignored);
       if (!WhyUnreadable(file, kLargestReplay).empty() || used + size > kAllReplays) return;
       used += size;

@@ -137,8 +137,9 @@ std::string DependenceTables(const Report& report) {
              "at its edge; each answer by itself. The numbers stand in "
              "<code>dependence.csv</code>.</p>\n",
              PercentText(kReportedConfidence),
-             report.summary.gate ? "the gate's limit"
-                                 : "5 %, the limit where a scenario states no gate");
+             report.summary.gate ? std::string("the gate's limit")
+                                 : PercentText(report.dependence.front().limit.max_rate) +
+                                       ", the limit where a scenario states no gate");
 }
 
 }  // namespace floorproof

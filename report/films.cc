@@ -25,9 +25,7 @@ std::vector<std::uint64_t> Filmed(const fs::path& folder) {
     std::uint64_t id = 0;
     const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), id);
     if (error != std::errc() || end != name.data() + name.size()) continue;
-    // A link could lead to a file that is nobody's to show.
-    if (fs::is_regular_file(fs::symlink_status(entry.path() / "video.mp4", ignored)))
-      ids.push_back(id);
+    if (IsPlainFile(entry.path() / "video.mp4")) ids.push_back(id);
   }
   std::ranges::sort(ids);
   return ids;

@@ -8,6 +8,7 @@
 #include "base/quantity.h"
 #include "report/dependence_tables.h"
 #include "report/html.h"
+#include "report/page_drives.h"
 #include "report/rates.h"
 #include "report/verdict.h"
 
@@ -33,10 +34,7 @@ std::string Rates(const Report& report) {
 }
 
 std::string Places(const Report& report) {
-  std::string html =
-      "<div class=\"card theater\" id=\"theater\" hidden><div id=\"map-view\" class=\"map\" "
-      "hidden></div><div id=\"drive-view\"></div><div id=\"drive-curves\" "
-      "class=\"across\"></div></div>\n";
+  std::string html = TheaterHtml();
   const auto& variants = report.summary.variants;
   std::size_t left_out = 0;
   for (std::size_t i = 0; i < variants.size(); ++i) {

@@ -19,11 +19,10 @@ namespace floorproof {
 namespace {
 
 double Rounded(double value, double per) { return std::round(value * per) / per + 0.0; }
-double Millimetres(double m) { return Rounded(m, 1e3); }
 
 PageJson PointsData(const std::vector<Vec2>& points) {
   PageJson list = PageJson::array();
-  for (const Vec2& p : points) list.push_back({Millimetres(p.x()), Millimetres(p.y())});
+  for (const Vec2& p : points) list.push_back({Thousandths(p.x()), Thousandths(p.y())});
   return list;
 }
 
@@ -116,6 +115,12 @@ double NumberOf(std::string_view text) {
 
 }  // namespace
 
+std::string PageText(const PageJson& json) {
+  return json.dump(-1, ' ', false, PageJson::error_handler_t::replace);
+}
+
+double Thousandths(double value) { return Rounded(value, 1e3); }
+
 PageJson MapData(const HazardMap& map) {
   PageJson hazards = PageJson::array();
   const std::vector<HazardLook> looks = HazardLooks(map);
@@ -153,7 +158,7 @@ PageJson RatesData(const VariantSummary& variant) {
   if (variant.places.empty()) return nullptr;
   PageJson places = PageJson::array();
   for (const FailurePlace& place : variant.places)
-    places.push_back({Millimetres(place.p_W.x()), Millimetres(place.p_W.y()), place.rate.k,
+    places.push_back({Thousandths(place.p_W.x()), Thousandths(place.p_W.y()), place.rate.k,
                       place.rate.n, Rounded(place.rate.lower, 1e6),
                       Rounded(place.rate.upper, 1e6)});
   return {{"cell_m", variant.place_m}, {"places", std::move(places)}};
@@ -166,8 +171,8 @@ PageJson WayData(const Path& plan) {
 }
 
 PageJson FailureData(const Event& event, const std::string& label, const std::string& text) {
-  return {{"t_s", Rounded(event.t_s, 1e3)}, {"x", Millimetres(event.x_m)},
-          {"y", Millimetres(event.y_m)},    {"label", label},
+  return {{"t_s", Rounded(event.t_s, 1e3)}, {"x", Thousandths(event.x_m)},
+          {"y", Thousandths(event.y_m)},    {"label", label},
           {"what", FailureName(event)},     {"text", text}};
 }
 

@@ -17,6 +17,11 @@ namespace floorproof {
 
 using PageJson = nlohmann::ordered_json;
 
+// As it stands in a page: texts that files gave may be no UTF-8.
+std::string PageText(const PageJson& json);
+// To thousandths: millimetres, milliseconds.
+double Thousandths(double value);
+
 // The floor: its frame, its cells in runs (a large map in coarser ones: a wall wherever one is),
 // the part that is known ([x, y, x, y] in the grid's frame; null: none), its hazards.
 PageJson MapData(const HazardMap& map);

@@ -24,12 +24,9 @@ fs::path LikelyFailureFolder(const fs::path& search, std::size_t number) {
 fs::path FilmOf(const fs::path& search, std::size_t number, const std::vector<std::string>& sets) {
   const fs::path into = LikelyFailureFolder(search, number), film = into / "video.mp4";
   RefuseLinks(search, into);
-  std::error_code none;
-  if (!fs::is_regular_file(fs::symlink_status(film, none)) ||
-      !fs::is_regular_file(fs::symlink_status(into / "result.json", none)))
-    return "";
+  if (!IsPlainFile(film)) return "";
   const Json result =
-      Json::parse(ReadInputFile(into / "result.json", kMaxResultBytes), nullptr, false);
+      Json::parse(ReadPlainFile(into / "result.json", kMaxResultBytes), nullptr, false);
   if (!result.is_object() || !result.contains("drawn")) return "";
   const Json& drawn = result.at("drawn");
   const bool same = std::ranges::all_of(sets, [&](const std::string& set) {

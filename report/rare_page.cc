@@ -14,8 +14,8 @@
 #include "report/films.h"
 #include "report/html.h"
 #include "report/html_page.h"
+#include "report/page_drives.h"
 #include "report/rare_films.h"
-#include "report/run_record.h"
 #include "report/verdict.h"
 #include "run/rare/rare_json.h"
 
@@ -131,7 +131,7 @@ std::string Film(const fs::path& folder, const fs::path& file, std::size_t numbe
 // The regions; their likeliest failures, where they were driven again, also as drives of the page.
 std::string Regions(const Json& rare, const fs::path& folder, HtmlPage& page) {
   std::string html;
-  Json drives = Json::array(), maps = Json::array();
+  PageDrives drives(page);
   std::size_t number = 0;
   for (const Json& region : rare.at("regions")) {
     ++number;
@@ -147,13 +147,9 @@ std::string Regions(const Json& rare, const fs::path& folder, HtmlPage& page) {
                           FixedText(region.at("distance"), 2), MarkupText(Happening(likeliest)));
       if (const fs::path film = FilmOf(folder, number, likeliest.at("set")); !film.empty()) {
         html += Film(folder, film, drives.size());
-        const RunRecord record(film.parent_path());
-        RunRecord::Shown shown = record.Show(drives.size(), likeliest.at("command"),
-                                             fs::file_size(film) <= kLargestFilm, page);
-        shown.drive["name"] = fmt::format("{}. {}", number, Happening(likeliest));
-        drives.push_back(std::move(shown.drive));
-        shown.map["name"] = fmt::format("{}. of the likeliest failures", number);
-        if (shown.map.contains("map")) maps.push_back(std::move(shown.map));
+        drives.Add(RunRecord(film.parent_path()),
+                   fmt::format("{}. {}", number, Happening(likeliest)), likeliest.at("command"),
+                   fs::file_size(film) <= kLargestFilm);
       }
       html += "<table><tbody>\n";
       for (const Json& json : likeliest.at("set")) {
@@ -170,12 +166,9 @@ std::string Regions(const Json& rare, const fs::path& folder, HtmlPage& page) {
     }
     html += "</article>\n";
   }
-  if (drives.empty()) return html.empty() ? "<p>None was found.</p>\n" : html;
-  if (maps.size() != drives.size()) maps = Json::array();  // a map is a drive's of its number
-  page.data = Json({{"drives", std::move(drives)}, {"maps", std::move(maps)}})
-                  .dump(-1, ' ', false, Json::error_handler_t::replace);
-  page.shows_plots = true;
-  return TheaterHtml("", "") + html;
+  if (drives.size() == 0) return html.empty() ? "<p>None was found.</p>\n" : html;
+  drives.Finish();
+  return TheaterHtml() + html;
 }
 
 std::string Search(const Json& rare) {

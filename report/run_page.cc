@@ -8,15 +8,13 @@
 #include <optional>
 
 #include "base/error.h"
-#include "base/file_output.h"
 #include "base/input_file.h"
-#include "base/result_folder.h"
 #include "base/shell_word.h"
 #include "base/words.h"
 #include "report/films.h"
 #include "report/html.h"
 #include "report/html_page.h"
-#include "report/run_record.h"
+#include "report/page_drives.h"
 #include "run/episode/metrics.h"
 #include "run/episode/records.h"
 
@@ -86,21 +84,20 @@ class Run {
 
   // The data for the scripts; returns where they show it.
   std::string Theater(HtmlPage& page) const {
-    RunRecord::Shown shown = record_.Show(0, "floorproof replay " + ShellWord(named_) + " --video",
-                                          !film_.empty(), page);
-    Json data = {{"drives", Json::array({std::move(shown.drive)})}, {"maps", Json::array()}};
-    if (!shown.map.is_null()) data["maps"].push_back(std::move(shown.map));
-    page.data = data.dump(-1, ' ', false, Json::error_handler_t::replace);
-    page.shows_plots = true;
+    PageDrives drives(page);
+    const std::string unread =
+        drives.Add(record_, Text("robot") + " on " + Text("site"),
+                   "floorproof replay " + ShellWord(named_) + " --video", !film_.empty());
+    drives.Finish();
     std::string still, note;
-    if (const std::string png = ReadIfThere(folder_ / "heatmap_failures.png", kMaxResultBytes);
+    if (const std::string png = ReadPlainFile(folder_ / "heatmap_failures.png", kMaxResultBytes);
         !png.empty())
       still = PictureHtml({"The plan, what was driven, and where it failed", png});
     if (!record_.why_no_map().empty())
       note =
           "<p class=\"note\">The map cannot be read any more: " + MarkupText(record_.why_no_map()) +
           "</p>";
-    if (!shown.note.empty()) note += "<p class=\"note\">" + MarkupText(shown.note) + "</p>";
+    if (!unread.empty()) note += "<p class=\"note\">" + MarkupText(unread) + "</p>";
     return TheaterHtml(still, note);
   }
 
@@ -168,7 +165,7 @@ class Run {
   }
 
   std::string Film() {
-    film_ = ReadIfThere(folder_ / "video.mp4", kLargestFilm);
+    film_ = ReadPlainFile(folder_ / "video.mp4", kLargestFilm);
     std::string html;
     if (!film_.empty())
       html += fmt::format(
@@ -242,12 +239,9 @@ RunPage MakeRunPage(const fs::path& folder, const std::string& named) {
 
 WrittenReport WriteRunReport(const fs::path& folder, const std::string& named) {
   const RunPage made = MakeRunPage(folder, named);
-  ResultFolder results(folder,
-                       {"page", [](std::string_view name) { return name == "report.html"; }}, {});
-  results.Begin();
-  const fs::path page = folder / "report.html";
-  WriteFileWhole(page, made.html);
-  return {page, made.verdict, made.html.size(), {}};
+  return WritePage(folder / "report.html",
+                   {"page", [](std::string_view name) { return name == "report.html"; }},
+                   made.verdict, made.html);
 }
 
 }  // namespace floorproof

@@ -25,19 +25,12 @@ constexpr std::uintmax_t kLargestReplay = 16u << 20;
 
 }  // namespace
 
-std::string ReadIfThere(const fs::path& file, std::uintmax_t most) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(fs::symlink_status(file, ignored)) || !WhyUnreadable(file, most).empty())
-    return "";
-  return ReadInputFile(file, most);
-}
-
 RunRecord::RunRecord(const fs::path& folder) : folder_(folder) {
   const fs::path file = folder / "result.json", settings = folder / "scenario.resolved.yaml";
   result_ = ReadResult(file);
   if (!result_.contains("outcome") || !result_.contains("events") || !result_.contains("metrics"))
     throw InputError({file.string(), 0}, "", "", "is not a result (a JSON object)");
-  settings_ = ReadIfThere(settings, kMaxResultBytes);
+  settings_ = ReadPlainFile(settings, kMaxResultBytes);
   try {
     const Scenario scenario = ReadScenario(settings, {});
     map_ = scenario.site.map;
@@ -80,37 +73,28 @@ RunRecord::Shown RunRecord::Show(std::size_t number, const std::string& command,
   Shown shown;
   Json ways = Json::array(), plan = Json::array();
   if (const fs::path file = folder_ / "plan.csv";
-      map_ && !ReadIfThere(file, kMaxResultBytes).empty()) {
+      map_ && !ReadPlainFile(file, kMaxResultBytes).empty()) {
     try {
       plan = WayData(ReadPlan(file, map_->frame));
     } catch (const InputError& e) {
       shown.note = fmt::format("The plan is not shown: {}", e.what());
     }
   }
-  const std::string rows = ReadIfThere(folder_ / "trace.csv", kLargestTrace);
+  const std::string rows = ReadPlainFile(folder_ / "trace.csv", kLargestTrace);
   const TraceData trace = ReadTraceData(rows);
   if (!rows.empty() && !trace.columns.is_object())
     shown.note = "What was driven is not shown: trace.csv is damaged.";
-  if (!plan.empty())
-    ways.push_back({{"name", "plan"},
-                    {"points", plan},
-                    {"colour", "mark"},
-                    {"width", 1.4},
-                    {"dash", "dashed"}});
-  if (trace.way.is_array())
-    ways.push_back(
-        {{"name", "driven"}, {"points", trace.way}, {"colour", "driven"}, {"width", 1.8}});
-  shown.drive = {{"name", Text("robot") + " on " + Text("site")},
-                 {"events", Failures(number)},
+  if (!plan.empty()) ways.push_back({{"name", "plan"}, {"points", plan}});
+  if (trace.way.is_array()) ways.push_back({{"name", "driven"}, {"points", trace.way}});
+  shown.drive = {{"events", Failures(number)},
                  {"plan", plan},
                  {"end_s", Metric("duration_s").value_or(0)},
-                 {"map", number},
                  {"command", command}};
   if (trace.columns.is_object()) shown.drive["trace"] = trace.columns;
   if (mission_)
     shown.drive["safety"] =
-        SafetyData(ReadIfThere(folder_ / "safety.csv", kLargestTrace), *mission_);
-  if (std::string replay = ReadIfThere(folder_ / "replay.bin", kLargestReplay); !replay.empty()) {
+        SafetyData(ReadPlainFile(folder_ / "safety.csv", kLargestTrace), *mission_);
+  if (std::string replay = ReadPlainFile(folder_ / "replay.bin", kLargestReplay); !replay.empty()) {
     const std::string id = fmt::format("replay-{}", number);
     page.blobs.emplace_back(id, std::move(replay));
     shown.drive["replay"] = id;
@@ -125,19 +109,9 @@ RunRecord::Shown RunRecord::Show(std::size_t number, const std::string& command,
                {"map", MapData(*map_)},
                {"ways", std::move(ways)},
                {"failures", Failures(number)}};
-  if (const auto visits = ReadVisits(ReadIfThere(folder_ / "visits.pgm", kLargestTrace)))
+  if (const auto visits = ReadVisits(ReadPlainFile(folder_ / "visits.pgm", kLargestTrace)))
     shown.map["visits"] = VisitsData(*visits);
   return shown;
-}
-
-std::string TheaterHtml(const std::string& still, const std::string& note) {
-  const bool empty = still.empty() && note.empty();
-  return "<div class=\"card theater\" id=\"theater\"" + std::string(empty ? " hidden" : "") +
-         "><div><div id=\"map-view\" class=\"map\" "
-         "hidden></div><div class=\"replaced-by-map\">" +
-         still + "</div>" + note +
-         "</div><div id=\"drive-view\"></div><div id=\"drive-curves\" "
-         "class=\"across\"></div></div>\n";
 }
 
 }  // namespace floorproof

@@ -13,16 +13,12 @@
 
 namespace floorproof {
 
-// A file that is there and no link; empty: it is not, or is larger than `most` bytes.
-std::string ReadIfThere(const std::filesystem::path& file, std::uintmax_t most);
-
 class RunRecord {
  public:
   // Throws InputError where there is no result.json, or none that can be read. What else is missing
   // or damaged is left out.
   explicit RunRecord(const std::filesystem::path& folder);
 
-  const std::filesystem::path& folder() const { return folder_; }
   const nlohmann::ordered_json& result() const { return result_; }
   std::string Text(const char* key) const { return result_.value(key, ""); }
   std::optional<double> Metric(const char* name) const;
@@ -36,9 +32,9 @@ class RunRecord {
   const std::string& why_no_map() const { return why_no_map_; }
   bool estimates() const { return estimates_; }  // the robot does not simply know where it is
 
-  // The drive for the page's scripts, as its `number`-th, on the map of that number, which is null
-  // where there is none. `command` drives it again. Its replay goes into `page`; its film, if
-  // `filmed`, is the page's "film-<number>".
+  // The drive for the page's scripts, as its `number`-th (page_drives.h), and its map, null where
+  // there is none. `command` drives it again. Its replay goes into `page`; its film, if `filmed`,
+  // is the page's "film-<number>".
   struct Shown {
     PageJson drive, map;
     std::string note;  // what could not be read, in words
@@ -55,9 +51,5 @@ class RunRecord {
   std::optional<HazardMap> map_;
   std::optional<std::string> mission_;  // of a supervised drive; it may have no name
 };
-
-// Where the scripts show map and drives. `still`: HTML in the map's place without them; `note`:
-// HTML that stays.
-std::string TheaterHtml(const std::string& still, const std::string& note);
 
 }  // namespace floorproof

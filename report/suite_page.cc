@@ -12,7 +12,7 @@
 #include "base/shell_word.h"
 #include "report/html.h"
 #include "report/html_page.h"
-#include "report/run_record.h"
+#include "report/page_drives.h"
 #include "stats/demonstration.h"
 
 namespace floorproof {
@@ -163,7 +163,7 @@ std::string Table(const SuiteReport& report) {
 // The runs that were filmed: their films among the methods, and each as a drive of the page.
 class FilmShelf {
  public:
-  FilmShelf(fs::path folder, HtmlPage& page) : folder_(std::move(folder)), page_(page) {}
+  FilmShelf(fs::path folder, HtmlPage& page) : folder_(std::move(folder)), drives_(page) {}
 
   // Empty where there is none.
   std::string Film(const RobotSuite& robot, const MethodResult& result) {
@@ -199,38 +199,25 @@ class FilmShelf {
 
   // For the page's scripts, once all films are in it. Returns where they show them.
   std::string Theater() {
-    if (drives_.empty()) return "";
-    page_.data = PageJson({{"drives", std::move(drives_)}, {"maps", std::move(maps_)}})
-                     .dump(-1, ' ', false, PageJson::error_handler_t::replace);
-    page_.shows_plots = true;
-    return TheaterHtml("", "");
+    if (drives_.size() == 0) return "";
+    drives_.Finish();
+    return TheaterHtml();
   }
 
  private:
   void AddDrive(const fs::path& folder, const fs::path& named, const std::string& caption,
                 bool filmed) {
     try {
-      RunRecord::Shown shown = RunRecord(folder).Show(
-          drives_.size(),
-          "floorproof run " + ShellWord((named / kRunFile).generic_string()) + " --video", filmed,
-          page_);
-      shown.drive["name"] = caption;
-      if (shown.map.is_null())
-        shown.drive.erase("map");
-      else
-        shown.drive["map"] = maps_.size(), shown.map["name"] = caption,
-        maps_.push_back(std::move(shown.map));
-      drives_.push_back(std::move(shown.drive));
+      drives_.Add(RunRecord(folder), caption,
+                  "floorproof run " + ShellWord((named / kRunFile).generic_string()) + " --video",
+                  filmed);
     } catch (const InputError&) {
-      // Without its record there is its film alone.
-      drives_.push_back({{"name", caption}, {"events", PageJson::array()}});
-      if (filmed) drives_.back()["film"] = fmt::format("film-{}", drives_.size() - 1);
+      if (filmed) drives_.AddFilm(caption);  // without its record it is no more
     }
   }
 
   fs::path folder_;
-  HtmlPage& page_;
-  PageJson drives_ = PageJson::array(), maps_ = PageJson::array();
+  PageDrives drives_;
   std::uintmax_t embedded_ = 0;
   std::string linked_;
 };

@@ -11,9 +11,13 @@ const isDark = () => matchMedia('(prefers-color-scheme: dark)').matches
 
 // What is drawn anew when the colours change: {element, draw, end}. What has left the page is ended.
 let drawn = [];
-function redraw() {
+// Without what is gone, with `more`.
+function keepDrawn(...more) {
   for (const {element, end} of drawn) if (!element.isConnected && end) end();
-  drawn = drawn.filter(({element}) => element.isConnected);
+  drawn = [...drawn.filter(({element}) => element.isConnected), ...more];
+}
+function redraw() {
+  keepDrawn();
   for (const {draw} of drawn) draw();
 }
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
@@ -37,12 +41,10 @@ function addPlot(element, optionOf, {onClick = null} = {}) {
     draw();
   });
   observer.observe(element);
-  const end = () => {
+  keepDrawn({element, draw, end: () => {
     observer.disconnect();
     plot.dispose();
-  };
-  for (const old of drawn) if (!old.element.isConnected && old.end) old.end();
-  drawn = [...drawn.filter(old => old.element.isConnected), {element, draw, end}];
+  }});
   return plot;
 }
 

@@ -44,8 +44,7 @@ class DriveView {
     const {replay, drive} = this;
     if (!replay) return [];
     const plan = drive.plan || replay.plan;
-    return [...(plan.length > 1 ? [{name: 'plan', points: plan, colour: 'mark', width: 1.4, dash: 'dashed'}] : []),
-            {name: 'driven', points: wayOf(replay), colour: 'driven', width: 1.8}];
+    return [...(plan.length > 1 ? [{name: 'plan', points: plan}] : []), {name: 'driven', points: wayOf(replay)}];
   }
 
   build() {

@@ -33,6 +33,15 @@ function cellsImage({width, height, runs}, paintOf) {
   return large;
 }
 
+// What `of` returns, made once for each argument: an image of many cells takes a while.
+function lasting(of) {
+  const made = new Map();
+  return argument => {
+    if (!made.has(argument)) made.set(argument, of(argument));
+    return made.get(argument);
+  };
+}
+
 // The image where its frame lies, as a series of a plot in metres.
 function imageSeries(name, {frame}, image, options = {}) {
   return {
@@ -94,18 +103,21 @@ function ratesLayer({cell_m, places}) {
 function layersOf({visits, rates}) {
   const layers = [];
   if (visits) {
-    const paintOf = passes => (passes < 0 ? null : passes === 0 ? kMissed
-                                 : kPasses[Math.min(passes, kPasses.length) - 1]);
+    const paintsOf = {
+      visits: passes => (passes < 0 ? null : passes === 0 ? kMissed : kPasses[Math.min(passes, kPasses.length) - 1]),
+      coverage: passes => (passes < 0 ? null : passes > 0 ? kSwept : kMissed),
+    };
+    const imageOf = lasting(name => cellsImage(visits.cells, paintsOf[name]));
+    const series = name => () => imageSeries(name, visits, imageOf(name), {z: 1});
     layers.push({
       name: 'visits',
       legend: () => swatches([[kMissed, 'missed'], [kPasses[0], 'passed once'], [kPasses[1], 'twice'],
                               [kPasses[2], '3 times'], [kPasses[3], '4 times or more']]),
-      series: () => imageSeries('visits', visits, cellsImage(visits.cells, paintOf), {z: 1}),
+      series: series('visits'),
     }, {
       name: 'coverage',
       legend: () => swatches([[kSwept, 'swept'], [kMissed, 'could have been swept, was not']]),
-      series: () => imageSeries('coverage', visits, cellsImage(
-          visits.cells, passes => (passes < 0 ? null : passes > 0 ? kSwept : kMissed)), {z: 1}),
+      series: series('coverage'),
     });
   }
   if (rates && rates.places.length > 0) layers.push(ratesLayer(rates));

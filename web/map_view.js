@@ -2,7 +2,9 @@
 // The floor as a plot in metres: walls, hazards, plan, way driven, and numbered failures to click.
 
 // What a map's cells are painted in: free, wall, unknown.
-const floorPaints = () => (isDark() ? ['#20252a', '#788492', '#343a40'] : ['#ffffff', '#5c6672', '#e2e5e8']);
+const kFloorPaints = {dark: ['#20252a', '#788492', '#343a40'], light: ['#ffffff', '#5c6672', '#e2e5e8']};
+
+const kWayLooks = {plan: {colour: 'mark', width: 1.4, dash: 'dashed'}, driven: {colour: 'driven', width: 1.8, dash: 'solid'}};
 
 // Marks that would hide one another are one, with the first's label and a +: [{x, y, of: [failure, ..]}].
 // `pixels(failure)`: where it is on the screen.
@@ -16,9 +18,10 @@ function pilesOf(failures, pixels, apart_px) {
   return piles;
 }
 
-// `map`: {frame: {x, y, yaw, width_m, height_m}, seen: [x, y, x, y] (what is shown, in the grid's frame), cells, hazards: [{colour, label, ..}]}, `ways`: [{name,
-// points, colour}], `failures`: [{x, y, label, text, ...}]. `onFailures([failure, ..])` at a click.
-// Returns {plot, showAt, showLayer, showWays}.
+// `map`: {frame: {x, y, yaw, width_m, height_m}, seen: [x, y, x, y] (what is shown, in the grid's
+// frame), cells, hazards: [{colour, label, ..}]}, `ways`: [{name: of kWayLooks, points}], `failures`:
+// [{x, y, label, text, ...}]. `onFailures([failure, ..])` at a click. Returns {showAt, showLayer,
+// showWays}.
 function addMapView(element, map, ways, failures, onFailures) {
   const {frame} = map;
   const cos = Math.cos(frame.yaw), sin = Math.sin(frame.yaw);
@@ -31,6 +34,8 @@ function addMapView(element, map, ways, failures, onFailures) {
   const margin = {left: 46, right: 14, top: 34, bottom: 40};
   const kPin_px = 34;
   let at = null, layer = null, metres_per_px = 0.01;
+
+  const wallsFor = lasting(dark => cellsImage(map.cells, kind => kFloorPaints[dark ? 'dark' : 'light'][kind]));
 
   // As many pixels a metre along x as along y.
   const fit = () => {
@@ -50,8 +55,6 @@ function addMapView(element, map, ways, failures, onFailures) {
   const optionOf = plot => {
     const {x, y} = fit();
     plot.resize();
-    const paints = floorPaints();
-    const walls = cellsImage(map.cells, kind => paints[kind]);
     const style = axisStyle();
     const axis = (range, name) => ({
       type: 'value', ...range, name, nameLocation: 'middle', nameGap: 26, ...style,
@@ -68,16 +71,18 @@ function addMapView(element, map, ways, failures, onFailures) {
                 lineWidth: 1.5, lineDash: hazard.known ? null : [4, 3]},
       })),
     });
-    const series = [imageSeries('walls', map, walls)];
+    const series = [imageSeries('walls', map, wallsFor(isDark()))];
     if (layer) series.push(layer.series());
     for (const hazard of map.hazards)
       series.push({type: 'custom', name: hazard.label, data: [hazard.polygons[0][0]], z: 2,
                    renderItem: polygonItem(hazard), tooltip: {formatter: () => escaped(hazard.text)},
                    itemStyle: {color: hazard.colour}});
-    for (const way of ways)
-      series.push({type: 'line', name: way.name, data: way.points, symbol: 'none', silent: true,
-                   z: 2, lineStyle: {color: colour(way.colour), width: way.width, type: way.dash || 'solid'},
-                   itemStyle: {color: colour(way.colour)}, animation: false});
+    for (const {name, points} of ways) {
+      const look = kWayLooks[name], paint = colour(look.colour);
+      series.push({type: 'line', name, data: points, symbol: 'none', silent: true, z: 2,
+                   lineStyle: {color: paint, width: look.width, type: look.dash}, itemStyle: {color: paint},
+                   animation: false});
+    }
     const piles = pilesOf(failures, ({x: fx, y: fy}) => [fx, fy].map(p => p / metres_per_px), kPin_px * 0.6);
     series.push({
       type: 'scatter', name: 'failures', z: 6, symbol: 'pin', symbolSize: kPin_px,
@@ -109,7 +114,6 @@ function addMapView(element, map, ways, failures, onFailures) {
     onClick: ({data}) => { if (data && data.pile) onFailures(data.pile.of); },
   });
   return {
-    plot,
     // One of layersOf; null: none.
     showLayer: one => {
       layer = one;

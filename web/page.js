@@ -136,7 +136,7 @@ class Page {
       grid.classList.toggle('ag-theme-quartz-dark', isDark());
     };
     dress();
-    drawn.push({element: grid, draw: dress});
+    keepDrawn({element: grid, draw: dress});
     const shown = table.rows.filter(({drive}) => Number.isInteger(drive)).length;
     room.append(make('div', {class: 'row'},
         make('p', {class: 'note'}, shown < table.rows.length

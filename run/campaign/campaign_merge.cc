@@ -147,13 +147,9 @@ void CarryReplays(const std::vector<CampaignStore>& from, const std::vector<std:
     for (const Variant& variant : variants)
       from[i].ForEach(variant.name, [&](const EpisodeRow& row) {
         if (!IsListed(row)) return;
-        const fs::path file = EpisodeFolder(shards[i], row.variant, row.episode) / "replay.bin";
-        std::error_code ignored;
-        if (!fs::is_regular_file(fs::symlink_status(file, ignored)) ||
-            !WhyUnreadable(file, kLargest).empty())
-          return;
         EpisodeRow carried = row;
-        carried.replay = ReadInputFile(file, kLargest);
+        carried.replay = ReadPlainFile(
+            EpisodeFolder(shards[i], row.variant, row.episode) / "replay.bin", kLargest);
         shelf.Take(carried);
       });
 }

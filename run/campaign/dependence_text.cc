@@ -46,48 +46,41 @@ std::string PText(double p) {
   return p < kLeast ? "p < 0.0001" : "p = " + NumberText(p, 2);
 }
 
-// A number of a key, in the unit that the key's values are told in. An edge is told so that no
-// value beyond it is claimed.
-struct Told {
-  KeyScale scale;
-
-  std::string With(double shown) const {
-    return NumberText(shown) + (scale.unit.empty() ? "" : " " + scale.unit);
-  }
-  std::string UpTo(double edge) const {
-    return With(RoundedOutward({scale.per * edge, scale.per * edge}).lower);
-  }
-  std::string From(double edge) const {
-    return With(RoundedOutward({scale.per * edge, scale.per * edge}).upper);
-  }
-};
+// An edge is told so that no value beyond it is claimed.
+std::string UpToText(double edge, const KeyScale& scale) {
+  return scale.Of(NumberText(RoundedOutward({scale.per * edge, scale.per * edge}).lower));
+}
+std::string FromText(double edge, const KeyScale& scale) {
+  return scale.Of(NumberText(RoundedOutward({scale.per * edge, scale.per * edge}).upper));
+}
 
 std::string OfText(const Stretch& stretch) { return fmt::format("{} of {}", stretch.k, stretch.n); }
 
-std::string PartText(const SafeRange& safe, const Told& told) {
+std::string PartText(const SafeRange& safe, const KeyScale& scale) {
   if (safe.answer == SafeAnswer::kWhole)
     return fmt::format("over the whole range drawn ({} failed)", OfText(safe.whole));
   std::string text;
   if (safe.up_to)
-    text = fmt::format("up to {} ({} failed)", told.UpTo(safe.up_to->edge), OfText(*safe.up_to));
+    text =
+        fmt::format("up to {} ({} failed)", UpToText(safe.up_to->edge, scale), OfText(*safe.up_to));
   if (safe.from)
     text += fmt::format("{}from {} on ({} failed)", text.empty() ? "" : " and ",
-                        told.From(safe.from->edge), OfText(*safe.from));
+                        FromText(safe.from->edge, scale), OfText(*safe.from));
   return text;
 }
 
 // What is claimed of each part by itself.
-std::string EachText(const SafeRange& safe, const Told& told) {
+std::string EachText(const SafeRange& safe, const KeyScale& scale) {
   if (safe.parts < 2) return "";
   if (!safe.each_up_to && !safe.each_from) return "; no part at either end is by itself";
   std::string text;
   if (safe.each_up_to) {
     if (safe.each_up_to->edge == safe.whole.edge) return "; and in each part by itself";
-    text = "up to " + told.UpTo(safe.each_up_to->edge);
+    text = "up to " + UpToText(safe.each_up_to->edge, scale);
   }
   if (safe.each_from)
-    text +=
-        fmt::format("{}from {} on", text.empty() ? "" : " and ", told.From(safe.each_from->edge));
+    text += fmt::format("{}from {} on", text.empty() ? "" : " and ",
+                        FromText(safe.each_from->edge, scale));
   return "; in each part by itself only " + text;
 }
 
@@ -107,9 +100,8 @@ KeyScale BinScale(const std::string& key, const std::vector<ValueBin>& bins) {
 
 std::string BinText(const ValueBin& bin, const KeyScale& scale) {
   if (std::isnan(bin.low)) return Printable(bin.rate.name);
-  const std::string unit = scale.unit.empty() ? "" : " " + scale.unit;
-  if (bin.low == bin.high) return NumberText(scale.per * bin.low) + unit;
-  return NumberText(scale.per * bin.low) + " to " + NumberText(scale.per * bin.high) + unit;
+  const std::string low = NumberText(scale.per * bin.low);
+  return scale.Of(bin.low == bin.high ? low : low + " to " + NumberText(scale.per * bin.high));
 }
 
 std::string InfluenceText(const ValueDependence& value, int looked_at) {
@@ -138,9 +130,9 @@ std::string SafeText(const ValueDependence& value, const SafeRangeSettings& limi
     case SafeAnswer::kWhole:
       break;
   }
-  const Told told{ScaleOf(NameOfKey(value.key), MostOf(value.bins, safe.whole.edge))};
-  return fmt::format("safe on average ({}) {}{}", below, PartText(safe, told),
-                     EachText(safe, told));
+  const KeyScale scale = ScaleOf(NameOfKey(value.key), MostOf(value.bins, safe.whole.edge));
+  return fmt::format("safe on average ({}) {}{}", below, PartText(safe, scale),
+                     EachText(safe, scale));
 }
 
 std::vector<std::string> DependenceText(const VariantDependence& v, std::size_t most) {

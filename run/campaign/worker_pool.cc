@@ -19,37 +19,13 @@
 #include "base/error.h"
 #include "base/fork.h"
 #include "base/watched_call.h"
+#include "base/whole_io.h"
 
 namespace floorproof {
 namespace {
 
 constexpr int kPoll_ms = 100;
 constexpr int kTries = 2;
-
-// All of it, or false: the other end is gone.
-bool WriteAll(int fd, const void* data, std::size_t size) {
-  const char* from = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t n = write(fd, from, size);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    from += n;
-    size -= static_cast<std::size_t>(n);
-  }
-  return true;
-}
-
-bool ReadAll(int fd, void* data, std::size_t size) {
-  char* to = static_cast<char*>(data);
-  while (size > 0) {
-    const ssize_t n = read(fd, to, size);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    to += n;
-    size -= static_cast<std::size_t>(n);
-  }
-  return true;
-}
 
 std::string HowItEnded(int status) {
   if (WIFSIGNALED(status)) return std::string("killed by ") + strsignal(WTERMSIG(status));
