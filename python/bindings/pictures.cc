@@ -66,7 +66,7 @@ bool SaveMaps(const Driven& d, const fs::path& folder) {
   });
 }
 
-fs::path WritePage(const fs::path& folder) {
+fs::path WriteReport(const fs::path& folder) {
   return DrawAlone([&] { return WriteCampaignReport(folder, folder.string(), kQuiet).page; });
 }
 
@@ -77,7 +77,7 @@ void BindPictures(nb::module_& m) {
   m.def("start_frame", &StartFrame, "scenario"_a, "width"_a, "height"_a, "camera"_a);
   m.def("save_plan", &SavePlanFiles, "plan"_a, "folder"_a);
   m.def("save_maps", &SaveMaps, "episode"_a, "folder"_a);
-  m.def("write_report", &WritePage, "folder"_a);
+  m.def("write_report", &WriteReport, "folder"_a);
 }
 
 }  // namespace floorproof
