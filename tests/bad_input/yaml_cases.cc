@@ -2,6 +2,7 @@
 // Files that are not YAML, or far larger than anybody writes.
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include "tests/bad_input/bad_input.h"
 
@@ -12,6 +13,18 @@ BadInput Scenario(const std::string& name, const std::string& text,
                   std::vector<std::string> named) {
   return {
       name, {"run", "scenario.yaml", "--out", "o"}, {{"scenario.yaml", text}}, std::move(named)};
+}
+
+// A scenario of megabytes, which is made when its test runs: all cases are held in memory, copied,
+// each time that one of them starts.
+BadInput Long(const std::string& name, std::function<std::string()> text,
+              std::vector<std::string> named) {
+  BadInput input = Scenario(name, "", std::move(named));
+  input.prepare = [text = std::move(text)](const std::filesystem::path& folder) {
+    std::ofstream(folder / "scenario.yaml", std::ios::binary) << text();
+    return true;
+  };
+  return input;
 }
 
 // Ten levels of ten aliases each: 10^10 values from 500 bytes.
@@ -50,46 +63,55 @@ std::vector<BadInput> YamlCases() {
       Scenario("UnknownAlias", first + "robot: *r\n", {file + ":2", "bad YAML", "r"}),
       Scenario("AliasInItself", first + "robot: &r [*r]\n", {file + ":2", "alias"}),
       Scenario("ManyLaughs", ManyLaughs(), {file + ":", "values (aliases expanded)"}),
-      Scenario("NestedBrackets", first + "robot: " + std::string(20'000, '[') + "\n",
-               {file + ":2", "nested more than 100 levels deep"}),
-      Scenario("NestedBraces", first + "robot: " + Repeated("{a: ", 20'000) + "\n",
-               {file + ":2", "nested more than 100 levels deep"}),
-      Scenario("NestedDashes", first + "robot:\n  " + Repeated("- ", 20'000) + "1\n",
-               {file + ":3", "nested more than 100 levels deep"}),
-      Scenario("ManyValues", first + "robot: [" + Repeated("1,", 1'200'000) + "1]\n",
-               {file + ":2", "values (aliases expanded)"}),
-      Scenario("OneLongTextManyTimes",
-               first + "name: &a " + std::string(1'000'000, 'x') + "\nrobot: [*a" +
-                   Repeated(", *a", 4'000) + "]\n",
-               {file + ":", "MiB of memory (aliases expanded)"}),
-      Scenario("NestedAnchors",
-               first + "robot: " +
-                   [] {
-                     std::string text;
-                     for (int i = 0; i < 95; ++i) text += "&a" + std::to_string(i) + " [";
-                     return text + std::string(2'000'000, 'x') + std::string(95, ']') + "\n";
-                   }(),
-               {file + ":", "MiB of memory (aliases expanded)"}),
-      Scenario("ManyOtherKeys",
-               first + "randomise:\n" +
-                   [] {
-                     std::string text;
-                     for (int i = 0; i < 100'000; ++i) text += "  k" + std::to_string(i) + ": 1\n";
-                     return text;
-                   }(),
-               {file + ":3", "randomise.k0"}),
+      Long("NestedBrackets",
+           [first] { return first + "robot: " + std::string(20'000, '[') + "\n"; },
+           {file + ":2", "nested more than 100 levels deep"}),
+      Long("NestedBraces", [first] { return first + "robot: " + Repeated("{a: ", 20'000) + "\n"; },
+           {file + ":2", "nested more than 100 levels deep"}),
+      Long("NestedDashes",
+           [first] { return first + "robot:\n  " + Repeated("- ", 20'000) + "1\n"; },
+           {file + ":3", "nested more than 100 levels deep"}),
+      Long("ManyValues",
+           [first] { return first + "robot: [" + Repeated("1,", 1'200'000) + "1]\n"; },
+           {file + ":2", "values (aliases expanded)"}),
+      Long("OneLongTextManyTimes",
+           [first] {
+             return first + "name: &a " + std::string(1'000'000, 'x') + "\nrobot: [*a" +
+                    Repeated(", *a", 4'000) + "]\n";
+           },
+           {file + ":", "MiB of memory (aliases expanded)"}),
+      Long("NestedAnchors",
+           [first] {
+             std::string text = first + "robot: ";
+             for (int i = 0; i < 95; ++i) text += "&a" + std::to_string(i) + " [";
+             return text + std::string(2'000'000, 'x') + std::string(95, ']') + "\n";
+           },
+           {file + ":", "MiB of memory (aliases expanded)"}),
+      Long("ManyOtherKeys",
+           [first] {
+             std::string text = first + "randomise:\n";
+             for (int i = 0; i < 100'000; ++i) text += "  k" + std::to_string(i) + ": 1\n";
+             return text;
+           },
+           {file + ":3", "randomise.k0"}),
       Scenario("AnEscapeInAName", first + "name: \"a\\e[2Jb\"\n",
                {file + ":2", "name", "holds a control character"}),
       Scenario("ATurnedName", first + "name: a\u202egnp.exe\n",
                {file + ":2", "holds a mark of writing direction"}),
-      Scenario("ManyKeys", first + Repeated("k: 1\n", 100'000), {file + ":3", "k", "stands twice"}),
+      Long("ManyKeys", [first] { return first + Repeated("k: 1\n", 100'000); },
+           {file + ":3", "k", "stands twice"}),
       // What takes the parser longest, byte for byte.
-      Scenario("PlainTextInBrackets", first + "robot: [" + Repeated("x ", 1'500'000) + "]\n",
-               {file + ":", "the key is missing"}),
-      Scenario("LargerThanAnybodyWrites", first + "robot: [" + Repeated("x ", 2'000'000) + "]\n",
-               {file + ": ", "larger than 3 MiB"}),
-      Scenario("LongLine", first + "site: site.yaml\nrobot: " + std::string(3'000'000, 'x') + "\n",
-               {file + ":3", "robot = xxxxxxxx", "...", "unknown robot"}),
+      Long("PlainTextInBrackets",
+           [first] { return first + "robot: [" + Repeated("x ", 1'500'000) + "]\n"; },
+           {file + ":", "the key is missing"}),
+      Long("LargerThanAnybodyWrites",
+           [first] { return first + "robot: [" + Repeated("x ", 2'000'000) + "]\n"; },
+           {file + ": ", "larger than 3 MiB"}),
+      Long("LongLine",
+           [first] {
+             return first + "site: site.yaml\nrobot: " + std::string(3'000'000, 'x') + "\n";
+           },
+           {file + ":3", "robot = xxxxxxxx", "...", "unknown robot"}),
       Scenario("TwiceTheSameKey", first + "seed: 1\nseed: 2\n",
                {file + ":3", "seed", "stands twice", "line 2"}),
       Scenario("AKeyThatIsAList", first + "? [a, b]\n: 1\n", {file + ":2", "plain text"}),

@@ -402,16 +402,24 @@ struct RobotInShape {
 };
 void PrintTo(const RobotInShape& robot, std::ostream* out) { *out << robot.Name(); }
 
+constexpr std::string_view kConvexShapes[] = {"O", "I"};
 std::vector<RobotInShape> RobotsInShapes() {
   std::vector<RobotInShape> robots;
   for (const std::string& name : RobotNames()) {
-    const RobotSpec own = ReadRobot(FindRobotFile(name, {})).spec;
-    const std::string first = own.shapes.empty() ? "" : own.shapes.front().name;
-    robots.push_back({name, first});
-    for (const ShapeSpec& shape : own.shapes)
-      if (shape.name != first && IsConvex(shape.footprint_B)) robots.push_back({name, shape.name});
+    const std::vector<std::string> shapes = ShapeNames(name);
+    if (shapes.empty()) robots.push_back({name, ""});
+    for (const std::string& shape : shapes)
+      if (shape == shapes.front() || std::ranges::count(kConvexShapes, shape) > 0)
+        robots.push_back({name, shape});
   }
   return robots;
+}
+
+TEST(RobotsInShapes, AreAllThatAreConvex) {
+  for (const std::string& name : RobotNames())
+    for (const ShapeSpec& shape : ReadRobot(FindRobotFile(name, {})).spec.shapes)
+      EXPECT_EQ(std::ranges::count(kConvexShapes, shape.name) > 0, IsConvex(shape.footprint_B))
+          << name << " as " << shape.name;
 }
 
 using PlannerAndRobot = std::tuple<std::string, RobotInShape>;

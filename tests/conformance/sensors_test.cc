@@ -32,8 +32,8 @@ std::vector<Carrier> Carriers() {
   std::vector<Carrier> carriers;
   for (const std::string& name : RobotNames()) {
     carriers.push_back({name, ""});
-    const RobotSpec robot = ReadRobot(FindRobotFile(name, {})).spec;
-    if (robot.shapes.size() > 1) carriers.push_back({name, robot.shapes[1].name});
+    const std::vector<std::string> shapes = ShapeNames(name);
+    if (shapes.size() > 1) carriers.push_back({name, shapes[1]});
   }
   return carriers;
 }

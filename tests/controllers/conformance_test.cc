@@ -15,18 +15,17 @@
 
 namespace floorproof {
 
-void PrintTo(const RobotSpec& robot, std::ostream* os) { *os << robot.name; }
 void PrintTo(const PluginEntry<Estimator>& entry, std::ostream* os) { *os << entry.name; }
 
 namespace {
 
 // A drive under each robot that stands on it.
-class DriveConformance : public testing::TestWithParam<RobotSpec> {
+class DriveConformance : public testing::TestWithParam<std::string> {
  protected:
   DriveConformance() : dut_(MakePlugin(Drives(), robot().drive, "drive")) {
     dut_->Configure(robot());
   }
-  static const RobotSpec& robot() { return GetParam(); }
+  static const RobotSpec& robot() { return TestRobot(GetParam()); }
   // What the wheels roll that are told this twist.
   BodyTwist Rolled(const BodyTwist& twist) const {
     std::vector<double> wheels(robot().wheels.size());
@@ -84,22 +83,22 @@ TEST_P(DriveConformance, SomeTrackerCommandsIt) {
   EXPECT_THAT(PluginNames(Trackers()), testing::Contains(DefaultTracker(robot().drive)));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, DriveConformance, testing::ValuesIn(TestRobots()),
-                         [](const auto& suite) { return suite.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, DriveConformance, testing::ValuesIn(TestRobotNames()),
+                         [](const auto& suite) { return suite.param; });
 
 // Each tracker, on each robot that it commands.
 struct Tracked {
   PluginEntry<Tracker> tracker;
-  RobotSpec robot;
+  std::string robot;
 };
 void PrintTo(const Tracked& tracked, std::ostream* os) {
-  *os << tracked.tracker.name << " on " << tracked.robot.name;
+  *os << tracked.tracker.name << " on " << tracked.robot;
 }
 std::vector<Tracked> AllTracked() {
   std::vector<Tracked> all;
   for (const auto& entry : Trackers())
-    for (const RobotSpec& robot : TestRobots())
-      if (entry.make()->Commands(*MakePlugin(Drives(), robot.drive, "drive")))
+    for (const std::string& robot : TestRobotNames())
+      if (entry.make()->Commands(*MakePlugin(Drives(), DriveOf(robot), "drive")))
         all.push_back({entry, robot});
   return all;
 }
@@ -114,7 +113,7 @@ Path RowsFor(const RobotSpec& robot) {
 class TrackerConformance : public testing::TestWithParam<Tracked> {
  protected:
   static std::unique_ptr<Tracker> Make() { return GetParam().tracker.make(); }
-  static const RobotSpec& robot() { return GetParam().robot; }
+  static const RobotSpec& robot() { return TestRobot(GetParam().robot); }
   const Path rows_ = RowsFor(robot());
 };
 
@@ -323,8 +322,7 @@ TEST_P(TrackerConformance, ParametersAreDocumented) {
 
 INSTANTIATE_TEST_SUITE_P(All, TrackerConformance, testing::ValuesIn(AllTracked()),
                          [](const auto& suite) {
-                           return std::string(suite.param.tracker.name) + "_" +
-                                  suite.param.robot.name;
+                           return std::string(suite.param.tracker.name) + "_" + suite.param.robot;
                          });
 
 TEST(DefaultTracker, CommandsItsDrive) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 
 #include "controllers/ideal_robot.h"
@@ -62,14 +63,30 @@ RobotSpec HolonomicRobot() {
   return robot;
 }
 
-const std::vector<RobotSpec>& TestRobots() {
-  static const std::vector<RobotSpec> robots = [] {
-    std::vector<RobotSpec> all = {RoundRobot(), HolonomicRobot()};
-    for (const std::string& name : RobotNames())
-      all.push_back(ReadRobot(FindRobotFile(name, {})).spec);
-    return all;
-  }();
+std::vector<std::string> TestRobotNames() {
+  std::vector<std::string> names = {RoundRobot().name, HolonomicRobot().name};
+  for (const std::string& name : RobotNames()) names.push_back(name);
+  return names;
+}
+
+const RobotSpec& TestRobot(const std::string& name) {
+  static std::map<std::string, RobotSpec> read = {{RoundRobot().name, RoundRobot()},
+                                                  {HolonomicRobot().name, HolonomicRobot()}};
+  const auto found = read.find(name);
+  if (found != read.end()) return found->second;
+  return read.emplace(name, ReadRobot(FindRobotFile(name, {})).spec).first->second;
+}
+
+std::vector<RobotSpec> TestRobots() {
+  std::vector<RobotSpec> robots;
+  for (const std::string& name : TestRobotNames()) robots.push_back(TestRobot(name));
   return robots;
+}
+
+std::string DriveOf(const std::string& name) {
+  for (const RobotSpec& robot : {RoundRobot(), HolonomicRobot()})
+    if (robot.name == name) return robot.drive;
+  return CustomText(name, "drive");
 }
 
 Path MakePath(const std::vector<Vec2>& points) {

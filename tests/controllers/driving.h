@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "controllers/ideal_robot.h"
@@ -16,7 +17,11 @@ RobotSpec RoundRobot();
 // The same on four Mecanum wheels.
 RobotSpec HolonomicRobot();
 // These two, and every registered robot.
-const std::vector<RobotSpec>& TestRobots();
+std::vector<std::string> TestRobotNames();
+const RobotSpec& TestRobot(const std::string& name);  // one of them, read once
+std::vector<RobotSpec> TestRobots();
+// Without reading it.
+std::string DriveOf(const std::string& name);
 
 struct DriveOptions {
   std::optional<Pose2> start;  // none: on the first waypoint, facing along the path

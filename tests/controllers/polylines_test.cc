@@ -144,8 +144,7 @@ std::string Stuck(const Driven& driven, const Path& path, const RobotSpec& robot
 }
 
 TEST_P(Polylines, AreDriven) {
-  const RobotSpec& robot =
-      *std::ranges::find(TestRobots(), GetParam(), [](const RobotSpec& r) { return r.name; });
+  const RobotSpec& robot = TestRobot(GetParam());
   const auto drive = MakePlugin(Drives(), robot.drive, "drive");
   for (const Line& line : Lines())
     for (const Yaw yaw : {Yaw::kOpen, Yaw::kHeld, Yaw::kChanging}) {
@@ -172,11 +171,7 @@ TEST_P(Polylines, AreDriven) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Polylines, testing::ValuesIn([] {
-                           std::vector<std::string> names;
-                           for (const RobotSpec& robot : TestRobots()) names.push_back(robot.name);
-                           return names;
-                         }()),
+INSTANTIATE_TEST_SUITE_P(All, Polylines, testing::ValuesIn(TestRobotNames()),
                          [](const auto& suite) { return suite.param; });
 
 }  // namespace

@@ -11,10 +11,7 @@
 namespace floorproof {
 namespace {
 
-const RobotSpec& Tricycle() {
-  return *std::ranges::find_if(TestRobots(),
-                               [](const RobotSpec& r) { return r.turn_radius_m > 0; });
-}
+const RobotSpec& Tricycle() { return TestRobot("scrubber"); }
 
 Driven Drive(const Path& path, const DriveOptions& options = {}) {
   const auto dut = MakePlugin(Trackers(), "steered_pursuit", "controller");

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "env/scene/scene.h"
+#include "tests/robots.h"
 
 namespace floorproof {
 namespace {
@@ -297,6 +298,17 @@ TEST(RobotModel, BlocksALittleApartAreOneRobot) {
     EXPECT_NEAR(SignedArea(corner), 2 * half_m * (0.75 + 2 * half_m), 1e-4) << half_m;
   }
   EXPECT_THROW(with_blocks(1e-8), InputError);
+}
+
+// Tests of all robots are made by what their files say as text.
+TEST(BundledRobots, AreWhatTheirFilesSayAsText) {
+  for (const std::string& name : RobotNames()) {
+    const RobotSpec dut = ReadRobot(FindRobotFile(name, {})).spec;
+    EXPECT_EQ(CustomText(name, "drive"), dut.drive) << name;
+    std::vector<std::string> shapes;
+    for (const ShapeSpec& shape : dut.shapes) shapes.push_back(shape.name);
+    EXPECT_EQ(ShapeNames(name), shapes) << name;
+  }
 }
 
 TEST(RobotModel, AnUnknownRobotNamesTheNearest) {
