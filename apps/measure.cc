@@ -11,6 +11,7 @@
 #include "measure/drive_plans.h"
 #include "measure/risk_files.h"
 #include "report/campaign_words.h"
+#include "report/measure_page.h"
 #include "run/campaign/summary_json.h"
 
 namespace floorproof {
@@ -110,11 +111,12 @@ int RunMeasure(const MeasureCommand& options, const Globals& globals) {
   const fs::path folder =
       options.out.empty() ? fs::path("out") / "measure" / campaign.label : fs::path(options.out);
   CampaignLine progress(globals, campaign.file.variants());
-  const CampaignOutcome outcome = DriveRobotCampaign(campaign, request, folder, &progress);
+  CampaignOutcome outcome = DriveRobotCampaign(campaign, request, folder, &progress);
   progress.Clear();
   globals.Result(SummaryJson(outcome.summary));
   globals.Say(EncounterTable(outcome.summary));
   int plans_status = kExitDone;
+  bool fitted = false;
   if (!request.shard && outcome.run.end == CampaignEnd::kComplete) {
     if (auto model = FitRiskModel(outcome.store, ReadRobot(FindRobotFile(options.robot, {})),
                                   limits, folder)) {
@@ -123,6 +125,7 @@ int RunMeasure(const MeasureCommand& options, const Globals& globals) {
       plans_status = AddPlans(options, globals, folder, *model);
       WriteRiskModel(*model, folder);
       globals.Say(RiskModelText(*model));
+      fitted = true;
     } else {
       globals.Say("warning: no kind of hazard was met often enough: no rates are fitted");
     }
@@ -130,6 +133,14 @@ int RunMeasure(const MeasureCommand& options, const Globals& globals) {
   globals.SayFact("Results", folder.string());
   if (outcome.run.end == CampaignEnd::kInterrupted) throw Interruption();
   const int status = CampaignExitStatus(outcome);
+  if (fitted) {
+    // The page is made from what is recorded alone, which is let go of for it.
+    outcome.folder.reset();
+    { const CampaignStore whole = std::move(outcome.store); }
+    const WrittenReport written = WriteMeasureReport(folder, folder.string());
+    globals.Say(written.verdict);
+    globals.SayFact("Page", written.page.string());
+  }
   return status != kExitDone ? status : plans_status;
 }
 

@@ -4,24 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
-#include "report/campaign_report.h"
-#include "report/rare_page.h"
-#include "report/run_page.h"
+#include "report/folder_report.h"
 
 namespace floorproof {
 namespace {
 
-WrittenReport WriteRareReport(const std::filesystem::path& folder) {
-  const RarePage made = MakeRarePage(folder);
-  return WritePage(folder / "rare.html",
-                   {"page", [](std::string_view name) { return name == "rare.html"; }},
-                   made.verdict, made.html);
-}
-
 int WriteReport(const std::string& named, const Globals& globals) {
-  const WrittenReport written = HoldsRareSearch(named) ? WriteRareReport(named)
-                                : HoldsRun(named)      ? WriteRunReport(named, named)
-                                                       : WriteCampaignReport(named, named, globals);
+  const WrittenReport written = WriteFolderReport(named, named, globals);
   globals.Say(written.verdict);
   globals.Say(fmt::format("report: {} ({:.1f} MB, opens from disk)", written.page.string(),
                           static_cast<double>(written.bytes) / 1e6));
@@ -37,10 +26,11 @@ int WriteReport(const std::string& named, const Globals& globals) {
 
 void AddReport(CommandLine& line, const Globals& globals, int& status) {
   auto folder = std::make_shared<std::string>();
-  Subcommand command = line.Add("report",
-                                "Write the page of a drive or a campaign, report.html, or of rare "
-                                "failures, rare.html, from its recorded results alone");
-  command.Text("DIR", *folder, "A folder that `run`, `campaign` or `rare` wrote",
+  Subcommand command =
+      line.Add("report",
+               "Write the page of a drive, a campaign or a measurement, report.html, or "
+               "of rare failures, rare.html, from recorded results alone");
+  command.Text("DIR", *folder, "A folder that `run`, `campaign`, `measure` or `rare` wrote",
                Subcommand::Need::kRequired);
   command.OnRun([folder, &globals, &status] { status = WriteReport(*folder, globals); });
 }

@@ -23,7 +23,7 @@ struct KeyScale {
 
   // "15.9 mm", of a number that is shown.
   std::string Of(const std::string& shown) const {
-    return unit.empty() ? shown : shown + " " + unit;
+    return unit.empty() ? shown : shown + (unit == "°" ? "" : " ") + unit;
   }
 };
 // For values up to `most`, of whatever sign.

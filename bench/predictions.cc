@@ -239,7 +239,7 @@ class Runner {
     const CampaignStore measured =
         CampaignStore::Open(fs::path(study_.measured) / "campaign.sqlite", false);
     return {FitConstant(by_crf), FitRatesOfExposures(by_crf), FitRatesOfExposures(by_classes),
-            OccurrenceOfClasses(FirstMeetings(AllEncounters(measured)), classes_)};
+            OccurrenceOfClasses(FirstMeetings(AllEncounters(measured).encounters), classes_)};
   }
 
   static constexpr std::uintmax_t kMostBytes = 256u << 20;

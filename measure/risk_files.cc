@@ -20,16 +20,15 @@
 
 namespace floorproof {
 
-std::vector<Encounter> AllEncounters(const CampaignStore& store) {
-  std::vector<Encounter> all;
-  int drive = -1;
+MeasuredEncounters AllEncounters(const CampaignStore& store) {
+  MeasuredEncounters all;
   for (const std::string& variant : store.Variants()) {
     std::optional<std::uint64_t> last;
     store.ForEachEncounter(variant, [&](std::uint64_t episode, const Encounter& encounter) {
-      drive += last != episode;
+      if (last != episode) all.drives.push_back({variant, episode});
       last = episode;
-      all.push_back(encounter);
-      all.back().drive = drive;
+      all.encounters.push_back(encounter);
+      all.encounters.back().drive = static_cast<int>(all.drives.size()) - 1;
     });
   }
   return all;
@@ -39,7 +38,7 @@ std::optional<RiskModel> FitRiskModel(const CampaignStore& store, const RobotMod
                                       const DamageLimits& limits,
                                       const std::filesystem::path& folder) {
   const RobotSpec& spec = robot.spec;
-  const std::vector<Encounter> encounters = AllEncounters(store);
+  const std::vector<Encounter> encounters = AllEncounters(store).encounters;
   RateFitOptions options;
   options.mirrored = IsMirrorImage(spec);
   options.holonomic = IsHolonomic(spec);

@@ -2,6 +2,7 @@
 // What a robot's measured encounters say: risk_model.json and fmea_measured.yaml.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -15,8 +16,16 @@
 
 namespace floorproof {
 
+struct MeasuredDrive {
+  std::string variant;
+  std::uint64_t episode = 0;
+};
+struct MeasuredEncounters {
+  std::vector<Encounter> encounters;  // each Encounter::drive is one of:
+  std::vector<MeasuredDrive> drives;
+};
 // Of the campaign's counted episodes, variant after variant.
-std::vector<Encounter> AllEncounters(const CampaignStore& store);
+MeasuredEncounters AllEncounters(const CampaignStore& store);
 
 // Fits the rates to all encounters of the campaign's counted episodes and writes
 // fmea_measured.yaml. Returns none, and writes nothing, where no kind was met often enough. Throws

@@ -77,7 +77,8 @@ std::string Pair(const PairDependence& pair) {
   const KeyScale x_scale = BinScale(pair.x_key, pair.x_bins),
                  y_scale = BinScale(pair.y_key, pair.y_bins);
   std::string html = fmt::format(
-      "<h4>{0} and {1}</h4>\n<div class=\"scroll\"><table class=\"grid\"><thead><tr><th "
+      "<h4>{0} and {1}</h4>\n<div class=\"scroll\" tabindex=\"0\"><table "
+      "class=\"grid\"><thead><tr><th "
       "scope=\"col\">{1} ↑ {0} →</th>",
       MarkupText(NameOfKey(pair.x_key).name), MarkupText(NameOfKey(pair.y_key).name));
   for (const ValueBin& bin : pair.x_bins)

@@ -10,6 +10,7 @@
 #include "report/html.h"
 #include "report/page_drives.h"
 #include "report/rates.h"
+#include "report/settings_section.h"
 #include "report/verdict.h"
 
 namespace floorproof {
@@ -130,15 +131,6 @@ std::string Episodes(const Report& report) {
   return html;
 }
 
-std::string Settings(const Report& report) {
-  std::string html = "<dl><dt>campaign</dt><dd>" + MarkupText(report.summary.campaign) + "</dd>";
-  for (const auto& [name, version] : report.summary.versions)
-    html += "<dt>" + MarkupText(name) + "</dt><dd>" + MarkupText(version) + "</dd>";
-  return html +
-         "</dl>\n<details><summary>The scenario, with every default stated</summary>\n<pre>" +
-         MarkupText(report.settings) + "</pre></details>\n";
-}
-
 // What this page needs beside it.
 std::string Footer(const Report& report) {
   std::string linked;
@@ -178,7 +170,7 @@ std::string ReportHtml(const Report& report) {
              "interval; means: Student's t; medians: sign test.</p></div>\n"});
   if (!report.films.empty()) page.sections.push_back({"films", "Films", Films(report)});
   page.sections.push_back({"episodes", "Failing episodes", Episodes(report)});
-  page.sections.push_back({"settings", "Settings and versions", Settings(report)});
+  page.sections.push_back(SettingsSection(report.summary, report.settings));
   page.footer = Footer(report);
   page.data = report.data;
   page.blobs = report.replays;

@@ -81,7 +81,7 @@ std::string Row(const std::string& name, const std::string& value, const std::st
 std::string Numbers(const Json& rare) {
   const Json& sure = rare.at("without_sampler");
   std::string html =
-      "<div class=\"card scroll\">" + Scale(rare) +
+      "<div class=\"card scroll\" tabindex=\"0\">" + Scale(rare) +
       "<table><thead><tr><th scope=\"col\">Figure</th><th scope=\"col\">Failures a drive</th><th "
       "scope=\"col\">What it rests on</th></tr></thead><tbody>\n";
   if (!rare.at("probability").is_null())
@@ -183,7 +183,8 @@ std::string Search(const Json& rare) {
       CountText(rare.at("trials").get<std::int64_t>(), "drive"), MarkupText(coordinates),
       CountText(rare.at("diagnostics").at("fresh_draws").get<std::int64_t>(), "weighted draw"));
   html +=
-      "<div class=\"scroll\"><table><thead><tr><th scope=\"col\">Pilot</th><th scope=\"col\">How "
+      "<div class=\"scroll\" tabindex=\"0\"><table><thead><tr><th scope=\"col\">Pilot</th><th "
+      "scope=\"col\">How "
       "it "
       "ended</th><th scope=\"col\">Levels</th><th scope=\"col\">Failures met</th><th "
       "scope=\"col\">Its own estimate</th></tr></thead><tbody>\n";

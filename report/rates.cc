@@ -91,7 +91,8 @@ std::string PerTable(const VariantSummary& v) {
       left_out);
   if (columns.empty()) return html;
   html +=
-      "<div class=\"scroll\"><table><thead><tr><th scope=\"col\">Failure</th><th scope=\"col\" "
+      "<div class=\"scroll\" tabindex=\"0\"><table><thead><tr><th scope=\"col\">Failure</th><th "
+      "scope=\"col\" "
       "class=\"num\">Events</th>";
   for (const Column& column : columns)
     html += fmt::format(
@@ -130,7 +131,8 @@ std::string MetricsTable(const VariantSummary& v) {
           MarkupText(MetricLabel(name)), NumberText(spread->mean), NumberText(spread->median),
           NumberText(spread->min), NumberText(spread->max));
   if (rows.empty()) return "";
-  return "<details><summary>Metrics of an episode</summary>\n<div class=\"scroll\"><table><thead>"
+  return "<details><summary>Metrics of an episode</summary>\n<div class=\"scroll\" "
+         "tabindex=\"0\"><table><thead>"
          "<tr><th scope=\"col\">Metric</th><th scope=\"col\" class=\"num\">Mean</th><th "
          "scope=\"col\" class=\"num\">Median</th><th scope=\"col\" class=\"num\">Least</th><th "
          "scope=\"col\" class=\"num\">Greatest</th></tr></thead><tbody>\n" +
@@ -178,7 +180,8 @@ std::string PairTable(const ReportPair& pair) {
       MarkupText(pair.b), pair.neither);
   if (pair.metrics.empty()) return html;
   html += fmt::format(
-      "<div class=\"scroll\"><table><thead><tr><th scope=\"col\">Difference</th><th scope=\"col\">"
+      "<div class=\"scroll\" tabindex=\"0\"><table><thead><tr><th scope=\"col\">Difference</th><th "
+      "scope=\"col\">"
       "Pairs</th><th scope=\"col\" class=\"num\">Mean</th><th scope=\"col\" class=\"num\">{0} "
       "interval</th><th scope=\"col\" class=\"num\">Median</th><th scope=\"col\" class=\"num\">{0} "
       "interval</th></tr></thead><tbody>\n",

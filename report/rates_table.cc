@@ -59,11 +59,11 @@ std::string RatesTable(const RatesPlot& drawn, const std::string& heading,
   const Plot plot{drawn};
   std::string html = fmt::format(
       "<table class=\"rates\"><thead><tr><th scope=\"col\">{}</th><th scope=\"col\" "
-      "class=\"num\">Episodes</th><th scope=\"col\" class=\"num\">Rate</th><th scope=\"col\" "
+      "class=\"num\">{}</th><th scope=\"col\" class=\"num\">Rate</th><th scope=\"col\" "
       "class=\"num\">{} interval</th><th scope=\"col\" "
       "class=\"plotted\"><span class=\"off\">Rate and interval, drawn</span>{}</th></tr></thead>"
       "<tbody>\n",
-      heading, PercentText(kReportedConfidence), plot.Axis());
+      heading, drawn.counted, PercentText(kReportedConfidence), plot.Axis());
   for (std::size_t i = 0; i < rates.size(); ++i) {
     const FailureRate& rate = rates[i];
     html += fmt::format(

@@ -14,6 +14,7 @@ struct RatesPlot {
   double reach = 1;               // the axis' right end
   std::optional<double> limit{};  // dashed
   std::string limit_of{};         // the rate that has it; empty: every one
+  std::string counted = "Episodes";
 };
 
 // The least 1, 2 or 5 times a power of ten that holds it; 1 at most.

@@ -133,7 +133,8 @@ class Run {
           fmt::format("<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td>{}</td></tr>\n",
                       MarkupText(Words(name)), MarkupText(text), MarkupText(column.help));
     }
-    return "<div class=\"card scroll\"><table><thead><tr><th scope=\"col\">Metric</th><th "
+    return "<div class=\"card scroll\" tabindex=\"0\"><table><thead><tr><th "
+           "scope=\"col\">Metric</th><th "
            "scope=\"col\" class=\"num\">Value</th><th scope=\"col\">What it is</th></tr></thead>"
            "<tbody>\n" +
            rows + "</tbody></table></div>\n";

@@ -137,7 +137,8 @@ std::string ResultCell(const SuiteReport& report, const MethodResult* result, do
 }
 
 std::string Table(const SuiteReport& report) {
-  std::string html = "<div class=\"card scroll\"><table><thead><tr><th scope=\"col\">Method</th>";
+  std::string html =
+      "<div class=\"card scroll\" tabindex=\"0\"><table><thead><tr><th scope=\"col\">Method</th>";
   for (const RobotSuite& robot : report.robots)
     html += "<th scope=\"col\">" + MarkupText(robot.label) + "</th>";
   html += "<th scope=\"col\">What it tests</th></tr></thead><tbody>\n";

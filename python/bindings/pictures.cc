@@ -9,8 +9,8 @@
 #include "python/bindings/drawing.h"
 #include "python/bindings/host.h"
 #include "python/bindings/modules.h"
-#include "report/campaign_report.h"
 #include "report/drive_video.h"
+#include "report/folder_report.h"
 #include "report/risk_pictures.h"
 #include "report/save_plan.h"
 #include "run/episode/records.h"
@@ -67,7 +67,7 @@ bool SaveMaps(const Driven& d, const fs::path& folder) {
 }
 
 fs::path WriteReport(const fs::path& folder) {
-  return DrawAlone([&] { return WriteCampaignReport(folder, folder.string(), kQuiet).page; });
+  return DrawAlone([&] { return WriteFolderReport(folder, folder.string(), kQuiet).page; });
 }
 
 }  // namespace

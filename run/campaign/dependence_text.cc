@@ -69,19 +69,32 @@ std::string PartText(const SafeRange& safe, const KeyScale& scale) {
   return text;
 }
 
-// What is claimed of each part by itself.
-std::string EachText(const SafeRange& safe, const KeyScale& scale) {
+// Of which values the claim of each part by itself holds: "up to 13.1 mm", "all", "none"; empty:
+// there are no parts.
+std::string EachPart(const SafeRange& safe, const KeyScale& scale) {
   if (safe.parts < 2) return "";
-  if (!safe.each_up_to && !safe.each_from) return "; no part at either end is by itself";
+  if (!safe.each_up_to && !safe.each_from) return "none";
   std::string text;
   if (safe.each_up_to) {
-    if (safe.each_up_to->edge == safe.whole.edge) return "; and in each part by itself";
+    if (safe.each_up_to->edge == safe.whole.edge) return "all";
     text = "up to " + UpToText(safe.each_up_to->edge, scale);
   }
   if (safe.each_from)
     text += fmt::format("{}from {} on", text.empty() ? "" : " and ",
                         FromText(safe.each_from->edge, scale));
-  return "; in each part by itself only " + text;
+  return text;
+}
+
+std::string EachText(const SafeRange& safe, const KeyScale& scale) {
+  const std::string each = EachPart(safe, scale);
+  if (each.empty()) return "";
+  if (each == "none") return "; no part at either end is by itself";
+  if (each == "all") return "; and in each part by itself";
+  return "; in each part by itself only " + each;
+}
+
+KeyScale SafeScale(const ValueDependence& value) {
+  return ScaleOf(NameOfKey(value.key), MostOf(value.bins, value.safe->whole.edge));
 }
 
 std::string NotShownText(const SafeRange& safe) {
@@ -130,9 +143,19 @@ std::string SafeText(const ValueDependence& value, const SafeRangeSettings& limi
     case SafeAnswer::kWhole:
       break;
   }
-  const KeyScale scale = ScaleOf(NameOfKey(value.key), MostOf(value.bins, safe.whole.edge));
+  const KeyScale scale = SafeScale(value);
   return fmt::format("safe on average ({}) {}{}", below, PartText(safe, scale),
                      EachText(safe, scale));
+}
+
+SafeClauses SafeClausesOf(const ValueDependence& value) {
+  if (!value.safe) return {};
+  const SafeRange& safe = *value.safe;
+  if (safe.answer == SafeAnswer::kTooFew)
+    return {fmt::format("too few: it takes {}, without a failure", safe.needed), ""};
+  if (safe.answer == SafeAnswer::kNotShown) return {"not shown: " + NotShownText(safe), ""};
+  const KeyScale scale = SafeScale(value);
+  return {PartText(safe, scale), EachPart(safe, scale)};
 }
 
 std::vector<std::string> DependenceText(const VariantDependence& v, std::size_t most) {

@@ -18,6 +18,13 @@ std::string BinText(const ValueBin& bin, const KeyScale& scale);
 std::string InfluenceText(const ValueDependence& value, int looked_at);
 // Up to which value a number is safe, in a clause; empty of choices and where nothing can be said.
 std::string SafeText(const ValueDependence& value, const SafeRangeSettings& limit);
+// The same for a table that states the limit: of which values it is the mean ("up to 19.8 mm (25 of
+// 1024 failed)", or why nothing is shown), and of which each part by itself ("up to 13.1 mm",
+// "all", "none"; empty where nothing is shown).
+struct SafeClauses {
+  std::string on_average{}, each_part{};
+};
+SafeClauses SafeClausesOf(const ValueDependence& value);
 
 // A variant in lines, each beginning with the key it speaks of: the telling values (at most
 // `most`), or that none is. None where nothing was drawn, or no failure and no range is to be told.
