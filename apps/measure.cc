@@ -7,6 +7,7 @@
 #include "base/interrupt.h"
 #include "base/params.h"
 #include "base/quantity.h"
+#include "base/shell_word.h"
 #include "measure/drive_encounters.h"
 #include "measure/drive_plans.h"
 #include "measure/risk_files.h"
@@ -137,9 +138,14 @@ int RunMeasure(const MeasureCommand& options, const Globals& globals) {
     // The page is made from what is recorded alone, which is let go of for it.
     outcome.folder.reset();
     { const CampaignStore whole = std::move(outcome.store); }
-    const WrittenReport written = WriteMeasureReport(folder, folder.string());
-    globals.Say(written.verdict);
-    globals.SayFact("Page", written.page.string());
+    try {
+      const WrittenReport written = WriteMeasureReport(folder, folder.string());
+      globals.Say(written.verdict);
+      globals.SayFact("Page", written.page.string());
+    } catch (const std::runtime_error& e) {  // what was measured is whole without it
+      globals.Say("warning: no page: " + std::string(e.what()) + "; `floorproof report " +
+                  ShellWord(folder.string()) + "` makes one");
+    }
   }
   return status != kExitDone ? status : plans_status;
 }

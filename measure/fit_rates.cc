@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "base/quantity.h"
 #include "base/round.h"
 #include "measure/constant_rate.h"
 #include "measure/like_kinds.h"
@@ -87,8 +88,8 @@ std::optional<KindRates> FitKind(const Meetings& all, Manner manner, const LikeK
   const int known = static_cast<int>(met.size()) - (kind.per_metre ? 0 : kind.censored);
   if (known < options.least_encounters) {
     unmeasured = {kind.type, kind.passage,
-                  fmt::format("{} encounters with an outcome; at least {} are needed", known,
-                              options.least_encounters)};
+                  fmt::format("{} with an outcome; at least {} are needed",
+                              CountText(known, "encounter"), options.least_encounters)};
     return std::nullopt;
   }
   kind.axes = like != nullptr ? like->axes : AxesOf(met, StatedByAll(met), manner, options);

@@ -10,51 +10,52 @@
 #include <utility>
 
 #include "planners/risk/rate_evaluator.h"
-#include "stats/binomial.h"
 #include "stats/equal_bins.h"
-#include "stats/holm.h"
-#include "stats/influence.h"
 
 namespace floorproof {
 namespace {
 
 constexpr int kGroups = 8;
-constexpr int kTestGroups = 32;  // as in run/campaign/dependence.cc
-
-FailureRate RateOf(int k, int n) {
-  const Interval interval = ClopperPearson(k, n, kReportedConfidence);
-  return {"", k, n, static_cast<double>(k) / n, interval.lower, interval.upper};
-}
+constexpr std::size_t kNearEdge = 50;  // meetings
+constexpr double kKnowsItsPlace_m = 0.01;
+// By so much means of eight groups lie farther apart than chance would have them only once in
+// twenty: the root of chi-squared's 95 % quantile at 7, by 7.
+constexpr double kMoreThanChance = 1.42;
 
 bool Failed(const Encounter& met) { return met.outcome == Encounter::Outcome::kFailed; }
+bool Censored(const Encounter& met) { return met.outcome == Encounter::Outcome::kCensored; }
 
 // A meeting as one covariate sees it.
 struct Case {
   double x = 0;
-  bool failed = false;
-  double expected = 0;
+  const Encounter* met = nullptr;
+  double expected = 0;  // failures
 };
 
-std::vector<AxisGroup> GroupsOf(std::vector<Case>& cases, int most) {
+// To a micrometre: floating point makes thousands of values of "all of its width".
+double Rounded(double x) { return std::round(x * 1e6) / 1e6; }
+
+std::vector<AxisGroup> GroupsOf(std::vector<Case> cases) {
+  for (Case& each : cases) each.x = Rounded(each.x);
   std::ranges::stable_sort(cases, {}, &Case::x);
   std::vector<double> values;
   for (const Case& each : cases) values.push_back(each.x);
   std::vector<AxisGroup> groups;
   std::size_t begin = 0;
-  for (const std::size_t end : EqualBins(values, most)) {
+  for (const std::size_t end : EqualBins(values, kGroups)) {
     AxisGroup group{.low = values[begin], .high = values[end - 1]};
-    int failed = 0;
+    int failed = 0, n = 0;
     for (std::size_t i = begin; i < end; ++i) {
-      failed += cases[i].failed;
-      group.mean += cases[i].x;
+      failed += Failed(*cases[i].met);
+      n += !Censored(*cases[i].met);
+      group.mean += cases[i].x / static_cast<double>(end - begin);
       group.expected += cases[i].expected;
     }
-    const auto n = static_cast<int>(end - begin);
-    group.mean /= n;
-    group.expected /= n;
-    group.counted = RateOf(failed, n);
-    groups.push_back(group);
     begin = end;
+    if (n == 0) continue;
+    group.expected = std::min(1.0, group.expected / n);
+    group.counted = CountedRate("", failed, n);
+    groups.push_back(group);
   }
   return groups;
 }
@@ -69,100 +70,130 @@ double SpreadOf(const std::vector<AxisGroup>& groups) {
   return std::sqrt(std::max(0.0, squares / n - sum / n * (sum / n)));
 }
 
+// How far apart the groups' means would lie if meetings were put into them by chance.
+double SpreadByChance(const std::vector<Case>& cases) {
+  double sum = 0, squares = 0;
+  for (const Case& each : cases) {
+    sum += each.expected;
+    squares += each.expected * each.expected;
+  }
+  const auto n = static_cast<double>(cases.size());
+  return std::sqrt(std::max(0.0, squares / n - sum / n * (sum / n)) * kGroups / n);
+}
+
+// What another axis says better: where a robot is wrong about its place, the gap alone, and the
+// error alone, say less than the gap that is left.
+bool IsSaidByAnother(const std::vector<RateAxis>& axes, const RateAxis& axis) {
+  return !axis.of_hazard && (axis.name == "gap_m" || axis.name == "estimate_error_m") &&
+         std::ranges::find(axes, kSureGap, &RateAxis::name) != axes.end();
+}
+
 using Met = std::vector<const Encounter*>;
 
 KindFinding FindKind(const RiskModel& model, const KindRates& kind, const Met& met) {
   KindFinding found;
   found.kind = &kind;
-  found.n = static_cast<int>(met.size());
   const RateEvaluator rates(kind);
   std::vector<std::vector<Case>> cases(kind.axes.size());  // by axis
   for (const Encounter* each : met) {
     Covariates covariates(kind.axes, model.mirrored, each->size);
     const std::span<const double> x = covariates.Of(each->at);
-    const double p = Total(FirstFailures(rates.At(x)));
-    found.expected += p;
-    for (std::size_t a = 0; a < x.size(); ++a) cases[a].push_back({x[a], Failed(*each), p});
+    const ModeNumbers p = FirstFailures(rates.At(x));
+    const double expected = AmountOf(*each) * Total(p);
+    found.expected += expected;
+    for (std::size_t a = 0; a < x.size(); ++a) cases[a].push_back({x[a], each, expected});
+    (Censored(*each) ? found.censored : found.n) += 1;
     if (!Failed(*each)) continue;
     const auto mode = static_cast<std::size_t>(each->mode);
     ++found.failed[mode];
     UnlikelyFailure& least = found.unlikeliest[mode];
-    if (least.met == nullptr || p < least.p) least = {each, p};
+    if (least.met == nullptr || p[mode] < least.p) least = {each, p[mode]};
   }
-  for (std::size_t a = 0; a < kind.axes.size() && !met.empty(); ++a) {
+  if (found.n == 0) return found;
+  for (std::size_t a = 0; a < kind.axes.size(); ++a) {
+    // Without knots it was always the same.
+    if (kind.axes[a].knots.empty() || IsSaidByAnother(kind.axes, kind.axes[a])) continue;
     AxisFinding axis{.name = kind.axes[a].name,
                      .of_hazard = kind.axes[a].of_hazard,
-                     .groups = GroupsOf(cases[a], kGroups)};
+                     .groups = GroupsOf(cases[a])};
     if (axis.groups.size() < 2) continue;
     axis.spread = SpreadOf(axis.groups);
-    found.axes.push_back(std::move(axis));
+    if (axis.spread > kMoreThanChance * SpreadByChance(cases[a]))
+      found.axes.push_back(std::move(axis));
   }
   std::ranges::stable_sort(found.axes, std::greater(), &AxisFinding::spread);
   return found;
 }
 
-// The meetings over a type of hazard, by one key.
-struct KeyCases {
-  std::vector<Case> up, down;  // by how far, whichever way
-};
-
-SizeFinding FindSize(const std::string& type, const std::string& key, SizeFinding::Way way,
-                     std::vector<Case>& cases, const SafeRangeSettings& limit) {
-  SizeFinding size{.type = type, .key = key, .way = way};
-  ValueDependence& of = size.of;
-  of.key = type + "." + key;
-  of.n = static_cast<int>(cases.size());
-  of.k = static_cast<int>(std::ranges::count(cases, true, &Case::failed));
-  std::vector<GroupCounts> counts;
-  for (const AxisGroup& group : GroupsOf(cases, kTestGroups))
-    counts.push_back({group.counted.n, group.counted.k});
-  const OrderedInfluence influence = TestOrdered(counts);
-  of.p = of.p_holm = influence.p;
-  of.shape = influence.shape;
-  for (const AxisGroup& group : GroupsOf(cases, kGroups))
-    of.bins.push_back({group.low, group.high, group.counted});
-  std::vector<DrawnOutcome> outcomes;
-  for (const Case& each : cases) outcomes.push_back({each.x, each.failed});
-  of.safe = FindSafeRange(outcomes, limit);
-  return size;
+FailureRate NearEdge(const std::vector<DrawnOutcome>& ascending, double edge) {
+  const auto end = std::ranges::upper_bound(ascending, edge, {}, &DrawnOutcome::value);
+  auto begin = end - std::min<std::ptrdiff_t>(kNearEdge, end - ascending.begin());
+  while (begin != ascending.begin() && (begin - 1)->value == begin->value) --begin;
+  const auto failed = std::count_if(begin, end, [](const DrawnOutcome& o) { return o.failed; });
+  return CountedRate("", static_cast<int>(failed), static_cast<int>(end - begin));
 }
 
-std::vector<SizeFinding> FindSizes(const std::string& type, const Met& met,
-                                   const SafeRangeSettings& limit) {
-  std::vector<std::pair<std::string, KeyCases>> keys;  // in the order in which hazards state them
+// The meetings over a type of hazard by one key: how far up, how far down.
+struct KeyOutcomes {
+  std::string key;
+  std::vector<DrawnOutcome> up, down;
+};
+
+std::vector<KeyOutcomes> OutcomesByKey(const Met& met) {
+  std::vector<KeyOutcomes> keys;  // in the order in which hazards state them
   for (const Encounter* each : met)
     for (const auto& [key, value] : each->size) {
       // How the way goes over it (env/core/passages.h), not how large it is.
       if (key == "rise_along" || key == "rise_across") continue;
-      auto found = std::ranges::find(keys, key, &std::pair<std::string, KeyCases>::first);
-      if (found == keys.end()) found = keys.insert(keys.end(), {key, {}});
-      KeyCases& cases = found->second;
-      (value < 0 ? cases.down : cases.up).push_back({std::abs(value), Failed(*each), 0});
+      auto found = std::ranges::find(keys, key, &KeyOutcomes::key);
+      if (found == keys.end()) found = keys.insert(keys.end(), {key, {}, {}});
+      (value < 0 ? found->down : found->up).push_back({std::abs(value), Failed(*each)});
     }
+  return keys;
+}
+
+// All of a type, the most telling first.
+std::vector<SizeFinding> FindSizes(const std::string& type, const Met& met,
+                                   const SafeRangeSettings& limit) {
   std::vector<SizeFinding> sizes;
-  for (auto& [key, cases] : keys) {
-    const bool both = !cases.up.empty() && !cases.down.empty();
-    const auto add = [&](std::vector<Case>& of, SizeFinding::Way way) {
-      if (of.empty()) return;
-      SizeFinding size = FindSize(type, key, both ? way : SizeFinding::Way::kOnly, of, limit);
-      if (size.of.bins.size() > 1) sizes.push_back(std::move(size));
+  for (KeyOutcomes& of : OutcomesByKey(met)) {
+    const auto add = [&](std::vector<DrawnOutcome>& outcomes, SizeFinding::Way way) {
+      if (outcomes.empty()) return;
+      std::ranges::stable_sort(outcomes, {}, &DrawnOutcome::value);
+      SizeFinding size{
+          type, of.key, way, DependenceOfNumber(type + "." + of.key, outcomes, limit), {}};
+      if (!size.of.differs()) return;
+      if (size.of.safe->up_to) size.at_edge = NearEdge(outcomes, size.of.safe->up_to->edge);
+      sizes.push_back(std::move(size));
     };
-    add(cases.up, SizeFinding::Way::kUp);
-    add(cases.down, SizeFinding::Way::kDown);
+    add(of.up, of.down.empty() ? SizeFinding::Way::kOnly : SizeFinding::Way::kUp);
+    add(of.down, SizeFinding::Way::kDown);
   }
-  std::vector<double> p_values;
-  for (const SizeFinding& size : sizes) p_values.push_back(size.of.p);
-  const std::vector<double> adjusted = HolmAdjusted(p_values);
-  for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i].of.p_holm = adjusted[i];
-  std::ranges::stable_sort(sizes, {}, [](const SizeFinding& size) { return size.of.p_holm; });
-  const auto answers = [](const SizeFinding& size) {
-    return size.of.telling() && (size.of.safe->answer == SafeAnswer::kPart);
-  };
-  if (std::ranges::any_of(sizes, answers))
-    std::erase_if(sizes, [&](const SizeFinding& size) { return !answers(size); });
-  else if (sizes.size() > 1)
-    sizes.resize(1);
-  return sizes;
+  std::vector<ValueDependence> values;
+  for (const SizeFinding& size : sizes) values.push_back(size.of);
+  CorrectByHolm(values);
+  std::vector<SizeFinding> ordered;
+  for (const std::size_t i : MostTellingFirst(values)) {
+    ordered.push_back(std::move(sizes[i]));
+    ordered.back().of.p_holm = values[i].p_holm;
+  }
+  return ordered;
+}
+
+// Both directions of a key stand together, or neither: what is not shown to be safe is no less to
+// be known.
+std::vector<SizeFinding> Shown(const std::vector<SizeFinding>& sizes) {
+  std::vector<std::string> keys;
+  for (const SizeFinding& size : sizes)
+    if (size.of.telling() && size.of.safe->answer == SafeAnswer::kPart &&
+        std::ranges::find(keys, size.key) == keys.end())
+      keys.push_back(size.key);
+  if (keys.empty() && !sizes.empty()) keys.push_back(sizes.front().key);
+  std::vector<SizeFinding> shown;
+  for (const std::string& key : keys)
+    std::ranges::copy_if(sizes, std::back_inserter(shown),
+                         [&](const SizeFinding& size) { return size.key == key; });
+  return shown;
 }
 
 }  // namespace
@@ -175,24 +206,24 @@ std::vector<KindFinding> FindKinds(const RiskModel& model, const std::vector<Enc
     if (kind.per_metre) continue;
     Met met;
     for (const Encounter& each : first)
-      if (each.outcome != Encounter::Outcome::kCensored &&
-          IsAbout(kind, each.type, each.passage, each.at))
-        met.push_back(&each);
+      if (IsAbout(kind, each.type, each.passage, each.at)) met.push_back(&each);
     found.push_back(FindKind(model, kind, met));
   }
   return found;
 }
 
-std::vector<SizeFinding> FindSafeSizes(const std::vector<Encounter>& first,
-                                       const SafeRangeSettings& limit) {
+SafeSizes FindSafeSizes(const std::vector<Encounter>& first, const SafeRangeSettings& limit) {
   std::map<std::string, Met> by_type;
   for (const Encounter& each : first)
-    if (each.passage == Passage::kOver && each.outcome != Encounter::Outcome::kCensored &&
-        !IsExposure(each.type))
+    if (each.passage == Passage::kOver && !Censored(each) && !IsExposure(each.type) &&
+        each.at.estimate_error_m <= kKnowsItsPlace_m)
       by_type[each.type].push_back(&each);
-  std::vector<SizeFinding> sizes;
-  for (const auto& [type, met] : by_type)
-    for (SizeFinding& size : FindSizes(type, met, limit)) sizes.push_back(std::move(size));
+  SafeSizes sizes;
+  for (const auto& [type, met] : by_type) {
+    const std::vector<SizeFinding> all = FindSizes(type, met, limit);
+    sizes.looked_at += static_cast<int>(all.size());
+    for (const SizeFinding& size : Shown(all)) sizes.shown.push_back(size);
+  }
   return sizes;
 }
 

@@ -66,8 +66,12 @@ std::string Table(const ConfigNode& file, const Grid& grid) {
 
 }  // namespace
 
-std::string ExpertsTables(const std::filesystem::path& file) {
+std::string ExpertsTables(const std::filesystem::path& file, const std::string& robot) {
   const ConfigNode node = ReadYamlFile(file);
+  const ConfigNode& measured = At(node, "robot");
+  if (AsString(measured, "robot") != robot)
+    throw InputError(measured.mark, "robot", measured.scalar,
+                     "is another robot than risk_model.json's, " + robot);
   const ConfigNode& damage = At(node, "damage");
   std::vector<std::string> modes;
   for (int m = 0; m < kNumFailureModes; ++m)
@@ -85,7 +89,8 @@ std::string ExpertsTables(const std::filesystem::path& file) {
                  "recoverable, needs a person", "lasting, finishes", "lasting, cannot finish"}}) +
          fmt::format(
              "<p class=\"note\">Shares of what was counted, each with its exact 95 % interval, and "
-             "what the experts of the hTetro FMEA paper hold; ≠ where the interval excludes that. "
+             "what the experts of the hTetro FMEA paper hold; ≠ where the interval excludes that, "
+             "as one in twenty would by chance. "
              "Damage is assumed, not measured: recoverable from as hard a blow as when one edge "
              "drops by {} mm, lasting from {} mm. Counts and more stand in "
              "<code>fmea_measured.yaml</code>.</p>\n",

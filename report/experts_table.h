@@ -7,7 +7,8 @@
 
 namespace floorproof {
 
-// As HTML. Throws InputError naming file, line and key where the file is missing or damaged.
-std::string ExpertsTables(const std::filesystem::path& file);
+// As HTML. Throws InputError naming file, line and key where the file is missing, damaged, or of
+// another robot.
+std::string ExpertsTables(const std::filesystem::path& file, const std::string& robot);
 
 }  // namespace floorproof

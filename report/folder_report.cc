@@ -21,8 +21,8 @@ WrittenReport WriteRareReport(const std::filesystem::path& folder) {
 WrittenReport WriteFolderReport(const std::filesystem::path& folder, const std::string& named,
                                 const Console& console) {
   if (HoldsRareSearch(folder)) return WriteRareReport(folder);
-  if (HoldsMeasurement(folder)) return WriteMeasureReport(folder, named);
   if (HoldsRun(folder)) return WriteRunReport(folder, named);
+  if (HoldsMeasurement(folder)) return WriteMeasureReport(folder, named);
   return WriteCampaignReport(folder, named, console);
 }
 

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "base/input_file.h"
@@ -23,7 +25,6 @@
 #include "run/campaign/dependence_text.h"
 #include "run/campaign/summary_json.h"
 #include "run/scenario/risk_model_file.h"
-#include "stats/binomial.h"
 
 namespace floorproof {
 namespace {
@@ -53,17 +54,22 @@ struct Measurement {
   std::shared_ptr<const RiskModel> model;
   std::vector<KindFinding> kinds;
   SafeRangeSettings limit;
-  std::vector<SizeFinding> sizes;
+  SafeSizes sizes;
 };
 
 Measurement Read(const fs::path& folder) {
   Measurement m;
-  const fs::path database = folder / "campaign.sqlite", rates = folder / "risk_model.json";
-  m.summary = ReadSummary(folder / "summary.json");
+  const fs::path database = folder / "campaign.sqlite", rates = folder / "risk_model.json",
+                 summary = folder / "summary.json";
+  m.summary = ReadSummary(summary);
   if (const std::string why = WhyUnreadable(database, std::numeric_limits<std::uintmax_t>::max());
       !why.empty())
     throw InputError({database.string(), 0}, "", "", why + ": not a folder of `measure`");
-  m.met = AllEncounters(CampaignStore::Open(database, false));
+  const CampaignStore store = CampaignStore::Open(database, false);
+  if (store.about().id != m.summary.campaign)
+    throw InputError({summary.string(), 0}, "campaign", m.summary.campaign,
+                     "is another campaign than campaign.sqlite's, " + store.about().id);
+  m.met = AllEncounters(store);
   m.model = ReadRiskModel(rates);
   if (m.model->encounters != static_cast<int>(m.met.encounters.size()))
     throw InputError({rates.string(), 0}, "encounters", std::to_string(m.model->encounters),
@@ -76,7 +82,7 @@ Measurement Read(const fs::path& folder) {
   return m;
 }
 
-// "ramp, turning on it"; `where`: also whether it is passed.
+// "ramp, turning"; `where`: also whether it is passed, "ramp, over it, turning".
 std::string KindText(const KindRates& kind, bool where = true) {
   std::string text = Words(kind.type);
   if (where) text += kind.passage == Passage::kOver ? ", over it" : ", past it";
@@ -85,16 +91,7 @@ std::string KindText(const KindRates& kind, bool where = true) {
   return text;
 }
 
-FailureRate RateOf(const KindFinding& found) {
-  const int k = found.failures();
-  const Interval interval = ClopperPearson(k, found.n, kReportedConfidence);
-  return {"",
-          k,
-          found.n,
-          found.n > 0 ? static_cast<double>(k) / found.n : std::numeric_limits<double>::quiet_NaN(),
-          interval.lower,
-          interval.upper};
-}
+FailureRate RateOf(const KindFinding& found) { return CountedRate("", found.failures(), found.n); }
 
 // Of the kinds that are passed so, the one that fails most often.
 const KindFinding* Worst(const Measurement& m, Passage passage) {
@@ -113,22 +110,24 @@ std::string Verdict(const Measurement& m) {
     met += found.n;
     if (found.n > 0) types.insert(found.kind->type);
   }
-  std::string text = fmt::format("{} in {} with {} of hazard", m.model->robot.name,
-                                 CountText(met, "meeting"), CountText(types.size(), "type"));
+  std::string text =
+      fmt::format("{} in {} with {} of hazard, of the sizes drawn", m.model->robot.name,
+                  CountText(met, "meeting"), CountText(types.size(), "type"));
   const auto add = [&](Passage passage, const char* how) {
     const KindFinding* worst = Worst(m, passage);
     if (worst == nullptr) return;
     const FailureRate rate = RateOf(*worst);
-    text += rate.k == 0 ? fmt::format("; {} none fails", how)
-                        : fmt::format("; {} it fails most at: {}, {}", how,
-                                      KindText(*worst->kind, false), PercentText(rate.rate));
+    text += rate.k == 0 ? fmt::format("; {} nothing failed", how)
+                        : fmt::format("; {}, most often at: {}, {} ({})", how,
+                                      KindText(*worst->kind, false), PercentText(rate.rate),
+                                      PercentText(Interval{rate.lower, rate.upper}));
   };
   add(Passage::kOver, "over them");
   add(Passage::kBeside, "past them");
   text += '.';
   if (const CarryOver& plans = m.model->carry_over; plans.plans > 0)
     text +=
-        fmt::format(" Of {} of whole plans its rates had {} fail; {} did.",
+        fmt::format(" Of {} over whole plans its rates had {} fail; {} did.",
                     CountText(plans.drives, "drive"), FixedText(plans.expected, 0), plans.failed);
   return text;
 }
@@ -148,7 +147,9 @@ std::string KindsTable(const Measurement& m, Passage passage, const char* headin
       "scope=\"col\">Meeting</th>";
   for (int mode = 0; mode < kNumFailureModes; ++mode)
     ends += "<th scope=\"col\">" + Words(Name(static_cast<FailureMode>(mode))) + "</th>";
-  ends += "<th scope=\"col\">by the rates</th></tr></thead><tbody>\n";
+  ends +=
+      "<th scope=\"col\">by the rates</th><th scope=\"col\">without an outcome</th></tr></thead>"
+      "<tbody>\n";
   for (const KindFinding* found : kinds) {
     names.push_back(KindText(*found->kind, false));
     rates.push_back(RateOf(*found));
@@ -157,8 +158,8 @@ std::string KindsTable(const Measurement& m, Passage passage, const char* headin
     for (const int failed : found->failed)
       ends += fmt::format("<td style=\"--share:{:.0f}%\">{}</td>", 100.0 * failed / found->n,
                           failed > 0 ? fmt::format("{}", failed) : "–");
-    ends +=
-        fmt::format("<td>{} of {}</td></tr>\n", FixedText(found->expected, 1), found->failures());
+    ends += fmt::format("<td>{} of {}</td><td>{}</td></tr>\n", FixedText(found->expected, 1),
+                        found->failures(), found->censored);
   }
   RatesPlot plot{AxisEnd(most)};
   plot.counted = "Meetings";
@@ -166,52 +167,85 @@ std::string KindsTable(const Measurement& m, Passage passage, const char* headin
                      heading, RatesTable(plot, "Meeting", names, rates), ends);
 }
 
+// What is not met but driven along, and drives that say nothing.
+std::string Besides(const Measurement& m) {
+  int drives = 0, errors = 0;
+  for (const VariantSummary& variant : m.summary.variants) {
+    drives += variant.n;
+    errors += variant.errors;
+  }
+  std::string text = CountText(drives, "drive");
+  if (errors > 0) text += fmt::format(", {} more ended in an error", errors);
+  for (const auto& [type, where] :
+       {std::pair(kFreeFloor, "on free floor"), std::pair(kWallBeside, "beside walls")}) {
+    const auto failed = std::ranges::count_if(m.first, [&](const Encounter& e) {
+      return e.type == type && e.outcome == Encounter::Outcome::kFailed;
+    });
+    text += fmt::format("; {} failed {}", failed, where);
+  }
+  return text;
+}
+
 std::string Kinds(const Measurement& m) {
   std::string html = KindsTable(m, Passage::kOver, "Over them") +
                      KindsTable(m, Passage::kBeside, "Past them, within 0.1 m");
+  html += "<p class=\"note\">" + MarkupText(Besides(m)) + ".";
   std::string unmeasured;
   for (const UnmeasuredKind& kind : m.model->unmeasured)
     unmeasured += fmt::format("{}{} {}: {}", unmeasured.empty() ? "" : "; ", Words(kind.type),
                               Name(kind.passage), kind.why);
-  if (!unmeasured.empty())
-    html += "<p class=\"note\">Without rates: " + MarkupText(unmeasured) + ".</p>\n";
+  if (!unmeasured.empty()) html += " Without rates: " + MarkupText(unmeasured) + ".";
   return html +
-         "<p class=\"note\">Shares of what was drawn, sizes from what the robot surely crosses to "
-         "what it surely does not: of no building. Counted are first meetings with an outcome; "
-         "bars: two-sided 95 % Clopper-Pearson intervals. <code>floorproof predict</code> says "
+         "</p>\n<p class=\"note\">Shares of what was drawn, of no building: another range of sizes "
+         "gives other shares. Counted are first meetings with an outcome; bars: two-sided 95 % "
+         "Clopper-Pearson intervals. What the rates expect counts meetings without one, cut short "
+         "by a failure elsewhere, by half. Robots that are to pass a hazard are often wrong about "
+         "their place, by design, and some so come over it. <code>floorproof predict</code> says "
          "what the rates come to on a floor of yours.</p>\n";
 }
 
 std::string Sizes(const Measurement& m) {
-  if (m.sizes.empty()) return "<p class=\"note\">No plan led over a hazard.</p>\n";
+  if (m.sizes.shown.empty())
+    return "<p class=\"note\">No size of what plans led over varied.</p>\n";
   const std::string below =
       "below " + PercentText(m.limit.max_rate) + " at " + PercentText(m.limit.confidence);
   std::string html =
       "<div class=\"card scroll\" tabindex=\"0\"><table><thead><tr><th "
       "scope=\"col\">Hazard</th><th "
-      "scope=\"col\">Size</th><th scope=\"col\">Driven</th><th scope=\"col\">Safe on average, " +
-      below + "</th><th scope=\"col\">Each part of them by itself</th></tr></thead><tbody>\n";
-  for (const SizeFinding& size : m.sizes) {
+      "scope=\"col\">Size</th><th scope=\"col\">Driven</th><th scope=\"col\">Each part by itself " +
+      below + "</th><th scope=\"col\">The mean " + below +
+      "</th><th scope=\"col\">Failed nearest to that end</th></tr></thead><tbody>\n";
+  for (const SizeFinding& size : m.sizes.shown) {
     ValueBin range = size.of.bins.front();
     range.high = size.of.bins.back().high;
     std::string name = NameOfKey(size.key).name;
     if (size.way != SizeFinding::Way::kOnly)
       name += size.way == SizeFinding::Way::kUp ? ", up" : ", down";
     const SafeClauses safe = SafeClausesOf(size.of);
+    const std::string edge = size.at_edge.n == 0
+                                 ? "–"
+                                 : fmt::format("{} of {} ({})", size.at_edge.k, size.at_edge.n,
+                                               PercentText(size.at_edge.rate, 2));
     html += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+        "<tr><th "
+        "scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
         MarkupText(Words(size.type)), MarkupText(name),
         MarkupText(BinText(range, BinScale(size.of.key, size.of.bins))),
-        MarkupText(safe.on_average), MarkupText(safe.each_part.empty() ? "–" : safe.each_part));
+        MarkupText(safe.each_part.empty() ? "none" : safe.each_part), MarkupText(safe.on_average),
+        edge);
   }
   return html +
-         "</tbody></table></div>\n<p class=\"note\">Of what plans led over, by the sizes that "
-         "tell, "
-         "all else as drawn: floors from slippery to grippy, straight and turning, square on and "
-         "askew. The mean over the sizes driven up to there is below the limit, not the rate at "
-         "the "
-         "edge; in the last column the mean of each eighth of the sizes is. Each answer by "
-         "itself.</p>\n";
+         fmt::format(
+             "</tbody></table></div>\n<p class=\"note\">Of plans that led over it, driven by "
+             "robots "
+             "that knew their place to a centimetre; all else as drawn: floors from slippery to "
+             "grippy, straight and turning, square on and askew. Parts hold as many meetings each. "
+             "The mean over all sizes up to an end is no promise for a hazard of that size: mild "
+             "ones were drawn more often (half of them in the mildest three tenths), and what the "
+             "50 or more nearest to the end came to stands beside. Shown, of {} sizes and "
+             "directions, are "
+             "those that failures go with; each answer holds by itself at 95 %.</p>\n",
+             m.sizes.looked_at);
 }
 
 std::string GroupsTable(const KindFinding& found, const std::vector<AxisFinding>& axes) {
@@ -261,23 +295,25 @@ std::string Dependence(const Measurement& m) {
   if (!seldom.empty())
     html += "<p class=\"note\">Too few failures to ask: " + MarkupText(seldom) + ".</p>\n";
   return html +
-         "<p class=\"note\">What moves the rates most stands first. Each group holds nearly as "
-         "many "
-         "meetings. The rates were fitted to these meetings, so that they lie on them says less "
-         "than what plans came to.</p>\n";
+         "<p class=\"note\">What the rates tell apart most stands first: what failures go with, "
+         "not always what causes them, since wide grooves, say, are also long ways. Groups hold "
+         "nearly as many meetings each. The rates were fitted to these meetings; what plans came "
+         "to "
+         "says more of them.</p>\n";
 }
 
 std::string Plans(const CarryOver& plans) {
+  constexpr int kFewPlans = 40;
   if (plans.plans == 0)
-    return "<p class=\"note\">No plans were driven: the rates are held against none. "
-           "<code>floorproof measure --resume</code> with <code>--floors</code> drives some.</p>\n";
+    return "<p class=\"note\">The rates are held against no whole plan: none was driven, or none "
+           "that they say anything of.</p>\n";
   std::string html = fmt::format(
       "<div class=\"card scroll\" tabindex=\"0\"><p>{} over small floors, {}: the rates had {} "
-      "fail, {} did. So "
-      "predictions (<code>floorproof predict</code>) are put right:</p>\n<table><thead><tr><th "
-      "scope=\"row\">The rates alone come to</th>",
+      "fail, {} did{}. By what these floors came to <code>floorproof predict</code> corrects a "
+      "plan:</p>\n<table><tbody><tr><th scope=\"row\">The rates alone come to</th>",
       CountText(plans.plans, "plan"), CountText(plans.drives, "drive"),
-      FixedText(plans.expected, 1), plans.failed);
+      FixedText(plans.expected, 1), plans.failed,
+      plans.plans < kFewPlans ? " (few: that says little)" : "");
   constexpr double kShares[] = {0.01, 0.03, 0.1, 0.3, 0.6, 0.9};
   for (const double p : kShares) html += "<td class=\"num\">" + PercentText(p) + "</td>";
   html += "</tr>\n<tr><th scope=\"row\">Plans fail in</th>";
@@ -304,7 +340,7 @@ std::string Unlikeliest(const Measurement& m, const std::string& named) {
     }
   if (rows.empty()) return "<p>Nothing failed.</p>\n";
   return "<p class=\"note\">Of each meeting and mode the failure that the rates held for the least "
-         "likely. Each command drives it again, exactly, and films it.</p>\n<div "
+         "likely to go so. Each command drives it again, exactly, and films it.</p>\n<div "
          "class=\"card\"><table class=\"list\"><thead><tr><th scope=\"col\">Meeting</th><th "
          "scope=\"col\">Failure</th><th scope=\"col\" class=\"num\">Such failures</th><th "
          "scope=\"col\" class=\"num\">Held likely</th><th scope=\"col\">Film it</th></tr></thead>"
@@ -316,7 +352,8 @@ std::string Unlikeliest(const Measurement& m, const std::string& named) {
 
 bool HoldsMeasurement(const fs::path& folder) {
   std::error_code none;
-  return fs::exists(folder / "risk_model.json", none) &&
+  return fs::exists(folder / "campaign.sqlite", none) &&
+         fs::exists(folder / "risk_model.json", none) &&
          fs::exists(folder / "fmea_measured.yaml", none);
 }
 
@@ -329,15 +366,15 @@ WrittenReport WriteMeasureReport(const fs::path& folder, const std::string& name
   page.about = "measured risk";
   page.extra_style = kMeasureStyle;
   page.verdict = "<div class=\"verdict\"><p>" + MarkupText(verdict) + "</p></div>\n";
-  page.sections = {
-      {"kinds", "How often it fails", Kinds(m)},
-      {"sizes", "How large a hazard may be", Sizes(m)},
-      {"dependence", "What it depends on", Dependence(m)},
-      {"plans", "What that comes to in plans", Plans(m.model->carry_over)},
-      {"experts", "Beside the experts' tables", ExpertsTables(folder / "fmea_measured.yaml")},
-      {"unlikeliest", "Failures to look at", Unlikeliest(m, named)},
-      SettingsSection(m.summary,
-                      ReadPlainFile(folder / "scenario.resolved.yaml", kMaxResultBytes))};
+  page.sections = {{"kinds", "How often it fails", Kinds(m)},
+                   {"sizes", "How large a hazard may be", Sizes(m)},
+                   {"dependence", "What it depends on", Dependence(m)},
+                   {"plans", "What that comes to in plans", Plans(m.model->carry_over)},
+                   {"experts", "Beside the experts' tables",
+                    ExpertsTables(folder / "fmea_measured.yaml", m.model->robot.name)},
+                   {"unlikeliest", "Failures to look at", Unlikeliest(m, named)},
+                   SettingsSection(m.summary, ReadPlainFile(folder / "scenario.resolved.yaml",
+                                                            kMaxResultBytes))};
   page.footer =
       "<p class=\"note\">This page is complete in itself: everything it shows stands in this one "
       "file.</p>";

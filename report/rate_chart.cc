@@ -22,7 +22,7 @@ constexpr std::pair<std::string_view, std::string_view> kTitles[] = {
     {"width_share", "share of its width"},
     {"turn_rad", "turn on the way"},
     {"turn_gap_m", "from its centre to the edge, turning"},
-    {"over_m", "way over it or past it"},
+    {"over_m", "way there"},
     {"wall_m", "distance of the wall beside"},
     {"estimate_error_m", "error of its place"},
     {"estimate_error_rad", "error of its heading"},
@@ -53,11 +53,14 @@ std::string Axes(const Plot& plot, const KeyScale& scale) {
         Plot::kLeft, Plot::kLeft + Plot::kWidth, plot.Y(share * plot.reach), Plot::kLeft - 6,
         plot.Y(share * plot.reach) + 4, PercentText(share * plot.reach));
   const double step = TickStep(scale.per * (plot.high - plot.low));
-  for (double at = std::ceil(scale.per * plot.low / step - 1e-9) * step;
-       at <= scale.per * plot.high + 1e-9 * step; at += step)
+  const double first = std::ceil(scale.per * plot.low / step - 1e-9),
+               last = std::floor(scale.per * plot.high / step + 1e-9);
+  for (int i = 0; i <= static_cast<int>(last - first); ++i) {
+    const double at = (first + i) * step;
     svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n",
                        plot.X(at / scale.per), Plot::kTop + Plot::kHeight + 16,
-                       NumberText(std::abs(at) < 1e-9 * step ? 0 : at, 3));
+                       NumberText(first + i == 0 ? 0 : at, 3));
+  }
   return svg;
 }
 

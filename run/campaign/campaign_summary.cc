@@ -24,11 +24,6 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 const GridFrame kPlaces{0, 0, 0.5, {}};  // squares of the world, whatever the site's own cells
 
-FailureRate Rate(const std::string& name, int k, int n) {
-  const Interval interval = ClopperPearson(k, n, kReportedConfidence);
-  return {name, k, n, n > 0 ? static_cast<double>(k) / n : kNone, interval.lower, interval.upper};
-}
-
 // k events in so many km or thousand hours.
 FailureRatePer RatePer(const std::string& name, int k, double exposure) {
   const Interval interval = GarwoodInterval(k, exposure, kReportedConfidence);
@@ -107,7 +102,7 @@ void AddRates(const Tally& tally, VariantSummary& out) {
   if (const auto short_of = tally.kinds.find("coverage"); short_of != tally.kinds.end())
     events += short_of->second;
   const auto add = [&](const std::string& name, int failed, int happened) {
-    out.failures.push_back(Rate(name, failed, tally.driven));
+    out.failures.push_back(CountedRate(name, failed, tally.driven));
     out.per_km.push_back(RatePer(name, happened, tally.km));
     out.per_1000_h.push_back(RatePer(name, happened, tally.hours / 1000));
   };
@@ -115,14 +110,15 @@ void AddRates(const Tally& tally, VariantSummary& out) {
   for (std::size_t m = 0; m < tally.events.size(); ++m)
     add(std::string(Name(static_cast<FailureMode>(m))), tally.episodes[m], tally.events[m]);
   const int unplanned = tally.count("not_planned");
-  out.failures.push_back(
-      Rate("not_success", tally.n - tally.count("success") + unplanned, tally.n + unplanned));
-  for (const auto& [kind, k] : tally.kinds) out.kinds.push_back(Rate(kind, k, tally.driven));
+  out.failures.push_back(CountedRate("not_success", tally.n - tally.count("success") + unplanned,
+                                     tally.n + unplanned));
+  for (const auto& [kind, k] : tally.kinds) out.kinds.push_back(CountedRate(kind, k, tally.driven));
   for (const auto& [hazard, k] : tally.hazards)
-    out.hazards.push_back(Rate(hazard, k, tally.driven));
+    out.hazards.push_back(CountedRate(hazard, k, tally.driven));
   out.place_m = kPlaces.cell_m;
   for (const auto& [place, k] : tally.places)
-    out.places.push_back({kPlaces.Center(place.first, place.second), Rate("", k, tally.driven)});
+    out.places.push_back(
+        {kPlaces.Center(place.first, place.second), CountedRate("", k, tally.driven)});
 }
 
 // A variant's rows; `one` holds the first that is no error alone.
@@ -154,6 +150,11 @@ std::optional<GateSummary> SummaryOf(const std::vector<GateState>& gate,
 }
 
 }  // namespace
+
+FailureRate CountedRate(const std::string& name, int k, int n) {
+  const Interval interval = ClopperPearson(k, n, kReportedConfidence);
+  return {name, k, n, n > 0 ? static_cast<double>(k) / n : kNone, interval.lower, interval.upper};
+}
 
 CampaignSummary Summarise(const CampaignStore& store, const std::vector<Variant>& variants,
                           const std::vector<GateState>& gate, const std::string& unfinished) {

@@ -22,6 +22,8 @@ struct FailureRate {
   int k = 0, n = 0;
   double rate = 0, lower = 0, upper = 1;
 };
+// k of n, with Clopper and Pearson's interval at kReportedConfidence; of none the rate is NaN.
+FailureRate CountedRate(const std::string& name, int k, int n);
 
 // k events over an exposure, with Garwood's bounds. Where the exposure says nothing the rate is NaN
 // and the upper bound infinite.

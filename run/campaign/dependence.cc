@@ -29,11 +29,6 @@ constexpr int kMostGrid = 6, kFewestOfCell = 10;  // a side of a pair's grid
 constexpr int kTestGroups = 32;         // of the test, which sees more than eight bins show
 constexpr std::size_t kMostPaired = 3;  // numbers of which pairs are made
 
-FailureRate RateOf(const std::string& name, int k, int n) {
-  const Interval interval = ClopperPearson(k, n, kReportedConfidence);
-  return {name, k, n, n > 0 ? static_cast<double>(k) / n : kNone, interval.lower, interval.upper};
-}
-
 // What a key drew in each counted episode.
 struct Column {
   std::string key;
@@ -104,7 +99,7 @@ std::vector<ValueBin> Bins(const std::vector<DrawnOutcome>& ascending, int most)
     const std::span<const DrawnOutcome> within(&ascending[begin], end - begin);
     const auto k = static_cast<int>(std::ranges::count(within, true, &DrawnOutcome::failed));
     bins.push_back({within.front().value, within.back().value,
-                    RateOf("", k, static_cast<int>(within.size()))});
+                    CountedRate("", k, static_cast<int>(within.size()))});
     begin = end;
   }
   return bins;
@@ -120,25 +115,12 @@ std::vector<GroupCounts> Counts(const std::vector<ValueBin>& bins) {
   return counts;
 }
 
-// How much a value tells: its p, and what orders those whose p is the same.
-struct Evidence {
-  double z = 0;
-  std::size_t column = 0;  // of the table
-};
-
-void DependOnNumber(const Column& column, const std::vector<bool>& failed,
-                    const SafeRangeSettings& limit, ValueDependence& out, Evidence& evidence) {
-  const std::vector<DrawnOutcome> outcomes = Ascending(column, failed);
-  out.bins = Bins(outcomes, BinsOf(outcomes.size()));
-  const OrderedInfluence found = TestOrdered(Counts(Bins(outcomes, kTestGroups)));
-  out.p = found.p;
-  out.shape = found.shape;
-  evidence.z = std::abs(found.z);
-  out.safe = FindSafeRange(outcomes, limit);
+void Count(ValueDependence& value) {
+  for (const ValueBin& bin : value.bins) value.n += bin.rate.n, value.k += bin.rate.k;
 }
 
-void DependOnChoice(const Column& column, const std::vector<bool>& failed, ValueDependence& out,
-                    Evidence& evidence) {
+ValueDependence DependenceOfChoice(const Column& column, const std::vector<bool>& failed) {
+  ValueDependence out{.key = column.key, .is_number = false};
   std::vector<std::string> names(column.labels.size());
   for (const auto& [label, at] : column.labels) names[static_cast<std::size_t>(at)] = label;
   std::map<std::string, GroupCounts> counts;
@@ -151,12 +133,14 @@ void DependOnChoice(const Column& column, const std::vector<bool>& failed, Value
     group.k += failed[i];
   }
   for (const auto& [name, group] : counts)
-    out.bins.push_back({kNone, kNone, RateOf(name, group.k, group.n)});
+    out.bins.push_back({kNone, kNone, CountedRate(name, group.k, group.n)});
   const ChoiceInfluence found = TestChoices(Counts(out.bins));
   out.p = found.p;
   out.choice = out.bins.empty() ? "" : out.bins[found.choice].rate.name;
   out.choice_fails_more = found.z > 0;
-  evidence.z = std::abs(found.z);
+  out.z = std::abs(found.z);
+  Count(out);
+  return out;
 }
 
 PairDependence Pair(const Column& x, const Column& y, const std::vector<bool>& failed) {
@@ -188,46 +172,31 @@ PairDependence Pair(const Column& x, const Column& y, const std::vector<bool>& f
     cell.k += of_x[i].failed;
   }
   for (std::size_t c = 0; c < counts.size(); ++c)
-    out.cells.push_back({c % width, c / width, RateOf("", counts[c].k, counts[c].n)});
+    out.cells.push_back({c % width, c / width, CountedRate("", counts[c].k, counts[c].n)});
   return out;
 }
 
 // The two most telling numbers; a third where it is telling.
-void AddPairs(const Table& table, const std::vector<Evidence>& evidence, VariantDependence& out) {
+// `columns`: of the table, which one each value is of.
+void AddPairs(const Table& table, const std::vector<std::size_t>& columns, VariantDependence& out) {
   std::vector<const Column*> paired;
   for (std::size_t i = 0; i < out.values.size() && paired.size() < kMostPaired; ++i) {
     const ValueDependence& value = out.values[i];
     if (value.is_number && value.bins.size() > 1 && (paired.size() < 2 || value.telling()))
-      paired.push_back(&table.columns[evidence[i].column]);
+      paired.push_back(&table.columns[columns[i]]);
   }
   for (std::size_t y = 1; y < paired.size(); ++y)
     for (std::size_t x = 0; x < y; ++x)
       out.pairs.push_back(Pair(*paired[x], *paired[y], table.failed));
 }
 
-// The most telling first; what differs in no episode was not looked at, and comes last.
-void OrderAndCorrect(VariantDependence& out, std::vector<Evidence>& evidence) {
-  std::vector<std::size_t> order(out.values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto differs = [&](std::size_t i) { return out.values[i].bins.size() > 1; };
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
-    if (differs(a) != differs(b)) return differs(a);
-    if (out.values[a].p != out.values[b].p) return out.values[a].p < out.values[b].p;
-    return evidence[a].z > evidence[b].z;
-  });
+// As the values are then; their p-values by Holm.
+void OrderAndCorrect(VariantDependence& out, std::vector<std::size_t>& columns) {
+  columns = MostTellingFirst(out.values);
   std::vector<ValueDependence> values;
-  std::vector<Evidence> ordered;
-  std::vector<double> p;
-  for (const std::size_t i : order) {
-    if (differs(i)) p.push_back(out.values[i].p);
-    values.push_back(std::move(out.values[i]));
-    ordered.push_back(evidence[i]);
-  }
-  out.looked_at = static_cast<int>(p.size());
-  const std::vector<double> adjusted = HolmAdjusted(p);
-  for (std::size_t i = 0; i < adjusted.size(); ++i) values[i].p_holm = adjusted[i];
+  for (const std::size_t i : columns) values.push_back(std::move(out.values[i]));
   out.values = std::move(values);
-  evidence = std::move(ordered);
+  out.looked_at = CorrectByHolm(out.values);
 }
 
 std::string WhyNoBins(const VariantDependence& v, bool repeated) {
@@ -247,21 +216,14 @@ VariantDependence Depend(const Table& table, const VariantSummary& variant,
                         .k = table.failures(),
                         .limit = limit};
   out.note = WhyNoBins(out, variant.repeated);
-  std::vector<Evidence> evidence;
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    const Column& column = table.columns[c];
-    ValueDependence value{.key = column.key, .is_number = column.is_number()};
-    evidence.push_back({0, c});
-    if (value.is_number)
-      DependOnNumber(column, table.failed, limit, value, evidence.back());
-    else
-      DependOnChoice(column, table.failed, value, evidence.back());
-    for (const ValueBin& bin : value.bins) value.n += bin.rate.n, value.k += bin.rate.k;
-    out.values.push_back(std::move(value));
-  }
-  OrderAndCorrect(out, evidence);
+  for (const Column& column : table.columns)
+    out.values.push_back(
+        column.is_number() ? DependenceOfNumber(column.key, Ascending(column, table.failed), limit)
+                           : DependenceOfChoice(column, table.failed));
+  std::vector<std::size_t> columns;
+  OrderAndCorrect(out, columns);
   if (out.note.empty()) {
-    AddPairs(table, evidence, out);
+    AddPairs(table, columns, out);
     return out;
   }
   out.looked_at = 0;
@@ -275,6 +237,42 @@ VariantDependence Depend(const Table& table, const VariantSummary& variant,
 }
 
 }  // namespace
+
+std::vector<std::size_t> MostTellingFirst(const std::vector<ValueDependence>& values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+    if (values[a].differs() != values[b].differs()) return values[a].differs();
+    if (values[a].p != values[b].p) return values[a].p < values[b].p;
+    return values[a].z > values[b].z;
+  });
+  return order;
+}
+
+int CorrectByHolm(std::vector<ValueDependence>& values) {
+  std::vector<double> p;
+  for (const ValueDependence& value : values)
+    if (value.differs()) p.push_back(value.p);
+  const std::vector<double> adjusted = HolmAdjusted(p);
+  auto next = adjusted.begin();
+  for (ValueDependence& value : values)
+    if (value.differs()) value.p_holm = *next++;
+  return static_cast<int>(p.size());
+}
+
+ValueDependence DependenceOfNumber(const std::string& key,
+                                   const std::vector<DrawnOutcome>& ascending,
+                                   const SafeRangeSettings& limit) {
+  ValueDependence out{.key = key};
+  out.bins = Bins(ascending, BinsOf(ascending.size()));
+  const OrderedInfluence found = TestOrdered(Counts(Bins(ascending, kTestGroups)));
+  out.p = found.p;
+  out.z = std::abs(found.z);
+  out.shape = found.shape;
+  out.safe = FindSafeRange(ascending, limit);
+  Count(out);
+  return out;
+}
 
 std::vector<VariantDependence> DependenceOf(const CampaignStore& store,
                                             const CampaignSummary& summary) {

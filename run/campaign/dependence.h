@@ -31,13 +31,25 @@ struct ValueDependence {
   std::vector<ValueBin> bins{};  // ascending; choices in alphabetical order
   // Whether failures go with it: the p-value by itself, and by Holm for all that were looked at.
   double p = 1, p_holm = 1;
+  double z = 0;                                  // orders those whose p is the same
   InfluenceShape shape = InfluenceShape::kNone;  // of numbers: where failures are more frequent
   std::string choice{};                          // of choices: the one that stands out
   bool choice_fails_more = false;
   std::optional<SafeRange> safe{};  // of numbers
 
   bool telling() const { return p_holm <= 1 - kReportedConfidence; }
+  bool differs() const { return bins.size() > 1; }  // else it was not looked at
 };
+
+// Of a number, whatever else was drawn; p_holm is left to CorrectByHolm. Values finite, ascending.
+// Throws InputError unless `limit` is a gate's (stats/gate.h).
+ValueDependence DependenceOfNumber(const std::string& key,
+                                   const std::vector<DrawnOutcome>& ascending,
+                                   const SafeRangeSettings& limit);
+// Which stands first, and so on; what does not differ was not looked at, and comes last.
+std::vector<std::size_t> MostTellingFirst(const std::vector<ValueDependence>& values);
+// Sets p_holm of those that differ, and returns how many these are.
+int CorrectByHolm(std::vector<ValueDependence>& values);
 
 struct PairCell {
   std::size_t x = 0, y = 0;  // which bin

@@ -151,9 +151,11 @@ std::string SafeText(const ValueDependence& value, const SafeRangeSettings& limi
 SafeClauses SafeClausesOf(const ValueDependence& value) {
   if (!value.safe) return {};
   const SafeRange& safe = *value.safe;
-  if (safe.answer == SafeAnswer::kTooFew)
+  const bool all_failed = safe.whole.n > 0 && safe.whole.k == safe.whole.n;
+  if (safe.answer == SafeAnswer::kTooFew && !all_failed)
     return {fmt::format("too few: it takes {}, without a failure", safe.needed), ""};
-  if (safe.answer == SafeAnswer::kNotShown) return {"not shown: " + NotShownText(safe), ""};
+  if (safe.answer == SafeAnswer::kTooFew || safe.answer == SafeAnswer::kNotShown)
+    return {"not shown: " + NotShownText(safe), ""};
   const KeyScale scale = SafeScale(value);
   return {PartText(safe, scale), EachPart(safe, scale)};
 }
