@@ -178,7 +178,7 @@ std::string Besides(const Measurement& m) {
   if (errors > 0) text += fmt::format(", {} more ended in an error", errors);
   for (const auto& [type, where] :
        {std::pair(kFreeFloor, "on free floor"), std::pair(kWallBeside, "beside walls")}) {
-    const auto failed = std::ranges::count_if(m.first, [&](const Encounter& e) {
+    const auto failed = std::ranges::count_if(m.first, [type = type](const Encounter& e) {
       return e.type == type && e.outcome == Encounter::Outcome::kFailed;
     });
     text += fmt::format("; {} failed {}", failed, where);
