@@ -4,16 +4,14 @@
 // What a map's cells are painted in: free, wall, unknown.
 const kFloorPaints = {dark: ['#20252a', '#788492', '#343a40'], light: ['#ffffff', '#5c6672', '#e2e5e8']};
 
-// Kinds of hazard as the legend has them. A dashed edge: known to no planner.
-const hazardName = hazard => hazard.label + (hazard.known ? '' : ', not known');
-const hazardEntry = hazard => ({
-  name: hazardName(hazard),
-  itemStyle: {color: hazard.colour, opacity: 0.6, borderColor: hazard.colour, borderWidth: 1.5,
-              borderType: hazard.known ? 'solid' : 'dashed'},
-});
+// Kinds of hazard as the legend has them; a dashed edge: known to no planner.
 function hazardLegend(hazards) {
-  const named = new Map(hazards.map(hazard => [hazardName(hazard), hazardEntry(hazard)]));
-  return [...named.values()];
+  const entry = ({label, colour, known}) => ({
+    name: label,
+    itemStyle: {color: colour, opacity: 0.6, borderColor: colour, borderWidth: 1.5,
+                borderType: known ? 'solid' : 'dashed'},
+  });
+  return [...new Map(hazards.map(hazard => [hazard.label, entry(hazard)])).values()];
 }
 
 const kWayLooks = {plan: {colour: 'mark', width: 1.4, dash: 'dashed'}, driven: {colour: 'driven', width: 1.8, dash: 'solid'}};
@@ -86,7 +84,7 @@ function addMapView(element, map, ways, failures, onFailures) {
     const series = [imageSeries('walls', map, wallsFor(isDark()))];
     if (layer) series.push(layer.series());
     for (const hazard of map.hazards)
-      series.push({type: 'custom', name: hazardName(hazard), data: [hazard.polygons[0][0]], z: 2,
+      series.push({type: 'custom', name: hazard.label, data: [hazard.polygons[0][0]], z: 2,
                    renderItem: polygonItem(hazard), tooltip: {formatter: () => escaped(hazard.text)},
                    itemStyle: {color: hazard.colour}});
     for (const {name, points} of ways) {
