@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -21,10 +20,10 @@
 #include "report/page_data.h"
 #include "report/pairs.h"
 #include "report/pictures.h"
+#include "report/recorded_campaign.h"
 #include "report/verdict.h"
 #include "run/campaign/campaign_store.h"
 #include "run/campaign/replay_shelf.h"
-#include "run/campaign/summary_json.h"
 
 namespace floorproof {
 namespace {
@@ -241,17 +240,10 @@ ResultNames PageResults() {
 
 Report GatherReport(const fs::path& folder, const std::string& named, ResultFolder& out,
                     const Console& console) {
-  const fs::path summary_file = folder / "summary.json", database = folder / "campaign.sqlite";
+  auto [recorded, store] = ReadRecordedCampaign(folder);
   Report report;
-  report.summary = ReadSummary(summary_file);
+  report.summary = std::move(recorded);
   const CampaignSummary& summary = report.summary;
-  if (const std::string why = WhyUnreadable(database, std::numeric_limits<std::uintmax_t>::max());
-      !why.empty())
-    throw InputError({database.string(), 0}, "", "", why + ": not the folder of a `campaign`");
-  const CampaignStore store = CampaignStore::Open(database, false);
-  if (store.about().id != summary.campaign)
-    throw InputError({summary_file.string(), 0}, "campaign", summary.campaign,
-                     "is another campaign than campaign.sqlite's, " + store.about().id);
   out.Begin();
   Rows rows(report, named);
   for (const VariantSummary& variant : summary.variants) rows.Read(store, variant, folder);

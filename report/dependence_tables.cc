@@ -56,7 +56,7 @@ std::string KeyHtml(const std::string& key) {
 std::string Value(const RatesPlot& plot, const VariantDependence& variant,
                   const ValueDependence& value) {
   const std::string key = KeyHtml(value.key), table = ValueTable(plot, variant, value);
-  if (value.bins.size() < 2)
+  if (!value.differs())
     return fmt::format("<p class=\"note\">{} has one value in all episodes.</p>\n", key);
   const std::string influence = InfluenceText(value, variant.looked_at);
   if (value.telling()) return "<h4>" + key + "</h4>\n" + Sentence(influence) + table;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <set>
 #include <utility>
 #include <vector>
@@ -21,9 +20,9 @@
 #include "report/html_page.h"
 #include "report/rate_chart.h"
 #include "report/rates_table.h"
+#include "report/recorded_campaign.h"
 #include "report/settings_section.h"
 #include "run/campaign/dependence_text.h"
-#include "run/campaign/summary_json.h"
 #include "run/scenario/risk_model_file.h"
 
 namespace floorproof {
@@ -58,18 +57,11 @@ struct Measurement {
 };
 
 Measurement Read(const fs::path& folder) {
+  const fs::path rates = folder / "risk_model.json";
+  RecordedCampaign campaign = ReadRecordedCampaign(folder);
   Measurement m;
-  const fs::path database = folder / "campaign.sqlite", rates = folder / "risk_model.json",
-                 summary = folder / "summary.json";
-  m.summary = ReadSummary(summary);
-  if (const std::string why = WhyUnreadable(database, std::numeric_limits<std::uintmax_t>::max());
-      !why.empty())
-    throw InputError({database.string(), 0}, "", "", why + ": not a folder of `measure`");
-  const CampaignStore store = CampaignStore::Open(database, false);
-  if (store.about().id != m.summary.campaign)
-    throw InputError({summary.string(), 0}, "campaign", m.summary.campaign,
-                     "is another campaign than campaign.sqlite's, " + store.about().id);
-  m.met = AllEncounters(store);
+  m.summary = std::move(campaign.summary);
+  m.met = AllEncounters(campaign.store);
   m.model = ReadRiskModel(rates);
   if (m.model->encounters != static_cast<int>(m.met.encounters.size()))
     throw InputError({rates.string(), 0}, "encounters", std::to_string(m.model->encounters),
@@ -243,8 +235,8 @@ std::string Sizes(const Measurement& m) {
              "The mean over all sizes up to an end is no promise for a hazard of that size: mild "
              "ones were drawn more often (half of them in the mildest three tenths), and what the "
              "50 or more nearest to the end came to stands beside. Shown, of {} sizes and "
-             "directions, are "
-             "those that failures go with; each answer holds by itself at 95 %.</p>\n",
+             "directions, are those that failures go with; each answer holds by itself at 95 "
+             "%.</p>\n",
              m.sizes.looked_at);
 }
 

@@ -15,6 +15,7 @@
 #include "report/html.h"
 #include "report/html_page.h"
 #include "report/page_drives.h"
+#include "report/settings_section.h"
 #include "run/episode/metrics.h"
 #include "run/episode/records.h"
 
@@ -192,8 +193,7 @@ class Run {
     if (const Json drawn = record_.result().value("drawn", Json::object()); !drawn.empty())
       html += "<details><summary>What was drawn</summary><pre>" + MarkupText(drawn.dump(2)) +
               "</pre></details>\n";
-    return html + "<details><summary>The scenario, with every default stated</summary>\n<pre>" +
-           MarkupText(record_.settings()) + "</pre></details>\n";
+    return html + ScenarioDetails(record_.settings());
   }
 
   HtmlPage Page(const std::string& verdict) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The last part of a campaign's page: what made it, and with which settings.
+// The last part of a page: what made it, and with which settings.
 #pragma once
 
 #include <string>
@@ -9,7 +9,9 @@
 
 namespace floorproof {
 
-// `settings`: the scenario, resolved.
+// The scenario, resolved, folded away.
+std::string ScenarioDetails(const std::string& settings);
+// `settings`: likewise.
 PageSection SettingsSection(const CampaignSummary& summary, const std::string& settings);
 
 }  // namespace floorproof

@@ -182,7 +182,7 @@ void AddPairs(const Table& table, const std::vector<std::size_t>& columns, Varia
   std::vector<const Column*> paired;
   for (std::size_t i = 0; i < out.values.size() && paired.size() < kMostPaired; ++i) {
     const ValueDependence& value = out.values[i];
-    if (value.is_number && value.bins.size() > 1 && (paired.size() < 2 || value.telling()))
+    if (value.is_number && value.differs() && (paired.size() < 2 || value.telling()))
       paired.push_back(&table.columns[columns[i]]);
   }
   for (std::size_t y = 1; y < paired.size(); ++y)
@@ -190,13 +190,14 @@ void AddPairs(const Table& table, const std::vector<std::size_t>& columns, Varia
       out.pairs.push_back(Pair(*paired[x], *paired[y], table.failed));
 }
 
-// As the values are then; their p-values by Holm.
-void OrderAndCorrect(VariantDependence& out, std::vector<std::size_t>& columns) {
-  columns = MostTellingFirst(out.values);
+// Returns where each value stood before.
+std::vector<std::size_t> OrderAndCorrect(VariantDependence& out) {
+  const std::vector<std::size_t> order = MostTellingFirst(out.values);
   std::vector<ValueDependence> values;
-  for (const std::size_t i : columns) values.push_back(std::move(out.values[i]));
+  for (const std::size_t i : order) values.push_back(std::move(out.values[i]));
   out.values = std::move(values);
   out.looked_at = CorrectByHolm(out.values);
+  return order;
 }
 
 std::string WhyNoBins(const VariantDependence& v, bool repeated) {
@@ -220,8 +221,7 @@ VariantDependence Depend(const Table& table, const VariantSummary& variant,
     out.values.push_back(
         column.is_number() ? DependenceOfNumber(column.key, Ascending(column, table.failed), limit)
                            : DependenceOfChoice(column, table.failed));
-  std::vector<std::size_t> columns;
-  OrderAndCorrect(out, columns);
+  const std::vector<std::size_t> columns = OrderAndCorrect(out);
   if (out.note.empty()) {
     AddPairs(table, columns, out);
     return out;

@@ -7,13 +7,15 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "base/error.h"
 #include "measure/risk_files.h"
 #include "run/campaign/summary_json.h"
 #include "run/scenario/scenario_parts.h"
 #include "tests/measure/planted_rates.h"
+#include "tests/own_folder.h"
+#include "tests/report/html_page.h"
+#include "tests/slurp.h"
 
 namespace floorproof {
 namespace {
@@ -25,29 +27,13 @@ using testing::Not;
 
 constexpr const char* kVariant = "meeting=step over";
 
-std::string Slurp(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
 // Steps hold the robot from about 10 mm on.
 ModeNumbers Rates(const Encounter& e) {
   return {0, 3 * Step((e.size[0].second - 0.01) / 0.0005), 0, 0};
 }
 
-class MeasurePageTest : public testing::Test {
+class MeasurePageTest : public OwnFolderTest {
  protected:
-  // A folder of its own for each test: they run side by side.
-  MeasurePageTest()
-      : folder_(fs::path(testing::TempDir()) /
-                (std::string("MeasurePageTest.") +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~MeasurePageTest() override { fs::remove_all(folder_); }
-
   // `count` drives, each of one meeting; rates are fitted to them.
   void Measure(int count, const PlantedRates& rates = Rates) {
     CampaignStore store =
@@ -80,8 +66,6 @@ class MeasurePageTest : public testing::Test {
     }
     return "";
   }
-
-  fs::path folder_;
 };
 
 TEST_F(MeasurePageTest, SaysWhatFailsHowLargeAHazardMayBeAndHowToSeeIt) {
@@ -92,6 +76,7 @@ TEST_F(MeasurePageTest, SaysWhatFailsHowLargeAHazardMayBeAndHowToSeeIt) {
                                  HasSubstr("over them, most often at: step")));
   const std::string page = Slurp(dut.page);
   EXPECT_EQ(page.size(), dut.bytes);
+  EXPECT_EQ(WhyUnbalanced(page), "");
   // The height decides; up to where the planted rates are small it is safe.
   EXPECT_THAT(page, HasSubstr("<figcaption>step height, mm"));
   EXPECT_THAT(page, Not(HasSubstr("<figcaption>friction")));  // decides nothing here

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "run/rare/rare_json.h"
+#include "tests/own_folder.h"
 
 namespace floorproof {
 namespace {
@@ -17,15 +18,9 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-class RarePageTest : public testing::Test {
+class RarePageTest : public OwnFolderTest {
  protected:
-  // A folder of its own for each test: they run side by side.
-  RarePageTest()
-      : folder_(fs::path(testing::TempDir()) /
-                (std::string("RarePageTest.") +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+  RarePageTest() {
     outcome_.name = "hall <script>";
     outcome_.mode = "stuck";
     outcome_.coordinates = {"site.floor.friction"};
@@ -48,10 +43,8 @@ class RarePageTest : public testing::Test {
     row.events = R"([{"kind":"","hazard":"<b>","t_s":1,"x_m":2,"y_m":3,"mode":"stuck"}])";
     outcome_.failures = {{0, {{"site.floor.friction", ConfigNode::Scalar("0.31")}}, row}};
   }
-  ~RarePageTest() override { fs::remove_all(folder_); }
   void Save(const std::string& text) const { std::ofstream(folder_ / "rare.json") << text; }
 
-  fs::path folder_;
   RareOutcome outcome_;
 };
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "tests/own_folder.h"
 
 namespace floorproof {
 namespace {
@@ -27,20 +28,8 @@ EpisodeRow Row(const std::string& variant, std::uint64_t episode, bool fails) {
   return row;
 }
 
-class CompareVariantsTest : public ::testing::Test {
+class CompareVariantsTest : public OwnFolderTest {
  protected:
-  CompareVariantsTest()
-      : folder_(fs::path(::testing::TempDir()) /
-                (std::string("compare.") +
-                 ::testing::UnitTest::GetInstance()->current_test_info()->name())),
-        store_(Make(folder_)) {}
-  ~CompareVariantsTest() override { fs::remove_all(folder_); }
-
-  static CampaignStore Make(const fs::path& folder) {
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-    return CampaignStore::Create(folder / "campaign.sqlite", {"id", "seed: 1\n", "{}"});
-  }
   void Add(const std::vector<EpisodeRow>& rows) { store_.Add(rows); }
   Comparison Compare() const { return CompareVariants(store_, "a", store_, "b"); }
   static const ComparedMetric* Find(const Comparison& comparison, std::string_view metric) {
@@ -49,8 +38,8 @@ class CompareVariantsTest : public ::testing::Test {
     return nullptr;
   }
 
-  fs::path folder_;
-  CampaignStore store_;
+  CampaignStore store_ =
+      CampaignStore::Create(folder_ / "campaign.sqlite", {"id", "seed: 1\n", "{}"});
 };
 
 TEST_F(CompareVariantsTest, EpisodesAreJoinedByTheirIds) {

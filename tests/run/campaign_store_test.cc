@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "run/campaign/campaign_about.h"
 #include "run/episode/encounter_table.h"
+#include "tests/own_folder.h"
 #include "tests/slurp.h"
 
 namespace floorproof {
@@ -54,18 +55,8 @@ bool Same(const EpisodeRow& a, const EpisodeRow& b) {
          a.drawn == b.drawn && a.plan == b.plan && a.events == b.events && a.timeout == b.timeout;
 }
 
-class CampaignStoreTest : public ::testing::Test {
+class CampaignStoreTest : public OwnFolderTest {
  protected:
-  CampaignStoreTest() {
-    folder_ =
-        fs::path(::testing::TempDir()) /
-        (std::string("store.") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    file_ = folder_ / "campaign.sqlite";
-  }
-  ~CampaignStoreTest() override { fs::remove_all(folder_); }
-
   // A campaign of `n` episodes, closed.
   void Make(std::uint64_t n) {
     CampaignStore store = CampaignStore::Create(file_, about_);
@@ -88,7 +79,7 @@ class CampaignStoreTest : public ::testing::Test {
     return episodes;
   }
 
-  fs::path folder_, file_;
+  const fs::path file_ = folder_ / "campaign.sqlite";
   const CampaignAbout about_ = {"0123456789abcdef", "seed: 1\nsite:\n  name: a\n",
                                 R"({"floorproof": "1"})"};
 };

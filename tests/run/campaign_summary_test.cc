@@ -15,6 +15,7 @@
 #include "run/campaign/summary_json.h"
 #include "stats/binomial.h"
 #include "stats/poisson.h"
+#include "tests/own_folder.h"
 
 namespace floorproof {
 namespace {
@@ -51,17 +52,8 @@ EpisodeRow Row(std::uint64_t episode) {
   return row;
 }
 
-class CampaignSummaryTest : public ::testing::Test {
+class CampaignSummaryTest : public OwnFolderTest {
  protected:
-  CampaignSummaryTest()
-      : folder_(fs::path(::testing::TempDir()) /
-                (std::string("summary.") +
-                 ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~CampaignSummaryTest() override { fs::remove_all(folder_); }
-
   CampaignSummary Summary(const std::string& mode) const {
     fs::remove(folder_ / "campaign.sqlite");
     CampaignStore store = CampaignStore::Create(
@@ -90,8 +82,6 @@ class CampaignSummaryTest : public ::testing::Test {
     WriteFileWhole(folder_ / "summary.json", text);
     return folder_ / "summary.json";
   }
-
-  fs::path folder_;
 };
 
 TEST_F(CampaignSummaryTest, AddsUpWhatCounts) {

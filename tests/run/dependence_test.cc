@@ -13,6 +13,7 @@
 #include "base/streams.h"
 #include "run/campaign/dependence_text.h"
 #include "stats/binomial.h"
+#include "tests/own_folder.h"
 
 namespace floorproof {
 namespace {
@@ -33,17 +34,8 @@ struct Episode {
 };
 
 // A campaign of one variant, "v", whose episodes are as `make` says.
-class DependenceTest : public ::testing::Test {
+class DependenceTest : public OwnFolderTest {
  protected:
-  DependenceTest()
-      : folder_(fs::path(::testing::TempDir()) /
-                (std::string("dependence.") +
-                 ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~DependenceTest() override { fs::remove_all(folder_); }
-
   VariantDependence Depend(std::uint64_t n,
                            const std::function<Episode(std::uint64_t, Stream&)>& make,
                            const std::optional<GateSummary>& gate = std::nullopt) {
@@ -73,8 +65,6 @@ class DependenceTest : public ::testing::Test {
     summary.gate = gate;
     return DependenceOf(store, summary).at(0);
   }
-
-  fs::path folder_;
 };
 
 // Fails with chance 1/2 where the friction is below 0.6, else never; the mass has no say.

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests that write: a folder for each, which is empty when it begins and gone when it has ended.
+// They run side by side, so that its name is the test's.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+namespace floorproof {
+
+class OwnFolderTest : public ::testing::Test {
+ protected:
+  OwnFolderTest() {
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  ~OwnFolderTest() override { std::filesystem::remove_all(folder_); }
+
+  const std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) / Name();
+
+ private:
+  static std::string Name() {
+    const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string(test.test_suite_name()) + "." + test.name();
+    std::ranges::replace(name, '/', '.');  // of parameters
+    return name;
+  }
+};
+
+}  // namespace floorproof
