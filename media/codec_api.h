@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What crosses the border between the program and the codec module: plain C types, no exceptions.
-// Every function that returns int gives 0 when done; else it fills `error` (of kCodecErrorSize
-// bytes) with a line.
+// What crosses the border between the program and the codec module (media/module_error.h).
 #pragma once
 
 #include <cstddef>
@@ -9,38 +7,15 @@
 
 namespace floorproof {
 
-inline constexpr std::size_t kCodecErrorSize = 256;
-inline constexpr int kCodecApiVersion = 2;
-
-// Rows from the top, channels interleaved in the order grey | R G B | R G B A.
-struct CodecImage {
-  int width, height, channels;
-  int depth_bits;  // 8, or 16 (machine byte order)
-  const void* data;
-};
-
-// Letters as the share of each pixel that they cover: 8 bits, one channel.
-struct CodecText {
-  CodecImage coverage;
-  int base;  // row of the base line
-  double advance_px;
-};
-
 struct CodecApi {
+  static constexpr int kVersion = 3;
   int version;
-  // Decodes a whole PNG or BMP file; `handle` owns the pixels until release(handle).
-  int (*decode)(const std::uint8_t* file, std::size_t size, CodecImage* image, void** handle,
-                char* error);
-  // Encodes 8-bit grey, RGB or RGBA as PNG; `handle` owns the bytes.
-  int (*encode_png)(const CodecImage* image, const std::uint8_t** file, std::size_t* size,
-                    void** handle, char* error);
-  void (*release)(void* handle);
 
-  // Draws one line of UTF-8; `handle` owns the pixels until release_text(handle), and is nullptr
-  // where no installed font has all letters.
-  int (*draw_text)(const char* utf8, double cap_px, int bold, CodecText* text, void** handle,
-                   char* error);
-  void (*release_text)(void* handle);
+  // Decodes a whole BMP file. Rows from the top, 8 bits each of grey | R G B | R G B A; `handle`
+  // owns the pixels until release_bmp(handle).
+  int (*decode_bmp)(const std::uint8_t* file, std::size_t size, int* width, int* height,
+                    int* channels, const std::uint8_t** pixels, void** handle, char* error);
+  void (*release_bmp)(void* handle);
 
   // `path` is absolute and ends in .mp4; width and height are even.
   int (*open_video)(const char* path, int width, int height, double fps, void** video, char* error);

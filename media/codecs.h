@@ -2,8 +2,6 @@
 // Loads the codec module at first use.
 #pragma once
 
-#include <memory>
-
 #include "media/codec_api.h"
 
 namespace floorproof {
@@ -11,8 +9,5 @@ namespace floorproof {
 // The module's functions. Looked for beside the executable, then beside this library; throws
 // InternalError naming both when it cannot be loaded.
 const CodecApi& Codecs();
-
-// Frees what decode and encode_png hand out.
-using CodecHandle = std::unique_ptr<void, void (*)(void*)>;
 
 }  // namespace floorproof

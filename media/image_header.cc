@@ -2,7 +2,8 @@
 // PNG: ISO/IEC 15948 (chunks, CRC-32 of annex D). BMP: the Windows headers of 12 and 40+ bytes.
 #include "media/image_header.h"
 
-#include <array>
+#include <zlib.h>
+
 #include <string>
 
 namespace floorproof {
@@ -22,18 +23,8 @@ std::uint32_t LittleEndian32(std::string_view s, std::size_t at) {
 }
 
 std::uint32_t Crc32(std::string_view bytes) {
-  static const std::array<std::uint32_t, 256> table = [] {
-    std::array<std::uint32_t, 256> t{};
-    for (std::uint32_t n = 0; n < 256; ++n) {
-      std::uint32_t c = n;
-      for (int k = 0; k < 8; ++k) c = (c & 1) ? 0xedb88320U ^ (c >> 1) : c >> 1;
-      t[n] = c;
-    }
-    return t;
-  }();
-  std::uint32_t crc = 0xffffffffU;
-  for (const char b : bytes) crc = table[(crc ^ static_cast<unsigned char>(b)) & 0xff] ^ (crc >> 8);
-  return crc ^ 0xffffffffU;
+  return static_cast<std::uint32_t>(
+      crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
 int Channels(int png_color_type) {
@@ -99,8 +90,8 @@ PngHeader ReadPngHeader(std::string_view start) {
   return header;
 }
 
-PngHeader CheckPng(std::string_view file) {
-  PngHeader header = ReadPngHeader(file);
+void CheckPng(std::string_view file) {
+  const PngHeader header = ReadPngHeader(file);
   std::uint64_t compressed = 0;
   for (std::size_t at = kPngSignature.size();;) {
     if (file.size() - at < 12) throw FormatError("PNG is truncated: it ends before its IEND chunk");
@@ -112,13 +103,10 @@ PngHeader CheckPng(std::string_view file) {
     if (Crc32(body) != BigEndian32(file, at + 8 + length))
       throw FormatError("PNG is damaged: wrong checksum of a chunk at byte " + std::to_string(at));
     if (type == "IDAT") compressed += length;
-    if (type == "tRNS" && header.color_type == 0 && length >= 2)
-      header.transparent_grey = static_cast<int>(Byte(body, 4) << 8 | Byte(body, 5));
     if (type == "IEND") break;
     at += length + 12;
   }
   CheckInflatedSize(header, compressed);
-  return header;
 }
 
 bool IsBmp(std::string_view file) { return file.starts_with("BM"); }

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <stdexcept>
 #include <string_view>
 
@@ -26,15 +25,14 @@ void CheckSize(const ImageHeader& header, std::int64_t max_pixels);
 
 struct PngHeader : ImageHeader {
   int bit_depth = 8;
-  int color_type = 0;                   // 0 grey, 2 RGB, 3 palette, 4 grey + alpha, 6 RGBA
-  std::optional<int> transparent_grey;  // tRNS of a grey image: that sample is see-through
+  int color_type = 0;  // 0 grey, 2 RGB, 3 palette, 4 grey + alpha, 6 RGBA
 };
 bool IsPng(std::string_view file);
 // The IHDR chunk alone; `start` holds the file's first bytes. Throws FormatError.
 PngHeader ReadPngHeader(std::string_view start);
 // The whole file: every chunk's length and CRC up to IEND, and whether the compressed data can hold
 // the pixels claimed at all. Throws FormatError.
-PngHeader CheckPng(std::string_view file);
+void CheckPng(std::string_view file);
 
 bool IsBmp(std::string_view file);
 // Checks an uncompressed BMP of any depth against the file's size. Throws FormatError.

@@ -1,31 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "media/lettering.h"
 
+#include <memory>
 #include <string>
 
 #include "base/error.h"
-#include "media/codecs.h"
+#include "base/load_module.h"
+#include "media/letters_api.h"
+#include "media/module_error.h"
 
 namespace floorproof {
 
 std::optional<Lettering> DrawLettering(std::string_view utf8, double cap_px, bool bold) {
-  CodecText drawn{};
-  void* handle = nullptr;
-  char error[kCodecErrorSize] = "";
-  if (Codecs().draw_text(std::string(utf8).c_str(), cap_px, bold ? 1 : 0, &drawn, &handle, error) !=
-      0)
+  static const LettersApi& letters =
+      LoadTable<LettersApi>(kLettersModule, kLettersSymbol, "what draws letters");
+  LettersApi::Drawn drawn{};
+  void* raw = nullptr;
+  char error[kModuleErrorSize] = "";
+  if (letters.draw(std::string(utf8).c_str(), cap_px, bold ? 1 : 0, &drawn, &raw, error) != 0)
     throw InternalError(std::string("cannot draw text: ") + error);
-  if (handle == nullptr) return std::nullopt;
+  if (raw == nullptr) return std::nullopt;
+  const std::unique_ptr<void, void (*)(void*)> handle(raw, letters.release);
   Lettering out;
-  out.coverage.width = drawn.coverage.width;
-  out.coverage.height = drawn.coverage.height;
+  out.coverage.width = drawn.width;
+  out.coverage.height = drawn.height;
   out.coverage.channels = 1;
-  const auto* pixels = static_cast<const std::uint8_t*>(drawn.coverage.data);
-  out.coverage.data.assign(pixels, pixels + static_cast<std::size_t>(drawn.coverage.width) *
-                                                static_cast<std::size_t>(drawn.coverage.height));
+  out.coverage.data.assign(drawn.coverage,
+                           drawn.coverage + static_cast<std::size_t>(drawn.width) *
+                                                static_cast<std::size_t>(drawn.height));
   out.base = drawn.base;
   out.advance_px = drawn.advance_px;
-  Codecs().release_text(handle);
   return out;
 }
 

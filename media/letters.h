@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Letters of any script; part of the codec module.
+// Letters of any script; part of the module of letters.
 #pragma once
 
 #include <memory>

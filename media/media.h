@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Image and video files. The codecs (OpenCV's, with some 200 shared libraries behind them) live in
-// a module of their own that is loaded at first use, so that the program itself starts in
-// milliseconds.
+// Image and video files. What films and BMP need (FFmpeg and OpenCV's codecs, with some 200 shared
+// libraries behind them) lives in a module of its own that is loaded at first use, so that the
+// program itself starts in milliseconds.
 #pragma once
 
 #include <cstddef>

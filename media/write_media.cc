@@ -8,6 +8,8 @@
 #include "base/interrupt.h"
 #include "media/codecs.h"
 #include "media/media.h"
+#include "media/module_error.h"
+#include "media/png_file.h"
 
 namespace floorproof {
 namespace {
@@ -31,7 +33,7 @@ class CodecVideo : public VideoWriter {
  public:
   CodecVideo(const fs::path& path, int width, int height, double fps)
       : path_(path), part_(MakePartFile(path)), width_(width), height_(height) {
-    char error[kCodecErrorSize] = "";
+    char error[kModuleErrorSize] = "";
     if (Codecs().open_video(part_.c_str(), width, height, fps, &video_, error) != 0) {
       Discard();
       throw CannotWrite(path, error);
@@ -47,7 +49,7 @@ class CodecVideo : public VideoWriter {
     if (video_ == nullptr) throw InternalError("a frame for a closed video");
     if (rgb.width != width_ || rgb.height != height_ || rgb.channels != 3)
       throw InternalError("a frame of another size than its video's");
-    char error[kCodecErrorSize] = "";
+    char error[kModuleErrorSize] = "";
     if (Codecs().add_frame(video_, rgb.data.data(), error) != 0) {
       Discard();
       throw CannotWrite(path_, error);
@@ -56,7 +58,7 @@ class CodecVideo : public VideoWriter {
 
   void Close() override {
     if (video_ == nullptr) return;
-    char error[kCodecErrorSize] = "";
+    char error[kModuleErrorSize] = "";
     if (Codecs().finish_video(video_, error) != 0) {
       Discard();
       throw CannotWrite(path_, error);
@@ -88,16 +90,7 @@ void WritePng(const fs::path& path, const Image& image) {
                                static_cast<std::size_t>(image.height) *
                                static_cast<std::size_t>(image.channels))
     throw InternalError("an image whose data do not match its size");
-  const CodecImage raw = {image.width, image.height, image.channels, 8, image.data.data()};
-  const CodecApi& codecs = Codecs();
-  const std::uint8_t* bytes = nullptr;
-  std::size_t size = 0;
-  void* owner = nullptr;
-  char error[kCodecErrorSize] = "";
-  if (codecs.encode_png(&raw, &bytes, &size, &owner, error) != 0) throw CannotWrite(path, error);
-  const CodecHandle handle(owner, codecs.release);
-
-  WriteFileWhole(path, {reinterpret_cast<const char*>(bytes), size});
+  WriteFileWhole(path, EncodePng(image));
 }
 
 std::unique_ptr<VideoWriter> OpenVideo(const fs::path& path, int width, int height, double fps) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes PNG files of any colour type and depth, right or wrong on purpose, without a codec: stored
-// (uncompressed) deflate blocks, filter 0, no interlace.
+// (uncompressed) deflate blocks, filter 0.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -19,6 +20,8 @@ struct PngSpec {
   std::string palette = {};       // PLTE
   std::string transparency = {};  // tRNS
   unsigned drop_rows = 0;         // so many rows are left out of the compressed data
+  bool adam7 = false;             // interlaced, in seven passes
+  std::string other = {};         // chunks between the header and the palette
 };
 
 inline std::string PngBigEndian(std::uint32_t v) {
@@ -60,23 +63,36 @@ inline std::string PngStored(const std::string& raw) {
 
 inline std::string MakePng(const PngSpec& spec) {
   const unsigned channels[] = {1, 0, 3, 1, 2, 0, 4};
-  const std::size_t per_row = static_cast<std::size_t>(spec.width) * channels[spec.color_type];
+  const std::size_t per_pixel = channels[spec.color_type];
+  const std::size_t per_row = static_cast<std::size_t>(spec.width) * per_pixel;
+  struct Pass {
+    unsigned x, y, dx, dy;  // first pixel, and how far it is to the next
+  };
+  const std::vector<Pass> passes =
+      spec.adam7 ? std::vector<Pass>{{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
+                                     {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}}
+                 : std::vector<Pass>{{0, 0, 1, 1}};
   std::string raw;
-  for (unsigned y = 0; !spec.samples.empty() && y + spec.drop_rows < spec.height; ++y) {
-    raw += '\0';
-    unsigned bits = 0, held = 0;
-    for (std::size_t i = 0; i < per_row; ++i) {
-      held = held << spec.bit_depth | spec.samples[y * per_row + i];
-      for (bits += static_cast<unsigned>(spec.bit_depth); bits >= 8; bits -= 8)
-        raw += static_cast<char>(held >> (bits - 8) & 0xff);
+  for (const Pass& pass : passes) {
+    if (spec.samples.empty() || pass.x >= spec.width) continue;
+    for (unsigned y = pass.y; y + spec.drop_rows < spec.height; y += pass.dy) {
+      raw += '\0';
+      unsigned bits = 0, held = 0;
+      for (unsigned x = pass.x; x < spec.width; x += pass.dx)
+        for (std::size_t k = 0; k < per_pixel; ++k) {
+          held = held << spec.bit_depth | spec.samples[y * per_row + x * per_pixel + k];
+          for (bits += static_cast<unsigned>(spec.bit_depth); bits >= 8; bits -= 8)
+            raw += static_cast<char>(held >> (bits - 8) & 0xff);
+        }
+      if (bits > 0) raw += static_cast<char>(held << (8 - bits) & 0xff);
     }
-    if (bits > 0) raw += static_cast<char>(held << (8 - bits) & 0xff);
   }
   std::string header = PngBigEndian(spec.width) + PngBigEndian(spec.height);
   header += static_cast<char>(spec.bit_depth);
   header += static_cast<char>(spec.color_type);
-  header += std::string(3, '\0');
-  std::string png = "\x89PNG\r\n\x1a\n" + PngChunk("IHDR", header);
+  header += std::string(2, '\0');
+  header += static_cast<char>(spec.adam7 ? 1 : 0);
+  std::string png = "\x89PNG\r\n\x1a\n" + PngChunk("IHDR", header) + spec.other;
   if (!spec.palette.empty()) png += PngChunk("PLTE", spec.palette);
   if (!spec.transparency.empty()) png += PngChunk("tRNS", spec.transparency);
   return png + PngChunk("IDAT", PngStored(raw)) + PngChunk("IEND", "");
