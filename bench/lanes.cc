@@ -72,7 +72,7 @@ class GridLidar {
 
  private:
   double Range(const Vec2& from_W, double angle_rad) const {
-    const Vec2 from_G = frame_.X_WG.Inverse() * from_W;
+    const Vec2 from_G = frame_.ToGrid(from_W);
     const Vec2 way = frame_.X_WG.Inverse().Rotate(Vec2(std::cos(angle_rad), std::sin(angle_rad)));
     constexpr double kMost_m = 25, kStride_m = 0.004;
     for (double r = 0; r < kMost_m; r += kStride_m) {

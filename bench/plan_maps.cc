@@ -67,7 +67,7 @@ double LeastClearance(const HazardMap& map, const Path& path, double reach_m) {
     const Vec2 a = path[i - 1].p_W, d = path[i].p_W - a;
     const int steps = std::max(1, static_cast<int>(std::ceil(d.norm() / 0.01)));
     for (int s = 0; s <= steps; ++s) {
-      const Vec2 p = map.frame.X_WG.Inverse() * Vec2(a + d * s / steps) / cell;
+      const Vec2 p = map.frame.ToGrid(a + d * s / steps) / cell;
       const int cx = static_cast<int>(std::floor(p.x())), cy = static_cast<int>(std::floor(p.y()));
       for (int iy = cy - reach; iy <= cy + reach; ++iy)
         for (int ix = cx - reach; ix <= cx + reach; ++ix) {

@@ -20,7 +20,7 @@ namespace {
 
 // Whether the robot's centre may be here: at one of the four cells' centres around.
 bool Fits(const SweepArea& area, const Vec2& p_W) {
-  const Vec2 p = area.frame.X_WG.Inverse() * p_W / area.frame.cell_m;
+  const Vec2 p = area.frame.ToGrid(p_W) / area.frame.cell_m;
   const auto ix = static_cast<int>(std::floor(p.x() - 0.5));
   const auto iy = static_cast<int>(std::floor(p.y() - 0.5));
   for (const Cell cell : {Cell{ix, iy}, {ix + 1, iy}, {ix, iy + 1}, {ix + 1, iy + 1}})

@@ -50,7 +50,7 @@ class ValueSampler {
     reach_ = mean ? std::max(1, static_cast<int>(std::lround(cells_a_pixel))) : 1;
     const auto at = [&](double column, double row) -> Vec2 {
       const Vec2 p_W = panel.World(column + 0.5, row + 0.5);
-      return values.frame.X_WG.Inverse() * p_W / values.frame.cell_m;
+      return values.frame.ToGrid(p_W) / values.frame.cell_m;
     };
     first_ = at(0, 0);
     right_ = at(1, 0) - first_;

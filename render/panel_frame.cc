@@ -68,7 +68,7 @@ std::array<int, 2> PanelFrame::Rows(int row) const {
 }
 
 cv::Point2d PanelFrame::Pixel(const Vec2& p_W) const {
-  const Vec2 p_G = frame_.X_WG.Inverse() * p_W / frame_.cell_m;
+  const Vec2 p_G = frame_.ToGrid(p_W) / frame_.cell_m;
   return {(p_G.x() - window_.x0) * scale_, height - (p_G.y() - window_.y0) * scale_};
 }
 Vec2 PanelFrame::World(double x_px, double y_px) const {

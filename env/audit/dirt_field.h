@@ -27,14 +27,14 @@ class DirtField {
   // Of the bins. Frame G is the map's own.
   const GridFrame& frame() const { return frame_; }
   bool IsFloor(int ix, int iy) const { return floor_.Inside(ix, iy) && floor_(ix, iy); }
-  bool IsFloor(const Vec2& p_W) const { return IsFloorInGrid(frame_.X_WG.Inverse() * p_W); }
+  bool IsFloor(const Vec2& p_W) const { return IsFloorInGrid(frame_.ToGrid(p_W)); }
   bool IsFloorInGrid(const Vec2& p_G) const;
   double floor_m2() const;
   std::int64_t size() const { return size_; }
 
   // Lays one down; false, and nothing is laid, where there is no floor.
   bool Lay(const Particle& particle) {
-    return LayInGrid(frame_.X_WG.Inverse() * particle.p_W, particle.diameter_m);
+    return LayInGrid(frame_.ToGrid(particle.p_W), particle.diameter_m);
   }
   bool LayInGrid(const Vec2& p_G, double diameter_m);
   // Memory for so many more in this bin.

@@ -20,9 +20,7 @@ namespace {
 
 constexpr double kEps = 1e-6;  // of a cell: borders that coincide do not touch
 
-Vec2 ToGrid(const GridFrame& frame, const Vec2& p_W) {
-  return frame.X_WG.Inverse() * p_W / frame.cell_m;
-}
+Vec2 ToCells(const GridFrame& frame, const Vec2& p_W) { return frame.ToGrid(p_W) / frame.cell_m; }
 
 Grid<std::uint8_t> WallMask(const HazardMap& map, const GridFrame& fine) {
   Grid<std::uint8_t> mask(fine.width, fine.height);
@@ -52,7 +50,7 @@ bool AddHazards(const HazardMap& map, double step_m, const GridFrame& fine,
     const bool is_floor = hazard.hazard_class == HazardClass::kLevelChange;
     for (const Polygon& footprint : hazard.footprint) {
       Polygon p_G;
-      for (const Vec2& p_W : footprint) p_G.push_back(ToGrid(fine, p_W));
+      for (const Vec2& p_W : footprint) p_G.push_back(ToCells(fine, p_W));
       if (obstacle) {
         Rasterise(p_G, fine.width, fine.height, [&](int ix, int iy) {
           if (layer(ix, iy) != kSolid) layer(ix, iy) = is_floor ? kFloor : kSolid;
@@ -257,7 +255,7 @@ SweepArea FloorRoom::Sweepable(const Shape2& clear, const Shape2& tool, const Ve
   area.reachable = area.sweepable = Grid<std::uint8_t>(area.frame.width, area.frame.height);
   area.clearance_m = clearance_m_;
   const Cell start = area.frame.ToCell(start_W);
-  const Vec2 start_G = ToGrid(area.frame, start_W);
+  const Vec2 start_G = ToCells(area.frame, start_W);
   const int turns = yaws == Yaws::kFirst ? 1 : 4;
   std::vector<Grid<std::uint8_t>> layers(static_cast<std::size_t>(turns));
   const bool has_layers = clear.kind == Shape2::Kind::kFootprint;

@@ -171,7 +171,7 @@ bool TouchesWall(const HazardMap& map, Polygon polygon_W) {
   const GridFrame& frame = map.frame;
   bool touches = false;
   for (Vec2& p : polygon_W) {
-    p = frame.X_WG.Inverse() * p / frame.cell_m;
+    p = frame.ToGrid(p) / frame.cell_m;
     touches |= p.x() < 0 || p.y() < 0 || p.x() > frame.width || p.y() > frame.height;
   }
   Rasterise(polygon_W, frame.width, frame.height,

@@ -34,7 +34,10 @@ struct Pose2 {
   double x_m = 0, y_m = 0, yaw_rad = 0;
 
   Vec2 p() const { return {x_m, y_m}; }
+  // Most maps lie along the axes, and are asked of places millions of times: without a turn there
+  // is nothing to take a sine of.
   Vec2 Rotate(const Vec2& v_B) const {
+    if (yaw_rad == 0) return v_B;
     const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
     return {c * v_B.x() - s * v_B.y(), s * v_B.x() + c * v_B.y()};
   }
@@ -44,8 +47,16 @@ struct Pose2 {
     return {q.x(), q.y(), WrapAngle(yaw_rad + X_BC.yaw_rad)};
   }
   Pose2 Inverse() const {
+    if (yaw_rad == 0) return {-x_m, -y_m, 0};
     const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
     return {-c * x_m - s * y_m, s * x_m - c * y_m, WrapAngle(-yaw_rad)};
+  }
+  // Inverse() * p, with half as many sines and cosines.
+  Vec2 InverseTimes(const Vec2& p) const {
+    if (yaw_rad == 0) return {p.x() - x_m, p.y() - y_m};
+    const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+    return {-c * x_m - s * y_m + (c * p.x() + s * p.y()),
+            s * x_m - c * y_m + (c * p.y() - s * p.x())};
   }
   bool operator==(const Pose2&) const = default;
 };

@@ -48,10 +48,11 @@ struct GridFrame {
   double cell_m = 0.05;
   Pose2 X_WG;
 
+  Vec2 ToGrid(const Vec2& p_W) const { return X_WG.InverseTimes(p_W); }  // p_G, in m
   // The cell that holds p_W; it may lie outside the grid. For points that are very far away or not
   // finite, only that much is right: the cell lies outside.
   Cell ToCell(const Vec2& p_W) const {
-    const Vec2 p_G = X_WG.Inverse() * p_W;
+    const Vec2 p_G = ToGrid(p_W);
     const auto index = [this](double along_m) {
       const double i = std::floor(along_m / cell_m);
       constexpr double kFar = 1e9;

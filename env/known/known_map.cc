@@ -22,7 +22,7 @@ void KnownMap::Mark(FloorMark::Kind kind, const Vec2& p_W, double radius_m) {
     mark->radius_m += radius_m / 2;
   else
     mark = marks.insert(marks.end(), {kind, p_W, radius_m});
-  const Vec2 p_G = frame.X_WG.Inverse() * mark->p_W / frame.cell_m;
+  const Vec2 p_G = frame.ToGrid(mark->p_W) / frame.cell_m;
   const int reach = static_cast<int>(std::ceil(mark->radius_m / frame.cell_m));
   const int cx = static_cast<int>(std::floor(p_G.x())), cy = static_cast<int>(std::floor(p_G.y()));
   for (int iy = cy - reach; iy <= cy + reach; ++iy)

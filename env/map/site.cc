@@ -136,7 +136,7 @@ Written ReadWritten(const ConfigNode& node, const fs::path& folder) {
 void CheckOnMap(const ConfigNode& node, const std::string& key, const Vec2& p_W,
                 const GridFrame& frame) {
   const Vec2 size = frame.cell_m * Vec2(frame.width, frame.height);
-  const Vec2 p_G = frame.X_WG.Inverse() * p_W;
+  const Vec2 p_G = frame.ToGrid(p_W);
   if ((p_G.array() >= 0).all() && (p_G.array() < size.array()).all()) return;
   const auto shown = [](const Vec2& p) {
     return "(" + FormatDouble(p.x()) + ", " + FormatDouble(p.y()) + ")";

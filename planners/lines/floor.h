@@ -34,7 +34,7 @@ struct Floor {
   double ground_cells = 0;
 
   double ToCells(double length_m) const { return length_m / frame.cell_m; }
-  Vec2 ToCells(const Vec2& p_W) const { return frame.X_WG.Inverse() * p_W / frame.cell_m; }
+  Vec2 ToCells(const Vec2& p_W) const { return frame.ToGrid(p_W) / frame.cell_m; }
   Vec2 ToWorld(const Vec2& p) const { return frame.X_WG * (p * frame.cell_m); }
   static Cell CellAt(const Vec2& p) { return {RoundDown(p.x()), RoundDown(p.y())}; }
   static Vec2 CentreOf(Cell c) { return {c.ix + 0.5, c.iy + 0.5}; }

@@ -30,7 +30,7 @@ RobotCells::RobotCells(const GridFrame& ground, const Vec2& start_W, double step
       side_(step_m / ground.cell_m),
       clear_(clear / ground.cell_m),
       taken_(ground.width, ground.height, CellState::kUnknown) {
-  const Vec2 start = ground.X_WG.Inverse() * start_W / ground.cell_m;
+  const Vec2 start = ground.ToGrid(start_W) / ground.cell_m;
   corner_ = {Corner(start.x(), side_), Corner(start.y(), side_)};
   const auto cells = [this](int n, double corner) {
     return static_cast<int>(std::ceil((n - corner) / side_ - kSlack));

@@ -103,7 +103,7 @@ Grid<double> CellRates(const PlanRequest& request, const PathRates& rates) {
     const Vec2 centre = frame.Center(CellAt(out, i));
     Polygon square;
     for (const Vec2& corner : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)})
-      square.push_back(frame.X_WG * (frame.X_WG.Inverse() * centre + frame.cell_m / 2 * corner));
+      square.push_back(frame.X_WG * (frame.ToGrid(centre) + frame.cell_m / 2 * corner));
     const Box2 box = BoxAround(square);
     const Vec2 reach(kReach_m, kReach_m);
     int last = -1;  // parts come by hazard

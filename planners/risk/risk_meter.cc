@@ -35,7 +35,7 @@ void RiskMeter::Visit(Cell cell) {
 
 void RiskMeter::Add(const Vec2& p_W) {
   const GridFrame& frame = risk_->grid.frame;
-  const Vec2 to = frame.X_WG.Inverse() * p_W / frame.cell_m;
+  const Vec2 to = frame.ToGrid(p_W) / frame.cell_m;
   const Vec2 from = last_G_.value_or(to);
   last_G_ = to;
   const int samples = std::max(1, static_cast<int>(std::ceil((to - from).norm() / kSample)));

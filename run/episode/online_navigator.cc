@@ -165,7 +165,7 @@ bool OnlineNavigator::StopAtNarrowBends(const KnownMap& known, std::size_t segme
 // Whether a bend there must not be cut.
 bool OnlineNavigator::IsNarrow(const KnownMap& known, const Vec2& p_W) const {
   const Extent near = robot_.clear.Wider(kCut_m) / known.frame.cell_m;
-  const Vec2 middle = known.frame.X_WG.Inverse() * p_W / known.frame.cell_m - Vec2(0.5, 0.5);
+  const Vec2 middle = known.frame.ToGrid(p_W) / known.frame.cell_m - Vec2(0.5, 0.5);
   const Vec2 low = middle - near.Reach(), high = middle + near.Reach();
   for (int iy = static_cast<int>(std::ceil(low.y())); iy <= high.y(); ++iy)
     for (int ix = static_cast<int>(std::ceil(low.x())); ix <= high.x(); ++ix)

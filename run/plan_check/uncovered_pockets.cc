@@ -62,7 +62,7 @@ Touched CellsOf(const Hazard& hazard, const GridFrame& frame) {
   for (const Polygon& footprint : hazard.footprint) {
     Polygon& p_G = polygons.emplace_back();
     for (const Vec2& p_W : footprint) {
-      p_G.push_back(frame.X_WG.Inverse() * p_W / frame.cell_m);
+      p_G.push_back(frame.ToGrid(p_W) / frame.cell_m);
       low = low.cwiseMin(p_G.back());
       high = high.cwiseMax(p_G.back());
     }

@@ -361,6 +361,9 @@ INSTANTIATE_TEST_SUITE_P(Planners, EveryPlanner, ::testing::ValuesIn(Cases()),
 double LeastRoom(const HazardMap& map, const Shape2& clear, const Path& path) {
   double least = std::numeric_limits<double>::infinity();
   const double cell = map.frame.cell_m;
+  double reach = clear.radius_m;  // of the shape, from the robot's origin
+  if (clear.kind != Shape2::Kind::kCircle)
+    for (const Vec2& q : clear.footprint_B) reach = std::max(reach, q.norm());
   for (std::size_t i = 1; i < path.size(); ++i) {
     const Vec2 a = path[i - 1].p_W, b = path[i].p_W;
     const int samples = 1 + static_cast<int>((b - a).norm() / 0.02);
@@ -374,6 +377,8 @@ double LeastRoom(const HazardMap& map, const Shape2& clear, const Path& path) {
         for (int dx = -1; dx <= 1; ++dx) {
           if (!map.IsWall(at.ix + dx, at.iy + dy)) continue;
           const Vec2 low((at.ix + dx) * cell, (at.iy + dy) * cell);  // X_WG is none here
+          const Vec2 nearest = p.cwiseMax(low).cwiseMin(low + Vec2(cell, cell));
+          if ((p - nearest).norm() - reach >= least) continue;  // it cannot be nearer than that
           for (double t = 0; t <= 1; t += 0.02)
             for (const Vec2& q : {Vec2(t, 0), Vec2(t, 1), Vec2(0, t), Vec2(1, t)}) {
               const Vec2 q_B = X_BW * Vec2(low + cell * q);
