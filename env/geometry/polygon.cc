@@ -22,6 +22,9 @@ using BPolygon = bg::model::polygon<BPoint, /*ClockWise=*/false, /*Closed=*/fals
 
 constexpr double kTouch_m = 1e-9;
 constexpr double kSliver_m2 = 1e-10;
+// Of parts that were cut: nothing rolls into so narrow a gap, and MuJoCo finds no hull of a slab
+// that is as thin as its rounding.
+constexpr double kNarrowest_m = 1e-6;
 
 // Boolean operations are done on whole numbers, about a nanometre apart: in floating point, edges
 // that lie on one another but for rounding make whole regions vanish, or appear.
@@ -163,6 +166,14 @@ std::vector<Trapezoid> Sweep(const std::vector<Edge>& edges) {
   }
   done.insert(done.end(), open.begin(), open.end());
   return done;
+}
+
+// The longest side, m.
+double Longest(const Polygon& polygon) {
+  double longest = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    longest = std::max(longest, (polygon[(i + 1) % polygon.size()] - polygon[i]).norm());
+  return longest;
 }
 
 }  // namespace
@@ -336,7 +347,8 @@ std::vector<Polygon> ConvexParts(const std::vector<Region>& regions, double yaw_
       if (part.empty() || (p_W - part.back()).norm() > 1e-7) part.push_back(p_W);
     }
     while (part.size() > 1 && (part.front() - part.back()).norm() <= 1e-7) part.pop_back();
-    if (part.size() >= 3 && SignedArea(part) > kSliver_m2) parts.push_back(std::move(part));
+    if (part.size() >= 3 && SignedArea(part) > std::max(kSliver_m2, kNarrowest_m * Longest(part)))
+      parts.push_back(std::move(part));
   }
   return parts;
 }

@@ -89,6 +89,21 @@ TEST(Polygon, ConvexPartsTileARegionWithHoles) {
   }
 }
 
+// Cuts through corners that lie on one line but for rounding leave slabs of no width.
+TEST(Polygon, NoPartIsASliver) {
+  for (const double off_m : {1e-8, 1.5e-7, 5e-7, 2e-6}) {
+    const Polygon pit = {{2, 2}, {7, 2 + off_m}, {7, 4}, {2, 4}};
+    const auto parts = ConvexParts(Difference({Region{Rectangle({0, 0}, {10, 8}), {}}}, {pit}));
+    EXPECT_NEAR(TotalArea(parts), 80 - SignedArea(pit), 1e-5) << off_m;
+    for (const Polygon& part : parts) {
+      double longest_m = 0;
+      for (const Vec2& p : part)
+        for (const Vec2& q : part) longest_m = std::max(longest_m, (p - q).norm());
+      EXPECT_GT(SignedArea(part), 0.9e-6 * longest_m) << off_m;
+    }
+  }
+}
+
 // Seams are what wheels feel: one rectangular pit needs four slabs and no more.
 TEST(Polygon, OnePitMakesFourSlabs) {
   const auto floor =
