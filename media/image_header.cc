@@ -4,11 +4,13 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <string>
 
 namespace floorproof {
 namespace {
 
+constexpr std::int64_t kMaxPngSide = 1'000'000;  // as libpng's
 constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 
 std::uint32_t Byte(std::string_view s, std::size_t at) { return static_cast<unsigned char>(s[at]); }
@@ -92,6 +94,10 @@ PngHeader ReadPngHeader(std::string_view start) {
 
 void CheckPng(std::string_view file) {
   const PngHeader header = ReadPngHeader(file);
+  if (std::max(header.width, header.height) > kMaxPngSide)
+    throw FormatError("claims " + std::to_string(header.width) + " x " +
+                      std::to_string(header.height) + " pixels: of a PNG at most " +
+                      std::to_string(kMaxPngSide) + " a side are read");
   std::uint64_t compressed = 0;
   for (std::size_t at = kPngSignature.size();;) {
     if (file.size() - at < 12) throw FormatError("PNG is truncated: it ends before its IEND chunk");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Image and video files. What films and BMP need (FFmpeg and OpenCV's codecs, with some 200 shared
-// libraries behind them) lives in a module of its own that is loaded at first use, so that the
-// program itself starts in milliseconds.
+// libraries behind them) lives in a module of its own that is loaded at first use, as letters do
+// (media/lettering.h), so that the program itself starts in milliseconds.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +35,7 @@ inline constexpr std::uintmax_t kMaxImageBytes = 256u << 20;
 // header, before anything is allocated.
 Image ReadImage(const std::filesystem::path& path, std::int64_t max_pixels = 64'000'000,
                 const InputFiles& files = {});
-// Writes PNG; throws as WriteFileWhole does.
+// Writes PNG; throws as WriteFileWhole does, and InternalError for what is no image.
 void WritePng(const std::filesystem::path& path, const Image& image);
 
 // H.264 in MP4 (High profile, yuv420p) that browsers play.

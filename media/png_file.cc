@@ -12,7 +12,6 @@
 #include <cstring>
 #include <new>
 #include <utility>
-#include <vector>
 
 #include "base/error.h"
 #include "media/image_header.h"
@@ -37,6 +36,7 @@ struct Reader {
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &complaint, Complain, Ignore);
   png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
   std::string_view rest;  // of the file
+  int passes = 1;         // seven where it is interlaced
 
   explicit Reader(std::string_view file) : rest(file) {}
   Reader(const Reader&) = delete;
@@ -56,20 +56,28 @@ bool ReadHeader(Reader& reader, bool& sixteen_bit) {
   png_structp png = reader.png;
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_read_fn(png, &reader, Take);
-  png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // the caller has its own
+  // Only what makes the pixels: neither texts and profiles, which can be packed a thousandfold, nor
+  // what a screen would make of the values.
+  png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
   png_read_info(png, reader.info);
   sixteen_bit = png_get_bit_depth(png, reader.info) == 16;
   png_set_expand(png);
   png_set_scale_16(png);
-  png_set_interlace_handling(png);
+  reader.passes = png_set_interlace_handling(png);
   png_read_update_info(png, reader.info);
   return true;
 }
 
-bool ReadPixels(Reader& reader, png_bytepp rows) {
-  if (setjmp(png_jmpbuf(reader.png))) return false;
-  png_read_image(reader.png, rows);
+void ReadRows(const Reader& reader, std::size_t row, Image& image) {
+  for (int pass = 0; pass < reader.passes; ++pass)
+    for (std::size_t at = 0; at < image.data.size(); at += row)
+      png_read_row(reader.png, image.data.data() + at, nullptr);
   png_read_end(reader.png, nullptr);
+}
+
+bool ReadPixels(Reader& reader, Image& image) {
+  if (setjmp(png_jmpbuf(reader.png))) return false;
+  ReadRows(reader, png_get_rowbytes(reader.png, reader.info), image);
   return true;
 }
 
@@ -125,19 +133,16 @@ Image DecodePng(std::string_view file) {
   Reader reader(file);
   if (reader.info == nullptr) throw std::bad_alloc();
   const auto damaged = [&] {
-    return FormatError(std::string("cannot be decoded: its data are damaged or truncated (") +
-                       reader.complaint.text + ")");
+    return FormatError(std::string("cannot be decoded: ") + reader.complaint.text);
   };
   Image image;
   if (!ReadHeader(reader, image.sixteen_bit)) throw damaged();
   image.width = static_cast<int>(png_get_image_width(reader.png, reader.info));
   image.height = static_cast<int>(png_get_image_height(reader.png, reader.info));
   image.channels = png_get_channels(reader.png, reader.info);
-  const std::size_t row = png_get_rowbytes(reader.png, reader.info);
-  image.data.resize(row * static_cast<std::size_t>(image.height));
-  std::vector<png_bytep> rows(static_cast<std::size_t>(image.height));
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = image.data.data() + i * row;
-  if (!ReadPixels(reader, rows.data())) throw damaged();
+  image.data.resize(png_get_rowbytes(reader.png, reader.info) *
+                    static_cast<std::size_t>(image.height));
+  if (!ReadPixels(reader, image)) throw damaged();
   return image;
 }
 

@@ -26,7 +26,7 @@ ImageHeader ReadHeader(std::string_view start, std::uint64_t file_size) {
   throw FormatError("is not an image that can be read (PNG, PGM, PPM or BMP)");
 }
 
-Image DecodeBmp(std::string_view file) {
+Image DecodeBmpByModule(std::string_view file) {
   char error[kModuleErrorSize] = "";
   Image image;
   const std::uint8_t* pixels = nullptr;
@@ -51,7 +51,7 @@ Image Decode(const fs::path& path, std::int64_t max_pixels, const InputFiles& fi
   CheckSize(header, max_pixels);
   if (IsNetpbm(file)) return DecodeNetpbm(file);
   if (IsPng(file)) CheckPng(file);
-  const Image image = IsPng(file) ? DecodePng(file) : DecodeBmp(file);
+  Image image = IsPng(file) ? DecodePng(file) : DecodeBmpByModule(file);
   if (image.width != header.width || image.height != header.height)
     throw FormatError("decodes to another size than its header claims");
   return image;

@@ -51,7 +51,7 @@ struct Pose2 {
     const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
     return {-c * x_m - s * y_m, s * x_m - c * y_m, WrapAngle(-yaw_rad)};
   }
-  // Inverse() * p, with half as many sines and cosines.
+  // Inverse() * p but for rounding, with half as many sines and cosines.
   Vec2 InverseTimes(const Vec2& p) const {
     if (yaw_rad == 0) return {p.x() - x_m, p.y() - y_m};
     const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);

@@ -22,8 +22,8 @@ using BPolygon = bg::model::polygon<BPoint, /*ClockWise=*/false, /*Closed=*/fals
 
 constexpr double kTouch_m = 1e-9;
 constexpr double kSliver_m2 = 1e-10;
-// Of parts that were cut: nothing rolls into so narrow a gap, and MuJoCo finds no hull of a slab
-// that is as thin as its rounding.
+// Of convex parts, on average: nothing rolls into so narrow a gap, and MuJoCo finds no hull of a
+// slab that is as thin as its rounding.
 constexpr double kNarrowest_m = 1e-6;
 
 // Boolean operations are done on whole numbers, about a nanometre apart: in floating point, edges
@@ -331,10 +331,14 @@ std::vector<Region> Simplified(const std::vector<Region>& regions, double by_m) 
 
 std::vector<Polygon> ConvexParts(const std::vector<Region>& regions, double yaw_rad) {
   std::vector<Polygon> parts;
+  const auto keep = [&parts](const Polygon& part) {
+    if (part.size() >= 3 && SignedArea(part) > std::max(kSliver_m2, kNarrowest_m * Longest(part)))
+      parts.push_back(part);
+  };
   std::vector<Region> rest;
   for (const auto& region : regions) {
     if (region.holes.empty() && IsConvex(region.outer))
-      parts.push_back(region.outer);
+      keep(region.outer);
     else
       rest.push_back(region);
   }
@@ -347,8 +351,7 @@ std::vector<Polygon> ConvexParts(const std::vector<Region>& regions, double yaw_
       if (part.empty() || (p_W - part.back()).norm() > 1e-7) part.push_back(p_W);
     }
     while (part.size() > 1 && (part.front() - part.back()).norm() <= 1e-7) part.pop_back();
-    if (part.size() >= 3 && SignedArea(part) > std::max(kSliver_m2, kNarrowest_m * Longest(part)))
-      parts.push_back(std::move(part));
+    keep(part);
   }
   return parts;
 }

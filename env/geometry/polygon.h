@@ -48,7 +48,7 @@ std::vector<Region> Simplified(const std::vector<Region>& regions, double by_m);
 // Convex polygons that tile the regions without overlap. A convex region stays whole. Others are
 // cut along lines in direction `yaw_rad` through their corners, into trapezoids; neighbours are
 // merged where together they form a rectangle or a trapezoid again. What is no wider than a
-// micrometre is left out.
+// micrometre on average is left out.
 std::vector<Polygon> ConvexParts(const std::vector<Region>& regions, double yaw_rad = 0);
 
 }  // namespace floorproof

@@ -114,6 +114,13 @@ TEST_F(ImageTest, PngColourTypesKeepTheirChannels) {
                                                         .color_type = 6,
                                                         .samples = {0xffff, 0x8080, 0x0101, 0}})));
   EXPECT_THAT(deep.data, ElementsAre(255, 128, 1, 0));
+  const auto between =
+      ReadImage(Save("between.png", MakePng({.width = 4,
+                                             .height = 1,
+                                             .bit_depth = 16,
+                                             .color_type = 0,
+                                             .samples = {0x64ff, 0x6464, 0x80, 0x81}})));
+  EXPECT_THAT(between.data, ElementsAre(101, 100, 0, 1)) << "rounded, not cut";
 }
 
 TEST_F(ImageTest, PngPaletteIsExpandedWithAndWithoutTransparency) {
@@ -146,6 +153,16 @@ TEST_F(ImageTest, PngGreyWithASeeThroughLevelGainsAlpha) {
     EXPECT_EQ(image.channels, 2);
     EXPECT_THAT(image.data, ElementsAre(0, 255, 255, 0)) << bits;
   }
+  // So does one colour of many.
+  const auto rgb =
+      ReadImage(Save("rgb.png", MakePng({.width = 2,
+                                         .height = 1,
+                                         .bit_depth = 8,
+                                         .color_type = 2,
+                                         .samples = {1, 2, 3, 4, 5, 6},
+                                         .transparency = std::string("\0\4\0\5\0\6", 6)})));
+  EXPECT_EQ(rgb.channels, 4);
+  EXPECT_THAT(rgb.data, ElementsAre(1, 2, 3, 255, 4, 5, 6, 0));
 }
 
 TEST_F(ImageTest, PngThatIsInterlacedIsReadAsAnyOther) {
@@ -255,7 +272,69 @@ TEST_F(ImageTest, DamagedPngIsRefused) {
   ::testing::internal::CaptureStderr();
   const std::string said = Refusal(Save("rows.png", MakePng(spec)));
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << "libpng's own line comes on top";
-  EXPECT_THAT(said, HasSubstr("data are damaged or truncated"));
+  EXPECT_THAT(said, HasSubstr("cannot be decoded: Not enough image data"));
+}
+
+// With right checksums, so that libpng meets it: it may read it or refuse it, in one line of ours.
+TEST_F(ImageTest, AnyByteChangedWithinAChunkIsReadOrRefused) {
+  PngSpec spec{.width = 16, .height = 16, .bit_depth = 4, .color_type = 3};
+  spec.samples.assign(256, 1);
+  spec.palette = std::string(12, '\x40');
+  spec.transparency = "ab";
+  int refused = 0;
+  ::testing::internal::CaptureStderr();
+  for (const bool adam7 : {false, true}) {
+    spec.adam7 = adam7;
+    const std::string whole = MakePng(spec);
+    for (std::size_t at = 8; at < whole.size(); ++at)
+      for (const int value : {0, 1, 0x20, 0x7f, 0xff}) {
+        std::string changed = whole;
+        changed[at] = static_cast<char>(value);
+        refused +=
+            Refusal(Save("changed.png", WithRightChecksums(changed))).find("cannot be decoded: ") !=
+            std::string::npos;
+      }
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  EXPECT_GT(refused, 100) << "libpng was asked";
+}
+
+TEST_F(ImageTest, PngThatLibpngRefusesIsRefusedWithItsReason) {
+  PngSpec spec{.width = 2, .height = 1, .color_type = 3, .samples = {0, 1}};
+  EXPECT_THAT(Refusal(Save("p.png", MakePng(spec))),
+              HasSubstr("cannot be decoded: IDAT: Missing PLTE"));
+  spec.palette = std::string(6, 'a');
+  spec.other = PngChunk("WHAT", "is critical, as its first letter says");
+  EXPECT_THAT(Refusal(Save("w.png", MakePng(spec))), HasSubstr("cannot be decoded: WHAT"));
+  // Texts, which may unpack to thousands of times their size, are not even looked at.
+  spec.other = PngChunk("zTXt", std::string("Comment\0\0", 9) + "no zlib");
+  EXPECT_EQ(Refusal(Save("z.png", MakePng(spec))), "accepted");
+}
+
+TEST_F(ImageTest, ALongPngIsReadUpToLibpngsLimit) {
+  const auto line = [&](unsigned width, unsigned height) {
+    return Save("line.png", MakePng({.width = width,
+                                     .height = height,
+                                     .color_type = 0,
+                                     .samples = std::vector<unsigned>(width * height, 7)}));
+  };
+  EXPECT_EQ(ReadImage(line(1'000'000, 1)).data.back(), 7);
+  EXPECT_EQ(ReadImage(line(1, 1'000'000)).data.back(), 7);
+  EXPECT_THAT(Refusal(line(1'000'001, 1)), HasSubstr("at most 1000000 a side"));
+  EXPECT_THAT(Refusal(line(1, 1'000'001)), HasSubstr("at most 1000000 a side"));
+}
+
+// OpenCV would say so on stderr, in lines of its own.
+TEST_F(ImageTest, ABmpsWrongHeaderIsRefusedInOneLine) {
+  cv::Mat grey(4, 4, CV_8UC1, cv::Scalar(9));
+  std::vector<uchar> bytes;
+  ASSERT_TRUE(cv::imencode(".bmp", grey, bytes));
+  bytes[47] = 2;  // 512 colours and more of 256
+  ::testing::internal::CaptureStderr();
+  const std::string said = Refusal(Save("c.bmp", std::string(bytes.begin(), bytes.end())));
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  EXPECT_THAT(said, HasSubstr("c.bmp: cannot be decoded"));
+  EXPECT_EQ(said.find('\n'), std::string::npos);
 }
 
 TEST_F(ImageTest, AnyByteChangedNeverCrashes) {

@@ -29,14 +29,31 @@ inline std::string PngBigEndian(std::uint32_t v) {
           static_cast<char>(v)};
 }
 
-inline std::string PngChunk(const std::string& type, const std::string& data) {
+inline std::string PngChecksum(const std::string& type_and_data) {
   std::uint32_t crc = 0xffffffffU;
-  for (const char c : type + data) {
+  for (const char c : type_and_data) {
     crc ^= static_cast<unsigned char>(c);
     for (int k = 0; k < 8; ++k) crc = crc & 1 ? 0xedb88320U ^ (crc >> 1) : crc >> 1;
   }
+  return PngBigEndian(crc ^ 0xffffffffU);
+}
+
+inline std::string PngChunk(const std::string& type, const std::string& data) {
   return PngBigEndian(static_cast<std::uint32_t>(data.size())) + type + data +
-         PngBigEndian(crc ^ 0xffffffffU);
+         PngChecksum(type + data);
+}
+
+// A PNG that was changed: each chunk's checksum is that of what it holds now. Other files stay.
+inline std::string WithRightChecksums(std::string png) {
+  if (!png.starts_with("\x89PNG\r\n\x1a\n")) return png;
+  for (std::size_t at = 8; at + 12 <= png.size();) {
+    std::size_t length = 0;
+    for (int k = 0; k < 4; ++k) length = length << 8 | static_cast<unsigned char>(png[at + k]);
+    if (length > png.size() - at - 12) break;
+    png.replace(at + 8 + length, 4, PngChecksum(png.substr(at + 4, length + 4)));
+    at += length + 12;
+  }
+  return png;
 }
 
 inline std::string PngStored(const std::string& raw) {

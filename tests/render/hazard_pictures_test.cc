@@ -21,9 +21,9 @@ class HazardPictures : public ScenarioTest {
   // room without any.
   const Image& Picture(const std::string& hazard, const std::string& camera) const {
     static std::map<std::pair<std::string, std::string>, Image> drawn;
-    const auto [at, is_new] = drawn.try_emplace({hazard, camera});
-    if (is_new) at->second = Picture(hazard, View(camera));
-    return at->second;
+    const std::pair key(hazard, camera);
+    if (!drawn.contains(key)) drawn.emplace(key, Picture(hazard, View(camera)));
+    return drawn.at(key);
   }
   // The robot is 0.75 m before x = 4 m.
   Image Picture(const std::string& hazard, const CameraView& view) const {
