@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What crosses the border between the program and the codec module (media/module_error.h).
+// What crosses the border between the program and the codec module (media/module_call.h).
 #pragma once
 
 #include <cstddef>

@@ -4,7 +4,7 @@
 #include "media/bmp_file.h"
 #include "media/codec_api.h"
 #include "media/h264_file.h"
-#include "media/module_error.h"
+#include "media/module_call.h"
 
 namespace floorproof {
 namespace {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "media/lettering.h"
 
-#include <memory>
 #include <string>
 
 #include "base/error.h"
 #include "base/load_module.h"
 #include "media/letters_api.h"
-#include "media/module_error.h"
+#include "media/module_call.h"
 
 namespace floorproof {
 
@@ -20,7 +19,7 @@ std::optional<Lettering> DrawLettering(std::string_view utf8, double cap_px, boo
   if (letters.draw(std::string(utf8).c_str(), cap_px, bold ? 1 : 0, &drawn, &raw, error) != 0)
     throw InternalError(std::string("cannot draw text: ") + error);
   if (raw == nullptr) return std::nullopt;
-  const std::unique_ptr<void, void (*)(void*)> handle(raw, letters.release);
+  const ModuleHandle handle(raw, letters.release);
   Lettering out;
   out.coverage.width = drawn.width;
   out.coverage.height = drawn.height;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What crosses the border between the program and the module of letters (media/module_error.h).
+// What crosses the border between the program and the module of letters (media/module_call.h).
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 // bring a dozen shared libraries, which only those who draw pay for.
 #include "media/letters.h"
 #include "media/letters_api.h"
-#include "media/module_error.h"
+#include "media/module_call.h"
 
 namespace floorproof {
 namespace {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Image files: the header is read and checked first, then the whole file, then it is decoded.
-#include <memory>
 #include <string>
 
 #include "base/error.h"
 #include "media/codecs.h"
 #include "media/image_header.h"
 #include "media/media.h"
-#include "media/module_error.h"
+#include "media/module_call.h"
 #include "media/netpbm.h"
 #include "media/png_file.h"
 
@@ -35,7 +34,7 @@ Image DecodeBmpByModule(std::string_view file) {
   if (codecs.decode_bmp(reinterpret_cast<const std::uint8_t*>(file.data()), file.size(),
                         &image.width, &image.height, &image.channels, &pixels, &raw, error) != 0)
     throw FormatError(std::string("cannot be decoded: ") + error);
-  const std::unique_ptr<void, void (*)(void*)> handle(raw, codecs.release_bmp);
+  const ModuleHandle handle(raw, codecs.release_bmp);
   image.data.assign(pixels, pixels + static_cast<std::size_t>(image.width) *
                                          static_cast<std::size_t>(image.height) *
                                          static_cast<std::size_t>(image.channels));

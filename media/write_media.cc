@@ -8,7 +8,7 @@
 #include "base/interrupt.h"
 #include "media/codecs.h"
 #include "media/media.h"
-#include "media/module_error.h"
+#include "media/module_call.h"
 #include "media/png_file.h"
 
 namespace floorproof {

@@ -2,6 +2,8 @@
 // Images are read as stored, in every form a map comes in, and a file that lies is refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <zlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -306,9 +308,32 @@ TEST_F(ImageTest, PngThatLibpngRefusesIsRefusedWithItsReason) {
   spec.palette = std::string(6, 'a');
   spec.other = PngChunk("WHAT", "is critical, as its first letter says");
   EXPECT_THAT(Refusal(Save("w.png", MakePng(spec))), HasSubstr("cannot be decoded: WHAT"));
-  // Texts, which may unpack to thousands of times their size, are not even looked at.
+  // Texts are not even looked at.
   spec.other = PngChunk("zTXt", std::string("Comment\0\0", 9) + "no zlib");
   EXPECT_EQ(Refusal(Save("z.png", MakePng(spec))), "accepted");
+}
+
+TEST_F(ImageTest, APngsTextsAreNotUnpacked) {
+  const std::string text(7'500'000, 'a');  // a thousandth of it when packed
+  std::vector<Bytef> packed(compressBound(text.size()));
+  uLongf size = packed.size();
+  ASSERT_EQ(
+      compress(packed.data(), &size, reinterpret_cast<const Bytef*>(text.data()), text.size()),
+      Z_OK);
+  PngSpec spec{.width = 1, .height = 1, .color_type = 0, .samples = {7}};
+  for (int i = 0; i < 40; ++i)
+    spec.other += PngChunk(
+        "zTXt", std::string("Comment\0\0", 9) + std::string(packed.begin(), packed.begin() + size));
+  const fs::path file = Save("texts.png", MakePng(spec));
+  ASSERT_LT(fs::file_size(file), 1'000'000u);
+  const auto most_kb = [] {
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    return used.ru_maxrss;
+  };
+  const long before_kb = most_kb();
+  EXPECT_EQ(ReadImage(file).data.at(0), 7);
+  EXPECT_LT(most_kb() - before_kb, 100'000) << "unpacked they are 300 MB";
 }
 
 TEST_F(ImageTest, ALongPngIsReadUpToLibpngsLimit) {

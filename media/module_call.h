@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a module says that a call failed. Only plain C types cross its border and nothing is thrown:
-// every function that returns int gives 0 when done; else it fills `error` (of kModuleErrorSize
-// bytes) with a line.
+// How a call crosses the border of a module. Only plain C types do, and nothing is thrown: every
+// function that returns int gives 0 when done; else it fills `error` (of kModuleErrorSize bytes)
+// with a line.
 #pragma once
 
 #include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <memory>
 
 namespace floorproof {
 
 inline constexpr std::size_t kModuleErrorSize = 256;
+
+// The caller's side: frees what a module hands out by the module's own function.
+using ModuleHandle = std::unique_ptr<void, void (*)(void*)>;
 
 // The module's side: runs `body`, and turns what it throws into such a line.
 template <class Body>
