@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
+#include "env/scene/models_folder.h"
 #include "report/drive_and_film.h"
 #include "report/run_page.h"
 #include "run/episode/records.h"

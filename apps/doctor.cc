@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "apps/command.h"
+#include "env/scene/models_folder.h"
 #include "render/gl_context.h"
 
 namespace floorproof {

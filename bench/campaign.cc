@@ -16,6 +16,7 @@
 
 #include "base/interrupt.h"
 #include "bench/bare_loop.h"
+#include "env/scene/models_folder.h"
 #include "run/campaign/campaign_about.h"
 #include "run/campaign/campaign_files.h"
 #include "run/episode/make_plan.h"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/bare_loop.h"
+#include "env/scene/models_folder.h"
 #include "run/episode/make_plan.h"
 
 namespace floorproof {

@@ -25,4 +25,6 @@ endif()
 add_library(mujoco::mujoco SHARED IMPORTED)
 set_target_properties(mujoco::mujoco PROPERTIES
   IMPORTED_LOCATION ${MUJOCO_LIBRARY}
-  INTERFACE_INCLUDE_DIRECTORIES ${MUJOCO_INCLUDE_DIR})  # SYSTEM, as of every imported target
+  INTERFACE_INCLUDE_DIRECTORIES ${PROJECT_BINARY_DIR}/mujoco)  # SYSTEM, as of every imported target
+# At the same place in every build, wherever MuJoCo came from (CompilerCache.cmake).
+file(COPY ${MUJOCO_INCLUDE_DIR}/mujoco DESTINATION ${PROJECT_BINARY_DIR}/mujoco)

@@ -7,15 +7,17 @@ together when one file's own name is a word of the other: it would be defined tw
 be taken for the other. Such files go into different groups by themselves, so that whoever adds a
 file need not know the names in the others.
 
-    unity_groups.py ROOT FILES_A_GROUP <LINES      each line: TARGET;FILE
+    unity_groups.py ROOT FOLDER FILES_A_GROUP <LINES      each line: TARGET;FILE
 
-Prints "group|TARGET|FILE|NUMBER" for each file that shares its group, and "read|FILE" for each file
-that the answer depends on. Own names are looked for as clang-format leaves them: what an unnamed
-namespace holds begins at the line's first column.
+Writes FOLDER/TARGET_NUMBER.cc for each group, which includes its files by their paths from ROOT, and
+FOLDER/groups.cmake, which tells CMake of the groups and of every file that the answer depends on. Own
+names are looked for as clang-format leaves them: what an unnamed namespace holds begins at the line's
+first column.
 """
 import collections
 import functools
 import os
+import pathlib
 import re
 import sys
 
@@ -107,11 +109,11 @@ def load(path):
     return File(sys.argv[1], path)
 
 
-def main():
-    most = int(sys.argv[2])
+def grouped(lines, most):
+    """The groups of each target: lists of files."""
     groups = collections.defaultdict(list)
-    for line in sys.stdin.read().split():
-        target, path = line.split(';')
+    for line in lines:
+        target, _, path = line.partition(';')
         file = load(path)
         for group in groups[target]:
             if len(group) < most and not any(file.disturbs(other) or other.disturbs(file)
@@ -120,15 +122,41 @@ def main():
                 break
         else:
             groups[target].append([file])
+    return groups
+
+
+def write(path, text):
+    """A file that is as it should be keeps its time, so that nothing is compiled again for it."""
+    if not path.exists() or path.read_text(encoding='utf-8') != text:
+        path.write_text(text, encoding='utf-8')
+
+
+def quoted(*texts):
+    return ' '.join(f'[==[{text}]==]' for text in texts)
+
+
+def main():
+    root, folder, most = sys.argv[1:]
+    folder = pathlib.Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    groups = grouped(sys.stdin.read().splitlines(), int(most))
+    cmake, written = [], {folder / 'groups.cmake'}
     for target, of_target in groups.items():
         for number, group in enumerate(of_target):
-            for file in group if len(group) > 1 else []:
-                print(f'group|{target}|{file.path}|{number}')
+            if len(group) == 1:
+                continue
+            unity = folder / f'{target}_{number}.cc'
+            write(unity, ''.join(f'#include "{os.path.relpath(file.path, root)}"\n' for file in group))
+            written.add(unity)
+            cmake.append(f'fp_compile_as_one({target} {quoted(unity, *(file.path for file in group))})\n')
+    for stale in set(folder.iterdir()) - written:
+        stale.unlink()
     read = {file.path for of_target in groups.values() for group in of_target for file in group}
     for path in list(read):
         read |= load(path).headers()
-    for path in sorted(read):
-        print(f'read|{path}')
+    cmake.append('set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS\n  '
+                 + '\n  '.join(quoted(path) for path in [__file__, *sorted(read)]) + ')\n')
+    write(folder / 'groups.cmake', ''.join(cmake))
 
 
 main()

@@ -111,7 +111,7 @@ void Check(const RobotSpec& robot) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const std::array<ModelPtr, 2> models = [] {
-    setenv("FLOORPROOF_MODELS", FP_SOURCE_DIR "/models", 1);
+    unsetenv("FLOORPROOF_MODELS");
     std::array<ModelPtr, 2> out;
     for (std::size_t i = 0; i < out.size(); ++i) {
       const RobotModel robot =

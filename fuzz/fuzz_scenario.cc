@@ -15,7 +15,7 @@ constexpr const char* kPlan = "x_m,y_m\n0.3,0.3\n0.6,0.3\n";
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace floorproof;
   static const bool once_only = [] {
-    setenv("FLOORPROOF_MODELS", FP_SOURCE_DIR "/models", 1);
+    unsetenv("FLOORPROOF_MODELS");
     Save("site.yaml", kSite);
     Save("plan.csv", kPlan);
     return true;

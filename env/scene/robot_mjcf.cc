@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/params.h"
 #include "base/try_in_child.h"
+#include "env/scene/models_folder.h"
 #include "env/scene/robot_model.h"
 
 namespace floorproof {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "env/scene/lock_blocks.h"
 #include "env/scene/measured_block.h"
 #include "env/scene/mecanum_wheel.h"
+#include "env/scene/models_folder.h"
 #include "env/scene/robot_limits.h"
 #include "env/scene/robot_mjcf.h"
 #include "env/scene/roller_wheels.h"
@@ -190,22 +190,6 @@ std::span<const RobotEntry> Robots() {
   };
   return kTable;
 }
-
-namespace {
-
-std::filesystem::path& BuiltInModels() {
-  static auto& folder = *new std::filesystem::path(FLOORPROOF_MODELS_DIR);
-  return folder;
-}
-
-}  // namespace
-
-std::filesystem::path ModelsFolder() {
-  if (const char* folder = std::getenv("FLOORPROOF_MODELS")) return folder;
-  return BuiltInModels();
-}
-
-void SetModelsFolder(const std::filesystem::path& folder) { BuiltInModels() = folder; }
 
 std::filesystem::path FindRobotFile(const std::string& name_or_path, const SourceMark& mark) {
   std::vector<std::string> names;

@@ -23,12 +23,6 @@ struct RobotEntry {
 };
 std::span<const RobotEntry> Robots();
 
-// Folder of the bundled models: FLOORPROOF_MODELS, else the one that was set, else where this
-// program was built from.
-std::filesystem::path ModelsFolder();
-// For a package that carries them along (python/). Before anything is read.
-void SetModelsFolder(const std::filesystem::path& folder);
-
 // The MJCF of a bundled robot's name, or of a path that ends in .xml. Throws InputError at `mark`.
 std::filesystem::path FindRobotFile(const std::string& name_or_path, const SourceMark& mark);
 

@@ -8,6 +8,7 @@
 #include "base/file_output.h"
 #include "base/interrupt.h"
 #include "env/map/site.h"
+#include "env/scene/models_folder.h"
 #include "env/scene/robot_model.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/describe.h"

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/file_output.h"
+#include "env/scene/models_folder.h"
 #include "run/scenario/scenario_parts.h"
 #include "run/scenario/written_faults.h"
 #include "run/scenario/written_safety.h"

@@ -9,6 +9,7 @@
 #include "base/input_file.h"
 #include "base/printable.h"
 #include "env/map/ros_map.h"
+#include "env/scene/models_folder.h"
 #include "run/scenario/scenario_parts.h"
 
 namespace floorproof {

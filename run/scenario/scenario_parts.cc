@@ -8,6 +8,7 @@
 #include "env/core/blocks.h"
 #include "env/core/standing.h"
 #include "env/scene/measured_block.h"
+#include "env/scene/models_folder.h"
 #include "env/scene/roller_wheels.h"
 #include "run/scenario/carried_sensors.h"
 #include "run/scenario/floor_dirt.h"

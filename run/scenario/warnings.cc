@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/quantity.h"
+#include "env/scene/models_folder.h"
 #include "env/scene/restitution.h"
 
 namespace floorproof {

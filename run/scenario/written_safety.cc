@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/json_schema.h"
+#include "env/scene/models_folder.h"
 #include "env/scene/robot_model.h"
 
 namespace floorproof {

@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/places.h"
 #include "tests/slurp.h"
 
 namespace floorproof {
@@ -38,7 +39,7 @@ class Program {
       const std::string& arguments, const std::filesystem::path& folder,
       const std::function<void()>& in_child = [] {})
       : out_(folder / ".stdout"), err_(folder / ".stderr") {
-    std::vector<std::string> words = {FP_PROGRAM};
+    std::vector<std::string> words = {ProgramFile().string()};
     for (const std::string& word : Words(arguments)) words.push_back(word);
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());

@@ -20,6 +20,7 @@
 
 #include "base/text_width.h"
 #include "tests/apps/run_program.h"
+#include "tests/places.h"
 #include "tests/slurp.h"
 
 namespace floorproof {
@@ -490,7 +491,7 @@ TEST_F(Cli, InitWritesARunnableScenarioAndLeavesExistingFiles) {
 
   // A robot of one's own, named from where one is; and what two maps give does not meet.
   fs::create_directories(folder_ / "mine2/robots");
-  fs::copy_file(fs::path(FP_SOURCE_DIR) / "models/beluga.xml", folder_ / "my.xml");
+  fs::copy_file(SourceFile("models/beluga.xml"), folder_ / "my.xml");
   fs::rename(folder_ / "map.yaml", folder_ / "hall.yaml");
   ASSERT_EQ(Run("init hall.yaml --robot my.xml --out mine2").status, 0);
   EXPECT_THAT(Slurp(folder_ / "mine2/scenario.yaml"), HasSubstr("robot: \"../my.xml\""));
@@ -518,10 +519,11 @@ std::string OnATerminal(const fs::path& folder, const std::vector<std::string>& 
     setenv("TERM", "xterm", 1);
     unsetenv("NO_COLOR");
     if (no_color != nullptr) setenv("NO_COLOR", no_color, 1);
-    std::vector<char*> argv = {const_cast<char*>(FP_PROGRAM)};
+    std::string program = ProgramFile().string();
+    std::vector<char*> argv = {program.data()};
     for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
     argv.push_back(nullptr);
-    if (chdir(folder.c_str()) == 0) execv(FP_PROGRAM, argv.data());
+    if (chdir(folder.c_str()) == 0) execv(program.c_str(), argv.data());
     _exit(127);
   }
   std::string seen;
@@ -549,7 +551,7 @@ TEST_F(Cli, ARobotIsCheckedAndDrawn) {
 }
 
 TEST_F(Cli, ARobotThatIsNotAsItShouldBeEndsWithOne) {
-  std::string mjcf = Slurp(FP_SOURCE_DIR "/models/beluga.xml");
+  std::string mjcf = Slurp(SourceFile("models/beluga.xml"));
   const std::string speed = "name=\"max_speed_mps\" data=\"0.40\"";
   mjcf.replace(mjcf.find(speed), speed.size(), "name=\"max_speed_mps\" data=\"0.90\"");
   std::ofstream(folder_ / "fast.xml") << mjcf;

@@ -21,6 +21,7 @@
 
 #include "base/config.h"
 #include "media/media.h"
+#include "tests/places.h"
 #include "tests/slurp.h"
 
 namespace floorproof {
@@ -34,7 +35,7 @@ class Program {
   Program(const std::vector<std::string>& arguments, const fs::path& folder,
           void (*on_sigint)(int) = SIG_DFL, rlim_t most_bytes = RLIM_INFINITY)
       : said_(folder / ".." / (folder.filename().string() + ".said")) {
-    std::vector<std::string> words = {FP_PROGRAM};
+    std::vector<std::string> words = {ProgramFile().string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
@@ -200,7 +201,7 @@ video: {width: 160, height: 90, max_frames: 80, camera: top}
   }
 
   fs::path folder_;
-  const std::string hall_ = FP_SOURCE_DIR "/models/scenarios/demo_beluga.yaml";
+  const std::string hall_ = SourceFile("models/scenarios/demo_beluga.yaml").string();
 };
 
 // A file's name while it is written begins where it will stand; the film's is there all the while.
@@ -356,7 +357,7 @@ TEST_F(InterruptTest, ThatTheShellIgnoresIsIgnored) {
 
 // A robot that is being measured keeps its model as it is.
 TEST_F(InterruptTest, TheLadderOfARobot) {
-  fs::copy_file(FP_SOURCE_DIR "/models/beluga.xml", folder_ / "mine.xml");
+  fs::copy_file(SourceFile("models/beluga.xml"), folder_ / "mine.xml");
   const std::string model = Slurp(folder_ / "mine.xml");
   const std::vector<std::string> dut = {"robot", "mine.xml", "--ladder", "--quiet"};
   EXPECT_TRUE(Interrupt(dut, {"out/robot/mine.ladder.csv", 1, 0}));

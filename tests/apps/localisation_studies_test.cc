@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/campaign_program.h"
+#include "tests/places.h"
 
 namespace floorproof {
 namespace {
@@ -28,7 +29,7 @@ class LocalisationStudy : public testing::TestWithParam<Study> {
 TEST_P(LocalisationStudy, WorsensWhatTheRobotKnowsOfItsPlace) {
   const Study& study = GetParam();
   const std::string scenario =
-      std::string(FP_SOURCE_DIR) + "/models/scenarios/" + study.scenario + ".yaml";
+      SourceFile("models/scenarios/" + std::string(study.scenario) + ".yaml").string();
   // In parts, as a program of a test may run for minutes only.
   for (const char* n : {"30", "60", "100"}) {
     Program campaign("campaign " + scenario + " --no-films --quiet --resume --out c -n " + n,

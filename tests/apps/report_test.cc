@@ -14,6 +14,7 @@
 #include "run/campaign/campaign_files.h"
 #include "run/campaign/campaign_store.h"
 #include "stats/outward.h"
+#include "tests/places.h"
 #include "tests/report/html_page.h"
 #include "tests/slurp.h"
 
@@ -89,7 +90,7 @@ class ReportCommand : public ::testing::Test {
 
   int Run() const {
     const std::string command =
-        std::string("cd '") + folder_.string() + "' && " FP_PROGRAM + " report out >said 2>&1";
+        "cd '" + folder_.string() + "' && '" + ProgramFile().string() + "' report out >said 2>&1";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }

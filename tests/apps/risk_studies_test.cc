@@ -4,11 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/campaign_program.h"
+#include "tests/places.h"
 
 namespace floorproof {
 namespace {
 
-constexpr const char* kPrefix = "/models/scenarios/";
+const std::string kPrefix = "models/scenarios/";
 
 class Study : public testing::Test {
  protected:
@@ -18,7 +19,7 @@ class Study : public testing::Test {
   // In parts, as a program of a test may run for minutes only.
   void Run(const std::string& scenario, const std::vector<int>& parts, const std::string& seed) {
     for (const int n : parts) {
-      Program campaign("campaign " + std::string(FP_SOURCE_DIR) + kPrefix + scenario +
+      Program campaign("campaign " + SourceFile(kPrefix + scenario).string() +
                            " --no-films --quiet --resume --out c --seed " + seed + " -n " +
                            std::to_string(n),
                        folder_);

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string>
 
+#include "tests/places.h"
 #include "tests/slurp.h"
 
 namespace floorproof {
@@ -20,8 +21,8 @@ struct Result {
 
 inline Result RunProgram(const std::filesystem::path& folder, const std::string& arguments) {
   const std::string err = (folder / ".stderr").string();
-  const std::string command =
-      "cd '" + folder.string() + "' && '" FP_PROGRAM "' " + arguments + " 2>'" + err + "'";
+  const std::string command = "cd '" + folder.string() + "' && '" + ProgramFile().string() + "' " +
+                              arguments + " 2>'" + err + "'";
   Result result;
   std::FILE* pipe = popen(command.c_str(), "r");
   std::array<char, 4096> buffer;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/apps/run_program.h"
+#include "tests/places.h"
 #include "tests/slurp.h"
 
 namespace floorproof {
@@ -64,7 +65,7 @@ TEST_F(SuiteCommand, GivesTheSameBytesAgainAndJunitSaysWhatTheExitStatusSays) {
 
 // Both meet the same draws: one robot under two names does the same.
 TEST_F(SuiteCommand, ARobotBesideItsCopyDoesTheSame) {
-  fs::copy_file(FP_SOURCE_DIR "/models/beluga.xml", folder_ / "copy.xml");
+  fs::copy_file(SourceFile("models/beluga.xml"), folder_ / "copy.xml");
   const Result dut = Run(std::string("beluga copy.xml --json --out o") + kTiny);
   ASSERT_EQ(dut.status, 0) << dut.err;
   const auto json = nlohmann::json::parse(dut.out);

@@ -11,6 +11,7 @@
 
 #include "base/sanitizer.h"
 #include "tests/bad_input/child.h"
+#include "tests/places.h"
 
 namespace floorproof {
 namespace {
@@ -50,7 +51,7 @@ class BadInputFolder : public ::testing::Test {
     return entries;
   }
   ChildResult Run(const std::vector<std::string>& arguments, const ChildLimits& limits = {}) const {
-    return RunChild(FP_PROGRAM, arguments, folder_, limits);
+    return RunChild(ProgramFile().string(), arguments, folder_, limits);
   }
   static void ExpectOneLine(const ChildResult& dut) {
     EXPECT_EQ(dut.signal, 0) << "killed";

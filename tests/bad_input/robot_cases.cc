@@ -8,6 +8,7 @@
 
 #include "base/sanitizer.h"
 #include "tests/bad_input/bad_input.h"
+#include "tests/places.h"
 
 namespace floorproof {
 namespace {
@@ -21,7 +22,7 @@ BadInput Robot(const std::string& name, const std::string& text, std::vector<std
 }
 
 std::string Beluga() {
-  std::ifstream file(FP_SOURCE_DIR "/models/beluga.xml");
+  std::ifstream file(SourceFile("models/beluga.xml"));
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
@@ -199,7 +200,7 @@ BadInput UrdfCase(const std::string& name, const std::string& text,
 std::vector<BadInput> SteeringCases() {
   const auto scrubber = [](const std::string& name, const std::string& from, const std::string& to,
                            std::vector<std::string> named) {
-    std::ifstream file(FP_SOURCE_DIR "/models/scrubber.xml");
+    std::ifstream file(SourceFile("models/scrubber.xml"));
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     return Robot(name, Replaced(text, from, to), std::move(named));
   };

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "tests/bad_input/bad_input.h"
+#include "tests/places.h"
 
 namespace floorproof {
 namespace {
@@ -36,7 +37,7 @@ BadInput By(const std::string& name, std::vector<std::string> arguments, BadInpu
 
 // BELUGA with `from` changed, in place of the scenario's robot.
 BadInput OnARobotWith(const std::string& from, const std::string& to, BadInput bad) {
-  std::ifstream file(FP_SOURCE_DIR "/models/beluga.xml");
+  std::ifstream file(SourceFile("models/beluga.xml"));
   const std::string text((std::istreambuf_iterator<char>(file)), {});
   bad.files["mine.xml"] = Replaced(text, from, to);
   bad.files["scenario.yaml"] =

@@ -17,6 +17,7 @@
 #include "env/map/site.h"
 #include "env/scene/robot_model.h"
 #include "planners/lines/turned_plan.h"
+#include "tests/places.h"
 #include "tests/planners/curvature.h"
 #include "tests/planners/planted_rates.h"
 #include "tests/planners/risk_floors.h"
@@ -511,8 +512,7 @@ hazards:
 }
 
 TEST_P(EveryPlannerOnSites, CoversARealMap) {
-  const std::filesystem::path yaml =
-      std::filesystem::path(FP_SHARED_MAPS_DIR) / "lab_small/map.yaml";
+  const std::filesystem::path yaml = SharedFile("maps") / "lab_small/map.yaml";
   if (!std::filesystem::exists(yaml)) GTEST_SKIP() << "no shared maps here";
   const RosMap ros = ReadRosMap(yaml);
   HazardMap map;

@@ -23,6 +23,7 @@
 #include "planners/planner.h"
 #include "run/episode/metrics.h"
 #include "run/episode/trace.h"
+#include "tests/places.h"
 #include "validate/law.h"
 
 namespace floorproof {
@@ -43,7 +44,12 @@ HazardMap Room(double width_m, double depth_m) {
   return map;
 }
 
-RobotModel Burger() { return ReadRobot(FP_DOCS_CODE "/burger.xml"); }
+// A page's block, as it is extracted beside the tests that were built.
+std::filesystem::path DocsCode(const char* name) {
+  return ProgramFile().parent_path().parent_path() / "tests/docs/code" / name;
+}
+
+RobotModel Burger() { return ReadRobot(DocsCode("burger.xml")); }
 
 TEST(AddingARobot, TheModelSaysWhatThePageSays) {
   const RobotSpec dut = Burger().spec;
@@ -129,7 +135,7 @@ TEST(AddingAMonitor, ABatteryThatGivesTooMuchForLongIsAnAlarm) {
 }
 
 TEST(SafetyPage, ItsMissionIsOne) {
-  const ConfigNode root = ReadYamlFile(FP_DOCS_CODE "/mission.yaml", {});
+  const ConfigNode root = ReadYamlFile(DocsCode("mission.yaml"), {});
   const Mission mission = ReadMission(root, RobotPrimitiveTypes());
   EXPECT_EQ(mission.name, "inspect the bridge");
   EXPECT_EQ(mission.nodes.size(), 1u + 1 + 1 + 4);
@@ -189,7 +195,7 @@ TEST(AddingAFault, HotWindingsResistMore) {
 }
 
 std::string Page(const std::string& name) {
-  std::ifstream file(std::string(FP_SOURCE_DIR "/docs/") + name);
+  std::ifstream file(SourceFile("docs") / name);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

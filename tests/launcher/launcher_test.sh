@@ -7,7 +7,7 @@ set -u
 here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-tree="$work/a tree"
+tree="$work/with ü & space"
 dut="$tree/floorproof"
 failures=0
 as_user=(env)

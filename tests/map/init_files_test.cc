@@ -11,6 +11,7 @@
 #include "env/core/coverage.h"
 #include "env/map/site.h"
 #include "tests/map/temp_folder.h"
+#include "tests/places.h"
 
 namespace floorproof {
 namespace {
@@ -205,7 +206,7 @@ TEST_F(InitFilesTest, SpecksAndTurnedMapsAreNoMatter) {
 }
 
 TEST_F(InitFilesTest, EverySharedMapHoldsAStart) {
-  const fs::path maps(FP_SHARED_MAPS_DIR);
+  const fs::path maps = SharedFile("maps");
   if (!fs::exists(maps)) GTEST_SKIP() << "no " << maps << ": real maps are not shipped";
   for (const auto& entry : fs::directory_iterator(maps)) {
     const RobotSpec robot = Disc(0.25);

@@ -9,6 +9,7 @@
 #include <ostream>
 
 #include "env/map/ros_map.h"
+#include "tests/places.h"
 
 namespace floorproof {
 namespace {
@@ -27,7 +28,7 @@ void PrintTo(const RealMap& map, std::ostream* out) { *out << map.name; }
 
 class SharedMapsTest : public ::testing::TestWithParam<RealMap> {
  protected:
-  fs::path Folder() const { return fs::path(FP_SHARED_MAPS_DIR) / GetParam().name; }
+  fs::path Folder() const { return SharedFile("maps") / GetParam().name; }
   void SetUp() override {
     if (!fs::exists(Folder())) GTEST_SKIP() << "no " << Folder() << ": real maps are not shipped";
   }

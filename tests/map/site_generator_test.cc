@@ -13,6 +13,7 @@
 #include "base/input_file.h"
 #include "env/map/site.h"
 #include "tests/map/temp_folder.h"
+#include "tests/places.h"
 
 namespace floorproof {
 namespace {
@@ -267,8 +268,7 @@ TEST(SiteGenerator, ResolvedItStaysRandomAndMeansTheSame) {
 }
 
 TEST(SiteGenerator, ThePageShowsWhatIsDrawn) {
-  const std::string page =
-      ReadInputFile(std::filesystem::path(FP_SOURCE_DIR) / "docs/scenario.md", 1 << 20);
+  const std::string page = ReadInputFile(SourceFile("docs/scenario.md"), 1 << 20);
   const std::string line =
       "kind: rooms, cells: [24, 14], hazards: {cable_cover: 1, drop: 1, glass: 1}, seed: 7";
   ASSERT_THAT(page, HasSubstr("generate: {" + line + "}"));

@@ -9,6 +9,7 @@
 
 #include "env/hazards/hazard_type.h"
 #include "env/map/site.h"
+#include "tests/places.h"
 #include "tests/schema_mutations.h"
 #include "tests/schema_takes.h"
 
@@ -63,8 +64,7 @@ TEST(SiteSchema, KnowsEveryKeyThatThereIs) {
 
 TEST(SiteSchema, TakesWhatComesWithTheProgram) {
   int taken = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::string(FP_SOURCE_DIR) + "/models/sites")) {
+  for (const auto& entry : std::filesystem::directory_iterator(SourceFile("models/sites"))) {
     if (entry.path().extension() != ".yaml") continue;
     EXPECT_TRUE(Takes(Schema(), ReadYamlFile(entry.path()))) << entry.path();
     ++taken;

@@ -8,6 +8,7 @@
 #include "env/geometry/geometry.h"
 #include "measure/measured_fmea_yaml.h"
 #include "run/scenario/fmea_file.h"
+#include "tests/places.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {
@@ -16,7 +17,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-FmeaTables Experts() { return ReadFmeaTables(FP_SOURCE_DIR "/models/fmea/htetro.yaml"); }
+FmeaTables Experts() { return ReadFmeaTables(SourceFile("models/fmea/htetro.yaml")); }
 
 Encounter Met(const std::string& type, double lead_rad, double speed_mps,
               std::optional<FailureMode> mode = {}) {

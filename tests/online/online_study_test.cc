@@ -7,6 +7,7 @@
 #include <map>
 
 #include "run/episode/execute.h"
+#include "tests/places.h"
 
 namespace floorproof {
 namespace {
@@ -27,8 +28,7 @@ class UnknownFloors : public ::testing::Test {
  protected:
   // By variant, a drive a site.
   static std::map<std::string, std::vector<Drive>> DriveAll() {
-    const ScenarioFile file(std::string(FP_SOURCE_DIR) + "/models/scenarios/unknown_floor.yaml",
-                            {{"seed", "2024"}});
+    const ScenarioFile file(SourceFile("models/scenarios/unknown_floor.yaml"), {{"seed", "2024"}});
     std::map<std::string, std::vector<Drive>> drives;
     for (const Variant& variant : file.variants())
       for (std::uint64_t site = 0; site < kSites; ++site) {

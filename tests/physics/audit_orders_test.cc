@@ -2,6 +2,7 @@
 // The bundled audits of three sites, each driven in five orders: Table 3 of "audit-sampling".
 #include <map>
 
+#include "tests/places.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {
@@ -15,8 +16,7 @@ struct Site {
 class AuditOrders : public ScenarioTest, public ::testing::WithParamInterface<Site> {};
 
 TEST_P(AuditOrders, StandToEachOtherAsInThePaper) {
-  const ScenarioFile file(std::filesystem::path(FP_SOURCE_DIR) /
-                          "models/scenarios/audit_tours.yaml");
+  const ScenarioFile file(SourceFile("models/scenarios/audit_tours.yaml"));
   std::map<std::string, Metrics> driven;
   const std::string prefix = std::string("site=") + GetParam().name + ",order=";
   for (const Variant& variant : file.variants()) {

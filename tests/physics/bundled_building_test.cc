@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "tests/places.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {
@@ -12,7 +13,7 @@ namespace {
 // What the bundled scenario says of itself: across the lift's gap it gets on, along it a wheel, as
 // wide as the gap or less, rolls in.
 TEST_F(ScenarioTest, LanesAlongALiftsGapAreATrapAndLanesAcrossAreNot) {
-  const auto file = std::filesystem::path(FP_SOURCE_DIR) / "models/scenarios/building.yaml";
+  const auto file = SourceFile("models/scenarios/building.yaml");
   const EpisodeRecord across = Drive(ReadScenario(file, {}));
   EXPECT_EQ(across.outcome, Outcome::kSuccess) << across.message;
   EXPECT_GT(across.metrics.coverage, 0.9);

@@ -3,6 +3,7 @@
 // docs/gallery.md say, at the place where the hazard is.
 #include <ostream>
 
+#include "tests/places.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {
@@ -28,8 +29,7 @@ struct Bundled {
 constexpr double kFront_m = 0.25, kRowAcross_m = 0.03, kWheelHalfWidth_m = 0.0125;
 
 Scenario ReadBundled(const std::string& name) {
-  return ReadScenario(
-      std::filesystem::path(FP_SOURCE_DIR) / "models/scenarios" / ("fig1_" + name + ".yaml"), {});
+  return ReadScenario(SourceFile("models/scenarios") / ("fig1_" + name + ".yaml"), {});
 }
 
 class BundledScenarios : public ScenarioTest, public ::testing::WithParamInterface<Bundled> {};

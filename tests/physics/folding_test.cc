@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "controllers/reconfiguration.h"
+#include "tests/places.h"
 #include "tests/run/scenario_text.h"
 #include "validate/rig.h"
 
@@ -207,8 +208,7 @@ TEST_F(Folded, APlansShapesAreTakenBetweenItsWaypoints) {
 
 // What the square cannot pass, the bar can; a plan that forgets to fold ends at the partition.
 TEST_F(Folded, AGapNarrowerThanTheSquareIsPassedAsABar) {
-  const auto file =
-      std::filesystem::path(FP_SOURCE_DIR) / "models/scenarios/htetro_narrow_gap.yaml";
+  const auto file = SourceFile("models/scenarios/htetro_narrow_gap.yaml");
   const EpisodeRecord dut = Drive(ReadScenario(file));
   EXPECT_EQ(dut.outcome, Outcome::kSuccess) << dut.message;
   EXPECT_TRUE(dut.events.empty());
@@ -240,8 +240,7 @@ TEST_F(Folded, WhatASwingingBlockPressesOnDoesNotThrowItBack) {
 }
 
 TEST_F(Folded, WhereThereIsNoRoomToFoldItGetsStuck) {
-  const auto file =
-      std::filesystem::path(FP_SOURCE_DIR) / "models/scenarios/htetro_narrow_gap.yaml";
+  const auto file = SourceFile("models/scenarios/htetro_narrow_gap.yaml");
   const auto plan = Save("in_the_gap.csv", "x_m,y_m,yaw_rad,shape\n3.25,2.0,0,I\n3.25,2.0,0,O\n");
   const EpisodeRecord dut = Drive(ReadScenario(file, {{"robot", "{name: htetro, shape: I}"},
                                                       {"start.x_m", "3.25"},

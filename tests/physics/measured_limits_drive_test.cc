@@ -5,6 +5,7 @@
 
 #include "env/scene/measured_block.h"
 #include "run/scenario/floors.h"
+#include "tests/places.h"
 #include "tests/run/scenario_text.h"
 #include "tests/slurp.h"
 #include "validate/ladder.h"
@@ -22,7 +23,7 @@ class MeasuredDrives : public ScenarioTest {
  protected:
   // A copy of BELUGA's model with its limits of these hazards on friction 0.8.
   RobotSpec Measure(const std::vector<std::string_view>& hazards) const {
-    const fs::path file = Save("own.xml", Slurp(FP_SOURCE_DIR "/models/beluga.xml"));
+    const fs::path file = Save("own.xml", Slurp(SourceFile("models/beluga.xml")));
     std::vector<LadderCell> cells = RobotCells(file.string());
     std::erase_if(cells, [&](const LadderCell& cell) {
       return cell.friction != 0.8 || std::ranges::find(hazards, cell.hazard) == hazards.end();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "env/map/init_files.h"
+#include "tests/places.h"
 #include "tests/robots.h"
 #include "tests/run/scenario_text.h"
 
@@ -36,8 +37,7 @@ class RealMapTest : public ScenarioTest, public ::testing::WithParamInterface<Ro
   }
 
  private:
-  const std::filesystem::path map_ =
-      std::filesystem::path(FP_SHARED_MAPS_DIR) / GetParam().map / "map.yaml";
+  const std::filesystem::path map_ = SharedFile("maps") / GetParam().map / "map.yaml";
 };
 
 }  // namespace floorproof

@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "env/scene/models_folder.h"
 #include "run/plan_check/plan_check.h"
 #include "tests/run/scenario_text.h"
 #include "tests/slurp.h"

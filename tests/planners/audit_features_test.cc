@@ -11,6 +11,7 @@
 #include "env/map/ros_map.h"
 #include "planners/audit/features.h"
 #include "planners/search/grid_paths.h"
+#include "tests/places.h"
 #include "tests/planners/floors.h"
 
 namespace floorproof {
@@ -180,8 +181,7 @@ class SharedMap : public ::testing::TestWithParam<std::string> {};
 
 // Scanned maps, ragged and with fans of beams: the boundary goes once around all of the room.
 TEST_P(SharedMap, TheBoundaryEnclosesTheRoom) {
-  const std::filesystem::path yaml =
-      std::filesystem::path(FP_SHARED_MAPS_DIR) / GetParam() / "map.yaml";
+  const std::filesystem::path yaml = SharedFile("maps") / GetParam() / "map.yaml";
   if (!std::filesystem::exists(yaml)) GTEST_SKIP() << "no shared maps here";
   const RosMap ros = ReadRosMap(yaml);
   HazardMap map;

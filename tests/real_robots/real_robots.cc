@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "tests/places.h"
 #include "tests/urdf/urdf_files.h"
 
 namespace floorproof {
@@ -58,8 +59,7 @@ constexpr RealRobot kRobots[] = {
 };
 
 std::string TextOf(const RealRobot& robot) {
-  std::ifstream in(std::filesystem::path(FP_SOURCE_DIR) / "models/others" /
-                   (std::string(robot.name) + ".urdf"));
+  std::ifstream in(SourceFile("models/others") / (std::string(robot.name) + ".urdf"));
   return {std::istreambuf_iterator<char>(in), {}};
 }
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "tests/places.h"
 #include "tests/real_robots/measured_figures.h"
 #include "tests/real_robots/real_robots.h"
 #include "validate/robot_check.h"
@@ -18,7 +19,7 @@ using ::testing::HasSubstr;
 
 const std::string& Page() {
   static const std::string page = [] {
-    std::ifstream in(FP_SOURCE_DIR "/docs/real-robots.md");
+    std::ifstream in(SourceFile("docs/real-robots.md"));
     return std::string(std::istreambuf_iterator<char>(in), {});
   }();
   return page;

@@ -10,6 +10,7 @@
 #include "media/media.h"
 #include "report/pictures.h"
 #include "run/episode/execute.h"
+#include "tests/places.h"
 
 namespace floorproof {
 namespace {
@@ -83,9 +84,8 @@ TEST(DriveMarks, NumbersAreThePlacesInTheList) {
 }
 
 TEST(DriveMarks, EveryMapOfADriveHasItsFailures) {
-  Scenario scenario =
-      ReadScenario(std::filesystem::path(FP_SOURCE_DIR) / "models/scenarios/fig1_chair_legs.yaml",
-                   {{"risk", "{}"}, {"mapper", "{}"}});
+  Scenario scenario = ReadScenario(SourceFile("models/scenarios/fig1_chair_legs.yaml"),
+                                   {{"risk", "{}"}, {"mapper", "{}"}});
   Execution out = Execute(scenario, nullptr);
   ASSERT_EQ(out.record.events.size(), 1u);
   const std::filesystem::path folder =

@@ -11,6 +11,7 @@
 #include "run/campaign/campaign_merge.h"
 #include "run/campaign/episode_maker.h"
 #include "run/campaign/summary_json.h"
+#include "tests/places.h"
 #include "tests/run/scenario_text.h"
 #include "tests/slurp.h"
 
@@ -187,7 +188,7 @@ TEST_F(DriveCampaignTest, MergeNamesWhatNoShardHolds) {
 // A robot whose limits were measured: on a slippery floor it keeps off a step that it crosses on
 // another. What an episode plans does not hang on which came before it in the same worker.
 TEST_F(DriveCampaignTest, PlansByMeasuredLimitsHangOnTheirOwnEpisodeAlone) {
-  const fs::path robot = Save("mine.xml", Slurp(FP_SOURCE_DIR "/models/beluga.xml"));
+  const fs::path robot = Save("mine.xml", Slurp(SourceFile("models/beluga.xml")));
   const std::string limits =
       "<text name=\"measured_by\" data=\"a test\"/>\n<text name=\"measured_model\" data=\"" +
       ModelHash(std::vector<fs::path>{robot}, {}) +

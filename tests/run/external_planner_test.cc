@@ -12,6 +12,7 @@
 #include "run/episode/ask_program.h"
 #include "run/episode/records.h"
 #include "run/scenario/plan_file.h"
+#include "tests/places.h"
 #include "tests/run/scenario_text.h"
 #include "tests/slurp.h"
 
@@ -133,7 +134,7 @@ TEST_F(ExternalPlanner, TheExampleCoversAFloorWhateverItsFrame) {
     Save("map.yaml", std::string("image: map.pgm\nresolution: 0.05\norigin: ") + origin +
                          "\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
     std::string text = "scenario: 1\nsite: {site: 1, map: map.yaml}\nrobot: beluga\ndrive: none\n";
-    text += "plan: {command: [python3, " FP_SOURCE_DIR "/docs/examples/rows.py]}\n";
+    text += "plan: {command: [python3, " + SourceFile("docs/examples/rows.py").string() + "]}\n";
     double x_m = 0, y_m = 0, yaw_rad = 0;
     ASSERT_EQ(std::sscanf(origin, "[%lf, %lf, %lf]", &x_m, &y_m, &yaw_rad), 3);
     const Vec2 start = Pose2{x_m, y_m, yaw_rad} * Vec2(0.5, 0.5);

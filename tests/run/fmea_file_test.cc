@@ -12,6 +12,7 @@
 #include "planners/risk/risk_meter.h"
 #include "run/episode/make_plan.h"
 #include "run/episode/records.h"
+#include "tests/places.h"
 #include "tests/planners/risk_floors.h"
 #include "tests/run/scenario_text.h"
 
@@ -38,9 +39,7 @@ class FmeaFile : public ScenarioTest {
     text << in.rdbuf();
     text_ = text.str();
   }
-  static std::filesystem::path Bundled() {
-    return std::filesystem::path(FP_SOURCE_DIR) / "models/fmea/htetro.yaml";
-  }
+  static std::filesystem::path Bundled() { return SourceFile("models/fmea/htetro.yaml"); }
   // The bundled text with one piece of it exchanged.
   std::string With(const std::string& piece, const std::string& other) const {
     const auto at = text_.find(piece);

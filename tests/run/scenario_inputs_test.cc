@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "base/file_output.h"
+#include "env/scene/models_folder.h"
 #include "run/campaign/campaign_about.h"
 #include "run/episode/make_plan.h"
 #include "run/episode/records.h"

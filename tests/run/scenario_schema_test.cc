@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/json_schema.h"
+#include "env/scene/models_folder.h"
 #include "run/campaign/campaign_gate.h"
 #include "run/scenario/scenario.h"
 #include "run/scenario/scenario_parts.h"

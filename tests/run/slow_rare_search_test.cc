@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "run/rare/rare_search.h"
+#include "tests/places.h"
 #include "tests/run/rare_scenario.h"
 #include "tests/slurp.h"
 
@@ -72,7 +73,7 @@ TEST_F(SlowRareSearch, TellsHowRareItIsThroughPhysics) {
 // BELUGA over a step, stuck or not: at each friction and speed a height decides, which bisection
 // finds; how likely a step is higher than that is known.
 TEST_F(SlowRareSearch, AgreesWithABisectedBoundaryOfThreeDraws) {
-  const ScenarioFile file(fs::path(FP_SOURCE_DIR) / "models/scenarios/rare_step.yaml");
+  const ScenarioFile file(SourceFile("models/scenarios/rare_step.yaml"));
   EpisodeMaker maker(file);
   const auto boundary = [&](double friction, double speed) {
     double low = 0.004, high = 0.025;

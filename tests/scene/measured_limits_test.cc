@@ -12,6 +12,7 @@
 #include "env/scene/robot_model.h"
 #include "env/scene/roller_wheels.h"
 #include "tests/map/temp_folder.h"
+#include "tests/places.h"
 #include "tests/slurp.h"
 
 namespace floorproof {
@@ -73,7 +74,7 @@ class MeasuredRobot : public TempFolder {
  protected:
   // BELUGA with limits: steps of 10 mm at 0.1 m/s and 20 mm at 0.2 m/s forward, less at 45 degrees.
   fs::path Measured(const std::string& lines = "") const {
-    const fs::path file = Save("mine.xml", Slurp(FP_SOURCE_DIR "/models/beluga.xml"));
+    const fs::path file = Save("mine.xml", Slurp(SourceFile("models/beluga.xml")));
     const std::string elements =
         "<text name=\"measured_by\" data=\"a test\"/>\n<text name=\"measured_model\" data=\"" +
         ModelHash(std::vector<fs::path>{file}, {}) +
@@ -191,7 +192,7 @@ TEST_F(MeasuredRobot, AnEditedFigureIsTold) {
   const std::map<std::string, std::string> said = {
       {"measured_by", "a test"},
       {"measured_model",
-       ModelHash(std::vector<fs::path>{Save("mine.xml", Slurp(FP_SOURCE_DIR "/models/beluga.xml"))},
+       ModelHash(std::vector<fs::path>{Save("mine.xml", Slurp(SourceFile("models/beluga.xml")))},
                  {})},
       {"measured_frictions", "0.4 0.8"},
       {"measured_speeds_mps", "0.1 0.2"},
@@ -228,7 +229,7 @@ TEST_F(MeasuredRobot, AnEditedFigureIsTold) {
 
 // A reconfigurable robot's limits are of the shape that was measured, and of ideal wheels.
 TEST_F(MeasuredRobot, HasOneShapeAndOneKindOfWheels) {
-  const fs::path file = Save("mine.xml", Slurp(FP_SOURCE_DIR "/models/htetro.xml"));
+  const fs::path file = Save("mine.xml", Slurp(SourceFile("models/htetro.xml")));
   Save("mine.xml", WithMeasured(Slurp(file),
                                 "<text name=\"measured_by\" data=\"a test\"/>\n"
                                 "<text name=\"measured_model\" data=\"" +

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "tests/places.h"
 #include "tests/urdf/urdf_files.h"
 #include "tests/validate/wrongs.h"
 
@@ -125,7 +126,7 @@ TEST(UrdfMjcf, NamesMayBeInAnyScript) {
 
 // docs/robot.md is what users ask which keys there are.
 TEST(UrdfMjcf, ItsKeysAreOnThePage) {
-  std::ifstream in(FP_SOURCE_DIR "/docs/robot.md");
+  std::ifstream in(SourceFile("docs/robot.md"));
   const std::string page((std::istreambuf_iterator<char>(in)), {});
   struct Keys : Configurable {
     void Visit(ParamVisitor& v) override { answers.Visit(v); }

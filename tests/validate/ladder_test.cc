@@ -10,6 +10,7 @@
 #include "env/scene/measured_block.h"
 #include "env/scene/measured_names.h"
 #include "tests/map/temp_folder.h"
+#include "tests/places.h"
 #include "tests/slurp.h"
 #include "validate/ladder_findings.h"
 #include "validate/ladder_limits.h"
@@ -244,7 +245,7 @@ TEST_F(MeasuredElementsTest, StateEachRowByFrictionAndSpeed) {
 
   // With limits of many digits.
   for (LadderRow& row : rows) row.limit /= 3;
-  const std::filesystem::path file = Save("own.xml", Slurp(FP_SOURCE_DIR "/models/beluga.xml"));
+  const std::filesystem::path file = Save("own.xml", Slurp(SourceFile("models/beluga.xml")));
   const std::string model = ModelHash(std::vector<std::filesystem::path>{file}, {});
   Save("own.xml", WithMeasured(Slurp(file), MeasuredElements(rows, "a test", model), file));
   const MeasuredLimits read = ReadRobot(file).spec.measured;

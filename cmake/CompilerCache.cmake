@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: Apache-2.0
+# ccache, where it is installed, set so that builds share what they compile: every preset, `pip install .`
+# and clones in any folder. What would make two builds strangers to each other:
+# - Precompiled headers. ccache takes a file that uses one only when told that macros defined before it
+#   and the time macros do not matter (no source of ours defines any before its includes, or uses
+#   __TIME__); clang's must be free of the time at which they were made.
+# - Absolute paths. Those below the checkout are made relative to the build folder, so builds share
+#   where that lies two folders below the checkout (build/NAME), and debug information names no folder.
+#   No absolute path may be a macro on the command line or in a header (tests/places.h).
+find_program(CCACHE_PROGRAM ccache)
+find_program(FP_ENV_PROGRAM env)
+if(CCACHE_PROGRAM AND FP_ENV_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${FP_ENV_PROGRAM} CCACHE_SLOPPINESS=pch_defines,time_macros
+      CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${CCACHE_PROGRAM})
+endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  add_compile_options("SHELL:-Xclang -fno-pch-timestamp")
+endif()
