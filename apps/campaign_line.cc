@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "base/quantity.h"
+#include "base/usable_cores.h"
 #include "stats/binomial.h"
 
 namespace floorproof {
@@ -54,7 +55,7 @@ std::string Text(const CampaignProgress& p, const std::vector<Variant>& variants
 CampaignRequest RequestOf(const CampaignArguments& arguments) {
   return {.episodes = arguments.n,
           .shard = ReadEpisodes(arguments.episodes),
-          .jobs = arguments.jobs > 0 ? arguments.jobs : Cores(),
+          .jobs = arguments.jobs > 0 ? arguments.jobs : UsableCores(),
           .resume = arguments.resume};
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "base/interrupt.h"
 #include "run/episode/records.h"
@@ -66,8 +65,6 @@ void SayDrawn(const Scenario& scenario, const Globals& globals) {
   if (!scenario.drawn.empty())
     globals.SayFact("Drawn", DrawnText(scenario.drawn) + "; whatever else the file says");
 }
-
-int Cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 int ExitStatus(Outcome outcome) {
   switch (outcome) {

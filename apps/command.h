@@ -40,9 +40,6 @@ std::filesystem::path CampaignFolder(const std::string& out, const std::filesyst
 // What the episode's draws put in place of what is written.
 void SayDrawn(const Scenario& scenario, const Globals& globals);
 
-// Of this machine; at least 1.
-int Cores();
-
 // The exit status of one episode.
 int ExitStatus(Outcome outcome);
 

@@ -4,9 +4,9 @@
 #include <mujoco/mujoco.h>
 
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "apps/command.h"
+#include "base/usable_cores.h"
 #include "env/scene/models_folder.h"
 #include "render/gl_context.h"
 
@@ -18,7 +18,7 @@ void AddDoctor(CommandLine& line, const Globals& globals, int&) {
     nlohmann::ordered_json json = {{"floorproof", FLOORPROOF_VERSION},
                                    {"compiler", FLOORPROOF_COMPILER},
                                    {"mujoco", mj_versionString()},
-                                   {"threads", std::thread::hardware_concurrency()},
+                                   {"threads", UsableCores()},
                                    {"models", ModelsFolder().string()},
                                    {"gl",
                                     {{"backend", gl.backend},
@@ -27,7 +27,7 @@ void AddDoctor(CommandLine& line, const Globals& globals, int&) {
                                      {"failures", gl.failures}}}};
     globals.Say(fmt::format("floorproof {} ({})", FLOORPROOF_VERSION, FLOORPROOF_COMPILER));
     globals.Say(fmt::format("MuJoCo {}", mj_versionString()));
-    globals.Say(fmt::format("threads {}", std::thread::hardware_concurrency()));
+    globals.Say(fmt::format("threads {}", UsableCores()));
     globals.Say("models " + ModelsFolder().string());
     globals.Say(gl.backend.empty()
                     ? "pictures: no GL backend (driving works; films do not)"

@@ -9,6 +9,7 @@
 #include "apps/written_model.h"
 #include "base/interrupt.h"
 #include "base/result_folder.h"
+#include "base/usable_cores.h"
 #include "controllers/drive.h"
 #include "env/urdf/urdf_mjcf.h"
 #include "env/urdf/urdf_text.h"
@@ -73,7 +74,7 @@ void AddRobot(CommandLine& line, const Globals& globals, int& status) {
   struct Options {
     std::string file, out;
     bool ladder = false;
-    int jobs = Cores();
+    int jobs = UsableCores();
   };
   auto options = std::make_shared<Options>();
   Subcommand command = line.Add("robot",

@@ -10,6 +10,7 @@
 #include "base/interrupt.h"
 #include "base/progress_line.h"
 #include "base/quantity.h"
+#include "base/usable_cores.h"
 #include "report/suite_films.h"
 #include "stats/demonstration.h"
 
@@ -78,7 +79,7 @@ SuiteReport Request(const SuiteCommand& options, const Globals& globals) {
   report.options = {.reliability = options.reliability.value_or(0.95),
                     .confidence = options.confidence.value_or(0.95),
                     .seed = options.seed,
-                    .jobs = options.jobs > 0 ? options.jobs : Cores(),
+                    .jobs = options.jobs > 0 ? options.jobs : UsableCores(),
                     .overrides = globals.Overrides()};
   RunsToDemonstrate(report.options.reliability, report.options.confidence);  // refuses
   const auto asked = Asked(options.methods);

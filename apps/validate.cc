@@ -9,6 +9,7 @@
 #include "base/interrupt.h"
 #include "base/quantity.h"
 #include "base/result_folder.h"
+#include "base/usable_cores.h"
 #include "report/ladder_files.h"
 #include "validate/bounce_chart.h"
 #include "validate/law.h"
@@ -44,11 +45,11 @@ ResultNames LawResults() {
 int CheckAllLaws(const fs::path& folder, const Globals& globals,
                  nlohmann::ordered_json& json_result) {
   const auto results =
-      CheckLaws(Cores(), [&](const LawResult& result) { SayLaw(result, globals); });
+      CheckLaws(UsableCores(), [&](const LawResult& result) { SayLaw(result, globals); });
   WriteFileWhole(folder / "validate.csv", ValidateCsv(results));
   if (Interrupted()) return 0;
   SayWhenInterrupted("the laws are in " + folder.string());
-  const auto bounces = BounceChart(Cores());
+  const auto bounces = BounceChart(UsableCores());
   if (Interrupted()) return 0;
   WriteFileWhole(folder / "bounce.csv", BounceCsv(bounces));
   int rows = 0, failed = 0;
@@ -99,7 +100,7 @@ void AddValidate(CommandLine& line, const Globals& globals, int& status) {
     const int failed = CheckAllLaws(folder, globals, result);
     if (Interrupted()) throw Interruption();
     if (options->ladder) {
-      result["ladder"] = RunLadder(folder, Cores(), globals);
+      result["ladder"] = RunLadder(folder, UsableCores(), globals);
       if (Interrupted()) throw Interruption();
     }
     globals.Result(result);

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <thread>
 #include <utility>
 
 #include "base/error.h"
+#include "base/usable_cores.h"
 #include "env/core/event_evidence.h"
 #include "render/film_floor.h"
 #include "render/gl_context.h"
@@ -235,7 +235,7 @@ int ProcessesFor(std::size_t frames, const FilmOptions& options) {
   constexpr int kMost = 8;
   if (DrawsAlready()) return 1;
   if (options.processes > 0) return std::min(options.processes, static_cast<int>(frames));
-  const int cores = std::min(kMost, static_cast<int>(std::thread::hardware_concurrency()));
+  const int cores = std::min(kMost, UsableCores());
   return std::min(cores, static_cast<int>(frames / kFramesEach));
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <thread>
 
+#include "base/usable_cores.h"
 #include "env/geometry/distance.h"
 #include "planners/search/any_angle_field.h"
 
@@ -127,8 +128,7 @@ bool AuditFloor::Measure(const Grid<std::uint8_t>& free) {
     }
   };
   std::vector<std::thread> others;
-  const int threads = static_cast<int>(std::thread::hardware_concurrency());
-  for (int t = 1; t < std::min(threads, n / kFewStops); ++t) others.emplace_back(search);
+  for (int t = 1; t < std::min(UsableCores(), n / kFewStops); ++t) others.emplace_back(search);
   search();
   for (std::thread& thread : others) thread.join();
   return all;

@@ -15,6 +15,7 @@
 #include "base/fork.h"
 #include "base/interrupt.h"
 #include "base/printable.h"
+#include "base/usable_cores.h"
 
 namespace floorproof {
 namespace {
@@ -231,6 +232,7 @@ void BindHost(nb::module_& m) {
   WatchForTheEnd();
   AskHostForInterrupts(&PythonInterrupted);
   SetForkHooks({&BeforeFork, &InParent, &InChild});
+  m.def("usable_cores", &UsableCores);
   m.def(
       "is_of_the_disk",
       [](int error) { return IsOfTheDisk(std::error_code(error, std::generic_category())); },

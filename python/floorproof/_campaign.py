@@ -106,7 +106,7 @@ def campaign(scenario: Union[Scenario, PathLike, Mapping[str, Any]], n: int, *, 
         raise InputError(f"jobs = {jobs}: is for engine local; a Ray cluster has the workers it has")
     n = whole("n", n, 1)
     shard = None if episodes is None else _range(episodes)
-    workers = whole("jobs", len(os.sched_getaffinity(0)) if jobs is None else jobs, most=(1 << 31) - 1)
+    workers = whole("jobs", _core.usable_cores() if jobs is None else jobs, most=(1 << 31) - 1)
     if not (time_limit_s is None or isinstance(time_limit_s, numbers.Real)):
         raise InputError(f"time_limit_s = {time_limit_s!r}: must be a number (s)")
     pool: Any = None

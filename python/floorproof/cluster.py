@@ -65,7 +65,7 @@ def _connect(ray: Any, address: Optional[str], runtime_env: Optional[Mapping[str
     # A cluster of one's own, on this machine, serves this campaign alone.
     if own:
         os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
-    here = len(os.sched_getaffinity(0))
+    here = _core.usable_cores()
     if own and task_cpus > here:
         raise InputError(f"num_cpus = {task_cpus:g}: no node has as many; this machine has {here}")
     alone: Dict[str, Any] = {"include_dashboard": False, "num_cpus": here} if own else {}
