@@ -6,9 +6,6 @@
 // to random directions across them, made longer, as there are more of these than patterns.
 #include "measure/member_draws.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -16,6 +13,7 @@
 
 #include "base/streams.h"
 #include "planners/risk/rate_model.h"
+#include "stats/dense_solvers.h"
 
 namespace floorproof {
 namespace {
@@ -42,16 +40,16 @@ MatrixXd MemberDeviations(const MatrixXd& inverse_covariance, const MatrixXd& sl
                           std::string_view name) {
   const Index p = inverse_covariance.rows();
   if (p == 0) return MatrixXd(0, kRateMembers);
-  const Eigen::LLT<MatrixXd> root(inverse_covariance);
+  const Cholesky root(inverse_covariance);
   // Slopes in the round coordinates u, where the deviation is L^-T u.
-  const MatrixXd round = root.matrixL().solve(slopes.transpose());
+  const MatrixXd round = root.SolveLower(slopes.transpose());
   MatrixXd spread = MatrixXd::Zero(p, p);
   spread.selfadjointView<Eigen::Lower>().rankUpdate(round);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(spread);
+  const SymmetricEigen eigen = EigenOfSymmetric(spread);
 
   const Index exact = p <= kPatterns ? p : kExact;
   MatrixXd directions = MatrixXd::Zero(p, std::min(p, kPatterns));
-  directions.leftCols(exact) = eigen.eigenvectors().rightCols(exact) * std::sqrt(kPatterns);
+  directions.leftCols(exact) = eigen.vectors.rightCols(exact) * std::sqrt(kPatterns);
   if (p > exact) {
     const Index random = kPatterns - exact, others = p - exact;
     Stream stream(SeedOf(inverse_covariance), 0, name);
@@ -59,12 +57,10 @@ MatrixXd MemberDeviations(const MatrixXd& inverse_covariance, const MatrixXd& sl
     for (Index c = 0; c < random; ++c)
       for (Index r = 0; r < others; ++r) drawn(r, c) = stream.Normal();
     const Index across = std::min(random, others);
-    const MatrixXd orthogonal =
-        drawn.leftCols(across).householderQr().householderQ() * MatrixXd::Identity(others, across);
+    const MatrixXd orthogonal = OrthonormalBasis(drawn.leftCols(across), across);
     const double longer = std::sqrt(static_cast<double>(kPatterns) * static_cast<double>(others) /
                                     static_cast<double>(across));
-    directions.middleCols(exact, across) =
-        eigen.eigenvectors().leftCols(others) * orthogonal * longer;
+    directions.middleCols(exact, across) = eigen.vectors.leftCols(others) * orthogonal * longer;
   }
   // The first directions of other posteriors have the same patterns: so members are shuffled.
   Stream shuffle(0, 1, name);
@@ -76,7 +72,7 @@ MatrixXd MemberDeviations(const MatrixXd& inverse_covariance, const MatrixXd& sl
   for (Index d = 0; d < patterns.rows(); ++d)
     for (Index r = 0; r < patterns.cols(); ++r)
       patterns(d, r) = Sign(d, place[r]) / std::sqrt(kRateMembers);
-  return root.matrixU().solve(directions * patterns);
+  return root.SolveLowerTransposed(directions * patterns);
 }
 
 }  // namespace floorproof

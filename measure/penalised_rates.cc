@@ -10,7 +10,6 @@
 // to nothing. Members are drawn from the normal posterior.
 #include "measure/penalised_rates.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -20,6 +19,7 @@
 #include "measure/member_draws.h"
 #include "measure/rate_axes.h"
 #include "planners/risk/rate_evaluator.h"
+#include "stats/dense_solvers.h"
 
 namespace floorproof {
 namespace {
@@ -80,7 +80,7 @@ class Fit {
   MatrixXd features_;  // by row of the data; the first column is 1
   std::vector<Group> groups_;
   VectorXd coefficients_, eta_;
-  Eigen::LLT<MatrixXd> posterior_;  // of the inverse covariance
+  Cholesky posterior_;  // of the inverse covariance
 };
 
 Fit::Fit(const std::vector<RateRow>& rows, bool per_metre, std::vector<RateAxis>& axes)
@@ -164,7 +164,7 @@ MatrixXd Weighed(const MatrixXd& features, const VectorXd& weight) {
 
 void Fit::MovePenalties() {
   const MatrixXd covariance =
-      posterior_.solve(MatrixXd::Identity(features_.cols(), features_.cols()));
+      posterior_.Solve(MatrixXd(MatrixXd::Identity(features_.cols(), features_.cols())));
   for (Group& group : groups_) {
     const double trace = covariance.diagonal().segment(group.begin, group.size).sum();
     const double used = std::max(1e-6, static_cast<double>(group.size) - group.penalty * trace);
@@ -213,9 +213,9 @@ void Fit::Turn(bool move_penalties) {
   likelihood_.ScoreAndInformation(eta_, score, information);
   MatrixXd inverse = Weighed(features_, information);
   inverse.diagonal() += penalty;
-  posterior_.compute(inverse);
-  const VectorXd step =
-      posterior_.solve(features_.transpose() * score - penalty.cwiseProduct(coefficients_));
+  posterior_ = Cholesky(inverse);
+  const VectorXd step = posterior_.Solve(
+      VectorXd(features_.transpose() * score - penalty.cwiseProduct(coefficients_)));
   const VectorXd along = features_ * step;
   const auto value = [&](double t) {
     const VectorXd at = coefficients_ + t * step;
@@ -250,12 +250,12 @@ void Fit::AddProducts(std::size_t most) {
       const MatrixXd added = FeaturesOf(block);
       const MatrixXd across = weighed.transpose() * added;
       MatrixXd inner = added.transpose() * (information.asDiagonal() * added) -
-                       across.transpose() * posterior_.solve(across);
+                       across.transpose() * posterior_.Solve(across);
       const double scale = inner.diagonal().maxCoeff();
       if (!(scale > 0)) continue;
       inner.diagonal().array() += 1e-6 * scale;
       const VectorXd slope = added.transpose() * score;
-      const double statistic = slope.dot(inner.llt().solve(slope));
+      const double statistic = slope.dot(Cholesky(inner).Solve(slope));
       const double freedom = static_cast<double>(block.size());
       const double excess = (statistic - freedom) / std::sqrt(2 * freedom);
       if (excess > kLeastExcess) found.push_back({excess, block});

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/rate_axes.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "base/round.h"
 #include "env/geometry/geometry.h"
 #include "planners/risk/cubic_functions.h"
+#include "stats/dense_solvers.h"
 #include "stats/quantile.h"
 
 namespace floorproof {
@@ -135,19 +134,17 @@ RateAxis MakeRateAxis(std::string name, bool of_hazard, std::vector<double> valu
   mean /= static_cast<double>(values.size());
 
   // Within the functions of mean 0.
-  const Eigen::MatrixXd q =
-      mean.householderQr().householderQ() * Eigen::MatrixXd::Identity(free, free);
+  const Eigen::MatrixXd q = OrthonormalBasis(mean, free);
   const Eigen::MatrixXd inside = q.rightCols(free - 1);
   const Eigen::MatrixXd bending =
       inside.transpose() * choose.transpose() * Bending(knots, periodic) * choose * inside;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      bending, inside.transpose() * gram * inside);
-  const Eigen::MatrixXd found = choose * inside * eigen.eigenvectors();
+  const SymmetricEigen eigen = GeneralizedEigen(bending, inside.transpose() * gram * inside);
+  const Eigen::MatrixXd found = choose * inside * eigen.vectors;
   const Eigen::Index first_bent = periodic ? 0 : 1;
   for (Eigen::Index k = 0; k < found.cols(); ++k) {
     Eigen::VectorXd f = found.col(k);
     if (k > first_bent) {
-      const double bends = eigen.eigenvalues()[k] / eigen.eigenvalues()[first_bent];
+      const double bends = eigen.values[k] / eigen.values[first_bent];
       f /= periodic ? std::pow(bends, 0.25) : std::sqrt(bends);
     }
     Eigen::Index largest;

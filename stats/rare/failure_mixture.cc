@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stats/rare/failure_mixture.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
 
+#include "stats/dense_solvers.h"
 #include "stats/rare/subset_pilot.h"
 
 namespace floorproof {
@@ -63,10 +63,10 @@ FailureMixture::Part FailureMixture::Shape(const WeightedPoints& points, const V
   const MatrixXd covariance =
       (off * w.asDiagonal() * off.transpose() + MatrixXd::Identity(off.rows(), off.rows())) /
       (n + 1);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> axes(covariance);
+  const SymmetricEigen axes = EigenOfSymmetric(covariance);
   const double ratio = std::sqrt(d / n);
   const double low = ratio < 1 ? (1 - ratio) * (1 - ratio) : 0, high = (1 + ratio) * (1 + ratio);
-  VectorXd spread = axes.eigenvalues(), along = axes.eigenvectors().transpose() * part.mean;
+  VectorXd spread = axes.values, along = axes.vectors.transpose() * part.mean;
   for (Index i = 0; i < spread.size(); ++i) {
     const bool nominal = spread[i] >= low && spread[i] <= high;
     if (nominal) spread[i] = 1;
@@ -75,7 +75,7 @@ FailureMixture::Part FailureMixture::Shape(const WeightedPoints& points, const V
     if (centred) along[i] = 0;
     part.shaped += !centred;
   }
-  part.axes = axes.eigenvectors();
+  part.axes = axes.vectors;
   part.mean = part.axes * along;
   part.deviation = spread.cwiseSqrt();
   return part;
@@ -175,11 +175,11 @@ void FailureMixture::FindRegions() {
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = 0; b < a; ++b) {
       const MatrixXd mean_covariance = 0.5 * (parts_[a].Covariance() + parts_[b].Covariance());
-      const Eigen::SelfAdjointEigenSolver<MatrixXd> axes(mean_covariance);
-      const VectorXd apart = axes.eigenvectors().transpose() * (parts_[a].mean - parts_[b].mean);
-      const double distance = 0.125 * apart.cwiseAbs2().cwiseQuotient(axes.eigenvalues()).sum() +
-                              0.5 * (axes.eigenvalues().array().log().sum() -
-                                     parts_[a].LogVolume() - parts_[b].LogVolume());
+      const SymmetricEigen axes = EigenOfSymmetric(mean_covariance);
+      const VectorXd apart = axes.vectors.transpose() * (parts_[a].mean - parts_[b].mean);
+      const double distance =
+          0.125 * apart.cwiseAbs2().cwiseQuotient(axes.values).sum() +
+          0.5 * (axes.values.array().log().sum() - parts_[a].LogVolume() - parts_[b].LogVolume());
       if (std::exp(-distance) < kOverlap) continue;
       const std::size_t from = leader[a], to = leader[b];
       std::ranges::replace(leader, std::max(from, to), std::min(from, to));
