@@ -7,6 +7,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdio>
+#include <cstdlib>
 #include <stdexcept>
 
 namespace floorproof {
@@ -21,9 +23,9 @@ double Seconds(const timeval& t) {
   return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
 }
 
-[[noreturn]] void BecomeProgram(const std::vector<std::string>& words,
-                                const std::filesystem::path& folder, int out, int err,
-                                const ChildLimits& limits) {
+[[noreturn]] void BecomeChild(const ChildMain& main, const std::vector<std::string>& words,
+                              const std::filesystem::path& folder, int out, int err,
+                              const ChildLimits& limits) {
   const int null = open("/dev/null", O_RDONLY);
   dup2(null, 0), dup2(out, 1), dup2(err, 2);
   for (const int number : {SIGINT, SIGTERM}) signal(number, SIG_DFL);  // whatever ctest inherited
@@ -37,8 +39,8 @@ double Seconds(const timeval& t) {
   std::vector<char*> argv;
   for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
-  if (chdir(folder.c_str()) == 0) execv(argv[0], argv.data());
-  _exit(127);
+  if (chdir(folder.c_str()) != 0) _exit(127);
+  std::exit(main(static_cast<int>(words.size()), argv.data()));
 }
 
 // What a process that has ended left in a pipe, which holds 64 KiB: more than it has to say here.
@@ -65,14 +67,15 @@ class Pipe {
 
 }  // namespace
 
-ChildResult RunChild(const std::string& program, const std::vector<std::string>& arguments,
-                     const std::filesystem::path& folder, const ChildLimits& limits) {
-  std::vector<std::string> words = {program};
+ChildResult RunForked(const ChildMain& main, const std::vector<std::string>& arguments,
+                      const std::filesystem::path& folder, const ChildLimits& limits) {
+  std::vector<std::string> words = {"floorproof"};
   words.insert(words.end(), arguments.begin(), arguments.end());
   const Pipe out, err;
+  std::fflush(nullptr);  // what waits to be written is the parent's to write
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("fork failed");
-  if (child == 0) BecomeProgram(words, folder, out.in(), err.in(), limits);
+  if (child == 0) BecomeChild(main, words, folder, out.in(), err.in(), limits);
   int code = 0;
   rusage used{};
   if (wait4(child, &code, 0, &used) != child) throw std::runtime_error("wait4 failed");
@@ -84,6 +87,15 @@ ChildResult RunChild(const std::string& program, const std::vector<std::string>&
   result.out = out.TakeText();
   result.err = err.TakeText();
   return result;
+}
+
+ChildResult RunChild(const std::string& program, const std::vector<std::string>& arguments,
+                     const std::filesystem::path& folder, const ChildLimits& limits) {
+  const auto become = [&](int, char** argv) -> int {
+    execv(program.c_str(), argv);
+    _exit(127);
+  };
+  return RunForked(become, arguments, folder, limits);
 }
 
 }  // namespace floorproof

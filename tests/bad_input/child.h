@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a program and measures it.
+// Runs a program, or a function in a process of its own, and measures it.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +23,15 @@ struct ChildLimits {
   std::optional<std::size_t> file_bytes{};  // files cannot grow beyond, as on a full disk
 };
 
-// Runs it in `folder`, with nothing on stdin.
+// What the process does: argv[0] and the arguments in, an exit status out.
+using ChildMain = std::function<int(int argc, char** argv)>;
+
+// Runs `main` in a forked process, in `folder`, with nothing on stdin. It ends as if `main` had
+// been the program's, so what a sanitizer looks for at the end is looked for.
+ChildResult RunForked(const ChildMain& main, const std::vector<std::string>& arguments,
+                      const std::filesystem::path& folder, const ChildLimits& limits = {});
+
+// Runs a program in the same way.
 ChildResult RunChild(const std::string& program, const std::vector<std::string>& arguments,
                      const std::filesystem::path& folder, const ChildLimits& limits = {});
 
