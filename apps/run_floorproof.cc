@@ -44,7 +44,7 @@ std::string ParseErrorText(const CLI::App& app, const CLI::ParseError& error) {
   return InputError({*first, 0}, "", "", "unknown " + kind + DidYouMean(*first, known)).what();
 }
 
-// All that was said is there; else says why not.
+// True if all output was written; otherwise prints an error.
 bool StdoutIsWritten() {
   const bool written =
       std::cout.flush().good() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
@@ -56,9 +56,9 @@ bool StdoutIsWritten() {
 
 int RunFloorproof(int argc, char** argv) {
   CatchInterrupts();
-  // Whoever reads stdout may go away: what is written to disk is written all the same.
+  // If the reader of stdout ends, files are still written.
   std::signal(SIGPIPE, SIG_IGN);
-  // Who starts the program may have ignored it, and how a child ended would never be known.
+  // The parent process may have ignored it; then the exit status of a child would be lost.
   std::signal(SIGCHLD, SIG_DFL);
   CLI::App app{
       "Floorproof drives a floor robot's plan through physics before the robot drives it over a "
@@ -90,7 +90,7 @@ int RunFloorproof(int argc, char** argv) {
 #include "apps/commands.inc"
 #undef FP_COMMAND
 
-  // What broke while an interrupted program tidied up is said as well; how it ended is interrupted.
+  // An error while cleaning up after an interrupt is printed; the status stays "interrupted".
   const auto said = [](int failure) {
     if (Interrupted()) EndInterrupted();
     return failure;

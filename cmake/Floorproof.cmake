@@ -73,8 +73,8 @@ function(fp_use_precompiled target name)
 endfunction()
 
 # A folder's files compiled a few at a time as one: the headers that they share are read and
-# instantiated once. unity_groups.py decides which may be together, so that nobody must mind the names
-# in other files, and writes the files that include them. (CMake's own UNITY_BUILD includes by absolute
+# instantiated once. unity_groups.py keeps files with clashing names apart and writes the files that
+# include them. (CMake's own UNITY_BUILD includes by absolute
 # path, which makes every clone a stranger to the compiler cache.)
 option(FLOORPROOF_UNITY "Compile several files of a target as one" OFF)
 set(FLOORPROOF_UNITY_FILES 16 CACHE STRING "Most files that are compiled as one")

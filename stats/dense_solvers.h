@@ -13,10 +13,10 @@ struct SymmetricEigen {
   Eigen::MatrixXd vectors;
 };
 
-// Of a symmetric matrix, whose lower triangle is read; eigenvectors are orthonormal.
+// Solves a v = lambda v for a symmetric matrix (its lower triangle is read); v^T v = 1.
 SymmetricEigen EigenOfSymmetric(const Eigen::MatrixXd& a);
 
-// a v = lambda b v with symmetric a and positive definite b; v^T b v = 1.
+// Solves a v = lambda b v for symmetric a and positive definite b; v^T b v = 1.
 SymmetricEigen GeneralizedEigen(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 // The first `columns` columns of Q in a = Q R (Householder): orthonormal, and the first a.cols() of
