@@ -3,7 +3,8 @@
 # and clones in any folder. What would make two builds strangers to each other:
 # - Precompiled headers. ccache takes a file that uses one only when told that macros defined before it
 #   and the time macros do not matter (no source of ours defines any before its includes, or uses
-#   __TIME__); clang's must be free of the time at which they were made.
+#   __TIME__). clang's hold the time and the folder in which they were made: the time is left out, and
+#   compile_pch.py writes a checksum that does not depend on the folder.
 # - Absolute paths. Those below the checkout are made relative to the build folder, so builds share
 #   where that lies two folders below the checkout (build/NAME), and debug information names no folder.
 #   No absolute path may be a macro on the command line or in a header (tests/places.h).
@@ -11,8 +12,17 @@ find_program(CCACHE_PROGRAM ccache)
 find_program(FP_ENV_PROGRAM env)
 if(CCACHE_PROGRAM AND FP_ENV_PROGRAM)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${FP_ENV_PROGRAM} CCACHE_SLOPPINESS=pch_defines,time_macros
-      CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${CCACHE_PROGRAM})
+      CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 CCACHE_PCH_EXTSUM=1 ${CCACHE_PROGRAM})
 endif()
+# The launcher of a target that only precompiles headers.
+set(FP_PRECOMPILED_LAUNCHER ${CMAKE_CXX_COMPILER_LAUNCHER})
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   add_compile_options("SHELL:-Xclang -fno-pch-timestamp")
+  # CMake includes the header as well, by a path that ccache does not make relative; the precompiled
+  # one is enough.
+  set(CMAKE_CXX_COMPILE_OPTIONS_USE_PCH -Xclang -include-pch -Xclang <PCH_FILE>)
+  find_package(Python3 3.8 COMPONENTS Interpreter)
+  if(CCACHE_PROGRAM AND Python3_FOUND)
+    set(FP_PRECOMPILED_LAUNCHER ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/compile_pch.py)
+  endif()
 endif()
