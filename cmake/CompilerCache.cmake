@@ -3,7 +3,7 @@
 # and clones in any folder. What would make two builds strangers to each other:
 # - Precompiled headers. ccache takes a file that uses one only when told that macros defined before it
 #   and the time macros do not matter (no source of ours defines any before its includes, or uses
-#   __TIME__). clang's hold the time and the folder in which they were made: the time is left out, and
+#   __TIME__). clang's contain a time stamp and the name of their folder. The stamp is switched off, and
 #   compile_pch.py writes a checksum that does not depend on the folder.
 # - Absolute paths. Those below the checkout are made relative to the build folder, so builds share
 #   where that lies two folders below the checkout (build/NAME), and debug information names no folder.

@@ -75,8 +75,8 @@ endfunction()
 
 # A folder's files compiled a few at a time as one: the headers that they share are read and
 # instantiated once. unity_groups.py keeps files with clashing names apart and writes the files that
-# include them. (CMake's own UNITY_BUILD includes by absolute
-# path, which makes every clone a stranger to the compiler cache.)
+# include them. (CMake's own UNITY_BUILD includes by absolute path, so no clone would hit the compiler
+# cache.)
 option(FLOORPROOF_UNITY "Compile several files of a target as one" OFF)
 set(FLOORPROOF_UNITY_FILES 16 CACHE STRING "Most files that are compiled as one")
 if(FLOORPROOF_UNITY)
@@ -118,7 +118,7 @@ function(fp_group_sources)
   execute_process(
     COMMAND ${CMAKE_COMMAND} -E env PYTHONUTF8=1 ${Python3_EXECUTABLE}
             ${PROJECT_SOURCE_DIR}/cmake/unity_groups.py ${PROJECT_SOURCE_DIR} ${folder}
-             ${FLOORPROOF_UNITY_FILES}
+            ${FLOORPROOF_UNITY_FILES}
     INPUT_FILE ${PROJECT_BINARY_DIR}/unity_files.txt RESULT_VARIABLE status)
   if(NOT status EQUAL 0)
     message(FATAL_ERROR "cmake/unity_groups.py failed: ${status}")

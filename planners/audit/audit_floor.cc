@@ -128,7 +128,8 @@ bool AuditFloor::Measure(const Grid<std::uint8_t>& free) {
     }
   };
   std::vector<std::thread> others;
-  for (int t = 1; t < std::min(UsableCores(), n / kFewStops); ++t) others.emplace_back(search);
+  const int threads = std::min(UsableCores(), n / kFewStops);
+  for (int t = 1; t < threads; ++t) others.emplace_back(search);
   search();
   for (std::thread& thread : others) thread.join();
   return all;
