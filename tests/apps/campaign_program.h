@@ -38,9 +38,14 @@ class Program {
   Program(
       const std::string& arguments, const std::filesystem::path& folder,
       const std::function<void()>& in_child = [] {})
+      : Program(Words(arguments), folder, in_child) {}
+  // Arguments may have spaces, as a path may.
+  Program(
+      const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+      const std::function<void()>& in_child = [] {})
       : out_(folder / ".stdout"), err_(folder / ".stderr") {
     std::vector<std::string> words = {ProgramFile().string()};
-    for (const std::string& word : Words(arguments)) words.push_back(word);
+    words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);

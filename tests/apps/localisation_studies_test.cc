@@ -32,7 +32,8 @@ TEST_P(LocalisationStudy, WorsensWhatTheRobotKnowsOfItsPlace) {
       SourceFile("models/scenarios/" + std::string(study.scenario) + ".yaml").string();
   // In parts, as a program of a test may run for minutes only.
   for (const char* n : {"30", "60", "100"}) {
-    Program campaign("campaign " + scenario + " --no-films --quiet --resume --out c -n " + n,
+    Program campaign(std::vector<std::string>{"campaign", scenario, "--no-films", "--quiet",
+                                              "--resume", "--out", "c", "-n", n},
                      folder_);
     ASSERT_EQ(campaign.Wait(), 0) << campaign.Said();
   }

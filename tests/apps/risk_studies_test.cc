@@ -19,9 +19,9 @@ class Study : public testing::Test {
   // In parts, as a program of a test may run for minutes only.
   void Run(const std::string& scenario, const std::vector<int>& parts, const std::string& seed) {
     for (const int n : parts) {
-      Program campaign("campaign " + SourceFile(kPrefix + scenario).string() +
-                           " --no-films --quiet --resume --out c --seed " + seed + " -n " +
-                           std::to_string(n),
+      Program campaign(std::vector<std::string>{"campaign", SourceFile(kPrefix + scenario).string(),
+                                                "--no-films", "--quiet", "--resume", "--out", "c",
+                                                "--seed", seed, "-n", std::to_string(n)},
                        folder_);
       ASSERT_EQ(campaign.Wait(), 0) << campaign.Said();
     }
