@@ -22,8 +22,8 @@ struct Group {
   bool is_version_2 = false;
 };
 
-// The process's group that may limit CPU time, from a line of proc/self/cgroup: "0::/path" of
-// version 2, "4:cpu,cpuacct:/path" of version 1.
+// Of a line of proc/self/cgroup, the cgroup if it can limit CPU time: "0::/path" in version 2,
+// "4:cpu,cpuacct:/path" in version 1.
 std::optional<Group> CpuGroup(const fs::path& mounts, const std::string& line) {
   const auto first = line.find(':'), second = line.find(':', first + 1);
   if (first == std::string::npos || second == std::string::npos) return std::nullopt;
@@ -36,7 +36,7 @@ std::optional<Group> CpuGroup(const fs::path& mounts, const std::string& line) {
   return std::nullopt;
 }
 
-// The quota in one group's folder, in cores.
+// The quota in one cgroup's folder, in cores.
 std::optional<double> QuotaIn(const fs::path& folder, bool is_version_2) {
   double quota_us = 0, period_us = 0;
   if (is_version_2) {  // "150000 100000", or "max 100000" for none
@@ -50,7 +50,7 @@ std::optional<double> QuotaIn(const fs::path& folder, bool is_version_2) {
 }
 
 int CoresOfAffinity() {
-  // The kernel refuses a set that is smaller than its own.
+  // sched_getaffinity() fails if the set is smaller than the kernel's own.
   for (int cores = 1024; cores <= 1 << 20; cores *= 2) {
     const std::unique_ptr<cpu_set_t, void (*)(cpu_set_t*)> set(
         CPU_ALLOC(static_cast<std::size_t>(cores)), [](cpu_set_t* s) { CPU_FREE(s); });

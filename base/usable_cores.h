@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many cores this process may keep busy: what every default number of workers is.
+// The number of cores available to this process: the default number of workers everywhere.
 #pragma once
 
 #include <filesystem>
@@ -7,13 +7,13 @@
 
 namespace floorproof {
 
-// The cores of its CPU affinity (taskset, cpusets), or fewer where a control group has a CPU quota
-// (docker --cpus, systemd's CPUQuota); a part of a core counts as one. At least 1.
+// The cores of its CPU affinity (taskset, cpusets), or fewer where a cgroup has a CPU quota (docker
+// --cpus, systemd's CPUQuota), rounded up to whole cores. At least 1.
 int UsableCores();
 
-// The smallest CPU quota of the process's control group and those above it, versions 1 and 2, in
-// cores; none where there is none. `root` has proc/self/cgroup and sys/fs/cgroup below it; files
-// that cannot be read set no limit.
+// The smallest CPU quota, in cores, of the process's cgroup (version 1 or 2) and those above it;
+// none if there is no quota. `root` contains proc/self/cgroup and sys/fs/cgroup. Files that cannot
+// be read are ignored.
 std::optional<double> CpuQuota(const std::filesystem::path& root);
 
 }  // namespace floorproof

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-# ccache, where it is installed, set so that builds share what they compile: every preset, `pip install .`
-# and clones in any folder. What would make two builds strangers to each other:
-# - Precompiled headers. ccache takes a file that uses one only when told that macros defined before it
-#   and the time macros do not matter (no source of ours defines any before its includes, or uses
-#   __TIME__). No two compilations of one are the same, so compile_pch.py writes a checksum of what is
-#   in it, which ccache reads in its place. clang's also contain a time stamp, which is switched off.
-# - Absolute paths. Those below the checkout are made relative to the build folder, so builds share
-#   where that lies two folders below the checkout (build/NAME), and debug information names no folder.
-#   No absolute path may be a macro on the command line or in a header (tests/places.h). Headers from
-#   elsewhere that move, those of wheels, are copied into the build folder.
+# Configures ccache, if it is installed, so that all presets, `pip install .` and clones in any folder
+# share compiled objects. What would prevent cache hits between two builds:
+# - Precompiled headers. ccache caches a file that uses one only with the sloppiness settings
+#   pch_defines and time_macros. They are safe here: no source file of ours defines a macro before its
+#   includes or uses __TIME__. Compiling a header twice gives different bytes, so compile_pch.py writes
+#   a checksum of its contents, and ccache hashes that file instead. clang also stores a time stamp;
+#   -fno-pch-timestamp omits it.
+# - Absolute paths. ccache makes those below the checkout relative to the build folder, so only build
+#   folders two levels below the checkout (build/NAME) share objects. The working directory is not
+#   hashed, so debug information may name another build's folder. No macro on the command line or in a
+#   header may contain an absolute path (tests/places.h). The headers of wheels (MuJoCo, nanobind) can
+#   be in a different folder each time, so they are copied into the build folder.
 # - The compiler's name. pip calls g++ what CMake calls c++.
 find_program(CCACHE_PROGRAM ccache)
 find_program(FP_ENV_PROGRAM env)
@@ -24,7 +26,8 @@ if(CCACHE_PROGRAM AND FP_ENV_PROGRAM)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${FP_ENV_PROGRAM} CCACHE_SLOPPINESS=pch_defines,time_macros
       CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 CCACHE_PCH_EXTSUM=1 ${CCACHE_PROGRAM})
 endif()
-# The launcher of a target that only precompiles headers. ccache does not take clang's.
+# The compiler launcher of targets that only precompile headers. It omits ccache for clang, whose
+# precompiled headers ccache cannot store.
 set(FP_PRECOMPILED_LAUNCHER ${CMAKE_CXX_COMPILER_LAUNCHER})
 find_package(Python3 3.8 COMPONENTS Interpreter)
 if(CMAKE_CXX_COMPILER_LAUNCHER AND Python3_FOUND)
@@ -36,7 +39,7 @@ if(CMAKE_CXX_COMPILER_LAUNCHER AND Python3_FOUND)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   add_compile_options("SHELL:-Xclang -fno-pch-timestamp")
-  # CMake includes the header as well, by a path that ccache does not make relative; the precompiled
-  # one is enough.
+  # By default CMake also includes the header itself, by an absolute path that ccache does not make
+  # relative. The precompiled header is enough.
   set(CMAKE_CXX_COMPILE_OPTIONS_USE_PCH -Xclang -include-pch -Xclang <PCH_FILE>)
 endif()

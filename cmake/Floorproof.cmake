@@ -73,10 +73,10 @@ function(fp_use_precompiled target name)
   endif()
 endfunction()
 
-# A folder's files compiled a few at a time as one: the headers that they share are read and
-# instantiated once. unity_groups.py keeps files with clashing names apart and writes the files that
-# include them. (CMake's own UNITY_BUILD includes by absolute path, so no clone would hit the compiler
-# cache.)
+# Unity build: several source files of a target are compiled as one, so the headers that they share
+# are read once. unity_groups.py keeps files with clashing names apart and writes the files that
+# include them. (CMake's own UNITY_BUILD includes by absolute path, so another clone would never hit the
+# compiler cache.)
 option(FLOORPROOF_UNITY "Compile several files of a target as one" OFF)
 set(FLOORPROOF_UNITY_FILES 16 CACHE STRING "Most files that are compiled as one")
 if(FLOORPROOF_UNITY)
@@ -220,7 +220,7 @@ function(fp_test name)
   endif()
 endfunction()
 # fp_list_slow_tests(): once, after all tests. .ci/slow_turn reads the list.
-define_property(GLOBAL PROPERTY FP_SLOW_TESTS BRIEF_DOCS "Slow test executables, in lines"
+define_property(GLOBAL PROPERTY FP_SLOW_TESTS BRIEF_DOCS "Slow test executables, one name per line"
                 FULL_DOCS "What .ci/slow_turn takes turns in")
 function(fp_list_slow_tests)
   get_property(names GLOBAL PROPERTY FP_SLOW_TESTS)

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Compiles a precompiled header, and writes a checksum of what is in it.
+"""Compiles a precompiled header, and writes a checksum of its contents.
 
     compile_pch.py [LAUNCHER...] -- COMPILER ARGUMENTS...
 
-Two precompiled headers of one text are never the same: clang writes absolute paths into them, and
-g++ what lay in its memory. With its checksum beside it (OUTPUT.sum), ccache reads that in its place
-(pch_external_checksum): equal if the compiler, the flags but for paths, the text of all headers and
-the macros they define are equal.
+Precompiled headers of the same text differ byte for byte: clang stores absolute paths, and g++ an
+image of its memory. Where OUTPUT.sum exists, ccache hashes it instead of the header
+(pch_external_checksum). It depends on the compiler's version, the flags without paths, the text of
+all headers, and the macros that they define.
 """
 import hashlib
 import pathlib
@@ -16,14 +16,14 @@ import sys
 
 
 def find_output(command):
-    """The precompiled header that a command makes, or none: its target has an empty source as well."""
+    """The precompiled header that `command` writes, or None: the target also has an empty source."""
     if '-emit-pch' in command or 'c++-header' in command:
         return command[command.index('-o') + 1]
     return None
 
 
 def preprocessing(command):
-    """The command that writes the text and the macros of what another precompiles."""
+    """The command that preprocesses the same header to stdout, and keeps macro definitions."""
     words = list(command)
     if '-emit-pch' in words:
         emit = words.index('-emit-pch')
@@ -44,7 +44,7 @@ def main():
     text_only = preprocessing(command)
     text = subprocess.run(text_only, stdout=subprocess.PIPE, check=True).stdout
     version = subprocess.run([command[0], '--version'], stdout=subprocess.PIPE, check=True).stdout
-    version = version.partition(b' ')[2]  # g++ begins with the name that it is called by
+    version = version.partition(b' ')[2]  # g++ prints first the name by which it was called
     flags = [word for word in text_only if '/' not in word]
     checksum = hashlib.sha256(version + '\0'.join(flags).encode() + b'\0' + text)
     pathlib.Path(f'{output}.sum').write_text(checksum.hexdigest() + '\n', encoding='utf-8')

@@ -126,7 +126,7 @@ def grouped(lines, most):
 
 
 def write(path, text):
-    """A file that is as it should be keeps its time, so that nothing is compiled again for it."""
+    """Writes the file only if its text changes, so that an unchanged file is not compiled again."""
     if not path.exists() or path.read_text(encoding='utf-8') != text:
         path.write_text(text, encoding='utf-8')
 

@@ -87,7 +87,7 @@ class BadInputTest : public BadInputFolder, public ::testing::WithParamInterface
   }
 };
 
-// In a fork of the test: starting the program takes longer than refusing the input.
+// Runs in a forked process, because starting the program takes longer than refusing the input.
 TEST_P(BadInputTest, IsOneLine) {
   ExpectRefusal([&](const std::vector<std::string>& arguments) {
     return RunForked(RunFloorproof, arguments, folder_);
