@@ -32,7 +32,8 @@ std::optional<Group> CpuGroup(const fs::path& mounts, const std::string& line) {
   if (controllers.empty()) return Group{mounts, path, true};
   std::istringstream names(controllers);
   for (std::string name; std::getline(names, name, ',');)
-    if (name == "cpu") return Group{mounts / controllers, path, false};
+    if (name == "cpu")  // its mount may name the controllers in another order
+      return Group{fs::exists(mounts / "cpu") ? mounts / "cpu" : mounts / controllers, path, false};
   return std::nullopt;
 }
 

@@ -11,25 +11,32 @@
 #   hashed, so debug information may name another build's folder. No macro on the command line or in a
 #   header may contain an absolute path (tests/places.h). The headers of wheels (MuJoCo, nanobind) can
 #   be in a different folder each time, so they are copied into the build folder.
-# - The compiler's name. pip calls g++ what CMake calls c++.
+# - The compiler's name. pip calls g++ what CMake calls c++. (In a folder of links to ccache or
+#   distcc all names are one file, and say nothing.)
 find_program(CCACHE_PROGRAM ccache)
 find_program(FP_ENV_PROGRAM env)
 find_program(FP_CXX_PROGRAM c++)
+file(REAL_PATH ${CMAKE_CXX_COMPILER} compiler)
 if(FP_CXX_PROGRAM)
   file(REAL_PATH ${FP_CXX_PROGRAM} usual)
-  file(REAL_PATH ${CMAKE_CXX_COMPILER} named)
-  if(usual STREQUAL named)
+  if(usual STREQUAL compiler AND compiler MATCHES "/[^/]*(g[+][+]|clang)[^/]*$")
     set(CMAKE_CXX_COMPILER ${FP_CXX_PROGRAM})
   endif()
 endif()
+find_package(Python3 3.8 COMPONENTS Interpreter)
 if(CCACHE_PROGRAM AND FP_ENV_PROGRAM)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${FP_ENV_PROGRAM} CCACHE_SLOPPINESS=pch_defines,time_macros
-      CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 CCACHE_PCH_EXTSUM=1 ${CCACHE_PROGRAM})
+      CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1)
+  if(Python3_FOUND)
+    list(APPEND CMAKE_CXX_COMPILER_LAUNCHER CCACHE_PCH_EXTSUM=1)
+  endif()
+  if(NOT compiler MATCHES "/ccache$")  # else the compiler calls it
+    list(APPEND CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  endif()
 endif()
 # The compiler launcher of targets that only precompile headers. It omits ccache for clang, whose
 # precompiled headers ccache cannot store.
 set(FP_PRECOMPILED_LAUNCHER ${CMAKE_CXX_COMPILER_LAUNCHER})
-find_package(Python3 3.8 COMPONENTS Interpreter)
 if(CMAKE_CXX_COMPILER_LAUNCHER AND Python3_FOUND)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
     set(FP_PRECOMPILED_LAUNCHER)

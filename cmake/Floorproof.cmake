@@ -24,10 +24,12 @@ endif()
 # Results are promised bit for bit on one machine type: no fused multiply-add behind our back.
 target_compile_options(fp_options INTERFACE -ffp-contract=off)
 # Warnings are errors with the compilers that .ci/run builds with, in every build, so that all builds
-# share the compiler cache. Other compilers may warn of more, which must not stop a user's build.
+# share the compiler cache. Other compilers, or these with a user's own flags, may warn of more, which
+# must not stop a build.
 set(is_checked_compiler OFF)
-if((CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION MATCHES "^12\\.") OR
-   (CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION MATCHES "^14\\."))
+if(NOT CMAKE_CXX_FLAGS AND
+   (CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION MATCHES "^12\\." OR
+    CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION MATCHES "^14\\."))
   set(is_checked_compiler ON)
 endif()
 option(FLOORPROOF_WERROR "Warnings are errors in our code" ${is_checked_compiler})
@@ -189,7 +191,7 @@ function(fp_test name)
   add_dependencies(fp_${ARG_LABEL}_tests ${name})
   if(ARG_LABEL STREQUAL "slow")
     set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
-    set_property(GLOBAL APPEND_STRING PROPERTY FP_SLOW_TESTS "${name}\n")
+    set_property(GLOBAL APPEND_STRING PROPERTY FP_SLOW_TESTS "${name} ${ARG_TIMEOUT}\n")
   endif()
   target_link_libraries(${name} PRIVATE fp_options ${ARG_LINK} fp_places GTest::gtest_main GTest::gmock)
   if(FP_TESTS_AT_OG)
@@ -220,7 +222,7 @@ function(fp_test name)
   endif()
 endfunction()
 # fp_list_slow_tests(): once, after all tests. .ci/slow_turn reads the list.
-define_property(GLOBAL PROPERTY FP_SLOW_TESTS BRIEF_DOCS "Slow test executables, one name per line"
+define_property(GLOBAL PROPERTY FP_SLOW_TESTS BRIEF_DOCS "Slow test executables, a line each: the name and the seconds that it may take"
                 FULL_DOCS "What .ci/slow_turn takes turns in")
 function(fp_list_slow_tests)
   get_property(names GLOBAL PROPERTY FP_SLOW_TESTS)

@@ -29,25 +29,35 @@ def preprocessing(command):
         emit = words.index('-emit-pch')
         del words[emit - 1:emit + 1]  # with its -Xclang
     for option, count in (('-o', 2), ('-MD', 1), ('-MT', 2), ('-MF', 2), ('-c', 1)):
-        at = words.index(option)
-        del words[at:at + count]
+        if option in words:
+            at = words.index(option)
+            del words[at:at + count]
     return [*words, '-E', '-P', '-dD']
+
+
+def checksum(command):
+    """What the header depends on, as a hash; None where the compiler does not tell."""
+    text_only = preprocessing(command)
+    text = subprocess.run(text_only, stdout=subprocess.PIPE, check=False)
+    version = subprocess.run([command[0], '--version'], stdout=subprocess.PIPE, check=False)
+    if text.returncode or version.returncode:
+        return None
+    named = version.stdout.partition(b' ')[2]  # g++ prints first the name by which it was called
+    flags = [word for word in text_only if '/' not in word]
+    return hashlib.sha256(named + '\0'.join(flags).encode() + b'\0' + text.stdout).hexdigest()
 
 
 def main():
     split = sys.argv.index('--')
     launcher, command = sys.argv[1:split], sys.argv[split + 1:]
-    done = subprocess.run([*launcher, *command], check=False)
     output = find_output(command)
+    if output:
+        pathlib.Path(f'{output}.sum').unlink(missing_ok=True)  # none is better than an old one
+    done = subprocess.run([*launcher, *command], check=False)
     if done.returncode or not output:
         return done.returncode
-    text_only = preprocessing(command)
-    text = subprocess.run(text_only, stdout=subprocess.PIPE, check=True).stdout
-    version = subprocess.run([command[0], '--version'], stdout=subprocess.PIPE, check=True).stdout
-    version = version.partition(b' ')[2]  # g++ prints first the name by which it was called
-    flags = [word for word in text_only if '/' not in word]
-    checksum = hashlib.sha256(version + '\0'.join(flags).encode() + b'\0' + text)
-    pathlib.Path(f'{output}.sum').write_text(checksum.hexdigest() + '\n', encoding='utf-8')
+    if written := checksum(command):
+        pathlib.Path(f'{output}.sum').write_text(written + '\n', encoding='utf-8')
     return 0
 
 

@@ -47,8 +47,9 @@ struct Pose2 {
     return {q.x(), q.y(), WrapAngle(yaw_rad + X_BC.yaw_rad)};
   }
   Pose2 Inverse() const {
-    const Vec2 p = InverseTimes(Vec2::Zero());
-    return {p.x(), p.y(), WrapAngle(-yaw_rad)};
+    if (yaw_rad == 0) return {-x_m, -y_m, 0};
+    const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+    return {-c * x_m - s * y_m, s * x_m - c * y_m, WrapAngle(-yaw_rad)};
   }
   // Inverse() * p but for rounding, with half as many sines and cosines.
   Vec2 InverseTimes(const Vec2& p) const {

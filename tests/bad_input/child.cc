@@ -25,7 +25,7 @@ double Seconds(const timeval& t) {
 
 [[noreturn]] void BecomeChild(const ChildMain& main, const std::vector<std::string>& words,
                               const std::filesystem::path& folder, int out, int err,
-                              const ChildLimits& limits) {
+                              const ChildLimits& limits) noexcept {
   const int null = open("/dev/null", O_RDONLY);
   dup2(null, 0), dup2(out, 1), dup2(err, 2);
   for (const int number : {SIGINT, SIGTERM}) signal(number, SIG_DFL);  // whatever ctest inherited
