@@ -13,6 +13,8 @@
 #   be in a different folder each time, so they are copied into the build folder.
 # - The compiler's name. pip calls g++ what CMake calls c++. (In a folder of links to ccache or
 #   distcc all names are one file, and say nothing.)
+# On a miss, ccache takes what a file includes from the compiler's own list (CCACHE_DEPEND) and does
+# not preprocess it first, which costs a sixth of a build that finds nothing.
 find_program(CCACHE_PROGRAM ccache)
 find_program(FP_ENV_PROGRAM env)
 find_program(FP_CXX_PROGRAM c++)
@@ -26,7 +28,7 @@ endif()
 find_package(Python3 3.8 COMPONENTS Interpreter)
 if(CCACHE_PROGRAM AND FP_ENV_PROGRAM)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${FP_ENV_PROGRAM} CCACHE_SLOPPINESS=pch_defines,time_macros
-      CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1)
+      CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 CCACHE_DEPEND=1)
   if(Python3_FOUND)
     list(APPEND CMAKE_CXX_COMPILER_LAUNCHER CCACHE_PCH_EXTSUM=1)
   endif()
