@@ -40,7 +40,7 @@ std::string ValueTable(const RatesPlot& plot, const VariantDependence& variant,
     names.push_back(BinText(bin, scale));
     rates.push_back(bin.rate);
   }
-  return Sentence(SafeText(value, variant.limit)) +
+  return Sentence(SafeText(value, variant.limit, variant.metric)) +
          RatesTable({plot.reach, variant.limit.max_rate}, value.is_number ? "Values" : "Choice",
                     names, rates);
 }
@@ -97,7 +97,7 @@ std::string Pair(const PairDependence& pair) {
 std::string Ranges(const VariantDependence& variant) {
   std::string list;
   for (const ValueDependence& value : variant.values)
-    if (const std::string safe = SafeText(value, variant.limit); !safe.empty())
+    if (const std::string safe = SafeText(value, variant.limit, variant.metric); !safe.empty())
       list += "<li>" + KeyHtml(value.key) + ": " + MarkupText(safe) + "</li>";
   return list.empty() ? "" : "<ul>" + list + "</ul>\n";
 }

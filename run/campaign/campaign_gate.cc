@@ -87,11 +87,11 @@ bool CampaignGate::Judges(const EpisodeRow& row) const {
   return row.counts() || (row.outcome == "not_planned" && params_.metric == "not_success");
 }
 
-bool CampaignGate::Fails(const EpisodeRow& row) const {
-  if (params_.metric == "any_failure") return row.any_failure();
-  if (params_.metric == "not_success") return row.outcome != "success";
+bool FailsBy(std::string_view metric, const EpisodeRow& row) {
+  if (metric == "any_failure") return row.any_failure();
+  if (metric == "not_success") return row.outcome != "success";
   for (std::size_t m = 0; m < row.events_of.size(); ++m)
-    if (params_.metric == Name(static_cast<FailureMode>(m))) return row.events_of[m] > 0;
+    if (metric == Name(static_cast<FailureMode>(m))) return row.events_of[m] > 0;
   return false;
 }
 

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/params.h"
@@ -21,6 +22,9 @@ struct GateParams {
   std::optional<double> max_n;  // none: the campaign's -n
   void Visit(ParamVisitor& v);
 };
+
+// Whether the episode fails by this metric: a mode, any_failure or not_success.
+bool FailsBy(std::string_view metric, const EpisodeRow& row);
 
 // What the gate says of a prefix of one variant's episodes.
 class GateState {
@@ -55,7 +59,7 @@ class CampaignGate {
   // Whether the episode counts: what the tool broke does not, and what has no plan only as no
   // success.
   bool Judges(const EpisodeRow& row) const;
-  bool Fails(const EpisodeRow& row) const;
+  bool Fails(const EpisodeRow& row) const { return FailsBy(params_.metric, row); }
   bool fixed() const { return settings_.mode == GateMode::kFixed; }
   GateState Start() const { return {params_, settings_}; }
 

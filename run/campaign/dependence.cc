@@ -14,6 +14,7 @@
 
 #include "base/params.h"
 #include "base/quantity.h"
+#include "run/campaign/campaign_gate.h"
 #include "stats/binomial.h"
 #include "stats/equal_bins.h"
 #include "stats/holm.h"
@@ -54,11 +55,12 @@ struct Column {
 
 // A variant's counted episodes, column by column.
 struct Table {
-  std::vector<Column> columns;  // in the order first met
-  std::vector<bool> failed;
+  std::string metric{};
+  std::vector<Column> columns{};  // in the order first met
+  std::vector<bool> failed{};
 
   void Add(const EpisodeRow& row) {
-    failed.push_back(row.any_failure());
+    failed.push_back(FailsBy(metric, row));
     for (Column& column : columns) column.Resize(failed.size());
     const Json drawn = Json::parse(row.drawn);
     std::size_t at = 0;  // episodes draw the same keys in the same order, as a rule
@@ -213,6 +215,7 @@ std::string WhyNoBins(const VariantDependence& v, bool repeated) {
 VariantDependence Depend(const Table& table, const VariantSummary& variant,
                          const SafeRangeSettings& limit) {
   VariantDependence out{.variant = variant.name,
+                        .metric = table.metric,
                         .n = static_cast<int>(table.failed.size()),
                         .k = table.failures(),
                         .limit = limit};
@@ -281,7 +284,7 @@ std::vector<VariantDependence> DependenceOf(const CampaignStore& store,
     limit = {summary.gate->max_rate, summary.gate->confidence, summary.gate->mode == "sequential"};
   std::vector<VariantDependence> out;
   for (const VariantSummary& variant : summary.variants) {
-    Table table;
+    Table table{.metric = summary.gate ? summary.gate->metric : VariantDependence{}.metric};
     store.ForEach(variant.name, [&](const EpisodeRow& row) {
       if (row.counts() && row.driven()) table.Add(row);
     });

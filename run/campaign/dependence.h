@@ -2,8 +2,9 @@
 // What failures depend on: a variant's failure rate against each value that its episodes drew, and
 // against pairs of them; how clearly it depends; and up to which value it is shown to be low.
 //
-// Of the episodes that rates are of: those that physics drove and that count. A failure is
-// `any_failure`, as in the summary.
+// Of the episodes that rates are of: those that physics drove and that count. A failure is what the
+// gate's metric says; without a gate, whatever is no success: a drive that runs out of time is not
+// safe.
 #pragma once
 
 #include <cstddef>
@@ -65,6 +66,7 @@ struct PairDependence {
 
 struct VariantDependence {
   std::string variant{};
+  std::string metric = "not_success";  // what counts as a failure
   int n = 0, k = 0;
   // Why rates by value say nothing, in words; then there are no bins, no evidence and no pairs, but
   // the safe range still is. Empty: there are.

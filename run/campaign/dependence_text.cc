@@ -123,17 +123,18 @@ std::string InfluenceText(const ValueDependence& value, int looked_at) {
                      looked_at > 1 ? fmt::format(" after Holm for {} values", looked_at) : "");
 }
 
-std::string SafeText(const ValueDependence& value, const SafeRangeSettings& limit) {
+std::string SafeText(const ValueDependence& value, const SafeRangeSettings& limit,
+                     std::string_view metric) {
   if (!value.safe) return "";
   const SafeRange& safe = *value.safe;
-  const std::string below = fmt::format("below {} at {}", PercentText(limit.max_rate, 4),
+  const std::string below = fmt::format("{} below {} at {}", metric, PercentText(limit.max_rate, 4),
                                         PercentText(limit.confidence, 4));
   switch (safe.answer) {
     case SafeAnswer::kTooFew:
       if (safe.whole.k == safe.whole.n && safe.whole.n > 0)
         return fmt::format("not shown to be safe ({}): {}", below, NotShownText(safe));
       return fmt::format(
-          "{} too few to say up to which value failures are {}: it takes {}, "
+          "{} too few to say up to which value {} holds: it takes {}, "
           "without a failure",
           safe.whole.n == 1 ? "1 episode is" : CountText(safe.whole.n, "episode") + " are", below,
           safe.needed);
@@ -169,7 +170,8 @@ std::vector<std::string> DependenceText(const VariantDependence& v, std::size_t 
     std::string line =
         fmt::format("{}: {}", name == value.key ? name : name + " (" + value.key + ")",
                     InfluenceText(value, v.looked_at));
-    if (const std::string safe = SafeText(value, v.limit); !safe.empty()) line += "; " + safe;
+    if (const std::string safe = SafeText(value, v.limit, v.metric); !safe.empty())
+      line += "; " + safe;
     lines.push_back(std::move(line));
   }
   if (lines.empty() && v.note.empty())

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/key_name.h"
@@ -17,7 +18,9 @@ std::string BinText(const ValueBin& bin, const KeyScale& scale);
 // "failures at lower values (p = 0.0012 after Holm for 6 values)", or that no influence is shown.
 std::string InfluenceText(const ValueDependence& value, int looked_at);
 // Up to which value a number is safe, in a clause; empty of choices and where nothing can be said.
-std::string SafeText(const ValueDependence& value, const SafeRangeSettings& limit);
+// `metric`: of which the limit is.
+std::string SafeText(const ValueDependence& value, const SafeRangeSettings& limit,
+                     std::string_view metric = "not_success");
 // The same for a table that states the limit: of which values it is the mean ("up to 19.8 mm (25 of
 // 1024 failed)", or why nothing is shown), and of which each part by itself ("up to 13.1 mm",
 // "all", "none"; empty where nothing is shown).

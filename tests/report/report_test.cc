@@ -160,8 +160,8 @@ TEST(Report, ShowsWhatFailuresDependOn) {
   EXPECT_EQ(WhyUnbalanced(page), "");
   EXPECT_THAT(page,
               HasSubstr("<h4>friction</h4>\n<p>Failures at lower values (p = 0.002 after Holm "
-                        "for 2 values).</p>\n<p>Safe on average (below 5 % at 95 %) from 0.6 "
-                        "on (0 of 90 failed).</p>"));
+                        "for 2 values).</p>\n<p>Safe on average (not_success below 5 % at 95 %) "
+                        "from 0.6 on (0 of 90 failed).</p>"));
   EXPECT_THAT(page, HasSubstr("<th scope=\"row\">0.1 to 0.5</th><td class=\"num\">8 of 10</td>"));
   EXPECT_THAT(page, HasSubstr("<details><summary>friction: no influence shown (p = 1"));
   EXPECT_THAT(page, HasSubstr("<th scope=\"row\">0.6 to 0.9</th><td>–</td>"))
@@ -182,8 +182,8 @@ TEST(Report, SaysWhatIsSafeWhereNothingFailed) {
   r.dependence[0].values[0].safe =
       SafeRange{.answer = SafeAnswer::kWhole, .needed = 59, .whole = {0.9, 60, 0}};
   EXPECT_THAT(ReportHtml(r),
-              HasSubstr("<p>No episode failed.</p>\n<ul><li>friction: safe on average (below "
-                        "5 % at 95 %) over the whole range drawn (0 of 60 failed)"));
+              HasSubstr("<p>No episode failed.</p>\n<ul><li>friction: safe on average (not_success "
+                        "below 5 % at 95 %) over the whole range drawn (0 of 60 failed)"));
 }
 
 TEST(Report, AValueThatNeverDiffersIsNotLookedAt) {

@@ -98,10 +98,10 @@ TEST_F(DependenceTest, TheTellingValueComesFirstAndSaysWhere) {
   ASSERT_TRUE(friction.safe && friction.safe->from);
   EXPECT_GT(friction.safe->from->edge, 0.55);
   EXPECT_LT(friction.safe->from->edge, 0.65);
-  EXPECT_THAT(
-      DependenceText(dut),
-      ElementsAre(StartsWith("friction: failures at lower values (p < 0.0001 after Holm for "
-                             "2 values); safe on average (below 5 % at 95 %) from 0.")));
+  EXPECT_THAT(DependenceText(dut),
+              ElementsAre(StartsWith(
+                  "friction: failures at lower values (p < 0.0001 after Holm for "
+                  "2 values); safe on average (not_success below 5 % at 95 %) from 0.")));
 }
 
 TEST_F(DependenceTest, WithoutAnInfluenceItSaysSo) {
@@ -144,12 +144,12 @@ TEST_F(DependenceTest, ValuesHaveTheirUnit) {
   EXPECT_THAT(BinText(bins.back(), BinScale(dut.values[0].key, bins)), testing::EndsWith(" mm"));
 }
 
-TEST_F(DependenceTest, TimeoutsCountAndAreNoFailures) {
+TEST_F(DependenceTest, TimeoutsCountAndAreNoSuccess) {
   const auto dut = Depend(40, [](std::uint64_t id, Stream&) {
     return Episode{{{"a", id}}, id < 5, id >= 30 ? id % 2 == 0 ? "timeout" : "aborted" : ""};
   });
   EXPECT_EQ(dut.n, 40);
-  EXPECT_EQ(dut.k, 5);
+  EXPECT_EQ(dut.k, 15);
 }
 
 TEST_F(DependenceTest, AValueThatSomeDoNotDrawIsOfThoseThatDo) {
@@ -237,11 +237,12 @@ TEST_F(DependenceTest, NothingIsMadeOfNoise) {
     EXPECT_EQ(DependenceCsv({*dut}), "variant,value,low,high,n,k,rate,lower,upper\n");
   }
   EXPECT_EQ(SafeText(clean.values[0], clean.limit),
-            "safe on average (below 5 % at 95 %) over the whole range drawn (0 of 100 failed)");
+            "safe on average (not_success below 5 % at 95 %) over the whole range drawn (0 of 100 "
+            "failed)");
   EXPECT_THAT(
       SafeText(few.values[0], few.limit),
-      StartsWith("19 episodes are too few to say up to which value failures are below 5 % at "
-                 "95 %: it takes 59"));
+      StartsWith("19 episodes are too few to say up to which value not_success below 5 % at "
+                 "95 % holds: it takes 59"));
   EXPECT_THAT(SafeText(broken.values[0], broken.limit), HasSubstr("every one failed, 30 drives"))
       << "more drives would not help";
   EXPECT_THAT(Depend(50, [](std::uint64_t, Stream&) { return Episode{}; }).values, IsEmpty());
@@ -253,21 +254,45 @@ TEST_F(DependenceTest, WhatIsSafeOnAverageIsToldApartFromEachPart) {
   SafeRange& safe = dut.safe.emplace();
   safe = {.answer = SafeAnswer::kWhole, .needed = 59, .whole = {0.46, 2000, 18}, .parts = 8};
   safe.each_from = Stretch{-0.13726, 250, 0};
-  EXPECT_EQ(
-      SafeText(dut, {}),
-      "safe on average (below 5 % at 95 %) over the whole range drawn (18 of 2000 failed); in "
-      "each part by itself only from -0.137 on");
+  EXPECT_EQ(SafeText(dut, {}),
+            "safe on average (not_success below 5 % at 95 %) over the whole range drawn (18 of "
+            "2000 failed); in "
+            "each part by itself only from -0.137 on");
   safe.each_up_to = Stretch{0.46, 250, 0};
   EXPECT_THAT(SafeText(dut, {}), HasSubstr("failed); and in each part by itself"));
   safe.answer = SafeAnswer::kPart;
   safe.each_up_to = safe.each_from = std::nullopt;
   safe.up_to = Stretch{0.12345, 300, 2};
   safe.from = Stretch{0.23451, 400, 3};
-  EXPECT_EQ(
-      SafeText(dut, {.max_rate = 0.01, .confidence = 0.9}),
-      "safe on average (below 1 % at 90 %) up to 0.123 (2 of 300 failed) and from 0.235 on (3 "
-      "of 400 failed); no part at either end is by itself")
+  EXPECT_EQ(SafeText(dut, {.max_rate = 0.01, .confidence = 0.9}),
+            "safe on average (not_success below 1 % at 90 %) up to 0.123 (2 of 300 failed) and "
+            "from 0.235 on (3 "
+            "of 400 failed); no part at either end is by itself")
       << "rounded so that no value beyond is claimed";
+}
+
+// A drive that runs out of time is not safe; nor is it a failure for a gate of failures alone.
+TEST_F(DependenceTest, WhatCountsIsTheGatesMetric) {
+  const auto late = [](std::uint64_t, Stream& stream) {
+    const double a = stream.Uniform();
+    Episode episode{{{"a", a}}};
+    if (a > 0.7) episode.outcome = "timeout";
+    return episode;
+  };
+  const auto whole = [](const VariantDependence& v) { return v.values[0].safe->answer; };
+  const VariantDependence none = Depend(200, late);
+  EXPECT_EQ(none.metric, "not_success");
+  EXPECT_EQ(whole(none), SafeAnswer::kPart);
+  GateSummary gate;
+  gate.max_rate = 0.05;
+  gate.confidence = 0.95;
+  gate.metric = "not_success";
+  EXPECT_EQ(whole(Depend(200, late, gate)), SafeAnswer::kPart);
+  gate.metric = "any_failure";
+  const VariantDependence failures = Depend(200, late, gate);
+  EXPECT_EQ(whole(failures), SafeAnswer::kWhole);
+  EXPECT_THAT(SafeText(failures.values[0], failures.limit, failures.metric),
+              StartsWith("safe on average (any_failure below 5 % at 95 %)"));
 }
 
 TEST_F(DependenceTest, TheLimitIsTheGates) {
