@@ -54,7 +54,7 @@ int RunTheCampaign(const CampaignCommand& options, const Globals& globals) {
   } catch (const std::runtime_error& e) {
     throw InternalError(std::string(e.what()) + "; missing: " + missing);
   }
-  return CampaignExitStatus(outcome);
+  return CampaignExitStatus(outcome, globals);
 }
 
 }  // namespace

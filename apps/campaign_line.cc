@@ -36,6 +36,7 @@ std::string Text(const CampaignProgress& p, const std::vector<Variant>& variants
   constexpr std::size_t kShown = 3;
   for (std::size_t v = 0; v < std::min(kShown, p.variants.size()); ++v) {
     const VariantProgress& at = p.variants[v];
+    if (at.errors > 0) text += "; " + CountText(at.errors, "error");
     if (at.n == 0) continue;
     text += fmt::format("; {}{} of {} fail", p.variants.size() > 1 ? variants[v].name + ": " : "",
                         number(at.any_failure), number(at.n));

@@ -95,7 +95,7 @@ int AddPlans(const MeasureCommand& options, const Globals& globals, const fs::pa
     globals.Say(
         "warning: no plan over these floors could be driven and predicted: the rates are held "
         "against none");
-  return CampaignExitStatus(outcome);
+  return CampaignExitStatus(outcome, globals);
 }
 
 int RunMeasure(const MeasureCommand& options, const Globals& globals) {
@@ -133,7 +133,7 @@ int RunMeasure(const MeasureCommand& options, const Globals& globals) {
   }
   globals.SayFact("Results", folder.string());
   if (outcome.run.end == CampaignEnd::kInterrupted) throw Interruption();
-  const int status = CampaignExitStatus(outcome);
+  const int status = CampaignExitStatus(outcome, globals);
   if (fitted) {
     // The page is made from what is recorded alone, which is let go of for it.
     outcome.folder.reset();

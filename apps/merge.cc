@@ -28,7 +28,7 @@ int Merge(const std::vector<std::string>& shards, const std::filesystem::path& o
                     gap.variant, Text(gap.missing)));
   globals.Result(SummaryJson(outcome.summary));
   SayCampaign(outcome, out, globals);
-  return CampaignExitStatus(outcome);
+  return CampaignExitStatus(outcome, globals);
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 #include "report/campaign_words.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "base/exit_status.h"
 #include "base/file_output.h"
+#include "base/printable.h"
 #include "base/quantity.h"
 #include "base/shell_word.h"
 #include "report/campaign_tables.h"
@@ -28,17 +30,32 @@ Tone ToneOf(GateVerdict verdict) {
 
 }  // namespace
 
+std::string ErrorsText(const CampaignSummary& summary) {
+  int errors = 0, episodes = 0;
+  std::string first;
+  for (const VariantSummary& v : summary.variants) {
+    errors += v.errors;
+    episodes += v.n + v.errors + v.not_planned;
+    if (first.empty() && !v.first_error.empty())
+      first = (summary.variants.size() > 1 ? v.name + ", " : "") + v.first_error;
+  }
+  if (errors == 0) return "";
+  return Printable(FixedText(errors, 0) + " of " + CountText(episodes, "episode") +
+                   " ended in an error, the first: " + first);
+}
+
 void SayCampaign(const CampaignOutcome& outcome, const std::filesystem::path& folder,
                  const Console& console, bool page_follows) {
   const CampaignSummary& summary = outcome.summary;
   const bool several = summary.variants.size() > 1;
+  if (const std::string errors = ErrorsText(summary); !errors.empty()) console.Say(errors);
   console.Say(std::string(WhyEnded(outcome.run.end)));
   console.Say(OutcomesTable(summary));
   if (const TextTable modes = ModesTable(summary); !modes.empty()) console.Say(modes);
   for (const VariantSummary& v : summary.variants) {
     const std::string of = several ? v.name + ": " : "";
     if (v.repeated) console.Say(of + RepetitionText(v));
-    if (!v.first_error.empty()) console.Say(of + "the first error: " + v.first_error);
+    if (several && !v.first_error.empty()) console.Say(of + "the first error: " + v.first_error);
   }
   const std::vector<VariantDependence> dependence = DependenceOf(outcome.store, summary);
   WriteFileWhole(folder / "dependence.csv", DependenceCsv(dependence));
@@ -63,10 +80,14 @@ void SayCampaign(const CampaignOutcome& outcome, const std::filesystem::path& fo
   console.Say(facts);
 }
 
-int CampaignExitStatus(const CampaignOutcome& outcome) {
+int CampaignExitStatus(const CampaignOutcome& outcome, const Console& console) {
   const CampaignRun& run = outcome.run;
   const bool broken = std::ranges::any_of(run.variants, [](const auto& v) { return v.errors > 0; });
-  if (broken) return kExitBroken;
+  if (broken) {
+    if (console.quiet)
+      std::fprintf(stderr, "floorproof: %s\n", ErrorsText(outcome.summary).c_str());
+    return kExitBroken;
+  }
   if (run.end == CampaignEnd::kFailFast) return kExitNotSuccess;
   const auto& gate = outcome.summary.gate;
   if (!gate) return kExitDone;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "base/console.h"
 #include "run/campaign/drive_campaign.h"
@@ -15,7 +16,11 @@ namespace floorproof {
 void SayCampaign(const CampaignOutcome& outcome, const std::filesystem::path& folder,
                  const Console& console, bool page_follows = false);
 
-// Errors first, then an early end at a failure, then the gate.
-int CampaignExitStatus(const CampaignOutcome& outcome);
+// "18 of 40 episodes ended in an error, the first: episode 3: ..."; empty: none did.
+std::string ErrorsText(const CampaignSummary& summary);
+
+// Errors first, then an early end at a failure, then the gate. With a quiet console, errors are
+// still said, on stderr.
+int CampaignExitStatus(const CampaignOutcome& outcome, const Console& console);
 
 }  // namespace floorproof

@@ -9,6 +9,7 @@
 
 #include "base/quantity.h"
 #include "base/words.h"
+#include "report/campaign_words.h"
 #include "report/html.h"
 #include "report/rates.h"
 #include "stats/outward.h"
@@ -137,6 +138,8 @@ std::string VerdictText(const Report& report) {
   const auto& variants = report.summary.variants;
   const auto& gate = report.summary.gate;
   if (variants.empty()) return "No variant was driven.";
+  if (const std::string errors = ErrorsText(report.summary); !errors.empty())
+    return (report.subject.empty() ? "" : report.subject + ": ") + errors + ". No rate is told.";
   const std::string rates =
       variants.size() == 1 ? RateText(variants.front(), gate) : Extremes(report);
   std::string text = report.subject.empty() ? "" : report.subject + ": ";
@@ -158,20 +161,22 @@ std::string VerdictBox(const Report& report) {
               "</li>";
   if (!report.summary.unfinished.empty())
     list += "<li>The campaign is not whole: " + MarkupText(report.summary.unfinished) + ".</li>";
-  int errors = 0, not_planned = 0;
+  int errors = 0, not_planned = 0, driven = 0;
   for (const VariantSummary& v : report.summary.variants) {
     errors += v.errors;
+    driven += v.n;
     not_planned += v.not_planned;
   }
   if (not_planned > 0)
     list += fmt::format("<li>For {} there was no plan; no robot drove.</li>",
                         CountText(static_cast<std::size_t>(not_planned), "episode"));
   if (errors > 0)
-    list += fmt::format("<li>{} ended in an error and {} not count.</li>",
-                        CountText(static_cast<std::size_t>(errors), "episode"),
-                        errors == 1 ? "does" : "do");
+    list += fmt::format("<li>The table below is of the {} that came to an end.</li>",
+                        CountText(static_cast<std::size_t>(driven), "episode"));
   return fmt::format("<div class=\"verdict {}\"><p>{}</p>{}</div>\n",
-                     gate ? GateVerdictName(gate->verdict) : PlainTone(report),
+                     errors > 0 ? "undecided"
+                     : gate     ? GateVerdictName(gate->verdict)
+                                : PlainTone(report),
                      MarkupText(VerdictText(report)), list.empty() ? "" : "<ul>" + list + "</ul>");
 }
 
