@@ -70,6 +70,56 @@ int CompiledRobot::BlockOf(int body) const {
   return 0;
 }
 
+namespace {
+
+Eigen::Matrix3d AttitudeOf(const mjtNum* mat) {
+  Eigen::Matrix3d R;
+  for (int i = 0; i < 9; ++i) R(i / 3, i % 3) = mat[i];
+  return R;
+}
+
+// Of a round geom, in its own frame, its farthest points in directions of the world's frame all
+// around: its extents straight up, down and to the sides are exact. `R_WG`: its attitude.
+std::vector<Vec3> RoundPoints(int type, const Vec3& size, const Eigen::Matrix3d& R_WG) {
+  constexpr int kAround = 72, kUp = 6;
+  std::vector<Vec3> points;
+  for (int up = -kUp; up <= kUp; ++up) {
+    const double elevation_rad = kPi / 2 * up / kUp;
+    for (int k = 0; k < (std::abs(up) == kUp ? 1 : kAround); ++k) {
+      const double bearing_rad = 2 * kPi * k / kAround;
+      const Vec3 toward_W(std::cos(elevation_rad) * std::cos(bearing_rad),
+                          std::cos(elevation_rad) * std::sin(bearing_rad), std::sin(elevation_rad));
+      const Vec3 toward = R_WG.transpose() * toward_W;
+      if (type == mjGEOM_ELLIPSOID) {
+        points.push_back(size.cwiseProduct(size.cwiseProduct(toward).normalized()));
+        continue;
+      }
+      points.push_back(size.x() * toward);
+      if (type == mjGEOM_CAPSULE) points.back().z() += std::copysign(size.y(), toward.z());
+    }
+  }
+  return points;
+}
+
+// Of a mesh, in its own frame: of its convex hull where MuJoCo has made one, else all.
+std::vector<Vec3> HullVertices(const mjModel* m, int mesh) {
+  const float* vertices = m->mesh_vert + 3 * m->mesh_vertadr[mesh];
+  const auto vertex = [&](int i) {
+    return Vec3(vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]);
+  };
+  std::vector<Vec3> points;
+  if (m->mesh_graphadr[mesh] < 0) {
+    for (int i = 0; i < m->mesh_vertnum[mesh]; ++i) points.push_back(vertex(i));
+    return points;
+  }
+  const int* graph = m->mesh_graph + m->mesh_graphadr[mesh];
+  const int* of_hull = graph + 2 + graph[0];
+  for (int i = 0; i < graph[0]; ++i) points.push_back(vertex(of_hull[i]));
+  return points;
+}
+
+}  // namespace
+
 std::vector<Vec3> CompiledRobot::SurfacePoints(int geom) const {
   const mjtNum* size = m_->geom_size + 3 * geom;
   const mjtNum* pos = data_->geom_xpos + 3 * geom;
@@ -103,9 +153,13 @@ std::vector<Vec3> CompiledRobot::SurfacePoints(int geom) const {
       break;
     }
     case mjGEOM_SPHERE:
-      add_rings(size[0], 0);
-      add(0, 0, -size[0]);
-      add(0, 0, size[0]);
+    case mjGEOM_CAPSULE:
+    case mjGEOM_ELLIPSOID:
+      for (const Vec3& p : RoundPoints(m_->geom_type[geom], Vec3(size), AttitudeOf(mat)))
+        add(p.x(), p.y(), p.z());
+      break;
+    case mjGEOM_MESH:  // its convex hull is what collides
+      for (const Vec3& p : HullVertices(m_, m_->geom_dataid[geom])) add(p.x(), p.y(), p.z());
       break;
     default: {  // the axis-aligned box in the geom's frame bounds every other type
       const mjtNum* box = m_->geom_aabb + 6 * geom;
