@@ -56,7 +56,8 @@ int LineOf(const std::string& text, const std::string& value) {
         {file.string(), LineOf(files.Read(file, EngineFiles::kMaxBytes), refused->first)}, "file",
         refused->first, refused->second);
   }
-  throw InputError({file.string(), 0}, "", message, rule);
+  // The engine names element and line at the end: nothing of it is cut.
+  throw InputError({file.string(), 0}, "", "", std::string(rule) + ": " + std::string(message));
 }
 
 template <class T>

@@ -202,6 +202,11 @@ std::filesystem::path FindRobotFile(const std::string& name_or_path, const Sourc
     throw InputError(mark, "robot", name_or_path,
                      "unknown robot; a URDF's MJCF is made by `floorproof robot " + name_or_path +
                          "`, and named here");
+  if (name_or_path.ends_with(".sdf") || name_or_path.ends_with(".xacro"))
+    throw InputError(
+        mark, "robot", name_or_path,
+        "is not read: MJCF (.xml) is, and URDF by `floorproof robot`, which makes MJCF of "
+        "it; `xacro FILE > my_robot.urdf` makes URDF of a .xacro");
   throw InputError(mark, "robot", name_or_path,
                    "unknown robot" + DidYouMean(name_or_path, names) +
                        " (a name of `list robots`, or an .xml file)");
