@@ -286,6 +286,8 @@ TEST_F(GoToTest, ItsTimeOutsAreItsFaults) {
 // P2, and the worked example: 12 x (2 + 3) = 60, just below fatal.
 TEST_F(GoToTest, JoltsForLongerThanP2AreAFaultOfAccelerationControl) {
   Begin(TwoWheels(), kGoTo);
+  robot_->accel_mps2 = {0, 0, 9.81};
+  Obey(0.1);
   robot_->accel_mps2 = {4, 0, 9.81};
   Obey(0.4);
   EXPECT_TRUE(dut_->rows().empty());

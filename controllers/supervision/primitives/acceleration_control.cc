@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Watches the body's acceleration in the plane of its floor while others drive, by the IMU: "if the
-// acceleration is greater than the maximum allowed for more than P2 seconds, there is an
-// intermittent fault" ("safety-monitoring", section 4).
+// Watches the body's acceleration in the plane of its floor while others drive, by the IMU, without
+// gravity, which a slope adds to what an accelerometer measures: "if the acceleration is greater
+// than the maximum allowed for more than P2 seconds, there is an intermittent fault"
+// ("safety-monitoring", section 4).
+#include "controllers/monitors/upwards.h"
 #include "controllers/supervision/robot_primitive.h"
 
 namespace floorproof {
@@ -20,12 +22,15 @@ class AccelerationControl final : public RobotPrimitive {
     alarm_ = Alarm(timing_);
     ahead_.Reset();
     aside_.Reset();
+    upwards_.Reset();
   }
   NodeStatus Update(double t_s) override {
     if (!now().has_imu) return NodeStatus::kRunning;
     constexpr double kSmooth_s = 0.1;
-    const Vec3& accel = now().accel_mps2;
+    constexpr double kGravity_mps2 = 9.81;
     const double dt_s = now().dt_s;
+    const Vec3 accel = now().accel_mps2 -
+                       kGravity_mps2 * upwards_.Update(now().gyro_radps, now().accel_mps2, dt_s);
     const Vec2 a(ahead_.Update(accel.x(), dt_s, kSmooth_s),
                  aside_.Update(accel.y(), dt_s, kSmooth_s));
     const bool bad = a.norm() > max_mps2_;
@@ -41,6 +46,7 @@ class AccelerationControl final : public RobotPrimitive {
   double max_mps2_ = 1.5;
   AlarmTiming timing_{.hold_s = 0.3};
   Alarm alarm_;
+  Upwards upwards_;
   LowPass ahead_, aside_;
 };
 
