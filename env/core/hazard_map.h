@@ -68,7 +68,14 @@ struct Hazard {
   HazardClass hazard_class = HazardClass::kBlindObject;
   bool known = true;               // false: in the scene, not in the map that planners get
   std::vector<Polygon> footprint;  // world frame
-  double height_m = 0;             // signed: a drop is negative, a groove's depth negative
+  // Signed: a drop is negative, a groove's depth negative. Of a level change over the base floor;
+  // of terrain over the floor that it lies on or is cut into.
+  double height_m = 0;
+  // A level change that lies on the floor beneath, as a carpet does: its type states its height
+  // over that. LayFloors (env/map) makes of it the height over the base floor, and keeps how high
+  // the floor beneath is.
+  bool lies_on_floor = false;
+  double floor_m = 0;
   std::vector<Solid> solids;
   Material material;
   // Its plug-in's keys that are numbers, as a site file states them ("height_m", 0.015), its

@@ -133,6 +133,7 @@ HazardMap SeenFrom(HazardMap map, const RobotSpec& robot, const Pose2& X_WB) {
       continue;
     }
     hazard.height_m -= floor_m;
+    hazard.floor_m -= floor_m;
     hazard.sizes = LevelSizes(hazard.height_m);
     if (std::abs(hazard.height_m) <= kSameLevel_m || hazard.footprint.empty()) continue;
     // A pit's bases need not be convex, those of what rises over a deeper one must be.

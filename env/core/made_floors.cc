@@ -14,7 +14,8 @@ MadeFloors::MadeFloors(std::span<const Hazard> hazards, Levels levels) {
       continue;
     }
     for (const Solid& solid : hazards[i].solids)
-      if (level || solid.kind == Solid::Kind::kCut) floors_.push_back({solid.base, i, level});
+      if (const bool cut = solid.kind == Solid::Kind::kCut; level || cut)
+        floors_.push_back({solid.base, i, level, cut || !hazards[i].lies_on_floor});
   }
   std::vector<Box2> boxes;
   for (const MadeFloor& floor : floors_) boxes.push_back(BoxAround(floor.polygon));

@@ -15,6 +15,7 @@ struct MadeFloor {
   Polygon polygon;         // in the world, m
   std::size_t hazard = 0;  // that makes it: its number in the map
   bool level = true;       // of a level change; otherwise the ground of a groove
+  bool replaces = true;    // earlier floors; false: it lies on them
 };
 
 class MadeFloors {

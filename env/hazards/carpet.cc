@@ -14,7 +14,8 @@ namespace {
 class Carpet final : public HazardType {
  public:
   void Visit(ParamVisitor& v) override {
-    v("height_m", height_m_, Between(kLeastSize_m, 0.1), "height of what carries wheels");
+    v("height_m", height_m_, Between(kLeastSize_m, 0.1),
+      "height of what carries wheels, over the floor that it lies on");
     v("bevel", bevel_, Between(0, 20), "run of the edge's slope, per rise; 0: upright");
     v("rolling_drag", rolling_drag_, Between(0, 0.5),
       "what holds a rolling wheel back, as a share of its load, beside its own bearings");
@@ -31,6 +32,7 @@ class Carpet final : public HazardType {
   Hazard Make(const std::vector<Vec2>& place) const override {
     Hazard hazard;
     hazard.hazard_class = HazardClass::kLevelChange;
+    hazard.lies_on_floor = true;
     hazard.height_m = height_m_;
     // The ladder's edge is 1:1; what is steeper is a step.
     hazard.sizes = LevelSizes(height_m_);

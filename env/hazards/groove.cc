@@ -12,7 +12,7 @@ class Groove : public HazardType {
  public:
   void Visit(ParamVisitor& v) override {
     v("width_m", width_m_, Between(kLeastSize_m, 2), "width across the line");
-    v("depth_m", depth_m_, Between(kLeastSize_m, 2), "depth below the base floor");
+    v("depth_m", depth_m_, Between(kLeastSize_m, 2), "depth below the floor that it is in");
   }
   Placement placement() const override { return Placement::kLine; }
 

@@ -16,9 +16,9 @@ class LiftSill final : public HazardType {
  public:
   void Visit(ParamVisitor& v) override {
     v("gap_m", gap_m_, Between(kLeastSize_m, 0.5), "width of the gap, inwards from the first edge");
-    v("depth_m", depth_m_, Between(0.01, 2), "depth of the gap below the base floor");
+    v("depth_m", depth_m_, Between(0.01, 2), "depth of the gap below the floor around it");
     v("level_m", level_m_, Between(-0.5, 0.5),
-      "the car's floor over the base floor; minus: below; 0: level");
+      "the car's floor over the floor around it; minus: below; 0: level");
   }
   Placement placement() const override { return Placement::kPolygon; }
 
@@ -49,6 +49,7 @@ class LiftSill final : public HazardType {
       return hazard;
     }
     hazard.hazard_class = HazardClass::kLevelChange;
+    hazard.lies_on_floor = true;
     hazard.height_m = level_m_;
     for (const Region& car : Difference({{place, {}}}, {gap})) {
       if (level_m_ < 0) hazard.solids.push_back({Solid::Kind::kCut, car.outer, {}, level_m_, 0});

@@ -15,7 +15,7 @@ class Threshold final : public HazardType {
  public:
   void Visit(ParamVisitor& v) override {
     v("width_m", width_m_, Between(kLeastSize_m, 2), "width at the floor, across the line");
-    v("height_m", height_m_, Between(kLeastSize_m, 0.1), "height over the base floor");
+    v("height_m", height_m_, Between(kLeastSize_m, 0.1), "height over the floor that it lies on");
     v("vertical_m", vertical_m_, Between(0, 0.1), "so much of the height is upright");
     v("bevel", bevel_, Between(0, 20), "run of the slope above that, per rise; 0: all is upright");
   }
@@ -40,6 +40,7 @@ class Threshold final : public HazardType {
                            " m rise from its edges");
     Hazard hazard;
     hazard.hazard_class = HazardClass::kLevelChange;
+    hazard.lies_on_floor = true;
     hazard.height_m = height_m_;
     // The ladder's is a new door's; what is steeper is a step.
     constexpr double kNewUpright_m = 0.0064, kNewBevel = 2;

@@ -13,10 +13,12 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <set>
 #include <span>
 #include <utility>
 
 #include "env/core/made_floors.h"
+#include "env/core/slopes.h"
 #include "env/geometry/convex.h"
 
 namespace floorproof {
@@ -57,11 +59,12 @@ struct Ground {
 
 using LevelsBelow = std::map<std::size_t, std::vector<Polygon>, std::greater<>>;  // by hazard
 
-// Those of the floors that are level changes before hazard i.
-LevelsBelow Below(std::size_t i, std::span<const MadeFloor* const> floors) {
+// Those of the floors that are level changes before hazard i; of a cut, without what lies on them.
+LevelsBelow Below(std::size_t i, std::span<const MadeFloor* const> floors, bool cuts = false) {
   LevelsBelow levels;
   for (const MadeFloor* floor : floors)
-    if (floor->level && floor->hazard < i) levels[floor->hazard].push_back(floor->polygon);
+    if (floor->level && floor->hazard < i && (floor->replaces || !cuts))
+      levels[floor->hazard].push_back(floor->polygon);
   return levels;
 }
 
@@ -152,13 +155,19 @@ void AddWithin(const Solid& solid, const Polygon& column, std::vector<Solid>& ou
   }
 }
 
-// Adds what of the solid, as its hazard made it, stands on this ground.
+// Adds what of the solid, as its hazard made it, stands on this ground. What is cut into a raised
+// floor leaves the lower part of that, or goes on into the base floor.
 void AddOn(Solid solid, const Ground& ground, std::vector<Solid>& out) {
   solid.z_low_m += ground.floor_m;
   solid.z_high_m += ground.floor_m;
+  const bool leaves_floor = solid.kind == Solid::Kind::kCut && solid.z_low_m > kThinnest_m;
+  if (solid.kind == Solid::Kind::kCut) {
+    if (leaves_floor) solid.kind = Solid::Kind::kPrism;
+    solid.z_high_m = std::max(0.0, std::exchange(solid.z_low_m, std::min(solid.z_low_m, 0.0)));
+  }
   std::vector<Region> to_part;
   for (const Region& region : ground.regions) {
-    if (region.outer == solid.base && region.holes.empty())  // nothing cut
+    if (region.outer == solid.base && region.holes.empty() && !leaves_floor)  // nothing cut
       out.push_back(solid);
     else if (solid.kind == Solid::Kind::kCut && region.holes.empty())  // any shape
       out.push_back({solid.kind, region.outer, {}, solid.z_low_m, solid.z_high_m});
@@ -184,12 +193,14 @@ void AddOn(Solid solid, const Ground& ground, std::vector<Solid>& out) {
 bool LaySolid(const Solid& solid, std::span<const Hazard> hazards, std::size_t i,
               MadeFloors& floors, std::vector<Solid>& laid) {
   const bool lies =
-      hazards[i].hazard_class == HazardClass::kTerrain && solid.kind == Solid::Kind::kPrism;
+      (hazards[i].hazard_class == HazardClass::kTerrain || hazards[i].lies_on_floor) &&
+      solid.kind != Solid::Kind::kSurface;
   const std::vector<const MadeFloor*>& near = floors.Near(solid.base);
-  const LevelsBelow below = lies ? Below(i, near) : LevelsBelow();
+  const bool cuts = solid.kind == Solid::Kind::kCut;
+  const LevelsBelow below = lies ? Below(i, near, cuts) : LevelsBelow();
   std::vector<Polygon> replaced;
   for (const MadeFloor* floor : near)
-    if (floor->hazard > i) replaced.push_back(floor->polygon);
+    if (floor->hazard > i && floor->replaces) replaced.push_back(floor->polygon);
   const std::vector<Ground> grounds = Grounds(hazards, below, solid.base);
   for (const Ground& ground : grounds)
     AddOn(solid, {SplitBy(ground.regions, replaced).beyond, ground.floor_m}, laid);
@@ -215,17 +226,85 @@ void WarnOfSlopes(std::span<const Hazard> hazards, std::vector<std::string>& war
                            ": it is built level, from the floor below the ramp");
 }
 
+bool ShapesFloor(const Hazard& hazard) {
+  return hazard.hazard_class == HazardClass::kTerrain ||
+         hazard.hazard_class == HazardClass::kLevelChange;
+}
+
+// 0: floors; 1: what lies on them; 2: terrain.
+int LayerOf(const Hazard& hazard) {
+  if (IsRamp(hazard)) return 0;
+  if (hazard.hazard_class == HazardClass::kTerrain) return 2;
+  return hazard.lies_on_floor ? 1 : 0;
+}
+
+// Floors before what lies on them, and that before terrain, where they may overlap; as far as that
+// allows each keeps its place.
+void Sort(std::vector<Hazard>& hazards) {
+  std::vector<Box2> boxes;
+  for (const Hazard& hazard : hazards) {
+    Box2 box = hazard.footprint.empty() ? Box2{Vec2::Zero(), Vec2::Zero()}
+                                        : BoxAround(hazard.footprint.front());
+    for (const Polygon& polygon : hazard.footprint) {
+      const Box2 other = BoxAround(polygon);
+      box = {box.low.cwiseMin(other.low), box.high.cwiseMax(other.high)};
+    }
+    boxes.push_back(box);
+  }
+  const BoxGrid grid(boxes);
+  std::vector<std::vector<std::size_t>> after(hazards.size());
+  std::vector<int> waits(hazards.size(), 0);
+  std::vector<int> near;
+  for (std::size_t i = 0; i < hazards.size(); ++i) {
+    if (!ShapesFloor(hazards[i])) continue;
+    grid.Near(boxes[i].low, boxes[i].high, near);
+    for (const int other : near) {
+      const auto j = static_cast<std::size_t>(other);
+      if (j == i || !ShapesFloor(hazards[j]) || !Overlap(boxes[i], boxes[j])) continue;
+      if (std::pair(LayerOf(hazards[i]), i) > std::pair(LayerOf(hazards[j]), j)) continue;
+      after[i].push_back(j);
+      ++waits[j];
+    }
+  }
+  std::set<std::size_t> ready;
+  for (std::size_t i = 0; i < hazards.size(); ++i)
+    if (waits[i] == 0) ready.insert(i);
+  std::vector<Hazard> sorted;
+  while (!ready.empty()) {
+    const std::size_t next = *ready.begin();
+    ready.erase(ready.begin());
+    for (const std::size_t j : after[next])
+      if (--waits[j] == 0) ready.insert(j);
+    sorted.push_back(std::move(hazards[next]));
+  }
+  hazards = std::move(sorted);
+}
+
+// The height over the base floor of what lies on others: on the highest of them.
+void Lift(std::vector<Hazard>& hazards, MadeFloors& floors) {
+  for (std::size_t i = 0; i < hazards.size(); ++i) {
+    if (!hazards[i].lies_on_floor) continue;
+    double highest_m = -std::numeric_limits<double>::infinity();
+    for (const Polygon& polygon : hazards[i].footprint)
+      for (const Ground& ground : Grounds(hazards, Below(i, floors.Near(polygon)), polygon))
+        highest_m = std::max(highest_m, ground.floor_m);
+    hazards[i].floor_m = highest_m;
+    hazards[i].height_m += highest_m;
+    if (highest_m != 0) hazards[i].sizes = LevelSizes(hazards[i].height_m);  // from the base floor
+  }
+}
+
 }  // namespace
 
 void LayFloors(std::vector<Hazard>& hazards, std::vector<std::string>& warnings) {
+  Sort(hazards);
   WarnOfSlopes(hazards, warnings);
   MadeFloors floors(hazards, MadeFloors::Levels::kBuilt);
+  Lift(hazards, floors);
   std::vector<std::string> across;  // from the last to the first
   for (std::size_t i = hazards.size(); i-- > 0;) {
     Hazard& hazard = hazards[i];
-    if (hazard.hazard_class != HazardClass::kTerrain &&
-        hazard.hazard_class != HazardClass::kLevelChange)
-      continue;
+    if (!ShapesFloor(hazard)) continue;
     bool on_several = false;
     std::vector<Solid> laid;
     for (const Solid& solid : hazard.solids)

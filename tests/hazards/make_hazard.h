@@ -13,7 +13,9 @@ inline Hazard MakeOf(const std::string& type, const std::string& keys,
                      const std::vector<Vec2>& place) {
   auto dut = MakePlugin(HazardTypes(), type, "type");
   ReadParams(ParseYaml(keys, "test"), "", *dut);
-  return dut->Make(place);
+  Hazard hazard = dut->Make(place);
+  hazard.type = type;
+  return hazard;
 }
 
 // Volume above the base floor, m^3 (cuts count negative), by the prismoidal formula.

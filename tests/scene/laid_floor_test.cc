@@ -56,16 +56,19 @@ struct Entry {
   }
 };
 
-// The later one wins; terrain lies on the level change before it, as a bridge over a groove.
+// Of steps the later one wins. On them lies terrain, as a bridge over a groove before it; a groove
+// is cut into them.
 double HeightAt(const std::vector<Entry>& list, const Vec2& p) {
-  double level_m = 0, ground_m = 0, terrain_m = -1e9;
+  double level_m = 0;
+  for (const Entry& entry : list)
+    if (entry.kind == Entry::Kind::kStep && entry.Holds(p)) level_m = entry.height_m;
+  double ground_m = level_m, terrain_m = -1e9;
   for (const Entry& entry : list) {
     if (entry.kind == Entry::Kind::kCover || entry.kind == Entry::Kind::kBumps) {
       const double rise_m = entry.Rise(p);
       if (rise_m > 0) terrain_m = std::max(terrain_m, level_m + rise_m);
-    } else if (entry.Holds(p)) {
-      ground_m = entry.height_m;
-      if (entry.kind == Entry::Kind::kStep) level_m = entry.height_m;
+    } else if (entry.kind == Entry::Kind::kGroove && entry.Holds(p)) {
+      ground_m = level_m + entry.height_m;
       terrain_m = -1e9;
     }
   }
