@@ -53,19 +53,14 @@ void AddSupervision(const EpisodeRecord& record, FactTable& table) {
   table.Add({"Supervision", text + "; see safety.csv"});
 }
 
-// A margin, or the limit that it is a part of, in the unit of its mode.
-std::string MarginText(FailureMode mode, double value) {
-  constexpr double kDegree = kPi / 180;
-  switch (mode) {
-    case FailureMode::kVeerOff:
-    case FailureMode::kStuck:
-      return LengthText(value);
-    case FailureMode::kRollOver:
-      return NumberText(value / kDegree) + " deg";
-    case FailureMode::kBounceBack:
-      return NumberText(value) + " m/s";
-  }
-  return "";
+// What is left of a limit, and the limit, in the unit of its mode. Rolling over has several limits,
+// and a share of the nearest.
+std::string MarginText(const Margin& margin) {
+  if (margin.mode == FailureMode::kRollOver) return PercentText(margin.share, 2) + " left";
+  const auto text = [&](double value) {
+    return margin.mode == FailureMode::kBounceBack ? NumberText(value) + " m/s" : LengthText(value);
+  };
+  return text(margin.value) + " of " + text(margin.value / margin.share) + " left";
 }
 
 // Of the modes that did not fail, what was left of each limit, the nearest first; of one that was
@@ -84,11 +79,20 @@ std::string MarginsText(const EpisodeRecord& record) {
   for (const Margin* margin : least) {
     if (margin == nullptr || margin->share >= 1) continue;
     text += (text.empty() ? "" : "; ") + Words(Name(margin->mode)) + ", ";
-    text += margin->share > 0
-                ? MarginText(margin->mode, margin->value) + " of " +
-                      MarginText(margin->mode, margin->value / margin->share) + " left"
-                : "at or beyond its limit, though not for long enough";
+    text += margin->share > 0 ? MarginText(*margin)
+                              : "at or beyond its limit, though not for long enough";
   }
+  return text;
+}
+
+// Where it truly stood, and what it left out.
+std::string ArrivalText(const Arrival& how) {
+  if (!how.off_m) return "";
+  std::string text = LengthText(*how.off_m) + " from the plan's end";
+  if (how.believed && *how.off_m > how.most_off_m) text += ", though it believed that it was there";
+  constexpr double kNotable = 0.005;
+  if (how.left_m && *how.left_m > kNotable * how.plan_m)
+    text += "; " + LengthText(*how.left_m) + " of the plan left out";
   return text;
 }
 
@@ -116,6 +120,8 @@ void AddPhysicsDrive(const EpisodeRecord& record, double drive_s, FactTable& tab
   const double off_m = m.max_cross_track_m;
   table.Add({"Off the path",
              (off_m < 1 ? FixedText(1000 * off_m, 0) + " mm" : LengthText(off_m)) + " at most"});
+  if (const std::string text = record.arrival ? ArrivalText(*record.arrival) : ""; !text.empty())
+    table.Add({"At the end", text});
   if (const std::string text = MarginsText(record); !text.empty())
     table.Add({"Nearest to failing", text});
 }

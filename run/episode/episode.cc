@@ -16,6 +16,7 @@
 #include "env/failures/evidence.h"
 #include "env/sim/physics_plant.h"
 #include "run/episode/aftermath.h"
+#include "run/episode/arrival.h"
 #include "run/episode/blow_meter.h"
 #include "run/episode/encounter_meter.h"
 #include "run/episode/episode_stream.h"
@@ -77,10 +78,12 @@ class EpisodeLoop {
     if (!ended) Perceive(1.0 / s_.episode.control_hz);
     return ended;
   }
-  // The same; and where the next one would end it without driving, it is at its end now.
+  // The same; and where the next one would end it without driving, or only bring it to rest, it is
+  // at its end now.
   std::optional<Outcome> AdvanceToEnd() {
     std::optional<Outcome> ended = AdvanceAndSweep();
     if (!ended && IsOver()) ended = AdvanceAndSweep();
+    while (!ended && rest_.begun()) ended = AdvanceAndSweep();
     return ended;
   }
   // What came of a period that the end broke off. Not part of the record, which is made before.
@@ -113,6 +116,8 @@ class EpisodeLoop {
     if (record.message.empty() && record.outcome == Outcome::kAborted)
       record.message = robot_side_.supervisor()->stopped();
     if (record.message.empty()) record.message = interventions_.why_not();
+    if (s_.episode.drive == "physics" && !(ended == Outcome::kSuccess && IsEnoughCovered()))
+      record.RequireArrival(HowItArrived(), MostPlanLeft());
     record.TakeMissed(robot_side_.missed());
     encounters_.OnBlow(blows_.Take());
     if (aftermath_.watched()) encounters_.TakeAfter(After(ended));
@@ -136,11 +141,18 @@ class EpisodeLoop {
     return enough && recorder_.coverage() >= *enough;
   }
   bool IsAtRest(const Supervisor& supervisor) const;
+  Arrival HowItArrived() const;
+  double MostPlanLeft() const {
+    constexpr double kMost = 0.1;
+    const bool goes_around = s_.recovery || s_.safety || s_.episode.on_failure == "assist";
+    return s_.episode.max_plan_left.value_or(goes_around ? 1 : kMost);
+  }
   bool HasRested() const {
     constexpr double kAtRest_s = 2;
     return sample_.t_s - moved_s_ >= kAtRest_s;
   }
   bool IsOver() const;
+  bool HasComeToRest() const;
   void Perceive(double dt_s) {
     plant_.Sense(sensed_);
     robot_side_.Perceive(sensed_, dt_s);
@@ -173,6 +185,8 @@ class EpisodeLoop {
   Observation sensed_;
   Sample sample_;
   PlanProgress progress_;
+  std::optional<PlanPassed> passed_;  // none: there was no plan beforehand
+  RestWatch rest_;                    // begun where it says that it is at its end
   int carried_ = 0;
   double moved_s_ = 0;  // last, or its motors were not cut
   HazardMemory met_{&HazardMemory::Holds};
@@ -200,7 +214,9 @@ EpisodeLoop::EpisodeLoop(Scenario& s, Plant& plant, Simulation* simulation, cons
       robot_side_(robot_, known_, *navigator_,
                   {*s.tracker, *s.estimator, OrNull(s.mapper), OrNull(s.recovery), OrNull(s.safety),
                    !s.online},
-                  1.0 / s.episode.control_hz) {}
+                  1.0 / s.episode.control_hz) {
+  if (!s.online && !LeadsItself(s)) passed_.emplace(plan.path, s.episode.arrival_m);
+}
 
 void EpisodeLoop::Begin() {
   plant_.Reset(s_.start, sensed_);
@@ -216,7 +232,9 @@ void EpisodeLoop::Begin() {
 
 // What happens once a control period: command by what was sensed, keep a record, look on, help.
 std::optional<Outcome> EpisodeLoop::Control() {
-  Act(interventions_.awaited() ? robot_side_.Stand() : robot_side_.Control(sensed_));
+  Act(interventions_.awaited() || rest_.begun() ? robot_side_.Stand()
+                                                : robot_side_.Control(sensed_));
+  if (passed_) passed_->Add(sample_.p_WB.head<2>(), sample_.command.dwelling);
   recorder_.OnControl(sample_, robot_side_.estimate());
   if (sight_) sight_->OnControl(sensed_, sample_);
   encounters_.OnBlow(blows_.Take());
@@ -224,17 +242,20 @@ std::optional<Outcome> EpisodeLoop::Control() {
                         navigator_->free() ? nullptr : &robot_side_.path());
 
   std::optional<Outcome> ended;
-  if (robot_side_.done() || IsEnoughCovered())
-    ended = navigator_->leads() == Navigator::Leads::kNowhere ? Outcome::kNotPlanned
-                                                              : Outcome::kSuccess;
+  if (!rest_.begun() && robot_side_.done()) rest_.Begin(sample_.t_s);
+  if (rest_.begun() && navigator_->leads() == Navigator::Leads::kNowhere)
+    ended = Outcome::kNotPlanned;
+  else if (IsEnoughCovered() || HasComeToRest())
+    ended = Outcome::kSuccess;
   if (const Supervisor* supervisor = robot_side_.supervisor())
     if (const auto over = HandedOver(*supervisor)) ended = over;
-  if (IsLate()) ended = Outcome::kTimeout;
+  if (!rest_.begun() && IsLate()) ended = Outcome::kTimeout;
   if (observer_ && !observer_->OnControl(View())) ended = Outcome::kInterrupted;
 
   if (!ended && interventions_.HasCome(sample_.t_s)) {     // after sensing: a bump was where it lay
     if (sample_.battery_v == 0) return Outcome::kFailure;  // cut off while it waited
     recorder_.OnIntervention(interventions_.SetDown(plant_, robot_side_), s_.detectors);
+    rest_.Drop();
     encounters_.Lift();
     blows_.Lift();
     Look();
@@ -264,10 +285,37 @@ bool EpisodeLoop::IsAtRest(const Supervisor& supervisor) const {
 // Whether the next Control() would end it, as far as it can be said before who commands the robot
 // says what is next.
 bool EpisodeLoop::IsOver() const {
-  if (IsLate() || IsEnoughCovered()) return true;
+  if (IsEnoughCovered()) return true;
+  if (rest_.begun()) return HasComeToRest();
+  if (IsLate()) return true;
   if (const Supervisor* supervisor = robot_side_.supervisor())
     return IsAtRest(*supervisor) && HasRested();
   return !interventions_.awaited() && robot_side_.WouldBeDone(sample_.t_s);
+}
+
+// It said that it was at its end, and stands; or has had the time for it.
+bool EpisodeLoop::HasComeToRest() const { return rest_.begun() && rest_.IsOver(sample_.t_s); }
+
+// Of a plan, where that ends; of a mission that leads by lines, where the last one ends. An unknown
+// floor has no such place.
+Arrival EpisodeLoop::HowItArrived() const {
+  Arrival how;
+  how.believed = rest_.begun();
+  how.most_off_m = s_.episode.arrival_m;
+  if (!s_.online) {
+    how.end_W = (LeadsItself(s_) ? navigator_->path() : navigator_->plan()).back().p_W;
+    how.off_m = (sample_.p_WB.head<2>() - how.end_W).norm();
+  }
+  how.at_rest = rest_.HasRested(sample_.t_s);
+  how.speed_mps = sample_.v_WB_W.norm();
+  how.turn_radps = std::abs(sample_.V_WB_B.wz_radps);
+  if (passed_) {
+    how.left_m = passed_->left_m();
+    how.plan_m = plan_m_;
+    how.tasks_missed = passed_->tasks_missed();
+    how.first_missed_W = passed_->first_missed_W();
+  }
+  return how;
 }
 
 // One step of the plant, and what is to be said of it.
@@ -294,6 +342,7 @@ std::optional<Outcome> EpisodeLoop::Step() {
   recorder_.OnStep(sample_);
   blows_.OnStep(sample_);
   aftermath_.OnStep(sample_.t_s, sample_.progress_m);
+  if (rest_.begun()) rest_.Add(sample_);
 
   if (interventions_.awaited()) return std::nullopt;  // that it does not get on is known
   if (aftermath_.watched())                           // it has failed: nothing more is judged

@@ -35,6 +35,36 @@ void EpisodeRecord::RequireCoverage(double least) {
                         100 * metrics.coverage, 100 * least);
 }
 
+void EpisodeRecord::RequireArrival(const Arrival& how, double max_plan_left) {
+  arrival = how;
+  metrics.end_off_m = how.off_m;
+  metrics.plan_left_m = how.left_m;
+  if (outcome != Outcome::kSuccess) return;
+  const std::string_view believed = how.believed ? "believed that it had arrived, but " : "";
+  if (how.off_m && *how.off_m > how.most_off_m) {
+    const Compared m = ComparedText(*how.off_m, how.most_off_m, 2, "m");
+    message =
+        fmt::format("the robot {}stands {} from the plan's end at {}; success.arrival_m allows {}",
+                    believed, m.value, PlaceText(how.end_W.x(), how.end_W.y()), m.limit);
+  } else if (!how.at_rest) {
+    message =
+        fmt::format("the robot {}did not come to rest within {:g} s: {:.2f} m/s, {:.1f} deg/s",
+                    believed, RestWatch::kPatience_s, how.speed_mps, how.turn_radps * 180 / kPi);
+  } else if (how.tasks_missed > 0) {
+    message = fmt::format("the robot {}did {} away from {}, the first due at {}", believed,
+                          CountText(how.tasks_missed, "task"),
+                          how.tasks_missed == 1 ? "its place" : "their places",
+                          PlaceText(how.first_missed_W->x(), how.first_missed_W->y()));
+  } else if (how.left_m && *how.left_m > max_plan_left * how.plan_m) {
+    message = fmt::format(
+        "the robot {}left out {:.2f} m of the plan's {:.2f} m; success.max_plan_left allows {}",
+        believed, *how.left_m, how.plan_m, PercentText(max_plan_left));
+  } else {
+    return;
+  }
+  outcome = Outcome::kFailure;
+}
+
 void EpisodeRecord::TakeMissed(const MissedStops& missed) {
   metrics.stops_missed = missed.count;
   if (missed.count == 0) return;

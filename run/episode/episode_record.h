@@ -14,6 +14,7 @@
 #include "env/core/drawn_map.h"
 #include "env/core/encounter.h"
 #include "env/core/event.h"
+#include "run/episode/arrival.h"
 #include "run/episode/floor_audit.h"
 #include "run/episode/metrics.h"
 #include "run/episode/sample_log.h"
@@ -47,7 +48,9 @@ struct EpisodeRecord {
   std::vector<Encounter> encounters;  // with hazards, in the order in which they began
   std::vector<Intervention> interventions;
   std::optional<Timeout> timeout;  // where that is the outcome
-  std::vector<SafetyRow> safety;   // of a supervised robot
+  std::optional<Arrival>
+      arrival;  // none: of a drive that ends by its coverage, or from cell to cell
+  std::vector<SafetyRow> safety;  // of a supervised robot
   std::vector<RaisedAlarm> alarms;
   std::vector<SpeedShare> speed_shares;
   Metrics metrics;
@@ -65,6 +68,8 @@ struct EpisodeRecord {
 
   // A success that covered less than it must is a failure, and says so.
   void RequireCoverage(double least);
+  // A success that did not arrive by its true place is a failure, and says so.
+  void RequireArrival(const Arrival& arrival, double max_plan_left);
   // A success that missed its plan's end is a failure, too. Whatever was missed is said.
   void TakeMissed(const MissedStops& missed);
 };

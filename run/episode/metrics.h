@@ -29,6 +29,7 @@ struct Metrics {
   int interventions = 0;
   int reactions = 0;
   int stops_missed = 0;
+  std::optional<double> end_off_m, plan_left_m;
   double max_estimate_error_m = 0, mean_estimate_error_m = 0, p95_estimate_error_m = 0;
   double mean_estimate_position_std_m = 0;
   int contacts = 0;
@@ -92,6 +93,13 @@ inline constexpr auto kMetrics = std::to_array<MetricColumn>({
     {"stops_missed", "", &Metrics::stops_missed,
      "stops of the plan, its end among them, that a robot which cannot turn on the spot passed "
      "beside: nothing was done there"},
+    {"end_off_m", "m", &Metrics::end_off_m,
+     "distance of the true place at the end from the plan's end; none where there was no plan "
+     "beforehand"},
+    {"plan_left_m", "m", &Metrics::plan_left_m,
+     "length of the plan that the robot's true place never came to, within `success.arrival_m`; "
+     "none "
+     "where there was no plan beforehand"},
     {"max_estimate_error_m", "m", &Metrics::max_estimate_error_m,
      "greatest distance of the estimated place from the true one"},
     {"mean_estimate_error_m", "m", &Metrics::mean_estimate_error_m,

@@ -233,6 +233,22 @@ Json TimeoutJson(const std::optional<Timeout>& timeout) {
           {"hazard", timeout->hazard}};
 }
 
+namespace {
+
+Json ArrivalJson(const Arrival& how) {
+  const auto or_null = [](const std::optional<double>& m) { return m ? Json(*m) : Json(nullptr); };
+  return {{"believed", how.believed},
+          {"end_off_m", or_null(how.off_m)},
+          {"end_off_allowed_m", how.most_off_m},
+          {"at_rest", how.at_rest},
+          {"speed_mps", how.speed_mps},
+          {"turn_radps", how.turn_radps},
+          {"plan_left_m", or_null(how.left_m)},
+          {"tasks_missed", how.tasks_missed}};
+}
+
+}  // namespace
+
 Json DrawnJson(const Drawn& drawn) {
   Json json = Json::object();
   for (const auto& [key, value] : drawn) json[key] = ValueJson(value);
@@ -299,6 +315,7 @@ Json ResultJson(const Scenario& s, const EpisodeRecord& record) {
                {"outcome", Name(record.outcome)},
                {"message", record.message}};
   if (record.timeout) json["timeout"] = TimeoutJson(record.timeout);
+  if (record.arrival) json["arrival"] = ArrivalJson(*record.arrival);
   if (!record.figures.empty()) json["planner"] = std::move(figures);
   if (record.audit) json["audit"] = AuditJson(*record.audit);
   if (s.safety) json["alarms"] = AlarmsJson(record.alarms);

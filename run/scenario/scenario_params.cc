@@ -30,6 +30,13 @@ void EpisodeParams::Visit(ParamVisitor& v) {
       "success",
       [this](ParamVisitor& g) {
         g("min_coverage", min_coverage, Between(0, 1), "least coverage that counts as success");
+        g("arrival_m", arrival_m, Positive(),
+          "how far from the plan's end the robot may truly stand at the end, and from the place of "
+          "each task while it is done");
+        g("max_plan_left", max_plan_left, Between(0, 1),
+          "share of the plan's length that the robot may never have come to, within arrival_m; "
+          "none: "
+          "0.1, or any of a robot that reacts, is supervised or helped");
         g("stop_at_coverage", stop_at_coverage, Between(0, 1),
           "the drive ends when so much is covered, which no robot on an unknown floor can tell; "
           "none: when its planner, or its plan, ends");

@@ -27,6 +27,10 @@ struct EpisodeParams {
   // is logged.
   std::string on_failure = "stop";
   double min_coverage = 0;
+  double arrival_m = 0.25;  // Nav2's tolerance of a goal
+  // none: a tenth, or of a robot that reacts, is supervised or helped all: what it goes around is
+  // left
+  std::optional<double> max_plan_left;
   std::optional<double> stop_at_coverage;  // none: the planner, or the plan's end, says when
   // none: three times the plan's own time, and a minute; of an online planner hours (time_limit.h)
   std::optional<double> time_limit_s;

@@ -71,8 +71,8 @@ TEST_F(DriveTableTest, SaysWhatCameOfIt) {
           "  Drive               1,200 s, 1,250 m, 1,160 kJ; simulated in 4 s, 300 times as "
           "fast",
           "  Off the path        19 mm at most",
-          "  Nearest to failing  stuck, 100 mm of 500 mm left; roll over, 20 deg of 40 deg "
-          "left; veer off, 300 mm of 500 mm left"));
+          "  Nearest to failing  stuck, 100 mm of 500 mm left; roll over, 50 % left; "
+          "veer off, 300 mm of 500 mm left"));
 }
 
 TEST_F(DriveTableTest, AFailureIsSaidOnceWithItsEvidence) {
