@@ -106,6 +106,18 @@ nlohmann::ordered_json StanceJson(const RobotStance& stance) {
   return {{"carriers", carriers}, {"support_edges", edges}};
 }
 
+std::string StandstillText(Standstill standstill) {
+  switch (standstill) {
+    case Standstill::kBrake:
+      return "brakes on its driven wheels";
+    case Standstill::kHold:
+      return "motors that hold their wheels' positions";
+    case Standstill::kFree:
+      break;
+  }
+  return "nothing: its motors give way, on a slope it rolls";
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> RobotFigures(const RobotCheck& check) {
@@ -125,6 +137,7 @@ std::vector<std::pair<std::string, std::string>> RobotFigures(const RobotCheck& 
       {"static tip", TipText(check)},
       {"motors", fmt::format("{} N at stall, {} N rolling friction",
                              NumberText(check.stall_force_n), NumberText(check.drive.rolling_n))},
+      {"stands still by", StandstillText(spec.standstill)},
       {"top speed", fmt::format("{} m/s by the motors, {} m/s allowed, {} m/s cruise",
                                 NumberText(check.top_speed_mps), NumberText(spec.max_speed_mps),
                                 NumberText(spec.cruise_mps))},
@@ -188,6 +201,7 @@ nlohmann::ordered_json RobotCheckJson(const RobotCheck& check) {
       {"driven_share", check.drive.driven_share},
       {"centre_of_mass_m", {spec.p_BCom.x(), spec.p_BCom.y(), spec.p_BCom.z()}},
       {"clearance_m", spec.clearance_m},
+      {"standstill", Name(spec.standstill)},
       {"height_m", spec.height_m},
       {"circumscribed_radius_m", spec.circumscribed_radius_m},
       {"static_tip_deg", spec.static_tip_rad / kDegree},

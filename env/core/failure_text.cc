@@ -25,13 +25,12 @@ double Lasted(const Event& event) {
 }
 
 // The words before it and the hazard, empty where none is to blame; other words for what lies below
-// this floor.
+// the base floor.
 std::string Beside(const Event& event, const HazardMap& map, std::string_view up,
-                   std::string_view down, double floor_m = 0) {
+                   std::string_view down) {
   if (event.hazard.empty()) return "";
   const Hazard* hazard = Find(map, event.hazard);
-  const bool below = hazard != nullptr ? hazard->height_m < floor_m
-                                       : event.hazard == BaseFloorId(map) && floor_m > 0;
+  const bool below = hazard != nullptr ? hazard->height_m < 0 : event.hazard == BaseFloorId(map);
   return std::string(below ? down : up) + " " + ObstaclePhrase(map, event.hazard);
 }
 
@@ -46,7 +45,20 @@ std::string VeerOffText(const Event& event, const HazardMap& map) {
   return text + Beside(event, map, ", after it met", ", after it met");
 }
 
-std::string StuckText(const Event& event, const HazardMap& map) {
+// What its driven wheels did meanwhile: hardly carried it, or ran on the spot.
+std::string WheelsText(const Event& event) {
+  constexpr double kHardly = 0.25, kSpinning_m = 0.5;
+  const auto share = Evidence(event, "driven_share");
+  if (share && *share < kHardly)
+    return "; its driven wheels carried " + PercentText(*share, 2) + " of its weight";
+  const double gained_m = Evidence(event, "gained_m").value_or(event.value);
+  if (const auto rim_m = Evidence(event, "rim_m");
+      rim_m && Evidence(event, "turning").value_or(0) == 0 && *rim_m > 3 * gained_m + kSpinning_m)
+    return "; its wheels slipped: they ran " + FixedText(*rim_m, 2) + " m";
+  return "";
+}
+
+std::string HeldText(const Event& event, const HazardMap& map) {
   constexpr double kDegree = kPi / 180;
   const double window_s = Evidence(event, "commanded_s").value_or(Lasted(event));
   const double gained_m = Evidence(event, "gained_m").value_or(event.value);
@@ -78,16 +90,22 @@ std::string StuckText(const Event& event, const HazardMap& map) {
          in;
 }
 
+std::string StuckText(const Event& event, const HazardMap& map) {
+  return HeldText(event, map) + WheelsText(event);
+}
+
 std::string RollOverText(const Event& event, const HazardMap& map) {
   if (event.kind == "fell") {
-    const Compared mm = ComparedText(-1000 * event.value, -1000 * event.threshold, 0, "mm");
-    const std::string text =
-        event.threshold <= 0
-            ? "fell: a wheel was below the base floor by " + Is(mm, "is allowed")
-            : "fell: a wheel was above the base floor by " +
-                  Is(ComparedText(1000 * event.value, 1000 * event.threshold, 0, "mm"), "is due");
-    return text + Beside(event, map, ", off", ", into", std::max(0.0, event.threshold));
+    std::string text = "fell";
+    if (event.value > event.threshold)  // not so in records of earlier versions
+      text += ": a wheel dropped by " +
+              Is(ComparedText(1000 * event.value, 1000 * event.threshold, 0, "mm"), "is allowed");
+    return text + Beside(event, map, ", off", ", into");
   }
+  if (event.kind == "landed")
+    return "landed on a wheel with " +
+           Is(ComparedText(event.value, event.threshold, 2, "J/kg"), "is allowed") +
+           Beside(event, map, ", off", ", into");
   if (event.kind == "tipped") {
     const Compared mm = ComparedText(-1000 * event.value, -1000 * event.threshold, 0, "mm");
     return "tipped: its centre of mass was outside of what its wheels stand on by " +
@@ -114,8 +132,9 @@ std::string BounceBackText(const Event& event, const HazardMap& map) {
 
 std::string HazardPhrase(const Hazard& hazard) {
   std::string text = "'" + hazard.id + "' (" + Words(hazard.type);
-  if (hazard.height_m > 0) text += ", " + LengthText(hazard.height_m);
-  if (hazard.height_m < 0) text += ", " + LengthText(-hazard.height_m) + " deep";
+  const double height_m = hazard.height_m - hazard.floor_m;
+  if (height_m > 0) text += ", " + LengthText(height_m);
+  if (height_m < 0) text += ", " + LengthText(-height_m) + " deep";
   return text + ")";
 }
 

@@ -29,7 +29,9 @@ struct Command {
 // The robot touching what stands in its way: its body, but for what it rests upon, or a wheel at a
 // face too steep to stand on.
 struct ObstacleContact {
-  int hazard = -1;               // index into HazardMap::hazards; -1: wall or furniture of the map
+  static constexpr int kFloor = -2;
+  int hazard = -1;  // index into HazardMap::hazards; -1: wall or furniture of the map; kFloor: the
+                    // base floor, or its edge
   Vec2 p_W = Vec2::Zero();       // where
   Vec2 normal_W = Vec2::Zero();  // unit, from the obstacle to the robot, in the plane
   int block = 0;  // index into RobotSpec::blocks of what touches, or carries the wheel that
@@ -74,12 +76,21 @@ struct Truth {
       0;  // weight that floor or hazards carry through the body instead of the wheels
   int belly_hazard = -1;  // index of the hazard that carries most of it; -1: none or the floor
   int wheel_contacts = 0;
+  double driven_load_n = 0;  // weight that the driven wheels carry
+  double rim_mps = 0;        // speed of the driven wheels' rims, mean of their amounts
   // Centre of mass to the border of the hull of what carries it, positive inside. What pushes from
   // aside moves the centre by its moment.
   double support_margin_m = 0;
   Vec2 off_support_W = Vec2::Zero();  // unit, from that border to the centre where it is outside
   double wheel_floor_z_m = 0;         // lowest point of the lowest driven wheel, world z
-  int near_hazard = -1;               // a hazard under or at a wheel or the body now; -1: none
+  // How far a driven wheel has dropped that lost its footing, the most of all
+  // (env/sim/drop_meter.h); where that wheel is, and the index of the hazard on which it stood, -1:
+  // the base floor.
+  double drop_m = 0;
+  Vec2 drop_W = Vec2::Zero();
+  int drop_hazard = -1;
+  double landing_mps = 0;  // downwards, of a wheel that came to stand again in this step
+  int near_hazard = -1;    // a hazard under or at a wheel or the body now; -1: none
   std::array<ObstacleContact, kMaxContacts> contacts;  // the first num_contacts hold, body first
   int num_contacts = 0;
   int carried = 0;  // how often it was taken up and set down elsewhere by what befell it

@@ -6,6 +6,18 @@
 
 namespace floorproof {
 
+std::string_view Name(Standstill standstill) {
+  switch (standstill) {
+    case Standstill::kBrake:
+      return "brake";
+    case Standstill::kHold:
+      return "hold";
+    case Standstill::kFree:
+      break;
+  }
+  return "free";
+}
+
 double EdgeAlong(const Shape2& shape, double bearing_rad) {
   if (shape.kind == Shape2::Kind::kCircle) return shape.radius_m;
   const Vec2 way(std::cos(bearing_rad), std::sin(bearing_rad));

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "env/core/battery.h"
@@ -74,6 +75,11 @@ struct ShapeSpec {
   double static_tip_rad = 0;
 };
 
+// How a robot stands still once it is told to: by brakes on its driven wheels, by motors that hold
+// their wheels' positions, or not at all, its motors told to stand but giving way.
+enum class Standstill { kBrake, kHold, kFree };
+std::string_view Name(Standstill standstill);
+
 struct RobotSpec {
   std::string name;
   std::string model_file;                // the MJCF
@@ -94,6 +100,7 @@ struct RobotSpec {
   double inscribed_radius_m = 0, circumscribed_radius_m = 0;
   double height_m = 0;
 
+  Standstill standstill = Standstill::kHold;
   double mass_kg = 0;
   Vec3 p_BCom = Vec3::Zero();
   double clearance_m = 0;     // belly above the floor

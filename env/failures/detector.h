@@ -60,7 +60,8 @@ struct NamedDetector {
 
 std::span<const PluginEntry<Detector>> Detectors();
 
-// The id of the hazard of that index, "wall" for a map's own obstacle when `contact`, else "".
+// The id of the hazard of that index, or of the base floor (ObstacleContact::kFloor); "wall" for a
+// map's own obstacle when `contact`, else "".
 std::string HazardId(const HazardMap& map, int index, bool contact);
 
 }  // namespace floorproof

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of detectors, made from its list.
+#include "env/core/levels.h"
 #include "env/failures/detector.h"
 
 namespace floorproof {
@@ -20,6 +21,7 @@ std::span<const PluginEntry<Detector>> Detectors() {
 std::string HazardId(const HazardMap& map, int index, bool contact) {
   if (index >= 0 && index < static_cast<int>(map.hazards.size()))
     return map.hazards[static_cast<std::size_t>(index)].id;
+  if (index == ObstacleContact::kFloor) return BaseFloorId(map);
   return contact ? "wall" : "";
 }
 

@@ -4,25 +4,28 @@
 //   kind `tipped`: the centre of mass lies outside the hull of what carries the robot, by more than
 //     tipped_share of the support at rest, on the side to which it leans, and does not come back
 //     for tipped_duration_s while a wheel touches (a robot in the air is not tipped yet);
-//   kind `fell`: the lowest driven wheel is more than fall_m below the plan's floor; a robot that
-//     lands on its wheels after a drop was never tilted much.
+//   kind `fell`: a driven wheel lost its footing and dropped by more than fall_m, or than the step
+//     that the robot is measured or trusted to cross where that is higher; or it landed with more
+//     than landing_j_per_kg, half the square of its speed downwards. It is what the wheels did that
+//     counts, on whatever floor and whatever the plan knew (env/sim/drop_meter.h).
 // The tilt limit is mjlab's bad-orientation termination; the others are static stability. The
 // static tip angle is no limit: a robot that rears up on a cover leans by more and comes back, one
 // that rests on its belly's edge leans by more and drives. What is that deep outside falls on: an
 // upright pendulum's deviation grows by cosh(t sqrt(g / h)), 13 times in half a second at h = 0.2
 // m. A robot that rocks over a bump crosses the border of its support as well. It does so from the
 // far side, coming back to level, or by less than that, until the next wheel touches. One that
-// rests on two points has no polygon, and no deviation beyond noise either. The plan's floor is
-// that of plan_floor.h. It does not judge how hard a landing was.
+// rests on two points has no polygon, and no deviation beyond noise either.
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "env/core/levels.h"
+#include "env/core/measured_limits.h"
+#include "env/core/slopes.h"
 #include "env/failures/detector.h"
 #include "env/failures/evidence.h"
 #include "env/failures/footing.h"
-#include "env/failures/plan_floor.h"
 #include "env/failures/posture.h"
 
 namespace floorproof {
@@ -30,6 +33,7 @@ namespace {
 
 constexpr double kTimeSlackS = 1e-9;  // sums of time steps are not exact
 constexpr double kRecallS = 3.0;      // from the edge to the floor takes about a second
+constexpr double kWellS = 1.0;        // after which a failure is another one
 
 // No contact is placed better than this: a support may be a line.
 constexpr double kNoise_m = 0.002;
@@ -64,7 +68,11 @@ class RollOver final : public Detector {
       "how long the centre of mass must stand outside the wheels' support");
     v("tipped_share", tipped_share_, Between(0, 1),
       "how far outside that is, as a share of the support at rest");
-    v("fall_m", fall_m_, Positive(), "depth of the wheels below the plan's floor that is a fall");
+    v("fall_m", fall_m_, Positive(),
+      "how far a wheel may drop that loses its footing, or as far as the robot's own step if that "
+      "is more");
+    v("landing_j_per_kg", landing_j_per_kg_, Positive(),
+      "energy with which a wheel may land, for each kilogram; 1 is a drop of 0.1 m");
   }
 
   FailureMode mode() const override { return FailureMode::kRollOver; }
@@ -76,10 +84,12 @@ class RollOver final : public Detector {
     robot_ = &robot;
     // From the centre of mass to the nearest edge of the wheels' polygon.
     deep_m_ = std::max(kNoise_m, tipped_share_ * robot.p_BCom.z() * std::tan(robot.static_tip_rad));
-    floor_ = PlanFloor(context.map, robot);
+    most_drop_m_ = std::max(fall_m_, TrustedStep(robot, context.map.floor_friction));
+    start_m_.reset();
     hazards_.Start(context);
     tilted_.Clear();
     unsupported_.Clear();
+    well_.Clear();
     reported_ = false;
     rest_support_m_ = window_support_m_ = most_lean_rad_ = 0;
     window_since_s_ = 0;
@@ -88,18 +98,15 @@ class RollOver final : public Detector {
 
   bool Update(const Sample& sample) override {
     hazards_.Update(sample);
-    if (!floor_.IsSetDown()) floor_.SetDown(sample);
+    if (!start_m_) start_m_ = FloorUnder(*map_, *robot_, sample);
     const double tilt_margin_rad = limit_rad_ - sample.tilt_rad;
     const bool tilted = tilted_.Update(tilt_margin_rad < 0, sample.t_s, tilt_duration_s_);
 
     const bool off_support = sample.wheel_contacts > 0 && FallsOn(sample);
     const bool tipped = unsupported_.Update(off_support, sample.t_s, tipped_duration_s_);
 
-    // The exact floor matters only to a wheel that is below any floor the plan can have.
-    double fall_threshold_m = floor_.highest_m() - fall_m_;
-    if (sample.wheel_floor_z_m < fall_threshold_m)
-      fall_threshold_m = floor_.Under(sample) - fall_m_;
-    const bool fell = sample.wheel_floor_z_m < fall_threshold_m;
+    const double landing_j_per_kg = sample.landing_mps * sample.landing_mps / 2;
+    const bool fell = sample.drop_m > most_drop_m_ || landing_j_per_kg > landing_j_per_kg_;
 
     // In radians of tilt: each inequality's share still left, times the tilt limit. Conditions that
     // have not lasted long enough count as just met.
@@ -107,18 +114,21 @@ class RollOver final : public Detector {
         tilted ? tilt_margin_rad / limit_rad_ : std::max(0.0, tilt_margin_rad / limit_rad_);
     left = std::min(left, tipped && rest_support_m_ > 0 ? ShareOfSupport(sample.support_margin_m)
                                                         : SupportLeft(sample));
-    left = std::min(left, (sample.wheel_floor_z_m - fall_threshold_m) / fall_m_);
+    left = std::min(
+        {left, 1 - sample.drop_m / most_drop_m_, 1 - landing_j_per_kg / landing_j_per_kg_});
     if (tipped || fell) left = std::min(left, -std::numeric_limits<double>::min());
     margin_ = std::min(margin_, left * limit_rad_);
 
     if (!tilted && !tipped && !fell) {
-      // Rearmed when all is well again, not merely when a condition's clock restarted.
-      if (tilt_margin_rad >= 0 && !off_support) reported_ = false;
+      // Rearmed when all has been well for a while, not merely when a condition's clock restarted:
+      // of one that goes over an edge, one wheel falls after the other.
+      if (well_.Update(tilt_margin_rad >= 0 && !off_support, sample.t_s, kWellS)) reported_ = false;
       return false;
     }
+    well_.Clear();
     if (reported_) return false;
     reported_ = true;
-    Report(sample, tilted, fell, fall_threshold_m);
+    Report(sample, tilted, fell);
     return true;
   }
 
@@ -153,12 +163,31 @@ class RollOver final : public Detector {
 
   // The id of the gap there: in the floor, or a floor below that of the start. Else "".
   std::string DropAt(const Vec2& p_W) const {
+    bool is_base = true;
+    for (std::size_t h = map_->hazards.size(); h-- > 0;) {
+      const Hazard& hazard = map_->hazards[h];
+      const bool is_level = hazard.hazard_class == HazardClass::kLevelChange || IsRamp(hazard);
+      for (const Polygon& polygon : hazard.footprint) {
+        if (!Contains(polygon, p_W)) continue;
+        if (IsGap(hazard, *start_m_)) return hazard.id;
+        is_base &= !is_level;
+      }
+    }
+    return is_base && *start_m_ > 0 ? BaseFloorId(*map_) : "";
+  }
+
+  // What a wheel fell from: the gap into which it went, else the hazard on which it stood.
+  std::string FellFrom(const Sample& sample) const {
     for (std::size_t h = map_->hazards.size(); h-- > 0;) {
       const Hazard& hazard = map_->hazards[h];
       for (const Polygon& polygon : hazard.footprint)
-        if (IsGap(hazard, floor_.start_m()) && Contains(polygon, p_W)) return hazard.id;
+        if (hazard.height_m < 0 && static_cast<int>(h) != sample.drop_hazard &&
+            Contains(polygon, sample.drop_W))
+          return hazard.id;
     }
-    return floor_.IsBase(p_W) && floor_.start_m() > 0 ? BaseFloorId(*map_) : "";
+    if (sample.drop_hazard >= 0)
+      return map_->hazards[static_cast<std::size_t>(sample.drop_hazard)].id;
+    return "";
   }
 
   // The gap into which the robot has gone: below what has sunk deepest, of its wheels and its
@@ -169,7 +198,7 @@ class RollOver final : public Detector {
     double deepest_m = kSunk_m;
     const auto look = [&](const Vec3& p_B, double rest_m) {
       const Vec3 p_W = sample.p_WB + R_WB * p_B;
-      const double sunk_m = floor_.start_m() + rest_m - p_W.z();
+      const double sunk_m = *start_m_ + rest_m - p_W.z();
       if (sunk_m <= deepest_m) return;
       std::string below = DropAt(p_W.head<2>());
       if (below.empty()) return;
@@ -191,36 +220,36 @@ class RollOver final : public Detector {
     return drop;
   }
 
-  void Report(const Sample& sample, bool tilted, bool fell, double fall_threshold_m) {
-    std::string hazard = DropBelow(sample);
+  void Report(const Sample& sample, bool tilted, bool fell) {
+    std::string hazard = fell ? FellFrom(sample) : DropBelow(sample);
     if (hazard.empty()) hazard = hazards_.Recall(sample.t_s - kRecallS);
-    if (tilted)
-      event_ = MakeEvent(mode(), "", sample, std::move(hazard), sample.tilt_rad, limit_rad_);
+    if (fell && sample.drop_m > most_drop_m_)
+      event_ = MakeEvent(mode(), "fell", sample, std::move(hazard), sample.drop_m, most_drop_m_);
     else if (fell)
-      event_ = MakeEvent(mode(), "fell", sample, std::move(hazard), sample.wheel_floor_z_m,
-                         fall_threshold_m);
+      event_ = MakeEvent(mode(), "landed", sample, std::move(hazard),
+                         sample.landing_mps * sample.landing_mps / 2, landing_j_per_kg_);
+    else if (tilted)
+      event_ = MakeEvent(mode(), "", sample, std::move(hazard), sample.tilt_rad, limit_rad_);
     else
       event_ =
           MakeEvent(mode(), "tipped", sample, std::move(hazard), sample.support_margin_m, -deep_m_);
-    event_.evidence = {{"tilt_rad", sample.tilt_rad},
-                       {"support_margin_m", sample.support_margin_m},
-                       {"wheel_floor_z_m", sample.wheel_floor_z_m},
-                       {"roll_rad", sample.roll_rad},
-                       {"pitch_rad", sample.pitch_rad}};
+    event_.evidence = {{"tilt_rad", sample.tilt_rad}, {"support_margin_m", sample.support_margin_m},
+                       {"drop_m", sample.drop_m},     {"landing_mps", sample.landing_mps},
+                       {"roll_rad", sample.roll_rad}, {"pitch_rad", sample.pitch_rad}};
   }
 
   double tilt_limit_deg_ = 70;  // mjlab's
   double tilt_duration_s_ = 0.1, tipped_duration_s_ = 0.5;
-  double tipped_share_ = 0.1;  // ours
-  double fall_m_ = 0.030;
+  double tipped_share_ = 0.1;                     // ours
+  double fall_m_ = 0.030, landing_j_per_kg_ = 1;  // ours
 
   const HazardMap* map_ = nullptr;
   const RobotSpec* robot_ = nullptr;
   double limit_rad_ = 0;
-  double deep_m_ = 0, most_lean_rad_ = 0;
-  PlanFloor floor_;
+  double deep_m_ = 0, most_lean_rad_ = 0, most_drop_m_ = 0;
+  std::optional<double> start_m_;  // height of the floor on which it was set down
   HazardMemory hazards_{&HazardMemory::Tilts};
-  Lasting tilted_, unsupported_;
+  Lasting tilted_, unsupported_, well_;
   double rest_support_m_ = 0;  // the most seen: the support when standing well
   double window_support_m_ = 0, window_since_s_ = 0;
   bool reported_ = false;

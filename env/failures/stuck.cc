@@ -109,6 +109,8 @@ class Stuck final : public Detector {
     double turned_rad = 0;       // of that angle, as commanded
     bool turns_in_vain = false;  // so many turns commanded here are not the plan's
     double belly_ns = 0;         // belly load
+    double driven_ns = 0;        // load of the driven wheels
+    double rim_m = 0;            // way of their rims
     double progress_m = 0;
     Vec2 p_WB = Vec2::Zero();
     double t_s = 0;
@@ -163,6 +165,8 @@ class Stuck final : public Detector {
     now_.clock_s += clock_s;
     now_.commanded_s += dt_s;
     now_.belly_ns += sample.belly_load_n * clock_s;
+    now_.driven_ns += sample.driven_load_n * clock_s;
+    now_.rim_m += sample.rim_mps * dt_s;
   }
 
   void Keep(const Sample& sample) {
@@ -252,6 +256,8 @@ class Stuck final : public Detector {
                        {"commanded_s", last.commanded_s - first.commanded_s},
                        {"still_s", Still()},
                        {"belly_load_n", belly_n},
+                       {"driven_share", (last.driven_ns - first.driven_ns) / window_s_ / weight_n_},
+                       {"rim_m", last.rim_m - first.rim_m},
                        {"since_s", first.t_s}};
     return true;
   }

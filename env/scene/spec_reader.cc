@@ -54,6 +54,18 @@ void ReadBattery(const CompiledRobot& compiled, RobotSpec& robot) {
   }
 }
 
+// What the model says; else a brake where it is heavy, and what holds its wheels where it is not.
+Standstill ReadStandstill(const CompiledRobot& compiled, double mass_kg) {
+  constexpr const char* kKey = "standstill";
+  constexpr double kHeavy_kg = 40;
+  if (mj_name2id(compiled.model(), mjOBJ_TEXT, kKey) < 0)
+    return mass_kg > kHeavy_kg ? Standstill::kBrake : Standstill::kHold;
+  const std::string text = compiled.Text(kKey);
+  for (const Standstill kind : {Standstill::kBrake, Standstill::kHold, Standstill::kFree})
+    if (text == Name(kind)) return kind;
+  throw InputError({compiled.file(), 0}, kKey, text, "must be brake, hold or free");
+}
+
 Shape2 ReadShape(const CompiledRobot& compiled, const char* key, double radius_m,
                  const Polygon& hull) {
   const std::string kind = compiled.Text(key);
@@ -110,6 +122,7 @@ RobotSpec ReadSpec(const mjModel* model, const std::string& file) {
   ReadSteering(compiled, robot);
   ReadBattery(compiled, robot);
   ReadBody(compiled, robot);
+  robot.standstill = ReadStandstill(compiled, robot.mass_kg);
   ReadShapes(compiled, robot);
   ReadMeasuredLimits(compiled, robot);
   return robot;

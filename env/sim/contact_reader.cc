@@ -25,7 +25,7 @@ Wrench& operator+=(Wrench& sum, const Wrench& w) {
 }  // namespace
 
 ContactReader::ContactReader(const Scene& scene, const HazardMap& map, const RobotSpec& robot)
-    : scene_(scene), map_(map), far_m_(robot.circumscribed_radius_m) {
+    : scene_(scene), map_(map), drops_(robot.wheels.size()), far_m_(robot.circumscribed_radius_m) {
   const mjModel* m = scene.model.get();
   if (robot.hinges.empty())
     block_bodies_ = {scene.base_body};
@@ -39,14 +39,21 @@ ContactReader::ContactReader(const Scene& scene, const HazardMap& map, const Rob
         block != block_bodies_.end() ? static_cast<int>(block - block_bodies_.begin())
                                      : block_of_[static_cast<std::size_t>(m->body_parentid[b])];
   }
+  wheel_of_.assign(static_cast<std::size_t>(m->nbody), -1);
+  for (std::size_t w = 0; w < robot.wheels.size(); ++w)
+    wheel_of_[static_cast<std::size_t>(m->jnt_bodyid[m->actuator_trnid[2 * w]])] =
+        static_cast<int>(w);
+  for (int b = 1; b < m->nbody; ++b)  // the rollers of a wheel are its children
+    if (int& wheel = wheel_of_[static_cast<std::size_t>(b)]; wheel < 0)
+      wheel = wheel_of_[static_cast<std::size_t>(m->body_parentid[b])];
   support_.reserve(kMaxSupports);
   hull_.reserve(2 * kMaxSupports);
   belly_n_.resize(map.hazards.size() + 1);
 }
 
-void ContactReader::Read(const mjModel* m, const mjData* d, const Vec2& lowest_wheel_W,
+void ContactReader::Read(const mjModel* m, const mjData* d, std::span<const Vec3> lowest_W,
                          Truth& truth) {
-  truth.belly_load_n = 0;
+  truth.belly_load_n = truth.driven_load_n = 0;
   truth.wheel_contacts = truth.num_contacts = truth.num_touches = 0;
   truth.near_hazard = -1;
   support_.clear();
@@ -65,6 +72,7 @@ void ContactReader::Read(const mjModel* m, const mjData* d, const Vec2& lowest_w
       const double nz = contact.normal_W.z();
       const bool carries = nz > (wheels ? kWedged : kSteep);
       truth.wheel_contacts += wheels ? 1 : 0;
+      if (wheels) AddFooting(m, contact, truth);
       if (!wheels && nz > kWedged) AddBellyLoad(contact, truth);
       if (nz <= kSteep) AddObstacle(m, d, contact, truth);
       if (!carries)
@@ -74,8 +82,11 @@ void ContactReader::Read(const mjModel* m, const mjData* d, const Vec2& lowest_w
     }
   const auto most = std::ranges::max_element(belly_n_);
   truth.belly_hazard = *most > 0 ? static_cast<int>(most - belly_n_.begin()) - 1 : -1;
-  if (truth.near_hazard < 0 && truth.wheel_floor_z_m < -kBelow_m)
-    truth.near_hazard = CutAt(lowest_wheel_W);  // a wheel that hangs in it
+  if (truth.near_hazard < 0 && truth.wheel_floor_z_m < -kBelow_m) {  // a wheel that hangs in it
+    const auto z = [](const Vec3& p_W) { return p_W.z(); };
+    truth.near_hazard = CutAt(std::ranges::min_element(lowest_W, {}, z)->head<2>());
+  }
+  drops_.Update(m, d, lowest_W, truth);
   MeasureSupport(m, d, truth);
 }
 
@@ -153,6 +164,8 @@ void ContactReader::AddObstacle(const mjModel* m, const mjData* d, const Contact
 
   ObstacleContact& out = truth.contacts[static_cast<std::size_t>(truth.num_contacts++)];
   out.hazard = contact.world.hazard;
+  if (out.hazard < 0 && contact.world.kind != GeomRole::Kind::kWall)
+    out.hazard = ObstacleContact::kFloor;
   out.p_W = contact.p_W.head<2>();
   out.normal_W = normal_W;
   out.block = block;
@@ -172,6 +185,14 @@ void ContactReader::AddSupport(const Vec3& p_W) {
   if (support_.size() == kMaxSupports) return;
   support_.emplace_back(p_W.x(), p_W.y());
   support_z_m_ += p_W.z();
+}
+
+void ContactReader::AddFooting(const mjModel* m, const Contact& contact, Truth& truth) {
+  const int wheel = wheel_of_[static_cast<std::size_t>(m->geom_bodyid[contact.geom])];
+  if (wheel < 0 || contact.normal_n <= 0 || contact.normal_W.z() <= 0) return;
+  truth.driven_load_n += contact.force_W_n().z();
+  drops_.OnContact(static_cast<std::size_t>(wheel), contact.p_W, contact.normal_W.z(),
+                   contact.world.hazard);
 }
 
 void ContactReader::AddLoad(const Contact& contact) {

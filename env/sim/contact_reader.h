@@ -5,12 +5,14 @@
 
 #include <mujoco/mujoco.h>
 
+#include <span>
 #include <vector>
 
 #include "env/core/hazard_map.h"
 #include "env/core/motion.h"
 #include "env/core/robot_spec.h"
 #include "env/scene/scene.h"
+#include "env/sim/drop_meter.h"
 
 namespace floorproof {
 
@@ -19,9 +21,12 @@ class ContactReader {
   // `scene` and `map` outlive it.
   ContactReader(const Scene& scene, const HazardMap& map, const RobotSpec& robot);
 
+  // The robot is set down anew.
+  void Reset() { drops_.Reset(); }
   // Fills in all that `truth` says of contacts; its pose stands there already. Model and data are
-  // those of a simulation of the scene. Allocates nothing.
-  void Read(const mjModel* m, const mjData* d, const Vec2& lowest_wheel_W, Truth& truth);
+  // those of a simulation of the scene; `lowest_W`: the lowest point of each driven wheel, world
+  // frame. Allocates nothing.
+  void Read(const mjModel* m, const mjData* d, std::span<const Vec3> lowest_W, Truth& truth);
 
  private:
   // One contact of the robot with the world.
@@ -44,13 +49,16 @@ class ContactReader {
   void AddObstacle(const mjModel* m, const mjData* d, const Contact& contact, Truth& truth) const;
   void AddBellyLoad(const Contact& contact, Truth& truth);
   void AddSupport(const Vec3& p_W);
+  void AddFooting(const mjModel* m, const Contact& contact, Truth& truth);
   void AddLoad(const Contact& contact);
   void MeasureSupport(const mjModel* m, const mjData* d, Truth& truth);
 
   const Scene& scene_;
   const HazardMap& map_;
-  std::vector<int> block_bodies_;     // the base alone of a robot without hinges
-  std::vector<int> block_of_;         // by body: index of the block that it is, or is carried by
+  std::vector<int> block_bodies_;  // the base alone of a robot without hinges
+  std::vector<int> block_of_;      // by body: index of the block that it is, or is carried by
+  std::vector<int> wheel_of_;      // by body: index of the driven wheel that it is part of, or -1
+  DropMeter drops_;
   double far_m_;                      // of a robot that nothing carries
   std::vector<Vec2> support_, hull_;  // scratch, capacity fixed
   double support_z_m_ = 0;            // sum over them

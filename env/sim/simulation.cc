@@ -66,6 +66,11 @@ Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec
     wheel_bodies_.push_back(m->jnt_bodyid[joint]);
     wheel_qpos_.push_back(m->jnt_qposadr[joint]);
   }
+  lowest_W_.resize(wheel_bodies_.size());
+  std::vector<int> dofs;
+  for (std::size_t w = 0; w < wheel_bodies_.size(); ++w)
+    dofs.push_back(m->jnt_dofadr[m->actuator_trnid[2 * w]]);
+  hold_.emplace(robot, m, std::move(dofs), wheel_qpos_);
 }
 
 void Simulation::Place(const Pose2& X_WB) {
@@ -89,6 +94,7 @@ void Simulation::Reset(const Pose2& X_WB) {
   battery_.Weaken(altered_.battery_voltage);
   truth_ = Truth{};
   CutMotors({});
+  StandStill();
   Settle(X_WB, 0);
 }
 
@@ -101,15 +107,26 @@ void Simulation::SetDown(const Pose2& X_WB) {
   for (const int adr : wheel_qpos_) turned_rad.push_back(d->qpos[adr]);
   mj_resetData(model(), d);
   for (std::size_t w = 0; w < turned_rad.size(); ++w) d->qpos[wheel_qpos_[w]] = turned_rad[w];
+  StandStill();
   Settle(X_WB, t_s);
 }
 
+// Told to stand, and not held yet.
+void Simulation::StandStill() {
+  std::fill_n(data_->ctrl, robot_.wheels.size(), 0.0);
+  hold_->Command({data_->ctrl, robot_.wheels.size()});
+  hold_->Release(own_.get(), live_.model(), data_.get());
+  live_.Refresh();
+}
+
 void Simulation::CarryTo(const Pose2& X_WB) {
-  const std::vector<mjtNum> orders(data_->ctrl, data_->ctrl + model()->nu);
+  std::vector<mjtNum> orders(data_->ctrl, data_->ctrl + model()->nu);
+  std::ranges::copy(hold_->told_radps(), orders.begin());
   folded_ = truth_.hinges;  // whoever takes it up does not fold it
   SetDown(X_WB);
   folded_.reset();
   std::ranges::copy(orders, data_->ctrl);
+  hold_->Command(std::span(orders).first(robot_.wheels.size()));
   ++truth_.carried;
 }
 
@@ -143,13 +160,15 @@ void Simulation::Settle(const Pose2& X_WB, double t_s) {
   live_.Update(d);
   ForwardEngine(model(), d);
   ReadPose();
-  contacts_.Read(model(), data_.get(), lowest_wheel_W_, truth_);
+  contacts_.Reset();
+  contacts_.Read(model(), data_.get(), lowest_W_, truth_);
   ReadPower(0);
 }
 
 void Simulation::SetWheelSpeeds(std::span<const double> wheel_radps) {
   std::copy(wheel_radps.begin(), wheel_radps.end(), data_->ctrl);
   HoldStuckWheels();
+  hold_->Command({data_->ctrl, robot_.wheels.size()});
 }
 
 void Simulation::CutMotors(std::span<const char> cut) {
@@ -169,10 +188,11 @@ void Simulation::HoldStuckWheels() {
 
 bool Simulation::Step() {
   if (slips_) GripWhatIsMet();
+  if (hold_->Update(own_.get(), live_.model(), data_.get(), cut_)) live_.Refresh();
   live_.Update(data_.get());
   StepEngine(model(), data_.get());
   ReadPose();
-  contacts_.Read(model(), data_.get(), lowest_wheel_W_, truth_);
+  contacts_.Read(model(), data_.get(), lowest_W_, truth_);
   ReadPower(model()->opt.timestep);
   return !Diverged(data_.get()) && std::isfinite(truth_.p_WB.sum()) &&
          std::isfinite(truth_.v_WB_W.sum());
@@ -232,6 +252,7 @@ void Simulation::ReadPose() {
   truth_.V_WB_B = {v_B[0], v_B[1], v[5]};
 
   double lowest = 1e9;
+  truth_.rim_mps = 0;
   for (std::size_t w = 0; w < wheel_bodies_.size(); ++w) {
     // Lowest point of a cylinder whose axle is tilted: radius and half width share the drop; its
     // rollers round it.
@@ -242,9 +263,11 @@ void Simulation::ReadPose() {
         (wheel.radius_m - wheel.roller_radius_m) * std::sqrt(std::max(0.0, 1 - axle_z * axle_z)) +
         wheel.half_width_m * std::abs(axle_z) + wheel.roller_radius_m;
     const mjtNum* p_W = d->xpos + 3 * wheel_bodies_[w];
-    if (p_W[2] - drop >= lowest) continue;
-    lowest = p_W[2] - drop;
-    lowest_wheel_W_ = {p_W[0], p_W[1]};
+    lowest_W_[w] = {p_W[0], p_W[1], p_W[2] - drop};
+    lowest = std::min(lowest, lowest_W_[w].z());
+    const double omega_radps = d->qvel[m->jnt_dofadr[m->actuator_trnid[2 * w]]];
+    truth_.rim_mps +=
+        std::abs(omega_radps) * wheel.radius_m / static_cast<double>(wheel_bodies_.size());
   }
   truth_.wheel_floor_z_m = lowest;
 }

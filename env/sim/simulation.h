@@ -14,6 +14,7 @@
 #include "env/scene/scene.h"
 #include "env/sim/contact_reader.h"
 #include "env/sim/live_geoms.h"
+#include "env/sim/standstill.h"
 
 namespace floorproof {
 
@@ -67,6 +68,7 @@ class Simulation {
 
  private:
   void Place(const Pose2& X_WB);
+  void StandStill();
   void Settle(const Pose2& X_WB, double t_s);
   void ReadHinges();
   void ReadPose();
@@ -87,6 +89,7 @@ class Simulation {
   LiveGeoms live_;
   DataPtr data_;
   ContactReader contacts_;
+  std::optional<StandstillHold> hold_;  // always there, once built
   Truth truth_;
   Alterations altered_;
   std::vector<char> cut_;  // by wheel
@@ -100,7 +103,7 @@ class Simulation {
   int fork_qpos_ = 0, fork_dof_ = 0;         // and of the fork's, where the robot steers
   std::optional<HingeState> folded_;         // as it is set down; none: in its start shape
   BlockMotions blocks_;                      // of a robot with hinges; else at rest
-  Vec2 lowest_wheel_W_ = Vec2::Zero();
+  std::vector<Vec3> lowest_W_;               // point of each driven wheel
 };
 
 }  // namespace floorproof

@@ -21,8 +21,14 @@ Trace Tilted(double tilt_rad, double duration_s) {
   return Changed([=](Sample& s) { s.tilt_rad = tilt_rad; }, duration_s);
 }
 
-Trace Sunk(double z_m) {
-  return Changed([=](Sample& s) { s.wheel_floor_z_m = s.p_WB.z() = z_m; }, 1);
+Trace Dropped(double drop_m, int hazard = -1) {
+  return Changed(
+      [=](Sample& s) {
+        s.drop_m = drop_m;
+        s.drop_W = s.p_WB.head<2>();
+        s.drop_hazard = hazard;
+      },
+      0.2);
 }
 
 constexpr double kLimit_rad = 70 * kPi / 180;
@@ -86,84 +92,75 @@ TEST(RollOver, ComingBackToLevelIsNoTip) {
   EXPECT_EQ(Events(Changed(growing, 1.5)).size(), 1u);
 }
 
-TEST(RollOver, FellWhenTheWheelsSinkBelowThePlansFloor) {
-  EXPECT_TRUE(Events(Sunk(-0.029)).empty());
-  const auto events = Events(Sunk(-0.031));
+TEST(RollOver, FellWhenAWheelDrops) {
+  EXPECT_TRUE(Events(Dropped(0.029)).empty());
+  const auto events = Events(Dropped(0.031));
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].kind, "fell");
-  EXPECT_LT(events[0].value, events[0].threshold);
-  EXPECT_EQ(Events(Sunk(-0.031), "{fall_m: 0.05}").size(), 0u);
+  EXPECT_DOUBLE_EQ(events[0].value, 0.031);
+  EXPECT_DOUBLE_EQ(events[0].threshold, 0.030);
+  EXPECT_TRUE(Events(Dropped(0.031), "{fall_m: 0.05}").empty());
 }
 
-TEST(RollOver, AKnownLowFloorThatIsDrivenOverIsThePlans) {
-  //      0 ______            ______
-  //              |__________|        -12 mm, driven over
-  std::string hazard;
-  bool starts_in_it = false;
-  const auto judge = [&](double height_m, bool known, double wheel_z_m) {
-    HazardMap map;
-    Hazard pit;
-    pit.id = "pit";
-    pit.hazard_class = HazardClass::kLevelChange;
-    pit.known = known;
-    pit.height_m = height_m;
-    pit.footprint = {Rectangle({-5, -5}, {5, 5})};
-    map.hazards = {pit};
-    const RobotSpec robot = TestRobot();
+// A robot comes down from what it climbs.
+TEST(RollOver, ADropByTheRobotsOwnStepIsNoFall) {
+  const HazardMap map = TestMap();
+  RobotSpec robot = TestRobot();
+  const auto events = [&](double drop_m) {
     const auto dut = MakeDetector("roll_over");
     dut->Start({map, robot, kStepS});
-    int events = 0;
-    Trace trace = Sunk(wheel_z_m);
-    if (starts_in_it) {
-      for (Sample& s : trace)
-        if (s.wheel_floor_z_m == 0) s.wheel_floor_z_m = height_m;
-    } else {
-      trace.front().p_WB.x() -= 20;
-      trace.front().wheel_floor_z_m = 0;
-    }
-    for (const Sample& s : trace) {
-      if (!dut->Update(s)) continue;
-      ++events;
-      hazard = dut->event().hazard;
-    }
-    return events;
+    int n = 0;
+    for (const Sample& s : Dropped(drop_m)) n += dut->Update(s) ? 1 : 0;
+    return n;
   };
-  EXPECT_EQ(judge(-0.012, true, -0.040), 0);
-  EXPECT_EQ(judge(-0.012, true, -0.043), 1);
-  EXPECT_EQ(judge(-0.012, false, -0.040), 1) << "the plan did not know of it";
-  EXPECT_EQ(judge(-0.150, true, -0.150), 1) << "the plan keeps off a drop beyond step_m";
-  EXPECT_EQ(hazard, "pit") << "it lies below, though nothing touches it";
-  EXPECT_EQ(judge(0.012, true, -0.017), 0) << "a raised floor all around";
-  EXPECT_EQ(judge(0.012, true, -0.019), 1);
-  starts_in_it = true;
-  for (const bool known : {false, true}) {
-    EXPECT_EQ(judge(-0.150, known, -0.150), 0) << "it was set down there";
-    EXPECT_EQ(judge(-0.150, known, -0.190), 1) << "and fell deeper";
-    EXPECT_EQ(judge(0.150, known, 0.150), 0);
-    EXPECT_EQ(judge(0.150, known, 0.110), 1) << "the raised floor is its floor";
-  }
+  EXPECT_EQ(events(0.045), 1);
+  robot.step_m = 0.05;
+  EXPECT_EQ(events(0.045), 0);
+  EXPECT_EQ(events(0.051), 1);
 }
 
-// A robot that starts at x < 1 and goes over an edge at x = 1. The base floor is one of the two
-// levels, or none of them.
+TEST(RollOver, AHardLandingIsAFall) {
+  const auto landed = [](double v_mps) {
+    return Events(Changed([=](Sample& s) { s.landing_mps = v_mps; }, kStepS));
+  };
+  EXPECT_TRUE(landed(1.40).empty());
+  const auto events = landed(1.43);  // 1.02 J/kg
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, "landed");
+  EXPECT_NEAR(events[0].value, 1.02, 0.01);
+}
+
+// Where it stood, or the gap into which it went.
+TEST(RollOver, NamesWhatItFellFrom) {
+  EXPECT_EQ(Events(Dropped(0.1, kStepHazard)).at(0).hazard, "sill");
+  EXPECT_EQ(Events(Dropped(0.1)).at(0).hazard, "");
+  HazardMap map;
+  Hazard pit;
+  pit.id = "pit";
+  pit.height_m = -0.15;
+  pit.footprint = {Rectangle({0, -5}, {5, 5})};
+  map.hazards = {pit};
+  const RobotSpec robot = TestRobot();
+  const auto dut = MakeDetector("roll_over");
+  dut->Start({map, robot, kStepS});
+  std::string hazard = "?";
+  for (const Sample& s : Dropped(0.1))
+    if (dut->Update(s)) hazard = dut->event().hazard;
+  EXPECT_EQ(hazard, "pit");
+}
+
+// A robot that starts at x < 1; the base floor is one of the two levels, or none of them.
 //
 //   ____________
 //   start       |__________  lower by drop_m
 //        x < 1     x > 1
-struct Edge {
-  double start_m = 0, drop_m = 0;
-  bool known = false;
-  bool whole_platform = false;  // the level of the start lies below the other one as well
-};
-
-HazardMap TwoLevels(const Edge& edge) {
+HazardMap TwoLevels(double start_m, double drop_m) {
   HazardMap map;
-  const auto add = [&map](const char* id, double height_m, const Polygon& where, bool known) {
+  const auto add = [&map](const char* id, double height_m, const Polygon& where) {
     if (height_m == 0) return;
     Hazard level;
     level.id = id;
     level.hazard_class = HazardClass::kLevelChange;
-    level.known = known;
     level.height_m = height_m;
     level.footprint = {where};
     level.solids = {{height_m < 0 ? Solid::Kind::kCut : Solid::Kind::kPrism,
@@ -173,68 +170,16 @@ HazardMap TwoLevels(const Edge& edge) {
                      std::max(height_m, 0.0)}};
     map.hazards.push_back(level);
   };
-  add("start", edge.start_m, Rectangle({-5, -5}, {edge.whole_platform ? 9.0 : 1.0, 5}), true);
-  add("lower", edge.start_m - edge.drop_m, Rectangle({1, -5}, {9, 5}), edge.known);
+  add("start", start_m, Rectangle({-5, -5}, {1, 5}));
+  add("lower", start_m - drop_m, Rectangle({1, -5}, {9, 5}));
   return map;
-}
-
-std::vector<Event> GoesOver(const Edge& edge) {
-  const HazardMap map = TwoLevels(edge);
-  const RobotSpec robot = TestRobot();
-  const auto dut = MakeDetector("roll_over");
-  dut->Start({map, robot, kStepS});
-  std::vector<Event> events;
-  for (Sample& s : Trace(Drive({{10, {0.2, 0, 0}}}))) {
-    const bool over = s.p_WB.x() > 1;
-    s.p_WB.z() = s.wheel_floor_z_m = edge.start_m - (over ? edge.drop_m : 0);
-    if (dut->Update(s)) events.push_back(dut->event());
-  }
-  return events;
-}
-
-TEST(RollOver, AFallIsTheSameFromWhateverFloorItStarts) {
-  for (const double start_m : {0.0, 0.1, 0.05, 0.2, -0.1, -0.05})
-    for (const bool known : {false, true}) {
-      const double drop_m = 0.1;
-      const auto events = GoesOver({start_m, drop_m, known});
-      const bool to_base = std::abs(start_m - drop_m) < 1e-9;
-      ASSERT_EQ(events.size(), 1u) << "from " << start_m;
-      EXPECT_EQ(events[0].kind, "fell");
-      EXPECT_EQ(events[0].hazard, to_base ? "base_floor" : "lower") << "from " << start_m;
-      EXPECT_NEAR(events[0].threshold, start_m - 0.03, 1e-12);
-      EXPECT_TRUE(GoesOver({start_m, 0.029, known}).empty()) << "from " << start_m;
-      EXPECT_TRUE(GoesOver({start_m, -0.1, known}).empty()) << "up is no fall";
-    }
-  EXPECT_EQ(GoesOver({0.1, 0.08, true, true}).size(), 1u) << "a hole in a platform";
-  EXPECT_EQ(GoesOver({0.1, 0.08, true, true})[0].hazard, "lower");
-}
-
-TEST(RollOver, LevelsNearTheStartsAreThePlansWhereverThatLies) {
-  for (const double start_m : {0.0, 0.1, -0.1})
-    for (const double drop_m : {0.012, -0.012}) {
-      // Beyond the edge, 29 mm deeper than a level that the plan drives over is none.
-      const auto deeper = [&](double by_m) {
-        const HazardMap map = TwoLevels({start_m, drop_m, true});
-        const RobotSpec robot = TestRobot();
-        const auto dut = MakeDetector("roll_over");
-        dut->Start({map, robot, kStepS});
-        bool fell = false;
-        for (Sample& s : Trace(Drive({{10, {0.2, 0, 0}}}))) {
-          s.wheel_floor_z_m = start_m - (s.p_WB.x() > 1 ? drop_m + by_m : 0);
-          fell |= dut->Update(s);
-        }
-        return fell;
-      };
-      EXPECT_FALSE(deeper(0.029)) << start_m << " " << drop_m;
-      EXPECT_TRUE(deeper(0.031)) << start_m << " " << drop_m;
-    }
 }
 
 // It leans forward on its rear wheels: the level that carries them did not tip it, but would have
 // by its edge, or if the robot had not been set down on it.
 TEST(RollOver, ALevelIsToBlameWhereItIsNotTheFloorOfTheStart) {
   const auto judge = [](double start_x_m, double aside_n) {
-    const HazardMap map = TwoLevels({0.1, 0.1});
+    const HazardMap map = TwoLevels(0.1, 0.1);
     const RobotSpec robot = TestRobot();
     const auto dut = MakeDetector("roll_over");
     dut->Start({map, robot, kStepS});
@@ -258,8 +203,9 @@ TEST(RollOver, ALevelIsToBlameWhereItIsNotTheFloorOfTheStart) {
 
 TEST(RollOver, OneEventForOneFallAndAnotherForTheNext) {
   Trace trace = Tilted(1.3, 1);
-  trace = With(
-      trace, [](Sample& s) { s.wheel_floor_z_m = -0.2; }, 2.5, 3);
+  for (const double t_s : {2.5, 3.3})  // one wheel after the other
+    trace = With(
+        trace, [](Sample& s) { s.drop_m = 0.2; }, t_s, t_s + 0.1);
   EXPECT_EQ(Events(trace).size(), 1u);
   EXPECT_EQ(Events(With(
                        trace, [](Sample& s) { s.tilt_rad = 1.3; }, 5, 6))
@@ -340,7 +286,7 @@ TEST(RollOver, MarginIsTheTiltStillLeft) {
   EXPECT_EQ(dut->margin(), 0);
   Judge(*dut, Tilted(1.3, 1));
   EXPECT_NEAR(dut->margin(), kLimit_rad - 1.3, 1e-12);
-  Judge(*dut, Sunk(-0.015));  // half of what makes a fall
+  Judge(*dut, Dropped(0.015));  // half of what makes a fall
   EXPECT_NEAR(dut->margin(), kLimit_rad / 2, 1e-12);
 }
 

@@ -77,7 +77,7 @@ TEST_P(Building, UpARampOverAPlatformAndDownAgain) {
 }
 
 // A floor that lies lower is a fall to who did not know of it, and a way to who did.
-TEST_P(Building, DownAKnownRampIsNoFall) {
+TEST_P(Building, DownARampIsNoFall) {
   const double depth_m = Rise(6, 1.5);
   std::string hazards = Ramp("down", 2.5, 4, -6, 0) + ", " + Level("pit", 4, 5, -depth_m) + ", " +
                         Ramp("up", 5, 6.5, -6, 180);
@@ -86,10 +86,7 @@ TEST_P(Building, DownAKnownRampIsNoFall) {
   EXPECT_NEAR(heights.lowest_m, -depth_m, 0.01);
   for (std::size_t at = 0; (at = hazards.find("id:", at)) != std::string::npos; at += 20)
     hazards.insert(at, "known: false, ");
-  const EpisodeRecord fell = Over(hazards);
-  ASSERT_FALSE(fell.events.empty());
-  EXPECT_EQ(fell.events[0].kind, "fell");
-  EXPECT_EQ(fell.events[0].hazard, "down");
+  ExpectNothing(Over(hazards));  // nor is it down one that no map knows
 }
 
 // A hill of two ramps, turned about its ridge's middle: met askew, its slopes turn the robot aside.

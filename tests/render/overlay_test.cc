@@ -87,11 +87,11 @@ TEST(OverlayTest, AFailureSaysWhatWhereAndWhen) {
   event.hazard = "drop-1";
   event.t_s = 12.34;
   event.x_m = 1;
-  event.value = -0.148;
-  event.threshold = -0.030;
+  event.value = 0.148;
+  event.threshold = 0.030;
   const Banner fell = FailureBanner(event, {});
   EXPECT_EQ(fell.headline, "FAILURE   roll over (fell)   at drop-1");
-  EXPECT_THAT(fell.detail, ::testing::HasSubstr("below the base floor by 148 mm"));
+  EXPECT_THAT(fell.detail, ::testing::HasSubstr("a wheel dropped by 148 mm"));
   EXPECT_THAT(fell.detail, ::testing::HasSubstr("at x 1.00, y 0.00 m"));
   EXPECT_THAT(fell.detail, ::testing::EndsWith("t 12.3 s"));
 }

@@ -118,7 +118,7 @@ TEST_F(StartTest, TheEdgeOfARaisedFloorIsThatOfAPit) {
     for (const bool is_pit : {false, true}) {
       const std::vector<Event>& events = is_pit ? dut.events : raised.events;
       EXPECT_EQ(events[0].kind, "fell") << robot;
-      EXPECT_EQ(events[0].hazard, is_pit ? "pit" : "base_floor") << robot;
+      EXPECT_EQ(events[0].hazard, is_pit ? "pit" : "level") << robot;
       EXPECT_NEAR(events[0].x_m, 6.0, 0.2) << robot;
       EXPECT_EQ(events[1].kind, "high_centred") << robot;
       EXPECT_EQ(events[1].hazard, is_pit ? "pit" : "level") << robot;

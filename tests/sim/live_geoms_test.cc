@@ -62,9 +62,14 @@ HazardMap Plates() {
 struct Twins {
   Twins(const std::string& robot_name, HazardMap floor, const Pose2& start)
       : Twins(ReadRobot(FindRobotFile(robot_name, {})), std::move(floor), start) {}
+  // The engine alone does not hold wheels that stand.
+  static RobotModel NotHeld(RobotModel robot) {
+    robot.spec.standstill = Standstill::kFree;
+    return robot;
+  }
   Twins(RobotModel with, HazardMap floor, const Pose2& start)
       : map(std::move(floor)),
-        robot(std::move(with)),
+        robot(NotHeld(std::move(with))),
         scene(BuildScene(map, robot, {}, start)),
         whole(BuildScene(map, robot, {}, start, WallSet::kAll)),
         sim(scene, map, robot.spec),

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "env/sim/drop_meter.h"
+
+#include <algorithm>
+
+#include "env/scene/scene.h"
+
+namespace floorproof {
+namespace {
+
+constexpr double kStands = 0.7;         // least vertical part of a normal on which a wheel stands
+constexpr double kNotable_m = 0.001;    // nobody looks below a wheel that has come down by less
+constexpr double kBottomless_m = 1000;  // room where nothing lies below
+
+// From this point down to the first surface of the world. The point may be a hair below that.
+double RoomBelow(const mjModel* m, const mjData* d, const Vec3& p_W) {
+  constexpr mjtByte kMet[mjNGROUP] = {0, 0, 0, 0, 1, 1};  // kSolidGroup, kGlassGroup
+  constexpr double kAbove_m = 0.01;
+  const mjtNum from[3] = {p_W.x(), p_W.y(), p_W.z() + kAbove_m}, down[3] = {0, 0, -1};
+  int geom = -1;
+  const double room_m = mj_ray(m, d, from, down, kMet, 1, -1, &geom, nullptr);
+  return room_m < 0 ? kBottomless_m : std::max(0.0, room_m - kAbove_m);
+}
+
+}  // namespace
+
+void DropMeter::Reset() { std::ranges::fill(wheels_, Wheel{}); }
+
+void DropMeter::OnContact(std::size_t wheel, const Vec3& p_W, double normal_z, int hazard) {
+  Wheel& w = wheels_[wheel];
+  if (!w.touches || p_W.z() > w.touch_m) w.touch_m = p_W.z();
+  w.touches = true;
+  if (normal_z < kStands || (w.stands && p_W.z() <= w.stand_m)) return;
+  w.stands = true;
+  w.stand_m = p_W.z();
+  w.stand_hazard = hazard;
+}
+
+void DropMeter::Update(const mjModel* m, const mjData* d, std::span<const Vec3> lowest_W,
+                       Truth& truth) {
+  truth.drop_m = truth.landing_mps = 0;
+  truth.drop_hazard = -1;
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    Wheel& w = wheels_[i];
+    const Vec3& low_W = lowest_W[i];
+    const double down_m = w.stood_m - (w.stands ? w.stand_m : low_W.z());
+    if (w.stood && !w.stands && down_m > kNotable_m) {
+      const double edge_m = w.touches ? std::max(0.0, w.touch_m - low_W.z()) : 0;
+      w.most_room_m = std::max(w.most_room_m, edge_m + RoomBelow(m, d, low_W));
+    }
+    const double drop_m = w.stood ? std::min(down_m, w.most_room_m) : 0;
+    if (drop_m > truth.drop_m) {
+      truth.drop_m = drop_m;
+      truth.drop_W = low_W.head<2>();
+      truth.drop_hazard = w.stood_hazard;
+    }
+    if (w.stands) {
+      if (drop_m > 0)
+        truth.landing_mps = std::max(truth.landing_mps, (w.low_m - low_W.z()) / m->opt.timestep);
+      w.stood = true;
+      w.stood_m = w.stand_m;
+      w.stood_hazard = w.stand_hazard;
+      w.most_room_m = 0;
+    }
+    w.low_m = low_W.z();
+    w.stands = w.touches = false;
+  }
+}
+
+}  // namespace floorproof

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far driven wheels have dropped: what a fall is made of, wherever it happens.
+//
+// A wheel stands where a contact under it carries it, on a surface less steep than 45 degrees. Once
+// it stands no more it has lost its footing, and it has dropped by the lesser of two heights:
+//   what it has come down since, from the place where it stood;
+//   the most room that has been between it and the surface below since.
+// The first alone would count a descent: at the crest of a ramp a fast wheel leaves the ground, and
+// stays within millimetres of it. The second alone would count a wheel that is lifted. While an
+// edge is still under a wheel that rolls off it, both are measured from that edge. Where a wheel
+// comes to stand again, the drop is that from stand to stand.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <span>
+#include <vector>
+
+#include "env/core/motion.h"
+
+namespace floorproof {
+
+class DropMeter {
+ public:
+  explicit DropMeter(std::size_t wheels) : wheels_(wheels) {}
+
+  // The robot is set down anew.
+  void Reset();
+  // In each step, first: what touches a wheel from below. `hazard`: index of the contact's, or -1.
+  void OnContact(std::size_t wheel, const Vec3& p_W, double normal_z, int hazard);
+  // Then, with the lowest point of each wheel, world frame: fills in `truth`. Model and data are
+  // those of the simulation. Allocates nothing.
+  void Update(const mjModel* model, const mjData* data, std::span<const Vec3> lowest_W,
+              Truth& truth);
+
+ private:
+  struct Wheel {
+    // Of this step.
+    bool stands = false, touches = false;
+    double stand_m = 0, touch_m = 0;  // heights of the highest contacts of either kind
+    int stand_hazard = -1;
+    // Since it stood.
+    bool stood = false;  // at all, since it was set down
+    double stood_m = 0, most_room_m = 0;
+    int stood_hazard = -1;
+    double low_m = 0;  // in the step before
+  };
+  std::vector<Wheel> wheels_;
+};
+
+}  // namespace floorproof

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// How robots stand on a slope: held, within two millimetres a minute; or let go, by their weight.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/run/scenario_text.h"
+
+namespace floorproof {
+namespace {
+
+// Where the robot was in a dwell, from a moment after it began.
+class DwellPlaces final : public EpisodeObserver {
+ public:
+  bool OnControl(const EpisodeView& now) override {
+    constexpr double kSettles_s = 2;
+    if (!now.sample.command.dwelling) return true;
+    if (since_s < 0) since_s = now.sample.t_s;
+    if (now.sample.t_s - since_s < kSettles_s) return true;
+    if (first_W.hasNaN()) first_W = now.sample.p_WB;
+    last_W = now.sample.p_WB;
+    until_s = now.sample.t_s;
+    return true;
+  }
+  double moved_m() const { return (last_W - first_W).norm(); }
+  double minutes() const { return (until_s - since_s - 2) / 60; }
+  double since_s = -1, until_s = 0;
+  Vec3 first_W = Vec3::Constant(std::nan("")), last_W = Vec3::Zero();
+};
+
+class Standing : public ScenarioTest, public ::testing::WithParamInterface<const char*> {
+ protected:
+  // 30 s on a slope of 4.76 degrees (1:12).
+  DwellPlaces OnARamp(const std::string& robot_file) const {
+    Save("plan.csv", "x_m,y_m,dwell_s\n1.5,2.5,0\n4.5,2.5,30\n4.6,2.5,0\n");
+    DwellPlaces places;
+    Drive(
+        Read(RoomScenario("{type: ramp, id: up, slope_deg: 4.76, toward_deg: 0, polygon_m: [[2.5, "
+                          "0.5], [7.5, 0.5], [7.5, 4.5], [2.5, 4.5]]}",
+                          "on_failure: ignore\n"),
+             {{"robot", robot_file}}),
+        &places);
+    return places;
+  }
+};
+
+const char* const kRobots[] = {"beluga", "htetro", "rover", "scrubber"};
+INSTANTIATE_TEST_SUITE_P(Robots, Standing, ::testing::ValuesIn(kRobots),
+                         [](const auto& robot) { return std::string(robot.param); });
+
+TEST_P(Standing, OnARampARobotHardlyMoves) {
+  const DwellPlaces dut = OnARamp(GetParam());
+  ASSERT_GT(dut.minutes(), 0.4);
+  // Ideal Mecanum wheels creep (env/sim/standstill.h).
+  const double most_m = std::string(GetParam()) == "htetro" ? 0.015 : 0.002;
+  EXPECT_LT(dut.moved_m(), most_m * dut.minutes());
+}
+
+}  // namespace
+}  // namespace floorproof
