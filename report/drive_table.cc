@@ -53,8 +53,8 @@ void AddSupervision(const EpisodeRecord& record, FactTable& table) {
   table.Add({"Supervision", text + "; see safety.csv"});
 }
 
-// What is left of a limit, and the limit, in the unit of its mode. Rolling over has several limits,
-// and a share of the nearest.
+// The remaining margin and its limit, in the unit of the mode. Rolling over has several limits: the
+// share of the nearest one is given.
 std::string MarginText(const Margin& margin) {
   if (margin.mode == FailureMode::kRollOver) return PercentText(margin.share, 2) + " left";
   const auto text = [&](double value) {
@@ -85,7 +85,7 @@ std::string MarginsText(const EpisodeRecord& record) {
   return text;
 }
 
-// Where it truly stood, and what it left out.
+// The true distance from the plan's end, and the length that was left out.
 std::string ArrivalText(const Arrival& how) {
   if (!how.off_m) return "";
   std::string text = LengthText(*how.off_m) + " from the plan's end";

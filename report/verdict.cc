@@ -139,7 +139,8 @@ std::string VerdictText(const Report& report) {
   const auto& gate = report.summary.gate;
   if (variants.empty()) return "No variant was driven.";
   if (const std::string errors = ErrorsText(report.summary); !errors.empty())
-    return (report.subject.empty() ? "" : report.subject + ": ") + errors + ". No rate is told.";
+    return (report.subject.empty() ? "" : report.subject + ": ") + errors +
+           ". No failure rate is given.";
   const std::string rates =
       variants.size() == 1 ? RateText(variants.front(), gate) : Extremes(report);
   std::string text = report.subject.empty() ? "" : report.subject + ": ";

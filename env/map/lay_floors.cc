@@ -155,8 +155,8 @@ void AddWithin(const Solid& solid, const Polygon& column, std::vector<Solid>& ou
   }
 }
 
-// Adds what of the solid, as its hazard made it, stands on this ground. What is cut into a raised
-// floor leaves the lower part of that, or goes on into the base floor.
+// Adds what of the solid, as its hazard made it, stands on this ground. A cut into a raised floor
+// leaves its lower part, or reaches down into the base floor.
 void AddOn(Solid solid, const Ground& ground, std::vector<Solid>& out) {
   solid.z_low_m += ground.floor_m;
   solid.z_high_m += ground.floor_m;
@@ -280,7 +280,7 @@ void Sort(std::vector<Hazard>& hazards) {
   hazards = std::move(sorted);
 }
 
-// The height over the base floor of what lies on others: on the highest of them.
+// Sets the heights over the base floor of hazards that lie on others: on the highest of them.
 void Lift(std::vector<Hazard>& hazards, MadeFloors& floors) {
   for (std::size_t i = 0; i < hazards.size(); ++i) {
     if (!hazards[i].lies_on_floor) continue;

@@ -78,8 +78,8 @@ Eigen::Matrix3d AttitudeOf(const mjtNum* mat) {
   return R;
 }
 
-// Of a round geom, in its own frame, its farthest points in directions of the world's frame all
-// around: its extents straight up, down and to the sides are exact. `R_WG`: its attitude.
+// The farthest points of a round geom, in its own frame, in directions all around in the world's
+// frame: its extents up, down and to the sides are exact. `R_WG`: its attitude.
 std::vector<Vec3> RoundPoints(int type, const Vec3& size, const Eigen::Matrix3d& R_WG) {
   constexpr int kAround = 72, kUp = 6;
   std::vector<Vec3> points;
@@ -101,7 +101,8 @@ std::vector<Vec3> RoundPoints(int type, const Vec3& size, const Eigen::Matrix3d&
   return points;
 }
 
-// Of a mesh, in its own frame: of its convex hull where MuJoCo has made one, else all.
+// The vertices of a mesh, in its own frame: those of its convex hull if MuJoCo has made one, else
+// all.
 std::vector<Vec3> HullVertices(const mjModel* m, int mesh) {
   const float* vertices = m->mesh_vert + 3 * m->mesh_vertadr[mesh];
   const auto vertex = [&](int i) {

@@ -54,7 +54,7 @@ void ReadBattery(const CompiledRobot& compiled, RobotSpec& robot) {
   }
 }
 
-// What the model says; else a brake where it is heavy, and what holds its wheels where it is not.
+// As the model says; else brakes on a heavy robot, and motors that hold their wheels on others.
 Standstill ReadStandstill(const CompiledRobot& compiled, double mass_kg) {
   constexpr const char* kKey = "standstill";
   constexpr double kHeavy_kg = 40;

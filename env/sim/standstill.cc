@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMoment_s = 0.1;     // for which wheels stand before they are held
 constexpr double kStands_mps = 0.05;  // slower than that is a rim: a driver that gives way creeps
-constexpr double kStiffness_radps = 10;  // speed that is told, for each radian off
+constexpr double kStiffness_radps = 10;  // commanded speed, for each radian of error
 constexpr int kNoSlipIterations = 20;
 // The engine's usual softness would let a held wheel creep.
 constexpr double kStable = 0.05;  // of a wheel's inertia over the time step squared

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Success is what truly happened: where the robot stands, that it stands, and what it came to.
+// Success depends on the robot's true place, on its being at rest, and on the plan it truly
+// covered.
 #include "run/episode/arrival.h"
 
 #include <gmock/gmock.h>
@@ -35,7 +36,7 @@ TEST(PlanPassed, LeavesWhatTheRobotDidNotComeNearTo) {
   EXPECT_EQ(dut.left_m(), 0);
 }
 
-// A loop ends where it began: who never left stands at its end, and has left out the way.
+// A loop ends where it began: a robot that never moved is at its end, but has left out the path.
 TEST(PlanPassed, OfALoopALotIsLeftWhereTheRobotNeverMoved) {
   PlanPassed dut(Way({{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0}}), 0.25);
   Walk(dut, {0, 0}, {0.1, 0});
@@ -76,7 +77,7 @@ class Arrivals : public ScenarioTest {
   }
 };
 
-// Its wheels turn at a step that nobody told it of; by them it has driven all of its plan.
+// Its wheels turn before an unknown step; by odometry it has driven its whole plan.
 TEST_F(Arrivals, WhoOnlyBelievesThatItArrivedDidNot) {
   Save("plan.csv", "x_m,y_m\n1.5,2.5\n5.2,2.5\n");  // at its end before it counts as stuck
   Scenario s = Read(RoomScenario(Step(0.03), "estimator: odometry\n"), {{"robot", "htetro"}});
