@@ -257,7 +257,9 @@ def test_the_last_step_drives_and_its_observation_is_of_the_end(
             action(observation) if callable(action) else action)
         over = terminated or truncated
     assert info["outcome"] == outcome, info["message"]
-    assert 0 < info["t_s"] - t_s < 0.0201
+    # At its plan's end it comes to rest within the last step.
+    rests = options.get("reference") == "plan" and outcome == "success"
+    assert 0 < info["t_s"] - t_s < (2 if rests else 0.0201)
     # What the metrics count is observed, and earned, when it is over.
     assert observation["coverage"][0] == pytest.approx(info["metrics"]["coverage"], abs=1e-6)
     off_m = np.abs(observation["pose"][:2] - info["truth"][:2]).max()
