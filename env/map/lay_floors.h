@@ -10,18 +10,18 @@
 namespace floorproof {
 
 // Sorts hazards that shape the floor (C3, C4) and may overlap: first floors (steps, ramps), then
-// what lies on them (carpets, thresholds, lifts), then terrain (covers, grooves, rough ground),
-// each in the order in which they are written; all others keep their places. Where floors overlap,
-// the later one wins, exactly: a level change or a groove cuts the solids of earlier ones back to
-// what it does not cover. What lies on a floor is lifted or lowered with it, each part on its own
-// floor where it lies across edges, and `warnings` names what does; a groove is cut into the floor
-// that it is in. Terrain bridges a groove before it. A floor is where it is built: the bases of its
-// solids, which on a drawing are smaller than its cells. Terrain on terrain stays: the higher is
-// felt. Pieces narrower than 0.1 mm are left out: they would be no solid; along curves of many
-// corners a cut may be off by half of that. What is built on a ramp before it is built level, from
-// the floor below the ramp; `warnings` names it. Footprints stay whole, so that a map without its
-// unknown hazards does not show where they lie. The solids must be as their types make them: those
-// that taper with a corner of `top` for each of `base`.
+// covers of floors (carpets, thresholds, lifts), then terrain (cable covers, grooves, rough
+// ground), each in the order in which they are written; all others keep their places. Where floors
+// overlap, the later one wins, exactly: a level change or a groove cuts the solids of earlier ones
+// back to the parts beside it. Hazards of the upper two layers are lifted or lowered with the floor
+// beneath, each part on its own floor where they cross edges, and `warnings` names these; a groove
+// is cut into the floor that it is in. Terrain bridges a groove before it. A floor is where it is
+// built: the bases of its solids, which on a drawing are smaller than its cells. Terrain on terrain
+// stays: the higher is felt. Pieces narrower than 0.1 mm are left out: they would be no solid;
+// along curves of many corners a cut may be off by half of that. A hazard on a ramp is built level,
+// from the floor below the ramp; `warnings` names it. Footprints stay whole, so that a map without
+// its unknown hazards does not show where they lie. The solids must be as their types make them:
+// those that taper with a corner of `top` for each of `base`.
 void LayFloors(std::vector<Hazard>& hazards, std::vector<std::string>& warnings);
 
 }  // namespace floorproof

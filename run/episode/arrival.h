@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a robot truly arrived: what came of its plan, by its true places, whatever it believed.
+// Whether a robot truly arrived, by its true positions, regardless of its own estimate.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@
 namespace floorproof {
 
 // Which parts of a plan a robot has truly come to. A place of the plan is passed once the robot's
-// centre has been within `near_m` of it, whenever that was: with rows of a plan nearer to each
-// other than that, one can stand for the other, and coverage tells them apart. A task is
-// done once the robot has stood on purpose within `near_m` of its waypoint.
+// centre has been within `near_m` of it, at any time: rows of a plan that are nearer to each other
+// than that are not told apart, which coverage does. A task is done once the robot has stopped for
+// it within `near_m` of its waypoint.
 class PlanPassed {
  public:
   // Time and memory grow with the plan's length, up to a million looks at it.
