@@ -54,7 +54,8 @@ int RunTheCampaign(const CampaignCommand& options, const Globals& globals) {
   } catch (const std::runtime_error& e) {
     throw InternalError(std::string(e.what()) + "; missing: " + missing);
   }
-  return CampaignExitStatus(outcome, globals);
+  SayQuietErrors(outcome.summary, globals);
+  return CampaignExitStatus(outcome);
 }
 
 }  // namespace

@@ -95,7 +95,8 @@ int AddPlans(const MeasureCommand& options, const Globals& globals, const fs::pa
     globals.Say(
         "warning: no plan over these floors could be driven and predicted: the rates are held "
         "against none");
-  return CampaignExitStatus(outcome, globals);
+  SayQuietErrors(outcome.summary, globals);
+  return CampaignExitStatus(outcome);
 }
 
 int RunMeasure(const MeasureCommand& options, const Globals& globals) {
@@ -133,7 +134,8 @@ int RunMeasure(const MeasureCommand& options, const Globals& globals) {
   }
   globals.SayFact("Results", folder.string());
   if (outcome.run.end == CampaignEnd::kInterrupted) throw Interruption();
-  const int status = CampaignExitStatus(outcome, globals);
+  SayQuietErrors(outcome.summary, globals);
+  const int status = CampaignExitStatus(outcome);
   if (fitted) {
     // The page is made from what is recorded alone, which is let go of for it.
     outcome.folder.reset();

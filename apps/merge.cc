@@ -28,7 +28,8 @@ int Merge(const std::vector<std::string>& shards, const std::filesystem::path& o
                     gap.variant, Text(gap.missing)));
   globals.Result(SummaryJson(outcome.summary));
   SayCampaign(outcome, out, globals);
-  return CampaignExitStatus(outcome, globals);
+  SayQuietErrors(outcome.summary, globals);
+  return CampaignExitStatus(outcome);
 }
 
 }  // namespace

@@ -26,10 +26,4 @@ add_library(mujoco::mujoco SHARED IMPORTED)
 set_target_properties(mujoco::mujoco PROPERTIES
   IMPORTED_LOCATION ${MUJOCO_LIBRARY}
   INTERFACE_INCLUDE_DIRECTORIES ${PROJECT_BINARY_DIR}/mujoco)  # SYSTEM, as of every imported target
-# At the same path in every build, wherever MuJoCo came from (CompilerCache.cmake). Copied so that
-# other headers have another time, whatever the time of their file: what includes them is compiled
-# anew.
-file(GLOB _mujoco_headers RELATIVE ${MUJOCO_INCLUDE_DIR} ${MUJOCO_INCLUDE_DIR}/mujoco/*.h)
-foreach(_header ${_mujoco_headers})
-  configure_file(${MUJOCO_INCLUDE_DIR}/${_header} ${PROJECT_BINARY_DIR}/mujoco/${_header} COPYONLY)
-endforeach()
+fp_copy_to_build(${MUJOCO_INCLUDE_DIR}/mujoco mujoco/mujoco)

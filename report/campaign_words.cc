@@ -80,14 +80,15 @@ void SayCampaign(const CampaignOutcome& outcome, const std::filesystem::path& fo
   console.Say(facts);
 }
 
-int CampaignExitStatus(const CampaignOutcome& outcome, const Console& console) {
+void SayQuietErrors(const CampaignSummary& summary, const Console& console) {
+  if (const std::string errors = ErrorsText(summary); console.quiet && !errors.empty())
+    std::fprintf(stderr, "floorproof: %s\n", errors.c_str());
+}
+
+int CampaignExitStatus(const CampaignOutcome& outcome) {
   const CampaignRun& run = outcome.run;
   const bool broken = std::ranges::any_of(run.variants, [](const auto& v) { return v.errors > 0; });
-  if (broken) {
-    if (console.quiet)
-      std::fprintf(stderr, "floorproof: %s\n", ErrorsText(outcome.summary).c_str());
-    return kExitBroken;
-  }
+  if (broken) return kExitBroken;
   if (run.end == CampaignEnd::kFailFast) return kExitNotSuccess;
   const auto& gate = outcome.summary.gate;
   if (!gate) return kExitDone;

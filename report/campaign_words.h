@@ -19,8 +19,10 @@ void SayCampaign(const CampaignOutcome& outcome, const std::filesystem::path& fo
 // "18 of 40 episodes ended in an error, the first: episode 3: ..."; empty: none did.
 std::string ErrorsText(const CampaignSummary& summary);
 
-// Errors first, then an early end at a failure, then the gate. With a quiet console, errors are
-// still said, on stderr.
-int CampaignExitStatus(const CampaignOutcome& outcome, const Console& console);
+// That, on stderr, where a quiet console would leave the exit status unexplained.
+void SayQuietErrors(const CampaignSummary& summary, const Console& console);
+
+// Errors first, then an early end at a failure, then the gate.
+int CampaignExitStatus(const CampaignOutcome& outcome);
 
 }  // namespace floorproof

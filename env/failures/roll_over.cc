@@ -105,7 +105,7 @@ class RollOver final : public Detector {
     const bool off_support = sample.wheel_contacts > 0 && FallsOn(sample);
     const bool tipped = unsupported_.Update(off_support, sample.t_s, tipped_duration_s_);
 
-    const double landing_j_per_kg = sample.landing_mps * sample.landing_mps / 2;
+    const double landing_j_per_kg = LandingEnergy(sample);
     const bool fell = sample.drop_m > most_drop_m_ || landing_j_per_kg > landing_j_per_kg_;
 
     // In radians of tilt: each inequality's share still left, times the tilt limit. Conditions that
@@ -133,6 +133,11 @@ class RollOver final : public Detector {
   }
 
  private:
+  // Of each kilogram, J.
+  static double LandingEnergy(const Sample& sample) {
+    return sample.landing_mps * sample.landing_mps / 2;
+  }
+
   // Outside on the low side, and not on its way back.
   bool FallsOn(const Sample& sample) {
     const double lean_rad = LeanOf(Attitude(sample)).dot(sample.off_support_W);
@@ -185,9 +190,7 @@ class RollOver final : public Detector {
             Contains(polygon, sample.drop_W))
           return hazard.id;
     }
-    if (sample.drop_hazard >= 0)
-      return map_->hazards[static_cast<std::size_t>(sample.drop_hazard)].id;
-    return "";
+    return HazardId(*map_, sample.drop_hazard, false);
   }
 
   // The gap into which the robot has gone: below what has sunk deepest, of its wheels and its
@@ -226,8 +229,8 @@ class RollOver final : public Detector {
     if (fell && sample.drop_m > most_drop_m_)
       event_ = MakeEvent(mode(), "fell", sample, std::move(hazard), sample.drop_m, most_drop_m_);
     else if (fell)
-      event_ = MakeEvent(mode(), "landed", sample, std::move(hazard),
-                         sample.landing_mps * sample.landing_mps / 2, landing_j_per_kg_);
+      event_ = MakeEvent(mode(), "landed", sample, std::move(hazard), LandingEnergy(sample),
+                         landing_j_per_kg_);
     else if (tilted)
       event_ = MakeEvent(mode(), "", sample, std::move(hazard), sample.tilt_rad, limit_rad_);
     else

@@ -25,7 +25,10 @@ Wrench& operator+=(Wrench& sum, const Wrench& w) {
 }  // namespace
 
 ContactReader::ContactReader(const Scene& scene, const HazardMap& map, const RobotSpec& robot)
-    : scene_(scene), map_(map), drops_(robot.wheels.size()), far_m_(robot.circumscribed_radius_m) {
+    : scene_(scene),
+      map_(map),
+      drops_(scene, robot.wheels.size()),
+      far_m_(robot.circumscribed_radius_m) {
   const mjModel* m = scene.model.get();
   if (robot.hinges.empty())
     block_bodies_ = {scene.base_body};

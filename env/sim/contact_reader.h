@@ -21,7 +21,7 @@ class ContactReader {
   // `scene` and `map` outlive it.
   ContactReader(const Scene& scene, const HazardMap& map, const RobotSpec& robot);
 
-  // The robot is set down anew.
+  // Forgets where the wheels stood: the robot is set down elsewhere.
   void Reset() { drops_.Reset(); }
   // Fills in all that `truth` says of contacts; its pose stands there already. Model and data are
   // those of a simulation of the scene; `lowest_W`: the lowest point of each driven wheel, world

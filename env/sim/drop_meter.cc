@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "env/scene/scene.h"
-
 namespace floorproof {
 namespace {
 
@@ -12,17 +10,14 @@ constexpr double kStands = 0.7;         // least vertical part of a normal on wh
 constexpr double kNotable_m = 0.001;    // nobody looks below a wheel that has come down by less
 constexpr double kBottomless_m = 1000;  // room where nothing lies below
 
-// From this point down to the first surface of the world. The point may be a hair below that.
-double RoomBelow(const mjModel* m, const mjData* d, const Vec3& p_W) {
-  constexpr mjtByte kMet[mjNGROUP] = {0, 0, 0, 0, 1, 1};  // kSolidGroup, kGlassGroup
-  constexpr double kAbove_m = 0.01;
-  const mjtNum from[3] = {p_W.x(), p_W.y(), p_W.z() + kAbove_m}, down[3] = {0, 0, -1};
-  int geom = -1;
-  const double room_m = mj_ray(m, d, from, down, kMet, 1, -1, &geom, nullptr);
-  return room_m < 0 ? kBottomless_m : std::max(0.0, room_m - kAbove_m);
-}
-
 }  // namespace
+
+double DropMeter::RoomBelow(const mjData* d, const Vec3& p_W) const {
+  constexpr double kAbove_m = 0.01;  // the point may be a hair below the surface
+  const RayHit hit =
+      rays_.Cast(d, p_W + kAbove_m * Vec3::UnitZ(), -Vec3::UnitZ(), kBottomless_m + kAbove_m);
+  return hit.hits() ? std::max(0.0, hit.range_m - kAbove_m) : kBottomless_m;
+}
 
 void DropMeter::Reset() { std::ranges::fill(wheels_, Wheel{}); }
 
@@ -46,7 +41,7 @@ void DropMeter::Update(const mjModel* m, const mjData* d, std::span<const Vec3> 
     const double down_m = w.stood_m - (w.stands ? w.stand_m : low_W.z());
     if (w.stood && !w.stands && down_m > kNotable_m) {
       const double edge_m = w.touches ? std::max(0.0, w.touch_m - low_W.z()) : 0;
-      w.most_room_m = std::max(w.most_room_m, edge_m + RoomBelow(m, d, low_W));
+      w.most_room_m = std::max(w.most_room_m, edge_m + RoomBelow(d, low_W));
     }
     const double drop_m = w.stood ? std::min(down_m, w.most_room_m) : 0;
     if (drop_m > truth.drop_m) {

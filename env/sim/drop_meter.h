@@ -17,14 +17,16 @@
 #include <vector>
 
 #include "env/core/motion.h"
+#include "env/sensors/rays.h"
 
 namespace floorproof {
 
 class DropMeter {
  public:
-  explicit DropMeter(std::size_t wheels) : wheels_(wheels) {}
+  // `scene` outlives it; of a robot with so many driven wheels.
+  DropMeter(const Scene& scene, std::size_t wheels) : rays_(scene), wheels_(wheels) {}
 
-  // The robot is set down anew.
+  // Forgets where the wheels stood: the robot is set down elsewhere.
   void Reset();
   // In each step, first: what touches a wheel from below. `hazard`: index of the contact's, or -1.
   void OnContact(std::size_t wheel, const Vec3& p_W, double normal_z, int hazard);
@@ -45,6 +47,10 @@ class DropMeter {
     int stood_hazard = -1;
     double low_m = 0;  // in the step before
   };
+  // From this point down to the first surface of the world.
+  double RoomBelow(const mjData* data, const Vec3& p_W) const;
+
+  Rays rays_;
   std::vector<Wheel> wheels_;
 };
 

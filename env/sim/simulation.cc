@@ -45,6 +45,7 @@ Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec
       live_(scene, *own_),
       data_(MakeData(scene.model.get())),
       contacts_(scene, map, robot),
+      hold_(robot, scene.model.get()),
       cut_(robot.wheels.size(), 0),
       motor_nm_(static_cast<std::size_t>(scene.model->nu)),
       battery_(robot.battery),
@@ -67,10 +68,6 @@ Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec
     wheel_qpos_.push_back(m->jnt_qposadr[joint]);
   }
   lowest_W_.resize(wheel_bodies_.size());
-  std::vector<int> dofs;
-  for (std::size_t w = 0; w < wheel_bodies_.size(); ++w)
-    dofs.push_back(m->jnt_dofadr[m->actuator_trnid[2 * w]]);
-  hold_.emplace(robot, m, std::move(dofs), wheel_qpos_);
 }
 
 void Simulation::Place(const Pose2& X_WB) {
@@ -114,19 +111,19 @@ void Simulation::SetDown(const Pose2& X_WB) {
 // Told to stand, and not held yet.
 void Simulation::StandStill() {
   std::fill_n(data_->ctrl, robot_.wheels.size(), 0.0);
-  hold_->Command({data_->ctrl, robot_.wheels.size()});
-  hold_->Release(own_.get(), live_.model(), data_.get());
+  hold_.Command({data_->ctrl, robot_.wheels.size()});
+  hold_.Release(own_.get(), live_.model(), data_.get());
   live_.Refresh();
 }
 
 void Simulation::CarryTo(const Pose2& X_WB) {
   std::vector<mjtNum> orders(data_->ctrl, data_->ctrl + model()->nu);
-  std::ranges::copy(hold_->told_radps(), orders.begin());
+  std::ranges::copy(hold_.command_radps(), orders.begin());
   folded_ = truth_.hinges;  // whoever takes it up does not fold it
   SetDown(X_WB);
   folded_.reset();
   std::ranges::copy(orders, data_->ctrl);
-  hold_->Command(std::span(orders).first(robot_.wheels.size()));
+  hold_.Command(std::span(orders).first(robot_.wheels.size()));
   ++truth_.carried;
 }
 
@@ -168,7 +165,7 @@ void Simulation::Settle(const Pose2& X_WB, double t_s) {
 void Simulation::SetWheelSpeeds(std::span<const double> wheel_radps) {
   std::copy(wheel_radps.begin(), wheel_radps.end(), data_->ctrl);
   HoldStuckWheels();
-  hold_->Command({data_->ctrl, robot_.wheels.size()});
+  hold_.Command({data_->ctrl, robot_.wheels.size()});
 }
 
 void Simulation::CutMotors(std::span<const char> cut) {
@@ -188,7 +185,7 @@ void Simulation::HoldStuckWheels() {
 
 bool Simulation::Step() {
   if (slips_) GripWhatIsMet();
-  if (hold_->Update(own_.get(), live_.model(), data_.get(), cut_)) live_.Refresh();
+  if (hold_.Update(own_.get(), live_.model(), data_.get(), cut_)) live_.Refresh();
   live_.Update(data_.get());
   StepEngine(model(), data_.get());
   ReadPose();

@@ -89,7 +89,7 @@ class Simulation {
   LiveGeoms live_;
   DataPtr data_;
   ContactReader contacts_;
-  std::optional<StandstillHold> hold_;  // always there, once built
+  StandstillHold hold_;
   Truth truth_;
   Alterations altered_;
   std::vector<char> cut_;  // by wheel

@@ -20,12 +20,15 @@ constexpr mjtNum kHard[mjNIMP] = {0.9999, 0.9999, 0.001, 0.5, 2};
 
 }  // namespace
 
-StandstillHold::StandstillHold(const RobotSpec& robot, const mjModel* m,
-                               std::vector<int> wheel_dofs, std::vector<int> wheel_qpos)
-    : kind_(robot.standstill), dofs_(std::move(wheel_dofs)), qpos_(std::move(wheel_qpos)) {
-  for (const WheelSpec& wheel : robot.wheels) radius_m_ = std::max(radius_m_, wheel.radius_m);
+StandstillHold::StandstillHold(const RobotSpec& robot, const mjModel* m) : kind_(robot.standstill) {
+  for (std::size_t w = 0; w < robot.wheels.size(); ++w) {
+    const int joint = m->actuator_trnid[2 * w];
+    dofs_.push_back(m->jnt_dofadr[joint]);
+    qpos_.push_back(m->jnt_qposadr[joint]);
+    radius_m_ = std::max(radius_m_, robot.wheels[w].radius_m);
+  }
   brake_nm_ = 2 * robot.mass_kg * -m->opt.gravity[2] * radius_m_;  // beyond any grip
-  told_radps_.resize(dofs_.size());
+  command_radps_.resize(dofs_.size());
   held_rad_.resize(dofs_.size());
   crept_rad_s_.resize(dofs_.size());
   loss_nm_.resize(dofs_.size());
@@ -34,14 +37,14 @@ StandstillHold::StandstillHold(const RobotSpec& robot, const mjModel* m,
 }
 
 void StandstillHold::Command(std::span<const double> wheel_radps) {
-  std::ranges::copy(wheel_radps, told_radps_.begin());
+  std::ranges::copy(wheel_radps, command_radps_.begin());
 }
 
 bool StandstillHold::Update(mjModel* own, mjModel* live, mjData* d, std::span<const char> cut) {
   if (kind_ == Standstill::kFree) return false;
   const bool powered = std::ranges::none_of(cut, [](char c) { return c != 0; });
-  const bool told = std::ranges::all_of(told_radps_, [](double w) { return w == 0; });
-  if (!told || (kind_ == Standstill::kHold && !powered)) {
+  const bool stops = std::ranges::all_of(command_radps_, [](double w) { return w == 0; });
+  if (!stops || (kind_ == Standstill::kHold && !powered)) {
     if (!engaged_) return false;
     Release(own, live, d);
     return true;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a robot stands still that is told to (RobotSpec::standstill).
+// Holds a robot at rest, as its model says (RobotSpec::standstill).
 //
 // A driver that holds a speed of zero gives way under a load: a robot on a slope rolls down. Once
-// all driven wheels have been told to stand and have all but stood for a moment,
-//   a brake locks them: more friction in each wheel's joint than the floor can turn it with, and as
-//     much torque as brings back what that lets creep;
-//   a driver that holds its position turns each wheel back to where it stood.
-// The engine's contacts and dry friction give a little under a steady load, so that for as long its
-// solver is asked for no slip (MuJoCo's noslip iterations). What is left on a slope of 1:12: 1.4 mm
-// a minute at most; on ideal Mecanum wheels, whose friction has a direction, 14 mm. A motor without
-// power holds nothing; a brake does not need any.
+// all driven wheels are commanded to zero speed and have almost stopped for a moment,
+//   a brake locks them: it adds more friction to each wheel's joint than the floor can overcome,
+//   and
+//     a torque that takes back what this friction lets creep;
+//   a driver with position control turns each wheel back to where it stopped.
+// The engine's contacts and dry friction creep under a steady load, so MuJoCo's noslip iterations
+// are on for as long. The remaining creep on a slope of 1:12 is at most 1.4 mm a minute, and 14 mm
+// on ideal Mecanum wheels, whose friction depends on the direction. A motor without power holds
+// nothing; a brake needs no power.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -23,17 +24,16 @@ namespace floorproof {
 
 class StandstillHold {
  public:
-  // `wheel_dofs`, `wheel_qpos`: addresses of the driven wheels' joints in the model.
-  StandstillHold(const RobotSpec& robot, const mjModel* model, std::vector<int> wheel_dofs,
-                 std::vector<int> wheel_qpos);
+  // `model`: of a scene with this robot.
+  StandstillHold(const RobotSpec& robot, const mjModel* model);
 
-  // What the wheels are told from now on, rad/s.
+  // The wheels' commanded speeds from now on, rad/s.
   void Command(std::span<const double> wheel_radps);
-  std::span<const double> told_radps() const { return told_radps_; }
+  std::span<const double> command_radps() const { return command_radps_; }
   // Before each step. `own`: holds the model's arrays; `live`: its options; `cut`: a flag for each
   // wheel, or none. Whether values of `own` have changed. Allocates nothing.
   bool Update(mjModel* own, mjModel* live, mjData* data, std::span<const char> cut);
-  // The robot is set down anew: it may move.
+  // Lets the wheels turn again.
   void Release(mjModel* own, mjModel* live, mjData* data);
 
  private:
@@ -42,7 +42,7 @@ class StandstillHold {
   Standstill kind_;
   double radius_m_ = 0, brake_nm_ = 0;
   std::vector<int> dofs_, qpos_;
-  std::vector<double> told_radps_, held_rad_, crept_rad_s_, loss_nm_;
+  std::vector<double> command_radps_, held_rad_, crept_rad_s_, loss_nm_;
   std::vector<mjtNum> solimp_, solref_;
   double stood_s_ = 0;  // since all have stood
   bool engaged_ = false;

@@ -52,7 +52,7 @@ nb::dict Ended(const CampaignOutcome& outcome, const fs::path& folder) {
   nb::dict out;
   out["end"] = std::string(WhyEnded(outcome.run.end));
   out["lines"] = lines;
-  out["status"] = CampaignExitStatus(outcome, Console{});
+  out["status"] = CampaignExitStatus(outcome);
   return out;
 }
 

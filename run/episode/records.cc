@@ -25,6 +25,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json OrNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
 Json EventJson(const Event& e) {
   Json json = {{"mode", Name(e.mode)}, {"kind", e.kind},   {"t_s", e.t_s},
                {"x_m", e.x_m},         {"y_m", e.y_m},     {"yaw_rad", e.yaw_rad},
@@ -126,11 +128,8 @@ Json SamplesJson(const Scenario& s, const PlanResult& plan, const EpisodeRecord*
 
 Json RegionJson(const RegionScore& region) {
   const SpaceScore& score = region.score;
-  const auto or_null = [](const std::optional<double>& value) {
-    return value ? Json(*value) : Json(nullptr);
-  };
   Json json = {{"samples", score.samples},
-               {"score", or_null(score.mean)},
+               {"score", OrNull(score.mean)},
                {"lower", nullptr},
                {"upper", nullptr},
                {"confidence", kReportedConfidence}};
@@ -236,14 +235,13 @@ Json TimeoutJson(const std::optional<Timeout>& timeout) {
 namespace {
 
 Json ArrivalJson(const Arrival& how) {
-  const auto or_null = [](const std::optional<double>& m) { return m ? Json(*m) : Json(nullptr); };
   return {{"believed", how.believed},
-          {"end_off_m", or_null(how.off_m)},
+          {"end_off_m", OrNull(how.off_m)},
           {"end_off_allowed_m", how.most_off_m},
           {"at_rest", how.at_rest},
           {"speed_mps", how.speed_mps},
           {"turn_radps", how.turn_radps},
-          {"plan_left_m", or_null(how.left_m)},
+          {"plan_left_m", OrNull(how.left_m)},
           {"tasks_missed", how.tasks_missed}};
 }
 
@@ -261,7 +259,7 @@ Json MetricsJson(const Metrics& metrics) {
     json[std::string(column.name)] = std::visit(
         [&](auto member) -> Json {
           if constexpr (std::is_same_v<decltype(member), std::optional<double> Metrics::*>)
-            return metrics.*member ? Json(*(metrics.*member)) : Json(nullptr);
+            return OrNull(metrics.*member);
           else
             return metrics.*member;
         },

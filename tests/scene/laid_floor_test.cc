@@ -12,6 +12,7 @@
 #include "env/map/site.h"
 #include "env/scene/scene.h"
 #include "tests/hazards/make_hazard.h"
+#include "tests/scene/surface_at.h"
 
 namespace floorproof {
 namespace {
@@ -145,14 +146,6 @@ Entry RandomEntry(Stream& draws, bool neat) {
       entry.bumps = MakeOf("rough", "{" + keys + "}", entry.place).solids;
   }
   return entry;
-}
-
-double SurfaceAt(const Scene& scene, const mjData* data, const Vec2& p) {
-  const mjtNum from[3] = {p.x(), p.y(), 1}, down[3] = {0, 0, -1};
-  const mjtByte groups[mjNGROUP] = {0, 0, 0, 0, 1, 1};
-  int geom = -1;
-  return 1 -
-         mj_ray(scene.model.get(), data, from, down, groups, 1, scene.base_body, &geom, nullptr);
 }
 
 double VolumeOf(const mjModel* m, int geom) {

@@ -3,7 +3,6 @@
 // the floor is then, by rays through the built scene.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <mujoco/mujoco.h>
 
 #include <map>
 #include <string>
@@ -12,6 +11,7 @@
 #include "env/map/site.h"
 #include "env/scene/robot_model.h"
 #include "env/scene/scene.h"
+#include "tests/scene/surface_at.h"
 
 namespace floorproof {
 namespace {
@@ -39,16 +39,6 @@ const std::map<std::string, Kind> kCovers = {
     {"groove", {"type: groove, depth_m: 0.03, width_m: 0.6", -0.03, true}},
 };
 
-double FloorAt(const Scene& scene, double x_m, double y_m) {
-  const mjModel* m = scene.model.get();
-  const DataPtr d = MakeData(m);
-  ForwardEngine(m, d.get());
-  constexpr mjtByte kMet[mjNGROUP] = {0, 0, 0, 0, 1, 1};
-  const mjtNum from[3] = {x_m, y_m, 1}, down[3] = {0, 0, -1};
-  int geom = -1;
-  return 1 - mj_ray(m, d.get(), from, down, kMet, 1, -1, &geom, nullptr);
-}
-
 Site SiteOf(const std::string& hazards) {
   std::string rows;
   for (int i = 0; i < 6; ++i) rows += "    ..........\n";
@@ -58,8 +48,21 @@ Site SiteOf(const std::string& hazards) {
       {});
 }
 
+// A site's scene, with a robot out of the way.
+struct Built {
+  explicit Built(const Site& site)
+      : robot(ReadRobot(FindRobotFile("beluga", {}))),
+        scene(BuildScene(site.map, robot, {}, Pose2{8, 4.5, 0})),
+        data(MakeData(scene.model.get())) {
+    ForwardEngine(scene.model.get(), data.get());
+  }
+  double At(double x_m, double y_m) const { return SurfaceAt(scene, data.get(), {x_m, y_m}); }
+  RobotModel robot;
+  Scene scene;
+  DataPtr data;
+};
+
 TEST(LaidOnEachOther, EachIsAsHighAsItSaysOverWhatIsBeneath) {
-  const RobotModel robot = ReadRobot(FindRobotFile("beluga", {}));
   for (const auto& [floor, below] : kFloors)
     for (const auto& [cover, above] : kCovers)
       for (const bool cover_first : {false, true}) {
@@ -69,19 +72,17 @@ TEST(LaidOnEachOther, EachIsAsHighAsItSaysOverWhatIsBeneath) {
             fmt::format("  - {{id: above, {}, {}}}\n", above.keys,
                         above.line ? "line_m: [[1.5, 2.5], [4.5, 2.5]]"
                                    : "polygon_m: [[1.5, 2.2], [4.5, 2.2], [4.5, 2.8], [1.5, 2.8]]");
-        const Site site = SiteOf(cover_first ? b + a : a + b);
-        const Scene scene = BuildScene(site.map, robot, {}, Pose2{8, 3, 0});
+        const Built dut(SiteOf(cover_first ? b + a : a + b));
         // A rug takes nothing off a groove's depth.
         const double on_m = cover == "groove" && floor == "rug" ? 0 : below.height_m;
-        EXPECT_NEAR(FloorAt(scene, 3, 2.5), on_m + above.height_m, 1e-6);
-        EXPECT_NEAR(FloorAt(scene, 3, 1.5), below.height_m, 1e-6) << "beside it";
-        EXPECT_NEAR(FloorAt(scene, 7, 2.5), 0, 1e-6) << "elsewhere";
+        EXPECT_NEAR(dut.At(3, 2.5), on_m + above.height_m, 1e-6);
+        EXPECT_NEAR(dut.At(3, 1.5), below.height_m, 1e-6) << "beside it";
+        EXPECT_NEAR(dut.At(7, 2.5), 0, 1e-6) << "elsewhere";
       }
 }
 
 // A strip that leads over the edge lies on both floors.
 TEST(LaidOnEachOther, AcrossAnEdgeEachPartLiesOnItsOwnFloor) {
-  const RobotModel robot = ReadRobot(FindRobotFile("beluga", {}));
   for (const auto& [cover, above] : kCovers) {
     if (!above.line) continue;
     for (const bool cover_first : {false, true}) {
@@ -90,10 +91,9 @@ TEST(LaidOnEachOther, AcrossAnEdgeEachPartLiesOnItsOwnFloor) {
           fmt::format("  - {{id: below, type: step, height_m: 0.1, {}}}\n", Polygon(true));
       const std::string b =
           fmt::format("  - {{id: above, {}, line_m: [[3, 2.5], [7, 2.5]]}}\n", above.keys);
-      const Scene scene =
-          BuildScene(SiteOf(cover_first ? b + a : a + b).map, robot, {}, Pose2{8, 4.5, 0});
-      EXPECT_NEAR(FloorAt(scene, 4, 2.5), 0.1 + above.height_m, 1e-6);
-      EXPECT_NEAR(FloorAt(scene, 6, 2.5), above.height_m, 1e-6);
+      const Built dut(SiteOf(cover_first ? b + a : a + b));
+      EXPECT_NEAR(dut.At(4, 2.5), 0.1 + above.height_m, 1e-6);
+      EXPECT_NEAR(dut.At(6, 2.5), above.height_m, 1e-6);
     }
   }
 }
