@@ -12,6 +12,7 @@
 #include "env/scene/mecanum_wheel.h"
 #include "env/scene/roller_wheels.h"
 #include "env/scene/scene.h"
+#include "tests/robot_file.h"
 
 namespace floorproof {
 namespace {
@@ -42,9 +43,7 @@ RobotModel Narrow(const std::string& name, const std::string& body, const std::s
   std::string xml((std::istreambuf_iterator<char>(in)), {});
   const std::size_t at = xml.find(body);
   EXPECT_NE(at, std::string::npos) << body;
-  const std::string file = ::testing::TempDir() + "/exposed_" + name + ".xml";
-  std::ofstream(file) << xml.replace(at, body.size(), narrow);
-  return ReadRobot(file);
+  return ReadRobot(RobotFile(xml.replace(at, body.size(), narrow)).path());
 }
 
 struct Reach {
@@ -141,9 +140,8 @@ TEST(ExposedWheels, CountWhereTheBodysOwnShapeDoesNotCoverThem) {
     const std::size_t at = xml.find(guards);
     EXPECT_NE(at, std::string::npos);
     xml.replace(at, guards.size(), R"(class="body" type="mesh" mesh="guards" pos="0 0 0.205")");
-    const std::string file = ::testing::TempDir() + "/exposed_mesh.xml";
-    std::ofstream(file) << xml;
-    return NumWheelsThatMeetWalls(BuildScene(Hall(), ReadRobot(file), {}, {1, 1, 0}));
+    return NumWheelsThatMeetWalls(
+        BuildScene(Hall(), ReadRobot(RobotFile(xml).path()), {}, {1, 1, 0}));
   };
   EXPECT_EQ(exposed(R"(type="box" size="0.290 0.312 0.015" pos="0 0 0.205" euler="0 0 1.5707963")"),
             0);
@@ -169,7 +167,6 @@ TEST(ExposedWheels, WhatLiesAboveTheWallsCoversNothing) {
 TEST(ExposedWheels, ACasterCountsWhereverItSwivels) {
   const auto exposed = [](double trail_m) {
     const std::string trail = std::to_string(trail_m);
-    const std::string file = ::testing::TempDir() + "/exposed_caster.xml";
     std::ifstream in(FindRobotFile("beluga", {}));
     std::string xml((std::istreambuf_iterator<char>(in)), {});
     const std::string ball = R"(<geom name="caster_rear" class="caster"/>)";
@@ -181,8 +178,8 @@ TEST(ExposedWheels, ACasterCountsWhereverItSwivels) {
       <body name="roll" pos=")" +
         trail + R"( 0 0"><joint axis="0 1 0"/>
       <geom type="sphere" size="0.02" mass="0.05" contype="0" conaffinity="1"/></body></body>)";
-    std::ofstream(file) << xml.replace(at, ball.size(), fork);
-    return NumWheelsThatMeetWalls(BuildScene(Hall(), ReadRobot(file), {}, {1, 1, 0}));
+    const RobotFile file(xml.replace(at, ball.size(), fork));
+    return NumWheelsThatMeetWalls(BuildScene(Hall(), ReadRobot(file.path()), {}, {1, 1, 0}));
   };
   EXPECT_EQ(exposed(0.015), 0);
   EXPECT_EQ(exposed(0.035), 1) << "ahead of its pivot it stands under the body, behind it does not";

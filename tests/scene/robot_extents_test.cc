@@ -4,11 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "env/scene/robot_model.h"
 #include "tests/physics/one_caster.h"
+#include "tests/robot_file.h"
 
 namespace floorproof {
 namespace {
@@ -20,11 +19,7 @@ RobotSpec WithBody(const std::string& geom, const std::string& assets = "") {
              end = xml.find("      <body name=\"wheel_left\"");
   xml.replace(begin, end - begin, "      <geom class=\"body\" mass=\"5\" " + geom + "/>\n");
   xml.insert(xml.find("  <worldbody>"), assets);
-  const std::string file = ::testing::TempDir() + "/extents.xml";
-  std::ofstream(file) << xml;
-  const RobotSpec spec = ReadRobot(file).spec;
-  std::filesystem::remove(file);
-  return spec;
+  return ReadRobot(RobotFile(xml).path()).spec;
 }
 
 constexpr double kFine_m = 0.002 * 0.25;  // of 72 directions around

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "env/scene/scene.h"
+#include "tests/robot_file.h"
 #include "tests/robots.h"
 
 namespace floorproof {
@@ -75,10 +76,9 @@ TEST(RobotModel, MotorsAndWheelsNeedNoNames) {
   std::stringstream text;
   text << std::ifstream(htetro).rdbuf();
   const std::regex named("(<(?:geom|dcmotor)) name=\"[^\"]*\"([^>]* class=\"wheel)");
-  const std::string file = ::testing::TempDir() + "/nameless.xml";
-  std::ofstream(file) << std::regex_replace(text.str(), named, "$1$2");
+  const RobotFile file(std::regex_replace(text.str(), named, "$1$2"));
   const RobotChanges changes = {.wheel_radius_m = 0.035, .battery_v = 11};
-  const RobotModel dut = ReadRobot(file, changes), with_names = ReadRobot(htetro, changes);
+  const RobotModel dut = ReadRobot(file.path(), changes), with_names = ReadRobot(htetro, changes);
   ASSERT_EQ(dut.spec.wheels.size(), 16u);
   EXPECT_EQ(dut.spec.wheels[3].name, "actuator 3");
   EXPECT_EQ(dut.spec.wheels[3].radius_m, with_names.spec.wheels[3].radius_m);
@@ -107,13 +107,11 @@ TEST(RobotModel, PartsMayHaveAnyNames) {
     geoms += std::string("<geom name='") + name +
              "' material='floor' size='0.01' pos='0 0 0.1' contype='0' conaffinity='0'/>";
   xml.insert(xml.find(joint) + joint.size(), geoms);
-  const std::string file = ::testing::TempDir() + "/any_names.xml";
-  std::ofstream(file) << xml;
   HazardMap map;
   map.frame = {4, 4, 1, {}};
   map.occupancy = Grid<CellState>(4, 4);
   map.occupancy(1, 1) = CellState::kOccupied;
-  const Scene dut = BuildScene(map, ReadRobot(file), {}, {});
+  const Scene dut = BuildScene(map, ReadRobot(RobotFile(xml).path()), {}, {});
   const mjModel* m = dut.model.get();
   const int mine = mj_name2id(m, mjOBJ_MATERIAL, "floor");
   ASSERT_GE(mine, 0);
@@ -127,11 +125,10 @@ TEST(RobotModel, PartsMayHaveAnyNames) {
   EXPECT_EQ(m->mat_rgba[4 * of_floor + 1], 1) << "the floor is not";
 }
 
-std::string RefusalOf(const std::string& name, const std::string& xml) {
-  const std::string file = ::testing::TempDir() + "/" + name + ".xml";
-  std::ofstream(file) << xml;
+std::string RefusalOf(const std::string& xml) {
+  const RobotFile file(xml);
   try {
-    ReadRobot(file);
+    ReadRobot(file.path());
   } catch (const InputError& e) {
     return e.what();
   }
@@ -139,11 +136,10 @@ std::string RefusalOf(const std::string& name, const std::string& xml) {
 }
 
 TEST(RobotModel, ABrokenRobotIsRefusedNamingWhatIsMissing) {
-  EXPECT_THAT(RefusalOf("no_xml", "<mujoco"), HasSubstr("is not MJCF that MuJoCo reads"));
-  EXPECT_THAT(RefusalOf("no_base", "<mujoco/>"), HasSubstr("a robot needs a body named base"));
+  EXPECT_THAT(RefusalOf("<mujoco"), HasSubstr("is not MJCF that MuJoCo reads"));
+  EXPECT_THAT(RefusalOf("<mujoco/>"), HasSubstr("a robot needs a body named base"));
   EXPECT_THAT(
       RefusalOf(
-          "no_joint",
           "<mujoco><worldbody><body name='base'><geom size='.1'/></body></worldbody></mujoco>"),
       HasSubstr("free joint"));
   std::string custom = "<custom><text name='drive' data='differential'/>";
@@ -153,8 +149,8 @@ TEST(RobotModel, ABrokenRobotIsRefusedNamingWhatIsMissing) {
     custom += std::string("<numeric name='") + number + "' data='1'/>";
   const std::string body =
       "<worldbody><body name='base' pos='0 0 1'><freejoint/><geom size='.1'/></body></worldbody>";
-  EXPECT_THAT(RefusalOf("no_custom", "<mujoco>" + body + "</mujoco>"), HasSubstr("drive"));
-  EXPECT_THAT(RefusalOf("no_wheels", "<mujoco>" + custom + "</custom>" + body + "</mujoco>"),
+  EXPECT_THAT(RefusalOf("<mujoco>" + body + "</mujoco>"), HasSubstr("drive"));
+  EXPECT_THAT(RefusalOf("<mujoco>" + custom + "</custom>" + body + "</mujoco>"),
               HasSubstr("a robot needs at least one driven wheel"));
 }
 
@@ -171,22 +167,21 @@ TEST(RobotModel, ABodyThatNothingStopsIsRefused) {
   std::string xml = BelugaWith("<mujoco", "");
   const std::string body = "conaffinity=\"3\"";
   xml.replace(xml.find(body), body.size(), "conaffinity=\"0\"");
-  EXPECT_THAT(RefusalOf("ghost", xml), HasSubstr("nothing but wheels and casters collides"));
+  EXPECT_THAT(RefusalOf(xml), HasSubstr("nothing but wheels and casters collides"));
 }
 
 // Whoever judges the robot rules gravity, solver and light.
 TEST(RobotModel, ItsFileDoesNotRuleTheWorld) {
-  const std::string file = ::testing::TempDir() + "/ruler.xml";
-  std::ofstream(file) << BelugaWith(
+  const RobotFile file(BelugaWith(
       "<custom>",
       "<option gravity='1 0 -1' wind='9 0 0' density='1.2' iterations='1' impratio='7'>"
       "<flag contact='disable'/></option><statistic meaninertia='1e9' meansize='5'/>"
       "<visual><quality numslices='1000' numstacks='1000'/><headlight active='0'/></visual>"
-      "<size memory='1M'/>");
+      "<size memory='1M'/>"));
   HazardMap map;
   map.frame = {4, 4, 1, {}};
   map.occupancy = Grid<CellState>(4, 4);
-  const Scene dut = BuildScene(map, ReadRobot(file), {}, {});
+  const Scene dut = BuildScene(map, ReadRobot(file.path()), {}, {});
   const Scene plain = BuildScene(map, Beluga(), {}, {});
   const mjModel &a = *dut.model, &b = *plain.model;
   EXPECT_EQ(std::vector<double>(a.opt.gravity, a.opt.gravity + 3),
@@ -205,73 +200,71 @@ TEST(RobotModel, ItsFileDoesNotRuleTheWorld) {
 
 TEST(RobotModel, TheFileHoldsTheRobotAlone) {
   const std::string rule = "stands beside the robot";
-  const auto beside = [&](const std::string& name, const std::string& part) {
-    return RefusalOf(name, BelugaWith("<body name=\"base\"", part));
+  const auto beside = [&](const std::string& part) {
+    return RefusalOf(BelugaWith("<body name=\"base\"", part));
   };
-  EXPECT_THAT(beside("floor", "<geom name='mine' type='plane' size='9 9 1'/>"),
+  EXPECT_THAT(beside("<geom name='mine' type='plane' size='9 9 1'/>"),
               HasSubstr("geom mine: " + rule));
-  EXPECT_THAT(beside("crate", "<body name='crate' pos='1 0 0.1'><geom size='.1'/></body>"),
+  EXPECT_THAT(beside("<body name='crate' pos='1 0 0.1'><geom size='.1'/></body>"),
               HasSubstr("body crate: " + rule));
 }
 
 // A drawer that runs out by 20 m, and a hinge far from what turns about it.
 TEST(RobotModel, PartsStayNearWhereverTheirJointsTakeThem) {
-  const auto carried = [&](const std::string& name, const std::string& joint) {
-    return RefusalOf(name, BelugaWith("<freejoint name=\"root\"/>",
-                                      "<body name='far'>" + joint +
-                                          "<geom size='.01' mass='.01' pos='0 0 .1' contype='0' "
-                                          "conaffinity='0'/></body>"));
+  const auto carried = [&](const std::string& joint) {
+    return RefusalOf(BelugaWith("<freejoint name=\"root\"/>",
+                                "<body name='far'>" + joint +
+                                    "<geom size='.01' mass='.01' pos='0 0 .1' contype='0' "
+                                    "conaffinity='0'/></body>"));
   };
   const std::string rule = "must be within 10 m of the robot's base";
-  EXPECT_THAT(carried("drawer", "<joint type='slide' axis='1 0 0' range='0 20'/>"),
-              HasSubstr(rule));
-  EXPECT_THAT(carried("door", "<joint type='hinge' axis='0 0 1' pos='6 0 0'/>"), HasSubstr(rule));
-  EXPECT_THAT(carried("near", "<joint type='slide' axis='1 0 0' range='0 0.1'/>"),
+  EXPECT_THAT(carried("<joint type='slide' axis='1 0 0' range='0 20'/>"), HasSubstr(rule));
+  EXPECT_THAT(carried("<joint type='hinge' axis='0 0 1' pos='6 0 0'/>"), HasSubstr(rule));
+  EXPECT_THAT(carried("<joint type='slide' axis='1 0 0' range='0 0.1'/>"),
               ::testing::Not(HasSubstr(rule)));
 }
 
 TEST(RobotModel, ItsMassLiesAboveTheFloor) {
   // A weight that touches nothing.
-  const auto with_keel = [](const std::string& name, double z_m) {
-    return RefusalOf(name, BelugaWith("<freejoint name=\"root\"/>",
-                                      "<geom size='.01' mass='20' contype='0' conaffinity='0' "
-                                      "pos='0 0 " +
-                                          std::to_string(z_m) + "'/>"));
+  const auto with_keel = [](double z_m) {
+    return RefusalOf(BelugaWith("<freejoint name=\"root\"/>",
+                                "<geom size='.01' mass='20' contype='0' conaffinity='0' "
+                                "pos='0 0 " +
+                                    std::to_string(z_m) + "'/>"));
   };
-  EXPECT_EQ(with_keel("low_keel", 0.01), "accepted");
-  EXPECT_THAT(with_keel("deep_keel", -0.5),
-              HasSubstr("base: the centre of mass must lie above the floor"));
+  EXPECT_EQ(with_keel(0.01), "accepted");
+  EXPECT_THAT(with_keel(-0.5), HasSubstr("base: the centre of mass must lie above the floor"));
 }
 
 // MuJoCo copies until no memory is left; whoever asked for it goes on.
 TEST(RobotModel, WhatMuJoCoDoesNotSurviveIsRefused) {
   const std::string copies = "<replicate count='&#49;000'>";
-  const std::string dut = RefusalOf(
-      "copies", "<mujoco><worldbody><body name='base'>" + copies + copies +
-                    "<geom size='.001'/></replicate></replicate></body></worldbody></mujoco>");
-  EXPECT_THAT(dut, HasSubstr("copies.xml: MuJoCo "));
+  const std::string dut =
+      RefusalOf("<mujoco><worldbody><body name='base'>" + copies + copies +
+                "<geom size='.001'/></replicate></replicate></body></worldbody></mujoco>");
+  EXPECT_THAT(dut, HasSubstr(".xml: MuJoCo "));
   EXPECT_THAT(dut, HasSubstr(" while it compiled this robot"));
   EXPECT_EQ(Beluga().spec.wheels.size(), 2u);
 }
 
 // BELUGA with its left wheel's joint written so.
 TEST(RobotModel, AWheelTurnsAboutItsOwnAxis) {
-  const auto with_joint = [](const std::string& name, const std::string& more) {
+  const auto with_joint = [](const std::string& more) {
     std::ifstream in(FindRobotFile("beluga", {}));
     std::string xml((std::istreambuf_iterator<char>(in)), {});
     const std::string joint = "<joint name=\"wheel_left\" class=\"wheel\"";
     const std::size_t at = xml.find(joint);
     EXPECT_NE(at, std::string::npos);
-    return RefusalOf(name, xml.replace(at, joint.size(), joint + more));
+    return RefusalOf(xml.replace(at, joint.size(), joint + more));
   };
-  EXPECT_EQ(with_joint("as_it_is", ""), "accepted");
-  EXPECT_EQ(with_joint("along_it", " pos=\"0 0.01 0\""), "accepted");
-  EXPECT_EQ(with_joint("the_other_way", " axis=\"0 -1 0\""), "accepted");
+  EXPECT_EQ(with_joint(""), "accepted");
+  EXPECT_EQ(with_joint(" pos=\"0 0.01 0\""), "accepted");
+  EXPECT_EQ(with_joint(" axis=\"0 -1 0\""), "accepted");
   const std::string rule = "wheel_left: the wheel's hinge must be its cylinder's axis";
-  EXPECT_THAT(with_joint("beside", " pos=\"0.005 0 0\""), HasSubstr(rule));
-  EXPECT_THAT(with_joint("above", " pos=\"0 0 0.005\""), HasSubstr(rule));
-  EXPECT_THAT(with_joint("steered", " axis=\"0 0 1\""), HasSubstr(rule));
-  EXPECT_THAT(with_joint("askew", " axis=\"0 1 0.05\""), HasSubstr(rule));
+  EXPECT_THAT(with_joint(" pos=\"0.005 0 0\""), HasSubstr(rule));
+  EXPECT_THAT(with_joint(" pos=\"0 0 0.005\""), HasSubstr(rule));
+  EXPECT_THAT(with_joint(" axis=\"0 0 1\""), HasSubstr(rule));
+  EXPECT_THAT(with_joint(" axis=\"0 1 0.05\""), HasSubstr(rule));
 }
 
 // hTetro with its four shells and bellies this half as wide. Of blocks that stand apart all are
@@ -284,9 +277,7 @@ TEST(RobotModel, BlocksALittleApartAreOneRobot) {
     std::string xml = std::regex_replace(text.str(), std::regex("size=\"0.125 0.125"),
                                          "size=\"" + half_m + " " + half_m);
     xml = std::regex_replace(xml, std::regex("size=\"0.060 0.120"), "size=\"0.060 " + half_m);
-    const std::string file = ::testing::TempDir() + "/apart.xml";
-    std::ofstream(file) << xml;
-    return ReadRobot(file, {}, Blocks::kHinged).spec;
+    return ReadRobot(RobotFile(xml).path(), {}, Blocks::kHinged).spec;
   };
   for (const double half_m : {0.116, 0.119, 0.126}) {
     const RobotSpec dut = with_blocks(half_m);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "tests/robot_file.h"
 #include "tests/validate/two_wheels.h"
 #include "tests/validate/wrongs.h"
 
@@ -19,7 +20,7 @@ using ::testing::Not;
 using ::testing::StartsWith;
 
 std::vector<std::string> Wrongs(const TwoWheels& robot) {
-  return Wrongs(CheckRobot(Written(robot)));
+  return Wrongs(CheckRobot(RobotFile(Mjcf(robot)).path()));
 }
 
 const LawRow& Row(const RobotDrive& drive, std::string_view name) {
@@ -40,27 +41,28 @@ TEST(RobotCheck, NothingIsWrongWithABaseOnTwoWheels) {
 // Whether the drive would tell a robot from another one: larger wheels roll farther, and turn it
 // farther, on wheels that slip it stays behind.
 TEST(RobotDrive, NoticesAWrongModel) {
-  const std::string file = Written({});
-  const RobotDrive larger = DriveTenSeconds(file, kLargerWheels);
+  const RobotFile file(Mjcf({}));
+  const RobotDrive larger = DriveTenSeconds(file.path(), kLargerWheels);
   EXPECT_FALSE(Row(larger, "straight/way").ok());
   EXPECT_GT(Row(larger, "straight/way").measured, Row(larger, "straight/way").expected);
-  const RobotDrive slippery = DriveTenSeconds(file, {.friction_factor = 0.01});
+  const RobotDrive slippery = DriveTenSeconds(file.path(), {.friction_factor = 0.01});
   EXPECT_FALSE(Row(slippery, "straight/way").ok());
   EXPECT_THAT(slippery.straight_hint, HasSubstr("they slip"));
 }
 
 // Whether it is the motors or the grip.
 TEST(RobotDrive, SaysWhyItStaysBehind) {
-  const RobotDrive soft = DriveTenSeconds(Written({.driver_gain = 0.02}));
+  const RobotDrive soft = DriveTenSeconds(RobotFile(Mjcf({.driver_gain = 0.02})).path());
   EXPECT_THAT(soft.straight_hint, HasSubstr("the motors do not hold the speed"));
   EXPECT_THAT(soft.turn_hint, HasSubstr("hold the motors back"));
-  const RobotDrive slippery = DriveTenSeconds(Written({}), {.friction_factor = 0.005});
+  const RobotDrive slippery =
+      DriveTenSeconds(RobotFile(Mjcf({})).path(), {.friction_factor = 0.005});
   EXPECT_THAT(slippery.straight_hint, HasSubstr("they slip, with"));
 }
 
 TEST(RobotDrive, ItTakesTenSecondsAndTheSameRowsEachTime) {
-  const std::string file = Written({});
-  const RobotDrive one = DriveTenSeconds(file), again = DriveTenSeconds(file);
+  const RobotFile file(Mjcf({}));
+  const RobotDrive one = DriveTenSeconds(file.path()), again = DriveTenSeconds(file.path());
   ASSERT_EQ(one.rows.size(), again.rows.size());
   for (std::size_t i = 0; i < one.rows.size(); ++i)
     EXPECT_EQ(one.rows[i].measured, again.rows[i].measured) << one.rows[i].law;
@@ -71,7 +73,7 @@ TEST(RobotDrive, ItTakesTenSecondsAndTheSameRowsEachTime) {
 
 // The weight on the wheels, from where the centre of mass stands between axle and caster.
 TEST(RobotDrive, TheWeightStandsOnWheelsAndCasterByTheLever) {
-  const RobotCheck dut = CheckRobot(Written({}));
+  const RobotCheck dut = CheckRobot(RobotFile(Mjcf({})).path());
   EXPECT_NEAR(dut.drive.driven_share, 1 - dut.spec.p_BCom.x() / -0.12, 0.02);
   const double caster_n = (1 - dut.drive.driven_share) * dut.spec.mass_kg * 9.81;
   EXPECT_NEAR(dut.drive.rolling_n, 2 * 0.01 / 0.05 + 0.02 * caster_n, 0.03);
@@ -79,7 +81,7 @@ TEST(RobotDrive, TheWeightStandsOnWheelsAndCasterByTheLever) {
 
 // Motor: slope stall / no load; at the rim less what rolls.
 TEST(RobotCheck, TheTopSpeedIsWhereTheMotorsHoldRollingFriction) {
-  const RobotCheck dut = CheckRobot(Written({}));
+  const RobotCheck dut = CheckRobot(RobotFile(Mjcf({})).path());
   const double slope = 2.0 / 10, load_nm = dut.drive.rolling_n * 0.05 / 2;
   EXPECT_NEAR(dut.top_speed_mps, 0.05 * (2.0 - load_nm) / (slope + 0.001), 1e-3);
   EXPECT_NEAR(dut.top_yaw_radps, dut.top_speed_mps / 0.1, 1e-3);
@@ -120,7 +122,7 @@ TEST(RobotCheck, WhatItCannotHoldIsNoticed) {
 
 TEST(RobotCheck, ASupportThatDoesNotHoldTheCentreOfMassIsRefused) {
   try {
-    CheckRobot(Written({.caster_x_m = 0.12}));
+    CheckRobot(RobotFile(Mjcf({.caster_x_m = 0.12})).path());
     FAIL();
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), HasSubstr("outside the wheels' support, by "));

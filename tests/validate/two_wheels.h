@@ -2,10 +2,6 @@
 // A base on two driven wheels and a ball caster behind them, as MJCF that tests make wrong.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 namespace floorproof {
@@ -51,13 +47,6 @@ inline std::string Mjcf(const TwoWheels& r) {
          " 0 0\" mass=\"0.05\"/></body></body></worldbody><actuator>"
          "<dcmotor name=\"left\" joint=\"left\"" +
          motor + "<dcmotor name=\"right\" joint=\"right\"" + motor + "</actuator></mujoco>";
-}
-
-inline std::string Written(const TwoWheels& robot) {
-  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  const std::string file = ::testing::TempDir() + "/two_wheels_" + test->name() + ".xml";
-  std::ofstream(file) << Mjcf(robot);
-  return file;
 }
 
 }  // namespace floorproof

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// A robot's text as a file, for as long as this lives. Tests run side by side, so the file's name
+// holds the test's.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace floorproof {
+
+class RobotFile {
+ public:
+  explicit RobotFile(const std::string& mjcf) { std::ofstream(path_) << mjcf; }
+  RobotFile(const RobotFile&) = delete;
+  RobotFile& operator=(const RobotFile&) = delete;
+  ~RobotFile() { std::filesystem::remove(path_); }
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  static std::string Name() {
+    const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string(test.test_suite_name()) + "." + test.name() + ".xml";
+    std::ranges::replace(name, '/', '.');  // of parameters
+    return name;
+  }
+
+  const std::filesystem::path path_ = std::filesystem::path(::testing::TempDir()) / Name();
+};
+
+}  // namespace floorproof
