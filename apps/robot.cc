@@ -53,9 +53,8 @@ std::optional<DriveChoice> Choose(const RobotSpec& robot, std::string& why) {
   return DriveChoice{std::string(drive->name), drive->make()->holonomic()};
 }
 
-// Writes the URDF's MJCF to `out`, and returns what was mended and guessed.
-std::vector<std::string> Convert(const fs::path& urdf, const fs::path& out,
-                                 const Globals& globals) {
+// Writes the URDF's MJCF to `out`, and returns it.
+UrdfMjcf Convert(const fs::path& urdf, const fs::path& out, const Globals& globals) {
   UrdfMjcf mjcf = MjcfOfUrdf(urdf, Answers(globals), Choose);
   if (WriteConverted(out, mjcf.text))
     mjcf.notes.push_back("the limits that " + out.string() +
@@ -65,7 +64,7 @@ std::vector<std::string> Convert(const fs::path& urdf, const fs::path& out,
   SayWhenInterrupted(out.string() + " is there");
   for (const std::string& note : mjcf.notes) globals.Say(note);
   globals.Say(out.string() + " written: each guess in it is marked as one");
-  return mjcf.notes;
+  return mjcf;
 }
 
 }  // namespace
@@ -94,9 +93,9 @@ void AddRobot(CommandLine& line, const Globals& globals, int& status) {
     const bool urdf = fs::path(options->file).extension() == ".urdf" || IsUrdf(options->file, {});
     fs::path file = urdf ? fs::path(options->file) : FindRobotFile(options->file, {"FILE", 0});
     const fs::path out = OutFile(options->out, file);
-    std::vector<std::string> notes;
+    UrdfMjcf mjcf;
     if (urdf) {
-      notes = Convert(file, out, globals);
+      mjcf = Convert(file, out, globals);
       file = out;
     } else if (!globals.sets.empty()) {
       throw InputError({"--set", 0}, "", globals.sets.front(),
@@ -108,7 +107,11 @@ void AddRobot(CommandLine& line, const Globals& globals, int& status) {
         options->ladder ? PlaceForLimits(robot.files, in_place ? fs::path() : out) : fs::path();
     const fs::path folder = out.has_parent_path() ? out.parent_path() : ".";
     ResultFolder results(folder, RobotPictures(), robot.files);
-    const RobotCheck check = CheckRobot(file.string());
+    RobotCheck check = CheckRobot(file.string());
+    for (const std::string& wrong : mjcf.wrong)
+      check.findings.push_back({Finding::Kind::kWrong, wrong,
+                                "bring the mesh's file there, or give the link a <collision> of "
+                                "boxes, cylinders and spheres"});
     const fs::path picture = folder / (out.stem().string() + std::string(kPicture));
     results.Begin();
     WritePng(picture, DrawRobot(check, PartsOf(robot)));
@@ -116,7 +119,7 @@ void AddRobot(CommandLine& line, const Globals& globals, int& status) {
     SayRobot(check, globals);
     globals.Say("picture: " + picture.string());
     nlohmann::ordered_json json = RobotCheckJson(check);
-    if (urdf) json["of_the_urdf"] = notes;
+    if (urdf) json["of_the_urdf"] = mjcf.notes;
     if (options->ladder)
       json["ladder"] = MeasureLimits(robot, target, folder / out.stem(), options->jobs, globals);
     globals.Result(json);

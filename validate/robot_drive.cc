@@ -228,13 +228,46 @@ double ScrubShare(const RobotSpec& robot) {
   return share;
 }
 
+// Where a body turns about, in its first frame; it turned by `turned_rad`, no whole number of
+// turns.
+Vec2 TurnCentre(const Pose2& first, const Pose2& last, double turned_rad) {
+  const Vec2 way = first.Inverse() * last.p();
+  const double cot = 1 / std::tan(turned_rad / 2);
+  return 0.5 * (way + cot * Vec2(-way.y(), way.x()));
+}
+
+// Ahead of the middle of the wheels, where a turn about `centre_B` is that of a skid-steer whose
+// load lies off the middle: plain wheels on several axles slide less where they carry more.
+std::optional<double> TurnsAboutItsLoad(const RobotSpec& robot, const Vec2& centre_B) {
+  constexpr double kAxle_m = 0.010, kAside_m = 0.010;
+  const auto [rear, front] =
+      std::ranges::minmax(robot.wheels, {}, [](const WheelSpec& wheel) { return wheel.p_BW.x(); });
+  const double middle_m = (front.p_BW.x() + rear.p_BW.x()) / 2;
+  const double half_base_m = (front.p_BW.x() - rear.p_BW.x()) / 2;
+  const double load_m = robot.p_BCom.x() - middle_m, about_m = centre_B.x() - middle_m;
+  const bool skids = half_base_m > kAxle_m && robot.wheels.front().roller_radius_m == 0;
+  if (!skids || std::abs(middle_m) > kAxle_m || std::abs(centre_B.y()) > kAside_m ||
+      load_m * about_m <= 0 || std::abs(about_m) > half_base_m)
+    return std::nullopt;
+  return about_m;
+}
+
 void Turn(TenSeconds& run, RobotDrive& out) {
   constexpr double kShare = 0.03, kYaw_deg = 2, kOff_m = 0.010, kOffShare = 0.05;
   constexpr double kRest_mps = 0.005, kLook_s = 0.25;
   const Moment a = run.Until(kTurn_s);
   const double before_rad = run.turned_rad();
   Moment b = a;
-  for (double t_s = kTurn_s + kLook_s; t_s <= kEnd_s; t_s += kLook_s) b = run.Until(t_s);
+  Vec2 centre_B = Vec2::Zero();  // by the moment that is nearest to half a turn from the start
+  double half_turn = 0;
+  for (double t_s = kTurn_s + kLook_s; t_s <= kEnd_s; t_s += kLook_s) {
+    b = run.Until(t_s);
+    const double so_far_rad = run.turned_rad() - before_rad;
+    if (const double nearness = std::abs(std::sin(so_far_rad / 2)); nearness > half_turn) {
+      half_turn = nearness;
+      centre_B = TurnCentre(a.X_WB, b.X_WB, so_far_rad);
+    }
+  }
   const RobotSpec& robot = run.rig().robot();
   const double expected_deg = (b.expected_rad - a.expected_rad) / kDegree;
   const double turned_deg = (run.turned_rad() - before_rad) / kDegree;
@@ -243,9 +276,12 @@ void Turn(TenSeconds& run, RobotDrive& out) {
       {"turn/yaw", expected_deg, turned_deg, share * std::abs(expected_deg) + kYaw_deg, "deg"});
   if (!out.rows.back().ok())
     out.turn_hint = TurnHint(expected_deg, turned_deg, (b.rolled_rad - a.rolled_rad) / kDegree);
-  if (run.limits().on_the_spot)
-    out.rows.push_back({"turn/off_the_spot", 0, (b.X_WB.p() - a.X_WB.p()).norm(),
-                        kOff_m + kOffShare * 2 * robot.circumscribed_radius_m, "m"});
+  if (run.limits().on_the_spot) {
+    const LawRow off{"turn/off_the_spot", 0, (b.X_WB.p() - a.X_WB.p()).norm(),
+                     kOff_m + kOffShare * 2 * robot.circumscribed_radius_m, "m"};
+    if (!off.ok()) out.turns_about_m = TurnsAboutItsLoad(robot, centre_B);
+    if (!out.turns_about_m) out.rows.push_back(off);
+  }
   out.rows.push_back({"halt/rest", 0, b.speed_mps, kRest_mps, "m/s"});
 }
 

@@ -7,6 +7,7 @@
 // wheels that roll without slip (Drive::ToTwist) at the speeds commanded.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,11 @@ struct RobotDrive {
   std::vector<LawRow> rows;   // `law` is the part and what is compared: "straight/way"
   std::string straight_hint;  // why the way is another, where it is; else empty
   std::string turn_hint;      // the same of the turn
-  double driven_share = 0;    // of its weight, on the driven wheels, as it stands
-  double rolling_n = 0;       // what holds it back: the wheels' bearings, and casters that slide
+  // Ahead of the middle of its wheels, where a skid-steer turns about its load instead; the row
+  // turn/off_the_spot is then left out.
+  std::optional<double> turns_about_m;
+  double driven_share = 0;  // of its weight, on the driven wheels, as it stands
+  double rolling_n = 0;     // what holds it back: the wheels' bearings, and casters that slide
 };
 
 // Of a bundled name or a file. Throws InputError as ReadRobot and the drive do, InternalError when

@@ -141,6 +141,42 @@ class Findings {
       Note("no site named `lidar`", "say where the scan plane is, or set sensors.lidar.z_m");
   }
 
+  // A rigid base with its axle between casters stands on the casters where the floor bends. With
+  // the front caster on a ramp and the axle at its foot, the axle hangs a b / (a + b) times the
+  // slope over the floor (a, b: from the axle to the casters).
+  void RigidBetweenCasters(const RobotModel& robot) {
+    constexpr double kAxle_m = 0.01, kRamp = 1.0 / 12;
+    const ModelPtr model = CompileAlone(robot);
+    const mjModel* m = model.get();
+    if (std::any_of(m->jnt_stiffness, m->jnt_stiffness + m->njnt, [](mjtNum k) { return k > 0; }))
+      return;
+    double front_m = 0, rear_m = 0;
+    for (const Carrier& carrier : check_.stance.carriers) {
+      if (carrier.driven && std::abs(carrier.p_B.x()) > kAxle_m) return;  // several axles
+      if (carrier.driven || carrier.p_B.z() > kGap_m) continue;
+      front_m = std::max(front_m, carrier.p_B.x());
+      rear_m = std::max(rear_m, -carrier.p_B.x());
+    }
+    const double hangs_m = kRamp * front_m * rear_m / std::max(front_m + rear_m, kGap_m);
+    if (hangs_m <= kGap_m) return;
+    Note(fmt::format(
+             "its driven wheels stand between casters, and nothing is sprung: at the foot of "
+             "a ramp of 1:12 they hang {} over the floor",
+             LengthText(hangs_m)),
+         "spring the wheels (of a URDF: --set sprung_share=...), or leave a gap under the casters "
+         "of "
+         "one side");
+  }
+
+  void TurnsAboutItsLoad() {
+    if (!check_.drive.turns_about_m) return;
+    const double about_m = *check_.drive.turns_about_m;
+    Note(fmt::format("it turns about a point {} {} the middle of its wheels, towards its centre of "
+                     "mass: wheels that slide give way where they carry less",
+                     LengthText(std::abs(about_m)), about_m > 0 ? "ahead of" : "behind"),
+         "leave it that much more room, or move the masses to the middle");
+  }
+
   void DriveRows() {
     for (const LawRow& row : check_.drive.rows) {
       if (row.ok()) continue;
@@ -190,6 +226,8 @@ void AddFindings(const RobotModel& robot, RobotCheck& check) {
   findings.Balance();
   findings.Limits();
   findings.DriveRows();
+  findings.TurnsAboutItsLoad();
+  findings.RigidBetweenCasters(robot);
 }
 
 }  // namespace floorproof

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <vector>
 
+#include "base/printable.h"
 #include "env/scene/engine_files.h"
 
 namespace floorproof {
@@ -51,14 +52,18 @@ MeshPlace FindMesh(const std::string& uri, const fs::path& urdf, const SourceMar
       throw InputError(mark, "mesh", uri, "lies outside the folder of the robot's file");
     if (!fs::exists(file, error)) continue;
     place.extension = Extension(file);
-    constexpr std::string_view kReadable[] = {".stl", ".obj", ".msh"};
+    constexpr std::string_view kReadable[] = {".stl", ".obj", ".msh", ".dae"};
     if (std::ranges::find(kReadable, place.extension) == std::end(kReadable)) {
-      place.why = "is of no format that MuJoCo reads (.stl, .obj)";
+      const std::string name = Printable(file.filename().string());
+      place.why = "is of no format that is read (.stl, .obj, .dae; `assimp export " + name + " " +
+                  Printable(file.stem().string()) + ".stl` makes one)";
       return place;
     }
     if (const std::string why = files.WhyUnreadable(file, EngineFiles::kMaxBytes); !why.empty())
       throw InputError(mark, "mesh", uri, why);
     place.file = file;
+    place.is_collada = place.extension == ".dae";
+    if (place.is_collada) place.extension = ".obj";
     return place;
   }
   place.why =

@@ -13,6 +13,7 @@ namespace floorproof {
 struct MeshPlace {
   std::filesystem::path file;  // empty: left out
   std::string extension;       // in small letters, with its dot
+  bool is_collada = false;     // MuJoCo gets it as .obj, its `extension`
   std::string why;             // it is left out
 };
 

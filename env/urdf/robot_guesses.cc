@@ -59,7 +59,7 @@ Sizes SizesOf(const UrdfRobot& robot) {
   }
   for (const UrdfShape& shape : robot.shapes) {
     if (!shape.collides) continue;
-    sizes.belly_m = std::min(sizes.belly_m, LowestOf(shape));
+    sizes.belly_m = std::min(sizes.belly_m, BoundsOf(shape).min().z());
     for (const Vec3& p : shape.Points()) hold(p.y());
   }
   sizes.width_m = left_m - right_m;

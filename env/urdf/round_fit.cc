@@ -52,27 +52,23 @@ std::optional<RoundFit> FitRound(const std::vector<UrdfShape>& shapes, const Vec
   return best;
 }
 
+Eigen::AlignedBox3d BoundsOf(const UrdfShape& shape) {
+  Eigen::AlignedBox3d bounds;
+  for (const Vec3& q : shape.Points()) bounds.extend(q);
+  return bounds;
+}
+
 BallFit FitBall(const UrdfShape& shape) {
   if (shape.kind == Kind::kSphere) return {shape.p_M, shape.size.x(), ""};
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const Vec3& q : shape.Points()) {
-    low = low.cwiseMin(q);
-    high = high.cwiseMax(q);
-  }
-  const Vec3 half = (high - low) / 2;
+  const Eigen::AlignedBox3d bounds = BoundsOf(shape);
+  const Vec3 half = bounds.sizes() / 2;
   const bool lies = shape.kind == Kind::kCylinder && std::abs(shape.R_M(2, 2)) < 0.1;
   BallFit fit;
   fit.radius_m = lies ? shape.size.x() : half.minCoeff();
-  fit.centre = (low + high) / 2;
-  fit.centre.z() = low.z() + fit.radius_m;
+  fit.centre = bounds.center();
+  fit.centre.z() = bounds.min().z() + fit.radius_m;
   fit.guess = "a ball in place of its shape";
   return fit;
-}
-
-double LowestOf(const UrdfShape& shape) {
-  double low = std::numeric_limits<double>::infinity();
-  for (const Vec3& q : shape.Points()) low = std::min(low, q.z());
-  return low;
 }
 
 }  // namespace floorproof

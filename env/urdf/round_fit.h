@@ -21,6 +21,9 @@ struct RoundFit {
 std::optional<RoundFit> FitRound(const std::vector<UrdfShape>& shapes, const Vec3& p,
                                  const Vec3& axis);
 
+// The box around a shape, along M's axes.
+Eigen::AlignedBox3d BoundsOf(const UrdfShape& shape);
+
 // The ball that touches the floor where this shape does.
 struct BallFit {
   Vec3 centre = Vec3::Zero();
@@ -28,8 +31,5 @@ struct BallFit {
   std::string guess;
 };
 BallFit FitBall(const UrdfShape& shape);
-
-// The lowest point's height.
-double LowestOf(const UrdfShape& shape);
 
 }  // namespace floorproof

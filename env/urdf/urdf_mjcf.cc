@@ -12,7 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// An answer of the child: kRefused and why, or kTaken, the notes, and the MJCF; no text holds a 0.
+// An answer of the child: kRefused and why, or kTaken, the notes, what is wrong, and the MJCF. A
+// list ends with an empty text; no text holds a 0.
 constexpr char kRefused = 'r', kTaken = 't', kEnd = '\0';
 
 std::string Answer(const fs::path& file, const UrdfAnswers& answers, const ChooseDrive& choose,
@@ -23,6 +24,8 @@ std::string Answer(const fs::path& file, const UrdfAnswers& answers, const Choos
     std::string answer(1, kTaken);
     for (const std::string& note : robot.notes) answer += note + kEnd;
     for (const std::string& question : Questions(guesses)) answer += question + kEnd;
+    answer += kEnd;
+    for (const std::string& wrong : robot.wrong) answer += wrong + kEnd;
     return answer + kEnd + WriteMjcf(robot, guesses, answers, file.filename().string());
   } catch (const InputError& e) {
     return kRefused + std::string(e.what());
@@ -43,9 +46,12 @@ UrdfMjcf MjcfOfUrdf(const fs::path& file, const UrdfAnswers& answers, const Choo
   if (answer.starts_with(kRefused)) throw InputError(answer.substr(1));
   UrdfMjcf out;
   std::size_t at = 1;
-  for (std::size_t end; (end = answer.find(kEnd, at)) > at; at = end + 1)
-    out.notes.push_back(answer.substr(at, end - at));
-  out.text = answer.substr(at + 1);
+  for (std::vector<std::string>* list : {&out.notes, &out.wrong}) {
+    for (std::size_t end; (end = answer.find(kEnd, at)) > at; at = end + 1)
+      list->push_back(answer.substr(at, end - at));
+    ++at;
+  }
+  out.text = answer.substr(at);
   return out;
 }
 

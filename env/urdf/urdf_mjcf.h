@@ -13,6 +13,7 @@ namespace floorproof {
 struct UrdfMjcf {
   std::string text;                // commented, every guess marked as one
   std::vector<std::string> notes;  // what was mended, left out, held or guessed
+  std::vector<std::string> wrong;  // as UrdfRobot's
 };
 
 // MuJoCo reads the URDF in a child process first. Throws InputError that names the file, the line

@@ -9,6 +9,7 @@
 #include "base/params.h"
 #include "env/scene/engine.h"
 #include "env/scene/engine_files.h"
+#include "env/urdf/collada.h"
 #include "env/urdf/link_mass.h"
 #include "env/urdf/urdf_text.h"
 
@@ -26,7 +27,7 @@ class MeshFiles {
     mj_defaultVFS(&vfs_);
     for (const UrdfMesh& mesh : text.meshes) {
       const std::string& bytes = files.Read(mesh.file, EngineFiles::kMaxBytes);
-      mj_addBufferVFS(&vfs_, mesh.name.c_str(), bytes.data(), static_cast<int>(bytes.size()));
+      Add(mesh.name, mesh.is_collada ? Converted(mesh.file, bytes) : bytes);
     }
   }
   ~MeshFiles() { mj_deleteVFS(&vfs_); }
@@ -35,6 +36,17 @@ class MeshFiles {
   const mjVFS* vfs() const { return &vfs_; }
 
  private:
+  static std::string Converted(const fs::path& file, const std::string& bytes) {
+    try {
+      return ObjOfCollada(bytes);
+    } catch (const InputError& e) {
+      throw InputError({file.string(), 0}, "", "", e.what());
+    }
+  }
+  void Add(const std::string& name, const std::string& bytes) {
+    mj_addBufferVFS(&vfs_, name.c_str(), bytes.data(), static_cast<int>(bytes.size()));
+  }
+
   mjVFS vfs_{};
 };
 
@@ -148,8 +160,8 @@ std::vector<UrdfLink> LinksOf(const mjModel* m, const mjData* d, const UrdfText&
     link.name = mj_id2name(m, mjOBJ_BODY, b);
     link.parent = b > 0 ? m->body_parentid[b] : -1;
     link.p_M = Vec3(d->xpos + 3 * b);
-    link.lost_collision =
-        std::ranges::find(text.lost_collisions, link.name) != text.lost_collisions.end();
+    const auto lost = std::ranges::find(text.lost_collisions, link.name, &LostMesh::link);
+    if (lost != text.lost_collisions.end()) link.lost_mesh = lost->why;
     ReadJoint(m, d, b, text, link);
     for (int g = m->body_geomadr[b]; g < m->body_geomadr[b] + m->body_geomnum[b]; ++g)
       link.shapes.push_back(ShapeOf(m, d, g, collides[static_cast<std::size_t>(g)] != 0));

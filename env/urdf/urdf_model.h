@@ -52,7 +52,7 @@ struct UrdfLink {
   double effort_nm = 0, velocity_radps = 0;  // as its <limit> says; 0: none
   MassOf mass;
   std::vector<UrdfShape> shapes;
-  bool lost_collision = false;  // a <collision> is left out, since its mesh is
+  std::string lost_mesh;  // why the mesh of a <collision> cannot be read; empty: all meshes can
 };
 
 struct UrdfModel {

@@ -42,6 +42,7 @@ class PartFinder {
     MakeWheels();
     MakeBase();
     MakeBalls();
+    SayWhatIsLost();
     AskForSprings();
     Sensors();
     return std::move(out_);
@@ -150,8 +151,9 @@ class PartFinder {
     Collect(0, out_.base, out_.shapes);
     if (!(out_.base.mass_kg > 0))
       Refuse("mass", "no link but its wheels has a mass: give the base an <inertial>");
-    if (out_.shapes.empty()) Refuse("base", "has no shape: give it a <collision>");
-    CollideAsSeen(-std::numeric_limits<double>::infinity());
+    std::erase_if(out_.shapes, IsMark);
+    if (out_.shapes.empty()) RefuseWithoutShape("has no shape");
+    CollideAsSeen([](const UrdfShape&) { return true; });
     const double base_kg = out_.base.mass_kg;
     const std::string why = WhyTooLight(LinksOfBase(), base_kg, out_.mass_kg() - base_kg);
     if (!why.empty()) Refuse("mass", why);
@@ -165,16 +167,44 @@ class PartFinder {
     return links;
   }
 
-  // Where nothing of the base collides, what of it is seen above this height does.
-  void CollideAsSeen(double above_m) {
+  // The box of a millimetre that some simulators ask of a link without a body.
+  static bool IsMark(const UrdfShape& shape) {
+    constexpr double kMark_m = 0.003;
+    return BoundsOf(shape).sizes().maxCoeff() <= kMark_m;
+  }
+
+  // The first mesh of the base's collisions that cannot be read, and why; empty: all can.
+  std::string LostMeshOfBase() const {
+    for (const UrdfLink* link : LinksOfBase())
+      if (!link->lost_mesh.empty()) return link->lost_mesh;
+    return "";
+  }
+
+  [[noreturn]] void RefuseWithoutShape(const std::string& what) const {
+    const std::string lost = LostMeshOfBase();
+    Refuse("base", what + ": give it a <collision>" + (lost.empty() ? "" : "; " + lost));
+  }
+
+  // Where nothing of the base collides, what of it is seen does, if it may.
+  template <class May>
+  void CollideAsSeen(const May& may) {
     if (std::ranges::any_of(out_.shapes, &UrdfShape::collides)) return;
     bool any = false;
-    for (UrdfShape& shape : out_.shapes) any |= shape.collides = LowestOf(shape) > above_m;
-    if (!any) Refuse("base", "has no shape but its casters: give it a <collision>");
-    const bool lost = std::ranges::any_of(LinksOfBase(), &UrdfLink::lost_collision);
-    out_.notes.push_back(
-        std::string("guess: the base collides as it is seen; ") +
-        (lost ? "the mesh of its <collision> is left out" : "no <collision> is its own"));
+    for (UrdfShape& shape : out_.shapes) any |= shape.collides = may(shape);
+    if (!any) RefuseWithoutShape("has no shape but its casters");
+    is_as_seen_ = true;
+    out_.notes.push_back(std::string("guess: the base collides as it is seen; ") +
+                         (LostMeshOfBase().empty() ? "no <collision> is its own"
+                                                   : "the mesh of its <collision> is left out"));
+  }
+
+  // Each link of the base lacks what a lost mesh was, unless the base collides as it is seen.
+  void SayWhatIsLost() {
+    if (is_as_seen_) return;
+    for (const UrdfLink* link : LinksOfBase())
+      if (!link->lost_mesh.empty())
+        out_.wrong.push_back("a <collision> of link " + link->name +
+                             " is lost: " + link->lost_mesh);
   }
 
   double LargestRadius() const {
@@ -183,28 +213,33 @@ class PartFinder {
     return radius_m;
   }
 
-  // What of the body reaches the floor.
+  // What of the body reaches the floor, and is no wider than a wheel: skirts, squeegees and low
+  // bodies are wider. Casters are drawn round, or as boxes that touch; a box in the air is a part
+  // of the body.
+  bool IsCaster(const UrdfShape& shape, double wheel_m) const {
+    constexpr double kTouches_m = 0.003;
+    const Eigen::AlignedBox3d bounds = BoundsOf(shape);
+    const double gap_m = shape.kind == UrdfShape::Kind::kBox ? kTouches_m : FloorGap(wheel_m);
+    return bounds.min().z() <= gap_m && bounds.sizes().head<2>().maxCoeff() <= 2 * wheel_m;
+  }
+
   void MakeBalls() {
-    const double radius_m = LargestRadius();
-    std::vector<UrdfShape> rest;
+    constexpr double kHangs_m = 0.001;
+    const double wheel_m = LargestRadius();
     for (UrdfShape& shape : out_.shapes) {
-      const double low_m = LowestOf(shape);
-      if (!shape.collides || low_m > FloorGap(radius_m)) {
-        rest.push_back(std::move(shape));
-        continue;
-      }
-      BallFit fit = FitBall(shape);
-      if (fit.radius_m > radius_m || low_m < -FloorGap(radius_m))
+      const double low_m = BoundsOf(shape).min().z();
+      const bool is_caster = IsCaster(shape, wheel_m);
+      if (!shape.collides || (!is_caster && low_m > kHangs_m)) continue;
+      if (!is_caster || low_m < -FloorGap(wheel_m))
         Refuse("base", "reaches " + LengthText(std::abs(low_m)) +
-                           (low_m < 0 ? " below" : " above") +
-                           " its wheels' floor with a shape too large for a caster: mend its "
-                           "<collision>, or the wheels' places");
-      AddBall(fit, low_m);
+                           (low_m < 0 ? " below" : " above") + " its wheels' floor with a shape " +
+                           (is_caster ? "that is no caster there" : "too large for a caster") +
+                           ": mend its <collision>, or the wheels' places");
+      AddBall(FitBall(shape), low_m);
       shape.collides = false;
-      rest.push_back(std::move(shape));
     }
-    out_.shapes = std::move(rest);
-    CollideAsSeen(FloorGap(radius_m));  // casters are no body
+    // Casters are no body.
+    CollideAsSeen([&](const UrdfShape& shape) { return !IsCaster(shape, wheel_m); });
   }
 
   void AddBall(const BallFit& fit, double low_m) {
@@ -269,6 +304,7 @@ class PartFinder {
   std::vector<std::size_t> holder_;  // by group: the part that it goes to, a group's index
   FoundWheels found_;
   std::set<std::size_t> driven_groups_;
+  bool is_as_seen_ = false;  // what is seen of the base collides
   UrdfRobot out_;
 };
 

@@ -3,8 +3,8 @@
 //
 // Links that no joint lets turn for ever are one rigid body: arms, doors and suspensions are held
 // where they stand. What turns for ever about a horizontal axle, and reaches the floor, is a
-// wheel; below a vertical axle it is a swivel caster; what of the body itself reaches the floor is
-// a ball caster. The floor lies below the lowest wheel.
+// wheel; below a vertical axle it is a swivel caster. What of the body itself reaches the floor,
+// and is no wider than a wheel, is a ball caster. The floor lies below the lowest wheel.
 #pragma once
 
 #include <functional>
@@ -52,6 +52,7 @@ struct UrdfRobot {
   std::vector<UrdfShape> shapes;  // of the base
   std::optional<Vec3> lidar_B, imu_B;
   std::vector<std::string> notes;
+  std::vector<std::string> wrong;  // what the robot has and this model lacks
 
   double mass_kg() const;
 };

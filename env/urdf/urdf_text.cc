@@ -194,11 +194,11 @@ class Preparation {
     const SourceMark mark{file_.string(), mesh.line};
     const MeshPlace place = FindMesh(uri, file_, mark, files_);
     if (place.file.empty()) {
-      out_.notes.push_back("mesh " + Printable(uri) + " " + place.why + ": left out of the " +
-                           std::string(holder.name));
+      const std::string why = "mesh " + Printable(uri) + " " + place.why;
+      out_.notes.push_back(why + ": left out of the " + std::string(holder.name));
       if (holder.name == "collision" && holder.parent >= 0)
         out_.lost_collisions.push_back(
-            Plain(elements_[static_cast<std::size_t>(holder.parent)].Value("name")));
+            {Plain(elements_[static_cast<std::size_t>(holder.parent)].Value("name")), why});
       Blank(holder);
       return;
     }
@@ -207,7 +207,7 @@ class Preparation {
     std::string name = known != out_.meshes.end()
                            ? known->name
                            : "mesh" + std::to_string(out_.meshes.size()) + place.extension;
-    if (known == out_.meshes.end()) out_.meshes.push_back({name, place.file});
+    if (known == out_.meshes.end()) out_.meshes.push_back({name, place.file, place.is_collada});
     edits_.push_back({written.begin, written.begin + written.value.size(), std::move(name)});
   }
 

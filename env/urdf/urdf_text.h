@@ -20,14 +20,20 @@ struct UrdfJoint {
 struct UrdfMesh {
   std::string name;  // in the text made ready
   std::filesystem::path file;
+  bool is_collada = false;  // to be converted
+};
+
+struct LostMesh {
+  std::string link;
+  std::string why;  // the mesh as the file names it, and why it cannot be read
 };
 
 struct UrdfText {
   std::string robot;  // its name
   std::string xml;    // for the importer; lines stand where they stood
   std::vector<UrdfJoint> joints;
-  std::vector<UrdfMesh> meshes;              // that are there
-  std::vector<std::string> lost_collisions;  // links one of whose <collision>s needs another mesh
+  std::vector<UrdfMesh> meshes;           // that are there
+  std::vector<LostMesh> lost_collisions;  // of <collision>s that are therefore left out
   std::vector<std::string> notes;
 };
 

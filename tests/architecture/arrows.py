@@ -27,7 +27,7 @@ LIBRARIES = {
     "MuJoCo": "mujoco/", "OpenCV": "opencv2/", "FFmpeg": "libav", "yaml-cpp": "yaml-cpp/",
     "Boost": "boost/", "nlohmann-json": "nlohmann/", "SQLite": "sqlite3.h", "CLI11": "CLI/",
     "libmd": "sha256.h", "Clipper": "polyclipping/", "Fontconfig": "fontconfig/",
-    "nanobind": "nanobind/", "libpng": "png.h", "zlib": "zlib.h",
+    "nanobind": "nanobind/", "libpng": "png.h", "zlib": "zlib.h", "Assimp": "assimp/",
 }
 
 

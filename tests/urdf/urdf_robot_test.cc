@@ -12,6 +12,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -134,6 +135,77 @@ TEST(UrdfRobot, ABaseWithoutItsBodysMassIsRefused) {
                     "<joint name=\"weight_joint\" type=\"fixed\"><parent link=\"base_link\"/>"
                     "<child link=\"weight\"/></joint>"));
   EXPECT_EQ(RefusalOf(apart), "taken");
+}
+
+// Another link, fixed below the base, that collides as a shape at this place.
+std::string Part(const std::string& geometry, const std::string& xyz) {
+  return "<link name=\"part\"><collision><geometry>" + geometry +
+         "</geometry></collision></link><joint name=\"part_joint\" type=\"fixed\">"
+         "<parent link=\"base_footprint\"/><child link=\"part\"/><origin xyz=\"" +
+         xyz + "\"/></joint>";
+}
+
+// Some simulators want a shape of every link.
+TEST(UrdfRobot, AMarkOfAMillimetreIsNeitherBodyNorCaster) {
+  const std::string mark = "<box size=\"0.001 0.001 0.001\"/>";
+  const auto model = [](const std::string& urdf) {  // without what its head says
+    const std::string text = Converted(urdf).text;
+    return text.substr(text.find("<mujoco>"));
+  };
+  for (const char* xyz : {"0 0 0", "0.05 0 0.0005", "0 0 0.3"})
+    EXPECT_EQ(model(WithBall(Part(mark, xyz))), model(WithBall())) << xyz;
+}
+
+// Skirts, squeegees and low bodies are a part of the body, however near to the floor: they are
+// wider than a wheel, or boxes that do not touch.
+TEST(UrdfRobot, WhatHangsLowIsBody) {
+  struct Low {
+    const char *geometry, *xyz;
+    double belly_m;
+  };
+  for (const Low& low :
+       {Low{"<box size=\"0.3 0.2 0.01\"/>", "0 0 0.008", 0.003},
+        Low{"<box size=\"0.02 0.5 0.02\"/>", "-0.2 0 0.014", 0.004},
+        Low{"<box size=\"0.02 0.02 0.02\"/>", "0.1 0 0.014", 0.004},
+        Low{"<cylinder radius=\"0.15\" length=\"0.02\"/>", "0 0 0.0125", 0.0025}}) {
+    const std::string text = WithBall(Part(low.geometry, low.xyz));
+    EXPECT_EQ(Found(text).casters.size(), 1u) << low.geometry;
+    const RobotSpec spec = ReadRobot(ConvertedFile(text)).spec;
+    EXPECT_NEAR(spec.clearance_m, low.belly_m, 1e-6) << low.geometry;
+    EXPECT_LE(spec.step_m, low.belly_m / 2 + 1e-6) << low.geometry;
+  }
+  const RobotSpec wide =
+      ReadRobot(ConvertedFile(WithBall(Part("<box size=\"0.02 0.5 0.02\"/>", "-0.2 0 0.014"))))
+          .spec;
+  EXPECT_NEAR(wide.circumscribed_radius_m, std::hypot(0.21, 0.25), 1e-3);
+  EXPECT_NEAR(wide.tool_width_m, 0.8 * 0.5, 1e-3);
+  // What is round and no wider than a wheel may be drawn a little too high.
+  EXPECT_EQ(Found(WithBall(Part("<sphere radius=\"0.015\"/>", "0.1 0 0.018"))).casters.size(), 2u);
+  EXPECT_EQ(Found(WithBall(Part("<box size=\"0.03 0.02 0.02\"/>", "0.1 0 0.012"))).casters.size(),
+            2u);
+  EXPECT_THAT(RefusalOf(WithBall(Part("<box size=\"0.3 0.2 0.01\"/>", "0 0 0.005"))),
+              HasSubstr("too large for a caster"));
+}
+
+// Whatever else of the robot collides: a lidar is no body.
+TEST(UrdfRobot, ABodyWhoseMeshIsLostIsWrong) {
+  const std::string lost = Replaced(WithBall(Part("<box size=\"0.05 0.05 0.05\"/>", "0 0 0.2")),
+                                    "<box size=\"0.3 0.2 0.1\"/>", "<mesh filename=\"none.stl\"/>");
+  EXPECT_THAT(Converted(lost).wrong,
+              ElementsAre(AllOf(HasSubstr("a <collision> of link base_link is lost"),
+                                HasSubstr("mesh none.stl is not there"))));
+  // Casters of the same link are no body either.
+  const std::string with_foot =
+      Replaced(lost, "<collision><origin xyz=\"-0.02 0 0.05\"/>",
+               "<collision><origin xyz=\"0.1 0 -0.015\"/><geometry><sphere radius=\"0.015\"/>"
+               "</geometry></collision><collision><origin xyz=\"-0.02 0 0.05\"/>");
+  EXPECT_THAT(Converted(with_foot).wrong,
+              ElementsAre(HasSubstr("a <collision> of link base_link is lost")));
+  EXPECT_THAT(Converted(WithBall()).wrong, IsEmpty());
+  EXPECT_THAT(
+      RefusalOf(
+          Replaced(WithBall(), "<box size=\"0.3 0.2 0.1\"/>", "<mesh filename=\"none.stl\"/>")),
+      AllOf(HasSubstr("no shape but its casters"), HasSubstr("mesh none.stl is not there")));
 }
 
 // Of a robot whose body's mesh is missing its casters still collide; they are no body.

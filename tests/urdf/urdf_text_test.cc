@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "env/urdf/urdf_model.h"
 #include "tests/urdf/urdf_files.h"
 
 namespace floorproof {
@@ -62,9 +63,62 @@ TEST(UrdfText, AMissingMeshIsSaidAndLeftOut) {
     EXPECT_THAT(dut.notes, Contains(AllOf(HasSubstr(uri), HasSubstr("is not there below"))));
     EXPECT_THAT(dut.text, Not(HasSubstr("hull_0")));
   }
-  std::ofstream(OwnFolder() / "shell.dae") << "<COLLADA/>";
-  EXPECT_THAT(Converted(Meshed("shell.dae")).notes,
-              Contains(HasSubstr("is of no format that MuJoCo reads")));
+  std::ofstream(OwnFolder() / "shell.glb") << "glTF";
+  EXPECT_THAT(Converted(Meshed("shell.glb")).notes,
+              Contains(AllOf(HasSubstr("is of no format that is read"),
+                             HasSubstr("assimp export shell.glb shell.stl"))));
+}
+
+// A box of 0.2 x 0.4 x 0.6 units of this many metres, its middle moved by 1 unit along x.
+std::string Collada(const std::string& up, const std::string& metres) {
+  std::string corners;
+  for (int i = 0; i < 8; ++i)
+    corners += std::string(i & 1 ? "0.1 " : "-0.1 ") + (i & 2 ? "0.2 " : "-0.2 ") +
+               (i & 4 ? "0.3 " : "-0.3 ");
+  return R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="unit" meter=")" +
+         metres + R"("/><up_axis>)" + up + R"(</up_axis></asset>
+<library_geometries><geometry id="box"><mesh>
+<source id="corners"><float_array id="values" count="24">)" +
+         corners +
+         R"(</float_array><technique_common><accessor source="#values" count="8" stride="3">
+<param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
+</accessor></technique_common></source>
+<vertices id="at"><input semantic="POSITION" source="#corners"/></vertices>
+<polylist count="6"><input semantic="VERTEX" source="#at" offset="0"/><vcount>4 4 4 4 4 4</vcount>
+<p>0 2 3 1 4 5 7 6 0 1 5 4 2 6 7 3 0 4 6 2 1 3 7 5</p></polylist></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="scene"><node id="node"><translate>1 0 0</translate>
+<instance_geometry url="#box"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#scene"/></scene></COLLADA>
+)";
+}
+
+// In the file's own unit and along its own axes, whatever its up_axis.
+TEST(UrdfText, AColladaMeshIsRead) {
+  for (const char* up : {"Z_UP", "Y_UP"})
+    for (const double metres : {1.0, 0.01}) {
+      std::ofstream(OwnFolder() / "box.DAE") << Collada(up, std::to_string(metres));
+      const UrdfModel dut = ReadUrdfModel(WrittenUrdf(Meshed("box.DAE")), {});
+      const auto shell = std::ranges::find(dut.links, "shell", &UrdfLink::name);
+      ASSERT_NE(shell, dut.links.end());
+      ASSERT_EQ(shell->shapes.size(), 1u);
+      Eigen::AlignedBox3d bounds;
+      for (const Vec3& p : shell->shapes[0].Points()) bounds.extend(p - shell->p_M);
+      EXPECT_TRUE(bounds.sizes().isApprox(metres * Vec3(0.2, 0.4, 0.6), 1e-5))
+          << up << " " << bounds.sizes().transpose();
+      EXPECT_TRUE(bounds.center().isApprox(metres * Vec3(1, 0, 0), 1e-5))
+          << up << " " << bounds.center().transpose();
+    }
+}
+
+TEST(UrdfText, ABrokenColladaMeshIsNamed) {
+  for (const char* text :
+       {"", "<COLLADA/>", "<COLLADA", "no XML",
+        "<!DOCTYPE a [<!ENTITY b SYSTEM \"/etc/passwd\">]><COLLADA>&b;</COLLADA>"}) {
+    std::ofstream(OwnFolder() / "torn.dae") << text;
+    EXPECT_THAT(RefusalOf(Meshed("torn.dae")), HasSubstr("torn.dae")) << text;
+  }
 }
 
 TEST(UrdfText, AMeshOutsideTheFolderIsRefused) {
