@@ -65,7 +65,7 @@ void Rig::Build(RigOptions options) {
     lower = !lower;
   }
   wheel_radps_.resize(true_robot_.wheels.size());
-  model_.spec.standstill = Standstill::kFree;  // rigs push, tilt and brake it themselves
+  if (!options.holds_still) model_.spec.standstill = Standstill::kFree;  // rigs push and tilt it
   sim_ = std::make_unique<Simulation>(scene_, map_, model_.spec);
   if (const Alterations wrong = WrongValues(wrong_); wrong != Alterations{}) sim_->Alter(wrong);
   SetGravity(-Vec3::UnitZ());

@@ -37,6 +37,7 @@ struct RigOptions {
   Blocks blocks = Blocks::kLocked;
   bool rollers = false;  // on Mecanum wheels, as bodies (env/scene/roller_wheels.h)
   double friction = 0.8;
+  bool holds_still = false;  // as its model says, when told to stand; else its wheels give way
   WrongModel wrong = {};
 };
 
