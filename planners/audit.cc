@@ -179,7 +179,7 @@ class AuditPlanner final : public Planner {
     result.convergence_m = tour.convergence;
     result.figures.push_back({"samples", static_cast<double>(result.samples.size())});
     result.figures.push_back({"reachable_samples", static_cast<double>(floor.stops().size() - 1)});
-    result.figures.push_back({"margin_m", floor.margin_m()});
+    result.figures.push_back({"margin_m", margin_m_});
     result.figures.push_back({"tour_m", tour.length_m});
     if (tour.bound_m) {
       result.figures.push_back({"tour_bound_m", *tour.bound_m});

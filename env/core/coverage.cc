@@ -145,39 +145,31 @@ bool Fits(const Stencil& stencil, const Grid<int>& sums, int ix, int iy) {
   return true;
 }
 
-// The footprint's poses: one layer of cells per yaw. A robot passes between neighbouring cells at
-// one yaw, and between yaws where both are free; the angles in between are not checked. It does not
-// pass diagonally: between two free cells that touch only at a corner it would scrape.
-void ReachWithFootprint(const Shape2& clear, const Grid<std::uint8_t>& walls,
-                        const Grid<std::uint8_t>* hazards, double inset_m, Cell start,
-                        const Vec2& start_G, SweepArea& area,
-                        std::vector<Grid<std::uint8_t>>& layers) {
+// Where the footprint is free: one layer of cells per yaw, the first `turns` multiples of 90 deg.
+std::vector<Grid<std::uint8_t>> FreeOfFootprint(const Shape2& clear,
+                                                const Grid<std::uint8_t>& walls,
+                                                const Grid<std::uint8_t>* hazards,
+                                                const Grid<float>& clearance_m, double cell_m,
+                                                double inset_m, int turns) {
   const Grid<int> wall_sums = RowSums(walls);
   const Grid<int> hazard_sums = hazards ? RowSums(*hazards) : Grid<int>();
   // With so much room a footprint touches nothing at any yaw: most of a large floor needs no look.
   double reach_m = 0;
   for (const Vec2& p : clear.footprint_B) reach_m = std::max(reach_m, p.norm());
-  const auto plenty_m = static_cast<float>(reach_m + inset_m + 2 * area.frame.cell_m);
-  std::vector<Grid<std::uint8_t>> free(layers.size());
-  for (int k = 0; k < static_cast<int>(layers.size()); ++k) {
-    const Stencil built =
-        MakeStencil(clear.footprint_B, area.frame.cell_m, k, inset_m, StencilOf::kTouched);
-    const Stencil whole =
-        MakeStencil(clear.footprint_B, area.frame.cell_m, k, 0, StencilOf::kTouched);
+  const auto plenty_m = static_cast<float>(reach_m + inset_m + 2 * cell_m);
+  std::vector<Grid<std::uint8_t>> free(static_cast<std::size_t>(turns));
+  for (int k = 0; k < turns; ++k) {
+    const Stencil built = MakeStencil(clear.footprint_B, cell_m, k, inset_m, StencilOf::kTouched);
+    const Stencil whole = MakeStencil(clear.footprint_B, cell_m, k, 0, StencilOf::kTouched);
     auto& layer = free[static_cast<std::size_t>(k)];
     layer = Grid<std::uint8_t>(walls.width, walls.height);
     for (int iy = 0; iy < walls.height; ++iy)
       for (int ix = 0; ix < walls.width; ++ix)
-        layer(ix, iy) = area.clearance_m(ix, iy) > plenty_m ||
-                        (!walls(ix, iy) && Fits(built, wall_sums, ix, iy) &&
-                         (!hazards || Fits(whole, hazard_sums, ix, iy)));
+        layer(ix, iy) =
+            clearance_m(ix, iy) > plenty_m || (!walls(ix, iy) && Fits(built, wall_sums, ix, iy) &&
+                                               (!hazards || Fits(whole, hazard_sums, ix, iy)));
   }
-  std::vector<LayerCell> seeds;
-  for (std::size_t k = 0; k < free.size() && seeds.empty(); ++k)
-    if (const auto seed = ClearCellAt(free[k], start, start_G)) seeds.push_back({*seed, k});
-  layers = Connected(free, std::move(seeds), false);
-  for (const auto& layer : layers)
-    for (std::size_t i = 0; i < layer.cells.size(); ++i) area.reachable.cells[i] |= layer.cells[i];
+  return free;
 }
 
 // Marks what the tool touches when it stands on the set cells at a multiple of 90 deg.
@@ -203,6 +195,8 @@ void DilateFootprint(const Grid<std::uint8_t>& set, const Shape2& tool, double c
       if (depth > 0) out(ix, iy) = 1;
     }
 }
+
+int Turns(Yaws yaws) { return yaws == Yaws::kFirst ? 1 : 4; }
 
 }  // namespace
 
@@ -247,44 +241,51 @@ FloorRoom::FloorRoom(const HazardMap& map, double step_m)
   for (float& d : clearance_m_.cells) d *= static_cast<float>(frame_.cell_m);
 }
 
+std::vector<Grid<std::uint8_t>> FloorRoom::Free(const Shape2& clear, Yaws yaws) const {
+  if (clear.kind == Shape2::Kind::kFootprint)
+    return FreeOfFootprint(clear, walls_, any_hazard_ ? &hazards_ : nullptr, clearance_m_,
+                           frame_.cell_m, inset_m_, Turns(yaws));
+  std::vector<Grid<std::uint8_t>> layers(1, Grid<std::uint8_t>(walls_.width, walls_.height));
+  const auto least = static_cast<float>(clear.radius_m - kEps * frame_.cell_m);
+  for (std::size_t i = 0; i < layers[0].cells.size(); ++i)
+    layers[0].cells[i] = clearance_m_.cells[i] >= least && clearance_m_.cells[i] > 0;
+  return layers;
+}
+
+// A robot passes between neighbouring cells at one yaw, and between yaws where both are free; the
+// angles in between are not checked. A footprint does not pass diagonally: between two free cells
+// that touch only at a corner it would scrape.
 SweepArea FloorRoom::Sweepable(const Shape2& clear, const Shape2& tool, const Vec2& start_W,
+                               Yaws yaws) const {
+  const bool circle = clear.kind == Shape2::Kind::kCircle;
+  const Cell start = frame_.ToCell(start_W);
+  std::vector<Grid<std::uint8_t>> layers = Free(clear, yaws);
+  // The centre of a clear start's cell may be too close to an obstacle, by up to its distance from
+  // the start.
+  const double slack_m = std::sqrt(0.5) * frame_.cell_m + kEps;
+  const bool fits = !circle || (frame_.Inside(start) && static_cast<double>(clearance_m_(start)) >=
+                                                            clear.radius_m - slack_m);
+  std::vector<LayerCell> seeds;
+  for (std::size_t k = 0; fits && k < layers.size() && seeds.empty(); ++k)
+    if (const auto seed = ClearCellAt(layers[k], start, ToCells(frame_, start_W)))
+      seeds.push_back({*seed, k});
+  return SweptFrom(Connected(layers, std::move(seeds), circle), tool, yaws);
+}
+
+SweepArea FloorRoom::SweptFrom(const std::vector<Grid<std::uint8_t>>& poses, const Shape2& tool,
                                Yaws yaws) const {
   SweepArea area;
   area.frame = frame_;
-  const double cell_m = area.frame.cell_m;
-  area.reachable = area.sweepable = Grid<std::uint8_t>(area.frame.width, area.frame.height);
   area.clearance_m = clearance_m_;
-  const Cell start = area.frame.ToCell(start_W);
-  const Vec2 start_G = ToCells(area.frame, start_W);
-  const int turns = yaws == Yaws::kFirst ? 1 : 4;
-  std::vector<Grid<std::uint8_t>> layers(static_cast<std::size_t>(turns));
-  const bool has_layers = clear.kind == Shape2::Kind::kFootprint;
-  if (has_layers) {
-    ReachWithFootprint(clear, walls_, any_hazard_ ? &hazards_ : nullptr, inset_m_, start, start_G,
-                       area, layers);
-  } else {
-    // The centre of a clear start's cell may be too close to an obstacle, by up to its distance
-    // from the start.
-    const double slack_m = std::sqrt(0.5) * cell_m + kEps;
-    if (!area.frame.Inside(start) ||
-        static_cast<double>(area.clearance_m(start)) < clear.radius_m - slack_m)
-      return area;
-    std::vector<Grid<std::uint8_t>> layer(1, Grid<std::uint8_t>(walls_.width, walls_.height));
-    Grid<std::uint8_t>& free = layer[0];
-    const auto least = static_cast<float>(clear.radius_m - kEps * cell_m);
-    for (std::size_t i = 0; i < free.cells.size(); ++i)
-      free.cells[i] = area.clearance_m.cells[i] >= least && area.clearance_m.cells[i] > 0;
-    if (const auto seed = ClearCellAt(free, start, start_G))
-      area.reachable = std::move(Connected(layer, {{*seed, 0}}, true)[0]);
-  }
-
-  if (tool.kind == Shape2::Kind::kCircle) {
-    DilateDisc(area.reachable, tool.radius_m / cell_m, area.sweepable);
-  } else {
-    for (int k = 0; k < turns; ++k)
-      DilateFootprint(has_layers ? layers[static_cast<std::size_t>(k)] : area.reachable, tool,
-                      cell_m, k, area.sweepable);
-  }
+  area.reachable = area.sweepable = Grid<std::uint8_t>(frame_.width, frame_.height);
+  for (const auto& layer : poses)
+    for (std::size_t i = 0; i < layer.cells.size(); ++i) area.reachable.cells[i] |= layer.cells[i];
+  if (tool.kind == Shape2::Kind::kCircle)
+    DilateDisc(area.reachable, tool.radius_m / frame_.cell_m, area.sweepable);
+  else
+    for (int k = 0; k < Turns(yaws); ++k)
+      DilateFootprint(poses[std::min(static_cast<std::size_t>(k), poses.size() - 1)], tool,
+                      frame_.cell_m, k, area.sweepable);
   for (std::size_t i = 0; i < area.sweepable.cells.size(); ++i) {
     if (walls_.cells[i] || hazards_.cells[i]) area.sweepable.cells[i] = 0;
     area.sweepable_cells += area.sweepable.cells[i];

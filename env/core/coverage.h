@@ -55,6 +55,12 @@ class FloorRoom {
   // (sweepable_cells 0) when the start itself is not clear, to within its cell.
   SweepArea Sweepable(const Shape2& clear, const Shape2& tool, const Vec2& start_W,
                       Yaws yaws = Yaws::kQuarters) const;
+  // Poses whose clear shape is free of solids, connected to the start or not: one layer for a
+  // circle, else one for each yaw.
+  std::vector<Grid<std::uint8_t>> Free(const Shape2& clear, Yaws yaws) const;
+  // The area that these poses make, as layers of Free or one layer for all yaws.
+  SweepArea SweptFrom(const std::vector<Grid<std::uint8_t>>& poses, const Shape2& tool,
+                      Yaws yaws) const;
 
  private:
   GridFrame frame_;

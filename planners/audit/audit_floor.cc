@@ -16,7 +16,6 @@ namespace floorproof {
 namespace {
 
 constexpr double kAround_m = 0.3;  // of a place closer to an obstacle: no margin is kept there
-constexpr double kLeastMargin_m = 0.005;
 constexpr double kApart_m = 0.02;
 constexpr int kHeadings = 64;  // that are tried at a place
 constexpr int kFewStops = 16;  // for which a second thread is not worth it
@@ -53,17 +52,19 @@ AuditFloor::AuditFloor(const PlanRequest& request, const FloorRoom& room, const 
     stop_of_.push_back(stop ? static_cast<int>(stops_.size()) : 0);
     if (stop) stops_.push_back(*stop);
   }
-  for (margin_m_ = margin_m; margin_m_ >= kLeastMargin_m; margin_m_ /= 2) {
-    const SweepArea roomy =
-        room.Sweepable(Grown(shapes.clear, margin_m_), shapes.tool, request.start.p(), shapes.yaws);
-    if (roomy.sweepable_cells == 0) continue;
+  const auto gets_to_all = [&](const SweepArea& roomy) {
     const Grid<std::uint8_t> clear = crop(roomy.reachable);
     std::vector<Cell> close;
     for (const Stop& stop : stops_)
       if (const Cell c = CellOf(stop.p_W); floor_.pose.Inside(c) && !clear(c)) close.push_back(c);
-    if (Measure(WithSurroundings(floor_.pose, clear, close, floor_.ToCells(kAround_m)))) return;
-  }
-  margin_m_ = 0;
+    return Measure(WithSurroundings(floor_.pose, clear, close, floor_.ToCells(kAround_m)));
+  };
+  const Vec2 start = request.start.p();
+  if (gets_to_all(room.Sweepable(Grown(shapes.clear, margin_m), shapes.tool, start, shapes.yaws)))
+    return;
+  kept_.emplace(room, shapes, margin_m, area, start);
+  if (gets_to_all(kept_->area())) return;
+  kept_.reset();
   Measure(floor_.pose);
 }
 
@@ -157,7 +158,7 @@ std::vector<Vec2> AuditFloor::Way(int from, int to) const {
   end_at(stops_[Z(to)].p_W, false);
   way = MergeStraight(way);
   for (Vec2& p : way) p = floor_.ToWorld(p);
-  return way;
+  return kept_ ? kept_->Centred(way) : way;
 }
 
 }  // namespace floorproof

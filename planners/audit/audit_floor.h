@@ -9,6 +9,7 @@
 
 #include "planners/lines/floor.h"
 #include "planners/lines/held_yaw.h"
+#include "planners/lines/kept_margin.h"
 #include "planners/orders/visit_order.h"
 #include "planners/planner.h"
 
@@ -28,12 +29,11 @@ class AuditFloor {
   // `area` and `shapes`: with the robot's own clear shape. A robot that may face anywhere, with its
   // sensor ahead of its middle, turns it to the place: it reaches places closer to a wall than its
   // own radius. `margin_m` is kept beyond it on the way,
-  // for the tracker's error, but for the surroundings of places that lie closer to an obstacle; and
-  // less of it, or none, where it would cut a place off.
+  // for the tracker's error, but for the surroundings of places that lie closer to an obstacle.
+  // Where it would cut a place off, what is narrower is passed in its middle.
   AuditFloor(const PlanRequest& request, const FloorRoom& room, const SweepArea& area,
              const HeldShapes& shapes, const std::vector<Vec2>& places, double margin_m);
 
-  double margin_m() const { return margin_m_; }  // what is kept in the end
   // The start, and a stop for each of the places that can be reached, in the order given: what the
   // table's places are.
   const std::vector<Stop>& stops() const { return stops_; }
@@ -52,7 +52,7 @@ class AuditFloor {
   Cell CellOf(const Vec2& p_W) const { return Floor::CellAt(floor_.ToCells(p_W)); }
 
   Floor floor_;
-  double margin_m_ = 0;
+  std::optional<KeptMargin> kept_;  // where the margin would cut a place off
   std::vector<Stop> stops_;
   std::vector<int> stop_of_;
   PlaceDistances distances_{0};

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "planners/lines/coverage_planner.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "base/quantity.h"
 #include "planners/lines/held_yaw.h"
+#include "planners/lines/kept_margin.h"
 #include "planners/lines/pieces.h"
 #include "planners/lines/prune.h"
 #include "planners/lines/relax.h"
@@ -51,7 +55,8 @@ constexpr double kMaxGoal = 0.995;
 // The tracker's error on such plans, and a little more: of round robots, which turn on the spot,
 // and of holonomic robots with a footprint.
 constexpr double kMargin_m = 0.03, kFootprintMargin_m = 0.015;
-constexpr double kMaxLost = 0.04;       // of the ground, to a margin
+constexpr double kLeastMargin_m = 0.01;  // of those that the planner takes by itself
+constexpr double kMaxLost = 0.04;        // of the ground, to a larger one
 constexpr double kDriveLoss = 0.012;    // of the ground, measured: corners driven less than exactly
 constexpr double kWallTolerance = 0.7;  // cells: a traced contour's staircase
 
@@ -110,9 +115,11 @@ void CoveragePlanner::Visit(ParamVisitor& visit) {
   visit("tool_width_m", tool_width_m_, Positive(),
         "width of a disc that sweeps; none: the robot's tool");
   visit("radius_m", radius_m_, Positive(), "of a circle kept clear; none: the robot's clear shape");
-  visit("margin_m", margin_m_, NonNegative(),
-        "kept beyond the clear shape for the tracker's error; none: 0.03 around a robot's circle, "
-        "0.015 around its footprint, less where that would close a door, and 0 around radius_m");
+  visit(
+      "margin_m", margin_m_, NonNegative(),
+      "kept beyond the clear shape for the tracker's error; none: 0.03 around a robot's circle, "
+      "0.015 around its footprint, down to 0.01 where that takes much of the floor, 0 around "
+      "radius_m, and the middle of a door that is narrower; one that is given is kept everywhere");
   visit("overlap", overlap_, Between(0, 0.9), "of neighbouring rows, share of the tool's width");
   visit("edges", edges_, "laps along walls and furniture first");
 }
@@ -198,27 +205,50 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
     result.message = WhyNothing(request, area, result.clear);
     return result;
   }
-  // Room is kept for the tracker's error, as long as only a little of the floor is lost to it.
-  // Where the margin would close a door, half of it is tried, and then none.
+  // Room is kept for the tracker's error. The planner's own margin is less where it would take much
+  // of the floor, but never none: what is narrower is passed in its middle. One that was asked for
+  // is kept.
   double margin_m = margin_m_.value_or(radius_m_ ? 0.0 : (circle ? kMargin_m : kFootprintMargin_m));
   double shortfall = 0;
-  for (; margin_m > 0; margin_m = margin_m > kMargin_m / 4 ? margin_m / 2 : 0) {
-    SweepArea roomy =
-        room.Sweepable(Grown(held.clear, margin_m), held.tool, request.start.p(), held.yaws);
-    const double lost =
-        1 - static_cast<double>(roomy.sweepable_cells) / static_cast<double>(area.sweepable_cells);
-    if (lost > kMaxLost) continue;
-    area = std::move(roomy);
-    shortfall = lost + kDriveLoss;
-    break;
+  std::optional<KeptMargin> kept;
+  const auto bare_cells = static_cast<double>(area.sweepable_cells);
+  for (const SweepArea bare = area; margin_m > 0;
+       margin_m = std::max(kLeastMargin_m, margin_m / 2)) {
+    kept.reset();
+    area = room.Sweepable(Grown(held.clear, margin_m), held.tool, request.start.p(), held.yaws);
+    const auto lost = [&] { return 1 - static_cast<double>(area.sweepable_cells) / bare_cells; };
+    if (lost() > kMaxLost && !margin_m_) {
+      kept.emplace(room, held, margin_m, bare, request.start.p());
+      area = kept->area();
+    }
+    shortfall = lost() + kDriveLoss;
+    if (lost() > kMaxLost && margin_m_)
+      result.message = fmt::format("margin_m, {}, leaves out {} of the floor", LengthText(margin_m),
+                                   PercentText(lost()));
+    if (lost() <= kMaxLost || margin_m_ || margin_m <= kLeastMargin_m) break;
+  }
+  if (area.sweepable_cells == 0) {
+    result.status = PlanStatus::kStartBlocked;
+    result.message = fmt::format("the start has less room than margin_m, {}", LengthText(margin_m));
+    return result;
   }
   result.figures.push_back({"margin_m", margin_m});
   const Floor floor =
       CropFloor(area, Grown(held.clear, margin_m), held.tool, result.tool_width_m, overlap_);
-  const Polyline path = Sweep(floor, floor.ToCells(request.start.p()), shortfall, result.figures);
-  for (const Vec2& p : path) {
+  std::vector<Vec2> path_W;
+  for (const Vec2& p : Sweep(floor, floor.ToCells(request.start.p()), shortfall, result.figures))
+    path_W.push_back(floor.ToWorld(p));
+  if (kept) {
+    path_W = kept->Centred(path_W);
+    if (const int places = kept->PlacesOn(path_W); places > 0)
+      result.message = fmt::format(
+          "leads {} through places with less room than its margin of {} on either side, in their "
+          "middle",
+          CountText(places, "time"), LengthText(margin_m));
+  }
+  for (const Vec2& p_W : path_W) {
     Waypoint w;
-    w.p_W = floor.ToWorld(p);
+    w.p_W = p_W;
     w.yaw_rad = held.yaw_rad;
     result.path.push_back(w);
   }

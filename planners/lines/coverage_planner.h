@@ -28,7 +28,7 @@ class CoveragePlanner : public Planner {
   void Visit(ParamVisitor& visit) override;
   PlanResult Plan(const PlanRequest& request) const override;
   PlannerPromises promises() const override {
-    return {.covers = PlannerPromises::Covers::kGround, .least_coverage = 0.95};
+    return {.covers = PlannerPromises::Covers::kGround, .least_coverage = 0.9};
   }
 
  protected:
