@@ -13,8 +13,8 @@
 #include "base/params.h"
 #include "base/quantity.h"
 #include "env/core/failure_text.h"
+#include "env/core/ramp_ends.h"
 #include "env/core/slopes.h"
-#include "env/core/standing.h"
 #include "env/geometry/box.h"
 #include "env/map/char_grid.h"
 #include "env/map/generate.h"
@@ -166,32 +166,13 @@ void WarnOfFarHazards(Site& site, const std::string& file) {
   }
 }
 
-// A ramp that ends in the air, or before a face.
 void WarnOfRampEnds(Site& site, const std::string& file) {
-  constexpr double kBeyond_m = 0.05, kNotable_m = 0.03, kAlong = 0.7;
-  const HazardMap& map = site.map;
-  for (const Hazard& hazard : map.hazards) {
-    double worst_m = kNotable_m;
-    std::string warning;
-    for (const Solid& slope : hazard.solids) {
-      if (!IsSlope(slope)) continue;
-      const Vec2 along = slope.gradient.normalized();
-      for (std::size_t i = 0; i < slope.base.size(); ++i) {
-        const Vec2 a = slope.base[i], edge = slope.base[(i + 1) % slope.base.size()] - a;
-        const Vec2 out = Vec2(edge.y(), -edge.x()).normalized(), end_W = a + edge / 2;
-        if (std::abs(out.dot(along)) < kAlong) continue;  // a side
-        const Vec2 beyond_W = end_W + kBeyond_m * out;
-        if (map.IsWall(map.frame.ToCell(beyond_W))) continue;
-        const double off_m = TopAt(slope, end_W) - GroundAt(map, beyond_W).height_m;
-        if (std::abs(off_m) <= worst_m) continue;
-        worst_m = std::abs(off_m);
-        warning = file + ": ramp " + hazard.id + " leads to nothing: its end at " +
-                  PlaceText(end_W.x(), end_W.y()) + " is " + LengthText(std::abs(off_m)) +
-                  (off_m > 0 ? " above" : " below") + " the floor beyond";
-      }
-    }
-    if (!warning.empty()) site.warnings.push_back(warning);
-  }
+  for (const Hazard& hazard : site.map.hazards)
+    if (const auto end = FindLooseRampEnd(site.map, hazard))
+      site.warnings.push_back(file + ": ramp " + hazard.id + " leads to nothing: its end at " +
+                              PlaceText(end->p_W.x(), end->p_W.y()) + " is " +
+                              LengthText(std::abs(end->off_m)) +
+                              (end->off_m > 0 ? " above" : " below") + " the floor beyond");
 }
 
 // The one site that `generate` with a seed stands for.

@@ -4,18 +4,25 @@
 // may move hazards or the plan, so the scenario is read and planned again.
 #include "run/plan_check/prediction.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
 
 #include "base/params.h"
+#include "base/quantity.h"
+#include "env/core/ramp_ends.h"
 #include "planners/risk/model_rates.h"
 #include "run/episode/make_plan.h"
 #include "run/episode/plain_draws.h"
 #include "run/episode/plan_inputs.h"
 #include "run/plan_check/expected_encounters.h"
+#include "run/scenario/floors.h"
 
 namespace floorproof {
 namespace {
@@ -48,7 +55,10 @@ class Predictor {
       throw InputError({s.file.string(), 0}, "plan", "",
                        "there is none (" + std::string(Name(plan_.status)) + "): " + plan_.message);
     expected_ = ExpectedEncounters(s, plan_);
-    if (conditions_.empty()) left_out_ = LeftOut(s);
+    if (conditions_.empty()) {
+      left_out_ = LeftOut(s);
+      loose_ramps_ = LooseRamps(s, expected_);
+    }
   }
 
   // The meetings as this episode has them, which draws nothing that moves them.
@@ -72,6 +82,7 @@ class Predictor {
         ++unmeasured[{encounter.type, encounter.passage}];
         continue;
       }
+      is_far_beyond_ = is_far_beyond_ || IsFarBeyond(rates->kind(), encounter);
       const std::string like = of + " " + TextOf(rates->kind());
       const std::size_t alike =
           rates->kind().per_metre ? number : first.emplace(like, number).first->second;
@@ -95,8 +106,11 @@ class Predictor {
     }
     for (auto& [at, beyond] : beyond_) out.beyond.push_back(std::move(beyond));
     out.left_out = std::move(left_out_);
+    std::ranges::move(loose_ramps_, std::back_inserter(out.left_out));
+    out.is_far_beyond = is_far_beyond_;
     out.held_against_plans = model_->carry_over.plans;
     for (auto& [kind, unmeasured] : unmeasured_) out.unmeasured.push_back(std::move(unmeasured));
+    if (!out.unmeasured.empty() || !loose_ramps_.empty() || is_far_beyond_) KnowNothing(out);
     return out;
   }
 
@@ -104,6 +118,20 @@ class Predictor {
 
  private:
   static constexpr double kNear = 0.02;  // of the measured range: as good as within
+
+  // Rates of ramps are of such as lead to a floor.
+  static std::vector<std::string> LooseRamps(const Scenario& s, const std::vector<Encounter>& met) {
+    std::vector<std::string> ramps;
+    const HazardMap floor = TrueFloor(s);
+    for (const Hazard& hazard : floor.hazards) {
+      const auto end = FindLooseRampEnd(floor, hazard);
+      if (end && std::ranges::find(met, hazard.id, &Encounter::hazard) != met.end())
+        ramps.push_back(fmt::format("the end of ramp {}, {} {} the floor beyond", hazard.id,
+                                    LengthText(std::abs(end->off_m)),
+                                    end->off_m > 0 ? "above" : "below"));
+    }
+    return ramps;
+  }
 
   static std::vector<std::string> LeftOut(const Scenario& s) {
     std::vector<std::string> left_out;
@@ -131,6 +159,28 @@ class Predictor {
     }
   }
 
+  // Far outside the measured range, where the fitted curve is worthless.
+  bool IsFarBeyond(const KindRates& kind, const Encounter& met) const {
+    constexpr double kFarShare = 0.25, kFarFactor = 1.5;
+    Covariates covariates(kind.axes, model_->mirrored, met.size);
+    const std::span<const double> x = covariates.Of(met.at);
+    for (std::size_t a = 0; a < x.size(); ++a) {
+      const RateAxis& axis = kind.axes[a];
+      if (axis.name == "over_m") continue;  // counted as several meetings (TimesMeasured)
+      const bool is_scale = axis.period == 0 && axis.lower > 0;
+      if (floorproof::Beyond(axis, x[a]) > kFarShare ||
+          (is_scale && (x[a] * kFarFactor < axis.lower || x[a] > kFarFactor * axis.upper)))
+        return true;
+    }
+    return false;
+  }
+
+  // The drive may always fail, for all that is known.
+  static void KnowNothing(Prediction& out) {
+    out.survival.no_failure.lower = 0;
+    for (Probability& mode : out.survival.first) mode.upper = 1;
+  }
+
   std::size_t NumberOf(const Encounter& encounter, const std::string& name) {
     const auto [at, is_new] = numbers_.emplace(name, meetings_.size());
     if (is_new) meetings_.push_back({encounter, 0});
@@ -156,7 +206,8 @@ class Predictor {
   std::string inputs_;
   PlanResult plan_;
   std::vector<Encounter> expected_;
-  std::vector<std::string> left_out_;
+  std::vector<std::string> left_out_, loose_ramps_;
+  bool is_far_beyond_ = false;
   std::vector<std::vector<PlannedMeeting>> conditions_;
   std::vector<PredictedMeeting> meetings_;
   std::map<std::string, std::size_t> numbers_;

@@ -44,13 +44,17 @@ struct Prediction {
     std::size_t meeting = 0;
   };
   std::vector<Beyond> beyond;
+  // So far, in a drawn condition, that the rates say nothing of it: beyond a quarter of the
+  // measured range, or by a factor of 1.5 on a scale that is above 0 (friction, speeds, sizes).
+  bool is_far_beyond = false;
 
   // What the scenario has that rates know nothing of, in words.
   std::vector<std::string> left_out;
   int held_against_plans = 0;  // that were driven: the rates
 
-  // Else the plan fails at least as often as it says.
-  bool complete() const { return unmeasured.empty() && left_out.empty(); }
+  // Else the plan fails at least as often as it says. The interval ends at 1 where nothing is known
+  // of a meeting: of its kind, so far beyond, or of a ramp that leads to nothing.
+  bool complete() const { return unmeasured.empty() && left_out.empty() && !is_far_beyond; }
 };
 
 // Of the scenario's plan in the conditions that its first `draws` episodes draw; one condition

@@ -180,6 +180,37 @@ TEST_F(PredictionTest, WhatLiesBeyondWhatWasMeasuredIsSaid) {
   EXPECT_THAT(PredictionLines(dut), Contains(HasSubstr("by 50 % of that range")));
 }
 
+// Far beyond it nothing is known: by a share of the range, or by a factor.
+TEST_F(PredictionTest, FarBeyondWhatWasMeasuredItMayAlwaysFail) {
+  SaveModel(0.01, 0.01);
+  const std::string text = RoomScenario(kCovers, "risk: {model: model.json}\n");
+  const auto at = [&](const char* friction) {
+    return Predict(ScenarioFile(Save("scenario.yaml", text), {{"site.floor.friction", friction}}),
+                   {}, 1);
+  };
+  for (const char* near : {"0.4", "0.37", "0.85"}) {
+    EXPECT_TRUE(at(near).complete()) << near;
+    EXPECT_GT(at(near).survival.no_failure.lower, 0.5) << near;
+  }
+  for (const char* far : {"0.25", "0.001", "1.3"}) {
+    EXPECT_FALSE(at(far).complete()) << far;
+    EXPECT_EQ(at(far).survival.no_failure.lower, 0) << far;
+    EXPECT_THAT(PredictionLines(at(far)), Contains(HasSubstr("to 100 %"))) << far;
+  }
+}
+
+// Rates of ramps were measured on ramps that lead to a floor.
+TEST_F(PredictionTest, ARampThatLeadsToNothingMayAlwaysFail) {
+  SaveModel(0.01, 0.01);
+  const Prediction dut =
+      Predict(File("{type: ramp, id: quay, polygon_m: [[3, 0.5], [5, 0.5], [5, 4.5], [3, 4.5]], "
+                   "slope_deg: 4, toward_deg: 0, known: false}"),
+              {}, 1);
+  EXPECT_FALSE(dut.complete());
+  EXPECT_THAT(dut.left_out, Contains(HasSubstr("the end of ramp quay, 140 mm above the floor")));
+  EXPECT_EQ(dut.survival.no_failure.lower, 0);
+}
+
 // A robot that is wrong about its place, what breaks and who watches it: rates know nothing of it.
 TEST_F(PredictionTest, WhatIsNotInItIsSaid) {
   SaveModel(0.2, 0.2);
