@@ -79,6 +79,7 @@ class Witness : public EpisodeObserver {
     }
     console_.Say(fmt::format("{}, in {:.2f} s", PlannedText(plan), plan_s));
     if (!plan.message.empty()) console_.Say(plan.message);
+    if (const std::string line = UnheldDwellLine(s_, plan); !line.empty()) console_.Say(line);
     // A planner keeps clear of what it knows; a file or a program may lead anywhere.
     if (PlannerOf(s_) != nullptr) return;
     const PlanClearance clearance = CheckClearance(s_, plan);

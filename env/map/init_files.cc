@@ -189,9 +189,10 @@ estimator: truth           # mcl, odometry: `floorproof list estimators`, and do
 # react: {then: replan}    # at bumps and drops; without it the plan is driven blindly
 
 success:
-  # Share of what can be swept; less is no success. A plan of your own that is to cover less needs a
-  # lower one: 0 asks for none.
-  min_coverage: 0.95
+  # Share of what can be swept; less is no success. The planner covers 94 % and more, and a drive one
+  # to three points less than its plan. A plan of your own that is to cover less needs a lower one: 0
+  # asks for none.
+  min_coverage: 0.9
 
 # What nobody knows exactly, drawn anew in each episode (`run` drives episode 0, and says what it
 # drew). What is drawn wins over what is written, above and in site.yaml: change it here, or take its

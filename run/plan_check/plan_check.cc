@@ -12,6 +12,7 @@
 #include "base/quantity.h"
 #include "env/core/failure_text.h"
 #include "run/plan_check/sharp_corners.h"
+#include "run/plan_check/unheld_dwells.h"
 #include "run/scenario/floors.h"
 
 namespace floorproof {
@@ -90,6 +91,10 @@ void AddClearance(const HazardMap& floor, const PlanClearance& c, std::vector<st
             : fmt::format("least clearance: {} to {}, at {}, {} m along",
                           Metres(std::max(0.0, c.least_m)), ObstaclePhrase(floor, c.obstacle),
                           At(c.p_W), FixedText(c.along_m, 1)));
+    constexpr double kStrays_m = 0.01;  // what trackers err by, and more
+    if (c.least_m < kStrays_m)
+      lines.push_back(fmt::format("warning: less than {} is left there, which a tracker errs by",
+                                  Metres(kStrays_m)));
     return;
   }
   lines.push_back(ConflictsLine(c) + ":");
@@ -218,6 +223,18 @@ std::string SharpCornersLine(const RobotSpec& robot, int sharp_corners) {
       CountText(sharp_corners, "corner"), Metres(robot.turn_radius_m));
 }
 
+std::string UnheldDwellLine(const Scenario& s, const PlanResult& plan) {
+  const auto dwell = FindUnheldDwell(s, plan);
+  if (!dwell) return "";
+  const std::string where =
+      fmt::format("warning: the robot is to dwell at {} on a slope of {:.1f} deg, and ",
+                  At(dwell->p_W), dwell->slope_rad * 180 / kPi);
+  if (s.robot.spec.standstill == Standstill::kFree)
+    return where + "nothing holds it: its wheels turn freely (`standstill` in its model)";
+  return where + fmt::format("rolls away: its motors hold {} N of {} N", NumberText(dwell->holds_n),
+                             NumberText(dwell->pulls_n));
+}
+
 std::vector<std::string> CrossingLines(const Scenario& s, const PlanClearance& clearance) {
   std::vector<std::string> lines;
   AddCrossings(KnownFloor(s), s.robot.spec, clearance, lines);
@@ -243,6 +260,7 @@ std::vector<std::string> PlanLines(const Scenario& s, const PlanResult& plan,
   AddClearance(floor, check.clearance, lines);
   if (const auto sharp = SharpCornersLine(s.robot.spec, check.sharp_corners); !sharp.empty())
     lines.push_back(sharp);
+  if (auto unheld = UnheldDwellLine(s, plan); !unheld.empty()) lines.push_back(std::move(unheld));
   AddCrossings(floor, s.robot.spec, check.clearance, lines);
   AddDrivenOver(TrueFloor(s), s.robot.spec, check.driven_over, lines);
   if (plan.samples.empty())

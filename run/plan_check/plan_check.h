@@ -43,6 +43,9 @@ std::vector<std::string> CrossingLines(const Scenario& scenario, const PlanClear
 // One line for who drives a plan; empty where it leads the robot into nothing.
 std::string ConflictsLine(const PlanClearance& clearance);
 
+// One line, too; empty where the robot stands still wherever the plan lets it dwell.
+std::string UnheldDwellLine(const Scenario& scenario, const PlanResult& plan);
+
 // One line, too; empty where no corner is too sharp for the robot. `sharp_corners` as of PlanCheck.
 std::string SharpCornersLine(const RobotSpec& robot, int sharp_corners);
 

@@ -74,7 +74,7 @@ TEST_F(InitFilesTest, TheTextsSayWhatTheDesignAsks) {
   EXPECT_EQ(scenario.Find("site")->scalar, "site.yaml");
   EXPECT_EQ(scenario.Find("robot")->scalar, "disc");
   EXPECT_EQ(scenario.Find("plan")->Find("planner")->scalar, "boustrophedon");
-  EXPECT_EQ(scenario.Find("success")->Find("min_coverage")->scalar, "0.95");
+  EXPECT_EQ(scenario.Find("success")->Find("min_coverage")->scalar, "0.9");
   const ConfigNode site = ParseYaml(dut.site_yaml, "site.yaml");
   EXPECT_EQ(site.Find("map")->scalar, "map.yaml");
 }

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/plan_check/unheld_dwells.h"
+
+#include <cmath>
+
+#include "env/core/standing.h"
+#include "run/scenario/floors.h"
+
+namespace floorproof {
+
+std::optional<UnheldDwell> FindUnheldDwell(const Scenario& s, const PlanResult& plan) {
+  constexpr double kGravity_mps2 = 9.81, kLevel_rad = 0.005;
+  const RobotSpec& robot = s.robot.spec;
+  if (robot.standstill == Standstill::kBrake) return std::nullopt;
+  double holds_n = 0;
+  if (robot.standstill == Standstill::kHold)
+    for (const WheelSpec& wheel : robot.wheels) holds_n += wheel.max_torque_nm / wheel.radius_m;
+  const HazardMap floor = TrueFloor(s);
+  std::optional<UnheldDwell> steepest;
+  for (const Waypoint& w : plan.path) {
+    if (!(w.dwell_s > 0)) continue;
+    const double slope_rad = std::atan(GroundAt(floor, w.p_W).gradient.norm());
+    const double pulls_n = robot.mass_kg * kGravity_mps2 * std::sin(slope_rad);
+    if (slope_rad > kLevel_rad && pulls_n > holds_n &&
+        (!steepest || slope_rad > steepest->slope_rad))
+      steepest = UnheldDwell{w.p_W, slope_rad, holds_n, pulls_n};
+  }
+  return steepest;
+}
+
+}  // namespace floorproof
