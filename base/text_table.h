@@ -41,6 +41,8 @@ class TextTable {
   // shown becomes a question mark, and line breaks become spaces.
   void Add(std::vector<TextCell> row);
   bool empty() const { return rows_.empty(); }
+  const std::vector<TextColumn>& columns() const { return columns_; }
+  const std::vector<std::vector<TextCell>>& rows() const { return rows_; }
 
   // Of at most `width` columns, but for words that are wider. `colours`: with ANSI sequences.
   std::vector<std::string> Lines(int width, bool colours) const;

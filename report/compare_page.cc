@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/quantity.h"
+#include "report/comparison_tables.h"
 #include "report/html.h"
 #include "report/html_page.h"
 #include "report/pairs.h"
@@ -49,6 +50,17 @@ std::string ComparePage(const ComparedSide& a, const ComparedSide& b,
                    "medians: sign test.</p></div>\n",
                    PairedTables(report), CountText(comparison.n, "episode"), MarkupText(b.name),
                    MarkupText(a.name))});
+  for (const ComparisonPart& part : ComparisonParts(comparison)) {
+    if (part.kind == ComparisonPart::Kind::kFigures) continue;  // they stand above, with medians
+    std::string html = "<div class=\"card\">" + TableHtml(part.table);
+    for (const std::string& note : part.notes)
+      html += "<p class=\"note\">" + MarkupText(note) + "</p>\n";
+    const bool plans = part.kind == ComparisonPart::Kind::kPlans;
+    html += fmt::format("<p class=\"note\">a is {}, b is {}.</p></div>\n", MarkupText(a.name),
+                        MarkupText(b.name));
+    page.sections.push_back({plans ? "plans" : "modes",
+                             plans ? "Plans, side by side" : "Failures, by mode, paired", html});
+  }
   std::string rates = "<div class=\"card\">" + VariantsTable(report) + "</div>\n";
   for (const VariantSummary& variant : report.summary.variants)
     rates += "<article class=\"card\"><h3>" + MarkupText(variant.name) + "</h3>\n" +

@@ -25,6 +25,23 @@ std::string UrlPath(std::string_view path) {
   return out;
 }
 
+std::string TableHtml(const TextTable& table) {
+  const auto num = [](const TextColumn& column) { return column.right ? " class=\"num\"" : ""; };
+  std::string html = "<div class=\"scroll\" tabindex=\"0\"><table><thead><tr>";
+  for (const TextColumn& column : table.columns())
+    html += fmt::format("<th scope=\"col\"{}>{}</th>", num(column), MarkupText(column.heading));
+  html += "</tr></thead><tbody>\n";
+  for (const std::vector<TextCell>& row : table.rows()) {
+    html += "<tr>";
+    for (std::size_t i = 0; i < row.size(); ++i)
+      html += i == 0
+                  ? fmt::format("<th scope=\"row\">{}</th>", MarkupText(row[i].text))
+                  : fmt::format("<td{}>{}</td>", num(table.columns()[i]), MarkupText(row[i].text));
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
+}
+
 std::string PercentText(const Interval& share) {
   const Interval percent = RoundedOutward({100 * share.lower, 100 * share.upper});
   return NumberText(percent.lower) + " to " + PercentText(percent.upper / 100);

@@ -7,6 +7,7 @@
 
 #include "base/markup.h"
 #include "base/quantity.h"
+#include "base/text_table.h"
 #include "stats/interval.h"
 
 namespace floorproof {
@@ -15,6 +16,9 @@ namespace floorproof {
 std::string DataUri(std::string_view type, std::string_view bytes);
 // A relative path as an address: what has a meaning there is percent-encoded, '/' stays.
 std::string UrlPath(std::string_view path);
+
+// The table as the page has such; its first column names the rows.
+std::string TableHtml(const TextTable& table);
 
 // An interval of shares, rounded outward: "0 to 60.3 %".
 std::string PercentText(const Interval& share);

@@ -253,7 +253,10 @@ class Pages(unittest.TestCase):
         page.goto((folder / "report.html").as_uri())
         self.assertIn("speed_mps=0.3", page.locator("h1").inner_text())
         self.assertIn("12 drives", page.locator(".verdict").inner_text())
-        self.assertTrue(page.locator("#pairs table").is_visible())
+        for section in ("#pairs", "#modes", "#plans"):  # what the command says, all of it
+            self.assertTrue(page.locator(f"{section} table").is_visible(), section)
+        self.assertIn("McNemar", page.locator("#modes").inner_text())
+        self.assertIn("length_m", page.locator("#plans").inner_text())
         floorproof("compare", f"{folder}:speed_mps=0.2", f"{folder}:speed_mps=0.3", "--page",
                    folder / "report.txt", statuses=(2,))
 
