@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <set>
 
 #include "base/file_output.h"
@@ -55,6 +56,30 @@ void CheckChance(const ScenarioFile& file, const ConfigNode& gate, CampaignObser
     if (observer) observer->OnWarning("warning: " + why);
     return;
   }
+}
+
+// Draws that cannot be driven, such as a start in a wall, are errors. The rate is then that of
+// another scenario than was meant. Reads the first episodes, for one second at most.
+void WarnOfErrors(const ScenarioFile& file, std::uint64_t episodes, CampaignObserver* observer) {
+  constexpr std::uint64_t kMostTried = 100;
+  constexpr double kMaxShare = 0.03, kBudget_s = 1;
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::duration<double>(kBudget_s);
+  int tried = 0, errors = 0;
+  std::string first;
+  for (std::uint64_t k = 0; k < std::min(episodes, kMostTried) && Clock::now() < end; ++k)
+    for (const Variant& variant : file.variants()) {
+      ++tried;
+      try {
+        file.Read(k, variant);
+      } catch (const InputError& e) {
+        if (errors++ == 0) first = e.what();
+      }
+    }
+  if (observer && errors > kMaxShare * tried)
+    observer->OnWarning(fmt::format(
+        "warning: of the first {} {} cannot be driven, and will be errors; the first: {}",
+        CountText(tried, "draw"), errors, first));
 }
 
 // Which programs its variants have plan for them. Throws InputError where one is not there.
@@ -113,6 +138,7 @@ CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& r
   if (request.episodes > 1) CheckChance(file, base.gate, observer);  // no number would mend that
   const auto gate = CampaignGate::Read(base.gate, request.episodes, file.drives());
   SayPrograms(file, observer);
+  WarnOfErrors(file, request.episodes, observer);
 
   auto hold = std::make_unique<HoldInterrupts>();
   HoldsCampaign(folder, request.resume);

@@ -76,6 +76,19 @@ TEST_F(DriveCampaignTest, GivesTheSummaryThatItWrites) {
   EXPECT_THAT(dut.store.Episodes("yaw_deg=10"), ElementsAre(0u, 1u, 2u));
 }
 
+TEST_F(DriveCampaignTest, DrawsThatCannotBeDrivenAreSaidBefore) {
+  const auto warnings = [&](const std::string& range, const char* out) {
+    Listener listener;
+    DriveCampaign(File("randomise: {start.x_m: {uniform: " + range + "}}\n"), {.episodes = 40},
+                  Folder(out), &listener);
+    return listener.warnings;
+  };
+  EXPECT_THAT(warnings("[0.5, 1.6]", "some"),
+              ElementsAre(AllOf(HasSubstr("warning: of the first 40 draws"),
+                                HasSubstr("cannot be driven"), HasSubstr("overlaps a wall"))));
+  EXPECT_THAT(warnings("[1.4, 1.6]", "none"), IsEmpty());
+}
+
 TEST_F(DriveCampaignTest, RequestsThatMakeNoSenseAreRefusedBeforeThereIsAFolder) {
   const auto why = [&](const CampaignRequest& request) {
     return WhyRefused([&] { DriveCampaign(File(), request, Folder("o")); });
