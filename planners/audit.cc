@@ -34,7 +34,7 @@ class AuditPlanner final : public Planner {
     visit("closed", closed_, "the way back to the start is part of the tour");
     visit("margin_m", margin_m_, NonNegative(),
           "kept beyond the clear shape for the tracker's error, except around places that lie "
-          "closer to an obstacle; less where that would cut a place off");
+          "closer to an obstacle, and in the middle of narrower passages");
     visit("speed_mps", speed_mps_, Between(0.001, 10),
           "between places; none: the pace of the robot's audits, else its cruise speed");
     visit("dwell_s", dwell_s_, Between(0.1, 600),
@@ -179,7 +179,7 @@ class AuditPlanner final : public Planner {
     result.convergence_m = tour.convergence;
     result.figures.push_back({"samples", static_cast<double>(result.samples.size())});
     result.figures.push_back({"reachable_samples", static_cast<double>(floor.stops().size() - 1)});
-    result.figures.push_back({"margin_m", margin_m_});
+    result.figures.push_back({"margin_m", floor.margin_m()});
     result.figures.push_back({"tour_m", tour.length_m});
     if (tour.bound_m) {
       result.figures.push_back({"tour_bound_m", *tour.bound_m});

@@ -35,7 +35,8 @@ Grid<std::uint8_t> WithSurroundings(const Grid<std::uint8_t>& all, Grid<std::uin
 
 AuditFloor::AuditFloor(const PlanRequest& request, const FloorRoom& room, const SweepArea& area,
                        const HeldShapes& shapes, const std::vector<Vec2>& places, double margin_m)
-    : floor_(CropFloor(area, shapes.clear, shapes.tool, request.robot.tool_width_m)) {
+    : floor_(CropFloor(area, shapes.clear, shapes.tool, request.robot.tool_width_m)),
+      margin_m_(margin_m) {
   const Cell shift = CellOf(area.frame.Center(0, 0));
   const auto crop = [&](const Grid<std::uint8_t>& mask) {
     Grid<std::uint8_t> cropped(floor_.frame.width, floor_.frame.height);
@@ -62,9 +63,12 @@ AuditFloor::AuditFloor(const PlanRequest& request, const FloorRoom& room, const 
   const Vec2 start = request.start.p();
   if (gets_to_all(room.Sweepable(Grown(shapes.clear, margin_m), shapes.tool, start, shapes.yaws)))
     return;
-  kept_.emplace(room, shapes, margin_m, area, start);
+  std::vector<Vec2> stops_W;
+  for (const Stop& stop : stops_) stops_W.push_back(stop.p_W);
+  kept_.emplace(room, shapes, margin_m, area, start, stops_W);
   if (gets_to_all(kept_->area())) return;
   kept_.reset();
+  margin_m_ = 0;
   Measure(floor_.pose);
 }
 
@@ -158,7 +162,7 @@ std::vector<Vec2> AuditFloor::Way(int from, int to) const {
   end_at(stops_[Z(to)].p_W, false);
   way = MergeStraight(way);
   for (Vec2& p : way) p = floor_.ToWorld(p);
-  return kept_ ? kept_->Centred(way) : way;
+  return kept_ ? kept_->Centred(way, true) : way;
 }
 
 }  // namespace floorproof

@@ -30,10 +30,11 @@ class AuditFloor {
   // sensor ahead of its middle, turns it to the place: it reaches places closer to a wall than its
   // own radius. `margin_m` is kept beyond it on the way,
   // for the tracker's error, but for the surroundings of places that lie closer to an obstacle.
-  // Where it would cut a place off, what is narrower is passed in its middle.
+  // If the margin would cut a place off, the path goes through the middle of the narrow passages.
   AuditFloor(const PlanRequest& request, const FloorRoom& room, const SweepArea& area,
              const HeldShapes& shapes, const std::vector<Vec2>& places, double margin_m);
 
+  double margin_m() const { return margin_m_; }  // what is kept; 0: no path keeps it
   // The start, and a stop for each of the places that can be reached, in the order given: what the
   // table's places are.
   const std::vector<Stop>& stops() const { return stops_; }
@@ -52,6 +53,7 @@ class AuditFloor {
   Cell CellOf(const Vec2& p_W) const { return Floor::CellAt(floor_.ToCells(p_W)); }
 
   Floor floor_;
+  double margin_m_ = 0;
   std::optional<KeptMargin> kept_;  // where the margin would cut a place off
   std::vector<Stop> stops_;
   std::vector<int> stop_of_;

@@ -109,17 +109,61 @@ Polyline Drive(ShortestPaths& paths, const Vec2& start, const std::vector<Polyli
   return MergeStraight(JoinByRoutes(paths, ordered));
 }
 
+// The floor that is swept with a margin.
+struct RoomyFloor {
+  double margin_m = 0;
+  double lost = 0;  // of the ground, to the margin
+  SweepArea area;
+  std::optional<KeptMargin> kept;  // with narrow places
+};
+
+// Keeps room for the tracker's error. `bare`: without a margin, and the margin to begin with. A
+// given margin is kept everywhere. Else it is halved while it takes much of the floor, but never
+// dropped: narrower places are passed in their middle.
+RoomyFloor KeepMargin(const FloorRoom& room, const HeldShapes& held, const Vec2& start_W,
+                      RoomyFloor bare, bool is_given) {
+  RoomyFloor out;
+  const auto keep = [&](SweepArea area) {
+    out.lost = 1 - static_cast<double>(area.sweepable_cells) /
+                       static_cast<double>(bare.area.sweepable_cells);
+    out.area = std::move(area);
+  };
+  for (out.margin_m = bare.margin_m;; out.margin_m = std::max(kLeastMargin_m, out.margin_m / 2)) {
+    keep(room.Sweepable(Grown(held.clear, out.margin_m), held.tool, start_W, held.yaws));
+    if (is_given || out.lost <= kMaxLost) return out;
+    out.kept.emplace(room, held, out.margin_m, bare.area, start_W);
+    keep(out.kept->area());
+    if (out.lost <= kMaxLost || out.margin_m <= kLeastMargin_m) return out;
+    out.kept.reset();
+  }
+}
+
+// What its margin means for a plan; empty: nothing to say.
+std::string MarginText(const RoomyFloor& roomy, const std::vector<Vec2>& path_W) {
+  std::string text;
+  if (roomy.margin_m > 0 && roomy.lost > kMaxLost)
+    text = fmt::format("with margin_m = {}, the plan leaves out {} of the floor",
+                       LengthText(roomy.margin_m), PercentText(roomy.lost));
+  const int places = roomy.kept ? roomy.kept->PlacesOn(path_W) : 0;
+  if (places == 0) return text;
+  return text + (text.empty() ? "" : "; ") +
+         fmt::format(
+             "the plan passes {} through the middle of a narrow place, with less room than its "
+             "margin of {} on either side",
+             CountText(places, "time"), LengthText(roomy.margin_m));
+}
+
 }  // namespace
 
 void CoveragePlanner::Visit(ParamVisitor& visit) {
   visit("tool_width_m", tool_width_m_, Positive(),
         "width of a disc that sweeps; none: the robot's tool");
   visit("radius_m", radius_m_, Positive(), "of a circle kept clear; none: the robot's clear shape");
-  visit(
-      "margin_m", margin_m_, NonNegative(),
-      "kept beyond the clear shape for the tracker's error; none: 0.03 around a robot's circle, "
-      "0.015 around its footprint, down to 0.01 where that takes much of the floor, 0 around "
-      "radius_m, and the middle of a door that is narrower; one that is given is kept everywhere");
+  visit("margin_m", margin_m_, NonNegative(),
+        "kept beyond the clear shape for the tracker's error; none: 0.03 around a robot's circle, "
+        "0.015 around its footprint, 0 around radius_m; reduced to 0.01 if it takes much of the "
+        "floor, "
+        "and narrower doors are passed in their middle. A given margin is kept everywhere");
   visit("overlap", overlap_, Between(0, 0.9), "of neighbouring rows, share of the tool's width");
   visit("edges", edges_, "laps along walls and furniture first");
 }
@@ -205,47 +249,27 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
     result.message = WhyNothing(request, area, result.clear);
     return result;
   }
-  // Room is kept for the tracker's error. The planner's own margin is less where it would take much
-  // of the floor, but never none: what is narrower is passed in its middle. One that was asked for
-  // is kept.
-  double margin_m = margin_m_.value_or(radius_m_ ? 0.0 : (circle ? kMargin_m : kFootprintMargin_m));
-  double shortfall = 0;
-  std::optional<KeptMargin> kept;
-  const auto bare_cells = static_cast<double>(area.sweepable_cells);
-  for (const SweepArea bare = area; margin_m > 0;
-       margin_m = std::max(kLeastMargin_m, margin_m / 2)) {
-    kept.reset();
-    area = room.Sweepable(Grown(held.clear, margin_m), held.tool, request.start.p(), held.yaws);
-    const auto lost = [&] { return 1 - static_cast<double>(area.sweepable_cells) / bare_cells; };
-    if (lost() > kMaxLost && !margin_m_) {
-      kept.emplace(room, held, margin_m, bare, request.start.p());
-      area = kept->area();
-    }
-    shortfall = lost() + kDriveLoss;
-    if (lost() > kMaxLost && margin_m_)
-      result.message = fmt::format("margin_m, {}, leaves out {} of the floor", LengthText(margin_m),
-                                   PercentText(lost()));
-    if (lost() <= kMaxLost || margin_m_ || margin_m <= kLeastMargin_m) break;
-  }
-  if (area.sweepable_cells == 0) {
+  RoomyFloor roomy;
+  roomy.area = std::move(area);
+  roomy.margin_m = margin_m_.value_or(radius_m_ ? 0.0 : (circle ? kMargin_m : kFootprintMargin_m));
+  if (roomy.margin_m > 0)
+    roomy = KeepMargin(room, held, request.start.p(), std::move(roomy), margin_m_.has_value());
+  if (roomy.area.sweepable_cells == 0) {
     result.status = PlanStatus::kStartBlocked;
-    result.message = fmt::format("the start has less room than margin_m, {}", LengthText(margin_m));
+    result.message = fmt::format("the clearance at the start is less than margin_m = {}",
+                                 LengthText(roomy.margin_m));
     return result;
   }
-  result.figures.push_back({"margin_m", margin_m});
-  const Floor floor =
-      CropFloor(area, Grown(held.clear, margin_m), held.tool, result.tool_width_m, overlap_);
+  result.figures.push_back({"margin_m", roomy.margin_m});
+  const Floor floor = CropFloor(roomy.area, Grown(held.clear, roomy.margin_m), held.tool,
+                                result.tool_width_m, overlap_);
+  // What a margin leaves out is not to be won back where that is much.
+  const double shortfall = roomy.margin_m > 0 ? std::min(roomy.lost, kMaxLost) + kDriveLoss : 0;
   std::vector<Vec2> path_W;
   for (const Vec2& p : Sweep(floor, floor.ToCells(request.start.p()), shortfall, result.figures))
     path_W.push_back(floor.ToWorld(p));
-  if (kept) {
-    path_W = kept->Centred(path_W);
-    if (const int places = kept->PlacesOn(path_W); places > 0)
-      result.message = fmt::format(
-          "leads {} through places with less room than its margin of {} on either side, in their "
-          "middle",
-          CountText(places, "time"), LengthText(margin_m));
-  }
+  if (roomy.kept) path_W = roomy.kept->Centred(path_W);
+  result.message = MarginText(roomy, path_W);
   for (const Vec2& p_W : path_W) {
     Waypoint w;
     w.p_W = p_W;

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Poses with the margin grow from the start's. Dijkstra's search goes out from them over all other
-// poses, where steps cost the more the less room there is. Where it comes to poses with the margin,
-// its way there is a narrow place's middle, and all that are connected to these are taken. So all
-// parts of the floor are joined. What cannot be swept from them, in dead ends, is reached likewise,
-// the farthest first.
+// The search starts with the poses that keep the margin and are connected to the start. From them,
+// Dijkstra's algorithm searches the other free poses; a step costs more where there is less room.
+// When it reaches further poses with the margin, its path there follows the middle of a narrow
+// place, and all poses connected to them are added. Paths into dead ends that are still unswept are
+// added in the same manner, the farthest first.
 //
-// Assumed: a place is narrow only where less than the margin and a cell is free on either side, so
-// that its middle is that of the free poses in a row or a column of cells.
-// Not done: the widest of several ways to a part is not looked for, the cheapest is.
+// Assumption: a place is narrow only if less than the margin plus one cell is free on either side,
+// so its middle is the middle of the free poses in a row or a column of cells. Limitation: of
+// several paths to an area, the cheapest is chosen, not the widest.
 #include "planners/lines/kept_margin.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <queue>
 #include <span>
@@ -25,8 +26,8 @@
 namespace floorproof {
 namespace {
 
-constexpr double kShallow = 20;  // how much more a step costs where no room is to spare
-constexpr double kRunUp = 6;     // cells, over which a path comes to a narrow place's middle
+constexpr double kShallow = 20;    // how much more a step costs where no room is to spare
+constexpr std::size_t kRunUp = 6;  // cells, over which a path comes to a narrow place's middle
 
 // The sides first.
 constexpr Cell kAround[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
@@ -83,7 +84,7 @@ class Joiner {
       const Cell c = CellOf(at);
       if (cost > cost_(c)) continue;
       if (wide_(c) && !poses_(c)) {
-        TakeWayTo(c);
+        if (from_(c) >= 0) TakeWayTo(CellOf(from_(c)));
         Take(c);
         continue;
       }
@@ -95,7 +96,12 @@ class Joiner {
     }
   }
 
-  // Ways to what is not swept: of poses whose own cell is not, the farthest first.
+  // Adds a path to this free pose.
+  void TakePlace(Cell c) {
+    if (!poses_(c) && from_(c) >= 0) TakeWayTo(c);
+  }
+
+  // Adds paths to poses whose own cell is not swept, the farthest first.
   void TakeDeadEnds(const Grid<std::uint8_t>& swept, double tool_radius) {
     std::vector<std::pair<float, int>> left;
     for (int i = 0; i < static_cast<int>(free_.cells.size()); ++i) {
@@ -126,9 +132,9 @@ class Joiner {
     open_.push({cost, static_cast<int>(free_.Index(c.ix, c.iy))});
   }
 
-  // Takes the way from the poses so far, and beside it those with as much room: two in the middle
-  // of an even number, and what a slanting way cuts off at its corners.
-  // `ends`: at a wall, from which as much is kept as elsewhere.
+  // Adds the path from the poses so far, and neighbours with as much room: both middle cells if the
+  // free width is even, and the cells at the corners of a diagonal path. ends: the path ends at a
+  // wall, and the margin is kept from it.
   std::vector<Cell> TakeWayTo(Cell c, bool ends = false) {
     constexpr float kAsMuch = 0.75f;  // cells less
     std::vector<Cell> way;
@@ -139,7 +145,8 @@ class Joiner {
       if (ends && w == way.front()) continue;  // nothing beyond its end
       for (const Cell& d : kAround) {
         const Cell n{w.ix + d.ix, w.iy + d.iy};
-        if (free_.Inside(n) && free_(n) && room_(n) > room_(w) - kAsMuch) poses_(n) = 1;
+        if (free_.Inside(n) && free_(n) && !wide_(n) && room_(n) > room_(w) - kAsMuch)
+          poses_(n) = 1;
       }
     }
     return way;
@@ -166,32 +173,60 @@ class Joiner {
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open_;
 };
 
-// The free pose nearest to the start, within a cell.
-std::optional<Cell> StartCell(const Grid<std::uint8_t>& free, Cell start) {
-  if (free.Inside(start) && free(start)) return start;
-  for (const Cell& d : kAround)
-    if (const Cell n{start.ix + d.ix, start.iy + d.iy}; free.Inside(n) && free(n)) return n;
-  return std::nullopt;
+// The free pose whose centre is nearest to p, among p's cell and those around it.
+std::optional<Cell> FreeAt(const Grid<std::uint8_t>& free, const Vec2& p_G) {
+  const Cell at = Floor::CellAt(p_G);
+  if (free.Inside(at) && free(at)) return at;
+  std::optional<Cell> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Cell& d : kAround) {
+    const Cell n{at.ix + d.ix, at.iy + d.iy};
+    if (!free.Inside(n) || !free(n)) continue;
+    if (const double away = (Floor::CentreOf(n) - p_G).norm(); away < least)
+      nearest = n, least = away;
+  }
+  return nearest;
+}
+
+// A tool's half width: it sweeps a pose's surroundings to this distance, wherever it is mounted.
+double HalfWidth(const Shape2& tool) {
+  if (tool.kind == Shape2::Kind::kCircle) return tool.radius_m;
+  double low = 0, high = 0;
+  for (const Vec2& p : tool.footprint_B) low = std::min(low, p.y()), high = std::max(high, p.y());
+  return (high - low) / 2;
+}
+
+// The chain with fewer points, none farther off than this.
+Polyline Simplified(const Polyline& line, double tolerance) {
+  std::vector<cv::Point2f> points, out;
+  for (const Vec2& p : line)
+    points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
+  cv::approxPolyDP(points, out, tolerance, false);
+  Polyline simplified;
+  for (const cv::Point2f& p : out)
+    simplified.emplace_back(static_cast<double>(p.x), static_cast<double>(p.y));
+  return simplified;
 }
 
 }  // namespace
 
 KeptMargin::KeptMargin(const FloorRoom& room, const HeldShapes& held, double margin_m,
-                       const SweepArea& bare, const Vec2& start_W)
-    : free_(bare.reachable),
+                       const SweepArea& bare, const Vec2& start_W,
+                       const std::vector<Vec2>& places_W)
+    : frame_(bare.frame),
+      free_(bare.reachable),
       narrow_(free_.width, free_.height),
       reach_(static_cast<int>(std::ceil(margin_m / bare.frame.cell_m)) + 1) {
-  const double cell_m = bare.frame.cell_m;
+  const double cell_m = frame_.cell_m;
   Grid<std::uint8_t> wide = std::move(room.Free(Grown(held.clear, margin_m), held.yaws)[0]);
   for (std::size_t i = 0; i < wide.cells.size(); ++i) wide.cells[i] &= free_.cells[i];
   Joiner joiner(free_, wide, margin_m / cell_m, held.clear.kind == Shape2::Kind::kCircle);
-  if (const auto start = StartCell(free_, bare.frame.ToCell(start_W))) joiner.Take(*start);
+  if (const auto start = FreeAt(free_, ToCells(start_W))) joiner.Take(*start);
   joiner.JoinAll();
-  area_ = room.SweptFrom({joiner.poses()}, held.tool, held.yaws);
-  const double tool_radius = held.tool.kind == Shape2::Kind::kCircle
-                                 ? held.tool.radius_m
-                                 : -SignedDistance(held.tool.footprint_B, Vec2::Zero());
-  joiner.TakeDeadEnds(area_.sweepable, std::max(0.0, tool_radius) / cell_m);
+  for (const Vec2& p_W : places_W)
+    if (const auto place = FreeAt(free_, ToCells(p_W))) joiner.TakePlace(*place);
+  joiner.TakeDeadEnds(room.SweptFrom({joiner.poses()}, held.tool, held.yaws).sweepable,
+                      HalfWidth(held.tool) / cell_m);
   area_ = room.SweptFrom({joiner.poses()}, held.tool, held.yaws);
   for (std::size_t i = 0; i < wide.cells.size(); ++i)
     narrow_.cells[i] = area_.reachable.cells[i] && !wide.cells[i];
@@ -202,11 +237,16 @@ bool KeptMargin::IsNarrow(const Vec2& p_G) const {
   return narrow_.Inside(c) && narrow_(c);
 }
 
-// In the middle of the free poses across the place: along the grid's axis on which fewer are free;
-// the point itself where so many are that the place is not narrow.
-Vec2 KeptMargin::Middle(const Vec2& p_G) const {
-  const Cell at = Floor::CellAt(p_G);
-  if (!free_.Inside(at) || !free_(at)) return p_G;
+// In the middle of the free poses across the place: along the grid's axis on which fewer are free.
+// None where so many are that the place is not narrow.
+std::optional<Vec2> KeptMargin::Middle(const Vec2& p_G) const {
+  Cell at = Floor::CellAt(p_G);
+  if (!IsNarrow(p_G)) {
+    // A straight line cuts off corners of a slanting passage's cells.
+    const auto pose = FreeAt(area_.reachable, p_G);
+    if (!pose || *pose == at || !narrow_(*pose)) return std::nullopt;
+    at = *pose;
+  }
   struct Run {
     int low = 0, high = 0;  // cells to either side that are free
     int length() const { return high - low + 1; }
@@ -224,50 +264,116 @@ Vec2 KeptMargin::Middle(const Vec2& p_G) const {
   const Run x = run_along(1, 0), y = run_along(0, 1);
   const bool across_x = x.length() < y.length();
   const Run& across = across_x ? x : y;
-  if (across.low < -reach_ || across.high > reach_) return p_G;
+  if (across.low < -reach_ || across.high > reach_) return std::nullopt;
   const double middle = (across_x ? at.ix : at.iy) + (across.low + across.high + 1) / 2.0;
   return across_x ? Vec2(middle, p_G.y()) : Vec2(p_G.x(), middle);
 }
 
-std::vector<Vec2> KeptMargin::Centred(const std::vector<Vec2>& path_W) const {
-  const GridFrame& frame = area_.frame;
-  Polyline path_G;
-  for (const Vec2& p_W : path_W) path_G.push_back(frame.ToGrid(p_W) / frame.cell_m);
-  Polyline corners_G = path_G;
-  for (std::size_t i = 1; i < path_G.size(); ++i)  // the first is the start
-    if (IsNarrow(path_G[i])) corners_G[i] = Middle(path_G[i]);
-  Polyline out_G;
-  for (std::size_t i = 0; i + 1 < path_G.size(); ++i) {
-    out_G.push_back(corners_G[i]);
-    const Vec2 &a = path_G[i], way = path_G[i + 1] - a;
-    const double length = way.norm();
-    const auto point = [&](double s) -> Vec2 { return a + s / length * way; };
-    double narrow_s = IsNarrow(a) ? 0 : -kRunUp;  // the last place that is narrow
-    for (double s = 1; s < length; s += 1) {
-      if (!IsNarrow(point(s))) continue;
-      if (s - narrow_s > 2 * kRunUp) {
-        if (narrow_s >= 0) out_G.push_back(point(narrow_s + kRunUp));
-        out_G.push_back(point(s - kRunUp));
-      }
-      out_G.push_back(Middle(point(s)));
-      narrow_s = s;
-    }
-    if (narrow_s >= 0 && length - narrow_s > kRunUp && !IsNarrow(path_G[i + 1]))
-      out_G.push_back(point(narrow_s + kRunUp));
+// Whether each point between is as near to a free pose's centre as points of that cell are.
+bool KeptMargin::IsFree(const Vec2& a, const Vec2& b) const {
+  constexpr double kStep = 0.25;
+  const double half_diagonal = std::sqrt(0.5), length = (b - a).norm();
+  for (double s = 0; s <= length; s += kStep) {
+    const Vec2 p = length > 0 ? Vec2(a + s / length * (b - a)) : a;
+    const auto pose = FreeAt(free_, p);
+    if (!pose || (Floor::CentreOf(*pose) - p).norm() > half_diagonal) return false;
   }
-  if (!path_G.empty()) out_G.push_back(corners_G.back());
+  return true;
+}
+
+// Samples of a path, each a cell from the next: its corners, and points between them.
+std::vector<KeptMargin::Sample> KeptMargin::Sampled(const Polyline& path_G) const {
+  std::vector<Sample> samples;
+  const auto add = [&](const Vec2& p_G, bool is_corner) {
+    samples.push_back({p_G, Middle(p_G), is_corner});
+  };
+  for (std::size_t i = 0; i < path_G.size(); ++i) {
+    add(path_G[i], true);
+    const Vec2 way = i + 1 < path_G.size() ? Vec2(path_G[i + 1] - path_G[i]) : Vec2(0, 0);
+    const double length = way.norm();
+    for (double s = 1; s < length; s += 1) add(path_G[i] + s / length * way, false);
+  }
+  return samples;
+}
+
+// The middle of a narrow stretch, in few points. The middles of rows or columns are off by half a
+// cell at most, and in a slanting passage a staircase: so means are taken. Where the line that
+// comes of it does not keep to free poses, the corners stay as they are.
+Polyline KeptMargin::MiddleOf(std::span<const Sample> stretch) const {
+  constexpr int kMeanOf = 6;  // samples to either side
+  constexpr double kOff = 0.15;
+  const auto n = static_cast<int>(stretch.size());
+  Polyline middle;
+  for (int i = 0; i < n; ++i) {
+    const int reach = std::min({kMeanOf, i, n - 1 - i});
+    Vec2 sum = Vec2::Zero();
+    for (int k = i - reach; k <= i + reach; ++k)
+      sum += *stretch[static_cast<std::size_t>(k)].middle;
+    middle.push_back(sum / (2 * reach + 1));
+  }
+  middle = Simplified(middle, kOff);
+  for (std::size_t i = 1; i < middle.size(); ++i)
+    if (!IsFree(middle[i - 1], middle[i])) {
+      middle.clear();
+      for (const Sample& sample : stretch)
+        if (sample.is_corner) middle.push_back(sample.p);
+    }
+  return middle;
+}
+
+std::vector<Vec2> KeptMargin::Centred(const std::vector<Vec2>& path_W, bool keep_end) const {
+  Polyline path_G;
+  for (const Vec2& p_W : path_W) path_G.push_back(ToCells(p_W));
+  std::vector<Sample> samples = Sampled(path_G);
+  if (samples.empty()) return {};
+  samples.front().middle.reset();  // the start stays
+  if (keep_end) samples.back().middle.reset();
+  const std::size_t n = samples.size();
+  // Whether a path may come to the middle, or leave it, on a straight line over these samples.
+  const auto is_plain = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      if (samples[k].middle || samples[k].is_corner) return false;
+    return true;
+  };
+  Polyline out_G;
+  std::size_t done = 0;  // samples before this one are in `out_G`
+  for (std::size_t k = 0; k < n;) {
+    if (!samples[k].middle) {
+      if (samples[k].is_corner) out_G.push_back(samples[k].p), done = k + 1;
+      ++k;
+      continue;
+    }
+    // Up to where the path turns back.
+    constexpr double kBack = 2;  // cells
+    const std::size_t first = k;
+    std::size_t farthest = k;
+    double most = 0;
+    for (; k < n && samples[k].middle; ++k) {
+      const double away = (samples[k].p - samples[first].p).norm();
+      if (away < most - kBack) break;
+      if (away >= most) most = away, farthest = k;
+    }
+    if (k < n && samples[k].middle) k = farthest + 1;
+    if (first >= done + kRunUp && is_plain(first - kRunUp, first))
+      out_G.push_back(samples[first - kRunUp].p);
+    const Polyline middle = MiddleOf(std::span(samples).subspan(first, k - first));
+    out_G.insert(out_G.end(), middle.begin(), middle.end());
+    done = k;
+    if (k + kRunUp < n && is_plain(k, k + kRunUp)) {
+      out_G.push_back(samples[k + kRunUp - 1].p);
+      done = k + kRunUp;
+    }
+  }
   std::vector<Vec2> out_W;
-  for (const Vec2& p_G : MergeStraight(out_G)) out_W.push_back(frame.X_WG * (p_G * frame.cell_m));
+  for (const Vec2& p_G : MergeStraight(out_G)) out_W.push_back(frame_.X_WG * (p_G * frame_.cell_m));
   return out_W;
 }
 
 int KeptMargin::PlacesOn(const std::vector<Vec2>& path_W) const {
-  const GridFrame& frame = area_.frame;
   int places = 0;
   bool was_narrow = false;
   for (std::size_t i = 0; i + 1 < path_W.size(); ++i) {
-    const Vec2 a = frame.ToGrid(path_W[i]) / frame.cell_m;
-    const Vec2 way = frame.ToGrid(path_W[i + 1]) / frame.cell_m - a;
+    const Vec2 a = ToCells(path_W[i]), way = ToCells(path_W[i + 1]) - a;
     const double length = way.norm();
     for (double s = 0; s < length; s += 1) {
       const bool narrow = IsNarrow(a + s / length * way);
