@@ -110,7 +110,7 @@ void AddRobot(CommandLine& line, const Globals& globals, int& status) {
     RobotCheck check = CheckRobot(file.string());
     for (const std::string& wrong : mjcf.wrong)
       check.findings.push_back({Finding::Kind::kWrong, wrong,
-                                "bring the mesh's file there, or give the link a <collision> of "
+                                "add the mesh file, or give the link a <collision> made of "
                                 "boxes, cylinders and spheres"});
     const fs::path picture = folder / (out.stem().string() + std::string(kPicture));
     results.Begin();

@@ -237,17 +237,20 @@ Vec2 TurnCentre(const Pose2& first, const Pose2& last, double turned_rad) {
 }
 
 // Ahead of the middle of the wheels, where a turn about `centre_B` is that of a skid-steer whose
-// load lies off the middle: plain wheels on several axles slide less where they carry more.
+// load lies off the middle: plain wheels on several axles slide less where they carry more. The
+// point is at most a few times as far off as the load; a turn about one farther away has another
+// cause.
 std::optional<double> TurnsAboutItsLoad(const RobotSpec& robot, const Vec2& centre_B) {
-  constexpr double kAxle_m = 0.010, kAside_m = 0.010;
+  constexpr double kAxle_m = 0.010, kAside_m = 0.010, kLoad_m = 0.002, kLever = 5;
   const auto [rear, front] =
       std::ranges::minmax(robot.wheels, {}, [](const WheelSpec& wheel) { return wheel.p_BW.x(); });
   const double middle_m = (front.p_BW.x() + rear.p_BW.x()) / 2;
   const double half_base_m = (front.p_BW.x() - rear.p_BW.x()) / 2;
   const double load_m = robot.p_BCom.x() - middle_m, about_m = centre_B.x() - middle_m;
   const bool skids = half_base_m > kAxle_m && robot.wheels.front().roller_radius_m == 0;
-  if (!skids || std::abs(middle_m) > kAxle_m || std::abs(centre_B.y()) > kAside_m ||
-      load_m * about_m <= 0 || std::abs(about_m) > half_base_m)
+  const bool by_load = std::abs(load_m) > kLoad_m && load_m * about_m > 0 &&
+                       std::abs(about_m) <= std::min(half_base_m, kLever * std::abs(load_m));
+  if (!skids || !by_load || std::abs(middle_m) > kAxle_m || std::abs(centre_B.y()) > kAside_m)
     return std::nullopt;
   return about_m;
 }

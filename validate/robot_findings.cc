@@ -160,21 +160,21 @@ class Findings {
     const double hangs_m = kRamp * front_m * rear_m / std::max(front_m + rear_m, kGap_m);
     if (hangs_m <= kGap_m) return;
     Note(fmt::format(
-             "its driven wheels stand between casters, and nothing is sprung: at the foot of "
-             "a ramp of 1:12 they hang {} over the floor",
+             "its driven axle is between casters and the base has no suspension: at the foot of a "
+             "1:12 ramp the driven wheels are {} above the floor",
              LengthText(hangs_m)),
-         "spring the wheels (of a URDF: --set sprung_share=...), or leave a gap under the casters "
-         "of "
-         "one side");
+         "add springs to the wheels (for a URDF: --set sprung_share=...), or leave a gap under the "
+         "front or the rear casters");
   }
 
   void TurnsAboutItsLoad() {
     if (!check_.drive.turns_about_m) return;
     const double about_m = *check_.drive.turns_about_m;
     Note(fmt::format("it turns about a point {} {} the middle of its wheels, towards its centre of "
-                     "mass: wheels that slide give way where they carry less",
+                     "mass: wheels that carry less load slip more",
                      LengthText(std::abs(about_m)), about_m > 0 ? "ahead of" : "behind"),
-         "leave it that much more room, or move the masses to the middle");
+         "allow that much more room for turns, or move the centre of mass to the middle of the "
+         "wheels");
   }
 
   void DriveRows() {

@@ -6,9 +6,9 @@
 
 namespace floorproof {
 
-// The triangles of all its meshes, m, as the text of a Wavefront OBJ. Axes are those of the file,
-// whichever it calls up: as RViz and Gazebo take them. Nothing else is read, whatever the text
-// names. Throws InputError, without a place, for what is no Collada mesh.
+// Converts all meshes to the text of a Wavefront OBJ, in m. The file's axes are used without
+// conversion (up_axis is ignored), as in RViz and Gazebo. Files that the text refers to are not
+// read. Throws InputError, without file and line, if the text is not a valid Collada mesh.
 std::string ObjOfCollada(const std::string& text);
 
 }  // namespace floorproof

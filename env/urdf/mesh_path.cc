@@ -55,8 +55,9 @@ MeshPlace FindMesh(const std::string& uri, const fs::path& urdf, const SourceMar
     constexpr std::string_view kReadable[] = {".stl", ".obj", ".msh", ".dae"};
     if (std::ranges::find(kReadable, place.extension) == std::end(kReadable)) {
       const std::string name = Printable(file.filename().string());
-      place.why = "is of no format that is read (.stl, .obj, .dae; `assimp export " + name + " " +
-                  Printable(file.stem().string()) + ".stl` makes one)";
+      place.why =
+          "has an unsupported format (supported: .stl, .obj, .dae; to convert it: `assimp export " +
+          name + " " + Printable(file.stem().string()) + ".stl`)";
       return place;
     }
     if (const std::string why = files.WhyUnreadable(file, EngineFiles::kMaxBytes); !why.empty())

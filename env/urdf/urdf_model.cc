@@ -9,7 +9,6 @@
 #include "base/params.h"
 #include "env/scene/engine.h"
 #include "env/scene/engine_files.h"
-#include "env/urdf/collada.h"
 #include "env/urdf/link_mass.h"
 #include "env/urdf/urdf_text.h"
 
@@ -26,8 +25,9 @@ class MeshFiles {
   MeshFiles(const UrdfText& text, const InputFiles& files) {
     mj_defaultVFS(&vfs_);
     for (const UrdfMesh& mesh : text.meshes) {
-      const std::string& bytes = files.Read(mesh.file, EngineFiles::kMaxBytes);
-      Add(mesh.name, mesh.is_collada ? Converted(mesh.file, bytes) : bytes);
+      const std::string& bytes =
+          mesh.obj.empty() ? files.Read(mesh.file, EngineFiles::kMaxBytes) : mesh.obj;
+      mj_addBufferVFS(&vfs_, mesh.name.c_str(), bytes.data(), static_cast<int>(bytes.size()));
     }
   }
   ~MeshFiles() { mj_deleteVFS(&vfs_); }
@@ -36,17 +36,6 @@ class MeshFiles {
   const mjVFS* vfs() const { return &vfs_; }
 
  private:
-  static std::string Converted(const fs::path& file, const std::string& bytes) {
-    try {
-      return ObjOfCollada(bytes);
-    } catch (const InputError& e) {
-      throw InputError({file.string(), 0}, "", "", e.what());
-    }
-  }
-  void Add(const std::string& name, const std::string& bytes) {
-    mj_addBufferVFS(&vfs_, name.c_str(), bytes.data(), static_cast<int>(bytes.size()));
-  }
-
   mjVFS vfs_{};
 };
 

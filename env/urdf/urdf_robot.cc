@@ -193,18 +193,21 @@ class PartFinder {
     for (UrdfShape& shape : out_.shapes) any |= shape.collides = may(shape);
     if (!any) RefuseWithoutShape("has no shape but its casters");
     is_as_seen_ = true;
-    out_.notes.push_back(std::string("guess: the base collides as it is seen; ") +
-                         (LostMeshOfBase().empty() ? "no <collision> is its own"
+    out_.notes.push_back(std::string("guess: the base's visual shapes are used for collision; ") +
+                         (LostMeshOfBase().empty() ? "it has no <collision> of its own"
                                                    : "the mesh of its <collision> is left out"));
   }
 
-  // Each link of the base lacks what a lost mesh was, unless the base collides as it is seen.
+  static bool HasBody(const UrdfLink& link) {
+    return std::ranges::any_of(link.shapes, [](const UrdfShape& shape) { return !IsMark(shape); });
+  }
+
+  // Each link of the base lacks what a lost mesh was, unless its visual shapes are used instead.
   void SayWhatIsLost() {
-    if (is_as_seen_) return;
     for (const UrdfLink* link : LinksOfBase())
-      if (!link->lost_mesh.empty())
+      if (!link->lost_mesh.empty() && !(is_as_seen_ && HasBody(*link)))
         out_.wrong.push_back("a <collision> of link " + link->name +
-                             " is lost: " + link->lost_mesh);
+                             " is left out: " + link->lost_mesh);
   }
 
   double LargestRadius() const {
@@ -231,15 +234,17 @@ class PartFinder {
       const bool is_caster = IsCaster(shape, wheel_m);
       if (!shape.collides || (!is_caster && low_m > kHangs_m)) continue;
       if (!is_caster || low_m < -FloorGap(wheel_m))
-        Refuse("base", "reaches " + LengthText(std::abs(low_m)) +
-                           (low_m < 0 ? " below" : " above") + " its wheels' floor with a shape " +
-                           (is_caster ? "that is no caster there" : "too large for a caster") +
-                           ": mend its <collision>, or the wheels' places");
+        Refuse("base", "has a shape whose lowest point is " + LengthText(std::abs(low_m)) +
+                           (low_m < 0 ? " below" : " above") + " the floor of its wheels, " +
+                           (is_caster ? "too low for a caster" : "too large for a caster") +
+                           ": fix its <collision>, or the positions of the wheels");
       AddBall(FitBall(shape), low_m);
       shape.collides = false;
     }
     // Casters are no body.
-    CollideAsSeen([&](const UrdfShape& shape) { return !IsCaster(shape, wheel_m); });
+    CollideAsSeen([&](const UrdfShape& shape) {
+      return !IsCaster(shape, wheel_m) && BoundsOf(shape).min().z() > kHangs_m;
+    });
   }
 
   void AddBall(const BallFit& fit, double low_m) {

@@ -52,7 +52,7 @@ struct UrdfRobot {
   std::vector<UrdfShape> shapes;  // of the base
   std::optional<Vec3> lidar_B, imu_B;
   std::vector<std::string> notes;
-  std::vector<std::string> wrong;  // what the robot has and this model lacks
+  std::vector<std::string> wrong;  // parts of the robot that are missing in this model
 
   double mass_kg() const;
 };

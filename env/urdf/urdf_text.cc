@@ -9,6 +9,8 @@
 #include "base/error.h"
 #include "base/params.h"
 #include "base/printable.h"
+#include "env/scene/engine_files.h"
+#include "env/urdf/collada.h"
 #include "env/urdf/mesh_path.h"
 #include "env/urdf/xml_tags.h"
 
@@ -192,7 +194,17 @@ class Preparation {
   void Mesh(const XmlElement& mesh, const XmlAttribute& written, const XmlElement& holder) {
     const std::string uri = Plain(written.value);
     const SourceMark mark{file_.string(), mesh.line};
-    const MeshPlace place = FindMesh(uri, file_, mark, files_);
+    MeshPlace place = FindMesh(uri, file_, mark, files_);
+    std::string obj;
+    if (place.is_collada) {
+      const bool is_seen = holder.name == "visual";
+      try {
+        obj = ObjOfCollada(files_.Read(place.file, EngineFiles::kMaxBytes));
+      } catch (const InputError& e) {
+        if (!is_seen) throw InputError(mark, "mesh", uri, e.what());
+        place = {{}, "", false, std::string("is ") + e.what()};
+      }
+    }
     if (place.file.empty()) {
       const std::string why = "mesh " + Printable(uri) + " " + place.why;
       out_.notes.push_back(why + ": left out of the " + std::string(holder.name));
@@ -207,7 +219,7 @@ class Preparation {
     std::string name = known != out_.meshes.end()
                            ? known->name
                            : "mesh" + std::to_string(out_.meshes.size()) + place.extension;
-    if (known == out_.meshes.end()) out_.meshes.push_back({name, place.file, place.is_collada});
+    if (known == out_.meshes.end()) out_.meshes.push_back({name, place.file, std::move(obj)});
     edits_.push_back({written.begin, written.begin + written.value.size(), std::move(name)});
   }
 

@@ -20,7 +20,7 @@ struct UrdfJoint {
 struct UrdfMesh {
   std::string name;  // in the text made ready
   std::filesystem::path file;
-  bool is_collada = false;  // to be converted
+  std::string obj;  // of a Collada file: what it was converted to; else empty
 };
 
 struct LostMesh {

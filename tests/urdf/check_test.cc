@@ -63,8 +63,8 @@ TEST(CheckedUrdf, ARigidAxleBetweenCastersIsNoted) {
     return LinesOf(CheckRobot(ConvertedFile(text, answers).string()));
   };
   EXPECT_THAT(lines(WithBall(front)),
-              Contains(AllOf(HasSubstr("note: its driven wheels stand between casters"),
-                             HasSubstr("they hang 5.83 mm"))));
+              Contains(AllOf(HasSubstr("note: its driven axle is between casters"),
+                             HasSubstr("the driven wheels are 5.83 mm"))));
   const auto none = Not(Contains(HasSubstr("between casters")));
   EXPECT_THAT(lines(WithBall()), none);
   UrdfAnswers sprung;

@@ -192,7 +192,7 @@ TEST(UrdfRobot, ABodyWhoseMeshIsLostIsWrong) {
   const std::string lost = Replaced(WithBall(Part("<box size=\"0.05 0.05 0.05\"/>", "0 0 0.2")),
                                     "<box size=\"0.3 0.2 0.1\"/>", "<mesh filename=\"none.stl\"/>");
   EXPECT_THAT(Converted(lost).wrong,
-              ElementsAre(AllOf(HasSubstr("a <collision> of link base_link is lost"),
+              ElementsAre(AllOf(HasSubstr("a <collision> of link base_link is left out"),
                                 HasSubstr("mesh none.stl is not there"))));
   // Casters of the same link are no body either.
   const std::string with_foot =
@@ -200,7 +200,7 @@ TEST(UrdfRobot, ABodyWhoseMeshIsLostIsWrong) {
                "<collision><origin xyz=\"0.1 0 -0.015\"/><geometry><sphere radius=\"0.015\"/>"
                "</geometry></collision><collision><origin xyz=\"-0.02 0 0.05\"/>");
   EXPECT_THAT(Converted(with_foot).wrong,
-              ElementsAre(HasSubstr("a <collision> of link base_link is lost")));
+              ElementsAre(HasSubstr("a <collision> of link base_link is left out")));
   EXPECT_THAT(Converted(WithBall()).wrong, IsEmpty());
   EXPECT_THAT(
       RefusalOf(
@@ -219,7 +219,8 @@ TEST(UrdfRobot, ABaseOfWhichOnlyCastersCollideCollidesAsItIsSeen) {
   const UrdfRobot dut = Found(seen);
   EXPECT_EQ(dut.casters.size(), 1u);
   EXPECT_EQ(std::ranges::count(dut.shapes, true, &UrdfShape::collides), 1);
-  EXPECT_THAT(dut.notes, Contains(HasSubstr("collides as it is seen; no <collision> is its own")));
+  EXPECT_THAT(dut.notes,
+              Contains(HasSubstr("used for collision; it has no <collision> of its own")));
   const UrdfRobot lost = Found(Replaced(
       seen, "<link name=\"left\">",
       "<link name=\"shell\"><collision><geometry><mesh filename=\"none.stl\"/></geometry>"

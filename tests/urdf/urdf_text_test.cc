@@ -65,7 +65,7 @@ TEST(UrdfText, AMissingMeshIsSaidAndLeftOut) {
   }
   std::ofstream(OwnFolder() / "shell.glb") << "glTF";
   EXPECT_THAT(Converted(Meshed("shell.glb")).notes,
-              Contains(AllOf(HasSubstr("is of no format that is read"),
+              Contains(AllOf(HasSubstr("has an unsupported format"),
                              HasSubstr("assimp export shell.glb shell.stl"))));
 }
 
@@ -112,12 +112,21 @@ TEST(UrdfText, AColladaMeshIsRead) {
     }
 }
 
+// A broken mesh that is only seen is left out with a note; one that collides is refused.
 TEST(UrdfText, ABrokenColladaMeshIsNamed) {
-  for (const char* text :
-       {"", "<COLLADA/>", "<COLLADA", "no XML",
-        "<!DOCTYPE a [<!ENTITY b SYSTEM \"/etc/passwd\">]><COLLADA>&b;</COLLADA>"}) {
+  const std::string collides = Replaced(Replaced(Meshed("torn.dae"), "<visual>", "<collision>"),
+                                        "</visual>", "</collision>");
+  for (const std::string& text :
+       {std::string(), std::string("<COLLADA/>"), std::string("<COLLADA"), std::string("no XML"),
+        Replaced(Collada("Z_UP", "1"), "<vcount>4 4 4 4 4 4</vcount>",
+                 "<vcount>0 0 0 0 0 0</vcount>"),
+        std::string("<!DOCTYPE a [<!ENTITY b SYSTEM \"/etc/passwd\">]><COLLADA>&b;</COLLADA>")}) {
     std::ofstream(OwnFolder() / "torn.dae") << text;
-    EXPECT_THAT(RefusalOf(Meshed("torn.dae")), HasSubstr("torn.dae")) << text;
+    EXPECT_THAT(RefusalOf(collides), HasSubstr("torn.dae")) << text;
+    EXPECT_THAT(Converted(Meshed("torn.dae")).notes,
+                Contains(AllOf(HasSubstr("torn.dae is not a valid Collada mesh"),
+                               HasSubstr("left out of the visual"))))
+        << text;
   }
 }
 

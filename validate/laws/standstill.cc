@@ -19,7 +19,7 @@ constexpr double kTolerance_mm = 2;
 class StandstillLaw final : public Law {
  public:
   std::string_view statement() const override {
-    return "told to stand on a ramp of 1:12, a robot stays where it is";
+    return "a robot that is stopped on a 1:12 ramp does not move";
   }
   // On friction 0.04 no wheel holds it, locked or not.
   std::vector<WrongModel> notices() const override { return {{.friction_factor = 0.05}}; }
