@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "apps/command.h"
 #include "base/error.h"
@@ -20,35 +19,11 @@
 namespace floorproof {
 namespace {
 
-constexpr const char* kFaults[] = {"overlap", "gap", "warning"};
-
-std::set<std::string> FaultsAllowed(const std::vector<std::string>& allowed) {
-  const std::vector<std::string> known(std::begin(kFaults), std::end(kFaults));
+void CheckFaults(const std::vector<std::string>& allowed) {
+  const std::vector<std::string> known(kPlanFaults.begin(), kPlanFaults.end());
   for (const std::string& fault : allowed)
     if (std::ranges::find(known, fault) == known.end())
-      throw InputError({"--allow", 0}, "", fault,
-                       "is none of overlap, gap, warning" + DidYouMeanOneOf(fault, known));
-  return {allowed.begin(), allowed.end()};
-}
-
-// Which of kFaults a plan has. `lines`: all lines printed about it.
-std::set<std::string> FaultsOf(const PlanResult& plan, const PlanCheck& check,
-                               const std::vector<std::string>& lines) {
-  std::set<std::string> faults;
-  if (!check.clearance.conflicts.empty()) faults.insert("overlap");
-  const bool missed =
-      plan.samples.empty()
-          ? std::ranges::any_of(check.uncovered.pockets,
-                                [](const UncoveredPocket& pocket) {
-                                  return pocket.why == UncoveredPocket::Why::kNotVisited;
-                                })
-          : std::ranges::any_of(plan.samples, [](const auto& place) { return !place.reachable; });
-  if (missed) faults.insert("gap");
-  const std::string overlaps = ConflictsLine(check.clearance);
-  for (const std::string& line : lines)
-    if (line.starts_with("warning: ") && (overlaps.empty() || !line.starts_with(overlaps)))
-      faults.insert("warning");
-  return faults;
+      throw InputError({"--allow", 0}, "", fault, "unknown fault" + DidYouMeanOneOf(fault, known));
 }
 
 }  // namespace
@@ -66,14 +41,13 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
   command.Text("--out", options->out, kOutputHelp);
   command.Texts("--beside", options->beside,
                 "Scenarios of the same floor and robot, whose plans plot_risk.png shows too");
-  command.Flag(
-      "--strict", options->strict,
-      "Exit status 1 for a plan that overlaps an obstacle, leaves out what it could reach, "
-      "or has a warning");
+  command.Flag("--strict", options->strict,
+               "Exit status 1 if the plan overlaps an obstacle, has a coverage gap or an "
+               "unreachable sample, or has a warning");
   command.Texts("--allow", options->allow,
-                "With --strict: what is let pass of overlap, gap, warning");
+                "With --strict: faults to accept (overlap, gap, warning)");
   command.OnRun([options, &globals, &status] {
-    const std::set<std::string> allowed = FaultsAllowed(options->allow);
+    CheckFaults(options->allow);
     Scenario scenario = ReadScenario(options->scenario, globals.Overrides());
     std::vector<std::string> lines = Warnings(scenario);
     for (const std::string& warning : lines) globals.Say(warning);
@@ -89,17 +63,17 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
         PlansBeside(options->beside, globals.Overrides(), MeasurePlan(scenario, plan), globals);
     nlohmann::ordered_json json = SavePlan(scenario, plan, out, beside);
     const bool found = plan.status == PlanStatus::kSuccess;
-    std::set<std::string> faults;
+    std::vector<std::string> faults;
     if (found) {
       if (plan.samples.empty()) {
         globals.Say(SweptText(plan, json));
         if (!plan.message.empty()) globals.Say(plan.message);
-        constexpr double kDriveLoss = 0.02;  // docs/plan.md: what a drive covers less than its plan
+        constexpr double kDriveLoss = 0.02;  // of coverage, against the plan (docs/plan.md)
         if (const double asked = scenario.episode.min_coverage;
             asked > 0 && json["coverage"].get<double>() < asked + kDriveLoss) {
           lines.push_back(
-              fmt::format("warning: success.min_coverage asks for {:g} %, and a drive "
-                          "covers some 2 points less than its plan",
+              fmt::format("warning: success.min_coverage asks for {:g} %, but a drive "
+                          "covers about 2 percentage points less than its plan",
                           100 * asked));
           globals.Say(lines.back());
         }
@@ -112,21 +86,19 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
         lines.push_back(std::move(said));
       }
       json["check"] = PlanCheckJson(scenario, check);
-      faults = FaultsOf(plan, check, lines);
-      for (const std::string& fault : allowed) faults.erase(fault);
+      faults = PlanFaults(plan, check, lines);
       json["faults"] = faults;
     } else {
       globals.Say(fmt::format("no plan ({}): {}", Name(plan.status), plan.message));
     }
     globals.SayFact("Results", folder.string());
     globals.Result(json);
-    const bool refused = options->strict && !faults.empty();
-    if (refused) {
-      std::string text;
-      for (const std::string& fault : faults) text += (text.empty() ? "" : ", ") + fault;
-      globals.Say("refused by --strict: " + text);
-    }
-    status = found && !refused ? kExitDone : kExitNotSuccess;
+    std::string refused;
+    for (const std::string& fault : faults)
+      if (options->strict && std::ranges::find(options->allow, fault) == options->allow.end())
+        refused += (refused.empty() ? "" : ", ") + fault;
+    if (!refused.empty()) globals.Say("plan rejected by --strict: " + refused);
+    status = found && refused.empty() ? kExitDone : kExitNotSuccess;
   });
 }
 

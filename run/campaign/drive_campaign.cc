@@ -61,14 +61,16 @@ void CheckChance(const ScenarioFile& file, const ConfigNode& gate, CampaignObser
 // Draws that cannot be driven, such as a start in a wall, are errors. The rate is then that of
 // another scenario than was meant. Reads the first episodes, for one second at most.
 void WarnOfErrors(const ScenarioFile& file, std::uint64_t episodes, CampaignObserver* observer) {
+  if (observer == nullptr || !file.draws_differ()) return;
   constexpr std::uint64_t kMostTried = 100;
   constexpr double kMaxShare = 0.03, kBudget_s = 1;
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration<double>(kBudget_s);
   int tried = 0, errors = 0;
   std::string first;
-  for (std::uint64_t k = 0; k < std::min(episodes, kMostTried) && Clock::now() < end; ++k)
+  for (std::uint64_t k = 0; k < std::min(episodes, kMostTried); ++k)
     for (const Variant& variant : file.variants()) {
+      if (tried > 0 && Clock::now() > end) break;
       ++tried;
       try {
         file.Read(k, variant);
@@ -76,10 +78,10 @@ void WarnOfErrors(const ScenarioFile& file, std::uint64_t episodes, CampaignObse
         if (errors++ == 0) first = e.what();
       }
     }
-  if (observer && errors > kMaxShare * tried)
+  if (errors > kMaxShare * tried)
     observer->OnWarning(fmt::format(
-        "warning: of the first {} {} cannot be driven, and will be errors; the first: {}",
-        CountText(tried, "draw"), errors, first));
+        "warning: {} of the first {} cannot be driven and will end as errors; the first error: {}",
+        errors, CountText(tried, "draw"), first));
 }
 
 // Which programs its variants have plan for them. Throws InputError where one is not there.

@@ -93,8 +93,9 @@ void AddClearance(const HazardMap& floor, const PlanClearance& c, std::vector<st
                           At(c.p_W), FixedText(c.along_m, 1)));
     constexpr double kStrays_m = 0.01;  // what trackers err by, and more
     if (c.least_m < kStrays_m)
-      lines.push_back(fmt::format("warning: less than {} is left there, which a tracker errs by",
-                                  Metres(kStrays_m)));
+      lines.push_back(fmt::format(
+          "warning: the least clearance is below {}, which is within the tracking error",
+          Metres(kStrays_m)));
     return;
   }
   lines.push_back(ConflictsLine(c) + ":");
@@ -226,13 +227,13 @@ std::string SharpCornersLine(const RobotSpec& robot, int sharp_corners) {
 std::string UnheldDwellLine(const Scenario& s, const PlanResult& plan) {
   const auto dwell = FindUnheldDwell(s, plan);
   if (!dwell) return "";
-  const std::string where =
-      fmt::format("warning: the robot is to dwell at {} on a slope of {:.1f} deg, and ",
-                  At(dwell->p_W), dwell->slope_rad * 180 / kPi);
+  const std::string where = fmt::format(
+      "warning: the plan dwells at {} on a slope of {:.1f} deg, where the robot rolls away: ",
+      At(dwell->p_W), dwell->slope_rad * 180 / kPi);
   if (s.robot.spec.standstill == Standstill::kFree)
-    return where + "nothing holds it: its wheels turn freely (`standstill` in its model)";
-  return where + fmt::format("rolls away: its motors hold {} N of {} N", NumberText(dwell->holds_n),
-                             NumberText(dwell->pulls_n));
+    return where + "its wheels turn freely (`standstill` in its model)";
+  return where + fmt::format("its motors hold {} N, but its weight pulls {} N down the slope",
+                             NumberText(dwell->holds_n), NumberText(dwell->pulls_n));
 }
 
 std::vector<std::string> CrossingLines(const Scenario& s, const PlanClearance& clearance) {
@@ -268,6 +269,25 @@ std::vector<std::string> PlanLines(const Scenario& s, const PlanResult& plan,
   else
     AddSamples(plan, lines);
   return lines;
+}
+
+std::vector<std::string> PlanFaults(const PlanResult& plan, const PlanCheck& check,
+                                    std::span<const std::string> lines) {
+  const auto is_left_out = [](const UncoveredPocket& pocket) {
+    return pocket.why == UncoveredPocket::Why::kNotVisited;
+  };
+  const auto is_missed = [](const SamplePlace& place) { return !place.reachable; };
+  const std::string overlaps = ConflictsLine(check.clearance);
+  const auto warns = [&](const std::string& line) {
+    return line.starts_with("warning: ") && (overlaps.empty() || !line.starts_with(overlaps));
+  };
+  std::vector<std::string> faults;
+  if (!overlaps.empty()) faults.emplace_back(kPlanFaults[0]);
+  if (plan.samples.empty() ? std::ranges::any_of(check.uncovered.pockets, is_left_out)
+                           : std::ranges::any_of(plan.samples, is_missed))
+    faults.emplace_back(kPlanFaults[1]);
+  if (std::ranges::any_of(lines, warns)) faults.emplace_back(kPlanFaults[2]);
+  return faults;
 }
 
 Json PlanCheckJson(const Scenario& s, const PlanCheck& check) {

@@ -3,8 +3,11 @@
 // leads it over, what it leaves uncovered, what it takes.
 #pragma once
 
+#include <array>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "run/plan_check/driven_over.h"
@@ -34,6 +37,11 @@ PlanCheck CheckPlan(Scenario& scenario, const PlanResult& plan);
 // hazards and pockets at most five each are listed, the rest counted.
 std::vector<std::string> PlanLines(const Scenario& scenario, const PlanResult& plan,
                                    const PlanCheck& check);
+// Which of kPlanFaults it has: an overlap with an obstacle; a gap, which is a pocket that the tool
+// could reach or a sample that it cannot; a warning, of `lines`, that is no overlap.
+inline constexpr std::array<std::string_view, 3> kPlanFaults = {"overlap", "gap", "warning"};
+std::vector<std::string> PlanFaults(const PlanResult& plan, const PlanCheck& check,
+                                    std::span<const std::string> lines);
 nlohmann::ordered_json PlanCheckJson(const Scenario& scenario, const PlanCheck& check);
 
 // What it crosses beyond what the robot is trusted to, a warning each, five at most and the rest

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -55,10 +54,8 @@ class Predictor {
       throw InputError({s.file.string(), 0}, "plan", "",
                        "there is none (" + std::string(Name(plan_.status)) + "): " + plan_.message);
     expected_ = ExpectedEncounters(s, plan_);
-    if (conditions_.empty()) {
-      left_out_ = LeftOut(s);
-      loose_ramps_ = LooseRamps(s, expected_);
-    }
+    if (conditions_.empty()) left_out_ = LeftOut(s);
+    FindLooseRamps(s);
   }
 
   // The meetings as this episode has them, which draws nothing that moves them.
@@ -106,7 +103,7 @@ class Predictor {
     }
     for (auto& [at, beyond] : beyond_) out.beyond.push_back(std::move(beyond));
     out.left_out = std::move(left_out_);
-    std::ranges::move(loose_ramps_, std::back_inserter(out.left_out));
+    for (const auto& [ramp, text] : loose_ramps_) out.left_out.push_back(text);
     out.is_far_beyond = is_far_beyond_;
     out.held_against_plans = model_->carry_over.plans;
     for (auto& [kind, unmeasured] : unmeasured_) out.unmeasured.push_back(std::move(unmeasured));
@@ -119,18 +116,17 @@ class Predictor {
  private:
   static constexpr double kNear = 0.02;  // of the measured range: as good as within
 
-  // Rates of ramps are of such as lead to a floor.
-  static std::vector<std::string> LooseRamps(const Scenario& s, const std::vector<Encounter>& met) {
-    std::vector<std::string> ramps;
+  // The rates of ramps were measured on ramps that lead to a floor.
+  // Those of any condition, each as the first one has it.
+  void FindLooseRamps(const Scenario& s) {
     const HazardMap floor = TrueFloor(s);
     for (const Hazard& hazard : floor.hazards) {
       const auto end = FindLooseRampEnd(floor, hazard);
-      if (end && std::ranges::find(met, hazard.id, &Encounter::hazard) != met.end())
-        ramps.push_back(fmt::format("the end of ramp {}, {} {} the floor beyond", hazard.id,
-                                    LengthText(std::abs(end->off_m)),
-                                    end->off_m > 0 ? "above" : "below"));
+      if (end && std::ranges::find(expected_, hazard.id, &Encounter::hazard) != expected_.end())
+        loose_ramps_.emplace(hazard.id, fmt::format("the end of ramp {}, {} {} the floor beyond",
+                                                    hazard.id, LengthText(std::abs(end->off_m)),
+                                                    end->off_m > 0 ? "above" : "below"));
     }
-    return ramps;
   }
 
   static std::vector<std::string> LeftOut(const Scenario& s) {
@@ -175,7 +171,7 @@ class Predictor {
     return false;
   }
 
-  // The drive may always fail, for all that is known.
+  // Nothing is known, so the interval of the failure probability ends at 1.
   static void KnowNothing(Prediction& out) {
     out.survival.no_failure.lower = 0;
     for (Probability& mode : out.survival.first) mode.upper = 1;
@@ -206,7 +202,8 @@ class Predictor {
   std::string inputs_;
   PlanResult plan_;
   std::vector<Encounter> expected_;
-  std::vector<std::string> left_out_, loose_ramps_;
+  std::vector<std::string> left_out_;
+  std::map<std::string, std::string> loose_ramps_;  // by id
   bool is_far_beyond_ = false;
   std::vector<std::vector<PlannedMeeting>> conditions_;
   std::vector<PredictedMeeting> meetings_;

@@ -44,16 +44,18 @@ struct Prediction {
     std::size_t meeting = 0;
   };
   std::vector<Beyond> beyond;
-  // So far, in a drawn condition, that the rates say nothing of it: beyond a quarter of the
-  // measured range, or by a factor of 1.5 on a scale that is above 0 (friction, speeds, sizes).
+  // In a drawn condition, a value is so far beyond the measured range that the rates do not apply:
+  // by more than a quarter of the range, or by a factor of 1.5 for positive quantities (friction,
+  // speeds, sizes).
   bool is_far_beyond = false;
 
   // What the scenario has that rates know nothing of, in words.
   std::vector<std::string> left_out;
   int held_against_plans = 0;  // that were driven: the rates
 
-  // Else the plan fails at least as often as it says. The interval ends at 1 where nothing is known
-  // of a meeting: of its kind, so far beyond, or of a ramp that leads to nothing.
+  // If false, the failure probability is a lower bound. The interval ends at 1 if the kind of an
+  // encounter was not measured, a value is far beyond the range, or a ramp does not lead to a
+  // floor.
   bool complete() const { return unmeasured.empty() && left_out.empty() && !is_far_beyond; }
 };
 

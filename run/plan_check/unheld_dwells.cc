@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/plan_check/unheld_dwells.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "env/core/standing.h"
@@ -11,7 +12,8 @@ namespace floorproof {
 std::optional<UnheldDwell> FindUnheldDwell(const Scenario& s, const PlanResult& plan) {
   constexpr double kGravity_mps2 = 9.81, kLevel_rad = 0.005;
   const RobotSpec& robot = s.robot.spec;
-  if (robot.standstill == Standstill::kBrake) return std::nullopt;
+  const bool dwells = std::ranges::any_of(plan.path, [](const auto& w) { return w.dwell_s > 0; });
+  if (!dwells || robot.standstill == Standstill::kBrake) return std::nullopt;
   double holds_n = 0;
   if (robot.standstill == Standstill::kHold)
     for (const WheelSpec& wheel : robot.wheels) holds_n += wheel.max_torque_nm / wheel.radius_m;

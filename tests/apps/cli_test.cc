@@ -209,6 +209,30 @@ TEST_F(Cli, WhatIsWrongWithAUsersPlanIsSaidBeforeTheDrive) {
   EXPECT_THAT(Run("run" + to + " --set robot=beluga").out, Not(HasSubstr("too sharp")));
 }
 
+// A plan that cuts through a wall, one that keeps off, and one that leaves half of the room.
+TEST_F(Cli, APlanIsJudgedStrictlyOnDemand) {
+  const auto plan = [&](const std::string& rows, const std::string& more) {
+    std::ofstream(folder_ / "plan.csv") << "x_m,y_m\n0.9,0.9\n" << rows;
+    return Run("--json plan s.yaml --out o --set 'plan={file: plan.csv}' " + more);
+  };
+  const auto faults = [&](const std::string& rows) {
+    return nlohmann::json::parse(plan(rows, "").out)["faults"].dump();
+  };
+  const std::string into_wall = "0.9,0.3\n", short_way = "1.5,0.9\n";
+  EXPECT_EQ(faults(into_wall), R"(["overlap","gap"])");
+  EXPECT_EQ(faults(short_way), R"(["gap"])");
+  EXPECT_EQ(plan(into_wall, "").status, 0) << "a warning is no error";
+  EXPECT_EQ(plan(into_wall, "--strict").status, 1);
+  EXPECT_EQ(plan(into_wall, "--strict --allow gap").status, 1);
+  EXPECT_EQ(plan(into_wall, "--strict --allow gap overlap").status, 0);
+  EXPECT_EQ(plan(short_way, "--strict").status, 1);
+  EXPECT_EQ(plan(short_way, "--strict --allow gap").status, 0);
+  EXPECT_EQ(plan(short_way, "--strict --allow gap --set success.min_coverage=0.9").status, 1);
+  const Result unknown = plan(short_way, "--strict --allow gaps");
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("--allow: gaps: unknown fault"));
+}
+
 TEST_F(Cli, AStartInAWallIsBadInput) {
   const Result dut = Run("run s.yaml --out p --set start.x_m=0.52 --set start.y_m=0.52");
   EXPECT_EQ(dut.status, 2);

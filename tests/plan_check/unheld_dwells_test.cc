@@ -13,12 +13,14 @@ class UnheldDwells : public ScenarioTest {
   UnheldDwells() { Save("plan.csv", "x_m,y_m\n1.5,2.5\n7,2.5\n"); }
 
   // The slope of the dwell at x = 4 that does not hold, deg; 0: all do.
-  double Unheld(double slope_deg, Standstill standstill, double dwell_s = 5) {
+  double Unheld(double slope_deg, Standstill standstill, double dwell_s = 5,
+                double torque_factor = 1) {
     const std::string ramp =
         "{type: ramp, polygon_m: [[3, 0.5], [5, 0.5], [5, 4.5], [3, 4.5]], slope_deg: " +
         std::to_string(slope_deg) + ", toward_deg: 0}";
     Scenario s = ScenarioFile(Save("scenario.yaml", RoomScenario(ramp, ""))).Read(std::nullopt);
     s.robot.spec.standstill = standstill;
+    for (WheelSpec& wheel : s.robot.spec.wheels) wheel.max_torque_nm *= torque_factor;
     PlanResult plan;
     for (const double x : {1.5, 4.0, 7.0}) {
       Waypoint& w = plan.path.emplace_back();
@@ -45,6 +47,7 @@ TEST_F(UnheldDwells, AreNoneWhereMotorsOrABrakeHold) {
   EXPECT_EQ(Unheld(4.8, Standstill::kHold), 0);
   EXPECT_EQ(Unheld(4.8, Standstill::kBrake), 0);
   EXPECT_EQ(Unheld(20, Standstill::kBrake), 0);
+  EXPECT_NEAR(Unheld(4.8, Standstill::kHold, 5, 0.01), 4.8, 1e-6) << "too weak";
 }
 
 }  // namespace
