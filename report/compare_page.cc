@@ -51,15 +51,12 @@ std::string ComparePage(const ComparedSide& a, const ComparedSide& b,
                    PairedTables(report), CountText(comparison.n, "episode"), MarkupText(b.name),
                    MarkupText(a.name))});
   for (const ComparisonPart& part : ComparisonParts(comparison)) {
-    if (part.kind == ComparisonPart::Kind::kFigures) continue;  // they stand above, with medians
     std::string html = "<div class=\"card\">" + TableHtml(part.table);
     for (const std::string& note : part.notes)
       html += "<p class=\"note\">" + MarkupText(note) + "</p>\n";
-    const bool plans = part.kind == ComparisonPart::Kind::kPlans;
     html += fmt::format("<p class=\"note\">a is {}, b is {}.</p></div>\n", MarkupText(a.name),
                         MarkupText(b.name));
-    page.sections.push_back({plans ? "plans" : "modes",
-                             plans ? "Plans, side by side" : "Failures, by mode, paired", html});
+    page.sections.push_back({part.id, part.title, html});
   }
   std::string rates = "<div class=\"card\">" + VariantsTable(report) + "</div>\n";
   for (const VariantSummary& variant : report.summary.variants)

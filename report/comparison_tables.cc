@@ -43,7 +43,7 @@ ComparisonPart FailuresPart(const Comparison& c) {
     table.Add({Words(f.mode), Number(f.both + f.only_a), Number(f.both + f.only_b),
                Number(f.only_a), Number(f.only_b), WithInterval(f.difference, f.interval, 100),
                Significance(f.p)});
-  return {ComparisonPart::Kind::kModes, std::move(table), {}};
+  return {"modes", "Failures by mode, paired", std::move(table), {}};
 }
 
 ComparisonPart MetricsPart(const Comparison& c) {
@@ -64,9 +64,10 @@ ComparisonPart MetricsPart(const Comparison& c) {
                WithInterval(m.mean.estimate, m.mean.interval), Signed(m.median.estimate)});
   }
   std::vector<std::string> notes;
-  if (!same.empty()) notes.push_back("the same in all: " + same);
-  if (starred) notes.push_back("* where both succeed: a failure ends an episode early");
-  return {ComparisonPart::Kind::kFigures, std::move(table), std::move(notes)};
+  if (!same.empty()) notes.push_back("no difference in any pair: " + same);
+  if (starred)
+    notes.push_back("* only pairs in which both succeed, because a failure ends an episode early");
+  return {"metrics", "Metrics, paired", std::move(table), std::move(notes)};
 }
 
 // Of the figures that differ anywhere, and of those that a reader asks for.
@@ -95,12 +96,13 @@ ComparisonPart PlansPart(const Comparison& c) {
   std::vector<std::string> notes;
   const ComparedPlans& both = c.risk_and_length;
   if (both.n > 0)
-    notes.push_back(fmt::format(
-        "cumulative_risk and length_m together: b has less of both in {}, less of one in {}, the "
-        "same in {}, more of one in {}",
-        both.both_lower, both.none_higher - both.both_lower - both.same, both.same,
-        both.n - both.none_higher));
-  return {ComparisonPart::Kind::kPlans, std::move(table), std::move(notes)};
+    notes.push_back(
+        fmt::format("cumulative_risk and length_m together: in b both are lower in {} pairs, one "
+                    "is lower and one "
+                    "equal in {}, both are equal in {}, at least one is higher in {}",
+                    both.both_lower, both.none_higher - both.both_lower - both.same, both.same,
+                    both.n - both.none_higher));
+  return {"plans", "Plan figures, paired", std::move(table), std::move(notes)};
 }
 
 }  // namespace

@@ -11,8 +11,7 @@
 namespace floorproof {
 
 struct ComparisonPart {
-  enum class Kind { kModes, kFigures, kPlans };
-  Kind kind = Kind::kPlans;
+  std::string id, title;  // of a page's section
   TextTable table;
   std::vector<std::string> notes;  // below it, a line each
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a ramp ends in the air, or before a face.
+// Ramp ends that do not meet the floor beyond them.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@ struct LooseRampEnd {
   double off_m = 0;         // its height over the floor beyond; negative: below it
 };
 
-// The end of this ramp that is farthest from the floor beyond, by 30 mm or more; none where all
-// lead to a floor, and of what is no ramp. Ends at walls do not count.
+// The end of this ramp with the largest height difference to the floor beyond it, if that is more
+// than 30 mm. None if all ends meet a floor or the hazard is no ramp. Ends at walls are ignored.
 std::optional<LooseRampEnd> FindLooseRampEnd(const HazardMap& map, const Hazard& hazard);
 
 }  // namespace floorproof

@@ -189,9 +189,9 @@ estimator: truth           # mcl, odometry: `floorproof list estimators`, and do
 # react: {then: replan}    # at bumps and drops; without it the plan is driven blindly
 
 success:
-  # Share of what can be swept; less is no success. The planner covers 94 % and more, and a drive one
-  # to three points less than its plan. A plan of your own that is to cover less needs a lower one: 0
-  # asks for none.
+  # Minimum coverage for success, as a share of the area that can be swept. The planner covers at
+  # least 94 % on most floors; a drive covers one to three percentage points less than its plan. If
+  # your own plan covers less, lower this value; 0 turns the check off.
   min_coverage: 0.9
 
 # What nobody knows exactly, drawn anew in each episode (`run` drives episode 0, and says what it

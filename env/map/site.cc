@@ -169,10 +169,10 @@ void WarnOfFarHazards(Site& site, const std::string& file) {
 void WarnOfRampEnds(Site& site, const std::string& file) {
   for (const Hazard& hazard : site.map.hazards)
     if (const auto end = FindLooseRampEnd(site.map, hazard))
-      site.warnings.push_back(file + ": ramp " + hazard.id + " leads to nothing: its end at " +
-                              PlaceText(end->p_W.x(), end->p_W.y()) + " is " +
-                              LengthText(std::abs(end->off_m)) +
-                              (end->off_m > 0 ? " above" : " below") + " the floor beyond");
+      site.warnings.push_back(
+          file + ": ramp " + hazard.id + " does not meet the floor: its end at " +
+          PlaceText(end->p_W.x(), end->p_W.y()) + " is " + LengthText(std::abs(end->off_m)) +
+          (end->off_m > 0 ? " above" : " below") + " the floor beyond");
 }
 
 // The one site that `generate` with a seed stands for.

@@ -103,7 +103,7 @@ TEST_F(InitFilesTest, WhereAValueIsDrawnItSaysThatTheDrawWins) {
   robot.mass_kg = 0;
   EXPECT_THAT(MakeInitFiles(folder_ / "map.yaml", robot, folder_).scenario_yaml,
               HasSubstr("`randomise` below draws its battery's voltage"));
-  EXPECT_THAT(comment(dut.scenario_yaml, "  min_coverage"), HasSubstr("A plan of your own"));
+  EXPECT_THAT(comment(dut.scenario_yaml, "  min_coverage"), HasSubstr("lower this value"));
 }
 
 // Two rooms without a door: only one is driven. The larger it is, the less is missed.

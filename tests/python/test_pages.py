@@ -253,7 +253,7 @@ class Pages(unittest.TestCase):
         page.goto((folder / "report.html").as_uri())
         self.assertIn("speed_mps=0.3", page.locator("h1").inner_text())
         self.assertIn("12 drives", page.locator(".verdict").inner_text())
-        for section in ("#pairs", "#modes", "#plans"):  # what the command says, all of it
+        for section in ("#pairs", "#modes", "#metrics", "#plans"):  # what the command says, all of it
             self.assertTrue(page.locator(f"{section} table").is_visible(), section)
         self.assertIn("McNemar", page.locator("#modes").inner_text())
         self.assertIn("length_m", page.locator("#plans").inner_text())
