@@ -4,10 +4,11 @@
 //   kind `tipped`: the centre of mass lies outside the hull of what carries the robot, by more than
 //     tipped_share of the support at rest, on the side to which it leans, and does not come back
 //     for tipped_duration_s while a wheel touches (a robot in the air is not tipped yet);
-//   kind `fell`: a driven wheel lost its footing and dropped by more than fall_m, or than the step
-//     that the robot is measured or trusted to cross where that is higher; or it landed with more
-//     than landing_j_per_kg, half the square of its speed downwards. It is what the wheels did that
-//     counts, on whatever floor and whatever the plan knew (env/sim/drop_meter.h).
+//   kind `fell`: a driven wheel lost its footing and dropped by more than fall_m, than half a
+//   wheel's
+//     radius, and than the step that the robot is measured or trusted to cross; or it landed with
+//     more than landing_j_per_kg, half the square of its speed downwards. It is what the wheels did
+//     that counts, on whatever floor and whatever the plan knew (env/sim/drop_meter.h).
 // The tilt limit is mjlab's bad-orientation termination; the others are static stability. The
 // static tip angle is no limit: a robot that rears up on a cover leans by more and comes back, one
 // that rests on its belly's edge leans by more and drives. What is that deep outside falls on: an
@@ -69,8 +70,8 @@ class RollOver final : public Detector {
     v("tipped_share", tipped_share_, Between(0, 1),
       "how far outside that is, as a share of the support at rest");
     v("fall_m", fall_m_, Positive(),
-      "how far a wheel may drop that loses its footing, or as far as the robot's own step if that "
-      "is more");
+      "how far a wheel may drop that loses its footing; half its radius or the robot's own step if "
+      "that is more");
     v("landing_j_per_kg", landing_j_per_kg_, Positive(),
       "energy with which a wheel may land, for each kilogram; 1 is a drop of 0.1 m");
   }
@@ -84,7 +85,11 @@ class RollOver final : public Detector {
     robot_ = &robot;
     // From the centre of mass to the nearest edge of the wheels' polygon.
     deep_m_ = std::max(kNoise_m, tipped_share_ * robot.p_BCom.z() * std::tan(robot.static_tip_rad));
+    // A large wheel that hops off an edge comes down by a part of its radius.
+    constexpr double kHop = 0.5;
     most_drop_m_ = std::max(fall_m_, TrustedStep(robot, context.map.floor_friction));
+    for (const WheelSpec& wheel : robot.wheels)
+      most_drop_m_ = std::max(most_drop_m_, kHop * wheel.radius_m);
     start_m_.reset();
     hazards_.Start(context);
     tilted_.Clear();
