@@ -5,9 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <string>
+
+#include "tests/test_name.h"
 
 namespace floorproof {
 
@@ -19,15 +20,7 @@ class OwnFolderTest : public ::testing::Test {
   }
   ~OwnFolderTest() override { std::filesystem::remove_all(folder_); }
 
-  const std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) / Name();
-
- private:
-  static std::string Name() {
-    const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string(test.test_suite_name()) + "." + test.name();
-    std::ranges::replace(name, '/', '.');  // of parameters
-    return name;
-  }
+  const std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) / TestName();
 };
 
 }  // namespace floorproof

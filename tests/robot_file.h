@@ -5,10 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
+
+#include "tests/test_name.h"
 
 namespace floorproof {
 
@@ -22,14 +23,8 @@ class RobotFile {
   const std::filesystem::path& path() const { return path_; }
 
  private:
-  static std::string Name() {
-    const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string(test.test_suite_name()) + "." + test.name() + ".xml";
-    std::ranges::replace(name, '/', '.');  // of parameters
-    return name;
-  }
-
-  const std::filesystem::path path_ = std::filesystem::path(::testing::TempDir()) / Name();
+  const std::filesystem::path path_ =
+      std::filesystem::path(::testing::TempDir()) / (TestName() + ".xml");
 };
 
 }  // namespace floorproof

@@ -12,6 +12,7 @@
 #include <limits>
 #include <utility>
 
+#include "env/core/clear_cell.h"
 #include "env/geometry/distance.h"
 #include "env/geometry/rasterise.h"
 
@@ -111,20 +112,6 @@ std::vector<Grid<std::uint8_t>> Connected(const std::vector<Grid<std::uint8_t>>&
       if (other != layer) reach(other, c.iy, 0);
   }
   return out;
-}
-
-// The clear cell at `c`, or else its nearest clear neighbour: a clear start may lie in a cell whose
-// centre is just not clear.
-std::optional<Cell> ClearCellAt(const Grid<std::uint8_t>& free, Cell c, const Vec2& p_G) {
-  std::optional<Cell> best;
-  double best_d = std::numeric_limits<double>::infinity();
-  if (free.Inside(c) && free(c)) return c;
-  for (int iy = c.iy - 1; iy <= c.iy + 1; ++iy)
-    for (int ix = c.ix - 1; ix <= c.ix + 1; ++ix) {
-      const double d = (Vec2(ix + 0.5, iy + 0.5) - p_G).norm();
-      if (free.Inside(ix, iy) && free(ix, iy) && d < best_d) best = Cell{ix, iy}, best_d = d;
-    }
-  return best;
 }
 
 // Set cells before ix in each row, for ix in 0 .. width.

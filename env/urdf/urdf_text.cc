@@ -195,8 +195,10 @@ class Preparation {
     const std::string uri = Plain(written.value);
     const SourceMark mark{file_.string(), mesh.line};
     MeshPlace place = FindMesh(uri, file_, mark, files_);
+    const auto known = std::ranges::find(out_.meshes, place.file, &UrdfMesh::file);
+    const bool is_known = known != out_.meshes.end();
     std::string obj;
-    if (place.is_collada) {
+    if (place.is_collada && !is_known) {
       const bool is_seen = holder.name == "visual";
       try {
         obj = ObjOfCollada(files_.Read(place.file, EngineFiles::kMaxBytes));
@@ -215,11 +217,9 @@ class Preparation {
       return;
     }
     // By names of our own: the importer takes two files of one name for one.
-    const auto known = std::ranges::find(out_.meshes, place.file, &UrdfMesh::file);
-    std::string name = known != out_.meshes.end()
-                           ? known->name
-                           : "mesh" + std::to_string(out_.meshes.size()) + place.extension;
-    if (known == out_.meshes.end()) out_.meshes.push_back({name, place.file, std::move(obj)});
+    std::string name =
+        is_known ? known->name : "mesh" + std::to_string(out_.meshes.size()) + place.extension;
+    if (!is_known) out_.meshes.push_back({name, place.file, std::move(obj)});
     edits_.push_back({written.begin, written.begin + written.value.size(), std::move(name)});
   }
 

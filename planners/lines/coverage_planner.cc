@@ -55,7 +55,7 @@ constexpr double kMaxGoal = 0.995;
 // The tracker's error on such plans, and a little more: of round robots, which turn on the spot,
 // and of holonomic robots with a footprint.
 constexpr double kMargin_m = 0.03, kFootprintMargin_m = 0.015;
-constexpr double kLeastMargin_m = 0.01;  // of those that the planner takes by itself
+constexpr double kLeastMargin_m = 0.01;  // the smallest default margin
 constexpr double kMaxLost = 0.04;        // of the ground, to a larger one
 constexpr double kDriveLoss = 0.012;    // of the ground, measured: corners driven less than exactly
 constexpr double kWallTolerance = 0.7;  // cells: a traced contour's staircase
@@ -162,8 +162,7 @@ void CoveragePlanner::Visit(ParamVisitor& visit) {
   visit("margin_m", margin_m_, NonNegative(),
         "kept beyond the clear shape for the tracker's error; none: 0.03 around a robot's circle, "
         "0.015 around its footprint, 0 around radius_m; reduced to 0.01 if it takes much of the "
-        "floor, "
-        "and narrower doors are passed in their middle. A given margin is kept everywhere");
+        "floor, and narrower doors are passed in their middle. A given margin is kept everywhere");
   visit("overlap", overlap_, Between(0, 0.9), "of neighbouring rows, share of the tool's width");
   visit("edges", edges_, "laps along walls and furniture first");
 }
@@ -263,7 +262,7 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
   result.figures.push_back({"margin_m", roomy.margin_m});
   const Floor floor = CropFloor(roomy.area, Grown(held.clear, roomy.margin_m), held.tool,
                                 result.tool_width_m, overlap_);
-  // What a margin leaves out is not to be won back where that is much.
+  // A large loss to the margin cannot be made up by the rest of the floor.
   const double shortfall = roomy.margin_m > 0 ? std::min(roomy.lost, kMaxLost) + kDriveLoss : 0;
   std::vector<Vec2> path_W;
   for (const Vec2& p : Sweep(floor, floor.ToCells(request.start.p()), shortfall, result.figures))

@@ -20,6 +20,7 @@
 #include <span>
 #include <utility>
 
+#include "env/core/clear_cell.h"
 #include "env/geometry/distance.h"
 #include "planners/lines/floor.h"
 
@@ -38,7 +39,7 @@ Grid<float> RoomOf(const Grid<std::uint8_t>& free) {
   return DistanceToSet(blocked, true);
 }
 
-// Joins poses with the margin by ways through poses without it.
+// Joins poses with the margin by paths through poses without it.
 class Joiner {
  public:
   // wide: poses with the margin, all of them free. diagonal: a robot passes between neighbours that
@@ -173,19 +174,8 @@ class Joiner {
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open_;
 };
 
-// The free pose whose centre is nearest to p, among p's cell and those around it.
 std::optional<Cell> FreeAt(const Grid<std::uint8_t>& free, const Vec2& p_G) {
-  const Cell at = Floor::CellAt(p_G);
-  if (free.Inside(at) && free(at)) return at;
-  std::optional<Cell> nearest;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Cell& d : kAround) {
-    const Cell n{at.ix + d.ix, at.iy + d.iy};
-    if (!free.Inside(n) || !free(n)) continue;
-    if (const double away = (Floor::CentreOf(n) - p_G).norm(); away < least)
-      nearest = n, least = away;
-  }
-  return nearest;
+  return ClearCellAt(free, Floor::CellAt(p_G), p_G);
 }
 
 // A tool's half width: it sweeps a pose's surroundings to this distance, wherever it is mounted.
@@ -297,8 +287,8 @@ std::vector<KeptMargin::Sample> KeptMargin::Sampled(const Polyline& path_G) cons
 }
 
 // The middle of a narrow stretch, in few points. The middles of rows or columns are off by half a
-// cell at most, and in a slanting passage a staircase: so means are taken. Where the line that
-// comes of it does not keep to free poses, the corners stay as they are.
+// cell at most, and in a slanting passage a staircase: so means are taken. If the resulting
+// line does not keep to free poses, the corners stay as they are.
 Polyline KeptMargin::MiddleOf(std::span<const Sample> stretch) const {
   constexpr int kMeanOf = 6;  // samples to either side
   constexpr double kOff = 0.15;
@@ -312,13 +302,14 @@ Polyline KeptMargin::MiddleOf(std::span<const Sample> stretch) const {
     middle.push_back(sum / (2 * reach + 1));
   }
   middle = Simplified(middle, kOff);
-  for (std::size_t i = 1; i < middle.size(); ++i)
-    if (!IsFree(middle[i - 1], middle[i])) {
-      middle.clear();
-      for (const Sample& sample : stretch)
-        if (sample.is_corner) middle.push_back(sample.p);
-    }
-  return middle;
+  bool is_free = true;
+  for (std::size_t i = 1; is_free && i < middle.size(); ++i)
+    is_free = IsFree(middle[i - 1], middle[i]);
+  if (is_free) return middle;
+  Polyline corners;
+  for (const Sample& sample : stretch)
+    if (sample.is_corner) corners.push_back(sample.p);
+  return corners;
 }
 
 std::vector<Vec2> KeptMargin::Centred(const std::vector<Vec2>& path_W, bool keep_end) const {

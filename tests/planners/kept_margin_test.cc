@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A coverage plan's margin: kept all over the floor, halved in the middle of what is narrower, and
-// honoured where it was asked for.
+// The margin of a coverage plan: kept all over the floor, centred in narrower places, and honoured
+// if the user sets it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using testing::MakePlanner;
 
 constexpr double kCell_m = 0.02;
 
-// What the planner kept where there is room: 30 mm, or less where that takes much of the floor.
+// The margin of a plan: 30 mm, or less if 30 mm would take much of the floor.
 double MarginOf(const PlanResult& plan) {
   for (const auto& [name, value] : plan.figures)
     if (name == "margin_m") {
@@ -95,7 +95,7 @@ TEST(KeptMargin, ADoorIsPassedInItsMiddleAndTheMarginKeptElsewhere) {
   }
 }
 
-// Of cells nearly as large as what is free in the door: whatever lies behind it is still reached.
+// The cells are nearly as large as the free width of the door. The room behind it is still reached.
 TEST(KeptMargin, RoomsBehindADoorAreReachedOnCoarseCells) {
   const Pose2 start{1, 1, 0};
   HazardMap map = EmptyFloor(164, 80, 0.05);
