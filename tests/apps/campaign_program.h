@@ -151,6 +151,7 @@ site:
 robot: beluga
 plan: {file: p.csv}
 time_limit_s: 12
+failures: {stuck: {window_s: 3}}
 randomise:
   site.floor.friction: {uniform: [0.4, 1.0]}
   site.hazards.sill.height_m: {uniform: [0.004, 0.03]}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What each robot's physics says of hazards that lie across its path: which failure occurs, where,
 // and that it is named; and that what must pass does.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "base/streams.h"
@@ -14,12 +15,17 @@ class Hazards : public ScenarioTest, public ::testing::WithParamInterface<const 
   Hazards() { Save("plan.csv", "x_m,y_m\n1.5,2.5\n7,2.5\n"); }
 
   // Something across the room from x = 4 m, of this type and keys.
-  static std::string Strip(const std::string& keys) {
-    return "{id: it, known: false, " + keys +
-           ", polygon_m: [[4, 0.5], [5, 0.5], [5, 4.5], [4, 4.5]]}";
+  static std::string Strip(const std::string& keys) { return Strip(keys, "it", 4); }
+  static std::string Strip(const std::string& keys, const std::string& id, double x_m) {
+    return fmt::format(
+        "{{id: {0}, known: false, {1}, polygon_m: [[{2}, 0.5], [{3}, 0.5], [{3}, 4.5], [{2}, "
+        "4.5]]}}",
+        id, keys, x_m, x_m + 1);
   }
-  static std::string Line(const std::string& keys) {
-    return "{id: it, known: false, " + keys + ", line_m: [[4, 0.5], [4, 4.5]]}";
+  static std::string Line(const std::string& keys) { return Line(keys, "it", 4); }
+  static std::string Line(const std::string& keys, const std::string& id, double x_m) {
+    return fmt::format("{{id: {}, known: false, {}, line_m: [[{}, 0.5], [{}, 4.5]]}}", id, keys,
+                       x_m, x_m);
   }
   EpisodeRecord Meet(const std::string& hazard, std::vector<Override> overrides = {},
                      EpisodeObserver* observer = nullptr) const {
@@ -92,8 +98,9 @@ TEST_P(Hazards, AWideGrooveIsNamedWhateverItDoes) {
       "{id: mat, known: false, type: step, height_m: 0.001, polygon_m: [[3.4, 0.5], [4.6, 0.5], "
       "[4.6, 4.5], [3.4, 4.5]]}, ";
   for (const std::string& under : {std::string(), mat})
-    for (const std::string& width :
-         {std::string("0.12"), std::string("0.20"), std::string("0.25"), std::string("0.30")}) {
+    for (const std::string& width : under.empty()
+                                        ? std::vector<std::string>{"0.12", "0.20", "0.25", "0.30"}
+                                        : std::vector<std::string>{"0.20", "0.25"}) {
       const EpisodeRecord dut =
           Meet(under + Line("type: groove, depth_m: 0.06, width_m: " + width));
       const bool bridged = IsHtetro() && std::stod(width) < 0.22;
@@ -124,15 +131,14 @@ TEST_P(Hazards, AShoveIsAVeer) {
 }
 
 TEST_P(Hazards, WhatMustPassDoes) {
-  for (const std::string& hazard :
-       {Strip("type: step, height_m: 0.002"), Strip("type: step, height_m: -0.006"),
-        Line("type: groove, width_m: 0.005, depth_m: 0.05"),
-        Line("type: groove, width_m: 0.010, depth_m: 0.01"),
-        Line("type: cable_cover, width_m: 0.10, top_width_m: 0.04, height_m: 0.008"),
-        Strip("type: rough, amplitude_m: 0.002, wavelength_m: 0.2")}) {
-    SCOPED_TRACE(hazard);
-    ExpectNothing(Meet(hazard));
-  }
+  // One after the other: each is flat floor away from the next, by more than the robot's length.
+  ExpectNothing(Meet(Strip("type: step, height_m: 0.002", "up", 2.2) + ", " +
+                     Strip("type: step, height_m: -0.006", "down", 3.8) + ", " +
+                     Strip("type: rough, amplitude_m: 0.002, wavelength_m: 0.2", "rough", 5.4)));
+  ExpectNothing(Meet(
+      Line("type: groove, width_m: 0.005, depth_m: 0.05", "narrow", 2.5) + ", " +
+      Line("type: groove, width_m: 0.010, depth_m: 0.01", "shallow", 3.8) + ", " +
+      Line("type: cable_cover, width_m: 0.10, top_width_m: 0.04, height_m: 0.008", "cover", 5.2)));
 }
 
 TEST_P(Hazards, UpToItsStepItGoesUpAndDownAgain) {
@@ -159,9 +165,13 @@ TEST_P(Hazards, UpToItsStepItCrossesAnEdgeAslant) {
 // The planner goes round what it knows of; the same step unseen is met.
 TEST_P(Hazards, WhatIsKnownIsAvoided) {
   const std::string plank =
-      "{id: it, type: step, height_m: 0.04, polygon_m: [[4, 1.5], [4.3, 1.5], [4.3, 3.5], [4, "
-      "3.5]]";
-  const std::vector<Override> planned = {{"plan", "{planner: boustrophedon}"}};
+      "{id: it, type: step, height_m: 0.04, polygon_m: [[2.5, 1.5], [2.8, 1.5], [2.8, 3], [2.5, "
+      "3]]";
+  const std::vector<Override> planned = {
+      {"plan", "{planner: boustrophedon}"},
+      {"site.grid.rows",
+       "\"##########\\n#........#\\n#........#\\n#........#\\n#........#\\n#........#\\n"
+       "#........#\\n##########\\n\""}};
   const EpisodeRecord known = Meet(plank + "}", planned);
   EXPECT_EQ(known.outcome, Outcome::kSuccess);
   EXPECT_TRUE(known.events.empty());
@@ -196,10 +206,10 @@ INSTANTIATE_TEST_SUITE_P(Robots, NullTest, ::testing::ValuesIn(kRobots),
 // On a flat, empty floor nothing fails, whatever the start, heading, friction and path. Hundreds of
 // drives more, at any speed and over small edges, are in getting_on_test.cc.
 TEST_P(NullTest, AFlatFloorHasNoEvents) {
-  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
     Stream draw(seed, 0, "null test");
     std::string plan = "x_m,y_m\n";
-    for (int i = 0; i < 8; ++i)
+    for (int i = 0; i < 6; ++i)
       plan += std::to_string(draw.Uniform(1, 8)) + "," + std::to_string(draw.Uniform(1, 4)) + "\n";
     Save("plan.csv", plan);
     const std::string start = "start: {x_m: " + std::to_string(draw.Uniform(1, 8)) +

@@ -122,7 +122,7 @@ TEST_P(EachRobot, WhoNeverFailsDrivesAsEver) {
 TEST_P(EachRobot, TheSameHelpTwiceIsTheSameRecord) {
   const std::string keys = std::string(kAssist) +
                            "estimator: odometry\nsensors: {encoders: {noise: 0.05}}\n"
-                           "time_limit_s: 150\n";
+                           "time_limit_s: 60\n";
   const EpisodeRecord first = Stopped(0.12, keys), second = Stopped(0.12, keys);
   ASSERT_FALSE(first.interventions.empty());
   const Scenario s = Read(RoomScenario("", keys));
@@ -151,7 +151,8 @@ TEST_P(EachRobot, IsCarriedOverWhatItDoesNotSweep) {
 
 // It knew well where it was until then; from then on it is wrong by as far as it was carried.
 TEST_P(EachRobot, OdometryDoesNotNoticeThatItIsCarried) {
-  const EpisodeRecord dut = Stopped(-0.15, std::string(kAssist) + "estimator: odometry\n");
+  const EpisodeRecord dut =
+      Stopped(-0.15, std::string(kAssist) + "estimator: odometry\ntime_limit_s: 60\n");
   ASSERT_FALSE(dut.interventions.empty());
   const Intervention& help = dut.interventions[0];
   const double carried_m = (help.to_W - help.from_W).norm();
