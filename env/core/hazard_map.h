@@ -76,6 +76,9 @@ struct Hazard {
   // the floor beneath is.
   bool lies_on_floor = false;
   double floor_m = 0;
+  // The highest edge of floors beneath that it bends over. None: it need not bend, each part lies
+  // on its own floor.
+  std::optional<double> bend_m = {};
   std::vector<Solid> solids;
   Material material;
   // Its plug-in's keys that are numbers, as a site file states them ("height_m", 0.015), its

@@ -33,6 +33,7 @@ class Carpet final : public HazardType {
     Hazard hazard;
     hazard.hazard_class = HazardClass::kLevelChange;
     hazard.lies_on_floor = true;
+    hazard.bend_m = kBend_m;
     hazard.height_m = height_m_;
     // The ladder's edge is 1:1; what is steeper is a step.
     hazard.sizes = LevelSizes(height_m_);
@@ -45,6 +46,10 @@ class Carpet final : public HazardType {
   }
 
  private:
+  // An assumption: over an existing door's threshold (19 mm) or a cable cover it still lies on the
+  // floor close beside; over a higher edge it spans a gap that is not modelled.
+  static constexpr double kBend_m = 0.02;
+
   double height_m_ = 0.006;  // an assumption: half of the highest pile of ADA 302.2, 12.7 mm
   double bevel_ = 1;         // an assumption: a bound edge gives
   // Carpet's over linoleum's, mean of wheelchairs (Hoffman et al. 2003).

@@ -19,6 +19,7 @@
 
 #include "env/core/made_floors.h"
 #include "env/core/slopes.h"
+#include "env/core/standing.h"
 #include "env/geometry/convex.h"
 
 namespace floorproof {
@@ -281,26 +282,36 @@ void Sort(std::vector<Hazard>& hazards) {
 }
 
 // Sets the heights over the base floor of hazards that lie on others: on the highest of them.
-void Lift(std::vector<Hazard>& hazards, MadeFloors& floors) {
+// Returns those that do not bend down to the lowest.
+std::vector<UnbentHazard> Lift(std::vector<Hazard>& hazards, MadeFloors& floors) {
+  std::vector<UnbentHazard> unbent;
   for (std::size_t i = 0; i < hazards.size(); ++i) {
-    if (!hazards[i].lies_on_floor) continue;
-    double highest_m = -std::numeric_limits<double>::infinity();
-    for (const Polygon& polygon : hazards[i].footprint)
-      for (const Ground& ground : Grounds(hazards, Below(i, floors.Near(polygon)), polygon))
+    Hazard& hazard = hazards[i];
+    if (!hazard.lies_on_floor) continue;
+    double highest_m = -std::numeric_limits<double>::infinity(), lowest_m = -highest_m;
+    for (const Polygon& polygon : hazard.footprint)
+      for (const Ground& ground : Grounds(hazards, Below(i, floors.Near(polygon)), polygon)) {
         highest_m = std::max(highest_m, ground.floor_m);
-    hazards[i].floor_m = highest_m;
-    hazards[i].height_m += highest_m;
-    if (highest_m != 0) hazards[i].sizes = LevelSizes(hazards[i].height_m);  // from the base floor
+        lowest_m = std::min(lowest_m, ground.floor_m);
+      }
+    hazard.floor_m = highest_m;
+    hazard.height_m += highest_m;
+    if (highest_m != 0) hazard.sizes = LevelSizes(hazard.height_m);  // from the base floor
+    if (const double edge_m = highest_m - lowest_m;
+        hazard.bend_m && edge_m > *hazard.bend_m + kSameLevel_m)
+      unbent.push_back({hazard.id, edge_m});
   }
+  return unbent;
 }
 
 }  // namespace
 
-void LayFloors(std::vector<Hazard>& hazards, std::vector<std::string>& warnings) {
+std::vector<UnbentHazard> LayFloors(std::vector<Hazard>& hazards,
+                                    std::vector<std::string>& warnings) {
   Sort(hazards);
   WarnOfSlopes(hazards, warnings);
   MadeFloors floors(hazards, MadeFloors::Levels::kBuilt);
-  Lift(hazards, floors);
+  std::vector<UnbentHazard> unbent = Lift(hazards, floors);
   std::vector<std::string> across;  // from the last to the first
   for (std::size_t i = hazards.size(); i-- > 0;) {
     Hazard& hazard = hazards[i];
@@ -315,6 +326,7 @@ void LayFloors(std::vector<Hazard>& hazards, std::vector<std::string>& warnings)
                        " lies across the edge of a level change: each part lies on its own floor");
   }
   warnings.insert(warnings.end(), across.rbegin(), across.rend());
+  return unbent;
 }
 
 }  // namespace floorproof

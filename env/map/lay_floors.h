@@ -9,6 +9,12 @@
 
 namespace floorproof {
 
+// A hazard that would have to bend over a higher edge than it does.
+struct UnbentHazard {
+  std::string id;
+  double edge_m = 0;  // between the highest and the lowest floor beneath it
+};
+
 // Sorts hazards that shape the floor (C3, C4) and may overlap: first floors (steps, ramps), then
 // covers of floors (carpets, thresholds, lifts), then terrain (cable covers, grooves, rough
 // ground), each in the order in which they are written; all others keep their places. Where floors
@@ -22,6 +28,8 @@ namespace floorproof {
 // from the floor below the ramp; `warnings` names it. Footprints stay whole, so that a map without
 // its unknown hazards does not show where they lie. The solids must be as their types make them:
 // those that taper with a corner of `top` for each of `base`.
-void LayFloors(std::vector<Hazard>& hazards, std::vector<std::string>& warnings);
+// Returns the hazards that cannot be laid, since they do not bend so far (Hazard::bend_m).
+std::vector<UnbentHazard> LayFloors(std::vector<Hazard>& hazards,
+                                    std::vector<std::string>& warnings);
 
 }  // namespace floorproof

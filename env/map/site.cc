@@ -151,6 +151,18 @@ void CheckOnMap(const ConfigNode& node, const std::string& key, const Vec2& p_W,
                        " and upper right " + shown(frame.X_WG * size));
 }
 
+void LayWrittenFloors(const std::vector<WrittenHazard>& hazards, Site& site) {
+  for (const WrittenHazard& written : hazards) site.map.hazards.push_back(written.hazard);
+  for (const UnbentHazard& unbent : LayFloors(site.map.hazards, site.warnings))
+    for (const WrittenHazard& written : hazards)
+      if (written.hazard.id == unbent.id)
+        throw InputError(
+            written.place_mark, written.place_key, WriteYamlLine(WritePoints(written.place)),
+            "a " + written.hazard.type + " bends over edges of at most " +
+                LengthText(*written.hazard.bend_m) + "; the floors beneath this one differ by " +
+                LengthText(unbent.edge_m));
+}
+
 // A hazard that lies completely off the map is more likely due to a wrong origin than intended.
 void WarnOfFarHazards(Site& site, const std::string& file) {
   const GridFrame& frame = site.map.frame;
@@ -231,8 +243,7 @@ Site ReadSite(const ConfigNode& node, const fs::path& folder, const InputFiles& 
     site.files_read = {written.ros_map, ros.image};
     site.warnings = std::move(ros.warnings);
   }
-  for (WrittenHazard& hazard : written.hazards) map.hazards.push_back(std::move(hazard.hazard));
-  LayFloors(map.hazards, site.warnings);
+  LayWrittenFloors(written.hazards, site);
   if (map.start) CheckOnMap(node, "start", map.start->p(), map.frame);
   if (map.goal) CheckOnMap(node, "goal", *map.goal, map.frame);
   WarnOfFarHazards(site, node.mark.file);

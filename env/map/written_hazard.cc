@@ -38,10 +38,14 @@ std::vector<Vec2> ReadPoints(const ConfigNode& node, const std::string& key, std
   return points;
 }
 
+const char* PlaceKey(HazardType::Placement placement) {
+  return placement == HazardType::Placement::kPolygon ? "polygon_m" : "line_m";
+}
+
 std::vector<Vec2> ReadPlace(const ConfigNode& node, const std::string& path,
                             const std::string& type, HazardType::Placement placement) {
   const bool polygon = placement == HazardType::Placement::kPolygon;
-  const std::string key = polygon ? "polygon_m" : "line_m";
+  const std::string key = PlaceKey(placement);
   const std::string other = polygon ? "line_m" : "polygon_m";
   if (const ConfigNode* wrong = node.Find(other))
     throw InputError(wrong->mark, path + other, "", "a " + type + " is placed by " + key);
@@ -155,6 +159,9 @@ WrittenHazard ReadHazard(const ConfigNode& node, const std::string& path) {
   CommonHazardKeys common;
   common.Read(node, prefix);
   written.place = ReadPlace(node, prefix, name, written.type->placement());
+  const std::string place_key = PlaceKey(written.type->placement());
+  written.place_mark = node.Find(place_key)->mark;
+  written.place_key = prefix + place_key;
   const Bounds far = Between(-kFarthest_m, kFarthest_m);
   if (const auto* n = node.Find("shift_x_m"))
     written.shift_m.x() = AsDouble(*n, prefix + "shift_x_m", far);
@@ -182,7 +189,7 @@ ConfigNode HazardSchema() {
     MapSchema& keys = type.keys;
     const auto made = MakePlugin(HazardTypes(), type.name, "type");
     const bool polygon = made->placement() == HazardType::Placement::kPolygon;
-    const char* place = polygon ? "polygon_m" : "line_m";
+    const char* place = PlaceKey(made->placement());
     keys.Key("id", TextSchema(R"re(^(?!wall$)[^,"\n\r\t]{1,64}$)re"),
              "by which events, draws and --set name it (default: its type and a number)")
         .Key(place, PointsSchema(polygon ? 3 : 2),
@@ -202,8 +209,7 @@ ConfigNode WriteHazard(WrittenHazard& written) {
   ConfigNode node = ConfigNode::Map();
   node.Add("type", ConfigNode::Scalar(written.hazard.type));
   if (!written.hazard.id.empty()) node.Add("id", ConfigNode::Scalar(written.hazard.id, true));
-  const bool polygon = written.type->placement() == HazardType::Placement::kPolygon;
-  node.Add(polygon ? "polygon_m" : "line_m", WritePoints(written.place));
+  node.Add(PlaceKey(written.type->placement()), WritePoints(written.place));
   node.Add("shift_x_m", ConfigNode::Scalar(FormatDouble(written.shift_m.x())));
   node.Add("shift_y_m", ConfigNode::Scalar(FormatDouble(written.shift_m.y())));
   WriteParams(*written.type, node);

@@ -48,6 +48,8 @@ struct WrittenHazard {
   Hazard hazard;  // its id is empty when none was written
   std::unique_ptr<HazardType> type;
   std::vector<Vec2> place;
+  SourceMark place_mark;
+  std::string place_key;        // with its path: hazards[1].polygon_m
   Vec2 shift_m = Vec2::Zero();  // by which the whole place is moved
 };
 WrittenHazard ReadHazard(const ConfigNode& node, const std::string& path);

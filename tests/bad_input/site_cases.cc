@@ -56,6 +56,12 @@ std::vector<BadInput> SiteCases() {
            {"site.yaml:7: hazards[0].height_m = -2.0", "must be"}),
       Site("NoWidth", "height_m: 2.0", "thickness_m: 0",
            {"site.yaml:7: hazards[0].thickness_m = 0", "must be"}),
+      Site("CarpetOverAPit", "hazards:\n",
+           "hazards:\n  - {type: step, polygon_m: [[2, 1], [3, 1], [3, 2], [2, 2]], height_m: "
+           "-0.3}\n"
+           "  - {type: carpet, id: rug, polygon_m: [[1.5, 1], [3, 1], [3, 2], [1.5, 2]]}\n",
+           {"site.yaml:8: hazards[1].polygon_m = [[1.5, 1], [3, 1], [3, 2], [1.5, 2]]",
+            "bends over edges of at most 20 mm; the floors beneath this one differ by 300 mm"}),
       Site("NotANumber", "height_m: 0.01", "height_m: .NaN",
            {"site.yaml:8: hazards[1].height_m = .NaN", "must be a number"}),
       Site("ALineOfOnePoint", glass, "line_m: [[2.0, 1.0]]",

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/params.h"
+#include "base/quantity.h"
 #include "tests/map/temp_folder.h"
 
 namespace floorproof {
@@ -193,6 +195,30 @@ TEST_F(SiteTest, CoversAndGroovesGoByTheFloorBeneath) {
     EXPECT_NEAR(volume(cut.map.hazards[0]), 0.5 - 0.05, 1e-9);
     EXPECT_NEAR(volume(cut.map.hazards[1]), 0.07, 1e-9);
   }
+}
+
+// A carpet bends over what other hazards lie on the floor, and lies in a pit or on a platform.
+TEST_F(SiteTest, ACarpetBendsOverLowEdgesAlone) {
+  const std::string carpet =
+      "- {type: carpet, id: rug, polygon_m: [[0.8, 0.6], [1.8, 0.6], [1.8, 0.9], [0.8, 0.9]]}\n";
+  const auto step = [](double height_m, const std::string& from_m) {
+    return "- {type: step, height_m: " + FormatDouble(height_m) + ", polygon_m: [[" + from_m +
+           ", 0.5], [2, 0.5], [2, 1], [" + from_m + ", 1]]}\n";
+  };
+  const std::string across = "line_m: [[1.3, 0.4], [1.3, 1.1]]}\n";
+  for (const std::string& beneath :
+       {std::string(), "- {type: threshold, " + across, "- {type: cable_cover, " + across,
+        "- {type: groove, depth_m: 0.1, width_m: 0.03, " + across, step(-0.3, "0.5"),
+        step(0.1, "0.5"), step(0.02, "1.2"), step(-0.02, "1.2")})
+    for (const std::string& list : {beneath + carpet, carpet + beneath})
+      EXPECT_NO_THROW(Read(Rows("hazards:\n" + list))) << list;
+  for (const double height_m : {-0.3, 0.3, 0.021, -0.021})
+    for (const std::string& list : {step(height_m, "1.2") + carpet, carpet + step(height_m, "1.2")})
+      EXPECT_THAT(Refusal([&] { Read(Rows("hazards:\n" + list)); }),
+                  HasSubstr("a carpet bends over edges of at most 20 mm; the floors beneath this "
+                            "one differ by " +
+                            LengthText(std::abs(height_m))))
+          << list;
 }
 
 TEST_F(SiteTest, AHazardOffTheMapIsWarnedOf) {
