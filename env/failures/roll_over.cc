@@ -5,10 +5,10 @@
 //     tipped_share of the support at rest, on the side to which it leans, and does not come back
 //     for tipped_duration_s while a wheel touches (a robot in the air is not tipped yet);
 //   kind `fell`: a driven wheel lost its footing and dropped by more than fall_m, than half a
-//   wheel's
-//     radius, and than the step that the robot is measured or trusted to cross; or it landed with
-//     more than landing_j_per_kg, half the square of its speed downwards. It is what the wheels did
-//     that counts, on whatever floor and whatever the plan knew (env/sim/drop_meter.h).
+//     wheel's radius, and than the step that the robot is measured or trusted to cross; or it
+//     landed with more than landing_j_per_kg, half the square of its speed downwards. It is what
+//     the wheels did that counts, on whatever floor and whatever the plan knew
+//     (env/sim/drop_meter.h).
 // The tilt limit is mjlab's bad-orientation termination; the others are static stability. The
 // static tip angle is no limit: a robot that rears up on a cover leans by more and comes back, one
 // that rests on its belly's edge leans by more and drives. What is that deep outside falls on: an
