@@ -86,14 +86,18 @@ void DrawCurve(const TimelineCurve& curve, const Axis& axis, int top, Image& ima
     Dashes(canvas, {axis.left, y(value)}, {axis.left + axis.width, y(value)}, kGrey, 1, 4, 8);
     DrawText(image, axis.left + 6, y(value) - 3, name, grey);
   }
-  for (std::size_t i = 0; i < curve.steps.size(); ++i) {
-    const double from = axis.X(curve.steps[i].first);
-    const bool last = i + 1 == curve.steps.size();
-    const double to = last ? axis.left + axis.width : axis.X(curve.steps[i + 1].first);
-    const double value = curve.steps[i].second;
-    Line(canvas, {from, y(value)}, {to, y(value)}, curve.colour, 2);
-    if (!last) Line(canvas, {to, y(value)}, {to, y(curve.steps[i + 1].second)}, curve.colour, 2);
-  }
+  const auto draw = [&](const std::vector<std::pair<double, double>>& steps, Rgb colour) {
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const double from = axis.X(steps[i].first);
+      const bool last = i + 1 == steps.size();
+      const double to = last ? axis.left + axis.width : axis.X(steps[i + 1].first);
+      const double value = steps[i].second;
+      Line(canvas, {from, y(value)}, {to, y(value)}, colour, 2);
+      if (!last) Line(canvas, {to, y(value)}, {to, y(steps[i + 1].second)}, colour, 2);
+    }
+  };
+  draw(curve.behind, curve.behind_colour);
+  draw(curve.steps, curve.colour);
 }
 
 void DrawAxis(const Axis& axis, int top, int bottom, Image& image) {

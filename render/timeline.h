@@ -32,6 +32,8 @@ struct TimelineCurve {
   double most = 1;                               // the axis ends there
   std::vector<std::pair<double, std::string>> levels;
   Rgb colour = {0, 0, 0};
+  std::vector<std::pair<double, double>> behind = {};  // a second value of the same unit
+  Rgb behind_colour = {0, 0, 0};
 };
 
 struct Timeline {

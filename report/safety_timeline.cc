@@ -121,12 +121,16 @@ Timeline SafetyTimeline(const Scenario& s, const EpisodeRecord& record) {
   curve.steps = {{0, 0}};
   curve.most = 120;
   curve.colour = kBroken;
+  std::vector<std::pair<double, double>> sums = {{0, 0}};
+  bool adds_up = false;  // several skills of one time have failures
   for (const SafetyRow& row : record.safety) {
     machine.emplace_back(row.t_s, row.machine);
     if (row.node != mission && !(mission.empty() && row.node == "mission")) continue;
     level.emplace_back(row.t_s, row.level);
     curve.steps.emplace_back(row.t_s, row.safety_state);
-    curve.most = std::max(curve.most, row.safety_state);
+    sums.emplace_back(row.t_s, row.sum);
+    adds_up |= row.sum > row.safety_state;
+    curve.most = std::max({curve.most, row.safety_state, row.sum});
   }
   const LevelLimits& limits = s.safety->mission.levels;
   curve.levels = {{limits.high, ""},
@@ -138,6 +142,11 @@ Timeline SafetyTimeline(const Scenario& s, const EpisodeRecord& record) {
   if (const TimelineRow without = Without(record, end_s); !without.spans.empty())
     timeline.rows.push_back(without);
   timeline.rows.push_back({"speed", Speed(record.speed_shares, end_s), true});
+  if (adds_up) {
+    curve.behind = std::move(sums);
+    curve.behind_colour = kPurple;
+    timeline.legend.emplace_back("sum of R", kPurple);
+  }
   timeline.curve = std::move(curve);
   for (const DecisionState state :
        {DecisionState::kNormal, DecisionState::kFaultMode, DecisionState::kAssessment,

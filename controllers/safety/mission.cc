@@ -2,6 +2,7 @@
 #include "controllers/safety/mission.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -91,7 +92,8 @@ class MissionReader {
     Refuse(*skills_, "skills");
     Refuse(*tasks_, "tasks");
     Add(MissionNode::Kind::kMission, mission_.name, root_.mark);
-    for (const ConfigNode& task : run.items) AddTask(0, task, "run");
+    Steps steps;
+    for (const ConfigNode& task : run.items) Take(steps, AddTask(0, task, "run"), task, "run");
     CheckTheRest();
     return std::move(mission_);
   }
@@ -200,7 +202,63 @@ class MissionReader {
     return mission_.nodes.size() - 1;
   }
 
-  void AddTask(std::size_t parent, const ConfigNode& named, const std::string& key) {
+  // A part of the tree, with all below it.
+  struct Part {
+    std::size_t node = 0;
+    bool ends = true;
+    std::set<std::string> needs;  // PrimitiveType::needs of its primitives
+  };
+  // The parts of one skill or task so far.
+  struct Steps {
+    bool ends = false;                         // some run in order
+    std::map<std::string, std::string> users;  // resource -> name of the part
+  };
+
+  // Takes the next part, written as `item` under `key`.
+  void Take(Steps& steps, const Part& part, const ConfigNode& item, const std::string& key,
+            bool parallel = false) {
+    MissionNode& node = mission_.nodes[part.node];
+    node.parallel = parallel;
+    if (!parallel && !part.ends)
+      throw InputError(item.mark, key, node.name, "goes on for ever: it belongs under with");
+    for (const std::string& need : part.needs) {
+      const auto [user, added] = steps.users.emplace(need, node.name);
+      if (!added && parallel)
+        throw InputError(
+            item.mark, key, node.name,
+            "needs " + need + " while " + user->second + " does, which runs beside it");
+    }
+    steps.ends |= !parallel;
+  }
+
+  // Reads the parts under `run` and `with` of a skill or a task. Without `run` it has no end.
+  template <class Add>
+  Steps AddSteps(const ConfigNode& node, const std::string& path, const char* rule,
+                 const Add& add) {
+    Steps steps;
+    const ConfigNode* with = node.Find("with");
+    const bool beside = with != nullptr && with->IsList() && !with->items.empty();
+    for (const char* key : {"run", "with"}) {
+      const bool parallel = std::string_view(key) == "with";
+      const ConfigNode* list = node.Find(key);
+      if (list == nullptr && (parallel || beside)) continue;
+      const std::string of = path + "." + key;
+      if (list == nullptr || !list->IsList() || (!parallel && list->items.empty()))
+        throw InputError(list != nullptr ? list->mark : node.mark, of,
+                         list != nullptr ? list->scalar : "", rule);
+      for (const ConfigNode& item : list->items)
+        Take(steps, add(item, of, parallel), item, of, parallel);
+    }
+    return steps;
+  }
+
+  static Part Whole(std::size_t node, const Steps& steps) {
+    Part part{node, steps.ends, {}};
+    for (const auto& [need, user] : steps.users) part.needs.insert(need);
+    return part;
+  }
+
+  Part AddTask(std::size_t parent, const ConfigNode& named, const std::string& key) {
     const std::string name = AsString(named, key);
     const ConfigNode* task = tasks_->Find(name);
     if (task == nullptr)
@@ -214,22 +272,34 @@ class MissionReader {
       throw InputError(named.mark, key, name, "lies more than 100 tasks deep");
     used_.insert(name);
     const std::string path = "tasks." + name;
-    if (!task->IsList() || task->items.empty())
-      throw InputError(task->mark, path, task->scalar, "must be a list of skills or tasks");
+    if (!task->IsMap() && (!task->IsList() || task->items.empty()))
+      throw InputError(task->mark, path, task->scalar,
+                       "must be a list of skills or tasks, or a map of run and with");
     const std::size_t node = Add(MissionNode::Kind::kTask, name, named.mark);
     mission_.nodes[parent].children.push_back(node);
     within_.push_back(name);
-    for (const ConfigNode& step : task->items) {
-      const std::string of = AsString(step, path);
-      if (const ConfigNode* skill = skills_->Find(of))
-        AddSkill(node, of, *skill, step.mark);
-      else if (tasks_->Find(of) != nullptr)
-        AddTask(node, step, path);
-      else
-        throw InputError(step.mark, path, of,
-                         "is neither skill nor task" + DidYouMeanOneOf(of, NamesOf(*skills_)));
+    Steps steps;
+    if (task->IsMap()) {
+      RefuseUnknownKeys(*task, path + ".", {"run", "with"});
+      steps = AddSteps(*task, path, "must be a list of skills or tasks",
+                       [&](const ConfigNode& step, const std::string& of, bool) {
+                         return AddSkillOrTask(node, step, of);
+                       });
+    } else {
+      for (const ConfigNode& step : task->items)
+        Take(steps, AddSkillOrTask(node, step, path), step, path);
     }
     within_.pop_back();
+    return Whole(node, steps);
+  }
+
+  Part AddSkillOrTask(std::size_t parent, const ConfigNode& step, const std::string& key) {
+    const std::string name = AsString(step, key);
+    if (const ConfigNode* skill = skills_->Find(name))
+      return AddSkill(parent, name, *skill, step.mark);
+    if (tasks_->Find(name) != nullptr) return AddTask(parent, step, key);
+    throw InputError(step.mark, key, name,
+                     "is neither skill nor task" + DidYouMeanOneOf(name, NamesOf(*skills_)));
   }
 
   std::string Cycle(const std::string& name) const {
@@ -239,7 +309,7 @@ class MissionReader {
     return text + name;
   }
 
-  void AddSkill(std::size_t parent, const std::string& name, const ConfigNode& skill,
+  Part AddSkill(std::size_t parent, const std::string& name, const ConfigNode& skill,
                 const SourceMark& mark) {
     used_.insert(name);
     const std::string path = "skills." + name;
@@ -251,16 +321,10 @@ class MissionReader {
     params.Remove("with");
     const std::size_t node = Add(MissionNode::Kind::kSkill, name, mark);
     mission_.nodes[parent].children.push_back(node);
-    for (const char* key : {"run", "with"}) {
-      const ConfigNode* list = skill.Find(key);
-      const bool needed = std::string_view(key) == "run";
-      if (list == nullptr && !needed) continue;
-      const std::string of = path + "." + key;
-      if (list == nullptr || !list->IsList() || (needed && list->items.empty()))
-        throw InputError(list != nullptr ? list->mark : skill.mark, of,
-                         list != nullptr ? list->scalar : "", "must be a list of primitives");
-      for (const ConfigNode& item : list->items) AddPrimitive(node, item, of, !needed, params);
-    }
+    const Steps steps = AddSteps(skill, path, "must be a list of primitives",
+                                 [&](const ConfigNode& item, const std::string& of, bool parallel) {
+                                   return AddPrimitive(node, item, of, parallel, params);
+                                 });
     std::vector<std::string> known = {"run", "with"};
     for (const std::size_t child : mission_.nodes[node].children) {
       const std::vector<std::string>& keys =
@@ -268,9 +332,10 @@ class MissionReader {
       known.insert(known.end(), keys.begin(), keys.end());
     }
     RefuseUnknownKeys(skill, path + ".", known);
+    return Whole(node, steps);
   }
 
-  void AddPrimitive(std::size_t parent, const ConfigNode& item, const std::string& key,
+  Part AddPrimitive(std::size_t parent, const ConfigNode& item, const std::string& key,
                     bool parallel, const ConfigNode& of_skill) {
     const std::string name = AsString(item, key);
     const auto found = std::ranges::find(mission_.primitives, name, &MissionPrimitive::name);
@@ -284,14 +349,11 @@ class MissionReader {
                            DidYouMeanOneOf(name, names));
     }
     const PrimitiveType& type = TypeOf(*found);
-    if (type.ends == parallel)
-      throw InputError(item.mark, key, name,
-                       type.ends ? "comes to an end: it belongs under run"
-                                 : "goes on for ever: it belongs under with");
+    if (type.ends && parallel)
+      throw InputError(item.mark, key, name, "comes to an end: it belongs under run");
     const std::size_t index = Add(MissionNode::Kind::kPrimitive, name, item.mark);
     mission_.nodes[parent].children.push_back(index);
     MissionNode& node = mission_.nodes[index];
-    node.parallel = parallel;
     node.primitive = static_cast<std::size_t>(found - mission_.primitives.begin());
     node.params = found->params;
     const std::vector<std::string>& keys = type.keys;
@@ -300,6 +362,9 @@ class MissionReader {
       node.params.Remove(handed);  // the skill's rules
       node.params.Add(handed, value);
     }
+    Part part{index, type.ends, {}};
+    if (!type.needs.empty()) part.needs.insert(type.needs);
+    return part;
   }
 
   const PrimitiveType& TypeOf(const MissionPrimitive& primitive) const {

@@ -19,6 +19,8 @@ struct PrimitiveType {
   std::string name;
   std::vector<std::string> keys;
   bool ends = true;  // it is done some time: a skill runs it; else it goes on beside those
+  // What only one primitive can use at a time, in words ("the wheels"); empty: nothing.
+  std::string needs = {};
 };
 
 struct MissionPrimitive {
@@ -32,7 +34,7 @@ struct MissionNode {
   Kind kind = Kind::kMission;
   std::string name;
   std::vector<std::size_t> children;  // into Mission::nodes; they run one after the other
-  bool parallel = false;              // a primitive: it runs as long as its skill does
+  bool parallel = false;              // it runs beside these, and ends with its parent
   std::size_t primitive = 0;          // a primitive: into Mission::primitives
   // A primitive: its keys, for whoever makes it; its own, and those of its skill that its type
   // knows.
@@ -49,8 +51,8 @@ struct Mission {
 };
 
 // A file of a mission: docs/safety.md. Throws InputError with file, line and key: unknown keys,
-// types and names, a task that is part of itself, ratings that are not on the paper's scales,
-// thresholds out of order, more than 10,000 nodes.
+// types and names, a task that is part of itself, parts that need the same thing at the same time,
+// ratings that are not on the paper's scales, thresholds out of order, more than 10,000 nodes.
 Mission ReadMission(const ConfigNode& root, std::span<const PrimitiveType> types);
 
 }  // namespace floorproof

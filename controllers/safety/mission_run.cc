@@ -43,39 +43,33 @@ NodeStatus MissionRun::Run(std::size_t node, double t_s) {
   const bool begins = status == NodeStatus::kWaiting;
   status = NodeStatus::kRunning;
   if (begins) begun_s_[node] = t_s;
-  switch (mission_.nodes[node].kind) {
-    case MissionNode::Kind::kMission:
-    case MissionNode::Kind::kTask:
-      return status = RunInOrder(node, t_s);
-    case MissionNode::Kind::kSkill:
-      return status = RunSkill(node, t_s);
-    case MissionNode::Kind::kPrimitive:
-      break;
-  }
+  if (mission_.nodes[node].kind != MissionNode::Kind::kPrimitive)
+    return status = RunChildren(node, t_s);
   if (begins) primitives_[node]->Start(t_s);
   return status = primitives_[node]->Update(t_s);
 }
 
-// Those of its children that do not run in parallel; done at once where there are none.
-NodeStatus MissionRun::RunInOrder(std::size_t node, double t_s) {
-  for (const std::size_t child : mission_.nodes[node].children) {
-    if (mission_.nodes[child].parallel) continue;
-    const NodeStatus status = Run(child, t_s);
-    if (status != NodeStatus::kDone) return status;
-  }
-  return NodeStatus::kDone;
-}
-
-NodeStatus MissionRun::RunSkill(std::size_t node, double t_s) {
+NodeStatus MissionRun::RunChildren(std::size_t node, double t_s) {
   const std::vector<std::size_t>& children = mission_.nodes[node].children;
   for (const std::size_t child : children)
     if (mission_.nodes[child].parallel && Run(child, t_s) == NodeStatus::kFailed)
       return NodeStatus::kFailed;
-  const NodeStatus status = RunInOrder(node, t_s);
-  if (status == NodeStatus::kDone)  // what ran beside it has nothing left to run beside
-    for (const std::size_t child : children)
-      if (mission_.nodes[child].parallel) status_[child] = NodeStatus::kDone;
-  return status;
+  bool ends = false;
+  for (const std::size_t child : children) {
+    if (mission_.nodes[child].parallel) continue;
+    const NodeStatus status = Run(child, t_s);
+    if (status != NodeStatus::kDone) return status;
+    ends = true;
+  }
+  if (!ends) return NodeStatus::kRunning;
+  for (const std::size_t child : children)  // they have nothing left to run beside
+    if (mission_.nodes[child].parallel) End(child);
+  return NodeStatus::kDone;
+}
+
+void MissionRun::End(std::size_t node) {
+  status_[node] = NodeStatus::kDone;
+  for (const std::size_t child : mission_.nodes[node].children) End(child);
 }
 
 std::optional<Failure> MissionRun::failure(std::size_t node) const {

@@ -37,15 +37,17 @@ class MissionRun {
   MissionRun(const Mission& mission, const Make& make);
 
   // One period of all that runs now. Where something is done, what comes after it begins in the
-  // same period. A node fails with its first child that fails; a skill is done when those of its
-  // primitives are that run in order. Allocates nothing.
+  // same period. A node fails with its first child that fails. It is done when those of its
+  // children are that run in order, and ends those beside them. Allocates nothing.
   NodeStatus Update(double t_s);
 
   NodeStatus status(std::size_t node) const { return status_[node]; }
   // Eq. 1, of the skills below a node, and their sum: a skill's is that of its worst primitive, in
-  // parallel or in its turn. What waits or is done is no risk; what has failed remains one.
+  // parallel or in its turn. What waits or is done is no risk; what has failed remains one. The two
+  // differ where skills run beside each other.
   struct Risk {
     double greatest = 0, sum = 0;
+    bool operator==(const Risk&) const = default;
   };
   const Risk& risk(std::size_t node) const { return risk_[node]; }
   // When it began; only of one that has.
@@ -58,8 +60,8 @@ class MissionRun {
 
  private:
   NodeStatus Run(std::size_t node, double t_s);
-  NodeStatus RunInOrder(std::size_t node, double t_s);
-  NodeStatus RunSkill(std::size_t node, double t_s);
+  NodeStatus RunChildren(std::size_t node, double t_s);
+  void End(std::size_t node);
   void Assess();
 
   const Mission& mission_;

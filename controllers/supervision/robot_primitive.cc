@@ -94,6 +94,7 @@ std::vector<PrimitiveType> RobotPrimitiveTypes() {
     const auto primitive = entry.make();
     type.keys = {"monitors"};
     type.ends = primitive->moves();
+    if (primitive->moves()) type.needs = "the wheels";
     for (const ParamDoc& doc : DocumentParams(*primitive)) type.keys.push_back(doc.name);
   }
   return types;

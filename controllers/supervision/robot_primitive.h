@@ -34,7 +34,8 @@ class RobotPrimitive : public Primitive, public Configurable {
   // How long its skill has run.
   void SetSkillTime(double s) { skill_s_ = s; }
 
-  // It comes to an end: it moves the robot. Else it goes on beside those that do.
+  // True: it moves the robot, needs the wheels, and comes to an end. False: it runs beside those
+  // that do.
   virtual bool moves() const = 0;
   // Whether it drives the scenario's plan; or to which place it leads, whatever the plan says.
   virtual bool drives_plan() const { return false; }

@@ -55,7 +55,7 @@ Supervisor::Supervisor(const SafetyPlan& plan, const RobotSpec& robot, const Haz
              return primitive;
            }),
       decision_(plan.mission.decision),
-      logged_(plan.mission.nodes.size(), 0),
+      logged_(plan.mission.nodes.size()),
       wheels_raised_(robot.wheels.size(), 0),
       all_wheels_(robot.wheels.size(), 1),
       paths_(PathsOf(plan.mission)) {
@@ -319,16 +319,20 @@ std::string Supervisor::WhatIsWrong(std::size_t node) const {
   return text + (failure.persistence == Persistence::kPermanent ? "; permanent" : "; intermittent");
 }
 
-// A row for each node whose safety state has changed.
+// A row for each node whose risk has changed.
 void Supervisor::LogNodes(double t_s) {
   for (std::size_t i = logged_.size(); i-- > 0;) {
-    const double state = run_.risk(i).greatest;
-    if (state == logged_[i]) continue;
-    logged_[i] = state;
-    if (state == 0)
+    const MissionRun::Risk& risk = run_.risk(i);
+    if (risk == logged_[i]) continue;
+    logged_[i] = risk;
+    if (risk.greatest == 0)
       Say(t_s, i, "as it should be");
+    else if (primitives_[i] != nullptr)
+      Say(t_s, i, WhatIsWrong(i));
     else
-      Say(t_s, i, primitives_[i] != nullptr ? WhatIsWrong(i) : "by its worst");
+      Say(t_s, i,
+          risk.sum == risk.greatest ? "by its worst"
+                                    : fmt::format("by its worst; the sum is {:g}", risk.sum));
   }
 }
 
@@ -342,9 +346,9 @@ void Supervisor::LogTransitions(double t_s) {
 }
 
 void Supervisor::Say(double t_s, std::size_t node, std::string reason) {
-  const double state = run_.risk(node).greatest;
-  rows_.push_back({t_s, paths_[node], state, LevelOf(state, plan_.mission.levels),
-                   decision_.state(), std::move(reason)});
+  const MissionRun::Risk& risk = run_.risk(node);
+  rows_.push_back({t_s, paths_[node], risk.greatest, LevelOf(risk.greatest, plan_.mission.levels),
+                   decision_.state(), std::move(reason), risk.sum});
 }
 
 }  // namespace floorproof

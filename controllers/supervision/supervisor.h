@@ -22,6 +22,7 @@ struct SafetyRow {
   SafetyLevel level = SafetyLevel::kHigh;
   DecisionState machine = DecisionState::kNormal;
   std::string reason;
+  double sum = 0;  // of its skills' safety states; safety_state is the greatest
 };
 
 // An alarm that was raised.
@@ -121,7 +122,7 @@ class Supervisor {
   std::string stopped_;
 
   std::vector<std::vector<int>> raised_;  // by monitor and alarm: 1 + its place in alarms_, or 0
-  std::vector<double> logged_;            // by node: its safety state in its last row
+  std::vector<MissionRun::Risk> logged_;  // by node: in its last row
   std::size_t transitions_ = 0;           // that stand in the rows
   std::vector<char> wheels_raised_, all_wheels_;
   std::vector<double> radps_;

@@ -56,6 +56,11 @@ TEST(Timeline, HoldsAnyNumberOfRowsAndNone) {
   EXPECT_GT(DrawTimeline(timeline).height, alone + 30 * 20);
   timeline.curve = TimelineCurve{"R", {{0, 0}, {50, 100}}, 120, {{60, "fatal above"}}, kBlue};
   EXPECT_NE(Columns(DrawTimeline(timeline), kBlue).second, 0);
+  constexpr Rgb kPink = {204, 121, 167};
+  EXPECT_EQ(Columns(DrawTimeline(timeline), kPink).second, 0);
+  timeline.curve->behind = {{0, 0}, {50, 110}};
+  timeline.curve->behind_colour = kPink;
+  EXPECT_NE(Columns(DrawTimeline(timeline), kPink).second, 0);
 }
 
 // The strip keeps to what lies above the status bar, and its line goes with the film's time.

@@ -66,6 +66,17 @@ TEST_F(SafetyTimelineTest, ShowsWhatWasBrokenWheneverItWas) {
   EXPECT_LE(Row("broken: loose").spans.size(), 2000u);
 }
 
+TEST_F(SafetyTimelineTest, ShowsTheSumWhereSkillsBesideEachOtherFail) {
+  for (SafetyRow& row : record_.safety) row.sum = row.safety_state;
+  EXPECT_TRUE(SafetyTimeline(scenario_, record_).curve->behind.empty());
+  record_.safety[1].sum = 130;
+  const TimelineCurve dut = *SafetyTimeline(scenario_, record_).curve;
+  using Steps = std::vector<std::pair<double, double>>;
+  EXPECT_EQ(dut.steps, (Steps{{0, 0}, {20, 48}, {30, 0}}));
+  EXPECT_EQ(dut.behind, (Steps{{0, 0}, {20, 130}, {30, 0}}));
+  EXPECT_EQ(dut.most, 130);
+}
+
 TEST_F(SafetyTimelineTest, OfASoundDriveIsQuiet) {
   record_.safety.clear();
   record_.alarms.clear();

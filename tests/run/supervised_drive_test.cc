@@ -221,6 +221,47 @@ TEST_F(SupervisedDrive, TheWorkedExampleIsDriven) {
   EXPECT_THAT(dut.message, HasSubstr("there.go reached Zcrit: 96 >= 61"));
 }
 
+constexpr const char* kBeside = R"(mission: 1
+name: m
+primitives:
+  follow_plan: {}
+  lidar: {type: service, monitors: [scan_signal], severity: catastrophic, occurrence: very_low, availability: singular}
+  bumper: {type: service, monitors: [bumper_signal], severity: catastrophic, occurrence: low, availability: eminent}
+  battery: {type: service, monitors: [battery_trend], severity: catastrophic, occurrence: low, availability: eminent}
+skills:
+  drive: {run: [follow_plan]}
+  see: {with: [lidar]}
+  feel: {with: [bumper]}
+  feed: {with: [battery]}
+tasks:
+  cover: {run: [drive], with: [senses, feed]}
+  senses: {with: [see, feel]}
+run: [cover]
+)";
+constexpr const char* kThreeFaults =
+    "[{type: silent_sensor, sensor: lidar, onset_s: 6}, {type: stuck_bumper, onset_s: 8}, "
+    "{type: battery_sag, onset_s: 10}]";
+
+// Section 3.3 in physics: three skills of at most 30 each, none near Zcrit, are 18 + 18 + 30
+// together.
+TEST_F(SupervisedDrive, TheSumOfSkillsBesideEachOtherStopsIt) {
+  Save("m.yaml", kBeside);
+  const std::string more = "mission: m.yaml\nsensors: {lidar: {}, bumper: {}}\n";
+  const EpisodeRecord dut = DriveWith(kThreeFaults, more);
+  EXPECT_EQ(dut.outcome, Outcome::kAborted) << dut.message;
+  EXPECT_THAT(dut.message, HasSubstr("definitive_stop: the sum reached ZZcrit: "));
+  double greatest = 0, sum = 0;
+  for (const SafetyRow& row : dut.safety) {
+    if (row.node != "m") continue;
+    greatest = std::max(greatest, row.safety_state);
+    sum = std::max(sum, row.sum);
+  }
+  EXPECT_LT(greatest, 43) << "no skill is even serious";
+  EXPECT_GE(sum, 61);
+  EXPECT_THAT(SafetyCsv(dut), HasSubstr("cover.senses.see.lidar,"));
+  EXPECT_THAT(SafetyCsv(dut), HasSubstr(",by its worst; the sum is "));
+}
+
 TEST_F(SupervisedDrive, IsResolvedWithEveryDefaultAndDrivesTheSame) {
   Save("m.yaml", kMission);
   for (const char* more : {"safety: {wait_s: 3}\n", "mission: m.yaml\nsafety: {monitors: {}}\n"}) {
@@ -266,6 +307,12 @@ TEST_F(SupervisedDrive, BadOnesAreOneLineThatNamesTheRule) {
   EXPECT_THAT(Refusal("mission: go\n"),
               HasSubstr("mission = go: must be follow_plan, or a .yaml file"));
   EXPECT_THAT(Refusal("mission: n.yaml\n"), HasSubstr("n.yaml"));
+  std::string both = kMission;
+  both.replace(both.find("there: [go]"), 11, "there: {run: [go], with: [back]}");
+  Save("both.yaml", both);
+  EXPECT_THAT(Refusal("mission: both.yaml\n"),
+              HasSubstr("both.yaml:10: tasks.there.with = back: needs the wheels while go does, "
+                        "which runs beside it"));
   EXPECT_THAT(Refusal("mission: m.yaml\n"),
               HasSubstr("plan: stands beside a mission that says itself where to drive"));
   Save("far.yaml",

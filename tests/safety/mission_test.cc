@@ -13,8 +13,9 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const std::vector<PrimitiveType> kTypes = {{"rotation", {"yaw_deg", "p1_s"}},
-                                           {"line", {"x_m", "y_m", "p1_s"}},
+const std::vector<PrimitiveType> kTypes = {{"rotation", {"yaw_deg", "p1_s"}, true, "the wheels"},
+                                           {"line", {"x_m", "y_m", "p1_s"}, true, "the wheels"},
+                                           {"brush", {}, true, "the brush"},
                                            {"acceleration_control", {"p2_s"}, false},
                                            {"stand", {}, false}};
 
@@ -203,6 +204,80 @@ TEST_F(MissionTest, AFailedSkillRemainsARisk) {
   EXPECT_EQ(dut.risk(0).sum, 2 * (2 + 4));
 }
 
+constexpr const char* kBeside = R"(mission: 1
+name: hall
+primitives:
+  line: {severity: catastrophic, extent: isolated, occurrence: very_low}
+  brush: {severity: minor, extent: isolated, occurrence: low}
+  watch: {type: stand, severity: minor, extent: external, occurrence: very_low}
+  listen: {type: stand, severity: catastrophic, extent: isolated, occurrence: low}
+skills:
+  go: {run: [line]}
+  sweep: {run: [brush]}
+  see: {with: [watch]}
+  hear: {with: [listen]}
+tasks:
+  there: {run: [go, go], with: [senses, sweep]}
+  senses: {with: [see, hear]}
+  back: [go]
+run: [there, back]
+)";
+
+TEST_F(MissionTest, SkillsAndTasksRunBesideThoseInOrderAndEndWithThem) {
+  const Mission mission = Read(kBeside);
+  MissionRun dut = Run(mission);
+  scripts_["line"].periods = 3;
+  scripts_["brush"].periods = 2;
+  for (const char* name : {"watch", "listen"}) scripts_[name].periods = 1000;
+  EXPECT_EQ(dut.Update(0), NodeStatus::kRunning);
+  EXPECT_THAT(log_, ElementsAre("watch", "listen", "brush", "line"));
+  dut.Update(1);
+  EXPECT_EQ(dut.status(Find(mission, "sweep")), NodeStatus::kDone);
+  EXPECT_EQ(dut.status(Find(mission, "there")), NodeStatus::kRunning) << "one of those beside it";
+  for (int i = 2; i < 5; ++i) dut.Update(i);
+  EXPECT_EQ(log_.size(), 6u) << "the second line, and the one of the next task";
+  for (const char* name : {"there", "senses", "see", "hear", "watch", "listen"})
+    EXPECT_EQ(dut.status(Find(mission, name)), NodeStatus::kDone) << name;
+  EXPECT_EQ(dut.status(Find(mission, "back")), NodeStatus::kRunning);
+}
+
+// Section 3.3: sum R_i is of every skill. See 4 x (2 + 1 x 1), hear 6 x (1 + 1 x 2), go 6 x (2 +
+// 1).
+TEST_F(MissionTest, OfSkillsBesideEachOtherTheRisksAddUp) {
+  const Mission mission = Read(kBeside);
+  MissionRun dut = Run(mission);
+  DecisionMachine decision({.z_crit = 61, .zz_crit = 47});
+  for (const char* name : {"line", "brush", "watch", "listen"}) scripts_[name].periods = 1000;
+  scripts_["watch"].failure = Failure{Persistence::kIntermittent, Availability::kSingular};
+  scripts_["listen"].failure = Failure{Persistence::kIntermittent, Availability::kEminent};
+  const auto update = [&](double t_s) {
+    dut.Update(t_s);
+    decision.Update(t_s, dut.safety_states(), false);
+  };
+  update(0);
+  for (const char* name : {"senses", "there", "hall"}) {
+    EXPECT_EQ(dut.risk(Find(mission, name)).greatest, 18) << name;
+    EXPECT_EQ(dut.risk(Find(mission, name)).sum, 12 + 18) << name;
+  }
+  EXPECT_EQ(decision.state(), DecisionState::kFaultMode);
+  scripts_["line"].failure = Failure{Persistence::kIntermittent, Availability::kSingular};
+  update(1);
+  EXPECT_EQ(dut.risk(0).greatest, 18) << "no skill is near Zcrit";
+  EXPECT_EQ(dut.risk(0).sum, 12 + 18 + 18);
+  EXPECT_EQ(decision.state(), DecisionState::kAbort);
+  EXPECT_EQ(decision.transitions().back().edge, DecisionEdge::kSumIntolerable);
+}
+
+TEST_F(MissionTest, ASkillBesideOthersThatFailsFailsItsTask) {
+  const Mission mission = Read(kBeside);
+  MissionRun dut = Run(mission);
+  for (const char* name : {"line", "brush", "watch"}) scripts_[name].periods = 1000;
+  scripts_["listen"].fails = true;
+  EXPECT_EQ(dut.Update(0), NodeStatus::kFailed);
+  for (const char* name : {"hear", "senses", "there", "hall"})
+    EXPECT_EQ(dut.status(Find(mission, name)), NodeStatus::kFailed) << name;
+}
+
 TEST(MissionFile, KeepsARatingsOwnKeysForItsType) {
   const Mission mission = Read(
       "mission: 1\nprimitives: {line: {p1_s: 3, severity: 2}}\nskills: {go: {run: [line]}}\n"
@@ -294,6 +369,48 @@ TEST(MissionFile, WhatCannotBeIsRefusedWithLineAndKey) {
   EXPECT_THAT(refusal("run: [and_back, there]", "run: []"), HasSubstr("run"));
   EXPECT_THAT(refusal("  turn: {run: [rotation]}", "  line: {run: [rotation]}"),
               HasSubstr("skills.line: is the name of a primitive, too"));
+}
+
+TEST(MissionFile, WhatCannotRunSideBySideIsRefusedWithLineAndKey) {
+  const auto refusal = [](const std::string& from, const std::string& to) -> std::string {
+    std::string text = kBeside;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    try {
+      Read(text.replace(at, from.size(), to));
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "taken";
+  };
+  const std::string with = "with: [senses, sweep]";
+  EXPECT_EQ(refusal(with, with), "taken");
+  EXPECT_EQ(refusal(with, "with: [senses, back]"),
+            "m.yaml:14: tasks.there.with = back: needs the wheels while go does, which runs beside "
+            "it");
+  EXPECT_EQ(refusal(with, "with: [sweep, sweep]"),
+            "m.yaml:14: tasks.there.with = sweep: needs the brush while sweep does, which runs "
+            "beside it");
+  EXPECT_EQ(refusal("senses: {with: [see, hear]}", "senses: {with: [see, go]}"),
+            "m.yaml:14: tasks.there.with = senses: needs the wheels while go does, which runs "
+            "beside it")
+      << "however deep";
+  EXPECT_EQ(refusal("back: [go]", "back: [see]"),
+            "m.yaml:16: tasks.back = see: goes on for ever: it belongs under with");
+  EXPECT_EQ(refusal("run: [go, go]", "run: [go, senses]"),
+            "m.yaml:14: tasks.there.run = senses: goes on for ever: it belongs under with");
+  EXPECT_EQ(refusal("run: [there, back]", "run: [senses]"),
+            "m.yaml:17: run = senses: goes on for ever: it belongs under with");
+  EXPECT_EQ(refusal("run: [go, go], ", "run: [], "),
+            "m.yaml:14: tasks.there.run: must be a list of skills or tasks");
+  EXPECT_EQ(refusal("{run: [go, go], with: [senses, sweep]}", "{}"),
+            "m.yaml:14: tasks.there.run: must be a list of skills or tasks");
+  EXPECT_THAT(refusal("run: [go, go], ", "run: [go, go], wiht: [see], "),
+              HasSubstr("m.yaml:14: tasks.there.wiht: unknown key; did you mean with?"));
+  EXPECT_THAT(
+      refusal("back: [go]", "back: go"),
+      HasSubstr("m.yaml:16: tasks.back = go: must be a list of skills or tasks, or a map of "
+                "run and with"));
 }
 
 TEST(MissionFile, ATreeThatGrowsAsAPowerIsRefused) {
