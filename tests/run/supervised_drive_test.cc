@@ -196,7 +196,9 @@ TEST_F(SupervisedDrive, AMissionOfGoTosIsDrivenWithoutAPlan) {
   }
 }
 
-// Section 4 in physics: an intermittent fault of both motors is 60, and 96 once it is permanent.
+// Section 4 in physics: an intermittent fault of both motors is 60, and 96 once the time-out makes
+// it permanent. There it is the time-out alone that does: monitors are not to decide it earlier,
+// and the robot goes on trying.
 TEST_F(SupervisedDrive, TheWorkedExampleIsDriven) {
   std::string mission = kMission;
   for (const char* name : {"rotation: {", "line: {", "acceleration_control: {"})
@@ -204,7 +206,11 @@ TEST_F(SupervisedDrive, TheWorkedExampleIsDriven) {
                    "monitors: [wheel_speed, motor_current], ");
   Save("m.yaml", mission);
   std::string text =
-      RoomScenario("", "mission: m.yaml\nfaults: [{type: weak_motor, wheel: all, onset_s: 9}]\n");
+      RoomScenario("",
+                   "mission: m.yaml\n"
+                   "faults: [{type: weak_motor, wheel: all, onset_s: 9}]\n"
+                   "safety: {most_waits: 1000, monitors: {wheel_speed: {permanent_s: "
+                   "1000}, motor_current: {permanent_s: 1000}}}\n");
   text.replace(text.find("plan: {file: plan.csv}\n"), 23, "");
   const EpisodeRecord dut = Drive(Read(text));
   EXPECT_EQ(dut.outcome, Outcome::kAborted);
@@ -219,6 +225,10 @@ TEST_F(SupervisedDrive, TheWorkedExampleIsDriven) {
   EXPECT_THAT(machine, Contains(DecisionState::kReconfiguring));
   EXPECT_EQ(machine.back(), DecisionState::kAbort);
   EXPECT_THAT(dut.message, HasSubstr("there.go reached Zcrit: 96 >= 61"));
+  EXPECT_THAT(dut.message, HasSubstr("its skill took longer than timeout_s; permanent"));
+  const auto fatal = std::ranges::find(dut.safety, 96, &SafetyRow::safety_state);
+  ASSERT_NE(fatal, dut.safety.end());
+  EXPECT_NEAR(fatal->t_s, 60, 0.1) << "the skill began with the drive";
 }
 
 constexpr const char* kBeside = R"(mission: 1
