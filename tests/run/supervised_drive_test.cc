@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Supervised robots in physics, and scenarios that supervise.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -124,6 +125,24 @@ TEST_F(SupervisedDrive, IsRecordedChangeByChange) {
   const auto json = ResultJson(scenario, record);
   EXPECT_EQ(json["outcome"], "aborted");
   EXPECT_EQ(json["alarms"][0]["wheel"], "wheel_left");
+}
+
+// The lean of the floor is not the load's, whether or not the map knows the ramps.
+TEST_F(SupervisedDrive, RampsAreDrivenAsWithoutSupervision) {
+  Save("plan.csv", "x_m,y_m\n1.5,2.5\n7.5,2.5\n7.5,1.5\n1.5,1.5\n");
+  for (const char* known : {"", ", known: false"}) {
+    const auto ramp = [&](const char* from_m, const char* to_m, int toward_deg) {
+      return fmt::format(
+          "{{type: ramp, polygon_m: [[{0}, 0.5], [{1}, 0.5], [{1}, 4.5], [{0}, 4.5]], "
+          "slope_deg: 4.7636, toward_deg: {2}{3}}}",
+          from_m, to_m, toward_deg, known);
+    };
+    const std::string ramps = ramp("2.82", "4.5", 0) + ", " + ramp("4.5", "6.18", 180);
+    const EpisodeRecord dut = DriveWith("[]", "safety: {}\n", ramps);
+    EXPECT_EQ(dut.outcome, Outcome::kSuccess) << known << dut.message;
+    EXPECT_EQ(dut.metrics.false_alarms, 0) << known;
+    EXPECT_THAT(dut.alarms, IsEmpty()) << known;
+  }
 }
 
 // A person who comes because it asked tells it where it is.

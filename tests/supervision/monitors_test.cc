@@ -234,6 +234,65 @@ TEST_F(MonitorTest, LeanIsAChangeThatLasts) {
   EXPECT_TRUE(raised());
 }
 
+// A floor's lean keeps its direction in the world; a load's keeps its own in the body.
+class LeanTest : public MonitorTest {
+ protected:
+  LeanTest() {
+    Watch("lean");
+    robot_->Tell(kAhead);
+    Go(20);
+  }
+  static Vec3 Up(double deg, double toward_rad) {
+    const double rad = deg * kPi / 180;
+    return Vec3(std::sin(rad) * std::cos(toward_rad), std::sin(rad) * std::sin(toward_rad),
+                std::cos(rad)) *
+           9.81;
+  }
+  // Drives so, on a slope that the map does not know.
+  void OnASlope(const BodyTwist& twist, double for_s, double deg = 4.76) {
+    robot_->Tell(twist);
+    Go(for_s, [&] {
+      robot_->accel_mps2 = Up(deg, -robot_->estimate.X_WB.yaw_rad);
+      EXPECT_FALSE(raised()) << robot_->t_s;
+    });
+  }
+};
+
+TEST_F(LeanTest, ARampThatNoMapKnowsIsNoLoad) {
+  OnASlope(kAhead, 36);  // 9 m
+  OnASlope({0, 0, 1}, kPi);
+  OnASlope(kAhead, 30);
+  OnASlope({0, 0, 0.3}, 12 * kPi);
+  OnASlope({}, 30);
+  OnASlope({0, 0, 1}, kPi / 2);
+  OnASlope({}, 30);
+}
+
+TEST_F(LeanTest, ALoadThatHasShiftedIsSeenAtTheNextTurn) {
+  robot_->accel_mps2 = Up(3, 0.4);
+  Go(20);
+  EXPECT_FALSE(raised()) << "5 m, straight on: it may be a ramp";
+  robot_->Tell({0, 0, 1});
+  Go(kPi / 2);
+  robot_->Tell(kAhead);
+  Go(2);
+  EXPECT_TRUE(raised());
+}
+
+TEST_F(LeanTest, ALoadThatHasShiftedIsSeenAfterALongWay) {
+  robot_->accel_mps2 = Up(3, 0.4);
+  Go(50);
+  EXPECT_TRUE(raised());
+}
+
+TEST_F(LeanTest, UnderAStandingRobotNoFloorChanges) {
+  robot_->Tell({});
+  Go(5);
+  robot_->accel_mps2 = Up(3, 0.4);
+  Go(6);
+  EXPECT_TRUE(raised());
+}
+
 TEST_F(MonitorTest, CovarianceIsAnEstimateThatHasBecomeUnsure) {
   Watch("covariance");
   robot_->estimate.position_std_m = 0.5;
