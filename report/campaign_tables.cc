@@ -33,7 +33,14 @@ const FailureRate* Find(const VariantSummary& variant, std::string_view name) {
   return rate == variant.failures.end() ? nullptr : &*rate;
 }
 
-// The modes of which any variant has a failure.
+// Whether some drives neither succeeded nor failed: they ran out of time, or stopped themselves.
+bool EndsOtherwise(const VariantSummary& variant) {
+  const FailureRate* any = Find(variant, "any_failure");
+  const FailureRate* not_success = Find(variant, "not_success");
+  return any != nullptr && not_success != nullptr && not_success->k != any->k;
+}
+
+// The modes of which any variant has a failure, and not_success where it is more than these.
 std::vector<std::string_view> ModesSeen(const CampaignSummary& summary) {
   std::vector<std::string_view> seen;
   for (int mode = 0; mode < kNumFailureModes; ++mode) {
@@ -44,6 +51,7 @@ std::vector<std::string_view> ModesSeen(const CampaignSummary& summary) {
         }))
       seen.push_back(name);
   }
+  if (std::ranges::any_of(summary.variants, EndsOtherwise)) seen.push_back("not_success");
   return seen;
 }
 
@@ -59,7 +67,7 @@ TextTable ModesOfOne(const VariantSummary& variant) {
   std::string none;  // they have the same bound
   const FailureRate* first_none = nullptr;
   for (const FailureRate& rate : variant.failures) {
-    if (rate.name == any->name || (rate.name == "not_success" && rate.k == any->k)) continue;
+    if (rate.name == any->name || (rate.name == "not_success" && !EndsOtherwise(variant))) continue;
     if (rate.k > 0) {
       table.Add({Words(rate.name), Number(rate.k), RateText(rate), IntervalText(rate)});
       continue;

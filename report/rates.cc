@@ -199,14 +199,17 @@ std::string PairTable(const ReportPair& pair) {
 }  // namespace
 
 std::string VariantsTable(const Report& report) {
+  const std::string_view metric =
+      report.summary.gate ? std::string_view(report.summary.gate->metric) : "any_failure";
   std::vector<std::string> names;
   std::vector<FailureRate> rates;
   for (const VariantSummary& variant : report.summary.variants) {
-    if (variant.failures.empty()) continue;
+    const auto rate = std::ranges::find(variant.failures, metric, &FailureRate::name);
+    if (rate == variant.failures.end()) continue;
     names.push_back(variant.name);
-    rates.push_back(variant.failures.front());
+    rates.push_back(*rate);
   }
-  return RatesTable(PlotOf(report), "Any failure, by variant", names, rates);
+  return RatesTable(PlotOf(report), "By variant: " + Words(metric), names, rates);
 }
 
 std::string VariantRates(const Report& report, const VariantSummary& v) {

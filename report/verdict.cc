@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <set>
 #include <string_view>
 
 #include "base/quantity.h"
@@ -32,9 +33,8 @@ std::string PlanOf(const Scenario& s) {
   return "plan " + s.plan_file.filename().string();
 }
 
-// The rate that is judged: the gate's, else of any failure. None: no episode counts.
-const FailureRate* JudgedRate(const VariantSummary& v, const std::optional<GateSummary>& gate) {
-  const std::string_view metric = gate ? std::string_view(gate->metric) : "any_failure";
+// The rate that is judged. None: no episode counts.
+const FailureRate* JudgedRate(const VariantSummary& v, std::string_view metric) {
   auto found = std::ranges::find(v.failures, metric, &FailureRate::name);
   if (found == v.failures.end()) found = v.failures.begin();
   return found == v.failures.end() || found->n == 0 ? nullptr : &*found;
@@ -49,8 +49,8 @@ std::string OtherEnds(const VariantSummary& v) {
 }
 
 // "3 failures in 1,000 drives (0.3 %), 0.06 % to 0.87 % at 95 %"
-std::string RateText(const VariantSummary& v, const std::optional<GateSummary>& gate) {
-  const FailureRate* rate = JudgedRate(v, gate);
+std::string RateText(const VariantSummary& v, std::string_view metric) {
+  const FailureRate* rate = JudgedRate(v, metric);
   if (rate == nullptr) return "no drive that counts";
   const bool any = rate->name == "any_failure";
   if (v.repeated)
@@ -69,14 +69,27 @@ std::string RateText(const VariantSummary& v, const std::optional<GateSummary>& 
   return rate->name == "not_success" ? text : text + OtherEnds(v);
 }
 
+// What is judged: the gate's metric, else any_failure, but not_success if only this tells the
+// variants apart.
+std::string_view JudgedMetric(const CampaignSummary& summary) {
+  if (summary.gate) return summary.gate->metric;
+  const auto differ = [&](std::string_view metric) {
+    std::set<double> rates;
+    for (const VariantSummary& v : summary.variants)
+      if (const FailureRate* rate = JudgedRate(v, metric)) rates.insert(rate->rate);
+    return rates.size() > 1;
+  };
+  return !differ("any_failure") && differ("not_success") ? "not_success" : "any_failure";
+}
+
 // The least and the most often failing of several variants.
-std::string Extremes(const Report& report) {
+std::string Extremes(const Report& report, std::string_view metric) {
   const auto& variants = report.summary.variants;
   const auto rate = [&](const VariantSummary& v) {
-    const FailureRate* judged = JudgedRate(v, report.summary.gate);
+    const FailureRate* judged = JudgedRate(v, metric);
     return judged == nullptr ? 2.0 : judged->rate;
   };
-  const auto text = [&](const VariantSummary& v) { return RateText(v, report.summary.gate); };
+  const auto text = [&](const VariantSummary& v) { return RateText(v, metric); };
   const auto least = std::ranges::min_element(
       variants, [&](const auto& a, const auto& b) { return rate(a) < rate(b); });
   if (rate(*least) > 1) return "no robot drove: the episodes are plans only, or none counts";
@@ -141,8 +154,9 @@ std::string VerdictText(const Report& report) {
   if (const std::string errors = ErrorsText(report.summary); !errors.empty())
     return (report.subject.empty() ? "" : report.subject + ": ") + errors +
            ". No failure rate is given.";
+  const std::string_view metric = JudgedMetric(report.summary);
   const std::string rates =
-      variants.size() == 1 ? RateText(variants.front(), gate) : Extremes(report);
+      variants.size() == 1 ? RateText(variants.front(), metric) : Extremes(report, metric);
   std::string text = report.subject.empty() ? "" : report.subject + ": ";
   // Of several variants the gate's word on all of them comes first.
   if (gate && variants.size() > 1)

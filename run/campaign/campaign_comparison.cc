@@ -235,6 +235,8 @@ Comparison CompareVariants(const CampaignStore& a, const std::string& variant_a,
     out.failures.push_back(
         CompareFailures(std::string(Name(static_cast<FailureMode>(m))), pairs,
                         [m](const EpisodeRow& row) { return row.events_of[m] > 0; }));
+  out.failures.push_back(CompareFailures(
+      "not_success", pairs, [](const EpisodeRow& row) { return row.outcome != "success"; }));
   for (std::size_t i = 0; i < kMetrics.size(); ++i) {
     ComparedMetric compared{std::string(kMetrics[i].name), kMetrics[i].needs_success, {}, {}};
     std::vector<double> differences;

@@ -15,7 +15,7 @@ namespace floorproof {
 
 // Differences are b - a, at 95 %.
 struct ComparedFailure {
-  std::string mode;  // or any_failure
+  std::string mode;  // or any_failure, not_success
   int both = 0, only_a = 0, only_b = 0, neither = 0;
   double difference = 0;  // of the rates; NaN without pairs
   Interval interval;      // Tango's score interval
@@ -46,7 +46,7 @@ struct Comparison {
   int n = 0;        // pairs of episodes that count in both: no errors, none without a plan
   int repeats = 0;  // pairs that came out the same, to the last bit, and count as one: n is 1
   int only_a = 0, only_b = 0;  // episodes that count on one side alone
-  std::vector<ComparedFailure> failures;
+  std::vector<ComparedFailure> failures;  // any_failure, each mode, not_success
   std::vector<ComparedMetric> metrics;
   std::vector<ComparedPlanFigure> plans;
   ComparedPlans risk_and_length;  // cumulative_risk and length_m

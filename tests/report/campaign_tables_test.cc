@@ -73,6 +73,17 @@ TEST(CampaignTables, CompareVariantsByMode) {
                   "    Fail: 1.67 %", "    95 % interval: 1.03 to 2.53 %"));
 }
 
+TEST(CampaignTables, CompareVariantsThatRanOutOfTime) {
+  CampaignSummary dut;
+  dut.variants = {Variant("slow", 0), Variant("fast", 0)};
+  dut.variants[0].success = 1180;
+  dut.variants[0].timeout = 20;
+  dut.variants[0].failures.back() = Rate("not_success", 20, 1200, 0.01037, 0.02525);
+  EXPECT_THAT(ModesTable(dut).Lines(80, false),
+              ElementsAre("  Drives that failed  not success", "  slow                     1.67 %",
+                          "  fast                       none"));
+}
+
 // All ended without being driven.
 TEST(CampaignTables, SayNoRateOfNoDrive) {
   CampaignSummary dut;

@@ -72,6 +72,13 @@ TEST(Verdict, OfSeveralVariantsNamesTheBestAndTheWorst) {
   EXPECT_THAT(VerdictText(Of({Summary("a", 2, 20), Summary("b", 1, 20), Summary("c", 3, 20)})),
               testing::AllOf(StartsWith("least often b: 1 failure in 20 drives"),
                              HasSubstr("; most often c: 3 failures in 20 drives")));
+  VariantSummary late = Summary("a", 0, 20), timely = Summary("b", 0, 20);
+  late.timeout = 20;
+  late.failures.push_back({"not_success", 20, 20, 1, 0.8, 1});
+  timely.failures.push_back({"not_success", 0, 20, 0, 0, 0.17});
+  EXPECT_THAT(VerdictText(Of({late, timely})),
+              testing::AllOf(StartsWith("b: not success in 0 of 20 drives"),
+                             HasSubstr("; a: not success in 20 of 20 drives (100 %)")));
   EXPECT_EQ(VerdictText(Of({Summary("a", 0, 0), Summary("b", 0, 0)})),
             "no robot drove: the episodes are plans only, or none counts.");
   Report gated = Of({Summary("a", 2, 20), Summary("b", 1, 20)});

@@ -54,7 +54,8 @@ TEST_F(CompareVariantsTest, EpisodesAreJoinedByTheirIds) {
   EXPECT_EQ(dut.only_a, 1) << "0";
   EXPECT_EQ(dut.only_b, 2) << "2 and 9";
   for (const ComparedFailure& failure : dut.failures) {
-    const bool happened = failure.mode == "any_failure" || failure.mode == "stuck";
+    const bool happened =
+        failure.mode == "any_failure" || failure.mode == "stuck" || failure.mode == "not_success";
     EXPECT_EQ(failure.both, happened) << failure.mode;
     EXPECT_EQ(failure.only_a, happened) << failure.mode;
     EXPECT_EQ(failure.only_b, happened) << failure.mode;
@@ -81,6 +82,20 @@ TEST_F(CompareVariantsTest, DifferencesAreOfTheSecondAgainstTheFirst) {
   EXPECT_GT(dut.failures.front().interval.lower, 0);
   EXPECT_NEAR(dut.failures.front().p, 2.0 / 256, 1e-15);
   EXPECT_DOUBLE_EQ(Find(dut, "coverage")->mean.estimate, 0.4);
+}
+
+// A drive that ran out of time has failed by no mode, and has not succeeded.
+TEST_F(CompareVariantsTest, TimeoutsAreNoSuccess) {
+  for (std::uint64_t episode = 0; episode < 10; ++episode) {
+    EpisodeRow late = Row("a", episode, false);
+    late.outcome = episode < 6 ? "timeout" : "success";
+    Add({late, Row("b", episode, false)});
+  }
+  const Comparison dut = Compare();
+  EXPECT_EQ(dut.failures.front().only_a, 0);
+  EXPECT_EQ(dut.failures.back().mode, "not_success");
+  EXPECT_EQ(dut.failures.back().only_a, 6);
+  EXPECT_DOUBLE_EQ(dut.failures.back().difference, -0.6);
 }
 
 // What failed early has driven for less time: no merit of its own.
