@@ -18,6 +18,10 @@ std::string_view Name(Standstill standstill) {
   return "free";
 }
 
+Standstill UsualStandstill(double mass_kg) {
+  return mass_kg > kHeavyRobot_kg ? Standstill::kBrake : Standstill::kHold;
+}
+
 double EdgeAlong(const Shape2& shape, double bearing_rad) {
   if (shape.kind == Shape2::Kind::kCircle) return shape.radius_m;
   const Vec2 way(std::cos(bearing_rad), std::sin(bearing_rad));

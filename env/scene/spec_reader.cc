@@ -54,12 +54,11 @@ void ReadBattery(const CompiledRobot& compiled, RobotSpec& robot) {
   }
 }
 
-// As the model says; else brakes on a heavy robot, and motors that hold their wheels on others.
+// As the model says; else the usual one.
 Standstill ReadStandstill(const CompiledRobot& compiled, double mass_kg) {
   constexpr const char* kKey = "standstill";
-  constexpr double kHeavy_kg = 40;
   if (mj_name2id(compiled.model(), mjOBJ_TEXT, kKey) < 0)
-    return mass_kg > kHeavy_kg ? Standstill::kBrake : Standstill::kHold;
+    return UsualStandstill(mass_kg);
   const std::string text = compiled.Text(kKey);
   for (const Standstill kind : {Standstill::kBrake, Standstill::kHold, Standstill::kFree})
     if (text == Name(kind)) return kind;

@@ -73,6 +73,8 @@ class Writer {
     for (const char* name : {"clear_shape", "tool_shape"})
       Line(2, fmt::format("<text name=\"{}\" data=\"{}\"/>  {}", name, shape,
                           Comment("guess: what it keeps clear, and what it sweeps")));
+    Line(2, fmt::format("<text name=\"standstill\" data=\"{}\"/>  {}", guesses_.standstill.value,
+                        Comment(guesses_.standstill.why)));
     Number("tool_width_m", guesses_.tool_width_m);
     Number("step_m", guesses_.step_m);
     Number("cruise_mps", guesses_.cruise_mps);

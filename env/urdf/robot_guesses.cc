@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "base/quantity.h"
+#include "env/core/robot_spec.h"
 #include "env/urdf/round_fit.h"
 
 namespace floorproof {
@@ -175,6 +176,13 @@ RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers) {
   out.tool_width_m = Take(answers.tool_width_m, kTool * sizes.width_m, "0.8 of its width");
   out.step_m = Take(answers.step_m, std::min(kStep * sizes.radius_m, sizes.belly_m / 2),
                     "a tenth of the wheel's radius, at most half the belly's clearance");
+  if (answers.standstill.empty())
+    out.standstill = {std::string(Name(UsualStandstill(robot.mass_kg()))),
+                      fmt::format("{}robots of more than {:g} kg have brakes, others have motors "
+                                  "that hold their wheels' positions",
+                                  kGuess, kHeavyRobot_kg)};
+  else
+    out.standstill = {answers.standstill, "given"};
   out.hotel_load_w = Take(answers.hotel_load_w, kHotel_w, "a small computer and a lidar");
   if (answers.sprung_share > 0) {
     out.spring_travel_m =
@@ -185,6 +193,10 @@ RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers) {
 }
 
 std::vector<std::string> Questions(const RobotGuesses& guesses) {
+  const auto line = [](const std::string& key, const std::string& value, const std::string& why) {
+    return fmt::format("{}{} {}, {} (--set {}=...)", kGuess, key, value, why.substr(kGuess.size()),
+                       key);
+  };
   struct Question {
     const char *key, *unit;
     const Figure& figure;
@@ -203,9 +215,9 @@ std::vector<std::string> Questions(const RobotGuesses& guesses) {
   std::vector<std::string> lines;
   for (const Question& q : questions)
     if (q.figure.why.starts_with(kGuess))
-      lines.push_back(std::string(kGuess) + q.key + " " + NumberText(q.figure.value) + " " +
-                      q.unit + ", " + q.figure.why.substr(kGuess.size()) + " (--set " + q.key +
-                      "=...)");
+      lines.push_back(line(q.key, NumberText(q.figure.value) + " " + q.unit, q.figure.why));
+  if (const Choice& choice = guesses.standstill; choice.why.starts_with(kGuess))
+    lines.push_back(line("standstill", choice.value, choice.why));
   return lines;
 }
 

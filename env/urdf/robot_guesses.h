@@ -17,6 +17,11 @@ struct Figure {
   std::string why;  // "given", or what it goes by; a guess begins with "guess: "
 };
 
+struct Choice {
+  std::string value;
+  std::string why;  // as Figure's
+};
+
 struct RobotGuesses {
   Figure no_load_radps, stall_nm;  // of each motor, at the wheel
   std::optional<double> peak_nm;   // where its driver limits the current
@@ -24,6 +29,7 @@ struct RobotGuesses {
   Figure armature_kgm2, driver_gain;
   Figure cruise_mps, max_speed_mps, max_accel_mps2, max_yaw_rate_radps, max_yaw_accel_radps2;
   Figure tool_width_m, step_m, hotel_load_w;
+  Choice standstill;                 // Name(Standstill)
   std::vector<WheelSpring> springs;  // one a driven wheel, or none
   Figure spring_travel_m;
 };

@@ -42,6 +42,8 @@ void UrdfAnswers::Visit(ParamVisitor& v) {
   v("step_m", step_m, kStep_m,
     "highest level change that it is trusted to cross (m); none: guessed");
   v("hotel_load_w", hotel_load_w, kPower_w, "computer and sensors (W); none: guessed");
+  v("standstill", standstill, {"brake", "hold", "free"},
+    "brakes, motors that hold their wheels' positions, or wheels that turn; none: guessed");
   v("lidar_z_m", lidar_z_m, kClearance_m,
     "height of the lidar's plane (m); none: of the link that is named after one");
 }

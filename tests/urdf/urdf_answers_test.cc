@@ -10,8 +10,10 @@
 namespace floorproof {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 UrdfAnswers Sprung(double share, double travel_m) {
   UrdfAnswers answers;
@@ -79,6 +81,19 @@ TEST(UrdfMotors, AreGuessedStrongEnoughToTurnASkidSteer) {
   const std::string text = Replaced(OnFourWheels(), "-0.02 0 0.05", "-0.1 0 0.05");
   for (const double share : {0.0, 1.0})
     EXPECT_THAT(Wrongs(CheckRobot(ConvertedFile(text, Sprung(share, 0.006)).string())), IsEmpty());
+}
+
+TEST(UrdfStandstill, IsGuessedByTheMassOrGiven) {
+  const auto light = Converted(WithBall(), {});
+  EXPECT_THAT(light.text, HasSubstr("<text name=\"standstill\" data=\"hold\"/>  <!-- guess: "));
+  EXPECT_THAT(light.notes,
+              Contains(HasSubstr("guess: standstill hold, robots of more than 40 kg")));
+  const std::string heavy = Replaced(WithBall(), "<mass value=\"5\"/>", "<mass value=\"50\"/>");
+  EXPECT_EQ(ReadRobot(ConvertedFile(heavy, {})).spec.standstill, Standstill::kBrake);
+  UrdfAnswers answers;
+  answers.standstill = "free";
+  EXPECT_EQ(ReadRobot(ConvertedFile(heavy, answers)).spec.standstill, Standstill::kFree);
+  EXPECT_THAT(Converted(heavy, answers).notes, Not(Contains(HasSubstr("standstill"))));
 }
 
 TEST(UrdfMotors, ACurrentLimitIsTheTorqueThatTheyGive) {
