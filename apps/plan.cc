@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "apps/command.h"
 #include "base/error.h"
@@ -19,19 +20,25 @@
 namespace floorproof {
 namespace {
 
-void CheckFaults(const std::vector<std::string>& allowed) {
+// The faults of a list with commas between.
+std::vector<std::string> ReadFaults(const std::string& list) {
   const std::vector<std::string> known(kPlanFaults.begin(), kPlanFaults.end());
-  for (const std::string& fault : allowed)
+  std::vector<std::string> faults;
+  std::istringstream items(list);
+  for (std::string fault; std::getline(items, fault, ',');) {
     if (std::ranges::find(known, fault) == known.end())
       throw InputError({"--allow", 0}, "", fault, "unknown fault" + DidYouMeanOneOf(fault, known));
+    faults.push_back(std::move(fault));
+  }
+  return faults;
 }
 
 }  // namespace
 
 void AddPlan(CommandLine& line, const Globals& globals, int& status) {
   struct Options {
-    std::string scenario, out;
-    std::vector<std::string> beside, allow;
+    std::string scenario, out, allow;
+    std::vector<std::string> beside;
     bool strict = false;
   };
   auto options = std::make_shared<Options>();
@@ -44,10 +51,12 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
   command.Flag("--strict", options->strict,
                "Exit status 1 if the plan overlaps an obstacle, has a coverage gap or an "
                "unreachable sample, or has a warning");
-  command.Texts("--allow", options->allow,
-                "With --strict: faults to accept (overlap, gap, warning)");
+  command.Text("--allow", options->allow,
+               "With --strict: faults to accept, with commas between (overlap,gap,warning)");
   command.OnRun([options, &globals, &status] {
-    CheckFaults(options->allow);
+    const std::vector<std::string> allowed = ReadFaults(options->allow);
+    if (!allowed.empty() && !options->strict)
+      throw InputError({"--allow", 0}, "", options->allow, "accepts faults of --strict alone");
     Scenario scenario = ReadScenario(options->scenario, globals.Overrides());
     std::vector<std::string> lines = Warnings(scenario);
     for (const std::string& warning : lines) globals.Say(warning);
@@ -95,9 +104,11 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     globals.Result(json);
     std::string refused;
     for (const std::string& fault : faults)
-      if (options->strict && std::ranges::find(options->allow, fault) == options->allow.end())
-        refused += (refused.empty() ? "" : ", ") + fault;
-    if (!refused.empty()) globals.Say("plan rejected by --strict: " + refused);
+      if (options->strict && std::ranges::find(allowed, fault) == allowed.end())
+        refused += (refused.empty() ? "" : ",") + fault;
+    if (!refused.empty())
+      globals.Say("plan rejected by --strict: " + refused + " (--allow " + refused +
+                  " accepts this)");
     status = found && refused.empty() ? kExitDone : kExitNotSuccess;
   });
 }

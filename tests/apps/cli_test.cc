@@ -224,13 +224,15 @@ TEST_F(Cli, APlanIsJudgedStrictlyOnDemand) {
   EXPECT_EQ(plan(into_wall, "").status, 0) << "a warning is no error";
   EXPECT_EQ(plan(into_wall, "--strict").status, 1);
   EXPECT_EQ(plan(into_wall, "--strict --allow gap").status, 1);
-  EXPECT_EQ(plan(into_wall, "--strict --allow gap overlap").status, 0);
+  EXPECT_EQ(plan(into_wall, "--strict --allow gap,overlap").status, 0);
   EXPECT_EQ(plan(short_way, "--strict").status, 1);
   EXPECT_EQ(plan(short_way, "--strict --allow gap").status, 0);
   EXPECT_EQ(plan(short_way, "--strict --allow gap --set success.min_coverage=0.9").status, 1);
   const Result unknown = plan(short_way, "--strict --allow gaps");
   EXPECT_EQ(unknown.status, 2);
   EXPECT_THAT(unknown.err, HasSubstr("--allow: gaps: unknown fault"));
+  EXPECT_THAT(plan(short_way, "--allow gap").err,
+              HasSubstr("--allow: gap: accepts faults of --strict alone"));
 }
 
 TEST_F(Cli, AStartInAWallIsBadInput) {
