@@ -196,6 +196,9 @@ installs_a_link() {
   echo mine >"$HOME/.local/bin/floorproof"
   run install
   expect "what is no link stays" test "$status" = 2 -a "$(<"$HOME/.local/bin/floorproof")" = mine
+  run install --help
+  expect "an argument is refused" test "$status" = 2
+  expect "and what it does is said" says err "install takes no argument"
 }
 
 rebuilds_what_changed() {
