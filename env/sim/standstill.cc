@@ -11,7 +11,8 @@ namespace {
 constexpr double kMoment_s = 0.1;     // for which wheels stand before they are held
 constexpr double kStands_mps = 0.05;  // slower than that is a rim: a driver that gives way creeps
 constexpr double kStiffness_radps = 10;  // commanded speed, for each radian of error
-constexpr int kNoSlipIterations = 20;
+// How much stiffer the contacts' friction is than their normal forces: MuJoCo's `impratio`.
+constexpr double kFrictionStiffness = 1000;
 // The engine's usual softness would let a held wheel creep.
 constexpr double kStable = 0.05;  // of a wheel's inertia over the time step squared
 constexpr double kBack_s = 0.05;  // in which a wheel that has crept is back
@@ -75,7 +76,7 @@ bool StandstillHold::Update(mjModel* own, mjModel* live, mjData* d, std::span<co
 
 void StandstillHold::Engage(mjModel* own, mjModel* live, const mjData* d) {
   engaged_ = true;
-  live->opt.noslip_iterations = kNoSlipIterations;
+  impratio_ = std::exchange(live->opt.impratio, kFrictionStiffness);
   for (std::size_t w = 0; w < dofs_.size(); ++w) {
     held_rad_[w] = d->qpos[qpos_[w]];
     crept_rad_s_[w] = 0;
@@ -94,7 +95,7 @@ void StandstillHold::Engage(mjModel* own, mjModel* live, const mjData* d) {
 void StandstillHold::Release(mjModel* own, mjModel* live, mjData* d) {
   stood_s_ = 0;
   if (!std::exchange(engaged_, false)) return;
-  live->opt.noslip_iterations = 0;
+  live->opt.impratio = impratio_;
   if (kind_ != Standstill::kBrake) return;
   for (std::size_t w = 0; w < dofs_.size(); ++w) {
     d->qfrc_applied[dofs_[w]] = 0;

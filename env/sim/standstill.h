@@ -7,9 +7,9 @@
 //   and
 //     a torque that takes back what this friction lets creep;
 //   a driver with position control turns each wheel back to where it stopped.
-// The engine's contacts and dry friction creep under a steady load, so MuJoCo's noslip iterations
-// are on for as long. The remaining creep on a slope of 1:12 is at most 1.4 mm a minute, and 14 mm
-// on ideal Mecanum wheels, whose friction depends on the direction. A motor without power holds
+// The engine's contacts creep under a steady load, so their friction is stiffer for as long. (Its
+// noslip iterations would let ideal Mecanum wheels creep, whose friction depends on the direction.)
+// The remaining creep on a slope of 1:12 is less than 1 mm a minute. A motor without power holds
 // nothing; a brake needs no power.
 #pragma once
 
@@ -44,7 +44,8 @@ class StandstillHold {
   std::vector<int> dofs_, qpos_;
   std::vector<double> command_radps_, held_rad_, crept_rad_s_, loss_nm_;
   std::vector<mjtNum> solimp_, solref_;
-  double stood_s_ = 0;  // since all have stood
+  double impratio_ = 1;  // while nothing is held
+  double stood_s_ = 0;   // since all have stood
   bool engaged_ = false;
 };
 
