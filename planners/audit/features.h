@@ -22,7 +22,9 @@ std::vector<Cell> BoundaryOf(const Room& room);
 // Sharp corners of walls and furniture. Section 4.2, step 2: FAST (Rosten, Porter & Drummond 2010),
 // 9 of 16 pixels, on the room against all else. A median and a Gaussian filter go before it, as the
 // walls of a scan are ragged by a cell and slanted ones are staircases, which are no corners. What
-// is smaller than three cells has none then.
+// is smaller than three cells has none then. FAST finds a cluster of pixels up to six cells around
+// a corner. Returned is, once for each, the cell beside the room where the room's edge bends most;
+// like those of the boundary it may lie one cell off the map.
 std::vector<Cell> CornersOf(const Room& room);
 
 }  // namespace floorproof

@@ -29,7 +29,7 @@ inline constexpr int kStudyRounds = 5;
 
 // How the places are chosen, the same in every room. The distances take the one or two rows of
 // cells nearest to a wall that BELUGA's nose gets to (7 and 12 cm from it): "closer to the walls".
-// The interval then gives about as many places as the paper has, 51 and 59.
+// The interval then gives nearly as many places as the paper has, 51 and 59.
 inline SampleParams StudySamples(double boundary_m = 0.2) {
   SampleParams params;
   params.du_m = 0.3;
