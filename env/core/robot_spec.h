@@ -101,6 +101,10 @@ struct RobotSpec {
   Shape2 tool;   // swept
   double tool_width_m = 0;
   double inscribed_radius_m = 0, circumscribed_radius_m = 0;
+  // Convex polygons that together contain everything that collides: the footprint, cut into convex
+  // parts, or, of a robot that keeps a circle clear, the outlines of its geoms. Round geoms are
+  // polygons of 72 corners, too small by 0.1 % of their radius.
+  std::vector<Polygon> outline_B;
   double height_m = 0;
 
   Standstill standstill = Standstill::kHold;

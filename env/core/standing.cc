@@ -27,14 +27,6 @@ Polygon WheelUpTo(const WheelSpec& wheel, double height_m) {
                  Rectangle({-half, -across}, {half, across}));
 }
 
-// The body, drawn in so that what touches does not overlap.
-Polygon Body(const RobotSpec& robot) {
-  constexpr int kCorners = 64;
-  if (robot.clear.kind == Shape2::Kind::kCircle)
-    return RegularPolygon(Vec2::Zero(), robot.inscribed_radius_m - kBeside_m, kCorners);
-  return Offset(robot.clear.footprint_B, -kBeside_m);
-}
-
 bool IsBuiltAt(const Hazard& hazard, const Vec2& p_W) {
   return std::ranges::any_of(hazard.solids, [&](const Solid& s) { return Contains(s.base, p_W); });
 }
@@ -98,14 +90,14 @@ bool FindFloor(const HazardMap& map, const RobotSpec& robot, const Pose2& X_WB, 
 }
 
 // A solid that it is in, or that a wheel rests on.
-void MeetSolid(const RobotSpec& robot, const Pose2& X_WB, const Hazard& hazard, const Solid& solid,
-               Standing& out) {
+void MeetSolid(const RobotSpec& robot, const Pose2& X_WB, const std::vector<Polygon>& body_W,
+               const Hazard& hazard, const Solid& solid, Standing& out) {
   const double rise_m = solid.z_high_m - out.floor_m;
   if (solid.kind != Solid::Kind::kPrism || rise_m <= kSameLevel_m || IsSlope(solid)) return;
   const Polygon& top = solid.top.empty() ? solid.base : solid.top;
   const double belly_m = out.rests_m + robot.clearance_m, roof_m = out.rests_m + robot.height_m;
   if (solid.z_high_m > belly_m + kBeside_m && solid.z_low_m < roof_m &&
-      Overlap(InWorld(X_WB, Body(robot)), top)) {
+      std::ranges::any_of(body_W, [&](const Polygon& part_W) { return Overlap(part_W, top); })) {
     out.obstruction = hazard.id;
     out.why = "overlaps " + hazard.id + ", " + hazard.type;
     return;
@@ -162,6 +154,17 @@ void MeetSlot(const HazardMap& map, const RobotSpec& robot, const Pose2& X_WB, c
 
 }  // namespace
 
+std::vector<Polygon> OutlineAt(const RobotSpec& robot, const Pose2& X_WB, double drawn_in_m) {
+  std::vector<Polygon> parts_W;
+  for (const Polygon& part_B : robot.outline_B) {
+    Vec2 middle = Vec2::Zero();
+    for (const Vec2& p : part_B) middle += p / static_cast<double>(part_B.size());
+    const double half_m = -SignedDistance(part_B, middle) / 2;
+    parts_W.push_back(InWorld(X_WB, Offset(part_B, -std::min(drawn_in_m, half_m))));
+  }
+  return parts_W;
+}
+
 Polygon InWorld(const Pose2& X_WB, Polygon polygon_B) {
   for (Vec2& p : polygon_B) p = X_WB * p;
   return polygon_B;
@@ -194,14 +197,16 @@ Standing StandAt(const HazardMap& map, const RobotSpec& robot, const Pose2& X_WB
   if (!FindFloor(map, robot, X_WB, out)) return out;
   // Walls' solids are drawn back: the body is drawn in by as much.
   const double drawn_back_m = std::min(map.inset_m, robot.inscribed_radius_m / 2);
-  if (TouchesWall(map, InWorld(X_WB, Offset(Body(robot), -drawn_back_m)))) {
+  if (std::ranges::any_of(OutlineAt(robot, X_WB, kBeside_m + drawn_back_m),
+                          [&](const Polygon& part_W) { return TouchesWall(map, part_W); })) {
     out.obstruction = "wall";
     out.why = "overlaps a wall";
     return out;
   }
+  const std::vector<Polygon> body_W = OutlineAt(robot, X_WB, kBeside_m);
   for (const Hazard& hazard : map.hazards) {
     for (const Solid& solid : hazard.solids) {
-      MeetSolid(robot, X_WB, hazard, solid, out);
+      MeetSolid(robot, X_WB, body_W, hazard, solid, out);
       if (!out.obstruction.empty()) return out;
     }
     MeetSlot(map, robot, X_WB, hazard, out);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "env/core/hazard_map.h"
 #include "env/core/robot_spec.h"
@@ -25,10 +26,13 @@ struct Standing {
 //  - with a wheel on terrain that rises over its floor by more than its belly does, or in a groove
 //    in which it sinks by more than that;
 //  - where its body (between its belly and its top) or a wheel would be within a solid of a hazard
-//    or a wall, known or not. The body is the clear footprint, or the inscribed circle of a robot
-//    that keeps a circle clear. What overlaps by less than 1 mm stands beside.
+//    or a wall, known or not. The body is the robot's outline at its yaw. What overlaps by less
+//    than 1 mm stands beside.
 Standing StandAt(const HazardMap& map, const RobotSpec& robot, const Pose2& X_WB);
 
+// The parts of the robot's outline at X_WB, drawn in by this much, but by at most half of their
+// inner radius.
+std::vector<Polygon> OutlineAt(const RobotSpec& robot, const Pose2& X_WB, double drawn_in_m);
 // A polygon of the robot at X_WB, in the world.
 Polygon InWorld(const Pose2& X_WB, Polygon polygon_B);
 // Whether it reaches into a wall's cell or beyond the map.

@@ -39,6 +39,7 @@ void TakeShape(RobotSpec& robot, const std::vector<ShapeSpec>& shapes, int index
   robot.circumscribed_radius_m = 0;
   for (const Vec2& p : shape.footprint_B)
     robot.circumscribed_radius_m = std::max(robot.circumscribed_radius_m, p.norm());
+  robot.outline_B = ConvexParts({{shape.footprint_B, {}}});
   for (Shape2* part : {&robot.clear, &robot.tool})
     if (part->kind == Shape2::Kind::kFootprint) part->footprint_B = shape.footprint_B;
   if (robot.clear.kind == Shape2::Kind::kCircle)

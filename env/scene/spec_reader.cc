@@ -65,6 +65,19 @@ Standstill ReadStandstill(const CompiledRobot& compiled, double mass_kg) {
   throw InputError({compiled.file(), 0}, kKey, text, "must be brake, hold or free");
 }
 
+bool Holds(const Polygon& outer, const Polygon& inner) {
+  return std::ranges::all_of(inner, [&](const Vec2& p) { return Contains(outer, p); });
+}
+
+// Adds the geom's outline, unless another one contains it.
+void AddOutline(Polygon outline, std::vector<Polygon>& outlines) {
+  if (outline.size() < 3 ||
+      std::ranges::any_of(outlines, [&](const Polygon& o) { return Holds(o, outline); }))
+    return;
+  std::erase_if(outlines, [&](const Polygon& o) { return Holds(outline, o); });
+  outlines.push_back(std::move(outline));
+}
+
 Shape2 ReadShape(const CompiledRobot& compiled, const char* key, double radius_m,
                  const Polygon& hull) {
   const std::string kind = compiled.Text(key);
@@ -81,6 +94,7 @@ void ReadBody(const CompiledRobot& compiled, RobotSpec& robot) {
   std::vector<Vec2> outline;
   for (int g = 0; g < m->ngeom; ++g) {
     if (!compiled.Collides(g)) continue;
+    Polygon points;
     for (const Vec3& p : compiled.SweptPoints(g)) {
       if (!(p.norm() <= kMaxReach_m))  // rollers are the robot's own data: MuJoCo knows no bound
         compiled.Refuse("geom " + std::to_string(g),
@@ -88,8 +102,10 @@ void ReadBody(const CompiledRobot& compiled, RobotSpec& robot) {
       high = std::max(high, p.z());
       if (compiled.IsCarried(g)) low = std::min(low, p.z());
       reach = std::max(reach, p.head<2>().norm());
-      outline.push_back(p.head<2>());
+      points.push_back(p.head<2>());
     }
+    outline.insert(outline.end(), points.begin(), points.end());
+    AddOutline(ConvexHull(std::move(points)), robot.outline_B);
   }
   if (outline.empty()) compiled.Refuse("base", "the robot has nothing that collides");
   if (std::isinf(low))
@@ -105,6 +121,7 @@ void ReadBody(const CompiledRobot& compiled, RobotSpec& robot) {
   robot.circumscribed_radius_m = reach;
   robot.clear = ReadShape(compiled, "clear_shape", reach, hull);
   robot.tool = ReadShape(compiled, "tool_shape", robot.tool_width_m / 2, hull);
+  if (robot.clear.kind == Shape2::Kind::kFootprint) robot.outline_B = {hull};
 }
 
 }  // namespace

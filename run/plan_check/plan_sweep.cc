@@ -8,7 +8,6 @@
 #include "controllers/drive.h"
 #include "controllers/reconfiguration.h"
 #include "env/geometry/convex.h"
-#include "env/scene/robot_outline.h"
 
 namespace floorproof {
 namespace {
@@ -27,7 +26,7 @@ class Sweeper {
         visit_(visit),
         X_WB_(start),
         shape_(robot_.shape),
-        outline_B_(OutlineOf(robot)) {
+        outline_B_(robot_.outline_B) {
     if (!robot_.hinges.empty()) Stand(StartState(robot_));
     FindRound();
   }

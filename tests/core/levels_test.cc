@@ -26,6 +26,7 @@ RobotSpec Robot() {
     robot.wheels.push_back(wheel);
   }
   robot.clear.radius_m = robot.inscribed_radius_m = robot.circumscribed_radius_m = 0.2;
+  robot.outline_B = {RegularPolygon(Vec2::Zero(), 0.2, 64)};
   robot.height_m = 0.3;
   robot.step_m = kStep_m;
   return robot;

@@ -18,6 +18,7 @@ RobotSpec Robot() {
     robot.wheels.push_back(wheel);
   }
   robot.clear.radius_m = robot.inscribed_radius_m = robot.circumscribed_radius_m = 0.2;
+  robot.outline_B = {RegularPolygon(Vec2::Zero(), 0.2, 64)};
   robot.clearance_m = 0.03;
   robot.height_m = 0.3;
   robot.step_m = 0.006;
@@ -205,6 +206,30 @@ TEST(StandAt, AMapTurnedAndMovedSaysTheSame) {
       EXPECT_EQ(a.floor_m, b.floor_m) << x << " " << y;
       EXPECT_EQ(a.obstruction, b.obstruction) << x << " " << y;
     }
+}
+
+// A robot of 0.8 m x 0.4 m in an aisle 0.7 m wide: it stands there along the aisle and not across,
+// though it keeps a circle clear.
+TEST(StandAt, ALongRobotIsJudgedByItsOutlineAtItsYaw) {
+  RobotSpec robot = Robot();
+  robot.outline_B = {Rectangle({-0.4, -0.2}, {0.4, 0.2})};
+  robot.clear.radius_m = robot.circumscribed_radius_m = std::hypot(0.4, 0.2);
+  HazardMap map;
+  map.frame = {40, 9, 0.1, {}};
+  map.occupancy = Grid<CellState>(40, 9);
+  for (int ix = 0; ix < 40; ++ix)
+    map.occupancy(ix, 0) = map.occupancy(ix, 8) = CellState::kOccupied;
+  const auto why = [&](double y_m, double yaw_rad) {
+    return StandAt(map, robot, {2, y_m, yaw_rad}).why;
+  };
+  EXPECT_EQ(why(0.45, 0), "");
+  EXPECT_EQ(why(0.45, kPi), "");
+  EXPECT_EQ(why(0.31, 0), "");
+  EXPECT_EQ(why(0.45, kPi / 2), "overlaps a wall");
+  EXPECT_EQ(why(0.45, 0.5), "overlaps a wall");
+  EXPECT_EQ(why(0.29, 0), "overlaps a wall");
+  map.hazards = {Block(HazardClass::kGlass, Rectangle({2.35, 0.4}, {2.36, 0.5}), 0, 2)};
+  EXPECT_EQ(why(0.45, 0), "overlaps block, block");
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "base/params.h"
-#include "env/scene/robot_outline.h"
 
 namespace floorproof {
 namespace {
@@ -60,7 +59,7 @@ double RunUp(const RobotSpec& robot, double speed_mps) {
 
 double WidthOf(const RobotModel& robot) {
   double left_m = 0, right_m = 0;
-  for (const auto& part : OutlineOf(robot))
+  for (const auto& part : robot.spec.outline_B)
     for (const Vec2& corner : part) {
       left_m = std::max(left_m, corner.y());
       right_m = std::min(right_m, corner.y());
