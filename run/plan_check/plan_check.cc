@@ -42,7 +42,9 @@ std::string Line(const HazardMap& floor, const PlanConflict& c) {
   else
     line +=
         fmt::format("overlaps {} by {}", ObstaclePhrase(floor, c.obstacle), Metres(c.overlap_m));
-  if (c.over_m >= 0.5) line += fmt::format(", over {} m of the way", FixedText(c.over_m, 1));
+  constexpr double kWorthSaying_m = 0.05;
+  if (c.over_m >= kWorthSaying_m)
+    line += fmt::format(", along {} of the path", LengthText(std::round(100 * c.over_m) / 100));
   if (c.times > 1) line += fmt::format(", {} times", c.times);
   return line;
 }

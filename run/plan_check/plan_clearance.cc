@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -42,6 +43,52 @@ std::optional<double> FirstWithin(const Polygon& polygon, const Vec2& a, const V
   return from <= to ? std::optional(from) : std::nullopt;
 }
 
+// A stretch of the path, m.
+struct PathInterval {
+  double from_m = 0, to_m = 0;
+};
+
+// The polygon `part` moves by `length_m` along the unit vector `direction`. Returns the interval on
+// which it overlaps `obstacle` by more than a touch; both are convex. Along each edge's normal both
+// are intervals, and one of them moves (separating axes).
+std::optional<PathInterval> OverlapAlong(const Polygon& part, const Polygon& obstacle,
+                                         const Vec2& direction, double length_m) {
+  PathInterval stretch{0, length_m};
+  const auto clip = [&](const Polygon& edges, const Polygon& other, double side) {
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const Vec2 edge = (edges[(i + 1) % edges.size()] - edges[i]).normalized();
+      const Vec2 out(edge.y(), -edge.x());
+      double least = std::numeric_limits<double>::infinity();
+      for (const Vec2& p : other) least = std::min(least, out.dot(p - edges[i]));
+      // The other one's nearest corner is `least` outside of the edge, and moves by `rate` a metre.
+      const double rate = side * out.dot(direction), deep = -least - Obstacles::kTouch_m;
+      if (std::abs(rate) < 1e-12) {
+        if (deep < 0) stretch.to_m = -1;
+        continue;
+      }
+      if (rate > 0)
+        stretch.to_m = std::min(stretch.to_m, deep / rate);
+      else
+        stretch.from_m = std::max(stretch.from_m, deep / rate);
+    }
+  };
+  clip(part, obstacle, -1);  // the obstacle moves backwards past the part
+  clip(obstacle, part, 1);
+  if (stretch.from_m > stretch.to_m) return {};
+  return stretch;
+}
+
+// The length that these stretches have together.
+double TotalLength(std::vector<PathInterval> stretches) {
+  std::ranges::sort(stretches, {}, &PathInterval::from_m);
+  double total_m = 0, end_m = -std::numeric_limits<double>::infinity();
+  for (const PathInterval& s : stretches) {
+    total_m += std::max(0.0, s.to_m - std::max(s.from_m, end_m));
+    end_m = std::max(end_m, s.to_m);
+  }
+  return total_m;
+}
+
 class Check {
  public:
   Check(const HazardMap& known, const RobotSpec& robot, const Vec2& start_W, const Path& path)
@@ -54,7 +101,8 @@ class Check {
   }
 
   void Look(const SweptPiece& piece) {
-    for (const Polygon& part_W : piece.parts_W) Look(piece, part_W);
+    for (std::size_t k = 0; k < piece.parts_W.size(); ++k)
+      Look(piece, InGrid(piece.parts_W[k]), InGrid(piece.begin_W[k]));
   }
 
   PlanClearance Finish() {
@@ -68,7 +116,7 @@ class Check {
     JoinSidesOfGaps();
     for (Place& place : places_) {
       place.conflict.times = static_cast<int>(place.passes.size());
-      for (const Pass& pass : place.passes) place.conflict.over_m += pass.over_m;
+      for (const Pass& pass : place.passes) place.conflict.over_m += TotalLength(pass.overlaps);
       out_.conflicts.push_back(std::move(place.conflict));
     }
     return std::move(out_);
@@ -76,8 +124,8 @@ class Check {
 
  private:
   struct Pass {
-    double begin_m = 0, end_m = 0;  // along the plan
-    double over_m = 0;              // of that, what overlaps
+    double begin_m = 0, end_m = 0;            // along the plan
+    std::vector<PathInterval> overlaps = {};  // of that, where it overlaps
   };
   struct Stretch {
     PlanConflict conflict;
@@ -92,9 +140,13 @@ class Check {
     std::vector<Vec2> way_W;  // of its first stretch
   };
 
-  void Look(const SweptPiece& piece, const Polygon& part_W) {
-    Polygon part_G = part_W;
-    for (Vec2& p : part_G) p = X_GW_ * p;
+  Polygon InGrid(Polygon polygon_W) const {
+    for (Vec2& p : polygon_W) p = X_GW_ * p;
+    return polygon_W;
+  }
+
+  // begin_G: the part where the piece begins.
+  void Look(const SweptPiece& piece, const Polygon& part_G, const Polygon& begin_G) {
     const auto [low, high] = BoxAround(part_G);
     const double reach_m = std::max(0.0, out_.least_m);
     const Vec2 reach(reach_m, reach_m);
@@ -103,7 +155,7 @@ class Check {
                     [&](const Obstacles::Part& obstacle) { found_.push_back(&obstacle); });
     for (const Obstacles::Part* obstacle : found_) {
       const Separation apart = Separate(part_G, obstacle->polygon_G);
-      if (apart.distance_m < -Obstacles::kTouch_m) Overlaps(piece, *obstacle, apart);
+      if (apart.distance_m < -Obstacles::kTouch_m) Overlaps(piece, begin_G, *obstacle, apart);
       if (OnTheWay(obstacle->hazard) || apart.distance_m >= out_.least_m) continue;
       const auto [p_W, along_m] = Where(piece, apart);
       Nearest(apart.distance_m, obstacles_.Id(obstacle->hazard), p_W, along_m);
@@ -129,15 +181,18 @@ class Check {
     return {piece.X_WB.p() + s_m * piece.direction_W, piece.along_m + s_m};
   }
 
-  void Overlaps(const SweptPiece& piece, const Obstacles::Part& obstacle, const Separation& apart) {
+  void Overlaps(const SweptPiece& piece, const Polygon& begin_G, const Obstacles::Part& obstacle,
+                const Separation& apart) {
     Stretch& stretch = stretches_[obstacle.hazard];
     PlanConflict& conflict = stretch.conflict;
     Pass& pass = stretch.pass;
     if (conflict.overlap_m > 0 && !IsSamePass(pass, piece.along_m)) Close(obstacle.hazard, stretch);
-    if (conflict.overlap_m == 0) pass = {piece.along_m, piece.along_m, 0};
-    const double end_m = piece.along_m + piece.length_m;
-    pass.over_m += std::max(0.0, end_m - std::max(pass.end_m, piece.along_m));
-    pass.end_m = std::max(pass.end_m, end_m);
+    if (conflict.overlap_m == 0) pass = {piece.along_m, piece.along_m};
+    pass.end_m = std::max(pass.end_m, piece.along_m + piece.length_m);
+    if (const auto over =
+            OverlapAlong(begin_G, obstacle.polygon_G,
+                         Pose2{0, 0, X_GW_.yaw_rad}.Rotate(piece.direction_W), piece.length_m))
+      pass.overlaps.push_back({piece.along_m + over->from_m, piece.along_m + over->to_m});
     AddToWay(piece.X_WB.p(), stretch);
     AddToWay(piece.X_WB.p() + piece.length_m * piece.direction_W, stretch);
     if (OnTheWay(obstacle.hazard) && !stretch.crossing) Crosses(piece, obstacle, stretch);
@@ -291,7 +346,8 @@ class Check {
         continue;
       }
       joined.back().end_m = std::max(joined.back().end_m, pass.end_m);
-      joined.back().over_m = std::max(joined.back().over_m, pass.over_m);
+      joined.back().overlaps.insert(joined.back().overlaps.end(), pass.overlaps.begin(),
+                                    pass.overlaps.end());
     }
     return joined;
   }

@@ -17,7 +17,7 @@ struct PlanConflict {
   Vec2 p_W = Vec2::Zero();           // of the robot's centre, where it overlaps most
   double along_m = 0;                // its way along the plan to there
   double overlap_m = 0;              // the side of the robot would have to be that much farther in
-  double over_m = 0;                 // way along the plan that overlaps, to a quarter of a metre
+  double over_m = 0;                 // length of the path on which it overlaps, all times together
   int times = 1;                     // the plan comes to this place
   double width_m = 0;                // of the robot, across its way there
   std::optional<double> gap_m = {};  // that the way leads through; none: it is wider than the robot

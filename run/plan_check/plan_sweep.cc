@@ -119,6 +119,7 @@ class Sweeper {
 
   void Visit(const Vec2& by_W, double length_m) {
     parts_W_.clear();
+    begin_W_.clear();
     double low_m = std::numeric_limits<double>::infinity(), high_m = -low_m;
     const Vec2 direction_W = length_m > 0 ? Vec2(by_W / length_m) : Vec2(Vec2::Zero());
     for (const Polygon& part_B : outline_B_) {
@@ -127,9 +128,10 @@ class Sweeper {
         low_m = std::min(low_m, Cross(direction_W, p));
         high_m = std::max(high_m, Cross(direction_W, p));
       }
-      parts_W_.push_back(length_m > 0 ? SweptBy(part_W, by_W) : std::move(part_W));
+      parts_W_.push_back(length_m > 0 ? SweptBy(part_W, by_W) : part_W);
+      begin_W_.push_back(std::move(part_W));
     }
-    visit_({parts_W_, X_WB_, along_m_, length_m, direction_W, high_m - low_m});
+    visit_({parts_W_, begin_W_, X_WB_, along_m_, length_m, direction_W, high_m - low_m});
     along_m_ += length_m;
   }
 
@@ -140,7 +142,7 @@ class Sweeper {
   int shape_;
   std::vector<Polygon> outline_B_;
   bool round_ = false;
-  std::vector<Polygon> parts_W_;
+  std::vector<Polygon> parts_W_, begin_W_;
   double along_m_ = 0;
 };
 

@@ -13,6 +13,7 @@ namespace floorproof {
 // A straight piece of the way, or a pose of a turn or a folding where the robot stands.
 struct SweptPiece {
   const std::vector<Polygon>& parts_W;  // convex, together all that the robot covers on it
+  const std::vector<Polygon>& begin_W;  // the same parts where the piece begins
   Pose2 X_WB;                           // at its begin
   double along_m = 0;                   // way of the plan to there
   double length_m = 0;                  // 0: it stands

@@ -183,7 +183,24 @@ TEST_F(PlanClearanceTest, GapsApartAreNotOne) {
 TEST_F(PlanClearanceTest, ALongClipIsOneStretch) {
   const PlanClearance dut = Check(Room("", "1.5,0.63\n6.5,0.63\n6.5,2.5\n"));
   ASSERT_THAT(dut.conflicts, SizeIs(1));
-  EXPECT_NEAR(dut.conflicts.front().over_m, 5, 0.8);
+  EXPECT_NEAR(dut.conflicts.front().over_m, 5.02, 0.02);
+}
+
+// Beside a post 0.1 m long, by as much as a circle's chord is longer than the post. A drive there
+// and back is twice as long, and where the plan's legs are cut makes no difference.
+TEST_F(PlanClearanceTest, TheLengthThatOverlapsIsExact) {
+  const double r_m = kBeluga_m / 2, aside_m = 0.1;
+  const double expected_m = 0.1 + 2 * std::sqrt(r_m * r_m - aside_m * aside_m);
+  const std::string post = Block("post", {4, 2.5 + aside_m, 0}, {-0.05, 0}, {0.05, 0.2});
+  for (const char* rows : {"6,2.5\n", "3.93,2.5\n4.02,2.5\n6,2.5\n"}) {
+    const PlanClearance dut = Check(Room(post, rows));
+    ASSERT_THAT(dut.conflicts, SizeIs(1));
+    EXPECT_NEAR(dut.conflicts.front().over_m, expected_m, 0.01) << rows;
+  }
+  const PlanClearance dut = Check(Room(post, "6,2.5\n1.5,2.5\n"));
+  ASSERT_THAT(dut.conflicts, SizeIs(1));
+  EXPECT_NEAR(dut.conflicts.front().over_m, 2 * expected_m, 0.02);
+  EXPECT_EQ(dut.conflicts.front().times, 2);
 }
 
 TEST_F(PlanClearanceTest, WhatIsNotKnownIsNotSaid) {
