@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "env/core/coverage.h"
+#include "env/geometry/grid_line.h"
 
 namespace floorproof {
 namespace {
@@ -52,29 +52,13 @@ void Mapper::Start(const GridFrame& site, const RobotSpec& robot, bool tells) {
   dropped_ = {};
 }
 
-// From cell to cell (Amanatides & Woo, 1987); `to_G` is where it ended, in cells, and `yaw_rad` the
-// beam's direction on the map.
+// `to_G` is where it ended, in cells, and `yaw_rad` the beam's direction on the map.
 void Mapper::AddBeam(const Vec2& from_G, const Vec2& to_G, double yaw_rad) {
-  const Vec2 way = to_G - from_G;
-  int cell[2], last[2], step[2];
-  double next[2], stride[2];
-  for (int k = 0; k < 2; ++k) {
-    cell[k] = static_cast<int>(std::floor(from_G[k]));
-    last[k] = static_cast<int>(std::floor(to_G[k]));
-    step[k] = way[k] > 0 ? 1 : -1;
-    stride[k] = way[k] == 0 ? std::numeric_limits<double>::infinity() : 1 / std::abs(way[k]);
-    const double border = cell[k] + (way[k] > 0 ? 1 : 0);
-    next[k] = way[k] == 0 ? stride[k] : (border - from_G[k]) / way[k];
-  }
-  while (cell[0] != last[0] || cell[1] != last[1]) {
-    const int k = next[0] < next[1] ? 0 : 1;
-    if (next[k] > 1) return;  // rounding: it would pass the end
-    const Cell at{cell[0], cell[1]};
+  VisitCellsBefore(from_G, to_G, [&](Cell at) {
     if (last_end_.Inside(at) && last_end_(at) != scans_ && !(glass_ && SaysNothing(at, yaw_rad)))
       Add(at.ix, at.iy, -miss_);
-    cell[k] += step[k];
-    next[k] += stride[k];
-  }
+    return true;
+  });
 }
 
 void Mapper::See(Cell c, double yaw_rad) {

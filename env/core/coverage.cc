@@ -3,8 +3,8 @@
 // connected to the start -> cells that the tool reaches from them.
 //
 // Everything happens on one grid of fine cells, so clear and swept are exact at cell centres and
-// uncertain by half a cell between them.
-// Not modelled: a tool that reaches through a wall thinner than its overhang.
+// uncertain by half a cell between them. A disc that is wider than the clear shape does not sweep
+// what an obstacle separates from its centre.
 #include "env/core/coverage.h"
 
 #include <algorithm>
@@ -268,7 +268,7 @@ SweepArea FloorRoom::SweptFrom(const std::vector<Grid<std::uint8_t>>& poses, con
   for (const auto& layer : poses)
     for (std::size_t i = 0; i < layer.cells.size(); ++i) area.reachable.cells[i] |= layer.cells[i];
   if (tool.kind == Shape2::Kind::kCircle)
-    DilateDisc(area.reachable, tool.radius_m / frame_.cell_m, area.sweepable);
+    SweepInSight(tool.radius_m / frame_.cell_m, area);
   else
     for (int k = 0; k < Turns(yaws); ++k)
       DilateFootprint(poses[std::min(static_cast<std::size_t>(k), poses.size() - 1)], tool,

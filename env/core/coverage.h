@@ -34,6 +34,9 @@ struct SweepArea {
   Grid<float> clearance_m;       // centre to the nearest obstacle's area
   Grid<std::uint8_t> reachable;  // poses: clear shape free of solids, connected to the start
   Grid<std::uint8_t> sweepable;  // cells whose centre the tool reaches from a reachable pose
+  // Cells that an obstacle separates from the centre of a reachable pose within the tool's reach.
+  // Such a pose does not sweep them. Empty unless a disc reaches past an obstacle.
+  Grid<std::uint8_t> hidden;
   std::int64_t sweepable_cells = 0;
   double area_m2() const {
     return static_cast<double>(sweepable_cells) * frame.cell_m * frame.cell_m;
@@ -63,6 +66,8 @@ class FloorRoom {
                       Yaws yaws) const;
 
  private:
+  void SweepInSight(double radius_cells, SweepArea& area) const;
+
   GridFrame frame_;
   double inset_m_;
   Grid<std::uint8_t> walls_, hazards_;
@@ -74,7 +79,8 @@ SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shap
                            double step_m, const Vec2& start_W, Yaws yaws = Yaws::kQuarters);
 
 // Marks what the tool sweeps as it moves: the cells whose centre it passes over, for a footprint to
-// within 2 mm. Add() costs O(tool area) and allocates nothing.
+// within 2 mm. A disc that reaches past obstacles sweeps only what is in sight of its centre. Add()
+// costs O(tool area) and allocates nothing.
 class CoverageMeter {
  public:
   CoverageMeter(const SweepArea& area, const Shape2& tool);
@@ -97,6 +103,8 @@ class CoverageMeter {
  private:
   double OfSweepable(std::int64_t cells) const;
   void SweepDisc(const Vec2& from_G, const Vec2& to_G, double length_m);
+  bool SeesOnTheWay(const Vec2& from_G, const Vec2& dir, double first, double last,
+                    const Vec2& cell_G) const;
   void StampFootprint(const Pose2& X_GB, double s_m);
   void Touch(int ix, int iy, double enter_s_m, double leave_s_m);
   const SweepArea* area_;

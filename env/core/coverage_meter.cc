@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "env/core/line_of_sight.h"
 #include "env/core/plan_passes.h"
 #include "env/geometry/box.h"
 
@@ -89,6 +90,20 @@ void CoverageMeter::Touch(int ix, int iy, double enter_s_m, double leave_s_m) {
   last = std::max(last, static_cast<float>(leave_s_m));
 }
 
+// Whether the centre sees the cell at some place between `first` and `last` along the way, in
+// cells. The middle of that stretch is nearest to the cell, and is tried first.
+bool CoverageMeter::SeesOnTheWay(const Vec2& from_G, const Vec2& dir, double first, double last,
+                                 const Vec2& cell_G) const {
+  const auto sees = [&](double along) {
+    return InSight(area_->clearance_m, area_->frame.cell_m, from_G + along * dir, cell_G);
+  };
+  if (sees((first + last) / 2)) return true;
+  const int n = static_cast<int>(std::ceil(last - first));
+  for (int k = 0; k <= n; ++k)
+    if (sees(n == 0 ? first : first + (last - first) * k / n)) return true;
+  return false;
+}
+
 void CoverageMeter::SweepDisc(const Vec2& from_G, const Vec2& to_G, double length_m) {
   // A cell whose centre lies on the rim counts, here as in ComputeSweepArea, whatever the rounding.
   constexpr double kEps = 1e-6;
@@ -126,6 +141,10 @@ void CoverageMeter::SweepDisc(const Vec2& from_G, const Vec2& to_G, double lengt
       const Vec2 d = Vec2(ix + 0.5, y) - from_G;
       const double along = d.dot(dir), across = Cross(dir, d);
       const double half = std::sqrt(std::max(0.0, r * r - across * across));
+      if (!area_->hidden.cells.empty() &&
+          !SeesOnTheWay(from_G, dir, std::clamp(along - half, 0.0, length),
+                        std::clamp(along + half, 0.0, length), {ix + 0.5, y}))
+        continue;
       Touch(ix, iy, s_m_ + std::clamp((along - half) * cell_m, 0.0, length_m),
             s_m_ + std::clamp((along + half) * cell_m, 0.0, length_m));
     }

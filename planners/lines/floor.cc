@@ -111,15 +111,26 @@ Floor CropFloor(const SweepArea& area, const Shape2& clear, const Shape2& tool, 
       floor.tool_reach = std::max(floor.tool_reach, p.norm() / cell_m);
     inradius = -SignedDistance(tool.footprint_B, Vec2::Zero()) / cell_m;
   }
+  // What lies within so many cells of a pose. Distances are to a pose cell's area: its centre is at
+  // most half a diagonal farther.
+  Grid<float> to_pose;
+  const auto keep_within = [&](double reach, Grid<std::uint8_t>& mask) {
+    if (to_pose.cells.empty()) to_pose = DistanceToSet(floor.pose, false);
+    for (std::size_t i = 0; i < mask.cells.size(); ++i)
+      if (!floor.pose.cells[i] && static_cast<double>(to_pose.cells[i]) > reach - std::sqrt(0.5))
+        mask.cells[i] = 0;
+  };
   floor.inner = floor.ground;
-  if (overlap > 0) {
-    // Distances to a pose cell's area: its centre is at most half a diagonal farther.
-    const Grid<float> to_pose = DistanceToSet(floor.pose, false);
-    const double within = floor.narrow * inradius - std::sqrt(0.5);
-    for (std::size_t i = 0; i < floor.inner.cells.size(); ++i)
-      if (!floor.pose.cells[i] && static_cast<double>(to_pose.cells[i]) > within)
-        floor.inner.cells[i] = 0;
-  }
+  if (overlap > 0) keep_within(floor.narrow * inradius, floor.inner);
+  if (area.hidden.cells.empty()) return floor;
+  floor.hidden = Grid<std::uint8_t>(w, h);
+  for (int iy = y0; iy <= y1; ++iy)
+    for (int ix = x0; ix <= x1; ++ix)
+      floor.hidden(ix - x0 + kBorder, iy - y0 + kBorder) =
+          area.hidden(ix, iy) && area.sweepable(ix, iy);
+  floor.near_reach =
+      (circle ? clear.radius_m : -SignedDistance(clear.footprint_B, Vec2::Zero())) / cell_m;
+  keep_within(floor.near_reach, floor.hidden);
   return floor;
 }
 

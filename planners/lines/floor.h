@@ -31,6 +31,10 @@ struct Floor {
   double narrow = 1;
   double tool_width = 0;
   Grid<std::uint8_t> inner;
+  // Ground that obstacles hide from some poses and that lies within `near_reach` cells of others:
+  // there the tool counts as no wider than that. Empty: there is none.
+  Grid<std::uint8_t> hidden;
+  double near_reach = 0;
   double ground_cells = 0;
 
   double ToCells(double length_m) const { return length_m / frame.cell_m; }

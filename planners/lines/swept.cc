@@ -101,12 +101,15 @@ class Swept::Strip {
 };
 
 Swept::Swept(const Floor& floor) : floor_(&floor) {
-  layers_.push_back(MakeLayer(floor.narrow, floor.inner));
-  if (floor.narrow < 1) {
-    Grid<std::uint8_t> rim = floor.ground;
-    for (std::size_t i = 0; i < rim.cells.size(); ++i) rim.cells[i] &= !floor.inner.cells[i];
-    layers_.push_back(MakeLayer(1, rim));
-  }
+  const auto without = [](Grid<std::uint8_t> mask, const Grid<std::uint8_t>& other) {
+    for (std::size_t i = 0; i < other.cells.size(); ++i) mask.cells[i] &= !other.cells[i];
+    return mask;
+  };
+  layers_.push_back(MakeLayer(floor.narrow, without(floor.inner, floor.hidden)));
+  if (floor.narrow < 1)
+    layers_.push_back(MakeLayer(1, without(without(floor.ground, floor.inner), floor.hidden)));
+  if (!floor.hidden.cells.empty())
+    layers_.push_back(MakeLayer(floor.near_reach / floor.tool_reach, floor.hidden));
 }
 
 Swept::Layer Swept::MakeLayer(double scale, const Grid<std::uint8_t>& mask) const {

@@ -3,7 +3,8 @@
 //
 // Inner ground counts as swept where the narrowed tool passes, so that neighbouring lines overlap
 // as they should (Floor::narrow). Ground along walls, which the narrowed tool does not reach,
-// counts as swept where the whole tool passes.
+// counts as swept where the whole tool passes. Ground that an obstacle may hide from the tool
+// counts as swept where the tool passes no farther than the clear shape reaches (Floor::hidden).
 #pragma once
 
 #include <array>

@@ -221,6 +221,38 @@ TEST(CoverageMeter, ADiscsStraightRunSweepsACapsule) {
   }
 }
 
+// A tool of 0.6 m on a robot of 0.36 m beside a wall of 0.05 m, behind which there is more floor.
+class ToolWiderThanItsRobot : public ::testing::Test {
+ protected:
+  ToolWiderThanItsRobot() {
+    for (int ix = 0; ix < 80; ++ix) map_.occupancy(ix, kWall) = CellState::kOccupied;
+  }
+  static constexpr int kWall = 30;  // the wall's row
+  HazardMap map_ = EmptyFloor(80, 60, 0.05);
+  const Shape2 clear_ = Disc(0.18), tool_ = Disc(0.3);
+};
+
+TEST_F(ToolWiderThanItsRobot, ReachesNoFloorBehindAWall) {
+  const SweepArea dut = ComputeSweepArea(map_, clear_, tool_, 0.01, {1, 0.5});
+  for (int ix = 0; ix < 80; ++ix) {
+    EXPECT_TRUE(dut.sweepable(ix, kWall - 1)) << ix;
+    EXPECT_FALSE(dut.sweepable(ix, kWall + 1)) << ix;
+  }
+  EXPECT_TRUE(ComputeSweepArea(map_, clear_, Disc(0.18), 0.01, {1, 0.5}).hidden.cells.empty());
+}
+
+TEST_F(ToolWiderThanItsRobot, SweepsNothingBehindAWall) {
+  map_.occupancy(40, kWall) = CellState::kFree;  // too narrow for the robot, but one sees through
+  const SweepArea area = ComputeSweepArea(map_, clear_, tool_, 0.01, {1, 0.5});
+  CoverageMeter dut(area, tool_);
+  dut.Add({0.5, 1.28, 0});
+  dut.Add({3.5, 1.28, 0});
+  EXPECT_EQ(dut.passes()(20, kWall - 1), 1);
+  EXPECT_EQ(dut.passes()(20, kWall + 1), 0);
+  EXPECT_EQ(dut.passes()(60, kWall + 1), 0);
+  EXPECT_EQ(dut.passes()(40, kWall + 1), 1) << "through the gap";
+}
+
 TEST(CoverageMeter, ManyShortStepsCountAsOneLongOne) {
   const HazardMap map = EmptyFloor(100, 60, 0.05);
   const SweepArea area = ComputeSweepArea(map, Disc(0.2), Disc(0.2), 0.01, {2.5, 1.5});

@@ -163,6 +163,17 @@ TEST_P(Both, AToolWiderThanTheRoomNeedsHardlyMove) {
   EXPECT_LT(Length(plan.path), 3);
 }
 
+// What a tool reaches behind a thin wall it does not sweep: both sides of the wall are driven
+// along.
+TEST_P(Both, AToolWiderThanItsRobotSweepsBothSidesOfAThinWall) {
+  HazardMap map = EmptyFloor(120, 80, 0.05);
+  for (int iy = 20; iy < 80; ++iy) map.occupancy(60, iy) = CellState::kOccupied;
+  const RobotSpec robot = DiscRobot(0.15, 0.7);
+  const Pose2 start{1, 1, 0};
+  const PlanResult dut = Plan(GetParam(), "{}", map, robot, start);
+  EXPECT_GT(Coverage(map, robot, start, dut), 0.96);
+}
+
 TEST_P(Both, AFootprintIsKeptClearAndCovers) {
   HazardMap map = Draw(R"(
     ########
