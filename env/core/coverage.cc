@@ -280,6 +280,16 @@ SweepArea FloorRoom::SweptFrom(const std::vector<Grid<std::uint8_t>>& poses, con
   return area;
 }
 
+SweepArea ComputeSweepArea(const HazardMap& map, const RobotSpec& robot, const Shape2& clear,
+                           const Shape2& tool, const Pose2& start) {
+  const FloorRoom room(map, robot.step_m);
+  SweepArea area = room.Sweepable(clear, tool, start.p());
+  if (area.sweepable_cells > 0) return area;
+  if (const auto place_W = room.WidePlaceAhead(robot, clear, start))
+    area = room.Sweepable(clear, tool, *place_W);
+  return area;
+}
+
 SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shape2& tool,
                            double step_m, const Vec2& start_W, Yaws yaws) {
   return FloorRoom(map, step_m).Sweepable(clear, tool, start_W, yaws);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "env/core/hazard_map.h"
@@ -64,6 +65,11 @@ class FloorRoom {
   // The area that these poses make, as layers of Free or one layer for all yaws.
   SweepArea SweptFrom(const std::vector<Grid<std::uint8_t>>& poses, const Shape2& tool,
                       Yaws yaws) const;
+  // For a robot that starts in a place too narrow for its clear circle: the first place straight
+  // ahead where the circle fits. None if it is no circle, or if the outline meets an obstacle on
+  // the way there. Obstacles at the start itself are not looked for.
+  std::optional<Vec2> WidePlaceAhead(const RobotSpec& robot, const Shape2& clear,
+                                     const Pose2& start) const;
 
  private:
   void SweepInSight(double radius_cells, SweepArea& area) const;
@@ -74,6 +80,10 @@ class FloorRoom {
   bool any_hazard_ = false;
   Grid<float> clearance_m_;
 };
+// Of this robot. If its clear circle does not fit at the start, the area begins at
+// WidePlaceAhead().
+SweepArea ComputeSweepArea(const HazardMap& map, const RobotSpec& robot, const Shape2& clear,
+                           const Shape2& tool, const Pose2& start);
 // Of one robot from one start.
 SweepArea ComputeSweepArea(const HazardMap& map, const Shape2& clear, const Shape2& tool,
                            double step_m, const Vec2& start_W, Yaws yaws = Yaws::kQuarters);

@@ -11,7 +11,7 @@ namespace {
 
 SweepArea KnownArea(const Scenario& s) {
   const RobotSpec& robot = s.robot.spec;
-  return ComputeSweepArea(KnownFloor(s), robot.clear, robot.tool, robot.step_m, s.start.p());
+  return ComputeSweepArea(KnownFloor(s), robot, robot.clear, robot.tool, s.start);
 }
 
 enum : std::uint8_t { kObstacle = 1, kSweepable = 2 };

@@ -201,7 +201,7 @@ EpisodeLoop::EpisodeLoop(Scenario& s, Plant& plant, Simulation* simulation, cons
       robot_(s.robot.spec),
       known_(KnownFloor(s)),
       true_(TrueFloor(s)),
-      area_(ComputeSweepArea(true_, robot_.clear, robot_.tool, robot_.step_m, s.start.p())),
+      area_(ComputeSweepArea(true_, robot_, robot_.clear, robot_.tool, s.start)),
       plan_m_(s.online ? std::numeric_limits<double>::infinity()
                        : std::max(Length(plan.path), 1e-9)),
       steps_a_control_(std::lround(1.0 / (s.episode.control_hz * s.physics.timestep_s))),

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/episode/make_plan.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
+#include "base/quantity.h"
+#include "env/core/coverage.h"
 #include "planners/lines/turned_plan.h"
 #include "run/episode/ask_program.h"
 #include "run/episode/episode_stream.h"
@@ -30,6 +34,35 @@ PlanResult NotOurs(const Scenario& s, const PlanRequest& request) {
   return plan;
 }
 
+// If the robot's clear circle does not fit at the start, the plan is made from the first place
+// straight ahead where it does.
+PlanResult Planned(const Planner& planner, const PlanRequest& request) {
+  PlanResult plan = planner.Plan(request);
+  if (plan.status != PlanStatus::kStartBlocked) {
+    FitTurns(request, plan);
+    return plan;
+  }
+  const FloorRoom room(request.map, request.robot.step_m);
+  const auto place_W = room.WidePlaceAhead(request.robot, plan.clear, request.start);
+  if (!place_W || *place_W == request.start.p()) return plan;
+  PlanRequest ahead = request;
+  ahead.start.x_m = place_W->x(), ahead.start.y_m = place_W->y();
+  plan = planner.Plan(ahead);
+  FitTurns(ahead, plan);
+  if (plan.status != PlanStatus::kSuccess) return plan;
+  Waypoint start;
+  start.p_W = request.start.p();
+  plan.path.insert(plan.path.begin(), start);
+  constexpr double kOff_m = 0.001;  // a first leg that goes straight on is one with this one
+  if (plan.path.size() > 2 &&
+      DistanceToSegment(plan.path[0].p_W, plan.path[2].p_W, plan.path[1].p_W) < kOff_m)
+    plan.path.erase(plan.path.begin() + 1);
+  plan.message = fmt::format(
+      "the start is too narrow to turn there: the plan first leads {} straight ahead{}",
+      LengthText((*place_W - start.p_W).norm()), plan.message.empty() ? "" : "; " + plan.message);
+  return plan;
+}
+
 }  // namespace
 
 PlanResult MakePlan(const Scenario& s) {
@@ -44,8 +77,7 @@ PlanResult MakePlan(const Scenario& s) {
                             conditions};
   PlanResult plan;
   if (s.planner) {
-    plan = s.planner->Plan(request);
-    FitTurns(request, plan);
+    plan = Planned(*s.planner, request);
   } else {
     if (s.online) {
       plan.status = PlanStatus::kOnline;

@@ -43,8 +43,7 @@ void WritePlanRequest(const PlanRequest& request, std::uint32_t seed,
                       const std::filesystem::path& folder) {
   const HazardMap& map = request.map;
   const RobotSpec& robot = request.robot;
-  const SweepArea area =
-      ComputeSweepArea(map, robot.clear, robot.tool, robot.step_m, request.start.p());
+  const SweepArea area = ComputeSweepArea(map, robot, robot.clear, robot.tool, request.start);
   Json goal;
   if (request.goal) goal = {{"x_m", request.goal->x()}, {"y_m", request.goal->y()}};
   Json map_json = {{"pgm", "map.pgm"}, {"png", "map.png"}};

@@ -275,7 +275,7 @@ Json PlanJson(const Scenario& s, const PlanResult& plan, const EpisodeRecord* dr
   double area_m2 = 0;
   if (!plan.path.empty()) {
     const SweepArea area =
-        ComputeSweepArea(KnownFloor(s), plan.clear, plan.tool, s.robot.spec.step_m, s.start.p());
+        ComputeSweepArea(KnownFloor(s), s.robot.spec, plan.clear, plan.tool, s.start);
     covered = MeasureCoverage(area, plan.tool, plan.path);
     area_m2 = area.area_m2();
   }

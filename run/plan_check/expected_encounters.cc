@@ -22,7 +22,7 @@ class EnoughCovered {
   EnoughCovered(const Scenario& s, const HazardMap& floor) : enough_(s.episode.stop_at_coverage) {
     if (!enough_) return;
     const RobotSpec& robot = s.robot.spec;
-    area_ = ComputeSweepArea(floor, robot.clear, robot.tool, robot.step_m, s.start.p());
+    area_ = ComputeSweepArea(floor, robot, robot.clear, robot.tool, s.start);
     tool_.emplace(area_, robot);
   }
   void Sweep(int shape, const Pose2& X_WB) {

@@ -207,7 +207,7 @@ std::string SweptText(const PlanResult& plan, const Json& json) {
 
 PlanCheck CheckPlan(Scenario& s, const PlanResult& plan) {
   const SweepArea area =
-      ComputeSweepArea(KnownFloor(s), plan.clear, plan.tool, s.robot.spec.step_m, s.start.p());
+      ComputeSweepArea(KnownFloor(s), s.robot.spec, plan.clear, plan.tool, s.start);
   return {CheckClearance(s, plan), FindDrivenOver(s, plan), FindUncovered(s, plan, area),
           EstimateBudget(s, plan), CountSharpCorners(plan.path, s.robot.spec)};
 }

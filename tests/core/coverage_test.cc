@@ -253,6 +253,29 @@ TEST_F(ToolWiderThanItsRobot, SweepsNothingBehindAWall) {
   EXPECT_EQ(dut.passes()(40, kWall + 1), 1) << "through the gap";
 }
 
+// A robot of 0.8 m x 0.4 m starts in an aisle of 0.7 m, in which it cannot turn: what it can sweep
+// begins ahead, where it can. Across the aisle it does not fit, and backwards it is not led.
+TEST(ComputeSweepArea, ALongRobotLeavesANarrowAisleStraightAhead) {
+  HazardMap map = EmptyFloor(80, 60, 0.05);
+  for (int iy = 0; iy < 60; ++iy)
+    for (int ix = 0; ix < 40; ++ix)
+      if (iy < 23 || iy >= 37) map.occupancy(ix, iy) = CellState::kOccupied;
+  RobotSpec robot;
+  robot.outline_B = {Rectangle({-0.4, -0.2}, {0.4, 0.2})};
+  robot.clear = Disc(std::hypot(0.4, 0.2));
+  robot.tool = Disc(0.2);
+  const auto area_m2 = [&](const Pose2& start) {
+    return ComputeSweepArea(map, robot, robot.clear, robot.tool, start).area_m2();
+  };
+  const double room_m2 = area_m2({3, 1.5, 0});
+  EXPECT_GT(room_m2, 3.5);
+  EXPECT_EQ(area_m2({0.5, 1.5, 0}), room_m2);
+  EXPECT_EQ(area_m2({0.5, 1.5, kPi}), 0);
+  EXPECT_EQ(area_m2({0.5, 1.5, kPi / 2}), 0);
+  map.occupancy(20, 29) = CellState::kOccupied;
+  EXPECT_EQ(area_m2({0.5, 1.5, 0}), 0);
+}
+
 TEST(CoverageMeter, ManyShortStepsCountAsOneLongOne) {
   const HazardMap map = EmptyFloor(100, 60, 0.05);
   const SweepArea area = ComputeSweepArea(map, Disc(0.2), Disc(0.2), 0.01, {2.5, 1.5});

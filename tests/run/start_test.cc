@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "run/episode/intervention.h"
+#include "run/episode/make_plan.h"
+#include "run/episode/records.h"
 #include "tests/run/scenario_text.h"
 
 namespace floorproof {
@@ -156,6 +160,32 @@ TEST_F(StartTest, AcrossAnEdgeIsRefused) {
                                        height_m),
                            "htetro"),
                 HasSubstr("across the edge of level"));
+}
+
+// Rover, 0.624 m x 0.58 m, starts in an aisle in which it cannot turn. It is led straight ahead,
+// out of the aisle, and then plans as from there.
+TEST_F(StartTest, FromAnAisleTooNarrowToTurnThePlanLeadsStraightAhead) {
+  std::string rows;
+  for (int row = 0; row < 32; ++row)
+    rows += "      " + std::string(25, row < 12 || row >= 19 ? '#' : '.') +
+            std::string(35, row == 0 || row == 31 ? '#' : '.') + "#\n";
+  const auto aisle = [&](double yaw_deg) {
+    return "scenario: 1\nsite:\n  site: 1\n  name: aisle\n  grid:\n    cell_m: 0.1\n"
+           "    rows: |\n" +
+           rows + fmt::format("  start: {{x_m: 1.5, y_m: 1.65, yaw_deg: {}}}\n", yaw_deg) +
+           "robot: rover\nplan: boustrophedon\n";
+  };
+  const Scenario s = Read(aisle(0));
+  const PlanResult dut = MakePlan(s);
+  ASSERT_EQ(dut.status, PlanStatus::kSuccess) << dut.message;
+  EXPECT_THAT(dut.message, HasSubstr("straight ahead"));
+  EXPECT_EQ(dut.path.front().p_W, s.start.p());
+  EXPECT_NEAR(dut.path[1].p_W.y(), s.start.y_m, 1e-6);
+  EXPECT_GT(dut.path[1].p_W.x(), 2.5);
+  EXPECT_GT(PlanJson(s, dut, nullptr)["coverage"].get<double>(), 0.9);
+  const PlanResult back = MakePlan(Read(aisle(180)));
+  EXPECT_EQ(back.status, PlanStatus::kStartBlocked);
+  EXPECT_THROW(Read(aisle(45)), InputError);
 }
 
 // Help sets a robot down on the floor at its waypoint, whatever its level.
