@@ -63,7 +63,7 @@ fs::path CampaignFolder(const std::string& out, const fs::path& scenario, const 
 
 void SayDrawn(const Scenario& scenario, const Globals& globals) {
   if (!scenario.drawn.empty())
-    globals.SayFact("Drawn", DrawnText(scenario.drawn) + "; whatever else the file says");
+    globals.SayFact("Drawn", DrawnText(scenario.drawn) + "; these override the file");
 }
 
 int ExitStatus(Outcome outcome) {

@@ -80,7 +80,7 @@ std::string MarginsText(const EpisodeRecord& record) {
     if (margin == nullptr || margin->share >= 1) continue;
     text += (text.empty() ? "" : "; ") + Words(Name(margin->mode)) + ", ";
     text += margin->share > 0 ? MarginText(*margin)
-                              : "at or beyond its limit, though not for long enough";
+                              : "at or beyond its limit, though not for long enough to count";
   }
   return text;
 }

@@ -209,7 +209,7 @@ std::string VariantsTable(const Report& report) {
     names.push_back(variant.name);
     rates.push_back(*rate);
   }
-  return RatesTable(PlotOf(report), "By variant: " + Words(metric), names, rates);
+  return RatesTable(PlotOf(report), "By variant: " + MarkupText(Words(metric)), names, rates);
 }
 
 std::string VariantRates(const Report& report, const VariantSummary& v) {

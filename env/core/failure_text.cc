@@ -79,8 +79,9 @@ std::string HeldText(const Event& event, const HazardMap& map) {
     constexpr double kNotable_s = 1;
     // The limit is a share of the way commanded, and mostly met by a hair: it says nothing.
     const double commanded_m = Evidence(event, "commanded_m").value_or(4 * event.threshold);
-    return "got on by " + FixedText(gained_m, 2) + " m of " + FixedText(commanded_m, 2) + " m" +
-           in + (still_s >= kNotable_s ? ", and stood still for " + TimeText(still_s) : "");
+    return "advanced " + FixedText(gained_m, 2) + " m of the " + FixedText(commanded_m, 2) +
+           " m commanded" + in +
+           (still_s >= kNotable_s ? ", and stood still for " + TimeText(still_s) : "");
   }
   const double turned_rad = Evidence(event, "turn_rad").value_or(0);
   const double least_rad = Evidence(event, "turn_threshold_rad").value_or(0);

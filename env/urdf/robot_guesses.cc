@@ -106,8 +106,8 @@ Figure Stall(const UrdfRobot& robot, const UrdfAnswers& answers, double weight_n
                    std::max(4 * weight_nm, kServo_nmpkg * std::min(robot.mass_kg(), kServos_kg))))
     return {wheel.effort_nm, "guess: the effort limit that the URDF gives the joint"};
   return {Rounded(push * weight_n * radius_m / wheels),
-          "guess: stalled, all motors push with " + NumberText(push) + " of the weight" +
-              (scrub ? ", as wheels that slide in turns take" : "") +
+          "guess: stalled, all motors push with " + NumberText(push) +
+              (scrub ? " times the weight, as wheels that slide in turns take" : " of the weight") +
               NotBelieved("effort", wheel.effort_nm, "N m")};
 }
 
@@ -157,10 +157,10 @@ void GuessLimits(const UrdfRobot& robot, const UrdfAnswers& answers, const Sizes
   const double push_n = static_cast<double>(robot.wheels.size()) * Most(out) / sizes.radius_m;
   out.max_accel_mps2 =
       Take(answers.max_accel_mps2, std::min(kUsual_mps2, push_n / robot.mass_kg() / 2),
-           "0.5 m/s2, at most half of what the motors can");
+           "as indoor robots have, at most half of what the motors can");
   const double spin_radps = kWheelShare * out.max_speed_mps.value / TurningArm(robot, sizes);
   out.max_yaw_rate_radps = Take(answers.max_yaw_rate_radps, std::min(kUsual_radps, spin_radps),
-                                "1.5 rad/s, at most 0.7 of what the wheels can");
+                                "as indoor robots have, at most 0.7 of what the wheels can");
   out.max_yaw_accel_radps2 =
       Take({}, 2 * out.max_yaw_rate_radps.value, "its yaw rate in half a second");
 }

@@ -141,6 +141,11 @@ void AddCrossings(const HazardMap& floor, const RobotSpec& robot, const PlanClea
     lines.push_back(fmt::format("  and {} more", crossings.size() - kListed));
 }
 
+// What the tool could reach and the plan leaves out.
+bool IsGap(const UncoveredPocket& pocket) {
+  return pocket.why == UncoveredPocket::Why::kNotVisited;
+}
+
 void AddUncovered(const HazardMap& floor, const RobotSpec& robot, const PlanResult& plan,
                   const UncoveredFloor& u, std::vector<std::string>& lines) {
   const double left_m2 = u.floor_m2 - u.covered_m2;
@@ -158,9 +163,13 @@ void AddUncovered(const HazardMap& floor, const RobotSpec& robot, const PlanResu
       lines.push_back(fmt::format("  {} m2 around {}: {}", NumberText(pocket.area_m2),
                                   At(pocket.p_W), WhyUncovered(floor, robot, pocket, plan)));
   }
-  if (u.pockets.size() > kListed)
-    lines.push_back(
-        fmt::format("  and {} more, {} m2", u.pockets.size() - kListed, NumberText(more_m2)));
+  if (u.pockets.size() <= kListed) return;
+  lines.push_back(
+      fmt::format("  and {} more, {} m2", u.pockets.size() - kListed, NumberText(more_m2)));
+  const auto gap = std::ranges::find_if(u.pockets, IsGap);
+  if (gap != u.pockets.end() && gap >= u.pockets.begin() + kListed)
+    lines.back() += fmt::format(", one of them within reach of the tool: {} m2 around {}",
+                                NumberText(gap->area_m2), At(gap->p_W));
 }
 
 // Of an audit: how long its tour is against the shortest there can be, and which places it lacks.
@@ -275,9 +284,6 @@ std::vector<std::string> PlanLines(const Scenario& s, const PlanResult& plan,
 
 std::vector<std::string> PlanFaults(const PlanResult& plan, const PlanCheck& check,
                                     std::span<const std::string> lines) {
-  const auto is_left_out = [](const UncoveredPocket& pocket) {
-    return pocket.why == UncoveredPocket::Why::kNotVisited;
-  };
   const auto is_missed = [](const SamplePlace& place) { return !place.reachable; };
   const std::string overlaps = ConflictsLine(check.clearance);
   const auto warns = [&](const std::string& line) {
@@ -285,7 +291,7 @@ std::vector<std::string> PlanFaults(const PlanResult& plan, const PlanCheck& che
   };
   std::vector<std::string> faults;
   if (!overlaps.empty()) faults.emplace_back(kPlanFaults[0]);
-  if (plan.samples.empty() ? std::ranges::any_of(check.uncovered.pockets, is_left_out)
+  if (plan.samples.empty() ? std::ranges::any_of(check.uncovered.pockets, IsGap)
                            : std::ranges::any_of(plan.samples, is_missed))
     faults.emplace_back(kPlanFaults[1]);
   if (std::ranges::any_of(lines, warns)) faults.emplace_back(kPlanFaults[2]);

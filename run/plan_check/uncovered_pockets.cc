@@ -233,9 +233,6 @@ class Finder {
     out_.edges_m2 = static_cast<double>(rest_) * cell_m2;
     AddLevels();
     std::ranges::stable_sort(out_.pockets, std::ranges::greater(), &UncoveredPocket::area_m2);
-    std::ranges::stable_partition(out_.pockets, [](const UncoveredPocket& pocket) {
-      return pocket.why == UncoveredPocket::Why::kNotVisited;
-    });
     return std::move(out_);
   }
 

@@ -75,11 +75,12 @@ TEST(FailureText, StuckGetsOnTooSlowly) {
                       {"still_s", 3.2},
                       {"since_s", 20}});
   EXPECT_EQ(FailureText(event, Floor()),
-            "got on by 0.50 m of 2.13 m in 10 s before 'threshold' (step, 15 mm), and stood still "
+            "advanced 0.50 m of the 2.13 m commanded in 10 s before 'threshold' (step, 15 mm), and "
+            "stood still "
             "for 3.2 s");
   event.hazard.clear();
   event.evidence[3].second = 0.4;
-  EXPECT_EQ(FailureText(event, Floor()), "got on by 0.50 m of 2.13 m in 10 s");
+  EXPECT_EQ(FailureText(event, Floor()), "advanced 0.50 m of the 2.13 m commanded in 10 s");
 }
 
 TEST(FailureText, StuckSaysWhatItsWheelsDid) {

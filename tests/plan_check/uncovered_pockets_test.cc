@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "run/plan_check/plan_budget.h"
+#include "run/plan_check/plan_check.h"
 #include "run/scenario/floors.h"
 #include "tests/run/scenario_text.h"
 
@@ -219,6 +220,30 @@ TEST_F(UncoveredTest, AStepOnTheWayIsNotExpectedToSlowTheDriveDown) {
       const double time_s = EstimateBudget(scenario, MakePlan(scenario)).time_s;
       EXPECT_NEAR(time_s, EstimateBudget(bare, MakePlan(bare)).time_s, 1e-9) << robot << height_m;
     }
+}
+
+// Which pockets are gaps decides with --strict: a gap is named also where others are larger.
+TEST_F(UncoveredTest, AGapAmongPocketsThatAreNotListedIsNamed) {
+  Save("plan.csv", "x_m,y_m\n1.5,2.5\n6,2.5\n");
+  Scenario scenario = Read(RoomScenario(""));
+  const PlanResult plan = MakePlan(scenario);
+  PlanCheck check = CheckPlan(scenario, plan);
+  const auto text = [&](Why last) {
+    check.uncovered.pockets.assign(7, {});
+    for (int i = 0; i < 7; ++i) {
+      UncoveredPocket& pocket = check.uncovered.pockets[static_cast<std::size_t>(i)];
+      pocket.why = i < 6 ? Why::kClosed : last;
+      pocket.area_m2 = 7 - i;
+      pocket.p_W = {1.0 + i, 2};
+    }
+    std::string all;
+    for (const std::string& line : PlanLines(scenario, plan, check)) all += line + "\n";
+    return all;
+  };
+  EXPECT_THAT(text(Why::kClosed), HasSubstr("  and 2 more, 3 m2\n"));
+  EXPECT_THAT(text(Why::kNotVisited),
+              HasSubstr("  and 2 more, 3 m2, one of them within reach of the tool: 1 m2 around x "
+                        "7.00, y 2.00 m\n"));
 }
 
 TEST_F(UncoveredTest, TheBatterysShareIsThatOfADrive) {

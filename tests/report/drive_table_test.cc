@@ -99,7 +99,8 @@ TEST_F(DriveTableTest, SeveralFailuresHaveTheNumbersOfTheMaps) {
 TEST_F(DriveTableTest, ALimitThatWasPassedTooShortlyIsSaidToBe) {
   record_.margins = {{"veer_off", FailureMode::kVeerOff, 0, 0}};
   EXPECT_EQ(Lines(200).back(),
-            "  Nearest to failing  veer off, at or beyond its limit, though not for long enough");
+            "  Nearest to failing  veer off, at or beyond its limit, though not for long enough to "
+            "count");
   record_.margins.clear();
   EXPECT_THAT(Text(200), Not(HasSubstr("Nearest")));
 }

@@ -33,7 +33,7 @@ const std::map<std::string, Kind> kFloors = {{"dock", {"type: step, height_m: 0.
                                              {"rug", {"type: carpet, height_m: 0.006", 0.006}}};
 const std::map<std::string, Kind> kCovers = {
     {"carpet", {"type: carpet, height_m: 0.004", 0.004}},
-    {"threshold", {"type: threshold, height_m: 0.04, bevel: 0, width_m: 0.6", 0.04, true}},
+    {"threshold", {"type: threshold, height_m: 0.018, bevel: 0, width_m: 0.6", 0.018, true}},
     {"cable_cover",
      {"type: cable_cover, height_m: 0.02, width_m: 0.6, top_width_m: 0.4", 0.02, true}},
     {"groove", {"type: groove, depth_m: 0.03, width_m: 0.6", -0.03, true}},
