@@ -79,7 +79,7 @@ struct ShapeSpec {
 // their wheels' positions, or not at all, its motors told to stand but giving way.
 enum class Standstill { kBrake, kHold, kFree };
 std::string_view Name(Standstill standstill);
-// Of a robot whose model does not say: brakes on a heavy one, else motors that hold.
+// The default: a heavy robot has brakes, others have motors that hold.
 constexpr double kHeavyRobot_kg = 40;
 Standstill UsualStandstill(double mass_kg);
 

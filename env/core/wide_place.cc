@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way out of a place that is too narrow for a clear circle. The outline is moved straight ahead,
-// half a cell at a time, until the circle fits. Not done: turns, and driving backwards.
+// The way out of a place that is too narrow for a clear circle. The outline is moved straight
+// ahead, half a cell at a time, until the circle fits. Not done: turns, and driving backwards.
 #include <cmath>
 
 #include "env/core/coverage.h"

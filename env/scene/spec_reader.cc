@@ -57,8 +57,7 @@ void ReadBattery(const CompiledRobot& compiled, RobotSpec& robot) {
 // As the model says; else the usual one.
 Standstill ReadStandstill(const CompiledRobot& compiled, double mass_kg) {
   constexpr const char* kKey = "standstill";
-  if (mj_name2id(compiled.model(), mjOBJ_TEXT, kKey) < 0)
-    return UsualStandstill(mass_kg);
+  if (mj_name2id(compiled.model(), mjOBJ_TEXT, kKey) < 0) return UsualStandstill(mass_kg);
   const std::string text = compiled.Text(kKey);
   for (const Standstill kind : {Standstill::kBrake, Standstill::kHold, Standstill::kFree})
     if (text == Name(kind)) return kind;
