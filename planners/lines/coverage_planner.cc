@@ -162,7 +162,8 @@ void CoveragePlanner::Visit(ParamVisitor& visit) {
   visit("margin_m", margin_m_, NonNegative(),
         "kept beyond the clear shape for the tracker's error; none: 0.03 around a robot's circle, "
         "0.015 around its footprint, 0 around radius_m; reduced to 0.01 if it takes much of the "
-        "floor, and narrower doors are passed in their middle. A given margin is kept everywhere");
+        "floor, and narrower doors are passed in their middle. A given margin is kept everywhere, "
+        "to within half a cell of the map");
   visit("overlap", overlap_, Between(0, 0.9), "of neighbouring rows, share of the tool's width");
   visit("edges", edges_, "laps along walls and furniture first");
 }
