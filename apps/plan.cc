@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "apps/command.h"
+#include "base/comma_list.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/quantity.h"
@@ -23,13 +23,10 @@ namespace {
 // The faults of a list with commas between.
 std::vector<std::string> ReadFaults(const std::string& list) {
   const std::vector<std::string> known(kPlanFaults.begin(), kPlanFaults.end());
-  std::vector<std::string> faults;
-  std::istringstream items(list);
-  for (std::string fault; std::getline(items, fault, ',');) {
+  std::vector<std::string> faults = SplitAtCommas(list);
+  for (const std::string& fault : faults)
     if (std::ranges::find(known, fault) == known.end())
       throw InputError({"--allow", 0}, "", fault, "unknown fault" + DidYouMeanOneOf(fault, known));
-    faults.push_back(std::move(fault));
-  }
   return faults;
 }
 

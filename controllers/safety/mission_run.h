@@ -43,8 +43,8 @@ class MissionRun {
 
   NodeStatus status(std::size_t node) const { return status_[node]; }
   // Eq. 1, of the skills below a node, and their sum: a skill's is that of its worst primitive, in
-  // parallel or in its turn. What waits or is done is no risk; what has failed remains one. The two
-  // differ where skills run beside each other.
+  // parallel or in its turn. A node that waits or is done has no risk; a failed one keeps
+  // its risk. The two differ where skills run beside each other.
   struct Risk {
     double greatest = 0, sum = 0;
     bool operator==(const Risk&) const = default;

@@ -12,8 +12,7 @@
 namespace floorproof {
 namespace {
 
-constexpr double kBeside_m = 0.001;  // nobody sets a robot down more exactly
-constexpr double kLeast_m2 = 1e-8;   // of an overlap
+constexpr double kLeast_m2 = 1e-8;  // of an overlap
 
 bool Overlap(const Polygon& a, const Polygon& b) {
   return Overlap(BoxAround(a), BoxAround(b)) && Area(Intersection({{a, {}}}, {b})) > kLeast_m2;
@@ -96,7 +95,7 @@ void MeetSolid(const RobotSpec& robot, const Pose2& X_WB, const std::vector<Poly
   if (solid.kind != Solid::Kind::kPrism || rise_m <= kSameLevel_m || IsSlope(solid)) return;
   const Polygon& top = solid.top.empty() ? solid.base : solid.top;
   const double belly_m = out.rests_m + robot.clearance_m, roof_m = out.rests_m + robot.height_m;
-  if (solid.z_high_m > belly_m + kBeside_m && solid.z_low_m < roof_m &&
+  if (solid.z_high_m > belly_m + kTouch_m && solid.z_low_m < roof_m &&
       std::ranges::any_of(body_W, [&](const Polygon& part_W) { return Overlap(part_W, top); })) {
     out.obstruction = hazard.id;
     out.why = "overlaps " + hazard.id + ", " + hazard.type;
@@ -104,7 +103,7 @@ void MeetSolid(const RobotSpec& robot, const Pose2& X_WB, const std::vector<Poly
   }
   for (const WheelSpec& wheel : robot.wheels) {
     if (solid.z_low_m > out.floor_m + 2 * wheel.radius_m ||
-        !Overlap(InWorld(X_WB, WheelUpTo(wheel, rise_m - kBeside_m)), top))
+        !Overlap(InWorld(X_WB, WheelUpTo(wheel, rise_m - kTouch_m)), top))
       continue;
     if (hazard.hazard_class == HazardClass::kTerrain && rise_m <= robot.clearance_m) {
       out.rests_m = std::max(out.rests_m, solid.z_high_m);
@@ -197,13 +196,13 @@ Standing StandAt(const HazardMap& map, const RobotSpec& robot, const Pose2& X_WB
   if (!FindFloor(map, robot, X_WB, out)) return out;
   // Walls' solids are drawn back: the body is drawn in by as much.
   const double drawn_back_m = std::min(map.inset_m, robot.inscribed_radius_m / 2);
-  if (std::ranges::any_of(OutlineAt(robot, X_WB, kBeside_m + drawn_back_m),
+  if (std::ranges::any_of(OutlineAt(robot, X_WB, kTouch_m + drawn_back_m),
                           [&](const Polygon& part_W) { return TouchesWall(map, part_W); })) {
     out.obstruction = "wall";
     out.why = "overlaps a wall";
     return out;
   }
-  const std::vector<Polygon> body_W = OutlineAt(robot, X_WB, kBeside_m);
+  const std::vector<Polygon> body_W = OutlineAt(robot, X_WB, kTouch_m);
   for (const Hazard& hazard : map.hazards) {
     for (const Solid& solid : hazard.solids) {
       MeetSolid(robot, X_WB, body_W, hazard, solid, out);

@@ -12,6 +12,9 @@ namespace floorproof {
 
 constexpr double kSameLevel_m = 1e-6;  // floors whose heights differ by no more are one level
 
+// What overlaps by less touches: nobody sets a robot down more exactly.
+constexpr double kTouch_m = 0.001;
+
 // Heights over the base floor of the map, m.
 struct Standing {
   double floor_m = 0;       // of the level that carries its wheels: the highest under one
@@ -27,7 +30,7 @@ struct Standing {
 //    in which it sinks by more than that;
 //  - where its body (between its belly and its top) or a wheel would be within a solid of a hazard
 //    or a wall, known or not. The body is the robot's outline at its yaw. What overlaps by less
-//    than 1 mm stands beside.
+//    than kTouch_m is beside it.
 Standing StandAt(const HazardMap& map, const RobotSpec& robot, const Pose2& X_WB);
 
 // The parts of the robot's outline at X_WB, drawn in by this much, but by at most half of their

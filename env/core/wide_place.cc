@@ -24,7 +24,6 @@ std::optional<Vec2> FloorRoom::WidePlaceAhead(const RobotSpec& robot, const Shap
     const Cell cell = frame_.ToCell(X_WB.p());
     if (!frame_.Inside(cell)) return {};
     if (static_cast<double>(clearance_m_(cell)) >= clear.radius_m) return X_WB.p();
-    constexpr double kTouch_m = 0.001;  // as a robot stands beside a wall (standing.h)
     for (const Polygon& part_W : OutlineAt(robot, X_WB, inset_m_ + kTouch_m))
       if (meets(part_W, walls_)) return {};
     for (const Polygon& part_W : OutlineAt(robot, X_WB, kTouch_m))

@@ -49,12 +49,12 @@ struct PlanClearance {
 
 // Moves the robot's own outline (RobotSpec::outline_B; blocks where it folds) along the plan:
 // straight from waypoint to waypoint, with the plan's yaw where its drive holds one, else heading
-// along the way, turning and folding where it stands. It is compared with what is known of the
+// along the way, turning and folding where it stands. It is compared with the known
 // floor: walls as they are built, drawn back by `inset_m`, and the polygons of the hazards that the
 // robot must keep off (IsObstacle), whatever their cells. What overlaps by less than a millimetre
 // touches. A level change that the plan's line meets (LevelChangesOnTheWay) is crossed, and no
-// obstacle but where the robot's side alone reaches over its edge. Not looked at: how far a tracker
-// strays from the plan, and what it cuts off in bends.
+// obstacle but where the robot's side alone reaches over its edge. Not checked: how far a tracker
+// leaves the plan, also in bends.
 PlanClearance CheckClearance(const Scenario& scenario, const PlanResult& plan);
 
 }  // namespace floorproof

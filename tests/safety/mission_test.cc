@@ -36,6 +36,18 @@ run: [drive]
 
 Mission Read(const std::string& text) { return ReadMission(ParseYaml(text, "m.yaml"), kTypes); }
 
+// Of the file with `to` in place of `from`: "taken" where it is none.
+std::string Refusal(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  try {
+    Read(text.replace(at, from.size(), to));
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "taken";
+}
+
 // Takes so many periods, and fails as it is told.
 struct Script {
   int periods = 1;
@@ -309,16 +321,8 @@ TEST(MissionFile, ASkillHandsItsKeysToThoseOfItsPrimitivesThatKnowThem) {
 }
 
 TEST(MissionFile, WhatCannotBeIsRefusedWithLineAndKey) {
-  const auto refusal = [](const std::string& from, const std::string& to) -> std::string {
-    std::string text = kTwoTasks;
-    const std::size_t at = text.find(from);
-    EXPECT_NE(at, std::string::npos) << from;
-    try {
-      Read(text.replace(at, from.size(), to));
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "taken";
+  const auto refusal = [](const std::string& from, const std::string& to) {
+    return Refusal(kTwoTasks, from, to);
   };
   EXPECT_EQ(refusal("hall", "hall"), "taken");
   EXPECT_EQ(refusal("there: [turn, go]", "there: [turn, and_back]"),
@@ -372,16 +376,8 @@ TEST(MissionFile, WhatCannotBeIsRefusedWithLineAndKey) {
 }
 
 TEST(MissionFile, WhatCannotRunSideBySideIsRefusedWithLineAndKey) {
-  const auto refusal = [](const std::string& from, const std::string& to) -> std::string {
-    std::string text = kBeside;
-    const std::size_t at = text.find(from);
-    EXPECT_NE(at, std::string::npos) << from;
-    try {
-      Read(text.replace(at, from.size(), to));
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "taken";
+  const auto refusal = [](const std::string& from, const std::string& to) {
+    return Refusal(kBeside, from, to);
   };
   const std::string with = "with: [senses, sweep]";
   EXPECT_EQ(refusal(with, with), "taken");
