@@ -77,7 +77,8 @@ void ContactReader::Read(const mjModel* m, const mjData* d, std::span<const Vec3
       truth.wheel_contacts += wheels ? 1 : 0;
       if (wheels) AddFooting(m, contact, truth);
       if (!wheels && nz > kWedged) AddBellyLoad(contact, truth);
-      if (nz <= kSteep) AddObstacle(m, d, contact, truth);
+      // MuJoCo gives the normal of a touch upside down now and then, where it is a micrometre deep.
+      if (std::abs(nz) <= kSteep) AddObstacle(m, d, contact, truth);
       if (!carries)
         AddLoad(contact);
       else if (wheels || contact.normal_n > 0)

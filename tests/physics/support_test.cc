@@ -4,6 +4,7 @@
 
 #include "tests/physics/one_caster.h"
 #include "tests/run/scenario_text.h"
+#include "validate/rig.h"
 
 namespace floorproof {
 namespace {
@@ -78,6 +79,29 @@ TEST_F(Support, TurningOverAnEdgeIsNoRebound) {
     const EpisodeRecord dut = Drive(Read(RoomScenario(sill)));
     EXPECT_EQ(dut.outcome, Outcome::kSuccess) << x_m;
     EXPECT_THAT(dut.events, IsEmpty()) << x_m;
+  }
+}
+
+// A slope carries and obstructs nobody, however wheels scrub over it.
+TEST_F(Support, ASlopeIsNoObstacleToWhoTurnsOnIt) {
+  constexpr double kSlope_rad = 3 * kPi / 180, kHalf_m = 3;
+  const double rise_m = kHalf_m * std::tan(kSlope_rad);
+  for (const char* robot : {"beluga", "htetro", "rover"}) {
+    RigOptions options;
+    Hazard slope =
+        Prism("slope", Rectangle({-kHalf_m, -kHalf_m}, {kHalf_m, kHalf_m}), {}, 2 * rise_m);
+    slope.solids.front().gradient = {std::tan(kSlope_rad), 0};
+    options.hazards = {slope};
+    Rig dut(robot, std::move(options));
+    dut.SetBase({0, 0, rise_m + 0.002},
+                Eigen::Quaterniond(Eigen::AngleAxisd(-kSlope_rad, Vec3::UnitY())), Vec3::Zero());
+    for (const double turn_radps : {0.9, -0.5, 0.9}) {
+      dut.Command({0, 0, turn_radps});
+      for (const double until_s = dut.truth().t_s + 8; dut.truth().t_s < until_s;) {
+        dut.Step();
+        ASSERT_EQ(dut.truth().num_contacts, 0) << robot << " after " << dut.truth().t_s << " s";
+      }
+    }
   }
 }
 
