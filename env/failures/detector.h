@@ -35,16 +35,22 @@ class Detector : public Configurable {
   // failure (it rearms when the condition has cleared); then event() has the evidence.
   virtual bool Update(const Sample& sample) = 0;
   const Event& event() const { return event_; }
-  // How far from failing, in the threshold's unit; positive is safe. It is the smallest value since
-  // Start().
+  // How far from failing, in the threshold's unit, where that was the smallest share of the
+  // threshold since Start(); positive is safe.
   double margin() const { return margin_; }
-  // The same as a share of the threshold: 1, it never came nearer; below 0, it was beyond it. It
-  // does not say whether it failed: beyond for too short a time is no failure.
+  // That share: 1, it never came nearer; below 0, it was beyond it. It does not say whether it
+  // failed: beyond for too short a time is no failure.
   double margin_share() const { return margin_ / threshold_; }
 
  protected:
   // In Start: nothing has come nearer yet than the whole threshold, which is > 0.
   void StartMargin(double threshold) { margin_ = threshold_ = threshold; }
+  // So much is left of a threshold > 0 that is not the same everywhere.
+  void LowerMargin(double left, double threshold) {
+    if (left / threshold >= margin_share()) return;
+    margin_ = left;
+    threshold_ = threshold;
+  }
 
   Event event_;
   double margin_ = 0;

@@ -43,7 +43,7 @@ class VeerOff final : public Detector {
     const double margin_m = limit_m - sample.cross_track_m;
     if (!(margin_m < 0)) {
       off_ = reported_ = false;
-      margin_ = std::min(margin_, margin_m);
+      LowerMargin(margin_m, limit_m);
       return false;
     }
     if (!off_) {
@@ -53,7 +53,7 @@ class VeerOff final : public Detector {
     // Before the duration is over the threshold was exceeded, but the robot has not failed. The
     // margin's sign says which.
     const bool lasted = sample.t_s - off_since_s_ >= duration_s_ - kTimeSlackS;
-    margin_ = std::min(margin_, lasted ? margin_m : 0.0);
+    LowerMargin(lasted ? margin_m : 0.0, limit_m);
     if (!lasted || reported_) return false;
     reported_ = true;
     event_ = MakeEvent(mode(), "", sample, hazards_.Recall(sample.t_s - kRecallS),

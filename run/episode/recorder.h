@@ -235,18 +235,17 @@ class Recorder {
     return speed_mps - (v.vx_mps * cmd.vx_mps + v.vy_mps * cmd.vy_mps) / speed_mps;
   }
 
-  // The least of all that the detectors said since each of their starts.
+  // The least share of all that the detectors said since each of their starts.
   void KeepMargins(const std::vector<NamedDetector>& detectors) {
     std::vector<Margin>& kept = record_.margins;
     for (std::size_t i = 0; i < detectors.size(); ++i) {
       const Detector& detector = *detectors[i].detector;
-      if (i == kept.size()) {
-        kept.push_back(
-            {detectors[i].name, detector.mode(), detector.margin(), detector.margin_share()});
-      } else {
-        kept[i].value = std::min(kept[i].value, detector.margin());
-        kept[i].share = std::min(kept[i].share, detector.margin_share());
-      }
+      const Margin margin{detectors[i].name, detector.mode(), detector.margin(),
+                          detector.margin_share()};
+      if (i == kept.size())
+        kept.push_back(margin);
+      else if (margin.share < kept[i].share)
+        kept[i] = margin;
     }
   }
 

@@ -84,5 +84,29 @@ TEST(VeerOff, MarginIsTheLeastDistanceToTheBound) {
   EXPECT_DOUBLE_EQ(dut->margin(), -0.4);
 }
 
+// 100 mm off is nearer to failing where 300 mm are allowed than 150 mm off where 500 are; a narrow
+// lane that is kept is no margin lost.
+TEST(VeerOff, MarginIsAShareOfTheBoundThatHoldsThere) {
+  const auto dut = MakeDetector("veer_off");
+  Trace trace = Off(0, 1, 2.0);
+  const auto in = [&](double half_width_m, double off_m, double from_s, double to_s) {
+    trace = With(
+        trace,
+        [=](Sample& s) {
+          s.cross_track_half_width_m = half_width_m;
+          s.cross_track_m = off_m;
+        },
+        from_s, to_s);
+  };
+  in(0.3, 0, 0, 1);
+  Judge(*dut, trace);
+  EXPECT_EQ(dut->margin_share(), 1);
+  in(0.3, 0.1, 1, 2);
+  in(0.8, 0.15, 2, 3);
+  Judge(*dut, trace);
+  EXPECT_NEAR(dut->margin(), 0.2, 1e-12);
+  EXPECT_NEAR(dut->margin_share(), 0.2 / 0.3, 1e-12);
+}
+
 }  // namespace
 }  // namespace floorproof
