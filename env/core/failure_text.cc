@@ -34,6 +34,14 @@ std::string Beside(const Event& event, const HazardMap& map, std::string_view up
   return std::string(below ? down : up) + " " + ObstaclePhrase(map, event.hazard);
 }
 
+// Whether the middle of the robot was over it.
+bool IsOn(const Event& event, const HazardMap& map) {
+  const Hazard* hazard = Find(map, event.hazard);
+  return hazard != nullptr && std::ranges::any_of(hazard->footprint, [&](const Polygon& part) {
+           return Contains(part, {event.x_m, event.y_m});
+         });
+}
+
 std::string Is(const Compared& compared, std::string_view rule) {
   return compared.value + ", " + compared.limit + " " + std::string(rule);
 }
@@ -72,7 +80,8 @@ std::string HeldText(const Event& event, const HazardMap& map) {
       text += ", which carries " + NumberText(*load_n) + " N of its weight";
     return text;
   }
-  const std::string where = Beside(event, map, event.hazard == "wall" ? " at" : " before", " in");
+  const std::string_view up = event.hazard == "wall" ? " at" : IsOn(event, map) ? " on" : " before";
+  const std::string where = Beside(event, map, up, " in");
   if (still_s >= window_s / 2) return "stood still for " + TimeText(still_s) + where;
   const std::string in = " in " + TimeText(window_s) + where;
   if (Evidence(event, "turning").value_or(0) == 0) {

@@ -67,6 +67,19 @@ TEST(FailureText, StuckStandsStill) {
   EXPECT_EQ(FailureText(event, Floor()), "stood still for 8 s");
 }
 
+TEST(FailureText, StuckOnWhatItStandsOn) {
+  HazardMap map = Floor();
+  const auto square = [](double x_m, double y_m) {
+    return Polygon{{x_m, y_m}, {x_m + 1, y_m}, {x_m + 1, y_m + 1}, {x_m, y_m + 1}};
+  };
+  map.hazards[0].footprint = {square(8, 8), square(5, 2.5)};
+  Event event = Make(FailureMode::kStuck, "", "threshold", 0.499, 0.5,
+                     {{"gained_m", 0.499}, {"still_s", 8}, {"since_s", 20}});
+  EXPECT_EQ(FailureText(event, map), "stood still for 8 s on 'threshold' (step, 15 mm)");
+  event.x_m = 4.9;
+  EXPECT_EQ(FailureText(event, map), "stood still for 8 s before 'threshold' (step, 15 mm)");
+}
+
 TEST(FailureText, StuckGetsOnTooSlowly) {
   Event event = Make(FailureMode::kStuck, "", "threshold", 0.4996, 0.5,
                      {{"gained_m", 0.4996},
