@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "controllers/compliance.h"
+#include "controllers/creep.h"
 #include "controllers/drive.h"
 #include "controllers/drive_time.h"
 #include "controllers/follower_params.h"
@@ -61,6 +62,7 @@ class HolonomicFollower final : public Tracker {
     limits.holds_yaw = true;
     limits.folds = !robot.hinges.empty();
     progress_.Start(path, limits, params_.corner_tolerance_m);
+    turn_creep_.Reset();
     compliance_.Start(robot, kBearableShare * Radians(params_.recover_deg));
     twist_ = {};
     share_ = 1;
@@ -88,7 +90,7 @@ class HolonomicFollower final : public Tracker {
     progress_.Update(X_WB, t_s);
     Fold(X_WB.yaw_rad);
     if (progress_.moving())
-      Pursue(X_WB, dt_s);
+      Pursue(X_WB, t_s, dt_s);
     else if (folding_)
       HoldPlace(X_WB, dt_s);
     else
@@ -149,7 +151,7 @@ class HolonomicFollower final : public Tracker {
          kHoldGain * WrapAngle(hold_yaw_rad_ - X_WB.yaw_rad), dt_s);
   }
 
-  void Pursue(const Pose2& X_WB, double dt_s) {
+  void Pursue(const Pose2& X_WB, double t_s, double dt_s) {
     const Vec2 p_W = X_WB.p();
     const double ahead_m = anticipation_s_ * std::hypot(twist_.vx_mps, twist_.vy_mps);
     const auto [direction_W, offset_W, speed_mps] = progress_.CourseFrom(p_W, ahead_m);
@@ -164,7 +166,12 @@ class HolonomicFollower final : public Tracker {
 
     GiveWay(X_WB, direction_W, dt_s);
     const double turn_rad = compliance_.YawError(off_rad);
-    const double rate = TurningRate(turn_rad, yaw_rate_radps_, yaw_accel_radps2_);
+    if (progress_.phase() == Phase::kTurn)
+      turn_creep_.Update(std::abs(off_rad), t_s);
+    else
+      turn_creep_.Reset();
+    const double rate =
+        TurningRate(turn_rad, yaw_rate_radps_, yaw_accel_radps2_, turn_creep_.speed());
     const double wz_radps =
         std::clamp(turn_rad == 0 ? compliance_.SquaringRate() : std::copysign(rate, turn_rad),
                    -yaw_rate_radps_, yaw_rate_radps_);
@@ -212,6 +219,7 @@ class HolonomicFollower final : public Tracker {
   ObstacleGap gap_;
   PathProgress progress_;
   Compliance compliance_;
+  Creep turn_creep_{Creep::kTurn};
   double cruise_mps_ = 0, accel_mps2_ = 0, yaw_rate_radps_ = 0, yaw_accel_radps2_ = 0;
   BodyTwist twist_;  // last commanded
   double share_ = 1;

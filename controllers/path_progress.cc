@@ -28,6 +28,7 @@ void PathProgress::Start(const Path& path, const ReferenceLimits& limits,
   missed_ = {};
   if (!reference_.vertices.empty()) turn_W_ = Vertex(0).p_W;
   dwell_until_s_ = 0;
+  creep_.Reset();
 }
 
 // A corner that was passed beside is not gone back to: the way leads on.
@@ -39,6 +40,7 @@ void PathProgress::Extend(const Path& path) {
   goal_ = ahead_ = vertex_;
   waypoint_ = 0;
   seen_m_ = 0;
+  creep_.Reset();
   const bool gone = standing() && (dwell_ >= leg().dwells.size() ||
                                    (phase_ == Phase::kFace && !leg().dwells[dwell_].face_rad));
   if (gone) Depart();
@@ -46,7 +48,12 @@ void PathProgress::Extend(const Path& path) {
 
 void PathProgress::Update(const Pose2& X_WB, double t_s) {
   if (phase_ == Phase::kDwell) EndDwells(t_s);
+  const std::pair way(vertex_, homing_);
   if (moving()) Advance(X_WB, t_s);
+  if (phase_ == Phase::kDrive && way == std::pair(vertex_, homing_))
+    creep_.Update(LeftFrom(X_WB.p()), t_s);
+  else
+    creep_.Reset();
 }
 
 bool PathProgress::WouldBeDone(const Pose2& X_WB, double t_s) const {
@@ -199,14 +206,17 @@ double PathProgress::SeekAhead(const Vec2& p_W, double way_m) {
   return s_m - Vertex(ahead_).s_m;
 }
 
+// The way to the end of the leg, or to where it is homing to.
+double PathProgress::LeftFrom(const Vec2& p_W) const {
+  if (homing_) return (Vertex(goal_).p_W - p_W).norm() - corner_tolerance_m_;
+  return (Vertex(vertex_ + 1).p_W - p_W).dot(leg().direction_W);
+}
+
 double PathProgress::SpeedFrom(const Vec2& p_W) const {
-  if (homing_) {
-    const double left_m = (Vertex(goal_).p_W - p_W).norm() - corner_tolerance_m_;
-    return std::min(limits_.cruise_mps, ApproachSpeed(0, left_m, limits_));
-  }
-  const ReferenceVertex &from = Vertex(vertex_), &to = Vertex(vertex_ + 1);
-  const double left_m = (to.p_W - p_W).dot(from.direction_W);
-  return std::min(from.speed_mps, ApproachSpeed(to.passing_mps, left_m, limits_));
+  const double then_mps = homing_ ? 0 : Vertex(vertex_ + 1).passing_mps;
+  const double approach_mps = ApproachSpeed(then_mps, LeftFrom(p_W), limits_);
+  return std::min(homing_ ? limits_.cruise_mps : leg().speed_mps,
+                  std::max(approach_mps, creep_.speed()));
 }
 
 PathProgress::Aim PathProgress::AimFrom(const Vec2& p_W, double speed_mps,

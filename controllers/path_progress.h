@@ -14,6 +14,7 @@
 #include <span>
 
 #include "base/params.h"
+#include "controllers/creep.h"
 #include "controllers/missed_stops.h"
 #include "controllers/reference_path.h"
 
@@ -118,6 +119,7 @@ class PathProgress {
   void Depart();
   double Along(const Vec2& p_W) const;
   double SeekAhead(const Vec2& p_W, double way_m);
+  double LeftFrom(const Vec2& p_W) const;
   double SpeedFrom(const Vec2& p_W) const;
 
   // How far off a robot is that drives around a corner on its tightest arc.
@@ -140,6 +142,7 @@ class PathProgress {
   std::size_t waypoint_ = 0;  // the plan's segment now tracked
   std::size_t dwell_ = 0;     // of vertex_'s
   double dwell_until_s_ = 0;
+  Creep creep_{Creep::kWay};  // along the leg now tracked
 };
 
 }  // namespace floorproof

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "controllers/creep.h"
 #include "controllers/drive.h"
 #include "controllers/drive_time.h"
 #include "controllers/follower_params.h"
@@ -47,7 +48,7 @@ class RegulatedPursuit final : public Tracker {
     limits.faces = true;
     bend_yaw_rate_radps_ = limits.yaw_rate_radps;
     progress_.Start(path, limits, params_.corner_tolerance_m);
-    turn_side_ = 0;
+    BeginTurn();
     duration_s_ = DriveTime(progress_.reference(),
                             {limits, params_.corner_tolerance_m,
                              Radians(params_.heading_tolerance_deg), Radians(params_.recover_deg)},
@@ -65,11 +66,11 @@ class RegulatedPursuit final : public Tracker {
     const Pose2& X_WB = estimate.X_WB;
     const std::size_t vertex = progress_.vertex();
     progress_.Update(X_WB, t_s);
-    if (progress_.vertex() != vertex) turn_side_ = 0;
+    if (progress_.vertex() != vertex) BeginTurn();
     if (progress_.phase() == Phase::kFace)
       Face(X_WB, t_s, dt_s);
     else if (progress_.moving())
-      Pursue(X_WB, dt_s);
+      Pursue(X_WB, t_s, dt_s);
     else
       motion_.Rest(dt_s);
 
@@ -86,20 +87,20 @@ class RegulatedPursuit final : public Tracker {
  private:
   using Phase = PathProgress::Phase;
 
-  void Pursue(const Pose2& X_WB, double dt_s) {
+  void Pursue(const Pose2& X_WB, double t_s, double dt_s) {
     const auto [target_W, speed_mps] =
         progress_.AimFrom(X_WB.p(), std::abs(motion_.twist().vx_mps), lookahead_);
     const Vec2 target_B = X_WB.Inverse() * target_W;
     const double aside_rad = std::atan2(target_B.y(), target_B.x());
     if (progress_.phase() == Phase::kDrive && std::abs(aside_rad) > Radians(params_.recover_deg)) {
       progress_.Turn(X_WB.p());
-      turn_side_ = 0;
+      BeginTurn();
     }
     if (progress_.phase() == Phase::kTurn &&
         std::abs(aside_rad) <= Radians(params_.heading_tolerance_deg))
       progress_.Drive();
     if (progress_.phase() == Phase::kTurn)
-      Turn(aside_rad, dt_s);
+      Turn(aside_rad, t_s, dt_s);
     else
       Follow(target_B, gap_.Limit(speed_mps, X_WB, target_W), dt_s);
   }
@@ -107,17 +108,23 @@ class RegulatedPursuit final : public Tracker {
   // Turned far enough, it comes to rest in the dwell.
   void Face(const Pose2& X_WB, double t_s, double dt_s) {
     const double aside_rad = WrapAngle(*progress_.face_rad() - X_WB.yaw_rad);
-    Turn(aside_rad, dt_s);
+    Turn(aside_rad, t_s, dt_s);
     if (std::abs(aside_rad) > Radians(params_.heading_tolerance_deg)) return;
-    turn_side_ = 0;
+    BeginTurn();
     progress_.Faced(t_s);
   }
 
-  void Turn(double aside_rad, double dt_s) {
+  void BeginTurn() {
+    turn_side_ = 0;
+    turn_creep_.Reset();
+  }
+
+  void Turn(double aside_rad, double t_s, double dt_s) {
     if (std::abs(aside_rad) < kAboutFaceRad || turn_side_ == 0) turn_side_ = aside_rad < 0 ? -1 : 1;
-    motion_.TurnOnTheSpot(
-        turn_side_ * TurningRate(aside_rad, motion_.yaw_rate_radps(), motion_.yaw_accel_radps2()),
-        dt_s);
+    turn_creep_.Update(std::abs(aside_rad), t_s);
+    const double rate = TurningRate(aside_rad, motion_.yaw_rate_radps(), motion_.yaw_accel_radps2(),
+                                    turn_creep_.speed());
+    motion_.TurnOnTheSpot(turn_side_ * rate, dt_s);
   }
 
   void Follow(const Vec2& target_B, double speed_mps, double dt_s) {
@@ -139,6 +146,7 @@ class RegulatedPursuit final : public Tracker {
   PursuitTwist motion_;
   double bend_yaw_rate_radps_ = 0;
   int turn_side_ = 0;
+  Creep turn_creep_{Creep::kTurn};
   double duration_s_ = 0;
 };
 

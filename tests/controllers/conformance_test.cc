@@ -134,6 +134,30 @@ TEST_P(TrackerConformance, ReachesTheEndOfAPathInOrder) {
   EXPECT_LT(driven.max_cross_track_m, 0.10);
 }
 
+// Motors whose speed loop is proportional fall short of what they are told by as much at any speed,
+// and stand still where they are told less.
+TEST_P(TrackerConformance, ComesToAStopAgainstMotorsThatFallShort) {
+  constexpr double kShort_mps = 0.06, kShort_radps = 0.2;
+  const Path path = MakePath({{0, 0}, {1, 0}});
+  DriveOptions options;
+  options.start = Pose2{0, 0, robot().turn_radius_m > 0 ? 0.0 : 1.0};  // who can turns there first
+  options.time_limit_s = 60;
+  Pose2 last = *options.start;
+  options.push = [&](double, Pose2& X_WB) {
+    const Vec2 moved_W = X_WB.p() - last.p();
+    const double way_m = std::max(0.0, moved_W.norm() - kShort_mps * options.control_s);
+    const double turned_rad = WrapAngle(X_WB.yaw_rad - last.yaw_rad);
+    const double turn_rad = std::max(0.0, std::abs(turned_rad) - kShort_radps * options.control_s);
+    const Vec2 now_W = last.p() + way_m * moved_W.normalized();
+    X_WB = last = {now_W.x(), now_W.y(), last.yaw_rad + std::copysign(turn_rad, turned_rad)};
+  };
+  const auto dut = Make();
+  const Driven driven = DriveAlong(*dut, path, options, nullptr, robot());
+  ASSERT_TRUE(driven.done) << driven.steps.back().X_WB.p().transpose() << ' '
+                           << driven.steps.back().X_WB.yaw_rad;
+  EXPECT_LT((driven.steps.back().X_WB.p() - path.back().p_W).norm(), 0.05);
+}
+
 TEST_P(TrackerConformance, KeepsTheRobotsLimits) {
   const auto dut = Make();
   const Driven driven = DriveAlong(*dut, rows_, {}, nullptr, robot());
