@@ -34,7 +34,7 @@ class Boustrophedon final : public CoveragePlanner {
                               Figures& figures) const override {
     const RowOptions options{floor.tool_width, kLinkWidths * floor.tool_width};
     std::optional<double> fixed;
-    if (direction_deg_) fixed = *direction_deg_ * kPi / 180;
+    if (direction_deg_) fixed = *direction_deg_ * kPi / 180 - floor.turned_rad;
     const Regions regions = FindRegions(floor, options.link, fixed);
     const std::vector<Row> rows =
         MakeRows(floor, regions, options, swept.swept_cells() > 0 ? &swept : nullptr);
@@ -49,8 +49,10 @@ class Boustrophedon final : public CoveragePlanner {
     figures.push_back({"regions", static_cast<double>(regions.direction_rad.size())});
     figures.push_back({"cells", static_cast<double>(CountCells(rows, regions))});
     figures.push_back({"rows", static_cast<double>(rows.size())});
-    figures.push_back({"sweep_direction_deg",
-                       regions.direction_rad[static_cast<std::size_t>(longest)] * 180 / kPi});
+    figures.push_back(
+        {"sweep_direction_deg",
+         (regions.direction_rad[static_cast<std::size_t>(longest)] + floor.turned_rad) * 180 /
+             kPi});
     return lines;
   }
 

@@ -10,6 +10,7 @@
 #include "base/quantity.h"
 #include "planners/lines/held_yaw.h"
 #include "planners/lines/kept_margin.h"
+#include "planners/lines/map_along_walls.h"
 #include "planners/lines/pieces.h"
 #include "planners/lines/prune.h"
 #include "planners/lines/relax.h"
@@ -55,8 +56,9 @@ constexpr double kMaxGoal = 0.995;
 // The tracker's error on such plans, and a little more: of round robots, which turn on the spot,
 // and of holonomic robots with a footprint.
 constexpr double kMargin_m = 0.03, kFootprintMargin_m = 0.015;
-constexpr double kLeastMargin_m = 0.01;  // the smallest default margin
-constexpr double kMaxLost = 0.04;        // of the ground, to a larger one
+constexpr double kLeastMargin_m = 0.01;    // the smallest default margin
+constexpr double kMaxLost = 0.04;          // of the ground, to a larger one
+constexpr double kLeastAlongWalls = 0.94;  // swept of the ground on the map's own grid
 constexpr double kDriveLoss = 0.012;    // of the ground, measured: corners driven less than exactly
 constexpr double kWallTolerance = 0.7;  // cells: a traced contour's staircase
 
@@ -107,6 +109,17 @@ Polyline Drive(ShortestPaths& paths, const Vec2& start, const std::vector<Polyli
     if (stop.reversed) std::reverse(ordered.back().begin(), ordered.back().end());
   }
   return MergeStraight(JoinByRoutes(paths, ordered));
+}
+
+// What a plan costs for the share of the floor that it sweeps, m: its length, and its turns. One
+// takes a holonomic robot about a second.
+double CostForShare(const SweepArea& area, const PlanResult& plan) {
+  constexpr double kTurn_m = 0.25;
+  double cost_m = 0;
+  for (std::size_t i = 1; i < plan.path.size(); ++i)
+    cost_m += (plan.path[i].p_W - plan.path[i - 1].p_W).norm() + kTurn_m;
+  const double share = MeasureCoverage(area, plan.tool, plan.path).coverage;
+  return share < kLeastAlongWalls ? std::numeric_limits<double>::infinity() : cost_m / share;
 }
 
 // The floor that is swept with a margin.
@@ -241,19 +254,54 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
     result.message = kNotConvex;
     return result;
   }
-  const HeldShapes held = HoldYaw(request.map, request.start, result.clear, result.tool);
-  const FloorRoom room(request.map, request.robot.step_m);
-  SweepArea area = room.Sweepable(held.clear, held.tool, request.start.p(), held.yaws);
-  if (area.sweepable_cells == 0) {
-    result.status = StartFits(area) ? PlanStatus::kNoFloor : PlanStatus::kStartBlocked;
-    result.message = WhyNothing(request, area, result.clear);
+  const Ground ground = GroundOf(request.map, request, result);
+  if (ground.area.sweepable_cells == 0) {
+    result.status = StartFits(ground.area) ? PlanStatus::kNoFloor : PlanStatus::kStartBlocked;
+    result.message = WhyNothing(request, ground.area, result.clear);
     return result;
   }
+  auto along = PlanAlongWalls(request, ground, result);
+  result = PlanOn(ground, request, std::move(result));
+  constexpr double kWorthIt = 0.97;  // what is hardly less costs floor along walls for nothing
+  const bool is_better =
+      along && CostForShare(ground.area, *along) < kWorthIt * CostForShare(ground.area, result);
+  return is_better ? *std::move(along) : result;
+}
+
+CoveragePlanner::Ground CoveragePlanner::GroundOf(const HazardMap& map, const PlanRequest& request,
+                                                  const PlanResult& plan) {
+  Ground ground{
+      HoldYaw(map, request.start, plan.clear, plan.tool), FloorRoom(map, request.robot.step_m), {}};
+  ground.area = ground.room.Sweepable(ground.held.clear, ground.held.tool, request.start.p(),
+                                      ground.held.yaws);
+  return ground;
+}
+
+std::optional<PlanResult> CoveragePlanner::PlanAlongWalls(const PlanRequest& request,
+                                                          const Ground& ground,
+                                                          const PlanResult& shapes) const {
+  if (shapes.clear.kind == Shape2::Kind::kCircle) return {};
+  const auto map = MapAlongWalls(request.map, request.robot.step_m, shapes.clear);
+  if (!map) return {};
+  Ground along = GroundOf(*map, request, shapes);
+  along.turned_rad = WrapAngle(map->frame.X_WG.yaw_rad - request.map.frame.X_WG.yaw_rad);
+  along.lost = std::max(0.0, 1 - along.area.area_m2() / ground.area.area_m2());
+  if (along.lost > kMaxLost) return {};
+  PlanResult plan = PlanOn(along, request, shapes);
+  if (plan.status != PlanStatus::kSuccess) return {};
+  return plan;
+}
+
+PlanResult CoveragePlanner::PlanOn(const Ground& ground, const PlanRequest& request,
+                                   PlanResult result) const {
+  const bool circle = result.clear.kind == Shape2::Kind::kCircle;
+  const HeldShapes& held = ground.held;
   RoomyFloor roomy;
-  roomy.area = std::move(area);
+  roomy.area = ground.area;
   roomy.margin_m = margin_m_.value_or(radius_m_ ? 0.0 : (circle ? kMargin_m : kFootprintMargin_m));
   if (roomy.margin_m > 0)
-    roomy = KeepMargin(room, held, request.start.p(), std::move(roomy), margin_m_.has_value());
+    roomy =
+        KeepMargin(ground.room, held, request.start.p(), std::move(roomy), margin_m_.has_value());
   if (roomy.area.sweepable_cells == 0) {
     result.status = PlanStatus::kStartBlocked;
     result.message = fmt::format("the clearance at the start is less than margin_m = {}",
@@ -261,10 +309,12 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
     return result;
   }
   result.figures.push_back({"margin_m", roomy.margin_m});
-  const Floor floor = CropFloor(roomy.area, Grown(held.clear, roomy.margin_m), held.tool,
-                                result.tool_width_m, overlap_);
+  Floor floor = CropFloor(roomy.area, Grown(held.clear, roomy.margin_m), held.tool,
+                          result.tool_width_m, overlap_);
+  floor.turned_rad = ground.turned_rad;
   // A large loss to the margin cannot be made up by the rest of the floor.
-  const double shortfall = roomy.margin_m > 0 ? std::min(roomy.lost, kMaxLost) + kDriveLoss : 0;
+  const double shortfall =
+      ground.lost + (roomy.margin_m > 0 ? std::min(roomy.lost, kMaxLost) + kDriveLoss : 0);
   std::vector<Vec2> path_W;
   for (const Vec2& p : Sweep(floor, floor.ToCells(request.start.p()), shortfall, result.figures))
     path_W.push_back(floor.ToWorld(p));

@@ -7,7 +7,9 @@
 // length are cut out.
 // Overlap: away from walls the tool counts as narrower than it is, by that share. So neighbouring
 // lines overlap everywhere, and a robot may stray by half of the overlap.
-// Assumed: the floor is known and does not change; a footprint is convex and keeps its yaw.
+// A footprint is held along the map's axes, or along walls that are askew to them
+// (map_along_walls.h) if that takes less length and turns for the share of the floor that it
+// sweeps. Assumed: the floor is known and does not change; a footprint is convex and keeps its yaw.
 #pragma once
 
 #include <optional>
@@ -15,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "planners/lines/held_yaw.h"
 #include "planners/lines/shortest_paths.h"
 #include "planners/lines/swept.h"
 #include "planners/planner.h"
@@ -38,6 +41,21 @@ class CoveragePlanner : public Planner {
                                       Figures& figures) const = 0;
 
  private:
+  // The floor as the robot's shapes lie on it, on the map's grid or on one along the walls.
+  struct Ground {
+    HeldShapes held;
+    FloorRoom room;
+    SweepArea area;
+    double turned_rad = 0;  // from the map's axes to the grid's
+    double lost = 0;        // share of the sweepable floor on the map's own grid
+  };
+  // `plan`: with the shapes that it is made for, as `shapes` below.
+  static Ground GroundOf(const HazardMap& map, const PlanRequest& request, const PlanResult& plan);
+  PlanResult PlanOn(const Ground& ground, const PlanRequest& request, PlanResult shapes) const;
+  // For a footprint, where walls are askew to the map: with rows along the walls. None if that
+  // loses much of `ground`, the one on the map's own grid.
+  std::optional<PlanResult> PlanAlongWalls(const PlanRequest& request, const Ground& ground,
+                                           const PlanResult& shapes) const;
   // `shortfall`: the share of the robot's ground that this floor lacks, or that driving loses. To
   // make up for it, more of what is there is swept.
   Polyline Sweep(const Floor& floor, const Vec2& start, double shortfall, Figures& figures) const;

@@ -18,6 +18,7 @@ Polyline MergeStraight(const Polyline& line);
 
 struct Floor {
   GridFrame frame;                // of the crop
+  double turned_rad = 0;          // from the map's axes to the frame's (MapAlongWalls)
   Grid<std::uint8_t> pose;        // the robot's centre may be here
   Grid<std::uint8_t> ground;      // the tool can sweep this
   Grid<float> margin;             // room beyond the clear shape at a cell's centre; negative: none

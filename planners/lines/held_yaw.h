@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The yaw at which a plan holds a robot with a footprint, and how its shapes lie there.
 //
-// A footprint is held at one of the map's quarter turns, the one nearest to the start's yaw. A
+// A footprint is held at one of the map's quarter turns, the one nearest to the start's yaw. If the
+// walls are askew to the map, coverage planners give the map along the walls (MapAlongWalls). A
 // square covers the same floor at all four. A lopsided footprint, such as a bar, does not: where it
 // fits crosswise it may hit a wall lengthwise. ComputeSweepArea tries all four yaws unless it is
 // told not to, so whoever holds one yaw must ask for that yaw alone:

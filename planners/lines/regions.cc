@@ -18,6 +18,7 @@
 #include <queue>
 #include <utility>
 
+#include "planners/lines/wall_directions.h"
 #include "planners/search/index.h"
 
 namespace floorproof {
@@ -25,41 +26,6 @@ namespace {
 
 constexpr std::size_t kMaxCandidates = 12;
 using Costs = std::array<double, kMaxCandidates>;
-
-// Peaks of the histogram of the walls' directions modulo 90 deg, strongest first.
-std::vector<double> WallDirections(const Floor& floor) {
-  constexpr int kBins = 90;
-  std::array<double, kBins> bins{};
-  for (int iy = 2; iy + 2 < floor.margin.height; ++iy)
-    for (int ix = 2; ix + 2 < floor.margin.width; ++ix) {
-      const float m = floor.margin(ix, iy);
-      if (!floor.pose(ix, iy) || m < 1.0f || m > 8.0f) continue;
-      const float gx = floor.margin(ix + 2, iy) - floor.margin(ix - 2, iy);
-      const float gy = floor.margin(ix, iy + 2) - floor.margin(ix, iy - 2);
-      if (gx * gx + gy * gy < 12.0f) continue;  // a ridge between walls, or beside a corner
-      const double turn = std::atan2(static_cast<double>(gy), static_cast<double>(gx)) / (kPi / 2);
-      const double bin = (turn - std::floor(turn)) * kBins;
-      ++bins[static_cast<std::size_t>(std::lround(bin)) % kBins];
-    }
-  const auto smooth = [&bins](int i) {
-    double sum = 0;
-    for (int k = -2; k <= 2; ++k) sum += (3 - std::abs(k)) * bins[Z((i + k + kBins) % kBins)];
-    return sum;
-  };
-  std::array<double, kBins> smoothed{};
-  for (int i = 0; i < kBins; ++i) smoothed[Z(i)] = smooth(i);
-  const double total = std::accumulate(smoothed.begin(), smoothed.end(), 0.0);
-  std::vector<double> peaks;
-  while (peaks.size() < kMaxCandidates / 2) {
-    const auto best = std::max_element(smoothed.begin(), smoothed.end());
-    if (*best <= 0 || *best < 0.06 * total / 5) break;
-    const int i = static_cast<int>(best - smoothed.begin());
-    peaks.push_back(i * (kPi / 2) / kBins);
-    for (int k = -7; k <= 7; ++k) smoothed[Z((i + k + kBins) % kBins)] = 0;
-  }
-  if (peaks.empty()) peaks.push_back(0);
-  return peaks;
-}
 
 struct Block {
   Costs cost{};
@@ -242,7 +208,7 @@ Regions FindRegions(const Floor& floor, double link, std::optional<double> fixed
     candidates = {*fixed_rad - kPi * std::floor(*fixed_rad / kPi)};
   } else {
     const bool footprint = floor.tool.kind == Shape2::Kind::kFootprint;
-    for (const double d : footprint ? std::vector<double>{0} : WallDirections(floor)) {
+    for (const double d : footprint ? std::vector<double>{0} : WallDirections(floor.margin)) {
       candidates.push_back(d);
       candidates.push_back(d + kPi / 2);
     }

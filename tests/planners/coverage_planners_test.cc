@@ -163,6 +163,47 @@ TEST_P(Both, AToolWiderThanTheRoomNeedsHardlyMove) {
   EXPECT_LT(Length(plan.path), 3);
 }
 
+// Two rooms of 5 m x 6 m, joined by a door of 1.5 m, at this yaw to the map's cells.
+HazardMap RoomsAt(double yaw_rad, Pose2& X_WR) {
+  HazardMap map = EmptyFloor(300, 240, 0.05);
+  X_WR = {3.2, 1.2, yaw_rad};
+  for (int iy = 0; iy < 240; ++iy)
+    for (int ix = 0; ix < 300; ++ix) {
+      const Vec2 p = X_WR.Inverse() * map.frame.Center(ix, iy);
+      const bool is_inside = p.x() > 0 && p.x() < 10.2 && p.y() > 0 && p.y() < 6;
+      const bool is_between = std::abs(p.x() - 5.1) < 0.1 && std::abs(p.y() - 3) > 0.75;
+      if (!is_inside || is_between) map.occupancy(ix, iy) = CellState::kOccupied;
+    }
+  return map;
+}
+
+// A footprint holds the walls' direction, and its rows run along it. So a building that is askew to
+// its map takes about as many turns, and as long a path, as one that is not.
+TEST(Boustrophedon, AFootprintsRowsFollowWallsThatStandAskew) {
+  RobotSpec robot = DiscRobot(0.25, 0.5);
+  robot.clear = robot.tool = {Shape2::Kind::kFootprint, 0, Rectangle({-0.25, -0.25}, {0.25, 0.25})};
+  const auto plan = [&](double yaw_rad, double start_yaw_rad) {
+    Pose2 X_WR;
+    const HazardMap map = RoomsAt(yaw_rad, X_WR);
+    const Vec2 p = X_WR * Vec2(1, 1);
+    const Pose2 start{p.x(), p.y(), start_yaw_rad};
+    PlanResult result = Plan("boustrophedon", "{}", map, robot, start);
+    EXPECT_GT(Coverage(map, robot, start, result), 0.94) << yaw_rad;
+    return result;
+  };
+  const PlanResult straight = plan(0, 0);
+  EXPECT_NEAR(*straight.path[1].yaw_rad, 0, 1e-9);
+  for (const double yaw_deg : {-20.0}) {
+    const double yaw_rad = yaw_deg * kPi / 180;
+    const PlanResult dut = plan(yaw_rad, 0.1);
+    EXPECT_NEAR(std::remainder(*dut.path[1].yaw_rad - yaw_rad, kPi / 2), 0, 0.01) << yaw_deg;
+    EXPECT_GT(ShareAlong(dut.path, yaw_rad) + ShareAlong(dut.path, yaw_rad + kPi / 2), 0.75);
+    EXPECT_LT(CountTurns(dut.path), 1.25 * CountTurns(straight.path)) << yaw_deg;
+    EXPECT_LT(Length(dut.path), 1.1 * Length(straight.path)) << yaw_deg;
+    EXPECT_NEAR(std::remainder(Figure(dut, "sweep_direction_deg") - yaw_deg, 90), 0, 1) << yaw_deg;
+  }
+}
+
 // What a tool reaches behind a thin wall it does not sweep: both sides of the wall are driven
 // along.
 TEST_P(Both, AToolWiderThanItsRobotSweepsBothSidesOfAThinWall) {
