@@ -12,6 +12,7 @@
 #include "base/words.h"
 #include "report/html.h"
 #include "report/rates_table.h"
+#include "report/verdict.h"
 #include "run/episode/metrics.h"
 
 namespace floorproof {
@@ -199,8 +200,7 @@ std::string PairTable(const ReportPair& pair) {
 }  // namespace
 
 std::string VariantsTable(const Report& report) {
-  const std::string_view metric =
-      report.summary.gate ? std::string_view(report.summary.gate->metric) : "any_failure";
+  const std::string_view metric = JudgedMetric(report.summary);
   std::vector<std::string> names;
   std::vector<FailureRate> rates;
   for (const VariantSummary& variant : report.summary.variants) {

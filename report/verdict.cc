@@ -69,19 +69,6 @@ std::string RateText(const VariantSummary& v, std::string_view metric) {
   return rate->name == "not_success" ? text : text + OtherEnds(v);
 }
 
-// What is judged: the gate's metric, else any_failure, but not_success if only this tells the
-// variants apart.
-std::string_view JudgedMetric(const CampaignSummary& summary) {
-  if (summary.gate) return summary.gate->metric;
-  const auto differ = [&](std::string_view metric) {
-    std::set<double> rates;
-    for (const VariantSummary& v : summary.variants)
-      if (const FailureRate* rate = JudgedRate(v, metric)) rates.insert(rate->rate);
-    return rates.size() > 1;
-  };
-  return !differ("any_failure") && differ("not_success") ? "not_success" : "any_failure";
-}
-
 // The least and the most often failing of several variants.
 std::string Extremes(const Report& report, std::string_view metric) {
   const auto& variants = report.summary.variants;
@@ -145,6 +132,17 @@ std::string SubjectOf(const Scenario& scenario, const std::vector<Variant>& vari
     add(PlanOf(scenario));
   if (!Differ(variants, {"site"})) add(scenario.site.map.name);
   return subject;
+}
+
+std::string_view JudgedMetric(const CampaignSummary& summary) {
+  if (summary.gate) return summary.gate->metric;
+  const auto differ = [&](std::string_view metric) {
+    std::set<double> rates;
+    for (const VariantSummary& v : summary.variants)
+      if (const FailureRate* rate = JudgedRate(v, metric)) rates.insert(rate->rate);
+    return rates.size() > 1;
+  };
+  return !differ("any_failure") && differ("not_success") ? "not_success" : "any_failure";
 }
 
 std::string VerdictText(const Report& report) {

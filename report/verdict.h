@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "report/page.h"
 #include "run/scenario/scenario.h"
@@ -12,6 +13,10 @@ namespace floorproof {
 // "htetro, risk_coverage plan, staircase hall": what drove, by which plan, where. Of several
 // variants what they have in common; empty where that is nothing.
 std::string SubjectOf(const Scenario& scenario, const std::vector<Variant>& variants);
+
+// What is judged: the gate's metric, else any_failure, but not_success if only this tells the
+// variants apart.
+std::string_view JudgedMetric(const CampaignSummary& summary);
 
 // The verdict in a sentence: the subject, the rate with its interval, the gate.
 std::string VerdictText(const Report& report);

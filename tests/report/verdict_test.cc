@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "report/rates.h"
+
 namespace floorproof {
 namespace {
 
@@ -79,6 +81,7 @@ TEST(Verdict, OfSeveralVariantsNamesTheBestAndTheWorst) {
   EXPECT_THAT(VerdictText(Of({late, timely})),
               testing::AllOf(StartsWith("b: not success in 0 of 20 drives"),
                              HasSubstr("; a: not success in 20 of 20 drives (100 %)")));
+  EXPECT_THAT(VariantsTable(Of({late, timely})), HasSubstr("By variant: not success"));
   EXPECT_EQ(VerdictText(Of({Summary("a", 0, 0), Summary("b", 0, 0)})),
             "no robot drove: the episodes are plans only, or none counts.");
   Report gated = Of({Summary("a", 2, 20), Summary("b", 1, 20)});
