@@ -197,7 +197,7 @@ std::optional<LadderRow> FindRow(const LadderCell& cell) {
   const LadderHazard& hazard = FindLadderHazard(cell.hazard);
   RobotModel robot = ReadRobot(FindRobotFile(cell.robot, {}), cell.changes);
   if (cell.wheels == "rollers") robot = WithRollerWheels(robot);
-  if (cell.planned) robot.spec.step_m = kStep_m.max;  // whatever the plan leads over is trusted
+  robot.spec.measured = {};  // earlier figures do not change those found now
   const std::vector<LadderCell> tries = Tries(cell);
   LadderRow row{cell, 0, false, ""};
   const auto limit = FindLimit(ScaledRungs(hazard, cell.scale), [&](double size) {
@@ -205,6 +205,7 @@ std::optional<LadderRow> FindRow(const LadderCell& cell) {
       const CrossingPlan plan = PlanOf(one, robot.spec, size);
       Hazard met = hazard.make(size, plan.travel_rad);
       met.known = met.known || cell.planned;
+      if (cell.planned) met.crossable = true;  // the plan leads over it
       const CrossingResult result = Cross(robot, std::move(met), plan);
       // The last that held lies just above the limit.
       if (!result.crossed) row.held_by = result.held_by;

@@ -124,8 +124,10 @@ TEST_F(RobotLadder, MeasuresARobotForItsPlans) {
   EXPECT_THAT(plan, Not(HasSubstr("drives over")));
 
   // Heavier than it was measured, by the scenario or in the file.
-  EXPECT_THAT(Run("plan s.yaml --out off --set robot.name=my.xml --set robot.mass_kg=9").out,
-              HasSubstr("measured limits are not used: the scenario changes the robot"));
+  EXPECT_THAT(
+      Run("plan s.yaml --out off --set robot.name=my.xml --set robot.mass_kg=9").out,
+      HasSubstr(
+          "measured limits are not used: the scenario changes its mass by more than a tenth"));
   std::string heavier = model;
   heavier.replace(heavier.find("mass=\""), 6, "mass=\"1");
   Save("my.xml", heavier);
