@@ -28,12 +28,14 @@ class VerticalMotion {
       accel_mps2_ = std::max(
           accel_mps2_, std::abs((sample.v_WB_W.z() - before.v_mps) / (sample.t_s - before.t_s)));
     }
-    height_m_ = std::max(height_m_, std::abs(sample.p_WB.z()));
+    if (count_ == 0) rest_m_ = sample.p_WB.z();
+    height_m_ = std::max(height_m_, std::abs(sample.p_WB.z() - rest_m_));
     last_[static_cast<std::size_t>(count_++ % window_)] = {sample.t_s, sample.v_WB_W.z()};
   }
   // The largest vertical acceleration, a mean over the window.
   double accel_mps2() const { return accel_mps2_; }
-  // The largest distance of the body's origin from the floor.
+  // The largest distance of the body's origin from its height at first: tyres give under its
+  // weight.
   double height_m() const { return height_m_; }
 
  private:
@@ -44,7 +46,7 @@ class VerticalMotion {
   int window_;
   std::array<Moment, kMaxWindow> last_;
   int count_ = 0;
-  double accel_mps2_ = 0, height_m_ = 0;
+  double accel_mps2_ = 0, rest_m_ = 0, height_m_ = 0;
 };
 
 }  // namespace floorproof

@@ -35,7 +35,9 @@ class Study : public testing::Test {
     return found["plans"][figure]["change"]["median"].get<double>();
   }
 
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "risk_study";
+  std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) /
+      testing::UnitTest::GetInstance()->current_test_info()->name();  // tests run side by side
 };
 
 // More of them than the study asks for: the median of 300 sites strays by 2 % to either side.
