@@ -23,20 +23,6 @@ constexpr double kEps = 1e-6;  // of a cell: borders that coincide do not touch
 
 Vec2 ToCells(const GridFrame& frame, const Vec2& p_W) { return frame.ToGrid(p_W) / frame.cell_m; }
 
-Grid<std::uint8_t> WallMask(const HazardMap& map, const GridFrame& fine) {
-  Grid<std::uint8_t> mask(fine.width, fine.height);
-  const double ratio = fine.cell_m / map.frame.cell_m;
-  const auto coarse = [ratio](int i) { return static_cast<int>(std::floor((i + 0.5) * ratio)); };
-  std::vector<int> column(static_cast<std::size_t>(fine.width));
-  for (int ix = 0; ix < fine.width; ++ix) column[static_cast<std::size_t>(ix)] = coarse(ix);
-  for (int iy = 0; iy < fine.height; ++iy) {
-    const int cy = coarse(iy);
-    std::uint8_t* out = &mask.cells[mask.Index(0, iy)];
-    for (std::size_t ix = 0; ix < column.size(); ++ix) out[ix] = map.IsWall(column[ix], cy);
-  }
-  return mask;
-}
-
 // Adds what robots must keep off. A level change is none where a later one that can be driven
 // covers it. Terrain lies on it, and takes nothing away.
 bool AddHazards(const HazardMap& map, double step_m, const GridFrame& fine,
@@ -190,6 +176,20 @@ int Turns(Yaws yaws) { return yaws == Yaws::kFirst ? 1 : 4; }
 GridFrame FineFrame(const GridFrame& frame, double max_cell_m) {
   const int k = static_cast<int>(std::ceil(frame.cell_m / max_cell_m - 1e-9));
   return frame.Subdivided(std::max(1, k));
+}
+
+Grid<std::uint8_t> WallMask(const HazardMap& map, const GridFrame& fine) {
+  Grid<std::uint8_t> mask(fine.width, fine.height);
+  const double ratio = fine.cell_m / map.frame.cell_m;
+  const auto coarse = [ratio](int i) { return static_cast<int>(std::floor((i + 0.5) * ratio)); };
+  std::vector<int> column(static_cast<std::size_t>(fine.width));
+  for (int ix = 0; ix < fine.width; ++ix) column[static_cast<std::size_t>(ix)] = coarse(ix);
+  for (int iy = 0; iy < fine.height; ++iy) {
+    const int cy = coarse(iy);
+    std::uint8_t* out = &mask.cells[mask.Index(0, iy)];
+    for (std::size_t ix = 0; ix < column.size(); ++ix) out[ix] = map.IsWall(column[ix], cy);
+  }
+  return mask;
 }
 
 Grid<std::uint8_t> ObstacleMask(const HazardMap& map, double step_m, const GridFrame& fine) {

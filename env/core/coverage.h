@@ -15,6 +15,8 @@ namespace floorproof {
 
 // The map's cells subdivided until they are at most max_cell_m.
 GridFrame FineFrame(const GridFrame& frame, double max_cell_m = 0.05);
+// 1 where a cell of `fine` lies in a wall of the map. `fine`: the map's frame, subdivided.
+Grid<std::uint8_t> WallMask(const HazardMap& map, const GridFrame& fine);
 
 // 1 where a fine cell is wall, or touches a hazard that IsObstacle(step_m). `fine` divides the
 // map's own frame (FineFrame). A level change does not count where a later floor that can be driven

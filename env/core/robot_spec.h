@@ -36,7 +36,7 @@ struct Shape2 {
   enum class Kind { kCircle, kFootprint };
   Kind kind = Kind::kCircle;
   double radius_m = 0;  // kCircle
-  Polygon footprint_B;  // kFootprint; held at yaws that are multiples of 90 deg in the map's frame
+  Polygon footprint_B;  // kFootprint; held at quarter turns of the map or its walls
 };
 
 // From the shape's centre to its edge in this direction of its own frame, m.

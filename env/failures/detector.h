@@ -45,7 +45,7 @@ class Detector : public Configurable {
  protected:
   // In Start: nothing has come nearer yet than the whole threshold, which is > 0.
   void StartMargin(double threshold) { margin_ = threshold_ = threshold; }
-  // So much is left of a threshold > 0 that is not the same everywhere.
+  // `left` of a `threshold` > 0 that differs from place to place.
   void LowerMargin(double left, double threshold) {
     if (left / threshold >= margin_share()) return;
     margin_ = left;

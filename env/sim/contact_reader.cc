@@ -77,8 +77,7 @@ void ContactReader::Read(const mjModel* m, const mjData* d, std::span<const Vec3
       truth.wheel_contacts += wheels ? 1 : 0;
       if (wheels) AddFooting(m, contact, truth);
       if (!wheels && nz > kWedged) AddBellyLoad(contact, truth);
-      // MuJoCo gives the normal of a touch upside down now and then, where it is a micrometre deep.
-      if (std::abs(nz) <= kSteep) AddObstacle(m, d, contact, truth);
+      if (nz <= kSteep) AddObstacle(m, d, contact, truth);
       if (!carries)
         AddLoad(contact);
       else if (wheels || contact.normal_n > 0)
@@ -106,6 +105,9 @@ bool ContactReader::Understand(const mjModel* m, const mjData* d, int index, Con
   out.wheel = role(out.geom).kind == GeomRole::Kind::kWheel;
   out.p_W = Vec3(c.pos);
   out.normal_W = toward * Vec3(c.frame);
+  // For contacts a micrometre deep, MuJoCo sometimes returns the opposite normal: it points away
+  // from the middle of the convex geom that it should push.
+  if ((Vec3(d->geom_xpos + 3 * out.geom) - out.p_W).dot(out.normal_W) < 0) out.normal_W *= -1;
   mjtNum force[6];
   mj_contactForce(m, d, index, force);
   out.normal_n = force[0];

@@ -66,7 +66,7 @@ std::string WhyUncovered(const HazardMap& floor, const RobotSpec& robot,
       // What is wide enough for the shape at its narrowest need not be so at the headings tried.
       const bool turned = plan.clear.kind == Shape2::Kind::kFootprint;
       const std::string clear = fmt::format("the robot keeps {} clear{}", needs,
-                                            turned ? ", at headings of multiples of 90 deg" : "");
+                                            turned ? ", at the headings that plans hold" : "");
       return pocket.gap_m ? fmt::format("behind a gap about {} wide at {}; {}",
                                         Metres(*pocket.gap_m), At(pocket.gap_W), clear)
                           : fmt::format("about {} wide; {}", Metres(pocket.width_m), clear);

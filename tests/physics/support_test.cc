@@ -82,8 +82,8 @@ TEST_F(Support, TurningOverAnEdgeIsNoRebound) {
   }
 }
 
-// A slope carries and obstructs nobody, however wheels scrub over it.
-TEST_F(Support, ASlopeIsNoObstacleToWhoTurnsOnIt) {
+// A slope is no obstacle, however much the wheels scrub on it.
+TEST_F(Support, TurningOnASlopeMeetsNoObstacle) {
   constexpr double kSlope_rad = 3 * kPi / 180, kHalf_m = 3;
   const double rise_m = kHalf_m * std::tan(kSlope_rad);
   for (const char* robot : {"beluga", "htetro", "rover"}) {
