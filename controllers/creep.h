@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a robot gets through the last of its way to a stop, or of a turn, where its motors are weak.
+// The minimum speed near a stop, for motors that fall short of low speeds.
 //
-// Near a stop a follower asks for less and less speed. A motor whose speed loop is proportional
-// falls short of what it is asked for by its load over its gain: on a slope, with a heavy robot or
-// with tyres that scrub, by more than is asked for there, and the robot stands still before the
-// place. A robot that comes no nearer for a while is asked for more and more speed, as an
-// integrating controller would, until it moves.
+// A follower commands lower and lower speeds as it approaches a stop. A motor with a proportional
+// speed loop falls short of the commanded speed by its load over its gain. On a slope, or if tyres
+// scrub, this can be more than the commanded speed, and the robot stops before the place. If the
+// robot gets no closer for 1 s, the minimum commanded speed is ramped up; while it gets closer, the
+// minimum decays. So it stays near the speed that just moves the robot, as an integrator would.
+// Used for the remaining way along a leg, and for the remaining angle of a turn on the spot.
 #pragma once
 
 #include <algorithm>
@@ -16,37 +17,40 @@ namespace floorproof {
 class Creep {
  public:
   struct Limits {
-    double nearer;      // by so much less is left: it moves (m, or rad)
-    double more_per_s;  // more speed each second that it stands (m/s2, or rad/s2)
-    double max_speed;   // of the least speed (m/s, or rad/s)
-    double freed;       // so far from where it stood, nothing holds it any more (m, or rad)
+    double progress;    // the remaining way must shrink by this to count as closer (m, or rad)
+    double ramp_per_s;  // of the minimum speed while the robot stands (m/s^2, or rad/s^2)
+    double max_speed;   // largest minimum speed (m/s, or rad/s)
+    double new_way;     // a remaining way that grows by more belongs to another stop (m, or rad)
   };
-  static constexpr Limits kWay{0.001, 0.05, 0.1, 0.05}, kTurn{0.005, 0.25, 0.5, 0.25};
+  static constexpr Limits kAlong{0.001, 0.05, 0.1, 0.05}, kTurn{0.005, 0.25, 0.5, 0.25};
 
   explicit Creep(const Limits& limits) : limits_(limits) {}
-  // Another way, or turn, begins.
   void Reset() { *this = Creep(limits_); }
-  // So much is left at this time. Does not allocate.
+  // The remaining way (m) or angle (rad), >= 0, at this time. Call it in every control period in
+  // which the robot is commanded to approach; a pause starts it afresh. Does not allocate.
   void Update(double left, double t_s) {
-    constexpr double kPatience_s = 1;
-    if (left < stalled_ - limits_.freed) speed_ = 0;
-    if (left < least_ - limits_.nearer) {
+    constexpr double kPatience_s = 1, kPatienceAgain_s = 0.1, kPause_s = 0.5;
+    constexpr double kDecay = 0.9, kNothing = 0.02;  // per `progress`; share of max_speed
+    if (t_s - last_s_ > kPause_s || left > least_ + limits_.new_way) Reset();
+    const double dt_s = t_s - std::max(last_s_, 0.0);
+    last_s_ = t_s;
+    if (left < least_ - limits_.progress) {
       least_ = left;
       since_s_ = t_s;
+      speed_ *= kDecay;
+      if (speed_ < kNothing * limits_.max_speed) speed_ = 0;
+    } else if (t_s - since_s_ > (speed_ > 0 ? kPatienceAgain_s : kPatience_s)) {
+      speed_ = std::min(limits_.max_speed, speed_ + limits_.ramp_per_s * dt_s);
     }
-    const double wanted = limits_.more_per_s * (t_s - since_s_ - kPatience_s);
-    if (wanted <= speed_) return;
-    speed_ = std::min(wanted, limits_.max_speed);
-    stalled_ = least_;
   }
-  // The least speed to ask for: 0 unless the robot stood still near here.
+  // The minimum speed to command: 0 unless the robot stood still near here.
   double speed() const { return speed_; }
 
  private:
-  static constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  static constexpr double kInf = std::numeric_limits<double>::infinity();
   Limits limits_;
-  double least_ = kNowhere, since_s_ = 0;
-  double stalled_ = kNowhere, speed_ = 0;
+  double least_ = kInf, since_s_ = 0, last_s_ = -kInf;
+  double speed_ = 0;
 };
 
 }  // namespace floorproof

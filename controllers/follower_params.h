@@ -21,12 +21,12 @@ inline constexpr double kPlannedShare = 0.8;
 inline constexpr double kWheelLag_s = 0.15;
 
 // The rate at which a robot may turn that has so far to go and is to come to rest there, rad/s, >=
-// 0; `least_radps` where it stood still at less (controllers/creep.h).
+// 0. `min_radps`: where it stood still at less (controllers/creep.h).
 inline double TurningRate(double left_rad, double most_radps, double most_radps2,
-                          double least_radps = 0) {
+                          double min_radps = 0) {
   const double stopping_radps =
       StoppingSpeed(std::abs(left_rad), kPlannedShare * most_radps2, kWheelLag_s);
-  return std::min(most_radps, std::max(stopping_radps, least_radps));
+  return std::min(most_radps, std::max(stopping_radps, min_radps));
 }
 
 inline double Radians(double deg) { return deg * kPi / 180; }

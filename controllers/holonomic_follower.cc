@@ -78,16 +78,22 @@ class HolonomicFollower final : public Tracker {
 
   void Extend(const Path& path) override {
     progress_.Extend(path);
+    turn_creep_.Reset();
     ways_.assign(progress_.reference().vertices.size(), {});
   }
 
-  void Slow(double share) override { share_ = share; }
+  void Slow(double share) override {
+    share_ = share;
+    progress_.Slow(share);
+  }
 
   double Duration() const override { return duration_s_; }
 
   Command Update(const Estimate& estimate, double t_s, double dt_s) override {
     const Pose2& X_WB = estimate.X_WB;
+    const std::size_t vertex = progress_.vertex();
     progress_.Update(X_WB, t_s);
+    if (progress_.vertex() != vertex || progress_.phase() != Phase::kTurn) turn_creep_.Reset();
     Fold(X_WB.yaw_rad);
     if (progress_.moving())
       Pursue(X_WB, t_s, dt_s);
@@ -166,12 +172,10 @@ class HolonomicFollower final : public Tracker {
 
     GiveWay(X_WB, direction_W, dt_s);
     const double turn_rad = compliance_.YawError(off_rad);
-    if (progress_.phase() == Phase::kTurn)
-      turn_creep_.Update(std::abs(off_rad), t_s);
-    else
-      turn_creep_.Reset();
-    const double rate =
-        TurningRate(turn_rad, yaw_rate_radps_, yaw_accel_radps2_, turn_creep_.speed());
+    const bool turns_on_the_spot = progress_.phase() == Phase::kTurn;
+    if (turns_on_the_spot && share_ > 0) turn_creep_.Update(std::abs(off_rad), t_s);
+    const double rate = TurningRate(turn_rad, yaw_rate_radps_, yaw_accel_radps2_,
+                                    turns_on_the_spot ? turn_creep_.speed() : 0);
     const double wz_radps =
         std::clamp(turn_rad == 0 ? compliance_.SquaringRate() : std::copysign(rate, turn_rad),
                    -yaw_rate_radps_, yaw_rate_radps_);

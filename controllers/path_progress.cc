@@ -29,6 +29,7 @@ void PathProgress::Start(const Path& path, const ReferenceLimits& limits,
   if (!reference_.vertices.empty()) turn_W_ = Vertex(0).p_W;
   dwell_until_s_ = 0;
   creep_.Reset();
+  is_held_ = false;
 }
 
 // A corner that was passed beside is not gone back to: the way leads on.
@@ -50,7 +51,7 @@ void PathProgress::Update(const Pose2& X_WB, double t_s) {
   if (phase_ == Phase::kDwell) EndDwells(t_s);
   const std::pair way(vertex_, homing_);
   if (moving()) Advance(X_WB, t_s);
-  if (phase_ == Phase::kDrive && way == std::pair(vertex_, homing_))
+  if (phase_ == Phase::kDrive && !is_held_ && way == std::pair(vertex_, homing_))
     creep_.Update(LeftFrom(X_WB.p()), t_s);
   else
     creep_.Reset();

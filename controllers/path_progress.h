@@ -52,6 +52,9 @@ class PathProgress {
   // reached, ends dwells.
   void Update(const Pose2& X_WB, double t_s);
 
+  // Its supervision lets it drive at this share of its speed; at 0 it stands where it is.
+  void Slow(double share) { is_held_ = share == 0; }
+
   // Whether Update() would find the last waypoint reached. Where it is near this allocates.
   bool WouldBeDone(const Pose2& X_WB, double t_s) const;
 
@@ -142,7 +145,8 @@ class PathProgress {
   std::size_t waypoint_ = 0;  // the plan's segment now tracked
   std::size_t dwell_ = 0;     // of vertex_'s
   double dwell_until_s_ = 0;
-  Creep creep_{Creep::kWay};  // along the leg now tracked
+  Creep creep_{Creep::kAlong};  // the leg now tracked
+  bool is_held_ = false;        // commanded to stand by its supervision
 };
 
 }  // namespace floorproof

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "controllers/creep.h"
 #include "controllers/drive.h"
 #include "controllers/drive_time.h"
 #include "controllers/follower_params.h"
@@ -48,7 +47,7 @@ class RegulatedPursuit final : public Tracker {
     limits.faces = true;
     bend_yaw_rate_radps_ = limits.yaw_rate_radps;
     progress_.Start(path, limits, params_.corner_tolerance_m);
-    BeginTurn();
+    turn_side_ = 0;
     duration_s_ = DriveTime(progress_.reference(),
                             {limits, params_.corner_tolerance_m,
                              Radians(params_.heading_tolerance_deg), Radians(params_.recover_deg)},
@@ -58,7 +57,10 @@ class RegulatedPursuit final : public Tracker {
 
   void Extend(const Path& path) override { progress_.Extend(path); }
 
-  void Slow(double share) override { motion_.Slow(share); }
+  void Slow(double share) override {
+    motion_.Slow(share);
+    progress_.Slow(share);
+  }
 
   double Duration() const override { return duration_s_; }
 
@@ -66,7 +68,7 @@ class RegulatedPursuit final : public Tracker {
     const Pose2& X_WB = estimate.X_WB;
     const std::size_t vertex = progress_.vertex();
     progress_.Update(X_WB, t_s);
-    if (progress_.vertex() != vertex) BeginTurn();
+    if (progress_.vertex() != vertex) turn_side_ = 0;
     if (progress_.phase() == Phase::kFace)
       Face(X_WB, t_s, dt_s);
     else if (progress_.moving())
@@ -94,7 +96,7 @@ class RegulatedPursuit final : public Tracker {
     const double aside_rad = std::atan2(target_B.y(), target_B.x());
     if (progress_.phase() == Phase::kDrive && std::abs(aside_rad) > Radians(params_.recover_deg)) {
       progress_.Turn(X_WB.p());
-      BeginTurn();
+      turn_side_ = 0;
     }
     if (progress_.phase() == Phase::kTurn &&
         std::abs(aside_rad) <= Radians(params_.heading_tolerance_deg))
@@ -110,21 +112,14 @@ class RegulatedPursuit final : public Tracker {
     const double aside_rad = WrapAngle(*progress_.face_rad() - X_WB.yaw_rad);
     Turn(aside_rad, t_s, dt_s);
     if (std::abs(aside_rad) > Radians(params_.heading_tolerance_deg)) return;
-    BeginTurn();
+    turn_side_ = 0;
     progress_.Faced(t_s);
   }
 
-  void BeginTurn() {
-    turn_side_ = 0;
-    turn_creep_.Reset();
-  }
-
   void Turn(double aside_rad, double t_s, double dt_s) {
+    if (turn_side_ == 0) motion_.BeginTurn();
     if (std::abs(aside_rad) < kAboutFaceRad || turn_side_ == 0) turn_side_ = aside_rad < 0 ? -1 : 1;
-    turn_creep_.Update(std::abs(aside_rad), t_s);
-    const double rate = TurningRate(aside_rad, motion_.yaw_rate_radps(), motion_.yaw_accel_radps2(),
-                                    turn_creep_.speed());
-    motion_.TurnOnTheSpot(turn_side_ * rate, dt_s);
+    motion_.TurnOnTheSpot(aside_rad, turn_side_, t_s, dt_s);
   }
 
   void Follow(const Vec2& target_B, double speed_mps, double dt_s) {
@@ -146,7 +141,6 @@ class RegulatedPursuit final : public Tracker {
   PursuitTwist motion_;
   double bend_yaw_rate_radps_ = 0;
   int turn_side_ = 0;
-  Creep turn_creep_{Creep::kTurn};
   double duration_s_ = 0;
 };
 

@@ -59,7 +59,10 @@ class SteeredPursuit final : public Tracker {
 
   void Extend(const Path& path) override { progress_.Extend(path); }
 
-  void Slow(double share) override { motion_.Slow(share); }
+  void Slow(double share) override {
+    motion_.Slow(share);
+    progress_.Slow(share);
+  }
 
   double Duration() const override { return duration_s_; }
 

@@ -30,7 +30,10 @@ class TwistTracker : public Tracker {
   // Throws InputError where the plan changes the robot's shape. The plan's yaws are not held.
   void Start(const Path& path, const RobotSpec& robot, const ClearanceField* clearance) override;
   void Extend(const Path& path) override;
-  void Slow(double share) override { share_ = share; }
+  void Slow(double share) override {
+    share_ = share;
+    progress_.Slow(share);
+  }
   double Duration() const override { return duration_s_; }
   MissedStops Missed() const override { return progress_.missed(); }
   bool WouldBeDone(const Estimate& estimate, double t_s) const override {
