@@ -49,10 +49,10 @@ class Boustrophedon final : public CoveragePlanner {
     figures.push_back({"regions", static_cast<double>(regions.direction_rad.size())});
     figures.push_back({"cells", static_cast<double>(CountCells(rows, regions))});
     figures.push_back({"rows", static_cast<double>(rows.size())});
-    figures.push_back(
-        {"sweep_direction_deg",
-         (regions.direction_rad[static_cast<std::size_t>(longest)] + floor.turned_rad) * 180 /
-             kPi});
+    const double direction_rad =
+        regions.direction_rad[static_cast<std::size_t>(longest)] + floor.turned_rad;
+    figures.push_back({"sweep_direction_deg",
+                       (direction_rad - kPi * std::floor(direction_rad / kPi + 1e-9)) * 180 / kPi});
     return lines;
   }
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/quantity.h"
+#include "env/core/standing.h"
 #include "planners/lines/held_yaw.h"
 #include "planners/lines/kept_margin.h"
 #include "planners/lines/map_along_walls.h"
@@ -56,9 +57,8 @@ constexpr double kMaxGoal = 0.995;
 // The tracker's error on such plans, and a little more: of round robots, which turn on the spot,
 // and of holonomic robots with a footprint.
 constexpr double kMargin_m = 0.03, kFootprintMargin_m = 0.015;
-constexpr double kLeastMargin_m = 0.01;    // the smallest default margin
-constexpr double kMaxLost = 0.04;          // of the ground, to a larger one
-constexpr double kLeastAlongWalls = 0.94;  // swept of the ground on the map's own grid
+constexpr double kLeastMargin_m = 0.01;  // the smallest default margin
+constexpr double kMaxLost = 0.04;        // of the ground, to a larger one
 constexpr double kDriveLoss = 0.012;    // of the ground, measured: corners driven less than exactly
 constexpr double kWallTolerance = 0.7;  // cells: a traced contour's staircase
 
@@ -111,15 +111,24 @@ Polyline Drive(ShortestPaths& paths, const Vec2& start, const std::vector<Polyli
   return MergeStraight(JoinByRoutes(paths, ordered));
 }
 
-// What a plan costs for the share of the floor that it sweeps, m: its length, and its turns. One
-// takes a holonomic robot about a second.
-double CostForShare(const SweepArea& area, const PlanResult& plan) {
-  constexpr double kTurn_m = 0.25;
-  double cost_m = 0;
-  for (std::size_t i = 1; i < plan.path.size(); ++i)
-    cost_m += (plan.path[i].p_W - plan.path[i - 1].p_W).norm() + kTurn_m;
-  const double share = MeasureCoverage(area, plan.tool, plan.path).coverage;
-  return share < kLeastAlongWalls ? std::numeric_limits<double>::infinity() : cost_m / share;
+// Of two plans for one floor, whether the one along the walls is to be taken: it covers enough, and
+// takes less length and turns for the share of the floor that it covers.
+bool IsBetter(const SweepArea& area, const PlanResult& along, const PlanResult& plain) {
+  constexpr double kTurn_m = 0.25;   // a turn takes a holonomic robot about a second
+  constexpr double kMinGain = 0.03;  // of the cost
+  constexpr double kEnough = 0.94, kMaxLess = 0.02;  // covered; or so much less than the other
+  const auto share = [&](const PlanResult& plan) {
+    return MeasureCoverage(area, plan.tool, plan.path).coverage;
+  };
+  const auto cost_m = [&](const PlanResult& plan) {
+    double length_m = 0;
+    for (std::size_t i = 1; i < plan.path.size(); ++i)
+      length_m += (plan.path[i].p_W - plan.path[i - 1].p_W).norm() + kTurn_m;
+    return length_m / std::max(share(plan), 1e-9);
+  };
+  if (plain.status != PlanStatus::kSuccess) return true;
+  return share(along) >= std::min(kEnough, share(plain) - kMaxLess) &&
+         cost_m(along) < (1 - kMinGain) * cost_m(plain);
 }
 
 // The floor that is swept with a margin.
@@ -262,10 +271,11 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
   }
   auto along = PlanAlongWalls(request, ground, result);
   result = PlanOn(ground, request, std::move(result));
-  constexpr double kWorthIt = 0.97;  // what is hardly less costs floor along walls for nothing
-  const bool is_better =
-      along && CostForShare(ground.area, *along) < kWorthIt * CostForShare(ground.area, result);
-  return is_better ? *std::move(along) : result;
+  if (!along) return result;
+  // As the report counts it.
+  const SweepArea area =
+      ground.room.Sweepable(along->clear, along->tool, request.start.p(), Yaws::kQuarters);
+  return IsBetter(area, *along, result) ? *std::move(along) : result;
 }
 
 CoveragePlanner::Ground CoveragePlanner::GroundOf(const HazardMap& map, const PlanRequest& request,
@@ -281,10 +291,12 @@ std::optional<PlanResult> CoveragePlanner::PlanAlongWalls(const PlanRequest& req
                                                           const Ground& ground,
                                                           const PlanResult& shapes) const {
   if (shapes.clear.kind == Shape2::Kind::kCircle) return {};
-  const auto map = MapAlongWalls(request.map, request.robot.step_m, shapes.clear);
+  const auto map = MapAlongWalls(request.map, shapes.clear);
   if (!map) return {};
   Ground along = GroundOf(*map, request, shapes);
   along.turned_rad = WrapAngle(map->frame.X_WG.yaw_rad - request.map.frame.X_WG.yaw_rad);
+  const Pose2 start{request.start.x_m, request.start.y_m, *along.held.yaw_rad};
+  if (!StandAt(request.map, request.robot, start).obstruction.empty()) return {};
   along.lost = std::max(0.0, 1 - along.area.area_m2() / ground.area.area_m2());
   if (along.lost > kMaxLost) return {};
   PlanResult plan = PlanOn(along, request, shapes);

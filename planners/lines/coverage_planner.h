@@ -52,8 +52,9 @@ class CoveragePlanner : public Planner {
   // `plan`: with the shapes that it is made for, as `shapes` below.
   static Ground GroundOf(const HazardMap& map, const PlanRequest& request, const PlanResult& plan);
   PlanResult PlanOn(const Ground& ground, const PlanRequest& request, PlanResult shapes) const;
-  // For a footprint, where walls are askew to the map: with rows along the walls. None if that
-  // loses much of `ground`, the one on the map's own grid.
+  // A plan with rows along walls that are askew to the map, for a footprint. None if it loses much
+  // of `ground` (that of the map's own grid), or if the robot does not fit at the start at that
+  // yaw.
   std::optional<PlanResult> PlanAlongWalls(const PlanRequest& request, const Ground& ground,
                                            const PlanResult& shapes) const;
   // `shortfall`: the share of the robot's ground that this floor lacks, or that driving loses. To

@@ -14,7 +14,7 @@
 namespace floorproof {
 namespace {
 
-constexpr double kAlong_rad = 3 * kPi / 180;  // what is less costs a row few steps
+constexpr double kAlong_rad = 3 * kPi / 180;  // rows cross few steps at smaller angles
 constexpr double kMaxCells = 1e7;             // a plan takes some 50 bytes a cell
 
 // The box around all that is no wall, in axes turned by this much from the grid's, m.
@@ -31,14 +31,14 @@ std::pair<Vec2, Vec2> TurnedBox(const Grid<std::uint8_t>& wall, double cell_m, d
   return {low.array() - cell_m, high.array() + cell_m};
 }
 
-// Cells about as large as this that a footprint fills to their edges: it is taken to fill every
-// cell that it meets.
-double FittingCell(const Shape2& footprint, double about_m) {
-  constexpr double kEps_m = 1e-4;
+// The largest cells up to this size that the footprint's farthest side fills to their edges: a
+// footprint is taken to fill every cell that it overlaps.
+double FittingCell(const Shape2& footprint, double max_m) {
+  constexpr double kEps_m = 1e-4, kEps = 1e-2;
   double reach_m = kEps_m;
   for (const Vec2& p : footprint.footprint_B)
     reach_m = std::max(reach_m, p.cwiseAbs().maxCoeff() + kEps_m);
-  return reach_m / (std::max(0.0, std::round(reach_m / about_m - 0.5)) + 0.5);
+  return reach_m / (std::max(0.0, std::ceil(reach_m / max_m - 0.5 - kEps)) + 0.5);
 }
 
 // Small cells lose less floor along walls that the map's cells make stairs of.
@@ -46,7 +46,7 @@ std::optional<GridFrame> FrameFor(const Shape2& footprint, const GridFrame& fine
                                   const Grid<std::uint8_t>& wall, double turn_rad) {
   const auto [low, high] = TurnedBox(wall, fine.cell_m, turn_rad);
   const Vec2 size_m = high - low, origin_G = Pose2{0, 0, turn_rad} * low;
-  for (const double share : {0.4, 1.0}) {
+  for (const double share : {0.4, 0.95}) {
     const double cell_m = FittingCell(footprint, share * fine.cell_m);
     const Vec2 cells = (size_m / cell_m).array().ceil();
     if (cells.x() * cells.y() <= kMaxCells)
@@ -58,12 +58,9 @@ std::optional<GridFrame> FrameFor(const Shape2& footprint, const GridFrame& fine
 
 }  // namespace
 
-std::optional<HazardMap> MapAlongWalls(const HazardMap& map, double step_m,
-                                       const Shape2& footprint) {
-  HazardMap bare = map;
-  bare.hazards.clear();
+std::optional<HazardMap> MapAlongWalls(const HazardMap& map, const Shape2& footprint) {
   const GridFrame fine = FineFrame(map.frame);
-  const Grid<std::uint8_t> wall = ObstacleMask(bare, step_m, fine);
+  const Grid<std::uint8_t> wall = WallMask(map, fine);
   const double turn_rad = MainWallDirection(wall);
   if (std::abs(turn_rad) < kAlong_rad) return {};
   const std::optional<GridFrame> turned = FrameFor(footprint, fine, wall, turn_rad);

@@ -11,10 +11,10 @@
 
 namespace floorproof {
 
-// The same floor on a grid of cells of this size whose axes run along most of its walls. A cell is
-// a wall where it overlaps one of the map's walls. None if the walls run along the map's own axes,
-// to within 3 deg, or in no direction that is plain, or if the grid would be too large.
-std::optional<HazardMap> MapAlongWalls(const HazardMap& map, double step_m,
-                                       const Shape2& footprint);
+// The same floor on a grid whose axes run along most of its walls, of cells that the footprint's
+// farthest side fills to their edges. A cell is a wall where it overlaps one of the map's walls.
+// None if the walls run along the map's own axes, to within 3 deg, or in no clear direction, or if
+// the grid would be too large.
+std::optional<HazardMap> MapAlongWalls(const HazardMap& map, const Shape2& footprint);
 
 }  // namespace floorproof

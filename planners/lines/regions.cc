@@ -24,7 +24,7 @@
 namespace floorproof {
 namespace {
 
-constexpr std::size_t kMaxCandidates = 12;
+constexpr std::size_t kMaxCandidates = 2 * kMaxDirections;  // along walls and across
 using Costs = std::array<double, kMaxCandidates>;
 
 struct Block {

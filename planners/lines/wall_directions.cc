@@ -14,7 +14,6 @@
 namespace floorproof {
 namespace {
 
-constexpr std::size_t kMaxDirections = 6;
 constexpr int kBins = 90;
 using Bins = std::array<double, kBins>;
 
@@ -52,7 +51,7 @@ std::vector<int> Peaks(Bins bins) {
   return peaks;
 }
 
-// Of the wall cells beside a free one. Of very many, evenly spread.
+// The wall cells beside a free one, thinned out evenly if there are very many.
 std::vector<Vec2> Border(const Grid<std::uint8_t>& walls) {
   constexpr std::size_t kMost = 200000;
   std::vector<Vec2> border;

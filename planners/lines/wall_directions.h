@@ -9,9 +9,11 @@
 
 namespace floorproof {
 
-// Peaks of the histogram of the walls' directions, strongest first, in [0, pi / 2): in the grid's
-// axes, modulo 90 deg, to a degree. `room`: the distance to the nearest wall in cells, below 1
-// where a cell does not count. One direction of 0 where there are no walls.
+constexpr int kMaxDirections = 6;
+
+// Up to kMaxDirections peaks of the histogram of the walls' directions, strongest first, in [0, pi
+// / 2): in the grid's axes, modulo 90 deg, to a degree. `room`: the margin to the nearest wall in
+// cells, below 1 where a cell does not count. One direction of 0 where there are no walls.
 std::vector<double> WallDirections(const Grid<float>& room);
 
 // The direction of most of the walls' borders, to a tenth of a degree, in (-pi / 4, pi / 4], in the

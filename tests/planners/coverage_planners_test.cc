@@ -193,15 +193,33 @@ TEST(Boustrophedon, AFootprintsRowsFollowWallsThatStandAskew) {
   };
   const PlanResult straight = plan(0, 0);
   EXPECT_NEAR(*straight.path[1].yaw_rad, 0, 1e-9);
-  for (const double yaw_deg : {-20.0}) {
-    const double yaw_rad = yaw_deg * kPi / 180;
-    const PlanResult dut = plan(yaw_rad, 0.1);
-    EXPECT_NEAR(std::remainder(*dut.path[1].yaw_rad - yaw_rad, kPi / 2), 0, 0.01) << yaw_deg;
-    EXPECT_GT(ShareAlong(dut.path, yaw_rad) + ShareAlong(dut.path, yaw_rad + kPi / 2), 0.75);
-    EXPECT_LT(CountTurns(dut.path), 1.25 * CountTurns(straight.path)) << yaw_deg;
-    EXPECT_LT(Length(dut.path), 1.1 * Length(straight.path)) << yaw_deg;
-    EXPECT_NEAR(std::remainder(Figure(dut, "sweep_direction_deg") - yaw_deg, 90), 0, 1) << yaw_deg;
-  }
+  constexpr double kYaw_deg = -20;
+  const double yaw_rad = kYaw_deg * kPi / 180;
+  const PlanResult dut = plan(yaw_rad, 0.1);
+  EXPECT_NEAR(std::remainder(*dut.path[1].yaw_rad - yaw_rad, kPi / 2), 0, 0.01);
+  EXPECT_GT(ShareAlong(dut.path, yaw_rad) + ShareAlong(dut.path, yaw_rad + kPi / 2), 0.75);
+  EXPECT_LT(CountTurns(dut.path), 1.25 * CountTurns(straight.path));
+  EXPECT_LT(Length(dut.path), 1.1 * Length(straight.path));
+  EXPECT_NEAR(std::remainder(Figure(dut, "sweep_direction_deg") - kYaw_deg, 90), 0, 1);
+  EXPECT_GE(Figure(dut, "sweep_direction_deg"), 0);
+}
+
+// Where the robot would reach into a wall at its start, held along the walls, it is not.
+TEST(Boustrophedon, AFootprintIsNotHeldAlongWallsWhereItDoesNotFitAtTheStart) {
+  RobotSpec robot = DiscRobot(0.25, 0.5);
+  robot.clear = robot.tool = {Shape2::Kind::kFootprint, 0, Rectangle({-0.25, -0.25}, {0.25, 0.25})};
+  Pose2 X_WR;
+  HazardMap map = RoomsAt(-20 * kPi / 180, X_WR);
+  const Vec2 middle = X_WR * Vec2(2.5, 3);
+  const auto held = [&] {
+    const PlanResult dut = Plan("boustrophedon", "{}", map, robot, {middle.x(), middle.y(), 0});
+    return dut.path.empty() ? NAN : *dut.path[0].yaw_rad;
+  };
+  EXPECT_NEAR(std::remainder(held() + 20 * kPi / 180, kPi / 2), 0, 0.01);
+  robot.outline_B = {Rectangle({-0.9, -0.02}, {0.9, 0.02})};  // sticks out beyond what plans keep
+  const Vec2 ahead = X_WR * Vec2(2.5 + 0.85, 3);
+  map.occupancy(map.frame.ToCell(ahead).ix, map.frame.ToCell(ahead).iy) = CellState::kOccupied;
+  EXPECT_NEAR(std::remainder(held(), kPi / 2), 0, 1e-9);
 }
 
 // What a tool reaches behind a thin wall it does not sweep: both sides of the wall are driven
