@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "env/core/hazard_map.h"
+#include "env/core/robot_spec.h"
 
 namespace floorproof {
 
