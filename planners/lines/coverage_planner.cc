@@ -117,18 +117,17 @@ bool IsBetter(const SweepArea& area, const PlanResult& along, const PlanResult& 
   constexpr double kTurn_m = 0.25;   // a turn takes a holonomic robot about a second
   constexpr double kMinGain = 0.03;  // of the cost
   constexpr double kEnough = 0.94, kMaxLess = 0.02;  // covered; or so much less than the other
-  const auto share = [&](const PlanResult& plan) {
-    return MeasureCoverage(area, plan.tool, plan.path).coverage;
-  };
-  const auto cost_m = [&](const PlanResult& plan) {
+  if (plain.status != PlanStatus::kSuccess) return true;
+  const auto cost_m = [](const PlanResult& plan, double share) {
     double length_m = 0;
     for (std::size_t i = 1; i < plan.path.size(); ++i)
       length_m += (plan.path[i].p_W - plan.path[i - 1].p_W).norm() + kTurn_m;
-    return length_m / std::max(share(plan), 1e-9);
+    return length_m / std::max(share, 1e-9);
   };
-  if (plain.status != PlanStatus::kSuccess) return true;
-  return share(along) >= std::min(kEnough, share(plain) - kMaxLess) &&
-         cost_m(along) < (1 - kMinGain) * cost_m(plain);
+  const double along_share = MeasureCoverage(area, along.tool, along.path).coverage;
+  const double plain_share = MeasureCoverage(area, plain.tool, plain.path).coverage;
+  return along_share >= std::min(kEnough, plain_share - kMaxLess) &&
+         cost_m(along, along_share) < (1 - kMinGain) * cost_m(plain, plain_share);
 }
 
 // The floor that is swept with a margin.
@@ -263,7 +262,7 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
     result.message = kNotConvex;
     return result;
   }
-  const Ground ground = GroundOf(request.map, request, result);
+  const HeldGround ground = GroundOf(request.map, request, result);
   if (ground.area.sweepable_cells == 0) {
     result.status = StartFits(ground.area) ? PlanStatus::kNoFloor : PlanStatus::kStartBlocked;
     result.message = WhyNothing(request, ground.area, result.clear);
@@ -278,9 +277,10 @@ PlanResult CoveragePlanner::Plan(const PlanRequest& request) const {
   return IsBetter(area, *along, result) ? *std::move(along) : result;
 }
 
-CoveragePlanner::Ground CoveragePlanner::GroundOf(const HazardMap& map, const PlanRequest& request,
-                                                  const PlanResult& plan) {
-  Ground ground{
+CoveragePlanner::HeldGround CoveragePlanner::GroundOf(const HazardMap& map,
+                                                      const PlanRequest& request,
+                                                      const PlanResult& plan) {
+  HeldGround ground{
       HoldYaw(map, request.start, plan.clear, plan.tool), FloorRoom(map, request.robot.step_m), {}};
   ground.area = ground.room.Sweepable(ground.held.clear, ground.held.tool, request.start.p(),
                                       ground.held.yaws);
@@ -288,12 +288,12 @@ CoveragePlanner::Ground CoveragePlanner::GroundOf(const HazardMap& map, const Pl
 }
 
 std::optional<PlanResult> CoveragePlanner::PlanAlongWalls(const PlanRequest& request,
-                                                          const Ground& ground,
+                                                          const HeldGround& ground,
                                                           const PlanResult& shapes) const {
   if (shapes.clear.kind == Shape2::Kind::kCircle) return {};
   const auto map = MapAlongWalls(request.map, shapes.clear);
   if (!map) return {};
-  Ground along = GroundOf(*map, request, shapes);
+  HeldGround along = GroundOf(*map, request, shapes);
   along.turned_rad = WrapAngle(map->frame.X_WG.yaw_rad - request.map.frame.X_WG.yaw_rad);
   const Pose2 start{request.start.x_m, request.start.y_m, *along.held.yaw_rad};
   if (!StandAt(request.map, request.robot, start).obstruction.empty()) return {};
@@ -304,7 +304,7 @@ std::optional<PlanResult> CoveragePlanner::PlanAlongWalls(const PlanRequest& req
   return plan;
 }
 
-PlanResult CoveragePlanner::PlanOn(const Ground& ground, const PlanRequest& request,
+PlanResult CoveragePlanner::PlanOn(const HeldGround& ground, const PlanRequest& request,
                                    PlanResult result) const {
   const bool circle = result.clear.kind == Shape2::Kind::kCircle;
   const HeldShapes& held = ground.held;

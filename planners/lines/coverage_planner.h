@@ -42,7 +42,7 @@ class CoveragePlanner : public Planner {
 
  private:
   // The floor as the robot's shapes lie on it, on the map's grid or on one along the walls.
-  struct Ground {
+  struct HeldGround {
     HeldShapes held;
     FloorRoom room;
     SweepArea area;
@@ -50,12 +50,13 @@ class CoveragePlanner : public Planner {
     double lost = 0;        // share of the sweepable floor on the map's own grid
   };
   // `plan`: with the shapes that it is made for, as `shapes` below.
-  static Ground GroundOf(const HazardMap& map, const PlanRequest& request, const PlanResult& plan);
-  PlanResult PlanOn(const Ground& ground, const PlanRequest& request, PlanResult shapes) const;
+  static HeldGround GroundOf(const HazardMap& map, const PlanRequest& request,
+                             const PlanResult& plan);
+  PlanResult PlanOn(const HeldGround& ground, const PlanRequest& request, PlanResult shapes) const;
   // A plan with rows along walls that are askew to the map, for a footprint. None if it loses much
   // of `ground` (that of the map's own grid), or if the robot does not fit at the start at that
   // yaw.
-  std::optional<PlanResult> PlanAlongWalls(const PlanRequest& request, const Ground& ground,
+  std::optional<PlanResult> PlanAlongWalls(const PlanRequest& request, const HeldGround& ground,
                                            const PlanResult& shapes) const;
   // `shortfall`: the share of the robot's ground that this floor lacks, or that driving loses. To
   // make up for it, more of what is there is swept.

@@ -53,14 +53,14 @@ std::vector<int> Peaks(Bins bins) {
 
 // The wall cells beside a free one, thinned out evenly if there are very many.
 std::vector<Vec2> Border(const Grid<std::uint8_t>& walls) {
-  constexpr std::size_t kMost = 200000;
+  constexpr std::size_t kMaxPoints = 200000;
   std::vector<Vec2> border;
   for (int iy = 1; iy + 1 < walls.height; ++iy)
     for (int ix = 1; ix + 1 < walls.width; ++ix)
       if (walls(ix, iy) &&
           !(walls(ix - 1, iy) && walls(ix + 1, iy) && walls(ix, iy - 1) && walls(ix, iy + 1)))
         border.push_back(Vec2(ix, iy));
-  const std::size_t every = border.size() / kMost + 1;
+  const std::size_t every = border.size() / kMaxPoints + 1;
   std::vector<Vec2> some;
   for (std::size_t i = 0; i < border.size(); i += every) some.push_back(border[i]);
   return some;
