@@ -85,7 +85,18 @@ std::string WhyUncovered(const HazardMap& floor, const RobotSpec& robot,
   return "";
 }
 
-void AddClearance(const HazardMap& floor, const PlanClearance& c, std::vector<std::string>& lines) {
+// What the robot may err by across its plan: as its tracker follows it, and as it is localised.
+constexpr double kTracks_m = 0.01;  // and less
+
+std::string ErrorPhrase(const std::string& estimator, double estimate_m) {
+  if (estimate_m == 0) return "the tracking error";
+  return fmt::format("the errors of tracking ({}) and of `{}` ({})", Metres(kTracks_m), estimator,
+                     Metres(estimate_m));
+}
+
+// `estimate_m`: see Estimator::error_m.
+void AddClearance(const HazardMap& floor, const PlanClearance& c, const std::string& estimator,
+                  double estimate_m, std::vector<std::string>& lines) {
   if (c.conflicts.empty()) {
     lines.push_back(
         c.obstacle.empty()
@@ -93,11 +104,9 @@ void AddClearance(const HazardMap& floor, const PlanClearance& c, std::vector<st
             : fmt::format("least clearance: {} to {}, at {}, {} m along",
                           Metres(std::max(0.0, c.least_m)), ObstaclePhrase(floor, c.obstacle),
                           At(c.p_W), FixedText(c.along_m, 1)));
-    constexpr double kStrays_m = 0.01;  // what trackers err by, and more
-    if (c.least_m < kStrays_m)
-      lines.push_back(fmt::format(
-          "warning: the least clearance is below {}, which is within the tracking error",
-          Metres(kStrays_m)));
+    if (const double errs_m = kTracks_m + estimate_m; c.least_m < errs_m)
+      lines.push_back(fmt::format("warning: the least clearance is below {}, which is within {}",
+                                  Metres(errs_m), ErrorPhrase(estimator, estimate_m)));
     return;
   }
   lines.push_back(ConflictsLine(c) + ":");
@@ -269,7 +278,8 @@ std::vector<std::string> PlanLines(const Scenario& s, const PlanResult& plan,
         "that is not in it (start.x_m, start.y_m)",
         LengthText(plan.lead_in_m), At(s.start.p())));
   const HazardMap floor = KnownFloor(s);
-  AddClearance(floor, check.clearance, lines);
+  AddClearance(floor, check.clearance, s.estimator_name,
+               s.estimator->error_m(floor, Length(plan.path)), lines);
   if (const auto sharp = SharpCornersLine(s.robot.spec, check.sharp_corners); !sharp.empty())
     lines.push_back(sharp);
   if (auto unheld = UnheldDwellLine(s, plan); !unheld.empty()) lines.push_back(std::move(unheld));

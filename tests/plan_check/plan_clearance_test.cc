@@ -421,6 +421,30 @@ TEST_F(PlanClearanceTest, OneIsNotSeveral) {
   EXPECT_THAT(ConflictsLine(clearance), ::testing::EndsWith("at 2 places"));
 }
 
+// A way of 6 m that passes a wall at 18 mm: enough for a robot that is told where it is, and not
+// for one that may be 25 mm beside it.
+TEST_F(PlanClearanceTest, HowNearIsTooNearDependsOnTheEstimator) {
+  constexpr double kCloseBy_m = 0.018;
+  const auto warned = [&](const std::string& estimator, double clearance_m) {
+    Scenario scenario =
+        Room("", fmt::format("1.5,{0}\n6,{0}\n", kWall_m + kBeluga_m / 2 + clearance_m),
+             "estimator: " + estimator + "\n");
+    const PlanResult plan = MakePlan(scenario);
+    for (const std::string& line : PlanLines(scenario, plan, CheckPlan(scenario, plan)))
+      if (line.starts_with("warning: the least clearance")) return line;
+    return std::string();
+  };
+  EXPECT_EQ(warned("truth", kCloseBy_m), "");
+  EXPECT_EQ(warned("truth", 0.008),
+            "warning: the least clearance is below 10 mm, which is within the tracking error");
+  EXPECT_EQ(warned("mcl", kCloseBy_m),
+            "warning: the least clearance is below 35 mm, which is within the errors of tracking "
+            "(10 mm) and of `mcl` (25 mm)");
+  EXPECT_EQ(warned("mcl", 0.037), "");
+  EXPECT_THAT(warned("odometry", 0.2), HasSubstr("and of `odometry` (3"));
+  EXPECT_EQ(warned("odometry", 0.5), "");
+}
+
 // The way from the start to a given plan is nobody's plan: who reads a warning of it should know.
 TEST_F(PlanClearanceTest, ALegBeforeTheGivenPlanIsSaid) {
   const auto said = [&](const std::string& rows) {
