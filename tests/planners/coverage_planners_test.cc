@@ -15,6 +15,7 @@ using testing::Draw;
 using testing::EmptyFloor;
 using testing::ExpectSound;
 using testing::MakePlanner;
+using testing::RoomOnFloor;
 
 PlanResult Plan(const std::string& name, const std::string& yaml, const HazardMap& map,
                 const RobotSpec& robot, const Pose2& start) {
@@ -65,14 +66,10 @@ TEST(Boustrophedon, RowsRunAlongTheLongerSide) {
 
 TEST(Boustrophedon, RowsFollowWallsThatStandAskew) {
   // A room of 10 m x 3 m turned by 30 deg against the map's cells.
-  HazardMap map = EmptyFloor(240, 200, 0.05);
   const Pose2 X_WR{1.9, 1.0, kPi / 6};
-  for (int iy = 0; iy < 200; ++iy)
-    for (int ix = 0; ix < 240; ++ix) {
-      const Vec2 p = X_WR.Inverse() * map.frame.Center(ix, iy);
-      if (p.x() < 0 || p.x() > 10 || p.y() < 0 || p.y() > 3)
-        map.occupancy(ix, iy) = CellState::kOccupied;
-    }
+  const HazardMap map = RoomOnFloor(240, 200, 0.05, X_WR, [](const Vec2& p) {
+    return p.x() >= 0 && p.x() <= 10 && p.y() >= 0 && p.y() <= 3;
+  });
   const Vec2 p = X_WR * Vec2(1, 1);
   const PlanResult plan = Plan("boustrophedon", "{}", map, DiscRobot(0.18, 0.3), {p.x(), p.y(), 0});
   EXPECT_GT(ShareAlong(plan.path, kPi / 6), 0.8);
@@ -165,16 +162,12 @@ TEST_P(Both, AToolWiderThanTheRoomNeedsHardlyMove) {
 
 // Two rooms of 5 m x 6 m, joined by a door of 1.5 m, at this yaw to the map's cells.
 HazardMap RoomsAt(double yaw_rad, Pose2& X_WR) {
-  HazardMap map = EmptyFloor(300, 240, 0.05);
   X_WR = {3.2, 1.2, yaw_rad};
-  for (int iy = 0; iy < 240; ++iy)
-    for (int ix = 0; ix < 300; ++ix) {
-      const Vec2 p = X_WR.Inverse() * map.frame.Center(ix, iy);
-      const bool is_inside = p.x() > 0 && p.x() < 10.2 && p.y() > 0 && p.y() < 6;
-      const bool is_between = std::abs(p.x() - 5.1) < 0.1 && std::abs(p.y() - 3) > 0.75;
-      if (!is_inside || is_between) map.occupancy(ix, iy) = CellState::kOccupied;
-    }
-  return map;
+  return RoomOnFloor(300, 240, 0.05, X_WR, [](const Vec2& p) {
+    const bool is_inside = p.x() > 0 && p.x() < 10.2 && p.y() > 0 && p.y() < 6;
+    const bool is_between = std::abs(p.x() - 5.1) < 0.1 && std::abs(p.y() - 3) > 0.75;
+    return is_inside && !is_between;
+  });
 }
 
 // A footprint holds the walls' direction, and its rows run along it. So a building that is askew to

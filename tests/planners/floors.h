@@ -42,6 +42,17 @@ inline HazardMap EmptyFloor(int w, int h, double cell_m) {
   return map;
 }
 
+// The same, but wall except where is_free(p_R) of the place in a room's frame R.
+template <typename IsFree>
+HazardMap RoomOnFloor(int w, int h, double cell_m, const Pose2& X_WR, IsFree is_free) {
+  HazardMap map = EmptyFloor(w, h, cell_m);
+  for (int iy = 0; iy < h; ++iy)
+    for (int ix = 0; ix < w; ++ix)
+      if (!is_free(Vec2(X_WR.Inverse() * map.frame.Center(ix, iy))))
+        map.occupancy(ix, iy) = CellState::kOccupied;
+  return map;
+}
+
 // Left and right exchanged.
 inline HazardMap Mirrored(const HazardMap& map) {
   HazardMap out = map;

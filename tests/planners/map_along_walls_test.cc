@@ -12,16 +12,12 @@ namespace {
 
 // A room of 4 m x 3 m at this yaw to the map's cells of 5 cm, with a pillar.
 HazardMap RoomAt(double yaw_rad) {
-  HazardMap map = testing::EmptyFloor(120, 120, 0.05);
   const Pose2 X_WR = Pose2{3, 3, yaw_rad} * Pose2{-2, -1.5, 0};
-  for (int iy = 0; iy < 120; ++iy)
-    for (int ix = 0; ix < 120; ++ix) {
-      const Vec2 p = X_WR.Inverse() * map.frame.Center(ix, iy);
-      const bool is_inside = p.x() > 0 && p.x() < 4 && p.y() > 0 && p.y() < 3;
-      const bool is_pillar = (p - Vec2(3, 2)).cwiseAbs().maxCoeff() < 0.15;
-      if (!is_inside || is_pillar) map.occupancy(ix, iy) = CellState::kOccupied;
-    }
-  return map;
+  return testing::RoomOnFloor(120, 120, 0.05, X_WR, [](const Vec2& p) {
+    const bool is_inside = p.x() > 0 && p.x() < 4 && p.y() > 0 && p.y() < 3;
+    const bool is_pillar = (p - Vec2(3, 2)).cwiseAbs().maxCoeff() < 0.15;
+    return is_inside && !is_pillar;
+  });
 }
 
 const Shape2 kSquare{Shape2::Kind::kFootprint, 0, Rectangle({-0.25, -0.25}, {0.25, 0.25})};
