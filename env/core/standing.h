@@ -12,7 +12,7 @@ namespace floorproof {
 
 constexpr double kSameLevel_m = 1e-6;  // floors whose heights differ by no more are one level
 
-// What overlaps by less touches: nobody sets a robot down more exactly.
+// Overlaps smaller than this count as touching: a robot is not placed more exactly by hand.
 constexpr double kTouch_m = 0.001;
 
 // Heights over the base floor of the map, m.

@@ -138,8 +138,7 @@ inline constexpr auto kMetrics = std::to_array<MetricColumn>({
     {"veer_off_margin", "", &Metrics::veer_off_margin,
      "how far it stayed from veering off, as a share of the limit that applies at that place "
      "(max_cross_track_m, or half of a narrower lane): 1 nowhere nearer, 0 or less at or beyond "
-     "it, which is a "
-     "failure only where it lasts; none without the detector"},
+     "it, which is a failure only where it lasts; none without the detector"},
     {"stuck_margin", "", &Metrics::stuck_margin, "the same of getting stuck"},
     {"roll_over_margin", "", &Metrics::roll_over_margin, "the same of rolling over"},
     {"bounce_back_margin", "", &Metrics::bounce_back_margin, "the same of bouncing back"},

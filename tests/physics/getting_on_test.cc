@@ -228,7 +228,7 @@ TEST_P(GettingOn, TheVerdictAtAnEdgeIsWhatBecomesOfTheDrive) {
     c.goal = {4, 2.5};
     // Its foremost corner is met within 0.2 m of the start.
     const Vec2 start(4 - 0.1 / std::cos(askew_rad) - 0.25 * (1 + std::tan(askew_rad)) - 0.1, 2.5);
-    // Who is stuck advances by less than a quarter of the commanded way for 10 s: it loses 7.5 s.
+    // A stuck robot covers less than a quarter of the commanded way for 10 s: it loses 7.5 s.
     const double way_s = (c.goal - start).norm() / c.speed_mps, fair_s = way_s + 7;
     c.plan =
         "x_m,y_m,yaw_rad,speed_mps\n" + Row(start, 0, c.speed_mps) + Row(c.goal, 0, c.speed_mps);

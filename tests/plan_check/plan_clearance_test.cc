@@ -421,8 +421,8 @@ TEST_F(PlanClearanceTest, OneIsNotSeveral) {
   EXPECT_THAT(ConflictsLine(clearance), ::testing::EndsWith("at 2 places"));
 }
 
-// A way of 6 m that passes a wall at 18 mm: enough for a robot that is told where it is, and not
-// for one that may be 25 mm beside it.
+// A way of 6 m that passes a wall at 18 mm: enough for a robot that knows its pose exactly, and not
+// for one whose estimate may be 25 mm off.
 TEST_F(PlanClearanceTest, HowNearIsTooNearDependsOnTheEstimator) {
   constexpr double kCloseBy_m = 0.018;
   const auto warned = [&](const std::string& estimator, double clearance_m) {

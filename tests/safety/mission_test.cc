@@ -36,7 +36,7 @@ run: [drive]
 
 Mission Read(const std::string& text) { return ReadMission(ParseYaml(text, "m.yaml"), kTypes); }
 
-// Of the file with `to` in place of `from`: "taken" where it is none.
+// The error for the file with `from` replaced by `to`; "taken" if there is none.
 std::string Refusal(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
