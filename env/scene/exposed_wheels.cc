@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "env/geometry/geometry.h"
 #include "env/scene/compiled_robot.h"
+#include "env/scene/farthest_along.h"
 #include "env/scene/walls.h"
 #include "env/scene/world_geoms.h"
 
@@ -20,40 +20,6 @@ struct Cover {
   int block = 0;
   Polygon outline_B;
 };
-
-// Of a geom that collides by its hull, in its own frame: the point that lies farthest along a unit
-// vector. Planes and height fields have none.
-Vec3 FarthestAlong(const mjModel* m, int geom, const Vec3& way) {
-  const mjtNum* size = m->geom_size + 3 * geom;
-  const auto end = [](double component, double half) { return component < 0 ? -half : half; };
-  switch (m->geom_type[geom]) {
-    case mjGEOM_SPHERE:
-      return size[0] * way;
-    case mjGEOM_CAPSULE:
-      return size[0] * way + Vec3(0, 0, end(way.z(), size[1]));
-    case mjGEOM_ELLIPSOID: {
-      const Vec3 axes(size);
-      return axes.cwiseProduct(axes.cwiseProduct(way).normalized());
-    }
-    case mjGEOM_CYLINDER: {
-      const Vec2 across = size[0] * way.head<2>().normalized();
-      return {across.x(), across.y(), end(way.z(), size[1])};
-    }
-    case mjGEOM_BOX:
-      return {end(way.x(), size[0]), end(way.y(), size[1]), end(way.z(), size[2])};
-    default: {
-      const int mesh = m->geom_dataid[geom];
-      const float* vertices = m->mesh_vert + 3 * m->mesh_vertadr[mesh];
-      Vec3 farthest = Vec3::Zero();
-      double most = -std::numeric_limits<double>::infinity();
-      for (int v = 0; v < m->mesh_vertnum[mesh]; ++v) {
-        const Vec3 p(vertices[3 * v], vertices[3 * v + 1], vertices[3 * v + 2]);
-        if (p.dot(way) > most) most = p.dot(way), farthest = p;
-      }
-      return farthest;
-    }
-  }
-}
 
 // What walls meet, each geom for itself. What lies above the walls covers nothing.
 std::vector<Cover> Covers(const CompiledRobot& compiled) {
