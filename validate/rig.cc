@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/registry.h"
+#include "env/scene/edge_contacts.h"
 #include "env/scene/roller_wheels.h"
 
 namespace floorproof {
@@ -64,6 +65,7 @@ void Rig::Build(RigOptions options) {
     if (lower) m->geom_pos[3 * g + 2] -= wrong_.seam_step_m;
     lower = !lower;
   }
+  if (wrong_.contacts_forget) UnmarkBodyGeoms(m);
   wheel_radps_.resize(true_robot_.wheels.size());
   if (!options.holds_still) model_.spec.standstill = Standstill::kFree;  // rigs push and tilt it
   sim_ = std::make_unique<Simulation>(scene_, map_, model_.spec);

@@ -27,6 +27,8 @@ struct WrongModel {
   double drag_factor = 1;         // of hazards' rolling drag
   double steering_add_rad = 0;    // the fork points so much farther to the left than is thought
 
+  bool contacts_forget = false;  // from which side a body came to an edge (edge_contacts.h)
+
   bool operator==(const WrongModel&) const = default;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "env/scene/edge_contacts.h"
 #include "env/scene/floor.h"
 #include "env/scene/mecanum_wheel.h"
 #include "env/scene/scene_looks.h"
@@ -184,6 +185,7 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
   TakeDefaults(scene.spec.get());
   SetPhysics(scene.spec.get(), physics);
   PlaceRobot(scene.spec.get(), start);
+  ReserveEdgeMemory(scene.spec.get());
   const Looks looks = AddLooks(map.frame, scene.spec.get());
   SceneBuilder builder(map, robot, looks, scene.spec.get());
   builder.Floor();
@@ -191,20 +193,25 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
   builder.Hazards();
   PairWheels(map, robot, builder.world, scene.spec.get());
   InstallWheelCollider();
+  InstallEdgeCollider();
   scene.model = CompileSpec(scene.spec.get(), robot.assets.get());
   InflateWheelBounds(scene.model.get());
 
   const mjModel* m = scene.model.get();
   scene.base_body = mj_name2id(m, mjOBJ_BODY, "base");
   scene.roles.resize(static_cast<std::size_t>(m->ngeom));
+  std::vector<int> body_geoms;
   for (int g = 0; g < m->ngeom; ++g) {
     const int body = m->geom_bodyid[g];
     const bool touches =
         m->geom_contype[g] != 0 || m->geom_conaffinity[g] != 0 || RollersOf(m, g).radius_m > 0;
     if (body == 0 || !touches) continue;
+    const bool is_chassis = IsChassis(m, body, robot.spec);
     scene.roles[static_cast<std::size_t>(g)].kind =
-        IsChassis(m, body, robot.spec) ? GeomRole::Kind::kBody : GeomRole::Kind::kWheel;
+        is_chassis ? GeomRole::Kind::kBody : GeomRole::Kind::kWheel;
+    if (is_chassis) body_geoms.push_back(g);
   }
+  MarkBodyGeoms(scene.model.get(), body_geoms);
   for (const auto& [geom, role] : builder.world.all()) {
     scene.roles[static_cast<std::size_t>(mjs_getId(geom->element))] = role;
     scene.num_wall_geoms += role.kind == GeomRole::Kind::kWall;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "env/scene/edge_contacts.h"
 #include "env/scene/engine.h"
 #include "env/scene/mecanum_wheel.h"
 #include "env/scene/robot_reach.h"
@@ -24,7 +25,8 @@ WallPool MakeWallPool(const std::vector<Box2>& boxes, const Pose2& X_WG, const m
   const int base = mj_name2id(model.get(), mjOBJ_BODY, "base");
   if (!NearnessIsKnown(model.get(), base)) return {};
   WallPool pool{BoxGrid(boxes), X_WG, -1, 0};
-  const int most = pool.grid.MostNear(ComputeReach(model.get(), base).surface_m + kSlack_m);
+  const int most =
+      pool.grid.MostNear(ComputeReach(model.get(), base).surface_m + kLookAhead_m + kSlack_m);
   if (static_cast<std::size_t>(most) >= boxes.size()) return {};
   pool.num = std::max(most, 1);
   return pool;

@@ -16,9 +16,8 @@ struct RealRobot {
   std::string_view answers;  // the keys of `floorproof robot NAME.urdf --set ...`, as YAML
   double top_mps = 0;        // what it is driven at against steps: its top speed, at most 1 m/s
   double mass_kg = 0;
-  double battery_wh = 0;      // 0: not known
-  bool motor_data = false;    // its motors' are published, so its top speed is predicted
-  double leading_edge_m = 0;  // of the body's lowest edge ahead of all wheels; 0: wheels lead
+  double battery_wh = 0;    // 0: not known
+  bool motor_data = false;  // its motors' are published, so its top speed is predicted
 };
 
 std::span<const RealRobot> RealRobots();
