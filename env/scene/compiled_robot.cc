@@ -10,6 +10,7 @@
 #include "base/printable.h"
 #include "env/scene/lock_blocks.h"
 #include "env/scene/mecanum_wheel.h"
+#include "env/scene/mesh_hull.h"
 
 namespace floorproof {
 
@@ -101,24 +102,6 @@ std::vector<Vec3> RoundPoints(int type, const Vec3& size, const Eigen::Matrix3d&
   return points;
 }
 
-// The vertices of a mesh, in its own frame: those of its convex hull if MuJoCo has made one, else
-// all.
-std::vector<Vec3> HullVertices(const mjModel* m, int mesh) {
-  const float* vertices = m->mesh_vert + 3 * m->mesh_vertadr[mesh];
-  const auto vertex = [&](int i) {
-    return Vec3(vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]);
-  };
-  std::vector<Vec3> points;
-  if (m->mesh_graphadr[mesh] < 0) {
-    for (int i = 0; i < m->mesh_vertnum[mesh]; ++i) points.push_back(vertex(i));
-    return points;
-  }
-  const int* graph = m->mesh_graph + m->mesh_graphadr[mesh];
-  const int* of_hull = graph + 2 + graph[0];
-  for (int i = 0; i < graph[0]; ++i) points.push_back(vertex(of_hull[i]));
-  return points;
-}
-
 }  // namespace
 
 std::vector<Vec3> CompiledRobot::SurfacePoints(int geom) const {
@@ -160,7 +143,8 @@ std::vector<Vec3> CompiledRobot::SurfacePoints(int geom) const {
         add(p.x(), p.y(), p.z());
       break;
     case mjGEOM_MESH:  // its convex hull is what collides
-      for (const Vec3& p : HullVertices(m_, m_->geom_dataid[geom])) add(p.x(), p.y(), p.z());
+      ForEachHullVertex(m_, m_->geom_dataid[geom],
+                        [&](const Vec3& p) { add(p.x(), p.y(), p.z()); });
       break;
     default: {  // the axis-aligned box in the geom's frame bounds every other type
       const mjtNum* box = m_->geom_aabb + 6 * geom;

@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "env/scene/mesh_hull.h"
+
 namespace floorproof {
 
 Vec3 FarthestAlong(const mjModel* m, int geom, const Vec3& way) {
@@ -24,14 +26,11 @@ Vec3 FarthestAlong(const mjModel* m, int geom, const Vec3& way) {
     case mjGEOM_BOX:
       return {end(way.x(), size[0]), end(way.y(), size[1]), end(way.z(), size[2])};
     default: {
-      const int mesh = m->geom_dataid[geom];
-      const float* vertices = m->mesh_vert + 3 * m->mesh_vertadr[mesh];
       Vec3 farthest = Vec3::Zero();
       double most = -std::numeric_limits<double>::infinity();
-      for (int v = 0; v < m->mesh_vertnum[mesh]; ++v) {
-        const Vec3 p(vertices[3 * v], vertices[3 * v + 1], vertices[3 * v + 2]);
+      ForEachHullVertex(m, m->geom_dataid[geom], [&](const Vec3& p) {
         if (p.dot(way) > most) most = p.dot(way), farthest = p;
-      }
+      });
       return farthest;
     }
   }

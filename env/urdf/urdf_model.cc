@@ -9,6 +9,7 @@
 #include "base/params.h"
 #include "env/scene/engine.h"
 #include "env/scene/engine_files.h"
+#include "env/scene/mesh_hull.h"
 #include "env/urdf/link_mass.h"
 #include "env/urdf/urdf_text.h"
 
@@ -94,21 +95,10 @@ UrdfShape ShapeOf(const mjModel* m, const mjData* d, int geom, bool collides) {
     case mjGEOM_CAPSULE:
       shape.kind = Kind::kCapsule;
       break;
-    case mjGEOM_MESH: {
+    case mjGEOM_MESH:
       shape.kind = Kind::kHull;
-      const int mesh = m->geom_dataid[geom];
-      const float* vertices = m->mesh_vert + 3 * m->mesh_vertadr[mesh];
-      const auto add = [&](int v) {
-        shape.hull.emplace_back(vertices[3 * v], vertices[3 * v + 1], vertices[3 * v + 2]);
-      };
-      // A hull's data begin with the number of its corners and of its faces, then come the
-      // corners' first edges and then their vertices.
-      const int graph = m->mesh_graphadr[mesh];
-      const int corners = graph >= 0 ? m->mesh_graph[graph] : m->mesh_vertnum[mesh];
-      for (int k = 0; k < corners; ++k)
-        add(graph >= 0 ? m->mesh_graph[graph + 2 + corners + k] : k);
+      ForEachHullVertex(m, m->geom_dataid[geom], [&](const Vec3& p) { shape.hull.push_back(p); });
       break;
-    }
     default:
       shape.kind = Kind::kBox;
   }
