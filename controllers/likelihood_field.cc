@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "env/core/coverage.h"
 #include "env/core/slopes.h"
 #include "env/geometry/distance.h"
 #include "env/geometry/rasterise.h"
 
 namespace floorproof {
 namespace {
-
-constexpr double kFinest_m = 0.05;
 
 // Whether a level scan at that height can meet it. Glass counts too: some beams end on it, and
 // those that pass end on what stands behind, which is as near to a wall as any.
@@ -25,8 +24,9 @@ bool IsMet(const Hazard& hazard, double height_m) {
 }  // namespace
 
 LikelihoodField::LikelihoodField(const HazardMap& known, double height_m) {
-  const int fine = std::max(1, static_cast<int>(std::ceil(known.frame.cell_m / kFinest_m - 1e-9)));
-  cell_m_ = known.frame.cell_m / fine;
+  const GridFrame fine_frame = FineFrame(known.frame);
+  const int fine = fine_frame.width / known.frame.width;
+  cell_m_ = fine_frame.cell_m;
   // With a ring of cells beyond the map, which is wall: beams end there where the map ends free.
   const int width = (known.frame.width + 2) * fine, height = (known.frame.height + 2) * fine;
   X_GW_ = Pose2{known.frame.cell_m, known.frame.cell_m, 0} * known.frame.X_WG.Inverse();
