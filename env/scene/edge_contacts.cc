@@ -41,26 +41,18 @@ class Memory {
         since_s_(d->time - 1.5 * m->opt.timestep) {}
 
   std::optional<Vec3> Normal(int solid) const {
-    for (int s = 0; s < kSlots; ++s)
-      if (const mjtNum* slot = Slot(s); slot[0] == solid + 1 && IsFresh(slot[1]))
-        return Vec3(slot[2], slot[3], slot[4]);
-    return {};
+    const mjtNum* slot = Find(solid);
+    return slot == nullptr ? std::nullopt : std::optional<Vec3>(Vec3(slot + 2));
   }
   // Does nothing if all slots are in use.
   void Keep(int solid, const Vec3& normal_W) {
-    mjtNum* free = nullptr;
-    for (int s = 0; s < kSlots; ++s) {
-      mjtNum* slot = Slot(s);
-      if (slot[0] == solid + 1) {
-        free = slot;
-        break;
-      }
-      if (free == nullptr && (slot[0] == 0 || !IsFresh(slot[1]))) free = slot;
-    }
-    if (free == nullptr) return;
-    free[0] = solid + 1;
-    free[1] = t_s_;
-    std::copy_n(normal_W.data(), 3, free + 2);
+    mjtNum* slot = Find(solid);
+    for (int s = 0; slot == nullptr && s < kSlots; ++s)
+      if (!IsInUse(Slot(s))) slot = Slot(s);
+    if (slot == nullptr) return;
+    slot[0] = solid + 1;
+    slot[1] = t_s_;
+    std::copy_n(normal_W.data(), 3, slot + 2);
   }
   void Carry(double depth_m) {
     data_[0] = data_[1] == t_s_ ? std::max(data_[0], depth_m) : depth_m;
@@ -71,7 +63,15 @@ class Memory {
 
  private:
   bool IsFresh(double t_s) const { return t_s > since_s_ && t_s <= t_s_; }
+  // A slot: the number of the solid + 1 (0: never used), the time, the normal.
   mjtNum* Slot(int s) const { return data_ + 2 + kSlotSize * s; }
+  bool IsInUse(const mjtNum* slot) const { return slot[0] != 0 && IsFresh(slot[1]); }
+  // Null if it is not remembered.
+  mjtNum* Find(int solid) const {
+    for (int s = 0; s < kSlots; ++s)
+      if (IsInUse(Slot(s)) && Slot(s)[0] == solid + 1) return Slot(s);
+    return nullptr;
+  }
 
   mjtNum* data_;
   double t_s_, since_s_;
@@ -108,15 +108,15 @@ class Meeting {
   // From the solid to the body.
   Vec3 Normal(const mjPreContact& c) const { return toward_body_ * Vec3(c.normal); }
   // An upper bound of how far the body must move along the vector to be apart.
-  double Depth(const Vec3& way_W) const { return Far(solid_, way_W) + Far(body_, -way_W); }
+  double Depth(const Vec3& along_W) const { return Far(solid_, along_W) + Far(body_, -along_W); }
 
  private:
   // How far along the vector a geom reaches, in the world.
-  double Far(int geom, const Vec3& way_W) const {
-    Vec3 way, p_W;
-    mju_mulMatTVec3(way.data(), d_->geom_xmat + 9 * geom, way_W.data());
-    mju_mulMatVec3(p_W.data(), d_->geom_xmat + 9 * geom, FarthestAlong(m_, geom, way).data());
-    return way_W.dot(p_W + Vec3(d_->geom_xpos + 3 * geom));
+  double Far(int geom, const Vec3& along_W) const {
+    Vec3 along, p_W;
+    mju_mulMatTVec3(along.data(), d_->geom_xmat + 9 * geom, along_W.data());
+    mju_mulMatVec3(p_W.data(), d_->geom_xmat + 9 * geom, FarthestAlong(m_, geom, along).data());
+    return along_W.dot(p_W + Vec3(d_->geom_xpos + 3 * geom));
   }
 
   const mjModel* m_;
