@@ -14,14 +14,20 @@ RobotModel MakeCart(const Cart& cart) {
         R"(<body pos="{} {} {}"><joint name="w{}" axis="0 1 0" armature="0.002" frictionloss="0.02"/>
         <geom type="cylinder" size="{} 0.008" zaxis="0 1 0" mass="{}" contype="0"/></body>)",
         x, y, cart.wheel_radius_m, i, cart.wheel_radius_m, kWheel_kg);
-    motors += fmt::format(R"(<velocity joint="w{}" kv="5" forcerange="-3 3"/>)", i);
+    motors += fmt::format(R"(<velocity joint="w{}" kv="5" forcerange="{} {}"/>)", i, -cart.motor_nm,
+                          cart.motor_nm);
   }
+  std::string nose;
+  if (cart.nose_m > 0)
+    nose = fmt::format(
+        R"(<geom type="box" size="{} {} 0.03" pos="{} 0 {}" mass="0" contype="0" conaffinity="3"/>)",
+        cart.nose_m / 2, kNoseHalfWidth_m, cart.nose_m / 2, cart.clearance_m + 0.03);
   const double box_x = cart.com_x_m * (kBox_kg + 4 * kWheel_kg) / kBox_kg;
   RobotModel out = BodyFromMjcf(fmt::format(
       R"(<mujoco><worldbody><body name="base"><freejoint/>
       <geom type="box" size="0.1 0.12 0.02" pos="{} 0 {}" mass="{}" contype="0" conaffinity="3"/>
-      {}</body></worldbody><actuator>{}</actuator></mujoco>)",
-      box_x, cart.wheel_radius_m + 0.02, kBox_kg, wheels, motors));
+      {}{}</body></worldbody><actuator>{}</actuator></mujoco>)",
+      box_x, cart.wheel_radius_m + 0.02, kBox_kg, nose, wheels, motors));
   out.spec.name = "cart";
   return out;
 }

@@ -10,7 +10,12 @@ struct Cart {
   double wheel_radius_m = 0.04;
   double axle_x_m = 0.20;  // of the front axle; the rear one's is minus that
   double com_x_m = 0;      // of body and wheels together
+  double motor_nm = 3;     // of each
+  double nose_m = 0;       // how far a wide box without mass reaches ahead; 0: there is none
+  double clearance_m = 0;  // from the floor to that box
 };
+
+inline constexpr double kNoseHalfWidth_m = 0.14;
 
 // Named "cart"; its wheels hold the speeds commanded.
 RobotModel MakeCart(const Cart& cart);

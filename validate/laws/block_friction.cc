@@ -9,6 +9,7 @@
 // its velocity is noisy where its distance is not.
 #include <fmt/format.h>
 
+#include "validate/bisect.h"
 #include "validate/law.h"
 
 namespace floorproof {
@@ -54,14 +55,12 @@ class BlockFriction final : public Law {
   void Check(const WrongModel& wrong, std::vector<LawRow>& rows) const override {
     for (const double mu : {0.4, 0.8}) {
       const double holds_rad = std::atan(mu);
-      double low_deg = holds_rad / kDegree - 10, high_deg = holds_rad / kDegree + 10;
-      while (high_deg - low_deg > 0.1) {
-        const double middle_deg = (low_deg + high_deg) / 2;
-        const bool slides = LetGo(mu, middle_deg * kDegree, wrong).v_mps > kSlides_mps;
-        (slides ? high_deg : low_deg) = middle_deg;
-      }
+      const double steepest_deg =
+          Bisect(holds_rad / kDegree - 10, holds_rad / kDegree + 10, 0.1, [&](double slope_deg) {
+            return !(LetGo(mu, slope_deg * kDegree, wrong).v_mps > kSlides_mps);
+          });
       rows.push_back({fmt::format("friction/block/mu{}/holds", mu), holds_rad / kDegree,
-                      (low_deg + high_deg) / 2, kAngle_deg, "deg"});
+                      steepest_deg, kAngle_deg, "deg"});
       const double steep_rad = holds_rad + 8 * kDegree;
       const double a = kGravity_mps2 * (std::sin(steep_rad) - mu * std::cos(steep_rad));
       rows.push_back({fmt::format("friction/block/mu{}/slides", mu), a,

@@ -1,49 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// A body that meets an edge is held where the edge is higher than its bottom, whatever its speed
-// and the kind of hazard: a box with no wheel before its nose, driven against it. Its motors stall
-// before its wheels spin, because wheels that spin hop.
+// An edge that is higher than a body's bottom holds the body, whatever its speed and the kind of
+// hazard: a cart with a box that reaches far ahead of its wheels, driven against the edge. Its
+// motors stall before its wheels spin, because wheels that spin hop.
 //
-// Tolerance 1 mm, half of it for the way that the body nods as it is driven.
+// Tolerance 1 mm: lower edges than 0.2 mm above the bottom do not hold, and the body nods.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "validate/bisect.h"
+#include "validate/cart.h"
 #include "validate/law.h"
 #include "validate/made_hazard.h"
 
 namespace floorproof {
 namespace {
 
-constexpr double kNose_m = 0.45, kTail_m = -0.2, kHalfWidth_m = 0.14, kWheel_m = 0.05;
+constexpr double kNose_m = 0.45, kWheel_m = 0.05;
 constexpr double kTolerance_mm = 1;
 
-// A low box on four wheels well behind its nose.
-RobotModel NosedCart(double clearance_m) {
-  constexpr double kHalfHeight_m = 0.03;
-  std::string wheels, motors;
-  for (int i = 0; i < 4; ++i) {
-    wheels += fmt::format(
-        R"(<body pos="{} {} {}"><joint name="w{}" axis="0 1 0" armature="0.002" frictionloss="0.02"/>
-        <geom type="cylinder" size="{} 0.008" zaxis="0 1 0" mass="0.3" contype="0"/></body>)",
-        i < 2 ? 0.15 : -0.15, i % 2 ? 0.16 : -0.16, kWheel_m, i, kWheel_m);
-    motors += fmt::format(R"(<velocity joint="w{}" kv="5" forcerange="-0.25 0.25"/>)", i);
-  }
-  RobotModel out = BodyFromMjcf(fmt::format(
-      R"(<mujoco><worldbody><body name="base"><freejoint/>
-      <inertial pos="0 0 0.06" mass="9" diaginertia="0.1 0.2 0.25"/>
-      <geom type="box" size="{} {} {}" pos="{} 0 {}" contype="0" conaffinity="3"/>
-      {}</body></worldbody><actuator>{}</actuator></mujoco>)",
-      (kNose_m - kTail_m) / 2, kHalfWidth_m, kHalfHeight_m, (kNose_m + kTail_m) / 2,
-      clearance_m + kHalfHeight_m, wheels, motors));
-  out.spec.name = "nosed_cart";
-  return out;
-}
-
-// A way onto an edge: it lies across `yaw_rad`, 0.1 m before the foremost corner of the nose.
+// A drive against an edge that lies across `yaw_rad`, 0.1 m before the foremost corner of the nose.
 struct Approach {
   double clearance_m = 0, yaw_rad = 0, speed_mps = 0;
   std::string hazard = "step";
@@ -51,7 +30,7 @@ struct Approach {
   Pose2 X_WE() const {
     constexpr double kRun_m = 0.1;
     const Vec2 across(std::cos(yaw_rad), std::sin(yaw_rad));
-    const Vec2 p_W = Vec2(kNose_m, kHalfWidth_m) + kRun_m * across;
+    const Vec2 p_W = Vec2(kNose_m, kNoseHalfWidth_m) + kRun_m * across;
     return {p_W.x(), p_W.y(), yaw_rad};
   }
 };
@@ -91,12 +70,8 @@ class EdgeHold final : public Law {
  private:
   // The highest edge that the body gets onto.
   static double Limit_m(const Approach& approach, const WrongModel& wrong) {
-    double low_m = approach.clearance_m - 0.002, high_m = approach.clearance_m + 0.01;
-    while (high_m - low_m > 1e-4) {
-      const double middle_m = (low_m + high_m) / 2;
-      (GetsOn(approach, middle_m, wrong) ? low_m : high_m) = middle_m;
-    }
-    return (low_m + high_m) / 2;
+    return Bisect(approach.clearance_m - 0.002, approach.clearance_m + 0.01, 1e-4,
+                  [&](double height_m) { return GetsOn(approach, height_m, wrong); });
   }
 
   static bool GetsOn(const Approach& approach, double height_m, const WrongModel& wrong) {
@@ -110,7 +85,12 @@ class EdgeHold final : public Law {
     for (Vec2& p : place) p = X_WE * p;
     RigOptions options{.wrong = wrong};
     options.hazards = {MakeHazard(approach.hazard, Keys(approach.hazard, height_m), place)};
-    Rig rig(NosedCart(approach.clearance_m), std::move(options));
+    Rig rig(MakeCart({.wheel_radius_m = kWheel_m,
+                      .axle_x_m = 0.15,
+                      .motor_nm = 0.25,
+                      .nose_m = kNose_m,
+                      .clearance_m = approach.clearance_m}),
+            std::move(options));
     rig.CommandWheels(approach.speed_mps / kWheel_m);
     const double end_s = 1 + 0.3 / approach.speed_mps;
     while (rig.truth().t_s < end_s) {
@@ -125,7 +105,7 @@ class EdgeHold final : public Law {
     const auto beyond_m = [&](double y_m) {
       return X_WE.InverseTimes(rig.truth().X_WB() * Vec2(kNose_m, y_m)).x();
     };
-    return std::max(beyond_m(-kHalfWidth_m), beyond_m(kHalfWidth_m));
+    return std::max(beyond_m(-kNoseHalfWidth_m), beyond_m(kNoseHalfWidth_m));
   }
 };
 

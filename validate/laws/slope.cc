@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "env/scene/driving_power.h"
+#include "validate/bisect.h"
 #include "validate/cart.h"
 #include "validate/law.h"
 #include "validate/made_hazard.h"
@@ -92,16 +93,13 @@ class Slope final : public Law {
   // The steepest ramp that holds it, as a tangent, near the one expected.
   template <class MakeRig>
   static double Holds(double expected, const MakeRig& make_rig, const RigOptions& options) {
-    double low = 0.85 * expected, high = 1.15 * expected;
-    while (high - low > 0.004 * expected) {
-      const double middle = (low + high) / 2;
+    return Bisect(0.85 * expected, 1.15 * expected, 0.004 * expected, [&](double tangent) {
       RigOptions on_ramp = options;
-      const double slope_deg = std::atan(middle) * 180 / kPi;
+      const double slope_deg = std::atan(tangent) * 180 / kPi;
       on_ramp.hazards = {RampAlongX(slope_deg, -kHalf_m, 2 * kHalf_m)};
       Rig rig = make_rig(std::move(on_ramp));
-      (Slides(rig, std::atan(middle)) ? high : low) = middle;
-    }
-    return (low + high) / 2;
+      return !Slides(rig, std::atan(tangent));
+    });
   }
 
   // Put on the ramp with its nose uphill, wheels locked.

@@ -23,6 +23,7 @@
 // of mm/s are crept by soft friction and use not all of it.
 #include <fmt/format.h>
 
+#include "validate/bisect.h"
 #include "validate/cart.h"
 #include "validate/climb.h"
 #include "validate/law.h"
@@ -64,15 +65,12 @@ double StaticLimit(const Rows& rows) {
 template <class MakeRig>
 double Climbed(const MakeRig& make_rig, const ClimbPlace& place, bool sideways, double speed_mps,
                double about_m) {
-  double low_m = 0.7 * about_m, high_m = 1.35 * about_m;
-  while (high_m - low_m > 0.01 * about_m) {
-    const double middle_m = (low_m + high_m) / 2;
+  return Bisect(0.7 * about_m, 1.35 * about_m, 0.01 * about_m, [&](double height_m) {
     RigOptions options;
-    options.hazards.push_back(Ledge(middle_m, place.edge_m, sideways));
+    options.hazards.push_back(Ledge(height_m, place.edge_m, sideways));
     Rig rig = make_rig(std::move(options));
-    (Climbs(rig, place.end_m, sideways, speed_mps) ? low_m : high_m) = middle_m;
-  }
-  return (low_m + high_m) / 2;
+    return Climbs(rig, place.end_m, sideways, speed_mps);
+  });
 }
 
 class StepLimit final : public Law {

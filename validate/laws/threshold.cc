@@ -8,6 +8,7 @@
 // Tolerance 3 % of the tangent: casters rub a little, and the wheels hop as they spin.
 #include <fmt/format.h>
 
+#include "validate/bisect.h"
 #include "validate/climb.h"
 #include "validate/law.h"
 #include "validate/made_hazard.h"
@@ -30,13 +31,10 @@ class ThresholdLimit final : public Law {
     Rig truth("beluga");
     const ClimbPlace place = PlaceEdge(truth, false);
     for (const double mu : {0.3, 0.4, 0.5}) {
-      double low = 0.7 * mu, high = 1.5 * mu;
-      while (high - low > 0.005 * mu) {
-        const double middle = (low + high) / 2;
-        (Climbs(middle, mu, place, wrong) ? low : high) = middle;
-      }
-      rows.push_back(
-          {fmt::format("threshold/beluga/mu{}", mu), mu, (low + high) / 2, kShare * mu, "tan"});
+      const double steepest = Bisect(0.7 * mu, 1.5 * mu, 0.005 * mu, [&](double tangent) {
+        return Climbs(tangent, mu, place, wrong);
+      });
+      rows.push_back({fmt::format("threshold/beluga/mu{}", mu), mu, steepest, kShare * mu, "tan"});
     }
   }
 
