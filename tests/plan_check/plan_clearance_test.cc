@@ -421,8 +421,8 @@ TEST_F(PlanClearanceTest, OneIsNotSeveral) {
   EXPECT_THAT(ConflictsLine(clearance), ::testing::EndsWith("at 2 places"));
 }
 
-// A way of 6 m that passes a wall at 18 mm: enough for a robot that knows its pose exactly, and not
-// for one whose estimate may be 25 mm off.
+// A path of 6 m that passes a wall at 18 mm: enough clearance for a robot that knows its pose
+// exactly, but not for one whose estimate may be 25 mm off.
 TEST_F(PlanClearanceTest, HowNearIsTooNearDependsOnTheEstimator) {
   constexpr double kCloseBy_m = 0.018;
   const auto warned = [&](const std::string& estimator, double clearance_m) {
