@@ -14,6 +14,7 @@ constexpr double kSteep = 0.7;
 constexpr double kWedged = 0.3;      // a wheel in a groove stands on rims as steep as this
 constexpr double kBeside_m = 0.005;  // into the gap beside a slab's side
 constexpr double kBelow_m = 0.005;   // below the floor a wheel hangs in something
+constexpr double kHangs = 0.05;      // least share of the belly's load on a hazard
 constexpr double kHung = 0.5;        // share of the weight that what is aside carries, at most
 
 Wrench& operator+=(Wrench& sum, const Wrench& w) {
@@ -83,8 +84,11 @@ void ContactReader::Read(const mjModel* m, const mjData* d, std::span<const Vec3
       else if (wheels || contact.normal_n > 0)
         AddSupport(contact.p_W);
     }
-  const auto most = std::ranges::max_element(belly_n_);
-  truth.belly_hazard = *most > 0 ? static_cast<int>(most - belly_n_.begin()) - 1 : -1;
+  // A nose on the base floor is not what holds a body that hangs on an edge as well.
+  const auto most = std::ranges::max_element(belly_n_.begin() + 1, belly_n_.end());
+  truth.belly_hazard = most != belly_n_.end() && *most > kHangs * truth.belly_load_n
+                           ? static_cast<int>(most - belly_n_.begin()) - 1
+                           : -1;
   if (truth.near_hazard < 0 && truth.wheel_floor_z_m < -kBelow_m) {  // a wheel that hangs in it
     const auto z = [](const Vec3& p_W) { return p_W.z(); };
     truth.near_hazard = CutAt(std::ranges::min_element(lowest_W, {}, z)->head<2>());
