@@ -22,12 +22,18 @@ RobotModel MakeCart(const Cart& cart) {
     nose = fmt::format(
         R"(<geom type="box" size="{} {} 0.03" pos="{} 0 {}" mass="0" contype="0" conaffinity="3"/>)",
         cart.nose_m / 2, kNoseHalfWidth_m, cart.nose_m / 2, cart.clearance_m + 0.03);
+  std::string custom;
+  const auto state = [&](const char* key, const std::optional<double>& value) {
+    if (value) custom += fmt::format(R"(<numeric name="{}" data="{}"/>)", key, *value);
+  };
+  state("tyre_stiffness_npmm", cart.tyre_npmm);
+  state("tyre_damping_ratio", cart.tyre_damping_ratio);
   const double box_x = cart.com_x_m * (kBox_kg + 4 * kWheel_kg) / kBox_kg;
   RobotModel out = BodyFromMjcf(fmt::format(
-      R"(<mujoco><worldbody><body name="base"><freejoint/>
+      R"(<mujoco><custom>{}</custom><worldbody><body name="base"><freejoint/>
       <geom type="box" size="0.1 0.12 0.02" pos="{} 0 {}" mass="{}" contype="0" conaffinity="3"/>
       {}{}</body></worldbody><actuator>{}</actuator></mujoco>)",
-      box_x, cart.wheel_radius_m + 0.02, kBox_kg, nose, wheels, motors));
+      custom, box_x, cart.wheel_radius_m + 0.02, kBox_kg, nose, wheels, motors));
   out.spec.name = "cart";
   return out;
 }

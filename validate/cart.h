@@ -2,6 +2,8 @@
 // A low box on four plain, driven wheels: statically determinate, so that closed forms are exact.
 #pragma once
 
+#include <optional>
+
 #include "validate/rig.h"
 
 namespace floorproof {
@@ -13,6 +15,8 @@ struct Cart {
   double motor_nm = 3;     // of each
   double nose_m = 0;       // how far a wide box without mass reaches ahead; 0: there is none
   double clearance_m = 0;  // from the floor to that box
+  std::optional<double> tyre_npmm = {};  // none: hard rubber's
+  std::optional<double> tyre_damping_ratio = {};
 };
 
 inline constexpr double kNoseHalfWidth_m = 0.14;

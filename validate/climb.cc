@@ -7,8 +7,7 @@
 
 namespace floorproof {
 
-ClimbPlace PlaceEdge(Rig& rig, bool sideways) {
-  constexpr double kGap_m = 0.005;
+ClimbPlace PlaceEdge(Rig& rig, bool sideways, double run_up_m) {
   const mjModel* m = rig.scene().model.get();
   double wheel_m = 0, rim_m = 0;
   for (int g = 0; g < m->ngeom; ++g) {
@@ -20,7 +19,7 @@ ClimbPlace PlaceEdge(Rig& rig, bool sideways) {
     wheel_m = std::max(wheel_m, at_m);
     rim_m = std::max(rim_m, at_m + m->geom_size[3 * g + (sideways ? 1 : 0)] + rollers_m);
   }
-  return {rim_m + kGap_m, rim_m + kGap_m + wheel_m};
+  return {rim_m + run_up_m, rim_m + run_up_m + wheel_m};
 }
 
 Hazard Ledge(double height_m, double edge_m, bool sideways) {

@@ -11,8 +11,8 @@ namespace floorproof {
 struct ClimbPlace {
   double edge_m = 0, end_m = 0;
 };
-// 5 mm before the rim of the first wheels of `rig`, which stands as it was put.
-ClimbPlace PlaceEdge(Rig& rig, bool sideways);
+// So far before the rim of the first wheels of `rig`, which stands as it was put.
+ClimbPlace PlaceEdge(Rig& rig, bool sideways, double run_up_m = 0.005);
 
 // The raised floor: half a plane, from the edge on.
 Hazard Ledge(double height_m, double edge_m, bool sideways);

@@ -66,6 +66,8 @@ void Rig::Build(RigOptions options) {
     lower = !lower;
   }
   if (wrong_.contacts_forget) UnmarkBodyGeoms(m);
+  for (int p = 0; p < m->npair; ++p)
+    if (m->pair_solref[mjNREF * p] < 0) m->pair_solref[mjNREF * p] *= wrong_.tyre_factor;
   wheel_radps_.resize(true_robot_.wheels.size());
   if (!options.holds_still) model_.spec.standstill = Standstill::kFree;  // rigs push and tilt it
   sim_ = std::make_unique<Simulation>(scene_, map_, model_.spec);
@@ -149,6 +151,7 @@ RobotModel BodyFromMjcf(const std::string& mjcf) {
   const ModelPtr model = CompileSpec(out.mjcf.get());
   out.spec.wheels.resize(static_cast<std::size_t>(model->nu));
   out.spec.mass_kg = mj_getTotalmass(model.get());
+  out.feet = FeetOf(out.mjcf.get(), model.get(), out.spec);
   return out;
 }
 

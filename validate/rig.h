@@ -26,6 +26,7 @@ struct WrongModel {
   double restitution_factor = 1;  // of hazards'
   double drag_factor = 1;         // of hazards' rolling drag
   double steering_add_rad = 0;    // the fork points so much farther to the left than is thought
+  double tyre_factor = 1;         // on the tyres' stiffness
 
   bool contacts_forget = false;  // from which side a body came to an edge (edge_contacts.h)
 
@@ -73,6 +74,7 @@ class Rig {
   mjData* data() { return sim_->data(); }
   const Scene& scene() const { return scene_; }
   const HazardMap& map() const { return map_; }
+  const std::vector<Foot>& feet() const { return model_.feet; }
 
  private:
   void Build(RigOptions options);

@@ -10,10 +10,8 @@ namespace floorproof {
 
 // What casters and other wheels that no motor drives hold the robot back by at this speed on level
 // floor, N. What rolls, on a hinge that is not upright or a ball: by its bearing's dry friction and
-// damping. What cannot roll slides, with its own friction (docs/adding-a-robot.md) times its load:
-// that of the spring that it slides on and what hangs below that, as the model stands, where its
-// springs let it stand so; else what balances the weight, by statics on three points, on more as if
-// those without a spring stood on alike ones.
+// damping. What cannot roll slides, with its own friction (docs/adding-a-robot.md) times its load
+// (loads.h).
 double CasterDrag(const mjModel* model, const RobotSpec& robot, double speed_mps);
 
 // Electrical power of all driven wheels' motors while the robot drives steadily at this speed, W,

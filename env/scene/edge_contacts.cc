@@ -12,8 +12,8 @@
 namespace floorproof {
 namespace {
 
-// Indices in a geom's user data: the mark, the number of its memory.
-constexpr int kMarkAt = 3, kNumberAt = 4, kUserData = 5;
+// Indices in a geom's user data: the mark, the number of its memory, the length of a whole step, s.
+constexpr int kMarkAt = 3, kNumberAt = 4, kStepAt = 5, kUserData = 6;
 constexpr double kMark = 1414213.562;  // other programs' models have user data of their own
 
 constexpr double kMaxDepth_m = 0.02;  // a geom that is deeper did not come from the side
@@ -38,7 +38,7 @@ class Memory {
       : data_(d->userdata +
               kSize * static_cast<int>(m->geom_user[m->nuser_geom * geom + kNumberAt])),
         t_s_(d->time),
-        since_s_(d->time - 1.5 * m->opt.timestep) {}
+        since_s_(d->time - 1.5 * m->geom_user[m->nuser_geom * geom + kStepAt]) {}
 
   std::optional<Vec3> Normal(int solid) const {
     const mjtNum* slot = Find(solid);
@@ -247,6 +247,7 @@ void MarkBodyGeoms(mjModel* model, std::span<const int> geoms) {
     mjtNum* user = model->geom_user + model->nuser_geom * geom;
     user[kMarkAt] = kMark;
     user[kNumberAt] = number++;
+    user[kStepAt] = model->opt.timestep;
     model->geom_gap[geom] = kLookAhead_m;
     mjtNum& bound_m = model->body_margin[model->geom_bodyid[geom]];
     bound_m = std::max(bound_m, model->geom_margin[geom] + kLookAhead_m);

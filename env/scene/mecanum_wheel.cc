@@ -13,15 +13,15 @@ constexpr double kSameNormal = 0.9995;  // cosine: planes within 2 degrees are o
 constexpr double kBlend_m = 1e-4;       // contacts deeper than others by this rule alone
 constexpr std::array kOthers = {mjGEOM_PLANE, mjGEOM_HFIELD, mjGEOM_BOX, mjGEOM_MESH};
 
-// Of the third of a wheel's user data, once it is paired: other programs' models in this process
+// Of the third of a wheel's user data, once it is marked: other programs' models in this process
 // may have user data of their own, and are to be left alone.
 constexpr double kPaired = 2718281.828;
 
 std::array<mjfCollision, kOthers.size()> g_original;
 
-// What the collider makes of a geom: none of what PairWheel did not pair.
-Rollers PairedRollersOf(const mjModel* m, int geom) {
-  return m->geom_user[m->nuser_geom * geom + 2] == kPaired ? RollersOf(m, geom) : Rollers{};
+bool IsPaired(const mjModel* m, int geom) {
+  return m->nuser_geom >= 3 && m->geom_type[geom] == mjGEOM_CYLINDER &&
+         m->geom_user[m->nuser_geom * geom + 2] == kPaired;
 }
 
 // The core's contacts become the rounded wheel's: nearer by the roller's radius, each at the middle
@@ -96,18 +96,17 @@ void SetTangent(const mjData* d, int wheel, double angle_rad, mjPreContact* con)
 
 int CollideWheel(const mjModel* m, mjData* d, mjPreContact* con, int g1, int g2, mjtNum margin,
                  mjfCollision original) {
-  if (m->nuser_geom < 3) return original(m, d, con, g1, g2, margin);
-  const Rollers first = PairedRollersOf(m, g1), second = PairedRollersOf(m, g2);
-  const bool wheel_is_second = second.radius_m > 0;
-  const Rollers rollers = wheel_is_second ? second : first;
-  if (rollers.radius_m <= 0) return original(m, d, con, g1, g2, margin);
+  const bool second = IsPaired(m, g2);
+  if (!second && !IsPaired(m, g1)) return original(m, d, con, g1, g2, margin);
+  const int wheel = second ? g2 : g1;
+  const Rollers rollers = RollersOf(m, wheel);
   int n = original(m, d, con, g1, g2, margin + rollers.radius_m);
-  Inflate(con, n, rollers.radius_m, wheel_is_second ? 1 : -1);
-  const int wheel = wheel_is_second ? g2 : g1;
+  Inflate(con, n, rollers.radius_m, second ? 1 : -1);
   if (n == 1)
     Centre(d, wheel, con);
   else
     n = MergeCoplanar(con, n);
+  if (rollers.radius_m <= 0) return n;
   for (int i = 0; i < n; ++i) SetTangent(d, wheel, rollers.angle_rad, con + i);
   return n;
 }
@@ -162,31 +161,12 @@ void InflateWheelBounds(mjModel* model) {
   }
 }
 
-void PairWheel(mjSpec* spec, const mjsGeom* wheel, const mjsGeom* other,
-               const WheelFriction& friction) {
-  if (const Rollers rollers = RollersOf(wheel); rollers.radius_m > 0) {
-    const std::array user = {rollers.radius_m, rollers.angle_rad, kPaired};
-    mjs_setDouble(wheel->userdata, user.data(), static_cast<int>(user.size()));
-    spec->nuser_geom = std::max(spec->nuser_geom, static_cast<int>(user.size()));
-  }
-  mjsPair* pair = mjs_addPair(spec, nullptr);
-  mjs_setString(pair->geomname1, mjs_getString(mjs_getName(wheel->element)));
-  mjs_setString(pair->geomname2, mjs_getString(mjs_getName(other->element)));
-  pair->condim = friction.rolling_m > 0 ? 6 : 3;
-  // The second of an ideal wheel must be 0: at 0.005 already wheels chatter (MuJoCo raises it to
-  // 1e-5).
-  const double five[5] = {friction.mu, friction.mu_across, 0, friction.rolling_m,
-                          friction.rolling_m};
-  std::copy(std::begin(five), std::end(five), pair->friction);
-  std::copy(std::begin(other->solref), std::end(other->solref), pair->solref);
-  // MuJoCo's convex contacts press harder when that lets friction stop a slip sooner. With the time
-  // constant of the normal force, 16 wheels that spun against a wall made the robot hop, and a dead
-  // wall threw it back at a third of its speed. With friction three times as slow, neither happens,
-  // and rolling is the same.
-  constexpr double kFrictionTimeConstant_s = 0.03;
-  pair->solreffriction[0] = kFrictionTimeConstant_s;
-  pair->solreffriction[1] = 1;
-  std::copy(std::begin(other->solimp), std::end(other->solimp), pair->solimp);
+void MarkPaired(mjSpec* spec, mjsGeom* geom) {
+  if (geom->type != mjGEOM_CYLINDER) return;
+  const Rollers rollers = RollersOf(geom);
+  const std::array user = {rollers.radius_m, rollers.angle_rad, kPaired};
+  mjs_setDouble(geom->userdata, user.data(), static_cast<int>(user.size()));
+  spec->nuser_geom = std::max(spec->nuser_geom, static_cast<int>(user.size()));
 }
 
 }  // namespace floorproof

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mecanum wheels whose rollers have no mass: a core that MuJoCo sees, and the collider that makes a
-// Mecanum wheel of it.
+// The collider of wheels. A wheel touches each plane once, below its middle where it stands
+// upright, so that its tyre's stiffness counts once. Of a core that MuJoCo sees it makes a Mecanum
+// wheel whose rollers have no mass.
 //
 // A wheel of radius R with rollers of radius r is a core cylinder of radius R - r, whose geom
-// carries `user="r angle"` (WheelSpec says which angle). The collider does three things. (1) It
-// inflates the core by r, which rounds it as the rollers do: R forward, r sideways. (2) It turns
-// each contact's first tangent along the axis of the roller that touches there. (3) It merges the
-// contacts of one plane into one. With pairs that have friction along the first tangent only, the
-// rollers spin freely about their axes. The rounding decides what the wheel climbs sideways;
-// docs/physics.md has the figures. Assumes infinitely many, massless, frictionless rollers; a
-// roller never meets two obstacles.
+// carries `user="r angle"` (WheelSpec says which angle). The collider does two more things. (1)
+// It inflates the core by r, which rounds it as the rollers do: R forward, r sideways. (2) It turns
+// each contact's first tangent along the axis of the roller that touches there. With pairs that
+// have friction along the first tangent only, the rollers spin freely about their axes. The
+// rounding decides what the wheel climbs sideways; docs/physics.md has the figures. Assumes
+// infinitely many, massless, frictionless rollers; a roller never meets two obstacles.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -26,25 +26,15 @@ Rollers RollersOf(const mjModel* model, int geom);
 Rollers RollersOf(const mjsGeom* geom);
 
 // Installs the collider for all models of the process. MuJoCo's table of colliders is global: call
-// it before other threads start. Calls after the first do nothing. Geoms that PairWheel did not
-// pair, other programs' models among them, pass through to MuJoCo's own colliders, bit for bit.
+// it before other threads start. Calls after the first do nothing. Geoms that are not marked, other
+// programs' models among them, pass through to MuJoCo's own colliders, bit for bit.
 void InstallWheelCollider();
 
 // Lets the bounds of the cores, by which MuJoCo finds who may touch, hold the rollers too. Once,
 // after compiling.
 void InflateWheelBounds(mjModel* model);
 
-// Friction of a Mecanum wheel or a roller on what it touches.
-struct WheelFriction {
-  double mu = 0;  // along the rollers' axes
-  double mu_across =
-      0;  // across them: 0, unless the wheel is a roller that turns (roller_wheels.h)
-  double rolling_m = 0;  // the torque against its turning by its load (rolling_drag.h), N m / N
-};
-
-// Makes the wheel geom touch `other` through the collider. Both geoms need names. The softness is
-// that of `other`.
-void PairWheel(mjSpec* spec, const mjsGeom* wheel, const mjsGeom* other,
-               const WheelFriction& friction);
+// Makes the geom, if it is a cylinder, a wheel to the collider.
+void MarkPaired(mjSpec* spec, mjsGeom* geom);
 
 }  // namespace floorproof

@@ -53,8 +53,7 @@ void TakeShape(RobotSpec& robot, const std::vector<ShapeSpec>& shapes, int index
   }
 }
 
-// What is found again by its name gets one where the file gives none: motors, and the Mecanum
-// wheels' geoms, which meet the floor by pairs.
+// Motors are found again by their names: they get one where the file gives none.
 void NameParts(mjSpec* spec, const std::string& file) {
   const auto name = [&](mjsElement* element, const char* kind, int number) {
     if (mjs_getString(mjs_getName(element))[0] != '\0') return;
@@ -65,9 +64,6 @@ void NameParts(mjSpec* spec, const std::string& file) {
   int number = 0;
   for (mjsElement* e = mjs_firstElement(spec, mjOBJ_ACTUATOR); e; e = mjs_nextElement(spec, e))
     name(e, "actuator ", number++);
-  number = 0;
-  for (mjsElement* e = mjs_firstElement(spec, mjOBJ_GEOM); e; e = mjs_nextElement(spec, e))
-    if (RollersOf(mjs_asGeom(e)).radius_m > 0) name(e, "wheel ", number++);
 }
 
 RobotModel CopyOf(const ParsedMjcf& parsed) {
@@ -143,6 +139,7 @@ ModelPtr ChangeAndRead(RobotModel& out, const std::string& file, const RobotChan
 void Finish(RobotModel& out, const std::string& file, const RobotChanges& changes, Blocks blocks,
             const InputFiles& files) {
   const ModelPtr model = ChangeAndRead(out, file, changes, blocks, files);
+  out.feet = FeetOf(out.mjcf.get(), model.get(), out.spec);
   LetExposedWheelsMeetWalls(out.mjcf.get(), model.get(), out.spec);
 }
 

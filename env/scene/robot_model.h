@@ -13,6 +13,7 @@
 #include "base/input_files.h"
 #include "env/core/robot_spec.h"
 #include "env/scene/engine.h"
+#include "env/scene/feet.h"
 #include "env/scene/robot_changes.h"
 
 namespace floorproof {
@@ -31,7 +32,7 @@ struct RobotModel {
   RobotSpec spec;
   std::vector<std::filesystem::path> files = {};  // that it was read from, the MJCF first
   std::shared_ptr<const mjVFS> assets = {};       // those files, for whoever compiles `mjcf`
-  std::vector<std::string> rollers = {};  // geoms of rollers that are bodies (roller_wheels.h)
+  std::vector<Foot> feet = {};                    // what it stands on
 };
 
 // Whether a reconfigurable robot can change its shape, or is one rigid body in the shape it has.

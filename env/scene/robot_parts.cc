@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "env/scene/compiled_robot.h"
+#include "env/scene/loads.h"
 #include "env/scene/mecanum_wheel.h"
 #include "env/scene/robot_stance.h"
 
@@ -70,12 +71,6 @@ std::array<float, 4> ColourOf(const mjModel* m, int geom) {
   const int material = m->geom_matid[geom];
   const float* rgba = material >= 0 ? m->mat_rgba + 4 * material : m->geom_rgba + 4 * geom;
   return {rgba[0], rgba[1], rgba[2], rgba[3]};
-}
-
-bool IsDriven(const mjModel* m, int body) {
-  for (int a = 0; a < m->nu; ++a)
-    if (m->jnt_bodyid[m->actuator_trnid[2 * a]] == body) return true;
-  return false;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "env/scene/edge_contacts.h"
 #include "env/scene/floor.h"
 #include "env/scene/mecanum_wheel.h"
+#include "env/scene/robot_reach.h"
 #include "env/scene/scene_looks.h"
 #include "env/scene/surfaces.h"
 #include "env/scene/walls.h"
@@ -124,6 +125,12 @@ class SceneBuilder {
   mjSpec* spec_;
 };
 
+int EdgeSteps(const std::vector<Foot>& feet, double timestep_s) {
+  constexpr double kFollowed_rad = 0.25, kMost = 8;
+  const double steps = std::ceil(FastestPhase(feet, timestep_s) / kFollowed_rad);
+  return static_cast<int>(std::clamp(steps, 1.0, kMost));
+}
+
 // A robot's file does not rule the world: gravity and wind, solver and its scale, memory, looks.
 void TakeDefaults(mjSpec* spec) {
   const SpecPtr fresh(mj_makeSpec());
@@ -140,6 +147,7 @@ void SetPhysics(mjSpec* spec, const PhysicsParams& physics) {
   spec->option.timestep = physics.timestep_s;
   spec->option.integrator = physics.integrator == "discrete" ? mjINT_DISCRETE : mjINT_IMPLICITFAST;
   spec->option.cone = mjCONE_ELLIPTIC;
+  spec->option.impratio = kImpratio;
   spec->option.solver = mjSOL_NEWTON;
   spec->option.disableflags |= mjDSBL_ISLAND;
   // A diverged state must end the episode, not be put back to the start in silence.
@@ -196,16 +204,16 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
   InstallEdgeCollider();
   scene.model = CompileSpec(scene.spec.get(), robot.assets.get());
   InflateWheelBounds(scene.model.get());
+  scene.edge_steps = EdgeSteps(robot.feet, physics.timestep_s);
 
   const mjModel* m = scene.model.get();
   scene.base_body = mj_name2id(m, mjOBJ_BODY, "base");
   scene.roles.resize(static_cast<std::size_t>(m->ngeom));
+  const std::vector<bool> touches = CanTouch(m);
   std::vector<int> body_geoms;
   for (int g = 0; g < m->ngeom; ++g) {
     const int body = m->geom_bodyid[g];
-    const bool touches =
-        m->geom_contype[g] != 0 || m->geom_conaffinity[g] != 0 || RollersOf(m, g).radius_m > 0;
-    if (body == 0 || !touches) continue;
+    if (body == 0 || !touches[static_cast<std::size_t>(g)]) continue;
     const bool is_chassis = IsChassis(m, body, robot.spec);
     scene.roles[static_cast<std::size_t>(g)].kind =
         is_chassis ? GeomRole::Kind::kBody : GeomRole::Kind::kWheel;

@@ -49,6 +49,8 @@ struct Scene {
   int base_body = -1;
   int num_wall_geoms = 0, num_floor_geoms = 0, num_hazard_geoms = 0;
   WallPool pool;  // num 0: the model holds all walls itself
+  // Parts of a step, so that the tyres' vibration is followed where a foot meets an edge.
+  int edge_steps = 1;
 };
 
 // Builds the scene with the robot standing at `start`. Throws InternalError when MuJoCo refuses it.

@@ -2,112 +2,91 @@
 #include "env/scene/wheel_pairs.h"
 
 #include <algorithm>
-#include <string>
+#include <cmath>
 
 #include "env/scene/mecanum_wheel.h"
-#include "env/scene/rolling_drag.h"
-#include "env/scene/tyre.h"
 
 namespace floorproof {
 namespace {
 
-constexpr int kPairsBit = 4;  // of what touches floors and hazards by pairs only
+// A wheel that slides on while the robot turns is pressed off the floor by its friction, the more
+// the sooner that stops a slip, and hops.
+constexpr double kStopsSlip_s = 0.01, kStopsScrub_s = 0.08;
 
-class WheelPairs {
- public:
-  WheelPairs(const HazardMap& map, const RobotModel& robot, const WorldGeoms& world, mjSpec* spec)
-      : map_(map),
-        robot_(robot.spec),
-        rollers_(robot.rollers),
-        world_(world),
-        spec_(spec),
-        tyres_(ScrubbingTyres(spec, robot.spec)) {}
+// Whether the wheels stand on several parallel axles: they slide across the floor whenever the
+// robot turns.
+bool Scrubs(const RobotSpec& robot) {
+  constexpr double kOneAxle_m = 1e-3, kParallel_rad = 1e-3;
+  if (robot.wheels.size() < 3) return false;
+  const WheelSpec& first = robot.wheels.front();
+  const Vec2 ahead(std::cos(first.yaw_rad), std::sin(first.yaw_rad));
+  double farthest_m = 0;
+  for (const WheelSpec& wheel : robot.wheels) {
+    if (wheel.roller_radius_m > 0) return false;
+    if (std::abs(WrapAngle(wheel.yaw_rad - first.yaw_rad)) > kParallel_rad) return false;
+    const Vec2 from_first = (wheel.p_BW - first.p_BW).head<2>();
+    farthest_m = std::max(farthest_m, std::abs(from_first.dot(ahead)));
+  }
+  return farthest_m > kOneAxle_m;
+}
 
-  void PairMecanum() {
-    for (mjsElement* e = mjs_firstElement(spec_, mjOBJ_GEOM); e; e = mjs_nextElement(spec_, e)) {
-      mjsGeom* wheel = mjs_asGeom(e);
-      const double roller_m = RollersOf(wheel).radius_m;
-      if (roller_m <= 0) continue;
-      wheel->conaffinity &= kWallBit;
-      for (const auto& [geom, role] : world_.all())
-        if (role.kind != GeomRole::Kind::kWall)
-          PairWheel(spec_, wheel, geom,
-                    {geom->friction[0], 0, DragOf(role) * (wheel->size[0] + roller_m)});
-    }
-  }
-
-  // Rollers need no collider, but the same slower friction.
-  void PairRollers() {
-    for (const std::string& name : rollers_) {
-      mjsGeom* roller = mjs_asGeom(mjs_findElement(spec_, mjOBJ_GEOM, name.c_str()));
-      roller->conaffinity = kPairsBit | (roller->conaffinity & kWallBit);
-      for (const auto& [geom, role] : world_.all())
-        if (role.kind != GeomRole::Kind::kWall)
-          PairWheel(spec_, roller, geom,
-                    {geom->friction[0], geom->friction[0], DragOf(role) * roller->size[0]});
-    }
-  }
-
-  void PairTyres() {
-    int number = 0;
-    for (mjsGeom* tyre : tyres_) {
-      tyre->conaffinity = kPairsBit | (tyre->conaffinity & kWallBit);
-      if (mjs_getString(mjs_getName(tyre->element))[0] == '\0')
-        mjs_setName(tyre->element, world_.FreeName("tyre/" + std::to_string(number)).c_str());
-      ++number;
-      for (const auto& [geom, role] : world_.all())
-        if (role.kind != GeomRole::Kind::kWall) PairTyre(spec_, tyre, geom, DragOf(role));
-    }
-  }
-
-  void PairFeet() {
-    std::vector<Foot> feet;
-    for (const auto& [geom, role] : world_.all()) {
-      const double drag = DragOf(role);
-      if (drag <= 0) continue;
-      if (feet.empty()) feet = NamedFeet();
-      for (const Foot& foot : feet) PairFoot(spec_, foot, geom, drag);
-    }
-  }
-
- private:
-  double DragOf(const GeomRole& role) const {
-    return role.hazard >= 0
-               ? map_.hazards[static_cast<std::size_t>(role.hazard)].material.rolling_drag
-               : 0;
-  }
-  std::vector<Foot> NamedFeet() {
-    std::vector<Foot> feet = FeetOf(spec_, robot_);
-    std::erase_if(feet, [&](const Foot& foot) {
-      return std::ranges::find(tyres_, foot.geom) != tyres_.end() ||
-             std::ranges::find(rollers_, NameOf(foot.geom)) != rollers_.end();
-    });
-    for (std::size_t i = 0; i < feet.size(); ++i)
-      if (NameOf(feet[i].geom).empty())
-        mjs_setName(feet[i].geom->element, world_.FreeName("foot/" + std::to_string(i)).c_str());
-    return feet;
-  }
-  static std::string NameOf(const mjsGeom* geom) {
-    return mjs_getString(mjs_getName(geom->element));
-  }
-
-  const HazardMap& map_;
-  const RobotSpec& robot_;
-  const std::vector<std::string>& rollers_;
-  const WorldGeoms& world_;
-  mjSpec* spec_;
-  std::vector<mjsGeom*> tyres_;  // of plain wheels that scrub
-};
+void SetTyre(const Foot& foot, double stops_slip_s, mjsPair* pair) {
+  const double share = (1 - kTyreImpedance) * foot.inverse_mass_pkg;
+  pair->solref[0] = -share * foot.tyre.stiffness_npm;
+  pair->solref[1] = -share * foot.tyre.damping_nspm;
+  pair->solimp[0] = pair->solimp[1] = kTyreImpedance;
+  pair->solreffriction[0] = 2 * stops_slip_s / kTyreImpedance;
+  pair->solreffriction[1] = 1;
+  pair->margin = foot.sink_m();
+}
 
 }  // namespace
 
 void PairWheels(const HazardMap& map, const RobotModel& robot, const WorldGeoms& world,
                 mjSpec* spec) {
-  WheelPairs pairs(map, robot, world, spec);
-  pairs.PairMecanum();
-  pairs.PairRollers();
-  pairs.PairTyres();
-  pairs.PairFeet();
+  const double stops_slip_s = Scrubs(robot.spec) ? kStopsScrub_s : kStopsSlip_s;
+  for (const Foot& foot : robot.feet) {
+    mjsGeom* geom = mjs_asGeom(mjs_findElement(spec, mjOBJ_GEOM, foot.geom.c_str()));
+    geom->conaffinity &= kWallBit;
+    MarkPaired(spec, geom);
+    for (const auto& [ground, role] : world.all()) {
+      if (role.kind == GeomRole::Kind::kWall) continue;
+      const double drag =
+          role.hazard >= 0
+              ? map.hazards[static_cast<std::size_t>(role.hazard)].material.rolling_drag
+              : 0;
+      mjsPair* pair = mjs_addPair(spec, nullptr);
+      mjs_setString(pair->geomname1, foot.geom.c_str());
+      mjs_setString(pair->geomname2, mjs_getString(mjs_getName(ground->element)));
+      // As the engine would choose: what has the higher priority rules.
+      const mjsGeom* ruler = geom->priority > ground->priority ? geom : ground;
+      const bool rolls = foot.rolls_m > 0;
+      pair->condim = rolls && drag > 0 ? 6 : foot.scrubs_m > 0 ? 4 : 3;
+      const double slide = ruler->friction[0] + (rolls ? 0 : drag), roll = drag * foot.rolls_m;
+      // Rollers that have no mass turn freely: no friction across their axes, which is the pair's
+      // second. At 0.005 already wheels chatter (MuJoCo raises 0 to 1e-5).
+      const double across = RollersOf(geom).radius_m > 0 ? 0 : slide;
+      const double friction[5] = {slide, across, slide * foot.scrubs_m, roll, roll};
+      std::copy(std::begin(friction), std::end(friction), pair->friction);
+      std::copy(std::begin(ruler->solimp), std::end(ruler->solimp), pair->solimp);
+      std::copy(std::begin(ruler->solref), std::end(ruler->solref), pair->solref);
+      if (ground->solref[1] >= 1) SetTyre(foot, stops_slip_s, pair);
+      pair->gap = kFootLookAhead_m;
+    }
+  }
+}
+
+void KeepStiffness(const mjModel* built, mjModel* model) {
+  for (int p = 0; p < model->npair; ++p) {
+    const mjtNum* was = built->pair_solref + mjNREF * p;
+    if (was[0] >= 0) continue;
+    const auto inverse_mass = [p](const mjModel* m) {
+      return m->body_invweight0[2 * m->geom_bodyid[m->pair_geom1[p]]] +
+             m->body_invweight0[2 * m->geom_bodyid[m->pair_geom2[p]]];
+    };
+    const double share = inverse_mass(model) / inverse_mass(built);
+    for (int i = 0; i < 2; ++i) model->pair_solref[mjNREF * p + i] = share * was[i];
+  }
 }
 
 }  // namespace floorproof

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "env/scene/mecanum_wheel.h"
 #include "env/scene/roller_wheels.h"
+#include "env/scene/wheel_pairs.h"
 #include "env/sim/simulation.h"
 
 namespace floorproof {
@@ -40,7 +41,6 @@ void Simulation::Alter(const Alterations& alterations) {
   altered_ = alterations;
   battery_.Weaken(altered_.battery_voltage);
   AlterMotors();
-  slips_ = false;
   AlterFriction();
   AlterRollerBearings();
   if (payload_changes) AlterPayload();
@@ -96,13 +96,16 @@ void Simulation::AlterFriction() {
     const mjtNum* was = built->geom_friction + 3 * g;
     mjtNum* friction = own_->geom_friction + 3 * g;
     if (is_floor(g)) friction[0] = was[0] * altered_.floor_friction;
-    if (const int wheel = wheel_of(g); wheel >= 0) AlterGrip(g, most_of_wheel(wheel));
   }
   for (int p = 0; p < own_->npair; ++p) {
     const std::array geoms = {own_->pair_geom1[p], own_->pair_geom2[p]};
     const mjtNum* was = built->pair_friction + 5 * p;
     mjtNum* friction = own_->pair_friction + 5 * p;
-    const bool floor = std::ranges::any_of(geoms, is_floor);
+    const auto floor_rules = [&](int at) {
+      return is_floor(geoms[at]) &&
+             built->geom_priority[geoms[at]] >= built->geom_priority[geoms[1 - at]];
+    };
+    const bool floor = floor_rules(0) || floor_rules(1);
     for (int i = 0; i < 2; ++i) friction[i] = was[i] * (floor ? altered_.floor_friction : 1);
     for (const int geom : geoms) {
       const int wheel = wheel_of(geom);
@@ -111,41 +114,6 @@ void Simulation::AlterFriction() {
       if (wheel >= 0 && !altered_.roller_drag.empty())
         friction[1] +=
             altered_.roller_drag[static_cast<std::size_t>(wheel)] * (friction[0] - friction[1]);
-    }
-  }
-}
-
-// What is met rules over friction (scene.cc), but for a wheel that finds less. The softness of the
-// contact stays the floor's. (Wheels in explicit pairs have their friction there.)
-void Simulation::AlterGrip(int geom, std::optional<double> most) {
-  constexpr int kOverAll = 3;
-  const mjModel* built = scene_.model.get();
-  const auto floor = std::ranges::find(scene_.roles, GeomRole::Kind::kFloor, &GeomRole::kind);
-  const bool rules = most && floor != scene_.roles.end();
-  const auto like = rules ? static_cast<int>(floor - scene_.roles.begin()) : geom;
-  slips_ |= rules;
-  own_->geom_priority[geom] = rules ? kOverAll : built->geom_priority[geom];
-  std::copy_n(built->geom_solref + mjNREF * like, mjNREF, own_->geom_solref + mjNREF * geom);
-  std::copy_n(built->geom_solimp + mjNIMP * like, mjNIMP, own_->geom_solimp + mjNIMP * geom);
-  own_->geom_friction[3 * geom] =
-      rules ? std::min(*most, own_->geom_friction[3 * like]) : built->geom_friction[3 * geom];
-}
-
-// On ice a tread that grips little finds still less: the friction of what it met in the last step,
-// where that is below its own.
-void Simulation::GripWhatIsMet() {
-  const mjModel* m = model();
-  const mjData* d = data_.get();
-  for (int i = 0; i < d->ncon; ++i) {
-    const int* geoms = d->contact[i].geom;
-    for (const int side : {0, 1}) {
-      const auto wheel = std::ranges::find(wheel_bodies_, m->geom_bodyid[geoms[side]]);
-      if (wheel == wheel_bodies_.end()) continue;
-      const auto& most =
-          altered_.wheel_friction[static_cast<std::size_t>(wheel - wheel_bodies_.begin())];
-      if (most)
-        own_->geom_friction[3 * geoms[side]] =
-            std::min(*most, own_->geom_friction[3 * geoms[1 - side]]);
     }
   }
 }
@@ -206,6 +174,7 @@ void Simulation::AlterPayload() {
   const DataPtr scratch = MakeData(own_.get());
   SetConstEngine(own_.get(), scratch.get());  // what the engine derives from masses
   InflateWheelBounds(own_.get());             // and from the wheels' cores alone
+  KeepStiffness(built, own_.get());
   live_.model()->stat = own_->stat;
 }
 

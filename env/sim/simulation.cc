@@ -46,6 +46,7 @@ Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec
       data_(MakeData(scene.model.get())),
       contacts_(scene, map, robot),
       hold_(robot, scene.model.get()),
+      fine_steps_(scene, robot),
       cut_(robot.wheels.size(), 0),
       motor_nm_(static_cast<std::size_t>(scene.model->nu)),
       battery_(robot.battery),
@@ -142,7 +143,7 @@ void Simulation::Settle(const Pose2& X_WB, double t_s) {
   SetDriverVoltages();
   while (d->time < kSettle_s) {
     live_.Update(d);
-    StepEngine(model(), d);
+    fine_steps_.Walk(model(), d, fine_steps_.OnFloor(model()));
   }
   if (load_kg > 0) {
     altered_.payload_kg = load_kg;
@@ -184,10 +185,10 @@ void Simulation::HoldStuckWheels() {
 }
 
 bool Simulation::Step() {
-  if (slips_) GripWhatIsMet();
   if (hold_.Update(own_.get(), live_.model(), data_.get(), cut_)) live_.Refresh();
   live_.Update(data_.get());
-  StepEngine(model(), data_.get());
+  parts_ = fine_steps_.Parts(model(), data_.get(), truth_);
+  fine_steps_.Walk(model(), data_.get(), parts_);
   ReadPose();
   contacts_.Read(model(), data_.get(), lowest_W_, truth_);
   ReadPower(model()->opt.timestep);

@@ -13,6 +13,7 @@
 #include "env/core/robot_spec.h"
 #include "env/scene/scene.h"
 #include "env/sim/contact_reader.h"
+#include "env/sim/fine_steps.h"
 #include "env/sim/live_geoms.h"
 #include "env/sim/standstill.h"
 
@@ -63,6 +64,8 @@ class Simulation {
   mjData* data() { return data_.get(); }
   // By actuator, N m at the joint, as at the last step. The span holds as long as this does.
   std::span<const double> motor_nm() const { return motor_nm_; }
+  // Into how many parts the last step was walked.
+  int parts() const { return parts_; }
   // As at the last step, since Reset.
   const BatteryInUse& battery() const { return battery_; }
 
@@ -77,8 +80,6 @@ class Simulation {
   void HoldStuckWheels();
   void AlterMotors();
   void AlterFriction();
-  void AlterGrip(int geom, std::optional<double> most);
-  void GripWhatIsMet();
   void AlterRollerBearings();
   void AlterPayload();
 
@@ -90,10 +91,11 @@ class Simulation {
   DataPtr data_;
   ContactReader contacts_;
   StandstillHold hold_;
+  FineSteps fine_steps_;
+  int parts_ = 1;
   Truth truth_;
   Alterations altered_;
   std::vector<char> cut_;  // by wheel
-  bool slips_ = false;     // a wheel's own friction rules (AlterGrip)
   std::vector<double> motor_nm_;
   BatteryInUse battery_;
   bool voltage_changes_ = false;             // of the motors' drivers

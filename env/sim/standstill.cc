@@ -12,7 +12,7 @@ constexpr double kMoment_s = 0.1;     // for which wheels stand before they are 
 constexpr double kStands_mps = 0.05;  // slower than that is a rim: a driver that gives way creeps
 constexpr double kStiffness_radps = 10;  // commanded speed, for each radian of error
 // How much stiffer the contacts' friction is than their normal forces: MuJoCo's `impratio`.
-constexpr double kFrictionStiffness = 1000;
+constexpr double kFrictionStiffness = 1e4;
 // The engine's usual softness would let a held wheel creep.
 constexpr double kStable = 0.05;  // of a wheel's inertia over the time step squared
 constexpr double kBack_s = 0.05;  // in which a wheel that has crept is back

@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(Robots, KnownStep, ::testing::Values("beluga", "htetro"
 // speed. 0.9 of the limit.
 TEST_P(KnownStep, IsCrossedAsTheSameStepUnknown) {
   const bool htetro = std::string(GetParam()) == "htetro";
-  const double height_m = htetro ? 0.0214 : 0.017;
+  const double height_m = htetro ? 0.0186 : 0.0153;
   const EpisodeRecord unknown = Drive(height_m, false), known = Drive(height_m, true);
   EXPECT_EQ(unknown.outcome, Outcome::kSuccess);
   EXPECT_EQ(known.outcome, Outcome::kSuccess);

@@ -43,7 +43,7 @@ TEST_F(SupervisedDrive, WithoutAFaultIsAsLongAsWithoutSupervision) {
   EXPECT_THAT(with.safety, IsEmpty());
   EXPECT_EQ(with.metrics.false_alarms, 0);
   EXPECT_EQ(with.metrics.held_s, 0);
-  EXPECT_NEAR(with.metrics.duration_s, without.metrics.duration_s, 0.05);
+  EXPECT_NEAR(with.metrics.duration_s, without.metrics.duration_s, 0.1);
   EXPECT_EQ(without.metrics.alarms, std::nullopt);
 }
 
@@ -79,7 +79,9 @@ TEST_F(SupervisedDrive, WhatAFaultIsCalledChangesNothing) {
 }
 
 TEST_F(SupervisedDrive, WhoReactsNotIsStillWatched) {
-  const EpisodeRecord dut = DriveWith(kDead, "safety: {react: false}\n");
+  // Long enough for its state to grow while the robot turns about the dead wheel.
+  const EpisodeRecord dut =
+      DriveWith(kDead, "safety: {react: false}\nfailures: {stuck: {window_s: 20}}\n");
   EXPECT_EQ(dut.outcome, Outcome::kFailure);
   EXPECT_THAT(dut.alarms, Contains(Field(&RaisedAlarm::wheel, "wheel_left")));
   EXPECT_THAT(dut.safety, Contains(Field(&SafetyRow::machine, DecisionState::kAbort)));

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "env/geometry/geometry.h"
@@ -48,7 +50,13 @@ struct OneWheel {
     wheel->contype = wheel->conaffinity = 0;
     const double user[2] = {roller_m, angle_rad};
     mjs_setDouble(wheel->userdata, user, 2);
-    PairWheel(spec.get(), wheel, floor, {.mu = 0.8});
+    MarkPaired(spec.get(), wheel);
+    mjsPair* pair = mjs_addPair(spec.get(), nullptr);
+    mjs_setString(pair->geomname1, "wheel");
+    mjs_setString(pair->geomname2, "floor");
+    pair->condim = 3;
+    const double friction[5] = {0.8, 0, 0, 0, 0};
+    std::copy(std::begin(friction), std::end(friction), pair->friction);
     model = CompileSpec(spec.get());
     InflateWheelBounds(model.get());
     data = MakeData(model.get());
@@ -117,13 +125,18 @@ TEST(WheelCollider, AboveTheFloorItTouchesNothing) {
   EXPECT_EQ(dut.data->ncon, 0);
 }
 
-// Geoms without rollers meet MuJoCo's own collider, to the last bit, in whatever model.
-TEST(WheelCollider, PlainCylindersAreMujocosOwn) {
-  OneWheel inflated(0.001 + kRoller_m, 0.1, mjGEOM_BOX, 0, 0);
-  const int ncon = inflated.data->ncon;
-  ASSERT_GE(ncon, 1);
-  EXPECT_NEAR(inflated.data->contact[0].dist,
-              kCore_m - 0.001 - kCore_m * std::cos(0.1) - 0.0055 * std::sin(0.1), 2e-6);
+// Its stiffness counts once, below its middle, as long as it stands upright.
+TEST(WheelCollider, APlainWheelTouchesOnceToo) {
+  for (const mjtGeom floor : {mjGEOM_PLANE, mjGEOM_BOX}) {
+    OneWheel upright(0.001 + kRoller_m, 0, floor, 0, 0);
+    ASSERT_EQ(upright.data->ncon, 1);
+    EXPECT_NEAR(upright.data->contact[0].dist, -0.001, 1e-6);
+    EXPECT_NEAR(upright.data->contact[0].pos[1], 0, 1e-5);
+    OneWheel leaning(0.001 + kRoller_m, 0.1, floor, 0, 0);
+    ASSERT_EQ(leaning.data->ncon, 1);
+    EXPECT_NEAR(leaning.data->contact[0].dist,
+                kCore_m - 0.001 - kCore_m * std::cos(0.1) - 0.0055 * std::sin(0.1), 2e-6);
+  }
 }
 
 }  // namespace

@@ -123,8 +123,13 @@ TEST_P(SetDown, MeetsTheWallsThatAreThere) {
   ASSERT_GT(dut.scene.pool.num, 0);
   dut.Drive({0.25, 0, 0}, 1);
   dut.sim->SetDown(kThere);  // 0.75 m before a pillar's face
-  dut.Drive({0.25, 0, 0}, 6);
-  EXPECT_GT(dut.sim->truth().num_contacts, 0);
+  dut.Drive({0.25, 0, 0}, 5);
+  int touched = 0;  // it rocks against the face
+  for (int i = 0; i < 10; ++i) {
+    dut.Drive({0.25, 0, 0}, 0.1);
+    touched += dut.sim->truth().num_contacts > 0;
+  }
+  EXPECT_GT(touched, 0);
   EXPECT_LT(dut.sim->truth().p_WB.x(), 16);
   EXPECT_GT(dut.sim->truth().p_WB.x(), kThere.x_m + 0.2);
 }
