@@ -66,6 +66,11 @@ class Writer {
                         Comment(figure.why)));
   }
 
+  void Text(const char* name, const Choice& choice) {
+    Line(2, fmt::format("<text name=\"{}\" data=\"{}\"/>  {}", name, choice.value,
+                        Comment(choice.why)));
+  }
+
   void Custom() {
     Line(1, "<custom>");
     Line(2, "<text name=\"drive\" data=\"" + robot_.drive + "\"/>");
@@ -73,8 +78,9 @@ class Writer {
     for (const char* name : {"clear_shape", "tool_shape"})
       Line(2, fmt::format("<text name=\"{}\" data=\"{}\"/>  {}", name, shape,
                           Comment("guess: what it keeps clear, and what it sweeps")));
-    Line(2, fmt::format("<text name=\"standstill\" data=\"{}\"/>  {}", guesses_.standstill.value,
-                        Comment(guesses_.standstill.why)));
+    Text("standstill", guesses_.standstill);
+    Text("tyre", guesses_.tyre);
+    Text("caster", guesses_.caster);
     Number("tool_width_m", guesses_.tool_width_m);
     Number("step_m", guesses_.step_m);
     Number("cruise_mps", guesses_.cruise_mps);

@@ -10,6 +10,7 @@
 
 #include "base/quantity.h"
 #include "env/core/robot_spec.h"
+#include "env/scene/tyre.h"
 #include "env/urdf/round_fit.h"
 
 namespace floorproof {
@@ -165,6 +166,11 @@ void GuessLimits(const UrdfRobot& robot, const UrdfAnswers& answers, const Sizes
       Take({}, 2 * out.max_yaw_rate_radps.value, "its yaw rate in half a second");
 }
 
+Choice Choose(const std::string& given, std::string_view usual, const std::string& why) {
+  if (!given.empty()) return {given, "given"};
+  return {std::string(usual), std::string(kGuess) + why};
+}
+
 }  // namespace
 
 RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers) {
@@ -176,13 +182,12 @@ RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers) {
   out.tool_width_m = Take(answers.tool_width_m, kTool * sizes.width_m, "0.8 of its width");
   out.step_m = Take(answers.step_m, std::min(kStep * sizes.radius_m, sizes.belly_m / 2),
                     "a tenth of the wheel's radius, at most half the belly's clearance");
-  if (answers.standstill.empty())
-    out.standstill = {std::string(Name(UsualStandstill(robot.mass_kg()))),
-                      fmt::format("{}robots of more than {:g} kg have brakes, others have motors "
-                                  "that hold their wheels' positions",
-                                  kGuess, kHeavyRobot_kg)};
-  else
-    out.standstill = {answers.standstill, "given"};
+  out.standstill = Choose(answers.standstill, Name(UsualStandstill(robot.mass_kg())),
+                          fmt::format("robots of more than {:g} kg have brakes, others have motors "
+                                      "that hold their wheels' positions",
+                                      kHeavyRobot_kg));
+  out.tyre = Choose(answers.tyre, Name(kUsualTyre), "most robots' wheels are solid");
+  out.caster = Choose(answers.caster, Name(kUsualCaster), "most casters' wheels are");
   out.hotel_load_w = Take(answers.hotel_load_w, kHotel_w, "a small computer and a lidar");
   if (answers.sprung_share > 0) {
     out.spring_travel_m =
@@ -216,8 +221,10 @@ std::vector<std::string> Questions(const RobotGuesses& guesses) {
   for (const Question& q : questions)
     if (q.figure.why.starts_with(kGuess))
       lines.push_back(line(q.key, NumberText(q.figure.value) + " " + q.unit, q.figure.why));
-  if (const Choice& choice = guesses.standstill; choice.why.starts_with(kGuess))
-    lines.push_back(line("standstill", choice.value, choice.why));
+  const std::pair<const char*, const Choice&> choices[] = {
+      {"standstill", guesses.standstill}, {"tyre", guesses.tyre}, {"caster", guesses.caster}};
+  for (const auto& [key, choice] : choices)
+    if (choice.why.starts_with(kGuess)) lines.push_back(line(key, choice.value, choice.why));
   return lines;
 }
 

@@ -30,6 +30,7 @@ struct RobotGuesses {
   Figure cruise_mps, max_speed_mps, max_accel_mps2, max_yaw_rate_radps, max_yaw_accel_radps2;
   Figure tool_width_m, step_m, hotel_load_w;
   Choice standstill;                 // Name(Standstill)
+  Choice tyre, caster;               // Name(TyreMaterial)
   std::vector<WheelSpring> springs;  // one a driven wheel, or none
   Figure spring_travel_m;
 };

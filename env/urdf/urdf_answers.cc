@@ -44,6 +44,9 @@ void UrdfAnswers::Visit(ParamVisitor& v) {
   v("hotel_load_w", hotel_load_w, kPower_w, "computer and sensors (W); none: guessed");
   v("standstill", standstill, {"brake", "hold", "free"},
     "brakes, motors that hold their wheels' positions, or wheels that turn; none: guessed");
+  for (const auto& [key, answer] : {std::pair{"tyre", &tyre}, std::pair{"caster", &caster}})
+    v(key, *answer, {"soft_rubber", "hard_rubber", "polyurethane"},
+      "what driven wheels, or casters, are made of; none: guessed");
   v("lidar_z_m", lidar_z_m, kClearance_m,
     "height of the lidar's plane (m); none: of the link that is named after one");
 }

@@ -11,7 +11,8 @@ namespace floorproof {
 
 struct UrdfAnswers {
   std::string driven;
-  std::string standstill;  // empty: guessed
+  std::string standstill;    // empty: guessed
+  std::string tyre, caster;  // what they are made of; empty: guessed
   std::optional<double> wheel_radius_m, roller_radius_m;
   double motor_voltage_v = 12;
   std::optional<double> no_load_radps, stall_nm, peak_nm, friction_nm, top_speed_mps;
