@@ -19,7 +19,8 @@ struct Alterations {
   std::vector<double> roller_drag = {};
   // Speed that the motor's driver holds whatever it is told, rad/s; none: it does as it is told.
   std::vector<std::optional<double>> wheel_stuck_radps = {};
-  // The most friction that the wheel finds on anything, its rollers included; none: as built.
+  // The most friction that the wheel finds on floors and hazards, its rollers included; none: as
+  // built.
   std::vector<std::optional<double>> wheel_friction = {};
 
   // Factors on what was built.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A wheel whose tread, or whose rollers', is worn, wet or oily: it finds no more friction than this
-// on anything. Of two on one wheel the slipperier counts.
+// on floors and hazards. Of two on one wheel the slipperier counts.
 #include <algorithm>
 
 #include "env/faults/fault.h"

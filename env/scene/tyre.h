@@ -45,8 +45,7 @@ double SinkOf(const Tread& tread, TyreMaterial material, double load_n);
 
 // The tyre under this load of a robot of this mass. A stiffness that the robot states counts
 // instead of the material's. The damping is 2 z sqrt(K M / 2): while a robot climbs, two of its
-// wheels carry most of it. z is what the robot states, or 0.1: half
-// of a loss factor of 0.2, as rubber for tyres has.
+// wheels carry most of it. z is what the robot states, or 0.2 (docs/physics.md, "Tyres").
 Tyre TyreUnder(double load_n, const Tread& tread, const TyreSpec& spec, double mass_kg);
 
 }  // namespace floorproof

@@ -12,6 +12,7 @@ namespace {
 // A wheel that slides on while the robot turns is pressed off the floor by its friction, the more
 // the sooner that stops a slip, and hops.
 constexpr double kStopsSlip_s = 0.01, kStopsScrub_s = 0.08;
+constexpr double kLeastAhead_m = 0.005, kMostAhead_m = 0.015;  // LiveGeoms has 20 mm to spare
 
 // Whether the wheels stand on several parallel axles: they slide across the floor whenever the
 // robot turns.
@@ -30,13 +31,18 @@ bool Scrubs(const RobotSpec& robot) {
   return farthest_m > kOneAxle_m;
 }
 
+// `impedance`: the pair's.
+void StopSlips(double stops_slip_s, double impedance, mjsPair* pair) {
+  pair->solreffriction[0] = 2 * stops_slip_s / impedance;
+  pair->solreffriction[1] = 1;
+}
+
 void SetTyre(const Foot& foot, double stops_slip_s, mjsPair* pair) {
   const double share = (1 - kTyreImpedance) * foot.inverse_mass_pkg;
   pair->solref[0] = -share * foot.tyre.stiffness_npm;
   pair->solref[1] = -share * foot.tyre.damping_nspm;
   pair->solimp[0] = pair->solimp[1] = kTyreImpedance;
-  pair->solreffriction[0] = 2 * stops_slip_s / kTyreImpedance;
-  pair->solreffriction[1] = 1;
+  StopSlips(stops_slip_s, kTyreImpedance, pair);
   pair->margin = foot.sink_m();
 }
 
@@ -45,16 +51,17 @@ void SetTyre(const Foot& foot, double stops_slip_s, mjsPair* pair) {
 void PairWheels(const HazardMap& map, const RobotModel& robot, const WorldGeoms& world,
                 mjSpec* spec) {
   const double stops_slip_s = Scrubs(robot.spec) ? kStopsScrub_s : kStopsSlip_s;
+  const double ahead_m =
+      std::clamp(2 * spec->option.timestep * robot.spec.max_speed_mps, kLeastAhead_m, kMostAhead_m);
   for (const Foot& foot : robot.feet) {
     mjsGeom* geom = mjs_asGeom(mjs_findElement(spec, mjOBJ_GEOM, foot.geom.c_str()));
     geom->conaffinity &= kWallBit;
     MarkPaired(spec, geom);
     for (const auto& [ground, role] : world.all()) {
       if (role.kind == GeomRole::Kind::kWall) continue;
-      const double drag =
-          role.hazard >= 0
-              ? map.hazards[static_cast<std::size_t>(role.hazard)].material.rolling_drag
-              : 0;
+      const Material* material =
+          role.hazard >= 0 ? &map.hazards[static_cast<std::size_t>(role.hazard)].material : nullptr;
+      const double drag = material != nullptr ? material->rolling_drag : 0;
       mjsPair* pair = mjs_addPair(spec, nullptr);
       mjs_setString(pair->geomname1, foot.geom.c_str());
       mjs_setString(pair->geomname2, mjs_getString(mjs_getName(ground->element)));
@@ -68,10 +75,13 @@ void PairWheels(const HazardMap& map, const RobotModel& robot, const WorldGeoms&
       const double across = RollersOf(geom).radius_m > 0 ? 0 : slide;
       const double friction[5] = {slide, across, slide * foot.scrubs_m, roll, roll};
       std::copy(std::begin(friction), std::end(friction), pair->friction);
-      std::copy(std::begin(ruler->solimp), std::end(ruler->solimp), pair->solimp);
-      std::copy(std::begin(ruler->solref), std::end(ruler->solref), pair->solref);
-      if (ground->solref[1] >= 1) SetTyre(foot, stops_slip_s, pair);
-      pair->gap = kFootLookAhead_m;
+      std::copy(std::begin(ground->solimp), std::end(ground->solimp), pair->solimp);
+      std::copy(std::begin(ground->solref), std::end(ground->solref), pair->solref);
+      if (role.kind == GeomRole::Kind::kHazard && material != nullptr && material->restitution > 0)
+        StopSlips(stops_slip_s, ground->solimp[1], pair);
+      else
+        SetTyre(foot, stops_slip_s, pair);
+      pair->gap = ahead_m;
     }
   }
 }

@@ -115,6 +115,7 @@ void Simulation::AlterFriction() {
         friction[1] +=
             altered_.roller_drag[static_cast<std::size_t>(wheel)] * (friction[0] - friction[1]);
     }
+    if (was[0] > 0) friction[2] = was[2] * friction[0] / was[0];  // what a tread scrubs with
   }
 }
 
@@ -176,6 +177,7 @@ void Simulation::AlterPayload() {
   InflateWheelBounds(own_.get());             // and from the wheels' cores alone
   KeepStiffness(built, own_.get());
   live_.model()->stat = own_->stat;
+  live_.Refresh();
 }
 
 }  // namespace floorproof

@@ -6,6 +6,28 @@
 
 namespace floorproof {
 
+namespace {
+
+// Its softness was found for whole steps (restitution.h), and no tyre is in it.
+bool Bounces(const mjContact& c) { return c.solref[0] > 0 && c.solref[1] < 1; }
+
+// Sets a model's time step for as long as it lives.
+class TimestepOf {
+ public:
+  TimestepOf(mjModel* m, double step_s) : m_(m), whole_s_(m->opt.timestep) {
+    m->opt.timestep = step_s;
+  }
+  ~TimestepOf() { m_->opt.timestep = whole_s_; }
+  TimestepOf(const TimestepOf&) = delete;
+  TimestepOf& operator=(const TimestepOf&) = delete;
+
+ private:
+  mjModel* m_;
+  double whole_s_;
+};
+
+}  // namespace
+
 FineSteps::FineSteps(const Scene& scene, const RobotSpec& robot)
     : scene_(scene),
       reach_m_(robot.circumscribed_radius_m),
@@ -19,7 +41,7 @@ int FineSteps::Parts(const mjModel* m, const mjData* d, const Truth& truth) cons
     return scene_.roles[static_cast<std::size_t>(geom)].kind == GeomRole::Kind::kWheel;
   };
   for (const mjContact* c = d->contact; c < d->contact + d->ncon; ++c)
-    if (std::abs(c->frame[2]) < kUpright && c->dist < c->includemargin + ahead_m &&
+    if (!Bounces(*c) && std::abs(c->frame[2]) < kUpright && c->dist < c->includemargin + ahead_m &&
         (is_foot(c->geom[0]) || is_foot(c->geom[1])))
       return scene_.edge_steps;
   return OnFloor(m);
@@ -32,15 +54,14 @@ int FineSteps::OnFloor(const mjModel* m) const {
 
 void FineSteps::Walk(mjModel* m, mjData* d, int parts) {
   if (parts == 1) return StepEngine(m, d);
-  const double whole_s = m->opt.timestep, end_s = d->time + whole_s;
-  m->opt.timestep = whole_s / parts;
+  const double end_s = d->time + m->opt.timestep;
+  const TimestepOf part(m, m->opt.timestep / parts);
   for (int k = 0; k < parts; ++k) {
     StepEngine(m, d);
     if (k == 0) std::copy_n(d->cvel, cvel_.size(), cvel_.begin());
   }
   std::ranges::copy(cvel_, d->cvel);
   d->time = end_s;
-  m->opt.timestep = whole_s;
 }
 
 }  // namespace floorproof

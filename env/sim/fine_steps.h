@@ -4,9 +4,9 @@
 // A tyre swings faster than a step of 4 ms can follow. On the floor that is no matter: the implicit
 // integrator damps the swing and the tyre carries its load. At an edge the tyre's force
 // decides what the robot climbs. So while a foot touches something whose normal is more than 15
-// degrees off upright, or may touch it within the step, the step is walked in as many parts as keep
-// the phase of the stiffest tyre below 0.25 rad, at most 8. Geometry and speed decide, never what a
-// thing is called.
+// degrees off upright and does not bounce, or may touch it within the step, the step is walked in
+// as many parts as keep the phase of the stiffest tyre below 0.25 rad, at most 8. Geometry and
+// speed decide, never what a thing is called.
 #pragma once
 
 #include <mujoco/mujoco.h>

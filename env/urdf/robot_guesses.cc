@@ -187,7 +187,7 @@ RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers) {
                                       "that hold their wheels' positions",
                                       kHeavyRobot_kg));
   out.tyre = Choose(answers.tyre, Name(kUsualTyre), "most robots' wheels are solid");
-  out.caster = Choose(answers.caster, Name(kUsualCaster), "most casters' wheels are");
+  out.caster = Choose(answers.caster, Name(kUsualCaster), "most casters have polyurethane wheels");
   out.hotel_load_w = Take(answers.hotel_load_w, kHotel_w, "a small computer and a lidar");
   if (answers.sprung_share > 0) {
     out.spring_travel_m =

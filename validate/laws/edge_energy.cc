@@ -51,11 +51,13 @@ class EdgeEnergy final : public Law {
     for (int a = 0; a < m->nu; ++a)
       rig.data()->qvel[m->jnt_dofadr[m->actuator_trnid[2 * a]]] = speed_mps / cart.wheel_radius_m;
     rig.SetBase({0, 0, up ? 0 : kHeight_m}, Eigen::Quaterniond::Identity(), {speed_mps, 0, 0});
-    const mjtNum* com = rig.data()->subtree_com + 3 * rig.scene().base_body;
+    const DataPtr copy = MakeData(m);
+    const mjtNum* com = copy->subtree_com + 3 * rig.scene().base_body;
     const auto kinetic_j = [&] {
-      ForwardEngine(m, rig.data());
-      mj_energyVel(m, rig.data());
-      return rig.data()->energy[1];
+      mj_copyData(copy.get(), m, rig.data());
+      ForwardEngine(m, copy.get());
+      mj_energyVel(m, copy.get());
+      return copy->energy[1];
     };
     const auto potential_j = [&] { return rig.robot().mass_kg * kGravity_mps2 * com[2]; };
     double tyres_j = 0;

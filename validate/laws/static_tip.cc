@@ -8,7 +8,7 @@
 // to the end of its travel, and goes over from there; d and h are those of the leaning body, on
 // tyres that give under what they carry then.
 //
-// Tolerances: 0.3 deg, what gravity turns on at 0.2 deg/s while the fall sets in; BELUGA 0.4 deg,
+// Tolerances: 0.3 deg, what gravity turns on at 0.2 deg/s while the fall sets in; BELUGA 0.5 deg,
 // as the end of a caster's travel gives by a millimetre (0.4 deg of lean). Friction is far above
 // what holds, in the wrong model too, and its creep, by which the robot would turn about the wheel
 // that carries most before it falls, is a hundredth of the usual (MuJoCo's impratio); larger wheels

@@ -10,7 +10,7 @@
 //   tilt    N (cos p + mu sin p) (x1 + R sin p) + N (sin p - mu cos p) h = x_r Nr
 // with x1 from the centre of mass to the first axle and x_r back to where Nr acts.
 //
-// BELUGA: casters hardly rub, Nr counts for nothing: tan p = mu, h = R (1 - cos atan mu).
+// BELUGA: casters hardly rub, Nr counts for nothing: tan p = mu.
 // A cart of two driven axles, its weight forward so that the front one decides: exact. It is driven
 // at 1 cm/s: spinning at 2 cm/s against the edge, its wheels hop, which is worth 0.7 mm.
 // hTetro, four rows of Mecanum wheels: friction acts along rollers at 45 deg, mu / sqrt 2 forward.

@@ -12,7 +12,7 @@
 // not determined by statics, so there is no closed form to compare with (docs/validation.md).
 //
 // Tolerance 1 % and 0.3 mm: friction softens as the speed falls below mu g times the contact's time
-// constant (10 ms, on Mecanum wheels 30 ms), and over the last tenths of a millimetre the robot
+// constant (10 ms), and over the last tenths of a millimetre the robot
 // creeps. BELUGA 3 %: as it nods, its casters' dampers and the ends of their travel carry more or
 // less than the springs.
 #include <fmt/format.h>

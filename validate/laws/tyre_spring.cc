@@ -23,8 +23,8 @@ constexpr double kShare = 0.01, kFine_s = 0.0002, kRest_s = 1;
 class TyreSpring final : public Law {
  public:
   std::string_view statement() const override {
-    return "on four tyres of stiffness K: m g / (4 K) lower for each m g; a swing of "
-           "sqrt(4 K / m - (2 B / m)^2)";
+    return "a body on four tyres of stiffness K sinks by F / (4 K) under a force F and swings at "
+           "sqrt(4 K / m - (2 B / m)^2), m with the treads";
   }
   std::vector<WrongModel> notices() const override { return {{.tyre_factor = 1.3}}; }
 
