@@ -61,7 +61,9 @@ TEST_F(SlowRareSearch, TellsHowRareItIsThroughPhysics) {
     ASSERT_EQ(dut.estimate.answer, RareAnswer::kEstimate) << dut.estimate.why;
     EXPECT_NEAR(dut.estimate.probability / truth, 1, 4 * std::hypot(dut.estimate.cov, of_truth));
     EXPECT_LE(dut.estimate.cov, 0.1);
-    ASSERT_EQ(dut.failures.size(), 2u) << "to the left and to the right";
+    // To the left and to the right; a side may be found in two parts, as friction decides it too.
+    EXPECT_GE(dut.failures.size(), 2u);
+    EXPECT_LE(dut.failures.size(), 4u);
     for (const LikelyFailure& failure : dut.failures) {
       EXPECT_EQ(failure.row.outcome, "failure");
       EXPECT_NEAR(dut.estimate.regions[failure.region].distance * deviation, nearest,
