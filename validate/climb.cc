@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "env/scene/mecanum_wheel.h"
+#include "env/scene/wheel_collider.h"
 
 namespace floorproof {
 

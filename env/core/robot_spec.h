@@ -19,9 +19,9 @@ struct WheelSpec {
   Vec3 p_BW = Vec3::Zero();  // wheel centre in the body frame B
   double radius_m = 0;       // rollers included
   double half_width_m = 0;   // of the wheel's cylinder: of a Mecanum wheel's core, without rollers
-  // Mecanum wheels (env/scene/mecanum_wheel.h): the radius of the rollers, 0 for a plain wheel; and
-  // the angle from the wheel's axle (left, +y) to its rollers' axes at the floor, seen from above,
-  // positive counter-clockwise.
+  // Mecanum wheels (env/scene/wheel_collider.h): the radius of the rollers, 0 for a plain wheel;
+  // and the angle from the wheel's axle (left, +y) to its rollers' axes at the floor, seen from
+  // above, positive counter-clockwise.
   double roller_radius_m = 0;
   double roller_angle_rad = 0;
   double yaw_rad = 0;          // of the wheel's own x (forward) in B

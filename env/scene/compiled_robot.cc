@@ -9,8 +9,8 @@
 
 #include "base/printable.h"
 #include "env/scene/lock_blocks.h"
-#include "env/scene/mecanum_wheel.h"
 #include "env/scene/mesh_hull.h"
+#include "env/scene/wheel_collider.h"
 
 namespace floorproof {
 

@@ -7,7 +7,7 @@
 #include "env/scene/compiled_robot.h"
 #include "env/scene/free_names.h"
 #include "env/scene/loads.h"
-#include "env/scene/mecanum_wheel.h"
+#include "env/scene/wheel_collider.h"
 
 namespace floorproof {
 namespace {

@@ -11,13 +11,13 @@
 #include "env/scene/exposed_wheels.h"
 #include "env/scene/lock_blocks.h"
 #include "env/scene/measured_block.h"
-#include "env/scene/mecanum_wheel.h"
 #include "env/scene/models_folder.h"
 #include "env/scene/robot_limits.h"
 #include "env/scene/robot_mjcf.h"
 #include "env/scene/roller_wheels.h"
 #include "env/scene/scene.h"
 #include "env/scene/spec_reader.h"
+#include "env/scene/wheel_collider.h"
 
 namespace floorproof {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "env/scene/compiled_robot.h"
 #include "env/scene/loads.h"
-#include "env/scene/mecanum_wheel.h"
 #include "env/scene/robot_stance.h"
+#include "env/scene/wheel_collider.h"
 
 namespace floorproof {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "env/scene/compiled_robot.h"
-#include "env/scene/mecanum_wheel.h"
+#include "env/scene/wheel_collider.h"
 
 namespace floorproof {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "env/scene/mecanum_wheel.h"
+#include "env/scene/wheel_collider.h"
 
 namespace floorproof {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mecanum wheels with rollers that are bodies: the cross-check of the ideal ones
-// (env/scene/mecanum_wheel.h), and what the stock MuJoCo can roll.
+// (env/scene/wheel_collider.h), and what the stock MuJoCo can roll.
 //
 // Each wheel becomes a hub on the motor's hinge, with kRollers rollers that turn freely on hinges
 // of their own, with the same radius R, roller radius r and angle. A roller is an ellipsoid of

@@ -6,11 +6,11 @@
 
 #include "env/scene/edge_contacts.h"
 #include "env/scene/floor.h"
-#include "env/scene/mecanum_wheel.h"
 #include "env/scene/robot_reach.h"
 #include "env/scene/scene_looks.h"
 #include "env/scene/surfaces.h"
 #include "env/scene/walls.h"
+#include "env/scene/wheel_collider.h"
 #include "env/scene/wheel_pairs.h"
 #include "env/scene/world_geoms.h"
 

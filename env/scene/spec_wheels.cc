@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "env/core/blocks.h"
-#include "env/scene/mecanum_wheel.h"
 #include "env/scene/robot_changes.h"
 #include "env/scene/robot_limits.h"
 #include "env/scene/spec_parts.h"
+#include "env/scene/wheel_collider.h"
 
 namespace floorproof {
 

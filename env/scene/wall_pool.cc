@@ -5,9 +5,9 @@
 
 #include "env/scene/edge_contacts.h"
 #include "env/scene/engine.h"
-#include "env/scene/mecanum_wheel.h"
 #include "env/scene/robot_reach.h"
 #include "env/scene/walls.h"
+#include "env/scene/wheel_collider.h"
 
 namespace floorproof {
 namespace {

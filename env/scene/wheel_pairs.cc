@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "env/scene/mecanum_wheel.h"
+#include "env/scene/wheel_collider.h"
 
 namespace floorproof {
 namespace {

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "env/scene/mecanum_wheel.h"
 #include "env/scene/roller_wheels.h"
+#include "env/scene/wheel_collider.h"
 #include "env/scene/wheel_pairs.h"
 #include "env/sim/simulation.h"
 

@@ -11,7 +11,7 @@
 
 #include "env/geometry/geometry.h"
 #include "env/scene/engine.h"
-#include "env/scene/mecanum_wheel.h"
+#include "env/scene/wheel_collider.h"
 
 namespace floorproof {
 namespace {

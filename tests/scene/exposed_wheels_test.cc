@@ -9,9 +9,9 @@
 #include <fstream>
 #include <string>
 
-#include "env/scene/mecanum_wheel.h"
 #include "env/scene/roller_wheels.h"
 #include "env/scene/scene.h"
+#include "env/scene/wheel_collider.h"
 #include "tests/robot_file.h"
 
 namespace floorproof {

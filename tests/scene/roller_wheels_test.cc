@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "env/scene/mecanum_wheel.h"
 #include "env/scene/scene.h"
+#include "env/scene/wheel_collider.h"
 
 namespace floorproof {
 namespace {

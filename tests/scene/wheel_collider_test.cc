@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wheel collider: one wheel pressed on a floor.
-#include "env/scene/mecanum_wheel.h"
+#include "env/scene/wheel_collider.h"
 
 #include <gtest/gtest.h>
 

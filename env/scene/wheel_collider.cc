@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "env/scene/mecanum_wheel.h"
+#include "env/scene/wheel_collider.h"
 
 #include <algorithm>
 #include <array>
