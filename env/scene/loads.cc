@@ -17,7 +17,7 @@ constexpr double kGravity_mps2 = 9.81;
 struct Support {
   int geom;
   Vec3 lever;                         // 1, x and y, m: what its load does
-  double load_n = 0;                  // by the spring that it slides on and what hangs below that
+  double load_n = 0;                  // of its spring, and of the parts below that
   double stiffness_npm = kRigid_npm;  // of that spring
 
   static constexpr double kRigid_npm = 1e9;
@@ -39,10 +39,10 @@ Support MakeSupport(const mjModel* m, const mjData* d, const RobotSpec& robot, i
   return out;
 }
 
-// Where the springs do not carry what stands on them the body heaves, pitches and rolls until they
-// do: loads then lie on a plane over the places, each times its spring's stiffness.
+// If the springs in the model's pose do not balance the weight, the body heaves, pitches and rolls
+// until they do: the loads then lie on a plane over the places, each times its spring's stiffness.
 void Balance(double weight_n, const mjtNum* com, std::vector<Support>& supports) {
-  constexpr double kStands = 0.01;  // share of the weight that may be off: it stands as it is drawn
+  constexpr double kStands = 0.01;  // share of the weight that may be off in the model's pose
   Vec3 off = weight_n * Vec3(1, com[0], com[1]);
   Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
   for (const Support& c : supports) {

@@ -32,7 +32,7 @@ struct RobotModel {
   RobotSpec spec;
   std::vector<std::filesystem::path> files = {};  // that it was read from, the MJCF first
   std::shared_ptr<const mjVFS> assets = {};       // those files, for whoever compiles `mjcf`
-  std::vector<Foot> feet = {};                    // what it stands on
+  std::vector<Foot> feet = {};                    // wheels, casters and rollers
 };
 
 // Whether a reconfigurable robot can change its shape, or is one rigid body in the shape it has.

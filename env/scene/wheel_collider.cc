@@ -13,8 +13,8 @@ constexpr double kSameNormal = 0.9995;  // cosine: planes within 2 degrees are o
 constexpr double kBlend_m = 1e-4;       // contacts deeper than others by this rule alone
 constexpr std::array kOthers = {mjGEOM_PLANE, mjGEOM_HFIELD, mjGEOM_BOX, mjGEOM_MESH};
 
-// Of the third of a wheel's user data, once it is marked: other programs' models in this process
-// may have user data of their own, and are to be left alone.
+// The third of a marked wheel's user data. Other programs' models in this process may have user
+// data of their own, and are to be left alone.
 constexpr double kPaired = 2718281.828;
 
 std::array<mjfCollision, kOthers.size()> g_original;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The collider of wheels. A wheel touches each plane once, below its middle where it stands
-// upright, so that its tyre's stiffness counts once. Of a core that MuJoCo sees it makes a Mecanum
-// wheel whose rollers have no mass.
+// upright, so that its tyre's stiffness counts once. It also makes a core that MuJoCo sees a
+// Mecanum wheel, whose rollers have no mass.
 //
 // A wheel of radius R with rollers of radius r is a core cylinder of radius R - r, whose geom
 // carries `user="r angle"` (WheelSpec says which angle). The collider does two more things. (1)

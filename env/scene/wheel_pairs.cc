@@ -14,7 +14,7 @@ namespace {
 constexpr double kStopsSlip_s = 0.01, kStopsScrub_s = 0.08;
 constexpr double kLeastAhead_m = 0.005, kMostAhead_m = 0.015;  // LiveGeoms has 20 mm to spare
 
-// Whether the wheels stand on several parallel axles: they slide across the floor whenever the
+// Whether the wheels are on several parallel axles: they slide across the floor whenever the
 // robot turns.
 bool Scrubs(const RobotSpec& robot) {
   constexpr double kOneAxle_m = 1e-3, kParallel_rad = 1e-3;

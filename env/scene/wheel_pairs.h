@@ -2,8 +2,8 @@
 // How a robot's feet touch the world: each by a pair with each floor and hazard. Walls meet the
 // body, and wheels that stick out of it.
 //
-// The normal force of a pair is that of the tyre, K s + B s', and friction is nearly
-// Coulomb's: it stops a slip within 10 ms, or 80 ms where wheels scrub. MuJoCo states softness per
+// The normal force of a pair is that of the tyre, K s + B s', and friction is nearly Coulomb's: it
+// stops a slip within 10 ms, or 80 ms where wheels scrub. MuJoCo states softness per
 // unit of acceleration. With an impedance d that does not depend on the depth and A the inverse
 // mass at the contact it presses with (k s + b s') / ((1 - d) A), so k = (1 - d) A K, b = (1 - d) A
 // B. d / ((1 - d) A) counts as a mass that moves with the tread: d = 0.1 keeps it to a ninth of the
@@ -12,8 +12,8 @@
 // A foot stands where its model draws it: the radius is that under the load at rest, and the pair
 // begins to press by the sink at rest above that.
 //
-// Contacts are found ahead, by the way of two steps at the robot's highest speed (5 to 15 mm); they
-// press only where feet touch.
+// Contacts are found up to two steps ahead at the robot's highest speed (5 to 15 mm). They press
+// only where feet touch.
 //
 // What bounces (hazards with a restitution) keeps its own softness, which is made for that
 // (restitution.h).

@@ -2,11 +2,12 @@
 // Steps of the engine, walked in parts where a foot meets an edge.
 //
 // A tyre swings faster than a step of 4 ms can follow. On the floor that is no matter: the implicit
-// integrator damps the swing and the tyre carries its load. At an edge the tyre's force
-// decides what the robot climbs. So while a foot touches something whose normal is more than 15
-// degrees off upright and does not bounce, or may touch it within the step, the step is walked in
-// as many parts as keep the phase of the stiffest tyre below 0.25 rad, at most 8. Geometry and
-// speed decide, never what a thing is called.
+// integrator damps the swing and the tyre carries its load. At an edge the tyre's force decides
+// what the robot climbs. So while a foot touches something, or may touch it within the step, whose
+// normal is more than 15 degrees off upright, the step is walked in as many parts as keep the phase
+// of the stiffest tyre below 0.25 rad, at most 8. Geometry and speed decide, never a thing's name.
+//
+// Contacts that bounce get whole steps, for which their softness is computed (restitution.h).
 #pragma once
 
 #include <mujoco/mujoco.h>

@@ -11,10 +11,9 @@
 // deg. Along a roller's axis one half rubs and the other rolls; how the weight lies on the two is
 // not determined by statics, so there is no closed form to compare with (docs/validation.md).
 //
-// Tolerance 1 % and 0.3 mm: friction softens as the speed falls below mu g times the contact's time
-// constant (10 ms), and over the last tenths of a millimetre the robot
-// creeps. BELUGA 3 %: as it nods, its casters' dampers and the ends of their travel carry more or
-// less than the springs.
+// Tolerance 1 % and 0.3 mm: friction softens as the speed falls below mu g times the 10 ms in which
+// it stops a slip, and over the last tenths of a millimetre the robot creeps. BELUGA 3 %: as it
+// nods, its casters' dampers and the ends of their travel carry more or less than the springs.
 #include <fmt/format.h>
 
 #include "validate/cart.h"
