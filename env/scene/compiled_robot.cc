@@ -47,9 +47,18 @@ std::string CompiledRobot::Text(const char* name) const {
   return text;
 }
 
-std::vector<std::string> CompiledRobot::Words(const char* name) const {
+std::optional<double> CompiledRobot::OptionalNumber(const char* name, const Bounds& rule) const {
+  if (mj_name2id(m_, mjOBJ_NUMERIC, name) < 0) return {};
+  return Number(name, rule);
+}
+
+std::optional<std::string> CompiledRobot::OptionalText(const char* name) const {
   if (mj_name2id(m_, mjOBJ_TEXT, name) < 0) return {};
-  std::istringstream in(Text(name));
+  return Text(name);
+}
+
+std::vector<std::string> CompiledRobot::Words(const char* name) const {
+  std::istringstream in(OptionalText(name).value_or(""));
   return {std::istream_iterator<std::string>(in), {}};
 }
 

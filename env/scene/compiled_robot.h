@@ -40,6 +40,9 @@ class CompiledRobot {
   // Numbers and texts under <custom>; refused where they are missing or break the rule.
   double Number(const char* name, const Bounds& rule) const;
   std::string Text(const char* name) const;
+  // None where there is no such number or text.
+  std::optional<double> OptionalNumber(const char* name, const Bounds& rule) const;
+  std::optional<std::string> OptionalText(const char* name) const;
   // The words of a text; none where there is no such text.
   std::vector<std::string> Words(const char* name) const;
 

@@ -9,14 +9,10 @@
 namespace floorproof {
 
 double CasterDrag(const mjModel* m, const RobotSpec& robot, double speed_mps) {
-  std::vector<int> driven;
-  for (const WheelSpec& wheel : robot.wheels)
-    if (const int a = mj_name2id(m, mjOBJ_ACTUATOR, wheel.name.c_str()); a >= 0)
-      driven.push_back(m->jnt_bodyid[m->actuator_trnid[2 * a]]);
   double drag_n = 0;
   for (const LoadedGeom& carrier : LoadsOf(m, robot)) {
     const int body = m->geom_bodyid[carrier.geom];
-    if (std::ranges::find(driven, body) != driven.end()) continue;
+    if (IsDriven(m, body)) continue;
     if (const int joint = RollingJoint(m, body); joint >= 0) {
       const int dof = m->jnt_dofadr[joint];
       const double radius_m = m->geom_size[3 * carrier.geom];

@@ -16,24 +16,20 @@ constexpr Bounds kStiffness_npmm = {1, 100'000, false};
 constexpr Bounds kDampingRatio = {0.01, 5, false};
 
 TyreMaterial ReadMaterial(const CompiledRobot& compiled, const char* key, TyreMaterial usual) {
-  if (mj_name2id(compiled.model(), mjOBJ_TEXT, key) < 0) return usual;
-  const std::string text = compiled.Text(key);
+  const auto text = compiled.OptionalText(key);
+  if (!text) return usual;
   for (const TyreMaterial material :
        {TyreMaterial::kSoftRubber, TyreMaterial::kHardRubber, TyreMaterial::kPolyurethane})
-    if (text == Name(material)) return material;
-  throw InputError({compiled.file(), 0}, key, text,
+    if (*text == Name(material)) return material;
+  throw InputError({compiled.file(), 0}, key, *text,
                    "must be soft_rubber, hard_rubber or polyurethane");
 }
 
 TyreSpec ReadTyre(const CompiledRobot& compiled, const std::string& key, TyreMaterial usual) {
   TyreSpec spec{.material = ReadMaterial(compiled, key.c_str(), usual)};
-  const auto number = [&](const std::string& name, const Bounds& rule) -> std::optional<double> {
-    if (mj_name2id(compiled.model(), mjOBJ_NUMERIC, name.c_str()) < 0) return {};
-    return compiled.Number(name.c_str(), rule);
-  };
-  if (const auto npmm = number(key + "_stiffness_npmm", kStiffness_npmm))
+  if (const auto npmm = compiled.OptionalNumber((key + "_stiffness_npmm").c_str(), kStiffness_npmm))
     spec.stiffness_npm = 1000 * *npmm;
-  spec.damping_ratio = number(key + "_damping_ratio", kDampingRatio);
+  spec.damping_ratio = compiled.OptionalNumber((key + "_damping_ratio").c_str(), kDampingRatio);
   return spec;
 }
 
@@ -83,13 +79,14 @@ std::vector<Foot> FeetOf(mjSpec* mjcf, const mjModel* m, const RobotSpec& robot)
     if (mjs_getString(mjs_getName(e))[0] == '\0')
       mjs_setName(e, names.For("foot/" + std::to_string(feet.size())).c_str());
     const int body = m->geom_bodyid[g];
+    const Tread tread = TreadOf(m, g);
     Foot foot{.geom = mjs_getString(mjs_getName(e)),
               .driven = IsDriven(m, body),
               .rolls_m = RollsOn(m, g),
-              .scrubs_m = RollersOf(m, g).radius_m > 0 ? 0 : TreadOf(m, g).width_m / 4,
+              .scrubs_m = RollersOf(m, g).radius_m > 0 ? 0 : tread.width_m / 4,
               .load_n = carrier->load_n,
               .inverse_mass_pkg = m->body_invweight0[2 * body]};
-    foot.tyre = TyreUnder(std::max(foot.load_n, kLeastShare * mean_n), TreadOf(m, g),
+    foot.tyre = TyreUnder(std::max(foot.load_n, kLeastShare * mean_n), tread,
                           foot.driven ? tyre : caster, mass_kg);
     feet.push_back(std::move(foot));
   }

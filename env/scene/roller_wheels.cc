@@ -63,14 +63,6 @@ std::vector<Wheel> FindWheels(mjSpec* spec, const RobotSpec& robot, const mjVFS*
   return wheels;
 }
 
-// The core of this driven wheel; null: it is a plain one.
-mjsGeom* CoreOf(mjSpec* spec, const std::string& wheel) {
-  mjsBody* body = mjs_getParent(DrivenJoint(spec, wheel)->element);
-  for (mjsElement* e = mjs_firstChild(body, mjOBJ_GEOM, 0); e; e = mjs_nextChild(body, e, 0))
-    if (RollersOf(mjs_asGeom(e)).radius_m > 0) return mjs_asGeom(e);
-  return nullptr;
-}
-
 // The hub keeps the drawn core and the rest of the mass.
 void MakeHub(const Wheel& wheel) {
   ScaleMass(wheel.body, 1 - kRollersShare);
@@ -116,23 +108,22 @@ void AddRoller(const Wheel& wheel, const Vec3& outward, const std::string& name)
   std::copy(std::begin(look->rgba), std::end(look->rgba), geom->rgba);
 }
 
-// A roller has its wheel's tyre: one of them carries the wheel.
-std::vector<Foot> OnRollers(const RobotModel& robot, const mjModel& m) {
+// The feet with rollers in the place of cores, each with its wheel's tyre: one of them carries it.
+std::vector<Foot> OnRollers(const std::vector<Foot>& ideal, const std::vector<Wheel>& wheels,
+                            const mjModel& m) {
   std::vector<Foot> feet;
-  for (const Foot& foot : robot.feet) {
-    const auto wheel = std::ranges::find_if(robot.spec.wheels, [&](const WheelSpec& w) {
-      return w.roller_radius_m > 0 &&
-             mjs_asGeom(mjs_findElement(robot.mjcf.get(), mjOBJ_GEOM, foot.geom.c_str())) ==
-                 CoreOf(robot.mjcf.get(), w.name);
+  for (const Foot& foot : ideal) {
+    const auto wheel = std::ranges::find_if(wheels, [&](const Wheel& w) {
+      return foot.geom == mjs_getString(mjs_getName(w.core->element));
     });
-    if (wheel == robot.spec.wheels.end()) {
+    if (wheel == wheels.end()) {
       feet.push_back(foot);
       continue;
     }
     for (int k = 0; k < kRollers; ++k) {
       Foot& roller = feet.emplace_back(foot);
-      roller.geom = RollerPrefix(wheel->name) + std::to_string(k);
-      roller.rolls_m = wheel->roller_radius_m;
+      roller.geom = RollerPrefix(wheel->spec.name) + std::to_string(k);
+      roller.rolls_m = wheel->spec.roller_radius_m;
       const int geom = mj_name2id(&m, mjOBJ_GEOM, roller.geom.c_str());
       roller.inverse_mass_pkg = m.body_invweight0[2 * m.geom_bodyid[geom]];
     }
@@ -157,7 +148,8 @@ double RollerHalfLength(const WheelSpec& wheel) {
 
 RobotModel WithRollerWheels(const RobotModel& robot) {
   RobotModel out{SpecPtr(mj_copySpec(robot.mjcf.get())), robot.spec, robot.files, robot.assets, {}};
-  for (const Wheel& wheel : FindWheels(out.mjcf.get(), robot.spec, robot.assets.get())) {
+  const std::vector<Wheel> wheels = FindWheels(out.mjcf.get(), robot.spec, robot.assets.get());
+  for (const Wheel& wheel : wheels) {
     const Vec3 ahead = wheel.axle.cross(wheel.down);
     for (int k = 0; k < kRollers; ++k) {
       const double turn = 2 * kPi * k / kRollers;
@@ -167,7 +159,7 @@ RobotModel WithRollerWheels(const RobotModel& robot) {
     MakeHub(wheel);
     for (mjsGeom* geom : wheel.drawn) mjs_delete(out.mjcf.get(), geom->element);
   }
-  out.feet = OnRollers(robot, *CompileAlone(out));
+  out.feet = OnRollers(robot.feet, wheels, *CompileAlone(out));
   DropLimits(out.spec.measured, "they are of ideal wheels");
   return out;
 }

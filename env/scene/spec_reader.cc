@@ -24,21 +24,16 @@ void ReadCustom(const CompiledRobot& compiled, RobotSpec& robot) {
   robot.max_yaw_rate_radps = compiled.Number("max_yaw_rate_radps", kYawRate_radps);
   robot.max_yaw_accel_radps2 = compiled.Number("max_yaw_accel_radps2", kYawAcceleration_radps2);
   robot.hotel_load_w = compiled.Number("hotel_load_w", kPower_w);
-  const auto is_there = [&](const char* name) {
-    return mj_name2id(compiled.model(), mjOBJ_NUMERIC, name) >= 0;
+  const auto optional = [&](const char* name, const Bounds& rule) {
+    return compiled.OptionalNumber(name, rule).value_or(0);
   };
   const double degree = kPi / 180;
-  if (is_there("cover_forward_deg"))
-    robot.cover_forward_rad = degree * compiled.Number("cover_forward_deg", Between(0, 90));
-  if (is_there("cover_sideways_deg"))
-    robot.cover_sideways_rad = degree * compiled.Number("cover_sideways_deg", Between(0, 90));
-  if (is_there("cover_speed_mps"))
-    robot.cover_speed_mps = compiled.Number("cover_speed_mps", Between(0.001, robot.max_speed_mps));
-  if (is_there("audit_speed_mps"))
-    robot.audit_speed_mps = compiled.Number("audit_speed_mps", Between(0.001, robot.max_speed_mps));
-  if (is_there("audit_dwell_s")) robot.audit_dwell_s = compiled.Number("audit_dwell_s", kDwell_s);
-  if (is_there("audit_sensor_x_m"))
-    robot.audit_sensor_x_m = compiled.Number("audit_sensor_x_m", Between(0, 10));
+  robot.cover_forward_rad = degree * optional("cover_forward_deg", Between(0, 90));
+  robot.cover_sideways_rad = degree * optional("cover_sideways_deg", Between(0, 90));
+  robot.cover_speed_mps = optional("cover_speed_mps", Between(0.001, robot.max_speed_mps));
+  robot.audit_speed_mps = optional("audit_speed_mps", Between(0.001, robot.max_speed_mps));
+  robot.audit_dwell_s = optional("audit_dwell_s", kDwell_s);
+  robot.audit_sensor_x_m = optional("audit_sensor_x_m", Between(0, 10));
 }
 
 // One battery feeds every driver: all have its voltage.
@@ -57,11 +52,11 @@ void ReadBattery(const CompiledRobot& compiled, RobotSpec& robot) {
 // As the model says; else the usual one.
 Standstill ReadStandstill(const CompiledRobot& compiled, double mass_kg) {
   constexpr const char* kKey = "standstill";
-  if (mj_name2id(compiled.model(), mjOBJ_TEXT, kKey) < 0) return UsualStandstill(mass_kg);
-  const std::string text = compiled.Text(kKey);
+  const auto text = compiled.OptionalText(kKey);
+  if (!text) return UsualStandstill(mass_kg);
   for (const Standstill kind : {Standstill::kBrake, Standstill::kHold, Standstill::kFree})
-    if (text == Name(kind)) return kind;
-  throw InputError({compiled.file(), 0}, kKey, text, "must be brake, hold or free");
+    if (*text == Name(kind)) return kind;
+  throw InputError({compiled.file(), 0}, kKey, *text, "must be brake, hold or free");
 }
 
 bool Holds(const Polygon& outer, const Polygon& inner) {

@@ -29,8 +29,6 @@ class WorldGeoms {
   mjsGeom* Add(GeomRole role, double friction, double restitution);
   // The prism: a box where it is one, else a convex mesh.
   mjsGeom* Extrude(const Solid& solid, GeomRole role, double friction, double restitution);
-  // Like this one, for a geom of the robot that has none.
-  std::string FreeName(const std::string& name) const { return geom_names_.For(name); }
   const std::vector<Built>& all() const { return all_; }
 
  private:

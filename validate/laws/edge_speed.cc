@@ -8,7 +8,6 @@
 // Tolerance: 5 %. Wrong wheels or friction move a limit by more.
 #include <fmt/format.h>
 
-#include "validate/bisect.h"
 #include "validate/climb.h"
 #include "validate/law.h"
 
@@ -51,13 +50,14 @@ class EdgeSpeed final : public Law {
     Rig truth(robot);
     const ClimbPlace place = PlaceEdge(truth, false, kRunUp_m + speed_mps * speed_mps / 4);
     const double radius_m = truth.robot().wheels.front().radius_m;
-    return Bisect(0.0, kMost * radius_m, kResolution * radius_m / 4, [&](double height_m) {
-      RigOptions options{.physics = physics, .wrong = wrong};
-      options.hazards.push_back(Ledge(height_m, place.edge_m, false));
-      Rig rig(robot, std::move(options));
-      rig.Command({speed_mps, 0, 0});
-      return Climbs(rig, place.end_m, false, speed_mps);
-    });
+    return HighestClimbed(0, kMost * radius_m, kResolution * radius_m / 4, place, false, speed_mps,
+                          [&](RigOptions options) {
+                            options.physics = physics;
+                            options.wrong = wrong;
+                            Rig rig(robot, std::move(options));
+                            rig.Command({speed_mps, 0, 0});
+                            return rig;
+                          });
   }
 };
 

@@ -57,36 +57,32 @@ double HeightAt(double p, double radius_m, double load_n, const Foot& foot) {
          load_n / foot.tyre.stiffness_npm * std::cos(p);
 }
 
-// The step's height at which the three equations hold; bisection, p from 0 to 90 deg.
-double StaticLimit(const Rows& rows) {
-  const auto excess = [&](double p) {
-    const double s = std::sin(p), c = std::cos(p), h_m = rows.radius_m * (1 - c);
-    const double mu = rows.rollers ? rows.mu * c / std::sqrt(1 + c * c) : rows.mu_rest;
-    const double along = s - mu * c, up = c + mu * s;
-    return (rows.first_m + rows.radius_m * s) * up + h_m * along -
-           rows.last_m * along / rows.mu_rest;
-  };
-  double low = 0, high = kPi / 2;
-  for (int i = 0; i < 50; ++i) {
-    const double middle = (low + high) / 2;
-    (excess(middle) > 0 ? low : high) = middle;
-  }
-  const double s = std::sin(low), c = std::cos(low);
-  const double mu = rows.rollers ? rows.mu * c / std::sqrt(1 + c * c) : rows.mu_rest;
-  const double load_n = rows.weight_n / (c + mu * s + (s - mu * c) / rows.mu_rest);
-  return HeightAt(low, rows.radius_m, load_n / rows.wheels, *rows.foot);
+// The friction coefficient along the way, of a wheel that presses on the edge at p.
+double FrictionAt(const Rows& rows, double p) {
+  if (!rows.rollers) return rows.mu_rest;
+  const double c = std::cos(p);
+  return rows.mu * c / std::sqrt(1 + c * c);
 }
 
-// The highest step climbed, between 0.7 and 1.35 times `about`, to 1 %.
+// The step's height at which the three equations hold, p from 0 to 90 deg.
+double StaticLimit(const Rows& rows) {
+  const double p = Bisect(0.0, kPi / 2, 1e-12, [&](double angle) {
+    const double s = std::sin(angle), c = std::cos(angle), h_m = rows.radius_m * (1 - c);
+    const double mu = FrictionAt(rows, angle), along = s - mu * c, up = c + mu * s;
+    return (rows.first_m + rows.radius_m * s) * up + h_m * along >
+           rows.last_m * along / rows.mu_rest;
+  });
+  const double s = std::sin(p), c = std::cos(p), mu = FrictionAt(rows, p);
+  const double load_n = rows.weight_n / (c + mu * s + (s - mu * c) / rows.mu_rest);
+  return HeightAt(p, rows.radius_m, load_n / rows.wheels, *rows.foot);
+}
+
+// The highest step climbed, to 1 %.
 template <class MakeRig>
 double Climbed(const MakeRig& make_rig, const ClimbPlace& place, bool sideways, double speed_mps,
                double about_m) {
-  return Bisect(0.7 * about_m, 1.35 * about_m, 0.01 * about_m, [&](double height_m) {
-    RigOptions options;
-    options.hazards.push_back(Ledge(height_m, place.edge_m, sideways));
-    Rig rig = make_rig(std::move(options));
-    return Climbs(rig, place.end_m, sideways, speed_mps);
-  });
+  return HighestClimbed(0.7 * about_m, 1.35 * about_m, 0.01 * about_m, place, sideways, speed_mps,
+                        make_rig);
 }
 
 class StepLimit final : public Law {
