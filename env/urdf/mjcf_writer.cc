@@ -205,13 +205,13 @@ class Writer {
     return fmt::format(" user=\"{} {}\"", N(wheel.roller_radius_m), N(wheel.roller_angle_rad));
   }
 
-  // Slack where the wheel is down by its travel; there its stop is, and another as far up.
+  // Its stops are as far down as up from where the wheel stands.
   void Spring(int depth, const WheelSpring& spring) {
     Line(depth,
          fmt::format("<joint type=\"slide\" axis=\"0 0 1\" range=\"{0} {1}\" stiffness=\"{2}\" "
-                     "springref=\"{0}\" damping=\"{3}\"/>  {4}",
+                     "springref=\"{3}\" damping=\"{4}\"/>  {5}",
                      N(-spring.travel_m), N(spring.travel_m), N(spring.stiffness_npm),
-                     N(spring.damping_nspm),
+                     N(spring.slack_m), N(spring.damping_nspm),
                      Comment("its travel: " + guesses_.spring_travel_m.why)));
   }
 

@@ -192,7 +192,8 @@ RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers) {
   if (answers.sprung_share > 0) {
     out.spring_travel_m =
         Take(answers.spring_travel_m, kTravel * sizes.radius_m, "a tenth of the wheel's radius");
-    out.springs = WheelSprings(robot, answers.sprung_share, out.spring_travel_m.value);
+    out.springs = WheelSprings(
+        robot, {answers.sprung_share, out.spring_travel_m.value, answers.spring_preload});
   }
   return out;
 }

@@ -30,6 +30,8 @@ void UrdfAnswers::Visit(ParamVisitor& v) {
     "of the weight, what the driven wheels carry on springs; 0: they are held");
   v("spring_travel_m", spring_travel_m, kSpringTravel_m,
     "how far such a wheel goes down, and up, from where it stands (m); none: guessed");
+  v("spring_preload", spring_preload, Between(0, 0.99),
+    "of a spring's load at rest, what it still pushes with where its wheel hangs lowest");
   v("top_speed_mps", top_speed_mps, kSpeed_mps,
     "the robot's fastest, which its motors reach (m/s); none: guessed");
   v("cruise_mps", cruise_mps, kSpeed_mps, "speed along a plan (m/s); none: guessed");

@@ -23,9 +23,10 @@ Vec3 CentreOfMass(const UrdfRobot& robot) {
 
 }  // namespace
 
-std::vector<WheelSpring> WheelSprings(const UrdfRobot& robot, double share, double travel_m) {
+std::vector<WheelSpring> WheelSprings(const UrdfRobot& robot, const SpringAnswers& answers) {
   const double n = static_cast<double>(robot.wheels.size());
-  const double on_springs_n = (robot.casters.empty() ? 1 : share) * robot.mass_kg() * kGravity_mps2;
+  const double share = robot.casters.empty() ? 1 : answers.share;
+  const double on_springs_n = share * robot.mass_kg() * kGravity_mps2;
   Vec3 mean = Vec3::Zero(), squares = Vec3::Zero();
   for (const UrdfWheel& wheel : robot.wheels) mean += wheel.p_B / n;
   for (const UrdfWheel& wheel : robot.wheels) squares += (wheel.p_B - mean).cwiseAbs2();
@@ -40,8 +41,9 @@ std::vector<WheelSpring> WheelSprings(const UrdfRobot& robot, double share, doub
     // The wheel itself stands on the floor.
     load_n = std::max(load_n - wheel.mass.mass_kg * kGravity_mps2, kLeast * on_springs_n / n);
     WheelSpring spring;
-    spring.travel_m = travel_m;
-    spring.stiffness_npm = load_n / travel_m;
+    spring.travel_m = answers.travel_m;
+    spring.stiffness_npm = (1 - answers.preload) * load_n / spring.travel_m;
+    spring.slack_m = -load_n / spring.stiffness_npm;
     spring.damping_nspm = 2 * kDamping * std::sqrt(spring.stiffness_npm * load_n / kGravity_mps2);
     springs.push_back(spring);
   }

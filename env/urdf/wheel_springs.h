@@ -14,14 +14,20 @@
 
 namespace floorproof {
 
-// A linear spring without preload: slack where the wheel has gone down by its travel, and as much
-// again to its stop upwards.
+// A linear spring. The wheel goes down by its travel, and as much up, to stops. Without preload the
+// spring is slack at the lower stop.
 struct WheelSpring {
   double stiffness_npm = 0, damping_nspm = 0, travel_m = 0;
+  double slack_m = 0;  // where it would push no more; the wheel's place at rest is 0
 };
 
-// One a driven wheel. `share` of the weight, above 0 to 1, is carried by them; all of it where
-// there are no casters.
-std::vector<WheelSpring> WheelSprings(const UrdfRobot& robot, double share, double travel_m);
+struct SpringAnswers {
+  double share = 0;     // of the weight, above 0 to 1; all of it where there are no casters
+  double travel_m = 0;  // one way
+  double preload = 0;   // of its load at rest, what a spring still pushes with at its lower stop
+};
+
+// One a driven wheel.
+std::vector<WheelSpring> WheelSprings(const UrdfRobot& robot, const SpringAnswers& answers);
 
 }  // namespace floorproof

@@ -65,6 +65,30 @@ TEST(WheelSprings, CarryTheShareOfTheWeightThatIsAsked) {
   }
 }
 
+// At rest they carry as much; where the wheel hangs lowest, their preload.
+TEST(WheelSprings, PushWithTheirPreloadWhereTheyHangLowest) {
+  constexpr double kTravel_m = 0.01, kShare = 0.5;
+  for (const double preload : {0.0, 0.5, 0.9}) {
+    UrdfAnswers answers = Sprung(kShare, kTravel_m);
+    answers.spring_preload = preload;
+    const auto file = ConvertedFile(OnTwoBalls(), answers);
+    const ModelPtr m = CompileAlone(ReadRobot(file));
+    int springs = 0;
+    for (int j = 0; j < m->njnt; ++j) {
+      if (m->jnt_type[j] != mjJNT_SLIDE) continue;
+      ++springs;
+      const auto push_n = [&](double q) {
+        return m->jnt_stiffness[j] * (m->qpos_spring[m->jnt_qposadr[j]] - q);
+      };
+      EXPECT_NEAR(push_n(-kTravel_m) / push_n(0), preload, 1e-6);
+    }
+    EXPECT_EQ(springs, 2);
+    // The softer a spring, the less it feels that the casters give.
+    EXPECT_NEAR(CheckRobot(file.string()).drive.driven_share, kShare,
+                0.025 * (1 - preload) + 0.001);
+  }
+}
+
 // It stands level and at its height, though its mass is nearer to the front wheels.
 TEST(WheelSprings, CarryARobotWithoutCastersLevel) {
   const RobotCheck dut = CheckRobot(ConvertedFile(OnFourWheels(), Sprung(0.5, 0.006)).string());
