@@ -4,8 +4,13 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
 #include <iterator>
+#include <limits>
+#include <utility>
+#include <vector>
 
 #include "tests/places.h"
 #include "tests/real_robots/measured_figures.h"
@@ -24,6 +29,9 @@ const std::string& Page() {
   }();
   return page;
 }
+
+// Loaded robots are driven no faster.
+constexpr double kLoaded_mps = 0.3;
 
 std::string Text(const FoundLimit& limit) {
   return fmt::format("{}{}", limit.size, limit.above_all ? " or more" : "");
@@ -75,6 +83,112 @@ TEST_P(RealRobotStudy, ThePageSaysWhatMovesIt) {
                           "| {} | {} | {} | {} | {} | {} | {} |\n", robot().name,
                           both({.friction = 0.6}, ""), both({.friction = 1.0}, ""),
                           both({.oblique_deg = 3}, ""), sprung(0), sprung(0.5), sprung(2))));
+}
+
+// What makers do not publish, as it may be. Springs of driven wheels between casters: as the
+// answers say, with half and twice their travel, of nearly the same force all along it (as a rocker
+// keeps a wheel's share), and, loaded, those that were made for the robot without its load. Motors:
+// as the answers say, and twice as strong.
+struct Unpublished {
+  const char* name;
+  double travel_factor = 1, preload = 0;
+  bool springs_for_load = true;
+  double motors = 1;
+};
+constexpr Unpublished kAsAssumed = {"as assumed"};
+constexpr Unpublished kSprings[] = {{"half the travel", 0.5},
+                                    {"twice the travel", 2},
+                                    {"rocker", 1, 0.9},
+                                    {"springs of the empty robot", 1, 0, false}};
+constexpr Unpublished kStrongMotors = {"motors twice as strong", 1, 0, true, 2};
+
+std::vector<Unpublished> UnpublishedOf(const RealRobot& robot) {
+  std::vector<Unpublished> all = {kAsAssumed};
+  const double share = AnswersOf(robot).sprung_share;
+  if (share > 0 && share < 1) all.insert(all.end(), std::begin(kSprings), std::end(kSprings));
+  if (!robot.motor_data) all.push_back(kStrongMotors);
+  return all;
+}
+
+std::filesystem::path FileOf(const RealRobot& robot, const Unpublished& as, Load load) {
+  const UrdfAnswers answers = AnswersOf(robot);
+  std::string more;
+  if (answers.sprung_share > 0) {
+    const double empty = robot.mass_kg / (robot.mass_kg + robot.payload_kg);
+    const double share =
+        answers.sprung_share * (load == Load::kRated && !as.springs_for_load ? empty : 1);
+    more = fmt::format("sprung_share: {}, spring_travel_m: {}, spring_preload: {}", share,
+                       as.travel_factor * *answers.spring_travel_m, as.preload);
+  }
+  if (as.motors != 1)
+    more += fmt::format("{}stall_nm: {}, peak_nm: {}", more.empty() ? "" : ", ",
+                        as.motors * *answers.stall_nm,
+                        as.motors * answers.peak_nm.value_or(*answers.stall_nm));
+  return MjcfFile(robot, more, load);
+}
+
+// Which loads the maker's limit holds for.
+bool Holds(const RealRobot& robot, Load load) {
+  return load == Load::kNone || !robot.stated_unloaded;
+}
+
+// What is said of a maker's limit, from all that may be as it is not published.
+class Prediction {
+ public:
+  // Found at one speed on one friction; `base`: creeping on friction 0.8.
+  void Add(const FoundLimit& limit, Load load, bool base) {
+    least_ = std::min(least_, limit.size);
+    greatest_ = std::max(greatest_, limit.size);
+    if (!base) return;
+    auto& [low, high] = base_[static_cast<std::size_t>(load)];
+    low = std::min(low, limit.size);
+    high = std::max(high, limit.size);
+  }
+  std::string Row(const RealRobot& robot) const {
+    const std::string row =
+        fmt::format("| {} | {} {:.0f}{} | {} to {} |", robot.name, robot.stated_as, robot.stated_mm,
+                    robot.stated_unloaded ? ", no load" : "", least_, greatest_);
+    // Unknown where what is not published moves the limit by more than a half.
+    for (const auto& [low, high] : base_)
+      if (high > 1.5 * low) return row + " unknown | - |\n";
+    const double middle = std::sqrt(least_ * greatest_);
+    return row +
+           fmt::format(" {:.1f} | {:+.0f} % |\n", middle, 100 * (middle / robot.stated_mm - 1));
+  }
+
+ private:
+  double least_ = kNone, greatest_ = 0;
+  std::array<std::pair<double, double>, 2> base_ = {{{kNone, 0}, {kNone, 0}}};  // by load
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+};
+
+// Without a load and with the rated one: creeping and at 0.3 m/s, on friction 0.8 and 1.0 each.
+TEST_P(RealRobotStudy, ThePageHasItsStepsWithALoad) {
+  Prediction prediction;
+  for (const Unpublished& as : UnpublishedOf(robot())) {
+    std::string row = fmt::format("| {} | {} |", robot().name, as.name);
+    for (const Load load : {Load::kNone, Load::kRated}) {
+      if (load == Load::kNone && !as.springs_for_load) {
+        row += " | |";
+        continue;
+      }
+      const auto file = FileOf(robot(), as, load);
+      for (const double speed_mps : {kCreep_mps, std::min(kLoaded_mps, robot().top_mps)}) {
+        std::string both;
+        for (const double friction : {0.8, 1.0}) {
+          const FoundLimit limit =
+              LimitOf(file, robot().stated_as, {.speed_mps = speed_mps, .friction = friction});
+          both += (both.empty() ? " " : ", ") + Text(limit);
+          if (Holds(robot(), load))
+            prediction.Add(limit, load, speed_mps == kCreep_mps && friction == 0.8);
+        }
+        row += both + " |";
+      }
+    }
+    EXPECT_THAT(Page(), HasSubstr(row + "\n"));
+  }
+  if (robot().stated_mm == 0) return;
+  EXPECT_THAT(Page(), HasSubstr(prediction.Row(robot())));
 }
 
 // What was measured to find why figures differ from what the makers state.
