@@ -44,7 +44,7 @@ void AddCells(const std::string& name, const RobotSpec& robot, const std::string
 }
 
 // Roller wheels take about so many times longer.
-double CostOf(const LadderCell& cell) { return cell.wheels == "rollers" ? 12 : 1; }
+double CostOf(const LadderCell& cell) { return cell.wheels == "rollers" ? 4 : 1; }
 
 std::string CsvRow(const LadderRow& row) {
   const LadderCell& cell = row.cell;
