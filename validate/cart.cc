@@ -38,4 +38,13 @@ RobotModel MakeCart(const Cart& cart) {
   return out;
 }
 
+void Coast(Rig& rig, const Cart& cart, double speed_mps, double floor_m) {
+  mjModel* m = rig.sim().model();
+  m->opt.disableflags |= mjDSBL_ACTUATION;
+  std::fill_n(m->dof_frictionloss, m->nv, 0.0);
+  for (int a = 0; a < m->nu; ++a)
+    rig.data()->qvel[m->jnt_dofadr[m->actuator_trnid[2 * a]]] = speed_mps / cart.wheel_radius_m;
+  rig.SetBase({0, 0, floor_m}, Eigen::Quaterniond::Identity(), {speed_mps, 0, 0});
+}
+
 }  // namespace floorproof

@@ -24,4 +24,8 @@ inline constexpr double kNoseHalfWidth_m = 0.14;
 // Named "cart"; its wheels hold the speeds commanded.
 RobotModel MakeCart(const Cart& cart);
 
+// From now on its motors give nothing and its bearings do not rub; it rolls at this speed, on a
+// floor of this height.
+void Coast(Rig& rig, const Cart& cart, double speed_mps, double floor_m = 0);
+
 }  // namespace floorproof

@@ -45,4 +45,21 @@ bool Climbs(Rig& rig, double end_m, bool sideways, double speed_mps) {
   return true;
 }
 
+double HighestStep(const std::string& robot, double speed_mps, const PhysicsParams& physics,
+                   const WrongModel& wrong) {
+  constexpr double kMost = 1.2, kResolution = 0.0025;  // of the wheels' radius
+  constexpr double kRunUp_m = 0.05;
+  Rig truth(robot);
+  const ClimbPlace place = PlaceEdge(truth, false, kRunUp_m + speed_mps * speed_mps / 4);
+  const double radius_m = truth.robot().wheels.front().radius_m;
+  return HighestClimbed(0, kMost * radius_m, kResolution * radius_m, place, false, speed_mps,
+                        [&](RigOptions options) {
+                          options.physics = physics;
+                          options.wrong = wrong;
+                          Rig rig(robot, std::move(options));
+                          rig.Command({speed_mps, 0, 0});
+                          return rig;
+                        });
+}
+
 }  // namespace floorproof

@@ -2,6 +2,7 @@
 // A robot driven against the edge of a raised floor.
 #pragma once
 
+#include <string>
 #include <utility>
 
 #include "validate/bisect.h"
@@ -36,5 +37,11 @@ double HighestClimbed(double low_m, double high_m, double resolution_m, const Cl
     return Climbs(rig, place.end_m, sideways, speed_mps);
   });
 }
+
+// The highest step, up to 1.2 times the radius of its wheels, that a robot climbs forward at a
+// commanded speed after a run-up in which it gathers it, m: to a quarter of a hundredth of that
+// radius.
+double HighestStep(const std::string& robot, double speed_mps, const PhysicsParams& physics,
+                   const WrongModel& wrong = {});
 
 }  // namespace floorproof

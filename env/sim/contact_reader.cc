@@ -55,30 +55,44 @@ ContactReader::ContactReader(const Scene& scene, const HazardMap& map, const Rob
   belly_n_.resize(map.hazards.size() + 1);
 }
 
+void ContactReader::Begin(int parts, Truth& truth) {
+  parts_ = parts;
+  truth.num_contacts = truth.num_touches = 0;
+}
+
+void ContactReader::ReadPart(const mjModel* m, const mjData* d, Truth& truth) {
+  for (Pair& pair : pairs_) pair.met = false;
+  for (const bool wheels : {false, true})
+    for (int i = 0; i < d->ncon; ++i) {
+      Contact contact;
+      if (Understand(m, d, i, contact) && contact.wheel == wheels)
+        AddDeed(m, d, contact, m->opt.timestep, truth);
+    }
+}
+
 void ContactReader::Read(const mjModel* m, const mjData* d, std::span<const Vec3> lowest_W,
                          Truth& truth) {
   truth.belly_load_n = truth.driven_load_n = 0;
-  truth.wheel_contacts = truth.num_contacts = truth.num_touches = 0;
+  truth.wheel_contacts = 0;
   truth.near_hazard = -1;
   support_.clear();
   support_z_m_ = load_n_ = 0;
   load_nm_.setZero();
   side_n_.setZero();
   std::ranges::fill(belly_n_, 0.0);
+  for (Pair& pair : pairs_) pair.met = false;
   // The body's contacts first: where there are more than a sample holds, wheels are left out.
   for (const bool wheels : {false, true})
     for (int i = 0; i < d->ncon; ++i) {
       Contact contact;
       if (!Understand(m, d, i, contact) || contact.wheel != wheels) continue;
       if (contact.world.hazard >= 0) truth.near_hazard = contact.world.hazard;
-      if (contact.world.hazard >= 0 || contact.world.kind == GeomRole::Kind::kWall)
-        AddTouch(contact, truth);
+      AddDeed(m, d, contact, m->opt.timestep / parts_, truth);
       const double nz = contact.normal_W.z();
       const bool carries = nz > (wheels ? kWedged : kSteep);
       truth.wheel_contacts += wheels ? 1 : 0;
       if (wheels) AddFooting(m, contact, truth);
       if (!wheels && nz > kWedged) AddBellyLoad(contact, truth);
-      if (nz <= kSteep) AddObstacle(m, d, contact, truth);
       if (!carries)
         AddLoad(contact);
       else if (wheels || contact.normal_n > 0)
@@ -141,6 +155,13 @@ int ContactReader::CutAt(const Vec2& p_W) const {
   return -1;
 }
 
+void ContactReader::AddDeed(const mjModel* m, const mjData* d, const Contact& contact,
+                            double part_s, Truth& truth) {
+  if (contact.world.hazard >= 0 || contact.world.kind == GeomRole::Kind::kWall)
+    AddTouch(contact, truth);
+  if (contact.normal_W.z() <= kSteep) AddObstacle(m, d, contact, part_s, truth);
+}
+
 void ContactReader::AddTouch(const Contact& contact, Truth& truth) const {
   const auto end = truth.touches.begin() + truth.num_touches;
   auto touch = std::find_if(truth.touches.begin(), end,
@@ -150,19 +171,50 @@ void ContactReader::AddTouch(const Contact& contact, Truth& truth) const {
     ++truth.num_touches;
     *touch = {contact.world.hazard, {}, {}};
   }
-  const Vec3 arm_W = contact.p_W - truth.p_WB, push_W_n = contact.normal_n * contact.normal_W;
+  const double share = 1.0 / parts_;
+  const Vec3 arm_W = contact.p_W - truth.p_WB;
+  const Vec3 push_W_n = share * contact.normal_n * contact.normal_W;
+  const Vec3 rub_W_n = share * contact.friction_W_n;
   touch->normal += {push_W_n, arm_W.cross(push_W_n)};
-  touch->friction += {contact.friction_W_n, arm_W.cross(contact.friction_W_n)};
+  touch->friction += {rub_W_n, arm_W.cross(rub_W_n)};
 }
 
 void ContactReader::AddObstacle(const mjModel* m, const mjData* d, const Contact& contact,
-                                Truth& truth) const {
+                                double part_s, Truth& truth) {
   Vec2 normal_W = contact.normal_W.head<2>();
-  if (truth.num_contacts == Truth::kMaxContacts || normal_W.norm() < 1e-9) return;
+  if (normal_W.norm() < 1e-9) return;
   normal_W.normalize();
-  // Of what touches, at the point of touch: a body that pitches at the impact moves otherwise there
-  // than at its origin, and a block that swings otherwise than the robot. A wheel moves as the
-  // block that carries it, whatever its tread does. Velocities by body are those before the step.
+  // The same contact of an earlier part, or a new one.
+  const int* geoms = contact.raw->geom;
+  const auto end = pairs_.begin() + truth.num_contacts;
+  const auto pair = std::find_if(pairs_.begin(), end, [&](const Pair& p) {
+    return !p.met && p.geom[0] == geoms[0] && p.geom[1] == geoms[1];
+  });
+  if (pair == pairs_.end()) return;
+  pair->met = true;
+  ObstacleContact& out = truth.contacts[static_cast<std::size_t>(pair - pairs_.begin())];
+  if (pair == end) {
+    ++truth.num_contacts;
+    *pair = {{geoms[0], geoms[1]}, true};
+    out = {};
+    out.closing_mps = ClosingSpeed(m, d, contact, normal_W);
+  }
+  out.hazard = contact.world.hazard;
+  if (out.hazard < 0 && contact.world.kind != GeomRole::Kind::kWall)
+    out.hazard = ObstacleContact::kFloor;
+  out.p_W = contact.p_W.head<2>();
+  out.normal_W = normal_W;
+  out.block = block_of_[static_cast<std::size_t>(m->geom_bodyid[contact.geom])];
+  out.impulse_ns += contact.normal_n * part_s;
+  out.height_m = contact.p_W.z();
+  out.wheel = contact.wheel;
+}
+
+// Of what touches, at the point of touch: a body that pitches at the impact moves otherwise there
+// than at its origin, and a block that swings otherwise than the robot. A wheel moves as the block
+// that carries it, whatever its tread does. Velocities by body are those before the step.
+double ContactReader::ClosingSpeed(const mjModel* m, const mjData* d, const Contact& contact,
+                                   const Vec2& normal_W) const {
   const int touching = m->geom_bodyid[contact.geom];
   const int block = block_of_[static_cast<std::size_t>(touching)];
   const int body =
@@ -171,18 +223,7 @@ void ContactReader::AddObstacle(const mjModel* m, const mjData* d, const Contact
   mj_objectVelocity(m, d, mjOBJ_XBODY, body, V_W, 0);
   const Vec3 w_W(V_W[0], V_W[1], V_W[2]), v_W(V_W[3], V_W[4], V_W[5]);
   const Vec3 r_W = contact.p_W - Vec3(d->xpos + 3 * body);
-
-  ObstacleContact& out = truth.contacts[static_cast<std::size_t>(truth.num_contacts++)];
-  out.hazard = contact.world.hazard;
-  if (out.hazard < 0 && contact.world.kind != GeomRole::Kind::kWall)
-    out.hazard = ObstacleContact::kFloor;
-  out.p_W = contact.p_W.head<2>();
-  out.normal_W = normal_W;
-  out.block = block;
-  out.closing_mps = -Vec3(v_W + w_W.cross(r_W)).head<2>().dot(normal_W);
-  out.impulse_ns = contact.normal_n * m->opt.timestep;
-  out.height_m = contact.p_W.z();
-  out.wheel = contact.wheel;
+  return -Vec3(v_W + w_W.cross(r_W)).head<2>().dot(normal_W);
 }
 
 void ContactReader::AddBellyLoad(const Contact& contact, Truth& truth) {

@@ -143,7 +143,7 @@ void Simulation::Settle(const Pose2& X_WB, double t_s) {
   SetDriverVoltages();
   while (d->time < kSettle_s) {
     live_.Update(d);
-    fine_steps_.Walk(model(), d, fine_steps_.OnFloor(model()));
+    FineSteps::Walk(model(), d, fine_steps_.OnFloor(model()), [] {});
   }
   if (load_kg > 0) {
     altered_.payload_kg = load_kg;
@@ -159,6 +159,7 @@ void Simulation::Settle(const Pose2& X_WB, double t_s) {
   ForwardEngine(model(), d);
   ReadPose();
   contacts_.Reset();
+  contacts_.Begin(1, truth_);
   contacts_.Read(model(), data_.get(), lowest_W_, truth_);
   ReadPower(0);
 }
@@ -188,7 +189,9 @@ bool Simulation::Step() {
   if (hold_.Update(own_.get(), live_.model(), data_.get(), cut_)) live_.Refresh();
   live_.Update(data_.get());
   parts_ = fine_steps_.Parts(model(), data_.get(), truth_);
-  fine_steps_.Walk(model(), data_.get(), parts_);
+  contacts_.Begin(parts_, truth_);
+  FineSteps::Walk(model(), data_.get(), parts_,
+                  [this] { contacts_.ReadPart(model(), data_.get(), truth_); });
   ReadPose();
   contacts_.Read(model(), data_.get(), lowest_W_, truth_);
   ReadPower(model()->opt.timestep);

@@ -15,6 +15,7 @@
 #include "tests/places.h"
 #include "tests/real_robots/measured_figures.h"
 #include "tests/real_robots/real_robots.h"
+#include "validate/climb.h"
 #include "validate/robot_check.h"
 
 namespace floorproof {
@@ -222,6 +223,20 @@ TEST(RealRobotReasons, StatedStepsAreInPhysicsOrder) {
     const double step_mm = LimitOf(MjcfFile(robot), "step", {.speed_mps = robot.top_mps}).size;
     EXPECT_GT(step_mm, below_mm) << name;
     below_mm = step_mm;
+  }
+}
+
+// As of the bundled robots (the law edge_speed): half the time step moves no limit by more than 5
+// %.
+TEST(RealRobotSteps, DoNotDependOnTheTimeStep) {
+  for (const char* name : {"kobuki", "nova_carter", "scout_mini"}) {
+    const RealRobot& robot = *std::ranges::find(RealRobots(), name, &RealRobot::name);
+    const std::string file = MjcfFile(robot).string();
+    for (const double speed_mps : {0.1, 0.3, 0.6, 1.0}) {
+      if (speed_mps > robot.top_mps) continue;
+      const double fine_m = HighestStep(file, speed_mps, {.timestep_s = 0.002});
+      EXPECT_NEAR(HighestStep(file, speed_mps, {}), fine_m, 0.05 * fine_m) << name << speed_mps;
+    }
   }
 }
 

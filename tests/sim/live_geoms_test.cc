@@ -95,7 +95,7 @@ struct Twins {
   // One step of both; whether their states are the same bits.
   bool Step() {
     EXPECT_TRUE(sim.Step());
-    walk.Walk(whole.model.get(), data.get(), sim.parts());
+    FineSteps::Walk(whole.model.get(), data.get(), sim.parts(), [] {});
     const auto same = [](const mjtNum* a, const mjtNum* b, mjtSize n) {
       return std::memcmp(a, b, static_cast<std::size_t>(n) * sizeof(mjtNum)) == 0;
     };

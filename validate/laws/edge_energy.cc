@@ -35,7 +35,6 @@ class EdgeEnergy final : public Law {
   }
 
  private:
-  // Its motors give nothing, and its bearings do not rub.
   static double Excess(double tyre_npmm, double speed_mps, bool up, const WrongModel& wrong) {
     constexpr double kDrive_s = 1;
     const Cart cart{.tyre_npmm = tyre_npmm};
@@ -45,12 +44,8 @@ class EdgeEnergy final : public Law {
     options.hazards.push_back(up ? Ledge(kHeight_m, edge_m, false)
                                  : Prism("ledge", Rectangle({-8, -8}, {edge_m, 8}), {}, kHeight_m));
     Rig rig(MakeCart(cart), std::move(options));
-    mjModel* m = rig.sim().model();
-    m->opt.disableflags |= mjDSBL_ACTUATION;
-    std::fill_n(m->dof_frictionloss, m->nv, 0.0);
-    for (int a = 0; a < m->nu; ++a)
-      rig.data()->qvel[m->jnt_dofadr[m->actuator_trnid[2 * a]]] = speed_mps / cart.wheel_radius_m;
-    rig.SetBase({0, 0, up ? 0 : kHeight_m}, Eigen::Quaterniond::Identity(), {speed_mps, 0, 0});
+    Coast(rig, cart, speed_mps, up ? 0 : kHeight_m);
+    const mjModel* m = rig.sim().model();
     const DataPtr copy = MakeData(m);
     const mjtNum* com = copy->subtree_com + 3 * rig.scene().base_body;
     const auto kinetic_j = [&] {

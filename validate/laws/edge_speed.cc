@@ -14,9 +14,7 @@
 namespace floorproof {
 namespace {
 
-constexpr double kShare = 0.05, kResolution = 0.01;
-constexpr double kMost = 1.2;      // of the wheels' radius
-constexpr double kRunUp_m = 0.05;  // and as much more as it takes to gather speed
+constexpr double kShare = 0.05;
 
 class EdgeSpeed final : public Law {
  public:
@@ -40,24 +38,9 @@ class EdgeSpeed final : public Law {
  private:
   static void Compare(const std::string& robot, double speed_mps, const WrongModel& wrong,
                       std::vector<LawRow>& rows) {
-    const double fine_mm = 1000 * LimitOf(robot, speed_mps, {.timestep_s = 0.002}, {});
+    const double fine_mm = 1000 * HighestStep(robot, speed_mps, {.timestep_s = 0.002});
     rows.push_back({fmt::format("edge_speed/{}/{}mps", robot, speed_mps), fine_mm,
-                    1000 * LimitOf(robot, speed_mps, {}, wrong), kShare * fine_mm, "mm"});
-  }
-
-  static double LimitOf(const std::string& robot, double speed_mps, const PhysicsParams& physics,
-                        const WrongModel& wrong) {
-    Rig truth(robot);
-    const ClimbPlace place = PlaceEdge(truth, false, kRunUp_m + speed_mps * speed_mps / 4);
-    const double radius_m = truth.robot().wheels.front().radius_m;
-    return HighestClimbed(0, kMost * radius_m, kResolution * radius_m / 4, place, false, speed_mps,
-                          [&](RigOptions options) {
-                            options.physics = physics;
-                            options.wrong = wrong;
-                            Rig rig(robot, std::move(options));
-                            rig.Command({speed_mps, 0, 0});
-                            return rig;
-                          });
+                    1000 * HighestStep(robot, speed_mps, {}, wrong), kShare * fine_mm, "mm"});
   }
 };
 
