@@ -351,7 +351,7 @@ class BounceBack final : public Detector {
   }
 
   double closing_mps_ = 0.05, rebound_mps_ = 0.025, rebound_share_ = 0.15, wheel_share_ = 0.5,
-         part_m_ = 0.002, window_s_ = 1.0;
+         part_m_ = 0.001, window_s_ = 1.0;
   double timestep_s_ = 0.004;
 
   const HazardMap* map_ = nullptr;

@@ -130,8 +130,8 @@ TEST(BounceBack, TheWayOutOfASoftContactIsNone) {
     };
     return Events(DriveInto(hit)).size();
   };
-  EXPECT_EQ(rebound(0.0034), 0u);
-  EXPECT_EQ(rebound(0.0038), 1u);
+  EXPECT_EQ(rebound(0.0024), 0u);
+  EXPECT_EQ(rebound(0.0028), 1u);
 }
 
 TEST(BounceBack, FarBackIsOneHoweverSlowlyItComesOff) {

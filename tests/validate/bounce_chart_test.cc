@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A livelier pane throws a robot back faster, and so does a faster approach, but never faster than
-// it came. A dead pane hardly ever throws it back.
+// it came. A dead pane never throws it back.
 #include "validate/bounce_chart.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 TEST(BounceChart, MovesWithRestitutionAndSpeed) {
   const auto rows = BounceChart(1);
   ASSERT_FALSE(rows.empty());
-  int dead = 0, dead_reported = 0;
+  int dead_reported = 0;
   for (const BounceRow& row : rows) {
     const auto like = [&](double restitution, double speed_mps) {
       for (const BounceRow& other : rows)
@@ -30,7 +30,6 @@ TEST(BounceChart, MovesWithRestitutionAndSpeed) {
     };
     SCOPED_TRACE(BounceCsv({&row, 1}));
     EXPECT_NEAR(row.closing_mps, row.speed_mps, 0.02);
-    dead += row.restitution == 0;
     dead_reported += row.restitution == 0 && row.bounce_back;
     // Slower ones are stopped by their own wheels before they have come off the pane.
     if (row.restitution >= 0.5 && row.speed_mps > 0.1) {
@@ -48,7 +47,7 @@ TEST(BounceChart, MovesWithRestitutionAndSpeed) {
       EXPECT_LT(row.rebound_mps, row.closing_mps);
     }
   }
-  EXPECT_LE(dead_reported, dead / 20) << "a dead pane throws hardly anything back";
+  EXPECT_EQ(dead_reported, 0) << "a dead pane throws nothing back";
 }
 
 // Whether this face, met at so many degrees off square, throws the robot back.
@@ -79,21 +78,18 @@ bool ThrowsBack(const std::string& robot, double height_m, double restitution, d
 
 // Walls, kerbs that the body meets, kerbs that the wheels meet; square and aslant.
 TEST(BounceChart, DeadFacesThrowNothingBackAndLivelyOnesDo) {
-  int dead = 0, dead_reported = 0, lively = 0, lively_reported = 0;
+  int dead_reported = 0, lively = 0, lively_reported = 0;
   for (const std::string& robot : {std::string("beluga"), std::string("htetro")})
     for (const double height_m : {1.0, 0.06, 0.04})
       for (const double friction : {0.4, 0.8})
         for (const double speed_mps : {0.06, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4}) {
-          for (const double aslant_deg : {0.0, 10.0}) {
-            ++dead;
+          for (const double aslant_deg : {0.0, 10.0})
             dead_reported += ThrowsBack(robot, height_m, 0, aslant_deg, speed_mps, friction);
-          }
           if (speed_mps < 0.2) continue;
           ++lively;
           lively_reported += ThrowsBack(robot, height_m, 0.7, 0, speed_mps, friction);
         }
-  RecordProperty("dead_reported", dead_reported);
-  EXPECT_LE(dead_reported, dead / 50) << "of " << dead;
+  EXPECT_EQ(dead_reported, 0);
   EXPECT_EQ(lively_reported, lively);
 }
 
