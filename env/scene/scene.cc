@@ -22,8 +22,9 @@ constexpr double kThinnest_m = 1e-5;
 
 class SceneBuilder {
  public:
-  SceneBuilder(const HazardMap& map, const RobotModel& robot, const Looks& looks, mjSpec* spec)
-      : world(map, spec),
+  SceneBuilder(const HazardMap& map, const RobotModel& robot, const ContactWalk& walk,
+               const Looks& looks, mjSpec* spec)
+      : world(map, walk, spec),
         map_(map),
         looks_(looks),
         robot_(robot.spec),
@@ -131,6 +132,13 @@ int EdgeSteps(const std::vector<Foot>& feet, double timestep_s) {
   return static_cast<int>(std::clamp(steps, 1.0, kMost));
 }
 
+// How the engine walks through a contact: with `implicitfast` every step is divided
+// (fine_steps.h).
+ContactWalk WalkOf(const PhysicsParams& physics, int edge_steps) {
+  const bool implicit = physics.integrator == "discrete";
+  return {implicit ? physics.timestep_s : physics.timestep_s / edge_steps, implicit};
+}
+
 // A robot's file does not rule the world: gravity and wind, solver and its scale, memory, looks.
 void TakeDefaults(mjSpec* spec) {
   const SpecPtr fresh(mj_makeSpec());
@@ -195,7 +203,8 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
   PlaceRobot(scene.spec.get(), start);
   ReserveEdgeMemory(scene.spec.get());
   const Looks looks = AddLooks(map.frame, scene.spec.get());
-  SceneBuilder builder(map, robot, looks, scene.spec.get());
+  scene.edge_steps = EdgeSteps(robot.feet, physics.timestep_s);
+  SceneBuilder builder(map, robot, WalkOf(physics, scene.edge_steps), looks, scene.spec.get());
   builder.Floor();
   builder.Walls(start.p(), walls);
   builder.Hazards();
@@ -204,7 +213,6 @@ Scene BuildScene(const HazardMap& map, const RobotModel& robot, const PhysicsPar
   InstallEdgeCollider();
   scene.model = CompileSpec(scene.spec.get(), robot.assets.get());
   InflateWheelBounds(scene.model.get());
-  scene.edge_steps = EdgeSteps(robot.feet, physics.timestep_s);
 
   const mjModel* m = scene.model.get();
   scene.base_body = mj_name2id(m, mjOBJ_BODY, "base");

@@ -20,8 +20,9 @@ bool IsRectangle(const Polygon& p) {
 
 }  // namespace
 
-WorldGeoms::WorldGeoms(const HazardMap& map, mjSpec* spec)
+WorldGeoms::WorldGeoms(const HazardMap& map, const ContactWalk& walk, mjSpec* spec)
     : map_(map),
+      walk_(walk),
       spec_(spec),
       world_(mjs_findBody(spec, "world")),
       geom_names_(spec, mjOBJ_GEOM),
@@ -35,11 +36,9 @@ mjsGeom* WorldGeoms::Add(GeomRole role, double friction, double restitution) {
   geom->condim = 3;
   geom->priority = 1;  // what is met rules over the robot's own friction and softness
   geom->friction[0] = friction;
-  const ContactSoftness softness =
-      role.kind == GeomRole::Kind::kFloor
-          ? ContactSoftness{kTimeConstant_s, 1}
-          : SoftnessFor(restitution,
-                        {spec_->option.timestep, spec_->option.integrator == mjINT_DISCRETE});
+  const ContactSoftness softness = role.kind == GeomRole::Kind::kFloor
+                                       ? ContactSoftness{kTimeConstant_s, 1}
+                                       : SoftnessFor(restitution, walk_);
   geom->solref[0] = softness.time_constant_s;
   geom->solref[1] = softness.damping_ratio;
   std::copy(std::begin(kSolimp), std::end(kSolimp), geom->solimp);

@@ -9,6 +9,7 @@
 
 #include "env/core/hazard_map.h"
 #include "env/scene/free_names.h"
+#include "env/scene/restitution.h"
 #include "env/scene/scene.h"
 
 namespace floorproof {
@@ -23,7 +24,7 @@ class WorldGeoms {
     GeomRole role;
   };
   // Both outlive it. The robot is in `spec` already: names make way for its own.
-  WorldGeoms(const HazardMap& map, mjSpec* spec);
+  WorldGeoms(const HazardMap& map, const ContactWalk& walk, mjSpec* spec);
 
   // A geom of no shape yet.
   mjsGeom* Add(GeomRole role, double friction, double restitution);
@@ -35,6 +36,7 @@ class WorldGeoms {
   std::string Name(const GeomRole& role) const;
 
   const HazardMap& map_;
+  ContactWalk walk_;
   mjSpec* spec_;
   mjsBody* world_;
   FreeNames geom_names_, mesh_names_;

@@ -9,9 +9,6 @@ namespace floorproof {
 namespace {
 
 constexpr std::size_t kMaxSupports = 64;
-// A contact whose normal stands steeper than this carries; one flatter than that obstructs.
-constexpr double kSteep = 0.7;
-constexpr double kWedged = 0.3;      // a wheel in a groove stands on rims as steep as this
 constexpr double kBeside_m = 0.005;  // into the gap beside a slab's side
 constexpr double kBelow_m = 0.005;   // below the floor a wheel hangs in something
 constexpr double kHangs = 0.05;      // least share of the belly's load on a hazard
@@ -55,49 +52,53 @@ ContactReader::ContactReader(const Scene& scene, const HazardMap& map, const Rob
   belly_n_.resize(map.hazards.size() + 1);
 }
 
-void ContactReader::Begin(int parts, Truth& truth) {
+void ContactReader::BeginStep(int parts, Truth& truth) {
   parts_ = parts;
+  origin_W_ = truth.p_WB;
   truth.num_contacts = truth.num_touches = 0;
-}
-
-void ContactReader::ReadPart(const mjModel* m, const mjData* d, Truth& truth) {
-  for (Pair& pair : pairs_) pair.met = false;
-  for (const bool wheels : {false, true})
-    for (int i = 0; i < d->ncon; ++i) {
-      Contact contact;
-      if (Understand(m, d, i, contact) && contact.wheel == wheels)
-        AddDeed(m, d, contact, m->opt.timestep, truth);
-    }
-}
-
-void ContactReader::Read(const mjModel* m, const mjData* d, std::span<const Vec3> lowest_W,
-                         Truth& truth) {
   truth.belly_load_n = truth.driven_load_n = 0;
-  truth.wheel_contacts = 0;
-  truth.near_hazard = -1;
-  support_.clear();
-  support_z_m_ = load_n_ = 0;
+  load_n_ = 0;
   load_nm_.setZero();
   side_n_.setZero();
   std::ranges::fill(belly_n_, 0.0);
-  for (Pair& pair : pairs_) pair.met = false;
-  // The body's contacts first: where there are more than a sample holds, wheels are left out.
+}
+
+template <class Use>
+void ContactReader::ForEachContact(const mjModel* m, const mjData* d, const Use& use) const {
+  const auto is_wheel = [this](int geom) {
+    return scene_.roles[static_cast<std::size_t>(geom)].kind == GeomRole::Kind::kWheel;
+  };
   for (const bool wheels : {false, true})
     for (int i = 0; i < d->ncon; ++i) {
+      const mjContact& c = d->contact[i];
+      if ((is_wheel(c.geom[0]) || is_wheel(c.geom[1])) != wheels) continue;
       Contact contact;
-      if (!Understand(m, d, i, contact) || contact.wheel != wheels) continue;
-      if (contact.world.hazard >= 0) truth.near_hazard = contact.world.hazard;
-      AddDeed(m, d, contact, m->opt.timestep / parts_, truth);
-      const double nz = contact.normal_W.z();
-      const bool carries = nz > (wheels ? kWedged : kSteep);
-      truth.wheel_contacts += wheels ? 1 : 0;
-      if (wheels) AddFooting(m, contact, truth);
-      if (!wheels && nz > kWedged) AddBellyLoad(contact, truth);
-      if (!carries)
-        AddLoad(contact);
-      else if (wheels || contact.normal_n > 0)
-        AddSupport(contact.p_W);
+      if (Understand(m, d, i, wheels, contact)) use(contact);
     }
+}
+
+void ContactReader::ReadPart(const mjModel* m, const mjData* d, Truth& truth) {
+  for (Record& record : records_) record.seen_in_part = false;
+  ForEachContact(m, d,
+                 [&](const Contact& contact) { AddForces(m, d, contact, m->opt.timestep, truth); });
+}
+
+void ContactReader::ReadLastPart(const mjModel* m, const mjData* d, std::span<const Vec3> lowest_W,
+                                 Truth& truth) {
+  truth.wheel_contacts = 0;
+  truth.near_hazard = -1;
+  support_.clear();
+  support_z_m_ = 0;
+  for (Record& record : records_) record.seen_in_part = false;
+  ForEachContact(m, d, [&](const Contact& contact) {
+    AddForces(m, d, contact, m->opt.timestep / parts_, truth);
+    if (contact.world.hazard >= 0) truth.near_hazard = contact.world.hazard;
+    truth.wheel_contacts += contact.wheel ? 1 : 0;
+    if (const int wheel = DrivenWheel(m, contact); wheel >= 0)
+      drops_.OnContact(static_cast<std::size_t>(wheel), contact.p_W, contact.normal_W.z(),
+                       contact.world.hazard);
+    if (contact.carries() && (contact.wheel || contact.normal_n > 0)) AddSupport(contact.p_W);
+  });
   // A nose on the base floor is not what holds a body that hangs on an edge as well.
   const auto most = std::ranges::max_element(belly_n_.begin() + 1, belly_n_.end());
   truth.belly_hazard = most != belly_n_.end() && *most > kHangs * truth.belly_load_n
@@ -111,7 +112,8 @@ void ContactReader::Read(const mjModel* m, const mjData* d, std::span<const Vec3
   MeasureSupport(m, d, truth);
 }
 
-bool ContactReader::Understand(const mjModel* m, const mjData* d, int index, Contact& out) const {
+bool ContactReader::Understand(const mjModel* m, const mjData* d, int index, bool wheel,
+                               Contact& out) const {
   const mjContact& c = d->contact[index];
   if (c.exclude || c.efc_address < 0) return false;
   const auto role = [this](int geom) { return scene_.roles[static_cast<std::size_t>(geom)]; };
@@ -120,7 +122,7 @@ bool ContactReader::Understand(const mjModel* m, const mjData* d, int index, Con
   out.raw = &c;
   out.geom = c.geom[world_first ? 1 : 0];
   out.world = role(c.geom[world_first ? 0 : 1]);
-  out.wheel = role(out.geom).kind == GeomRole::Kind::kWheel;
+  out.wheel = wheel;
   out.p_W = Vec3(c.pos);
   out.normal_W = toward * Vec3(c.frame);
   // For contacts a micrometre deep, MuJoCo sometimes returns the opposite normal: it points away
@@ -155,11 +157,15 @@ int ContactReader::CutAt(const Vec2& p_W) const {
   return -1;
 }
 
-void ContactReader::AddDeed(const mjModel* m, const mjData* d, const Contact& contact,
-                            double part_s, Truth& truth) {
+void ContactReader::AddForces(const mjModel* m, const mjData* d, const Contact& contact,
+                              double part_s, Truth& truth) {
   if (contact.world.hazard >= 0 || contact.world.kind == GeomRole::Kind::kWall)
     AddTouch(contact, truth);
-  if (contact.normal_W.z() <= kSteep) AddObstacle(m, d, contact, part_s, truth);
+  const double nz = contact.normal_W.z();
+  if (nz <= kSteep) AddObstacle(m, d, contact, part_s, truth);
+  if (!contact.wheel && nz > kWedged) AddBellyLoad(contact, truth);
+  if (DrivenWheel(m, contact) >= 0) truth.driven_load_n += contact.force_W_n().z() / parts_;
+  if (!contact.carries()) AddSideLoad(contact);
 }
 
 void ContactReader::AddTouch(const Contact& contact, Truth& truth) const {
@@ -172,7 +178,7 @@ void ContactReader::AddTouch(const Contact& contact, Truth& truth) const {
     *touch = {contact.world.hazard, {}, {}};
   }
   const double share = 1.0 / parts_;
-  const Vec3 arm_W = contact.p_W - truth.p_WB;
+  const Vec3 arm_W = contact.p_W - origin_W_;
   const Vec3 push_W_n = share * contact.normal_n * contact.normal_W;
   const Vec3 rub_W_n = share * contact.friction_W_n;
   touch->normal += {push_W_n, arm_W.cross(push_W_n)};
@@ -184,35 +190,63 @@ void ContactReader::AddObstacle(const mjModel* m, const mjData* d, const Contact
   Vec2 normal_W = contact.normal_W.head<2>();
   if (normal_W.norm() < 1e-9) return;
   normal_W.normalize();
-  // The same contact of an earlier part, or a new one.
-  const int* geoms = contact.raw->geom;
-  const auto end = pairs_.begin() + truth.num_contacts;
-  const auto pair = std::find_if(pairs_.begin(), end, [&](const Pair& p) {
-    return !p.met && p.geom[0] == geoms[0] && p.geom[1] == geoms[1];
-  });
-  if (pair == pairs_.end()) return;
-  pair->met = true;
-  ObstacleContact& out = truth.contacts[static_cast<std::size_t>(pair - pairs_.begin())];
-  if (pair == end) {
-    ++truth.num_contacts;
-    *pair = {{geoms[0], geoms[1]}, true};
-    out = {};
-    out.closing_mps = ClosingSpeed(m, d, contact, normal_W);
+  ObstacleContact* out = RecordOf(m, d, contact, normal_W, truth);
+  if (out == nullptr) return;
+  Record& record = records_[static_cast<std::size_t>(out - truth.contacts.data())];
+  record.seen_in_part = true;
+  const double impulse_ns = contact.normal_n * part_s;
+  out->impulse_ns += impulse_ns;
+  if (impulse_ns < record.hardest_ns) return;
+  record.hardest_ns = impulse_ns;  // where it pressed hardest
+  out->p_W = contact.p_W.head<2>();
+  out->normal_W = normal_W;
+  out->height_m = contact.p_W.z();
+}
+
+ObstacleContact* ContactReader::RecordOf(const mjModel* m, const mjData* d, const Contact& contact,
+                                         const Vec2& normal_W, Truth& truth) {
+  int hazard = contact.world.hazard;
+  if (hazard < 0 && contact.world.kind != GeomRole::Kind::kWall) hazard = ObstacleContact::kFloor;
+  // Of earlier parts, the nearest between these geoms at the same face.
+  constexpr double kSameFace = 0.9;
+  const int* geom = contact.raw->geom;
+  const auto same = [&](const Record& record, const ObstacleContact& c) {
+    return !record.seen_in_part && record.geom[0] == geom[0] && record.geom[1] == geom[1] &&
+           c.hazard == hazard && c.normal_W.dot(normal_W) > kSameFace;
+  };
+  ObstacleContact* nearest = nullptr;
+  double nearest_m2 = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(truth.num_contacts); ++i) {
+    ObstacleContact& c = truth.contacts[i];
+    const double away_m2 = (c.p_W - contact.p_W.head<2>()).squaredNorm();
+    if (!same(records_[i], c) || (nearest != nullptr && away_m2 >= nearest_m2)) continue;
+    nearest = &c;
+    nearest_m2 = away_m2;
   }
-  out.hazard = contact.world.hazard;
-  if (out.hazard < 0 && contact.world.kind != GeomRole::Kind::kWall)
-    out.hazard = ObstacleContact::kFloor;
+  if (nearest != nullptr) return nearest;
+  std::size_t n = static_cast<std::size_t>(truth.num_contacts);
+  if (n == Truth::kMaxContacts) {  // the body's take the place of a wheel's
+    const auto wheel = std::ranges::find_if(truth.contacts, &ObstacleContact::wheel);
+    if (contact.wheel || wheel == truth.contacts.end()) return nullptr;
+    n = static_cast<std::size_t>(wheel - truth.contacts.begin());
+  } else {
+    ++truth.num_contacts;
+  }
+  records_[n] = {{geom[0], geom[1]}, true, 0};
+  ObstacleContact& out = truth.contacts[n];
+  out = {};
+  out.hazard = hazard;
   out.p_W = contact.p_W.head<2>();
   out.normal_W = normal_W;
   out.block = block_of_[static_cast<std::size_t>(m->geom_bodyid[contact.geom])];
-  out.impulse_ns += contact.normal_n * part_s;
-  out.height_m = contact.p_W.z();
+  out.closing_mps = ClosingSpeed(m, d, contact, normal_W);
   out.wheel = contact.wheel;
+  return &out;
 }
 
 // Of what touches, at the point of touch: a body that pitches at the impact moves otherwise there
 // than at its origin, and a block that swings otherwise than the robot. A wheel moves as the block
-// that carries it, whatever its tread does. Velocities by body are those before the step.
+// that carries it, whatever its tread does. Velocities by body are those before the part.
 double ContactReader::ClosingSpeed(const mjModel* m, const mjData* d, const Contact& contact,
                                    const Vec2& normal_W) const {
   const int touching = m->geom_bodyid[contact.geom];
@@ -227,7 +261,7 @@ double ContactReader::ClosingSpeed(const mjModel* m, const mjData* d, const Cont
 }
 
 void ContactReader::AddBellyLoad(const Contact& contact, Truth& truth) {
-  const double load_n = contact.normal_n * contact.normal_W.z();
+  const double load_n = contact.normal_n * contact.normal_W.z() / parts_;
   truth.belly_load_n += load_n;
   belly_n_[static_cast<std::size_t>(contact.world.hazard + 1)] += load_n;
 }
@@ -238,16 +272,13 @@ void ContactReader::AddSupport(const Vec3& p_W) {
   support_z_m_ += p_W.z();
 }
 
-void ContactReader::AddFooting(const mjModel* m, const Contact& contact, Truth& truth) {
-  const int wheel = wheel_of_[static_cast<std::size_t>(m->geom_bodyid[contact.geom])];
-  if (wheel < 0 || contact.normal_n <= 0 || contact.normal_W.z() <= 0) return;
-  truth.driven_load_n += contact.force_W_n().z();
-  drops_.OnContact(static_cast<std::size_t>(wheel), contact.p_W, contact.normal_W.z(),
-                   contact.world.hazard);
+int ContactReader::DrivenWheel(const mjModel* m, const Contact& contact) const {
+  if (!contact.wheel || contact.normal_n <= 0 || contact.normal_W.z() <= 0) return -1;
+  return wheel_of_[static_cast<std::size_t>(m->geom_bodyid[contact.geom])];
 }
 
-void ContactReader::AddLoad(const Contact& contact) {
-  const Vec3 force_W_n = contact.force_W_n();
+void ContactReader::AddSideLoad(const Contact& contact) {
+  const Vec3 force_W_n = contact.force_W_n() / parts_;
   load_n_ += force_W_n.z();
   load_nm_ += force_W_n.head<2>() * contact.p_W.z() - contact.p_W.head<2>() * force_W_n.z();
   side_n_ += force_W_n.head<2>();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the engine's contacts mean: obstacles met, weight carried, and what each thing does to the
-// robot. Where a step is walked in parts (fine_steps.h), what a thing does is the mean over them,
-// and where the robot stands is as at the end of the last.
+// robot. Where a step is divided (fine_steps.h), forces are the mean over its parts, and impulses
+// their sum. Where the robot stands is read from the last part.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -25,17 +25,23 @@ class ContactReader {
 
   // Forgets where the wheels stood: the robot is set down elsewhere.
   void Reset() { drops_.Reset(); }
-  // Model and data of the calls below are those of a simulation of the scene. They allocate
-  // nothing. A step of so many parts begins: forgets what was met in the last.
-  void Begin(int parts, Truth& truth);
-  // Adds what was met in a part that is not the last of its step.
+  // Call these in turn, with the model and data of a simulation of the scene. They allocate
+  // nothing.
+  // 1. Before a step: forgets the contacts of the last one. `truth` holds the pose from which the
+  // step starts.
+  void BeginStep(int parts, Truth& truth);
+  // 2. After each part but the last: adds its forces. The model's time step is that of a part.
   void ReadPart(const mjModel* m, const mjData* d, Truth& truth);
-  // After the last part: all that `truth` says of contacts. Its pose stands there already, and the
-  // model's time step is the whole one again. `lowest_W`: the lowest point of each driven wheel,
-  // world frame.
-  void Read(const mjModel* m, const mjData* d, std::span<const Vec3> lowest_W, Truth& truth);
+  // 3. After the last part: adds its forces and reads where the robot stands. The model's time step
+  // is that of the whole step, and `truth` holds the new pose. `lowest_W`: the lowest point of each
+  // driven wheel, world frame.
+  void ReadLastPart(const mjModel* m, const mjData* d, std::span<const Vec3> lowest_W,
+                    Truth& truth);
 
  private:
+  // A contact whose normal stands steeper than this carries; one flatter than that obstructs.
+  static constexpr double kSteep = 0.7;
+  static constexpr double kWedged = 0.3;  // a wheel in a groove stands on rims as steep as this
   // One contact of the robot with the world.
   struct Contact {
     const mjContact* raw = nullptr;
@@ -46,25 +52,33 @@ class ContactReader {
     double normal_n = 0;
     Vec3 friction_W_n;  // on the robot
     Vec3 force_W_n() const { return normal_n * normal_W + friction_W_n; }
+    bool carries() const { return normal_W.z() > (wheel ? kWedged : kSteep); }
   };
 
-  bool Understand(const mjModel* m, const mjData* d, int index, Contact& out) const;
+  // Calls `use(contact)` for each contact with the world: those of the body first, because a sample
+  // holds only so many.
+  template <class Use>
+  void ForEachContact(const mjModel* m, const mjData* d, const Use& use) const;
+  bool Understand(const mjModel* m, const mjData* d, int index, bool wheel, Contact& out) const;
   // Whether what this slab is a part of would be at this point, too.
   bool GoesOn(const GeomRole& slab, const Vec2& p_W) const;
   int CutAt(const Vec2& p_W) const;
-  // What a contact did in a part of `part_s`.
-  void AddDeed(const mjModel* m, const mjData* d, const Contact& contact, double part_s,
-               Truth& truth);
+  // Forces and impulses, over a part of `part_s`.
+  void AddForces(const mjModel* m, const mjData* d, const Contact& contact, double part_s,
+                 Truth& truth);
   void AddTouch(const Contact& contact, Truth& truth) const;
   void AddObstacle(const mjModel* m, const mjData* d, const Contact& contact, double part_s,
                    Truth& truth);
+  // The record of this contact: of an earlier part, or a new one; nothing where there is no room.
+  ObstacleContact* RecordOf(const mjModel* m, const mjData* d, const Contact& contact,
+                            const Vec2& normal_W, Truth& truth);
   // Of the body into the obstacle, just before this part.
   double ClosingSpeed(const mjModel* m, const mjData* d, const Contact& contact,
                       const Vec2& normal_W) const;
   void AddBellyLoad(const Contact& contact, Truth& truth);
+  void AddSideLoad(const Contact& contact);
+  int DrivenWheel(const mjModel* m, const Contact& contact) const;  // -1: none that stands
   void AddSupport(const Vec3& p_W);
-  void AddFooting(const mjModel* m, const Contact& contact, Truth& truth);
-  void AddLoad(const Contact& contact);
   void MeasureSupport(const mjModel* m, const mjData* d, Truth& truth);
 
   const Scene& scene_;
@@ -77,13 +91,15 @@ class ContactReader {
   std::vector<Vec2> support_, hull_;  // scratch, capacity fixed
   double support_z_m_ = 0;            // sum over them
   std::vector<double> belly_n_;       // by hazard, scratch
-  int parts_ = 1;                     // of this step
-  // Of the truth's obstacle contacts: between which geoms, and whether this part has it too.
-  struct Pair {
+  // Of the step being read.
+  int parts_ = 1;
+  Vec3 origin_W_ = Vec3::Zero();  // of the body, before it
+  struct Record {                 // of each of the truth's obstacle contacts
     int geom[2] = {-1, -1};
-    bool met = false;
+    bool seen_in_part = false;
+    double hardest_ns = 0;  // of any part
   };
-  std::array<Pair, Truth::kMaxContacts> pairs_;
+  std::array<Record, Truth::kMaxContacts> records_;
   // Vertical force of what pushes from aside, and its moment about the world's origin on the floor,
   // as a shift of the centre of mass sees it.
   double load_n_ = 0;

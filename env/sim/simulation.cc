@@ -47,6 +47,7 @@ Simulation::Simulation(const Scene& scene, const HazardMap& map, const RobotSpec
       contacts_(scene, map, robot),
       hold_(robot, scene.model.get()),
       fine_steps_(scene, robot),
+      cvel_(6 * static_cast<std::size_t>(scene.model->nbody)),
       cut_(robot.wheels.size(), 0),
       motor_nm_(static_cast<std::size_t>(scene.model->nu)),
       battery_(robot.battery),
@@ -143,7 +144,7 @@ void Simulation::Settle(const Pose2& X_WB, double t_s) {
   SetDriverVoltages();
   while (d->time < kSettle_s) {
     live_.Update(d);
-    FineSteps::Walk(model(), d, fine_steps_.OnFloor(model()), [] {});
+    WalkStep(model(), d, fine_steps_.OnFloor(model()), [] {});
   }
   if (load_kg > 0) {
     altered_.payload_kg = load_kg;
@@ -159,8 +160,8 @@ void Simulation::Settle(const Pose2& X_WB, double t_s) {
   ForwardEngine(model(), d);
   ReadPose();
   contacts_.Reset();
-  contacts_.Begin(1, truth_);
-  contacts_.Read(model(), data_.get(), lowest_W_, truth_);
+  contacts_.BeginStep(1, truth_);
+  contacts_.ReadLastPart(model(), data_.get(), lowest_W_, truth_);
   ReadPower(0);
 }
 
@@ -189,11 +190,16 @@ bool Simulation::Step() {
   if (hold_.Update(own_.get(), live_.model(), data_.get(), cut_)) live_.Refresh();
   live_.Update(data_.get());
   parts_ = fine_steps_.Parts(model(), data_.get(), truth_);
-  contacts_.Begin(parts_, truth_);
-  FineSteps::Walk(model(), data_.get(), parts_,
-                  [this] { contacts_.ReadPart(model(), data_.get(), truth_); });
+  contacts_.BeginStep(parts_, truth_);
+  bool first = true;
+  WalkStep(model(), data_.get(), parts_, [&] {
+    if (std::exchange(first, false)) std::copy_n(data_->cvel, cvel_.size(), cvel_.begin());
+    contacts_.ReadPart(model(), data_.get(), truth_);
+  });
   ReadPose();
-  contacts_.Read(model(), data_.get(), lowest_W_, truth_);
+  contacts_.ReadLastPart(model(), data_.get(), lowest_W_, truth_);
+  // Sensors get the body velocities from before the step, divided or not.
+  if (parts_ > 1) std::ranges::copy(cvel_, data_->cvel);
   ReadPower(model()->opt.timestep);
   return !Diverged(data_.get()) && std::isfinite(truth_.p_WB.sum()) &&
          std::isfinite(truth_.v_WB_W.sum());

@@ -93,6 +93,7 @@ class Simulation {
   StandstillHold hold_;
   FineSteps fine_steps_;
   int parts_ = 1;
+  std::vector<mjtNum> cvel_;  // scratch
   Truth truth_;
   Alterations altered_;
   std::vector<char> cut_;  // by wheel

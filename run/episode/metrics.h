@@ -114,7 +114,7 @@ inline constexpr auto kMetrics = std::to_array<MetricColumn>({
      "time in which the body touched an obstacle; what lets go for less than 0.25 s touches", true},
     {"contact_m", "m", &Metrics::contact_m, "way driven while it did", true},
     {"max_contact_n", "N", &Metrics::max_contact_n,
-     "greatest force with which obstacles pushed the body at one time"},
+     "greatest force with which obstacles pushed the body, the mean over a physics step"},
     {"max_impulse_ns", "N s", &Metrics::max_impulse_ns,
      "greatest impulse of a contact in one physics step"},
     {"alarms", "", &Metrics::alarms,

@@ -74,7 +74,6 @@ struct Twins {
         whole(BuildScene(map, robot, {}, start, WallSet::kAll)),
         sim(scene, map, robot.spec),
         data(MakeData(whole.model.get())),
-        walk(whole, robot.spec),
         wheels(robot.spec.wheels.size()),
         drive(MakePlugin(Drives(), robot.spec.drive, "drive")) {
     drive->Configure(robot.spec);
@@ -95,7 +94,7 @@ struct Twins {
   // One step of both; whether their states are the same bits.
   bool Step() {
     EXPECT_TRUE(sim.Step());
-    FineSteps::Walk(whole.model.get(), data.get(), sim.parts(), [] {});
+    WalkStep(whole.model.get(), data.get(), sim.parts(), [] {});
     const auto same = [](const mjtNum* a, const mjtNum* b, mjtSize n) {
       return std::memcmp(a, b, static_cast<std::size_t>(n) * sizeof(mjtNum)) == 0;
     };
@@ -112,7 +111,6 @@ struct Twins {
   Scene scene, whole;
   Simulation sim;
   DataPtr data;
-  FineSteps walk;
   std::vector<double> wheels;
   std::unique_ptr<Drive> drive;
   int touched_walls = 0;
