@@ -212,7 +212,8 @@ class Writer {
                      "springref=\"{3}\" damping=\"{4}\"/>  {5}",
                      N(-spring.travel_m), N(spring.travel_m), N(spring.stiffness_npm),
                      N(spring.slack_m), N(spring.damping_nspm),
-                     Comment("its travel: " + guesses_.spring_travel_m.why)));
+                     Comment("its travel: " + guesses_.spring_travel_m.why +
+                             "; its preload: " + guesses_.spring_preload.why)));
   }
 
   void Wheel(int depth, const UrdfWheel& wheel, const Vec3& carrier, const char* kind,

@@ -129,7 +129,7 @@ void GuessMotors(const UrdfRobot& robot, const UrdfAnswers& answers, const Sizes
   // A strong motor's rotor has more: alone it reaches its speed with a time constant of 5 to 50 ms.
   constexpr double kRotor_s = 0.02;
   out.armature_kgm2 =
-      Take({},
+      Take(answers.armature_kgm2,
            std::max(kRotor * robot.mass_kg() * r * r / wheels,
                     kRotor_s * out.stall_nm.value / out.no_load_radps.value),
            "rotor and gear, 0.2 of m r2 of its share of the mass, and at least 20 ms "
@@ -166,6 +166,24 @@ void GuessLimits(const UrdfRobot& robot, const UrdfAnswers& answers, const Sizes
       Take({}, 2 * out.max_yaw_rate_radps.value, "its yaw rate in half a second");
 }
 
+void GuessSprings(const UrdfRobot& robot, const UrdfAnswers& answers, const Sizes& sizes,
+                  RobotGuesses& out) {
+  if (answers.sprung_share == 0) {
+    for (const auto& [key, answer] : {std::pair{"--set spring_travel_m", answers.spring_travel_m},
+                                      {"--set spring_preload", answers.spring_preload}})
+      if (answer)
+        throw InputError({key, 0}, "", FormatDouble(*answer),
+                         "needs sprung_share");
+    return;
+  }
+  constexpr double kTravel = 0.1;
+  out.spring_travel_m =
+      Take(answers.spring_travel_m, kTravel * sizes.radius_m, "a tenth of the wheel's radius");
+  out.spring_preload = Take(answers.spring_preload, 0, "slack at the lower stop");
+  out.springs = WheelSprings(
+      robot, {answers.sprung_share, out.spring_travel_m.value, out.spring_preload.value});
+}
+
 Choice Choose(const std::string& given, std::string_view usual, const std::string& why) {
   if (!given.empty()) return {given, "given"};
   return {std::string(usual), std::string(kGuess) + why};
@@ -178,7 +196,7 @@ RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers) {
   RobotGuesses out;
   GuessMotors(robot, answers, sizes, out);
   GuessLimits(robot, answers, sizes, out);
-  constexpr double kTool = 0.8, kStep = 0.1, kHotel_w = 10, kTravel = 0.1;
+  constexpr double kTool = 0.8, kStep = 0.1, kHotel_w = 10;
   out.tool_width_m = Take(answers.tool_width_m, kTool * sizes.width_m, "0.8 of its width");
   out.step_m = Take(answers.step_m, std::min(kStep * sizes.radius_m, sizes.belly_m / 2),
                     "a tenth of the wheel's radius, at most half the belly's clearance");
@@ -189,12 +207,7 @@ RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers) {
   out.tyre = Choose(answers.tyre, Name(kUsualTyre), "most robots' wheels are solid");
   out.caster = Choose(answers.caster, Name(kUsualCaster), "most casters have polyurethane wheels");
   out.hotel_load_w = Take(answers.hotel_load_w, kHotel_w, "a small computer and a lidar");
-  if (answers.sprung_share > 0) {
-    out.spring_travel_m =
-        Take(answers.spring_travel_m, kTravel * sizes.radius_m, "a tenth of the wheel's radius");
-    out.springs = WheelSprings(
-        robot, {answers.sprung_share, out.spring_travel_m.value, answers.spring_preload});
-  }
+  GuessSprings(robot, answers, sizes, out);
   return out;
 }
 
@@ -217,11 +230,14 @@ std::vector<std::string> Questions(const RobotGuesses& guesses) {
                                 {"tool_width_m", "m", guesses.tool_width_m},
                                 {"step_m", "m", guesses.step_m},
                                 {"hotel_load_w", "W", guesses.hotel_load_w},
-                                {"spring_travel_m", "m", guesses.spring_travel_m}};
+                                {"armature_kgm2", "kg m2", guesses.armature_kgm2},
+                                {"spring_travel_m", "m", guesses.spring_travel_m},
+                                {"spring_preload", "", guesses.spring_preload}};
   std::vector<std::string> lines;
   for (const Question& q : questions)
     if (q.figure.why.starts_with(kGuess))
-      lines.push_back(line(q.key, NumberText(q.figure.value) + " " + q.unit, q.figure.why));
+      lines.push_back(
+          line(q.key, NumberText(q.figure.value) + (*q.unit ? " " : "") + q.unit, q.figure.why));
   const std::pair<const char*, const Choice&> choices[] = {
       {"standstill", guesses.standstill}, {"tyre", guesses.tyre}, {"caster", guesses.caster}};
   for (const auto& [key, choice] : choices)

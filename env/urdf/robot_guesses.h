@@ -32,7 +32,7 @@ struct RobotGuesses {
   Choice standstill;                 // Name(Standstill)
   Choice tyre, caster;               // Name(TyreMaterial)
   std::vector<WheelSpring> springs;  // one a driven wheel, or none
-  Figure spring_travel_m;
+  Figure spring_travel_m, spring_preload;
 };
 
 RobotGuesses GuessRobot(const UrdfRobot& robot, const UrdfAnswers& answers);

@@ -8,6 +8,7 @@ namespace {
 
 constexpr Bounds kFriction_nm = {0, 1000, false};
 constexpr Bounds kSpringTravel_m = {0.001, 0.2, false};
+constexpr Bounds kArmature_kgm2 = {0, 100, false};
 
 }  // namespace
 
@@ -26,12 +27,14 @@ void UrdfAnswers::Visit(ParamVisitor& v) {
     "what its driver's current limit lets it give, at the wheel (N m); none: its stall torque");
   v("friction_nm", friction_nm, kFriction_nm,
     "dry friction of a driven wheel with its gear and motor, at the wheel (N m); none: guessed");
+  v("armature_kgm2", armature_kgm2, kArmature_kgm2,
+    "inertia of a motor's rotor and its gear, at the wheel (kg m2); none: guessed");
   v("sprung_share", sprung_share, Between(0, 1),
     "of the weight, what the driven wheels carry on springs; 0: they are held");
   v("spring_travel_m", spring_travel_m, kSpringTravel_m,
     "how far such a wheel goes down, and up, from where it stands (m); none: guessed");
   v("spring_preload", spring_preload, Between(0, 0.99),
-    "of a spring's load at rest, what it still pushes with where its wheel hangs lowest");
+    "a spring's force at the lower stop, as a share of its load at rest; none: 0");
   v("top_speed_mps", top_speed_mps, kSpeed_mps,
     "the robot's fastest, which its motors reach (m/s); none: guessed");
   v("cruise_mps", cruise_mps, kSpeed_mps, "speed along a plan (m/s); none: guessed");

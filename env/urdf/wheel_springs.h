@@ -18,13 +18,13 @@ namespace floorproof {
 // spring is slack at the lower stop.
 struct WheelSpring {
   double stiffness_npm = 0, damping_nspm = 0, travel_m = 0;
-  double slack_m = 0;  // where it would push no more; the wheel's place at rest is 0
+  double slack_m = 0;  // height of the wheel at which the spring is slack; at rest it is 0
 };
 
 struct SpringAnswers {
   double share = 0;     // of the weight, above 0 to 1; all of it where there are no casters
   double travel_m = 0;  // one way
-  double preload = 0;   // of its load at rest, what a spring still pushes with at its lower stop
+  double preload = 0;   // a spring's force at the lower stop, as a share of its load at rest
 };
 
 // One a driven wheel.

@@ -18,7 +18,7 @@ using ::testing::Not;
 UrdfAnswers Sprung(double share, double travel_m) {
   UrdfAnswers answers;
   answers.sprung_share = share;
-  answers.spring_travel_m = travel_m;
+  if (share > 0) answers.spring_travel_m = travel_m;
   return answers;
 }
 
@@ -63,6 +63,20 @@ TEST(WheelSprings, CarryTheShareOfTheWeightThatIsAsked) {
     EXPECT_NEAR(dut.drive.driven_share, share, share * kGives_m / kTravel_m);
     EXPECT_THAT(Wrongs(dut), IsEmpty());
   }
+}
+
+TEST(WheelSprings, NeedAShare) {
+  UrdfAnswers answers;
+  answers.spring_preload = 0.5;
+  EXPECT_THAT(RefusalOf(OnTwoBalls(), answers),
+              HasSubstr("--set spring_preload: 0.5: needs sprung_share"));
+}
+
+TEST(UrdfMotors, HaveTheRotorsThatAreAsked) {
+  UrdfAnswers answers;
+  answers.armature_kgm2 = 0.0123;
+  EXPECT_THAT(Converted(WithBall(), answers).text, HasSubstr("armature=\"0.0123\""));
+  EXPECT_THAT(Converted(WithBall()).notes, Contains(HasSubstr("--set armature_kgm2")));
 }
 
 // At rest they carry as much; where the wheel hangs lowest, their preload.
