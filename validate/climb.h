@@ -38,9 +38,9 @@ double HighestClimbed(double low_m, double high_m, double resolution_m, const Cl
   });
 }
 
-// The highest step, up to 1.2 times the radius of its wheels, that a robot climbs forward at a
-// commanded speed after a run-up in which it gathers it, m: to a quarter of a hundredth of that
-// radius.
+// The highest step that a robot climbs forward at a commanded speed, m; after a run-up, with
+// neither tracker nor detectors. It is searched up to 1.2 times the radius of the wheels, to 0.25 %
+// of that radius.
 double HighestStep(const std::string& robot, double speed_mps, const PhysicsParams& physics,
                    const WrongModel& wrong = {});
 

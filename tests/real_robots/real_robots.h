@@ -22,7 +22,7 @@ struct RealRobot {
   double stated_mm = 0;                 // that limit; 0: not known
   bool stated_unloaded = false;         // it holds without a load; else with and without
   double payload_kg = 0;                // rated
-  double deck_x_m = 0, deck_z_m = 0;    // the middle of the surface that carries it
+  double deck_x_m = 0, deck_z_m = 0;    // of the deck, in base_link, whose origin is on the floor
 };
 
 std::span<const RealRobot> RealRobots();

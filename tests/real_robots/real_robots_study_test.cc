@@ -86,54 +86,57 @@ TEST_P(RealRobotStudy, ThePageSaysWhatMovesIt) {
                           both({.oblique_deg = 3}, ""), sprung(0), sprung(0.5), sprung(2))));
 }
 
-// What makers do not publish, as it may be. Springs of driven wheels between casters: as the
-// answers say, with half and twice their travel, of nearly the same force all along it (as a rocker
-// keeps a wheel's share), and, loaded, those that were made for the robot without its load. Motors:
-// as the answers say, and twice as strong.
-struct Unpublished {
+// An assumption about what makers do not publish. Springs of driven wheels between casters: as the
+// answers say, with half and twice the travel, with nearly constant force, and, loaded, those made
+// for the robot without its load. Motors: as the answers say, and twice as strong.
+struct Assumption {
   const char* name;
   double travel_factor = 1, preload = 0;
   bool springs_for_load = true;
   double motors = 1;
 };
-constexpr Unpublished kAsAssumed = {"as assumed"};
-constexpr Unpublished kSprings[] = {{"half the travel", 0.5},
-                                    {"twice the travel", 2},
-                                    {"rocker", 1, 0.9},
-                                    {"springs of the empty robot", 1, 0, false}};
-constexpr Unpublished kStrongMotors = {"motors twice as strong", 1, 0, true, 2};
+constexpr Assumption kAsAssumed = {"as assumed"};
+constexpr Assumption kSprings[] = {{"half the travel", 0.5},
+                                   {"twice the travel", 2},
+                                   {"constant force", 1, 0.9},
+                                   {"springs of the empty robot", 1, 0, false}};
+constexpr Assumption kStrongMotors = {"motors twice as strong", 1, 0, true, 2};
 
-std::vector<Unpublished> UnpublishedOf(const RealRobot& robot) {
-  std::vector<Unpublished> all = {kAsAssumed};
+std::vector<Assumption> AssumptionsFor(const RealRobot& robot) {
+  std::vector<Assumption> all = {kAsAssumed};
   const double share = AnswersOf(robot).sprung_share;
   if (share > 0 && share < 1) all.insert(all.end(), std::begin(kSprings), std::end(kSprings));
   if (!robot.motor_data) all.push_back(kStrongMotors);
   return all;
 }
 
-std::filesystem::path FileOf(const RealRobot& robot, const Unpublished& as, Load load) {
+std::filesystem::path FileOf(const RealRobot& robot, const Assumption& assumed, Load load) {
   const UrdfAnswers answers = AnswersOf(robot);
-  std::string more;
+  // Neither a payload nor a stronger motor changes rotors and bearings.
+  const ModelPtr empty_robot = CompileAlone(ReadRobot(MjcfFile(robot)));
+  const int dof = empty_robot->jnt_dofadr[empty_robot->actuator_trnid[0]];
+  std::string more =
+      fmt::format("armature_kgm2: {}, friction_nm: {}", empty_robot->dof_armature[dof],
+                  empty_robot->dof_frictionloss[dof]);
   if (answers.sprung_share > 0) {
     const double empty = robot.mass_kg / (robot.mass_kg + robot.payload_kg);
     const double share =
-        answers.sprung_share * (load == Load::kRated && !as.springs_for_load ? empty : 1);
-    more = fmt::format("sprung_share: {}, spring_travel_m: {}, spring_preload: {}", share,
-                       as.travel_factor * *answers.spring_travel_m, as.preload);
+        answers.sprung_share * (load == Load::kRated && !assumed.springs_for_load ? empty : 1);
+    more += fmt::format(", sprung_share: {}, spring_travel_m: {}, spring_preload: {}", share,
+                        assumed.travel_factor * *answers.spring_travel_m, assumed.preload);
   }
-  if (as.motors != 1)
-    more += fmt::format("{}stall_nm: {}, peak_nm: {}", more.empty() ? "" : ", ",
-                        as.motors * *answers.stall_nm,
-                        as.motors * answers.peak_nm.value_or(*answers.stall_nm));
+  if (assumed.motors != 1)
+    more += fmt::format(", stall_nm: {}, peak_nm: {}", assumed.motors * *answers.stall_nm,
+                        assumed.motors * answers.peak_nm.value_or(*answers.stall_nm));
   return MjcfFile(robot, more, load);
 }
 
 // Which loads the maker's limit holds for.
-bool Holds(const RealRobot& robot, Load load) {
+bool StatedLimitCovers(const RealRobot& robot, Load load) {
   return load == Load::kNone || !robot.stated_unloaded;
 }
 
-// What is said of a maker's limit, from all that may be as it is not published.
+// The prediction of a maker's limit: the range over everything that is not published.
 class Prediction {
  public:
   // Found at one speed on one friction; `base`: creeping on friction 0.8.
@@ -166,21 +169,21 @@ class Prediction {
 // Without a load and with the rated one: creeping and at 0.3 m/s, on friction 0.8 and 1.0 each.
 TEST_P(RealRobotStudy, ThePageHasItsStepsWithALoad) {
   Prediction prediction;
-  for (const Unpublished& as : UnpublishedOf(robot())) {
-    std::string row = fmt::format("| {} | {} |", robot().name, as.name);
+  for (const Assumption& assumed : AssumptionsFor(robot())) {
+    std::string row = fmt::format("| {} | {} |", robot().name, assumed.name);
     for (const Load load : {Load::kNone, Load::kRated}) {
-      if (load == Load::kNone && !as.springs_for_load) {
+      if (load == Load::kNone && !assumed.springs_for_load) {
         row += " | |";
         continue;
       }
-      const auto file = FileOf(robot(), as, load);
+      const auto file = FileOf(robot(), assumed, load);
       for (const double speed_mps : {kCreep_mps, std::min(kLoaded_mps, robot().top_mps)}) {
         std::string both;
         for (const double friction : {0.8, 1.0}) {
           const FoundLimit limit =
               LimitOf(file, robot().stated_as, {.speed_mps = speed_mps, .friction = friction});
           both += (both.empty() ? " " : ", ") + Text(limit);
-          if (Holds(robot(), load))
+          if (StatedLimitCovers(robot(), load))
             prediction.Add(limit, load, speed_mps == kCreep_mps && friction == 0.8);
         }
         row += both + " |";
