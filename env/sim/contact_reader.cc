@@ -244,9 +244,10 @@ ObstacleContact* ContactReader::RecordOf(const mjModel* m, const mjData* d, cons
   return &out;
 }
 
-// Of what touches, at the point of touch: a body that pitches at the impact moves otherwise there
-// than at its origin, and a block that swings otherwise than the robot. A wheel moves as the block
-// that carries it, whatever its tread does. Velocities by body are those before the part.
+// The speed of what touches, at the point of touch: a body that pitches at the impact moves
+// otherwise there than at its origin, and a block that swings otherwise than the robot. A wheel
+// moves as the block that carries it, whatever its tread does. Velocities by body are those before
+// the part.
 double ContactReader::ClosingSpeed(const mjModel* m, const mjData* d, const Contact& contact,
                                    const Vec2& normal_W) const {
   const int touching = m->geom_bodyid[contact.geom];

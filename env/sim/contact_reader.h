@@ -72,7 +72,7 @@ class ContactReader {
   // The record of this contact: of an earlier part, or a new one; nothing where there is no room.
   ObstacleContact* RecordOf(const mjModel* m, const mjData* d, const Contact& contact,
                             const Vec2& normal_W, Truth& truth);
-  // Of the body into the obstacle, just before this part.
+  // The body's speed into the obstacle, just before this part.
   double ClosingSpeed(const mjModel* m, const mjData* d, const Contact& contact,
                       const Vec2& normal_W) const;
   void AddBellyLoad(const Contact& contact, Truth& truth);
@@ -91,7 +91,7 @@ class ContactReader {
   std::vector<Vec2> support_, hull_;  // scratch, capacity fixed
   double support_z_m_ = 0;            // sum over them
   std::vector<double> belly_n_;       // by hazard, scratch
-  // Of the step being read.
+  // The step being read.
   int parts_ = 1;
   Vec3 origin_W_ = Vec3::Zero();  // of the body, before it
   struct Record {                 // of each of the truth's obstacle contacts

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a blow takes from a robot's momentum is what the contacts are said to have given: force
-// times time, over all parts of a step that is divided because a tyre meets an edge.
+// The momentum that a robot loses in a blow is the sum of the reported contact forces times time,
+// over all parts of a step that is divided because a tyre meets an edge.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -8,9 +8,9 @@
 //
 // An impact's outcome depends on where within a time step it falls, so each is repeated from eight
 // places. `mean` is over these, speeds and masses; `worst` is the largest |measured - e| of any
-// single impact, `impulse` the mean of what the contacts are said to have given, over m v: 1 + e.
-// Tolerances: 0.02 of the means; 0.08 for a single impact, whose contact lasts only
-// some eight steps of 4 ms.
+// single impact; `impulse` is the mean of the reported impulse over m v, which is 1 + e.
+// Tolerances: 0.02 of the means; 0.08 for a single impact, whose contact lasts only some eight
+// steps of 4 ms.
 #include <fmt/format.h>
 
 #include "validate/law.h"
