@@ -171,9 +171,7 @@ void GuessSprings(const UrdfRobot& robot, const UrdfAnswers& answers, const Size
   if (answers.sprung_share == 0) {
     for (const auto& [key, answer] : {std::pair{"--set spring_travel_m", answers.spring_travel_m},
                                       {"--set spring_preload", answers.spring_preload}})
-      if (answer)
-        throw InputError({key, 0}, "", FormatDouble(*answer),
-                         "needs sprung_share");
+      if (answer) throw InputError({key, 0}, "", FormatDouble(*answer), "needs sprung_share");
     return;
   }
   constexpr double kTravel = 0.1;
