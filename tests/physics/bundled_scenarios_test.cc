@@ -87,5 +87,19 @@ TEST_F(WallBrush, ItsFrontRightCornerIsAtThePartition) {
   EXPECT_NEAR(corner_W.y(), face_m, 0.005);
 }
 
+class RiskEdge : public ScenarioTest {};
+
+// The film of docs/gallery.md: held by the cover, helped without being told, over the edge.
+TEST_F(RiskEdge, IsHeldHelpedAndGoesOverTheEdge) {
+  const EpisodeRecord dut =
+      Drive(ReadScenario(SourceFile("models/scenarios/risk_edge.yaml"), {{"time_limit_s", "60"}}));
+  ASSERT_EQ(dut.events.size(), 2u);
+  EXPECT_EQ(dut.events[0].mode, kStuck);
+  EXPECT_TRUE(dut.events[0].hazard.starts_with("cable_cover")) << dut.events[0].hazard;
+  EXPECT_EQ(dut.events[1].mode, kRollOver);
+  EXPECT_EQ(dut.events[1].kind, "fell");
+  EXPECT_TRUE(dut.events[1].hazard.starts_with("step")) << dut.events[1].hazard;
+}
+
 }  // namespace
 }  // namespace floorproof
