@@ -77,7 +77,7 @@ TEST_P(RealRobotStudy, ThePageSaysWhatMovesIt) {
   const double travel_m = AnswersOf(robot()).spring_travel_m.value_or(0);
   const auto sprung = [&](double factor) {
     if (travel_m == 0) return std::string("-");
-    return both({}, factor == 0 ? std::string("sprung_share: 0")
+    return both({}, factor == 0 ? std::string("sprung_share: 0, spring_travel_m: none")
                                 : fmt::format("spring_travel_m: {}", factor * travel_m));
   };
   EXPECT_THAT(Page(), HasSubstr(fmt::format(
