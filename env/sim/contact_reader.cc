@@ -244,7 +244,7 @@ ObstacleContact* ContactReader::RecordOf(const mjModel* m, const mjData* d, cons
   return &out;
 }
 
-// The speed of what touches, at the point of touch: a body that pitches at the impact moves
+// The speed of the touching part, at the point of touch: a body that pitches at the impact moves
 // otherwise there than at its origin, and a block that swings otherwise than the robot. A wheel
 // moves as the block that carries it, whatever its tread does. Velocities by body are those before
 // the part.

@@ -41,7 +41,7 @@ class ContactReader {
  private:
   // A contact whose normal stands steeper than this carries; one flatter than that obstructs.
   static constexpr double kSteep = 0.7;
-  static constexpr double kWedged = 0.3;  // a wheel in a groove stands on rims as steep as this
+  static constexpr double kWedged = 0.3;  // a wheel in a groove rests on rims as steep as this
   // One contact of the robot with the world.
   struct Contact {
     const mjContact* raw = nullptr;

@@ -38,6 +38,10 @@ std::string Text(const FoundLimit& limit) {
   return fmt::format("{}{}", limit.size, limit.above_all ? " or more" : "");
 }
 
+const RealRobot& RobotCalled(std::string_view name) {
+  return *std::ranges::find(RealRobots(), name, &RealRobot::name);
+}
+
 class RealRobotStudy : public ::testing::TestWithParam<RealRobot> {
  protected:
   const RealRobot& robot() const { return GetParam(); }
@@ -197,9 +201,7 @@ TEST_P(RealRobotStudy, ThePageHasItsStepsWithALoad) {
 
 // What was measured to find why figures differ from what the makers state.
 TEST(RealRobotReasons, ThePageHasThem) {
-  const auto file = [](std::string_view name) {
-    return MjcfFile(*std::ranges::find(RealRobots(), name, &RealRobot::name));
-  };
+  const auto file = [](std::string_view name) { return MjcfFile(RobotCalled(name)); };
   for (const char* name : {"kobuki", "turtlebot3_burger", "turtlebot3_waffle_pi"})
     EXPECT_THAT(Page(),
                 HasSubstr(fmt::format("{} {} mm", name,
@@ -222,18 +224,17 @@ TEST(RealRobotReasons, ThePageHasThem) {
 TEST(RealRobotReasons, StatedStepsAreInPhysicsOrder) {
   double below_mm = 0;
   for (const char* name : {"turtlebot3_burger", "kobuki", "scout_mini", "scout"}) {
-    const RealRobot& robot = *std::ranges::find(RealRobots(), name, &RealRobot::name);
+    const RealRobot& robot = RobotCalled(name);
     const double step_mm = LimitOf(MjcfFile(robot), "step", {.speed_mps = robot.top_mps}).size;
     EXPECT_GT(step_mm, below_mm) << name;
     below_mm = step_mm;
   }
 }
 
-// As of the bundled robots (the law edge_speed): half the time step moves no limit by more than 5
-// %.
+// As the law edge_speed for bundled robots: half the time step moves a limit by 5 % at most.
 TEST(RealRobotSteps, DoNotDependOnTheTimeStep) {
   for (const char* name : {"kobuki", "nova_carter", "scout_mini"}) {
-    const RealRobot& robot = *std::ranges::find(RealRobots(), name, &RealRobot::name);
+    const RealRobot& robot = RobotCalled(name);
     const std::string file = MjcfFile(robot).string();
     for (const double speed_mps : {0.1, 0.3, 0.6, 1.0}) {
       if (speed_mps > robot.top_mps) continue;
