@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/own_folder.h"
 #include "tests/places.h"
 #include "tests/slurp.h"
 
@@ -120,18 +121,12 @@ struct Ended {
   std::string said, out;
 };
 
-class CampaignProgram : public ::testing::Test {
+class CampaignProgram : public OwnFolderTest {
  protected:
   CampaignProgram() {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              (std::string(info->test_suite_name()) + "." + info->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
     std::ofstream(folder_ / "p.csv") << "x_m,y_m\n1.0,1.0\n1.6,1.0\n";
     Write("");
   }
-  ~CampaignProgram() override { std::filesystem::remove_all(folder_); }
 
   // A drive of 0.8 m over a sill that is high enough to stop some; `drawn` is more of `randomise`.
   void Write(const std::string& more, const std::string& drawn = "") const {
@@ -218,8 +213,6 @@ randomise:
     }
     EXPECT_EQ(Dump(a), Dump(b)) << b;
   }
-
-  std::filesystem::path folder_;
 };
 
 }  // namespace floorproof

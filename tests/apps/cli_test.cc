@@ -20,6 +20,7 @@
 
 #include "base/text_width.h"
 #include "tests/apps/run_program.h"
+#include "tests/own_folder.h"
 #include "tests/places.h"
 #include "tests/slurp.h"
 
@@ -30,14 +31,9 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class Cli : public ::testing::Test {
+class Cli : public OwnFolderTest {
  protected:
   Cli() {
-    folder_ =
-        fs::path(::testing::TempDir()) /
-        (std::string("cli.") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     std::ofstream(folder_ / "s.yaml") << R"(scenario: 1
 site:
   site: 1
@@ -54,11 +50,8 @@ robot: beluga
 plan: {planner: boustrophedon}
 )";
   }
-  ~Cli() override { fs::remove_all(folder_); }
 
   Result Run(const std::string& arguments) const { return RunProgram(folder_, arguments); }
-
-  fs::path folder_;
 };
 
 // Neither is a program run that came in somebody's folder.

@@ -21,6 +21,7 @@
 
 #include "base/config.h"
 #include "media/media.h"
+#include "tests/own_folder.h"
 #include "tests/places.h"
 #include "tests/slurp.h"
 
@@ -109,15 +110,9 @@ struct Moment {
   int number = SIGINT;
 };
 
-class InterruptTest : public ::testing::Test {
+class InterruptTest : public OwnFolderTest {
  protected:
-  InterruptTest() {
-    folder_ = fs::path(::testing::TempDir()) /
-              (std::string("interrupt.") +
-               ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    Fresh();
-  }
-  ~InterruptTest() override { fs::remove_all(folder_); }
+  InterruptTest() { Fresh(); }
   void Fresh() const {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
@@ -199,8 +194,6 @@ video: {width: 160, height: 90, max_frames: 80, camera: top}
     const auto commas = std::ranges::count(head, ',');
     while (std::getline(rows, row)) EXPECT_EQ(std::ranges::count(row, ','), commas) << row;
   }
-
-  fs::path folder_;
   const std::string hall_ = SourceFile("models/scenarios/demo_beluga.yaml").string();
 };
 

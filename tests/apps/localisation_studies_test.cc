@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/campaign_program.h"
+#include "tests/own_folder.h"
 #include "tests/places.h"
 
 namespace floorproof {
@@ -15,16 +16,7 @@ struct Study {
 };
 void PrintTo(const Study& study, std::ostream* os) { *os << study.scenario; }
 
-class LocalisationStudy : public testing::TestWithParam<Study> {
- protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path folder_ = [] {
-    std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::ranges::replace(name, '/', '_');
-    return std::filesystem::path(testing::TempDir()) / ("localisation_study_" + name);
-  }();
-};
+class LocalisationStudy : public OwnFolderTest, public testing::WithParamInterface<Study> {};
 
 TEST_P(LocalisationStudy, WorsensWhatTheRobotKnowsOfItsPlace) {
   const Study& study = GetParam();

@@ -14,6 +14,7 @@
 #include "run/campaign/campaign_files.h"
 #include "run/campaign/campaign_store.h"
 #include "stats/outward.h"
+#include "tests/own_folder.h"
 #include "tests/places.h"
 #include "tests/report/html_page.h"
 #include "tests/slurp.h"
@@ -65,13 +66,9 @@ EpisodeRow Row(const std::string& variant, std::uint64_t id) {
   return row;
 }
 
-class ReportCommand : public ::testing::Test {
+class ReportCommand : public OwnFolderTest {
  protected:
   ReportCommand() {
-    folder_ =
-        fs::path(::testing::TempDir()) /
-        (std::string("report.") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
     fs::create_directories(folder_ / "out");
     std::ofstream(folder_ / "s.yaml") << kScenario;
     const ScenarioFile file(folder_ / "s.yaml");
@@ -86,7 +83,6 @@ class ReportCommand : public ::testing::Test {
     WriteFileWhole(folder_ / "out/scenario.resolved.yaml", ResolvedScenario(base, folder_ / "out"));
     WriteSummaryFiles(store, file, {}, folder_ / "out");
   }
-  ~ReportCommand() override { fs::remove_all(folder_); }
 
   int Run() const {
     const std::string command =
@@ -102,8 +98,6 @@ class ReportCommand : public ::testing::Test {
     return page.erase(begin, end - begin);
   }
   std::string Said() const { return Slurp(folder_ / "said"); }
-
-  fs::path folder_;
 };
 
 TEST_F(ReportCommand, PageSaysWhatTheSummarySays) {

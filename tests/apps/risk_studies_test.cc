@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/campaign_program.h"
+#include "tests/own_folder.h"
 #include "tests/places.h"
 
 namespace floorproof {
@@ -11,11 +12,8 @@ namespace {
 
 const std::string kPrefix = "models/scenarios/";
 
-class Study : public testing::Test {
+class Study : public OwnFolderTest {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   // In parts, as a program of a test may run for minutes only.
   void Run(const std::string& scenario, const std::vector<int>& parts, const std::string& seed) {
     for (const int n : parts) {
@@ -34,10 +32,6 @@ class Study : public testing::Test {
   static double Change(const nlohmann::json& found, const char* figure) {
     return found["plans"][figure]["change"]["median"].get<double>();
   }
-
-  std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) /
-      testing::UnitTest::GetInstance()->current_test_info()->name();  // tests run side by side
 };
 
 // More of them than the study asks for: the median of 300 sites strays by 2 % to either side.

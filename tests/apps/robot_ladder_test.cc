@@ -11,6 +11,7 @@
 #include <string>
 
 #include "tests/apps/run_program.h"
+#include "tests/own_folder.h"
 #include "tests/slurp.h"
 
 namespace floorproof {
@@ -21,17 +22,8 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class RobotLadder : public ::testing::Test {
+class RobotLadder : public OwnFolderTest {
  protected:
-  RobotLadder() {
-    folder_ =
-        fs::path(::testing::TempDir()) /
-        (std::string("ladder.") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~RobotLadder() override { fs::remove_all(folder_); }
-
   void Save(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
@@ -61,8 +53,6 @@ robot: my.xml
 plan: {planner: boustrophedon}
 )");
   }
-
-  fs::path folder_;
 };
 
 constexpr const char* kUrdf = R"(<robot name="my">

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/apps/run_program.h"
+#include "tests/own_folder.h"
 #include "tests/places.h"
 #include "tests/slurp.h"
 
@@ -25,23 +26,12 @@ constexpr const char* kFiles[] = {"suite.json", "suite.csv", "runs.csv", "junit.
 constexpr const char* kTiny =
     " --methods bump --reliability 0.5 --confidence 0.75 --no-films --quiet";
 
-class SuiteCommand : public ::testing::Test {
+class SuiteCommand : public OwnFolderTest {
  protected:
-  SuiteCommand() {
-    folder_ = fs::path(::testing::TempDir()) /
-              (std::string("suite_command.") +
-               ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~SuiteCommand() override { fs::remove_all(folder_); }
-
   Result Run(const std::string& arguments) const {
     return RunProgram(folder_, "suite " + arguments);
   }
   std::string Load(const std::string& name) const { return Slurp(folder_ / name); }
-
-  fs::path folder_;
 };
 
 // Whoever reads a gate in CI reads the exit status, or junit.xml.

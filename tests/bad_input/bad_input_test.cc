@@ -12,6 +12,7 @@
 #include "apps/run_floorproof.h"
 #include "base/sanitizer.h"
 #include "tests/bad_input/child.h"
+#include "tests/own_folder.h"
 #include "tests/places.h"
 
 namespace floorproof {
@@ -25,17 +26,9 @@ constexpr double kMaxCpu_s = 20, kMaxMb = 4000;
 constexpr double kMaxCpu_s = 1, kMaxMb = 500;
 #endif
 
-class BadInputFolder : public ::testing::Test {
+class BadInputFolder : public OwnFolderTest {
  protected:
-  BadInputFolder() {
-    std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::ranges::replace(name, '/', '.');
-    folder_ = fs::path(::testing::TempDir()) / ("bad_input." + name);
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    Write(GoodFiles());
-  }
-  ~BadInputFolder() override { fs::remove_all(folder_); }
+  BadInputFolder() { Write(GoodFiles()); }
 
   void Write(const Files& files) const {
     for (const auto& [name, content] : files)
@@ -62,8 +55,6 @@ class BadInputFolder : public ::testing::Test {
     EXPECT_LE(dut.cpu_s, kMaxCpu_s);
     EXPECT_LE(dut.most_mb, kMaxMb);
   }
-
-  fs::path folder_;
 };
 
 class BadInputTest : public BadInputFolder, public ::testing::WithParamInterface<BadInput> {

@@ -9,19 +9,12 @@
 #include <string>
 
 #include "base/error.h"
+#include "tests/own_folder.h"
 
 namespace floorproof {
 
-class TempFolder : public ::testing::Test {
+class TempFolder : public OwnFolderTest {
  protected:
-  TempFolder() {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              (std::string(info->test_suite_name()) + "." + info->name());
-    std::filesystem::create_directories(folder_);
-  }
-  ~TempFolder() override { std::filesystem::remove_all(folder_); }
-
   std::filesystem::path Save(const std::string& name, const std::string& bytes) const {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
     return folder_ / name;
@@ -35,8 +28,6 @@ class TempFolder : public ::testing::Test {
     }
     return "accepted";
   }
-
-  std::filesystem::path folder_;
 };
 
 }  // namespace floorproof

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "media/media.h"
 #include "tests/media/png_maker.h"
+#include "tests/own_folder.h"
 
 namespace floorproof {
 namespace {
@@ -20,11 +21,8 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-class ImageTest : public ::testing::Test {
+class ImageTest : public OwnFolderTest {
  protected:
-  ImageTest() { fs::create_directories(folder_); }
-  ~ImageTest() override { fs::remove_all(folder_); }
-
   fs::path Save(const std::string& name, const std::string& bytes) const {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
     return folder_ / name;
@@ -38,9 +36,6 @@ class ImageTest : public ::testing::Test {
     }
     return "accepted";
   }
-
-  fs::path folder_ = fs::path(::testing::TempDir()) /
-                     ::testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 TEST_F(ImageTest, NetpbmInAllFourForms) {

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "media/media.h"
+#include "tests/own_folder.h"
 
 namespace floorproof {
 namespace {
@@ -35,17 +36,13 @@ Image Frame(int i) {
   return image;
 }
 
-class VideoTest : public ::testing::Test {
+class VideoTest : public OwnFolderTest {
  protected:
-  VideoTest() { fs::create_directories(folder_); }
-  ~VideoTest() override { fs::remove_all(folder_); }
   void Film(const fs::path& path) const {
     auto dut = OpenVideo(path, kWidth, kHeight, 25);
     for (int i = 0; i < kFrames; ++i) dut->Add(Frame(i));
     dut->Close();
   }
-  fs::path folder_ = fs::path(::testing::TempDir()) /
-                     ::testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 TEST_F(VideoTest, FramesComeBackInOrderWithTheirColours) {

@@ -11,6 +11,7 @@
 #include "media/media.h"
 #include "report/drive_and_film.h"
 #include "report/sample_marks.h"
+#include "tests/own_folder.h"
 
 namespace floorproof {
 namespace {
@@ -18,14 +19,13 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-class DirtPictures : public ::testing::Test {
+class DirtPictures : public OwnFolderTest {
  protected:
   DirtPictures() {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     std::ofstream(folder_ / "points.csv") << "x_m,y_m\n1,2\n2,1\n2.5,2\n";
   }
-  ~DirtPictures() override { fs::remove_all(folder_); }
 
   EpisodeRecord Drive(const std::string& dirt) {
     std::ofstream(folder_ / "s.yaml")
@@ -47,8 +47,6 @@ class DirtPictures : public ::testing::Test {
   }
 
   std::string said_;
-  fs::path folder_ = fs::path(::testing::TempDir()) /
-                     ::testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 TEST_F(DirtPictures, ADriveOverDirtLeavesMapsTapesAndCounts) {

@@ -16,19 +16,19 @@
 #include "report/swept_again.h"
 #include "run/episode/execute.h"
 #include "run/episode/tool_meter.h"
+#include "tests/own_folder.h"
 
 namespace floorproof {
 namespace {
 
 namespace fs = std::filesystem;
 
-class OnlinePictures : public ::testing::Test {
+class OnlinePictures : public OwnFolderTest {
  protected:
   OnlinePictures() {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
-  ~OnlinePictures() override { fs::remove_all(folder_); }
 
   // A random walk over cells, until nine in ten are covered.
   static std::string Text(const std::string& plan = "random_walk") {
@@ -46,9 +46,6 @@ class OnlinePictures : public ::testing::Test {
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
   }
-
-  fs::path folder_ = fs::path(::testing::TempDir()) /
-                     ::testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 TEST_F(OnlinePictures, TheCurvesEndAtTheMetrics) {

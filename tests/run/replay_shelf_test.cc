@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "tests/own_folder.h"
 #include "tests/slurp.h"
 
 namespace floorproof {
@@ -14,15 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class ReplayShelfTest : public ::testing::Test {
+class ReplayShelfTest : public OwnFolderTest {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(::testing::TempDir()) / ("replay_shelf_" + std::to_string(getpid()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   static EpisodeRow Failed(std::uint64_t episode) {
     EpisodeRow row;
     row.variant = "default";
@@ -34,8 +28,6 @@ class ReplayShelfTest : public ::testing::Test {
   bool Has(std::uint64_t episode) const {
     return fs::exists(EpisodeFolder(folder_, "default", episode) / "replay.bin");
   }
-
-  fs::path folder_;
 };
 
 TEST_F(ReplayShelfTest, TheLowestNumbersStayWhateverTheOrder) {

@@ -10,22 +10,12 @@
 
 #include "run/episode/episode.h"
 #include "run/episode/execute.h"
+#include "tests/own_folder.h"
 
 namespace floorproof {
 
-// A folder of its own for each test, removed at its end.
-class ScenarioTest : public ::testing::Test {
+class ScenarioTest : public OwnFolderTest {
  protected:
-  ScenarioTest() {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string(info->test_suite_name()) + "." + info->name();
-    for (char& c : name)
-      if (c == '/') c = '_';
-    folder_ = std::filesystem::path(::testing::TempDir()) / name;
-    std::filesystem::create_directories(folder_);
-  }
-  ~ScenarioTest() override { std::filesystem::remove_all(folder_); }
-
   std::filesystem::path Save(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
     return folder_ / name;
@@ -38,8 +28,6 @@ class ScenarioTest : public ::testing::Test {
     EXPECT_EQ(execution.plan.status, PlanStatus::kSuccess) << execution.plan.message;
     return execution.record;
   }
-
-  std::filesystem::path folder_;
 };
 
 // A room of 8 m x 4 m inside its walls, its lower left free corner at (0.5, 0.5), with these

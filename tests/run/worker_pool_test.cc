@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "base/watched_call.h"
+#include "tests/own_folder.h"
 
 namespace floorproof {
 namespace {
@@ -57,21 +58,15 @@ std::set<pid_t> ChildrenOf(pid_t parent) {
   _exit(99);
 }
 
-class WorkerPoolTest : public ::testing::Test {
+class WorkerPoolTest : public OwnFolderTest {
  protected:
   WorkerPoolTest() {
-    folder_ =
-        fs::path(::testing::TempDir()) /
-        (std::string("pool.") + ::testing::UnitTest::GetInstance()->current_test_info()->name() +
-         "." + std::to_string(getpid()));
-    fs::create_directories(folder_);
     const rlimit none = {0, 0};
     setrlimit(RLIMIT_CORE, &none);
     before_ = ChildrenOf(getpid());
   }
   ~WorkerPoolTest() override {
     EXPECT_EQ(ChildrenOf(getpid()), before_) << "a worker or a zombie is left";
-    fs::remove_all(folder_);
   }
 
   // Jobs 0 .. n - 1.
@@ -96,7 +91,6 @@ class WorkerPoolTest : public ::testing::Test {
     RunInWorkers(workers, callbacks);
   }
 
-  fs::path folder_;
   std::set<pid_t> before_;
   std::map<Job, std::string> answers_, crashed_, hung_;
   std::function<bool()> stop_;
