@@ -82,6 +82,7 @@ STUB
 stub python3 <<'STUB'
 #!/usr/bin/env bash
 echo "python3 $*" >>"$WORK/calls"
+[[ $1 != -I ]] || shift
 if [[ $1 == -c && $2 == *version_info* ]]; then exit "${PYTHON_IS_OLD:-0}"; fi
 if [[ $1 == -c && $2 == "import markdown_it" ]]; then [[ -f $WORK/installed ]]; exit; fi
 [[ $1 != *build.py ]] || exit "${LINKS_ARE_BROKEN:-0}"
@@ -107,6 +108,8 @@ starts_at_once() {
   run demo
   expect "the first start announces the wheel" says err "10 MB from PyPI"
   expect "and the libraries of pages" says err "three.js, ECharts and AG Grid, checked by hash"
+  expect "a pip.py in the caller's folder is not what runs" \
+    test "$(grep '^python3 ' "$work/calls" | grep -cv '^python3 -I ')" = 0
   expect "the wheel is pinned" grep -q -- "pip download.*--require-hashes.*cp311" "$work/calls"
   : >"$work/calls"
   if ((EUID == 0)); then  # another user than the one who built it
@@ -131,7 +134,7 @@ tests_the_python_package() {
   : >"$work/calls"
   PYTEST_STATUS=1 run test --python
   expect "a test that fails is status 1" test "$status" = 1
-  expect "the environment stays" test "$(grep -c "python3 -m venv" "$work/calls")" = 0
+  expect "the environment stays" test "$(grep -c "python3 -I -m venv" "$work/calls")" = 0
   PYTEST_STATUS=5 run test --python
   expect "no test at all is status 1" test "$status" = 1
   echo '# changed' >>"$tree/pyproject.toml"
@@ -139,7 +142,7 @@ tests_the_python_package() {
   PYTHON_IS_BARE=1 run test --python
   if ((EUID == 0)); then
     expect "what Python lacks is installed" grep -q "apt-get.*install.*python3-venv python3-dev" "$work/calls"
-    expect "other wants are another environment" test "$(grep -c "python3 -m venv" "$work/calls")" = 1
+    expect "other wants are another environment" test "$(grep -c "python3 -I -m venv" "$work/calls")" = 1
   else
     expect "what Python lacks is asked for" says err "python3-venv python3-dev"
   fi
@@ -166,11 +169,11 @@ builds_the_pages() {
     touch "$work/installed"
     run docs
   fi
-  expect "the pages are made" grep -qx "python3 $tree/docs/site/build.py $tree $tree/build/docs" "$work/calls"
+  expect "the pages are made" grep -qx "python3 -I $tree/docs/site/build.py $tree $tree/build/docs" "$work/calls"
   expect "nothing is fetched, configured or built" test "$(grep -cE 'pip|cmake' "$work/calls")" = 0
   : >"$work/calls"
   cd / && run docs --out "some where"
-  expect "--out is the caller's" grep -qx "python3 $tree/docs/site/build.py $tree some where" "$work/calls"
+  expect "--out is the caller's" grep -qx "python3 -I $tree/docs/site/build.py $tree some where" "$work/calls"
   expect "what is there is not installed again" test "$(calls apt-get)" = 0
   LINKS_ARE_BROKEN=1 run docs
   expect "a link that leads nowhere is status 1" test "$status" = 1
