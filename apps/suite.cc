@@ -163,6 +163,7 @@ int RunSuiteMethods(const SuiteCommand& options, const Globals& globals) {
       }
       if (Interrupted()) throw Interruption();
     }
+  out.RequireInPlace({"suite.json", "runs.csv"});
   globals.Result(SuiteJson(report));
   globals.Say("the page is " + (folder / "report.html").string());
   for (const RobotSuite& robot : report.robots)

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include "base/fork.h"
 #include "base/input_file.h"
 #include "base/interrupt.h"
+#include "base/printable.h"
 
 namespace floorproof {
 namespace {
@@ -77,6 +79,20 @@ void ResultFolder::Begin() {
   unfinished_.emplace(results_.kind);
   WriteList();
   begun_ = true;
+}
+
+void ResultFolder::RequireInPlace(std::initializer_list<std::string_view> written) const {
+  const auto gone = [](const fs::path& path) {
+    throw InternalError(Printable(path.string()) +
+                        ": was removed or moved while results were being written");
+  };
+  struct stat locked {}, there {};
+  const bool same = lock_ < 0 || (fstat(lock_, &locked) == 0 &&
+                                  stat(folder_.c_str(), &there) == 0 &&
+                                  locked.st_dev == there.st_dev && locked.st_ino == there.st_ino);
+  if (!same) gone(folder_);
+  for (const std::string_view name : written)
+    if (!IsPlainFile(folder_ / name)) gone(folder_ / name);
 }
 
 std::vector<std::string> ResultFolder::Results() const {

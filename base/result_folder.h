@@ -9,6 +9,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <set>
 #include <span>
@@ -43,6 +44,9 @@ class ResultFolder {
   void Lock();
   // Locks, and says in the list that results are being written. Throws InputError.
   void Begin();
+  // To call before a verdict is printed: throws InternalError if the folder is no longer the one
+  // that was locked (removed, replaced, moved), or one of these files that were written is gone.
+  void RequireInPlace(std::initializer_list<std::string_view> written) const;
   // Names of the results that are there, in alphabetical order.
   std::vector<std::string> Results() const;
 

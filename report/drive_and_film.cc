@@ -169,6 +169,7 @@ DriveResult DriveAndFilm(Scenario& s, const std::filesystem::path& folder,
       if (const std::string replay = witness.replay().Bytes(execution.scene, result.record);
           !replay.empty())
         WriteFileWhole(folder / "replay.bin", replay);
+      out.RequireInPlace({"trace.csv", "result.json"});
       witness.There(" holds plan, trace and result; pictures may be missing");
     }
     missing = "pictures";

@@ -197,6 +197,8 @@ MergeOutcome MergeCampaigns(const std::vector<std::string>& shards, const fs::pa
     if (run.end == CampaignEnd::kMissing && run.variants[v].prefix < end)
       gaps.push_back({variants[v].name, Missing(store.Episodes(variants[v].name), end)});
   CampaignSummary summary = WriteSummaryFiles(store, scenario, run, out);
+  store.RequireInPlace();
+  results->RequireInPlace({"scenario.resolved.yaml", "summary.json"});
   return {{std::move(hold), std::move(results), std::move(store), variants, std::move(run),
            std::move(summary)},
           std::move(paths_note),

@@ -213,8 +213,17 @@ void CampaignStore::Distrust() const {
   sqlite3_exec(db_, "PRAGMA cell_size_check=ON; PRAGMA mmap_size=0", nullptr, nullptr, nullptr);
 }
 
+void CampaignStore::RequireInPlace() const {
+  int moved = 0;
+  sqlite3_file_control(db_, "main", SQLITE_FCNTL_HAS_MOVED, &moved);
+  if (moved != 0)
+    throw InternalError(Printable(file_.string()) +
+                        ": was removed or moved while it was being written");
+}
+
 void CampaignStore::Add(std::span<const EpisodeRow> rows) {
   if (rows.empty()) return;
+  RequireInPlace();
   for (const EpisodeRow& row : rows)  // before it is named
     if (!row.made.empty() && kept_.insert(Sha256(row.made)).second)
       KeepText(row.made, file_.parent_path());

@@ -72,6 +72,9 @@ class CampaignStore {
   void DropErrors();
   // The first of the variant's, and all rows after it.
   void DropFromFirstError(const std::string& variant);
+  // Throws InternalError if the file is no longer the one that was opened: removed, replaced, or
+  // moved with its folder. Add checks it too, so that a campaign stops when its rows are lost.
+  void RequireInPlace() const;
   // The log's rows go into the file itself, so that it is whole alone.
   void Settle();
   // Moves rows of this number and beyond from `episode` to `extra`; those before it back.

@@ -179,6 +179,8 @@ CampaignOutcome DriveCampaign(const ScenarioFile& file, const CampaignRequest& r
   CampaignSummary summary = Keep<std::runtime_error>(
       "some of episodes.csv, junit.xml, summary.json and the films; --resume goes on",
       [&] { return WriteSummaryFiles(store, file, run, folder); });
+  store.RequireInPlace();
+  out->RequireInPlace({kDatabase, "scenario.resolved.yaml", "summary.json"});
   return {std::move(hold), std::move(out), std::move(store),
           file.variants(), std::move(run), std::move(summary)};
 }

@@ -152,6 +152,8 @@ RareOutcome SearchRare(const ScenarioFile& file, const RareRequest& request, con
     if (gate) out.verdict = gate->Judge(out.estimate, out.errors);
     store.Settle();
     WriteFileWhole(folder / "rare.json", JsonText(RareJson(out)) + "\n");
+    store.RequireInPlace();
+    out.folder->RequireInPlace({kTrials, "scenario.resolved.yaml"});
   } catch (const DiskError& e) {
     throw InternalError(std::string(e.what()) + "; missing: rare.json; --resume goes on");
   }
