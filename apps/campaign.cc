@@ -28,7 +28,7 @@ int RunTheCampaign(const CampaignCommand& options, const Globals& globals) {
   request.fail_fast = options.fail_fast;
   request.replays = !options.no_replays;
   request.time_limit_s = options.time_limit_s;
-  const ScenarioFile file(options.scenario, OverridesOf(globals, options));
+  const ScenarioFile file(options.scenario, OverridesOf(globals, options), globals.trust());
   const fs::path folder = CampaignFolder(options.out, file.file(), file.name());
   CampaignLine progress(globals, file.variants());
   CampaignOutcome outcome = DriveCampaign(file, request, folder, &progress);

@@ -18,9 +18,11 @@ namespace floorproof {
 
 struct Globals : Console {
   std::vector<std::string> sets;  // --set key.path=value
+  bool trusted = false;           // --trust
 
   // Throws InputError when one has no "=".
   std::vector<Override> Overrides() const;
+  Trust trust() const { return trusted ? Trust::kFull : Trust::kNone; }
   // The result, with --json, on stdout.
   void Result(const nlohmann::ordered_json& json_result) const;
 };

@@ -6,6 +6,8 @@
 #include "base/input_file.h"
 #include "base/interrupt.h"
 #include "env/map/init_files.h"
+#include "env/map/ros_map.h"
+#include "run/scenario/trust.h"
 
 namespace floorproof {
 
@@ -33,6 +35,58 @@ void RefuseOther(const fs::path& file, const std::string& text) {
                      "folder");
 }
 
+// The files to write: the scenario, its site, and copies of the map and the robot if these lie
+// where an untrusted scenario may not read them (docs/security.md). So the folder can be moved and
+// shared.
+class InitFolder {
+ public:
+  explicit InitFolder(fs::path folder) : folder_(std::move(folder)) {}
+
+  // How the site names this map.
+  std::string MapKey(const fs::path& map) {
+    if (IsInReach(map)) return PathFrom(folder_, map);
+    const InputFiles inputs;
+    const fs::path image = ReadRosMap(map, inputs).image;
+    ConfigNode keys = ReadYamlFile(map, inputs, "image");
+    keys.SetPath("image", ConfigNode::Scalar(image.filename().string(), true));
+    Add(map.filename(), WriteYaml(keys));
+    Add(image.filename(), inputs.Read(image, kMaxCopyBytes));
+    return map.filename().string();
+  }
+  // How the scenario names the robot that was read from these files, its own the first.
+  std::string RobotKey(const std::vector<fs::path>& files, const InputFiles& inputs) {
+    if (IsInReach(files.front())) return PathFrom(folder_, files.front());
+    const fs::path from = files.front().parent_path();
+    for (const fs::path& file : files)
+      Add("robot" / file.lexically_relative(from), inputs.Read(file, kMaxCopyBytes));
+    return ("robot" / files.front().filename()).string();
+  }
+  void Add(const fs::path& name, std::string text) {
+    files_.emplace_back(folder_ / name, std::move(text));
+  }
+  const fs::path& path() const { return folder_; }
+  void Write(const Globals& globals) const {
+    for (const auto& [file, text] : files_) RefuseOther(file, text);
+    for (const auto& [file, text] : files_) {
+      MakeFolder(file.parent_path());
+      WriteFileWhole(file, text);
+      SayWhenInterrupted(file.string() + " is there");
+      globals.Say(file.string() + " written");
+    }
+  }
+
+ private:
+  static constexpr std::uintmax_t kMaxCopyBytes = 256u << 20;
+
+  bool IsInReach(const fs::path& file) const {
+    return LiesBelow(ProjectFolder(folder_ / "scenario.yaml"),
+                     fs::weakly_canonical(fs::absolute(file)));
+  }
+
+  fs::path folder_;
+  std::vector<std::pair<fs::path, std::string>> files_;
+};
+
 }  // namespace
 
 void AddInit(CommandLine& line, const Globals& globals, int&) {
@@ -54,22 +108,18 @@ void AddInit(CommandLine& line, const Globals& globals, int&) {
     if (const std::string why = WhyUnreadable(robot_file, kMaxRobotBytes); !why.empty())
       throw InputError({"--robot", 0}, "", options->robot,
                        why + ": " + fs::absolute(robot_file).string());
-    const RobotModel robot = ReadRobot(robot_file);
-    const fs::path folder = options->out;
+    const InputFiles inputs;
+    const RobotModel robot = ReadRobot(robot_file, {}, Blocks::kLocked, inputs);
+    InitFolder folder(options->out);
     const bool bundled = robot_file != options->robot;
-    const InitFiles files = MakeInitFiles(options->map, robot.spec, folder,
-                                          bundled ? options->robot : PathFrom(folder, robot_file));
-    const std::pair<fs::path, const std::string*> written[] = {
-        {folder / "site.yaml", &files.site_yaml}, {folder / "scenario.yaml", &files.scenario_yaml}};
-    for (const auto& [file, text] : written) RefuseOther(file, *text);
+    const std::string robot_key = bundled ? options->robot : folder.RobotKey(robot.files, inputs);
+    const InitFiles files = MakeInitFiles(options->map, robot.spec, folder.path(), robot_key,
+                                          folder.MapKey(options->map));
+    folder.Add("site.yaml", files.site_yaml);
+    folder.Add("scenario.yaml", files.scenario_yaml);
     for (const auto& warning : files.warnings) globals.Say("warning: " + warning);
-    MakeFolder(folder);
-    for (const auto& [file, text] : written) {
-      WriteFileWhole(file, *text);
-      SayWhenInterrupted(file.string() + " is there");
-      globals.Say(file.string() + " written");
-    }
-    globals.Say("next: floorproof run " + (folder / "scenario.yaml").string() + " --video");
+    folder.Write(globals);
+    globals.Say("next: floorproof run " + (folder.path() / "scenario.yaml").string() + " --video");
   });
 }
 

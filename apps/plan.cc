@@ -54,7 +54,7 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
     const std::vector<std::string> allowed = ReadFaults(options->allow);
     if (!allowed.empty() && !options->strict)
       throw InputError({"--allow", 0}, "", options->allow, "accepts faults of --strict alone");
-    Scenario scenario = ReadScenario(options->scenario, globals.Overrides());
+    Scenario scenario = ReadScenario(options->scenario, globals.Overrides(), globals.trust());
     std::vector<std::string> lines = Warnings(scenario);
     for (const std::string& warning : lines) globals.Say(warning);
     if (const PlanCommand* program = ProgramToAsk(scenario)) globals.Say(ProgramLine(*program));
@@ -66,7 +66,8 @@ void AddPlan(CommandLine& line, const Globals& globals, int& status) {
         plan.status == PlanStatus::kSuccess)
       CleanerPlan(scenario, *plan.risk);  // else its drive would be the first to try
     const std::vector<RiskOfPlan> beside =
-        PlansBeside(options->beside, globals.Overrides(), MeasurePlan(scenario, plan), globals);
+        PlansBeside(options->beside, globals.Overrides(), MeasurePlan(scenario, plan),
+                    globals.trust(), globals);
     nlohmann::ordered_json json = SavePlan(scenario, plan, out, beside);
     const bool found = plan.status == PlanStatus::kSuccess;
     std::vector<std::string> faults;

@@ -33,7 +33,7 @@ void AddPredict(CommandLine& line, const Globals& globals, int& status) {
     std::vector<Override> overrides = globals.Overrides();
     if (!options->model.empty())
       overrides.push_back({"risk.model", std::filesystem::absolute(options->model).string()});
-    const ScenarioFile file(options->scenario, overrides);
+    const ScenarioFile file(options->scenario, overrides, globals.trust());
     const Scenario scenario = file.Read(file.episode());
     for (const std::string& warning : Warnings(scenario)) globals.Say(warning);
     if (!scenario.matrix.IsNull())

@@ -54,7 +54,7 @@ int ExitStatusOf(const RareOutcome& outcome) {
 }
 
 int RunRare(const RareCommand& options, const Globals& globals) {
-  const ScenarioFile file(options.scenario, OverridesOf(globals, options));
+  const ScenarioFile file(options.scenario, OverridesOf(globals, options), globals.trust());
   const fs::path folder =
       options.out.empty() ? fs::path("out") / "rare" / file.file().stem() : fs::path(options.out);
   const RareRequest request{

@@ -17,7 +17,7 @@ int ReplayOfRun(const std::filesystem::path& folder, bool video, const Globals& 
     if (const std::string why = WhyUnreadable(folder / needed, kMaxResultBytes); !why.empty())
       throw InputError({(folder / needed).string(), 0}, "", "",
                        why + ": not a folder of a finished `run`, nor of a `campaign`");
-  globals.Result(ReplayRun(folder, globals.Overrides(), video, globals));
+  globals.Result(ReplayRun(folder, globals.Overrides(), globals.trust(), video, globals));
   return kExitDone;
 }
 
@@ -30,7 +30,7 @@ int ReplayOfCampaign(const std::filesystem::path& folder, std::optional<std::uin
     throw InputError({"--set", 0}, "", globals.sets.front(),
                      "changes what was recorded: not for a campaign's episode");
   const CampaignStore store = CampaignStore::Open(folder / "campaign.sqlite", false);
-  const ScenarioFile file(folder / "scenario.resolved.yaml");
+  const ScenarioFile file(folder / "scenario.resolved.yaml", {}, globals.trust());
   const auto& variants = file.variants();
   const auto variant =
       name.empty() ? variants.begin() : std::ranges::find(variants, name, &Variant::name);

@@ -24,7 +24,7 @@ void AddRun(CommandLine& line, const Globals& globals, int& status) {
   command.OnRun([options, &globals, &status] {
     auto overrides = globals.Overrides();
     if (options->seed >= 0) overrides.push_back({"seed", std::to_string(options->seed)});
-    Scenario scenario = ReadScenario(options->scenario, overrides);
+    Scenario scenario = ReadScenario(options->scenario, overrides, globals.trust());
     const std::filesystem::path folder = OutputFolder(options->out, scenario.file, scenario.name);
     SayDrawn(scenario, globals);
     if (!scenario.matrix.IsNull())

@@ -77,6 +77,8 @@ int RunFloorproof(int argc, char** argv) {
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_flag("--trust", globals.trusted,
+               "Let the scenario run the program that it names and read files outside its folder");
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(

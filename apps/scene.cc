@@ -46,7 +46,7 @@ void AddScene(CommandLine& line, const Globals& globals, int&) {
   command.Text("SCENARIO", options->scenario, "Scenario file (YAML)", Subcommand::Need::kRequired);
   command.Text("--out", options->out, "MJCF file to write", Subcommand::Need::kRequired);
   command.OnRun([options, &globals] {
-    const Scenario s = ReadScenario(options->scenario, globals.Overrides());
+    const Scenario s = ReadScenario(options->scenario, globals.Overrides(), globals.trust());
     for (const std::string& warning : Warnings(s)) globals.Say(warning);
     RefuseToReplace(InputsOf(s), options->out);
     RefuseToReplaceOthers(options->out);

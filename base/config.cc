@@ -341,15 +341,40 @@ ConfigNode ParseYaml(const std::string& text, const std::string& file) {
   }
 }
 
-ConfigNode ReadYamlFile(const std::filesystem::path& path) {
-  return ReadYamlFile(path, InputFiles());
+namespace {
+
+std::string ReadText(const std::filesystem::path& file, const InputFiles& files) {
+  const std::string& text = files.Read(file, kMaxBytes);
+  if (!IsUtf8Text(text)) throw InputError({file.string(), 0}, "", "", "not a text file (UTF-8)");
+  return text;
 }
 
-ConfigNode ReadYamlFile(const std::filesystem::path& path, const InputFiles& files) {
-  const std::string name = path.string();
-  const std::string& text = files.Read(path, kMaxBytes);
-  if (!IsUtf8Text(text)) throw InputError({name, 0}, "", "", "not a text file (UTF-8)");
-  return ParseYaml(text, name);
+// Whether a text that is no YAML holds this key all the same.
+bool HoldsKey(const std::string& text, std::string_view key) {
+  for (std::size_t at = text.find(key); at != text.npos; at = text.find(key, at + 1)) {
+    const bool begins = at == 0 || std::string_view("\n{, \"'").find(text[at - 1]) != text.npos;
+    const std::size_t end = text.find_first_not_of("\"' ", at + key.size());
+    if (begins && end != text.npos && text[end] == ':') return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+ConfigNode ReadYamlFile(const std::filesystem::path& path) {
+  return ParseYaml(ReadText(path, InputFiles()), path.string());
+}
+
+ConfigNode ReadYamlFile(const std::filesystem::path& path, const InputFiles& files,
+                        std::string_view marker) {
+  const std::string text = ReadText(path, files);
+  try {
+    return ParseYaml(text, path.string());
+  } catch (const InputError&) {
+    if (HoldsKey(text, marker)) throw;
+    throw InputError({path.string(), 0}, "", "",
+                     "is not YAML with the key `" + std::string(marker) + "`");
+  }
 }
 
 std::string WriteYaml(const ConfigNode& node) {

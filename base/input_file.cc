@@ -2,13 +2,14 @@
 #include "base/input_file.h"
 
 #include <fcntl.h>
+#include <linux/magic.h>
 #include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <limits>
 
 #include "base/config.h"
@@ -18,6 +19,29 @@
 namespace floorproof {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+// Files of /proc and /sys are not a user's: what a process was started with, its memory, devices.
+bool IsOfTheKernel(int fd) {
+  struct statfs system {};
+  return fstatfs(fd, &system) == 0 &&
+         (system.f_type == PROC_SUPER_MAGIC || system.f_type == SYSFS_MAGIC);
+}
+constexpr const char* kOfTheKernel = "is the kernel's (/proc, /sys), not a file";
+
+struct Opened {
+  explicit Opened(const fs::path& file)
+      : fd(open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {}
+  ~Opened() {
+    if (fd >= 0) close(fd);
+  }
+  Opened(const Opened&) = delete;
+  Opened& operator=(const Opened&) = delete;
+  const int fd;
+};
+
+}  // namespace
 
 std::string WhyUnreadable(const fs::path& file, std::uintmax_t most_bytes) {
   if (file.native().find('\0') != std::string::npos) return "no such file";
@@ -30,10 +54,9 @@ std::string WhyUnreadable(const fs::path& file, std::uintmax_t most_bytes) {
   const std::uintmax_t size = fs::file_size(file, error);
   if (error) return "cannot be read: " + error.message();
   if (size > most_bytes) return "larger than " + std::to_string(most_bytes >> 20) + " MiB";
-  errno = 0;
-  if (!std::ifstream(file, std::ios::binary))
-    return std::string("cannot be read: ") + std::strerror(errno);
-  return "";
+  const Opened opened(file);
+  if (opened.fd < 0) return std::string("cannot be read: ") + std::strerror(errno);
+  return IsOfTheKernel(opened.fd) ? kOfTheKernel : "";
 }
 
 namespace {
@@ -45,16 +68,12 @@ std::string Read(const fs::path& file, std::uintmax_t count, std::uintmax_t most
   };
   if (const std::string why = WhyUnreadable(file, most_bytes); !why.empty()) refuse(why);
   // What it is now may be something else, and a pipe would wait for a writer.
-  struct Opened {
-    int fd;
-    ~Opened() {
-      if (fd >= 0) close(fd);
-    }
-  } const opened{open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
+  const Opened opened(file);
   struct stat status {};
   if (opened.fd < 0 || fstat(opened.fd, &status) != 0)
     refuse(std::string("cannot be read: ") + std::strerror(errno));
   if (!S_ISREG(status.st_mode)) refuse("is a pipe or a device, not a file");
+  if (IsOfTheKernel(opened.fd)) refuse(kOfTheKernel);
   std::string bytes;
   bytes.reserve(std::min({count, most_bytes, static_cast<std::uintmax_t>(status.st_size)}));
   // Does not simply read to the end: a file that grows meanwhile must not be read without bound.
@@ -75,6 +94,10 @@ std::string Read(const fs::path& file, std::uintmax_t count, std::uintmax_t most
 
 std::string ReadInputFile(const fs::path& file, std::uintmax_t most_bytes) {
   return Read(file, std::numeric_limits<std::uintmax_t>::max(), most_bytes);
+}
+
+bool LiesBelow(const fs::path& folder, const fs::path& path) {
+  return std::ranges::mismatch(folder, path).in1 == folder.end();
 }
 
 bool IsPlainFile(const fs::path& file) {

@@ -12,11 +12,15 @@ namespace floorproof {
 struct ConfigNode;
 
 // Why the file cannot be read: missing, a folder, a pipe or device, larger than most_bytes, not
-// permitted, a loop of links. Empty when it can. Never throws for what the path holds.
+// permitted, a loop of links, a file of /proc or /sys. Empty when it can. Never throws, whatever
+// the path holds.
 std::string WhyUnreadable(const std::filesystem::path& file, std::uintmax_t most_bytes);
 
 // Whether it is a plain file and no link, which could lead to a file that is nobody's to show.
 bool IsPlainFile(const std::filesystem::path& file);
+
+// Whether a path is `folder` or lies below it, as both are written: neither is looked for.
+bool LiesBelow(const std::filesystem::path& folder, const std::filesystem::path& path);
 
 // Of a file that the program wrote and reads again.
 inline constexpr std::uintmax_t kMaxResultBytes = 64u << 20;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/input_files.h"
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -32,22 +33,50 @@ struct InputFiles::Shared {
   std::map<fs::path, Input> inputs;         // by canonical path
   std::map<std::string, Input*> spellings;  // asking again costs no look at the disk
   std::vector<fs::path> order;
+  fs::path confined_to;           // empty: nothing is out of reach
+  std::vector<fs::path> allowed;  // beside it
+
+  // Without links, as far as it is there.
+  static fs::path Resolved(const fs::path& file) {
+    std::error_code error;
+    fs::path path = fs::weakly_canonical(fs::absolute(file), error);
+    // A loop of links: the reader reports it.
+    return error ? fs::absolute(file).lexically_normal() : path;
+  }
+
+  // Why a file is out of reach, whether it is there or not; empty when it is not.
+  std::string WhyOutOfReach(const fs::path& file) const {
+    if (confined_to.empty()) return "";
+    const fs::path path = Resolved(file);
+    const auto allows = [&](const fs::path& place) { return LiesBelow(place, path); };
+    if (std::ranges::any_of(allowed, allows)) return "";
+    const std::string trusted = " (--trust reads it all the same)";
+    if (!LiesBelow(confined_to, path))
+      return "lies outside the scenario's folder, " + confined_to.string() + trusted;
+    for (const fs::path& part : path.lexically_relative(confined_to))
+      if (part.native().starts_with('.') && part != ".")
+        return "is a hidden file of the scenario's folder, or in one" + trusted;
+    return "";
+  }
 
   Input& At(const fs::path& file) {
     Input*& known = spellings[file.string()];
     if (known == nullptr) {
-      std::error_code error;
-      fs::path key = fs::weakly_canonical(fs::absolute(file), error);
-      if (error) key = fs::absolute(file).lexically_normal();  // a loop of links: reading says so
-      known = &inputs[key];
+      known = &inputs[Resolved(file)];
       if (known->named.empty()) known->named = file;
     }
     return *known;
   }
 
+  void RefuseOutOfReach(const fs::path& file) const {
+    if (const std::string why = WhyOutOfReach(file); !why.empty())
+      throw InputError({file.string(), 0}, "", "", why);
+  }
+
   const std::string& Bytes(const fs::path& file, std::uintmax_t most_bytes) {
     Input& input = At(file);
     if (!input.bytes) {
+      RefuseOutOfReach(input.copy.empty() ? file : input.copy);
       std::string bytes = ReadInputFile(input.copy.empty() ? file : input.copy, most_bytes);
       std::string hash = floorproof::Sha256(bytes);
       if (!input.copy.empty() && hash != input.sha256)
@@ -76,14 +105,18 @@ std::string InputFiles::ReadStart(const fs::path& file, std::size_t count,
   const std::lock_guard alone(shared_->mutex);
   const Shared::Input& input = shared_->At(file);
   if (input.bytes) return input.bytes->substr(0, count);
-  return ReadStartOfFile(input.copy.empty() ? file : input.copy, count, most_bytes);
+  const fs::path& read = input.copy.empty() ? file : input.copy;
+  shared_->RefuseOutOfReach(read);
+  return ReadStartOfFile(read, count, most_bytes);
 }
 
 std::string InputFiles::WhyUnreadable(const fs::path& file, std::uintmax_t most_bytes) const {
   const std::lock_guard alone(shared_->mutex);
   const Shared::Input& input = shared_->At(file);
   if (input.bytes && input.bytes->size() <= most_bytes) return "";
-  return floorproof::WhyUnreadable(input.copy.empty() ? file : input.copy, most_bytes);
+  const fs::path& read = input.copy.empty() ? file : input.copy;
+  const std::string why = shared_->WhyOutOfReach(read);
+  return why.empty() ? floorproof::WhyUnreadable(read, most_bytes) : why;
 }
 
 const std::string& InputFiles::Sha256(const fs::path& file) const {
@@ -98,6 +131,7 @@ std::uintmax_t InputFiles::Size(const fs::path& file) const {
   const Shared::Input& input = shared_->At(file);
   if (input.bytes) return input.bytes->size();
   const fs::path& read = input.copy.empty() ? file : input.copy;
+  shared_->RefuseOutOfReach(read);
   std::error_code error;
   const std::uintmax_t size = fs::file_size(read, error);
   if (error) throw InputError({read.string(), 0}, "", "", "cannot be read: " + error.message());
@@ -139,6 +173,21 @@ std::vector<std::pair<std::string, std::string>> InputFiles::Named() const {
   for (const auto& [name, input] : shared_->spellings)
     if (input->bytes) named.emplace_back(name, *input->bytes);
   return named;
+}
+
+void InputFiles::Confine(const fs::path& folder) const {
+  const std::lock_guard alone(shared_->mutex);
+  shared_->confined_to = Shared::Resolved(folder);
+}
+
+void InputFiles::Allow(const fs::path& place) const {
+  const std::lock_guard alone(shared_->mutex);
+  if (!shared_->confined_to.empty()) shared_->allowed.push_back(Shared::Resolved(place));
+}
+
+bool InputFiles::confined() const {
+  const std::lock_guard alone(shared_->mutex);
+  return !shared_->confined_to.empty();
 }
 
 void InputFiles::MarkAbsolute(const fs::path& file) const {

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -44,6 +45,14 @@ class InputFiles {
   // What was read or held, under every name by which it was asked for: name and bytes.
   std::vector<std::pair<std::string, std::string>> Named() const;
 
+  // From now on a file that was neither read nor held before is read only if it lies in `folder` or
+  // where it was allowed, links followed. Hidden files and folders below `folder` (.git, .ssh) are
+  // out of reach too. Before Allow.
+  void Confine(const std::filesystem::path& folder) const;
+  // A file, or a folder with all that is below it. Of no effect where nothing is confined.
+  void Allow(const std::filesystem::path& place) const;
+  bool confined() const;
+
   // Another input names this file by an absolute path: it is looked for there wherever a record of
   // the work is moved to.
   void MarkAbsolute(const std::filesystem::path& file) const;
@@ -57,8 +66,10 @@ class InputFiles {
   std::shared_ptr<Shared> shared_;
 };
 
-// As ReadYamlFile of base/config.h.
-ConfigNode ReadYamlFile(const std::filesystem::path& path, const InputFiles& files);
+// As ReadYamlFile of base/config.h, of a file that is to hold the key `marker`. If the text does
+// not hold it, the InputError quotes nothing of the text, which may be a secret.
+ConfigNode ReadYamlFile(const std::filesystem::path& path, const InputFiles& files,
+                        std::string_view marker);
 
 // The folder of copies, beside the record that lists them: a file each, named by its SHA-256.
 std::filesystem::path KeptCopy(const std::filesystem::path& folder, const std::string& sha256);

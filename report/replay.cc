@@ -48,8 +48,8 @@ nlohmann::ordered_json ReadResult(const fs::path& file) {
 }
 
 nlohmann::ordered_json ReplayRun(const fs::path& folder, const std::vector<Override>& overrides,
-                                 bool video, const Console& console) {
-  Scenario scenario = ReadScenario(folder / "scenario.resolved.yaml", overrides);
+                                 Trust trust, bool video, const Console& console) {
+  Scenario scenario = ReadScenario(folder / "scenario.resolved.yaml", overrides, trust);
   RefuseProgram(scenario);
   const fs::path result_file = folder / "result.json";
   std::optional<nlohmann::ordered_json> recorded;  // none: another drive than this one's

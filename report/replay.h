@@ -22,7 +22,7 @@ nlohmann::ordered_json ReadResult(const std::filesystem::path& file);
 // overrides, outcome, events or metrics are not the recorded ones: a film must show what was
 // judged.
 nlohmann::ordered_json ReplayRun(const std::filesystem::path& folder,
-                                 const std::vector<Override>& overrides, bool video,
+                                 const std::vector<Override>& overrides, Trust trust, bool video,
                                  const Console& console);
 
 // Drives a recorded row again into `into`, whole as `run` would; `scenario` is what it was driven

@@ -136,10 +136,10 @@ RiskOfPlan MeasurePlan(const Scenario& s, const PlanResult& plan) {
 
 std::vector<RiskOfPlan> PlansBeside(const std::vector<std::string>& files,
                                     const std::vector<Override>& overrides, const RiskOfPlan& first,
-                                    const Console& console) {
+                                    Trust trust, const Console& console) {
   std::vector<RiskOfPlan> plans;
   for (const std::string& file : files) {
-    const Scenario scenario = ReadScenario(file, overrides);
+    const Scenario scenario = ReadScenario(file, overrides, trust);
     if (const PlanCommand* program = ProgramToAsk(scenario)) console.Say(ProgramLine(*program));
     const PlanResult plan = MakePlan(scenario);
     if (plan.status != PlanStatus::kSuccess)

@@ -23,7 +23,7 @@ RiskOfPlan MeasurePlan(const Scenario& scenario, const PlanResult& plan);
 // read, has no plan, or has another floor, robot or risk.
 std::vector<RiskOfPlan> PlansBeside(const std::vector<std::string>& files,
                                     const std::vector<Override>& overrides, const RiskOfPlan& first,
-                                    const Console& console);
+                                    Trust trust, const Console& console);
 
 // heatmap_plan.png: the planned path over the map; where risk is asked for, over its cells, those
 // with hazards coloured by their class. Of an audit, heatmap_samples.png, and plot_convergence.png

@@ -32,7 +32,7 @@ void FilmMethod(const RobotSuite& robot, const RobotModel& model, const MethodRe
     files.Begin();
     WriteRun(*entry, model, robot.robot, run, options, into);
   }
-  Scenario scenario = ReadScenario(into / kRunFile, options.overrides);
+  Scenario scenario = ReadScenario(into / kRunFile, options.overrides, Trust::kFull);
   const Console silent{.quiet = true};
   const DriveResult drive = DriveAndFilm(scenario, into, {.video = true}, silent);
   if (drive.not_written) std::rethrow_exception(drive.not_written);

@@ -75,12 +75,12 @@ class MissionReader {
       : root_(root), types_(types) {}
 
   Mission Read() {
-    RefuseUnknownKeys(root_, "",
-                      {"mission", "name", "primitives", "skills", "tasks", "run", "weights",
-                       "levels", "decision"});
     constexpr int kVersion = 1;
     const ConfigNode* version = root_.Find("mission");
     if (version == nullptr) throw InputError(root_.mark, "mission", "", "is missing: mission: 1");
+    RefuseUnknownKeys(root_, "",
+                      {"mission", "name", "primitives", "skills", "tasks", "run", "weights",
+                       "levels", "decision"});
     AsInt(*version, "mission", Between(kVersion, kVersion));
     if (const ConfigNode* name = root_.Find("name")) mission_.name = AsString(*name, "name");
     ReadNumbers();
@@ -383,7 +383,7 @@ class MissionReader {
 }  // namespace
 
 Mission ReadMission(const ConfigNode& root, std::span<const PrimitiveType> types) {
-  if (!root.IsMap()) throw InputError(root.mark, "mission", root.scalar, "must be a map of keys");
+  if (!root.IsMap()) throw InputError(root.mark, "mission", "", "must be a map of keys");
   return MissionReader(root, types).Read();
 }
 

@@ -249,7 +249,8 @@ Pose2 ChooseStart(const HazardMap& map, const RobotSpec& robot) {
 }
 
 InitFiles MakeInitFiles(const fs::path& map_yaml, const RobotSpec& robot,
-                        const fs::path& folder_out, const std::string& robot_key) {
+                        const fs::path& folder_out, const std::string& robot_key,
+                        const std::string& map_key) {
   const RosMap ros = ReadRosMap(map_yaml);
   HazardMap map;
   map.frame = ros.frame;
@@ -263,7 +264,9 @@ InitFiles MakeInitFiles(const fs::path& map_yaml, const RobotSpec& robot,
   }();
   const SweepArea area = ComputeSweepArea(map, robot.clear, robot.tool, robot.step_m, start.p());
   const fs::path from = fs::weakly_canonical(fs::absolute(folder_out.empty() ? "." : folder_out));
-  const fs::path relative = fs::weakly_canonical(fs::absolute(map_yaml)).lexically_relative(from);
+  const fs::path relative =
+      map_key.empty() ? fs::weakly_canonical(fs::absolute(map_yaml)).lexically_relative(from)
+                      : fs::path(map_key);
   const std::string name = NameOf(map_yaml);
   std::vector<std::string> warnings = ros.warnings;
   if (std::string warning = WarnOfFloorOutOfReach(map, area); !warning.empty())

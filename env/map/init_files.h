@@ -21,9 +21,10 @@ struct InitFiles {
 // piece of floor that it can reach. Throws InputError when the map is bad or the robot fits nowhere
 // on it.
 // `robot_key`: how the scenario names the robot, a path from `folder_out` or a bundled robot's
-// name; empty: robot.name.
+// name; empty: robot.name. `map_key`: how the site names the map; empty: where it lies.
 InitFiles MakeInitFiles(const std::filesystem::path& map_yaml, const RobotSpec& robot,
-                        const std::filesystem::path& folder_out, const std::string& robot_key = "");
+                        const std::filesystem::path& folder_out, const std::string& robot_key = "",
+                        const std::string& map_key = "");
 
 // Where a robot of this shape may start: in the largest piece of floor that it can reach, towards
 // the map's lower left, with 0.10 m to spare if there is such a place, heading along the map's x.

@@ -100,7 +100,7 @@ void RefuseImage(const fs::path& yaml_path, const InputFiles& files) {
 
 Keys ReadKeys(const fs::path& yaml_path, const InputFiles& files) {
   RefuseImage(yaml_path, files);
-  const ConfigNode node = ReadYamlFile(yaml_path, files);
+  const ConfigNode node = ReadYamlFile(yaml_path, files, "image");
   if (!node.IsMap())
     throw InputError({yaml_path.string(), 0}, "", "", "is not a ROS map (image, resolution, ...)");
   for (const char* kind : {"scenario", "site"})

@@ -114,10 +114,10 @@ Written ReadWritten(const ConfigNode& node, const fs::path& folder) {
                          file.filename().string() + "`; `floorproof init` writes one");
   if (node.Find("scenario") != nullptr)
     throw InputError({file.string(), 0}, "", "", "is a scenario, not a site");
-  RefuseUnknownKeys(node, "", kKnown);
   if (version == nullptr)
     throw InputError({node.mark.file, 0}, "site", "",
                      "missing; write site: 1 (the format's version)");
+  RefuseUnknownKeys(node, "", kKnown);
   if (AsInt(*version, "site") != 1)
     throw InputError(version->mark, "site", version->scalar, "must be 1, the format's version");
 

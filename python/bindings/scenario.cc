@@ -29,13 +29,13 @@ using namespace nb::literals;
 using Json = nlohmann::ordered_json;
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
-// File, text (None: the file's), overrides, inputs.
-using Packed = std::tuple<fs::path, std::optional<std::string>, Pairs,
+// File, whether it is trusted, text (None: the file's), overrides, inputs.
+using Packed = std::tuple<fs::path, bool, std::optional<std::string>, Pairs,
                           std::vector<std::pair<std::string, nb::bytes>>>;
 
 std::shared_ptr<ScenarioFile> Unpack(const Packed& packed) {
-  const auto& [file, text, overrides, inputs] = packed;
-  PackedScenario plain{file, text, {}, {}};
+  const auto& [file, trusted, text, overrides, inputs] = packed;
+  PackedScenario plain{file, trusted ? Trust::kFull : Trust::kNone, text, {}, {}};
   for (const auto& [key, value] : overrides) plain.overrides.push_back({key, value});
   for (const auto& [name, bytes] : inputs)
     plain.inputs.emplace_back(name, std::string(bytes.c_str(), bytes.size()));
@@ -44,10 +44,10 @@ std::shared_ptr<ScenarioFile> Unpack(const Packed& packed) {
 
 Packed Pack(const ScenarioFile& file) {
   const PackedScenario plain = file.Pack();
-  Packed packed{plain.file, plain.text, {}, {}};
-  for (const Override& o : plain.overrides) std::get<2>(packed).emplace_back(o.key_path, o.value);
+  Packed packed{plain.file, plain.trust == Trust::kFull, plain.text, {}, {}};
+  for (const Override& o : plain.overrides) std::get<3>(packed).emplace_back(o.key_path, o.value);
   for (const auto& [name, bytes] : plain.inputs)
-    std::get<3>(packed).emplace_back(name, nb::bytes(bytes.data(), bytes.size()));
+    std::get<4>(packed).emplace_back(name, nb::bytes(bytes.data(), bytes.size()));
   return packed;
 }
 
@@ -81,7 +81,7 @@ nb::dict SiteDict(const HazardMap& map, std::optional<double> step_m = {}) {
 // A site by itself: `text` None: the file's.
 nb::dict ReadSiteAlone(const fs::path& file, const std::optional<std::string>& text) {
   const InputFiles files;
-  const ConfigNode node = text ? ParseYaml(*text, file.string()) : ReadYamlFile(file, files);
+  const ConfigNode node = text ? ParseYaml(*text, file.string()) : ReadYamlFile(file, files, "site");
   const ConfigNode site = GeneratedSite(node, 0, 0);
   return SiteDict(ReadSite(site, file.parent_path(), files).map);
 }

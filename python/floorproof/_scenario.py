@@ -87,8 +87,8 @@ class Scenario:
 
     def with_(self, changes: Optional[Mapping[str, Any]] = None, **top: Any) -> "Scenario":
         """The same with keys set, as --set does: with_({"robot.clearance_m": 0.02}, seed=3)."""
-        file, text, overrides, inputs = self._packed()
-        return Scenario((file, text, overrides + overrides_of(changes, top), inputs))
+        *source, overrides, inputs = self._packed()
+        return Scenario((*source, overrides + overrides_of(changes, top), inputs))
 
     def with_plan(self, path: Any) -> "Scenario":
         """The same with a plan of one's own: [n, 2] to [n, 5], columns as `Plan.path`."""
@@ -107,9 +107,9 @@ class Scenario:
                            for c, v in enumerate(row)) for row in rows]
         csv = "\n".join(lines) + "\n"
         name = f"plan-{hashlib.sha256(csv.encode()).hexdigest()[:12]}.csv"
-        file, text, overrides, inputs = self._packed()
-        inputs = inputs + [(str(Path(file).parent / name), csv.encode())]
-        return Scenario((file, text, overrides + [("plan.file", yaml_text(name))], inputs))
+        *source, overrides, inputs = self._packed()
+        inputs = inputs + [(str(self.file.parent / name), csv.encode())]
+        return Scenario((*source, overrides + [("plan.file", yaml_text(name))], inputs))
 
     def episode(self, episode: int, variant: Optional[str] = None) -> "Scenario":
         """The scenario as one episode of a campaign has it, its draws made. Episodes count from 0."""
@@ -189,8 +189,8 @@ class Scenario:
         return self._file.read(*self._which)
 
     def _packed(self) -> Any:
-        file, text, overrides, inputs = self._file.pack()
-        return file, text, list(overrides), list(inputs)
+        *source, overrides, inputs = self._file.pack()
+        return (*source, list(overrides), list(inputs))
 
     def __reduce__(self) -> Any:
         return _unpickled, (self._packed(), self._which)
@@ -218,15 +218,18 @@ def _unpickled(packed: Any, which: Tuple[int, Optional[str]]) -> Scenario:
 
 
 def load(source: Union[PathLike, Mapping[str, Any]], changes: Optional[Mapping[str, Any]] = None, *,
-         folder: Optional[PathLike] = None, **top: Any) -> Scenario:
+         folder: Optional[PathLike] = None, trust: bool = False, **top: Any) -> Scenario:
     """Reads and checks a scenario: its file, or what would stand there as a dict, whose paths are
     relative to `folder` (default: the working directory). Keys are set as --set does:
 
         load("scenario.yaml", {"site.floor.friction": 0.6}, seed=3)
+
+    `trust`: the file may name a program to plan, and files outside its folder, as --trust lets it
+    (docs/security.md). A dict is the caller's own.
     """
     overrides = overrides_of(changes, top)
     if isinstance(source, Mapping):
-        return Scenario((Path(folder or "") / "scenario", yaml_text(source), overrides, []))
+        return Scenario((Path(folder or "") / "scenario", True, yaml_text(source), overrides, []))
     if folder is not None:
         raise InputError("folder: is for dicts; paths in a file are relative to that file")
-    return Scenario((path_of("scenario", source), None, overrides, []))
+    return Scenario((path_of("scenario", source), bool(trust), None, overrides, []))

@@ -85,7 +85,7 @@ def _pickled_plugins(packed: Any) -> bytes:
     they are written in, unless these are installed ones."""
     import ray
     cloudpickle: Any = ray.cloudpickle
-    _, text, overrides, inputs = packed
+    *_, text, overrides, inputs = packed
     words = [(text or "").encode(), repr(overrides).encode(), *(data for _, data in inputs)]
     used = {at: what for at, what in _plugins.registered.items()
             if any(at[1].encode() in word for word in words)}

@@ -53,11 +53,11 @@ void ReadRow(const ConfigNode& node, const std::string& path, const std::string&
 }  // namespace
 
 FmeaTables ReadFmeaTables(const std::filesystem::path& file, const InputFiles& files) {
-  const ConfigNode root = ReadYamlFile(file, files);
+  const ConfigNode root = ReadYamlFile(file, files, "fmea");
   if (!root.IsMap()) throw InputError({file.string(), 1}, "", "", "must be a map of keys");
-  RefuseUnknownKeys(root, "", {"fmea", "classes", "modes", "effects"});
   const ConfigNode* version = root.Find("fmea");
   if (version == nullptr) throw InputError(root.mark, "fmea", "", "the key is missing (fmea: 1)");
+  RefuseUnknownKeys(root, "", {"fmea", "classes", "modes", "effects"});
   AsInt(*version, "fmea", Between(1, 1));
 
   FmeaTables tables;

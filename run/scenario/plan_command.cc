@@ -13,6 +13,7 @@
 #include "base/printable.h"
 #include "base/run_program.h"
 #include "run/scenario/scenario_parts.h"
+#include "run/scenario/trust.h"
 
 namespace floorproof {
 namespace {
@@ -41,7 +42,8 @@ void VisitKeys(ParamVisitor& v, PlanCommand& command) {
   v("uses_seed", command.uses_seed, "each episode asks for a plan of its own");
 }
 
-// The program and its arguments as they would be typed.
+}  // namespace
+
 std::string Typed(const std::vector<std::string>& words) {
   std::string line;
   for (const std::string& word : words) {
@@ -51,8 +53,6 @@ std::string Typed(const std::vector<std::string>& words) {
   }
   return Printable(line);
 }
-
-}  // namespace
 
 PlanCommand ReadPlanCommand(const ConfigNode& plan, const fs::path& folder,
                             const InputFiles& files) {
@@ -116,6 +116,7 @@ ConfigNode WritePlanCommand(const PlanCommand& command, const fs::path& folder,
 }
 
 void CheckProgram(const PlanCommand& command, const InputFiles& files) {
+  RefuseUntrusted(command, files);
   const std::string& program = command.words.front();
   std::error_code ignored;
   if (const fs::path& folder = command.folder;

@@ -36,7 +36,11 @@ ConfigNode PlanCommandSchema();
 ConfigNode WritePlanCommand(const PlanCommand& command, const std::filesystem::path& folder,
                             const std::filesystem::path& made);
 
-// Throws InputError where the program is not there, or is not what was read of it before.
+// The program and its arguments as they would be typed.
+std::string Typed(const std::vector<std::string>& words);
+
+// Throws InputError if it is not trusted (run/scenario/trust.h), it is not there, or is not what
+// was read of it before.
 void CheckProgram(const PlanCommand& command, const InputFiles& files);
 
 // Before it is run: which program, and which file says so.

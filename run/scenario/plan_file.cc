@@ -37,10 +37,20 @@ void RefuseSemicolons(const std::string& line, const SourceMark& mark) {
     throw InputError(mark, "", "", "is divided by semicolons: must be by commas");
 }
 
+// A first row without a column's name, or one like it, belongs to another kind of file, which may
+// hold a secret: it is not quoted.
+void RefuseOtherKinds(const std::vector<std::string>& header, const SourceMark& mark,
+                      const std::vector<std::string>& columns) {
+  if (std::ranges::none_of(
+          header, [&](const std::string& name) { return !Nearest(name, columns).empty(); }))
+    throw InputError(mark, "", "", "is no row of column names: the first row names x_m,y_m,...");
+}
+
 std::vector<std::string> ReadHeader(const std::string& line, const SourceMark& mark,
                                     const std::vector<std::string>& columns) {
   RefuseSemicolons(line, mark);
   const auto header = SplitRow(line);
+  RefuseOtherKinds(header, mark, columns);
   for (const auto& name : header) {
     if (std::ranges::find(columns, name) == columns.end()) {
       const std::string near = DidYouMean(name, columns);

@@ -261,7 +261,7 @@ MeasuredRobot ReadMeasuredRobot(const ConfigNode& node) {
 namespace {
 
 RiskModel Parse(const std::filesystem::path& file, const InputFiles& files) {
-  const ConfigNode root = ReadYamlFile(file, files);
+  const ConfigNode root = ReadYamlFile(file, files, "risk_model");
   if (!root.IsMap()) throw InputError({file.string(), 1}, "", "", "must be a map of keys");
   if (root.Find("risk_model") == nullptr)
     throw InputError(root.mark, "risk_model", "",

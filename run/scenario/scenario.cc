@@ -65,10 +65,16 @@ void ApplyToSite(const Variant& changes, const fs::path& scenario_folder, Config
   }
 }
 
-// A file that should hold a scenario, or a site.
-ConfigNode ReadTree(const fs::path& file, const std::string& expected, const InputFiles& files) {
-  RefuseMapImage(file, expected, files);
-  return ReadYamlFile(file, files);
+InputFiles Confined(InputFiles files, const fs::path& scenario) {
+  ConfineScenario(scenario, files);
+  return files;
+}
+
+// A file that should hold this kind of thing, a scenario or a site, and its version under the key
+// of that name.
+ConfigNode ReadTree(const fs::path& file, const std::string& kind, const InputFiles& files) {
+  RefuseMapImage(file, "a " + kind, files);
+  return ReadYamlFile(file, files, kind);
 }
 
 // What is typed is meant from the folder in which it is typed, where a file lies there; else it is
@@ -161,22 +167,23 @@ struct ScenarioFile::SiteFiles {
   std::map<fs::path, ConfigNode> trees;  // read once each
 };
 
-ScenarioFile::ScenarioFile(const fs::path& file, const std::vector<Override>& overrides)
-    : ScenarioFile(std::nullopt, file, overrides, Files::kCheck) {}
+ScenarioFile::ScenarioFile(const fs::path& file, const std::vector<Override>& overrides,
+                           Trust trust)
+    : ScenarioFile(std::nullopt, file, overrides, trust, Files::kCheck) {}
 
 ScenarioFile ScenarioFile::FromText(const std::string& text, const fs::path& file,
                                     const std::vector<Override>& overrides) {
-  return {text, file, overrides, Files::kCheck};
+  return {text, file, overrides, Trust::kFull, Files::kCheck};
 }
 
 ScenarioFile ScenarioFile::Unpack(const PackedScenario& packed) {
   const InputFiles inputs;
   for (const auto& [name, bytes] : packed.inputs) inputs.Hold(name, bytes);
-  return {packed.text, packed.file, packed.overrides, Files::kCheck, inputs};
+  return {packed.text, packed.file, packed.overrides, packed.trust, Files::kCheck, inputs};
 }
 
 PackedScenario ScenarioFile::Pack() const {
-  PackedScenario packed{file_, text_, {}, {}};
+  PackedScenario packed{file_, files_.confined() ? Trust::kNone : Trust::kFull, text_, {}, {}};
   for (const auto& [key, value] : overrides_) packed.overrides.push_back({key, WriteYaml(value)});
   const std::string bundled = (ModelsFolder() / "").string();
   for (auto& input : files_.Named())
@@ -185,28 +192,30 @@ PackedScenario ScenarioFile::Pack() const {
 }
 
 ScenarioFile ScenarioFile::Recorded(const fs::path& file) {
-  return {std::nullopt, file, {}, Files::kMayBeGone};
+  return {std::nullopt, file, {}, Trust::kNone, Files::kMayBeGone};
 }
 
 ScenarioFile::ScenarioFile(std::optional<std::string> text, const fs::path& file,
-                           const std::vector<Override>& overrides, Files files, InputFiles inputs)
+                           const std::vector<Override>& overrides, Trust trust, Files files,
+                           InputFiles inputs)
     : file_(file),
-      files_(std::move(inputs)),
+      files_(trust == Trust::kFull ? inputs : Confined(inputs, file)),
       text_(std::move(text)),
-      root_(text_ ? ParseYaml(*text_, file.string()) : ReadTree(file, "a scenario", files_)),
+      root_(text_ ? ParseYaml(*text_, file.string()) : ReadTree(file, "scenario", files_)),
       site_files_(std::make_shared<SiteFiles>()) {
   RefuseOtherKinds(root_, file.string());
   for (const Override& o : overrides) {
     overrides_.emplace_back(o.key_path, ParseYaml(o.value, std::string(kSet) + o.key_path));
     FindFromHere(o.key_path, file.parent_path(), overrides_.back().second);
+    AllowTyped(o.key_path, overrides_.back().second, file.parent_path(), files_);
     ChooseWhosePlan(o.key_path, root_);
   }
   Apply({"", overrides_}, root_);
   RemoveNone(root_);
-  RefuseUnknownKeys(root_, "", ScenarioKeys());
   const ConfigNode* version = root_.Find("scenario");
   if (version == nullptr)
     throw InputError(root_.mark, "scenario", "", "the key is missing (scenario: 1)");
+  RefuseUnknownKeys(root_, "", ScenarioKeys());
   AsInt(*version, "scenario", Between(1, 1));
   TakeListedFiles(root_, file.parent_path(), files == Files::kCheck, files_);
   EpisodeParams params;
@@ -254,7 +263,7 @@ const ConfigNode& ScenarioFile::SiteTree(const fs::path& file) const {
   const std::lock_guard alone(site_files_->mutex);
   auto known = site_files_->trees.find(file);
   if (known == site_files_->trees.end())
-    known = site_files_->trees.emplace(file, ReadTree(file, "a site", files_)).first;
+    known = site_files_->trees.emplace(file, ReadTree(file, "site", files_)).first;
   return known->second;
 }
 
@@ -385,8 +394,8 @@ Scenario ScenarioFile::ReadWith(std::optional<std::uint64_t> episode, const Draw
   return s;
 }
 
-Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrides) {
-  const ScenarioFile scenario(file, overrides);
+Scenario ReadScenario(const fs::path& file, const std::vector<Override>& overrides, Trust trust) {
+  const ScenarioFile scenario(file, overrides, trust);
   return scenario.Read(scenario.episode());
 }
 

@@ -33,6 +33,7 @@
 #include "run/scenario/matrix.h"
 #include "run/scenario/plan_command.h"
 #include "run/scenario/scenario_params.h"
+#include "run/scenario/trust.h"
 
 namespace floorproof {
 
@@ -99,6 +100,7 @@ struct Override {
 // A scenario file with all that was read for it so far, to be read where its files are not.
 struct PackedScenario {
   std::filesystem::path file;
+  Trust trust = Trust::kNone;
   std::optional<std::string> text;  // none: it is the file's
   std::vector<Override> overrides;
   std::vector<std::pair<std::string, std::string>> inputs;  // name and bytes; no bundled models
@@ -111,9 +113,10 @@ class ScenarioFile {
   // Reads the file and applies the overrides (keys below `site.` reach into the site file); what is
   // set is not drawn. Throws InputError naming file, line, key, value and rule.
   explicit ScenarioFile(const std::filesystem::path& file,
-                        const std::vector<Override>& overrides = {});
-  // The same of a text in memory, as if it stood in `file`: paths in it are relative to that file's
-  // folder, messages name it, and it need not be there.
+                        const std::vector<Override>& overrides = {}, Trust trust = Trust::kNone);
+  // The same of the caller's own text in memory, which is trusted and treated as the content of
+  // `file`: paths in it are relative to that file's folder, messages name it, and it need not be
+  // there.
   static ScenarioFile FromText(const std::string& text, const std::filesystem::path& file,
                                const std::vector<Override>& overrides = {});
   // Of a file that was packed, perhaps on another machine: it reads what was packed, and of what is
@@ -154,7 +157,8 @@ class ScenarioFile {
  private:
   enum class Files { kCheck, kMayBeGone };
   ScenarioFile(std::optional<std::string> text, const std::filesystem::path& file,
-               const std::vector<Override>& overrides, Files files, InputFiles inputs = {});
+               const std::vector<Override>& overrides, Trust trust, Files files,
+               InputFiles inputs = {});
   // `drawn`: of the episode; null: there is none, and nothing is drawn.
   Scenario ReadWith(std::optional<std::uint64_t> episode, const Drawn* drawn,
                     const Variant& variant, const Variant& forced) const;
@@ -195,7 +199,7 @@ bool AsksForRisk(const Scenario& scenario);
 
 // The scenario itself, whatever its matrix says: episode 0, or the one that it names.
 Scenario ReadScenario(const std::filesystem::path& file,
-                      const std::vector<Override>& overrides = {});
+                      const std::vector<Override>& overrides = {}, Trust trust = Trust::kNone);
 
 // The files it was read from, beside its own: site, map, image, robot, plan.
 std::vector<std::filesystem::path> FilesRead(const Scenario& scenario);

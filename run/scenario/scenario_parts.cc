@@ -180,7 +180,7 @@ void ReadSafetyPart(const ConfigNode& root, Scenario& s) {
         "is for drives through physics; with `drive: cells` nothing is sensed that could "
         "be watched");
   s.mission_file = BundledOrNamed(mission, "mission", kBundledMission, BundledMission(), s);
-  const ConfigNode tree = ReadYamlFile(s.mission_file, s.files);
+  const ConfigNode tree = ReadYamlFile(s.mission_file, s.files, "mission");
   s.safety = ReadSafety(safety, tree);
   s.safety->helped = s.episode.on_failure == "assist";
   const HazardMap& map = s.site.map;

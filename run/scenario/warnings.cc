@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/input_file.h"
 #include "base/quantity.h"
 #include "env/scene/models_folder.h"
 #include "env/scene/restitution.h"
@@ -16,9 +17,8 @@ namespace fs = std::filesystem;
 
 bool LiesIn(const fs::path& folder, const fs::path& file) {
   std::error_code ignored;
-  const fs::path from = fs::canonical(folder.empty() ? "." : folder, ignored);
-  const fs::path to = fs::canonical(file, ignored).lexically_relative(from);
-  return !to.empty() && *to.begin() != "..";
+  return LiesBelow(fs::canonical(folder.empty() ? "." : folder, ignored),
+                   fs::canonical(file, ignored));
 }
 
 // What asks for more speed than the robot has gets less, silently: trackers cap it.

@@ -513,7 +513,7 @@ TEST_F(Cli, InitWritesARunnableScenarioAndLeavesExistingFiles) {
   fs::copy_file(SourceFile("models/beluga.xml"), folder_ / "my.xml");
   fs::rename(folder_ / "map.yaml", folder_ / "hall.yaml");
   ASSERT_EQ(Run("init hall.yaml --robot my.xml --out mine2").status, 0);
-  EXPECT_THAT(Slurp(folder_ / "mine2/scenario.yaml"), HasSubstr("robot: \"../my.xml\""));
+  EXPECT_THAT(Slurp(folder_ / "mine2/scenario.yaml"), HasSubstr("robot: \"robot/my.xml\""));
   EXPECT_EQ(Run("plan mine2/scenario.yaml").status, 0);
   EXPECT_TRUE(fs::exists(folder_ / "out/hall/plan.csv"));
   EXPECT_EQ(Run("plan mine2/scenario.yaml --set robot=my.xml --out set").status, 0);

@@ -29,6 +29,8 @@ inline void PrintTo(const BadInput& c, std::ostream* out) { *out << c.name; }
 const Files& GoodFiles();
 // `text` with the first `from` replaced by `to`; `from` must be there.
 std::string Replaced(const std::string& text, const std::string& from, const std::string& to);
+// The same case of a user who trusts the scenario: it may name any file.
+BadInput Trusted(BadInput c);
 // A PNG, BMP or PGM of 8 x 6 grey pixels, all free floor but for a wall around.
 std::string GoodPng();
 // The same but for the size in its header.

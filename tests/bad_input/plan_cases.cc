@@ -22,7 +22,7 @@ BadInput File(const std::string& name, const std::string& file, std::vector<std:
 BadInput Command(const std::string& name, const std::string& keys, std::vector<std::string> named) {
   named.insert(named.begin(), "scenario.yaml:5");
   return {name,
-          {"run", "scenario.yaml", "--out", "o"},
+          {"run", "scenario.yaml", "--trust", "--out", "o"},
           {{"scenario.yaml",
             Replaced(GoodFiles().at("scenario.yaml"), "file: plan.csv", "command: " + keys)},
            {"no.sh", "#!/bin/sh\n"}},
@@ -36,7 +36,7 @@ std::vector<BadInput> PlanCases() {
   return {
       Plan("Empty", "", {"holds no waypoint"}),
       Plan("HeaderAlone", head, {"holds no waypoint"}),
-      Plan("NoHeader", "1.0,1.0\n1.5,1.0\n", {":1: 1.0", "unknown column", "x_m,y_m"}),
+      Plan("NoHeader", "1.0,1.0\n1.5,1.0\n", {":1: is no row of column names", "x_m,y_m"}),
       Plan("UnknownColumn", "x_m,y_m,sped_mps\n1,1,1\n",
            {":1: sped_mps", "did you mean speed_mps?"}),
       Plan("NoYColumn", "x_m,yaw_rad\n1,1\n", {":1: y_m", "missing"}),
@@ -59,11 +59,13 @@ std::vector<BadInput> PlanCases() {
            {":2: shape", "letters"}),
       Plan("AShapeOfARobotThatHasOne", "x_m,y_m,shape\n1,1,I\n",
            {":2: shape = I", "does not change its shape"}),
-      Plan("Binary", std::string("\0\1\2\3\xff\xfe\0\0", 8), {":1", "unknown column"}),
-      Plan("ALongLine", std::string(8'000'000, 'x') + "\n", {":1: xxx", "unknown column"}),
+      Plan("Binary", std::string("\0\1\2\3\xff\xfe\0\0", 8), {":1", "no row of column names"}),
+      Plan("ALongLine", std::string(8'000'000, 'x') + "\n", {":1: is no row of column names"}),
       File("MissingFile", "plans.csv", {"scenario.yaml:5: plan.file = plans.csv", "no such file"}),
+      File("OutOfReach", "/etc/passwd",
+           {"scenario.yaml:5: plan.file = /etc/passwd", "lies outside the scenario's folder"}),
       File("AFolder", ".", {"scenario.yaml:5: plan.file = .", "a folder"}),
-      File("ADevice", "/dev/zero", {"scenario.yaml:5: plan.file = /dev/zero", "a device"}),
+      Trusted(File("ADevice", "/dev/zero", {"scenario.yaml:5: plan.file = /dev/zero", "a device"})),
       File("APipe", "pipe", {"scenario.yaml:5: plan.file = pipe", "a pipe or a device"},
            [](const std::filesystem::path& folder) {
              return mkfifo((folder / "pipe").c_str(), 0600) == 0;
@@ -90,7 +92,7 @@ std::vector<BadInput> PlanCases() {
       Command("AProgramThatCannotBeRun", "[./no.sh]", {"plan.command = ./no.sh", "chmod +x"}),
       Command("ACommandWhosePlanIsGone", "[sh], made: inputs/0",
               {"plan.made = inputs/0", "no such file"}),
-      File("IsAMap", "map.pgm", {"map.pgm:1: P5", "unknown column"}),
+      File("IsAMap", "map.pgm", {"map.pgm:1: is no row of column names"}),
   };
 }
 

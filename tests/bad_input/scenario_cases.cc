@@ -84,8 +84,8 @@ std::vector<BadInput> ScenarioCases() {
       Changed("SiteIsAFolder", "site.yaml", ".", {kFile + ":2: site = .", "folder"}),
       Changed("SiteIsTheScenario", "site.yaml", "scenario.yaml",
               {"floorproof: scenario.yaml: is a scenario, not a site"}),
-      Changed("SiteIsADevice", "site.yaml", "/dev/zero",
-              {kFile + ":2: site = /dev/zero", "a pipe or a device"}),
+      Trusted(Changed("SiteIsADevice", "site.yaml", "/dev/zero",
+                      {kFile + ":2: site = /dev/zero", "a pipe or a device"})),
       With(Changed("SiteIsAPipe", "site.yaml", "pipe", {kFile + ":2: site = pipe", "a pipe or"}),
            [](const fs::path& folder) { return mkfifo((folder / "pipe").c_str(), 0600) == 0; }),
       With(Changed("SiteIsALoopOfLinks", "site.yaml", "loop.yaml",
@@ -98,8 +98,8 @@ std::vector<BadInput> ScenarioCases() {
               {kFile + ":2: site = xxx", "cannot be read", "too long"}),
       Changed("SiteClimbsOut", "site.yaml", "a/../../site.yaml",
               {kFile + ":2: site = a/../../site.yaml", "leaves its folder"}),
-      Changed("SiteClimbsToNothing", "site.yaml", "../../../../../../nothing/site.yaml",
-              {kFile + ":2: site = ../../", "no such file"}),
+      Trusted(Changed("SiteClimbsToNothing", "site.yaml", "../../../../../../nothing/site.yaml",
+                      {kFile + ":2: site = ../../", "no such file"})),
       Changed("UnknownRobot", "robot: beluga", "robot: belga",
               {kFile + ":3: robot = belga", "did you mean beluga?"}),
       Changed("NoRobot", "robot: beluga\n", "", {kFile + ":1: robot", "missing"}),
@@ -127,8 +127,8 @@ std::vector<BadInput> ScenarioCases() {
             {kFile + ":13: goal = -3, 1", "lies off the map"}),
       Added("AFileThatHasChanged", "files: {site.yaml: \"00\"}",
             {kFile + ":13: files.site.yaml = 00", "has changed"}),
-      Added("AHashOfADevice", "files: {/dev/zero: \"00\"}",
-            {kFile + ":13: files./dev/zero", "a pipe or a device"}),
+      Trusted(Added("AHashOfADevice", "files: {/dev/zero: \"00\"}",
+                    {kFile + ":13: files./dev/zero", "a pipe or a device"})),
   };
 }
 

@@ -135,7 +135,7 @@ TEST(AddingAMonitor, ABatteryThatGivesTooMuchForLongIsAnAlarm) {
 }
 
 TEST(SafetyPage, ItsMissionIsOne) {
-  const ConfigNode root = ReadYamlFile(DocsCode("mission.yaml"), {});
+  const ConfigNode root = ReadYamlFile(DocsCode("mission.yaml"));
   const Mission mission = ReadMission(root, RobotPrimitiveTypes());
   EXPECT_EQ(mission.name, "inspect the bridge");
   EXPECT_EQ(mission.nodes.size(), 1u + 1 + 1 + 4);

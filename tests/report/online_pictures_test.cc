@@ -126,7 +126,7 @@ TEST_F(OnlinePictures, ADriveOverCellsIsFilmedWithoutPhysicsAndAgainTheSame) {
   EXPECT_FALSE(fs::exists(out / "plot_errors.png")) << "an ideal robot has none";
   const std::string film = Bytes(out / "video.mp4");
   fs::remove(out / "video.mp4");
-  ReplayRun(out, {}, true, {.quiet = true});
+  ReplayRun(out, {}, Trust::kNone, true, {.quiet = true});
   EXPECT_EQ(Bytes(out / "video.mp4"), film);
 }
 

@@ -235,7 +235,7 @@ TEST_F(ExternalPlanner, APlanThatIsNotTheRecordedOneIsRefused) {
 TEST_F(ExternalPlanner, WithoutAPlanTheSettingsNameTheProgram) {
   const Scenario scenario = Read(Asks("exit 1", ", timeout_s: 5, uses_seed: true"));
   WritePlanFiles(scenario, MakePlan(scenario), folder_ / "out");
-  const Scenario again = ReadScenario(folder_ / "out" / "scenario.resolved.yaml");
+  const Scenario again = ReadScenario(folder_ / "out" / "scenario.resolved.yaml", {}, Trust::kFull);
   ASSERT_NE(ProgramToAsk(again), nullptr);
   EXPECT_EQ(again.plan_command->timeout_s, 5);
   EXPECT_TRUE(again.plan_command->uses_seed);
@@ -255,7 +255,8 @@ TEST_F(ExternalPlanner, SettingOneTakesAnotherWhosePlanAway) {
 TEST_F(ExternalPlanner, ACampaignAsksAnewWhenWhatItIsToldChanges) {
   const auto asked = [&](const std::string& keys, const std::string& more) {
     fs::remove(folder_ / "log");
-    const ScenarioFile file(Save("s.yaml", Asks(kLogs + kSaysPlan, keys, "drive: none\n" + more)));
+    const ScenarioFile file(Save("s.yaml", Asks(kLogs + kSaysPlan, keys, "drive: none\n" + more)),
+                            {}, Trust::kFull);
     EpisodeMaker dut(file);
     for (std::uint64_t episode = 0; episode < 4; ++episode)
       EXPECT_EQ(dut.Run({}, episode).outcome, "success");
@@ -267,7 +268,7 @@ TEST_F(ExternalPlanner, ACampaignAsksAnewWhenWhatItIsToldChanges) {
 }
 
 TEST_F(ExternalPlanner, ItsSeedIsTheEpisodesOwnWhereItUsesOne) {
-  const ScenarioFile plain(Save("p.yaml", Asks(kSaysPlan, "", "seed: 7\n"))),
+  const ScenarioFile plain(Save("p.yaml", Asks(kSaysPlan, "", "seed: 7\n")), {}, Trust::kFull),
       draws(Save("d.yaml", Asks(kSaysPlan, ", uses_seed: true", "seed: 7\n")));
   const auto seed = [](const ScenarioFile& file, std::uint64_t episode) {
     const Scenario s = file.Read(episode);

@@ -232,7 +232,7 @@ TEST_F(FmeaFile, ResolvedTwiceIsItself) {
   const std::string once = ResolvedScenario(first, out);
   EXPECT_THAT(once, HasSubstr("tables: \"../../mine.yaml\""));
   WriteFileWhole(out / "scenario.resolved.yaml", once);
-  const Scenario second = ReadScenario(out / "scenario.resolved.yaml");
+  const Scenario second = ReadScenario(out / "scenario.resolved.yaml", {}, Trust::kFull);
   EXPECT_EQ(ResolvedScenario(second, out), once);
   EXPECT_EQ(second.fmea.severity[4], 6);
   EXPECT_EQ(second.risk.distance_scale, 2.5);
@@ -241,7 +241,7 @@ TEST_F(FmeaFile, ResolvedTwiceIsItself) {
   // The file is one of those that the run hangs on.
   Save("mine.yaml", With("severity: 5", "severity: 7"));
   try {
-    ReadScenario(out / "scenario.resolved.yaml");
+    ReadScenario(out / "scenario.resolved.yaml", {}, Trust::kFull);
     FAIL();
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), AllOf(HasSubstr("mine.yaml"), HasSubstr("the file has changed since")));
@@ -265,7 +265,8 @@ TEST_F(FmeaFile, TablesThatVaryAreFoundFromTheResolvedFilesFolder) {
     EXPECT_THAT(written, HasSubstr("../../mine.yaml"));
     EXPECT_EQ(written.find("/htetro"), std::string::npos) << "a name stays a name";
     WriteFileWhole(out / "scenario.resolved.yaml", once);
-    EXPECT_EQ(ResolvedScenario(ReadScenario(out / "scenario.resolved.yaml"), out), once);
+    EXPECT_EQ(ResolvedScenario(ReadScenario(out / "scenario.resolved.yaml", {}, Trust::kFull), out),
+              once);
   }
 }
 

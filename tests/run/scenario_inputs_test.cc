@@ -284,7 +284,7 @@ TEST_F(ScenarioInputs, TheRobotThatIsHashedIsTheOneThatIsRead) {
       << "scenario: 1\nsite: {site: 1, grid: {cell_m: 0.5, rows: \"......\\n......\\n......\"}, "
          "start: {x_m: 1, "
          "y_m: 0.7}}\nrobot: ../r/mine.xml\n";
-  const Scenario dut = ScenarioFile(folder_ / "link/s.yaml").Read();
+  const Scenario dut = ScenarioFile(folder_ / "link/s.yaml", {}, Trust::kFull).Read();
   EXPECT_EQ(dut.files.Sha256(dut.robot_file), Sha256(text));
   ASSERT_EQ(dut.robot.files.size(), 1u);
   EXPECT_EQ(fs::canonical(dut.robot.files[0]), fs::canonical(folder_ / "real/r/mine.xml"));
@@ -359,13 +359,14 @@ TEST_F(ScenarioInputs, AbsolutePathsMoveToo) {
 
 TEST_F(ScenarioInputs, ACopyThatWasChangedIsRefused) {
   fs::create_directories(folder_ / "out");
-  const Scenario s = ScenarioFile(folder_ / "in/s.yaml").Read();
+  const Scenario s = ScenarioFile(folder_ / "in/s.yaml", {}, Trust::kFull).Read();
   WriteResolvedScenario(s, folder_ / "out");
   for (const auto& entry : fs::directory_iterator(folder_ / "out/inputs")) {
     const std::string was = Slurp(entry.path());
     std::ofstream(entry.path()) << was << "\n";
     EXPECT_THAT(
-        WhyRefused([&] { ScenarioFile(folder_ / "out/scenario.resolved.yaml").Read(); }),
+        WhyRefused(
+            [&] { ScenarioFile(folder_ / "out/scenario.resolved.yaml", {}, Trust::kFull).Read(); }),
         AllOf(HasSubstr(entry.path().filename().string()), HasSubstr("is not what its name says")));
     std::ofstream(entry.path()) << was;
   }
@@ -374,12 +375,15 @@ TEST_F(ScenarioInputs, ACopyThatWasChangedIsRefused) {
 // A record of a version that kept no copies.
 TEST_F(ScenarioInputs, WithoutCopiesTheFilesThemselvesAreReadAndCompared) {
   fs::create_directories(folder_ / "out");
-  const ScenarioFile file(folder_ / "in/s.yaml");
+  const ScenarioFile file(folder_ / "in/s.yaml", {}, Trust::kFull);
   WriteResolvedScenario(file.Read(), folder_ / "out");
   fs::remove_all(folder_ / "out/inputs");
-  EXPECT_EQ(Read(ScenarioFile(folder_ / "out/scenario.resolved.yaml")), Read(file));
+  EXPECT_EQ(Read(ScenarioFile(folder_ / "out/scenario.resolved.yaml", {}, Trust::kFull)),
+            Read(file));
   SaveLoad(0.2);
-  EXPECT_THAT(WhyRefused([&] { ScenarioFile(folder_ / "out/scenario.resolved.yaml").Read(); }),
+  EXPECT_THAT(WhyRefused([&] {
+                ScenarioFile(folder_ / "out/scenario.resolved.yaml", {}, Trust::kFull).Read();
+              }),
               AllOf(HasSubstr("load.obj"), HasSubstr("has changed since")));
 }
 

@@ -73,7 +73,8 @@ TEST_F(ScenarioFile, ResolvedTwiceIsItself) {
   const std::string once = ResolvedScenario(first, folder_ / "out");
   std::filesystem::create_directories(folder_ / "out");
   WriteFileWhole(folder_ / "out" / "scenario.resolved.yaml", once);
-  const Scenario second = ReadScenario(folder_ / "out" / "scenario.resolved.yaml");
+  const Scenario second =
+      ReadScenario(folder_ / "out" / "scenario.resolved.yaml", {}, Trust::kFull);
   EXPECT_EQ(ResolvedScenario(second, folder_ / "out"), once);
   EXPECT_EQ(second.start.yaw_rad, first.start.yaw_rad) << "to the bit";
 }
@@ -148,7 +149,7 @@ TEST_F(ScenarioFile, AFileThatChangedSinceIsNamed) {
                  ResolvedScenario(first, folder_ / "out"));
   Save("plan.csv", "x_m,y_m\n1.5,2.5\n3,2.6\n");
   try {
-    ReadScenario(folder_ / "out" / "scenario.resolved.yaml");
+    ReadScenario(folder_ / "out" / "scenario.resolved.yaml", {}, Trust::kFull);
     FAIL();
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), HasSubstr("plan.csv"));

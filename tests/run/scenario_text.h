@@ -21,7 +21,7 @@ class ScenarioTest : public OwnFolderTest {
     return folder_ / name;
   }
   Scenario Read(const std::string& text, const std::vector<Override>& overrides = {}) const {
-    return ReadScenario(Save("scenario.yaml", text), overrides);
+    return ReadScenario(Save("scenario.yaml", text), overrides, Trust::kFull);
   }
   static EpisodeRecord Drive(Scenario scenario, EpisodeObserver* observer = nullptr) {
     const Execution execution = Execute(scenario, observer);
