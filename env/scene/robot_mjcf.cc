@@ -9,8 +9,11 @@
 #include "base/error.h"
 #include "base/params.h"
 #include "base/try_in_child.h"
+#include "env/scene/engine_refusal.h"
+#include "env/scene/model_numbers.h"
 #include "env/scene/models_folder.h"
 #include "env/scene/robot_model.h"
+#include "env/scene/xml_numbers.h"
 
 namespace floorproof {
 namespace {
@@ -44,8 +47,7 @@ int LineOf(const std::string& text, const std::string& value) {
     found = at;
   }
   if (found == std::string::npos) return 0;
-  const auto end = text.begin() + static_cast<std::ptrdiff_t>(found);
-  return static_cast<int>(1 + std::count(text.begin(), end, '\n'));
+  return LineAt(text, found);
 }
 
 // What the engine opened and must not have goes before what the engine says of it.
@@ -56,8 +58,7 @@ int LineOf(const std::string& text, const std::string& value) {
         {file.string(), LineOf(files.Read(file, EngineFiles::kMaxBytes), refused->first)}, "file",
         refused->first, refused->second);
   }
-  // The engine names element and line at the end: nothing of it is cut.
-  throw InputError({file.string(), 0}, "", "", std::string(rule) + ": " + std::string(message));
+  throw EngineRefusal(file, rule, message);
 }
 
 template <class T>
@@ -125,11 +126,21 @@ std::vector<fs::path> Absolutes(const std::vector<fs::path>& opened, const Input
   return absolutes;
 }
 
+// Checks every XML file opened so far: the robot file and its includes.
+void RefuseBadNumbersOf(const ParsedMjcf& parsed, const fs::path& file, const fs::path& path,
+                        const InputFiles& files) {
+  for (const fs::path& one : parsed.engine_files.Opened()) {
+    const std::string& text = files.Read(one, EngineFiles::kMaxBytes);
+    if (IsXml(text)) RefuseBadNumbers(XmlElements(text), text, (one == path ? file : one).string());
+  }
+}
+
 ParsedMjcf Parse(const fs::path& file, const fs::path& path, const InputFiles& files) {
   ParsedMjcf out;
   out.engine_files = EngineFiles(files, path);
   char error[1000] = "";
   out.spec.reset(mj_parseXML(path.c_str(), out.engine_files.vfs(), error, sizeof error));
+  if (!out.engine_files.Refused()) RefuseBadNumbersOf(out, file, path, files);
   if (!out.spec || out.engine_files.Refused())
     Refuse(file, out, files, error, "is not MJCF that MuJoCo reads");
   CheckSizes(file, out.spec.get());
@@ -138,6 +149,7 @@ ParsedMjcf Parse(const fs::path& file, const fs::path& path, const InputFiles& f
   const ModelPtr model(mj_compile(copy.get(), out.engine_files.vfs()));
   if (!model || out.engine_files.Refused())
     Refuse(file, out, files, mjs_getError(copy.get()), "does not compile");
+  RefuseWrongNumbers(model.get(), copy.get(), file.string());
   const std::vector<fs::path> opened = out.engine_files.Opened();
   out.absolutes = Absolutes(opened, files);
   for (const fs::path& one : opened) out.hashes.emplace_back(one, files.Sha256(one));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "env/core/blocks.h"
+#include "env/scene/engine_refusal.h"
 #include "env/scene/exposed_wheels.h"
 #include "env/scene/lock_blocks.h"
 #include "env/scene/measured_block.h"
@@ -111,7 +112,7 @@ ModelPtr ChangeAndRead(RobotModel& out, const std::string& file, const RobotChan
   ModelPtr model;
   const auto read = [&] {
     model.reset(mj_compile(out.mjcf.get(), out.assets.get()));
-    if (!model) throw InputError({file, 0}, "", mjs_getError(out.mjcf.get()), "does not compile");
+    if (!model) throw EngineRefusal(file, "does not compile", mjs_getError(out.mjcf.get()));
     return ReadSpec(model.get(), file);
   };
   out.spec = read();
@@ -157,8 +158,8 @@ void PutOnRollers(const RobotModel& robot, const std::string& file) {
   const RobotModel rollers = WithRollerWheels(robot);
   const ModelPtr model(mj_compile(rollers.mjcf.get(), rollers.assets.get()));
   if (!model)
-    throw InputError({file, 0}, "wheels: rollers", mjs_getError(rollers.mjcf.get()),
-                     "does not compile");
+    throw EngineRefusal(file, "does not compile with wheels: rollers",
+                        mjs_getError(rollers.mjcf.get()));
   RefuseBeyondLimits(model.get(), file);
   PutOnFloor(rollers);
 }
@@ -227,7 +228,7 @@ ModelPtr CompileAlone(const RobotModel& robot) {
   const SpecPtr spec(mj_copySpec(robot.mjcf.get()));
   ModelPtr model(mj_compile(spec.get(), robot.assets.get()));
   if (!model)
-    throw InputError({robot.spec.model_file, 0}, "", mjs_getError(spec.get()), "does not compile");
+    throw EngineRefusal(robot.spec.model_file, "does not compile", mjs_getError(spec.get()));
   return model;
 }
 

@@ -21,6 +21,9 @@ Motor ReadMotor(const CompiledRobot& compiled, int a, const std::string& name) {
   const double resistance = gain[0], constant = gain[1], volt = DriverVoltage(m, a);
   if (!(resistance > 0 && constant > 0 && volt > 0))
     compiled.Refuse(name, "the dcmotor needs a resistance, a motor constant and a voltage (Vmax)");
+  // Of its controller: 4 to 6 are the gains kp, ki and kd of the speed or position that it holds.
+  if (std::any_of(gain + 4, gain + 7, [](mjtNum k) { return !(k >= 0); }))
+    compiled.Refuse(name, "its controller's gains must be 0 or more");
   Motor motor{volt / constant, constant * volt / resistance};
   if (m->actuator_forcelimited[a])
     motor.stall_nm = std::min(motor.stall_nm, m->actuator_forcerange[2 * a + 1]);

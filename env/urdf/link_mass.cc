@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "env/urdf/link_mass.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Eigenvalues>
-#include <cmath>
 #include <limits>
 
 #include "base/error.h"
@@ -75,17 +72,13 @@ MassOf BoxMass(const std::vector<UrdfShape>& shapes, double mass_kg) {
 
 void ReadMass(const StatedMass& stated, const Mat3& R_ML, const std::filesystem::path& file,
               UrdfLink& link, std::vector<std::string>& notes) {
-  if (!(stated.mass_kg >= 0) || !std::isfinite(stated.mass_kg))
+  if (!(stated.mass_kg >= 0))
     throw InputError({file.string(), 0}, "mass of link " + link.name, FormatDouble(stated.mass_kg),
                      "must be 0 or more");
   if (stated.mass_kg == 0) {
     if (!link.shapes.empty()) notes.push_back("link " + link.name + " has no mass: taken for 0");
     return;
   }
-  if (!stated.com.allFinite())
-    throw InputError({file.string(), 0}, "centre of mass of link " + link.name,
-                     fmt::format("{} {} {}", stated.com.x(), stated.com.y(), stated.com.z()),
-                     "must be three numbers");
   link.mass.mass_kg = stated.mass_kg;
   link.mass.com_M = link.p_M + R_ML * stated.com;
   const std::string why = WhyNoBody(stated);

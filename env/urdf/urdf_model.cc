@@ -9,6 +9,7 @@
 #include "base/params.h"
 #include "env/scene/engine.h"
 #include "env/scene/engine_files.h"
+#include "env/scene/engine_refusal.h"
 #include "env/scene/mesh_hull.h"
 #include "env/urdf/link_mass.h"
 #include "env/urdf/urdf_text.h"
@@ -45,7 +46,7 @@ class MeshFiles {
   for (const UrdfMesh& mesh : text.meshes)
     if (const std::size_t at = message.find(mesh.name); at != std::string::npos)
       message.replace(at, mesh.name.size(), mesh.file.filename().string());
-  throw InputError({file.string(), 0}, "", message, rule);
+  throw EngineRefusal(file, rule, message);
 }
 
 template <class T>

@@ -10,9 +10,10 @@
 #include "base/params.h"
 #include "base/printable.h"
 #include "env/scene/engine_files.h"
+#include "env/scene/xml_numbers.h"
+#include "env/scene/xml_tags.h"
 #include "env/urdf/collada.h"
 #include "env/urdf/mesh_path.h"
-#include "env/urdf/xml_tags.h"
 
 namespace floorproof {
 namespace {
@@ -22,20 +23,6 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kMaxBytes = 4u << 20;
 constexpr int kMaxLinks = 500;  // of a floor robot; MuJoCo's importer takes seconds for thousands
 constexpr std::size_t kStart = 1u << 16;
-
-std::string Plain(std::string_view written) {
-  static constexpr std::pair<std::string_view, char> kEntities[] = {
-      {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}, {"&amp;", '&'}};
-  std::string out;
-  while (!written.empty()) {
-    const auto* entity = std::ranges::find_if(
-        kEntities, [&](const auto& e) { return written.starts_with(e.first); });
-    const bool found = entity != std::end(kEntities);
-    out += found ? entity->second : written.front();
-    written.remove_prefix(found ? entity->first.size() : 1);
-  }
-  return out;
-}
 
 double NumberOf(std::string_view text) { return std::strtod(std::string(text).c_str(), nullptr); }
 
@@ -50,7 +37,8 @@ class Preparation {
   UrdfText Make() {
     if (elements_.empty() || elements_[0].name != "robot")
       Refuse(1, "", "", "is no URDF: its root element is not <robot>");
-    out_.robot = Plain(elements_[0].Value("name"));
+    RefuseBadNumbers(elements_, text_, file_.string());
+    out_.robot = DecodeXml(elements_[0].Value("name"));
     RefuseXacro();
     RefuseHalf();
     ReadLinks();
@@ -86,12 +74,12 @@ class Preparation {
   // Of a file that was cut short, whatever is missing would be named instead.
   void RefuseHalf() const {
     if (elements_[0].closed) return;
-    Refuse(1 + static_cast<int>(std::count(text_.begin(), text_.end(), '\n')), "robot", out_.robot,
+    Refuse(LineAt(text_, text_.size()), "robot", out_.robot,
            "is XML that does not end: the text stops before </robot>");
   }
 
   std::string NameOf(const XmlElement& e) const {
-    std::string name = Plain(e.Value("name"));
+    std::string name = DecodeXml(e.Value("name"));
     if (name.empty()) Refuse(e.line, std::string(e.name), "", "needs a name");
     if (const std::string why = WhyUnprintable(name); !why.empty())
       Refuse(e.line, std::string(e.name), name, why);
@@ -122,7 +110,7 @@ class Preparation {
 
   std::string LinkOf(std::size_t joint, std::string_view end) const {
     const XmlElement* e = Within(joint, end);
-    const std::string link = e != nullptr ? Plain(e->Value("link")) : "";
+    const std::string link = e != nullptr ? DecodeXml(e->Value("link")) : "";
     if (!links_.contains(link))
       Refuse(e != nullptr ? e->line : elements_[joint].line, std::string(end), link,
              "names no link of this robot");
@@ -192,7 +180,7 @@ class Preparation {
   }
 
   void Mesh(const XmlElement& mesh, const XmlAttribute& written, const XmlElement& holder) {
-    const std::string uri = Plain(written.value);
+    const std::string uri = DecodeXml(written.value);
     const SourceMark mark{file_.string(), mesh.line};
     MeshPlace place = FindMesh(uri, file_, mark, files_);
     const auto known = std::ranges::find(out_.meshes, place.file, &UrdfMesh::file);
@@ -212,7 +200,7 @@ class Preparation {
       out_.notes.push_back(why + ": left out of the " + std::string(holder.name));
       if (holder.name == "collision" && holder.parent >= 0)
         out_.lost_collisions.push_back(
-            {Plain(elements_[static_cast<std::size_t>(holder.parent)].Value("name")), why});
+            {DecodeXml(elements_[static_cast<std::size_t>(holder.parent)].Value("name")), why});
       Blank(holder);
       return;
     }

@@ -86,8 +86,8 @@ std::vector<BadInput> CompilerCases() {
       builtin("ABuiltinWedge", "\"wedge\" params=\"100000 100000 90 90 0\""),
       Asset("AModelOfItself", "<model name=\"x\" file=\"mine.xml\"/>",
             {"file = mine.xml", "is the robot's file itself"}),
-      Carried("ABodyBeyondTheUniverse", "<body pos=\"1e100 0 0.1\"><geom size=\"0.01\"/></body>",
-              {"body 2 = 1e+100", "within 10 m of the robot's base"}),
+      Carried("ABodyBeyondTheUniverse", "<body pos=\"1e9 0 0.1\"><geom size=\"0.01\"/></body>",
+              {"body 2 = 1e+09", "within 10 m of the robot's base"}),
       WithFiles(Asset("AHugeHeightField", "<hfield name=\"h\" file=\"h.bin\" size=\"1 1 1 1\"/>",
                       {"does not compile"}),
                 {{"h.bin", field}}),
@@ -256,6 +256,8 @@ std::vector<BadInput> UrdfCases() {
                {"XML"}),
       UrdfCase("OfNoMass", Replaced(Urdf(""), "value=\"5\"", "value=\"0\""), {"has a mass"}),
       UrdfCase("NotANumber", Replaced(Urdf(""), "radius=\"0.05\"", "radius=\"wide\""), {"radius"}),
+      UrdfCase("NotFinite", Replaced(Urdf(""), "value=\"5\"", "value=\"inf\""),
+               {":2: mass value = inf: must be a finite number"}),
       UrdfCase("IsXacro", Urdf("<xacro:wheel/>"), {":7: xacro:wheel", "is xacro"}),
   };
 }
@@ -291,6 +293,13 @@ std::vector<BadInput> RobotCases() {
                       "<numeric name=\"max_yaw_accel_radps2\" data=\"1\"/>"
                       "<numeric name=\"hotel_load_w\" data=\"10\"/></custom>"),
             {"a robot needs at least one driven wheel"}),
+      Robot("NegativeGain",
+            Replaced(Beluga(), "controller=\"0 0 5 0 0 12\"", "controller=\"-1 0 5 0 0 12\""),
+            {"wheel_left", "controller's gains must be 0 or more"}),
+      Robot("NotFinite", Replaced(Beluga(), "mass=\"6.0\"", "mass=\"nan\""),
+            {":75: geom 'belly' mass = nan: must be a finite number"}),
+      Robot("NegativeFriction", Replaced(Beluga(), "friction=\"0.02 0 0\"", "friction=\"-1 0 0\""),
+            {":", "geom 'caster_front' friction = -1: must be in [0, "}),
       Robot("NegativeMass",
             "<mujoco><worldbody><body name=\"base\"><freejoint/><geom size=\"0.1\" "
             "mass=\"-1\"/></body></worldbody></mujoco>",

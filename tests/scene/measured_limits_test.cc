@@ -163,7 +163,7 @@ TEST_F(MeasuredRobot, ThatIsWrittenWrongIsRefused) {
   for (const char* number : {"inf", "nan"})
     EXPECT_THAT(
         limit("drop_forward_mm", "1 2 " + std::string(number) + " 4"),
-        HasSubstr("mine.xml: measured_drop_forward_mm = " + std::string(number) + ": must be in"))
+        HasSubstr("numeric 'measured_drop_forward_mm' data = " + std::string(number) + ": must be"))
         << number;
   EXPECT_THAT(limit("step_forward_mm"), HasSubstr("measured_step_forward_mm")) << "a second one";
   EXPECT_THAT(refusal("<text name=\"measured_drop_forward_mm\" data=\"1 2 3 4\"/>"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "env/urdf/xml_tags.h"
+#include "env/scene/xml_tags.h"
 
 #include <gtest/gtest.h>
 
@@ -34,6 +34,19 @@ TEST(XmlTags, EndWithBrokenText) {
   ASSERT_EQ(unclosed.size(), 4u);
   EXPECT_EQ(unclosed[2].end, 13u) << "closed with what holds it";
   EXPECT_EQ(unclosed[3].parent, -1);
+}
+
+TEST(XmlTags, DecodeEntities) {
+  EXPECT_EQ(DecodeXml("a &lt;b&gt; &quot;c&apos; &amp;lt;"), "a <b> \"c' &lt;");
+  EXPECT_EQ(DecodeXml("&#110;a&#x6E;"), "nan");
+  EXPECT_EQ(DecodeXml("&#xe4;&#8364;&#128512;"), "\xc3\xa4\xe2\x82\xac\xf0\x9f\x98\x80");
+  for (const char* text : {"&", "&#", "&#x", "&#110", "&#z;", "&#99999999999;", "&nan;", "a&b"})
+    EXPECT_EQ(DecodeXml(text), text);
+}
+
+TEST(XmlTags, CountLines) {
+  EXPECT_EQ(LineAt("a\nb\nc", 0), 1);
+  EXPECT_EQ(LineAt("a\nb\nc", 4), 3);
 }
 
 }  // namespace

@@ -32,4 +32,11 @@ struct XmlElement {
 // are into `text`. An element that is never closed ends with the text.
 std::vector<XmlElement> XmlElements(std::string_view text);
 
+// An attribute's value with its entities (`&lt;`, `&#110;`, `&#x6e;`) decoded. All other text is
+// kept.
+std::string DecodeXml(std::string_view written);
+
+// The line, from 1 on, of a place in the text.
+int LineAt(std::string_view text, std::size_t at);
+
 }  // namespace floorproof

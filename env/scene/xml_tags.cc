@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "env/urdf/xml_tags.h"
+#include "env/scene/xml_tags.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <utility>
 
 namespace floorproof {
 namespace {
@@ -103,6 +106,39 @@ class TagReader {
   std::vector<int> open_;
 };
 
+void AppendUtf8(std::uint32_t code, std::string& out) {
+  const auto add = [&](std::uint32_t byte) { out += static_cast<char>(byte); };
+  const auto tail = [&](int shift) { add(0x80 | (code >> shift & 0x3f)); };
+  if (code < 0x80) {
+    add(code);
+  } else if (code < 0x800) {
+    add(0xc0 | code >> 6), tail(0);
+  } else if (code < 0x10000) {
+    add(0xe0 | code >> 12), tail(6), tail(0);
+  } else {
+    add(0xf0 | code >> 18), tail(12), tail(6), tail(0);
+  }
+}
+
+// Appends what the entity at the text's begin means; returns its length, 0 where there is none.
+std::size_t DecodeEntity(std::string_view text, std::string& out) {
+  static constexpr std::pair<std::string_view, char> kNamed[] = {
+      {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}, {"&amp;", '&'}};
+  for (const auto& [entity, character] : kNamed)
+    if (text.starts_with(entity)) {
+      out += character;
+      return entity.size();
+    }
+  if (!text.starts_with("&#")) return 0;
+  const bool hex = text.starts_with("&#x");
+  const char* const last = text.data() + text.size();
+  std::uint32_t code = 0;
+  const auto [end, error] = std::from_chars(text.data() + (hex ? 3 : 2), last, code, hex ? 16 : 10);
+  if (error != std::errc() || end == last || *end != ';' || code > 0x10ffff) return 0;
+  AppendUtf8(code, out);
+  return static_cast<std::size_t>(end - text.data()) + 1;
+}
+
 }  // namespace
 
 std::string_view XmlElement::Value(std::string_view attribute) const {
@@ -112,5 +148,22 @@ std::string_view XmlElement::Value(std::string_view attribute) const {
 }
 
 std::vector<XmlElement> XmlElements(std::string_view text) { return TagReader(text).Read(); }
+
+std::string DecodeXml(std::string_view written) {
+  std::string out;
+  while (!written.empty()) {
+    std::size_t taken = DecodeEntity(written, out);
+    if (taken == 0) {
+      taken = 1;
+      out += written.front();
+    }
+    written.remove_prefix(taken);
+  }
+  return out;
+}
+
+int LineAt(std::string_view text, std::size_t at) {
+  return 1 + static_cast<int>(std::ranges::count(text.substr(0, at), '\n'));
+}
 
 }  // namespace floorproof
