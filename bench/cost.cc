@@ -119,7 +119,8 @@ void Print(const std::string& robot, std::vector<Floor>& floors, int rounds) {
       floor.sim->SetWheelSpeeds(floor.wheels);
       const auto begin = Clock::now();
       for (int i = 0; i < kSteps; ++i)
-        if (!floor.sim->Step()) throw InternalError("diverged on " + floor.name);
+        if (!floor.sim->Step())
+          throw InternalError(floor.sim->divergence() + " diverged on " + floor.name);
       floor.k_steps.push_back(kSteps / Since(begin) / 1000);
     }
   for (const Floor& floor : floors) {

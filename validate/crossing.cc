@@ -108,7 +108,7 @@ CrossingResult Cross(const RobotModel& model, Hazard hazard, const CrossingPlan&
       sim.SetWheelSpeeds(wheels);
       sim.SetHingeSpeeds(sample.command.hinges);
     }
-    if (!sim.Step()) throw InternalError("the physics diverged on the ladder");
+    if (!sim.Step()) throw InternalError("the physics diverged on the ladder: " + sim.divergence());
     static_cast<Truth&>(sample) = sim.truth();
     sample.off_track_W = OffTrack(path, sample.command.segment, sample.p_WB.head<2>());
     sample.cross_track_m = sample.off_track_W.norm();

@@ -123,7 +123,7 @@ void Rig::SetGravity(const Vec3& direction_W) {
 
 void Rig::Step() {
   if (steers_) Actuate();
-  if (!sim_->Step()) throw InternalError("the physics diverged on the rig");
+  if (!sim_->Step()) throw InternalError("the physics diverged on the rig: " + sim_->divergence());
 }
 
 BodyTwist Rig::Run(const BodyTwist& twist, double t_s) {

@@ -30,6 +30,9 @@ class PhysicsPlant final : public Plant {
   void Apply(const Actuation& actuation) override;
   void Sense(Observation& sensed) override;
   bool Step() override;
+  std::string WhyBroken() const override {
+    return "the physics diverged: " + simulation_.divergence();
+  }
   const Truth& truth() const override { return simulation_.truth(); }
   std::optional<double> battery_left() const override { return simulation_.battery().left(); }
 

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 
 #include "env/core/motion.h"
 #include "env/core/observation.h"
@@ -34,6 +35,8 @@ class Plant {
   // One step; false when the plant broke: the episode is an `error`. Throws InternalError when the
   // engine itself fails.
   virtual bool Step() = 0;
+  // After a Step that returned false: what broke, and when.
+  virtual std::string WhyBroken() const = 0;
   // As at the last step.
   virtual const Truth& truth() const = 0;
   // Share of the battery's capacity that is left; none: the robot states no capacity.

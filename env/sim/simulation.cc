@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "env/core/standing.h"
+#include "env/sim/divergence.h"
 
 namespace floorproof {
 namespace {
@@ -19,13 +20,6 @@ void Tilt(const std::array<mjtNum, 4>& as, double yaw_rad, mjtNum* quat) {
   const mjtNum vertical[3] = {0, 0, 1};
   mju_axisAngle2Quat(turn, vertical, yaw_rad - std::atan2(R[3], R[0]));
   mju_mulQuat(quat, turn, as.data());
-}
-
-// The warnings after which the state is not to be believed.
-bool Diverged(const mjData* d) {
-  return d->warning[mjWARN_BADQPOS].number > 0 || d->warning[mjWARN_BADQVEL].number > 0 ||
-         d->warning[mjWARN_BADQACC].number > 0 || d->warning[mjWARN_INERTIA].number > 0 ||
-         d->warning[mjWARN_CONTACTFULL].number > 0 || d->warning[mjWARN_CNSTRFULL].number > 0;
 }
 
 }  // namespace
@@ -135,6 +129,7 @@ void Simulation::CarryTo(const Pose2& X_WB) {
 void Simulation::Settle(const Pose2& X_WB, double t_s) {
   constexpr double kSettle_s = 0.5;
   mjData* d = data_.get();
+  divergence_.clear();
   const double load_kg = std::exchange(altered_.payload_kg, 0);
   if (load_kg > 0) AlterPayload();
   const Standing stands = StandAt(map_, robot_, X_WB);
@@ -144,8 +139,10 @@ void Simulation::Settle(const Pose2& X_WB, double t_s) {
   SetDriverVoltages();
   while (d->time < kSettle_s) {
     live_.Update(d);
-    WalkStep(model(), d, fine_steps_.OnFloor(model()), [] {});
+    WalkStep(model(), d, fine_steps_.OnFloor(model()), [this] { NoteDivergence(); });
+    NoteDivergence();
   }
+  if (!divergence_.empty()) divergence_ += ", while it settled on the floor";
   if (load_kg > 0) {
     altered_.payload_kg = load_kg;
     AlterPayload();
@@ -195,14 +192,24 @@ bool Simulation::Step() {
   WalkStep(model(), data_.get(), parts_, [&] {
     if (std::exchange(first, false)) std::copy_n(data_->cvel, cvel_.size(), cvel_.begin());
     contacts_.ReadPart(model(), data_.get(), truth_);
+    NoteDivergence();
   });
+  NoteDivergence();
   ReadPose();
   contacts_.ReadLastPart(model(), data_.get(), lowest_W_, truth_);
   // Sensors get the body velocities from before the step, divided or not.
   if (parts_ > 1) std::ranges::copy(cvel_, data_->cvel);
   ReadPower(model()->opt.timestep);
-  return !Diverged(data_.get()) && std::isfinite(truth_.p_WB.sum()) &&
-         std::isfinite(truth_.v_WB_W.sum());
+  if (divergence_.empty() &&
+      !(std::isfinite(truth_.p_WB.sum()) && std::isfinite(truth_.v_WB_W.sum())))
+    divergence_ = DescribeDivergence(model(), data_.get(), scene_.base_body);
+  return divergence_.empty();
+}
+
+// The first one: what it leaves spreads to all bodies.
+void Simulation::NoteDivergence() {
+  if (divergence_.empty() && HasDiverged(data_.get()))
+    divergence_ = DescribeDivergence(model(), data_.get(), scene_.base_body);
 }
 
 void Simulation::SetHingeSpeeds(const HingeState& hinges) {

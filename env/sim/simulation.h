@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "env/core/alterations.h"
@@ -48,6 +49,9 @@ class Simulation {
   // the simulation is over then, an `error`. Allocates nothing. Throws InternalError when the
   // engine itself fails.
   bool Step();
+  // After a Step that returned false: which body diverged first, and when (divergence.h). If it was
+  // while the robot settled after Reset or SetDown, the time is that since then.
+  const std::string& divergence() const { return divergence_; }
   // The state after the last step.
   const Truth& truth() const { return truth_; }
   // From now on, in place of what was altered before; what sensors tell is others' affair. What was
@@ -70,6 +74,7 @@ class Simulation {
   const BatteryInUse& battery() const { return battery_; }
 
  private:
+  void NoteDivergence();
   void Place(const Pose2& X_WB);
   void StandStill();
   void Settle(const Pose2& X_WB, double t_s);
@@ -95,6 +100,7 @@ class Simulation {
   int parts_ = 1;
   std::vector<mjtNum> cvel_;  // scratch
   Truth truth_;
+  std::string divergence_;
   Alterations altered_;
   std::vector<char> cut_;  // by wheel
   std::vector<double> motor_nm_;

@@ -108,6 +108,7 @@ class EpisodeLoop {
     EpisodeRecord record = recorder_.Finish(ended, sample_, robot_side_, s_.detectors,
                                             s_.episode.min_coverage, plant_.battery_left());
     if (s_.online && !navigator_->plan().empty()) record.figures = s_.online->figures();
+    if (ended == Outcome::kError) record.message = plant_.WhyBroken();
     if (record.message.empty()) record.message = navigator_->why();
     if (record.outcome == Outcome::kTimeout) {
       record.timeout = Unfinished();

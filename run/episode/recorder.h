@@ -162,7 +162,6 @@ class Recorder {
       record_.message = fmt::format(
           "the battery cut off after {:.1f} s: {}", empty_s_,
           m.battery_left && *m.battery_left <= 0 ? "it was empty" : "it cannot feed that load");
-    if (ended == Outcome::kError) record_.message = "the physics diverged";
     return std::move(record_);
   }
 

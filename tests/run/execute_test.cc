@@ -86,6 +86,7 @@ class IdealPlant final : public Plant {
     truth_.support_margin_m = 0.1;
     return truth_.t_s < breaks_s;
   }
+  std::string WhyBroken() const override { return "its belt broke"; }
   const Truth& truth() const override { return truth_; }
   std::optional<double> battery_left() const override { return std::nullopt; }
 
@@ -120,6 +121,7 @@ TEST_F(ExecuteTest, APlantThatBreaksIsAnError) {
   plant.breaks_s = 1;
   const EpisodeRecord dut = RunEpisode(scenario, plant, nullptr, plan, nullptr);
   EXPECT_EQ(dut.outcome, Outcome::kError);
+  EXPECT_EQ(dut.message, "its belt broke");
   EXPECT_NEAR(dut.metrics.duration_s, 1, 0.01);
 }
 

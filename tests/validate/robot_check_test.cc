@@ -38,6 +38,24 @@ TEST(RobotCheck, NothingIsWrongWithABaseOnTwoWheels) {
   EXPECT_THAT(Wrongs(TwoWheels{}), IsEmpty());
 }
 
+// Every number of this model is finite; gravity throws a weight upwards, beyond what MuJoCo
+// follows.
+TEST(RobotCheck, NamesWhatDiverges) {
+  std::string text = Mjcf({});
+  const std::string joint = "<freejoint/>";
+  ASSERT_NE(text.find(joint), text.npos);
+  text.insert(text.find(joint) + joint.size(),
+              "<body name='arm' gravcomp='5e8'><joint name='lift' type='slide' axis='0 0 1'/>"
+              "<geom size='0.01' mass='1e-3' contype='0' conaffinity='0'/></body>");
+  const RobotFile file(text);
+  try {
+    CheckRobot(file.path());
+    FAIL() << "the physics did not diverge";
+  } catch (const InternalError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("on the rig: body 'arm' (joint 'lift') at "));
+  }
+}
+
 // Whether the drive would tell a robot from another one: larger wheels roll farther, and turn it
 // farther, on wheels that slip it stays behind.
 TEST(RobotDrive, NoticesAWrongModel) {

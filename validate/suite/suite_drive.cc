@@ -91,7 +91,7 @@ void SuiteDrive::Judge(Scenario& scenario, SuiteRun& run) const {
   const EpisodeRecord record = Execute(scenario, &observer).record;
   if (record.outcome == Outcome::kError)
     throw InternalError(
-        fmt::format("the physics diverged: method {}, run {}, size {}", name_, run.run, run.size));
+        fmt::format("{}: method {}, run {}, size {}", record.message, name_, run.run, run.size));
   if (record.outcome == Outcome::kInterrupted) return;
   run.verdict = method_->Judge({name_, robot_, run.draw, run.size}, record);
   run.duration_s = record.metrics.duration_s;
