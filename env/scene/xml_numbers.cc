@@ -12,6 +12,7 @@ namespace floorproof {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n\v\f";
+constexpr std::size_t kMaxShown = 60;  // characters of a number
 constexpr std::string_view kNotFinite = "must be a finite number",
                            kTooLarge = "must be at most 1e150, so that its square is finite";
 
@@ -52,9 +53,12 @@ BadNumber FirstBad(const std::string& value, bool may_be_infinite) {
     char* rest = nullptr;
     const double number = std::strtod(token.c_str(), &rest);
     const bool unlimited = may_be_infinite && number > 0;
-    if (*rest == '\0' && !unlimited && !std::isfinite(number * number))
-      return {std::move(token), std::isfinite(number) ? kTooLarge : kNotFinite};
-    at = value.find_first_not_of(kSpace, end);
+    if (*rest != '\0' || unlimited || std::isfinite(number * number)) {
+      at = value.find_first_not_of(kSpace, end);
+      continue;
+    }
+    if (token.size() > kMaxShown) token = token.substr(0, kMaxShown - 3) + "...";
+    return {std::move(token), std::isfinite(number) ? kTooLarge : kNotFinite};
   }
   return {};
 }
