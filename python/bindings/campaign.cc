@@ -7,6 +7,7 @@
 #include "python/bindings/modules.h"
 #include "report/campaign_words.h"
 #include "run/campaign/campaign_merge.h"
+#include "run/campaign/campaign_store.h"
 #include "run/campaign/drive_campaign.h"
 #include "run/campaign/episode_maker.h"
 
@@ -96,6 +97,18 @@ nb::dict MergeInto(const std::vector<std::string>& shards, const fs::path& out) 
   return Ended(*outcome, out);
 }
 
+// What the database says of its campaign. Throws InputError unless the file passes the check that
+// every command makes.
+nb::dict CheckedAbout(const fs::path& file) {
+  const CampaignAbout about =
+      WithoutGil([&] { return CampaignStore::Open(file, /*write=*/false).about(); });
+  nb::dict out;
+  out["campaign"] = about.id;
+  out["scenario"] = about.scenario;
+  out["versions"] = about.versions;
+  return out;
+}
+
 // Drives episodes where they are sent: the scenario as it was packed, and what follows from it.
 class Worker {
  public:
@@ -137,6 +150,7 @@ void BindCampaign(nb::module_& m) {
   m.def("end_call", &EndCall);
   m.def("end_where_overdue", &EndWhereOverdue);
   m.def("merge", &MergeInto, "shards"_a, "out"_a);
+  m.def("checked_about", &CheckedAbout, "file"_a);
   nb::class_<Worker>(m, "Worker")
       .def(nb::init<std::shared_ptr<ScenarioFile>>(), "file"_a)
       .def("answer", &Worker::Answer, "job"_a);

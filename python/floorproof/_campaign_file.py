@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""campaign.sqlite, opened to be read: what its tables have in common."""
+"""campaign.sqlite, opened to be read: what its tables have in common.
+
+The file may come from anybody. The C++ library checks it as for every command, and only then is it
+opened here."""
 from __future__ import annotations
 
 import json
@@ -7,9 +10,10 @@ import sqlite3
 from abc import ABC, abstractmethod
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, Dict, Iterable, Iterator, List, Mapping, Tuple, TypeVar
+from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Tuple, TypeVar
 from urllib.parse import quote
 
+from . import _core
 from ._core import InputError
 from ._results import PathLike
 
@@ -28,6 +32,15 @@ def object_of(text: str) -> Mapping[str, Any]:
     return value
 
 
+_READING = {sqlite3.SQLITE_SELECT, sqlite3.SQLITE_READ, sqlite3.SQLITE_TRANSACTION}
+
+
+def _only_reading(action: int, name: Optional[str], *_: Optional[str]) -> int:
+    if action in _READING or (action == sqlite3.SQLITE_PRAGMA and name == "table_info"):
+        return sqlite3.SQLITE_OK
+    return sqlite3.SQLITE_DENY
+
+
 class CampaignFile(ABC):
     """A campaign's database and one of its tables. Kinds of columns: category, bool, int, float,
     text, and json, which is told as text. Throws InputError where there is none, or where it is
@@ -41,10 +54,10 @@ class CampaignFile(ABC):
         self._file = Path(folder) / "campaign.sqlite"
         if not self._file.is_file():
             raise InputError(f"{self._file}: no such file; {folder} holds no campaign")
+        self.about: Dict[str, str] = _core.checked_about(self._file)
         self._db = self._connected()
         try:
-            self._look()
-            self.about: Dict[str, str] = self._about()
+            self._begin()
             self._types = {str(c[1]): str(c[2])
                            for c in self._db.execute(f"PRAGMA table_info({self.table})")}
             self._variants = self._variants_in_order(folder)
@@ -107,24 +120,18 @@ class CampaignFile(ABC):
         return sqlite3.connect(f"file:{quote(str(self._file.absolute()))}?{how}", uri=True,
                                isolation_level=None)
 
-    def _look(self) -> None:
-        """One look for all that is read, though a campaign may go on; and nothing of the file's own
-        is run."""
-        self._db.execute("PRAGMA trusted_schema = OFF")
+    def _begin(self) -> None:
+        """The same limits as in the C++ library, then one transaction for all reads, though a
+        campaign may go on."""
+        self._db.setlimit(sqlite3.SQLITE_LIMIT_ATTACHED, 0)
+        for pragma in ("trusted_schema = OFF", "query_only = ON", "cell_size_check = ON",
+                       "mmap_size = 0"):
+            self._db.execute(f"PRAGMA {pragma}")
+        self._db.set_authorizer(_only_reading)
         self._db.execute("BEGIN")
-        tables = set(self._db.execute("SELECT type, name FROM sqlite_master"))
-        if not {("table", "about"), ("table", "episode")} <= tables:
-            raise InputError(f"{self._file}: is not a campaign's database")
-        if ("table", self.table) not in tables:
+        if not self._db.execute("SELECT 1 FROM sqlite_schema WHERE name = ?",
+                                (self.table,)).fetchone():
             raise InputError(f"{self._file}: is of an earlier version: it has no table {self.table}")
-
-    def _about(self) -> Dict[str, str]:
-        about = {str(key): str(value)
-                 for key, value in self._db.execute("SELECT key, value FROM about")}
-        missing = [key for key in ("campaign", "scenario", "versions") if key not in about]
-        if missing or about.get("format") != "1":
-            raise InputError(f"{self._file}: is not a campaign's database (table about)")
-        return about
 
     def _variants_in_order(self, folder: PathLike) -> List[str]:
         """As the scenario has them, which the summary keeps."""

@@ -2,14 +2,11 @@
 """A campaign's table `encounter`: the columns of encounters.csv, each size in one of its own."""
 from __future__ import annotations
 
-from typing import Any, Dict, Iterable, List, Set
+from typing import Any, Dict, Iterable, List
 
 from ._campaign_file import CampaignFile, Row
-from ._core import InputError
 
 _KEYS = {"variant": "category", "episode": "int", "number": "int"}
-_NEEDED = ("campaign", *_KEYS, "hazard", "type", "passage", "size", "outcome")
-_TYPES: Dict[str, Set[type]] = {"category": {str}, "int": {int}, "float": {float, int}}
 
 
 class EncounterTable(CampaignFile):
@@ -30,7 +27,6 @@ class EncounterTable(CampaignFile):
             for key, column in sizes:
                 column.append(size.get(key))
         for name, column in out.items():
-            self._check(name, column)
             if self.kinds[name] == "category":
                 column[:] = [word or None for word in column]
         return out
@@ -40,10 +36,6 @@ class EncounterTable(CampaignFile):
                 "ORDER BY episode, number")
 
     def _found_kinds(self) -> Dict[str, str]:
-        missing = [name for name in _NEEDED if name not in self._types]
-        if missing:
-            raise InputError(f"{self._file}: is not a campaign's database (table encounter has no "
-                             f"column {missing[0]})")
         sizes: Dict[str, str] = {}  # in the order first met
         for row in self.rows():
             for key in self._parsed(row, "size"):
@@ -55,11 +47,3 @@ class EncounterTable(CampaignFile):
             elif name != "campaign":
                 kinds[name] = _KEYS.get(name, "float" if declared == "REAL" else "category")
         return kinds
-
-    def _check(self, name: str, column: List[Any]) -> None:
-        may = _TYPES[self.kinds[name]]
-        if name.startswith("size."):
-            may = may | {type(None)}
-        wrong = set(map(type, column)) - may
-        if wrong:
-            raise self._damaged(TypeError(f"{name} of an encounter is a {wrong.pop().__name__}"))

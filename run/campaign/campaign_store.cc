@@ -18,18 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxText_bytes = 16 << 20;  // of any value
+constexpr int kMaxText_bytes = 16 << 20;                              // of any value
+constexpr int kMaxColumns = 300;                                      // of any table
+constexpr std::uintmax_t kMaxFile_bytes = std::uintmax_t{256} << 30;  // SQLite needs a bit a page
 
 std::string Placeholders(std::size_t columns) {
   std::string marks = "?";
   for (std::size_t i = 1; i < columns; ++i) marks += ",?";
   return marks;
-}
-
-std::string Declared(const std::vector<Column>& columns) {
-  std::string text;
-  for (const Column& column : columns) text += column.name + " " + column.type + ", ";
-  return text;
 }
 
 // A database whose log is empty is read as it is: no index file is made beside it, and it may lie
@@ -88,8 +84,9 @@ void CampaignStore::Refuse(int code) const {
                        "is damaged (a text of more than " + std::to_string(kMaxText_bytes >> 20) +
                            " MiB); it was left as it is");
     case SQLITE_INTERRUPT:
-      throw InputError({file_.string(), 0}, "", "",
-                       "is damaged (reading it does not end); it was left as it is");
+      throw InputError(
+          {file_.string(), 0}, "", "",
+          "is damaged (reading it takes too much time or memory); it was left as it is");
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       throw InputError({file_.string(), 0}, "", "", "is in use by another campaign");
@@ -115,7 +112,9 @@ CampaignStore CampaignStore::Create(const fs::path& file, const CampaignAbout& a
     std::error_code ignored;
     fs::remove(path.string() + end, ignored);
   };
-  const auto remove_part = [&] { remove(part, ""), remove(part, "-journal"); };
+  const auto remove_part = [&] {
+    for (const char* end : {"", "-journal", "-wal", "-shm"}) remove(part, end);
+  };
   remove_part();
   try {
     Fill(file, part, about);
@@ -140,15 +139,7 @@ void CampaignStore::Fill(const fs::path& file, const fs::path& part, const Campa
   if (code != SQLITE_OK) store.Refuse(code);
   store.sound_ = true;  // its own
   store.Run("BEGIN");
-  store.Run("CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID");
-  for (const char* table : {"episode", "extra"})
-    store.Run("CREATE TABLE " + std::string(table) + " (" + Declared(Columns()) +
-              "PRIMARY KEY (campaign, variant, episode)) WITHOUT ROWID");
-  store.Run("CREATE TABLE encounter (" + Declared(ColumnsOfEncounters()) +
-            "PRIMARY KEY (campaign, variant, episode, number)) WITHOUT ROWID");
-  store.Run(
-      "CREATE TABLE timing (variant TEXT NOT NULL, episode INTEGER NOT NULL, wall_s REAL NOT NULL, "
-      "PRIMARY KEY (variant, episode)) WITHOUT ROWID");
+  for (const std::string& table : CampaignTables()) store.Run(table);
   {
     Statement insert(store, "INSERT INTO about VALUES (?, ?)");
     for (const auto& [key, value] :
@@ -163,6 +154,9 @@ void CampaignStore::Fill(const fs::path& file, const fs::path& part, const Campa
     }
   }
   store.Run("COMMIT");
+  // Before the file gets its name: the change needs a rollback journal, and the only file that may
+  // ever be beside a campaign is its write-ahead log.
+  store.Run("PRAGMA journal_mode=WAL");
 }
 
 CampaignStore CampaignStore::Connect(const fs::path& file, int flags) {
@@ -172,6 +166,7 @@ CampaignStore CampaignStore::Connect(const fs::path& file, int flags) {
   CampaignStore store(file, db);
   if (code != SQLITE_OK) store.Refuse(code);
   store.Distrust();
+  if (flags == SQLITE_OPEN_READONLY) store.Run("PRAGMA query_only=ON");
   return store;
 }
 
@@ -179,11 +174,23 @@ CampaignStore CampaignStore::Open(const fs::path& file, bool write) {
   std::error_code ignored;
   if (!fs::exists(fs::symlink_status(file, ignored)))
     throw InputError({file.string(), 0}, "", "", "cannot be opened: no such file");
-  for (const char* end : {"", "-wal", "-shm", "-journal"}) {
-    const fs::file_status status = fs::symlink_status(file.string() + end, ignored);
-    if (fs::exists(status) && !fs::is_regular_file(status))
-      throw InputError({file.string() + end, 0}, "", "", "is no plain file");
+  for (const std::string end : {"", "-wal", "-shm", "-journal"}) {
+    const fs::path path = file.string() + end;
+    const fs::file_status status = fs::symlink_status(path, ignored);
+    if (!fs::exists(status)) continue;
+    if (!fs::is_regular_file(status))
+      throw InputError({path.string(), 0}, "", "", "is no plain file");
+    // SQLite writes to these even where the database is only read.
+    if (!end.empty() && fs::hard_link_count(path, ignored) > 1)
+      throw InputError({path.string(), 0}, "", "", "is a hard link: it has another name, too");
+    // SQLite would play it into the database after that was checked.
+    if (end == "-journal" && fs::file_size(path, ignored) > 0)
+      throw InputError({path.string(), 0}, "", "",
+                       "is a rollback journal, and campaigns leave none");
   }
+  if (fs::file_size(file, ignored) > kMaxFile_bytes)
+    throw InputError({file.string(), 0}, "", "",
+                     "is larger than " + std::to_string(kMaxFile_bytes >> 30) + " GiB");
   // Looked through read-only first: opening a damaged file for writing could change it.
   CampaignStore store = Connect(file, SQLITE_OPEN_READONLY);
   store.Check();
@@ -193,6 +200,10 @@ CampaignStore CampaignStore::Open(const fs::path& file, bool write) {
 
 void CampaignStore::MakeWritable() {
   RequireColumns();
+  std::error_code ignored;
+  if (fs::hard_link_count(file_, ignored) > 1)
+    throw InputError({file_.string(), 0}, "", "",
+                     "is a hard link: its other name would change, too");
   CampaignStore writable = Connect(file_, SQLITE_OPEN_READWRITE);
   sqlite3_close(std::exchange(db_, std::exchange(writable.db_, nullptr)));
   // In this order: who owns the shared index when it closes also removes it.
@@ -209,7 +220,16 @@ void CampaignStore::Distrust() const {
                                       {SQLITE_DBCONFIG_ENABLE_TRIGGER, 0},
                                       {SQLITE_DBCONFIG_ENABLE_VIEW, 0}})
     sqlite3_db_config(db_, option, value, nullptr);
-  sqlite3_limit(db_, SQLITE_LIMIT_LENGTH, kMaxText_bytes);
+  for (const auto& [limit, value] : {std::pair(SQLITE_LIMIT_LENGTH, kMaxText_bytes),
+                                     {SQLITE_LIMIT_SQL_LENGTH, 64 << 10},
+                                     {SQLITE_LIMIT_COLUMN, kMaxColumns},
+                                     {SQLITE_LIMIT_VARIABLE_NUMBER, kMaxColumns},
+                                     {SQLITE_LIMIT_EXPR_DEPTH, 50},
+                                     {SQLITE_LIMIT_COMPOUND_SELECT, 4},
+                                     {SQLITE_LIMIT_ATTACHED, 0},
+                                     {SQLITE_LIMIT_TRIGGER_DEPTH, 1},
+                                     {SQLITE_LIMIT_WORKER_THREADS, 0}})
+    sqlite3_limit(db_, limit, value);
   sqlite3_exec(db_, "PRAGMA cell_size_check=ON; PRAGMA mmap_size=0", nullptr, nullptr, nullptr);
 }
 
@@ -229,7 +249,8 @@ void CampaignStore::Add(std::span<const EpisodeRow> rows) {
       KeepText(row.made, file_.parent_path());
   Run("BEGIN");
   try {
-    Statement insert(*this, "INSERT INTO episode VALUES (" + Placeholders(Columns().size()) + ")");
+    Statement insert(*this,
+                     "INSERT INTO episode VALUES (" + Placeholders(EpisodeColumns().size()) + ")");
     Statement timing(*this, "INSERT OR REPLACE INTO timing VALUES (?, ?, ?)");
     for (const EpisodeRow& row : rows) {
       int at = 0;
@@ -259,7 +280,7 @@ void CampaignStore::Add(std::span<const EpisodeRow> rows) {
 
 void CampaignStore::AddEncounters(std::span<const EpisodeRow> rows) {
   Statement insert(
-      *this, "INSERT INTO encounter VALUES (" + Placeholders(ColumnsOfEncounters().size()) + ")");
+      *this, "INSERT INTO encounter VALUES (" + Placeholders(EncounterTableColumns().size()) + ")");
   for (const EpisodeRow& row : rows)
     for (std::size_t number = 0; number < row.encounters.size(); ++number) {
       int at = 0;

@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "run/campaign/campaign_schema.h"
 #include "run/campaign/episode_row.h"
 
 struct sqlite3;
@@ -93,9 +94,10 @@ class CampaignStore {
   void Check();
   void ReadAbout();
   void Distrust() const;
-  void CheckTables();
-  void CheckRows() const;
+  CampaignSchema CheckTables();
+  void CheckRows(const std::vector<Column>& columns) const;
   void CheckEncounters() const;
+  [[noreturn]] void RefuseRow(const std::string& table, const std::string& why) const;
   void AddEncounters(std::span<const EpisodeRow> rows);
   void RequireColumns() const;
 

@@ -2,38 +2,70 @@
 // Whether a file is a campaign's database, whole and of this version: whoever made it is not
 // trusted.
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "base/config.h"
 #include "base/error.h"
 #include "base/file_output.h"
 #include "base/printable.h"
+#include "run/campaign/bounded_json.h"
 #include "run/campaign/campaign_about.h"
 #include "run/campaign/campaign_tables.h"
+#include "run/campaign/drive_campaign.h"
 
 namespace floorproof {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Ends a statement that takes more steps of SQLite's machine than the file's size explains.
-class StepLimit {
+// Ends a statement that takes more steps of SQLite's machine, or more of its memory, than the file
+// explains. SQLite reads the schema before anything of it can be checked.
+class ReadLimit {
  public:
-  StepLimit(sqlite3* db, const fs::path& file) : db_(db) {
+  ReadLimit(sqlite3* db, const fs::path& file) : db_(db) {
     std::error_code error;
     const std::uintmax_t bytes = fs::file_size(file, error);
     left_ = 100'000 + (error ? 0 : static_cast<std::int64_t>(bytes / 100));
     sqlite3_progress_handler(
-        db, 1000, [](void* self) { return --static_cast<StepLimit*>(self)->left_ < 0 ? 1 : 0; },
-        this);
+        db, 1000, [](void* self) { return static_cast<ReadLimit*>(self)->IsOver() ? 1 : 0; }, this);
   }
-  ~StepLimit() { sqlite3_progress_handler(db_, 0, nullptr, nullptr); }
-  StepLimit(const StepLimit&) = delete;
-  StepLimit& operator=(const StepLimit&) = delete;
+  ~ReadLimit() { sqlite3_progress_handler(db_, 0, nullptr, nullptr); }
+  ReadLimit(const ReadLimit&) = delete;
+  ReadLimit& operator=(const ReadLimit&) = delete;
 
  private:
+  static constexpr std::int64_t kMaxMemory_bytes = 64 << 20;
+  bool IsOver() { return --left_ < 0 || sqlite3_memory_used() - before_ > kMaxMemory_bytes; }
+
   sqlite3* db_;
   std::int64_t left_;  // thousands of steps
+  const std::int64_t before_ = sqlite3_memory_used();
 };
+
+// Why a value of the row cannot be its column's, a phrase; empty: all can.
+std::string WhyWrongValue(sqlite3_stmt* row, const std::vector<Column>& columns) {
+  for (int i = 0; i < static_cast<int>(columns.size()); ++i) {
+    const auto& [name, declared] = columns[static_cast<std::size_t>(i)];
+    const int type = sqlite3_column_type(row, i);
+    const std::string where = "in column " + name + " ";
+    if (declared.starts_with("TEXT")) {
+      if (type != SQLITE_TEXT) return where + "is no text";
+      const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(row, i));
+      if (!IsUtf8Text({text, static_cast<std::size_t>(sqlite3_column_bytes(row, i))}))
+        return where + "is no UTF-8";
+    } else if (declared.starts_with("INTEGER")) {
+      if (type != SQLITE_INTEGER) return where + "is no whole number";
+      const std::int64_t count = sqlite3_column_int64(row, i);
+      if (count < 0 || count > kMostEpisodes) return where + "is out of range";
+    } else if (type != SQLITE_FLOAT && type != SQLITE_INTEGER) {
+      if (type != SQLITE_NULL || declared != "REAL") return where + "is no number";
+    } else if (!std::isfinite(sqlite3_column_double(row, i))) {
+      return where + "is not finite";
+    }
+  }
+  return "";
+}
 
 // As this version calls it.
 std::string NameNow(const std::string& column) {
@@ -44,8 +76,8 @@ std::string NameNow(const std::string& column) {
 }  // namespace
 
 void CampaignStore::Check() {
-  const StepLimit limit(db_, file_);
-  CheckTables();
+  const ReadLimit limit(db_, file_);
+  const CampaignSchema schema = CheckTables();
   {
     Statement check(*this, "PRAGMA quick_check(1)");
     if (check.Step() && check.Text(0) != "ok")
@@ -53,7 +85,7 @@ void CampaignStore::Check() {
                        "is damaged (" + check.Text(0) + "); it was left as it is");
   }
   ReadAbout();
-  CheckRows();
+  CheckRows(schema.episode);
   CheckEncounters();
   sound_ = true;
 }
@@ -70,7 +102,8 @@ void CampaignStore::ReadAbout() {
       if (key == "versions") about_.versions = value;
       if (key == "asked") asked_ = std::strtoull(value.c_str(), nullptr, 10);
     }
-    if (format == std::to_string(kFormat) && IsUtf8Text(about_.id)) {
+    if (format == std::to_string(kFormat) && IsUtf8Text(about_.id) && asked_ <= kMostEpisodes &&
+        WhyUnboundedJson(about_.versions).empty()) {
       ParseYaml(about_.scenario, file_.string() + ", scenario");
       VersionsOf(about_);
       return;
@@ -82,122 +115,61 @@ void CampaignStore::ReadAbout() {
   throw InputError({file_.string(), 0}, "", "", "is not a campaign's database (table about)");
 }
 
-// No views, triggers or indexes, and no table but a campaign's own with the columns of one.
-void CampaignStore::CheckTables() {
+// No views, triggers or indexes, and no table but a campaign's own, made by the program's own text.
+CampaignSchema CampaignStore::CheckTables() {
   const auto refuse = [&](const std::string& what) {
     throw InputError({file_.string(), 0}, "", "", "is not a campaign's database (" + what + ")");
   };
-  Statement schema(*this, "SELECT type, name, sql FROM sqlite_master");
-  std::vector<std::string> tables;
+  Statement schema(*this, "SELECT type, name, sql FROM sqlite_schema");
+  std::map<std::string, std::string> tables;
   while (schema.Step()) {
     const std::string type = schema.Text(0), name = schema.Text(1);
     if (type != "table" || !schema.Text(2).starts_with("CREATE TABLE "))
       refuse("it holds a " + (type == "table" ? "virtual table" : type) + " " + name);
-    tables.push_back(name);
+    if (!tables.emplace(name, schema.Text(2)).second) refuse("it holds two tables " + name);
   }
-  std::ranges::sort(tables);
-  if (tables.empty()) refuse("table about");
-  has_encounters_ = std::erase(tables, "encounter") > 0;
-  if (tables != std::vector<std::string>{"about", "episode", "extra", "timing"})
-    refuse("its tables are not about, encounter, episode, extra, timing");
-  std::vector<Column> of_episode;
-  for (const std::string table : {"episode", "extra"}) {
-    std::vector<Column> there;
-    Statement info(*this, "PRAGMA table_xinfo(" + table + ")");
-    while (info.Step()) {
-      if (info.Text(6) != "0") refuse("table " + table + " computes a column");
-      there.push_back({info.Text(1), info.Text(2)});
-    }
-    // Behind the first columns stand the metrics of whatever version, and the texts.
-    const std::vector<Column> wanted = Columns();
-    const auto same = [](const Column& a, const Column& b) {
-      return a.name == b.name && !a.type.empty() && b.type.starts_with(a.type);
-    };
-    bool right = there.size() >= kFirst + kLeastTexts &&
-                 std::equal(there.begin(), there.begin() + kFirst, wanted.begin(), same);
-    std::size_t texts = 0;
-    for (std::size_t i = kFirst; right && i < there.size(); ++i) {
-      const bool is_text = std::ranges::find(kTexts, there[i].name, &RowText::name) != kTexts.end();
-      texts += is_text;
-      right = there[i].type == (is_text ? "TEXT" : "REAL");
-    }
-    right = right && texts >= kLeastTexts;
-    if (!right) refuse("table " + table + " has not the columns of one");
-    if (of_episode.empty()) of_episode = std::move(there);
-    // Rows of both are read by one statement, by the places of their columns.
-    else if (!std::ranges::equal(there, of_episode, {}, &Column::name, &Column::name))
-      refuse("tables episode and extra have not the same columns");
-  }
-  if (!has_encounters_) return;
-  std::vector<Column> there;
-  Statement info(*this, "PRAGMA table_xinfo(encounter)");
-  while (info.Step()) {
-    if (info.Text(6) != "0") refuse("table encounter computes a column");
-    there.push_back({info.Text(1), info.Text(2)});
-  }
-  if (!std::ranges::equal(there, ColumnsOfEncounters(), [](const Column& a, const Column& b) {
-        return a.name == b.name && b.type == a.type + " NOT NULL";
-      }))
-    refuse("table encounter has not the columns of one, or another version's");
+  std::string why;
+  CampaignSchema read = ReadSchema(tables, why);
+  if (!why.empty()) refuse(why);
+  has_encounters_ = read.has_encounters;
+  return read;
 }
 
-// What lies in a row's further pages no check of the database looks at; and a text may be JSON of
+// No check of the database reads what lies in a row's further pages; and a text may be JSON of
 // another kind than is asked for later, when rows have been added.
-void CampaignStore::CheckRows() const {
+void CampaignStore::CheckRows(const std::vector<Column>& columns) const {
   for (const std::string table : {"episode", "extra"}) {
     Statement select(*this, "SELECT * FROM " + table);
     const auto places = select.PlacesOfColumns();
-    const int columns = sqlite3_column_count(select.handle);
     while (select.Step()) {
-      std::string why;
-      for (int i = 0; i < columns && why.empty(); ++i) {
-        const int type = sqlite3_column_type(select.handle, i);
-        const bool is_json = std::ranges::find(places.texts, i) != places.texts.end();
-        const bool is_text = is_json || i < 2 || i == 3 || i == 4;
-        const bool is_count = !is_text && i < static_cast<int>(kFirst);
-        if (is_text    ? type != SQLITE_TEXT
-            : is_count ? type != SQLITE_INTEGER || sqlite3_column_int64(select.handle, i) < 0
-                       : type != SQLITE_NULL && type != SQLITE_FLOAT && type != SQLITE_INTEGER)
-          why = "is of another type";
-        else if (is_text && !IsUtf8Text(select.Text(i)))
-          why = "is no UTF-8";
-      }
+      std::string why = WhyWrongValue(select.handle, columns);
       if (why.empty()) why = WhyUnreadableRow(select.Row(places));
-      if (!why.empty())
-        throw InputError({file_.string(), 0}, "", "",
-                         "is damaged (a text of a row of table " + table + " " + why +
-                             "); it was left as it is");
+      if (!why.empty()) RefuseRow(table, why);
     }
   }
 }
 
 void CampaignStore::CheckEncounters() const {
   if (!has_encounters_) return;
+  const std::vector<Column> columns = EncounterTableColumns();
+  const auto size = std::ranges::find(columns, "size", &Column::name) - columns.begin();
   Statement select(*this, "SELECT * FROM encounter");
-  const std::vector<Column> columns = ColumnsOfEncounters();
   while (select.Step()) {
-    std::string why;
-    for (int i = 0; i < sqlite3_column_count(select.handle) && why.empty(); ++i) {
-      const std::string& declared = columns[static_cast<std::size_t>(i)].type;
-      const int type = sqlite3_column_type(select.handle, i);
-      const bool is_text = declared.starts_with("TEXT");
-      if (is_text                           ? type != SQLITE_TEXT
-          : declared.starts_with("INTEGER") ? type != SQLITE_INTEGER
-                                            : type != SQLITE_FLOAT && type != SQLITE_INTEGER)
-        why = "is of another type";
-      else if (is_text && !IsUtf8Text(select.Text(i)))
-        why = "is no UTF-8";
-    }
+    std::string why = WhyWrongValue(select.handle, columns);
+    if (why.empty()) why = WhyUnboundedJson(select.Text(static_cast<int>(size)));
     try {
       if (why.empty()) select.EncounterAt(kFirstOfEncounter);
     } catch (const InternalError&) {
       why = "is none of an encounter";
     }
-    if (!why.empty())
-      throw InputError(
-          {file_.string(), 0}, "", "",
-          "is damaged (a value of a row of table encounter " + why + "); it was left as it is");
+    if (!why.empty()) RefuseRow("encounter", why);
   }
+}
+
+void CampaignStore::RefuseRow(const std::string& table, const std::string& why) const {
+  throw InputError(
+      {file_.string(), 0}, "", "",
+      "is damaged (a value of a row of table " + table + " " + why + "); it was left as it is");
 }
 
 // A row is written by the places of its columns.
@@ -207,7 +179,7 @@ void CampaignStore::RequireColumns() const {
                      "is another version's: it has no table encounter; it can be read, not gone on "
                      "with: start anew in another folder");
   std::vector<std::string> wanted;
-  for (const Column& column : Columns()) wanted.push_back(column.name);
+  for (const Column& column : EpisodeColumns()) wanted.push_back(column.name);
   for (const std::string table : {"episode", "extra"}) {
     std::vector<std::string> there;
     Statement info(*this, "PRAGMA table_info(" + table + ")");

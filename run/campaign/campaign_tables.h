@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "run/campaign/campaign_schema.h"
 #include "run/campaign/campaign_store.h"
 #include "run/episode/encounter_table.h"
 
@@ -29,36 +30,6 @@ inline constexpr std::array<RowText, 4> kTexts = {{{"drawn", &EpisodeRow::drawn}
                                                    {"timeout", &EpisodeRow::timeout}}};
 inline constexpr std::size_t kLeastTexts = 3;  // files of earlier versions have no `timeout`
 
-struct Column {
-  std::string name, type;
-};
-
-// Of the tables of episodes, in order.
-inline std::vector<Column> Columns() {
-  const std::string text = "TEXT NOT NULL", count = "INTEGER NOT NULL";
-  std::vector<Column> columns = {{"campaign", text},
-                                 {"variant", text},
-                                 {"episode", count},
-                                 {"outcome", text},
-                                 {"message", text}};
-  for (int mode = 0; mode < kNumFailureModes; ++mode)
-    columns.push_back({std::string(Name(static_cast<FailureMode>(mode))), count});
-  for (const MetricColumn& metric : kMetrics) columns.push_back({std::string(metric.name), "REAL"});
-  for (const RowText& t : kTexts) columns.push_back({std::string(t.name), text});
-  return columns;
-}
-
-// Of table `encounter`, in order.
-inline std::vector<Column> ColumnsOfEncounters() {
-  std::vector<Column> columns = {{"campaign", "TEXT NOT NULL"},
-                                 {"variant", "TEXT NOT NULL"},
-                                 {"episode", "INTEGER NOT NULL"},
-                                 {"number", "INTEGER NOT NULL"}};
-  for (const EncounterColumn& column : EncounterColumns())
-    columns.push_back(
-        {std::string(column.name), column.is_text ? "TEXT NOT NULL" : "REAL NOT NULL"});
-  return columns;
-}
 inline constexpr int kFirstOfEncounter = 4;  // column that is the encounter's own
 
 // A prepared statement; its calls throw as the store's do.

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/file_output.h"
 #include "base/params.h"
+#include "run/campaign/bounded_json.h"
 #include "run/episode/encounter_table.h"
 #include "run/episode/episode_record.h"
 #include "run/episode/records.h"
@@ -88,15 +89,14 @@ std::string MadePlan(const EpisodeRow& row) {
 }
 
 std::string WhyUnreadableRow(const EpisodeRow& row) {
+  for (const std::string* text : {&row.drawn, &row.plan, &row.events, &row.timeout})
+    if (std::string why = WhyUnboundedJson(*text); !why.empty()) return why;
   for (const std::string* text : {&row.drawn, &row.plan}) {
-    const Json json = Json::parse(*text, nullptr, false);
-    if (json.is_discarded()) return "is no JSON";
+    const Json json = Json::parse(*text);
     if (!json.is_object()) return "is no JSON object";
     if (json.contains("made") && !json["made"].is_string()) return "holds a `made` that is no text";
   }
-  const Json events = Json::parse(row.events, nullptr, false);
-  if (events.is_discarded()) return "is no JSON";
-  if (!events.is_array()) return "is no JSON list";
+  if (!Json::parse(row.events).is_array()) return "is no JSON list";
   try {
     EventsOf(row);
   } catch (const InternalError&) {

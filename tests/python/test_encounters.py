@@ -201,8 +201,6 @@ def test_only_episodes_that_are_kept_count(changed: Callable[..., Path]) -> None
 def test_what_earlier_versions_recorded_can_be_read(changed: Callable[..., Path]) -> None:
     pytest.importorskip("pandas")
     from floorproof import exports
-    frame = exports.encounters_frame(changed("ALTER TABLE encounter DROP COLUMN sensed"))
-    assert "sensed" not in frame.columns and len(frame) > 8
     old = changed("DROP TABLE encounter")
     assert len(exports.episodes_frame(old)) == 8
     with pytest.raises(floorproof.InputError, match="earlier version: it has no table encounter"):
@@ -212,10 +210,10 @@ def test_what_earlier_versions_recorded_can_be_read(changed: Callable[..., Path]
 @pytest.mark.parametrize("statement, says", [
     ("UPDATE encounter SET size = '[1' WHERE episode = 3", "is damaged"),
     ("UPDATE encounter SET size = '{\"height_m\": \"high\"}' WHERE episode = 3",
-     "size.height_m of an encounter is a str"),
-    ("UPDATE encounter SET speed_mps = 'fast' WHERE episode = 3", "speed_mps of an encounter is a"),
-    ("UPDATE encounter SET hazard = x'00' WHERE episode = 3", "hazard of an encounter is a bytes"),
-    ("ALTER TABLE encounter DROP COLUMN outcome", "table encounter has no column outcome"),
+     "table encounter is none of an encounter"),
+    ("UPDATE encounter SET speed_mps = 'fast' WHERE episode = 3", "column speed_mps is no number"),
+    ("UPDATE encounter SET hazard = x'00' WHERE episode = 3", "column hazard is no text"),
+    ("ALTER TABLE encounter DROP COLUMN sensed", "table encounter has not the columns of one"),
 ])
 def test_a_damaged_campaign_is_refused_in_a_line(changed: Callable[..., Path], statement: str,
                                                  says: str) -> None:

@@ -18,6 +18,7 @@ pandas = pytest.importorskip("pandas", reason="pip install '.[tables]'")
 parquet = pytest.importorskip("pyarrow.parquet", reason="pip install '.[tables]'")
 
 from floorproof import exports  # noqa: E402
+from floorproof._episode_table import EpisodeTable  # noqa: E402
 from floorproof._files import written_whole  # noqa: E402
 
 FLOORS: Dict[str, Any] = {
@@ -160,8 +161,54 @@ def test_what_is_no_campaign_is_refused_in_a_line(campaign: floorproof.Campaign,
         db.execute("UPDATE episode SET plan = '[1' WHERE episode = 3")
     db.close()
     refused("is damaged")
+    file.unlink()
+    file.symlink_to(campaign.folder / "campaign.sqlite")
+    refused("is no plain file")
     with pytest.raises(floorproof.InputError, match="summary.json"):
         exports.rates_frame(tmp_path)
+
+
+@pytest.mark.parametrize("statements, says", [
+    # 16 MB that are computed for each row, though the file is small.
+    (["ALTER TABLE episode ADD COLUMN c TEXT AS (hex(zeroblob(8000000)))",
+      "ALTER TABLE extra ADD COLUMN c TEXT AS (hex(zeroblob(8000000)))"],
+     "table episode has not the columns of one"),
+    (["ALTER TABLE timing ADD COLUMN c TEXT AS ('a')"], "table timing has not the columns of one"),
+    (["DROP TABLE extra", "CREATE VIEW extra AS SELECT * FROM episode"], "it holds a view extra"),
+    (["CREATE TRIGGER t AFTER INSERT ON episode BEGIN DELETE FROM episode; END"],
+     "it holds a trigger t"),
+    (["CREATE TABLE more(a)"], "its tables are not about"),
+    (["UPDATE episode SET message = zeroblob(17000000) WHERE episode = 1"],
+     "a text of more than 16 MiB"),
+    (["UPDATE episode SET coverage = 'many' WHERE episode = 1"], "in column coverage is no number"),
+    (["UPDATE episode SET coverage = 9e999 WHERE episode = 1"], "in column coverage is not finite"),
+    (["UPDATE episode SET drawn = '{\"a\": NaN}' WHERE episode = 1"], "is no JSON"),
+    (["UPDATE episode SET drawn = '{\"a\": ' || replace(hex(zeroblob(9999)), '00', '[') ||"
+      " replace(hex(zeroblob(9999)), '00', ']') || '}' WHERE episode = 1"],
+     "nested more than 32 levels deep"),
+])
+def test_a_strangers_campaign_is_checked_as_by_every_command(
+        campaign: floorproof.Campaign, tmp_path: Path, statements: List[str], says: str) -> None:
+    file = tmp_path / "campaign.sqlite"
+    file.write_bytes((campaign.folder / "campaign.sqlite").read_bytes())
+    with sqlite3.connect(file) as db:
+        for statement in statements:
+            db.execute(statement)
+    db.close()
+    for read in (exports.episodes_frame, exports.encounters_frame):
+        with pytest.raises(floorproof.InputError, match=says) as error:
+            read(tmp_path)
+        assert str(error.value).startswith(str(file)) and "\n" not in str(error.value)
+
+
+def test_a_connection_to_a_campaign_only_reads(campaign: floorproof.Campaign,
+                                               tmp_path: Path) -> None:
+    sqlite3.connect(tmp_path / "other.sqlite").execute("CREATE TABLE a(b)").connection.close()
+    with EpisodeTable(campaign.folder) as table:
+        for statement in (f"ATTACH '{tmp_path / 'other.sqlite'}' AS other", "DELETE FROM episode",
+                          "PRAGMA query_only = OFF", "SELECT hex(zeroblob(8000000))"):
+            with pytest.raises(sqlite3.DatabaseError, match="not authorized|too many attached"):
+                table._db.execute(statement)
 
 
 def test_reading_leaves_the_campaign_as_it_was(campaign: floorproof.Campaign) -> None:

@@ -64,6 +64,16 @@ class CampaignStoreTest : public OwnFolderTest {
     for (std::uint64_t episode = 0; episode < n; ++episode) rows.push_back(Row(episode));
     store.Add(rows);
   }
+  // Changes a campaign as a stranger could; the file is closed again.
+  void Change(const std::string& sql) {
+    sqlite3* db = nullptr;
+    ASSERT_EQ(sqlite3_open(file_.c_str(), &db), SQLITE_OK);
+    char* error = nullptr;
+    EXPECT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, &error), SQLITE_OK)
+        << sql << ": " << error;
+    sqlite3_free(error);
+    sqlite3_close(db);
+  }
   std::string WhyRefused(bool write) {
     try {
       CampaignStore::Open(file_, write);
@@ -407,11 +417,7 @@ TEST_F(CampaignStoreTest, NothingOfAForeignFileIsRun) {
   const auto expect_refused = [&](const std::string& sql, const char* why) {
     fs::remove(file_);
     Make(3);
-    sqlite3* db = nullptr;
-    ASSERT_EQ(sqlite3_open(file_.c_str(), &db), SQLITE_OK);
-    char* error = nullptr;
-    ASSERT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, &error), SQLITE_OK) << error;
-    sqlite3_close(db);
+    Change(sql);
     const auto before = Bytes(folder_);
     for (const bool write : {false, true}) EXPECT_THAT(WhyRefused(write), HasSubstr(why)) << sql;
     EXPECT_EQ(Bytes(folder_), before) << sql;
@@ -426,7 +432,13 @@ TEST_F(CampaignStoreTest, NothingOfAForeignFileIsRun) {
   expect_refused("CREATE TABLE more(a)",
                  "its tables are not about, encounter, episode, extra, timing");
   expect_refused("ALTER TABLE episode ADD COLUMN c TEXT", "has not the columns of one");
-  expect_refused("ALTER TABLE episode ADD COLUMN c REAL AS (episode * 2)", "computes a column");
+  expect_refused("ALTER TABLE episode ADD COLUMN c REAL AS (episode * 2)",
+                 "episode has not the columns of one");
+  expect_refused("ALTER TABLE episode ADD COLUMN c REAL DEFAULT 1", "has not the columns of one");
+  expect_refused("ALTER TABLE timing ADD COLUMN c TEXT", "timing has not the columns of one");
+  expect_refused("ALTER TABLE encounter ADD COLUMN c TEXT AS (hex(zeroblob(8000000)))",
+                 "encounter has not the columns of one");
+  expect_refused("CREATE VIRTUAL TABLE more USING fts5(a)", "holds a virtual table");
   for (const char* change :
        {"extra ADD COLUMN c REAL", "episode DROP COLUMN turns", "extra RENAME COLUMN turns TO c"})
     expect_refused(std::string("ALTER TABLE ") + change, "have not the same columns");
@@ -436,11 +448,7 @@ TEST_F(CampaignStoreTest, EveryTextIsReadBeforeAnyIsWritten) {
   const auto expect_refused = [&](const std::string& set) {
     fs::remove(file_);
     Make(3);
-    sqlite3* db = nullptr;
-    ASSERT_EQ(sqlite3_open(file_.c_str(), &db), SQLITE_OK);
-    const std::string sql = "UPDATE episode SET " + set + " WHERE episode = 2";
-    ASSERT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << set;
-    sqlite3_close(db);
+    Change("UPDATE episode SET " + set + " WHERE episode = 2");
     const auto before = Bytes(folder_);
     EXPECT_THAT(WhyRefused(true), HasSubstr("is damaged")) << set;
     EXPECT_EQ(Bytes(folder_), before) << set;
@@ -451,6 +459,53 @@ TEST_F(CampaignStoreTest, EveryTextIsReadBeforeAnyIsWritten) {
         "message = CAST(x'41ff' AS TEXT)", "drawn = CAST(x'7b7dff' AS TEXT)", "turns = 'many'",
         "stuck = -1", "message = zeroblob(17000000)"})
     expect_refused(set);
+  const auto repeated = [](const std::string& text, int n) {
+    std::string out;
+    for (int i = 0; i < n; ++i) out += text;
+    return out;
+  };
+  expect_refused("drawn = '{\"a\": " + repeated("[", 40) + repeated("]", 40) + "}'");
+  expect_refused("drawn = printf('{\"a\": \"%.*c\"}', 5000000, 'a')");
+  std::string keys;
+  for (int i = 0; i < 1001; ++i) keys += (i == 0 ? "\"" : ", \"") + std::to_string(i) + "\": 0";
+  expect_refused("plan = '{" + keys + "}'");
+}
+
+// A number of SQLite's may be infinite; a column keeps a text that is no number.
+TEST_F(CampaignStoreTest, NumbersOfAnotherKindAreRefused) {
+  for (const char* sql :
+       {"UPDATE episode SET coverage = 9e999", "UPDATE episode SET coverage = -9e999",
+        "UPDATE episode SET coverage = 'NaN'", "UPDATE episode SET coverage = x'00'",
+        "UPDATE episode SET stuck = 1.5", "UPDATE episode SET stuck = 4294967297",
+        "UPDATE episode SET episode = 9223372036854775807 WHERE episode = 2",
+        "UPDATE encounter SET speed_mps = 9e999", "UPDATE encounter SET size = '{\"a\": 1e999}'",
+        "UPDATE encounter SET number = -1"}) {
+    fs::remove(file_);
+    EpisodeRow row = Row(2);
+    row.encounters = {Met("kerb", 0.1)};
+    CampaignStore::Create(file_, about_).Add(std::vector{row});
+    EXPECT_EQ(WhyRefused(false), "");
+    Change(sql);
+    EXPECT_THAT(WhyRefused(false), HasSubstr("is damaged (a value of a row of table ")) << sql;
+  }
+  fs::remove(file_);
+  Make(1);
+  Change("INSERT INTO about VALUES ('asked', '18446744073709551615')");
+  EXPECT_THAT(WhyRefused(false), HasSubstr("is not a campaign's database (table about)"));
+}
+
+// SQLite builds the schema in memory before anything of it can be checked.
+TEST_F(CampaignStoreTest, ASchemaThatTakesMuchMemoryIsRefused) {
+  Make(1);
+  std::string columns = "a0";
+  for (int i = 1; i < 290; ++i) columns += ",a" + std::to_string(i);
+  Change(
+      "PRAGMA writable_schema=ON;"
+      "WITH RECURSIVE r(n) AS (SELECT 1 UNION ALL SELECT n + 1 FROM r WHERE n < 10000)"
+      "INSERT INTO sqlite_schema SELECT 'table', 't' || n, 't' || n, 3, 'CREATE TABLE t' || n || "
+      "'(" +
+      columns + ")' FROM r");
+  EXPECT_THAT(WhyRefused(false), HasSubstr("takes too much time or memory"));
 }
 
 TEST_F(CampaignStoreTest, OnlyPlainFilesAreOpened) {
@@ -465,6 +520,53 @@ TEST_F(CampaignStoreTest, OnlyPlainFilesAreOpened) {
   fs::rename(folder_ / "elsewhere", file_);
   ASSERT_EQ(mkfifo((file_.string() + "-wal").c_str(), 0600), 0);
   EXPECT_THAT(WhyRefused(true), HasSubstr("is no plain file"));
+  fs::remove(file_.string() + "-wal");
+  fs::create_hard_link(file_, folder_ / "elsewhere");
+  EXPECT_EQ(WhyRefused(false), "");
+  EXPECT_THAT(WhyRefused(true), HasSubstr("is a hard link"));
+  std::ofstream(folder_ / "mine") << "my notes";
+  fs::create_hard_link(folder_ / "mine", file_.string() + "-shm");
+  EXPECT_THAT(WhyRefused(false), HasSubstr("is a hard link"));
+  EXPECT_EQ(Slurp(folder_ / "mine"), "my notes");
+}
+
+TEST_F(CampaignStoreTest, AFileThatIsTooLargeIsRefusedUnread) {
+  Make(1);
+  fs::resize_file(file_, std::uintmax_t{257} << 30);  // a hole: it takes no space
+  EXPECT_THAT(WhyRefused(false), HasSubstr("is larger than 256 GiB"));
+}
+
+// SQLite would play a rollback journal into the database when it is opened to be written, after it
+// was checked.
+TEST_F(CampaignStoreTest, AJournalBesideTheFileIsRefused) {
+  Make(3);
+  const std::string sound = Slurp(file_);
+  // What a kill leaves in the middle of a change that makes the whole file another one.
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(file_.c_str(), &db), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(db,
+                         "PRAGMA journal_mode=DELETE; CREATE TABLE more(a); BEGIN;"
+                         "PRAGMA cache_size=1; DROP TABLE more;",
+                         nullptr, nullptr, nullptr),
+            SQLITE_OK);
+  sqlite3_db_cacheflush(db);
+  const std::string journal = Slurp(file_.string() + "-journal");
+  sqlite3_exec(db, "ROLLBACK", nullptr, nullptr, nullptr);
+  sqlite3_close(db);
+  ASSERT_FALSE(journal.empty());
+  std::ofstream(file_, std::ios::binary | std::ios::trunc) << sound;
+  std::ofstream(file_.string() + "-journal", std::ios::binary) << journal;
+  const auto before = Bytes(folder_);
+  for (const bool write : {false, true})
+    EXPECT_THAT(WhyRefused(write), HasSubstr("is a rollback journal"));
+  EXPECT_EQ(Bytes(folder_), before);
+}
+
+TEST_F(CampaignStoreTest, ACampaignThatGoesOnIsNotRead) {
+  Make(2);
+  CampaignStore first = CampaignStore::Open(file_, true);
+  first.Add(std::vector{Row(2)});
+  EXPECT_THAT(WhyRefused(false), HasSubstr("is in use by another campaign"));
 }
 
 std::string WhyOther(const CampaignAbout& there, CampaignAbout now) {
