@@ -14,6 +14,7 @@
 #include "env/core/failure_text.h"
 #include "render/hazard_looks.h"
 #include "report/drive_marks.h"
+#include "run/campaign/bounded_json.h"
 
 namespace floorproof {
 namespace {
@@ -179,7 +180,9 @@ PageJson FailureData(const Event& event, const std::string& label, const std::st
 void AddFilmTimes(const std::filesystem::path& folder, PageJson& drive) {
   const std::filesystem::path file = folder / "video.json";
   if (!WhyUnreadable(file, kMaxResultBytes).empty()) return;
-  const PageJson times = PageJson::parse(ReadInputFile(file, kMaxResultBytes), nullptr, false);
+  const std::string text = ReadInputFile(file, kMaxResultBytes);
+  if (!WhyUnboundedJson(text, {.bytes = kMaxResultBytes}).empty()) return;
+  const PageJson times = PageJson::parse(text);
   if (!times.is_object() || !times.contains("t_s") || !times.contains("fps")) return;
   drive["film_t_s"] = times.at("t_s");
   drive["film_fps"] = times.at("fps");

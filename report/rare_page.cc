@@ -17,6 +17,7 @@
 #include "report/page_drives.h"
 #include "report/rare_films.h"
 #include "report/verdict.h"
+#include "run/campaign/bounded_json.h"
 #include "run/rare/rare_json.h"
 
 namespace floorproof {
@@ -275,7 +276,10 @@ RarePage MakeRarePage(const fs::path& folder) {
                      "no such file: the search has no answer yet; the same `rare` with --resume "
                      "goes on");
   try {
-    const Json rare = Json::parse(ReadInputFile(file, kMost));
+    const std::string text = ReadInputFile(file, kMost);
+    if (const std::string why = WhyUnboundedJson(text, {.bytes = kMost}); !why.empty())
+      throw InputError({file.string(), 0}, "", "", "is no answer of floorproof rare: it " + why);
+    const Json rare = Json::parse(text);
     if (!rare.is_object() || rare.value("rare", 0) != 1)
       throw InputError({file.string(), 0}, "", "", "is no answer of floorproof rare");
     for (const Json& p : {rare.at("probability"), rare.at("lower"), rare.at("upper"),

@@ -9,6 +9,7 @@
 #include "base/input_file.h"
 #include "base/input_files.h"
 #include "base/result_folder.h"
+#include "run/campaign/bounded_json.h"
 #include "run/campaign/episode_maker.h"
 #include "run/campaign/replay_shelf.h"
 #include "run/episode/records.h"
@@ -40,7 +41,10 @@ nlohmann::ordered_json Renamed(const nlohmann::ordered_json& metrics) {
 }  // namespace
 
 nlohmann::ordered_json ReadResult(const fs::path& file) {
-  auto result = nlohmann::ordered_json::parse(ReadInputFile(file, kMaxResultBytes), nullptr, false);
+  const std::string text = ReadInputFile(file, kMaxResultBytes);
+  if (const std::string why = WhyUnboundedJson(text, {.bytes = kMaxResultBytes}); !why.empty())
+    throw InputError({file.string(), 0}, "", "", "is not a result: it " + why);
+  auto result = nlohmann::ordered_json::parse(text);
   if (!result.is_object())
     throw InputError({file.string(), 0}, "", "", "is not a result (a JSON object)");
   if (result.contains("metrics")) result["metrics"] = Renamed(result["metrics"]);

@@ -12,8 +12,9 @@ namespace {
 using Json = nlohmann::json;
 
 // Counts while the parser runs; nothing is built. A callback that returns false stops the parser.
-class Limits final : public nlohmann::json_sax<Json> {
+class LimitedParse final : public nlohmann::json_sax<Json> {
  public:
+  explicit LimitedParse(const JsonLimits& limits) : limits_(limits) {}
   const std::string& why() const { return why_; }
 
   bool start_object(std::size_t) override { return Enter(); }
@@ -21,8 +22,8 @@ class Limits final : public nlohmann::json_sax<Json> {
   bool end_object() override { return Leave(); }
   bool end_array() override { return Leave(); }
   bool key(string_t&) override {
-    if (++keys_.back() <= kMaxJsonKeys) return true;
-    why_ = fmt::format("holds a JSON object of more than {} keys", kMaxJsonKeys);
+    if (++keys_.back() <= limits_.keys) return true;
+    why_ = fmt::format("holds a JSON object of more than {} keys", limits_.keys);
     return false;
   }
   bool parse_error(std::size_t, const std::string&, const Json::exception&) override {
@@ -40,8 +41,8 @@ class Limits final : public nlohmann::json_sax<Json> {
  private:
   bool Enter() {
     keys_.push_back(0);
-    if (keys_.size() <= static_cast<std::size_t>(kMaxJsonLevels)) return true;
-    why_ = fmt::format("is JSON nested more than {} levels deep", kMaxJsonLevels);
+    if (keys_.size() <= limits_.levels) return true;
+    why_ = fmt::format("is JSON nested more than {} levels deep", limits_.levels);
     return false;
   }
   bool Leave() {
@@ -49,18 +50,19 @@ class Limits final : public nlohmann::json_sax<Json> {
     return true;
   }
 
+  const JsonLimits& limits_;
   std::vector<std::size_t> keys_;  // of the objects that are open
   std::string why_;
 };
 
 }  // namespace
 
-std::string WhyUnboundedJson(std::string_view text) {
-  if (text.size() > kMaxJson_bytes)
-    return fmt::format("is JSON of more than {} MiB", kMaxJson_bytes >> 20);
-  Limits limits;
-  Json::sax_parse(text, &limits);
-  return limits.why();
+std::string WhyUnboundedJson(std::string_view text, const JsonLimits& limits) {
+  if (text.size() > limits.bytes)
+    return fmt::format("is JSON of more than {} MiB", limits.bytes >> 20);
+  LimitedParse parse(limits);
+  Json::sax_parse(text, &parse);
+  return parse.why();
 }
 
 }  // namespace floorproof

@@ -10,11 +10,14 @@
 
 namespace floorproof {
 
-inline constexpr std::size_t kMaxJson_bytes = 4u << 20;
-inline constexpr int kMaxJsonLevels = 32;
-inline constexpr std::size_t kMaxJsonKeys = 1000;  // of an object
+// The defaults are for a text in a row of a database.
+struct JsonLimits {
+  std::size_t bytes = 4u << 20;
+  std::size_t keys = 1000;  // of an object: the ordered parser compares each with all before it
+  std::size_t levels = 32;  // copies and writers of parsed JSON recurse
+};
 
 // Why the text is refused, a phrase; empty if it is JSON within these limits.
-std::string WhyUnboundedJson(std::string_view text);
+std::string WhyUnboundedJson(std::string_view text, const JsonLimits& limits = {});
 
 }  // namespace floorproof

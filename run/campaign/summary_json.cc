@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/input_file.h"
+#include "run/campaign/bounded_json.h"
 
 namespace floorproof {
 namespace {
@@ -240,7 +241,11 @@ CampaignSummary ReadSummary(const std::filesystem::path& file) {
     throw InputError({file.string(), 0}, "", "",
                      why + ": not the folder of a finished `campaign` (--resume finishes one)");
   try {
-    const Json json = Json::parse(ReadInputFile(file, kMaxResultBytes));
+    const std::string text = ReadInputFile(file, kMaxResultBytes);
+    constexpr JsonLimits kLimits{.bytes = kMaxResultBytes, .keys = 20'000};  // hazards by name
+    if (const std::string why = WhyUnboundedJson(text, kLimits); !why.empty())
+      throw InputError({file.string(), 0}, "", "", "is no campaign's summary (it " + why + ")");
+    const Json json = Json::parse(text);
     CampaignSummary summary;
     summary.campaign = json.at("campaign");
     summary.unfinished = TextOf(json.at("unfinished"));

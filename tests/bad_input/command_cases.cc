@@ -140,6 +140,9 @@ std::vector<BadInput> CommandCases() {
       Words("ReplayOfAPlanAlone", {"replay", "."}, {"no such file", "not a folder of a finished"}),
       Replayed("ReplayOfBrokenJson", "{\"outcome\": ", {"result.json", "is not a result"}),
       Replayed("ReplayOfAJsonList", "[1, 2]", {"result.json", "is not a result"}),
+      Replayed("ReplayOfNestedJson",
+               "{\"drawn\": " + std::string(1'000'000, '[') + std::string(1'000'000, ']') + "}",
+               {"result.json", "is not a result", "nested more than 32 levels deep"}),
   };
 }
 

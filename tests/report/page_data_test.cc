@@ -4,6 +4,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "tests/own_folder.h"
+
 namespace floorproof {
 namespace {
 
@@ -123,6 +127,21 @@ TEST(TraceData, WhatIsNoTraceIsNone) {
   for (const char* text : {"", "a,b\n1,2\n", "t_s,x_m,y_m\n1,2\n", "t_s,x_m,y_m\n1,2,nan\n",
                            "t_s,x_m,y_m\n", "t_s,x_m,y_m\nx,1,1\n"})
     EXPECT_TRUE(ReadTraceData(text).columns.is_null()) << text;
+}
+
+class FilmTimes : public OwnFolderTest {};
+
+// PageText writes what the file holds into the page, level by level.
+TEST_F(FilmTimes, OfANestedFileAreLeftOut) {
+  PageJson drive = PageJson::object();
+  std::ofstream(folder_ / "video.json") << R"({"fps": 15, "t_s": [0, 0.1]})";
+  AddFilmTimes(folder_, drive);
+  EXPECT_EQ(PageText(drive), R"({"film_t_s":[0,0.1],"film_fps":15})");
+  std::ofstream(folder_ / "video.json") << R"({"fps": 15, "t_s": )" << std::string(1'000'000, '[')
+                                        << std::string(1'000'000, ']') << "}";
+  PageJson nested = PageJson::object();
+  AddFilmTimes(folder_, nested);
+  EXPECT_TRUE(nested.empty());
 }
 
 }  // namespace

@@ -89,6 +89,9 @@ TEST_F(RarePageTest, WhatIsNoAnswerIsRefused) {
     Save(text);
     EXPECT_THROW(MakeRarePage(folder_), InputError) << text;
   }
+  Save(R"({"rare": 1, "probability": )" + std::string(1'000'000, '[') +
+       std::string(1'000'000, ']') + "}");
+  EXPECT_THROW(MakeRarePage(folder_), InputError);
 }
 
 }  // namespace

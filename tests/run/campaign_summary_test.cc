@@ -2,6 +2,7 @@
 // What rows amount to; summary.json says it, and is read back as it was.
 #include "run/campaign/campaign_summary.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -199,6 +200,9 @@ TEST_F(CampaignSummaryTest, WhatIsDamagedIsRefused) {
   EXPECT_EQ(why(whole.dump()), "");
   for (const char* text : {"", "{", "[]", "3", "{\"campaign\": 3}"})
     EXPECT_THAT(why(text), HasSubstr("summary.json: is no campaign's summary (")) << text;
+  std::string many = "{\"0\": 0";  // the time for an object's keys grows with their square
+  for (int i = 1; i <= 20'000; ++i) many += fmt::format(", \"{}\": 0", i);
+  EXPECT_THAT(why(many + "}"), HasSubstr("more than 20000 keys"));
   for (const auto& [at, value] : flat.items()) {
     // What is always the same is not read.
     if (at.ends_with("/method") || at.ends_with("/confidence")) continue;
