@@ -56,7 +56,7 @@ class Gatherer {
                       {"map", std::move(map)},
                       {"ways", PageJson::array()},
                       {"rates", RatesData(report_.summary.variants[v])},
-                      {"note", report_.maps.at(v).note},
+                      {"note", NoteOf(v)},
                       {"failures", Places(report_.summary.variants[v].name)}});
     }
     report_.data =
@@ -81,8 +81,11 @@ class Gatherer {
     for (const VariantSummary& variant : report_.summary.variants) {
       std::size_t listed = 0;
       store_.ForEach(variant.name, [&](const EpisodeRow& row) {
-        if (!IsListed(row) || listed++ >= share) return;
+        if (!IsListed(row)) return;
+        ++all_;
         std::vector<Event> events = EventsOf(row);
+        if (row.counts()) places_of_[variant.name] += events.size();
+        if (listed++ >= share) return;
         ReportEpisode said = FailingEpisode(row, events, named_, several());
         failing_.push_back(
             {row, std::move(events), PageJson::parse(row.drawn), std::move(said), failing_.size()});
@@ -155,6 +158,16 @@ class Gatherer {
     return found == drive_of_.end() ? PageJson(nullptr) : PageJson(found->second);
   }
 
+  // Under the variant's map.
+  std::string NoteOf(std::size_t v) const {
+    const std::string& note = report_.maps.at(v).note;
+    const auto all = places_of_.find(report_.summary.variants[v].name);
+    if (all == places_of_.end() || all->second <= kMostPlaces) return note;
+    return fmt::format("{}{}the first {} of {}", note, note.empty() ? "" : "; ",
+                       FixedText(static_cast<double>(kMostPlaces), 0),
+                       CountText(all->second, "failure"));
+  }
+
   PageJson Places(const std::string& variant) const {
     PageJson places = PageJson::array();
     for (const Failing& failing : failing_) {
@@ -218,14 +231,16 @@ class Gatherer {
       }
       rows.push_back(std::move(row));
     }
-    return {{"columns", std::move(columns)}, {"rows", std::move(rows)}};
+    return {{"columns", std::move(columns)}, {"rows", std::move(rows)}, {"of", all_}};
   }
 
   const CampaignStore& store_;
   const fs::path& folder_;
   const std::string& named_;
   Report& report_;
-  std::vector<Failing> failing_;
+  std::vector<Failing> failing_;                    // as many as the table lists
+  std::uint64_t all_ = 0;                           // episodes that failed, of all variants
+  std::map<std::string, std::uint64_t> places_of_;  // places where the variant failed
   PageJson drives_ = PageJson::array();
   std::map<Key, std::size_t> drive_of_;
   std::map<std::string, std::size_t> map_of_;  // by variant; those that have one

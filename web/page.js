@@ -138,9 +138,12 @@ class Page {
     dress();
     keepDrawn({element: grid, draw: dress});
     const shown = table.rows.filter(({drive}) => Number.isInteger(drive)).length;
+    const listed = table.rows.length;
+    const notes = [
+      ...(listed < table.of ? [`Listed: ${listed} of ${table.of} episodes; episodes.csv has all.`] : []),
+      ...(shown < listed ? [`${shown} of ${listed} have a replay or film in this page.`] : [])];
     room.append(make('div', {class: 'row'},
-        make('p', {class: 'note'}, shown < table.rows.length
-            ? `${shown} of ${table.rows.length} have a replay or film in this page.` : ''),
+        make('p', {class: 'note'}, notes.join(' ')),
         csvButton('failing_episodes.csv', () => {
           const {columns, rows} = table;
           return [[...columns.map(({path}) => path), 'command'],

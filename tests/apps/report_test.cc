@@ -2,6 +2,7 @@
 // `floorproof report` on a recorded campaign: the page says what the summary says.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <cstdlib>
@@ -10,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file_output.h"
+#include "base/sanitizer.h"
 #include "run/campaign/campaign_about.h"
 #include "run/campaign/campaign_files.h"
 #include "run/campaign/campaign_store.h"
@@ -149,6 +151,43 @@ TEST_F(ReportCommand, SamePageAgainAndNothingElseChanged) {
   ASSERT_EQ(Run(), 0);
   EXPECT_TRUE(Page() == page);
   EXPECT_TRUE(Slurp(folder_ / "out/campaign.sqlite") == database);
+}
+
+// Beyond what the page lists, 10,000 episodes of all variants and 2,000 places on a map, neither
+// the page nor the memory that making it takes grows with the failures. The page says what it
+// lists.
+TEST_F(ReportCommand, APageOfManyFailuresIsBounded) {
+  const auto megabytes = [] {
+    rusage used{};
+    getrusage(RUSAGE_CHILDREN, &used);
+    return static_cast<double>(used.ru_maxrss) / 1024;
+  };
+  const auto page_of = [&](std::uint64_t begin, std::uint64_t end) {
+    const ScenarioFile file(folder_ / "s.yaml");
+    CampaignStore store = CampaignStore::Open(folder_ / "out/campaign.sqlite", true);
+    std::vector<EpisodeRow> rows;
+    for (std::uint64_t id = begin; id < end; ++id) {
+      rows.push_back(Row("robot=htetro", 0));
+      rows.back().episode = id;
+    }
+    store.Add(rows);
+    WriteSummaryFiles(store, file, {}, folder_ / "out");
+    store.Settle();
+  };
+  page_of(10, 6'000);
+  ASSERT_EQ(Run(), 0) << Said();
+  const std::string page = Slurp(folder_ / "out/report.html");
+  [[maybe_unused]] const double few_mb = megabytes();
+  EXPECT_THAT(page, HasSubstr("\"of\":5995}"));
+  EXPECT_THAT(page, HasSubstr("the first 2,000 of 5,994 failures"));
+  page_of(6'000, 14'000);
+  ASSERT_EQ(Run(), 0) << Said();
+  const std::string larger = Slurp(folder_ / "out/report.html");
+  EXPECT_THAT(larger, HasSubstr("\"of\":13995}"));
+  EXPECT_LT(larger.size(), page.size() + 10'000);
+#ifndef FP_ADDRESS_SANITIZER  // which keeps freed memory
+  EXPECT_LT(megabytes(), few_mb + 8) << "8,000 failures more, 1 kB each";
+#endif
 }
 
 TEST_F(ReportCommand, RefusesWhatDoesNotBelongTogether) {
