@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 namespace floorproof {
 namespace {
@@ -53,11 +54,12 @@ void Subcommand::Integer(const std::string& name, std::uint64_t& into, const std
 }
 
 void Subcommand::NonNegative(const std::string& name, int& into, const std::string& help) {
-  app_.add_option(name, into, help)->check(CLI::NonNegativeNumber);
+  app_.add_option(name, into, help)->check(CLI::Range(0, std::numeric_limits<int>::max()));
 }
 
 void Subcommand::NonNegative(const std::string& name, std::int64_t& into, const std::string& help) {
-  app_.add_option(name, into, help)->check(CLI::NonNegativeNumber);
+  app_.add_option(name, into, help)
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
 }
 
 void Subcommand::Number(const std::string& name, std::optional<double>& into,

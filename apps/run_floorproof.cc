@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <span>
 
 #include "apps/command.h"
 #include "base/file_output.h"
@@ -22,8 +23,24 @@ namespace floorproof {
 
 namespace {
 
+// The parser's message, which quotes arguments whole, with long ones cut.
+std::string CutArguments(std::string message, std::span<char* const> arguments) {
+  constexpr std::size_t kMaxArgument = 60;
+  for (const std::string_view argument : arguments) {
+    // The parser takes `--option=VALUE` apart.
+    for (const std::string_view quoted : {argument, argument.substr(argument.find('=') + 1)}) {
+      const std::string cut = CutEnd(quoted, kMaxArgument);
+      if (cut.size() == quoted.size()) continue;
+      if (const std::size_t at = message.find(quoted); at != std::string::npos)
+        message.replace(at, quoted.size(), cut);
+    }
+  }
+  return ErrorLine(message);
+}
+
 // What is wrong with a command line, with the nearest known word; in one line.
-std::string ParseErrorText(const CLI::App& app, const CLI::ParseError& error) {
+std::string ParseErrorText(const CLI::App& app, const CLI::ParseError& error,
+                           std::span<char* const> arguments) {
   const auto commands = app.get_subcommands();
   const CLI::App& at = commands.empty() ? app : *commands.front();
   std::vector<std::string> known;
@@ -31,7 +48,7 @@ std::string ParseErrorText(const CLI::App& app, const CLI::ParseError& error) {
   const auto rest = app.remaining(true);
   const auto first = std::ranges::find_if(
       rest, [&](const std::string& word) { return commands.empty() || word.starts_with("-"); });
-  if (first == rest.end()) return InputError(error.what()).what();
+  if (first == rest.end()) return CutArguments(error.what(), arguments);
   if (first->starts_with("-")) {
     for (const CLI::App* part : {&at, &app})
       for (const CLI::Option* option : part->get_options())
@@ -41,7 +58,7 @@ std::string ParseErrorText(const CLI::App& app, const CLI::ParseError& error) {
     for (const CLI::App* command : app.get_subcommands(nullptr))
       known.push_back(command->get_name());
   }
-  return InputError({*first, 0}, "", "", "unknown " + kind + DidYouMean(*first, known)).what();
+  return InputError({}, "", *first, "unknown " + kind + DidYouMean(*first, known)).what();
 }
 
 // True if all output was written; otherwise prints an error.
@@ -105,7 +122,8 @@ int RunFloorproof(int argc, char** argv) {
       const int code = app.exit(e);
       return StdoutIsWritten() ? code : kExitBroken;
     }
-    std::fprintf(stderr, "floorproof: %s (floorproof --help)\n", ParseErrorText(app, e).c_str());
+    std::fprintf(stderr, "floorproof: %s (floorproof --help)\n",
+                 ParseErrorText(app, e, {argv, static_cast<std::size_t>(argc)}).c_str());
     return kExitBadInput;
   } catch (const Interruption&) {
     EndInterrupted();
@@ -117,7 +135,7 @@ int RunFloorproof(int argc, char** argv) {
                  InputError({e.path1().string(), 0}, "", "", e.code().message()).what());
     return said(IsOfTheDisk(e.code()) ? kExitBroken : kExitBadInput);
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "floorproof: %s\n", Printable(e.what()).c_str());
+    std::fprintf(stderr, "floorproof: %s\n", ErrorLine(e.what()).c_str());
     return said(kExitBroken);
   }
 }

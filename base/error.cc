@@ -9,33 +9,17 @@
 namespace floorproof {
 namespace {
 
-// A message is one line of bounded length, whatever a file holds or is called.
-constexpr std::size_t kMaxOfAValue = 80, kMaxOfARule = 500;
-
-std::string OneLine(std::string_view text, std::size_t most = std::string_view::npos) {
-  std::size_t end = std::min(text.size(), most);
-  // Not in the middle of a UTF-8 character.
-  while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80)
-    --end;
-  std::string out(text.substr(0, end));
-  for (char& c : out) {
-    const auto u = static_cast<unsigned char>(c);
-    if (u < 0x20 || u == 0x7f) c = ' ';
-  }
-  out = Printable(out);
-  if (end < text.size()) out += "...";
-  return out;
-}
+constexpr std::size_t kMaxValue = 60, kMaxName = 200, kMaxRule = 500;
 
 std::string Compose(const SourceMark& mark, std::string_view key, std::string_view value,
                     std::string_view rule) {
-  std::string out = OneLine(mark.file);
+  std::string out = CutMiddle(PrintableLine(mark.file), kMaxName);
   if (mark.line > 0) out += ":" + std::to_string(mark.line);
   if (!out.empty()) out += ": ";
-  out += OneLine(key, kMaxOfAValue);
-  if (!value.empty()) out += (key.empty() ? "" : " = ") + OneLine(value, kMaxOfAValue);
+  out += CutEnd(PrintableLine(key), kMaxValue);
+  if (!value.empty()) out += (key.empty() ? "" : " = ") + CutEnd(PrintableLine(value), kMaxValue);
   if (!key.empty() || !value.empty()) out += ": ";
-  return out + OneLine(rule, kMaxOfARule);
+  return out + CutEnd(ErrorLine(rule), kMaxRule);
 }
 
 std::size_t EditDistance(std::string_view a, std::string_view b) {
@@ -55,11 +39,25 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+std::string ErrorLine(std::string_view text) {
+  const std::string line = PrintableLine(text);
+  std::string out;
+  for (std::size_t at = 0; at < line.size();) {
+    const std::size_t space = std::min(line.find(' ', at), line.size());
+    out += CutMiddle(std::string_view(line).substr(at, space - at), kMaxName);
+    if (space < line.size()) out += ' ';
+    at = space + 1;
+  }
+  return CutEnd(out, kMaxErrorLine);
+}
+
 InputError::InputError(const SourceMark& mark, std::string_view key, std::string_view value,
                        std::string_view rule)
     : std::runtime_error(Compose(mark, key, value, rule)) {}
 
-InputError::InputError(const std::string& message) : std::runtime_error(OneLine(message)) {}
+InputError::InputError(const std::string& message) : std::runtime_error(ErrorLine(message)) {}
+
+InternalError::InternalError(const std::string& message) : std::runtime_error(ErrorLine(message)) {}
 
 std::string Nearest(std::string_view word, std::span<const std::string> candidates) {
   std::string best;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/printable.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 
@@ -18,6 +19,24 @@ bool IsControl(std::uint32_t c) {
 bool TurnsDirection(std::uint32_t c) {
   return c == 0x061c || c == 0x200e || c == 0x200f || (c >= 0x202a && c <= 0x202e) ||
          (c >= 0x2066 && c <= 0x2069);
+}
+
+constexpr std::string_view kDots = "...";
+
+// The bytes that the first characters take; a byte that is not UTF-8 counts as one.
+std::size_t BytesOf(std::string_view text, std::size_t characters) {
+  std::size_t at = 0;
+  for (; characters > 0 && at < text.size(); --characters)
+    at += std::max<std::size_t>(FirstCharacter(text.substr(at)).bytes, 1);
+  return at;
+}
+
+// Stops counting at `most`.
+std::size_t CountCharacters(std::string_view text, std::size_t most) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; at < text.size() && count < most; ++count)
+    at += BytesOf(text.substr(at), 1);
+  return count;
 }
 
 }  // namespace
@@ -53,6 +72,26 @@ std::string Printable(std::string_view text) {
     text.remove_prefix(shown || c.bytes > 0 ? c.bytes : 1);
   }
   return out;
+}
+
+std::string PrintableLine(std::string_view text) {
+  std::string line(text);
+  std::ranges::replace_if(
+      line, [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  return Printable(line);
+}
+
+std::string CutEnd(std::string_view text, std::size_t most) {
+  if (CountCharacters(text, most + 1) <= most) return std::string(text);
+  return std::string(text.substr(0, BytesOf(text, most - kDots.size()))) + std::string(kDots);
+}
+
+std::string CutMiddle(std::string_view text, std::size_t most) {
+  const std::size_t count = CountCharacters(text, text.size());
+  if (count <= most) return std::string(text);
+  const std::size_t head = (most - kDots.size()) / 2, tail = most - kDots.size() - head;
+  return std::string(text.substr(0, BytesOf(text, head))) + std::string(kDots) +
+         std::string(text.substr(BytesOf(text, count - tail)));
 }
 
 std::string CsvField(const std::string& raw) {

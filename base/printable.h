@@ -4,6 +4,7 @@
 // another.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -19,8 +20,15 @@ std::string WhyUnprintable(std::string_view text);
 // The text with a question mark for each such character or byte.
 std::string Printable(std::string_view text);
 
-// The same as a field of a CSV file: in quotes where it needs them; what a spreadsheet would run,
-// as text.
+// The same on one line: a space for each line break and tab.
+std::string PrintableLine(std::string_view text);
+
+// At most `most` characters of UTF-8 text; "..." replaces what is cut.
+std::string CutEnd(std::string_view text, std::size_t most);
+std::string CutMiddle(std::string_view text, std::size_t most);
+
+// Printable text as a field of a CSV file: in quotes where it needs them; what a spreadsheet would
+// run, as text.
 std::string CsvField(const std::string& text);
 
 }  // namespace floorproof

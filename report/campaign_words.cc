@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "base/error.h"
 #include "base/exit_status.h"
 #include "base/file_output.h"
 #include "base/printable.h"
@@ -40,7 +41,7 @@ std::string ErrorsText(const CampaignSummary& summary) {
       first = (summary.variants.size() > 1 ? v.name + ", " : "") + v.first_error;
   }
   if (errors == 0) return "";
-  return Printable(FixedText(errors, 0) + " of " + CountText(episodes, "episode") +
+  return ErrorLine(FixedText(errors, 0) + " of " + CountText(episodes, "episode") +
                    " ended in an error, the first: " + first);
 }
 

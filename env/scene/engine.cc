@@ -22,7 +22,7 @@ void OnEngineMessage(const mjLogMessage* message) {
   std::snprintf(t_message, sizeof t_message, "%s", message->subject);
   if (t_return_point != nullptr) std::longjmp(*t_return_point, 1);
   // From a call that none of the below guards: the engine's handler may not return.
-  std::fprintf(stderr, "floorproof: MuJoCo: %s\n", t_message);
+  std::fprintf(stderr, "floorproof: MuJoCo: %s\n", ErrorLine(t_message).c_str());
   std::exit(3);
 }
 
