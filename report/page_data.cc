@@ -14,7 +14,7 @@
 #include "env/core/failure_text.h"
 #include "render/hazard_looks.h"
 #include "report/drive_marks.h"
-#include "run/campaign/bounded_json.h"
+#include "run/episode/json_file.h"
 
 namespace floorproof {
 namespace {
@@ -180,12 +180,11 @@ PageJson FailureData(const Event& event, const std::string& label, const std::st
 void AddFilmTimes(const std::filesystem::path& folder, PageJson& drive) {
   const std::filesystem::path file = folder / "video.json";
   if (!WhyUnreadable(file, kMaxResultBytes).empty()) return;
-  const std::string text = ReadInputFile(file, kMaxResultBytes);
-  if (!WhyUnboundedJson(text, {.bytes = kMaxResultBytes}).empty()) return;
-  const PageJson times = PageJson::parse(text);
-  if (!times.is_object() || !times.contains("t_s") || !times.contains("fps")) return;
-  drive["film_t_s"] = times.at("t_s");
-  drive["film_fps"] = times.at("fps");
+  const JsonValue times = ReadJsonFile(file, "a film's times", kMaxResultBytes);
+  std::vector<double> frames_s;
+  for (const JsonValue& t_s : times.at("t_s").elements()) frames_s.push_back(t_s.get<double>());
+  drive["film_fps"] = times.at("fps").get<double>();
+  drive["film_t_s"] = std::move(frames_s);
 }
 
 TraceData ReadTraceData(std::string_view csv) {

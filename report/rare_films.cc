@@ -15,7 +15,6 @@
 namespace floorproof {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 fs::path LikelyFailureFolder(const fs::path& search, std::size_t number) {
   return search / "likeliest" / std::to_string(number);
@@ -25,17 +24,21 @@ fs::path FilmOf(const fs::path& search, std::size_t number, const std::vector<st
   const fs::path into = LikelyFailureFolder(search, number), film = into / "video.mp4";
   RefuseLinks(search, into);
   if (!IsPlainFile(film)) return "";
-  const Json result =
-      Json::parse(ReadPlainFile(into / "result.json", kMaxResultBytes), nullptr, false);
-  if (!result.is_object() || !result.contains("drawn")) return "";
-  const Json& drawn = result.at("drawn");
+  const fs::path recorded = into / "result.json";
+  if (!IsPlainFile(recorded)) return "";
+  std::optional<JsonValue> drawn;
+  try {
+    drawn = ReadResult(recorded).Find("drawn");
+  } catch (const InputError&) {  // it is filmed again
+  }
+  if (!drawn) return "";
   const bool same = std::ranges::all_of(sets, [&](const std::string& set) {
     const std::size_t at = set.find('=');
     const std::string key = set.substr(0, at);
     if (key == "episode") return true;  // the record does not say it; draws do not come twice
     const ConfigNode value = ParseYaml(at == std::string::npos ? "" : set.substr(at + 1), "set");
-    return drawn.is_object() && drawn.contains(key) &&
-           drawn.at(key) == DrawnJson({{key, value}}).at(key);
+    const auto there = drawn->Find(key);
+    return there && there->json() == DrawnJson({{key, value}})[key];
   });
   return same ? film : "";
 }

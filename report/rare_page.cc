@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "base/error.h"
@@ -17,14 +16,13 @@
 #include "report/page_drives.h"
 #include "report/rare_films.h"
 #include "report/verdict.h"
-#include "run/campaign/bounded_json.h"
+#include "run/episode/json_file.h"
 #include "run/rare/rare_json.h"
 
 namespace floorproof {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kRareStyle = R"css(
 .scale { width: 100%; height: auto; } .scale text { font-size: 11px; fill: var(--ink); }
@@ -35,7 +33,7 @@ code { overflow-wrap: anywhere; }
 )css";
 
 // The bounds and the estimate on one logarithmic line.
-std::string Scale(const Json& rare) {
+std::string Scale(const JsonValue& rare) {
   const bool estimated = !rare.at("probability").is_null();
   const double most = rare.at("without_sampler").at("upper"),
                least = rare.at("without_sampler").at("lower");
@@ -79,8 +77,8 @@ std::string Row(const std::string& name, const std::string& value, const std::st
                      what);
 }
 
-std::string Numbers(const Json& rare) {
-  const Json& sure = rare.at("without_sampler");
+std::string Numbers(const JsonValue& rare) {
+  const JsonValue sure = rare.at("without_sampler");
   std::string html =
       "<div class=\"card scroll\" tabindex=\"0\">" + Scale(rare) +
       "<table><thead><tr><th scope=\"col\">Figure</th><th scope=\"col\">Failures a drive</th><th "
@@ -107,9 +105,9 @@ std::string Numbers(const Json& rare) {
   return html + "</tbody></table></div>\n";
 }
 
-std::string Happening(const Json& likeliest) {
+std::string Happening(const JsonValue& likeliest) {
   std::string text;
-  for (const Json& event : likeliest.at("events")) {
+  for (const JsonValue& event : likeliest.at("events").elements()) {
     const std::string hazard = event.at("hazard");
     text += fmt::format("{}{}{} after {} s", text.empty() ? "" : ", ",
                         Words(event.at("mode").get<std::string>()),
@@ -130,31 +128,32 @@ std::string Film(const fs::path& folder, const fs::path& file, std::size_t numbe
 }
 
 // The regions; their likeliest failures, where they were driven again, also as drives of the page.
-std::string Regions(const Json& rare, const fs::path& folder, HtmlPage& page) {
+std::string Regions(const JsonValue& rare, const fs::path& folder, HtmlPage& page) {
   std::string html;
   PageDrives drives(page);
   std::size_t number = 0;
-  for (const Json& region : rare.at("regions")) {
+  for (const JsonValue& region : rare.at("regions").elements()) {
     ++number;
     html += fmt::format(
         "<article class=\"card\"><h3>{}. {} of the failures</h3>\n<p>{} among the draws; {} of {} "
         "pilots came upon it.</p>\n",
         number, PercentText(region.at("share").get<double>(), 2),
         CountText(region.at("draws").get<std::int64_t>(), "failure"),
-        region.at("pilots").get<int>(), rare.at("pilots").size());
-    const Json& likeliest = region.at("likeliest");
+        region.at("pilots").get<int>(), rare.at("pilots").elements().size());
+    const JsonValue likeliest = region.at("likeliest");
     if (!likeliest.is_null()) {
       html += fmt::format("<p>The likeliest, {} standard deviations from the middle: {}.</p>\n",
                           FixedText(region.at("distance"), 2), MarkupText(Happening(likeliest)));
-      if (const fs::path film = FilmOf(folder, number, likeliest.at("set")); !film.empty()) {
+      std::vector<std::string> sets;
+      for (const JsonValue& set : likeliest.at("set").elements()) sets.push_back(set);
+      if (const fs::path film = FilmOf(folder, number, sets); !film.empty()) {
         html += Film(folder, film, drives.size());
         drives.Add(RunRecord(film.parent_path()),
                    fmt::format("{}. {}", number, Happening(likeliest)), likeliest.at("command"),
                    fs::file_size(film) <= kLargestFilm);
       }
       html += "<table><tbody>\n";
-      for (const Json& json : likeliest.at("set")) {
-        const std::string set = json;
+      for (const std::string& set : sets) {
         const std::size_t at = set.find('=');
         html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n",
                             MarkupText(set.substr(0, at)),
@@ -172,9 +171,9 @@ std::string Regions(const Json& rare, const fs::path& folder, HtmlPage& page) {
   return TheaterHtml() + html;
 }
 
-std::string Search(const Json& rare) {
+std::string Search(const JsonValue& rare) {
   std::string coordinates;
-  for (const Json& key : rare.at("coordinates"))
+  for (const JsonValue& key : rare.at("coordinates").elements())
     coordinates += (coordinates.empty() ? "" : ", ") + key.get<std::string>();
   if (rare.at("noise").get<bool>()) coordinates += ", and the noise of sensors";
   std::string html = fmt::format(
@@ -190,7 +189,7 @@ std::string Search(const Json& rare) {
       "ended</th><th scope=\"col\">Levels</th><th scope=\"col\">Failures met</th><th "
       "scope=\"col\">Its own estimate</th></tr></thead><tbody>\n";
   int number = 0;
-  for (const Json& pilot : rare.at("pilots")) {
+  for (const JsonValue& pilot : rare.at("pilots").elements()) {
     const double p = pilot.at("probability");
     html +=
         fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", ++number,
@@ -198,7 +197,7 @@ std::string Search(const Json& rare) {
                     pilot.at("failures").get<int>(), p > 0 ? OneIn(p) : "none");
   }
   html += "</tbody></table></div>\n";
-  const Json& d = rare.at("diagnostics");
+  const JsonValue d = rare.at("diagnostics");
   html += fmt::format(
       "<p>Of the draws {} failed, worth {} of equal weight; the heaviest makes {} of the estimate. "
       "There is none where that is more than 25 %, where failures are worth fewer than 20, where "
@@ -221,10 +220,10 @@ std::string Subject(const fs::path& folder) {
   }
 }
 
-std::string Verdict(const Json& rare, const std::string& subject) {
+std::string Verdict(const JsonValue& rare, const std::string& subject) {
   const std::string mode = subject + Words(rare.at("mode").get<std::string>()),
                     answer = rare.at("answer");
-  const Json& sure = rare.at("without_sampler");
+  const JsonValue sure = rare.at("without_sampler");
   const std::string trials = CountText(rare.at("trials").get<std::int64_t>(), "drive");
   if (answer == "estimate")
     return fmt::format("{}: {} drives ({} to {} at 95 %), found with {}", mode,
@@ -237,7 +236,7 @@ std::string Verdict(const Json& rare, const std::string& subject) {
                      rare.at("why").get<std::string>());
 }
 
-RarePage Page(const Json& rare, const fs::path& folder) {
+RarePage Page(const JsonValue& rare, const fs::path& folder) {
   RarePage page;
   page.verdict = Verdict(rare, Subject(folder));
   std::string gate, kind = "none";
@@ -275,21 +274,14 @@ RarePage MakeRarePage(const fs::path& folder) {
     throw InputError({file.string(), 0}, "", "",
                      "no such file: the search has no answer yet; the same `rare` with --resume "
                      "goes on");
-  try {
-    const std::string text = ReadInputFile(file, kMost);
-    if (const std::string why = WhyUnboundedJson(text, {.bytes = kMost}); !why.empty())
-      throw InputError({file.string(), 0}, "", "", "is no answer of floorproof rare: it " + why);
-    const Json rare = Json::parse(text);
-    if (!rare.is_object() || rare.value("rare", 0) != 1)
-      throw InputError({file.string(), 0}, "", "", "is no answer of floorproof rare");
-    for (const Json& p : {rare.at("probability"), rare.at("lower"), rare.at("upper"),
-                          rare.at("without_sampler").at("upper")})
-      if (!p.is_null() && !(p.get<double>() > 0 && p.get<double>() <= 1))
-        throw InputError({file.string(), 0}, "", p.dump(), "is no probability");
-    return Page(rare, folder);
-  } catch (const Json::exception&) {
-    throw InputError({file.string(), 0}, "", "", "is damaged, or of another version");
-  }
+  const JsonValue rare = ReadJsonFile(file, "an answer of floorproof rare", kMost);
+  if (rare.value("rare", 0) != 1)
+    throw InputError({file.string(), 0}, "rare", "", "must be 1: not an answer of this version");
+  for (const JsonValue& p : {rare.at("probability"), rare.at("lower"), rare.at("upper"),
+                             rare.at("without_sampler").at("upper")})
+    if (!p.is_null() && !(p.get<double>() > 0 && p.get<double>() <= 1))
+      p.Refuse("must be a probability: in (0, 1]");
+  return Page(rare, folder);
 }
 
 }  // namespace floorproof

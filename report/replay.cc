@@ -9,7 +9,6 @@
 #include "base/input_file.h"
 #include "base/input_files.h"
 #include "base/result_folder.h"
-#include "run/campaign/bounded_json.h"
 #include "run/campaign/episode_maker.h"
 #include "run/campaign/replay_shelf.h"
 #include "run/episode/records.h"
@@ -27,28 +26,22 @@ namespace fs = std::filesystem;
                   where.string(), what));
 }
 
-// As this version names them.
-nlohmann::ordered_json Renamed(const nlohmann::ordered_json& metrics) {
-  if (!metrics.is_object()) return metrics;
+// Metrics as this version names them.
+void RenameMetrics(nlohmann::ordered_json& result) {
+  const auto metrics = result.find("metrics");
+  if (metrics == result.end() || !metrics->is_object()) return;
   nlohmann::ordered_json renamed = nlohmann::ordered_json::object();
-  for (const auto& [name, value] : metrics.items()) {
+  for (const auto& [name, value] : metrics->items()) {
     const MetricColumn* column = FindMetric(name);
     renamed[column == nullptr ? name : std::string(column->name)] = value;
   }
-  return renamed;
+  *metrics = std::move(renamed);
 }
 
 }  // namespace
 
-nlohmann::ordered_json ReadResult(const fs::path& file) {
-  const std::string text = ReadInputFile(file, kMaxResultBytes);
-  if (const std::string why = WhyUnboundedJson(text, {.bytes = kMaxResultBytes}); !why.empty())
-    throw InputError({file.string(), 0}, "", "", "is not a result: it " + why);
-  auto result = nlohmann::ordered_json::parse(text);
-  if (!result.is_object())
-    throw InputError({file.string(), 0}, "", "", "is not a result (a JSON object)");
-  if (result.contains("metrics")) result["metrics"] = Renamed(result["metrics"]);
-  return result;
+JsonValue ReadResult(const fs::path& file) {
+  return ReadJsonFile(file, "a result", kMaxResultBytes, RenameMetrics);
 }
 
 nlohmann::ordered_json ReplayRun(const fs::path& folder, const std::vector<Override>& overrides,
@@ -56,15 +49,18 @@ nlohmann::ordered_json ReplayRun(const fs::path& folder, const std::vector<Overr
   Scenario scenario = ReadScenario(folder / "scenario.resolved.yaml", overrides, trust);
   RefuseProgram(scenario);
   const fs::path result_file = folder / "result.json";
-  std::optional<nlohmann::ordered_json> recorded;  // none: another drive than this one's
-  if (overrides.empty()) recorded = ReadResult(result_file);
+  std::optional<JsonValue> recorded;  // none: another drive than this one's
+  constexpr const char* kJudged[] = {"outcome", "events", "metrics"};
+  if (overrides.empty()) {
+    recorded = ReadResult(result_file);
+    for (const char* key : kJudged) recorded->at(key);  // before anything is driven
+  }
   const DriveResult result =
       DriveAndFilm(scenario, folder, {.video = video, .write_records = false}, console);
   if (result.not_written) std::rethrow_exception(result.not_written);
   auto json = ResultJson(scenario, result.record);
-  for (const char* key : {"outcome", "events", "metrics"})
-    if (recorded && recorded->value(key, nlohmann::ordered_json()) != json[key])
-      RefuseReplay(result_file, key);
+  for (const char* key : kJudged)
+    if (recorded && recorded->at(key).json() != json[key]) RefuseReplay(result_file, key);
   return json;
 }
 

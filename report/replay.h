@@ -3,18 +3,19 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "base/console.h"
 #include "report/drive_and_film.h"
 #include "run/campaign/campaign_store.h"
+#include "run/episode/json_file.h"
 #include "run/scenario/scenario.h"
 
 namespace floorproof {
 
 // result.json, its metrics as this version names them. Throws InputError where it is none.
-nlohmann::ordered_json ReadResult(const std::filesystem::path& file);
+JsonValue ReadResult(const std::filesystem::path& file);
 
 // Drives the run that `folder` holds again, its records kept; returns the result as result.json
 // has it. No program is run (docs/external-planner.md). Throws InputError where the records cannot

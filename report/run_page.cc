@@ -23,7 +23,6 @@ namespace floorproof {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 // result.json and what stands beside it.
 class Run {
@@ -31,25 +30,22 @@ class Run {
   Run(const fs::path& folder, const std::string& named)
       : folder_(folder), named_(named), record_(folder) {}
 
-  RunPage Make() try {
+  RunPage Make() {
     RunPage page;
     page.verdict = Verdict();
     page.html = Page(page.verdict).Html();
     return page;
-  } catch (const Json::exception&) {
-    throw InputError({(folder_ / "result.json").string(), 0}, "", "",
-                     "is damaged, or of another version");
   }
 
  private:
   std::string Text(const char* key) const { return record_.Text(key); }
-  std::optional<double> Metric(const char* name) const { return record_.Metric(name); }
-  const Json& Events() const { return record_.Events(); }
+  std::optional<double> Metric(const std::string& name) const { return record_.Metric(name); }
+  const std::vector<JsonValue>& Events() const { return record_.Events(); }
 
   // "stuck at 198.8 s: stood still for 7.6 s before 'plank' (step, 40 mm), at ..."
-  static std::string EventText(const Json& event) {
+  static std::string EventText(const JsonValue& event) {
     return fmt::format("{} at {} s: {}", RunRecord::WhatOf(event), FixedText(event.at("t_s"), 1),
-                       event.value("text", ""));
+                       event.value("text", std::string()));
   }
 
   std::string Verdict() const {
@@ -118,7 +114,7 @@ class Run {
   std::string MetricsTable() const {
     std::string rows;
     for (const MetricColumn& column : kMetrics) {
-      const auto value = Metric(std::string(column.name).c_str());
+      const auto value = Metric(std::string(column.name));
       if (!value || column.name.ends_with("_margin")) continue;  // those stand above
       if (!record_.estimates() && column.name.find("estimate") != column.name.npos) continue;
       const std::string name = NameWithin(column);
@@ -143,11 +139,11 @@ class Run {
 
   // Each detector's least distance from failing, as a share of its limit.
   std::string Margins() const {
-    if (!record_.result().contains("margins") || !record_.result().at("margins").is_object())
-      return "";
+    const auto margins = record_.result().Find("margins");
+    if (!margins || margins->is_null()) return "";
     std::string rows;
-    for (const auto& [name, ignored] : record_.result().at("margins").items()) {
-      const auto share = Metric((name + "_margin").c_str());
+    for (const auto& [name, ignored] : margins->items()) {
+      const auto share = Metric(name + "_margin");
       if (!share) continue;
       const double width = 100 * std::clamp(*share, 0.0, 1.0);
       rows += fmt::format(
@@ -183,16 +179,15 @@ class Run {
 
   std::string Settings() const {
     std::string html = "<dl>";
-    const Json versions = record_.result().value("versions", Json::object());
-    for (const auto& [name, version] : versions.items())
-      if (version.is_string())
+    if (const auto versions = record_.result().Find("versions"))
+      for (const auto& [name, version] : versions->items())
         html += "<dt>" + MarkupText(name) + "</dt><dd>" + MarkupText(version.get<std::string>()) +
                 "</dd>";
     html += fmt::format("<dt>seed</dt><dd>{}</dd></dl>\n",
-                        MarkupText(record_.result().value("seed", Json(0)).dump()));
-    if (const Json drawn = record_.result().value("drawn", Json::object()); !drawn.empty())
-      html += "<details><summary>What was drawn</summary><pre>" + MarkupText(drawn.dump(2)) +
-              "</pre></details>\n";
+                        record_.result().value("seed", std::int64_t{0}));
+    if (const auto drawn = record_.result().Find("drawn"); drawn && !drawn->items().empty())
+      html += "<details><summary>What was drawn</summary><pre>" +
+              MarkupText(JsonText(drawn->json())) + "</pre></details>\n";
     return html + ScenarioDetails(record_.settings());
   }
 

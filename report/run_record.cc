@@ -25,11 +25,13 @@ constexpr std::uintmax_t kLargestReplay = 16u << 20;
 
 }  // namespace
 
-RunRecord::RunRecord(const fs::path& folder) : folder_(folder) {
-  const fs::path file = folder / "result.json", settings = folder / "scenario.resolved.yaml";
-  result_ = ReadResult(file);
-  if (!result_.contains("outcome") || !result_.contains("events") || !result_.contains("metrics"))
-    throw InputError({file.string(), 0}, "", "", "is not a result (a JSON object)");
+RunRecord::RunRecord(const fs::path& folder)
+    : folder_(folder),
+      result_(ReadResult(folder / "result.json")),
+      events_(result_.at("events").elements()) {
+  const fs::path settings = folder / "scenario.resolved.yaml";
+  result_.at("outcome").get<std::string>();
+  result_.at("metrics").items();
   settings_ = ReadPlainFile(settings, kMaxResultBytes);
   try {
     const Scenario scenario = ReadScenario(settings, {});
@@ -42,28 +44,27 @@ RunRecord::RunRecord(const fs::path& folder) : folder_(folder) {
   }
 }
 
-std::optional<double> RunRecord::Metric(const char* name) const {
-  const Json& metrics = result_.at("metrics");
-  if (!metrics.is_object() || !metrics.contains(name) || !metrics.at(name).is_number())
-    return std::nullopt;
-  return metrics.at(name).get<double>();
+std::optional<double> RunRecord::Metric(const std::string& name) const {
+  const auto metric = result_.at("metrics").Find(name);
+  if (!metric || metric->is_null()) return std::nullopt;
+  return metric->get<double>();
 }
 
-std::string RunRecord::WhatOf(const Json& event) {
-  const std::string kind = event.value("kind", "");
+std::string RunRecord::WhatOf(const JsonValue& event) {
+  const std::string kind = event.value("kind", std::string());
   return Words(event.at("mode").get<std::string>()) +
          (kind.empty() ? "" : " (" + Words(kind) + ")");
 }
 
 PageJson RunRecord::Failures(std::size_t number) const {
   Json failures = Json::array();
-  for (const Json& event : Events())
-    failures.push_back({{"t_s", event.at("t_s")},
-                        {"x", event.at("x_m")},
-                        {"y", event.at("y_m")},
+  for (const JsonValue& event : Events())
+    failures.push_back({{"t_s", event.at("t_s").get<double>()},
+                        {"x", event.at("x_m").get<double>()},
+                        {"y", event.at("y_m").get<double>()},
                         {"label", std::to_string(failures.size() + 1)},
                         {"what", WhatOf(event)},
-                        {"text", event.value("text", "")},
+                        {"text", event.value("text", std::string())},
                         {"drive", number}});
   return failures;
 }

@@ -3,28 +3,29 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "env/core/hazard_map.h"
 #include "report/html_page.h"
 #include "report/page_data.h"
+#include "run/episode/json_file.h"
 
 namespace floorproof {
 
 class RunRecord {
  public:
-  // Throws InputError where there is no result.json, or none that can be read. What else is missing
-  // or damaged is left out.
+  // Throws InputError if result.json is missing or damaged. What else is missing or damaged is left
+  // out.
   explicit RunRecord(const std::filesystem::path& folder);
 
-  const nlohmann::ordered_json& result() const { return result_; }
-  std::string Text(const char* key) const { return result_.value(key, ""); }
-  std::optional<double> Metric(const char* name) const;
-  const nlohmann::ordered_json& Events() const { return result_.at("events"); }
+  const JsonValue& result() const { return result_; }
+  std::string Text(const char* key) const { return result_.value(key, std::string()); }
+  std::optional<double> Metric(const std::string& name) const;
+  const std::vector<JsonValue>& Events() const { return events_; }
   // "roll over (tipped)"
-  static std::string WhatOf(const nlohmann::ordered_json& event);
+  static std::string WhatOf(const JsonValue& event);
 
   // Of the scenario, where it can still be read.
   const std::string& settings() const { return settings_; }  // its text
@@ -45,7 +46,8 @@ class RunRecord {
   PageJson Failures(std::size_t number) const;
 
   std::filesystem::path folder_;
-  nlohmann::ordered_json result_;
+  JsonValue result_;
+  std::vector<JsonValue> events_;
   std::string settings_, subject_, why_no_map_;
   bool estimates_ = true;
   std::optional<HazardMap> map_;

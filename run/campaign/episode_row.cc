@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/file_output.h"
 #include "base/params.h"
-#include "run/campaign/bounded_json.h"
+#include "run/episode/bounded_json.h"
 #include "run/episode/encounter_table.h"
 #include "run/episode/episode_record.h"
 #include "run/episode/records.h"

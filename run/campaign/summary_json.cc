@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/input_file.h"
-#include "run/campaign/bounded_json.h"
+#include "run/episode/json_file.h"
 
 namespace floorproof {
 namespace {
@@ -21,10 +21,12 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 Json Text(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
-double NumberOr(const Json& value, double otherwise) {
+double NumberOr(const JsonValue& value, double otherwise) {
   return value.is_null() ? otherwise : value.get<double>();
 }
-std::string TextOf(const Json& value) { return value.is_null() ? "" : value.get<std::string>(); }
+std::string TextOf(const JsonValue& value) {
+  return value.is_null() ? "" : value.get<std::string>();
+}
 
 Json RateJson(const FailureRate& rate) {
   return {{"k", rate.k},
@@ -36,7 +38,7 @@ Json RateJson(const FailureRate& rate) {
           {"confidence", kReportedConfidence}};
 }
 
-FailureRate ReadRate(const std::string& name, const Json& json) {
+FailureRate ReadRate(const std::string& name, const JsonValue& json) {
   return {name,
           json.at("k"),
           json.at("n"),
@@ -51,7 +53,7 @@ Json RatesJson(const std::vector<FailureRate>& rates) {
   return json;
 }
 
-std::vector<FailureRate> ReadRates(const Json& json) {
+std::vector<FailureRate> ReadRates(const JsonValue& json) {
   std::vector<FailureRate> rates;
   for (const auto& [name, rate] : json.items()) rates.push_back(ReadRate(name, rate));
   return rates;
@@ -70,7 +72,7 @@ Json RatesPerJson(const std::vector<FailureRatePer>& rates) {
   return json;
 }
 
-std::vector<FailureRatePer> ReadRatesPer(const Json& json) {
+std::vector<FailureRatePer> ReadRatesPer(const JsonValue& json) {
   std::vector<FailureRatePer> rates;
   for (const auto& [name, rate] : json.items())
     rates.push_back({name, rate.at("k"), rate.at("exposure"), NumberOr(rate.at("rate"), kNone),
@@ -89,9 +91,9 @@ Json PlacesJson(const VariantSummary& variant) {
   return {{"cell_m", variant.place_m}, {"places", std::move(places)}};
 }
 
-void ReadPlaces(const Json& json, VariantSummary& variant) {
+void ReadPlaces(const JsonValue& json, VariantSummary& variant) {
   variant.place_m = json.at("cell_m");
-  for (const Json& place : json.at("places")) {
+  for (const JsonValue& place : json.at("places").elements()) {
     const double x_m = place.at("x_m"), y_m = place.at("y_m");
     variant.places.push_back({{x_m, y_m}, ReadRate("", place)});
   }
@@ -112,7 +114,7 @@ Json MetricsJson(const std::vector<MetricSummary>& metrics) {
   return json;
 }
 
-std::vector<MetricSummary> ReadMetrics(const Json& json) {
+std::vector<MetricSummary> ReadMetrics(const JsonValue& json) {
   std::vector<MetricSummary> metrics;
   for (const auto& [name, spread] : json.items()) {
     const MetricColumn* column = FindMetric(name);
@@ -148,7 +150,7 @@ Json VariantJson(const VariantSummary& v) {
           {"first_episode", std::move(first)}};
 }
 
-VariantSummary ReadVariant(const std::string& name, const Json& json) {
+VariantSummary ReadVariant(const std::string& name, const JsonValue& json) {
   VariantSummary v{
       .name = name, .repeated = json.value("one_episode_repeated", false), .n = json.at("n")};
   v.errors = json.at("n_error");
@@ -194,20 +196,20 @@ Json GateJson(const GateSummary& gate) {
           {"variants", std::move(variants)}};
 }
 
-GateVerdict ReadVerdict(const Json& json) {
+GateVerdict ReadVerdict(const JsonValue& json) {
   const std::string name = json;
   for (const GateVerdict verdict : {GateVerdict::kPassed, GateVerdict::kFailed})
     if (name == GateVerdictName(verdict)) return verdict;
   return GateVerdict::kUndecided;
 }
 
-std::optional<GateSummary> ReadGate(const Json& json) {
+std::optional<GateSummary> ReadGate(const JsonValue& json) {
   if (json.is_null()) return std::nullopt;
   GateSummary gate{json.at("metric"), json.at("max_rate"), json.at("confidence"), json.at("mode"),
                    ReadVerdict(json.at("verdict"))};
   for (const auto& [variant, state] : json.at("variants").items()) {
     GateReport report;
-    report.text = state.at("text");
+    report.text = state.at("text").get<std::string>();
     report.verdict = ReadVerdict(state.at("verdict"));
     report.n = state.at("n");
     report.k = state.at("k");
@@ -240,27 +242,18 @@ CampaignSummary ReadSummary(const std::filesystem::path& file) {
   if (const std::string why = WhyUnreadable(file, kMaxResultBytes); !why.empty())
     throw InputError({file.string(), 0}, "", "",
                      why + ": not the folder of a finished `campaign` (--resume finishes one)");
-  try {
-    const std::string text = ReadInputFile(file, kMaxResultBytes);
-    constexpr JsonLimits kLimits{.bytes = kMaxResultBytes, .keys = 20'000};  // hazards by name
-    if (const std::string why = WhyUnboundedJson(text, kLimits); !why.empty())
-      throw InputError({file.string(), 0}, "", "", "is no campaign's summary (it " + why + ")");
-    const Json json = Json::parse(text);
-    CampaignSummary summary;
-    summary.campaign = json.at("campaign");
-    summary.unfinished = TextOf(json.at("unfinished"));
-    for (const auto& [name, variant] : json.at("variants").items())
-      summary.variants.push_back(ReadVariant(name, variant));
-    summary.gate = ReadGate(json.at("gate"));
-    summary.TellGate();
-    for (const auto& [name, version] : json.at("versions").items())
-      summary.versions.emplace_back(name, version);
-    summary.episodes = json.at("episodes");
-    return summary;
-  } catch (const Json::exception& e) {
-    throw InputError({file.string(), 0}, "", "",
-                     fmt::format("is no campaign's summary ({})", e.what()));
-  }
+  const JsonValue json = ReadJsonFile(file, "a campaign's summary", kMaxResultBytes);
+  CampaignSummary summary;
+  summary.campaign = json.at("campaign").get<std::string>();
+  summary.unfinished = TextOf(json.at("unfinished"));
+  for (const auto& [name, variant] : json.at("variants").items())
+    summary.variants.push_back(ReadVariant(name, variant));
+  summary.gate = ReadGate(json.at("gate"));
+  summary.TellGate();
+  for (const auto& [name, version] : json.at("versions").items())
+    summary.versions.emplace_back(name, version);
+  summary.episodes = json.at("episodes");
+  return summary;
 }
 
 }  // namespace floorproof

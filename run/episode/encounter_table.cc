@@ -97,10 +97,13 @@ Encounter EncounterOf(std::span<const EncounterValue> values) {
     const auto& passage = std::get<std::string>(values[2]);
     encounter.passage = passage == Name(Passage::kOver) ? Passage::kOver : Passage::kBeside;
     if (passage != Name(encounter.passage)) throw InternalError("no passage: " + passage);
-    const Json size = Json::parse(std::get<std::string>(values[kSize]));
-    if (!size.is_object()) throw InternalError("a size that is no map");
-    for (const auto& [name, value] : size.items())
+    const Json size = Json::parse(std::get<std::string>(values[kSize]), nullptr, false);
+    if (!size.is_object()) throw InternalError("a row of encounters has a size that is no map");
+    for (const auto& [name, value] : size.items()) {
+      if (!value.is_number())
+        throw InternalError("a row of encounters has a size that is no number: " + name);
       encounter.size.emplace_back(name, value.get<double>());
+    }
     std::size_t at = kNumbers;
     for (const ApproachColumn& column : kApproach)
       encounter.at.*column.member = std::get<double>(values[at++]);
@@ -113,8 +116,6 @@ Encounter EncounterOf(std::span<const EncounterValue> values) {
     return encounter;
   } catch (const std::bad_variant_access&) {
     throw InternalError("a row of encounters has values of other types");
-  } catch (const Json::exception& e) {
-    throw InternalError(e.what());
   }
 }
 

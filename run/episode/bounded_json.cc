@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "run/campaign/bounded_json.h"
+#include "run/episode/bounded_json.h"
 
 #include <fmt/format.h>
 
