@@ -39,6 +39,8 @@ void MakeFolder(const std::filesystem::path& folder) {
 
 namespace {
 
+const std::string kPart = ".part";
+
 std::error_code Errno(int number) { return {number, std::generic_category()}; }
 
 // Returns why it failed; none when it did not.
@@ -63,7 +65,7 @@ std::error_code WriteTo(const std::filesystem::path& path, std::string_view text
 
 std::filesystem::path MakePartFile(const std::filesystem::path& path) {
   std::filesystem::path part = std::filesystem::absolute(path);
-  part.replace_filename("." + path.stem().string() + ".part" + path.extension().string());
+  part.replace_filename("." + path.stem().string() + kPart + path.extension().string());
   // One that a killed process left; a link is removed and not followed.
   std::error_code ignored;
   std::filesystem::remove(part, ignored);
@@ -71,6 +73,14 @@ std::filesystem::path MakePartFile(const std::filesystem::path& path) {
   if (file < 0) Refuse(path, Errno(errno));
   close(file);
   return part;
+}
+
+std::string WholeOfPart(const std::string& part) {
+  const std::size_t at = part.rfind(kPart);
+  if (!part.starts_with('.') || at == std::string::npos || at <= 1) return "";
+  const std::string extension = part.substr(at + kPart.size());
+  const bool is_extension = extension.empty() || (extension[0] == '.' && extension.rfind('.') == 0);
+  return is_extension ? part.substr(1, at - 1) + extension : "";
 }
 
 void WriteFileWhole(const std::filesystem::path& path, std::string_view text) {

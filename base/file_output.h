@@ -31,6 +31,8 @@ void MakeFolder(const std::filesystem::path& folder);
 // Makes a new, empty file beside `path`, hidden and of its extension, to be renamed to it once it
 // is whole. A link of that name is replaced, not followed. What it throws names `path`.
 std::filesystem::path MakePartFile(const std::filesystem::path& path);
+// The name of the file that one of this name is to become; empty: it is no such file.
+std::string WholeOfPart(const std::string& part);
 // Writes a new file beside the old one and renames it. So a reader finds either the old file or the
 // whole new one. A device or pipe is written to.
 void WriteFileWhole(const std::filesystem::path& path, std::string_view text);

@@ -72,6 +72,16 @@ void ResultFolder::Lock() {
     lock_ = -1;
     throw InputError({folder_.string(), 0}, "", "", "is in use: another run is writing there");
   }
+  RemoveParts();
+}
+
+void ResultFolder::RemoveParts() const {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder_, ignored)) {
+    const std::string whole = WholeOfPart(entry.path().filename().string());
+    if (!whole.empty() && (results_.has(whole) || whole == kList) && IsPlainFile(entry.path()))
+      fs::remove(entry.path(), ignored);
+  }
 }
 
 void ResultFolder::Begin() {

@@ -39,8 +39,9 @@ class ResultFolder {
   ResultFolder& operator=(const ResultFolder&) = delete;
 
   const std::filesystem::path& path() const { return folder_; }
-  // Makes the folder and keeps others from writing there as long as this lives. Throws InputError
-  // when it cannot be made, or somebody writes there.
+  // Makes the folder, keeps others from writing there as long as this lives, and removes what a
+  // killed run had begun to write of results of this kind. Throws InputError when it cannot be
+  // made, or somebody writes there.
   void Lock();
   // Locks, and says in the list that results are being written. Throws InputError.
   void Begin();
@@ -56,6 +57,8 @@ class ResultFolder {
   void RefuseInputs(std::span<const std::filesystem::path> inputs) const;
   void RefuseForeign() const;
   void WriteList() const;
+  // Those of results that a killed run had begun to write.
+  void RemoveParts() const;
 
   std::filesystem::path folder_;
   ResultNames results_;

@@ -4,9 +4,11 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,6 +19,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <string_view>
 #include <system_error>
 
 #include "base/error.h"
@@ -35,6 +38,36 @@ constexpr int kPoll_ms = 50;
 // for a disk may be late.
 constexpr std::chrono::seconds kDying(2);
 constexpr std::size_t kKeptWords = 4096;  // bytes
+constexpr std::string_view kPrefix = "floorproof-exchange-";
+constexpr const char* kTemporary = "tmp";  // the program's TMPDIR, within the folder
+// A younger folder may not be locked yet by the process that makes it.
+constexpr std::chrono::minutes kYoung(1);
+
+// Locked as long as a process uses the folder. -1: somebody else uses it, it is gone, or the file
+// system has no locks.
+int LockFolder(const fs::path& folder) {
+  const int lock = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (lock < 0 || flock(lock, LOCK_EX | LOCK_NB) == 0) return lock;
+  close(lock);
+  return -1;
+}
+
+// Removes this user's folders whose process and guard were both killed.
+void RemoveStale(const fs::path& in) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(in, ignored)) {
+    if (!entry.path().filename().string().starts_with(kPrefix)) continue;
+    struct stat status {};
+    if (lstat(entry.path().c_str(), &status) != 0 || !S_ISDIR(status.st_mode) ||
+        status.st_uid != geteuid() ||
+        fs::file_time_type::clock::now() - entry.last_write_time(ignored) < kYoung)
+      continue;
+    const int lock = LockFolder(entry.path());
+    if (lock < 0) continue;
+    fs::remove_all(entry.path(), ignored);
+    close(lock);
+  }
+}
 
 // What came of the program: written once, by the program itself if it could not be started.
 struct Report {
@@ -65,7 +98,8 @@ struct Pipe {
 };
 
 // In the program's process, up to where it begins.
-[[noreturn]] void Become(const ProgramCall& call, int reports, int errors, pid_t guard) noexcept {
+[[noreturn]] void Become(const ProgramCall& call, const fs::path& temporary, int reports,
+                         int errors, pid_t guard) noexcept {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != guard) _exit(127);  // it died before
   setpgid(0, 0);
@@ -78,6 +112,7 @@ struct Pipe {
   std::vector<char*> words;
   for (const std::string& word : call.words) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
+  setenv("TMPDIR", temporary.c_str(), 1);
   if (call.folder.empty() || chdir(call.folder.c_str()) == 0) execvp(words[0], words.data());
   const Report report{false, errno, 0};
   static_cast<void>(!write(reports, &report, sizeof report));
@@ -129,7 +164,7 @@ void Tell(int& reports, const Report& report) {
   CloseAllBut({control, reports, errors});
   const pid_t guard = getpid();
   const pid_t program = fork();
-  if (program == 0) Become(call, reports, errors, guard);
+  if (program == 0) Become(call, folder / kTemporary, reports, errors, guard);
   Report report{program > 0, program > 0 ? 0 : errno, 0};
   if (program > 0) setpgid(program, program);  // whoever of the two is first
   close(errors);
@@ -203,20 +238,24 @@ std::string WhyNoProgram(const std::string& program, const fs::path& folder) {
 
 ExchangeFolder::ExchangeFolder() {
   std::error_code error;
-  const fs::path in = fs::temp_directory_path(error);
-  std::string name = (fs::absolute(error ? "/tmp" : in) / "floorproof-XXXXXX").string();
+  const fs::path asked = fs::temp_directory_path(error);
+  const fs::path in = fs::absolute(error ? "/tmp" : asked);
+  RemoveStale(in);
+  std::string name = (in / (std::string(kPrefix) + "XXXXXX")).string();
   if (mkdtemp(name.data()) == nullptr) {
     const std::error_code reason(errno, std::generic_category());
     RefuseToWrite(fs::path(name).parent_path(), reason,
                   "cannot make a folder for temporary files (TMPDIR): " + reason.message());
   }
   path_ = name;
+  lock_ = LockFolder(path_);
 }
 
 ExchangeFolder::~ExchangeFolder() {
   EndGuard();
   std::error_code ignored;
   fs::remove_all(path_, ignored);
+  Pipe::Close(lock_);
 }
 
 void ExchangeFolder::EndGuard() {
@@ -238,6 +277,8 @@ void ExchangeFolder::EndGuard() {
 
 ProgramOutcome ExchangeFolder::Run(const ProgramCall& call) {
   Pipe control(true), reports, errors;
+  std::error_code ignored;
+  fs::create_directory(path_ / kTemporary, ignored);
   const pid_t host = getpid();
   const auto end = Clock::now() + std::chrono::duration<double>(call.wall_s);
   guard_ = fork();

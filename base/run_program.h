@@ -4,7 +4,9 @@
 //
 // A guard process stands between it and this one. The guard ends the program with all that it
 // started, and removes the folder, when it is told to and when this process dies, however that
-// comes (SIGKILL too).
+// comes (SIGKILL too). If both are killed, the program is killed too, and the folder is removed by
+// the next process of this user that runs a program; what the program itself had started goes on.
+// The program's TMPDIR is within the folder, so its own temporary files go with it.
 #pragma once
 
 #include <sys/types.h>
@@ -61,6 +63,7 @@ class ExchangeFolder {
   std::filesystem::path path_;
   pid_t guard_ = -1;
   int control_ = -1;  // the guard waits for this to be shut
+  int lock_ = -1;     // of the folder, by flock: no other process takes it for left behind
 };
 
 }  // namespace floorproof

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/run_program.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <fstream>
 #include <memory>
 
 #include "base/error.h"
+#include "tests/own_folder.h"
 
 namespace floorproof {
 namespace {
@@ -161,6 +165,49 @@ TEST(RunProgram, IsEndedAndTidiedUpWhenItsCallerIsKilled) {
   EXPECT_TRUE(IsGone(program));
   for (int i = 0; i < 2000 && fs::exists(folder); ++i) usleep(1000);
   EXPECT_FALSE(fs::exists(folder));
+}
+
+using TemporaryFiles = OwnFolderTest;
+
+// mktemp and Python's tempfile follow TMPDIR.
+TEST_F(TemporaryFiles, OfAProgramThatTakesTooLongAreRemoved) {
+  const fs::path note = folder_ / "where";
+  {
+    ExchangeFolder dut;
+    EXPECT_FALSE(dut.Run(Sh("mktemp > " + note.string() + "; sleep 1000", dut, 1)).in_time);
+  }
+  std::string file = Content(note);
+  ASSERT_THAT(file, EndsWith("\n"));
+  file.pop_back();
+  EXPECT_FALSE(fs::exists(file)) << file;
+}
+
+TEST_F(TemporaryFiles, OfKilledProcessesAreRemovedByTheNextUnlessSomebodyUsesThem) {
+  const auto make = [&](const std::string& name, bool old = true) {
+    const fs::path made = folder_ / ("floorproof-exchange-" + name);
+    fs::create_directory(made);
+    std::ofstream(made / "request.json") << "{}";
+    if (old) fs::last_write_time(made, fs::file_time_type::clock::now() - std::chrono::hours(1));
+    return made;
+  };
+  const fs::path stale = make("stale"), used = make("used"), young = make("young", false),
+                 other = folder_ / "another-program", link = folder_ / "floorproof-exchange-link";
+  fs::create_directory(other);
+  fs::create_directory_symlink(other, link);
+  const int lock = open(used.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  ASSERT_EQ(flock(lock, LOCK_EX), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    setenv("TMPDIR", folder_.c_str(), 1);
+    const ExchangeFolder dut;
+    _exit(dut.path().parent_path() == folder_ ? 0 : 1);
+  }
+  int status = 1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_FALSE(fs::exists(stale));
+  for (const fs::path& kept : {used, young, other, link}) EXPECT_TRUE(fs::exists(kept)) << kept;
+  close(lock);
 }
 
 // As a host does whose other threads fork.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/result_folder.h"
 
+#include <fstream>
+
 #include "base/file_output.h"
 #include "tests/run/scenario_text.h"
 #include "tests/slurp.h"
@@ -119,6 +121,18 @@ TEST_F(ResultFolderTest, APlantedPartFileIsNotFollowed) {
   WriteFileWhole(folder_ / "plan.csv", "x");
   EXPECT_EQ(Slurp(folder_ / "mine"), "mine");
   EXPECT_EQ(Slurp(folder_ / "plan.csv"), "x");
+}
+
+TEST_F(ResultFolderTest, WhatAKilledRunHadBegunToWriteIsRemovedByTheNext) {
+  fs::create_directories(folder_);
+  for (const char* name : {".plan.part.csv", ".video.part.mp4", ".files.part.sha256",
+                           ".other.part.csv", ".part.csv", "plan.part.csv"})
+    std::ofstream(folder_ / name) << "half";
+  Write("plan.csv", "whole");
+  for (const char* gone : {".plan.part.csv", ".video.part.mp4", ".files.part.sha256"})
+    EXPECT_FALSE(fs::exists(folder_ / gone)) << gone;
+  for (const char* kept : {".other.part.csv", ".part.csv", "plan.part.csv"})
+    EXPECT_TRUE(fs::exists(folder_ / kept)) << kept;
 }
 
 TEST_F(ResultFolderTest, AFolderThatIsALinkLeadsNowhere) {
