@@ -99,6 +99,12 @@ inline const std::map<std::string, Rule, std::less<>>& Keywords() {
       {"exclusiveMaximum", Bounded<std::less<>>},
       {"minItems", Counted<std::greater_equal<>>},
       {"maxItems", Counted<std::less_equal<>>},
+      {"maxLength",
+       [](Node, Node rule, Node value) {
+         return TypeOf(value) != "string" || value.scalar.size() <= std::stoul(rule.scalar);
+       }},
+      {"maxProperties",
+       [](Node, Node rule, Node value) { return value.entries.size() <= std::stoul(rule.scalar); }},
       {"pattern",
        [](Node, Node rule, Node value) {
          return TypeOf(value) != "string" || Matches(value.scalar, rule.scalar);

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/input_file.h"
+#include "base/name_param.h"
 #include "base/params.h"
 #include "base/quantity.h"
 #include "env/core/failure_text.h"
@@ -81,10 +82,20 @@ void ReadHazards(const ConfigNode& node, Written& site) {
   if (list != nullptr && !list->IsNull()) {
     if (!list->IsList() || list->items.size() > kMostSiteHazards)
       throw InputError(
-          list->mark, "hazards", "",
+          list->mark, "hazards", list->IsList() ? CountText(list->items.size(), "hazard") : "",
           "must be a list of at most " + std::to_string(kMostSiteHazards) + " hazards");
-    for (std::size_t i = 0; i < list->items.size(); ++i)
-      site.hazards.push_back(ReadHazard(list->items[i], "hazards[" + std::to_string(i) + "]"));
+    std::size_t corners = 0;
+    for (std::size_t i = 0; i < list->items.size(); ++i) {
+      const std::string key = "hazards[" + std::to_string(i) + "]";
+      site.hazards.push_back(ReadHazard(list->items[i], key));
+      const WrittenHazard& hazard = site.hazards.back();
+      corners += hazard.place.size();
+      if (corners > kMaxSiteCorners)
+        throw InputError(hazard.place_mark, hazard.place_key,
+                         CountText(corners, "corner") + " up to here",
+                         "a site's hazards have at most " + std::to_string(kMaxSiteCorners) +
+                             " corners together");
+    }
   }
   std::vector<Hazard*> all;
   for (Hazard& hazard : site.grid.hazards) all.push_back(&hazard);
@@ -124,7 +135,7 @@ Written ReadWritten(const ConfigNode& node, const fs::path& folder) {
   Written site;
   site.name = file.stem().string();
   if (site.name.empty()) site.name = "site";
-  if (const ConfigNode* name = node.Find("name")) site.name = AsString(*name, "name");
+  if (const ConfigNode* name = node.Find("name")) site.name = AsName(*name, "name");
   CheckOneFloor(node);
   if (const ConfigNode* map = node.Find("map"))
     site.ros_map = PathIn(folder, *map, "map");

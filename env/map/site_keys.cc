@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "env/map/site_keys.h"
 
+#include "base/name_param.h"
 #include "env/map/char_grid.h"
 #include "env/map/generate.h"
 #include "env/map/written_hazard.h"
@@ -55,7 +56,7 @@ ConfigNode SiteSchema() {
   MapSchema map;
   map.Key("site", ConstSchema("1"), "the format's version")
       .Require("site")
-      .Key("name", TextSchema(), "default: the file's stem")
+      .Key("name", NameSchema(), "default: the file's stem")
       .Key("map", TextSchema("."), "a ROS map_server file (.yaml), from this file's folder")
       .Key("grid", CharGridSchema(), "a floor drawn in characters")
       .Key("generate", OrNull(GenerateSchema()), "a floor drawn at random, or of one crossing")

@@ -7,6 +7,7 @@
 
 #include "base/json_schema.h"
 #include "base/params.h"
+#include "base/quantity.h"
 
 namespace floorproof {
 namespace {
@@ -25,7 +26,8 @@ Vec2 ReadPoint(const ConfigNode& node, const std::string& key) {
 
 std::vector<Vec2> ReadPoints(const ConfigNode& node, const std::string& key, std::size_t least) {
   if (!node.IsList() || node.items.size() < least || node.items.size() > kMaxPoints)
-    throw InputError(node.mark, key, "",
+    throw InputError(node.mark, key,
+                     node.IsList() ? CountText(node.items.size(), "point") : node.scalar,
                      "must be a list of " + std::to_string(least) + " to " +
                          std::to_string(kMaxPoints) + " points [x, y]");
   std::vector<Vec2> points;

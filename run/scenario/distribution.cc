@@ -8,11 +8,14 @@
 
 #include "base/json_schema.h"
 #include "base/params.h"
+#include "base/quantity.h"
 
 namespace floorproof {
 namespace {
 
 constexpr double kLeastMass = 0.01;  // of a bounded normal: else redrawing would go on for ever
+// Of choices and ranges. A campaign reads the scenario once for each choice before it begins.
+constexpr std::size_t kMaxValues = 1'000;
 constexpr int kMaxRedraws = 10'000;  // 0.99^10000 = 2e-44 that none of them keeps the bounds
 
 double Cumulative(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
@@ -114,10 +117,12 @@ ConfigNode DistributionSchema(const MapSchema& others) {
         .Node();
   };
   return AnyOf(
-      {add("uniform", AnyOf({pair, ListSchema(pair, 1)}), "[low, high], or a list of these").Node(),
+      {add("uniform", AnyOf({pair, ListSchema(pair, 1, kMaxValues)}),
+           "[low, high], or a list of these")
+           .Node(),
        bounded(add("normal", pair, "[mean, standard deviation]")),
        bounded(add("lognormal", pair, "[median, standard deviation of the logarithm]")),
-       add("choice", ListSchema(AnythingSchema(), 1), "one of these values").Node()});
+       add("choice", ListSchema(AnythingSchema(), 1, kMaxValues), "one of these values").Node()});
 }
 
 Distribution ReadDistribution(const ConfigNode& node, const std::string& path,
@@ -148,6 +153,9 @@ Distribution ReadDistribution(const ConfigNode& node, const std::string& path,
                      "names no distribution: uniform, normal, lognormal or choice");
   const std::string key = path + "." + name;
   if (!values->IsList()) throw InputError(values->mark, key, values->scalar, "must be a list");
+  if (values->items.size() > kMaxValues)
+    throw InputError(values->mark, key, CountText(values->items.size(), "value"),
+                     "must be a list of at most " + std::to_string(kMaxValues) + " values");
   if (d.kind == Distribution::Kind::kChoice) {
     if (values->items.empty()) throw InputError(values->mark, key, "", "must hold a value or more");
     d.choices = values->items;

@@ -13,6 +13,7 @@
 namespace floorproof {
 namespace {
 
+constexpr std::size_t kMaxKeys = 1'000;
 constexpr const char* kDimension = "dimension";
 const Bounds kDimensions = Between(1, double{kMostDimensions});
 
@@ -79,7 +80,9 @@ ConfigNode RandomiseSchema() {
   const MapSchema dimension =
       MapSchema().Key(kDimension, WholeSchema(kDimensions),
                       "with sampling: low_discrepancy, which coordinate of the points");
-  return AnyOf({AnyKeysSchema(DistributionSchema(dimension), never), NoneSchema()});
+  ConfigNode keys = AnyKeysSchema(DistributionSchema(dimension), never);
+  keys.Add("maxProperties", ConfigNode::Scalar(std::to_string(kMaxKeys)));
+  return AnyOf({std::move(keys), NoneSchema()});
 }
 
 Sampling ReadSampling(const ConfigNode* node) {
@@ -95,6 +98,9 @@ std::vector<RandomisedKey> ReadRandomise(const ConfigNode* node, Sampling sampli
   if (node == nullptr || node->IsNull()) return keys;
   if (!node->IsMap())
     throw InputError(node->mark, "randomise", node->scalar, "must be a map of keys: distribution");
+  if (node->entries.size() > kMaxKeys)
+    throw InputError(node->mark, "randomise", CountText(node->entries.size(), "key"),
+                     "must be a map of at most " + std::to_string(kMaxKeys) + " keys");
   for (const auto& [key, value] : node->entries) {
     for (const std::string& fixed : kFixed)
       if (key == fixed || key.starts_with(fixed + "."))

@@ -7,19 +7,21 @@
 
 #include "base/json_schema.h"
 #include "base/params.h"
+#include "base/quantity.h"
 
 namespace floorproof {
 namespace {
 
-constexpr std::size_t kMaxVariants = 10'000;
+constexpr std::size_t kMaxVariants = 1'000;
 constexpr std::size_t kLongestName = 200;  // films and pictures carry it in their files' names
 
 // What all variants share, their draws above all, and what is read before they are made.
 const std::vector<std::string> kShared = {"scenario", "name",   "seed", "episode", "randomise",
                                           "sampling", "matrix", "gate", "files"};
 
-[[noreturn]] void RefuseMany(const SourceMark& mark, const std::string& key) {
-  throw InputError(mark, key, "", "more than " + std::to_string(kMaxVariants) + " variants");
+[[noreturn]] void RefuseMany(const SourceMark& mark, const std::string& key, std::size_t count) {
+  throw InputError(mark, key, CountText(count, "variant"),
+                   "must be at most " + std::to_string(kMaxVariants) + " variants");
 }
 
 std::string LastPart(const std::string& key_path) {
@@ -39,7 +41,7 @@ std::vector<Variant> Axis(const std::string& key, const ConfigNode& list) {
   const std::string path = "matrix." + key;
   if (!list.IsList() || list.items.empty())
     throw InputError(list.mark, path, list.scalar, "must be a list of a value or more");
-  if (list.items.size() > kMaxVariants) RefuseMany(list.mark, path);
+  if (list.items.size() > kMaxVariants) RefuseMany(list.mark, path, list.items.size());
   std::vector<Variant> axis;
   std::set<std::string> names;
   for (const ConfigNode& item : list.items) {
@@ -87,7 +89,8 @@ std::vector<Variant> ReadMatrix(const ConfigNode* node) {
   std::vector<Variant> variants = {{"", {}}};
   for (const auto& [key, list] : node->entries) {
     const std::vector<Variant> axis = Axis(key, list);
-    if (variants.size() * axis.size() > kMaxVariants) RefuseMany(node->mark, "matrix");
+    if (const std::size_t count = variants.size() * axis.size(); count > kMaxVariants)
+      RefuseMany(node->mark, "matrix", count);
     std::vector<Variant> product;
     for (const Variant& base : variants)
       for (const Variant& entry : axis) {

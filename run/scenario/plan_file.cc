@@ -23,6 +23,8 @@ const std::vector<std::string> kColumns = {"x_m",   "y_m",       "yaw_rad",
                                            "shape", "speed_mps", "dwell_s"};
 const std::vector<std::string> kPlaceColumns = {"x_m", "y_m"};
 constexpr std::uintmax_t kMaxBytes = 32u << 20;
+// 12.5 km of a waypoint each 50 mm: more than a battery lasts.
+constexpr std::size_t kMaxRows = 250'000;
 // Beyond these a drive has no end; the dwells count together.
 constexpr double kSlowest_mps = 1e-3, kLongestDwell_s = 1e5;
 
@@ -122,6 +124,10 @@ Path ReadRows(const std::filesystem::path& file, const GridFrame& map,
       throw InputError(mark, "", "",
                        "has " + std::to_string(cells.size()) + " columns, the first row " +
                            std::to_string(header.size()));
+    if (path.size() == kMaxRows)
+      throw InputError(
+          mark, "", "",
+          "a file has at most " + std::to_string(kMaxRows) + " rows, a " + row + " each");
     const Waypoint w = ReadRow(header, cells, mark);
     CheckWaypoint(w, map, mark, dwell_s);
     path.push_back(w);

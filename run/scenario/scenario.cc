@@ -7,6 +7,7 @@
 
 #include "base/file_output.h"
 #include "base/input_file.h"
+#include "base/name_param.h"
 #include "base/printable.h"
 #include "env/map/ros_map.h"
 #include "env/scene/models_folder.h"
@@ -291,7 +292,7 @@ void ScenarioFile::ReadSitePart(const ConfigNode& root, const Variant& changes, 
 
 std::string ScenarioFile::name() const {
   const ConfigNode* name = root_.Find("name");
-  return name ? AsString(*name, "name") : Printable(file_.stem().string());
+  return name ? AsName(*name, "name") : Printable(file_.stem().string());
 }
 
 bool ScenarioFile::draws_differ() const {

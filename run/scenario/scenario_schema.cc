@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/json_schema.h"
+#include "base/name_param.h"
 #include "env/map/site_keys.h"
 #include "run/scenario/named_plugin.h"
 #include "run/scenario/scenario_parts.h"
@@ -90,7 +91,7 @@ ConfigNode ScenarioSchema(ConfigNode gate) {
   MapSchema map;
   map.Key("scenario", ConstSchema("1"), "the format's version")
       .Require("scenario")
-      .Key("name", TextSchema(), "in results and on pictures (default: the file's stem)")
+      .Key("name", NameSchema(), "in results and on pictures (default: the file's stem)")
       .Key("site", AnyOf({TextSchema("."), SiteSchema()}), "a site file, or the site itself")
       .Key("robot", Robot(), "a bundled robot, an .xml file, or either with what is changed of it")
       .Key("start", Place([&](ParamVisitor& v) { VisitStart(v, start, yaw_deg); }),

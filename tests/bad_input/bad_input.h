@@ -46,5 +46,7 @@ std::vector<BadInput> MapCases();
 std::vector<BadInput> PlanCases();
 std::vector<BadInput> RobotCases();
 std::vector<BadInput> CommandCases();
+std::vector<BadInput> RecordCases();
+std::vector<BadInput> InputLimitCases();
 
 }  // namespace floorproof

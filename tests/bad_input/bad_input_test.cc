@@ -10,10 +10,13 @@
 #include <set>
 
 #include "apps/run_floorproof.h"
+#include "base/error.h"
+#include "base/printable.h"
 #include "base/sanitizer.h"
 #include "tests/bad_input/child.h"
 #include "tests/own_folder.h"
 #include "tests/places.h"
+#include "tests/slurp.h"
 
 namespace floorproof {
 namespace {
@@ -52,6 +55,10 @@ class BadInputFolder : public OwnFolderTest {
     EXPECT_EQ(dut.status, 2) << dut.out;
     EXPECT_EQ(std::ranges::count(dut.err, '\n'), 1) << dut.err;
     EXPECT_TRUE(dut.err.starts_with("floorproof: ") && dut.err.ends_with("\n")) << dut.err;
+    EXPECT_LE(dut.err.size(), kMaxErrorLine + 40);
+    EXPECT_EQ(WhyUnprintable(dut.err), "");
+    for (const char* never : {"json.exception", "hunter2"})
+      EXPECT_EQ(dut.err.find(never), std::string::npos) << dut.err;
     EXPECT_LE(dut.cpu_s, kMaxCpu_s);
     EXPECT_LE(dut.most_mb, kMaxMb);
   }
@@ -93,9 +100,10 @@ TEST_P(BadInputOfTheProgramTest, IsOneLine) {
 }
 
 std::vector<BadInput> FirstOfEachTable() {
-  return {YamlCases().front(),  ScenarioCases().front(), SensingCases().front(),
-          SiteCases().front(),  MapCases().front(),      PlanCases().front(),
-          RobotCases().front(), CommandCases().front()};
+  return {YamlCases().front(),      ScenarioCases().front(), SensingCases().front(),
+          SiteCases().front(),      MapCases().front(),      PlanCases().front(),
+          RobotCases().front(),     CommandCases().front(),  RecordCases().front(),
+          InputLimitCases().front()};
 }
 
 std::string TestName(const ::testing::TestParamInfo<BadInput>& info) { return info.param.name; }
@@ -108,6 +116,8 @@ INSTANTIATE_TEST_SUITE_P(Map, BadInputTest, ::testing::ValuesIn(MapCases()), Tes
 INSTANTIATE_TEST_SUITE_P(Plan, BadInputTest, ::testing::ValuesIn(PlanCases()), TestName);
 INSTANTIATE_TEST_SUITE_P(Robot, BadInputTest, ::testing::ValuesIn(RobotCases()), TestName);
 INSTANTIATE_TEST_SUITE_P(Command, BadInputTest, ::testing::ValuesIn(CommandCases()), TestName);
+INSTANTIATE_TEST_SUITE_P(Record, BadInputTest, ::testing::ValuesIn(RecordCases()), TestName);
+INSTANTIATE_TEST_SUITE_P(Limit, BadInputTest, ::testing::ValuesIn(InputLimitCases()), TestName);
 
 // What every case begins with is good: what the program refuses is what the case broke.
 using GoodInputTest = BadInputFolder;
@@ -134,6 +144,34 @@ TEST_F(GoodInputTest, MayComeFromWindows) {
   }
   const ChildResult dut = Run({"plan", "scenario.yaml", "--out", "o"});
   EXPECT_EQ(dut.status, 0) << dut.err;
+}
+
+// What reaches the terminal is printable, whatever folders, files and parts of a robot are called.
+TEST_F(GoodInputTest, MayHaveNamesThatTurnAndColourText) {
+  const std::string odd = "a\u202egnp\x1b[31m\u009b\u2028b";
+  std::string robot = Slurp(ModelsFolder() / "beluga.xml");
+  robot = Replaced(robot, "model=\"", "model=\"a&#x202e;&#x9b;&#x2028;");
+  fs::create_directory(folder_ / odd);
+  Write({{odd + "/drawn.yaml",
+          Replaced(GoodFiles().at("drawn.yaml"), "name: beluga", "name: robot.xml")},
+         {odd + "/robot.xml", robot}});
+  const std::string out = odd + "/o";
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"run", odd + "/drawn.yaml", "--out", out},
+        {"replay", out},
+        {"report", out},
+        {"robot", odd + "/robot.xml"},
+        {"scene", odd + "/drawn.yaml", "--out", odd + "/scene.xml"},
+        {"campaign", odd + "/drawn.yaml", "-n", "1", "--jobs", "1", "--out", odd + "/c"},
+        {"report", odd + "/c"},
+        {"--json", "plan", odd + "/drawn.yaml", "--out", odd + "/p"},
+        {"run", odd + "/no.yaml"}}) {
+    const ChildResult dut = Run(command, {.cpu_s = 60, .wall_s = 100});
+    EXPECT_EQ(WhyUnprintable(dut.out), "") << command[0];
+    EXPECT_EQ(WhyUnprintable(dut.err), "") << command[0];
+    EXPECT_NE(dut.out + dut.err, "") << command[0];
+    EXPECT_EQ(dut.status, command.back().ends_with("no.yaml") ? 2 : 0) << dut.err;
+  }
 }
 
 // What a plan or a robot cannot do is an outcome, not bad input.

@@ -32,6 +32,24 @@ std::vector<BadInput> CommandCases() {
       Words("UnknownCommand", {"rum", s}, {"rum", "unknown command; did you mean run?"}),
       Words("UnknownOption", {run, s, "--vidoe"},
             {"--vidoe", "unknown option; did you mean --video?"}),
+      Words("LongCommand", {std::string(100'000, 'x')}, {"xxx...: unknown command"}),
+      Words("LongOption", {run, "--" + std::string(100'000, 'x')}, {"xxx...: unknown option"}),
+      Words("LongPath", {run, std::string(5'000, 'x') + "/a.yaml"}, {"xxx...xxx", "xxx/a.yaml: "}),
+      Words("LongSeed", {run, s, "--seed", std::string(100'000, 'x')},
+            {"--seed", "xxx...", "not in range 0 to"}),
+      Words("LongSeedInOneWord", {run, s, "--seed=" + std::string(100'000, 'x')},
+            {"--seed", "xxx...", "not in range 0 to"}),
+      Words("LongArgumentTooMany", {run, s, std::string(100'000, 'x')}, {"xxx..."}),
+      Words("LongKind", {"list", std::string(100'000, 'x')}, {"KIND", "xxx... not in"}),
+      Words("ManyArgumentsTooMany",
+            [] {
+              std::vector<std::string> words = {"run", "scenario.yaml"};
+              for (int i = 0; i < 10'000; ++i) words.push_back("word" + std::to_string(i));
+              return words;
+            }(),
+            {"not expected: word9999", "..."}),
+      Words("ArgumentThatTurnsAndColours", {run, s, "--seed", "a\u202e\u2028\u009bgnp\x1b[31m\nb"},
+            {"a???gnp?[31m b"}),
       Words("NoScenario", {run}, {"SCENARIO"}),
       Words("TwoScenarios", {run, s, s}, {s}),
       Words("OptionWithoutValue", {run, s, "--out"}, {"--out"}),

@@ -93,7 +93,7 @@ std::vector<BadInput> YamlCases() {
              for (int i = 0; i < 100'000; ++i) text += "  k" + std::to_string(i) + ": 1\n";
              return text;
            },
-           {file + ":3", "randomise.k0"}),
+           {file + ":3: randomise = 100,000 keys"}),
       Scenario("AnEscapeInAName", first + "name: \"a\\e[2Jb\"\n",
                {file + ":2", "name", "holds a control character"}),
       Scenario("ATurnedName", first + "name: a\u202egnp.exe\n",

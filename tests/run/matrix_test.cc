@@ -38,7 +38,7 @@ TEST(Matrix, ManyVariantsAreRefusedAtOnce) {
     Read("seed_of_x: " + list + "]\n");
     FAIL() << "taken";
   } catch (const InputError& e) {
-    EXPECT_THAT(e.what(), HasSubstr("more than 10000 variants"));
+    EXPECT_THAT(e.what(), HasSubstr("must be at most 1000 variants"));
   }
 }
 
@@ -89,7 +89,7 @@ TEST(Matrix, BadInputNamesLineKeyAndRule) {
       {"start: [[1, 2]]", "matrix.start", "must be a value"},
       {"seed: [1, 2]", "matrix.seed", "cannot differ between variants"},
       {"s: [{label: a, gate.max_rate: 0.1}]", "matrix.s = gate.max_rate", "cannot differ"},
-      {many + "b" + many.substr(1), "matrix", "more than 10000 variants"},
+      {many + "b" + many.substr(1), "matrix", "must be at most 1000 variants"},
       {"start.x_m: [1, 2]\nset: [{label: a, start.x_m: 3}]", "matrix.set = start.x_m",
        "a key above sets start.x_m, which this would undo"},
       {"robot.shape: [O, I]\nrobot: [htetro]", "matrix.robot = robot",

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/name_param.h"
+
+#include "base/json_schema.h"
+#include "base/params.h"
+
+namespace floorproof {
+
+std::string AsName(const ConfigNode& node, const std::string& key) {
+  const std::string name = AsString(node, key);
+  if (name.size() > kMaxNameBytes || name.find_first_of("\n\r\t") != std::string::npos)
+    throw InputError(node.mark, key, name,
+                     "must be one line of at most " + std::to_string(kMaxNameBytes) + " bytes");
+  return name;
+}
+
+ConfigNode NameSchema() {
+  ConfigNode schema = TextSchema(R"re(^[^\n\r\t]*$)re");
+  schema.Add("maxLength", ConfigNode::Scalar(std::to_string(kMaxNameBytes)));
+  return schema;
+}
+
+}  // namespace floorproof
