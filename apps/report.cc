@@ -28,10 +28,13 @@ void AddReport(CommandLine& line, const Globals& globals, int& status) {
   auto folder = std::make_shared<std::string>();
   Subcommand command =
       line.Add("report",
-               "Write the page of a drive, a campaign or a measurement, report.html, or "
-               "of rare failures, rare.html, from recorded results alone");
-  command.Text("DIR", *folder, "A folder that `run`, `campaign`, `measure` or `rare` wrote",
-               Subcommand::Need::kRequired);
+               "Write the page of a drive, a campaign or a measurement, DIR/report.html, or "
+               "of rare failures, DIR/rare.html, from recorded results alone");
+  command.Text(
+      "DIR", *folder,
+      "A folder that `run`, `campaign`, `measure` or `rare` wrote; the page is written there, "
+      "and replaces only a page of an earlier `report`",
+      Subcommand::Need::kRequired);
   command.OnRun([folder, &globals, &status] { status = WriteReport(*folder, globals); });
 }
 

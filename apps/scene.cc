@@ -44,7 +44,11 @@ void AddScene(CommandLine& line, const Globals& globals, int&) {
                                 "MuJoCo loads and steps (Mecanum wheels "
                                 "with rollers that are bodies)");
   command.Text("SCENARIO", options->scenario, "Scenario file (YAML)", Subcommand::Need::kRequired);
-  command.Text("--out", options->out, "MJCF file to write", Subcommand::Need::kRequired);
+  command.Text(
+      "--out", options->out,
+      "MJCF file to write, anywhere, the scenario's folder included; replaces only a file that "
+      "`scene` wrote",
+      Subcommand::Need::kRequired);
   command.OnRun([options, &globals] {
     const Scenario s = ReadScenario(options->scenario, globals.Overrides(), globals.trust());
     for (const std::string& warning : Warnings(s)) globals.Say(warning);
