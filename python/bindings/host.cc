@@ -60,7 +60,7 @@ class RaisedError : public InternalError {
 thread_local std::shared_ptr<Raised> t_interruption;
 
 void Raise(PyObject* type, const char* text, const RaisedError* from = nullptr) {
-  const std::string said = Printable(text);
+  const std::string said = ErrorLine(text);
   PyObject* words =
       PyUnicode_DecodeUTF8(said.data(), static_cast<Py_ssize_t>(said.size()), "backslashreplace");
   PyObject* error = words == nullptr ? nullptr : PyObject_CallOneArg(type, words);
@@ -233,6 +233,8 @@ void BindHost(nb::module_& m) {
   AskHostForInterrupts(&PythonInterrupted);
   SetForkHooks({&BeforeFork, &InParent, &InChild});
   m.def("usable_cores", &UsableCores);
+  m.def(
+      "error_line", [](const std::string& text) { return ErrorLine(text); }, nb::arg("text"));
   m.def(
       "is_of_the_disk",
       [](int error) { return IsOfTheDisk(std::error_code(error, std::generic_category())); },

@@ -17,6 +17,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 from ._core import InputError, InternalError, __version__
+from . import _errors
 from ._campaign import Campaign, campaign, merge, report
 from ._plugins import online_planner, planner, tracker
 from ._results import Episode, Event, Frame, Hazard, Plan, read

@@ -84,6 +84,13 @@ def trace_columns(file: Path) -> Dict[str, Any]:
             for name, words in _columns(file, "t_s").items()}
 
 
+def plan_columns(file: Path) -> Dict[str, Any]:
+    """plan.csv, column by column: arrays of one length; nan where a row leaves a number open."""
+    return {name: words if name == "shape" else
+            _numbers(file, name, [word or "nan" for word in words])
+            for name, words in _columns(file, "x_m").items()}
+
+
 def encounters_of(rows: Iterable[Mapping[str, Any]]) -> List[Dict[str, Any]]:
     """Of rows as a campaign's table `encounter` has them: their sizes are JSON."""
     return [{**row, "size": json.loads(row["size"])} for row in rows]

@@ -2,7 +2,6 @@
 """What an episode's log says, topic by topic (docs/exports.md lists them)."""
 from __future__ import annotations
 
-import csv
 import json
 import math
 from dataclasses import dataclass
@@ -12,7 +11,9 @@ from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Seque
 import numpy as np
 
 from . import _core
+from ._core import InputError
 from ._png import png_bytes
+from ._recorded import plan_columns
 from ._results import Episode
 from ._ros import Colour, Ros
 from ._scenario import Scenario
@@ -74,16 +75,17 @@ def planned(ros: Ros, folder: Path) -> Iterator[Topic]:
     file = folder / "plan.csv"
     if not file.exists():  # it is made on the way, or there is none
         return
-    with file.open(newline="", encoding="utf-8") as lines:
-        rows = list(csv.DictReader(lines))
-    places = [(float(row["x_m"]), float(row["y_m"])) for row in rows]
+    columns = plan_columns(file)
+    if "y_m" not in columns:
+        raise InputError(f"{file}:1: y_m: is missing")
+    places = list(zip(columns["x_m"].tolist(), columns["y_m"].tolist()))
+    yaws = columns.get("yaw_rad", np.full(len(places), math.nan)).tolist()
     poses = []
-    for i, (row, (x_m, y_m)) in enumerate(zip(rows, places)):
-        yaw = row.get("yaw_rad")
+    for i, ((x_m, y_m), yaw) in enumerate(zip(places, yaws)):
         # Where the plan leaves the yaw open, along the way.
         a, b = (places[i], places[i + 1]) if i + 1 < len(places) else (places[i - 1], places[i])
         poses.append(ros.pose_stamped(0, ros.pose(
-            x_m, y_m, float(yaw) if yaw else math.atan2(b[1] - a[1], b[0] - a[0]))))
+            x_m, y_m, math.atan2(b[1] - a[1], b[0] - a[0]) if math.isnan(yaw) else yaw)))
     yield Topic("/plan", "nav_msgs/Path", [(0, ros.path(0, poses))], latched=True)
 
 
