@@ -8,14 +8,14 @@ namespace floorproof {
 
 std::string AsName(const ConfigNode& node, const std::string& key) {
   const std::string name = AsString(node, key);
-  if (name.size() > kMaxNameBytes || name.find_first_of("\n\r\t") != std::string::npos)
+  if (name.size() > kMaxNameBytes)
     throw InputError(node.mark, key, name,
-                     "must be one line of at most " + std::to_string(kMaxNameBytes) + " bytes");
+                     "must be at most " + std::to_string(kMaxNameBytes) + " bytes");
   return name;
 }
 
 ConfigNode NameSchema() {
-  ConfigNode schema = TextSchema(R"re(^[^\n\r\t]*$)re");
+  ConfigNode schema = TextSchema();
   schema.Add("maxLength", ConfigNode::Scalar(std::to_string(kMaxNameBytes)));
   return schema;
 }

@@ -11,7 +11,7 @@ namespace floorproof {
 
 inline constexpr std::size_t kMaxNameBytes = 200;
 
-// Throws InputError unless the text is one line of at most kMaxNameBytes bytes.
+// Throws InputError unless the text has at most kMaxNameBytes bytes.
 std::string AsName(const ConfigNode& node, const std::string& key);
 ConfigNode NameSchema();
 

@@ -43,8 +43,8 @@ constexpr const char* kTemporary = "tmp";  // the program's TMPDIR, within the f
 // A younger folder may not be locked yet by the process that makes it.
 constexpr std::chrono::minutes kYoung(1);
 
-// Locked as long as a process uses the folder. -1: somebody else uses it, it is gone, or the file
-// system has no locks.
+// Locked as long as a process uses the folder. -1: another process uses it, it is gone, or
+// the file system has no locks.
 int LockFolder(const fs::path& folder) {
   const int lock = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (lock < 0 || flock(lock, LOCK_EX | LOCK_NB) == 0) return lock;

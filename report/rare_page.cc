@@ -99,9 +99,11 @@ std::string Numbers(const JsonValue& rare) {
                       CountText(sure.at("nominal_draws").get<std::int64_t>(), "drive"),
                       sure.at("nominal_failures").get<int>()));
   if (!rare.at("clean_drives_needed").is_null())
-    html += Row("To show the estimate without a sampler",
-                CountText(rare.at("clean_drives_needed").get<std::int64_t>(), "drive"),
-                "as they come, and none may fail");
+    html +=
+        Row("To show the estimate without a sampler",
+            CountText(std::llround(std::min(rare.at("clean_drives_needed").get<double>(), 1e15)),
+                      "drive"),
+            "as they come, and none may fail");
   return html + "</tbody></table></div>\n";
 }
 

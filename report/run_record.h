@@ -16,8 +16,8 @@ namespace floorproof {
 
 class RunRecord {
  public:
-  // Throws InputError if result.json is missing or damaged. What else is missing or damaged is left
-  // out.
+  // Throws InputError if result.json is missing or damaged. Other files are omitted if
+  // they are missing or damaged.
   explicit RunRecord(const std::filesystem::path& folder);
 
   const JsonValue& result() const { return result_; }

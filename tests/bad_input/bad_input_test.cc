@@ -146,10 +146,10 @@ TEST_F(GoodInputTest, MayComeFromWindows) {
   EXPECT_EQ(dut.status, 0) << dut.err;
 }
 
-// What reaches the terminal is printable, whatever folders, files and parts of a robot are called.
+// Output on the terminal is printable, whatever folders, files and parts of a robot are called.
 TEST_F(GoodInputTest, MayHaveNamesThatTurnAndColourText) {
   const std::string odd = "a\u202egnp\x1b[31m\u009b\u2028b";
-  std::string robot = Slurp(ModelsFolder() / "beluga.xml");
+  std::string robot = Slurp(SourceFile("models/beluga.xml"));
   robot = Replaced(robot, "model=\"", "model=\"a&#x202e;&#x9b;&#x2028;");
   fs::create_directory(folder_ / odd);
   Write({{odd + "/drawn.yaml",

@@ -82,11 +82,9 @@ std::vector<BadInput> InputLimitCases() {
              {"hazards[50].polygon_m = 51,000 corners up to here: a site's hazards have at most "
               "50000 corners together"}),
       InSite("NameOfASite", "name", [] { return std::string(201, 'n'); },
-             {"name = nnn", "...: must be one line of at most 200 bytes"}),
-      InSite("NameOfTwoLines", "name", [] { return "\"two\\nlines\""; },
-             {"name = two lines: must be one line"}),
+             {"name = nnn", "...: must be at most 200 bytes"}),
       InScenario("NameOfAScenario", "13: ", [] { return "name: " + std::string(201, 'n'); },
-                 {"name = nnn", "...: must be one line of at most 200 bytes"}),
+                 {"name = nnn", "...: must be at most 200 bytes"}),
       InScenario("Variants", "14: ", [] { return "matrix:\n  robot.mass_kg: " + Numbers(1'001); },
                  {"matrix.robot.mass_kg = 1,001 variants: must be at most 1000 variants"}),
       InScenario("VariantsOfSeveralKeys", "14: ",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON files that a command is said to have written: damaged, of another kind, or of another
+// JSON files under the names of a command's results: damaged, of another kind, or of another
 // program. The line names file and key and quotes nothing of the file.
 #include "tests/bad_input/bad_input.h"
 
