@@ -16,7 +16,7 @@ std::string Compose(const SourceMark& mark, std::string_view key, std::string_vi
   std::string out = CutMiddle(PrintableLine(mark.file), kMaxName);
   if (mark.line > 0) out += ":" + std::to_string(mark.line);
   if (!out.empty()) out += ": ";
-  out += CutEnd(PrintableLine(key), kMaxValue);
+  out += CutMiddle(PrintableLine(key), kMaxValue);
   if (!value.empty()) out += (key.empty() ? "" : " = ") + CutEnd(PrintableLine(value), kMaxValue);
   if (!key.empty() || !value.empty()) out += ": ";
   return out + CutEnd(ErrorLine(rule), kMaxRule);

@@ -40,8 +40,8 @@ class ResultFolder {
 
   const std::filesystem::path& path() const { return folder_; }
   // Makes the folder, keeps others from writing there as long as this lives, and removes what a
-  // killed run had begun to write of results of this kind. Throws InputError when it cannot be
-  // made, or somebody writes there.
+  // killed run had begun to write of results of this kind. Throws InputError if it cannot be made,
+  // or another process writes there.
   void Lock();
   // Locks, and says in the list that results are being written. Throws InputError.
   void Begin();

@@ -5,7 +5,8 @@
 // A guard process stands between it and this one. The guard ends the program with all that it
 // started, and removes the folder, when it is told to and when this process dies, however that
 // comes (SIGKILL too). If both are killed, the program is killed too, and the folder is removed by
-// the next process of this user that runs a program; what the program itself had started goes on.
+// the next process of this user that runs a program; other processes that it had started are not
+// ended.
 // The program's TMPDIR is within the folder, so its own temporary files go with it.
 #pragma once
 

@@ -12,7 +12,7 @@ namespace floorproof {
 // Dry rubber on a hard floor: the middle of ISO 18646-2's 0.6 to 1.0.
 inline constexpr double kFloorFriction = 0.8;
 inline constexpr std::size_t kMostSiteHazards = 10'000;
-// Of the polygons and lines of all hazards, as they are written.
+// The corners of all polygons and lines of a site, as they are written.
 inline constexpr std::size_t kMaxSiteCorners = 50'000;
 
 void VisitSiteStart(ParamVisitor& v, Pose2& start, double& yaw_deg);

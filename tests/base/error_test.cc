@@ -17,7 +17,8 @@ const std::string kLong(100'000, 'x');
 
 TEST(Error, QuotesKeysAndValuesWithSixtyCharacters) {
   const std::string cut = std::string(57, 'x') + "...";
-  EXPECT_EQ(InputError({"f", 2}, kLong, "1", "r").what(), "f:2: " + cut + " = 1: r");
+  EXPECT_EQ(InputError({"f", 2}, "a." + kLong + ".last", "1", "r").what(),
+            "f:2: a." + std::string(26, 'x') + "..." + std::string(24, 'x') + ".last = 1: r");
   EXPECT_EQ(InputError({"f", 2}, "k", kLong, "r").what(), "f:2: k = " + cut + ": r");
   const std::string whole(60, 'x');
   EXPECT_EQ(InputError({"f", 2}, "k", whole, "r").what(), "f:2: k = " + whole + ": r");

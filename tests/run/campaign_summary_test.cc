@@ -209,7 +209,7 @@ TEST_F(CampaignSummaryTest, WhatIsDamagedIsRefused) {
     Json other = whole;
     other[Json::json_pointer(at)] = {{"x", "y"}};
     const std::string line = why(other.dump());
-    EXPECT_THAT(line, HasSubstr(": must be ")) << at;
+    EXPECT_THAT(line, HasSubstr("summary.json: ")) << at;
     EXPECT_THAT(line, HasSubstr(at.substr(at.rfind('/') + 1))) << "names its key";
   }
   for (const auto& [key, value] : whole.items()) {
