@@ -54,7 +54,7 @@ void FilmLikelyFailures(const ScenarioFile& file, const RareOutcome& outcome,
                             outcome.failures.size()));
     Drawn drawn = failure.set;
     std::erase_if(drawn, [](const auto& entry) { return entry.first == "episode"; });
-    AddMadePlan(failure.row, folder, drawn);
+    AddMadePlan(failure.row, folder, file.files(), drawn);
     std::vector<FailureMode> modes;
     for (const Event& event : EventsOf(failure.row)) modes.push_back(event.mode);
     ReplayRow(file.ReadDrawn(outcome.estimate.regions[failure.region].likeliest.noise, drawn),

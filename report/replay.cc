@@ -64,17 +64,20 @@ nlohmann::ordered_json ReplayRun(const fs::path& folder, const std::vector<Overr
   return json;
 }
 
-void AddMadePlan(const EpisodeRow& row, const fs::path& folder, Drawn& set) {
-  if (const std::string made = MadePlan(row); !made.empty())
-    set.emplace_back("plan.made",
-                     ConfigNode::Scalar(fs::absolute(FindCopy(folder, made)).string(), true));
+void AddMadePlan(const EpisodeRow& row, const fs::path& folder, const InputFiles& files,
+                 Drawn& set) {
+  const std::string made = MadePlan(row);
+  if (made.empty()) return;
+  const fs::path copy = fs::absolute(FindCopy(folder, made));
+  files.Allow(copy);
+  set.emplace_back("plan.made", ConfigNode::Scalar(copy.string(), true));
 }
 
 DriveResult ReplayEpisode(const ScenarioFile& file, const Variant& variant, const EpisodeRow& row,
                           const fs::path& folder, const DriveOptions& options,
                           const Console& console) {
   Variant planned = variant;
-  AddMadePlan(row, folder, planned.overrides);
+  AddMadePlan(row, folder, file.files(), planned.overrides);
   const fs::path into = EpisodeFolder(folder, variant.name, row.episode);
   RefuseLinks(folder, into);
   return ReplayRow(file.Read(row.episode, planned), row, into, options, console);

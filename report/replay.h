@@ -32,8 +32,9 @@ nlohmann::ordered_json ReplayRun(const std::filesystem::path& folder,
 DriveResult ReplayRow(Scenario scenario, const EpisodeRow& row, const std::filesystem::path& into,
                       const DriveOptions& options, const Console& console);
 // Adds to what is set for a row's drive the plan that a program made for it, if one did, kept in
-// `folder`.
-void AddMadePlan(const EpisodeRow& row, const std::filesystem::path& folder, Drawn& set);
+// `folder`; `files`, those of the scenario, may read it from now on.
+void AddMadePlan(const EpisodeRow& row, const std::filesystem::path& folder,
+                 const InputFiles& files, Drawn& set);
 
 // Drives the recorded episode again into <folder>/episodes/<variant>/<id>, whole as `run` would.
 // No program is run. Throws InputError where there is no plan but a program's, and InternalError

@@ -27,6 +27,17 @@ int TakeLine(std::string& message) {
   return line;
 }
 
+// The XML parser names the element at which it gave up. What cannot be parsed may be any file, with
+// a secret there.
+void DropElement(std::string& message) {
+  constexpr std::string_view kLine = "Line number=";
+  const std::size_t at = message.find(kLine);
+  if (at == message.npos) return;
+  const std::size_t from = message.find_first_not_of("0123456789", at + kLine.size());
+  if (from == message.npos) return;
+  message.erase(from, message.find('\'', from) - from);
+}
+
 std::string WithoutFolder(std::string message, const fs::path& file) {
   std::error_code error;
   const std::string folder = fs::weakly_canonical(fs::absolute(file).parent_path(), error) / "";
@@ -59,6 +70,7 @@ std::string Shortened(std::string_view message) {
 
 InputError EngineRefusal(const fs::path& file, std::string_view rule, std::string_view message) {
   std::string text(message);
+  DropElement(text);
   const int line = TakeLine(text);
   text = Shortened(WithoutFolder(std::move(text), file));
   return {{file.string(), line}, "", "", std::string(rule) + ": " + text};

@@ -238,7 +238,7 @@ void CampaignStore::RequireInPlace() const {
   sqlite3_file_control(db_, "main", SQLITE_FCNTL_HAS_MOVED, &moved);
   if (moved != 0)
     throw InternalError(Printable(file_.string()) +
-                        ": was removed or moved while it was being written");
+                        ": was removed or moved while it was being written, with the episodes in it");
 }
 
 void CampaignStore::Add(std::span<const EpisodeRow> rows) {

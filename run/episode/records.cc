@@ -374,8 +374,9 @@ namespace {
 std::filesystem::path KeepMadePlan(const Scenario& s, const PlanResult& plan,
                                    const std::filesystem::path& folder) {
   if (ProgramToAsk(s) == nullptr || plan.status != PlanStatus::kSuccess) return {};
-  std::filesystem::path copy = KeepText(PlanCsv(plan.path), folder);
-  s.files.Read(copy, kMaxResultBytes);
+  const std::string text = PlanCsv(plan.path);
+  std::filesystem::path copy = KeepText(text, folder);
+  s.files.Hold(copy, text);
   return copy;
 }
 

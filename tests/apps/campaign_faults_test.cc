@@ -50,6 +50,12 @@ class CampaignFaults : public CampaignProgram {
     for (std::string line; std::getline(there, line); ++n) EXPECT_EQ(whole[line], 1) << line;
     return n;
   }
+  // Rows that others can see so far.
+  long Rows() const {
+    return fs::exists(folder_ / "o/campaign.sqlite-wal")
+               ? static_cast<long>(fs::file_size(folder_ / "o/campaign.sqlite-wal") / 4096)
+               : 0;
+  }
   static void ExpectOneLine(const Ended& dut, int status, const char* why) {
     EXPECT_EQ(dut.status, status) << dut.said;
     EXPECT_THAT(dut.said, HasSubstr(why));
@@ -62,6 +68,29 @@ class CampaignFaults : public CampaignProgram {
 
   std::mt19937 random_{20};  // its numbers are the standard's own
 };
+
+// No verdict is printed for rows that are gone.
+TEST_F(CampaignFaults, TheDatabaseOrItsFolderTakenAwayIsNoticed) {
+  constexpr int kEpisodes = 2000;  // more than are driven until then
+  const std::pair<const char*, std::function<void()>> ways[] = {
+      {"o", [&] { fs::remove_all(folder_ / "o"); }},
+      {"o/campaign.sqlite", [&] { fs::remove(folder_ / "o/campaign.sqlite"); }},
+      {"moved", [&] { fs::rename(folder_ / "o", folder_ / "moved"); }},
+      {"replaced", [&] {
+         fs::rename(folder_ / "o/campaign.sqlite", folder_ / "o/other");
+         fs::copy(folder_ / "o/other", folder_ / "o/campaign.sqlite");
+       }}};
+  for (const auto& [what, take_away] : ways) {
+    fs::remove_all(folder_ / "o");
+    Program dut(Command(kEpisodes), folder_);
+    dut.AWorker();
+    while (!fs::exists(folder_ / "o/summary.json") && !dut.HasEnded() && Rows() < 4) usleep(1000);
+    take_away();
+    const Ended ended = Finish(dut);
+    ExpectOneLine(ended, 3, "was removed or moved while");
+    EXPECT_THAT(ended.out, ::testing::Not(HasSubstr("Verdict"))) << what;
+  }
+}
 
 TEST_F(CampaignFaults, TheParentKilledAtTwentyMoments) {
   constexpr int kEpisodes = 80;

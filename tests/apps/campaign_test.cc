@@ -458,7 +458,7 @@ TEST_F(CampaignTest, CtrlCIsOneLineAndStatus130) {
 
 TEST_F(CampaignTest, CtrlCEndsTheProgramsThatPlanAndTakesTheirFoldersAway) {
   PlanBy("echo $$ > note.$$; echo \"$1\" >> note.$$; mv note.$$ at.$$; sleep 1000\n");
-  Program dut("campaign s.yaml --no-films -n 4 --jobs 2 --out o", folder_);
+  Program dut("campaign s.yaml --trust --no-films -n 4 --jobs 2 --out o", folder_);
   std::vector<std::filesystem::path> notes;
   while (notes.size() < 2 && !dut.HasEnded()) {
     usleep(1000);

@@ -160,7 +160,7 @@ std::vector<BadInput> CommandCases() {
       Replayed("ReplayOfAJsonList", "[1, 2]", {"result.json", "is not a result"}),
       Replayed("ReplayOfNestedJson",
                "{\"drawn\": " + std::string(1'000'000, '[') + std::string(1'000'000, ']') + "}",
-               {"result.json", "is not a result", "nested more than 32 levels deep"}),
+               {"result.json", "is not a result", "nested more than 100 levels deep"}),
   };
 }
 

@@ -35,7 +35,7 @@ std::vector<BadInput> RecordCases() {
   const std::string deep = "{\"a\": " + std::string(100'000, '[') + std::string(100'000, ']') + "}";
   return {
       Report("ResultThatIsText", "result.json", "user " + kSecret,
-             {"is not a result (a JSON object)\n"}),
+             {"is not a result (a JSON object): it is no JSON\n"}),
       Report("ResultThatIsDeep", "result.json", deep, {"nested more than 100 levels deep"}),
       Report("ResultOfAnotherKind", "result.json", "{" + kSecret + "}",
              {"events: is missing: damaged, or of another version"}),
@@ -59,7 +59,7 @@ std::vector<BadInput> RecordCases() {
        {"replay", "."},
        {{"scenario.resolved.yaml", GoodFiles().at("drawn.yaml")}, {"result.json", "{}"}},
        {"result.json: outcome: is missing"}},
-      Compared("Text", kSecret, {"is not a campaign's summary (a JSON object)\n"}),
+      Compared("Text", kSecret, {"is not a campaign's summary (a JSON object): it is no JSON\n"}),
       Compared("ASecret", "{" + kSecret + "}", {"campaign: is missing"}),
       Compared("AVariantWithoutKeys", kSummary, {"variants.a.n: is missing"}),
       Compared("ACountAsText", Replaced(kSummary, "{}", R"({"n": "many"})"),

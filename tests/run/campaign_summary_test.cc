@@ -2,6 +2,7 @@
 // What rows amount to; summary.json says it, and is read back as it was.
 #include "run/campaign/campaign_summary.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -109,7 +109,8 @@ TEST_F(DriveCampaignTest, HandsWarningsToTheObserver) {
   text.replace(text.find("plan.csv"), 8, "../far/plan.csv");
   fs::create_directories(folder_ / "near");
   Listener listener;
-  DriveCampaign(ScenarioFile(Save("near/s.yaml", text)), {.episodes = 1}, Folder("o"), &listener);
+  DriveCampaign(ScenarioFile(Save("near/s.yaml", text), {}, Trust::kFull), {.episodes = 1},
+                Folder("o"), &listener);
   EXPECT_THAT(listener.warnings, ElementsAre(HasSubstr("reads outside the scenario's folder")));
 }
 
@@ -195,7 +196,8 @@ TEST_F(DriveCampaignTest, MergeNamesWhatNoShardHolds) {
   EXPECT_NO_THROW(ScenarioFile(folder_ / "moved/scenario.resolved.yaml").Read());
   fs::remove_all(folder_ / "a/inputs");  // as of a version that kept none
   EXPECT_THAT(MergeCampaigns({Folder("a"), Folder("b")}, folder_ / "again").paths_note,
-              AllOf(HasSubstr("its paths hold from " + Folder("a")), HasSubstr("no such file")));
+              AllOf(HasSubstr("its paths hold from " + Folder("a")),
+                    HasSubstr("lies outside the scenario's folder")));
 }
 
 // A robot whose limits were measured: on a slippery floor it keeps off a step that it crosses on

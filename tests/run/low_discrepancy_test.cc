@@ -197,7 +197,6 @@ TEST(LowDiscrepancy, BadInputNamesLineKeyAndRule) {
   std::string many;
   for (int i = 0; i <= 1000; ++i) many += "k" + std::to_string(i) + ": {uniform: [0, 1]}\n";
   EXPECT_THROW(Read(many), InputError);
-  EXPECT_NO_THROW(Read(many, Sampling::kIndependent));
 }
 
 class EvenlyDrawn : public ScenarioTest {

@@ -133,7 +133,8 @@ TEST_F(TrustedPrograms, OfAScenarioAreNotStarted) {
 }
 
 TEST_F(TrustedPrograms, NorWhereAVariantOrACleanerNamesThem) {
-  std::string text = RoomScenario("", "matrix: [{label: a, plan: {command: [./plan.sh]}}]\n");
+  std::string text =
+      RoomScenario("", "matrix: {planner: [{label: a, plan: {command: [./plan.sh]}}]}\n");
   Save("in/s.yaml", text);
   const ScenarioFile file(folder_ / "in/s.yaml");
   EXPECT_THROW(MakePlan(file.Read(0, file.variants().at(0))), InputError);
